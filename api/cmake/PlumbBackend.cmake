@@ -1,0 +1,17 @@
+# plumb_add_backend(NAME SOURCES...): a loadable backend plumb-NAME.so that exports plumb_backend_open and nothing else.
+set(PLUMB_BACKEND_MAP "${CMAKE_CURRENT_LIST_DIR}/backend.map" CACHE INTERNAL "")
+function(plumb_add_backend name)
+  set(target plumb-backend-${name})
+  add_library(${target} MODULE ${ARGN})
+  target_link_libraries(${target} PRIVATE plumb::api)
+  target_compile_features(${target} PRIVATE cxx_std_20)
+  set_target_properties(${target} PROPERTIES PREFIX "" OUTPUT_NAME plumb-${name}
+    CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON LINK_DEPENDS "${PLUMB_BACKEND_MAP}")
+  if(PLUMB_BACKEND_DIRECTORY)
+    set_target_properties(${target} PROPERTIES LIBRARY_OUTPUT_DIRECTORY "${PLUMB_BACKEND_DIRECTORY}")
+  endif()
+  target_link_options(${target} PRIVATE "LINKER:--version-script=${PLUMB_BACKEND_MAP}")
+  if(NOT PLUMB_SANITIZE)
+    target_link_options(${target} PRIVATE LINKER:--no-undefined)
+  endif()
+endfunction()

@@ -1,0 +1,57 @@
+// Finds backends, opens them, and says in a sentence why one cannot be opened.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "plumb/physics_world.hpp"
+
+namespace plumb {
+
+/// An opened backend. Cheap to copy; its library stays loaded until the process ends.
+class Backend {
+ public:
+  /// table must live as long as the process.
+  explicit Backend(const PlumbBackendTable* table, std::filesystem::path file = {});
+
+  [[nodiscard]] const PlumbBackendInfo& info() const { return *table_->info(); }
+  [[nodiscard]] const PlumbBackendTable& table() const { return *table_; }
+  [[nodiscard]] const std::filesystem::path& file() const { return file_; }
+  [[nodiscard]] PlumbDegree capability(PlumbCapability kind, std::uint32_t a = 0, std::uint32_t b = 0) const;
+  /// A sentence on the capability, or "".
+  [[nodiscard]] std::string capability_note(PlumbCapability kind, std::uint32_t a = 0, std::uint32_t b = 0) const;
+  /// The backend's settings; empty without plumb.settings/1.
+  [[nodiscard]] std::vector<const PlumbSettingInfo*> settings() const;
+
+  /// Throws Error with the backend's own sentence.
+  [[nodiscard]] std::unique_ptr<IPhysicsWorld> create_world(const PlumbWorldDesc& desc) const;
+
+ private:
+  const PlumbBackendTable* table_;
+  std::filesystem::path file_;
+};
+
+struct FoundBackend {
+  std::string name;  ///< "bullet" for plumb-bullet.so
+  std::filesystem::path file;
+};
+
+/// The folders that are searched, in order: each of $PLUMB_BACKEND_PATH (colons between), ../lib/plumb beside the
+/// program's folder, the install prefix's lib/plumb. Folders that do not exist are left out.
+[[nodiscard]] std::vector<std::filesystem::path> backend_path();
+
+/// Backends on the path, by name; the first of a name wins. Nothing is opened.
+[[nodiscard]] std::vector<FoundBackend> find_backends();
+
+/// Opens a backend by name or by file (anything with a slash or ending in .so). host may be null and must live as long
+/// as the process. Throws Error: PLUMB_E_INVALID_ARGUMENT (not found; names the nearest), PLUMB_E_VERSION (which side is
+/// too old), PLUMB_E_EXCLUDED (which backend stands in the way), or what the backend answered.
+[[nodiscard]] Backend open_backend(const std::string& name_or_file, const PlumbHost* host = nullptr);
+
+/// Negotiates with an open function that is already at hand, for backends linked into the program and for tests.
+[[nodiscard]] const PlumbBackendTable* negotiate(PlumbOpenFunction open, const std::string& name,
+                                                 const PlumbHost* host = nullptr);
+
+}  // namespace plumb

@@ -1,0 +1,117 @@
+// A scene: what a scene file says, and what it becomes once its parameters have values.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "plumb/physics_world.hpp"
+
+namespace plumb::harness {
+
+/// What a user asks wrongly: the text names the thing, the value and the remedy. The program ends with status 2.
+class UsageError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Values of a scene's parameters. Words are parameters that choose; numbers are all others.
+using ParameterValue = std::variant<double, std::string>;
+using Parameters = std::map<std::string, ParameterValue>;
+
+struct ParameterSpec {
+  std::string name, unit, doc;
+  ParameterValue default_value;
+  std::vector<std::string> choices;        ///< of a word; empty for a number
+  std::optional<double> minimum, maximum;  ///< of a number, both allowed
+  bool integer = false;
+};
+
+/// A number that the scene measures, and what it is held against. error <= threshold is a pass, <= gold is gold.
+struct MetricSpec {
+  std::string name, unit, doc;
+  std::optional<double> threshold, gold;
+};
+
+/// A shape with the arrays that its descriptor points to.
+struct SceneShape {
+  struct Child {
+    std::size_t shape;  ///< index into Scene::shapes, smaller than this shape's own
+    PlumbPose pose;
+    std::optional<PlumbMaterial> material;
+  };
+  std::string name;
+  PlumbShapeDesc desc{};  ///< array pointers unset: see descriptor()
+  std::vector<double> vertices, heights;
+  std::vector<std::uint32_t> indices;
+  std::vector<Child> children;
+
+  /// desc with its array pointers set into this object; children are left to the caller, who knows their handles.
+  [[nodiscard]] PlumbShapeDesc descriptor() const;
+};
+
+struct SceneBody {
+  std::string name;
+  std::optional<std::size_t> shape;  ///< index into Scene::shapes
+  PlumbBodyDesc desc{};              ///< shape handle unset
+};
+
+struct SceneJoint {
+  std::string name;
+  std::optional<std::size_t> body_a;  ///< index into Scene::bodies; none: the world
+  std::size_t body_b = 0;
+  PlumbJointDesc desc{};  ///< body handles unset
+};
+
+/// A scene whose parameters have values: plain numbers, ready to be built in a world or transformed.
+struct Scene {
+  std::string id, slug, group;
+  Parameters parameters;
+  PlumbNeeds needs = 0;
+  PlumbVec3 gravity{0, -9.81, 0};
+  double dt = 1.0 / 60;
+  double seconds = 10;
+  std::vector<SceneShape> shapes;
+  std::vector<SceneBody> bodies;
+  std::vector<SceneJoint> joints;
+  std::string measure;            ///< name of the measure (measure/measure.hpp)
+  nlohmann::json measure_args;    ///< its arguments, expressions resolved to numbers
+  std::vector<MetricSpec> metrics;
+
+  /// Index of a body by name; throws UsageError with the nearest name.
+  [[nodiscard]] std::size_t body(const std::string& name) const;
+  [[nodiscard]] std::size_t joint(const std::string& name) const;
+  /// The value of a parameter; throws std::logic_error when the scene has none of that name or kind.
+  [[nodiscard]] double number(const std::string& parameter) const;
+  [[nodiscard]] const std::string& word(const std::string& parameter) const;
+};
+
+/// A scene file, parsed and checked, its parameters still open.
+class SceneFile {
+ public:
+  /// Throws UsageError that names file, line and the nearest known key.
+  static SceneFile load(const std::filesystem::path& path);
+
+  std::string id, slug, group;  ///< "D1", "tower", "stacking" (the folder)
+  std::string title, doc;
+  bool core = false;
+  std::filesystem::path path;
+  std::uint64_t hash = 0;  ///< of the file's text
+  std::vector<ParameterSpec> parameters;
+  std::vector<Parameters> variants;  ///< the cells that `plumb run ID` makes when no parameter is given; at least one
+  std::vector<MetricSpec> metrics;
+  PlumbNeeds needs = 0;
+  nlohmann::json json;  ///< the whole file
+
+  /// The scene for these values (missing ones take their default). Throws UsageError for unknown names, values out of
+  /// range, and expressions that fail.
+  [[nodiscard]] Scene instantiate(const Parameters& given) const;
+};
+
+}  // namespace plumb::harness
