@@ -8,8 +8,12 @@
 
 namespace plumb::backend {
 
-[[nodiscard]] constexpr PlumbVec3 add(const PlumbVec3& a, const PlumbVec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-[[nodiscard]] constexpr PlumbVec3 sub(const PlumbVec3& a, const PlumbVec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+[[nodiscard]] constexpr PlumbVec3 add(const PlumbVec3& a, const PlumbVec3& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+[[nodiscard]] constexpr PlumbVec3 sub(const PlumbVec3& a, const PlumbVec3& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
 [[nodiscard]] constexpr PlumbVec3 scale(double s, const PlumbVec3& a) { return {s * a.x, s * a.y, s * a.z}; }
 [[nodiscard]] constexpr double dot(const PlumbVec3& a, const PlumbVec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 [[nodiscard]] constexpr PlumbVec3 cross(const PlumbVec3& a, const PlumbVec3& b) {
@@ -21,7 +25,9 @@ namespace plumb::backend {
 struct Matrix3 {
   double m[3][3];
 
-  [[nodiscard]] static constexpr Matrix3 diagonal(double x, double y, double z) { return {{{x, 0, 0}, {0, y, 0}, {0, 0, z}}}; }
+  [[nodiscard]] static constexpr Matrix3 diagonal(double x, double y, double z) {
+    return {{{x, 0, 0}, {0, y, 0}, {0, 0, z}}};
+  }
   double* operator[](std::size_t row) { return m[row]; }
   const double* operator[](std::size_t row) const { return m[row]; }
 };
