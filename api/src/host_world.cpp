@@ -1,0 +1,238 @@
+#include "host_world.hpp"
+
+#include <vector>
+
+namespace plumb {
+namespace {
+
+/// Calls a function of the table that fills an array, with an array that is long enough.
+template <class Row, class Fill>
+PlumbResult fill_all(std::vector<Row>& rows, Fill&& fill) {
+  std::uint32_t count = 0;
+  rows.resize(rows.capacity());
+  PlumbResult result = fill(rows.data(), static_cast<std::uint32_t>(rows.size()), &count);
+  while (result == PLUMB_TRUNCATED) {
+    rows.resize(count);
+    result = fill(rows.data(), count, &count);
+  }
+  rows.resize(result < 0 ? 0 : count);
+  return result;
+}
+
+template <class Element>
+std::uint32_t count_of(std::span<Element> elements) {
+  return static_cast<std::uint32_t>(elements.size());
+}
+
+template <class Id>
+const Id* ids_or_null(std::span<const Id> ids) {
+  return ids.empty() ? nullptr : ids.data();
+}
+
+class HostWorld final : public IPhysicsWorld,
+                        private IJoints,
+                        private IQueries,
+                        private ICollide,
+                        private IDebug,
+                        private ISettings,
+                        private ISnapshot,
+                        private IState {
+ public:
+  HostWorld(const PlumbBackendTable& table, PlumbWorld* world)
+      : table_(table),
+        world_(world),
+        joints_(find<PlumbJointsTable>(PLUMB_EXT_JOINTS)),
+        queries_(find<PlumbQueriesTable>(PLUMB_EXT_QUERIES)),
+        collide_(find<PlumbCollideTable>(PLUMB_EXT_COLLIDE)),
+        debug_(find<PlumbDebugTable>(PLUMB_EXT_DEBUG)),
+        settings_(find<PlumbSettingsTable>(PLUMB_EXT_SETTINGS)),
+        snapshot_(find<PlumbSnapshotTable>(PLUMB_EXT_SNAPSHOT)),
+        state_(find<PlumbStateTable>(PLUMB_EXT_STATE)) {}
+  ~HostWorld() override { table_.destroy_world(world_); }
+
+  // --- core ----------------------------------------------------------------------------------------------------------
+
+  PlumbResult create_shapes(std::span<const PlumbShapeDesc> descs, std::span<PlumbShape> ids) override {
+    return table_.create_shapes(world_, descs.data(), sizeof(PlumbShapeDesc), count_of(descs), ids.data());
+  }
+  PlumbResult destroy_shapes(std::span<const PlumbShape> ids) override {
+    return table_.destroy_shapes(world_, ids.data(), count_of(ids));
+  }
+  PlumbResult create_bodies(std::span<const PlumbBodyDesc> descs, std::span<PlumbBody> ids) override {
+    return table_.create_bodies(world_, descs.data(), sizeof(PlumbBodyDesc), count_of(descs), ids.data());
+  }
+  PlumbResult destroy_bodies(std::span<const PlumbBody> ids) override {
+    return table_.destroy_bodies(world_, ids.data(), count_of(ids));
+  }
+  PlumbResult read(PlumbField field, std::span<const PlumbBody> ids, Rows rows) override {
+    return table_.read(world_, field, rows.type(), ids_or_null(ids), static_cast<std::uint32_t>(rows.count()), rows.data(), rows.stride());
+  }
+  PlumbResult write(PlumbField field, std::span<const PlumbBody> ids, ConstRows rows) override {
+    return table_.write(world_, field, rows.type(), ids_or_null(ids), static_cast<std::uint32_t>(rows.count()), rows.data(), rows.stride());
+  }
+  PlumbResult set_gravity(const PlumbVec3& gravity) override { return table_.set_gravity(world_, &gravity); }
+  PlumbResult step(double dt) override {
+    const PlumbStepDesc desc = {sizeof desc, 0, dt};
+    return table_.step(world_, &desc);
+  }
+  PlumbResult wait(PlumbStepReport& report) override {
+    report.struct_size = sizeof report;
+    return table_.wait(world_, &report);
+  }
+  std::span<const PlumbContact> contacts() override {
+    fill_all(contact_rows_, [this](PlumbContact* out, std::uint32_t capacity, std::uint32_t* count) {
+      return table_.contacts(world_, out, sizeof *out, capacity, count);
+    });
+    return contact_rows_;
+  }
+  std::span<const PlumbEvent> events() override {
+    fill_all(event_rows_, [this](PlumbEvent* out, std::uint32_t capacity, std::uint32_t* count) {
+      return table_.events(world_, out, sizeof *out, capacity, count);
+    });
+    return event_rows_;
+  }
+  std::span<const PlumbBody> bodies() override {
+    fill_all(body_ids_, [this](PlumbBody* out, std::uint32_t capacity, std::uint32_t* count) {
+      return table_.list_bodies(world_, out, capacity, count);
+    });
+    return body_ids_;
+  }
+  PlumbResult hash(std::uint64_t& value) override {
+    return snapshot_ == nullptr ? PLUMB_E_UNSUPPORTED : snapshot_->hash(world_, &value);
+  }
+  [[nodiscard]] std::string error_text() const override { return table_.error_text(world_); }
+
+  IJoints* joints() override { return joints_ == nullptr ? nullptr : this; }
+  IQueries* queries() override { return queries_ == nullptr ? nullptr : this; }
+  ICollide* collide() override { return collide_ == nullptr ? nullptr : this; }
+  IDebug* debug() override { return debug_ == nullptr ? nullptr : this; }
+  ISettings* settings() override { return settings_ == nullptr ? nullptr : this; }
+  ISnapshot* snapshot() override { return snapshot_ == nullptr ? nullptr : this; }
+  IState* state() override { return state_ == nullptr ? nullptr : this; }
+
+ private:
+  // --- extensions ----------------------------------------------------------------------------------------------------
+
+  PlumbResult create_joints(std::span<const PlumbJointDesc> descs, std::span<PlumbJoint> ids) override {
+    return joints_->create(world_, descs.data(), sizeof(PlumbJointDesc), count_of(descs), ids.data());
+  }
+  PlumbResult destroy_joints(std::span<const PlumbJoint> ids) override {
+    return joints_->destroy(world_, ids.data(), count_of(ids));
+  }
+  PlumbResult read_joints(PlumbJointField field, std::span<const PlumbJoint> ids, Rows rows) override {
+    return joints_->read(world_, field, rows.type(), ids_or_null(ids), static_cast<std::uint32_t>(rows.count()), rows.data(), rows.stride());
+  }
+  PlumbResult write_joints(PlumbJointField field, std::span<const PlumbJoint> ids, ConstRows rows) override {
+    return joints_->write(world_, field, rows.type(), ids_or_null(ids), static_cast<std::uint32_t>(rows.count()), rows.data(), rows.stride());
+  }
+
+  Hits cast_rays(PlumbHitMode mode, std::span<const PlumbRay> rays) override {
+    return collect([&](PlumbHit* hits, std::uint32_t capacity, std::uint32_t* count) {
+      return queries_->rays(world_, mode, rays.data(), sizeof(PlumbRay), count_of(rays), hits, capacity, count);
+    });
+  }
+  Hits cast_shapes(PlumbHitMode mode, std::span<const PlumbCast> casts) override {
+    return collect([&](PlumbHit* hits, std::uint32_t capacity, std::uint32_t* count) {
+      return queries_->casts(world_, mode, casts.data(), sizeof(PlumbCast), count_of(casts), hits, capacity, count);
+    });
+  }
+  Hits overlap_shapes(std::span<const PlumbOverlap> overlaps) override {
+    return collect([&](PlumbHit* hits, std::uint32_t capacity, std::uint32_t* count) {
+      return queries_->overlaps(world_, overlaps.data(), sizeof(PlumbOverlap), count_of(overlaps), hits, capacity, count);
+    });
+  }
+
+  PlumbResult collide_pairs(std::span<const PlumbPosedPair> pairs, std::span<PlumbPairResult> results,
+                            std::span<const PlumbPairPoint>& points) override {
+    thread_local std::vector<PlumbPairPoint> found;
+    const PlumbResult result = fill_all(found, [&](PlumbPairPoint* out, std::uint32_t capacity, std::uint32_t* count) {
+      return collide_->pairs(world_, pairs.data(), sizeof(PlumbPosedPair), count_of(pairs), results.data(), out, capacity, count);
+    });
+    points = found;
+    return result;
+  }
+
+  PlumbResult candidate_pairs(std::span<const PlumbDebugPair>& pairs) override {
+    return look(debug_->pairs, debug_pairs_, pairs);
+  }
+  PlumbResult tree_boxes(std::span<const PlumbDebugBox>& boxes) override { return look(debug_->boxes, debug_boxes_, boxes); }
+  PlumbResult separating_axes(std::span<const PlumbDebugAxis>& axes) override { return look(debug_->axes, debug_axes_, axes); }
+
+  PlumbResult get_setting(const char* name, PlumbSettingValue& value) override { return settings_->get(world_, name, &value); }
+  PlumbResult set_setting(const char* name, const PlumbSettingValue& value) override {
+    return settings_->set(world_, name, &value);
+  }
+
+  PlumbResult save(std::span<const std::byte>& data) override {
+    std::size_t size = 0;
+    PlumbResult result = snapshot_->save(world_, nullptr, 0, &size);
+    if (result == PLUMB_TRUNCATED) {
+      snapshot_bytes_.resize(size);
+      result = snapshot_->save(world_, snapshot_bytes_.data(), size, &size);
+    }
+    data = snapshot_bytes_;
+    return result;
+  }
+  PlumbResult restore(std::span<const std::byte> data) override { return snapshot_->restore(world_, data.data(), data.size()); }
+
+  PlumbResult borrow(const PlumbStateRequest& request, PlumbDLManagedTensor*& tensor, PlumbFence* fence) override {
+    return state_->borrow(world_, &request, &tensor, fence);
+  }
+  PlumbResult row_map(std::span<const PlumbBody>& ids, std::uint64_t& generation) override {
+    const PlumbResult result = fill_all(row_ids_, [&](PlumbBody* out, std::uint32_t capacity, std::uint32_t* count) {
+      return state_->rows(world_, out, capacity, count, &generation);
+    });
+    ids = row_ids_;
+    return result;
+  }
+
+  // --- plumbing ------------------------------------------------------------------------------------------------------
+
+  template <class Table>
+  const Table* find(const char* name) const {
+    return static_cast<const Table*>(table_.extension(name));
+  }
+
+  /// Queries may run on several threads at once, so each thread has its own rows.
+  template <class Fill>
+  static Hits collect(Fill&& fill) {
+    thread_local std::vector<PlumbHit> found;
+    const PlumbResult result = fill_all(found, fill);
+    return {result, found};
+  }
+
+  template <class Row>
+  PlumbResult look(PlumbResult (*function)(PlumbWorld*, Row*, std::uint32_t, std::uint32_t*), std::vector<Row>& storage,
+                   std::span<const Row>& rows) {
+    const PlumbResult result = fill_all(storage, [&](Row* out, std::uint32_t capacity, std::uint32_t* count) {
+      return function(world_, out, capacity, count);
+    });
+    rows = storage;
+    return result;
+  }
+
+  const PlumbBackendTable& table_;
+  PlumbWorld* world_;
+  const PlumbJointsTable* joints_;
+  const PlumbQueriesTable* queries_;
+  const PlumbCollideTable* collide_;
+  const PlumbDebugTable* debug_;
+  const PlumbSettingsTable* settings_;
+  const PlumbSnapshotTable* snapshot_;
+  const PlumbStateTable* state_;
+  std::vector<PlumbContact> contact_rows_;
+  std::vector<PlumbEvent> event_rows_;
+  std::vector<PlumbBody> body_ids_, row_ids_;
+  std::vector<PlumbDebugPair> debug_pairs_;
+  std::vector<PlumbDebugBox> debug_boxes_;
+  std::vector<PlumbDebugAxis> debug_axes_;
+  std::vector<std::byte> snapshot_bytes_;
+};
+
+}  // namespace
+
+std::unique_ptr<IPhysicsWorld> adopt_world(const PlumbBackendTable& table, PlumbWorld* world) {
+  return std::make_unique<HostWorld>(table, world);
+}
+
+}  // namespace plumb

@@ -1,0 +1,206 @@
+#include "plumb/loader.hpp"
+
+#include <dlfcn.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <map>
+#include <mutex>
+#include <numeric>
+#include <set>
+
+#include "host_world.hpp"
+
+namespace plumb {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kPrefix = "plumb-";
+constexpr std::string_view kSuffix = ".so";
+
+/// Libraries are never unloaded, so what is open stays open; one entry a file.
+struct OpenBackends {
+  std::mutex mutex;
+  std::map<fs::path, const PlumbBackendTable*> by_file;
+};
+
+OpenBackends& open_backends() {
+  static OpenBackends backends;
+  return backends;
+}
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t k = 1; k <= b.size(); ++k) {
+      const std::size_t above = row[k];
+      row[k] = std::min({above + 1, row[k - 1] + 1, diagonal + (a[i - 1] == b[k - 1] ? 0u : 1u)});
+      diagonal = above;
+    }
+  }
+  return row[b.size()];
+}
+
+std::string version_text(std::uint32_t version) {
+  return std::to_string(PLUMB_VERSION_MAJOR(version)) + "." + std::to_string(PLUMB_VERSION_MINOR(version));
+}
+
+fs::path program_folder() {
+  std::error_code ignored;
+  const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
+  return program.parent_path();
+}
+
+bool is_file_name(const std::string& name) { return name.find('/') != std::string::npos || name.ends_with(kSuffix); }
+
+fs::path file_of(const std::string& name_or_file) {
+  if (is_file_name(name_or_file)) {
+    std::error_code error;
+    const fs::path file = fs::canonical(name_or_file, error);
+    if (error) throw Error(PLUMB_E_INVALID_ARGUMENT, "backend file " + name_or_file + " cannot be found; check the path");
+    return file;
+  }
+  const std::vector<FoundBackend> found = find_backends();
+  for (const FoundBackend& backend : found)
+    if (backend.name == name_or_file) return fs::canonical(backend.file);
+  std::string text = "no backend is called \"" + name_or_file + "\"";
+  if (found.empty()) {
+    text += "; none was found at all: set PLUMB_BACKEND_PATH to the folder that holds plumb-*.so";
+  } else {
+    const auto nearest = std::min_element(found.begin(), found.end(), [&](const FoundBackend& a, const FoundBackend& b) {
+      return edit_distance(name_or_file, a.name) < edit_distance(name_or_file, b.name);
+    });
+    text += "; did you mean \"" + nearest->name + "\"? There are:";
+    for (const FoundBackend& backend : found) text += " " + backend.name;
+  }
+  throw Error(PLUMB_E_INVALID_ARGUMENT, text);
+}
+
+/// Everything that is called without asking must be there.
+void require_whole(const PlumbBackendTable& table, const std::string& name) {
+  const bool whole = table.struct_size >= sizeof(PlumbBackendTable) && table.info != nullptr && table.capability != nullptr &&
+                     table.extension != nullptr && table.create_world != nullptr && table.destroy_world != nullptr &&
+                     table.error_text != nullptr && table.create_shapes != nullptr && table.destroy_shapes != nullptr &&
+                     table.create_bodies != nullptr && table.destroy_bodies != nullptr && table.list_bodies != nullptr &&
+                     table.user_data != nullptr && table.read != nullptr && table.write != nullptr &&
+                     table.set_gravity != nullptr && table.step != nullptr && table.wait != nullptr &&
+                     table.contacts != nullptr && table.events != nullptr;
+  if (!whole)
+    throw Error(PLUMB_E_VERSION, "backend " + name + " says that it speaks interface " + version_text(table.version) +
+                                     ", but its table lacks functions of it; build it anew against this plumb.h");
+  const PlumbBackendInfo* info = table.info();
+  if (info == nullptr || info->struct_size < sizeof(PlumbBackendInfo) || info->name == nullptr || info->version == nullptr ||
+      info->build == nullptr || info->description == nullptr || info->device == nullptr || info->exclusion_group == nullptr)
+    throw Error(PLUMB_E_VERSION, "backend " + name + " does not fill PlumbBackendInfo; build it anew against this plumb.h");
+}
+
+}  // namespace
+
+Backend::Backend(const PlumbBackendTable* table, fs::path file) : table_(table), file_(std::move(file)) {}
+
+PlumbDegree Backend::capability(PlumbCapability kind, std::uint32_t a, std::uint32_t b) const {
+  return table_->capability(kind, a, b, nullptr);
+}
+
+std::string Backend::capability_note(PlumbCapability kind, std::uint32_t a, std::uint32_t b) const {
+  const char* note = "";
+  table_->capability(kind, a, b, &note);
+  return note;
+}
+
+std::vector<const PlumbSettingInfo*> Backend::settings() const {
+  std::vector<const PlumbSettingInfo*> infos;
+  const auto* settings = static_cast<const PlumbSettingsTable*>(table_->extension(PLUMB_EXT_SETTINGS));
+  for (std::uint32_t i = 0; settings != nullptr && i < settings->count; ++i) infos.push_back(settings->describe(i));
+  return infos;
+}
+
+std::unique_ptr<IPhysicsWorld> Backend::create_world(const PlumbWorldDesc& desc) const {
+  PlumbWorld* world = nullptr;
+  const PlumbResult result = table_->create_world(&desc, &world);
+  if (result < 0) throw Error(result, table_->error_text(nullptr));
+  return adopt_world(*table_, world);
+}
+
+std::vector<fs::path> backend_path() {
+  std::vector<fs::path> wanted;
+  if (const char* given = std::getenv("PLUMB_BACKEND_PATH"); given != nullptr) {
+    std::string_view rest = given;
+    while (!rest.empty()) {
+      const std::size_t colon = std::min(rest.find(':'), rest.size());
+      if (colon != 0) wanted.emplace_back(rest.substr(0, colon));
+      rest.remove_prefix(std::min(colon + 1, rest.size()));
+    }
+  }
+  wanted.push_back(program_folder() / ".." / "lib" / "plumb");
+  wanted.emplace_back(PLUMB_INSTALLED_BACKENDS);
+  std::vector<fs::path> folders;
+  for (const fs::path& folder : wanted) {
+    std::error_code error;
+    const fs::path real = fs::canonical(folder, error);
+    if (!error && fs::is_directory(real) && std::find(folders.begin(), folders.end(), real) == folders.end()) folders.push_back(real);
+  }
+  return folders;
+}
+
+std::vector<FoundBackend> find_backends() {
+  std::map<std::string, fs::path> by_name;
+  for (const fs::path& folder : backend_path()) {
+    std::error_code error;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+      const std::string file = entry.path().filename().string();
+      if (file.starts_with(kPrefix) && file.ends_with(kSuffix) && file.size() > kPrefix.size() + kSuffix.size())
+        by_name.try_emplace(file.substr(kPrefix.size(), file.size() - kPrefix.size() - kSuffix.size()), entry.path());
+    }
+  }
+  std::vector<FoundBackend> found;
+  for (const auto& [name, file] : by_name) found.push_back({name, file});
+  return found;
+}
+
+const PlumbBackendTable* negotiate(PlumbOpenFunction open, const std::string& name, const PlumbHost* host) {
+  constexpr std::uint32_t oldest = PLUMB_MAKE_VERSION(0, 9), newest = PLUMB_VERSION;
+  const PlumbOpenRequest request = {sizeof request, oldest, newest, 0, host};
+  PlumbOpenReply reply{};
+  reply.struct_size = sizeof reply;
+  const PlumbResult result = open(&request, &reply);
+  reply.message[sizeof reply.message - 1] = '\0';
+  if (result < 0)
+    throw Error(result, reply.message[0] != '\0' ? reply.message : "backend " + name + " refused without saying why");
+  if (reply.version < oldest || reply.version > newest)
+    throw Error(PLUMB_E_VERSION, "backend " + name + " answered with interface " + version_text(reply.version) +
+                                     ", which this host did not offer (" + version_text(oldest) + " to " +
+                                     version_text(newest) + "); its negotiation is broken");
+  if (reply.table == nullptr || reply.table->version != reply.version)
+    throw Error(PLUMB_E_VERSION, "backend " + name + " agreed to interface " + version_text(reply.version) + " and gave no table of it");
+  require_whole(*reply.table, name);
+  return reply.table;
+}
+
+Backend open_backend(const std::string& name_or_file, const PlumbHost* host) {
+  const fs::path file = file_of(name_or_file);
+  OpenBackends& backends = open_backends();
+  const std::lock_guard lock(backends.mutex);
+  if (const auto known = backends.by_file.find(file); known != backends.by_file.end()) return Backend(known->second, file);
+
+  // Local binding keeps the engines' symbols apart; exclusion groups are for those that clash all the same.
+  void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (library == nullptr) throw Error(PLUMB_E_INVALID_ARGUMENT, std::string("backend cannot be loaded: ") + dlerror());
+  const auto open = reinterpret_cast<PlumbOpenFunction>(dlsym(library, PLUMB_OPEN_SYMBOL));
+  if (open == nullptr)
+    throw Error(PLUMB_E_INVALID_ARGUMENT, file.string() + " is no Plumb backend: it does not export " PLUMB_OPEN_SYMBOL);
+  const PlumbBackendTable* table = negotiate(open, file.string(), host);
+  const std::string group = table->info()->exclusion_group;
+  for (const auto& [other_file, other] : backends.by_file)
+    if (!group.empty() && group == other->info()->exclusion_group)
+      throw Error(PLUMB_E_EXCLUDED, std::string("backend ") + table->info()->name + " cannot share a process with " +
+                                        other->info()->name + ", which is open already: their libraries clash; use one process each");
+  backends.by_file.emplace(file, table);
+  return Backend(table, file);
+}
+
+}  // namespace plumb
