@@ -1,0 +1,41 @@
+// Every call of the wall that acts on a world: the one list from which the layers' thunks, the names and numbers of
+// trace records, their dispatch on replay, and the tests are generated. Numbers are in trace files: append, never reuse.
+//
+//   PLUMB_CALL(number, table, member, thread, remarks, objects)
+//
+//   thread   any_thread, one_caller or many_callers: the tags [any], [world] and [query] of plumb.h
+//   remarks  results above 0 that the call may answer: one of those below
+//   objects  what the handles are that it makes, takes or lists
+PLUMB_CALL(1, core, create_world, any_thread, no_remark, no_handles)
+PLUMB_CALL(2, core, destroy_world, one_caller, no_remark, no_handles)
+PLUMB_CALL(3, core, create_shapes, one_caller, may_grow, shapes)
+PLUMB_CALL(4, core, destroy_shapes, one_caller, no_remark, shapes)
+PLUMB_CALL(5, core, create_bodies, one_caller, may_grow, bodies)
+PLUMB_CALL(6, core, destroy_bodies, one_caller, no_remark, bodies)
+PLUMB_CALL(7, core, list_bodies, one_caller, may_truncate, bodies)
+PLUMB_CALL(8, core, user_data, one_caller, no_remark, bodies)
+PLUMB_CALL(9, core, read, one_caller, no_remark, bodies)
+PLUMB_CALL(10, core, write, one_caller, no_remark, bodies)
+PLUMB_CALL(11, core, set_gravity, one_caller, no_remark, no_handles)
+PLUMB_CALL(12, core, step, one_caller, may_grow, no_handles)
+PLUMB_CALL(13, core, wait, one_caller, may_grow, no_handles)
+PLUMB_CALL(14, core, contacts, one_caller, may_truncate, bodies)
+PLUMB_CALL(15, core, events, one_caller, may_truncate, bodies)
+PLUMB_CALL(16, joints, create, one_caller, may_grow, joints)
+PLUMB_CALL(17, joints, destroy, one_caller, no_remark, joints)
+PLUMB_CALL(18, joints, read, one_caller, no_remark, joints)
+PLUMB_CALL(19, joints, write, one_caller, no_remark, joints)
+PLUMB_CALL(20, queries, rays, many_callers, may_truncate, bodies)
+PLUMB_CALL(21, queries, casts, many_callers, may_truncate, bodies)
+PLUMB_CALL(22, queries, overlaps, many_callers, may_truncate, bodies)
+PLUMB_CALL(23, collide, pairs, many_callers, may_truncate, shapes)
+PLUMB_CALL(24, debug, pairs, one_caller, may_truncate, bodies)
+PLUMB_CALL(25, debug, boxes, one_caller, may_truncate, bodies)
+PLUMB_CALL(26, debug, axes, one_caller, may_truncate, bodies)
+PLUMB_CALL(27, settings, get, one_caller, no_remark, no_handles)
+PLUMB_CALL(28, settings, set, one_caller, no_remark, no_handles)
+PLUMB_CALL(29, snapshot, save, one_caller, may_truncate, no_handles)
+PLUMB_CALL(30, snapshot, restore, one_caller, may_grow, no_handles)
+PLUMB_CALL(31, snapshot, hash, one_caller, no_remark, no_handles)
+PLUMB_CALL(32, state, borrow, one_caller, may_copy, no_handles)
+PLUMB_CALL(33, state, rows, one_caller, may_truncate, bodies)
