@@ -58,4 +58,8 @@ struct MeasureEntry {
 /// All measures; each file of measure/ has a list of its own that registry.cpp joins.
 [[nodiscard]] std::span<const MeasureEntry> all_measures();
 
+/// The measure of a scene file. Throws UsageError with file, line and the nearest word when its kind or an argument is
+/// unknown.
+[[nodiscard]] const MeasureEntry& find_measure(const SceneFile& file);
+
 }  // namespace plumb::harness

@@ -108,6 +108,7 @@ class SceneFile {
   std::vector<MetricSpec> metrics;
   PlumbNeeds needs = 0;
   nlohmann::json json;  ///< the whole file
+  std::string text;     ///< likewise, in which errors find their line
 
   /// The scene for these values (missing ones take their default). Throws UsageError for unknown names, values out of
   /// range, and expressions that fail.

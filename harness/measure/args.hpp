@@ -1,0 +1,21 @@
+// Arguments of a measure, as the scene file gave them, with errors that say which one is missing or wrong.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scene/scene.hpp"
+
+namespace plumb::harness {
+
+/// All throw UsageError when the argument is missing or of another kind.
+[[nodiscard]] double arg_number(const Scene& scene, const std::string& name);
+[[nodiscard]] const std::string& arg_text(const Scene& scene, const std::string& name);
+[[nodiscard]] std::vector<double> arg_numbers(const Scene& scene, const std::string& name);
+/// Index of the body that the argument names.
+[[nodiscard]] std::size_t arg_body(const Scene& scene, const std::string& name);
+[[nodiscard]] std::size_t arg_joint(const Scene& scene, const std::string& name);
+/// Indices of all bodies whose name is the argument's text followed by a number, in order of creation.
+[[nodiscard]] std::vector<std::size_t> arg_bodies(const Scene& scene, const std::string& name);
+
+}  // namespace plumb::harness

@@ -1,0 +1,19 @@
+#include "measure/measure.hpp"
+
+#include <cmath>
+
+namespace plumb::harness {
+
+void MeasureContext::compare(const std::string& name, double value, double truth, double scale, const std::string& note) {
+  add({name, value, truth, std::abs(value - truth) / scale, std::nullopt, note});
+}
+
+void MeasureContext::deviation(const std::string& name, double value, const std::string& note) {
+  add({name, value, 0.0, std::abs(value), std::nullopt, note});
+}
+
+void MeasureContext::expect(const std::string& name, bool value, bool truth, const std::string& note) {
+  add({name, value ? 1.0 : 0.0, truth ? 1.0 : 0.0, value == truth ? 0.0 : 1.0, std::nullopt, note});
+}
+
+}  // namespace plumb::harness

@@ -1,0 +1,41 @@
+// Numeric expressions of scene files: parameters, indices of repeats, pi, and the functions that the schema lists.
+#pragma once
+
+#include <map>
+#include <string>
+
+namespace mu {
+class Parser;
+}
+
+namespace plumb::harness {
+
+/// Evaluates expressions over named numbers and words. Texts are compiled once for a set of names.
+class Expressions {
+ public:
+  Expressions();
+  ~Expressions();
+  Expressions(const Expressions&) = delete;
+  Expressions& operator=(const Expressions&) = delete;
+
+  /// Gives a name its value; the name may be there already.
+  void set(const std::string& name, double value);
+  /// A word parameter: comparable with the names of its choices, and replaceable by its word in names.
+  void set_word(const std::string& name, const std::string& word);
+  /// Makes the word one that others may be compared with.
+  void add_word(const std::string& word);
+  void erase(const std::string& name);
+  [[nodiscard]] bool has(const std::string& name) const { return values_.contains(name); }
+
+  /// Throws std::invalid_argument with a sentence that names the fault and the nearest known name.
+  [[nodiscard]] double evaluate(const std::string& text);
+  /// Replaces every {expression} by its whole number and {parameter} by its word. Throws std::invalid_argument.
+  [[nodiscard]] std::string interpolate(const std::string& text);
+
+ private:
+  std::map<std::string, double> values_;  ///< nodes do not move: the parsers point at them
+  std::map<std::string, std::string> words_;
+  std::map<std::string, mu::Parser> compiled_;
+};
+
+}  // namespace plumb::harness

@@ -1,0 +1,31 @@
+// Large scenes by rule: their initial states are fixed to the last digit, so that figures from elsewhere compare.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "scene/scene.hpp"
+
+namespace plumb::harness {
+
+/// SplitMix64 (Steele, Lea & Flood 2014), the random numbers of the piles.
+class SplitMix64 {
+ public:
+  explicit SplitMix64(std::uint64_t seed) : state_(seed) {}
+  std::uint64_t next();
+  double uniform();  ///< in [0, 1): the top 53 bits
+
+ private:
+  std::uint64_t state_;
+};
+
+/// Names of the generators, as scene files say them.
+[[nodiscard]] const std::vector<std::string>& generator_words();
+
+/// Appends the shapes and bodies of a generator: statics (ground, wall0 ...) first, then cubes box0, box1 ...
+/// generator: an index into generator_words(). Bodies refer to shapes by their index in `shapes`.
+void generate(std::size_t generator, std::int64_t count, double friction, std::vector<SceneShape>& shapes,
+              std::vector<SceneBody>& bodies);
+
+}  // namespace plumb::harness

@@ -1,0 +1,121 @@
+// Joints of a scene file.
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "scene/build.hpp"
+
+namespace plumb::harness {
+namespace {
+
+const std::vector<std::string>& axis_words() {
+  static const std::vector<std::string> words{"x", "y", "z", "rx", "ry", "rz"};
+  return words;
+}
+
+/// Calls each(axis index, value) for the members of an object keyed by axis.
+template <class Each>
+void for_each_axis(const Node& node, const Each& each) {
+  for (const auto& [key, value] : node.members()) {
+    const auto found = std::find(axis_words().begin(), axis_words().end(), key);
+    if (found == axis_words().end()) value.fail_unknown("axis", key, axis_words());
+    each(static_cast<std::size_t>(found - axis_words().begin()), value);
+  }
+}
+
+PlumbPose read_frame(const Node& node) {
+  node.only(scene_keys().at("frame"));
+  return {node.vector_or("position", {}), node.orientation_or("orientation", {0, 0, 0, 1})};
+}
+
+/// A world pose as a body's frame sees it at the start.
+PlumbPose in_body(const PlumbPose& body, const PlumbPose& world) {
+  const auto vector = [](const PlumbVec3& v) { return Eigen::Vector3d(v.x, v.y, v.z); };
+  const auto quaternion = [](const PlumbQuat& q) { return Eigen::Quaterniond(q.w, q.x, q.y, q.z); };
+  const Eigen::Quaterniond inverse = quaternion(body.orientation).conjugate();
+  const Eigen::Vector3d p = inverse * (vector(world.position) - vector(body.position));
+  const Eigen::Quaterniond q = inverse * quaternion(world.orientation);
+  return {{p.x(), p.y(), p.z()}, {q.x(), q.y(), q.z(), q.w()}};
+}
+
+void read_frames(const Node& node, const SceneBuilder& builder, SceneJoint& joint) {
+  const auto anchor = node.find("anchor");
+  if (!anchor) {
+    if (const auto stray = node.find("anchor_orientation")) stray->fail("anchor_orientation needs anchor");
+    if (const auto frame = node.find("frame_a")) joint.desc.frame_a = read_frame(*frame);
+    if (const auto frame = node.find("frame_b")) joint.desc.frame_b = read_frame(*frame);
+    return;
+  }
+  for (const char* key : {"frame_a", "frame_b"})
+    if (const auto frame = node.find(key)) frame->fail("a joint has either an anchor or frames");
+  const PlumbPose world{anchor->vector(), node.orientation_or("anchor_orientation", {0, 0, 0, 1})};
+  const auto& bodies = builder.scene.bodies;
+  joint.desc.frame_a = joint.body_a ? in_body(bodies[*joint.body_a].desc.pose, world) : world;
+  joint.desc.frame_b = in_body(bodies[joint.body_b].desc.pose, world);
+}
+
+void read_axes(const Node& node, PlumbJointDesc& desc) {
+  static const std::vector<std::string> modes{"free", "locked", "limited"};
+  if (const auto given = node.find("axis_modes")) {
+    if (desc.type != PLUMB_JOINT_GENERIC) given->fail("only a generic joint has axis_modes");
+    for_each_axis(*given, [&](std::size_t axis, const Node& mode) {
+      desc.axis_modes[axis] = static_cast<PlumbAxisMode>(mode.word("axis mode", modes));
+    });
+  }
+  if (const auto given = node.find("limits"))
+    for_each_axis(*given, [&](std::size_t axis, const Node& limit) {
+      limit.only(scene_keys().at("limit"));
+      desc.limits[axis] = {limit.at("lower").number(), limit.at("upper").number(), 1, 0};
+    });
+  if (const auto given = node.find("motors"))
+    for_each_axis(*given, [&](std::size_t axis, const Node& motor) {
+      motor.only(scene_keys().at("motor"));
+      desc.motors[axis] = {motor.at("target_velocity").number(), motor.at("max_force").number(), 1, 0};
+    });
+  if (const auto given = node.find("springs"))
+    for_each_axis(*given, [&](std::size_t axis, const Node& spring) {
+      spring.only(scene_keys().at("spring"));
+      desc.springs[axis] = {spring.number_or("rest", 0), spring.at("frequency").number(),
+                            spring.at("damping_ratio").number(), 1, 0};
+    });
+}
+
+SceneJoint read_joint(const Node& node, const SceneBuilder& builder) {
+  SceneJoint joint;
+  joint.name = node.at("name").name();
+  joint.desc = joint_desc(static_cast<PlumbJointType>(node.at("type").word("joint", joint_words())));
+  if (const auto body = node.find("body_a"); body && body->name() != "world")
+    joint.body_a = find_name(*body, "body", builder.body_index);
+  joint.body_b = find_name(node.at("body_b"), "body", builder.body_index);
+  if (joint.desc.type == PLUMB_JOINT_GENERIC)
+    for (PlumbAxisMode& mode : joint.desc.axis_modes) mode = PLUMB_AXIS_LOCKED;
+  read_frames(node, builder, joint);
+  read_axes(node, joint.desc);
+  if (const auto collide = node.find("collide_connected")) joint.desc.collide_connected = collide->boolean() ? 1 : 0;
+  const auto length = node.find("rest_length");
+  if (length && joint.desc.type != PLUMB_JOINT_DISTANCE) length->fail("only a distance joint has rest_length");
+  joint.desc.rest_length = length ? length->number() : 0;
+  joint.desc.break_force = node.number_or("break_force", 0);
+  joint.desc.break_torque = node.number_or("break_torque", 0);
+  if (const auto data = node.find("user_data"))
+    joint.desc.user_data = static_cast<std::uint64_t>(data->integer(0, std::int64_t{1} << 53));
+  return joint;
+}
+
+}  // namespace
+
+void read_joints(const Node& joints, SceneBuilder& builder) {
+  for (const Node& node : joints.elements()) {
+    node.only(scene_keys().at("joint"));
+    for_each_repeat(node, [&] {
+      if (builder.scene.joints.size() >= most_objects)
+        node.fail(fmt::format("more than {} joints: is a count mistaken?", most_objects));
+      SceneJoint joint = read_joint(node, builder);
+      add_name(node.at("name"), "joint", joint.name, builder.joint_index, builder.scene.joints.size());
+      builder.scene.joints.push_back(std::move(joint));
+    });
+  }
+}
+
+}  // namespace plumb::harness

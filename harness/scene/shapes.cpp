@@ -1,0 +1,115 @@
+// Shapes of a scene file.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "scene/build.hpp"
+
+namespace plumb::harness {
+namespace {
+
+/// Which keys a type reads, beside type and user_data.
+const std::vector<std::vector<std::string>>& keys_by_type() {
+  static const std::vector<std::vector<std::string>> keys{{"radius"},
+                                                          {"half_extents"},
+                                                          {"radius", "half_height"},
+                                                          {"radius", "half_height"},
+                                                          {"vertices"},
+                                                          {"vertices", "indices"},
+                                                          {"heights", "spacing"},
+                                                          {},
+                                                          {"children"}};
+  return keys;
+}
+
+void read_vertices(const Node& node, SceneShape& shape) {
+  for (const Node& vertex : node.elements()) {
+    const PlumbVec3 v = vertex.vector();
+    shape.vertices.insert(shape.vertices.end(), {v.x, v.y, v.z});
+  }
+}
+
+void read_indices(const Node& node, SceneShape& shape) {
+  const auto count = static_cast<std::int64_t>(shape.vertices.size() / 3);
+  for (const Node& triangle : node.elements()) {
+    const auto corners = triangle.elements();
+    if (corners.size() != 3) triangle.fail("a triangle has three indices");
+    for (const Node& corner : corners)
+      shape.indices.push_back(static_cast<std::uint32_t>(corner.integer(0, std::max<std::int64_t>(0, count - 1))));
+  }
+}
+
+void read_heights(const Node& node, SceneShape& shape) {
+  const auto rows = node.elements();
+  if (rows.size() < 2) node.fail("a height field has two rows or more");
+  for (const Node& row : rows) {
+    const auto columns = row.elements();
+    if (columns.size() != rows.front().json().size() || columns.size() < 2)
+      row.fail("all rows of a height field have the same number of columns, two or more");
+    for (const Node& height : columns) shape.heights.push_back(height.number());
+  }
+  shape.desc.rows = static_cast<std::uint32_t>(rows.size());
+  shape.desc.columns = static_cast<std::uint32_t>(shape.heights.size() / rows.size());
+}
+
+SceneShape::Child read_child(const Node& node, const SceneBuilder& builder) {
+  node.only(scene_keys().at("child"));
+  SceneShape::Child child{};
+  child.shape = find_name(node.at("shape"), "shape", builder.shape_index);
+  child.pose = {node.vector_or("position", {}), node.orientation_or("orientation", {0, 0, 0, 1})};
+  if (node.find("friction") || node.find("restitution") || node.find("surface_velocity")) {
+    PlumbMaterial material{};
+    material.friction = node.number_or("friction", 0.5);
+    material.restitution = node.number_or("restitution", 0);
+    material.surface_velocity = node.vector_or("surface_velocity", {});
+    child.material = material;
+  }
+  return child;
+}
+
+SceneShape read_shape(const Node& node, const std::string& name, const SceneBuilder& builder) {
+  SceneShape shape;
+  shape.name = name;
+  const std::size_t type = node.at("type").word("shape", shape_words());
+  shape.desc = shape_desc(static_cast<PlumbShapeType>(type));
+  for (const auto& [key, member] : node.members()) {
+    const auto& keys = keys_by_type()[type];
+    if (key == "type" || key == "user_data" || std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
+    member.fail(fmt::format("a {} has no {}", shape_words()[type], key));
+  }
+  for (const std::string& key : keys_by_type()[type]) {
+    const Node value = node.at(key.c_str());
+    if (key == "radius") shape.desc.radius = value.number();
+    if (key == "half_height") shape.desc.half_height = value.number();
+    if (key == "half_extents") shape.desc.half_extents = value.vector();
+    if (key == "vertices") read_vertices(value, shape);
+    if (key == "indices") read_indices(value, shape);
+    if (key == "heights") read_heights(value, shape);
+    if (key == "spacing") shape.desc.spacing = value.vector();
+    if (key == "children")
+      for (const Node& child : value.elements()) shape.children.push_back(read_child(child, builder));
+  }
+  if (const auto data = node.find("user_data"))
+    shape.desc.user_data = static_cast<std::uint64_t>(data->integer(0, std::int64_t{1} << 53));
+  shape.desc.vertex_count = static_cast<std::uint32_t>(shape.vertices.size() / 3);
+  shape.desc.triangle_count = static_cast<std::uint32_t>(shape.indices.size() / 3);
+  return shape;
+}
+
+}  // namespace
+
+void read_shapes(const Node& shapes, SceneBuilder& builder) {
+  for (const auto& [name, node] : shapes.members()) node.only(scene_keys().at("shape"));
+  // Compounds come last, so that all their children have smaller indices; a compound in a compound is thus unknown.
+  for (const bool compounds : {false, true}) {
+    for (const auto& [name, node] : shapes.members()) {
+      if ((node.at("type").name() == "compound") != compounds) continue;
+      SceneShape shape = read_shape(node, name, builder);
+      add_name(node, "shape", name, builder.shape_index, builder.scene.shapes.size());
+      builder.scene.shapes.push_back(std::move(shape));
+    }
+  }
+}
+
+}  // namespace plumb::harness
