@@ -1,0 +1,360 @@
+// The guard between the table and a backend's class: what it refuses, and that nothing refused gets through.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "fake_world.hpp"
+#include "plumb/loader.hpp"
+
+namespace plumb::test {
+namespace {
+
+constexpr PlumbNeeds kEverything = PLUMB_NEED_ALL & ~PLUMB_NEED_CCD;
+const double kNan = std::numeric_limits<double>::quiet_NaN();
+const double kInfinity = std::numeric_limits<double>::infinity();
+
+Backend fake_backend() { return Backend(negotiate(&backend::open<FakeWorld>, "fake")); }
+
+class Guard : public ::testing::Test {
+ protected:
+  explicit Guard(PlumbNeeds needs = kEverything) : world(fake_backend().create_world(world_desc(needs))) {
+    PlumbShapeDesc desc = shape_desc(PLUMB_BOX);
+    desc.half_extents = {0.5, 1, 1.5};
+    EXPECT_EQ(world->create_shapes({&desc, 1}, {&box, 1}), PLUMB_OK);
+  }
+
+  PlumbBodyDesc body() const {
+    PlumbBodyDesc desc = body_desc();
+    desc.shape = box;
+    return desc;
+  }
+  PlumbBody add(const PlumbBodyDesc& desc) {
+    PlumbBody id = 0;
+    EXPECT_EQ(world->create_bodies({&desc, 1}, {&id, 1}), PLUMB_OK) << world->error_text();
+    return id;
+  }
+  /// The call is refused with this code, names this in its text, and never reaches the backend's class.
+  template <class Call>
+  void refused(PlumbResult code, const std::string& named, Call&& call) {
+    const int calls = FakeWorld::last->calls;
+    EXPECT_EQ(call(), code) << world->error_text();
+    EXPECT_NE(world->error_text().find(named), std::string::npos) << "\"" << world->error_text() << "\" does not name " << named;
+    EXPECT_EQ(FakeWorld::last->calls, calls);
+  }
+  void body_refused(PlumbResult code, const std::string& named, const std::function<void(PlumbBodyDesc&)>& spoil) {
+    PlumbBodyDesc good = body(), bad = body();
+    spoil(bad);
+    const PlumbBodyDesc both[2] = {good, bad};
+    PlumbBody ids[2] = {7, 7};
+    const std::size_t alive = world->bodies().size();
+    refused(code, named, [&] { return world->create_bodies(both, ids); });
+    EXPECT_EQ(ids[0], 7u) << "an output was written although the call failed";
+    EXPECT_EQ(world->bodies().size(), alive);
+  }
+  void shape_refused(PlumbResult code, const std::string& named, const PlumbShapeDesc& desc) {
+    PlumbShape id = 0;
+    refused(code, named, [&] { return world->create_shapes({&desc, 1}, {&id, 1}); });
+  }
+
+  std::unique_ptr<IPhysicsWorld> world;
+  PlumbShape box = 0;
+};
+
+TEST_F(Guard, RefusesBadNumbersOfBodiesByName) {
+  body_refused(PLUMB_E_INVALID_ARGUMENT, "bodies[1].pose.position.y", [](auto& d) { d.pose.position.y = kNan; });
+  body_refused(PLUMB_E_INVALID_ARGUMENT, "bodies[1].pose.orientation", [](auto& d) { d.pose.orientation = {0, 0, 0, 0}; });
+  body_refused(PLUMB_E_INVALID_ARGUMENT, "linear_velocity.z", [](auto& d) { d.linear_velocity.z = kInfinity; });
+  body_refused(PLUMB_E_INVALID_ARGUMENT, "density is 0", [](auto& d) { d.density = 0; });
+  body_refused(PLUMB_E_INVALID_ARGUMENT, "mass is -1", [](auto& d) { d.mass_mode = PLUMB_MASS_FROM_TOTAL, d.mass = -1; });
+  body_refused(PLUMB_E_INVALID_ARGUMENT, "inertia.x is 0", [](auto& d) { d.mass_mode = PLUMB_MASS_EXPLICIT, d.mass = 1; });
+  body_refused(PLUMB_E_INVALID_ARGUMENT, "friction", [](auto& d) { d.material.friction = -0.1; });
+  body_refused(PLUMB_E_INVALID_ARGUMENT, "restitution", [](auto& d) { d.material.restitution = 1.1; });
+  body_refused(PLUMB_E_INVALID_ARGUMENT, "linear_damping", [](auto& d) { d.linear_damping = -1; });
+  body_refused(PLUMB_E_INVALID_ARGUMENT, "motion is 9", [](auto& d) { d.motion = 9; });
+  body_refused(PLUMB_E_INVALID_ARGUMENT, "flags", [](auto& d) { d.flags = 1u << 30; });
+  body_refused(PLUMB_E_INVALID_ARGUMENT, "struct_size", [](auto& d) { d.struct_size = 0; });
+  body_refused(PLUMB_E_STALE_HANDLE, "shape", [](auto& d) { d.shape = 12345; });
+  body_refused(PLUMB_E_INVALID_ARGUMENT, "no shape", [](auto& d) { d.shape = 0; });
+}
+
+TEST_F(Guard, RefusesBadShapesByName) {
+  PlumbShapeDesc desc = shape_desc(PLUMB_SPHERE);
+  shape_refused(PLUMB_E_INVALID_ARGUMENT, "shapes[0].radius is 0", desc);
+  desc.radius = kInfinity;
+  shape_refused(PLUMB_E_INVALID_ARGUMENT, "radius", desc);
+  desc = shape_desc(PLUMB_CYLINDER);
+  desc.radius = desc.half_height = 1;
+  shape_refused(PLUMB_E_UNSUPPORTED, "no cylinders here", desc);
+  desc = shape_desc(99);
+  shape_refused(PLUMB_E_INVALID_ARGUMENT, "type is 99", desc);
+
+  const double flat[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0};
+  desc = shape_desc(PLUMB_CONVEX_HULL);
+  desc.vertices = flat;
+  desc.vertex_count = 3;
+  shape_refused(PLUMB_E_INVALID_ARGUMENT, "vertex_count is 3", desc);
+  desc.vertex_count = 4;
+  shape_refused(PLUMB_E_INVALID_ARGUMENT, "vertices", desc);
+
+  const std::uint32_t indices[] = {0, 1, 4};
+  desc = shape_desc(PLUMB_TRIANGLE_MESH);
+  desc.vertices = flat;
+  desc.vertex_count = 4;
+  desc.indices = indices;
+  desc.triangle_count = 1;
+  shape_refused(PLUMB_E_INVALID_ARGUMENT, "indices[2] is 4", desc);
+
+  PlumbCompoundChild child{box + 1000, identity_pose(), 0, 0, {}};
+  desc = shape_desc(PLUMB_COMPOUND);
+  shape_refused(PLUMB_E_INVALID_ARGUMENT, "child_count", desc);
+  desc.children = &child;
+  desc.child_count = 1;
+  shape_refused(PLUMB_E_STALE_HANDLE, "children[0].shape", desc);
+}
+
+TEST_F(Guard, RefusesBadRowsByName) {
+  const PlumbBody id = add(body());
+  const auto write = [&](PlumbField field, PlumbBody body, std::vector<double> values) {
+    return world->write(field, {&body, 1}, ConstRows(reinterpret_cast<const std::byte*>(values.data()), 1, values.size() * sizeof(double), PLUMB_F64));
+  };
+  refused(PLUMB_E_INVALID_ARGUMENT, "pose column 1 is nan", [&] { return write(PLUMB_FIELD_POSE, id, {0, kNan, 0, 0, 0, 0, 1}); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "orientation", [&] { return write(PLUMB_FIELD_POSE, id, {0, 0, 0, 0, 0, 0, 2}); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "stride", [&] { return write(PLUMB_FIELD_POSE, id, {0, 0, 0}); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "not kinematic", [&] { return write(PLUMB_FIELD_KINEMATIC_TARGET, id, {0, 0, 0, 0, 0, 0, 1}); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "restitution", [&] { return write(PLUMB_FIELD_MATERIAL, id, {0.5, 2}); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "field is 77", [&] { return write(77, id, {0}); });
+  PlumbBodyDesc ground = body();
+  ground.motion = PLUMB_STATIC;
+  const PlumbBody still = add(ground);
+  refused(PLUMB_E_INVALID_ARGUMENT, "not dynamic", [&] { return write(PLUMB_FIELD_FORCE, still, {1, 0, 0}); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "static", [&] { return write(PLUMB_FIELD_VELOCITY, still, {1, 0, 0, 0, 0, 0}); });
+  EXPECT_EQ(write(PLUMB_FIELD_POSE, id, {1, 2, 3, 0, 0, 0, 1}), PLUMB_OK);
+  EXPECT_EQ(FakeWorld::last->written[PLUMB_FIELD_POSE][1], 2);
+}
+
+TEST_F(Guard, HandlesGoStaleForEver) {
+  const PlumbBody first = add(body());
+  ASSERT_EQ(world->destroy_bodies({&first, 1}), PLUMB_OK);
+  const PlumbBody second = add(body());
+  EXPECT_EQ(slot_of(first), slot_of(second));
+  EXPECT_NE(first, second);
+  double row[7];
+  refused(PLUMB_E_STALE_HANDLE, "ids[0]", [&] { return world->read(PLUMB_FIELD_POSE, {&first, 1}, Rows(reinterpret_cast<std::byte*>(row), 1, sizeof row, PLUMB_F64)); });
+  refused(PLUMB_E_STALE_HANDLE, "bodies[0]", [&] { return world->destroy_bodies({&first, 1}); });
+  const PlumbBody twice[2] = {second, second};
+  refused(PLUMB_E_INVALID_ARGUMENT, "twice", [&] { return world->destroy_bodies(twice); });
+  EXPECT_EQ(world->bodies().size(), 1u);
+}
+
+TEST_F(Guard, WorksOutMassOnce) {
+  add(body());
+  const PlumbBodyDesc& made = FakeWorld::last->made.back();
+  EXPECT_EQ(made.mass_mode, PLUMB_MASS_EXPLICIT);
+  EXPECT_DOUBLE_EQ(made.mass, 6000);                         // 1 x 2 x 3 m of density 1000
+  EXPECT_DOUBLE_EQ(made.inertia.x, 6000 / 12.0 * (4 + 9));   // m/12 (b^2 + c^2)
+  EXPECT_DOUBLE_EQ(made.inertia.y, 6000 / 12.0 * (1 + 9));
+  EXPECT_DOUBLE_EQ(made.inertia.z, 6000 / 12.0 * (1 + 4));
+  EXPECT_EQ(made.inertia_orientation.w, 1);
+  PlumbBodyDesc particle = body();
+  particle.flags = PLUMB_BODY_NO_ROTATION;
+  particle.mass_mode = PLUMB_MASS_FROM_TOTAL;
+  particle.mass = 3;
+  const PlumbBody id = add(particle);
+  EXPECT_EQ(FakeWorld::last->made.back().inertia.x, 0);
+  double row[11];
+  ASSERT_EQ(world->read(PLUMB_FIELD_MASS, {&id, 1}, Rows(reinterpret_cast<std::byte*>(row), 1, sizeof row, PLUMB_F64)), PLUMB_OK);
+  EXPECT_DOUBLE_EQ(row[0], 3);
+}
+
+TEST_F(Guard, KeepsShapesAndBodiesThatAreInUse) {
+  const PlumbBody a = add(body()), b = add(body());
+  refused(PLUMB_E_IN_USE, "shapes[0]", [&] { return world->destroy_shapes({&box, 1}); });
+  PlumbJointDesc desc = joint_desc(PLUMB_JOINT_BALL);
+  desc.body_a = a;
+  desc.body_b = b;
+  PlumbJoint joint = 0;
+  ASSERT_EQ(world->joints()->create_joints({&desc, 1}, {&joint, 1}), PLUMB_OK);
+  refused(PLUMB_E_IN_USE, "bodies[0]", [&] { return world->destroy_bodies({&a, 1}); });
+  ASSERT_EQ(world->joints()->destroy_joints({&joint, 1}), PLUMB_OK);
+  const PlumbBody both[2] = {a, b};
+  EXPECT_EQ(world->destroy_bodies(both), PLUMB_OK);
+  EXPECT_EQ(world->destroy_shapes({&box, 1}), PLUMB_OK);
+}
+
+TEST_F(Guard, RefusesBadJointsByName) {
+  const PlumbBody a = add(body()), b = add(body());
+  const auto joint_refused = [&](PlumbResult code, const std::string& named, const std::function<void(PlumbJointDesc&)>& spoil) {
+    PlumbJointDesc desc = joint_desc(PLUMB_JOINT_HINGE);
+    desc.body_a = a;
+    desc.body_b = b;
+    spoil(desc);
+    PlumbJoint id = 0;
+    refused(code, named, [&] { return world->joints()->create_joints({&desc, 1}, {&id, 1}); });
+  };
+  joint_refused(PLUMB_E_STALE_HANDLE, "body_b", [](auto& d) { d.body_b = 0; });
+  joint_refused(PLUMB_E_INVALID_ARGUMENT, "body_b is body_a", [&](auto& d) { d.body_b = a; });
+  joint_refused(PLUMB_E_INVALID_ARGUMENT, "limits[3].lower", [](auto& d) { d.limits[3] = {1, -1, 1, 0}; });
+  joint_refused(PLUMB_E_INVALID_ARGUMENT, "motors[3].max_force", [](auto& d) { d.motors[3] = {1, -1, 1, 0}; });
+  joint_refused(PLUMB_E_INVALID_ARGUMENT, "springs[0].frequency", [](auto& d) { d.springs[0] = {0, 0, 1, 1, 0}; });
+  joint_refused(PLUMB_E_INVALID_ARGUMENT, "frame_a.position.x", [](auto& d) { d.frame_a.position.x = kNan; });
+}
+
+TEST_F(Guard, ABrokenJointIsForgotten) {
+  const PlumbBody a = add(body()), b = add(body());
+  PlumbJointDesc desc = joint_desc(PLUMB_JOINT_BALL);
+  desc.body_a = a;
+  desc.body_b = b;
+  desc.break_force = 1;
+  PlumbJoint joint = 0;
+  ASSERT_EQ(world->joints()->create_joints({&desc, 1}, {&joint, 1}), PLUMB_OK);
+  FakeWorld::last->event_rows = {{PLUMB_EVENT_JOINT_BROKEN, 0, a, b, joint}};
+  PlumbStepReport report{};
+  ASSERT_EQ(world->step(0.1), PLUMB_OK);
+  ASSERT_EQ(world->wait(report), PLUMB_OK);
+  EXPECT_EQ(report.joints, 0u);
+  refused(PLUMB_E_STALE_HANDLE, "joints[0]", [&] { return world->joints()->destroy_joints({&joint, 1}); });
+  EXPECT_EQ(world->destroy_bodies({&a, 1}), PLUMB_OK);
+}
+
+TEST_F(Guard, ExceptionsBecomeResultsAndLostWorldsStayLost) {
+  PlumbStepReport report{};
+  FakeWorld::last->on_step = [] { throw std::runtime_error("the solver burst"); };
+  EXPECT_EQ(world->step(0.1), PLUMB_E_INTERNAL);
+  EXPECT_EQ(world->error_text(), "the solver burst");
+  ASSERT_EQ(world->wait(report), PLUMB_OK);
+  FakeWorld::last->on_step = [] { throw 7; };
+  EXPECT_EQ(world->step(0.1), PLUMB_E_INTERNAL);
+  ASSERT_EQ(world->wait(report), PLUMB_OK);
+  FakeWorld::last->on_step = [] { throw Error(PLUMB_E_WORLD_LOST, "gone"); };
+  EXPECT_EQ(world->step(0.1), PLUMB_E_WORLD_LOST);
+  EXPECT_EQ(world->set_gravity({0, 0, 0}), PLUMB_E_WORLD_LOST);
+  EXPECT_EQ(world->error_text(), "gone");
+}
+
+TEST_F(Guard, PhasesOfAStep) {
+  PlumbStepReport report{};
+  refused(PLUMB_E_WRONG_PHASE, "without a step", [&] { return world->wait(report); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "dt is 0", [&] { return world->step(0); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "dt is nan", [&] { return world->step(kNan); });
+  ASSERT_EQ(world->step(0.1), PLUMB_OK);
+  refused(PLUMB_E_WRONG_PHASE, "twice", [&] { return world->step(0.1); });
+  ASSERT_EQ(world->wait(report), PLUMB_OK);
+  EXPECT_EQ(report.step, 1u);
+  EXPECT_TRUE(std::isnan(report.residual));
+}
+
+TEST_F(Guard, SettingsAreCheckedByNameTypeAndRange) {
+  ISettings& settings = *world->settings();
+  const auto number = [](PlumbSettingType type, double value) { return PlumbSettingValue{type, 0, value, nullptr}; };
+  refused(PLUMB_E_INVALID_ARGUMENT, "itterations", [&] { return settings.set_setting("itterations", number(PLUMB_SETTING_INT, 5)); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "from 1 to 100", [&] { return settings.set_setting("iterations", number(PLUMB_SETTING_INT, 101)); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "whole", [&] { return settings.set_setting("iterations", number(PLUMB_SETTING_INT, 2.5)); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "another type", [&] { return settings.set_setting("iterations", number(PLUMB_SETTING_FLOAT, 5)); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "fast, exact", [&] { return settings.set_setting("solver", {PLUMB_SETTING_CHOICE, 0, 0, "quick"}); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "PlumbWorldDesc.settings", [&] { return settings.set_setting("margin", number(PLUMB_SETTING_FLOAT, 0.1)); });
+  EXPECT_EQ(settings.set_setting("iterations", number(PLUMB_SETTING_INT, 20)), PLUMB_OK);
+  PlumbSettingValue value{};
+  EXPECT_EQ(settings.get_setting("iterations", value), PLUMB_OK);
+  EXPECT_EQ(value.number, 20);
+  const PlumbSetting wrong = {"iterations", number(PLUMB_SETTING_INT, 0)};
+  PlumbWorldDesc desc = world_desc(0);
+  desc.settings = &wrong;
+  desc.setting_count = 1;
+  EXPECT_THROW((void)fake_backend().create_world(desc), Error);
+}
+
+TEST_F(Guard, SnapshotsThatAreForeignOrTornAreKnown) {
+  ISnapshot& snapshot = *world->snapshot();
+  std::span<const std::byte> saved;
+  ASSERT_EQ(snapshot.save(saved), PLUMB_OK);
+  std::vector<std::byte> bytes(saved.begin(), saved.end());
+  EXPECT_EQ(snapshot.restore(bytes), PLUMB_OK);
+  EXPECT_EQ(FakeWorld::last->restored, 5u);
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    if (i >= 12 && i < 16) continue;  // reserved
+    std::vector<std::byte> torn = bytes;
+    torn[i] ^= std::byte{1};
+    EXPECT_EQ(snapshot.restore(torn), PLUMB_E_CORRUPT) << "byte " << i;
+  }
+  for (std::size_t size = 0; size < bytes.size(); ++size)
+    EXPECT_EQ(snapshot.restore(std::span(bytes).first(size)), PLUMB_E_CORRUPT) << size << " bytes";
+  add(body());
+  refused(PLUMB_E_CORRUPT, "other bodies", [&] { return snapshot.restore(bytes); });
+}
+
+TEST_F(Guard, LentRowsOutliveTheWorld) {
+  add(body());
+  add(body());
+  PlumbStateRequest request = {sizeof request, PLUMB_FIELD_POSE, 1, 0};
+  PlumbDLManagedTensor* tensor = nullptr;
+  refused(PLUMB_E_UNSUPPORTED, "allow_copy", [&] { return world->state()->borrow(request, tensor, nullptr); });
+  request.allow_copy = 1;
+  ASSERT_EQ(world->state()->borrow(request, tensor, nullptr), PLUMB_COPIED);
+  world.reset();
+  ASSERT_EQ(tensor->dl_tensor.ndim, 2);
+  EXPECT_EQ(tensor->dl_tensor.shape[0], 2);
+  EXPECT_EQ(tensor->dl_tensor.shape[1], 7);
+  EXPECT_EQ(static_cast<const double*>(tensor->dl_tensor.data)[7], 1.0);  // FakeWorld answers the slot
+  tensor->deleter(tensor);
+}
+
+TEST_F(Guard, QueriesAreChecked) {
+  PlumbRay ray{{0, 0, 0}, {0, 0, 0}, {1, ~0u, 0, 0}};
+  refused(PLUMB_E_INVALID_ARGUMENT, "rays[0].translation", [&] { return world->queries()->cast_rays(PLUMB_HIT_ALL, {&ray, 1}).result; });
+  ray.translation.x = 1;
+  refused(PLUMB_E_INVALID_ARGUMENT, "mode is 5", [&] { return world->queries()->cast_rays(5, {&ray, 1}).result; });
+  EXPECT_EQ(world->queries()->cast_rays(PLUMB_HIT_CLOSEST, {&ray, 1}).hits.size(), 1u);
+  PlumbCast cast{99, identity_pose(), {1, 0, 0}, {1, ~0u, 0, 0}};
+  refused(PLUMB_E_STALE_HANDLE, "casts[0].shape", [&] { return world->queries()->cast_shapes(PLUMB_HIT_ALL, {&cast, 1}).result; });
+}
+
+class UndeclaredNeeds : public Guard {
+ protected:
+  UndeclaredNeeds() : Guard(PLUMB_NEED_ROTATION) {}
+};
+
+TEST_F(UndeclaredNeeds, EachIsNamed) {
+  const auto body_needs = [&](const std::string& need, const std::function<void(PlumbBodyDesc&)>& use) {
+    body_refused(PLUMB_E_NOT_DECLARED, need, [&](PlumbBodyDesc& desc) {
+      desc.material.friction = 0;
+      use(desc);
+    });
+  };
+  // The good first body of body_refused has friction, so only that need can be seen through it.
+  body_needs("PLUMB_NEED_FRICTION", [](auto&) {});
+  const auto alone = [&](const std::string& need, const std::function<void(PlumbBodyDesc&)>& use) {
+    PlumbBodyDesc desc = body();
+    desc.material.friction = 0;
+    use(desc);
+    PlumbBody id = 0;
+    refused(PLUMB_E_NOT_DECLARED, need, [&] { return world->create_bodies({&desc, 1}, {&id, 1}); });
+  };
+  alone("PLUMB_NEED_RESTITUTION", [](auto& d) { d.material.restitution = 0.5; });
+  alone("PLUMB_NEED_SURFACE_VELOCITY", [](auto& d) { d.material.surface_velocity.x = 1; });
+  alone("PLUMB_NEED_KINEMATIC", [](auto& d) { d.motion = PLUMB_KINEMATIC; });
+  alone("PLUMB_NEED_SENSORS", [](auto& d) { d.flags = PLUMB_BODY_SENSOR; });
+  alone("PLUMB_NEED_CCD", [](auto& d) { d.flags = PLUMB_BODY_CCD; });
+  alone("PLUMB_NEED_SLEEPING", [](auto& d) { d.flags = PLUMB_BODY_ASLEEP; });
+  alone("PLUMB_NEED_AXIS_LOCKS", [](auto& d) { d.locks = PLUMB_LOCK_LINEAR_X; });
+  alone("PLUMB_NEED_DAMPING", [](auto& d) { d.angular_damping = 1; });
+  alone("PLUMB_NEED_FILTERS", [](auto& d) { d.filter.group = 3; });
+  PlumbJointDesc joint = joint_desc(PLUMB_JOINT_BALL);
+  PlumbJoint id = 0;
+  refused(PLUMB_E_NOT_DECLARED, "PLUMB_NEED_JOINTS", [&] { return world->joints()->create_joints({&joint, 1}, {&id, 1}); });
+  std::span<const std::byte> data;
+  refused(PLUMB_E_NOT_DECLARED, "PLUMB_NEED_SNAPSHOT", [&] { return world->snapshot()->save(data); });
+}
+
+TEST(CreateWorld, RefusesNeedsThatTheEngineLacks) {
+  try {
+    (void)fake_backend().create_world(world_desc(PLUMB_NEED_CCD));
+    FAIL() << "a world with a need that the engine lacks was made";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), PLUMB_E_UNSUPPORTED);
+    EXPECT_NE(std::string(error.what()).find("PLUMB_NEED_CCD: no continuous collision"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace plumb::test
