@@ -1,0 +1,105 @@
+#include <cmath>
+#include <vector>
+
+#include "referee/convex_distance.hpp"
+#include "referee/convex_penetration.hpp"
+#include "referee/expanding_polytope.hpp"
+
+namespace plumb::referee {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// One triangle and a convex shape that cuts it or that it is near to, in the mesh's frame.
+class TrianglePair {
+ public:
+  TrianglePair(const Shape::Triangle& triangle, const Shape& convex, const Pose& pose)
+      : triangle_(triangle_polytope(triangle)), convex_(convex), pose_(pose), front_(triangle_.faces[0].normal) {}
+
+  Penetration run() {
+    const ConvexView view_triangle{nullptr, &triangle_, Pose{}}, view_convex{&convex_, nullptr, pose_};
+    const ConvexDistance near = convex_distance(view_triangle, view_convex);
+    const double radius = convex_.rounding();
+    if (near.distance > 0) {
+      const Vec3 normal = (near.on_b - near.on_a) / near.distance;
+      if (near.distance >= radius || in_front(normal))
+        return {radius - near.distance, normal, (near.on_a + near.on_b - radius * normal) / 2};
+    }
+    offer(front_);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3 edge = triangle_.corners[(i + 1) % 3] - triangle_.corners[i];
+      offer(edge.cross(front_));
+      for (const Vec3& other : edge_directions()) {
+        offer(edge.cross(other));
+        offer(other.cross(edge));
+      }
+    }
+    if (convex_.type() == PLUMB_CYLINDER) {
+      offer(pose_.rotation.col(1));
+      offer(-pose_.rotation.col(1));
+      offer(expanding_polytope(view_triangle, view_convex).normal);
+    } else {
+      for (const Polytope::Face& face : convex_.core().faces) offer(-(pose_.rotation * face.normal));
+    }
+    const Vec3 deepest = pose_ * convex_.support(-(pose_.rotation.transpose() * best_normal_));
+    return {best_depth_, best_normal_, deepest + best_depth_ / 2 * best_normal_};
+  }
+
+ private:
+  [[nodiscard]] bool in_front(const Vec3& direction) const { return direction.dot(front_) >= -1e-9; }
+
+  // The translation of the convex shape along a direction that takes it off the triangle, if the front allows it.
+  void offer(const Vec3& direction) {
+    const double length = direction.norm();
+    if (!(length > 1e-12 * triangle_.radius)) return;
+    const Vec3 normal = direction / length;
+    if (!in_front(normal)) return;
+    const double reach = triangle_.corners[triangle_.support(normal)].dot(normal);
+    const double depth = reach - (pose_ * convex_.support(-(pose_.rotation.transpose() * normal))).dot(normal);
+    if (depth < best_depth_) best_depth_ = depth, best_normal_ = normal;
+  }
+
+  [[nodiscard]] std::vector<Vec3> edge_directions() const {
+    std::vector<Vec3> directions;
+    if (convex_.type() == PLUMB_CYLINDER) directions.push_back(pose_.rotation.col(1));
+    if (convex_.type() == PLUMB_BOX) {
+      for (int i = 0; i < 3; ++i) directions.push_back(pose_.rotation.col(i));
+    } else {
+      for (const Polytope::Edge& edge : convex_.core().edges)
+        directions.push_back(pose_.rotation * (convex_.core().corners[edge.to] - convex_.core().corners[edge.from]));
+    }
+    return directions;
+  }
+
+  Polytope triangle_;
+  const Shape& convex_;
+  const Pose& pose_;
+  Vec3 front_;
+  double best_depth_ = infinity;
+  Vec3 best_normal_ = Vec3::UnitY();
+};
+
+double box_distance(const Aabb& a, const Aabb& b) {
+  return (a.low - b.high).cwiseMax(b.low - a.high).cwiseMax(0.0).norm();
+}
+
+}  // namespace
+
+Penetration mesh_penetration(const Shape& mesh, const Shape& convex, const Pose& pose_convex, Apart apart) {
+  const Aabb bounds = convex.bounds(pose_convex);
+  Penetration deepest{-infinity, Vec3::UnitY(), pose_convex.position};
+  for (std::size_t i = 0; i < mesh.triangles().size(); ++i) {
+    const double at_least = box_distance(mesh.triangle_bounds()[i], bounds);
+    if (at_least > 0 && apart == Apart::lower_bound) {
+      if (-at_least > deepest.depth) deepest.depth = -at_least;
+      continue;
+    }
+    if (-at_least < deepest.depth) continue;
+    const Penetration one = TrianglePair(mesh.triangles()[i], convex, pose_convex).run();
+    if (one.depth > deepest.depth) deepest = one;
+  }
+  return deepest;
+}
+
+}  // namespace plumb::referee
