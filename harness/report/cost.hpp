@@ -1,0 +1,34 @@
+// What accuracy costs: for every problem, metric and backend the cheapest cell that reaches an error.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "report/study.hpp"
+
+namespace plumb::harness {
+
+inline constexpr std::array<double, 3> target_errors{0.1, 0.01, 0.001};
+
+/// A cell that reaches an error, and at which price.
+struct Reached {
+  const ResultRow* row;
+  double ms;     ///< wall time per simulated second
+  double error;
+};
+
+struct CostLine {
+  const Problem* problem;
+  std::string metric, backend;
+  std::array<std::optional<Reached>, target_errors.size()> at;  ///< by target_errors; empty: never
+  std::optional<Reached> floor;                                 ///< smallest error, the cheapest of equals
+  const ResultRow* representative;  ///< the backend's cell that says why, where nothing is reached; never null
+};
+
+/// Lines by problem, then metric, then backend; only backends with a cell on the problem. A cell counts for a metric
+/// when it ran to its end (passed or not) with a finite error and a time: both come from that one run.
+[[nodiscard]] std::vector<CostLine> cost_of_accuracy(const Study& study);
+
+}  // namespace plumb::harness

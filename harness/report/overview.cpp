@@ -1,0 +1,191 @@
+#include "report/overview.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "report/format.hpp"
+
+namespace plumb::harness {
+namespace {
+
+constexpr std::size_t examples = 3;  ///< how many cells a sentence names
+
+std::string plural(std::size_t count, const char* one, const char* many) {
+  return fmt::format("{} {}", count, count == 1 ? one : many);
+}
+
+std::string plural(int count, const char* one, const char* many) {
+  return plural(static_cast<std::size_t>(count), one, many);
+}
+
+std::string title(const ResultRow& row) {
+  const std::string variant = row.variant();
+  return variant.empty() ? row.scene : row.scene + " " + variant;
+}
+
+/// "tower (12x its threshold)"
+std::string failure_text(const ResultRow& row) {
+  const MetricResult* worst = row.worst();
+  if (!worst || !worst->badness()) return title(row);
+  if (!worst->error) return fmt::format("{} ({} not finite)", title(row), worst->name);
+  if (!worst->threshold || *worst->threshold <= 0) return fmt::format("{} ({} {})", title(row), worst->name, short_number(worst->error));
+  return fmt::format("{} ({} at {} its threshold)", title(row), worst->name, ratio_text(*worst->badness()));
+}
+
+/// Groups by the share of their problems that the backend passes; those it cannot run are left out.
+void find_groups(BackendOverview& overview, const std::map<std::string, std::pair<int, int>>& passed_of) {
+  double best = -1, worst = 2;
+  for (const auto& [group, count] : passed_of) {
+    const double share = double(count.first) / count.second;
+    best = std::max(best, share);
+    worst = std::min(worst, share);
+  }
+  if (best <= worst) return;
+  for (const auto& [group, count] : passed_of) {
+    const double share = double(count.first) / count.second;
+    const std::string text = fmt::format("{} ({} of {})", group.empty() ? "other" : group, count.first, count.second);
+    if (share == best) overview.best_groups.push_back(text);
+    if (share == worst) overview.worst_groups.push_back(text);
+  }
+}
+
+BackendOverview overview_of(const Study& study, const std::string& backend) {
+  BackendOverview overview;
+  overview.backend = backend;
+  std::map<std::string, std::pair<int, int>> passed_of;
+  for (const Problem& problem : study.problems) {
+    const ResultRow* row = study.representative(problem, backend);
+    if (!row) continue;
+    if (overview.version.empty()) overview.version = row->backend_version;
+    const Verdict verdict = row->verdict();
+    ++overview.problems;
+    ++overview.counts[static_cast<std::size_t>(verdict)];
+    if (verdict == Verdict::failed) overview.failures.push_back(row);
+    if (verdict > Verdict::unsupported) overview.broken.push_back(row);
+    if (verdict != Verdict::unsupported && verdict != Verdict::ran) {
+      auto& [passed, all] = passed_of[problem.group];
+      passed += verdict <= Verdict::pass;
+      ++all;
+    }
+  }
+  const auto badness = [](const ResultRow* row) {
+    const MetricResult* worst = row->worst();
+    return worst ? worst->badness().value_or(0) : 0;
+  };
+  std::stable_sort(overview.failures.begin(), overview.failures.end(),
+                   [&](const ResultRow* a, const ResultRow* b) { return badness(a) > badness(b); });
+  find_groups(overview, passed_of);
+  return overview;
+}
+
+void count_costs(std::vector<BackendOverview>& all, const std::vector<CostLine>& costs) {
+  std::map<std::string, BackendOverview*> by_name;
+  for (BackendOverview& overview : all) by_name[overview.backend] = &overview;
+  for (auto first = costs.begin(); first != costs.end();) {
+    const auto last = std::find_if(first, costs.end(), [&](const CostLine& line) {
+      return line.problem != first->problem || line.metric != first->metric;
+    });
+    for (std::size_t t = 0; t < target_errors.size(); ++t) {
+      double cheapest = std::numeric_limits<double>::infinity();
+      for (auto line = first; line != last; ++line) {
+        if (line->at[t]) cheapest = std::min(cheapest, line->at[t]->ms);
+      }
+      for (auto line = first; line != last; ++line) {
+        if (!line->at[t]) continue;
+        ++by_name[line->backend]->reached[t];
+        by_name[line->backend]->cheapest[t] += line->at[t]->ms == cheapest;
+      }
+    }
+    for (; first != last; ++first) by_name[first->backend]->cost_lines += first->floor.has_value();
+  }
+}
+
+}  // namespace
+
+std::vector<BackendOverview> overviews(const Study& study, const std::vector<CostLine>& costs) {
+  std::vector<BackendOverview> all;
+  for (const std::string& backend : study.backends) all.push_back(overview_of(study, backend));
+  count_costs(all, costs);
+  return all;
+}
+
+std::string describe_backend(const BackendOverview& o, bool alone) {
+  std::vector<std::string> counts;
+  const auto count = [&](Verdict verdict, const char* words) {
+    if (o.count(verdict) > 0) counts.push_back(fmt::format("{} {}", o.count(verdict), words));
+  };
+  count(Verdict::gold, "gold");
+  count(Verdict::pass, "passed");
+  count(Verdict::failed, "failed");
+  count(Verdict::ran, "ran without a threshold");
+  count(Verdict::unsupported, "unsupported");
+  count(Verdict::crashed, "crashed");
+  count(Verdict::timeout, "timed out");
+  count(Verdict::out_of_memory, "out of memory");
+  count(Verdict::error, "ended in an error");
+  std::string out = fmt::format("Of {}: {}.", plural(o.problems, "problem", "problems"), fmt::join(counts, ", "));
+  if (o.cost_lines > 0) {
+    out += fmt::format(" It reaches 1 % error in {} of {}", o.reached[1], plural(o.cost_lines, "metric", "metrics"));
+    out += alone ? "." : fmt::format(", in {} of them at the lowest cost of all.", o.cheapest[1]);
+  }
+  if (!o.best_groups.empty()) {
+    out += fmt::format(" Best in {}; weakest in {}.", fmt::join(o.best_groups, ", "), fmt::join(o.worst_groups, ", "));
+  }
+  const auto name_some = [&](const char* verb, const std::vector<const ResultRow*>& rows, const auto& text) {
+    if (rows.empty()) return;
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < std::min(examples, rows.size()); ++i) names.push_back(text(*rows[i]));
+    out += fmt::format(" {} {}", verb, fmt::join(names, ", "));
+    if (rows.size() > examples) out += fmt::format(" and {} more", rows.size() - examples);
+    out += '.';
+  };
+  name_some("It misses by most in", o.failures, failure_text);
+  name_some("It did not come through", o.broken, [](const ResultRow& row) {
+    std::string word(verdict_word(row.verdict()));
+    std::replace(word.begin(), word.end(), '_', ' ');
+    return fmt::format("{} ({})", title(row), word);
+  });
+  return out;
+}
+
+std::string describe_study(const Study& study) {
+  std::set<std::string> scenes, profiles, steps;
+  for (const ResultRow& row : study.rows) {
+    scenes.insert(row.scene);
+    if (!row.profile.empty()) profiles.insert(row.profile);
+    if (row.dt) steps.insert(dt_text(row.dt));
+  }
+  std::vector<std::string> dts(steps.begin(), steps.end());
+  std::sort(dts.begin(), dts.end(), natural_less);
+  std::string out = fmt::format("{} on {} ({} with their variants), {}.",
+                                plural(study.backends.size(), "backend", "backends"),
+                                plural(scenes.size(), "scene", "scenes"), study.problems.size(),
+                                plural(study.rows.size(), "cell", "cells"));
+  if (!profiles.empty()) out += fmt::format(" Profile {}.", fmt::join(profiles, ", "));
+  if (!dts.empty()) {
+    constexpr std::size_t most = 8;
+    const std::size_t shown = std::min(most, dts.size());
+    out += fmt::format(" Time step {} s{}.", fmt::join(dts.begin(), dts.begin() + static_cast<std::ptrdiff_t>(shown), ", "),
+                       dts.size() > shown ? " and others" : "");
+  }
+  return out;
+}
+
+std::vector<std::string> describe_machines(const Study& study) {
+  std::vector<std::string> machines;
+  std::set<std::string> seen;
+  for (const ResultRow& row : study.rows) {
+    if (row.machine.empty() || !seen.insert(value_text(row.machine)).second) continue;
+    std::vector<std::string> parts;
+    for (const auto& [name, value] : row.machine.items()) parts.push_back(name + ": " + value_text(value));
+    machines.push_back(fmt::format("{}", fmt::join(parts, ", ")));
+  }
+  return machines;
+}
+
+}  // namespace plumb::harness

@@ -1,0 +1,37 @@
+// What the numbers say in words: counts of verdicts, where a backend is best and where it breaks.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "report/cost.hpp"
+#include "report/study.hpp"
+
+namespace plumb::harness {
+
+/// A backend over all problems, each counted once by its representative cell.
+struct BackendOverview {
+  std::string backend, version;
+  std::array<int, verdict_count> counts{};  ///< by Verdict
+  int problems = 0;
+  int cost_lines = 0;                                       ///< (problem, metric) pairs that it ran
+  std::array<int, target_errors.size()> reached{};          ///< of those, by target
+  std::array<int, target_errors.size()> cheapest{};         ///< reached where nobody else does so for less
+  std::vector<std::string> best_groups, worst_groups;       ///< by share of problems passed; empty when all are alike
+  std::vector<const ResultRow*> failures;                   ///< failed, the farthest from its threshold first
+  std::vector<const ResultRow*> broken;                     ///< crashed, timed out, out of memory, errors
+
+  [[nodiscard]] int count(Verdict verdict) const { return counts[static_cast<std::size_t>(verdict)]; }
+};
+
+[[nodiscard]] std::vector<BackendOverview> overviews(const Study& study, const std::vector<CostLine>& costs);
+
+/// One paragraph.
+[[nodiscard]] std::string describe_backend(const BackendOverview& overview, bool alone);
+/// What was compared, in sentences: backends, scenes, cells, dt and profiles.
+[[nodiscard]] std::string describe_study(const Study& study);
+/// "cpu: AMD EPYC, cores: 2" for each machine that answered.
+[[nodiscard]] std::vector<std::string> describe_machines(const Study& study);
+
+}  // namespace plumb::harness

@@ -1,0 +1,210 @@
+#include "report/result_row.hpp"
+
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <limits>
+
+#include "report/format.hpp"
+
+namespace plumb::harness {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::array<std::string_view, verdict_count> verdict_words{
+    "gold", "pass", "ran", "failed", "unsupported", "crashed", "timeout", "out_of_memory", "error"};
+
+const json& member(const json& object, const char* key) {
+  static const json none;
+  if (!object.is_object()) return none;
+  const auto found = object.find(key);
+  return found == object.end() ? none : *found;
+}
+
+std::string text(const json& object, const char* key) {
+  const json& value = member(object, key);
+  return value.is_string() ? value.get<std::string>() : value.is_null() ? std::string() : value_text(value);
+}
+
+std::optional<double> as_number(const json& value) {
+  if (!value.is_number()) return std::nullopt;
+  const double number = value.get<double>();
+  return std::isfinite(number) ? std::optional(number) : std::nullopt;
+}
+
+std::optional<double> number(const json& object, const char* key) { return as_number(member(object, key)); }
+
+json object_or_empty(const json& value) { return value.is_object() ? value : json::object(); }
+
+MetricResult parse_metric(const std::string& name, const json& from) {
+  MetricResult metric;
+  metric.name = name;
+  metric.unit = text(from, "unit");
+  metric.note = text(from, "note");
+  metric.value = number(from, "value");
+  metric.truth = number(from, "truth");
+  metric.error = number(from, "error");
+  metric.unbiased_error = number(from, "unbiased_error");
+  metric.threshold = number(from, "threshold");
+  metric.gold = number(from, "gold");
+  if (const json& pass = member(from, "pass"); pass.is_boolean()) metric.pass = pass.get<bool>();
+  // A scored error that is not finite misses whatever it is held against.
+  if (!metric.pass && metric.threshold) metric.pass = metric.error && *metric.error <= *metric.threshold;
+  if (const json& gold = member(from, "gold"); gold.is_boolean()) metric.is_gold = gold.get<bool>();
+  if (metric.gold) metric.is_gold = metric.error && *metric.error <= *metric.gold;
+  return metric;
+}
+
+}  // namespace
+
+std::string_view verdict_word(Verdict verdict) { return verdict_words[static_cast<std::size_t>(verdict)]; }
+
+std::optional<double> MetricResult::badness() const {
+  const std::optional<double> limit = threshold ? threshold : gold;
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  if (!limit) {
+    if (!pass) return std::nullopt;
+    return *pass ? 0 : infinite;
+  }
+  if (!error) return infinite;
+  if (*limit > 0) return *error / *limit;
+  return *error > *limit ? infinite : 0;
+}
+
+Verdict ResultRow::verdict() const {
+  for (const Verdict verdict : {Verdict::unsupported, Verdict::crashed, Verdict::timeout, Verdict::out_of_memory}) {
+    if (status == verdict_word(verdict)) return verdict;
+  }
+  if (!completed()) return Verdict::error;
+  bool scored = false, gold = false, all_gold = true, passed = status == "ok";
+  for (const MetricResult& metric : metrics) {
+    if (!metric.scored()) continue;
+    scored = true;
+    if (metric.pass && !*metric.pass) passed = false;
+    gold = gold || metric.is_gold;
+    all_gold = all_gold && (metric.is_gold || !metric.gold);
+  }
+  if (!passed) return Verdict::failed;
+  if (!scored) return Verdict::ran;
+  return gold && all_gold ? Verdict::gold : Verdict::pass;
+}
+
+const MetricResult* ResultRow::worst() const {
+  const MetricResult* worst = nullptr;
+  for (const MetricResult& metric : metrics) {
+    if (metric.badness() && (!worst || *metric.badness() > *worst->badness())) worst = &metric;
+  }
+  return worst;
+}
+
+const MetricResult* ResultRow::metric(std::string_view name) const {
+  for (const MetricResult& metric : metrics) {
+    if (metric.name == name) return &metric;
+  }
+  return nullptr;
+}
+
+std::optional<double> ResultRow::ms_per_simulated_second() const {
+  if (!median_ms || !dt || *median_ms <= 0 || *dt <= 0) return std::nullopt;
+  return *median_ms / *dt;
+}
+
+bool ResultRow::completed() const { return status == "ok" || status == "failed"; }
+
+std::string ResultRow::variant() const {
+  std::string out;
+  for (const auto& [name, value] : params.items()) {
+    if (!out.empty()) out += ' ';
+    out += name + "=" + value_text(value);
+  }
+  return out;
+}
+
+ResultRow parse_row(const json& line, std::size_t index) {
+  ResultRow row;
+  row.index = index;
+  row.scene = text(line, "scene");
+  row.group = text(line, "group");
+  row.backend = text(line, "backend");
+  row.backend_version = text(line, "backend_version");
+  row.profile = text(line, "profile");
+  row.status = text(line, "status");
+  row.reason = text(line, "reason");
+  row.hash = text(line, "hash");
+  row.params = object_or_empty(member(line, "params"));
+  row.settings = object_or_empty(member(line, "settings"));
+  row.machine = object_or_empty(member(line, "machine"));
+  row.dt = number(line, "dt");
+  row.seconds = number(line, "seconds");
+  row.threads = number(line, "threads");
+  if (const json& metrics = member(line, "metrics"); metrics.is_object()) {
+    for (const auto& [name, metric] : metrics.items()) row.metrics.push_back(parse_metric(name, metric));
+  }
+  const json& time = member(line, "time");
+  const json& per_step = member(time, "ms_per_step");
+  row.median_ms = number(per_step, "median");
+  row.min_ms = number(per_step, "min");
+  row.max_ms = number(per_step, "max");
+  row.p99_ms = number(per_step, "p99");
+  if (const json& window = member(time, "window"); window.is_array() && window.size() == 2) {
+    row.window_first = as_number(window[0]);
+    row.window_last = as_number(window[1]);
+  }
+  row.steps = number(time, "steps");
+  row.setup_ms = number(time, "setup_ms");
+  if (const json& phases = member(time, "phase_ms"); phases.is_object()) {
+    for (const auto& [name, ms] : phases.items()) {
+      if (const auto value = as_number(ms)) row.phase_ms.emplace_back(name, *value);
+    }
+  }
+  const json& counts = member(line, "counts");
+  row.bodies = number(counts, "bodies");
+  row.contacts_max = number(counts, "contacts_max");
+  row.dropped = number(counts, "dropped");
+  row.nonfinite = number(counts, "nonfinite");
+  row.peak_mb = number(line, "peak_mb");
+  if (row.status.empty()) {
+    row.status = "error";
+    if (row.reason.empty()) row.reason = "the line in the results has no status";
+  }
+  return row;
+}
+
+std::vector<ResultRow> parse_rows(const std::vector<json>& lines) {
+  std::vector<ResultRow> rows;
+  rows.reserve(lines.size());
+  for (const json& line : lines) rows.push_back(parse_row(line, rows.size()));
+  return rows;
+}
+
+bool natural_less(std::string_view a, std::string_view b) {
+  const auto digit = [](char c) { return c >= '0' && c <= '9'; };
+  std::size_t i = 0, j = 0;
+  while (i < a.size() && j < b.size()) {
+    if (digit(a[i]) && digit(b[j])) {
+      const auto run = [&](std::string_view s, std::size_t& at) {
+        while (at < s.size() && s[at] == '0') ++at;
+        const std::size_t first = at;
+        while (at < s.size() && digit(s[at])) ++at;
+        return s.substr(first, at - first);
+      };
+      const std::string_view x = run(a, i), y = run(b, j);
+      if (x.size() != y.size()) return x.size() < y.size();
+      if (x != y) return x < y;
+    } else {
+      if (a[i] != b[j]) return a[i] < b[j];
+      ++i, ++j;
+    }
+  }
+  if (i < a.size() || j < b.size()) return i == a.size();
+  return a < b;  // "01" and "1" read alike, yet are two names
+}
+
+std::string value_text(const json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_number_float()) return shortest_number(value.get<double>());
+  return value.dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+}  // namespace plumb::harness

@@ -1,0 +1,69 @@
+// One cell's result as the reports see it: read once, tolerantly, from the JSON line that `plumb run` wrote.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace plumb::harness {
+
+/// What came of a cell, best first. `ran` is a cell without anything scored.
+enum class Verdict { gold, pass, ran, failed, unsupported, crashed, timeout, out_of_memory, error };
+inline constexpr std::size_t verdict_count = 9;
+
+/// The word for people and machines: "gold", "out_of_memory" ...
+[[nodiscard]] std::string_view verdict_word(Verdict verdict);
+
+/// One metric of a cell. Numbers that were not finite (null in the file) are absent.
+struct MetricResult {
+  std::string name, unit, note;
+  std::optional<double> value, truth, error, unbiased_error, threshold, gold;
+  std::optional<bool> pass;  ///< absent where nothing is scored
+  bool is_gold = false;
+
+  [[nodiscard]] bool scored() const { return threshold || gold || pass; }
+  /// Error over threshold (over gold where there is no threshold): above 1 is a miss, infinity where the error is not
+  /// finite, and absent where nothing is scored.
+  [[nodiscard]] std::optional<double> badness() const;
+};
+
+/// A cell. Text fields are "" and numbers absent where the line did not have them or had another type.
+struct ResultRow {
+  std::size_t index = 0;  ///< in the order of the file; names the row on the page
+  std::string scene, group, backend, backend_version, profile, status, reason, hash;
+  nlohmann::json params, settings, machine;  ///< always objects
+  std::optional<double> dt, seconds, threads;
+  std::vector<MetricResult> metrics;  ///< in the order of the line
+
+  std::optional<double> median_ms, min_ms, max_ms, p99_ms;  ///< per step
+  std::optional<double> window_first, window_last, steps, setup_ms;
+  std::vector<std::pair<std::string, double>> phase_ms;  ///< medians by phase, where the engine tells
+  std::optional<double> bodies, contacts_max, dropped, nonfinite, peak_mb;
+
+  [[nodiscard]] Verdict verdict() const;
+  /// The metric with the largest badness; null when nothing is scored.
+  [[nodiscard]] const MetricResult* worst() const;
+  [[nodiscard]] const MetricResult* metric(std::string_view name) const;
+  /// median_ms / dt; absent where either is, or is not above zero.
+  [[nodiscard]] std::optional<double> ms_per_simulated_second() const;
+  /// It ran to its end, so that its errors and times mean something.
+  [[nodiscard]] bool completed() const;
+  /// "H=50 mu=0.3", "" without parameters: what tells the variants of a scene apart.
+  [[nodiscard]] std::string variant() const;
+};
+
+/// Never throws on wrong types inside; anything but an object gives an empty row with status "error".
+[[nodiscard]] ResultRow parse_row(const nlohmann::json& line, std::size_t index);
+[[nodiscard]] std::vector<ResultRow> parse_rows(const std::vector<nlohmann::json>& lines);
+
+/// Order for people: A2 before A10, then by the rest of the text.
+[[nodiscard]] bool natural_less(std::string_view a, std::string_view b);
+
+/// A parameter's or setting's value as text: 50, 0.5, true, implicit.
+[[nodiscard]] std::string value_text(const nlohmann::json& value);
+
+}  // namespace plumb::harness

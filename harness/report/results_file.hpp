@@ -1,0 +1,21 @@
+// Reading results.jsonl, which a run that is still going or was killed may be writing.
+#pragma once
+
+#include <filesystem>
+#include <iosfwd>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+namespace plumb::harness {
+
+struct Results {
+  std::vector<nlohmann::json> rows;           ///< objects, one a cell, in the order of the file
+  std::vector<std::size_t> unreadable_lines;  ///< from 1; other than a torn last line, which a kill leaves behind
+};
+
+/// One object a line; empty lines count for nothing. A cell that was run again replaces its earlier row in place.
+[[nodiscard]] Results read_results(std::istream& in);
+/// `where` is the file, or the folder with results.jsonl in it. Throws UsageError when it cannot be opened.
+[[nodiscard]] Results read_results(const std::filesystem::path& where);
+
+}  // namespace plumb::harness

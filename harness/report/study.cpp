@@ -1,0 +1,155 @@
+#include "report/study.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <tuple>
+
+#include "report/format.hpp"
+
+namespace plumb::harness {
+namespace {
+
+/// The most frequent of the values; the first of several.
+template <typename Value>
+class Mode {
+ public:
+  void add(const std::string& key, const Value& value) {
+    auto& [count, first] = counts_.try_emplace(key, 0, value).first->second;
+    if (++count > best_count_) {
+      best_count_ = count;
+      best_ = first;
+    }
+  }
+  [[nodiscard]] const Value& best() const { return best_; }
+
+ private:
+  std::map<std::string, std::pair<int, Value>> counts_;
+  int best_count_ = 0;
+  Value best_{};
+};
+
+std::string key_of(const std::optional<double>& value) { return value ? shortest_number(*value) : ""; }
+
+bool same(const std::optional<double>& a, const std::optional<double>& b) {
+  if (!a || !b) return a.has_value() == b.has_value();
+  return *a == *b || std::abs(*a - *b) <= 1e-12 * std::abs(*b);
+}
+
+Baseline find_baseline(const std::vector<const ResultRow*>& rows) {
+  Mode<nlohmann::json> settings;
+  Mode<std::optional<double>> dt, threads;
+  for (const ResultRow* row : rows) {
+    if (!row->settings.empty()) settings.add(value_text(row->settings), row->settings);
+    if (row->dt) dt.add(key_of(row->dt), row->dt);
+    if (row->threads) threads.add(key_of(row->threads), row->threads);
+  }
+  Baseline baseline;
+  baseline.settings = settings.best().is_object() ? settings.best() : nlohmann::json::object();
+  baseline.dt = dt.best();
+  baseline.threads = threads.best();
+  return baseline;
+}
+
+bool default_profile(const ResultRow& row) { return row.profile.empty() || row.profile == "default"; }
+
+}  // namespace
+
+Study::Study(std::vector<ResultRow> given) : rows(std::move(given)) {
+  std::map<std::string, std::vector<const ResultRow*>> by_backend, default_by_backend;
+  std::map<std::tuple<std::string, std::string, std::string>, std::size_t> by_problem;
+  for (const ResultRow& row : rows) {
+    by_backend[row.backend].push_back(&row);
+    if (default_profile(row)) default_by_backend[row.backend].push_back(&row);
+    const auto [at, is_new] = by_problem.try_emplace({row.scene, row.group, row.variant()}, problems.size());
+    if (is_new) problems.push_back({row.scene, row.group, row.variant(), {}});
+    problems[at->second].rows.push_back(&row);
+  }
+  for (const auto& [name, of_backend] : by_backend) {
+    backends.push_back(name);
+    const auto defaults = default_by_backend.find(name);
+    baselines_[name] = find_baseline(defaults == default_by_backend.end() ? of_backend : defaults->second);
+  }
+  std::sort(backends.begin(), backends.end(), natural_less);
+  std::stable_sort(problems.begin(), problems.end(), [](const Problem& a, const Problem& b) {
+    return a.scene != b.scene ? natural_less(a.scene, b.scene) : natural_less(a.variant, b.variant);
+  });
+  for (const Problem& problem : problems) {
+    if (std::find(groups.begin(), groups.end(), problem.group) == groups.end()) groups.push_back(problem.group);
+  }
+}
+
+bool Study::is_default(const ResultRow& row) const {
+  const Baseline& baseline = baselines_.at(row.backend);
+  return default_profile(row) && same(row.dt, baseline.dt) && same(row.threads, baseline.threads) &&
+         changed_settings(row).empty();
+}
+
+std::vector<std::pair<std::string, std::string>> Study::changed_settings(const ResultRow& row) const {
+  const nlohmann::json& usual = baselines_.at(row.backend).settings;
+  std::vector<std::pair<std::string, std::string>> changed;
+  for (const auto& [name, value] : row.settings.items()) {
+    const auto found = usual.find(name);
+    if (found == usual.end() || *found != value) changed.emplace_back(name, value_text(value));
+  }
+  return changed;
+}
+
+std::string Study::configuration(const ResultRow& row) const {
+  std::string out = row.dt ? dt_text(row.dt) + " s" : std::string();
+  const auto add = [&](const std::string& part) { out += (out.empty() ? "" : ", ") + part; };
+  if (!default_profile(row)) add(row.profile);
+  for (const auto& [name, value] : changed_settings(row)) add(name + " " + value);
+  if (row.threads && !same(row.threads, baselines_.at(row.backend).threads)) {
+    add(shortest_number(*row.threads) + (*row.threads == 1 ? " thread" : " threads"));
+  }
+  return out;
+}
+
+std::string Study::command(const ResultRow& row) const {
+  std::string out = "plumb run " + shell_word(row.scene) + " --backend " + shell_word(row.backend);
+  for (const auto& [name, value] : row.params.items()) out += " --param " + shell_word(name + "=" + value_text(value));
+  if (!default_profile(row)) out += " --profile " + shell_word(row.profile);
+  for (const auto& [name, value] : changed_settings(row)) out += " --set " + shell_word(name + "=" + value);
+  if (row.dt) out += " --dt " + shortest_number(*row.dt);
+  if (row.seconds) out += " --seconds " + shortest_number(*row.seconds);
+  if (row.threads) out += " --threads " + shortest_number(*row.threads);
+  return out;
+}
+
+const ResultRow* Study::representative(const Problem& problem, const std::string& backend) const {
+  const ResultRow* chosen = nullptr;
+  for (const ResultRow* row : problem.rows) {
+    if (row->backend != backend) continue;
+    if (is_default(*row)) return row;
+    if (!chosen) chosen = row;
+  }
+  return chosen;
+}
+
+std::vector<std::string> Study::scored_metrics(const Problem& problem) const {
+  std::vector<std::string> scored, with_error;
+  const auto add = [](std::vector<std::string>& list, const std::string& name) {
+    if (std::find(list.begin(), list.end(), name) == list.end()) list.push_back(name);
+  };
+  for (const ResultRow* row : problem.rows) {
+    for (const MetricResult& metric : row->metrics) {
+      if (metric.scored()) add(scored, metric.name);
+      if (metric.error) add(with_error, metric.name);
+    }
+  }
+  return scored.empty() ? with_error : scored;
+}
+
+std::string shell_word(const std::string& word) {
+  const auto plain = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+           std::string_view("_-./=:,+@%").find(c) != std::string_view::npos;
+  };
+  if (!word.empty() && std::all_of(word.begin(), word.end(), plain)) return word;
+  std::string out = "'";
+  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
+}  // namespace plumb::harness

@@ -1,0 +1,60 @@
+// Results put in order: scenes with their variants, backends, and which cells stand for a backend's defaults.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "report/result_row.hpp"
+
+namespace plumb::harness {
+
+/// One scene with one set of parameters: what engines and settings are compared on.
+struct Problem {
+  std::string scene, group, variant;
+  std::vector<const ResultRow*> rows;  ///< in the order of the file
+
+  /// "D1 H=50"
+  [[nodiscard]] std::string title() const { return variant.empty() ? scene : scene + " " + variant; }
+};
+
+/// What a backend runs with when nobody asked for anything: the most frequent settings, dt and threads among its cells
+/// of the default profile (of all its cells when none has that profile).
+struct Baseline {
+  nlohmann::json settings;
+  std::optional<double> dt, threads;
+};
+
+/// All rows of a report and the order in which it shows them. Problems point into `rows`, hence no copies.
+class Study {
+ public:
+  explicit Study(std::vector<ResultRow> rows);
+  Study(const Study&) = delete;
+  Study& operator=(const Study&) = delete;
+
+  std::vector<ResultRow> rows;
+  std::vector<std::string> backends;  ///< by name
+  std::vector<std::string> groups;    ///< in order of their first scene
+  std::vector<Problem> problems;      ///< by scene id, then variant, both in natural order
+
+  /// The cell was run as the backend ships: profile, dt, settings and threads are the baseline's.
+  [[nodiscard]] bool is_default(const ResultRow& row) const;
+  /// What tells the cell from the backend's baseline: "1/240 s, iterations 20"; dt always stands first.
+  [[nodiscard]] std::string configuration(const ResultRow& row) const;
+  /// Settings of the cell that are not the baseline's.
+  [[nodiscard]] std::vector<std::pair<std::string, std::string>> changed_settings(const ResultRow& row) const;
+  /// The command that runs the cell again.
+  [[nodiscard]] std::string command(const ResultRow& row) const;
+  /// The cell that stands for the backend on the problem: the default one, else the first; null when there is none.
+  [[nodiscard]] const ResultRow* representative(const Problem& problem, const std::string& backend) const;
+  /// Metrics of the problem that are scored somewhere (all with an error when none is), in order of appearance.
+  [[nodiscard]] std::vector<std::string> scored_metrics(const Problem& problem) const;
+
+ private:
+  std::map<std::string, Baseline> baselines_;
+};
+
+/// A word as a shell takes it, quoted where it must be.
+[[nodiscard]] std::string shell_word(const std::string& word);
+
+}  // namespace plumb::harness

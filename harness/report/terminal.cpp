@@ -1,0 +1,153 @@
+#include "report/terminal.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <ostream>
+
+#include "report/format.hpp"
+#include "report/study.hpp"
+#include "report/text_table.hpp"
+
+namespace plumb::harness {
+namespace {
+
+constexpr const char* dim = "2";
+
+const char* colour_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::gold: return "33";
+    case Verdict::pass: return "32";
+    case Verdict::ran: return "";
+    case Verdict::failed: return "31";
+    case Verdict::unsupported: return dim;
+    default: return "35";
+  }
+}
+
+/// "out of memory": the word as prose has it.
+std::string prose(Verdict verdict) {
+  std::string word(verdict_word(verdict));
+  std::replace(word.begin(), word.end(), '_', ' ');
+  return word;
+}
+
+/// "drop 0.0084 > 0.001", with the sense in which the error stands to its limit.
+std::string worst_text(const ResultRow& row) {
+  const MetricResult* worst = row.worst();
+  if (!row.completed() || !worst) return "";
+  const std::string name = printable(worst->name);
+  const std::optional<double> limit = worst->threshold ? worst->threshold : worst->gold;
+  if (!limit) return name;
+  const std::string error = worst->error ? short_number(*worst->error) : "not finite";
+  const bool missed = !worst->error || *worst->error > *limit;
+  return fmt::format("{} {} {} {}", name, error, missed ? ">" : "\u2264", short_number(*limit));
+}
+
+std::string ms_text(const ResultRow& row) { return row.median_ms ? short_number(*row.median_ms) : ""; }
+
+/// Verdicts by backend, those columns only that occur.
+void print_counts(std::ostream& out, const Study& study, int terminal_width, bool colour) {
+  std::array<bool, verdict_count> occurs{};
+  for (const ResultRow& row : study.rows) occurs[static_cast<std::size_t>(row.verdict())] = true;
+  std::vector<TextColumn> columns{{"backend", false, true}, {"cells", true, false}};
+  for (std::size_t v = 0; v < verdict_count; ++v) {
+    if (occurs[v]) columns.push_back({prose(static_cast<Verdict>(v)), true, false});
+  }
+  TextTable table(columns);
+  for (const std::string& backend : study.backends) {
+    std::array<int, verdict_count> count{};
+    int cells = 0;
+    for (const ResultRow& row : study.rows) {
+      if (row.backend != backend) continue;
+      ++count[static_cast<std::size_t>(row.verdict())];
+      ++cells;
+    }
+    std::vector<TextCell> line{{printable(backend)}, {std::to_string(cells)}};
+    for (std::size_t v = 0; v < verdict_count; ++v) {
+      if (!occurs[v]) continue;
+      if (count[v] > 0) {
+        line.push_back({std::to_string(count[v]), colour_of(static_cast<Verdict>(v))});
+      } else {
+        line.push_back({std::string(no_value), dim});
+      }
+    }
+    table.add(std::move(line));
+  }
+  table.print(out, terminal_width, colour);
+}
+
+/// What a comparison's cell says of its error: of the worst metric, so that the number explains the verdict.
+std::string error_text(const ResultRow& row) {
+  const MetricResult* worst = row.worst();
+  if (!row.completed() || !worst) return "";
+  return worst->error ? short_number(*worst->error, 2) : "not finite";
+}
+
+void print_block_of_backends(std::ostream& out, const Study& study, const std::vector<std::string>& backends,
+                             int terminal_width, bool colour) {
+  std::vector<TextColumn> columns{{"scene", false, true}};
+  for (const std::string& backend : backends) {
+    columns.push_back({printable(backend), false, false});
+    columns.push_back({"error", true, false});
+    columns.push_back({"ms/step", true, false});
+  }
+  TextTable table(columns);
+  for (const Problem& problem : study.problems) {
+    std::vector<TextCell> line{{printable(problem.title())}};
+    for (const std::string& backend : backends) {
+      const ResultRow* row = study.representative(problem, backend);
+      if (!row) {
+        line.insert(line.end(), {{std::string(no_value), dim}, {}, {}});
+        continue;
+      }
+      line.push_back({prose(row->verdict()), colour_of(row->verdict())});
+      line.push_back({error_text(*row)});
+      line.push_back({ms_text(*row), dim});
+    }
+    table.add(std::move(line));
+  }
+  table.print(out, terminal_width, colour);
+}
+
+}  // namespace
+
+void print_table(std::ostream& out, const std::vector<nlohmann::json>& rows, int terminal_width, bool colour) {
+  const Study study(parse_rows(rows));
+  const bool with_configuration = std::any_of(study.rows.begin(), study.rows.end(),
+                                              [&](const ResultRow& row) { return !study.is_default(row); });
+  std::vector<TextColumn> columns{{"scene", false, false}, {"backend", false, false}};
+  if (with_configuration) columns.push_back({"settings", false, true});
+  columns.insert(columns.end(), {{"result", false, false}, {"ms/step", true, false}, {"worst metric", false, true}});
+  TextTable table(columns);
+  for (const Problem& problem : study.problems) {
+    for (const ResultRow* row : problem.rows) {
+      std::vector<TextCell> line{{printable(problem.title())}, {printable(row->backend)}};
+      if (with_configuration) line.push_back({printable(study.configuration(*row))});
+      line.push_back({prose(row->verdict()), colour_of(row->verdict())});
+      line.push_back({ms_text(*row)});
+      line.push_back(row->completed() ? TextCell{worst_text(*row)} : TextCell{printable(row->reason), dim});
+      table.add(std::move(line));
+    }
+  }
+  table.print(out, terminal_width, colour);
+}
+
+void print_comparison(std::ostream& out, const std::vector<nlohmann::json>& rows, int terminal_width, bool colour) {
+  const Study study(parse_rows(rows));
+  // A block of backends a table: name or verdict, error, time need about 30 columns each, the scene about 20.
+  constexpr int scene_width = 20, backend_width = 30;
+  const std::size_t at_once =
+      terminal_width <= 0 ? study.backends.size()
+                          : static_cast<std::size_t>(std::max(1, (terminal_width - scene_width) / backend_width));
+  for (std::size_t first = 0; first < study.backends.size(); first += at_once) {
+    const auto begin = study.backends.begin() + static_cast<std::ptrdiff_t>(first);
+    const auto end = study.backends.begin() + static_cast<std::ptrdiff_t>(std::min(first + at_once, study.backends.size()));
+    print_block_of_backends(out, study, {begin, end}, terminal_width, colour);
+    out << '\n';
+  }
+  print_counts(out, study, terminal_width, colour);
+}
+
+}  // namespace plumb::harness
