@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "plumb/physics_world.hpp"
@@ -64,7 +65,9 @@ struct StateDifference {
 };
 
 struct ReplayReport {
-  std::string backend, version, build;  ///< that the trace was recorded with
+  std::string backend, version, build, device;  ///< that the trace was recorded with
+  std::uint32_t rows_every = 0;                 ///< as recorded
+  std::vector<std::pair<std::string, std::string>> settings;  ///< in force in the first world of the trace
   std::uint64_t calls = 0, worlds = 0, steps = 0;
   std::uint64_t results_differ = 0, outputs_differ = 0;  ///< calls
   std::optional<ResultDifference> result;
