@@ -11,9 +11,10 @@ namespace plumb::harness {
 const std::map<std::string, std::vector<std::string>>& scene_keys() {
   static const std::map<std::string, std::vector<std::string>> keys{
       {"",
-       {"$schema", "id", "slug", "title", "doc", "core", "parameters", "variants", "needs", "gravity", "dt", "seconds",
+       {"$schema", "id", "slug", "title", "doc", "core", "parameters", "variants", "let", "needs", "gravity", "dt", "seconds",
         "shapes", "bodies", "joints", "measure", "metrics"}},
       {"parameter", {"default", "unit", "doc", "minimum", "maximum", "integer", "choices"}},
+      {"definition", {"name", "value"}},
       {"metric", {"unit", "doc", "threshold", "gold"}},
       {"shape",
        {"type", "radius", "half_height", "half_extents", "vertices", "indices", "heights", "spacing", "children",

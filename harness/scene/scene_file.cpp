@@ -157,6 +157,16 @@ std::vector<MetricSpec> read_metrics(const Node& metrics) {
   return specs;
 }
 
+/// Names for expressions, each of which may use those before it.
+void read_definitions(const Node& definitions, Expressions& expressions) {
+  for (const Node& node : definitions.elements()) {
+    node.only(scene_keys().at("definition"));
+    const std::string name = node.at("name").text();
+    if (expressions.has(name)) node.fail(fmt::format("\"{}\" is the name of something else already", name));
+    expressions.set(name, node.at("value").number());
+  }
+}
+
 /// Arguments of a measure: strings that start with = become numbers, {} in others is replaced.
 nlohmann::json resolve(const Node& node) {
   nlohmann::json out = node.json();
@@ -223,6 +233,7 @@ Scene SceneFile::instantiate(const Parameters& given) const {
       expressions.set(spec.name, std::get<double>(value));
   }
   const Node root(*this, json, expressions);
+  if (const auto definitions = root.find("let")) read_definitions(*definitions, expressions);
   scene.id = id;
   scene.slug = slug;
   scene.group = group;
