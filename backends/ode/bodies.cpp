@@ -1,0 +1,145 @@
+// Frames and centres of mass, masses, damping, locks and kinematic targets of one body.
+#include "bodies.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+namespace plumb::ode {
+namespace {
+
+constexpr std::uint32_t linear_locks = PLUMB_LOCK_LINEAR_X | PLUMB_LOCK_LINEAR_Y | PLUMB_LOCK_LINEAR_Z;
+constexpr std::uint32_t angular_locks = PLUMB_LOCK_ANGULAR_X | PLUMB_LOCK_ANGULAR_Y | PLUMB_LOCK_ANGULAR_Z;
+
+/// R m R^T for the rotation of q; an identity leaves the bits alone.
+Matrix3 turned(const PlumbQuat& q, const Matrix3& m) {
+  if (q.x == 0 && q.y == 0 && q.z == 0) return m;
+  const Matrix3 r = backend::rotation_matrix(q);
+  return backend::multiply(r, backend::multiply(m, backend::transpose(r)));
+}
+
+}  // namespace
+
+PlumbPose Body::frame() const {
+  if (body == nullptr) return pose;
+  const PlumbQuat q = quat(dBodyGetQuaternion(body));
+  const PlumbVec3 at = vec(dBodyGetPosition(body));
+  return {is_zero(centre_of_mass) ? at : sub(at, rotate(q, centre_of_mass)), q};
+}
+
+void Body::set_frame(const PlumbPose& frame) {
+  if (body == nullptr) {
+    pose = frame;
+    for (const auto& geom : geoms) place_geom(geom->placed, frame);
+    return;
+  }
+  const PlumbVec3 at = add(frame.position, rotate(frame.orientation, centre_of_mass));
+  dBodySetPosition(body, at.x, at.y, at.z);
+  dBodySetQuaternion(body, OdeQuaternion(frame.orientation).wxyz);
+  locked_position = at;
+}
+
+void Body::set_velocity(const PlumbVec3& linear, const PlumbVec3& angular) {
+  if (body == nullptr) return;
+  dBodySetLinearVel(body, linear.x, linear.y, linear.z);
+  if (dynamic() && !turns) {
+    idle_spin = angular;
+  } else {
+    dBodySetAngularVel(body, angular.x, angular.y, angular.z);
+  }
+}
+
+void Body::add_impulse(const PlumbVec3& impulse, const PlumbVec3& angular) {
+  set_velocity(add(linear_velocity(), scale(inverse_mass, impulse)),
+               add(angular_velocity(), inverse_inertia_times(angular)));
+}
+
+PlumbVec3 Body::inverse_inertia_times(const PlumbVec3& v) const {
+  if (!turns) return {};
+  const PlumbQuat q = orientation();
+  return rotate(q, backend::multiply(inverse_inertia, unrotate(q, v)));
+}
+
+void set_mass(Body& body, const PlumbBodyDesc& desc) {
+  const PlumbVec3& i = desc.inertia;
+  body.turns = (desc.flags & PLUMB_BODY_NO_ROTATION) == 0 && !is_zero(i);
+  body.centre_of_mass = desc.centre_of_mass;
+  body.inverse_mass = 1 / desc.mass;
+  Matrix3 inertia = Matrix3::diagonal(1, 1, 1);
+  if (body.turns) {
+    inertia = turned(desc.inertia_orientation, Matrix3::diagonal(i.x, i.y, i.z));
+    body.inverse_inertia = turned(desc.inertia_orientation, Matrix3::diagonal(1 / i.x, 1 / i.y, 1 / i.z));
+  } else {
+    // ODE inverts the tensor itself: one this large takes all turning away but for rounding, and no spin is let stand.
+    constexpr double immovable = 1e30;
+    inertia = Matrix3::diagonal(immovable, immovable, immovable);
+    dBodySetMaxAngularSpeed(body.body, 0);
+    dBodySetGyroscopicMode(body.body, 0);
+  }
+  dMass mass;
+  dMassSetZero(&mass);
+  mass.mass = desc.mass;
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 3; ++column)
+      mass.I[row * 4 + column] = inertia[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)];
+  dBodySetMass(body.body, &mass);
+}
+
+void set_damping(const Body& body, double h) {
+  if (body.linear_damping == 0 && body.angular_damping == 0) {
+    dBodySetDamping(body.body, 0, 0);
+    return;
+  }
+  dBodySetLinearDampingThreshold(body.body, 0);
+  dBodySetAngularDampingThreshold(body.body, 0);
+  dBodySetDamping(body.body, -std::expm1(-body.linear_damping * h), -std::expm1(-body.angular_damping * h));
+}
+
+void make_locks(Body& body, dWorldID world) {
+  const auto lock = [&](dJointID joint, std::uint32_t bits, void (*set_count)(dJointID, int),
+                        void (*set_axis)(dJointID, int, int, dReal, dReal, dReal), void (*set)(dJointID, int, dReal)) {
+    dJointAttach(joint, body.body, nullptr);
+    int count = 0;
+    for (std::uint32_t axis = 0; axis < 3; ++axis) count += static_cast<int>(bits >> axis & 1u);
+    set_count(joint, count);
+    int at = 0;
+    for (std::uint32_t axis = 0; axis < 3; ++axis) {
+      if ((bits >> axis & 1u) == 0) continue;
+      set_axis(joint, at, 0, axis == 0, axis == 1, axis == 2);
+      set(joint, dParamVel + at * dParamGroup, 0);
+      set(joint, dParamFMax + at * dParamGroup, dInfinity);
+      ++at;
+    }
+    return joint;
+  };
+  if ((body.locks & linear_locks) != 0)
+    body.linear_lock = lock(dJointCreateLMotor(world, nullptr), body.locks & linear_locks, dJointSetLMotorNumAxes,
+                            dJointSetLMotorAxis, dJointSetLMotorParam);
+  if ((body.locks & angular_locks) != 0 && body.turns)
+    body.angular_lock = lock(dJointCreateAMotor(world, nullptr), body.locks >> 3, dJointSetAMotorNumAxes,
+                             dJointSetAMotorAxis, dJointSetAMotorParam);
+  body.locked_position = body.centre();
+  project_locks(body);
+}
+
+void project_locks(const Body& body) {
+  const auto locked = [&](std::uint32_t bit) { return (body.locks & bit) != 0; };
+  PlumbVec3 v = body.linear_velocity(), w = vec(dBodyGetAngularVel(body.body)), at = body.centre();
+  if (locked(PLUMB_LOCK_LINEAR_X)) v.x = 0, at.x = body.locked_position.x;
+  if (locked(PLUMB_LOCK_LINEAR_Y)) v.y = 0, at.y = body.locked_position.y;
+  if (locked(PLUMB_LOCK_LINEAR_Z)) v.z = 0, at.z = body.locked_position.z;
+  if (locked(PLUMB_LOCK_ANGULAR_X)) w.x = 0;
+  if (locked(PLUMB_LOCK_ANGULAR_Y)) w.y = 0;
+  if (locked(PLUMB_LOCK_ANGULAR_Z)) w.z = 0;
+  dBodySetLinearVel(body.body, v.x, v.y, v.z);
+  dBodySetAngularVel(body.body, w.x, w.y, w.z);
+  if ((body.locks & linear_locks) != 0) dBodySetPosition(body.body, at.x, at.y, at.z);
+}
+
+void head_for_target(Body& body, double dt) {
+  const PlumbVec3 way = sub(body.target.position, body.centre());
+  const PlumbVec3 turn = rotation_vector(multiply(body.target.orientation, conjugate(body.orientation())));
+  body.set_velocity(scale(1 / dt, way), scale(1 / dt, turn));
+}
+
+}  // namespace plumb::ode

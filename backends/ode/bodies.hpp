@@ -1,0 +1,86 @@
+// Bodies: what ODE does not keep about them, and reading and writing their rows.
+//
+// An ODE body's origin is its centre of mass; ours is the shape's frame. A static body is geoms without a body.
+#pragma once
+
+#include <ode/ode.h>
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "shapes.hpp"
+
+namespace plumb::ode {
+
+struct Body;
+
+/// What a geom's data points to.
+struct GeomTag {
+  PlacedGeom placed;
+  Body* body;
+  PlumbMaterial own_material;  ///< a child's; read when placed.material is not null
+};
+
+struct Body {
+  PlumbBody handle = 0;
+  dBodyID body = nullptr;  ///< null: static
+  PlumbMotion motion = PLUMB_STATIC;
+  bool sensor = false;
+  bool turns = false;       ///< dynamic and not a particle
+  bool was_awake = true;    ///< after the last step, for events
+  std::uint32_t locks = 0;
+  const Shape* shape = nullptr;
+  std::vector<std::unique_ptr<GeomTag>> geoms;
+  PlumbPose pose{};              ///< of a static body
+  PlumbVec3 centre_of_mass{};    ///< body frame
+  PlumbVec3 idle_spin{};         ///< angular velocity of a body that cannot turn: kept and never used
+  PlumbVec3 locked_position{};   ///< of the centre of mass, along locked axes
+  double inverse_mass = 0;
+  Matrix3 inverse_inertia{};     ///< body frame
+  PlumbMaterial material{};
+  PlumbFilter filter{};
+  double gravity_scale = 1;
+  double linear_damping = 0, angular_damping = 0;
+  PlumbVec3 force{}, torque{};   ///< from the host, for the next step
+  bool pushed = false;           ///< force or torque were written
+  PlumbPose target{};            ///< of a kinematic body
+  enum class Moving { as_told, to_target, arrived } moving = Moving::as_told;
+  dJointID linear_lock = nullptr, angular_lock = nullptr;
+  std::vector<const Body*> untouchable;  ///< joined by joints without collide_connected
+
+  [[nodiscard]] bool dynamic() const { return motion == PLUMB_DYNAMIC; }
+  [[nodiscard]] bool asleep() const { return body != nullptr && dBodyIsEnabled(body) == 0; }
+  [[nodiscard]] PlumbQuat orientation() const { return body == nullptr ? pose.orientation : quat(dBodyGetQuaternion(body)); }
+  /// Of the body's frame.
+  [[nodiscard]] PlumbPose frame() const;
+  /// Where the centre of mass is.
+  [[nodiscard]] PlumbVec3 centre() const { return body == nullptr ? pose.position : vec(dBodyGetPosition(body)); }
+  [[nodiscard]] PlumbVec3 linear_velocity() const { return body == nullptr ? PlumbVec3{} : vec(dBodyGetLinearVel(body)); }
+  [[nodiscard]] PlumbVec3 angular_velocity() const {
+    return body == nullptr || (dynamic() && !turns) ? idle_spin : vec(dBodyGetAngularVel(body));
+  }
+
+  void set_frame(const PlumbPose& frame);
+  void set_velocity(const PlumbVec3& linear, const PlumbVec3& angular);
+  /// World axes; at once.
+  void add_impulse(const PlumbVec3& impulse, const PlumbVec3& angular);
+  /// I^-1 v for a vector in world axes; 0 for what cannot turn.
+  [[nodiscard]] PlumbVec3 inverse_inertia_times(const PlumbVec3& v) const;
+};
+
+/// The mass properties of a dynamic body's descriptor, to ODE and to the record.
+void set_mass(Body& body, const PlumbBodyDesc& desc);
+
+/// ODE's damping takes the share scale of the velocity after each step; so exp(-c h) = 1 - scale.
+void set_damping(const Body& body, double h);
+
+/// Motors at rest against the world along the locked axes.
+void make_locks(Body& body, dWorldID world);
+/// Takes what the solver left of motion along locked axes.
+void project_locks(const Body& body);
+
+/// Sets the velocity with which a kinematic body reaches its target in dt.
+void head_for_target(Body& body, double dt);
+
+}  // namespace plumb::ode

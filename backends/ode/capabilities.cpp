@@ -1,0 +1,141 @@
+// What ODE 0.16 truly has.
+#include <ode/ode.h>
+
+#include <algorithm>
+
+#include "world.hpp"
+
+namespace plumb::ode {
+namespace {
+
+struct Fact {
+  PlumbDegree degree;
+  const char* note = "";
+};
+
+// --- shapes and pairs ------------------------------------------------------------------------------------------------
+
+Fact shape_fact(std::uint32_t type, std::uint32_t motion) {
+  if (type >= PLUMB_SHAPE_TYPE_COUNT || motion >= PLUMB_MOTION_COUNT) return {PLUMB_NONE};
+  if (type == PLUMB_PLANE && motion != PLUMB_STATIC) return {PLUMB_NONE, "a plane cannot be moved by a body"};
+  if (type == PLUMB_COMPOUND) return {PLUMB_NATIVE, "several geoms on one body"};
+  return {PLUMB_NATIVE};
+}
+
+Fact pair_fact(std::uint32_t a, std::uint32_t b) {
+  if (a >= PLUMB_SHAPE_TYPE_COUNT || b >= PLUMB_SHAPE_TYPE_COUNT) return {PLUMB_NONE};
+  return {PLUMB_NATIVE};
+}
+
+// --- the rest --------------------------------------------------------------------------------------------------------
+
+Fact joint_fact(std::uint32_t type) {
+  if (type >= PLUMB_JOINT_TYPE_COUNT) return {PLUMB_NONE};
+  if (type == PLUMB_JOINT_GENERIC) return {PLUMB_NONE, "ODE's linear motor has no limits and no anchor"};
+  return {PLUMB_NATIVE};
+}
+
+Fact joint_feature_fact(std::uint32_t type, std::uint32_t feature) {
+  if (type >= PLUMB_JOINT_TYPE_COUNT || feature >= PLUMB_JOINT_FEATURE_COUNT || !joint_has(type, feature)) return {PLUMB_NONE};
+  if (feature == PLUMB_JOINT_BREAKS) return {PLUMB_EMULATED, "the reaction is compared after each step"};
+  if (type == PLUMB_JOINT_DISTANCE && feature == PLUMB_JOINT_HAS_LIMITS)
+    return {PLUMB_EMULATED, "a contact row along the line between the frames"};
+  if (feature == PLUMB_JOINT_HAS_SPRINGS) return {PLUMB_NATIVE, "implicit: soft rows by ERP and CFM"};
+  return {PLUMB_NATIVE};
+}
+
+Fact query_fact(std::uint32_t kind, std::uint32_t type) {
+  if (kind == PLUMB_QUERY_RAY) return {PLUMB_NATIVE};
+  if (kind == PLUMB_QUERY_CAST) return {PLUMB_NONE, "ODE has no casts of shapes"};
+  if (kind == PLUMB_QUERY_OVERLAP && type <= PLUMB_CONVEX_HULL) return {PLUMB_NATIVE};
+  return {PLUMB_NONE};
+}
+
+Fact need_fact(std::uint32_t index) {
+  if (index >= PLUMB_NEED_COUNT) return {PLUMB_NONE};
+  switch (PlumbNeeds{1} << index) {
+    case PLUMB_NEED_CCD: return {PLUMB_NONE, "ODE has no continuous collision detection"};
+    case PLUMB_NEED_FRICTION:
+      return {PLUMB_APPROXIMATE, "a pyramid of two directions instead of Coulomb's cone; a contact may stick on the diagonal"};
+    case PLUMB_NEED_EVENTS: return {PLUMB_EMULATED, "the difference of the touching pairs of two steps"};
+    case PLUMB_NEED_SENSORS: return {PLUMB_EMULATED, "pairs whose contacts get no joints"};
+    case PLUMB_NEED_AXIS_LOCKS: return {PLUMB_EMULATED, "motors at rest against the world, and projection"};
+    case PLUMB_NEED_DAMPING: return {PLUMB_EMULATED, "ODE's share per step set to 1 - exp(-c dt)"};
+    case PLUMB_NEED_SNAPSHOT: return {PLUMB_NONE};
+    default: return {PLUMB_NATIVE};
+  }
+}
+
+Fact field_fact(std::uint32_t field, bool writing) {
+  if (field >= PLUMB_FIELD_COUNT) return {PLUMB_NONE};
+  const bool acts = (field >= PLUMB_FIELD_FORCE && field <= PLUMB_FIELD_IMPULSE_AT_POINT) || field == PLUMB_FIELD_KINEMATIC_TARGET;
+  if (acts && !writing) return {PLUMB_NONE, "it acts and is spent"};
+  switch (field) {
+    case PLUMB_FIELD_MASS: return {writing ? PLUMB_NONE : PLUMB_NATIVE};
+    case PLUMB_FIELD_IMPULSE:
+    case PLUMB_FIELD_ANGULAR_IMPULSE:
+    case PLUMB_FIELD_IMPULSE_AT_POINT: return {PLUMB_EMULATED, "a change of velocity"};
+    case PLUMB_FIELD_KINEMATIC_TARGET: return {PLUMB_EMULATED, "the velocity that leads there, and the pose at the end"};
+    case PLUMB_FIELD_GRAVITY_SCALE: return {PLUMB_EMULATED, "0 and 1 natively, others as a force"};
+    default: return {PLUMB_NATIVE};
+  }
+}
+
+Fact event_fact(std::uint32_t type) {
+  if (type >= PLUMB_EVENT_COUNT) return {PLUMB_NONE};
+  return {PLUMB_EMULATED, "found by comparing with the step before"};
+}
+
+Fact phase_fact(std::uint32_t phase) {
+  if (phase == PLUMB_PHASE_BROAD) return {PLUMB_APPROXIMATE, "with the narrow phase, which ODE calls from within"};
+  if (phase == PLUMB_PHASE_SOLVE) return {PLUMB_APPROXIMATE, "with islands and integration: one call of ODE"};
+  if (phase == PLUMB_PHASE_OUTPUT) return {PLUMB_NATIVE};
+  return {PLUMB_NONE};
+}
+
+Fact fact(PlumbCapability kind, std::uint32_t a, std::uint32_t b) {
+  switch (kind) {
+    case PLUMB_CAP_SHAPE: return shape_fact(a, b);
+    case PLUMB_CAP_PAIR: return pair_fact(std::min(a, b), std::max(a, b));
+    case PLUMB_CAP_JOINT: return joint_fact(a);
+    case PLUMB_CAP_JOINT_FEATURE: return joint_feature_fact(a, b);
+    case PLUMB_CAP_QUERY: return query_fact(a, b);
+    case PLUMB_CAP_FIELD_READ: return field_fact(a, false);
+    case PLUMB_CAP_FIELD_WRITE: return field_fact(a, true);
+    case PLUMB_CAP_NEED: return need_fact(a);
+    case PLUMB_CAP_EVENT: return event_fact(a);
+    case PLUMB_CAP_PHASE_TIME: return phase_fact(a);
+    case PLUMB_CAP_RESIDUAL: return {PLUMB_NONE, "ODE does not tell its residual"};
+    case PLUMB_CAP_HOST_JOBS: return {PLUMB_NONE, "ODE runs threads of its own"};
+    case PLUMB_CAP_CHILD_MATERIAL: return {PLUMB_NATIVE};
+    default: return {PLUMB_NONE};
+  }
+}
+
+}  // namespace
+
+PlumbDegree World::capability(PlumbCapability kind, std::uint32_t a, std::uint32_t b, const char*& note) {
+  const Fact known = fact(kind, a, b);
+  note = known.note;
+  return known.degree;
+}
+
+const PlumbBackendInfo& World::info() {
+  static const PlumbBackendInfo all = [] {
+    PlumbBackendInfo i{};
+    i.struct_size = sizeof i;
+    i.determinism = PLUMB_DETERMINISM_RUN;
+    i.name = "ode";
+    i.version = PLUMB_ODE_VERSION;
+    i.build = "ode " PLUMB_ODE_VERSION ", double, adapter " PLUMB_ODE_BUILD;
+    i.description = "Open Dynamics Engine: quickstep (SOR) or step (Dantzig), contacts rebuilt in every step";
+    i.device = "cpu";
+    i.exclusion_group = "";
+    i.precision = PLUMB_F64;
+    i.max_threads = 64;
+    return i;
+  }();
+  return all;
+}
+
+}  // namespace plumb::ode

@@ -1,0 +1,259 @@
+// ODE's normals point into its first body; ours go from a to b, and a is the body of the lower slot.
+#include "contacts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+namespace plumb::ode {
+namespace {
+
+/// Slower sliding than this has no direction worth following. m/s.
+constexpr double least_sliding = 1e-3;
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+const PlumbMaterial& material_of(const GeomTag& tag) {
+  return tag.placed.material == nullptr ? tag.body->material : tag.own_material;
+}
+
+/// Velocity of the body's surface at a point, the belt's own motion included.
+PlumbVec3 belt_velocity(const GeomTag& tag) {
+  const PlumbVec3& belt = material_of(tag).surface_velocity;
+  return is_zero(belt) ? belt : rotate(tag.body->orientation(), belt);
+}
+
+PlumbVec3 velocity_at(const Body& body, const PlumbVec3& point) {
+  if (body.body == nullptr) return {};
+  return add(body.linear_velocity(), cross(vec(dBodyGetAngularVel(body.body)), sub(point, body.centre())));
+}
+
+bool has_belt(const GeomTag& tag) { return !is_zero(material_of(tag).surface_velocity); }
+
+bool knows(const Body& body, const Body& other) {
+  return std::find(body.untouchable.begin(), body.untouchable.end(), &other) != body.untouchable.end();
+}
+
+}  // namespace
+
+PairMaterial pair_material(const PlumbMaterial& a, const PlumbMaterial& b) {
+  const double friction = a.friction == b.friction ? a.friction : std::sqrt(a.friction * b.friction);
+  return {friction, std::max(a.restitution, b.restitution)};
+}
+
+/// Two geoms whose bounds overlap, in ODE's order.
+struct ContactPass::Pair {
+  const GeomTag& first;
+  const GeomTag& second;
+  bool awake;
+};
+
+ContactPass::ContactPass(const WorldInit& init, dWorldID world)
+    : world_(world),
+      group_(dJointGroupCreate(0)),
+      physical_(init.needs(PLUMB_NEED_COLLISION)),
+      filtered_(init.needs(PLUMB_NEED_FILTERS)),
+      sensing_(init.needs(PLUMB_NEED_SENSORS)),
+      sleeping_(init.needs(PLUMB_NEED_SLEEPING)),
+      conveyors_(init.needs(PLUMB_NEED_SURFACE_VELOCITY)),
+      keeps_contacts_(init.needs(PLUMB_NEED_CONTACTS)),
+      keeps_impulses_(init.needs(PLUMB_NEED_CONTACTS | PLUMB_NEED_CONTACT_IMPULSES)),
+      keeps_pairs_(init.needs(PLUMB_NEED_EVENTS)) {}
+
+void ContactPass::configure(const Settings& settings) {
+  mode_ = settings.friction_model == FrictionModel::pyramid ? dContactApprox1 : 0;
+  if (settings.contact_erp >= 0) mode_ |= dContactSoftERP;
+  if (settings.contact_cfm >= 0) mode_ |= dContactSoftCFM;
+  soft_erp_ = settings.contact_erp;
+  soft_cfm_ = settings.contact_cfm;
+  bounce_vel_ = settings.bounce_vel;
+  sliding_directions_ = settings.friction_directions == FrictionDirections::sliding;
+  substeps_ = settings.substeps;
+  scratch_.resize(static_cast<std::size_t>(settings.max_contacts));
+}
+
+void ContactPass::begin_step() {
+  contacts_.clear();
+  sources_.clear();
+  substep_starts_.clear();
+}
+
+void ContactPass::detect(dSpaceID space) {
+  pairs_ = points_ = 0;  // the report tells of the last sub-step
+  substep_starts_.push_back(contacts_.size());
+  dSpaceCollide(space, this, &ContactPass::near);
+}
+
+void ContactPass::near(void* self, dGeomID first, dGeomID second) {
+  static_cast<ContactPass*>(self)->meet(first, second);
+}
+
+void ContactPass::meet(dGeomID first, dGeomID second) {
+  const GeomTag& one = *static_cast<const GeomTag*>(dGeomGetData(first));
+  const GeomTag& two = *static_cast<const GeomTag*>(dGeomGetData(second));
+  const Body &a = *one.body, &b = *two.body;
+  const bool sensor = sensing_ && (a.sensor || b.sensor);
+  if (sensor ? (a.sensor && b.sensor) : !a.dynamic() && !b.dynamic()) return;
+  if (!sensor && !physical_) return;
+  if (filtered_ && !may_touch(a.filter, b.filter)) return;
+  if (!a.untouchable.empty() && knows(a, b)) return;
+  ++pairs_;
+  const Pair pair{one, two, !sleeping_ || !((a.body == nullptr || a.asleep()) && (b.body == nullptr || b.asleep()))};
+  if (!sensor && !pair.awake && !keeps_contacts_ && !keeps_pairs_) return;
+  const int wanted = sensor ? 1 | static_cast<int>(CONTACTS_UNIMPORTANT) : static_cast<int>(scratch_.size());
+  const int count = dCollide(first, second, wanted, &scratch_[0].geom, sizeof(dContact));
+  if (count == 0) return;
+  if (sensor) {
+    sensed_.push_back(a.sensor ? BodyPair{a.handle, b.handle} : BodyPair{b.handle, a.handle});
+  } else {
+    respond(pair, count);
+  }
+}
+
+dSurfaceParameters ContactPass::surface_of(const Pair& pair) const {
+  const PairMaterial material = pair_material(material_of(pair.first), material_of(pair.second));
+  dSurfaceParameters surface{};
+  surface.mode = mode_;
+  surface.mu = material.friction;
+  surface.soft_erp = soft_erp_;
+  surface.soft_cfm = soft_cfm_;
+  if (material.restitution > 0) {
+    surface.mode |= dContactBounce;
+    surface.bounce = material.restitution;
+    surface.bounce_vel = bounce_vel_;
+  }
+  return surface;
+}
+
+void ContactPass::respond(const Pair& pair, int count) {
+  const Body &a = *pair.first.body, &b = *pair.second.body;
+  points_ += static_cast<std::uint32_t>(count);
+  if (keeps_pairs_) touching_.push_back(slot_of(a.handle) < slot_of(b.handle) ? BodyPair{a.handle, b.handle} : BodyPair{b.handle, a.handle});
+  const dSurfaceParameters surface = surface_of(pair);
+  const bool aimed = surface.mu > 0 && (sliding_directions_ || (conveyors_ && (has_belt(pair.first) || has_belt(pair.second))));
+  for (int i = 0; i < count; ++i) {
+    dContact& contact = scratch_[static_cast<std::size_t>(i)];
+    dJointID joint = nullptr;
+    if (pair.awake) {
+      contact.surface = surface;
+      if (aimed) aim_friction(pair, contact, a.body == nullptr);
+      joint = dJointCreateContact(world_, group_, &contact);
+      dJointAttach(joint, a.body, b.body);
+    }
+    if (keeps_contacts_) record(pair, contact.geom, joint);
+  }
+}
+
+// The joint's rows ask for t.(v1 - v2) = motion of the bodies at the point; surfaces that move by s1 and s2 themselves
+// stick when v1 + s1 = v2 + s2. Where ODE has swapped the bodies, because the first is static, signs and normal turn.
+void ContactPass::aim_friction(const Pair& pair, dContact& contact, bool reversed) const {
+  const PlumbVec3 normal = scale(reversed ? -1 : 1, vec(contact.geom.normal));
+  const PlumbVec3 belts = sub(belt_velocity(pair.second), belt_velocity(pair.first));
+  const auto tangential = [&](const PlumbVec3& v) { return sub(v, scale(dot(v, normal), normal)); };
+  PlumbVec3 along = tangential(belts);
+  if (sliding_directions_) {
+    const PlumbVec3 point = vec(contact.geom.pos);
+    const PlumbVec3 slip =
+        tangential(sub(sub(velocity_at(*pair.first.body, point), velocity_at(*pair.second.body, point)), belts));
+    if (length(slip) > least_sliding) along = slip;
+  }
+  if (length(along) <= least_sliding) return;
+  const PlumbVec3 t1 = normalized(along), t2 = cross(normal, t1);
+  contact.fdir1[0] = t1.x;
+  contact.fdir1[1] = t1.y;
+  contact.fdir1[2] = t1.z;
+  contact.surface.mode |= dContactFDir1 | dContactMotion1 | dContactMotion2;
+  contact.surface.motion1 = (reversed ? -1 : 1) * dot(t1, belts);
+  contact.surface.motion2 = (reversed ? -1 : 1) * dot(t2, belts);
+}
+
+void ContactPass::record(const Pair& pair, const dContactGeom& point, dJointID joint) {
+  const bool swapped = slot_of(pair.second.body->handle) < slot_of(pair.first.body->handle);
+  const GeomTag& a = swapped ? pair.second : pair.first;
+  const GeomTag& b = swapped ? pair.first : pair.second;
+  const auto child = [&](const GeomTag& tag) {
+    if (tag.body->shape->type != PLUMB_TRIANGLE_MESH) return tag.placed.child;
+    const int side = point.g1 == tag.placed.geom ? point.side1 : point.side2;
+    return side < 0 ? 0 : static_cast<std::uint32_t>(side);
+  };
+  PlumbContact contact{};
+  contact.body_a = a.body->handle;
+  contact.body_b = b.body->handle;
+  contact.child_a = child(a);
+  contact.child_b = child(b);
+  contact.position = vec(point.pos);
+  contact.normal = scale(swapped ? 1 : -1, vec(point.normal));
+  contact.depth = point.depth;
+  contact.normal_impulse = unknown;
+  contact.tangent_impulse = {unknown, unknown, unknown};
+  contacts_.push_back(contact);
+  if (!keeps_impulses_) return;
+  Source source{nullptr, false};
+  if (joint != nullptr) {
+    if (feedbacks_used_ == feedbacks_.size()) feedbacks_.emplace_back();
+    dJointFeedback& feedback = feedbacks_[feedbacks_used_++];
+    feedback = {};
+    dJointSetFeedback(joint, &feedback);
+    // A body that is not there is never ODE's first.
+    const dBodyID ode_first = pair.first.body->body != nullptr ? pair.first.body->body : pair.second.body->body;
+    source = {&feedback, ode_first == b.body->body};
+  }
+  sources_.push_back(source);
+}
+
+void ContactPass::end_substep(double h) {
+  for (std::size_t i = substep_starts_.back(); i < sources_.size(); ++i) {
+    const Source& source = sources_[i];
+    if (source.feedback == nullptr) continue;
+    PlumbContact& contact = contacts_[i];
+    const PlumbVec3 impulse = scale(source.b_is_first ? h : -h, vec(source.feedback->f1));
+    contact.normal_impulse = dot(impulse, contact.normal);
+    contact.tangent_impulse = sub(impulse, scale(contact.normal_impulse, contact.normal));
+  }
+  feedbacks_used_ = 0;
+  dJointGroupEmpty(group_);
+}
+
+// The k-th point of a pair of geoms in one sub-step is taken for the k-th in the next: geometry of the last, impulses of
+// all. A point that the last sub-steps no longer had stays, so that no impulse is lost.
+void ContactPass::merge_substeps() {
+  struct Entry {
+    std::size_t index;
+    std::uint32_t nth;
+  };
+  const auto key = [&](std::size_t i) {
+    const PlumbContact& c = contacts_[i];
+    return std::tuple(slot_of(c.body_a), slot_of(c.body_b), c.child_a, c.child_b);
+  };
+  std::vector<Entry> entries;
+  entries.reserve(contacts_.size());
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    // A pair's points of one sub-step follow each other.
+    const bool starts = std::binary_search(substep_starts_.begin(), substep_starts_.end(), i);
+    entries.push_back({i, !starts && i != 0 && key(i) == key(i - 1) ? entries.back().nth + 1 : 0});
+  }
+  std::stable_sort(entries.begin(), entries.end(), [&](const Entry& x, const Entry& y) {
+    return std::tuple(key(x.index), x.nth) < std::tuple(key(y.index), y.nth);
+  });
+  std::vector<PlumbContact> merged;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    PlumbContact contact = contacts_[entries[i].index];
+    const bool again = i != 0 && entries[i].nth == entries[i - 1].nth && key(entries[i].index) == key(entries[i - 1].index);
+    if (again) {
+      contact.normal_impulse += merged.back().normal_impulse;
+      contact.tangent_impulse = add(contact.tangent_impulse, merged.back().tangent_impulse);
+      merged.back() = contact;
+    } else {
+      merged.push_back(contact);
+    }
+  }
+  contacts_.swap(merged);
+}
+
+void ContactPass::end_step(PairEvents& events) {
+  if (substeps_ > 1 && keeps_contacts_) merge_substeps();
+  if (keeps_pairs_) events.touching(touching_);
+  if (sensing_) events.sensed(sensed_);
+}
+
+}  // namespace plumb::ode

@@ -1,0 +1,81 @@
+// From candidate pairs to contact joints: filters, materials, friction directions, and what is told of it afterwards.
+#pragma once
+
+#include <ode/ode.h>
+
+#include <deque>
+#include <span>
+#include <vector>
+
+#include "bodies.hpp"
+#include "events.hpp"
+#include "plumb/backend/world_init.hpp"
+#include "settings.hpp"
+
+namespace plumb::ode {
+
+class ContactPass {
+ public:
+  ContactPass(const WorldInit& init, dWorldID world);
+  ContactPass(const ContactPass&) = delete;
+  ContactPass& operator=(const ContactPass&) = delete;
+
+  void configure(const Settings& settings);
+
+  /// Forgets the step before.
+  void begin_step();
+  /// One sub-step's detection: a contact joint for every point, in the group that end_substep empties.
+  void detect(dSpaceID space);
+  /// After the solver: reads the impulses that its forces made in h seconds, and takes the contact joints away.
+  void end_substep(double h);
+  /// Merges the sub-steps' contacts and hands pairs to the events.
+  void end_step(PairEvents& events);
+  /// Before the world goes. Not called when ODE is not to be trusted any more.
+  void destroy() { dJointGroupDestroy(group_); }
+
+  [[nodiscard]] std::span<const PlumbContact> contacts() const { return contacts_; }
+  [[nodiscard]] std::uint32_t pair_count() const { return pairs_; }
+  [[nodiscard]] std::uint32_t point_count() const { return points_; }
+  [[nodiscard]] dJointGroupID group() const { return group_; }
+
+ private:
+  struct Pair;
+  static void near(void* self, dGeomID first, dGeomID second);
+  void meet(dGeomID first, dGeomID second);
+  void respond(const Pair& pair, int count);
+  void record(const Pair& pair, const dContactGeom& point, dJointID joint);
+  void merge_substeps();
+  [[nodiscard]] dSurfaceParameters surface_of(const Pair& pair) const;
+  void aim_friction(const Pair& pair, dContact& contact, bool reversed) const;
+
+  /// Where the impulse of a recorded contact comes from.
+  struct Source {
+    const dJointFeedback* feedback;  ///< null: asleep, or not asked for
+    bool b_is_first;                 ///< ODE's first body is body_b
+  };
+
+  dWorldID world_;
+  dJointGroupID group_;
+  bool physical_, filtered_, sensing_, sleeping_, conveyors_;
+  bool keeps_contacts_, keeps_impulses_, keeps_pairs_;
+  int mode_ = 0;
+  bool sliding_directions_ = false;
+  double bounce_vel_ = 0, soft_erp_ = 0, soft_cfm_ = 0;
+  int substeps_ = 1;
+  std::vector<dContact> scratch_;
+  std::uint32_t pairs_ = 0, points_ = 0;
+  std::vector<PlumbContact> contacts_;
+  std::vector<Source> sources_;
+  std::vector<std::size_t> substep_starts_;  ///< in contacts_
+  std::deque<dJointFeedback> feedbacks_;
+  std::size_t feedbacks_used_ = 0;
+  std::vector<BodyPair> touching_, sensed_;
+};
+
+/// Friction sqrt(mu1 mu2), restitution max(e1, e2).
+struct PairMaterial {
+  double friction, restitution;
+};
+[[nodiscard]] PairMaterial pair_material(const PlumbMaterial& a, const PlumbMaterial& b);
+
+}  // namespace plumb::ode

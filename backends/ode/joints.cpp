@@ -1,0 +1,289 @@
+// One function a joint type where they differ; limits, motors and springs are the same rows for all.
+#include "joints.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+
+#include "plumb/backend/check_descs.hpp"
+
+namespace plumb::ode {
+namespace {
+
+/// Frames nearer than this, in metres and radians, coincide.
+constexpr double together = 1e-12;
+
+PlumbVec3 axis_of(const PlumbPose& frame, std::size_t axis) {
+  return rotate(frame.orientation, {axis == 0 ? 1.0 : 0.0, axis == 1 ? 1.0 : 0.0, axis == 2 ? 1.0 : 0.0});
+}
+
+bool coincide(const PlumbPose& a, const PlumbPose& b) {
+  return length(sub(a.position, b.position)) < together &&
+         length(rotation_vector(multiply(b.orientation, conjugate(a.orientation)))) < together;
+}
+
+/// ODE takes the joint's frames from where the bodies stand: puts the first where its frame lies on the second's, calls,
+/// puts it back.
+template <class Set>
+void with_frames_together(const Joint& joint, Set&& set) {
+  if (coincide(joint.frame_a(), joint.frame_b())) return set();
+  const Body& first = joint.first();
+  const PlumbVec3 at = first.centre();
+  const PlumbQuat q = first.orientation();
+  const PlumbPose own = joint.swapped() ? joint.desc.frame_a : joint.desc.frame_b;
+  const PlumbPose frame = compose(joint.second_frame(), inverse(own));
+  const PlumbVec3 centre = add(frame.position, rotate(frame.orientation, first.centre_of_mass));
+  dBodySetPosition(first.body, centre.x, centre.y, centre.z);
+  dBodySetQuaternion(first.body, OdeQuaternion(frame.orientation).wxyz);
+  set();
+  dBodySetPosition(first.body, at.x, at.y, at.z);
+  dBodySetQuaternion(first.body, OdeQuaternion(q).wxyz);
+}
+
+/// The axes that a type leaves free, as bits.
+unsigned free_axes(PlumbJointType type) {
+  switch (type) {
+    case PLUMB_JOINT_HINGE: return 1u << 3;
+    case PLUMB_JOINT_SLIDER:
+    case PLUMB_JOINT_DISTANCE: return 1u << 0;
+    case PLUMB_JOINT_UNIVERSAL: return 1u << 3 | 1u << 4;
+    default: return 0;
+  }
+}
+
+/// ODE's limit and motor row of one of our axes.
+void set_parameter(const Joint& joint, std::size_t axis, int parameter, double value) {
+  switch (joint.desc.type) {
+    case PLUMB_JOINT_HINGE: return dJointSetHingeParam(joint.id, parameter, value);
+    case PLUMB_JOINT_SLIDER: return dJointSetSliderParam(joint.id, parameter, value);
+    // Our x is a's axis, our y is b's; ODE's first axis is the first body's.
+    case PLUMB_JOINT_UNIVERSAL:
+      return dJointSetUniversalParam(joint.id, parameter + ((axis == 3) == joint.swapped() ? dParamGroup1 : dParamGroup2),
+                                     value);
+    default: return;
+  }
+}
+
+/// Mass against which a force along (or a torque about) the axis works, with nothing else holding the bodies.
+double effective_mass(const Joint& joint, std::size_t axis) {
+  const PlumbPose a = joint.frame_a(), b = joint.frame_b();
+  double inverse = 0;
+  const auto turning = [&](const Body& body, const PlumbVec3& n) { return dot(n, body.inverse_inertia_times(n)); };
+  if (axis >= 3) {
+    const PlumbVec3 n = axis == 3 ? axis_of(a, 0) : axis_of(b, 1);
+    inverse = turning(*joint.b, n) + (joint.a == nullptr ? 0 : turning(*joint.a, n));
+  } else if (joint.desc.type == PLUMB_JOINT_DISTANCE) {
+    const PlumbVec3 way = sub(b.position, a.position);
+    const PlumbVec3 n = length(way) > together ? normalized(way) : axis_of(a, 0);
+    inverse = joint.b->inverse_mass + turning(*joint.b, cross(sub(b.position, joint.b->centre()), n));
+    if (joint.a != nullptr)
+      inverse += joint.a->inverse_mass + turning(*joint.a, cross(sub(a.position, joint.a->centre()), n));
+  } else {
+    inverse = joint.b->inverse_mass + (joint.a == nullptr ? 0 : joint.a->inverse_mass);
+  }
+  return 1 / inverse;
+}
+
+/// A spring of stiffness k and damping c as a soft constraint (ODE manual, "How to use ERP and CFM").
+struct SoftRow {
+  double erp, cfm;
+};
+SoftRow soft_row(const PlumbSpring& spring, double mass, double h) {
+  const double rate = 2 * std::numbers::pi * spring.frequency;
+  const double k = mass * rate * rate, c = 2 * mass * spring.damping_ratio * rate;
+  return {h * k / (h * k + c), 1 / (h * k + c)};
+}
+
+void set_row(const Joint& joint, std::size_t axis, const Settings& settings, double h) {
+  const PlumbLimit& limit = joint.desc.limits[axis];
+  const PlumbMotor& motor = joint.desc.motors[axis];
+  const PlumbSpring& spring = joint.desc.springs[axis];
+  double erp = settings.erp, cfm = settings.cfm, lower = -dInfinity, upper = dInfinity;
+  double velocity = motor.target_velocity;
+  if (spring.enabled != 0) {
+    const SoftRow row = soft_row(spring, joint.spring_mass[axis], h);
+    erp = row.erp;
+    cfm = row.cfm;
+    lower = upper = spring.rest;
+  } else if (limit.enabled != 0) {
+    lower = limit.lower;
+    upper = limit.upper;
+  }
+  if (joint.swapped()) {
+    velocity = -velocity;
+    lower = std::exchange(upper, -lower);
+    lower = -lower;
+  }
+  set_parameter(joint, axis, dParamLoStop, lower);
+  set_parameter(joint, axis, dParamHiStop, upper);
+  set_parameter(joint, axis, dParamStopERP, erp);
+  set_parameter(joint, axis, dParamStopCFM, cfm);
+  set_parameter(joint, axis, dParamCFM, settings.cfm);
+  set_parameter(joint, axis, dParamVel, velocity);
+  set_parameter(joint, axis, dParamFMax, motor.enabled != 0 ? motor.max_force : 0);
+}
+
+}  // namespace
+
+bool joint_has(PlumbJointType type, PlumbJointFeature feature) {
+  switch (feature) {
+    case PLUMB_JOINT_HAS_LIMITS:
+    case PLUMB_JOINT_HAS_SPRINGS: return free_axes(type) != 0;
+    case PLUMB_JOINT_HAS_MOTORS: return free_axes(type) != 0 && type != PLUMB_JOINT_DISTANCE;
+    default: return type != PLUMB_JOINT_GENERIC;
+  }
+}
+
+void check_joint(const PlumbJointDesc& desc) {
+  for (std::size_t axis = 0; axis < 6; ++axis) {
+    const bool limit = desc.limits[axis].enabled != 0, motor = desc.motors[axis].enabled != 0,
+               spring = desc.springs[axis].enabled != 0;
+    const std::string what = std::string("a ") + backend::joint_name(desc.type) + " joint";
+    if ((limit || motor || spring) && (free_axes(desc.type) >> axis & 1u) == 0)
+      throw Error(PLUMB_E_UNSUPPORTED, what + " of ODE has no limit, motor or spring on axis " + std::to_string(axis));
+    if (spring && (limit || motor) && desc.type != PLUMB_JOINT_DISTANCE)
+      throw Error(PLUMB_E_UNSUPPORTED, what + " of ODE has one row for axis " + std::to_string(axis) +
+                                           ": a spring leaves no room for a limit or motor; use a second joint");
+  }
+  const PlumbLimit& distance = desc.limits[0];
+  if (desc.type == PLUMB_JOINT_DISTANCE && distance.enabled != 0 && distance.lower < 0)
+    throw Error(PLUMB_E_INVALID_ARGUMENT,
+                "limits[0].lower of a distance joint is " + std::to_string(distance.lower) + "; it must not be below 0");
+}
+
+void attach(Joint& joint, dWorldID world) {
+  const auto make = [&](dJointID (*create)(dWorldID, dJointGroupID)) {
+    joint.id = create(world, nullptr);
+    dJointAttach(joint.id, joint.first().body, joint.second());
+  };
+  const auto anchor = [&](void (*set)(dJointID, dReal, dReal, dReal), const PlumbVec3& at) { set(joint.id, at.x, at.y, at.z); };
+  switch (joint.desc.type) {
+    case PLUMB_JOINT_BALL:
+      make(dJointCreateBall);
+      anchor(dJointSetBallAnchor, joint.first_frame().position);
+      if (length(sub(joint.frame_a().position, joint.frame_b().position)) > together)
+        anchor(dJointSetBallAnchor2, joint.second_frame().position);
+      break;
+    case PLUMB_JOINT_HINGE:
+      make(dJointCreateHinge);
+      with_frames_together(joint, [&] {
+        anchor(dJointSetHingeAnchor, joint.first_frame().position);
+        anchor(dJointSetHingeAxis, axis_of(joint.first_frame(), 0));
+      });
+      break;
+    case PLUMB_JOINT_SLIDER:
+      make(dJointCreateSlider);
+      with_frames_together(joint, [&] { anchor(dJointSetSliderAxis, axis_of(joint.first_frame(), 0)); });
+      break;
+    case PLUMB_JOINT_FIXED:
+      make(dJointCreateFixed);
+      with_frames_together(joint, [&] { dJointSetFixed(joint.id); });
+      break;
+    case PLUMB_JOINT_UNIVERSAL:
+      make(dJointCreateUniversal);
+      with_frames_together(joint, [&] {
+        anchor(dJointSetUniversalAnchor, joint.first_frame().position);
+        const bool swapped = joint.swapped();
+        anchor(dJointSetUniversalAxis1, swapped ? axis_of(joint.frame_a(), 0) : axis_of(joint.frame_b(), 1));
+        anchor(dJointSetUniversalAxis2, swapped ? axis_of(joint.frame_b(), 1) : axis_of(joint.frame_a(), 0));
+      });
+      break;
+    case PLUMB_JOINT_DISTANCE:
+      // With limits the contact rows of prepare() do all the work, unless there is a spring as well.
+      if (joint.has_distance_limits() && joint.desc.springs[0].enabled == 0) {
+        make(dJointCreateNull);
+        break;
+      }
+      make(dJointCreateDBall);
+      anchor(dJointSetDBallAnchor1, joint.first_frame().position);
+      anchor(dJointSetDBallAnchor2, joint.second_frame().position);
+      dJointSetDBallDistance(joint.id, joint.desc.rest_length);
+      break;
+    default: throw Error(PLUMB_E_UNSUPPORTED, std::string("ODE has no ") + backend::joint_name(joint.desc.type) + " joint");
+  }
+  if (joint.watched) dJointSetFeedback(joint.id, &joint.feedback);
+  for (std::size_t axis = 0; axis < 6; ++axis)
+    if (joint.desc.springs[axis].enabled != 0) joint.spring_mass[axis] = effective_mass(joint, axis);
+}
+
+void set_parameters(const Joint& joint, const Settings& settings, double h) {
+  switch (joint.desc.type) {
+    case PLUMB_JOINT_BALL:
+      dJointSetBallParam(joint.id, dParamERP, settings.erp);
+      return dJointSetBallParam(joint.id, dParamCFM, settings.cfm);
+    case PLUMB_JOINT_FIXED:
+      dJointSetFixedParam(joint.id, dParamERP, settings.erp);
+      return dJointSetFixedParam(joint.id, dParamCFM, settings.cfm);
+    case PLUMB_JOINT_DISTANCE: {
+      if (dJointGetType(joint.id) != dJointTypeDBall) return;
+      const bool soft = joint.desc.springs[0].enabled != 0;
+      SoftRow row{settings.erp, settings.cfm};
+      if (soft) row = soft_row(joint.desc.springs[0], joint.spring_mass[0], h);
+      dJointSetDBallParam(joint.id, dParamERP, row.erp);
+      return dJointSetDBallParam(joint.id, dParamCFM, row.cfm);
+    }
+    default:
+      for (std::size_t axis = 0; axis < 6; ++axis)
+        if ((free_axes(joint.desc.type) >> axis & 1u) != 0) set_row(joint, axis, settings, h);
+  }
+}
+
+void prepare(Joint& joint, dWorldID world, dJointGroupID group, const Settings& settings) {
+  joint.limit_acts = false;
+  const PlumbPose frame_b = joint.frame_b();
+  joint.arm = sub(frame_b.position, joint.first().centre());
+  if (!joint.has_distance_limits()) return;
+  const PlumbLimit& limit = joint.desc.limits[0];
+  const PlumbVec3 way = sub(frame_b.position, joint.frame_a().position);
+  const double distance = length(way);
+  const bool far = distance >= limit.upper;
+  if (!far && distance > limit.lower) return;
+  const PlumbVec3 out = distance > together ? scale(1 / distance, way) : axis_of(joint.frame_a(), 0);
+  const PlumbVec3 push = scale(far == joint.swapped() ? 1 : -1, out);  // into ODE's first body
+  dContact contact{};
+  contact.surface.mode = dContactSoftERP | dContactSoftCFM;
+  contact.surface.soft_erp = settings.erp;
+  contact.surface.soft_cfm = settings.cfm;
+  contact.geom.depth = far ? distance - limit.upper : limit.lower - distance;
+  contact.geom.pos[0] = frame_b.position.x;
+  contact.geom.pos[1] = frame_b.position.y;
+  contact.geom.pos[2] = frame_b.position.z;
+  contact.geom.normal[0] = push.x;
+  contact.geom.normal[1] = push.y;
+  contact.geom.normal[2] = push.z;
+  const dJointID row = dJointCreateContact(world, group, &contact);
+  dJointAttach(row, joint.first().body, joint.second());
+  joint.limit_acts = true;
+  if (joint.watched) dJointSetFeedback(row, &joint.limit_feedback);
+}
+
+void take_reaction(Joint& joint, double share) {
+  const double on_b = joint.swapped() ? -share : share;
+  const auto take = [&](const dJointFeedback& feedback) {
+    const PlumbVec3 force = vec(feedback.f1);
+    joint.force = add(joint.force, scale(on_b, force));
+    joint.torque = add(joint.torque, scale(on_b, sub(vec(feedback.t1), cross(joint.arm, force))));
+  };
+  take(joint.feedback);
+  if (joint.limit_acts) take(joint.limit_feedback);
+}
+
+bool overloaded(const Joint& joint) {
+  const auto above = [](const PlumbVec3& load, double strength) { return strength > 0 && length(load) > strength; };
+  return above(joint.force, joint.desc.break_force) || above(joint.torque, joint.desc.break_torque);
+}
+
+void read_coordinates(const Joint& joint, double* row) {
+  const PlumbPose relative = compose(inverse(joint.frame_a()), joint.frame_b());
+  const Matrix3 r = backend::rotation_matrix(relative.orientation);
+  row[0] = relative.position.x;
+  row[1] = relative.position.y;
+  row[2] = relative.position.z;
+  row[3] = std::atan2(-r[1][2], r[2][2]);
+  row[4] = std::asin(std::clamp(r[0][2], -1.0, 1.0));
+  row[5] = std::atan2(-r[0][1], r[0][0]);
+}
+
+}  // namespace plumb::ode

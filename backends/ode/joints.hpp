@@ -1,0 +1,63 @@
+// Joints: our frames and axes as ODE's anchors and axes.
+//
+// ODE tells coordinates of its first body seen from its second, and its first body cannot be the world. So our b is the
+// first, unless b is static: then a is, and angles, lengths and forces change their signs.
+#pragma once
+
+#include <ode/ode.h>
+
+#include "bodies.hpp"
+#include "settings.hpp"
+
+namespace plumb::ode {
+
+struct Joint {
+  PlumbJoint handle = 0;
+  PlumbJointDesc desc{};
+  dJointID id = nullptr;
+  Body* a = nullptr;  ///< null: the world
+  Body* b = nullptr;
+  double spring_mass[6]{};  ///< kg or kg m2: the pair's effective mass on each axis with a spring
+  bool watched = false;     ///< its feedback is read after each sub-step
+  dJointFeedback feedback{};
+  dJointFeedback limit_feedback{};
+  bool limit_acts = false;  ///< in this sub-step
+  PlumbVec3 arm{};          ///< from the first body's centre of mass to frame b, world axes, before the solver ran
+  PlumbVec3 force{}, torque{};  ///< on b at frame b's origin, mean over the last step
+
+  [[nodiscard]] bool swapped() const { return b->body == nullptr; }
+  [[nodiscard]] Body& first() const { return swapped() ? *a : *b; }
+  [[nodiscard]] PlumbPose first_frame() const { return swapped() ? frame_a() : frame_b(); }
+  [[nodiscard]] PlumbPose second_frame() const { return swapped() ? frame_b() : frame_a(); }
+  /// ODE's second body; null: the world.
+  [[nodiscard]] dBodyID second() const { return swapped() || a == nullptr ? nullptr : a->body; }
+  [[nodiscard]] PlumbPose frame_a() const { return a == nullptr ? desc.frame_a : compose(a->frame(), desc.frame_a); }
+  [[nodiscard]] PlumbPose frame_b() const { return compose(b->frame(), desc.frame_b); }
+  [[nodiscard]] bool has_distance_limits() const {
+    return desc.type == PLUMB_JOINT_DISTANCE && desc.limits[0].enabled != 0;
+  }
+};
+
+/// Which joint types have the feature at all; the axes that have it are those that the type leaves free.
+[[nodiscard]] bool joint_has(PlumbJointType type, PlumbJointFeature feature);
+
+/// Throws PLUMB_E_UNSUPPORTED for axes that the type has not, or what one row of ODE cannot be at once.
+void check_joint(const PlumbJointDesc& desc);
+
+/// Makes the ODE joint of a checked descriptor.
+void attach(Joint& joint, dWorldID world);
+
+/// Hands limits, motors and springs to ODE; h is the sub-step, on which a spring's parameters depend.
+void set_parameters(const Joint& joint, const Settings& settings, double h);
+
+/// Before the solver: what a joint needs in each sub-step. A distance limit is a contact row along the line between the
+/// frames, which may pull as well as push: a unilateral constraint on the distance.
+void prepare(Joint& joint, dWorldID world, dJointGroupID group, const Settings& settings);
+/// After the solver: adds `share` of the sub-step's reaction.
+void take_reaction(Joint& joint, double share);
+[[nodiscard]] bool overloaded(const Joint& joint);
+
+/// The six coordinates; rotations as turns about x, then y, then z of the turned frame.
+void read_coordinates(const Joint& joint, double* row);
+
+}  // namespace plumb::ode

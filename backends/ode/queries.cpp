@@ -1,0 +1,138 @@
+// Rays and overlaps: temporary geoms against the space. ODE has no casts of shapes.
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "world.hpp"
+
+namespace plumb::ode {
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+/// Of one ray with one geom (a height field gives several), and of one overlap.
+constexpr int most_points = 16;
+
+thread_local std::vector<PlumbHit> found;
+
+const GeomTag& tag_of(dGeomID geom) { return *static_cast<const GeomTag*>(dGeomGetData(geom)); }
+
+std::uint32_t child_of(const GeomTag& tag, const dContactGeom& point) {
+  if (tag.body->shape->type != PLUMB_TRIANGLE_MESH) return tag.placed.child;
+  const int side = point.g1 == tag.placed.geom ? point.side1 : point.side2;
+  return side < 0 ? 0 : static_cast<std::uint32_t>(side);
+}
+
+/// One query on its way through the space: the nearest hit of each body.
+struct Search {
+  const PlumbFilter& filter;
+  std::uint32_t query;
+  dGeomID probe;
+  PlumbVec3 direction;  ///< of a ray, unit
+  double length;        ///< of a ray, m; 0 for overlaps
+  std::size_t first;    ///< of this query's hits
+
+  static void near(void* self, dGeomID one, dGeomID two) {
+    Search& search = *static_cast<Search*>(self);
+    search.meet(one == search.probe ? two : one);
+  }
+
+  void meet(dGeomID geom) const {
+    const GeomTag& tag = tag_of(geom);
+    if (tag.body->sensor || !may_touch(filter, tag.body->filter)) return;
+    std::array<dContactGeom, most_points> points;
+    const int wanted = length > 0 ? most_points : 1 | static_cast<int>(CONTACTS_UNIMPORTANT);
+    const int count = dCollide(probe, geom, wanted, points.data(), sizeof(dContactGeom));
+    if (count == 0) return;
+    if (length > 0) {
+      keep(ray_hit(tag, *std::min_element(points.begin(), points.begin() + count,
+                                          [](const auto& x, const auto& y) { return x.depth < y.depth; })));
+    } else {
+      keep({tag.body->handle, query, child_of(tag, points[0]), 0, {unknown, unknown, unknown}, {unknown, unknown, unknown}});
+    }
+  }
+
+  [[nodiscard]] PlumbHit ray_hit(const GeomTag& tag, const dContactGeom& point) const {
+    PlumbVec3 normal = vec(point.normal);
+    // ODE's meshes and shapes disagree about the sign; the surface that was hit looks at the ray.
+    if (dot(normal, direction) > 0) normal = scale(-1, normal);
+    return {tag.body->handle, query, child_of(tag, point), point.depth / length, vec(point.pos), normal};
+  }
+
+  void keep(const PlumbHit& hit) const {
+    for (std::size_t i = first; i < found.size(); ++i) {
+      if (found[i].body != hit.body) continue;
+      if (hit.fraction < found[i].fraction) found[i] = hit;
+      return;
+    }
+    found.push_back(hit);
+  }
+};
+
+bool nearer(const PlumbHit& x, const PlumbHit& y) {
+  return x.fraction != y.fraction ? x.fraction < y.fraction : slot_of(x.body) < slot_of(y.body);
+}
+
+struct TemporaryRay {
+  TemporaryRay() : geom(dCreateRay(nullptr, 1)) {
+    dGeomRaySetFirstContact(geom, 0);
+    dGeomRaySetBackfaceCull(geom, 0);
+    dGeomRaySetClosestHit(geom, 1);
+  }
+  TemporaryRay(const TemporaryRay&) = delete;
+  TemporaryRay& operator=(const TemporaryRay&) = delete;
+  ~TemporaryRay() { dGeomDestroy(geom); }
+  dGeomID geom;
+};
+
+}  // namespace
+
+Hits World::cast_rays(PlumbHitMode mode, std::span<const PlumbRay> rays) {
+  const std::scoped_lock lock(query_mutex_);
+  return inside_ode([&]() -> Hits {
+    found.clear();
+    const TemporaryRay temporary;
+    for (std::uint32_t i = 0; i < rays.size(); ++i) {
+      const PlumbRay& ray = rays[i];
+      const double reach = length(ray.translation);
+      const PlumbVec3 along = scale(1 / reach, ray.translation);
+      dGeomRaySetLength(temporary.geom, reach);
+      dGeomRaySet(temporary.geom, ray.origin.x, ray.origin.y, ray.origin.z, along.x, along.y, along.z);
+      Search search{ray.filter, i, temporary.geom, along, reach, found.size()};
+      dSpaceCollide2(temporary.geom, reinterpret_cast<dGeomID>(space_), &search, &Search::near);
+      const auto begin = found.begin() + static_cast<std::ptrdiff_t>(search.first);
+      std::sort(begin, found.end(), nearer);
+      if (mode == PLUMB_HIT_CLOSEST) {
+        if (begin == found.end()) found.push_back({0, i, 0, 0, {0, 0, 0}, {0, 0, 0}});
+        found.resize(search.first + 1);
+      }
+    }
+    return {PLUMB_OK, found};
+  });
+}
+
+Hits World::cast_shapes(PlumbHitMode, std::span<const PlumbCast>) {
+  throw Error(PLUMB_E_UNSUPPORTED, "ODE has no casts of shapes");
+}
+
+Hits World::overlap_shapes(std::span<const PlumbOverlap> overlaps) {
+  const std::scoped_lock lock(query_mutex_);
+  return inside_ode([&]() -> Hits {
+    found.clear();
+    for (std::uint32_t i = 0; i < overlaps.size(); ++i) {
+      const PlumbOverlap& overlap = overlaps[i];
+      std::vector<PlacedGeom> geoms;
+      make_geoms(*shapes_[slot_of(overlap.shape)], nullptr, geoms);
+      Search search{overlap.filter, i, nullptr, {}, 0, found.size()};
+      for (const PlacedGeom& geom : geoms) {
+        place_geom(geom, overlap.pose);
+        search.probe = geom.geom;
+        dSpaceCollide2(geom.geom, reinterpret_cast<dGeomID>(space_), &search, &Search::near);
+        dGeomDestroy(geom.geom);
+      }
+      std::sort(found.begin() + static_cast<std::ptrdiff_t>(search.first), found.end(), nearer);
+    }
+    return {PLUMB_OK, found};
+  });
+}
+
+}  // namespace plumb::ode

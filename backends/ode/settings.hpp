@@ -1,0 +1,58 @@
+// Every knob of ODE that changes cost, quality or behaviour, by name.
+#pragma once
+
+#include <ode/ode.h>
+
+#include <span>
+
+#include "plumb/backend/world_init.hpp"
+
+namespace plumb::ode {
+
+enum class Stepper { quickstep = 0, step = 1 };
+enum class FrictionModel { pyramid = 0, constant = 1 };
+enum class FrictionDirections { normal = 0, sliding = 1 };
+enum class Space { hash = 0, sap = 1, quadtree = 2, simple = 3 };
+
+/// The values in force. Choices are the index of the word.
+struct Settings {
+  Stepper stepper;
+  int iterations;
+  double sor_w;
+  int substeps;
+  double erp, cfm;
+  double contact_erp, contact_cfm;  ///< below 0: those of the world
+  double contact_surface_layer;     ///< m
+  double contact_max_correcting_vel;///< m/s, 0: no limit
+  int max_contacts;
+  FrictionModel friction_model;
+  FrictionDirections friction_directions;
+  double bounce_vel;  ///< m/s
+  bool gyroscopic, finite_rotation;
+  double sleep_linear, sleep_angular;  ///< m/s, rad/s
+  int sleep_steps;
+  double sleep_time;  ///< s
+  Space space;
+  int hash_min_level, hash_max_level;
+  double quadtree_extent;  ///< m
+  int quadtree_depth;
+  int sap_axes;  ///< index of the word
+  int threads;
+  int random_seed;
+
+  explicit Settings(const WorldInit& init);
+};
+
+[[nodiscard]] std::span<const PlumbSettingInfo> setting_infos();
+
+/// Sets one by name; the name, type and range are known to be right.
+void assign_setting(Settings& settings, const char* name, const PlumbSettingValue& value);
+[[nodiscard]] PlumbSettingValue setting_value(const Settings& settings, const char* name);
+
+/// A new, empty broad phase.
+[[nodiscard]] dSpaceID make_space(const Settings& settings);
+
+/// Hands the world's parameters to ODE.
+void apply_to_world(const Settings& settings, dWorldID world);
+
+}  // namespace plumb::ode

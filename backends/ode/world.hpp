@@ -1,0 +1,136 @@
+// A world of ODE behind plumb's interface. What one step does stands in step.cpp, from top to bottom.
+#pragma once
+
+#include <ode/ode.h>
+
+#include <memory>
+#include <mutex>
+#include <span>
+#include <vector>
+
+#include "bodies.hpp"
+#include "contacts.hpp"
+#include "errors.hpp"
+#include "events.hpp"
+#include "joints.hpp"
+#include "plumb/backend/world_init.hpp"
+#include "plumb/physics_world.hpp"
+#include "settings.hpp"
+#include "shapes.hpp"
+
+namespace plumb::ode {
+
+class World final : public IPhysicsWorld, IJoints, IQueries, ICollide, IDebug, ISettings {
+ public:
+  explicit World(const WorldInit& init);
+  ~World() override;
+
+  static const PlumbBackendInfo& info();
+  static PlumbDegree capability(PlumbCapability kind, std::uint32_t a, std::uint32_t b, const char*& note);
+  static std::span<const PlumbSettingInfo> setting_infos() { return ode::setting_infos(); }
+
+  PlumbResult create_shapes(std::span<const PlumbShapeDesc> descs, std::span<PlumbShape> ids) override;
+  PlumbResult destroy_shapes(std::span<const PlumbShape> ids) override;
+  PlumbResult create_bodies(std::span<const PlumbBodyDesc> descs, std::span<PlumbBody> ids) override;
+  PlumbResult destroy_bodies(std::span<const PlumbBody> ids) override;
+  PlumbResult read(PlumbField field, std::span<const PlumbBody> ids, Rows rows) override;
+  PlumbResult write(PlumbField field, std::span<const PlumbBody> ids, ConstRows rows) override;
+  PlumbResult set_gravity(const PlumbVec3& gravity) override;
+  PlumbResult step(double dt) override;
+  PlumbResult wait(PlumbStepReport& report) override;
+  std::span<const PlumbContact> contacts() override { return contacts_.contacts(); }
+  std::span<const PlumbEvent> events() override { return events_.events(); }
+
+  IJoints* joints() override { return this; }
+  IQueries* queries() override { return this; }
+  ICollide* collide() override { return this; }
+  IDebug* debug() override { return this; }
+  ISettings* settings() override { return this; }
+
+ private:
+  PlumbResult create_joints(std::span<const PlumbJointDesc> descs, std::span<PlumbJoint> ids) override;
+  PlumbResult destroy_joints(std::span<const PlumbJoint> ids) override;
+  PlumbResult read_joints(PlumbJointField field, std::span<const PlumbJoint> ids, Rows rows) override;
+  PlumbResult write_joints(PlumbJointField field, std::span<const PlumbJoint> ids, ConstRows rows) override;
+  Hits cast_rays(PlumbHitMode mode, std::span<const PlumbRay> rays) override;
+  Hits cast_shapes(PlumbHitMode mode, std::span<const PlumbCast> casts) override;
+  Hits overlap_shapes(std::span<const PlumbOverlap> overlaps) override;
+  PlumbResult collide_pairs(std::span<const PlumbPosedPair> pairs, std::span<PlumbPairResult> results,
+                            std::span<const PlumbPairPoint>& points) override;
+  PlumbResult candidate_pairs(std::span<const PlumbDebugPair>& pairs) override;
+  PlumbResult tree_boxes(std::span<const PlumbDebugBox>& boxes) override;
+  PlumbResult separating_axes(std::span<const PlumbDebugAxis>& axes) override;
+  PlumbResult get_setting(const char* name, PlumbSettingValue& value) override;
+  PlumbResult set_setting(const char* name, const PlumbSettingValue& value) override;
+
+  // Step phases (step.cpp).
+  void set_substep(double h);
+  void forget_reactions();
+  void steer_kinematics(double dt);
+  void let_kinematics_rest();
+  void push_bodies();
+  void find_contacts();
+  void prepare_joints();
+  void solve(double h);
+  void gather(double h, double share);
+  void settle_kinematics();
+  void break_joints();
+  void note_sleep();
+  void look_for_nonfinite();
+
+  /// Runs a call into ODE whose errors become PLUMB_E_WORLD_LOST.
+  template <class Call>
+  auto inside_ode(Call&& call) {
+    const ErrorScope scope(init_);
+    try {
+      return call();
+    } catch (const Error& error) {
+      if (error.code() == PLUMB_E_WORLD_LOST) usable_ = false;
+      throw;
+    }
+  }
+
+  // Bodies (world.cpp).
+  [[nodiscard]] Body& body(PlumbBody id) { return *bodies_[slot_of(id)]; }
+  [[nodiscard]] Joint& joint(PlumbJoint id) { return *joints_[slot_of(id)]; }
+  std::unique_ptr<Body> make_body(const PlumbBodyDesc& desc, PlumbBody handle);
+  void make_body_geoms(Body& body);
+  void dismantle(Body& body);
+  void enlist(Body& body);
+  void strike_off(const Body& body);
+  void wake_all();
+  void set_gravity_scale(Body& body, double scale);
+  void apply_body_settings(Body& body);
+  void write_row(PlumbField field, Body& body, const double* row);
+  static void read_row(PlumbField field, const Body& body, double* row);
+  void remove_joint(Joint& joint);
+
+  WorldInit init_;
+  Settings settings_;
+  PlumbVec3 gravity_;
+  bool usable_ = true;  ///< false after an error inside ODE: its objects are left alone, even at the end
+  dWorldID world_ = nullptr;
+  dSpaceID space_ = nullptr;
+  dThreadingImplementationID threading_ = nullptr;
+  dThreadingThreadPoolID pool_ = nullptr;
+  ContactPass contacts_;
+  PairEvents events_;
+  unsigned long seed_;
+
+  std::vector<std::unique_ptr<Shape>> shapes_;  // by slot
+  std::vector<std::unique_ptr<Body>> bodies_;   // by slot
+  std::vector<std::unique_ptr<Joint>> joints_;  // by slot
+  std::vector<Body*> order_;                    // all, as created
+  std::vector<Body*> dynamic_, kinematic_, damped_, locked_, weighed_, pushed_;
+  std::vector<Joint*> joint_order_, busy_joints_;  // busy: with work in each sub-step
+
+  double substep_ = 0;  ///< for which damping and springs were set
+  std::uint32_t nonfinite_ = 0, awake_ = 0;
+  double broad_narrow_seconds_ = 0, solve_seconds_ = 0, output_seconds_ = 0;
+
+  std::mutex query_mutex_;  // ODE's spaces note things even while they are only asked
+  std::vector<PlumbDebugPair> debug_pairs_;
+  std::vector<PlumbDebugBox> debug_boxes_;
+};
+
+}  // namespace plumb::ode
