@@ -200,7 +200,17 @@ class Replay {
       report_.state->world = number;
       report_.state->step = step;
     }
-    if (!recorded.empty()) compare_rows(*report_.state, step, recorded, *replayed);
+    if (recorded.empty()) return;
+    compare_rows(*report_.state, step, recorded, *replayed);
+    if (report_.state->body != 0) report_.state->body = number_of_living(world->second, report_.state->body - 1);
+  }
+
+  // The number in order of creation of the body that is at `index` among those that live.
+  [[nodiscard]] std::uint64_t number_of_living(const ReplayedWorld& world, std::uint64_t index) const {
+    std::vector<PlumbBody> ids(index + 1);
+    std::uint32_t count = 0;
+    table().list_bodies(world.world, ids.data(), static_cast<std::uint32_t>(ids.size()), &count);
+    return world.names.number(Objects::bodies, ids[index]);
   }
 
   static void compare_rows(StateDifference& difference, std::uint64_t step, const std::vector<StateRow>& recorded,

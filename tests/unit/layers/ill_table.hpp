@@ -1,0 +1,104 @@
+// A backend that behaves until a test makes one of its functions misbehave.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "fake_world.hpp"
+#include "plumb/layers.hpp"
+#include "plumb/loader.hpp"
+
+namespace plumb::test {
+
+/// The well-behaved tables that the ill ones start from and may call.
+struct IllTables {
+  PlumbBackendTable core;
+  PlumbJointsTable joints;
+  PlumbQueriesTable queries;
+  PlumbSettingsTable settings;
+  PlumbSnapshotTable snapshot;
+};
+
+inline const IllTables& good() {
+  static const IllTables tables = [] {
+    const PlumbBackendTable& core = *negotiate(&backend::open<FakeWorld>, "fake");
+    return IllTables{core, *static_cast<const PlumbJointsTable*>(core.extension(PLUMB_EXT_JOINTS)),
+                     *static_cast<const PlumbQueriesTable*>(core.extension(PLUMB_EXT_QUERIES)),
+                     *static_cast<const PlumbSettingsTable*>(core.extension(PLUMB_EXT_SETTINGS)),
+                     *static_cast<const PlumbSnapshotTable*>(core.extension(PLUMB_EXT_SNAPSHOT))};
+  }();
+  return tables;
+}
+
+/// One set for the whole program, as layers keep what they were given.
+inline IllTables& ill() {
+  static IllTables tables = good();
+  return tables;
+}
+
+inline const int unknown_table = 7;  // an extension that no layer knows
+
+/// A world behind the validation layer over the ill tables.
+class Validated : public ::testing::Test {
+ protected:
+  Validated() {
+    ill() = good();
+    ill().core.extension = [](const char* name) -> const void* {
+      const std::string_view wanted = name;
+      if (wanted == PLUMB_EXT_JOINTS) return &ill().joints;
+      if (wanted == PLUMB_EXT_QUERIES) return &ill().queries;
+      if (wanted == PLUMB_EXT_SETTINGS) return &ill().settings;
+      if (wanted == PLUMB_EXT_SNAPSHOT) return &ill().snapshot;
+      if (wanted == "test.unknown/1") return &unknown_table;
+      return nullptr;
+    };
+    table = layers::validate(&ill().core);
+    static_cast<void>(layers::findings(table));
+    const PlumbWorldDesc desc = world_desc(PLUMB_NEED_ALL & ~PLUMB_NEED_CCD);
+    EXPECT_EQ(table->create_world(&desc, &world), PLUMB_OK) << table->error_text(nullptr);
+    PlumbShapeDesc box = shape_desc(PLUMB_BOX);
+    box.half_extents = {1, 1, 1};
+    EXPECT_EQ(table->create_shapes(world, &box, sizeof box, 1, &shape), PLUMB_OK);
+    add();
+    add();
+  }
+  ~Validated() override {
+    if (world != nullptr) table->destroy_world(world);
+  }
+
+  PlumbBodyDesc body() const {
+    PlumbBodyDesc desc = body_desc();
+    desc.shape = shape;
+    return desc;
+  }
+  void add() {
+    const PlumbBodyDesc desc = body();
+    PlumbBody id = 0;
+    EXPECT_EQ(table->create_bodies(world, &desc, sizeof desc, 1, &id), PLUMB_OK) << table->error_text(world);
+    bodies.push_back(id);
+  }
+  template <class Table>
+  const Table& extension(const char* name) {
+    return *static_cast<const Table*>(table->extension(name));
+  }
+  /// The call ended like this, and the layer's words for it contain these; asking takes the findings.
+  void expect(PlumbResult expected, PlumbResult result, const std::string& words) {
+    EXPECT_EQ(result, expected) << table->error_text(world);
+    const std::string text = table->error_text(world);
+    EXPECT_NE(text.find(words), std::string::npos) << "\"" << text << "\" does not say \"" << words << "\"";
+    expect_found(words);
+  }
+  void expect_found(const std::string& words) {
+    const std::vector<std::string> found = layers::findings(table);
+    EXPECT_TRUE(std::any_of(found.begin(), found.end(), [&](const auto& text) { return text.find(words) != std::string::npos; }))
+        << "no finding says \"" << words << "\"; the last of " << found.size() << " is " << (found.empty() ? "" : found.back());
+  }
+
+  const PlumbBackendTable* table = nullptr;
+  PlumbWorld* world = nullptr;
+  PlumbShape shape = 0;
+  std::vector<PlumbBody> bodies;
+};
+
+}  // namespace plumb::test

@@ -1,0 +1,213 @@
+// The validation layer sees a backend's mistakes: one misbehaving function a test.
+#include "ill_table.hpp"
+
+namespace plumb::test {
+namespace {
+
+using ValidatedBackend = Validated;
+
+TEST_F(ValidatedBackend, RowsBeyondTheCapacity) {
+  ill().core.list_bodies = [](PlumbWorld*, PlumbBody* ids, std::uint32_t capacity, std::uint32_t* count) -> PlumbResult {
+    for (std::uint32_t i = 0; i <= capacity; ++i) ids[i] = 1;
+    *count = capacity + 1;
+    return PLUMB_TRUNCATED;
+  };
+  PlumbBody ids[4] = {0, 0, 0, 99};
+  std::uint32_t count = 0;
+  expect(PLUMB_E_INTERNAL, table->list_bodies(world, ids, 3, &count), "wrote more than 3 rows");
+  EXPECT_EQ(ids[3], 99u) << "the host's memory is safe";
+}
+
+TEST_F(ValidatedBackend, RowsThatAreNotWritten) {
+  ill().core.read = [](PlumbWorld*, PlumbField, PlumbDataType, const PlumbBody*, std::uint32_t, void* rows, std::size_t) -> PlumbResult {
+    std::fill_n(static_cast<double*>(rows), 7, 1.0);
+    return PLUMB_OK;
+  };
+  double rows[14];
+  expect(PLUMB_E_INTERNAL, table->read(world, PLUMB_FIELD_POSE, PLUMB_F64, nullptr, 2, rows, 56), "left row 1 unwritten");
+}
+
+TEST_F(ValidatedBackend, PaddingOfRows) {
+  ill().core.read = [](PlumbWorld*, PlumbField, PlumbDataType, const PlumbBody*, std::uint32_t count, void* rows, std::size_t stride) -> PlumbResult {
+    std::memset(rows, 0, count * stride);
+    return PLUMB_OK;
+  };
+  double rows[18];
+  expect(PLUMB_E_INTERNAL, table->read(world, PLUMB_FIELD_POSE, PLUMB_F64, nullptr, 2, rows, 72), "wrote between the rows");
+  EXPECT_EQ(table->read(world, PLUMB_FIELD_POSE, PLUMB_F64, nullptr, 2, rows, 56), PLUMB_OK);
+}
+
+TEST_F(ValidatedBackend, CountsThatContradictTheResult) {
+  ill().core.contacts = [](PlumbWorld*, PlumbContact*, std::size_t, std::uint32_t, std::uint32_t* count) -> PlumbResult {
+    *count = 5;
+    return PLUMB_OK;
+  };
+  std::uint32_t count = 0;
+  expect(PLUMB_E_INTERNAL, table->contacts(world, nullptr, sizeof(PlumbContact), 0, &count), "a count of 5 for a capacity of 0");
+  ill().core.contacts = [](PlumbWorld*, PlumbContact*, std::size_t, std::uint32_t, std::uint32_t* found) -> PlumbResult {
+    *found = 0;
+    return PLUMB_TRUNCATED;
+  };
+  expect(PLUMB_E_INTERNAL, table->contacts(world, nullptr, sizeof(PlumbContact), 0, &count), "answered 1 and a count of 0");
+}
+
+TEST_F(ValidatedBackend, ResultsThatAreNone) {
+  ill().core.set_gravity = [](PlumbWorld*, const PlumbVec3*) -> PlumbResult { return -77; };
+  const PlumbVec3 gravity{0, 0, 0};
+  expect(PLUMB_E_INTERNAL, table->set_gravity(world, &gravity), "answered -77");
+  ill().core.set_gravity = [](PlumbWorld*, const PlumbVec3*) -> PlumbResult { return PLUMB_E_VERSION; };
+  expect(PLUMB_E_INTERNAL, table->set_gravity(world, &gravity), "answered -8");
+  ill().core.set_gravity = [](PlumbWorld*, const PlumbVec3*) -> PlumbResult { return PLUMB_TRUNCATED; };
+  expect(PLUMB_E_INTERNAL, table->set_gravity(world, &gravity), "the remark 1, which is not this call's");
+}
+
+TEST_F(ValidatedBackend, FailuresThatChangeTheBodies) {
+  ill().core.create_bodies = [](PlumbWorld* w, const PlumbBodyDesc* descs, std::size_t stride, std::uint32_t count, PlumbBody* ids) -> PlumbResult {
+    const PlumbBody nothing = 0;
+    good().core.create_bodies(w, descs, stride, count, ids);
+    return good().core.destroy_bodies(w, &nothing, 1);  // fails with a text
+  };
+  const PlumbBodyDesc desc = body();
+  PlumbBody id = 0;
+  expect(PLUMB_E_INTERNAL, table->create_bodies(world, &desc, sizeof desc, 1, &id), "has 3 bodies after the call has failed; it should be 2");
+}
+
+TEST_F(ValidatedBackend, SuccessThatDoesNothing) {
+  ill().core.destroy_bodies = [](PlumbWorld*, const PlumbBody*, std::uint32_t) -> PlumbResult { return PLUMB_OK; };
+  expect(PLUMB_E_INTERNAL, table->destroy_bodies(world, bodies.data(), 1), "has 2 bodies after the call is done; it should be 1");
+}
+
+TEST_F(ValidatedBackend, IdsThatAreNone) {
+  ill().core.create_shapes = [](PlumbWorld*, const PlumbShapeDesc*, std::size_t, std::uint32_t count, PlumbShape* ids) -> PlumbResult {
+    std::fill_n(ids, count, 5);
+    return PLUMB_OK;
+  };
+  PlumbShapeDesc descs[2] = {shape_desc(PLUMB_SPHERE), shape_desc(PLUMB_SPHERE)};
+  PlumbShape ids[2] = {};
+  expect(PLUMB_E_INTERNAL, table->create_shapes(world, descs, sizeof descs[0], 2, ids), "null or not distinct");
+  ill().core.create_shapes = [](PlumbWorld*, const PlumbShapeDesc*, std::size_t, std::uint32_t, PlumbShape*) -> PlumbResult {
+    return PLUMB_OK;
+  };
+  expect(PLUMB_E_INTERNAL, table->create_shapes(world, descs, sizeof descs[0], 2, ids), "left ids[0] unwritten");
+}
+
+TEST_F(ValidatedBackend, ReportsThatAreWrong) {
+  const PlumbStepDesc desc = {sizeof desc, 0, 0.01};
+  PlumbStepReport report{};
+  report.struct_size = sizeof report;
+  ill().core.wait = [](PlumbWorld* w, PlumbStepReport* out) -> PlumbResult {
+    const PlumbResult result = good().core.wait(w, out);
+    out->bodies = 9;
+    return result;
+  };
+  ASSERT_EQ(table->step(world, &desc), PLUMB_OK);
+  expect(PLUMB_E_INTERNAL, table->wait(world, &report), "reports 9 bodies, 0 awake, where 2 live");
+  ill().core.wait = [](PlumbWorld* w, PlumbStepReport* out) -> PlumbResult {
+    const PlumbResult result = good().core.wait(w, out);
+    std::memset(out + 1, 0, 8);
+    return result;
+  };
+  ASSERT_EQ(table->step(world, &desc), PLUMB_OK);
+  expect(PLUMB_E_INTERNAL, table->wait(world, &report), "beyond the report's struct_size");
+}
+
+TEST_F(ValidatedBackend, EventsOutOfOrder) {
+  FakeWorld::last->event_rows = {{PLUMB_EVENT_SLEEP, 0, bodies[1], 0, 0}, {PLUMB_EVENT_SLEEP, 0, bodies[0], 0, 0}};
+  PlumbEvent events[4];
+  std::uint32_t count = 0;
+  expect(PLUMB_E_INTERNAL, table->events(world, events, sizeof events[0], 4, &count), "row 1 breaks the order");
+  FakeWorld::last->event_rows = {{PLUMB_EVENT_COUNT, 0, bodies[1], 0, 0}};
+  expect(PLUMB_E_INTERNAL, table->events(world, events, sizeof events[0], 4, &count), "row 0 is of type 7");
+  FakeWorld::last->event_rows = {{PLUMB_EVENT_SLEEP, 0, bodies[0], 0, 0}, {PLUMB_EVENT_SLEEP, 0, bodies[1], 0, 0}};
+  EXPECT_EQ(table->events(world, events, sizeof events[0], 4, &count), PLUMB_OK);
+  EXPECT_EQ(count, 2u);
+}
+
+TEST_F(ValidatedBackend, HitsThatCannotBe) {
+  static PlumbHit answer;
+  ill().queries.rays = [](PlumbWorld*, PlumbHitMode, const PlumbRay*, std::size_t, std::uint32_t, PlumbHit* hits, std::uint32_t, std::uint32_t* count) -> PlumbResult {
+    hits[0] = answer;
+    *count = 1;
+    return PLUMB_OK;
+  };
+  const PlumbRay ray{{0, 0, 0}, {1, 0, 0}, {1, 1, 0, 0}};
+  PlumbHit hit;
+  std::uint32_t count = 0;
+  const auto cast = [&](PlumbHitMode mode, std::uint32_t rays) {
+    const PlumbRay both[2] = {ray, ray};
+    return extension<PlumbQueriesTable>(PLUMB_EXT_QUERIES).rays(world, mode, both, sizeof ray, rays, &hit, 1, &count);
+  };
+  answer = {bodies[0], 0, 0, 1.5, {}, {}};
+  expect(PLUMB_E_INTERNAL, cast(PLUMB_HIT_ALL, 1), "not in 0..1");
+  answer = {bodies[0], 3, 0, 0.5, {}, {}};
+  expect(PLUMB_E_INTERNAL, cast(PLUMB_HIT_ALL, 1), "of query 3");
+  answer = {0, 0, 0, 0.5, {}, {}};
+  expect(PLUMB_E_INTERNAL, cast(PLUMB_HIT_ALL, 1), "names no body");
+  expect(PLUMB_E_INTERNAL, cast(PLUMB_HIT_CLOSEST, 2), "counts 1 closest hits for 2 queries");
+  EXPECT_EQ(cast(PLUMB_HIT_CLOSEST, 1), PLUMB_OK) << "nothing hit is an answer";
+  expect(PLUMB_E_INVALID_ARGUMENT, cast(7, 1), "mode is 7");
+}
+
+TEST_F(ValidatedBackend, SnapshotsThatAreCutOff) {
+  ill().snapshot.save = [](PlumbWorld*, void* data, std::size_t capacity, std::size_t* size) -> PlumbResult {
+    std::memset(data, 0, capacity);
+    *size = 100;
+    return PLUMB_TRUNCATED;
+  };
+  char data[8];
+  std::size_t size = 0;
+  expect(PLUMB_E_INTERNAL, extension<PlumbSnapshotTable>(PLUMB_EXT_SNAPSHOT).save(world, data, sizeof data, &size), "a part of a snapshot");
+}
+
+TEST_F(ValidatedBackend, SettingsWithoutAValue) {
+  ill().settings.get = [](PlumbWorld*, const char*, PlumbSettingValue* value) -> PlumbResult {
+    *value = {PLUMB_SETTING_CHOICE, 0, 0, nullptr};
+    return PLUMB_OK;
+  };
+  PlumbSettingValue value{};
+  expect(PLUMB_E_INTERNAL, extension<PlumbSettingsTable>(PLUMB_EXT_SETTINGS).get(world, "solver", &value), "without a choice");
+}
+
+TEST_F(ValidatedBackend, FailingWithoutAWord) {
+  ill().core.set_gravity = [](PlumbWorld*, const PlumbVec3*) -> PlumbResult { return PLUMB_E_UNSUPPORTED; };
+  const PlumbVec3 gravity{0, 0, 0};
+  EXPECT_EQ(table->set_gravity(world, &gravity), PLUMB_E_UNSUPPORTED);
+  expect_found("set_gravity: the backend failed without a word of why");
+}
+
+TEST_F(ValidatedBackend, LostWorldsAnswerNothingElse) {
+  FakeWorld::last->on_step = [] { throw Error(PLUMB_E_WORLD_LOST, "the ground gave way"); };
+  const PlumbStepDesc desc = {sizeof desc, 0, 0.01};
+  EXPECT_EQ(table->step(world, &desc), PLUMB_E_WORLD_LOST);
+  EXPECT_STREQ(table->error_text(world), "the ground gave way");
+  static bool asked;
+  asked = false;
+  ill().core.list_bodies = [](PlumbWorld*, PlumbBody*, std::uint32_t, std::uint32_t*) -> PlumbResult { return asked = true, PLUMB_OK; };
+  std::uint32_t count = 0;
+  EXPECT_EQ(table->list_bodies(world, nullptr, 0, &count), PLUMB_E_WORLD_LOST);
+  EXPECT_FALSE(asked);
+  EXPECT_STREQ(table->error_text(world), "the ground gave way") << "the text of the loss stays";
+  expect_found("only destroy_world and error_text are left");
+}
+
+TEST_F(ValidatedBackend, CapabilitiesThatAreNoDegree) {
+  ill().core.capability = [](PlumbCapability, std::uint32_t, std::uint32_t, const char**) -> PlumbDegree { return 9; };
+  const char* note = nullptr;
+  EXPECT_EQ(table->capability(PLUMB_CAP_RESIDUAL, 0, 0, &note), PLUMB_NONE);
+  EXPECT_STREQ(note, "");
+  const std::vector<std::string> found = layers::findings(table);
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_NE(found[0].find("note is null"), std::string::npos);
+  EXPECT_NE(found[1].find("answered 9"), std::string::npos);
+}
+
+TEST_F(ValidatedBackend, WorldsThatAreNotMade) {
+  ill().core.create_world = [](const PlumbWorldDesc*, PlumbWorld**) -> PlumbResult { return PLUMB_OK; };
+  const PlumbWorldDesc desc = world_desc(0);
+  PlumbWorld* none = nullptr;
+  EXPECT_EQ(table->create_world(&desc, &none), PLUMB_E_INTERNAL);
+  EXPECT_NE(std::string(table->error_text(nullptr)).find("made no world"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace plumb::test

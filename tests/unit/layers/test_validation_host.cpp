@@ -1,0 +1,205 @@
+// The validation layer refuses a host's mistakes in words, before the backend hears of them.
+#include <thread>
+
+#include "ill_table.hpp"
+
+namespace plumb::test {
+namespace {
+
+class ValidatedHost : public Validated {
+ protected:
+  /// Refused with these words, and the backend's class was not called.
+  template <class Call>
+  void refused(PlumbResult code, const std::string& words, Call&& call) {
+    const int before = FakeWorld::last->calls;
+    expect(code, call(), words);
+    EXPECT_EQ(FakeWorld::last->calls, before);
+  }
+  PlumbResult step() {
+    const PlumbStepDesc desc = {sizeof desc, 0, 0.01};
+    return table->step(world, &desc);
+  }
+};
+
+TEST_F(ValidatedHost, WellBehavedCallsPass) {
+  EXPECT_EQ(step(), PLUMB_OK);
+  PlumbStepReport report{};
+  report.struct_size = sizeof report;
+  EXPECT_EQ(table->wait(world, &report), PLUMB_OK) << table->error_text(world);
+  EXPECT_EQ(report.bodies, 2u);
+  std::uint32_t count = 0;
+  EXPECT_EQ(table->list_bodies(world, nullptr, 0, &count), PLUMB_TRUNCATED);
+  EXPECT_EQ(count, 2u);
+  double rows[2][9] = {{}, {7, 7, 7, 7, 7, 7, 7, 42, 43}};
+  EXPECT_EQ(table->read(world, PLUMB_FIELD_POSE, PLUMB_F64, nullptr, 2, rows, sizeof rows[0]), PLUMB_OK);
+  EXPECT_EQ(rows[1][0], 1) << "slot of the second body";
+  EXPECT_EQ(rows[1][7], 42) << "padding is the host's";
+  EXPECT_EQ(table->destroy_bodies(world, bodies.data(), 1), PLUMB_OK) << table->error_text(world);
+  PlumbSettingValue value{};
+  EXPECT_EQ(extension<PlumbSettingsTable>(PLUMB_EXT_SETTINGS).get(world, "iterations", &value), PLUMB_OK);
+  EXPECT_EQ(value.number, 10);
+  EXPECT_TRUE(layers::findings(table).empty());
+}
+
+TEST_F(ValidatedHost, PhasesOfAStep) {
+  refused(PLUMB_E_WRONG_PHASE, "without a step", [&] { return table->wait(world, nullptr); });
+  ASSERT_EQ(step(), PLUMB_OK);
+  refused(PLUMB_E_WRONG_PHASE, "between step and wait", [&] { return step(); });
+  double row[7];
+  refused(PLUMB_E_WRONG_PHASE, "between step and wait",
+          [&] { return table->read(world, PLUMB_FIELD_POSE, PLUMB_F64, nullptr, 1, row, sizeof row); });
+  const PlumbRay ray{{0, 0, 0}, {1, 0, 0}, {1, 1, 0, 0}};
+  PlumbHit hit;
+  std::uint32_t count = 0;
+  refused(PLUMB_E_WRONG_PHASE, "queries.rays", [&] {
+    return extension<PlumbQueriesTable>(PLUMB_EXT_QUERIES).rays(world, PLUMB_HIT_CLOSEST, &ray, sizeof ray, 1, &hit, 1, &count);
+  });
+  EXPECT_EQ(table->wait(world, nullptr), PLUMB_OK);
+  EXPECT_EQ(table->read(world, PLUMB_FIELD_POSE, PLUMB_F64, nullptr, 1, row, sizeof row), PLUMB_OK);
+}
+
+TEST_F(ValidatedHost, AWorldThatIsDestroyedWhileItStepsIsWaitedFor) {
+  ASSERT_EQ(step(), PLUMB_OK);
+  const int before = FakeWorld::last->calls;
+  static int seen = 0;
+  ill().core.destroy_world = [](PlumbWorld* gone) {
+    seen = FakeWorld::last->calls;
+    good().core.destroy_world(gone);
+  };
+  table->destroy_world(world);
+  EXPECT_EQ(seen, before + 1) << "wait came first";
+  expect_found("destroy_world: called between step and wait");
+  world = nullptr;
+}
+
+TEST_F(ValidatedHost, OneCallerAtATime) {
+  static PlumbResult other, text_asked;
+  static const PlumbBackendTable* shared;
+  static PlumbWorld* inside;
+  shared = table;
+  inside = world;
+  FakeWorld::last->on_step = [] {
+    std::thread([] {
+      std::uint32_t count = 0;
+      other = shared->list_bodies(inside, nullptr, 0, &count);
+      text_asked = std::string(shared->error_text(inside)).empty() ? -1 : 0;
+    }).join();
+  };
+  EXPECT_EQ(step(), PLUMB_OK);
+  EXPECT_EQ(other, PLUMB_E_WRONG_THREAD);
+  EXPECT_EQ(text_asked, 0) << "error_text may be asked at any time";
+  expect_found("another thread");
+  EXPECT_EQ(table->wait(world, nullptr), PLUMB_OK);
+}
+
+TEST_F(ValidatedHost, QueriesMayOverlap) {
+  static PlumbResult query, change;
+  static const PlumbBackendTable* shared;
+  static bool outer;
+  shared = table;
+  outer = true;
+  ill().queries.rays = [](PlumbWorld* w, PlumbHitMode mode, const PlumbRay* rays, std::size_t stride, std::uint32_t count,
+                          PlumbHit* hits, std::uint32_t capacity, std::uint32_t* found) -> PlumbResult {
+    if (std::exchange(outer, false)) {
+      std::thread([=] {
+        PlumbHit hit;
+        std::uint32_t number = 0;
+        const auto* queries = static_cast<const PlumbQueriesTable*>(shared->extension(PLUMB_EXT_QUERIES));
+        query = queries->rays(w, mode, rays, stride, count, &hit, 1, &number);
+        const PlumbVec3 gravity{0, 0, 0};
+        change = shared->set_gravity(w, &gravity);
+      }).join();
+    }
+    return good().queries.rays(w, mode, rays, stride, count, hits, capacity, found);
+  };
+  const PlumbRay ray{{0, 0, 0}, {1, 0, 0}, {1, 1, 0, 0}};
+  PlumbHit hit;
+  std::uint32_t count = 0;
+  EXPECT_EQ(extension<PlumbQueriesTable>(PLUMB_EXT_QUERIES).rays(world, PLUMB_HIT_CLOSEST, &ray, sizeof ray, 1, &hit, 1, &count), PLUMB_OK);
+  EXPECT_EQ(query, PLUMB_OK);
+  EXPECT_EQ(change, PLUMB_E_WRONG_THREAD);
+}
+
+TEST_F(ValidatedHost, SizesAndPointers) {
+  PlumbBodyDesc desc = body();
+  PlumbBody id = 0;
+  refused(PLUMB_E_INVALID_ARGUMENT, "stride of descs is 8", [&] { return table->create_bodies(world, &desc, 8, 1, &id); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "multiple of 8", [&] { return table->create_bodies(world, &desc, sizeof desc + 4, 1, &id); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "ids is null", [&] { return table->create_bodies(world, &desc, sizeof desc, 1, nullptr); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "descs is null", [&] { return table->create_bodies(world, nullptr, sizeof desc, 1, &id); });
+  desc.struct_size = 0;
+  refused(PLUMB_E_INVALID_ARGUMENT, "descs[0].struct_size is 0", [&] { return table->create_bodies(world, &desc, sizeof desc, 1, &id); });
+  EXPECT_EQ(id, 0u);
+  refused(PLUMB_E_INVALID_ARGUMENT, "ids is null", [&] { return table->destroy_bodies(world, nullptr, 1); });
+  double row[7];
+  refused(PLUMB_E_INVALID_ARGUMENT, "stride of rows is 55", [&] { return table->read(world, PLUMB_FIELD_POSE, PLUMB_F64, nullptr, 1, row, 55); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "type is 9", [&] { return table->read(world, PLUMB_FIELD_POSE, 9, nullptr, 1, row, 56); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "field", [&] { return table->read(world, PLUMB_FIELD_COUNT, PLUMB_F64, nullptr, 1, row, 56); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "rows is null", [&] { return table->write(world, PLUMB_FIELD_POSE, PLUMB_F64, nullptr, 1, nullptr, 56); });
+  PlumbEvent event;
+  std::uint32_t count = 0;
+  refused(PLUMB_E_INVALID_ARGUMENT, "stride of out is 16", [&] { return table->events(world, &event, 16, 1, &count); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "count is null", [&] { return table->list_bodies(world, nullptr, 0, nullptr); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "out is null", [&] { return table->contacts(world, nullptr, sizeof(PlumbContact), 3, &count); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "gravity is null", [&] { return table->set_gravity(world, nullptr); });
+  const PlumbStepDesc unset = {0, 0, 0.01};
+  refused(PLUMB_E_INVALID_ARGUMENT, "desc.struct_size is 0", [&] { return table->step(world, &unset); });
+  ASSERT_EQ(step(), PLUMB_OK);
+  PlumbStepReport report{};
+  refused(PLUMB_E_INVALID_ARGUMENT, "report.struct_size is 0", [&] { return table->wait(world, &report); });
+  EXPECT_EQ(table->wait(world, nullptr), PLUMB_OK) << "a refused wait has not ended the step";
+  refused(PLUMB_E_INVALID_ARGUMENT, "data is null", [&] { return extension<PlumbSnapshotTable>(PLUMB_EXT_SNAPSHOT).restore(world, nullptr, 4); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "name is null", [&] {
+    PlumbSettingValue value{};
+    return extension<PlumbSettingsTable>(PLUMB_EXT_SETTINGS).get(world, nullptr, &value);
+  });
+}
+
+TEST_F(ValidatedHost, WorldsThatAreNone) {
+  int nothing = 0;
+  auto* foreign = reinterpret_cast<PlumbWorld*>(&nothing);
+  std::uint32_t count = 0;
+  EXPECT_EQ(table->list_bodies(foreign, nullptr, 0, &count), PLUMB_E_INVALID_ARGUMENT);
+  expect_found("none that this backend made");
+  EXPECT_EQ(table->list_bodies(nullptr, nullptr, 0, &count), PLUMB_E_INVALID_ARGUMENT);
+  expect_found("world is null");
+  table->destroy_world(foreign);
+  expect_found("destroy_world: world is none");
+  table->destroy_world(nullptr);
+  EXPECT_TRUE(layers::findings(table).empty()) << "destroying null is allowed";
+  PlumbWorld* gone = std::exchange(world, nullptr);
+  table->destroy_world(gone);
+  EXPECT_TRUE(layers::findings(table).empty());
+  table->destroy_world(gone);
+  expect_found("destroyed before");
+  EXPECT_EQ(table->list_bodies(gone, nullptr, 0, &count), PLUMB_E_INVALID_ARGUMENT);
+  expect_found("has been destroyed");
+  PlumbWorld* none = nullptr;
+  PlumbWorldDesc desc = world_desc(0);
+  desc.struct_size = 1;
+  EXPECT_EQ(table->create_world(&desc, &none), PLUMB_E_INVALID_ARGUMENT);
+  EXPECT_NE(std::string(table->error_text(nullptr)).find("struct_size is 1"), std::string::npos);
+}
+
+TEST_F(ValidatedHost, TheBackendsOwnFailuresKeepTheirText) {
+  const PlumbBody stale = 12345;
+  EXPECT_EQ(table->destroy_bodies(world, &stale, 1), PLUMB_E_STALE_HANDLE);
+  EXPECT_NE(std::string(table->error_text(world)).find("12345"), std::string::npos) << table->error_text(world);
+  EXPECT_TRUE(layers::findings(table).empty()) << "a refusal by the backend is not a broken rule";
+  PlumbWorldDesc desc = world_desc(PLUMB_NEED_CCD);
+  PlumbWorld* none = nullptr;
+  EXPECT_EQ(table->create_world(&desc, &none), PLUMB_E_UNSUPPORTED);
+  EXPECT_NE(std::string(table->error_text(nullptr)).find("no continuous collision"), std::string::npos);
+}
+
+TEST_F(ValidatedHost, LayersAreMadeOnce) {
+  EXPECT_EQ(layers::validate(&ill().core), table);
+  EXPECT_EQ(layers::validate(table), table);
+  EXPECT_EQ(table->info(), good().core.info());
+  EXPECT_EQ(table->extension("test.unknown/1"), &unknown_table);
+  EXPECT_EQ(table->extension(PLUMB_EXT_COLLIDE), nullptr) << "what the backend lacks, the layer lacks";
+  EXPECT_TRUE(layers::findings(&good().core).empty());
+}
+
+}  // namespace
+}  // namespace plumb::test
