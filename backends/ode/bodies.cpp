@@ -27,6 +27,36 @@ PlumbPose Body::frame() const {
   return {is_zero(centre_of_mass) ? at : sub(at, rotate(q, centre_of_mass)), q};
 }
 
+void Body::wake() {
+  if (!dynamic()) return;
+  dBodyEnable(body);
+  idle = {dBodyGetAutoDisableSteps(body), dBodyGetAutoDisableTime(body)};
+}
+
+void Body::count_idling(double h) {
+  if (asleep() || dBodyGetAutoDisableFlag(body) == 0 || dBodyGetNumJoints(body) == 0) return;
+  const PlumbVec3 v = linear_velocity(), w = vec(dBodyGetAngularVel(body));
+  const double slow = dBodyGetAutoDisableLinearThreshold(body), slow_turn = dBodyGetAutoDisableAngularThreshold(body);
+  if (dot(v, v) > slow * slow || dot(w, w) > slow_turn * slow_turn) {
+    idle = {dBodyGetAutoDisableSteps(body), dBodyGetAutoDisableTime(body)};
+  } else {
+    --idle.steps;
+    idle.time -= h;
+  }
+}
+
+void Body::resume_idling(const Idle& countdown) {
+  // Waking starts ODE's countdowns at their settings, and there is no other way to them.
+  const int steps = dBodyGetAutoDisableSteps(body);
+  const double time = dBodyGetAutoDisableTime(body);
+  dBodySetAutoDisableSteps(body, countdown.steps);
+  dBodySetAutoDisableTime(body, countdown.time);
+  dBodyEnable(body);
+  dBodySetAutoDisableSteps(body, steps);
+  dBodySetAutoDisableTime(body, time);
+  idle = countdown;
+}
+
 void Body::set_frame(const PlumbPose& frame) {
   if (body == nullptr) {
     pose = frame;

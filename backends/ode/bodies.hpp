@@ -20,6 +20,9 @@ struct GeomTag {
   PlacedGeom placed;
   Body* body;
   PlumbMaterial own_material;  ///< a child's; read when placed.material is not null
+  struct {
+    std::uint32_t body, geom;
+  } name{};  ///< by which a snapshot knows it
 };
 
 struct Body {
@@ -46,6 +49,11 @@ struct Body {
   bool pushed = false;           ///< force or torque were written
   PlumbPose target{};            ///< of a kinematic body
   enum class Moving { as_told, to_target, arrived } moving = Moving::as_told;
+  /// ODE's countdowns to sleep, which it does not tell: kept alongside for snapshots.
+  struct Idle {
+    int steps;
+    double time;
+  } idle{};
   dJointID linear_lock = nullptr, angular_lock = nullptr;
   std::vector<const Body*> untouchable;  ///< joined by joints without collide_connected
 
@@ -61,6 +69,11 @@ struct Body {
     return body == nullptr || (dynamic() && !turns) ? idle_spin : vec(dBodyGetAngularVel(body));
   }
 
+  /// Of what ODE moves; others have nothing to wake.
+  void wake();
+  /// Counts as ODE does at the beginning of a step of h seconds.
+  void count_idling(double h);
+  void resume_idling(const Idle& countdown);
   void set_frame(const PlumbPose& frame);
   void set_velocity(const PlumbVec3& linear, const PlumbVec3& angular);
   /// World axes; at once.

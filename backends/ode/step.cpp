@@ -64,6 +64,7 @@ PlumbResult World::step(double dt) {
       push_bodies();
       find_contacts();
       prepare_joints();
+      count_idling(h);
       solve(h);
       gather(h, 1.0 / substeps);
     }
@@ -144,6 +145,12 @@ void World::find_contacts() {
 
 void World::prepare_joints() {
   for (Joint* joint : busy_joints_) prepare(*joint, world_, contacts_.group(), settings_);
+}
+
+/// ODE counts too, but does not tell; a snapshot has to know.
+void World::count_idling(double h) {
+  if (!init_.needs(PLUMB_NEED_SLEEPING | PLUMB_NEED_SNAPSHOT)) return;
+  for (Body* body : dynamic_) body->count_idling(h);
 }
 
 void World::solve(double h) {

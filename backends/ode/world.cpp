@@ -149,6 +149,7 @@ std::unique_ptr<Body> World::make_body(const PlumbBodyDesc& desc, PlumbBody hand
   body->set_velocity(desc.linear_velocity, desc.angular_velocity);
   if (desc.motion != PLUMB_DYNAMIC) return body;
   apply_body_settings(*body);
+  body->wake();
   if (substep_ != 0 && (body->linear_damping != 0 || body->angular_damping != 0)) set_damping(*body, substep_);
   if (body->locks != 0) make_locks(*body, world_);
   const bool sleeps = init_.needs(PLUMB_NEED_SLEEPING) && (desc.flags & PLUMB_BODY_NEVER_SLEEPS) == 0;
@@ -200,14 +201,11 @@ void World::strike_off(const Body& body) {
 }
 
 void World::dismantle(Body& body) {
+  wake_neighbours(body);
   for (const auto& geom : body.geoms) dGeomDestroy(geom->placed.geom);
   if (body.linear_lock != nullptr) dJointDestroy(body.linear_lock);
   if (body.angular_lock != nullptr) dJointDestroy(body.angular_lock);
-  if (body.body == nullptr) {
-    wake_all();
-    return;
-  }
-  dBodyDestroy(body.body);
+  if (body.body != nullptr) dBodyDestroy(body.body);
 }
 
 void World::set_gravity_scale(Body& body, double scale) {
@@ -270,9 +268,7 @@ PlumbResult World::write(PlumbField field, std::span<const PlumbBody> ids, Const
 
 void World::write_row(PlumbField field, Body& body, const double* row) {
   const PlumbVec3 v{row[0], row[1], row[2]};
-  const auto wake = [&] {
-    if (body.dynamic()) dBodyEnable(body.body);
-  };
+  const auto wake = [&] { body.wake(); };
   const auto push = [&](const PlumbVec3& force, const PlumbVec3& torque) {
     if (!body.pushed) pushed_.push_back(&body);
     body.pushed = true;
@@ -283,9 +279,10 @@ void World::write_row(PlumbField field, Body& body, const double* row) {
   const auto arm = [&] { return sub({row[3], row[4], row[5]}, body.centre()); };
   switch (field) {
     case PLUMB_FIELD_POSE:
+      wake_neighbours(body);
       body.set_frame(pose_of(row));
       body.moving = Body::Moving::as_told;
-      if (body.body == nullptr) wake_all();
+      wake_neighbours(body);
       return wake();
     case PLUMB_FIELD_VELOCITY:
       body.set_velocity(v, {row[3], row[4], row[5]});
@@ -326,10 +323,17 @@ void World::write_row(PlumbField field, Body& body, const double* row) {
   }
 }
 
-/// When the ground goes, whatever slept on it must notice.
-void World::wake_all() {
-  if (!init_.needs(PLUMB_NEED_SLEEPING)) return;
-  for (const Body* body : dynamic_) dBodyEnable(body->body);
+/// Whatever sleeps against a body must notice that it goes or comes.
+void World::wake_neighbours(const Body& body) {
+  if (space_ == nullptr || !init_.needs(PLUMB_NEED_SLEEPING)) return;
+  const auto wake = [](void* self, dGeomID one, dGeomID two) {
+    for (const dGeomID geom : {one, two}) {
+      Body& met = *static_cast<const GeomTag*>(dGeomGetData(geom))->body;
+      if (&met != self && met.asleep()) met.wake();
+    }
+  };
+  for (const auto& geom : body.geoms)
+    dSpaceCollide2(geom->placed.geom, reinterpret_cast<dGeomID>(space_), const_cast<Body*>(&body), wake);
 }
 
 // --- joints ----------------------------------------------------------------------------------------------------------
@@ -375,7 +379,7 @@ void World::remove_joint(Joint& joint) {
     forget_one(joint.b->untouchable, joint.a);
   }
   for (Body* body : {joint.a, joint.b})
-    if (body != nullptr && body->dynamic()) dBodyEnable(body->body);
+    if (body != nullptr) body->wake();
   dJointDestroy(joint.id);
   erase(joint_order_, &joint);
   erase(busy_joints_, &joint);
@@ -419,7 +423,7 @@ PlumbResult World::write_joints(PlumbJointField, std::span<const PlumbJoint> ids
       written.desc = changed[i];
       if (substep_ != 0) set_parameters(written, settings_, substep_);
       for (Body* body : {written.a, written.b})
-        if (body != nullptr && body->dynamic()) dBodyEnable(body->body);
+        if (body != nullptr) body->wake();
     }
     return PLUMB_OK;
   });

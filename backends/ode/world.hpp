@@ -20,7 +20,7 @@
 
 namespace plumb::ode {
 
-class World final : public IPhysicsWorld, IJoints, IQueries, ICollide, IDebug, ISettings {
+class World final : public IPhysicsWorld, IJoints, IQueries, ICollide, IDebug, ISettings, ISnapshot {
  public:
   explicit World(const WorldInit& init);
   ~World() override;
@@ -46,6 +46,7 @@ class World final : public IPhysicsWorld, IJoints, IQueries, ICollide, IDebug, I
   ICollide* collide() override { return this; }
   IDebug* debug() override { return this; }
   ISettings* settings() override { return this; }
+  ISnapshot* snapshot() override { return this; }
 
  private:
   PlumbResult create_joints(std::span<const PlumbJointDesc> descs, std::span<PlumbJoint> ids) override;
@@ -62,6 +63,8 @@ class World final : public IPhysicsWorld, IJoints, IQueries, ICollide, IDebug, I
   PlumbResult separating_axes(std::span<const PlumbDebugAxis>& axes) override;
   PlumbResult get_setting(const char* name, PlumbSettingValue& value) override;
   PlumbResult set_setting(const char* name, const PlumbSettingValue& value) override;
+  PlumbResult save(std::span<const std::byte>& data) override;
+  PlumbResult restore(std::span<const std::byte> data) override;
 
   // Step phases (step.cpp).
   void set_substep(double h);
@@ -71,6 +74,7 @@ class World final : public IPhysicsWorld, IJoints, IQueries, ICollide, IDebug, I
   void push_bodies();
   void find_contacts();
   void prepare_joints();
+  void count_idling(double h);
   void solve(double h);
   void gather(double h, double share);
   void settle_kinematics();
@@ -98,7 +102,7 @@ class World final : public IPhysicsWorld, IJoints, IQueries, ICollide, IDebug, I
   void dismantle(Body& body);
   void enlist(Body& body);
   void strike_off(const Body& body);
-  void wake_all();
+  void wake_neighbours(const Body& body);
   void set_gravity_scale(Body& body, double scale);
   void apply_body_settings(Body& body);
   void write_row(PlumbField field, Body& body, const double* row);
@@ -131,6 +135,7 @@ class World final : public IPhysicsWorld, IJoints, IQueries, ICollide, IDebug, I
   std::mutex query_mutex_;  // ODE's spaces note things even while they are only asked
   std::vector<PlumbDebugPair> debug_pairs_;
   std::vector<PlumbDebugBox> debug_boxes_;
+  std::vector<std::byte> snapshot_;
 };
 
 }  // namespace plumb::ode
