@@ -20,7 +20,13 @@
 
 namespace plumb::ode {
 
-class World final : public IPhysicsWorld, IJoints, IQueries, ICollide, IDebug, ISettings, ISnapshot {
+class World final : public IPhysicsWorld,
+                    public IJoints,
+                    public IQueries,
+                    public ICollide,
+                    public IDebug,
+                    public ISettings,
+                    public ISnapshot {
  public:
   explicit World(const WorldInit& init);
   ~World() override;

@@ -1,0 +1,69 @@
+// The adapter's own cost: a step and a bulk read through plumb against the same written straight against ODE. Both run in
+// turns, so that what else the machine does meets both alike.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <cstring>
+
+#include "native_program.hpp"
+#include "plumb_program.hpp"
+
+namespace plumb::ode_test {
+namespace {
+
+int steps = 300;  // a run; --steps=N
+
+template <class Program>
+double seconds_of(Program& program, std::vector<double>& rows) {
+  const auto start = std::chrono::steady_clock::now();
+  program.step();
+  program.read(rows);
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// One iteration: both programs from the start, step by step in turns; the sums over the run, and the median of the
+/// ratios of single steps, which a disturbance of one step does not move.
+void ratio(benchmark::State& state, const Scene& scene) {
+  double native_total = 0, plumb_total = 0;
+  std::vector<double> rows, ratios;
+  for (auto _ : state) {
+    NativeProgram native(scene);
+    PlumbProgram program(scene);
+    unsigned long native_seed = 0;
+    for (int i = 0; i < steps; ++i) {
+      double n = 0, p = 0;
+      const auto run_native = [&] {
+        dRandSetSeed(native_seed);
+        n = seconds_of(native, rows);
+        native_seed = dRandGetSeed();
+      };
+      if (i % 2 == 0) run_native();
+      p = seconds_of(program, rows);
+      if (i % 2 != 0) run_native();
+      native_total += n;
+      plumb_total += p;
+      ratios.push_back(p / n);
+    }
+  }
+  std::nth_element(ratios.begin(), ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2), ratios.end());
+  const double runs = static_cast<double>(ratios.size());
+  state.counters["native_ms"] = 1e3 * native_total / runs;
+  state.counters["plumb_ms"] = 1e3 * plumb_total / runs;
+  state.counters["ratio"] = plumb_total / native_total;
+  state.counters["median_ratio"] = ratios[ratios.size() / 2];
+}
+
+BENCHMARK_CAPTURE(ratio, pile_1000, pile(1000))->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(ratio, pyramid_20, pyramid(20))->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace plumb::ode_test
+
+int main(int argc, char** argv) {
+  benchmark::Initialize(&argc, argv);
+  for (int i = 1; i < argc; ++i)
+    if (std::strncmp(argv[i], "--steps=", 8) == 0) plumb::ode_test::steps = std::max(1, std::atoi(argv[i] + 8));
+  benchmark::RunSpecifiedBenchmarks();
+}

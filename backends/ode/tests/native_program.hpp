@@ -1,0 +1,32 @@
+// The scene as somebody would write it straight against ODE.
+#pragma once
+
+#include <ode/ode.h>
+
+#include <vector>
+
+#include "scenes.hpp"
+
+namespace plumb::ode_test {
+
+class NativeProgram {
+ public:
+  explicit NativeProgram(const Scene& scene);
+  NativeProgram(const NativeProgram&) = delete;
+  NativeProgram& operator=(const NativeProgram&) = delete;
+  ~NativeProgram();
+
+  void step();
+  /// Rows of position, orientation x y z w, linear and angular velocity of the moving bodies.
+  void read(std::vector<double>& rows) const;
+
+ private:
+  static void near(void* self, dGeomID one, dGeomID two);
+
+  dWorldID world_;
+  dSpaceID space_;
+  dJointGroupID contacts_;
+  std::vector<dBodyID> bodies_;
+};
+
+}  // namespace plumb::ode_test
