@@ -1,0 +1,84 @@
+// Conformance: what a backend claims, compared with what it does. Any backend can be given to these checks; one that
+// lacks a capability skips the checks of it, and nothing else decides what is skipped.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "plumb/loader.hpp"
+
+namespace plumb::harness::conform {
+
+/// Thrown by Conformance::skip; the reason names the capability.
+struct Skipped {
+  std::string reason;
+};
+
+/// What a check gets: the backend, and a place for what is wrong.
+class Conformance {
+ public:
+  explicit Conformance(Backend backend) : backend_(std::move(backend)) {}
+
+  [[nodiscard]] Backend& backend() { return backend_; }
+
+  /// Notes a failure unless ok. The text says what was expected and what came out.
+  template <class... Arguments>
+  void expect(bool ok, fmt::format_string<Arguments...> text, Arguments&&... arguments) {
+    ++expectations_;
+    if (!ok) failures_.push_back(fmt::format(text, std::forward<Arguments>(arguments)...));
+  }
+
+  /// Ends the check when the backend says that it has not this.
+  PlumbDegree require(PlumbCapability kind, std::uint32_t a, std::uint32_t b, const char* what) {
+    const PlumbDegree degree = backend_.capability(kind, a, b);
+    if (degree == PLUMB_NONE) throw Skipped{fmt::format("no {}: {}", what, backend_.capability_note(kind, a, b))};
+    return degree;
+  }
+  void require_needs(PlumbNeeds needs);
+
+  /// The needs of `wanted` that the backend has.
+  [[nodiscard]] PlumbNeeds available(PlumbNeeds wanted) const;
+
+  [[nodiscard]] const std::vector<std::string>& failures() const { return failures_; }
+  [[nodiscard]] std::size_t expectations() const { return expectations_; }
+
+ private:
+  Backend backend_;
+  std::vector<std::string> failures_;
+  std::size_t expectations_ = 0;
+};
+
+struct Check {
+  const char* name;  ///< "pairs.static", what a user types
+  const char* doc;   ///< one line
+  void (*run)(Conformance&);
+};
+
+/// Each file of checks has a list; all_checks joins them.
+[[nodiscard]] std::span<const Check> shape_checks();
+[[nodiscard]] std::span<const Check> body_checks();
+[[nodiscard]] std::span<const Check> material_checks();
+[[nodiscard]] std::span<const Check> handle_checks();
+[[nodiscard]] std::span<const Check> event_checks();
+[[nodiscard]] std::span<const Check> joint_checks();
+[[nodiscard]] std::span<const Check> query_checks();
+[[nodiscard]] std::span<const Check> setting_checks();
+[[nodiscard]] std::span<const Check> snapshot_checks();
+[[nodiscard]] std::span<const Check> thread_checks();
+[[nodiscard]] std::vector<Check> all_checks();
+
+enum class Outcome { passed, failed, skipped };
+
+struct CheckResult {
+  Outcome outcome;
+  std::size_t expectations;
+  std::vector<std::string> failures;  ///< or the one reason of a skip
+};
+
+/// Runs one check in this process, on the backend behind the validation layer; what the layer found is a failure too.
+[[nodiscard]] CheckResult run_check(const Check& check, const Backend& backend);
+
+}  // namespace plumb::harness::conform
