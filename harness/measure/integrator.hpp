@@ -1,0 +1,17 @@
+// Measures of the integrator group that live in files of their own.
+#pragma once
+
+#include "measure/measure.hpp"
+
+namespace plumb::harness {
+
+// integrator_rotation.cpp
+void measure_free_rotation(MeasureContext& context);
+void measure_heavy_top(MeasureContext& context);
+
+// integrator_pendulums.cpp
+void measure_pendulum(MeasureContext& context);
+void measure_spherical_pendulum(MeasureContext& context);
+void measure_double_pendulum(MeasureContext& context);
+
+}  // namespace plumb::harness
