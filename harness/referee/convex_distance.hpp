@@ -22,7 +22,8 @@ struct ConvexDistance {
   Vec3 on_a, on_b;  ///< nearest points; meaningless when distance is 0
 };
 
-/// To about 1e-14 of the size of the sets. Distances below 1e-13 of it are 0.
+/// To rounding between flat features; within 1e-7 of the size where a cylinder's round side is nearest. Distances below
+/// 1e-13 of the size are 0.
 [[nodiscard]] ConvexDistance convex_distance(const ConvexView& a, const ConvexView& b);
 
 /// Nearest points of two segments from p to p + d (Ericson 2005, Real-Time Collision Detection, 5.1.9). Lengths may be

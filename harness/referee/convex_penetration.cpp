@@ -76,7 +76,9 @@ Penetration by_cores(const Shape& a, const Shape& b, const Pose& pose_b, Apart a
     if (apart_enough && apart == Apart::lower_bound) return {cores.depth + radii, cores.normal, cores.point};
   }
   const ConvexDistance near = convex_distance({&a, nullptr, Pose{}}, {&b, nullptr, pose_b});
-  if (near.distance > 0) {
+  // So near to each other GJK cannot tell round sides' distance from rounding; the expanding polytope can.
+  const double too_near = polytopes ? 0 : 1e-6 * (a.radius() + a.half_height() + b.radius() + b.half_height());
+  if (near.distance > too_near) {
     const Vec3 normal = (near.on_b - near.on_a) / near.distance;
     const Vec3 middle = (near.on_a + near.on_b + (a.rounding() - b.rounding()) * normal) / 2;
     return {radii - near.distance, normal, middle};

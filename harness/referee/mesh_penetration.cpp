@@ -1,4 +1,6 @@
+#include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "referee/convex_distance.hpp"
@@ -14,8 +16,13 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 // One triangle and a convex shape that cuts it or that it is near to, in the mesh's frame.
 class TrianglePair {
  public:
-  TrianglePair(const Shape::Triangle& triangle, const Shape& convex, const Pose& pose)
-      : triangle_(triangle_polytope(triangle)), convex_(convex), pose_(pose), front_(triangle_.faces[0].normal) {}
+  TrianglePair(const Shape::Triangle& triangle, const std::array<Vec3, 3>& neighbours, const Shape& convex,
+               const Pose& pose)
+      : triangle_(triangle_polytope(triangle)),
+        neighbours_(neighbours),
+        convex_(convex),
+        pose_(pose),
+        front_(triangle_.faces[0].normal) {}
 
   Penetration run() {
     const ConvexView view_triangle{nullptr, &triangle_, Pose{}}, view_convex{&convex_, nullptr, pose_};
@@ -23,7 +30,7 @@ class TrianglePair {
     const double radius = convex_.rounding();
     if (near.distance > 0) {
       const Vec3 normal = (near.on_b - near.on_a) / near.distance;
-      if (near.distance >= radius || in_front(normal))
+      if (near.distance >= radius || lets_go(normal))
         return {radius - near.distance, normal, (near.on_a + near.on_b - radius * normal) / 2};
     }
     offer(front_);
@@ -47,14 +54,29 @@ class TrianglePair {
   }
 
  private:
-  [[nodiscard]] bool in_front(const Vec3& direction) const { return direction.dot(front_) >= -1e-9; }
+  // Whether the mesh lets go along a direction: not through the back, and over an edge no further than the surface
+  // turns away there. So over an edge within flat ground, or in a valley, only the front counts.
+  [[nodiscard]] bool lets_go(const Vec3& direction) const {
+    constexpr double rounding = 1e-9;
+    const double up = direction.dot(front_);
+    if (up < -rounding) return false;
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (neighbours_[i].isZero()) continue;
+      const Vec3 beyond = (triangle_.corners[(i + 1) % 3] - triangle_.corners[i]).cross(front_).normalized();
+      const double over = direction.dot(beyond);
+      if (over <= rounding) continue;
+      const double turns = neighbours_[i].dot(beyond);  // above 0: the edge is a ridge
+      if (turns <= rounding || up * turns - over * neighbours_[i].dot(front_) < -rounding) return false;
+    }
+    return true;
+  }
 
-  // The translation of the convex shape along a direction that takes it off the triangle, if the front allows it.
+  // The translation of the convex shape along a direction that takes it off the triangle, if the mesh lets go.
   void offer(const Vec3& direction) {
     const double length = direction.norm();
     if (!(length > 1e-12 * triangle_.radius)) return;
     const Vec3 normal = direction / length;
-    if (!in_front(normal)) return;
+    if (!lets_go(normal)) return;
     const double reach = triangle_.corners[triangle_.support(normal)].dot(normal);
     const double depth = reach - (pose_ * convex_.support(-(pose_.rotation.transpose() * normal))).dot(normal);
     if (depth < best_depth_) best_depth_ = depth, best_normal_ = normal;
@@ -73,6 +95,7 @@ class TrianglePair {
   }
 
   Polytope triangle_;
+  const std::array<Vec3, 3>& neighbours_;
   const Shape& convex_;
   const Pose& pose_;
   Vec3 front_;
@@ -96,7 +119,7 @@ Penetration mesh_penetration(const Shape& mesh, const Shape& convex, const Pose&
       continue;
     }
     if (-at_least < deepest.depth) continue;
-    const Penetration one = TrianglePair(mesh.triangles()[i], convex, pose_convex).run();
+    const Penetration one = TrianglePair(mesh.triangles()[i], mesh.neighbour_normals()[i], convex, pose_convex).run();
     if (one.depth > deepest.depth) deepest = one;
   }
   return deepest;

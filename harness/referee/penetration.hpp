@@ -23,10 +23,10 @@ enum class Apart {
 ///    GJK (Gilbert, Johnson, Keerthi 1988) for the distance;
 ///  - cylinders: GJK, and an expanding polytope (van den Bergen 2001) whose depth is within 1e-9 of the size;
 ///  - a plane: the support point of the other;
-///  - a mesh or height field against a convex shape: triangle by triangle, the deepest counts. Triangles have a front:
-///  a
-///    translation that would push the other shape out through the back is not considered. Only what cuts the surface
-///    counts: a body that has passed through it entirely is apart;
+///  - a mesh or height field against a convex shape: triangle by triangle, the deepest counts. A triangle lets go along
+///    its front, the other shape's faces and edge pairs, but not through its back, nor over an edge further than the
+///    surface turns away there: flat ground answers as a plane, however it is cut. Only what cuts the surface counts: a
+///    body that has passed through it entirely is apart;
 ///  - compounds: the deepest pair of children.
 /// Pairs in which neither is convex (after taking compounds apart), and plane against plane, never touch: depth
 /// -infinity.

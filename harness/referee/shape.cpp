@@ -83,8 +83,14 @@ ShapePtr Shape::make(const PlumbShapeDesc& desc, std::span<const ShapePtr> child
       shape->half_height_ = desc.half_height;
       break;
     case PLUMB_CONVEX_HULL: shape->make_hull_core(desc); break;
-    case PLUMB_TRIANGLE_MESH: shape->make_mesh(desc); break;
-    case PLUMB_HEIGHT_FIELD: shape->make_height_field(desc); break;
+    case PLUMB_TRIANGLE_MESH:
+      shape->make_mesh(desc);
+      shape->find_neighbours();
+      break;
+    case PLUMB_HEIGHT_FIELD:
+      shape->make_height_field(desc);
+      shape->find_neighbours();
+      break;
     case PLUMB_PLANE: break;
     case PLUMB_COMPOUND:
       if (children.size() != desc.child_count || children.empty())
@@ -162,6 +168,30 @@ void Shape::make_height_field(const PlumbShapeDesc& desc) {
       triangles_.push_back({near, far, right});
       triangles_.push_back({right, far, across});
     }
+}
+
+void Shape::find_neighbours() {
+  using Place = std::array<double, 3>;
+  const auto place = [](const Vec3& p) { return Place{p.x(), p.y(), p.z()}; };
+  struct Across {
+    Vec3 normal;
+    int count = 0;
+  };
+  std::map<std::pair<Place, Place>, Across> across;
+  for (const Triangle& t : triangles_)
+    for (std::size_t e = 0; e < 3; ++e) {
+      Across& side = across[{place(t[e]), place(t[(e + 1) % 3])}];
+      side.normal = (t[1] - t[0]).cross(t[2] - t[0]).normalized();
+      ++side.count;
+    }
+  for (const Triangle& t : triangles_) {
+    std::array<Vec3, 3> normals = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+    for (std::size_t e = 0; e < 3; ++e)
+      if (const auto twin = across.find({place(t[(e + 1) % 3]), place(t[e])});
+          twin != across.end() && twin->second.count == 1)
+        normals[e] = twin->second.normal;
+    neighbour_normals_.push_back(normals);
+  }
 }
 
 Vec3 Shape::core_support(const Vec3& direction) const {

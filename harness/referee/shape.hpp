@@ -91,12 +91,16 @@ class Shape {
   [[nodiscard]] Aabb bounds(const Pose& pose) const;
   /// Local bounds of each triangle, in the order of triangles().
   [[nodiscard]] const std::vector<Aabb>& triangle_bounds() const { return triangle_bounds_; }
+  /// Of a mesh or a height field: for each triangle the unit normals of the triangles across its edges (corner i to
+  /// corner i + 1, found by equal positions), zero where there is none or more than one.
+  [[nodiscard]] const std::vector<std::array<Vec3, 3>>& neighbour_normals() const { return neighbour_normals_; }
 
  private:
   void make_box_core();
   void make_hull_core(const PlumbShapeDesc& desc);
   void make_mesh(const PlumbShapeDesc& desc);
   void make_height_field(const PlumbShapeDesc& desc);
+  void find_neighbours();
 
   PlumbShapeType type_ = PLUMB_SPHERE;
   double radius_ = 0;
@@ -105,6 +109,7 @@ class Shape {
   Polytope core_;
   std::vector<Triangle> triangles_;
   std::vector<Aabb> triangle_bounds_;
+  std::vector<std::array<Vec3, 3>> neighbour_normals_;
   std::vector<Child> children_;
 };
 
