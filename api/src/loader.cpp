@@ -171,6 +171,9 @@ const PlumbBackendTable* negotiate(PlumbOpenFunction open, const std::string& na
   reply.message[sizeof reply.message - 1] = '\0';
   if (result < 0)
     throw Error(result, reply.message[0] != '\0' ? reply.message : "backend " + name + " refused without saying why");
+  if (reply.struct_size != sizeof reply)
+    throw Error(PLUMB_E_VERSION, "backend " + name + " changed the reply's struct_size to " + std::to_string(reply.struct_size) +
+                                     ", which is the host's to set; its negotiation is broken");
   if (reply.version < oldest || reply.version > newest)
     throw Error(PLUMB_E_VERSION, "backend " + name + " answered with interface " + version_text(reply.version) +
                                      ", which this host did not offer (" + version_text(oldest) + " to " +

@@ -1,0 +1,32 @@
+# Compares the interface with the recorded one, after CHANGE was made to a copy of the headers: "FILE|FROM|TO", with @ for
+# a semicolon. EXPECTED: same or different.
+file(REMOVE_RECURSE ${WORK})
+file(MAKE_DIRECTORY ${WORK})
+file(COPY ${HEADERS}/plumb DESTINATION ${WORK})
+if(CHANGE)
+  string(REPLACE "|" ";" parts "${CHANGE}")
+  list(GET parts 0 file)
+  list(GET parts 1 from)
+  list(GET parts 2 to)
+  string(REPLACE "@" ";" from "${from}")
+  string(REPLACE "@" ";" to "${to}")
+  file(READ ${WORK}/plumb/${file} before)
+  string(REPLACE "${from}" "${to}" after "${before}")
+  if(after STREQUAL before)
+    message(FATAL_ERROR "${file} holds no \"${from}\" to change")
+  endif()
+  file(WRITE ${WORK}/plumb/${file} "${after}")
+endif()
+execute_process(COMMAND ${COMPILER} ${FLAGS} -I${WORK} ${SOURCE}/probe.c -o ${WORK}/probe.so COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND ${ABIDIFF} --no-added-syms --suppr ${SOURCE}/growing.suppr ${RECORDED} ${WORK}/probe.so
+                RESULT_VARIABLE result OUTPUT_VARIABLE text ERROR_VARIABLE text)
+# Bits of abidiff's exit status: 1 failed, 2 asked wrongly, 4 and 8 the interface differs.
+if(NOT result MATCHES "^(0|4|8|12)$")
+  message(FATAL_ERROR "abidiff failed with ${result}:\n${text}")
+endif()
+if(EXPECTED STREQUAL "same" AND NOT result EQUAL 0)
+  message(FATAL_ERROR "The interface has changed against ${RECORDED}. Members may only be appended to structs that may "
+                      "grow; when a new revision is being made, build the target abi_record.\n${text}")
+elseif(EXPECTED STREQUAL "different" AND result EQUAL 0)
+  message(FATAL_ERROR "abidiff does not see the change \"${CHANGE}\"")
+endif()
