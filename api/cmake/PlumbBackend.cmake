@@ -1,8 +1,10 @@
 # plumb_add_backend(NAME SOURCES...): a loadable backend plumb-NAME.so that exports plumb_backend_open and nothing else.
+# The global property PLUMB_BACKENDS lists all that were added so far.
 set(PLUMB_BACKEND_MAP "${CMAKE_CURRENT_LIST_DIR}/backend.map" CACHE INTERNAL "")
 function(plumb_add_backend name)
   set(target plumb-backend-${name})
   add_library(${target} MODULE ${ARGN})
+  set_property(GLOBAL APPEND PROPERTY PLUMB_BACKENDS ${name})
   target_link_libraries(${target} PRIVATE plumb::api)
   target_compile_features(${target} PRIVATE cxx_std_20)
   set_target_properties(${target} PROPERTIES PREFIX "" OUTPUT_NAME plumb-${name}

@@ -1,0 +1,323 @@
+// Random calls through a backend's table: most make sense, many do not. Nothing may crash, hang or leak; each failure has
+// a text; and a world that was given up is replaced.
+//
+// usage: fuzz_calls BACKEND CALLS [SEED]
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include "plumb/loader.hpp"
+
+namespace {
+
+class Fuzzer {
+ public:
+  Fuzzer(const plumb::Backend& backend, std::uint64_t seed) : table_(backend.table()), backend_(backend), random_(seed) {
+    joints_ = static_cast<const PlumbJointsTable*>(table_.extension(PLUMB_EXT_JOINTS));
+    queries_ = static_cast<const PlumbQueriesTable*>(table_.extension(PLUMB_EXT_QUERIES));
+    settings_ = static_cast<const PlumbSettingsTable*>(table_.extension(PLUMB_EXT_SETTINGS));
+    snapshot_ = static_cast<const PlumbSnapshotTable*>(table_.extension(PLUMB_EXT_SNAPSHOT));
+    collide_ = static_cast<const PlumbCollideTable*>(table_.extension(PLUMB_EXT_COLLIDE));
+    debug_ = static_cast<const PlumbDebugTable*>(table_.extension(PLUMB_EXT_DEBUG));
+    state_ = static_cast<const PlumbStateTable*>(table_.extension(PLUMB_EXT_STATE));
+    fresh_world();
+  }
+  ~Fuzzer() { table_.destroy_world(world_); }
+
+  /// Makes that many calls; false when a rule was broken.
+  bool run(std::uint64_t calls) {
+    for (std::uint64_t i = 0; i < calls && broken_ == nullptr; ++i) {
+      one_call();
+      if (i % 5000 == 4999) fresh_world();
+    }
+    if (broken_ != nullptr) std::fprintf(stderr, "rule broken: %s (last error text: %s)\n", broken_, table_.error_text(world_));
+    return broken_ == nullptr;
+  }
+  [[nodiscard]] std::uint64_t refused() const { return refused_; }
+  [[nodiscard]] std::uint64_t done() const { return done_; }
+  [[nodiscard]] std::uint64_t worlds_lost() const { return worlds_lost_; }
+
+ private:
+  std::uint32_t below(std::uint32_t n) { return static_cast<std::uint32_t>(random_() % n); }
+  bool chance(std::uint32_t one_in) { return below(one_in) == 0; }
+
+  double number() {
+    constexpr double odd[] = {0, -1, 1e-9, 1e9, 1e30, 1e300, -1e300, 5e-324};
+    if (chance(60)) return std::numeric_limits<double>::quiet_NaN();
+    if (chance(60)) return -std::numeric_limits<double>::infinity();
+    if (chance(40)) return odd[below(std::size(odd))];
+    return std::uniform_real_distribution<double>(-5, 5)(random_);
+  }
+  double positive() { return chance(30) ? number() : std::uniform_real_distribution<double>(0.2, 1)(random_); }
+  PlumbVec3 vector() { return {number(), number(), number()}; }
+  PlumbQuat unit() {
+    std::normal_distribution<double> normal;
+    PlumbQuat q{normal(random_), normal(random_), normal(random_), normal(random_)};
+    const double length = chance(50) ? 1 : std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
+    return {q.x / length, q.y / length, q.z / length, q.w / length};
+  }
+  PlumbPose pose() { return {vector(), unit()}; }
+  std::uint64_t handle(const std::vector<std::uint64_t>& pool) {
+    if (pool.empty() || chance(25)) return random_() >> below(64);
+    return pool[below(static_cast<std::uint32_t>(pool.size()))];
+  }
+  PlumbFilter filter() { return {1u << below(3), chance(3) ? below(8) : ~0u, static_cast<std::int32_t>(below(5)) - 2, 0}; }
+
+  /// What every result must obey. True when the call was done.
+  bool judge(PlumbResult result) {
+    if (result < PLUMB_E_DEVICE_LOST || result > PLUMB_COPIED) broken_ = "a result that plumb.h does not name";
+    if (result >= 0) return ++done_, true;
+    ++refused_;
+    if (*table_.error_text(world_) == '\0') broken_ = "a failure without a text";
+    if (result == PLUMB_E_WORLD_LOST || result == PLUMB_E_DEVICE_LOST) {
+      ++worlds_lost_;
+      fresh_world();
+    }
+    return false;
+  }
+
+  void fresh_world() {
+    table_.destroy_world(world_);
+    world_ = nullptr;
+    shapes_.clear();
+    bodies_.clear();
+    joint_ids_.clear();
+    PlumbWorldDesc desc = plumb::world_desc(0);
+    for (std::uint32_t i = 0; i < PLUMB_NEED_COUNT; ++i)
+      if (backend_.capability(PLUMB_CAP_NEED, i) != PLUMB_NONE) desc.needs |= PlumbNeeds{1} << i;
+    if (table_.create_world(&desc, &world_) < 0) broken_ = "a plain world cannot be made";
+  }
+
+  void create_shape() {
+    PlumbShapeDesc desc = plumb::shape_desc(below(PLUMB_SHAPE_TYPE_COUNT + 1));
+    desc.radius = positive();
+    desc.half_height = positive();
+    desc.half_extents = {positive(), positive(), positive()};
+    std::vector<double> vertices(3 * (3 + below(12)));
+    for (double& v : vertices) v = chance(400) ? number() : std::uniform_real_distribution<double>(-1, 1)(random_);
+    desc.vertices = chance(40) ? nullptr : vertices.data();
+    desc.vertex_count = static_cast<std::uint32_t>(vertices.size() / 3);
+    std::vector<std::uint32_t> indices(3 * (1 + below(8)));
+    for (std::uint32_t& index : indices) index = below(desc.vertex_count + (chance(50) ? 1 : 0));
+    desc.indices = indices.data();
+    desc.triangle_count = static_cast<std::uint32_t>(indices.size() / 3);
+    std::vector<double> heights(36);
+    for (double& h : heights) h = std::uniform_real_distribution<double>(-0.2, 0.2)(random_);
+    desc.heights = heights.data();
+    desc.rows = desc.columns = below(7);
+    desc.spacing = {positive(), 0, positive()};
+    std::vector<PlumbCompoundChild> children(below(4));
+    for (PlumbCompoundChild& child : children) child = {handle(shapes_), {vector(), unit()}, chance(4) ? 1u : 0u, 0, {0.5, 0, {0, 0, 0}}};
+    desc.children = children.data();
+    desc.child_count = static_cast<std::uint32_t>(children.size());
+    if (chance(60)) desc.struct_size = below(500);
+    PlumbShape id = 0;
+    if (judge(table_.create_shapes(world_, chance(200) ? nullptr : &desc, sizeof desc, 1, &id))) shapes_.push_back(id);
+  }
+
+  void create_bodies() {
+    PlumbBodyDesc descs[3];
+    const std::uint32_t count = 1 + below(3);
+    for (PlumbBodyDesc& desc : descs) {
+      desc = plumb::body_desc(below(PLUMB_MOTION_COUNT + (chance(40) ? 1 : 0)));
+      desc.shape = chance(6) ? 0 : handle(shapes_);
+      desc.pose = pose();
+      if (desc.motion != PLUMB_STATIC && chance(2)) desc.linear_velocity = vector();
+      desc.flags = chance(4) ? below(40) : 0;
+      desc.locks = chance(8) ? below(64) : 0;
+      desc.mass_mode = below(3 + (chance(40) ? 1 : 0));
+      desc.mass = positive();
+      desc.density = 100 * positive();
+      desc.inertia = {positive(), positive(), positive()};
+      desc.material = {positive(), chance(4) ? positive() : 0, {0, 0, 0}};
+      desc.linear_damping = chance(5) ? positive() : 0;
+      if (chance(5)) desc.filter = filter();
+    }
+    PlumbBody ids[3];
+    if (judge(table_.create_bodies(world_, descs, chance(100) ? 8 : sizeof(PlumbBodyDesc), count, ids)))
+      bodies_.insert(bodies_.end(), ids, ids + count);
+  }
+
+  void create_joint() {
+    if (joints_ == nullptr) return;
+    PlumbJointDesc desc = plumb::joint_desc(below(PLUMB_JOINT_TYPE_COUNT));
+    desc.body_a = chance(3) ? 0 : handle(bodies_);
+    desc.body_b = handle(bodies_);
+    desc.frame_a = {vector(), unit()};
+    desc.frame_b = {vector(), unit()};
+    desc.collide_connected = below(2);
+    for (std::size_t axis = 0; axis < 6; ++axis) {
+      desc.axis_modes[axis] = below(3);
+      desc.limits[axis] = {-positive(), positive(), chance(4) ? 1u : 0u, 0};
+      desc.motors[axis] = {number(), positive(), chance(6) ? 1u : 0u, 0};
+      desc.springs[axis] = {0, positive(), positive(), chance(8) ? 1u : 0u, 0};
+    }
+    desc.rest_length = positive();
+    desc.break_force = chance(4) ? 1000 * positive() : 0;
+    PlumbJoint id = 0;
+    if (judge(joints_->create(world_, &desc, sizeof desc, 1, &id))) joint_ids_.push_back(id);
+  }
+
+  void write_row() {
+    const PlumbField field = below(PLUMB_FIELD_COUNT + (chance(30) ? 5 : 0));
+    double row[12];
+    for (double& value : row) value = number();
+    if (field == PLUMB_FIELD_POSE || field == PLUMB_FIELD_KINEMATIC_TARGET) {
+      const PlumbQuat q = unit();
+      row[3] = q.x, row[4] = q.y, row[5] = q.z, row[6] = q.w;
+    }
+    const PlumbBody id = handle(bodies_);
+    judge(table_.write(world_, field, PLUMB_F64, &id, 1, chance(100) ? nullptr : row, chance(50) ? 3 : sizeof row));
+  }
+
+  void read_rows() {
+    std::vector<double> rows(12 * 80);
+    const PlumbBody id = handle(bodies_);
+    const bool all = chance(2);
+    const auto count = all ? std::min<std::uint32_t>(static_cast<std::uint32_t>(bodies_.size()), 80) : 1;
+    judge(table_.read(world_, below(PLUMB_FIELD_COUNT), 1 + below(2 + (chance(40) ? 1 : 0)), all ? nullptr : &id, count, rows.data(), 12 * sizeof(double)));
+  }
+
+  void outputs() {
+    PlumbContact contacts[8];
+    PlumbEvent events[8];
+    PlumbBody ids[8];
+    std::uint32_t count = 0;
+    std::uint64_t value = 0;
+    judge(table_.contacts(world_, contacts, sizeof contacts[0], below(9), &count));
+    judge(table_.events(world_, events, sizeof events[0], below(9), &count));
+    judge(table_.list_bodies(world_, ids, below(9), &count));
+    judge(table_.user_data(world_, handle(bodies_), &value));
+    if (snapshot_ != nullptr) judge(snapshot_->hash(world_, &value));
+    if (debug_ != nullptr) {
+      PlumbDebugPair pairs[8];
+      PlumbDebugBox boxes[8];
+      judge(debug_->pairs(world_, pairs, below(9), &count));
+      judge(debug_->boxes(world_, boxes, below(9), &count));
+    }
+  }
+
+  void query() {
+    if (queries_ == nullptr) return;
+    PlumbHit hits[16];
+    std::uint32_t count = 0;
+    const PlumbRay rays[2] = {{vector(), vector(), filter()}, {vector(), vector(), filter()}};
+    const PlumbCast cast = {handle(shapes_), pose(), vector(), filter()};
+    const PlumbOverlap overlap = {handle(shapes_), pose(), filter()};
+    judge(queries_->rays(world_, below(2), rays, sizeof rays[0], 2, hits, below(17), &count));
+    judge(queries_->casts(world_, below(2), &cast, sizeof cast, 1, hits, below(17), &count));
+    judge(queries_->overlaps(world_, &overlap, sizeof overlap, 1, hits, below(17), &count));
+    if (collide_ != nullptr) {
+      const PlumbPosedPair pair = {handle(shapes_), handle(shapes_), pose(), pose()};
+      PlumbPairResult result{};
+      PlumbPairPoint points[8];
+      judge(collide_->pairs(world_, &pair, sizeof pair, 1, &result, points, below(9), &count));
+    }
+  }
+
+  void change_setting() {
+    if (settings_ == nullptr || settings_->count == 0) return;
+    const PlumbSettingInfo& info = *settings_->describe(below(settings_->count));
+    PlumbSettingValue value = info.default_value;
+    if (info.type == PLUMB_SETTING_CHOICE && info.choice_count != 0) value.choice = chance(20) ? "nonsense" : info.choices[below(info.choice_count)];
+    if (info.type != PLUMB_SETTING_CHOICE && chance(10)) value.number = number();
+    judge(settings_->set(world_, chance(50) ? "no_such_setting" : info.name, &value));
+  }
+
+  void save_and_restore() {
+    if (snapshot_ == nullptr) return;
+    std::vector<std::byte> data(4096);
+    std::size_t size = 0;
+    PlumbResult result = snapshot_->save(world_, data.data(), data.size(), &size);
+    if (result == PLUMB_TRUNCATED) {
+      data.resize(size);
+      result = snapshot_->save(world_, data.data(), data.size(), &size);
+    }
+    if (!judge(result)) return;
+    if (chance(2)) data[below(static_cast<std::uint32_t>(size))] ^= std::byte{0x40};
+    judge(snapshot_->restore(world_, data.data(), chance(4) ? size / 2 : size));
+  }
+
+  void borrow() {
+    if (state_ == nullptr) return;
+    const PlumbStateRequest request = {sizeof request, below(3), 1 + static_cast<std::int32_t>(below(2)), below(2)};
+    PlumbDLManagedTensor* tensor = nullptr;
+    if (judge(state_->borrow(world_, &request, &tensor, nullptr))) tensor->deleter(tensor);
+  }
+
+  void destroy_some() {
+    const PlumbBody body = handle(bodies_);
+    const PlumbShape shape = handle(shapes_);
+    if (joints_ != nullptr && chance(2)) {
+      const PlumbJoint joint = handle(joint_ids_);
+      if (judge(joints_->destroy(world_, &joint, 1))) std::erase(joint_ids_, joint);
+    }
+    if (judge(table_.destroy_bodies(world_, &body, 1))) std::erase(bodies_, body);
+    if (chance(3) && judge(table_.destroy_shapes(world_, &shape, 1))) std::erase(shapes_, shape);
+  }
+
+  void step() {
+    const PlumbStepDesc desc = {sizeof desc, 0, chance(50) ? number() : 1.0 / 60};
+    PlumbStepReport report{};
+    report.struct_size = chance(20) ? below(sizeof report) : sizeof report;
+    if (judge(table_.step(world_, chance(200) ? nullptr : &desc))) judge(table_.wait(world_, &report));
+  }
+
+  void one_call() {
+    const bool full = bodies_.size() > 40;
+    switch (below(16)) {
+      case 0: return shapes_.size() < 30 ? create_shape() : destroy_some();
+      case 1:
+      case 2: return full ? destroy_some() : create_bodies();
+      case 3: return joint_ids_.size() < 20 ? create_joint() : destroy_some();
+      case 4:
+      case 5: return write_row();
+      case 6: return read_rows();
+      case 7: return outputs();
+      case 8: return query();
+      case 9: return change_setting();
+      case 10: return chance(10) ? save_and_restore() : step();
+      case 11: return borrow();
+      case 12: return destroy_some();
+      default: return step();
+    }
+  }
+
+  const PlumbBackendTable& table_;
+  const plumb::Backend& backend_;
+  std::mt19937_64 random_;
+  PlumbWorld* world_ = nullptr;
+  const PlumbJointsTable* joints_ = nullptr;
+  const PlumbQueriesTable* queries_ = nullptr;
+  const PlumbSettingsTable* settings_ = nullptr;
+  const PlumbSnapshotTable* snapshot_ = nullptr;
+  const PlumbCollideTable* collide_ = nullptr;
+  const PlumbDebugTable* debug_ = nullptr;
+  const PlumbStateTable* state_ = nullptr;
+  std::vector<std::uint64_t> shapes_, bodies_, joint_ids_;
+  std::uint64_t refused_ = 0, done_ = 0, worlds_lost_ = 0;
+  const char* broken_ = nullptr;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 3) {
+    std::fprintf(stderr, "usage: fuzz_calls BACKEND CALLS [SEED]\n");
+    return 2;
+  }
+  try {
+    const plumb::Backend backend = plumb::open_backend(argv[1]);
+    Fuzzer fuzzer(backend, argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 1);
+    const bool kept = fuzzer.run(std::strtoull(argv[2], nullptr, 10));
+    std::printf("%llu calls done, %llu refused, %llu worlds lost\n", static_cast<unsigned long long>(fuzzer.done()),
+                static_cast<unsigned long long>(fuzzer.refused()), static_cast<unsigned long long>(fuzzer.worlds_lost()));
+    return kept ? 0 : 1;
+  } catch (const plumb::Error& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 2;
+  }
+}
