@@ -30,6 +30,11 @@ LeverImpact lever_impact(double mass, double inertia, double lever, double speed
   return {-speed + impulse / mass, impulse * lever / inertia};
 }
 
+StickingImpact sticking_impact(double mass, double inertia, double lever, double height, double speed) {
+  const double spin = mass * speed * lever / (inertia + mass * (lever * lever + height * height));
+  return {spin * height, -spin * lever, spin};
+}
+
 Eigen::Vector3d reflect(const Eigen::Vector3d& velocity, const Eigen::Vector3d& n, double restitution) {
   return velocity - (1 + restitution) * velocity.dot(n) * n;
 }

@@ -34,6 +34,13 @@ struct LeverImpact {
 };
 [[nodiscard]] LeverImpact lever_impact(double mass, double inertia, double lever, double speed, double restitution);
 
+/// The same, but the point sticks where it lands and the body turns about it, without rebound: the angular momentum about
+/// the point is kept. height: of the centre above the point.
+struct StickingImpact {
+  double sideways, vertical, spin;
+};
+[[nodiscard]] StickingImpact sticking_impact(double mass, double inertia, double lever, double height, double speed);
+
 /// Velocity after a sphere strikes something immovable whose surface normal is n.
 [[nodiscard]] Eigen::Vector3d reflect(const Eigen::Vector3d& velocity, const Eigen::Vector3d& n, double restitution);
 

@@ -70,6 +70,13 @@ TEST(Impact, CubeOnEdgeAndVertex) {
   EXPECT_NEAR(lever_impact(1, 1.0 / 6, vertex, 5, .5).velocity, .80880476, digits);
 }
 
+TEST(Impact, CubeOnAStickingEdge) {
+  const StickingImpact stuck = sticking_impact(1, 1.0 / 6, .18301270, std::sqrt(.5) * std::cos(15 * degree), 5);
+  EXPECT_NEAR(stuck.spin, 1.37259526, 3e-8);
+  EXPECT_NEAR(stuck.sideways, .9375, 3e-8);
+  EXPECT_NEAR(stuck.vertical, -.25120237, 3e-8);
+}
+
 TEST(Impact, SphereOnEdgeAndCorner) {
   const Eigen::Vector3d edge = reflect({0, -5, 0}, {std::sin(30 * degree), std::cos(30 * degree), 0}, 1);
   EXPECT_NEAR(edge.x(), 4.33012702, digits);
