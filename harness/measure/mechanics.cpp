@@ -3,7 +3,6 @@
 #include <cmath>
 
 namespace plumb::harness {
-namespace {
 
 referee::ShapePtr shape_of(const Scene& scene, std::size_t index) {
   const SceneShape& shape = scene.shapes[index];
@@ -21,8 +20,6 @@ referee::ShapePtr shape_of(const Scene& scene, std::size_t index) {
   desc.child_count = static_cast<std::uint32_t>(rows.size());
   return referee::Shape::make(desc, children);
 }
-
-}  // namespace
 
 referee::Mass mass_of_body(const Scene& scene, std::size_t body) {
   const SceneBody& described = scene.bodies[body];

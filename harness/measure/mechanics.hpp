@@ -6,6 +6,9 @@
 
 namespace plumb::harness {
 
+/// A shape of the scene, by index, as the referee sees it.
+[[nodiscard]] referee::ShapePtr shape_of(const Scene& scene, std::size_t index);
+
 /// Mass properties of a body as its scene describes them, by the referee's own formulas.
 [[nodiscard]] referee::Mass mass_of_body(const Scene& scene, std::size_t body);
 
