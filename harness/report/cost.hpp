@@ -15,7 +15,7 @@ inline constexpr std::array<double, 3> target_errors{0.1, 0.01, 0.001};
 /// A cell that reaches an error, and at which price.
 struct Reached {
   const ResultRow* row;
-  double ms;     ///< wall time per simulated second
+  double ms;  ///< wall time per simulated second
   double error;
 };
 

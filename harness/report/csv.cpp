@@ -10,8 +10,8 @@ namespace {
 
 std::string number_field(const std::optional<double>& value) { return value ? shortest_number(*value) : ""; }
 
-std::string json_field(const nlohmann::json& value) {
-  return csv_field(value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+std::string json_field(const Json& value) {
+  return csv_field(value.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
 std::string truth_field(const std::optional<bool>& value) { return value ? *value ? "true" : "false" : ""; }
@@ -37,21 +37,22 @@ std::string csv_field(std::string_view text) {
   return quoted + '"';
 }
 
-void write_csv(std::ostream& out, const std::vector<nlohmann::json>& rows) {
+void write_csv(std::ostream& out, const std::vector<Json>& rows) {
   out << header;
   for (const ResultRow& row : parse_rows(rows)) {
     std::string head, tail;
     const auto add = [](std::string& line, const std::string& field) { line += field + ","; };
-    for (const std::string& text : {row.scene, row.group, row.variant(), row.backend, row.backend_version, row.profile}) {
+    for (const std::string& text :
+         {row.scene, row.group, row.variant(), row.backend, row.backend_version, row.profile}) {
       add(head, csv_field(text));
     }
     for (const auto& value : {row.dt, row.seconds, row.threads}) add(head, number_field(value));
     for (const std::string& text : {row.status, std::string(verdict_word(row.verdict())), row.reason}) {
       add(head, csv_field(text));
     }
-    for (const auto& value : {row.median_ms, row.min_ms, row.max_ms, row.p99_ms, row.ms_per_simulated_second(),
-                              row.steps, row.setup_ms, row.bodies, row.contacts_max, row.dropped, row.nonfinite,
-                              row.peak_mb}) {
+    for (const auto& value :
+         {row.median_ms, row.min_ms, row.max_ms, row.p99_ms, row.ms_per_simulated_second(), row.steps, row.setup_ms,
+          row.bodies, row.contacts_max, row.dropped, row.nonfinite, row.peak_mb}) {
       add(tail, number_field(value));
     }
     add(tail, csv_field(row.hash));
@@ -64,8 +65,8 @@ void write_csv(std::ostream& out, const std::vector<nlohmann::json>& rows) {
           << number_field(metric.truth) << ',' << number_field(metric.error) << ','
           << number_field(metric.unbiased_error) << ',' << number_field(metric.threshold) << ','
           << number_field(metric.gold) << ',' << truth_field(metric.pass) << ','
-          << truth_field(metric.scored() ? std::optional(metric.is_gold) : std::nullopt) << ',' << csv_field(metric.note)
-          << ',' << tail;
+          << truth_field(metric.scored() ? std::optional(metric.is_gold) : std::nullopt) << ','
+          << csv_field(metric.note) << ',' << tail;
     }
     if (row.metrics.empty()) out << head << std::string(11, ',') << tail;
   }

@@ -24,9 +24,11 @@ std::string tidy_exponent(std::string text) {
 std::size_t code_point_bytes(std::string_view text, std::size_t at) {
   const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(text[i]); };
   const std::uint8_t lead = byte(at);
-  const std::size_t bytes = lead < 0x80 ? 1 : lead >= 0xC2 && lead < 0xE0 ? 2 : lead >= 0xE0 && lead < 0xF0 ? 3
-                                          : lead >= 0xF0 && lead < 0xF5   ? 4
-                                                                          : 0;
+  const std::size_t bytes = lead < 0x80                   ? 1
+                            : lead >= 0xC2 && lead < 0xE0 ? 2
+                            : lead >= 0xE0 && lead < 0xF0 ? 3
+                            : lead >= 0xF0 && lead < 0xF5 ? 4
+                                                          : 0;
   if (bytes == 0 || at + bytes > text.size()) return 0;
   for (std::size_t i = 1; i < bytes; ++i) {
     if ((byte(at + i) & 0xC0) != 0x80) return 0;
@@ -53,6 +55,14 @@ std::string short_number(double value, int digits) {
 
 std::string short_number(std::optional<double> value, int digits) {
   return value ? short_number(*value, digits) : std::string(no_value);
+}
+
+std::string limit_text(double value) {
+  std::string text = short_number(value);
+  if (text.find('e') != std::string::npos || text.find('.') == std::string::npos) return text;
+  while (text.back() == '0') text.pop_back();
+  if (text.back() == '.') text.pop_back();
+  return text;
 }
 
 std::string shortest_number(double value) {

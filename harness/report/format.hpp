@@ -9,9 +9,13 @@ namespace plumb::harness {
 
 inline constexpr std::string_view no_value = "\u2013";  ///< an en dash: nothing to show
 
-/// `digits` significant digits without trailing noise: 0.0123, 4.52, 1,240 is 1240, 3.1e-5. Not finite: "nan", "inf", "-inf".
+/// `digits` significant digits without trailing noise: 0.0123, 4.52, 1,240 is 1240, 3.1e-5. Not finite: "nan", "inf",
+/// "-inf".
 [[nodiscard]] std::string short_number(double value, int digits = 3);
 [[nodiscard]] std::string short_number(std::optional<double> value, int digits = 3);
+
+/// A number that somebody chose, such as a threshold: 0.01, not 0.0100.
+[[nodiscard]] std::string limit_text(double value);
 
 /// The fewest digits that read back as the same double.
 [[nodiscard]] std::string shortest_number(double value);

@@ -44,10 +44,12 @@ void write_matrix(std::ostream& out, const Study& study) {
 }
 
 void write_costs(std::ostream& out, const Study& study, const std::vector<CostLine>& costs) {
-  out << "\n## What accuracy costs\n\nMilliseconds per simulated second of the cheapest cell that reaches the error.\n\n";
+  out << "\n## What accuracy costs\n\nMilliseconds per simulated second of the cheapest cell that reaches the "
+         "error.\n\n";
   write_header(out, {"scene, metric", "backend", "10 %", "1 %", "0.1 %", "floor", "settings at the floor"}, "llrrrrl");
   for (const CostLine& line : costs) {
-    out << "| " << markdown_text(line.problem->title() + " " + line.metric) << " | " << markdown_text(line.backend) << " |";
+    out << "| " << markdown_text(line.problem->title() + " " + line.metric) << " | " << markdown_text(line.backend)
+        << " |";
     for (const auto& reached : line.at) {
       out << ' ' << (reached ? short_number(reached->ms) : line.floor ? "never" : std::string(no_value)) << " |";
     }
@@ -89,7 +91,17 @@ std::string markdown_text(std::string_view text) {
       case '&': out += "&amp;"; break;
       case '<': out += "&lt;"; break;
       case '>': out += "&gt;"; break;
-      case '\\': case '|': case '`': case '*': case '_': case '[': case ']': case '~': case '#': case '!': case '$':
+      case '\\':
+      case '|':
+      case '`':
+      case '*':
+      case '_':
+      case '[':
+      case ']':
+      case '~':
+      case '#':
+      case '!':
+      case '$':
         out += '\\';
         out += c;
         break;
@@ -100,7 +112,7 @@ std::string markdown_text(std::string_view text) {
   return out;
 }
 
-void write_markdown(std::ostream& out, const std::vector<nlohmann::json>& rows) {
+void write_markdown(std::ostream& out, const std::vector<Json>& rows) {
   const Study study(parse_rows(rows));
   out << "# Plumb report\n\n";
   out << markdown_text(describe_study(study)) << "\n\n";

@@ -33,24 +33,32 @@ std::string failure_text(const ResultRow& row) {
   const MetricResult* worst = row.worst();
   if (!worst || !worst->badness()) return title(row);
   if (!worst->error) return fmt::format("{} ({} not finite)", title(row), worst->name);
-  if (!worst->threshold || *worst->threshold <= 0) return fmt::format("{} ({} {})", title(row), worst->name, short_number(worst->error));
+  if (!worst->threshold || *worst->threshold <= 0)
+    return fmt::format("{} ({} {})", title(row), worst->name, short_number(worst->error));
   return fmt::format("{} ({} at {} its threshold)", title(row), worst->name, ratio_text(*worst->badness()));
 }
 
-/// Groups by the share of their problems that the backend passes; those it cannot run are left out.
+/// Groups in which the backend passes the largest and the smallest share of the problems that it can run.
 void find_groups(BackendOverview& overview, const std::map<std::string, std::pair<int, int>>& passed_of) {
-  double best = -1, worst = 2;
+  struct Share {
+    double share;
+    int problems;
+    std::string text;
+  };
+  std::vector<Share> shares;
   for (const auto& [group, count] : passed_of) {
-    const double share = double(count.first) / count.second;
-    best = std::max(best, share);
-    worst = std::min(worst, share);
+    shares.push_back({double(count.first) / count.second, count.second,
+                      fmt::format("{} ({} of {})", group.empty() ? "other" : group, count.first, count.second)});
   }
-  if (best <= worst) return;
-  for (const auto& [group, count] : passed_of) {
-    const double share = double(count.first) / count.second;
-    const std::string text = fmt::format("{} ({} of {})", group.empty() ? "other" : group, count.first, count.second);
-    if (share == best) overview.best_groups.push_back(text);
-    if (share == worst) overview.worst_groups.push_back(text);
+  // Of equal shares the one that rests on more problems says more.
+  std::stable_sort(shares.begin(), shares.end(), [](const Share& a, const Share& b) {
+    return a.share != b.share ? a.share > b.share : a.problems > b.problems;
+  });
+  if (shares.empty() || shares.front().share <= shares.back().share) return;
+  const double best = shares.front().share, worst = shares.back().share;
+  for (const Share& share : shares) {
+    if (share.share == best && overview.best_groups.size() < examples) overview.best_groups.push_back(share.text);
+    if (share.share == worst && overview.worst_groups.size() < examples) overview.worst_groups.push_back(share.text);
   }
 }
 
@@ -162,15 +170,15 @@ std::string describe_study(const Study& study) {
   }
   std::vector<std::string> dts(steps.begin(), steps.end());
   std::sort(dts.begin(), dts.end(), natural_less);
-  std::string out = fmt::format("{} on {} ({} with their variants), {}.",
-                                plural(study.backends.size(), "backend", "backends"),
-                                plural(scenes.size(), "scene", "scenes"), study.problems.size(),
-                                plural(study.rows.size(), "cell", "cells"));
+  std::string out = fmt::format(
+      "{} on {} ({} with their variants), {}.", plural(study.backends.size(), "backend", "backends"),
+      plural(scenes.size(), "scene", "scenes"), study.problems.size(), plural(study.rows.size(), "cell", "cells"));
   if (!profiles.empty()) out += fmt::format(" Profile {}.", fmt::join(profiles, ", "));
   if (!dts.empty()) {
     constexpr std::size_t most = 8;
     const std::size_t shown = std::min(most, dts.size());
-    out += fmt::format(" Time step {} s{}.", fmt::join(dts.begin(), dts.begin() + static_cast<std::ptrdiff_t>(shown), ", "),
+    out += fmt::format(" Time step {} s{}.",
+                       fmt::join(dts.begin(), dts.begin() + static_cast<std::ptrdiff_t>(shown), ", "),
                        dts.size() > shown ? " and others" : "");
   }
   return out;

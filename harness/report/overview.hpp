@@ -15,12 +15,12 @@ struct BackendOverview {
   std::string backend, version;
   std::array<int, verdict_count> counts{};  ///< by Verdict
   int problems = 0;
-  int cost_lines = 0;                                       ///< (problem, metric) pairs that it ran
-  std::array<int, target_errors.size()> reached{};          ///< of those, by target
-  std::array<int, target_errors.size()> cheapest{};         ///< reached where nobody else does so for less
-  std::vector<std::string> best_groups, worst_groups;       ///< by share of problems passed; empty when all are alike
-  std::vector<const ResultRow*> failures;                   ///< failed, the farthest from its threshold first
-  std::vector<const ResultRow*> broken;                     ///< crashed, timed out, out of memory, errors
+  int cost_lines = 0;                                  ///< (problem, metric) pairs that it ran
+  std::array<int, target_errors.size()> reached{};     ///< of those, by target
+  std::array<int, target_errors.size()> cheapest{};    ///< reached where nobody else does so for less
+  std::vector<std::string> best_groups, worst_groups;  ///< by share of problems passed; empty when all are alike
+  std::vector<const ResultRow*> failures;              ///< failed, the farthest from its threshold first
+  std::vector<const ResultRow*> broken;                ///< crashed, timed out, out of memory, errors
 
   [[nodiscard]] int count(Verdict verdict) const { return counts[static_cast<std::size_t>(verdict)]; }
 };

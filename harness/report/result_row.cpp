@@ -10,34 +10,32 @@
 namespace plumb::harness {
 namespace {
 
-using nlohmann::json;
-
 constexpr std::array<std::string_view, verdict_count> verdict_words{
     "gold", "pass", "ran", "failed", "unsupported", "crashed", "timeout", "out_of_memory", "error"};
 
-const json& member(const json& object, const char* key) {
-  static const json none;
+const Json& member(const Json& object, const char* key) {
+  static const Json none;
   if (!object.is_object()) return none;
   const auto found = object.find(key);
   return found == object.end() ? none : *found;
 }
 
-std::string text(const json& object, const char* key) {
-  const json& value = member(object, key);
+std::string text(const Json& object, const char* key) {
+  const Json& value = member(object, key);
   return value.is_string() ? value.get<std::string>() : value.is_null() ? std::string() : value_text(value);
 }
 
-std::optional<double> as_number(const json& value) {
+std::optional<double> as_number(const Json& value) {
   if (!value.is_number()) return std::nullopt;
   const double number = value.get<double>();
   return std::isfinite(number) ? std::optional(number) : std::nullopt;
 }
 
-std::optional<double> number(const json& object, const char* key) { return as_number(member(object, key)); }
+std::optional<double> number(const Json& object, const char* key) { return as_number(member(object, key)); }
 
-json object_or_empty(const json& value) { return value.is_object() ? value : json::object(); }
+Json object_or_empty(const Json& value) { return value.is_object() ? value : Json::object(); }
 
-MetricResult parse_metric(const std::string& name, const json& from) {
+MetricResult parse_metric(const std::string& name, const Json& from) {
   MetricResult metric;
   metric.name = name;
   metric.unit = text(from, "unit");
@@ -48,10 +46,10 @@ MetricResult parse_metric(const std::string& name, const json& from) {
   metric.unbiased_error = number(from, "unbiased_error");
   metric.threshold = number(from, "threshold");
   metric.gold = number(from, "gold");
-  if (const json& pass = member(from, "pass"); pass.is_boolean()) metric.pass = pass.get<bool>();
+  if (const Json& pass = member(from, "pass"); pass.is_boolean()) metric.pass = pass.get<bool>();
   // A scored error that is not finite misses whatever it is held against.
   if (!metric.pass && metric.threshold) metric.pass = metric.error && *metric.error <= *metric.threshold;
-  if (const json& gold = member(from, "gold"); gold.is_boolean()) metric.is_gold = gold.get<bool>();
+  if (const Json& gold = member(from, "gold"); gold.is_boolean()) metric.is_gold = gold.get<bool>();
   if (metric.gold) metric.is_gold = metric.error && *metric.error <= *metric.gold;
   return metric;
 }
@@ -121,7 +119,7 @@ std::string ResultRow::variant() const {
   return out;
 }
 
-ResultRow parse_row(const json& line, std::size_t index) {
+ResultRow parse_row(const Json& line, std::size_t index) {
   ResultRow row;
   row.index = index;
   row.scene = text(line, "scene");
@@ -138,27 +136,27 @@ ResultRow parse_row(const json& line, std::size_t index) {
   row.dt = number(line, "dt");
   row.seconds = number(line, "seconds");
   row.threads = number(line, "threads");
-  if (const json& metrics = member(line, "metrics"); metrics.is_object()) {
+  if (const Json& metrics = member(line, "metrics"); metrics.is_object()) {
     for (const auto& [name, metric] : metrics.items()) row.metrics.push_back(parse_metric(name, metric));
   }
-  const json& time = member(line, "time");
-  const json& per_step = member(time, "ms_per_step");
+  const Json& time = member(line, "time");
+  const Json& per_step = member(time, "ms_per_step");
   row.median_ms = number(per_step, "median");
   row.min_ms = number(per_step, "min");
   row.max_ms = number(per_step, "max");
   row.p99_ms = number(per_step, "p99");
-  if (const json& window = member(time, "window"); window.is_array() && window.size() == 2) {
+  if (const Json& window = member(time, "window"); window.is_array() && window.size() == 2) {
     row.window_first = as_number(window[0]);
     row.window_last = as_number(window[1]);
   }
   row.steps = number(time, "steps");
   row.setup_ms = number(time, "setup_ms");
-  if (const json& phases = member(time, "phase_ms"); phases.is_object()) {
+  if (const Json& phases = member(time, "phase_ms"); phases.is_object()) {
     for (const auto& [name, ms] : phases.items()) {
       if (const auto value = as_number(ms)) row.phase_ms.emplace_back(name, *value);
     }
   }
-  const json& counts = member(line, "counts");
+  const Json& counts = member(line, "counts");
   row.bodies = number(counts, "bodies");
   row.contacts_max = number(counts, "contacts_max");
   row.dropped = number(counts, "dropped");
@@ -171,10 +169,10 @@ ResultRow parse_row(const json& line, std::size_t index) {
   return row;
 }
 
-std::vector<ResultRow> parse_rows(const std::vector<json>& lines) {
+std::vector<ResultRow> parse_rows(const std::vector<Json>& lines) {
   std::vector<ResultRow> rows;
   rows.reserve(lines.size());
-  for (const json& line : lines) rows.push_back(parse_row(line, rows.size()));
+  for (const Json& line : lines) rows.push_back(parse_row(line, rows.size()));
   return rows;
 }
 
@@ -201,10 +199,10 @@ bool natural_less(std::string_view a, std::string_view b) {
   return a < b;  // "01" and "1" read alike, yet are two names
 }
 
-std::string value_text(const json& value) {
+std::string value_text(const Json& value) {
   if (value.is_string()) return value.get<std::string>();
   if (value.is_number_float()) return shortest_number(value.get<double>());
-  return value.dump(-1, ' ', false, json::error_handler_t::replace);
+  return value.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace plumb::harness

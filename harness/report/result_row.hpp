@@ -2,12 +2,13 @@
 #pragma once
 
 #include <cstdint>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
+
+#include "run/json.hpp"
 
 namespace plumb::harness {
 
@@ -35,7 +36,7 @@ struct MetricResult {
 struct ResultRow {
   std::size_t index = 0;  ///< in the order of the file; names the row on the page
   std::string scene, group, backend, backend_version, profile, status, reason, hash;
-  nlohmann::json params, settings, machine;  ///< always objects
+  Json params, settings, machine;  ///< always objects
   std::optional<double> dt, seconds, threads;
   std::vector<MetricResult> metrics;  ///< in the order of the line
 
@@ -57,13 +58,13 @@ struct ResultRow {
 };
 
 /// Never throws on wrong types inside; anything but an object gives an empty row with status "error".
-[[nodiscard]] ResultRow parse_row(const nlohmann::json& line, std::size_t index);
-[[nodiscard]] std::vector<ResultRow> parse_rows(const std::vector<nlohmann::json>& lines);
+[[nodiscard]] ResultRow parse_row(const Json& line, std::size_t index);
+[[nodiscard]] std::vector<ResultRow> parse_rows(const std::vector<Json>& lines);
 
 /// Order for people: A2 before A10, then by the rest of the text.
 [[nodiscard]] bool natural_less(std::string_view a, std::string_view b);
 
 /// A parameter's or setting's value as text: 50, 0.5, true, implicit.
-[[nodiscard]] std::string value_text(const nlohmann::json& value);
+[[nodiscard]] std::string value_text(const Json& value);
 
 }  // namespace plumb::harness

@@ -10,17 +10,15 @@
 namespace plumb::harness {
 namespace {
 
-using nlohmann::json;
-
 /// What makes two rows the same cell: all that was asked for, and the machine that answered.
-std::string cell_key(const json& row) {
-  json key = json::array();
+std::string cell_key(const Json& row) {
+  Json key = Json::array();
   for (const char* name : {"scene", "params", "backend", "backend_version", "settings", "profile", "dt", "seconds",
                            "threads", "machine"}) {
     const auto found = row.find(name);
-    key.push_back(found == row.end() ? json() : *found);
+    key.push_back(found == row.end() ? Json() : *found);
   }
-  return key.dump(-1, ' ', false, json::error_handler_t::replace);
+  return key.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace
@@ -32,7 +30,7 @@ Results read_results(std::istream& in) {
   for (std::size_t number = 1; std::getline(in, line); ++number) {
     const bool torn = in.eof();  // no newline ended it
     if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
-    json row = json::parse(line, nullptr, false);
+    Json row = Json::parse(line, nullptr, false);
     if (!row.is_object()) {
       if (!torn) results.unreadable_lines.push_back(number);
       continue;
@@ -51,7 +49,8 @@ Results read_results(const std::filesystem::path& where) {
   const std::filesystem::path file = std::filesystem::is_directory(where) ? where / "results.jsonl" : where;
   std::ifstream in(file, std::ios::binary);
   if (!in) {
-    throw UsageError("cannot read " + file.string() + "; name a folder that `plumb run --out` or `plumb compare` wrote");
+    throw UsageError("cannot read " + file.string() +
+                     "; name a folder that `plumb run --out` or `plumb compare` wrote");
   }
   return read_results(in);
 }

@@ -3,13 +3,14 @@
 
 #include <filesystem>
 #include <iosfwd>
-#include <nlohmann/json.hpp>
 #include <vector>
+
+#include "run/json.hpp"
 
 namespace plumb::harness {
 
 struct Results {
-  std::vector<nlohmann::json> rows;           ///< objects, one a cell, in the order of the file
+  std::vector<Json> rows;                     ///< objects, one a cell, in the order of the file
   std::vector<std::size_t> unreadable_lines;  ///< from 1; other than a torn last line, which a kill leaves behind
 };
 

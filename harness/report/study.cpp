@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <tuple>
 
 #include "report/format.hpp"
@@ -37,7 +36,7 @@ bool same(const std::optional<double>& a, const std::optional<double>& b) {
 }
 
 Baseline find_baseline(const std::vector<const ResultRow*>& rows) {
-  Mode<nlohmann::json> settings;
+  Mode<Json> settings;
   Mode<std::optional<double>> dt, threads;
   for (const ResultRow* row : rows) {
     if (!row->settings.empty()) settings.add(value_text(row->settings), row->settings);
@@ -45,10 +44,21 @@ Baseline find_baseline(const std::vector<const ResultRow*>& rows) {
     if (row->threads) threads.add(key_of(row->threads), row->threads);
   }
   Baseline baseline;
-  baseline.settings = settings.best().is_object() ? settings.best() : nlohmann::json::object();
+  baseline.settings = settings.best().is_object() ? settings.best() : Json::object();
   baseline.dt = dt.best();
   baseline.threads = threads.best();
   return baseline;
+}
+
+/// Variants in the order of their numbers, which their text does not have: 0.25 before 0.5.
+bool variant_less(const ResultRow& a, const ResultRow& b) {
+  for (auto x = a.params.begin(), y = b.params.begin(); x != a.params.end() && y != b.params.end(); ++x, ++y) {
+    if (x.key() != y.key()) return natural_less(x.key(), y.key());
+    if (*x == *y) continue;
+    if (x->is_number() && y->is_number()) return *x < *y;
+    return natural_less(value_text(*x), value_text(*y));
+  }
+  return a.params.size() < b.params.size();
 }
 
 bool default_profile(const ResultRow& row) { return row.profile.empty() || row.profile == "default"; }
@@ -72,7 +82,7 @@ Study::Study(std::vector<ResultRow> given) : rows(std::move(given)) {
   }
   std::sort(backends.begin(), backends.end(), natural_less);
   std::stable_sort(problems.begin(), problems.end(), [](const Problem& a, const Problem& b) {
-    return a.scene != b.scene ? natural_less(a.scene, b.scene) : natural_less(a.variant, b.variant);
+    return a.scene != b.scene ? natural_less(a.scene, b.scene) : variant_less(*a.rows.front(), *b.rows.front());
   });
   for (const Problem& problem : problems) {
     if (std::find(groups.begin(), groups.end(), problem.group) == groups.end()) groups.push_back(problem.group);
@@ -86,7 +96,7 @@ bool Study::is_default(const ResultRow& row) const {
 }
 
 std::vector<std::pair<std::string, std::string>> Study::changed_settings(const ResultRow& row) const {
-  const nlohmann::json& usual = baselines_.at(row.backend).settings;
+  const Json& usual = baselines_.at(row.backend).settings;
   std::vector<std::pair<std::string, std::string>> changed;
   for (const auto& [name, value] : row.settings.items()) {
     const auto found = usual.find(name);

@@ -21,7 +21,7 @@ struct Problem {
 /// What a backend runs with when nobody asked for anything: the most frequent settings, dt and threads among its cells
 /// of the default profile (of all its cells when none has that profile).
 struct Baseline {
-  nlohmann::json settings;
+  Json settings;
   std::optional<double> dt, threads;
 };
 

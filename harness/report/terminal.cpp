@@ -42,7 +42,7 @@ std::string worst_text(const ResultRow& row) {
   if (!limit) return name;
   const std::string error = worst->error ? short_number(*worst->error) : "not finite";
   const bool missed = !worst->error || *worst->error > *limit;
-  return fmt::format("{} {} {} {}", name, error, missed ? ">" : "\u2264", short_number(*limit));
+  return fmt::format("{} {} {} {}", name, error, missed ? ">" : "\u2264", limit_text(*limit));
 }
 
 std::string ms_text(const ResultRow& row) { return row.median_ms ? short_number(*row.median_ms) : ""; }
@@ -111,12 +111,29 @@ void print_block_of_backends(std::ostream& out, const Study& study, const std::v
   table.print(out, terminal_width, colour);
 }
 
+/// Why cells did not come through, a line each.
+void print_reasons(std::ostream& out, const Study& study, int terminal_width, bool colour) {
+  TextTable table({{"scene", false, false}, {"backend", false, false}, {"why not", false, true}});
+  bool any = false;
+  for (const Problem& problem : study.problems) {
+    for (const std::string& backend : study.backends) {
+      const ResultRow* row = study.representative(problem, backend);
+      if (!row || row->completed() || row->reason.empty()) continue;
+      table.add({{printable(problem.title())}, {printable(backend)}, {printable(row->reason)}});
+      any = true;
+    }
+  }
+  if (!any) return;
+  table.print(out, terminal_width, colour);
+  out << '\n';
+}
+
 }  // namespace
 
-void print_table(std::ostream& out, const std::vector<nlohmann::json>& rows, int terminal_width, bool colour) {
+void print_table(std::ostream& out, const std::vector<Json>& rows, int terminal_width, bool colour) {
   const Study study(parse_rows(rows));
-  const bool with_configuration = std::any_of(study.rows.begin(), study.rows.end(),
-                                              [&](const ResultRow& row) { return !study.is_default(row); });
+  const bool with_configuration =
+      std::any_of(study.rows.begin(), study.rows.end(), [&](const ResultRow& row) { return !study.is_default(row); });
   std::vector<TextColumn> columns{{"scene", false, false}, {"backend", false, false}};
   if (with_configuration) columns.push_back({"settings", false, true});
   columns.insert(columns.end(), {{"result", false, false}, {"ms/step", true, false}, {"worst metric", false, true}});
@@ -134,7 +151,7 @@ void print_table(std::ostream& out, const std::vector<nlohmann::json>& rows, int
   table.print(out, terminal_width, colour);
 }
 
-void print_comparison(std::ostream& out, const std::vector<nlohmann::json>& rows, int terminal_width, bool colour) {
+void print_comparison(std::ostream& out, const std::vector<Json>& rows, int terminal_width, bool colour) {
   const Study study(parse_rows(rows));
   // A block of backends a table: name or verdict, error, time need about 30 columns each, the scene about 20.
   constexpr int scene_width = 20, backend_width = 30;
@@ -143,10 +160,12 @@ void print_comparison(std::ostream& out, const std::vector<nlohmann::json>& rows
                           : static_cast<std::size_t>(std::max(1, (terminal_width - scene_width) / backend_width));
   for (std::size_t first = 0; first < study.backends.size(); first += at_once) {
     const auto begin = study.backends.begin() + static_cast<std::ptrdiff_t>(first);
-    const auto end = study.backends.begin() + static_cast<std::ptrdiff_t>(std::min(first + at_once, study.backends.size()));
+    const auto end =
+        study.backends.begin() + static_cast<std::ptrdiff_t>(std::min(first + at_once, study.backends.size()));
     print_block_of_backends(out, study, {begin, end}, terminal_width, colour);
     out << '\n';
   }
+  print_reasons(out, study, terminal_width, colour);
   print_counts(out, study, terminal_width, colour);
 }
 

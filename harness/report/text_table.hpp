@@ -8,8 +8,8 @@
 namespace plumb::harness {
 
 struct TextCell {
-  std::string text;           ///< UTF-8, no control characters
-  const char* colour = "";    ///< the parameters of an ANSI colour sequence ("31"), "" for none
+  std::string text;         ///< UTF-8, no control characters
+  const char* colour = "";  ///< the parameters of an ANSI colour sequence ("31"), "" for none
 };
 
 struct TextColumn {

@@ -1,0 +1,175 @@
+(function () {
+  'use strict';
+  var root = document.documentElement, data = null;
+  var all = function (what, where) { return Array.prototype.slice.call((where || document).querySelectorAll(what)); };
+  var make = function (tag, text, className) {
+    var element = document.createElement(tag);
+    if (text !== undefined && text !== null) element.textContent = text;
+    if (className) element.className = className;
+    return element;
+  };
+
+  // Numbers as the rest of the page writes them.
+  function short(value, digits) {
+    if (value === null || value === undefined) return '\u2013';
+    if (typeof value !== 'number') return String(value);
+    if (value === 0) return '0';
+    var text = value.toExponential((digits || 3) - 1), exponent = Number(text.slice(text.indexOf('e') + 1));
+    if (exponent < -3 || exponent >= 6) return text.replace(/\.?0*e\+?/, 'e');
+    return value.toFixed(Math.max(0, (digits || 3) - 1 - exponent));
+  }
+
+  // ---- details of a run ----
+  function table(head, rows, className) {
+    var t = make('table', null, className);
+    if (head) {
+      var line = t.createTHead().insertRow();
+      head.forEach(function (h) { line.appendChild(make('th', h)); });
+    }
+    var body = t.createTBody();
+    rows.forEach(function (row) {
+      var line = body.insertRow();
+      row.cells.forEach(function (text) { line.appendChild(make('td', text)); });
+      if (row.className) line.className = row.className;
+      if (row.chip) {
+        var last = line.lastChild;
+        last.textContent = '';
+        last.appendChild(make('span', row.chip, 'chip ' + row.chip));
+      }
+    });
+    return t;
+  }
+  function pane(title, content, className) {
+    var div = make('div', null, className);
+    div.appendChild(make('h4', title));
+    div.appendChild(content);
+    return div;
+  }
+  function pairs(object, changed) {
+    return table(null, Object.keys(object).map(function (name) {
+      var value = object[name];
+      return { cells: [name, typeof value === 'object' ? JSON.stringify(value) : String(value)],
+               className: changed && changed.indexOf(name) >= 0 ? 'changed' : '' };
+    }));
+  }
+  function detailsOf(index) {
+    if (!data) data = JSON.parse(document.getElementById('data').textContent);
+    var row = data.rows[index], panes = make('div', null, 'panes');
+    panes.appendChild(pane('Run it again', make('code', row.c), 'whole'));
+    if (row.w) panes.appendChild(pane('Reason', make('div', row.w), 'whole'));
+    if (row.m.length) {
+      panes.appendChild(pane('Metrics', table(['metric', 'value', 'unit', 'truth', 'error', 'without known bias', 'threshold', 'gold', ''],
+        row.m.map(function (m) {
+          return { cells: [m[9] ? m[0] + ' (' + m[9] + ')' : m[0], short(m[1], 7), m[2], short(m[3], 7), short(m[4]), short(m[5]), short(m[6]), short(m[7]), ''], chip: m[8] };
+        })), 'whole'));
+    }
+    var t = row.t, n = row.n, facts = [
+      ['ms per step, median', short(t[0])], ['fastest to slowest', short(t[1]) + ' to ' + short(t[2])], ['99th percentile', short(t[3])],
+      ['set-up, ms', short(t[4])], ['steps', t[5]], ['timed steps', t[6] === null ? null : t[6] + ' to ' + t[7]]];
+    row.p.forEach(function (p) { facts.push(['phase ' + p[0] + ', ms', short(p[1])]); });
+    facts.push(['bodies', n[0]], ['most contacts', n[1]], ['dropped contacts', n[2]], ['bodies not finite', n[3]], ['peak memory, MB', short(n[4])], ['state hash', row.h]);
+    panes.appendChild(pane('Times and counts', table(null, facts.filter(function (f) { return f[1] !== null && f[1] !== ''; }).map(function (f) { return { cells: f }; }))));
+    panes.appendChild(pane('Settings in force' + (row.d.length ? ' (changed ones bold)' : ''), pairs(data.settings[row.s], row.d)));
+    panes.appendChild(pane('Machine', pairs(data.machines[row.x])));
+    return panes;
+  }
+  function close(tr) {
+    if (!tr.classList.contains('open')) return;
+    tr.classList.remove('open');
+    tr.parentNode.removeChild(tr.nextSibling);
+  }
+  function open(tr) {
+    if (tr.classList.contains('open')) return;
+    var line = make('tr', null, 'details'), cell = make('td');
+    cell.colSpan = tr.cells.length;
+    cell.appendChild(detailsOf(Number(tr.id.slice(1))));
+    line.appendChild(cell);
+    tr.parentNode.insertBefore(line, tr.nextSibling);
+    tr.classList.add('open');
+  }
+  document.addEventListener('click', function (event) {
+    var tr = event.target.closest && event.target.closest('.runs tbody > tr[id]');
+    if (tr) tr.classList.contains('open') ? close(tr) : open(tr);
+  });
+
+  // ---- figures lead to their runs ----
+  function follow() {
+    var id = /^#(r\d+)/.exec(location.hash), tr = id && document.getElementById(id[1]);
+    if (!tr) return;
+    if (tr.hidden || tr.offsetParent === null) {
+      document.getElementById('filter').value = document.getElementById('group').value = '';
+      all('[data-backend]').forEach(function (box) { box.checked = true; });
+      hideBackends();
+      filter();
+    }
+    open(tr);
+    tr.scrollIntoView({ block: 'start' });
+  }
+  window.addEventListener('hashchange', follow);
+
+  // ---- filter, groups, backends ----
+  function label() {
+    // The first line of a problem that is shown says which problem it is.
+    all('.costs tbody').forEach(function (body) {
+      var found = false;
+      Array.prototype.forEach.call(body.rows, function (row) {
+        var shown = !/\be(\d+)\b/.test(row.className) || !root.classList.contains('hide' + RegExp.$1);
+        row.classList.toggle('first', shown && !found);
+        found = found || shown;
+      });
+    });
+  }
+  function hideBackends() {
+    all('[data-backend]').forEach(function (box) { root.classList.toggle('hide' + box.dataset.backend, !box.checked); });
+    label();
+  }
+  function filter() {
+    var words = document.getElementById('filter').value.toLowerCase().split(/[\s,]+/).filter(Boolean), group = document.getElementById('group').value.toLowerCase();
+    all('.runs tr.open').forEach(close);
+    all('[data-k]').forEach(function (element) {
+      var key = element.dataset.k + ' ';
+      element.hidden = !(words.every(function (word) { return key.indexOf(word) >= 0; }) && (!group || key.indexOf(' ' + group + ' ') >= 0));
+    });
+    all('details.group').forEach(function (details) {
+      details.hidden = !details.querySelector('[data-k]:not([hidden])');
+    });
+  }
+  var pending = 0;
+  document.getElementById('filter').addEventListener('input', function () { clearTimeout(pending); pending = setTimeout(filter, 120); });
+  document.getElementById('group').addEventListener('change', filter);
+  all('[data-backend]').forEach(function (box) { box.addEventListener('change', hideBackends); });
+
+  // ---- sorting ----
+  var collator = new Intl.Collator(undefined, { numeric: true });
+  all('.sortable').forEach(function (sorted) {
+    all('th[data-sort]', sorted).forEach(function (head) {
+      head.addEventListener('click', function () {
+        var up = head.getAttribute('aria-sort') !== 'ascending', column = head.cellIndex, body = sorted.tBodies[0];
+        all('tr.open', body).forEach(close);
+        all('th[data-sort]', sorted).forEach(function (other) { other.removeAttribute('aria-sort'); });
+        head.setAttribute('aria-sort', up ? 'ascending' : 'descending');
+        var keyed = all('tr', body).map(function (row) {
+          var cell = row.cells[column], value = cell.dataset.v;
+          return { row: row, number: value === undefined ? NaN : Number(value), text: cell.textContent };
+        });
+        keyed.sort(function (a, b) {
+          var missing = isNaN(a.number) - isNaN(b.number);
+          if (missing) return missing;  // what has no number stays below, up or down
+          var order = isNaN(a.number) ? collator.compare(a.text, b.text) : a.number - b.number;
+          return up ? order : -order;
+        });
+        keyed.forEach(function (k) { body.appendChild(k.row); });
+      });
+    });
+  });
+
+  // ---- theme ----
+  document.getElementById('theme').addEventListener('click', function () {
+    var dark = root.dataset.theme ? root.dataset.theme === 'dark' : window.matchMedia('(prefers-color-scheme: dark)').matches;
+    root.dataset.theme = dark ? 'light' : 'dark';
+    try { localStorage.setItem('plumb-theme', root.dataset.theme); } catch (refused) { return; }
+  });
+
+  label();
+  follow();
+})();

@@ -1,0 +1,48 @@
+// The sections of the page, in its order, and what they share.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "report/cost.hpp"
+#include "report/overview.hpp"
+#include "report/page/page.hpp"
+#include "report/study.hpp"
+
+namespace plumb::harness {
+
+/// What all sections draw on; lives as long as a page is written.
+struct PageContext {
+  const Study& study;
+  const std::vector<CostLine>& costs;
+  const std::vector<BackendOverview>& overviews;
+  const PageOptions& options;
+
+  [[nodiscard]] std::size_t backend_index(const std::string& backend) const;
+};
+
+[[nodiscard]] std::string head_section(const PageContext& context);
+[[nodiscard]] std::string costs_section(const PageContext& context);
+[[nodiscard]] std::string matrix_section(const PageContext& context);
+[[nodiscard]] std::string precision_section(const PageContext& context);
+[[nodiscard]] std::string scaling_section(const PageContext& context);
+[[nodiscard]] std::string times_section(const PageContext& context);
+[[nodiscard]] std::string rows_section(const PageContext& context);
+
+/// A figure as a link to the row that it comes from: <a href="#r12" title="...">text</a>. Text and title are escaped
+/// here.
+[[nodiscard]] std::string row_link(const ResultRow& row, std::string_view text, std::string_view title);
+/// What a hover says of a row: its configuration, verdict, time, and each metric with value, truth, error, threshold.
+[[nodiscard]] std::string row_hover(const PageContext& context, const ResultRow& row);
+/// <th> with a problem's scene, variant and title.
+[[nodiscard]] std::string problem_header(const PageContext& context, const Problem& problem);
+/// The attribute by which the page's filter finds an element: data-k="...", lower case.
+[[nodiscard]] std::string filter_key(const PageContext& context, const Problem& problem, std::string_view more = "");
+/// The name of a backend with its marker.
+[[nodiscard]] std::string backend_label(const PageContext& context, const std::string& backend);
+/// A group's name as a heading: "Stacking"; "Other" for none.
+[[nodiscard]] std::string group_title(const std::string& group);
+[[nodiscard]] std::string verdict_title(Verdict verdict);  ///< "out of memory"
+[[nodiscard]] std::string problem_title(const ResultRow& row);
+
+}  // namespace plumb::harness
