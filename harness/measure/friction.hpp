@@ -1,0 +1,17 @@
+// Measures of the friction group that live in files of their own.
+#pragma once
+
+#include "measure/measure.hpp"
+
+namespace plumb::harness {
+
+// friction_rolling.cpp: friction that turns bodies
+void measure_slide_to_roll(MeasureContext& context);
+void measure_roll_down(MeasureContext& context);
+void measure_spin_stop(MeasureContext& context);
+
+// friction_pushed.cpp: friction against forces of the host
+void measure_pushed_box(MeasureContext& context);
+void measure_force_ramp(MeasureContext& context);
+
+}  // namespace plumb::harness
