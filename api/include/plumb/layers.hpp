@@ -64,9 +64,14 @@ struct StateDifference {
   std::uint64_t bodies = 0;    ///< how many bodies' rows differ
 };
 
+/// What a trace says of where it comes from.
+struct TraceHeader {
+  std::string backend, version, build, device;
+  std::uint32_t rows_every = 0;
+};
+
 struct ReplayReport {
-  std::string backend, version, build, device;  ///< that the trace was recorded with
-  std::uint32_t rows_every = 0;                 ///< as recorded
+  TraceHeader recorded;
   std::vector<std::pair<std::string, std::string>> settings;  ///< in force in the first world of the trace
   std::uint64_t calls = 0, worlds = 0, steps = 0;
   std::uint64_t results_differ = 0, outputs_differ = 0;  ///< calls
@@ -76,6 +81,9 @@ struct ReplayReport {
 
   [[nodiscard]] bool same() const { return results_differ == 0 && outputs_differ == 0 && !state; }
 };
+
+/// The header alone; throws as replay() does.
+[[nodiscard]] TraceHeader trace_header(const std::filesystem::path& file);
 
 /// Replays a trace on a backend: the same calls in the same order, handles translated. Throws Error: PLUMB_E_CORRUPT for
 /// a file that is foreign, torn or of another version, PLUMB_E_INVALID_ARGUMENT for one that cannot be read.

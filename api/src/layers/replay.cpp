@@ -14,6 +14,28 @@ namespace {
 
 [[noreturn]] void corrupt(const std::string& text) { throw Error(PLUMB_E_CORRUPT, text); }
 
+/// Reads the header off the front.
+TraceHeader read_header(ByteReader& in, std::span<const std::byte> all) {
+  char magic[sizeof trace_magic] = {};
+  if (in.left() >= sizeof magic) std::memcpy(magic, in.get_bytes(sizeof magic).data(), sizeof magic);
+  if (std::memcmp(magic, trace_magic, sizeof magic) != 0) corrupt("it does not begin as a trace does");
+  if (const auto format = in.get<std::uint32_t>(); format != trace_format)
+    corrupt("its format is " + std::to_string(format) + ", and this program reads " + std::to_string(trace_format));
+  if (const auto version = in.get<std::uint32_t>(); version != PLUMB_VERSION)
+    corrupt("it was recorded with version " + std::to_string(PLUMB_VERSION_MAJOR(version)) + "." +
+            std::to_string(PLUMB_VERSION_MINOR(version)) + " of the interface, and this program speaks " +
+            std::to_string(PLUMB_VERSION_MAJOR(PLUMB_VERSION)) + "." + std::to_string(PLUMB_VERSION_MINOR(PLUMB_VERSION)));
+  TraceHeader header;
+  header.backend = in.get_string();
+  header.version = in.get_string();
+  header.build = in.get_string();
+  header.device = in.get_string();
+  header.rows_every = in.get<std::uint32_t>();
+  const auto before = all.first(all.size() - in.left());
+  if (in.get<std::uint32_t>() != checksum(before)) corrupt("its header is damaged");
+  return header;
+}
+
 class Replay {
  public:
   Replay(std::span<const std::byte> file, const PlumbBackendTable* table) : in_(file), all_(file), tables_(table) {}
@@ -25,7 +47,7 @@ class Replay {
   Replay& operator=(const Replay&) = delete;
 
   ReplayReport run() {
-    read_header();
+    report_.recorded = read_header(in_, all_);
     for (std::uint64_t record = 0;; ++record) {
       ByteReader body = read_record();
       const auto kind = body.get<std::uint8_t>();
@@ -46,25 +68,6 @@ class Replay {
 
  private:
   [[nodiscard]] const PlumbBackendTable& table() const { return *tables_.next_core(); }
-
-  void read_header() {
-    char magic[sizeof trace_magic] = {};
-    if (in_.left() >= sizeof magic) std::memcpy(magic, in_.get_bytes(sizeof magic).data(), sizeof magic);
-    if (std::memcmp(magic, trace_magic, sizeof magic) != 0) corrupt("it does not begin as a trace does");
-    if (const auto format = in_.get<std::uint32_t>(); format != trace_format)
-      corrupt("its format is " + std::to_string(format) + ", and this program reads " + std::to_string(trace_format));
-    if (const auto version = in_.get<std::uint32_t>(); version != PLUMB_VERSION)
-      corrupt("it was recorded with version " + std::to_string(PLUMB_VERSION_MAJOR(version)) + "." +
-              std::to_string(PLUMB_VERSION_MINOR(version)) + " of the interface, and this program speaks " +
-              std::to_string(PLUMB_VERSION_MAJOR(PLUMB_VERSION)) + "." + std::to_string(PLUMB_VERSION_MINOR(PLUMB_VERSION)));
-    report_.backend = in_.get_string();
-    report_.version = in_.get_string();
-    report_.build = in_.get_string();
-    report_.device = in_.get_string();
-    report_.rows_every = in_.get<std::uint32_t>();
-    const auto before = all_.first(all_.size() - in_.left());
-    if (in_.get<std::uint32_t>() != checksum(before)) corrupt("its header is damaged");
-  }
 
   ByteReader read_record() {
     const std::size_t at = all_.size() - in_.left();
@@ -154,7 +157,7 @@ class Replay {
     const auto* settings = tables_.next_table<PlumbSettingsTable>();
     for (std::uint32_t i = 0; name != nullptr && settings != nullptr && i < settings->count; ++i)
       if (std::strcmp(settings->describe(i)->name, name) == 0) return true;
-    return std::strcmp(report_.backend.c_str(), table().info()->name) == 0;
+    return std::strcmp(report_.recorded.backend.c_str(), table().info()->name) == 0;
   }
 
   void compare(Call call, PlumbResult recorded, const std::string& text, PlumbResult replayed, PlumbWorld* world) {
@@ -241,18 +244,32 @@ class Replay {
   ReplayReport report_;
 };
 
-}  // namespace
-
-ReplayReport replay(const std::filesystem::path& file, const PlumbBackendTable* table) {
+/// Runs read(bytes) on a file's bytes; what is corrupt is said with the file's name.
+template <class Read>
+auto read_trace(const std::filesystem::path& file, Read&& read) {
   std::ifstream in(file, std::ios::binary);
-  if (!in) throw Error(PLUMB_E_INVALID_ARGUMENT, "cannot read the trace " + file.string() + ": " + std::strerror(errno));
   const std::vector<char> bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  if (!in.is_open() || in.bad())
+    throw Error(PLUMB_E_INVALID_ARGUMENT, "cannot read the trace " + file.string() + ": " + std::strerror(errno));
   try {
-    return Replay(std::as_bytes(std::span(bytes)), table).run();
+    return read(std::as_bytes(std::span(bytes)));
   } catch (const Error& error) {
     if (error.code() != PLUMB_E_CORRUPT) throw;
     throw Error(PLUMB_E_CORRUPT, file.string() + " is not a whole trace: " + error.what() + "; record it again");
   }
+}
+
+}  // namespace
+
+TraceHeader trace_header(const std::filesystem::path& file) {
+  return read_trace(file, [](std::span<const std::byte> bytes) {
+    ByteReader reader(bytes);
+    return read_header(reader, bytes);
+  });
+}
+
+ReplayReport replay(const std::filesystem::path& file, const PlumbBackendTable* table) {
+  return read_trace(file, [table](std::span<const std::byte> bytes) { return Replay(bytes, table).run(); });
 }
 
 }  // namespace plumb::layers

@@ -75,9 +75,10 @@ TEST_F(Trace, RoundTrip) {
   record(sample());
   const layers::ReplayReport report = layers::replay(file, &sample());
   EXPECT_TRUE(report.same()) << (report.result ? report.result->text : report.first_output.value_or(""));
-  EXPECT_EQ(report.backend, "sample");
-  EXPECT_EQ(report.build, "sample-1");
-  EXPECT_EQ(report.rows_every, 1u);
+  EXPECT_EQ(report.recorded.backend, "sample");
+  EXPECT_EQ(report.recorded.build, "sample-1");
+  EXPECT_EQ(report.recorded.rows_every, 1u);
+  EXPECT_EQ(layers::trace_header(file).backend, "sample");
   EXPECT_EQ(report.worlds, 1u);
   EXPECT_EQ(report.steps, 20u);
   EXPECT_GT(report.calls, 60u);
