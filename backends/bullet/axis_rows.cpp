@@ -1,0 +1,143 @@
+#include "axis_rows.hpp"
+
+#include <algorithm>
+#include <numbers>
+
+namespace plumb::bullet {
+
+btScalar Row::inverse_mass(const btRigidBody& a, const btRigidBody& b) const {
+  return (a.getInvMass() + b.getInvMass()) * linear.length2() + angular_a.dot(a.getInvInertiaTensorWorld() * angular_a) +
+         angular_b.dot(b.getInvInertiaTensorWorld() * angular_b);
+}
+
+btScalar Row::velocity(const btRigidBody& a, const btRigidBody& b, btScalar h) const {
+  const auto linear_velocity = [h](const btRigidBody& body) {
+    return body.getLinearVelocity() + body.getTotalForce() * (body.getInvMass() * h);
+  };
+  const auto angular_velocity = [h](const btRigidBody& body) {
+    return body.getAngularVelocity() + body.getInvInertiaTensorWorld() * body.getTotalTorque() * h;
+  };
+  return linear.dot(linear_velocity(b) - linear_velocity(a)) + angular_a.dot(angular_velocity(a)) + angular_b.dot(angular_velocity(b));
+}
+
+void Row::write(btTypedConstraint::btConstraintInfo2& info) const {
+  for (int i = 0; i < 3; ++i) {
+    info.m_J1linearAxis[i] = -linear[i];
+    info.m_J2linearAxis[i] = linear[i];
+    info.m_J1angularAxis[i] = angular_a[i];
+    info.m_J2angularAxis[i] = angular_b[i];
+  }
+}
+
+btScalar spring_impulse(const PlumbSpring& spring, btScalar x, btScalar v, btScalar inverse_mass, btScalar h) {
+  if (!(inverse_mass > 0)) return 0;
+  const auto wanted = static_cast<btScalar>(2 * std::numbers::pi * spring.frequency);
+  const btScalar omega = std::min(wanted, 1 / h);
+  const btScalar damping = 2 * static_cast<btScalar>(spring.damping_ratio) * omega;
+  return -h * (omega * omega * x + damping * v) / (inverse_mass * (1 + h * damping));
+}
+
+DistanceConstraint::DistanceConstraint(btRigidBody& a, btRigidBody& b, const btVector3& point_a, const btVector3& point_b,
+                                       const PlumbJointDesc& desc)
+    : RowConstraint(D6_CONSTRAINT_TYPE, a, b),
+      point_a_(point_a),
+      point_b_(point_b),
+      rest_(scalar(desc.rest_length, "rest_length")),
+      lower_(rest_),
+      upper_(rest_),
+      spring_(desc.springs[0]) {
+  if (desc.limits[0].enabled != 0) {
+    lower_ = scalar(desc.limits[0].lower, "limits[0].lower");
+    upper_ = scalar(desc.limits[0].upper, "limits[0].upper");
+  } else if (spring_.enabled != 0) {
+    lower_ = -SIMD_INFINITY;
+    upper_ = SIMD_INFINITY;
+  }
+}
+
+void DistanceConstraint::getInfo1(btConstraintInfo1* info) {
+  info->m_numConstraintRows = spring_.enabled != 0 && upper_ < SIMD_INFINITY ? 2 : 1;
+  info->nub = 0;
+}
+
+void DistanceConstraint::getInfo2(btConstraintInfo2* info) {
+  const btTransform &pose_a = m_rbA.getWorldTransform(), &pose_b = m_rbB.getWorldTransform();
+  const btVector3 arm_a = pose_a.getBasis() * point_a_, arm_b = pose_b.getBasis() * point_b_;
+  const btVector3 apart = (pose_b.getOrigin() + arm_b) - (pose_a.getOrigin() + arm_a);
+  const btScalar distance = apart.length();
+  const btVector3 along = distance > SIMD_EPSILON ? apart / distance : btVector3(0, 1, 0);
+  const Row row{along, -arm_a.cross(along), arm_b.cross(along)};
+  const btScalar h = 1 / info->fps;
+  int at = 0;
+  const auto next_row = [&] {
+    btConstraintInfo2 shifted = *info;
+    shifted.m_J1linearAxis += at;
+    shifted.m_J2linearAxis += at;
+    shifted.m_J1angularAxis += at;
+    shifted.m_J2angularAxis += at;
+    row.write(shifted);
+    const int here = at;
+    at += info->rowskip;
+    return here;
+  };
+  if (spring_.enabled != 0) {
+    const int here = next_row();
+    const btScalar impulse = spring_impulse(spring_, distance - rest_, row.velocity(m_rbA, m_rbB, h), row.inverse_mass(m_rbA, m_rbB), h);
+    info->m_lowerLimit[here] = info->m_upperLimit[here] = impulse;
+    if (upper_ >= SIMD_INFINITY) return;
+  }
+  const int here = next_row();
+  // Between the limits the row only forbids to pass the nearer one in this sub-step.
+  const bool near_upper = distance - lower_ > upper_ - distance;
+  const btScalar room = near_upper ? upper_ - distance : lower_ - distance;
+  const bool violated = near_upper ? room < 0 : room > 0;
+  info->m_constraintError[here] = info->fps * (violated ? info->erp : btScalar(1)) * room;
+  if (lower_ == upper_) return;
+  if (near_upper)
+    info->m_upperLimit[here] = 0;
+  else
+    info->m_lowerLimit[here] = 0;
+}
+
+AxisSpring::AxisSpring(btRigidBody& a, btRigidBody& b, const btTransform& frame_a, const btTransform& frame_b, int axis, const PlumbSpring& spring)
+    : RowConstraint(D6_CONSTRAINT_TYPE, a, b), frame_a_(frame_a), frame_b_(frame_b), axis_(axis), spring_(spring) {}
+
+void AxisSpring::getInfo1(btConstraintInfo1* info) {
+  info->m_numConstraintRows = 1;
+  info->nub = 0;
+}
+
+void AxisSpring::getInfo2(btConstraintInfo2* info) {
+  const btTransform at_a = m_rbA.getWorldTransform() * frame_a_, at_b = m_rbB.getWorldTransform() * frame_b_;
+  Row row{btVector3(0, 0, 0), btVector3(0, 0, 0), btVector3(0, 0, 0)};
+  btScalar coordinate = 0;
+  if (axis_ < 3) {
+    row.linear = at_a.getBasis().getColumn(axis_);
+    // Both arms end in frame b: a's axis is carried along by a.
+    row.angular_a = -(at_b.getOrigin() - m_rbA.getWorldTransform().getOrigin()).cross(row.linear);
+    row.angular_b = (at_b.getOrigin() - m_rbB.getWorldTransform().getOrigin()).cross(row.linear);
+    coordinate = row.linear.dot(at_b.getOrigin() - at_a.getOrigin());
+  } else {
+    const btVector3 angles = angles_xyz(at_a.getBasis().transposeTimes(at_b.getBasis()));
+    coordinate = angles[axis_ - 3];
+    // x turns about a's x axis, z about b's z axis, y about what is square to both.
+    const btVector3 x = at_a.getBasis().getColumn(0), z = at_b.getBasis().getColumn(2);
+    row.angular_b = axis_ == 3 ? x : axis_ == 5 ? z : z.cross(x).normalized();
+    row.angular_a = -row.angular_b;
+  }
+  row.write(*info);
+  const btScalar h = 1 / info->fps;
+  auto deviation = coordinate - static_cast<btScalar>(spring_.rest);
+  if (axis_ >= 3) deviation = btNormalizeAngle(deviation);
+  info->m_lowerLimit[0] = info->m_upperLimit[0] =
+      spring_impulse(spring_, deviation, row.velocity(m_rbA, m_rbB, h), row.inverse_mass(m_rbA, m_rbB), h);
+}
+
+btVector3 angles_xyz(const btMatrix3x3& r) {
+  const btScalar sine = std::clamp(r[0][2], btScalar(-1), btScalar(1));
+  if (std::abs(sine) >= 1)  // x and z turn about the same axis: all of it is x's
+    return {std::atan2(r[2][1], r[1][1]), std::asin(sine), 0};
+  return {std::atan2(-r[1][2], r[2][2]), std::asin(sine), std::atan2(-r[0][1], r[0][0])};
+}
+
+}  // namespace plumb::bullet

@@ -1,0 +1,62 @@
+// Constraints of ours that Bullet's solvers solve with its own: the distance of two points, and springs on a joint's axes.
+#pragma once
+
+#include "bullet_math.hpp"
+
+namespace plumb::bullet {
+
+/// One row of a constraint: relative velocity = linear . (v_b - v_a) + torques. Filled anew in each sub-step.
+struct Row {
+  btVector3 linear;                ///< on b at its centre of mass, opposite on a
+  btVector3 angular_a, angular_b;  ///< rad^-1 of the coordinate
+
+  /// Inverse of the effective mass.
+  [[nodiscard]] btScalar inverse_mass(const btRigidBody& a, const btRigidBody& b) const;
+  /// Including what forces and gravity add in this sub-step.
+  [[nodiscard]] btScalar velocity(const btRigidBody& a, const btRigidBody& b, btScalar h) const;
+  void write(btTypedConstraint::btConstraintInfo2& info) const;
+};
+
+/// Oscillator of a spring: impulse of a sub-step of h seconds for a deviation x and a velocity v. The position enters as
+/// it is and the velocity as it will be, so that an undamped spring neither gains nor loses energy; a spring that
+/// turns by more than a radian a sub-step is softened to that, because it could not be followed.
+btScalar spring_impulse(const PlumbSpring& spring, btScalar x, btScalar v, btScalar inverse_mass, btScalar h);
+
+/// Bullet asks its own constraint types for parameters; ours have none.
+class RowConstraint : public btTypedConstraint {
+ public:
+  using btTypedConstraint::btTypedConstraint;
+  void setParam(int /*number*/, btScalar /*value*/, int /*axis*/) override {}
+  [[nodiscard]] btScalar getParam(int /*number*/, int /*axis*/) const override { return 0; }
+};
+
+/// Holds the distance of the frames' origins: rigidly, within limits, or by a spring.
+class DistanceConstraint final : public RowConstraint {
+ public:
+  DistanceConstraint(btRigidBody& a, btRigidBody& b, const btVector3& point_a, const btVector3& point_b, const PlumbJointDesc& desc);
+  void getInfo1(btConstraintInfo1* info) override;
+  void getInfo2(btConstraintInfo2* info) override;
+
+ private:
+  btVector3 point_a_, point_b_;  ///< seen from the bodies' transforms
+  btScalar rest_, lower_, upper_;
+  PlumbSpring spring_;
+};
+
+/// A spring on one of a joint's six axes.
+class AxisSpring final : public RowConstraint {
+ public:
+  AxisSpring(btRigidBody& a, btRigidBody& b, const btTransform& frame_a, const btTransform& frame_b, int axis, const PlumbSpring& spring);
+  void getInfo1(btConstraintInfo1* info) override;
+  void getInfo2(btConstraintInfo2* info) override;
+
+ private:
+  btTransform frame_a_, frame_b_;
+  int axis_;
+  PlumbSpring spring_;
+};
+
+/// Angles x y z of a rotation R = Rx(x) Ry(y) Rz(z), each in -pi..pi, y in -pi/2..pi/2.
+btVector3 angles_xyz(const btMatrix3x3& r);
+
+}  // namespace plumb::bullet

@@ -1,0 +1,69 @@
+// A body: Bullet's rigid body, and beside it what the interface knows and Bullet does not.
+#pragma once
+
+#include <memory>
+
+#include "shapes.hpp"
+
+namespace plumb::bullet {
+
+/// Marks our bodies among all that live in the process: the callbacks of materials.hpp are Bullet's globals.
+inline constexpr int kOurMark = 0x506c6d62;
+
+class Body final : public btRigidBody {
+ public:
+  Body(const btRigidBodyConstructionInfo& info, PlumbBody id, const PlumbBodyDesc& desc)
+      : btRigidBody(info),
+        handle(id),
+        motion(desc.motion),
+        flags(desc.flags),
+        locks(desc.locks),
+        surface_velocity(desc.material.surface_velocity),
+        gravity_scale(desc.gravity_scale),
+        linear_damping(desc.linear_damping),
+        angular_damping(desc.angular_damping),
+        filter(desc.filter) {
+    setUserIndex3(kOurMark);
+  }
+
+  [[nodiscard]] bool is(PlumbMotion which) const { return motion == which; }
+  [[nodiscard]] bool is_sensor() const { return (flags & PLUMB_BODY_SENSOR) != 0; }
+  [[nodiscard]] bool is_asleep() const { return getActivationState() == ISLAND_SLEEPING; }
+
+  /// Pose of the body's frame; Bullet's transform is that of the centre of mass and the principal axes.
+  [[nodiscard]] btTransform frame_pose() const { return offset_frame ? getWorldTransform() * mass_to_body : getWorldTransform(); }
+  /// From a pose of the body's frame to Bullet's transform.
+  [[nodiscard]] btTransform mass_pose(const btTransform& pose) const { return offset_frame ? pose * body_to_mass : pose; }
+
+  void coast(const btVector3& linear, const btVector3& angular) {
+    coast_linear = linear;
+    coast_angular = angular;
+    coasts = !linear.isZero() || !angular.isZero();
+  }
+
+  PlumbBody handle;
+  PlumbMotion motion;
+  std::uint32_t flags;
+  std::uint32_t locks;
+  PlumbVec3 surface_velocity;  ///< m/s, body frame
+  double gravity_scale;
+  double linear_damping, angular_damping;  ///< 1/s
+  PlumbFilter filter;
+  std::shared_ptr<const Shape> shape;            ///< null: none
+  std::unique_ptr<btCollisionShape> own_shape;   ///< of this body alone; null where the shared one will do
+  bool offset_frame = false;                     ///< whether the two transforms below differ from identity
+  btTransform body_to_mass = btTransform::getIdentity();  ///< mass frame seen from the body's frame
+  btTransform mass_to_body = btTransform::getIdentity();
+  bool was_asleep = false;       ///< after the step before
+  bool conveys = false;          ///< has ever had a surface velocity
+  bool coasts = false;           ///< kinematic: moves with the two velocities below until told otherwise
+  btVector3 coast_linear = btVector3(0, 0, 0), coast_angular = btVector3(0, 0, 0);
+  bool has_target = false;       ///< kinematic: must be at `target` after the next step
+  btTransform target = btTransform::getIdentity();
+};
+
+inline Body* our_body(const btCollisionObject* object) {
+  return static_cast<Body*>(const_cast<btRigidBody*>(static_cast<const btRigidBody*>(object)));
+}
+
+}  // namespace plumb::bullet

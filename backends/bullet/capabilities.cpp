@@ -1,0 +1,125 @@
+// What Bullet has, and how truly.
+#include "world.hpp"
+
+namespace plumb::bullet {
+namespace {
+
+PlumbDegree answer(PlumbDegree degree, const char*& note, const char* text) {
+  note = text;
+  return degree;
+}
+
+bool is_convex(std::uint32_t type) { return type <= PLUMB_CONVEX_HULL; }
+
+PlumbDegree shape_degree(std::uint32_t type, std::uint32_t motion, const char*& note) {
+  if (type >= PLUMB_SHAPE_TYPE_COUNT || motion >= PLUMB_MOTION_COUNT) return PLUMB_NONE;
+  if (type == PLUMB_PLANE) return motion == PLUMB_STATIC ? PLUMB_NATIVE : PLUMB_NONE;
+  const bool surface = type == PLUMB_TRIANGLE_MESH || type == PLUMB_HEIGHT_FIELD;
+  if (surface && motion == PLUMB_DYNAMIC) return answer(PLUMB_NONE, note, "Bullet's meshes and height fields do not move by forces");
+  if (type == PLUMB_CONVEX_HULL || type == PLUMB_CYLINDER)
+    return answer(PLUMB_NATIVE, note, "edges are rounded by collision_margin against all but spheres");
+  return PLUMB_NATIVE;
+}
+
+PlumbDegree pair_degree(std::uint32_t a, std::uint32_t b, const char*& note) {
+  if (a >= PLUMB_SHAPE_TYPE_COUNT || b >= PLUMB_SHAPE_TYPE_COUNT) return PLUMB_NONE;
+  const auto volume = [](std::uint32_t type) { return is_convex(type) || type == PLUMB_COMPOUND; };
+  if (!volume(a) && !volume(b)) return answer(PLUMB_NONE, note, "neither of the two can be dynamic");
+  if (a == PLUMB_PLANE || b == PLUMB_PLANE)
+    return answer(PLUMB_NATIVE, note, "the manifold grows by one point a step; a large box as ground gets four at once");
+  return PLUMB_NATIVE;
+}
+
+PlumbDegree joint_degree(std::uint32_t type, const char*& note) {
+  if (type >= PLUMB_JOINT_TYPE_COUNT) return PLUMB_NONE;
+  if (type == PLUMB_JOINT_DISTANCE) return answer(PLUMB_EMULATED, note, "a constraint row of the adapter in Bullet's solver");
+  return PLUMB_NATIVE;
+}
+
+PlumbDegree joint_feature_degree(std::uint32_t type, std::uint32_t feature, const char*& note) {
+  if (type >= PLUMB_JOINT_TYPE_COUNT) return PLUMB_NONE;
+  const bool has_axes = type == PLUMB_JOINT_HINGE || type == PLUMB_JOINT_SLIDER || type == PLUMB_JOINT_UNIVERSAL || type == PLUMB_JOINT_GENERIC;
+  switch (feature) {
+    case PLUMB_JOINT_HAS_LIMITS: return has_axes ? PLUMB_NATIVE : type == PLUMB_JOINT_DISTANCE ? PLUMB_EMULATED : PLUMB_NONE;
+    case PLUMB_JOINT_HAS_MOTORS: return has_axes ? PLUMB_NATIVE : PLUMB_NONE;
+    case PLUMB_JOINT_HAS_SPRINGS:
+      if (!has_axes && type != PLUMB_JOINT_DISTANCE) return PLUMB_NONE;
+      return answer(PLUMB_EMULATED, note, "a force of the adapter on the axis; no faster than one radian a sub-step");
+    case PLUMB_JOINT_BREAKS: return answer(PLUMB_EMULATED, note, "by the length of the reaction after each sub-step");
+    case PLUMB_JOINT_HAS_REACTION: return PLUMB_NATIVE;
+    default: return PLUMB_NONE;
+  }
+}
+
+PlumbDegree query_degree(std::uint32_t kind, std::uint32_t type, const char*& note) {
+  if (kind == PLUMB_QUERY_RAY) return PLUMB_NATIVE;
+  if (kind >= PLUMB_QUERY_KIND_COUNT || !is_convex(type)) return PLUMB_NONE;
+  if (kind == PLUMB_QUERY_CAST) return answer(PLUMB_NATIVE, note, "overlap at the start is found by a query of its own");
+  return PLUMB_NATIVE;
+}
+
+PlumbDegree read_degree(std::uint32_t field) {
+  switch (field) {
+    case PLUMB_FIELD_POSE:
+    case PLUMB_FIELD_VELOCITY:
+    case PLUMB_FIELD_AWAKE:
+    case PLUMB_FIELD_MASS:
+    case PLUMB_FIELD_MATERIAL:
+    case PLUMB_FIELD_GRAVITY_SCALE:
+    case PLUMB_FIELD_DAMPING:
+    case PLUMB_FIELD_SURFACE_VELOCITY:
+    case PLUMB_FIELD_FILTER: return PLUMB_NATIVE;
+    default: return PLUMB_NONE;
+  }
+}
+
+PlumbDegree write_degree(std::uint32_t field, const char*& note) {
+  if (field >= PLUMB_FIELD_COUNT || field == PLUMB_FIELD_MASS) return PLUMB_NONE;
+  if (field == PLUMB_FIELD_DAMPING) return answer(PLUMB_EMULATED, note, "exp(-c dt) by the adapter, which holds for any c");
+  if (field == PLUMB_FIELD_SURFACE_VELOCITY) return PLUMB_EMULATED;
+  return PLUMB_NATIVE;
+}
+
+PlumbDegree need_degree(std::uint32_t index, const char*& note) {
+  if (index >= PLUMB_NEED_COUNT) return PLUMB_NONE;
+  switch (PlumbNeeds{1} << index) {
+    case PLUMB_NEED_CCD:
+      return answer(PLUMB_APPROXIMATE, note, "a sphere inside a convex body is swept; compounds are not, and turning is not seen");
+    case PLUMB_NEED_GYROSCOPIC:
+      return answer(PLUMB_APPROXIMATE, note, "one Newton step of an implicit law, which loses energy; see gyroscopic_mode");
+    case PLUMB_NEED_RESTITUTION: return answer(PLUMB_NATIVE, note, "impacts slower than restitution_threshold do not bounce");
+    case PLUMB_NEED_DAMPING: return answer(PLUMB_EMULATED, note, "exp(-c dt) by the adapter, which holds for any c");
+    case PLUMB_NEED_SENSORS: return answer(PLUMB_EMULATED, note, "out of the contact points of bodies without response");
+    case PLUMB_NEED_EVENTS: return answer(PLUMB_EMULATED, note, "by comparing the contacts of one step with the next");
+    case PLUMB_NEED_SURFACE_VELOCITY:
+      return answer(PLUMB_EMULATED, note, "by the direction and target velocity of each contact's friction");
+    case PLUMB_NEED_AXIS_LOCKS: return answer(PLUMB_NATIVE, note, "the solver still counts the locked axes' mass");
+    case PLUMB_NEED_SNAPSHOT: return answer(PLUMB_APPROXIMATE, note, "warm-start data are lost");
+    default: return PLUMB_NATIVE;
+  }
+}
+
+PlumbDegree phase_degree(std::uint32_t phase) { return phase <= PLUMB_PHASE_CONTINUOUS ? PLUMB_NATIVE : PLUMB_NONE; }
+
+}  // namespace
+
+PlumbDegree World::capability(PlumbCapability kind, std::uint32_t a, std::uint32_t b, const char*& note) {
+  switch (kind) {
+    case PLUMB_CAP_SHAPE: return shape_degree(a, b, note);
+    case PLUMB_CAP_PAIR: return pair_degree(a, b, note);
+    case PLUMB_CAP_JOINT: return joint_degree(a, note);
+    case PLUMB_CAP_JOINT_FEATURE: return joint_feature_degree(a, b, note);
+    case PLUMB_CAP_QUERY: return query_degree(a, b, note);
+    case PLUMB_CAP_FIELD_READ: return read_degree(a);
+    case PLUMB_CAP_FIELD_WRITE: return write_degree(a, note);
+    case PLUMB_CAP_NEED: return need_degree(a, note);
+    case PLUMB_CAP_EVENT: return a < PLUMB_EVENT_COUNT ? PLUMB_EMULATED : PLUMB_NONE;
+    case PLUMB_CAP_PHASE_TIME: return phase_degree(a);
+    case PLUMB_CAP_RESIDUAL: return answer(PLUMB_NATIVE, note, "largest squared change of an impulse in the last iteration; not with mlcp solvers");
+    case PLUMB_CAP_SNAPSHOT: return answer(PLUMB_APPROXIMATE, note, "warm-start data are lost");
+    case PLUMB_CAP_CHILD_MATERIAL: return PLUMB_NATIVE;
+    default: return PLUMB_NONE;
+  }
+}
+
+}  // namespace plumb::bullet

@@ -1,0 +1,134 @@
+// Joints of a world: create, destroy, read, write, react and break.
+#include <algorithm>
+
+#include "world.hpp"
+
+namespace plumb::bullet {
+
+PlumbResult World::create_joints(std::span<const PlumbJointDesc> descs, std::span<PlumbJoint> ids) {
+  std::vector<std::unique_ptr<Joint>> made;
+  for (std::size_t i = 0; i < descs.size(); ++i) {
+    const PlumbJointDesc& desc = descs[i];
+    auto joint = std::make_unique<Joint>(ids[i], desc);
+    joint->body_b = &body(desc.body_b);
+    joint->body_a = desc.body_a == 0 ? nullptr : &body(desc.body_a);
+    joint->a = joint->body_a == nullptr ? &ground_ : static_cast<btRigidBody*>(joint->body_a);
+    const btTransform frame_a = transform(desc.frame_a, "frame_a"), frame_b = transform(desc.frame_b, "frame_b");
+    joint->frame_a = joint->body_a == nullptr ? frame_a : joint->body_a->mass_to_body * frame_a;
+    joint->frame_b = joint->body_b->mass_to_body * frame_b;
+    if (joint->body_a == nullptr || !joint->body_a->offset_frame) joint->frame_a = frame_a;
+    if (!joint->body_b->offset_frame) joint->frame_b = frame_b;
+    make_constraint(*joint);
+    joint->wants_reaction = needs(PLUMB_NEED_JOINT_REACTIONS) || joint->breaks();
+    if (joint->wants_reaction) {
+      joint->feedback = std::make_unique<btJointFeedback[]>(1 + joint->springs.size());
+      for (std::size_t k = 0; k <= joint->springs.size(); ++k) joint->feedback[k] = {};
+      joint->constraint->setJointFeedback(&joint->feedback[0]);
+      for (std::size_t k = 0; k < joint->springs.size(); ++k) joint->springs[k]->setJointFeedback(&joint->feedback[1 + k]);
+    }
+    made.push_back(std::move(joint));
+  }
+  for (auto& joint : made) {
+    const bool apart = joint->desc.collide_connected == 0 && joint->body_a != nullptr;
+    world_.addConstraint(joint->constraint.get(), apart);
+    for (auto& spring : joint->springs) world_.addConstraint(spring.get(), false);
+    if (apart) forget_contacts(*joint->body_a, *joint->body_b);
+    if (joint->body_a != nullptr) wake(*joint->body_a);
+    wake(*joint->body_b);
+    ++joint_count_;
+    const std::size_t slot = slot_of(joint->handle);
+    if (joints_.size() <= slot) joints_.resize(slot + 1);
+    joints_[slot] = std::move(joint);
+  }
+  return PLUMB_OK;
+}
+
+void World::remove_joint(Joint& joint) {
+  if (joint.body_a != nullptr) wake(*joint.body_a);
+  wake(*joint.body_b);
+  for (auto& spring : joint.springs) world_.removeConstraint(spring.get());
+  world_.removeConstraint(joint.constraint.get());
+  --joint_count_;
+  joints_[slot_of(joint.handle)].reset();
+}
+
+PlumbResult World::destroy_joints(std::span<const PlumbJoint> ids) {
+  for (const PlumbJoint id : ids) remove_joint(joint(id));
+  return PLUMB_OK;
+}
+
+PlumbResult World::read_joints(PlumbJointField field, std::span<const PlumbJoint> ids, Rows rows) {
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    const Joint& at = joint(ids[i]);
+    double row[12] = {};
+    if (field == PLUMB_JOINT_COORDINATES) {
+      joint_coordinates(at, row);
+    } else if (field == PLUMB_JOINT_REACTION) {
+      std::copy_n(at.force, 3, row);
+      std::copy_n(at.torque, 3, row + 3);
+    } else {
+      for (std::size_t axis = 0; axis < 6; ++axis) {
+        row[2 * axis] = at.desc.motors[axis].target_velocity;
+        row[2 * axis + 1] = at.desc.motors[axis].max_force;
+      }
+    }
+    rows.put(i, row, joint_columns_of(field));
+  }
+  return PLUMB_OK;
+}
+
+PlumbResult World::write_joints(PlumbJointField /*field*/, std::span<const PlumbJoint> ids, ConstRows rows) {
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    double row[12];
+    rows.get(i, row, 12);
+    for (std::size_t axis = 0; axis < 6; ++axis) {
+      (void)scalar(row[2 * axis], "the target velocity of a motor");
+      (void)scalar(row[2 * axis + 1], "the max force of a motor");
+      if (row[2 * axis + 1] != 0 && !may_have_motor(joint(ids[i]).desc, axis))
+        throw Error(PLUMB_E_UNSUPPORTED, "Bullet has no motor on axis " + std::to_string(axis) + " of this joint");
+    }
+  }
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    double row[12];
+    rows.get(i, row, 12);
+    Joint& at = joint(ids[i]);
+    for (std::size_t axis = 0; axis < 6; ++axis) {
+      at.desc.motors[axis].target_velocity = row[2 * axis];
+      at.desc.motors[axis].max_force = row[2 * axis + 1];
+      if (row[2 * axis + 1] > 0) at.desc.motors[axis].enabled = 1;
+    }
+    if (at.body_a != nullptr) wake(*at.body_a);
+    wake(*at.body_b);
+  }
+  return PLUMB_OK;
+}
+
+void World::prepare_joints(btScalar h) {
+  for (auto& joint : joints_) {
+    if (!joint) continue;
+    set_motors(*joint, h);
+    if (joint->wants_reaction) joint->arm_b = joint->body_b->getWorldTransform().getBasis() * joint->frame_b.getOrigin();
+  }
+}
+
+void World::break_joints() {
+  for (auto& at : joints_) {
+    if (!at || !at->wants_reaction) continue;
+    btVector3 force(0, 0, 0), torque(0, 0, 0);
+    for (std::size_t k = 0; k <= at->springs.size(); ++k) {
+      force += at->feedback[k].m_appliedForceBodyB;
+      torque += at->feedback[k].m_appliedTorqueBodyB;
+    }
+    torque -= at->arm_b.cross(force);
+    put_vector(force, at->force);
+    put_vector(torque, at->torque);
+    const PlumbJointDesc& desc = at->desc;
+    const bool broken = (desc.break_force > 0 && static_cast<double>(force.length()) > desc.break_force) ||
+                        (desc.break_torque > 0 && static_cast<double>(torque.length()) > desc.break_torque);
+    if (!broken) continue;
+    events_.push_back({PLUMB_EVENT_JOINT_BROKEN, 0, desc.body_a, desc.body_b, at->handle});
+    remove_joint(*at);
+  }
+}
+
+}  // namespace plumb::bullet

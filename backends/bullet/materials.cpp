@@ -1,0 +1,118 @@
+#include "materials.hpp"
+
+#include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
+#include <BulletCollision/CollisionDispatch/btManifoldResult.h>
+
+#include <algorithm>
+#include <mutex>
+
+namespace plumb::bullet {
+namespace {
+
+CalculateCombinedCallback next_friction = nullptr;
+CalculateCombinedCallback next_restitution = nullptr;
+ContactAddedCallback next_contact_added = nullptr;
+
+bool ours(const btCollisionObject* a, const btCollisionObject* b) {
+  return a->getUserIndex3() == kOurMark && b->getUserIndex3() == kOurMark;
+}
+
+btScalar combine_friction(const btCollisionObject* a, const btCollisionObject* b) {
+  return ours(a, b) ? btSqrt(a->getFriction() * b->getFriction()) : next_friction(a, b);
+}
+
+btScalar combine_restitution(const btCollisionObject* a, const btCollisionObject* b) {
+  return ours(a, b) ? std::max(a->getRestitution(), b->getRestitution()) : next_restitution(a, b);
+}
+
+struct Coefficients {
+  btScalar friction, restitution;
+};
+
+Coefficients coefficients_at(const btCollisionObject* object, int index) {
+  const Body& body = *our_body(object);
+  if (body.shape && index >= 0 && static_cast<std::size_t>(index) < body.shape->children.size()) {
+    const Shape::Child& child = body.shape->children[static_cast<std::size_t>(index)];
+    if (child.has_material)
+      return {static_cast<btScalar>(child.material.friction), static_cast<btScalar>(child.material.restitution)};
+  }
+  return {body.getFriction(), body.getRestitution()};
+}
+
+void combine(btManifoldPoint& point, const btCollisionObject* a, int index_a, const btCollisionObject* b, int index_b) {
+  const Coefficients of_a = coefficients_at(a, index_a), of_b = coefficients_at(b, index_b);
+  point.m_combinedFriction = btSqrt(of_a.friction * of_b.friction);
+  point.m_combinedRestitution = std::max(of_a.restitution, of_b.restitution);
+}
+
+bool contact_added(btManifoldPoint& point, const btCollisionObjectWrapper* a, int part_a, int index_a,
+                   const btCollisionObjectWrapper* b, int part_b, int index_b) {
+  const btCollisionObject *object_a = a->getCollisionObject(), *object_b = b->getCollisionObject();
+  if (ours(object_a, object_b))
+    combine(point, object_a, index_a, object_b, index_b);
+  else if (next_contact_added != nullptr)
+    return next_contact_added(point, a, part_a, index_a, b, part_b, index_b);
+  return true;
+}
+
+/// Velocity of a body's moving surface relative to the body, world axes.
+btVector3 surface_velocity(const Body& body) {
+  const PlumbVec3& v = body.surface_velocity;
+  return body.frame_pose().getBasis() *
+         btVector3(static_cast<btScalar>(v.x), static_cast<btScalar>(v.y), static_cast<btScalar>(v.z));
+}
+
+void direct_friction(btManifoldPoint& point, const Body& a, const Body& b, const btVector3& surface_slip) {
+  const btVector3& normal = point.m_normalWorldOnB;
+  const btVector3 slip = a.getVelocityInLocalPoint(point.m_positionWorldOnA - a.getWorldTransform().getOrigin()) -
+                         b.getVelocityInLocalPoint(point.m_positionWorldOnB - b.getWorldTransform().getOrigin()) + surface_slip;
+  const btVector3 along = slip - normal * normal.dot(slip);
+  if (along.length2() > SIMD_EPSILON) {
+    point.m_lateralFrictionDir1 = along.normalized();
+    point.m_lateralFrictionDir2 = point.m_lateralFrictionDir1.cross(normal);
+  } else {
+    btPlaneSpace1(normal, point.m_lateralFrictionDir1, point.m_lateralFrictionDir2);
+  }
+  point.m_contactMotion1 = -point.m_lateralFrictionDir1.dot(surface_slip);
+  point.m_contactMotion2 = -point.m_lateralFrictionDir2.dot(surface_slip);
+  point.m_contactPointFlags |= BT_CONTACT_FLAG_LATERAL_FRICTION_INITIALIZED;
+}
+
+}  // namespace
+
+void install_material_callbacks() {
+  static std::once_flag once;
+  std::call_once(once, [] {
+    next_friction = gCalculateCombinedFrictionCallback;
+    next_restitution = gCalculateCombinedRestitutionCallback;
+    next_contact_added = gContactAddedCallback;
+    gCalculateCombinedFrictionCallback = &combine_friction;
+    gCalculateCombinedRestitutionCallback = &combine_restitution;
+    gContactAddedCallback = &contact_added;
+  });
+}
+
+bool needs_contact_material(const Body& body) { return body.shape && body.shape->has_child_material(); }
+
+void refresh_materials(btDispatcher& dispatcher, const Body& body) {
+  for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
+    btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(i);
+    if (manifold.getBody0() != &body && manifold.getBody1() != &body) continue;
+    for (int k = 0; k < manifold.getNumContacts(); ++k) {
+      btManifoldPoint& point = manifold.getContactPoint(k);
+      combine(point, manifold.getBody0(), point.m_index0, manifold.getBody1(), point.m_index1);
+    }
+  }
+}
+
+void apply_surface_velocities(btDispatcher& dispatcher) {
+  for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
+    btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(i);
+    const Body &a = *our_body(manifold.getBody0()), &b = *our_body(manifold.getBody1());
+    if (!a.conveys && !b.conveys) continue;
+    const btVector3 surface_slip = surface_velocity(a) - surface_velocity(b);
+    for (int k = 0; k < manifold.getNumContacts(); ++k) direct_friction(manifold.getContactPoint(k), a, b, surface_slip);
+  }
+}
+
+}  // namespace plumb::bullet

@@ -1,0 +1,200 @@
+// Rays, casts and overlaps against the world as it stands.
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+
+#include "world.hpp"
+
+namespace plumb::bullet {
+namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+thread_local std::vector<PlumbHit> found;
+
+bool sees(const PlumbFilter& filter, const btBroadphaseProxy* proxy) {
+  const Body& body = *our_body(static_cast<const btCollisionObject*>(proxy->m_clientObject));
+  return body.shape && !body.is_sensor() && may_touch(filter, body.filter);
+}
+
+std::uint32_t child_of(const Body& body, const btCollisionWorld::LocalShapeInfo* info) {
+  const PlumbShapeType type = body.shape->type;
+  if (info == nullptr || info->m_triangleIndex < 0 || (type != PLUMB_COMPOUND && type != PLUMB_TRIANGLE_MESH)) return 0;
+  return static_cast<std::uint32_t>(info->m_triangleIndex);
+}
+
+/// One hit a body, its nearest, for one query of a batch.
+class Collector {
+ public:
+  Collector(std::uint32_t query, PlumbHitMode mode) : query_(query), mode_(mode), first_(found.size()) {}
+
+  void add(const Body& body, std::uint32_t child, double fraction, const PlumbVec3& position, const PlumbVec3& normal) {
+    const PlumbHit hit{body.handle, query_, child, fraction, position, normal};
+    for (std::size_t i = first_; i < found.size(); ++i) {
+      PlumbHit& other = found[i];
+      if (mode_ == PLUMB_HIT_ALL && other.body != hit.body) continue;
+      if (nearer(hit, other)) other = hit;
+      return;
+    }
+    found.push_back(hit);
+  }
+
+  [[nodiscard]] bool has(const Body& body) const {
+    return std::any_of(found.begin() + static_cast<std::ptrdiff_t>(first_), found.end(),
+                       [&](const PlumbHit& hit) { return hit.body == body.handle; });
+  }
+  [[nodiscard]] bool any() const { return found.size() > first_; }
+
+  void finish() {
+    if (mode_ == PLUMB_HIT_CLOSEST && !any())
+      found.push_back({0, query_, 0, kUnknown, {kUnknown, kUnknown, kUnknown}, {kUnknown, kUnknown, kUnknown}});
+    std::sort(found.begin() + static_cast<std::ptrdiff_t>(first_), found.end(), nearer);
+  }
+
+ private:
+  static bool nearer(const PlumbHit& a, const PlumbHit& b) {
+    return a.fraction != b.fraction ? a.fraction < b.fraction : slot_of(a.body) < slot_of(b.body);
+  }
+
+  std::uint32_t query_;
+  PlumbHitMode mode_;
+  std::size_t first_;
+};
+
+btVector3 world_normal(const Body& body, const btVector3& normal, bool in_world) {
+  return in_world ? normal : body.getWorldTransform().getBasis() * normal;
+}
+
+struct RayCallback final : btCollisionWorld::RayResultCallback {
+  RayCallback(const PlumbRay& r, Collector& c, PlumbHitMode m) : ray(r), collector(c), mode(m) {}
+
+  bool needsCollision(btBroadphaseProxy* proxy) const override { return sees(ray.filter, proxy); }
+
+  btScalar addSingleResult(btCollisionWorld::LocalRayResult& result, bool in_world) override {
+    const Body& body = *our_body(result.m_collisionObject);
+    const auto fraction = static_cast<double>(result.m_hitFraction);
+    const PlumbVec3 &o = ray.origin, &t = ray.translation;
+    m_collisionObject = result.m_collisionObject;
+    collector.add(body, child_of(body, result.m_localShapeInfo), fraction,
+                  {o.x + fraction * t.x, o.y + fraction * t.y, o.z + fraction * t.z},
+                  to_plumb(world_normal(body, result.m_hitNormalLocal, in_world).normalized()));
+    if (mode == PLUMB_HIT_CLOSEST) m_closestHitFraction = std::min(m_closestHitFraction, result.m_hitFraction);
+    return m_closestHitFraction;
+  }
+
+  const PlumbRay& ray;
+  Collector& collector;
+  PlumbHitMode mode;
+};
+
+struct CastCallback final : btCollisionWorld::ConvexResultCallback {
+  CastCallback(const PlumbFilter& f, Collector& c, PlumbHitMode m) : filter(f), collector(c), mode(m) {}
+
+  bool needsCollision(btBroadphaseProxy* proxy) const override {
+    return sees(filter, proxy) && !collector.has(*our_body(static_cast<const btCollisionObject*>(proxy->m_clientObject)));
+  }
+
+  btScalar addSingleResult(btCollisionWorld::LocalConvexResult& result, bool in_world) override {
+    const Body& body = *our_body(result.m_hitCollisionObject);
+    hits.push_back({&body, child_of(body, result.m_localShapeInfo), static_cast<double>(result.m_hitFraction),
+                    to_plumb(result.m_hitPointLocal), to_plumb(world_normal(body, result.m_hitNormalLocal, in_world).normalized())});
+    if (mode == PLUMB_HIT_CLOSEST) m_closestHitFraction = std::min(m_closestHitFraction, result.m_hitFraction);
+    return m_closestHitFraction;
+  }
+
+  struct Hit {
+    const Body* body;
+    std::uint32_t child;
+    double fraction;
+    PlumbVec3 position, normal;
+  };
+  const PlumbFilter& filter;
+  Collector& collector;
+  PlumbHitMode mode;
+  std::vector<Hit> hits;
+};
+
+struct OverlapCallback final : btCollisionWorld::ContactResultCallback {
+  OverlapCallback(const btCollisionObject& o, const PlumbFilter& f, Collector& c, bool p)
+      : object(o), filter(f), collector(c), with_points(p) {}
+
+  bool needsCollision(btBroadphaseProxy* proxy) const override { return sees(filter, proxy); }
+
+  btScalar addSingleResult(btManifoldPoint& point, const btCollisionObjectWrapper* a, int /*part_a*/, int index_a,
+                           const btCollisionObjectWrapper* b, int /*part_b*/, int index_b) override {
+    if (point.getDistance() > 0) return 0;
+    const bool first = a->getCollisionObject() == &object;
+    const Body& body = *our_body((first ? b : a)->getCollisionObject());
+    const btCollisionWorld::LocalShapeInfo info{-1, first ? index_b : index_a};
+    // On B and towards A, in the order of the arguments; wanted is the normal of the body's surface.
+    const btVector3 normal = first ? point.m_normalWorldOnB : -point.m_normalWorldOnB;
+    const PlumbVec3 nowhere{kUnknown, kUnknown, kUnknown};
+    collector.add(body, child_of(body, &info), 0, with_points ? to_plumb(point.getPositionWorldOnB()) : nowhere,
+                  with_points ? to_plumb(normal) : nowhere);
+    return 0;
+  }
+
+  const btCollisionObject& object;
+  const PlumbFilter& filter;
+  Collector& collector;
+  bool with_points;
+};
+
+void overlap(btCollisionWorld& world, const Shape& shape, const PlumbPose& pose, const PlumbFilter& filter, Collector& collector, bool with_points) {
+  btCollisionObject object;
+  object.setCollisionShape(shape.bullet.get());
+  object.setWorldTransform(transform(pose, "pose"));
+  OverlapCallback callback(object, filter, collector, with_points);
+  world.contactTest(&object, callback);
+}
+
+btVector3 end_of(const btVector3& from, const PlumbVec3& translation) { return from + vector(translation, "translation"); }
+
+}  // namespace
+
+Hits World::cast_rays(PlumbHitMode mode, std::span<const PlumbRay> rays) {
+  const std::lock_guard lock(query_mutex_);
+  found.clear();
+  for (std::uint32_t i = 0; i < rays.size(); ++i) {
+    Collector collector(i, mode);
+    RayCallback callback(rays[i], collector, mode);
+    const btVector3 from = vector(rays[i].origin, "origin");
+    world_.rayTest(from, end_of(from, rays[i].translation), callback);
+    collector.finish();
+  }
+  return {PLUMB_OK, found};
+}
+
+/// Bullet's sweep is not to be trusted where the shape overlaps at the start: that is asked apart.
+Hits World::cast_shapes(PlumbHitMode mode, std::span<const PlumbCast> casts) {
+  const std::lock_guard lock(query_mutex_);
+  found.clear();
+  for (std::uint32_t i = 0; i < casts.size(); ++i) {
+    const PlumbCast& cast = casts[i];
+    const Shape& moved = *shape(cast.shape);
+    Collector collector(i, mode);
+    overlap(world_, moved, cast.pose, cast.filter, collector, true);
+    if (mode == PLUMB_HIT_ALL || !collector.any()) {
+      const btTransform from = transform(cast.pose, "pose");
+      const btTransform to(from.getBasis(), end_of(from.getOrigin(), cast.translation));
+      CastCallback callback(cast.filter, collector, mode);
+      world_.convexSweepTest(static_cast<const btConvexShape*>(moved.bullet.get()), from, to, callback);
+      for (const CastCallback::Hit& hit : callback.hits) collector.add(*hit.body, hit.child, hit.fraction, hit.position, hit.normal);
+    }
+    collector.finish();
+  }
+  return {PLUMB_OK, found};
+}
+
+Hits World::overlap_shapes(std::span<const PlumbOverlap> overlaps) {
+  const std::lock_guard lock(query_mutex_);
+  found.clear();
+  for (std::uint32_t i = 0; i < overlaps.size(); ++i) {
+    Collector collector(i, PLUMB_HIT_ALL);
+    overlap(world_, *shape(overlaps[i].shape), overlaps[i].pose, overlaps[i].filter, collector, false);
+    collector.finish();
+  }
+  return {PLUMB_OK, found};
+}
+
+}  // namespace plumb::bullet

@@ -1,0 +1,54 @@
+// Collision shapes: from a descriptor to Bullet's shape and the memory that it leans on.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "bullet_math.hpp"
+
+namespace plumb::bullet {
+
+/// What of the settings shapes are made with.
+struct ShapeOptions {
+  double margin;       ///< m, around convex shapes with edges
+  bool hull_clipping;  ///< contact polygons of hulls by clipping instead of one point of GJK a step
+};
+
+struct Shape {
+  struct Child {
+    std::shared_ptr<const Shape> shape;
+    btTransform pose;
+    bool has_material;
+    PlumbMaterial material;
+  };
+
+  PlumbShapeType type = PLUMB_SPHERE;
+  std::unique_ptr<btCollisionShape> bullet;
+  std::vector<btScalar> vertices;  ///< of a mesh
+  std::vector<int> indices;
+  std::unique_ptr<btStridingMeshInterface> mesh;
+  std::vector<btScalar> heights;
+  std::vector<Child> children;
+  double inner_radius = 0;  ///< m, of a sphere that fits inside, about the origin of a convex shape; for swept spheres
+
+  [[nodiscard]] bool has_child_material() const;
+};
+
+/// find: the living shape of a handle. Throws Error for what Bullet's arithmetic cannot hold.
+template <class Find>
+std::vector<Shape::Child> children_of(const PlumbShapeDesc& desc, Find&& find) {
+  std::vector<Shape::Child> children;
+  for (std::uint32_t i = 0; i < desc.child_count; ++i) {
+    const PlumbCompoundChild& child = desc.children[i];
+    children.push_back({find(child.shape), transform(child.pose, "position of a child"), child.has_material != 0, child.material});
+  }
+  return children;
+}
+
+std::shared_ptr<const Shape> make_shape(const PlumbShapeDesc& desc, std::vector<Shape::Child> children, const ShapeOptions& options);
+
+/// The same shape placed in a frame that moved: Bullet wants a body's origin in its centre of mass and its axes along
+/// the principal ones. offset: the body's frame seen from that frame.
+std::unique_ptr<btCollisionShape> make_offset_shape(const Shape& shape, const btTransform& offset);
+
+}  // namespace plumb::bullet

@@ -1,0 +1,118 @@
+// Save and restore: what moves, without the warm-start data, which Bullet keeps where no one can put it back.
+#include <cstring>
+#include <type_traits>
+
+#include "world.hpp"
+
+namespace plumb::bullet {
+namespace {
+
+struct BodyState {
+  btTransformData pose, interpolated;
+  btVector3Data linear, angular, interpolated_linear, interpolated_angular, force, torque;
+  btTransformData target;
+  btVector3Data coast_linear, coast_angular;
+  btScalar deactivation_time;
+  std::int32_t activation;
+  std::uint8_t has_target, coasts, was_asleep, reserved[5];
+};
+static_assert(std::is_trivially_copyable_v<BodyState>);
+
+btTransformData serialized(const btTransform& transform) {
+  btTransformData data;
+  transform.serialize(data);
+  return data;
+}
+btVector3Data serialized(const btVector3& v) {
+  btVector3Data data{};
+  v.serialize(data);
+  return data;
+}
+btTransform restored(const btTransformData& data) {
+  btTransform transform;
+  transform.deSerialize(data);
+  return transform;
+}
+btVector3 restored(const btVector3Data& data) {
+  btVector3 v;
+  v.deSerialize(data);
+  return v;
+}
+
+BodyState state_of(const Body& body) {
+  BodyState state{};
+  state.pose = serialized(body.getWorldTransform());
+  state.interpolated = serialized(body.getInterpolationWorldTransform());
+  state.linear = serialized(body.getLinearVelocity());
+  state.angular = serialized(body.getAngularVelocity());
+  state.interpolated_linear = serialized(body.getInterpolationLinearVelocity());
+  state.interpolated_angular = serialized(body.getInterpolationAngularVelocity());
+  state.force = serialized(body.getTotalForce());
+  state.torque = serialized(body.getTotalTorque());
+  state.target = serialized(body.target);
+  state.coast_linear = serialized(body.coast_linear);
+  state.coast_angular = serialized(body.coast_angular);
+  state.deactivation_time = body.getDeactivationTime();
+  state.activation = body.getActivationState();
+  state.has_target = body.has_target ? 1 : 0;
+  state.coasts = body.coasts ? 1 : 0;
+  return state;
+}
+
+void set_state(Body& body, const BodyState& state) {
+  body.setCenterOfMassTransform(restored(state.pose));
+  body.setInterpolationWorldTransform(restored(state.interpolated));
+  body.setLinearVelocity(restored(state.linear));
+  body.setAngularVelocity(restored(state.angular));
+  body.setInterpolationLinearVelocity(restored(state.interpolated_linear));
+  body.setInterpolationAngularVelocity(restored(state.interpolated_angular));
+  body.clearForces();
+  body.applyCentralForce(restored(state.force));
+  body.applyTorque(restored(state.torque));
+  body.target = restored(state.target);
+  body.coast_linear = restored(state.coast_linear);
+  body.coast_angular = restored(state.coast_angular);
+  body.setDeactivationTime(state.deactivation_time);
+  body.forceActivationState(state.activation);
+  body.has_target = state.has_target != 0;
+  body.coasts = state.coasts != 0;
+}
+
+}  // namespace
+
+PlumbResult World::save(std::span<const std::byte>& data) {
+  snapshot_.clear();
+  for (const auto& body : bodies_) {
+    if (!body) continue;
+    const BodyState state = state_of(*body);
+    const auto* bytes = reinterpret_cast<const std::byte*>(&state);
+    snapshot_.insert(snapshot_.end(), bytes, bytes + sizeof state);
+  }
+  data = snapshot_;
+  return PLUMB_OK;
+}
+
+PlumbResult World::restore(std::span<const std::byte> data) {
+  std::size_t live = 0;
+  for (const auto& body : bodies_) live += body ? 1 : 0;
+  if (data.size() != live * sizeof(BodyState)) throw Error(PLUMB_E_CORRUPT, "the snapshot does not have a state for every body");
+  const std::byte* at = data.data();
+  for (const auto& body : bodies_) {
+    if (!body) continue;
+    BodyState state;
+    std::memcpy(&state, at, sizeof state);
+    at += sizeof state;
+    set_state(*body, state);
+  }
+  // Contacts of where the bodies have been since are none of theirs.
+  btOverlappingPairCache& pairs = *parts_.broadphase.getOverlappingPairCache();
+  btBroadphasePairArray& array = pairs.getOverlappingPairArray();
+  for (int i = 0; i < array.size(); ++i) pairs.cleanOverlappingPair(array[i], &parts_.dispatcher);
+  world_.updateAabbs();
+  solver_->solver().reset();
+  contacts_.clear();
+  contacts_fresh_ = true;
+  return PLUMB_OK;
+}
+
+}  // namespace plumb::bullet

@@ -1,0 +1,171 @@
+// One world: Bullet's, and what the interface asks for beside it. The step is in step.cpp.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "plumb/backend/touch_tracker.hpp"
+#include "body.hpp"
+#include "dynamics_world.hpp"
+#include "joint.hpp"
+#include "materials.hpp"
+#include "settings.hpp"
+
+namespace plumb::bullet {
+
+class World final : public IPhysicsWorld,
+                    public IJoints,
+                    public IQueries,
+                    public ICollide,
+                    public IDebug,
+                    public ISettings,
+                    public ISnapshot,
+                    private btOverlapFilterCallback,
+                    private StepHooks {
+ public:
+  explicit World(const WorldInit& init);
+  ~World() override;
+
+  static const PlumbBackendInfo& info();
+  static PlumbDegree capability(PlumbCapability kind, std::uint32_t a, std::uint32_t b, const char*& note);
+  static std::span<const PlumbSettingInfo> setting_infos() { return Settings::infos(); }
+
+  // bodies.cpp
+  PlumbResult create_shapes(std::span<const PlumbShapeDesc> descs, std::span<PlumbShape> ids) override;
+  PlumbResult destroy_shapes(std::span<const PlumbShape> ids) override;
+  PlumbResult create_bodies(std::span<const PlumbBodyDesc> descs, std::span<PlumbBody> ids) override;
+  PlumbResult destroy_bodies(std::span<const PlumbBody> ids) override;
+  PlumbResult set_gravity(const PlumbVec3& gravity) override;
+
+  // fields.cpp
+  PlumbResult read(PlumbField field, std::span<const PlumbBody> ids, Rows rows) override;
+  PlumbResult write(PlumbField field, std::span<const PlumbBody> ids, ConstRows rows) override;
+
+  // step.cpp
+  PlumbResult step(double dt) override;
+  PlumbResult wait(PlumbStepReport& report) override;
+
+  // contacts.cpp
+  std::span<const PlumbContact> contacts() override;
+  std::span<const PlumbEvent> events() override { return events_; }
+
+  IJoints* joints() override { return this; }
+  IQueries* queries() override { return this; }
+  ICollide* collide() override { return this; }
+  IDebug* debug() override { return this; }
+  ISettings* settings() override { return this; }
+  ISnapshot* snapshot() override { return this; }
+
+  // joints.cpp
+  PlumbResult create_joints(std::span<const PlumbJointDesc> descs, std::span<PlumbJoint> ids) override;
+  PlumbResult destroy_joints(std::span<const PlumbJoint> ids) override;
+  PlumbResult read_joints(PlumbJointField field, std::span<const PlumbJoint> ids, Rows rows) override;
+  PlumbResult write_joints(PlumbJointField field, std::span<const PlumbJoint> ids, ConstRows rows) override;
+
+  // queries.cpp
+  Hits cast_rays(PlumbHitMode mode, std::span<const PlumbRay> rays) override;
+  Hits cast_shapes(PlumbHitMode mode, std::span<const PlumbCast> casts) override;
+  Hits overlap_shapes(std::span<const PlumbOverlap> overlaps) override;
+
+  // collide.cpp
+  PlumbResult collide_pairs(std::span<const PlumbPosedPair> pairs, std::span<PlumbPairResult> results,
+                            std::span<const PlumbPairPoint>& points) override;
+
+  // debug.cpp
+  PlumbResult candidate_pairs(std::span<const PlumbDebugPair>& pairs) override;
+  PlumbResult tree_boxes(std::span<const PlumbDebugBox>& boxes) override;
+  PlumbResult separating_axes(std::span<const PlumbDebugAxis>& axes) override;
+
+  // step.cpp
+  PlumbResult get_setting(const char* name, PlumbSettingValue& value) override;
+  PlumbResult set_setting(const char* name, const PlumbSettingValue& value) override;
+
+  // snapshot.cpp
+  PlumbResult save(std::span<const std::byte>& data) override;
+  PlumbResult restore(std::span<const std::byte> data) override;
+
+ private:
+  [[nodiscard]] bool needs(PlumbNeeds bits) const { return (needs_ & bits) != 0; }
+  [[nodiscard]] Body& body(PlumbBody handle) { return *bodies_[slot_of(handle)]; }
+  [[nodiscard]] Joint& joint(PlumbJoint handle) { return *joints_[slot_of(handle)]; }
+  [[nodiscard]] const std::shared_ptr<const Shape>& shape(PlumbShape handle) { return shapes_[slot_of(handle)]; }
+
+  // bodies.cpp
+  [[nodiscard]] std::unique_ptr<Body> make_body(const PlumbBodyDesc& desc, PlumbBody handle);
+  void add_to_bullet(Body& body);
+  void prepare_motion(Body& body);
+  void prepare_ccd(Body& body) const;
+  void set_anchor(Body& body) const;
+  void apply_gravity_scale(Body& body) const;
+  bool needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy* b) const override;
+  /// Drops the contact points of two bodies: those that Bullet may no longer collide would else be solved for ever.
+  void forget_contacts(Body& a, Body& b);
+  void wake(Body& body);
+  void wake_neighbours(const Body& body);
+
+  // fields.cpp
+  void write_pose(Body& body, const double* row);
+  void write_row(PlumbField field, Body& body, const double* row);
+  void write_awake(Body& body, bool awake);
+
+  // kinematics.cpp
+  void move_kinematic(int sub_steps_left, btScalar h);
+  void keep_coasting();
+  void damp(btScalar h);
+  void hold_locks();
+
+  // step.cpp
+  void apply_settings();
+  void before_motion(btScalar h) override;
+  void before_solve() override;
+  void after_solve() override;
+  void begin_events();
+  void keep_sub_step_contacts();
+  void forget_targets();
+  void finish_events();
+  void track_sleep();
+  void count_bodies(PlumbStepReport& report) const;
+
+  // contacts.cpp
+  [[nodiscard]] bool is_solved(const btPersistentManifold& manifold) const;
+  [[nodiscard]] std::uint32_t count_contacts();
+  void gather_contacts();
+  void add_sub_step_impulses();
+  void track_touches();
+
+  // joints.cpp
+  void prepare_joints(btScalar h);
+  void break_joints();
+  void remove_joint(Joint& joint);
+
+  PlumbNeeds needs_;
+  Settings settings_;
+  WorldParts parts_;
+  SolverKind solver_kind_;
+  std::unique_ptr<TrackedSolver> solver_;
+  DynamicsWorld world_;
+  btEmptyShape no_shape_;     ///< of bodies without one
+  btRigidBody ground_;        ///< what joints to the world hold on to
+  PlumbVec3 gravity_;
+
+  std::vector<std::shared_ptr<const Shape>> shapes_;  ///< by slot, null where none lives
+  std::vector<std::unique_ptr<Body>> bodies_;
+  std::vector<std::unique_ptr<Joint>> joints_;
+  std::vector<Body*> kinematic_, damped_, locked_;    ///< those that a step must look at
+  std::uint32_t joint_count_ = 0;                     ///< that a step must prepare
+
+  std::vector<PlumbContact> contacts_;
+  std::vector<PlumbContact> sub_step_contacts_;       ///< of all sub-steps but the last
+  bool contacts_fresh_ = false;
+  std::uintptr_t last_point_id_ = 0;
+  backend::TouchTracker touches_;
+  std::vector<PlumbEvent> events_, pending_events_;
+  std::vector<std::byte> snapshot_;
+  std::vector<PlumbDebugPair> debug_pairs_;
+  std::vector<PlumbDebugBox> debug_boxes_;
+  double h_ = 0;                                      ///< of the sub-step in hand, s
+  std::mutex query_mutex_;                            ///< Bullet's tree keeps one stack for all of its rays
+};
+
+}  // namespace plumb::bullet
