@@ -51,7 +51,7 @@ int main(int argc, char **argv) {
     bodies[i].density = 1000;
     bodies[i].gravity_scale = 1;
     bodies[i].material.friction = 0.5;
-    bodies[i].filter = (PlumbFilter){1, 1, 0, 0};
+    bodies[i].filter = (PlumbFilter){1, UINT32_MAX, 0, 0};
   }
   result = table->create_bodies(world, bodies, sizeof bodies[0], 1 + BOXES, ids);
   if (result < 0) return refuse("bodies", table->error_text(world), result);
