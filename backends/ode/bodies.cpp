@@ -90,6 +90,20 @@ PlumbVec3 Body::inverse_inertia_times(const PlumbVec3& v) const {
   return rotate(q, backend::multiply(inverse_inertia, unrotate(q, v)));
 }
 
+void refresh_tags(Body& body) {
+  for (const auto& tag : body.geoms) {
+    const PlumbMaterial& material = tag->placed.material == nullptr ? body.material : tag->own_material;
+    tag->body = &body;
+    tag->id = body.body;
+    tag->dynamic = body.dynamic();
+    tag->sensor = body.sensor;
+    tag->choosy = !body.untouchable.empty();
+    tag->friction = material.friction;
+    tag->restitution = material.restitution;
+    tag->surface_velocity = material.surface_velocity;
+  }
+}
+
 void set_mass(Body& body, const PlumbBodyDesc& desc) {
   const PlumbVec3& i = desc.inertia;
   body.turns = (desc.flags & PLUMB_BODY_NO_ROTATION) == 0 && !is_zero(i);

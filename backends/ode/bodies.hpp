@@ -15,39 +15,48 @@ namespace plumb::ode {
 
 struct Body;
 
-/// What a geom's data points to.
+/// What a geom's data points to. The near callback reads one for each geom of each pair: what it always needs lies
+/// together, and is copied from the body whenever that changes (refresh_tags).
 struct GeomTag {
-  PlacedGeom placed;
-  Body* body;
-  PlumbMaterial own_material;  ///< a child's; read when placed.material is not null
+  Body* body = nullptr;
+  dBodyID id = nullptr;  ///< null: static
+  bool dynamic = false, sensor = false;
+  bool choosy = false;  ///< the body has untouchables
+  double friction = 0, restitution = 0;
+  PlumbVec3 surface_velocity{};  ///< body frame
+  PlacedGeom placed{};
+  PlumbMaterial own_material{};  ///< a child's; read when placed.material is not null
   struct {
     std::uint32_t body, geom;
   } name{};  ///< by which a snapshot knows it
 };
 
 struct Body {
-  PlumbBody handle = 0;
+  // Read for every row of a bulk read: kept together.
   dBodyID body = nullptr;  ///< null: static
   PlumbMotion motion = PLUMB_STATIC;
+  bool turns = false;      ///< dynamic and not a particle
   bool sensor = false;
-  bool turns = false;       ///< dynamic and not a particle
-  bool was_awake = true;    ///< after the last step, for events
+  bool was_awake = true;   ///< after the last step, for events
+  bool pushed = false;     ///< force or torque were written
+  PlumbVec3 centre_of_mass{};  ///< body frame
+  PlumbBody handle = 0;
   std::uint32_t locks = 0;
+  PlumbFilter filter{};
+
   const Shape* shape = nullptr;
   std::vector<std::unique_ptr<GeomTag>> geoms;
-  PlumbPose pose{};              ///< of a static body
-  PlumbVec3 centre_of_mass{};    ///< body frame
-  PlumbVec3 idle_spin{};         ///< angular velocity of a body that cannot turn: kept and never used
-  PlumbVec3 locked_position{};   ///< of the centre of mass, along locked axes
+  std::vector<const Body*> untouchable;  ///< joined by joints without collide_connected
+  PlumbPose pose{};                      ///< of a static body
+  PlumbVec3 idle_spin{};        ///< angular velocity of a body that cannot turn: kept and never used
+  PlumbVec3 locked_position{};  ///< of the centre of mass, along locked axes
   double inverse_mass = 0;
-  Matrix3 inverse_inertia{};     ///< body frame
+  Matrix3 inverse_inertia{};  ///< body frame
   PlumbMaterial material{};
-  PlumbFilter filter{};
   double gravity_scale = 1;
   double linear_damping = 0, angular_damping = 0;
-  PlumbVec3 force{}, torque{};   ///< from the host, for the next step
-  bool pushed = false;           ///< force or torque were written
-  PlumbPose target{};            ///< of a kinematic body
+  PlumbVec3 force{}, torque{};  ///< from the host, for the next step
+  PlumbPose target{};           ///< of a kinematic body
   enum class Moving { as_told, to_target, arrived } moving = Moving::as_told;
   /// ODE's countdowns to sleep, which it does not tell: kept alongside for snapshots.
   struct Idle {
@@ -55,7 +64,6 @@ struct Body {
     double time;
   } idle{};
   dJointID linear_lock = nullptr, angular_lock = nullptr;
-  std::vector<const Body*> untouchable;  ///< joined by joints without collide_connected
 
   [[nodiscard]] bool dynamic() const { return motion == PLUMB_DYNAMIC; }
   [[nodiscard]] bool asleep() const { return body != nullptr && dBodyIsEnabled(body) == 0; }
@@ -81,6 +89,9 @@ struct Body {
   /// I^-1 v for a vector in world axes; 0 for what cannot turn.
   [[nodiscard]] PlumbVec3 inverse_inertia_times(const PlumbVec3& v) const;
 };
+
+/// After a change of the body's material or untouchables.
+void refresh_tags(Body& body);
 
 /// The mass properties of a dynamic body's descriptor, to ODE and to the record.
 void set_mass(Body& body, const PlumbBodyDesc& desc);

@@ -13,13 +13,9 @@ namespace {
 constexpr double least_sliding = 1e-3;
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-const PlumbMaterial& material_of(const GeomTag& tag) {
-  return tag.placed.material == nullptr ? tag.body->material : tag.own_material;
-}
-
 /// Velocity of the body's surface at a point, the belt's own motion included.
 PlumbVec3 belt_velocity(const GeomTag& tag) {
-  const PlumbVec3& belt = material_of(tag).surface_velocity;
+  const PlumbVec3& belt = tag.surface_velocity;
   return is_zero(belt) ? belt : rotate(tag.body->orientation(), belt);
 }
 
@@ -28,18 +24,13 @@ PlumbVec3 velocity_at(const Body& body, const PlumbVec3& point) {
   return add(body.linear_velocity(), cross(vec(dBodyGetAngularVel(body.body)), sub(point, body.centre())));
 }
 
-bool has_belt(const GeomTag& tag) { return !is_zero(material_of(tag).surface_velocity); }
+bool has_belt(const GeomTag& tag) { return !is_zero(tag.surface_velocity); }
 
 bool knows(const Body& body, const Body& other) {
   return std::find(body.untouchable.begin(), body.untouchable.end(), &other) != body.untouchable.end();
 }
 
 }  // namespace
-
-PairMaterial pair_material(const PlumbMaterial& a, const PlumbMaterial& b) {
-  const double friction = a.friction == b.friction ? a.friction : std::sqrt(a.friction * b.friction);
-  return {friction, std::max(a.restitution, b.restitution)};
-}
 
 /// Two geoms whose bounds overlap, in ODE's order.
 struct ContactPass::Pair {
@@ -64,12 +55,13 @@ void ContactPass::configure(const Settings& settings) {
   mode_ = settings.friction_model == FrictionModel::pyramid ? dContactApprox1 : 0;
   if (settings.contact_erp >= 0) mode_ |= dContactSoftERP;
   if (settings.contact_cfm >= 0) mode_ |= dContactSoftCFM;
-  soft_erp_ = settings.contact_erp;
-  soft_cfm_ = settings.contact_cfm;
-  bounce_vel_ = settings.bounce_vel;
   sliding_directions_ = settings.friction_directions == FrictionDirections::sliding;
   substeps_ = settings.substeps;
-  scratch_.resize(static_cast<std::size_t>(settings.max_contacts));
+  dContact blank{};
+  blank.surface.soft_erp = settings.contact_erp;
+  blank.surface.soft_cfm = settings.contact_cfm;
+  blank.surface.bounce_vel = settings.bounce_vel;
+  scratch_.assign(static_cast<std::size_t>(settings.max_contacts), blank);
 }
 
 void ContactPass::begin_step() {
@@ -91,54 +83,58 @@ void ContactPass::near(void* self, dGeomID first, dGeomID second) {
 void ContactPass::meet(dGeomID first, dGeomID second) {
   const GeomTag& one = *static_cast<const GeomTag*>(dGeomGetData(first));
   const GeomTag& two = *static_cast<const GeomTag*>(dGeomGetData(second));
-  const Body &a = *one.body, &b = *two.body;
-  const bool sensor = sensing_ && (a.sensor || b.sensor);
-  if (sensor ? (a.sensor && b.sensor) : !a.dynamic() && !b.dynamic()) return;
+  const bool sensor = one.sensor || two.sensor;
+  if (sensor ? (one.sensor && two.sensor) : !one.dynamic && !two.dynamic) return;
   if (!sensor && !physical_) return;
-  if (filtered_ && !may_touch(a.filter, b.filter)) return;
-  if (!a.untouchable.empty() && knows(a, b)) return;
+  if (filtered_ && !may_touch(one.body->filter, two.body->filter)) return;
+  if (one.choosy && two.choosy && knows(*one.body, *two.body)) return;
   ++pairs_;
-  const Pair pair{one, two, !sleeping_ || !((a.body == nullptr || a.asleep()) && (b.body == nullptr || b.asleep()))};
+  const auto sleeps = [](const GeomTag& tag) { return tag.id == nullptr || dBodyIsEnabled(tag.id) == 0; };
+  const Pair pair{one, two, !sleeping_ || !sleeps(one) || !sleeps(two)};
   if (!sensor && !pair.awake && !keeps_contacts_ && !keeps_pairs_) return;
   const int wanted = sensor ? 1 | static_cast<int>(CONTACTS_UNIMPORTANT) : static_cast<int>(scratch_.size());
   const int count = dCollide(first, second, wanted, &scratch_[0].geom, sizeof(dContact));
   if (count == 0) return;
   if (sensor) {
-    sensed_.push_back(a.sensor ? BodyPair{a.handle, b.handle} : BodyPair{b.handle, a.handle});
+    const PlumbBody a = one.body->handle, b = two.body->handle;
+    sensed_.push_back(one.sensor ? BodyPair{a, b} : BodyPair{b, a});
   } else {
     respond(pair, count);
   }
 }
 
-dSurfaceParameters ContactPass::surface_of(const Pair& pair) const {
-  const PairMaterial material = pair_material(material_of(pair.first), material_of(pair.second));
-  dSurfaceParameters surface{};
-  surface.mode = mode_;
-  surface.mu = material.friction;
-  surface.soft_erp = soft_erp_;
-  surface.soft_cfm = soft_cfm_;
-  if (material.restitution > 0) {
-    surface.mode |= dContactBounce;
-    surface.bounce = material.restitution;
-    surface.bounce_vel = bounce_vel_;
+/// Friction sqrt(mu1 mu2), restitution max(e1, e2).
+struct ContactPass::Surface {
+  Surface(const Pair& pair, int base_mode)
+      : mode(base_mode),
+        mu(pair.first.friction == pair.second.friction ? pair.first.friction
+                                                       : std::sqrt(pair.first.friction * pair.second.friction)),
+        bounce(std::max(pair.first.restitution, pair.second.restitution)) {
+    if (bounce > 0) mode |= dContactBounce;
   }
-  return surface;
-}
+  int mode;
+  double mu, bounce;
+};
 
 void ContactPass::respond(const Pair& pair, int count) {
-  const Body &a = *pair.first.body, &b = *pair.second.body;
+  const GeomTag &one = pair.first, &two = pair.second;
   points_ += static_cast<std::uint32_t>(count);
-  if (keeps_pairs_) touching_.push_back(slot_of(a.handle) < slot_of(b.handle) ? BodyPair{a.handle, b.handle} : BodyPair{b.handle, a.handle});
-  const dSurfaceParameters surface = surface_of(pair);
-  const bool aimed = surface.mu > 0 && (sliding_directions_ || (conveyors_ && (has_belt(pair.first) || has_belt(pair.second))));
+  if (keeps_pairs_) {
+    const PlumbBody a = one.body->handle, b = two.body->handle;
+    touching_.push_back(slot_of(a) < slot_of(b) ? BodyPair{a, b} : BodyPair{b, a});
+  }
+  const Surface surface(pair, mode_);
+  const bool aimed = surface.mu > 0 && (sliding_directions_ || (conveyors_ && (has_belt(one) || has_belt(two))));
   for (int i = 0; i < count; ++i) {
     dContact& contact = scratch_[static_cast<std::size_t>(i)];
     dJointID joint = nullptr;
     if (pair.awake) {
-      contact.surface = surface;
-      if (aimed) aim_friction(pair, contact, a.body == nullptr);
+      contact.surface.mode = surface.mode;
+      contact.surface.mu = surface.mu;
+      contact.surface.bounce = surface.bounce;
+      if (aimed) aim_friction(pair, contact, one.id == nullptr);
       joint = dJointCreateContact(world_, group_, &contact);
-      dJointAttach(joint, a.body, b.body);
+      dJointAttach(joint, one.id, two.id);
     }
     if (keeps_contacts_) record(pair, contact.geom, joint);
   }
@@ -195,8 +191,8 @@ void ContactPass::record(const Pair& pair, const dContactGeom& point, dJointID j
     feedback = {};
     dJointSetFeedback(joint, &feedback);
     // A body that is not there is never ODE's first.
-    const dBodyID ode_first = pair.first.body->body != nullptr ? pair.first.body->body : pair.second.body->body;
-    source = {&feedback, ode_first == b.body->body};
+    const dBodyID ode_first = pair.first.id != nullptr ? pair.first.id : pair.second.id;
+    source = {&feedback, ode_first == b.id};
   }
   sources_.push_back(source);
 }

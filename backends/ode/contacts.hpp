@@ -40,12 +40,12 @@ class ContactPass {
 
  private:
   struct Pair;
+  struct Surface;
   static void near(void* self, dGeomID first, dGeomID second);
   void meet(dGeomID first, dGeomID second);
   void respond(const Pair& pair, int count);
   void record(const Pair& pair, const dContactGeom& point, dJointID joint);
   void merge_substeps();
-  [[nodiscard]] dSurfaceParameters surface_of(const Pair& pair) const;
   void aim_friction(const Pair& pair, dContact& contact, bool reversed) const;
 
   /// Where the impulse of a recorded contact comes from.
@@ -60,9 +60,8 @@ class ContactPass {
   bool keeps_contacts_, keeps_impulses_, keeps_pairs_;
   int mode_ = 0;
   bool sliding_directions_ = false;
-  double bounce_vel_ = 0, soft_erp_ = 0, soft_cfm_ = 0;
   int substeps_ = 1;
-  std::vector<dContact> scratch_;
+  std::vector<dContact> scratch_;  ///< with what no pair changes filled in
   std::uint32_t pairs_ = 0, points_ = 0;
   std::vector<PlumbContact> contacts_;
   std::vector<Source> sources_;
@@ -71,11 +70,5 @@ class ContactPass {
   std::size_t feedbacks_used_ = 0;
   std::vector<BodyPair> touching_, sensed_;
 };
-
-/// Friction sqrt(mu1 mu2), restitution max(e1, e2).
-struct PairMaterial {
-  double friction, restitution;
-};
-[[nodiscard]] PairMaterial pair_material(const PlumbMaterial& a, const PlumbMaterial& b);
 
 }  // namespace plumb::ode

@@ -219,14 +219,12 @@ void World::note_sleep() {
 
 void World::look_for_nonfinite() {
   nonfinite_ = 0;
-  for (const Body* body : dynamic_) {
-    // Finite numbers times 0 add up to 0; anything else makes NaN.
-    const dReal *at = dBodyGetPosition(body->body), *q = dBodyGetQuaternion(body->body),
-                *v = dBodyGetLinearVel(body->body), *w = dBodyGetAngularVel(body->body);
-    double sum = 0;
-    for (int i = 0; i < 3; ++i) sum += 0 * at[i] + 0 * v[i] + 0 * w[i];
-    for (int i = 0; i < 4; ++i) sum += 0 * q[i];
-    if (!(sum == 0)) ++nonfinite_;
+  for (const dBodyID body : dynamic_ids_) {
+    const dReal *at = dBodyGetPosition(body), *q = dBodyGetQuaternion(body), *v = dBodyGetLinearVel(body),
+                *w = dBodyGetAngularVel(body);
+    double sum = q[3];  // one that is not finite leaves it so
+    for (int i = 0; i < 3; ++i) sum += at[i] + q[i] + v[i] + w[i];
+    if (!std::isfinite(sum)) ++nonfinite_;
   }
 }
 

@@ -24,6 +24,20 @@ void put(std::vector<std::unique_ptr<Object>>& slots, std::uint64_t handle, std:
 
 PlumbPose pose_of(const double* row) { return {{row[0], row[1], row[2]}, {row[3], row[4], row[5], row[6]}}; }
 
+void put_vec(const PlumbVec3& v, double* row) {
+  row[0] = v.x;
+  row[1] = v.y;
+  row[2] = v.z;
+}
+
+void put_pose(const PlumbVec3& position, const PlumbQuat& q, double* row) {
+  put_vec(position, row);
+  row[3] = q.x;
+  row[4] = q.y;
+  row[5] = q.z;
+  row[6] = q.w;
+}
+
 dWorldID create_ode_world() {
   ensure_ode();
   return dWorldCreate();
@@ -164,15 +178,18 @@ void World::make_body_geoms(Body& body) {
   std::vector<PlacedGeom> placed;
   make_geoms(*body.shape, space_, placed);
   for (const PlacedGeom& geom : placed) {
-    const PlumbMaterial own = geom.material == nullptr ? PlumbMaterial{} : *geom.material;
-    body.geoms.push_back(std::make_unique<GeomTag>(GeomTag{geom, &body, own}));
-    dGeomSetData(geom.geom, body.geoms.back().get());
+    body.geoms.push_back(std::make_unique<GeomTag>());
+    GeomTag& tag = *body.geoms.back();
+    tag.placed = geom;
+    if (geom.material != nullptr) tag.own_material = *geom.material;
+    dGeomSetData(geom.geom, &tag);
     dGeomSetCategoryBits(geom.geom, body.body == nullptr ? still_bit : moving_bit);
     dGeomSetCollideBits(geom.geom, body.body == nullptr ? moving_bit : still_bit | moving_bit);
     if (body.body == nullptr) continue;
     dGeomSetBody(geom.geom, body.body);
     offset_geom(geom, body.centre_of_mass);
   }
+  refresh_tags(body);
 }
 
 void World::apply_body_settings(Body& body) {
@@ -188,9 +205,13 @@ void World::apply_body_settings(Body& body) {
 
 void World::enlist(Body& body) {
   order_.push_back(&body);
+  plain_.resize(bodies_.size());
+  const bool plain = is_zero(body.centre_of_mass) && (body.turns || body.motion == PLUMB_KINEMATIC);
+  plain_[slot_of(body.handle)] = plain ? body.body : nullptr;
   if (body.motion == PLUMB_KINEMATIC) kinematic_.push_back(&body);
   if (!body.dynamic()) return;
   dynamic_.push_back(&body);
+  dynamic_ids_.push_back(body.body);
   if (body.locks != 0) locked_.push_back(&body);
   if (body.linear_damping != 0 || body.angular_damping != 0) damped_.push_back(&body);
   set_gravity_scale(body, body.gravity_scale);
@@ -198,6 +219,7 @@ void World::enlist(Body& body) {
 
 void World::strike_off(const Body& body) {
   for (auto* list : {&order_, &dynamic_, &kinematic_, &damped_, &locked_, &weighed_, &pushed_}) erase(*list, &body);
+  erase(dynamic_ids_, body.body);
 }
 
 void World::dismantle(Body& body) {
@@ -217,39 +239,69 @@ void World::set_gravity_scale(Body& body, double scale) {
 
 // --- rows ------------------------------------------------------------------------------------------------------------
 
-PlumbResult World::read(PlumbField field, std::span<const PlumbBody> ids, Rows rows) {
-  const std::uint32_t columns = columns_of(field);
-  double row[16];
+PlumbResult World::read_poses(std::span<const PlumbBody> ids, const Rows& rows) {
+  double row[7];
   for (std::size_t i = 0; i < ids.size(); ++i) {
-    read_row(field, body(ids[i]), row);
-    rows.put(i, row, columns);
+    if (const dBodyID plain = plain_[slot_of(ids[i])]; plain != nullptr) {
+      put_pose(vec(dBodyGetPosition(plain)), quat(dBodyGetQuaternion(plain)), row);
+    } else {
+      const PlumbPose pose = body(ids[i]).frame();
+      put_pose(pose.position, pose.orientation, row);
+    }
+    rows.put(i, row, 7);
   }
   return PLUMB_OK;
 }
 
-void World::read_row(PlumbField field, const Body& body, double* row) {
-  const auto put = [&](std::initializer_list<double> values) { std::copy(values.begin(), values.end(), row); };
+PlumbResult World::read_velocities(std::span<const PlumbBody> ids, const Rows& rows) {
+  double row[6];
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    if (const dBodyID plain = plain_[slot_of(ids[i])]; plain != nullptr) {
+      put_vec(vec(dBodyGetLinearVel(plain)), row);
+      put_vec(vec(dBodyGetAngularVel(plain)), row + 3);
+    } else {
+      put_vec(body(ids[i]).linear_velocity(), row);
+      put_vec(body(ids[i]).angular_velocity(), row + 3);
+    }
+    rows.put(i, row, 6);
+  }
+  return PLUMB_OK;
+}
+
+PlumbResult World::read(PlumbField field, std::span<const PlumbBody> ids, Rows rows) {
+  const auto each = [&]<std::size_t Columns>(void (*read_row)(const Body&, double(&)[Columns])) {
+    double row[Columns];
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+      read_row(body(ids[i]), row);
+      rows.put(i, row, Columns);
+    }
+    return PLUMB_OK;
+  };
   switch (field) {
-    case PLUMB_FIELD_POSE: {
-      const PlumbPose pose = body.frame();
-      const auto& [p, q] = pose;
-      return put({p.x, p.y, p.z, q.x, q.y, q.z, q.w});
-    }
-    case PLUMB_FIELD_VELOCITY: {
-      const PlumbVec3 v = body.linear_velocity(), w = body.angular_velocity();
-      return put({v.x, v.y, v.z, w.x, w.y, w.z});
-    }
-    case PLUMB_FIELD_AWAKE: return put({body.dynamic() && body.asleep() ? 0.0 : 1.0});
-    case PLUMB_FIELD_MATERIAL: return put({body.material.friction, body.material.restitution});
-    case PLUMB_FIELD_GRAVITY_SCALE: return put({body.gravity_scale});
-    case PLUMB_FIELD_DAMPING: return put({body.linear_damping, body.angular_damping});
-    case PLUMB_FIELD_SURFACE_VELOCITY: {
-      const PlumbVec3& v = body.material.surface_velocity;
-      return put({v.x, v.y, v.z});
-    }
+    case PLUMB_FIELD_POSE: return read_poses(ids, rows);
+    case PLUMB_FIELD_VELOCITY: return read_velocities(ids, rows);
+    case PLUMB_FIELD_AWAKE:
+      return each(+[](const Body& body, double(&row)[1]) { row[0] = body.dynamic() && body.asleep() ? 0 : 1; });
+    case PLUMB_FIELD_MATERIAL:
+      return each(+[](const Body& body, double(&row)[2]) {
+        row[0] = body.material.friction;
+        row[1] = body.material.restitution;
+      });
+    case PLUMB_FIELD_GRAVITY_SCALE:
+      return each(+[](const Body& body, double(&row)[1]) { row[0] = body.gravity_scale; });
+    case PLUMB_FIELD_DAMPING:
+      return each(+[](const Body& body, double(&row)[2]) {
+        row[0] = body.linear_damping;
+        row[1] = body.angular_damping;
+      });
+    case PLUMB_FIELD_SURFACE_VELOCITY:
+      return each(+[](const Body& body, double(&row)[3]) { put_vec(body.material.surface_velocity, row); });
     case PLUMB_FIELD_FILTER:
-      return put({static_cast<double>(body.filter.category), static_cast<double>(body.filter.mask),
-                  static_cast<double>(body.filter.group)});
+      return each(+[](const Body& body, double(&row)[3]) {
+        row[0] = body.filter.category;
+        row[1] = body.filter.mask;
+        row[2] = body.filter.group;
+      });
     default: throw Error(PLUMB_E_UNSUPPORTED, "field " + std::to_string(field) + " cannot be read");
   }
 }
@@ -305,7 +357,7 @@ void World::write_row(PlumbField field, Body& body, const double* row) {
     case PLUMB_FIELD_MATERIAL:
       body.material.friction = row[0];
       body.material.restitution = row[1];
-      return;
+      return refresh_tags(body);
     case PLUMB_FIELD_GRAVITY_SCALE: set_gravity_scale(body, row[0]); return wake();
     case PLUMB_FIELD_DAMPING:
       body.linear_damping = row[0];
@@ -313,7 +365,7 @@ void World::write_row(PlumbField field, Body& body, const double* row) {
       erase(damped_, &body);
       damped_.push_back(&body);
       return set_damping(body, substep_);
-    case PLUMB_FIELD_SURFACE_VELOCITY: body.material.surface_velocity = v; return;
+    case PLUMB_FIELD_SURFACE_VELOCITY: body.material.surface_velocity = v; return refresh_tags(body);
     case PLUMB_FIELD_FILTER:
       body.filter.category = static_cast<std::uint32_t>(row[0]);
       body.filter.mask = static_cast<std::uint32_t>(row[1]);
@@ -354,6 +406,8 @@ PlumbResult World::create_joints(std::span<const PlumbJointDesc> descs, std::spa
       if (joint->a != nullptr && desc.collide_connected == 0) {
         joint->a->untouchable.push_back(joint->b);
         joint->b->untouchable.push_back(joint->a);
+        refresh_tags(*joint->a);
+        refresh_tags(*joint->b);
       }
       joint_order_.push_back(joint.get());
       if (joint->watched || joint->has_distance_limits()) busy_joints_.push_back(joint.get());
@@ -377,6 +431,8 @@ void World::remove_joint(Joint& joint) {
   if (joint.a != nullptr && joint.desc.collide_connected == 0) {
     forget_one(joint.a->untouchable, joint.b);
     forget_one(joint.b->untouchable, joint.a);
+    refresh_tags(*joint.a);
+    refresh_tags(*joint.b);
   }
   for (Body* body : {joint.a, joint.b})
     if (body != nullptr) body->wake();

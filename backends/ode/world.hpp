@@ -111,8 +111,9 @@ class World final : public IPhysicsWorld,
   void wake_neighbours(const Body& body);
   void set_gravity_scale(Body& body, double scale);
   void apply_body_settings(Body& body);
+  PlumbResult read_poses(std::span<const PlumbBody> ids, const Rows& rows);
+  PlumbResult read_velocities(std::span<const PlumbBody> ids, const Rows& rows);
   void write_row(PlumbField field, Body& body, const double* row);
-  static void read_row(PlumbField field, const Body& body, double* row);
   void remove_joint(Joint& joint);
 
   WorldInit init_;
@@ -130,7 +131,10 @@ class World final : public IPhysicsWorld,
   std::vector<std::unique_ptr<Shape>> shapes_;  // by slot
   std::vector<std::unique_ptr<Body>> bodies_;   // by slot
   std::vector<std::unique_ptr<Joint>> joints_;  // by slot
+  /// By slot: the body in ODE where its rows are ours as they are, else null. Bulk reads need not touch Body then.
+  std::vector<dBodyID> plain_;
   std::vector<Body*> order_;                    // all, as created
+  std::vector<dBodyID> dynamic_ids_;            // of dynamic_
   std::vector<Body*> dynamic_, kinematic_, damped_, locked_, weighed_, pushed_;
   std::vector<Joint*> joint_order_, busy_joints_;  // busy: with work in each sub-step
 

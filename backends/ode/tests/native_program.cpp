@@ -73,12 +73,18 @@ void NativeProgram::step() {
   dJointGroupEmpty(contacts_);
 }
 
-void NativeProgram::read(std::vector<double>& rows) const {
-  rows.clear();
+void NativeProgram::read(StateRows& rows) const {
+  rows.poses.resize(bodies_.size() * 7);
+  rows.velocities.resize(bodies_.size() * 6);
+  double* row = rows.poses.data();
   for (const dBodyID body : bodies_) {
-    const dReal *p = dBodyGetPosition(body), *q = dBodyGetQuaternion(body), *v = dBodyGetLinearVel(body),
-                *w = dBodyGetAngularVel(body);
-    rows.insert(rows.end(), {p[0], p[1], p[2], q[1], q[2], q[3], q[0], v[0], v[1], v[2], w[0], w[1], w[2]});
+    const dReal *p = dBodyGetPosition(body), *q = dBodyGetQuaternion(body);
+    for (const double value : {p[0], p[1], p[2], q[1], q[2], q[3], q[0]}) *row++ = value;
+  }
+  row = rows.velocities.data();
+  for (const dBodyID body : bodies_) {
+    const dReal *v = dBodyGetLinearVel(body), *w = dBodyGetAngularVel(body);
+    for (const double value : {v[0], v[1], v[2], w[0], w[1], w[2]}) *row++ = value;
   }
 }
 

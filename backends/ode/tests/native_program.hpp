@@ -17,8 +17,7 @@ class NativeProgram {
   ~NativeProgram();
 
   void step();
-  /// Rows of position, orientation x y z w, linear and angular velocity of the moving bodies.
-  void read(std::vector<double>& rows) const;
+  void read(StateRows& rows) const;
 
  private:
   static void near(void* self, dGeomID one, dGeomID two);

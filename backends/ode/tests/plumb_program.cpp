@@ -1,7 +1,5 @@
 #include "plumb_program.hpp"
 
-#include <algorithm>
-
 namespace plumb::ode_test {
 
 const Backend& ode() {
@@ -116,22 +114,17 @@ PlumbProgram::PlumbProgram(const Scene& scene, PlumbNeeds needs) : world_(needs)
     desc.frame_b.position = local(link.b);
     world_.joint(desc);
   }
-  poses_.resize(moving_.size() * 7);
-  velocities_.resize(moving_.size() * 6);
 }
 
-void PlumbProgram::read(std::vector<double>& rows) {
-  const auto fetch = [&](PlumbField field, std::vector<double>& into, std::size_t columns) {
-    check(*world_, world_->read(field, moving_, Rows(reinterpret_cast<std::byte*>(into.data()), moving_.size(),
-                                                     columns * sizeof(double), PLUMB_F64)));
+void PlumbProgram::read(StateRows& rows) const {
+  const auto fetch = [&](PlumbField field, std::vector<double>& into) {
+    const std::size_t columns = columns_of(field);
+    into.resize(moving_.size() * columns);
+    const Rows out(reinterpret_cast<std::byte*>(into.data()), moving_.size(), columns * sizeof(double), PLUMB_F64);
+    check(*world_, world_->read(field, moving_, out));
   };
-  fetch(PLUMB_FIELD_POSE, poses_, 7);
-  fetch(PLUMB_FIELD_VELOCITY, velocities_, 6);
-  rows.resize(moving_.size() * 13);
-  for (std::size_t i = 0; i < moving_.size(); ++i) {
-    std::copy_n(&poses_[7 * i], 7, &rows[13 * i]);
-    std::copy_n(&velocities_[6 * i], 6, &rows[13 * i + 7]);
-  }
+  fetch(PLUMB_FIELD_POSE, rows.poses);
+  fetch(PLUMB_FIELD_VELOCITY, rows.velocities);
 }
 
 }  // namespace plumb::ode_test

@@ -48,13 +48,11 @@ class PlumbProgram {
  public:
   explicit PlumbProgram(const Scene& scene, PlumbNeeds needs = usual_needs);
   void step() { world_.step(); }
-  /// As NativeProgram::read.
-  void read(std::vector<double>& rows);
+  void read(StateRows& rows) const;
 
  private:
   TestWorld world_;
   std::vector<PlumbBody> moving_;
-  std::vector<double> poses_, velocities_;
 };
 
 }  // namespace plumb::ode_test

@@ -28,6 +28,13 @@ struct Scene {
   std::vector<Link> links;
 };
 
+/// Of the moving bodies, in order of creation.
+struct StateRows {
+  std::vector<double> poses;       ///< 7 each: position, orientation x y z w
+  std::vector<double> velocities;  ///< 6 each: linear, angular
+  friend bool operator==(const StateRows&, const StateRows&) = default;
+};
+
 inline constexpr double friction = 0.5;
 inline constexpr double dt = 1.0 / 60;
 inline constexpr int most_contacts = 8;
