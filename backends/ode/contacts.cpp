@@ -70,9 +70,12 @@ void ContactPass::begin_step() {
   substep_starts_.clear();
 }
 
-void ContactPass::detect(dSpaceID space) {
+void ContactPass::begin_substep() {
   pairs_ = points_ = 0;  // the report tells of the last sub-step
   substep_starts_.push_back(contacts_.size());
+}
+
+void ContactPass::detect(dSpaceID space) {
   dSpaceCollide(space, this, &ContactPass::near);
 }
 
@@ -198,7 +201,9 @@ void ContactPass::record(const Pair& pair, const dContactGeom& point, dJointID j
 }
 
 void ContactPass::end_substep(double h) {
-  for (std::size_t i = substep_starts_.back(); i < sources_.size(); ++i) {
+  // A world that did not declare collision never detects.
+  const std::size_t first = substep_starts_.empty() ? sources_.size() : substep_starts_.back();
+  for (std::size_t i = first; i < sources_.size(); ++i) {
     const Source& source = sources_[i];
     if (source.feedback == nullptr) continue;
     PlumbContact& contact = contacts_[i];
