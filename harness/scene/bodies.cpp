@@ -51,6 +51,10 @@ SceneBody read_body(const Node& node, const SceneBuilder& builder) {
   desc.linear_velocity = node.vector_or("linear_velocity", {});
   desc.angular_velocity = node.vector_or("angular_velocity", {});
   if (const auto set = node.find("flags")) desc.flags = static_cast<std::uint32_t>(set->bits("flag", flags));
+  // What the scene does not need, its bodies do not have.
+  const PlumbNeeds needs = builder.scene.needs;
+  if (desc.motion == PLUMB_DYNAMIC && (needs & PLUMB_NEED_ROTATION) == 0) desc.flags |= PLUMB_BODY_NO_ROTATION;
+  if ((needs & PLUMB_NEED_FRICTION) == 0) desc.material.friction = 0;
   if (const auto set = node.find("locks")) desc.locks = static_cast<std::uint32_t>(set->bits("lock", locks));
   read_mass(node, desc);
   desc.material.friction = node.number_or("friction", desc.material.friction);
