@@ -15,7 +15,9 @@ btTransform hinge_frame(const btTransform& frame) {
 std::unique_ptr<btTypedConstraint> make_hinge(Joint& joint) {
   auto hinge = std::make_unique<btHingeConstraint>(*joint.a, *joint.body_b, hinge_frame(joint.frame_a), hinge_frame(joint.frame_b), true);
   const PlumbLimit& limit = joint.desc.limits[3];
-  if (limit.enabled != 0) hinge->setLimit(scalar(limit.lower, "limits[3].lower"), scalar(limit.upper, "limits[3].upper"));
+  // Softness and bias as Bullet has them; relaxation 0, because 1 makes a limit bounce.
+  if (limit.enabled != 0)
+    hinge->setLimit(scalar(limit.lower, "limits[3].lower"), scalar(limit.upper, "limits[3].upper"), btScalar(0.9), btScalar(0.3), 0);
   joint.hinge = hinge.get();
   return hinge;
 }
@@ -92,7 +94,7 @@ void set_motors(Joint& joint, btScalar h) {
     const auto velocity = static_cast<btScalar>(motor.target_velocity), force = static_cast<btScalar>(motor.max_force);
     const bool on = motor.enabled != 0 && may_have_motor(joint.desc, axis);
     if (joint.hinge != nullptr && axis == 3) {
-      joint.hinge->enableAngularMotor(on, -velocity, force * h);
+      joint.hinge->enableAngularMotor(on, velocity, force * h);
     } else if (joint.axes != nullptr) {
       const int index = static_cast<int>(axis);
       joint.axes->enableMotor(index, on);

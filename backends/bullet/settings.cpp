@@ -34,7 +34,7 @@ constexpr PlumbSettingInfo choice(const char* name, PlumbSettingRole role, const
 constexpr PlumbSettingRole kQuality = PLUMB_ROLE_QUALITY, kSpeed = PLUMB_ROLE_SPEED, kBehaviour = PLUMB_ROLE_BEHAVIOUR;
 constexpr std::uint32_t kCreation = PLUMB_SETTING_CREATION_ONLY;
 
-// Every default is Bullet's own.
+// Every default is Bullet's own, to the bit: some are float literals in the build with doubles too.
 constexpr PlumbSettingInfo kInfos[] = {
     integer("iterations", kQuality, 1, 10000, 10, "iterations of the solver over all constraints"),
     integer("substeps", kQuality, 1, 1000, 1, "Bullet steps of dt / substeps that make one step"),
@@ -47,9 +47,9 @@ constexpr PlumbSettingInfo kInfos[] = {
     real("friction_erp", "1", kBehaviour, 0, 1, 0.2, "share of the slip corrected in a step, with friction_anchors"),
     onoff("friction_anchors", kBehaviour, false, "hold contact points where friction caught them"),
     onoff("split_impulse", kBehaviour, true, "correct deep contacts by moving bodies without giving them velocity"),
-    real("split_impulse_threshold", "m", kBehaviour, -1000, 0, -0.04, "contacts deeper than its negative are corrected so"),
-    real("split_impulse_turn_erp", "1", kBehaviour, 0, 1, 0.1, "share of that correction's turn that is applied"),
-    real("restitution_threshold", "m/s", kBehaviour, 0, 1000, 0.2, "slower impacts do not bounce"),
+    real("split_impulse_threshold", "m", kBehaviour, -1000, 0, -0.04f, "contacts deeper than its negative are corrected so"),
+    real("split_impulse_turn_erp", "1", kBehaviour, 0, 1, 0.1f, "share of that correction's turn that is applied"),
+    real("restitution_threshold", "m/s", kBehaviour, 0, 1000, 0.2f, "slower impacts do not bounce"),
     real("warm_start_factor", "1", kBehaviour, 0, 1, 0.85, "share of the last step's contact impulses to begin with"),
     real("relaxation", "1", kBehaviour, 0.1, 1.9, 1, "over-relaxation of contacts (sor)"),
     real("joint_damping", "1", kBehaviour, 0, 1, 1, "share of a joint's velocity error that is removed in a step"),
