@@ -48,6 +48,7 @@ void expect_hull(const std::vector<PlumbVec3>& points, const ConvexHull& hull) {
   for (const auto& t : hull.triangles) {
     const PlumbVec3& a = hull.vertices[t[0]];
     const PlumbVec3 area = cross(sub(hull.vertices[t[1]], a), sub(hull.vertices[t[2]], a));
+    ASSERT_GT(length(area), 0);
     for (const PlumbVec3& p : points) ASSERT_LE(dot(area, sub(p, a)), 1e-11 * std::pow(hull.extent, 3));
   }
   std::size_t corners = 0;
@@ -94,6 +95,18 @@ TEST(ConvexHull, LatticeHasSixFaces) {
     for (const HullFace& face : hull.faces) EXPECT_EQ(face.loop.size(), 4u);
     EXPECT_NEAR(volume_of(hull) / (343 * size * size * size), 1, 1e-11);
   }
+}
+
+// Upright, its points lie in the sides and on the edges exactly: no triangle may be without area.
+TEST(ConvexHull, UprightLatticeHasEightCorners) {
+  std::vector<PlumbVec3> points;
+  for (int i = 0; i < 5; ++i)
+    for (int j = 0; j < 5; ++j)
+      for (int k = 0; k < 5; ++k) points.push_back({0.25 * i, 0.25 * j, 0.25 * k});
+  const ConvexHull hull = convex_hull(points);
+  expect_hull(points, hull);
+  EXPECT_EQ(hull.faces.size(), 6u);
+  EXPECT_EQ(volume_of(hull), 1);
 }
 
 TEST(ConvexHull, Float32PointsStillMakeWholeFaces) {
