@@ -174,11 +174,29 @@ TEST_F(ValidatedHost, WorldsThatAreNone) {
   expect_found("destroyed before");
   EXPECT_EQ(table->list_bodies(gone, nullptr, 0, &count), PLUMB_E_INVALID_ARGUMENT);
   expect_found("has been destroyed");
+}
+
+TEST_F(ValidatedHost, WorldsThatAreAskedForWrongly) {
   PlumbWorld* none = nullptr;
+  const auto asked = [&](const std::string& words, const PlumbWorldDesc* desc, PlumbWorld** made) {
+    static bool forwarded;
+    forwarded = false;
+    ill().core.create_world = [](const PlumbWorldDesc*, PlumbWorld**) -> PlumbResult { return forwarded = true, PLUMB_E_INTERNAL; };
+    EXPECT_EQ(table->create_world(desc, made), PLUMB_E_INVALID_ARGUMENT);
+    EXPECT_FALSE(forwarded);
+    EXPECT_NE(std::string(table->error_text(nullptr)).find("create_world: " + words), std::string::npos) << table->error_text(nullptr);
+    expect_found("create_world: " + words);
+  };
   PlumbWorldDesc desc = world_desc(0);
+  asked("desc is null", nullptr, &none);
+  asked("world is null", &desc, nullptr);
+  desc.setting_count = 1;
+  asked("desc.settings is null", &desc, &none);
+  const PlumbSetting nameless{};
+  desc.settings = &nameless;
+  asked("desc.settings.name is null", &desc, &none);
   desc.struct_size = 1;
-  EXPECT_EQ(table->create_world(&desc, &none), PLUMB_E_INVALID_ARGUMENT);
-  EXPECT_NE(std::string(table->error_text(nullptr)).find("struct_size is 1"), std::string::npos);
+  asked("desc.struct_size is 1", &desc, &none);
 }
 
 TEST_F(ValidatedHost, TheBackendsOwnFailuresKeepTheirText) {

@@ -1,0 +1,243 @@
+// Every call of the one list goes into a trace and comes back out of it as it was.
+#include <fstream>
+#include <set>
+
+#include "ill_table.hpp"
+#include "trace_format.hpp"
+#include "calls.hpp"
+
+namespace plumb::test {
+namespace {
+
+// What the fake world lacks. The answers hold what was asked, so that a wrong input is a different output.
+PlumbResult collide(PlumbWorld*, const PlumbPosedPair* pairs, std::size_t stride, std::uint32_t count,
+                    PlumbPairResult* results, PlumbPairPoint* points, std::uint32_t capacity, std::uint32_t* point_count) {
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const auto& pair = *reinterpret_cast<const PlumbPosedPair*>(reinterpret_cast<const std::byte*>(pairs) + i * stride);
+    results[i] = {0, i, 1};
+    if (i < capacity) points[i] = {pair.pose_a.position, pair.pose_b.position, 0, pair.shape_a * 1000 + pair.shape_b};
+  }
+  *point_count = count;
+  return count > capacity ? PLUMB_TRUNCATED : PLUMB_OK;
+}
+template <class Row>
+PlumbResult one_row(PlumbWorld* world, Row* out, std::uint32_t capacity, std::uint32_t* count) {
+  PlumbBody body = 0;
+  std::uint32_t bodies = 0;
+  good().core.list_bodies(world, &body, 1, &bodies);
+  *count = 1;
+  if (capacity == 0) return PLUMB_TRUNCATED;
+  out[0] = Row{};
+  if constexpr (requires { out->body; }) out->body = body;
+  if constexpr (requires { out->body_a; }) out->body_a = body;
+  return PLUMB_OK;
+}
+PlumbResult cast(PlumbWorld*, PlumbHitMode, const PlumbCast* casts, std::size_t, std::uint32_t count, PlumbHit* hits,
+                 std::uint32_t, std::uint32_t* found) {
+  for (std::uint32_t i = 0; i < count; ++i) hits[i] = {0, i, 0, 0, casts[i].translation, casts[i].pose.position};
+  *found = count;
+  return PLUMB_OK;
+}
+
+const PlumbBackendTable& complete() {
+  static const PlumbCollideTable collide_table = {sizeof(PlumbCollideTable), 0, &collide};
+  static const PlumbDebugTable debug_table = {sizeof(PlumbDebugTable), 0, &one_row<PlumbDebugPair>, &one_row<PlumbDebugBox>,
+                                              &one_row<PlumbDebugAxis>};
+  static const PlumbQueriesTable queries_table = [] {
+    PlumbQueriesTable queries = good().queries;
+    queries.casts = &cast;
+    return queries;
+  }();
+  static const PlumbJointsTable joints_table = [] {
+    PlumbJointsTable joints = good().joints;
+    joints.read = [](PlumbWorld*, PlumbJointField field, PlumbDataType, const PlumbJoint*, std::uint32_t, void* rows, std::size_t) -> PlumbResult {
+      std::fill_n(static_cast<double*>(rows), joint_columns_of(field), 3.5);
+      return PLUMB_OK;
+    };
+    return joints;
+  }();
+  static const PlumbBackendTable table = [] {
+    PlumbBackendTable core = good().core;
+    core.extension = [](const char* name) -> const void* {
+      const std::string_view wanted = name;
+      if (wanted == PLUMB_EXT_COLLIDE) return &collide_table;
+      if (wanted == PLUMB_EXT_DEBUG) return &debug_table;
+      if (wanted == PLUMB_EXT_QUERIES) return &queries_table;
+      if (wanted == PLUMB_EXT_JOINTS) return &joints_table;
+      return good().core.extension(name);
+    };
+    return core;
+  }();
+  return table;
+}
+
+/// Makes every call at least once, straight on the table.
+class Everything {
+ public:
+  explicit Everything(const PlumbBackendTable* table) : table_(*table) {
+    PlumbWorldDesc desc = world_desc(PLUMB_NEED_ALL & ~PLUMB_NEED_CCD);
+    const PlumbSetting setting = {"solver", {PLUMB_SETTING_CHOICE, 0, 0, "exact"}};
+    desc.settings = &setting;
+    desc.setting_count = 1;
+    ok(table_.create_world(&desc, &world_));
+    objects();
+    rows();
+    queries();
+    extensions();
+    ok(extension<PlumbJointsTable>(PLUMB_EXT_JOINTS).destroy(world_, &joint_, 1));
+    ok(table_.destroy_bodies(world_, bodies_, 2));
+    ok(table_.destroy_shapes(world_, &shape_, 1));
+    table_.destroy_world(world_);
+  }
+
+ private:
+  void ok(PlumbResult result) const { EXPECT_GE(result, 0) << table_.error_text(world_); }
+  template <class Table>
+  const Table& extension(const char* name) const {
+    return *static_cast<const Table*>(table_.extension(name));
+  }
+
+  void objects() {
+    PlumbShapeDesc box = shape_desc(PLUMB_BOX);
+    box.half_extents = {1, 2, 3};
+    ok(table_.create_shapes(world_, &box, sizeof box, 1, &shape_));
+    struct Longer {  // a host of a later version: its descriptors are longer
+      PlumbBodyDesc desc;
+      double more;
+    } descs[2] = {{body_desc(), 1}, {body_desc(), 2}};
+    for (Longer& each : descs) each.desc.shape = shape_;
+    ok(table_.create_bodies(world_, &descs[0].desc, sizeof(Longer), 2, bodies_));
+    PlumbJointDesc joint = joint_desc(PLUMB_JOINT_HINGE);
+    joint.body_a = bodies_[0];
+    joint.body_b = bodies_[1];
+    ok(extension<PlumbJointsTable>(PLUMB_EXT_JOINTS).create(world_, &joint, sizeof joint, 1, &joint_));
+  }
+
+  void rows() {
+    PlumbBody ids[2];
+    std::uint32_t count = 0;
+    ok(table_.list_bodies(world_, ids, 2, &count));
+    std::uint64_t user_data = 0;
+    ok(table_.user_data(world_, bodies_[1], &user_data));
+    float poses[2][8] = {{0, 0, 0, 0, 0, 0, 1, 9}, {1, 2, 3, 0, 0, 0, 1, 9}};
+    ok(table_.write(world_, PLUMB_FIELD_POSE, PLUMB_F32, bodies_, 2, poses, sizeof poses[0]));
+    ok(table_.read(world_, PLUMB_FIELD_POSE, PLUMB_F32, bodies_, 2, poses, sizeof poses[0]));
+    const PlumbVec3 gravity = {1, 2, 3};
+    ok(table_.set_gravity(world_, &gravity));
+    const PlumbStepDesc step = {sizeof step, 0, 0.25};
+    ok(table_.step(world_, &step));
+    PlumbStepReport report{};
+    report.struct_size = sizeof report;
+    ok(table_.wait(world_, &report));
+    PlumbContact contact;
+    PlumbEvent event;
+    ok(table_.contacts(world_, &contact, sizeof contact, 1, &count));
+    ok(table_.events(world_, &event, sizeof event, 1, &count));
+    double motors[12] = {};
+    const auto& joints = extension<PlumbJointsTable>(PLUMB_EXT_JOINTS);
+    ok(joints.write(world_, PLUMB_JOINT_MOTOR, PLUMB_F64, &joint_, 1, motors, sizeof motors));
+    ok(joints.read(world_, PLUMB_JOINT_MOTOR, PLUMB_F64, nullptr, 1, motors, sizeof motors));
+  }
+
+  void queries() const {
+    const auto& table = extension<PlumbQueriesTable>(PLUMB_EXT_QUERIES);
+    const PlumbFilter filter = {1, 1, 0, 0};
+    const PlumbRay ray = {{0, 0, 0}, {1, 0, 0}, filter};
+    const PlumbCast cast = {shape_, identity_pose(), {4, 5, 6}, filter};
+    const PlumbOverlap overlap = {shape_, identity_pose(), filter};
+    PlumbHit hit;
+    std::uint32_t count = 0;
+    ok(table.rays(world_, PLUMB_HIT_CLOSEST, &ray, sizeof ray, 1, &hit, 1, &count));
+    ok(table.casts(world_, PLUMB_HIT_CLOSEST, &cast, sizeof cast, 1, &hit, 1, &count));
+    ok(table.overlaps(world_, &overlap, sizeof overlap, 1, &hit, 1, &count));
+    PlumbPosedPair pairs[2] = {{shape_, shape_, identity_pose(), identity_pose()}, {shape_, shape_, identity_pose(), identity_pose()}};
+    pairs[1].pose_b.position = {7, 8, 9};
+    PlumbPairResult results[2];
+    PlumbPairPoint points[2];
+    ok(extension<PlumbCollideTable>(PLUMB_EXT_COLLIDE).pairs(world_, pairs, sizeof pairs[0], 2, results, points, 2, &count));
+  }
+
+  void extensions() const {
+    std::uint32_t count = 0;
+    const auto& debug = extension<PlumbDebugTable>(PLUMB_EXT_DEBUG);
+    PlumbDebugPair pair;
+    PlumbDebugBox box;
+    PlumbDebugAxis axis;
+    ok(debug.pairs(world_, &pair, 1, &count));
+    ok(debug.boxes(world_, &box, 1, &count));
+    ok(debug.axes(world_, &axis, 1, &count));
+    const auto& settings = extension<PlumbSettingsTable>(PLUMB_EXT_SETTINGS);
+    PlumbSettingValue value = {PLUMB_SETTING_CHOICE, 0, 0, "fast"};
+    ok(settings.set(world_, "solver", &value));
+    ok(settings.get(world_, "solver", &value));
+    const auto& snapshot = extension<PlumbSnapshotTable>(PLUMB_EXT_SNAPSHOT);
+    std::size_t size = 0;
+    ok(snapshot.save(world_, nullptr, 0, &size));
+    std::vector<std::byte> data(size);
+    ok(snapshot.save(world_, data.data(), data.size(), &size));
+    ok(snapshot.restore(world_, data.data(), data.size()));
+    std::uint64_t hash = 0;
+    ok(snapshot.hash(world_, &hash));
+    const auto& state = extension<PlumbStateTable>(PLUMB_EXT_STATE);
+    const PlumbStateRequest request = {sizeof request, PLUMB_FIELD_POSE, 1, 1};
+    PlumbDLManagedTensor* tensor = nullptr;
+    ok(state.borrow(world_, &request, &tensor, nullptr));
+    if (tensor != nullptr) tensor->deleter(tensor);
+    PlumbBody ids[2];
+    std::uint64_t generation = 0;
+    ok(state.rows(world_, ids, 2, &count, &generation));
+  }
+
+  const PlumbBackendTable& table_;
+  PlumbWorld* world_ = nullptr;
+  PlumbShape shape_ = 0;
+  PlumbBody bodies_[2] = {};
+  PlumbJoint joint_ = 0;
+};
+
+TEST(TraceCalls, EveryCallOfTheListIsRecordedAndReplaysTheSame) {
+  const auto file = std::filesystem::temp_directory_path() / "plumb-every-call.trace";
+  const PlumbBackendTable* traced = layers::trace(&complete(), file);
+  { const Everything everything(traced); }
+  layers::end_trace(traced);
+
+  std::ifstream in(file, std::ios::binary);
+  const std::vector<char> bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  layers::ByteReader reader(std::as_bytes(std::span(bytes)));
+  reader.get_bytes(sizeof layers::trace_magic + 8);
+  for (int i = 0; i < 4; ++i) static_cast<void>(reader.get_string());
+  reader.get_bytes(8);
+  std::set<std::uint8_t> seen;
+  while (reader.left() > 0) {
+    const auto size = reader.get<std::uint32_t>();
+    static_cast<void>(reader.get<std::uint32_t>());
+    seen.insert(static_cast<std::uint8_t>(reader.get_bytes(size)[0]));
+  }
+  layers::for_each_call([&]<layers::Call call>() {
+    EXPECT_TRUE(seen.contains(static_cast<std::uint8_t>(call))) << layers::name_of(call) << " is not in the trace";
+  });
+
+  const layers::ReplayReport report = layers::replay(file, &complete());
+  EXPECT_TRUE(report.same()) << (report.result ? report.result->name + ": " + report.result->text : report.first_output.value_or("state"));
+  EXPECT_EQ(report.steps, 1u);
+  std::filesystem::remove(file);
+}
+
+TEST(TraceCalls, EveryCallPassesValidation) {
+  const PlumbBackendTable* validated = layers::validate(&complete());
+  { const Everything everything(validated); }
+  for (const std::string& finding : layers::findings(validated)) ADD_FAILURE() << finding;
+}
+
+TEST(TraceCalls, AStepThatFailsHasNotBegun) {
+  const auto world = Backend(&good().core).create_world(world_desc(0));
+  FakeWorld::last->on_step = [] { throw Error(PLUMB_E_UNSUPPORTED, "not today"); };
+  EXPECT_EQ(world->step(0.1), PLUMB_E_UNSUPPORTED);
+  FakeWorld::last->on_step = nullptr;
+  EXPECT_EQ(world->step(0.1), PLUMB_OK) << world->error_text();
+  PlumbStepReport report{};
+  EXPECT_EQ(world->wait(report), PLUMB_OK);
+}
+
+}  // namespace
+}  // namespace plumb::test
