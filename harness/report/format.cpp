@@ -77,7 +77,7 @@ std::string dt_text(std::optional<double> dt) {
     const double rate = std::round(1 / *dt);
     if (rate < 1e6 && std::abs(rate * *dt - 1) < 1e-6) return fmt::format("1/{:.0f}", rate);
   }
-  return short_number(*dt, 4);
+  return shortest_number(*dt);
 }
 
 std::string ratio_text(double ratio) { return short_number(ratio) + "\u00d7"; }

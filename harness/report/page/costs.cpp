@@ -46,12 +46,16 @@ std::string reach_table(const PageContext& context) {
   return out + "</tbody></table></div>";
 }
 
-std::string line_row(const PageContext& context, const CostLine& line, bool first,
+/// The cell that names problem and metric, beside all lines of it. The script moves it to the first line that is shown.
+std::string label_cell(const CostLine& line, std::ptrdiff_t lines) {
+  return fmt::format(
+      R"(<th scope="row" class="label" rowspan="{}"><b>{}</b> <span class="variant">{}</span> <span class="metric">{}</span></th>)",
+      lines, escape_html(line.problem->scene), escape_html(line.problem->variant), escape_html(line.metric));
+}
+
+std::string line_row(const PageContext& context, const CostLine& line, const std::string& label,
                      const std::array<double, target_errors.size()>& cheapest) {
-  std::string out = fmt::format(R"(<tr class="e{}{}">)", context.backend_index(line.backend), first ? " first" : "");
-  out += fmt::format(
-      R"(<th scope="row" class="label"><b>{}</b> <span class="variant">{}</span> <span class="metric">{}</span></th>)",
-      escape_html(line.problem->scene), escape_html(line.problem->variant), escape_html(line.metric));
+  std::string out = fmt::format(R"(<tr class="e{}">{})", context.backend_index(line.backend), label);
   out += fmt::format("<td class=\"name\">{}</td>", backend_label(context, line.backend));
   if (!line.floor) {
     const Verdict verdict = line.representative->verdict();
@@ -101,7 +105,8 @@ std::string group_table(const PageContext& context, const std::string& group) {
     // One backend alone is not the cheapest of anything.
     if (end - begin < 2) cheapest.fill(0);
     out += fmt::format("<tbody {}>", filter_key(context, *begin->problem, begin->metric));
-    for (auto line = begin; line != end; ++line) out += line_row(context, *line, line == begin, cheapest);
+    for (auto line = begin; line != end; ++line)
+      out += line_row(context, *line, line == begin ? label_cell(*line, end - begin) : "", cheapest);
     out += "</tbody>";
   }
   return out + "</table></div>";
@@ -113,7 +118,7 @@ std::string costs_section(const PageContext& context) {
   std::string out =
       R"(<section id="cost"><h2>What accuracy costs</h2><p class="about">Wall-clock milliseconds per simulated second of the cheapest )"
       R"(configuration (time step, settings, threads) among these results that reaches the error. <b>Never</b>: none of them does. )"
-      R"(The lowest cost of a line's neighbours is set off; floor is the smallest error reached, and what it costs.</p>)";
+      R"(The cheapest engine of a metric is set off; floor is the smallest error reached, and what it costs.</p>)";
   out += reach_table(context);
   const bool few = context.costs.size() <= 60;
   for (const std::string& group : context.study.groups) {

@@ -19,6 +19,11 @@
     return value.toFixed(Math.max(0, (digits || 3) - 1 - exponent));
   }
 
+  function limit(value) {
+    var text = short(value);
+    return /e/.test(text) || text.indexOf('.') < 0 ? text : text.replace(/\.?0+$/, '');
+  }
+
   // ---- details of a run ----
   function table(head, rows, className) {
     var t = make('table', null, className);
@@ -60,7 +65,7 @@
     if (row.m.length) {
       panes.appendChild(pane('Metrics', table(['metric', 'value', 'unit', 'truth', 'error', 'without known bias', 'threshold', 'gold', ''],
         row.m.map(function (m) {
-          return { cells: [m[9] ? m[0] + ' (' + m[9] + ')' : m[0], short(m[1], 7), m[2], short(m[3], 7), short(m[4]), short(m[5]), short(m[6]), short(m[7]), ''], chip: m[8] };
+          return { cells: [m[9] ? m[0] + ' (' + m[9] + ')' : m[0], short(m[1], 7), m[2], short(m[3], 7), short(m[4]), short(m[5]), limit(m[6]), limit(m[7]), ''], chip: m[8] };
         })), 'whole'));
     }
     var t = row.t, n = row.n, facts = [
@@ -109,14 +114,16 @@
 
   // ---- filter, groups, backends ----
   function label() {
-    // The first line of a problem that is shown says which problem it is.
+    // The cell that names a problem stands in the first line that is shown, beside all of them.
     all('.costs tbody').forEach(function (body) {
-      var found = false;
-      Array.prototype.forEach.call(body.rows, function (row) {
-        var shown = !/\be(\d+)\b/.test(row.className) || !root.classList.contains('hide' + RegExp.$1);
-        row.classList.toggle('first', shown && !found);
-        found = found || shown;
+      var name = body.querySelector('.label');
+      var shown = Array.prototype.filter.call(body.rows, function (row) {
+        var backend = /\be(\d+)\b/.exec(row.className);
+        return !backend || !root.classList.contains('hide' + backend[1]);
       });
+      if (!shown.length) return;
+      name.rowSpan = shown.length;
+      shown[0].insertBefore(name, shown[0].firstChild);
     });
   }
   function hideBackends() {
@@ -170,6 +177,5 @@
     try { localStorage.setItem('plumb-theme', root.dataset.theme); } catch (refused) { return; }
   });
 
-  label();
   follow();
 })();

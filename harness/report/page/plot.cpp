@@ -13,7 +13,7 @@ namespace plumb::harness {
 namespace {
 
 constexpr double width = 400, height = 290;
-constexpr double margin_left = 54, margin_top = 12, margin_bottom = 44, margin_right = 16, margin_right_axis = 54;
+constexpr double margin_left = 62, margin_top = 16, margin_bottom = 44, margin_right = 16, margin_right_axis = 58;
 constexpr double marker_radius = 4;
 constexpr std::size_t marker_shapes = 6;
 constexpr const char* dashes[plot_patterns]{"", "6 3", "2 3", "8 3 2 3"};
@@ -154,7 +154,7 @@ class Drawing {
     }
     if (path.find('L') == std::string::npos) return;
     const char* dash = dashes[series.pattern % plot_patterns];
-    add(R"(<path class="line e{}"{} d="{}"><title>{}</title></path>)", series.colour,
+    add(R"(<path class="line e{}{}"{} d="{}"><title>{}</title></path>)", series.colour, series.right ? " second" : "",
         *dash ? fmt::format(R"( stroke-dasharray="{}")", dash) : "", path, escape_html(series.hover));
   }
 

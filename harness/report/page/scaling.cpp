@@ -40,17 +40,17 @@ std::vector<Sized> sizes_of(const PageContext& context, const Problem* first, co
 
 /// Bodies at which a step takes a frame, between the two sizes around it as a power law; "" where it was not reached.
 std::string bodies_at_frame(const std::vector<Sized>& sizes) {
-  if (*sizes.front().row->median_ms > frame_ms) return fmt::format("below {}", limit_text(sizes.front().bodies));
+  if (*sizes.front().row->median_ms > frame_ms) return fmt::format("below {}", shortest_number(sizes.front().bodies));
   for (std::size_t i = 1; i < sizes.size(); ++i) {
     const double a = *sizes[i - 1].row->median_ms, b = *sizes[i].row->median_ms;
     if (a <= frame_ms && b > frame_ms) {
       const double share = std::log(frame_ms / a) / std::log(b / a);
-      return fmt::format(
-          "about {}",
-          short_number(std::round(sizes[i - 1].bodies * std::pow(sizes[i].bodies / sizes[i - 1].bodies, share)), 2));
+      const double bodies = sizes[i - 1].bodies * std::pow(sizes[i].bodies / sizes[i - 1].bodies, share);
+      const double unit = std::max(1.0, std::pow(10.0, std::floor(std::log10(bodies)) - 1));  // two digits are known
+      return fmt::format("about {}", shortest_number(std::round(bodies / unit) * unit));
     }
   }
-  return fmt::format("above {}", limit_text(sizes.back().bodies));
+  return fmt::format("above {}", shortest_number(sizes.back().bodies));
 }
 
 std::string scene_figure(const PageContext& context, const Problem* first, const Problem* last) {

@@ -118,14 +118,14 @@ std::string phase_table(const PageContext& context) {
     double longest = 0;
     for (const std::string& backend : context.study.backends) {
       const ResultRow* row = context.study.representative(problem, backend);
-      if (!row || row->phase_ms.empty()) continue;
+      if (!row || !row->completed()) continue;
       double sum = 0;
       for (const auto& [name, ms] : row->phase_ms) sum += std::max(ms, 0.0);
       longest = std::max({longest, sum, row->median_ms.value_or(0)});
     }
     for (const std::string& backend : context.study.backends) {
       const ResultRow* row = context.study.representative(problem, backend);
-      if (row && !row->phase_ms.empty()) rows += phase_row(context, problem, *row, phases, longest);
+      if (row && row->completed() && !row->phase_ms.empty()) rows += phase_row(context, problem, *row, phases, longest);
     }
   }
   std::string legend;

@@ -1,0 +1,75 @@
+#include "report/study.hpp"
+
+#include <gtest/gtest.h>
+
+#include "report/overview.hpp"
+#include "sample_rows.hpp"
+
+namespace plumb::harness {
+namespace {
+
+TEST(Study, ProblemsAreInTheOrderOfIdsAndNumbers) {
+  const Study study(parse_rows(testing::sample_rows(0)));
+  std::vector<std::string> titles;
+  for (const Problem& problem : study.problems) titles.push_back(problem.title());
+  const auto at = [&](const char* title) { return std::find(titles.begin(), titles.end(), title) - titles.begin(); };
+  EXPECT_LT(at("B1 e=0.25"), at("B1 e=0.5"));
+  EXPECT_LT(at("D1 H=50"), at("D1 H=100"));
+  EXPECT_EQ(study.groups.front(), "integrator");
+  EXPECT_EQ(study.groups.back(), "scale");
+}
+
+TEST(Study, DefaultsAreTheUsualCellsOfTheDefaultProfile) {
+  const Study study(parse_rows(testing::sample_rows(6)));
+  for (const Problem& problem : study.problems) {
+    for (const std::string& backend : study.backends) {
+      const ResultRow* row = study.representative(problem, backend);
+      ASSERT_NE(row, nullptr);
+      EXPECT_DOUBLE_EQ(*row->dt, 1.0 / 60);
+      EXPECT_EQ(row->settings["iterations"], 10);
+      EXPECT_EQ(study.configuration(*row), "1/60 s");
+    }
+  }
+}
+
+TEST(Study, TheCommandRunsTheCellAgain) {
+  std::vector<Json> rows{testing::sample_row("S", "b", 0.1, 1), testing::sample_row("S", "b", 0.1, 1),
+                         testing::sample_row("S", "b", 0.1, 1)};
+  for (Json& row : rows) row["settings"]["iterations"] = 10;
+  rows[2]["settings"]["iterations"] = 40;
+  rows[2]["profile"] = "matched";
+  rows[2]["dt"] = 0.005;
+  rows[2]["params"] = {{"H", 50}, {"kind", "it's; rm -rf"}};
+  const Study study(parse_rows(rows));
+  EXPECT_EQ(
+      study.command(study.rows[2]),
+      "plumb run S --backend b --param H=50 --param 'kind=it'\\''s; rm -rf' --profile matched --set iterations=40 "
+      "--dt 0.005 --seconds 1 --threads 1");
+  EXPECT_EQ(study.configuration(study.rows[2]), "1/200 s, matched, iterations 40");
+}
+
+TEST(Overview, CountsEveryProblemOnce) {
+  const Study study(parse_rows(testing::sample_rows(4)));
+  for (const BackendOverview& overview : overviews(study, cost_of_accuracy(study))) {
+    int sum = 0;
+    for (const int count : overview.counts) sum += count;
+    EXPECT_EQ(sum, static_cast<int>(study.problems.size()));
+    EXPECT_EQ(overview.problems, sum);
+    for (std::size_t t = 0; t < target_errors.size(); ++t) EXPECT_LE(overview.cheapest[t], overview.reached[t]);
+    EXPECT_NE(describe_backend(overview, false).find("failed"), std::string::npos);
+  }
+}
+
+TEST(Overview, TheWorstFailureIsNamedFirst) {
+  std::vector<Json> rows{testing::sample_row("A1", "b", 0.02, 1), testing::sample_row("A2", "b", 5.0, 1),
+                         testing::sample_row("A3", "b", 1e-6, 1)};
+  const Study study(parse_rows(rows));
+  const auto all = overviews(study, cost_of_accuracy(study));
+  ASSERT_EQ(all.size(), 1u);
+  EXPECT_EQ(describe_backend(all[0], true),
+            "Of 3 problems: 1 gold, 2 failed. It reaches 1 % error in 1 of 3 metrics. It misses by most in A2 "
+            "(error_of_it at 500× its threshold), A1 (error_of_it at 2.00× its threshold).");
+}
+
+}  // namespace
+}  // namespace plumb::harness
