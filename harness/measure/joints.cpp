@@ -1,0 +1,68 @@
+// The list of measures of joints, and what they share.
+#include "measure/joints.hpp"
+
+#include <array>
+#include <cmath>
+
+#include "measure/groups.hpp"
+
+namespace plumb::harness {
+
+void place_rods(Scene& scene, const std::vector<std::size_t>& rods, double length, const referee::Vec3& start,
+                const referee::Vec3& along, const std::vector<double>& angles) {
+  referee::Vec3 end = start;
+  for (std::size_t i = 0; i < rods.size(); ++i) {
+    const referee::Quat turn(Eigen::AngleAxisd(angles[i], referee::Vec3::UnitZ()));
+    const referee::Vec3 half = length / 2 * (turn * along);
+    PlumbPose& pose = scene.bodies[rods[i]].desc.pose;
+    pose.position = referee::plain(end + half);
+    pose.orientation = {turn.x(), turn.y(), turn.z(), turn.w()};
+    end += 2 * half;
+  }
+}
+
+double turn_about_z(const Scene& scene, std::span<const PoseRow> poses, std::size_t body) {
+  const referee::Quat start = referee::quat(scene.bodies[body].desc.pose.orientation);
+  const referee::Vec3 axis = referee::quat(poses[body].orientation) * start.conjugate() * referee::Vec3::UnitX();
+  return std::atan2(axis.y(), axis.x());
+}
+
+void ReactionAccount::add(Simulation& simulation) {
+  IJoints* joints = simulation.world().joints();
+  const PlumbJoint id = simulation.joint_handle(joint_);
+  std::array<double, 6> row{};
+  const Rows rows(reinterpret_cast<std::byte*>(row.data()), 1, sizeof(row), PLUMB_F64);
+  check(simulation.world(), joints->read_joints(PLUMB_JOINT_REACTION, {&id, 1}, rows));
+  sum_ += referee::Vec3(row[0], row[1], row[2]);
+  ++count_;
+}
+
+bool tells_reaction(MeasureContext& context, std::size_t joint) {
+  const PlumbJointType type = context.scene().joints[joint].desc.type;
+  return context.backend().capability(PLUMB_CAP_JOINT_FEATURE, type, PLUMB_JOINT_HAS_REACTION) != PLUMB_NONE;
+}
+
+std::span<const MeasureEntry> joint_measures() {
+  static constexpr const char* chain_args[] = {"tip", "top", "motion"};
+  static constexpr const char* mode_args[] = {"rods", "tip", "length", "tip_mass", "amplitude"};
+  static constexpr const char* catenary_args[] = {"planks", "length", "span", "end"};
+  static constexpr const char* slider_args[] = {"body", "slope"};
+  static constexpr const char* crank_args[] = {"crank", "piston", "crank_length", "rod_length"};
+  static constexpr const char* parallelogram_args[] = {"crank", "length", "amplitude"};
+  static constexpr const char* motor_args[] = {"disc", "torque", "target", "load"};
+  static constexpr const char* stop_args[] = {"rod", "length", "stop"};
+  static constexpr MeasureEntry entries[] = {
+      {"heavy_chain", "joint gaps of a chain with a heavy tip, and its tension at rest", chain_args,
+       measure_heavy_chain},
+      {"chain_mode", "period of a hanging chain's slowest mode", mode_args, measure_chain_mode},
+      {"catenary", "shape and end force of a chain at rest between two points", catenary_args, measure_catenary},
+      {"slider", "distance down a sloping slider, and drift off its axis", slider_args, measure_slider},
+      {"slider_crank", "place of the piston against that of the crank", crank_args, measure_slider_crank},
+      {"parallelogram", "period and gaps of a closed linkage that swings", parallelogram_args, measure_parallelogram},
+      {"motor", "speed and angle of a disc on a motor", motor_args, measure_motor},
+      {"limit_stop", "a rod that falls on the limit of its hinge", stop_args, measure_limit_stop},
+  };
+  return entries;
+}
+
+}  // namespace plumb::harness

@@ -1,0 +1,44 @@
+// Measures of the stacking group that live in files of their own, and what they share.
+#pragma once
+
+#include "measure/measure.hpp"
+#include "measure/referee_view.hpp"
+
+namespace plumb::harness {
+
+// stacking_towers.cpp
+void measure_tower(MeasureContext& context);
+void measure_pyramid(MeasureContext& context);
+void measure_mass_ratio(MeasureContext& context);
+
+// stacking_balance.cpp
+void measure_overhang(MeasureContext& context);
+void measure_four_spheres(MeasureContext& context);
+
+// stacking_spheres.cpp
+void measure_sphere_lattice(MeasureContext& context);
+
+/// How far a body is from where it started, m. NaN when its pose is.
+[[nodiscard]] double distance_from_start(const Scene& scene, std::span<const PoseRow> poses, std::size_t body);
+
+/// The time (s) for which a condition held without a break from the start.
+class Survival {
+ public:
+  void add(double time, bool holds) {
+    broken_ = broken_ || !holds;
+    if (!broken_) time_ = time;
+  }
+  [[nodiscard]] bool whole() const { return !broken_; }
+  [[nodiscard]] double time() const { return time_; }
+
+ private:
+  bool broken_ = false;
+  double time_ = 0;
+};
+/// Metrics "stands" (expected) and "survival" (s, error the share of the run that is missing).
+void add_survival(MeasureContext& context, const Survival& survival, double seconds);
+
+/// Metric "ground_force": the mean force of the ground over the account's time, relative to the weight of all bodies.
+void add_ground_force(MeasureContext& context, const ImpulseAccount& account, double total_mass);
+
+}  // namespace plumb::harness
