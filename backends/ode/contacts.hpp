@@ -24,6 +24,7 @@ class ContactPass {
 
   /// Forgets the step before.
   void begin_step();
+  void begin_substep();
   /// One sub-step's detection: a contact joint for every point, in the group that end_substep empties.
   void detect(dSpaceID space);
   /// After the solver: reads the impulses that its forces made in h seconds, and takes the contact joints away.

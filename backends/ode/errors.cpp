@@ -34,15 +34,18 @@ void on_message(int number, const char* text, std::va_list arguments) {
   current->log(PLUMB_LOG_WARNING, "ODE message " + std::to_string(number) + ": " + format(text, arguments));
 }
 
+/// Somebody else in this process who uses ODE may have set other handlers since.
+void install_handlers() {
+  if (dGetErrorHandler() != on_error) dSetErrorHandler(on_error);
+  if (dGetDebugHandler() != on_debug) dSetDebugHandler(on_debug);
+  if (dGetMessageHandler() != on_message) dSetMessageHandler(on_message);
+}
+
 }  // namespace
 
 void ensure_ode() {
-  static const bool started = [] {
-    dSetErrorHandler(on_error);
-    dSetDebugHandler(on_debug);
-    dSetMessageHandler(on_message);
-    return dInitODE2(0) != 0;
-  }();
+  install_handlers();
+  static const bool started = dInitODE2(0) != 0;
   thread_local const bool allocated = started && dAllocateODEDataForThread(static_cast<unsigned>(dAllocateMaskAll)) != 0;
   if (!allocated) throw Error(PLUMB_E_OUT_OF_MEMORY, "ODE cannot allocate its data for this thread");
 }

@@ -138,6 +138,7 @@ void World::push_bodies() {
 }
 
 void World::find_contacts() {
+  contacts_.begin_substep();
   if (space_ == nullptr || !(init_.needs(PLUMB_NEED_COLLISION) || init_.needs(PLUMB_NEED_SENSORS))) return;
   const Stopwatch watch(broad_narrow_seconds_);
   contacts_.detect(space_);
