@@ -67,7 +67,8 @@ void measure_force_ramp(MeasureContext& context) {
     const double x = simulation.poses()[body].position.x - start, v = simulation.velocities()[body].linear.x;
     way.add(simulation.time(), x);
     if (simulation.time() < 0.9 * onset) creep = largest(creep, std::abs(x));
-    // After the onset v = rate t^2 / (2 m), which says how long ago it was.
+    // After the onset v = rate t^2 / (2 m), which says how long ago it was. What moves and stops again has not begun.
+    if (v <= moving) seen = not_measured;
     if (std::isnan(seen) && v > moving) seen = simulation.time() - std::sqrt(2 * mass * v / rate);
   }
   context.compare("onset", seen, onset, onset);
