@@ -142,7 +142,7 @@ void absurd_speeds(Conformance& c) {
   const PlumbShape cube = probe.box({0.5, 0.5, 0.5});
   const PlumbBody wild = probe.dynamic(cube, {0, 0.5, 0});
   const PlumbBody calm = probe.dynamic(cube, {50, 0.5, 0});
-  probe.write(PLUMB_FIELD_IMPULSE, wild, {0, -1e30, 1e30});
+  probe.write(PLUMB_FIELD_IMPULSE, wild, {0, -1e10, 1e10});
   std::uint32_t reported = 0;
   try {
     for (int i = 0; i < 30; ++i) reported = std::max(reported, probe.step().nonfinite);

@@ -43,19 +43,19 @@ struct Cloud {
   }
 };
 
-/// Fraction at which a ray enters a sphere or a box, by their equations.
-std::optional<double> ray_enters(const Cloud::Item& item, const Vec& origin, const Vec& translation) {
+/// Fraction at which a ray enters a sphere or a box that is `grown` larger on all sides, by their equations.
+std::optional<double> ray_enters(const Cloud::Item& item, const Vec& origin, const Vec& translation, double grown = 0) {
   const Vec o = item.pose.inverse() * origin;
   const Vec d = item.pose.rotation.transpose() * translation;
   if (item.shape->type() == PLUMB_SPHERE) {
-    const double a = d.squaredNorm(), b = o.dot(d), root = b * b - a * (o.squaredNorm() - std::pow(item.shape->radius(), 2));
+    const double a = d.squaredNorm(), b = o.dot(d), root = b * b - a * (o.squaredNorm() - std::pow(item.shape->radius() + grown, 2));
     if (root < 0) return {};
     const double t = (-b - std::sqrt(root)) / a;
     return t >= 0 && t <= 1 ? std::optional(t) : std::nullopt;
   }
   double enter = 0, leave = 1;
   for (int axis = 0; axis < 3; ++axis) {
-    const double h = item.shape->half_extents()[axis];
+    const double h = item.shape->half_extents()[axis] + grown;
     if (std::abs(d[axis]) < 1e-12) {
       if (std::abs(o[axis]) > h) return {};
       continue;
@@ -93,16 +93,22 @@ void compare_rays(Conformance& c, Cloud& cloud, PlumbFilter filter) {
   const std::vector<PlumbHit> nearest(closest.hits.begin(), closest.hits.end());
   const Hits all = cloud.probe.world().queries()->cast_rays(PLUMB_HIT_ALL, rays);
   std::size_t next = 0;
-  int wrong = 0;
+  int wrong = 0, grazing = 0;
   for (std::size_t i = 0; i < rays.size() && i < nearest.size(); ++i) {
     std::vector<std::pair<double, PlumbBody>> truth;
+    bool grazes = false;  // by less than 2 mm: it may go either way
     for (const Cloud::Item& item : cloud.items)
-      if (may_touch(filter, item.filter))
-        if (const auto t = ray_enters(item, vec(rays[i].origin), vec(rays[i].translation))) truth.emplace_back(*t, item.body);
+      if (may_touch(filter, item.filter)) {
+        const Vec origin = vec(rays[i].origin), translation = vec(rays[i].translation);
+        if (const auto t = ray_enters(item, origin, translation)) truth.emplace_back(*t, item.body);
+        grazes = grazes || ray_enters(item, origin, translation, 2e-3).has_value() != ray_enters(item, origin, translation, -2e-3).has_value();
+      }
     std::sort(truth.begin(), truth.end());
     const PlumbHit& hit = nearest[i];
-    // Rays that graze within a millimetre may go either way; a count of such is allowed below.
-    if ((hit.body == 0) != truth.empty() || (hit.body != 0 && (hit.body != truth[0].second || std::abs(hit.fraction - truth[0].first) > 1e-3))) ++wrong;
+    if (grazes) ++grazing;
+    const bool right = (hit.body == 0) == truth.empty() &&
+                       (hit.body == 0 || (hit.body == truth[0].second && std::abs(hit.fraction - truth[0].first) < 2e-3));
+    if (!grazes && !right) ++wrong;
     std::vector<PlumbBody> got, wanted;
     double last = -1;
     for (; next < all.hits.size() && all.hits[next].query == i; ++next) {
@@ -113,10 +119,11 @@ void compare_rays(Conformance& c, Cloud& cloud, PlumbFilter filter) {
     for (const auto& [t, body] : truth) wanted.push_back(body);
     std::sort(got.begin(), got.end());
     std::sort(wanted.begin(), wanted.end());
-    if (got != wanted) ++wrong;
+    if (!grazes && got != wanted) ++wrong;
   }
   c.expect(next == all.hits.size(), "hits of all rays are not sorted by query");
-  c.expect(wrong <= 6, "{} of {} answers to rays differ from brute force", wrong, 2 * rays.size());
+  c.expect(wrong == 0, "{} of {} answers to rays differ from brute force", wrong, 2 * rays.size());
+  c.expect(grazing < 40, "{} of {} rays graze: too few are compared", grazing, rays.size());
 }
 
 void rays(Conformance& c) {
