@@ -3,11 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
-#include "fake_world.hpp"
+#include "complete_backend.hpp"
 #include "plumb/layers.hpp"
-#include "plumb/loader.hpp"
 
 namespace plumb::test {
 
@@ -18,16 +15,22 @@ struct IllTables {
   PlumbQueriesTable queries;
   PlumbSettingsTable settings;
   PlumbSnapshotTable snapshot;
+  PlumbCollideTable collide;
+  PlumbStateTable state;
 };
 
+template <class Table>
+Table table_named(const char* name) {
+  return *static_cast<const Table*>(complete().extension(name));
+}
 inline const IllTables& good() {
-  static const IllTables tables = [] {
-    const PlumbBackendTable& core = *negotiate(&backend::open<FakeWorld>, "fake");
-    return IllTables{core, *static_cast<const PlumbJointsTable*>(core.extension(PLUMB_EXT_JOINTS)),
-                     *static_cast<const PlumbQueriesTable*>(core.extension(PLUMB_EXT_QUERIES)),
-                     *static_cast<const PlumbSettingsTable*>(core.extension(PLUMB_EXT_SETTINGS)),
-                     *static_cast<const PlumbSnapshotTable*>(core.extension(PLUMB_EXT_SNAPSHOT))};
-  }();
+  static const IllTables tables = {complete(),
+                                   table_named<PlumbJointsTable>(PLUMB_EXT_JOINTS),
+                                   table_named<PlumbQueriesTable>(PLUMB_EXT_QUERIES),
+                                   table_named<PlumbSettingsTable>(PLUMB_EXT_SETTINGS),
+                                   table_named<PlumbSnapshotTable>(PLUMB_EXT_SNAPSHOT),
+                                   table_named<PlumbCollideTable>(PLUMB_EXT_COLLIDE),
+                                   table_named<PlumbStateTable>(PLUMB_EXT_STATE)};
   return tables;
 }
 
@@ -50,6 +53,8 @@ class Validated : public ::testing::Test {
       if (wanted == PLUMB_EXT_QUERIES) return &ill().queries;
       if (wanted == PLUMB_EXT_SETTINGS) return &ill().settings;
       if (wanted == PLUMB_EXT_SNAPSHOT) return &ill().snapshot;
+      if (wanted == PLUMB_EXT_COLLIDE) return &ill().collide;
+      if (wanted == PLUMB_EXT_STATE) return &ill().state;
       if (wanted == "test.unknown/1") return &unknown_table;
       return nullptr;
     };

@@ -9,68 +9,6 @@
 namespace plumb::test {
 namespace {
 
-// What the fake world lacks. The answers hold what was asked, so that a wrong input is a different output.
-PlumbResult collide(PlumbWorld*, const PlumbPosedPair* pairs, std::size_t stride, std::uint32_t count,
-                    PlumbPairResult* results, PlumbPairPoint* points, std::uint32_t capacity, std::uint32_t* point_count) {
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const auto& pair = *reinterpret_cast<const PlumbPosedPair*>(reinterpret_cast<const std::byte*>(pairs) + i * stride);
-    results[i] = {0, i, 1};
-    if (i < capacity) points[i] = {pair.pose_a.position, pair.pose_b.position, 0, pair.shape_a * 1000 + pair.shape_b};
-  }
-  *point_count = count;
-  return count > capacity ? PLUMB_TRUNCATED : PLUMB_OK;
-}
-template <class Row>
-PlumbResult one_row(PlumbWorld* world, Row* out, std::uint32_t capacity, std::uint32_t* count) {
-  PlumbBody body = 0;
-  std::uint32_t bodies = 0;
-  good().core.list_bodies(world, &body, 1, &bodies);
-  *count = 1;
-  if (capacity == 0) return PLUMB_TRUNCATED;
-  out[0] = Row{};
-  if constexpr (requires { out->body; }) out->body = body;
-  if constexpr (requires { out->body_a; }) out->body_a = body;
-  return PLUMB_OK;
-}
-PlumbResult cast(PlumbWorld*, PlumbHitMode, const PlumbCast* casts, std::size_t, std::uint32_t count, PlumbHit* hits,
-                 std::uint32_t, std::uint32_t* found) {
-  for (std::uint32_t i = 0; i < count; ++i) hits[i] = {0, i, 0, 0, casts[i].translation, casts[i].pose.position};
-  *found = count;
-  return PLUMB_OK;
-}
-
-const PlumbBackendTable& complete() {
-  static const PlumbCollideTable collide_table = {sizeof(PlumbCollideTable), 0, &collide};
-  static const PlumbDebugTable debug_table = {sizeof(PlumbDebugTable), 0, &one_row<PlumbDebugPair>, &one_row<PlumbDebugBox>,
-                                              &one_row<PlumbDebugAxis>};
-  static const PlumbQueriesTable queries_table = [] {
-    PlumbQueriesTable queries = good().queries;
-    queries.casts = &cast;
-    return queries;
-  }();
-  static const PlumbJointsTable joints_table = [] {
-    PlumbJointsTable joints = good().joints;
-    joints.read = [](PlumbWorld*, PlumbJointField field, PlumbDataType, const PlumbJoint*, std::uint32_t, void* rows, std::size_t) -> PlumbResult {
-      std::fill_n(static_cast<double*>(rows), joint_columns_of(field), 3.5);
-      return PLUMB_OK;
-    };
-    return joints;
-  }();
-  static const PlumbBackendTable table = [] {
-    PlumbBackendTable core = good().core;
-    core.extension = [](const char* name) -> const void* {
-      const std::string_view wanted = name;
-      if (wanted == PLUMB_EXT_COLLIDE) return &collide_table;
-      if (wanted == PLUMB_EXT_DEBUG) return &debug_table;
-      if (wanted == PLUMB_EXT_QUERIES) return &queries_table;
-      if (wanted == PLUMB_EXT_JOINTS) return &joints_table;
-      return good().core.extension(name);
-    };
-    return core;
-  }();
-  return table;
-}
-
 /// Makes every call at least once, straight on the table.
 class Everything {
  public:

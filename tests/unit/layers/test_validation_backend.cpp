@@ -148,6 +148,148 @@ TEST_F(ValidatedBackend, HitsThatCannotBe) {
   expect(PLUMB_E_INVALID_ARGUMENT, cast(7, 1), "mode is 7");
 }
 
+TEST_F(ValidatedBackend, HitsBeyondTheCapacityOrOutOfOrder) {
+  static std::vector<PlumbHit> answer;
+  static std::uint32_t counted;
+  ill().queries.overlaps = [](PlumbWorld*, const PlumbOverlap*, std::size_t, std::uint32_t, PlumbHit* hits, std::uint32_t, std::uint32_t* count) -> PlumbResult {
+    std::copy(answer.begin(), answer.end(), hits);
+    *count = counted;
+    return PLUMB_OK;
+  };
+  const PlumbOverlap overlap[2] = {{shape, identity_pose(), {1, 1, 0, 0}}, {shape, identity_pose(), {1, 1, 0, 0}}};
+  PlumbHit hits[2];
+  std::uint32_t count = 0;
+  const auto ask = [&] {
+    counted = std::min<std::uint32_t>(static_cast<std::uint32_t>(answer.size()), 2);
+    return extension<PlumbQueriesTable>(PLUMB_EXT_QUERIES).overlaps(world, overlap, sizeof overlap[0], 2, hits, 2, &count);
+  };
+  const PlumbHit first{bodies[0], 0, 0, 0, {}, {}}, second{bodies[0], 1, 0, 0, {}, {}};
+  answer = {first, second};
+  EXPECT_EQ(ask(), PLUMB_OK);
+  answer = {second, first};
+  expect(PLUMB_E_INTERNAL, ask(), "hits[1] breaks the order");
+  answer = {first, second, second};
+  expect(PLUMB_E_INTERNAL, ask(), "wrote more than 2 hits");
+  ill().queries.overlaps = [](PlumbWorld*, const PlumbOverlap*, std::size_t, std::uint32_t, PlumbHit*, std::uint32_t, std::uint32_t* found) -> PlumbResult {
+    *found = 1;
+    return PLUMB_OK;
+  };
+  expect(PLUMB_E_INTERNAL, ask(), "left hits[0] unwritten");
+  ill().queries.rays = [](PlumbWorld*, PlumbHitMode, const PlumbRay*, std::size_t, std::uint32_t, PlumbHit* out, std::uint32_t, std::uint32_t* found) -> PlumbResult {
+    out[0] = {0, 1, 0, 0, {}, {}};
+    out[1] = {0, 0, 0, 0, {}, {}};
+    *found = 2;
+    return PLUMB_OK;
+  };
+  const PlumbRay rays[2] = {};
+  expect(PLUMB_E_INTERNAL, extension<PlumbQueriesTable>(PLUMB_EXT_QUERIES).rays(world, PLUMB_HIT_CLOSEST, rays, sizeof rays[0], 2, hits, 2, &count),
+         "hits[0] is of query 1");
+}
+
+TEST_F(ValidatedBackend, PairsAndPointsThatCannotBe) {
+  static std::uint32_t results_written, points_written, first;
+  ill().collide.pairs = [](PlumbWorld*, const PlumbPosedPair*, std::size_t, std::uint32_t, PlumbPairResult* results, PlumbPairPoint* points, std::uint32_t, std::uint32_t* count) -> PlumbResult {
+    std::fill_n(results, results_written, PlumbPairResult{0, first, 1});
+    std::fill_n(points, points_written, PlumbPairPoint{});
+    *count = 1;
+    return PLUMB_OK;
+  };
+  const PlumbPosedPair pair{shape, shape, identity_pose(), identity_pose()};
+  PlumbPairResult result;
+  PlumbPairPoint point;
+  std::uint32_t count = 0;
+  const auto ask = [&](std::uint32_t results, std::uint32_t points, std::uint32_t first_point) {
+    results_written = results, points_written = points, first = first_point;
+    return extension<PlumbCollideTable>(PLUMB_EXT_COLLIDE).pairs(world, &pair, sizeof pair, 1, &result, &point, 1, &count);
+  };
+  EXPECT_EQ(ask(1, 1, 0), PLUMB_OK);
+  expect(PLUMB_E_INTERNAL, ask(2, 1, 0), "wrote more than 1 results");
+  expect(PLUMB_E_INTERNAL, ask(1, 2, 0), "wrote more than 1 points");
+  expect(PLUMB_E_INTERNAL, ask(0, 1, 0), "left a result unwritten");
+  expect(PLUMB_E_INTERNAL, ask(1, 1, 1), "names points beyond the 1 there are");
+}
+
+TEST_F(ValidatedBackend, RowsOfContactsAndStates) {
+  static std::size_t bytes;
+  ill().core.contacts = [](PlumbWorld*, PlumbContact* out, std::size_t, std::uint32_t, std::uint32_t* count) -> PlumbResult {
+    std::memset(static_cast<void*>(out), 0, bytes);
+    *count = 2;
+    return PLUMB_OK;
+  };
+  struct Longer {
+    PlumbContact contact;
+    double more;
+  } rows[2];
+  std::uint32_t count = 0;
+  const auto ask = [&](std::size_t written) {
+    bytes = written;
+    return table->contacts(world, &rows[0].contact, sizeof rows[0], 2, &count);
+  };
+  expect(PLUMB_E_INTERNAL, ask(sizeof rows), "wrote between the rows");
+  expect(PLUMB_E_INTERNAL, ask(sizeof rows[0].contact), "left row 1 unwritten");
+  bytes = sizeof rows[0].contact;
+  PlumbContact tight[2];
+  bytes = sizeof tight + 8;
+  expect(PLUMB_E_INTERNAL, table->contacts(world, tight, sizeof tight[0], 2, &count), "wrote more than 2 rows");
+  bytes = sizeof tight;
+  expect(PLUMB_E_INTERNAL, table->contacts(world, tight, sizeof tight[0], 2, &count), "row 0 names no body");
+
+  ill().core.read = [](PlumbWorld*, PlumbField, PlumbDataType, const PlumbBody*, std::uint32_t, void* out, std::size_t) -> PlumbResult {
+    std::fill_n(static_cast<double*>(out), 8, 1.0);
+    return PLUMB_OK;
+  };
+  double row[8];
+  expect(PLUMB_E_INTERNAL, table->read(world, PLUMB_FIELD_POSE, PLUMB_F64, nullptr, 1, row, 56), "wrote more than 1 rows");
+
+  ill().core.list_bodies = [](PlumbWorld*, PlumbBody* ids, std::uint32_t, std::uint32_t* found) -> PlumbResult {
+    if (ids != nullptr && bytes != 0) ids[0] = 5;
+    *found = 1;
+    return PLUMB_OK;
+  };
+  PlumbBody id = 0;
+  expect(PLUMB_E_INTERNAL, table->list_bodies(world, &id, 1, &count), "lists 1 bodies where 2 live");
+  bytes = 0;
+  expect(PLUMB_E_INTERNAL, table->list_bodies(world, &id, 1, &count), "left row 0 unwritten");
+
+  ill().state.rows = [](PlumbWorld*, PlumbBody* ids, std::uint32_t, std::uint32_t* found, std::uint64_t*) -> PlumbResult {
+    ids[0] = ids[1] = 5;
+    *found = 2;
+    return PLUMB_TRUNCATED;
+  };
+  std::uint64_t generation = 0;
+  expect(PLUMB_E_INTERNAL, extension<PlumbStateTable>(PLUMB_EXT_STATE).rows(world, &id, 1, &count, &generation), "wrote more than 1 ids");
+}
+
+TEST_F(ValidatedBackend, MoreIdsThanWereAskedFor) {
+  ill().core.create_shapes = [](PlumbWorld*, const PlumbShapeDesc*, std::size_t, std::uint32_t, PlumbShape* ids) -> PlumbResult {
+    ids[0] = 1, ids[1] = 2;
+    return PLUMB_OK;
+  };
+  const PlumbShapeDesc desc = shape_desc(PLUMB_SPHERE);
+  PlumbShape id = 0;
+  expect(PLUMB_E_INTERNAL, table->create_shapes(world, &desc, sizeof desc, 1, &id), "wrote more than 1 ids");
+}
+
+TEST_F(ValidatedBackend, StateThatIsNotLentAsAsked) {
+  static PlumbDLManagedTensor tensor;
+  static bool whole;
+  ill().state.borrow = [](PlumbWorld*, const PlumbStateRequest*, PlumbDLManagedTensor** out, PlumbFence*) -> PlumbResult {
+    *out = &tensor;
+    tensor.deleter = nullptr;
+    if (whole) tensor.deleter = [](PlumbDLManagedTensor*) {};
+    return PLUMB_COPIED;
+  };
+  PlumbStateRequest request{sizeof request, PLUMB_FIELD_POSE, 1, 0};
+  PlumbDLManagedTensor* lent = nullptr;
+  const auto ask = [&] { return extension<PlumbStateTable>(PLUMB_EXT_STATE).borrow(world, &request, &lent, nullptr); };
+  whole = false;
+  expect(PLUMB_E_INTERNAL, ask(), "without a deleter");
+  whole = true;
+  expect(PLUMB_E_INTERNAL, ask(), "copied where allow_copy is 0");
+  request.allow_copy = 1;
+  EXPECT_EQ(ask(), PLUMB_COPIED);
+}
+
 TEST_F(ValidatedBackend, SnapshotsThatAreCutOff) {
   ill().snapshot.save = [](PlumbWorld*, void* data, std::size_t capacity, std::size_t* size) -> PlumbResult {
     std::memset(data, 0, capacity);
@@ -157,6 +299,14 @@ TEST_F(ValidatedBackend, SnapshotsThatAreCutOff) {
   char data[8];
   std::size_t size = 0;
   expect(PLUMB_E_INTERNAL, extension<PlumbSnapshotTable>(PLUMB_EXT_SNAPSHOT).save(world, data, sizeof data, &size), "a part of a snapshot");
+  ill().snapshot.save = [](PlumbWorld*, void* out, std::size_t capacity, std::size_t* needed) -> PlumbResult {
+    std::memset(out, 0, capacity + 1);
+    *needed = capacity;
+    return PLUMB_OK;
+  };
+  expect(PLUMB_E_INTERNAL, extension<PlumbSnapshotTable>(PLUMB_EXT_SNAPSHOT).save(world, data, sizeof data, &size), "wrote more than 8 bytes");
+  ill().snapshot.save = [](PlumbWorld*, void*, std::size_t, std::size_t* needed) -> PlumbResult { return *needed = 100, PLUMB_OK; };
+  expect(PLUMB_E_INTERNAL, extension<PlumbSnapshotTable>(PLUMB_EXT_SNAPSHOT).save(world, data, sizeof data, &size), "a count of 100 for a capacity of 8");
 }
 
 TEST_F(ValidatedBackend, SettingsWithoutAValue) {
@@ -207,6 +357,9 @@ TEST_F(ValidatedBackend, WorldsThatAreNotMade) {
   PlumbWorld* none = nullptr;
   EXPECT_EQ(table->create_world(&desc, &none), PLUMB_E_INTERNAL);
   EXPECT_NE(std::string(table->error_text(nullptr)).find("made no world"), std::string::npos);
+  ill().core.create_world = [](const PlumbWorldDesc*, PlumbWorld**) -> PlumbResult { return PLUMB_GROWN; };
+  EXPECT_EQ(table->create_world(&desc, &none), PLUMB_E_INTERNAL);
+  expect_found("create_world: the backend answered 2");
 }
 
 }  // namespace

@@ -92,6 +92,17 @@ TEST_F(ValidatedHost, OneCallerAtATime) {
   EXPECT_EQ(table->wait(world, nullptr), PLUMB_OK);
 }
 
+TEST_F(ValidatedHost, AWorldThatSomebodyIsInIsNotDestroyed) {
+  static const PlumbBackendTable* shared;
+  static PlumbWorld* inside;
+  shared = table;
+  inside = world;
+  FakeWorld::last->on_step = [] { std::thread([] { shared->destroy_world(inside); }).join(); };
+  EXPECT_EQ(step(), PLUMB_OK);
+  expect_found("destroy_world: another thread is in this world");
+  EXPECT_EQ(table->wait(world, nullptr), PLUMB_OK);
+}
+
 TEST_F(ValidatedHost, QueriesMayOverlap) {
   static PlumbResult query, change;
   static const PlumbBackendTable* shared;
@@ -148,11 +159,63 @@ TEST_F(ValidatedHost, SizesAndPointers) {
   PlumbStepReport report{};
   refused(PLUMB_E_INVALID_ARGUMENT, "report.struct_size is 0", [&] { return table->wait(world, &report); });
   EXPECT_EQ(table->wait(world, nullptr), PLUMB_OK) << "a refused wait has not ended the step";
+  refused(PLUMB_E_INVALID_ARGUMENT, "out is null", [&] { return table->list_bodies(world, nullptr, 2, &count); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "count is null", [&] { return table->events(world, &event, sizeof event, 1, nullptr); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "user_data is null", [&] { return table->user_data(world, bodies[0], nullptr); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "desc is null", [&] { return table->step(world, nullptr); });
   refused(PLUMB_E_INVALID_ARGUMENT, "data is null", [&] { return extension<PlumbSnapshotTable>(PLUMB_EXT_SNAPSHOT).restore(world, nullptr, 4); });
   refused(PLUMB_E_INVALID_ARGUMENT, "name is null", [&] {
     PlumbSettingValue value{};
     return extension<PlumbSettingsTable>(PLUMB_EXT_SETTINGS).get(world, nullptr, &value);
   });
+}
+
+TEST_F(ValidatedHost, SizesAndPointersOfExtensions) {
+  const auto& queries = extension<PlumbQueriesTable>(PLUMB_EXT_QUERIES);
+  const PlumbRay ray{{0, 0, 0}, {1, 0, 0}, {1, 1, 0, 0}};
+  const PlumbOverlap overlap{shape, identity_pose(), {1, 1, 0, 0}};
+  PlumbHit hit;
+  std::uint32_t count = 0;
+  const auto rays = [&](const PlumbRay* in, std::size_t stride, PlumbHit* hits, std::uint32_t* found) {
+    return queries.rays(world, PLUMB_HIT_ALL, in, stride, 1, hits, 1, found);
+  };
+  refused(PLUMB_E_INVALID_ARGUMENT, "queries is null", [&] { return rays(nullptr, sizeof ray, &hit, &count); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "stride of queries is 8", [&] { return rays(&ray, 8, &hit, &count); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "hits is null", [&] { return rays(&ray, sizeof ray, nullptr, &count); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "hit_count is null", [&] { return rays(&ray, sizeof ray, &hit, nullptr); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "overlaps is null", [&] { return queries.overlaps(world, nullptr, sizeof overlap, 1, &hit, 1, &count); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "stride of overlaps is 8", [&] { return queries.overlaps(world, &overlap, 8, 1, &hit, 1, &count); });
+  const auto& collide = extension<PlumbCollideTable>(PLUMB_EXT_COLLIDE);
+  const PlumbPosedPair pair{shape, shape, identity_pose(), identity_pose()};
+  PlumbPairResult result;
+  PlumbPairPoint point;
+  refused(PLUMB_E_INVALID_ARGUMENT, "pairs is null", [&] { return collide.pairs(world, nullptr, sizeof pair, 1, &result, &point, 1, &count); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "stride of pairs is 8", [&] { return collide.pairs(world, &pair, 8, 1, &result, &point, 1, &count); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "results is null", [&] { return collide.pairs(world, &pair, sizeof pair, 1, nullptr, &point, 1, &count); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "points is null", [&] { return collide.pairs(world, &pair, sizeof pair, 1, &result, nullptr, 1, &count); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "point_count is null", [&] { return collide.pairs(world, &pair, sizeof pair, 1, &result, &point, 1, nullptr); });
+  const auto& settings = extension<PlumbSettingsTable>(PLUMB_EXT_SETTINGS);
+  const PlumbSettingValue value{PLUMB_SETTING_INT, 0, 5, nullptr};
+  refused(PLUMB_E_INVALID_ARGUMENT, "value is null", [&] { return settings.get(world, "iterations", nullptr); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "name is null", [&] { return settings.set(world, nullptr, &value); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "value is null", [&] { return settings.set(world, "iterations", nullptr); });
+  const auto& snapshot = extension<PlumbSnapshotTable>(PLUMB_EXT_SNAPSHOT);
+  std::size_t size = 0;
+  char data[4];
+  refused(PLUMB_E_INVALID_ARGUMENT, "data is null", [&] { return snapshot.save(world, nullptr, 4, &size); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "size is null", [&] { return snapshot.save(world, data, 4, nullptr); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "hash is null", [&] { return snapshot.hash(world, nullptr); });
+  const auto& state = extension<PlumbStateTable>(PLUMB_EXT_STATE);
+  PlumbStateRequest request{sizeof request, PLUMB_FIELD_POSE, 1, 1};
+  PlumbDLManagedTensor* tensor = nullptr;
+  std::uint64_t generation = 0;
+  refused(PLUMB_E_INVALID_ARGUMENT, "request is null", [&] { return state.borrow(world, nullptr, &tensor, nullptr); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "tensor is null", [&] { return state.borrow(world, &request, nullptr, nullptr); });
+  request.struct_size = 4;
+  refused(PLUMB_E_INVALID_ARGUMENT, "request.struct_size is 4", [&] { return state.borrow(world, &request, &tensor, nullptr); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "ids is null", [&] { return state.rows(world, nullptr, 1, &count, &generation); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "count is null", [&] { return state.rows(world, nullptr, 0, nullptr, &generation); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "generation is null", [&] { return state.rows(world, nullptr, 0, &count, nullptr); });
 }
 
 TEST_F(ValidatedHost, WorldsThatAreNone) {
@@ -215,7 +278,7 @@ TEST_F(ValidatedHost, LayersAreMadeOnce) {
   EXPECT_EQ(layers::validate(table), table);
   EXPECT_EQ(table->info(), good().core.info());
   EXPECT_EQ(table->extension("test.unknown/1"), &unknown_table);
-  EXPECT_EQ(table->extension(PLUMB_EXT_COLLIDE), nullptr) << "what the backend lacks, the layer lacks";
+  EXPECT_EQ(table->extension(PLUMB_EXT_DEBUG), nullptr) << "what the backend lacks, the layer lacks";
   EXPECT_TRUE(layers::findings(&good().core).empty());
 }
 
