@@ -35,10 +35,10 @@ struct Body {
   // Read for every row of a bulk read: kept together.
   dBodyID body = nullptr;  ///< null: static
   PlumbMotion motion = PLUMB_STATIC;
-  bool turns = false;      ///< dynamic and not a particle
+  bool turns = false;  ///< dynamic and not a particle
   bool sensor = false;
-  bool was_awake = true;   ///< after the last step, for events
-  bool pushed = false;     ///< force or torque were written
+  bool was_awake = true;       ///< after the last step, for events
+  bool pushed = false;         ///< force or torque were written
   PlumbVec3 centre_of_mass{};  ///< body frame
   PlumbBody handle = 0;
   std::uint32_t locks = 0;
@@ -48,8 +48,8 @@ struct Body {
   std::vector<std::unique_ptr<GeomTag>> geoms;
   std::vector<const Body*> untouchable;  ///< joined by joints without collide_connected
   PlumbPose pose{};                      ///< of a static body
-  PlumbVec3 idle_spin{};        ///< angular velocity of a body that cannot turn: kept and never used
-  PlumbVec3 locked_position{};  ///< of the centre of mass, along locked axes
+  PlumbVec3 idle_spin{};                 ///< angular velocity of a body that cannot turn: kept and never used
+  PlumbVec3 locked_position{};           ///< of the centre of mass, along locked axes
   double inverse_mass = 0;
   Matrix3 inverse_inertia{};  ///< body frame
   PlumbMaterial material{};
@@ -67,12 +67,16 @@ struct Body {
 
   [[nodiscard]] bool dynamic() const { return motion == PLUMB_DYNAMIC; }
   [[nodiscard]] bool asleep() const { return body != nullptr && dBodyIsEnabled(body) == 0; }
-  [[nodiscard]] PlumbQuat orientation() const { return body == nullptr ? pose.orientation : quat(dBodyGetQuaternion(body)); }
+  [[nodiscard]] PlumbQuat orientation() const {
+    return body == nullptr ? pose.orientation : quat(dBodyGetQuaternion(body));
+  }
   /// Of the body's frame.
   [[nodiscard]] PlumbPose frame() const;
   /// Where the centre of mass is.
   [[nodiscard]] PlumbVec3 centre() const { return body == nullptr ? pose.position : vec(dBodyGetPosition(body)); }
-  [[nodiscard]] PlumbVec3 linear_velocity() const { return body == nullptr ? PlumbVec3{} : vec(dBodyGetLinearVel(body)); }
+  [[nodiscard]] PlumbVec3 linear_velocity() const {
+    return body == nullptr ? PlumbVec3{} : vec(dBodyGetLinearVel(body));
+  }
   [[nodiscard]] PlumbVec3 angular_velocity() const {
     return body == nullptr || (dynamic() && !turns) ? idle_spin : vec(dBodyGetAngularVel(body));
   }

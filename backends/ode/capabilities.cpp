@@ -18,7 +18,8 @@ struct Fact {
 Fact shape_fact(std::uint32_t type, std::uint32_t motion) {
   if (type >= PLUMB_SHAPE_TYPE_COUNT || motion >= PLUMB_MOTION_COUNT) return {PLUMB_NONE};
   if (type == PLUMB_PLANE && motion != PLUMB_STATIC) return {PLUMB_NONE, "a plane cannot be placed on a body"};
-  if (type == PLUMB_HEIGHT_FIELD && motion == PLUMB_DYNAMIC) return {PLUMB_NONE, "a height field is ground, open below"};
+  if (type == PLUMB_HEIGHT_FIELD && motion == PLUMB_DYNAMIC)
+    return {PLUMB_NONE, "a height field is ground, open below"};
   if (type == PLUMB_COMPOUND) return {PLUMB_NATIVE, "several geoms on one body"};
   return {PLUMB_NATIVE};
 }
@@ -28,7 +29,8 @@ Fact pair_fact(std::uint32_t a, std::uint32_t b) {
   constexpr Fact one_point{PLUMB_APPROXIMATE, "libccd finds a single point, on which flat faces rock without end"};
   if (b >= PLUMB_SHAPE_TYPE_COUNT) return {PLUMB_NONE};
   const auto is = [&](PlumbShapeType x, PlumbShapeType y) { return a == std::min(x, y) && b == std::max(x, y); };
-  if (a == PLUMB_HEIGHT_FIELD && b <= PLUMB_PLANE) return {PLUMB_NONE, "ODE has no contacts between height fields and planes"};
+  if (a == PLUMB_HEIGHT_FIELD && b <= PLUMB_PLANE)
+    return {PLUMB_NONE, "ODE has no contacts between height fields and planes"};
   if (a == PLUMB_PLANE && b == PLUMB_PLANE) return {PLUMB_NONE, "planes stand still"};
   if (is(PLUMB_CONVEX_HULL, PLUMB_COMPOUND)) return one_point;
   if (b == PLUMB_COMPOUND) return {PLUMB_NATIVE, "as its children"};
@@ -38,7 +40,8 @@ Fact pair_fact(std::uint32_t a, std::uint32_t b) {
     if (is(PLUMB_CONVEX_HULL, flat)) return one_point;
   if (is(PLUMB_CAPSULE, PLUMB_CYLINDER)) return one_point;
   if (is(PLUMB_BOX, PLUMB_CAPSULE)) return {PLUMB_APPROXIMATE, "a single point: a capsule that lies on a box rocks"};
-  if (is(PLUMB_CYLINDER, PLUMB_TRIANGLE_MESH)) return {PLUMB_APPROXIMATE, "points come and go: a standing cylinder trembles"};
+  if (is(PLUMB_CYLINDER, PLUMB_TRIANGLE_MESH))
+    return {PLUMB_APPROXIMATE, "points come and go: a standing cylinder trembles"};
   return {PLUMB_NATIVE};
 }
 
@@ -51,7 +54,8 @@ Fact joint_fact(std::uint32_t type) {
 }
 
 Fact joint_feature_fact(std::uint32_t type, std::uint32_t feature) {
-  if (type >= PLUMB_JOINT_TYPE_COUNT || feature >= PLUMB_JOINT_FEATURE_COUNT || !joint_has(type, feature)) return {PLUMB_NONE};
+  if (type >= PLUMB_JOINT_TYPE_COUNT || feature >= PLUMB_JOINT_FEATURE_COUNT || !joint_has(type, feature))
+    return {PLUMB_NONE};
   if (feature == PLUMB_JOINT_BREAKS) return {PLUMB_EMULATED, "the reaction is compared after each step"};
   if (type == PLUMB_JOINT_DISTANCE && feature == PLUMB_JOINT_HAS_LIMITS)
     return {PLUMB_EMULATED, "a contact row along the line between the frames"};
@@ -71,7 +75,8 @@ Fact need_fact(std::uint32_t index) {
   switch (PlumbNeeds{1} << index) {
     case PLUMB_NEED_CCD: return {PLUMB_NONE, "ODE has no continuous collision detection"};
     case PLUMB_NEED_FRICTION:
-      return {PLUMB_APPROXIMATE, "a pyramid of two directions instead of Coulomb's cone; a contact may stick on the diagonal"};
+      return {PLUMB_APPROXIMATE,
+              "a pyramid of two directions instead of Coulomb's cone; a contact may stick on the diagonal"};
     case PLUMB_NEED_EVENTS: return {PLUMB_EMULATED, "the difference of the touching pairs of two steps"};
     case PLUMB_NEED_SENSORS: return {PLUMB_EMULATED, "pairs whose contacts get no joints"};
     case PLUMB_NEED_AXIS_LOCKS: return {PLUMB_EMULATED, "motors at rest against the world, and projection"};
@@ -82,14 +87,16 @@ Fact need_fact(std::uint32_t index) {
 
 Fact field_fact(std::uint32_t field, bool writing) {
   if (field >= PLUMB_FIELD_COUNT) return {PLUMB_NONE};
-  const bool acts = (field >= PLUMB_FIELD_FORCE && field <= PLUMB_FIELD_IMPULSE_AT_POINT) || field == PLUMB_FIELD_KINEMATIC_TARGET;
+  const bool acts =
+      (field >= PLUMB_FIELD_FORCE && field <= PLUMB_FIELD_IMPULSE_AT_POINT) || field == PLUMB_FIELD_KINEMATIC_TARGET;
   if (acts && !writing) return {PLUMB_NONE, "it acts and is spent"};
   switch (field) {
     case PLUMB_FIELD_MASS: return {writing ? PLUMB_NONE : PLUMB_NATIVE};
     case PLUMB_FIELD_IMPULSE:
     case PLUMB_FIELD_ANGULAR_IMPULSE:
     case PLUMB_FIELD_IMPULSE_AT_POINT: return {PLUMB_EMULATED, "a change of velocity"};
-    case PLUMB_FIELD_KINEMATIC_TARGET: return {PLUMB_EMULATED, "the velocity that leads there, and the pose at the end"};
+    case PLUMB_FIELD_KINEMATIC_TARGET:
+      return {PLUMB_EMULATED, "the velocity that leads there, and the pose at the end"};
     case PLUMB_FIELD_GRAVITY_SCALE: return {PLUMB_EMULATED, "0 and 1 natively, others as a force"};
     default: return {PLUMB_NATIVE};
   }
@@ -120,7 +127,8 @@ Fact fact(PlumbCapability kind, std::uint32_t a, std::uint32_t b) {
     case PLUMB_CAP_EVENT: return event_fact(a);
     case PLUMB_CAP_PHASE_TIME: return phase_fact(a);
     case PLUMB_CAP_RESIDUAL: return {PLUMB_NONE, "ODE does not tell its residual"};
-    case PLUMB_CAP_SNAPSHOT: return {PLUMB_NATIVE, "not with the spaces sap and quadtree, which keep their order to themselves"};
+    case PLUMB_CAP_SNAPSHOT:
+      return {PLUMB_NATIVE, "not with the spaces sap and quadtree, which keep their order to themselves"};
     case PLUMB_CAP_HOST_JOBS: return {PLUMB_NONE, "ODE runs threads of its own"};
     case PLUMB_CAP_CHILD_MATERIAL: return {PLUMB_NATIVE};
     default: return {PLUMB_NONE};

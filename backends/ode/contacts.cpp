@@ -75,9 +75,7 @@ void ContactPass::begin_substep() {
   substep_starts_.push_back(contacts_.size());
 }
 
-void ContactPass::detect(dSpaceID space) {
-  dSpaceCollide(space, this, &ContactPass::near);
-}
+void ContactPass::detect(dSpaceID space) { dSpaceCollide(space, this, &ContactPass::near); }
 
 void ContactPass::near(void* self, dGeomID first, dGeomID second) {
   static_cast<ContactPass*>(self)->meet(first, second);
@@ -215,8 +213,8 @@ void ContactPass::end_substep(double h) {
   dJointGroupEmpty(group_);
 }
 
-// The k-th point of a pair of geoms in one sub-step is taken for the k-th in the next: geometry of the last, impulses of
-// all. A point that the last sub-steps no longer had stays, so that no impulse is lost.
+// The k-th point of a pair of geoms in one sub-step is taken for the k-th in the next: geometry of the last, impulses
+// of all. A point that the last sub-steps no longer had stays, so that no impulse is lost.
 void ContactPass::merge_substeps() {
   struct Entry {
     std::size_t index;
@@ -239,7 +237,8 @@ void ContactPass::merge_substeps() {
   std::vector<PlumbContact> merged;
   for (std::size_t i = 0; i < entries.size(); ++i) {
     PlumbContact contact = contacts_[entries[i].index];
-    const bool again = i != 0 && entries[i].nth == entries[i - 1].nth && key(entries[i].index) == key(entries[i - 1].index);
+    const bool again =
+        i != 0 && entries[i].nth == entries[i - 1].nth && key(entries[i].index) == key(entries[i - 1].index);
     if (again) {
       contact.normal_impulse += merged.back().normal_impulse;
       contact.tangent_impulse = add(contact.tangent_impulse, merged.back().tangent_impulse);

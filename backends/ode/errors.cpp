@@ -46,7 +46,8 @@ void install_handlers() {
 void ensure_ode() {
   install_handlers();
   static const bool started = dInitODE2(0) != 0;
-  thread_local const bool allocated = started && dAllocateODEDataForThread(static_cast<unsigned>(dAllocateMaskAll)) != 0;
+  thread_local const bool allocated =
+      started && dAllocateODEDataForThread(static_cast<unsigned>(dAllocateMaskAll)) != 0;
   if (!allocated) throw Error(PLUMB_E_OUT_OF_MEMORY, "ODE cannot allocate its data for this thread");
 }
 

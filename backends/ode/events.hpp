@@ -21,7 +21,9 @@ class PairEvents {
  public:
   void begin_step() { events_.clear(); }
   /// Takes the pairs of this step, in any order and with repetitions, and leaves the argument empty.
-  void touching(std::vector<BodyPair>& now) { compare(touching_, now, PLUMB_EVENT_CONTACT_BEGIN, PLUMB_EVENT_CONTACT_END); }
+  void touching(std::vector<BodyPair>& now) {
+    compare(touching_, now, PLUMB_EVENT_CONTACT_BEGIN, PLUMB_EVENT_CONTACT_END);
+  }
   void sensed(std::vector<BodyPair>& now) { compare(sensed_, now, PLUMB_EVENT_SENSOR_ENTER, PLUMB_EVENT_SENSOR_LEAVE); }
   void add(PlumbEventType type, PlumbBody body) { events_.push_back({type, 0, body, 0, 0}); }
   void add_broken(PlumbJoint joint) { events_.push_back({PLUMB_EVENT_JOINT_BROKEN, 0, 0, 0, joint}); }

@@ -24,8 +24,8 @@ bool coincide(const PlumbPose& a, const PlumbPose& b) {
          length(rotation_vector(multiply(b.orientation, conjugate(a.orientation)))) < together;
 }
 
-/// ODE takes the joint's frames from where the bodies stand: puts the first where its frame lies on the second's, calls,
-/// puts it back.
+/// ODE takes the joint's frames from where the bodies stand: puts the first where its frame lies on the second's,
+/// calls, puts it back.
 template <class Set>
 void with_frames_together(const Joint& joint, Set&& set) {
   if (coincide(joint.frame_a(), joint.frame_b())) return set();
@@ -60,8 +60,8 @@ void set_parameter(const Joint& joint, std::size_t axis, int parameter, double v
     case PLUMB_JOINT_SLIDER: return dJointSetSliderParam(joint.id, parameter, value);
     // Our x is a's axis, our y is b's; ODE's first axis is the first body's.
     case PLUMB_JOINT_UNIVERSAL:
-      return dJointSetUniversalParam(joint.id, parameter + ((axis == 3) == joint.swapped() ? dParamGroup1 : dParamGroup2),
-                                     value);
+      return dJointSetUniversalParam(joint.id,
+                                     parameter + ((axis == 3) == joint.swapped() ? dParamGroup1 : dParamGroup2), value);
     default: return;
   }
 }
@@ -149,8 +149,8 @@ void check_joint(const PlumbJointDesc& desc) {
   }
   const PlumbLimit& distance = desc.limits[0];
   if (desc.type == PLUMB_JOINT_DISTANCE && distance.enabled != 0 && distance.lower < 0)
-    throw Error(PLUMB_E_INVALID_ARGUMENT,
-                "limits[0].lower of a distance joint is " + std::to_string(distance.lower) + "; it must not be below 0");
+    throw Error(PLUMB_E_INVALID_ARGUMENT, "limits[0].lower of a distance joint is " + std::to_string(distance.lower) +
+                                              "; it must not be below 0");
 }
 
 void attach(Joint& joint, dWorldID world) {
@@ -158,7 +158,9 @@ void attach(Joint& joint, dWorldID world) {
     joint.id = create(world, nullptr);
     dJointAttach(joint.id, joint.first().body, joint.second());
   };
-  const auto anchor = [&](void (*set)(dJointID, dReal, dReal, dReal), const PlumbVec3& at) { set(joint.id, at.x, at.y, at.z); };
+  const auto anchor = [&](void (*set)(dJointID, dReal, dReal, dReal), const PlumbVec3& at) {
+    set(joint.id, at.x, at.y, at.z);
+  };
   switch (joint.desc.type) {
     case PLUMB_JOINT_BALL:
       make(dJointCreateBall);
@@ -201,7 +203,8 @@ void attach(Joint& joint, dWorldID world) {
       anchor(dJointSetDBallAnchor2, joint.second_frame().position);
       dJointSetDBallDistance(joint.id, joint.desc.rest_length);
       break;
-    default: throw Error(PLUMB_E_UNSUPPORTED, std::string("ODE has no ") + backend::joint_name(joint.desc.type) + " joint");
+    default:
+      throw Error(PLUMB_E_UNSUPPORTED, std::string("ODE has no ") + backend::joint_name(joint.desc.type) + " joint");
   }
   if (joint.watched) dJointSetFeedback(joint.id, &joint.feedback);
   for (std::size_t axis = 0; axis < 6; ++axis)

@@ -21,8 +21,8 @@ struct Joint {
   bool watched = false;     ///< its feedback is read after each sub-step
   dJointFeedback feedback{};
   dJointFeedback limit_feedback{};
-  bool limit_acts = false;  ///< in this sub-step
-  PlumbVec3 arm{};          ///< from the first body's centre of mass to frame b, world axes, before the solver ran
+  bool limit_acts = false;      ///< in this sub-step
+  PlumbVec3 arm{};              ///< from the first body's centre of mass to frame b, world axes, before the solver ran
   PlumbVec3 force{}, torque{};  ///< on b at frame b's origin, mean over the last step
 
   [[nodiscard]] bool swapped() const { return b->body == nullptr; }

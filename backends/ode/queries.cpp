@@ -47,7 +47,12 @@ struct Search {
       keep(ray_hit(tag, *std::min_element(points.begin(), points.begin() + count,
                                           [](const auto& x, const auto& y) { return x.depth < y.depth; })));
     } else {
-      keep({tag.body->handle, query, child_of(tag, points[0]), 0, {unknown, unknown, unknown}, {unknown, unknown, unknown}});
+      keep({tag.body->handle,
+            query,
+            child_of(tag, points[0]),
+            0,
+            {unknown, unknown, unknown},
+            {unknown, unknown, unknown}});
     }
   }
 

@@ -13,7 +13,8 @@ constexpr const char* friction_words[] = {"pyramid", "constant"};
 constexpr const char* direction_words[] = {"normal", "sliding"};
 constexpr const char* space_words[] = {"hash", "sap", "quadtree", "simple"};
 constexpr const char* axes_words[] = {"xyz", "xzy", "yxz", "yzx", "zxy", "zyx"};
-constexpr int axes_values[] = {dSAP_AXES_XYZ, dSAP_AXES_XZY, dSAP_AXES_YXZ, dSAP_AXES_YZX, dSAP_AXES_ZXY, dSAP_AXES_ZYX};
+constexpr int axes_values[] = {dSAP_AXES_XYZ, dSAP_AXES_XZY, dSAP_AXES_YXZ,
+                               dSAP_AXES_YZX, dSAP_AXES_ZXY, dSAP_AXES_ZYX};
 
 struct Row {
   PlumbSettingInfo info;
@@ -77,15 +78,17 @@ const std::vector<Row>& rows() {
   constexpr auto quality = PLUMB_ROLE_QUALITY, speed = PLUMB_ROLE_SPEED, behaviour = PLUMB_ROLE_BEHAVIOUR;
   constexpr std::uint32_t once = PLUMB_SETTING_CREATION_ONLY;
   static const std::vector<Row> all = {
-      choice<&S::stepper>("stepper", behaviour, 0, stepper_words,
-                          "quickstep: iterative; step: direct (Dantzig), exact on wild mass ratios and joints, cubic in "
-                          "the island's size, and blows up on redundant contacts such as those of a tower"),
+      choice<&S::stepper>(
+          "stepper", behaviour, 0, stepper_words,
+          "quickstep: iterative; step: direct (Dantzig), exact on wild mass ratios and joints, cubic in "
+          "the island's size, and blows up on redundant contacts such as those of a tower"),
       number<&S::iterations>("iterations", whole, quality, 0, 1, 10000, 20, "1", "of quickstep's SOR solver"),
       number<&S::sor_w>("sor_w", real, quality, 0, 0.01, 1.99, 1.3, "1", "over-relaxation of quickstep's solver"),
       number<&S::substeps>("substeps", whole, quality, 0, 1, 1024, 1, "1", "collide and solve so often in each step"),
       number<&S::erp>("erp", real, quality, 0, 0, 1, 0.2, "1", "share of the position error mended in a step"),
       number<&S::cfm>("cfm", real, quality, 0, 0, 1, 1e-10, "s/kg", "constraint force mixing: softness of constraints"),
-      number<&S::contact_erp>("contact_erp", real, quality, 0, -1, 1, -1, "1", "erp of contacts; below 0: that of the world"),
+      number<&S::contact_erp>("contact_erp", real, quality, 0, -1, 1, -1, "1",
+                              "erp of contacts; below 0: that of the world"),
       number<&S::contact_cfm>("contact_cfm", real, quality, 0, -1, 1, -1, "s/kg",
                               "cfm of contacts; below 0: that of the world"),
       number<&S::contact_surface_layer>("contact_surface_layer", real, quality, 0, 0, 1, 0, "m",
@@ -96,12 +99,14 @@ const std::vector<Row>& rows() {
       choice<&S::friction_model>("friction_model", behaviour, 0, friction_words,
                                  "pyramid: mu times the normal force along each of two directions (dContactApprox1); "
                                  "constant: ODE's other model, mu newtons whatever the normal force"),
-      choice<&S::friction_directions>("friction_directions", behaviour, 0, direction_words,
-                                      "normal: the two directions follow from the contact's normal, as in ODE; sliding: "
-                                      "the first is that of sliding where the contact slides (always so on conveyors)"),
+      choice<&S::friction_directions>(
+          "friction_directions", behaviour, 0, direction_words,
+          "normal: the two directions follow from the contact's normal, as in ODE; sliding: "
+          "the first is that of sliding where the contact slides (always so on conveyors)"),
       number<&S::bounce_vel>("bounce_vel", real, behaviour, 0, 0, 1000, 0.1, "m/s", "slower impacts do not bounce"),
       flag<&S::gyroscopic>("gyroscopic", true, "gyroscopic torque, where the world declares the need"),
-      flag<&S::finite_rotation>("finite_rotation", false, "orientations by whole rotations instead of a first order step"),
+      flag<&S::finite_rotation>("finite_rotation", false,
+                                "orientations by whole rotations instead of a first order step"),
       number<&S::sleep_linear>("auto_disable_linear_threshold", real, behaviour, 0, 0, 100, 0.01, "m/s",
                                "a slower body may sleep"),
       number<&S::sleep_angular>("auto_disable_angular_threshold", real, behaviour, 0, 0, 100, 0.01, "rad/s",
@@ -117,9 +122,10 @@ const std::vector<Row>& rows() {
                                   "half side of the quadtree around the origin"),
       number<&S::quadtree_depth>("quadtree_depth", whole, speed, once, 1, 10, 6, "1", "levels of the quadtree"),
       choice<&S::sap_axes>("sap_axes", speed, once, axes_words, "order of the axes of sweep and prune"),
-      number<&S::threads>("threads", whole, speed, once, 1, 64, 1, "1",
-                          "ODE's own thread pool; measured 2 to 4 times slower at 2 threads, and an engine error on one "
-                          "of its threads ends the process"),
+      number<&S::threads>(
+          "threads", whole, speed, once, 1, 64, 1, "1",
+          "ODE's own thread pool; measured 2 to 4 times slower at 2 threads, and an engine error on one "
+          "of its threads ends the process"),
       number<&S::random_seed>("random_seed", whole, behaviour, once, 0, 2147483647, 0, "1",
                               "of the order in which quickstep visits its rows"),
   };

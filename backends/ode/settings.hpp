@@ -21,9 +21,9 @@ struct Settings {
   double sor_w;
   int substeps;
   double erp, cfm;
-  double contact_erp, contact_cfm;  ///< below 0: those of the world
-  double contact_surface_layer;     ///< m
-  double contact_max_correcting_vel;///< m/s, 0: no limit
+  double contact_erp, contact_cfm;    ///< below 0: those of the world
+  double contact_surface_layer;       ///< m
+  double contact_max_correcting_vel;  ///< m/s, 0: no limit
   int max_contacts;
   FrictionModel friction_model;
   FrictionDirections friction_directions;

@@ -141,8 +141,7 @@ void offset_geom(const PlacedGeom& geom, const PlumbVec3& centre_of_mass) {
   const PlumbVec3 at = sub(geom.place.position, centre_of_mass);
   const PlumbQuat& q = geom.place.orientation;
   if (!is_zero(at)) dGeomSetOffsetPosition(geom.geom, at.x, at.y, at.z);
-  if (geom.lying || q.x != 0 || q.y != 0 || q.z != 0)
-    dGeomSetOffsetRotation(geom.geom, Rotation(q, geom.lying).turn);
+  if (geom.lying || q.x != 0 || q.y != 0 || q.z != 0) dGeomSetOffsetRotation(geom.geom, Rotation(q, geom.lying).turn);
 }
 
 }  // namespace plumb::ode

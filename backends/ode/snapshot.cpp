@@ -111,7 +111,8 @@ void take_state(Body& body, const BodyState& state) {
   }
   dBodySetPosition(body.body, state.position[0], state.position[1], state.position[2]);  // its geoms have moved
   // dBodySetQuaternion would normalise once more, and so change the last bits.
-  std::copy(std::begin(state.quaternion), std::end(state.quaternion), const_cast<dReal*>(dBodyGetQuaternion(body.body)));
+  std::copy(std::begin(state.quaternion), std::end(state.quaternion),
+            const_cast<dReal*>(dBodyGetQuaternion(body.body)));
   std::copy(std::begin(state.rotation), std::end(state.rotation), const_cast<dReal*>(dBodyGetRotation(body.body)));
   dBodySetLinearVel(body.body, state.velocity[0], state.velocity[1], state.velocity[2]);
   dBodySetAngularVel(body.body, state.spin[0], state.spin[1], state.spin[2]);
@@ -123,8 +124,9 @@ void take_state(Body& body, const BodyState& state) {
 
 PlumbResult World::save(std::span<const std::byte>& data) {
   if (space_ != nullptr && (settings_.space == Space::sap || settings_.space == Space::quadtree))
-    throw Error(PLUMB_E_UNSUPPORTED, "ODE does not tell the order inside its sap and quadtree spaces, on which the bits "
-                                     "depend; make the world with the setting space=hash");
+    throw Error(PLUMB_E_UNSUPPORTED,
+                "ODE does not tell the order inside its sap and quadtree spaces, on which the bits "
+                "depend; make the world with the setting space=hash");
   return inside_ode([&] {
     Writer out(snapshot_);
     out.put(seed_);

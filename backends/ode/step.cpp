@@ -20,8 +20,8 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_;
 };
 
-/// quickstep draws from one random sequence for the whole process: a world brings its own seed, and nobody else may draw
-/// meanwhile.
+/// quickstep draws from one random sequence for the whole process: a world brings its own seed, and nobody else may
+/// draw meanwhile.
 class OwnRandom {
  public:
   explicit OwnRandom(unsigned long& seed) : seed_(seed), lock_(mutex()) {
@@ -49,8 +49,10 @@ class OwnRandom {
 
 PlumbResult World::step(double dt) {
   if (nonfinite_ != 0)
-    throw Error(PLUMB_E_WORLD_LOST, std::to_string(nonfinite_) + " bodies have become NaN or infinite, with which ODE cannot "
-                                        "go on; destroy the world and take a smaller dt, more substeps or another stepper");
+    throw Error(PLUMB_E_WORLD_LOST,
+                std::to_string(nonfinite_) +
+                    " bodies have become NaN or infinite, with which ODE cannot "
+                    "go on; destroy the world and take a smaller dt, more substeps or another stepper");
   const int substeps = settings_.substeps;
   const double h = dt / substeps;
   return inside_ode([&] {

@@ -100,7 +100,7 @@ class World final : public IPhysicsWorld,
     }
   }
 
-  // Bodies (world.cpp).
+  // Bodies and joints (world_*.cpp).
   [[nodiscard]] Body& body(PlumbBody id) { return *bodies_[slot_of(id)]; }
   [[nodiscard]] Joint& joint(PlumbJoint id) { return *joints_[slot_of(id)]; }
   std::unique_ptr<Body> make_body(const PlumbBodyDesc& desc, PlumbBody handle);
@@ -133,8 +133,8 @@ class World final : public IPhysicsWorld,
   std::vector<std::unique_ptr<Joint>> joints_;  // by slot
   /// By slot: the body in ODE where its rows are ours as they are, else null. Bulk reads need not touch Body then.
   std::vector<dBodyID> plain_;
-  std::vector<Body*> order_;                    // all, as created
-  std::vector<dBodyID> dynamic_ids_;            // of dynamic_
+  std::vector<Body*> order_;          // all, as created
+  std::vector<dBodyID> dynamic_ids_;  // of dynamic_
   std::vector<Body*> dynamic_, kinematic_, damped_, locked_, weighed_, pushed_;
   std::vector<Joint*> joint_order_, busy_joints_;  // busy: with work in each sub-step
 

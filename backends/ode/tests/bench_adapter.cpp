@@ -1,5 +1,5 @@
-// The adapter's own cost: a step and a bulk read through plumb against the same written straight against ODE. Both run in
-// turns, so that what else the machine does meets both alike.
+// The adapter's own cost: a step and a bulk read through plumb against the same written straight against ODE. Both run
+// in turns, so that what else the machine does meets both alike.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>

@@ -7,7 +7,9 @@ const Backend& ode() {
   return backend;
 }
 
-PlumbSetting setting(const char* name, double number, PlumbSettingType type) { return {name, {type, 0, number, nullptr}}; }
+PlumbSetting setting(const char* name, double number, PlumbSettingType type) {
+  return {name, {type, 0, number, nullptr}};
+}
 PlumbSetting setting(const char* name, const char* choice) { return {name, {PLUMB_SETTING_CHOICE, 0, 0, choice}}; }
 
 TestWorld::TestWorld(PlumbNeeds needs, std::vector<PlumbSetting> settings) {

@@ -167,11 +167,13 @@ TEST(Bodies, KinematicReachesItsTargetInOneStepAndThenRests) {
 TEST(Bodies, SleepWakeAndTell) {
   const TestWorld world(needs | PLUMB_NEED_SLEEPING | PLUMB_NEED_EVENTS);
   const PlumbBody ground = world.fixed(world.box(10, 1, 10), {0, -1, 0});
-  const PlumbBody a = world.dynamic(world.box(.5, .5, .5), {0, .5, 0}), b = world.dynamic(world.box(.5, .5, .5), {3, .5, 0});
+  const PlumbBody a = world.dynamic(world.box(.5, .5, .5), {0, .5, 0}),
+                  b = world.dynamic(world.box(.5, .5, .5), {3, .5, 0});
   bool slept = false;
   for (int i = 0; i < 600 && !slept; ++i) {
     const PlumbStepReport report = world.step();
-    for (const PlumbEvent& event : world->events()) slept = slept || (event.type == PLUMB_EVENT_SLEEP && event.body_a == a);
+    for (const PlumbEvent& event : world->events())
+      slept = slept || (event.type == PLUMB_EVENT_SLEEP && event.body_a == a);
     if (slept) {
       EXPECT_LT(report.awake, 2u);
     }
@@ -179,7 +181,8 @@ TEST(Bodies, SleepWakeAndTell) {
   ASSERT_TRUE(slept);
   EXPECT_EQ(world.row(a, PLUMB_FIELD_AWAKE)[0], 0);
   world.step(60);
-  for (const PlumbEvent& event : world->events()) EXPECT_NE(event.type, PLUMB_EVENT_CONTACT_END);  // asleep is still touching
+  for (const PlumbEvent& event : world->events())
+    EXPECT_NE(event.type, PLUMB_EVENT_CONTACT_END);  // asleep is still touching
   world.write(a, PLUMB_FIELD_IMPULSE, {0, 2000, 0});
   world.step();
   ASSERT_FALSE(world->events().empty());

@@ -60,7 +60,7 @@ TEST(Contacts, PairFrictionAndRestitution) {
   ball.material = {0, .8, {}};
   const PlumbBody b = world.body(ball);
   world.step(30);
-  EXPECT_NEAR(world.velocity(b).y, .8 * 4, 1e-3);  // the larger of the two
+  EXPECT_NEAR(world.velocity(b).y, .8 * 4, 1e-3);             // the larger of the two
   EXPECT_NEAR(world.velocity(a).x, 5 - .4 * 9.81 * .5, .01);  // sqrt(.2 * .8) = .4
 }
 

@@ -68,8 +68,9 @@ TEST_P(Drives, MotorThenLimitMoveTheCoordinateAsTold) {
   double row[12] = {};
   row[2 * axis] = back[2 * axis];
   row[2 * axis + 1] = back[2 * axis + 1];
-  check(*world, world->joints()->write_joints(PLUMB_JOINT_MOTOR, {&joint, 1},
-                                              ConstRows(reinterpret_cast<const std::byte*>(row), 1, sizeof row, PLUMB_F64)));
+  check(*world,
+        world->joints()->write_joints(PLUMB_JOINT_MOTOR, {&joint, 1},
+                                      ConstRows(reinterpret_cast<const std::byte*>(row), 1, sizeof row, PLUMB_F64)));
   EXPECT_NEAR(coordinate(world, joint, axis, 180), -.2, .02);
 }
 
@@ -86,8 +87,9 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{PLUMB_JOINT_SLIDER, 0, Free::b_of_world}, Case{PLUMB_JOINT_SLIDER, 0, Free::b_of_static},
                     Case{PLUMB_JOINT_SLIDER, 0, Free::a_of_static}, Case{PLUMB_JOINT_SLIDER, 0, Free::both},
                     Case{PLUMB_JOINT_UNIVERSAL, 3, Free::b_of_world}, Case{PLUMB_JOINT_UNIVERSAL, 4, Free::b_of_world},
-                    Case{PLUMB_JOINT_UNIVERSAL, 3, Free::a_of_static}, Case{PLUMB_JOINT_UNIVERSAL, 4, Free::a_of_static},
-                    Case{PLUMB_JOINT_UNIVERSAL, 3, Free::both}, Case{PLUMB_JOINT_UNIVERSAL, 4, Free::both}),
+                    Case{PLUMB_JOINT_UNIVERSAL, 3, Free::a_of_static},
+                    Case{PLUMB_JOINT_UNIVERSAL, 4, Free::a_of_static}, Case{PLUMB_JOINT_UNIVERSAL, 3, Free::both},
+                    Case{PLUMB_JOINT_UNIVERSAL, 4, Free::both}),
     case_name);
 
 // A joint's frames are what its descriptor says, not where the bodies happen to be.

@@ -14,7 +14,8 @@ PlumbQuat product(const PlumbQuat& a, const PlumbQuat& b) {
           a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w, a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z};
 }
 
-/// How far a unit cube slides in 2 s down 27 degrees at mu = .5, the slope facing `heading` degrees from x. Exact: .1665.
+/// How far a unit cube slides in 2 s down 27 degrees at mu = .5, the slope facing `heading` degrees from x. Exact:
+/// .1665.
 double slide(double heading) {
   const TestWorld world(usual_needs);
   const double tilt = 27 * std::numbers::pi / 180, turn = heading * std::numbers::pi / 180;

@@ -98,7 +98,8 @@ TEST_P(Pairs, AreAsDeclared) {
   const Rest standing = drop(upper, lower, false);
   EXPECT_EQ(standing.touched, declared != PLUMB_NONE);
   if (declared < PLUMB_EMULATED) return;
-  EXPECT_TRUE(rests(standing)) << "sink " << standing.sink << " tilt " << standing.tilt << " wander " << standing.wander;
+  EXPECT_TRUE(rests(standing)) << "sink " << standing.sink << " tilt " << standing.tilt << " wander "
+                               << standing.wander;
   // On a rounded base a shape that lies rolls off; what it does then is no matter of contacts.
   if (!has_side(upper) || has_side(lower) || lower == PLUMB_SPHERE) return;
   const Rest lying = drop(upper, lower, true);
@@ -106,8 +107,8 @@ TEST_P(Pairs, AreAsDeclared) {
 }
 
 std::string pair_name(const testing::TestParamInfo<std::tuple<PlumbShapeType, PlumbShapeType>>& info) {
-  std::string name = std::string(backend::shape_name(std::get<0>(info.param))) + "_on_" +
-                     backend::shape_name(std::get<1>(info.param));
+  std::string name =
+      std::string(backend::shape_name(std::get<0>(info.param))) + "_on_" + backend::shape_name(std::get<1>(info.param));
   std::replace(name.begin(), name.end(), ' ', '_');
   return name;
 }

@@ -13,8 +13,7 @@ struct Scene {
   explicit Scene(PlumbNeeds more, std::vector<PlumbSetting> settings = {}) : world(needs | more, std::move(settings)) {
     ground = world.fixed(world.box(20, 1, 20), {0, -1, 0});
     const PlumbShape box = world.box(.5, .5, .5);
-    for (int i = 0; i < 20; ++i)
-      bodies.push_back(world.dynamic(box, {.3 * (i % 3), .6 + 1.1 * i, .2 * (i % 4)}));
+    for (int i = 0; i < 20; ++i) bodies.push_back(world.dynamic(box, {.3 * (i % 3), .6 + 1.1 * i, .2 * (i % 4)}));
     PlumbJointDesc desc = joint_desc(PLUMB_JOINT_BALL);
     desc.body_a = bodies[0];
     desc.body_b = bodies[1];

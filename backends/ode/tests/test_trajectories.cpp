@@ -15,7 +15,8 @@ void expect_same_bits(const std::vector<double>& got, const std::vector<double>&
   ASSERT_EQ(got.size(), expected.size());
   for (std::size_t i = 0; i < got.size(); ++i)
     ASSERT_EQ(std::memcmp(&got[i], &expected[i], sizeof(double)), 0)
-        << "moving body " << i / columns << ", column " << i % columns << ": " << got[i] << " instead of " << expected[i];
+        << "moving body " << i / columns << ", column " << i % columns << ": " << got[i] << " instead of "
+        << expected[i];
 }
 
 TEST_P(Trajectories, EqualTheNativeProgramBitForBit) {
@@ -40,9 +41,9 @@ TEST_P(Trajectories, EqualTheNativeProgramBitForBit) {
 
 // What a world keeps for others must not change what it does.
 TEST(Trajectories, AreTheSameWhateverElseIsAskedOfTheWorld) {
-  PlumbProgram one(pile(30)), other(pile(30), usual_needs | PLUMB_NEED_CONTACTS | PLUMB_NEED_CONTACT_IMPULSES |
-                                                  PLUMB_NEED_EVENTS | PLUMB_NEED_JOINT_REACTIONS | PLUMB_NEED_QUERIES |
-                                                  PLUMB_NEED_FILTERS | PLUMB_NEED_SENSORS);
+  PlumbProgram one(pile(30)),
+      other(pile(30), usual_needs | PLUMB_NEED_CONTACTS | PLUMB_NEED_CONTACT_IMPULSES | PLUMB_NEED_EVENTS |
+                          PLUMB_NEED_JOINT_REACTIONS | PLUMB_NEED_QUERIES | PLUMB_NEED_FILTERS | PLUMB_NEED_SENSORS);
   for (int i = 0; i < 200; ++i) {
     one.step();
     other.step();

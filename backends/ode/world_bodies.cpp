@@ -1,0 +1,147 @@
+// Bodies of a world: made, listed, taken apart.
+#include "slots.hpp"
+#include "world.hpp"
+
+namespace plumb::ode {
+namespace {
+
+/// Geoms that never move are not asked about each other.
+constexpr unsigned long still_bit = 1, moving_bit = 2;
+
+}  // namespace
+
+PlumbResult World::create_bodies(std::span<const PlumbBodyDesc> descs, std::span<PlumbBody> ids) {
+  return inside_ode([&] {
+    for (std::size_t i = 0; i < descs.size(); ++i) {
+      put(bodies_, ids[i], make_body(descs[i], ids[i]));
+      enlist(body(ids[i]));
+    }
+    return PLUMB_OK;
+  });
+}
+
+PlumbResult World::destroy_bodies(std::span<const PlumbBody> ids) {
+  return inside_ode([&] {
+    for (const PlumbBody id : ids) {
+      strike_off(body(id));
+      dismantle(body(id));
+      bodies_[slot_of(id)].reset();
+    }
+    return PLUMB_OK;
+  });
+}
+
+std::unique_ptr<Body> World::make_body(const PlumbBodyDesc& desc, PlumbBody handle) {
+  auto body = std::make_unique<Body>();
+  body->handle = handle;
+  body->motion = desc.motion;
+  body->sensor = (desc.flags & PLUMB_BODY_SENSOR) != 0;
+  body->shape = desc.shape == 0 ? nullptr : shapes_[slot_of(desc.shape)].get();
+  body->material = desc.material;
+  body->filter = desc.filter;
+  body->gravity_scale = desc.gravity_scale;
+  if (desc.motion != PLUMB_STATIC) body->body = dBodyCreate(world_);
+  if (desc.motion == PLUMB_KINEMATIC) {
+    dBodySetKinematic(body->body);
+    dBodySetGravityMode(body->body, 0);
+    dBodySetFiniteRotationMode(body->body, 1);
+  }
+  if (desc.motion == PLUMB_DYNAMIC) {
+    set_mass(*body, desc);
+    body->linear_damping = desc.linear_damping;
+    body->angular_damping = desc.angular_damping;
+    body->locks = desc.locks;
+  }
+  make_body_geoms(*body);
+  body->set_frame(desc.pose);
+  body->set_velocity(desc.linear_velocity, desc.angular_velocity);
+  if (desc.motion != PLUMB_DYNAMIC) return body;
+  apply_body_settings(*body);
+  body->wake();
+  if (substep_ != 0 && (body->linear_damping != 0 || body->angular_damping != 0)) set_damping(*body, substep_);
+  if (body->locks != 0) make_locks(*body, world_);
+  const bool sleeps = init_.needs(PLUMB_NEED_SLEEPING) && (desc.flags & PLUMB_BODY_NEVER_SLEEPS) == 0;
+  dBodySetAutoDisableFlag(body->body, sleeps ? 1 : 0);
+  if ((desc.flags & PLUMB_BODY_ASLEEP) != 0) dBodyDisable(body->body);
+  body->was_awake = !body->asleep();
+  return body;
+}
+
+void World::make_body_geoms(Body& body) {
+  if (space_ == nullptr || body.shape == nullptr) return;
+  std::vector<PlacedGeom> placed;
+  make_geoms(*body.shape, space_, placed);
+  for (const PlacedGeom& geom : placed) {
+    body.geoms.push_back(std::make_unique<GeomTag>());
+    GeomTag& tag = *body.geoms.back();
+    tag.placed = geom;
+    if (geom.material != nullptr) tag.own_material = *geom.material;
+    dGeomSetData(geom.geom, &tag);
+    dGeomSetCategoryBits(geom.geom, body.body == nullptr ? still_bit : moving_bit);
+    dGeomSetCollideBits(geom.geom, body.body == nullptr ? moving_bit : still_bit | moving_bit);
+    if (body.body == nullptr) continue;
+    dGeomSetBody(geom.geom, body.body);
+    offset_geom(geom, body.centre_of_mass);
+  }
+  refresh_tags(body);
+}
+
+void World::apply_body_settings(Body& body) {
+  if (body.turns) {
+    dBodySetGyroscopicMode(body.body, settings_.gyroscopic && init_.needs(PLUMB_NEED_GYROSCOPIC) ? 1 : 0);
+    dBodySetFiniteRotationMode(body.body, settings_.finite_rotation ? 1 : 0);
+  }
+  dBodySetAutoDisableLinearThreshold(body.body, settings_.sleep_linear);
+  dBodySetAutoDisableAngularThreshold(body.body, settings_.sleep_angular);
+  dBodySetAutoDisableSteps(body.body, settings_.sleep_steps);
+  dBodySetAutoDisableTime(body.body, settings_.sleep_time);
+}
+
+void World::enlist(Body& body) {
+  order_.push_back(&body);
+  plain_.resize(bodies_.size());
+  const bool plain = is_zero(body.centre_of_mass) && (body.turns || body.motion == PLUMB_KINEMATIC);
+  plain_[slot_of(body.handle)] = plain ? body.body : nullptr;
+  if (body.motion == PLUMB_KINEMATIC) kinematic_.push_back(&body);
+  if (!body.dynamic()) return;
+  dynamic_.push_back(&body);
+  dynamic_ids_.push_back(body.body);
+  if (body.locks != 0) locked_.push_back(&body);
+  if (body.linear_damping != 0 || body.angular_damping != 0) damped_.push_back(&body);
+  set_gravity_scale(body, body.gravity_scale);
+}
+
+void World::strike_off(const Body& body) {
+  for (auto* list : {&order_, &dynamic_, &kinematic_, &damped_, &locked_, &weighed_, &pushed_}) std::erase(*list, &body);
+  std::erase(dynamic_ids_, body.body);
+}
+
+void World::dismantle(Body& body) {
+  wake_neighbours(body);
+  for (const auto& geom : body.geoms) dGeomDestroy(geom->placed.geom);
+  if (body.linear_lock != nullptr) dJointDestroy(body.linear_lock);
+  if (body.angular_lock != nullptr) dJointDestroy(body.angular_lock);
+  if (body.body != nullptr) dBodyDestroy(body.body);
+}
+
+void World::set_gravity_scale(Body& body, double scale) {
+  body.gravity_scale = scale;
+  std::erase(weighed_, &body);
+  if (scale != 0 && scale != 1) weighed_.push_back(&body);
+  dBodySetGravityMode(body.body, scale == 1 ? 1 : 0);
+}
+
+/// Whatever sleeps against a body must notice that it goes or comes.
+void World::wake_neighbours(const Body& body) {
+  if (space_ == nullptr || !init_.needs(PLUMB_NEED_SLEEPING)) return;
+  const auto wake = [](void* self, dGeomID one, dGeomID two) {
+    for (const dGeomID geom : {one, two}) {
+      Body& met = *static_cast<const GeomTag*>(dGeomGetData(geom))->body;
+      if (&met != self && met.asleep()) met.wake();
+    }
+  };
+  for (const auto& geom : body.geoms)
+    dSpaceCollide2(geom->placed.geom, reinterpret_cast<dGeomID>(space_), const_cast<Body*>(&body), wake);
+}
+
+}  // namespace plumb::ode

@@ -1,0 +1,103 @@
+// Joints of a world: made, broken, their rows.
+#include "slots.hpp"
+#include "world.hpp"
+
+namespace plumb::ode {
+
+PlumbResult World::create_joints(std::span<const PlumbJointDesc> descs, std::span<PlumbJoint> ids) {
+  for (const PlumbJointDesc& desc : descs) check_joint(desc);
+  return inside_ode([&] {
+    for (std::size_t i = 0; i < descs.size(); ++i) {
+      const PlumbJointDesc& desc = descs[i];
+      auto joint = std::make_unique<Joint>();
+      joint->handle = ids[i];
+      joint->desc = desc;
+      joint->a = desc.body_a == 0 ? nullptr : &body(desc.body_a);
+      joint->b = &body(desc.body_b);
+      joint->watched = init_.needs(PLUMB_NEED_JOINT_REACTIONS) || desc.break_force > 0 || desc.break_torque > 0;
+      attach(*joint, world_);
+      if (substep_ != 0) set_parameters(*joint, settings_, substep_);
+      if (joint->a != nullptr && desc.collide_connected == 0) {
+        joint->a->untouchable.push_back(joint->b);
+        joint->b->untouchable.push_back(joint->a);
+        refresh_tags(*joint->a);
+        refresh_tags(*joint->b);
+      }
+      joint_order_.push_back(joint.get());
+      if (joint->watched || joint->has_distance_limits()) busy_joints_.push_back(joint.get());
+      put(joints_, ids[i], std::move(joint));
+    }
+    return PLUMB_OK;
+  });
+}
+
+PlumbResult World::destroy_joints(std::span<const PlumbJoint> ids) {
+  return inside_ode([&] {
+    for (const PlumbJoint id : ids) remove_joint(joint(id));
+    return PLUMB_OK;
+  });
+}
+
+void World::remove_joint(Joint& joint) {
+  const auto forget_one = [](std::vector<const Body*>& list, const Body* other) {
+    if (const auto at = std::find(list.begin(), list.end(), other); at != list.end()) list.erase(at);
+  };
+  if (joint.a != nullptr && joint.desc.collide_connected == 0) {
+    forget_one(joint.a->untouchable, joint.b);
+    forget_one(joint.b->untouchable, joint.a);
+    refresh_tags(*joint.a);
+    refresh_tags(*joint.b);
+  }
+  for (Body* body : {joint.a, joint.b})
+    if (body != nullptr) body->wake();
+  dJointDestroy(joint.id);
+  std::erase(joint_order_, &joint);
+  std::erase(busy_joints_, &joint);
+  joints_[slot_of(joint.handle)].reset();
+}
+
+PlumbResult World::read_joints(PlumbJointField field, std::span<const PlumbJoint> ids, Rows rows) {
+  double row[12];
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    const Joint& read = joint(ids[i]);
+    if (field == PLUMB_JOINT_COORDINATES) read_coordinates(read, row);
+    if (field == PLUMB_JOINT_REACTION) {
+      const double reaction[6] = {read.force.x,  read.force.y,  read.force.z,
+                                  read.torque.x, read.torque.y, read.torque.z};
+      std::copy(std::begin(reaction), std::end(reaction), row);
+    }
+    for (std::size_t axis = 0; field == PLUMB_JOINT_MOTOR && axis < 6; ++axis) {
+      const PlumbMotor& motor = read.desc.motors[axis];
+      row[2 * axis] = motor.target_velocity;
+      row[2 * axis + 1] = motor.enabled != 0 ? motor.max_force : 0;
+    }
+    rows.put(i, row, joint_columns_of(field));
+  }
+  return PLUMB_OK;
+}
+
+PlumbResult World::write_joints(PlumbJointField, std::span<const PlumbJoint> ids, ConstRows rows) {
+  std::vector<PlumbJointDesc> changed;
+  double row[12];
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    rows.get(i, row, 12);
+    changed.push_back(joint(ids[i]).desc);
+    for (std::size_t axis = 0; axis < 6; ++axis) {
+      const bool enabled = row[2 * axis + 1] != 0;
+      changed.back().motors[axis] = {row[2 * axis], row[2 * axis + 1], enabled ? 1u : 0u, 0};
+    }
+    check_joint(changed.back());
+  }
+  return inside_ode([&] {
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+      Joint& written = joint(ids[i]);
+      written.desc = changed[i];
+      if (substep_ != 0) set_parameters(written, settings_, substep_);
+      for (Body* body : {written.a, written.b})
+        if (body != nullptr) body->wake();
+    }
+    return PLUMB_OK;
+  });
+}
+
+}  // namespace plumb::ode
