@@ -1,4 +1,6 @@
 // Joints of a world: made, broken, their rows.
+#include <algorithm>
+
 #include "slots.hpp"
 #include "world.hpp"
 
