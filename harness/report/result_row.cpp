@@ -130,12 +130,17 @@ ResultRow parse_row(const Json& line, std::size_t index) {
   row.status = text(line, "status");
   row.reason = text(line, "reason");
   row.hash = text(line, "hash");
+  row.slug = text(line, "slug");
+  row.needs = text(line, "needs");
   row.params = object_or_empty(member(line, "params"));
   row.settings = object_or_empty(member(line, "settings"));
   row.machine = object_or_empty(member(line, "machine"));
+  row.date = text(row.machine, "date");
+  row.machine.erase("date");
   row.dt = number(line, "dt");
   row.seconds = number(line, "seconds");
   row.threads = number(line, "threads");
+  row.repeats = number(line, "repeats");
   if (const Json& metrics = member(line, "metrics"); metrics.is_object()) {
     for (const auto& [name, metric] : metrics.items()) row.metrics.push_back(parse_metric(name, metric));
   }
@@ -151,7 +156,7 @@ ResultRow parse_row(const Json& line, std::size_t index) {
   }
   row.steps = number(time, "steps");
   row.setup_ms = number(time, "setup_ms");
-  if (const Json& phases = member(time, "phase_ms"); phases.is_object()) {
+  if (const Json& phases = member(time, "phases_ms"); phases.is_object()) {
     for (const auto& [name, ms] : phases.items()) {
       if (const auto value = as_number(ms)) row.phase_ms.emplace_back(name, *value);
     }

@@ -35,9 +35,10 @@ struct MetricResult {
 /// A cell. Text fields are "" and numbers absent where the line did not have them or had another type.
 struct ResultRow {
   std::size_t index = 0;  ///< in the order of the file; names the row on the page
-  std::string scene, group, backend, backend_version, profile, status, reason, hash;
-  Json params, settings, machine;  ///< always objects
-  std::optional<double> dt, seconds, threads;
+  std::string scene, slug, group, backend, backend_version, profile, needs, status, reason, hash;
+  std::string date;                ///< when it ran, as the machine's entry said
+  Json params, settings, machine;  ///< always objects; machine without its date, so that equal machines are equal
+  std::optional<double> dt, seconds, threads, repeats;
   std::vector<MetricResult> metrics;  ///< in the order of the line
 
   std::optional<double> median_ms, min_ms, max_ms, p99_ms;  ///< per step

@@ -10,15 +10,23 @@
 namespace plumb::harness {
 namespace {
 
-/// What makes two rows the same cell: all that was asked for, and the machine that answered.
+/// What makes two rows the same cell: the runner's own id of it, else all that was asked for; and the machine that
+/// answered, whenever that was.
 std::string cell_key(const Json& row) {
-  Json key = Json::array();
-  for (const char* name : {"scene", "params", "backend", "backend_version", "settings", "profile", "dt", "seconds",
-                           "threads", "machine"}) {
+  const auto member = [&](const char* name) {
     const auto found = row.find(name);
-    key.push_back(found == row.end() ? Json() : *found);
+    return found == row.end() ? Json() : *found;
+  };
+  Json machine = member("machine");
+  if (machine.is_object()) machine.erase("date");
+  Json key = Json::array({machine, member("cell")});
+  if (key[1].is_null()) {
+    for (const char* name :
+         {"scene", "params", "backend", "backend_version", "settings", "profile", "dt", "seconds", "threads"}) {
+      key.push_back(member(name));
+    }
   }
-  return key.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return line_of(key);
 }
 
 }  // namespace

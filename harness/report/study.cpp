@@ -9,23 +9,31 @@
 namespace plumb::harness {
 namespace {
 
-/// The most frequent of the values; the first of several.
+/// The most frequent of the values; of several the favourite, else the first.
 template <typename Value>
 class Mode {
  public:
   void add(const std::string& key, const Value& value) {
-    auto& [count, first] = counts_.try_emplace(key, 0, value).first->second;
-    if (++count > best_count_) {
-      best_count_ = count;
-      best_ = first;
-    }
+    const auto [at, is_new] = counts_.try_emplace(key, 0, value);
+    if (is_new) order_.push_back(key);
+    ++at->second.first;
   }
-  [[nodiscard]] const Value& best() const { return best_; }
+  [[nodiscard]] Value best(const std::string& favourite = "") const {
+    int most = 0;
+    Value best{};
+    for (const std::string& key : order_) {
+      const auto& [count, value] = counts_.at(key);
+      if (count > most || (count == most && key == favourite)) {
+        most = count;
+        best = value;
+      }
+    }
+    return best;
+  }
 
  private:
   std::map<std::string, std::pair<int, Value>> counts_;
-  int best_count_ = 0;
-  Value best_{};
+  std::vector<std::string> order_;
 };
 
 std::string key_of(const std::optional<double>& value) { return value ? shortest_number(*value) : ""; }
@@ -38,14 +46,17 @@ bool same(const std::optional<double>& a, const std::optional<double>& b) {
 Baseline find_baseline(const std::vector<const ResultRow*>& rows) {
   Mode<Json> settings;
   Mode<std::optional<double>> dt, threads;
+  std::map<std::string, Mode<std::optional<double>>> scene_dt;
   for (const ResultRow* row : rows) {
     if (!row->settings.empty()) settings.add(value_text(row->settings), row->settings);
     if (row->dt) dt.add(key_of(row->dt), row->dt);
+    if (row->dt) scene_dt[row->scene].add(key_of(row->dt), row->dt);
     if (row->threads) threads.add(key_of(row->threads), row->threads);
   }
   Baseline baseline;
   baseline.settings = settings.best().is_object() ? settings.best() : Json::object();
-  baseline.dt = dt.best();
+  const std::string usual_dt = key_of(dt.best());
+  for (const auto& [scene, steps] : scene_dt) baseline.dt[scene] = steps.best(usual_dt);
   baseline.threads = threads.best();
   return baseline;
 }
@@ -91,8 +102,9 @@ Study::Study(std::vector<ResultRow> given) : rows(std::move(given)) {
 
 bool Study::is_default(const ResultRow& row) const {
   const Baseline& baseline = baselines_.at(row.backend);
-  return default_profile(row) && same(row.dt, baseline.dt) && same(row.threads, baseline.threads) &&
-         changed_settings(row).empty();
+  const auto dt = baseline.dt.find(row.scene);
+  return default_profile(row) && same(row.dt, dt == baseline.dt.end() ? std::nullopt : dt->second) &&
+         same(row.threads, baseline.threads) && changed_settings(row).empty();
 }
 
 std::vector<std::pair<std::string, std::string>> Study::changed_settings(const ResultRow& row) const {
@@ -124,6 +136,8 @@ std::string Study::command(const ResultRow& row) const {
   if (row.dt) out += " --dt " + shortest_number(*row.dt);
   if (row.seconds) out += " --seconds " + shortest_number(*row.seconds);
   if (row.threads) out += " --threads " + shortest_number(*row.threads);
+  if (row.repeats && *row.repeats > 1) out += " --repeat " + shortest_number(*row.repeats);
+  if (row.needs == "all") out += " --needs all";
   return out;
 }
 

@@ -18,11 +18,13 @@ struct Problem {
   [[nodiscard]] std::string title() const { return variant.empty() ? scene : scene + " " + variant; }
 };
 
-/// What a backend runs with when nobody asked for anything: the most frequent settings, dt and threads among its cells
-/// of the default profile (of all its cells when none has that profile).
+/// What a backend runs with when nobody asked for anything: the most frequent settings and threads among its cells of
+/// the default profile (of all its cells when none has that profile), and the most frequent dt for each scene, which
+/// may have one of its own.
 struct Baseline {
   Json settings;
-  std::optional<double> dt, threads;
+  std::map<std::string, std::optional<double>> dt;  ///< by scene
+  std::optional<double> threads;
 };
 
 /// All rows of a report and the order in which it shows them. Problems point into `rows`, hence no copies.

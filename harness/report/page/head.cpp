@@ -2,7 +2,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <map>
+#include <algorithm>
+#include <set>
 
 #include "report/format.hpp"
 #include "report/page/markup.hpp"
@@ -39,11 +40,11 @@ std::string join_words(const std::vector<std::string>& words) {
 
 /// Machines by their facts; several machines get a list each.
 std::string machine_facts(const Study& study) {
-  std::map<std::string, std::vector<std::string>> seen;  // the machine's JSON: backends that ran there
+  std::set<std::string> seen;
   std::vector<const Json*> machines;
   for (const ResultRow& row : study.rows) {
     if (row.machine.empty()) continue;
-    if (seen.try_emplace(value_text(row.machine)).second) machines.push_back(&row.machine);
+    if (seen.insert(value_text(row.machine)).second) machines.push_back(&row.machine);
   }
   std::string out;
   for (const Json* machine : machines) {
@@ -71,6 +72,16 @@ std::string head_section(const PageContext& context) {
   out += R"(</div><dl class="facts">)";
   if (!context.options.written.empty())
     out += fmt::format("<div><dt>written</dt><dd>{}</dd></div>", escape_html(context.options.written));
+  std::string first, last;
+  for (const ResultRow& row : context.study.rows) {
+    if (row.date.empty()) continue;
+    if (first.empty() || row.date < first) first = row.date;
+    last = std::max(last, row.date);
+  }
+  if (!first.empty()) {
+    out +=
+        fmt::format("<div><dt>ran</dt><dd>{}</dd></div>", escape_html(first == last ? first : first + " to " + last));
+  }
   if (!context.options.source.empty())
     out += fmt::format("<div><dt>results</dt><dd>{}</dd></div>", escape_html(context.options.source));
   return out + machine_facts(context.study) + "</dl></header>";

@@ -72,7 +72,7 @@
       ['ms per step, median', short(t[0])], ['fastest to slowest', short(t[1]) + ' to ' + short(t[2])], ['99th percentile', short(t[3])],
       ['set-up, ms', short(t[4])], ['steps', t[5]], ['timed steps', t[6] === null ? null : t[6] + ' to ' + t[7]]];
     row.p.forEach(function (p) { facts.push(['phase ' + p[0] + ', ms', short(p[1])]); });
-    facts.push(['bodies', n[0]], ['most contacts', n[1]], ['dropped contacts', n[2]], ['bodies not finite', n[3]], ['peak memory, MB', short(n[4])], ['state hash', row.h]);
+    facts.push(['bodies', n[0]], ['most contacts', n[1]], ['dropped contacts', n[2]], ['bodies not finite', n[3]], ['peak memory, MB', short(n[4])], ['state hash', row.h], ['ran', row.a]);
     panes.appendChild(pane('Times and counts', table(null, facts.filter(function (f) { return f[1] !== null && f[1] !== ''; }).map(function (f) { return { cells: f }; }))));
     panes.appendChild(pane('Settings in force' + (row.d.length ? ' (changed ones bold)' : ''), pairs(data.settings[row.s], row.d)));
     panes.appendChild(pane('Machine', pairs(data.machines[row.x])));

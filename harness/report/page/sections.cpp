@@ -63,7 +63,10 @@ std::string problem_header(const PageContext& context, const Problem& problem) {
   std::string out = R"(<th scope="row" class="problem">)";
   out += fmt::format("<b>{}</b>", escape_html(problem.scene));
   if (!problem.variant.empty()) out += fmt::format(R"( <span class="variant">{}</span>)", escape_html(problem.variant));
-  if (text != context.options.scenes.end()) {
+  if (text == context.options.scenes.end()) {
+    const std::string& slug = problem.rows.front()->slug;
+    if (!slug.empty()) out += fmt::format(R"( <span class="scene-title">{}</span>)", escape_html(slug));
+  } else {
     out += fmt::format(R"( <span class="scene-title" title="{}">{}</span>)", escape_html(text->second.doc),
                        escape_html(text->second.title));
   }

@@ -32,6 +32,17 @@ TEST(Study, DefaultsAreTheUsualCellsOfTheDefaultProfile) {
   }
 }
 
+TEST(Study, ASceneMayHaveATimeStepOfItsOwn) {
+  std::vector<Json> rows{testing::sample_row("A1", "b", 0.1, 1), testing::sample_row("A2", "b", 0.1, 1),
+                         testing::sample_row("C6", "b", 0.1, 1), testing::sample_row("A1", "b", 0.1, 1)};
+  rows[2]["dt"] = 0.001;
+  rows[3]["dt"] = 0.001;
+  const Study study(parse_rows(rows));
+  EXPECT_TRUE(study.is_default(study.rows[0]));
+  EXPECT_TRUE(study.is_default(study.rows[2]));
+  EXPECT_FALSE(study.is_default(study.rows[3])) << "as often as 0.01, which the other scenes have";
+}
+
 TEST(Study, TheCommandRunsTheCellAgain) {
   std::vector<Json> rows{testing::sample_row("S", "b", 0.1, 1), testing::sample_row("S", "b", 0.1, 1),
                          testing::sample_row("S", "b", 0.1, 1)};
