@@ -1,3 +1,209 @@
+// Scene files: what they become, and how broken ones are refused.
 #include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <set>
+
+#include "scene/build.hpp"
 #include "scene/catalogue.hpp"
-TEST(SceneFile, all) { for (auto& s : plumb::harness::all_scenes()) std::printf("%s %zu\n", s.id.c_str(), s.instantiate({}).bodies.size()); }
+
+namespace plumb::harness {
+namespace {
+
+namespace fs = std::filesystem;
+
+const char* const good = R"({
+  "id": "T1", "slug": "test", "title": "t", "doc": "d",
+  "parameters": {
+    "n": { "default": 2, "unit": "1", "doc": "count", "integer": true, "minimum": 0 },
+    "kind": { "default": "ball", "doc": "what", "choices": ["ball", "box"] }
+  },
+  "variants": [{ "sweep": { "n": [1, 2], "kind": ["ball", "box"] } }, { "n": 5 }],
+  "let": [{ "name": "half", "value": "n / 2" }, { "name": "quarter", "value": "half / 2" }],
+  "needs": ["rotation", "collision", "friction", "joints"],
+  "seconds": "n + 1",
+  "shapes": {
+    "all": { "type": "compound", "children": [{ "shape": "ball", "position": [0, 1, 0] }, { "shape": "box", "friction": 1 }] },
+    "ball": { "type": "sphere", "radius": 0.5 },
+    "box": { "type": "box", "half_extents": ["quarter", 1, 1] }
+  },
+  "bodies": [
+    { "name": "{kind}{i}_{j}", "repeat": { "i": "n", "j": "i + 1" }, "shape": "{kind}", "position": ["i", "j", 0] },
+    { "name": "extra", "when": "kind == box", "shape": "all", "mass": 3, "flags": ["ccd"], "locks": ["angular_z"],
+      "orientation": { "axis": [0, 0, 2], "degrees": 90 }, "filter": { "group": -1 } }
+  ],
+  "joints": [
+    { "name": "pin", "type": "hinge", "body_b": "{kind}0_0", "anchor": [0, 1, 0], "anchor_orientation": { "x_axis": [0, 0, 1] },
+      "motors": { "rx": { "target_velocity": 1, "max_force": "n" } } }
+  ],
+  "measure": { "kind": "m", "body": "{kind}0_0", "value": "=2 * n", "list": ["=n", "n"] },
+  "metrics": { "m": { "unit": "m", "doc": "d", "threshold": "dt * n", "gold": 0 } }
+})";
+
+class SceneFiles : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / ("plumb-scenes-" + std::to_string(::getpid())) / "group";
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_.parent_path()); }
+
+  SceneFile load(const std::string& text) {
+    const fs::path path = folder_ / "T1-test.json";
+    std::ofstream(path) << text;
+    return SceneFile::load(path);
+  }
+  /// The refusal of the good file after a replacement, without the path before the file's name.
+  std::string refusal(const std::string& from, const std::string& to) {
+    std::string text = good;
+    const auto at = text.find(from);
+    if (at == std::string::npos) return "the good file has no " + from;
+    text.replace(at, from.size(), to);
+    try {
+      load(text);
+    } catch (const UsageError& error) {
+      const std::string what = error.what();
+      return what.substr(what.find("T1-test"));
+    }
+    return "nothing was thrown";
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(SceneFiles, BecomeScenes) {
+  const SceneFile file = load(good);
+  EXPECT_EQ(file.group, "group");
+  EXPECT_EQ(file.variants.size(), 5u);
+  EXPECT_EQ(file.needs, PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION | PLUMB_NEED_JOINTS);
+  const Scene scene = file.instantiate({{"n", 3.0}, {"kind", std::string("box")}});
+  EXPECT_EQ(scene.seconds, 4);
+  ASSERT_EQ(scene.bodies.size(), 1u + 2 + 3 + 1);
+  EXPECT_EQ(scene.bodies[4].name, "box2_1");
+  EXPECT_EQ(scene.bodies[4].desc.pose.position.x, 2);
+  EXPECT_EQ(scene.bodies[4].desc.pose.position.y, 1);
+  EXPECT_EQ(scene.shapes[scene.bodies[0].shape.value()].desc.half_extents.x, 0.75);
+  const SceneBody& extra = scene.bodies[scene.body("extra")];
+  EXPECT_EQ(extra.desc.mass_mode, PLUMB_MASS_FROM_TOTAL);
+  EXPECT_EQ(extra.desc.flags, PLUMB_BODY_CCD);
+  EXPECT_EQ(extra.desc.locks, PLUMB_LOCK_ANGULAR_Z);
+  EXPECT_EQ(extra.desc.filter.group, -1);
+  EXPECT_NEAR(extra.desc.pose.orientation.z, std::sqrt(0.5), 1e-15);
+  const SceneShape& compound = scene.shapes[*extra.shape];
+  ASSERT_EQ(compound.children.size(), 2u);
+  EXPECT_LT(compound.children[1].shape, *extra.shape);
+  EXPECT_FALSE(compound.children[0].material.has_value());
+  EXPECT_EQ(compound.children[1].material->friction, 1);
+  const PlumbJointDesc& pin = scene.joints[scene.joint("pin")].desc;
+  EXPECT_EQ(pin.frame_a.position.y, 1);
+  EXPECT_EQ(pin.frame_b.position.y, 1);
+  EXPECT_EQ(pin.motors[3].max_force, 3);
+  EXPECT_EQ(pin.motors[3].enabled, 1u);
+  EXPECT_EQ(scene.measure_args.at("body"), "box0_0");
+  EXPECT_EQ(scene.measure_args.at("value"), 6.0);
+  EXPECT_EQ(scene.measure_args.at("list").at(0), 3.0);
+  EXPECT_EQ(scene.measure_args.at("list").at(1), "n");
+  EXPECT_DOUBLE_EQ(*scene.metrics.at(0).threshold, 3.0 / 60);
+  EXPECT_EQ(scene.number("n"), 3);
+  EXPECT_EQ(scene.word("kind"), "box");
+  EXPECT_EQ(file.instantiate({}).bodies.size(), 3u);
+}
+
+TEST_F(SceneFiles, TakeWhatTheyDoNotNeedFromTheirBodies) {
+  std::string text = good;
+  text.replace(text.find(R"("rotation", "collision", "friction", )"), 37, R"("collision", )");
+  const Scene scene = load(text).instantiate({});
+  EXPECT_EQ(scene.bodies[0].desc.flags, PLUMB_BODY_NO_ROTATION);
+  EXPECT_EQ(scene.bodies[0].desc.material.friction, 0);
+}
+
+TEST_F(SceneFiles, AreRefusedWithLineAndNearestWord) {
+  EXPECT_EQ(refusal("\"radius\"", "\"radios\""), "T1-test.json:13: unknown key \"radios\"; did you mean \"radius\"?");
+  EXPECT_EQ(refusal("\"friction\", \"joints\"", "\"fricton\""), "T1-test.json:9: unknown need \"fricton\"; did you mean \"friction\"?");
+  EXPECT_EQ(refusal("\"unit\": \"1\"", "\"unit\": \"kgg\""), "T1-test.json:4: unknown unit \"kgg\"; did you mean \"kg\"?");
+  EXPECT_EQ(refusal("\"half / 2\"", "\"hlaf / 2\""), "T1-test.json:8: \"hlaf / 2\": unknown name \"hlaf\"; did you mean \"half\"?");
+  EXPECT_EQ(refusal("\"body_b\": \"{kind}0_0\"", "\"body_b\": \"{kind}0_9\""), "T1-test.json:22: unknown body \"ball0_9\"; did you mean \"ball0_0\"?");
+  EXPECT_EQ(refusal("\"shape\": \"{kind}\"", "\"shape\": \"bal\""), "T1-test.json:17: unknown shape \"bal\"; did you mean \"ball\"?");
+  EXPECT_EQ(refusal("\"radius\": 0.5", "\"radius\": true"), "T1-test.json:13: expected a number or an expression, found boolean");
+  EXPECT_EQ(refusal("\"seconds\": \"n + 1\"", "\"seconds\": -1"), "T1-test.json:10: seconds must be above 0, not -1");
+  EXPECT_EQ(refusal("\"rx\"", "\"rw\""), "T1-test.json:23: unknown axis \"rw\"; did you mean \"rx\"?");
+  EXPECT_EQ(refusal("\"slug\": \"test\", ", ""), "T1-test.json:1: the key \"slug\" is missing here");
+  EXPECT_EQ(refusal("[1, 2]", "[1, -2]"), "T1-test.json:7: parameter n = -2 is below its minimum 0");
+  EXPECT_EQ(refusal("{ \"n\": 5 }", "{ \"m\": 5 }").substr(0, 47), "T1-test.json:7: scene T1: unknown parameter \"m\"");
+  EXPECT_EQ(refusal("\"name\": \"extra\", \"when\": \"kind == box\"", "\"name\": \"ball0_0\""), "T1-test.json:18: a second body is named \"ball0_0\"");
+  EXPECT_EQ(refusal("\"name\": \"quarter\"", "\"name\": \"n\""), "T1-test.json:8: \"n\" is the name of something else already");
+  EXPECT_EQ(refusal("\"type\": \"sphere\",", "\"type\": \"sphere\", \"half_height\": 1,"), "T1-test.json:13: a sphere has no half_height");
+  EXPECT_EQ(refusal("\"repeat\": { \"i\": \"n\"", "\"repeat\": { \"i\": 1e9"), "T1-test.json:17: expected a whole number from 0 to 2000000, found 1000000000");
+}
+
+TEST_F(SceneFiles, ThatAreNotJsonAreRefusedWithTheLine) {
+  EXPECT_EQ(refusal("\"seconds\": \"n + 1\",", "\"seconds\" \"n + 1\",").substr(0, 31), "T1-test.json:10: not valid JSON");
+  EXPECT_NE(refusal("\"id\": \"T1\",", "\"id\": \"T1\", \"id\": \"T2\",").find("stands twice"), std::string::npos);
+  EXPECT_NE(refusal("0.5", "1e999").find("JSON"), std::string::npos);
+  EXPECT_NE(refusal("[1, 2]", std::string(100, '[') + std::string(100, ']')).find("nested deeper"), std::string::npos);
+  EXPECT_THROW(SceneFile::load(folder_ / "none.json"), UsageError);
+  EXPECT_THROW(SceneFile::load(folder_), UsageError);
+}
+
+TEST_F(SceneFiles, RefuseWrongParameters) {
+  const SceneFile file = load(good);
+  EXPECT_THROW(static_cast<void>(file.instantiate({{"N", 3.0}})), UsageError);
+  EXPECT_THROW(static_cast<void>(file.instantiate({{"n", 2.5}})), UsageError);
+  EXPECT_THROW(static_cast<void>(file.instantiate({{"kind", std::string("cone")}})), UsageError);
+  EXPECT_THROW(static_cast<void>(file.instantiate({}).body("nobody")), UsageError);
+  EXPECT_THROW(static_cast<void>(file.instantiate({}).number("kind")), std::logic_error);
+}
+
+// --- the scenes of the repository ---
+
+TEST(Catalogue, EveryCellOfEverySceneCanBeMade) {
+  std::set<std::string> ids;
+  for (const SceneFile& file : all_scenes()) {
+    EXPECT_TRUE(ids.insert(file.id).second) << file.id;
+    EXPECT_EQ(file.path.filename().string(), file.id + "-" + file.slug + ".json");
+    EXPECT_FALSE(file.doc.empty() || file.title.empty()) << file.id;
+    EXPECT_FALSE(file.metrics.empty()) << file.id;
+    for (const Parameters& variant : file.variants)
+      EXPECT_NO_THROW(EXPECT_GT(file.instantiate(variant).bodies.size(), 0u)) << file.id;
+  }
+  EXPECT_GE(ids.size(), 22u);
+}
+
+TEST(Catalogue, FindsScenesByWhatAUserTypes) {
+  EXPECT_EQ(find_scenes("A1").at(0).slug, "free-fall");
+  EXPECT_EQ(find_scenes("a1").at(0).slug, "free-fall");
+  EXPECT_EQ(find_scenes("free-fall").at(0).id, "A1");
+  EXPECT_EQ(find_scenes("integrator/free-fall").at(0).id, "A1");
+  EXPECT_EQ(find_scenes(std::string(PLUMB_SCENES_FOLDER) + "/integrator/A1-free-fall.json").at(0).id, "A1");
+  EXPECT_GE(find_scenes("friction").size(), 8u);
+  EXPECT_GT(find_scenes("all").size(), find_scenes("core").size());
+  const auto integrator = find_scenes("integrator");
+  EXPECT_EQ(integrator.front().id, "A1");
+  EXPECT_EQ(integrator.back().id, "A9");
+  try {
+    static_cast<void>(find_scenes("twoer"));
+    FAIL();
+  } catch (const UsageError& error) {
+    EXPECT_STREQ(error.what(), "unknown scene \"twoer\"; did you mean \"tower\"?");
+  }
+}
+
+TEST(Catalogue, SchemaAndReaderKnowTheSameKeys) {
+  std::ifstream file(std::string(PLUMB_SCENES_FOLDER) + "/scene.schema.json");
+  const auto schema = nlohmann::json::parse(file);
+  for (const auto& [name, keys] : scene_keys()) {
+    const auto& properties = name.empty() ? schema.at("properties") : schema.at("definitions").at(name).at("properties");
+    std::set<std::string> in_schema;
+    for (const auto& [key, ignored] : properties.items()) in_schema.insert(key);
+    EXPECT_EQ(in_schema, std::set<std::string>(keys.begin(), keys.end())) << "definition " << name;
+  }
+  EXPECT_EQ(schema.at("properties").at("needs").at("items").at("enum"), nlohmann::json(need_words()));
+  EXPECT_EQ(schema.at("definitions").at("shape").at("properties").at("type").at("enum"), nlohmann::json(shape_words()));
+  EXPECT_EQ(schema.at("definitions").at("joint").at("properties").at("type").at("enum"), nlohmann::json(joint_words()));
+}
+
+}  // namespace
+}  // namespace plumb::harness
