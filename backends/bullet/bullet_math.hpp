@@ -11,8 +11,8 @@
 
 namespace plumb::bullet {
 
-/// Lengths whose squares and volumes Bullet can still hold.
-inline constexpr double kLargest = sizeof(btScalar) == 4 ? 1e12 : 1e75;
+/// Numbers whose squares Bullet can still hold.
+inline constexpr double kLargest = sizeof(btScalar) == 4 ? 1e18 : 1e150;
 /// Lengths, masses and inertias whose inverses it can still hold.
 inline constexpr double kSmallest = sizeof(btScalar) == 4 ? 1e-12 : 1e-75;
 

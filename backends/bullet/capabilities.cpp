@@ -27,6 +27,9 @@ PlumbDegree pair_degree(std::uint32_t a, std::uint32_t b, const char*& note) {
   if (!volume(a) && !volume(b)) return answer(PLUMB_NONE, note, "neither of the two can be dynamic");
   if (a == PLUMB_PLANE || b == PLUMB_PLANE)
     return answer(PLUMB_NATIVE, note, "the manifold grows by one point a step; a large box as ground gets four at once");
+  const bool hull = a == PLUMB_CONVEX_HULL || b == PLUMB_CONVEX_HULL;
+  if (hull && (a == PLUMB_TRIANGLE_MESH || b == PLUMB_TRIANGLE_MESH || a == PLUMB_HEIGHT_FIELD || b == PLUMB_HEIGHT_FIELD))
+    return answer(PLUMB_APPROXIMATE, note, "hulls rock on the one point that is found in a step; hull_clipping finds all at once");
   return PLUMB_NATIVE;
 }
 
@@ -52,7 +55,7 @@ PlumbDegree joint_feature_degree(std::uint32_t type, std::uint32_t feature, cons
 }
 
 PlumbDegree query_degree(std::uint32_t kind, std::uint32_t type, const char*& note) {
-  if (kind == PLUMB_QUERY_RAY) return PLUMB_NATIVE;
+  if (kind == PLUMB_QUERY_RAY) return answer(PLUMB_NATIVE, note, "spheres and boxes by their equations, others by Bullet's convex casts");
   if (kind >= PLUMB_QUERY_KIND_COUNT || !is_convex(type)) return PLUMB_NONE;
   if (kind == PLUMB_QUERY_CAST) return answer(PLUMB_NATIVE, note, "overlap at the start is found by a query of its own");
   return PLUMB_NATIVE;

@@ -1,8 +1,11 @@
 // Rays, casts and overlaps against the world as it stands.
+#include <BulletCollision/NarrowPhaseCollision/btRaycastCallback.h>
+
 #include <algorithm>
 #include <cmath>
 #include <mutex>
 
+#include "exact_rays.hpp"
 #include "world.hpp"
 
 namespace plumb::bullet {
@@ -66,9 +69,9 @@ btVector3 world_normal(const Body& body, const btVector3& normal, bool in_world)
 }
 
 struct RayCallback final : btCollisionWorld::RayResultCallback {
-  RayCallback(const PlumbRay& r, Collector& c, PlumbHitMode m) : ray(r), collector(c), mode(m) {}
-
-  bool needsCollision(btBroadphaseProxy* proxy) const override { return sees(ray.filter, proxy); }
+  RayCallback(const PlumbRay& r, Collector& c, PlumbHitMode m) : ray(r), collector(c), mode(m) {
+    m_flags |= btTriangleRaycastCallback::kF_UseGjkConvexCastRaytest;
+  }
 
   btScalar addSingleResult(btCollisionWorld::LocalRayResult& result, bool in_world) override {
     const Body& body = *our_body(result.m_collisionObject);
@@ -85,6 +88,37 @@ struct RayCallback final : btCollisionWorld::RayResultCallback {
   const PlumbRay& ray;
   Collector& collector;
   PlumbHitMode mode;
+};
+
+/// Walks the broad phase; bodies that can be answered exactly are, the others go through Bullet's own test.
+struct RayWalk final : btBroadphaseRayCallback {
+  RayWalk(const PlumbRay& r, Collector& c, RayCallback& b, const btVector3& start, const btVector3& end)
+      : ray(r), collector(c), bullet(b), from(btQuaternion::getIdentity(), start), to(btQuaternion::getIdentity(), end) {
+    const btVector3 along = (end - start).normalized();
+    for (int i = 0; i < 3; ++i) {
+      m_rayDirectionInverse[i] = along[i] == 0 ? btScalar(BT_LARGE_FLOAT) : 1 / along[i];
+      m_signs[i] = m_rayDirectionInverse[i] < 0 ? 1 : 0;
+    }
+    m_lambda_max = along.dot(end - start);
+  }
+
+  bool process(const btBroadphaseProxy* proxy) override {
+    if (!sees(ray.filter, proxy)) return true;
+    auto* object = static_cast<btCollisionObject*>(proxy->m_clientObject);
+    const Body& body = *our_body(object);
+    if (!has_exact_ray(body)) {
+      btCollisionWorld::rayTestSingle(from, to, object, object->getCollisionShape(), object->getWorldTransform(), bullet);
+    } else if (const auto entry = ray_enters(body, ray.origin, ray.translation)) {
+      const PlumbVec3 &o = ray.origin, &t = ray.translation;
+      collector.add(body, 0, entry->fraction, {o.x + entry->fraction * t.x, o.y + entry->fraction * t.y, o.z + entry->fraction * t.z}, entry->normal);
+    }
+    return true;
+  }
+
+  const PlumbRay& ray;
+  Collector& collector;
+  RayCallback& bullet;
+  btTransform from, to;
 };
 
 struct CastCallback final : btCollisionWorld::ConvexResultCallback {
@@ -159,7 +193,9 @@ Hits World::cast_rays(PlumbHitMode mode, std::span<const PlumbRay> rays) {
     Collector collector(i, mode);
     RayCallback callback(rays[i], collector, mode);
     const btVector3 from = vector(rays[i].origin, "origin");
-    world_.rayTest(from, end_of(from, rays[i].translation), callback);
+    const btVector3 to = end_of(from, rays[i].translation);
+    RayWalk walk(rays[i], collector, callback, from, to);
+    parts_.broadphase.rayTest(from, to, walk);
     collector.finish();
   }
   return {PLUMB_OK, found};
