@@ -1,4 +1,5 @@
-// Layers slide between a host and a backend without recompiling either: each takes a backend's table and gives one back.
+// Layers slide between a host and a backend without recompiling either: each takes a backend's table and gives one
+// back.
 //
 //   validate  checks that both sides keep the rules of plumb.h (phases, threads, sizes, capacities, results)
 //   trace     writes every call to a file, which replay() runs again on any backend
@@ -60,8 +61,8 @@ struct StateDifference {
   std::string field;           ///< "position.y", "orientation.w", "linear_velocity.x"; "" when those rows are equal
   std::uint64_t body = 0;      ///< the how manieth body of the world in order of creation, from 1; 0: "" above
   double recorded = 0, replayed = 0;
-  double largest = 0;          ///< |recorded - replayed| of body and field, the largest of all bodies and fields
-  std::uint64_t bodies = 0;    ///< how many bodies' rows differ
+  double largest = 0;        ///< |recorded - replayed| of body and field, the largest of all bodies and fields
+  std::uint64_t bodies = 0;  ///< how many bodies' rows differ
 };
 
 /// What a trace says of where it comes from.
@@ -85,8 +86,8 @@ struct ReplayReport {
 /// The header alone; throws as replay() does.
 [[nodiscard]] TraceHeader trace_header(const std::filesystem::path& file);
 
-/// Replays a trace on a backend: the same calls in the same order, handles translated. Throws Error: PLUMB_E_CORRUPT for
-/// a file that is foreign, torn or of another version, PLUMB_E_INVALID_ARGUMENT for one that cannot be read.
+/// Replays a trace on a backend: the same calls in the same order, handles translated. Throws Error: PLUMB_E_CORRUPT
+/// for a file that is foreign, torn or of another version, PLUMB_E_INVALID_ARGUMENT for one that cannot be read.
 [[nodiscard]] ReplayReport replay(const std::filesystem::path& file, const PlumbBackendTable* table);
 
 /// Which call is to fail: the nth (from 1) of a name, of all worlds together, answers result and is not forwarded.

@@ -32,16 +32,16 @@ enum class Call : std::uint8_t {
 
 template <Call call>
 struct CallTraits;
-#define PLUMB_CALL(number, table, member, thread_tag, remark_set, object_kind)              \
-  template <>                                                                               \
-  struct CallTraits<Call::table##_##member> {                                               \
-    using Table = tables::table;                                                            \
-    static constexpr auto pointer = &tables::table::member;                                 \
-    static constexpr std::string_view name =                                                \
+#define PLUMB_CALL(number, table, member, thread_tag, remark_set, object_kind)               \
+  template <>                                                                                \
+  struct CallTraits<Call::table##_##member> {                                                \
+    using Table = tables::table;                                                             \
+    static constexpr auto pointer = &tables::table::member;                                  \
+    static constexpr std::string_view name =                                                 \
         std::string_view(#table) == "core" ? std::string_view(#member) : #table "." #member; \
-    static constexpr Thread thread = Thread::thread_tag;                                    \
-    static constexpr Remarks remarks = Remarks::remark_set;                                 \
-    static constexpr Objects objects = Objects::object_kind;                                \
+    static constexpr Thread thread = Thread::thread_tag;                                     \
+    static constexpr Remarks remarks = Remarks::remark_set;                                  \
+    static constexpr Objects objects = Objects::object_kind;                                 \
   };
 #include "calls.inl"
 #undef PLUMB_CALL
@@ -50,7 +50,8 @@ struct CallTraits;
 [[nodiscard]] constexpr std::string_view name_of(Call call) {
   switch (call) {
 #define PLUMB_CALL(number, table, member, thread, remarks, objects) \
-  case Call::table##_##member: return CallTraits<Call::table##_##member>::name;
+  case Call::table##_##member:                                      \
+    return CallTraits<Call::table##_##member>::name;
 #include "calls.inl"
 #undef PLUMB_CALL
   }

@@ -1,5 +1,5 @@
 // Every call of the wall that acts on a world: the one list from which the layers' thunks, the names and numbers of
-// trace records, their dispatch on replay, and the tests are generated. Numbers are in trace files: append, never reuse.
+// trace records, their dispatch on replay, and the tests are made. Numbers are in trace files: append, never reuse.
 //
 //   PLUMB_CALL(number, table, member, thread, remarks, objects)
 //

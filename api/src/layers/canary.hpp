@@ -46,8 +46,8 @@ class Canary {
   // Wide enough to hold a whole row too many.
   static std::size_t guard(std::size_t stride) { return std::max<std::size_t>(stride, 256); }
   [[nodiscard]] bool untouched(std::size_t from, std::size_t to) const {
-    return std::all_of(bytes_.begin() + static_cast<std::ptrdiff_t>(from), bytes_.begin() + static_cast<std::ptrdiff_t>(to),
-                       [](std::byte b) { return b == pattern; });
+    return std::all_of(bytes_.begin() + static_cast<std::ptrdiff_t>(from),
+                       bytes_.begin() + static_cast<std::ptrdiff_t>(to), [](std::byte b) { return b == pattern; });
   }
 
   std::size_t row_size_, stride_, capacity_;

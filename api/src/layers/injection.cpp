@@ -12,7 +12,9 @@ thread_local bool last_creation_injected = false;
 class InjectionLayer : public LayerBase {
  public:
   InjectionLayer(const PlumbBackendTable* next, const Fault& fault)
-      : LayerBase(next), fault_(fault), text_("injected failure of call " + std::to_string(fault.nth) + " of " + fault.call) {}
+      : LayerBase(next),
+        fault_(fault),
+        text_("injected failure of call " + std::to_string(fault.nth) + " of " + fault.call) {}
 
   template <Call call, class... Args>
   auto on(Args... args) {
@@ -58,9 +60,11 @@ const PlumbBackendTable* inject(const PlumbBackendTable* next, const Fault& faul
     known = known || fault.call == name_of(call);
     names += (names.empty() ? "" : ", ") + std::string(name_of(call));
   });
-  if (!known) throw Error(PLUMB_E_INVALID_ARGUMENT, "no call \"" + fault.call + "\" can be made to fail; these can: " + names);
+  if (!known)
+    throw Error(PLUMB_E_INVALID_ARGUMENT, "no call \"" + fault.call + "\" can be made to fail; these can: " + names);
   if (fault.result >= 0)
-    throw Error(PLUMB_E_INVALID_ARGUMENT, "an injected result must be below 0, and " + std::to_string(fault.result) + " is not");
+    throw Error(PLUMB_E_INVALID_ARGUMENT,
+                "an injected result must be below 0, and " + std::to_string(fault.result) + " is not");
   return LayerSlots<InjectionLayer>::open("injection", next, fault);
 }
 

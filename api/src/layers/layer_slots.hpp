@@ -1,5 +1,5 @@
-// How a layer gets its tables. A table is bare C functions without a context, so each of the 16 slots of a kind of layer
-// has functions of its own (thunks), stamped from one template for every call of calls.inl, that know their slot.
+// How a layer gets its tables. A table is bare C functions without a context, so each of the 16 slots of a kind of
+// layer has functions of its own (thunks), stamped from one template for every call of calls.inl, that know their slot.
 //
 //   host -> slot 3's table -> Thunk<Layer, 3, Call::core_step> -> Layer object in slot 3 -> on<Call::core_step>(...)
 //
@@ -79,7 +79,8 @@ class LayerSlots {
       fill_slot(slot, std::make_index_sequence<count>());
       return &std::get<PlumbBackendTable>(slots_[slot].tables);
     }
-    throw Error(PLUMB_E_OUT_OF_MEMORY, "all " + std::to_string(count) + " " + kind + " layers of this process are in use");
+    throw Error(PLUMB_E_OUT_OF_MEMORY,
+                "all " + std::to_string(count) + " " + kind + " layers of this process are in use");
   }
 
   /// Null for a table that is not of this kind of layer.
@@ -156,8 +157,9 @@ class LayerSlots {
   static void fill() {
     auto& tables = slots_[slot].tables;
     const Layer& layer = *slots_[slot].layer;
-    std::apply([&layer](auto&... table) { (copy(table, layer.template next_table<std::decay_t<decltype(table)>>()), ...); },
-               tables);
+    std::apply(
+        [&layer](auto&... table) { (copy(table, layer.template next_table<std::decay_t<decltype(table)>>()), ...); },
+        tables);
     PlumbBackendTable& core = std::get<PlumbBackendTable>(tables);
     core.capability = &capability<slot>;
     core.extension = &extension<slot>;
@@ -165,7 +167,8 @@ class LayerSlots {
     for_each_call([&tables]<Call call>() {
       auto& table = std::get<typename CallTraits<call>::Table>(tables);
       if (has(table, CallTraits<call>::pointer))
-        table.*CallTraits<call>::pointer = &Thunk<slot, call, std::remove_cv_t<decltype(CallTraits<call>::pointer)>>::run;
+        table.*CallTraits<call>::pointer =
+            &Thunk<slot, call, std::remove_cv_t<decltype(CallTraits<call>::pointer)>>::run;
     });
   }
   template <class Table>

@@ -24,7 +24,8 @@ TraceHeader read_header(ByteReader& in, std::span<const std::byte> all) {
   if (const auto version = in.get<std::uint32_t>(); version != PLUMB_VERSION)
     corrupt("it was recorded with version " + std::to_string(PLUMB_VERSION_MAJOR(version)) + "." +
             std::to_string(PLUMB_VERSION_MINOR(version)) + " of the interface, and this program speaks " +
-            std::to_string(PLUMB_VERSION_MAJOR(PLUMB_VERSION)) + "." + std::to_string(PLUMB_VERSION_MINOR(PLUMB_VERSION)));
+            std::to_string(PLUMB_VERSION_MAJOR(PLUMB_VERSION)) + "." +
+            std::to_string(PLUMB_VERSION_MINOR(PLUMB_VERSION)));
   TraceHeader header;
   header.backend = in.get_string();
   header.version = in.get_string();
@@ -52,7 +53,8 @@ class Replay {
       ByteReader body = read_record();
       const auto kind = body.get<std::uint8_t>();
       if (kind == end_record) {
-        if (body.get<std::uint64_t>() != record || in_.left() != 0) corrupt("records are missing, or follow after its end");
+        if (body.get<std::uint64_t>() != record || in_.left() != 0)
+          corrupt("records are missing, or follow after its end");
         return report_;
       }
       if (kind == settings_record) {

@@ -229,8 +229,8 @@ inline PlumbResult again(CallTag<Call::collide_pairs>, Decoding& d, decltype(Plu
   auto points = d.room<PlumbPairPoint>();
   std::vector<PlumbPairResult> results(pairs.count);
   std::uint32_t count = 0;
-  const PlumbResult result = next(d.to.world, pairs.data(), pairs.stride, pairs.count, results.data(), points.data(),
-                                  points.capacity, &count);
+  const PlumbResult result =
+      next(d.to.world, pairs.data(), pairs.stride, pairs.count, results.data(), points.data(), points.capacity, &count);
   if (result >= 0) d.output_rows(points.data(), points.capacity, count);
   return result;
 }

@@ -1,4 +1,5 @@
-// How each call's inputs and outputs are written to a trace, by the shape of its signature. replay_calls.hpp reads them.
+// How each call's inputs and outputs are written to a trace, by the shape of its signature. replay_calls.hpp reads
+// them.
 #pragma once
 
 #include <map>
@@ -40,7 +41,8 @@ struct Encoding {
     if (!array(data, count, stride)) return;
     for (std::uint32_t i = 0; i < count; ++i) {
       Row row{};
-      std::memcpy(static_cast<void*>(&row), reinterpret_cast<const std::byte*>(data) + i * stride, std::min(stride, sizeof row));
+      std::memcpy(static_cast<void*>(&row), reinterpret_cast<const std::byte*>(data) + i * stride,
+                  std::min(stride, sizeof row));
       row_with_arrays(row);
     }
   }
@@ -98,7 +100,8 @@ struct Encoding {
     desc.children = nullptr;
     out.put(desc);
     rows(reinterpret_cast<const PlumbVec3*>(vertices), sizeof(PlumbVec3), vertices == nullptr ? 0 : desc.vertex_count);
-    rows(reinterpret_cast<const std::array<std::uint32_t, 3>*>(indices), 12, indices == nullptr ? 0 : desc.triangle_count);
+    rows(reinterpret_cast<const std::array<std::uint32_t, 3>*>(indices), 12,
+         indices == nullptr ? 0 : desc.triangle_count);
     rows(heights, sizeof(double), heights == nullptr ? 0 : desc.rows * desc.columns);
     rows(children, sizeof(PlumbCompoundChild), children == nullptr ? 0 : desc.child_count);
   }
@@ -138,7 +141,8 @@ void encode(CallTag<call>, Encoding e, Row* out, std::size_t stride, std::uint32
 }
 template <Call call>
 std::size_t row_size(std::uint32_t field, PlumbDataType type) {
-  const std::uint32_t columns = CallTraits<call>::objects == Objects::joints ? joint_columns_of(field) : columns_of(field);
+  const std::uint32_t columns =
+      CallTraits<call>::objects == Objects::joints ? joint_columns_of(field) : columns_of(field);
   return columns * (type == PLUMB_F64 ? sizeof(double) : sizeof(float));
 }
 inline std::vector<std::byte> tight(const void* rows, std::size_t size, std::size_t stride, std::uint32_t count) {
@@ -242,8 +246,8 @@ inline void encode(CallTag<Call::state_borrow>, Encoding e, const PlumbStateRequ
   e.rows(request, sizeof(PlumbStateRequest), 1);
   e.out.put<std::uint8_t>(fence != nullptr);
 }
-inline void encode(CallTag<Call::state_rows>, Encoding e, PlumbBody* ids, std::uint32_t capacity,
-                   std::uint32_t* count, std::uint64_t*) {
+inline void encode(CallTag<Call::state_rows>, Encoding e, PlumbBody* ids, std::uint32_t capacity, std::uint32_t* count,
+                   std::uint64_t*) {
   e.room(ids, capacity);
   if (e.done()) e.output(*count, {});
 }

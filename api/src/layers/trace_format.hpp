@@ -59,10 +59,8 @@ inline constexpr std::uint32_t null_string = 0xffffffffu;
 class ByteWriter {
  public:
   template <class T>
-    requires std::is_trivially_copyable_v<T>
-  void put(const T& value) {
-    put_bytes({reinterpret_cast<const std::byte*>(&value), sizeof value});
-  }
+  requires std::is_trivially_copyable_v<T>
+  void put(const T& value) { put_bytes({reinterpret_cast<const std::byte*>(&value), sizeof value}); }
   void put_bytes(std::span<const std::byte> bytes) { bytes_.insert(bytes_.end(), bytes.begin(), bytes.end()); }
   void put_string(const char* text) {
     const std::size_t length = text == nullptr ? 0 : std::strlen(text);
@@ -81,8 +79,7 @@ class ByteReader {
   explicit ByteReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
 
   template <class T>
-    requires std::is_trivially_copyable_v<T>
-  T get() {
+  requires std::is_trivially_copyable_v<T> T get() {
     T value;
     std::memcpy(&value, get_bytes(sizeof value).data(), sizeof value);
     return value;

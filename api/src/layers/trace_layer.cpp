@@ -22,8 +22,10 @@ class TraceLayer : public LayerBase {
  public:
   TraceLayer(const PlumbBackendTable* next, const std::filesystem::path& file, const TraceOptions& options)
       : LayerBase(next), path_(file), rows_every_(options.rows_every), out_(file, std::ios::binary) {
-    if (rows_every_ == 0) throw Error(PLUMB_E_INVALID_ARGUMENT, "rows_every is 0; a trace needs rows every 1 or more steps");
-    if (!out_) throw Error(PLUMB_E_INVALID_ARGUMENT, "cannot write the trace " + file.string() + ": " + std::strerror(errno));
+    if (rows_every_ == 0)
+      throw Error(PLUMB_E_INVALID_ARGUMENT, "rows_every is 0; a trace needs rows every 1 or more steps");
+    if (!out_)
+      throw Error(PLUMB_E_INVALID_ARGUMENT, "cannot write the trace " + file.string() + ": " + std::strerror(errno));
     const PlumbBackendInfo& info = *next->info();
     ByteWriter header;
     header.put(trace_magic);
@@ -52,7 +54,9 @@ class TraceLayer : public LayerBase {
     body.put(records_);
     put_record(body);
     out_.close();
-    if (!out_) throw Error(PLUMB_E_INVALID_ARGUMENT, "the trace " + path_.string() + " could not be written whole; is the disk full?");
+    if (!out_)
+      throw Error(PLUMB_E_INVALID_ARGUMENT,
+                  "the trace " + path_.string() + " could not be written whole; is the disk full?");
   }
 
  private:
@@ -175,7 +179,8 @@ class TraceLayer : public LayerBase {
 
 }  // namespace
 
-const PlumbBackendTable* trace(const PlumbBackendTable* next, const std::filesystem::path& file, const TraceOptions& options) {
+const PlumbBackendTable* trace(const PlumbBackendTable* next, const std::filesystem::path& file,
+                               const TraceOptions& options) {
   return LayerSlots<TraceLayer>::open("trace", next, file, options);
 }
 

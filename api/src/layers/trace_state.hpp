@@ -12,12 +12,13 @@ namespace plumb::layers {
 
 using StateRow = std::array<double, 13>;
 inline constexpr const char* state_columns[13] = {
-    "position.x",        "position.y",        "position.z",        "orientation.x",      "orientation.y",
-    "orientation.z",     "orientation.w",     "linear_velocity.x", "linear_velocity.y",  "linear_velocity.z",
+    "position.x",         "position.y",         "position.z",        "orientation.x",     "orientation.y",
+    "orientation.z",      "orientation.w",      "linear_velocity.x", "linear_velocity.y", "linear_velocity.z",
     "angular_velocity.x", "angular_velocity.y", "angular_velocity.z"};
 
 /// In order of creation. None when the backend cannot read them.
-[[nodiscard]] inline std::optional<std::vector<StateRow>> read_state(const PlumbBackendTable& table, PlumbWorld* world) {
+[[nodiscard]] inline std::optional<std::vector<StateRow>> read_state(const PlumbBackendTable& table,
+                                                                     PlumbWorld* world) {
   std::uint32_t count = 0;
   if (table.list_bodies(world, nullptr, 0, &count) < 0) return {};
   std::vector<StateRow> rows(count);

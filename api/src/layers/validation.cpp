@@ -16,7 +16,8 @@ std::string text_for(Call call, const std::string& text) { return std::string(na
 
 // Refusals of negotiation are no answer to a call.
 bool is_result(PlumbResult result) {
-  return result >= PLUMB_E_DEVICE_LOST && result <= PLUMB_COPIED && result != PLUMB_E_VERSION && result != PLUMB_E_EXCLUDED;
+  return result >= PLUMB_E_DEVICE_LOST && result <= PLUMB_COPIED && result != PLUMB_E_VERSION &&
+         result != PLUMB_E_EXCLUDED;
 }
 
 bool is_allowed(Remarks allowed, PlumbResult result) {
@@ -34,8 +35,9 @@ template <Call call, class... Args>
 PlumbResult ValidationLayer::on_world_call(PlumbWorld* world, Args... args) {
   const std::shared_ptr<ValidatedWorld> state = find(world);
   if (state == nullptr || state->destroyed) {
-    const std::string text = text_for(call, world == nullptr ? "world is null" : state == nullptr
-                                                ? "world is none that this backend made" : "world has been destroyed");
+    const std::string text = text_for(call, world == nullptr   ? "world is null"
+                                            : state == nullptr ? "world is none that this backend made"
+                                                               : "world has been destroyed");
     note(text);
     if (state != nullptr) state->set_text(text);
     creation_text = text;
@@ -71,7 +73,8 @@ void ValidationLayer::enter(Call call, ValidatedWorld& world, const Visit& visit
 
 void ValidationLayer::judge(Call call, Remarks allowed, ValidatedWorld& world, PlumbWorld* handle, PlumbResult result) {
   if (!is_result(result)) throw BackendError{"answered " + std::to_string(result) + ", which is no result of a call"};
-  if (!is_allowed(allowed, result)) throw BackendError{"answered the remark " + std::to_string(result) + ", which is not this call's"};
+  if (!is_allowed(allowed, result))
+    throw BackendError{"answered the remark " + std::to_string(result) + ", which is not this call's"};
   if (result < 0) {
     const char* text = next_core()->error_text(handle);
     world.set_text(text == nullptr ? "" : text);
@@ -102,7 +105,8 @@ PlumbResult ValidationLayer::create_world(const PlumbWorldDesc* desc, PlumbWorld
     require_memory(world, 1, "world");
     require_struct_size(*desc, UINT32_MAX, "desc");
     require_memory(desc->settings, desc->setting_count, "desc.settings");
-    for (std::uint32_t i = 0; i < desc->setting_count; ++i) require_memory(desc->settings[i].name, 1, "desc.settings.name");
+    for (std::uint32_t i = 0; i < desc->setting_count; ++i)
+      require_memory(desc->settings[i].name, 1, "desc.settings.name");
     PlumbWorld* made = nullptr;
     const PlumbResult result = next<Call::core_create_world>()(desc, &made);
     if (!is_result(result) || result > 0) throw BackendError{"answered " + std::to_string(result)};
@@ -148,7 +152,8 @@ void ValidationLayer::destroy_world(PlumbWorld* world) {
 PlumbDegree ValidationLayer::capability(PlumbCapability kind, std::uint32_t a, std::uint32_t b, const char** text) {
   const char* said = nullptr;
   const PlumbDegree degree = next_core()->capability(kind, a, b, &said);
-  const std::string question = "capability(" + std::to_string(kind) + ", " + std::to_string(a) + ", " + std::to_string(b) + ")";
+  const std::string question =
+      "capability(" + std::to_string(kind) + ", " + std::to_string(a) + ", " + std::to_string(b) + ")";
   if (said == nullptr) note(question + ": the backend's note is null");
   if (text != nullptr) *text = said == nullptr ? "" : said;
   if (degree >= PLUMB_NONE && degree <= PLUMB_NATIVE) return degree;

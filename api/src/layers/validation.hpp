@@ -43,8 +43,8 @@ class ValidationLayer : public LayerBase {
 
   // One function for each shape of a call: checks the arguments, forwards, checks the answer.
   template <Call call, class Desc>
-  PlumbResult run(CallTag<call>, ValidatedWorld&, PlumbWorld*, const Desc* descs, std::size_t stride, std::uint32_t count,
-                  std::uint64_t* ids);
+  PlumbResult run(CallTag<call>, ValidatedWorld&, PlumbWorld*, const Desc* descs, std::size_t stride,
+                  std::uint32_t count, std::uint64_t* ids);
   template <Call call>
   PlumbResult run(CallTag<call>, ValidatedWorld&, PlumbWorld*, const std::uint64_t* ids, std::uint32_t count);
   template <Call call, class Row>
@@ -59,8 +59,9 @@ class ValidationLayer : public LayerBase {
   PlumbResult run(CallTag<call>, ValidatedWorld&, PlumbWorld*, std::uint32_t field, PlumbDataType type,
                   const std::uint64_t* ids, std::uint32_t count, const void* rows, std::size_t stride);
   template <Call call, class Query>
-  PlumbResult run(CallTag<call>, ValidatedWorld&, PlumbWorld*, PlumbHitMode mode, const Query* queries, std::size_t stride,
-                  std::uint32_t count, PlumbHit* hits, std::uint32_t capacity, std::uint32_t* hit_count);
+  PlumbResult run(CallTag<call>, ValidatedWorld&, PlumbWorld*, PlumbHitMode mode, const Query* queries,
+                  std::size_t stride, std::uint32_t count, PlumbHit* hits, std::uint32_t capacity,
+                  std::uint32_t* hit_count);
   PlumbResult run(CallTag<Call::queries_overlaps>, ValidatedWorld&, PlumbWorld*, const PlumbOverlap* overlaps,
                   std::size_t stride, std::uint32_t count, PlumbHit* hits, std::uint32_t capacity,
                   std::uint32_t* hit_count);
@@ -71,7 +72,8 @@ class ValidationLayer : public LayerBase {
   PlumbResult run(CallTag<Call::core_set_gravity>, ValidatedWorld&, PlumbWorld*, const PlumbVec3* gravity);
   PlumbResult run(CallTag<Call::core_step>, ValidatedWorld&, PlumbWorld*, const PlumbStepDesc* desc);
   PlumbResult run(CallTag<Call::core_wait>, ValidatedWorld&, PlumbWorld*, PlumbStepReport* report);
-  PlumbResult run(CallTag<Call::settings_get>, ValidatedWorld&, PlumbWorld*, const char* name, PlumbSettingValue* value);
+  PlumbResult run(CallTag<Call::settings_get>, ValidatedWorld&, PlumbWorld*, const char* name,
+                  PlumbSettingValue* value);
   PlumbResult run(CallTag<Call::settings_set>, ValidatedWorld&, PlumbWorld*, const char* name,
                   const PlumbSettingValue* value);
   PlumbResult run(CallTag<Call::snapshot_save>, ValidatedWorld&, PlumbWorld*, void* data, std::size_t capacity,

@@ -35,8 +35,8 @@ PlumbResult ValidationLayer::run(CallTag<call>, ValidatedWorld& state, PlumbWorl
 }
 
 template <Call call, class Row>
-PlumbResult ValidationLayer::run(CallTag<call>, ValidatedWorld& state, PlumbWorld* world, Row* out, std::uint32_t capacity,
-                                 std::uint32_t* count) {
+PlumbResult ValidationLayer::run(CallTag<call>, ValidatedWorld& state, PlumbWorld* world, Row* out,
+                                 std::uint32_t capacity, std::uint32_t* count) {
   require_memory(out, capacity, "out");
   require_memory(count, 1, "count");
   Canary canary(sizeof(Row), sizeof(Row), capacity);
@@ -56,12 +56,12 @@ PlumbResult ValidationLayer::run(CallTag<call>, ValidatedWorld& state, PlumbWorl
 }
 
 inline void check_row(const PlumbContact& contact, std::size_t index, const PlumbContact*) {
-  if (contact.body_a == 0 || contact.body_b == 0)
-    throw BackendError{"row " + std::to_string(index) + " names no body"};
+  if (contact.body_a == 0 || contact.body_b == 0) throw BackendError{"row " + std::to_string(index) + " names no body"};
 }
 inline void check_row(const PlumbEvent& event, std::size_t index, const PlumbEvent* before) {
   if (event.type >= PLUMB_EVENT_COUNT)
-    throw BackendError{"row " + std::to_string(index) + " is of type " + std::to_string(event.type) + ", which is none"};
+    throw BackendError{"row " + std::to_string(index) + " is of type " + std::to_string(event.type) +
+                       ", which is none"};
   const auto key = [](const PlumbEvent& e) {
     return std::tuple(e.type, slot_of(e.body_a), slot_of(e.body_b), slot_of(e.joint));
   };
@@ -147,7 +147,8 @@ PlumbResult checked_hits(std::uint32_t queries, bool closest, PlumbHit* hits, st
   const auto key = [](const PlumbHit& hit) { return std::tuple(hit.query, hit.fraction, slot_of(hit.body)); };
   for (std::uint32_t i = 0; i < written; ++i) {
     const std::string which = "hits[" + std::to_string(i) + "]";
-    if (hits[i].query >= queries) throw BackendError{which + " is of query " + std::to_string(hits[i].query) + ", which is none"};
+    if (hits[i].query >= queries)
+      throw BackendError{which + " is of query " + std::to_string(hits[i].query) + ", which is none"};
     if (closest && hits[i].query != i) throw BackendError{which + " is of query " + std::to_string(hits[i].query)};
     if (!closest && hits[i].body == 0) throw BackendError{which + " names no body"};
     if (!(hits[i].body == 0 || (hits[i].fraction >= 0 && hits[i].fraction <= 1)))
@@ -166,9 +167,10 @@ PlumbResult ValidationLayer::run(CallTag<call>, ValidatedWorld&, PlumbWorld* wor
     refuse_argument("mode is " + std::to_string(mode) + "; it must be PLUMB_HIT_CLOSEST or PLUMB_HIT_ALL");
   require_memory(queries, count, "queries");
   require_stride<Query>(stride, count, "queries");
-  return checked_hits(count, mode == PLUMB_HIT_CLOSEST, hits, capacity, hit_count, [&](PlumbHit* out, std::uint32_t* found) {
-    return next<call>()(world, mode, queries, stride, count, out, capacity, found);
-  });
+  return checked_hits(count, mode == PLUMB_HIT_CLOSEST, hits, capacity, hit_count,
+                      [&](PlumbHit* out, std::uint32_t* found) {
+                        return next<call>()(world, mode, queries, stride, count, out, capacity, found);
+                      });
 }
 
 inline PlumbResult ValidationLayer::run(CallTag<Call::queries_overlaps>, ValidatedWorld&, PlumbWorld* world,

@@ -30,7 +30,8 @@ inline PlumbResult ValidationLayer::run(CallTag<Call::collide_pairs>, ValidatedW
   *point_count = found;
   for (std::uint32_t i = 0; i < count; ++i)
     if (std::uint64_t{results[i].first_point} + results[i].point_count > found)
-      throw BackendError{"results[" + std::to_string(i) + "] names points beyond the " + std::to_string(found) + " there are"};
+      throw BackendError{"results[" + std::to_string(i) + "] names points beyond the " + std::to_string(found) +
+                         " there are"};
   return result;
 }
 
@@ -67,7 +68,8 @@ inline PlumbResult ValidationLayer::run(CallTag<Call::core_wait>, ValidatedWorld
   if (!canary.end_intact()) throw BackendError{"wrote beyond the report's struct_size of " + std::to_string(size)};
   if (result < 0) return result;
   const auto& ours = *reinterpret_cast<const PlumbStepReport*>(canary.data());
-  if (ours.struct_size != size) throw BackendError{"changed the report's struct_size to " + std::to_string(ours.struct_size)};
+  if (ours.struct_size != size)
+    throw BackendError{"changed the report's struct_size to " + std::to_string(ours.struct_size)};
   if (ours.bodies != state.bodies || ours.awake > ours.bodies)
     throw BackendError{"reports " + std::to_string(ours.bodies) + " bodies, " + std::to_string(ours.awake) +
                        " awake, where " + std::to_string(state.bodies) + " live"};

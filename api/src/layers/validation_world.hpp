@@ -12,11 +12,11 @@
 namespace plumb::layers {
 
 struct ValidatedWorld {
-  bool stepping = false;           ///< between step and wait
+  bool stepping = false;  ///< between step and wait
   bool destroyed = false;
-  PlumbResult lost = PLUMB_OK;     ///< WORLD_LOST or DEVICE_LOST once it is
-  std::uint32_t bodies = 0;        ///< alive, by what was created and destroyed
-  std::atomic<int> inside = 0;     ///< -1: a [world] call; above 0: that many [query] calls
+  PlumbResult lost = PLUMB_OK;  ///< WORLD_LOST or DEVICE_LOST once it is
+  std::uint32_t bodies = 0;     ///< alive, by what was created and destroyed
+  std::atomic<int> inside = 0;  ///< -1: a [world] call; above 0: that many [query] calls
 
   void set_text(const std::string& text) {
     const std::lock_guard lock(text_mutex_);

@@ -8,29 +8,29 @@
 
 enum { BOXES = 10, STEPS = 300 };
 
-static int refuse(const char *what, const char *why, PlumbResult result) {
+static int refuse(const char* what, const char* why, PlumbResult result) {
   fprintf(stderr, "%s: %s\n", what, why);
   return result == PLUMB_E_UNSUPPORTED ? 3 : 1;
 }
 
-int main(int argc, char **argv) {
-  void *library = argc == 2 ? dlopen(argv[1], RTLD_NOW | RTLD_LOCAL) : NULL;
+int main(int argc, char** argv) {
+  void* library = argc == 2 ? dlopen(argv[1], RTLD_NOW | RTLD_LOCAL) : NULL;
   if (library == NULL) return refuse("usage: tower BACKEND.so", argc == 2 ? dlerror() : "which backend?", PLUMB_OK);
   PlumbOpenFunction open = NULL;
-  void *symbol = dlsym(library, PLUMB_OPEN_SYMBOL);
+  void* symbol = dlsym(library, PLUMB_OPEN_SYMBOL);
   memcpy(&open, &symbol, sizeof open);
   if (open == NULL) return refuse(argv[1], "no Plumb backend", PLUMB_OK);
   PlumbOpenRequest request = {sizeof request, PLUMB_VERSION, PLUMB_VERSION, 0, NULL};
   PlumbOpenReply reply = {sizeof reply, 0, NULL, ""};
   PlumbResult result = open(&request, &reply);
   if (result < 0) return refuse(argv[1], reply.message, result);
-  const PlumbBackendTable *table = reply.table;
+  const PlumbBackendTable* table = reply.table;
 
   PlumbWorldDesc desc = {0};
   desc.struct_size = sizeof desc;
   desc.needs = PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION;
   desc.gravity.y = -9.81;
-  PlumbWorld *world = NULL;
+  PlumbWorld* world = NULL;
   result = table->create_world(&desc, &world);
   if (result < 0) return refuse("world", table->error_text(NULL), result);
 

@@ -19,7 +19,8 @@ const Table& fake_table(const char* name) {
 
 // What the fake world lacks. The answers hold what was asked, so that a wrong input is a different output.
 inline PlumbResult fake_collide(PlumbWorld*, const PlumbPosedPair* pairs, std::size_t stride, std::uint32_t count,
-                    PlumbPairResult* results, PlumbPairPoint* points, std::uint32_t capacity, std::uint32_t* point_count) {
+                                PlumbPairResult* results, PlumbPairPoint* points, std::uint32_t capacity,
+                                std::uint32_t* point_count) {
   for (std::uint32_t i = 0; i < count; ++i) {
     const auto& pair = *reinterpret_cast<const PlumbPosedPair*>(reinterpret_cast<const std::byte*>(pairs) + i * stride);
     results[i] = {0, i, 1};
@@ -40,8 +41,8 @@ PlumbResult fake_row(PlumbWorld* world, Row* out, std::uint32_t capacity, std::u
   if constexpr (requires { out->body_a; }) out->body_a = body;
   return PLUMB_OK;
 }
-inline PlumbResult fake_cast(PlumbWorld*, PlumbHitMode, const PlumbCast* casts, std::size_t, std::uint32_t count, PlumbHit* hits,
-                 std::uint32_t, std::uint32_t* found) {
+inline PlumbResult fake_cast(PlumbWorld*, PlumbHitMode, const PlumbCast* casts, std::size_t, std::uint32_t count,
+                             PlumbHit* hits, std::uint32_t, std::uint32_t* found) {
   for (std::uint32_t i = 0; i < count; ++i) hits[i] = {0, i, 0, 0, casts[i].translation, casts[i].pose.position};
   *found = count;
   return PLUMB_OK;
@@ -50,8 +51,8 @@ inline PlumbResult fake_cast(PlumbWorld*, PlumbHitMode, const PlumbCast* casts, 
 /// The fake world with every extension.
 inline const PlumbBackendTable& complete() {
   static const PlumbCollideTable collide_table = {sizeof(PlumbCollideTable), 0, &fake_collide};
-  static const PlumbDebugTable debug_table = {sizeof(PlumbDebugTable), 0, &fake_row<PlumbDebugPair>, &fake_row<PlumbDebugBox>,
-                                              &fake_row<PlumbDebugAxis>};
+  static const PlumbDebugTable debug_table = {sizeof(PlumbDebugTable), 0, &fake_row<PlumbDebugPair>,
+                                              &fake_row<PlumbDebugBox>, &fake_row<PlumbDebugAxis>};
   static const PlumbQueriesTable queries_table = [] {
     PlumbQueriesTable queries = fake_table<PlumbQueriesTable>(PLUMB_EXT_QUERIES);
     queries.casts = &fake_cast;
@@ -59,7 +60,8 @@ inline const PlumbBackendTable& complete() {
   }();
   static const PlumbJointsTable joints_table = [] {
     PlumbJointsTable joints = fake_table<PlumbJointsTable>(PLUMB_EXT_JOINTS);
-    joints.read = [](PlumbWorld*, PlumbJointField field, PlumbDataType, const PlumbJoint*, std::uint32_t, void* rows, std::size_t) -> PlumbResult {
+    joints.read = [](PlumbWorld*, PlumbJointField field, PlumbDataType, const PlumbJoint*, std::uint32_t, void* rows,
+                     std::size_t) -> PlumbResult {
       std::fill_n(static_cast<double*>(rows), joint_columns_of(field), 3.5);
       return PLUMB_OK;
     };

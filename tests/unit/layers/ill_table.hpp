@@ -96,8 +96,10 @@ class Validated : public ::testing::Test {
   }
   void expect_found(const std::string& words) {
     const std::vector<std::string> found = layers::findings(table);
-    EXPECT_TRUE(std::any_of(found.begin(), found.end(), [&](const auto& text) { return text.find(words) != std::string::npos; }))
-        << "no finding says \"" << words << "\"; the last of " << found.size() << " is " << (found.empty() ? "" : found.back());
+    EXPECT_TRUE(std::any_of(found.begin(), found.end(),
+                            [&](const auto& text) { return text.find(words) != std::string::npos; }))
+        << "no finding says \"" << words << "\"; the last of " << found.size() << " is "
+        << (found.empty() ? "" : found.back());
   }
 
   const PlumbBackendTable* table = nullptr;

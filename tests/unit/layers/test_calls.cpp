@@ -1,4 +1,5 @@
-// The one list of calls is whole: every function of every table is in it, or is one of the questions that have no world.
+// The one list of calls is whole: every function of every table is in it, or is one of the questions that have no
+// world.
 #include <gtest/gtest.h>
 
 #include <set>

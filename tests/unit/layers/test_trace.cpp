@@ -44,8 +44,12 @@ class Trace : public ::testing::Test {
     for (int step = 0; step < steps; ++step) {
       if (step == 5) check(*world, world->destroy_bodies({&ids[1], 1}));
       if (step == 6) check(*world, world->create_bodies({&descs[0], 1}, {&ids[1], 1}));
-      if (step == 7) { EXPECT_EQ(world->destroy_shapes({&shape, 1}), PLUMB_E_IN_USE); }
-      if (step == 8) { EXPECT_EQ(world->set_gravity({0, 0, -9.81}), PLUMB_OK); }
+      if (step == 7) {
+        EXPECT_EQ(world->destroy_shapes({&shape, 1}), PLUMB_E_IN_USE);
+      }
+      if (step == 8) {
+        EXPECT_EQ(world->set_gravity({0, 0, -9.81}), PLUMB_OK);
+      }
       check(*world, world->step(1.0 / 60));
       check(*world, world->wait(report));
       std::vector<PlumbPose> poses(world->bodies().size());
@@ -67,8 +71,9 @@ class Trace : public ::testing::Test {
   }
   void write(const std::string& bytes) const { std::ofstream(file, std::ios::binary) << bytes; }
 
-  std::filesystem::path file = std::filesystem::temp_directory_path() /
-                               ("plumb-" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()) + ".trace");
+  std::filesystem::path file =
+      std::filesystem::temp_directory_path() /
+      ("plumb-" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()) + ".trace");
 };
 
 TEST_F(Trace, RoundTrip) {
@@ -169,8 +174,8 @@ TEST_F(Trace, AllCallsOfABackendWithExtensions) {
     const double corners[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
     const std::uint32_t triangles[] = {0, 2, 1, 0, 1, 3};
     const double heights[] = {0, 1, 2, 3, 4, 5};
-    PlumbShapeDesc shapes[4] = {shape_desc(PLUMB_SPHERE), shape_desc(PLUMB_CONVEX_HULL), shape_desc(PLUMB_TRIANGLE_MESH),
-                                shape_desc(PLUMB_HEIGHT_FIELD)};
+    PlumbShapeDesc shapes[4] = {shape_desc(PLUMB_SPHERE), shape_desc(PLUMB_CONVEX_HULL),
+                                shape_desc(PLUMB_TRIANGLE_MESH), shape_desc(PLUMB_HEIGHT_FIELD)};
     shapes[0].radius = 1;
     shapes[1].vertices = shapes[2].vertices = corners;
     shapes[1].vertex_count = shapes[2].vertex_count = 4;
@@ -199,7 +204,9 @@ TEST_F(Trace, AllCallsOfABackendWithExtensions) {
     PlumbJoint joint_id = 0;
     check(*world, world->joints()->create_joints({&joint, 1}, {&joint_id, 1}));
     const double motor[12] = {};
-    check(*world, world->joints()->write_joints(PLUMB_JOINT_MOTOR, {&joint_id, 1}, {reinterpret_cast<const std::byte*>(motor), 1, sizeof motor, PLUMB_F64}));
+    check(*world,
+          world->joints()->write_joints(PLUMB_JOINT_MOTOR, {&joint_id, 1},
+                                        {reinterpret_cast<const std::byte*>(motor), 1, sizeof motor, PLUMB_F64}));
     const PlumbRay ray{{0, 0, 0}, {1, 0, 0}, {1, 1, 0, 0}};
     check(*world, world->queries()->cast_rays(PLUMB_HIT_CLOSEST, {&ray, 1}).result);
     check(*world, world->settings()->set_setting("iterations", {PLUMB_SETTING_INT, 0, 44, nullptr}));
@@ -222,7 +229,8 @@ TEST_F(Trace, AllCallsOfABackendWithExtensions) {
   }
   layers::end_trace(traced);
   const layers::ReplayReport report = layers::replay(file, &good().core);
-  EXPECT_TRUE(report.same()) << (report.result ? report.result->name + ": " + report.result->text : report.first_output.value_or("state"));
+  EXPECT_TRUE(report.same()) << (report.result ? report.result->name + ": " + report.result->text
+                                               : report.first_output.value_or("state"));
   ASSERT_EQ(report.settings.size(), 3u);
   EXPECT_EQ(report.settings[0], std::make_pair(std::string("iterations"), std::string("33")));
 
@@ -238,7 +246,8 @@ TEST_F(Trace, TornForeignAndDamagedFilesAreRefused) {
   refused("does not begin as a trace does");
   record(sample());
   const std::string whole = bytes();
-  for (const std::size_t size : {std::size_t{4}, std::size_t{20}, whole.size() / 2, whole.size() - 1, whole.size() - 17}) {
+  for (const std::size_t size :
+       {std::size_t{4}, std::size_t{20}, whole.size() / 2, whole.size() - 1, whole.size() - 17}) {
     write(whole.substr(0, size));
     refused("is not a whole trace");
   }

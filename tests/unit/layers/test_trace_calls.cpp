@@ -2,9 +2,9 @@
 #include <fstream>
 #include <set>
 
+#include "calls.hpp"
 #include "ill_table.hpp"
 #include "trace_format.hpp"
-#include "calls.hpp"
 
 namespace plumb::test {
 namespace {
@@ -88,11 +88,13 @@ class Everything {
     ok(table.rays(world_, PLUMB_HIT_CLOSEST, &ray, sizeof ray, 1, &hit, 1, &count));
     ok(table.casts(world_, PLUMB_HIT_CLOSEST, &cast, sizeof cast, 1, &hit, 1, &count));
     ok(table.overlaps(world_, &overlap, sizeof overlap, 1, &hit, 1, &count));
-    PlumbPosedPair pairs[2] = {{shape_, shape_, identity_pose(), identity_pose()}, {shape_, shape_, identity_pose(), identity_pose()}};
+    PlumbPosedPair pairs[2] = {{shape_, shape_, identity_pose(), identity_pose()},
+                               {shape_, shape_, identity_pose(), identity_pose()}};
     pairs[1].pose_b.position = {7, 8, 9};
     PlumbPairResult results[2];
     PlumbPairPoint points[2];
-    ok(extension<PlumbCollideTable>(PLUMB_EXT_COLLIDE).pairs(world_, pairs, sizeof pairs[0], 2, results, points, 2, &count));
+    ok(extension<PlumbCollideTable>(PLUMB_EXT_COLLIDE)
+           .pairs(world_, pairs, sizeof pairs[0], 2, results, points, 2, &count));
   }
 
   void extensions() const {
@@ -156,7 +158,8 @@ TEST(TraceCalls, EveryCallOfTheListIsRecordedAndReplaysTheSame) {
   });
 
   const layers::ReplayReport report = layers::replay(file, &complete());
-  EXPECT_TRUE(report.same()) << (report.result ? report.result->name + ": " + report.result->text : report.first_output.value_or("state"));
+  EXPECT_TRUE(report.same()) << (report.result ? report.result->name + ": " + report.result->text
+                                               : report.first_output.value_or("state"));
   EXPECT_EQ(report.steps, 1u);
   std::filesystem::remove(file);
 }

@@ -7,7 +7,8 @@ namespace {
 using ValidatedBackend = Validated;
 
 TEST_F(ValidatedBackend, RowsBeyondTheCapacity) {
-  ill().core.list_bodies = [](PlumbWorld*, PlumbBody* ids, std::uint32_t capacity, std::uint32_t* count) -> PlumbResult {
+  ill().core.list_bodies = [](PlumbWorld*, PlumbBody* ids, std::uint32_t capacity,
+                              std::uint32_t* count) -> PlumbResult {
     for (std::uint32_t i = 0; i <= capacity; ++i) ids[i] = 1;
     *count = capacity + 1;
     return PLUMB_TRUNCATED;
@@ -19,36 +20,44 @@ TEST_F(ValidatedBackend, RowsBeyondTheCapacity) {
 }
 
 TEST_F(ValidatedBackend, RowsThatAreNotWritten) {
-  ill().core.read = [](PlumbWorld*, PlumbField, PlumbDataType, const PlumbBody*, std::uint32_t, void* rows, std::size_t) -> PlumbResult {
+  ill().core.read = [](PlumbWorld*, PlumbField, PlumbDataType, const PlumbBody*, std::uint32_t, void* rows,
+                       std::size_t) -> PlumbResult {
     std::fill_n(static_cast<double*>(rows), 7, 1.0);
     return PLUMB_OK;
   };
   double rows[14];
-  expect(PLUMB_E_INTERNAL, table->read(world, PLUMB_FIELD_POSE, PLUMB_F64, nullptr, 2, rows, 56), "left row 1 unwritten");
+  expect(PLUMB_E_INTERNAL, table->read(world, PLUMB_FIELD_POSE, PLUMB_F64, nullptr, 2, rows, 56),
+         "left row 1 unwritten");
 }
 
 TEST_F(ValidatedBackend, PaddingOfRows) {
-  ill().core.read = [](PlumbWorld*, PlumbField, PlumbDataType, const PlumbBody*, std::uint32_t count, void* rows, std::size_t stride) -> PlumbResult {
+  ill().core.read = [](PlumbWorld*, PlumbField, PlumbDataType, const PlumbBody*, std::uint32_t count, void* rows,
+                       std::size_t stride) -> PlumbResult {
     std::memset(rows, 0, count * stride);
     return PLUMB_OK;
   };
   double rows[18];
-  expect(PLUMB_E_INTERNAL, table->read(world, PLUMB_FIELD_POSE, PLUMB_F64, nullptr, 2, rows, 72), "wrote between the rows");
+  expect(PLUMB_E_INTERNAL, table->read(world, PLUMB_FIELD_POSE, PLUMB_F64, nullptr, 2, rows, 72),
+         "wrote between the rows");
   EXPECT_EQ(table->read(world, PLUMB_FIELD_POSE, PLUMB_F64, nullptr, 2, rows, 56), PLUMB_OK);
 }
 
 TEST_F(ValidatedBackend, CountsThatContradictTheResult) {
-  ill().core.contacts = [](PlumbWorld*, PlumbContact*, std::size_t, std::uint32_t, std::uint32_t* count) -> PlumbResult {
+  ill().core.contacts = [](PlumbWorld*, PlumbContact*, std::size_t, std::uint32_t,
+                           std::uint32_t* count) -> PlumbResult {
     *count = 5;
     return PLUMB_OK;
   };
   std::uint32_t count = 0;
-  expect(PLUMB_E_INTERNAL, table->contacts(world, nullptr, sizeof(PlumbContact), 0, &count), "a count of 5 for a capacity of 0");
-  ill().core.contacts = [](PlumbWorld*, PlumbContact*, std::size_t, std::uint32_t, std::uint32_t* found) -> PlumbResult {
+  expect(PLUMB_E_INTERNAL, table->contacts(world, nullptr, sizeof(PlumbContact), 0, &count),
+         "a count of 5 for a capacity of 0");
+  ill().core.contacts = [](PlumbWorld*, PlumbContact*, std::size_t, std::uint32_t,
+                           std::uint32_t* found) -> PlumbResult {
     *found = 0;
     return PLUMB_TRUNCATED;
   };
-  expect(PLUMB_E_INTERNAL, table->contacts(world, nullptr, sizeof(PlumbContact), 0, &count), "answered 1 and a count of 0");
+  expect(PLUMB_E_INTERNAL, table->contacts(world, nullptr, sizeof(PlumbContact), 0, &count),
+         "answered 1 and a count of 0");
 }
 
 TEST_F(ValidatedBackend, ResultsThatAreNone) {
@@ -62,32 +71,35 @@ TEST_F(ValidatedBackend, ResultsThatAreNone) {
 }
 
 TEST_F(ValidatedBackend, FailuresThatChangeTheBodies) {
-  ill().core.create_bodies = [](PlumbWorld* w, const PlumbBodyDesc* descs, std::size_t stride, std::uint32_t count, PlumbBody* ids) -> PlumbResult {
+  ill().core.create_bodies = [](PlumbWorld* w, const PlumbBodyDesc* descs, std::size_t stride, std::uint32_t count,
+                                PlumbBody* ids) -> PlumbResult {
     const PlumbBody nothing = 0;
     good().core.create_bodies(w, descs, stride, count, ids);
     return good().core.destroy_bodies(w, &nothing, 1);  // fails with a text
   };
   const PlumbBodyDesc desc = body();
   PlumbBody id = 0;
-  expect(PLUMB_E_INTERNAL, table->create_bodies(world, &desc, sizeof desc, 1, &id), "has 3 bodies after the call has failed; it should be 2");
+  expect(PLUMB_E_INTERNAL, table->create_bodies(world, &desc, sizeof desc, 1, &id),
+         "has 3 bodies after the call has failed; it should be 2");
 }
 
 TEST_F(ValidatedBackend, SuccessThatDoesNothing) {
   ill().core.destroy_bodies = [](PlumbWorld*, const PlumbBody*, std::uint32_t) -> PlumbResult { return PLUMB_OK; };
-  expect(PLUMB_E_INTERNAL, table->destroy_bodies(world, bodies.data(), 1), "has 2 bodies after the call is done; it should be 1");
+  expect(PLUMB_E_INTERNAL, table->destroy_bodies(world, bodies.data(), 1),
+         "has 2 bodies after the call is done; it should be 1");
 }
 
 TEST_F(ValidatedBackend, IdsThatAreNone) {
-  ill().core.create_shapes = [](PlumbWorld*, const PlumbShapeDesc*, std::size_t, std::uint32_t count, PlumbShape* ids) -> PlumbResult {
+  ill().core.create_shapes = [](PlumbWorld*, const PlumbShapeDesc*, std::size_t, std::uint32_t count,
+                                PlumbShape* ids) -> PlumbResult {
     std::fill_n(ids, count, 5);
     return PLUMB_OK;
   };
   PlumbShapeDesc descs[2] = {shape_desc(PLUMB_SPHERE), shape_desc(PLUMB_SPHERE)};
   PlumbShape ids[2] = {};
   expect(PLUMB_E_INTERNAL, table->create_shapes(world, descs, sizeof descs[0], 2, ids), "null or not distinct");
-  ill().core.create_shapes = [](PlumbWorld*, const PlumbShapeDesc*, std::size_t, std::uint32_t, PlumbShape*) -> PlumbResult {
-    return PLUMB_OK;
-  };
+  ill().core.create_shapes = [](PlumbWorld*, const PlumbShapeDesc*, std::size_t, std::uint32_t,
+                                PlumbShape*) -> PlumbResult { return PLUMB_OK; };
   expect(PLUMB_E_INTERNAL, table->create_shapes(world, descs, sizeof descs[0], 2, ids), "left ids[0] unwritten");
 }
 
@@ -125,7 +137,8 @@ TEST_F(ValidatedBackend, EventsOutOfOrder) {
 
 TEST_F(ValidatedBackend, HitsThatCannotBe) {
   static PlumbHit answer;
-  ill().queries.rays = [](PlumbWorld*, PlumbHitMode, const PlumbRay*, std::size_t, std::uint32_t, PlumbHit* hits, std::uint32_t, std::uint32_t* count) -> PlumbResult {
+  ill().queries.rays = [](PlumbWorld*, PlumbHitMode, const PlumbRay*, std::size_t, std::uint32_t, PlumbHit* hits,
+                          std::uint32_t, std::uint32_t* count) -> PlumbResult {
     hits[0] = answer;
     *count = 1;
     return PLUMB_OK;
@@ -151,7 +164,8 @@ TEST_F(ValidatedBackend, HitsThatCannotBe) {
 TEST_F(ValidatedBackend, HitsBeyondTheCapacityOrOutOfOrder) {
   static std::vector<PlumbHit> answer;
   static std::uint32_t counted;
-  ill().queries.overlaps = [](PlumbWorld*, const PlumbOverlap*, std::size_t, std::uint32_t, PlumbHit* hits, std::uint32_t, std::uint32_t* count) -> PlumbResult {
+  ill().queries.overlaps = [](PlumbWorld*, const PlumbOverlap*, std::size_t, std::uint32_t, PlumbHit* hits,
+                              std::uint32_t, std::uint32_t* count) -> PlumbResult {
     std::copy(answer.begin(), answer.end(), hits);
     *count = counted;
     return PLUMB_OK;
@@ -161,7 +175,8 @@ TEST_F(ValidatedBackend, HitsBeyondTheCapacityOrOutOfOrder) {
   std::uint32_t count = 0;
   const auto ask = [&] {
     counted = std::min<std::uint32_t>(static_cast<std::uint32_t>(answer.size()), 2);
-    return extension<PlumbQueriesTable>(PLUMB_EXT_QUERIES).overlaps(world, overlap, sizeof overlap[0], 2, hits, 2, &count);
+    return extension<PlumbQueriesTable>(PLUMB_EXT_QUERIES)
+        .overlaps(world, overlap, sizeof overlap[0], 2, hits, 2, &count);
   };
   const PlumbHit first{bodies[0], 0, 0, 0, {}, {}}, second{bodies[0], 1, 0, 0, {}, {}};
   answer = {first, second};
@@ -170,25 +185,30 @@ TEST_F(ValidatedBackend, HitsBeyondTheCapacityOrOutOfOrder) {
   expect(PLUMB_E_INTERNAL, ask(), "hits[1] breaks the order");
   answer = {first, second, second};
   expect(PLUMB_E_INTERNAL, ask(), "wrote more than 2 hits");
-  ill().queries.overlaps = [](PlumbWorld*, const PlumbOverlap*, std::size_t, std::uint32_t, PlumbHit*, std::uint32_t, std::uint32_t* found) -> PlumbResult {
+  ill().queries.overlaps = [](PlumbWorld*, const PlumbOverlap*, std::size_t, std::uint32_t, PlumbHit*, std::uint32_t,
+                              std::uint32_t* found) -> PlumbResult {
     *found = 1;
     return PLUMB_OK;
   };
   expect(PLUMB_E_INTERNAL, ask(), "left hits[0] unwritten");
-  ill().queries.rays = [](PlumbWorld*, PlumbHitMode, const PlumbRay*, std::size_t, std::uint32_t, PlumbHit* out, std::uint32_t, std::uint32_t* found) -> PlumbResult {
+  ill().queries.rays = [](PlumbWorld*, PlumbHitMode, const PlumbRay*, std::size_t, std::uint32_t, PlumbHit* out,
+                          std::uint32_t, std::uint32_t* found) -> PlumbResult {
     out[0] = {0, 1, 0, 0, {}, {}};
     out[1] = {0, 0, 0, 0, {}, {}};
     *found = 2;
     return PLUMB_OK;
   };
   const PlumbRay rays[2] = {};
-  expect(PLUMB_E_INTERNAL, extension<PlumbQueriesTable>(PLUMB_EXT_QUERIES).rays(world, PLUMB_HIT_CLOSEST, rays, sizeof rays[0], 2, hits, 2, &count),
+  expect(PLUMB_E_INTERNAL,
+         extension<PlumbQueriesTable>(PLUMB_EXT_QUERIES)
+             .rays(world, PLUMB_HIT_CLOSEST, rays, sizeof rays[0], 2, hits, 2, &count),
          "hits[0] is of query 1");
 }
 
 TEST_F(ValidatedBackend, PairsAndPointsThatCannotBe) {
   static std::uint32_t results_written, points_written, first;
-  ill().collide.pairs = [](PlumbWorld*, const PlumbPosedPair*, std::size_t, std::uint32_t, PlumbPairResult* results, PlumbPairPoint* points, std::uint32_t, std::uint32_t* count) -> PlumbResult {
+  ill().collide.pairs = [](PlumbWorld*, const PlumbPosedPair*, std::size_t, std::uint32_t, PlumbPairResult* results,
+                           PlumbPairPoint* points, std::uint32_t, std::uint32_t* count) -> PlumbResult {
     std::fill_n(results, results_written, PlumbPairResult{0, first, 1});
     std::fill_n(points, points_written, PlumbPairPoint{});
     *count = 1;
@@ -200,7 +220,8 @@ TEST_F(ValidatedBackend, PairsAndPointsThatCannotBe) {
   std::uint32_t count = 0;
   const auto ask = [&](std::uint32_t results, std::uint32_t points, std::uint32_t first_point) {
     results_written = results, points_written = points, first = first_point;
-    return extension<PlumbCollideTable>(PLUMB_EXT_COLLIDE).pairs(world, &pair, sizeof pair, 1, &result, &point, 1, &count);
+    return extension<PlumbCollideTable>(PLUMB_EXT_COLLIDE)
+        .pairs(world, &pair, sizeof pair, 1, &result, &point, 1, &count);
   };
   EXPECT_EQ(ask(1, 1, 0), PLUMB_OK);
   expect(PLUMB_E_INTERNAL, ask(2, 1, 0), "wrote more than 1 results");
@@ -211,7 +232,8 @@ TEST_F(ValidatedBackend, PairsAndPointsThatCannotBe) {
 
 TEST_F(ValidatedBackend, RowsOfContactsAndStates) {
   static std::size_t bytes;
-  ill().core.contacts = [](PlumbWorld*, PlumbContact* out, std::size_t, std::uint32_t, std::uint32_t* count) -> PlumbResult {
+  ill().core.contacts = [](PlumbWorld*, PlumbContact* out, std::size_t, std::uint32_t,
+                           std::uint32_t* count) -> PlumbResult {
     std::memset(static_cast<void*>(out), 0, bytes);
     *count = 2;
     return PLUMB_OK;
@@ -234,12 +256,14 @@ TEST_F(ValidatedBackend, RowsOfContactsAndStates) {
   bytes = sizeof tight;
   expect(PLUMB_E_INTERNAL, table->contacts(world, tight, sizeof tight[0], 2, &count), "row 0 names no body");
 
-  ill().core.read = [](PlumbWorld*, PlumbField, PlumbDataType, const PlumbBody*, std::uint32_t, void* out, std::size_t) -> PlumbResult {
+  ill().core.read = [](PlumbWorld*, PlumbField, PlumbDataType, const PlumbBody*, std::uint32_t, void* out,
+                       std::size_t) -> PlumbResult {
     std::fill_n(static_cast<double*>(out), 8, 1.0);
     return PLUMB_OK;
   };
   double row[8];
-  expect(PLUMB_E_INTERNAL, table->read(world, PLUMB_FIELD_POSE, PLUMB_F64, nullptr, 1, row, 56), "wrote more than 1 rows");
+  expect(PLUMB_E_INTERNAL, table->read(world, PLUMB_FIELD_POSE, PLUMB_F64, nullptr, 1, row, 56),
+         "wrote more than 1 rows");
 
   ill().core.list_bodies = [](PlumbWorld*, PlumbBody* ids, std::uint32_t, std::uint32_t* found) -> PlumbResult {
     if (ids != nullptr && bytes != 0) ids[0] = 5;
@@ -251,17 +275,20 @@ TEST_F(ValidatedBackend, RowsOfContactsAndStates) {
   bytes = 0;
   expect(PLUMB_E_INTERNAL, table->list_bodies(world, &id, 1, &count), "left row 0 unwritten");
 
-  ill().state.rows = [](PlumbWorld*, PlumbBody* ids, std::uint32_t, std::uint32_t* found, std::uint64_t*) -> PlumbResult {
+  ill().state.rows = [](PlumbWorld*, PlumbBody* ids, std::uint32_t, std::uint32_t* found,
+                        std::uint64_t*) -> PlumbResult {
     ids[0] = ids[1] = 5;
     *found = 2;
     return PLUMB_TRUNCATED;
   };
   std::uint64_t generation = 0;
-  expect(PLUMB_E_INTERNAL, extension<PlumbStateTable>(PLUMB_EXT_STATE).rows(world, &id, 1, &count, &generation), "wrote more than 1 ids");
+  expect(PLUMB_E_INTERNAL, extension<PlumbStateTable>(PLUMB_EXT_STATE).rows(world, &id, 1, &count, &generation),
+         "wrote more than 1 ids");
 }
 
 TEST_F(ValidatedBackend, MoreIdsThanWereAskedFor) {
-  ill().core.create_shapes = [](PlumbWorld*, const PlumbShapeDesc*, std::size_t, std::uint32_t, PlumbShape* ids) -> PlumbResult {
+  ill().core.create_shapes = [](PlumbWorld*, const PlumbShapeDesc*, std::size_t, std::uint32_t,
+                                PlumbShape* ids) -> PlumbResult {
     ids[0] = 1, ids[1] = 2;
     return PLUMB_OK;
   };
@@ -273,7 +300,8 @@ TEST_F(ValidatedBackend, MoreIdsThanWereAskedFor) {
 TEST_F(ValidatedBackend, StateThatIsNotLentAsAsked) {
   static PlumbDLManagedTensor tensor;
   static bool whole;
-  ill().state.borrow = [](PlumbWorld*, const PlumbStateRequest*, PlumbDLManagedTensor** out, PlumbFence*) -> PlumbResult {
+  ill().state.borrow = [](PlumbWorld*, const PlumbStateRequest*, PlumbDLManagedTensor** out,
+                          PlumbFence*) -> PlumbResult {
     *out = &tensor;
     tensor.deleter = nullptr;
     if (whole) tensor.deleter = [](PlumbDLManagedTensor*) {};
@@ -298,15 +326,20 @@ TEST_F(ValidatedBackend, SnapshotsThatAreCutOff) {
   };
   char data[8];
   std::size_t size = 0;
-  expect(PLUMB_E_INTERNAL, extension<PlumbSnapshotTable>(PLUMB_EXT_SNAPSHOT).save(world, data, sizeof data, &size), "a part of a snapshot");
+  expect(PLUMB_E_INTERNAL, extension<PlumbSnapshotTable>(PLUMB_EXT_SNAPSHOT).save(world, data, sizeof data, &size),
+         "a part of a snapshot");
   ill().snapshot.save = [](PlumbWorld*, void* out, std::size_t capacity, std::size_t* needed) -> PlumbResult {
     std::memset(out, 0, capacity + 1);
     *needed = capacity;
     return PLUMB_OK;
   };
-  expect(PLUMB_E_INTERNAL, extension<PlumbSnapshotTable>(PLUMB_EXT_SNAPSHOT).save(world, data, sizeof data, &size), "wrote more than 8 bytes");
-  ill().snapshot.save = [](PlumbWorld*, void*, std::size_t, std::size_t* needed) -> PlumbResult { return *needed = 100, PLUMB_OK; };
-  expect(PLUMB_E_INTERNAL, extension<PlumbSnapshotTable>(PLUMB_EXT_SNAPSHOT).save(world, data, sizeof data, &size), "a count of 100 for a capacity of 8");
+  expect(PLUMB_E_INTERNAL, extension<PlumbSnapshotTable>(PLUMB_EXT_SNAPSHOT).save(world, data, sizeof data, &size),
+         "wrote more than 8 bytes");
+  ill().snapshot.save = [](PlumbWorld*, void*, std::size_t, std::size_t* needed) -> PlumbResult {
+    return *needed = 100, PLUMB_OK;
+  };
+  expect(PLUMB_E_INTERNAL, extension<PlumbSnapshotTable>(PLUMB_EXT_SNAPSHOT).save(world, data, sizeof data, &size),
+         "a count of 100 for a capacity of 8");
 }
 
 TEST_F(ValidatedBackend, SettingsWithoutAValue) {
@@ -315,7 +348,8 @@ TEST_F(ValidatedBackend, SettingsWithoutAValue) {
     return PLUMB_OK;
   };
   PlumbSettingValue value{};
-  expect(PLUMB_E_INTERNAL, extension<PlumbSettingsTable>(PLUMB_EXT_SETTINGS).get(world, "solver", &value), "without a choice");
+  expect(PLUMB_E_INTERNAL, extension<PlumbSettingsTable>(PLUMB_EXT_SETTINGS).get(world, "solver", &value),
+         "without a choice");
 }
 
 TEST_F(ValidatedBackend, FailingWithoutAWord) {
@@ -332,7 +366,9 @@ TEST_F(ValidatedBackend, LostWorldsAnswerNothingElse) {
   EXPECT_STREQ(table->error_text(world), "the ground gave way");
   static bool asked;
   asked = false;
-  ill().core.list_bodies = [](PlumbWorld*, PlumbBody*, std::uint32_t, std::uint32_t*) -> PlumbResult { return asked = true, PLUMB_OK; };
+  ill().core.list_bodies = [](PlumbWorld*, PlumbBody*, std::uint32_t, std::uint32_t*) -> PlumbResult {
+    return asked = true, PLUMB_OK;
+  };
   std::uint32_t count = 0;
   EXPECT_EQ(table->list_bodies(world, nullptr, 0, &count), PLUMB_E_WORLD_LOST);
   EXPECT_FALSE(asked);

@@ -52,7 +52,8 @@ TEST_F(ValidatedHost, PhasesOfAStep) {
   PlumbHit hit;
   std::uint32_t count = 0;
   refused(PLUMB_E_WRONG_PHASE, "queries.rays", [&] {
-    return extension<PlumbQueriesTable>(PLUMB_EXT_QUERIES).rays(world, PLUMB_HIT_CLOSEST, &ray, sizeof ray, 1, &hit, 1, &count);
+    return extension<PlumbQueriesTable>(PLUMB_EXT_QUERIES)
+        .rays(world, PLUMB_HIT_CLOSEST, &ray, sizeof ray, 1, &hit, 1, &count);
   });
   EXPECT_EQ(table->wait(world, nullptr), PLUMB_OK);
   EXPECT_EQ(table->read(world, PLUMB_FIELD_POSE, PLUMB_F64, nullptr, 1, row, sizeof row), PLUMB_OK);
@@ -109,8 +110,9 @@ TEST_F(ValidatedHost, QueriesMayOverlap) {
   static bool outer;
   shared = table;
   outer = true;
-  ill().queries.rays = [](PlumbWorld* w, PlumbHitMode mode, const PlumbRay* rays, std::size_t stride, std::uint32_t count,
-                          PlumbHit* hits, std::uint32_t capacity, std::uint32_t* found) -> PlumbResult {
+  ill().queries.rays = [](PlumbWorld* w, PlumbHitMode mode, const PlumbRay* rays, std::size_t stride,
+                          std::uint32_t count, PlumbHit* hits, std::uint32_t capacity,
+                          std::uint32_t* found) -> PlumbResult {
     if (std::exchange(outer, false)) {
       std::thread([=] {
         PlumbHit hit;
@@ -126,7 +128,9 @@ TEST_F(ValidatedHost, QueriesMayOverlap) {
   const PlumbRay ray{{0, 0, 0}, {1, 0, 0}, {1, 1, 0, 0}};
   PlumbHit hit;
   std::uint32_t count = 0;
-  EXPECT_EQ(extension<PlumbQueriesTable>(PLUMB_EXT_QUERIES).rays(world, PLUMB_HIT_CLOSEST, &ray, sizeof ray, 1, &hit, 1, &count), PLUMB_OK);
+  EXPECT_EQ(extension<PlumbQueriesTable>(PLUMB_EXT_QUERIES)
+                .rays(world, PLUMB_HIT_CLOSEST, &ray, sizeof ray, 1, &hit, 1, &count),
+            PLUMB_OK);
   EXPECT_EQ(query, PLUMB_OK);
   EXPECT_EQ(change, PLUMB_E_WRONG_THREAD);
 }
@@ -134,24 +138,34 @@ TEST_F(ValidatedHost, QueriesMayOverlap) {
 TEST_F(ValidatedHost, SizesAndPointers) {
   PlumbBodyDesc desc = body();
   PlumbBody id = 0;
-  refused(PLUMB_E_INVALID_ARGUMENT, "stride of descs is 8", [&] { return table->create_bodies(world, &desc, 8, 1, &id); });
-  refused(PLUMB_E_INVALID_ARGUMENT, "multiple of 8", [&] { return table->create_bodies(world, &desc, sizeof desc + 4, 1, &id); });
-  refused(PLUMB_E_INVALID_ARGUMENT, "ids is null", [&] { return table->create_bodies(world, &desc, sizeof desc, 1, nullptr); });
-  refused(PLUMB_E_INVALID_ARGUMENT, "descs is null", [&] { return table->create_bodies(world, nullptr, sizeof desc, 1, &id); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "stride of descs is 8",
+          [&] { return table->create_bodies(world, &desc, 8, 1, &id); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "multiple of 8",
+          [&] { return table->create_bodies(world, &desc, sizeof desc + 4, 1, &id); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "ids is null",
+          [&] { return table->create_bodies(world, &desc, sizeof desc, 1, nullptr); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "descs is null",
+          [&] { return table->create_bodies(world, nullptr, sizeof desc, 1, &id); });
   desc.struct_size = 0;
-  refused(PLUMB_E_INVALID_ARGUMENT, "descs[0].struct_size is 0", [&] { return table->create_bodies(world, &desc, sizeof desc, 1, &id); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "descs[0].struct_size is 0",
+          [&] { return table->create_bodies(world, &desc, sizeof desc, 1, &id); });
   EXPECT_EQ(id, 0u);
   refused(PLUMB_E_INVALID_ARGUMENT, "ids is null", [&] { return table->destroy_bodies(world, nullptr, 1); });
   double row[7];
-  refused(PLUMB_E_INVALID_ARGUMENT, "stride of rows is 55", [&] { return table->read(world, PLUMB_FIELD_POSE, PLUMB_F64, nullptr, 1, row, 55); });
-  refused(PLUMB_E_INVALID_ARGUMENT, "type is 9", [&] { return table->read(world, PLUMB_FIELD_POSE, 9, nullptr, 1, row, 56); });
-  refused(PLUMB_E_INVALID_ARGUMENT, "field", [&] { return table->read(world, PLUMB_FIELD_COUNT, PLUMB_F64, nullptr, 1, row, 56); });
-  refused(PLUMB_E_INVALID_ARGUMENT, "rows is null", [&] { return table->write(world, PLUMB_FIELD_POSE, PLUMB_F64, nullptr, 1, nullptr, 56); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "stride of rows is 55",
+          [&] { return table->read(world, PLUMB_FIELD_POSE, PLUMB_F64, nullptr, 1, row, 55); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "type is 9",
+          [&] { return table->read(world, PLUMB_FIELD_POSE, 9, nullptr, 1, row, 56); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "field",
+          [&] { return table->read(world, PLUMB_FIELD_COUNT, PLUMB_F64, nullptr, 1, row, 56); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "rows is null",
+          [&] { return table->write(world, PLUMB_FIELD_POSE, PLUMB_F64, nullptr, 1, nullptr, 56); });
   PlumbEvent event;
   std::uint32_t count = 0;
   refused(PLUMB_E_INVALID_ARGUMENT, "stride of out is 16", [&] { return table->events(world, &event, 16, 1, &count); });
   refused(PLUMB_E_INVALID_ARGUMENT, "count is null", [&] { return table->list_bodies(world, nullptr, 0, nullptr); });
-  refused(PLUMB_E_INVALID_ARGUMENT, "out is null", [&] { return table->contacts(world, nullptr, sizeof(PlumbContact), 3, &count); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "out is null",
+          [&] { return table->contacts(world, nullptr, sizeof(PlumbContact), 3, &count); });
   refused(PLUMB_E_INVALID_ARGUMENT, "gravity is null", [&] { return table->set_gravity(world, nullptr); });
   const PlumbStepDesc unset = {0, 0, 0.01};
   refused(PLUMB_E_INVALID_ARGUMENT, "desc.struct_size is 0", [&] { return table->step(world, &unset); });
@@ -160,10 +174,12 @@ TEST_F(ValidatedHost, SizesAndPointers) {
   refused(PLUMB_E_INVALID_ARGUMENT, "report.struct_size is 0", [&] { return table->wait(world, &report); });
   EXPECT_EQ(table->wait(world, nullptr), PLUMB_OK) << "a refused wait has not ended the step";
   refused(PLUMB_E_INVALID_ARGUMENT, "out is null", [&] { return table->list_bodies(world, nullptr, 2, &count); });
-  refused(PLUMB_E_INVALID_ARGUMENT, "count is null", [&] { return table->events(world, &event, sizeof event, 1, nullptr); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "count is null",
+          [&] { return table->events(world, &event, sizeof event, 1, nullptr); });
   refused(PLUMB_E_INVALID_ARGUMENT, "user_data is null", [&] { return table->user_data(world, bodies[0], nullptr); });
   refused(PLUMB_E_INVALID_ARGUMENT, "desc is null", [&] { return table->step(world, nullptr); });
-  refused(PLUMB_E_INVALID_ARGUMENT, "data is null", [&] { return extension<PlumbSnapshotTable>(PLUMB_EXT_SNAPSHOT).restore(world, nullptr, 4); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "data is null",
+          [&] { return extension<PlumbSnapshotTable>(PLUMB_EXT_SNAPSHOT).restore(world, nullptr, 4); });
   refused(PLUMB_E_INVALID_ARGUMENT, "name is null", [&] {
     PlumbSettingValue value{};
     return extension<PlumbSettingsTable>(PLUMB_EXT_SETTINGS).get(world, nullptr, &value);
@@ -183,17 +199,24 @@ TEST_F(ValidatedHost, SizesAndPointersOfExtensions) {
   refused(PLUMB_E_INVALID_ARGUMENT, "stride of queries is 8", [&] { return rays(&ray, 8, &hit, &count); });
   refused(PLUMB_E_INVALID_ARGUMENT, "hits is null", [&] { return rays(&ray, sizeof ray, nullptr, &count); });
   refused(PLUMB_E_INVALID_ARGUMENT, "hit_count is null", [&] { return rays(&ray, sizeof ray, &hit, nullptr); });
-  refused(PLUMB_E_INVALID_ARGUMENT, "overlaps is null", [&] { return queries.overlaps(world, nullptr, sizeof overlap, 1, &hit, 1, &count); });
-  refused(PLUMB_E_INVALID_ARGUMENT, "stride of overlaps is 8", [&] { return queries.overlaps(world, &overlap, 8, 1, &hit, 1, &count); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "overlaps is null",
+          [&] { return queries.overlaps(world, nullptr, sizeof overlap, 1, &hit, 1, &count); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "stride of overlaps is 8",
+          [&] { return queries.overlaps(world, &overlap, 8, 1, &hit, 1, &count); });
   const auto& collide = extension<PlumbCollideTable>(PLUMB_EXT_COLLIDE);
   const PlumbPosedPair pair{shape, shape, identity_pose(), identity_pose()};
   PlumbPairResult result;
   PlumbPairPoint point;
-  refused(PLUMB_E_INVALID_ARGUMENT, "pairs is null", [&] { return collide.pairs(world, nullptr, sizeof pair, 1, &result, &point, 1, &count); });
-  refused(PLUMB_E_INVALID_ARGUMENT, "stride of pairs is 8", [&] { return collide.pairs(world, &pair, 8, 1, &result, &point, 1, &count); });
-  refused(PLUMB_E_INVALID_ARGUMENT, "results is null", [&] { return collide.pairs(world, &pair, sizeof pair, 1, nullptr, &point, 1, &count); });
-  refused(PLUMB_E_INVALID_ARGUMENT, "points is null", [&] { return collide.pairs(world, &pair, sizeof pair, 1, &result, nullptr, 1, &count); });
-  refused(PLUMB_E_INVALID_ARGUMENT, "point_count is null", [&] { return collide.pairs(world, &pair, sizeof pair, 1, &result, &point, 1, nullptr); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "pairs is null",
+          [&] { return collide.pairs(world, nullptr, sizeof pair, 1, &result, &point, 1, &count); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "stride of pairs is 8",
+          [&] { return collide.pairs(world, &pair, 8, 1, &result, &point, 1, &count); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "results is null",
+          [&] { return collide.pairs(world, &pair, sizeof pair, 1, nullptr, &point, 1, &count); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "points is null",
+          [&] { return collide.pairs(world, &pair, sizeof pair, 1, &result, nullptr, 1, &count); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "point_count is null",
+          [&] { return collide.pairs(world, &pair, sizeof pair, 1, &result, &point, 1, nullptr); });
   const auto& settings = extension<PlumbSettingsTable>(PLUMB_EXT_SETTINGS);
   const PlumbSettingValue value{PLUMB_SETTING_INT, 0, 5, nullptr};
   refused(PLUMB_E_INVALID_ARGUMENT, "value is null", [&] { return settings.get(world, "iterations", nullptr); });
@@ -212,10 +235,13 @@ TEST_F(ValidatedHost, SizesAndPointersOfExtensions) {
   refused(PLUMB_E_INVALID_ARGUMENT, "request is null", [&] { return state.borrow(world, nullptr, &tensor, nullptr); });
   refused(PLUMB_E_INVALID_ARGUMENT, "tensor is null", [&] { return state.borrow(world, &request, nullptr, nullptr); });
   request.struct_size = 4;
-  refused(PLUMB_E_INVALID_ARGUMENT, "request.struct_size is 4", [&] { return state.borrow(world, &request, &tensor, nullptr); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "request.struct_size is 4",
+          [&] { return state.borrow(world, &request, &tensor, nullptr); });
   refused(PLUMB_E_INVALID_ARGUMENT, "ids is null", [&] { return state.rows(world, nullptr, 1, &count, &generation); });
-  refused(PLUMB_E_INVALID_ARGUMENT, "count is null", [&] { return state.rows(world, nullptr, 0, nullptr, &generation); });
-  refused(PLUMB_E_INVALID_ARGUMENT, "generation is null", [&] { return state.rows(world, nullptr, 0, &count, nullptr); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "count is null",
+          [&] { return state.rows(world, nullptr, 0, nullptr, &generation); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "generation is null",
+          [&] { return state.rows(world, nullptr, 0, &count, nullptr); });
 }
 
 TEST_F(ValidatedHost, WorldsThatAreNone) {
@@ -244,10 +270,13 @@ TEST_F(ValidatedHost, WorldsThatAreAskedForWrongly) {
   const auto asked = [&](const std::string& words, const PlumbWorldDesc* desc, PlumbWorld** made) {
     static bool forwarded;
     forwarded = false;
-    ill().core.create_world = [](const PlumbWorldDesc*, PlumbWorld**) -> PlumbResult { return forwarded = true, PLUMB_E_INTERNAL; };
+    ill().core.create_world = [](const PlumbWorldDesc*, PlumbWorld**) -> PlumbResult {
+      return forwarded = true, PLUMB_E_INTERNAL;
+    };
     EXPECT_EQ(table->create_world(desc, made), PLUMB_E_INVALID_ARGUMENT);
     EXPECT_FALSE(forwarded);
-    EXPECT_NE(std::string(table->error_text(nullptr)).find("create_world: " + words), std::string::npos) << table->error_text(nullptr);
+    EXPECT_NE(std::string(table->error_text(nullptr)).find("create_world: " + words), std::string::npos)
+        << table->error_text(nullptr);
     expect_found("create_world: " + words);
   };
   PlumbWorldDesc desc = world_desc(0);
