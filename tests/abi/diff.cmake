@@ -1,5 +1,5 @@
-# Compares the interface with the recorded one, after CHANGE was made to a copy of the headers: "FILE|FROM|TO", with @ for
-# a semicolon. EXPECTED: same or different.
+# Compares the interface with the recorded one, after CHANGE was made to a copy of the headers: "FILE|FROM|TO", with @
+# for a semicolon. EXPECTED: same or different.
 file(REMOVE_RECURSE ${WORK})
 file(MAKE_DIRECTORY ${WORK})
 file(COPY ${HEADERS}/plumb DESTINATION ${WORK})

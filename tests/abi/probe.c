@@ -1,5 +1,5 @@
 /* Takes every struct of the wall, and every member of one, by pointer in an exported function of its own: abidw
- * describes only types that an export reaches, and growing structs are exempt from the comparison but not their members. */
+ * describes only types that an export reaches. Growing structs are exempt from the comparison, not their members. */
 #include "plumb/plumb.h"
 
 #define SIZE(type, size)                                 \

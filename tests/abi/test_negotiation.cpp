@@ -1,8 +1,8 @@
 // Host and backend agree on a version or say which of them is too old; the host believes no answer unseen.
 #include <gtest/gtest.h>
 
-#include <cstdio>
 #include <dlfcn.h>
+#include <cstdio>
 
 #include "plumb/loader.hpp"
 
@@ -56,65 +56,81 @@ TEST(Negotiation, BackendSaysWhoIsTooOld) {
 }
 
 TEST(Negotiation, HostPassesTheBackendsWordsOn) {
-  refused([](const PlumbOpenRequest*, PlumbOpenReply* reply) -> PlumbResult {
-    std::snprintf(reply->message, sizeof reply->message, "this engine needs a newer host");
-    return PLUMB_E_VERSION;
-  }, PLUMB_E_VERSION, "needs a newer host");
+  refused(
+      [](const PlumbOpenRequest*, PlumbOpenReply* reply) -> PlumbResult {
+        std::snprintf(reply->message, sizeof reply->message, "this engine needs a newer host");
+        return PLUMB_E_VERSION;
+      },
+      PLUMB_E_VERSION, "needs a newer host");
   refused([](const PlumbOpenRequest*, PlumbOpenReply*) -> PlumbResult { return PLUMB_E_INTERNAL; }, PLUMB_E_INTERNAL,
           "liar refused without saying why");
 }
 
 TEST(Negotiation, VersionsThatWereNotOffered) {
-  refused([](const PlumbOpenRequest* request, PlumbOpenReply* reply) -> PlumbResult {
-    static PlumbBackendTable table = honest();
-    reply->version = table.version = request->max_version + 1;
-    reply->table = &table;
-    return PLUMB_OK;
-  }, PLUMB_E_VERSION, "did not offer");
-  refused([](const PlumbOpenRequest* request, PlumbOpenReply* reply) -> PlumbResult {
-    static PlumbBackendTable table = honest();
-    reply->version = table.version = request->min_version - 1;
-    reply->table = &table;
-    return PLUMB_OK;
-  }, PLUMB_E_VERSION, "did not offer");
+  refused(
+      [](const PlumbOpenRequest* request, PlumbOpenReply* reply) -> PlumbResult {
+        static PlumbBackendTable table = honest();
+        reply->version = table.version = request->max_version + 1;
+        reply->table = &table;
+        return PLUMB_OK;
+      },
+      PLUMB_E_VERSION, "did not offer");
+  refused(
+      [](const PlumbOpenRequest* request, PlumbOpenReply* reply) -> PlumbResult {
+        static PlumbBackendTable table = honest();
+        reply->version = table.version = request->min_version - 1;
+        reply->table = &table;
+        return PLUMB_OK;
+      },
+      PLUMB_E_VERSION, "did not offer");
 }
 
 TEST(Negotiation, TablesThatAreNotThere) {
-  refused([](const PlumbOpenRequest* request, PlumbOpenReply* reply) -> PlumbResult {
-    reply->version = request->max_version;
-    return PLUMB_OK;
-  }, PLUMB_E_VERSION, "gave no table");
-  refused([](const PlumbOpenRequest* request, PlumbOpenReply* reply) -> PlumbResult {
-    static PlumbBackendTable table = honest();
-    table.version = version(0, 7);
-    reply->version = request->max_version;
-    reply->table = &table;
-    return PLUMB_OK;
-  }, PLUMB_E_VERSION, "gave no table of it");
-  refused([](const PlumbOpenRequest* request, PlumbOpenReply* reply) -> PlumbResult {
-    static PlumbBackendTable table = honest();
-    table.struct_size = 24;
-    reply->version = request->max_version;
-    reply->table = &table;
-    return PLUMB_OK;
-  }, PLUMB_E_VERSION, "liar");
-  refused([](const PlumbOpenRequest* request, PlumbOpenReply* reply) -> PlumbResult {
-    static PlumbBackendTable table = honest();
-    table.wait = nullptr;
-    reply->version = request->max_version;
-    reply->table = &table;
-    return PLUMB_OK;
-  }, PLUMB_E_VERSION, "liar");
+  refused(
+      [](const PlumbOpenRequest* request, PlumbOpenReply* reply) -> PlumbResult {
+        reply->version = request->max_version;
+        return PLUMB_OK;
+      },
+      PLUMB_E_VERSION, "gave no table");
+  refused(
+      [](const PlumbOpenRequest* request, PlumbOpenReply* reply) -> PlumbResult {
+        static PlumbBackendTable table = honest();
+        table.version = version(0, 7);
+        reply->version = request->max_version;
+        reply->table = &table;
+        return PLUMB_OK;
+      },
+      PLUMB_E_VERSION, "gave no table of it");
+  refused(
+      [](const PlumbOpenRequest* request, PlumbOpenReply* reply) -> PlumbResult {
+        static PlumbBackendTable table = honest();
+        table.struct_size = 24;
+        reply->version = request->max_version;
+        reply->table = &table;
+        return PLUMB_OK;
+      },
+      PLUMB_E_VERSION, "liar");
+  refused(
+      [](const PlumbOpenRequest* request, PlumbOpenReply* reply) -> PlumbResult {
+        static PlumbBackendTable table = honest();
+        table.wait = nullptr;
+        reply->version = request->max_version;
+        reply->table = &table;
+        return PLUMB_OK;
+      },
+      PLUMB_E_VERSION, "liar");
 }
 
 TEST(Negotiation, RepliesOfAnotherSize) {
-  refused([](const PlumbOpenRequest* request, PlumbOpenReply* reply) -> PlumbResult {
-    static PlumbBackendTable table = honest();
-    reply->struct_size = 8;
-    reply->version = request->max_version;
-    reply->table = &table;
-    return PLUMB_OK;
-  }, PLUMB_E_VERSION, "struct_size");
+  refused(
+      [](const PlumbOpenRequest* request, PlumbOpenReply* reply) -> PlumbResult {
+        static PlumbBackendTable table = honest();
+        reply->struct_size = 8;
+        reply->version = request->max_version;
+        reply->table = &table;
+        return PLUMB_OK;
+      },
+      PLUMB_E_VERSION, "struct_size");
   PlumbOpenReply reply{};
   const PlumbOpenRequest request = {sizeof request, PLUMB_VERSION, PLUMB_VERSION, 0, nullptr};
   EXPECT_LT(sample()(&request, &reply), 0) << "a reply without a size is not filled in";

@@ -12,6 +12,8 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
+#include <map>
 #include <span>
 #include <string>
 #include <unordered_map>
@@ -27,7 +29,7 @@ namespace plumb::backend {
 struct HullFace {
   std::vector<std::uint32_t> loop;  ///< into ConvexHull::vertices
   PlumbVec3 normal;                 ///< unit, outward
-  double offset;                    ///< m; every corner p has dot(normal, p) <= offset, one of them equals it
+  double offset;                    ///< m; every vertex p of its triangles has dot(normal, p) <= offset, one equals it
 };
 
 struct ConvexHull {
@@ -315,7 +317,7 @@ class FaceMerger {
   }
 
   HullFace face_of(const std::vector<std::uint32_t>& members) const {
-    std::unordered_map<std::uint32_t, std::uint32_t> next;
+    std::map<std::uint32_t, std::uint32_t> next;  // of the rim, so that a loop starts at its lowest corner
     PlumbVec3 area{0, 0, 0};
     for (const std::uint32_t t : members) {
       area = add(area, area_vector(t));
@@ -324,14 +326,12 @@ class FaceMerger {
         if (face_of_[triangle_of_.at(key(to, from))] != face_of_[t]) next[from] = to;
       }
     }
-    HullFace face{{}, scale(1 / std::max(length(area), 1e-300), area), 0};
-    const std::uint32_t first = hull_.triangles[members[0]][0];
-    std::uint32_t start = first;
-    for (const std::uint32_t v : hull_.triangles[members[0]])
-      if (next.contains(v)) start = v;
+    HullFace face{{}, scale(1 / std::max(length(area), 1e-300), area), -std::numeric_limits<double>::infinity()};
+    const std::uint32_t start = next.begin()->first;
     for (std::uint32_t v = start; face.loop.empty() || v != start; v = next.at(v)) face.loop.push_back(v);
-    face.offset = dot(face.normal, hull_.vertices[first]);
-    for (const std::uint32_t v : face.loop) face.offset = std::max(face.offset, dot(face.normal, hull_.vertices[v]));
+    for (const std::uint32_t t : members)
+      for (const std::uint32_t v : hull_.triangles[t])
+        face.offset = std::max(face.offset, dot(face.normal, hull_.vertices[v]));
     return face;
   }
 

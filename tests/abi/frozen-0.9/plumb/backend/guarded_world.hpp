@@ -165,8 +165,9 @@ class GuardedWorld {
     require_pointer(desc, 1, "desc");
     require_positive({"step", 0}, "dt", desc->dt);
     if (stepping_) refuse(PLUMB_E_WRONG_PHASE, "step was called twice; wait for the first");
-    stepping_ = true;
-    return world_->step(desc->dt);
+    const PlumbResult result = world_->step(desc->dt);
+    stepping_ = true;  // a step that failed has not begun
+    return result;
   }
 
   PlumbResult wait(PlumbStepReport* report) {
