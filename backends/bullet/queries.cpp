@@ -69,31 +69,52 @@ btVector3 world_normal(const Body& body, const btVector3& normal, bool in_world)
 }
 
 struct RayCallback final : btCollisionWorld::RayResultCallback {
-  RayCallback(const PlumbRay& r, Collector& c, PlumbHitMode m) : ray(r), collector(c), mode(m) {
+  RayCallback(const PlumbRay& r, Collector& c) : ray(r), collector(c) {
     m_flags |= btTriangleRaycastCallback::kF_UseGjkConvexCastRaytest;
   }
 
   btScalar addSingleResult(btCollisionWorld::LocalRayResult& result, bool in_world) override {
     const Body& body = *our_body(result.m_collisionObject);
-    const auto fraction = static_cast<double>(result.m_hitFraction);
+    const double fraction = first + static_cast<double>(result.m_hitFraction) * (last - first);
     const PlumbVec3 &o = ray.origin, &t = ray.translation;
-    m_collisionObject = result.m_collisionObject;
     collector.add(body, child_of(body, result.m_localShapeInfo), fraction,
                   {o.x + fraction * t.x, o.y + fraction * t.y, o.z + fraction * t.z},
                   to_plumb(world_normal(body, result.m_hitNormalLocal, in_world).normalized()));
-    if (mode == PLUMB_HIT_CLOSEST) m_closestHitFraction = std::min(m_closestHitFraction, result.m_hitFraction);
+    m_closestHitFraction = std::min(m_closestHitFraction, result.m_hitFraction);
     return m_closestHitFraction;
   }
 
   const PlumbRay& ray;
   Collector& collector;
-  PlumbHitMode mode;
+  double first = 0, last = 1;  ///< fractions of the ray between which Bullet is asked
 };
+
+/// Fractions between which a ray is inside of a body's box, a little widened; false where it misses it.
+bool clip(const Body& body, const PlumbRay& ray, double& first, double& last) {
+  btVector3 lower, upper;
+  body.getAabb(lower, upper);
+  const btVector3 slack = (upper - lower) * btScalar(0.01) + btVector3(1, 1, 1) * btScalar(0.01);
+  const double origin[3] = {ray.origin.x, ray.origin.y, ray.origin.z};
+  const double along[3] = {ray.translation.x, ray.translation.y, ray.translation.z};
+  first = 0;
+  last = 1;
+  for (int i = 0; i < 3; ++i) {
+    const auto low = static_cast<double>(lower[i] - slack[i]), high = static_cast<double>(upper[i] + slack[i]);
+    if (along[i] == 0) {
+      if (origin[i] < low || origin[i] > high) return false;
+      continue;
+    }
+    const double a = (low - origin[i]) / along[i], b = (high - origin[i]) / along[i];
+    first = std::max(first, std::min(a, b));
+    last = std::min(last, std::max(a, b));
+  }
+  return first < last;
+}
 
 /// Walks the broad phase; bodies that can be answered exactly are, the others go through Bullet's own test.
 struct RayWalk final : btBroadphaseRayCallback {
   RayWalk(const PlumbRay& r, Collector& c, RayCallback& b, const btVector3& start, const btVector3& end)
-      : ray(r), collector(c), bullet(b), from(btQuaternion::getIdentity(), start), to(btQuaternion::getIdentity(), end) {
+      : ray(r), collector(c), bullet(b) {
     const btVector3 along = (end - start).normalized();
     for (int i = 0; i < 3; ++i) {
       m_rayDirectionInverse[i] = along[i] == 0 ? btScalar(BT_LARGE_FLOAT) : 1 / along[i];
@@ -107,7 +128,7 @@ struct RayWalk final : btBroadphaseRayCallback {
     auto* object = static_cast<btCollisionObject*>(proxy->m_clientObject);
     const Body& body = *our_body(object);
     if (!has_exact_ray(body)) {
-      btCollisionWorld::rayTestSingle(from, to, object, object->getCollisionShape(), object->getWorldTransform(), bullet);
+      ask_bullet(*object, body);
     } else if (const auto entry = ray_enters(body, ray.origin, ray.translation)) {
       const PlumbVec3 &o = ray.origin, &t = ray.translation;
       collector.add(body, 0, entry->fraction, {o.x + entry->fraction * t.x, o.y + entry->fraction * t.y, o.z + entry->fraction * t.z}, entry->normal);
@@ -115,10 +136,23 @@ struct RayWalk final : btBroadphaseRayCallback {
     return true;
   }
 
+  /// Only for the part of the ray inside of the body's box: Bullet walks a height field's grid cell by cell along all of
+  /// a ray, however far it reaches beyond the field.
+  void ask_bullet(btCollisionObject& object, const Body& body) {
+    if (!clip(body, ray, bullet.first, bullet.last)) return;
+    bullet.m_closestHitFraction = 1;
+    btCollisionWorld::rayTestSingle(at(bullet.first), at(bullet.last), &object, object.getCollisionShape(), object.getWorldTransform(), bullet);
+  }
+
+  [[nodiscard]] btTransform at(double fraction) const {
+    const PlumbVec3 &o = ray.origin, &t = ray.translation;
+    return btTransform(btQuaternion::getIdentity(),
+                       vector(PlumbVec3{o.x + fraction * t.x, o.y + fraction * t.y, o.z + fraction * t.z}, "a point of a ray"));
+  }
+
   const PlumbRay& ray;
   Collector& collector;
   RayCallback& bullet;
-  btTransform from, to;
 };
 
 struct CastCallback final : btCollisionWorld::ConvexResultCallback {
@@ -191,7 +225,7 @@ Hits World::cast_rays(PlumbHitMode mode, std::span<const PlumbRay> rays) {
   found.clear();
   for (std::uint32_t i = 0; i < rays.size(); ++i) {
     Collector collector(i, mode);
-    RayCallback callback(rays[i], collector, mode);
+    RayCallback callback(rays[i], collector);
     const btVector3 from = vector(rays[i].origin, "origin");
     const btVector3 to = end_of(from, rays[i].translation);
     RayWalk walk(rays[i], collector, callback, from, to);
