@@ -22,10 +22,22 @@ struct VelocityRow {
   PlumbVec3 angular;
 };
 
+class Simulation;
+
+/// Watches a simulation from its start to its end, always outside the timing; for recording and general metrics.
+class SimulationObserver {
+ public:
+  virtual ~SimulationObserver() = default;
+  virtual void started(Simulation&) {}
+  virtual void stepped(Simulation&) {}
+  virtual void ended(Simulation&) noexcept {}  ///< from the destructor
+};
+
 struct SimulationOptions {
   std::vector<std::pair<std::string, PlumbSettingValue>> settings;  ///< already checked against the backend
   std::uint32_t threads = 1;
   bool needs_all = false;          ///< declare every need that the backend has, not just the scene's
+  std::shared_ptr<SimulationObserver> observer = nullptr;
 };
 
 /// Wall times of the steps, and the worst of what the reports said.

@@ -1,0 +1,51 @@
+#include <fmt/format.h>
+
+#include <iostream>
+#include <memory>
+
+#include "cli/output.hpp"
+#include "cli/verbs.hpp"
+#include "run/plan.hpp"
+
+namespace plumb::harness {
+
+namespace {
+
+void print_nothing_found() {
+  std::string folders;
+  for (const auto& folder : backend_path()) folders += "\n  " + folder.string();
+  fmt::print(stderr, "no backend found{}\n", folders.empty() ? "; set PLUMB_BACKEND_PATH to the folder of some" : ", looked in" + folders);
+}
+
+std::string line_for(const BackendDescription& backend) {
+  const std::string name = column(backend.name, 14);
+  if (!backend.error.empty()) return fmt::format("{} {}: {}", name, backend.status, backend.error);
+  return fmt::format("{} {} {} {} {} settings  {}", name, column(backend.version, 10), column(backend.device, 6),
+                     backend.json.value("precision", ""), column(std::to_string(backend.settings.size()), 2),
+                     backend.json.value("description", ""));
+}
+
+}  // namespace
+
+void add_backends(CLI::App& program, int& status) {
+  const auto json = std::make_shared<bool>(false);
+  const auto asked = std::make_shared<std::vector<std::string>>();
+  CLI::App* verb = program.add_subcommand("backends", "List the backends, what they can do, and their settings");
+  verb->add_option("BACKEND", *asked, "Names or files; none: all on the search path");
+  verb->add_flag("--json", *json, "One object a backend, one a line");
+  verb->callback([json, asked, &status] {
+    catch_signals();
+    const auto files = backend_files(*asked);
+    if (files.empty()) print_nothing_found();
+    for (const auto& [name, file] : files) {
+      StudyRequest defaults;
+      WorkerLimits limits = defaults.limits();
+      limits.seconds = 60;
+      const BackendDescription backend = ask_description(name, file, limits);
+      std::cout << (*json ? line_of(backend.json) : line_for(backend)) << std::endl;
+    }
+    status = 0;
+  });
+}
+
+}  // namespace plumb::harness

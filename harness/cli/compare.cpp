@@ -1,0 +1,18 @@
+#include <memory>
+
+#include "cli/study_options.hpp"
+#include "cli/verbs.hpp"
+#include "report/terminal.hpp"
+
+namespace plumb::harness {
+
+void add_compare(CLI::App& program, int& status) {
+  const auto options = std::make_shared<StudyOptions>();
+  options->request.repeat = 3;
+  options->request.out = "plumb-results";
+  CLI::App* verb = program.add_subcommand("compare", "Run scenes on all backends in turns, and hold them side by side");
+  add_study_options(*verb, *options);
+  verb->callback([options, &status] { status = run_and_print(*options, print_comparison); });
+}
+
+}  // namespace plumb::harness

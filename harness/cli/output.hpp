@@ -1,0 +1,39 @@
+// Where output goes and how: formats, the width of the terminal, a progress bar on a terminal only.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "run/json.hpp"
+#include "run/study.hpp"
+
+namespace plumb::harness {
+
+struct OutputOptions {
+  bool json = false, csv = false;
+};
+
+/// Columns of the terminal behind standard output; 0 when it is none.
+[[nodiscard]] int terminal_width();
+/// Colours are for terminals whose user did not set NO_COLOR.
+[[nodiscard]] bool wants_colour();
+
+/// Text, cut to a width and filled up with blanks.
+[[nodiscard]] std::string column(const std::string& text, std::size_t width);
+
+/// A line on standard error that is drawn over itself; nothing where that is no terminal.
+class ProgressBar {
+ public:
+  ProgressBar();
+  ~ProgressBar();
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
+  void draw(const StudyProgress& progress);
+  void clear();
+
+ private:
+  int width_ = 0;
+  bool drawn_ = false;
+};
+
+}  // namespace plumb::harness

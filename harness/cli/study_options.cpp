@@ -1,0 +1,88 @@
+#include "cli/study_options.hpp"
+
+#include <fmt/format.h>
+
+#include <iostream>
+#include <optional>
+
+#include "report/csv.hpp"
+#include "run/study.hpp"
+
+namespace plumb::harness {
+
+namespace {
+
+bool misses_something(const Json& row) { return row.value("status", "error") != "ok" && row.value("status", "") != "unsupported"; }
+
+void say_what_is_left_out(const Plan& plan) {
+  for (const BackendDescription& backend : plan.broken)
+    fmt::print(stderr, "left out: backend {}: {}: {}\n", backend.name, backend.status, backend.error);
+}
+
+}  // namespace
+
+void add_study_options(CLI::App& verb, StudyOptions& options) {
+  StudyRequest& request = options.request;
+  verb.add_option("SCENE", request.scenes, "Scenes: ids (D1), slugs (tower), groups (stacking, core, all) or files")->required();
+  verb.add_option("--backend", request.backends, "Backend by name or file, repeatable; none: all that load")
+      ->take_all()->expected(1)->allow_extra_args(false);
+  verb.add_option("--param", request.parameters, "name=value of a scene's parameter, repeatable; \"50 cm\" and 1/60 are values")
+      ->take_all()->expected(1)->allow_extra_args(false);
+  verb.add_option("--set", request.settings, "[backend:]name=value of a backend's setting, repeatable")
+      ->take_all()->expected(1)->allow_extra_args(false);
+  verb.add_option("--profile", request.profile, "default: as the engine ships; matched: its own damping and sleeping off; tuned: its author's file")
+      ->capture_default_str();
+  verb.add_option("--needs", request.needs, "scene: declare what the scene needs; all: whatever the engine has")->capture_default_str();
+  verb.add_option("--dt", request.dt, "Step in s instead of the scene's");
+  verb.add_option("--seconds", request.seconds, "Simulated time in s instead of the scene's");
+  verb.add_option("--threads", request.threads, "Threads that a world may use")->check(CLI::Range(1u, 4096u))->capture_default_str();
+  verb.add_option("--repeat", request.repeat, "Repetitions, in turns between backends")->check(CLI::Range(1u, 100000u))->capture_default_str();
+  verb.add_option("--timeout", request.timeout, "Wall time in s that a cell may take")->capture_default_str();
+  verb.add_option("--memory-limit", request.memory_limit_mb, "Resident memory in MB that a worker may take; 0: 3/4 of the machine's")
+      ->check(CLI::NonNegativeNumber)->capture_default_str();
+  verb.add_option("--out", request.out, "Folder for results.jsonl; cells that are finished there are not run again")->capture_default_str();
+  verb.add_flag("--record", request.record, "Write trajectories to the folder of --out");
+  verb.add_flag("--json", options.output.json, "One object a cell, one a line, as they finish");
+  verb.add_flag("--csv", options.output.csv, "One line a metric")->excludes("--json");
+  verb.add_flag("--strict", options.strict, "Exit with 1 when a threshold is missed");
+}
+
+int run_and_print(const StudyOptions& options, PrintRows print) {
+  const StudyRequest& request = options.request;
+  if (request.record && request.out.empty()) throw UsageError("--record writes trajectories to a folder: name it with --out DIR");
+  catch_signals();
+  const Plan plan = make_plan(request);
+  say_what_is_left_out(plan);
+  std::optional<ResultsFile> results;
+  if (!request.out.empty()) results.emplace(request.out);
+
+  std::vector<Json> rows;
+  std::size_t known = 0;
+  bool missed = false;
+  {
+    ProgressBar bar;
+    StudyCallbacks callbacks;
+    callbacks.finished = [&](const Json& row, bool is_new) {
+      if (!is_new) ++known;
+      missed = missed || misses_something(row);
+      if (options.output.json) {
+        bar.clear();
+        std::cout << line_of(row) << std::endl;  // whoever reads the pipe has it at once
+      } else {
+        rows.push_back(row);
+      }
+    };
+    callbacks.progress = [&](const StudyProgress& progress) { bar.draw(progress); };
+    run_study(plan, request, results ? &*results : nullptr, callbacks);
+  }
+  if (known > 0) fmt::print(stderr, "{} cells were finished already in {}\n", known, request.out);
+  if (options.output.csv) {
+    write_csv(std::cout, rows);
+  } else if (!options.output.json) {
+    print(std::cout, rows, terminal_width(), wants_colour());
+    if (results) std::cout << "results in " << (results->folder() / "results.jsonl").string() << "\n";
+  }
+  return options.strict && missed ? 1 : 0;
+}
+
+}  // namespace plumb::harness

@@ -1,0 +1,17 @@
+// The verbs of the program; each is added by its own file. A verb sets status when it is used: 0 all that was asked ran,
+// 1 a threshold was missed (where that was asked for). What is asked wrongly is thrown as UsageError.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace plumb::harness {
+
+void add_backends(CLI::App& program, int& status);
+void add_scenes(CLI::App& program, int& status);
+void add_run(CLI::App& program, int& status);
+void add_compare(CLI::App& program, int& status);
+void add_conform(CLI::App& program, int& status);
+void add_report(CLI::App& program, int& status);
+void add_worker(CLI::App& program, int& status);  ///< hidden: what the program starts itself as
+
+}  // namespace plumb::harness

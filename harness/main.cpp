@@ -1,0 +1,92 @@
+// plumb: holds physics backends against the truth. This file adds the verbs and turns failures into exit statuses.
+#include <fmt/format.h>
+#include <signal.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "cli/replay.hpp"
+#include "cli/verbs.hpp"
+#include "run/worker_process.hpp"
+#include "scene/nearest.hpp"
+#include "scene/scene.hpp"
+
+namespace {
+
+using namespace plumb::harness;
+
+constexpr int wrong_question = 2;
+
+std::vector<std::string> names_of(const CLI::App& program) {
+  std::vector<std::string> names;
+  for (const CLI::App* verb : program.get_subcommands([](const CLI::App* app) { return !app->get_group().empty(); }))
+    names.push_back(verb->get_name());
+  return names;
+}
+
+std::vector<std::string> options_of(const CLI::App& verb) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : verb.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  return names;
+}
+
+// CLI11 names what it did not expect; this adds the nearest right word.
+std::string hint(const CLI::App& program, int count, char** arguments) {
+  if (count < 2) return "; known are " + fmt::format("{}", fmt::join(names_of(program), ", "));
+  const auto known = program.get_subcommands([&](const CLI::App* app) { return app->get_name() == arguments[1]; });
+  if (known.empty()) return suggestion(arguments[1], names_of(program));
+  const std::vector<std::string> options = options_of(*known.front());
+  for (int i = 2; i < count; ++i) {
+    const std::string word = std::string(arguments[i]).substr(0, std::string(arguments[i]).find('='));
+    if (word.starts_with("--") && std::find(options.begin(), options.end(), word) == options.end()) return suggestion(word, options);
+  }
+  return "";
+}
+
+int parse_and_do(CLI::App& program, int count, char** arguments, const int& status) {
+  try {
+    if (count >= 2 && arguments[1][0] != '-') {
+      const std::string verb = arguments[1];
+      const std::vector<std::string> verbs = names_of(program);
+      if (verb != "worker" && std::find(verbs.begin(), verbs.end(), verb) == verbs.end())
+        throw UsageError("there is no verb \"" + verb + "\"" + suggestion(verb, verbs));
+    }
+    program.parse(count, arguments);
+    return status;
+  } catch (const CLI::Success& asked_for_help) {
+    return program.exit(asked_for_help);
+  } catch (const CLI::ParseError& error) {
+    fmt::print(stderr, "plumb: {}{}\n", error.what(), hint(program, count, arguments));
+    return wrong_question;
+  } catch (const UsageError& error) {
+    fmt::print(stderr, "plumb: {}\n", error.what());
+    return wrong_question;
+  } catch (const Interrupted& interrupted) {
+    signal(interrupted.signal, SIG_DFL);
+    raise(interrupted.signal);
+    return 128 + interrupted.signal;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "plumb: {}\n", error.what());
+    return wrong_question;
+  }
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  CLI::App program("Holds physics backends against the truth: the same scenes, the same measures, any engine.", "plumb");
+  program.set_version_flag("--version", "plumb " PLUMB_PROGRAM_VERSION);
+  program.require_subcommand(1);
+  int status = 0;
+  add_backends(program, status);
+  add_scenes(program, status);
+  add_run(program, status);
+  add_compare(program, status);
+  add_conform(program, status);
+  add_report(program, status);
+  add_replay(program, status);
+  add_worker(program, status);
+  return parse_and_do(program, count, arguments, status);
+}

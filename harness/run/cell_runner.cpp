@@ -1,0 +1,261 @@
+#include "run/cell_runner.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <new>
+#include <optional>
+
+#include "run/description.hpp"
+#include "run/general_metrics.hpp"
+#include "run/machine.hpp"
+#include "run/metric_rows.hpp"
+#include "run/names.hpp"
+#include "run/trajectory.hpp"
+#include "scene/nearest.hpp"
+
+namespace plumb::harness {
+
+namespace {
+
+/// Keeps Progress up to date: `step` is the one that is about to be done, so that a crash in it is told by its number.
+class Tracker : public SimulationObserver {
+ public:
+  explicit Tracker(Progress& progress) : progress_(progress) {}
+  void started(Simulation& simulation) override {
+    progress_.total = static_cast<std::uint64_t>(std::llround(simulation.scene().seconds / simulation.scene().dt));
+    progress_.step = 1;
+  }
+  void stepped(Simulation& simulation) override { progress_.step = simulation.steps() + 1; }
+
+ private:
+  Progress& progress_;
+};
+
+/// What the cell's own simulation leaves behind when it ends.
+struct Record {
+  bool made = false;
+  std::optional<StepStatistics> statistics;
+  std::uint64_t hash = 0;
+  std::size_t bodies = 0;
+  Json settings = Json::object();
+  std::vector<Metric> metrics;
+  std::string trouble;  ///< why the end could not be read
+};
+
+Json settings_in_force(const Backend& backend, Simulation& simulation) {
+  Json settings = Json::object();
+  ISettings* extension = simulation.world().settings();
+  for (const PlumbSettingInfo* info : backend.settings()) {
+    PlumbSettingValue value = info->default_value;
+    if (extension != nullptr) check(simulation.world(), extension->get_setting(info->name, value));
+    settings[info->name] = json_of(value);
+  }
+  return settings;
+}
+
+class Recorder : public Tracker {
+ public:
+  Recorder(const Backend& backend, Progress& progress, Record& record, const std::string& trajectory)
+      : Tracker(progress), backend_(backend), record_(record), trajectory_file_(trajectory) {}
+
+  void started(Simulation& simulation) override {
+    Tracker::started(simulation);
+    record_.bodies = simulation.poses().size();
+    record_.settings = settings_in_force(backend_, simulation);
+    general_.emplace(simulation);
+    if (!trajectory_file_.empty()) trajectory_.emplace(trajectory_file_, simulation, backend_.info().name);
+  }
+  void stepped(Simulation& simulation) override {
+    general_->stepped(simulation);
+    if (trajectory_) trajectory_->stepped(simulation);
+    Tracker::stepped(simulation);
+  }
+  void ended(Simulation& simulation) noexcept override {
+    try {
+      record_.statistics = simulation.statistics();
+      if (trajectory_) trajectory_->finish();
+      record_.metrics = general_->finish(simulation);
+      record_.hash = simulation.state_hash();
+    } catch (const std::exception& error) {
+      record_.trouble = error.what();
+    }
+  }
+
+ private:
+  const Backend& backend_;
+  Record& record_;
+  std::string trajectory_file_;
+  std::optional<GeneralMetrics> general_;
+  std::optional<TrajectoryWriter> trajectory_;
+};
+
+class CellContext : public MeasureContext {
+ public:
+  CellContext(Backend& backend, const Scene& scene, SimulationOptions options, Progress& progress, std::string trajectory)
+      : backend_(backend), scene_(scene), options_(std::move(options)), progress_(progress), trajectory_(std::move(trajectory)) {}
+
+  [[nodiscard]] const Scene& scene() const override { return scene_; }
+  Simulation simulate(const Scene& scene) override { return simulate(scene, options_); }
+  Simulation simulate(const Scene& scene, const SimulationOptions& options) override {
+    SimulationOptions watched = options;
+    if (!record_.made) {
+      record_.made = true;
+      watched.observer = std::make_shared<Recorder>(backend_, progress_, record_, trajectory_);
+    } else {
+      watched.observer = std::make_shared<Tracker>(progress_);
+    }
+    return {backend_, scene, watched};
+  }
+  [[nodiscard]] const SimulationOptions& options() const override { return options_; }
+  [[nodiscard]] Backend& backend() override { return backend_; }
+  void add(Metric metric) override { metrics_.push_back(std::move(metric)); }
+
+  [[nodiscard]] const Record& record() const { return record_; }
+  /// The measure's, then the referee's where the measure has none of the name.
+  [[nodiscard]] std::vector<Metric> metrics() const {
+    std::vector<Metric> all = metrics_;
+    for (const Metric& general : record_.metrics) {
+      const bool is_new = std::none_of(metrics_.begin(), metrics_.end(),
+                                       [&](const Metric& metric) { return metric.name == general.name; });
+      if (is_new) all.push_back(general);
+    }
+    return all;
+  }
+
+ private:
+  Backend& backend_;
+  const Scene& scene_;
+  SimulationOptions options_;
+  Progress& progress_;
+  std::string trajectory_;
+  Record record_;
+  std::vector<Metric> metrics_;
+};
+
+Scene scene_of(const Json& request) {
+  const SceneFile file = SceneFile::load(request.at("scene").get<std::string>());
+  if (fmt::format("{:016x}", file.hash) != request.at("scene_hash"))
+    throw Error(PLUMB_E_CORRUPT, "the scene file has changed since the program was started: " + file.path.string());
+  Parameters parameters;
+  for (const auto& [name, value] : request.at("parameters").items()) {
+    if (value.is_string()) {
+      parameters[name] = value.get<std::string>();
+    } else {
+      parameters[name] = value.get<double>();
+    }
+  }
+  Scene scene = file.instantiate(parameters);
+  scene.dt = request.at("dt");
+  scene.seconds = request.at("seconds");
+  return scene;
+}
+
+SimulationOptions options_of(const Backend& backend, const Json& request) {
+  SimulationOptions options;
+  options.threads = request.at("threads");
+  options.needs_all = request.at("needs") == "all";
+  for (const PlumbSettingInfo* info : backend.settings()) {
+    const auto asked = request.at("settings").find(info->name);
+    if (asked != request.at("settings").end()) options.settings.emplace_back(info->name, setting_value(*info, *asked));
+  }
+  return options;
+}
+
+const MeasureEntry& measure_named(const std::string& name) {
+  std::vector<std::string> known;
+  for (const MeasureEntry& entry : all_measures()) {
+    if (name == entry.name) return entry;
+    known.emplace_back(entry.name);
+  }
+  throw UsageError("there is no measure \"" + name + "\"" + suggestion(name, known));
+}
+
+struct Outcome {
+  std::string status = "ok", reason;
+};
+
+// Runs the work and says how it ended: what an engine refuses or throws is a row, not the end of a worker.
+Outcome outcome_of(const std::function<void()>& work) {
+  try {
+    work();
+    return {};
+  } catch (const Error& error) {
+    if (error.code() == PLUMB_E_UNSUPPORTED) return {"unsupported", error.what()};
+    if (error.code() == PLUMB_E_OUT_OF_MEMORY) return {"out_of_memory", error.what()};
+    return {"error", result_word(error.code()) + ": " + error.what()};
+  } catch (const std::bad_alloc&) {
+    return {"out_of_memory", "the process could not allocate memory"};
+  } catch (const std::exception& error) {
+    return {"error", error.what()};
+  }
+}
+
+// Steps before the window warm caches and warm starts up and let the scene settle.
+void add_times(Json& answer, const StepStatistics& statistics) {
+  const std::size_t steps = statistics.step_ms.size(), first = steps / 2;
+  answer["steps"] = steps;
+  answer["setup_ms"] = statistics.setup_ms;
+  answer["window"] = steps == 0 ? Json::array() : Json{first + 1, steps};
+  answer["step_ms"] = std::vector<double>(statistics.step_ms.begin() + static_cast<std::ptrdiff_t>(first), statistics.step_ms.end());
+  for (std::size_t phase = 0; phase < phase_words().size() && phase < statistics.phase_ms.size(); ++phase) {
+    if (std::isfinite(statistics.phase_ms[phase])) answer["phase_ms"][phase_words()[phase]] = statistics.phase_ms[phase];
+  }
+}
+
+Json empty_answer() {
+  return {{"status", "ok"},          {"reason", ""},         {"metrics", Json::object()},
+          {"settings", Json::object()}, {"step_ms", Json::array()}, {"window", Json::array()},
+          {"steps", 0},              {"setup_ms", nullptr},  {"phase_ms", Json::object()},
+          {"counts", Json::object()}, {"hash", ""},          {"peak_mb", nullptr}};
+}
+
+void add_record(Json& answer, const Record& record) {
+  answer["settings"] = record.settings;
+  const StepStatistics none;
+  const StepStatistics& statistics = record.statistics ? *record.statistics : none;
+  if (record.statistics) add_times(answer, statistics);
+  answer["counts"] = {{"bodies", record.bodies},
+                      {"contacts_max", statistics.contacts_max},
+                      {"dropped", statistics.dropped},
+                      {"nonfinite", statistics.nonfinite}};
+  if (record.statistics && record.trouble.empty()) answer["hash"] = fmt::format("{:016x}", record.hash);
+}
+
+std::string joined(const std::vector<std::string>& sentences) {
+  std::string text;
+  for (const std::string& sentence : sentences) text += (text.empty() ? "" : "; ") + sentence;
+  return text;
+}
+
+}  // namespace
+
+Json run_cell(Backend& backend, const Json& request, Progress& progress) {
+  Json answer = empty_answer();
+  reset_peak_memory();
+  std::optional<Scene> scene;
+  std::optional<CellContext> context;
+  Outcome outcome = outcome_of([&] {
+    scene.emplace(scene_of(request));
+    const SimulationOptions options = options_of(backend, request);
+    context.emplace(backend, *scene, options, progress, request.value("trajectory", ""));
+    measure_named(scene->measure).run(*context);
+  });
+  if (outcome.status == "ok" && !context->record().trouble.empty()) outcome = {"error", context->record().trouble};
+  if (context) {
+    add_record(answer, context->record());
+    const bool complete = outcome.status == "ok";
+    const Judgement judgement =
+        judge(context->metrics(), complete ? scene->metrics : std::vector<MetricSpec>{}, general_metric_specs());
+    answer["metrics"] = judgement.metrics;
+    if (complete && !judgement.missed.empty()) outcome = {"failed", joined(judgement.missed)};
+  }
+  answer["status"] = outcome.status;
+  answer["reason"] = outcome.reason;
+  answer["peak_mb"] = peak_memory_mb();
+  return answer;
+}
+
+}  // namespace plumb::harness

@@ -1,0 +1,228 @@
+#include "run/general_metrics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <unordered_map>
+
+#include "measure/mechanics.hpp"
+#include "referee/contacts.hpp"
+#include "referee/joints.hpp"
+#include "referee/world_penetration.hpp"
+
+namespace plumb::harness {
+
+namespace {
+
+constexpr std::uint64_t energy_samples = 250;
+constexpr std::uint64_t overlap_samples = 10;
+constexpr std::size_t many_bodies = 3000;  // from here on overlaps are looked for twice only: they cost seconds
+
+// What the scene holds that works on it or stores energy, so that its mechanical energy is no account of the engine.
+struct Nature {
+  bool driven = false;       ///< host forces, motors, kinematic bodies, moving surfaces
+  bool stores = false;       ///< springs
+  bool dissipates = false;   ///< collisions, damping, limits
+  bool closed = true;        ///< nothing outside pushes: momentum is kept
+};
+
+Nature nature_of(const Scene& scene) {
+  Nature nature;
+  nature.driven = (scene.needs & (PLUMB_NEED_FORCES | PLUMB_NEED_KINEMATIC | PLUMB_NEED_SURFACE_VELOCITY)) != 0;
+  nature.dissipates = (scene.needs & (PLUMB_NEED_COLLISION | PLUMB_NEED_DAMPING)) != 0;
+  const bool weightless = scene.gravity.x == 0 && scene.gravity.y == 0 && scene.gravity.z == 0;
+  nature.closed = weightless && !nature.driven && (scene.needs & PLUMB_NEED_DAMPING) == 0;
+  for (const SceneBody& body : scene.bodies) {
+    if (body.desc.motion != PLUMB_DYNAMIC) nature.closed = false;
+    if (body.desc.gravity_scale != 1) nature.driven = true;  // the account knows one gravity only
+    if (body.desc.locks != 0) nature.closed = false;
+  }
+  for (const SceneJoint& joint : scene.joints) {
+    if (!joint.body_a) nature.closed = false;
+    for (std::size_t axis = 0; axis < 6; ++axis) {
+      nature.driven = nature.driven || joint.desc.motors[axis].enabled != 0;
+      nature.stores = nature.stores || joint.desc.springs[axis].enabled != 0;
+      nature.dissipates = nature.dissipates || joint.desc.limits[axis].enabled != 0;
+    }
+  }
+  return nature;
+}
+
+bool has_child_materials(const Scene& scene) {
+  for (const SceneShape& shape : scene.shapes) {
+    for (const SceneShape::Child& child : shape.children) {
+      if (child.material) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+struct GeneralMetrics::State {
+  Nature nature;
+  std::vector<referee::ShapePtr> shapes;
+  std::vector<referee::Mass> masses;
+  std::set<std::pair<std::uint32_t, std::uint32_t>> joined;  ///< bodies that a joint keeps from touching
+  std::unordered_map<PlumbBody, std::uint32_t> index;
+  bool judge_cone = false;
+  std::uint64_t energy_stride = 1, overlap_stride = 1;
+
+  referee::EnergyAccount energy;
+  double kinetic_max = 0, potential_low = 0, potential_high = 0;
+  bool energy_known = false;
+  referee::Vec3 momentum_start = referee::Vec3::Zero();
+  double momentum_sum = 0, momentum_drift = 0;
+  double depth_max = 0, depth_p99 = 0;
+  double gap_max = 0;
+  double cone_max = 0;
+  bool cone_known = false;
+
+  void sample_energy(Simulation& simulation);
+  void sample_geometry(Simulation& simulation);
+  void sample_joints(Simulation& simulation);
+  void sample_cone(Simulation& simulation);
+};
+
+void GeneralMetrics::State::sample_energy(Simulation& simulation) {
+  const auto states = referee::body_states<PoseRow, VelocityRow>(masses, simulation.poses(), simulation.velocities());
+  const referee::Energy now = referee::energy(states, referee::vec(simulation.scene().gravity));
+  energy.add(now.total());
+  kinetic_max = std::max(kinetic_max, now.kinetic());
+  potential_low = energy_known ? std::min(potential_low, now.potential) : now.potential;
+  potential_high = energy_known ? std::max(potential_high, now.potential) : now.potential;
+  const referee::Vec3 momentum = referee::linear_momentum(states);
+  if (!energy_known) momentum_start = momentum;
+  momentum_sum = std::max(momentum_sum, referee::sum_of_momenta(states));
+  momentum_drift = std::max(momentum_drift, (momentum - momentum_start).norm());
+  energy_known = true;
+}
+
+void GeneralMetrics::State::sample_geometry(Simulation& simulation) {
+  const Scene& scene = simulation.scene();
+  if ((scene.needs & PLUMB_NEED_COLLISION) == 0) return;
+  std::vector<referee::PosedShape> posed(scene.bodies.size());
+  for (std::size_t i = 0; i < posed.size(); ++i) {
+    const SceneBody& body = scene.bodies[i];
+    if (!body.shape || (body.desc.flags & PLUMB_BODY_SENSOR) != 0) continue;
+    const PoseRow& row = simulation.poses()[i];
+    posed[i] = {shapes[*body.shape].get(), referee::pose(row.position, row.orientation), body.desc.motion == PLUMB_DYNAMIC};
+  }
+  const auto may_touch = [&](std::uint32_t a, std::uint32_t b) {
+    return plumb::may_touch(scene.bodies[a].desc.filter, scene.bodies[b].desc.filter) && !joined.contains({a, b});
+  };
+  const referee::WorldPenetration found = referee::world_penetration(posed, may_touch);
+  depth_max = std::max(depth_max, found.max);
+  depth_p99 = std::max(depth_p99, found.p99);
+}
+
+void GeneralMetrics::State::sample_joints(Simulation& simulation) {
+  const Scene& scene = simulation.scene();
+  const auto pose_of = [&](std::size_t body) {
+    const PoseRow& row = simulation.poses()[body];
+    return referee::pose(row.position, row.orientation);
+  };
+  for (const SceneJoint& joint : scene.joints) {
+    const referee::Pose a = joint.body_a ? pose_of(*joint.body_a) : referee::Pose{};
+    const double gap = referee::joint_error(joint.desc, a, pose_of(joint.body_b)).position;
+    gap_max = std::isnan(gap) ? gap : std::max(gap_max, gap);
+  }
+}
+
+void GeneralMetrics::State::sample_cone(Simulation& simulation) {
+  if (!judge_cone) return;
+  const Scene& scene = simulation.scene();
+  const std::span<const PlumbContact> contacts = simulation.contacts();
+  const auto states = referee::body_states<PoseRow, VelocityRow>(masses, simulation.poses(), simulation.velocities());
+  std::vector<referee::ContactSample> samples;
+  for (const PlumbContact& contact : contacts) {
+    const auto a = index.find(contact.body_a), b = index.find(contact.body_b);
+    if (a == index.end() || b == index.end()) continue;
+    const double friction = std::sqrt(scene.bodies[a->second].desc.material.friction *
+                                      scene.bodies[b->second].desc.material.friction);
+    samples.push_back({&contact, &states[a->second], &states[b->second], friction});
+  }
+  const double gravity = referee::vec(scene.gravity).norm();
+  const referee::Scale scale = referee::scale_of(referee::total_mass(states), gravity, scene.dt, 1.0);
+  const referee::ContactQuality quality = referee::contact_quality(samples, scale);
+  if (quality.contacts <= quality.without_impulse) return;
+  cone_max = std::max(cone_max, quality.cone_max);
+  cone_known = true;
+}
+
+GeneralMetrics::GeneralMetrics(Simulation& simulation) : state_(std::make_unique<State>()) {
+  State& s = *state_;
+  const Scene& scene = simulation.scene();
+  s.nature = nature_of(scene);
+  for (std::size_t i = 0; i < scene.shapes.size(); ++i) s.shapes.push_back(shape_of(scene, i));
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const SceneBody& body = scene.bodies[i];
+    s.masses.push_back(referee::mass_of(body.desc, body.shape ? s.shapes[*body.shape].get() : nullptr));
+    s.index[simulation.handle(i)] = static_cast<std::uint32_t>(i);
+  }
+  for (const SceneJoint& joint : scene.joints) {
+    if (!joint.body_a || joint.desc.collide_connected != 0) continue;
+    const auto [low, high] = std::minmax(static_cast<std::uint32_t>(*joint.body_a), static_cast<std::uint32_t>(joint.body_b));
+    s.joined.insert({low, high});
+  }
+  s.judge_cone = (scene.needs & PLUMB_NEED_CONTACT_IMPULSES) != 0 && !has_child_materials(scene);
+  const auto steps = static_cast<std::uint64_t>(std::max(1.0, scene.seconds / scene.dt));
+  s.energy_stride = std::max<std::uint64_t>(1, steps / energy_samples);
+  s.overlap_stride = scene.bodies.size() > many_bodies ? steps + 1 : std::max<std::uint64_t>(1, steps / overlap_samples);
+  s.sample_energy(simulation);
+  s.sample_geometry(simulation);
+  s.sample_joints(simulation);
+}
+
+GeneralMetrics::~GeneralMetrics() = default;
+
+void GeneralMetrics::stepped(Simulation& simulation) {
+  State& s = *state_;
+  if (simulation.steps() % s.energy_stride == 0) {
+    s.sample_energy(simulation);
+    s.sample_joints(simulation);
+  }
+  if (simulation.steps() % s.overlap_stride == 0) {
+    s.sample_geometry(simulation);
+    s.sample_cone(simulation);
+  }
+}
+
+std::vector<Metric> GeneralMetrics::finish(Simulation& simulation) {
+  State& s = *state_;
+  const Scene& scene = simulation.scene();
+  std::vector<Metric> metrics;
+  if (simulation.steps() == 0) return metrics;
+  const auto add = [&](const char* name, double value, const std::string& note) {
+    metrics.push_back({name, value, 0.0, std::abs(value), std::nullopt, note});
+  };
+  if (simulation.steps() % s.overlap_stride != 0) s.sample_geometry(simulation), s.sample_cone(simulation);
+  if ((scene.needs & PLUMB_NEED_COLLISION) != 0) {
+    add("penetration_max", s.depth_max, "deepest overlap at sampled times, by the referee");
+    add("penetration_p99", s.depth_p99, "worst 99th percentile of overlaps at a sampled time");
+  }
+  const double reference = s.kinetic_max + (s.potential_high - s.potential_low);
+  const std::string every = s.energy_stride == 1 ? "every step" : "every " + std::to_string(s.energy_stride) + " steps";
+  if (reference > 0 && !s.nature.driven && !s.nature.stores) {
+    add("energy_injected", s.energy.injected() / reference, "of the largest kinetic energy and potential range, sampled " + every);
+    if (!s.nature.dissipates) add("energy_drift", s.energy.drift() / reference, "of the same reference");
+  }
+  if (s.nature.closed && s.momentum_sum > 0)
+    add("momentum_drift", s.momentum_drift / s.momentum_sum, "largest, of the sum of all momenta");
+  if (!scene.joints.empty()) add("joint_gap_max", s.gap_max, "largest at sampled times");
+  if (s.cone_known) add("cone_violation_max", s.cone_max, "of the friction cone, at sampled times");
+  if (simulation.statistics().solver_fallbacks > 0)
+    add("solver_fallbacks", static_cast<double>(simulation.statistics().solver_fallbacks), "steps that another solver finished");
+  return metrics;
+}
+
+std::vector<MetricSpec> general_metric_specs() {
+  std::vector<MetricSpec> specs;
+  for (const auto& [name, unit] : {std::pair{"penetration_max", "m"}, {"penetration_p99", "m"}, {"energy_injected", "1"},
+                                   {"energy_drift", "1"}, {"momentum_drift", "1"}, {"joint_gap_max", "m"},
+                                   {"cone_violation_max", "1"}, {"solver_fallbacks", "1"}})
+    specs.push_back({name, unit, "", std::nullopt, std::nullopt});
+  return specs;
+}
+
+}  // namespace plumb::harness

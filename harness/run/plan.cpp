@@ -1,0 +1,186 @@
+#include "run/plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "run/machine.hpp"
+#include "scene/catalogue.hpp"
+#include "scene/nearest.hpp"
+#include "scene/parameters.hpp"
+
+namespace plumb::harness {
+
+namespace {
+
+struct ParameterRequest {
+  std::string name, text;
+};
+
+std::vector<ParameterRequest> parse_parameters(const std::vector<std::string>& arguments) {
+  std::vector<ParameterRequest> requests;
+  for (const std::string& argument : arguments) {
+    const auto equals = argument.find('=');
+    if (equals == std::string::npos || equals == 0)
+      throw UsageError("--param " + argument + ": a parameter is given as name=value");
+    requests.push_back({argument.substr(0, equals), argument.substr(equals + 1)});
+  }
+  return requests;
+}
+
+// A parameter that one of several scenes has is for that one; what none has is a slip of the pen.
+void check_parameter_names(const std::vector<ParameterRequest>& requests, const std::vector<std::shared_ptr<const SceneFile>>& scenes) {
+  for (const ParameterRequest& request : requests) {
+    std::set<std::string> known;
+    for (const auto& scene : scenes) {
+      for (const ParameterSpec& spec : scene->parameters) known.insert(spec.name);
+    }
+    if (known.contains(request.name)) continue;
+    const std::string who = scenes.size() == 1 ? "scene " + scenes[0]->id + " has no" : "no scene of this run has a";
+    throw UsageError(fmt::format("{} parameter \"{}\"{}", who, request.name, suggestion(request.name, {known.begin(), known.end()})));
+  }
+}
+
+Parameters given_to(const SceneFile& scene, const std::vector<ParameterRequest>& requests) {
+  Parameters given;
+  for (const ParameterRequest& request : requests) {
+    for (const ParameterSpec& spec : scene.parameters) {
+      if (spec.name == request.name) given[request.name] = parse_parameter(spec, request.text);
+    }
+  }
+  return given;
+}
+
+// The scene's variants with the given values over theirs; those that have become equal count once.
+std::vector<Parameters> variants_of(const SceneFile& scene, const Parameters& given) {
+  std::vector<Parameters> variants;
+  for (Parameters variant : scene.variants) {
+    for (const auto& [name, value] : given) variant[name] = value;
+    if (std::find(variants.begin(), variants.end(), variant) == variants.end()) variants.push_back(std::move(variant));
+  }
+  return variants;
+}
+
+std::vector<std::shared_ptr<const SceneFile>> scenes_for(const std::vector<std::string>& asked) {
+  std::vector<std::shared_ptr<const SceneFile>> scenes;
+  std::set<std::string> seen;
+  for (const std::string& what : asked) {
+    for (SceneFile& file : find_scenes(what)) {
+      if (seen.insert(file.path.string()).second) scenes.push_back(std::make_shared<const SceneFile>(std::move(file)));
+    }
+  }
+  return scenes;
+}
+
+void check_positive(const char* option, double value) {
+  if (!(value > 0) || !std::isfinite(value)) throw UsageError(fmt::format("{} {:g}: it must be above 0", option, value));
+}
+
+void check_words(const StudyRequest& request) {
+  const auto check_word = [](const char* option, const std::string& word, const std::vector<std::string>& known) {
+    if (std::find(known.begin(), known.end(), word) == known.end())
+      throw UsageError(fmt::format("{} {}: there is no such choice{}", option, word, suggestion(word, known)));
+  };
+  check_word("--profile", request.profile, profile_words());
+  check_word("--needs", request.needs, {"scene", "all"});
+  if (request.dt) check_positive("--dt", *request.dt);
+  if (request.seconds) check_positive("--seconds", *request.seconds);
+  check_positive("--timeout", request.timeout);
+}
+
+}  // namespace
+
+WorkerLimits StudyRequest::limits() const {
+  WorkerLimits limits;
+  limits.seconds = timeout;
+  limits.memory_bytes = memory_limit_mb > 0 ? static_cast<std::uint64_t>(memory_limit_mb * 1e6) : machine_memory_bytes() / 4 * 3;
+  return limits;
+}
+
+BackendDescription ask_description(const std::string& name, const std::string& file, const WorkerLimits& limits) {
+  WorkerProcess worker(file);
+  const Answer answer = worker.ask({{"request", "describe"}}, limits);
+  if (answer.status != "ok") return broken_backend(name, file, answer.status, answer.reason);
+  try {
+    if (answer.json.at("status") != "ok") return broken_backend(name, file, answer.json.at("status"), answer.json.at("reason"));
+    return read_description(answer.json);
+  } catch (const Json::exception& error) {
+    return broken_backend(name, file, "error", std::string("its description is malformed: ") + error.what());
+  }
+}
+
+std::vector<std::pair<std::string, std::string>> backend_files(const std::vector<std::string>& asked) {
+  const std::vector<FoundBackend> found = find_backends();
+  std::vector<std::pair<std::string, std::string>> files;
+  std::vector<std::string> names;
+  for (const FoundBackend& backend : found) names.push_back(backend.name);
+  if (asked.empty()) {
+    for (const FoundBackend& backend : found) files.emplace_back(backend.name, backend.file.string());
+    return files;
+  }
+  for (const std::string& what : asked) {
+    const bool is_file = what.find('/') != std::string::npos || what.ends_with(".so");
+    if (is_file) {
+      const std::filesystem::path path(what);
+      if (!std::filesystem::exists(path)) throw UsageError("--backend " + what + ": there is no such file");
+      std::string name = path.stem().string();
+      if (name.starts_with("plumb-")) name.erase(0, 6);
+      files.emplace_back(name, std::filesystem::absolute(path).string());
+      continue;
+    }
+    const auto at = std::find(names.begin(), names.end(), what);
+    if (at == names.end()) throw UsageError(fmt::format("there is no backend \"{}\"{}", what, suggestion(what, names)));
+    files.emplace_back(what, found[static_cast<std::size_t>(at - names.begin())].file.string());
+  }
+  std::sort(files.begin(), files.end());
+  files.erase(std::unique(files.begin(), files.end()), files.end());
+  return files;
+}
+
+Plan make_plan(const StudyRequest& request) {
+  check_words(request);
+  const std::vector<std::shared_ptr<const SceneFile>> scenes = scenes_for(request.scenes);
+  const std::vector<ParameterRequest> parameters = parse_parameters(request.parameters);
+  check_parameter_names(parameters, scenes);
+  std::vector<SettingRequest> settings;
+  for (const std::string& argument : request.settings) settings.push_back(parse_setting_request(argument));
+
+  Plan plan;
+  std::vector<BackendDescription> backends;
+  for (const auto& [name, file] : backend_files(request.backends)) {
+    BackendDescription backend = ask_description(name, file, request.limits());
+    const bool unasked = request.backends.empty() && !backend.error.empty();
+    (unasked ? plan.broken : backends).push_back(std::move(backend));
+  }
+  if (backends.empty()) {
+    std::string folders;
+    for (const auto& folder : backend_path()) folders += (folders.empty() ? "" : ", ") + folder.string();
+    throw UsageError("no backend loads; looked in " + (folders.empty() ? "no folder" : folders) +
+                     "; name one by --backend FILE or set PLUMB_BACKEND_PATH");
+  }
+  check_setting_requests(settings, backends);
+
+  std::vector<std::pair<std::shared_ptr<const BackendDescription>, std::string>> built;
+  for (BackendDescription& backend : backends) {
+    std::string build = build_id(backend);
+    built.emplace_back(std::make_shared<const BackendDescription>(std::move(backend)), std::move(build));
+  }
+  for (const auto& file : scenes) {
+    for (const Parameters& variant : variants_of(*file, given_to(*file, parameters))) {
+      const Scene scene = file->instantiate(variant);
+      CellBlock block;
+      for (const auto& [backend, build] : built) {
+        Cell cell{file, scene.parameters, variant, backend, build, Json::object(), request.profile, request.needs,
+                  request.dt.value_or(scene.dt), request.seconds.value_or(scene.seconds), request.threads};
+        cell.settings = settings_for(*backend, file->id, request.profile, settings);
+        block.push_back(std::move(cell));
+      }
+      plan.blocks.push_back(std::move(block));
+    }
+  }
+  return plan;
+}
+
+}  // namespace plumb::harness

@@ -1,0 +1,48 @@
+// From what a user asked to the cells of a study.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "run/cell.hpp"
+#include "run/settings.hpp"
+#include "run/worker_process.hpp"
+
+namespace plumb::harness {
+
+/// What `run` and `compare` are asked.
+struct StudyRequest {
+  std::vector<std::string> scenes;
+  std::vector<std::string> backends;  ///< names or files; empty: all that load
+  std::vector<std::string> parameters, settings;  ///< as typed
+  std::string profile = "default", needs = "scene";
+  std::optional<double> dt, seconds;
+  std::uint32_t threads = 1;
+  std::uint32_t repeat = 1;
+  double timeout = 300;
+  double memory_limit_mb = 0;  ///< 0: three quarters of the machine's memory
+  std::string out;             ///< folder; empty: none
+  bool record = false;
+
+  [[nodiscard]] WorkerLimits limits() const;
+};
+
+/// Cells with the same scene and parameters, one a backend: what is repeated in turns.
+using CellBlock = std::vector<Cell>;
+
+/// Asks a worker of its own what a backend is; whatever goes wrong stands in the description.
+[[nodiscard]] BackendDescription ask_description(const std::string& name, const std::string& file, const WorkerLimits& limits);
+
+/// The files of backends that were asked for by name or path, or all on the search path. Throws UsageError.
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> backend_files(const std::vector<std::string>& asked);
+
+struct Plan {
+  std::vector<CellBlock> blocks;
+  std::vector<BackendDescription> broken;  ///< not asked for by name, and they do not load
+};
+
+/// Throws UsageError for everything that is asked wrongly.
+[[nodiscard]] Plan make_plan(const StudyRequest& request);
+
+}  // namespace plumb::harness

@@ -1,0 +1,118 @@
+#include "run/row.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace plumb::harness {
+
+namespace {
+
+// From good to bad; a row says the worst that happened.
+int badness(const std::string& status) {
+  static const std::vector<std::string> order{"ok", "failed", "unsupported", "error", "out_of_memory", "timeout", "crashed"};
+  return static_cast<int>(std::find(order.begin(), order.end(), status) - order.begin());
+}
+
+std::string status_of(const Answer& answer) { return answer.status == "ok" ? answer.json.value("status", "error") : answer.status; }
+std::string reason_of(const Answer& answer) { return answer.status == "ok" ? answer.json.value("reason", "") : answer.reason; }
+
+Json part_of(const Answer& answer, const char* key, Json otherwise) {
+  return answer.json.is_object() && answer.json.contains(key) ? answer.json[key] : std::move(otherwise);
+}
+
+// Nearest rank (median: the upper of two).
+Json percentile(const std::vector<double>& sorted, double share) {
+  if (sorted.empty()) return nullptr;
+  const auto rank = static_cast<std::size_t>(share * static_cast<double>(sorted.size()));
+  return sorted[std::min(rank, sorted.size() - 1)];
+}
+
+Json time_of(const std::vector<Answer>& answers, const Answer& chosen) {
+  std::vector<double> steps, setups;
+  for (const Answer& answer : answers) {
+    for (const Json& ms : part_of(answer, "step_ms", Json::array())) {
+      if (ms.is_number()) steps.push_back(ms.get<double>());
+    }
+    if (const Json setup = part_of(answer, "setup_ms", nullptr); setup.is_number()) setups.push_back(setup.get<double>());
+  }
+  std::sort(steps.begin(), steps.end());
+  std::sort(setups.begin(), setups.end());
+  return {{"ms_per_step",
+           {{"median", percentile(steps, 0.5)},
+            {"min", percentile(steps, 0)},
+            {"max", percentile(steps, 1)},
+            {"p99", percentile(steps, 0.99)}}},
+          {"window", part_of(chosen, "window", Json::array())},
+          {"steps", part_of(chosen, "steps", 0)},
+          {"setup_ms", percentile(setups, 0.5)},
+          {"phase_ms", part_of(chosen, "phase_ms", Json::object())}};
+}
+
+Json counts_of(const Answer& answer) {
+  Json counts{{"bodies", nullptr}, {"contacts_max", nullptr}, {"dropped", nullptr}, {"nonfinite", nullptr}};
+  counts.update(part_of(answer, "counts", Json::object()));
+  return counts;
+}
+
+void note_determinism(Json& metrics, const std::vector<Answer>& answers) {
+  std::set<std::string> hashes;
+  std::size_t complete = 0;
+  for (const Answer& answer : answers) {
+    const Json hash = part_of(answer, "hash", "");
+    if (!hash.is_string() || hash == "") continue;
+    hashes.insert(hash.get<std::string>());
+    ++complete;
+  }
+  if (complete < 2) return;
+  const bool same = hashes.size() == 1;
+  metrics["determinism"] = {{"value", same ? 1 : 0}, {"unit", "1"},     {"truth", 1},     {"error", same ? 0 : 1},
+                            {"threshold", nullptr},  {"gold", nullptr}, {"pass", nullptr}};
+  metrics["determinism"]["note"] = "final states of " + std::to_string(complete) + " repetitions with " +
+                                   std::to_string(hashes.size()) + (same ? " hash" : " different hashes");
+}
+
+Json peak_of(const std::vector<Answer>& answers) {
+  Json peak = nullptr;
+  for (const Answer& answer : answers) {
+    const Json mb = part_of(answer, "peak_mb", nullptr);
+    if (mb.is_number() && (peak.is_null() || mb.get<double>() > peak.get<double>())) peak = mb;
+  }
+  return peak;
+}
+
+}  // namespace
+
+Json make_row(const Cell& cell, const std::vector<Answer>& answers, const Json& machine) {
+  const Answer& chosen = *std::max_element(answers.begin(), answers.end(), [](const Answer& a, const Answer& b) {
+    return badness(status_of(a)) < badness(status_of(b));
+  });
+  const Json in_force = part_of(chosen, "settings", Json::object());
+  Json metrics = part_of(chosen, "metrics", Json::object());
+  note_determinism(metrics, answers);
+  return {{"scene", cell.scene->id},
+          {"group", cell.scene->group},
+          {"params", json_of(cell.shown)},
+          {"backend", cell.backend->name},
+          {"backend_version", cell.backend->version},
+          {"settings", in_force.empty() ? cell.settings : in_force},
+          {"profile", cell.profile},
+          {"dt", cell.dt},
+          {"seconds", cell.seconds},
+          {"threads", cell.threads},
+          {"status", status_of(chosen)},
+          {"reason", reason_of(chosen)},
+          {"metrics", metrics},
+          {"time", time_of(answers, chosen)},
+          {"counts", counts_of(chosen)},
+          {"hash", part_of(chosen, "hash", "")},
+          {"peak_mb", peak_of(answers)},
+          {"machine", machine},
+          {"slug", cell.scene->slug},
+          {"needs", cell.needs},
+          {"repeats", answers.size()},
+          {"backend_build", cell.backend->build},
+          {"cell", cell_id(cell)}};
+}
+
+}  // namespace plumb::harness

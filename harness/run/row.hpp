@@ -1,0 +1,15 @@
+// A row of results: the object that the command line's contract describes, one a cell.
+#pragma once
+
+#include <vector>
+
+#include "run/cell.hpp"
+#include "run/worker_process.hpp"
+
+namespace plumb::harness {
+
+/// From the answers of all repetitions of a cell (at least one). Times are over the windows of all that ran to their
+/// end; status and metrics are those of the worst. Differing hashes show as the metric "determinism".
+[[nodiscard]] Json make_row(const Cell& cell, const std::vector<Answer>& answers, const Json& machine);
+
+}  // namespace plumb::harness

@@ -1,0 +1,124 @@
+#include "run/study.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <random>
+
+#include "run/machine.hpp"
+#include "run/row.hpp"
+
+namespace plumb::harness {
+
+namespace {
+
+constexpr unsigned shuffle_seed = 20240229;
+
+std::string label_of(const Cell& cell) {
+  std::string label = cell.scene->id;
+  for (const auto& [name, value] : cell.shown)
+    label += " " + name + "=" + std::visit([](const auto& v) { return fmt::format("{}", v); }, value);
+  return label + " " + cell.backend->name;
+}
+
+class Study {
+ public:
+  Study(const Plan& plan, const StudyRequest& request, ResultsFile* results, const StudyCallbacks& callbacks)
+      : plan_(plan), request_(request), results_(results), callbacks_(callbacks), machine_(describe_machine()) {
+    for (const CellBlock& block : plan.blocks) total_ += block.size();
+  }
+
+  void run() {
+    for (const CellBlock& block : plan_.blocks) run_block(block);
+  }
+
+ private:
+  void run_block(const CellBlock& block) {
+    std::vector<const Cell*> open;
+    for (const Cell& cell : block) {
+      const Json* row = results_ == nullptr ? nullptr : results_->find(cell_id(cell));
+      if (row == nullptr) {
+        open.push_back(&cell);
+      } else {
+        hand_on(*row, false);
+      }
+    }
+    std::map<const Cell*, std::vector<Answer>> answers;
+    std::vector<const Cell*> order = open;
+    for (std::uint32_t round = 1; round <= request_.repeat; ++round) {
+      std::shuffle(order.begin(), order.end(), random_);
+      for (const Cell* cell : order) {
+        std::vector<Answer>& mine = answers[cell];
+        if (!mine.empty() && mine.back().status != "ok") continue;  // it would only crash or hang once more
+        if (!mine.empty() && mine.back().json.value("status", "") == "unsupported") continue;
+        mine.push_back(ask(*cell, round));
+      }
+    }
+    for (const Cell* cell : open) finish(*cell, answers[cell]);
+  }
+
+  Answer ask(const Cell& cell, std::uint32_t round) {
+    Answer answer;
+    if (!cell.backend->error.empty()) {
+      answer.status = cell.backend->status;
+      answer.reason = cell.backend->error;
+      return answer;
+    }
+    answer = ask_worker(cell, round);
+    // Somebody ended the worker, perhaps together with this program: that says nothing of the engine, so once more.
+    if (answer.killed_from_outside) answer = ask_worker(cell, round);
+    return answer;
+  }
+
+  Answer ask_worker(const Cell& cell, std::uint32_t round) {
+    std::unique_ptr<WorkerProcess>& worker = workers_[cell.backend->file];
+    if (!worker || !worker->alive()) worker = std::make_unique<WorkerProcess>(cell.backend->file);
+    StudyProgress progress{done_, total_, label_of(cell), 0, 0};
+    if (request_.repeat > 1) progress.cell += fmt::format(" {}/{}", round, request_.repeat);
+    const auto tick = [&](const Progress& now) {
+      if (!callbacks_.progress) return;
+      progress.step = now.step;
+      progress.steps = now.total;
+      callbacks_.progress(progress);
+    };
+    if (callbacks_.progress) callbacks_.progress(progress);
+    return worker->ask(request_of(cell, trajectory_file(cell, round)), request_.limits(), tick);
+  }
+
+  [[nodiscard]] std::string trajectory_file(const Cell& cell, std::uint32_t round) const {
+    if (!request_.record || results_ == nullptr || round != 1) return "";
+    const std::filesystem::path folder = results_->folder() / "trajectories";
+    std::filesystem::create_directories(folder);
+    return std::filesystem::absolute(folder / (cell_id(cell) + ".plt")).string();
+  }
+
+  void finish(const Cell& cell, const std::vector<Answer>& answers) {
+    const Json row = make_row(cell, answers, machine_);
+    const bool killed = std::any_of(answers.begin(), answers.end(), [](const Answer& a) { return a.killed_from_outside; });
+    if (results_ != nullptr && !killed) results_->append(row);  // a killed cell is run again by the next start
+    hand_on(row, true);
+  }
+
+  void hand_on(const Json& row, bool is_new) {
+    ++done_;
+    callbacks_.finished(row, is_new);
+  }
+
+  const Plan& plan_;
+  const StudyRequest& request_;
+  ResultsFile* results_;
+  const StudyCallbacks& callbacks_;
+  Json machine_;
+  std::size_t done_ = 0, total_ = 0;
+  std::map<std::string, std::unique_ptr<WorkerProcess>> workers_;  ///< by file
+  std::mt19937 random_{shuffle_seed};
+};
+
+}  // namespace
+
+void run_study(const Plan& plan, const StudyRequest& request, ResultsFile* results, const StudyCallbacks& callbacks) {
+  Study(plan, request, results, callbacks).run();
+}
+
+}  // namespace plumb::harness
