@@ -6,9 +6,10 @@
 #include "plumb/backend/small_math.hpp"
 
 namespace plumb::bullet {
-namespace {
 
 using backend::Matrix3;
+
+namespace {
 
 struct LocalEntry {
   double fraction;
@@ -48,21 +49,21 @@ std::optional<LocalEntry> enter_box(const PlumbVec3& half, const PlumbVec3& o, c
   return LocalEntry{enter, {normal[0], normal[1], normal[2]}};
 }
 
-Matrix3 to_plumb_matrix(const btMatrix3x3& basis) {
+}  // namespace
+
+Matrix3 to_matrix(const btMatrix3x3& basis) {
   Matrix3 m{};
   for (int i = 0; i < 3; ++i)
     for (int k = 0; k < 3; ++k) m.m[i][k] = static_cast<double>(basis[i][k]);
   return m;
 }
 
-}  // namespace
-
 bool has_exact_ray(const Body& body) {
   return !body.own_shape && body.shape && (body.shape->type == PLUMB_SPHERE || body.shape->type == PLUMB_BOX);
 }
 
 std::optional<RayEntry> ray_enters(const Body& body, const PlumbVec3& origin, const PlumbVec3& translation) {
-  const Matrix3 basis = to_plumb_matrix(body.getWorldTransform().getBasis());
+  const Matrix3 basis = to_matrix(body.getWorldTransform().getBasis());
   const Matrix3 inverse = backend::transpose(basis);
   const PlumbVec3 o = backend::multiply(inverse, backend::sub(origin, to_plumb(body.getWorldTransform().getOrigin())));
   const PlumbVec3 d = backend::multiply(inverse, translation);

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "plumb/backend/small_math.hpp"
 #include "body.hpp"
 
 namespace plumb::bullet {
@@ -11,6 +12,8 @@ struct RayEntry {
   double fraction;   ///< of the translation
   PlumbVec3 normal;  ///< world, unit
 };
+
+[[nodiscard]] backend::Matrix3 to_matrix(const btMatrix3x3& basis);
 
 /// Whether a body is one that ray_enters knows.
 [[nodiscard]] bool has_exact_ray(const Body& body);

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
+#include <optional>
 
+#include "plumb/backend/small_math.hpp"
 #include "exact_rays.hpp"
 #include "world.hpp"
 
@@ -89,26 +91,47 @@ struct RayCallback final : btCollisionWorld::RayResultCallback {
   double first = 0, last = 1;  ///< fractions of the ray between which Bullet is asked
 };
 
-/// Fractions between which a ray is inside of a body's box, a little widened; false where it misses it.
-bool clip(const Body& body, const PlumbRay& ray, double& first, double& last) {
+/// A ray inside of a body's box, in the body's axes.
+struct Clipped {
+  double first = 0, last = 1;  ///< fractions
+  double level = 0;            ///< m that are covered along x and z
+};
+
+/// The box is widened a little; nothing where the ray misses it.
+std::optional<Clipped> clip(const Body& body, const PlumbRay& ray) {
   btVector3 lower, upper;
-  body.getAabb(lower, upper);
+  body.getCollisionShape()->getAabb(btTransform::getIdentity(), lower, upper);
   const btVector3 slack = (upper - lower) * btScalar(0.01) + btVector3(1, 1, 1) * btScalar(0.01);
-  const double origin[3] = {ray.origin.x, ray.origin.y, ray.origin.z};
-  const double along[3] = {ray.translation.x, ray.translation.y, ray.translation.z};
-  first = 0;
-  last = 1;
+  const backend::Matrix3 to_body = backend::transpose(to_matrix(body.getWorldTransform().getBasis()));
+  const PlumbVec3 o = backend::multiply(to_body, backend::sub(ray.origin, to_plumb(body.getWorldTransform().getOrigin())));
+  const PlumbVec3 d = backend::multiply(to_body, ray.translation);
+  const double origin[3] = {o.x, o.y, o.z}, along[3] = {d.x, d.y, d.z};
+  Clipped part;
   for (int i = 0; i < 3; ++i) {
     const auto low = static_cast<double>(lower[i] - slack[i]), high = static_cast<double>(upper[i] + slack[i]);
     if (along[i] == 0) {
-      if (origin[i] < low || origin[i] > high) return false;
+      if (origin[i] < low || origin[i] > high) return std::nullopt;
       continue;
     }
     const double a = (low - origin[i]) / along[i], b = (high - origin[i]) / along[i];
-    first = std::max(first, std::min(a, b));
-    last = std::min(last, std::max(a, b));
+    part.first = std::max(part.first, std::min(a, b));
+    part.last = std::min(part.last, std::max(a, b));
   }
-  return first < last;
+  if (!(part.first < part.last)) return std::nullopt;
+  part.level = (part.last - part.first) * std::hypot(d.x, d.z);
+  return part;
+}
+
+/// Bullet walks a height field's grid cell by cell along the whole ray, also where rounding has moved its end far away.
+/// Where that could take long all cells in the ray's box are asked instead, of which there are no more than in the field.
+bool can_walk_grid(const Body& body, const PlumbRay& ray, const Clipped& part) {
+  if (body.shape->type != PLUMB_HEIGHT_FIELD) return true;
+  constexpr double epsilon = std::numeric_limits<btScalar>::epsilon();
+  const PlumbVec3 &o = ray.origin, &t = ray.translation, at = to_plumb(body.getWorldTransform().getOrigin());
+  const double size = backend::length(o) + part.last * backend::length(t) + backend::length(at);
+  const btVector3& spacing = body.getCollisionShape()->getLocalScaling();
+  const auto cell = static_cast<double>(std::min(spacing.x(), spacing.z()));
+  return part.level + 100 * epsilon * size < 1e4 * cell;
 }
 
 /// Walks the broad phase; bodies that can be answered exactly are, the others go through Bullet's own test.
@@ -136,11 +159,15 @@ struct RayWalk final : btBroadphaseRayCallback {
     return true;
   }
 
-  /// Only for the part of the ray inside of the body's box: Bullet walks a height field's grid cell by cell along all of
-  /// a ray, however far it reaches beyond the field.
+  /// Only for the part of the ray that is inside of the body's box, so that little is lost to rounding.
   void ask_bullet(btCollisionObject& object, const Body& body) {
-    if (!clip(body, ray, bullet.first, bullet.last)) return;
+    const std::optional<Clipped> part = clip(body, ray);
+    if (!part) return;
+    bullet.first = part->first;
+    bullet.last = part->last;
     bullet.m_closestHitFraction = 1;
+    constexpr unsigned int all_cells = btTriangleRaycastCallback::kF_DisableHeightfieldAccelerator;
+    bullet.m_flags = can_walk_grid(body, ray, *part) ? bullet.m_flags & ~all_cells : bullet.m_flags | all_cells;
     btCollisionWorld::rayTestSingle(at(bullet.first), at(bullet.last), &object, object.getCollisionShape(), object.getWorldTransform(), bullet);
   }
 
