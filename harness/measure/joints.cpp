@@ -46,8 +46,7 @@ std::span<const MeasureEntry> joint_measures() {
   static constexpr const char* chain_args[] = {"tip", "top", "motion"};
   static constexpr const char* mode_args[] = {"rods", "tip", "length", "tip_mass", "amplitude"};
   static constexpr const char* catenary_args[] = {"planks", "length", "span", "end"};
-  static constexpr const char* slider_args[] = {"body", "slope"};
-  static constexpr const char* crank_args[] = {"crank", "piston", "crank_length", "rod_length"};
+  static constexpr const char* slider_args[] = {"mechanism", "slope", "crank_length", "rod_length"};
   static constexpr const char* parallelogram_args[] = {"crank", "length", "amplitude"};
   static constexpr const char* motor_args[] = {"disc", "torque", "target", "load"};
   static constexpr const char* stop_args[] = {"rod", "length", "stop"};
@@ -56,8 +55,7 @@ std::span<const MeasureEntry> joint_measures() {
        measure_heavy_chain},
       {"chain_mode", "period of a hanging chain's slowest mode", mode_args, measure_chain_mode},
       {"catenary", "shape and end force of a chain at rest between two points", catenary_args, measure_catenary},
-      {"slider", "distance down a sloping slider, and drift off its axis", slider_args, measure_slider},
-      {"slider_crank", "place of the piston against that of the crank", crank_args, measure_slider_crank},
+      {"slider", "a sled on a slope, or the piston of a slider-crank", slider_args, measure_slider},
       {"parallelogram", "period and gaps of a closed linkage that swings", parallelogram_args, measure_parallelogram},
       {"motor", "speed and angle of a disc on a motor", motor_args, measure_motor},
       {"limit_stop", "a rod that falls on the limit of its hinge", stop_args, measure_limit_stop},

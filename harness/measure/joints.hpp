@@ -15,7 +15,6 @@ void measure_catenary(MeasureContext& context);
 
 // joints_linkages.cpp
 void measure_slider(MeasureContext& context);
-void measure_slider_crank(MeasureContext& context);
 void measure_parallelogram(MeasureContext& context);
 
 // joints_driven.cpp

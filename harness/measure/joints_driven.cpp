@@ -22,8 +22,8 @@ void measure_motor(MeasureContext& context) {
   const std::size_t disc = arg_body(scene, "disc");
   const double torque = arg_number(scene, "torque"), target = arg_number(scene, "target");
   const double load = arg_number(scene, "load"), start = scene.bodies[disc].desc.angular_velocity.z;
-  const double inertia = mass_of_body(scene, disc).inertia(2, 2);
   Simulation simulation = context.simulate(scene);
+  const double inertia = state_of(simulation, disc, mass_of_body(scene, disc)).inertia()(2, 2);
   Unwrapped unwrap;
   double angle = 0;
   while (true) {

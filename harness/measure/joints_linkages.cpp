@@ -9,12 +9,13 @@
 #include "truth/structures.hpp"
 
 namespace plumb::harness {
+namespace {
 
-void measure_slider(MeasureContext& context) {
+void slope(MeasureContext& context) {
   const Scene& scene = context.scene();
-  const std::size_t body = arg_body(scene, "body");
-  const double slope = arg_number(scene, "slope"), g = std::abs(scene.gravity.y);
-  const referee::Vec3 axis(std::cos(slope), -std::sin(slope), 0);
+  const std::size_t body = scene.body("sled");
+  const double angle = arg_number(scene, "slope"), g = std::abs(scene.gravity.y);
+  const referee::Vec3 axis(std::cos(angle), -std::sin(angle), 0);
   const referee::Vec3 start = referee::vec(scene.bodies[body].desc.pose.position);
   const referee::Quat upright = referee::quat(scene.bodies[body].desc.pose.orientation);
   Simulation simulation = context.simulate(scene);
@@ -24,7 +25,7 @@ void measure_slider(MeasureContext& context) {
     off_axis = largest(off_axis, (way - way.dot(axis) * axis).norm());
     turned = largest(turned, referee::quat(now.poses()[body].orientation).angularDistance(upright));
   });
-  const double seconds = simulation.time(), acceleration = g * std::sin(slope);
+  const double seconds = simulation.time(), acceleration = g * std::sin(angle);
   const double truth = acceleration * seconds * seconds / 2;
   const double distance = (referee::vec(simulation.poses()[body].position) - start).dot(axis);
   compare_biased(context, "distance", distance, truth, truth, acceleration * seconds * (seconds + scene.dt) / 2);
@@ -32,9 +33,9 @@ void measure_slider(MeasureContext& context) {
   context.deviation("turned", turned);
 }
 
-void measure_slider_crank(MeasureContext& context) {
+void slider_crank(MeasureContext& context) {
   const Scene& scene = context.scene();
-  const std::size_t crank = arg_body(scene, "crank"), piston = arg_body(scene, "piston");
+  const std::size_t crank = scene.body("crank"), piston = scene.body("piston");
   const double crank_length = arg_number(scene, "crank_length"), rod_length = arg_number(scene, "rod_length");
   const RefereeView view(scene);
   Simulation simulation = context.simulate(scene);
@@ -51,6 +52,15 @@ void measure_slider_crank(MeasureContext& context) {
   context.deviation("gap", gap / rod_length);
   const double driven = scene.joints.front().desc.motors[3].target_velocity * simulation.time();
   context.compare("crank_angle", angle, driven, driven);
+}
+
+}  // namespace
+
+void measure_slider(MeasureContext& context) {
+  const std::string& mechanism = arg_text(context.scene(), "mechanism");
+  if (mechanism == "slope") return slope(context);
+  if (mechanism == "crank") return slider_crank(context);
+  throw UsageError("scene " + context.scene().id + ": mechanism of slider is slope or crank, not " + mechanism);
 }
 
 void measure_parallelogram(MeasureContext& context) {

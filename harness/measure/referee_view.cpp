@@ -1,7 +1,6 @@
 #include "measure/referee_view.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "measure/mechanics.hpp"
@@ -12,8 +11,7 @@ namespace plumb::harness {
 namespace {
 
 std::pair<std::uint32_t, std::uint32_t> ordered(std::size_t a, std::size_t b) {
-  const auto [low, high] = std::minmax(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b));
-  return {low, high};
+  return {static_cast<std::uint32_t>(std::min(a, b)), static_cast<std::uint32_t>(std::max(a, b))};
 }
 
 bool same(const PlumbFilter& a, const PlumbFilter& b) {
@@ -113,10 +111,12 @@ ImpulseAccount::PairForce ImpulseAccount::between(std::size_t body_a, std::size_
 
 referee::Vec3 ImpulseAccount::from_ground() const { return ground_ / seconds_; }
 
-WantedScene with_wanted(MeasureContext& context, PlumbNeeds need) {
-  const auto bit = static_cast<std::uint32_t>(std::countr_zero(need));
-  WantedScene wanted{context.scene(), context.backend().capability(PLUMB_CAP_NEED, bit) != PLUMB_NONE};
-  if (wanted.granted) wanted.scene.needs |= need;
+WantedScene with_wanted(MeasureContext& context, PlumbNeeds needs) {
+  WantedScene wanted{context.scene(), true};
+  for (std::uint32_t bit = 0; bit < PLUMB_NEED_COUNT; ++bit)
+    if ((needs >> bit & 1) != 0 && context.backend().capability(PLUMB_CAP_NEED, bit) == PLUMB_NONE)
+      wanted.granted = false;
+  if (wanted.granted) wanted.scene.needs |= needs;
   return wanted;
 }
 

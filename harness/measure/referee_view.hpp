@@ -69,11 +69,11 @@ class ImpulseAccount {
   double seconds_ = 0;
 };
 
-/// The scene with a need more, where the backend has it: for what is measured if it can be, and left out if not.
+/// The scene with more needs, where the backend has them all: for what is measured if it can be, and left out if not.
 struct WantedScene {
   Scene scene;
   bool granted;
 };
-[[nodiscard]] WantedScene with_wanted(MeasureContext& context, PlumbNeeds need);
+[[nodiscard]] WantedScene with_wanted(MeasureContext& context, PlumbNeeds needs);
 
 }  // namespace plumb::harness

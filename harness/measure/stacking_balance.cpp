@@ -34,7 +34,7 @@ void measure_overhang(MeasureContext& context) {
 }
 
 void measure_four_spheres(MeasureContext& context) {
-  const auto [scene, impulses] = with_wanted(context, PLUMB_NEED_CONTACT_IMPULSES);
+  const auto [scene, impulses] = with_wanted(context, PLUMB_NEED_CONTACTS | PLUMB_NEED_CONTACT_IMPULSES);
   const std::size_t top = arg_body(scene, "top"), ground = arg_body(scene, "ground");
   const std::vector<std::size_t> base = arg_bodies(scene, "base");
   const double radius = scene.shapes[*scene.bodies[top].shape].desc.radius;

@@ -46,7 +46,7 @@ double tilt(const PoseRow& pose) {
 }  // namespace
 
 void measure_tower(MeasureContext& context) {
-  const auto [scene, impulses] = with_wanted(context, PLUMB_NEED_CONTACT_IMPULSES);
+  const auto [scene, impulses] = with_wanted(context, PLUMB_NEED_CONTACTS | PLUMB_NEED_CONTACT_IMPULSES);
   const std::vector<std::size_t> boxes = arg_bodies(scene, "boxes");
   const double height = static_cast<double>(boxes.size()) * side, g = std::abs(scene.gravity.y);
   const RefereeView view(scene);
@@ -112,7 +112,7 @@ void measure_pyramid(MeasureContext& context) {
 }
 
 void measure_mass_ratio(MeasureContext& context) {
-  const auto [scene, impulses] = with_wanted(context, PLUMB_NEED_CONTACT_IMPULSES);
+  const auto [scene, impulses] = with_wanted(context, PLUMB_NEED_CONTACTS | PLUMB_NEED_CONTACT_IMPULSES);
   const std::size_t lower = arg_body(scene, "lower"), upper = arg_body(scene, "upper");
   const RefereeView view(scene);
   Simulation simulation = context.simulate(scene);

@@ -1,0 +1,83 @@
+// All scene files against the measures: every cell can be made, and its measure knows its arguments. The start of scenes
+// whose bodies should just touch is checked by the referee.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "measure/measure.hpp"
+#include "measure/referee_view.hpp"
+
+namespace plumb::harness {
+namespace {
+
+std::vector<SceneFile> scenes_of(const std::string& group) {
+  std::vector<SceneFile> files;
+  for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(PLUMB_SCENES_FOLDER) / group))
+    files.push_back(SceneFile::load(entry.path()));
+  return files;
+}
+
+std::vector<PoseRow> start_of(const Scene& scene) {
+  std::vector<PoseRow> poses;
+  for (const SceneBody& body : scene.bodies) poses.push_back({body.desc.pose.position, body.desc.pose.orientation});
+  return poses;
+}
+
+class SceneGroup : public testing::TestWithParam<const char*> {};
+
+TEST_P(SceneGroup, EveryCellHasItsMeasure) {
+  for (const SceneFile& file : scenes_of(GetParam())) {
+    EXPECT_NO_THROW(static_cast<void>(find_measure(file))) << file.path;
+    EXPECT_EQ(file.group, GetParam());
+    for (const Parameters& variant : file.variants) {
+      const Scene scene = file.instantiate(variant);
+      EXPECT_FALSE(scene.bodies.empty()) << file.path;
+      EXPECT_FALSE(scene.metrics.empty()) << file.path;
+    }
+  }
+}
+
+TEST_P(SceneGroup, JointsFitAtTheStart) {
+  for (const SceneFile& file : scenes_of(GetParam())) {
+    if (file.id == "E3") continue;  // its measure places the planks
+    for (const Parameters& variant : file.variants) {
+      const Scene scene = file.instantiate(variant);
+      EXPECT_LT(RefereeView(scene).joint_gap(start_of(scene)), 1e-12) << file.path;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Groups, SceneGroup, testing::Values("stacking", "joints", "robustness", "scale"),
+                         [](const auto& group) { return std::string(group.param); });
+
+TEST(StackingScenes, NothingOverlapsAtTheStart) {
+  for (const SceneFile& file : scenes_of("stacking")) {
+    const Scene scene = file.instantiate({});
+    EXPECT_LT(RefereeView(scene).penetration(start_of(scene)).max, 1e-12) << file.path;
+  }
+}
+
+TEST(RefereeView, WeighsATowerAndSeesAnOverlap) {
+  const Scene scene =
+      SceneFile::load(std::filesystem::path(PLUMB_SCENES_FOLDER) / "stacking" / "D1-tower.json").instantiate({{"H", 3.0}});
+  const RefereeView view(scene);
+  EXPECT_DOUBLE_EQ(view.total_mass(), 3000);
+  std::vector<PoseRow> poses = start_of(scene);
+  poses[3].position.y -= 0.25;
+  const DepthSummary depth = depth_summary(view.penetration(poses));
+  EXPECT_NEAR(depth.max, 0.25, 1e-12);
+}
+
+TEST(RefereeView, LeavesOutBodiesThatAJointKeepsApart) {
+  const auto folder = std::filesystem::path(PLUMB_SCENES_FOLDER) / "joints";
+  const Scene scene = SceneFile::load(folder / "E1-chain.json").instantiate({{"L", 4.0}});
+  std::vector<PoseRow> poses = start_of(scene);
+  poses[1].position.x -= 0.25;  // into its neighbour, to which it is joined
+  EXPECT_LT(RefereeView(scene).penetration(poses).max, 1e-12);
+  EXPECT_NEAR(RefereeView(scene).joint_gap(poses), 0.25, 1e-12);
+  poses[3].position.x -= 1.75;  // into the same one, to which it is not
+  EXPECT_GT(RefereeView(scene).penetration(poses).max, 0.1);
+}
+
+}  // namespace
+}  // namespace plumb::harness
