@@ -29,7 +29,8 @@ std::string reached_hover(const PageContext& context, const Reached& reached, co
 /// Counts over all problems: what an engine reaches at all, and where it is the cheapest.
 std::string reach_table(const PageContext& context) {
   std::string out =
-      R"(<div class="scroll"><table class="numbers reach"><thead><tr><th scope="col">backend</th><th scope="col">metrics</th>)";
+      R"(<div class="scroll"><table class="numbers reach"><thead><tr><th scope="col">backend</th><th scope="col">)"
+      R"(metrics</th>)";
   for (const double target : target_errors)
     out += fmt::format(R"(<th scope="col">reaches {} %</th><th scope="col">cheapest</th>)", limit_text(100 * target));
   out += "</tr></thead><tbody>";
@@ -49,7 +50,8 @@ std::string reach_table(const PageContext& context) {
 /// The cell that names problem and metric, beside all lines of it. The script moves it to the first line that is shown.
 std::string label_cell(const CostLine& line, std::ptrdiff_t lines) {
   return fmt::format(
-      R"(<th scope="row" class="label" rowspan="{}"><b>{}</b> <span class="variant">{}</span> <span class="metric">{}</span></th>)",
+      R"(<th scope="row" class="label" rowspan="{}"><b>{}</b> <span class="variant">{}</span> <span class="metric">)"
+      R"({}</span></th>)",
       lines, escape_html(line.problem->scene), escape_html(line.problem->variant), escape_html(line.metric));
 }
 
@@ -87,7 +89,8 @@ std::string line_row(const PageContext& context, const CostLine& line, const std
 
 std::string group_table(const PageContext& context, const std::string& group) {
   std::string out =
-      R"(<div class="scroll"><table class="numbers costs"><thead><tr><th scope="col">scene, metric</th><th scope="col" class="name">backend</th>)";
+      R"(<div class="scroll"><table class="numbers costs"><thead><tr><th scope="col">scene, metric</th><th )"
+      R"(scope="col" class="name">backend</th>)";
   for (const double target : target_errors)
     out += fmt::format(R"(<th scope="col">{} %</th>)", limit_text(100 * target));
   out += R"(<th scope="col">floor</th><th scope="col" class="text">settings at 1 %</th></tr></thead>)";
@@ -116,8 +119,10 @@ std::string group_table(const PageContext& context, const std::string& group) {
 
 std::string costs_section(const PageContext& context) {
   std::string out =
-      R"(<section id="cost"><h2>What accuracy costs</h2><p class="about">Wall-clock milliseconds per simulated second of the cheapest )"
-      R"(configuration (time step, settings, threads) among these results that reaches the error. <b>Never</b>: none of them does. )"
+      R"(<section id="cost"><h2>What accuracy costs</h2><p class="about">Wall-clock milliseconds per simulated )"
+      R"(second of the cheapest )"
+      R"(configuration (time step, settings, threads) among these results that reaches the error. <b>Never</b>: )"
+      R"(none of them does. )"
       R"(The cheapest engine of a metric is set off; floor is the smallest error reached, and what it costs.</p>)";
   out += reach_table(context);
   const bool few = context.costs.size() <= 60;

@@ -64,7 +64,8 @@ std::string head_section(const PageContext& context) {
   out += escape_html(context.study.backends.empty() ? std::string("No results") : join_words(context.study.backends));
   out += "</h1>";
   out += fmt::format(
-      R"(<p class="lede">{} Error and time in every figure come from the same run with the same settings; errors are measured )"
+      R"(<p class="lede">{} Error and time in every figure come from the same run with the same settings; errors )"
+      R"(are measured )"
       R"(by the harness's own float64 geometry against exact truths.</p>)",
       escape_html(describe_study(context.study)));
   out += R"(<div class="cards">)";

@@ -25,9 +25,12 @@ std::string backend_style(const Study& study) {
 /// Sections, filter, groups, backends, theme: stays in view.
 std::string toolbar(const PageContext& context) {
   std::string out =
-      R"(<nav class="tools" aria-label="page"><div class="tools-in"><span class="links"><a href="#cost">Cost</a><a href="#matrix">Matrix</a>)"
-      R"(<a href="#precision">Precision</a><a href="#scaling">Scaling</a><a href="#times">Times</a><a href="#runs">Runs</a></span>)"
-      R"(<span class="controls"><input id="filter" type="search" placeholder="filter: D1, stacking, failed" aria-label="filter">)";
+      R"(<nav class="tools" aria-label="page"><div class="tools-in"><span class="links"><a href="#cost">Cost</a><a )"
+      R"(href="#matrix">Matrix</a>)"
+      R"(<a href="#precision">Precision</a><a href="#scaling">Scaling</a><a href="#times">Times</a><a href="#runs">)"
+      R"(Runs</a></span>)"
+      R"(<span class="controls"><input id="filter" type="search" placeholder="filter: D1, stacking, failed" )"
+      R"(aria-label="filter">)";
   out += R"(<select id="group" aria-label="group"><option value="">all groups</option>)";
   for (const std::string& group : context.study.groups) {
     if (!group.empty()) out += fmt::format(R"(<option>{}</option>)", escape_html(group));

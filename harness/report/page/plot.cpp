@@ -200,7 +200,8 @@ std::string render_marker(std::size_t colour, bool filled) {
 
 std::string render_pattern(std::size_t pattern) {
   return fmt::format(
-      R"(<svg class="key wide" viewBox="0 0 28 14" aria-hidden="true"><path class="line" stroke-dasharray="{}" d="M1 7H27"/></svg>)",
+      R"(<svg class="key wide" viewBox="0 0 28 14" aria-hidden="true"><path class="line" stroke-dasharray="{}" )"
+      R"(d="M1 7H27"/></svg>)",
       dashes[pattern % plot_patterns]);
 }
 

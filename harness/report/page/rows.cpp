@@ -67,8 +67,10 @@ std::string table_row(const PageContext& context, const Problem& problem, const 
   std::string decided = row.completed() ? std::string() : row.reason;
   if (worst) decided = fmt::format("{} {}", worst->name, worst->error ? short_number(*worst->error) : "not finite");
   return fmt::format(
-      R"(<tr id="r{}" class="e{}" {}><th scope="row"><button type="button">{}</button></th><td class="name">{}</td><td class="text">{}</td>)"
-      R"(<td class="text" data-v="{}"><span class="chip {}">{}</span></td><td data-v="{}">{}</td><td class="text why">{}</td></tr>)",
+      R"(<tr id="r{}" class="e{}" {}><th scope="row"><button type="button">{}</button></th><td class="name">{}</td>)"
+      R"(<td class="text">{}</td>)"
+      R"(<td class="text" data-v="{}"><span class="chip {}">{}</span></td><td data-v="{}">{}</td><td class="text )"
+      R"(why">{}</td></tr>)",
       row.index, context.backend_index(row.backend),
       filter_key(context, problem, fmt::format("{} {}", row.backend, verdict_title(verdict))),
       escape_html(problem.title()), backend_label(context, row.backend), escape_html(context.study.configuration(row)),
@@ -80,10 +82,13 @@ std::string table_row(const PageContext& context, const Problem& problem, const 
 
 std::string rows_section(const PageContext& context) {
   std::string out =
-      R"(<section id="runs"><h2>Every run</h2><p class="about">Open a line for its metrics, the settings in force, the state hash, the machine, and the )"
-      R"(command that runs it again.</p><div class="scroll"><table class="numbers runs sortable"><thead><tr><th scope="col" data-sort>scene</th>)"
+      R"(<section id="runs"><h2>Every run</h2><p class="about">Open a line for its metrics, the settings in force, )"
+      R"(the state hash, the machine, and the )"
+      R"(command that runs it again.</p><div class="scroll"><table class="numbers runs sortable"><thead><tr><th )"
+      R"(scope="col" data-sort>scene</th>)"
       R"(<th scope="col" class="name" data-sort>backend</th><th scope="col" class="text" data-sort>configuration</th>)"
-      R"(<th scope="col" class="text" data-sort>result</th><th scope="col" data-sort>ms per step</th><th scope="col" class="text" data-sort>decided by</th></tr></thead><tbody>)";
+      R"(<th scope="col" class="text" data-sort>result</th><th scope="col" data-sort>ms per step</th><th )"
+      R"(scope="col" class="text" data-sort>decided by</th></tr></thead><tbody>)";
   Pool settings, machines;
   std::vector<Json> data(context.study.rows.size());
   for (const Problem& problem : context.study.problems) {

@@ -80,9 +80,9 @@ std::string scene_figure(const PageContext& context, const Problem* first, const
                          bodies_at_frame(sizes));
   }
   if (plot.series.empty()) return "";
-  return fmt::format(
-      R"(<figure {}><figcaption>{}</figcaption>{}<p class="frame-note">In a frame of 16.7 ms:</p><ul class="frame-list">{}</ul></figure>)",
-      filter_key(context, *first), escape_html(first->scene), render_plot(plot), table);
+  return fmt::format(R"(<figure {}><figcaption>{}</figcaption>{}<p class="frame-note">In a frame of 16.7 ms:</p><ul )"
+                     R"(class="frame-list">{}</ul></figure>)",
+                     filter_key(context, *first), escape_html(first->scene), render_plot(plot), table);
 }
 
 }  // namespace
@@ -99,7 +99,8 @@ std::string scaling_section(const PageContext& context) {
     i = end;
   }
   std::string out =
-      R"(<section id="scaling"><h2>Scaling</h2><p class="about">Scenes that were run at several sizes, each engine at its defaults: time per step on )"
+      R"(<section id="scaling"><h2>Scaling</h2><p class="about">Scenes that were run at several sizes, each engine )"
+      R"(at its defaults: time per step on )"
       R"(the left axis, the worst error at that size on the right. The line at 16.7 ms is one frame at 60 Hz.</p>)";
   if (figures.empty()) return out + R"(<p class="about">No scene here was run at several sizes.</p></section>)";
   return out + fmt::format(R"(<div class="figures">{}</div></section>)", figures);

@@ -36,11 +36,13 @@ std::string time_cells(const PageContext& context, const ResultRow* row, std::si
 
 std::string ratio_table(const PageContext& context) {
   std::string out =
-      R"(<div class="scroll"><table class="numbers times sortable"><thead><tr><th scope="col" data-sort>scene</th><th scope="col" data-sort>bodies</th>)";
+      R"(<div class="scroll"><table class="numbers times sortable"><thead><tr><th scope="col" data-sort>scene</th>)"
+      R"(<th scope="col" data-sort>bodies</th>)";
   for (const std::string& backend : context.study.backends) {
     const std::size_t index = context.backend_index(backend);
     out += fmt::format(
-        R"(<th scope="col" class="e{0}" data-sort>{1} <small>ms</small></th><th scope="col" class="e{0}" data-sort title="relative to the fastest">&times;</th>)",
+        R"(<th scope="col" class="e{0}" data-sort>{1} <small>ms</small></th><th scope="col" class="e{0}" data-sort )"
+        R"(title="relative to the fastest">&times;</th>)",
         index, backend_label(context, backend));
   }
   out += "</tr></thead><tbody>";
@@ -102,12 +104,12 @@ std::string phase_row(const PageContext& context, const Problem& problem, const 
     }
   }
   if (total - sum > 0.005 * total) add("not told", "rest", total - sum);
-  return fmt::format(
-      R"(<tr class="e{}" {}>{}<td class="name">{}</td><td>{}</td><td class="phases"><div class="bar" style="width:{:.1f}%">{}</div></td></tr>)",
-      context.backend_index(row.backend), filter_key(context, problem, row.backend), problem_header(context, problem),
-      backend_label(context, row.backend),
-      row_link(row, short_number(row.median_ms ? *row.median_ms : sum), row_hover(context, row)),
-      100 * std::max(0.02, total / longest), bar);
+  return fmt::format(R"(<tr class="e{}" {}>{}<td class="name">{}</td><td>{}</td><td class="phases"><div class="bar" )"
+                     R"(style="width:{:.1f}%">{}</div></td></tr>)",
+                     context.backend_index(row.backend), filter_key(context, problem, row.backend),
+                     problem_header(context, problem), backend_label(context, row.backend),
+                     row_link(row, short_number(row.median_ms ? *row.median_ms : sum), row_hover(context, row)),
+                     100 * std::max(0.02, total / longest), bar);
 }
 
 std::string phase_table(const PageContext& context) {
@@ -133,16 +135,20 @@ std::string phase_table(const PageContext& context) {
     legend += fmt::format(R"(<span><i class="p{}"></i>{}</span>)", i % 8, escape_html(phases[i]));
   legend += R"(<span><i class="rest"></i>not told by the engine</span>)";
   return fmt::format(
-      R"(<details class="group"><summary>Time by phase <small>{}</small></summary><p class="legend">{}</p><div class="scroll"><table class="numbers phase-table">)"
-      R"(<thead><tr><th scope="col">scene</th><th scope="col" class="name">backend</th><th scope="col">ms per step</th>)"
-      R"(<th scope="col" class="text">share of the slowest engine's step</th></tr></thead><tbody>{}</tbody></table></div></details>)",
+      R"(<details class="group"><summary>Time by phase <small>{}</small></summary><p class="legend">{}</p><div )"
+      R"(class="scroll"><table class="numbers phase-table">)"
+      R"(<thead><tr><th scope="col">scene</th><th scope="col" class="name">backend</th><th scope="col">ms per )"
+      R"(step</th>)"
+      R"(<th scope="col" class="text">share of the slowest engine's step</th></tr></thead><tbody>{}</tbody></table>)"
+      R"(</div></details>)",
       "as each engine tells it", legend, rows);
 }
 
 }  // namespace
 
 std::string times_section(const PageContext& context) {
-  return R"(<section id="times"><h2>Times side by side</h2><p class="about">Median milliseconds per step at each engine's defaults, and how many times the fastest )"
+  return R"(<section id="times"><h2>Times side by side</h2><p class="about">Median milliseconds per step at each )"
+         R"(engine's defaults, and how many times the fastest )"
          R"(engine's that is. A dagger marks a run that missed a threshold: its time bought a wrong answer.</p>)" +
          ratio_table(context) + phase_table(context) + "</section>";
 }
