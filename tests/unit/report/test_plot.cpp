@@ -59,6 +59,7 @@ TEST(PlotScale, PlacesAndEdges) {
   EXPECT_EQ(scale.place(1e6), 0);
   EXPECT_EQ(scale.beyond(0), Beyond::below);
   EXPECT_EQ(scale.place(0), 100);
+  EXPECT_EQ(scale.beyond(-1), Beyond::below) << "it has no logarithm";
   EXPECT_EQ(scale.beyond(1e-3), Beyond::no);
   EXPECT_NEAR(scale.place(1e-3), (scale.place(1e-4) + scale.place(1e-2)) / 2, 1e-9);
 }
