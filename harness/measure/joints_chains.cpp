@@ -72,8 +72,7 @@ void measure_chain_mode(MeasureContext& context) {
   simulation.run(observe);
   const std::vector<double> passes = aside.crossings(0);
   const std::size_t halves = passes.size() < 3 ? 0 : (passes.size() - 1) / 2 * 2;  // an even number: whole swings
-  const double period =
-      halves > 0 ? 2 * (passes[halves] - passes[0]) / static_cast<double>(halves) : not_measured;
+  const double period = halves > 0 ? 2 * (passes[halves] - passes[0]) / static_cast<double>(halves) : not_measured;
   const double truth = 2 * std::numbers::pi / mode.frequency;
   context.compare("period", period, truth, truth);
   const auto swings = aside.maxima();

@@ -82,8 +82,7 @@ void measure_parallelogram(MeasureContext& context) {
   simulation.run(observe);
   const std::vector<double> passes = angle.crossings(0);
   const std::size_t halves = passes.size() < 3 ? 0 : (passes.size() - 1) / 2 * 2;
-  const double period =
-      halves > 0 ? 2 * (passes[halves] - passes[0]) / static_cast<double>(halves) : not_measured;
+  const double period = halves > 0 ? 2 * (passes[halves] - passes[0]) / static_cast<double>(halves) : not_measured;
   const double truth = truth::parallelogram_period(std::abs(scene.gravity.y), length, amplitude);
   context.compare("period", period, truth, truth);
   context.deviation("gap", gap / length);

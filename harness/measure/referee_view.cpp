@@ -18,6 +18,11 @@ bool same(const PlumbFilter& a, const PlumbFilter& b) {
   return a.category == b.category && a.mask == b.mask && a.group == b.group;
 }
 
+bool is_finite(const PoseRow& row) {
+  const auto& [p, q] = row;
+  return std::isfinite(p.x + p.y + p.z + q.x + q.y + q.z + q.w);
+}
+
 referee::Pose pose_of(const PoseRow& row) { return referee::pose(row.position, row.orientation); }
 
 }  // namespace
@@ -45,12 +50,15 @@ referee::WorldPenetration RefereeView::penetration(std::span<const PoseRow> pose
     if (!body.shape) continue;
     shapes[i] = {shapes_[*body.shape].get(), pose_of(poses[i]), body.desc.motion != PLUMB_STATIC};
   }
-  if (all_may_touch_) return referee::world_penetration(shapes);
-  return referee::world_penetration(shapes, [&](std::uint32_t a, std::uint32_t b) {
+  const auto may_meet = [&](std::uint32_t a, std::uint32_t b) {
     const PlumbBodyDesc &first = scene_->bodies[a].desc, &second = scene_->bodies[b].desc;
     return may_touch(first.filter, second.filter) && ((first.flags | second.flags) & PLUMB_BODY_SENSOR) == 0 &&
            !jointed_.contains({a, b});
-  });
+  };
+  auto result = all_may_touch_ ? referee::world_penetration(shapes) : referee::world_penetration(shapes, may_meet);
+  if (!std::all_of(poses.begin(), poses.end(), is_finite))
+    result.p50 = result.p95 = result.p99 = result.max = result.sum_of_squares = not_measured;
+  return result;
 }
 
 std::vector<referee::BodyState> RefereeView::states(Simulation& simulation) const {
@@ -75,6 +83,7 @@ DepthSummary depth_summary(const referee::WorldPenetration& penetration) {
   double sum = 0;
   for (const referee::Overlap& overlap : penetration.overlaps) sum += overlap.penetration.depth;
   const auto count = static_cast<double>(penetration.overlaps.size());
+  if (std::isnan(penetration.max)) return {not_measured, not_measured, not_measured};
   return {count > 0 ? sum / count : 0, penetration.p99, penetration.max};
 }
 

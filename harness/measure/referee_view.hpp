@@ -19,7 +19,8 @@ class RefereeView {
   /// Scene must outlive the view.
   explicit RefereeView(const Scene& scene);
 
-  /// Overlaps of all pairs that may touch: filters, sensors and joints that keep their bodies apart are heeded.
+  /// Overlaps of all pairs that may touch: filters, sensors and joints that keep their bodies apart are heeded. All
+  /// statistics are NaN when a pose is not finite: a world that exploded has no small depth.
   [[nodiscard]] referee::WorldPenetration penetration(std::span<const PoseRow> poses) const;
   [[nodiscard]] std::vector<referee::BodyState> states(Simulation& simulation) const;
   [[nodiscard]] referee::Energy energy(Simulation& simulation) const;

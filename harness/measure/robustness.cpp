@@ -49,8 +49,10 @@ void deep_overlap(MeasureContext& context) {
     most = largest(most, referee::energy(states, gravity).kinetic());
     for (const referee::BodyState& state : states) fastest = largest(fastest, state.linear.norm());
     momentum = largest(momentum, referee::linear_momentum(states).norm());
-    if (view.penetration(now.poses()).max >= clear * side) cleared = not_measured;
-    else if (std::isnan(cleared)) cleared = now.time();
+    if (!(view.penetration(now.poses()).max < clear * side))
+      cleared = not_measured;
+    else if (std::isnan(cleared))
+      cleared = now.time();
   });
   context.deviation("kinetic_energy", most / (mass * g * side));
   context.deviation("speed", fastest);

@@ -78,7 +78,8 @@ void add_shapes(std::vector<BadCall>& calls) {
   static const std::array<double, 12> line{0, 0, 0, 1, 0, 0, 2, 0, 0, 3, 0, 0};
   static const std::array<double, 12> one{1, 2, 3, 1, 2, 3, 1, 2, 3, 1, 2, 3};
   static const std::array<double, 12> with_nan{0, 0, 0, 1, 0, 0, 0, nan, 1, 1, 1, 1};
-  const auto hull = [&](std::string what, std::string named, const std::array<double, 12>& points, std::uint32_t count) {
+  const auto hull = [&](std::string what, std::string named, const std::array<double, 12>& points,
+                        std::uint32_t count) {
     add(std::move(what), std::move(named), PLUMB_CONVEX_HULL, [&points, count](PlumbShapeDesc& desc) {
       desc.vertices = points.data();
       desc.vertex_count = count;

@@ -1,5 +1,5 @@
-// Metamorphic measures: the truth is an exact symmetry of mechanics. The scene and its transformed copy run side by side;
-// what the copy does, transformed back, must be what the scene does.
+// Metamorphic measures: the truth is an exact symmetry of mechanics. The scene and its transformed copy run side by
+// side; what the copy does, transformed back, must be what the scene does.
 #include <algorithm>
 #include <cmath>
 #include <functional>

@@ -57,9 +57,9 @@ void throughput(MeasureContext& context) {
   context.deviation("energy_injected", energy.injected() / start);
   const referee::Energy end = view.energy(simulation);
   context.deviation("kinetic_energy", end.kinetic() / start);
-  const double height = std::accumulate(boxes.begin(), boxes.end(), 0.0, [&](double sum, std::size_t box) {
-                          return sum + poses[box].position.y;
-                        }) / static_cast<double>(boxes.size());
+  const double height = std::accumulate(boxes.begin(), boxes.end(), 0.0,
+                                        [&](double sum, std::size_t box) { return sum + poses[box].position.y; }) /
+                        static_cast<double>(boxes.size());
   context.add({"mean_height", height, std::nullopt, 0, std::nullopt, ""});
   context.add({"contacts", static_cast<double>(simulation.report().contacts), std::nullopt, 0, std::nullopt, ""});
   if (stack != 0) context.compare("standing", standing(scene, poses, boxes, stack), 1, 1);

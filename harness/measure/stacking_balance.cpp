@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "measure/args.hpp"
+#include "measure/series.hpp"
 #include "measure/stacking.hpp"
 #include "truth/structures.hpp"
 
@@ -28,8 +29,7 @@ void measure_overhang(MeasureContext& context) {
   context.expect("stands", survival.whole(), share <= 1);
   context.add({"survival", survival.time(), std::nullopt, 0, std::nullopt, ""});
   double moved = 0;
-  for (const std::size_t block : blocks)
-    moved = std::max(moved, distance_from_start(scene, simulation.poses(), block));
+  for (const std::size_t block : blocks) moved = largest(moved, distance_from_start(scene, simulation.poses(), block));
   if (share <= 1) context.deviation("creep", moved / (2 * half.x));
 }
 

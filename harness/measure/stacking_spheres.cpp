@@ -19,8 +19,8 @@ void measure_sphere_lattice(MeasureContext& context) {
   const double start = view.energy(simulation).total();
   simulation.run([&](Simulation& now) {
     const referee::WorldPenetration overlaps = view.penetration(now.poses());
-    sum += now.finite() ? overlaps.sum_of_squares : not_measured;
-    deepest = largest(deepest, now.finite() ? overlaps.max : not_measured);
+    sum += overlaps.sum_of_squares;
+    deepest = largest(deepest, overlaps.max);
     energy.add(view.energy(now).total());
   });
   context.deviation("overlap", sum / static_cast<double>(simulation.steps()));

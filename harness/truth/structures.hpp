@@ -33,12 +33,13 @@ struct ChainMode {
 [[nodiscard]] std::vector<ChainMode> chain_modes(double g, std::size_t rods, double rod_mass, double rod_length,
                                                  double tip_mass);
 
-/// Equal rods hinged to each other between two points at one height. tan(phi_i) = (N / 2 - i + 1 / 2) m g / H, i from 1.
+/// Equal rods hinged to each other between two points at one height. tan(phi_i) = (N / 2 - i + 1 / 2) m g / H, i
+/// from 1.
 struct Catenary {
-  double horizontal_force;        ///< H, N
-  double end_force;               ///< on each end, N
-  std::vector<double> slopes;     ///< phi_i, downward positive, one a rod
-  std::vector<double> depths;     ///< of the joints 0..N below the ends, m
+  double horizontal_force;     ///< H, N
+  double end_force;            ///< on each end, N
+  std::vector<double> slopes;  ///< phi_i, downward positive, one a rod
+  std::vector<double> depths;  ///< of the joints 0..N below the ends, m
   [[nodiscard]] double sag() const { return depths[depths.size() / 2]; }
 };
 [[nodiscard]] Catenary catenary(double g, std::size_t rods, double rod_mass, double rod_length, double span);

@@ -1,8 +1,10 @@
-// All scene files against the measures: every cell can be made, and its measure knows its arguments. The start of scenes
-// whose bodies should just touch is checked by the referee.
+// All scene files against the measures: every cell can be made, and its measure knows its arguments. The start of
+// scenes whose bodies should just touch is checked by the referee.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
+#include <limits>
 
 #include "measure/measure.hpp"
 #include "measure/referee_view.hpp"
@@ -58,14 +60,16 @@ TEST(StackingScenes, NothingOverlapsAtTheStart) {
 }
 
 TEST(RefereeView, WeighsATowerAndSeesAnOverlap) {
-  const Scene scene =
-      SceneFile::load(std::filesystem::path(PLUMB_SCENES_FOLDER) / "stacking" / "D1-tower.json").instantiate({{"H", 3.0}});
+  const Scene scene = SceneFile::load(std::filesystem::path(PLUMB_SCENES_FOLDER) / "stacking" / "D1-tower.json")
+                          .instantiate({{"H", 3.0}});
   const RefereeView view(scene);
   EXPECT_DOUBLE_EQ(view.total_mass(), 3000);
   std::vector<PoseRow> poses = start_of(scene);
   poses[3].position.y -= 0.25;
   const DepthSummary depth = depth_summary(view.penetration(poses));
   EXPECT_NEAR(depth.max, 0.25, 1e-12);
+  poses[1].position.x = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(std::isnan(depth_summary(view.penetration(poses)).max));
 }
 
 TEST(RefereeView, LeavesOutBodiesThatAJointKeepsApart) {
