@@ -6,6 +6,22 @@
 namespace plumb::ode {
 namespace {
 
+/// ODE was left in the middle of something: taking it apart would only find that out with an abort. So what is left of
+/// a lost world stays in memory, and known to leak checkers.
+struct Wreck {
+  dWorldID world;
+  dSpaceID space;
+  dJointGroupID contacts;
+  std::vector<std::unique_ptr<Shape>> shapes;
+};
+
+void keep_wreck(Wreck wreck) {
+  static std::mutex mutex;
+  static auto& wrecks = *new std::vector<Wreck>;  // never destroyed: its shapes are still referred to
+  const std::scoped_lock lock(mutex);
+  wrecks.push_back(std::move(wreck));
+}
+
 dWorldID create_ode_world() {
   ensure_ode();
   return dWorldCreate();
@@ -39,8 +55,7 @@ World::World(const WorldInit& init)
 
 World::~World() {
   if (!usable_) {
-    // ODE was left in the middle of something; taking it apart would only find that out with an abort.
-    for (auto& shape : shapes_) (void)shape.release();
+    keep_wreck({world_, space_, contacts_.group(), std::move(shapes_)});
     return;
   }
   const ErrorScope scope(init_);
