@@ -41,6 +41,7 @@ class Body final : public btRigidBody {
     coasts = !linear.isZero() || !angular.isZero();
   }
 
+  bool offset_frame = false;  ///< whether body_to_mass differs from identity; first, because every read asks it
   PlumbBody handle;
   PlumbMotion motion;
   std::uint32_t flags;
@@ -51,7 +52,6 @@ class Body final : public btRigidBody {
   PlumbFilter filter;
   std::shared_ptr<const Shape> shape;            ///< null: none
   std::unique_ptr<btCollisionShape> own_shape;   ///< of this body alone; null where the shared one will do
-  bool offset_frame = false;                     ///< whether the two transforms below differ from identity
   btTransform body_to_mass = btTransform::getIdentity();  ///< mass frame seen from the body's frame
   btTransform mass_to_body = btTransform::getIdentity();
   bool was_asleep = false;       ///< after the step before

@@ -51,16 +51,6 @@ bool World::is_solved(const btPersistentManifold& manifold) const {
   return (a.is(PLUMB_DYNAMIC) && a.isActive()) || (b.is(PLUMB_DYNAMIC) && b.isActive());
 }
 
-std::uint32_t World::count_contacts() {
-  std::uint32_t count = 0;
-  btDispatcher& dispatcher = parts_.dispatcher;
-  for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
-    const btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(i);
-    if (manifold.getNumContacts() > 0 && is_solved(manifold)) count += static_cast<std::uint32_t>(manifold.getNumContacts());
-  }
-  return count;
-}
-
 /// Points get a number of their own in Bullet's user data, which lives as long as the point persists.
 void World::gather_contacts() {
   contacts_.clear();

@@ -10,21 +10,19 @@
 namespace plumb::bullet {
 namespace {
 
-/// Keeps the worst residual of the islands, which Bullet solves one after the other.
+/// Counts over the islands, which Bullet solves one after the other: the points and the worst residual.
 template <class Solver>
-class WorstResidual final : public Solver {
+class Counting final : public Solver {
  public:
   using Solver::Solver;
 
-  btScalar solveGroup(btCollisionObject** bodies, int body_count, btPersistentManifold** manifolds, int manifold_count,
-                      btTypedConstraint** constraints, int constraint_count, const btContactSolverInfo& info,
-                      btIDebugDraw* drawer, btDispatcher* dispatcher) override {
-    const btScalar result = Solver::solveGroup(bodies, body_count, manifolds, manifold_count, constraints,
-                                               constraint_count, info, drawer, dispatcher);
+  btScalar solveGroupCacheFriendlyFinish(btCollisionObject** bodies, int body_count, const btContactSolverInfo& info) override {
+    contacts += static_cast<std::uint32_t>(this->m_tmpSolverContactConstraintPool.size());
     worst = std::max(worst, static_cast<double>(this->m_leastSquaresResidual));
-    return result;
+    return Solver::solveGroupCacheFriendlyFinish(bodies, body_count, info);
   }
 
+  std::uint32_t contacts = 0;
   double worst = 0;
 };
 
@@ -33,11 +31,13 @@ class Iterative final : public TrackedSolver {
  public:
   btConstraintSolver& solver() override { return solver_; }
   void begin_step() override { solver_.worst = 0; }
+  void begin_sub_step() override { solver_.contacts = 0; }
+  [[nodiscard]] std::uint32_t contacts() const override { return solver_.contacts; }
   [[nodiscard]] double residual() const override { return solver_.worst; }
   [[nodiscard]] bool fell_back() const override { return false; }
 
  private:
-  WorstResidual<Solver> solver_;
+  Counting<Solver> solver_;
 };
 
 template <class Direct>
@@ -45,12 +45,14 @@ class Mlcp final : public TrackedSolver {
  public:
   btConstraintSolver& solver() override { return solver_; }
   void begin_step() override { solver_.setNumFallbacks(0); }
+  void begin_sub_step() override { solver_.contacts = 0; }
+  [[nodiscard]] std::uint32_t contacts() const override { return solver_.contacts; }
   [[nodiscard]] double residual() const override { return std::numeric_limits<double>::quiet_NaN(); }
   [[nodiscard]] bool fell_back() const override { return solver_.getNumFallbacks() > 0; }
 
  private:
   Direct direct_;
-  btMLCPSolver solver_{&direct_};
+  Counting<btMLCPSolver> solver_{&direct_};
 };
 
 }  // namespace

@@ -14,6 +14,9 @@ class TrackedSolver {
   virtual ~TrackedSolver() = default;
   [[nodiscard]] virtual btConstraintSolver& solver() = 0;
   virtual void begin_step() = 0;
+  virtual void begin_sub_step() = 0;
+  /// Contact points that were solved since begin_sub_step.
+  [[nodiscard]] virtual std::uint32_t contacts() const = 0;
   /// The largest squared change of an impulse in the last iteration of any island, N2 s2; NaN when not known.
   [[nodiscard]] virtual double residual() const = 0;
   /// Whether a direct solver gave up since begin_step and sequential impulses took its place.

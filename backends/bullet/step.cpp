@@ -49,6 +49,7 @@ void World::before_motion(btScalar h) {
 }
 
 void World::before_solve() {
+  solver_->begin_sub_step();
   if (needs(PLUMB_NEED_SURFACE_VELOCITY)) apply_surface_velocities(parts_.dispatcher);
   if (joint_count_ != 0) prepare_joints(static_cast<btScalar>(h_));
 }
@@ -97,7 +98,7 @@ void World::track_sleep() {
 
 PlumbResult World::wait(PlumbStepReport& report) {
   report.pairs = static_cast<std::uint32_t>(parts_.broadphase.getOverlappingPairCache()->getNumOverlappingPairs());
-  report.contacts = count_contacts();
+  report.contacts = solver_->contacts();
   report.residual = solver_->residual();
   if (solver_->fell_back()) report.remarks |= PLUMB_REMARK_SOLVER_FELL_BACK;
   count_bodies(report);
@@ -109,7 +110,7 @@ void World::count_bodies(PlumbStepReport& report) const {
   const btAlignedObjectArray<btRigidBody*>& moving = world_.getNonStaticRigidBodies();
   for (int i = 0; i < moving.size(); ++i) {
     const Body& body = *our_body(moving[i]);
-    if (!body.is(PLUMB_DYNAMIC)) continue;
+    if (body.isStaticOrKinematicObject()) continue;
     if (!body.is_asleep()) ++report.awake;
     // A sum of products with 0 is 0 unless something in it is infinite or not a number.
     const btTransform& pose = body.getWorldTransform();

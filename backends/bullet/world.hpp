@@ -129,7 +129,6 @@ class World final : public IPhysicsWorld,
 
   // contacts.cpp
   [[nodiscard]] bool is_solved(const btPersistentManifold& manifold) const;
-  [[nodiscard]] std::uint32_t count_contacts();
   void gather_contacts();
   void add_sub_step_impulses();
   void track_touches();
