@@ -143,6 +143,7 @@ std::vector<MetricSpec> read_metrics(const Node& metrics) {
   std::vector<MetricSpec> specs;
   for (const auto& [name, node] : metrics.members()) {
     node.only(scene_keys().at("metric"));
+    if (const auto when = node.find("when"); when && when->number() == 0) continue;
     MetricSpec spec;
     spec.name = name;
     spec.unit = read_unit(node.at("unit"));

@@ -40,7 +40,8 @@ const char* const good = R"({
       "motors": { "rx": { "target_velocity": 1, "max_force": "n" } } }
   ],
   "measure": { "kind": "m", "body": "{kind}0_0", "value": "=2 * n", "list": ["=n", "n"] },
-  "metrics": { "m": { "unit": "m", "doc": "d", "threshold": "dt * n", "gold": 0 } }
+  "metrics": { "m": { "unit": "m", "doc": "d", "threshold": "dt * n", "gold": 0 },
+    "box_only": { "unit": "1", "doc": "d", "when": "kind == box" } }
 })";
 
 class SceneFiles : public testing::Test {
@@ -106,7 +107,9 @@ TEST_F(SceneFiles, BecomeScenes) {
   EXPECT_EQ(scene.measure_args.at("value"), 6.0);
   EXPECT_EQ(scene.measure_args.at("list").at(0), 3.0);
   EXPECT_EQ(scene.measure_args.at("list").at(1), "n");
-  EXPECT_DOUBLE_EQ(*scene.metrics.at(0).threshold, 3.0 / 60);
+  ASSERT_EQ(scene.metrics.size(), 2u);
+  EXPECT_EQ(file.instantiate({}).metrics.size(), 1u);
+  EXPECT_DOUBLE_EQ(*scene.metrics.at(1).threshold, 3.0 / 60);
   EXPECT_EQ(scene.number("n"), 3);
   EXPECT_EQ(scene.word("kind"), "box");
   EXPECT_EQ(file.instantiate({}).bodies.size(), 3u);
