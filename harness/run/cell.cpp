@@ -29,6 +29,15 @@ Json json_of(const Parameters& parameters) {
   return json;
 }
 
+Scene instantiate_with(const SceneFile& file, const Parameters& parameters, std::optional<double> dt,
+                       std::optional<double> seconds) {
+  if (!dt && !seconds) return file.instantiate(parameters);
+  SceneFile changed = file;
+  if (dt) changed.json["dt"] = *dt;
+  if (seconds) changed.json["seconds"] = *seconds;
+  return changed.instantiate(parameters);
+}
+
 std::string cell_id(const Cell& cell) {
   // Sorted by key, so that the order in which settings were typed makes no difference.
   const nlohmann::json identity{{"scene", cell.scene->hash},

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "run/description.hpp"
@@ -24,6 +25,10 @@ struct Cell {
 };
 
 [[nodiscard]] Json json_of(const Parameters& parameters);
+
+/// The scene with these times in place of its file's, seen by everything in the file that is worked out from them.
+[[nodiscard]] Scene instantiate_with(const SceneFile& file, const Parameters& parameters, std::optional<double> dt,
+                                     std::optional<double> seconds);
 
 /// 16 hexadecimal digits over everything that makes the cell what it is: scene text, parameters, backend build,
 /// settings, profile, needs, dt, seconds, threads. Equal in every process.

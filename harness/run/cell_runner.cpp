@@ -8,6 +8,7 @@
 #include <new>
 #include <optional>
 
+#include "run/cell.hpp"
 #include "run/description.hpp"
 #include "run/general_metrics.hpp"
 #include "run/machine.hpp"
@@ -147,10 +148,7 @@ Scene scene_of(const Json& request) {
       parameters[name] = value.get<double>();
     }
   }
-  Scene scene = file.instantiate(parameters);
-  scene.dt = request.at("dt");
-  scene.seconds = request.at("seconds");
-  return scene;
+  return instantiate_with(file, parameters, request.at("dt").get<double>(), request.at("seconds").get<double>());
 }
 
 SimulationOptions options_of(const Backend& backend, const Json& request) {

@@ -169,11 +169,11 @@ Plan make_plan(const StudyRequest& request) {
   }
   for (const auto& file : scenes) {
     for (const Parameters& variant : variants_of(*file, given_to(*file, parameters))) {
-      const Scene scene = file->instantiate(variant);
+      const Scene scene = instantiate_with(*file, variant, request.dt, request.seconds);
       CellBlock block;
       for (const auto& [backend, build] : built) {
         Cell cell{file, scene.parameters, variant, backend, build, Json::object(), request.profile, request.needs,
-                  request.dt.value_or(scene.dt), request.seconds.value_or(scene.seconds), request.threads};
+                  scene.dt, scene.seconds, request.threads};
         cell.settings = settings_for(*backend, file->id, request.profile, settings);
         block.push_back(std::move(cell));
       }

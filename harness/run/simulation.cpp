@@ -172,6 +172,7 @@ Simulation::Simulation(Backend& backend, const Scene& scene, const SimulationOpt
   s.poses.resize(s.bodies.size());
   s.velocities.resize(s.bodies.size());
   s.statistics.step_ms.reserve(s.steps_total);
+  std::fill(std::begin(s.report.phase_seconds), std::end(s.report.phase_seconds), not_known);
   s.read_poses();
   s.take_stock();
   if (s.options.observer) s.options.observer->started(*this);
