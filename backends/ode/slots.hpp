@@ -1,12 +1,36 @@
 // Objects by the slot of their handle.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <memory>
 #include <vector>
 
 #include "plumb/physics_world.hpp"
 
 namespace plumb::ode {
+
+/// Empty objects, made many at a time: they lie together in memory, and so do ODE's own objects, which would otherwise
+/// be scattered between ours. Worth some percent of a step's time.
+template <class Object>
+class Stock {
+ public:
+  std::unique_ptr<Object> take() {
+    if (stock_.empty()) refill();
+    auto object = std::move(stock_.back());
+    stock_.pop_back();
+    return object;
+  }
+
+ private:
+  void refill() {
+    stock_.resize(batch_);
+    for (auto object = stock_.rbegin(); object != stock_.rend(); ++object) *object = std::make_unique<Object>();
+    batch_ = std::min<std::size_t>(2 * batch_, 1024);
+  }
+  std::vector<std::unique_ptr<Object>> stock_;
+  std::size_t batch_ = 16;
+};
 
 /// Puts an object in its handle's slot.
 template <class Object>

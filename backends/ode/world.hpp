@@ -17,6 +17,7 @@
 #include "plumb/physics_world.hpp"
 #include "settings.hpp"
 #include "shapes.hpp"
+#include "slots.hpp"
 
 namespace plumb::ode {
 
@@ -128,6 +129,8 @@ class World final : public IPhysicsWorld,
   PairEvents events_;
   unsigned long seed_;
 
+  Stock<Body> body_stock_;
+  Stock<GeomTag> tag_stock_;
   std::vector<std::unique_ptr<Shape>> shapes_;  // by slot
   std::vector<std::unique_ptr<Body>> bodies_;   // by slot
   std::vector<std::unique_ptr<Joint>> joints_;  // by slot

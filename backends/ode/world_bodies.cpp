@@ -32,7 +32,7 @@ PlumbResult World::destroy_bodies(std::span<const PlumbBody> ids) {
 }
 
 std::unique_ptr<Body> World::make_body(const PlumbBodyDesc& desc, PlumbBody handle) {
-  auto body = std::make_unique<Body>();
+  auto body = body_stock_.take();
   body->handle = handle;
   body->motion = desc.motion;
   body->sensor = (desc.flags & PLUMB_BODY_SENSOR) != 0;
@@ -72,7 +72,7 @@ void World::make_body_geoms(Body& body) {
   std::vector<PlacedGeom> placed;
   make_geoms(*body.shape, space_, placed);
   for (const PlacedGeom& geom : placed) {
-    body.geoms.push_back(std::make_unique<GeomTag>());
+    body.geoms.push_back(tag_stock_.take());
     GeomTag& tag = *body.geoms.back();
     tag.placed = geom;
     if (geom.material != nullptr) tag.own_material = *geom.material;
@@ -112,7 +112,8 @@ void World::enlist(Body& body) {
 }
 
 void World::strike_off(const Body& body) {
-  for (auto* list : {&order_, &dynamic_, &kinematic_, &damped_, &locked_, &weighed_, &pushed_}) std::erase(*list, &body);
+  for (auto* list : {&order_, &dynamic_, &kinematic_, &damped_, &locked_, &weighed_, &pushed_})
+    std::erase(*list, &body);
   std::erase(dynamic_ids_, body.body);
 }
 
