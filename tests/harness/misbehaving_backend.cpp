@@ -1,0 +1,164 @@
+// A backend of particles that does, when asked by its setting "misbehaviour" or by PLUMB_MISBEHAVE, what engines do on
+// bad days. Everything that happens before there is a world is asked for by the variable only.
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "plumb/backend.hpp"
+
+namespace {
+
+const char* const choices[] = {"none",  "segfault", "abort", "hang",  "eat_memory", "nan",
+                               "throw", "exit",     "print", "refuse", "garble"};
+
+std::string from_environment() {
+  const char* word = std::getenv("PLUMB_MISBEHAVE");
+  return word == nullptr ? "none" : word;
+}
+
+const PlumbSettingInfo setting_list[] = {
+    {"misbehaviour", "", "what goes wrong, and it does so in the tenth step", PLUMB_SETTING_CHOICE, PLUMB_ROLE_BEHAVIOUR, 0,
+     sizeof choices / sizeof *choices, choices, 0, 0, {PLUMB_SETTING_CHOICE, 0, 0, choices[0]}},
+    {"iterations", "1", "does nothing", PLUMB_SETTING_INT, PLUMB_ROLE_QUALITY, 0, 0, nullptr, 1, 100, {PLUMB_SETTING_INT, 0, 10, nullptr}},
+    {"pause", "s", "time that a step sleeps", PLUMB_SETTING_FLOAT, PLUMB_ROLE_SPEED, 0, 0, nullptr, 0, 10, {PLUMB_SETTING_FLOAT, 0, 0, nullptr}},
+};
+
+class MisbehavingWorld final : public plumb::IPhysicsWorld, public plumb::ISettings {
+ public:
+  explicit MisbehavingWorld(const plumb::WorldInit& init) : gravity_(init.desc.gravity) {}
+
+  static const PlumbBackendInfo& info() {
+    static const PlumbBackendInfo value = {sizeof value, PLUMB_DETERMINISM_THREADS, "misbehaving", "1", "misbehaving-1",
+                                           "goes wrong as asked", "cpu", "", PLUMB_F64, 1};
+    return value;
+  }
+  static PlumbDegree capability(PlumbCapability kind, std::uint32_t a, std::uint32_t, const char*& note) {
+    note = "particles only";
+    if (kind == PLUMB_CAP_SHAPE) return PLUMB_NATIVE;
+    if (kind == PLUMB_CAP_NEED) return a == 0 ? PLUMB_NATIVE : PLUMB_NONE;
+    if (kind == PLUMB_CAP_FIELD_READ || kind == PLUMB_CAP_FIELD_WRITE) return a <= PLUMB_FIELD_VELOCITY ? PLUMB_NATIVE : PLUMB_NONE;
+    return PLUMB_NONE;
+  }
+  static std::span<const PlumbSettingInfo> setting_infos() { return setting_list; }
+
+  plumb::ISettings* settings() override { return this; }
+  PlumbResult get_setting(const char* name, PlumbSettingValue& value) override { return value = *find(name), PLUMB_OK; }
+  PlumbResult set_setting(const char* name, const PlumbSettingValue& value) override {
+    PlumbSettingValue& mine = *find(name);
+    mine = value;
+    for (const char* choice : choices) {
+      if (value.choice != nullptr && std::strcmp(choice, value.choice) == 0) mine.choice = choice;
+    }
+    return PLUMB_OK;
+  }
+
+  PlumbResult create_shapes(std::span<const PlumbShapeDesc>, std::span<PlumbShape>) override { return PLUMB_OK; }
+  PlumbResult destroy_shapes(std::span<const PlumbShape>) override { return PLUMB_OK; }
+  PlumbResult create_bodies(std::span<const PlumbBodyDesc> descs, std::span<PlumbBody> ids) override {
+    for (std::size_t i = 0; i < descs.size(); ++i) {
+      if (plumb::slot_of(ids[i]) >= bodies_.size()) bodies_.resize(plumb::slot_of(ids[i]) + 1);
+      bodies_[plumb::slot_of(ids[i])] = descs[i];
+    }
+    return PLUMB_OK;
+  }
+  PlumbResult destroy_bodies(std::span<const PlumbBody> ids) override {
+    for (const PlumbBody id : ids) bodies_[plumb::slot_of(id)].motion = PLUMB_STATIC;
+    return PLUMB_OK;
+  }
+  PlumbResult read(PlumbField field, std::span<const PlumbBody> ids, plumb::Rows rows) override {
+    for (std::size_t i = 0; i < ids.size(); ++i) rows.put(i, row(field, ids[i]), plumb::columns_of(field));
+    return PLUMB_OK;
+  }
+  PlumbResult write(PlumbField field, std::span<const PlumbBody> ids, plumb::ConstRows rows) override {
+    for (std::size_t i = 0; i < ids.size(); ++i) rows.get(i, row(field, ids[i]), plumb::columns_of(field));
+    return PLUMB_OK;
+  }
+  PlumbResult set_gravity(const PlumbVec3& gravity) override { return gravity_ = gravity, PLUMB_OK; }
+
+  PlumbResult step(double dt) override {
+    if (++steps_ == 10) misbehave();
+    if (values_[2].number > 0) std::this_thread::sleep_for(std::chrono::duration<double>(values_[2].number));
+    for (PlumbBodyDesc& body : bodies_) {
+      if (body.motion != PLUMB_DYNAMIC) continue;
+      PlumbVec3 &x = body.pose.position, &v = body.linear_velocity;
+      v = {v.x + dt * body.gravity_scale * gravity_.x, v.y + dt * body.gravity_scale * gravity_.y, v.z + dt * body.gravity_scale * gravity_.z};
+      x = {x.x + dt * v.x, x.y + dt * v.y, x.z + dt * v.z};
+    }
+    return PLUMB_OK;
+  }
+  PlumbResult wait(PlumbStepReport&) override { return PLUMB_OK; }
+  std::span<const PlumbContact> contacts() override { return {}; }
+  std::span<const PlumbEvent> events() override { return {}; }
+
+ private:
+  PlumbSettingValue* find(const char* name) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (std::strcmp(name, setting_list[i].name) == 0) return &values_[i];
+    }
+    throw plumb::Error(PLUMB_E_INVALID_ARGUMENT, "no such setting");
+  }
+
+  double* row(PlumbField field, PlumbBody id) {
+    PlumbBodyDesc& body = bodies_[plumb::slot_of(id)];
+    return field == PLUMB_FIELD_POSE ? &body.pose.position.x : &body.linear_velocity.x;
+  }
+
+  void misbehave() {
+    const std::string word = values_[0].choice;
+    if (word == "segfault") std::raise(SIGSEGV);
+    if (word == "abort") std::abort();
+    if (word == "exit") std::exit(3);
+    if (word == "throw") throw std::runtime_error("the engine threw");
+    if (word == "refuse") throw plumb::Error(PLUMB_E_OUT_OF_MEMORY, "no room for contacts");
+    if (word == "hang") {
+      while (true) std::this_thread::sleep_for(std::chrono::seconds(1));
+    }
+    if (word == "nan") {
+      for (PlumbBodyDesc& body : bodies_) body.pose.position.y = std::numeric_limits<double>::quiet_NaN();
+    }
+    if (word == "print") {
+      std::puts("{\"status\": \"ok\", \"this\": \"is no answer\"}");
+      std::fputs("an engine talks\n", stderr);
+    }
+    if (word == "garble") {  // onto the pipe of the answers, as an engine with a stray descriptor would
+      if (std::FILE* stray = fdopen(4, "w")) std::fputs("no answer at all\n", stray), std::fflush(stray);
+    }
+    if (word == "eat_memory") {
+      constexpr std::size_t block = std::size_t{16} << 20;
+      while (true) {
+        eaten_.push_back(std::make_unique<char[]>(block));
+        std::memset(eaten_.back().get(), 1, block);
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      }
+    }
+  }
+
+  PlumbVec3 gravity_;
+  std::vector<PlumbBodyDesc> bodies_;
+  std::vector<std::unique_ptr<char[]>> eaten_;
+  int steps_ = 0;
+  PlumbSettingValue values_[3] = {setting_list[0].default_value, setting_list[1].default_value, setting_list[2].default_value};
+};
+
+}  // namespace
+
+extern "C" PLUMB_EXPORT PlumbResult plumb_backend_open(const PlumbOpenRequest* request, PlumbOpenReply* reply) {
+  const std::string word = from_environment();
+  if (word == "segfault_on_open") std::raise(SIGSEGV);
+  const PlumbResult result = plumb::backend::open<MisbehavingWorld>(request, reply);
+  if (word == "lie_about_version") reply->version = PLUMB_MAKE_VERSION(77, 7);
+  if (word == "lie_about_size") {
+    static PlumbBackendTable table = *reply->table;
+    table.struct_size = 24;
+    reply->table = &table;
+  }
+  return result;
+}

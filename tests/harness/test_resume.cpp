@@ -1,0 +1,119 @@
+// A study that was killed, its workers too, goes on where it was and loses nothing.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+
+#include <chrono>
+#include <functional>
+#include <fstream>
+#include <set>
+#include <thread>
+
+#include "program.hpp"
+
+namespace plumb::harness::testing {
+namespace {
+
+std::vector<Json> readable_rows(const std::filesystem::path& file) {
+  std::vector<Json> rows;
+  std::ifstream in(file);
+  for (std::string line; std::getline(in, line);) {
+    if (Json row = Json::parse(line, nullptr, false); row.is_object()) rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+// Processes of this study: their command line has the folder, or they are children of the program.
+std::vector<pid_t> workers_of(pid_t parent) {
+  std::vector<pid_t> workers;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+    const std::string name = entry.path().filename().string();
+    if (name.find_first_not_of("0123456789") != std::string::npos) continue;
+    std::ifstream stat(entry.path() / "stat");
+    std::string text((std::istreambuf_iterator<char>(stat)), {});
+    const auto end = text.rfind(')');
+    if (end == std::string::npos) continue;
+    char state = 0;
+    int ppid = 0;
+    if (std::sscanf(text.c_str() + end + 1, " %c %d", &state, &ppid) == 2 && ppid == parent) workers.push_back(std::stoi(name));
+  }
+  return workers;
+}
+
+bool wait_until(const std::function<bool()>& condition) {
+  for (int i = 0; i < 1000; ++i) {
+    if (condition()) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return false;
+}
+
+std::vector<std::string> study(const std::filesystem::path& folder) {
+  return {"compare", particle_scene(folder), "--backend", MISBEHAVING_BACKEND, "--backend", SAMPLE_BACKEND, "--repeat", "2",
+          "--set", "pause=0.005", "--out", (folder / "out").string()};
+}
+
+void expect_complete(const std::filesystem::path& folder) {
+  const Finished finished = plumb(study(folder));
+  EXPECT_EQ(finished.status, 0) << finished.err;
+  const std::vector<Json> rows = readable_rows(folder / "out" / "results.jsonl");
+  std::set<std::string> cells;
+  for (const Json& row : rows) {
+    EXPECT_EQ(row["status"], "ok") << row.dump();
+    EXPECT_TRUE(cells.insert(row["cell"]).second) << "a cell was run twice";
+  }
+  EXPECT_EQ(cells.size(), 6u) << finished.out << finished.err;
+}
+
+void kill_half_way_and_go_on(const std::string& name, bool workers_first) {
+  const std::filesystem::path folder = fresh_folder(name);
+  const std::filesystem::path file = folder / "out" / "results.jsonl";
+  const pid_t pid = start_plumb(study(folder));
+  ASSERT_TRUE(wait_until([&] { return readable_rows(file).size() >= 2; }));
+  const std::vector<pid_t> workers = workers_of(pid);
+  EXPECT_FALSE(workers.empty());
+  if (workers_first) {
+    for (const pid_t worker : workers) kill(worker, SIGKILL);
+  }
+  kill(pid, SIGKILL);
+  waitpid(pid, nullptr, 0);
+  EXPECT_TRUE(wait_until([&] {
+    for (const pid_t worker : workers) {
+      std::ifstream stat("/proc/" + std::to_string(worker) + "/stat");
+      const std::string text((std::istreambuf_iterator<char>(stat)), {});
+      if (!text.empty() && text.find(") Z ") == std::string::npos) return false;
+    }
+    return true;
+  })) << "a worker outlived its parent";
+  EXPECT_LT(readable_rows(file).size(), 6u);
+  expect_complete(folder);
+}
+
+TEST(Resume, after_the_program_was_killed) { kill_half_way_and_go_on("killed", false); }
+TEST(Resume, after_program_and_workers_were_killed) { kill_half_way_and_go_on("all_killed", true); }
+
+TEST(Resume, torn_last_line_is_run_again) {
+  const std::filesystem::path folder = fresh_folder("torn");
+  ASSERT_EQ(plumb(study(folder)).status, 0);
+  const std::filesystem::path file = folder / "out" / "results.jsonl";
+  std::filesystem::resize_file(file, std::filesystem::file_size(file) - 40);
+  EXPECT_EQ(readable_rows(file).size(), 5u);
+  expect_complete(folder);
+  const Finished again = plumb(study(folder));
+  EXPECT_NE(again.err.find("6 cells were finished already"), std::string::npos) << again.err;
+}
+
+TEST(Resume, terminate_kills_the_workers_and_ends_by_the_signal) {
+  const std::filesystem::path folder = fresh_folder("terminated");
+  const pid_t pid = start_plumb(study(folder));
+  ASSERT_TRUE(wait_until([&] { return std::filesystem::exists(folder / "out" / "results.jsonl") && !workers_of(pid).empty(); }));
+  const std::vector<pid_t> workers = workers_of(pid);
+  kill(pid, SIGTERM);
+  int status = 0;
+  waitpid(pid, &status, 0);
+  EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGTERM) << status;
+  expect_complete(folder);
+}
+
+}  // namespace
+}  // namespace plumb::harness::testing
