@@ -95,20 +95,18 @@ struct Rotation {
 
 }  // namespace
 
-std::unique_ptr<Shape> make_shape(const PlumbShapeDesc& desc, std::vector<const Shape*> children) {
-  auto shape = std::make_unique<Shape>();
-  shape->type = desc.type;
-  shape->radius = desc.radius;
-  shape->half_height = desc.half_height;
-  shape->half_extents = desc.half_extents;
-  if (desc.type == PLUMB_CONVEX_HULL) take_hull(*shape, desc);
-  if (desc.type == PLUMB_TRIANGLE_MESH) take_mesh(*shape, desc);
-  if (desc.type == PLUMB_HEIGHT_FIELD) take_height_field(*shape, desc);
+void fill_shape(Shape& shape, const PlumbShapeDesc& desc, const std::vector<const Shape*>& children) {
+  shape.type = desc.type;
+  shape.radius = desc.radius;
+  shape.half_height = desc.half_height;
+  shape.half_extents = desc.half_extents;
+  if (desc.type == PLUMB_CONVEX_HULL) take_hull(shape, desc);
+  if (desc.type == PLUMB_TRIANGLE_MESH) take_mesh(shape, desc);
+  if (desc.type == PLUMB_HEIGHT_FIELD) take_height_field(shape, desc);
   for (std::size_t i = 0; i < children.size(); ++i) {
     const PlumbCompoundChild& child = desc.children[i];
-    shape->children.push_back({children[i], child.pose, child.has_material != 0, child.material});
+    shape.children.push_back({children[i], child.pose, child.has_material != 0, child.material});
   }
-  return shape;
 }
 
 void make_geoms(const Shape& shape, dSpaceID space, std::vector<PlacedGeom>& geoms) {

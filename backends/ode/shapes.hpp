@@ -56,8 +56,8 @@ struct PlacedGeom {
   const PlumbMaterial* material;  ///< of a compound's child; null: the body's
 };
 
-/// children[i]: the shapes that desc.children[i] names. Throws Error for what ODE cannot hold.
-[[nodiscard]] std::unique_ptr<Shape> make_shape(const PlumbShapeDesc& desc, std::vector<const Shape*> children);
+/// Fills an empty shape. children[i]: the shapes that desc.children[i] names. Throws Error for what ODE cannot hold.
+void fill_shape(Shape& shape, const PlumbShapeDesc& desc, const std::vector<const Shape*>& children);
 
 /// Makes the shape's geoms in a space (null: in none). The caller destroys them before the shape.
 void make_geoms(const Shape& shape, dSpaceID space, std::vector<PlacedGeom>& geoms);

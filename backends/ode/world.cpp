@@ -85,7 +85,8 @@ PlumbResult World::create_shapes(std::span<const PlumbShapeDesc> descs, std::spa
       std::vector<const Shape*> children;
       for (std::uint32_t i = 0; desc.type == PLUMB_COMPOUND && i < desc.child_count; ++i)
         children.push_back(shapes_[slot_of(desc.children[i].shape)].get());
-      made.push_back(make_shape(desc, std::move(children)));
+      made.push_back(shape_stock_.take());
+      fill_shape(*made.back(), desc, children);
     }
     for (std::size_t i = 0; i < made.size(); ++i) put(shapes_, ids[i], std::move(made[i]));
     return PLUMB_OK;

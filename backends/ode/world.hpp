@@ -129,6 +129,7 @@ class World final : public IPhysicsWorld,
   PairEvents events_;
   unsigned long seed_;
 
+  Stock<Shape> shape_stock_;
   Stock<Body> body_stock_;
   Stock<GeomTag> tag_stock_;
   std::vector<std::unique_ptr<Shape>> shapes_;  // by slot
