@@ -33,7 +33,9 @@ const PlumbSettingInfo setting_list[] = {
 
 class MisbehavingWorld final : public plumb::IPhysicsWorld, public plumb::ISettings {
  public:
-  explicit MisbehavingWorld(const plumb::WorldInit& init) : gravity_(init.desc.gravity) {}
+  explicit MisbehavingWorld(const plumb::WorldInit& init) : gravity_(init.desc.gravity) {
+    for (std::size_t i = 0; i < 3; ++i) set_setting(setting_list[i].name, init.values[i]);
+  }
 
   static const PlumbBackendInfo& info() {
     static const PlumbBackendInfo value = {sizeof value, PLUMB_DETERMINISM_THREADS, "misbehaving", "1", "misbehaving-1",
