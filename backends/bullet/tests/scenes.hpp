@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,9 @@ struct Scene {
   std::vector<Item> items;
   std::vector<Joint> joints;
 };
+
+/// For the name of a test.
+inline void PrintTo(const Scene& scene, std::ostream* out) { *out << scene.name; }
 
 /// Friction of every pair. Ours is sqrt(mu mu), Bullet's mu mu: bodies of .25 here are bodies of .5 there, exactly.
 inline constexpr double kPlumbFriction = 0.25;
