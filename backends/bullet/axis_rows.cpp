@@ -6,7 +6,8 @@
 namespace plumb::bullet {
 
 btScalar Row::inverse_mass(const btRigidBody& a, const btRigidBody& b) const {
-  return (a.getInvMass() + b.getInvMass()) * linear.length2() + angular_a.dot(a.getInvInertiaTensorWorld() * angular_a) +
+  return (a.getInvMass() + b.getInvMass()) * linear.length2() +
+         angular_a.dot(a.getInvInertiaTensorWorld() * angular_a) +
          angular_b.dot(b.getInvInertiaTensorWorld() * angular_b);
 }
 
@@ -17,7 +18,8 @@ btScalar Row::velocity(const btRigidBody& a, const btRigidBody& b, btScalar h) c
   const auto angular_velocity = [h](const btRigidBody& body) {
     return body.getAngularVelocity() + body.getInvInertiaTensorWorld() * body.getTotalTorque() * h;
   };
-  return linear.dot(linear_velocity(b) - linear_velocity(a)) + angular_a.dot(angular_velocity(a)) + angular_b.dot(angular_velocity(b));
+  return linear.dot(linear_velocity(b) - linear_velocity(a)) + angular_a.dot(angular_velocity(a)) +
+         angular_b.dot(angular_velocity(b));
 }
 
 void Row::write(btTypedConstraint::btConstraintInfo2& info) const {
@@ -37,8 +39,8 @@ btScalar spring_impulse(const PlumbSpring& spring, btScalar x, btScalar v, btSca
   return -h * (omega * omega * x + damping * v) / (inverse_mass * (1 + h * damping));
 }
 
-DistanceConstraint::DistanceConstraint(btRigidBody& a, btRigidBody& b, const btVector3& point_a, const btVector3& point_b,
-                                       const PlumbJointDesc& desc)
+DistanceConstraint::DistanceConstraint(btRigidBody& a, btRigidBody& b, const btVector3& point_a,
+                                       const btVector3& point_b, const PlumbJointDesc& desc)
     : RowConstraint(D6_CONSTRAINT_TYPE, a, b),
       point_a_(point_a),
       point_b_(point_b),
@@ -82,7 +84,8 @@ void DistanceConstraint::getInfo2(btConstraintInfo2* info) {
   };
   if (spring_.enabled != 0) {
     const int here = next_row();
-    const btScalar impulse = spring_impulse(spring_, distance - rest_, row.velocity(m_rbA, m_rbB, h), row.inverse_mass(m_rbA, m_rbB), h);
+    const btScalar impulse =
+        spring_impulse(spring_, distance - rest_, row.velocity(m_rbA, m_rbB, h), row.inverse_mass(m_rbA, m_rbB), h);
     info->m_lowerLimit[here] = info->m_upperLimit[here] = impulse;
     if (upper_ >= SIMD_INFINITY) return;
   }
@@ -99,7 +102,8 @@ void DistanceConstraint::getInfo2(btConstraintInfo2* info) {
     info->m_lowerLimit[here] = 0;
 }
 
-AxisSpring::AxisSpring(btRigidBody& a, btRigidBody& b, const btTransform& frame_a, const btTransform& frame_b, int axis, const PlumbSpring& spring)
+AxisSpring::AxisSpring(btRigidBody& a, btRigidBody& b, const btTransform& frame_a, const btTransform& frame_b, int axis,
+                       const PlumbSpring& spring)
     : RowConstraint(D6_CONSTRAINT_TYPE, a, b), frame_a_(frame_a), frame_b_(frame_b), axis_(axis), spring_(spring) {}
 
 void AxisSpring::getInfo1(btConstraintInfo1* info) {

@@ -1,4 +1,5 @@
-// Constraints of ours that Bullet's solvers solve with its own: the distance of two points, and springs on a joint's axes.
+// Constraints of ours that Bullet's solvers solve with its own: the distance of two points, and springs on a joint's
+// axes.
 #pragma once
 
 #include "bullet_math.hpp"
@@ -17,8 +18,8 @@ struct Row {
   void write(btTypedConstraint::btConstraintInfo2& info) const;
 };
 
-/// Oscillator of a spring: impulse of a sub-step of h seconds for a deviation x and a velocity v. The position enters as
-/// it is and the velocity as it will be, so that an undamped spring neither gains nor loses energy; a spring that
+/// Oscillator of a spring: impulse of a sub-step of h seconds for a deviation x and a velocity v. The position enters
+/// as it is and the velocity as it will be, so that an undamped spring neither gains nor loses energy; a spring that
 /// turns by more than a radian a sub-step is softened to that, because it could not be followed.
 btScalar spring_impulse(const PlumbSpring& spring, btScalar x, btScalar v, btScalar inverse_mass, btScalar h);
 
@@ -33,7 +34,8 @@ class RowConstraint : public btTypedConstraint {
 /// Holds the distance of the frames' origins: rigidly, within limits, or by a spring.
 class DistanceConstraint final : public RowConstraint {
  public:
-  DistanceConstraint(btRigidBody& a, btRigidBody& b, const btVector3& point_a, const btVector3& point_b, const PlumbJointDesc& desc);
+  DistanceConstraint(btRigidBody& a, btRigidBody& b, const btVector3& point_a, const btVector3& point_b,
+                     const PlumbJointDesc& desc);
   void getInfo1(btConstraintInfo1* info) override;
   void getInfo2(btConstraintInfo2* info) override;
 
@@ -46,7 +48,8 @@ class DistanceConstraint final : public RowConstraint {
 /// A spring on one of a joint's six axes.
 class AxisSpring final : public RowConstraint {
  public:
-  AxisSpring(btRigidBody& a, btRigidBody& b, const btTransform& frame_a, const btTransform& frame_b, int axis, const PlumbSpring& spring);
+  AxisSpring(btRigidBody& a, btRigidBody& b, const btTransform& frame_a, const btTransform& frame_b, int axis,
+             const PlumbSpring& spring);
   void getInfo1(btConstraintInfo1* info) override;
   void getInfo2(btConstraintInfo2* info) override;
 

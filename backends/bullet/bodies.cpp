@@ -21,14 +21,14 @@ struct MassFrame {
 MassFrame mass_frame(const PlumbBodyDesc& desc) {
   const backend::Matrix3 turn = backend::rotation_matrix(desc.inertia_orientation);
   const backend::Matrix3 tensor = backend::multiply(
-      backend::multiply(turn, backend::Matrix3::diagonal(desc.inertia.x, desc.inertia.y, desc.inertia.z)), backend::transpose(turn));
+      backend::multiply(turn, backend::Matrix3::diagonal(desc.inertia.x, desc.inertia.y, desc.inertia.z)),
+      backend::transpose(turn));
   const double largest = std::max({desc.inertia.x, desc.inertia.y, desc.inertia.z});
   const double off_diagonal = std::max({std::abs(tensor[0][1]), std::abs(tensor[0][2]), std::abs(tensor[1][2])});
   const bool turned = off_diagonal > kNoOffset * largest;
   const bool moved = backend::length(desc.centre_of_mass) > kNoOffset;
   const PlumbVec3 inertia = turned || largest == 0 ? desc.inertia : PlumbVec3{tensor[0][0], tensor[1][1], tensor[2][2]};
-  if (largest > 0)
-    positive_scalar(std::min({inertia.x, inertia.y, inertia.z}), "inertia");
+  if (largest > 0) positive_scalar(std::min({inertia.x, inertia.y, inertia.z}), "inertia");
   MassFrame frame{vector(inertia, "inertia"), btTransform::getIdentity(), !turned && !moved};
   if (moved) frame.body_to_mass.setOrigin(vector(desc.centre_of_mass, "centre_of_mass"));
   if (turned) frame.body_to_mass.setRotation(quaternion(desc.inertia_orientation));
@@ -84,7 +84,8 @@ std::unique_ptr<Body> World::make_body(const PlumbBodyDesc& desc, PlumbBody hand
   body->offset_frame = !frame.identity;
   body->body_to_mass = frame.body_to_mass;
   body->mass_to_body = frame.body_to_mass.inverse();
-  body->conveys = !(desc.material.surface_velocity.x == 0 && desc.material.surface_velocity.y == 0 && desc.material.surface_velocity.z == 0);
+  body->conveys = !(desc.material.surface_velocity.x == 0 && desc.material.surface_velocity.y == 0 &&
+                    desc.material.surface_velocity.z == 0);
   (void)vector(desc.material.surface_velocity, "surface_velocity");
   (void)scalar(desc.gravity_scale, "gravity_scale");
   if (desc.motion != PLUMB_STATIC) {
@@ -109,7 +110,8 @@ PlumbResult World::create_bodies(std::span<const PlumbBodyDesc> descs, std::span
 
 void World::add_to_bullet(Body& body) {
   int flags = body.getCollisionFlags();
-  if (body.is(PLUMB_KINEMATIC)) flags = (flags & ~btCollisionObject::CF_STATIC_OBJECT) | btCollisionObject::CF_KINEMATIC_OBJECT;
+  if (body.is(PLUMB_KINEMATIC))
+    flags = (flags & ~btCollisionObject::CF_STATIC_OBJECT) | btCollisionObject::CF_KINEMATIC_OBJECT;
   if (body.is_sensor()) flags |= btCollisionObject::CF_NO_CONTACT_RESPONSE;
   if (needs_contact_material(body)) flags |= btCollisionObject::CF_CUSTOM_MATERIAL_CALLBACK;
   body.setCollisionFlags(flags);
@@ -155,7 +157,8 @@ void World::prepare_ccd(Body& body) const {
 
 void World::set_anchor(Body& body) const {
   constexpr int anchor = btCollisionObject::CF_HAS_FRICTION_ANCHOR;
-  body.setCollisionFlags(settings_.is_on("friction_anchors") ? body.getCollisionFlags() | anchor : body.getCollisionFlags() & ~anchor);
+  body.setCollisionFlags(settings_.is_on("friction_anchors") ? body.getCollisionFlags() | anchor
+                                                             : body.getCollisionFlags() & ~anchor);
 }
 
 void World::apply_gravity_scale(Body& body) const {

@@ -31,9 +31,13 @@ class Body final : public btRigidBody {
   [[nodiscard]] bool is_asleep() const { return getActivationState() == ISLAND_SLEEPING; }
 
   /// Pose of the body's frame; Bullet's transform is that of the centre of mass and the principal axes.
-  [[nodiscard]] btTransform frame_pose() const { return offset_frame ? getWorldTransform() * mass_to_body : getWorldTransform(); }
+  [[nodiscard]] btTransform frame_pose() const {
+    return offset_frame ? getWorldTransform() * mass_to_body : getWorldTransform();
+  }
   /// From a pose of the body's frame to Bullet's transform.
-  [[nodiscard]] btTransform mass_pose(const btTransform& pose) const { return offset_frame ? pose * body_to_mass : pose; }
+  [[nodiscard]] btTransform mass_pose(const btTransform& pose) const {
+    return offset_frame ? pose * body_to_mass : pose;
+  }
 
   void coast(const btVector3& linear, const btVector3& angular) {
     coast_linear = linear;
@@ -50,15 +54,15 @@ class Body final : public btRigidBody {
   double gravity_scale;
   double linear_damping, angular_damping;  ///< 1/s
   PlumbFilter filter;
-  std::shared_ptr<const Shape> shape;            ///< null: none
-  std::unique_ptr<btCollisionShape> own_shape;   ///< of this body alone; null where the shared one will do
+  std::shared_ptr<const Shape> shape;                     ///< null: none
+  std::unique_ptr<btCollisionShape> own_shape;            ///< of this body alone; null where the shared one will do
   btTransform body_to_mass = btTransform::getIdentity();  ///< mass frame seen from the body's frame
   btTransform mass_to_body = btTransform::getIdentity();
-  bool was_asleep = false;       ///< after the step before
-  bool conveys = false;          ///< has ever had a surface velocity
-  bool coasts = false;           ///< kinematic: moves with the two velocities below until told otherwise
+  bool was_asleep = false;  ///< after the step before
+  bool conveys = false;     ///< has ever had a surface velocity
+  bool coasts = false;      ///< kinematic: moves with the two velocities below until told otherwise
   btVector3 coast_linear = btVector3(0, 0, 0), coast_angular = btVector3(0, 0, 0);
-  bool has_target = false;       ///< kinematic: must be at `target` after the next step
+  bool has_target = false;  ///< kinematic: must be at `target` after the next step
   btTransform target = btTransform::getIdentity();
 };
 

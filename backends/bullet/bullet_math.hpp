@@ -37,7 +37,8 @@ inline btVector3 vector(const PlumbVec3& v, const char* what) {
 }
 inline btVector3 vector(const double* v, const char* what) { return vector(PlumbVec3{v[0], v[1], v[2]}, what); }
 inline btQuaternion quaternion(const PlumbQuat& q) {
-  return {static_cast<btScalar>(q.x), static_cast<btScalar>(q.y), static_cast<btScalar>(q.z), static_cast<btScalar>(q.w)};
+  return {static_cast<btScalar>(q.x), static_cast<btScalar>(q.y), static_cast<btScalar>(q.z),
+          static_cast<btScalar>(q.w)};
 }
 inline btTransform transform(const PlumbPose& pose, const char* what) {
   return btTransform(quaternion(pose.orientation), vector(pose.position, what));

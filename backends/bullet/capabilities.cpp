@@ -15,7 +15,8 @@ PlumbDegree shape_degree(std::uint32_t type, std::uint32_t motion, const char*& 
   if (type >= PLUMB_SHAPE_TYPE_COUNT || motion >= PLUMB_MOTION_COUNT) return PLUMB_NONE;
   if (type == PLUMB_PLANE) return motion == PLUMB_STATIC ? PLUMB_NATIVE : PLUMB_NONE;
   const bool surface = type == PLUMB_TRIANGLE_MESH || type == PLUMB_HEIGHT_FIELD;
-  if (surface && motion == PLUMB_DYNAMIC) return answer(PLUMB_NONE, note, "Bullet's meshes and height fields do not move by forces");
+  if (surface && motion == PLUMB_DYNAMIC)
+    return answer(PLUMB_NONE, note, "Bullet's meshes and height fields do not move by forces");
   if (type == PLUMB_CONVEX_HULL || type == PLUMB_CYLINDER)
     return answer(PLUMB_NATIVE, note, "edges are rounded by collision_margin against all but spheres");
   return PLUMB_NATIVE;
@@ -26,24 +27,30 @@ PlumbDegree pair_degree(std::uint32_t a, std::uint32_t b, const char*& note) {
   const auto volume = [](std::uint32_t type) { return is_convex(type) || type == PLUMB_COMPOUND; };
   if (!volume(a) && !volume(b)) return answer(PLUMB_NONE, note, "neither of the two can be dynamic");
   if (a == PLUMB_PLANE || b == PLUMB_PLANE)
-    return answer(PLUMB_NATIVE, note, "the manifold grows by one point a step; a large box as ground gets four at once");
+    return answer(PLUMB_NATIVE, note,
+                  "the manifold grows by one point a step; a large box as ground gets four at once");
   const bool hull = a == PLUMB_CONVEX_HULL || b == PLUMB_CONVEX_HULL;
-  if (hull && (a == PLUMB_TRIANGLE_MESH || b == PLUMB_TRIANGLE_MESH || a == PLUMB_HEIGHT_FIELD || b == PLUMB_HEIGHT_FIELD))
-    return answer(PLUMB_APPROXIMATE, note, "hulls rock on the one point that is found in a step; hull_clipping finds all at once");
+  if (hull &&
+      (a == PLUMB_TRIANGLE_MESH || b == PLUMB_TRIANGLE_MESH || a == PLUMB_HEIGHT_FIELD || b == PLUMB_HEIGHT_FIELD))
+    return answer(PLUMB_APPROXIMATE, note,
+                  "hulls rock on the one point that is found in a step; hull_clipping finds all at once");
   return PLUMB_NATIVE;
 }
 
 PlumbDegree joint_degree(std::uint32_t type, const char*& note) {
   if (type >= PLUMB_JOINT_TYPE_COUNT) return PLUMB_NONE;
-  if (type == PLUMB_JOINT_DISTANCE) return answer(PLUMB_EMULATED, note, "a constraint row of the adapter in Bullet's solver");
+  if (type == PLUMB_JOINT_DISTANCE)
+    return answer(PLUMB_EMULATED, note, "a constraint row of the adapter in Bullet's solver");
   return PLUMB_NATIVE;
 }
 
 PlumbDegree joint_feature_degree(std::uint32_t type, std::uint32_t feature, const char*& note) {
   if (type >= PLUMB_JOINT_TYPE_COUNT) return PLUMB_NONE;
-  const bool has_axes = type == PLUMB_JOINT_HINGE || type == PLUMB_JOINT_SLIDER || type == PLUMB_JOINT_UNIVERSAL || type == PLUMB_JOINT_GENERIC;
+  const bool has_axes = type == PLUMB_JOINT_HINGE || type == PLUMB_JOINT_SLIDER || type == PLUMB_JOINT_UNIVERSAL ||
+                        type == PLUMB_JOINT_GENERIC;
   switch (feature) {
-    case PLUMB_JOINT_HAS_LIMITS: return has_axes ? PLUMB_NATIVE : type == PLUMB_JOINT_DISTANCE ? PLUMB_EMULATED : PLUMB_NONE;
+    case PLUMB_JOINT_HAS_LIMITS:
+      return has_axes ? PLUMB_NATIVE : type == PLUMB_JOINT_DISTANCE ? PLUMB_EMULATED : PLUMB_NONE;
     case PLUMB_JOINT_HAS_MOTORS: return has_axes ? PLUMB_NATIVE : PLUMB_NONE;
     case PLUMB_JOINT_HAS_SPRINGS:
       if (!has_axes && type != PLUMB_JOINT_DISTANCE) return PLUMB_NONE;
@@ -55,9 +62,11 @@ PlumbDegree joint_feature_degree(std::uint32_t type, std::uint32_t feature, cons
 }
 
 PlumbDegree query_degree(std::uint32_t kind, std::uint32_t type, const char*& note) {
-  if (kind == PLUMB_QUERY_RAY) return answer(PLUMB_NATIVE, note, "spheres and boxes by their equations, others by Bullet's convex casts");
+  if (kind == PLUMB_QUERY_RAY)
+    return answer(PLUMB_NATIVE, note, "spheres and boxes by their equations, others by Bullet's convex casts");
   if (kind >= PLUMB_QUERY_KIND_COUNT || !is_convex(type)) return PLUMB_NONE;
-  if (kind == PLUMB_QUERY_CAST) return answer(PLUMB_NATIVE, note, "overlap at the start is found by a query of its own");
+  if (kind == PLUMB_QUERY_CAST)
+    return answer(PLUMB_NATIVE, note, "overlap at the start is found by a query of its own");
   return PLUMB_NATIVE;
 }
 
@@ -78,7 +87,8 @@ PlumbDegree read_degree(std::uint32_t field) {
 
 PlumbDegree write_degree(std::uint32_t field, const char*& note) {
   if (field >= PLUMB_FIELD_COUNT || field == PLUMB_FIELD_MASS) return PLUMB_NONE;
-  if (field == PLUMB_FIELD_DAMPING) return answer(PLUMB_EMULATED, note, "exp(-c dt) by the adapter, which holds for any c");
+  if (field == PLUMB_FIELD_DAMPING)
+    return answer(PLUMB_EMULATED, note, "exp(-c dt) by the adapter, which holds for any c");
   if (field == PLUMB_FIELD_SURFACE_VELOCITY) return PLUMB_EMULATED;
   return PLUMB_NATIVE;
 }
@@ -87,12 +97,16 @@ PlumbDegree need_degree(std::uint32_t index, const char*& note) {
   if (index >= PLUMB_NEED_COUNT) return PLUMB_NONE;
   switch (PlumbNeeds{1} << index) {
     case PLUMB_NEED_CCD:
-      return answer(PLUMB_APPROXIMATE, note, "a sphere inside a convex body is swept; compounds are not, and turning is not seen");
+      return answer(PLUMB_APPROXIMATE, note,
+                    "a sphere inside a convex body is swept; compounds are not, and turning is not seen");
     case PLUMB_NEED_GYROSCOPIC:
-      return answer(PLUMB_APPROXIMATE, note, "one Newton step of an implicit law, which loses energy; see gyroscopic_mode");
-    case PLUMB_NEED_RESTITUTION: return answer(PLUMB_NATIVE, note, "impacts slower than restitution_threshold do not bounce");
+      return answer(PLUMB_APPROXIMATE, note,
+                    "one Newton step of an implicit law, which loses energy; see gyroscopic_mode");
+    case PLUMB_NEED_RESTITUTION:
+      return answer(PLUMB_NATIVE, note, "impacts slower than restitution_threshold do not bounce");
     case PLUMB_NEED_DAMPING: return answer(PLUMB_EMULATED, note, "exp(-c dt) by the adapter, which holds for any c");
-    case PLUMB_NEED_SENSORS: return answer(PLUMB_EMULATED, note, "out of the contact points of bodies without response");
+    case PLUMB_NEED_SENSORS:
+      return answer(PLUMB_EMULATED, note, "out of the contact points of bodies without response");
     case PLUMB_NEED_EVENTS: return answer(PLUMB_EMULATED, note, "by comparing the contacts of one step with the next");
     case PLUMB_NEED_SURFACE_VELOCITY:
       return answer(PLUMB_EMULATED, note, "by the direction and target velocity of each contact's friction");
@@ -118,7 +132,9 @@ PlumbDegree World::capability(PlumbCapability kind, std::uint32_t a, std::uint32
     case PLUMB_CAP_NEED: return need_degree(a, note);
     case PLUMB_CAP_EVENT: return a < PLUMB_EVENT_COUNT ? PLUMB_EMULATED : PLUMB_NONE;
     case PLUMB_CAP_PHASE_TIME: return phase_degree(a);
-    case PLUMB_CAP_RESIDUAL: return answer(PLUMB_NATIVE, note, "largest squared change of an impulse in the last iteration; not with mlcp solvers");
+    case PLUMB_CAP_RESIDUAL:
+      return answer(PLUMB_NATIVE, note,
+                    "largest squared change of an impulse in the last iteration; not with mlcp solvers");
     case PLUMB_CAP_SNAPSHOT: return answer(PLUMB_APPROXIMATE, note, "warm-start data are lost");
     case PLUMB_CAP_CHILD_MATERIAL: return PLUMB_NATIVE;
     default: return PLUMB_NONE;

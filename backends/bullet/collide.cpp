@@ -23,7 +23,8 @@ class PointCollector final : public btManifoldResult {
   void addContactPoint(const btVector3& normal_on_b, const btVector3& point_on_b, btScalar distance) override {
     if (distance > m_manifoldPtr->getContactBreakingThreshold()) return;
     const btVector3 normal = m_manifoldPtr->getBody0() == object_a_ ? -normal_on_b : normal_on_b;
-    pair_points.push_back({to_plumb(point_on_b + normal_on_b * (distance / 2)), to_plumb(normal), -static_cast<double>(distance), 0});
+    pair_points.push_back(
+        {to_plumb(point_on_b + normal_on_b * (distance / 2)), to_plumb(normal), -static_cast<double>(distance), 0});
   }
 
  private:
@@ -32,7 +33,8 @@ class PointCollector final : public btManifoldResult {
 
 /// The distance of shapes that are apart, from the algorithms that Bullet keeps for closest points.
 struct DistanceCallback final : btCollisionWorld::ContactResultCallback {
-  btScalar addSingleResult(btManifoldPoint& point, const btCollisionObjectWrapper*, int, int, const btCollisionObjectWrapper*, int, int) override {
+  btScalar addSingleResult(btManifoldPoint& point, const btCollisionObjectWrapper*, int, int,
+                           const btCollisionObjectWrapper*, int, int) override {
     const auto at = static_cast<double>(point.getDistance());
     if (!(distance <= at)) distance = at;
     return 0;
@@ -40,7 +42,8 @@ struct DistanceCallback final : btCollisionWorld::ContactResultCallback {
   double distance = kUnknown;
 };
 
-void collide_objects(btDispatcher& dispatcher, const btDispatcherInfo& info, btCollisionObject& a, btCollisionObject& b) {
+void collide_objects(btDispatcher& dispatcher, const btDispatcherInfo& info, btCollisionObject& a,
+                     btCollisionObject& b) {
   const btCollisionObjectWrapper wrap_a(nullptr, a.getCollisionShape(), &a, a.getWorldTransform(), -1, -1);
   const btCollisionObjectWrapper wrap_b(nullptr, b.getCollisionShape(), &b, b.getWorldTransform(), -1, -1);
   btCollisionAlgorithm* algorithm = dispatcher.findAlgorithm(&wrap_a, &wrap_b, nullptr, BT_CONTACT_POINT_ALGORITHMS);

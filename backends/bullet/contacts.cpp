@@ -67,16 +67,21 @@ void World::gather_contacts() {
   }
 }
 
-/// Adds the impulses of the sub-steps before to the points of the last one; what did not live that long stands by itself.
+/// Adds the impulses of the sub-steps before to the points of the last one; what did not live that long stands by
+/// itself.
 void World::add_sub_step_impulses() {
   const auto by_feature = [](const PlumbContact& a, const PlumbContact& b) { return a.feature < b.feature; };
   std::stable_sort(sub_step_contacts_.begin(), sub_step_contacts_.end(), by_feature);
   std::sort(contacts_.begin(), contacts_.end(), by_feature);
   const std::size_t last = contacts_.size();
   for (const PlumbContact& earlier : sub_step_contacts_) {
-    const auto found = std::lower_bound(contacts_.begin(), contacts_.begin() + static_cast<std::ptrdiff_t>(last), earlier, by_feature);
-    const bool lives = found != contacts_.begin() + static_cast<std::ptrdiff_t>(last) && found->feature == earlier.feature;
-    PlumbContact* sum = lives ? &*found : contacts_.size() > last && contacts_.back().feature == earlier.feature ? &contacts_.back() : nullptr;
+    const auto found =
+        std::lower_bound(contacts_.begin(), contacts_.begin() + static_cast<std::ptrdiff_t>(last), earlier, by_feature);
+    const bool lives =
+        found != contacts_.begin() + static_cast<std::ptrdiff_t>(last) && found->feature == earlier.feature;
+    PlumbContact* sum = lives                                                                    ? &*found
+                        : contacts_.size() > last && contacts_.back().feature == earlier.feature ? &contacts_.back()
+                                                                                                 : nullptr;
     if (sum == nullptr) {
       contacts_.push_back(earlier);
       continue;

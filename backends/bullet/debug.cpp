@@ -33,7 +33,8 @@ void add_boxes(const btDbvt& tree, std::uint32_t number, std::vector<PlumbDebugB
 PlumbResult World::candidate_pairs(std::span<const PlumbDebugPair>& pairs) {
   debug_pairs_.clear();
   const btBroadphasePairArray& array = parts_.broadphase.getOverlappingPairCache()->getOverlappingPairArray();
-  for (int i = 0; i < array.size(); ++i) debug_pairs_.push_back({handle_of(array[i].m_pProxy0), handle_of(array[i].m_pProxy1)});
+  for (int i = 0; i < array.size(); ++i)
+    debug_pairs_.push_back({handle_of(array[i].m_pProxy0), handle_of(array[i].m_pProxy1)});
   pairs = debug_pairs_;
   return PLUMB_OK;
 }

@@ -16,12 +16,14 @@ btDefaultCollisionConstructionInfo construction(const CollisionOptions& options)
 btPersistentManifold* Dispatcher::getNewManifold(const btCollisionObject* a, const btCollisionObject* b) {
   btPersistentManifold* manifold = btCollisionDispatcher::getNewManifold(a, b);
   if (breaking_threshold != gContactBreakingThreshold)
-    manifold->setContactBreakingThreshold(std::min(a->getCollisionShape()->getContactBreakingThreshold(breaking_threshold),
-                                                   b->getCollisionShape()->getContactBreakingThreshold(breaking_threshold)));
+    manifold->setContactBreakingThreshold(
+        std::min(a->getCollisionShape()->getContactBreakingThreshold(breaking_threshold),
+                 b->getCollisionShape()->getContactBreakingThreshold(breaking_threshold)));
   return manifold;
 }
 
-WorldParts::WorldParts(const CollisionOptions& options) : configuration(construction(options)), dispatcher(&configuration) {
+WorldParts::WorldParts(const CollisionOptions& options)
+    : configuration(construction(options)), dispatcher(&configuration) {
   if (options.multipoint > 0) {
     configuration.setConvexConvexMultipointIterations(options.multipoint, options.multipoint);
     configuration.setPlaneConvexMultipointIterations(options.multipoint, options.multipoint);
@@ -61,7 +63,8 @@ void DynamicsWorld::performDiscreteCollisionDetection() {
   updateAabbs();
   computeOverlappingPairs();
   charge(PLUMB_PHASE_BROAD);
-  m_dispatcher1->dispatchAllCollisionPairs(m_broadphasePairCache->getOverlappingPairCache(), getDispatchInfo(), m_dispatcher1);
+  m_dispatcher1->dispatchAllCollisionPairs(m_broadphasePairCache->getOverlappingPairCache(), getDispatchInfo(),
+                                           m_dispatcher1);
   charge(PLUMB_PHASE_NARROW);
 }
 

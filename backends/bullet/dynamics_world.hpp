@@ -11,8 +11,8 @@
 namespace plumb::bullet {
 
 struct CollisionOptions {
-  bool epa;                    ///< depth by EPA, else by sampling directions (btMinkowskiPenetrationDepthSolver)
-  int multipoint;              ///< extra perturbed GJK runs for pairs that get one point a step
+  bool epa;        ///< depth by EPA, else by sampling directions (btMinkowskiPenetrationDepthSolver)
+  int multipoint;  ///< extra perturbed GJK runs for pairs that get one point a step
 };
 
 /// Bullet's dispatcher with the contact breaking threshold as a number of its own: Bullet keeps it in a global.

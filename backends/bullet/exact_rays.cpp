@@ -68,9 +68,10 @@ std::optional<RayEntry> ray_enters(const Body& body, const PlumbVec3& origin, co
   const PlumbVec3 o = backend::multiply(inverse, backend::sub(origin, to_plumb(body.getWorldTransform().getOrigin())));
   const PlumbVec3 d = backend::multiply(inverse, translation);
   const btCollisionShape* shape = body.shape->bullet.get();
-  const auto found = body.shape->type == PLUMB_SPHERE
-                         ? enter_sphere(static_cast<double>(static_cast<const btSphereShape*>(shape)->getRadius()), o, d)
-                         : enter_box(to_plumb(static_cast<const btBoxShape*>(shape)->getHalfExtentsWithMargin()), o, d);
+  const auto found =
+      body.shape->type == PLUMB_SPHERE
+          ? enter_sphere(static_cast<double>(static_cast<const btSphereShape*>(shape)->getRadius()), o, d)
+          : enter_box(to_plumb(static_cast<const btBoxShape*>(shape)->getHalfExtentsWithMargin()), o, d);
   if (!found) return std::nullopt;
   return RayEntry{found->fraction, backend::multiply(basis, found->normal)};
 }

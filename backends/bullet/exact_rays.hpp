@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "plumb/backend/small_math.hpp"
 #include "body.hpp"
+#include "plumb/backend/small_math.hpp"
 
 namespace plumb::bullet {
 
@@ -19,6 +19,7 @@ struct RayEntry {
 [[nodiscard]] bool has_exact_ray(const Body& body);
 
 /// Where a ray enters a body; nothing for one that starts inside, as for Bullet's own.
-[[nodiscard]] std::optional<RayEntry> ray_enters(const Body& body, const PlumbVec3& origin, const PlumbVec3& translation);
+[[nodiscard]] std::optional<RayEntry> ray_enters(const Body& body, const PlumbVec3& origin,
+                                                 const PlumbVec3& translation);
 
 }  // namespace plumb::bullet

@@ -41,9 +41,7 @@ void check_row(const double* row, std::uint32_t columns) {
   for (std::uint32_t i = 0; i < columns; ++i) (void)scalar(row[i], "a number in the rows");
 }
 
-btVector3 arm(const Body& body, const double* point) {
-  return vector(point, "point") - body.getCenterOfMassPosition();
-}
+btVector3 arm(const Body& body, const double* point) { return vector(point, "point") - body.getCenterOfMassPosition(); }
 
 bool turns(const Body& body) { return (body.flags & PLUMB_BODY_NO_ROTATION) == 0; }
 

@@ -13,23 +13,23 @@ struct Joint {
   Joint(PlumbJoint id, const PlumbJointDesc& d) : handle(id), desc(d) {}
 
   PlumbJoint handle;
-  PlumbJointDesc desc;       ///< its motors are kept up to date
-  Body* body_a = nullptr;    ///< null: the world
+  PlumbJointDesc desc;     ///< its motors are kept up to date
+  Body* body_a = nullptr;  ///< null: the world
   Body* body_b = nullptr;
-  btRigidBody* a = nullptr;  ///< body_a, or the world's own fixed body
+  btRigidBody* a = nullptr;                          ///< body_a, or the world's own fixed body
   btTransform frame_a = btTransform::getIdentity();  ///< seen from Bullet's transforms of the bodies
   btTransform frame_b = btTransform::getIdentity();
 
   std::unique_ptr<btTypedConstraint> constraint;
-  btHingeConstraint* hinge = nullptr;              ///< the constraint, where it is one of these
+  btHingeConstraint* hinge = nullptr;  ///< the constraint, where it is one of these
   btGeneric6DofSpring2Constraint* axes = nullptr;
   DistanceConstraint* distance = nullptr;
   std::vector<std::unique_ptr<AxisSpring>> springs;
 
   bool wants_reaction = false;
-  std::unique_ptr<btJointFeedback[]> feedback;     ///< of the constraint and of each spring
-  btVector3 arm_b = btVector3(0, 0, 0);            ///< from b's centre of mass to frame b when last solved, world axes
-  double force[3] = {}, torque[3] = {};            ///< on b at frame b, in the last sub-step
+  std::unique_ptr<btJointFeedback[]> feedback;  ///< of the constraint and of each spring
+  btVector3 arm_b = btVector3(0, 0, 0);         ///< from b's centre of mass to frame b when last solved, world axes
+  double force[3] = {}, torque[3] = {};         ///< on b at frame b, in the last sub-step
 
   [[nodiscard]] bool breaks() const { return desc.break_force > 0 || desc.break_torque > 0; }
 };

@@ -13,25 +13,30 @@ btTransform hinge_frame(const btTransform& frame) {
 }
 
 std::unique_ptr<btTypedConstraint> make_hinge(Joint& joint) {
-  auto hinge = std::make_unique<btHingeConstraint>(*joint.a, *joint.body_b, hinge_frame(joint.frame_a), hinge_frame(joint.frame_b), true);
+  auto hinge = std::make_unique<btHingeConstraint>(*joint.a, *joint.body_b, hinge_frame(joint.frame_a),
+                                                   hinge_frame(joint.frame_b), true);
   const PlumbLimit& limit = joint.desc.limits[3];
   // Softness and bias as Bullet has them; relaxation 0, because 1 makes a limit bounce.
   if (limit.enabled != 0)
-    hinge->setLimit(scalar(limit.lower, "limits[3].lower"), scalar(limit.upper, "limits[3].upper"), btScalar(0.9), btScalar(0.3), 0);
+    hinge->setLimit(scalar(limit.lower, "limits[3].lower"), scalar(limit.upper, "limits[3].upper"), btScalar(0.9),
+                    btScalar(0.3), 0);
   joint.hinge = hinge.get();
   return hinge;
 }
 
 PlumbAxisMode axis_mode(const PlumbJointDesc& desc, std::size_t axis) {
   if (desc.type == PLUMB_JOINT_GENERIC) return desc.axis_modes[axis];
-  const bool free = (desc.type == PLUMB_JOINT_SLIDER && axis == 0) || (desc.type == PLUMB_JOINT_UNIVERSAL && (axis == 3 || axis == 4));
+  const bool free = (desc.type == PLUMB_JOINT_SLIDER && axis == 0) ||
+                    (desc.type == PLUMB_JOINT_UNIVERSAL && (axis == 3 || axis == 4));
   if (!free) return PLUMB_AXIS_LOCKED;
   return desc.limits[axis].enabled != 0 ? PLUMB_AXIS_LIMITED : PLUMB_AXIS_FREE;
 }
 
-/// Bullet's six-axis constraint. With the order ZYX its angles are the negatives of ours: x about a's x axis, z about b's z.
+/// Bullet's six-axis constraint. With the order ZYX its angles are the negatives of ours: x about a's x axis, z about
+/// b's z.
 std::unique_ptr<btTypedConstraint> make_axes(Joint& joint) {
-  auto axes = std::make_unique<btGeneric6DofSpring2Constraint>(*joint.a, *joint.body_b, joint.frame_a, joint.frame_b, RO_ZYX);
+  auto axes =
+      std::make_unique<btGeneric6DofSpring2Constraint>(*joint.a, *joint.body_b, joint.frame_a, joint.frame_b, RO_ZYX);
   for (std::size_t axis = 0; axis < 6; ++axis) {
     btScalar lower = 0, upper = 0;
     const PlumbAxisMode mode = axis_mode(joint.desc, axis);
@@ -75,7 +80,8 @@ void make_constraint(Joint& joint) {
   if (joint.distance == nullptr)
     for (int axis = 0; axis < 6; ++axis)
       if (const PlumbSpring& spring = joint.desc.springs[axis]; spring.enabled != 0)
-        joint.springs.push_back(std::make_unique<AxisSpring>(*joint.a, *joint.body_b, joint.frame_a, joint.frame_b, axis, spring));
+        joint.springs.push_back(
+            std::make_unique<AxisSpring>(*joint.a, *joint.body_b, joint.frame_a, joint.frame_b, axis, spring));
 }
 
 bool may_have_motor(const PlumbJointDesc& desc, std::size_t axis) {

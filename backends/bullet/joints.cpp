@@ -24,7 +24,8 @@ PlumbResult World::create_joints(std::span<const PlumbJointDesc> descs, std::spa
       joint->feedback = std::make_unique<btJointFeedback[]>(1 + joint->springs.size());
       for (std::size_t k = 0; k <= joint->springs.size(); ++k) joint->feedback[k] = {};
       joint->constraint->setJointFeedback(&joint->feedback[0]);
-      for (std::size_t k = 0; k < joint->springs.size(); ++k) joint->springs[k]->setJointFeedback(&joint->feedback[1 + k]);
+      for (std::size_t k = 0; k < joint->springs.size(); ++k)
+        joint->springs[k]->setJointFeedback(&joint->feedback[1 + k]);
     }
     made.push_back(std::move(joint));
   }
@@ -107,7 +108,8 @@ void World::prepare_joints(btScalar h) {
   for (auto& joint : joints_) {
     if (!joint) continue;
     set_motors(*joint, h);
-    if (joint->wants_reaction) joint->arm_b = joint->body_b->getWorldTransform().getBasis() * joint->frame_b.getOrigin();
+    if (joint->wants_reaction)
+      joint->arm_b = joint->body_b->getWorldTransform().getBasis() * joint->frame_b.getOrigin();
   }
 }
 

@@ -16,7 +16,8 @@ void World::move_kinematic(int sub_steps_left, btScalar h) {
         to = body->target;
       } else {
         btVector3 linear, angular;
-        btTransformUtil::calculateVelocity(from, body->target, h * static_cast<btScalar>(sub_steps_left), linear, angular);
+        btTransformUtil::calculateVelocity(from, body->target, h * static_cast<btScalar>(sub_steps_left), linear,
+                                           angular);
         btTransformUtil::integrateTransform(from, linear, angular, h, to);
       }
     } else if (body->coasts) {
@@ -40,8 +41,10 @@ void World::keep_coasting() {
 /// dv/dt = -c v, solved exactly.
 void World::damp(btScalar h) {
   for (Body* body : damped_) {
-    body->setLinearVelocity(body->getLinearVelocity() * static_cast<btScalar>(std::exp(-body->linear_damping * static_cast<double>(h))));
-    body->setAngularVelocity(body->getAngularVelocity() * static_cast<btScalar>(std::exp(-body->angular_damping * static_cast<double>(h))));
+    body->setLinearVelocity(body->getLinearVelocity() *
+                            static_cast<btScalar>(std::exp(-body->linear_damping * static_cast<double>(h))));
+    body->setAngularVelocity(body->getAngularVelocity() *
+                             static_cast<btScalar>(std::exp(-body->angular_damping * static_cast<double>(h))));
   }
 }
 

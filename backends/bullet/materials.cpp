@@ -65,7 +65,8 @@ btVector3 surface_velocity(const Body& body) {
 void direct_friction(btManifoldPoint& point, const Body& a, const Body& b, const btVector3& surface_slip) {
   const btVector3& normal = point.m_normalWorldOnB;
   const btVector3 slip = a.getVelocityInLocalPoint(point.m_positionWorldOnA - a.getWorldTransform().getOrigin()) -
-                         b.getVelocityInLocalPoint(point.m_positionWorldOnB - b.getWorldTransform().getOrigin()) + surface_slip;
+                         b.getVelocityInLocalPoint(point.m_positionWorldOnB - b.getWorldTransform().getOrigin()) +
+                         surface_slip;
   const btVector3 along = slip - normal * normal.dot(slip);
   if (along.length2() > SIMD_EPSILON) {
     point.m_lateralFrictionDir1 = along.normalized();
@@ -111,7 +112,8 @@ void apply_surface_velocities(btDispatcher& dispatcher) {
     const Body &a = *our_body(manifold.getBody0()), &b = *our_body(manifold.getBody1());
     if (!a.conveys && !b.conveys) continue;
     const btVector3 surface_slip = surface_velocity(a) - surface_velocity(b);
-    for (int k = 0; k < manifold.getNumContacts(); ++k) direct_friction(manifold.getContactPoint(k), a, b, surface_slip);
+    for (int k = 0; k < manifold.getNumContacts(); ++k)
+      direct_friction(manifold.getContactPoint(k), a, b, surface_slip);
   }
 }
 

@@ -6,8 +6,8 @@
 #include <mutex>
 #include <optional>
 
-#include "plumb/backend/small_math.hpp"
 #include "exact_rays.hpp"
+#include "plumb/backend/small_math.hpp"
 #include "world.hpp"
 
 namespace plumb::bullet {
@@ -103,7 +103,8 @@ std::optional<Clipped> clip(const Body& body, const PlumbRay& ray) {
   body.getCollisionShape()->getAabb(btTransform::getIdentity(), lower, upper);
   const btVector3 slack = (upper - lower) * btScalar(0.01) + btVector3(1, 1, 1) * btScalar(0.01);
   const backend::Matrix3 to_body = backend::transpose(to_matrix(body.getWorldTransform().getBasis()));
-  const PlumbVec3 o = backend::multiply(to_body, backend::sub(ray.origin, to_plumb(body.getWorldTransform().getOrigin())));
+  const PlumbVec3 o =
+      backend::multiply(to_body, backend::sub(ray.origin, to_plumb(body.getWorldTransform().getOrigin())));
   const PlumbVec3 d = backend::multiply(to_body, ray.translation);
   const double origin[3] = {o.x, o.y, o.z}, along[3] = {d.x, d.y, d.z};
   Clipped part;
@@ -123,7 +124,8 @@ std::optional<Clipped> clip(const Body& body, const PlumbRay& ray) {
 }
 
 /// Bullet walks a height field's grid cell by cell along the whole ray, also where rounding has moved its end far away.
-/// Where that could take long all cells in the ray's box are asked instead, of which there are no more than in the field.
+/// Where that could take long all cells in the ray's box are asked instead, of which there are no more than in the
+/// field.
 bool can_walk_grid(const Body& body, const PlumbRay& ray, const Clipped& part) {
   if (body.shape->type != PLUMB_HEIGHT_FIELD) return true;
   constexpr double epsilon = std::numeric_limits<btScalar>::epsilon();
@@ -154,7 +156,9 @@ struct RayWalk final : btBroadphaseRayCallback {
       ask_bullet(*object, body);
     } else if (const auto entry = ray_enters(body, ray.origin, ray.translation)) {
       const PlumbVec3 &o = ray.origin, &t = ray.translation;
-      collector.add(body, 0, entry->fraction, {o.x + entry->fraction * t.x, o.y + entry->fraction * t.y, o.z + entry->fraction * t.z}, entry->normal);
+      collector.add(body, 0, entry->fraction,
+                    {o.x + entry->fraction * t.x, o.y + entry->fraction * t.y, o.z + entry->fraction * t.z},
+                    entry->normal);
     }
     return true;
   }
@@ -168,13 +172,15 @@ struct RayWalk final : btBroadphaseRayCallback {
     bullet.m_closestHitFraction = 1;
     constexpr unsigned int all_cells = btTriangleRaycastCallback::kF_DisableHeightfieldAccelerator;
     bullet.m_flags = can_walk_grid(body, ray, *part) ? bullet.m_flags & ~all_cells : bullet.m_flags | all_cells;
-    btCollisionWorld::rayTestSingle(at(bullet.first), at(bullet.last), &object, object.getCollisionShape(), object.getWorldTransform(), bullet);
+    btCollisionWorld::rayTestSingle(at(bullet.first), at(bullet.last), &object, object.getCollisionShape(),
+                                    object.getWorldTransform(), bullet);
   }
 
   [[nodiscard]] btTransform at(double fraction) const {
     const PlumbVec3 &o = ray.origin, &t = ray.translation;
-    return btTransform(btQuaternion::getIdentity(),
-                       vector(PlumbVec3{o.x + fraction * t.x, o.y + fraction * t.y, o.z + fraction * t.z}, "a point of a ray"));
+    return btTransform(
+        btQuaternion::getIdentity(),
+        vector(PlumbVec3{o.x + fraction * t.x, o.y + fraction * t.y, o.z + fraction * t.z}, "a point of a ray"));
   }
 
   const PlumbRay& ray;
@@ -186,13 +192,15 @@ struct CastCallback final : btCollisionWorld::ConvexResultCallback {
   CastCallback(const PlumbFilter& f, Collector& c, PlumbHitMode m) : filter(f), collector(c), mode(m) {}
 
   bool needsCollision(btBroadphaseProxy* proxy) const override {
-    return sees(filter, proxy) && !collector.has(*our_body(static_cast<const btCollisionObject*>(proxy->m_clientObject)));
+    return sees(filter, proxy) &&
+           !collector.has(*our_body(static_cast<const btCollisionObject*>(proxy->m_clientObject)));
   }
 
   btScalar addSingleResult(btCollisionWorld::LocalConvexResult& result, bool in_world) override {
     const Body& body = *our_body(result.m_hitCollisionObject);
     hits.push_back({&body, child_of(body, result.m_localShapeInfo), static_cast<double>(result.m_hitFraction),
-                    to_plumb(result.m_hitPointLocal), to_plumb(world_normal(body, result.m_hitNormalLocal, in_world).normalized())});
+                    to_plumb(result.m_hitPointLocal),
+                    to_plumb(world_normal(body, result.m_hitNormalLocal, in_world).normalized())});
     if (mode == PLUMB_HIT_CLOSEST) m_closestHitFraction = std::min(m_closestHitFraction, result.m_hitFraction);
     return m_closestHitFraction;
   }
@@ -235,7 +243,8 @@ struct OverlapCallback final : btCollisionWorld::ContactResultCallback {
   bool with_points;
 };
 
-void overlap(btCollisionWorld& world, const Shape& shape, const PlumbPose& pose, const PlumbFilter& filter, Collector& collector, bool with_points) {
+void overlap(btCollisionWorld& world, const Shape& shape, const PlumbPose& pose, const PlumbFilter& filter,
+             Collector& collector, bool with_points) {
   btCollisionObject object;
   object.setCollisionShape(shape.bullet.get());
   object.setWorldTransform(transform(pose, "pose"));
@@ -243,7 +252,9 @@ void overlap(btCollisionWorld& world, const Shape& shape, const PlumbPose& pose,
   world.contactTest(&object, callback);
 }
 
-btVector3 end_of(const btVector3& from, const PlumbVec3& translation) { return from + vector(translation, "translation"); }
+btVector3 end_of(const btVector3& from, const PlumbVec3& translation) {
+  return from + vector(translation, "translation");
+}
 
 }  // namespace
 
@@ -276,7 +287,8 @@ Hits World::cast_shapes(PlumbHitMode mode, std::span<const PlumbCast> casts) {
       const btTransform to(from.getBasis(), end_of(from.getOrigin(), cast.translation));
       CastCallback callback(cast.filter, collector, mode);
       world_.convexSweepTest(static_cast<const btConvexShape*>(moved.bullet.get()), from, to, callback);
-      for (const CastCallback::Hit& hit : callback.hits) collector.add(*hit.body, hit.child, hit.fraction, hit.position, hit.normal);
+      for (const CastCallback::Hit& hit : callback.hits)
+        collector.add(*hit.body, hit.child, hit.fraction, hit.position, hit.normal);
     }
     collector.finish();
   }

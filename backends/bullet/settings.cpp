@@ -13,21 +13,43 @@ constexpr const char* kPenetration[] = {"epa", "minkowski"};
 
 constexpr PlumbSettingInfo integer(const char* name, PlumbSettingRole role, double low, double high, double value,
                                    const char* doc, std::uint32_t flags = 0) {
-  return {name, "1", doc, PLUMB_SETTING_INT, role, flags, 0, nullptr, low, high, {PLUMB_SETTING_INT, 0, value, nullptr}};
+  return {
+      name, "1", doc, PLUMB_SETTING_INT, role, flags, 0, nullptr, low, high, {PLUMB_SETTING_INT, 0, value, nullptr}};
 }
 
 constexpr PlumbSettingInfo real(const char* name, const char* unit, PlumbSettingRole role, double low, double high,
                                 double value, const char* doc, std::uint32_t flags = 0) {
-  return {name, unit, doc, PLUMB_SETTING_FLOAT, role, flags, 0, nullptr, low, high, {PLUMB_SETTING_FLOAT, 0, value, nullptr}};
+  return {name,
+          unit,
+          doc,
+          PLUMB_SETTING_FLOAT,
+          role,
+          flags,
+          0,
+          nullptr,
+          low,
+          high,
+          {PLUMB_SETTING_FLOAT, 0, value, nullptr}};
 }
 
-constexpr PlumbSettingInfo onoff(const char* name, PlumbSettingRole role, bool value, const char* doc, std::uint32_t flags = 0) {
-  return {name, "", doc, PLUMB_SETTING_BOOL, role, flags, 0, nullptr, 0, 1, {PLUMB_SETTING_BOOL, 0, value ? 1.0 : 0.0, nullptr}};
+constexpr PlumbSettingInfo onoff(const char* name, PlumbSettingRole role, bool value, const char* doc,
+                                 std::uint32_t flags = 0) {
+  return {name,
+          "",
+          doc,
+          PLUMB_SETTING_BOOL,
+          role,
+          flags,
+          0,
+          nullptr,
+          0,
+          1,
+          {PLUMB_SETTING_BOOL, 0, value ? 1.0 : 0.0, nullptr}};
 }
 
 template <std::size_t N>
-constexpr PlumbSettingInfo choice(const char* name, PlumbSettingRole role, const char* const (&words)[N], std::size_t value,
-                                  const char* doc, std::uint32_t flags = 0) {
+constexpr PlumbSettingInfo choice(const char* name, PlumbSettingRole role, const char* const (&words)[N],
+                                  std::size_t value, const char* doc, std::uint32_t flags = 0) {
   return {name, "", doc, PLUMB_SETTING_CHOICE, role, flags, N, words, 0, 0, {PLUMB_SETTING_CHOICE, 0, 0, words[value]}};
 }
 
@@ -47,7 +69,8 @@ constexpr PlumbSettingInfo kInfos[] = {
     real("friction_erp", "1", kBehaviour, 0, 1, 0.2, "share of the slip corrected in a step, with friction_anchors"),
     onoff("friction_anchors", kBehaviour, false, "hold contact points where friction caught them"),
     onoff("split_impulse", kBehaviour, true, "correct deep contacts by moving bodies without giving them velocity"),
-    real("split_impulse_threshold", "m", kBehaviour, -1000, 0, -0.04f, "contacts deeper than its negative are corrected so"),
+    real("split_impulse_threshold", "m", kBehaviour, -1000, 0, -0.04f,
+         "contacts deeper than its negative are corrected so"),
     real("split_impulse_turn_erp", "1", kBehaviour, 0, 1, 0.1f, "share of that correction's turn that is applied"),
     real("restitution_threshold", "m/s", kBehaviour, 0, 1000, 0.2f, "slower impacts do not bounce"),
     real("warm_start_factor", "1", kBehaviour, 0, 1, 0.85, "share of the last step's contact impulses to begin with"),
@@ -69,9 +92,12 @@ constexpr PlumbSettingInfo kInfos[] = {
     real("collision_margin", "m", kBehaviour, 0, 0.5, 0.04,
          "rounding of boxes, cylinders and hulls, at most a tenth of their thickness", kCreation),
     onoff("hull_clipping", kQuality, false, "clip hulls' faces for several points of contact at once", kCreation),
-    integer("multipoint_iterations", kQuality, 0, 16, 0, "extra perturbed runs for pairs that get one point a step", kCreation),
-    choice("penetration", kBehaviour, kPenetration, 0, "how the depth of overlapping convex shapes is found", kCreation),
-    real("ccd_threshold", "1", kQuality, 0.01, 100, 0.5, "motion in a step, in inner radii, above which CCD bodies are swept"),
+    integer("multipoint_iterations", kQuality, 0, 16, 0, "extra perturbed runs for pairs that get one point a step",
+            kCreation),
+    choice("penetration", kBehaviour, kPenetration, 0, "how the depth of overlapping convex shapes is found",
+           kCreation),
+    real("ccd_threshold", "1", kQuality, 0.01, 100, 0.5,
+         "motion in a step, in inner radii, above which CCD bodies are swept"),
     real("ccd_radius", "1", kQuality, 0.01, 1, 0.5, "radius of the swept sphere, in inner radii"),
     real("ccd_allowed_penetration", "m", kBehaviour, 0, 1, 0.04, "depth that a swept sphere ignores"),
     onoff("speculative_restitution", kBehaviour, false, "let swept bodies bounce"),

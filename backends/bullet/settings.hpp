@@ -3,8 +3,8 @@
 
 #include <span>
 
-#include "plumb/backend/world_init.hpp"
 #include "dynamics_world.hpp"
+#include "plumb/backend/world_init.hpp"
 #include "shapes.hpp"
 #include "solvers.hpp"
 

@@ -15,7 +15,8 @@ constexpr double kSafeMargin = 0.1;
 constexpr double kDefaultMargin = 0.04;
 
 void set_margin(btConvexInternalShape& shape, double margin, double smallest_half_extent) {
-  if (margin != kDefaultMargin) shape.setMargin(static_cast<btScalar>(std::min(margin, kSafeMargin * smallest_half_extent)));
+  if (margin != kDefaultMargin)
+    shape.setMargin(static_cast<btScalar>(std::min(margin, kSafeMargin * smallest_half_extent)));
 }
 
 std::unique_ptr<btCollisionShape> make_box(const PlumbShapeDesc& desc, const ShapeOptions& options) {
@@ -29,13 +30,14 @@ std::unique_ptr<btCollisionShape> make_box(const PlumbShapeDesc& desc, const Sha
 
 std::unique_ptr<btCollisionShape> make_cylinder(const PlumbShapeDesc& desc, const ShapeOptions& options) {
   const btScalar radius = positive_scalar(desc.radius, "radius");
-  auto cylinder = std::make_unique<btCylinderShape>(btVector3(radius, positive_scalar(desc.half_height, "half_height"), radius));
+  auto cylinder =
+      std::make_unique<btCylinderShape>(btVector3(radius, positive_scalar(desc.half_height, "half_height"), radius));
   set_margin(*cylinder, options.margin, std::min(desc.radius, desc.half_height));
   return cylinder;
 }
 
-/// Bullet adds its margin outside of a hull: move the faces inward by as much, so that the surface is where it should be
-/// (edges and corners are rounded by the margin).
+/// Bullet adds its margin outside of a hull: move the faces inward by as much, so that the surface is where it should
+/// be (edges and corners are rounded by the margin).
 std::unique_ptr<btCollisionShape> make_hull(const PlumbShapeDesc& desc, const ShapeOptions& options) {
   btScalar largest = 0;
   for (std::size_t i = 0; i < std::size_t{desc.vertex_count} * 3; ++i)
@@ -49,7 +51,8 @@ std::unique_ptr<btCollisionShape> make_hull(const PlumbShapeDesc& desc, const Sh
     for (int i = 0; i < hull.vertices.size(); ++i) shape->addPoint(hull.vertices[i], false);
     shape->setMargin(shrunk);
   } else {
-    for (std::uint32_t i = 0; i < desc.vertex_count; ++i) shape->addPoint(vector(desc.vertices + 3 * i, "vertices"), false);
+    for (std::uint32_t i = 0; i < desc.vertex_count; ++i)
+      shape->addPoint(vector(desc.vertices + 3 * i, "vertices"), false);
     shape->setMargin(0);
   }
   shape->recalcLocalAabb();
@@ -83,7 +86,8 @@ void make_height_field(const PlumbShapeDesc& desc, Shape& shape) {
   }
   auto field = std::make_unique<btHeightfieldTerrainShape>(static_cast<int>(desc.columns), static_cast<int>(desc.rows),
                                                            shape.heights.data(), -bound, bound, 1, false);
-  field->setLocalScaling(btVector3(positive_scalar(desc.spacing.x, "spacing.x"), 1, positive_scalar(desc.spacing.z, "spacing.z")));
+  field->setLocalScaling(
+      btVector3(positive_scalar(desc.spacing.x, "spacing.x"), 1, positive_scalar(desc.spacing.z, "spacing.z")));
   shape.bullet = std::move(field);
 }
 
@@ -114,14 +118,16 @@ bool Shape::has_child_material() const {
   return std::any_of(children.begin(), children.end(), [](const Child& child) { return child.has_material; });
 }
 
-std::shared_ptr<const Shape> make_shape(const PlumbShapeDesc& desc, std::vector<Shape::Child> children, const ShapeOptions& options) {
+std::shared_ptr<const Shape> make_shape(const PlumbShapeDesc& desc, std::vector<Shape::Child> children,
+                                        const ShapeOptions& options) {
   auto shape = std::make_shared<Shape>();
   shape->type = desc.type;
   switch (desc.type) {
     case PLUMB_SPHERE: shape->bullet = std::make_unique<btSphereShape>(positive_scalar(desc.radius, "radius")); break;
     case PLUMB_BOX: shape->bullet = make_box(desc, options); break;
     case PLUMB_CAPSULE:
-      shape->bullet = std::make_unique<btCapsuleShape>(positive_scalar(desc.radius, "radius"), 2 * scalar(desc.half_height, "half_height"));
+      shape->bullet = std::make_unique<btCapsuleShape>(positive_scalar(desc.radius, "radius"),
+                                                       2 * scalar(desc.half_height, "half_height"));
       break;
     case PLUMB_CYLINDER: shape->bullet = make_cylinder(desc, options); break;
     case PLUMB_CONVEX_HULL: shape->bullet = make_hull(desc, options); break;

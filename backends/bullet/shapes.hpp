@@ -40,12 +40,14 @@ std::vector<Shape::Child> children_of(const PlumbShapeDesc& desc, Find&& find) {
   std::vector<Shape::Child> children;
   for (std::uint32_t i = 0; i < desc.child_count; ++i) {
     const PlumbCompoundChild& child = desc.children[i];
-    children.push_back({find(child.shape), transform(child.pose, "position of a child"), child.has_material != 0, child.material});
+    children.push_back(
+        {find(child.shape), transform(child.pose, "position of a child"), child.has_material != 0, child.material});
   }
   return children;
 }
 
-std::shared_ptr<const Shape> make_shape(const PlumbShapeDesc& desc, std::vector<Shape::Child> children, const ShapeOptions& options);
+std::shared_ptr<const Shape> make_shape(const PlumbShapeDesc& desc, std::vector<Shape::Child> children,
+                                        const ShapeOptions& options);
 
 /// The same shape placed in a frame that moved: Bullet wants a body's origin in its centre of mass and its axes along
 /// the principal ones. offset: the body's frame seen from that frame.

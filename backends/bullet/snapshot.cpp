@@ -95,7 +95,8 @@ PlumbResult World::save(std::span<const std::byte>& data) {
 PlumbResult World::restore(std::span<const std::byte> data) {
   std::size_t live = 0;
   for (const auto& body : bodies_) live += body ? 1 : 0;
-  if (data.size() != live * sizeof(BodyState)) throw Error(PLUMB_E_CORRUPT, "the snapshot does not have a state for every body");
+  if (data.size() != live * sizeof(BodyState))
+    throw Error(PLUMB_E_CORRUPT, "the snapshot does not have a state for every body");
   const std::byte* at = data.data();
   for (const auto& body : bodies_) {
     if (!body) continue;

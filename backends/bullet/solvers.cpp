@@ -16,7 +16,8 @@ class Counting final : public Solver {
  public:
   using Solver::Solver;
 
-  btScalar solveGroupCacheFriendlyFinish(btCollisionObject** bodies, int body_count, const btContactSolverInfo& info) override {
+  btScalar solveGroupCacheFriendlyFinish(btCollisionObject** bodies, int body_count,
+                                         const btContactSolverInfo& info) override {
     contacts += static_cast<std::uint32_t>(this->m_tmpSolverContactConstraintPool.size());
     worst = std::max(worst, static_cast<double>(this->m_leastSquaresResidual));
     return Solver::solveGroupCacheFriendlyFinish(bodies, body_count, info);

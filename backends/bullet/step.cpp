@@ -14,7 +14,8 @@ World::World(const WorldInit& init)
       gravity_(init.desc.gravity) {
   install_material_callbacks();
   set_gravity(init.desc.gravity);
-  if (needs(PLUMB_NEED_FILTERS | PLUMB_NEED_SENSORS)) parts_.broadphase.getOverlappingPairCache()->setOverlapFilterCallback(this);
+  if (needs(PLUMB_NEED_FILTERS | PLUMB_NEED_SENSORS))
+    parts_.broadphase.getOverlappingPairCache()->setOverlapFilterCallback(this);
   apply_settings();
 }
 
@@ -102,7 +103,8 @@ PlumbResult World::wait(PlumbStepReport& report) {
   report.residual = solver_->residual();
   if (solver_->fell_back()) report.remarks |= PLUMB_REMARK_SOLVER_FELL_BACK;
   count_bodies(report);
-  for (std::size_t phase = 0; phase <= PLUMB_PHASE_CONTINUOUS; ++phase) report.phase_seconds[phase] = world_.seconds()[phase];
+  for (std::size_t phase = 0; phase <= PLUMB_PHASE_CONTINUOUS; ++phase)
+    report.phase_seconds[phase] = world_.seconds()[phase];
   return PLUMB_OK;
 }
 

@@ -5,11 +5,11 @@
 #include <mutex>
 #include <vector>
 
-#include "plumb/backend/touch_tracker.hpp"
 #include "body.hpp"
 #include "dynamics_world.hpp"
 #include "joint.hpp"
 #include "materials.hpp"
+#include "plumb/backend/touch_tracker.hpp"
 #include "settings.hpp"
 
 namespace plumb::bullet {
@@ -144,18 +144,18 @@ class World final : public IPhysicsWorld,
   SolverKind solver_kind_;
   std::unique_ptr<TrackedSolver> solver_;
   DynamicsWorld world_;
-  btEmptyShape no_shape_;     ///< of bodies without one
-  btRigidBody ground_;        ///< what joints to the world hold on to
+  btEmptyShape no_shape_;  ///< of bodies without one
+  btRigidBody ground_;     ///< what joints to the world hold on to
   PlumbVec3 gravity_;
 
   std::vector<std::shared_ptr<const Shape>> shapes_;  ///< by slot, null where none lives
   std::vector<std::unique_ptr<Body>> bodies_;
   std::vector<std::unique_ptr<Joint>> joints_;
-  std::vector<Body*> kinematic_, damped_, locked_;    ///< those that a step must look at
-  std::uint32_t joint_count_ = 0;                     ///< that a step must prepare
+  std::vector<Body*> kinematic_, damped_, locked_;  ///< those that a step must look at
+  std::uint32_t joint_count_ = 0;                   ///< that a step must prepare
 
   std::vector<PlumbContact> contacts_;
-  std::vector<PlumbContact> sub_step_contacts_;       ///< of all sub-steps but the last
+  std::vector<PlumbContact> sub_step_contacts_;  ///< of all sub-steps but the last
   bool contacts_fresh_ = false;
   std::uintptr_t last_point_id_ = 0;
   backend::TouchTracker touches_;
@@ -163,8 +163,8 @@ class World final : public IPhysicsWorld,
   std::vector<std::byte> snapshot_;
   std::vector<PlumbDebugPair> debug_pairs_;
   std::vector<PlumbDebugBox> debug_boxes_;
-  double h_ = 0;                                      ///< of the sub-step in hand, s
-  std::mutex query_mutex_;                            ///< Bullet's tree keeps one stack for all of its rays
+  double h_ = 0;            ///< of the sub-step in hand, s
+  std::mutex query_mutex_;  ///< Bullet's tree keeps one stack for all of its rays
 };
 
 }  // namespace plumb::bullet

@@ -1,5 +1,6 @@
-// What the adapter costs: the same scene behind the interface and in plain Bullet, step by step in turn in one run, each
-// with poses and velocities read out as float rows. Both do the same arithmetic, so that every pair of steps compares.
+// What the adapter costs: the same scene behind the interface and in plain Bullet, step by step in turn in one run,
+// each with poses and velocities read out as float rows. Both do the same arithmetic, so that every pair of steps
+// compares.
 #include <benchmark/benchmark.h>
 
 #include <time.h>
@@ -74,7 +75,9 @@ void adapter_cost(benchmark::State& state, const scenes::Scene& scene, PlumbNeed
   for (auto _ : state) {
     double our_time = 0, native_time = 0;
     const auto run_ours = [&] { our_time = seconds([&] { step_ours(ours, our_poses, our_velocities); }); };
-    const auto run_native = [&] { native_time = seconds([&] { step_native(native, native_poses, native_velocities); }); };
+    const auto run_native = [&] {
+      native_time = seconds([&] { step_native(native, native_poses, native_velocities); });
+    };
     if (ours_first) run_ours();
     run_native();
     if (!ours_first) run_ours();
@@ -88,7 +91,8 @@ void adapter_cost(benchmark::State& state, const scenes::Scene& scene, PlumbNeed
   state.counters["ratio"] = lower_quartile(our_times) / lower_quartile(native_times);
 }
 
-constexpr PlumbNeeds kWithContacts = scenes::kNeeds | PLUMB_NEED_EVENTS | PLUMB_NEED_CONTACTS | PLUMB_NEED_CONTACT_IMPULSES;
+constexpr PlumbNeeds kWithContacts =
+    scenes::kNeeds | PLUMB_NEED_EVENTS | PLUMB_NEED_CONTACTS | PLUMB_NEED_CONTACT_IMPULSES;
 
 BENCHMARK_CAPTURE(adapter_cost, pile_1000, scenes::pile(1000), scenes::kNeeds, 200);
 BENCHMARK_CAPTURE(adapter_cost, pyramid_20, scenes::pyramid(20), scenes::kNeeds, 60);

@@ -19,7 +19,8 @@ double kinetic(const std::array<double, 6>& velocity, const std::array<double, 7
 /// Share of the rotation energy of a free box (half sides .5 .25 .1, 100 kg, spun about its middle axis) that is left
 /// after 60 s.
 double energy_left(const char* gyroscopic_mode) {
-  auto world = scenes::make_world(PLUMB_NEED_ROTATION | PLUMB_NEED_GYROSCOPIC | PLUMB_NEED_COLLISION, {scenes::word_setting("gyroscopic_mode", gyroscopic_mode)});
+  auto world = scenes::make_world(PLUMB_NEED_ROTATION | PLUMB_NEED_GYROSCOPIC | PLUMB_NEED_COLLISION,
+                                  {scenes::word_setting("gyroscopic_mode", gyroscopic_mode)});
   plumb::check(*world, world->set_gravity({0, 0, 0}));
   PlumbBodyDesc box = scenes::frictionless(PLUMB_DYNAMIC, scenes::add_box(*world, {0.5, 0.25, 0.1}), {0, 0, 0});
   box.mass_mode = PLUMB_MASS_FROM_TOTAL;
@@ -27,8 +28,8 @@ double energy_left(const char* gyroscopic_mode) {
   box.angular_velocity = {0.5, 5, 0};
   const PlumbBody body = scenes::add_body(*world, box);
   const auto energy = [&] {
-    return kinetic(scenes::read_row<6>(*world, PLUMB_FIELD_VELOCITY, body), scenes::read_row<7>(*world, PLUMB_FIELD_POSE, body),
-                   {2.41666667, 8.66666667, 10.41666667});
+    return kinetic(scenes::read_row<6>(*world, PLUMB_FIELD_VELOCITY, body),
+                   scenes::read_row<7>(*world, PLUMB_FIELD_POSE, body), {2.41666667, 8.66666667, 10.41666667});
   };
   const double before = energy();
   for (int i = 0; i < 3600; ++i) scenes::advance(*world);
@@ -46,7 +47,8 @@ TEST(Facts, GyroscopicModesDiffer) { EXPECT_NEAR(energy_left("none"), 1, 0.35); 
 TEST(Facts, TheDirectSolverFallsBackOnStacksAndTheReportSaysSo) {
   scenes::PlumbScene tower(scenes::tower(10), scenes::kNeeds, {scenes::word_setting("solver", "mlcp_dantzig")});
   int fell_back = 0;
-  for (int i = 0; i < 120; ++i) fell_back += (scenes::advance(*tower.world).remarks & PLUMB_REMARK_SOLVER_FELL_BACK) != 0;
+  for (int i = 0; i < 120; ++i)
+    fell_back += (scenes::advance(*tower.world).remarks & PLUMB_REMARK_SOLVER_FELL_BACK) != 0;
   EXPECT_GT(fell_back, 0);
   scenes::PlumbScene usual(scenes::tower(10));
   EXPECT_EQ(scenes::advance(*usual.world).remarks, 0u);
@@ -78,7 +80,8 @@ TEST(Facts, TowersOfHullsAreAsTallAsTheirHulls) {
 
 TEST(Facts, SlowImpactsDoNotBounce) {
   for (const double threshold : {0.2, 0.0}) {
-    auto world = scenes::make_world(PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_RESTITUTION, {scenes::number_setting("restitution_threshold", threshold)});
+    auto world = scenes::make_world(PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_RESTITUTION,
+                                    {scenes::number_setting("restitution_threshold", threshold)});
     plumb::check(*world, world->set_gravity({0, 0, 0}));
     PlumbBodyDesc floor = scenes::frictionless(PLUMB_STATIC, scenes::add_box(*world, {5, 5, 5}), {0, -5, 0});
     scenes::add_body(*world, floor);
@@ -97,7 +100,8 @@ TEST(Facts, SlowImpactsDoNotBounce) {
 
 TEST(Facts, MoreSubStepsLoseLessHeight) {
   const auto sink = [](double substeps) {
-    scenes::PlumbScene tower(scenes::tower(10), scenes::kNeeds, {scenes::number_setting("substeps", substeps, PLUMB_SETTING_INT)});
+    scenes::PlumbScene tower(scenes::tower(10), scenes::kNeeds,
+                             {scenes::number_setting("substeps", substeps, PLUMB_SETTING_INT)});
     for (int i = 0; i < 120; ++i) scenes::advance(*tower.world);
     return 9.5 - scenes::read_row<7>(*tower.world, PLUMB_FIELD_POSE, tower.bodies.back())[1];
   };

@@ -7,9 +7,10 @@
 
 namespace {
 
-constexpr PlumbNeeds kNeeds = PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION | PLUMB_NEED_RESTITUTION |
-                              PLUMB_NEED_CONTACTS | PLUMB_NEED_CONTACT_IMPULSES | PLUMB_NEED_EVENTS | PLUMB_NEED_KINEMATIC |
-                              PLUMB_NEED_FORCES | PLUMB_NEED_DAMPING | PLUMB_NEED_AXIS_LOCKS;
+constexpr PlumbNeeds kNeeds = PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION |
+                              PLUMB_NEED_RESTITUTION | PLUMB_NEED_CONTACTS | PLUMB_NEED_CONTACT_IMPULSES |
+                              PLUMB_NEED_EVENTS | PLUMB_NEED_KINEMATIC | PLUMB_NEED_FORCES | PLUMB_NEED_DAMPING |
+                              PLUMB_NEED_AXIS_LOCKS;
 
 PlumbBody add_floor(plumb::IPhysicsWorld& world) {
   PlumbBodyDesc floor = plumb::body_desc(PLUMB_STATIC);
@@ -82,7 +83,8 @@ TEST(Kinematic, ReachesItsTargetInTheNextStepWithAnyNumberOfSubSteps) {
     desc.shape = scenes::add_box(*world, {1, 0.1, 1});
     const PlumbBody body = scenes::add_body(*world, desc);
     const double half = 0.05;
-    scenes::write_row(*world, PLUMB_FIELD_KINEMATIC_TARGET, body, std::array<double, 7>{0.1, 0.2, 0, 0, std::sin(half), 0, std::cos(half)});
+    scenes::write_row(*world, PLUMB_FIELD_KINEMATIC_TARGET, body,
+                      std::array<double, 7>{0.1, 0.2, 0, 0, std::sin(half), 0, std::cos(half)});
     scenes::advance(*world, 0.1);
     const auto pose = scenes::read_row<7>(*world, PLUMB_FIELD_POSE, body);
     const auto velocity = scenes::read_row<6>(*world, PLUMB_FIELD_VELOCITY, body);

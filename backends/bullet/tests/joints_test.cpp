@@ -7,12 +7,13 @@
 
 namespace {
 
-constexpr PlumbNeeds kJointNeeds = PLUMB_NEED_ROTATION | PLUMB_NEED_JOINTS | PLUMB_NEED_JOINT_REACTIONS | PLUMB_NEED_EVENTS |
-                                   PLUMB_NEED_FORCES | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION;
+constexpr PlumbNeeds kJointNeeds = PLUMB_NEED_ROTATION | PLUMB_NEED_JOINTS | PLUMB_NEED_JOINT_REACTIONS |
+                                   PLUMB_NEED_EVENTS | PLUMB_NEED_FORCES | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION;
 
 /// A cube of 8 kg and side 1 that hangs on one joint to the world.
 struct Hung {
-  explicit Hung(PlumbJointDesc desc, bool gravity = false, PlumbVec3 at = {0, 0, 0}, PlumbVec3 velocity = {}, PlumbVec3 spin = {})
+  explicit Hung(PlumbJointDesc desc, bool gravity = false, PlumbVec3 at = {0, 0, 0}, PlumbVec3 velocity = {},
+                PlumbVec3 spin = {})
       : world(scenes::make_world(kJointNeeds)) {
     plumb::check(*world, world->set_gravity(gravity ? PlumbVec3{0, -9.81, 0} : PlumbVec3{0, 0, 0}));
     PlumbBodyDesc cube = plumb::body_desc();
@@ -191,7 +192,8 @@ TEST(Joints, CriticalSpringsDoNotSwing) {
 }
 
 TEST(Joints, ReactionsCarryTheWeight) {
-  for (const PlumbJointType type : {PLUMB_JOINT_BALL, PLUMB_JOINT_HINGE, PLUMB_JOINT_SLIDER, PLUMB_JOINT_FIXED, PLUMB_JOINT_UNIVERSAL, PLUMB_JOINT_DISTANCE}) {
+  for (const PlumbJointType type : {PLUMB_JOINT_BALL, PLUMB_JOINT_HINGE, PLUMB_JOINT_SLIDER, PLUMB_JOINT_FIXED,
+                                    PLUMB_JOINT_UNIVERSAL, PLUMB_JOINT_DISTANCE}) {
     PlumbJointDesc desc = plumb::joint_desc(type);
     desc.frame_a.position = {0, 2, 0};
     desc.rest_length = 2;

@@ -21,8 +21,10 @@ TEST_P(NativeEquality, HoldsBitForBit) {
       const auto pose = scenes::read_row<7>(*ours.world, PLUMB_FIELD_POSE, ours.bodies[i]);
       const auto velocity = scenes::read_row<6>(*ours.world, PLUMB_FIELD_VELOCITY, ours.bodies[i]);
       const auto expected = native.state(i);
-      ASSERT_EQ(0, std::memcmp(pose.data(), expected.data(), sizeof pose)) << "pose of body " << i << " in step " << step;
-      ASSERT_EQ(0, std::memcmp(velocity.data(), expected.data() + 7, sizeof velocity)) << "velocity of body " << i << " in step " << step;
+      ASSERT_EQ(0, std::memcmp(pose.data(), expected.data(), sizeof pose))
+          << "pose of body " << i << " in step " << step;
+      ASSERT_EQ(0, std::memcmp(velocity.data(), expected.data() + 7, sizeof velocity))
+          << "velocity of body " << i << " in step " << step;
     }
   }
   // A scene that does not move would be equal without being tested.
@@ -36,7 +38,8 @@ TEST_P(NativeEquality, HoldsBitForBit) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, NativeEquality,
-                         testing::Values(scenes::tower(10), scenes::pyramid(10), scenes::pile(64), scenes::chain(10), scenes::pendulum()),
+                         testing::Values(scenes::tower(10), scenes::pyramid(10), scenes::pile(64), scenes::chain(10),
+                                         scenes::pendulum()),
                          [](const auto& scene) { return scene.param.name; });
 
 }  // namespace

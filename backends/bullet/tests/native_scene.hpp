@@ -28,15 +28,19 @@ struct NativeScene {
   /// Position, orientation x y z w, velocity, angular velocity.
   std::array<double, 13> state(std::size_t i) const {
     const btRigidBody& body = *bodies[i];
-    const btVector3 &x = body.getWorldTransform().getOrigin(), &v = body.getLinearVelocity(), &w = body.getAngularVelocity();
+    const btVector3 &x = body.getWorldTransform().getOrigin(), &v = body.getLinearVelocity(),
+                    &w = body.getAngularVelocity();
     btQuaternion q;
     body.getWorldTransform().getBasis().getRotation(q);
     return {x.x(), x.y(), x.z(), q.x(), q.y(), q.z(), q.w(), v.x(), v.y(), v.z(), w.x(), w.y(), w.z()};
   }
 
-  static btVector3 vector(const PlumbVec3& v) { return {static_cast<btScalar>(v.x), static_cast<btScalar>(v.y), static_cast<btScalar>(v.z)}; }
+  static btVector3 vector(const PlumbVec3& v) {
+    return {static_cast<btScalar>(v.x), static_cast<btScalar>(v.y), static_cast<btScalar>(v.z)};
+  }
   static btQuaternion quaternion(const PlumbQuat& q) {
-    return {static_cast<btScalar>(q.x), static_cast<btScalar>(q.y), static_cast<btScalar>(q.z), static_cast<btScalar>(q.w)};
+    return {static_cast<btScalar>(q.x), static_cast<btScalar>(q.y), static_cast<btScalar>(q.z),
+            static_cast<btScalar>(q.w)};
   }
 
   void add(const Item& item) {
@@ -45,7 +49,8 @@ struct NativeScene {
     else
       shapes.push_back(std::make_unique<btBoxShape>(vector(item.half)));
     const btScalar mass = item.is_static ? btScalar(0) : static_cast<btScalar>(item.mass);
-    btRigidBody::btRigidBodyConstructionInfo info(mass, nullptr, shapes.back().get(), item.is_static ? btVector3(0, 0, 0) : vector(inertia(item)));
+    btRigidBody::btRigidBodyConstructionInfo info(mass, nullptr, shapes.back().get(),
+                                                  item.is_static ? btVector3(0, 0, 0) : vector(inertia(item)));
     info.m_startWorldTransform = btTransform(quaternion(item.pose.orientation), vector(item.pose.position));
     info.m_friction = static_cast<btScalar>(kNativeFriction);
     bodies.push_back(std::make_unique<btRigidBody>(info));
@@ -63,7 +68,8 @@ struct NativeScene {
     if (joint.is_hinge) {
       // Columns x to -y, y to x would do as well for z: these are the interface's frames with x y z renamed to z x y.
       const btMatrix3x3 renamed = btMatrix3x3(quaternion(x_to_z())) * btMatrix3x3(0, 0, 1, 1, 0, 0, 0, 1, 0);
-      joints.push_back(std::make_unique<btHingeConstraint>(a, b, btTransform(renamed, vector(joint.in_a)), btTransform(renamed, vector(joint.in_b)), true));
+      joints.push_back(std::make_unique<btHingeConstraint>(a, b, btTransform(renamed, vector(joint.in_a)),
+                                                           btTransform(renamed, vector(joint.in_b)), true));
     } else {
       joints.push_back(std::make_unique<btPoint2PointConstraint>(a, b, vector(joint.in_a), vector(joint.in_b)));
     }

@@ -13,7 +13,8 @@ inline const plumb::Backend& backend() {
   return opened;
 }
 
-inline constexpr PlumbNeeds kNeeds = PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION | PLUMB_NEED_JOINTS | PLUMB_NEED_GYROSCOPIC;
+inline constexpr PlumbNeeds kNeeds =
+    PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION | PLUMB_NEED_JOINTS | PLUMB_NEED_GYROSCOPIC;
 
 inline std::unique_ptr<plumb::IPhysicsWorld> make_world(PlumbNeeds needs, std::vector<PlumbSetting> settings = {}) {
   PlumbWorldDesc desc = plumb::world_desc(needs);
@@ -25,7 +26,9 @@ inline std::unique_ptr<plumb::IPhysicsWorld> make_world(PlumbNeeds needs, std::v
 inline PlumbSetting number_setting(const char* name, double value, PlumbSettingType type = PLUMB_SETTING_FLOAT) {
   return {name, {type, 0, value, nullptr}};
 }
-inline PlumbSetting word_setting(const char* name, const char* word) { return {name, {PLUMB_SETTING_CHOICE, 0, 0, word}}; }
+inline PlumbSetting word_setting(const char* name, const char* word) {
+  return {name, {PLUMB_SETTING_CHOICE, 0, 0, word}};
+}
 
 inline PlumbShape add_shape(plumb::IPhysicsWorld& world, const PlumbShapeDesc& desc) {
   PlumbShape shape = 0;
@@ -71,7 +74,8 @@ std::array<double, Columns> read_row(plumb::IPhysicsWorld& world, PlumbField fie
 }
 template <std::size_t Columns>
 void write_row(plumb::IPhysicsWorld& world, PlumbField field, PlumbBody body, const std::array<double, Columns>& row) {
-  plumb::check(world, world.write(field, {&body, 1}, plumb::const_rows_over(std::span<const std::array<double, Columns>>(&row, 1))));
+  plumb::check(world, world.write(field, {&body, 1},
+                                  plumb::const_rows_over(std::span<const std::array<double, Columns>>(&row, 1))));
 }
 
 /// A world of Plumb with a scene in it.

@@ -1,4 +1,5 @@
-// Scenes as lists of boxes, spheres and joints, from which the test makes a world of Plumb and a program in plain Bullet.
+// Scenes as lists of boxes, spheres and joints, from which the test makes a world of Plumb and a program in plain
+// Bullet.
 #pragma once
 
 #include <cmath>
@@ -14,7 +15,7 @@ namespace scenes {
 struct Item {
   bool is_static = false;
   bool is_sphere = false;
-  PlumbVec3 half{};      ///< of a box; x is the radius of a sphere
+  PlumbVec3 half{};  ///< of a box; x is the radius of a sphere
   PlumbPose pose{};
   double mass = 1;
   PlumbVec3 velocity{}, spin{};
@@ -42,7 +43,8 @@ inline constexpr double kNativeFriction = 0.5;
 
 inline PlumbVec3 box_inertia(const Item& item) {
   const PlumbVec3 h = item.half;
-  return {item.mass / 3 * (h.y * h.y + h.z * h.z), item.mass / 3 * (h.x * h.x + h.z * h.z), item.mass / 3 * (h.x * h.x + h.y * h.y)};
+  return {item.mass / 3 * (h.y * h.y + h.z * h.z), item.mass / 3 * (h.x * h.x + h.z * h.z),
+          item.mass / 3 * (h.x * h.x + h.y * h.y)};
 }
 inline PlumbVec3 inertia(const Item& item) {
   const double sphere = 0.4 * item.mass * item.half.x * item.half.x;
