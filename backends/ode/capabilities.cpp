@@ -40,6 +40,8 @@ Fact pair_fact(std::uint32_t a, std::uint32_t b) {
     if (is(PLUMB_CONVEX_HULL, flat)) return one_point;
   if (is(PLUMB_CAPSULE, PLUMB_CYLINDER)) return one_point;
   if (is(PLUMB_BOX, PLUMB_CAPSULE)) return {PLUMB_APPROXIMATE, "a single point: a capsule that lies on a box rocks"};
+  if (is(PLUMB_TRIANGLE_MESH, PLUMB_TRIANGLE_MESH))
+    return {PLUMB_APPROXIMATE, "contacts only where edges cross faces: a mesh sinks into the flat of another"};
   if (is(PLUMB_CYLINDER, PLUMB_TRIANGLE_MESH))
     return {PLUMB_APPROXIMATE, "points come and go: a standing cylinder trembles"};
   return {PLUMB_NATIVE};

@@ -116,8 +116,8 @@ const std::vector<Row>& rows() {
       number<&S::sleep_time>("auto_disable_time", real, behaviour, 0, 0, 1000, 0, "s",
                              "time that a body must be idle before it sleeps"),
       choice<&S::space>("space", speed, once, space_words, "broad phase"),
-      number<&S::hash_min_level>("hash_min_level", whole, speed, once, -20, 20, -3, "1", "smallest cell: 2^level m"),
-      number<&S::hash_max_level>("hash_max_level", whole, speed, once, -20, 20, 10, "1", "largest cell: 2^level m"),
+      number<&S::hash_min_level>("hash_min_level", whole, speed, once, -20, 0, -3, "1", "smallest cell: 2^level m"),
+      number<&S::hash_max_level>("hash_max_level", whole, speed, once, 0, 20, 10, "1", "largest cell: 2^level m"),
       number<&S::quadtree_extent>("quadtree_extent", real, speed, once, 1, 1e6, 200, "m",
                                   "half side of the quadtree around the origin"),
       number<&S::quadtree_depth>("quadtree_depth", whole, speed, once, 1, 10, 6, "1", "levels of the quadtree"),
@@ -152,10 +152,6 @@ std::span<const PlumbSettingInfo> setting_infos() {
 // Every member is set by its row of the list.
 Settings::Settings(const WorldInit& init) {  // NOLINT(cppcoreguidelines-pro-type-member-init)
   for (std::size_t i = 0; i < init.infos.size(); ++i) assign_setting(*this, init.infos[i].name, init.values[i]);
-  if (hash_min_level > hash_max_level)
-    throw Error(PLUMB_E_INVALID_ARGUMENT, "setting hash_min_level is " + std::to_string(hash_min_level) +
-                                              "; it must not be above hash_max_level, which is " +
-                                              std::to_string(hash_max_level));
 }
 
 void assign_setting(Settings& settings, const char* name, const PlumbSettingValue& value) {

@@ -47,7 +47,10 @@ Judgement judge(const std::vector<Metric>& metrics, const std::vector<MetricSpec
     if (judgement.metrics.contains(spec.name)) continue;
     const Metric absent{spec.name, NAN, std::nullopt, NAN, std::nullopt, "not measured"};
     judgement.metrics[spec.name] = row_of(absent, &spec);
-    if (spec.threshold) judgement.missed.push_back(spec.name + " was not measured");
+    if (spec.optional)
+      judgement.metrics[spec.name]["pass"] = nullptr;
+    else if (spec.threshold)
+      judgement.missed.push_back(spec.name + " was not measured");
   }
   return judgement;
 }

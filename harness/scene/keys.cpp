@@ -15,7 +15,7 @@ const std::map<std::string, std::vector<std::string>>& scene_keys() {
         "shapes", "bodies", "joints", "measure", "metrics"}},
       {"parameter", {"default", "unit", "doc", "minimum", "maximum", "integer", "choices"}},
       {"definition", {"name", "value"}},
-      {"metric", {"unit", "doc", "when", "threshold", "gold"}},
+      {"metric", {"unit", "doc", "when", "optional", "threshold", "gold"}},
       {"shape",
        {"type", "radius", "half_height", "half_extents", "vertices", "indices", "heights", "spacing", "children",
         "user_data"}},

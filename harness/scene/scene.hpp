@@ -37,6 +37,7 @@ struct ParameterSpec {
 struct MetricSpec {
   std::string name, unit, doc;
   std::optional<double> threshold, gold;
+  bool optional = false;  ///< not measured where the engine lacks what it takes; else that is a miss
 };
 
 /// A shape with the arrays that its descriptor points to.

@@ -148,6 +148,7 @@ std::vector<MetricSpec> read_metrics(const Node& metrics) {
     spec.name = name;
     spec.unit = read_unit(node.at("unit"));
     spec.doc = node.at("doc").text();
+    if (const auto optional = node.find("optional")) spec.optional = optional->boolean();
     if (const auto threshold = node.find("threshold")) spec.threshold = threshold->number();
     if (const auto gold = node.find("gold")) {
       spec.gold = gold->number();
