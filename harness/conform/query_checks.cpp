@@ -199,9 +199,11 @@ void casts(Conformance& c) {
 
 void overlaps(Conformance& c) {
   c.require_needs(kQueryNeeds);
-  int asked = 0, wrong = 0;
+  int asked = 0;
   for (const PlumbShapeType type : {PLUMB_SPHERE, PLUMB_BOX, PLUMB_CAPSULE}) {
-    if (c.backend().capability(PLUMB_CAP_QUERY, PLUMB_QUERY_OVERLAP, type) == PLUMB_NONE) continue;
+    const PlumbDegree claim = c.backend().capability(PLUMB_CAP_QUERY, PLUMB_QUERY_OVERLAP, type);
+    if (claim == PLUMB_NONE) continue;
+    int forgiven = claim == PLUMB_APPROXIMATE ? 3 : 0;  // of 3600
     Cloud cloud(c, 0, 60);
     PlumbShapeDesc desc = shape_desc(type);
     desc.radius = 0.8;
@@ -223,11 +225,12 @@ void overlaps(Conformance& c) {
         if (std::abs(depth) < 0.05) continue;  // within an engine's margin
         const bool found = std::any_of(hits.hits.begin(), hits.hits.end(), [&](const PlumbHit& hit) { return hit.query == i && hit.body == item.body; });
         ++asked;
-        if (found != (depth > 0)) ++wrong;
+        if (found != (depth > 0) && forgiven-- > 0) continue;
+        c.expect(found == (depth > 0), "a {} and a {} that overlap by {:.4f} m {} found", backend::shape_name(type),
+                 backend::shape_name(item.shape->type()), depth, found ? "are" : "are not");
       }
   }
   if (asked == 0) c.require(PLUMB_CAP_QUERY, PLUMB_QUERY_OVERLAP, PLUMB_SPHERE, "overlaps");
-  c.expect(wrong == 0, "{} of {} overlaps differ from the referee's", wrong, asked);
 }
 
 /// Collision without a step: sign and depth of random pairs.

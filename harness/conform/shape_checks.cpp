@@ -26,9 +26,12 @@ void declared_shapes(Conformance& c) {
       bool made = false;
       std::string why;
       try {
-        Probe probe(c, c.available(kPlainNeeds | PLUMB_NEED_KINEMATIC));
+        const PlumbNeeds needs = c.available(kPlainNeeds | PLUMB_NEED_KINEMATIC);
+        Probe probe(c, needs);
         PlumbBodyDesc desc = dynamic_desc(probe.standard(type), {0, 0, 0});
         desc.motion = motion;
+        if ((needs & PLUMB_NEED_FRICTION) == 0) desc.material.friction = 0;
+        if ((needs & PLUMB_NEED_ROTATION) == 0) desc.flags = PLUMB_BODY_NO_ROTATION;
         if (type == PLUMB_TRIANGLE_MESH || type == PLUMB_HEIGHT_FIELD) {
           desc.mass_mode = PLUMB_MASS_EXPLICIT;
           desc.mass = 1000;

@@ -245,9 +245,11 @@ Json run_cell(Backend& backend, const Json& request, Progress& progress) {
   if (context) {
     add_record(answer, context->record());
     const bool complete = outcome.status == "ok";
-    const Judgement judgement =
+    Judgement judgement =
         judge(context->metrics(), complete ? scene->metrics : std::vector<MetricSpec>{}, general_metric_specs());
     answer["metrics"] = judgement.metrics;
+    if (const auto& statistics = context->record().statistics; statistics && statistics->nonfinite != 0)
+      judgement.missed.push_back(fmt::format("{} bodies became NaN or infinite", statistics->nonfinite));
     if (complete && !judgement.missed.empty()) outcome = {"failed", joined(judgement.missed)};
   }
   answer["status"] = outcome.status;

@@ -22,7 +22,9 @@ ResultsFile::ResultsFile(const std::filesystem::path& folder) : folder_(folder) 
   for (std::string line; std::getline(in, line);) {
     torn = in.eof();
     Json row = Json::parse(line, nullptr, false);
-    if (row.is_object() && row.contains("cell") && row["cell"].is_string()) rows_[row["cell"].get<std::string>()] = std::move(row);
+    if (!row.is_object() || !row.contains("cell") || !row["cell"].is_string()) continue;
+    const std::string cell = row["cell"];
+    rows_[cell] = std::move(row);
   }
   descriptor_ = open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
   if (descriptor_ < 0) throw UsageError("--out " + folder.string() + ": " + std::strerror(errno));

@@ -13,9 +13,9 @@ class SampleWorld final : public plumb::IPhysicsWorld {
     return info;
   }
 
-  static PlumbDegree capability(PlumbCapability kind, std::uint32_t a, std::uint32_t, const char*& note) {
+  static PlumbDegree capability(PlumbCapability kind, std::uint32_t a, std::uint32_t b, const char*& note) {
     note = "particles only";
-    if (kind == PLUMB_CAP_SHAPE) return a == PLUMB_SPHERE ? PLUMB_NATIVE : PLUMB_NONE;
+    if (kind == PLUMB_CAP_SHAPE) return a == PLUMB_SPHERE && b != PLUMB_KINEMATIC ? PLUMB_NATIVE : PLUMB_NONE;
     if (kind == PLUMB_CAP_FIELD_READ || kind == PLUMB_CAP_FIELD_WRITE) return a <= PLUMB_FIELD_VELOCITY ? PLUMB_NATIVE : PLUMB_NONE;
     return PLUMB_NONE;
   }
