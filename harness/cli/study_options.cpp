@@ -42,6 +42,7 @@ void add_study_options(CLI::App& verb, StudyOptions& options) {
       ->check(CLI::NonNegativeNumber)->capture_default_str();
   verb.add_option("--out", request.out, "Folder for results.jsonl; cells that are finished there are not run again")->capture_default_str();
   verb.add_flag("--record", request.record, "Write trajectories to the folder of --out");
+  verb.add_flag("--trace", request.trace, "Write every call to the folder of --out, for plumb replay; times include that");
   verb.add_flag("--json", options.output.json, "One object a cell, one a line, as they finish");
   verb.add_flag("--csv", options.output.csv, "One line a metric")->excludes("--json");
   verb.add_flag("--strict", options.strict, "Exit with 1 when a threshold is missed");
@@ -50,6 +51,7 @@ void add_study_options(CLI::App& verb, StudyOptions& options) {
 int run_and_print(const StudyOptions& options, PrintRows print) {
   const StudyRequest& request = options.request;
   if (request.record && request.out.empty()) throw UsageError("--record writes trajectories to a folder: name it with --out DIR");
+  if (request.trace && request.out.empty()) throw UsageError("--trace writes traces to a folder: name it with --out DIR");
   catch_signals();
   const Plan plan = make_plan(request);
   say_what_is_left_out(plan);

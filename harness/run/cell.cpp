@@ -56,7 +56,7 @@ std::string cell_id(const Cell& cell) {
   return hash.hex();
 }
 
-Json request_of(const Cell& cell, const std::string& trajectory_file) {
+Json request_of(const Cell& cell, const std::string& trajectory_file, const std::string& trace_file) {
   return {{"request", "run"},
           {"scene", cell.scene->path.string()},
           {"scene_hash", fmt::format("{:016x}", cell.scene->hash)},
@@ -66,7 +66,8 @@ Json request_of(const Cell& cell, const std::string& trajectory_file) {
           {"seconds", cell.seconds},
           {"threads", cell.threads},
           {"needs", cell.needs},
-          {"trajectory", trajectory_file}};
+          {"trajectory", trajectory_file},
+          {"trace", trace_file}};
 }
 
 std::string build_id(const BackendDescription& backend) {

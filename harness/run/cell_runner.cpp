@@ -8,6 +8,7 @@
 #include <new>
 #include <optional>
 
+#include "plumb/layers.hpp"
 #include "run/cell.hpp"
 #include "run/description.hpp"
 #include "run/general_metrics.hpp"
@@ -222,6 +223,27 @@ void add_record(Json& answer, const Record& record) {
   if (record.statistics && record.trouble.empty()) answer["hash"] = fmt::format("{:016x}", record.hash);
 }
 
+/// The backend itself, or behind a layer that writes every call to a file. Outlives the worlds of the cell.
+class Trace {
+ public:
+  Trace(Backend& backend, const std::string& file)
+      : backend_(file.empty() ? backend : Backend(layers::trace(&backend.table(), file), backend.file())), traces_(!file.empty()) {}
+  ~Trace() {
+    try {
+      if (traces_) layers::end_trace(&backend_.table());
+    } catch (const Error& error) {
+      fmt::print(stderr, "the trace is not complete: {}\n", error.what());
+    }
+  }
+  Trace(const Trace&) = delete;
+  Trace& operator=(const Trace&) = delete;
+  [[nodiscard]] Backend& backend() { return backend_; }
+
+ private:
+  Backend backend_;
+  bool traces_;
+};
+
 std::string joined(const std::vector<std::string>& sentences) {
   std::string text;
   for (const std::string& sentence : sentences) text += (text.empty() ? "" : "; ") + sentence;
@@ -234,11 +256,13 @@ Json run_cell(Backend& backend, const Json& request, Progress& progress) {
   Json answer = empty_answer();
   reset_peak_memory();
   std::optional<Scene> scene;
+  std::optional<Trace> trace;
   std::optional<CellContext> context;
   Outcome outcome = outcome_of([&] {
     scene.emplace(scene_of(request));
     const SimulationOptions options = options_of(backend, request);
-    context.emplace(backend, *scene, options, progress, request.value("trajectory", ""));
+    trace.emplace(backend, request.value("trace", ""));
+    context.emplace(trace->backend(), *scene, options, progress, request.value("trajectory", ""));
     measure_named(scene->measure).run(*context);
   });
   if (outcome.status == "ok" && !context->record().trouble.empty()) outcome = {"error", context->record().trouble};

@@ -8,7 +8,7 @@
 namespace plumb::harness {
 
 /// request: {"scene": path, "scene_hash", "parameters", "settings", "dt", "seconds", "threads", "needs",
-/// "trajectory": path or ""}. The answer has "status", "reason", "metrics", "settings" (in force), "step_ms" (of the
+/// "trajectory" and "trace": path or ""}. The answer has "status", "reason", "metrics", "settings" (in force), "step_ms" (of the
 /// window), "window", "steps", "setup_ms", "phase_ms", "counts", "hash" and "peak_mb". Throws nothing.
 [[nodiscard]] Json run_cell(Backend& backend, const Json& request, Progress& progress);
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "measure/measure.hpp"
 #include "run/machine.hpp"
 #include "scene/catalogue.hpp"
 #include "scene/nearest.hpp"
@@ -68,6 +69,7 @@ std::vector<std::shared_ptr<const SceneFile>> scenes_for(const std::vector<std::
   std::set<std::string> seen;
   for (const std::string& what : asked) {
     for (SceneFile& file : find_scenes(what)) {
+      (void)find_measure(file);  // a misspelt measure is a wrong question, not a failed cell
       if (seen.insert(file.path.string()).second) scenes.push_back(std::make_shared<const SceneFile>(std::move(file)));
     }
   }

@@ -24,6 +24,7 @@ struct StudyRequest {
   double memory_limit_mb = 0;  ///< 0: three quarters of the machine's memory
   std::string out;             ///< folder; empty: none
   bool record = false;
+  bool trace = false;  ///< times then include the writing of the trace
 
   [[nodiscard]] WorkerLimits limits() const;
 };

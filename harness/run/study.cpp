@@ -83,14 +83,16 @@ class Study {
       callbacks_.progress(progress);
     };
     if (callbacks_.progress) callbacks_.progress(progress);
-    return worker->ask(request_of(cell, trajectory_file(cell, round)), request_.limits(), tick);
+    return worker->ask(request_of(cell, round == 1 && request_.record ? file_for(cell, "trajectories", ".plt") : "",
+                                  round == 1 && request_.trace ? file_for(cell, "traces", ".trace") : ""), request_.limits(), tick);
   }
 
-  [[nodiscard]] std::string trajectory_file(const Cell& cell, std::uint32_t round) const {
-    if (!request_.record || results_ == nullptr || round != 1) return "";
-    const std::filesystem::path folder = results_->folder() / "trajectories";
+  /// A file of the cell's own in a folder beside results.jsonl; "" without --out.
+  [[nodiscard]] std::string file_for(const Cell& cell, const char* kind, const char* suffix) const {
+    if (results_ == nullptr) return "";
+    const std::filesystem::path folder = results_->folder() / kind;
     std::filesystem::create_directories(folder);
-    return std::filesystem::absolute(folder / (cell_id(cell) + ".plt")).string();
+    return std::filesystem::absolute(folder / (cell_id(cell) + suffix)).string();
   }
 
   void finish(const Cell& cell, const std::vector<Answer>& answers) {
