@@ -17,3 +17,11 @@ function(plumb_add_backend name)
     target_link_options(${target} PRIVATE LINKER:--no-undefined)
   endif()
 endfunction()
+
+# plumb_tune_backend(NAME FILE): the settings of the profile "tuned", beside the backend's library.
+function(plumb_tune_backend name file)
+  set(target plumb-backend-${name})
+  add_custom_command(TARGET ${target} POST_BUILD VERBATIM COMMAND ${CMAKE_COMMAND} -E copy_if_different
+    "${CMAKE_CURRENT_SOURCE_DIR}/${file}" "$<TARGET_FILE_DIR:${target}>/plumb-${name}.tuned.json")
+  install(FILES ${file} DESTINATION lib/plumb RENAME plumb-${name}.tuned.json)
+endfunction()
