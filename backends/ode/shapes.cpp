@@ -30,13 +30,23 @@ void take_hull(Shape& shape, const PlumbShapeDesc& desc) {
   }
 }
 
+/// OPCODE builds no tree over a single triangle and crashes in the search for it, so such a mesh is cut in two.
+void split_single_triangle(Shape& shape) {
+  const std::uint32_t a = shape.indices[0], b = shape.indices[1], c = shape.indices[2];
+  const auto middle = static_cast<std::uint32_t>(shape.vertices.size() / 3);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    shape.vertices.push_back(0.5 * (shape.vertices[3 * std::size_t{b} + axis] + shape.vertices[3 * std::size_t{c} + axis]));
+  shape.indices = {a, b, middle, a, middle, c};
+}
+
 void take_mesh(Shape& shape, const PlumbShapeDesc& desc) {
   static_assert(sizeof(dTriIndex) == sizeof(std::uint32_t));
   shape.vertices.assign(desc.vertices, desc.vertices + std::size_t{desc.vertex_count} * 3);
   shape.indices.assign(desc.indices, desc.indices + std::size_t{desc.triangle_count} * 3);
+  if (desc.triangle_count == 1) split_single_triangle(shape);
   shape.mesh.reset(dGeomTriMeshDataCreate());
   dGeomTriMeshDataBuildDouble(shape.mesh.get(), shape.vertices.data(), 3 * sizeof(double),
-                              static_cast<int>(desc.vertex_count), shape.indices.data(),
+                              static_cast<int>(shape.vertices.size() / 3), shape.indices.data(),
                               static_cast<int>(shape.indices.size()), 3 * sizeof(std::uint32_t));
   // Hull against mesh reads the angles between faces without asking whether they are there.
   if (dGeomTriMeshDataPreprocess2(shape.mesh.get(), 1u << dTRIDATAPREPROCESS_BUILD_FACE_ANGLES, nullptr) == 0)
