@@ -40,7 +40,8 @@ std::string hint(const CLI::App& program, int count, char** arguments) {
   const std::vector<std::string> options = options_of(*known.front());
   for (int i = 2; i < count; ++i) {
     const std::string word = std::string(arguments[i]).substr(0, std::string(arguments[i]).find('='));
-    if (word.starts_with("--") && std::find(options.begin(), options.end(), word) == options.end()) return suggestion(word, options);
+    if (word.starts_with("--") && std::find(options.begin(), options.end(), word) == options.end())
+      return suggestion(word, options);
   }
   return "";
 }
@@ -76,7 +77,8 @@ int parse_and_do(CLI::App& program, int count, char** arguments, const int& stat
 }  // namespace
 
 int main(int count, char** arguments) {
-  CLI::App program("Holds physics backends against the truth: the same scenes, the same measures, any engine.", "plumb");
+  CLI::App program("Holds physics backends against the truth: the same scenes, the same measures, any engine.",
+                   "plumb");
   program.set_version_flag("--version", "plumb " PLUMB_PROGRAM_VERSION);
   program.require_subcommand(1);
   int status = 0;

@@ -65,10 +65,12 @@ class HostWorld final : public IPhysicsWorld,
     return table_.destroy_bodies(world_, ids.data(), count_of(ids));
   }
   PlumbResult read(PlumbField field, std::span<const PlumbBody> ids, Rows rows) override {
-    return table_.read(world_, field, rows.type(), ids_or_null(ids), static_cast<std::uint32_t>(rows.count()), rows.data(), rows.stride());
+    return table_.read(world_, field, rows.type(), ids_or_null(ids), static_cast<std::uint32_t>(rows.count()),
+                       rows.data(), rows.stride());
   }
   PlumbResult write(PlumbField field, std::span<const PlumbBody> ids, ConstRows rows) override {
-    return table_.write(world_, field, rows.type(), ids_or_null(ids), static_cast<std::uint32_t>(rows.count()), rows.data(), rows.stride());
+    return table_.write(world_, field, rows.type(), ids_or_null(ids), static_cast<std::uint32_t>(rows.count()),
+                        rows.data(), rows.stride());
   }
   PlumbResult set_gravity(const PlumbVec3& gravity) override { return table_.set_gravity(world_, &gravity); }
   PlumbResult step(double dt) override {
@@ -120,10 +122,12 @@ class HostWorld final : public IPhysicsWorld,
     return joints_->destroy(world_, ids.data(), count_of(ids));
   }
   PlumbResult read_joints(PlumbJointField field, std::span<const PlumbJoint> ids, Rows rows) override {
-    return joints_->read(world_, field, rows.type(), ids_or_null(ids), static_cast<std::uint32_t>(rows.count()), rows.data(), rows.stride());
+    return joints_->read(world_, field, rows.type(), ids_or_null(ids), static_cast<std::uint32_t>(rows.count()),
+                         rows.data(), rows.stride());
   }
   PlumbResult write_joints(PlumbJointField field, std::span<const PlumbJoint> ids, ConstRows rows) override {
-    return joints_->write(world_, field, rows.type(), ids_or_null(ids), static_cast<std::uint32_t>(rows.count()), rows.data(), rows.stride());
+    return joints_->write(world_, field, rows.type(), ids_or_null(ids), static_cast<std::uint32_t>(rows.count()),
+                          rows.data(), rows.stride());
   }
 
   Hits cast_rays(PlumbHitMode mode, std::span<const PlumbRay> rays) override {
@@ -138,7 +142,8 @@ class HostWorld final : public IPhysicsWorld,
   }
   Hits overlap_shapes(std::span<const PlumbOverlap> overlaps) override {
     return collect([&](PlumbHit* hits, std::uint32_t capacity, std::uint32_t* count) {
-      return queries_->overlaps(world_, overlaps.data(), sizeof(PlumbOverlap), count_of(overlaps), hits, capacity, count);
+      return queries_->overlaps(world_, overlaps.data(), sizeof(PlumbOverlap), count_of(overlaps), hits, capacity,
+                                count);
     });
   }
 
@@ -146,7 +151,8 @@ class HostWorld final : public IPhysicsWorld,
                             std::span<const PlumbPairPoint>& points) override {
     thread_local std::vector<PlumbPairPoint> found;
     const PlumbResult result = fill_all(found, [&](PlumbPairPoint* out, std::uint32_t capacity, std::uint32_t* count) {
-      return collide_->pairs(world_, pairs.data(), sizeof(PlumbPosedPair), count_of(pairs), results.data(), out, capacity, count);
+      return collide_->pairs(world_, pairs.data(), sizeof(PlumbPosedPair), count_of(pairs), results.data(), out,
+                             capacity, count);
     });
     points = found;
     return result;
@@ -155,10 +161,16 @@ class HostWorld final : public IPhysicsWorld,
   PlumbResult candidate_pairs(std::span<const PlumbDebugPair>& pairs) override {
     return look(debug_->pairs, debug_pairs_, pairs);
   }
-  PlumbResult tree_boxes(std::span<const PlumbDebugBox>& boxes) override { return look(debug_->boxes, debug_boxes_, boxes); }
-  PlumbResult separating_axes(std::span<const PlumbDebugAxis>& axes) override { return look(debug_->axes, debug_axes_, axes); }
+  PlumbResult tree_boxes(std::span<const PlumbDebugBox>& boxes) override {
+    return look(debug_->boxes, debug_boxes_, boxes);
+  }
+  PlumbResult separating_axes(std::span<const PlumbDebugAxis>& axes) override {
+    return look(debug_->axes, debug_axes_, axes);
+  }
 
-  PlumbResult get_setting(const char* name, PlumbSettingValue& value) override { return settings_->get(world_, name, &value); }
+  PlumbResult get_setting(const char* name, PlumbSettingValue& value) override {
+    return settings_->get(world_, name, &value);
+  }
   PlumbResult set_setting(const char* name, const PlumbSettingValue& value) override {
     return settings_->set(world_, name, &value);
   }
@@ -173,7 +185,9 @@ class HostWorld final : public IPhysicsWorld,
     data = snapshot_bytes_;
     return result;
   }
-  PlumbResult restore(std::span<const std::byte> data) override { return snapshot_->restore(world_, data.data(), data.size()); }
+  PlumbResult restore(std::span<const std::byte> data) override {
+    return snapshot_->restore(world_, data.data(), data.size());
+  }
 
   PlumbResult borrow(const PlumbStateRequest& request, PlumbDLManagedTensor*& tensor, PlumbFence* fence) override {
     return state_->borrow(world_, &request, &tensor, fence);

@@ -61,7 +61,8 @@ fs::path file_of(const std::string& name_or_file) {
   if (is_file_name(name_or_file)) {
     std::error_code error;
     const fs::path file = fs::canonical(name_or_file, error);
-    if (error) throw Error(PLUMB_E_INVALID_ARGUMENT, "backend file " + name_or_file + " cannot be found; check the path");
+    if (error)
+      throw Error(PLUMB_E_INVALID_ARGUMENT, "backend file " + name_or_file + " cannot be found; check the path");
     return file;
   }
   const std::vector<FoundBackend> found = find_backends();
@@ -71,9 +72,10 @@ fs::path file_of(const std::string& name_or_file) {
   if (found.empty()) {
     text += "; none was found at all: set PLUMB_BACKEND_PATH to the folder that holds plumb-*.so";
   } else {
-    const auto nearest = std::min_element(found.begin(), found.end(), [&](const FoundBackend& a, const FoundBackend& b) {
-      return edit_distance(name_or_file, a.name) < edit_distance(name_or_file, b.name);
-    });
+    const auto nearest =
+        std::min_element(found.begin(), found.end(), [&](const FoundBackend& a, const FoundBackend& b) {
+          return edit_distance(name_or_file, a.name) < edit_distance(name_or_file, b.name);
+        });
     text += "; did you mean \"" + nearest->name + "\"? There are:";
     for (const FoundBackend& backend : found) text += " " + backend.name;
   }
@@ -82,20 +84,22 @@ fs::path file_of(const std::string& name_or_file) {
 
 /// Everything that is called without asking must be there.
 void require_whole(const PlumbBackendTable& table, const std::string& name) {
-  const bool whole = table.struct_size >= sizeof(PlumbBackendTable) && table.info != nullptr && table.capability != nullptr &&
-                     table.extension != nullptr && table.create_world != nullptr && table.destroy_world != nullptr &&
-                     table.error_text != nullptr && table.create_shapes != nullptr && table.destroy_shapes != nullptr &&
-                     table.create_bodies != nullptr && table.destroy_bodies != nullptr && table.list_bodies != nullptr &&
-                     table.user_data != nullptr && table.read != nullptr && table.write != nullptr &&
-                     table.set_gravity != nullptr && table.step != nullptr && table.wait != nullptr &&
-                     table.contacts != nullptr && table.events != nullptr;
+  const bool whole =
+      table.struct_size >= sizeof(PlumbBackendTable) && table.info != nullptr && table.capability != nullptr &&
+      table.extension != nullptr && table.create_world != nullptr && table.destroy_world != nullptr &&
+      table.error_text != nullptr && table.create_shapes != nullptr && table.destroy_shapes != nullptr &&
+      table.create_bodies != nullptr && table.destroy_bodies != nullptr && table.list_bodies != nullptr &&
+      table.user_data != nullptr && table.read != nullptr && table.write != nullptr && table.set_gravity != nullptr &&
+      table.step != nullptr && table.wait != nullptr && table.contacts != nullptr && table.events != nullptr;
   if (!whole)
     throw Error(PLUMB_E_VERSION, "backend " + name + " says that it speaks interface " + version_text(table.version) +
                                      ", but its table lacks functions of it; build it anew against this plumb.h");
   const PlumbBackendInfo* info = table.info();
-  if (info == nullptr || info->struct_size < sizeof(PlumbBackendInfo) || info->name == nullptr || info->version == nullptr ||
-      info->build == nullptr || info->description == nullptr || info->device == nullptr || info->exclusion_group == nullptr)
-    throw Error(PLUMB_E_VERSION, "backend " + name + " does not fill PlumbBackendInfo; build it anew against this plumb.h");
+  if (info == nullptr || info->struct_size < sizeof(PlumbBackendInfo) || info->name == nullptr ||
+      info->version == nullptr || info->build == nullptr || info->description == nullptr || info->device == nullptr ||
+      info->exclusion_group == nullptr)
+    throw Error(PLUMB_E_VERSION,
+                "backend " + name + " does not fill PlumbBackendInfo; build it anew against this plumb.h");
 }
 
 }  // namespace
@@ -142,7 +146,8 @@ std::vector<fs::path> backend_path() {
   for (const fs::path& folder : wanted) {
     std::error_code error;
     const fs::path real = fs::canonical(folder, error);
-    if (!error && fs::is_directory(real) && std::find(folders.begin(), folders.end(), real) == folders.end()) folders.push_back(real);
+    if (!error && fs::is_directory(real) && std::find(folders.begin(), folders.end(), real) == folders.end())
+      folders.push_back(real);
   }
   return folders;
 }
@@ -172,14 +177,16 @@ const PlumbBackendTable* negotiate(PlumbOpenFunction open, const std::string& na
   if (result < 0)
     throw Error(result, reply.message[0] != '\0' ? reply.message : "backend " + name + " refused without saying why");
   if (reply.struct_size != sizeof reply)
-    throw Error(PLUMB_E_VERSION, "backend " + name + " changed the reply's struct_size to " + std::to_string(reply.struct_size) +
+    throw Error(PLUMB_E_VERSION, "backend " + name + " changed the reply's struct_size to " +
+                                     std::to_string(reply.struct_size) +
                                      ", which is the host's to set; its negotiation is broken");
   if (reply.version < oldest || reply.version > newest)
     throw Error(PLUMB_E_VERSION, "backend " + name + " answered with interface " + version_text(reply.version) +
                                      ", which this host did not offer (" + version_text(oldest) + " to " +
                                      version_text(newest) + "); its negotiation is broken");
   if (reply.table == nullptr || reply.table->version != reply.version)
-    throw Error(PLUMB_E_VERSION, "backend " + name + " agreed to interface " + version_text(reply.version) + " and gave no table of it");
+    throw Error(PLUMB_E_VERSION,
+                "backend " + name + " agreed to interface " + version_text(reply.version) + " and gave no table of it");
   require_whole(*reply.table, name);
   return reply.table;
 }
@@ -188,20 +195,23 @@ Backend open_backend(const std::string& name_or_file, const PlumbHost* host) {
   const fs::path file = file_of(name_or_file);
   OpenBackends& backends = open_backends();
   const std::lock_guard lock(backends.mutex);
-  if (const auto known = backends.by_file.find(file); known != backends.by_file.end()) return Backend(known->second, file);
+  if (const auto known = backends.by_file.find(file); known != backends.by_file.end())
+    return Backend(known->second, file);
 
   // Local binding keeps the engines' symbols apart; exclusion groups are for those that clash all the same.
   void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr) throw Error(PLUMB_E_INVALID_ARGUMENT, std::string("backend cannot be loaded: ") + dlerror());
   const auto open = reinterpret_cast<PlumbOpenFunction>(dlsym(library, PLUMB_OPEN_SYMBOL));
   if (open == nullptr)
-    throw Error(PLUMB_E_INVALID_ARGUMENT, file.string() + " is no Plumb backend: it does not export " PLUMB_OPEN_SYMBOL);
+    throw Error(PLUMB_E_INVALID_ARGUMENT,
+                file.string() + " is no Plumb backend: it does not export " PLUMB_OPEN_SYMBOL);
   const PlumbBackendTable* table = negotiate(open, file.string(), host);
   const std::string group = table->info()->exclusion_group;
   for (const auto& [other_file, other] : backends.by_file)
     if (!group.empty() && group == other->info()->exclusion_group)
       throw Error(PLUMB_E_EXCLUDED, std::string("backend ") + table->info()->name + " cannot share a process with " +
-                                        other->info()->name + ", which is open already: their libraries clash; use one process each");
+                                        other->info()->name +
+                                        ", which is open already: their libraries clash; use one process each");
   backends.by_file.emplace(file, table);
   return Backend(table, file);
 }

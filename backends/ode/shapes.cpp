@@ -35,7 +35,8 @@ void split_single_triangle(Shape& shape) {
   const std::uint32_t a = shape.indices[0], b = shape.indices[1], c = shape.indices[2];
   const auto middle = static_cast<std::uint32_t>(shape.vertices.size() / 3);
   for (std::size_t axis = 0; axis < 3; ++axis)
-    shape.vertices.push_back(0.5 * (shape.vertices[3 * std::size_t{b} + axis] + shape.vertices[3 * std::size_t{c} + axis]));
+    shape.vertices.push_back(0.5 *
+                             (shape.vertices[3 * std::size_t{b} + axis] + shape.vertices[3 * std::size_t{c} + axis]));
   shape.indices = {a, b, middle, a, middle, c};
 }
 

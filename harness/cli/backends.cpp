@@ -14,7 +14,8 @@ namespace {
 void print_nothing_found() {
   std::string folders;
   for (const auto& folder : backend_path()) folders += "\n  " + folder.string();
-  fmt::print(stderr, "no backend found{}\n", folders.empty() ? "; set PLUMB_BACKEND_PATH to the folder of some" : ", looked in" + folders);
+  fmt::print(stderr, "no backend found{}\n",
+             folders.empty() ? "; set PLUMB_BACKEND_PATH to the folder of some" : ", looked in" + folders);
 }
 
 std::string line_for(const BackendDescription& backend) {

@@ -34,22 +34,26 @@ std::vector<conform::Check> wanted_checks(const std::vector<std::string>& names)
     const std::size_t before = wanted.size();
     for (const conform::Check& check : all)
       if (name == check.name || std::string_view(check.name).starts_with(name + ".")) wanted.push_back(check);
-    if (wanted.size() == before) throw UsageError(fmt::format("there is no check \"{}\"{}", name, suggestion(name, known)));
+    if (wanted.size() == before)
+      throw UsageError(fmt::format("there is no check \"{}\"{}", name, suggestion(name, known)));
   }
   return wanted;
 }
 
 void print_text(const std::string& backend, const conform::Check& check, const Json& row) {
   const std::string outcome = row.at("outcome");
-  std::cout << fmt::format("{:10} {:28} {:8} {}\n", backend, check.name, outcome, outcome == "skipped" ? std::string(row.at("failures").at(0)) : check.doc);
+  std::cout << fmt::format("{:10} {:28} {:8} {}\n", backend, check.name, outcome,
+                           outcome == "skipped" ? std::string(row.at("failures").at(0)) : check.doc);
   if (outcome != "failed") return;
   const Json& failures = row.at("failures");
-  for (std::size_t i = 0; i < failures.size() && i < kShown; ++i) std::cout << "    " << std::string(failures.at(i)) << "\n";
+  for (std::size_t i = 0; i < failures.size() && i < kShown; ++i)
+    std::cout << "    " << std::string(failures.at(i)) << "\n";
   if (failures.size() > kShown) std::cout << fmt::format("    and {} more\n", failures.size() - kShown);
 }
 
 /// Runs the checks on one backend; a worker that ends uncleanly is a failed check, and the next check gets a new one.
-void conform_backend(const std::string& name, const std::string& file, const ConformOptions& options, std::map<std::string, int>& counts) {
+void conform_backend(const std::string& name, const std::string& file, const ConformOptions& options,
+                     std::map<std::string, int>& counts) {
   WorkerLimits limits = StudyRequest().limits();
   limits.seconds = options.timeout;
   std::unique_ptr<WorkerProcess> worker;
@@ -59,7 +63,8 @@ void conform_backend(const std::string& name, const std::string& file, const Con
     Json row = answer.json;
     const bool answered = answer.status == "ok" && row.contains("outcome");
     if (!answered) {
-      const std::string reason = answer.status == "ok" ? row.value("reason", "no answer") : answer.status + ": " + answer.reason;
+      const std::string reason =
+          answer.status == "ok" ? row.value("reason", "no answer") : answer.status + ": " + answer.reason;
       row = {{"outcome", "failed"}, {"expectations", 0}, {"failures", {reason}}};
     }
     row["backend"] = name;
@@ -85,7 +90,8 @@ void add_conform(CLI::App& program, int& status) {
   verb->add_flag("--json", options->json, "One object a check, one a line");
   verb->callback([options, &status] {
     if (options->list) {
-      for (const conform::Check& check : wanted_checks(options->checks)) std::cout << fmt::format("{:28} {}\n", check.name, check.doc);
+      for (const conform::Check& check : wanted_checks(options->checks))
+        std::cout << fmt::format("{:28} {}\n", check.name, check.doc);
       status = 0;
       return;
     }
@@ -93,7 +99,9 @@ void add_conform(CLI::App& program, int& status) {
     catch_signals();
     std::map<std::string, int> counts;
     for (const auto& [name, file] : backend_files(options->backends)) conform_backend(name, file, *options, counts);
-    if (!options->json) std::cout << fmt::format("{} passed, {} failed, {} skipped\n", counts["passed"], counts["failed"], counts["skipped"]);
+    if (!options->json)
+      std::cout << fmt::format("{} passed, {} failed, {} skipped\n", counts["passed"], counts["failed"],
+                               counts["skipped"]);
     status = counts["failed"] == 0 ? 0 : 1;
   });
 }

@@ -41,11 +41,13 @@ void ProgressBar::draw(const StudyProgress& progress) {
   constexpr std::size_t bar_width = 24;
   const double within =
       progress.steps == 0 ? 0 : std::min(1.0, static_cast<double>(progress.step) / static_cast<double>(progress.steps));
-  const double share = (static_cast<double>(progress.cells_done) + within) / static_cast<double>(std::max<std::size_t>(1, progress.cells_total));
+  const double share = (static_cast<double>(progress.cells_done) + within) /
+                       static_cast<double>(std::max<std::size_t>(1, progress.cells_total));
   const auto filled = static_cast<std::size_t>(std::min(1.0, share) * bar_width);
   std::string line = fmt::format("[{}{}] {}/{}  {}", std::string(filled, '#'), std::string(bar_width - filled, '.'),
                                  progress.cells_done, progress.cells_total, progress.cell);
-  if (progress.steps != 0) line += fmt::format("  step {} of {}", std::min(progress.step, progress.steps), progress.steps);
+  if (progress.steps != 0)
+    line += fmt::format("  step {} of {}", std::min(progress.step, progress.steps), progress.steps);
   line.resize(std::min(line.size(), static_cast<std::size_t>(width_ - 1)));
   fmt::print(stderr, "\r\033[K{}", line);
   std::fflush(stderr);

@@ -33,8 +33,14 @@ Json json_of(const MetricSpec& spec) {
 }
 
 Json json_of(const SceneFile& file) {
-  Json json{{"name", file.id},   {"slug", file.slug}, {"group", file.group}, {"title", file.title},
-            {"doc", file.doc},   {"core", file.core}, {"path", file.path.string()}, {"hash", fmt::format("{:016x}", file.hash)}};
+  Json json{{"name", file.id},
+            {"slug", file.slug},
+            {"group", file.group},
+            {"title", file.title},
+            {"doc", file.doc},
+            {"core", file.core},
+            {"path", file.path.string()},
+            {"hash", fmt::format("{:016x}", file.hash)}};
   for (const char* list : {"needs", "parameters", "variants", "truths"}) json[list] = Json::array();
   for (std::size_t bit = 0; bit < need_words().size(); ++bit) {
     if ((file.needs >> bit & 1) != 0) json["needs"].push_back(need_words()[bit]);
@@ -48,8 +54,9 @@ Json json_of(const SceneFile& file) {
 std::string line_for(const SceneFile& file) {
   std::string names;
   for (const ParameterSpec& spec : file.parameters) names += " " + spec.name;
-  return fmt::format("{} {} {} {}{}", column(file.id, 5), column(file.group + "/" + file.slug, 36), column(std::to_string(file.variants.size()), 3),
-                     file.title, names.empty() ? "" : "  [" + names.substr(1) + "]");
+  return fmt::format("{} {} {} {}{}", column(file.id, 5), column(file.group + "/" + file.slug, 36),
+                     column(std::to_string(file.variants.size()), 3), file.title,
+                     names.empty() ? "" : "  [" + names.substr(1) + "]");
 }
 
 }  // namespace
@@ -57,7 +64,8 @@ std::string line_for(const SceneFile& file) {
 void add_scenes(CLI::App& program, int& status) {
   const auto json = std::make_shared<bool>(false);
   const auto asked = std::make_shared<std::vector<std::string>>();
-  CLI::App* verb = program.add_subcommand("scenes", "List the scenes, their parameters, and what they are held against");
+  CLI::App* verb =
+      program.add_subcommand("scenes", "List the scenes, their parameters, and what they are held against");
   verb->add_option("SCENE", *asked, "Ids, slugs, groups or files; none: all");
   verb->add_flag("--json", *json, "One object a scene, one a line");
   verb->callback([json, asked, &status] {

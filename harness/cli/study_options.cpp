@@ -12,7 +12,9 @@ namespace plumb::harness {
 
 namespace {
 
-bool misses_something(const Json& row) { return row.value("status", "error") != "ok" && row.value("status", "") != "unsupported"; }
+bool misses_something(const Json& row) {
+  return row.value("status", "error") != "ok" && row.value("status", "") != "unsupported";
+}
 
 void say_what_is_left_out(const Plan& plan) {
   for (const BackendDescription& backend : plan.broken)
@@ -23,26 +25,44 @@ void say_what_is_left_out(const Plan& plan) {
 
 void add_study_options(CLI::App& verb, StudyOptions& options) {
   StudyRequest& request = options.request;
-  verb.add_option("SCENE", request.scenes, "Scenes: ids (D1), slugs (tower), groups (stacking, core, all) or files")->required();
+  verb.add_option("SCENE", request.scenes, "Scenes: ids (D1), slugs (tower), groups (stacking, core, all) or files")
+      ->required();
   verb.add_option("--backend", request.backends, "Backend by name or file, repeatable; none: all that load")
-      ->take_all()->expected(1)->allow_extra_args(false);
-  verb.add_option("--param", request.parameters, "name=value of a scene's parameter, repeatable; \"50 cm\" and 1/60 are values")
-      ->take_all()->expected(1)->allow_extra_args(false);
+      ->take_all()
+      ->expected(1)
+      ->allow_extra_args(false);
+  verb.add_option("--param", request.parameters,
+                  "name=value of a scene's parameter, repeatable; \"50 cm\" and 1/60 are values")
+      ->take_all()
+      ->expected(1)
+      ->allow_extra_args(false);
   verb.add_option("--set", request.settings, "[backend:]name=value of a backend's setting, repeatable")
-      ->take_all()->expected(1)->allow_extra_args(false);
-  verb.add_option("--profile", request.profile, "default: as the engine ships; matched: its own damping and sleeping off; tuned: its author's file")
+      ->take_all()
+      ->expected(1)
+      ->allow_extra_args(false);
+  verb.add_option("--profile", request.profile,
+                  "default: as the engine ships; matched: its own damping and sleeping off; tuned: its author's file")
       ->capture_default_str();
-  verb.add_option("--needs", request.needs, "scene: declare what the scene needs; all: whatever the engine has")->capture_default_str();
+  verb.add_option("--needs", request.needs, "scene: declare what the scene needs; all: whatever the engine has")
+      ->capture_default_str();
   verb.add_option("--dt", request.dt, "Step in s instead of the scene's");
   verb.add_option("--seconds", request.seconds, "Simulated time in s instead of the scene's");
-  verb.add_option("--threads", request.threads, "Threads that a world may use")->check(CLI::Range(1u, 4096u))->capture_default_str();
-  verb.add_option("--repeat", request.repeat, "Repetitions, in turns between backends")->check(CLI::Range(1u, 100000u))->capture_default_str();
+  verb.add_option("--threads", request.threads, "Threads that a world may use")
+      ->check(CLI::Range(1u, 4096u))
+      ->capture_default_str();
+  verb.add_option("--repeat", request.repeat, "Repetitions, in turns between backends")
+      ->check(CLI::Range(1u, 100000u))
+      ->capture_default_str();
   verb.add_option("--timeout", request.timeout, "Wall time in s that a cell may take")->capture_default_str();
-  verb.add_option("--memory-limit", request.memory_limit_mb, "Resident memory in MB that a worker may take; 0: 3/4 of the machine's")
-      ->check(CLI::NonNegativeNumber)->capture_default_str();
-  verb.add_option("--out", request.out, "Folder for results.jsonl; cells that are finished there are not run again")->capture_default_str();
+  verb.add_option("--memory-limit", request.memory_limit_mb,
+                  "Resident memory in MB that a worker may take; 0: 3/4 of the machine's")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  verb.add_option("--out", request.out, "Folder for results.jsonl; cells that are finished there are not run again")
+      ->capture_default_str();
   verb.add_flag("--record", request.record, "Write trajectories to the folder of --out");
-  verb.add_flag("--trace", request.trace, "Write every call to the folder of --out, for plumb replay; times include that");
+  verb.add_flag("--trace", request.trace,
+                "Write every call to the folder of --out, for plumb replay; times include that");
   verb.add_flag("--json", options.output.json, "One object a cell, one a line, as they finish");
   verb.add_flag("--csv", options.output.csv, "One line a metric")->excludes("--json");
   verb.add_flag("--strict", options.strict, "Exit with 1 when a threshold is missed");
@@ -50,8 +70,10 @@ void add_study_options(CLI::App& verb, StudyOptions& options) {
 
 int run_and_print(const StudyOptions& options, PrintRows print) {
   const StudyRequest& request = options.request;
-  if (request.record && request.out.empty()) throw UsageError("--record writes trajectories to a folder: name it with --out DIR");
-  if (request.trace && request.out.empty()) throw UsageError("--trace writes traces to a folder: name it with --out DIR");
+  if (request.record && request.out.empty())
+    throw UsageError("--record writes trajectories to a folder: name it with --out DIR");
+  if (request.trace && request.out.empty())
+    throw UsageError("--trace writes traces to a folder: name it with --out DIR");
   catch_signals();
   const Plan plan = make_plan(request);
   say_what_is_left_out(plan);

@@ -1,5 +1,5 @@
-// The verbs of the program; each is added by its own file. A verb sets status when it is used: 0 all that was asked ran,
-// 1 a threshold was missed (where that was asked for). What is asked wrongly is thrown as UsageError.
+// The verbs of the program; each is added by its own file. A verb sets status when it is used: 0 all that was asked
+// ran, 1 a threshold was missed (where that was asked for). What is asked wrongly is thrown as UsageError.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -17,10 +17,12 @@ void free_fall(Conformance& c) {
   Probe probe(c, PLUMB_NEED_ROTATION);
   const PlumbBody body = probe.body(smooth(dynamic_desc(probe.sphere(0.5), {1, 2, 3}, {4, 0, 0})));
   probe.step(60);
-  c.expect(near(probe.velocity(body), {4, -9.81, 0}, 1e-4), "after 1 s of fall the velocity is {:.6f} m/s", probe.velocity(body).y());
+  c.expect(near(probe.velocity(body), {4, -9.81, 0}, 1e-4), "after 1 s of fall the velocity is {:.6f} m/s",
+           probe.velocity(body).y());
   const double drop = 2 - probe.position(body).y();
   c.expect(std::abs(drop - 4.905) < 4.905 * kDt * 1.01, "in 1 s it fell {:.6f} m instead of 4.905", drop);
-  c.expect(std::abs(probe.position(body).x() - 5) < 1e-4, "a free body slowed down sideways: x is {:.6f}", probe.position(body).x());
+  c.expect(std::abs(probe.position(body).x() - 5) < 1e-4, "a free body slowed down sideways: x is {:.6f}",
+           probe.position(body).x());
 }
 
 void gravity(Conformance& c) {
@@ -35,18 +37,19 @@ void gravity(Conformance& c) {
   }
   probe.step(30);
   for (const auto& [scale, body] : bodies)
-    c.expect(std::abs(probe.velocity(body).y() + 9.81 * scale * 0.5) < 1e-4, "gravity scale {}: {:.6f} m/s after .5 s", scale,
-             probe.velocity(body).y());
+    c.expect(std::abs(probe.velocity(body).y() + 9.81 * scale * 0.5) < 1e-4, "gravity scale {}: {:.6f} m/s after .5 s",
+             scale, probe.velocity(body).y());
   check(probe.world(), probe.world().set_gravity({1, 0, 0}));
   const double before = probe.velocity(bodies[3].second).x();
   probe.step(60);
-  c.expect(std::abs(probe.velocity(bodies[3].second).x() - before - 1) < 1e-4, "gravity changed to +x, but after 1 s v.x rose by {:.6f}",
-           probe.velocity(bodies[3].second).x() - before);
+  c.expect(std::abs(probe.velocity(bodies[3].second).x() - before - 1) < 1e-4,
+           "gravity changed to +x, but after 1 s v.x rose by {:.6f}", probe.velocity(bodies[3].second).x() - before);
   if (c.backend().capability(PLUMB_CAP_FIELD_WRITE, PLUMB_FIELD_GRAVITY_SCALE) == PLUMB_NONE) return;
   probe.write(PLUMB_FIELD_GRAVITY_SCALE, bodies[3].second, {0});
   const double still = probe.velocity(bodies[3].second).x();
   probe.step(30);
-  c.expect(std::abs(probe.velocity(bodies[3].second).x() - still) < 1e-6, "gravity scale 0 was written, but the body is still pulled");
+  c.expect(std::abs(probe.velocity(bodies[3].second).x() - still) < 1e-6,
+           "gravity scale 0 was written, but the body is still pulled");
 }
 
 void damping(Conformance& c) {
@@ -57,10 +60,11 @@ void damping(Conformance& c) {
   desc.angular_damping = 2;
   const PlumbBody body = probe.body(desc);
   probe.step(60);
-  c.expect(std::abs(probe.velocity(body).x() - std::exp(-0.5)) < 0.01, "damping .5/s leaves {:.5f} of the speed after 1 s instead of {:.5f}",
-           probe.velocity(body).x(), std::exp(-0.5));
-  c.expect(std::abs(probe.angular_velocity(body).y() - std::exp(-2.0)) < 0.01, "damping 2/s leaves {:.5f} of the spin instead of {:.5f}",
-           probe.angular_velocity(body).y(), std::exp(-2.0));
+  c.expect(std::abs(probe.velocity(body).x() - std::exp(-0.5)) < 0.01,
+           "damping .5/s leaves {:.5f} of the speed after 1 s instead of {:.5f}", probe.velocity(body).x(),
+           std::exp(-0.5));
+  c.expect(std::abs(probe.angular_velocity(body).y() - std::exp(-2.0)) < 0.01,
+           "damping 2/s leaves {:.5f} of the spin instead of {:.5f}", probe.angular_velocity(body).y(), std::exp(-2.0));
 }
 
 /// A box 1 x 2 x 3 m of 1 kg, so that every axis has its own inertia.
@@ -81,10 +85,11 @@ void forces(Conformance& c) {
     probe.write(PLUMB_FIELD_FORCE, body, {0, 12, 0});  // adds to the first
     probe.write(PLUMB_FIELD_TORQUE, body, {0, 0, 3});
     probe.step();
-    c.expect(near(probe.velocity(body), {0.1, 0.2, 0}, 1e-6), "forces 6 and 12 N on 1 kg for one step give ({:.6f}, {:.6f})",
-             probe.velocity(body).x(), probe.velocity(body).y());
-    c.expect(near(probe.angular_velocity(body), {0, 0, 3 * kDt / kBrickInertia.z()}, 1e-5), "3 N m for one step give {:.6f} rad/s",
-             probe.angular_velocity(body).z());
+    c.expect(near(probe.velocity(body), {0.1, 0.2, 0}, 1e-6),
+             "forces 6 and 12 N on 1 kg for one step give ({:.6f}, {:.6f})", probe.velocity(body).x(),
+             probe.velocity(body).y());
+    c.expect(near(probe.angular_velocity(body), {0, 0, 3 * kDt / kBrickInertia.z()}, 1e-5),
+             "3 N m for one step give {:.6f} rad/s", probe.angular_velocity(body).z());
     const Vec after = probe.velocity(body);
     probe.step();
     c.expect(near(probe.velocity(body), after, 1e-6), "a force acts beyond its step");
@@ -95,25 +100,26 @@ void forces(Conformance& c) {
     probe.write(PLUMB_FIELD_IMPULSE, body, {1, 2, 3});
     c.expect(near(probe.velocity(body), {1, 2, 3}, 1e-6), "an impulse must change the velocity at once");
     probe.write(PLUMB_FIELD_ANGULAR_IMPULSE, body, {1, 0, 0});
-    c.expect(near(probe.angular_velocity(body), {1 / kBrickInertia.x(), 0, 0}, 1e-5), "an angular impulse of 1 gives {:.6f} rad/s",
-             probe.angular_velocity(body).x());
+    c.expect(near(probe.angular_velocity(body), {1 / kBrickInertia.x(), 0, 0}, 1e-5),
+             "an angular impulse of 1 gives {:.6f} rad/s", probe.angular_velocity(body).x());
   }
   {
     Probe probe(c, needs, Vec::Zero());
     const PlumbBody body = brick(probe);
     probe.write(PLUMB_FIELD_IMPULSE_AT_POINT, body, {0, 1, 0, 5.5, 6, 7});  // half a metre along x from the centre
     c.expect(near(probe.velocity(body), {0, 1, 0}, 1e-6), "an impulse at a point must push the whole body");
-    c.expect(near(probe.angular_velocity(body), {0, 0, 0.5 / kBrickInertia.z()}, 1e-5), "an impulse at a point gives {:.6f} rad/s about z",
-             probe.angular_velocity(body).z());
+    c.expect(near(probe.angular_velocity(body), {0, 0, 0.5 / kBrickInertia.z()}, 1e-5),
+             "an impulse at a point gives {:.6f} rad/s about z", probe.angular_velocity(body).z());
   }
   {
     Probe probe(c, needs, Vec::Zero());
     const PlumbBody body = brick(probe);
     probe.write(PLUMB_FIELD_FORCE_AT_POINT, body, {0, 60, 0, 5.5, 6, 7});
     probe.step();
-    c.expect(near(probe.velocity(body), {0, 1, 0}, 1e-5), "60 N at a point for one step give {:.6f} m/s", probe.velocity(body).y());
-    c.expect(near(probe.angular_velocity(body), {0, 0, 0.5 / kBrickInertia.z()}, 1e-4), "a force at a point gives {:.6f} rad/s about z",
-             probe.angular_velocity(body).z());
+    c.expect(near(probe.velocity(body), {0, 1, 0}, 1e-5), "60 N at a point for one step give {:.6f} m/s",
+             probe.velocity(body).y());
+    c.expect(near(probe.angular_velocity(body), {0, 0, 0.5 / kBrickInertia.z()}, 1e-4),
+             "a force at a point gives {:.6f} rad/s about z", probe.angular_velocity(body).z());
   }
 }
 
@@ -129,9 +135,11 @@ void centre_of_mass(Conformance& c) {
   probe.step(60);
   // The centre of mass stays at (1, 0, 0) and the body's origin goes round it.
   const Vec expected(1 - std::cos(1.0), -std::sin(1.0), 0);
-  c.expect(near(probe.position(body), expected, 0.02), "a body spinning about a centre of mass 1 m off is at ({:.4f}, {:.4f}) instead of ({:.4f}, {:.4f})",
+  c.expect(near(probe.position(body), expected, 0.02),
+           "a body spinning about a centre of mass 1 m off is at ({:.4f}, {:.4f}) instead of ({:.4f}, {:.4f})",
            probe.position(body).x(), probe.position(body).y(), expected.x(), expected.y());
-  c.expect(probe.velocity(body).norm() < 1e-6, "the velocity of the centre of mass is {:.6f} m/s instead of 0", probe.velocity(body).norm());
+  c.expect(probe.velocity(body).norm() < 1e-6, "the velocity of the centre of mass is {:.6f} m/s instead of 0",
+           probe.velocity(body).norm());
   probe.write(PLUMB_FIELD_IMPULSE, body, {0, 2, 0});
   c.expect(near(probe.velocity(body), {0, 1, 0}, 1e-6) && std::abs(probe.angular_velocity(body).z() - 1) < 1e-6,
            "an impulse at the centre of mass changed the spin");
@@ -162,7 +170,8 @@ void particles(Conformance& c) {
   const PlumbBody body = probe.body(desc);
   probe.write(PLUMB_FIELD_IMPULSE_AT_POINT, body, {2, 0, 0, 0, 1, 0});
   probe.step(60);
-  c.expect(std::abs(probe.velocity(body).x() - 1) < 1e-5 && std::abs(probe.velocity(body).y() + 9.81) < 1e-3, "a particle must fall and fly");
+  c.expect(std::abs(probe.velocity(body).x() - 1) < 1e-5 && std::abs(probe.velocity(body).y() + 9.81) < 1e-3,
+           "a particle must fall and fly");
   c.expect(probe.orientation(body).angularDistance(Eigen::Quaterniond::Identity()) < 1e-9, "a particle turned");
 }
 
@@ -171,13 +180,16 @@ void state_writes(Conformance& c) {
   const PlumbBody body = brick(probe);
   const Eigen::Quaterniond q(Eigen::AngleAxisd(1, Vec(1, 1, 0).normalized()));
   probe.write_pose(PLUMB_FIELD_POSE, body, {-1, -2, -3}, q);
-  c.expect(near(probe.position(body), {-1, -2, -3}, 1e-6) && probe.orientation(body).angularDistance(q) < 1e-6, "a written pose is not read back");
+  c.expect(near(probe.position(body), {-1, -2, -3}, 1e-6) && probe.orientation(body).angularDistance(q) < 1e-6,
+           "a written pose is not read back");
   probe.write(PLUMB_FIELD_VELOCITY, body, {1, 2, 3, 0, 0, 0});
   c.expect(near(probe.velocity(body), {1, 2, 3}, 1e-6), "a written velocity is not read back");
   probe.step(60);
-  c.expect(near(probe.position(body), {0, 0, 0}, 1e-4), "after 1 s the body is {:.5f} m from where its velocity takes it", probe.position(body).norm());
+  c.expect(near(probe.position(body), {0, 0, 0}, 1e-4),
+           "after 1 s the body is {:.5f} m from where its velocity takes it", probe.position(body).norm());
   float row[7];
-  check(probe.world(), probe.world().read(PLUMB_FIELD_POSE, {&body, 1}, Rows(reinterpret_cast<std::byte*>(row), 1, sizeof row, PLUMB_F32)));
+  check(probe.world(), probe.world().read(PLUMB_FIELD_POSE, {&body, 1},
+                                          Rows(reinterpret_cast<std::byte*>(row), 1, sizeof row, PLUMB_F32)));
   c.expect(std::abs(static_cast<double>(row[0]) - probe.position(body).x()) < 1e-5, "f32 rows differ from f64 rows");
 }
 
@@ -187,7 +199,8 @@ void teleported_static(Conformance& c) {
   const PlumbBody body = probe.dynamic(probe.sphere(0.5), {100, 5.5, 0});
   probe.write_pose(PLUMB_FIELD_POSE, floor, {100, 2.5, 0});
   probe.seconds(2);
-  c.expect(std::abs(probe.position(body).y() - 3.5) < 0.05, "a static moved under a ball does not hold it: y = {:.3f}", probe.position(body).y());
+  c.expect(std::abs(probe.position(body).y() - 3.5) < 0.05, "a static moved under a ball does not hold it: y = {:.3f}",
+           probe.position(body).y());
 }
 
 void kinematic(Conformance& c) {
@@ -203,12 +216,15 @@ void kinematic(Conformance& c) {
     const double x = t < 1 ? 0.25 * t * t : 0.25 + 0.5 * (t - 1);
     probe.write_pose(PLUMB_FIELD_KINEMATIC_TARGET, platform, {x, 0, 0});
     probe.step();
-    c.expect(std::abs(probe.position(platform).x() - x) < 1e-5, "step {}: the target {:.5f} was not reached: {:.5f}", i, x, probe.position(platform).x());
+    c.expect(std::abs(probe.position(platform).x() - x) < 1e-5, "step {}: the target {:.5f} was not reached: {:.5f}", i,
+             x, probe.position(platform).x());
   }
-  c.expect(std::abs(probe.position(rider).x() - 0.75) < 0.05, "a platform moved .75 m carried its rider {:.3f} m", probe.position(rider).x());
+  c.expect(std::abs(probe.position(rider).x() - 0.75) < 0.05, "a platform moved .75 m carried its rider {:.3f} m",
+           probe.position(rider).x());
   const Vec stopped = probe.position(platform);
   probe.seconds(0.5);
-  c.expect(near(probe.position(platform), stopped, 1e-5), "without a new target the platform must stop; it went on {:.5f} m",
+  c.expect(near(probe.position(platform), stopped, 1e-5),
+           "without a new target the platform must stop; it went on {:.5f} m",
            (probe.position(platform) - stopped).norm());
 }
 
@@ -241,8 +257,10 @@ void sensors(Conformance& c) {
       if (event.type == PLUMB_EVENT_SENSOR_LEAVE && event.body_a == sensor && event.body_b == ball) ++left;
     }
   }
-  c.expect(entered == 1 && left == 1, "a ball that fell through a sensor entered {} times and left {} times", entered, left);
-  c.expect(std::abs(probe.velocity(ball).y() + 19.62) < 0.01, "a sensor slowed the ball down to {:.3f} m/s", probe.velocity(ball).y());
+  c.expect(entered == 1 && left == 1, "a ball that fell through a sensor entered {} times and left {} times", entered,
+           left);
+  c.expect(std::abs(probe.velocity(ball).y() + 19.62) < 0.01, "a sensor slowed the ball down to {:.3f} m/s",
+           probe.velocity(ball).y());
 }
 
 void filters(Conformance& c) {

@@ -8,7 +8,8 @@ namespace plumb::harness::conform {
 PlumbNeeds Conformance::available(PlumbNeeds wanted) const {
   PlumbNeeds has = 0;
   for (std::uint32_t index = 0; index < PLUMB_NEED_COUNT; ++index)
-    if (((wanted >> index) & 1) != 0 && backend_.capability(PLUMB_CAP_NEED, index) != PLUMB_NONE) has |= PlumbNeeds{1} << index;
+    if (((wanted >> index) & 1) != 0 && backend_.capability(PLUMB_CAP_NEED, index) != PLUMB_NONE)
+      has |= PlumbNeeds{1} << index;
   return has;
 }
 
@@ -20,8 +21,8 @@ void Conformance::require_needs(PlumbNeeds needs) {
 std::vector<Check> all_checks() {
   std::vector<Check> checks;
   for (const std::span<const Check> group :
-       {shape_checks(), body_checks(), material_checks(), handle_checks(), event_checks(), joint_checks(), query_checks(),
-        setting_checks(), snapshot_checks(), thread_checks()})
+       {shape_checks(), body_checks(), material_checks(), handle_checks(), event_checks(), joint_checks(),
+        query_checks(), setting_checks(), snapshot_checks(), thread_checks()})
     checks.insert(checks.end(), group.begin(), group.end());
   return checks;
 }

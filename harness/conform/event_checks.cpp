@@ -18,7 +18,8 @@ void completeness(Conformance& c) {
   probe.ground();
   const PlumbShape shapes[2] = {probe.box({0.3, 0.3, 0.3}), probe.sphere(0.3)};
   std::vector<PlumbBody> bodies;
-  for (int i = 0; i < 30; ++i) bodies.push_back(probe.dynamic(shapes[i % 2], {0.5 * (i % 3), 1 + 0.7 * (i / 3), 0.4 * (i % 2)}));
+  for (int i = 0; i < 30; ++i)
+    bodies.push_back(probe.dynamic(shapes[i % 2], {0.5 * (i % 3), 1 + 0.7 * (i / 3), 0.4 * (i % 2)}));
   std::set<Pair> open;
   for (int step = 0; step < 300; ++step) {
     if (step == 150) {
@@ -30,18 +31,20 @@ void completeness(Conformance& c) {
     std::vector<PlumbEvent> sorted = events;
     backend::sort_events(sorted);
     for (std::size_t i = 0; i < events.size(); ++i)
-      c.expect(events[i].type == sorted[i].type && events[i].body_a == sorted[i].body_a && events[i].body_b == sorted[i].body_b,
+      c.expect(events[i].type == sorted[i].type && events[i].body_a == sorted[i].body_a &&
+                   events[i].body_b == sorted[i].body_b,
                "step {}: event {} is out of order", step, i);
     for (const PlumbEvent& event : events) {
       if (event.type == PLUMB_EVENT_CONTACT_BEGIN)
         c.expect(open.insert(ordered(event.body_a, event.body_b)).second, "step {}: a contact began twice", step);
       if (event.type == PLUMB_EVENT_CONTACT_END)
-        c.expect(open.erase(ordered(event.body_a, event.body_b)) == 1, "step {}: a contact ended that had not begun", step);
+        c.expect(open.erase(ordered(event.body_a, event.body_b)) == 1, "step {}: a contact ended that had not begun",
+                 step);
     }
     for (const PlumbContact& contact : probe.contacts())
       if (contact.depth > 0)
-        c.expect(open.contains(ordered(contact.body_a, contact.body_b)), "step {}: bodies overlap by {:.4f} m, but no contact is open", step,
-                 contact.depth);
+        c.expect(open.contains(ordered(contact.body_a, contact.body_b)),
+                 "step {}: bodies overlap by {:.4f} m, but no contact is open", step, contact.depth);
   }
   c.expect(!open.empty(), "a settled heap has no open contact");
   for (const Pair& pair : open) {
@@ -61,21 +64,25 @@ void contact_rows(Conformance& c) {
   const PlumbStepReport report = probe.seconds(3);
   const auto contacts = probe.contacts();
   c.expect(contacts.size() >= 3, "a cube at rest has {} contact points", contacts.size());
-  c.expect(report.contacts == contacts.size(), "the report says {} contacts, {} can be read", report.contacts, contacts.size());
+  c.expect(report.contacts == contacts.size(), "the report says {} contacts, {} can be read", report.contacts,
+           contacts.size());
   double impulse = 0;
   for (const PlumbContact& contact : contacts) {
     const bool floor_first = contact.body_a == floor && contact.body_b == cube;
     c.expect(floor_first || (contact.body_a == cube && contact.body_b == floor), "a contact names other bodies");
     const Vec normal = (floor_first ? 1 : -1) * vec(contact.normal);
-    c.expect((normal - Vec::UnitY()).norm() < 1e-3, "the normal from floor to cube is ({:.4f}, {:.4f}, {:.4f})", normal.x(), normal.y(), normal.z());
-    c.expect(std::abs(contact.position.y) < 0.06 && std::abs(contact.position.x) < 0.56, "a contact point is at ({:.3f}, {:.3f}, {:.3f})",
-             contact.position.x, contact.position.y, contact.position.z);
+    c.expect((normal - Vec::UnitY()).norm() < 1e-3, "the normal from floor to cube is ({:.4f}, {:.4f}, {:.4f})",
+             normal.x(), normal.y(), normal.z());
+    c.expect(std::abs(contact.position.y) < 0.06 && std::abs(contact.position.x) < 0.56,
+             "a contact point is at ({:.3f}, {:.3f}, {:.3f})", contact.position.x, contact.position.y,
+             contact.position.z);
     c.expect(std::abs(contact.depth) < 0.05, "depth {:.4f} m of a cube at rest", contact.depth);
     impulse += contact.normal_impulse;
   }
   if ((wanted & PLUMB_NEED_CONTACT_IMPULSES) != 0) {
     const double weight = 1000 * 9.81 / 60;
-    c.expect(std::abs(impulse - weight) < 0.03 * weight, "the floor gives {:.3f} N s a step to a cube that weighs {:.3f} N s", impulse, weight);
+    c.expect(std::abs(impulse - weight) < 0.03 * weight,
+             "the floor gives {:.3f} N s a step to a cube that weighs {:.3f} N s", impulse, weight);
   }
 }
 
@@ -93,11 +100,12 @@ void tangent_impulses(Conformance& c) {
   const Vec after = probe.velocity(cube);
   probe.step();
   Vec sum = Vec::Zero();
-  for (const PlumbContact& contact : probe.contacts()) sum += (contact.body_b == cube ? 1 : -1) * vec(contact.tangent_impulse);
+  for (const PlumbContact& contact : probe.contacts())
+    sum += (contact.body_b == cube ? 1 : -1) * vec(contact.tangent_impulse);
   const double change = 1000 * (probe.velocity(cube).x() - after.x());
   c.expect(after.x() < before.x(), "friction does not slow a sliding cube");
-  c.expect(std::abs(sum.x() - change) < 0.1 * std::abs(change) + 1e-6, "tangent impulses sum to {:.3f} N s, the cube's momentum changed by {:.3f}",
-           sum.x(), change);
+  c.expect(std::abs(sum.x() - change) < 0.1 * std::abs(change) + 1e-6,
+           "tangent impulses sum to {:.3f} N s, the cube's momentum changed by {:.3f}", sum.x(), change);
 }
 
 void sleeping(Conformance& c) {
@@ -120,7 +128,8 @@ void sleeping(Conformance& c) {
   bool woke = false;
   for (int step = 0; step < 120 && !woke; ++step) {
     probe.step();
-    for (const PlumbEvent& event : probe.events()) woke = woke || (event.type == PLUMB_EVENT_WAKE && event.body_a == body);
+    for (const PlumbEvent& event : probe.events())
+      woke = woke || (event.type == PLUMB_EVENT_WAKE && event.body_a == body);
   }
   c.expect(woke, "a cube that was hit in its sleep did not wake, or no event told");
 }
@@ -133,8 +142,8 @@ void no_sleep_undeclared(Conformance& c) {
   c.expect(report.awake == 1, "sleeping was not declared, but {} of 1 bodies are awake after 10 s", report.awake);
 }
 
-/// A body that becomes not finite is counted, and harms no neighbour; or the engine gives the world up in words. Only an
-/// engine can make one: an absurd impulse is tried.
+/// A body that becomes not finite is counted, and harms no neighbour; or the engine gives the world up in words. Only
+/// an engine can make one: an absurd impulse is tried.
 void absurd_speeds(Conformance& c) {
   const PlumbNeeds needs = kPlainNeeds | PLUMB_NEED_FORCES;
   Probe probe(c, needs);
@@ -152,7 +161,8 @@ void absurd_speeds(Conformance& c) {
   }
   const bool finite = probe.position(wild).allFinite() && probe.velocity(wild).allFinite();
   c.expect(finite || reported > 0, "a body is not finite and no report said so");
-  c.expect(probe.position(calm).allFinite() && std::abs(probe.position(calm).y() - 0.5) < 0.1, "a neighbour 50 m away came to harm");
+  c.expect(probe.position(calm).allFinite() && std::abs(probe.position(calm).y() - 0.5) < 0.1,
+           "a neighbour 50 m away came to harm");
 }
 
 constexpr Check kChecks[] = {

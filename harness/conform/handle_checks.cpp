@@ -24,11 +24,14 @@ void stale_handles(Conformance& c) {
   const ConstRows const_rows(reinterpret_cast<const std::byte*>(row), 1, sizeof row, PLUMB_F64);
   for (PlumbBody body : {dead[0], dead[19], PlumbBody{0}, PlumbBody{1} << 40, ~PlumbBody{0}}) {
     IPhysicsWorld& world = probe.world();
-    c.expect(world.read(PLUMB_FIELD_POSE, {&body, 1}, rows) == PLUMB_E_STALE_HANDLE, "reading handle {} is not refused", body);
-    c.expect(world.write(PLUMB_FIELD_POSE, {&body, 1}, const_rows) == PLUMB_E_STALE_HANDLE, "writing handle {} is not refused", body);
+    c.expect(world.read(PLUMB_FIELD_POSE, {&body, 1}, rows) == PLUMB_E_STALE_HANDLE, "reading handle {} is not refused",
+             body);
+    c.expect(world.write(PLUMB_FIELD_POSE, {&body, 1}, const_rows) == PLUMB_E_STALE_HANDLE,
+             "writing handle {} is not refused", body);
     c.expect(world.destroy_bodies({&body, 1}) == PLUMB_E_STALE_HANDLE, "destroying handle {} is not refused", body);
     const PlumbBody both[2] = {alive, body};
-    c.expect(world.destroy_bodies(both) == PLUMB_E_STALE_HANDLE && world.bodies().size() == 1, "a half valid destroy must do nothing");
+    c.expect(world.destroy_bodies(both) == PLUMB_E_STALE_HANDLE && world.bodies().size() == 1,
+             "a half valid destroy must do nothing");
   }
   PlumbShape shape = ball;
   c.expect(probe.world().destroy_shapes({&shape, 1}) == PLUMB_E_IN_USE, "a shape in use can be destroyed");
@@ -36,7 +39,8 @@ void stale_handles(Conformance& c) {
   c.expect(probe.world().destroy_shapes({&shape, 1}) == PLUMB_OK, "an unused shape cannot be destroyed");
   const PlumbBodyDesc desc = dynamic_desc(ball, {0, 0, 0});
   PlumbBody id = 0;
-  c.expect(probe.world().create_bodies({&desc, 1}, {&id, 1}) == PLUMB_E_STALE_HANDLE, "a destroyed shape can still be used");
+  c.expect(probe.world().create_bodies({&desc, 1}, {&id, 1}) == PLUMB_E_STALE_HANDLE,
+           "a destroyed shape can still be used");
 }
 
 /// Bodies come and go in a busy heap; those alive must be in order, finite, and above ground.
@@ -58,23 +62,27 @@ void churn(Conformance& c) {
       alive.erase(alive.begin() + static_cast<std::ptrdiff_t>(victim));
     }
     const PlumbStepReport report = probe.step();
-    c.expect(report.bodies == alive.size() && report.nonfinite == 0, "step {}: {} bodies, {} not finite; {} expected", step, report.bodies,
-             report.nonfinite, alive.size());
+    c.expect(report.bodies == alive.size() && report.nonfinite == 0, "step {}: {} bodies, {} not finite; {} expected",
+             step, report.bodies, report.nonfinite, alive.size());
     const auto listed = probe.world().bodies();
-    c.expect(std::equal(listed.begin(), listed.end(), alive.begin(), alive.end()), "step {}: bodies are not listed in order of creation", step);
+    c.expect(std::equal(listed.begin(), listed.end(), alive.begin(), alive.end()),
+             "step {}: bodies are not listed in order of creation", step);
   }
   for (std::size_t i = 1; i < alive.size(); ++i)
-    c.expect(probe.position(alive[i]).y() > -0.2, "a body fell through the floor to {:.3f} m", probe.position(alive[i]).y());
+    c.expect(probe.position(alive[i]).y() > -0.2, "a body fell through the floor to {:.3f} m",
+             probe.position(alive[i]).y());
 }
 
-/// Each bad call is refused with a text, and the neighbours end up with the same bits as in a world that was never asked.
+/// Each bad call is refused with a text, and the neighbours end up with the same bits as in a world that was never
+/// asked.
 void bad_input(Conformance& c) {
   const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
   struct World {
     Probe probe;
     PlumbShape cube;
     PlumbBody body;
-    explicit World(Conformance& conformance) : probe(conformance, kPlainNeeds), cube(probe.box({0.5, 0.5, 0.5})), body(0) {
+    explicit World(Conformance& conformance)
+        : probe(conformance, kPlainNeeds), cube(probe.box({0.5, 0.5, 0.5})), body(0) {
       probe.ground();
       for (int i = 0; i < 3; ++i) body = probe.dynamic(cube, {0.1 * i, 0.6 + 1.05 * i, 0});
     }
@@ -96,18 +104,24 @@ void bad_input(Conformance& c) {
     return world.create_shapes({&desc, 1}, {&id, 1});
   };
   const auto write = [&](PlumbField field, std::vector<double> row) {
-    return world.write(field, {&asked.body, 1}, ConstRows(reinterpret_cast<const std::byte*>(row.data()), 1, row.size() * 8, PLUMB_F64));
+    return world.write(field, {&asked.body, 1},
+                       ConstRows(reinterpret_cast<const std::byte*>(row.data()), 1, row.size() * 8, PLUMB_F64));
   };
   const double flat[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0}, same[] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
   const std::pair<const char*, std::function<PlumbResult()>> calls[] = {
       {"position NaN", [&] { return body([&](auto& d) { d.pose.position.x = nan; }); }},
       {"position infinite", [&] { return body([&](auto& d) { d.pose.position.z = infinity; }); }},
-      {"quaternion 0", [&] { return body([&](auto& d) { d.pose.orientation = {0, 0, 0, 0}; }); }},
+      {"quaternion 0", [&] { return body([&](auto& d) {
+                               d.pose.orientation = {0, 0, 0, 0};
+                             }); }},
       {"velocity NaN", [&] { return body([&](auto& d) { d.linear_velocity.y = nan; }); }},
       {"density 0", [&] { return body([&](auto& d) { d.density = 0; }); }},
       {"density negative", [&] { return body([&](auto& d) { d.density = -1000; }); }},
       {"mass NaN", [&] { return body([&](auto& d) { d.mass_mode = PLUMB_MASS_FROM_TOTAL, d.mass = nan; }); }},
-      {"inertia negative", [&] { return body([&](auto& d) { d.mass_mode = PLUMB_MASS_EXPLICIT, d.mass = 1, d.inertia = {1, -1, 1}; }); }},
+      {"inertia negative",
+       [&] { return body([&](auto& d) {
+               d.mass_mode = PLUMB_MASS_EXPLICIT, d.mass = 1, d.inertia = {1, -1, 1};
+             }); }},
       {"friction negative", [&] { return body([&](auto& d) { d.material.friction = -1; }); }},
       {"motion unknown", [&] { return body([&](auto& d) { d.motion = 17; }); }},
       {"struct_size 0", [&] { return body([&](auto& d) { d.struct_size = 0; }); }},
@@ -115,18 +129,35 @@ void bad_input(Conformance& c) {
       {"radius 0", [&] { return shape(PLUMB_SPHERE, [&](auto& d) { d.radius = 0; }); }},
       {"radius NaN", [&] { return shape(PLUMB_SPHERE, [&](auto& d) { d.radius = nan; }); }},
       {"half extent negative", [&] { return shape(PLUMB_BOX, [&](auto& d) { d.half_extents.y = -1; }); }},
-      {"hull coplanar", [&] { return shape(PLUMB_CONVEX_HULL, [&](auto& d) { d.vertices = flat, d.vertex_count = 4; }); }},
-      {"hull of one point", [&] { return shape(PLUMB_CONVEX_HULL, [&](auto& d) { d.vertices = same, d.vertex_count = 4; }); }},
+      {"hull coplanar",
+       [&] { return shape(PLUMB_CONVEX_HULL, [&](auto& d) { d.vertices = flat, d.vertex_count = 4; }); }},
+      {"hull of one point",
+       [&] { return shape(PLUMB_CONVEX_HULL, [&](auto& d) { d.vertices = same, d.vertex_count = 4; }); }},
       {"hull without points", [&] { return shape(PLUMB_CONVEX_HULL, [&](auto& d) { d.vertex_count = 4; }); }},
       {"shape type unknown", [&] { return shape(99, [](auto&) {}); }},
       {"dt 0", [&] { return world.step(0); }},
       {"dt negative", [&] { return world.step(-1); }},
       {"dt NaN", [&] { return world.step(nan); }},
-      {"gravity NaN", [&] { return world.set_gravity({0, nan, 0}); }},
-      {"written pose NaN", [&] { return write(PLUMB_FIELD_POSE, {nan, 0, 0, 0, 0, 0, 1}); }},
-      {"written velocity infinite", [&] { return write(PLUMB_FIELD_VELOCITY, {infinity, 0, 0, 0, 0, 0}); }},
-      {"field unknown", [&] { return write(1000, {0, 0, 0, 0, 0, 0, 0}); }},
-      {"force undeclared", [&] { return write(PLUMB_FIELD_FORCE, {1, 0, 0}); }},
+      {"gravity NaN",
+       [&] {
+         return world.set_gravity({0, nan, 0});
+       }},
+      {"written pose NaN",
+       [&] {
+         return write(PLUMB_FIELD_POSE, {nan, 0, 0, 0, 0, 0, 1});
+       }},
+      {"written velocity infinite",
+       [&] {
+         return write(PLUMB_FIELD_VELOCITY, {infinity, 0, 0, 0, 0, 0});
+       }},
+      {"field unknown",
+       [&] {
+         return write(1000, {0, 0, 0, 0, 0, 0, 0});
+       }},
+      {"force undeclared",
+       [&] {
+         return write(PLUMB_FIELD_FORCE, {1, 0, 0});
+       }},
   };
   for (const auto& [what, call] : calls) {
     const PlumbResult result = call();
@@ -147,8 +178,8 @@ void world_life(Conformance& c) {
   }
   Probe empty(c, kPlainNeeds);
   const PlumbStepReport report = empty.step(3);
-  c.expect(report.bodies == 0 && report.contacts == 0 && report.step == 3, "an empty world reports {} bodies, {} contacts, step {}",
-           report.bodies, report.contacts, report.step);
+  c.expect(report.bodies == 0 && report.contacts == 0 && report.step == 3,
+           "an empty world reports {} bodies, {} contacts, step {}", report.bodies, report.contacts, report.step);
 }
 
 constexpr Check kChecks[] = {

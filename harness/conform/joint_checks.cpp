@@ -72,7 +72,8 @@ void holds(Conformance& c) {
     }
     const char* other = to_world ? "the world" : "a body";
     conformance.expect(position < 0.02, "{} joint to {}: opens by {:.4f} m", joint_name(type), other, position);
-    conformance.expect(angle < 0.03, "{} joint to {}: turns by {:.4f} rad where it is locked", joint_name(type), other, angle);
+    conformance.expect(angle < 0.03, "{} joint to {}: turns by {:.4f} rad where it is locked", joint_name(type), other,
+                       angle);
   });
 }
 
@@ -87,12 +88,13 @@ void frees(Conformance& c) {
       const Vec direction = Vec::Unit(axis % 3);
       const Vec omega = axis >= 3 ? direction : Vec::Zero();
       const Vec linear = axis >= 3 ? Vec(omega.cross(Vec(0.5, 0, 0))) : direction;
-      pair.probe.write(PLUMB_FIELD_VELOCITY, pair.b, {linear.x(), linear.y(), linear.z(), omega.x(), omega.y(), omega.z()});
+      pair.probe.write(PLUMB_FIELD_VELOCITY, pair.b,
+                       {linear.x(), linear.y(), linear.z(), omega.x(), omega.y(), omega.z()});
       const double start = pair.coordinate(axis);
       pair.probe.step(30);
       const double moved = std::abs(pair.coordinate(axis) - start);
-      conformance.expect(moved > 0.1, "{} joint to {}: free axis {} moved only {:.4f} in .5 s at 1 per second", joint_name(type),
-                         to_world ? "the world" : "a body", axis, moved);
+      conformance.expect(moved > 0.1, "{} joint to {}: free axis {} moved only {:.4f} in .5 s at 1 per second",
+                         joint_name(type), to_world ? "the world" : "a body", axis, moved);
     }
   });
 }
@@ -111,7 +113,9 @@ void hinge_and_slider(Conformance& c, PlumbJointFeature feature, const char* wha
   c.require_needs(kJointNeeds);
   bool any = false;
   for (const PlumbJointType type : {PLUMB_JOINT_HINGE, PLUMB_JOINT_SLIDER}) {
-    if (c.backend().capability(PLUMB_CAP_JOINT, type) == PLUMB_NONE || c.backend().capability(PLUMB_CAP_JOINT_FEATURE, type, feature) == PLUMB_NONE) continue;
+    if (c.backend().capability(PLUMB_CAP_JOINT, type) == PLUMB_NONE ||
+        c.backend().capability(PLUMB_CAP_JOINT_FEATURE, type, feature) == PLUMB_NONE)
+      continue;
     any = true;
     check_one(static_cast<PlumbJointType>(type));
   }
@@ -131,8 +135,8 @@ void limits(Conformance& c) {
         pair.probe.step();
       }
       const double stop = sign > 0 ? 0.6 : -0.4;
-      c.expect(std::abs(pair.coordinate(axis) - stop) < 0.03, "{} joint pushed against its stop at {}: it is at {:.4f}", joint_name(type), stop,
-               pair.coordinate(axis));
+      c.expect(std::abs(pair.coordinate(axis) - stop) < 0.03, "{} joint pushed against its stop at {}: it is at {:.4f}",
+               joint_name(type), stop, pair.coordinate(axis));
     }
   });
 }
@@ -146,15 +150,19 @@ void motors(Conformance& c) {
     pair.probe.step(30);
     const double start = pair.coordinate(axis);
     pair.probe.step(60);
-    c.expect(std::abs(pair.coordinate(axis) - start - 0.8) < 0.03, "{} motor of .8 per second moved {:.4f} in 1 s", joint_name(type),
-             pair.coordinate(axis) - start);
+    c.expect(std::abs(pair.coordinate(axis) - start - 0.8) < 0.03, "{} motor of .8 per second moved {:.4f} in 1 s",
+             joint_name(type), pair.coordinate(axis) - start);
     std::vector<double> row = pair.probe.read_joint(PLUMB_JOINT_MOTOR, joint);
     row[2 * axis] = 0;
-    check(pair.probe.world(), pair.probe.world().joints()->write_joints(PLUMB_JOINT_MOTOR, {&joint, 1}, ConstRows(reinterpret_cast<const std::byte*>(row.data()), 1, row.size() * 8, PLUMB_F64)));
+    check(pair.probe.world(),
+          pair.probe.world().joints()->write_joints(
+              PLUMB_JOINT_MOTOR, {&joint, 1},
+              ConstRows(reinterpret_cast<const std::byte*>(row.data()), 1, row.size() * 8, PLUMB_F64)));
     pair.probe.step(10);
     const double stopped = pair.coordinate(axis);
     pair.probe.step(60);
-    c.expect(std::abs(pair.coordinate(axis) - stopped) < 0.01, "{} motor set to 0 moved on by {:.4f}", joint_name(type), pair.coordinate(axis) - stopped);
+    c.expect(std::abs(pair.coordinate(axis) - stopped) < 0.01, "{} motor set to 0 moved on by {:.4f}", joint_name(type),
+             pair.coordinate(axis) - stopped);
   });
 }
 
@@ -168,8 +176,8 @@ void motor_force(Conformance& c) {
     pair.desc.motors[axis] = {100, resistance, 1, 0};  // 1 per second squared
     pair.probe.joint(pair.desc);
     pair.probe.step(60);
-    c.expect(std::abs(pair.coordinate(axis) - 0.5) < 0.03, "{} motor of bounded force moved {:.4f} in 1 s instead of .5", joint_name(type),
-             pair.coordinate(axis));
+    c.expect(std::abs(pair.coordinate(axis) - 0.5) < 0.03,
+             "{} motor of bounded force moved {:.4f} in 1 s instead of .5", joint_name(type), pair.coordinate(axis));
   });
 }
 
@@ -181,7 +189,8 @@ void springs(Conformance& c) {
     pair.desc.springs[axis] = {0.3, 1, 1, 1, 0};
     pair.probe.joint(pair.desc);
     pair.probe.seconds(3);
-    c.expect(std::abs(pair.coordinate(axis) - 0.3) < 0.02, "{} spring rests at {:.4f} instead of .3", joint_name(type), pair.coordinate(axis));
+    c.expect(std::abs(pair.coordinate(axis) - 0.3) < 0.02, "{} spring rests at {:.4f} instead of .3", joint_name(type),
+             pair.coordinate(axis));
   });
 }
 
@@ -201,7 +210,8 @@ void reactions(Conformance& c) {
     const std::vector<double> row = pair.probe.read_joint(PLUMB_JOINT_REACTION, joint);
     const double weight = 125 * 9.81;
     c.expect(std::abs(row[1] - weight) < 0.02 * weight && std::abs(row[0]) + std::abs(row[2]) < 0.02 * weight,
-             "{} joint with a weight of {:.2f} N below: reaction ({:.2f}, {:.2f}, {:.2f}) N", joint_name(type), weight, row[0], row[1], row[2]);
+             "{} joint with a weight of {:.2f} N below: reaction ({:.2f}, {:.2f}, {:.2f}) N", joint_name(type), weight,
+             row[0], row[1], row[2]);
   }
 }
 
@@ -210,7 +220,8 @@ void breaking(Conformance& c) {
   c.require_needs(needs);
   bool any = false;
   for (PlumbJointType type = 0; type < PLUMB_JOINT_TYPE_COUNT; ++type) {
-    if (type == PLUMB_JOINT_DISTANCE || type == PLUMB_JOINT_SLIDER || c.backend().capability(PLUMB_CAP_JOINT, type) == PLUMB_NONE ||
+    if (type == PLUMB_JOINT_DISTANCE || type == PLUMB_JOINT_SLIDER ||
+        c.backend().capability(PLUMB_CAP_JOINT, type) == PLUMB_NONE ||
         c.backend().capability(PLUMB_CAP_JOINT_FEATURE, type, PLUMB_JOINT_BREAKS) == PLUMB_NONE)
       continue;
     any = true;
@@ -225,7 +236,8 @@ void breaking(Conformance& c) {
       PlumbStepReport report{};
       for (int i = 0; i < 60; ++i) {
         report = pair.probe.step();
-        for (const PlumbEvent& event : pair.probe.events()) told += event.type == PLUMB_EVENT_JOINT_BROKEN && event.joint == joint;
+        for (const PlumbEvent& event : pair.probe.events())
+          told += event.type == PLUMB_EVENT_JOINT_BROKEN && event.joint == joint;
       }
       const bool broken = pair.probe.position(pair.b).y() < -1;
       c.expect(broken == (factor < 1) && told == (broken ? 1 : 0) && report.joints == (broken ? 0u : 1u),
@@ -254,7 +266,8 @@ void collide_connected(Conformance& c) {
     probe.joint(desc);
     probe.seconds(1);
     const double distance = (probe.position(a) - probe.position(b)).norm();
-    c.expect((distance > 0.92) == (wanted != 0), "collide_connected {}: overlapping bodies ended {:.4f} m apart (from .9)", wanted, distance);
+    c.expect((distance > 0.92) == (wanted != 0),
+             "collide_connected {}: overlapping bodies ended {:.4f} m apart (from .9)", wanted, distance);
   }
 }
 
@@ -267,12 +280,15 @@ void generic_axes(Conformance& c) {
     const Vec direction = Vec::Unit(static_cast<Eigen::Index>(axis % 3));
     const Vec omega = axis >= 3 ? direction : Vec::Zero();
     const Vec linear = axis >= 3 ? Vec(omega.cross(Vec(0.5, 0, 0))) : direction;
-    pair.probe.write(PLUMB_FIELD_VELOCITY, pair.b, {linear.x(), linear.y(), linear.z(), omega.x(), omega.y(), omega.z()});
+    pair.probe.write(PLUMB_FIELD_VELOCITY, pair.b,
+                     {linear.x(), linear.y(), linear.z(), omega.x(), omega.y(), omega.z()});
     pair.probe.step(30);
-    c.expect(std::abs(pair.coordinate(axis)) > 0.3, "generic joint with axis {} free: it moved {:.4f} in .5 s", axis, pair.coordinate(axis));
+    c.expect(std::abs(pair.coordinate(axis)) > 0.3, "generic joint with axis {} free: it moved {:.4f} in .5 s", axis,
+             pair.coordinate(axis));
     for (std::size_t other = 0; other < 6; ++other)
       if (other != axis)
-        c.expect(std::abs(pair.coordinate(other)) < 0.03, "generic joint with axis {} free: locked axis {} moved {:.4f}", axis, other, pair.coordinate(other));
+        c.expect(std::abs(pair.coordinate(other)) < 0.03,
+                 "generic joint with axis {} free: locked axis {} moved {:.4f}", axis, other, pair.coordinate(other));
   }
 }
 
@@ -284,8 +300,10 @@ void removal(Conformance& c) {
   pair.probe.step(30);
   check(pair.probe.world(), pair.probe.world().joints()->destroy_joints({&joint, 1}));
   pair.probe.step(120);
-  c.expect(pair.probe.position(pair.b).y() < -10, "a body whose joint was destroyed does not fall: y = {:.3f}", pair.probe.position(pair.b).y());
-  c.expect(pair.probe.world().joints()->destroy_joints({&joint, 1}) == PLUMB_E_STALE_HANDLE, "a destroyed joint's handle is not stale");
+  c.expect(pair.probe.position(pair.b).y() < -10, "a body whose joint was destroyed does not fall: y = {:.3f}",
+           pair.probe.position(pair.b).y());
+  c.expect(pair.probe.world().joints()->destroy_joints({&joint, 1}) == PLUMB_E_STALE_HANDLE,
+           "a destroyed joint's handle is not stale");
 }
 
 constexpr Check kChecks[] = {

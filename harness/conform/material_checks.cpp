@@ -29,8 +29,8 @@ void friction(Conformance& c) {
     const double mu = std::sqrt(a * b);
     const double expected = 9 / (2 * mu * kG);
     const double distance = slide(c, a, b);
-    c.expect(std::abs(distance - expected) < 0.08 * expected, "friction {} on {} (pair {:.3f}): slides {:.4f} m instead of {:.4f}", a, b,
-             mu, distance, expected);
+    c.expect(std::abs(distance - expected) < 0.08 * expected,
+             "friction {} on {} (pair {:.3f}): slides {:.4f} m instead of {:.4f}", a, b, mu, distance, expected);
   }
   const double smooth = slide(c, 1, 0);
   c.expect(std::abs(smooth - 4.5) < 0.02, "friction 1 on 0 (pair 0): slides {:.4f} m in 1.5 s instead of 4.5", smooth);
@@ -57,7 +57,8 @@ void restitution(Conformance& c) {
   for (const auto& [a, b] : {std::pair{0.0, 0.0}, {0.5, 0.5}, {0.8, 0.2}, {0.2, 0.8}, {1.0, 0.0}}) {
     const double expected = std::max(a, b);
     const double got = bounce(c, a, b);
-    c.expect(std::abs(got - expected) < 0.05, "restitution {} on {}: rebounds with {:.4f} instead of {:.4f}", a, b, got, expected);
+    c.expect(std::abs(got - expected) < 0.05, "restitution {} on {}: rebounds with {:.4f} instead of {:.4f}", a, b, got,
+             expected);
   }
 }
 
@@ -71,8 +72,8 @@ void written_material(Conformance& c) {
   probe.seconds(0.25);
   probe.write(PLUMB_FIELD_VELOCITY, body, {3, 0, 0, 0, 0, 0});
   probe.seconds(1);
-  c.expect(std::abs(probe.velocity(body).x() - 3) < 0.05, "friction was set to 0 in a contact, but the cube slowed to {:.3f} m/s",
-           probe.velocity(body).x());
+  c.expect(std::abs(probe.velocity(body).x() - 3) < 0.05,
+           "friction was set to 0 in a contact, but the cube slowed to {:.3f} m/s", probe.velocity(body).x());
 }
 
 void surface_velocity(Conformance& c) {
@@ -86,7 +87,8 @@ void surface_velocity(Conformance& c) {
   probe.body(belt);
   const PlumbBody body = probe.dynamic(probe.box({0.5, 0.5, 0.5}), {0, 0.5, 0});
   probe.seconds(2);
-  c.expect(std::abs(probe.velocity(body).x() - 2) < 0.05, "on a belt of 2 m/s a cube moves at {:.4f} m/s after 2 s", probe.velocity(body).x());
+  c.expect(std::abs(probe.velocity(body).x() - 2) < 0.05, "on a belt of 2 m/s a cube moves at {:.4f} m/s after 2 s",
+           probe.velocity(body).x());
 }
 
 void child_material(Conformance& c) {
@@ -100,7 +102,8 @@ void child_material(Conformance& c) {
   desc.child_count = 1;
   const PlumbBody body = probe.dynamic(probe.shape(desc), {0, 0.5, 0}, {3, 0, 0});
   probe.seconds(1);
-  c.expect(std::abs(probe.velocity(body).x() - 3) < 0.05, "a child without friction slowed to {:.3f} m/s", probe.velocity(body).x());
+  c.expect(std::abs(probe.velocity(body).x() - 3) < 0.05, "a child without friction slowed to {:.3f} m/s",
+           probe.velocity(body).x());
 }
 
 constexpr Check kChecks[] = {

@@ -122,12 +122,16 @@ PlumbStepReport Probe::step(int steps, double dt) {
 
 std::vector<double> Probe::read(PlumbField field, PlumbBody body) {
   std::vector<double> row(columns_of(field));
-  check(*world_, world_->read(field, {&body, 1}, Rows(reinterpret_cast<std::byte*>(row.data()), 1, row.size() * sizeof(double), PLUMB_F64)));
+  check(*world_,
+        world_->read(field, {&body, 1},
+                     Rows(reinterpret_cast<std::byte*>(row.data()), 1, row.size() * sizeof(double), PLUMB_F64)));
   return row;
 }
 
 void Probe::write(PlumbField field, PlumbBody body, std::span<const double> row) {
-  check(*world_, world_->write(field, {&body, 1}, ConstRows(reinterpret_cast<const std::byte*>(row.data()), 1, row.size_bytes(), PLUMB_F64)));
+  check(*world_,
+        world_->write(field, {&body, 1},
+                      ConstRows(reinterpret_cast<const std::byte*>(row.data()), 1, row.size_bytes(), PLUMB_F64)));
 }
 
 void Probe::write_pose(PlumbField field, PlumbBody body, const Vec& position, const Eigen::Quaterniond& q) {
@@ -179,7 +183,9 @@ PlumbJoint Probe::joint(const PlumbJointDesc& desc) {
 
 std::vector<double> Probe::read_joint(PlumbJointField field, PlumbJoint joint) {
   std::vector<double> row(joint_columns_of(field));
-  check(*world_, world_->joints()->read_joints(field, {&joint, 1}, Rows(reinterpret_cast<std::byte*>(row.data()), 1, row.size() * sizeof(double), PLUMB_F64)));
+  check(*world_, world_->joints()->read_joints(
+                     field, {&joint, 1},
+                     Rows(reinterpret_cast<std::byte*>(row.data()), 1, row.size() * sizeof(double), PLUMB_F64)));
   return row;
 }
 

@@ -23,7 +23,8 @@ class Probe {
   /// Throws Skipped when the backend lacks one of the needs.
   Probe(Conformance& conformance, PlumbNeeds needs, const Vec& gravity = {0, -9.81, 0});
   /// The same with settings.
-  Probe(Conformance& conformance, PlumbNeeds needs, const Vec& gravity, std::span<const PlumbSetting> settings, std::uint32_t threads = 1);
+  Probe(Conformance& conformance, PlumbNeeds needs, const Vec& gravity, std::span<const PlumbSetting> settings,
+        std::uint32_t threads = 1);
 
   [[nodiscard]] IPhysicsWorld& world() { return *world_; }
 
@@ -50,8 +51,11 @@ class Probe {
   [[nodiscard]] Vec angular_velocity(PlumbBody body);
   [[nodiscard]] std::vector<double> read(PlumbField field, PlumbBody body);
   void write(PlumbField field, PlumbBody body, std::span<const double> row);
-  void write(PlumbField field, PlumbBody body, std::initializer_list<double> row) { write(field, body, std::span(row.begin(), row.size())); }
-  void write_pose(PlumbField field, PlumbBody body, const Vec& position, const Eigen::Quaterniond& orientation = Eigen::Quaterniond::Identity());
+  void write(PlumbField field, PlumbBody body, std::initializer_list<double> row) {
+    write(field, body, std::span(row.begin(), row.size()));
+  }
+  void write_pose(PlumbField field, PlumbBody body, const Vec& position,
+                  const Eigen::Quaterniond& orientation = Eigen::Quaterniond::Identity());
   void destroy(PlumbBody body) { check(*world_, world_->destroy_bodies({&body, 1})); }
   [[nodiscard]] std::uint64_t hash();
   [[nodiscard]] std::vector<PlumbEvent> events();

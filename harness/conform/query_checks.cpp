@@ -34,7 +34,8 @@ struct Cloud {
       PlumbBodyDesc desc = body_desc(i % 3 == 0 ? PLUMB_STATIC : PLUMB_DYNAMIC);
       desc.material.friction = 0;
       desc.pose.position = {6 * unit(random), 6 * unit(random), 6 * unit(random)};
-      const Eigen::Quaterniond q = Eigen::Quaterniond(unit(random), unit(random), unit(random), unit(random)).normalized();
+      const Eigen::Quaterniond q =
+          Eigen::Quaterniond(unit(random), unit(random), unit(random), unit(random)).normalized();
       desc.pose.orientation = {q.x(), q.y(), q.z(), q.w()};
       if ((more & PLUMB_NEED_FILTERS) != 0) desc.filter.category = 1u << (i % 3);
       desc.shape = probe.shape(shape);
@@ -48,7 +49,8 @@ std::optional<double> ray_enters(const Cloud::Item& item, const Vec& origin, con
   const Vec o = item.pose.inverse() * origin;
   const Vec d = item.pose.rotation.transpose() * translation;
   if (item.shape->type() == PLUMB_SPHERE) {
-    const double a = d.squaredNorm(), b = o.dot(d), root = b * b - a * (o.squaredNorm() - std::pow(item.shape->radius() + grown, 2));
+    const double a = d.squaredNorm(), b = o.dot(d),
+                 root = b * b - a * (o.squaredNorm() - std::pow(item.shape->radius() + grown, 2));
     if (root < 0) return {};
     const double t = (-b - std::sqrt(root)) / a;
     return t >= 0 && t <= 1 ? std::optional(t) : std::nullopt;
@@ -69,7 +71,8 @@ std::optional<double> ray_enters(const Cloud::Item& item, const Vec& origin, con
 
 bool inside(const Cloud::Item& item, const Vec& point) {
   const Vec p = item.pose.inverse() * point;
-  return item.shape->type() == PLUMB_SPHERE ? p.norm() < item.shape->radius() : (p.cwiseAbs() - item.shape->half_extents()).maxCoeff() < 0;
+  return item.shape->type() == PLUMB_SPHERE ? p.norm() < item.shape->radius()
+                                            : (p.cwiseAbs() - item.shape->half_extents()).maxCoeff() < 0;
 }
 
 /// Random rays; those that start inside a body are left out, since engines differ on what they should see.
@@ -78,7 +81,8 @@ std::vector<PlumbRay> random_rays(const Cloud& cloud, int count, PlumbFilter fil
   std::uniform_real_distribution<double> unit(-1, 1);
   std::vector<PlumbRay> rays;
   while (static_cast<int>(rays.size()) < count) {
-    const Vec origin(9 * unit(random), 9 * unit(random), 9 * unit(random)), target(6 * unit(random), 6 * unit(random), 6 * unit(random));
+    const Vec origin(9 * unit(random), 9 * unit(random), 9 * unit(random)),
+        target(6 * unit(random), 6 * unit(random), 6 * unit(random));
     bool starts_inside = false;
     for (const Cloud::Item& item : cloud.items) starts_inside = starts_inside || inside(item, origin);
     if (!starts_inside) rays.push_back({vec3(origin), vec3(2 * (target - origin)), filter});
@@ -89,7 +93,8 @@ std::vector<PlumbRay> random_rays(const Cloud& cloud, int count, PlumbFilter fil
 void compare_rays(Conformance& c, Cloud& cloud, PlumbFilter filter) {
   const std::vector<PlumbRay> rays = random_rays(cloud, 300, filter);
   const Hits closest = cloud.probe.world().queries()->cast_rays(PLUMB_HIT_CLOSEST, rays);
-  c.expect(closest.result >= 0 && closest.hits.size() == rays.size(), "{} closest hits for {} rays", closest.hits.size(), rays.size());
+  c.expect(closest.result >= 0 && closest.hits.size() == rays.size(), "{} closest hits for {} rays",
+           closest.hits.size(), rays.size());
   const std::vector<PlumbHit> nearest(closest.hits.begin(), closest.hits.end());
   const Hits all = cloud.probe.world().queries()->cast_rays(PLUMB_HIT_ALL, rays);
   std::size_t next = 0;
@@ -101,13 +106,15 @@ void compare_rays(Conformance& c, Cloud& cloud, PlumbFilter filter) {
       if (may_touch(filter, item.filter)) {
         const Vec origin = vec(rays[i].origin), translation = vec(rays[i].translation);
         if (const auto t = ray_enters(item, origin, translation)) truth.emplace_back(*t, item.body);
-        grazes = grazes || ray_enters(item, origin, translation, 2e-3).has_value() != ray_enters(item, origin, translation, -2e-3).has_value();
+        grazes = grazes || ray_enters(item, origin, translation, 2e-3).has_value() !=
+                               ray_enters(item, origin, translation, -2e-3).has_value();
       }
     std::sort(truth.begin(), truth.end());
     const PlumbHit& hit = nearest[i];
     if (grazes) ++grazing;
-    const bool right = (hit.body == 0) == truth.empty() &&
-                       (hit.body == 0 || (hit.body == truth[0].second && std::abs(hit.fraction - truth[0].first) < 2e-3));
+    const bool right =
+        (hit.body == 0) == truth.empty() &&
+        (hit.body == 0 || (hit.body == truth[0].second && std::abs(hit.fraction - truth[0].first) < 2e-3));
     if (!grazes && !right) ++wrong;
     std::vector<PlumbBody> got, wanted;
     double last = -1;
@@ -152,16 +159,20 @@ void rays_after_motion(Conformance& c) {
   const PlumbRay hits_it = {{10, 5, 0}, {0, -10, 0}, kSeesAll}, where_it_was = {{0, 5, 0}, {0, -10, 0}, kSeesAll};
   const PlumbRay both[2] = {hits_it, where_it_was};
   const Hits hits = probe.world().queries()->cast_rays(PLUMB_HIT_CLOSEST, both);
-  c.expect(hits.hits.size() == 2 && hits.hits[0].body == ball && hits.hits[1].body == 0, "rays see a moved ball where it is not");
+  c.expect(hits.hits.size() == 2 && hits.hits[0].body == ball && hits.hits[1].body == 0,
+           "rays see a moved ball where it is not");
   if (hits.hits.size() == 2 && hits.hits[0].body == ball) {
-    c.expect(std::abs(hits.hits[0].fraction - 0.45) < 0.01, "the ball's top is at fraction {:.4f} instead of .45", hits.hits[0].fraction);
+    c.expect(std::abs(hits.hits[0].fraction - 0.45) < 0.01, "the ball's top is at fraction {:.4f} instead of .45",
+             hits.hits[0].fraction);
     c.expect((vec(hits.hits[0].normal) - Vec::UnitY()).norm() < 0.05, "the normal on top of a ball is not up");
   }
   probe.destroy(ball);
-  c.expect(probe.world().queries()->cast_rays(PLUMB_HIT_CLOSEST, both).hits[0].body == 0, "a destroyed ball is still seen");
+  c.expect(probe.world().queries()->cast_rays(PLUMB_HIT_CLOSEST, both).hits[0].body == 0,
+           "a destroyed ball is still seen");
 }
 
-/// A sphere that is cast hits spheres where a ray hits ones that are larger by its radius, and boxes no later than that.
+/// A sphere that is cast hits spheres where a ray hits ones that are larger by its radius, and boxes no later than
+/// that.
 void casts(Conformance& c) {
   c.require_needs(kQueryNeeds);
   c.require(PLUMB_CAP_QUERY, PLUMB_QUERY_CAST, PLUMB_SPHERE, "sphere casts");
@@ -175,7 +186,10 @@ void casts(Conformance& c) {
   for (const PlumbRay& ray : random_rays(cloud, 120, kSeesAll)) {
     bool overlaps = false;
     for (const Cloud::Item& item : cloud.items)
-      overlaps = overlaps || referee::penetration(*ball, {referee::Mat3::Identity(), vec(ray.origin)}, *item.shape, item.pose).depth > -0.01;
+      overlaps =
+          overlaps ||
+          referee::penetration(*ball, {referee::Mat3::Identity(), vec(ray.origin)}, *item.shape, item.pose).depth >
+              -0.01;
     if (!overlaps) batch.push_back({shape, {ray.origin, {0, 0, 0, 1}}, ray.translation, kSeesAll});
   }
   const Hits hits = cloud.probe.world().queries()->cast_shapes(PLUMB_HIT_CLOSEST, batch);
@@ -188,7 +202,8 @@ void casts(Conformance& c) {
     for (const double part : {0.25, 0.5, 0.75, 0.98, 1.0})
       for (const Cloud::Item& item : cloud.items) {
         const Vec centre = vec(batch[i].pose.position) + part * fraction * vec(batch[i].translation);
-        const double depth = referee::penetration(*ball, {referee::Mat3::Identity(), centre}, *item.shape, item.pose).depth;
+        const double depth =
+            referee::penetration(*ball, {referee::Mat3::Identity(), centre}, *item.shape, item.pose).depth;
         deepest = std::max(deepest, depth);
         if (part == 1.0 && item.body == hits.hits[i].body) at_end = depth;
       }
@@ -215,15 +230,19 @@ void overlaps(Conformance& c) {
     std::uniform_real_distribution<double> unit(-1, 1);
     std::vector<PlumbOverlap> batch;
     for (int i = 0; i < 60; ++i) {
-      const Eigen::Quaterniond q = Eigen::Quaterniond(unit(random), unit(random), unit(random), unit(random)).normalized();
-      batch.push_back({shape, {{6 * unit(random), 6 * unit(random), 6 * unit(random)}, {q.x(), q.y(), q.z(), q.w()}}, kSeesAll});
+      const Eigen::Quaterniond q =
+          Eigen::Quaterniond(unit(random), unit(random), unit(random), unit(random)).normalized();
+      batch.push_back(
+          {shape, {{6 * unit(random), 6 * unit(random), 6 * unit(random)}, {q.x(), q.y(), q.z(), q.w()}}, kSeesAll});
     }
     const Hits hits = cloud.probe.world().queries()->overlap_shapes(batch);
     for (std::size_t i = 0; i < batch.size(); ++i)
       for (const Cloud::Item& item : cloud.items) {
-        const double depth = referee::penetration(*probe_shape, referee::pose(batch[i].pose), *item.shape, item.pose).depth;
+        const double depth =
+            referee::penetration(*probe_shape, referee::pose(batch[i].pose), *item.shape, item.pose).depth;
         if (std::abs(depth) < 0.05) continue;  // within an engine's margin
-        const bool found = std::any_of(hits.hits.begin(), hits.hits.end(), [&](const PlumbHit& hit) { return hit.query == i && hit.body == item.body; });
+        const bool found = std::any_of(hits.hits.begin(), hits.hits.end(),
+                                       [&](const PlumbHit& hit) { return hit.query == i && hit.body == item.body; });
         ++asked;
         if (found != (depth > 0) && forgiven-- > 0) continue;
         c.expect(found == (depth > 0), "a {} and a {} that overlap by {:.4f} m {} found", backend::shape_name(type),
@@ -254,13 +273,15 @@ void stepless(Conformance& c) {
       for (int i = 0; i < 50; ++i) {
         PlumbPosedPair pair{shapes[0], shapes[1], identity_pose(), identity_pose()};
         for (PlumbPose* pose : {&pair.pose_a, &pair.pose_b}) {
-          const Eigen::Quaterniond q = Eigen::Quaterniond(unit(random), unit(random), unit(random), unit(random)).normalized();
+          const Eigen::Quaterniond q =
+              Eigen::Quaterniond(unit(random), unit(random), unit(random), unit(random)).normalized();
           *pose = {{0.8 * unit(random), 0.8 * unit(random), 0.8 * unit(random)}, {q.x(), q.y(), q.z(), q.w()}};
         }
         PlumbPairResult result{};
         std::span<const PlumbPairPoint> points;
         check(probe.world(), probe.world().collide()->collide_pairs({&pair, 1}, {&result, 1}, points));
-        const double depth = referee::penetration(*known[0], referee::pose(pair.pose_a), *known[1], referee::pose(pair.pose_b)).depth;
+        const double depth =
+            referee::penetration(*known[0], referee::pose(pair.pose_a), *known[1], referee::pose(pair.pose_b)).depth;
         if (std::abs(depth) < 0.05) continue;
         ++compared;
         double deepest = -1;
@@ -271,7 +292,8 @@ void stepless(Conformance& c) {
       }
     }
   c.expect(wrong_sign == 0, "{} of {} pairs: touching or not differs from the referee", wrong_sign, compared);
-  c.expect(wrong_depth <= compared / 20, "{} of {} pairs: the depth is less than half the referee's", wrong_depth, compared);
+  c.expect(wrong_depth <= compared / 20, "{} of {} pairs: the depth is less than half the referee's", wrong_depth,
+           compared);
 }
 
 /// Candidate pairs must hold every pair that overlaps.
@@ -280,7 +302,8 @@ void candidates(Conformance& c) {
   if (cloud.probe.world().debug() == nullptr) throw Skipped{"no " PLUMB_EXT_DEBUG};
   cloud.probe.step(1, 1e-6);
   std::span<const PlumbDebugPair> pairs;
-  if (cloud.probe.world().debug()->candidate_pairs(pairs) == PLUMB_E_UNSUPPORTED) throw Skipped{"no candidate pairs in " PLUMB_EXT_DEBUG};
+  if (cloud.probe.world().debug()->candidate_pairs(pairs) == PLUMB_E_UNSUPPORTED)
+    throw Skipped{"no candidate pairs in " PLUMB_EXT_DEBUG};
   for (std::size_t i = 0; i < cloud.items.size(); ++i)
     for (std::size_t k = 0; k < i; ++k) {
       const auto &a = cloud.items[i], &b = cloud.items[k];

@@ -7,12 +7,14 @@ namespace plumb::harness::conform {
 namespace {
 
 std::string value_text(const PlumbSettingValue& value) {
-  return value.type == PLUMB_SETTING_CHOICE ? (value.choice == nullptr ? "null" : value.choice) : fmt::format("{}", value.number);
+  return value.type == PLUMB_SETTING_CHOICE ? (value.choice == nullptr ? "null" : value.choice)
+                                            : fmt::format("{}", value.number);
 }
 
 bool equal(const PlumbSettingValue& a, const PlumbSettingValue& b) {
   if (a.type != b.type) return false;
-  if (a.type == PLUMB_SETTING_CHOICE) return a.choice != nullptr && b.choice != nullptr && std::strcmp(a.choice, b.choice) == 0;
+  if (a.type == PLUMB_SETTING_CHOICE)
+    return a.choice != nullptr && b.choice != nullptr && std::strcmp(a.choice, b.choice) == 0;
   return std::abs(a.number - b.number) <= 1e-6 * std::max(1.0, std::abs(b.number));  // an engine of floats rounds
 }
 
@@ -24,11 +26,14 @@ void described(Conformance& c) {
     const std::string name = info->name;
     c.expect(std::find(names.begin(), names.end(), name) == names.end(), "setting {} is listed twice", name);
     names.push_back(name);
-    c.expect(!name.empty() && name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_") == std::string::npos, "\"{}\" is not snake_case", name);
-    c.expect(info->doc != nullptr && *info->doc != '\0' && info->unit != nullptr, "setting {} has no doc or unit", name);
+    c.expect(!name.empty() && name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_") == std::string::npos,
+             "\"{}\" is not snake_case", name);
+    c.expect(info->doc != nullptr && *info->doc != '\0' && info->unit != nullptr, "setting {} has no doc or unit",
+             name);
     c.expect(info->default_value.type == info->type, "setting {}: its default is of another type", name);
     if (info->type == PLUMB_SETTING_INT || info->type == PLUMB_SETTING_FLOAT)
-      c.expect(info->minimum <= info->default_value.number && info->default_value.number <= info->maximum, "setting {}: its default is out of range", name);
+      c.expect(info->minimum <= info->default_value.number && info->default_value.number <= info->maximum,
+               "setting {}: its default is out of range", name);
   }
   if (names.empty()) throw Skipped{"no settings"};
 }
@@ -36,8 +41,10 @@ void described(Conformance& c) {
 /// Values worth trying: both ends, the default, each choice.
 std::vector<PlumbSettingValue> candidates(const PlumbSettingInfo& info) {
   std::vector<PlumbSettingValue> values = {info.default_value};
-  if (info.type == PLUMB_SETTING_BOOL) values.insert(values.end(), {{info.type, 0, 0, nullptr}, {info.type, 0, 1, nullptr}});
-  for (std::uint32_t i = 0; info.type == PLUMB_SETTING_CHOICE && i < info.choice_count; ++i) values.push_back({info.type, 0, 0, info.choices[i]});
+  if (info.type == PLUMB_SETTING_BOOL)
+    values.insert(values.end(), {{info.type, 0, 0, nullptr}, {info.type, 0, 1, nullptr}});
+  for (std::uint32_t i = 0; info.type == PLUMB_SETTING_CHOICE && i < info.choice_count; ++i)
+    values.push_back({info.type, 0, 0, info.choices[i]});
   if (info.type == PLUMB_SETTING_INT || info.type == PLUMB_SETTING_FLOAT) {
     values.push_back({info.type, 0, info.minimum, nullptr});
     // The largest may be a cost that nobody wants to pay in a check: a hundred times the default is large enough.
@@ -56,12 +63,13 @@ void in_force(Conformance& c) {
       try {
         const bool at_creation = (info->flags & PLUMB_SETTING_CREATION_ONLY) != 0;
         const PlumbSetting setting = {info->name, value};
-        Probe probe(c, kPlainNeeds, {0, -9.81, 0}, at_creation ? std::span(&setting, 1) : std::span<const PlumbSetting>{});
+        Probe probe(c, kPlainNeeds, {0, -9.81, 0},
+                    at_creation ? std::span(&setting, 1) : std::span<const PlumbSetting>{});
         PlumbSettingValue before{};
         check(probe.world(), probe.world().settings()->get_setting(info->name, before));
         if (!at_creation) {
-          c.expect(equal(before, info->default_value), "{}: {} is in force at the start, {} is said to be the default", info->name, value_text(before),
-                   value_text(info->default_value));
+          c.expect(equal(before, info->default_value), "{}: {} is in force at the start, {} is said to be the default",
+                   info->name, value_text(before), value_text(info->default_value));
           check(probe.world(), probe.world().settings()->set_setting(info->name, value));
         }
         PlumbSettingValue after{};

@@ -13,7 +13,8 @@ double top_of(PlumbShapeType type) { return type == PLUMB_PLANE || type == PLUMB
 
 /// Lays a capsule on its side: upright it would tip over.
 Eigen::Quaterniond resting_orientation(PlumbShapeType type) {
-  return type == PLUMB_CAPSULE ? Eigen::Quaterniond(Eigen::AngleAxisd(M_PI / 2, Vec::UnitZ())) : Eigen::Quaterniond::Identity();
+  return type == PLUMB_CAPSULE ? Eigen::Quaterniond(Eigen::AngleAxisd(M_PI / 2, Vec::UnitZ()))
+                               : Eigen::Quaterniond::Identity();
 }
 double resting_height(PlumbShapeType type) { return type == PLUMB_CAPSULE ? 0.25 : 0.5; }
 
@@ -43,8 +44,8 @@ void declared_shapes(Conformance& c) {
       } catch (const Error& error) {
         why = error.what();
       }
-      c.expect(made == (claim != PLUMB_NONE), "{} {}: declared {}, but {} ({})", motion_name(motion), shape_name(type), claim,
-               made ? "it can be made" : "it cannot be made", why);
+      c.expect(made == (claim != PLUMB_NONE), "{} {}: declared {}, but {} ({})", motion_name(motion), shape_name(type),
+               claim, made ? "it can be made" : "it cannot be made", why);
     }
 }
 
@@ -76,15 +77,15 @@ void drop_pair(Conformance& c, PlumbShapeType a, PlumbShapeType b) {
     c.expect(!held, "dynamic {} on static {}: declared none, but they collide", shape_name(a), shape_name(b));
     return;
   }
-  c.expect(held, "dynamic {} on static {}: declared {}, but it fell to {:.3f} m (rest would be {:.3f})", shape_name(a), shape_name(b),
-           claim, height, rest);
+  c.expect(held, "dynamic {} on static {}: declared {}, but it fell to {:.3f} m (rest would be {:.3f})", shape_name(a),
+           shape_name(b), claim, height, rest);
   if (!held || claim == PLUMB_APPROXIMATE || !has_flat_top(b)) return;
   probe.seconds(1.6);
   const double settled = probe.position(body).y();
-  c.expect(std::abs(settled - rest) < 0.05, "dynamic {} on static {}: rests at {:.3f} m instead of {:.3f}", shape_name(a), shape_name(b),
-           settled, rest);
-  c.expect(probe.velocity(body).norm() < 0.1, "dynamic {} on static {}: still moves at {:.3f} m/s after 2 s", shape_name(a),
-           shape_name(b), probe.velocity(body).norm());
+  c.expect(std::abs(settled - rest) < 0.05, "dynamic {} on static {}: rests at {:.3f} m instead of {:.3f}",
+           shape_name(a), shape_name(b), settled, rest);
+  c.expect(probe.velocity(body).norm() < 0.1, "dynamic {} on static {}: still moves at {:.3f} m/s after 2 s",
+           shape_name(a), shape_name(b), probe.velocity(body).norm());
 }
 
 void static_pairs(Conformance& c) {
@@ -107,11 +108,12 @@ void push_pair(Conformance& c, PlumbShapeType a, PlumbShapeType b) {
   probe.seconds(2);
   const Vec pushed = probe.velocity(target);
   const bool touched = pushed.norm() > 0.1;
-  c.expect(touched == (claim != PLUMB_NONE), "dynamic {} into dynamic {}: declared {}, but the target moves at {:.3f} m/s", shape_name(a),
-           shape_name(b), claim, pushed.norm());
+  c.expect(touched == (claim != PLUMB_NONE),
+           "dynamic {} into dynamic {}: declared {}, but the target moves at {:.3f} m/s", shape_name(a), shape_name(b),
+           claim, pushed.norm());
   if (touched && claim != PLUMB_NONE)
-    c.expect(probe.position(bullet).x() < probe.position(target).x(), "dynamic {} into dynamic {}: it passed through", shape_name(a),
-             shape_name(b));
+    c.expect(probe.position(bullet).x() < probe.position(target).x(), "dynamic {} into dynamic {}: it passed through",
+             shape_name(a), shape_name(b));
 }
 
 void dynamic_pairs(Conformance& c) {
@@ -126,7 +128,8 @@ void dynamic_pairs(Conformance& c) {
 /// An angular impulse must turn each shape by its own inertia, which is also what the mass field says.
 void inertia(Conformance& c) {
   c.require_needs(PLUMB_NEED_ROTATION | PLUMB_NEED_FORCES);
-  for (const PlumbShapeType type : {PLUMB_SPHERE, PLUMB_BOX, PLUMB_CAPSULE, PLUMB_CYLINDER, PLUMB_CONVEX_HULL, PLUMB_COMPOUND}) {
+  for (const PlumbShapeType type :
+       {PLUMB_SPHERE, PLUMB_BOX, PLUMB_CAPSULE, PLUMB_CYLINDER, PLUMB_CONVEX_HULL, PLUMB_COMPOUND}) {
     if (c.backend().capability(PLUMB_CAP_SHAPE, type, PLUMB_DYNAMIC) == PLUMB_NONE) continue;
     for (int axis = 0; axis < 3; ++axis) {
       Probe probe(c, PLUMB_NEED_ROTATION | PLUMB_NEED_FORCES, Vec::Zero());
@@ -135,13 +138,15 @@ void inertia(Conformance& c) {
       const PlumbBody body = probe.body(desc);
       const std::vector<double> mass = probe.read(PLUMB_FIELD_MASS, body);
       const Eigen::Quaterniond principal(mass[10], mass[7], mass[8], mass[9]);
-      const Eigen::Matrix3d tensor = principal * Eigen::DiagonalMatrix<double, 3>(mass[4], mass[5], mass[6]) * principal.conjugate().toRotationMatrix();
+      const Eigen::Matrix3d tensor = principal * Eigen::DiagonalMatrix<double, 3>(mass[4], mass[5], mass[6]) *
+                                     principal.conjugate().toRotationMatrix();
       const Vec impulse = 10 * Vec::Unit(axis);
       probe.write(PLUMB_FIELD_ANGULAR_IMPULSE, body, {impulse.x(), impulse.y(), impulse.z()});
       const Vec expected = tensor.inverse() * impulse;
       const Vec omega = probe.angular_velocity(body);
-      c.expect((omega - expected).norm() < 1e-4 * expected.norm(), "{}: an impulse of 10 N m s about axis {} gives {:.6f} rad/s instead of {:.6f}",
-               shape_name(type), axis, omega.norm(), expected.norm());
+      c.expect((omega - expected).norm() < 1e-4 * expected.norm(),
+               "{}: an impulse of 10 N m s about axis {} gives {:.6f} rad/s instead of {:.6f}", shape_name(type), axis,
+               omega.norm(), expected.norm());
     }
   }
 }

@@ -9,7 +9,8 @@ std::vector<PlumbBody> heap(Probe& probe) {
   probe.ground();
   const PlumbShape shapes[2] = {probe.box({0.5, 0.5, 0.5}), probe.sphere(0.5)};
   std::vector<PlumbBody> bodies;
-  for (int i = 0; i < 24; ++i) bodies.push_back(probe.dynamic(shapes[i % 2], {0.9 * (i % 3), 1 + 1.1 * (i / 6), 0.8 * (i / 3 % 2)}));
+  for (int i = 0; i < 24; ++i)
+    bodies.push_back(probe.dynamic(shapes[i % 2], {0.9 * (i % 3), 1 + 1.1 * (i / 6), 0.8 * (i / 3 % 2)}));
   return bodies;
 }
 
@@ -33,8 +34,8 @@ void save_and_restore(Conformance& c) {
   if (degree >= PLUMB_EMULATED)
     c.expect(probe.hash() == first, "100 steps after restoring the state differs");
   else
-    c.expect((probe.position(bodies[0]) - first_position).norm() < 1, "100 steps after restoring a body is {:.3f} m away",
-             (probe.position(bodies[0]) - first_position).norm());
+    c.expect((probe.position(bodies[0]) - first_position).norm() < 1,
+             "100 steps after restoring a body is {:.3f} m away", (probe.position(bodies[0]) - first_position).norm());
 }
 
 void repeatable(Conformance& c) {

@@ -33,12 +33,14 @@ void worlds_apart(Conformance& c) {
   for (std::thread& thread : threads) thread.join();
   for (std::size_t i = 0; i < 2; ++i) c.expect(failures[i].empty(), "in thread {}: {}", i, failures[i]);
   if (c.backend().info().determinism == PLUMB_DETERMINISM_NONE) return;
-  for (std::size_t i = 0; i < 2; ++i) c.expect(together[i] == alone, "a world beside another ends in other bits than alone");
+  for (std::size_t i = 0; i < 2; ++i)
+    c.expect(together[i] == alone, "a world beside another ends in other bits than alone");
 }
 
 void more_threads(Conformance& c) {
   const std::uint64_t one = tumble(c, 1), four = tumble(c, 4);
-  if (c.backend().info().determinism >= PLUMB_DETERMINISM_THREADS) c.expect(one == four, "four threads end in other bits than one");
+  if (c.backend().info().determinism >= PLUMB_DETERMINISM_THREADS)
+    c.expect(one == four, "four threads end in other bits than one");
 }
 
 void queries_together(Conformance& c) {

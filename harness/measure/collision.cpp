@@ -13,8 +13,8 @@
 namespace plumb::harness {
 namespace {
 
-/// Highest points after each of the first impacts, on the parabola through the samples. A ball that has stopped bouncing
-/// stays where it ends.
+/// Highest points after each of the first impacts, on the parabola through the samples. A ball that has stopped
+/// bouncing stays where it ends.
 std::vector<double> apexes(const Series& height, std::size_t count) {
   const auto tops = height.maxima();
   const auto impacts = height.minima();

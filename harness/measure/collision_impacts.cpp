@@ -14,8 +14,8 @@ namespace {
 
 constexpr double degrees = 180 / std::numbers::pi;
 
-/// Velocity of a body two steps after its first touch: engines with soft contacts spread an impulse over steps. What it was
-/// all along when nothing touched.
+/// Velocity of a body two steps after its first touch: engines with soft contacts spread an impulse over steps. What it
+/// was all along when nothing touched.
 VelocityRow after_impact(Simulation& simulation, std::size_t body) {
   const referee::Vec3 before = referee::vec(simulation.velocities()[body].linear);
   while (simulation.advance()) {
@@ -110,7 +110,8 @@ void measure_tilted_cube(MeasureContext& context) {
 void measure_sphere_on_box(MeasureContext& context) {
   const Scene& scene = context.scene();
   const std::size_t body = arg_body(scene, "body");
-  const double radius = arg_number(scene, "radius"), x = arg_number(scene, "offset_x"), z = arg_number(scene, "offset_z");
+  const double radius = arg_number(scene, "radius"), x = arg_number(scene, "offset_x"),
+               z = arg_number(scene, "offset_z");
   const referee::Vec3 before = referee::vec(scene.bodies[body].desc.linear_velocity);
   const referee::Vec3 normal = referee::Vec3(x, std::sqrt(radius * radius - x * x - z * z), z) / radius;
   const referee::Vec3 truth = truth::reflect(before, normal, arg_number(scene, "restitution"));

@@ -22,12 +22,13 @@ double turn_of(const Simulation& simulation, std::size_t body) {
   return referee::quat(simulation.poses()[body].orientation).angularDistance(start);
 }
 
-/// A block on an incline that falls toward -x, turned about the vertical by yaw. Above the angle of friction it slides by a
-/// known way, below it must not creep.
+/// A block on an incline that falls toward -x, turned about the vertical by yaw. Above the angle of friction it slides
+/// by a known way, below it must not creep.
 void incline(MeasureContext& context) {
   const Scene& scene = context.scene();
   const std::size_t body = arg_body(scene, "body");
-  const double slope = arg_number(scene, "slope"), friction = arg_number(scene, "friction"), side = arg_number(scene, "side");
+  const double slope = arg_number(scene, "slope"), friction = arg_number(scene, "friction"),
+               side = arg_number(scene, "side");
   const double g = -scene.gravity.y, yaw = arg_number(scene, "yaw");
   const referee::Vec3 downhill(-std::cos(slope) * std::cos(yaw), -std::sin(slope), std::cos(slope) * std::sin(yaw));
   Simulation simulation = context.simulate(scene);
@@ -72,7 +73,9 @@ void sliding_stop(MeasureContext& context) {
   }
   const double mean = sum / static_cast<double>(blocks.size());
   const double truth = speed * speed / (2 * friction * g), scheme = truth - speed * scene.dt / 2;
-  const auto worst = [&](double expected) { return largest(std::abs(most - expected), std::abs(least - expected)) / truth; };
+  const auto worst = [&](double expected) {
+    return largest(std::abs(most - expected), std::abs(least - expected)) / truth;
+  };
   context.add({"distance", mean, truth, worst(truth), worst(scheme), "error of the worst block"});
   context.deviation("spread", (most - least) / mean);
   context.deviation("turn", turn * degrees);
@@ -84,7 +87,8 @@ void sliding_stop(MeasureContext& context) {
 void tip_or_stand(MeasureContext& context) {
   const Scene& scene = context.scene();
   const std::size_t body = arg_body(scene, "body");
-  const double slope = arg_number(scene, "slope"), width = arg_number(scene, "width"), height = arg_number(scene, "height");
+  const double slope = arg_number(scene, "slope"), width = arg_number(scene, "width"),
+               height = arg_number(scene, "height");
   Simulation simulation = context.simulate(scene);
   double turn = 0;
   simulation.run([&](Simulation& now) { turn = largest(turn, turn_of(now, body)); });

@@ -58,14 +58,16 @@ void measure_roll_down(MeasureContext& context) {
   const double expected = truth.acceleration * t * t / 2;
   compare_biased(context, "distance", distance, expected, expected, expected * (1 + scene.dt / t));
   const VelocityRow& row = simulation.velocities()[body];
-  const double ratio = radius * row.angular.z / referee::vec(row.linear).dot(downhill);  // downhill is -x: turns about +z
+  const double ratio =
+      radius * row.angular.z / referee::vec(row.linear).dot(downhill);  // downhill is -x: turns about +z
   context.compare("slip_ratio", ratio, truth.turning / truth.acceleration, 1);
 }
 
 void measure_spin_stop(MeasureContext& context) {
   const Scene& scene = context.scene();
   const std::size_t body = arg_body(scene, "body");
-  const double side = arg_number(scene, "side"), friction = arg_number(scene, "friction"), spin = arg_number(scene, "spin");
+  const double side = arg_number(scene, "side"), friction = arg_number(scene, "friction"),
+               spin = arg_number(scene, "spin");
   const double g = -scene.gravity.y;
   const truth::SpinStop corners = truth::spin_stop(g, friction, side, truth::corner_lever(side), spin);
   const truth::SpinStop spread = truth::spin_stop(g, friction, side, truth::uniform_lever(side), spin);

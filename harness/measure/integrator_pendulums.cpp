@@ -43,9 +43,8 @@ void measure_pendulum(MeasureContext& context) {
   simulation.run(observe);
 
   const auto passes = angle.crossings(0);
-  const double period = passes.size() > 2 * swings
-                            ? (passes[2 * swings] - passes[0]) / static_cast<double>(swings)
-                            : not_measured;
+  const double period =
+      passes.size() > 2 * swings ? (passes[2 * swings] - passes[0]) / static_cast<double>(swings) : not_measured;
   const double truth = truth::pendulum_period(gravity.norm(), arg_number(scene, "reduced_length"), amplitude);
   context.compare("period", period, truth, truth);
   context.add({"energy_drift", drift, 0.0, worst_drift, std::nullopt, ""});
@@ -100,8 +99,7 @@ void measure_double_pendulum(MeasureContext& context) {
   const double length = arg_number(scene, "length"), amplitude = arg_number(scene, "amplitude");
   Simulation simulation = context.simulate(scene);
   const auto error = [&] {
-    const Eigen::Vector4d y =
-        truth::double_pendulum(-scene.gravity.y, length, amplitude, amplitude, simulation.time());
+    const Eigen::Vector4d y = truth::double_pendulum(-scene.gravity.y, length, amplitude, amplitude, simulation.time());
     const referee::Vec3 a = length * referee::Vec3(std::sin(y[0]), -std::cos(y[0]), 0);
     const referee::Vec3 b = a + length * referee::Vec3(std::sin(y[1]), -std::cos(y[1]), 0);
     const double square = (referee::vec(simulation.poses()[upper].position) - a).squaredNorm() +

@@ -95,8 +95,7 @@ void measure_free_rotation(MeasureContext& context) {
     momentum_drift = state.spin().norm() / truth.momentum() - 1;
     worst_energy = largest(worst_energy, std::abs(energy_drift));
     worst_momentum = largest(worst_momentum, std::abs(momentum_drift));
-    if (std::abs(now.time() - 1) < scene.dt / 2)
-      early = (local - truth.angular_velocity(now.time())).norm() / w0.y;
+    if (std::abs(now.time() - 1) < scene.dt / 2) early = (local - truth.angular_velocity(now.time())).norm() / w0.y;
   });
   context.add({"energy_drift", energy_drift, 0.0, worst_energy, std::nullopt, ""});
   context.add({"momentum_drift", momentum_drift, 0.0, worst_momentum, std::nullopt, ""});

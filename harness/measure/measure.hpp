@@ -50,8 +50,8 @@ using MeasureFunction = void (*)(MeasureContext&);
 
 struct MeasureEntry {
   const char* name;
-  const char* doc;                     ///< one line
-  std::span<const char* const> args;   ///< argument names that the scene file may give
+  const char* doc;                    ///< one line
+  std::span<const char* const> args;  ///< argument names that the scene file may give
   MeasureFunction run;
 };
 

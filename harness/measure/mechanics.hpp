@@ -15,8 +15,8 @@ namespace plumb::harness {
 /// Pose and velocity of a body as of the last step.
 [[nodiscard]] referee::BodyState state_of(Simulation& simulation, std::size_t body, const referee::Mass& mass);
 
-/// A metric whose truth a scheme misses by a known bias: error is against the truth, unbiased_error against what semi-implicit
-/// Euler gives, both over `scale`.
+/// A metric whose truth a scheme misses by a known bias: error is against the truth, unbiased_error against what
+/// semi-implicit Euler gives, both over `scale`.
 void compare_biased(MeasureContext& context, const std::string& name, double value, double truth, double scale,
                     double semi_implicit, const std::string& note = "");
 

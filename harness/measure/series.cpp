@@ -21,7 +21,8 @@ double Series::at(double time) const {
 std::vector<SeriesPoint> Series::extremes(double sign) const {
   std::vector<SeriesPoint> found;
   for (std::size_t i = 1; i + 1 < points_.size(); ++i) {
-    const double before = sign * points_[i - 1].value, here = sign * points_[i].value, after = sign * points_[i + 1].value;
+    const double before = sign * points_[i - 1].value, here = sign * points_[i].value,
+                 after = sign * points_[i + 1].value;
     if (!(here > before && here >= after)) continue;
     const double slope = (after - before) / 2, curvature = before - 2 * here + after;
     const double shift = -slope / curvature;  // in steps from i

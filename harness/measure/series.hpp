@@ -33,8 +33,8 @@ class Series {
   [[nodiscard]] std::vector<SeriesPoint> minima() const { return extremes(-1); }
   /// Times at which the value passes through `level`, upward and downward, by linear interpolation.
   [[nodiscard]] std::vector<double> crossings(double level) const;
-  /// When the value, falling evenly, gets to 0: the line through the samples at which it was 80 % and 20 % of its start.
-  /// None when it never falls to 20 %.
+  /// When the value, falling evenly, gets to 0: the line through the samples at which it was 80 % and 20 % of its
+  /// start. None when it never falls to 20 %.
   [[nodiscard]] std::optional<double> end_of_fall() const;
 
  private:

@@ -16,7 +16,7 @@ struct Cell {
   Parameters parameters;  ///< all values
   Parameters shown;       ///< those by which the cell differs from its siblings: the variant's and the user's
   std::shared_ptr<const BackendDescription> backend;
-  std::string backend_build;  ///< of library and engine together
+  std::string backend_build;       ///< of library and engine together
   Json settings = Json::object();  ///< asked for
   std::string profile = "default";
   std::string needs = "scene";  ///< or "all"

@@ -96,8 +96,13 @@ class Recorder : public Tracker {
 
 class CellContext : public MeasureContext {
  public:
-  CellContext(Backend& backend, const Scene& scene, SimulationOptions options, Progress& progress, std::string trajectory)
-      : backend_(backend), scene_(scene), options_(std::move(options)), progress_(progress), trajectory_(std::move(trajectory)) {}
+  CellContext(Backend& backend, const Scene& scene, SimulationOptions options, Progress& progress,
+              std::string trajectory)
+      : backend_(backend),
+        scene_(scene),
+        options_(std::move(options)),
+        progress_(progress),
+        trajectory_(std::move(trajectory)) {}
 
   [[nodiscard]] const Scene& scene() const override { return scene_; }
   Simulation simulate(const Scene& scene) override { return simulate(scene, options_); }
@@ -198,17 +203,27 @@ void add_times(Json& answer, const StepStatistics& statistics) {
   answer["steps"] = steps;
   answer["setup_ms"] = statistics.setup_ms;
   answer["window"] = steps == 0 ? Json::array() : Json{first + 1, steps};
-  answer["step_ms"] = std::vector<double>(statistics.step_ms.begin() + static_cast<std::ptrdiff_t>(first), statistics.step_ms.end());
+  answer["step_ms"] =
+      std::vector<double>(statistics.step_ms.begin() + static_cast<std::ptrdiff_t>(first), statistics.step_ms.end());
   for (std::size_t phase = 0; phase < phase_words().size() && phase < statistics.phase_ms.size(); ++phase) {
-    if (std::isfinite(statistics.phase_ms[phase])) answer["phase_ms"][phase_words()[phase]] = statistics.phase_ms[phase];
+    if (std::isfinite(statistics.phase_ms[phase]))
+      answer["phase_ms"][phase_words()[phase]] = statistics.phase_ms[phase];
   }
 }
 
 Json empty_answer() {
-  return {{"status", "ok"},          {"reason", ""},         {"metrics", Json::object()},
-          {"settings", Json::object()}, {"step_ms", Json::array()}, {"window", Json::array()},
-          {"steps", 0},              {"setup_ms", nullptr},  {"phase_ms", Json::object()},
-          {"counts", Json::object()}, {"hash", ""},          {"peak_mb", nullptr}};
+  return {{"status", "ok"},
+          {"reason", ""},
+          {"metrics", Json::object()},
+          {"settings", Json::object()},
+          {"step_ms", Json::array()},
+          {"window", Json::array()},
+          {"steps", 0},
+          {"setup_ms", nullptr},
+          {"phase_ms", Json::object()},
+          {"counts", Json::object()},
+          {"hash", ""},
+          {"peak_mb", nullptr}};
 }
 
 void add_record(Json& answer, const Record& record) {
@@ -227,7 +242,8 @@ void add_record(Json& answer, const Record& record) {
 class Trace {
  public:
   Trace(Backend& backend, const std::string& file)
-      : backend_(file.empty() ? backend : Backend(layers::trace(&backend.table(), file), backend.file())), traces_(!file.empty()) {}
+      : backend_(file.empty() ? backend : Backend(layers::trace(&backend.table(), file), backend.file())),
+        traces_(!file.empty()) {}
   ~Trace() {
     try {
       if (traces_) layers::end_trace(&backend_.table());

@@ -15,7 +15,8 @@ class Capabilities {
   explicit Capabilities(const Backend& backend) : backend_(backend) {}
 
   void list(const std::string& title, PlumbCapability kind, const std::vector<std::string>& words) {
-    for (std::uint32_t a = 0; a < words.size(); ++a) json_[title][words[a]] = degree(kind, a, 0, title + "." + words[a]);
+    for (std::uint32_t a = 0; a < words.size(); ++a)
+      json_[title][words[a]] = degree(kind, a, 0, title + "." + words[a]);
   }
   void table(const std::string& title, PlumbCapability kind, const std::vector<std::string>& rows,
              const std::vector<std::string>& columns) {

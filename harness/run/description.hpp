@@ -1,5 +1,5 @@
-// What a backend says of itself, as data: the program that loads no backend reads it, and `plumb backends --json` prints
-// it. Made in a worker by describe().
+// What a backend says of itself, as data: the program that loads no backend reads it, and `plumb backends --json`
+// prints it. Made in a worker by describe().
 #pragma once
 
 #include <optional>
@@ -21,7 +21,7 @@ struct SettingDescription {
 
 struct BackendDescription {
   std::string name, file;
-  std::string error;  ///< why it cannot be opened; empty when it can, and only then what follows means something
+  std::string error;   ///< why it cannot be opened; empty when it can, and only then what follows means something
   std::string status;  ///< "ok", or how it failed: "error", "crashed", "timeout", "out_of_memory"
   std::string version, build, device;
   std::uint32_t max_threads = 1;

@@ -20,10 +20,10 @@ constexpr std::size_t many_bodies = 3000;  // from here on overlaps are looked f
 
 // What the scene holds that works on it or stores energy, so that its mechanical energy is no account of the engine.
 struct Nature {
-  bool driven = false;       ///< host forces, motors, kinematic bodies, moving surfaces
-  bool stores = false;       ///< springs
-  bool dissipates = false;   ///< collisions, damping, limits
-  bool closed = true;        ///< nothing outside pushes: momentum is kept
+  bool driven = false;      ///< host forces, motors, kinematic bodies, moving surfaces
+  bool stores = false;      ///< springs
+  bool dissipates = false;  ///< collisions, damping, limits
+  bool closed = true;       ///< nothing outside pushes: momentum is kept
 };
 
 Nature nature_of(const Scene& scene) {
@@ -106,7 +106,8 @@ void GeneralMetrics::State::sample_geometry(Simulation& simulation) {
     const SceneBody& body = scene.bodies[i];
     if (!body.shape || (body.desc.flags & PLUMB_BODY_SENSOR) != 0) continue;
     const PoseRow& row = simulation.poses()[i];
-    posed[i] = {shapes[*body.shape].get(), referee::pose(row.position, row.orientation), body.desc.motion == PLUMB_DYNAMIC};
+    posed[i] = {shapes[*body.shape].get(), referee::pose(row.position, row.orientation),
+                body.desc.motion == PLUMB_DYNAMIC};
   }
   const auto may_touch = [&](std::uint32_t a, std::uint32_t b) {
     return plumb::may_touch(scene.bodies[a].desc.filter, scene.bodies[b].desc.filter) && !joined.contains({a, b});
@@ -138,8 +139,8 @@ void GeneralMetrics::State::sample_cone(Simulation& simulation) {
   for (const PlumbContact& contact : contacts) {
     const auto a = index.find(contact.body_a), b = index.find(contact.body_b);
     if (a == index.end() || b == index.end()) continue;
-    const double friction = std::sqrt(scene.bodies[a->second].desc.material.friction *
-                                      scene.bodies[b->second].desc.material.friction);
+    const double friction =
+        std::sqrt(scene.bodies[a->second].desc.material.friction * scene.bodies[b->second].desc.material.friction);
     samples.push_back({&contact, &states[a->second], &states[b->second], friction});
   }
   const double gravity = referee::vec(scene.gravity).norm();
@@ -162,13 +163,15 @@ GeneralMetrics::GeneralMetrics(Simulation& simulation) : state_(std::make_unique
   }
   for (const SceneJoint& joint : scene.joints) {
     if (!joint.body_a || joint.desc.collide_connected != 0) continue;
-    const auto [low, high] = std::minmax(static_cast<std::uint32_t>(*joint.body_a), static_cast<std::uint32_t>(joint.body_b));
+    const auto [low, high] =
+        std::minmax(static_cast<std::uint32_t>(*joint.body_a), static_cast<std::uint32_t>(joint.body_b));
     s.joined.insert({low, high});
   }
   s.judge_cone = (scene.needs & PLUMB_NEED_CONTACT_IMPULSES) != 0 && !has_child_materials(scene);
   const auto steps = static_cast<std::uint64_t>(std::max(1.0, scene.seconds / scene.dt));
   s.energy_stride = std::max<std::uint64_t>(1, steps / energy_samples);
-  s.overlap_stride = scene.bodies.size() > many_bodies ? steps + 1 : std::max<std::uint64_t>(1, steps / overlap_samples);
+  s.overlap_stride =
+      scene.bodies.size() > many_bodies ? steps + 1 : std::max<std::uint64_t>(1, steps / overlap_samples);
   s.sample_energy(simulation);
   s.sample_geometry(simulation);
   s.sample_joints(simulation);
@@ -204,7 +207,8 @@ std::vector<Metric> GeneralMetrics::finish(Simulation& simulation) {
   const double reference = s.kinetic_max + (s.potential_high - s.potential_low);
   const std::string every = s.energy_stride == 1 ? "every step" : "every " + std::to_string(s.energy_stride) + " steps";
   if (reference > 0 && !s.nature.driven && !s.nature.stores) {
-    add("energy_injected", s.energy.injected() / reference, "of the largest kinetic energy and potential range, sampled " + every);
+    add("energy_injected", s.energy.injected() / reference,
+        "of the largest kinetic energy and potential range, sampled " + every);
     if (!s.nature.dissipates) add("energy_drift", s.energy.drift() / reference, "of the same reference");
   }
   if (s.nature.closed && s.momentum_sum > 0)
@@ -212,15 +216,21 @@ std::vector<Metric> GeneralMetrics::finish(Simulation& simulation) {
   if (!scene.joints.empty()) add("joint_gap_max", s.gap_max, "largest at sampled times");
   if (s.cone_known) add("cone_violation_max", s.cone_max, "of the friction cone, at sampled times");
   if (simulation.statistics().solver_fallbacks > 0)
-    add("solver_fallbacks", static_cast<double>(simulation.statistics().solver_fallbacks), "steps that another solver finished");
+    add("solver_fallbacks", static_cast<double>(simulation.statistics().solver_fallbacks),
+        "steps that another solver finished");
   return metrics;
 }
 
 std::vector<MetricSpec> general_metric_specs() {
   std::vector<MetricSpec> specs;
-  for (const auto& [name, unit] : {std::pair{"penetration_max", "m"}, {"penetration_p99", "m"}, {"energy_injected", "1"},
-                                   {"energy_drift", "1"}, {"momentum_drift", "1"}, {"joint_gap_max", "m"},
-                                   {"cone_violation_max", "1"}, {"solver_fallbacks", "1"}})
+  for (const auto& [name, unit] : {std::pair{"penetration_max", "m"},
+                                   {"penetration_p99", "m"},
+                                   {"energy_injected", "1"},
+                                   {"energy_drift", "1"},
+                                   {"momentum_drift", "1"},
+                                   {"joint_gap_max", "m"},
+                                   {"cone_violation_max", "1"},
+                                   {"solver_fallbacks", "1"}})
     specs.push_back({name, unit, "", std::nullopt, std::nullopt});
   return specs;
 }

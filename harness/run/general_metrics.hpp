@@ -1,5 +1,5 @@
-// What the referee has to say of any scene that steps, whatever its measure looks at: metrics without a threshold unless
-// the scene lists one.
+// What the referee has to say of any scene that steps, whatever its measure looks at: metrics without a threshold
+// unless the scene lists one.
 #pragma once
 
 #include <memory>

@@ -11,7 +11,8 @@ namespace plumb::harness {
 [[nodiscard]] Json describe_machine();
 [[nodiscard]] std::uint64_t machine_memory_bytes();
 
-/// Largest resident size of this process since reset_peak_memory (since its start where the system cannot reset it), MB.
+/// Largest resident size of this process since reset_peak_memory (since its start where the system cannot reset it),
+/// MB.
 [[nodiscard]] double peak_memory_mb();
 void reset_peak_memory();
 

@@ -12,7 +12,8 @@ namespace {
 Json number_or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
 const MetricSpec* find_spec(const std::vector<MetricSpec>& specs, const std::string& name) {
-  const auto found = std::find_if(specs.begin(), specs.end(), [&](const MetricSpec& spec) { return spec.name == name; });
+  const auto found =
+      std::find_if(specs.begin(), specs.end(), [&](const MetricSpec& spec) { return spec.name == name; });
   return found == specs.end() ? nullptr : &*found;
 }
 

@@ -10,12 +10,12 @@
 namespace plumb::harness {
 
 struct Judgement {
-  Json metrics = Json::object();  ///< by name
+  Json metrics = Json::object();    ///< by name
   std::vector<std::string> missed;  ///< a sentence for each threshold that was missed
 };
 
-/// A metric that the scene lists but that was not measured misses its threshold; one that it does not list has none, and
-/// its unit is that of `general` where it is there.
+/// A metric that the scene lists but that was not measured misses its threshold; one that it does not list has none,
+/// and its unit is that of `general` where it is there.
 [[nodiscard]] Judgement judge(const std::vector<Metric>& metrics, const std::vector<MetricSpec>& specs,
                               const std::vector<MetricSpec>& general);
 

@@ -16,10 +16,22 @@ const Words& motion_words() {
   return words;
 }
 const Words& field_words() {
-  static const Words words{"pose",           "velocity",         "force",         "torque",
-                           "impulse",        "angular_impulse",  "force_at_point", "impulse_at_point",
-                           "awake",          "kinematic_target", "mass",          "material",
-                           "gravity_scale",  "damping",          "surface_velocity", "filter"};
+  static const Words words{"pose",
+                           "velocity",
+                           "force",
+                           "torque",
+                           "impulse",
+                           "angular_impulse",
+                           "force_at_point",
+                           "impulse_at_point",
+                           "awake",
+                           "kinematic_target",
+                           "mass",
+                           "material",
+                           "gravity_scale",
+                           "damping",
+                           "surface_velocity",
+                           "filter"};
   return words;
 }
 const Words& event_words() {

@@ -9,7 +9,7 @@
 
 namespace plumb::harness {
 
-[[nodiscard]] const std::vector<std::string>& degree_words();         ///< none, approximate, emulated, native
+[[nodiscard]] const std::vector<std::string>& degree_words();  ///< none, approximate, emulated, native
 [[nodiscard]] const std::vector<std::string>& motion_words();
 [[nodiscard]] const std::vector<std::string>& field_words();
 [[nodiscard]] const std::vector<std::string>& event_words();

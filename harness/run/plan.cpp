@@ -32,7 +32,8 @@ std::vector<ParameterRequest> parse_parameters(const std::vector<std::string>& a
 }
 
 // A parameter that one of several scenes has is for that one; what none has is a slip of the pen.
-void check_parameter_names(const std::vector<ParameterRequest>& requests, const std::vector<std::shared_ptr<const SceneFile>>& scenes) {
+void check_parameter_names(const std::vector<ParameterRequest>& requests,
+                           const std::vector<std::shared_ptr<const SceneFile>>& scenes) {
   for (const ParameterRequest& request : requests) {
     std::set<std::string> known;
     for (const auto& scene : scenes) {
@@ -40,7 +41,8 @@ void check_parameter_names(const std::vector<ParameterRequest>& requests, const 
     }
     if (known.contains(request.name)) continue;
     const std::string who = scenes.size() == 1 ? "scene " + scenes[0]->id + " has no" : "no scene of this run has a";
-    throw UsageError(fmt::format("{} parameter \"{}\"{}", who, request.name, suggestion(request.name, {known.begin(), known.end()})));
+    throw UsageError(fmt::format("{} parameter \"{}\"{}", who, request.name,
+                                 suggestion(request.name, {known.begin(), known.end()})));
   }
 }
 
@@ -77,7 +79,8 @@ std::vector<std::shared_ptr<const SceneFile>> scenes_for(const std::vector<std::
 }
 
 void check_positive(const char* option, double value) {
-  if (!(value > 0) || !std::isfinite(value)) throw UsageError(fmt::format("{} {:g}: it must be above 0", option, value));
+  if (!(value > 0) || !std::isfinite(value))
+    throw UsageError(fmt::format("{} {:g}: it must be above 0", option, value));
 }
 
 void check_words(const StudyRequest& request) {
@@ -97,7 +100,8 @@ void check_words(const StudyRequest& request) {
 WorkerLimits StudyRequest::limits() const {
   WorkerLimits limits;
   limits.seconds = timeout;
-  limits.memory_bytes = memory_limit_mb > 0 ? static_cast<std::uint64_t>(memory_limit_mb * 1e6) : machine_memory_bytes() / 4 * 3;
+  limits.memory_bytes =
+      memory_limit_mb > 0 ? static_cast<std::uint64_t>(memory_limit_mb * 1e6) : machine_memory_bytes() / 4 * 3;
   return limits;
 }
 
@@ -106,7 +110,8 @@ BackendDescription ask_description(const std::string& name, const std::string& f
   const Answer answer = worker.ask({{"request", "describe"}}, limits);
   if (answer.status != "ok") return broken_backend(name, file, answer.status, answer.reason);
   try {
-    if (answer.json.at("status") != "ok") return broken_backend(name, file, answer.json.at("status"), answer.json.at("reason"));
+    if (answer.json.at("status") != "ok")
+      return broken_backend(name, file, answer.json.at("status"), answer.json.at("reason"));
     return read_description(answer.json);
   } catch (const Json::exception& error) {
     return broken_backend(name, file, "error", std::string("its description is malformed: ") + error.what());
@@ -174,8 +179,9 @@ Plan make_plan(const StudyRequest& request) {
       const Scene scene = instantiate_with(*file, variant, request.dt, request.seconds);
       CellBlock block;
       for (const auto& [backend, build] : built) {
-        Cell cell{file, scene.parameters, variant, backend, build, Json::object(), request.profile, request.needs,
-                  scene.dt, scene.seconds, request.threads};
+        Cell cell{file,     scene.parameters, variant,         backend,
+                  build,    Json::object(),   request.profile, request.needs,
+                  scene.dt, scene.seconds,    request.threads};
         cell.settings = settings_for(*backend, file->id, request.profile, settings);
         block.push_back(std::move(cell));
       }

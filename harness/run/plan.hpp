@@ -14,7 +14,7 @@ namespace plumb::harness {
 /// What `run` and `compare` are asked.
 struct StudyRequest {
   std::vector<std::string> scenes;
-  std::vector<std::string> backends;  ///< names or files; empty: all that load
+  std::vector<std::string> backends;              ///< names or files; empty: all that load
   std::vector<std::string> parameters, settings;  ///< as typed
   std::string profile = "default", needs = "scene";
   std::optional<double> dt, seconds;
@@ -33,7 +33,8 @@ struct StudyRequest {
 using CellBlock = std::vector<Cell>;
 
 /// Asks a worker of its own what a backend is; whatever goes wrong stands in the description.
-[[nodiscard]] BackendDescription ask_description(const std::string& name, const std::string& file, const WorkerLimits& limits);
+[[nodiscard]] BackendDescription ask_description(const std::string& name, const std::string& file,
+                                                 const WorkerLimits& limits);
 
 /// The files of backends that were asked for by name or path, or all on the search path. Throws UsageError.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> backend_files(const std::vector<std::string>& asked);

@@ -1,5 +1,5 @@
-// How far a worker is with its cell, in memory shared with its parent: storing a number costs a step nothing, and after a
-// crash or a hang the parent can say in which step it was.
+// How far a worker is with its cell, in memory shared with its parent: storing a number costs a step nothing, and after
+// a crash or a hang the parent can say in which step it was.
 #pragma once
 
 #include <atomic>

@@ -10,12 +10,17 @@ namespace {
 
 // From good to bad; a row says the worst that happened.
 int badness(const std::string& status) {
-  static const std::vector<std::string> order{"ok", "failed", "unsupported", "error", "out_of_memory", "timeout", "crashed"};
+  static const std::vector<std::string> order{"ok",      "failed", "unsupported", "error", "out_of_memory",
+                                              "timeout", "crashed"};
   return static_cast<int>(std::find(order.begin(), order.end(), status) - order.begin());
 }
 
-std::string status_of(const Answer& answer) { return answer.status == "ok" ? answer.json.value("status", "error") : answer.status; }
-std::string reason_of(const Answer& answer) { return answer.status == "ok" ? answer.json.value("reason", "") : answer.reason; }
+std::string status_of(const Answer& answer) {
+  return answer.status == "ok" ? answer.json.value("status", "error") : answer.status;
+}
+std::string reason_of(const Answer& answer) {
+  return answer.status == "ok" ? answer.json.value("reason", "") : answer.reason;
+}
 
 Json part_of(const Answer& answer, const char* key, Json otherwise) {
   return answer.json.is_object() && answer.json.contains(key) ? answer.json[key] : std::move(otherwise);
@@ -34,7 +39,8 @@ Json time_of(const std::vector<Answer>& answers, const Answer& chosen) {
     for (const Json& ms : part_of(answer, "step_ms", Json::array())) {
       if (ms.is_number()) steps.push_back(ms.get<double>());
     }
-    if (const Json setup = part_of(answer, "setup_ms", nullptr); setup.is_number()) setups.push_back(setup.get<double>());
+    if (const Json setup = part_of(answer, "setup_ms", nullptr); setup.is_number())
+      setups.push_back(setup.get<double>());
   }
   std::sort(steps.begin(), steps.end());
   std::sort(setups.begin(), setups.end());

@@ -88,13 +88,15 @@ Json tuned_settings(const BackendDescription& backend, const std::string& scene_
       std::filesystem::path(backend.file).parent_path() / ("plumb-" + backend.name + ".tuned.json");
   std::ifstream in(file);
   if (!in)
-    throw UsageError(fmt::format("profile tuned: backend {} has no file {}; its author writes one with {{\"settings\": {{...}}}}",
-                                 backend.name, file.string()));
+    throw UsageError(
+        fmt::format("profile tuned: backend {} has no file {}; its author writes one with {{\"settings\": {{...}}}}",
+                    backend.name, file.string()));
   const Json tuned = Json::parse(in, nullptr, false, true);
   if (!tuned.is_object()) throw UsageError(file.string() + " is not a JSON object");
   for (const auto& [key, ignored] : tuned.items()) {
     if (key != "settings" && key != "scenes")
-      throw UsageError(fmt::format("{}: unknown key \"{}\"{}", file.string(), key, suggestion(key, {"settings", "scenes"})));
+      throw UsageError(
+          fmt::format("{}: unknown key \"{}\"{}", file.string(), key, suggestion(key, {"settings", "scenes"})));
   }
   Json settings = Json::object();
   if (tuned.contains("settings")) merge_checked(settings, tuned["settings"], backend, file.string());
@@ -119,7 +121,8 @@ SettingRequest parse_setting_request(const std::string& argument) {
   return request;
 }
 
-void check_setting_requests(const std::vector<SettingRequest>& requests, const std::vector<BackendDescription>& backends) {
+void check_setting_requests(const std::vector<SettingRequest>& requests,
+                            const std::vector<BackendDescription>& backends) {
   std::vector<std::string> backend_names;
   for (const BackendDescription& backend : backends) backend_names.push_back(backend.name);
   for (const SettingRequest& request : requests) {
@@ -133,11 +136,13 @@ void check_setting_requests(const std::vector<SettingRequest>& requests, const s
       for (const std::string& name : backend.setting_names()) known.insert(name);
     }
     if (!addressed)
-      throw UsageError(fmt::format("--set {}:{}: no backend \"{}\" is part of this run{}", request.backend, request.name,
-                                   request.backend, suggestion(request.backend, backend_names)));
+      throw UsageError(fmt::format("--set {}:{}: no backend \"{}\" is part of this run{}", request.backend,
+                                   request.name, request.backend, suggestion(request.backend, backend_names)));
     if (!taken && !broken) {
-      const std::string who = request.backend.empty() ? "no backend of this run has a" : "backend " + request.backend + " has no";
-      throw UsageError(fmt::format("{} setting \"{}\"{}", who, request.name, suggestion(request.name, {known.begin(), known.end()})));
+      const std::string who =
+          request.backend.empty() ? "no backend of this run has a" : "backend " + request.backend + " has no";
+      throw UsageError(fmt::format("{} setting \"{}\"{}", who, request.name,
+                                   suggestion(request.name, {known.begin(), known.end()})));
     }
   }
 }

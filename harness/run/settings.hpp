@@ -18,9 +18,10 @@ struct SettingRequest {
 /// Throws UsageError for what has no "=".
 [[nodiscard]] SettingRequest parse_setting_request(const std::string& argument);
 
-/// Throws UsageError, with the nearest right word, for requests that no backend of the list takes, or that one they name
-/// does not have.
-void check_setting_requests(const std::vector<SettingRequest>& requests, const std::vector<BackendDescription>& backends);
+/// Throws UsageError, with the nearest right word, for requests that no backend of the list takes, or that one they
+/// name does not have.
+void check_setting_requests(const std::vector<SettingRequest>& requests,
+                            const std::vector<BackendDescription>& backends);
 
 [[nodiscard]] const std::vector<std::string>& profile_words();  ///< default, matched, tuned
 
@@ -28,7 +29,7 @@ void check_setting_requests(const std::vector<SettingRequest>& requests, const s
 ///   default: none. matched: sleeping and damping of the engine's own off, under their usual names. tuned: those of
 ///   plumb-NAME.tuned.json beside the library: {"settings": {...}, "scenes": {"D1": {...}}}, the scene's over the rest.
 /// Throws UsageError for a value of the wrong type or out of range, and for a tuned file that is missing or broken.
-[[nodiscard]] Json settings_for(const BackendDescription& backend, const std::string& scene_id, const std::string& profile,
-                                const std::vector<SettingRequest>& requests);
+[[nodiscard]] Json settings_for(const BackendDescription& backend, const std::string& scene_id,
+                                const std::string& profile, const std::vector<SettingRequest>& requests);
 
 }  // namespace plumb::harness

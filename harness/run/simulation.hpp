@@ -36,7 +36,7 @@ class SimulationObserver {
 struct SimulationOptions {
   std::vector<std::pair<std::string, PlumbSettingValue>> settings;  ///< already checked against the backend
   std::uint32_t threads = 1;
-  bool needs_all = false;          ///< declare every need that the backend has, not just the scene's
+  bool needs_all = false;  ///< declare every need that the backend has, not just the scene's
   std::shared_ptr<SimulationObserver> observer = nullptr;
 };
 
@@ -70,13 +70,13 @@ class Simulation {
 
   [[nodiscard]] double time() const;  ///< steps * dt
   [[nodiscard]] std::uint64_t steps() const;
-  [[nodiscard]] std::span<const PoseRow> poses() const;      ///< as of the last step (or the start)
-  [[nodiscard]] std::span<const VelocityRow> velocities();   ///< read on first use after a step, outside the timing
-  [[nodiscard]] std::span<const PlumbContact> contacts();    ///< likewise; the scene must need contacts
+  [[nodiscard]] std::span<const PoseRow> poses() const;     ///< as of the last step (or the start)
+  [[nodiscard]] std::span<const VelocityRow> velocities();  ///< read on first use after a step, outside the timing
+  [[nodiscard]] std::span<const PlumbContact> contacts();   ///< likewise; the scene must need contacts
   [[nodiscard]] std::span<const PlumbEvent> events();
-  [[nodiscard]] const PlumbStepReport& report() const;       ///< of the last step
+  [[nodiscard]] const PlumbStepReport& report() const;             ///< of the last step
   [[nodiscard]] PlumbVec3 centre_of_mass(std::size_t body) const;  ///< world, of the last step
-  [[nodiscard]] bool finite() const;  ///< no pose so far was NaN or infinite
+  [[nodiscard]] bool finite() const;                               ///< no pose so far was NaN or infinite
 
   /// Host actions between steps, by body index; all throw Error on failure.
   void write(PlumbField field, std::size_t body, std::span<const double> row);

@@ -84,7 +84,8 @@ class Study {
     };
     if (callbacks_.progress) callbacks_.progress(progress);
     return worker->ask(request_of(cell, round == 1 && request_.record ? file_for(cell, "trajectories", ".plt") : "",
-                                  round == 1 && request_.trace ? file_for(cell, "traces", ".trace") : ""), request_.limits(), tick);
+                                  round == 1 && request_.trace ? file_for(cell, "traces", ".trace") : ""),
+                       request_.limits(), tick);
   }
 
   /// A file of the cell's own in a folder beside results.jsonl; "" without --out.
@@ -97,7 +98,8 @@ class Study {
 
   void finish(const Cell& cell, const std::vector<Answer>& answers) {
     const Json row = make_row(cell, answers, machine_);
-    const bool killed = std::any_of(answers.begin(), answers.end(), [](const Answer& a) { return a.killed_from_outside; });
+    const bool killed =
+        std::any_of(answers.begin(), answers.end(), [](const Answer& a) { return a.killed_from_outside; });
     if (results_ != nullptr && !killed) results_->append(row);  // a killed cell is run again by the next start
     hand_on(row, true);
   }

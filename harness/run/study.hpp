@@ -12,7 +12,7 @@ namespace plumb::harness {
 /// How far it is, for a progress bar.
 struct StudyProgress {
   std::size_t cells_done, cells_total;
-  std::string cell;          ///< "D1 H=10 bullet 2/3": what is being run
+  std::string cell;           ///< "D1 H=10 bullet 2/3": what is being run
   std::uint64_t step, steps;  ///< of it
 };
 

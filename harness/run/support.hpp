@@ -13,7 +13,8 @@ namespace plumb::harness {
 
 /// What the backend lacks for the scene, first thing first, in words with the backend's own note; "" when it has all:
 /// needs, shapes with their motions, joints with the features used, and pairs of shapes that the scene's filters and
-/// motions let touch. That the two will ever meet is not known, so a pair counts only where each type's motion is given.
+/// motions let touch. That the two will ever meet is not known, so a pair counts only where each type's motion is
+/// given.
 [[nodiscard]] std::string missing_support(const Backend& backend, const Scene& scene);
 
 }  // namespace plumb::harness

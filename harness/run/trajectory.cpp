@@ -67,7 +67,11 @@ Json json_of(const SceneShape& shape) {
 
 Json header_of(const Simulation& simulation, const std::string& backend) {
   const Scene& scene = simulation.scene();
-  Json header{{"scene", scene.id}, {"backend", backend}, {"dt", scene.dt}, {"shapes", Json::array()}, {"bodies", Json::array()}};
+  Json header{{"scene", scene.id},
+              {"backend", backend},
+              {"dt", scene.dt},
+              {"shapes", Json::array()},
+              {"bodies", Json::array()}};
   for (const SceneShape& shape : scene.shapes) header["shapes"].push_back(json_of(shape));
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const SceneBody& body = scene.bodies[i];
@@ -93,13 +97,16 @@ std::string file_bytes(const std::filesystem::path& file) {
 std::vector<PlumbVec3> starts_of(const Json& header) {
   std::vector<PlumbVec3> starts;
   for (const Json& body : header.at("bodies")) {
-    const auto at = [&](std::size_t i) { return body.at("start").at(i).is_number() ? body["start"][i].get<double>() : NAN; };
+    const auto at = [&](std::size_t i) {
+      return body.at("start").at(i).is_number() ? body["start"][i].get<double>() : NAN;
+    };
     starts.push_back({at(0), at(1), at(2)});
   }
   return starts;
 }
 
-void read_block(const std::string& raw, std::uint32_t frames, const std::vector<PlumbVec3>& starts, Trajectory& trajectory) {
+void read_block(const std::string& raw, std::uint32_t frames, const std::vector<PlumbVec3>& starts,
+                Trajectory& trajectory) {
   const char* at = raw.data();
   for (std::uint32_t i = 0; i < frames; ++i) {
     TrajectoryFrame frame{take<std::uint32_t>(at), {}};
@@ -108,8 +115,9 @@ void read_block(const std::string& raw, std::uint32_t frames, const std::vector<
       std::uint64_t packed = 0;
       std::memcpy(&packed, at, 6);
       at += 6;
-      frame.poses.push_back({{start.x + static_cast<double>(x), start.y + static_cast<double>(y), start.z + static_cast<double>(z)},
-                             unpack_orientation(packed)});
+      frame.poses.push_back(
+          {{start.x + static_cast<double>(x), start.y + static_cast<double>(y), start.z + static_cast<double>(z)},
+           unpack_orientation(packed)});
     }
     trajectory.frames.push_back(std::move(frame));
   }
@@ -148,7 +156,8 @@ PlumbQuat unpack_orientation(std::uint64_t packed) {
   return {q[0], q[1], q[2], q[3]};
 }
 
-TrajectoryWriter::TrajectoryWriter(const std::filesystem::path& file, const Simulation& simulation, const std::string& backend)
+TrajectoryWriter::TrajectoryWriter(const std::filesystem::path& file, const Simulation& simulation,
+                                   const std::string& backend)
     : file_(file) {
   out_.open(file, std::ios::binary | std::ios::trunc);
   const std::string header = line_of(header_of(simulation, backend));
@@ -187,7 +196,8 @@ void TrajectoryWriter::add_frame(const Simulation& simulation) {
 void TrajectoryWriter::flush() {
   if (frames_ == 0) return;
   std::string compressed(ZSTD_compressBound(block_.size()), '\0');
-  compressed.resize(ZSTD_compress(compressed.data(), compressed.size(), block_.data(), block_.size(), compression_level));
+  compressed.resize(
+      ZSTD_compress(compressed.data(), compressed.size(), block_.data(), block_.size(), compression_level));
   std::string head;
   put(head, frames_);
   put(head, static_cast<std::uint32_t>(compressed.size()));

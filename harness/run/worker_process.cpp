@@ -155,12 +155,14 @@ Answer WorkerProcess::ask(const Json& request, const WorkerLimits& limits,
       Answer answer;
       answer.json = Json::parse(pending_.begin(), pending_.begin() + static_cast<std::ptrdiff_t>(end), nullptr, false);
       if (answer.json.is_object()) return answer;
-      return put_down("error", "the worker's answer is not JSON: " + pending_.substr(0, std::min<std::size_t>(end, 60)));
+      return put_down("error",
+                      "the worker's answer is not JSON: " + pending_.substr(0, std::min<std::size_t>(end, 60)));
     }
     if (!open) return bury();
     if (limits.memory_bytes != 0 && resident_bytes() > limits.memory_bytes) {
-      return put_down("out_of_memory", fmt::format("resident memory of {} is above the limit of {}{}",
-                                                   gigabytes(resident_bytes()), gigabytes(limits.memory_bytes), where()));
+      return put_down("out_of_memory",
+                      fmt::format("resident memory of {} is above the limit of {}{}", gigabytes(resident_bytes()),
+                                  gigabytes(limits.memory_bytes), where()));
     }
     if (std::chrono::duration<double>(Clock::now() - start).count() > limits.seconds)
       return put_down("timeout", fmt::format("no answer within {:g} s{}", limits.seconds, where()));
@@ -234,7 +236,8 @@ Answer WorkerProcess::bury() {
     answer.reason = signal_text(number) + where() + last_words();
     answer.killed_from_outside = number == SIGKILL || number == SIGTERM || number == SIGINT || number == SIGHUP;
   } else {
-    answer.reason = fmt::format("the process ended by itself with status {}{}{}", WEXITSTATUS(status), where(), last_words());
+    answer.reason =
+        fmt::format("the process ended by itself with status {}{}{}", WEXITSTATUS(status), where(), last_words());
   }
   return answer;
 }

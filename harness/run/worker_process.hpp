@@ -1,8 +1,8 @@
 // The parent's side of a worker: a process of this program with one backend in it, asked by lines of JSON over pipes.
 //
-// A backend may crash, hang, eat memory, print, or call exit: each of these is an Answer with a status and a reason. The
-// worker has a process group of its own, which is killed as a whole; it dies with its parent (PR_SET_PDEATHSIG, and the
-// end of its request pipe).
+// A backend may crash, hang, eat memory, print, or call exit: each of these is an Answer with a status and a reason.
+// The worker has a process group of its own, which is killed as a whole; it dies with its parent (PR_SET_PDEATHSIG, and
+// the end of its request pipe).
 #pragma once
 
 #include <sys/types.h>
@@ -26,7 +26,7 @@ struct Interrupted {
 void catch_signals();
 
 struct WorkerLimits {
-  double seconds = 300;           ///< wall time for an answer
+  double seconds = 300;            ///< wall time for an answer
   std::uint64_t memory_bytes = 0;  ///< resident size; 0: no limit
 };
 

@@ -28,7 +28,8 @@ void read_mass(const Node& node, PlumbBodyDesc& desc) {
 PlumbFilter read_filter(const Node& node, PlumbFilter filter) {
   node.only(scene_keys().at("filter"));
   constexpr std::int64_t all = 0xffffffff;
-  if (const auto category = node.find("category")) filter.category = static_cast<std::uint32_t>(category->integer(0, all));
+  if (const auto category = node.find("category"))
+    filter.category = static_cast<std::uint32_t>(category->integer(0, all));
   if (const auto mask = node.find("mask")) filter.mask = static_cast<std::uint32_t>(mask->integer(0, all));
   if (const auto group = node.find("group"))
     filter.group = static_cast<std::int32_t>(group->integer(-2147483648LL, 2147483647LL));

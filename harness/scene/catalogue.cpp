@@ -41,8 +41,7 @@ std::vector<Found> find_files() {
       }
     }
   }
-  std::sort(files.begin(), files.end(),
-            [](const Found& a, const Found& b) { return sort_key(a.id) < sort_key(b.id); });
+  std::sort(files.begin(), files.end(), [](const Found& a, const Found& b) { return sort_key(a.id) < sort_key(b.id); });
   return files;
 }
 
@@ -53,9 +52,8 @@ std::vector<SceneFile> load_all(const std::vector<Found>& files) {
 }
 
 bool same_word(const std::string& a, const std::string& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](unsigned char x, unsigned char y) {
-    return std::tolower(x) == std::tolower(y);
-  });
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
 }
 
 }  // namespace
@@ -90,8 +88,8 @@ std::vector<SceneFile> find_scenes(const std::string& what) {
     const std::string names[] = {file.id, file.slug, file.group + "/" + file.slug, file.id + "-" + file.slug};
     known.insert(known.end(), std::begin(names), std::begin(names) + 3);
     if (std::find(known.begin(), known.end(), file.group) == known.end()) known.push_back(file.group);
-    const bool named = std::any_of(std::begin(names), std::end(names),
-                                   [&](const std::string& name) { return same_word(name, what); });
+    const bool named =
+        std::any_of(std::begin(names), std::end(names), [&](const std::string& name) { return same_word(name, what); });
     if (named || same_word(file.group, what)) chosen.push_back(file);
   }
   if (chosen.empty()) throw UsageError(fmt::format("unknown scene \"{}\"{}", what, suggestion(what, known)));

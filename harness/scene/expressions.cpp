@@ -73,8 +73,8 @@ double Expressions::evaluate(const std::string& text) {
       throw std::invalid_argument(fmt::format("\"{}\" is not an expression: {}", text, error.GetMsg()));
     std::string name = error.GetToken();
     if (const auto end = name.find_first_of(" +-*/^()<>=!&|?:,"); end != std::string::npos) name.resize(end);
-    std::vector<std::string> known{"pi",   "sin", "cos", "tan", "asin", "acos",  "atan", "atan2", "sqrt", "exp",
-                                   "ln",   "abs", "min", "max", "sign", "floor", "ceil", "round", "mod",  "deg"};
+    std::vector<std::string> known{"pi", "sin", "cos", "tan", "asin", "acos",  "atan", "atan2", "sqrt", "exp",
+                                   "ln", "abs", "min", "max", "sign", "floor", "ceil", "round", "mod",  "deg"};
     for (const auto& [defined, value] : values_) known.insert(known.begin(), defined);
     throw std::invalid_argument(fmt::format("\"{}\": unknown name \"{}\"{}", text, name, suggestion(name, known)));
   }

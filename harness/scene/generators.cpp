@@ -100,9 +100,9 @@ void pile(Writer& writer, std::int64_t count, double spacing, double layer) {
     const auto ix = static_cast<double>(j % k);
     const auto iz = static_cast<double>((j / k) % k);
     const auto iy = static_cast<double>(j / (k * k));
-    writer.cube({(ix - middle) * spacing + .2 * jx - .1, 1 + iy * layer + .2 * jy - .1,
-                 (iz - middle) * spacing + .2 * jz - .1},
-                random_orientation(u1, u2, u3));
+    writer.cube(
+        {(ix - middle) * spacing + .2 * jx - .1, 1 + iy * layer + .2 * jy - .1, (iz - middle) * spacing + .2 * jz - .1},
+        random_orientation(u1, u2, u3));
   }
 }
 
@@ -127,12 +127,8 @@ void generate(std::size_t generator, std::int64_t count, double friction, std::v
               std::vector<SceneBody>& bodies) {
   Writer writer(friction, shapes, bodies);
   switch (generator) {
-    case 0:
-      writer.ground(500);
-      return pyramid(writer, count, 0, 0);
-    case 1:
-      writer.ground(std::max(500.0, 6 * static_cast<double>(count) + 50));
-      return many_pyramids(writer, count);
+    case 0: writer.ground(500); return pyramid(writer, count, 0, 0);
+    case 1: writer.ground(std::max(500.0, 6 * static_cast<double>(count) + 50)); return many_pyramids(writer, count);
     case 2: return pile(writer, count, 1.3, 1.5);
     case 3: return pile(writer, count, 2, 2);
     default: throw std::logic_error("a generator beyond generator_words()");

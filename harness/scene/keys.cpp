@@ -11,8 +11,8 @@ namespace plumb::harness {
 const std::map<std::string, std::vector<std::string>>& scene_keys() {
   static const std::map<std::string, std::vector<std::string>> keys{
       {"",
-       {"$schema", "id", "slug", "title", "doc", "core", "parameters", "variants", "let", "needs", "gravity", "dt", "seconds",
-        "shapes", "bodies", "joints", "measure", "metrics"}},
+       {"$schema", "id", "slug", "title", "doc", "core", "parameters", "variants", "let", "needs", "gravity", "dt",
+        "seconds", "shapes", "bodies", "joints", "measure", "metrics"}},
       {"parameter", {"default", "unit", "doc", "minimum", "maximum", "integer", "choices"}},
       {"definition", {"name", "value"}},
       {"metric", {"unit", "doc", "when", "optional", "threshold", "gold"}},
@@ -22,9 +22,29 @@ const std::map<std::string, std::vector<std::string>>& scene_keys() {
       {"child", {"shape", "position", "orientation", "friction", "restitution", "surface_velocity"}},
       {"filter", {"category", "mask", "group"}},
       {"body",
-       {"name", "repeat", "when", "motion", "shape", "position", "orientation", "linear_velocity", "angular_velocity",
-        "flags", "locks", "density", "mass", "inertia", "centre_of_mass", "inertia_orientation", "friction",
-        "restitution", "surface_velocity", "gravity_scale", "linear_damping", "angular_damping", "filter",
+       {"name",
+        "repeat",
+        "when",
+        "motion",
+        "shape",
+        "position",
+        "orientation",
+        "linear_velocity",
+        "angular_velocity",
+        "flags",
+        "locks",
+        "density",
+        "mass",
+        "inertia",
+        "centre_of_mass",
+        "inertia_orientation",
+        "friction",
+        "restitution",
+        "surface_velocity",
+        "gravity_scale",
+        "linear_damping",
+        "angular_damping",
+        "filter",
         "user_data"}},
       {"generator", {"generate", "count", "friction"}},
       {"frame", {"position", "orientation"}},
@@ -41,9 +61,10 @@ const std::map<std::string, std::vector<std::string>>& scene_keys() {
 
 const std::vector<std::string>& need_words() {
   static const std::vector<std::string> words{
-      "rotation",  "collision", "friction",   "restitution", "joints",     "ccd",       "sleeping",
-      "events",    "contacts",  "contact_impulses", "sensors", "kinematic", "gyroscopic", "damping",
-      "forces",    "axis_locks", "filters",   "queries",     "surface_velocity", "joint_reactions", "snapshot"};
+      "rotation",         "collision",       "friction", "restitution",      "joints",  "ccd",
+      "sleeping",         "events",          "contacts", "contact_impulses", "sensors", "kinematic",
+      "gyroscopic",       "damping",         "forces",   "axis_locks",       "filters", "queries",
+      "surface_velocity", "joint_reactions", "snapshot"};
   static_assert(PLUMB_NEED_COUNT == 21);
   return words;
 }
@@ -56,8 +77,7 @@ const std::vector<std::string>& shape_words() {
 }
 
 const std::vector<std::string>& joint_words() {
-  static const std::vector<std::string> words{"ball",  "hinge",     "slider", "distance",
-                                              "fixed", "universal", "generic"};
+  static const std::vector<std::string> words{"ball", "hinge", "slider", "distance", "fixed", "universal", "generic"};
   static_assert(PLUMB_JOINT_TYPE_COUNT == 7);
   return words;
 }

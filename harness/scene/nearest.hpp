@@ -12,7 +12,8 @@ namespace plumb::harness {
 /// string alignment: Damerau 1964 without editing a swapped pair again).
 [[nodiscard]] std::size_t edit_distance(std::string_view a, std::string_view b);
 
-/// The known word with the smallest edit distance, of several the one that begins most alike; "" when none is close enough to be meant.
+/// The known word with the smallest edit distance, of several the one that begins most alike; "" when none is close
+/// enough to be meant.
 [[nodiscard]] std::string nearest(std::string_view word, const std::vector<std::string>& known);
 
 /// Ends an error message: `; did you mean "x"?`, or `; known are a, b, c` when nothing is near, or "" without any.

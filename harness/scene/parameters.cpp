@@ -53,12 +53,14 @@ void check_parameter(const ParameterSpec& spec, const ParameterValue& value) {
     const auto* word = std::get_if<std::string>(&value);
     if (word == nullptr) throw UsageError(fmt::format("parameter {} is a word, not a number", spec.name));
     if (std::find(spec.choices.begin(), spec.choices.end(), *word) == spec.choices.end())
-      throw UsageError(fmt::format("parameter {}: unknown choice \"{}\"{}", spec.name, *word, suggestion(*word, spec.choices)));
+      throw UsageError(
+          fmt::format("parameter {}: unknown choice \"{}\"{}", spec.name, *word, suggestion(*word, spec.choices)));
     return;
   }
   const auto* number = std::get_if<double>(&value);
   if (number == nullptr)
-    throw UsageError(fmt::format("parameter {} is a number, not the word \"{}\"", spec.name, std::get<std::string>(value)));
+    throw UsageError(
+        fmt::format("parameter {} is a number, not the word \"{}\"", spec.name, std::get<std::string>(value)));
   if (!std::isfinite(*number)) throw UsageError(fmt::format("parameter {} must be finite", spec.name));
   if (spec.integer && *number != std::rint(*number))
     throw UsageError(fmt::format("parameter {} must be a whole number, not {}", spec.name, *number));

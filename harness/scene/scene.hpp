@@ -81,8 +81,8 @@ struct Scene {
   std::vector<SceneShape> shapes;
   std::vector<SceneBody> bodies;
   std::vector<SceneJoint> joints;
-  std::string measure;            ///< name of the measure (measure/measure.hpp)
-  nlohmann::json measure_args;    ///< its arguments, expressions resolved to numbers
+  std::string measure;          ///< name of the measure (measure/measure.hpp)
+  nlohmann::json measure_args;  ///< its arguments, expressions resolved to numbers
   std::vector<MetricSpec> metrics;
 
   /// Index of a body by name; throws UsageError with the nearest name.

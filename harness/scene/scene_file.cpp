@@ -33,7 +33,8 @@ nlohmann::json parse_json(const std::filesystem::path& path, const std::string& 
     if (event == Event::object_start) keys.emplace_back();
     if (event == Event::object_end) keys.pop_back();
     if (event == Event::key && !keys.back().insert(value.get<std::string>()).second)
-      throw UsageError(fmt::format("{}: the key \"{}\" stands twice in one object", path.string(), value.get<std::string>()));
+      throw UsageError(
+          fmt::format("{}: the key \"{}\" stands twice in one object", path.string(), value.get<std::string>()));
     return true;
   };
   try {

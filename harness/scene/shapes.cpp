@@ -11,15 +11,10 @@ namespace {
 
 /// Which keys a type reads, beside type and user_data.
 const std::vector<std::vector<std::string>>& keys_by_type() {
-  static const std::vector<std::vector<std::string>> keys{{"radius"},
-                                                          {"half_extents"},
-                                                          {"radius", "half_height"},
-                                                          {"radius", "half_height"},
-                                                          {"vertices"},
-                                                          {"vertices", "indices"},
-                                                          {"heights", "spacing"},
-                                                          {},
-                                                          {"children"}};
+  static const std::vector<std::vector<std::string>> keys{
+      {"radius"},   {"half_extents"},        {"radius", "half_height"}, {"radius", "half_height"},
+      {"vertices"}, {"vertices", "indices"}, {"heights", "spacing"},    {},
+      {"children"}};
   return keys;
 }
 

@@ -34,8 +34,8 @@ struct LeverImpact {
 };
 [[nodiscard]] LeverImpact lever_impact(double mass, double inertia, double lever, double speed, double restitution);
 
-/// The same, but the point sticks where it lands and the body turns about it, without rebound: the angular momentum about
-/// the point is kept. height: of the centre above the point.
+/// The same, but the point sticks where it lands and the body turns about it, without rebound: the angular momentum
+/// about the point is kept. height: of the centre above the point.
 struct StickingImpact {
   double sideways, vertical, spin;
 };
@@ -61,8 +61,8 @@ struct RollDown {
 };
 [[nodiscard]] RollDown roll_down(double g, double slope, double friction, double k);
 
-/// A cube that spins flat on the ground and stops: I = m a^2 / 6, torque mu m g lever. lever: sqrt(1/2) a when the weight
-/// rests on the four corners, (sqrt 2 + asinh 1) / 6 a when it is spread evenly.
+/// A cube that spins flat on the ground and stops: I = m a^2 / 6, torque mu m g lever. lever: sqrt(1/2) a when the
+/// weight rests on the four corners, (sqrt 2 + asinh 1) / 6 a when it is spread evenly.
 struct SpinStop {
   double time, angle;
 };

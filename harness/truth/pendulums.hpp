@@ -21,13 +21,13 @@ struct SphericalPendulum {
     double azimuth;      ///< turned in one period, rad
   };
   [[nodiscard]] Cycle cycle() const;
-  /// Relative to the pivot, y up, started at (sin theta, -cos theta, 0) l with the velocity (0, 0, -w l sin theta), which
-  /// turns counter-clockwise seen from above. Reference integration.
+  /// Relative to the pivot, y up, started at (sin theta, -cos theta, 0) l with the velocity (0, 0, -w l sin theta),
+  /// which turns counter-clockwise seen from above. Reference integration.
   [[nodiscard]] Eigen::Vector3d position(double t) const;
 };
 
-/// Two equal points on two equal massless rods, released at rest at the angles (theta1, theta2): (theta1, theta2, w1, w2)
-/// at t. Reference integration.
+/// Two equal points on two equal massless rods, released at rest at the angles (theta1, theta2): (theta1, theta2, w1,
+/// w2) at t. Reference integration.
 [[nodiscard]] Eigen::Vector4d double_pendulum(double g, double length, double theta1, double theta2, double t);
 
 }  // namespace plumb::truth

@@ -8,17 +8,18 @@ namespace plumb::truth {
 /// A box of mass m and half extents h about its centre: m / 3 (hy^2 + hz^2) ...
 [[nodiscard]] Eigen::Vector3d box_inertia(double mass, const Eigen::Vector3d& half_extents);
 
-/// Free rotation that starts in the plane of the first two principal axes, w = (w1, w2, 0) with I1 < I2 < I3 and energy on
-/// the side of axis 1: w(t) = (a1 dn u, w2 sn u, -a3 cn u ...) in body axes (Landau & Lifshitz, Mechanics, section 37).
+/// Free rotation that starts in the plane of the first two principal axes, w = (w1, w2, 0) with I1 < I2 < I3 and energy
+/// on the side of axis 1: w(t) = (a1 dn u, w2 sn u, -a3 cn u ...) in body axes (Landau & Lifshitz, Mechanics, section
+/// 37).
 class FreeRotation {
  public:
   FreeRotation(const Eigen::Vector3d& inertia, double w1, double w2);
   [[nodiscard]] Eigen::Vector3d angular_velocity(double t) const;  ///< body axes
   [[nodiscard]] double energy() const { return energy_; }
   [[nodiscard]] double momentum() const { return momentum_; }
-  [[nodiscard]] double modulus() const { return m_; }          ///< k^2
-  [[nodiscard]] double first_flip() const;                     ///< time at which w2 first changes its sign
-  [[nodiscard]] double flip_interval() const;                  ///< time between sign changes of w2
+  [[nodiscard]] double modulus() const { return m_; }  ///< k^2
+  [[nodiscard]] double first_flip() const;             ///< time at which w2 first changes its sign
+  [[nodiscard]] double flip_interval() const;          ///< time between sign changes of w2
   [[nodiscard]] int flips(double seconds) const;
   /// Orientation at t, identity at 0; by reference integration.
   [[nodiscard]] Eigen::Quaterniond orientation(double t) const;
@@ -28,8 +29,8 @@ class FreeRotation {
   Eigen::Vector3d amplitudes_;
 };
 
-/// A symmetric top on a fixed point (Goldstein, Classical Mechanics, section 5.7). I1: about the point, across the axis;
-/// I3: about the axis; weight: m g l, N m; spin: the constant component of the angular velocity along the axis.
+/// A symmetric top on a fixed point (Goldstein, Classical Mechanics, section 5.7). I1: about the point, across the
+/// axis; I3: about the axis; weight: m g l, N m; spin: the constant component of the angular velocity along the axis.
 struct HeavyTop {
   double across, along, weight, spin;
 

@@ -8,7 +8,7 @@
 #define AT(type, member, offset) static_assert(offsetof(type, member) == (offset), #type "." #member " has moved");
 #define IS(name, value) static_assert((name) == (value), #name " has another value");
 
-static_assert(sizeof(void *) == 8, "the recorded layout is that of 64-bit machines");
+static_assert(sizeof(void*) == 8, "the recorded layout is that of 64-bit machines");
 #include "layout.inl"
 
 /* names by which tables and the symbol are asked for: as long as they were */

@@ -11,7 +11,8 @@ struct Particles {
   std::unique_ptr<plumb::IPhysicsWorld> world;
   std::vector<PlumbBody> ids;
 
-  explicit Particles(std::size_t n) : world(plumb::open_backend(SAMPLE_BACKEND).create_world(plumb::world_desc(0))), ids(n) {
+  explicit Particles(std::size_t n)
+      : world(plumb::open_backend(SAMPLE_BACKEND).create_world(plumb::world_desc(0))), ids(n) {
     const std::vector<PlumbBodyDesc> descs(n, particle());
     plumb::check(*world, world->create_bodies(descs, ids));
   }
@@ -43,12 +44,20 @@ void read_poses(benchmark::State& state) {
   const plumb::Rows out(reinterpret_cast<std::byte*>(rows.data()), n, 7 * sizeof(double), PLUMB_F64);
   const bool spelled_out = state.range(1) != 0;
   for (auto _ : state) {
-    plumb::check(*particles.world, particles.world->read(PLUMB_FIELD_POSE, spelled_out ? std::span<const PlumbBody>(particles.ids) : std::span<const PlumbBody>{}, out));
+    plumb::check(*particles.world,
+                 particles.world->read(
+                     PLUMB_FIELD_POSE,
+                     spelled_out ? std::span<const PlumbBody>(particles.ids) : std::span<const PlumbBody>{}, out));
     benchmark::DoNotOptimize(rows.data());
   }
   state.SetItemsProcessed(state.iterations() * state.range(0));
 }
-BENCHMARK(read_poses)->ArgNames({"bodies", "by_handle"})->Args({1000, 0})->Args({1000, 1})->Args({100000, 0})->Args({100000, 1});
+BENCHMARK(read_poses)
+    ->ArgNames({"bodies", "by_handle"})
+    ->Args({1000, 0})
+    ->Args({1000, 1})
+    ->Args({100000, 0})
+    ->Args({100000, 1});
 
 void create_and_destroy(benchmark::State& state) {
   Particles particles(0);

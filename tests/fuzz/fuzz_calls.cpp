@@ -1,5 +1,5 @@
-// Random calls through a backend's table: most make sense, many do not. Nothing may crash, hang or leak; each failure has
-// a text; and a world that was given up is replaced.
+// Random calls through a backend's table: most make sense, many do not. Nothing may crash, hang or leak; each failure
+// has a text; and a world that was given up is replaced.
 //
 // usage: fuzz_calls BACKEND CALLS [SEED]
 #include <cmath>
@@ -15,7 +15,8 @@ namespace {
 
 class Fuzzer {
  public:
-  Fuzzer(const plumb::Backend& backend, std::uint64_t seed) : table_(backend.table()), backend_(backend), random_(seed) {
+  Fuzzer(const plumb::Backend& backend, std::uint64_t seed)
+      : table_(backend.table()), backend_(backend), random_(seed) {
     joints_ = static_cast<const PlumbJointsTable*>(table_.extension(PLUMB_EXT_JOINTS));
     queries_ = static_cast<const PlumbQueriesTable*>(table_.extension(PLUMB_EXT_QUERIES));
     settings_ = static_cast<const PlumbSettingsTable*>(table_.extension(PLUMB_EXT_SETTINGS));
@@ -33,7 +34,8 @@ class Fuzzer {
       one_call();
       if (i % 5000 == 4999) fresh_world();
     }
-    if (broken_ != nullptr) std::fprintf(stderr, "rule broken: %s (last error text: %s)\n", broken_, table_.error_text(world_));
+    if (broken_ != nullptr)
+      std::fprintf(stderr, "rule broken: %s (last error text: %s)\n", broken_, table_.error_text(world_));
     return broken_ == nullptr;
   }
   [[nodiscard]] std::uint64_t refused() const { return refused_; }
@@ -64,7 +66,9 @@ class Fuzzer {
     if (pool.empty() || chance(25)) return random_() >> below(64);
     return pool[below(static_cast<std::uint32_t>(pool.size()))];
   }
-  PlumbFilter filter() { return {1u << below(3), chance(3) ? below(8) : ~0u, static_cast<std::int32_t>(below(5)) - 2, 0}; }
+  PlumbFilter filter() {
+    return {1u << below(3), chance(3) ? below(8) : ~0u, static_cast<std::int32_t>(below(5)) - 2, 0};
+  }
 
   /// What every result must obey. True when the call was done.
   bool judge(PlumbResult result) {
@@ -110,7 +114,8 @@ class Fuzzer {
     desc.rows = desc.columns = below(7);
     desc.spacing = {positive(), 0, positive()};
     std::vector<PlumbCompoundChild> children(below(4));
-    for (PlumbCompoundChild& child : children) child = {handle(shapes_), {vector(), unit()}, chance(4) ? 1u : 0u, 0, {0.5, 0, {0, 0, 0}}};
+    for (PlumbCompoundChild& child : children)
+      child = {handle(shapes_), {vector(), unit()}, chance(4) ? 1u : 0u, 0, {0.5, 0, {0, 0, 0}}};
     desc.children = children.data();
     desc.child_count = static_cast<std::uint32_t>(children.size());
     if (chance(60)) desc.struct_size = below(500);
@@ -178,7 +183,8 @@ class Fuzzer {
     const PlumbBody id = handle(bodies_);
     const bool all = chance(2);
     const auto count = all ? std::min<std::uint32_t>(static_cast<std::uint32_t>(bodies_.size()), 80) : 1;
-    judge(table_.read(world_, below(PLUMB_FIELD_COUNT), 1 + below(2 + (chance(40) ? 1 : 0)), all ? nullptr : &id, count, rows.data(), 12 * sizeof(double)));
+    judge(table_.read(world_, below(PLUMB_FIELD_COUNT), 1 + below(2 + (chance(40) ? 1 : 0)), all ? nullptr : &id, count,
+                      rows.data(), 12 * sizeof(double)));
   }
 
   void outputs() {
@@ -222,7 +228,8 @@ class Fuzzer {
     if (settings_ == nullptr || settings_->count == 0) return;
     const PlumbSettingInfo& info = *settings_->describe(below(settings_->count));
     PlumbSettingValue value = info.default_value;
-    if (info.type == PLUMB_SETTING_CHOICE && info.choice_count != 0) value.choice = chance(20) ? "nonsense" : info.choices[below(info.choice_count)];
+    if (info.type == PLUMB_SETTING_CHOICE && info.choice_count != 0)
+      value.choice = chance(20) ? "nonsense" : info.choices[below(info.choice_count)];
     if (info.type != PLUMB_SETTING_CHOICE && chance(10)) value.number = number();
     judge(settings_->set(world_, chance(50) ? "no_such_setting" : info.name, &value));
   }
@@ -314,7 +321,8 @@ int main(int argc, char** argv) {
     Fuzzer fuzzer(backend, argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 1);
     const bool kept = fuzzer.run(std::strtoull(argv[2], nullptr, 10));
     std::printf("%llu calls done, %llu refused, %llu worlds lost\n", static_cast<unsigned long long>(fuzzer.done()),
-                static_cast<unsigned long long>(fuzzer.refused()), static_cast<unsigned long long>(fuzzer.worlds_lost()));
+                static_cast<unsigned long long>(fuzzer.refused()),
+                static_cast<unsigned long long>(fuzzer.worlds_lost()));
     return kept ? 0 : 1;
   } catch (const plumb::Error& error) {
     std::fprintf(stderr, "%s\n", error.what());

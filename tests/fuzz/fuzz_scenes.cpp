@@ -22,8 +22,9 @@ std::string text_of(const fs::path& file) {
 
 /// A few small wounds: bytes changed, pieces dropped, doubled or moved, numbers and words exchanged.
 std::string mutate(std::string text, std::mt19937_64& random) {
-  static const char* const kWords[] = {"null",  "true", "-1",    "1e999",  "\"1/0\"",   "[]",      "{}",        "\"H\"",
-                                       "1e30",  "0",    "\"\"",  "\"box\"", "\"sphere\"", "\"pi*\"", "\"friction\"", "3.5"};
+  static const char* const kWords[] = {"null",       "true",    "-1",           "1e999", "\"1/0\"", "[]",
+                                       "{}",         "\"H\"",   "1e30",         "0",     "\"\"",    "\"box\"",
+                                       "\"sphere\"", "\"pi*\"", "\"friction\"", "3.5"};
   const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random() % n); };
   for (std::size_t wounds = 1 + below(3); wounds > 0 && text.size() > 8; --wounds) {
     const std::size_t at = below(text.size() - 4), length = 1 + below(std::min<std::size_t>(40, text.size() - at));
@@ -76,6 +77,7 @@ int main(int argc, char** argv) {
     }
   }
   fs::remove_all(folder);
-  std::printf("%llu read, %llu refused\n", static_cast<unsigned long long>(read), static_cast<unsigned long long>(refused));
+  std::printf("%llu read, %llu refused\n", static_cast<unsigned long long>(read),
+              static_cast<unsigned long long>(refused));
   return 0;
 }

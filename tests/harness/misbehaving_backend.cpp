@@ -16,7 +16,7 @@
 
 namespace {
 
-const char* const choices[] = {"none",  "segfault", "abort", "hang",  "eat_memory", "nan",
+const char* const choices[] = {"none",  "segfault", "abort", "hang",   "eat_memory", "nan",
                                "throw", "exit",     "print", "refuse", "garble"};
 
 std::string from_environment() {
@@ -25,10 +25,39 @@ std::string from_environment() {
 }
 
 const PlumbSettingInfo setting_list[] = {
-    {"misbehaviour", "", "what goes wrong, and it does so in the tenth step", PLUMB_SETTING_CHOICE, PLUMB_ROLE_BEHAVIOUR, 0,
-     sizeof choices / sizeof *choices, choices, 0, 0, {PLUMB_SETTING_CHOICE, 0, 0, choices[0]}},
-    {"iterations", "1", "does nothing", PLUMB_SETTING_INT, PLUMB_ROLE_QUALITY, 0, 0, nullptr, 1, 100, {PLUMB_SETTING_INT, 0, 10, nullptr}},
-    {"pause", "s", "time that a step sleeps", PLUMB_SETTING_FLOAT, PLUMB_ROLE_SPEED, 0, 0, nullptr, 0, 10, {PLUMB_SETTING_FLOAT, 0, 0, nullptr}},
+    {"misbehaviour",
+     "",
+     "what goes wrong, and it does so in the tenth step",
+     PLUMB_SETTING_CHOICE,
+     PLUMB_ROLE_BEHAVIOUR,
+     0,
+     sizeof choices / sizeof *choices,
+     choices,
+     0,
+     0,
+     {PLUMB_SETTING_CHOICE, 0, 0, choices[0]}},
+    {"iterations",
+     "1",
+     "does nothing",
+     PLUMB_SETTING_INT,
+     PLUMB_ROLE_QUALITY,
+     0,
+     0,
+     nullptr,
+     1,
+     100,
+     {PLUMB_SETTING_INT, 0, 10, nullptr}},
+    {"pause",
+     "s",
+     "time that a step sleeps",
+     PLUMB_SETTING_FLOAT,
+     PLUMB_ROLE_SPEED,
+     0,
+     0,
+     nullptr,
+     0,
+     10,
+     {PLUMB_SETTING_FLOAT, 0, 0, nullptr}},
 };
 
 class MisbehavingWorld final : public plumb::IPhysicsWorld, public plumb::ISettings {
@@ -38,15 +67,19 @@ class MisbehavingWorld final : public plumb::IPhysicsWorld, public plumb::ISetti
   }
 
   static const PlumbBackendInfo& info() {
-    static const PlumbBackendInfo value = {sizeof value, PLUMB_DETERMINISM_THREADS, "misbehaving", "1", "misbehaving-1",
-                                           "goes wrong as asked", "cpu", "", PLUMB_F64, 1};
+    static const PlumbBackendInfo value = {sizeof value,    PLUMB_DETERMINISM_THREADS,
+                                           "misbehaving",   "1",
+                                           "misbehaving-1", "goes wrong as asked",
+                                           "cpu",           "",
+                                           PLUMB_F64,       1};
     return value;
   }
   static PlumbDegree capability(PlumbCapability kind, std::uint32_t a, std::uint32_t, const char*& note) {
     note = "particles only";
     if (kind == PLUMB_CAP_SHAPE) return PLUMB_NATIVE;
     if (kind == PLUMB_CAP_NEED) return a == 0 ? PLUMB_NATIVE : PLUMB_NONE;
-    if (kind == PLUMB_CAP_FIELD_READ || kind == PLUMB_CAP_FIELD_WRITE) return a <= PLUMB_FIELD_VELOCITY ? PLUMB_NATIVE : PLUMB_NONE;
+    if (kind == PLUMB_CAP_FIELD_READ || kind == PLUMB_CAP_FIELD_WRITE)
+      return a <= PLUMB_FIELD_VELOCITY ? PLUMB_NATIVE : PLUMB_NONE;
     return PLUMB_NONE;
   }
   static std::span<const PlumbSettingInfo> setting_infos() { return setting_list; }
@@ -91,7 +124,8 @@ class MisbehavingWorld final : public plumb::IPhysicsWorld, public plumb::ISetti
     for (PlumbBodyDesc& body : bodies_) {
       if (body.motion != PLUMB_DYNAMIC) continue;
       PlumbVec3 &x = body.pose.position, &v = body.linear_velocity;
-      v = {v.x + dt * body.gravity_scale * gravity_.x, v.y + dt * body.gravity_scale * gravity_.y, v.z + dt * body.gravity_scale * gravity_.z};
+      v = {v.x + dt * body.gravity_scale * gravity_.x, v.y + dt * body.gravity_scale * gravity_.y,
+           v.z + dt * body.gravity_scale * gravity_.z};
       x = {x.x + dt * v.x, x.y + dt * v.y, x.z + dt * v.z};
     }
     return PLUMB_OK;
@@ -147,7 +181,8 @@ class MisbehavingWorld final : public plumb::IPhysicsWorld, public plumb::ISetti
   std::vector<PlumbBodyDesc> bodies_;
   std::vector<std::unique_ptr<char[]>> eaten_;
   int steps_ = 0;
-  PlumbSettingValue values_[3] = {setting_list[0].default_value, setting_list[1].default_value, setting_list[2].default_value};
+  PlumbSettingValue values_[3] = {setting_list[0].default_value, setting_list[1].default_value,
+                                  setting_list[2].default_value};
 };
 
 }  // namespace

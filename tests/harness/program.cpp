@@ -15,7 +15,8 @@ namespace plumb::harness::testing {
 
 namespace {
 
-pid_t start(std::vector<std::string> arguments, const Environment& more, const std::string& out, const std::string& err) {
+pid_t start(std::vector<std::string> arguments, const Environment& more, const std::string& out,
+            const std::string& err) {
   std::vector<std::string> environment;
   for (char** entry = environ; *entry != nullptr; ++entry) environment.emplace_back(*entry);
   for (const auto& [name, value] : more) environment.push_back(name + "=" + value);

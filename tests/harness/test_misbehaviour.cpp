@@ -7,8 +7,15 @@ namespace plumb::harness::testing {
 namespace {
 
 Json row_of(const std::string& misbehaviour, std::vector<std::string> more = {}) {
-  std::vector<std::string> arguments{"run", particle_scene(fresh_folder("misbehaviour")), "--backend", MISBEHAVING_BACKEND,
-                                     "--param", "height=50", "--json", "--set", "misbehaviour=" + misbehaviour};
+  std::vector<std::string> arguments{"run",
+                                     particle_scene(fresh_folder("misbehaviour")),
+                                     "--backend",
+                                     MISBEHAVING_BACKEND,
+                                     "--param",
+                                     "height=50",
+                                     "--json",
+                                     "--set",
+                                     "misbehaviour=" + misbehaviour};
   arguments.insert(arguments.end(), more.begin(), more.end());
   const Finished finished = plumb(arguments);
   EXPECT_EQ(finished.status, 0) << finished.err;
@@ -35,7 +42,9 @@ TEST(Misbehaviour, eaten_memory_is_out_of_memory) {
   expect_row(row_of("eat_memory", {"--memory-limit", "400"}), "out_of_memory", "limit");
 }
 TEST(Misbehaviour, exception_is_an_error_with_its_text) { expect_row(row_of("throw"), "error", "the engine threw"); }
-TEST(Misbehaviour, refusal_for_memory_is_out_of_memory) { expect_row(row_of("refuse"), "out_of_memory", "no room for contacts"); }
+TEST(Misbehaviour, refusal_for_memory_is_out_of_memory) {
+  expect_row(row_of("refuse"), "out_of_memory", "no room for contacts");
+}
 TEST(Misbehaviour, garbage_on_standard_output_harms_nothing) { expect_row(row_of("print"), "ok", ""); }
 TEST(Misbehaviour, garbage_among_the_answers_is_an_error) { expect_row(row_of("garble"), "error", "not JSON"); }
 TEST(Misbehaviour, nan_is_counted_and_written_as_null) {
@@ -45,15 +54,17 @@ TEST(Misbehaviour, nan_is_counted_and_written_as_null) {
 }
 
 TEST(Misbehaviour, study_goes_on_with_a_fresh_worker) {
-  const Finished finished = plumb({"run", particle_scene(fresh_folder("fresh_worker")), "--backend", MISBEHAVING_BACKEND, "--json",
-                                   "--set", "misbehaviour=segfault"});
+  const Finished finished = plumb({"run", particle_scene(fresh_folder("fresh_worker")), "--backend",
+                                   MISBEHAVING_BACKEND, "--json", "--set", "misbehaviour=segfault"});
   ASSERT_EQ(finished.rows().size(), 3u);
   for (const Json& row : finished.rows()) expect_row(row, "crashed", "SIGSEGV");
 }
 
 TEST(Misbehaviour, broken_library_is_one_line_of_backends) {
-  for (const auto& [word, said] : {std::pair{"segfault_on_open", "SIGSEGV"}, {"lie_about_version", ""}, {"lie_about_size", ""}}) {
-    const Finished finished = plumb({"backends", "--json", MISBEHAVING_BACKEND, SAMPLE_BACKEND}, {{"PLUMB_MISBEHAVE", word}});
+  for (const auto& [word, said] :
+       {std::pair{"segfault_on_open", "SIGSEGV"}, {"lie_about_version", ""}, {"lie_about_size", ""}}) {
+    const Finished finished =
+        plumb({"backends", "--json", MISBEHAVING_BACKEND, SAMPLE_BACKEND}, {{"PLUMB_MISBEHAVE", word}});
     EXPECT_EQ(finished.status, 0) << finished.err;
     const std::vector<Json> rows = finished.rows();
     ASSERT_EQ(rows.size(), 2u) << word;

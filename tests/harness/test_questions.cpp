@@ -27,13 +27,19 @@ std::vector<std::string> a1_with(const std::vector<std::string>& more) {
 
 TEST(Questions, misspelt_verb) { expect_refusal({"comapre", "A1"}, "\"compare\""); }
 TEST(Questions, misspelt_scene) { expect_refusal({"run", "free-fal", "--backend", MISBEHAVING_BACKEND}, "free-fall"); }
-TEST(Questions, misspelt_backend) { expect_refusal({"run", "A1", "--backend", "no_such_backend_at_all"}, "no_such_backend_at_all"); }
-TEST(Questions, backend_file_that_is_not_there) { expect_refusal({"run", "A1", "--backend", "./nowhere.so"}, "no such file"); }
+TEST(Questions, misspelt_backend) {
+  expect_refusal({"run", "A1", "--backend", "no_such_backend_at_all"}, "no_such_backend_at_all");
+}
+TEST(Questions, backend_file_that_is_not_there) {
+  expect_refusal({"run", "A1", "--backend", "./nowhere.so"}, "no such file");
+}
 TEST(Questions, misspelt_parameter) { expect_refusal(a1_with({"--param", "heigth=50"}), "\"height\""); }
 TEST(Questions, parameter_out_of_range) { expect_refusal(a1_with({"--param", "height=-3"}), "height"); }
 TEST(Questions, misspelt_unit) { expect_refusal(a1_with({"--param", "height=50 centimetre"}), "centimetre"); }
 TEST(Questions, misspelt_setting) { expect_refusal(a1_with({"--set", "iteratons=20"}), "\"iterations\""); }
-TEST(Questions, setting_of_a_backend_that_is_not_there) { expect_refusal(a1_with({"--set", "misbehavin:iterations=20"}), "\"misbehaving\""); }
+TEST(Questions, setting_of_a_backend_that_is_not_there) {
+  expect_refusal(a1_with({"--set", "misbehavin:iterations=20"}), "\"misbehaving\"");
+}
 TEST(Questions, setting_out_of_range) { expect_refusal(a1_with({"--set", "iterations=1000"}), "from 1 to 100"); }
 TEST(Questions, setting_that_is_not_whole) { expect_refusal(a1_with({"--set", "iterations=1.5"}), "whole"); }
 TEST(Questions, misspelt_choice) { expect_refusal(a1_with({"--set", "misbehaviour=segfalt"}), "\"segfault\""); }
@@ -46,7 +52,8 @@ TEST(Questions, record_without_a_folder) { expect_refusal(a1_with({"--record"}),
 
 TEST(Questions, broken_scene_file_names_file_and_key) {
   const std::filesystem::path folder = fresh_folder("broken_scene");
-  std::ofstream(folder / "X1-broken.json") << "{\n  \"id\": \"X1\",\n  \"slug\": \"broken\",\n  \"titel\": \"Broken\"\n}\n";
+  std::ofstream(folder / "X1-broken.json")
+      << "{\n  \"id\": \"X1\",\n  \"slug\": \"broken\",\n  \"titel\": \"Broken\"\n}\n";
   expect_refusal({"run", (folder / "X1-broken.json").string(), "--backend", MISBEHAVING_BACKEND}, "X1-broken.json");
 }
 

@@ -4,8 +4,8 @@
 #include <sys/wait.h>
 
 #include <chrono>
-#include <functional>
 #include <fstream>
+#include <functional>
 #include <set>
 #include <thread>
 
@@ -35,7 +35,8 @@ std::vector<pid_t> workers_of(pid_t parent) {
     if (end == std::string::npos) continue;
     char state = 0;
     int ppid = 0;
-    if (std::sscanf(text.c_str() + end + 1, " %c %d", &state, &ppid) == 2 && ppid == parent) workers.push_back(std::stoi(name));
+    if (std::sscanf(text.c_str() + end + 1, " %c %d", &state, &ppid) == 2 && ppid == parent)
+      workers.push_back(std::stoi(name));
   }
   return workers;
 }
@@ -49,8 +50,9 @@ bool wait_until(const std::function<bool()>& condition) {
 }
 
 std::vector<std::string> study(const std::filesystem::path& folder) {
-  return {"compare", particle_scene(folder), "--backend", MISBEHAVING_BACKEND, "--backend", SAMPLE_BACKEND, "--repeat", "2",
-          "--set", "pause=0.005", "--out", (folder / "out").string()};
+  return {"compare",   particle_scene(folder), "--backend", MISBEHAVING_BACKEND,
+          "--backend", SAMPLE_BACKEND,         "--repeat",  "2",
+          "--set",     "pause=0.005",          "--out",     (folder / "out").string()};
 }
 
 void expect_complete(const std::filesystem::path& folder) {
@@ -106,7 +108,8 @@ TEST(Resume, torn_last_line_is_run_again) {
 TEST(Resume, terminate_kills_the_workers_and_ends_by_the_signal) {
   const std::filesystem::path folder = fresh_folder("terminated");
   const pid_t pid = start_plumb(study(folder));
-  ASSERT_TRUE(wait_until([&] { return std::filesystem::exists(folder / "out" / "results.jsonl") && !workers_of(pid).empty(); }));
+  ASSERT_TRUE(wait_until(
+      [&] { return std::filesystem::exists(folder / "out" / "results.jsonl") && !workers_of(pid).empty(); }));
   const std::vector<pid_t> workers = workers_of(pid);
   kill(pid, SIGTERM);
   int status = 0;

@@ -15,8 +15,9 @@ TEST(Rows, have_every_key_of_the_contract) {
   ASSERT_EQ(finished.status, 0) << finished.err;
   ASSERT_EQ(finished.rows().size(), 1u);
   const Json row = finished.rows().front();
-  for (const char* key : {"scene", "group", "params", "backend", "backend_version", "settings", "profile", "dt", "seconds", "threads",
-                          "status", "reason", "metrics", "time", "counts", "hash", "peak_mb", "machine"})
+  for (const char* key :
+       {"scene", "group", "params", "backend", "backend_version", "settings", "profile", "dt", "seconds", "threads",
+        "status", "reason", "metrics", "time", "counts", "hash", "peak_mb", "machine"})
     EXPECT_TRUE(row.contains(key)) << key;
   EXPECT_EQ(row["scene"], "A1");
   EXPECT_EQ(row["group"], "integrator");
@@ -25,7 +26,8 @@ TEST(Rows, have_every_key_of_the_contract) {
     for (const char* key : {"value", "unit", "truth", "error", "threshold", "gold", "pass"})
       EXPECT_TRUE(metric.contains(key)) << name << " " << key;
   }
-  for (const char* key : {"median", "min", "max", "p99"}) EXPECT_TRUE(row["time"]["ms_per_step"][key].is_number()) << key;
+  for (const char* key : {"median", "min", "max", "p99"})
+    EXPECT_TRUE(row["time"]["ms_per_step"][key].is_number()) << key;
   EXPECT_EQ(row["time"]["steps"], 120);
   EXPECT_EQ(row["time"]["window"], (Json{61, 120}));
   EXPECT_TRUE(row["time"]["setup_ms"].is_number());
@@ -46,7 +48,8 @@ TEST(Rows, say_the_settings_in_force) {
 }
 
 TEST(Rows, times_and_parameters_are_taken_from_the_command_line) {
-  const Finished finished = plumb({"run", "A1", "--backend", SAMPLE_BACKEND, "--json", "--param", "height=50", "--dt", "0.01", "--seconds", "1"});
+  const Finished finished = plumb(
+      {"run", "A1", "--backend", SAMPLE_BACKEND, "--json", "--param", "height=50", "--dt", "0.01", "--seconds", "1"});
   ASSERT_EQ(finished.rows().size(), 1u) << finished.err;
   const Json row = finished.rows().front();
   EXPECT_EQ(row["params"]["height"], 50);
@@ -56,7 +59,8 @@ TEST(Rows, times_and_parameters_are_taken_from_the_command_line) {
 }
 
 TEST(Rows, given_parameter_merges_variants) {
-  const Finished finished = plumb({"run", particle_scene(fresh_folder("merge")), "--backend", SAMPLE_BACKEND, "--json", "--param", "height=50"});
+  const Finished finished = plumb(
+      {"run", particle_scene(fresh_folder("merge")), "--backend", SAMPLE_BACKEND, "--json", "--param", "height=50"});
   EXPECT_EQ(finished.rows().size(), 1u) << finished.err;
 }
 

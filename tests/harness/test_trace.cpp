@@ -8,7 +8,8 @@ namespace {
 
 TEST(Trace, of_a_run_replays_the_same) {
   const std::filesystem::path folder = fresh_folder("trace");
-  const Finished run = plumb({"run", particle_scene(folder), "--backend", SAMPLE_BACKEND, "--trace", "--out", (folder / "out").string()});
+  const Finished run = plumb(
+      {"run", particle_scene(folder), "--backend", SAMPLE_BACKEND, "--trace", "--out", (folder / "out").string()});
   ASSERT_EQ(run.status, 0) << run.err;
   std::size_t traces = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder / "out" / "traces")) {

@@ -27,7 +27,8 @@ TEST(Trajectory, orientations_come_back) {
 
 TEST(Trajectory, round_trip_through_a_run) {
   const std::filesystem::path folder = fresh_folder("trajectory");
-  const Finished finished = plumb({"run", "A1", "--backend", SAMPLE_BACKEND, "--record", "--out", folder.string(), "--json"});
+  const Finished finished =
+      plumb({"run", "A1", "--backend", SAMPLE_BACKEND, "--record", "--out", folder.string(), "--json"});
   ASSERT_EQ(finished.rows().size(), 1u) << finished.err;
   const auto file = folder / "trajectories" / (finished.rows()[0]["cell"].get<std::string>() + ".plt");
   const Trajectory trajectory = read_trajectory(file);

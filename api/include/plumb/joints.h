@@ -1,7 +1,7 @@
 /* plumb.joints/1: joints between two bodies, or between a body and the world.
  *
- * Every joint joins a frame fixed in body a to a frame fixed in body b. Coordinates are those of b's frame seen from a's:
- * axes 0 1 2 are translations along x y z of frame a, axes 3 4 5 rotations about x y z.
+ * Every joint joins a frame fixed in body a to a frame fixed in body b. Coordinates are those of b's frame seen from
+ * a's: axes 0 1 2 are translations along x y z of frame a, axes 3 4 5 rotations about x y z.
  */
 #ifndef PLUMB_JOINTS_H
 #define PLUMB_JOINTS_H
@@ -53,10 +53,10 @@ typedef struct PlumbSpring {
 typedef struct PlumbJointDesc {
   uint32_t struct_size;
   PlumbJointType type;
-  PlumbBody body_a;  /* 0: the world; its frame is then in world axes */
-  PlumbBody body_b;  /* not 0 */
-  PlumbPose frame_a; /* in body a's frame */
-  PlumbPose frame_b; /* in body b's frame */
+  PlumbBody body_a;           /* 0: the world; its frame is then in world axes */
+  PlumbBody body_b;           /* not 0 */
+  PlumbPose frame_a;          /* in body a's frame */
+  PlumbPose frame_b;          /* in body b's frame */
   uint32_t collide_connected; /* 0: the two bodies do not touch each other */
   uint32_t reserved;
   PlumbAxisMode axis_modes[6]; /* generic only */
@@ -93,15 +93,15 @@ typedef struct PlumbJointsTable {
   uint32_t struct_size;
   uint32_t reserved;
   /* [world] All or none; ids[count]. */
-  PlumbResult (*create)(PlumbWorld *world, const PlumbJointDesc *descs, size_t stride, uint32_t count, PlumbJoint *ids);
+  PlumbResult (*create)(PlumbWorld* world, const PlumbJointDesc* descs, size_t stride, uint32_t count, PlumbJoint* ids);
   /* [world] All or none. */
-  PlumbResult (*destroy)(PlumbWorld *world, const PlumbJoint *ids, uint32_t count);
+  PlumbResult (*destroy)(PlumbWorld* world, const PlumbJoint* ids, uint32_t count);
   /* [world] ids null: the first count live joints in order of creation. stride in bytes between rows. */
-  PlumbResult (*read)(PlumbWorld *world, PlumbJointField field, PlumbDataType type, const PlumbJoint *ids, uint32_t count,
-                      void *rows, size_t stride);
+  PlumbResult (*read)(PlumbWorld* world, PlumbJointField field, PlumbDataType type, const PlumbJoint* ids,
+                      uint32_t count, void* rows, size_t stride);
   /* [world] Likewise; PLUMB_JOINT_MOTOR only. */
-  PlumbResult (*write)(PlumbWorld *world, PlumbJointField field, PlumbDataType type, const PlumbJoint *ids, uint32_t count,
-                       const void *rows, size_t stride);
+  PlumbResult (*write)(PlumbWorld* world, PlumbJointField field, PlumbDataType type, const PlumbJoint* ids,
+                       uint32_t count, const void* rows, size_t stride);
 } PlumbJointsTable;
 
 #ifdef __cplusplus

@@ -46,8 +46,8 @@ struct FoundBackend {
 [[nodiscard]] std::vector<FoundBackend> find_backends();
 
 /// Opens a backend by name or by file (anything with a slash or ending in .so). host may be null and must live as long
-/// as the process. Throws Error: PLUMB_E_INVALID_ARGUMENT (not found; names the nearest), PLUMB_E_VERSION (which side is
-/// too old), PLUMB_E_EXCLUDED (which backend stands in the way), or what the backend answered.
+/// as the process. Throws Error: PLUMB_E_INVALID_ARGUMENT (not found; names the nearest), PLUMB_E_VERSION (which side
+/// is too old), PLUMB_E_EXCLUDED (which backend stands in the way), or what the backend answered.
 [[nodiscard]] Backend open_backend(const std::string& name_or_file, const PlumbHost* host = nullptr);
 
 /// Negotiates with an open function that is already at hand, for backends linked into the program and for tests.

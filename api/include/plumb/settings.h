@@ -28,23 +28,23 @@ typedef struct PlumbSettingValue {
   PlumbSettingType type;
   uint32_t reserved;
   double number;
-  const char *choice; /* [any] a value read from a backend lives as long as the process */
+  const char* choice; /* [any] a value read from a backend lives as long as the process */
 } PlumbSettingValue;
 
 typedef struct PlumbSetting {
-  const char *name;
+  const char* name;
   PlumbSettingValue value;
 } PlumbSetting;
 
 typedef struct PlumbSettingInfo {
-  const char *name; /* snake_case */
-  const char *unit; /* "m", "1", "m/s" ...; "" for bool and choice */
-  const char *doc;  /* one line */
+  const char* name; /* snake_case */
+  const char* unit; /* "m", "1", "m/s" ...; "" for bool and choice */
+  const char* doc;  /* one line */
   PlumbSettingType type;
   PlumbSettingRole role;
   uint32_t flags;
   uint32_t choice_count;
-  const char *const *choices;
+  const char* const* choices;
   double minimum, maximum; /* of int and float, both allowed */
   PlumbSettingValue default_value;
 } PlumbSettingInfo;
@@ -53,11 +53,11 @@ typedef struct PlumbSettingsTable {
   uint32_t struct_size;
   uint32_t count; /* how many settings there are */
   /* [any] Lives as long as the process; null when index >= count. */
-  const PlumbSettingInfo *(*describe)(uint32_t index);
+  const PlumbSettingInfo* (*describe)(uint32_t index);
   /* [world] */
-  PlumbResult (*get)(PlumbWorld *world, const char *name, PlumbSettingValue *value);
+  PlumbResult (*get)(PlumbWorld* world, const char* name, PlumbSettingValue* value);
   /* [world] Takes effect in the next step. */
-  PlumbResult (*set)(PlumbWorld *world, const char *name, const PlumbSettingValue *value);
+  PlumbResult (*set)(PlumbWorld* world, const char* name, const PlumbSettingValue* value);
 } PlumbSettingsTable;
 
 #ifdef __cplusplus

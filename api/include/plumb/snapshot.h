@@ -18,11 +18,11 @@ typedef struct PlumbSnapshotTable {
   uint32_t reserved;
   /* [world] Needs PLUMB_NEED_SNAPSHOT. *size is what it takes; with capacity < *size nothing is written and the
    * answer is PLUMB_TRUNCATED. data may be null when capacity is 0. */
-  PlumbResult (*save)(PlumbWorld *world, void *data, size_t capacity, size_t *size);
+  PlumbResult (*save)(PlumbWorld* world, void* data, size_t capacity, size_t* size);
   /* [world] PLUMB_E_CORRUPT for data that is foreign, torn, of another version or of other bodies. */
-  PlumbResult (*restore)(PlumbWorld *world, const void *data, size_t size);
+  PlumbResult (*restore)(PlumbWorld* world, const void* data, size_t size);
   /* [world] Over pose and velocity rows in float64 in order of creation, every NaN as the same NaN. Always there. */
-  PlumbResult (*hash)(PlumbWorld *world, uint64_t *hash);
+  PlumbResult (*hash)(PlumbWorld* world, uint64_t* hash);
 } PlumbSnapshotTable;
 
 #ifdef __cplusplus

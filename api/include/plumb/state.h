@@ -24,12 +24,12 @@ typedef struct PlumbDLDataType {
 } PlumbDLDataType;
 
 typedef struct PlumbDLTensor {
-  void *data;
+  void* data;
   PlumbDLDevice device;
   int32_t ndim;
   PlumbDLDataType dtype;
-  int64_t *shape;
-  int64_t *strides; /* in elements */
+  int64_t* shape;
+  int64_t* strides; /* in elements */
   uint64_t byte_offset;
 } PlumbDLTensor;
 
@@ -37,16 +37,16 @@ typedef struct PlumbDLManagedTensor {
   struct {
     uint32_t major, minor;
   } version;
-  void *manager_ctx;
-  void (*deleter)(struct PlumbDLManagedTensor *self); /* [any] also after the world is gone */
+  void* manager_ctx;
+  void (*deleter)(struct PlumbDLManagedTensor* self); /* [any] also after the world is gone */
   uint64_t flags;                                     /* bit 0: read only, bit 1: is a copy */
   PlumbDLTensor dl_tensor;
 } PlumbDLManagedTensor;
 
 /* When the rows may be read. On the host both are null and the rows are ready. */
 typedef struct PlumbFence {
-  void *stream; /* cudaStream_t that wrote the rows */
-  void *event;  /* cudaEvent_t recorded after it */
+  void* stream; /* cudaStream_t that wrote the rows */
+  void* event;  /* cudaEvent_t recorded after it */
 } PlumbFence;
 
 typedef struct PlumbStateRequest {
@@ -61,10 +61,10 @@ typedef struct PlumbStateTable {
   uint32_t reserved;
   /* [world] Rows x columns in the engine's type. The rows stay as they are until the next step; the caller calls
    * the tensor's deleter when done. fence may be null. */
-  PlumbResult (*borrow)(PlumbWorld *world, const PlumbStateRequest *request, PlumbDLManagedTensor **tensor,
-                        PlumbFence *fence);
+  PlumbResult (*borrow)(PlumbWorld* world, const PlumbStateRequest* request, PlumbDLManagedTensor** tensor,
+                        PlumbFence* fence);
   /* [world] Which body each row is (0: none). *generation changes whenever the map does. */
-  PlumbResult (*rows)(PlumbWorld *world, PlumbBody *ids, uint32_t capacity, uint32_t *count, uint64_t *generation);
+  PlumbResult (*rows)(PlumbWorld* world, PlumbBody* ids, uint32_t capacity, uint32_t* count, uint64_t* generation);
 } PlumbStateTable;
 
 #ifdef __cplusplus

@@ -41,12 +41,12 @@ typedef struct PlumbWorldDesc {
   uint32_t struct_size;
   uint32_t threads; /* how many the world may use; 0 is 1. More than the engine can use is not an error */
   PlumbNeeds needs;
-  PlumbVec3 gravity;          /* m/s2 */
-  uint32_t body_capacity;     /* hints; 0 is unknown */
+  PlumbVec3 gravity;      /* m/s2 */
+  uint32_t body_capacity; /* hints; 0 is unknown */
   uint32_t contact_capacity;
   uint32_t joint_capacity;
   uint32_t setting_count;
-  const PlumbSetting *settings; /* set before anything else happens; the only way for creation-only settings */
+  const PlumbSetting* settings; /* set before anything else happens; the only way for creation-only settings */
 } PlumbWorldDesc;
 
 typedef struct PlumbStepDesc {
@@ -64,19 +64,19 @@ enum {
   PLUMB_PHASE_SOLVE = 3,     /* joints and contacts */
   PLUMB_PHASE_INTEGRATE = 4, /* forces to velocities to poses */
   PLUMB_PHASE_CONTINUOUS = 5,
-  PLUMB_PHASE_OUTPUT = 6,    /* events, contacts and state rows */
-  PLUMB_PHASE_COUNT = 8      /* room for one more */
+  PLUMB_PHASE_OUTPUT = 6, /* events, contacts and state rows */
+  PLUMB_PHASE_COUNT = 8   /* room for one more */
 };
 
 /* The host sets struct_size; the backend fills the rest. NaN stands for "not known". */
 typedef struct PlumbStepReport {
   uint32_t struct_size;
-  uint32_t threads;   /* used by this step */
-  uint64_t step;      /* steps done since the world was made */
-  uint32_t bodies;    /* alive, all motions */
-  uint32_t awake;     /* dynamic bodies not asleep */
-  uint32_t pairs;     /* candidate pairs of the broad phase; UINT32_MAX when not known */
-  uint32_t contacts;  /* points */
+  uint32_t threads;  /* used by this step */
+  uint64_t step;     /* steps done since the world was made */
+  uint32_t bodies;   /* alive, all motions */
+  uint32_t awake;    /* dynamic bodies not asleep */
+  uint32_t pairs;    /* candidate pairs of the broad phase; UINT32_MAX when not known */
+  uint32_t contacts; /* points */
   uint32_t joints;
   uint32_t dropped;   /* contacts, pairs or events that the engine found and lost */
   uint32_t nonfinite; /* dynamic bodies whose pose or velocity is NaN or infinite */
@@ -110,9 +110,9 @@ enum {
   PLUMB_EVENT_CONTACT_END = 1,   /* also when one of them was destroyed: its handle is stale by then */
   PLUMB_EVENT_SENSOR_ENTER = 2,  /* body_a is the sensor */
   PLUMB_EVENT_SENSOR_LEAVE = 3,
-  PLUMB_EVENT_WAKE = 4,          /* body_a */
-  PLUMB_EVENT_SLEEP = 5,         /* body_a */
-  PLUMB_EVENT_JOINT_BROKEN = 6,  /* joint; it is gone from the step on */
+  PLUMB_EVENT_WAKE = 4,         /* body_a */
+  PLUMB_EVENT_SLEEP = 5,        /* body_a */
+  PLUMB_EVENT_JOINT_BROKEN = 6, /* joint; it is gone from the step on */
   PLUMB_EVENT_COUNT = 7
 };
 

@@ -8,15 +8,19 @@ class SampleWorld final : public plumb::IPhysicsWorld {
   explicit SampleWorld(const plumb::WorldInit& init) : gravity_(init.desc.gravity) {}
 
   static const PlumbBackendInfo& info() {
-    static const PlumbBackendInfo info = {sizeof info, PLUMB_DETERMINISM_THREADS, "sample", "1", "sample-1",
-                                          "particles under gravity", "cpu", "", PLUMB_F64, 1};
+    static const PlumbBackendInfo info = {sizeof info, PLUMB_DETERMINISM_THREADS,
+                                          "sample",    "1",
+                                          "sample-1",  "particles under gravity",
+                                          "cpu",       "",
+                                          PLUMB_F64,   1};
     return info;
   }
 
   static PlumbDegree capability(PlumbCapability kind, std::uint32_t a, std::uint32_t b, const char*& note) {
     note = "particles only";
     if (kind == PLUMB_CAP_SHAPE) return a == PLUMB_SPHERE && b != PLUMB_KINEMATIC ? PLUMB_NATIVE : PLUMB_NONE;
-    if (kind == PLUMB_CAP_FIELD_READ || kind == PLUMB_CAP_FIELD_WRITE) return a <= PLUMB_FIELD_VELOCITY ? PLUMB_NATIVE : PLUMB_NONE;
+    if (kind == PLUMB_CAP_FIELD_READ || kind == PLUMB_CAP_FIELD_WRITE)
+      return a <= PLUMB_FIELD_VELOCITY ? PLUMB_NATIVE : PLUMB_NONE;
     return PLUMB_NONE;
   }
 
@@ -49,7 +53,8 @@ class SampleWorld final : public plumb::IPhysicsWorld {
     for (PlumbBodyDesc& body : bodies_) {
       if (body.motion != PLUMB_DYNAMIC) continue;
       PlumbVec3 &x = body.pose.position, &v = body.linear_velocity;
-      v = {v.x + dt * body.gravity_scale * gravity_.x, v.y + dt * body.gravity_scale * gravity_.y, v.z + dt * body.gravity_scale * gravity_.z};
+      v = {v.x + dt * body.gravity_scale * gravity_.x, v.y + dt * body.gravity_scale * gravity_.y,
+           v.z + dt * body.gravity_scale * gravity_.z};
       x = {x.x + dt * v.x, x.y + dt * v.y, x.z + dt * v.z};
     }
     return PLUMB_OK;

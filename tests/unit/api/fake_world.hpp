@@ -22,8 +22,8 @@ class FakeWorld final : public IPhysicsWorld, public IJoints, public IQueries, p
   std::map<PlumbField, std::vector<double>> written;
 
   static const PlumbBackendInfo& info() {
-    static const PlumbBackendInfo info = {sizeof info, PLUMB_DETERMINISM_NONE, "fake", "1", "fake-1", "claims everything",
-                                          "cpu", "", PLUMB_F64, 1};
+    static const PlumbBackendInfo info = {
+        sizeof info, PLUMB_DETERMINISM_NONE, "fake", "1", "fake-1", "claims everything", "cpu", "", PLUMB_F64, 1};
     return info;
   }
   static PlumbDegree capability(PlumbCapability kind, std::uint32_t a, std::uint32_t b, const char*& note) {
@@ -34,11 +34,39 @@ class FakeWorld final : public IPhysicsWorld, public IJoints, public IQueries, p
   }
   static std::span<const PlumbSettingInfo> setting_infos() {
     static const char* const kChoices[] = {"fast", "exact"};
-    static const PlumbSettingInfo infos[] = {
-        {"iterations", "1", "sweeps", PLUMB_SETTING_INT, PLUMB_ROLE_QUALITY, 0, 0, nullptr, 1, 100, {PLUMB_SETTING_INT, 0, 10, nullptr}},
-        {"solver", "", "which", PLUMB_SETTING_CHOICE, PLUMB_ROLE_BEHAVIOUR, 0, 2, kChoices, 0, 0, {PLUMB_SETTING_CHOICE, 0, 0, "fast"}},
-        {"margin", "m", "skin", PLUMB_SETTING_FLOAT, PLUMB_ROLE_QUALITY, PLUMB_SETTING_CREATION_ONLY, 0, nullptr, 0, 1,
-         {PLUMB_SETTING_FLOAT, 0, 0.5, nullptr}}};
+    static const PlumbSettingInfo infos[] = {{"iterations",
+                                              "1",
+                                              "sweeps",
+                                              PLUMB_SETTING_INT,
+                                              PLUMB_ROLE_QUALITY,
+                                              0,
+                                              0,
+                                              nullptr,
+                                              1,
+                                              100,
+                                              {PLUMB_SETTING_INT, 0, 10, nullptr}},
+                                             {"solver",
+                                              "",
+                                              "which",
+                                              PLUMB_SETTING_CHOICE,
+                                              PLUMB_ROLE_BEHAVIOUR,
+                                              0,
+                                              2,
+                                              kChoices,
+                                              0,
+                                              0,
+                                              {PLUMB_SETTING_CHOICE, 0, 0, "fast"}},
+                                             {"margin",
+                                              "m",
+                                              "skin",
+                                              PLUMB_SETTING_FLOAT,
+                                              PLUMB_ROLE_QUALITY,
+                                              PLUMB_SETTING_CREATION_ONLY,
+                                              0,
+                                              nullptr,
+                                              0,
+                                              1,
+                                              {PLUMB_SETTING_FLOAT, 0, 0.5, nullptr}}};
     return infos;
   }
 

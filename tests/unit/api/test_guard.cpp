@@ -39,7 +39,8 @@ class Guard : public ::testing::Test {
   void refused(PlumbResult code, const std::string& named, Call&& call) {
     const int calls = FakeWorld::last->calls;
     EXPECT_EQ(call(), code) << world->error_text();
-    EXPECT_NE(world->error_text().find(named), std::string::npos) << "\"" << world->error_text() << "\" does not name " << named;
+    EXPECT_NE(world->error_text().find(named), std::string::npos)
+        << "\"" << world->error_text() << "\" does not name " << named;
     EXPECT_EQ(FakeWorld::last->calls, calls);
   }
   void body_refused(PlumbResult code, const std::string& named, const std::function<void(PlumbBodyDesc&)>& spoil) {
@@ -63,11 +64,15 @@ class Guard : public ::testing::Test {
 
 TEST_F(Guard, RefusesBadNumbersOfBodiesByName) {
   body_refused(PLUMB_E_INVALID_ARGUMENT, "bodies[1].pose.position.y", [](auto& d) { d.pose.position.y = kNan; });
-  body_refused(PLUMB_E_INVALID_ARGUMENT, "bodies[1].pose.orientation", [](auto& d) { d.pose.orientation = {0, 0, 0, 0}; });
+  body_refused(PLUMB_E_INVALID_ARGUMENT, "bodies[1].pose.orientation", [](auto& d) {
+    d.pose.orientation = {0, 0, 0, 0};
+  });
   body_refused(PLUMB_E_INVALID_ARGUMENT, "linear_velocity.z", [](auto& d) { d.linear_velocity.z = kInfinity; });
   body_refused(PLUMB_E_INVALID_ARGUMENT, "density is 0", [](auto& d) { d.density = 0; });
-  body_refused(PLUMB_E_INVALID_ARGUMENT, "mass is -1", [](auto& d) { d.mass_mode = PLUMB_MASS_FROM_TOTAL, d.mass = -1; });
-  body_refused(PLUMB_E_INVALID_ARGUMENT, "inertia.x is 0", [](auto& d) { d.mass_mode = PLUMB_MASS_EXPLICIT, d.mass = 1; });
+  body_refused(PLUMB_E_INVALID_ARGUMENT, "mass is -1",
+               [](auto& d) { d.mass_mode = PLUMB_MASS_FROM_TOTAL, d.mass = -1; });
+  body_refused(PLUMB_E_INVALID_ARGUMENT, "inertia.x is 0",
+               [](auto& d) { d.mass_mode = PLUMB_MASS_EXPLICIT, d.mass = 1; });
   body_refused(PLUMB_E_INVALID_ARGUMENT, "friction", [](auto& d) { d.material.friction = -0.1; });
   body_refused(PLUMB_E_INVALID_ARGUMENT, "restitution", [](auto& d) { d.material.restitution = 1.1; });
   body_refused(PLUMB_E_INVALID_ARGUMENT, "linear_damping", [](auto& d) { d.linear_damping = -1; });
@@ -116,12 +121,18 @@ TEST_F(Guard, RefusesBadShapesByName) {
 TEST_F(Guard, RefusesBadRowsByName) {
   const PlumbBody id = add(body());
   const auto write = [&](PlumbField field, PlumbBody body, std::vector<double> values) {
-    return world->write(field, {&body, 1}, ConstRows(reinterpret_cast<const std::byte*>(values.data()), 1, values.size() * sizeof(double), PLUMB_F64));
+    return world->write(
+        field, {&body, 1},
+        ConstRows(reinterpret_cast<const std::byte*>(values.data()), 1, values.size() * sizeof(double), PLUMB_F64));
   };
-  refused(PLUMB_E_INVALID_ARGUMENT, "pose column 1 is nan", [&] { return write(PLUMB_FIELD_POSE, id, {0, kNan, 0, 0, 0, 0, 1}); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "pose column 1 is nan", [&] {
+    return write(PLUMB_FIELD_POSE, id, {0, kNan, 0, 0, 0, 0, 1});
+  });
   refused(PLUMB_E_INVALID_ARGUMENT, "orientation", [&] { return write(PLUMB_FIELD_POSE, id, {0, 0, 0, 0, 0, 0, 2}); });
   refused(PLUMB_E_INVALID_ARGUMENT, "stride", [&] { return write(PLUMB_FIELD_POSE, id, {0, 0, 0}); });
-  refused(PLUMB_E_INVALID_ARGUMENT, "not kinematic", [&] { return write(PLUMB_FIELD_KINEMATIC_TARGET, id, {0, 0, 0, 0, 0, 0, 1}); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "not kinematic", [&] {
+    return write(PLUMB_FIELD_KINEMATIC_TARGET, id, {0, 0, 0, 0, 0, 0, 1});
+  });
   refused(PLUMB_E_INVALID_ARGUMENT, "restitution", [&] { return write(PLUMB_FIELD_MATERIAL, id, {0.5, 2}); });
   refused(PLUMB_E_INVALID_ARGUMENT, "field is 77", [&] { return write(77, id, {0}); });
   PlumbBodyDesc ground = body();
@@ -140,7 +151,10 @@ TEST_F(Guard, HandlesGoStaleForEver) {
   EXPECT_EQ(slot_of(first), slot_of(second));
   EXPECT_NE(first, second);
   double row[7];
-  refused(PLUMB_E_STALE_HANDLE, "ids[0]", [&] { return world->read(PLUMB_FIELD_POSE, {&first, 1}, Rows(reinterpret_cast<std::byte*>(row), 1, sizeof row, PLUMB_F64)); });
+  refused(PLUMB_E_STALE_HANDLE, "ids[0]", [&] {
+    return world->read(PLUMB_FIELD_POSE, {&first, 1},
+                       Rows(reinterpret_cast<std::byte*>(row), 1, sizeof row, PLUMB_F64));
+  });
   refused(PLUMB_E_STALE_HANDLE, "bodies[0]", [&] { return world->destroy_bodies({&first, 1}); });
   const PlumbBody twice[2] = {second, second};
   refused(PLUMB_E_INVALID_ARGUMENT, "twice", [&] { return world->destroy_bodies(twice); });
@@ -151,8 +165,8 @@ TEST_F(Guard, WorksOutMassOnce) {
   add(body());
   const PlumbBodyDesc& made = FakeWorld::last->made.back();
   EXPECT_EQ(made.mass_mode, PLUMB_MASS_EXPLICIT);
-  EXPECT_DOUBLE_EQ(made.mass, 6000);                         // 1 x 2 x 3 m of density 1000
-  EXPECT_DOUBLE_EQ(made.inertia.x, 6000 / 12.0 * (4 + 9));   // m/12 (b^2 + c^2)
+  EXPECT_DOUBLE_EQ(made.mass, 6000);                        // 1 x 2 x 3 m of density 1000
+  EXPECT_DOUBLE_EQ(made.inertia.x, 6000 / 12.0 * (4 + 9));  // m/12 (b^2 + c^2)
   EXPECT_DOUBLE_EQ(made.inertia.y, 6000 / 12.0 * (1 + 9));
   EXPECT_DOUBLE_EQ(made.inertia.z, 6000 / 12.0 * (1 + 4));
   EXPECT_EQ(made.inertia_orientation.w, 1);
@@ -163,7 +177,8 @@ TEST_F(Guard, WorksOutMassOnce) {
   const PlumbBody id = add(particle);
   EXPECT_EQ(FakeWorld::last->made.back().inertia.x, 0);
   double row[11];
-  ASSERT_EQ(world->read(PLUMB_FIELD_MASS, {&id, 1}, Rows(reinterpret_cast<std::byte*>(row), 1, sizeof row, PLUMB_F64)), PLUMB_OK);
+  ASSERT_EQ(world->read(PLUMB_FIELD_MASS, {&id, 1}, Rows(reinterpret_cast<std::byte*>(row), 1, sizeof row, PLUMB_F64)),
+            PLUMB_OK);
   EXPECT_DOUBLE_EQ(row[0], 3);
 }
 
@@ -184,7 +199,8 @@ TEST_F(Guard, KeepsShapesAndBodiesThatAreInUse) {
 
 TEST_F(Guard, RefusesBadJointsByName) {
   const PlumbBody a = add(body()), b = add(body());
-  const auto joint_refused = [&](PlumbResult code, const std::string& named, const std::function<void(PlumbJointDesc&)>& spoil) {
+  const auto joint_refused = [&](PlumbResult code, const std::string& named,
+                                 const std::function<void(PlumbJointDesc&)>& spoil) {
     PlumbJointDesc desc = joint_desc(PLUMB_JOINT_HINGE);
     desc.body_a = a;
     desc.body_b = b;
@@ -244,12 +260,19 @@ TEST_F(Guard, PhasesOfAStep) {
 TEST_F(Guard, SettingsAreCheckedByNameTypeAndRange) {
   ISettings& settings = *world->settings();
   const auto number = [](PlumbSettingType type, double value) { return PlumbSettingValue{type, 0, value, nullptr}; };
-  refused(PLUMB_E_INVALID_ARGUMENT, "itterations", [&] { return settings.set_setting("itterations", number(PLUMB_SETTING_INT, 5)); });
-  refused(PLUMB_E_INVALID_ARGUMENT, "from 1 to 100", [&] { return settings.set_setting("iterations", number(PLUMB_SETTING_INT, 101)); });
-  refused(PLUMB_E_INVALID_ARGUMENT, "whole", [&] { return settings.set_setting("iterations", number(PLUMB_SETTING_INT, 2.5)); });
-  refused(PLUMB_E_INVALID_ARGUMENT, "another type", [&] { return settings.set_setting("iterations", number(PLUMB_SETTING_FLOAT, 5)); });
-  refused(PLUMB_E_INVALID_ARGUMENT, "fast, exact", [&] { return settings.set_setting("solver", {PLUMB_SETTING_CHOICE, 0, 0, "quick"}); });
-  refused(PLUMB_E_INVALID_ARGUMENT, "PlumbWorldDesc.settings", [&] { return settings.set_setting("margin", number(PLUMB_SETTING_FLOAT, 0.1)); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "itterations",
+          [&] { return settings.set_setting("itterations", number(PLUMB_SETTING_INT, 5)); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "from 1 to 100",
+          [&] { return settings.set_setting("iterations", number(PLUMB_SETTING_INT, 101)); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "whole",
+          [&] { return settings.set_setting("iterations", number(PLUMB_SETTING_INT, 2.5)); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "another type",
+          [&] { return settings.set_setting("iterations", number(PLUMB_SETTING_FLOAT, 5)); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "fast, exact", [&] {
+    return settings.set_setting("solver", {PLUMB_SETTING_CHOICE, 0, 0, "quick"});
+  });
+  refused(PLUMB_E_INVALID_ARGUMENT, "PlumbWorldDesc.settings",
+          [&] { return settings.set_setting("margin", number(PLUMB_SETTING_FLOAT, 0.1)); });
   EXPECT_EQ(settings.set_setting("iterations", number(PLUMB_SETTING_INT, 20)), PLUMB_OK);
   PlumbSettingValue value{};
   EXPECT_EQ(settings.get_setting("iterations", value), PLUMB_OK);
@@ -298,12 +321,16 @@ TEST_F(Guard, LentRowsOutliveTheWorld) {
 
 TEST_F(Guard, QueriesAreChecked) {
   PlumbRay ray{{0, 0, 0}, {0, 0, 0}, {1, ~0u, 0, 0}};
-  refused(PLUMB_E_INVALID_ARGUMENT, "rays[0].translation", [&] { return world->queries()->cast_rays(PLUMB_HIT_ALL, {&ray, 1}).result; });
+  refused(PLUMB_E_INVALID_ARGUMENT, "rays[0].translation", [&] {
+    return world->queries()->cast_rays(PLUMB_HIT_ALL, {&ray, 1}).result;
+  });
   ray.translation.x = 1;
   refused(PLUMB_E_INVALID_ARGUMENT, "mode is 5", [&] { return world->queries()->cast_rays(5, {&ray, 1}).result; });
   EXPECT_EQ(world->queries()->cast_rays(PLUMB_HIT_CLOSEST, {&ray, 1}).hits.size(), 1u);
   PlumbCast cast{99, identity_pose(), {1, 0, 0}, {1, ~0u, 0, 0}};
-  refused(PLUMB_E_STALE_HANDLE, "casts[0].shape", [&] { return world->queries()->cast_shapes(PLUMB_HIT_ALL, {&cast, 1}).result; });
+  refused(PLUMB_E_STALE_HANDLE, "casts[0].shape", [&] {
+    return world->queries()->cast_shapes(PLUMB_HIT_ALL, {&cast, 1}).result;
+  });
 }
 
 class UndeclaredNeeds : public Guard {
@@ -338,7 +365,9 @@ TEST_F(UndeclaredNeeds, EachIsNamed) {
   alone("PLUMB_NEED_FILTERS", [](auto& d) { d.filter.group = 3; });
   PlumbJointDesc joint = joint_desc(PLUMB_JOINT_BALL);
   PlumbJoint id = 0;
-  refused(PLUMB_E_NOT_DECLARED, "PLUMB_NEED_JOINTS", [&] { return world->joints()->create_joints({&joint, 1}, {&id, 1}); });
+  refused(PLUMB_E_NOT_DECLARED, "PLUMB_NEED_JOINTS", [&] {
+    return world->joints()->create_joints({&joint, 1}, {&id, 1});
+  });
   std::span<const std::byte> data;
   refused(PLUMB_E_NOT_DECLARED, "PLUMB_NEED_SNAPSHOT", [&] { return world->snapshot()->save(data); });
 }
@@ -349,7 +378,8 @@ TEST(CreateWorld, RefusesNeedsThatTheEngineLacks) {
     FAIL() << "a world with a need that the engine lacks was made";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), PLUMB_E_UNSUPPORTED);
-    EXPECT_NE(std::string(error.what()).find("PLUMB_NEED_CCD: no continuous collision"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("PLUMB_NEED_CCD: no continuous collision"), std::string::npos)
+        << error.what();
   }
 }
 

@@ -34,7 +34,8 @@ TEST(Loader, FindsBackendsOnTheEnvironmentsPathFirst) {
 }
 
 TEST(Loader, OpensAFileOnce) {
-  const Backend first = open_backend(SAMPLE_FOLDER "/plumb-sample.so"), second = open_backend(SAMPLE_FOLDER "/./plumb-sample.so");
+  const Backend first = open_backend(SAMPLE_FOLDER "/plumb-sample.so"),
+                second = open_backend(SAMPLE_FOLDER "/./plumb-sample.so");
   EXPECT_EQ(&first.table(), &second.table());
   EXPECT_EQ(first.capability(PLUMB_CAP_JOINT, PLUMB_JOINT_BALL), PLUMB_NONE);
   EXPECT_TRUE(first.settings().empty());
@@ -65,7 +66,8 @@ TEST(Loader, TheSampleFalls) {
     check(*world, world->wait(report));
   }
   double pose[7];
-  check(*world, world->read(PLUMB_FIELD_POSE, {&id, 1}, Rows(reinterpret_cast<std::byte*>(pose), 1, sizeof pose, PLUMB_F64)));
+  check(*world,
+        world->read(PLUMB_FIELD_POSE, {&id, 1}, Rows(reinterpret_cast<std::byte*>(pose), 1, sizeof pose, PLUMB_F64)));
   EXPECT_NEAR(pose[1], -9.81 * 2 * (2 + 1.0 / 60) / 2, 1e-9);  // semi-implicit Euler: g T (T + dt) / 2
 }
 

@@ -24,7 +24,8 @@ TEST(TouchTracker, EqualsSetDifferences) {
     std::vector<PlumbEvent> events;
     tracker.finish_step(events);
     std::set<std::pair<PlumbBody, PlumbBody>> begun, ended;
-    for (const PlumbEvent& event : events) (event.type == PLUMB_EVENT_CONTACT_BEGIN ? begun : ended).insert({event.body_a, event.body_b});
+    for (const PlumbEvent& event : events)
+      (event.type == PLUMB_EVENT_CONTACT_BEGIN ? begun : ended).insert({event.body_a, event.body_b});
     EXPECT_EQ(begun.size() + ended.size(), events.size()) << "an event came twice";
     for (const auto& pair : now) EXPECT_EQ(begun.contains(pair), !before.contains(pair));
     for (const auto& pair : before) EXPECT_EQ(ended.contains(pair), !now.contains(pair));

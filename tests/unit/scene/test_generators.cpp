@@ -24,7 +24,8 @@ struct Generated {
   }
   [[nodiscard]] Row cube(std::size_t i) const {
     const PlumbPose& p = bodies.at(statics + i).desc.pose;
-    return {p.position.x, p.position.y, p.position.z, p.orientation.x, p.orientation.y, p.orientation.z, p.orientation.w};
+    return {p.position.x,    p.position.y,    p.position.z,   p.orientation.x,
+            p.orientation.y, p.orientation.z, p.orientation.w};
   }
   [[nodiscard]] std::array<double, 6> fixed(std::size_t i) const {
     const PlumbVec3& p = bodies.at(i).desc.pose.position;
@@ -78,7 +79,8 @@ TEST(Generators, WidePileStartsWithoutOverlaps) {
   for (std::size_t i = 0; i < 200; ++i) {
     for (std::size_t j = i + 1; j < 200; ++j) {
       const Row a = pile.cube(i), b = pile.cube(j);
-      const double square = (a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) + (a[2] - b[2]) * (a[2] - b[2]);
+      const double square =
+          (a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) + (a[2] - b[2]) * (a[2] - b[2]);
       EXPECT_GT(square, 3.0) << i << " " << j;  // their bounding spheres have the diameter sqrt(3)
     }
   }

@@ -35,10 +35,12 @@ TEST(Measures, RefuseUnknownKindsAndArguments) {
     }
     return std::string("nothing was thrown");
   };
-  EXPECT_NE(refusal("kind", "free_fal").find("A1-free-fall.json:15: unknown measure \"free_fal\"; did you mean \"free_fall\"?"),
+  EXPECT_NE(refusal("kind", "free_fal")
+                .find("A1-free-fall.json:15: unknown measure \"free_fal\"; did you mean \"free_fall\"?"),
             std::string::npos)
       << refusal("kind", "free_fal");
-  EXPECT_NE(refusal("bodi", "ball").find("unknown argument of measure free_fall \"bodi\"; did you mean \"body\"?"), std::string::npos);
+  EXPECT_NE(refusal("bodi", "ball").find("unknown argument of measure free_fall \"bodi\"; did you mean \"body\"?"),
+            std::string::npos);
 }
 
 /// Keeps what is added.

@@ -27,7 +27,8 @@ TEST(Parameters, AreNumbersExpressionsOrNumbersWithUnits) {
 
 TEST(Parameters, AreRefusedInWords) {
   const ParameterSpec spec = height();
-  EXPECT_NE(refusal(spec, "50 mn").find("unknown unit \"mn\"; did you mean \"m"), std::string::npos) << refusal(spec, "50 mn");
+  EXPECT_NE(refusal(spec, "50 mn").find("unknown unit \"mn\"; did you mean \"m"), std::string::npos)
+      << refusal(spec, "50 mn");
   EXPECT_NE(refusal(spec, "5 kg").find("does not measure"), std::string::npos);
   EXPECT_NE(refusal(spec, "51").find("above its maximum 50"), std::string::npos);
   EXPECT_NE(refusal(spec, "0").find("below its minimum 0.1"), std::string::npos);

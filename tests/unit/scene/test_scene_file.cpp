@@ -125,25 +125,36 @@ TEST_F(SceneFiles, TakeWhatTheyDoNotNeedFromTheirBodies) {
 
 TEST_F(SceneFiles, AreRefusedWithLineAndNearestWord) {
   EXPECT_EQ(refusal("\"radius\"", "\"radios\""), "T1-test.json:13: unknown key \"radios\"; did you mean \"radius\"?");
-  EXPECT_EQ(refusal("\"friction\", \"joints\"", "\"fricton\""), "T1-test.json:9: unknown need \"fricton\"; did you mean \"friction\"?");
-  EXPECT_EQ(refusal("\"unit\": \"1\"", "\"unit\": \"kgg\""), "T1-test.json:4: unknown unit \"kgg\"; did you mean \"kg\"?");
-  EXPECT_EQ(refusal("\"half / 2\"", "\"hlaf / 2\""), "T1-test.json:8: \"hlaf / 2\": unknown name \"hlaf\"; did you mean \"half\"?");
-  EXPECT_EQ(refusal("\"body_b\": \"{kind}0_0\"", "\"body_b\": \"{kind}0_9\""), "T1-test.json:22: unknown body \"ball0_9\"; did you mean \"ball0_0\"?");
-  EXPECT_EQ(refusal("\"shape\": \"{kind}\"", "\"shape\": \"bal\""), "T1-test.json:17: unknown shape \"bal\"; did you mean \"ball\"?");
-  EXPECT_EQ(refusal("\"radius\": 0.5", "\"radius\": true"), "T1-test.json:13: expected a number or an expression, found boolean");
+  EXPECT_EQ(refusal("\"friction\", \"joints\"", "\"fricton\""),
+            "T1-test.json:9: unknown need \"fricton\"; did you mean \"friction\"?");
+  EXPECT_EQ(refusal("\"unit\": \"1\"", "\"unit\": \"kgg\""),
+            "T1-test.json:4: unknown unit \"kgg\"; did you mean \"kg\"?");
+  EXPECT_EQ(refusal("\"half / 2\"", "\"hlaf / 2\""),
+            "T1-test.json:8: \"hlaf / 2\": unknown name \"hlaf\"; did you mean \"half\"?");
+  EXPECT_EQ(refusal("\"body_b\": \"{kind}0_0\"", "\"body_b\": \"{kind}0_9\""),
+            "T1-test.json:22: unknown body \"ball0_9\"; did you mean \"ball0_0\"?");
+  EXPECT_EQ(refusal("\"shape\": \"{kind}\"", "\"shape\": \"bal\""),
+            "T1-test.json:17: unknown shape \"bal\"; did you mean \"ball\"?");
+  EXPECT_EQ(refusal("\"radius\": 0.5", "\"radius\": true"),
+            "T1-test.json:13: expected a number or an expression, found boolean");
   EXPECT_EQ(refusal("\"seconds\": \"n + 1\"", "\"seconds\": -1"), "T1-test.json:10: seconds must be above 0, not -1");
   EXPECT_EQ(refusal("\"rx\"", "\"rw\""), "T1-test.json:23: unknown axis \"rw\"; did you mean \"rx\"?");
   EXPECT_EQ(refusal("\"slug\": \"test\", ", ""), "T1-test.json:1: the key \"slug\" is missing here");
   EXPECT_EQ(refusal("[1, 2]", "[1, -2]"), "T1-test.json:7: parameter n = -2 is below its minimum 0");
   EXPECT_EQ(refusal("{ \"n\": 5 }", "{ \"m\": 5 }").substr(0, 47), "T1-test.json:7: scene T1: unknown parameter \"m\"");
-  EXPECT_EQ(refusal("\"name\": \"extra\", \"when\": \"kind == box\"", "\"name\": \"ball0_0\""), "T1-test.json:18: a second body is named \"ball0_0\"");
-  EXPECT_EQ(refusal("\"name\": \"quarter\"", "\"name\": \"n\""), "T1-test.json:8: \"n\" is the name of something else already");
-  EXPECT_EQ(refusal("\"type\": \"sphere\",", "\"type\": \"sphere\", \"half_height\": 1,"), "T1-test.json:13: a sphere has no half_height");
-  EXPECT_EQ(refusal("\"repeat\": { \"i\": \"n\"", "\"repeat\": { \"i\": 1e9"), "T1-test.json:17: expected a whole number from 0 to 2000000, found 1000000000");
+  EXPECT_EQ(refusal("\"name\": \"extra\", \"when\": \"kind == box\"", "\"name\": \"ball0_0\""),
+            "T1-test.json:18: a second body is named \"ball0_0\"");
+  EXPECT_EQ(refusal("\"name\": \"quarter\"", "\"name\": \"n\""),
+            "T1-test.json:8: \"n\" is the name of something else already");
+  EXPECT_EQ(refusal("\"type\": \"sphere\",", "\"type\": \"sphere\", \"half_height\": 1,"),
+            "T1-test.json:13: a sphere has no half_height");
+  EXPECT_EQ(refusal("\"repeat\": { \"i\": \"n\"", "\"repeat\": { \"i\": 1e9"),
+            "T1-test.json:17: expected a whole number from 0 to 2000000, found 1000000000");
 }
 
 TEST_F(SceneFiles, ThatAreNotJsonAreRefusedWithTheLine) {
-  EXPECT_EQ(refusal("\"seconds\": \"n + 1\",", "\"seconds\" \"n + 1\",").substr(0, 31), "T1-test.json:10: not valid JSON");
+  EXPECT_EQ(refusal("\"seconds\": \"n + 1\",", "\"seconds\" \"n + 1\",").substr(0, 31),
+            "T1-test.json:10: not valid JSON");
   EXPECT_NE(refusal("\"id\": \"T1\",", "\"id\": \"T1\", \"id\": \"T2\",").find("stands twice"), std::string::npos);
   EXPECT_NE(refusal("0.5", "1e999").find("JSON"), std::string::npos);
   EXPECT_NE(refusal("[1, 2]", std::string(100, '[') + std::string(100, ']')).find("nested deeper"), std::string::npos);
@@ -198,7 +209,8 @@ TEST(Catalogue, SchemaAndReaderKnowTheSameKeys) {
   std::ifstream file(std::string(PLUMB_SCENES_FOLDER) + "/scene.schema.json");
   const auto schema = nlohmann::json::parse(file);
   for (const auto& [name, keys] : scene_keys()) {
-    const auto& properties = name.empty() ? schema.at("properties") : schema.at("definitions").at(name).at("properties");
+    const auto& properties =
+        name.empty() ? schema.at("properties") : schema.at("definitions").at(name).at("properties");
     std::set<std::string> in_schema;
     for (const auto& [key, ignored] : properties.items()) in_schema.insert(key);
     EXPECT_EQ(in_schema, std::set<std::string>(keys.begin(), keys.end())) << "definition " << name;

@@ -60,7 +60,8 @@ TEST(Impact, CubeOnEdgeAndVertex) {
   const Eigen::AngleAxisd tilt(40 * degree, Eigen::Vector3d(1, 0, 1).normalized());
   Eigen::Vector3d lowest = Eigen::Vector3d::Zero();
   for (int corner = 0; corner < 8; ++corner) {
-    const Eigen::Vector3d at = tilt * Eigen::Vector3d(corner & 1 ? .5 : -.5, corner & 2 ? .5 : -.5, corner & 4 ? .5 : -.5);
+    const Eigen::Vector3d at =
+        tilt * Eigen::Vector3d(corner & 1 ? .5 : -.5, corner & 2 ? .5 : -.5, corner & 4 ? .5 : -.5);
     if (at.y() < lowest.y()) lowest = at;
   }
   const double vertex = std::hypot(lowest.x(), lowest.z());

@@ -18,8 +18,8 @@ inline void sort_events(std::vector<PlumbEvent>& events) {
   });
 }
 
-/// Call touch() for every touching pair of a step (as often as you like), then finish_step(). Sorted vectors and a merge:
-/// no allocation once warm.
+/// Call touch() for every touching pair of a step (as often as you like), then finish_step(). Sorted vectors and a
+/// merge: no allocation once warm.
 class TouchTracker {
  public:
   /// A pair in which a sensor is: the sensor first.

@@ -11,8 +11,8 @@
 namespace plumb {
 
 struct WorldInit {
-  PlumbWorldDesc desc;       ///< threads >= 1; settings checked
-  const PlumbHost* host;     ///< may be null, and so may each of its functions
+  PlumbWorldDesc desc;    ///< threads >= 1; settings checked
+  const PlumbHost* host;  ///< may be null, and so may each of its functions
   std::span<const PlumbSettingInfo> infos;
   std::vector<PlumbSettingValue> values;  ///< in force at the start: the default, or what desc asks for
 

@@ -15,13 +15,13 @@
 // user_data, PLUMB_FIELD_MASS and shapes in use answered for you. A Plumb call that fails must have changed nothing:
 // throw before you change, or undo. Throw PLUMB_E_WORLD_LOST when you cannot.
 //
-// For the taking: backend/touch_tracker.hpp makes begin and end events out of "who touches whom"; backend/convex_hull.hpp
-// gives the faces of a hull.
+// For the taking: backend/touch_tracker.hpp makes begin and end events out of "who touches whom";
+// backend/convex_hull.hpp gives the faces of a hull.
 #pragma once
 
 #include "plumb/backend/tables.hpp"
 
-#define PLUMB_BACKEND(WorldClass)                                                                                    \
-  extern "C" PLUMB_EXPORT PlumbResult plumb_backend_open(const PlumbOpenRequest* request, PlumbOpenReply* reply) {   \
-    return plumb::backend::open<WorldClass>(request, reply);                                                         \
+#define PLUMB_BACKEND(WorldClass)                                                                                  \
+  extern "C" PLUMB_EXPORT PlumbResult plumb_backend_open(const PlumbOpenRequest* request, PlumbOpenReply* reply) { \
+    return plumb::backend::open<WorldClass>(request, reply);                                                       \
   }

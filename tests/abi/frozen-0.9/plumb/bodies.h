@@ -38,9 +38,9 @@ enum {
 
 typedef uint32_t PlumbMassMode;
 enum {
-  PLUMB_MASS_FROM_DENSITY = 0,  /* mass, centre of mass and inertia of the shape filled with density */
-  PLUMB_MASS_FROM_TOTAL = 1,    /* as above, scaled so that the mass is mass; a body without a shape has inertia 0 */
-  PLUMB_MASS_EXPLICIT = 2       /* mass, centre_of_mass, inertia and inertia_orientation as given */
+  PLUMB_MASS_FROM_DENSITY = 0, /* mass, centre of mass and inertia of the shape filled with density */
+  PLUMB_MASS_FROM_TOTAL = 1,   /* as above, scaled so that the mass is mass; a body without a shape has inertia 0 */
+  PLUMB_MASS_EXPLICIT = 2      /* mass, centre_of_mass, inertia and inertia_orientation as given */
 };
 
 /* Whether two bodies may touch: equal non-zero groups decide (positive: always, negative: never);
@@ -63,11 +63,11 @@ typedef struct PlumbBodyDesc {
   PlumbVec3 angular_velocity; /* rad/s, world axes */
   PlumbMassMode mass_mode;    /* dynamic bodies only */
   uint32_t reserved;
-  double density;                 /* kg/m3, > 0 */
-  double mass;                    /* kg, > 0 */
-  PlumbVec3 centre_of_mass;       /* body frame, m */
-  PlumbVec3 inertia;              /* principal moments about the centre of mass, kg m2; 0 0 0 with NO_ROTATION */
-  PlumbQuat inertia_orientation;  /* from principal axes to the body frame */
+  double density;                /* kg/m3, > 0 */
+  double mass;                   /* kg, > 0 */
+  PlumbVec3 centre_of_mass;      /* body frame, m */
+  PlumbVec3 inertia;             /* principal moments about the centre of mass, kg m2; 0 0 0 with NO_ROTATION */
+  PlumbQuat inertia_orientation; /* from principal axes to the body frame */
   PlumbMaterial material;
   double gravity_scale;
   double linear_damping;  /* c in dv/dt = -c v, 1/s, >= 0; needs PLUMB_NEED_DAMPING when not 0 */
@@ -90,12 +90,12 @@ enum {
   PLUMB_FIELD_IMPULSE_AT_POINT = 7, /* 6: impulse, world point, write only */
   PLUMB_FIELD_AWAKE = 8,            /* 1: 0 asleep, 1 awake */
   PLUMB_FIELD_KINEMATIC_TARGET = 9, /* 7: pose that a kinematic body reaches in exactly the next step, write only */
-  PLUMB_FIELD_MASS = 10,            /* 11: mass, centre of mass (3), principal inertia (3), inertia orientation (4); read only */
-  PLUMB_FIELD_MATERIAL = 11,        /* 2: friction, restitution */
-  PLUMB_FIELD_GRAVITY_SCALE = 12,   /* 1 */
-  PLUMB_FIELD_DAMPING = 13,         /* 2: linear, angular, 1/s */
-  PLUMB_FIELD_SURFACE_VELOCITY = 14,/* 3: m/s, body frame */
-  PLUMB_FIELD_FILTER = 15,          /* 3: category, mask, group, as whole numbers */
+  PLUMB_FIELD_MASS = 10, /* 11: mass, centre of mass (3), principal inertia (3), inertia orientation (4); read only */
+  PLUMB_FIELD_MATERIAL = 11,         /* 2: friction, restitution */
+  PLUMB_FIELD_GRAVITY_SCALE = 12,    /* 1 */
+  PLUMB_FIELD_DAMPING = 13,          /* 2: linear, angular, 1/s */
+  PLUMB_FIELD_SURFACE_VELOCITY = 14, /* 3: m/s, body frame */
+  PLUMB_FIELD_FILTER = 15,           /* 3: category, mask, group, as whole numbers */
   PLUMB_FIELD_COUNT = 16
 };
 

@@ -32,8 +32,8 @@ typedef struct PlumbCollideTable {
   uint32_t struct_size;
   uint32_t reserved;
   /* [query] results[count], points[capacity]; *point_count is how many there are, also when PLUMB_TRUNCATED. */
-  PlumbResult (*pairs)(PlumbWorld *world, const PlumbPosedPair *pairs, size_t stride, uint32_t count,
-                       PlumbPairResult *results, PlumbPairPoint *points, uint32_t capacity, uint32_t *point_count);
+  PlumbResult (*pairs)(PlumbWorld* world, const PlumbPosedPair* pairs, size_t stride, uint32_t count,
+                       PlumbPairResult* results, PlumbPairPoint* points, uint32_t capacity, uint32_t* point_count);
 } PlumbCollideTable;
 
 #ifdef __cplusplus

@@ -23,8 +23,8 @@ typedef struct PlumbDebugBox {
 
 typedef struct PlumbDebugAxis {
   PlumbBody body_a, body_b;
-  PlumbVec3 axis;      /* unit, from a to b: of least overlap, or separating */
-  double separation;   /* m along the axis; negative: overlap */
+  PlumbVec3 axis;    /* unit, from a to b: of least overlap, or separating */
+  double separation; /* m along the axis; negative: overlap */
 } PlumbDebugAxis;
 
 /* As of the last step. [world]. out[capacity]; *count is how many there are, also when PLUMB_TRUNCATED.
@@ -32,9 +32,9 @@ typedef struct PlumbDebugAxis {
 typedef struct PlumbDebugTable {
   uint32_t struct_size;
   uint32_t reserved;
-  PlumbResult (*pairs)(PlumbWorld *world, PlumbDebugPair *out, uint32_t capacity, uint32_t *count);
-  PlumbResult (*boxes)(PlumbWorld *world, PlumbDebugBox *out, uint32_t capacity, uint32_t *count);
-  PlumbResult (*axes)(PlumbWorld *world, PlumbDebugAxis *out, uint32_t capacity, uint32_t *count);
+  PlumbResult (*pairs)(PlumbWorld* world, PlumbDebugPair* out, uint32_t capacity, uint32_t* count);
+  PlumbResult (*boxes)(PlumbWorld* world, PlumbDebugBox* out, uint32_t capacity, uint32_t* count);
+  PlumbResult (*axes)(PlumbWorld* world, PlumbDebugAxis* out, uint32_t capacity, uint32_t* count);
 } PlumbDebugTable;
 
 #ifdef __cplusplus

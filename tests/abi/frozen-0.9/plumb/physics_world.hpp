@@ -1,10 +1,11 @@
 // IPhysicsWorld: the C++ face of the wall. Each side compiles it for itself; no C++ type crosses.
 //
 // A host gets one from plumb::Backend::create_world (loader.hpp) and calls a loaded engine through it. A backend author
-// derives from it (backend.hpp) and a macro turns the class into the table of plumb.h. The meaning of every call is that
-// of the function of the same name in plumb.h; what differs between the two sides is said here.
+// derives from it (backend.hpp) and a macro turns the class into the table of plumb.h. The meaning of every call is
+// that of the function of the same name in plumb.h; what differs between the two sides is said here.
 //
-// Failures: the host gets results below 0 and asks error_text(). A backend throws plumb::Error instead of returning one.
+// Failures: the host gets results below 0 and asks error_text(). A backend throws plumb::Error instead of returning
+// one.
 #pragma once
 
 #include <cstddef>
@@ -57,9 +58,7 @@ class BasicRows {
   [[nodiscard]] Byte* data() const { return data_; }
 
   /// Writes the first `columns` numbers of a row.
-  void put(std::size_t row, const double* values, std::size_t columns) const
-    requires(!std::is_const_v<Byte>)
-  {
+  void put(std::size_t row, const double* values, std::size_t columns) const requires(!std::is_const_v<Byte>) {
     Byte* at = data_ + row * stride_;
     if (type_ == PLUMB_F64) {
       std::memcpy(at, values, columns * sizeof(double));

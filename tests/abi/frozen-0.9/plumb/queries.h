@@ -43,9 +43,9 @@ typedef struct PlumbOverlap {
 } PlumbOverlap;
 
 typedef struct PlumbHit {
-  PlumbBody body; /* 0: nothing */
-  uint32_t query; /* index into the batch */
-  uint32_t child; /* of a compound, triangle of a mesh; else 0 */
+  PlumbBody body;     /* 0: nothing */
+  uint32_t query;     /* index into the batch */
+  uint32_t child;     /* of a compound, triangle of a mesh; else 0 */
   double fraction;    /* of the translation, 0..1; 0 for overlaps */
   PlumbVec3 position; /* world, m; NaN for overlaps */
   PlumbVec3 normal;   /* of the surface that was hit, unit; NaN for overlaps */
@@ -56,13 +56,13 @@ typedef struct PlumbHit {
 typedef struct PlumbQueriesTable {
   uint32_t struct_size;
   uint32_t reserved;
-  PlumbResult (*rays)(PlumbWorld *world, PlumbHitMode mode, const PlumbRay *rays, size_t stride, uint32_t count,
-                      PlumbHit *hits, uint32_t capacity, uint32_t *hit_count);
-  PlumbResult (*casts)(PlumbWorld *world, PlumbHitMode mode, const PlumbCast *casts, size_t stride, uint32_t count,
-                       PlumbHit *hits, uint32_t capacity, uint32_t *hit_count);
+  PlumbResult (*rays)(PlumbWorld* world, PlumbHitMode mode, const PlumbRay* rays, size_t stride, uint32_t count,
+                      PlumbHit* hits, uint32_t capacity, uint32_t* hit_count);
+  PlumbResult (*casts)(PlumbWorld* world, PlumbHitMode mode, const PlumbCast* casts, size_t stride, uint32_t count,
+                       PlumbHit* hits, uint32_t capacity, uint32_t* hit_count);
   /* Always all hits. */
-  PlumbResult (*overlaps)(PlumbWorld *world, const PlumbOverlap *overlaps, size_t stride, uint32_t count, PlumbHit *hits,
-                          uint32_t capacity, uint32_t *hit_count);
+  PlumbResult (*overlaps)(PlumbWorld* world, const PlumbOverlap* overlaps, size_t stride, uint32_t count,
+                          PlumbHit* hits, uint32_t capacity, uint32_t* hit_count);
 } PlumbQueriesTable;
 
 #ifdef __cplusplus

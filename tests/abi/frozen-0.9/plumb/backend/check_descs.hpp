@@ -91,7 +91,8 @@ inline void check_shape(const Where& where, const PlumbShapeDesc& desc) {
       for (std::uint32_t i = 0; i < desc.child_count; ++i) {
         const std::string child = "children[" + std::to_string(i) + "]";
         require_pose(where, (child + ".pose").c_str(), desc.children[i].pose);
-        if (desc.children[i].has_material != 0) check_material(where, (child + ".material").c_str(), desc.children[i].material);
+        if (desc.children[i].has_material != 0)
+          check_material(where, (child + ".material").c_str(), desc.children[i].material);
       }
       return;
     default: refuse_value(where, "type", desc.type, "a PlumbShapeType");
@@ -104,13 +105,16 @@ inline void check_mass(const Where& where, const PlumbBodyDesc& desc) {
     case PLUMB_MASS_FROM_DENSITY:
       require_positive(where, "density", desc.density);
       if (desc.shape == 0)
-        refuse(PLUMB_E_INVALID_ARGUMENT, where.member("mass_mode") + " is PLUMB_MASS_FROM_DENSITY, but the body has no shape; give its mass");
+        refuse(PLUMB_E_INVALID_ARGUMENT,
+               where.member("mass_mode") + " is PLUMB_MASS_FROM_DENSITY, but the body has no shape; give its mass");
       return;
     case PLUMB_MASS_FROM_TOTAL:
       require_positive(where, "mass", desc.mass);
       if (desc.shape == 0 && turns)
-        refuse(PLUMB_E_INVALID_ARGUMENT,
-               where.member("") + " can turn but has neither shape nor inertia; set PLUMB_BODY_NO_ROTATION or use PLUMB_MASS_EXPLICIT");
+        refuse(
+            PLUMB_E_INVALID_ARGUMENT,
+            where.member("") +
+                " can turn but has neither shape nor inertia; set PLUMB_BODY_NO_ROTATION or use PLUMB_MASS_EXPLICIT");
       return;
     case PLUMB_MASS_EXPLICIT: {
       require_positive(where, "mass", desc.mass);

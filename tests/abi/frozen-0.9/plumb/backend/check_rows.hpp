@@ -7,9 +7,22 @@
 namespace plumb::backend {
 
 [[nodiscard]] constexpr const char* field_name(PlumbField field) {
-  constexpr const char* names[PLUMB_FIELD_COUNT] = {
-      "pose",    "velocity",      "force",         "torque",  "impulse",           "angular impulse", "force at point", "impulse at point",
-      "awake",   "kinematic target", "mass",       "material", "gravity scale",    "damping",         "surface velocity", "filter"};
+  constexpr const char* names[PLUMB_FIELD_COUNT] = {"pose",
+                                                    "velocity",
+                                                    "force",
+                                                    "torque",
+                                                    "impulse",
+                                                    "angular impulse",
+                                                    "force at point",
+                                                    "impulse at point",
+                                                    "awake",
+                                                    "kinematic target",
+                                                    "mass",
+                                                    "material",
+                                                    "gravity scale",
+                                                    "damping",
+                                                    "surface velocity",
+                                                    "filter"};
   return field < PLUMB_FIELD_COUNT ? names[field] : "unknown field";
 }
 
@@ -28,7 +41,8 @@ inline void check_row_memory(const char* what, std::uint32_t columns, PlumbDataT
 /// Numbers of one row that is to be written.
 inline void check_row(PlumbField field, const Where& where, const double* row, std::uint32_t columns) {
   for (std::uint32_t i = 0; i < columns; ++i)
-    if (!std::isfinite(row[i])) refuse_value(where, (std::string(field_name(field)) + " column " + std::to_string(i)).c_str(), row[i], "finite");
+    if (!std::isfinite(row[i]))
+      refuse_value(where, (std::string(field_name(field)) + " column " + std::to_string(i)).c_str(), row[i], "finite");
   switch (field) {
     case PLUMB_FIELD_POSE:
     case PLUMB_FIELD_KINEMATIC_TARGET: return require_unit(where, "orientation", {row[3], row[4], row[5], row[6]});
@@ -58,7 +72,8 @@ inline void check_writable(PlumbField field, const Where& where, PlumbMotion mot
   const bool acts = field >= PLUMB_FIELD_FORCE && field <= PLUMB_FIELD_IMPULSE_AT_POINT;
   if ((acts || field == PLUMB_FIELD_AWAKE || field == PLUMB_FIELD_GRAVITY_SCALE || field == PLUMB_FIELD_DAMPING) &&
       motion != PLUMB_DYNAMIC)
-    refuse(PLUMB_E_INVALID_ARGUMENT, where.member("") + " is not dynamic; its " + field_name(field) + " cannot be written");
+    refuse(PLUMB_E_INVALID_ARGUMENT,
+           where.member("") + " is not dynamic; its " + field_name(field) + " cannot be written");
   if (field == PLUMB_FIELD_VELOCITY && motion == PLUMB_STATIC)
     refuse(PLUMB_E_INVALID_ARGUMENT, where.member("") + " is static; it has no velocity");
   if (field == PLUMB_FIELD_KINEMATIC_TARGET && motion != PLUMB_KINEMATIC)

@@ -64,7 +64,8 @@ inline void require_pose(const Where& where, const char* member, const PlumbPose
 
 inline void require_pointer(const void* pointer, std::size_t count, const char* name) {
   if (pointer == nullptr && count != 0)
-    refuse(PLUMB_E_INVALID_ARGUMENT, std::string(name) + " is null; it must point to " + std::to_string(count) + " rows");
+    refuse(PLUMB_E_INVALID_ARGUMENT,
+           std::string(name) + " is null; it must point to " + std::to_string(count) + " rows");
 }
 
 inline void require_known_bits(const Where& where, const char* member, std::uint32_t value, std::uint32_t known) {
@@ -74,8 +75,8 @@ inline void require_known_bits(const Where& where, const char* member, std::uint
 /// The caller's descriptors as this side's struct: members that an older caller does not know become 0, those that a
 /// newer caller knows beyond ours are not seen.
 template <class Desc>
-[[nodiscard]] std::vector<Desc> adopt_descs(const Desc* descs, std::size_t stride, std::uint32_t count, const char* name,
-                                            std::size_t smallest = sizeof(Desc)) {
+[[nodiscard]] std::vector<Desc> adopt_descs(const Desc* descs, std::size_t stride, std::uint32_t count,
+                                            const char* name, std::size_t smallest = sizeof(Desc)) {
   require_pointer(descs, count, name);
   std::vector<Desc> adopted(count);
   for (std::uint32_t i = 0; i < count; ++i) {

@@ -41,12 +41,13 @@ class GuardedExtensions : public GuardedWorld {
     return result;
   }
 
-  PlumbResult read_joints(PlumbJointField field, PlumbDataType type, const PlumbJoint* ids, std::uint32_t count, void* rows,
-                          std::size_t stride) {
+  PlumbResult read_joints(PlumbJointField field, PlumbDataType type, const PlumbJoint* ids, std::uint32_t count,
+                          void* rows, std::size_t stride) {
     IJoints& extension = require_extension(world_->joints(), PLUMB_EXT_JOINTS);
     const auto spelled_out = spell_out(joints_, ids, count, "ids");
     check_joint_field(field, type, count, rows, stride);
-    require_need(init_.desc.needs, PLUMB_NEED_JOINT_REACTIONS, field == PLUMB_JOINT_REACTION, "reading joint reactions");
+    require_need(init_.desc.needs, PLUMB_NEED_JOINT_REACTIONS, field == PLUMB_JOINT_REACTION,
+                 "reading joint reactions");
     return extension.read_joints(field, spelled_out, Rows(static_cast<std::byte*>(rows), count, stride, type));
   }
 
@@ -55,7 +56,8 @@ class GuardedExtensions : public GuardedWorld {
     IJoints& extension = require_extension(world_->joints(), PLUMB_EXT_JOINTS);
     const auto spelled_out = spell_out(joints_, ids, count, "ids");
     check_joint_field(field, type, count, rows, stride);
-    if (field != PLUMB_JOINT_MOTOR) refuse(PLUMB_E_INVALID_ARGUMENT, "only PLUMB_JOINT_MOTOR rows of joints can be written");
+    if (field != PLUMB_JOINT_MOTOR)
+      refuse(PLUMB_E_INVALID_ARGUMENT, "only PLUMB_JOINT_MOTOR rows of joints can be written");
     const ConstRows in(static_cast<const std::byte*>(rows), count, stride, type);
     for (std::uint32_t i = 0; i < count; ++i) {
       double row[12];
@@ -104,8 +106,9 @@ class GuardedExtensions : public GuardedWorld {
     return hand_out_hits(extension.overlap_shapes(adopted), hits, capacity, hit_count);
   }
 
-  PlumbResult collide_pairs(const PlumbPosedPair* pairs, std::size_t stride, std::uint32_t count, PlumbPairResult* results,
-                            PlumbPairPoint* points, std::uint32_t capacity, std::uint32_t* point_count) {
+  PlumbResult collide_pairs(const PlumbPosedPair* pairs, std::size_t stride, std::uint32_t count,
+                            PlumbPairResult* results, PlumbPairPoint* points, std::uint32_t capacity,
+                            std::uint32_t* point_count) {
     ICollide& extension = require_extension(world_->collide(), PLUMB_EXT_COLLIDE);
     const std::vector<PlumbPosedPair> adopted = adopt_rows(pairs, stride, count, "pairs");
     require_pointer(results, count, "results");
@@ -149,7 +152,8 @@ class GuardedExtensions : public GuardedWorld {
     require_pointer(value, 1, "value");
     const PlumbSettingInfo& info = find_setting(facts_, name);
     if ((info.flags & PLUMB_SETTING_CREATION_ONLY) != 0)
-      refuse(PLUMB_E_INVALID_ARGUMENT, std::string("setting ") + name + " can only be given in PlumbWorldDesc.settings");
+      refuse(PLUMB_E_INVALID_ARGUMENT,
+             std::string("setting ") + name + " can only be given in PlumbWorldDesc.settings");
     return extension.set_setting(name, checked_setting(info, *value));
   }
 
@@ -158,8 +162,8 @@ class GuardedExtensions : public GuardedWorld {
     require_pointer(name, 1, "name");
     for (const PlumbSettingInfo& info : facts.settings)
       if (std::strcmp(info.name, name) == 0) return info;
-    refuse(PLUMB_E_INVALID_ARGUMENT,
-           std::string(facts.info->name) + " has no setting \"" + name + "\"; " PLUMB_EXT_SETTINGS " lists those it has");
+    refuse(PLUMB_E_INVALID_ARGUMENT, std::string(facts.info->name) + " has no setting \"" + name +
+                                         "\"; " PLUMB_EXT_SETTINGS " lists those it has");
   }
 
   /// The value, of the setting's type and range; a choice points to the backend's own word.
@@ -178,7 +182,8 @@ class GuardedExtensions : public GuardedWorld {
     const double low = info.type == PLUMB_SETTING_BOOL ? 0 : info.minimum;
     const double high = info.type == PLUMB_SETTING_BOOL ? 1 : info.maximum;
     if (!(value.number >= low && value.number <= high))
-      refuse(PLUMB_E_INVALID_ARGUMENT, what + " is " + number_text(value.number) + "; it must be from " + number_text(low) + " to " + number_text(high));
+      refuse(PLUMB_E_INVALID_ARGUMENT, what + " is " + number_text(value.number) + "; it must be from " +
+                                           number_text(low) + " to " + number_text(high));
     if (info.type != PLUMB_SETTING_FLOAT && value.number != std::floor(value.number))
       refuse(PLUMB_E_INVALID_ARGUMENT, what + " is " + number_text(value.number) + "; it must be a whole number");
     return {info.type, 0, value.number, nullptr};
@@ -191,7 +196,8 @@ class GuardedExtensions : public GuardedWorld {
     require_pointer(size, 1, "size");
     std::span<const std::byte> payload;
     const PlumbResult result = extension.save(payload);
-    const std::vector<std::byte> framed = frame_snapshot(payload, facts_.info->build, bodies_.in_order(), joints_.in_order());
+    const std::vector<std::byte> framed =
+        frame_snapshot(payload, facts_.info->build, bodies_.in_order(), joints_.in_order());
     *size = framed.size();
     if (capacity < framed.size()) return PLUMB_TRUNCATED;
     require_pointer(data, capacity, "data");
@@ -228,9 +234,11 @@ class GuardedExtensions : public GuardedWorld {
       refuse(PLUMB_E_INVALID_ARGUMENT, "only pose and velocity rows are lent");
     if (IState* extension = world_->state(); extension != nullptr) return extension->borrow(*request, *tensor, fence);
     if (request->device_type != kHostDevice)
-      refuse(PLUMB_E_UNSUPPORTED, std::string(facts_.info->name) + " keeps its state on the host; ask for device_type 1");
+      refuse(PLUMB_E_UNSUPPORTED,
+             std::string(facts_.info->name) + " keeps its state on the host; ask for device_type 1");
     if (request->allow_copy == 0)
-      refuse(PLUMB_E_UNSUPPORTED, std::string(facts_.info->name) + " cannot lend its rows as they lie in memory; set allow_copy");
+      refuse(PLUMB_E_UNSUPPORTED,
+             std::string(facts_.info->name) + " cannot lend its rows as they lie in memory; set allow_copy");
     auto copy = std::make_unique<CopiedRows>(bodies_.size(), columns_of(request->field), facts_.info->precision);
     read(request->field, copy->type(), bodies_.in_order().data(), bodies_.size(), copy->data(), copy->row_size());
     *tensor = CopiedRows::lend(std::move(copy));
@@ -249,8 +257,7 @@ class GuardedExtensions : public GuardedWorld {
  private:
   template <class Extension>
   Extension& require_extension(Extension* extension, const char* name) const {
-    if (extension == nullptr)
-      refuse(PLUMB_E_UNSUPPORTED, std::string(facts_.info->name) + " has no " + name);
+    if (extension == nullptr) refuse(PLUMB_E_UNSUPPORTED, std::string(facts_.info->name) + " has no " + name);
     return *extension;
   }
 
@@ -273,13 +280,17 @@ class GuardedExtensions : public GuardedWorld {
     };
     if (desc.body_a != 0) require_body(desc.body_a, "body_a");
     require_body(desc.body_b, "body_b");
-    if (desc.body_a == desc.body_b) refuse(PLUMB_E_INVALID_ARGUMENT, where.member("body_b") + " is body_a; a joint joins two");
+    if (desc.body_a == desc.body_b)
+      refuse(PLUMB_E_INVALID_ARGUMENT, where.member("body_b") + " is body_a; a joint joins two");
     const bool moves_a = desc.body_a != 0 && bodies_[desc.body_a].motion == PLUMB_DYNAMIC;
     if (!moves_a && bodies_[desc.body_b].motion != PLUMB_DYNAMIC)
-      refuse(PLUMB_E_INVALID_ARGUMENT, where.member("") + " joins two bodies that nothing can move; one must be dynamic");
+      refuse(PLUMB_E_INVALID_ARGUMENT,
+             where.member("") + " joins two bodies that nothing can move; one must be dynamic");
     require_capability(PLUMB_CAP_JOINT, desc.type, 0, std::string(joint_name(desc.type)) + " joint");
     const auto feature = [&](bool used, PlumbJointFeature which, const char* what) {
-      if (used) require_capability(PLUMB_CAP_JOINT_FEATURE, desc.type, which, std::string(joint_name(desc.type)) + " joint with " + what);
+      if (used)
+        require_capability(PLUMB_CAP_JOINT_FEATURE, desc.type, which,
+                           std::string(joint_name(desc.type)) + " joint with " + what);
     };
     bool limits = false, motors = false, springs = false;
     for (std::size_t axis = 0; axis < 6; ++axis) {
@@ -296,7 +307,8 @@ class GuardedExtensions : public GuardedWorld {
     return record;
   }
 
-  void check_joint_field(PlumbJointField field, PlumbDataType type, std::uint32_t count, const void* rows, std::size_t stride) const {
+  void check_joint_field(PlumbJointField field, PlumbDataType type, std::uint32_t count, const void* rows,
+                         std::size_t stride) const {
     if (field >= PLUMB_JOINT_FIELD_COUNT)
       refuse(PLUMB_E_INVALID_ARGUMENT, "field is " + std::to_string(field) + "; it must be a PlumbJointField");
     check_row_memory("joint rows", joint_columns_of(field), type, count, rows, stride);
@@ -304,23 +316,28 @@ class GuardedExtensions : public GuardedWorld {
 
   static void check_hit_mode(PlumbHitMode mode) {
     if (mode != PLUMB_HIT_CLOSEST && mode != PLUMB_HIT_ALL)
-      refuse(PLUMB_E_INVALID_ARGUMENT, "mode is " + std::to_string(mode) + "; it must be PLUMB_HIT_CLOSEST or PLUMB_HIT_ALL");
+      refuse(PLUMB_E_INVALID_ARGUMENT,
+             "mode is " + std::to_string(mode) + "; it must be PLUMB_HIT_CLOSEST or PLUMB_HIT_ALL");
   }
 
   static void check_translation(const Where& where, const PlumbVec3& translation) {
     require_finite(where, "translation", translation);
-    if (is_zero(translation)) refuse(PLUMB_E_INVALID_ARGUMENT, where.member("translation") + " is 0; it must have a length");
+    if (is_zero(translation))
+      refuse(PLUMB_E_INVALID_ARGUMENT, where.member("translation") + " is 0; it must have a length");
   }
 
-  void check_posed_shape(const Where& where, PlumbShape shape, const PlumbPose& pose, PlumbQueryKind kind, const char* what) const {
+  void check_posed_shape(const Where& where, PlumbShape shape, const PlumbPose& pose, PlumbQueryKind kind,
+                         const char* what) const {
     if (!shapes_.alive(shape)) refuse(PLUMB_E_STALE_HANDLE, where.member("shape") + " names no living shape");
     require_pose(where, "pose", pose);
     const PlumbShapeType type = shapes_[shape].type;
-    if (!is_convex(type)) refuse(PLUMB_E_INVALID_ARGUMENT, where.member("shape") + " is a " + shape_name(type) + "; it must be convex");
+    if (!is_convex(type))
+      refuse(PLUMB_E_INVALID_ARGUMENT, where.member("shape") + " is a " + shape_name(type) + "; it must be convex");
     require_capability(PLUMB_CAP_QUERY, kind, type, std::string(what) + shape_name(type));
   }
 
-  static PlumbResult hand_out_hits(const Hits& found, PlumbHit* hits, std::uint32_t capacity, std::uint32_t* hit_count) {
+  static PlumbResult hand_out_hits(const Hits& found, PlumbHit* hits, std::uint32_t capacity,
+                                   std::uint32_t* hit_count) {
     return std::max(found.result, hand_out(found.hits, hits, sizeof(PlumbHit), capacity, hit_count));
   }
 

@@ -225,7 +225,8 @@ class GuardedWorld {
   void require_capability(PlumbCapability kind, std::uint32_t a, std::uint32_t b, const std::string& what) const {
     const char* note = "";
     if (degree(kind, a, b, note) == PLUMB_NONE)
-      refuse(PLUMB_E_UNSUPPORTED, std::string(facts_.info->name) + " has no " + what + (*note == '\0' ? "" : ": ") + note);
+      refuse(PLUMB_E_UNSUPPORTED,
+             std::string(facts_.info->name) + " has no " + what + (*note == '\0' ? "" : ": ") + note);
   }
 
   template <class Record>
@@ -245,7 +246,8 @@ class GuardedWorld {
     std::vector<std::uint64_t> sorted(handles.begin(), handles.end());
     std::sort(sorted.begin(), sorted.end());
     if (const auto twice = std::adjacent_find(sorted.begin(), sorted.end()); twice != sorted.end())
-      refuse(PLUMB_E_INVALID_ARGUMENT, std::string(name) + " names handle " + std::to_string(*twice) + " twice; name it once");
+      refuse(PLUMB_E_INVALID_ARGUMENT,
+             std::string(name) + " names handle " + std::to_string(*twice) + " twice; name it once");
     return handles;
   }
 
@@ -255,7 +257,8 @@ class GuardedWorld {
                                                   std::uint32_t count, const char* name) {
     if (ids == nullptr) {
       if (count > table.size())
-        refuse(PLUMB_E_INVALID_ARGUMENT, "count is " + std::to_string(count) + ", but only " + std::to_string(table.size()) + " live");
+        refuse(PLUMB_E_INVALID_ARGUMENT,
+               "count is " + std::to_string(count) + ", but only " + std::to_string(table.size()) + " live");
       return table.in_order().first(count);
     }
     const std::span<const std::uint64_t> handles(ids, count);
@@ -265,7 +268,8 @@ class GuardedWorld {
 
   /// Allots handles, lets `make` build the objects, and takes the handles back when it throws.
   template <class Record, class Make>
-  static PlumbResult create(SlotTable<Record>& table, std::vector<Record> records, std::span<std::uint64_t> ids, Make&& make) {
+  static PlumbResult create(SlotTable<Record>& table, std::vector<Record> records, std::span<std::uint64_t> ids,
+                            Make&& make) {
     std::vector<std::uint64_t> handles;
     handles.reserve(records.size());
     PlumbResult result = PLUMB_OK;
@@ -316,7 +320,8 @@ class GuardedWorld {
     for (std::uint32_t i = 0; desc.type == PLUMB_COMPOUND && i < desc.child_count; ++i) {
       const PlumbCompoundChild& child = desc.children[i];
       const std::string name = "children[" + std::to_string(i) + "].shape";
-      if (!shapes_.alive(child.shape)) refuse(PLUMB_E_STALE_HANDLE, where.member(name.c_str()) + " names no living shape");
+      if (!shapes_.alive(child.shape))
+        refuse(PLUMB_E_STALE_HANDLE, where.member(name.c_str()) + " names no living shape");
       const ShapeRecord& child_record = shapes_[child.shape];
       if (!is_convex(child_record.type))
         refuse(PLUMB_E_INVALID_ARGUMENT, where.member(name.c_str()) + " is a " + shape_name(child_record.type) +
@@ -348,12 +353,21 @@ class GuardedWorld {
     if (desc.shape != 0) {
       if (!shapes_.alive(desc.shape)) refuse(PLUMB_E_STALE_HANDLE, where.member("shape") + " names no living shape");
       const PlumbShapeType type = shapes_[desc.shape].type;
-      require_capability(PLUMB_CAP_SHAPE, type, desc.motion, std::string(motion_name(desc.motion)) + " " + shape_name(type));
+      require_capability(PLUMB_CAP_SHAPE, type, desc.motion,
+                         std::string(motion_name(desc.motion)) + " " + shape_name(type));
     }
     if (desc.motion == PLUMB_DYNAMIC) resolve_mass(where, desc);
-    const double row[11] = {desc.mass, desc.centre_of_mass.x, desc.centre_of_mass.y, desc.centre_of_mass.z,
-                            desc.inertia.x, desc.inertia.y, desc.inertia.z, desc.inertia_orientation.x,
-                            desc.inertia_orientation.y, desc.inertia_orientation.z, desc.inertia_orientation.w};
+    const double row[11] = {desc.mass,
+                            desc.centre_of_mass.x,
+                            desc.centre_of_mass.y,
+                            desc.centre_of_mass.z,
+                            desc.inertia.x,
+                            desc.inertia.y,
+                            desc.inertia.z,
+                            desc.inertia_orientation.x,
+                            desc.inertia_orientation.y,
+                            desc.inertia_orientation.z,
+                            desc.inertia_orientation.w};
     if (desc.motion == PLUMB_DYNAMIC) std::copy(std::begin(row), std::end(row), record.mass_row);
     return record;
   }
@@ -367,8 +381,9 @@ class GuardedWorld {
       } else {
         const ShapeRecord& shape = shapes_[desc.shape];
         if (!shape.unit_mass)
-          refuse(PLUMB_E_INVALID_ARGUMENT, where.member("mass_mode") + " asks for the mass of a " + shape_name(shape.type) + ": " +
-                                               shape.no_mass_because + "; use PLUMB_MASS_EXPLICIT");
+          refuse(PLUMB_E_INVALID_ARGUMENT, where.member("mass_mode") + " asks for the mass of a " +
+                                               shape_name(shape.type) + ": " + shape.no_mass_because +
+                                               "; use PLUMB_MASS_EXPLICIT");
         const MassProperties& unit = *shape.unit_mass;
         const double density = desc.mass_mode == PLUMB_MASS_FROM_DENSITY ? desc.density : desc.mass / unit.mass;
         if (desc.mass_mode == PLUMB_MASS_FROM_DENSITY) desc.mass = density * unit.mass;

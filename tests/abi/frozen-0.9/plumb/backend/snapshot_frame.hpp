@@ -12,11 +12,11 @@
 namespace plumb::backend {
 
 struct SnapshotHeader {
-  char magic[8];           ///< "PLUMBSNP"
-  std::uint32_t version;   ///< of this frame
+  char magic[8];          ///< "PLUMBSNP"
+  std::uint32_t version;  ///< of this frame
   std::uint32_t reserved;
-  std::uint64_t build;     ///< hash of the backend's build
-  std::uint64_t objects;   ///< hash of the handles that live in the world
+  std::uint64_t build;    ///< hash of the backend's build
+  std::uint64_t objects;  ///< hash of the handles that live in the world
   std::uint64_t payload_size;
   std::uint64_t payload_hash;
 };
@@ -48,7 +48,8 @@ inline SnapshotHeader snapshot_header(std::span<const std::byte> payload, std::s
 }
 
 inline std::vector<std::byte> frame_snapshot(std::span<const std::byte> payload, std::string_view build,
-                                             std::span<const std::uint64_t> bodies, std::span<const std::uint64_t> joints) {
+                                             std::span<const std::uint64_t> bodies,
+                                             std::span<const std::uint64_t> joints) {
   const SnapshotHeader header = snapshot_header(payload, build, bodies, joints);
   std::vector<std::byte> framed(sizeof header + payload.size());
   std::memcpy(framed.data(), &header, sizeof header);
@@ -65,9 +66,12 @@ inline std::span<const std::byte> unframe_snapshot(std::span<const std::byte> fr
   std::memcpy(&found, framed.data(), sizeof found);
   const std::span<const std::byte> payload = framed.subspan(sizeof found);
   const SnapshotHeader expected = snapshot_header(payload, build, bodies, joints);
-  if (std::memcmp(found.magic, expected.magic, sizeof found.magic) != 0) refuse(PLUMB_E_CORRUPT, "this is no Plumb snapshot");
-  if (found.version != expected.version) refuse(PLUMB_E_CORRUPT, "the snapshot has another version of the format; save it anew");
-  if (found.build != expected.build) refuse(PLUMB_E_CORRUPT, "the snapshot comes from another build or backend; save it anew");
+  if (std::memcmp(found.magic, expected.magic, sizeof found.magic) != 0)
+    refuse(PLUMB_E_CORRUPT, "this is no Plumb snapshot");
+  if (found.version != expected.version)
+    refuse(PLUMB_E_CORRUPT, "the snapshot has another version of the format; save it anew");
+  if (found.build != expected.build)
+    refuse(PLUMB_E_CORRUPT, "the snapshot comes from another build or backend; save it anew");
   if (found.payload_size != payload.size() || found.payload_hash != expected.payload_hash)
     refuse(PLUMB_E_CORRUPT, "the snapshot is torn or changed");
   if (found.objects != expected.objects)

@@ -26,17 +26,20 @@ struct Entry<Member> {
 };
 
 /// The extension tables are the same for every backend; which ones it has depends on its class.
-inline const PlumbJointsTable kJointsTable = {
-    sizeof(PlumbJointsTable), 0, &Entry<&GuardedExtensions::create_joints>::call, &Entry<&GuardedExtensions::destroy_joints>::call,
-    &Entry<&GuardedExtensions::read_joints>::call, &Entry<&GuardedExtensions::write_joints>::call};
-inline const PlumbQueriesTable kQueriesTable = {
-    sizeof(PlumbQueriesTable), 0, &Entry<&GuardedExtensions::rays>::call, &Entry<&GuardedExtensions::casts>::call,
-    &Entry<&GuardedExtensions::overlaps>::call};
+inline const PlumbJointsTable kJointsTable = {sizeof(PlumbJointsTable),
+                                              0,
+                                              &Entry<&GuardedExtensions::create_joints>::call,
+                                              &Entry<&GuardedExtensions::destroy_joints>::call,
+                                              &Entry<&GuardedExtensions::read_joints>::call,
+                                              &Entry<&GuardedExtensions::write_joints>::call};
+inline const PlumbQueriesTable kQueriesTable = {sizeof(PlumbQueriesTable), 0, &Entry<&GuardedExtensions::rays>::call,
+                                                &Entry<&GuardedExtensions::casts>::call,
+                                                &Entry<&GuardedExtensions::overlaps>::call};
 inline const PlumbCollideTable kCollideTable = {sizeof(PlumbCollideTable), 0,
                                                 &Entry<&GuardedExtensions::collide_pairs>::call};
-inline const PlumbDebugTable kDebugTable = {
-    sizeof(PlumbDebugTable), 0, &Entry<&GuardedExtensions::debug_pairs>::call, &Entry<&GuardedExtensions::debug_boxes>::call,
-    &Entry<&GuardedExtensions::debug_axes>::call};
+inline const PlumbDebugTable kDebugTable = {sizeof(PlumbDebugTable), 0, &Entry<&GuardedExtensions::debug_pairs>::call,
+                                            &Entry<&GuardedExtensions::debug_boxes>::call,
+                                            &Entry<&GuardedExtensions::debug_axes>::call};
 inline const PlumbSnapshotTable kSnapshotTable = {sizeof(PlumbSnapshotTable), 0, &Entry<&GuardedExtensions::save>::call,
                                                   &Entry<&GuardedExtensions::restore>::call,
                                                   &Entry<&GuardedExtensions::hash>::call};
@@ -52,14 +55,27 @@ class Tables {
   }
 
   static const PlumbBackendTable& backend() {
-    static const PlumbBackendTable table = {
-        sizeof(PlumbBackendTable), PLUMB_VERSION, &info, &capability, &extension, &create_world, &destroy_world, &error_text,
-        &Entry<&GuardedWorld::create_shapes>::call, &Entry<&GuardedWorld::destroy_shapes>::call,
-        &Entry<&GuardedWorld::create_bodies>::call, &Entry<&GuardedWorld::destroy_bodies>::call,
-        &Entry<&GuardedWorld::list_bodies>::call, &Entry<&GuardedWorld::user_data>::call,
-        &Entry<&GuardedWorld::read>::call, &Entry<&GuardedWorld::write>::call, &Entry<&GuardedWorld::set_gravity>::call,
-        &Entry<&GuardedWorld::step>::call, &Entry<&GuardedWorld::wait>::call,
-        &Entry<&GuardedWorld::contacts>::call, &Entry<&GuardedWorld::events>::call};
+    static const PlumbBackendTable table = {sizeof(PlumbBackendTable),
+                                            PLUMB_VERSION,
+                                            &info,
+                                            &capability,
+                                            &extension,
+                                            &create_world,
+                                            &destroy_world,
+                                            &error_text,
+                                            &Entry<&GuardedWorld::create_shapes>::call,
+                                            &Entry<&GuardedWorld::destroy_shapes>::call,
+                                            &Entry<&GuardedWorld::create_bodies>::call,
+                                            &Entry<&GuardedWorld::destroy_bodies>::call,
+                                            &Entry<&GuardedWorld::list_bodies>::call,
+                                            &Entry<&GuardedWorld::user_data>::call,
+                                            &Entry<&GuardedWorld::read>::call,
+                                            &Entry<&GuardedWorld::write>::call,
+                                            &Entry<&GuardedWorld::set_gravity>::call,
+                                            &Entry<&GuardedWorld::step>::call,
+                                            &Entry<&GuardedWorld::wait>::call,
+                                            &Entry<&GuardedWorld::contacts>::call,
+                                            &Entry<&GuardedWorld::events>::call};
     return table;
   }
 
@@ -88,9 +104,9 @@ class Tables {
   }
 
   static const PlumbSettingsTable& settings_table() {
-    static const PlumbSettingsTable table = {sizeof(PlumbSettingsTable), static_cast<std::uint32_t>(facts().settings.size()),
-                                             &describe_setting, &Entry<&GuardedExtensions::get_setting>::call,
-                                             &Entry<&GuardedExtensions::set_setting>::call};
+    static const PlumbSettingsTable table = {
+        sizeof(PlumbSettingsTable), static_cast<std::uint32_t>(facts().settings.size()), &describe_setting,
+        &Entry<&GuardedExtensions::get_setting>::call, &Entry<&GuardedExtensions::set_setting>::call};
     return table;
   }
 
@@ -124,7 +140,8 @@ class Tables {
       if (((desc.needs >> index) & 1) == 0) continue;
       const char* note = "";
       if (index >= PLUMB_NEED_COUNT || World::capability(PLUMB_CAP_NEED, index, 0, note) == PLUMB_NONE)
-        refuse(PLUMB_E_UNSUPPORTED, std::string(facts().info->name) + " lacks " + need_name(index) + (*note == '\0' ? "" : ": ") + note);
+        refuse(PLUMB_E_UNSUPPORTED,
+               std::string(facts().info->name) + " lacks " + need_name(index) + (*note == '\0' ? "" : ": ") + note);
     }
     WorldInit init{desc, host, facts().settings, {}};
     for (const PlumbSettingInfo& info : facts().settings) init.values.push_back(info.default_value);
@@ -171,7 +188,8 @@ class Tables {
 /// Negotiates: answers this side's version when the host's range holds it, and says who is too old otherwise.
 template <class World>
 PlumbResult open(const PlumbOpenRequest* request, PlumbOpenReply* reply) noexcept {
-  if (request == nullptr || reply == nullptr || reply->struct_size < sizeof(PlumbOpenReply)) return PLUMB_E_INVALID_ARGUMENT;
+  if (request == nullptr || reply == nullptr || reply->struct_size < sizeof(PlumbOpenReply))
+    return PLUMB_E_INVALID_ARGUMENT;
   reply->table = nullptr;
   reply->message[0] = '\0';
   const auto answer = [&](PlumbResult result, const char* format, auto... values) {
@@ -182,11 +200,14 @@ PlumbResult open(const PlumbOpenRequest* request, PlumbOpenReply* reply) noexcep
     const PlumbBackendInfo& info = World::info();
     const auto major = PLUMB_VERSION_MAJOR(PLUMB_VERSION), minor = PLUMB_VERSION_MINOR(PLUMB_VERSION);
     if (PLUMB_VERSION < request->min_version)
-      return answer(PLUMB_E_VERSION, "backend %s speaks interface %u.%u and the host asks for at least %u.%u; get a newer %s", info.name,
-                    major, minor, PLUMB_VERSION_MAJOR(request->min_version), PLUMB_VERSION_MINOR(request->min_version), info.name);
+      return answer(PLUMB_E_VERSION,
+                    "backend %s speaks interface %u.%u and the host asks for at least %u.%u; get a newer %s", info.name,
+                    major, minor, PLUMB_VERSION_MAJOR(request->min_version), PLUMB_VERSION_MINOR(request->min_version),
+                    info.name);
     if (PLUMB_VERSION > request->max_version)
-      return answer(PLUMB_E_VERSION, "backend %s speaks interface %u.%u and the host at most %u.%u; get a newer host", info.name, major, minor,
-                    PLUMB_VERSION_MAJOR(request->max_version), PLUMB_VERSION_MINOR(request->max_version));
+      return answer(PLUMB_E_VERSION, "backend %s speaks interface %u.%u and the host at most %u.%u; get a newer host",
+                    info.name, major, minor, PLUMB_VERSION_MAJOR(request->max_version),
+                    PLUMB_VERSION_MINOR(request->max_version));
     if (Tables<World>::host == nullptr) Tables<World>::host = request->host;
     reply->version = PLUMB_VERSION;
     reply->table = &Tables<World>::backend();
