@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -96,23 +97,25 @@ class Random {
   std::uint64_t state_;
 };
 
-/// Tumbling boxes that fall into a container.
+/// Cubes of random orientation that fall into an open container, first overlapping a little: scenes/throughput's pile.
 inline Scene pile(int count) {
-  const int k = static_cast<int>(std::round(std::cbrt(count / 2.0)));
-  const double half = (1.3 * k + 2) / 2;
+  const int k = static_cast<int>(std::nearbyint(std::cbrt(count / 2.0)));
+  const double half = (1.3 * k + 2) / 2, height = 1.5 * ((count + k * k - 1) / (k * k)) + 20;
   Scene scene{"pile", {ground()}, {}};
   for (const double side : {-1.0, 1.0}) {
-    scene.items.push_back(wall({side * (half + 0.5), 50, 0}, {0.5, 50, half + 1}));
-    scene.items.push_back(wall({0, 50, side * (half + 0.5)}, {half + 1, 50, 0.5}));
+    scene.items.push_back(wall({side * (half + 0.5), height / 2, 0}, {0.5, height / 2, half + 1}));
+    scene.items.push_back(wall({0, height / 2, side * (half + 0.5)}, {half + 1, height / 2, 0.5}));
   }
-  Random random(7);
   for (int i = 0; i < count; ++i) {
-    const int layer = i / (k * k), row = i / k % k, column = i % k;
-    Item item = box({(column - (k - 1) / 2.0) * 1.3, 1.0 + 1.8 * layer, (row - (k - 1) / 2.0) * 1.3}, {0.5, 0.5, 0.5});
-    PlumbQuat q{random.next() - 0.5, random.next() - 0.5, random.next() - 0.5, random.next() - 0.5};
-    const double n = std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
-    item.pose.orientation = {q.x / n, q.y / n, q.z / n, q.w / n};
-    item.spin = {random.next(), random.next(), random.next()};
+    Random random(static_cast<std::uint64_t>(i));
+    double u[6];
+    for (double& value : u) value = random.next();
+    const double x = 1.3 * (i % k - (k - 1) / 2.0), y = 1 + 1.5 * (i / (k * k)), z = 1.3 * (i / k % k - (k - 1) / 2.0);
+    Item item = box({x + 0.2 * u[0] - 0.1, y + 0.2 * u[1] - 0.1, z + 0.2 * u[2] - 0.1}, {0.5, 0.5, 0.5});
+    // Shoemake, "Uniform random rotations", Graphics Gems III (1992).
+    const double a = std::sqrt(1 - u[3]), b = std::sqrt(u[3]), turn = 2 * std::numbers::pi;
+    item.pose.orientation = {a * std::sin(turn * u[4]), a * std::cos(turn * u[4]), b * std::sin(turn * u[5]),
+                             b * std::cos(turn * u[5])};
     scene.items.push_back(item);
   }
   return scene;

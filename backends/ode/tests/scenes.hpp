@@ -42,7 +42,7 @@ inline constexpr int most_contacts = 8;
 [[nodiscard]] Scene tower(int height);
 /// Planar, `base` boxes in the lowest row.
 [[nodiscard]] Scene pyramid(int base);
-/// Boxes turned at random that fall into a container.
+/// Cubes of random orientation that fall into an open container, first overlapping a little: the pile of /scenes.
 [[nodiscard]] Scene pile(int count);
 /// Rods on ball joints, horizontal at first, hung on the world.
 [[nodiscard]] Scene chain(int links);
