@@ -1,0 +1,100 @@
+// Least significant digit first, 8 bits a pass, one histogram a chunk so that passes run on all threads and the result
+// does not depend on how many there are (Knuth, TAOCP 3, 5.2.5).
+#include "exec/sort.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+namespace plumb::impulse {
+
+namespace {
+
+constexpr std::uint32_t kDigits = 256;
+constexpr std::uint32_t kMostChunks = 64;
+
+std::uint32_t chunks_for(std::uint32_t n, std::uint32_t threads) {
+  return threads == 1 ? 1 : std::clamp(n / 4096, 1U, std::min(kMostChunks, threads * 2));
+}
+
+template <class K>
+void pass(Crew& crew, std::uint32_t n, std::uint32_t chunks, int shift, const K* keys, const std::uint32_t* values,
+          K* to_keys, std::uint32_t* to_values, std::uint32_t* histograms) {
+  const std::uint32_t chunk = (n + chunks - 1) / chunks;
+  const auto digit_of = [&](std::uint32_t i) { return static_cast<std::uint32_t>(keys[i] >> shift) & (kDigits - 1); };
+  const auto in_chunks = [&](auto&& work) {
+    struct Job {
+      decltype(work)& f;
+    } job{work};
+    crew.run_chunks(chunks, &job, [](void* context, std::uint32_t c) { static_cast<Job*>(context)->f(c); });
+  };
+  in_chunks([&](std::uint32_t c) {
+    std::uint32_t* counts = histograms + std::size_t{c} * kDigits;
+    std::memset(counts, 0, kDigits * sizeof *counts);
+    for (std::uint32_t i = c * chunk; i < std::min(n, (c + 1) * chunk); ++i) ++counts[digit_of(i)];
+  });
+  std::uint32_t sum = 0;
+  for (std::uint32_t digit = 0; digit < kDigits; ++digit)
+    for (std::uint32_t c = 0; c < chunks; ++c) {
+      std::uint32_t& count = histograms[std::size_t{c} * kDigits + digit];
+      sum += std::exchange(count, sum);
+    }
+  in_chunks([&](std::uint32_t c) {
+    std::uint32_t* next = histograms + std::size_t{c} * kDigits;
+    for (std::uint32_t i = c * chunk; i < std::min(n, (c + 1) * chunk); ++i) {
+      const std::uint32_t at = next[digit_of(i)]++;
+      to_keys[at] = keys[i];
+      to_values[at] = values[i];
+    }
+  });
+}
+
+}  // namespace
+
+template <class K>
+void RadixSort<K>::reserve(std::uint32_t capacity) {
+  if (capacity <= capacity_) return;
+  capacity_ = capacity;
+  scratch_.grow(std::size_t{capacity} * (sizeof(K) + sizeof(std::uint32_t)) +
+                std::size_t{kMostChunks} * kDigits * sizeof(std::uint32_t));
+}
+
+template <class K>
+void RadixSort<K>::run(Executor& executor, Count n, K* keys, const std::uint32_t* values, K* sorted_keys,
+                       std::uint32_t* sorted_values, int bits) {
+  const std::uint32_t count = std::min(*n.value, n.capacity);
+  auto* histograms = reinterpret_cast<std::uint32_t*>(scratch_.data());
+  auto* other_keys = reinterpret_cast<K*>(histograms + std::size_t{kMostChunks} * kDigits);
+  auto* other_values = reinterpret_cast<std::uint32_t*>(other_keys + capacity_);
+  const int passes = std::max(1, (bits + 7) / 8);
+  const std::uint32_t chunks = chunks_for(count, executor.threads());
+
+  const K* from_keys = keys;
+  const std::uint32_t* from_values = values;
+  for (int p = 0; p < passes; ++p) {
+    const bool to_result = (passes - p) % 2 == 1;  // so that the last pass ends there
+    K* to_keys = to_result ? sorted_keys : other_keys;
+    std::uint32_t* to_values = to_result ? sorted_values : other_values;
+    pass(executor.crew(), count, chunks, 8 * p, from_keys, from_values, to_keys, to_values, histograms);
+    from_keys = to_keys;
+    from_values = to_values;
+  }
+}
+
+template class RadixSort<std::uint32_t>;
+template class RadixSort<std::uint64_t>;
+
+void Scan::reserve(std::uint32_t capacity) { capacity_ = std::max(capacity, capacity_); }
+
+void Scan::run(Executor& /*executor*/, Count n, const std::uint32_t* values, std::uint32_t* sums,
+               std::uint32_t* total) {
+  const std::uint32_t count = std::min(*n.value, n.capacity);
+  std::uint32_t sum = 0;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const std::uint32_t value = values[i];
+    sums[i] = sum;
+    sum += value;
+  }
+  *total = sum;
+}
+
+}  // namespace plumb::impulse

@@ -1,0 +1,139 @@
+// The executor of the CUDA library: kernels are enqueued on one stream; a recorded sequence is one graph launch.
+#pragma once
+
+#include <cuda_runtime.h>
+
+#include <cstdint>
+
+#include "exec/cuda/check.hpp"
+#include "exec/executor.hpp"
+#include "exec/memory.hpp"
+#if defined(__CUDACC__)
+#include "exec/cuda/team.cuh"
+#endif
+#include "plumb/plumb.h"
+
+namespace plumb::impulse {
+
+struct TeamBarrier;
+
+/// A captured graph. Must be forgotten when a buffer that it uses was grown.
+class Recording {
+ public:
+  Recording() = default;
+  Recording(const Recording&) = delete;
+  Recording& operator=(const Recording&) = delete;
+  ~Recording() { forget(); }
+  void forget() {
+    if (graph_ != nullptr) (void)cudaGraphExecDestroy(graph_);
+    graph_ = nullptr;
+  }
+
+ private:
+  friend class Executor;
+  cudaGraphExec_t graph_ = nullptr;
+};
+
+#if defined(__CUDACC__)
+template <class F>
+__global__ void run_kernel(F f, std::uint32_t n) {
+  const std::uint32_t i = blockIdx.x * blockDim.x + threadIdx.x;
+  if (i < n) f(i);
+}
+template <class F>
+__global__ void run_counted_kernel(F f, Count n) {
+  const std::uint32_t i = blockIdx.x * blockDim.x + threadIdx.x;
+  if (i < n.capacity && i < *n.value) f(i);
+}
+template <class F>
+__global__ void __launch_bounds__(kTeamThreads) team_kernel(F f, TeamBarrier* barrier, Count load) {
+  const std::uint32_t work = load.value == nullptr || *load.value > load.capacity ? load.capacity : *load.value;
+  const std::uint32_t wanted = (work + kTeamThreads - 1) / kTeamThreads;
+  const std::uint32_t blocks = wanted < 1 ? 1 : wanted < gridDim.x ? wanted : gridDim.x;
+  if (blockIdx.x >= blocks) return;
+  Team team(blocks, barrier);
+  f(team);
+}
+#endif
+
+class Executor {
+ public:
+  Executor(const PlumbHost* host, std::uint32_t threads);
+  Executor(const Executor&) = delete;
+  Executor& operator=(const Executor&) = delete;
+  ~Executor();
+
+  [[nodiscard]] std::uint32_t threads() const { return 1; }
+  [[nodiscard]] cudaStream_t stream() const { return stream_; }
+
+#if defined(__CUDACC__)
+  template <class F>
+  void run(std::uint32_t n, const F& f) {
+    if (n == 0) return;
+    run_kernel<<<(n + kBlock - 1) / kBlock, kBlock, 0, stream_>>>(f, n);
+    check_cuda(cudaGetLastError(), "cannot launch a kernel");
+  }
+  template <class F>
+  void run(Count n, const F& f) {
+    if (n.capacity == 0) return;
+    run_counted_kernel<<<(n.capacity + kBlock - 1) / kBlock, kBlock, 0, stream_>>>(f, n);
+    check_cuda(cudaGetLastError(), "cannot launch a kernel");
+  }
+  /// load: of the widest loop, so that a small one gets few blocks; value may be null.
+  template <class F>
+  void team(Count load, const F& f) {
+    int blocks = 0;
+    check_cuda(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks, team_kernel<F>, kTeamThreads, 0),
+               "cannot size a team");
+    const std::uint32_t most = static_cast<std::uint32_t>(blocks) * multiprocessors_;
+    const std::uint32_t wanted = (load.capacity + kTeamThreads - 1) / kTeamThreads;
+    F copy = f;
+    void* arguments[] = {&copy, &barrier_, &load};
+    check_cuda(cudaLaunchCooperativeKernel(team_kernel<F>, wanted < 1 ? 1 : wanted < most ? wanted : most, kTeamThreads,
+                                           arguments, 0, stream_),
+               "cannot launch a team");
+  }
+  template <class F>
+  void record(Recording& recording, const F& f) {
+    if (recording.graph_ == nullptr) {
+      check_cuda(cudaStreamBeginCapture(stream_, cudaStreamCaptureModeThreadLocal), "cannot begin a recording");
+      cudaGraph_t graph = nullptr;
+      try {
+        f();
+      } catch (...) {
+        (void)cudaStreamEndCapture(stream_, &graph);
+        if (graph != nullptr) (void)cudaGraphDestroy(graph);
+        throw;
+      }
+      check_cuda(cudaStreamEndCapture(stream_, &graph), "cannot end a recording");
+      const cudaError_t made = cudaGraphInstantiate(&recording.graph_, graph, 0);
+      (void)cudaGraphDestroy(graph);
+      check_cuda(made, "cannot make a graph");
+    }
+    check_cuda(cudaGraphLaunch(recording.graph_, stream_), "cannot launch a graph");
+  }
+#endif
+  /// Enqueued, in order with the kernels; done after wait().
+  template <class T>
+  void to_device(Mirror<T>& mirror, std::size_t count) {
+    copy(mirror.device(), mirror.host(), count * sizeof(T), cudaMemcpyHostToDevice);
+  }
+  template <class T>
+  void to_host(Mirror<T>& mirror, std::size_t count) {
+    copy(mirror.host(), mirror.device(), count * sizeof(T), cudaMemcpyDeviceToHost);
+  }
+  void wait() { check_cuda(cudaStreamSynchronize(stream_), "a kernel failed"); }
+
+ private:
+  static constexpr std::uint32_t kBlock = 128;
+
+  void copy(void* to, const void* from, std::size_t bytes, cudaMemcpyKind kind) {
+    if (bytes != 0) check_cuda(cudaMemcpyAsync(to, from, bytes, kind, stream_), "cannot copy");
+  }
+
+  cudaStream_t stream_ = nullptr;
+  std::uint32_t multiprocessors_ = 1;
+  TeamBarrier* barrier_ = nullptr;  // on the device
+};
+
+}  // namespace plumb::impulse

@@ -1,0 +1,35 @@
+// Where the engine's kernels run: on threads of the CPU or on a CUDA device, chosen when the library is built.
+//
+// A kernel is a plain function object f(i) over views of arrays; an Executor calls it for every i < n, in any order.
+// Both executors have the same members, so that the engine is written once:
+//
+//   run(n, f)           f(i) for every i < n, all done before what is enqueued next
+//   run(Count, f)       the same, for a number of things that the device counted itself
+//   team(load, f)       f(team) with a team of threads that goes through several loops: team.each(n, f) runs f(i) for
+//                       every i < n and returns to all when all are done; team.single(f) runs f() once. load is the
+//                       length of the longest loop, which may be unknown to the host
+//   Buffer<T>, Mirror<T>   memory where kernels run; the same with a twin on the host (memory.hpp)
+//   RadixSort<K>, Scan  (sort.hpp)
+//   record(graph, f)    f() enqueues a fixed sequence; a device captures it the first time and replays it afterwards
+//   wait()              returns when all that was enqueued is done
+//
+// What a kernel writes must not depend on the order of its calls: see real.hpp for why.
+#pragma once
+
+#include <cstdint>
+
+namespace plumb::impulse {
+
+/// A number of things that only the device knows; kernels over it are launched for the capacity and leave early.
+struct Count {
+  const std::uint32_t* value;  ///< device memory
+  std::uint32_t capacity;      ///< *value beyond it is an overflow, and only the first capacity things exist
+};
+
+}  // namespace plumb::impulse
+
+#if defined(PLUMB_IMPULSE_CUDA)
+#include "exec/cuda/executor.cuh"
+#else
+#include "exec/cpu/executor.hpp"
+#endif

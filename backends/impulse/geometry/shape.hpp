@@ -1,0 +1,50 @@
+// Shapes as kernels see them.
+#pragma once
+
+#include <cstdint>
+
+#include "math/quat.hpp"
+
+namespace plumb::impulse {
+
+enum class ShapeType : std::uint32_t { kSphere = 0, kBox = 1, kCapsule = 2, kHull = 3 };
+constexpr std::uint32_t kShapeTypes = 4;
+
+/// One shape, in its own frame.
+struct Shape {
+  ShapeType type;
+  std::uint32_t hull;  ///< hulls: its row in Hulls
+  Vec size;            ///< sphere: radius, -, -; box: half extents; capsule: radius, half length of its segment, -
+  Real reach;          ///< radius of the ball about the frame's origin that holds the shape
+};
+
+/// A face's polygon: `count` indices into the hull's loop array from `first`, counter-clockwise seen from outside.
+struct HullFace {
+  Vec normal;   ///< unit, outward
+  Real offset;  ///< dot(normal, p) of its points
+  std::uint32_t first, count;
+};
+/// An edge between two vertices and the two faces that it joins.
+struct HullEdge {
+  std::uint32_t from, to;      ///< vertices
+  std::uint32_t left, right;  ///< faces; the left one's loop runs from -> to
+};
+/// Where a hull's parts lie in the pool's arrays.
+struct HullRange {
+  std::uint32_t first_vertex, vertex_count;
+  std::uint32_t first_face, face_count;
+  std::uint32_t first_loop;  ///< HullFace::first counts from here
+  std::uint32_t first_edge, edge_count;
+  Vec centre;  ///< a point well inside
+};
+
+/// All hulls of a world.
+struct Hulls {
+  const HullRange* ranges;
+  const Vec* vertices;
+  const HullFace* faces;
+  const std::uint32_t* loops;  ///< vertex indices, counted from the hull's first vertex
+  const HullEdge* edges;
+};
+
+}  // namespace plumb::impulse
