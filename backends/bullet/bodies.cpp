@@ -180,28 +180,12 @@ PlumbResult World::destroy_bodies(std::span<const PlumbBody> ids) {
     Body& gone = body(id);
     wake_neighbours(gone);
     world_.removeRigidBody(&gone);
+    world_.forget_predictions(gone);
     for (auto* list : {&kinematic_, &damped_, &locked_}) std::erase(*list, &gone);
   }
-  orphan_manifolds(ids);
   for (const PlumbBody id : ids) bodies_[slot_of(id)].reset();
   touches_.forget(ids, pending_events_);
   return PLUMB_OK;
-}
-
-/// Bullet sometimes keeps a manifold of a body that was removed (random calls found it): it is emptied, and names the
-/// fixed body from then on, so that nobody follows it to freed memory.
-void World::orphan_manifolds(std::span<const PlumbBody> ids) {
-  std::vector<const btCollisionObject*> gone;
-  for (const PlumbBody id : ids) gone.push_back(&body(id));
-  std::sort(gone.begin(), gone.end());
-  for (int i = 0; i < parts_.dispatcher.getNumManifolds(); ++i) {
-    btPersistentManifold& manifold = *parts_.dispatcher.getManifoldByIndexInternal(i);
-    if (!std::binary_search(gone.begin(), gone.end(), manifold.getBody0()) &&
-        !std::binary_search(gone.begin(), gone.end(), manifold.getBody1()))
-      continue;
-    manifold.clearManifold();
-    manifold.setBodies(&btTypedConstraint::getFixedBody(), &btTypedConstraint::getFixedBody());
-  }
 }
 
 void World::wake(Body& body) {

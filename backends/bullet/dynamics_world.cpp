@@ -59,6 +59,16 @@ void DynamicsWorld::createPredictiveContacts(btScalar h) {
   charge(PLUMB_PHASE_CONTINUOUS);
 }
 
+void DynamicsWorld::forget_predictions(const btCollisionObject& gone) {
+  for (int i = m_predictiveManifolds.size() - 1; i >= 0; --i) {
+    btPersistentManifold* manifold = m_predictiveManifolds[i];
+    if (manifold->getBody0() != &gone && manifold->getBody1() != &gone) continue;
+    m_predictiveManifolds.swap(i, m_predictiveManifolds.size() - 1);
+    m_predictiveManifolds.pop_back();
+    m_dispatcher1->releaseManifold(manifold);
+  }
+}
+
 void DynamicsWorld::performDiscreteCollisionDetection() {
   updateAabbs();
   computeOverlappingPairs();

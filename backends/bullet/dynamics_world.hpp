@@ -53,6 +53,10 @@ class DynamicsWorld final : public btDiscreteDynamicsWorld {
   void sub_step(btScalar h);
   void end_step() { clearForces(); }
 
+  /// Bullet keeps the contacts that it foresees for CCD bodies until the next step, outside of its pairs, so that
+  /// removing a body leaves them pointing at it: to be called after removeRigidBody.
+  void forget_predictions(const btCollisionObject& gone);
+
   /// Seconds by PlumbPhase since begin_step.
   [[nodiscard]] const std::array<double, PLUMB_PHASE_COUNT>& seconds() const { return seconds_; }
 

@@ -103,7 +103,6 @@ class World final : public IPhysicsWorld,
   void forget_contacts(Body& a, Body& b);
   void wake(Body& body);
   void wake_neighbours(const Body& body);
-  void orphan_manifolds(std::span<const PlumbBody> ids);
 
   // fields.cpp
   void write_pose(Body& body, const double* row);

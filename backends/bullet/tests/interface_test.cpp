@@ -59,6 +59,23 @@ TEST(Contacts, KeepTheirFeatureFromStepToStep) {
   EXPECT_EQ(before, features());
 }
 
+/// Bullet keeps what it foresaw for a swept body until the next step, beside the pairs from which a body is taken.
+TEST(Contacts, ForeseenOnesGoWithTheirBodies) {
+  auto world = scenes::make_world(kNeeds | PLUMB_NEED_CCD | PLUMB_NEED_SLEEPING);
+  plumb::check(*world, world->set_gravity({0, 0, 0}));
+  const PlumbBody wall =
+      scenes::add_body(*world, scenes::frictionless(PLUMB_STATIC, scenes::add_box(*world, {0.05, 2, 2}), {0, 0, 0}));
+  PlumbBodyDesc desc = scenes::frictionless(PLUMB_DYNAMIC, scenes::add_sphere(*world, 0.1), {-2, 0, 0});
+  desc.linear_velocity = {300, 0, 0};
+  desc.flags = PLUMB_BODY_CCD;
+  const PlumbBody bullet = scenes::add_body(*world, desc);
+  scenes::advance(*world);
+  plumb::check(*world, world->destroy_bodies({&wall, 1}));
+  EXPECT_EQ(world->contacts().size(), 0u);
+  plumb::check(*world, world->destroy_bodies({&bullet, 1}));
+  scenes::advance(*world);
+}
+
 TEST(Damping, IsExactForAnyCoefficient) {
   for (const double c : {0.1, 0.5, 3.0, 25.0}) {
     auto world = scenes::make_world(kNeeds);
