@@ -7,8 +7,8 @@
 
 #include "cli/replay.hpp"
 #include "cli/verbs.hpp"
+#include "plumb/nearest.hpp"
 #include "run/worker_process.hpp"
-#include "scene/nearest.hpp"
 #include "scene/scene.hpp"
 
 namespace {

@@ -6,10 +6,9 @@
 #include <cstdlib>
 #include <map>
 #include <mutex>
-#include <numeric>
-#include <set>
 
 #include "host_world.hpp"
+#include "plumb/nearest.hpp"
 
 namespace plumb {
 namespace {
@@ -28,21 +27,6 @@ struct OpenBackends {
 OpenBackends& open_backends() {
   static OpenBackends backends;
   return backends;
-}
-
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t k = 1; k <= b.size(); ++k) {
-      const std::size_t above = row[k];
-      row[k] = std::min({above + 1, row[k - 1] + 1, diagonal + (a[i - 1] == b[k - 1] ? 0u : 1u)});
-      diagonal = above;
-    }
-  }
-  return row[b.size()];
 }
 
 std::string version_text(std::uint32_t version) {
@@ -69,16 +53,10 @@ fs::path file_of(const std::string& name_or_file) {
   for (const FoundBackend& backend : found)
     if (backend.name == name_or_file) return fs::canonical(backend.file);
   std::string text = "no backend is called \"" + name_or_file + "\"";
-  if (found.empty()) {
-    text += "; none was found at all: set PLUMB_BACKEND_PATH to the folder that holds plumb-*.so";
-  } else {
-    const auto nearest =
-        std::min_element(found.begin(), found.end(), [&](const FoundBackend& a, const FoundBackend& b) {
-          return edit_distance(name_or_file, a.name) < edit_distance(name_or_file, b.name);
-        });
-    text += "; did you mean \"" + nearest->name + "\"? There are:";
-    for (const FoundBackend& backend : found) text += " " + backend.name;
-  }
+  std::vector<std::string> names;
+  for (const FoundBackend& backend : found) names.push_back(backend.name);
+  text += names.empty() ? "; none was found at all: set PLUMB_BACKEND_PATH to the folder that holds plumb-*.so"
+                        : suggestion(name_or_file, names);
   throw Error(PLUMB_E_INVALID_ARGUMENT, text);
 }
 

@@ -8,8 +8,8 @@
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
 #include "conform/conformance.hpp"
+#include "plumb/nearest.hpp"
 #include "run/plan.hpp"
-#include "scene/nearest.hpp"
 
 namespace plumb::harness {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "measure/groups.hpp"
+#include "plumb/nearest.hpp"
 #include "scene/locate.hpp"
-#include "scene/nearest.hpp"
 
 namespace plumb::harness {
 namespace {

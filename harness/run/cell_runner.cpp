@@ -16,7 +16,6 @@
 #include "run/metric_rows.hpp"
 #include "run/names.hpp"
 #include "run/trajectory.hpp"
-#include "scene/nearest.hpp"
 
 namespace plumb::harness {
 
@@ -142,10 +141,14 @@ class CellContext : public MeasureContext {
   std::vector<Metric> metrics_;
 };
 
-Scene scene_of(const Json& request) {
-  const SceneFile file = SceneFile::load(request.at("scene").get<std::string>());
+SceneFile scene_file_of(const Json& request) {
+  SceneFile file = SceneFile::load(request.at("scene").get<std::string>());
   if (fmt::format("{:016x}", file.hash) != request.at("scene_hash"))
     throw Error(PLUMB_E_CORRUPT, "the scene file has changed since the program was started: " + file.path.string());
+  return file;
+}
+
+Scene scene_of(const SceneFile& file, const Json& request) {
   Parameters parameters;
   for (const auto& [name, value] : request.at("parameters").items()) {
     if (value.is_string()) {
@@ -166,15 +169,6 @@ SimulationOptions options_of(const Backend& backend, const Json& request) {
     if (asked != request.at("settings").end()) options.settings.emplace_back(info->name, setting_value(*info, *asked));
   }
   return options;
-}
-
-const MeasureEntry& measure_named(const std::string& name) {
-  std::vector<std::string> known;
-  for (const MeasureEntry& entry : all_measures()) {
-    if (name == entry.name) return entry;
-    known.emplace_back(entry.name);
-  }
-  throw UsageError("there is no measure \"" + name + "\"" + suggestion(name, known));
 }
 
 struct Outcome {
@@ -275,11 +269,12 @@ Json run_cell(Backend& backend, const Json& request, Progress& progress) {
   std::optional<Trace> trace;
   std::optional<CellContext> context;
   Outcome outcome = outcome_of([&] {
-    scene.emplace(scene_of(request));
+    const SceneFile file = scene_file_of(request);
+    scene.emplace(scene_of(file, request));
     const SimulationOptions options = options_of(backend, request);
     trace.emplace(backend, request.value("trace", ""));
     context.emplace(trace->backend(), *scene, options, progress, request.value("trajectory", ""));
-    measure_named(scene->measure).run(*context);
+    find_measure(file).run(*context);
   });
   if (outcome.status == "ok" && !context->record().trouble.empty()) outcome = {"error", context->record().trouble};
   if (context) {

@@ -7,9 +7,9 @@
 #include <set>
 
 #include "measure/measure.hpp"
+#include "plumb/nearest.hpp"
 #include "run/machine.hpp"
 #include "scene/catalogue.hpp"
-#include "scene/nearest.hpp"
 #include "scene/parameters.hpp"
 
 namespace plumb::harness {

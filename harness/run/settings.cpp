@@ -10,7 +10,7 @@
 #include <optional>
 #include <set>
 
-#include "scene/nearest.hpp"
+#include "plumb/nearest.hpp"
 #include "scene/scene.hpp"
 
 namespace plumb::harness {

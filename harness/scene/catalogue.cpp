@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <sstream>
 
-#include "scene/nearest.hpp"
+#include "plumb/nearest.hpp"
 
 namespace plumb::harness {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "plumb/nearest.hpp"
 #include "scene/build.hpp"
-#include "scene/nearest.hpp"
 
 namespace plumb::harness {
 

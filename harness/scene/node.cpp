@@ -7,8 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "plumb/nearest.hpp"
 #include "scene/locate.hpp"
-#include "scene/nearest.hpp"
 
 namespace plumb::harness {
 namespace {

@@ -6,8 +6,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "plumb/nearest.hpp"
 #include "scene/expressions.hpp"
-#include "scene/nearest.hpp"
 #include "scene/units.hpp"
 
 namespace plumb::harness {

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "scene/nearest.hpp"
+#include "plumb/nearest.hpp"
 
 namespace plumb::harness {
 namespace {

@@ -5,9 +5,9 @@
 #include <set>
 #include <sstream>
 
+#include "plumb/nearest.hpp"
 #include "scene/build.hpp"
 #include "scene/locate.hpp"
-#include "scene/nearest.hpp"
 #include "scene/parameters.hpp"
 #include "scene/units.hpp"
 

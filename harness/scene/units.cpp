@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "scene/nearest.hpp"
+#include "plumb/nearest.hpp"
 
 namespace plumb::harness {
 namespace {

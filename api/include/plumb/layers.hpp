@@ -25,12 +25,20 @@ namespace plumb::layers {
 ///
 /// A host's mistake is refused before next hears of it: PLUMB_E_WRONG_PHASE, PLUMB_E_WRONG_THREAD or
 /// PLUMB_E_INVALID_ARGUMENT. A backend's mistake is answered with PLUMB_E_INTERNAL after the fact. Either way the error
-/// text says what was wrong, and findings() keeps the sentence.
+/// text says what was wrong, and findings() keeps the sentence and whose mistake it was.
 [[nodiscard]] const PlumbBackendTable* validate(const PlumbBackendTable* next);
+
+/// Which side of the wall broke a rule.
+enum class FindingKind { host_mistake, backend_mistake };
+
+struct Finding {
+  FindingKind kind;
+  std::string text;  ///< "create_bodies: the backend left ids[1] unwritten"
+};
 
 /// What the validation layer refused or found since it was last asked, oldest first (at most 1000). Empty for a table
 /// that validate() did not give.
-[[nodiscard]] std::vector<std::string> findings(const PlumbBackendTable* validated);
+[[nodiscard]] std::vector<Finding> findings(const PlumbBackendTable* validated);
 
 struct TraceOptions {
   std::uint32_t rows_every = 10;  ///< steps from one full record of the state rows to the next; >= 1

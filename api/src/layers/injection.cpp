@@ -1,8 +1,10 @@
 // The fault injection layer: one chosen call fails.
+#include <algorithm>
 #include <atomic>
 
 #include "layer_slots.hpp"
 #include "plumb/layers.hpp"
+#include "plumb/nearest.hpp"
 
 namespace plumb::layers {
 namespace {
@@ -53,15 +55,13 @@ class InjectionLayer : public LayerBase {
 }  // namespace
 
 const PlumbBackendTable* inject(const PlumbBackendTable* next, const Fault& fault) {
-  std::string names;
-  bool known = false;
+  std::vector<std::string> known;
   for_each_call([&]<Call call>() {
-    if (call == Call::core_destroy_world) return;  // it has no result
-    known = known || fault.call == name_of(call);
-    names += (names.empty() ? "" : ", ") + std::string(name_of(call));
+    if (call != Call::core_destroy_world) known.emplace_back(name_of(call));  // that one has no result
   });
-  if (!known)
-    throw Error(PLUMB_E_INVALID_ARGUMENT, "no call \"" + fault.call + "\" can be made to fail; these can: " + names);
+  if (std::find(known.begin(), known.end(), fault.call) == known.end())
+    throw Error(PLUMB_E_INVALID_ARGUMENT,
+                "no call \"" + fault.call + "\" can be made to fail" + suggestion(fault.call, known));
   if (fault.result >= 0)
     throw Error(PLUMB_E_INVALID_ARGUMENT,
                 "an injected result must be below 0, and " + std::to_string(fault.result) + " is not");

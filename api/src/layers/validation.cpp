@@ -38,13 +38,13 @@ PlumbResult ValidationLayer::on_world_call(PlumbWorld* world, Args... args) {
     const std::string text = text_for(call, world == nullptr   ? "world is null"
                                             : state == nullptr ? "world is none that this backend made"
                                                                : "world has been destroyed");
-    note(text);
+    note(FindingKind::host_mistake, text);
     if (state != nullptr) state->set_text(text);
     creation_text = text;
     return PLUMB_E_INVALID_ARGUMENT;
   }
-  const auto fail = [&](PlumbResult code, const std::string& text) {
-    note(text_for(call, text));
+  const auto fail = [&](FindingKind kind, PlumbResult code, const std::string& text) {
+    note(kind, text_for(call, text));
     if (state->lost == PLUMB_OK) state->set_text(text_for(call, text));
     return code;
   };
@@ -55,9 +55,9 @@ PlumbResult ValidationLayer::on_world_call(PlumbWorld* world, Args... args) {
     judge(call, CallTraits<call>::remarks, *state, world, result);
     return result;
   } catch (const HostError& error) {
-    return fail(error.code, error.text);
+    return fail(FindingKind::host_mistake, error.code, error.text);
   } catch (const BackendError& error) {
-    return fail(PLUMB_E_INTERNAL, std::string("the backend ") + error.text);
+    return fail(FindingKind::backend_mistake, PLUMB_E_INTERNAL, std::string("the backend ") + error.text);
   }
 }
 
@@ -79,7 +79,8 @@ void ValidationLayer::judge(Call call, Remarks allowed, ValidatedWorld& world, P
     const char* text = next_core()->error_text(handle);
     world.set_text(text == nullptr ? "" : text);
     if (is_loss(result)) world.lost = result;
-    if (text == nullptr || *text == '\0') note(text_for(call, "the backend failed without a word of why"));
+    if (text == nullptr || *text == '\0')
+      note(FindingKind::backend_mistake, text_for(call, "the backend failed without a word of why"));
     if (is_loss(result)) return;
   }
   // Queries change nothing, and others may run beside them; a step that runs must not be disturbed.
@@ -113,7 +114,8 @@ PlumbResult ValidationLayer::create_world(const PlumbWorldDesc* desc, PlumbWorld
     if (result < 0) {
       const char* text = next_core()->error_text(nullptr);
       creation_text = text == nullptr ? "" : text;
-      if (creation_text.empty()) note("create_world: the backend failed without a word of why");
+      if (creation_text.empty())
+        note(FindingKind::backend_mistake, "create_world: the backend failed without a word of why");
       return result;
     }
     if (made == nullptr) throw BackendError{"made no world"};
@@ -122,10 +124,10 @@ PlumbResult ValidationLayer::create_world(const PlumbWorldDesc* desc, PlumbWorld
     *world = made;
     return result;
   } catch (const HostError& error) {
-    note(creation_text = text_for(Call::core_create_world, error.text));
+    note(FindingKind::host_mistake, creation_text = text_for(Call::core_create_world, error.text));
     return error.code;
   } catch (const BackendError& error) {
-    note(creation_text = text_for(Call::core_create_world, "the backend " + error.text));
+    note(FindingKind::backend_mistake, creation_text = text_for(Call::core_create_world, "the backend " + error.text));
     return PLUMB_E_INTERNAL;
   }
 }
@@ -134,7 +136,7 @@ void ValidationLayer::destroy_world(PlumbWorld* world) {
   if (world == nullptr) return next<Call::core_destroy_world>()(nullptr);
   const std::shared_ptr<ValidatedWorld> state = find(world);
   const auto refuse = [&](const std::string& text) {
-    note(text_for(Call::core_destroy_world, text));
+    note(FindingKind::host_mistake, text_for(Call::core_destroy_world, text));
     if (state != nullptr) state->set_text(text_for(Call::core_destroy_world, text));
   };
   if (state == nullptr) return refuse("world is none that this backend made");
@@ -154,10 +156,11 @@ PlumbDegree ValidationLayer::capability(PlumbCapability kind, std::uint32_t a, s
   const PlumbDegree degree = next_core()->capability(kind, a, b, &said);
   const std::string question =
       "capability(" + std::to_string(kind) + ", " + std::to_string(a) + ", " + std::to_string(b) + ")";
-  if (said == nullptr) note(question + ": the backend's note is null");
+  if (said == nullptr) note(FindingKind::backend_mistake, question + ": the backend's note is null");
   if (text != nullptr) *text = said == nullptr ? "" : said;
   if (degree >= PLUMB_NONE && degree <= PLUMB_NATIVE) return degree;
-  note(question + ": the backend answered " + std::to_string(degree) + ", which is no degree");
+  note(FindingKind::backend_mistake,
+       question + ": the backend answered " + std::to_string(degree) + ", which is no degree");
   return PLUMB_NONE;
 }
 
@@ -172,13 +175,13 @@ std::shared_ptr<ValidatedWorld> ValidationLayer::find(PlumbWorld* world) {
   return found == worlds_.end() ? nullptr : found->second;
 }
 
-void ValidationLayer::note(const std::string& text) {
+void ValidationLayer::note(FindingKind kind, const std::string& text) {
   constexpr std::size_t most = 1000;
   const std::lock_guard lock(mutex_);
-  if (findings_.size() < most) findings_.push_back(text);
+  if (findings_.size() < most) findings_.push_back({kind, text});
 }
 
-std::vector<std::string> ValidationLayer::take_findings() {
+std::vector<Finding> ValidationLayer::take_findings() {
   const std::lock_guard lock(mutex_);
   return std::exchange(findings_, {});
 }
@@ -192,9 +195,9 @@ const PlumbBackendTable* validate(const PlumbBackendTable* next) {
   return Slots::open("validation", next);
 }
 
-std::vector<std::string> findings(const PlumbBackendTable* validated) {
+std::vector<Finding> findings(const PlumbBackendTable* validated) {
   ValidationLayer* layer = LayerSlots<ValidationLayer>::find(validated);
-  return layer == nullptr ? std::vector<std::string>() : layer->take_findings();
+  return layer == nullptr ? std::vector<Finding>() : layer->take_findings();
 }
 
 }  // namespace plumb::layers

@@ -35,7 +35,7 @@ class ValidationLayer : public LayerBase {
 
   PlumbDegree capability(PlumbCapability kind, std::uint32_t a, std::uint32_t b, const char** note);
   const char* error_text(PlumbWorld* world);
-  std::vector<std::string> take_findings();
+  std::vector<Finding> take_findings();
 
  private:
   template <Call call, class... Args>
@@ -92,11 +92,11 @@ class ValidationLayer : public LayerBase {
   void judge(Call call, Remarks allowed, ValidatedWorld& world, PlumbWorld* handle, PlumbResult result);
   void check_body_count(ValidatedWorld& world, PlumbWorld* handle, const std::string& when);
   std::shared_ptr<ValidatedWorld> find(PlumbWorld* world);
-  void note(const std::string& text);
+  void note(FindingKind kind, const std::string& text);
 
   std::mutex mutex_;
   std::unordered_map<PlumbWorld*, std::shared_ptr<ValidatedWorld>> worlds_;
-  std::vector<std::string> findings_;
+  std::vector<Finding> findings_;
 };
 
 }  // namespace plumb::layers

@@ -260,7 +260,7 @@ TEST_F(Guard, PhasesOfAStep) {
 TEST_F(Guard, SettingsAreCheckedByNameTypeAndRange) {
   ISettings& settings = *world->settings();
   const auto number = [](PlumbSettingType type, double value) { return PlumbSettingValue{type, 0, value, nullptr}; };
-  refused(PLUMB_E_INVALID_ARGUMENT, "itterations",
+  refused(PLUMB_E_INVALID_ARGUMENT, "\"itterations\"; did you mean \"iterations\"?",
           [&] { return settings.set_setting("itterations", number(PLUMB_SETTING_INT, 5)); });
   refused(PLUMB_E_INVALID_ARGUMENT, "from 1 to 100",
           [&] { return settings.set_setting("iterations", number(PLUMB_SETTING_INT, 101)); });

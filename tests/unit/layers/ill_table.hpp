@@ -45,7 +45,8 @@ inline const int unknown_table = 7;  // an extension that no layer knows
 /// A world behind the validation layer over the ill tables.
 class Validated : public ::testing::Test {
  protected:
-  Validated() {
+  /// usual: whose mistakes these tests are about.
+  explicit Validated(layers::FindingKind usual) : usual_(usual) {
     ill() = good();
     ill().core.extension = [](const char* name) -> const void* {
       const std::string_view wanted = name;
@@ -94,18 +95,24 @@ class Validated : public ::testing::Test {
     EXPECT_NE(text.find(words), std::string::npos) << "\"" << text << "\" does not say \"" << words << "\"";
     expect_found(words);
   }
-  void expect_found(const std::string& words) {
-    const std::vector<std::string> found = layers::findings(table);
-    EXPECT_TRUE(std::any_of(found.begin(), found.end(),
-                            [&](const auto& text) { return text.find(words) != std::string::npos; }))
-        << "no finding says \"" << words << "\"; the last of " << found.size() << " is "
-        << (found.empty() ? "" : found.back());
+  void expect_found(const std::string& words) { expect_found(usual_, words); }
+  void expect_found(layers::FindingKind kind, const std::string& words) {
+    const std::vector<layers::Finding> found = layers::findings(table);
+    const auto at = std::find_if(found.begin(), found.end(), [&](const layers::Finding& finding) {
+      return finding.text.find(words) != std::string::npos;
+    });
+    ASSERT_NE(at, found.end()) << "no finding says \"" << words << "\"; the last of " << found.size() << " is "
+                               << (found.empty() ? "" : found.back().text);
+    EXPECT_EQ(at->kind, kind) << at->text;
   }
 
   const PlumbBackendTable* table = nullptr;
   PlumbWorld* world = nullptr;
   PlumbShape shape = 0;
   std::vector<PlumbBody> bodies;
+
+ private:
+  layers::FindingKind usual_;
 };
 
 }  // namespace plumb::test

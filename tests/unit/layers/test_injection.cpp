@@ -43,7 +43,12 @@ TEST(Injection, WorldsThatCannotBeMadeSayWhy) {
 }
 
 TEST(Injection, WrongWishesAreRefused) {
-  EXPECT_THROW(static_cast<void>(layers::inject(&good().core, {"stepp", 1, PLUMB_E_INTERNAL})), Error);
+  try {
+    static_cast<void>(layers::inject(&good().core, {"stepp", 1, PLUMB_E_INTERNAL}));
+    ADD_FAILURE() << "a call that is none was made to fail";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("did you mean \"step\"?"), std::string::npos) << error.what();
+  }
   EXPECT_THROW(static_cast<void>(layers::inject(&good().core, {"step", 1, PLUMB_OK})), Error);
 }
 

@@ -167,7 +167,7 @@ TEST(TraceCalls, EveryCallOfTheListIsRecordedAndReplaysTheSame) {
 TEST(TraceCalls, EveryCallPassesValidation) {
   const PlumbBackendTable* validated = layers::validate(&complete());
   { const Everything everything(validated); }
-  for (const std::string& finding : layers::findings(validated)) ADD_FAILURE() << finding;
+  for (const layers::Finding& finding : layers::findings(validated)) ADD_FAILURE() << finding.text;
 }
 
 TEST(TraceCalls, AStepThatFailsHasNotBegun) {

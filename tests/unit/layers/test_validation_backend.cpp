@@ -4,7 +4,10 @@
 namespace plumb::test {
 namespace {
 
-using ValidatedBackend = Validated;
+class ValidatedBackend : public Validated {
+ protected:
+  ValidatedBackend() : Validated(layers::FindingKind::backend_mistake) {}
+};
 
 TEST_F(ValidatedBackend, RowsBeyondTheCapacity) {
   ill().core.list_bodies = [](PlumbWorld*, PlumbBody* ids, std::uint32_t capacity,
@@ -158,7 +161,8 @@ TEST_F(ValidatedBackend, HitsThatCannotBe) {
   expect(PLUMB_E_INTERNAL, cast(PLUMB_HIT_ALL, 1), "names no body");
   expect(PLUMB_E_INTERNAL, cast(PLUMB_HIT_CLOSEST, 2), "counts 1 closest hits for 2 queries");
   EXPECT_EQ(cast(PLUMB_HIT_CLOSEST, 1), PLUMB_OK) << "nothing hit is an answer";
-  expect(PLUMB_E_INVALID_ARGUMENT, cast(7, 1), "mode is 7");
+  EXPECT_EQ(cast(7, 1), PLUMB_E_INVALID_ARGUMENT);
+  expect_found(layers::FindingKind::host_mistake, "mode is 7");
 }
 
 TEST_F(ValidatedBackend, HitsBeyondTheCapacityOrOutOfOrder) {
@@ -373,7 +377,7 @@ TEST_F(ValidatedBackend, LostWorldsAnswerNothingElse) {
   EXPECT_EQ(table->list_bodies(world, nullptr, 0, &count), PLUMB_E_WORLD_LOST);
   EXPECT_FALSE(asked);
   EXPECT_STREQ(table->error_text(world), "the ground gave way") << "the text of the loss stays";
-  expect_found("only destroy_world and error_text are left");
+  expect_found(layers::FindingKind::host_mistake, "only destroy_world and error_text are left");
 }
 
 TEST_F(ValidatedBackend, CapabilitiesThatAreNoDegree) {
@@ -381,10 +385,10 @@ TEST_F(ValidatedBackend, CapabilitiesThatAreNoDegree) {
   const char* note = nullptr;
   EXPECT_EQ(table->capability(PLUMB_CAP_RESIDUAL, 0, 0, &note), PLUMB_NONE);
   EXPECT_STREQ(note, "");
-  const std::vector<std::string> found = layers::findings(table);
+  const std::vector<layers::Finding> found = layers::findings(table);
   ASSERT_EQ(found.size(), 2u);
-  EXPECT_NE(found[0].find("note is null"), std::string::npos);
-  EXPECT_NE(found[1].find("answered 9"), std::string::npos);
+  EXPECT_NE(found[0].text.find("note is null"), std::string::npos);
+  EXPECT_NE(found[1].text.find("answered 9"), std::string::npos);
 }
 
 TEST_F(ValidatedBackend, WorldsThatAreNotMade) {

@@ -8,6 +8,8 @@ namespace {
 
 class ValidatedHost : public Validated {
  protected:
+  ValidatedHost() : Validated(layers::FindingKind::host_mistake) {}
+
   /// Refused with these words, and the backend's class was not called.
   template <class Call>
   void refused(PlumbResult code, const std::string& words, Call&& call) {

@@ -4,6 +4,7 @@
 #include "plumb/backend/guarded_world.hpp"
 #include "plumb/backend/snapshot_frame.hpp"
 #include "plumb/backend/state_copy.hpp"
+#include "plumb/nearest.hpp"
 
 namespace plumb::backend {
 
@@ -162,8 +163,10 @@ class GuardedExtensions : public GuardedWorld {
     require_pointer(name, 1, "name");
     for (const PlumbSettingInfo& info : facts.settings)
       if (std::strcmp(info.name, name) == 0) return info;
-    refuse(PLUMB_E_INVALID_ARGUMENT, std::string(facts.info->name) + " has no setting \"" + name +
-                                         "\"; " PLUMB_EXT_SETTINGS " lists those it has");
+    std::vector<std::string> known;
+    for (const PlumbSettingInfo& info : facts.settings) known.emplace_back(info.name);
+    refuse(PLUMB_E_INVALID_ARGUMENT,
+           std::string(facts.info->name) + " has no setting \"" + name + "\"" + suggestion(name, known));
   }
 
   /// The value, of the setting's type and range; a choice points to the backend's own word.

@@ -1,8 +1,8 @@
+#include "plumb/nearest.hpp"
+
 #include <gtest/gtest.h>
 
-#include "scene/nearest.hpp"
-
-namespace plumb::harness {
+namespace plumb::test {
 namespace {
 
 TEST(Nearest, EditDistance) {
@@ -29,4 +29,4 @@ TEST(Nearest, EndsAMessage) {
 }
 
 }  // namespace
-}  // namespace plumb::harness
+}  // namespace plumb::test

@@ -1,21 +1,18 @@
-#include "scene/nearest.hpp"
-
-#include <fmt/format.h>
-#include <fmt/ranges.h>
+// The nearest right word to a misspelt one, for error messages of hosts and backends.
+#pragma once
 
 #include <algorithm>
 #include <cctype>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
 
-namespace plumb::harness {
-namespace {
+namespace plumb {
 
-std::size_t common_prefix(std::string_view a, std::string_view b) {
-  return static_cast<std::size_t>(std::mismatch(a.begin(), a.end(), b.begin(), b.end()).first - a.begin());
-}
-
-}  // namespace
-
-std::size_t edit_distance(std::string_view a, std::string_view b) {
+/// Fewest insertions, deletions, replacements and swaps of neighbours that turn a into b, letter case aside (optimal
+/// string alignment: Damerau 1964 without editing a swapped pair again).
+[[nodiscard]] inline std::size_t edit_distance(std::string_view a, std::string_view b) {
   const auto lower = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
   std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;
@@ -33,15 +30,18 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return last[b.size()];
 }
 
-std::string nearest(std::string_view word, const std::vector<std::string>& known) {
+/// The known word with the smallest edit distance, of several the one that begins most alike; "" when none is close
+/// enough to be meant.
+[[nodiscard]] inline std::string nearest(std::string_view word, const std::vector<std::string>& known) {
   std::string best;
-  std::size_t best_prefix = 0;
+  std::ptrdiff_t best_prefix = 0;
   std::size_t best_distance = std::max<std::size_t>(2, word.size() / 3) + 1;
   for (const std::string& candidate : known) {
     const bool begins = word.size() >= 3 && candidate.starts_with(word);
     const std::size_t distance = begins ? 1 : edit_distance(word, candidate);
     if (distance >= std::max(word.size(), candidate.size())) continue;  // not one letter in common
-    const std::size_t prefix = common_prefix(word, candidate);
+    const std::ptrdiff_t prefix =
+        std::mismatch(word.begin(), word.end(), candidate.begin(), candidate.end()).first - word.begin();
     if (distance < best_distance || (distance == best_distance && !best.empty() && prefix > best_prefix)) {
       best_distance = distance;
       best_prefix = prefix;
@@ -51,13 +51,13 @@ std::string nearest(std::string_view word, const std::vector<std::string>& known
   return best;
 }
 
-std::string suggestion(std::string_view word, const std::vector<std::string>& known) {
-  if (const std::string best = nearest(word, known); !best.empty()) return fmt::format("; did you mean \"{}\"?", best);
-  if (known.empty()) return "";
+/// Ends an error message: `; did you mean "x"?`, or `; known are a, b, c` when nothing is near, or "" without any.
+[[nodiscard]] inline std::string suggestion(std::string_view word, const std::vector<std::string>& known) {
+  if (const std::string best = nearest(word, known); !best.empty()) return "; did you mean \"" + best + "\"?";
   constexpr std::size_t most = 12;
-  const auto shown = static_cast<std::ptrdiff_t>(std::min(most, known.size()));
-  return fmt::format("; known are {}{}", fmt::join(known.begin(), known.begin() + shown, ", "),
-                     known.size() > most ? ", ..." : "");
+  std::string text;
+  for (std::size_t i = 0; i < std::min(most, known.size()); ++i) text += (i == 0 ? "; known are " : ", ") + known[i];
+  return known.size() > most ? text + ", ..." : text;
 }
 
-}  // namespace plumb::harness
+}  // namespace plumb
