@@ -14,6 +14,7 @@
 namespace {
 
 using namespace plumb::harness;
+using plumb::suggestion;
 
 constexpr int wrong_question = 2;
 
