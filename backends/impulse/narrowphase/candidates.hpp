@@ -1,0 +1,82 @@
+// The points where two faces lie over each other, and the choice of the four that carry the contact.
+#pragma once
+
+#include "narrowphase/manifold.hpp"
+#include "narrowphase/tolerance.hpp"
+
+namespace plumb::impulse {
+
+/// Where a line along the normal meets both faces: at (x, y) in the plane of A's face, and at B's face `separation`
+/// further along the normal.
+struct Candidate {
+  Real x, y, separation;
+  std::uint32_t feature;
+};
+
+/// What is left to choose from. Full, it keeps the best and goes on (add).
+template <int Capacity>
+struct Candidates {
+  Candidate at[Capacity];
+  int count = 0;
+};
+
+/// Puts the four points that matter first in `at` and returns how many there are: the deepest, the farthest from it,
+/// the one that spans the largest triangle with both, and the one that widens that triangle most. Points that are equal
+/// within `tie` (a length) are taken in their order.
+PLUMB_HD inline int choose_points(Candidate* at, int count, Real tie) {
+  const auto swap = [at](int i, int j) {
+    const Candidate c = at[i];
+    at[i] = at[j];
+    at[j] = c;
+  };
+  if (count <= kManifoldPoints) return count;
+  int best = 0;
+  for (int i = 1; i < count; ++i)
+    if (at[i].separation < at[best].separation - tie) best = i;
+  swap(0, best);
+
+  Real most = 0;
+  best = 1;
+  for (int i = 1; i < count; ++i) {
+    const Real dx = at[i].x - at[0].x, dy = at[i].y - at[0].y, far = dx * dx + dy * dy;
+    if (far > most * (1 + kClipSlack)) {
+      most = far;
+      best = i;
+    }
+  }
+  swap(1, best);
+
+  const Real ux = at[1].x - at[0].x, uy = at[1].y - at[0].y;
+  const auto side = [&](int i) { return ux * (at[i].y - at[0].y) - uy * (at[i].x - at[0].x); };
+  most = 0;
+  best = 2;
+  for (int i = 2; i < count; ++i)
+    if (const Real area = abs(side(i)); area > most * (1 + kClipSlack)) {
+      most = area;
+      best = i;
+    }
+  swap(2, best);
+
+  // The triangle 0, 1, 2, counter-clockwise, and how far a point lies outside of its widest side.
+  const bool turned = side(2) < 0;
+  most = 0;
+  best = -1;
+  for (int i = 3; i < count; ++i) {
+    Real outside = 0;
+    for (int k = 0; k < 3; ++k) {
+      const Candidate& p = at[k];
+      const Candidate& q = at[k == 2 ? 0 : k + 1];
+      const Real area = (q.x - p.x) * (at[i].y - p.y) - (q.y - p.y) * (at[i].x - p.x);
+      outside = max(outside, turned ? area : -area);
+    }
+    if (outside > most * (1 + kClipSlack)) {
+      most = outside;
+      best = i;
+    }
+  }
+  if (best < 0) return 3;
+  swap(3, best);
+  return 4;
+}
+
+}  // namespace plumb::impulse

@@ -1,0 +1,43 @@
+// Pair functions: the contact manifold of two shapes.
+//
+// All have the same parameters: shapes A and B, each with its orientation; d from A's origin to B's; axes of the world.
+// `out` receives the points whose separation is at most `margin` (>= 0); touching counts. A return of false, with
+// out.count 0, means that the shapes are further apart. The normal points from A to B; positions are relative to A's
+// origin.
+#pragma once
+
+#include "narrowphase/box_box.hpp"
+#include "narrowphase/round.hpp"
+
+namespace plumb::impulse {
+
+/// Makes the manifold of (B, A) that of (A, B).
+PLUMB_HD inline void swap_sides(const Vec& d, Manifold& m) {
+  m.normal = -m.normal;
+  for (std::uint32_t i = 0; i < m.count; ++i) {
+    m.points[i].position += d;
+    m.points[i].feature = swapped_feature(m.points[i].feature);
+  }
+}
+
+/// Any two shapes with a.type <= b.type.
+PLUMB_HD inline bool collide_ordered(const Shape& a, const Quat& qa, const Shape& b, const Quat& qb, const Vec& d,
+                                     Real margin, const Hulls& hulls, Manifold& out) {
+  const auto is = [&](ShapeType type_a, ShapeType type_b) { return a.type == type_a && b.type == type_b; };
+  if (is(ShapeType::kSphere, ShapeType::kSphere)) return collide_sphere_sphere(a, qa, b, qb, d, margin, hulls, out);
+  if (is(ShapeType::kSphere, ShapeType::kBox)) return collide_sphere_box(a, qa, b, qb, d, margin, hulls, out);
+  if (is(ShapeType::kBox, ShapeType::kBox)) return collide_box_box(a, qa, b, qb, d, margin, hulls, out);
+  out.count = 0;
+  return false;
+}
+
+/// Any two shapes.
+PLUMB_HD inline bool collide(const Shape& a, const Quat& qa, const Shape& b, const Quat& qb, const Vec& d, Real margin,
+                             const Hulls& hulls, Manifold& out) {
+  if (a.type <= b.type) return collide_ordered(a, qa, b, qb, d, margin, hulls, out);
+  const bool touch = collide_ordered(b, qb, a, qa, -d, margin, hulls, out);
+  if (touch) swap_sides(d, out);
+  return touch;
+}
+
+}  // namespace plumb::impulse

@@ -1,0 +1,81 @@
+// Boxes against boxes: answers known in closed form, ids that stay, four points and which.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "narrowphase/collide.hpp"
+
+namespace plumb::impulse {
+namespace {
+
+constexpr Quat kUpright = {0, 0, 0, 1};
+constexpr Hulls kNoHulls = {};
+
+Shape box(Real x, Real y, Real z) { return {ShapeType::kBox, 0, {x, y, z}, std::sqrt(x * x + y * y + z * z)}; }
+Quat turned(double degrees, double x, double y, double z) {
+  const double half = degrees * 3.14159265358979323846 / 360, s = std::sin(half) / std::sqrt(x * x + y * y + z * z);
+  return {static_cast<Real>(x * s), static_cast<Real>(y * s), static_cast<Real>(z * s),
+          static_cast<Real>(std::cos(half))};
+}
+Manifold touch(const Shape& a, const Quat& qa, const Shape& b, const Quat& qb, const Vec& d, Real margin) {
+  Manifold m{};
+  collide(a, qa, b, qb, d, margin, kNoHulls, m);
+  return m;
+}
+
+TEST(BoxBox, RestingCubesTouchAtFourCornersExactly) {
+  const Shape cube = box(Real(0.5), Real(0.5), Real(0.5));
+  const Manifold m = touch(cube, kUpright, cube, kUpright, {0, 1, 0}, Real(0.01));
+  ASSERT_EQ(m.count, 4U);
+  EXPECT_EQ(m.normal, (Vec{0, 1, 0}));
+  std::set<std::pair<Real, Real>> corners;
+  for (const ManifoldPoint& p : m.points) {
+    EXPECT_EQ(p.separation, 0);
+    EXPECT_EQ(p.position.y, Real(0.5));
+    EXPECT_EQ(std::abs(p.position.x), Real(0.5));
+    EXPECT_EQ(std::abs(p.position.z), Real(0.5));
+    corners.insert({p.position.x, p.position.z});
+  }
+  EXPECT_EQ(corners.size(), 4U);
+}
+
+TEST(BoxBox, CrossingEdgesTouchAtOnePoint) {
+  const Shape cube = box(Real(0.5), Real(0.5), Real(0.5));
+  const Manifold m = touch(cube, turned(45, 0, 0, 1), cube, turned(45, 1, 0, 0), {0, Real(1.4), 0}, 0);
+  ASSERT_EQ(m.count, 1U);
+  EXPECT_NEAR(m.normal.y, 1, 1e-6);
+  EXPECT_NEAR(m.points[0].separation, -0.01421356, 1e-6);
+  EXPECT_NEAR(m.points[0].position.x, 0, 1e-6);
+  EXPECT_NEAR(m.points[0].position.y, 0.7, 1e-6);
+  EXPECT_NEAR(m.points[0].position.z, 0, 1e-6);
+}
+
+TEST(BoxBox, CubeOnItsDiagonalTouchesWithOneCorner) {
+  const Shape cube = box(Real(0.5), Real(0.5), Real(0.5)), ground = box(10, 1, 10);
+  const double tilt = std::acos(1 / std::sqrt(3.0)) * 180 / 3.14159265358979323846;
+  const Quat q = turned(tilt, 1, 0, -1);  // takes the diagonal (1, 1, 1) to y
+  const Manifold m = touch(ground, kUpright, cube, q, {0, Real(1.86602540), 0}, Real(1e-4));
+  ASSERT_EQ(m.count, 1U);
+  EXPECT_NEAR(m.normal.y, 1, 1e-6);
+  EXPECT_NEAR(m.points[0].separation, 0, 1e-6);
+}
+
+TEST(BoxBox, EightCornersAreReducedToFourThatSpanTheOctagon) {
+  const Shape cube = box(1, 1, 1);
+  const Manifold m = touch(cube, kUpright, cube, turned(45, 0, 1, 0), {0, Real(1.999), 0}, 0);
+  ASSERT_EQ(m.count, 4U);
+  double area = 0;  // of the quadrangle by its diagonals: sort by angle first
+  std::array<Vec, 4> p;
+  for (std::size_t i = 0; i < 4; ++i) p[i] = m.points[i].position;
+  std::sort(p.begin(), p.end(), [](const Vec& a, const Vec& b) { return std::atan2(a.z, a.x) < std::atan2(b.z, b.x); });
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Vec &a = p[i], &b = p[(i + 1) % 4];
+    area += 0.5 * static_cast<double>(a.x * b.z - a.z * b.x);
+  }
+  EXPECT_GT(area, 2.0);  // the octagon has 8 (sqrt 2 - 1) = 3.31, its best quadrangle 2.34
+}
+
+}  // namespace
+}  // namespace plumb::impulse
