@@ -11,6 +11,15 @@ void measure_tower(MeasureContext& context);
 void measure_pyramid(MeasureContext& context);
 void measure_mass_ratio(MeasureContext& context);
 
+/// Whether a tower of unit cubes, given from the ground up, stands: its top cube is no more than a tenth of the height
+/// below its start. So a tower that leans or sinks a little stands, and one that has lost its top does not.
+[[nodiscard]] bool tower_stands(const Scene& scene, std::span<const PoseRow> poses,
+                                const std::vector<std::size_t>& boxes);
+/// The stricter question: whether each cube is within half a side of its place as seen from the cube below (of the
+/// lowest: from where it started).
+[[nodiscard]] bool tower_is_intact(const Scene& scene, std::span<const PoseRow> poses,
+                                   const std::vector<std::size_t>& boxes);
+
 // stacking_balance.cpp
 void measure_overhang(MeasureContext& context);
 void measure_four_spheres(MeasureContext& context);

@@ -13,24 +13,14 @@ constexpr double side = 1;          // m, of the boxes in all of these scenes
 constexpr double rest_seconds = 1;  // at the end of a run, over which forces are averaged
 constexpr double still = 0.01;      // m/s: slower is at rest
 
+/// How much lower than at the start a body is, m.
+double sink_of(const Scene& scene, std::span<const PoseRow> poses, std::size_t body) {
+  return scene.bodies[body].desc.pose.position.y - poses[body].position.y;
+}
+
 /// Steps up to the last second of the run, then `observe` sees every step of it.
 bool in_last_second(Simulation& simulation) {
   return simulation.time() > simulation.scene().seconds - rest_seconds + simulation.scene().dt / 2;
-}
-
-/// Each box is upon the one below: within half a side of where it was, seen from there. So a tower that sinks or leans
-/// evenly stands, and one whose boxes slide apart does not.
-bool tower_stands(const Scene& scene, std::span<const PoseRow> poses, const std::vector<std::size_t>& boxes) {
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    referee::Vec3 now = referee::vec(poses[boxes[i]].position);
-    referee::Vec3 start = referee::vec(scene.bodies[boxes[i]].desc.pose.position);
-    if (i > 0) {
-      now -= referee::vec(poses[boxes[i - 1]].position);
-      start -= referee::vec(scene.bodies[boxes[i - 1]].desc.pose.position);
-    }
-    if (!((now - start).norm() <= side / 2)) return false;
-  }
-  return true;
 }
 
 double sideways(const Scene& scene, std::span<const PoseRow> poses, std::size_t body) {
@@ -45,6 +35,24 @@ double tilt(const PoseRow& pose) {
 
 }  // namespace
 
+bool tower_stands(const Scene& scene, std::span<const PoseRow> poses, const std::vector<std::size_t>& boxes) {
+  const double height = static_cast<double>(boxes.size()) * side;
+  return sink_of(scene, poses, boxes.back()) <= height / 10;
+}
+
+bool tower_is_intact(const Scene& scene, std::span<const PoseRow> poses, const std::vector<std::size_t>& boxes) {
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    referee::Vec3 now = referee::vec(poses[boxes[i]].position);
+    referee::Vec3 start = referee::vec(scene.bodies[boxes[i]].desc.pose.position);
+    if (i > 0) {
+      now -= referee::vec(poses[boxes[i - 1]].position);
+      start -= referee::vec(scene.bodies[boxes[i - 1]].desc.pose.position);
+    }
+    if (!((now - start).norm() <= side / 2)) return false;
+  }
+  return true;
+}
+
 void measure_tower(MeasureContext& context) {
   const auto [scene, impulses] = with_wanted(context, PLUMB_NEED_CONTACTS | PLUMB_NEED_CONTACT_IMPULSES);
   const std::vector<std::size_t> boxes = arg_bodies(scene, "boxes");
@@ -52,18 +60,20 @@ void measure_tower(MeasureContext& context) {
   const RefereeView view(scene);
   Simulation simulation = context.simulate(scene);
   ImpulseAccount account(simulation);
-  Survival survival;
+  Survival standing, intact;
   double drift = 0, depth = 0;
   simulation.run([&](Simulation& now) {
-    survival.add(now.time(), tower_stands(scene, now.poses(), boxes));
+    standing.add(now.time(), tower_stands(scene, now.poses(), boxes));
+    intact.add(now.time(), tower_is_intact(scene, now.poses(), boxes));
     for (const std::size_t box : boxes) drift = largest(drift, sideways(scene, now.poses(), box));
     if (!in_last_second(now)) return;
     depth = largest(depth, view.penetration(now.poses()).max);
     if (impulses) account.add(now);
   });
-  add_survival(context, survival, simulation.time());
+  add_survival(context, standing, simulation.time());
+  context.compare("intact", intact.time(), simulation.time(), simulation.time());
   const std::span<const PoseRow> poses = simulation.poses();
-  const double sink = scene.bodies[boxes.back()].desc.pose.position.y - poses[boxes.back()].position.y;
+  const double sink = sink_of(scene, poses, boxes.back());
   context.add({"sink", sink, 0.0, std::abs(sink) / height, std::nullopt, ""});
   context.deviation("drift", drift / side);
   context.deviation("depth", depth / side);
@@ -120,7 +130,7 @@ void measure_mass_ratio(MeasureContext& context) {
   Survival survival;
   double settled = 0;
   simulation.run([&](Simulation& now) {
-    survival.add(now.time(), tower_stands(scene, now.poses(), {lower, upper}));
+    survival.add(now.time(), tower_is_intact(scene, now.poses(), {lower, upper}));
     for (const std::size_t body : {lower, upper})
       if (!(referee::vec(now.velocities()[body].linear).norm() <= still)) settled = now.time();
     if (impulses && in_last_second(now)) account.add(now);

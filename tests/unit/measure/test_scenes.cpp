@@ -4,10 +4,13 @@
 
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <limits>
 
+#include "measure/args.hpp"
 #include "measure/measure.hpp"
 #include "measure/referee_view.hpp"
+#include "measure/stacking.hpp"
 
 namespace plumb::harness {
 namespace {
@@ -70,6 +73,32 @@ TEST(RefereeView, WeighsATowerAndSeesAnOverlap) {
   EXPECT_NEAR(depth.max, 0.25, 1e-12);
   poses[1].position.x = std::numeric_limits<double>::quiet_NaN();
   EXPECT_TRUE(std::isnan(depth_summary(view.penetration(poses)).max));
+}
+
+TEST(Towers, StandWhileTheTopIsUp) {
+  const Scene scene = SceneFile::load(std::filesystem::path(PLUMB_SCENES_FOLDER) / "stacking" / "D1-tower.json")
+                          .instantiate({{"H", 10.0}});
+  const std::vector<std::size_t> boxes = arg_bodies(scene, "boxes");
+  ASSERT_EQ(boxes.size(), 10u);
+  const auto with = [&](const std::function<void(std::vector<PoseRow>&)>& change) {
+    std::vector<PoseRow> poses = start_of(scene);
+    change(poses);
+    return std::pair(tower_stands(scene, poses, boxes), tower_is_intact(scene, poses, boxes));
+  };
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(with([](auto&) {}), std::pair(true, true));
+  EXPECT_EQ(with([&](auto& poses) {  // each 9 cm into the one below: the top is .9 m down
+              for (std::size_t i = 0; i < 10; ++i) poses[boxes[i]].position.y -= 0.09 * static_cast<double>(i + 1);
+            }),
+            std::pair(true, true));
+  EXPECT_EQ(with([&](auto& poses) {  // the top is 1.1 m down
+              for (std::size_t i = 0; i < 10; ++i) poses[boxes[i]].position.y -= 0.11 * static_cast<double>(i + 1);
+            }),
+            std::pair(false, true));
+  EXPECT_EQ(with([&](auto& poses) { poses[boxes[4]].position.x += 0.51; }), std::pair(true, false));
+  EXPECT_EQ(with([&](auto& poses) { poses[boxes[9]].position.y = 0.5; }), std::pair(false, false));
+  EXPECT_EQ(with([&](auto& poses) { poses[boxes[0]].position.x += 0.51; }), std::pair(true, false));
+  EXPECT_EQ(with([&](auto& poses) { poses[boxes[9]].position.y = nan; }), std::pair(false, false));
 }
 
 TEST(RefereeView, LeavesOutBodiesThatAJointKeepsApart) {
