@@ -1,6 +1,7 @@
 // Sorting and prefix sums where kernels run. Both are stable and depend on nothing but their input.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "exec/executor.hpp"
@@ -19,17 +20,22 @@ class RadixSort {
   /// pairs, and writes maximal keys behind the last of `keys` for that.
   void run(Executor& executor, Count n, K* keys, const std::uint32_t* values, K* sorted_keys,
            std::uint32_t* sorted_values, int bits);
+  /// The same for a number that the host knows; keys stay as they are.
+  void run(Executor& executor, std::uint32_t n, const K* keys, const std::uint32_t* values, K* sorted_keys,
+           std::uint32_t* sorted_values, int bits);
 
  private:
   Buffer<std::byte> scratch_;
   std::uint32_t capacity_ = 0;
 };
 
-/// sums[i] = values[0] + ... + values[i-1] for every i < n, and *total the sum of all.
+/// sums[i] = values[0] + ... + values[i-1] for every i < n, and *total the sum of all. Sums beyond 2^32 - 1 are that:
+/// a count that is too great for its array is still found to be.
 class Scan {
  public:
   void reserve(std::uint32_t capacity);
   void run(Executor& executor, Count n, const std::uint32_t* values, std::uint32_t* sums, std::uint32_t* total);
+  void run(Executor& executor, std::uint32_t n, const std::uint32_t* values, std::uint32_t* sums, std::uint32_t* total);
 
  private:
   Buffer<std::byte> scratch_;

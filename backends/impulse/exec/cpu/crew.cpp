@@ -43,8 +43,7 @@ void Crew::run_chunks(std::uint32_t count, void* context, PlumbTask task) const 
     host_->run(
         host_->user, [](void* job, std::uint32_t c) { (*static_cast<const GuardedTask*>(job))(c); }, &guarded, count);
   } else if (arena_) {
-    arena_->arena.execute(
-        [&] { tbb::parallel_for(std::uint32_t{0}, count, guarded, tbb::simple_partitioner{}); });
+    arena_->arena.execute([&] { tbb::parallel_for(std::uint32_t{0}, count, guarded, tbb::simple_partitioner{}); });
   } else {
     for (std::uint32_t c = 0; c < count; ++c) guarded(c);
   }

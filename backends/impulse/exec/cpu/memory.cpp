@@ -8,11 +8,11 @@
 namespace plumb::impulse::memory {
 
 void* allocate(std::size_t bytes) {
-  void* data = ::operator new(bytes, std::align_val_t{256}, std::nothrow);
+  void* data = ::operator new (bytes, std::align_val_t{256}, std::nothrow);
   if (data == nullptr) throw Error(PLUMB_E_OUT_OF_MEMORY, "no " + std::to_string(bytes) + " bytes of memory are left");
   return data;
 }
-void release(void* data) noexcept { ::operator delete(data, std::align_val_t{256}); }
+void release(void* data) noexcept { ::operator delete (data, std::align_val_t{256}); }
 void* allocate_host(std::size_t bytes) { return allocate(bytes); }
 void release_host(void* data) noexcept { release(data); }
 void fill(void* data, int byte, std::size_t bytes) { std::memset(data, byte, bytes); }

@@ -9,18 +9,26 @@ namespace plumb::impulse {
 
 namespace {
 
-constexpr std::uint32_t kDigits = 256;
+constexpr int kDigitBits = 8;
+constexpr std::uint32_t kDigits = 1U << kDigitBits;
 constexpr std::uint32_t kMostChunks = 64;
 
 std::uint32_t chunks_for(std::uint32_t n, std::uint32_t threads) {
   return threads == 1 ? 1 : std::clamp(n / 4096, 1U, std::min(kMostChunks, threads * 2));
 }
 
+struct Digit {
+  int shift, bits;
+  template <class K>
+  std::uint32_t of(K key) const {
+    return static_cast<std::uint32_t>(key >> shift) & ((1U << bits) - 1U);
+  }
+};
+
 template <class K>
-void pass(Crew& crew, std::uint32_t n, std::uint32_t chunks, int shift, const K* keys, const std::uint32_t* values,
+void pass(Crew& crew, std::uint32_t n, std::uint32_t chunks, Digit digit, const K* keys, const std::uint32_t* values,
           K* to_keys, std::uint32_t* to_values, std::uint32_t* histograms) {
   const std::uint32_t chunk = (n + chunks - 1) / chunks;
-  const auto digit_of = [&](std::uint32_t i) { return static_cast<std::uint32_t>(keys[i] >> shift) & (kDigits - 1); };
   const auto in_chunks = [&](auto&& work) {
     struct Job {
       decltype(work)& f;
@@ -30,18 +38,18 @@ void pass(Crew& crew, std::uint32_t n, std::uint32_t chunks, int shift, const K*
   in_chunks([&](std::uint32_t c) {
     std::uint32_t* counts = histograms + std::size_t{c} * kDigits;
     std::memset(counts, 0, kDigits * sizeof *counts);
-    for (std::uint32_t i = c * chunk; i < std::min(n, (c + 1) * chunk); ++i) ++counts[digit_of(i)];
+    for (std::uint32_t i = c * chunk; i < std::min(n, (c + 1) * chunk); ++i) ++counts[digit.of(keys[i])];
   });
   std::uint32_t sum = 0;
-  for (std::uint32_t digit = 0; digit < kDigits; ++digit)
+  for (std::uint32_t d = 0; d < kDigits; ++d)
     for (std::uint32_t c = 0; c < chunks; ++c) {
-      std::uint32_t& count = histograms[std::size_t{c} * kDigits + digit];
+      std::uint32_t& count = histograms[std::size_t{c} * kDigits + d];
       sum += std::exchange(count, sum);
     }
   in_chunks([&](std::uint32_t c) {
     std::uint32_t* next = histograms + std::size_t{c} * kDigits;
     for (std::uint32_t i = c * chunk; i < std::min(n, (c + 1) * chunk); ++i) {
-      const std::uint32_t at = next[digit_of(i)]++;
+      const std::uint32_t at = next[digit.of(keys[i])]++;
       to_keys[at] = keys[i];
       to_values[at] = values[i];
     }
@@ -61,12 +69,17 @@ void RadixSort<K>::reserve(std::uint32_t capacity) {
 template <class K>
 void RadixSort<K>::run(Executor& executor, Count n, K* keys, const std::uint32_t* values, K* sorted_keys,
                        std::uint32_t* sorted_values, int bits) {
-  const std::uint32_t count = std::min(*n.value, n.capacity);
+  run(executor, std::min(*n.value, n.capacity), keys, values, sorted_keys, sorted_values, bits);
+}
+
+template <class K>
+void RadixSort<K>::run(Executor& executor, std::uint32_t n, const K* keys, const std::uint32_t* values, K* sorted_keys,
+                       std::uint32_t* sorted_values, int bits) {
   auto* histograms = reinterpret_cast<std::uint32_t*>(scratch_.data());
   auto* other_keys = reinterpret_cast<K*>(histograms + std::size_t{kMostChunks} * kDigits);
   auto* other_values = reinterpret_cast<std::uint32_t*>(other_keys + capacity_);
-  const int passes = std::max(1, (bits + 7) / 8);
-  const std::uint32_t chunks = chunks_for(count, executor.threads());
+  const int passes = std::max(1, (bits + kDigitBits - 1) / kDigitBits);
+  const std::uint32_t chunks = chunks_for(n, executor.threads());
 
   const K* from_keys = keys;
   const std::uint32_t* from_values = values;
@@ -74,7 +87,8 @@ void RadixSort<K>::run(Executor& executor, Count n, K* keys, const std::uint32_t
     const bool to_result = (passes - p) % 2 == 1;  // so that the last pass ends there
     K* to_keys = to_result ? sorted_keys : other_keys;
     std::uint32_t* to_values = to_result ? sorted_values : other_values;
-    pass(executor.crew(), count, chunks, 8 * p, from_keys, from_values, to_keys, to_values, histograms);
+    pass(executor.crew(), n, chunks, Digit{kDigitBits * p, std::min(kDigitBits, bits - kDigitBits * p)}, from_keys,
+         from_values, to_keys, to_values, histograms);
     from_keys = to_keys;
     from_values = to_values;
   }
@@ -85,16 +99,20 @@ template class RadixSort<std::uint64_t>;
 
 void Scan::reserve(std::uint32_t capacity) { capacity_ = std::max(capacity, capacity_); }
 
-void Scan::run(Executor& /*executor*/, Count n, const std::uint32_t* values, std::uint32_t* sums,
+void Scan::run(Executor& executor, Count n, const std::uint32_t* values, std::uint32_t* sums, std::uint32_t* total) {
+  run(executor, std::min(*n.value, n.capacity), values, sums, total);
+}
+
+void Scan::run(Executor& /*executor*/, std::uint32_t n, const std::uint32_t* values, std::uint32_t* sums,
                std::uint32_t* total) {
-  const std::uint32_t count = std::min(*n.value, n.capacity);
-  std::uint32_t sum = 0;
-  for (std::uint32_t i = 0; i < count; ++i) {
+  std::uint64_t sum = 0;
+  const auto saturated = [](std::uint64_t s) { return static_cast<std::uint32_t>(std::min<std::uint64_t>(s, ~0U)); };
+  for (std::uint32_t i = 0; i < n; ++i) {
     const std::uint32_t value = values[i];
-    sums[i] = sum;
+    sums[i] = saturated(sum);
     sum += value;
   }
-  *total = sum;
+  *total = saturated(sum);
 }
 
 }  // namespace plumb::impulse

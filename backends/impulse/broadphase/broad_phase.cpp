@@ -1,0 +1,144 @@
+#include "broadphase/broad_phase.hpp"
+
+#include <string>
+
+#include "plumb/physics_world.hpp"
+
+namespace plumb::impulse {
+
+namespace {
+
+constexpr std::uint32_t kNotes = 32;             // partners that a mover notes while it counts; few find more
+constexpr std::uint32_t kStaticMark = 1U << 31;  // marks a noted partner as a static: proxies are fewer than 2^31
+
+/// Movers in the order of a method, and what each finds behind itself there.
+struct TreeMovers {
+  TreeView tree;
+  [[nodiscard]] PLUMB_HD std::uint32_t proxy(std::uint32_t i) const { return tree.leaf(i).child; }
+  [[nodiscard]] PLUMB_HD Box box(std::uint32_t i) const { return {tree.leaf(i).low, tree.leaf(i).high}; }
+  template <class Found>
+  PLUMB_HD void overlaps(std::uint32_t i, const Box& box, Found& found) const {
+    tree.overlaps(box, tree.leaf(i).next, found);
+  }
+};
+
+/// Passes on what the filter lets through.
+template <class Sink>
+struct Filtered {
+  const PairFilter& filter;
+  const ProxyFilter own;
+  std::uint32_t mark;
+  Sink& sink;
+  PLUMB_HD void operator()(std::uint32_t proxy) {
+    if (filter(own, filter.proxies[proxy])) sink(proxy | mark);
+  }
+};
+
+template <class Movers>
+struct Search {
+  Movers movers;
+  TreeView statics;
+  PairFilter filter;
+
+  /// sink(partner) for every partner that mover i finds, statics marked and last.
+  template <class Sink>
+  PLUMB_HD void operator()(std::uint32_t i, std::uint32_t proxy, Sink& sink) const {
+    const Box box = movers.box(i);
+    Filtered<Sink> found{filter, filter.proxies[proxy], 0, sink};
+    movers.overlaps(i, box, found);
+    found.mark = kStaticMark;
+    statics.overlaps(box, statics.root(), found);
+  }
+};
+
+struct NotePartners {
+  std::uint32_t* notes;
+  std::uint32_t count;
+  PLUMB_HD void operator()(std::uint32_t partner) {
+    if (count < kNotes) notes[count] = partner;
+    ++count;
+  }
+};
+
+struct WritePairs {
+  Pair* pairs;
+  std::uint32_t proxy, at, capacity;
+  PLUMB_HD void operator()(std::uint32_t partner) {
+    if (at >= capacity) return;
+    const std::uint32_t other = partner & ~kStaticMark;
+    pairs[at++] = partner != other || proxy < other ? Pair{proxy, other} : Pair{other, proxy};
+  }
+};
+
+template <class Movers>
+struct CountPartners {
+  Search<Movers> search;
+  std::uint32_t *notes, *counts;
+  PLUMB_HD void operator()(std::uint32_t i) const {
+    NotePartners sink{notes + std::size_t{i} * kNotes, 0};
+    search(i, search.movers.proxy(i), sink);
+    counts[i] = sink.count;
+  }
+};
+
+template <class Movers>
+struct ListPairs {
+  Search<Movers> search;
+  const std::uint32_t *notes, *counts, *offsets;
+  Pair* pairs;
+  std::uint32_t capacity;
+  PairRange* ranges;
+  PLUMB_HD void operator()(std::uint32_t i) const {
+    const std::uint32_t proxy = search.movers.proxy(i), count = counts[i], first = min(offsets[i], capacity);
+    ranges[proxy] = {first, min(count, capacity - first)};
+    WritePairs sink{pairs, proxy, first, capacity};
+    if (count > kNotes) {
+      search(i, proxy, sink);
+    } else {
+      for (std::uint32_t k = 0; k < count; ++k) sink(notes[std::size_t{i} * kNotes + k]);
+    }
+  }
+};
+
+void require(const char* what, std::uint32_t n, std::uint32_t capacity) {
+  if (n > capacity)
+    throw Error(PLUMB_E_INTERNAL, "the broad phase got " + std::to_string(n) + " " + what + " and has room for " +
+                                      std::to_string(capacity) + "; reserve it before");
+}
+
+}  // namespace
+
+void BroadPhase::reserve(Executor& /*executor*/, std::uint32_t movers, std::uint32_t statics, std::uint32_t pairs) {
+  mover_capacity_ = max(mover_capacity_, movers);
+  static_capacity_ = max(static_capacity_, statics);
+  pair_capacity_ = max(pair_capacity_, pairs);
+  reduce_.reserve(max(mover_capacity_, static_capacity_));
+  extent_.grow(1);
+  movers_.reserve(mover_capacity_);
+  statics_.reserve(static_capacity_);
+  scan_.reserve(mover_capacity_);
+  counts_.grow(mover_capacity_);
+  offsets_.grow(mover_capacity_);
+  noted_.grow(std::size_t{mover_capacity_} * kNotes);
+}
+
+void BroadPhase::build_statics(Executor& executor, const Box* boxes, const std::uint32_t* proxies, std::uint32_t n) {
+  require("statics", n, static_capacity_);
+  reduce_.run(executor, n, LoadExtent{boxes, proxies}, extent_.data());
+  statics_.build(executor, boxes, proxies, n, extent_.data(), morton_bits);
+}
+
+void BroadPhase::find_pairs(Executor& executor, const Box* boxes, const std::uint32_t* movers, std::uint32_t n,
+                            const PairFilter& filter, Pair* pairs, PairRange* ranges_by_proxy,
+                            std::uint32_t* pair_count) {
+  require("movers", n, mover_capacity_);
+  reduce_.run(executor, n, LoadExtent{boxes, movers}, extent_.data());
+  movers_.build(executor, boxes, movers, n, extent_.data(), morton_bits);
+  const Search<TreeMovers> search{{movers_.view()}, statics_.view(), filter};
+  executor.run(n, CountPartners<TreeMovers>{search, noted_.data(), counts_.data()});
+  scan_.run(executor, n, counts_.data(), offsets_.data(), pair_count);
+  executor.run(n, ListPairs<TreeMovers>{search, noted_.data(), counts_.data(), offsets_.data(), pairs, pair_capacity_,
+                                        ranges_by_proxy});
+}
+
+}  // namespace plumb::impulse

@@ -1,0 +1,56 @@
+// The broad phase: all pairs of proxies whose boxes overlap and that the filter lets through, each once, in an order
+// that depends on nothing but the boxes.
+//
+// Movers among themselves are found by one of three methods, as a setting: a tree (lbvh.hpp), sort and sweep
+// (sweep.hpp) or a uniform grid (grid.hpp). All find the same pairs, in another order. Statics lie in a tree of their
+// own, which is built when they change and asked by every mover.
+//
+// Every mover is looked up once: it notes the first few partners, a scan of the counts gives it its place in the list,
+// and it copies them there; only who found more than it could note looks again.
+#pragma once
+
+#include <cstdint>
+
+#include "broadphase/lbvh.hpp"
+#include "broadphase/pair_filter.hpp"
+#include "broadphase/pairs.hpp"
+#include "broadphase/scene_extent.hpp"
+#include "exec/executor.hpp"
+#include "exec/memory.hpp"
+#include "exec/reduce.hpp"
+#include "exec/sort.hpp"
+#include "geometry/box.hpp"
+
+namespace plumb::impulse {
+
+class BroadPhase {
+ public:
+  enum class Method : std::uint32_t { kLbvh, kSweepAndPrune, kGrid };
+
+  Method method = Method::kLbvh;             ///< read by find_pairs
+  MortonBits morton_bits = MortonBits::k63;  ///< read by build_statics and find_pairs
+
+  /// Makes room for that many movers, statics and pairs. Only between steps.
+  void reserve(Executor& executor, std::uint32_t movers, std::uint32_t statics, std::uint32_t pairs);
+
+  /// The statics are boxes[proxies[i]], i < n. Only between steps; enqueues. Boxes are copied into the tree.
+  void build_statics(Executor& executor, const Box* boxes, const std::uint32_t* proxies, std::uint32_t n);
+
+  /// Enqueues only. The movers are boxes[movers[i]], i < n, n no more than was reserved. All pointers are the
+  /// executor's memory, and are read and written when the kernels run.
+  /// pairs: the first `pairs` of reserve() at most are written. ranges_by_proxy: of every mover the pairs that it
+  /// found, as far as they were written. pair_count: how many there are, even if that is more than fit; 2^32 - 1 is
+  /// that or more.
+  void find_pairs(Executor& executor, const Box* boxes, const std::uint32_t* movers, std::uint32_t n,
+                  const PairFilter& filter, Pair* pairs, PairRange* ranges_by_proxy, std::uint32_t* pair_count);
+
+ private:
+  Reduce<SceneExtent> reduce_;
+  Buffer<SceneExtent> extent_;
+  Lbvh movers_, statics_;
+  Scan scan_;
+  Buffer<std::uint32_t> counts_, offsets_, noted_;
+  std::uint32_t mover_capacity_ = 0, static_capacity_ = 0, pair_capacity_ = 0;
+};
+
+}  // namespace plumb::impulse

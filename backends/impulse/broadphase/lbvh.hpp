@@ -1,0 +1,93 @@
+// The linear bounding volume hierarchy: a tree of boxes over what is sorted along the Morton curve.
+//
+//   codes    Morton code of each box's centre in the scene's extent, above it a bit or two for the size (below)
+//   sort     by code
+//   tree     binary radix tree of the codes, all inner nodes at once (Karras, "Maximizing parallelism in the
+//            construction of BVHs, octrees, and k-d trees", HPG 2012, section 4); equal codes differ by their index
+//   bounds   from the leaves up, one thread a leaf: the first that comes to a node leaves, the second merges
+//   query    a loop without a stack: each node knows its first child, and the node that follows its subtree in depth-
+//            first order (Prokopenko and Lebrun-Grandie, "Revising Apetrei's bounding volume hierarchy construction
+//            algorithm to allow stackless traversal", 2024). Nothing can overflow, however deep the tree is.
+//
+// What follows the subtree of leaf i are exactly the leaves behind i: a mover that starts there finds each pair once,
+// and never goes through what lies before it.
+//
+// A box much larger than the others would have a thread of its own find most of the scene. The bits for size, above
+// the code, put the larger behind all smaller; so it is the many small boxes that find the giant, in parallel, and the
+// giant, at the end of the order, has nothing left to find. The boxes of one size stay in a subtree without giants.
+#pragma once
+
+#include <cstdint>
+
+#include "broadphase/scene_extent.hpp"
+#include "exec/executor.hpp"
+#include "exec/memory.hpp"
+#include "exec/reduce.hpp"
+#include "exec/sort.hpp"
+#include "geometry/box.hpp"
+
+namespace plumb::impulse {
+
+/// Leaf i is node 2 i, inner node i is node 2 i + 1: what is near in the tree is near in memory.
+struct alignas(32) TreeNode {
+  Vec low;
+  std::uint32_t child;  ///< inner node: its first child; leaf: its proxy
+  Vec high;
+  std::uint32_t next;  ///< what follows this subtree in depth-first order
+};
+
+struct TreeView {
+  static constexpr std::uint32_t kEnd = ~0U;
+
+  const TreeNode* nodes;
+  std::uint32_t leaves;
+
+  [[nodiscard]] PLUMB_HD std::uint32_t root() const { return leaves == 0 ? kEnd : leaves == 1 ? 0U : 1U; }
+  [[nodiscard]] PLUMB_HD const TreeNode& leaf(std::uint32_t i) const { return nodes[2 * i]; }
+
+  /// found(proxy) for every leaf from node `from` on, in order, whose box touches `box`.
+  template <class Found>
+  PLUMB_HD void overlaps(const Box& box, std::uint32_t from, Found& found) const {
+    for (std::uint32_t id = from; id != kEnd;) {
+      const TreeNode node = nodes[id];
+      const bool hit = overlap(box, Box{node.low, node.high});
+      const bool inner = (id & 1U) != 0;
+      if (hit && !inner) found(node.child);
+      id = hit && inner ? node.child : node.next;
+    }
+  }
+};
+
+enum class MortonBits : std::uint32_t { k30 = 30, k63 = 63 };
+
+class Lbvh {
+ public:
+  /// Makes room for trees of up to `capacity` boxes. Not within a step.
+  void reserve(std::uint32_t capacity);
+  /// Enqueues the building of the tree of boxes[proxies[i]], i < n. extent: of these boxes, in the executor's memory.
+  void build(Executor& executor, const Box* boxes, const std::uint32_t* proxies, std::uint32_t n,
+             const SceneExtent* extent, MortonBits bits);
+  /// The tree that was enqueued last.
+  [[nodiscard]] TreeView view() const { return {nodes_.data(), leaves_}; }
+
+ private:
+  template <class K>
+  struct Keys {
+    Buffer<K> codes, sorted;
+    RadixSort<K> sort;
+  };
+  template <class K>
+  void build_by(Keys<K>& keys, Executor& executor, const Box* boxes, const std::uint32_t* proxies, std::uint32_t n,
+                const SceneExtent* extent);
+
+  Keys<std::uint32_t> keys_30_;
+  Keys<std::uint64_t> keys_63_;
+  Buffer<std::uint32_t> indices_, order_;
+  Buffer<TreeNode> nodes_;
+  Buffer<std::uint32_t> parents_;   // by node
+  Buffer<std::uint32_t> seconds_;   // by split: its second child
+  Buffer<std::uint32_t> arrivals_;  // by inner node
+  std::uint32_t leaves_ = 0;
+};
+
+}  // namespace plumb::impulse

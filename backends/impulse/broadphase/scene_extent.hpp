@@ -1,0 +1,69 @@
+// Where a set of boxes lies and how large they are: what codes and cells are relative to.
+//
+// Whole numbers only (order keys, binary exponents), so that it does not matter in which order they are merged.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+
+#include "broadphase/morton.hpp"
+#include "geometry/box.hpp"
+
+namespace plumb::impulse {
+
+/// A box that takes part: not empty, of numbers, and not as good as infinite.
+PLUMB_HD constexpr bool is_sound(const Box& box) {
+  return box.low.x <= box.high.x && box.low.y <= box.high.y && box.low.z <= box.high.z && box.low.x >= -kHuge &&
+         box.low.y >= -kHuge && box.low.z >= -kHuge && box.high.x <= kHuge && box.high.y <= kHuge &&
+         box.high.z <= kHuge;
+}
+PLUMB_HD constexpr Vec centre(const Box& box) { return Real(.5) * (box.low + box.high); }
+PLUMB_HD constexpr float longest_side(const Box& box) {
+  const Vec side = box.high - box.low;
+  return static_cast<float>(max(side.x, max(side.y, side.z)));
+}
+/// Binary exponent of a number that is not negative, from 0 for 0 to 255.
+PLUMB_HD constexpr int exponent_of(float x) { return static_cast<int>(std::bit_cast<std::uint32_t>(x) >> 23 & 255U); }
+
+struct SceneExtent {
+  std::uint32_t low[3], high[3];  ///< order keys of the bounds of the boxes' centres, rounded to float
+  std::uint32_t exponents;        ///< sum of the exponents of the longest sides of those that have one
+  std::uint32_t sized;            ///< how many have one
+
+  PLUMB_HD static SceneExtent nothing() { return {{~0U, ~0U, ~0U}, {0, 0, 0}, 0, 0}; }
+  PLUMB_HD static SceneExtent merged(const SceneExtent& a, const SceneExtent& b) {
+    SceneExtent both{};
+    for (int k = 0; k < 3; ++k) {
+      both.low[k] = min(a.low[k], b.low[k]);
+      both.high[k] = max(a.high[k], b.high[k]);
+    }
+    both.exponents = a.exponents + b.exponents;
+    both.sized = a.sized + b.sized;
+    return both;
+  }
+  PLUMB_HD static SceneExtent of(const Box& box) {
+    if (!is_sound(box)) return nothing();
+    const Vec middle = centre(box);
+    const std::uint32_t x = order_key(static_cast<float>(middle.x)), y = order_key(static_cast<float>(middle.y)),
+                        z = order_key(static_cast<float>(middle.z));
+    const int exponent = exponent_of(longest_side(box));
+    return {{x, y, z}, {x, y, z}, static_cast<std::uint32_t>(exponent), exponent > 0 ? 1U : 0U};
+  }
+
+  [[nodiscard]] PLUMB_HD bool empty() const { return low[0] > high[0]; }
+  /// Exponent of the geometric mean of the longest sides: one giant among many hardly moves it.
+  [[nodiscard]] PLUMB_HD int mean_exponent() const { return sized == 0 ? 0 : static_cast<int>(exponents / sized); }
+  [[nodiscard]] PLUMB_HD float corner(int axis) const { return from_order_key(low[axis]); }
+  [[nodiscard]] PLUMB_HD float length(int axis) const {
+    return empty() ? 0.0F : from_order_key(high[axis]) - from_order_key(low[axis]);
+  }
+  [[nodiscard]] PLUMB_HD float longest() const { return max(length(0), max(length(1), length(2))); }
+};
+
+struct LoadExtent {
+  const Box* boxes;
+  const std::uint32_t* proxies;
+  PLUMB_HD SceneExtent operator()(std::uint32_t i) const { return SceneExtent::of(boxes[proxies[i]]); }
+};
+
+}  // namespace plumb::impulse
