@@ -1,6 +1,7 @@
 // Shapes and bodies of a world: made, added to Bullet, removed.
 #include <algorithm>
 
+#include "moving_mesh.hpp"
 #include "plumb/backend/small_math.hpp"
 #include "world.hpp"
 
@@ -67,7 +68,10 @@ std::unique_ptr<Body> World::make_body(const PlumbBodyDesc& desc, PlumbBody hand
   const bool dynamic = desc.motion == PLUMB_DYNAMIC;
   const MassFrame frame = dynamic ? mass_frame(desc) : MassFrame{btVector3(0, 0, 0), btTransform::getIdentity(), true};
   std::unique_ptr<btCollisionShape> own;
-  if (shared && !frame.identity) own = make_offset_shape(*shared, frame.body_to_mass.inverse());
+  if (dynamic && shared && shared->type == PLUMB_TRIANGLE_MESH)
+    own = make_moving_mesh(*shared, frame.body_to_mass.inverse());
+  else if (shared && !frame.identity)
+    own = make_offset_shape(*shared, frame.body_to_mass.inverse());
   // Bullet only reads a shape that is in use.
   btCollisionShape* bullet_shape = own ? own.get() : shared ? shared->bullet.get() : &no_shape_;
   const btScalar mass = dynamic ? positive_scalar(desc.mass, "mass") : btScalar(0);

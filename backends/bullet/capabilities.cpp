@@ -14,9 +14,13 @@ bool is_convex(std::uint32_t type) { return type <= PLUMB_CONVEX_HULL; }
 PlumbDegree shape_degree(std::uint32_t type, std::uint32_t motion, const char*& note) {
   if (type >= PLUMB_SHAPE_TYPE_COUNT || motion >= PLUMB_MOTION_COUNT) return PLUMB_NONE;
   if (type == PLUMB_PLANE) return motion == PLUMB_STATIC ? PLUMB_NATIVE : PLUMB_NONE;
-  const bool surface = type == PLUMB_TRIANGLE_MESH || type == PLUMB_HEIGHT_FIELD;
-  if (surface && motion == PLUMB_DYNAMIC)
-    return answer(PLUMB_NONE, note, "Bullet's meshes and height fields do not move by forces");
+  if (type == PLUMB_HEIGHT_FIELD && motion == PLUMB_DYNAMIC)
+    return answer(PLUMB_NONE, note, "Bullet's height fields do not move by forces");
+  if (type == PLUMB_TRIANGLE_MESH && motion == PLUMB_DYNAMIC)
+    return answer(
+        PLUMB_APPROXIMATE, note,
+        "GImpact, surface against surface: rests a centimetre above (less for a thin mesh) and trembles; surfaces "
+        "that have crossed may push sideways, and a tower of six cubes falls");
   if (type == PLUMB_CONVEX_HULL || type == PLUMB_CYLINDER)
     return answer(PLUMB_NATIVE, note, "edges are rounded by collision_margin against all but spheres");
   return PLUMB_NATIVE;
@@ -25,7 +29,11 @@ PlumbDegree shape_degree(std::uint32_t type, std::uint32_t motion, const char*& 
 PlumbDegree pair_degree(std::uint32_t a, std::uint32_t b, const char*& note) {
   if (a >= PLUMB_SHAPE_TYPE_COUNT || b >= PLUMB_SHAPE_TYPE_COUNT) return PLUMB_NONE;
   const auto volume = [](std::uint32_t type) { return is_convex(type) || type == PLUMB_COMPOUND; };
-  if (!volume(a) && !volume(b)) return answer(PLUMB_NONE, note, "neither of the two can be dynamic");
+  if (!volume(a) && !volume(b)) {
+    if (a != PLUMB_TRIANGLE_MESH && b != PLUMB_TRIANGLE_MESH)
+      return answer(PLUMB_NONE, note, "neither of the two can be dynamic");
+    return answer(PLUMB_APPROXIMATE, note, "by the triangles of a dynamic mesh (GImpact); trembles at rest");
+  }
   if (a == PLUMB_PLANE || b == PLUMB_PLANE)
     return answer(PLUMB_NATIVE, note,
                   "the manifold grows by one point a step; a large box as ground gets four at once");
@@ -34,6 +42,8 @@ PlumbDegree pair_degree(std::uint32_t a, std::uint32_t b, const char*& note) {
       (a == PLUMB_TRIANGLE_MESH || b == PLUMB_TRIANGLE_MESH || a == PLUMB_HEIGHT_FIELD || b == PLUMB_HEIGHT_FIELD))
     return answer(PLUMB_APPROXIMATE, note,
                   "hulls rock on the one point that is found in a step; hull_clipping finds all at once");
+  if (a == PLUMB_TRIANGLE_MESH || b == PLUMB_TRIANGLE_MESH)
+    return answer(PLUMB_APPROXIMATE, note, "native where the mesh stands still; a dynamic one trembles at rest");
   return PLUMB_NATIVE;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <mutex>
 
+#include "moving_mesh.hpp"
 #include "world.hpp"
 
 namespace plumb::bullet {
@@ -54,6 +55,14 @@ void collide_objects(btDispatcher& dispatcher, const btDispatcherInfo& info, btC
   dispatcher.freeCollisionAlgorithm(algorithm);
 }
 
+/// A mesh for this call alone, where the other shape meets none but moving meshes; else null.
+std::unique_ptr<btCollisionShape> moving_mesh_for(const Shape& mesh, const Shape& other) {
+  const bool surface =
+      other.type == PLUMB_TRIANGLE_MESH || other.type == PLUMB_HEIGHT_FIELD || other.type == PLUMB_PLANE;
+  if (mesh.type != PLUMB_TRIANGLE_MESH || !surface) return nullptr;
+  return make_moving_mesh(mesh, btTransform::getIdentity());
+}
+
 }  // namespace
 
 PlumbResult World::collide_pairs(std::span<const PlumbPosedPair> pairs, std::span<PlumbPairResult> results,
@@ -61,9 +70,12 @@ PlumbResult World::collide_pairs(std::span<const PlumbPosedPair> pairs, std::spa
   const std::lock_guard lock(query_mutex_);
   pair_points.clear();
   for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const Shape &shape_a = *shape(pairs[i].shape_a), &shape_b = *shape(pairs[i].shape_b);
+    const auto mesh_a = moving_mesh_for(shape_a, shape_b);
+    const auto mesh_b = mesh_a ? nullptr : moving_mesh_for(shape_b, shape_a);
     btCollisionObject a, b;
-    a.setCollisionShape(shape(pairs[i].shape_a)->bullet.get());
-    b.setCollisionShape(shape(pairs[i].shape_b)->bullet.get());
+    a.setCollisionShape(mesh_a ? mesh_a.get() : shape_a.bullet.get());
+    b.setCollisionShape(mesh_b ? mesh_b.get() : shape_b.bullet.get());
     a.setWorldTransform(transform(pairs[i].pose_a, "pose_a"));
     b.setWorldTransform(transform(pairs[i].pose_b, "pose_b"));
     const std::size_t first = pair_points.size();

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "moving_mesh.hpp"
+
 namespace plumb::bullet {
 namespace {
 
@@ -24,6 +26,7 @@ btPersistentManifold* Dispatcher::getNewManifold(const btCollisionObject* a, con
 
 WorldParts::WorldParts(const CollisionOptions& options)
     : configuration(construction(options)), dispatcher(&configuration) {
+  collide_moving_meshes(dispatcher);
   if (options.multipoint > 0) {
     configuration.setConvexConvexMultipointIterations(options.multipoint, options.multipoint);
     configuration.setPlaneConvexMultipointIterations(options.multipoint, options.multipoint);

@@ -64,15 +64,8 @@ void make_mesh(const PlumbShapeDesc& desc, Shape& shape) {
   for (std::size_t i = 0; i < std::size_t{desc.vertex_count} * 3; ++i)
     shape.vertices.push_back(scalar(desc.vertices[i], "vertices"));
   shape.indices.assign(desc.indices, desc.indices + std::size_t{desc.triangle_count} * 3);
-  btIndexedMesh part;
-  part.m_numTriangles = static_cast<int>(desc.triangle_count);
-  part.m_triangleIndexBase = reinterpret_cast<const unsigned char*>(shape.indices.data());
-  part.m_triangleIndexStride = 3 * sizeof(int);
-  part.m_numVertices = static_cast<int>(desc.vertex_count);
-  part.m_vertexBase = reinterpret_cast<const unsigned char*>(shape.vertices.data());
-  part.m_vertexStride = 3 * sizeof(btScalar);
   auto mesh = std::make_unique<btTriangleIndexVertexArray>();
-  mesh->addIndexedMesh(part, PHY_INTEGER);
+  mesh->addIndexedMesh(indexed_mesh(shape.vertices, shape.indices), PHY_INTEGER);
   shape.mesh = std::move(mesh);
   shape.bullet = std::make_unique<btBvhTriangleMeshShape>(shape.mesh.get(), desc.triangle_count < kQuantizedTriangles);
 }
@@ -145,6 +138,17 @@ std::shared_ptr<const Shape> make_shape(const PlumbShapeDesc& desc, std::vector<
   }
   shape->inner_radius = inner_radius(desc, *shape);
   return shape;
+}
+
+btIndexedMesh indexed_mesh(const std::vector<btScalar>& vertices, const std::vector<int>& indices) {
+  btIndexedMesh mesh;
+  mesh.m_numTriangles = static_cast<int>(indices.size() / 3);
+  mesh.m_triangleIndexBase = reinterpret_cast<const unsigned char*>(indices.data());
+  mesh.m_triangleIndexStride = 3 * sizeof(int);
+  mesh.m_numVertices = static_cast<int>(vertices.size() / 3);
+  mesh.m_vertexBase = reinterpret_cast<const unsigned char*>(vertices.data());
+  mesh.m_vertexStride = 3 * sizeof(btScalar);
+  return mesh;
 }
 
 std::unique_ptr<btCollisionShape> make_offset_shape(const Shape& shape, const btTransform& offset) {

@@ -49,6 +49,9 @@ std::vector<Shape::Child> children_of(const PlumbShapeDesc& desc, Find&& find) {
 std::shared_ptr<const Shape> make_shape(const PlumbShapeDesc& desc, std::vector<Shape::Child> children,
                                         const ShapeOptions& options);
 
+/// The arrays of a mesh as Bullet takes them; they must outlive what is made of it.
+btIndexedMesh indexed_mesh(const std::vector<btScalar>& vertices, const std::vector<int>& indices);
+
 /// The same shape placed in a frame that moved: Bullet wants a body's origin in its centre of mass and its axes along
 /// the principal ones. offset: the body's frame seen from that frame.
 std::unique_ptr<btCollisionShape> make_offset_shape(const Shape& shape, const btTransform& offset);
