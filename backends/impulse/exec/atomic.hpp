@@ -10,11 +10,23 @@
 
 namespace plumb::impulse {
 
+#if defined(__CUDA_ARCH__)
+/// The type that CUDA's atomic functions have for a whole number of that size.
+template <class U>
+__device__ inline auto* atomic_word(U* at) {
+  if constexpr (sizeof(U) == sizeof(unsigned long long)) {
+    return reinterpret_cast<unsigned long long*>(at);
+  } else {
+    return at;
+  }
+}
+#endif
+
 /// All return the value before.
 template <class U>
 PLUMB_HD inline U atomic_add(U* at, U value) {
 #if defined(__CUDA_ARCH__)
-  return atomicAdd(at, value);
+  return atomicAdd(atomic_word(at), value);
 #else
   return std::atomic_ref<U>(*at).fetch_add(value, std::memory_order_relaxed);
 #endif
@@ -22,7 +34,7 @@ PLUMB_HD inline U atomic_add(U* at, U value) {
 template <class U>
 PLUMB_HD inline U atomic_or(U* at, U value) {
 #if defined(__CUDA_ARCH__)
-  return atomicOr(at, value);
+  return atomicOr(atomic_word(at), value);
 #else
   return std::atomic_ref<U>(*at).fetch_or(value, std::memory_order_relaxed);
 #endif
@@ -30,7 +42,7 @@ PLUMB_HD inline U atomic_or(U* at, U value) {
 template <class U>
 PLUMB_HD inline U atomic_min(U* at, U value) {
 #if defined(__CUDA_ARCH__)
-  return atomicMin(at, value);
+  return atomicMin(atomic_word(at), value);
 #else
   std::atomic_ref<U> target(*at);
   U old = target.load(std::memory_order_relaxed);
@@ -42,7 +54,7 @@ PLUMB_HD inline U atomic_min(U* at, U value) {
 template <class U>
 PLUMB_HD inline U atomic_max(U* at, U value) {
 #if defined(__CUDA_ARCH__)
-  return atomicMax(at, value);
+  return atomicMax(atomic_word(at), value);
 #else
   std::atomic_ref<U> target(*at);
   U old = target.load(std::memory_order_relaxed);

@@ -45,8 +45,9 @@ class Reduce {
   }
 
   /// *result = load(0) merged with load(1) ... load(n - 1).
-  template <class Load>
-  void run(Executor& executor, std::uint32_t n, const Load& load, T* result) {
+  /// (A template also of the executor, for those who include this without a kernel compiler.)
+  template <class AnyExecutor, class Load>
+  void run(AnyExecutor& executor, std::uint32_t n, const Load& load, T* result) {
     std::uint32_t count = threads_for(n);
     T* here = partials_.data();
     T* other = here + threads_for(capacity_);

@@ -37,13 +37,20 @@ class Dice {
   std::uint64_t state_;
 };
 
+/// Cube root by basic operations only: the same bits on every machine, unlike std::cbrt.
+inline double cube_root(double x) {
+  double root = x > 1 ? x : 1;
+  for (int i = 0; i < 100; ++i) root = (2 * root + x / (root * root)) / 3;  // Newton's method
+  return root;
+}
+
 inline Box box_at(const Vec& centre, const Vec& half) { return {centre - half, centre + half}; }
 
 /// n boxes. uniform: sides of .5 to 1.5 m, about `neighbours` others overlap each.
 inline std::vector<Box> make_boxes(Field field, std::uint32_t n, std::uint64_t seed, Real neighbours = 10) {
   Dice dice(seed + static_cast<std::uint64_t>(field) * 1000);
   // Two boxes of mean side 1 overlap where their centres are within 1 of each other on each axis: a volume of 8.
-  const Real half_scene = Real(.5) * static_cast<Real>(std::cbrt(8.0 * n / static_cast<double>(neighbours)));
+  const Real half_scene = Real(.5) * static_cast<Real>(cube_root(8.0 * n / static_cast<double>(neighbours)));
   const auto half_size = [&] { return Vec{dice.between(.25, .75), dice.between(.25, .75), dice.between(.25, .75)}; };
   std::vector<Box> boxes(n);
   for (std::uint32_t i = 0; i < n; ++i) {
@@ -69,12 +76,10 @@ inline std::vector<Box> make_boxes(Field field, std::uint32_t n, std::uint64_t s
       }
       case Field::kGiant:
         box = box_at(dice.in_cube(half_scene), half_size());
-        if (i == n / 3) box = box_at({0, 0, 0}, Vec{1, Real(.1), 1});
-        if (i == n / 3)
-          box = {scale({half_scene, 1, half_scene}, box.low), scale({half_scene, 1, half_scene}, box.high)};
+        if (i == n / 3) box = box_at({0, 0, 0}, {half_scene, Real(.1), half_scene});  // as large as the ground
         break;
-      case Field::kMixed: {  // sizes over five decades, points among them, few of them large
-        const Real size = static_cast<Real>(std::pow(10.0, -3.0 * static_cast<double>(dice.unit())));
+      case Field::kMixed: {  // sizes over three decades, points among them, few of them large
+        const Real size = Real(1) / static_cast<Real>(1U << dice.bits() % 11);
         const Real large = dice.unit() < Real(.002) ? 30 : 1;
         box = box_at(dice.in_cube(half_scene), i % 7 == 0 ? Vec{0, 0, 0} : large * size * half_size());
         break;
