@@ -93,6 +93,13 @@ void change_capability() {
 }  // namespace
 
 void dynamic_planes() { change_capability<PLUMB_CAP_SHAPE, PLUMB_PLANE, PLUMB_DYNAMIC, PLUMB_NATIVE>(); }
+void notes_are_null() {
+  liar.core.capability = [](PlumbCapability kind, std::uint32_t a, std::uint32_t b, const char** note) -> PlumbDegree {
+    const PlumbDegree truth = honest.core.capability(kind, a, b, nullptr);
+    if (note != nullptr) *note = nullptr;
+    return truth;
+  };
+}
 void boxes_declared_apart() { change_capability<PLUMB_CAP_PAIR, PLUMB_BOX, PLUMB_BOX, PLUMB_NONE>(); }
 void inertia_doubled_in_words() {
   change_reads<PLUMB_FIELD_MASS, [](double* row) {

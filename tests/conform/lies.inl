@@ -1,6 +1,7 @@
 // PLUMB_LIE(word, check): what the lying backend can be asked for, and the check of conformance that must notice.
 // Every check stands here, so each is seen to fail.
 PLUMB_LIE(dynamic_planes, "shapes.declared")
+PLUMB_LIE(notes_are_null, "shapes.declared")  // seen by the validation layer alone
 PLUMB_LIE(inertia_doubled_in_words, "shapes.inertia")
 PLUMB_LIE(spheres_too_large, "pairs.static")
 PLUMB_LIE(boxes_declared_apart, "pairs.dynamic")

@@ -18,6 +18,7 @@ class FakeWorld final : public IPhysicsWorld, public IJoints, public IQueries, p
   int calls = 0;
   std::vector<PlumbBodyDesc> made;
   std::function<void()> on_step;
+  PlumbResult answer = PLUMB_OK;  ///< of every call that changes the world
   std::vector<PlumbEvent> event_rows;
   std::map<PlumbField, std::vector<double>> written;
 
@@ -142,7 +143,7 @@ class FakeWorld final : public IPhysicsWorld, public IJoints, public IQueries, p
  private:
   PlumbResult called() {
     ++calls;
-    return PLUMB_OK;
+    return answer;
   }
   double iterations_;
 };

@@ -245,6 +245,44 @@ TEST_F(Guard, ExceptionsBecomeResultsAndLostWorldsStayLost) {
   EXPECT_EQ(world->error_text(), "gone");
 }
 
+TEST_F(Guard, FailuresWithoutAnExceptionChangeNothing) {
+  const PlumbBody a = add(body()), b = add(body());
+  PlumbJointDesc desc = joint_desc(PLUMB_JOINT_BALL);
+  desc.body_a = a;
+  desc.body_b = b;
+  PlumbJoint joint = 0, second_joint = 0;
+  ASSERT_EQ(world->joints()->create_joints({&desc, 1}, {&joint, 1}), PLUMB_OK);
+
+  FakeWorld::last->answer = PLUMB_E_UNSUPPORTED;
+  const PlumbBodyDesc another = body();
+  PlumbBody none = 0;
+  EXPECT_EQ(world->create_bodies({&another, 1}, {&none, 1}), PLUMB_E_UNSUPPORTED);
+  EXPECT_FALSE(world->error_text().empty());
+  EXPECT_EQ(none, 0u);
+  EXPECT_EQ(world->joints()->create_joints({&desc, 1}, {&second_joint, 1}), PLUMB_E_UNSUPPORTED);
+  EXPECT_EQ(world->joints()->destroy_joints({&joint, 1}), PLUMB_E_UNSUPPORTED);
+  EXPECT_EQ(world->step(0.1), PLUMB_E_UNSUPPORTED);
+  PlumbStepReport report{};
+  refused(PLUMB_E_WRONG_PHASE, "without a step", [&] { return world->wait(report); });
+  FakeWorld::last->answer = PLUMB_OK;
+
+  EXPECT_EQ(world->step(0.1), PLUMB_OK) << "a step that failed has not begun";
+  EXPECT_EQ(world->wait(report), PLUMB_OK);
+  EXPECT_EQ(report.bodies, 2u);
+  EXPECT_EQ(report.joints, 1u);
+  EXPECT_EQ(world->joints()->destroy_joints({&joint, 1}), PLUMB_OK);
+  FakeWorld::last->answer = PLUMB_E_UNSUPPORTED;
+  EXPECT_EQ(world->destroy_bodies({&a, 1}), PLUMB_E_UNSUPPORTED);
+  EXPECT_EQ(world->bodies().size(), 2u);
+  FakeWorld::last->answer = PLUMB_OK;
+  const PlumbBody both[2] = {a, b};
+  EXPECT_EQ(world->destroy_bodies(both), PLUMB_OK);
+  FakeWorld::last->answer = PLUMB_E_UNSUPPORTED;
+  EXPECT_EQ(world->destroy_shapes({&box, 1}), PLUMB_E_UNSUPPORTED);
+  FakeWorld::last->answer = PLUMB_OK;
+  EXPECT_EQ(world->destroy_shapes({&box, 1}), PLUMB_OK) << "nothing uses it: " << world->error_text();
+}
+
 TEST_F(Guard, PhasesOfAStep) {
   PlumbStepReport report{};
   refused(PLUMB_E_WRONG_PHASE, "without a step", [&] { return world->wait(report); });

@@ -2,6 +2,7 @@
 #include "plumb/loader.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <fstream>
@@ -33,6 +34,23 @@ TEST(Loader, FindsBackendsOnTheEnvironmentsPathFirst) {
   unsetenv("PLUMB_BACKEND_PATH");
 }
 
+TEST(Loader, TheFirstFolderOfThePathWins) {
+  const fs::path folder = fs::temp_directory_path() / ("plumb-loader-" + std::to_string(getpid()));
+  fs::create_directories(folder);
+  std::ofstream(folder / "plumb-sample.so") << "no library, but found first";
+  const auto sample_of = [] {
+    for (const FoundBackend& backend : find_backends())
+      if (backend.name == "sample") return fs::canonical(backend.file).parent_path();
+    return fs::path();
+  };
+  setenv("PLUMB_BACKEND_PATH", (folder.string() + ":" SAMPLE_FOLDER).c_str(), 1);
+  EXPECT_EQ(sample_of(), fs::canonical(folder));
+  setenv("PLUMB_BACKEND_PATH", (SAMPLE_FOLDER ":" + folder.string()).c_str(), 1);
+  EXPECT_EQ(sample_of(), fs::canonical(SAMPLE_FOLDER));
+  unsetenv("PLUMB_BACKEND_PATH");
+  fs::remove_all(folder);
+}
+
 TEST(Loader, OpensAFileOnce) {
   const Backend first = open_backend(SAMPLE_FOLDER "/plumb-sample.so"),
                 second = open_backend(SAMPLE_FOLDER "/./plumb-sample.so");
@@ -48,6 +66,13 @@ TEST(Loader, SaysWhyAFileIsNoBackend) {
   EXPECT_NE(refusal(text.string(), PLUMB_E_INVALID_ARGUMENT).find("cannot be loaded"), std::string::npos);
   fs::remove(text);
   EXPECT_NE(refusal(LIBRARY_WITHOUT_SYMBOL, PLUMB_E_INVALID_ARGUMENT).find("does not export"), std::string::npos);
+}
+
+TEST(Loader, OneBackendOfAnExclusionGroupAtATime) {
+  EXPECT_STREQ(open_backend(EXCLUSIVE_ONE).info().name, "one");
+  const std::string text = refusal(EXCLUSIVE_OTHER, PLUMB_E_EXCLUDED);
+  EXPECT_NE(text.find("other cannot share a process with one"), std::string::npos) << text;
+  EXPECT_STREQ(open_backend(EXCLUSIVE_ONE).info().name, "one") << "the one that is open stays";
 }
 
 TEST(Loader, TheSampleFalls) {

@@ -23,7 +23,7 @@ class GuardedExtensions : public GuardedWorld {
     for (std::uint32_t i = 0; i < count; ++i) records[i] = examine_joint({"joints", i}, adopted[i]);
     return create(joints_, std::move(records), {ids, count}, [&](std::span<const std::uint64_t> handles) {
       std::vector<PlumbJoint> given(handles.begin(), handles.end());
-      const PlumbResult result = extension.create_joints(adopted, given);
+      const PlumbResult result = done(extension.create_joints(adopted, given));
       for (const PlumbJoint handle : handles) {
         const JointRecord& record = joints_[handle];
         if (record.body_a != 0) ++bodies_[record.body_a].joints;
@@ -37,7 +37,7 @@ class GuardedExtensions : public GuardedWorld {
   PlumbResult destroy_joints(const PlumbJoint* ids, std::uint32_t count) {
     IJoints& extension = require_extension(world_->joints(), PLUMB_EXT_JOINTS);
     const auto handles = distinct_live(joints_, ids, count, "joints");
-    const PlumbResult result = extension.destroy_joints(handles);
+    const PlumbResult result = done(extension.destroy_joints(handles));
     release_joints(handles);
     return result;
   }
