@@ -1,17 +1,20 @@
 // Real, the number that the engine computes in, and the few operations on it that give the same bits everywhere.
 //
 // Results must not depend on the machine: CPU and GPU, any compiler. So step code uses + - * / and square root, which
-// IEEE 754 rounds one way only, and what is defined here; no libm, no fused multiply-add (the build switches contraction
-// off), no library min or max (they differ on NaN and signed zeros).
+// IEEE 754 rounds one way only, and what is defined here; no libm, no fused multiply-add (the build switches
+// contraction off), no library min or max (they differ on NaN and signed zeros).
 #pragma once
 
 #include <cmath>
 #include <cstdint>
+#include <type_traits>
 
 #if defined(__CUDACC__)
 #define PLUMB_HD __host__ __device__
+#define PLUMB_DEVICE __device__  // what works with a Team, which a GPU's host has not
 #else
 #define PLUMB_HD
+#define PLUMB_DEVICE
 #endif
 
 namespace plumb::impulse {

@@ -105,7 +105,7 @@ PLUMB_HD inline bool find_axis(const BoxPair& p, Real margin, Real tie, BoxAxis&
 }
 
 /// Where the two edges of an edge axis come closest: one point.
-PLUMB_HD inline void touch_edges(const BoxPair& p, const BoxAxis& axis, Manifold& out) {
+PLUMB_HD inline void touch_edges(const BoxPair& p, const BoxAxis& axis, Real margin, Manifold& out) {
   Vec on_a = {0, 0, 0}, on_b = p.t;
   std::uint32_t mask_a = 0, mask_b = 0;
   for (int k = 0; k < 3; ++k) {
@@ -127,8 +127,9 @@ PLUMB_HD inline void touch_edges(const BoxPair& p, const BoxAxis& axis, Manifold
   const Real r = clamp((cosine * along_a - along_b) / sine2, -p.b[axis.b], p.b[axis.b]);
   on_a[axis.a] = s;
   on_b += r * u;
-  out.count = 1;
-  out.points[0] = {Real(0.5) * (on_a + on_b), axis.separation,
+  const Real separation = max(axis.separation, dot(on_b - on_a, axis.normal));  // more where the edges end before
+  out.count = separation <= margin ? 1U : 0U;
+  out.points[0] = {Real(0.5) * (on_a + on_b), separation,
                    feature_id(Part::kEdge, box_edge(axis.a, mask_a), Part::kEdge, box_edge(axis.b, mask_b))};
 }
 
@@ -265,7 +266,8 @@ PLUMB_HD inline void touch_faces(const BoxPair& p, const BoxAxis& axis, Real mar
   int count = overlap_faces(o, axis.separation, margin, at);
   if (count == 0 && axis.separation <= 0) at[count++] = deepest_corner(o, axis.separation);
   count = choose_points(at, count, tie);
-  if (axis.a >= 0 && axis.b >= 0 && count > 0) at[0].separation = axis.separation;
+  // The edges that overlap most are sides of the faces and cross in a candidate, but not to the last digit.
+  if (axis.a >= 0 && axis.b >= 0 && axis.separation <= 0) at[0].separation = axis.separation;
   out.count = static_cast<std::uint32_t>(count);
   for (int i = 0; i < count; ++i) {
     Vec position = {0, 0, 0};
@@ -290,7 +292,7 @@ PLUMB_HD inline bool collide_box_box(const Shape& a, const Quat& qa, const Shape
   const Real near_a = abs(axis.normal[widest(axis.normal)]);
   const Vec along_b = multiply_transposed(p.r, axis.normal);
   if (edges && near_a < kNearFace && abs(along_b[widest(along_b)]) < kNearFace)
-    touch_edges(p, axis, out);
+    touch_edges(p, axis, margin, out);
   else
     touch_faces(p, axis, margin, tie, out);
   out.normal = rotate(qa, axis.normal);

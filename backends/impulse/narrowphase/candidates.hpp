@@ -13,13 +13,6 @@ struct Candidate {
   std::uint32_t feature;
 };
 
-/// What is left to choose from. Full, it keeps the best and goes on (add).
-template <int Capacity>
-struct Candidates {
-  Candidate at[Capacity];
-  int count = 0;
-};
-
 /// Puts the four points that matter first in `at` and returns how many there are: the deepest, the farthest from it,
 /// the one that spans the largest triangle with both, and the one that widens that triangle most. Points that are equal
 /// within `tie` (a length) are taken in their order.
@@ -29,11 +22,11 @@ PLUMB_HD inline int choose_points(Candidate* at, int count, Real tie) {
     at[i] = at[j];
     at[j] = c;
   };
-  if (count <= kManifoldPoints) return count;
   int best = 0;
   for (int i = 1; i < count; ++i)
     if (at[i].separation < at[best].separation - tie) best = i;
-  swap(0, best);
+  if (best != 0) swap(0, best);
+  if (count <= kManifoldPoints) return count;
 
   Real most = 0;
   best = 1;

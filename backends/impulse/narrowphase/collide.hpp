@@ -7,7 +7,10 @@
 #pragma once
 
 #include "narrowphase/box_box.hpp"
+#include "narrowphase/capsule.hpp"
+#include "narrowphase/polyhedra.hpp"
 #include "narrowphase/round.hpp"
+#include "narrowphase/round_polyhedron.hpp"
 
 namespace plumb::impulse {
 
@@ -23,12 +26,22 @@ PLUMB_HD inline void swap_sides(const Vec& d, Manifold& m) {
 /// Any two shapes with a.type <= b.type.
 PLUMB_HD inline bool collide_ordered(const Shape& a, const Quat& qa, const Shape& b, const Quat& qb, const Vec& d,
                                      Real margin, const Hulls& hulls, Manifold& out) {
-  const auto is = [&](ShapeType type_a, ShapeType type_b) { return a.type == type_a && b.type == type_b; };
-  if (is(ShapeType::kSphere, ShapeType::kSphere)) return collide_sphere_sphere(a, qa, b, qb, d, margin, hulls, out);
-  if (is(ShapeType::kSphere, ShapeType::kBox)) return collide_sphere_box(a, qa, b, qb, d, margin, hulls, out);
-  if (is(ShapeType::kBox, ShapeType::kBox)) return collide_box_box(a, qa, b, qb, d, margin, hulls, out);
-  out.count = 0;
-  return false;
+  const auto kind = [](ShapeType type_a, ShapeType type_b) {
+    return static_cast<std::uint32_t>(type_a) * kShapeTypes + static_cast<std::uint32_t>(type_b);
+  };
+  using enum ShapeType;
+  switch (kind(a.type, b.type)) {
+    case kind(kSphere, kSphere): return collide_sphere_sphere(a, qa, b, qb, d, margin, hulls, out);
+    case kind(kSphere, kBox): return collide_sphere_box(a, qa, b, qb, d, margin, hulls, out);
+    case kind(kSphere, kCapsule): return collide_sphere_capsule(a, qa, b, qb, d, margin, hulls, out);
+    case kind(kSphere, kHull): return collide_sphere_hull(a, qa, b, qb, d, margin, hulls, out);
+    case kind(kBox, kBox): return collide_box_box(a, qa, b, qb, d, margin, hulls, out);
+    case kind(kBox, kCapsule): return collide_box_capsule(a, qa, b, qb, d, margin, hulls, out);
+    case kind(kBox, kHull): return collide_box_hull(a, qa, b, qb, d, margin, hulls, out);
+    case kind(kCapsule, kCapsule): return collide_capsule_capsule(a, qa, b, qb, d, margin, hulls, out);
+    case kind(kCapsule, kHull): return collide_capsule_hull(a, qa, b, qb, d, margin, hulls, out);
+    default: return collide_hull_hull(a, qa, b, qb, d, margin, hulls, out);
+  }
 }
 
 /// Any two shapes.

@@ -44,7 +44,7 @@ class Executor {
     crew_.each(*n.value < n.capacity ? *n.value : n.capacity, f);
   }
   template <class F>
-  void team(Count /*load*/, const F& f) {
+  void team(Count /*load*/, std::uint32_t /*least*/, const F& f) {
     Team team(crew_);
     f(team);
   }

@@ -46,8 +46,9 @@ __global__ void run_counted_kernel(F f, Count n) {
   if (i < n.capacity && i < *n.value) f(i);
 }
 template <class F>
-__global__ void __launch_bounds__(kTeamThreads) team_kernel(F f, TeamBarrier* barrier, Count load) {
-  const std::uint32_t work = load.value == nullptr || *load.value > load.capacity ? load.capacity : *load.value;
+__global__ void __launch_bounds__(kTeamThreads) team_kernel(F f, TeamBarrier* barrier, Count load, std::uint32_t least) {
+  const std::uint32_t counted = *load.value < load.capacity ? *load.value : load.capacity;
+  const std::uint32_t work = counted < least ? least : counted;
   const std::uint32_t wanted = (work + kTeamThreads - 1) / kTeamThreads;
   const std::uint32_t blocks = wanted < 1 ? 1 : wanted < gridDim.x ? wanted : gridDim.x;
   if (blockIdx.x >= blocks) return;
@@ -79,18 +80,22 @@ class Executor {
     run_counted_kernel<<<(n.capacity + kBlock - 1) / kBlock, kBlock, 0, stream_>>>(f, n);
     check_cuda(cudaGetLastError(), "cannot launch a kernel");
   }
-  /// load: of the widest loop, so that a small one gets few blocks; value may be null.
+  /// load and least: length of the longest loop, so that short ones get few blocks.
   template <class F>
-  void team(Count load, const F& f) {
+  void team(Count load, std::uint32_t least, const F& f) {
     int blocks = 0;
     check_cuda(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks, team_kernel<F>, kTeamThreads, 0),
                "cannot size a team");
     const std::uint32_t most = static_cast<std::uint32_t>(blocks) * multiprocessors_;
-    const std::uint32_t wanted = (load.capacity + kTeamThreads - 1) / kTeamThreads;
+    const std::uint32_t longest = load.capacity < least ? least : load.capacity;
+    const std::uint32_t wanted = (longest + kTeamThreads - 1) / kTeamThreads;
     F copy = f;
-    void* arguments[] = {&copy, &barrier_, &load};
-    check_cuda(cudaLaunchCooperativeKernel(team_kernel<F>, wanted < 1 ? 1 : wanted < most ? wanted : most, kTeamThreads,
-                                           arguments, 0, stream_),
+    void* arguments[] = {&copy, &barrier_, &load, &least};
+    check_cuda(cudaLaunchCooperativeKernel(team_kernel<F>,
+                                           wanted < 1      ? 1
+                                           : wanted < most ? wanted
+                                                           : most,
+                                           kTeamThreads, arguments, 0, stream_),
                "cannot launch a team");
   }
   template <class F>

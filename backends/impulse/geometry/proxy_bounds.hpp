@@ -1,0 +1,50 @@
+// The box of a proxy in the broad phase: its shape's, and how far it may come before the next look.
+#pragma once
+
+#include "body.hpp"
+#include "geometry/shape_box.hpp"
+#include "step_parameters.hpp"
+
+namespace plumb::impulse {
+
+struct BoundProxies {
+  Bodies bodies;
+  Proxies proxies;
+  const StepParameters* parameters;
+  const std::uint32_t* list;
+  Box* boxes;
+  Real* margins;
+
+  PLUMB_HD void operator()(std::uint32_t i) const {
+    const std::uint32_t index = list[i];
+    const Proxy& proxy = proxies.rows[index];
+    const Shape& shape = proxies.shapes[proxy.shape];
+    const ShapePose pose = shape_pose(proxy, bodies.orientation[proxy.body]);
+    const Vec centre = between(parameters->origin, bodies.position[proxy.body]) + pose.offset;
+    const Real margin = look_ahead(proxy, shape);
+    const Box local = shape_box(shape, pose.orientation, proxies.hulls);
+    margins[index] = margin;
+    boxes[index] = {outward(centre + local.low, -margin), outward(centre + local.high, margin)};
+  }
+
+ private:
+  /// How far a point of the shape may travel in the step: contacts nearer than that are foreseen. Not beyond the
+  /// shape's own size, or the plane of a contact would stand for a body that is elsewhere.
+  PLUMB_HD Real look_ahead(const Proxy& proxy, const Shape& shape) const {
+    const Velocity& velocity = bodies.velocity[proxy.body];
+    const Real reach = shape.reach + length(proxy.frame.position);
+    const Real dt = parameters->dt;
+    const Real travel =
+        dt * (length(velocity.linear) + reach * length(velocity.angular)) + dt * dt * length(parameters->gravity);
+    return min(travel, shape.reach);
+  }
+
+  /// Moved by `by`, and a few units in the last place more, away from zero margin: rounding must not lose a touch.
+  PLUMB_HD static Vec outward(const Vec& corner, Real by) {
+    const Real side = by < 0 ? Real(-1) : Real(1);
+    const auto move = [&](Real x) { return x + by + side * (4 * kEpsilon) * (abs(x) + abs(by)); };
+    return {move(corner.x), move(corner.y), move(corner.z)};
+  }
+};
+
+}  // namespace plumb::impulse

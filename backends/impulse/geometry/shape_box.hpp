@@ -1,0 +1,31 @@
+// The axis-aligned box of a shape at an orientation, relative to the shape's origin.
+#pragma once
+
+#include "geometry/box.hpp"
+#include "geometry/shape.hpp"
+#include "math/mat33.hpp"
+
+namespace plumb::impulse {
+
+PLUMB_HD inline Box shape_box(const Shape& shape, const Quat& orientation, const Hulls& hulls) {
+  const Vec r = {shape.size.x, shape.size.x, shape.size.x};
+  if (shape.type == ShapeType::kSphere) return {-r, r};
+  const Mat axes = to_matrix(orientation);
+  if (shape.type == ShapeType::kBox) {
+    const Vec half = shape.size.x * abs(axes.x) + shape.size.y * abs(axes.y) + shape.size.z * abs(axes.z);
+    return {-half, half};
+  }
+  if (shape.type == ShapeType::kCapsule) {
+    const Vec half = shape.size.y * abs(axes.y) + r;
+    return {-half, half};
+  }
+  const HullRange& hull = hulls.ranges[shape.hull];
+  Box box = empty_box();
+  for (std::uint32_t i = 0; i < hull.vertex_count; ++i) {
+    const Vec vertex = axes * hulls.vertices[hull.first_vertex + i];
+    box = {min(box.low, vertex), max(box.high, vertex)};
+  }
+  return box;
+}
+
+}  // namespace plumb::impulse

@@ -1,0 +1,92 @@
+// Rotations by an angle without libm: sine and cosine by polynomials, and the free rotor.
+#pragma once
+
+#include "math/mat33.hpp"
+
+namespace plumb::impulse {
+
+struct SinCos {
+  Real sine, cosine;
+};
+
+/// Of |x| <= pi/4, by Taylor's series to the precision of Real.
+PLUMB_HD inline SinCos small_sin_cos(Real x) {
+  const Real y = x * x;
+#if defined(PLUMB_IMPULSE_DOUBLE)
+  const Real s =
+      Real(1) -
+      y / 6 *
+          (Real(1) -
+           y / 20 *
+               (Real(1) -
+                y / 42 *
+                    (Real(1) -
+                     y / 72 * (Real(1) - y / 110 * (Real(1) - y / 156 * (Real(1) - y / 210 * (Real(1) - y / 272)))))));
+  const Real c =
+      Real(1) -
+      y / 2 *
+          (Real(1) -
+           y / 12 *
+               (Real(1) -
+                y / 30 *
+                    (Real(1) -
+                     y / 56 * (Real(1) - y / 90 * (Real(1) - y / 132 * (Real(1) - y / 182 * (Real(1) - y / 240)))))));
+#else
+  const Real s =
+      Real(1) + y * (Real(-1.0 / 6) + y * (Real(1.0 / 120) + y * (Real(-1.0 / 5040) + y * Real(1.0 / 362880))));
+  const Real c = Real(1) + y * (Real(-0.5) + y * (Real(1.0 / 24) + y * (Real(-1.0 / 720) + y * Real(1.0 / 40320))));
+#endif
+  return {x * s, c};
+}
+
+/// Of any finite x: halved until it is small, then doubled back by the formulas of the double angle.
+PLUMB_HD inline SinCos sin_cos(Real x) {
+  int halvings = 0;
+  while (abs(x) > kPi / 4 && halvings < 32) {
+    x = x / 2;
+    ++halvings;
+  }
+  SinCos r = small_sin_cos(x);
+  for (; halvings > 0; --halvings) r = {2 * r.sine * r.cosine, Real(1) - 2 * r.sine * r.sine};
+  return r;
+}
+
+/// The rotation by the vector's length about its direction.
+PLUMB_HD inline Quat turn_by(const Vec& rotation) {
+  const Real angle = length(rotation);
+  if (!(angle > 0)) return {rotation.x / 2, rotation.y / 2, rotation.z / 2, 1};
+  const SinCos half = sin_cos(angle / 2);
+  const Real k = half.sine / angle;
+  return {k * rotation.x, k * rotation.y, k * rotation.z, half.cosine};
+}
+
+struct RotorState {
+  Quat orientation;      // of the principal axes
+  Vec angular_velocity;  // world axes
+};
+
+/// One step of a rotor on which no torque acts, by splitting its energy L.I^-1 L / 2 into the three principal parts,
+/// each of which is an exact turn about a principal axis; symmetric, so of second order, symplectic, and |L| is kept to
+/// rounding (Dullweber, Leimkuhler and McLachlan, "Symplectic splitting methods for rigid body molecular dynamics",
+/// J. Chem. Phys. 107, 1997, section III).
+PLUMB_HD inline RotorState step_free_rotor(const RotorState& start, const Vec& inertia, Real h) {
+  Quat q = start.orientation;
+  Vec momentum = scale(inertia, rotate_back(q, start.angular_velocity));  // in principal axes
+  const auto turn = [&](int axis, Real time) {
+    const Real angle = time * momentum[axis] / inertia[axis];
+    const SinCos half = sin_cos(angle / 2);
+    Quat spin = {0, 0, 0, half.cosine};
+    (&spin.x)[axis] = half.sine;
+    q = q * spin;
+    momentum = rotate_back(spin, momentum);
+  };
+  turn(0, h / 2);
+  turn(1, h / 2);
+  turn(2, h);
+  turn(1, h / 2);
+  turn(0, h / 2);
+  q = normalized(q);
+  return {q, rotate(q, {momentum.x / inertia.x, momentum.y / inertia.y, momentum.z / inertia.z})};
+}
+
+}  // namespace plumb::impulse

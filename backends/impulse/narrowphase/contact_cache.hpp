@@ -1,0 +1,52 @@
+// Contacts that outlive a step: what the last step found, how its impulses ended, and where to find a pair's.
+#pragma once
+
+#include <cstdint>
+
+#include "broadphase/pairs.hpp"
+#include "narrowphase/manifold.hpp"
+
+namespace plumb::impulse {
+
+constexpr std::uint32_t kNone = 0xffffffffu;
+
+/// A manifold as the last step left it.
+struct CachedManifold {
+  Vec normal, tangent;
+  std::uint32_t count;
+  std::uint32_t colour;
+  std::uint32_t feature[kManifoldPoints];
+  Real normal_impulse[kManifoldPoints];      ///< N s over the last sub-step
+  Real tangent_impulse[2][kManifoldPoints];  ///< along tangent and along cross(normal, tangent)
+};
+
+/// Impulses of a manifold summed over a step, N s.
+struct StepImpulses {
+  Real normal[kManifoldPoints];
+  Real tangent[2][kManifoldPoints];
+};
+
+/// Contacts of one step. Two of these take turns: this step's and the last one's.
+struct ContactCache {
+  Pair* pairs;               ///< candidates of the broad phase
+  PairRange* ranges;         ///< by proxy: the candidates that it found
+  Manifold* found;           ///< by candidate; valid where touching
+  std::uint32_t* touching;   ///< by candidate: 1 or 0
+  std::uint32_t* row;        ///< by candidate: its manifold's row where touching
+  std::uint32_t* candidate;  ///< by row
+  CachedManifold* kept;      ///< by row
+};
+
+/// The row of pair (a, b) in a step's cache, or kNone. The pair is in the list of whichever of both found it.
+PLUMB_HD inline std::uint32_t find_row(const ContactCache& cache, Pair wanted) {
+  const std::uint32_t owners[2] = {wanted.a, wanted.b};
+  for (const std::uint32_t owner : owners) {
+    const PairRange range = cache.ranges[owner];
+    for (std::uint32_t p = range.first; p < range.first + range.count; ++p)
+      if (cache.pairs[p].a == wanted.a && cache.pairs[p].b == wanted.b)
+        return cache.touching[p] != 0 ? cache.row[p] : kNone;
+  }
+  return kNone;
+}
+
+}  // namespace plumb::impulse

@@ -1,0 +1,50 @@
+// From candidate pairs to manifolds with their memory: collide, keep what touches, and find last step's impulses.
+#pragma once
+
+#include "body.hpp"
+#include "exec/sort.hpp"
+#include "narrowphase/contact_cache.hpp"
+#include "step_counters.hpp"
+#include "step_parameters.hpp"
+
+namespace plumb::impulse {
+
+class NarrowPhase {
+ public:
+  void reserve(Executor& executor, std::uint32_t proxies, std::uint32_t pairs);
+  [[nodiscard]] std::uint32_t capacity() const { return capacity_; }
+
+  /// This step's contacts and the last one's, for a step of the given parity.
+  [[nodiscard]] ContactCache cache(std::uint32_t parity) { return caches_[parity % 2].view(); }
+
+  [[nodiscard]] std::vector<Pair> candidates(std::uint32_t parity, std::uint32_t count) const {
+    return caches_[parity % 2].pairs.to_host(count);
+  }
+  void forget();
+
+  /// Collides the candidates in cache and numbers those that touch. margins: by proxy, how far ahead it looks, m.
+  void collide(Executor& executor, const ContactCache& cache, const Bodies& bodies, const Proxies& proxies,
+               const Real* margins, StepCounters* counters);
+
+  /// Gives each manifold the impulses of the points with the same feature in the last step, and its colour.
+  void match(Executor& executor, const ContactCache& cache, const ContactCache& last, const Bodies& bodies,
+             const Proxies& proxies, const StepParameters* parameters, StepCounters* counters, std::uint64_t* masks);
+
+ private:
+  struct Storage {
+    Buffer<Pair> pairs;
+    Buffer<PairRange> ranges;
+    Buffer<Manifold> found;
+    Buffer<std::uint32_t> touching, row, candidate;
+    Buffer<CachedManifold> kept;
+    ContactCache view() {
+      return {pairs.data(), ranges.data(), found.data(), touching.data(), row.data(), candidate.data(), kept.data()};
+    }
+  };
+
+  std::uint32_t capacity_ = 0;
+  Storage caches_[2];
+  Scan scan_;
+};
+
+}  // namespace plumb::impulse

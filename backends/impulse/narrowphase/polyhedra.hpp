@@ -1,0 +1,175 @@
+// Two polyhedra (boxes, hulls): the separating axis test over the faces of both and over those pairs of edges that make
+// a face of the Minkowski difference, which their arcs on the Gauss map tell (Gregorius, "The Separating Axis Test
+// between Convex Polyhedra", GDC 2013); then the overlap of the two faces that look at each other, as for boxes
+// (box_box.hpp).
+#pragma once
+
+#include "math/mat33.hpp"
+#include "narrowphase/face_overlap.hpp"
+#include "narrowphase/segments.hpp"
+
+namespace plumb::impulse {
+
+namespace polyhedra {
+
+/// Where B is, in A's frame.
+struct Placement {
+  Mat turn;
+  Vec shift;
+};
+
+struct ContactAxis {
+  Vec normal;  ///< unit, from A to B, in A's frame
+  Real separation = -kHuge;
+  std::uint32_t a = 0, b = 0;  ///< the face, or both edges
+  enum class Kind { kFaceOfA, kFaceOfB, kEdges } kind = Kind::kFaceOfA;
+};
+
+constexpr Mat kNoTurn = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+
+/// The gap between the supports of both along n: true for every direction n, however it was found.
+template <class ViewA, class ViewB>
+PLUMB_HD Real gap_along(const ViewA& a, const ViewB& b, const Placement& at, const Vec& n) {
+  const Vec n_b = multiply_transposed(at.turn, n);
+  return dot(n, at.shift) + dot(n_b, b.vertex(b.support(-n_b))) - dot(n, a.vertex(a.support(n)));
+}
+
+template <class ViewA, class ViewB>
+PLUMB_HD bool find_face_axes(const ViewA& a, const ViewB& b, const Placement& at, Real margin, Real tie,
+                             ContactAxis& best) {
+  for (std::uint32_t f = 0; f < a.face_count(); ++f) {
+    const Vec n = a.normal(f), n_b = multiply_transposed(at.turn, n);
+    const Real s = dot(n, at.shift) + dot(n_b, b.vertex(b.support(-n_b))) - a.offset(f);
+    if (s > margin) return false;
+    if (s > best.separation + tie) best = {n, s, f, 0, ContactAxis::Kind::kFaceOfA};
+  }
+  for (std::uint32_t f = 0; f < b.face_count(); ++f) {
+    const Vec n_b = b.normal(f), n = at.turn * n_b;
+    const Real s = -dot(n, at.shift) + dot(n, a.vertex(a.support(-n))) - b.offset(f);
+    if (s > margin) return false;
+    if (s > best.separation + tie) best = {-n, s, 0, f, ContactAxis::Kind::kFaceOfB};
+  }
+  return true;
+}
+
+template <class ViewA, class ViewB>
+PLUMB_HD bool find_edge_axes(const ViewA& a, const ViewB& b, const Placement& at, Real margin, Real tie,
+                             ContactAxis& best) {
+  for (std::uint32_t j = 0; j < b.edge_count(); ++j) {
+    const HullEdge edge_b = b.edge(j);
+    const Vec from_b = at.turn * b.vertex(edge_b.from) + at.shift;
+    const Vec e_b = at.turn * b.vertex(edge_b.to) + at.shift - from_b;
+    const Vec left_b = -(at.turn * b.normal(edge_b.left)), right_b = -(at.turn * b.normal(edge_b.right));
+    for (std::uint32_t i = 0; i < a.edge_count(); ++i) {
+      const HullEdge edge_a = a.edge(i);
+      const Vec from_a = a.vertex(edge_a.from), e_a = a.vertex(edge_a.to) - from_a;
+      // The arcs cross: the ends of each lie on different sides of the other, and in the same hemisphere.
+      const Real l = dot(left_b, e_a), r = dot(right_b, e_a);
+      if (!(l * r < 0)) continue;
+      const Vec left_a = a.normal(edge_a.left), right_a = a.normal(edge_a.right);
+      const Real m = dot(left_a, e_b), k = dot(right_a, e_b);
+      if (!(m * k < 0) || !(l * k > 0)) continue;
+
+      Vec n = cross(e_a, e_b);
+      const Real square = length_squared(n);
+      if (square <= kParallel * kParallel * length_squared(e_a) * length_squared(e_b)) continue;
+      n = ((dot(n, left_a + right_a) < 0 ? Real(-1) : Real(1)) / sqrt(square)) * n;
+      if (dot(n, from_b - from_a) <= best.separation + tie) continue;
+      const Real s = gap_along(a, b, at, n);  // of edges near parallel, n may not be quite at right angles to both
+      if (s > margin) return false;
+      if (s > best.separation + tie) best = {n, s, i, j, ContactAxis::Kind::kEdges};
+    }
+  }
+  return true;
+}
+
+/// One point, where the edges of an edge axis come closest.
+template <class ViewA, class ViewB>
+PLUMB_HD void touch_edges(const ViewA& a, const ViewB& b, const Placement& at, const ContactAxis& axis, Real margin,
+                          Manifold& out) {
+  const HullEdge edge_a = a.edge(axis.a), edge_b = b.edge(axis.b);
+  const Vec p = a.vertex(edge_a.from), q = at.turn * b.vertex(edge_b.from) + at.shift;
+  const ClosestPair closest =
+      closest_between(p, a.vertex(edge_a.to) - p, q, at.turn * b.vertex(edge_b.to) + at.shift - q);
+  out.count = 1;
+  out.points[0] = {
+      Real(0.5) * (closest.on_a + closest.on_b), axis.separation,
+      feature_id(Part::kEdge, edge_between(edge_a.from, edge_a.to), Part::kEdge, edge_between(edge_b.from, edge_b.to))};
+}
+
+/// In A's frame.
+template <class ViewA, class ViewB>
+PLUMB_HD bool touch(const ViewA& a, const ViewB& b, const Placement& at, Real margin, Real tie, Manifold& out) {
+  using Kind = ContactAxis::Kind;
+  out.count = 0;
+  ContactAxis axis;
+  if (!find_face_axes(a, b, at, margin, tie, axis) || !find_edge_axes(a, b, at, margin, tie, axis)) return false;
+  out.normal = axis.normal;
+
+  const Vec against_b = -multiply_transposed(at.turn, axis.normal);
+  std::uint32_t face_a = axis.a, face_b = axis.b;
+  if (axis.kind == Kind::kEdges) {
+    face_a = face_at_edge(a, axis.a, axis.normal);
+    face_b = face_at_edge(b, axis.b, against_b);
+  } else if (axis.kind == Kind::kFaceOfA) {
+    face_b = face_towards(b, against_b);
+  } else {
+    face_a = face_towards(a, axis.normal);
+  }
+  if (axis.kind == Kind::kEdges && dot(a.normal(face_a), axis.normal) < kNearFace &&
+      dot(b.normal(face_b), against_b) < kNearFace) {
+    touch_edges(a, b, at, axis, margin, out);
+    return out.count != 0;
+  }
+
+  const ContactPlane plane(axis.normal);
+  const FacePolygon<ViewA> polygon_a = {a, face_a, plane, kNoTurn, {0, 0, 0}, false, a.loop_size(face_a)};
+  const FacePolygon<ViewB> polygon_b = {b, face_b, plane, at.turn, at.shift, true, b.loop_size(face_b)};
+  Overlap overlap;
+  overlap.deepest = axis.separation;
+  overlap.margin = margin;
+  overlap.tie = tie;
+  overlap_faces(polygon_a, polygon_b, overlap);
+  int count = choose_points(overlap.at, overlap.count, tie);
+  const FaceHeight height_a = polygon_a.height();
+  out.count = static_cast<std::uint32_t>(count);
+  for (int i = 0; i < count; ++i) {
+    const Candidate& c = overlap.at[i];
+    const Real separation =
+        i == 0 && axis.kind == Kind::kEdges && axis.separation <= 0 ? axis.separation : c.separation;
+    out.points[i] = {plane.unflatten({c.x, c.y, height_a.at(c.x, c.y) + Real(0.5) * separation}), separation,
+                     c.feature};
+  }
+  if (count == 0 && axis.separation <= 0) {  // they graze, and the tolerances left no point: B's deepest corner
+    const std::uint32_t v = b.support(against_b);
+    const Vec p = at.turn * b.vertex(v) + at.shift;
+    out.count = 1;
+    out.points[0] = {p - (Real(0.5) * axis.separation) * axis.normal, axis.separation,
+                     feature_id(Part::kFace, face_a, Part::kVertex, v)};
+  }
+  return out.count != 0;
+}
+
+template <class ViewA, class ViewB>
+PLUMB_HD bool collide_views(const ViewA& view_a, const ViewB& view_b, const Shape& a, const Quat& qa, const Shape& b,
+                            const Quat& qb, const Vec& d, Real margin, Manifold& out) {
+  const Placement at = {to_matrix(conjugate(qa) * qb), rotate_back(qa, d)};
+  if (!touch(view_a, view_b, at, margin, kTie * (a.reach + b.reach), out)) return false;
+  out.normal = rotate(qa, out.normal);
+  for (std::uint32_t i = 0; i < out.count; ++i) out.points[i].position = rotate(qa, out.points[i].position);
+  return true;
+}
+
+}  // namespace polyhedra
+
+PLUMB_HD inline bool collide_box_hull(const Shape& a, const Quat& qa, const Shape& b, const Quat& qb, const Vec& d,
+                                      Real margin, const Hulls& hulls, Manifold& out) {
+  return polyhedra::collide_views(BoxView{a.size}, HullView(hulls, b.hull), a, qa, b, qb, d, margin, out);
+}
+
+PLUMB_HD inline bool collide_hull_hull(const Shape& a, const Quat& qa, const Shape& b, const Quat& qb, const Vec& d,
+                                       Real margin, const Hulls& hulls, Manifold& out) {
+  return polyhedra::collide_views(HullView(hulls, a.hull), HullView(hulls, b.hull), a, qa, b, qb, d, margin, out);
+}
+
+}  // namespace plumb::impulse

@@ -1,0 +1,85 @@
+// What impulse truly has.
+#include <algorithm>
+#include <thread>
+
+#include "plugin/world.hpp"
+
+namespace plumb::impulse {
+
+namespace {
+
+struct Fact {
+  PlumbDegree degree;
+  const char* note = "";
+};
+
+constexpr Fact kYes{PLUMB_NATIVE};
+constexpr Fact kNotYet{PLUMB_NONE, "not in impulse yet"};
+
+bool has_shape(std::uint32_t type) { return type == PLUMB_SPHERE || type == PLUMB_BOX; }
+
+Fact need_fact(std::uint32_t index) {
+  if (index >= PLUMB_NEED_COUNT) return {PLUMB_NONE};
+  switch (PlumbNeeds{1} << index) {
+    case PLUMB_NEED_ROTATION:
+    case PLUMB_NEED_COLLISION:
+    case PLUMB_NEED_FRICTION:
+    case PLUMB_NEED_RESTITUTION:
+    case PLUMB_NEED_EVENTS:
+    case PLUMB_NEED_CONTACTS:
+    case PLUMB_NEED_CONTACT_IMPULSES:
+    case PLUMB_NEED_KINEMATIC:
+    case PLUMB_NEED_GYROSCOPIC:
+    case PLUMB_NEED_DAMPING:
+    case PLUMB_NEED_FORCES:
+    case PLUMB_NEED_FILTERS: return kYes;
+    default: return kNotYet;
+  }
+}
+
+Fact field_fact(std::uint32_t field, bool writing) {
+  if (field >= PLUMB_FIELD_COUNT) return {PLUMB_NONE};
+  if (field == PLUMB_FIELD_SURFACE_VELOCITY) return kNotYet;
+  if (field == PLUMB_FIELD_MASS) return {writing ? PLUMB_NONE : PLUMB_NATIVE};
+  const bool acts =
+      (field >= PLUMB_FIELD_FORCE && field <= PLUMB_FIELD_IMPULSE_AT_POINT) || field == PLUMB_FIELD_KINEMATIC_TARGET;
+  if (acts && !writing) return {PLUMB_NONE, "it acts and is spent"};
+  return kYes;
+}
+
+Fact fact(PlumbCapability kind, std::uint32_t a, std::uint32_t b) {
+  switch (kind) {
+    case PLUMB_CAP_SHAPE: return has_shape(a) && b < PLUMB_MOTION_COUNT ? kYes : kNotYet;
+    case PLUMB_CAP_PAIR: return has_shape(a) && has_shape(b) ? kYes : kNotYet;
+    case PLUMB_CAP_FIELD_READ: return field_fact(a, false);
+    case PLUMB_CAP_FIELD_WRITE: return field_fact(a, true);
+    case PLUMB_CAP_NEED: return need_fact(a);
+    case PLUMB_CAP_EVENT: return a <= PLUMB_EVENT_CONTACT_END ? kYes : kNotYet;
+    case PLUMB_CAP_HOST_JOBS: return kYes;
+    default: return kNotYet;
+  }
+}
+
+}  // namespace
+
+PlumbDegree World::capability(PlumbCapability kind, std::uint32_t a, std::uint32_t b, const char*& note) {
+  const Fact found = fact(kind, a, b);
+  note = found.note;
+  return found.degree;
+}
+
+const PlumbBackendInfo& World::info() {
+  static const PlumbBackendInfo info = {sizeof info,
+                                        PLUMB_DETERMINISM_THREADS,
+                                        PLUMB_IMPULSE_NAME,
+                                        "0.1",
+                                        PLUMB_IMPULSE_BUILD,
+                                        "LBVH, SAT and sequential impulses: Plumb's own engine",
+                                        PLUMB_IMPULSE_DEVICE,
+                                        "",
+                                        sizeof(Real) == 8 ? PLUMB_F64 : PLUMB_F32,
+                                        std::max(1U, std::thread::hardware_concurrency())};
+  return info;
+}
+
+}  // namespace plumb::impulse

@@ -1,0 +1,30 @@
+// The knobs of the engine, and what is set.
+#pragma once
+
+#include <span>
+
+#include "plumb/plumb.h"
+#include "step_parameters.hpp"
+
+namespace plumb::impulse {
+
+struct Settings {
+  double substeps = 0;
+  double contact_hertz = 0;
+  double contact_damping_ratio = 0;
+  double joint_hertz = 0;
+  double joint_damping_ratio = 0;
+  double push_speed = 0;
+  double restitution_speed = 0;
+  double warm_starting = 0;
+
+  [[nodiscard]] double get(const char* name) const;
+  void set(const char* name, double value);
+
+  /// What a step of dt works with. last_h: the sub-step before, 0 when there was none.
+  [[nodiscard]] StepParameters parameters(double dt, double last_h, const PlumbVec3& gravity) const;
+};
+
+std::span<const PlumbSettingInfo> setting_infos();
+
+}  // namespace plumb::impulse

@@ -1,0 +1,155 @@
+#include "plugin/world.hpp"
+
+#include <algorithm>
+
+namespace plumb::impulse {
+
+namespace {
+
+SolverFeatures features_of(const WorldInit& init) {
+  return {init.needs(PLUMB_NEED_COLLISION), init.needs(PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION),
+          init.needs(PLUMB_NEED_COLLISION | PLUMB_NEED_RESTITUTION),
+          init.needs(PLUMB_NEED_ROTATION | PLUMB_NEED_GYROSCOPIC), init.needs(PLUMB_NEED_CONTACT_IMPULSES)};
+}
+
+PlumbVec3 plumb_vec(const Position& p) { return {p.x, p.y, p.z}; }
+
+}  // namespace
+
+World::World(const WorldInit& init)
+    : init_(init), simulation_(init.host, init.desc.threads, features_of(init)), gravity_(init.desc.gravity) {
+  for (std::size_t i = 0; i < init.infos.size(); ++i) settings_.set(init.infos[i].name, init.values[i].number);
+  if (init.desc.body_capacity != 0) simulation_.reserve_bodies(init.desc.body_capacity);
+}
+
+PlumbResult World::set_gravity(const PlumbVec3& gravity) { return gravity_ = gravity, PLUMB_OK; }
+
+PlumbResult World::step(double dt) {
+  steer_kinematics(dt);
+  dt_ = dt;
+  records_known_ = false;
+  simulation_.step(settings_.parameters(dt, last_h_, gravity_));
+  last_h_ = dt / settings_.substeps;
+  return PLUMB_OK;
+}
+
+PlumbResult World::wait(PlumbStepReport& report) {
+  simulation_.wait();
+  settle_kinematics();
+  clear_forces();
+  events_.swap(early_events_);
+  early_events_.clear();
+  if (init_.needs(PLUMB_NEED_EVENTS)) find_events();
+  const StepCounters& counters = simulation_.counters();
+  report.threads = simulation_.executor().threads();
+  report.pairs = counters.pairs;
+  report.contacts = counters.points;
+  report.dropped = 0;
+  report.nonfinite = counters.nonfinite;
+  if (simulation_.repeated()) report.remarks |= PLUMB_REMARK_STEP_REPEATED | PLUMB_REMARK_CAPACITY_GREW;
+  return simulation_.repeated() ? PLUMB_GROWN : PLUMB_OK;
+}
+
+/// A kinematic body that is sent somewhere gets the velocity that leads there in one step; one that has arrived rests.
+void World::steer_kinematics(double dt) {
+  for (const std::uint32_t slot : steered_) {
+    BodyRecord& body = bodies_[slot];
+    if (body.id == 0) continue;
+    Velocity& velocity = simulation_.velocity[slot];
+    simulation_.bring_state_to_host();
+    if (body.to_target) {
+      const PlumbPose from = pose(slot);
+      const auto rate = [dt](double to, double at) { return static_cast<Real>((to - at) / dt); };
+      velocity.linear = {rate(body.target.position.x, from.position.x), rate(body.target.position.y, from.position.y),
+                         rate(body.target.position.z, from.position.z)};
+      velocity.angular = angular_velocity_between(from.orientation, body.target.orientation, dt);
+    } else if (body.arrived) {
+      velocity.linear = velocity.angular = {0, 0, 0};
+      body.arrived = false;
+    }
+    simulation_.state_changed();
+  }
+  std::erase_if(steered_, [&](std::uint32_t slot) { return bodies_[slot].id == 0 || !bodies_[slot].to_target; });
+}
+
+void World::settle_kinematics() {
+  for (const std::uint32_t slot : steered_) {
+    BodyRecord& body = bodies_[slot];
+    if (body.id == 0 || !body.to_target) continue;
+    simulation_.bring_state_to_host();
+    place(slot, body.target);
+    simulation_.state_changed();
+    body.to_target = false;
+    body.arrived = true;
+  }
+}
+
+void World::clear_forces() {
+  for (const std::uint32_t slot : pushed_) simulation_.force[slot] = {};
+  if (!pushed_.empty()) simulation_.forces_changed();
+  pushed_.clear();
+}
+
+const std::vector<ContactRecord>& World::records() {
+  if (!records_known_) records_ = simulation_.contacts();
+  records_known_ = true;
+  return records_;
+}
+
+void World::find_events() {
+  for (const ContactRecord& record : records())
+    for (std::uint32_t p = 0; p < record.count; ++p)
+      if (record.separation[p] <= 0 || record.normal_impulse[p] > 0) {
+        touches_.touch(bodies_[record.pair.a].id, bodies_[record.pair.b].id);
+        break;
+      }
+  touches_.finish_step(events_);
+  backend::sort_events(events_);
+}
+
+std::span<const PlumbContact> World::contacts() {
+  contacts_.clear();
+  const bool impulses = init_.needs(PLUMB_NEED_CONTACT_IMPULSES);
+  const double unknown = std::numeric_limits<double>::quiet_NaN();
+  for (const ContactRecord& record : records())
+    for (std::uint32_t p = 0; p < record.count; ++p) {
+      PlumbContact contact{};
+      contact.body_a = bodies_[record.pair.a].id;
+      contact.body_b = bodies_[record.pair.b].id;
+      contact.position = plumb_vec(record.position[p]);
+      contact.normal = to_plumb(record.normal);
+      contact.depth = -static_cast<double>(record.separation[p]);
+      contact.normal_impulse = impulses ? static_cast<double>(record.normal_impulse[p]) : unknown;
+      contact.tangent_impulse = impulses ? to_plumb(record.tangent_impulse[p]) : PlumbVec3{unknown, unknown, unknown};
+      contact.feature = record.feature[p] + std::uint64_t{1};
+      contacts_.push_back(contact);
+    }
+  return contacts_;
+}
+
+PlumbResult World::candidate_pairs(std::span<const PlumbDebugPair>& pairs) {
+  debug_pairs_.clear();
+  for (const Pair& pair : simulation_.candidates()) debug_pairs_.push_back({bodies_[pair.a].id, bodies_[pair.b].id});
+  pairs = debug_pairs_;
+  return PLUMB_OK;
+}
+
+PlumbResult World::tree_boxes(std::span<const PlumbDebugBox>& /*boxes*/) {
+  throw Error(PLUMB_E_UNSUPPORTED, "tree boxes are not shown yet");
+}
+
+PlumbResult World::separating_axes(std::span<const PlumbDebugAxis>& /*axes*/) {
+  throw Error(PLUMB_E_UNSUPPORTED, "separating axes are not shown yet");
+}
+
+PlumbResult World::get_setting(const char* name, PlumbSettingValue& value) {
+  value.number = settings_.get(name);
+  return PLUMB_OK;
+}
+
+PlumbResult World::set_setting(const char* name, const PlumbSettingValue& value) {
+  settings_.set(name, value.number);
+  return PLUMB_OK;
+}
+
+}  // namespace plumb::impulse

@@ -1,0 +1,74 @@
+// IPhysicsWorld over a Simulation: handles and doubles outside, rows and Reals inside.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "plugin/body_record.hpp"
+#include "plugin/settings.hpp"
+#include "plumb/backend/touch_tracker.hpp"
+#include "plumb/backend/world_init.hpp"
+#include "plumb/physics_world.hpp"
+#include "simulation.hpp"
+
+namespace plumb::impulse {
+
+class World final : public IPhysicsWorld, public IDebug, public ISettings {
+ public:
+  explicit World(const WorldInit& init);
+
+  static const PlumbBackendInfo& info();
+  static PlumbDegree capability(PlumbCapability kind, std::uint32_t a, std::uint32_t b, const char*& note);
+  static std::span<const PlumbSettingInfo> setting_infos() { return impulse::setting_infos(); }
+
+  PlumbResult create_shapes(std::span<const PlumbShapeDesc> descs, std::span<PlumbShape> ids) override;
+  PlumbResult destroy_shapes(std::span<const PlumbShape> ids) override;
+  PlumbResult create_bodies(std::span<const PlumbBodyDesc> descs, std::span<PlumbBody> ids) override;
+  PlumbResult destroy_bodies(std::span<const PlumbBody> ids) override;
+  PlumbResult read(PlumbField field, std::span<const PlumbBody> ids, Rows rows) override;
+  PlumbResult write(PlumbField field, std::span<const PlumbBody> ids, ConstRows rows) override;
+  PlumbResult set_gravity(const PlumbVec3& gravity) override;
+  PlumbResult step(double dt) override;
+  PlumbResult wait(PlumbStepReport& report) override;
+  std::span<const PlumbContact> contacts() override;
+  std::span<const PlumbEvent> events() override { return events_; }
+
+  IDebug* debug() override { return this; }
+  ISettings* settings() override { return this; }
+
+ private:
+  PlumbResult candidate_pairs(std::span<const PlumbDebugPair>& pairs) override;
+  PlumbResult tree_boxes(std::span<const PlumbDebugBox>& boxes) override;
+  PlumbResult separating_axes(std::span<const PlumbDebugAxis>& axes) override;
+  PlumbResult get_setting(const char* name, PlumbSettingValue& value) override;
+  PlumbResult set_setting(const char* name, const PlumbSettingValue& value) override;
+
+  void make_body(const PlumbBodyDesc& desc, PlumbBody id);
+  void place(std::uint32_t slot, const PlumbPose& pose);
+  [[nodiscard]] PlumbPose pose(std::uint32_t slot) const;
+  void write_row(PlumbField field, std::uint32_t slot, const double* row);
+  void put_proxy_rows(std::uint32_t slot);
+  void push(std::uint32_t slot, const Vec& force, const Vec& torque);
+  void kick(std::uint32_t slot, const Vec& impulse, const Vec& angular_impulse);
+  void steer_kinematics(double dt);
+  void settle_kinematics();
+  void clear_forces();
+  void find_events();
+  const std::vector<ContactRecord>& records();
+
+  WorldInit init_;
+  Simulation simulation_;
+  Settings settings_;
+  PlumbVec3 gravity_;
+  double last_h_ = 0, dt_ = 0;
+  std::vector<BodyRecord> bodies_;  // by slot
+  std::vector<std::uint32_t> pushed_, steered_;
+  bool records_known_ = false;
+  std::vector<ContactRecord> records_;
+  std::vector<PlumbContact> contacts_;
+  std::vector<PlumbEvent> events_, early_events_;
+  std::vector<PlumbDebugPair> debug_pairs_;
+  backend::TouchTracker touches_;
+};
+
+}  // namespace plumb::impulse

@@ -1,0 +1,61 @@
+// The solver's memory, and its stages of a step.
+#pragma once
+
+#include "body.hpp"
+#include "constraints/contact_rows.hpp"
+#include "exec/executor.hpp"
+#include "exec/memory.hpp"
+#include "narrowphase/contact_cache.hpp"
+#include "solver/colouring.hpp"
+#include "solver/contact_loops.hpp"
+#include "solver/solver_bodies.hpp"
+#include "step_counters.hpp"
+#include "step_parameters.hpp"
+
+namespace plumb::impulse {
+
+/// What the scene asks for; the rest is left out.
+struct SolverFeatures {
+  bool collision, friction, restitution, gyroscopic, contact_impulses;
+};
+
+class Solver {
+ public:
+  explicit Solver(const SolverFeatures& features) : features_(features) {}
+  void reserve(Executor& executor, std::uint32_t bodies, std::uint32_t manifolds);
+
+  /// World inertia of all bodies, no displacement.
+  void begin(Executor& executor, const Bodies& bodies, std::uint32_t body_count);
+  /// Contacts into rows, in the order of their colours.
+  void prepare(Executor& executor, const ContactCache& cache, const Bodies& bodies, const Proxies& proxies,
+               const Colouring& colouring, const StepParameters* parameters, StepCounters* counters);
+  /// Moves the bodies through the step.
+  void solve(Executor& executor, const Bodies& bodies, std::uint32_t body_count, const StepParameters* parameters,
+             StepCounters* counters, std::uint32_t pair_capacity);
+  void keep_impulses(Executor& executor, const ContactCache& cache, StepCounters* counters);
+
+  /// How far bodies moved in the last step, by body.
+  [[nodiscard]] const Displacement* displacements() const { return displacement_.data(); }
+  /// By row of the contact cache; null unless asked for.
+  [[nodiscard]] StepImpulses* step_impulses() { return step_impulses_.data(); }
+
+  [[nodiscard]] ContactRows rows() {
+    return {body_a_.data(), body_b_.data(), count_.data(), row_.data(), numbers_.data()};
+  }
+
+ private:
+  SolverBodies bodies(const Bodies& bodies) {
+    return {bodies.velocity, displacement_.data(), inertia_.data(), free_velocity_.data()};
+  }
+
+  SolverFeatures features_;
+  std::uint32_t slots_ = 0, nobody_ = 0;
+  Buffer<Displacement> displacement_;
+  Buffer<WorldInertia> inertia_;
+  Buffer<FreeVelocity> free_velocity_;
+  Buffer<std::uint32_t> body_a_, body_b_, count_, row_;
+  Buffer<Real> numbers_;
+  Buffer<StepImpulses> step_impulses_;
+};
+
+}  // namespace plumb::impulse

@@ -1,0 +1,24 @@
+// What a step counts on the device while it runs.
+#pragma once
+
+#include <cstdint>
+
+namespace plumb::impulse {
+
+constexpr std::uint32_t kColours = 64;         // bits of a body's mask
+constexpr std::uint32_t kOverflow = kColours;  // the "colour" of constraints that found none: solved one by one
+
+struct StepCounters {
+  std::uint32_t pairs;      ///< candidates found; more than there is room for: the step does nothing and is repeated
+  std::uint32_t manifolds;  ///< of these, touching
+  std::uint32_t points;
+  std::uint32_t uncoloured[3];                  ///< manifolds without a colour: this round, the next, the one after
+  std::uint32_t rounds;                         ///< of the colouring
+  std::uint32_t first_in_colour[kColours + 2];  ///< place in the order by colour; the last is the number of manifolds
+  std::uint32_t first_slot[kColours + 2];       ///< solver rows of a colour begin here, a multiple of the lanes
+  std::uint32_t colour_count;                   ///< colours up to the last one in use; the overflow apart
+  std::uint32_t largest_colour;                 ///< manifolds in it
+  std::uint32_t nonfinite;                      ///< bodies that came out not finite and were put back
+};
+
+}  // namespace plumb::impulse

@@ -1,0 +1,41 @@
+// What one step works with: written by the host before the step, read by kernels.
+#pragma once
+
+#include <cstdint>
+
+#include "math/vec3.hpp"
+
+namespace plumb::impulse {
+
+/// A spring and damper as three numbers, so that it stays stable however stiff: Catto, "Soft Constraints", GDC 2011.
+struct Softness {
+  Real bias_rate;      ///< how fast an error is taken back, 1/s
+  Real mass_scale;     ///< of the effective mass
+  Real impulse_scale;  ///< of the accumulated impulse, taken off again
+};
+
+/// Softness of a damped spring of `hertz` and damping ratio `zeta` in steps of h seconds.
+inline Softness make_softness(double hertz, double zeta, double h) {
+  if (hertz <= 0) return {0, 1, 0};
+  const double omega = 2 * 3.14159265358979323846 * hertz;
+  const double a1 = 2 * zeta + h * omega, a2 = h * omega * a1, a3 = 1 / (1 + a2);
+  return {static_cast<Real>(omega / a1), static_cast<Real>(a2 * a3), static_cast<Real>(a3)};
+}
+
+struct StepParameters {
+  Vec gravity;     ///< m/s2
+  Real dt;         ///< s
+  Real h;          ///< s, one sub-step
+  Real inverse_h;  ///< 1/s
+  std::uint32_t substeps;
+  std::uint32_t step;  ///< number of this step; steps count from 1
+  Softness contact;    ///< between two bodies that move
+  Softness ground;     ///< against a body that does not
+  Softness joint;
+  Real warm_start;         ///< share of the last step's impulses that is kept: its sub-step to this one's, or 0
+  Real push_speed;         ///< overlap is taken back no faster than this, m/s
+  Real restitution_speed;  ///< slower impacts do not bounce, m/s
+  Position origin;         ///< of the bounds
+};
+
+}  // namespace plumb::impulse
