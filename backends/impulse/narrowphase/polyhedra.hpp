@@ -91,9 +91,11 @@ PLUMB_HD void touch_edges(const ViewA& a, const ViewB& b, const Placement& at, c
   const Vec p = a.vertex(edge_a.from), q = at.turn * b.vertex(edge_b.from) + at.shift;
   const ClosestPair closest =
       closest_between(p, a.vertex(edge_a.to) - p, q, at.turn * b.vertex(edge_b.to) + at.shift - q);
-  out.count = 1;
+  // More than the axis says where the edges end before they cross.
+  const Real separation = max(axis.separation, dot(closest.on_b - closest.on_a, axis.normal));
+  out.count = separation <= margin ? 1U : 0U;
   out.points[0] = {
-      Real(0.5) * (closest.on_a + closest.on_b), axis.separation,
+      Real(0.5) * (closest.on_a + closest.on_b), separation,
       feature_id(Part::kEdge, edge_between(edge_a.from, edge_a.to), Part::kEdge, edge_between(edge_b.from, edge_b.to))};
 }
 
