@@ -104,8 +104,8 @@ PLUMB_HD inline bool find_axis(const BoxPair& p, Real margin, Real tie, BoxAxis&
   return true;
 }
 
-/// Where the two edges of an edge axis come closest: one point.
-PLUMB_HD inline void touch_edges(const BoxPair& p, const BoxAxis& axis, Real margin, Manifold& out) {
+/// Where the two edges of an edge axis come closest: one point; none where they pass each other by.
+PLUMB_HD inline void touch_edges(const BoxPair& p, const BoxAxis& axis, Manifold& out) {
   Vec on_a = {0, 0, 0}, on_b = p.t;
   std::uint32_t mask_a = 0, mask_b = 0;
   for (int k = 0; k < 3; ++k) {
@@ -123,13 +123,13 @@ PLUMB_HD inline void touch_edges(const BoxPair& p, const BoxAxis& axis, Real mar
   // Closest points of the lines on_a + s e and on_b + r u (Ericson 5.1.9), kept on the edges.
   const Vec u = p.r[axis.b], w = on_b - on_a;
   const Real cosine = u[axis.a], sine2 = 1 - cosine * cosine, along_a = w[axis.a], along_b = dot(u, w);
-  const Real s = clamp((along_a - cosine * along_b) / sine2, -p.a[axis.a], p.a[axis.a]);
-  const Real r = clamp((cosine * along_a - along_b) / sine2, -p.b[axis.b], p.b[axis.b]);
-  on_a[axis.a] = s;
-  on_b += r * u;
-  const Real separation = max(axis.separation, dot(on_b - on_a, axis.normal));  // more where the edges end before
-  out.count = separation <= margin ? 1U : 0U;
-  out.points[0] = {Real(0.5) * (on_a + on_b), separation,
+  const Real s = (along_a - cosine * along_b) / sine2, r = (cosine * along_a - along_b) / sine2;
+  const Real half_a = p.a[axis.a], half_b = p.b[axis.b];
+  if (axis.separation > 0 && (abs(s) > half_a * (1 + kClipSlack) || abs(r) > half_b * (1 + kClipSlack))) return;
+  on_a[axis.a] = clamp(s, -half_a, half_a);
+  on_b += clamp(r, -half_b, half_b) * u;
+  out.count = 1;
+  out.points[0] = {Real(0.5) * (on_a + on_b), axis.separation,
                    feature_id(Part::kEdge, box_edge(axis.a, mask_a), Part::kEdge, box_edge(axis.b, mask_b))};
 }
 
@@ -266,8 +266,8 @@ PLUMB_HD inline void touch_faces(const BoxPair& p, const BoxAxis& axis, Real mar
   int count = overlap_faces(o, axis.separation, margin, at);
   if (count == 0 && axis.separation <= 0) at[count++] = deepest_corner(o, axis.separation);
   count = choose_points(at, count, tie);
-  // The edges that overlap most are sides of the faces and cross in a candidate, but not to the last digit.
-  if (axis.a >= 0 && axis.b >= 0 && axis.separation <= 0) at[0].separation = axis.separation;
+  // What is deepest along the axis is a candidate, but for the last digits and the slack of clipping.
+  if (axis.separation <= 0) at[0].separation = axis.separation;
   out.count = static_cast<std::uint32_t>(count);
   for (int i = 0; i < count; ++i) {
     Vec position = {0, 0, 0};
@@ -292,7 +292,7 @@ PLUMB_HD inline bool collide_box_box(const Shape& a, const Quat& qa, const Shape
   const Real near_a = abs(axis.normal[widest(axis.normal)]);
   const Vec along_b = multiply_transposed(p.r, axis.normal);
   if (edges && near_a < kNearFace && abs(along_b[widest(along_b)]) < kNearFace)
-    touch_edges(p, axis, margin, out);
+    touch_edges(p, axis, out);
   else
     touch_faces(p, axis, margin, tie, out);
   out.normal = rotate(qa, axis.normal);

@@ -83,20 +83,38 @@ PLUMB_HD bool find_edge_axes(const ViewA& a, const ViewB& b, const Placement& at
   return true;
 }
 
-/// One point, where the edges of an edge axis come closest.
+/// One point, where the edges of an edge axis come closest; none where they pass each other by.
 template <class ViewA, class ViewB>
-PLUMB_HD void touch_edges(const ViewA& a, const ViewB& b, const Placement& at, const ContactAxis& axis, Real margin,
-                          Manifold& out) {
+PLUMB_HD void touch_edges(const ViewA& a, const ViewB& b, const Placement& at, const ContactAxis& axis, Manifold& out) {
   const HullEdge edge_a = a.edge(axis.a), edge_b = b.edge(axis.b);
   const Vec p = a.vertex(edge_a.from), q = at.turn * b.vertex(edge_b.from) + at.shift;
-  const ClosestPair closest =
-      closest_between(p, a.vertex(edge_a.to) - p, q, at.turn * b.vertex(edge_b.to) + at.shift - q);
-  // More than the axis says where the edges end before they cross.
-  const Real separation = max(axis.separation, dot(closest.on_b - closest.on_a, axis.normal));
-  out.count = separation <= margin ? 1U : 0U;
+  const Vec along_a = a.vertex(edge_a.to) - p, along_b = at.turn * b.vertex(edge_b.to) + at.shift - q;
+  const ClosestPair closest = closest_between(p, along_a, q, along_b);
+  const Vec across = closest.on_b - closest.on_a - axis.separation * axis.normal;
+  const Real most = kClipSlack * kClipSlack * max(length_squared(along_a), length_squared(along_b));
+  if (axis.separation > 0 && length_squared(across) > most) return;
+  out.count = 1;
   out.points[0] = {
-      Real(0.5) * (closest.on_a + closest.on_b), separation,
+      Real(0.5) * (closest.on_a + closest.on_b), axis.separation,
       feature_id(Part::kEdge, edge_between(edge_a.from, edge_a.to), Part::kEdge, edge_between(edge_b.from, edge_b.to))};
+}
+
+/// The corner that a face axis separates from the face, where it is not among the candidates: it need not belong to the
+/// face that looks at the other one most squarely.
+template <class ViewA, class ViewB>
+PLUMB_HD void add_support(const ViewA& a, const ViewB& b, const Placement& at, const ContactAxis& axis,
+                          std::uint32_t face_a, std::uint32_t face_b, const ContactPlane& plane, Overlap& overlap) {
+  for (int i = 0; i < overlap.count; ++i)
+    if (overlap.at[i].separation <= axis.separation + overlap.tie) return;
+  if (axis.kind == ContactAxis::Kind::kFaceOfA) {
+    const std::uint32_t v = b.support(-multiply_transposed(at.turn, axis.normal));
+    const Vec p = plane.flatten(at.turn * b.vertex(v) + at.shift);
+    overlap.add(p.x, p.y, axis.separation, feature_id(Part::kFace, face_a, Part::kVertex, v));
+  } else {
+    const std::uint32_t v = a.support(axis.normal);
+    const Vec p = plane.flatten(a.vertex(v));
+    overlap.add(p.x, p.y, axis.separation, feature_id(Part::kVertex, v, Part::kFace, face_b));
+  }
 }
 
 /// In A's frame.
@@ -120,7 +138,7 @@ PLUMB_HD bool touch(const ViewA& a, const ViewB& b, const Placement& at, Real ma
   }
   if (axis.kind == Kind::kEdges && dot(a.normal(face_a), axis.normal) < kNearFace &&
       dot(b.normal(face_b), against_b) < kNearFace) {
-    touch_edges(a, b, at, axis, margin, out);
+    touch_edges(a, b, at, axis, out);
     return out.count != 0;
   }
 
@@ -132,22 +150,17 @@ PLUMB_HD bool touch(const ViewA& a, const ViewB& b, const Placement& at, Real ma
   overlap.margin = margin;
   overlap.tie = tie;
   overlap_faces(polygon_a, polygon_b, overlap);
+  if (axis.separation <= 0 && axis.kind != Kind::kEdges) add_support(a, b, at, axis, face_a, face_b, plane, overlap);
   int count = choose_points(overlap.at, overlap.count, tie);
-  const FaceHeight height_a = polygon_a.height();
   out.count = static_cast<std::uint32_t>(count);
+  const bool on_b = axis.kind == Kind::kFaceOfB;  // heights are best over the face across the normal
+  const FaceHeight height = on_b ? polygon_b.height() : polygon_a.height();
   for (int i = 0; i < count; ++i) {
     const Candidate& c = overlap.at[i];
-    const Real separation =
-        i == 0 && axis.kind == Kind::kEdges && axis.separation <= 0 ? axis.separation : c.separation;
-    out.points[i] = {plane.unflatten({c.x, c.y, height_a.at(c.x, c.y) + Real(0.5) * separation}), separation,
-                     c.feature};
-  }
-  if (count == 0 && axis.separation <= 0) {  // they graze, and the tolerances left no point: B's deepest corner
-    const std::uint32_t v = b.support(against_b);
-    const Vec p = at.turn * b.vertex(v) + at.shift;
-    out.count = 1;
-    out.points[0] = {p - (Real(0.5) * axis.separation) * axis.normal, axis.separation,
-                     feature_id(Part::kFace, face_a, Part::kVertex, v)};
+    // What is deepest along the axis is a candidate, but for the last digits and the slack of clipping.
+    const Real separation = i == 0 && axis.separation <= 0 ? axis.separation : c.separation;
+    const Real middle = height.at(c.x, c.y) + (on_b ? Real(-0.5) : Real(0.5)) * separation;
+    out.points[i] = {plane.unflatten({c.x, c.y, middle}), separation, c.feature};
   }
   return out.count != 0;
 }

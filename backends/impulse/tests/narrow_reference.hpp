@@ -145,7 +145,9 @@ inline RandomPair place(Dice& dice, const Shape& a, const Shape& b, const Hulls&
 }
 
 inline Shape make_box(double x, double y, double z) {
-  return {ShapeType::kBox, 0, {static_cast<Real>(x), static_cast<Real>(y), static_cast<Real>(z)},
+  return {ShapeType::kBox,
+          0,
+          {static_cast<Real>(x), static_cast<Real>(y), static_cast<Real>(z)},
           static_cast<Real>(std::sqrt(x * x + y * y + z * z))};
 }
 /// Half extents of about `scale`; one in four is a plate or a needle of up to 1 : 1000.
