@@ -115,6 +115,8 @@ void BroadPhase::reserve(Executor& /*executor*/, std::uint32_t movers, std::uint
   reduce_.reserve(max(mover_capacity_, static_capacity_));
   extent_.grow(1);
   movers_.reserve(mover_capacity_);
+  sweep_.reserve(mover_capacity_);
+  grid_.reserve(mover_capacity_);
   statics_.reserve(static_capacity_);
   scan_.reserve(mover_capacity_);
   counts_.grow(mover_capacity_);
@@ -133,12 +135,26 @@ void BroadPhase::find_pairs(Executor& executor, const Box* boxes, const std::uin
                             std::uint32_t* pair_count) {
   require("movers", n, mover_capacity_);
   reduce_.run(executor, n, LoadExtent{boxes, movers}, extent_.data());
-  movers_.build(executor, boxes, movers, n, extent_.data(), morton_bits);
-  const Search<TreeMovers> search{{movers_.view()}, statics_.view(), filter};
-  executor.run(n, CountPartners<TreeMovers>{search, noted_.data(), counts_.data()});
+  const auto list = [&](const auto& ordered) {
+    list_pairs(executor, ordered, n, filter, pairs, ranges_by_proxy, pair_count);
+  };
+  switch (method) {
+    case Method::kLbvh:
+      movers_.build(executor, boxes, movers, n, extent_.data(), morton_bits);
+      return list(TreeMovers{movers_.view()});
+    case Method::kSweepAndPrune: sweep_.build(executor, boxes, movers, n, extent_.data()); return list(sweep_.view());
+    case Method::kGrid: grid_.build(executor, boxes, movers, n, extent_.data()); return list(grid_.view());
+  }
+}
+
+template <class Movers>
+void BroadPhase::list_pairs(Executor& executor, const Movers& movers, std::uint32_t n, const PairFilter& filter,
+                            Pair* pairs, PairRange* ranges_by_proxy, std::uint32_t* pair_count) {
+  const Search<Movers> search{movers, statics_.view(), filter};
+  executor.run(n, CountPartners<Movers>{search, noted_.data(), counts_.data()});
   scan_.run(executor, n, counts_.data(), offsets_.data(), pair_count);
-  executor.run(n, ListPairs<TreeMovers>{search, noted_.data(), counts_.data(), offsets_.data(), pairs, pair_capacity_,
-                                        ranges_by_proxy});
+  executor.run(n, ListPairs<Movers>{search, noted_.data(), counts_.data(), offsets_.data(), pairs, pair_capacity_,
+                                    ranges_by_proxy});
 }
 
 }  // namespace plumb::impulse

@@ -11,10 +11,12 @@
 
 #include <cstdint>
 
+#include "broadphase/grid.hpp"
 #include "broadphase/lbvh.hpp"
 #include "broadphase/pair_filter.hpp"
 #include "broadphase/pairs.hpp"
 #include "broadphase/scene_extent.hpp"
+#include "broadphase/sweep.hpp"
 #include "exec/executor.hpp"
 #include "exec/memory.hpp"
 #include "exec/reduce.hpp"
@@ -45,9 +47,15 @@ class BroadPhase {
                   const PairFilter& filter, Pair* pairs, PairRange* ranges_by_proxy, std::uint32_t* pair_count);
 
  private:
+  template <class Movers>
+  void list_pairs(Executor& executor, const Movers& movers, std::uint32_t n, const PairFilter& filter, Pair* pairs,
+                  PairRange* ranges_by_proxy, std::uint32_t* pair_count);
+
   Reduce<SceneExtent> reduce_;
   Buffer<SceneExtent> extent_;
   Lbvh movers_, statics_;
+  Sweep sweep_;
+  Grid grid_;
   Scan scan_;
   Buffer<std::uint32_t> counts_, offsets_, noted_;
   std::uint32_t mover_capacity_ = 0, static_capacity_ = 0, pair_capacity_ = 0;

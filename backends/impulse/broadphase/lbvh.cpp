@@ -73,8 +73,7 @@ struct BoundNodes {
 
   PLUMB_HD void operator()(std::uint32_t i) const {
     const std::uint32_t proxy = proxies[order[i]];
-    const Box own = boxes[proxy];
-    const Box box = is_sound(own) ? own : empty_box();  // one that is no box must not spoil those above it
+    const Box box = sound_or_empty(boxes[proxy]);
     nodes[leaf_id(i)] = {box.low, proxy, box.high, following(i)};
     if (leaves == 1) return;
     std::uint32_t up = parents[leaf_id(i)];

@@ -17,6 +17,8 @@ PLUMB_HD constexpr bool is_sound(const Box& box) {
          box.low.y >= -kHuge && box.low.z >= -kHuge && box.high.x <= kHuge && box.high.y <= kHuge &&
          box.high.z <= kHuge;
 }
+/// What is not sound touches nothing, and must not spoil what it is merged with.
+PLUMB_HD constexpr Box sound_or_empty(const Box& box) { return is_sound(box) ? box : empty_box(); }
 PLUMB_HD constexpr Vec centre(const Box& box) { return Real(.5) * (box.low + box.high); }
 PLUMB_HD constexpr float longest_side(const Box& box) {
   const Vec side = box.high - box.low;
@@ -58,6 +60,10 @@ struct SceneExtent {
     return empty() ? 0.0F : from_order_key(high[axis]) - from_order_key(low[axis]);
   }
   [[nodiscard]] PLUMB_HD float longest() const { return max(length(0), max(length(1), length(2))); }
+  [[nodiscard]] PLUMB_HD int longest_axis() const {
+    const int first = length(1) > length(0) ? 1 : 0;
+    return length(2) > length(first) ? 2 : first;
+  }
 };
 
 struct LoadExtent {

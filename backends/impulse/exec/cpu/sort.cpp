@@ -75,6 +75,7 @@ void RadixSort<K>::run(Executor& executor, Count n, K* keys, const std::uint32_t
 template <class K>
 void RadixSort<K>::run(Executor& executor, std::uint32_t n, const K* keys, const std::uint32_t* values, K* sorted_keys,
                        std::uint32_t* sorted_values, int bits) {
+  if (n == 0) return;
   auto* histograms = reinterpret_cast<std::uint32_t*>(scratch_.data());
   auto* other_keys = reinterpret_cast<K*>(histograms + std::size_t{kMostChunks} * kDigits);
   auto* other_values = reinterpret_cast<std::uint32_t*>(other_keys + capacity_);
