@@ -41,7 +41,8 @@ Fact pair_fact(std::uint32_t a, std::uint32_t b) {
   if (is(PLUMB_CAPSULE, PLUMB_CYLINDER)) return one_point;
   if (is(PLUMB_BOX, PLUMB_CAPSULE)) return {PLUMB_APPROXIMATE, "a single point: a capsule that lies on a box rocks"};
   if (is(PLUMB_TRIANGLE_MESH, PLUMB_TRIANGLE_MESH))
-    return {PLUMB_NONE, "OPCODE crashes on meshes of one triangle, and lets meshes sink into the flat of another"};
+    return {PLUMB_APPROXIMATE,
+            "rests on a face twice its size; where edges stand over edges it is thrown off or sinks"};
   if (is(PLUMB_CYLINDER, PLUMB_TRIANGLE_MESH))
     return {PLUMB_APPROXIMATE, "points come and go: a standing cylinder trembles"};
   return {PLUMB_NATIVE};
@@ -51,7 +52,9 @@ Fact pair_fact(std::uint32_t a, std::uint32_t b) {
 
 Fact joint_fact(std::uint32_t type) {
   if (type >= PLUMB_JOINT_TYPE_COUNT) return {PLUMB_NONE};
-  if (type == PLUMB_JOINT_GENERIC) return {PLUMB_NONE, "ODE's linear motor has no limits and no anchor"};
+  if (type == PLUMB_JOINT_GENERIC)
+    return {PLUMB_EMULATED,
+            "contact rows along the axes of frame a, and an angular motor told its axes in each sub-step"};
   return {PLUMB_NATIVE};
 }
 

@@ -89,8 +89,6 @@ void ContactPass::meet(dGeomID first, dGeomID second) {
   if (!sensor && !physical_) return;
   if (filtered_ && !may_touch(one.body->filter, two.body->filter)) return;
   if (one.choosy && two.choosy && knows(*one.body, *two.body)) return;
-  // OPCODE crashes on meshes of a single triangle, so two meshes never meet (capabilities.cpp says so).
-  if (dGeomGetClass(first) == dTriMeshClass && dGeomGetClass(second) == dTriMeshClass) return;
   ++pairs_;
   const auto sleeps = [](const GeomTag& tag) { return tag.id == nullptr || dBodyIsEnabled(tag.id) == 0; };
   const Pair pair{one, two, !sleeping_ || !sleeps(one) || !sleeps(two)};

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "generic_joint.hpp"
 #include "plumb/backend/check_descs.hpp"
 
 namespace plumb::ode {
@@ -49,8 +50,17 @@ unsigned free_axes(PlumbJointType type) {
     case PLUMB_JOINT_SLIDER:
     case PLUMB_JOINT_DISTANCE: return 1u << 0;
     case PLUMB_JOINT_UNIVERSAL: return 1u << 3 | 1u << 4;
+    case PLUMB_JOINT_GENERIC: return 0b111111;
     default: return 0;
   }
+}
+
+/// Those of one joint.
+unsigned free_axes(const PlumbJointDesc& desc) {
+  unsigned axes = free_axes(desc.type);
+  for (std::size_t axis = 0; desc.type == PLUMB_JOINT_GENERIC && axis < 6; ++axis)
+    if (desc.axis_modes[axis] == PLUMB_AXIS_LOCKED) axes &= ~(1u << axis);
+  return axes;
 }
 
 /// ODE's limit and motor row of one of our axes.
@@ -72,28 +82,20 @@ double effective_mass(const Joint& joint, std::size_t axis) {
   double inverse = 0;
   const auto turning = [&](const Body& body, const PlumbVec3& n) { return dot(n, body.inverse_inertia_times(n)); };
   if (axis >= 3) {
-    const PlumbVec3 n = axis == 3 ? axis_of(a, 0) : axis_of(b, 1);
+    const PlumbVec3 n = axis == 3 ? axis_of(a, 0) : axis_of(b, axis - 3);
     inverse = turning(*joint.b, n) + (joint.a == nullptr ? 0 : turning(*joint.a, n));
-  } else if (joint.desc.type == PLUMB_JOINT_DISTANCE) {
+  } else if (joint.desc.type == PLUMB_JOINT_DISTANCE || joint.desc.type == PLUMB_JOINT_GENERIC) {
+    const bool generic = joint.desc.type == PLUMB_JOINT_GENERIC;
     const PlumbVec3 way = sub(b.position, a.position);
-    const PlumbVec3 n = length(way) > together ? normalized(way) : axis_of(a, 0);
+    const PlumbVec3 n = !generic && length(way) > together ? normalized(way) : axis_of(a, generic ? axis : 0);
     inverse = joint.b->inverse_mass + turning(*joint.b, cross(sub(b.position, joint.b->centre()), n));
     if (joint.a != nullptr)
-      inverse += joint.a->inverse_mass + turning(*joint.a, cross(sub(a.position, joint.a->centre()), n));
+      inverse += joint.a->inverse_mass +
+                 turning(*joint.a, cross(sub(generic ? b.position : a.position, joint.a->centre()), n));
   } else {
     inverse = joint.b->inverse_mass + (joint.a == nullptr ? 0 : joint.a->inverse_mass);
   }
   return 1 / inverse;
-}
-
-/// A spring of stiffness k and damping c as a soft constraint (ODE manual, "How to use ERP and CFM").
-struct SoftRow {
-  double erp, cfm;
-};
-SoftRow soft_row(const PlumbSpring& spring, double mass, double h) {
-  const double rate = 2 * std::numbers::pi * spring.frequency;
-  const double k = mass * rate * rate, c = 2 * mass * spring.damping_ratio * rate;
-  return {h * k / (h * k + c), 1 / (h * k + c)};
 }
 
 void set_row(const Joint& joint, std::size_t axis, const Settings& settings, double h) {
@@ -127,21 +129,28 @@ void set_row(const Joint& joint, std::size_t axis, const Settings& settings, dou
 
 }  // namespace
 
+SoftRow soft_row(const PlumbSpring& spring, double mass, double h) {
+  const double rate = 2 * std::numbers::pi * spring.frequency;
+  const double k = mass * rate * rate, c = 2 * mass * spring.damping_ratio * rate;
+  return {h * k / (h * k + c), 1 / (h * k + c)};
+}
+
 bool joint_has(PlumbJointType type, PlumbJointFeature feature) {
   switch (feature) {
     case PLUMB_JOINT_HAS_LIMITS:
     case PLUMB_JOINT_HAS_SPRINGS: return free_axes(type) != 0;
     case PLUMB_JOINT_HAS_MOTORS: return free_axes(type) != 0 && type != PLUMB_JOINT_DISTANCE;
-    default: return type != PLUMB_JOINT_GENERIC;
+    default: return true;
   }
 }
 
 void check_joint(const PlumbJointDesc& desc) {
   for (std::size_t axis = 0; axis < 6; ++axis) {
-    const bool limit = desc.limits[axis].enabled != 0, motor = desc.motors[axis].enabled != 0,
-               spring = desc.springs[axis].enabled != 0;
+    const bool generic = desc.type == PLUMB_JOINT_GENERIC;
+    const bool limit = generic ? desc.axis_modes[axis] == PLUMB_AXIS_LIMITED : desc.limits[axis].enabled != 0;
+    const bool motor = desc.motors[axis].enabled != 0, spring = desc.springs[axis].enabled != 0;
     const std::string what = std::string("a ") + backend::joint_name(desc.type) + " joint";
-    if ((limit || motor || spring) && (free_axes(desc.type) >> axis & 1u) == 0)
+    if ((limit || motor || spring) && (free_axes(desc) >> axis & 1u) == 0)
       throw Error(PLUMB_E_UNSUPPORTED, what + " of ODE has no limit, motor or spring on axis " + std::to_string(axis));
     if (spring && (limit || motor) && desc.type != PLUMB_JOINT_DISTANCE)
       throw Error(PLUMB_E_UNSUPPORTED, what + " of ODE has one row for axis " + std::to_string(axis) +
@@ -203,6 +212,10 @@ void attach(Joint& joint, dWorldID world) {
       anchor(dJointSetDBallAnchor2, joint.second_frame().position);
       dJointSetDBallDistance(joint.id, joint.desc.rest_length);
       break;
+    case PLUMB_JOINT_GENERIC:
+      make(dJointCreateAMotor);
+      prepare_motor(joint);
+      break;
     default:
       throw Error(PLUMB_E_UNSUPPORTED, std::string("ODE has no ") + backend::joint_name(joint.desc.type) + " joint");
   }
@@ -213,6 +226,7 @@ void attach(Joint& joint, dWorldID world) {
 
 void set_parameters(const Joint& joint, const Settings& settings, double h) {
   switch (joint.desc.type) {
+    case PLUMB_JOINT_GENERIC: return;  // prepare() tells all of it in each sub-step
     case PLUMB_JOINT_BALL:
       dJointSetBallParam(joint.id, dParamERP, settings.erp);
       return dJointSetBallParam(joint.id, dParamCFM, settings.cfm);
@@ -233,10 +247,34 @@ void set_parameters(const Joint& joint, const Settings& settings, double h) {
   }
 }
 
-void prepare(Joint& joint, dWorldID world, dJointGroupID group, const Settings& settings) {
-  joint.limit_acts = false;
+void RowMaker::add(Joint& joint, dContact contact) const {
+  const PlumbVec3 at = joint.frame_b().position;
+  contact.geom.pos[0] = at.x;
+  contact.geom.pos[1] = at.y;
+  contact.geom.pos[2] = at.z;
+  const dJointID row = dJointCreateContact(world, group, &contact);
+  dJointAttach(row, joint.first().body, joint.second());
+  if (joint.watched) dJointSetFeedback(row, &joint.row_feedbacks[joint.rows]);
+  ++joint.rows;
+}
+
+void RowMaker::add_push(Joint& joint, const PlumbVec3& push, double depth) const {
+  dContact contact{};
+  contact.surface.mode = dContactSoftERP | dContactSoftCFM;
+  contact.surface.soft_erp = settings.erp;
+  contact.surface.soft_cfm = settings.cfm;
+  contact.geom.depth = depth;
+  contact.geom.normal[0] = push.x;
+  contact.geom.normal[1] = push.y;
+  contact.geom.normal[2] = push.z;
+  add(joint, contact);
+}
+
+void prepare(Joint& joint, const RowMaker& rows) {
+  joint.rows = 0;
   const PlumbPose frame_b = joint.frame_b();
   joint.arm = sub(frame_b.position, joint.first().centre());
+  if (joint.desc.type == PLUMB_JOINT_GENERIC) return prepare_generic(joint, rows);
   if (!joint.has_distance_limits()) return;
   const PlumbLimit& limit = joint.desc.limits[0];
   const PlumbVec3 way = sub(frame_b.position, joint.frame_a().position);
@@ -244,22 +282,8 @@ void prepare(Joint& joint, dWorldID world, dJointGroupID group, const Settings& 
   const bool far = distance >= limit.upper;
   if (!far && distance > limit.lower) return;
   const PlumbVec3 out = distance > together ? scale(1 / distance, way) : axis_of(joint.frame_a(), 0);
-  const PlumbVec3 push = scale(far == joint.swapped() ? 1 : -1, out);  // into ODE's first body
-  dContact contact{};
-  contact.surface.mode = dContactSoftERP | dContactSoftCFM;
-  contact.surface.soft_erp = settings.erp;
-  contact.surface.soft_cfm = settings.cfm;
-  contact.geom.depth = far ? distance - limit.upper : limit.lower - distance;
-  contact.geom.pos[0] = frame_b.position.x;
-  contact.geom.pos[1] = frame_b.position.y;
-  contact.geom.pos[2] = frame_b.position.z;
-  contact.geom.normal[0] = push.x;
-  contact.geom.normal[1] = push.y;
-  contact.geom.normal[2] = push.z;
-  const dJointID row = dJointCreateContact(world, group, &contact);
-  dJointAttach(row, joint.first().body, joint.second());
-  joint.limit_acts = true;
-  if (joint.watched) dJointSetFeedback(row, &joint.limit_feedback);
+  rows.add_push(joint, scale(far == joint.swapped() ? 1 : -1, out),
+                far ? distance - limit.upper : limit.lower - distance);
 }
 
 void take_reaction(Joint& joint, double share) {
@@ -270,7 +294,7 @@ void take_reaction(Joint& joint, double share) {
     joint.torque = add(joint.torque, scale(on_b, sub(vec(feedback.t1), cross(joint.arm, force))));
   };
   take(joint.feedback);
-  if (joint.limit_acts) take(joint.limit_feedback);
+  for (std::size_t i = 0; i < joint.rows; ++i) take(joint.row_feedbacks[i]);
 }
 
 bool overloaded(const Joint& joint) {

@@ -6,6 +6,8 @@
 
 #include <ode/ode.h>
 
+#include <array>
+
 #include "bodies.hpp"
 #include "settings.hpp"
 
@@ -20,8 +22,8 @@ struct Joint {
   double spring_mass[6]{};  ///< kg or kg m2: the pair's effective mass on each axis with a spring
   bool watched = false;     ///< its feedback is read after each sub-step
   dJointFeedback feedback{};
-  dJointFeedback limit_feedback{};
-  bool limit_acts = false;      ///< in this sub-step
+  std::array<dJointFeedback, 5> row_feedbacks{};  ///< of the contact rows that the joint has in this sub-step
+  std::size_t rows = 0;                           ///< how many those are
   PlumbVec3 arm{};              ///< from the first body's centre of mass to frame b, world axes, before the solver ran
   PlumbVec3 force{}, torque{};  ///< on b at frame b's origin, mean over the last step
 
@@ -36,6 +38,8 @@ struct Joint {
   [[nodiscard]] bool has_distance_limits() const {
     return desc.type == PLUMB_JOINT_DISTANCE && desc.limits[0].enabled != 0;
   }
+  /// Whether prepare() has rows to make in each sub-step.
+  [[nodiscard]] bool made_of_rows() const { return has_distance_limits() || desc.type == PLUMB_JOINT_GENERIC; }
 };
 
 /// Which joint types have the feature at all; the axes that have it are those that the type leaves free.
@@ -50,9 +54,29 @@ void attach(Joint& joint, dWorldID world);
 /// Hands limits, motors and springs to ODE; h is the sub-step, on which a spring's parameters depend.
 void set_parameters(const Joint& joint, const Settings& settings, double h);
 
-/// Before the solver: what a joint needs in each sub-step. A distance limit is a contact row along the line between the
-/// frames, which may pull as well as push: a unilateral constraint on the distance.
-void prepare(Joint& joint, dWorldID world, dJointGroupID group, const Settings& settings);
+/// Where the rows of a sub-step go. h: its length, s.
+struct RowMaker {
+  dWorldID world;
+  dJointGroupID group;
+  const Settings& settings;
+  double h;
+
+  /// A contact between the joint's bodies at frame b's origin, made for its rows alone.
+  void add(Joint& joint, dContact contact) const;
+  /// One row that drives ODE's first body along `push` until `depth` is mended, and never holds it back.
+  void add_push(Joint& joint, const PlumbVec3& push, double depth) const;
+};
+
+/// A spring of stiffness k and damping c as a soft constraint (ODE manual, "How to use ERP and CFM").
+struct SoftRow {
+  double erp, cfm;
+};
+[[nodiscard]] SoftRow soft_row(const PlumbSpring& spring, double mass, double h);
+
+/// Before the solver: what a joint needs in each sub-step. A distance limit is a row along the line between the frames,
+/// which may pull as well as push: a unilateral constraint on the distance. For the generic joint see
+/// generic_joint.hpp.
+void prepare(Joint& joint, const RowMaker& rows);
 /// After the solver: adds `share` of the sub-step's reaction.
 void take_reaction(Joint& joint, double share);
 [[nodiscard]] bool overloaded(const Joint& joint);

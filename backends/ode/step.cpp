@@ -65,7 +65,7 @@ PlumbResult World::step(double dt) {
     for (int i = 0; i < substeps; ++i) {
       push_bodies();
       find_contacts();
-      prepare_joints();
+      prepare_joints(h);
       count_idling(h);
       solve(h);
       gather(h, 1.0 / substeps);
@@ -146,8 +146,9 @@ void World::find_contacts() {
   contacts_.detect(space_);
 }
 
-void World::prepare_joints() {
-  for (Joint* joint : busy_joints_) prepare(*joint, world_, contacts_.group(), settings_);
+void World::prepare_joints(double h) {
+  const RowMaker rows{world_, contacts_.group(), settings_, h};
+  for (Joint* joint : busy_joints_) prepare(*joint, rows);
 }
 
 /// ODE counts too, but does not tell; a snapshot has to know.

@@ -80,7 +80,7 @@ class World final : public IPhysicsWorld,
   void let_kinematics_rest();
   void push_bodies();
   void find_contacts();
-  void prepare_joints();
+  void prepare_joints(double h);
   void count_idling(double h);
   void solve(double h);
   void gather(double h, double share);

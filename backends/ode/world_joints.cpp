@@ -26,7 +26,7 @@ PlumbResult World::create_joints(std::span<const PlumbJointDesc> descs, std::spa
         refresh_tags(*joint->b);
       }
       joint_order_.push_back(joint.get());
-      if (joint->watched || joint->has_distance_limits()) busy_joints_.push_back(joint.get());
+      if (joint->watched || joint->made_of_rows()) busy_joints_.push_back(joint.get());
       put(joints_, ids[i], std::move(joint));
     }
     return PLUMB_OK;
