@@ -3,6 +3,7 @@
 #include <signal.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <chrono>
 #include <fstream>
 #include <functional>
@@ -23,7 +24,7 @@ std::vector<Json> readable_rows(const std::filesystem::path& file) {
   return rows;
 }
 
-// Processes of this study: their command line has the folder, or they are children of the program.
+// The program's children.
 std::vector<pid_t> workers_of(pid_t parent) {
   std::vector<pid_t> workers;
   for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
@@ -47,6 +48,19 @@ bool wait_until(const std::function<bool()>& condition) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
   return false;
+}
+
+bool is_gone(pid_t worker) {
+  std::ifstream stat("/proc/" + std::to_string(worker) + "/stat");
+  const std::string text((std::istreambuf_iterator<char>(stat)), {});
+  return text.empty() || text.find(") Z ") != std::string::npos;
+}
+
+void expect_gone(const std::vector<pid_t>& workers) {
+  EXPECT_TRUE(wait_until([&] { return std::all_of(workers.begin(), workers.end(), is_gone); }))
+      << "a worker outlived its parent";
+  for (const pid_t worker : workers)
+    if (!is_gone(worker)) kill(worker, SIGKILL);
 }
 
 std::vector<std::string> study(const std::filesystem::path& folder) {
@@ -79,20 +93,31 @@ void kill_half_way_and_go_on(const std::string& name, bool workers_first) {
   }
   kill(pid, SIGKILL);
   waitpid(pid, nullptr, 0);
-  EXPECT_TRUE(wait_until([&] {
-    for (const pid_t worker : workers) {
-      std::ifstream stat("/proc/" + std::to_string(worker) + "/stat");
-      const std::string text((std::istreambuf_iterator<char>(stat)), {});
-      if (!text.empty() && text.find(") Z ") == std::string::npos) return false;
-    }
-    return true;
-  })) << "a worker outlived its parent";
+  expect_gone(workers);
   EXPECT_LT(readable_rows(file).size(), 6u);
   expect_complete(folder);
 }
 
 TEST(Resume, after_the_program_was_killed) { kill_half_way_and_go_on("killed", false); }
 TEST(Resume, after_program_and_workers_were_killed) { kill_half_way_and_go_on("all_killed", true); }
+
+TEST(Resume, a_worker_that_hangs_dies_with_the_program) {
+  const std::filesystem::path folder = fresh_folder("hanging");
+  const std::filesystem::path trajectories = folder / "out" / "trajectories";
+  const pid_t pid = start_plumb({"run", particle_scene(folder), "--backend", MISBEHAVING_BACKEND, "--set",
+                                 "misbehaviour=hang", "--record", "--out", (folder / "out").string()});
+  // The worker that has begun a trajectory is a few steps from where it hangs and hears of nothing any more.
+  const auto has_begun = [&] {
+    return std::filesystem::exists(trajectories) && !std::filesystem::is_empty(trajectories);
+  };
+  ASSERT_TRUE(wait_until(has_begun));
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  const std::vector<pid_t> workers = workers_of(pid);
+  EXPECT_EQ(workers.size(), 1u);
+  kill(pid, SIGKILL);
+  waitpid(pid, nullptr, 0);
+  expect_gone(workers);
+}
 
 TEST(Resume, torn_last_line_is_run_again) {
   const std::filesystem::path folder = fresh_folder("torn");

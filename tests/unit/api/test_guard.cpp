@@ -1,7 +1,9 @@
 // The guard between the table and a backend's class: what it refuses, and that nothing refused gets through.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "fake_world.hpp"
@@ -170,6 +172,12 @@ TEST_F(Guard, WorksOutMassOnce) {
   EXPECT_DOUBLE_EQ(made.inertia.y, 6000 / 12.0 * (1 + 9));
   EXPECT_DOUBLE_EQ(made.inertia.z, 6000 / 12.0 * (1 + 4));
   EXPECT_EQ(made.inertia_orientation.w, 1);
+  PlumbBodyDesc total = body();
+  total.mass_mode = PLUMB_MASS_FROM_TOTAL;
+  total.mass = 12;
+  add(total);
+  EXPECT_DOUBLE_EQ(FakeWorld::last->made.back().mass, 12);
+  EXPECT_DOUBLE_EQ(FakeWorld::last->made.back().inertia.x, 4 + 9);
   PlumbBodyDesc particle = body();
   particle.flags = PLUMB_BODY_NO_ROTATION;
   particle.mass_mode = PLUMB_MASS_FROM_TOTAL;
@@ -369,6 +377,46 @@ TEST_F(Guard, QueriesAreChecked) {
   refused(PLUMB_E_STALE_HANDLE, "casts[0].shape", [&] {
     return world->queries()->cast_shapes(PLUMB_HIT_ALL, {&cast, 1}).result;
   });
+}
+
+/// What a host sees that calls the table itself, with arrays and structs of its own size.
+class GuardedTable : public ::testing::Test {
+ protected:
+  GuardedTable() {
+    const PlumbWorldDesc desc = world_desc(PLUMB_NEED_ROTATION | PLUMB_NEED_EVENTS);
+    EXPECT_EQ(table.create_world(&desc, &world), PLUMB_OK);
+  }
+  ~GuardedTable() override { table.destroy_world(world); }
+
+  const PlumbBackendTable& table = *negotiate(&backend::open<FakeWorld>, "fake");
+  PlumbWorld* world = nullptr;
+};
+
+TEST_F(GuardedTable, TellsWhatDoesNotFit) {
+  FakeWorld::last->event_rows = {{PLUMB_EVENT_WAKE, 0, 1, 0, 0}, {PLUMB_EVENT_SLEEP, 0, 2, 0, 0}};
+  PlumbEvent out[3] = {};
+  std::uint32_t count = 0;
+  EXPECT_EQ(table.events(world, out, sizeof out[0], 1, &count), PLUMB_TRUNCATED);
+  EXPECT_EQ(count, 2u);
+  EXPECT_EQ(out[0].body_a, 1u);
+  EXPECT_EQ(out[1].body_a, 0u) << "written beyond the capacity";
+  EXPECT_EQ(table.events(world, nullptr, sizeof out[0], 0, &count), PLUMB_TRUNCATED);
+  EXPECT_EQ(table.events(world, out, sizeof out[0], 2, &count), PLUMB_OK);
+  EXPECT_EQ(out[1].body_a, 2u);
+  EXPECT_EQ(out[2].body_a, 0u);
+}
+
+TEST_F(GuardedTable, ReportsFillTheHostsStructAndNoMore) {
+  const PlumbStepDesc step = {sizeof step, 0, 0.1};
+  for (const std::uint32_t size : {std::uint32_t{16}, std::uint32_t{sizeof(PlumbStepReport)}}) {
+    ASSERT_EQ(table.step(world, &step), PLUMB_OK);
+    unsigned char memory[sizeof(PlumbStepReport) + 16];
+    std::fill(std::begin(memory), std::end(memory), 0xab);
+    std::memcpy(memory, &size, sizeof size);
+    ASSERT_EQ(table.wait(world, reinterpret_cast<PlumbStepReport*>(memory)), PLUMB_OK);
+    EXPECT_EQ(std::memcmp(memory, &size, sizeof size), 0) << "struct_size is the host's";
+    EXPECT_TRUE(std::all_of(memory + size, std::end(memory), [](unsigned char byte) { return byte == 0xab; })) << size;
+  }
 }
 
 class UndeclaredNeeds : public Guard {
