@@ -2,9 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "program.hpp"
+#include "run/metric_rows.hpp"
 #include "run/row.hpp"
 
 namespace plumb::harness::testing {
@@ -82,6 +84,26 @@ TEST(Rows, of_repetitions_take_the_worst_and_note_other_hashes) {
   EXPECT_EQ(row["time"]["ms_per_step"]["median"], 3);
   EXPECT_EQ(row["time"]["ms_per_step"]["max"], 5);
   EXPECT_EQ(row["metrics"]["determinism"]["value"], 0);
+}
+
+TEST(Judgement, thresholds_are_missed_by_more_by_nan_and_by_silence) {
+  const auto spec = [](const char* name, bool optional = false) {
+    return MetricSpec{name, "m", "", 0.1, 0.01, optional};
+  };
+  const auto metric = [](const char* name, double error) { return Metric{name, error, 0.0, error, std::nullopt, ""}; };
+  const Judgement judgement =
+      judge({metric("just", 0.1), metric("more", 0.11), metric("nan", NAN), metric("unlisted", 9)},
+            {spec("just"), spec("more"), spec("nan"), spec("silent"), spec("may_be_silent", true)}, {});
+  const Json& rows = judgement.metrics;
+  EXPECT_EQ(rows["just"]["pass"], true);
+  EXPECT_EQ(rows["more"]["pass"], false);
+  EXPECT_EQ(rows["nan"]["pass"], false);
+  EXPECT_EQ(rows["silent"]["pass"], false);
+  EXPECT_TRUE(rows["may_be_silent"]["pass"].is_null());
+  EXPECT_TRUE(rows["unlisted"]["pass"].is_null());
+  ASSERT_EQ(judgement.missed.size(), 3u);
+  EXPECT_EQ(judgement.missed[0], "more 0.11 > 0.1");
+  EXPECT_EQ(judgement.missed[2], "silent was not measured");
 }
 
 TEST(Listings, are_one_object_a_line) {
