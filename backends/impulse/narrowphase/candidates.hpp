@@ -13,9 +13,21 @@ struct Candidate {
   std::uint32_t feature;
 };
 
+/// Whether the points differ in depth by so little, for how far they are spread, that the deepest is so by accident.
+PLUMB_HD inline bool are_level(const Candidate* at, int count) {
+  Vec low = {at[0].x, at[0].y, at[0].separation}, high = low;
+  for (int i = 1; i < count; ++i) {
+    const Vec p = {at[i].x, at[i].y, at[i].separation};
+    low = min(low, p);
+    high = max(high, p);
+  }
+  return high.z - low.z <= kLevel * (high.x - low.x + high.y - low.y);
+}
+
 /// Puts the four points that matter first in `at` and returns how many there are: the deepest, the farthest from it,
 /// the one that spans the largest triangle with both, and the one that widens that triangle most. Points that are equal
-/// within `tie` (a length) are taken in their order.
+/// within `tie` (a length) are taken in their order. Of more than four that are level the first takes the place of the
+/// deepest, so that a trembling body rests on the same four all the time.
 PLUMB_HD inline int choose_points(Candidate* at, int count, Real tie) {
   const auto swap = [at](int i, int j) {
     const Candidate c = at[i];
@@ -25,8 +37,11 @@ PLUMB_HD inline int choose_points(Candidate* at, int count, Real tie) {
   int best = 0;
   for (int i = 1; i < count; ++i)
     if (at[i].separation < at[best].separation - tie) best = i;
-  if (best != 0) swap(0, best);
-  if (count <= kManifoldPoints) return count;
+  if (count <= kManifoldPoints) {
+    swap(0, best);
+    return count;
+  }
+  if (!are_level(at, count)) swap(0, best);
 
   Real most = 0;
   best = 1;

@@ -19,14 +19,16 @@ PLUMB_HD inline bool collide_sphere_capsule(const Shape& a, const Quat&, const S
                     length(nearest) - b.size.x, margin, out);
 }
 
-/// Cosine of the angle below which capsules lie along each other and share a line of contact, given by its two ends.
-constexpr Real kAlong = Real(0.995);
+/// Capsules that lie along each other touch along a line, given by its two ends: where the angle has at least this
+/// cosine, and the segments' points at the ends miss each other sideways by at most this part of the thinner one's
+/// radius.
+constexpr Real kAlong = Real(0.99), kSideways = Real(0.1);
 
 PLUMB_HD inline bool collide_capsule_capsule(const Shape& a, const Quat& qa, const Shape& b, const Quat& qb,
                                              const Vec& d, Real margin, const Hulls&, Manifold& out) {
   const Vec half_a = half_segment(a, qa), half_b = half_segment(b, qb);
   const Vec along_a = half_a + half_a, along_b = half_b + half_b, from_a = -half_a, from_b = d - half_b;
-  const Real radii = a.size.x + b.size.x;
+  const Real radii = a.size.x + b.size.x, thinner = min(a.size.x, b.size.x);
   const ClosestPair closest = closest_between(from_a, along_a, from_b, along_b);
   const Vec apart = closest.on_b - closest.on_a;
   const Real distance = length(apart);
@@ -49,14 +51,18 @@ PLUMB_HD inline bool collide_capsule_capsule(const Shape& a, const Quat& qa, con
     const Real begin = dot(from_b - from_a, along_a) / aa, end = begin + ab / aa;
     const Real low = max(min(begin, end), Real(0)), high = min(max(begin, end), Real(1));
     if (high - low > kClipSlack) {
-      const auto separation_at = [&](Real s) {
+      const auto gap_at = [&](Real s) {
         const Real r = clamp((s - begin) * (aa / ab), Real(0), Real(1));
-        return max(dot(from_b + r * along_b - from_a - s * along_a, normal), distance) - radii;
+        return from_b + r * along_b - from_a - s * along_a;
       };
-      const Real at_low = separation_at(low), at_high = separation_at(high);
-      add(from_a + low * along_a, at_low < at_high ? distance - radii : at_low, 1);
-      add(from_a + high * along_a, at_low < at_high ? at_high : distance - radii, 2);
-      return true;
+      const Vec gap_low = gap_at(low), gap_high = gap_at(high);
+      const Real at_low = dot(gap_low, normal), at_high = dot(gap_high, normal);
+      const Real sideways = max(length_squared(gap_low - at_low * normal), length_squared(gap_high - at_high * normal));
+      if (sideways <= kSideways * kSideways * thinner * thinner) {
+        add(from_a + low * along_a, (at_low < at_high ? distance : max(at_low, distance)) - radii, 1);
+        add(from_a + high * along_a, (at_low < at_high ? max(at_high, distance) : distance) - radii, 2);
+        return true;
+      }
     }
   }
   add(closest.on_a, distance - radii, 0);

@@ -47,16 +47,16 @@ PLUMB_HD std::uint32_t highest_face(const View& view, const Vec& p, const Vec& d
   return best;
 }
 
-/// From outside to the closest edge; `closest` is replaced where an edge is closer by more than tie.
+/// From outside to the closest edge.
 template <class View>
-PLUMB_HD void closest_edge(const View& view, const Vec& p, const Vec& d, Real tie, Closest& closest) {
+PLUMB_HD void closest_edge(const View& view, const Vec& p, const Vec& d, Closest& closest) {
   for (std::uint32_t e = 0; e < view.edge_count(); ++e) {
     const HullEdge edge = view.edge(e);
     const Vec from = view.vertex(edge.from);
     const ClosestPair pair = closest_between(from, view.vertex(edge.to) - from, p, d);
     const Vec away = pair.on_b - pair.on_a;
     const Real distance = length(away);
-    if (distance + tie < closest.distance) closest = {pair.on_a, normalized_or(away, view.normal(edge.left)), distance};
+    if (distance < closest.distance) closest = {pair.on_a, normalized_or(away, view.normal(edge.left)), distance};
   }
 }
 
@@ -101,7 +101,7 @@ PLUMB_HD bool find_closest(const View& view, const Vec& p, const Vec& d, Real mo
     if (point || !out_across_edge(view, p, d, tie, out)) return true;
   }
   out.distance = kHuge;
-  closest_edge(view, p, d, tie, out);
+  closest_edge(view, p, d, out);
   // Where rounding leaves no direction the face's is as good.
   if (out.distance <= tie) out = {out.on_polyhedron, n, max(height, Real(0))};
   return out.distance <= most;

@@ -13,6 +13,8 @@ constexpr Real kParallel = Real(64) * kEpsilon;
 /// Of a face's width: a corner that lies no further outside still counts as inside, so that equal boxes on top of each
 /// other touch at the corners of one of them, however they tremble.
 constexpr Real kClipSlack = Real(1e-3);
+/// Angle below which two faces are level: which of their points is the deepest does not matter.
+constexpr Real kLevel = Real(1e-4);
 /// Cosine of the angle to a face's normal below which an edge axis touches in a single point, above which the rest of
 /// the faces is so close that it belongs to the contact.
 constexpr Real kNearFace = Real(0.99);
