@@ -24,7 +24,10 @@ Json told_about(const std::string& file, const Lie& lie) {
   const Finished finished = plumb({"conform", LYING_BACKEND, "--check", lie.check, "--json"},
                                   {{"PLUMB_HONEST", file}, {"PLUMB_LIE", lie.word}});
   for (const Json& row : finished.rows())
-    if (row.at("check") == lie.check) return row;
+    if (row.at("check") == lie.check) {
+      EXPECT_EQ(finished.status, row.at("outcome") == "failed" ? 1 : 0) << finished.err;
+      return row;
+    }
   ADD_FAILURE() << finished.out << finished.err;
   return {{"outcome", "none"}};
 }
