@@ -3,6 +3,9 @@
 #include <string>
 
 #include "plumb/physics_world.hpp"
+#if !defined(PLUMB_IMPULSE_CUDA)
+#include "broadphase/group_search.hpp"
+#endif
 
 namespace plumb::impulse {
 
@@ -15,7 +18,7 @@ constexpr std::uint32_t kStaticMark = 1U << 31;  // marks a noted partner as a s
 struct TreeMovers {
   TreeView tree;
   [[nodiscard]] PLUMB_HD std::uint32_t proxy(std::uint32_t i) const { return tree.leaf(i).child; }
-  [[nodiscard]] PLUMB_HD Box box(std::uint32_t i) const { return {tree.leaf(i).low, tree.leaf(i).high}; }
+  [[nodiscard]] PLUMB_HD Box box(std::uint32_t i) const { return tree.box(i); }
   template <class Found>
   PLUMB_HD void overlaps(std::uint32_t i, const Box& box, Found& found) const {
     tree.overlaps(box, tree.leaf(i).next, found);
@@ -80,6 +83,55 @@ struct CountPartners {
     counts[i] = sink.count;
   }
 };
+
+template <class Movers>
+void count_partners(Executor& executor, std::uint32_t n, const CountPartners<Movers>& count) {
+  executor.run(n, count);
+}
+
+#if !defined(PLUMB_IMPULSE_CUDA)
+/// The same for a group of neighbours in the tree.
+struct CountPartnersOfGroup {
+  CountPartners<TreeMovers> alone;
+  std::uint32_t n;
+
+  void operator()(std::uint32_t g) const {
+    const std::uint32_t end = min(n, (g + 1) * BoxGroup::kMost);
+    for (std::uint32_t first = g * BoxGroup::kMost; first < end;) {
+      std::uint32_t width = end - first;
+      while (width > 1 && !count(first, width)) width /= 2;
+      if (width == 1) alone(first);
+      first += width;
+    }
+  }
+
+ private:
+  struct NotesOfGroup {
+    const PairFilter& filter;
+    NotePartners sinks[BoxGroup::kMost];
+    const ProxyFilter* own[BoxGroup::kMost];
+    void operator()(std::uint32_t k, std::uint32_t proxy, bool is_static) {
+      if (filter(*own[k], filter.proxies[proxy])) sinks[k](is_static ? proxy | kStaticMark : proxy);
+    }
+  };
+  [[nodiscard]] bool count(std::uint32_t first, std::uint32_t width) const {
+    const Search<TreeMovers>& search = alone.search;
+    const TreeView& tree = search.movers.tree;
+    NotesOfGroup found{search.filter, {}, {}};
+    for (std::uint32_t k = 0; k < width; ++k) {
+      found.sinks[k] = {alone.notes + std::size_t{first + k} * kNotes, 0};
+      found.own[k] = &search.filter.proxies[tree.leaf(first + k).child];
+    }
+    if (!search_group(tree, search.statics, first, width, found)) return false;
+    for (std::uint32_t k = 0; k < width; ++k) alone.counts[first + k] = found.sinks[k].count;
+    return true;
+  }
+};
+
+void count_partners(Executor& executor, std::uint32_t n, const CountPartners<TreeMovers>& count) {
+  executor.run((n + BoxGroup::kMost - 1) / BoxGroup::kMost, CountPartnersOfGroup{count, n});
+}
+#endif
 
 template <class Movers>
 struct ListPairs {
@@ -151,7 +203,7 @@ template <class Movers>
 void BroadPhase::list_pairs(Executor& executor, const Movers& movers, std::uint32_t n, const PairFilter& filter,
                             Pair* pairs, PairRange* ranges_by_proxy, std::uint32_t* pair_count) {
   const Search<Movers> search{movers, statics_.view(), filter};
-  executor.run(n, CountPartners<Movers>{search, noted_.data(), counts_.data()});
+  count_partners(executor, n, CountPartners<Movers>{search, noted_.data(), counts_.data()});
   scan_.run(executor, n, counts_.data(), offsets_.data(), pair_count);
   executor.run(n, ListPairs<Movers>{search, noted_.data(), counts_.data(), offsets_.data(), pairs, pair_capacity_,
                                     ranges_by_proxy});
