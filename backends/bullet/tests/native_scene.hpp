@@ -44,10 +44,13 @@ struct NativeScene {
   }
 
   void add(const Item& item) {
-    if (item.is_sphere)
-      shapes.push_back(std::make_unique<btSphereShape>(static_cast<btScalar>(item.half.x)));
-    else
-      shapes.push_back(std::make_unique<btBoxShape>(vector(item.half)));
+    if (shaped == nullptr || !same_shape(*shaped, item)) {
+      if (item.is_sphere)
+        shapes.push_back(std::make_unique<btSphereShape>(static_cast<btScalar>(item.half.x)));
+      else
+        shapes.push_back(std::make_unique<btBoxShape>(vector(item.half)));
+      shaped = &item;
+    }
     const btScalar mass = item.is_static ? btScalar(0) : static_cast<btScalar>(item.mass);
     btRigidBody::btRigidBodyConstructionInfo info(mass, nullptr, shapes.back().get(),
                                                   item.is_static ? btVector3(0, 0, 0) : vector(inertia(item)));
@@ -83,6 +86,7 @@ struct NativeScene {
   btDiscreteDynamicsWorld world{&dispatcher, &broadphase, &solver, &configuration};
   btRigidBody anchor{btScalar(0), nullptr, nullptr};
   std::vector<std::unique_ptr<btCollisionShape>> shapes;
+  const Item* shaped = nullptr;  ///< the item that the last shape was made for; those that follow share it
   std::vector<std::unique_ptr<btRigidBody>> bodies;
   std::vector<std::unique_ptr<btTypedConstraint>> joints;
 };

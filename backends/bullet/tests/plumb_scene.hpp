@@ -82,9 +82,15 @@ void write_row(plumb::IPhysicsWorld& world, PlumbField field, PlumbBody body, co
 struct PlumbScene {
   explicit PlumbScene(const Scene& scene, PlumbNeeds needs = kNeeds, std::vector<PlumbSetting> settings = {})
       : world(make_world(needs, std::move(settings))) {
+    PlumbShape shape = 0;  // of the item before; items that follow each other share it
+    const Item* shaped = nullptr;
     for (const Item& item : scene.items) {
       PlumbBodyDesc desc = plumb::body_desc(item.is_static ? PLUMB_STATIC : PLUMB_DYNAMIC);
-      desc.shape = item.is_sphere ? add_sphere(*world, item.half.x) : add_box(*world, item.half);
+      if (shape == 0 || !same_shape(*shaped, item)) {
+        shape = item.is_sphere ? add_sphere(*world, item.half.x) : add_box(*world, item.half);
+        shaped = &item;
+      }
+      desc.shape = shape;
       desc.pose = item.pose;
       desc.mass_mode = PLUMB_MASS_FROM_TOTAL;
       desc.mass = item.mass;

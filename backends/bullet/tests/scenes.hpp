@@ -22,6 +22,10 @@ struct Item {
   PlumbVec3 velocity{}, spin{};
 };
 
+inline bool same_shape(const Item& a, const Item& b) {
+  return a.is_sphere == b.is_sphere && a.half.x == b.half.x && a.half.y == b.half.y && a.half.z == b.half.z;
+}
+
 struct Joint {
   bool is_hinge = false;  ///< about z, else a ball
   int a = -1;             ///< -1: the world
