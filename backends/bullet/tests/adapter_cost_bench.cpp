@@ -94,8 +94,8 @@ void adapter_cost(benchmark::State& state, const scenes::Scene& scene, PlumbNeed
 constexpr PlumbNeeds kWithContacts =
     scenes::kNeeds | PLUMB_NEED_EVENTS | PLUMB_NEED_CONTACTS | PLUMB_NEED_CONTACT_IMPULSES;
 
-// The last number: steps before the window that is measured. The pile is at rest by then; pyramid-100 begins to lean at
-// about step 100 (every engine of its kind loses it) and is measured before.
+// The last number: steps before the window that is measured. The piles lie by then; pyramid-100 collapses before step
+// 300 and is measured while it stands.
 BENCHMARK_CAPTURE(adapter_cost, pile_1000, scenes::pile(1000), scenes::kNeeds, 200);
 BENCHMARK_CAPTURE(adapter_cost, pile_8000, scenes::pile(8000), scenes::kNeeds, 250)->Iterations(60);
 BENCHMARK_CAPTURE(adapter_cost, pyramid_20, scenes::pyramid(20), scenes::kNeeds, 60);
