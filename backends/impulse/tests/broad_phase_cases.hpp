@@ -30,6 +30,9 @@ inline constexpr BroadPhaseCase kBroadPhaseCases[] = {
     {"mixed 2^17", Field::kMixed, 17, 20, BroadPhase::Method::kLbvh, MortonBits::k63},
     {"uniform 2^20", Field::kUniform, 20, 20, BroadPhase::Method::kLbvh, MortonBits::k63},
     {"uniform 2^20, 30 bits", Field::kUniform, 20, 20, BroadPhase::Method::kLbvh, MortonBits::k30},
+    {"sweep 2^14", Field::kUniform, 14, 20, BroadPhase::Method::kSweepAndPrune, MortonBits::k63},
+    {"grid 2^14", Field::kUniform, 14, 20, BroadPhase::Method::kGrid, MortonBits::k63},
+    {"grid 2^17", Field::kUniform, 17, 20, BroadPhase::Method::kGrid, MortonBits::k63},
     {"sparse 2^20", Field::kUniform, 20, 10, BroadPhase::Method::kLbvh, MortonBits::k63},
 };
 
@@ -80,7 +83,7 @@ inline std::string hexadecimal(std::uint64_t value) {
   return text;
 }
 
-/// The phases, each with what comes before it, under its name.
+/// The phases, each with what comes before it, under its name. The tree's is what the tree costs, whatever the method.
 struct BroadPhasePhase {
   const char* name;
   void (BroadPhaseBench::*run)();
