@@ -270,7 +270,11 @@ class Fuzzer {
     const PlumbStepDesc desc = {sizeof desc, 0, chance(50) ? number() : 1.0 / 60};
     PlumbStepReport report{};
     report.struct_size = chance(20) ? below(sizeof report) : sizeof report;
-    if (judge(table_.step(world_, chance(200) ? nullptr : &desc))) judge(table_.wait(world_, &report));
+    if (judge(table_.step(world_, chance(200) ? nullptr : &desc))) {
+      if (chance(100)) judge(table_.step(world_, &desc));  // one is under way
+      judge(table_.wait(world_, &report));
+    }
+    if (chance(100)) judge(table_.wait(world_, &report));  // none is
   }
 
   void one_call() {
