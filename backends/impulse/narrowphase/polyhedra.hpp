@@ -4,6 +4,8 @@
 // (box_box.hpp).
 #pragma once
 
+#include <bit>
+
 #include "math/mat33.hpp"
 #include "narrowphase/face_overlap.hpp"
 #include "narrowphase/segments.hpp"
@@ -34,50 +36,93 @@ PLUMB_HD Real gap_along(const ViewA& a, const ViewB& b, const Placement& at, con
   return dot(n, at.shift) + dot(n_b, b.vertex(b.support(-n_b))) - dot(n, a.vertex(a.support(n)));
 }
 
+/// What bounds separations from above without a look at the vertices: each polyhedron holds a ball about its centre, so
+/// along n they are no further apart than those balls.
+struct Balls {
+  Vec apart;     ///< from A's centre to B's
+  Vec centre_b;  ///< in A's frame
+  Real radius_a, radius_b;
+
+  template <class ViewA, class ViewB>
+  PLUMB_HD Balls(const ViewA& a, const ViewB& b, const Placement& at)
+      : centre_b(at.turn * b.centre() + at.shift), radius_a(inner_radius(a)), radius_b(inner_radius(b)) {
+    apart = centre_b - a.centre();
+  }
+  /// Whether some direction between two adjacent face normals may separate by more than `beaten`.
+  PLUMB_HD bool may_separate(const Vec& left, const Vec& right, Real beaten) const {
+    const Real least = beaten + radius_a + radius_b;
+    if (least <= 0) return true;
+    const Real most = max(dot(left, apart), dot(right, apart));
+    // On the arc between the normals a component is at most the greater one over the cosine of half their angle.
+    return most > 0 && 2 * most * most > least * least * (1 + dot(left, right));
+  }
+};
+
 template <class ViewA, class ViewB>
-PLUMB_HD bool find_face_axes(const ViewA& a, const ViewB& b, const Placement& at, Real margin, Real tie,
-                             ContactAxis& best) {
+PLUMB_HD bool find_face_axes(const ViewA& a, const ViewB& b, const Placement& at, const Balls& balls, Real margin,
+                             Real tie, ContactAxis& best) {
   for (std::uint32_t f = 0; f < a.face_count(); ++f) {
-    const Vec n = a.normal(f), n_b = multiply_transposed(at.turn, n);
+    const Vec n = a.normal(f);
+    if (dot(n, balls.centre_b) - a.offset(f) - balls.radius_b <= best.separation) continue;
+    const Vec n_b = multiply_transposed(at.turn, n);
     const Real s = dot(n, at.shift) + dot(n_b, b.vertex(b.support(-n_b))) - a.offset(f);
     if (s > margin) return false;
     if (s > best.separation + tie) best = {n, s, f, 0, ContactAxis::Kind::kFaceOfA};
   }
   for (std::uint32_t f = 0; f < b.face_count(); ++f) {
-    const Vec n_b = b.normal(f), n = at.turn * n_b;
-    const Real s = -dot(n, at.shift) + dot(n, a.vertex(a.support(-n))) - b.offset(f);
+    const Vec n = at.turn * b.normal(f);
+    const Real offset = b.offset(f) + dot(n, at.shift);
+    if (dot(n, a.centre()) - offset - balls.radius_a <= best.separation) continue;
+    const Real s = dot(n, a.vertex(a.support(-n))) - offset;
     if (s > margin) return false;
     if (s > best.separation + tie) best = {-n, s, 0, f, ContactAxis::Kind::kFaceOfB};
   }
   return true;
 }
 
+/// The axis of edge i of A and an edge of B (from_b, e_b, between faces whose inward normals are left_b and right_b),
+/// if they make a face of the Minkowski difference and it separates more than the best axis so far.
 template <class ViewA, class ViewB>
-PLUMB_HD bool find_edge_axes(const ViewA& a, const ViewB& b, const Placement& at, Real margin, Real tie,
-                             ContactAxis& best) {
-  for (std::uint32_t j = 0; j < b.edge_count(); ++j) {
-    const HullEdge edge_b = b.edge(j);
-    const Vec from_b = at.turn * b.vertex(edge_b.from) + at.shift;
-    const Vec e_b = at.turn * b.vertex(edge_b.to) + at.shift - from_b;
-    const Vec left_b = -(at.turn * b.normal(edge_b.left)), right_b = -(at.turn * b.normal(edge_b.right));
-    for (std::uint32_t i = 0; i < a.edge_count(); ++i) {
-      const HullEdge edge_a = a.edge(i);
-      const Vec from_a = a.vertex(edge_a.from), e_a = a.vertex(edge_a.to) - from_a;
-      // The arcs cross: the ends of each lie on different sides of the other, and in the same hemisphere.
-      const Real l = dot(left_b, e_a), r = dot(right_b, e_a);
-      if (!(l * r < 0)) continue;
-      const Vec left_a = a.normal(edge_a.left), right_a = a.normal(edge_a.right);
-      const Real m = dot(left_a, e_b), k = dot(right_a, e_b);
-      if (!(m * k < 0) || !(l * k > 0)) continue;
+PLUMB_HD void try_edges(const ViewA& a, const ViewB& b, const Placement& at, std::uint32_t i, std::uint32_t j,
+                        const Vec& from_b, const Vec& e_b, const Vec& left_b, const Vec& right_b, Real tie,
+                        ContactAxis& best) {
+  const HullEdge edge_a = a.edge(i);
+  const Vec from_a = a.vertex(edge_a.from), e_a = a.vertex(edge_a.to) - from_a;
+  // The arcs cross: the ends of each lie on different sides of the other, and in the same hemisphere.
+  const Real l = dot(left_b, e_a), r = dot(right_b, e_a);
+  if (!(l * r < 0)) return;
+  const Vec left_a = a.normal(edge_a.left), right_a = a.normal(edge_a.right);
+  const Real m = dot(left_a, e_b), k = dot(right_a, e_b);
+  if (!(m * k < 0) || !(l * k > 0)) return;
 
-      Vec n = cross(e_a, e_b);
-      const Real square = length_squared(n);
-      if (square <= kParallel * kParallel * length_squared(e_a) * length_squared(e_b)) continue;
-      n = ((dot(n, left_a + right_a) < 0 ? Real(-1) : Real(1)) / sqrt(square)) * n;
-      if (dot(n, from_b - from_a) <= best.separation + tie) continue;
-      const Real s = gap_along(a, b, at, n);  // of edges near parallel, n may not be quite at right angles to both
-      if (s > margin) return false;
-      if (s > best.separation + tie) best = {n, s, i, j, ContactAxis::Kind::kEdges};
+  Vec n = cross(e_a, e_b);
+  const Real square = length_squared(n);
+  if (square <= kParallel * kParallel * length_squared(e_a) * length_squared(e_b)) return;
+  n = ((dot(n, left_a + right_a) < 0 ? Real(-1) : Real(1)) / sqrt(square)) * n;
+  if (dot(n, from_b - from_a) <= best.separation + tie) return;
+  const Real s = gap_along(a, b, at, n);  // of edges near parallel, n may not be quite at right angles to both
+  if (s > best.separation + tie) best = {n, s, i, j, ContactAxis::Kind::kEdges};
+}
+
+template <class ViewA, class ViewB>
+PLUMB_HD bool find_edge_axes(const ViewA& a, const ViewB& b, const Placement& at, const Balls& balls, Real margin,
+                             Real tie, ContactAxis& best) {
+  for (std::uint32_t first = 0; first < a.edge_count(); first += 64) {  // in sets of 64, so that a word holds a set
+    std::uint64_t of_a = 0;
+    for (std::uint32_t i = 0; i < 64 && first + i < a.edge_count(); ++i) {
+      const HullEdge edge = a.edge(first + i);
+      if (balls.may_separate(a.normal(edge.left), a.normal(edge.right), best.separation)) of_a |= std::uint64_t{1} << i;
+    }
+    for (std::uint32_t j = 0; j < b.edge_count() && of_a != 0; ++j) {
+      const HullEdge edge = b.edge(j);
+      const Vec left_b = -(at.turn * b.normal(edge.left)), right_b = -(at.turn * b.normal(edge.right));
+      if (!balls.may_separate(left_b, right_b, best.separation)) continue;
+      const Vec from_b = at.turn * b.vertex(edge.from) + at.shift;
+      const Vec e_b = at.turn * b.vertex(edge.to) + at.shift - from_b;
+      for (std::uint64_t left = of_a; left != 0; left &= left - 1)
+        try_edges(a, b, at, first + static_cast<std::uint32_t>(std::countr_zero(left)), j, from_b, e_b, left_b, right_b,
+                  tie, best);
+      if (best.separation > margin) return false;
     }
   }
   return true;
@@ -123,7 +168,9 @@ PLUMB_HD bool touch(const ViewA& a, const ViewB& b, const Placement& at, Real ma
   using Kind = ContactAxis::Kind;
   out.count = 0;
   ContactAxis axis;
-  if (!find_face_axes(a, b, at, margin, tie, axis) || !find_edge_axes(a, b, at, margin, tie, axis)) return false;
+  const Balls balls(a, b, at);
+  if (!find_face_axes(a, b, at, balls, margin, tie, axis) || !find_edge_axes(a, b, at, balls, margin, tie, axis))
+    return false;
   out.normal = axis.normal;
 
   const Vec against_b = -multiply_transposed(at.turn, axis.normal);

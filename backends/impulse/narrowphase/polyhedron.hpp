@@ -25,6 +25,7 @@ struct HullView {
   PLUMB_HD std::uint32_t vertex_count() const { return range.vertex_count; }
   PLUMB_HD std::uint32_t face_count() const { return range.face_count; }
   PLUMB_HD std::uint32_t edge_count() const { return range.edge_count; }
+  PLUMB_HD Vec centre() const { return range.centre; }
   PLUMB_HD Vec vertex(std::uint32_t v) const { return vertices[v]; }
   PLUMB_HD Vec normal(std::uint32_t f) const { return faces[f].normal; }
   PLUMB_HD Real offset(std::uint32_t f) const { return faces[f].offset; }
@@ -52,6 +53,7 @@ struct BoxView {
   PLUMB_HD std::uint32_t vertex_count() const { return 8; }
   PLUMB_HD std::uint32_t face_count() const { return 6; }
   PLUMB_HD std::uint32_t edge_count() const { return 12; }
+  PLUMB_HD Vec centre() const { return {0, 0, 0}; }
   PLUMB_HD Vec vertex(std::uint32_t v) const {
     return {(v & 1U) != 0 ? half.x : -half.x, (v & 2U) != 0 ? half.y : -half.y, (v & 4U) != 0 ? half.z : -half.z};
   }
@@ -80,6 +82,15 @@ struct BoxView {
     return (n.x > 0 ? 1U : 0U) | (n.y > 0 ? 2U : 0U) | (n.z > 0 ? 4U : 0U);
   }
 };
+
+/// Radius of the largest ball about the centre that the polyhedron holds.
+template <class View>
+PLUMB_HD Real inner_radius(const View& view) {
+  Real least = kHuge;
+  for (std::uint32_t f = 0; f < view.face_count(); ++f)
+    least = min(least, view.offset(f) - dot(view.normal(f), view.centre()));
+  return least;
+}
 
 /// The face whose normal is closest to n.
 template <class View>

@@ -47,11 +47,16 @@ PLUMB_HD std::uint32_t highest_face(const View& view, const Vec& p, const Vec& d
   return best;
 }
 
-/// From outside to the closest edge.
+/// From outside to the closest edge, which has a face that is seen from some point of the segment.
 template <class View>
-PLUMB_HD void closest_edge(const View& view, const Vec& p, const Vec& d, Closest& closest) {
+PLUMB_HD void closest_edge(const View& view, const Vec& p, const Vec& d, Real tie, Closest& closest) {
+  const auto seen = [&](std::uint32_t face) {
+    const Vec n = view.normal(face);
+    return dot(n, p) + max(dot(n, d), Real(0)) >= view.offset(face) - tie;
+  };
   for (std::uint32_t e = 0; e < view.edge_count(); ++e) {
     const HullEdge edge = view.edge(e);
+    if (!seen(edge.left) && !seen(edge.right)) continue;
     const Vec from = view.vertex(edge.from);
     const ClosestPair pair = closest_between(from, view.vertex(edge.to) - from, p, d);
     const Vec away = pair.on_b - pair.on_a;
@@ -101,7 +106,7 @@ PLUMB_HD bool find_closest(const View& view, const Vec& p, const Vec& d, Real mo
     if (point || !out_across_edge(view, p, d, tie, out)) return true;
   }
   out.distance = kHuge;
-  closest_edge(view, p, d, out);
+  closest_edge(view, p, d, tie, out);
   // Where rounding leaves no direction the face's is as good.
   if (out.distance <= tie) out = {out.on_polyhedron, n, max(height, Real(0))};
   return out.distance <= most;
