@@ -29,12 +29,13 @@ struct KeyByCell {
     constexpr float margin = 1.0F + 1.0F / 64.0F;
     const Box& box = boxes[proxies[i]];
     const SceneExtent scene = *extent;
+    const SceneFrame frame = scene.frame(GridCells::kAxisBits / 2);
     const float width =
-        max(margin * std::bit_cast<float>(side->bits), scene.longest() / static_cast<float>(GridCells::kAcross - 1));
+        max(margin * std::bit_cast<float>(side->bits), frame.side / static_cast<float>(GridCells::kAcross - 1));
     const float scale = width > 0 ? 1.0F / width : 0.0F;
     std::uint32_t cell[3];
     for (int k = 0; k < 3; ++k) {
-      const auto from_corner = static_cast<float>(box.low[k] - static_cast<Real>(scene.corner(k)));
+      const auto from_corner = static_cast<float>(box.low[k] - static_cast<Real>(frame.corner[k]));
       cell[k] = cell_of(from_corner * scale, GridCells::kAcross);
     }
     keys[i] = is_common(box, scene) ? GridCells::key(cell[0], cell[1], cell[2]) : GridCells::kLarge;

@@ -14,14 +14,15 @@ namespace plumb::impulse {
 
 /// The cells' keys: x in the lowest bits, so that three neighbours along x are one range of keys.
 struct GridCells {
-  static constexpr std::uint32_t kAxisBits = 10, kAcross = 1U << kAxisBits;
+  static constexpr int kAxisBits = 10;
+  static constexpr std::uint32_t kAcross = 1U << kAxisBits;
   static constexpr std::uint32_t kLarge = 1U << 3 * kAxisBits;  ///< the key of all large boxes
   static constexpr int kKeyBits = 3 * kAxisBits + 1;
 
   PLUMB_HD static constexpr std::uint32_t key(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
     return z << 2 * kAxisBits | y << kAxisBits | x;
   }
-  PLUMB_HD static constexpr std::uint32_t coordinate(std::uint32_t key, std::uint32_t axis) {
+  PLUMB_HD static constexpr std::uint32_t coordinate(std::uint32_t key, int axis) {
     return key >> axis * kAxisBits & (kAcross - 1);
   }
 };

@@ -25,11 +25,11 @@ struct CodeBoxes {
     constexpr std::uint32_t cells = 1U << Morton<K>::kAxisBits;
     const Box& box = boxes[proxies[i]];
     const SceneExtent scene = *extent;
-    const float longest = scene.longest();
-    const float scale = longest > 0 ? static_cast<float>(cells) / longest : 0.0F;  // cubes, however flat the scene is
+    const SceneFrame frame = scene.frame(Morton<K>::kAxisBits / 2);  // half of the bits against strays, half within
+    const float scale = frame.side > 0 ? static_cast<float>(cells) / frame.side : 0.0F;  // cubes, even if it is flat
     const Vec at = centre(box);
     std::uint32_t cell[3];
-    for (int k = 0; k < 3; ++k) cell[k] = cell_of((static_cast<float>(at[k]) - scene.corner(k)) * scale, cells);
+    for (int k = 0; k < 3; ++k) cell[k] = cell_of((static_cast<float>(at[k]) - frame.corner[k]) * scale, cells);
     codes[i] = static_cast<K>(size_class(box, scene)) << Morton<K>::kBits | Morton<K>::code(cell[0], cell[1], cell[2]);
     indices[i] = i;
   }

@@ -60,13 +60,13 @@ TEST_P(BroadPhaseFields, FindsWhatAllPairsFind) {
 }
 
 TEST_P(BroadPhaseFields, IsTheSameOrderForAnyNumberOfThreads) {
-  const std::vector<Box> boxes = make_boxes(GetParam(), 20000, 3);
+  const std::vector<Box> boxes = make_boxes(GetParam(), 12000, 3);
   for (const Way& way : kWays) {
     std::vector<Pair> first;
     for (const std::uint32_t threads : {1U, 2U, 5U}) {
       BroadPhaseRig rig(threads);
       choose(rig, way);
-      rig.set(boxes, 18000);
+      rig.set(boxes, 10000);
       const std::vector<Pair> pairs = rig.find(800000);
       ASSERT_EQ(rig.found, size(pairs));
       EXPECT_GT(size(pairs), 100U);
