@@ -108,4 +108,22 @@ TEST(Facts, MoreSubStepsLoseLessHeight) {
   EXPECT_LT(sink(8), sink(1));
 }
 
+/// What steals restitution in short steps is that contacts are met before they touch and are pushed out of.
+TEST(Facts, BouncesAreExactWithoutForeseenContactsAndPush) {
+  auto world =
+      scenes::make_world(PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_RESTITUTION,
+                         {scenes::number_setting("substeps", 8, PLUMB_SETTING_INT), scenes::number_setting("erp2", 0),
+                          scenes::number_setting("contact_breaking_threshold", 0)});
+  scenes::add_body(*world, scenes::frictionless(PLUMB_STATIC, scenes::add_box(*world, {5, 5, 5}), {0, -5, 0}));
+  PlumbBodyDesc ball = scenes::frictionless(PLUMB_DYNAMIC, scenes::add_sphere(*world, 0.5), {0, 5.5, 0});
+  ball.material.restitution = 1;
+  const PlumbBody body = scenes::add_body(*world, ball);
+  double apex = 0;
+  for (int i = 0; i < 120; ++i) {
+    scenes::advance(*world);
+    if (i >= 70) apex = std::max(apex, scenes::read_row<7>(*world, PLUMB_FIELD_POSE, body)[1]);
+  }
+  EXPECT_NEAR(apex, 5.5, 0.02);
+}
+
 }  // namespace
