@@ -81,6 +81,16 @@ TEST(HullPool, GivesTheRoomOfARemovedHullToOneThatFits) {
   expect_closed(HullView(pool.host(), small));
   expect_closed(HullView(pool.host(), 2));
   EXPECT_EQ(HullView(pool.host(), large).face_count(), 7U);
+
+  pool.remove(2);  // 40 vertices and 22 faces: room for the vertices of a ball, not for its triangles
+  Dice dice(1);
+  std::vector<PlumbVec3> ball;
+  for (int i = 0; i < 40; ++i) {
+    const V v = dice.direction();
+    ball.push_back({v.x, v.y, v.z});
+  }
+  EXPECT_EQ(pool.add(ball), 3U);
+  expect_closed(HullView(pool.host(), 3));
 }
 
 TEST(HullPool, RefusesWhatHasNoVolume) {
