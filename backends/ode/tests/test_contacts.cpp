@@ -171,6 +171,34 @@ TEST(Contacts, CompoundChildrenHaveTheirOwnMaterials) {
   }
 }
 
+/// OPCODE alone crashes on a mesh of one triangle; two of them, crossing, must meet.
+TEST(Contacts, LoneTrianglesMeet) {
+  const TestWorld world(usual_needs | PLUMB_NEED_CONTACTS);
+  check(*world, world->set_gravity({0, 0, 0}));
+  const double corners[9] = {-1, 0, -1, 1, 0, -1, 0, 0, 1};
+  const std::uint32_t triangle[3] = {0, 1, 2};
+  PlumbShapeDesc mesh = shape_desc(PLUMB_TRIANGLE_MESH);
+  mesh.vertices = corners;
+  mesh.vertex_count = 3;
+  mesh.indices = triangle;
+  mesh.triangle_count = 1;
+  const PlumbShape shape = world.shape(mesh);
+  world.fixed(shape);
+  PlumbBodyDesc desc = body_desc();
+  desc.shape = shape;
+  desc.mass_mode = PLUMB_MASS_EXPLICIT;
+  desc.mass = 1;
+  desc.inertia = {1, 1, 1};
+  desc.pose.orientation = {std::sqrt(.5), 0, 0, std::sqrt(.5)};
+  world.body(desc);
+  bool met = false;
+  for (int i = 0; i < 30; ++i) {
+    world.step();
+    met = met || !world->contacts().empty();
+  }
+  EXPECT_TRUE(met);
+}
+
 TEST(Queries, RaysFindTheNearestAndAll) {
   const TestWorld world(needs);
   const PlumbBody near = world.fixed(world.sphere(.5), {2, 0, 0}), far = world.fixed(world.box(.5, .5, .5), {5, 0, 0});
