@@ -179,9 +179,9 @@ PLUMB_HD bool touch(const ViewA& a, const ViewB& b, const Placement& at, Real ma
     face_a = face_at_edge(a, axis.a, axis.normal);
     face_b = face_at_edge(b, axis.b, against_b);
   } else if (axis.kind == Kind::kFaceOfA) {
-    face_b = face_towards(b, against_b);
+    face_b = face_at_support(b, against_b);
   } else {
-    face_a = face_towards(a, axis.normal);
+    face_a = face_at_support(a, axis.normal);
   }
   if (axis.kind == Kind::kEdges && dot(a.normal(face_a), axis.normal) < kNearFace &&
       dot(b.normal(face_b), against_b) < kNearFace) {

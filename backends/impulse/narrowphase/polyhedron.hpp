@@ -92,24 +92,29 @@ PLUMB_HD Real inner_radius(const View& view) {
   return least;
 }
 
-/// The face whose normal is closest to n.
-template <class View>
-PLUMB_HD std::uint32_t face_towards(const View& view, const Vec& n) {
-  std::uint32_t best = 0;
-  Real most = dot(view.normal(0), n);
-  for (std::uint32_t f = 1; f < view.face_count(); ++f)
-    if (const Real s = dot(view.normal(f), n); s > most + kTie) {
-      most = s;
-      best = f;
-    }
-  return best;
-}
-
 /// That of an edge's two faces whose normal is closer to n.
 template <class View>
 PLUMB_HD std::uint32_t face_at_edge(const View& view, std::uint32_t e, const Vec& n) {
   const HullEdge edge = view.edge(e);
   return dot(view.normal(edge.right), n) > dot(view.normal(edge.left), n) + kTie ? edge.right : edge.left;
+}
+
+/// Of the faces at the vertex furthest along n, that whose normal is closest to n.
+template <class View>
+PLUMB_HD std::uint32_t face_at_support(const View& view, const Vec& n) {
+  const std::uint32_t vertex = view.support(n);
+  std::uint32_t best = 0;
+  Real most = -kHuge;
+  for (std::uint32_t e = 0; e < view.edge_count(); ++e) {
+    const HullEdge edge = view.edge(e);
+    if (edge.from != vertex && edge.to != vertex) continue;
+    const std::uint32_t face = face_at_edge(view, e, n);
+    if (const Real s = dot(view.normal(face), n); s > most + kTie) {
+      most = s;
+      best = face;
+    }
+  }
+  return best;
 }
 
 /// Names an edge by its ends, whichever face it is seen from. Unique for up to 128 vertices.

@@ -117,7 +117,7 @@ PLUMB_HD bool find_closest(const View& view, const Vec& p, const Vec& d, Real mo
 template <class View>
 PLUMB_HD void lay_on_face(const View& view, const Vec& p, const Vec& d, Real radius, const Closest& closest,
                           Real margin, Manifold& out) {
-  const std::uint32_t face = face_towards(view, closest.normal);
+  const std::uint32_t face = face_at_support(view, closest.normal);
   if (dot(view.normal(face), closest.normal) < kNearFace) return;
   const ContactPlane plane(closest.normal);
   const FacePolygon<View> polygon = {
