@@ -38,8 +38,9 @@ class BroadPhase {
   /// The statics are boxes[proxies[i]], i < n. Only between steps; enqueues. Boxes are copied into the tree.
   void build_statics(Executor& executor, const Box* boxes, const std::uint32_t* proxies, std::uint32_t n);
 
-  /// Enqueues only. The movers are boxes[movers[i]], i < n, n no more than was reserved. All pointers are the
-  /// executor's memory, and are read and written when the kernels run.
+  /// Enqueues only. The movers are boxes[movers[i]], i < n; more than was reserved is an Error. All pointers are the
+  /// executor's memory, and are read and written when the kernels run. A recording of this holds n, the number of
+  /// statics and the settings. A box that is not sound (scene_extent.hpp) touches nothing.
   /// pairs: the first `pairs` of reserve() at most are written. ranges_by_proxy: of every mover the pairs that it
   /// found, as far as they were written. pair_count: how many there are, even if that is more than fit; 2^32 - 1 is
   /// that or more.
