@@ -99,19 +99,19 @@ PLUMB_HD std::uint32_t face_at_edge(const View& view, std::uint32_t e, const Vec
   return dot(view.normal(edge.right), n) > dot(view.normal(edge.left), n) + kTie ? edge.right : edge.left;
 }
 
-/// Of the faces at the vertex furthest along n, that whose normal is closest to n.
+/// At the vertex furthest along n, the face closest to it at the edge that drops least: where the next touch would be.
 template <class View>
 PLUMB_HD std::uint32_t face_at_support(const View& view, const Vec& n) {
   const std::uint32_t vertex = view.support(n);
   std::uint32_t best = 0;
-  Real most = -kHuge;
+  Real least = kHuge;
   for (std::uint32_t e = 0; e < view.edge_count(); ++e) {
     const HullEdge edge = view.edge(e);
     if (edge.from != vertex && edge.to != vertex) continue;
-    const std::uint32_t face = face_at_edge(view, e, n);
-    if (const Real s = dot(view.normal(face), n); s > most + kTie) {
-      most = s;
-      best = face;
+    const Vec along = view.vertex(edge.to) - view.vertex(edge.from);
+    if (const Real slope = abs(dot(n, along)) / length(along); slope < least - kTie) {
+      least = slope;
+      best = face_at_edge(view, e, n);
     }
   }
   return best;
