@@ -6,6 +6,7 @@
 //   static const PlumbBackendInfo& info();
 //   static PlumbDegree capability(PlumbCapability kind, std::uint32_t a, std::uint32_t b, const char*& note);
 //   static std::span<const PlumbSettingInfo> setting_infos();        // only when it derives from ISettings
+//   static std::string unmet_requirement();                          // optional: why this machine cannot run it, or ""
 //
 // For each extension, derive from its interface too (IJoints, IQueries, ...) and override its getter to return this.
 //

@@ -54,59 +54,134 @@ struct ContactPass {
   bool take_back_overlap;  ///< with the soft bias; without it the pass relaxes what the bias has pushed too far
   bool friction;
   bool note_impacts;  ///< write down how fast a point closed when it was first pushed in this step
-  bool add_up;        ///< add the impulses to those of the whole step
 };
 
-/// The normal impulses of a manifold (or of kLanes of them), point after point. `points` is the largest number among
-/// the lanes.
-///
+/// How far a point's speed is from what its impulse should bring about, and what is needed to correct it.
+template <class N>
+struct PointError {
+  N speed;          ///< should become 0, m/s
+  N mass_scale;     ///< softness of the point in this pass
+  N impulse_scale;  ///< likewise
+  N open;           ///< above 0: the point is apart; see kOpen
+  N approach;       ///< speed of b along the normal relative to a, m/s
+};
+
+/// Softness of a manifold's points, by whether both bodies move.
+template <class N>
+struct ManifoldSoftness {
+  N bias_rate, mass_scale, impulse_scale;
+};
+template <class N>
+PLUMB_HD ManifoldSoftness<N> softness_of(const SolverBody<N>& a, const SolverBody<N>& b, const ContactPass& pass) {
+  const auto movers = min(a.inverse_mass, b.inverse_mass) > N(0);
+  const Softness &between = pass.between_movers, &fixed = pass.against_fixed;
+  return {select(movers, N(between.bias_rate), N(fixed.bias_rate)),
+          select(movers, N(between.mass_scale), N(fixed.mass_scale)),
+          select(movers, N(between.impulse_scale), N(fixed.impulse_scale))};
+}
+
 /// A point that is apart may close its gap within the sub-step and no more. One that overlaps is taken back softly in
-/// the first pass; the second, after the positions have moved, only sees to it that nothing approaches, so that what
-/// the bias pushed does not stay as velocity.
+/// the first pass. The second, after the positions have moved, only sees to it that nothing that touches approaches, so
+/// that what the bias pushed does not stay as velocity.
+template <class N>
+PLUMB_HD PointError<N> point_error(const RowAccess<N>& row, int p, const Vec3<N>& n, const SolverBody<N>& a,
+                                   const SolverBody<N>& b, const ManifoldSoftness<N>& soft, const ContactPass& pass) {
+  const N zero = N(0), one = N(1);
+  const Vec3<N> ra = row.vector(point_field(p, kArmA)), rb = row.vector(point_field(p, kArmB));
+  const N approach = dot(velocity_at(b, rb) - velocity_at(a, ra), n);
+  if (!pass.take_back_overlap) {
+    const N open = row.get(point_field(p, kOpen));
+    return {approach + open, one, zero, open, approach};
+  }
+  const N separation = row.get(point_field(p, kSeparation)) + dot(displacement_at(b, rb) - displacement_at(a, ra), n);
+  const auto apart = separation > zero;
+  const N bias = select(apart, separation * N(pass.inverse_h), max(soft.bias_rate * separation, N(-pass.push_speed)));
+  return {approach + bias, select(apart, one, soft.mass_scale), select(apart, zero, soft.impulse_scale),
+          select(apart, N(kHuge), zero), approach};
+}
+
+/// Gives a point a new impulse and lets it act, in the lanes of `chosen`.
+template <class N, class M>
+PLUMB_HD void put_normal(const RowAccess<N>& row, int p, const Vec3<N>& n, SolverBody<N>& a, SolverBody<N>& b,
+                         const M& chosen, const N& wanted, const PointError<N>& point, const ContactPass& pass) {
+  const N zero = N(0);
+  const N old = row.get(point_field(p, kNormalImpulse));
+  const N total = select(chosen, wanted, old);
+  row.put(point_field(p, kNormalImpulse), total);
+  if (pass.take_back_overlap) row.put(point_field(p, kOpen), select(total > zero, zero, point.open));
+  if (pass.note_impacts) {
+    const N noted = row.get(point_field(p, kImpactSpeed));
+    const auto first = chosen && total > zero && noted > zero;
+    row.put(point_field(p, kImpactSpeed), select(first, min(point.approach, zero), noted));
+  }
+  const Vec3<N> impulse = (total - old) * n;
+  push(a, row.vector(point_field(p, kArmA)), -impulse);
+  push(b, row.vector(point_field(p, kArmB)), impulse);
+}
+
+/// All points of a manifold at once, by the inverse of their matrix: exact where every point touches and none would
+/// have to pull (after the block solver of Box2D: Catto, "Modeling and Solving Constraints", GDC 2009). Returns the
+/// lanes where that holds; in the others nothing is changed.
+template <class N>
+PLUMB_HD auto solve_normal_block(const RowAccess<N>& row, int points, const Vec3<N>& n, SolverBody<N>& a,
+                                 SolverBody<N>& b, const ManifoldSoftness<N>& soft, const ContactPass& pass) {
+  const N zero = N(0), one = N(1);
+  PointError<N> error[kManifoldPoints];
+  N residual[kManifoldPoints] = {zero, zero, zero, zero}, total[kManifoldPoints] = {zero, zero, zero, zero};
+  auto holds = zero < one;
+  for (int p = 0; p < kManifoldPoints; ++p) {
+    if (p >= points) break;
+    error[p] = point_error(row, p, n, a, b, soft, pass);
+    const N mass = row.get(point_field(p, kNormalMass));
+    const auto there = mass > zero;
+    total[p] = row.get(point_field(p, kNormalImpulse));
+    const N give = error[p].impulse_scale * total[p] / (error[p].mass_scale * select(there, mass, one));
+    residual[p] = select(there, error[p].speed + give, zero);
+    holds = holds && !(there && error[p].open > zero);
+  }
+  std::uint32_t field = kBlockInverse;
+  for (int p = 0; p < kManifoldPoints; ++p)
+    for (int q = p; q < kManifoldPoints; ++q, ++field) {
+      const N inverse = row.get(field);
+      total[p] = total[p] - inverse * residual[q];
+      if (q != p) total[q] = total[q] - inverse * residual[p];
+    }
+  for (int p = 0; p < kManifoldPoints; ++p) holds = holds && !(total[p] < zero);
+  for (int p = 0; p < kManifoldPoints; ++p) {
+    if (p >= points) break;
+    put_normal(row, p, n, a, b, holds, total[p], error[p], pass);
+  }
+  return holds;
+}
+
+/// The normal impulses of a manifold (or of kLanes of them). `points` is the largest number among the lanes.
 template <class N>
 PLUMB_HD void solve_normals(const RowAccess<N>& row, int points, SolverBody<N>& a, SolverBody<N>& b,
                             const ContactPass& pass) {
   const Vec3<N> n = row.vector(kNormal);
-  const N zero = N(0), one = N(1);
-  const auto movers = min(a.inverse_mass, b.inverse_mass) > zero;
-  const Softness &soft = pass.between_movers, &hard = pass.against_fixed;
-  const N rate = select(movers, N(soft.bias_rate), N(hard.bias_rate));
-  const N mass_scale = select(movers, N(soft.mass_scale), N(hard.mass_scale));
-  const N impulse_scale = select(movers, N(soft.impulse_scale), N(hard.impulse_scale));
-  for (int p = 0; p < points; ++p) {
-    const Vec3<N> ra = row.vector(point_field(p, kArmA)), rb = row.vector(point_field(p, kArmB));
-    const N speed = dot(velocity_at(b, rb) - velocity_at(a, ra), n);
-    const N old = row.get(point_field(p, kNormalImpulse));
-    const N mass = row.get(point_field(p, kNormalMass));
-    N wanted;
-    if (pass.take_back_overlap) {
-      const N separation =
-          row.get(point_field(p, kSeparation)) + dot(displacement_at(b, rb) - displacement_at(a, ra), n);
-      const auto apart = separation > zero;
-      const N gap_speed = select(apart, separation * N(pass.inverse_h), zero);
-      row.put(point_field(p, kGapSpeed), gap_speed);
-      const N bias = select(apart, gap_speed, max(rate * separation, N(-pass.push_speed)));
-      wanted = old - mass * select(apart, one, mass_scale) * (speed + bias) - select(apart, zero, impulse_scale) * old;
-    } else {
-      wanted = old - mass * (speed + row.get(point_field(p, kGapSpeed)));
-    }
-    const N total = max(wanted, zero);
-    row.put(point_field(p, kNormalImpulse), total);
-    if (pass.note_impacts) {
-      const N noted = row.get(point_field(p, kImpactSpeed));
-      row.put(point_field(p, kImpactSpeed), select(total > zero && noted > zero, min(speed, zero), noted));
-    }
-    if (pass.add_up) row.put(point_field(p, kStepImpulse), row.get(point_field(p, kStepImpulse)) + total);
-    const Vec3<N> impulse = (total - old) * n;
-    push(a, ra, -impulse);
-    push(b, rb, impulse);
+  const ManifoldSoftness<N> soft = softness_of(a, b, pass);
+  const auto open = !solve_normal_block(row, points, n, a, b, soft, pass);
+  for (int p = 0; p < points && any(open); ++p) {
+    const PointError<N> point = point_error(row, p, n, a, b, soft, pass);
+    const N old = row.get(point_field(p, kNormalImpulse)), mass = row.get(point_field(p, kNormalMass));
+    const N total = max(old - mass * point.mass_scale * point.speed - point.impulse_scale * old, N(0));
+    put_normal(row, p, n, a, b, open, total, point, pass);
   }
+}
+
+/// Adds the impulses of a sub-step that is done to those of the step.
+template <class N>
+PLUMB_HD void add_up_impulses(const RowAccess<N>& row, int points) {
+  for (int p = 0; p < points; ++p)
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      const std::uint32_t sum = point_field(p, kStepImpulse + i);
+      row.put(sum, row.get(sum) + row.get(point_field(p, kNormalImpulse + i)));
+    }
 }
 
 /// The friction impulses of a manifold, both tangents of a point at once.
 template <class N>
-PLUMB_HD void solve_friction(const RowAccess<N>& row, int points, SolverBody<N>& a, SolverBody<N>& b,
-                             const ContactPass& pass) {
+PLUMB_HD void solve_friction(const RowAccess<N>& row, int points, SolverBody<N>& a, SolverBody<N>& b) {
   const Vec3<N> t1 = row.vector(kTangent);
   const Vec3<N> t2 = cross(row.vector(kNormal), t1);
   const N friction = row.get(kFriction);
@@ -127,10 +202,6 @@ PLUMB_HD void solve_friction(const RowAccess<N>& row, int points, SolverBody<N>&
     const N new1 = select(slides, cut * slide1, stop1), new2 = select(slides, cut * slide2, stop2);
     row.put(point_field(p, kTangentImpulse), new1);
     row.put(point_field(p, kTangentImpulse + 1), new2);
-    if (pass.add_up) {
-      row.put(point_field(p, kStepImpulse + 1), row.get(point_field(p, kStepImpulse + 1)) + new1);
-      row.put(point_field(p, kStepImpulse + 2), row.get(point_field(p, kStepImpulse + 2)) + new2);
-    }
     const Vec3<N> impulse = (new1 - old1) * t1 + (new2 - old2) * t2;
     push(a, ra, -impulse);
     push(b, rb, impulse);

@@ -1,5 +1,5 @@
 // Contact constraints as the solver reads them: structures of arrays in blocks of 32, so that neighbouring threads of a
-// GPU and neighbouring lanes of a CPU read neighbouring numbers. 80 bytes a point in float and 48 a manifold.
+// GPU and neighbouring lanes of a CPU read neighbouring numbers. 80 bytes a point in float and 88 a manifold.
 #pragma once
 
 #include <cstdint>
@@ -23,10 +23,12 @@ enum PointField : std::uint32_t {
   kImpactSpeed = 14,  ///< relative normal velocity when the point was first pushed in this step, m/s; below 0: closing
   kStepImpulse = 15,  ///< sums over the sub-steps so far, N s: normal, tangent, bitangent
   kTangentStep = 18,  ///< smallest eigenvalue of the tangent mass, kg
-  kGapSpeed = 19,     ///< closing at this speed a point that is apart just touches at the end of the sub-step; else 0
+  kOpen = 19,  ///< speed that a point may approach with in the relaxing pass: 0, or without bound where it is apart
   kPointFields = 20
 };
-constexpr std::uint32_t kAllFields = kRowFields + kManifoldPoints * kPointFields;
+/// Inverse of the matrix that gives all points' speeds for all points' impulses, symmetric: 11 12 13 14 22 23 ... 44.
+constexpr std::uint32_t kBlockInverse = kRowFields + kManifoldPoints * kPointFields;
+constexpr std::uint32_t kAllFields = kBlockInverse + 10;
 
 struct ContactRows {
   std::uint32_t* body_a;

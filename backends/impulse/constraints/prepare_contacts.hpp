@@ -56,6 +56,50 @@ PLUMB_HD inline void put_tangent_mass(Real* numbers, int point, Real k11, Real k
       reciprocal_or_zero((k11 + k22) / 2 + sqrt(half * half + k12 * k12));
 }
 
+/// Inverse of a symmetric positive definite matrix by Gauss and Jordan's elimination, which needs no pivots for those.
+PLUMB_HD inline void invert(Real (&m)[kManifoldPoints][kManifoldPoints]) {
+  for (int k = 0; k < kManifoldPoints; ++k) {
+    const Real pivot = Real(1) / m[k][k];
+    m[k][k] = 1;
+    for (int j = 0; j < kManifoldPoints; ++j) m[k][j] = pivot * m[k][j];
+    for (int i = 0; i < kManifoldPoints; ++i) {
+      if (i == k) continue;
+      const Real factor = m[i][k];
+      m[i][k] = 0;
+      for (int j = 0; j < kManifoldPoints; ++j) m[i][j] = m[i][j] - factor * m[k][j];
+    }
+  }
+}
+
+/// The matrix that gives all normal speeds for all normal impulses, inverted. Four points of a plane have but three
+/// ways to move: a share of each point's own softness is added, without which there is no inverse. With much less of it
+/// the impulses of the fourth way wander, and towers tremble.
+PLUMB_HD inline void put_block_inverse(Real* numbers, std::uint32_t count, Real inverse_mass, const Sym& inertia_a,
+                                       const Sym& inertia_b) {
+  const Real share = count > 1 ? Real(0.05) : Real(0);
+  const RowAccess<Real> row{numbers};
+  const Vec n = row.vector(kNormal);
+  Real m[kManifoldPoints][kManifoldPoints] = {};
+  Vec turn_a[kManifoldPoints], turn_b[kManifoldPoints];
+  for (int p = 0; p < kManifoldPoints; ++p) {
+    turn_a[p] = cross(row.vector(point_field(p, kArmA)), n);
+    turn_b[p] = cross(row.vector(point_field(p, kArmB)), n);
+  }
+  for (int p = 0; p < kManifoldPoints; ++p)
+    for (int q = 0; q < kManifoldPoints; ++q) {
+      const bool there = max(p, q) < static_cast<int>(count);
+      m[p][q] = there ? inverse_mass + dot(turn_a[p], inertia_a * turn_a[q]) + dot(turn_b[p], inertia_b * turn_b[q])
+                      : Real(p == q ? 1 : 0);
+    }
+  const bool moves = inverse_mass > 0;
+  for (int p = 0; p < kManifoldPoints; ++p) m[p][p] = moves ? (1 + share) * m[p][p] : Real(1);
+  invert(m);
+  std::uint32_t field = kBlockInverse;
+  for (int p = 0; p < kManifoldPoints; ++p)
+    for (int q = p; q < kManifoldPoints; ++q, ++field)
+      row.put(field, moves && q < static_cast<int>(count) ? m[p][q] : Real(0));
+}
+
 PLUMB_HD inline void PrepareContacts::operator()(std::uint32_t j) const {
   const std::uint32_t row = order[j], colour = colours[j];
   const std::uint32_t slot = counters->first_slot[colour] + (j - counters->first_in_colour[colour]);
@@ -107,9 +151,10 @@ PLUMB_HD inline void PrepareContacts::operator()(std::uint32_t j) const {
     put(field(kTangentImpulse), warm_start * kept.tangent_impulse[0][p]);
     put(field(kTangentImpulse + 1), warm_start * kept.tangent_impulse[1][p]);
     put(field(kImpactSpeed), 1);
-    put(field(kGapSpeed), 0);
+    put(field(kOpen), 0);
     for (std::uint32_t i = 0; i < 3; ++i) put(field(kStepImpulse + i), 0);
   }
+  put_block_inverse(numbers, kept.count, inverse_mass, inertia_a, inertia_b);
 }
 
 /// Writes the impulses of a solver row back to the contact cache.

@@ -13,6 +13,8 @@
 //   RadixSort<K>, Scan  (sort.hpp)
 //   record(graph, f)    f() enqueues a fixed sequence; a device captures it the first time and replays it afterwards
 //   wait()              returns when all that was enqueued is done
+//   unmet_requirement() a sentence that says why this machine cannot run it, or ""
+//   device_name()       "cpu" or the name of the GPU
 //
 // What a kernel writes must not depend on the order of its calls: see real.hpp for why.
 #pragma once

@@ -46,6 +46,12 @@ inline Lanes operator/(const Lanes& a, const Lanes& b) { return Lanes(a.v / b.v)
 inline Mask operator<(const Lanes& a, const Lanes& b) { return {a.v < b.v}; }
 inline Mask operator>(const Lanes& a, const Lanes& b) { return {a.v > b.v}; }
 inline Mask operator&&(const Mask& a, const Mask& b) { return {a.v & b.v}; }
+inline Mask operator!(const Mask& m) { return {~m.v}; }
+inline bool any(const Mask& m) {
+  Mask::Bits bits = 0;
+  for (std::uint32_t i = 0; i < kLanes; ++i) bits |= m.v[i];
+  return bits != 0;
+}
 inline Lanes select(const Mask& m, const Lanes& a, const Lanes& b) { return Lanes(m.v ? a.v : b.v); }
 inline Lanes min(const Lanes& a, const Lanes& b) { return select(b < a, b, a); }
 inline Lanes max(const Lanes& a, const Lanes& b) { return select(a < b, b, a); }
@@ -56,5 +62,7 @@ inline Lanes sqrt(const Lanes& a) {
 }
 
 #endif
+
+PLUMB_HD constexpr bool any(bool mask) { return mask; }
 
 }  // namespace plumb::impulse

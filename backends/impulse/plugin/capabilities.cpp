@@ -1,7 +1,4 @@
 // What impulse truly has.
-#include <algorithm>
-#include <thread>
-
 #include "plugin/world.hpp"
 
 namespace plumb::impulse {
@@ -75,10 +72,10 @@ const PlumbBackendInfo& World::info() {
                                         "0.1",
                                         PLUMB_IMPULSE_BUILD,
                                         "LBVH, SAT and sequential impulses: Plumb's own engine",
-                                        PLUMB_IMPULSE_DEVICE,
+                                        Executor::device_name(),
                                         "",
                                         sizeof(Real) == 8 ? PLUMB_F64 : PLUMB_F32,
-                                        std::max(1U, std::thread::hardware_concurrency())};
+                                        Executor::max_threads()};
   return info;
 }
 

@@ -36,11 +36,11 @@ const std::vector<Row>& rows() {
   constexpr auto real = PLUMB_SETTING_FLOAT, whole = PLUMB_SETTING_INT, flag = PLUMB_SETTING_BOOL;
   constexpr auto quality = PLUMB_ROLE_QUALITY, behaviour = PLUMB_ROLE_BEHAVIOUR;
   static const std::vector<Row> all = {
-      number("substeps", whole, quality, 1, 256, 4, "1", &S::substeps,
+      number("substeps", whole, quality, 1, 256, 8, "1", &S::substeps,
              "parts of a step in which velocities are solved and positions moved"),
       number("contact_hertz", real, behaviour, 0, 1e5, 0, "1/s", &S::contact_hertz,
              "stiffness of contacts against overlap; 0: a quarter of the sub-steps a second, the most that is stable"),
-      number("contact_damping_ratio", real, behaviour, 0, 1000, 10, "1", &S::contact_damping_ratio,
+      number("contact_damping_ratio", real, behaviour, 0, 1000, 50, "1", &S::contact_damping_ratio,
              "how slowly overlap is taken back: 1 is critical damping"),
       number("joint_hertz", real, behaviour, 0, 1e5, 0, "1/s", &S::joint_hertz,
              "stiffness of joints against drift; 0: half of the sub-steps a second"),
@@ -84,7 +84,7 @@ StepParameters Settings::parameters(double dt, double last_h, const PlumbVec3& g
   step.h = static_cast<Real>(h);
   step.inverse_h = static_cast<Real>(1 / h);
   step.substeps = static_cast<std::uint32_t>(substeps);
-  const double hertz = contact_hertz > 0 ? std::min(contact_hertz, 0.25 / h) : 0.25 / h;
+  const double hertz = contact_hertz > 0 ? contact_hertz : 0.25 / h;
   step.contact = make_softness(hertz, contact_damping_ratio, h);
   step.ground = make_softness(2 * hertz, contact_damping_ratio, h);
   step.joint = make_softness(joint_hertz > 0 ? joint_hertz : 0.5 / h, joint_damping_ratio, h);

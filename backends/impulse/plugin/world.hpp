@@ -18,6 +18,7 @@ class World final : public IPhysicsWorld, public IDebug, public ISettings {
   explicit World(const WorldInit& init);
 
   static const PlumbBackendInfo& info();
+  static std::string unmet_requirement() { return Executor::unmet_requirement(); }
   static PlumbDegree capability(PlumbCapability kind, std::uint32_t a, std::uint32_t b, const char*& note);
   static std::span<const PlumbSettingInfo> setting_infos() { return impulse::setting_infos(); }
 

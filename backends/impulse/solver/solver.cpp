@@ -2,6 +2,7 @@
 
 #include "constraints/prepare_contacts.hpp"
 #include "exec/atomic.hpp"
+#include "solver/contact_loops.hpp"
 #include "solver/motion.hpp"
 
 namespace plumb::impulse {
@@ -61,12 +62,18 @@ struct StepSoftly {
                               step.push_speed,
                               take_back_overlap,
                               features.friction,
-                              take_back_overlap && features.restitution,
-                              !take_back_overlap && features.contact_impulses};
-    for_contacts(team, contacts, solver, take_back_overlap, [pass](const auto& row, int points, auto& a, auto& b) {
-      solve_normals(row, points, a, b, pass);
-      if (pass.friction) solve_friction(row, points, a, b, pass);
-    });
+                              take_back_overlap && features.restitution};
+    const bool add_up = !take_back_overlap && features.contact_impulses;
+    for_contacts(team, contacts, solver, take_back_overlap,
+                 [pass, add_up](const auto& row, int points, auto& a, auto& b) {
+                   solve_normals(row, points, a, b, pass);
+                   if (pass.friction) {
+                     solve_friction(row, points, a, b);
+                     solve_normals(row, points, a, b,
+                                   pass);  // friction below the centre tilts a body: normals have the last word
+                   }
+                   if (add_up) add_up_impulses(row, points);
+                 });
   }
   PLUMB_DEVICE void bounce(Team& team, Real slowest) const {
     for_contacts(team, contacts, solver, false, [slowest](const auto& row, int points, auto& a, auto& b) {

@@ -7,7 +7,6 @@
 #include "exec/memory.hpp"
 #include "narrowphase/contact_cache.hpp"
 #include "solver/colouring.hpp"
-#include "solver/contact_loops.hpp"
 #include "solver/solver_bodies.hpp"
 #include "step_counters.hpp"
 #include "step_parameters.hpp"

@@ -13,6 +13,13 @@ concept HasSettings = requires {
   { World::setting_infos() } -> std::convertible_to<std::span<const PlumbSettingInfo>>;
 };
 
+/// A class may say in a sentence why it cannot run on this machine (no device, no driver); "" where it can. The backend
+/// is then refused when it is opened, and steps aside.
+template <class World>
+concept HasRequirement = requires {
+  { World::unmet_requirement() } -> std::convertible_to<std::string>;
+};
+
 /// A table entry that calls one member function of the guard.
 template <auto Member>
 struct Entry;
@@ -208,6 +215,10 @@ PlumbResult open(const PlumbOpenRequest* request, PlumbOpenReply* reply) noexcep
       return answer(PLUMB_E_VERSION, "backend %s speaks interface %u.%u and the host at most %u.%u; get a newer host",
                     info.name, major, minor, PLUMB_VERSION_MAJOR(request->max_version),
                     PLUMB_VERSION_MINOR(request->max_version));
+    if constexpr (HasRequirement<World>) {
+      const std::string why = World::unmet_requirement();
+      if (!why.empty()) return answer(PLUMB_E_UNSUPPORTED, "%s", why.c_str());
+    }
     if (Tables<World>::host == nullptr) Tables<World>::host = request->host;
     reply->version = PLUMB_VERSION;
     reply->table = &Tables<World>::backend();

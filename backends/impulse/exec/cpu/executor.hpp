@@ -1,6 +1,10 @@
 // The executor of the CPU library: kernels run at once, on the world's threads.
 #pragma once
 
+#include <algorithm>
+#include <string>
+#include <thread>
+
 #include "exec/cpu/crew.hpp"
 #include "exec/executor.hpp"
 #include "exec/memory.hpp"
@@ -32,6 +36,10 @@ struct Recording {
 class Executor {
  public:
   Executor(const PlumbHost* host, std::uint32_t threads) : crew_(host, threads) {}
+
+  static std::string unmet_requirement() { return {}; }
+  static const char* device_name() { return "cpu"; }
+  static std::uint32_t max_threads() { return std::max(1U, std::thread::hardware_concurrency()); }
 
   [[nodiscard]] std::uint32_t threads() const { return crew_.threads(); }
 

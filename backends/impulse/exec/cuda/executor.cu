@@ -1,6 +1,28 @@
 #include "exec/cuda/executor.cuh"
 
+#include <string>
+
 namespace plumb::impulse {
+
+std::string Executor::unmet_requirement() {
+  int devices = 0;
+  const cudaError_t status = cudaGetDeviceCount(&devices);
+  if (status != cudaSuccess)
+    return std::string("impulse-cuda finds no CUDA device (") + cudaGetErrorString(status) +
+           "); install NVIDIA's driver 580 or newer, or use impulse, the same engine on the CPU";
+  int cooperative = 0;
+  (void)cudaDeviceGetAttribute(&cooperative, cudaDevAttrCooperativeLaunch, 0);
+  if (cooperative == 0) return "impulse-cuda needs a device with cooperative launches; use impulse instead";
+  return {};
+}
+
+const char* Executor::device_name() {
+  static const std::string name = [] {
+    cudaDeviceProp properties{};
+    return cudaGetDeviceProperties(&properties, 0) == cudaSuccess ? std::string(properties.name) : std::string("gpu");
+  }();
+  return name.c_str();
+}
 
 Executor::Executor(const PlumbHost* /*host*/, std::uint32_t /*threads*/) {
   int device = 0, multiprocessors = 0;

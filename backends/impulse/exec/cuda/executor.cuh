@@ -46,7 +46,8 @@ __global__ void run_counted_kernel(F f, Count n) {
   if (i < n.capacity && i < *n.value) f(i);
 }
 template <class F>
-__global__ void __launch_bounds__(kTeamThreads) team_kernel(F f, TeamBarrier* barrier, Count load, std::uint32_t least) {
+__global__ void __launch_bounds__(kTeamThreads)
+    team_kernel(F f, TeamBarrier* barrier, Count load, std::uint32_t least) {
   const std::uint32_t counted = *load.value < load.capacity ? *load.value : load.capacity;
   const std::uint32_t work = counted < least ? least : counted;
   const std::uint32_t wanted = (work + kTeamThreads - 1) / kTeamThreads;
@@ -63,6 +64,10 @@ class Executor {
   Executor(const Executor&) = delete;
   Executor& operator=(const Executor&) = delete;
   ~Executor();
+
+  static std::string unmet_requirement();
+  static const char* device_name();
+  static std::uint32_t max_threads() { return 1; }
 
   [[nodiscard]] std::uint32_t threads() const { return 1; }
   [[nodiscard]] cudaStream_t stream() const { return stream_; }
