@@ -67,7 +67,7 @@ Bodies Simulation::bodies() {
   return {position.device(), orientation.device(), velocity.device(), force.device(), mass.device()};
 }
 
-Proxies Simulation::proxy_view() { return {proxies.device(), shapes.device(), Hulls{}}; }
+Proxies Simulation::proxy_view() { return {proxies.device(), shapes.device(), hulls.device()}; }
 
 void Simulation::bring_state_to_host() {
   if (!host_stale_) return;
@@ -92,9 +92,10 @@ void Simulation::find_origin() {
 void Simulation::upload_changes() {
   if (bodies_dirty_) {
     bring_state_to_host();
-    mover_count_ = static_count_ = 0;
+    mover_count_ = static_count_ = shape_types_ = 0;
     for (std::uint32_t i = 0; i < body_count_; ++i) {
       if (proxies[i].shape == kNone) continue;
+      shape_types_ |= 1U << static_cast<std::uint32_t>(shapes[proxies[i].shape].type);
       if ((mass[i].flags & kBodyMoves) != 0)
         movers_[mover_count_++] = i;
       else
@@ -104,6 +105,7 @@ void Simulation::upload_changes() {
     executor_.to_device(proxies, position.size());
     executor_.to_device(filters, position.size());
     executor_.to_device(shapes, shapes.size());
+    hulls.upload(executor_);
     executor_.to_device(movers_, mover_count_);
     executor_.to_device(statics_, static_count_);
     find_origin();
@@ -127,6 +129,8 @@ void Simulation::upload_changes() {
 }
 
 void Simulation::step(const StepParameters& parameters) {
+  if (parameters.solver != parameters_[0].solver)
+    for (Recording& recording : recordings_) recording.forget();
   parameters_[0] = parameters;
   parameters_[0].step = ++step_;
   repeated_ = false;
@@ -154,13 +158,13 @@ void Simulation::enqueue() {
                   BoundProxies{all, shapes_on, parameters, movers_.device(), boxes_.data(), margins_.data()});
     broad_phase_.find_pairs(executor_, boxes_.data(), movers_.device(), mover_count_,
                             PairFilter{filters.device(), nullptr, 0}, now.pairs, now.ranges, &counters->pairs);
-    narrow_phase_.collide(executor_, now, all, shapes_on, margins_.data(), counters);
+    narrow_phase_.collide(executor_, now, all, shapes_on, margins_.data(), shape_types_, counters);
     colouring_.begin(executor_);
     narrow_phase_.match(executor_, now, last, all, shapes_on, parameters, counters, colouring_.masks());
     colouring_.colour(executor_, now, velocity.device(), proxies.device(), counters);
     solver_.prepare(executor_, now, all, shapes_on, colouring_, parameters, counters);
   }
-  solver_.solve(executor_, all, body_count_, parameters, counters, pair_capacity_);
+  solver_.solve(executor_, parameters_[0].solver, all, body_count_, parameters, counters, pair_capacity_);
   if (features_.collision) solver_.keep_impulses(executor_, now, counters);
   executor_.to_host(counters_, 1);
 }

@@ -8,6 +8,7 @@
 #include "contact_record.hpp"
 #include "exec/executor.hpp"
 #include "exec/memory.hpp"
+#include "geometry/hull_pool.hpp"
 #include "narrowphase/narrow_phase.hpp"
 #include "solver/colouring.hpp"
 #include "solver/solver.hpp"
@@ -29,6 +30,7 @@ class Simulation {
   Mirror<Proxy> proxies;  // one a body, for now at the body's slot
   Mirror<ProxyFilter> filters;
   Mirror<Shape> shapes;
+  HullPool hulls;
 
   /// Room for this many body slots, and the rows up to it.
   void reserve_bodies(std::uint32_t slots);
@@ -79,6 +81,7 @@ class Simulation {
 
   Mirror<std::uint32_t> movers_, statics_;
   std::uint32_t mover_count_ = 0, static_count_ = 0;
+  std::uint32_t shape_types_ = 0;  // a bit for each ShapeType in the world
   Mirror<StepParameters> parameters_;
   Mirror<StepCounters> counters_;
   Buffer<Box> boxes_;     // by proxy

@@ -7,13 +7,53 @@ namespace plumb::impulse {
 
 namespace {
 
+constexpr std::uint32_t kPairKinds = kShapeTypes * kShapeTypes;
+
+/// A number for two types in either order.
+PLUMB_HD constexpr std::uint32_t pair_kind(ShapeType a, ShapeType b) {
+  const auto x = static_cast<std::uint32_t>(a), y = static_cast<std::uint32_t>(b);
+  return min(x, y) * kShapeTypes + max(x, y);
+}
+
+/// Any two shapes: a branch a pair, which is what a CPU does best.
+struct AnyKind {
+  PLUMB_HD static bool collide(const Shape& a, const Quat& qa, const Shape& b, const Quat& qb, const Vec& apart,
+                               Real margin, const Hulls& hulls, Manifold& manifold) {
+    return impulse::collide(a, qa, b, qb, apart, margin, hulls, manifold);
+  }
+};
+
+/// Shapes whose types are known when the kernel is compiled, so that it has the code and registers of one pair
+/// function.
+template <ShapeType kA, ShapeType kB>
+struct OneKind {
+  PLUMB_HD static bool collide(Shape a, const Quat& qa, Shape b, const Quat& qb, const Vec& apart, Real margin,
+                               const Hulls& hulls, Manifold& manifold) {
+    const bool swapped = kA != kB && a.type == kB;
+    const Shape first = swapped ? b : a;
+    const Shape second = swapped ? a : b;
+    const Shape typed_first = {kA, first.hull, first.size, first.reach};
+    const Shape typed_second = {kB, second.hull, second.size, second.reach};
+    const bool touch = collide_ordered(typed_first, swapped ? qb : qa, typed_second, swapped ? qa : qb,
+                                       swapped ? -apart : apart, margin, hulls, manifold);
+    if (touch && swapped) swap_sides(apart, manifold);
+    return touch;
+  }
+};
+
+/// Pairs of one kind: places first[0] to first[1] of the order; every pair where there is no order.
+template <class Kind>
 struct Collide {
   ContactCache cache;
   Bodies bodies;
   Proxies proxies;
   const Real* margins;
+  const std::uint32_t* order;
+  const std::uint32_t* first;
 
-  PLUMB_HD void operator()(std::uint32_t p) const {
+  PLUMB_HD void operator()(std::uint32_t i) const {
+    if (order != nullptr && i >= first[1] - first[0]) return;
+    const std::uint32_t p = order == nullptr ? i : order[first[0] + i];
     const Pair pair = cache.pairs[p];
     const Proxy &a = proxies.rows[pair.a], &b = proxies.rows[pair.b];
     const ShapePose pose_a = shape_pose(a, bodies.orientation[a.body]),
@@ -21,10 +61,41 @@ struct Collide {
     const Vec apart = between(bodies.position[a.body], bodies.position[b.body]) + pose_b.offset - pose_a.offset;
     Manifold manifold;
     const bool touch =
-        impulse::collide(proxies.shapes[a.shape], pose_a.orientation, proxies.shapes[b.shape], pose_b.orientation,
-                         apart, margins[pair.a] + margins[pair.b], proxies.hulls, manifold);
+        Kind::collide(proxies.shapes[a.shape], pose_a.orientation, proxies.shapes[b.shape], pose_b.orientation, apart,
+                      margins[pair.a] + margins[pair.b], proxies.hulls, manifold);
     cache.touching[p] = touch ? 1 : 0;
     if (touch) cache.found[p] = manifold;
+  }
+};
+
+struct SortKinds {
+  ContactCache cache;
+  Proxies proxies;
+  std::uint32_t *kinds, *pairs;
+  PLUMB_HD void operator()(std::uint32_t p) const {
+    const Pair pair = cache.pairs[p];
+    kinds[p] =
+        pair_kind(proxies.shapes[proxies.rows[pair.a].shape].type, proxies.shapes[proxies.rows[pair.b].shape].type);
+    pairs[p] = p;
+  }
+};
+
+/// Where a kind begins in the order.
+struct FindKinds {
+  const std::uint32_t* kinds;
+  const StepCounters* counters;
+  std::uint32_t capacity;
+  std::uint32_t* first;
+  PLUMB_HD void operator()(std::uint32_t kind) const {
+    std::uint32_t low = 0, high = min(counters->pairs, capacity);
+    while (low < high) {
+      const std::uint32_t middle = (low + high) / 2;
+      if (kinds[middle] < kind)
+        low = middle + 1;
+      else
+        high = middle;
+    }
+    first[kind] = low;
   }
 };
 
@@ -99,6 +170,11 @@ void NarrowPhase::reserve(Executor& /*executor*/, std::uint32_t proxies, std::ui
     cache.kept.grow(pairs);
   }
   scan_.reserve(pairs);
+  if (Executor::kWarps) {
+    for (Buffer<std::uint32_t>* buffer : {&kinds_, &unordered_, &sorted_kinds_, &order_}) buffer->grow(pairs);
+    first_.grow(kPairKinds + 2);
+    sort_.reserve(pairs);
+  }
   capacity_ = pairs;
 }
 
@@ -107,11 +183,43 @@ void NarrowPhase::forget() {
 }
 
 void NarrowPhase::collide(Executor& executor, const ContactCache& cache, const Bodies& bodies, const Proxies& proxies,
-                          const Real* margins, StepCounters* counters) {
+                          const Real* margins, std::uint32_t shape_types, StepCounters* counters) {
   const Count pairs = {&counters->pairs, capacity_};
-  executor.run(pairs, Collide{cache, bodies, proxies, margins});
+  const auto run = [&]<class Kind>(Kind, const std::uint32_t* order, const std::uint32_t* first) {
+    executor.run(pairs, Collide<Kind>{cache, bodies, proxies, margins, order, first});
+  };
+  if constexpr (!Executor::kWarps) {
+    run(AnyKind{}, nullptr, nullptr);
+  } else {
+    const bool one = (shape_types & (shape_types - 1)) == 0;
+    if (!one) bin(executor, cache, proxies, counters);
+    const auto run_kind = [&]<ShapeType kA, ShapeType kB>(OneKind<kA, kB> kind) {
+      const auto there = [&](ShapeType type) { return (shape_types >> static_cast<std::uint32_t>(type) & 1U) != 0; };
+      if (!there(kA) || !there(kB)) return;
+      run(kind, one ? nullptr : order_.data(), one ? nullptr : first_.data() + pair_kind(kA, kB));
+    };
+    using enum ShapeType;
+    run_kind(OneKind<kSphere, kSphere>{});
+    run_kind(OneKind<kSphere, kBox>{});
+    run_kind(OneKind<kSphere, kCapsule>{});
+    run_kind(OneKind<kSphere, kHull>{});
+    run_kind(OneKind<kBox, kBox>{});
+    run_kind(OneKind<kBox, kCapsule>{});
+    run_kind(OneKind<kBox, kHull>{});
+    run_kind(OneKind<kCapsule, kCapsule>{});
+    run_kind(OneKind<kCapsule, kHull>{});
+    run_kind(OneKind<kHull, kHull>{});
+  }
   scan_.run(executor, pairs, cache.touching, cache.row, &counters->manifolds);
   executor.run(pairs, NumberRows{cache});
+}
+
+/// Orders the pairs by kind, so that a warp does one kind of work.
+void NarrowPhase::bin(Executor& executor, const ContactCache& cache, const Proxies& proxies, StepCounters* counters) {
+  const Count pairs = {&counters->pairs, capacity_};
+  executor.run(pairs, SortKinds{cache, proxies, kinds_.data(), unordered_.data()});
+  sort_.run(executor, pairs, kinds_.data(), unordered_.data(), sorted_kinds_.data(), order_.data(), 4);
+  executor.run(kPairKinds + 1, FindKinds{sorted_kinds_.data(), counters, capacity_, first_.data()});
 }
 
 void NarrowPhase::match(Executor& executor, const ContactCache& cache, const ContactCache& last, const Bodies& bodies,

@@ -23,8 +23,9 @@ class NarrowPhase {
   void forget();
 
   /// Collides the candidates in cache and numbers those that touch. margins: by proxy, how far ahead it looks, m.
+  /// shape_types: a bit for each ShapeType in the scene.
   void collide(Executor& executor, const ContactCache& cache, const Bodies& bodies, const Proxies& proxies,
-               const Real* margins, StepCounters* counters);
+               const Real* margins, std::uint32_t shape_types, StepCounters* counters);
 
   /// Gives each manifold the impulses of the points with the same feature in the last step, and its colour.
   void match(Executor& executor, const ContactCache& cache, const ContactCache& last, const Bodies& bodies,
@@ -42,9 +43,13 @@ class NarrowPhase {
     }
   };
 
+  void bin(Executor& executor, const ContactCache& cache, const Proxies& proxies, StepCounters* counters);
+
   std::uint32_t capacity_ = 0;
   Storage caches_[2];
   Scan scan_;
+  RadixSort<std::uint32_t> sort_;
+  Buffer<std::uint32_t> kinds_, unordered_, sorted_kinds_, order_, first_;  // of bin()
 };
 
 }  // namespace plumb::impulse

@@ -13,7 +13,7 @@ PlumbQuat plumb_quat(const QuatD& q) { return {q.x, q.y, q.z, q.w}; }
 bool is_identity(const QuatD& q) { return q.x == 0 && q.y == 0 && q.z == 0; }
 bool is_isotropic(const PlumbVec3& inertia) { return inertia.x == inertia.y && inertia.y == inertia.z; }
 
-Shape to_shape(const PlumbShapeDesc& desc) {
+Shape to_shape(const PlumbShapeDesc& desc, HullPool& hulls) {
   Shape shape{};
   switch (desc.type) {
     case PLUMB_SPHERE:
@@ -31,24 +31,43 @@ Shape to_shape(const PlumbShapeDesc& desc) {
       shape.size = {static_cast<Real>(desc.radius), static_cast<Real>(desc.half_height), 0};
       shape.reach = shape.size.x + shape.size.y;
       break;
+    case PLUMB_CONVEX_HULL:
+      shape.type = ShapeType::kHull;
+      shape.hull = hulls.add({reinterpret_cast<const PlumbVec3*>(desc.vertices), desc.vertex_count});
+      shape.reach = hulls.reach(shape.hull);
+      break;
     default: throw Error(PLUMB_E_UNSUPPORTED, "shape type " + std::to_string(desc.type) + " is not in impulse yet");
   }
   return shape;
 }
 
+void dismantle(const Shape& shape, HullPool& hulls) {
+  if (shape.type == ShapeType::kHull) hulls.remove(shape.hull);
+}
+
 }  // namespace
 
 PlumbResult World::create_shapes(std::span<const PlumbShapeDesc> descs, std::span<PlumbShape> ids) {
+  std::vector<Shape> made;
+  made.reserve(descs.size());
+  try {
+    for (const PlumbShapeDesc& desc : descs) made.push_back(to_shape(desc, simulation_.hulls));
+  } catch (...) {
+    for (const Shape& shape : made) dismantle(shape, simulation_.hulls);
+    throw;
+  }
   for (std::size_t i = 0; i < descs.size(); ++i) {
-    const Shape shape = to_shape(descs[i]);
     simulation_.reserve_shapes(slot_of(ids[i]) + 1);
-    simulation_.shapes[slot_of(ids[i])] = shape;
+    simulation_.shapes[slot_of(ids[i])] = made[i];
   }
   simulation_.bodies_changed();
   return PLUMB_OK;
 }
 
-PlumbResult World::destroy_shapes(std::span<const PlumbShape> /*ids*/) { return PLUMB_OK; }
+PlumbResult World::destroy_shapes(std::span<const PlumbShape> ids) {
+  for (const PlumbShape id : ids) dismantle(simulation_.shapes[slot_of(id)], simulation_.hulls);
+  return PLUMB_OK;
+}
 
 PlumbResult World::create_bodies(std::span<const PlumbBodyDesc> descs, std::span<PlumbBody> ids) {
   std::uint32_t slots = simulation_.body_count();

@@ -13,7 +13,9 @@ struct Fact {
 constexpr Fact kYes{PLUMB_NATIVE};
 constexpr Fact kNotYet{PLUMB_NONE, "not in impulse yet"};
 
-bool has_shape(std::uint32_t type) { return type == PLUMB_SPHERE || type == PLUMB_BOX; }
+bool has_shape(std::uint32_t type) {
+  return type == PLUMB_SPHERE || type == PLUMB_BOX || type == PLUMB_CAPSULE || type == PLUMB_CONVEX_HULL;
+}
 
 Fact need_fact(std::uint32_t index) {
   if (index >= PLUMB_NEED_COUNT) return {PLUMB_NONE};

@@ -1,6 +1,6 @@
 #include "plugin/settings.hpp"
 
-#include <algorithm>
+#include <cstring>
 #include <string>
 #include <vector>
 
@@ -31,13 +31,33 @@ Row number(const char* name, PlumbSettingType type, PlumbSettingRole role, doubl
   return row;
 }
 
+/// In the order of SolverKind.
+constexpr const char* kSolvers[] = {"tgs_soft", "si", "jacobi", "xpbd"};
+
+Row choice(const char* name, std::span<const char* const> words, double Settings::*member, const char* doc) {
+  Row row = number(name, PLUMB_SETTING_CHOICE, PLUMB_ROLE_BEHAVIOUR, 0, 0, 0, "", member, doc);
+  row.info.choices = words.data();
+  row.info.choice_count = static_cast<std::uint32_t>(words.size());
+  row.info.default_value.choice = words[0];
+  return row;
+}
+
 const std::vector<Row>& rows() {
   using S = Settings;
   constexpr auto real = PLUMB_SETTING_FLOAT, whole = PLUMB_SETTING_INT, flag = PLUMB_SETTING_BOOL;
   constexpr auto quality = PLUMB_ROLE_QUALITY, behaviour = PLUMB_ROLE_BEHAVIOUR;
   static const std::vector<Row> all = {
+      choice("solver", std::span(kSolvers).first(2), &S::solver,
+             "tgs_soft: soft constraints in sub-steps; si: sequential impulses over the whole step"),
       number("substeps", whole, quality, 1, 256, 8, "1", &S::substeps,
-             "parts of a step in which velocities are solved and positions moved"),
+             "tgs_soft: parts of a step in which velocities are solved and positions moved"),
+      number("iterations", whole, quality, 1, kMostPasses, 10, "1", &S::iterations,
+             "si: passes over all constraints in a step, at most"),
+      number("stop_below", real, behaviour, 0, 1, 1e-5, "1", &S::stop_below,
+             "si: passes end when no impulse changes by more than this share of the largest; 0: never"),
+      number("bias", real, behaviour, 0, 1, 0.2, "1", &S::bias,
+             "si: share of the overlap beyond the slop that a step takes back; 0: none"),
+      number("slop", real, behaviour, 0, 1e6, 0.01, "m", &S::slop, "si: overlap that is let be"),
       number("contact_hertz", real, behaviour, 0, 1e5, 0, "1/s", &S::contact_hertz,
              "stiffness of contacts against overlap; 0: a quarter of the sub-steps a second, the most that is stable"),
       number("contact_damping_ratio", real, behaviour, 0, 1000, 50, "1", &S::contact_damping_ratio,
@@ -73,11 +93,30 @@ std::span<const PlumbSettingInfo> setting_infos() {
   return infos;
 }
 
-double Settings::get(const char* name) const { return this->*row(name).member; }
-void Settings::set(const char* name, double value) { this->*row(name).member = value; }
+PlumbSettingValue Settings::get(const char* name) const {
+  const Row& r = row(name);
+  PlumbSettingValue value{r.info.type, 0, this->*r.member, nullptr};
+  if (r.info.type != PLUMB_SETTING_CHOICE) return value;
+  value.choice = r.info.choices[static_cast<std::size_t>(value.number)];
+  value.number = 0;
+  return value;
+}
+
+void Settings::set(const char* name, const PlumbSettingValue& value) {
+  const Row& r = row(name);
+  this->*r.member = value.number;
+  if (r.info.type != PLUMB_SETTING_CHOICE) return;
+  for (std::uint32_t i = 0; i < r.info.choice_count; ++i)
+    if (std::strcmp(r.info.choices[i], value.choice) == 0) this->*r.member = i;
+}
+
+double Settings::substep(double dt) const {
+  const auto kind = static_cast<SolverKind>(solver);
+  return kind == SolverKind::kSequential || kind == SolverKind::kJacobi ? dt : dt / substeps;
+}
 
 StepParameters Settings::parameters(double dt, double last_h, const PlumbVec3& gravity) const {
-  const double h = dt / substeps;
+  const double h = substep(dt);
   StepParameters step{};
   step.gravity = {static_cast<Real>(gravity.x), static_cast<Real>(gravity.y), static_cast<Real>(gravity.z)};
   step.dt = static_cast<Real>(dt);
@@ -91,6 +130,11 @@ StepParameters Settings::parameters(double dt, double last_h, const PlumbVec3& g
   step.warm_start = static_cast<Real>(warm_starting == 0 || last_h == 0 ? 0 : h / last_h);
   step.push_speed = static_cast<Real>(push_speed);
   step.restitution_speed = static_cast<Real>(restitution_speed);
+  step.solver = static_cast<SolverKind>(solver);
+  step.passes = static_cast<std::uint32_t>(iterations);
+  step.stop_below = static_cast<Real>(stop_below);
+  step.bias_rate = static_cast<Real>(bias / dt);
+  step.slop = static_cast<Real>(slop);
   return step;
 }
 

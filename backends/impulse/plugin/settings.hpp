@@ -8,8 +8,14 @@
 
 namespace plumb::impulse {
 
+/// A choice is the number of its word.
 struct Settings {
+  double solver = 0;
   double substeps = 0;
+  double iterations = 0;
+  double stop_below = 0;
+  double bias = 0;
+  double slop = 0;
   double contact_hertz = 0;
   double contact_damping_ratio = 0;
   double joint_hertz = 0;
@@ -18,9 +24,11 @@ struct Settings {
   double restitution_speed = 0;
   double warm_starting = 0;
 
-  [[nodiscard]] double get(const char* name) const;
-  void set(const char* name, double value);
+  [[nodiscard]] PlumbSettingValue get(const char* name) const;
+  void set(const char* name, const PlumbSettingValue& value);
 
+  /// Length of the parts that a step of dt is solved in.
+  [[nodiscard]] double substep(double dt) const;
   /// What a step of dt works with. last_h: the sub-step before, 0 when there was none.
   [[nodiscard]] StepParameters parameters(double dt, double last_h, const PlumbVec3& gravity) const;
 };

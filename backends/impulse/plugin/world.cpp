@@ -18,7 +18,7 @@ PlumbVec3 plumb_vec(const Position& p) { return {p.x, p.y, p.z}; }
 
 World::World(const WorldInit& init)
     : init_(init), simulation_(init.host, init.desc.threads, features_of(init)), gravity_(init.desc.gravity) {
-  for (std::size_t i = 0; i < init.infos.size(); ++i) settings_.set(init.infos[i].name, init.values[i].number);
+  for (std::size_t i = 0; i < init.infos.size(); ++i) settings_.set(init.infos[i].name, init.values[i]);
   if (init.desc.body_capacity != 0) simulation_.reserve_bodies(init.desc.body_capacity);
 }
 
@@ -29,7 +29,7 @@ PlumbResult World::step(double dt) {
   dt_ = dt;
   records_known_ = false;
   simulation_.step(settings_.parameters(dt, last_h_, gravity_));
-  last_h_ = dt / settings_.substeps;
+  last_h_ = settings_.substep(dt);
   return PLUMB_OK;
 }
 
@@ -143,12 +143,12 @@ PlumbResult World::separating_axes(std::span<const PlumbDebugAxis>& /*axes*/) {
 }
 
 PlumbResult World::get_setting(const char* name, PlumbSettingValue& value) {
-  value.number = settings_.get(name);
+  value = settings_.get(name);
   return PLUMB_OK;
 }
 
 PlumbResult World::set_setting(const char* name, const PlumbSettingValue& value) {
-  settings_.set(name, value.number);
+  settings_.set(name, value);
   return PLUMB_OK;
 }
 

@@ -35,6 +35,8 @@ struct Recording {
 
 class Executor {
  public:
+  static constexpr bool kWarps = false;  // whether neighbouring threads must do the same to be fast
+
   Executor(const PlumbHost* host, std::uint32_t threads) : crew_(host, threads) {}
 
   static std::string unmet_requirement() { return {}; }

@@ -60,6 +60,8 @@ __global__ void __launch_bounds__(kTeamThreads)
 
 class Executor {
  public:
+  static constexpr bool kWarps = true;  // whether neighbouring threads must do the same to be fast
+
   Executor(const PlumbHost* host, std::uint32_t threads);
   Executor(const Executor&) = delete;
   Executor& operator=(const Executor&) = delete;
