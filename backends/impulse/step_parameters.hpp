@@ -22,6 +22,12 @@ inline Softness make_softness(double hertz, double zeta, double h) {
   return {static_cast<Real>(omega / a1), static_cast<Real>(a2 * a3), static_cast<Real>(a3)};
 }
 
+/// How constraints are solved: the word of the setting "solver".
+enum class SolverKind : std::uint32_t { kTgsSoft, kSequential, kJacobi, kPosition };
+
+/// The solvers that have passes make no more of them in a step.
+constexpr std::uint32_t kMostPasses = 1000;
+
 struct StepParameters {
   Vec gravity;     ///< m/s2
   Real dt;         ///< s
@@ -36,6 +42,13 @@ struct StepParameters {
   Real push_speed;         ///< overlap is taken back no faster than this, m/s
   Real restitution_speed;  ///< slower impacts do not bounce, m/s
   Position origin;         ///< of the bounds
+
+  SolverKind solver;
+  // Of the solvers that take the step whole:
+  std::uint32_t passes;  ///< over all constraints, at most
+  Real stop_below;       ///< largest change of an impulse in a pass, relative to the largest impulse; 0: never stop
+  Real bias_rate;        ///< share of the overlap beyond the slop that is taken back, 1/s
+  Real slop;             ///< overlap that is let be, m
 };
 
 }  // namespace plumb::impulse

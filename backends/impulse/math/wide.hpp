@@ -55,6 +55,11 @@ inline bool any(const Mask& m) {
 inline Lanes select(const Mask& m, const Lanes& a, const Lanes& b) { return Lanes(m.v ? a.v : b.v); }
 inline Lanes min(const Lanes& a, const Lanes& b) { return select(b < a, b, a); }
 inline Lanes max(const Lanes& a, const Lanes& b) { return select(a < b, b, a); }
+inline Real largest(const Lanes& a) {
+  Real most = a.v[0];
+  for (std::uint32_t i = 1; i < kLanes; ++i) most = max(most, a.v[i]);
+  return most;
+}
 inline Lanes sqrt(const Lanes& a) {
   Lanes root;
   for (std::uint32_t i = 0; i < kLanes; ++i) root.v[i] = sqrt(a.v[i]);
@@ -64,5 +69,6 @@ inline Lanes sqrt(const Lanes& a) {
 #endif
 
 PLUMB_HD constexpr bool any(bool mask) { return mask; }
+PLUMB_HD constexpr Real largest(Real x) { return x; }
 
 }  // namespace plumb::impulse

@@ -47,4 +47,15 @@ PLUMB_DEVICE void for_contacts(Team& team, const ContactSet& contacts, const Sol
   });
 }
 
+/// Runs work(row, points) on every contact, in any order.
+template <class Work>
+PLUMB_DEVICE void for_rows(Team& team, const ContactSet& contacts, const Work& work) {
+  const ContactRows& rows = contacts.rows;
+  team.each(contacts.counters->first_slot[kColours + 1] / kLanes, [=](std::uint32_t i) {
+    std::uint32_t points = 0;
+    for (std::uint32_t lane = 0; lane < kLanes; ++lane) points = max(points, rows.count[i * kLanes + lane]);
+    work(RowAccess<Lanes>{rows.at(i * kLanes)}, static_cast<int>(points));
+  });
+}
+
 }  // namespace plumb::impulse

@@ -1,44 +1,31 @@
 // The solver "tgs_soft": sub-steps with soft contacts and relaxation.
 #pragma once
 
-#include "exec/atomic.hpp"
-#include "solver/contact_loops.hpp"
-#include "solver/motion.hpp"
-#include "solver/solver.hpp"
+#include "solver/solver_step.hpp"
 
 namespace plumb::impulse {
 
 /// Sub-steps with soft constraints and relaxation ("soft step": Catto, "Solver2D", 2024; sub-stepping after Macklin et
 /// al., "Small Steps in Physics Simulation", SCA 2019). In each sub-step velocities are solved with a soft bias against
 /// overlap, positions moved, and velocities solved again without the bias, so that what it pushed does not stay.
-struct StepSoftly {
-  Bodies bodies;
-  SolverBodies solver;
-  ContactSet contacts;
-  std::uint32_t body_count;
-  SolverFeatures features;
-  const StepParameters* parameters;
-  StepCounters* counters;
-  std::uint32_t pair_capacity;
-
+struct StepSoftly : SolverStep {
   PLUMB_DEVICE void operator()(Team& team) const {
-    if (counters->pairs > pair_capacity) return;  // the step will be repeated with more room
+    if (must_repeat()) return;
     const StepSoftly self = *this;
     const StepParameters step = *parameters;
     for (std::uint32_t k = 0; k < step.substeps; ++k) {
       const bool first = k == 0;
       team.each(body_count, [=](std::uint32_t i) { integrate_velocity(self.bodies, self.solver, step, first, i); });
       if (first) warm_start(team);
+      warm_start_joints(team, joints, first, step);
+      solve_joints(team, joints, step, true);
       solve_contacts(team, step, true);
-      team.each(body_count, [=](std::uint32_t i) {
-        integrate_position(self.bodies, self.solver, step, self.features.gyroscopic, i);
-      });
+      move_bodies(team, step);
+      solve_joints(team, joints, step, false);
       solve_contacts(team, step, false);
     }
     if (features.collision && features.restitution) bounce(team, step.restitution_speed);
-    team.each(body_count, [=](std::uint32_t i) {
-      if (!finish_body(self.bodies, self.solver, i)) atomic_add(&self.counters->nonfinite, 1U);
-    });
+    finish(team);
   }
 
  private:
@@ -67,11 +54,6 @@ struct StepSoftly {
                    }
                    if (add_up) add_up_impulses(row, points);
                  });
-  }
-  PLUMB_DEVICE void bounce(Team& team, Real slowest) const {
-    for_contacts(team, contacts, solver, false, [slowest](const auto& row, int points, auto& a, auto& b) {
-      bounce_contact(row, points, a, b, slowest);
-    });
   }
 };
 

@@ -2,6 +2,7 @@
 
 #include "constraints/prepare_contacts.hpp"
 #include "solver/motion.hpp"
+#include "solver/sequential_step.hpp"
 #include "solver/soft_step.hpp"
 
 namespace plumb::impulse {
@@ -24,6 +25,7 @@ void Solver::reserve(Executor& /*executor*/, std::uint32_t bodies, std::uint32_t
   free_velocity_.grow(bodies);
   for (Buffer<std::uint32_t>* buffer : {&body_a_, &body_b_, &count_, &row_}) buffer->grow(slots_);
   if (features_.contact_impulses) step_impulses_.grow(manifolds);
+  pass_changes_.grow(kMostPasses);
   numbers_.grow(std::size_t{(slots_ + kRowBlock - 1) / kRowBlock} * kRowBlock * kAllFields);
 }
 
@@ -39,12 +41,17 @@ void Solver::prepare(Executor& executor, const ContactCache& cache, const Bodies
   executor.run(kOverflow + 1, PadColours{rows(), counters, nobody_});
 }
 
-void Solver::solve(Executor& executor, const Bodies& all, std::uint32_t body_count, const StepParameters* parameters,
-                   StepCounters* counters, std::uint32_t pair_capacity) {
+void Solver::solve(Executor& executor, SolverKind kind, const Bodies& all, std::uint32_t body_count,
+                   const StepParameters* parameters, StepCounters* counters, std::uint32_t pair_capacity,
+                   JointStore& joints) {
   const Count load = {&counters->largest_colour, slots_};
-  executor.team(
-      load, body_count / 2,
-      StepSoftly{all, bodies(all), {rows(), counters}, body_count, features_, parameters, counters, pair_capacity});
+  const SolverStep step = {all,       bodies(all), {rows(), counters}, body_count,
+                           features_, parameters,  counters,           pair_capacity, joints.set(all, bodies(all), features_.gyroscopic)};
+  const auto run = [&](const auto& solver) { executor.team(load, body_count / 2, solver); };
+  switch (kind) {
+    case SolverKind::kSequential: return run(StepSequentially{step, pass_changes_.data()});
+    default: return run(StepSoftly{step});
+  }
 }
 
 void Solver::keep_impulses(Executor& executor, const ContactCache& cache, StepCounters* counters) {

@@ -3,10 +3,12 @@
 
 #include "body.hpp"
 #include "constraints/contact_rows.hpp"
+#include "constraints/joint_store.hpp"
 #include "exec/executor.hpp"
 #include "exec/memory.hpp"
 #include "narrowphase/contact_cache.hpp"
 #include "solver/colouring.hpp"
+#include "solver/pass_change.hpp"
 #include "solver/solver_bodies.hpp"
 #include "step_counters.hpp"
 #include "step_parameters.hpp"
@@ -29,8 +31,9 @@ class Solver {
   void prepare(Executor& executor, const ContactCache& cache, const Bodies& bodies, const Proxies& proxies,
                const Colouring& colouring, const StepParameters* parameters, StepCounters* counters);
   /// Moves the bodies through the step.
-  void solve(Executor& executor, const Bodies& bodies, std::uint32_t body_count, const StepParameters* parameters,
-             StepCounters* counters, std::uint32_t pair_capacity);
+  void solve(Executor& executor, SolverKind kind, const Bodies& bodies, std::uint32_t body_count,
+             const StepParameters* parameters, StepCounters* counters, std::uint32_t pair_capacity,
+             JointStore& joints);
   void keep_impulses(Executor& executor, const ContactCache& cache, StepCounters* counters);
 
   /// How far bodies moved in the last step, by body.
@@ -55,6 +58,7 @@ class Solver {
   Buffer<std::uint32_t> body_a_, body_b_, count_, row_;
   Buffer<Real> numbers_;
   Buffer<StepImpulses> step_impulses_;
+  Buffer<PassChange> pass_changes_;
 };
 
 }  // namespace plumb::impulse

@@ -1,0 +1,62 @@
+// The solver "si": sequential impulses over the whole step.
+#pragma once
+
+#include "constraints/contact_bias.hpp"
+#include "solver/pass_change.hpp"
+#include "solver/solver_step.hpp"
+
+namespace plumb::impulse {
+
+/// Sequential impulses (Catto, "Iterative Dynamics with Temporal Coherence", 2005): all forces, then passes over the
+/// constraints, each of which takes the impulse that makes its own speed right (projected Gauss-Seidel on accumulated
+/// impulses), then positions from the final velocities. Overlap beyond the slop is taken back at a share a step
+/// (Baumgarte). No sub-steps.
+struct StepSequentially : SolverStep {
+  PassChange* changes;  ///< by pass
+
+  PLUMB_DEVICE void operator()(Team& team) const {
+    if (must_repeat()) return;
+    const StepSequentially self = *this;
+    const StepParameters step = *parameters;
+    team.each(max(body_count, step.passes), [=](std::uint32_t i) {
+      if (i < self.body_count) integrate_velocity(self.bodies, self.solver, step, true, i);
+      if (i < step.passes) self.changes[i] = {0, 0};
+    });
+    if (features.collision) {
+      start(team, step);
+      std::uint32_t passes = 0;
+      while (passes < step.passes) {
+        pass(team, step, changes[passes]);
+        ++passes;
+        if (step.stop_below > 0 && changes[passes - 1].is_below(step.stop_below)) break;
+      }
+      team.single([=] { self.counters->passes = passes; });
+      if (features.contact_impulses) add_up(team);
+    }
+    move_bodies(team, step);
+    if (features.collision && features.restitution) bounce(team, step.restitution_speed);
+    finish(team);
+  }
+
+ private:
+  PLUMB_DEVICE void start(Team& team, const StepParameters& step) const {
+    for_contacts(team, contacts, solver, false, [=](const auto& row, int points, auto& a, auto& b) {
+      put_bias(row, points, step);
+      warm_start_contact(row, points, a, b);
+    });
+  }
+  PLUMB_DEVICE void pass(Team& team, const StepParameters& step, PassChange& change) const {
+    ContactPass pass{};
+    pass.friction = features.friction;
+    pass.note_impacts = features.restitution;
+    PassChange* const noted = step.stop_below > 0 ? &change : nullptr;
+    for_contacts(team, contacts, solver, false, [pass, noted](const auto& row, int points, auto& a, auto& b) {
+      const ImpulsesBefore before(row, noted == nullptr ? 0 : points);
+      solve_normals(row, points, a, b, pass);
+      if (pass.friction) solve_friction(row, points, a, b);
+      if (noted != nullptr) before.compare(row, points, *noted);
+    });
+  }
+};
+
+}  // namespace plumb::impulse

@@ -1,0 +1,49 @@
+// What every solver's step works on, and the parts that are the same in all of them.
+#pragma once
+
+#include "exec/atomic.hpp"
+#include "solver/contact_loops.hpp"
+#include "solver/joint_loops.hpp"
+#include "solver/motion.hpp"
+#include "solver/solver.hpp"
+
+namespace plumb::impulse {
+
+struct SolverStep {
+  Bodies bodies;
+  SolverBodies solver;
+  ContactSet contacts;
+  std::uint32_t body_count;
+  SolverFeatures features;
+  const StepParameters* parameters;
+  StepCounters* counters;
+  std::uint32_t pair_capacity;
+  JointSet joints;
+
+  /// There was too little room for the pairs: nothing may be done, the step comes again with more.
+  PLUMB_DEVICE bool must_repeat() const { return counters->pairs > pair_capacity; }
+
+  PLUMB_DEVICE void bounce(Team& team, Real slowest) const {
+    for_contacts(team, contacts, solver, false, [slowest](const auto& row, int points, auto& a, auto& b) {
+      bounce_contact(row, points, a, b, slowest);
+    });
+  }
+  /// Impulses of a step that had no sub-steps are the step's.
+  PLUMB_DEVICE void add_up(Team& team) const {
+    for_rows(team, contacts, [](const auto& row, int points) { add_up_impulses(row, points); });
+  }
+  PLUMB_DEVICE void move_bodies(Team& team, const StepParameters& step) const {
+    const SolverStep self = *this;
+    team.each(body_count, [=](std::uint32_t i) {
+      integrate_position(self.bodies, self.solver, step, self.features.gyroscopic, i);
+    });
+  }
+  PLUMB_DEVICE void finish(Team& team) const {
+    const SolverStep self = *this;
+    team.each(body_count, [=](std::uint32_t i) {
+      if (!finish_body(self.bodies, self.solver, i)) atomic_add(&self.counters->nonfinite, 1U);
+    });
+  }
+};
+
+}  // namespace plumb::impulse
