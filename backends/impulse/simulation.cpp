@@ -112,6 +112,10 @@ void Simulation::upload_changes() {
     statics_dirty_ = true;
     for (Recording& recording : recordings_) recording.forget();  // the numbers of bodies are in them
   }
+  if (joints.changed()) {
+    joints.upload(executor_, mass);
+    for (Recording& recording : recordings_) recording.forget();
+  }
   if (state_dirty_) {
     executor_.to_device(position, position.size());
     executor_.to_device(orientation, position.size());
@@ -157,14 +161,14 @@ void Simulation::enqueue() {
     executor_.run(mover_count_,
                   BoundProxies{all, shapes_on, parameters, movers_.device(), boxes_.data(), margins_.data()});
     broad_phase_.find_pairs(executor_, boxes_.data(), movers_.device(), mover_count_,
-                            PairFilter{filters.device(), nullptr, 0}, now.pairs, now.ranges, &counters->pairs);
+                            PairFilter{filters.device(), joints.excluded(), joints.excluded_count()}, now.pairs, now.ranges, &counters->pairs);
     narrow_phase_.collide(executor_, now, all, shapes_on, margins_.data(), shape_types_, counters);
     colouring_.begin(executor_);
     narrow_phase_.match(executor_, now, last, all, shapes_on, parameters, counters, colouring_.masks());
     colouring_.colour(executor_, now, velocity.device(), proxies.device(), counters);
     solver_.prepare(executor_, now, all, shapes_on, colouring_, parameters, counters);
   }
-  solver_.solve(executor_, parameters_[0].solver, all, body_count_, parameters, counters, pair_capacity_);
+  solver_.solve(executor_, parameters_[0].solver, all, body_count_, parameters, counters, pair_capacity_, joints);
   if (features_.collision) solver_.keep_impulses(executor_, now, counters);
   executor_.to_host(counters_, 1);
 }

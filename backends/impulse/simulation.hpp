@@ -5,6 +5,7 @@
 
 #include "body.hpp"
 #include "broadphase/broad_phase.hpp"
+#include "constraints/joint_store.hpp"
 #include "contact_record.hpp"
 #include "exec/executor.hpp"
 #include "exec/memory.hpp"
@@ -30,6 +31,7 @@ class Simulation {
   Mirror<Proxy> proxies;  // one a body, for now at the body's slot
   Mirror<ProxyFilter> filters;
   Mirror<Shape> shapes;
+  JointStore joints;
   HullPool hulls;
 
   /// Room for this many body slots, and the rows up to it.

@@ -24,6 +24,7 @@ Fact need_fact(std::uint32_t index) {
     case PLUMB_NEED_COLLISION:
     case PLUMB_NEED_FRICTION:
     case PLUMB_NEED_RESTITUTION:
+    case PLUMB_NEED_JOINTS:
     case PLUMB_NEED_EVENTS:
     case PLUMB_NEED_CONTACTS:
     case PLUMB_NEED_CONTACT_IMPULSES:
@@ -53,6 +54,7 @@ Fact fact(PlumbCapability kind, std::uint32_t a, std::uint32_t b) {
     case PLUMB_CAP_FIELD_READ: return field_fact(a, false);
     case PLUMB_CAP_FIELD_WRITE: return field_fact(a, true);
     case PLUMB_CAP_NEED: return need_fact(a);
+    case PLUMB_CAP_JOINT: return a <= PLUMB_JOINT_FIXED ? kYes : kNotYet;
     case PLUMB_CAP_EVENT: return a <= PLUMB_EVENT_CONTACT_END ? kYes : kNotYet;
     case PLUMB_CAP_HOST_JOBS: return kYes;
     default: return kNotYet;

@@ -63,8 +63,8 @@ const std::vector<Row>& rows() {
       number("contact_damping_ratio", real, behaviour, 0, 1000, 50, "1", &S::contact_damping_ratio,
              "how slowly overlap is taken back: 1 is critical damping"),
       number("joint_hertz", real, behaviour, 0, 1e5, 0, "1/s", &S::joint_hertz,
-             "stiffness of joints against drift; 0: half of the sub-steps a second"),
-      number("joint_damping_ratio", real, behaviour, 0, 1000, 2, "1", &S::joint_damping_ratio,
+             "stiffness of joints against drift; 0: a quarter of the sub-steps a second"),
+      number("joint_damping_ratio", real, behaviour, 0, 1000, 10, "1", &S::joint_damping_ratio,
              "how slowly drift of joints is taken back"),
       number("push_speed", real, behaviour, 0, 1e6, 3, "m/s", &S::push_speed,
              "overlap is taken back no faster than this"),
@@ -126,7 +126,7 @@ StepParameters Settings::parameters(double dt, double last_h, const PlumbVec3& g
   const double hertz = contact_hertz > 0 ? contact_hertz : 0.25 / h;
   step.contact = make_softness(hertz, contact_damping_ratio, h);
   step.ground = make_softness(2 * hertz, contact_damping_ratio, h);
-  step.joint = make_softness(joint_hertz > 0 ? joint_hertz : 0.5 / h, joint_damping_ratio, h);
+  step.joint = make_softness(joint_hertz > 0 ? joint_hertz : 0.25 / h, joint_damping_ratio, h);
   step.warm_start = static_cast<Real>(warm_starting == 0 || last_h == 0 ? 0 : h / last_h);
   step.push_speed = static_cast<Real>(push_speed);
   step.restitution_speed = static_cast<Real>(restitution_speed);

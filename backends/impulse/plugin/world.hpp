@@ -13,7 +13,7 @@
 
 namespace plumb::impulse {
 
-class World final : public IPhysicsWorld, public IDebug, public ISettings {
+class World final : public IPhysicsWorld, public IJoints, public IDebug, public ISettings {
  public:
   explicit World(const WorldInit& init);
 
@@ -34,10 +34,15 @@ class World final : public IPhysicsWorld, public IDebug, public ISettings {
   std::span<const PlumbContact> contacts() override;
   std::span<const PlumbEvent> events() override { return events_; }
 
+  IJoints* joints() override { return this; }
   IDebug* debug() override { return this; }
   ISettings* settings() override { return this; }
 
  private:
+  PlumbResult create_joints(std::span<const PlumbJointDesc> descs, std::span<PlumbJoint> ids) override;
+  PlumbResult destroy_joints(std::span<const PlumbJoint> ids) override;
+  PlumbResult read_joints(PlumbJointField field, std::span<const PlumbJoint> ids, Rows rows) override;
+  PlumbResult write_joints(PlumbJointField field, std::span<const PlumbJoint> ids, ConstRows rows) override;
   PlumbResult candidate_pairs(std::span<const PlumbDebugPair>& pairs) override;
   PlumbResult tree_boxes(std::span<const PlumbDebugBox>& boxes) override;
   PlumbResult separating_axes(std::span<const PlumbDebugAxis>& axes) override;
@@ -62,7 +67,8 @@ class World final : public IPhysicsWorld, public IDebug, public ISettings {
   Settings settings_;
   PlumbVec3 gravity_;
   double last_h_ = 0, dt_ = 0;
-  std::vector<BodyRecord> bodies_;  // by slot
+  std::vector<BodyRecord> bodies_;      // by slot
+  std::vector<PlumbJointDesc> joints_;  // by slot
   std::vector<std::uint32_t> pushed_, steered_;
   bool records_known_ = false;
   std::vector<ContactRecord> records_;

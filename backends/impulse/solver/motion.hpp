@@ -35,9 +35,26 @@ PLUMB_HD inline void integrate_velocity(const Bodies& bodies, const SolverBodies
   velocity.angular = free.angular + carried_angular;
 }
 
-/// Moves a body for one sub-step. Symplectic Euler for the centre of mass; the turn is exact for a constant angular
-/// velocity, and for a body whose principal moments differ it is a step of the free rotor, by which the angular
-/// velocity changes too.
+/// Where a body's turn since the start of the step goes in h seconds without torque, and its angular velocity then.
+struct Turned {
+  Quat rotation;
+  Vec angular_velocity;
+};
+
+/// Exact for a constant angular velocity; of a body whose principal moments differ a step of the free rotor, by which
+/// the angular velocity changes too.
+PLUMB_HD inline Turned turn_freely(const Bodies& bodies, const Quat& rotation, const Vec& angular_velocity, Real h,
+                                   bool gyroscopic, std::uint32_t i) {
+  const std::uint32_t flags = bodies.mass[i].flags;
+  if ((flags & kBodyTurns) == 0) return {rotation, angular_velocity};
+  if (!gyroscopic || (flags & kBodyGyroscopic) == 0)
+    return {normalized(turn_by(h * angular_velocity) * rotation), angular_velocity};
+  const Quat start = bodies.orientation[i];
+  const RotorState after = step_free_rotor({rotation * start, angular_velocity}, bodies.mass[i].inertia, h);
+  return {normalized(after.orientation * conjugate(start)), after.angular_velocity};
+}
+
+/// Moves a body for one sub-step: symplectic Euler for the centre of mass, and a free turn.
 PLUMB_HD inline void integrate_position(const Bodies& bodies, const SolverBodies& solver, const StepParameters& step,
                                         bool gyroscopic, std::uint32_t i) {
   const std::uint32_t flags = bodies.mass[i].flags;
@@ -46,17 +63,12 @@ PLUMB_HD inline void integrate_position(const Bodies& bodies, const SolverBodies
   Displacement& displacement = solver.displacement[i];
   displacement.linear += step.h * velocity.linear;
   if ((flags & kBodyTurns) == 0) return;
-  if (gyroscopic && (flags & kBodyGyroscopic) != 0) {
-    const Quat start = bodies.orientation[i];
-    const Quat orientation = displacement.rotation * start;
-    const Vec before = velocity.angular;
-    const RotorState after = step_free_rotor({orientation, before}, bodies.mass[i].inertia, step.h);
-    displacement.rotation = normalized(after.orientation * conjugate(start));
-    velocity.angular = after.angular_velocity;
-    solver.free_velocity[i].angular += velocity.angular - before;
-    return;
-  }
-  displacement.rotation = normalized(turn_by(step.h * velocity.angular) * displacement.rotation);
+  const Vec before = velocity.angular;
+  const Turned turned = turn_freely(bodies, displacement.rotation, before, step.h, gyroscopic, i);
+  displacement.rotation = turned.rotation;
+  if (!gyroscopic || (flags & kBodyGyroscopic) == 0) return;
+  velocity.angular = turned.angular_velocity;
+  solver.free_velocity[i].angular += velocity.angular - before;
 }
 
 /// Puts the displacement into the pose. A body that came out not finite stays where it was, at rest; returns false.

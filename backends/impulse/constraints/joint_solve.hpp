@@ -1,0 +1,166 @@
+// Joints while they are solved: rows of the sub-step, what impulses along them do to the two bodies, and the passes.
+#pragma once
+
+#include "constraints/joint.hpp"
+#include "math/block.hpp"
+#include "solver/motion.hpp"
+
+namespace plumb::impulse {
+
+/// What joint_loops.hpp works out at the start of a sub-step and after positions have moved.
+struct JointWork {
+  JointRow rows[kJointRows];
+  Vec turn_a[kJointRows], turn_b[kJointRows];  ///< what a unit impulse along a row does to the angular velocities
+  Real error[kJointRows];                      ///< C where the rows were made
+  Block factor;                                ///< of K
+};
+
+struct JointImpulse {
+  Real along[kJointRows];  ///< N s, N m s
+};
+
+/// The two bodies of a joint in the solver's registers.
+struct JointBodies {
+  Velocity a, b;
+  bool pushes_a, pushes_b;
+};
+
+/// Everything that a kernel over joints reads and writes.
+struct JointView {
+  Bodies bodies;
+  SolverBodies solver;
+  const Joint* joints;
+  JointWork* work;
+  JointImpulse* impulses;  ///< by slot
+  bool gyroscopic;
+
+  PLUMB_HD JointEnd end(std::uint32_t body) const {
+    if (body == kWorld) return {{0, 0, 0}, {0, 0, 0, 1}};
+    const Displacement& displacement = solver.displacement[body];
+    return {displacement.linear, displacement.rotation * bodies.orientation[body]};
+  }
+  /// Where a body will be after h seconds at its present velocity.
+  PLUMB_HD JointEnd end_after(std::uint32_t body, const Velocity& velocity, Real h) const {
+    if (body == kWorld) return {{0, 0, 0}, {0, 0, 0, 1}};
+    const Displacement& displacement = solver.displacement[body];
+    const Turned turned = turn_freely(bodies, displacement.rotation, velocity.angular, h, gyroscopic, body);
+    return {displacement.linear + h * velocity.linear, turned.rotation * bodies.orientation[body]};
+  }
+  PLUMB_HD Vec base(const Joint& joint) const {
+    const Position from = joint.body_a == kWorld ? joint.world_anchor : bodies.position[joint.body_a];
+    return between(from, bodies.position[joint.body_b]);
+  }
+  PLUMB_HD Velocity velocity(std::uint32_t body) const {
+    return body == kWorld ? Velocity{{0, 0, 0}, 0, {0, 0, 0}, 0} : solver.velocity[body];
+  }
+  PLUMB_HD Sym inverse_inertia(std::uint32_t body, const Quat& orientation) const {
+    if (body == kWorld) return {0, 0, 0, 0, 0, 0};
+    return rotated_diagonal(to_matrix(orientation), bodies.mass[body].inverse_inertia);
+  }
+  /// Joint impulses go into the free velocity too: the next sub-step starts from them along its own rows, so they must
+  /// not be carried over as velocity (motion.hpp).
+  PLUMB_HD void store(std::uint32_t body, const Velocity& before, const Velocity& after) const {
+    if (!(before.inverse_mass > 0)) return;
+    Velocity& velocity = solver.velocity[body];
+    FreeVelocity& free = solver.free_velocity[body];
+    velocity.linear = after.linear;
+    velocity.angular = after.angular;
+    free.linear += after.linear - before.linear;
+    free.angular += after.angular - before.angular;
+  }
+};
+
+/// How the first pass takes back an error.
+struct JointPass {
+  Softness softness;
+  Real h, inverse_h;
+  bool take_back_error;  ///< the first pass; else the second
+};
+
+PLUMB_HD inline void push_joint(const JointWork& work, int n, const Real* impulse, Velocity& a, Velocity& b) {
+  for (int i = 0; i < n; ++i) {
+    a.linear -= (a.inverse_mass * impulse[i]) * work.rows[i].direction;
+    b.linear += (b.inverse_mass * impulse[i]) * work.rows[i].direction;
+    a.angular += impulse[i] * work.turn_a[i];
+    b.angular += impulse[i] * work.turn_b[i];
+  }
+}
+
+/// Rows, errors and effective mass where the bodies are now.
+PLUMB_HD inline void refresh_joint(const JointView& view, std::uint32_t j) {
+  const Joint& joint = view.joints[j];
+  JointWork& work = view.work[j];
+  const JointEnd a = view.end(joint.body_a), b = view.end(joint.body_b);
+  const JointPlace place = place_joint(joint, view.base(joint), a, b);
+  joint_errors(joint, place, work.error);
+  joint_rows(joint, place, work.rows);
+  const Sym inertia_a = view.inverse_inertia(joint.body_a, a.orientation);
+  const Sym inertia_b = view.inverse_inertia(joint.body_b, b.orientation);
+  const Real inverse_mass = view.velocity(joint.body_a).inverse_mass + view.velocity(joint.body_b).inverse_mass;
+  const int n = rows_of(joint.type);
+  for (int i = 0; i < n; ++i) {
+    work.turn_a[i] = inertia_a * work.rows[i].on_a;
+    work.turn_b[i] = inertia_b * work.rows[i].on_b;
+    for (int k = 0; k <= i; ++k)
+      work.factor(i, k) = inverse_mass * dot(work.rows[i].direction, work.rows[k].direction) +
+                          dot(work.turn_a[i], work.rows[k].on_a) + dot(work.turn_b[i], work.rows[k].on_b);
+  }
+  factor(work.factor, n);
+}
+
+/// How far the velocities of the rows are from what they should be in this pass.
+PLUMB_HD inline void joint_residuals(const JointView& view, std::uint32_t j, const JointPass& pass, const Velocity& a,
+                                     const Velocity& b, Real (&residual)[kJointRows]) {
+  const Joint& joint = view.joints[j];
+  const JointWork& work = view.work[j];
+  const int n = rows_of(joint.type);
+  if (!pass.take_back_error) {
+    for (int i = 0; i < n; ++i)
+      residual[i] = dot(work.rows[i].direction, b.linear - a.linear) + dot(work.rows[i].on_a, a.angular) +
+                    dot(work.rows[i].on_b, b.angular);
+    return;
+  }
+  const JointPlace place = place_joint(joint, view.base(joint), view.end_after(joint.body_a, a, pass.h),
+                                       view.end_after(joint.body_b, b, pass.h));
+  joint_errors(joint, place, residual);
+  for (int i = 0; i < n; ++i)
+    residual[i] = (residual[i] - work.error[i]) * pass.inverse_h + pass.softness.bias_rate * work.error[i];
+}
+
+/// The impulses that the joint had before act again, along its rows as they are now.
+PLUMB_HD inline void warm_start_joint(const JointView& view, std::uint32_t j, bool first, const StepParameters& step) {
+  const Joint& joint = view.joints[j];
+  JointImpulse& impulse = view.impulses[joint.slot];
+  const int n = rows_of(joint.type);
+  if (first)
+    for (int i = 0; i < kJointRows; ++i)
+      impulse.along[i] = joint.born == step.step ? Real(0) : step.warm_start * impulse.along[i];
+  const Velocity a = view.velocity(joint.body_a), b = view.velocity(joint.body_b);
+  Velocity new_a = a, new_b = b;
+  push_joint(view.work[j], n, impulse.along, new_a, new_b);
+  view.store(joint.body_a, a, new_a);
+  view.store(joint.body_b, b, new_b);
+}
+
+PLUMB_HD inline void solve_joint(const JointView& view, std::uint32_t j, const JointPass& pass) {
+  const Joint& joint = view.joints[j];
+  const JointWork& work = view.work[j];
+  JointImpulse& total = view.impulses[joint.slot];
+  const int n = rows_of(joint.type);
+  const Velocity a = view.velocity(joint.body_a), b = view.velocity(joint.body_b);
+  Real impulse[kJointRows];
+  joint_residuals(view, j, pass, a, b, impulse);
+  solve_factored(work.factor, n, impulse);
+  for (int i = 0; i < n; ++i) {
+    impulse[i] = -impulse[i];
+    if (pass.take_back_error)
+      impulse[i] = pass.softness.mass_scale * impulse[i] - pass.softness.impulse_scale * total.along[i];
+    total.along[i] = total.along[i] + impulse[i];
+  }
+  Velocity new_a = a, new_b = b;
+  push_joint(work, n, impulse, new_a, new_b);
+  view.store(joint.body_a, a, new_a);
+  view.store(joint.body_b, b, new_b);
+}
+
+}  // namespace plumb::impulse

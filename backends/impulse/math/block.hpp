@@ -1,0 +1,46 @@
+// Small dense symmetric matrices of up to six rows, factored as L D L^T.
+#pragma once
+
+#include "math/real.hpp"
+
+namespace plumb::impulse {
+
+constexpr int kBlockSize = 6;
+
+/// Lower triangle by rows; after factor(): L below the diagonal and 1 / D on it.
+struct Block {
+  Real at[kBlockSize * (kBlockSize + 1) / 2];
+
+  PLUMB_HD Real& operator()(int row, int column) { return at[row * (row + 1) / 2 + column]; }
+  PLUMB_HD const Real& operator()(int row, int column) const { return at[row * (row + 1) / 2 + column]; }
+};
+
+/// Factors the first n rows. A row of which next to nothing is left once those before it are taken out repeats them (or
+/// nothing gives way to it): it gets no impulse.
+PLUMB_HD inline void factor(Block& m, int n) {
+  for (int j = 0; j < n; ++j) {
+    const Real whole = m(j, j);
+    Real left = whole;
+    Real scaled[kBlockSize];
+    for (int k = 0; k < j; ++k) {
+      scaled[k] = m(j, k);  // L D so far
+      m(j, k) = scaled[k] * m(k, k);
+    }
+    for (int k = 0; k < j; ++k) left = left - scaled[k] * m(j, k);
+    const Real inverse = left > 64 * kEpsilon * whole ? Real(1) / left : Real(0);
+    m(j, j) = inverse;
+    for (int i = j + 1; i < n; ++i)
+      for (int k = 0; k < j; ++k) m(i, j) = m(i, j) - m(i, k) * m(j, k);
+  }
+}
+
+/// x becomes the solution of (L D L^T) y = x.
+PLUMB_HD inline void solve_factored(const Block& m, int n, Real* x) {
+  for (int i = 0; i < n; ++i)
+    for (int k = 0; k < i; ++k) x[i] = x[i] - m(i, k) * x[k];
+  for (int i = 0; i < n; ++i) x[i] = m(i, i) * x[i];
+  for (int i = n - 1; i >= 0; --i)
+    for (int k = i + 1; k < n; ++k) x[i] = x[i] - m(k, i) * x[k];
+}
+
+}  // namespace plumb::impulse
