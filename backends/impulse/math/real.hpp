@@ -45,7 +45,8 @@ PLUMB_HD inline float abs(float x) { return fabsf(x); }
 PLUMB_HD inline double abs(double x) { return fabs(x); }
 PLUMB_HD inline float sqrt(float x) { return sqrtf(x); }
 PLUMB_HD inline double sqrt(double x) { return ::sqrt(x); }
-PLUMB_HD inline bool is_finite(Real x) { return abs(x) <= kHuge * kHuge || abs(x) <= Real(3e38); }
+/// Neither NaN nor infinite: of those the difference from itself is NaN.
+PLUMB_HD inline bool is_finite(Real x) { return x - x == 0; }
 
 /// a where the condition holds, else b. For lanes of numbers (wide.hpp) a choice a lane.
 PLUMB_HD constexpr float select(bool condition, float a, float b) { return condition ? a : b; }

@@ -86,16 +86,19 @@ PlumbResult World::create_bodies(std::span<const PlumbBodyDesc> descs, std::span
 PlumbResult World::destroy_bodies(std::span<const PlumbBody> ids) {
   simulation_.bring_state_to_host();
   if (init_.needs(PLUMB_NEED_EVENTS)) touches_.forget(ids, early_events_);
-  records_known_ = true;  // of what is left to read nothing speaks of the dead
-  std::erase_if(records_, [&](const ContactRecord&) { return true; });
+  if (init_.needs(PLUMB_NEED_CONTACTS)) records();  // while the bodies are where the step left them
   for (const PlumbBody id : ids) {
     const std::uint32_t slot = slot_of(id);
+    if (bodies_[slot].motion == PLUMB_DYNAMIC) --dynamic_count_;
     bodies_[slot] = {};
     simulation_.proxies[slot].shape = kNone;
     simulation_.mass[slot] = {};
     simulation_.velocity[slot] = {};
     simulation_.force[slot] = {};
   }
+  std::erase_if(records_, [&](const ContactRecord& record) {  // their slots will be others'
+    return bodies_[record.pair.a].id == 0 || bodies_[record.pair.b].id == 0;
+  });
   simulation_.bodies_changed();
   simulation_.state_changed();
   return PLUMB_OK;
@@ -119,6 +122,7 @@ void World::make_body(const PlumbBodyDesc& desc, PlumbBody id) {
   if (desc.motion != PLUMB_STATIC) mass.flags |= kBodyMoves | kBodyTurns;
   if (dynamic) {
     mass.flags |= kBodyDynamic;
+    ++dynamic_count_;
     inverse_mass = static_cast<Real>(1 / desc.mass);
     body.centre_of_mass = to_position(desc.centre_of_mass);
     const bool turns = (desc.flags & PLUMB_BODY_NO_ROTATION) == 0 && init_.needs(PLUMB_NEED_ROTATION);
@@ -228,6 +232,7 @@ PlumbResult World::read(PlumbField field, std::span<const PlumbBody> ids, Rows r
 }
 
 PlumbResult World::write(PlumbField field, std::span<const PlumbBody> ids, ConstRows rows) {
+  if (field == PLUMB_FIELD_POSE && init_.needs(PLUMB_NEED_CONTACTS)) records();  // they are told of by places
   simulation_.bring_state_to_host();
   double row[16];
   for (std::size_t i = 0; i < ids.size(); ++i) {

@@ -45,6 +45,7 @@ PlumbResult World::wait(PlumbStepReport& report) {
   report.pairs = counters.pairs;
   report.contacts = counters.points;
   report.dropped = 0;
+  report.awake = dynamic_count_;  // nothing sleeps
   report.nonfinite = counters.nonfinite;
   if (simulation_.repeated()) report.remarks |= PLUMB_REMARK_STEP_REPEATED | PLUMB_REMARK_CAPACITY_GREW;
   return simulation_.repeated() ? PLUMB_GROWN : PLUMB_OK;

@@ -69,6 +69,7 @@ class World final : public IPhysicsWorld, public IJoints, public IDebug, public 
   double last_h_ = 0, dt_ = 0;
   std::vector<BodyRecord> bodies_;      // by slot
   std::vector<PlumbJointDesc> joints_;  // by slot
+  std::uint32_t dynamic_count_ = 0;
   std::vector<std::uint32_t> pushed_, steered_;
   bool records_known_ = false;
   std::vector<ContactRecord> records_;
