@@ -16,6 +16,16 @@
 namespace plumb::impulse {
 
 struct TeamBarrier;
+#if !defined(__CUDACC__)
+/// Declared for files without kernels, which may include what works with one.
+class Team {
+ public:
+  template <class F>
+  void each(std::uint32_t n, const F& f);
+  template <class F>
+  void single(const F& f);
+};
+#endif
 
 /// A captured graph. Must be forgotten when a buffer that it uses was grown.
 class Recording {
