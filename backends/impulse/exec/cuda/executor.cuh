@@ -17,13 +17,14 @@ namespace plumb::impulse {
 
 struct TeamBarrier;
 #if !defined(__CUDACC__)
-/// Declared for files without kernels, which may include what works with one.
+/// For files without kernels, which may include what works with a team; none is ever made there.
 class Team {
  public:
+  Team() = delete;
   template <class F>
-  void each(std::uint32_t n, const F& f);
+  void each(std::uint32_t /*n*/, const F& /*f*/) {}
   template <class F>
-  void single(const F& f);
+  void single(const F& /*f*/) {}
 };
 #endif
 
