@@ -1,5 +1,7 @@
 #include "simulation.hpp"
 
+#include <algorithm>
+
 #include "constraints/prepare_contacts.hpp"
 #include "geometry/proxy_bounds.hpp"
 
@@ -13,6 +15,7 @@ struct ClearCounters {
 };
 
 constexpr std::uint32_t kLeastPairs = 1024;
+constexpr std::uint32_t kOriginSamples = 256;
 
 }  // namespace
 
@@ -79,14 +82,18 @@ void Simulation::bring_state_to_host() {
 }
 
 /// Bounds are floats from a place near the bodies, so that they are as sharp far from the world's origin as near it.
+/// That place is the median of some of them: one body that was lost far out does not move it.
 void Simulation::find_origin() {
   if (mover_count_ == 0) return;
-  Position sum = {0, 0, 0};
-  for (std::uint32_t i = 0; i < mover_count_; ++i) {
-    const Position& p = position[proxies[movers_[i]].body];
-    sum = {sum.x + p.x, sum.y + p.y, sum.z + p.z};
+  const std::uint32_t stride = mover_count_ / kOriginSamples + 1;
+  std::vector<double> along;
+  for (int axis = 0; axis < 3; ++axis) {
+    along.clear();
+    for (std::uint32_t i = 0; i < mover_count_; i += stride) along.push_back(position[proxies[movers_[i]].body][axis]);
+    const auto middle = along.begin() + static_cast<std::ptrdiff_t>(along.size() / 2);
+    std::nth_element(along.begin(), middle, along.end());
+    origin_[axis] = *middle;
   }
-  origin_ = {sum.x / mover_count_, sum.y / mover_count_, sum.z / mover_count_};
 }
 
 void Simulation::upload_changes() {
@@ -161,7 +168,8 @@ void Simulation::enqueue() {
     executor_.run(mover_count_,
                   BoundProxies{all, shapes_on, parameters, movers_.device(), boxes_.data(), margins_.data()});
     broad_phase_.find_pairs(executor_, boxes_.data(), movers_.device(), mover_count_,
-                            PairFilter{filters.device(), joints.excluded(), joints.excluded_count()}, now.pairs, now.ranges, &counters->pairs);
+                            PairFilter{filters.device(), joints.excluded(), joints.excluded_count()}, now.pairs,
+                            now.ranges, &counters->pairs);
     narrow_phase_.collide(executor_, now, all, shapes_on, margins_.data(), shape_types_, counters);
     colouring_.begin(executor_);
     narrow_phase_.match(executor_, now, last, all, shapes_on, parameters, counters, colouring_.masks());

@@ -53,6 +53,7 @@ template <class N>
 PLUMB_HD constexpr Vec3<N> cross(const Vec3<N>& a, const Vec3<N>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
+PLUMB_HD inline bool is_finite(const Vec& a) { return is_finite(a.x) && is_finite(a.y) && is_finite(a.z); }
 /// Component by component.
 template <class N>
 PLUMB_HD constexpr Vec3<N> scale(const Vec3<N>& a, const Vec3<N>& b) {

@@ -149,9 +149,11 @@ struct Match {
       for (std::uint32_t j = 0; j < old.count; ++j) {
         if (kept.feature[i] != old.feature[j]) continue;
         const Vec friction = old.tangent_impulse[0][j] * old.tangent + old.tangent_impulse[1][j] * old_bitangent;
-        kept.normal_impulse[i] = old.normal_impulse[j];
-        kept.tangent_impulse[0][i] = dot(friction, kept.tangent);
-        kept.tangent_impulse[1][i] = dot(friction, bitangent);
+        // Impulses of a body that came out not finite must not reach the next step.
+        const bool sane = is_finite(friction) && is_finite(old.normal_impulse[j]);
+        kept.normal_impulse[i] = sane ? old.normal_impulse[j] : 0;
+        kept.tangent_impulse[0][i] = sane ? dot(friction, kept.tangent) : 0;
+        kept.tangent_impulse[1][i] = sane ? dot(friction, bitangent) : 0;
         break;
       }
   }

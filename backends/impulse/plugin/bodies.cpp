@@ -3,6 +3,8 @@
 #include <cmath>
 #include <string>
 
+#include "exec/floating_point.hpp"
+#include "plugin/ranges.hpp"
 #include "plugin/world.hpp"
 
 namespace plumb::impulse {
@@ -48,6 +50,7 @@ void dismantle(const Shape& shape, HullPool& hulls) {
 }  // namespace
 
 PlumbResult World::create_shapes(std::span<const PlumbShapeDesc> descs, std::span<PlumbShape> ids) {
+  for (std::size_t i = 0; i < descs.size(); ++i) require_range(descs[i], i);
   std::vector<Shape> made;
   made.reserve(descs.size());
   try {
@@ -70,6 +73,8 @@ PlumbResult World::destroy_shapes(std::span<const PlumbShape> ids) {
 }
 
 PlumbResult World::create_bodies(std::span<const PlumbBodyDesc> descs, std::span<PlumbBody> ids) {
+  const FloatingPointScope scope;
+  for (std::size_t i = 0; i < descs.size(); ++i) require_range(descs[i], i);
   std::uint32_t slots = simulation_.body_count();
   for (const PlumbBody id : ids) slots = std::max(slots, slot_of(id) + 1);
   simulation_.reserve_bodies(slots);
@@ -143,6 +148,7 @@ void World::make_body(const PlumbBodyDesc& desc, PlumbBody id) {
   velocity.inverse_mass = inverse_mass;
   velocity.linear = desc.motion == PLUMB_STATIC ? Vec{0, 0, 0} : to_vec(desc.linear_velocity);
   velocity.angular = (mass.flags & kBodyTurns) != 0 ? to_vec(desc.angular_velocity) : Vec{0, 0, 0};
+  stop_infinite(slot);
   simulation_.force[slot] = {};
   simulation_.forces_changed();
   place(slot, desc.pose);
@@ -232,6 +238,7 @@ PlumbResult World::read(PlumbField field, std::span<const PlumbBody> ids, Rows r
 }
 
 PlumbResult World::write(PlumbField field, std::span<const PlumbBody> ids, ConstRows rows) {
+  const FloatingPointScope scope;
   if (field == PLUMB_FIELD_POSE && init_.needs(PLUMB_NEED_CONTACTS)) records();  // they are told of by places
   simulation_.bring_state_to_host();
   double row[16];
@@ -242,10 +249,23 @@ PlumbResult World::write(PlumbField field, std::span<const PlumbBody> ids, Const
   return PLUMB_OK;
 }
 
+/// The quarantine of what comes from outside: a velocity beyond the engine's numbers is 0 and reported, or it would
+/// spread to whatever the body touches.
+void World::stop_infinite(std::uint32_t slot) {
+  Velocity& velocity = simulation_.velocity[slot];
+  if (is_finite(velocity.linear) && is_finite(velocity.angular)) return;
+  velocity.linear = velocity.angular = {0, 0, 0};
+  ++stopped_;
+}
+
 void World::push(std::uint32_t slot, const Vec& force, const Vec& torque) {
   BodyForce& all = simulation_.force[slot];
   all.force += force;
   all.torque += torque;
+  if (!is_finite(all.force) || !is_finite(all.torque)) {
+    all = {};
+    ++stopped_;
+  }
   pushed_.push_back(slot);
   simulation_.forces_changed();
 }
@@ -255,6 +275,7 @@ void World::kick(std::uint32_t slot, const Vec& impulse, const Vec& angular_impu
   velocity.linear += velocity.inverse_mass * impulse;
   const Mat axes = to_matrix(simulation_.orientation[slot]);
   velocity.angular += rotated_diagonal(axes, simulation_.mass[slot].inverse_inertia) * angular_impulse;
+  stop_infinite(slot);
   simulation_.state_changed();
 }
 
@@ -272,6 +293,7 @@ void World::write_row(PlumbField field, std::uint32_t slot, const double* row) {
       if (body.motion == PLUMB_STATIC) return;
       simulation_.velocity[slot].linear = v;
       if ((simulation_.mass[slot].flags & kBodyTurns) != 0) simulation_.velocity[slot].angular = to_vec(row + 3);
+      stop_infinite(slot);
       body.to_target = body.arrived = false;
       return simulation_.state_changed();
     case PLUMB_FIELD_FORCE: return push(slot, v, {0, 0, 0});

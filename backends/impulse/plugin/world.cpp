@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "exec/floating_point.hpp"
+
 namespace plumb::impulse {
 
 namespace {
@@ -25,6 +27,7 @@ World::World(const WorldInit& init)
 PlumbResult World::set_gravity(const PlumbVec3& gravity) { return gravity_ = gravity, PLUMB_OK; }
 
 PlumbResult World::step(double dt) {
+  const FloatingPointScope scope;
   steer_kinematics(dt);
   dt_ = dt;
   records_known_ = false;
@@ -34,6 +37,7 @@ PlumbResult World::step(double dt) {
 }
 
 PlumbResult World::wait(PlumbStepReport& report) {
+  const FloatingPointScope scope;
   simulation_.wait();
   settle_kinematics();
   clear_forces();
@@ -46,7 +50,8 @@ PlumbResult World::wait(PlumbStepReport& report) {
   report.contacts = counters.points;
   report.dropped = 0;
   report.awake = dynamic_count_;  // nothing sleeps
-  report.nonfinite = counters.nonfinite;
+  report.nonfinite = counters.nonfinite + stopped_;
+  stopped_ = 0;
   if (simulation_.repeated()) report.remarks |= PLUMB_REMARK_STEP_REPEATED | PLUMB_REMARK_CAPACITY_GREW;
   return simulation_.repeated() ? PLUMB_GROWN : PLUMB_OK;
 }

@@ -54,6 +54,7 @@ class World final : public IPhysicsWorld, public IJoints, public IDebug, public 
   [[nodiscard]] PlumbPose pose(std::uint32_t slot) const;
   void write_row(PlumbField field, std::uint32_t slot, const double* row);
   void put_proxy_rows(std::uint32_t slot);
+  void stop_infinite(std::uint32_t slot);
   void push(std::uint32_t slot, const Vec& force, const Vec& torque);
   void kick(std::uint32_t slot, const Vec& impulse, const Vec& angular_impulse);
   void steer_kinematics(double dt);
@@ -70,6 +71,7 @@ class World final : public IPhysicsWorld, public IJoints, public IDebug, public 
   std::vector<BodyRecord> bodies_;      // by slot
   std::vector<PlumbJointDesc> joints_;  // by slot
   std::uint32_t dynamic_count_ = 0;
+  std::uint32_t stopped_ = 0;  // bodies whose velocity a write made infinite, since the last step
   std::vector<std::uint32_t> pushed_, steered_;
   bool records_known_ = false;
   std::vector<ContactRecord> records_;

@@ -77,8 +77,7 @@ PLUMB_HD inline bool finish_body(const Bodies& bodies, const SolverBodies& solve
   if ((flags & kBodyMoves) == 0) return true;
   const Displacement& displacement = solver.displacement[i];
   Velocity& velocity = solver.velocity[i];
-  const auto finite = [](const Vec& v) { return is_finite(v.x) && is_finite(v.y) && is_finite(v.z); };
-  if (!finite(displacement.linear) || !finite(velocity.linear) || !finite(velocity.angular) ||
+  if (!is_finite(displacement.linear) || !is_finite(velocity.linear) || !is_finite(velocity.angular) ||
       !is_finite(displacement.rotation.w)) {
     if ((flags & kBodyDynamic) != 0) velocity.linear = velocity.angular = {0, 0, 0};
     return false;

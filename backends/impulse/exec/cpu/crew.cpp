@@ -2,13 +2,12 @@
 
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
-#include <xmmintrin.h>
+
+#include "exec/floating_point.hpp"
 
 namespace plumb::impulse {
 
 namespace {
-
-constexpr std::uint32_t kRoundToNearestNoFlush = 0x1f80;  // all exceptions masked, as a thread starts
 
 struct GuardedTask {
   void* context;
@@ -20,9 +19,6 @@ struct GuardedTask {
 };
 
 }  // namespace
-
-FloatingPointScope::FloatingPointScope() : saved_(_mm_getcsr()) { _mm_setcsr(kRoundToNearestNoFlush); }
-FloatingPointScope::~FloatingPointScope() { _mm_setcsr(saved_); }
 
 struct Crew::Arena {
   explicit Arena(int threads) : arena(threads) {}

@@ -35,7 +35,7 @@ class Crew {
   }
 
   /// task(context, c) for every c < count, on all threads, each with the floating-point control word that results rely
-  /// on: round to nearest, no flush to zero.
+  /// on (floating_point.hpp).
   void run_chunks(std::uint32_t count, void* context, PlumbTask task) const;
 
  private:
@@ -50,18 +50,6 @@ class Crew {
   const PlumbHost* host_;
   std::uint32_t threads_;
   std::unique_ptr<Arena> arena_;  // null with one thread or with the host's job system
-};
-
-/// Sets the floating-point control word for a scope and puts the caller's back.
-class FloatingPointScope {
- public:
-  FloatingPointScope();
-  ~FloatingPointScope();
-  FloatingPointScope(const FloatingPointScope&) = delete;
-  FloatingPointScope& operator=(const FloatingPointScope&) = delete;
-
- private:
-  std::uint32_t saved_;
 };
 
 }  // namespace plumb::impulse

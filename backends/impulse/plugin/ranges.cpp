@@ -1,0 +1,50 @@
+#include "plugin/ranges.hpp"
+
+#include <cstdio>
+#include <string>
+
+#include "math/real.hpp"
+#include "plumb/physics_world.hpp"
+
+namespace plumb::impulse {
+
+namespace {
+
+[[noreturn]] void refuse_range(const std::string& what, double value, const char* unit) {
+  char number[32];
+  std::snprintf(number, sizeof number, "%g ", value);
+  throw Error(PLUMB_E_INVALID_ARGUMENT, what + " " + number + unit + " is beyond what impulse computes with (" +
+                                            (sizeof(Real) == 8 ? "double" : "float") +
+                                            "): use a larger or smaller one");
+}
+
+/// Lengths are squared and masses inverted: both must be numbers of the engine's kind.
+void require_length(const std::string& what, double metres) {
+  const Real length = static_cast<Real>(metres), square = length * length;
+  if (!(square > 0 && is_finite(square))) refuse_range(what, metres, "m");
+}
+void require_inertia(const std::string& what, double value, const char* unit) {
+  const auto inverse = static_cast<Real>(1 / value);
+  if (!(inverse > 0 && is_finite(inverse) && is_finite(static_cast<Real>(value)))) refuse_range(what, value, unit);
+}
+
+}  // namespace
+
+void require_range(const PlumbShapeDesc& desc, std::size_t i) {
+  const std::string name = "descs[" + std::to_string(i) + "].";
+  if (desc.type == PLUMB_SPHERE || desc.type == PLUMB_CAPSULE) require_length(name + "radius", desc.radius);
+  if (desc.type == PLUMB_CAPSULE && desc.half_height != 0) require_length(name + "half_height", desc.half_height);
+  if (desc.type == PLUMB_BOX)
+    for (const double half : {desc.half_extents.x, desc.half_extents.y, desc.half_extents.z})
+      require_length(name + "half_extents", half);
+}
+
+void require_range(const PlumbBodyDesc& desc, std::size_t i) {
+  if (desc.motion != PLUMB_DYNAMIC) return;
+  const std::string name = "descs[" + std::to_string(i) + "].";
+  require_inertia(name + "mass", desc.mass, "kg");
+  for (const double moment : {desc.inertia.x, desc.inertia.y, desc.inertia.z})
+    if (moment != 0) require_inertia(name + "inertia", moment, "kg m2");
+}
+
+}  // namespace plumb::impulse

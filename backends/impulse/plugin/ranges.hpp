@@ -1,0 +1,14 @@
+// Sizes and masses that the engine's numbers cannot hold are refused.
+#pragma once
+
+#include <cstddef>
+
+#include "plumb/plumb.h"
+
+namespace plumb::impulse {
+
+/// Throws Error PLUMB_E_INVALID_ARGUMENT, naming row i and its member.
+void require_range(const PlumbShapeDesc& desc, std::size_t i);
+void require_range(const PlumbBodyDesc& desc, std::size_t i);
+
+}  // namespace plumb::impulse
