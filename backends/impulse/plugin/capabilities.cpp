@@ -1,4 +1,5 @@
 // What impulse truly has.
+#include "physics_revision.hpp"
 #include "plugin/world.hpp"
 
 namespace plumb::impulse {
@@ -74,7 +75,7 @@ const PlumbBackendInfo& World::info() {
                                         PLUMB_DETERMINISM_THREADS,
                                         PLUMB_IMPULSE_NAME,
                                         "0.1",
-                                        PLUMB_IMPULSE_BUILD,
+                                        PLUMB_IMPULSE_BUILD " physics " PLUMB_IMPULSE_PHYSICS_REVISION_TEXT,
                                         "LBVH, SAT and sequential impulses: Plumb's own engine",
                                         Executor::device_name(),
                                         "",

@@ -3,6 +3,9 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
+#include <thread>
+
 #include "exec/floating_point.hpp"
 
 namespace plumb::impulse {
@@ -29,6 +32,8 @@ Crew::Crew(const PlumbHost* host, std::uint32_t threads) : host_(host), threads_
   const bool lends = host_ != nullptr && host_->run != nullptr && host_->worker_count > 0;
   if (!lends) host_ = nullptr;
   if (lends && threads_ > host_->worker_count) threads_ = host_->worker_count;
+  const std::uint32_t processors = std::max(1U, std::thread::hardware_concurrency());
+  if (!lends && threads_ > processors) threads_ = processors;
   if (!lends && threads_ > 1) arena_ = std::make_unique<Arena>(static_cast<int>(threads_));
 }
 Crew::~Crew() = default;

@@ -1,0 +1,80 @@
+// A small scene for hash tests, made in code with nothing that differs between machines: no libm, own random numbers.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "plumb/loader.hpp"
+
+namespace plumb::impulse::test {
+
+/// SplitMix64 (Steele, Lea and Flood 2014).
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : state_(seed) {}
+  std::uint64_t next();
+  double uniform() { return static_cast<double>(next() >> 11) * 0x1p-53; }  ///< in [0, 1)
+  double between(double low, double high) { return low + (high - low) * uniform(); }
+  PlumbQuat turn();  ///< uniform over all turns
+
+ private:
+  std::uint64_t state_;
+};
+
+/// A world and what is put into it. Materials, filters and the like are set in `body` before a call of add.
+class Scene {
+ public:
+  Scene(const Backend& backend, PlumbNeeds needs, const PlumbVec3& gravity, std::uint32_t threads,
+        const char* solver = nullptr);
+
+  PlumbBodyDesc body = body_desc();
+
+  PlumbShape sphere(double radius);
+  PlumbShape box(const PlumbVec3& half_extents);
+  PlumbShape capsule(double radius, double half_height);
+  PlumbShape hull(const std::vector<PlumbVec3>& points);
+  PlumbBody add(PlumbShape shape, const PlumbVec3& position, const PlumbQuat& orientation = {0, 0, 0, 1});
+  PlumbBody add_static(PlumbShape shape, const PlumbVec3& position, const PlumbQuat& orientation = {0, 0, 0, 1});
+  PlumbBody add_kinematic(PlumbShape shape, const PlumbVec3& position);
+  /// 100 x 1 x 100 m, its top at y = 0, centred at x, z.
+  void ground(double x = 0, double z = 0);
+  /// Four walls about the square of that half width, and the ground.
+  void container(double half_width, double height);
+  void ball_joint(PlumbBody a, const PlumbVec3& in_a, PlumbBody b, const PlumbVec3& in_b);
+
+  /// Called before each step with the number of steps done.
+  std::function<void(Scene&, int)> before_step;
+  void target(PlumbBody body, const PlumbVec3& position);
+
+  /// Steps of 1/60 s.
+  void run(int steps);
+  [[nodiscard]] std::uint64_t hash();
+  [[nodiscard]] std::vector<PlumbPose> poses();
+  [[nodiscard]] IPhysicsWorld& world() { return *world_; }
+
+ private:
+  PlumbBody put(PlumbMotion motion, PlumbShape shape, const PlumbVec3& position, const PlumbQuat& orientation);
+  PlumbShape make(const PlumbShapeDesc& desc);
+
+  std::unique_ptr<IPhysicsWorld> world_;
+  int steps_ = 0;
+};
+
+/// The scenes by name.
+struct NamedScene {
+  const char* name;
+  const char* solver;  ///< choice of the setting "solver", null: the default
+  PlumbNeeds needs;
+  PlumbVec3 gravity;
+  void (*build)(Scene&);
+};
+[[nodiscard]] const std::vector<NamedScene>& named_scenes();
+
+/// What the backend lacks for the scene, or "".
+[[nodiscard]] std::string missing(const Backend& backend, const NamedScene& scene);
+[[nodiscard]] std::unique_ptr<Scene> build(const Backend& backend, const NamedScene& scene, std::uint32_t threads);
+
+}  // namespace plumb::impulse::test

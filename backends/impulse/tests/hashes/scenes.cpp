@@ -1,0 +1,177 @@
+// The scenes whose hashes are recorded.
+#include "hashes/scene.hpp"
+
+namespace plumb::impulse::test {
+
+namespace {
+
+constexpr PlumbNeeds kContactNeeds = PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION;
+constexpr PlumbVec3 kDown = {0, -9.81, 0};
+
+void tower(Scene& scene) {
+  scene.ground();
+  const PlumbShape cube = scene.box({0.5, 0.5, 0.5});
+  for (int i = 0; i < 20; ++i) scene.add(cube, {0, 0.5 + i, 0});
+}
+
+void pyramid(Scene& scene, int rows, double x, double z) {
+  scene.ground(x, z);
+  const PlumbShape cube = scene.box({0.5, 0.5, 0.5});
+  for (int row = 0; row < rows; ++row)
+    for (int i = 0; i < rows - row; ++i) scene.add(cube, {x + 1.05 * (i - 0.5 * (rows - row - 1)), 0.5 + row, z});
+}
+void pyramid_20(Scene& scene) { pyramid(scene, 20, 0, 0); }
+void pyramid_10(Scene& scene) { pyramid(scene, 10, 0, 0); }
+void pyramid_far(Scene& scene) { pyramid(scene, 10, 1e5, 1e5); }
+
+/// n bodies in a container of k by k columns, each a little off its place and turned at random.
+void pile(Scene& scene, int n, int k, const std::vector<PlumbShape>& shapes) {
+  const int layers = (n + k * k - 1) / (k * k);
+  scene.container((1.3 * k + 2) / 2, 1.5 * layers + 20);
+  for (int i = 0; i < n; ++i) {
+    Random random(static_cast<std::uint64_t>(i));
+    const double middle = (k - 1) / 2.0;
+    const PlumbVec3 place = {(i % k - middle) * 1.3 + random.between(-0.1, 0.1),
+                             1 + i / (k * k) * 1.5 + random.between(-0.1, 0.1),
+                             (i / k % k - middle) * 1.3 + random.between(-0.1, 0.1)};
+    scene.add(shapes[static_cast<std::size_t>(i) % shapes.size()], place, random.turn());
+  }
+}
+void pile_of_boxes(Scene& scene) { pile(scene, 1000, 8, {scene.box({0.5, 0.5, 0.5})}); }
+void pile_of_spheres(Scene& scene) { pile(scene, 500, 7, {scene.sphere(0.5), scene.sphere(0.4), scene.sphere(0.6)}); }
+void pile_of_all(Scene& scene) {
+  const std::vector<PlumbVec3> octahedron = {{0.6, 0, 0},  {-0.6, 0, 0}, {0, 0.6, 0},
+                                             {0, -0.6, 0}, {0, 0, 0.6},  {0, 0, -0.6}};
+  const std::vector<PlumbVec3> wedge = {{-0.5, -0.4, -0.5}, {0.5, -0.4, -0.5}, {-0.5, -0.4, 0.5},
+                                        {0.5, -0.4, 0.5},   {-0.5, 0.5, 0},    {0.5, 0.5, 0}};
+  pile(scene, 300, 6,
+       {scene.capsule(0.3, 0.4), scene.hull(octahedron), scene.box({0.5, 0.4, 0.3}), scene.hull(wedge),
+        scene.sphere(0.45)});
+}
+
+/// Cubes turned about the normal of a plane of 27 degrees, with friction .5 (atan .5 = 26.57 degrees).
+void slope(Scene& scene) {
+  constexpr double kSine = 0.23344536385590542, kCosine = 0.97236992039767656;  // of 13.5 degrees
+  const PlumbQuat tilt = {0, 0, kSine, kCosine};
+  scene.add_static(scene.box({50, 0.5, 50}), {0, 0, 0}, tilt);
+  const PlumbShape cube = scene.box({0.5, 0.5, 0.5});
+  for (int i = 0; i < 8; ++i) {
+    const double t = 0.1 * i, w = 1 / (1 + t * t);  // a turn of 2 atan t about y, by its half's rational sine
+    const PlumbQuat yaw = {0, 2 * t * w, 0, (1 - t * t) * w};
+    const PlumbQuat q = {kSine * yaw.y * -1, kCosine * yaw.y, kSine * yaw.w, kCosine * yaw.w};  // tilt * yaw
+    const double z = 3.0 * i - 10;
+    constexpr double kNormalX = -0.45399049973954675, kNormalY = 0.89100652418836786;  // sine and cosine of 27 degrees
+    scene.add(cube, {kNormalX, kNormalY, z}, q);
+  }
+}
+
+void bounces(Scene& scene) {
+  scene.body.material.restitution = 0.8;
+  scene.ground();
+  const PlumbShape ball = scene.sphere(0.5);
+  for (int i = 0; i < 10; ++i) scene.add(ball, {2.0 * i - 10, 1.0 + 0.5 * i, 0.1 * i});
+}
+
+void paddle(Scene& scene) {
+  scene.ground();
+  const PlumbShape cube = scene.box({0.5, 0.5, 0.5});
+  for (int i = 0; i < 30; ++i) scene.add(cube, {1.2 * (i % 5) + 2, 0.5 + i / 15, 1.3 * (i / 5 % 3) - 1.3});
+  const PlumbBody pusher = scene.add_kinematic(scene.box({0.25, 1, 3}), {0, 1.1, 0});
+  scene.before_step = [pusher](Scene& all, int step) {  // 1.5 m/s there and back
+    const int phase = step % 240;
+    all.target(pusher, {0.025 * (phase < 120 ? phase : 240 - phase), 1.1, 0});
+  };
+}
+
+void rotors(Scene& scene) {
+  scene.body.material.friction = 0;
+  const PlumbShape brick = scene.box({0.2, 0.5, 1}), plate = scene.box({1, 0.1, 0.7});
+  for (int i = 0; i < 64; ++i) {
+    Random random(static_cast<std::uint64_t>(1000 + i));
+    scene.body.angular_velocity = {random.between(-5, 5), random.between(-5, 5), random.between(-5, 5)};
+    scene.body.linear_velocity = {random.between(-1, 1), 0, 0};
+    scene.add(i % 2 == 0 ? brick : plate, {0, 4.0 * (i % 8), 4.0 * (i / 8)}, random.turn());
+  }
+}
+
+/// Each cube twice as heavy as the one below it.
+void heavy_tops(Scene& scene) {
+  scene.ground();
+  const PlumbShape cube = scene.box({0.5, 0.5, 0.5});
+  for (int i = 0; i < 7; ++i) {
+    scene.body.density = 1000.0 * (1 << i);
+    scene.add(cube, {0, 0.5 + i, 0});
+  }
+}
+
+void dominoes(Scene& scene) {
+  scene.ground();
+  const PlumbShape stone = scene.box({0.1, 0.5, 0.25});
+  for (int i = 0; i < 20; ++i) {
+    scene.body.angular_velocity = {0, 0, i == 0 ? -3.0 : 0.0};
+    scene.add(stone, {0.5 * i, 0.5, 0});
+  }
+}
+
+/// A chain that swings down into a stack.
+void chain(Scene& scene) {
+  scene.ground();
+  const PlumbShape link = scene.capsule(0.1, 0.3), cube = scene.box({0.5, 0.5, 0.5});
+  PlumbBody before = 0;
+  for (int i = 0; i < 10; ++i) {
+    constexpr double kHalf = 0.70710678118654752;
+    const PlumbBody here = scene.add(link, {0.4 + 0.8 * i, 8.5, 0}, {0, 0, -kHalf, kHalf});  // y along x
+    scene.ball_joint(before, before == 0 ? PlumbVec3{0, 8.5, 0} : PlumbVec3{0, 0.4, 0}, here, {0, -0.4, 0});
+    before = here;
+  }
+  for (int i = 0; i < 4; ++i) scene.add(cube, {-1, 0.5 + i, 0});
+}
+
+bool has_choice(const Backend& backend, const char* solver) {
+  for (const PlumbSettingInfo* info : backend.settings())
+    for (std::uint32_t i = 0; std::string_view(info->name) == "solver" && i < info->choice_count; ++i)
+      if (std::string_view(info->choices[i]) == solver) return true;
+  return false;
+}
+
+}  // namespace
+
+const std::vector<NamedScene>& named_scenes() {
+  constexpr PlumbNeeds kNoContacts = PLUMB_NEED_ROTATION | PLUMB_NEED_GYROSCOPIC;
+  constexpr PlumbNeeds kAll = kContactNeeds | PLUMB_NEED_GYROSCOPIC;
+  static const std::vector<NamedScene> scenes = {
+      {"tower-20", nullptr, kContactNeeds, kDown, &tower},
+      {"pyramid-20", nullptr, kContactNeeds, kDown, &pyramid_20},
+      {"pile-1000", nullptr, kContactNeeds, kDown, &pile_of_boxes},
+      {"slope-27", nullptr, kContactNeeds, kDown, &slope},
+      {"bounces", nullptr, kContactNeeds | PLUMB_NEED_RESTITUTION, kDown, &bounces},
+      {"spheres-500", nullptr, kContactNeeds, kDown, &pile_of_spheres},
+      {"paddle", nullptr, kContactNeeds | PLUMB_NEED_KINEMATIC, kDown, &paddle},
+      {"rotors", nullptr, kNoContacts, {0, 0, 0}, &rotors},
+      {"mixed-300", nullptr, kAll, kDown, &pile_of_all},
+      {"heavy-tops", nullptr, kContactNeeds, kDown, &heavy_tops},
+      {"pyramid-far", nullptr, kContactNeeds, kDown, &pyramid_far},
+      {"dominoes", nullptr, kAll, kDown, &dominoes},
+      {"chain", nullptr, kAll | PLUMB_NEED_JOINTS, kDown, &chain},
+      {"pyramid-10-si", "si", kContactNeeds, kDown, &pyramid_10},
+      {"pyramid-10-jacobi", "jacobi", kContactNeeds, kDown, &pyramid_10},
+      {"pyramid-10-xpbd", "xpbd", kContactNeeds, kDown, &pyramid_10},
+  };
+  return scenes;
+}
+
+std::string missing(const Backend& backend, const NamedScene& scene) {
+  for (std::uint32_t bit = 0; bit < PLUMB_NEED_COUNT; ++bit)
+    if ((scene.needs >> bit & 1) != 0 && backend.capability(PLUMB_CAP_NEED, bit) == PLUMB_NONE)
+      return "need " + std::to_string(bit);
+  if (scene.solver != nullptr && !has_choice(backend, scene.solver)) return std::string("solver ") + scene.solver;
+  return {};
+}
+
+std::unique_ptr<Scene> build(const Backend& backend, const NamedScene& scene, std::uint32_t threads) {
+  auto built = std::make_unique<Scene>(backend, scene.needs, scene.gravity, threads, scene.solver);
+  scene.build(*built);
+  return built;
+}
+
+}  // namespace plumb::impulse::test
