@@ -120,7 +120,7 @@ void Simulation::upload_changes() {
     for (Recording& recording : recordings_) recording.forget();  // the numbers of bodies are in them
   }
   if (joints.changed()) {
-    joints.upload(executor_, mass);
+    joints.upload(mass);
     for (Recording& recording : recordings_) recording.forget();
   }
   if (state_dirty_) {

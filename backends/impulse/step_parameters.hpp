@@ -37,7 +37,8 @@ struct StepParameters {
   std::uint32_t step;  ///< number of this step; steps count from 1
   Softness contact;    ///< between two bodies that move
   Softness ground;     ///< against a body that does not
-  Softness joint;
+  Softness joint;      ///< of joints that are solved one by one
+  Real joint_rate;     ///< errors of mechanisms that are solved as a whole are taken back at this rate, 1/s
   Real warm_start;         ///< share of the last step's impulses that is kept: its sub-step to this one's, or 0
   Real push_speed;         ///< overlap is taken back no faster than this, m/s
   Real restitution_speed;  ///< slower impacts do not bounce, m/s

@@ -37,6 +37,7 @@ struct Joint {
   std::uint32_t slot;  ///< of its impulses, which outlive the order of the joints
   std::uint32_t born;  ///< the step before which it was made: older impulses of the slot are another's
   Real rest_length;    ///< m
+  bool in_loop;        ///< of its mechanism some rows may repeat others; found when joints are put in order
   Frame frame_a, frame_b;
   Position world_anchor;  ///< of frame a where body_a is kWorld
 };

@@ -12,7 +12,10 @@ struct JointWork {
   JointRow rows[kJointRows];
   Vec turn_a[kJointRows], turn_b[kJointRows];  ///< what a unit impulse along a row does to the angular velocities
   Real error[kJointRows];                      ///< C where the rows were made
-  Block factor;                                ///< of K
+  Block factor;                                ///< K, and then its factors
+  // While a mechanism is solved as a whole:
+  Real change[kJointRows];  ///< of the impulse
+  Real give[kJointRows];    ///< speed for a unit impulse by which a row yields beside what the bodies do
 };
 
 struct JointImpulse {
@@ -86,8 +89,8 @@ PLUMB_HD inline void push_joint(const JointWork& work, int n, const Real* impuls
   }
 }
 
-/// Rows, errors and effective mass where the bodies are now.
-PLUMB_HD inline void refresh_joint(const JointView& view, std::uint32_t j) {
+/// Rows, errors and K where the bodies are now.
+PLUMB_HD inline void make_joint_rows(const JointView& view, std::uint32_t j) {
   const Joint& joint = view.joints[j];
   JointWork& work = view.work[j];
   const JointEnd a = view.end(joint.body_a), b = view.end(joint.body_b);
@@ -105,7 +108,15 @@ PLUMB_HD inline void refresh_joint(const JointView& view, std::uint32_t j) {
       work.factor(i, k) = inverse_mass * dot(work.rows[i].direction, work.rows[k].direction) +
                           dot(work.turn_a[i], work.rows[k].on_a) + dot(work.turn_b[i], work.rows[k].on_b);
   }
-  factor(work.factor, n);
+}
+
+PLUMB_HD inline void factor_joint(const JointView& view, std::uint32_t j) {
+  factor(view.work[j].factor, rows_of(view.joints[j].type));
+}
+/// Both, for a joint that is solved by itself.
+PLUMB_HD inline void refresh_joint(const JointView& view, std::uint32_t j) {
+  make_joint_rows(view, j);
+  factor_joint(view, j);
 }
 
 /// How far the velocities of the rows are from what they should be in this pass.
@@ -127,17 +138,26 @@ PLUMB_HD inline void joint_residuals(const JointView& view, std::uint32_t j, con
     residual[i] = (residual[i] - work.error[i]) * pass.inverse_h + pass.softness.bias_rate * work.error[i];
 }
 
+/// What the last step ended with is where this one begins.
+PLUMB_HD inline void take_over_impulse(const JointView& view, std::uint32_t j, const StepParameters& step) {
+  const Joint& joint = view.joints[j];
+  JointImpulse& impulse = view.impulses[joint.slot];
+  for (int i = 0; i < kJointRows; ++i)
+    impulse.along[i] = joint.born == step.step ? Real(0) : step.warm_start * impulse.along[i];
+}
+
+PLUMB_HD inline void keep_change(const JointView& view, std::uint32_t j) {
+  JointImpulse& impulse = view.impulses[view.joints[j].slot];
+  for (int i = 0; i < rows_of(view.joints[j].type); ++i) impulse.along[i] = impulse.along[i] + view.work[j].change[i];
+}
+
 /// The impulses that the joint had before act again, along its rows as they are now.
 PLUMB_HD inline void warm_start_joint(const JointView& view, std::uint32_t j, bool first, const StepParameters& step) {
   const Joint& joint = view.joints[j];
-  JointImpulse& impulse = view.impulses[joint.slot];
-  const int n = rows_of(joint.type);
-  if (first)
-    for (int i = 0; i < kJointRows; ++i)
-      impulse.along[i] = joint.born == step.step ? Real(0) : step.warm_start * impulse.along[i];
+  if (first) take_over_impulse(view, j, step);
   const Velocity a = view.velocity(joint.body_a), b = view.velocity(joint.body_b);
   Velocity new_a = a, new_b = b;
-  push_joint(view.work[j], n, impulse.along, new_a, new_b);
+  push_joint(view.work[j], rows_of(joint.type), view.impulses[joint.slot].along, new_a, new_b);
   view.store(joint.body_a, a, new_a);
   view.store(joint.body_b, b, new_b);
 }

@@ -1,86 +1,167 @@
 #include "constraints/joint_store.hpp"
 
 #include <algorithm>
+#include <map>
 
 #include "broadphase/pair_filter.hpp"
 
 namespace plumb::impulse {
 
-void JointStore::add(const Joint& joint, bool lets_them_touch) {
-  if (joint.slot >= by_slot_.size()) {
-    by_slot_.resize(joint.slot + 1);
-    used_.resize(joint.slot + 1);
-    lets_touch_.resize(joint.slot + 1);
-  }
-  by_slot_[joint.slot] = joint;
-  used_[joint.slot] = true;
-  lets_touch_[joint.slot] = lets_them_touch;
+namespace {
+
+bool is_pushed(std::uint32_t body, const Mirror<BodyMass>& masses) {
+  return body != kWorld && (masses[body].flags & kBodyDynamic) != 0;
+}
+
+bool locks_turns(JointType type) { return type != JointType::kBall && type != JointType::kDistance; }
+bool both_turn(const Joint& joint, const Mirror<BodyMass>& masses) {
+  const auto turns = [&](std::uint32_t body) {
+    return !is_pushed(body, masses) || (masses[body].flags & kBodyTurns) != 0;
+  };
+  return turns(joint.body_a) && turns(joint.body_b);
+}
+
+template <class T>
+void copy(Buffer<T>& to, const std::vector<T>& from) {
+  to.from_host(from.data(), from.size());
+}
+
+}  // namespace
+
+void JointStore::add(const Joint& joint, bool lets_bodies_touch) {
+  if (joint.slot >= rows_.size()) rows_.resize(joint.slot + 1);
+  rows_[joint.slot] = {joint, true, lets_bodies_touch};
   changed_ = true;
 }
 
 void JointStore::remove(std::uint32_t slot) {
-  used_[slot] = false;
+  rows_[slot].used = false;
   changed_ = true;
 }
 
-/// Greedily in the order of slots, which is that of creation as long as none was taken away: deterministic, and two
-/// colours for a chain. What finds no colour goes last.
-void JointStore::order_by_colour(const Mirror<BodyMass>& masses) {
+/// Greedily in the order given: deterministic. What finds no colour goes last.
+void JointStore::colour(const Mirror<BodyMass>& masses) {
   constexpr std::uint32_t kNoColour = kJointColours - 1;
-  std::vector<std::uint32_t> taken(masses.size());
-  std::vector<std::vector<std::uint32_t>> colours(kJointColours);
-  count_ = colours_ = 0;
-  for (std::uint32_t slot = 0; slot < by_slot_.size(); ++slot) {
-    if (!used_[slot]) continue;
-    const Joint& joint = by_slot_[slot];
-    const auto pushes = [&](std::uint32_t body) { return body != kWorld && (masses[body].flags & kBodyDynamic) != 0; };
-    const bool a = pushes(joint.body_a), b = pushes(joint.body_b);
+  std::map<std::uint32_t, std::uint32_t> taken;
+  struct Colour {
+    std::vector<std::uint32_t> single, in_system;
+  };
+  std::vector<Colour> colours(kJointColours);
+  colours_ = 0;
+  for (std::uint32_t j = 0; j < ordered_.size(); ++j) {
+    const Joint& joint = ordered_[j];
+    const bool a = is_pushed(joint.body_a, masses), b = is_pushed(joint.body_b, masses);
     const std::uint32_t mask = (a ? taken[joint.body_a] : 0) | (b ? taken[joint.body_b] : 0);
     std::uint32_t colour = 0;
     while (colour < kNoColour && (mask >> colour & 1U) != 0) ++colour;
     if (a) taken[joint.body_a] |= 1U << colour;
     if (b) taken[joint.body_b] |= 1U << colour;
-    colours[colour].push_back(slot);
+    (j < base_ ? colours[colour].single : colours[colour].in_system).push_back(j);
     colours_ = std::max(colours_, colour + 1);
-    ++count_;
   }
-  overflow_ = !colours[kNoColour].empty();
-  joints_.grow(count_);
-  first_.grow(kJointColours + 1);
-  std::uint32_t row = 0;
-  for (std::uint32_t colour = 0; colour < kJointColours; ++colour) {
-    first_[colour] = row;
-    for (const std::uint32_t slot : colours[colour]) joints_[row++] = by_slot_[slot];
+  overflow_ = colours_ == kJointColours;
+  std::vector<std::uint32_t> list, first, system;
+  for (const Colour& colour : colours) {
+    first.push_back(static_cast<std::uint32_t>(list.size()));
+    list.insert(list.end(), colour.single.begin(), colour.single.end());
+    system.push_back(static_cast<std::uint32_t>(list.size()));
+    list.insert(list.end(), colour.in_system.begin(), colour.in_system.end());
   }
-  first_[kJointColours] = row;
+  first.push_back(static_cast<std::uint32_t>(list.size()));
+  copy(by_colour_, list);
+  copy(first_, first);
+  copy(system_first_, system);
+}
+
+void JointStore::list_pushed_bodies(const Mirror<BodyMass>& masses) {
+  std::map<std::uint32_t, std::vector<JointOnBody>> on_body;
+  for (std::uint32_t j = base_; j < ordered_.size(); ++j) {
+    const Joint& joint = ordered_[j];
+    if (is_pushed(joint.body_a, masses)) on_body[joint.body_a].push_back({j, false});
+    if (is_pushed(joint.body_b, masses)) on_body[joint.body_b].push_back({j, true});
+  }
+  std::vector<std::uint32_t> bodies, first;
+  std::vector<JointOnBody> list;
+  for (const auto& [body, ends] : on_body) {
+    bodies.push_back(body);
+    first.push_back(static_cast<std::uint32_t>(list.size()));
+    list.insert(list.end(), ends.begin(), ends.end());
+  }
+  first.push_back(static_cast<std::uint32_t>(list.size()));
+  pushed_count_ = static_cast<std::uint32_t>(bodies.size());
+  copy(pushed_, bodies);
+  copy(pushed_first_, first);
+  copy(on_body_, list);
 }
 
 void JointStore::list_excluded() {
   std::vector<std::uint64_t> keys;
-  for (std::uint32_t slot = 0; slot < by_slot_.size(); ++slot)
-    if (used_[slot] && !lets_touch_[slot] && by_slot_[slot].body_a != kWorld)
-      keys.push_back(body_pair_key(by_slot_[slot].body_a, by_slot_[slot].body_b));
+  for (const Row& row : rows_)
+    if (row.used && !row.lets_touch && row.joint.body_a != kWorld)
+      keys.push_back(body_pair_key(row.joint.body_a, row.joint.body_b));
   std::sort(keys.begin(), keys.end());
   keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
   excluded_count_ = static_cast<std::uint32_t>(keys.size());
-  excluded_.grow(excluded_count_);
-  std::copy(keys.begin(), keys.end(), excluded_.host());
+  copy(excluded_, keys);
 }
 
-void JointStore::upload(Executor& executor, const Mirror<BodyMass>& masses) {
-  order_by_colour(masses);
+void JointStore::upload(const Mirror<BodyMass>& masses) {
+  std::vector<Joint> all;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> joins;
+  const auto moving = [&](std::uint32_t body) { return is_pushed(body, masses) ? body : kWorld; };
+  for (const Row& row : rows_) {
+    if (!row.used) continue;
+    all.push_back(row.joint);
+    joins.emplace_back(moving(row.joint.body_a), moving(row.joint.body_b));
+  }
+  const JointElimination found = eliminate_joints(joins, kWorld);
+
+  ordered_.clear();
+  for (std::uint32_t j = 0; j < all.size(); ++j)
+    all[j].in_loop = found.in_loop[j] || (locks_turns(all[j].type) && !both_turn(all[j], masses));
+  for (const std::uint32_t j : found.one_by_one) ordered_.push_back(all[j]);
+  base_ = static_cast<std::uint32_t>(ordered_.size());
+  for (const std::uint32_t j : found.order) ordered_.push_back(all[j]);
+  count_ = static_cast<std::uint32_t>(ordered_.size());
+  levels_ = static_cast<std::uint32_t>(found.level_first.size() - 1);
+  copy(joints_, ordered_);
+  copy(level_first_, found.level_first);
+  copy(entries_, found.entries);
+  copy(column_first_, found.column_first);
+  copy(row_entries_, found.row_entries);
+  copy(row_first_, found.row_first);
+  copy(products_, found.products);
+  copy(product_first_, found.product_first);
+  colour(masses);
+  list_pushed_bodies(masses);
   list_excluded();
   work_.grow(count_);
-  impulses_.grow(by_slot_.size());
-  executor.to_device(joints_, count_);
-  executor.to_device(first_, kJointColours + 1);
-  executor.to_device(excluded_, excluded_count_);
+  impulses_.grow(rows_.size());
+  scaled_.grow(found.entries.size());
+  whole_.grow(found.entries.size());
   changed_ = false;
 }
 
 JointSet JointStore::set(const Bodies& bodies, const SolverBodies& solver, bool gyroscopic) {
-  const JointView view = {bodies, solver, joints_.device(), work_.data(), impulses_.data(), gyroscopic};
-  return {view, first_.device(), count_, colours_, overflow_};
+  const JointView view = {bodies, solver, joints_.data(), work_.data(), impulses_.data(), gyroscopic};
+  const JointSystem system = {view,
+                              base_,
+                              levels_,
+                              level_first_.data(),
+                              entries_.data(),
+                              column_first_.data(),
+                              row_entries_.data(),
+                              row_first_.data(),
+                              products_.data(),
+                              product_first_.data(),
+                              scaled_.data(),
+                              whole_.data(),
+                              pushed_count_,
+                              pushed_.data(),
+                              pushed_first_.data(),
+                              on_body_.data()};
+  const JointColours colours = {by_colour_.data(), first_.data(), system_first_.data(), colours_, overflow_};
+  return {view, count_, colours, system};
 }
 
 }  // namespace plumb::impulse

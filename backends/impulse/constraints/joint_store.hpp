@@ -1,9 +1,9 @@
-// The joints of a world on the host: made and gone, ordered by colour, and the pairs of bodies that they keep apart.
+// The joints of a world on the host: made and gone, put in the order in which they are solved, and the pairs of bodies
+// that they keep apart.
 #pragma once
 
 #include <vector>
 
-#include "exec/executor.hpp"
 #include "exec/memory.hpp"
 #include "solver/joint_loops.hpp"
 
@@ -11,33 +11,45 @@ namespace plumb::impulse {
 
 class JointStore {
  public:
-  /// `slot` numbers the joint among the living. Bodies of a joint that lets them touch may collide.
-  void add(const Joint& joint, bool lets_them_touch);
+  /// joint.slot numbers it among the living.
+  void add(const Joint& joint, bool lets_bodies_touch);
   void remove(std::uint32_t slot);
-  [[nodiscard]] const Joint& joint(std::uint32_t slot) const { return by_slot_[slot]; }
+  /// Whether upload() is due.
   [[nodiscard]] bool changed() const { return changed_; }
 
-  /// Orders what changed and copies it to the device. masses tell who can be pushed.
-  void upload(Executor& executor, const Mirror<BodyMass>& masses);
+  /// Puts the joints in order and copies them to where kernels run. masses tell which bodies can be pushed.
+  void upload(const Mirror<BodyMass>& masses);
 
   [[nodiscard]] JointSet set(const Bodies& bodies, const SolverBodies& solver, bool gyroscopic);
   /// body_pair_key of bodies that do not collide, ascending.
-  [[nodiscard]] const std::uint64_t* excluded() { return excluded_.device(); }
+  [[nodiscard]] const std::uint64_t* excluded() { return excluded_.data(); }
   [[nodiscard]] std::uint32_t excluded_count() const { return excluded_count_; }
 
  private:
-  void order_by_colour(const Mirror<BodyMass>& masses);
+  struct Row {
+    Joint joint;
+    bool used, lets_touch;
+  };
+  void colour(const Mirror<BodyMass>& masses);
+  void list_pushed_bodies(const Mirror<BodyMass>& masses);
   void list_excluded();
 
   bool changed_ = false, overflow_ = false;
-  std::vector<Joint> by_slot_;
-  std::vector<bool> used_, lets_touch_;
+  std::vector<Row> rows_;       // by slot
+  std::vector<Joint> ordered_;  // those that are solved one by one, by slot; then the system, in its order
   std::uint32_t count_ = 0, colours_ = 0, excluded_count_ = 0;
-  Mirror<Joint> joints_;  // by colour, and by slot within it
-  Mirror<std::uint32_t> first_;
-  Mirror<std::uint64_t> excluded_;
+  Buffer<Joint> joints_;  // as ordered_
+  Buffer<std::uint32_t> by_colour_, first_, system_first_;
+  Buffer<std::uint64_t> excluded_;
   Buffer<JointWork> work_;
   Buffer<JointImpulse> impulses_;  // by slot
+
+  std::uint32_t base_ = 0, levels_ = 0, pushed_count_ = 0;  // of the system
+  Buffer<std::uint32_t> level_first_, column_first_, row_entries_, row_first_, product_first_, pushed_, pushed_first_;
+  Buffer<JointEntry> entries_;
+  Buffer<JointProduct> products_;
+  Buffer<JointOnBody> on_body_;
+  Buffer<JointBlock> scaled_, whole_;
 };
 
 }  // namespace plumb::impulse

@@ -129,6 +129,7 @@ StepParameters Settings::parameters(double dt, double last_h, const PlumbVec3& g
   step.joint = make_softness(joint_hertz > 0 ? joint_hertz : 0.25 / h, joint_damping_ratio, h);
   step.warm_start = static_cast<Real>(warm_starting == 0 || last_h == 0 ? 0 : h / last_h);
   step.push_speed = static_cast<Real>(push_speed);
+  step.joint_rate = joint_hertz > 0 ? step.joint.bias_rate : step.inverse_h;
   step.restitution_speed = static_cast<Real>(restitution_speed);
   step.solver = static_cast<SolverKind>(solver);
   step.passes = static_cast<std::uint32_t>(iterations);

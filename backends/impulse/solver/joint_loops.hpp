@@ -1,34 +1,58 @@
-// Loops over all joints: what every solver does with them.
+// Loops over all joints, one by one in the order of their colours: sequential impulses.
 #pragma once
 
 #include "constraints/joint_solve.hpp"
 #include "exec/executor.hpp"
+#include "solver/joint_system.hpp"
 
 namespace plumb::impulse {
 
 constexpr std::uint32_t kJointColours = 32;
 
-/// The joints of a step, sorted by colour: those of one colour share no body that they push. The last colour may hold
-/// any: its joints are solved one after the other.
-struct JointSet {
-  JointView view;
-  const std::uint32_t* first;  ///< of each colour, and of the end behind the last
-  std::uint32_t count, colours;
+/// Joints of one colour share no body that they push. The last colour may hold any: its joints go one after the other.
+/// Of each colour those come first that are not in the system.
+struct JointColours {
+  const std::uint32_t* joints;  ///< by colour
+  const std::uint32_t* first;   ///< of each colour, and of the end behind the last
+  const std::uint32_t* system;  ///< of each colour the first that is in the system
+  std::uint32_t count;
   bool last_is_overflow;
 };
+
+/// The joints of a step: in any order one by one, or as a system whose joints are the last.
+struct JointSet {
+  JointView view;
+  std::uint32_t count;
+  JointColours colours;
+  JointSystem system;
+};
+
+template <class F>
+PLUMB_DEVICE void for_joints_of_colour(Team& team, const JointColours& colours, std::uint32_t colour, std::uint32_t end,
+                                       const F& f) {
+  const std::uint32_t* list = colours.joints;
+  const std::uint32_t first = colours.first[colour];
+  if (first == end) return;
+  if (colours.last_is_overflow && colour + 1 == colours.count)
+    team.single([=] {
+      for (std::uint32_t i = first; i < end; ++i) f(list[i]);
+    });
+  else
+    team.each(end - first, [=](std::uint32_t i) { f(list[first + i]); });
+}
 
 /// f(j) for every joint, colour after colour.
 template <class F>
 PLUMB_DEVICE void for_joints(Team& team, const JointSet& joints, const F& f) {
-  for (std::uint32_t colour = 0; colour < joints.colours; ++colour) {
-    const std::uint32_t first = joints.first[colour], end = joints.first[colour + 1];
-    if (joints.last_is_overflow && colour + 1 == joints.colours)
-      team.single([=] {
-        for (std::uint32_t j = first; j < end; ++j) f(j);
-      });
-    else
-      team.each(end - first, [=](std::uint32_t i) { f(first + i); });
-  }
+  for (std::uint32_t colour = 0; colour < joints.colours.count; ++colour)
+    for_joints_of_colour(team, joints.colours, colour, joints.colours.first[colour + 1], f);
+}
+/// f(j) for every joint that is not in the system.
+template <class F>
+PLUMB_DEVICE void for_single_joints(Team& team, const JointSet& joints, const F& f) {
+  if (joints.system.base == 0) return;
+  for (std::uint32_t colour = 0; colour < joints.colours.count; ++colour)
+    for_joints_of_colour(team, joints.colours, colour, joints.colours.system[colour], f);
 }
 
 PLUMB_DEVICE inline void refresh_joints(Team& team, const JointSet& joints) {
@@ -41,15 +65,6 @@ PLUMB_DEVICE inline void warm_start_joints(Team& team, const JointSet& joints, b
   if (first) refresh_joints(team, joints);
   const JointView view = joints.view;
   for_joints(team, joints, [=](std::uint32_t j) { warm_start_joint(view, j, first, step); });
-}
-
-PLUMB_DEVICE inline void solve_joints(Team& team, const JointSet& joints, const StepParameters& step,
-                                      bool take_back_error) {
-  if (joints.count == 0) return;
-  if (!take_back_error) refresh_joints(team, joints);
-  const JointView view = joints.view;
-  const JointPass pass = {step.joint, step.h, step.inverse_h, take_back_error};
-  for_joints(team, joints, [=](std::uint32_t j) { solve_joint(view, j, pass); });
 }
 
 }  // namespace plumb::impulse

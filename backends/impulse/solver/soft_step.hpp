@@ -1,6 +1,7 @@
 // The solver "tgs_soft": sub-steps with soft contacts and relaxation.
 #pragma once
 
+#include "solver/mechanisms.hpp"
 #include "solver/solver_step.hpp"
 
 namespace plumb::impulse {
@@ -17,11 +18,11 @@ struct StepSoftly : SolverStep {
       const bool first = k == 0;
       team.each(body_count, [=](std::uint32_t i) { integrate_velocity(self.bodies, self.solver, step, first, i); });
       if (first) warm_start(team);
-      warm_start_joints(team, joints, first, step);
-      solve_joints(team, joints, step, true);
+      warm_start_mechanisms(team, joints, first, step);
+      solve_mechanisms(team, joints, step, true);
       solve_contacts(team, step, true);
       move_bodies(team, step);
-      solve_joints(team, joints, step, false);
+      solve_mechanisms(team, joints, step, false);
       solve_contacts(team, step, false);
     }
     if (features.collision && features.restitution) bounce(team, step.restitution_speed);

@@ -1,0 +1,43 @@
+// In which order the joints of a mechanism are eliminated, worked out on the host when joints change.
+//
+// All joints of a mechanism are solved at once by a sparse L D L^T of their matrix J M^-1 J^T, whose block (i, j) is
+// not 0 where joints i and j share a body that moves. A chain or a tree has hardly any fill in a good order (Baraff,
+// "Linear-Time Dynamics using Lagrange Multipliers", SIGGRAPH 1996). Here joints go in rounds: each takes joints with
+// few neighbours left of which no two are neighbours, so that those of a round are worked on at once; a chain of n
+// joints takes about log2(n) rounds (cyclic reduction).
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace plumb::impulse {
+
+/// A block of L below the diagonal.
+struct JointEntry {
+  std::uint32_t row, column;
+};
+
+/// What an entry (i, j) loses by an earlier column k: L(i, k) D(k) L(j, k)^T.
+struct JointProduct {
+  std::uint32_t left, right;  ///< entries (i, k) and (j, k)
+};
+
+struct JointElimination {
+  std::vector<std::uint32_t> order;       ///< the joints that are eliminated; rows and columns count in this order
+  std::vector<std::uint32_t> one_by_one;  ///< joints of mechanisms that would fill too much, in order of their numbers
+  std::vector<bool> in_loop;              ///< by joint: whether its mechanism has a loop, through what stands still too
+  std::vector<std::uint32_t> level_first;  ///< columns of each round, and the end
+  std::vector<JointEntry> entries;         ///< by column
+  std::vector<std::uint32_t> column_first;
+  std::vector<std::uint32_t> row_entries;  ///< entries by row, ascending columns
+  std::vector<std::uint32_t> row_first;
+  std::vector<JointProduct> products;  ///< by entry
+  std::vector<std::uint32_t> product_first;
+};
+
+/// joins: the moving bodies of each joint; a body number of `none` is no body.
+[[nodiscard]] JointElimination eliminate_joints(const std::vector<std::pair<std::uint32_t, std::uint32_t>>& joins,
+                                                std::uint32_t none);
+
+}  // namespace plumb::impulse

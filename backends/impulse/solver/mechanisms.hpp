@@ -1,0 +1,47 @@
+// What the sub-stepped solver does with the joints: mechanisms are solved as a whole where their matrix stays sparse,
+// the joints of others one by one.
+#pragma once
+
+#include "solver/joint_loops.hpp"
+
+namespace plumb::impulse {
+
+/// The joints as they stand now.
+PLUMB_DEVICE inline void refresh_mechanisms(Team& team, const JointSet& joints, Real h) {
+  const JointView view = joints.view;
+  const std::uint32_t base = joints.system.base;
+  team.each(joints.count, [=](std::uint32_t j) {
+    make_joint_rows(view, j);
+    if (j < base) factor_joint(view, j);
+  });
+  factor_system(team, joints.system, h);
+}
+
+/// The impulses of the last sub-step, or step, act again.
+PLUMB_DEVICE inline void warm_start_mechanisms(Team& team, const JointSet& joints, bool first,
+                                               const StepParameters& step) {
+  if (joints.count == 0) return;
+  const JointView view = joints.view;
+  const JointSystem system = joints.system;
+  if (first) {
+    team.each(joints.count, [=](std::uint32_t j) { take_over_impulse(view, j, step); });
+    refresh_mechanisms(team, joints, step.h);
+  }
+  for_single_joints(team, joints, [=](std::uint32_t j) { warm_start_joint(view, j, false, step); });
+  team.each(system.body_count, [=](std::uint32_t i) { push_body(system, i, true); });
+}
+
+/// One pass: the first of a sub-step, which takes errors back, or the second, after positions have moved.
+PLUMB_DEVICE inline void solve_mechanisms(Team& team, const JointSet& joints, const StepParameters& step,
+                                          bool take_back_error) {
+  if (joints.count == 0) return;
+  if (!take_back_error) refresh_mechanisms(team, joints, step.h);
+  const JointView view = joints.view;
+  const JointPass pass = {step.joint, step.h, step.inverse_h, take_back_error};
+  for_single_joints(team, joints, [=](std::uint32_t j) { solve_joint(view, j, pass); });
+  JointPass exact = pass;
+  exact.softness = {step.joint_rate, 1, 0};
+  solve_system(team, joints.system, exact);
+}
+
+}  // namespace plumb::impulse
