@@ -140,8 +140,10 @@ void Simulation::upload_changes() {
 }
 
 void Simulation::step(const StepParameters& parameters) {
-  if (parameters.solver != parameters_[0].solver)
+  if (parameters.solver != parameters_[0].solver) {
+    solver_.choose(parameters.solver);
     for (Recording& recording : recordings_) recording.forget();
+  }
   parameters_[0] = parameters;
   parameters_[0].step = ++step_;
   repeated_ = false;
@@ -173,10 +175,13 @@ void Simulation::enqueue() {
     narrow_phase_.collide(executor_, now, all, shapes_on, margins_.data(), shape_types_, counters);
     colouring_.begin(executor_);
     narrow_phase_.match(executor_, now, last, all, shapes_on, parameters, counters, colouring_.masks());
-    colouring_.colour(executor_, now, velocity.device(), proxies.device(), counters);
+    if (solver_.needs_colours())
+      colouring_.colour(executor_, now, velocity.device(), proxies.device(), counters);
+    else
+      colouring_.leave_out(executor_, counters);
     solver_.prepare(executor_, now, all, shapes_on, colouring_, parameters, counters);
   }
-  solver_.solve(executor_, parameters_[0].solver, all, body_count_, parameters, counters, pair_capacity_, joints);
+  solver_.solve(executor_, all, body_count_, parameters, counters, pair_capacity_, joints);
   if (features_.collision) solver_.keep_impulses(executor_, now, counters);
   executor_.to_host(counters_, 1);
 }

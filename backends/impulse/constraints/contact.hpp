@@ -137,7 +137,7 @@ PLUMB_HD auto solve_normal_block(const RowAccess<N>& row, int points, const Vec3
     total[p] = row.get(point_field(p, kNormalImpulse));
     const N give = error[p].impulse_scale * total[p] / (error[p].mass_scale * select(there, mass, one));
     residual[p] = select(there, error[p].speed + give, zero);
-    holds = holds && !(there && error[p].open > zero);
+    holds = holds && !(there && error[p].open > N(kHuge / 2));
   }
   std::uint32_t field = kBlockInverse;
   for (int p = 0; p < kManifoldPoints; ++p)

@@ -5,6 +5,7 @@
 #include "constraints/contact_rows.hpp"
 #include "exec/executor.hpp"
 #include "narrowphase/contact_cache.hpp"
+#include "solver/body_parts.hpp"
 #include "solver/solver_bodies.hpp"
 #include "step_counters.hpp"
 #include "step_parameters.hpp"
@@ -21,7 +22,8 @@ struct PrepareContacts {
   const std::uint32_t* order;    ///< rows of the cache by colour
   const std::uint32_t* colours;  ///< of each place in the order
   const StepParameters* parameters;
-  std::uint32_t nobody;  ///< body slot that stands for none in unused lanes
+  std::uint32_t nobody;    ///< body slot that stands for none in unused lanes
+  const PartRange* parts;  ///< by body: how many it is split into; null: bodies are whole
 
   /// Place j in the order by colour.
   PLUMB_HD void operator()(std::uint32_t j) const;
@@ -111,8 +113,13 @@ PLUMB_HD inline void PrepareContacts::operator()(std::uint32_t j) const {
   const std::uint32_t a = proxy_a.body, b = proxy_b.body;
   const Vec offset_a = rotate(bodies.orientation[a], proxy_a.frame.position);
   const Vec from_a_to_b = between(bodies.position[a], bodies.position[b]);
-  const Sym inertia_a = solver_bodies.inertia[a].inverse, inertia_b = solver_bodies.inertia[b].inverse;
-  const Real inverse_mass = bodies.velocity[a].inverse_mass + bodies.velocity[b].inverse_mass;
+  const auto split = [this](std::uint32_t body) {
+    return parts == nullptr ? Real(1) : static_cast<Real>(parts[body].end - parts[body].first);
+  };
+  const Real parts_a = split(a), parts_b = split(b);
+  const Sym inertia_a = parts_a * solver_bodies.inertia[a].inverse,
+            inertia_b = parts_b * solver_bodies.inertia[b].inverse;
+  const Real inverse_mass = parts_a * bodies.velocity[a].inverse_mass + parts_b * bodies.velocity[b].inverse_mass;
 
   rows.body_a[slot] = a;
   rows.body_b[slot] = b;

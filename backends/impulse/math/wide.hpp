@@ -71,4 +71,14 @@ inline Lanes sqrt(const Lanes& a) {
 PLUMB_HD constexpr bool any(bool mask) { return mask; }
 PLUMB_HD constexpr Real largest(Real x) { return x; }
 
+/// One lane of several, to read or to write.
+template <class N>
+PLUMB_HD Real& lane_of(N& lanes, std::uint32_t lane) {
+  return reinterpret_cast<Real*>(&lanes)[lane];
+}
+template <class N>
+PLUMB_HD const Real& lane_of(const N& lanes, std::uint32_t lane) {
+  return reinterpret_cast<const Real*>(&lanes)[lane];
+}
+
 }  // namespace plumb::impulse

@@ -47,17 +47,18 @@ const std::vector<Row>& rows() {
   constexpr auto real = PLUMB_SETTING_FLOAT, whole = PLUMB_SETTING_INT, flag = PLUMB_SETTING_BOOL;
   constexpr auto quality = PLUMB_ROLE_QUALITY, behaviour = PLUMB_ROLE_BEHAVIOUR;
   static const std::vector<Row> all = {
-      choice("solver", std::span(kSolvers).first(2), &S::solver,
-             "tgs_soft: soft constraints in sub-steps; si: sequential impulses over the whole step"),
+      choice("solver", kSolvers, &S::solver,
+             "tgs_soft: soft constraints in sub-steps; si: sequential impulses, the step whole; jacobi: likewise, all "
+             "at once on split bodies; xpbd: positions in sub-steps"),
       number("substeps", whole, quality, 1, 256, 8, "1", &S::substeps,
-             "tgs_soft: parts of a step in which velocities are solved and positions moved"),
+             "tgs_soft, xpbd: parts of a step in which velocities are solved and positions moved"),
       number("iterations", whole, quality, 1, kMostPasses, 10, "1", &S::iterations,
-             "si: passes over all constraints in a step, at most"),
+             "si, jacobi: passes over all constraints in a step, at most"),
       number("stop_below", real, behaviour, 0, 1, 1e-5, "1", &S::stop_below,
-             "si: passes end when no impulse changes by more than this share of the largest; 0: never"),
+             "si, jacobi: passes end when no impulse changes by more than this share of the largest; 0: never"),
       number("bias", real, behaviour, 0, 1, 0.2, "1", &S::bias,
-             "si: share of the overlap beyond the slop that a step takes back; 0: none"),
-      number("slop", real, behaviour, 0, 1e6, 0.01, "m", &S::slop, "si: overlap that is let be"),
+             "si, jacobi: share of the overlap beyond the slop that a step takes back; 0: none"),
+      number("slop", real, behaviour, 0, 1e6, 0.01, "m", &S::slop, "si, jacobi: overlap that is let be"),
       number("contact_hertz", real, behaviour, 0, 1e5, 0, "1/s", &S::contact_hertz,
              "stiffness of contacts against overlap; 0: a quarter of the sub-steps a second, the most that is stable"),
       number("contact_damping_ratio", real, behaviour, 0, 1000, 50, "1", &S::contact_damping_ratio,

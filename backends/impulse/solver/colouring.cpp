@@ -147,6 +147,21 @@ struct LayOutSlots {
   }
 };
 
+struct ListUncoloured {
+  std::uint32_t *colours, *rows;
+  PLUMB_HD void operator()(std::uint32_t row) const {
+    colours[row] = 0;
+    rows[row] = row;
+  }
+};
+
+struct PutAllInFirst {
+  StepCounters* counters;
+  PLUMB_HD void operator()(std::uint32_t colour) const {
+    counters->first_in_colour[colour] = colour == 0 ? 0 : counters->manifolds;
+  }
+};
+
 }  // namespace
 
 void Colouring::reserve(Executor& /*executor*/, std::uint32_t bodies, std::uint32_t manifolds) {
@@ -170,6 +185,12 @@ void Colouring::colour(Executor& executor, const ContactCache& cache, const Velo
   executor.run(manifolds, ListColours{view, colours_.data(), rows_.data()});
   sort_.run(executor, manifolds, colours_.data(), rows_.data(), sorted_colours_.data(), sorted_rows_.data(), 7);
   executor.run(kColours + 2, FindColours{sorted_colours_.data(), counters});
+  executor.run(1U, LayOutSlots{counters});
+}
+
+void Colouring::leave_out(Executor& executor, StepCounters* counters) {
+  executor.run(Count{&counters->manifolds, capacity_}, ListUncoloured{sorted_colours_.data(), sorted_rows_.data()});
+  executor.run(kColours + 2, PutAllInFirst{counters});
   executor.run(1U, LayOutSlots{counters});
 }
 

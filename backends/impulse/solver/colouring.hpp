@@ -29,6 +29,10 @@ class Colouring {
   void colour(Executor& executor, const ContactCache& cache, const Velocity* velocities, const Proxy* proxies,
               StepCounters* counters);
 
+  /// Instead of colour(): all rows in one colour, in their own order, for a solver that needs none. Colours that
+  /// manifolds have are kept for one that does.
+  void leave_out(Executor& executor, StepCounters* counters);
+
   [[nodiscard]] const std::uint32_t* order() const { return sorted_rows_.data(); }
   [[nodiscard]] const std::uint32_t* colours() const { return sorted_colours_.data(); }
 

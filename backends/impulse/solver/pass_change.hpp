@@ -1,9 +1,9 @@
 // How much a pass over the constraints changed their impulses: what tells that further passes would buy nothing.
 #pragma once
 
-#include "constraints/contact_rows.hpp"
+#include "constraints/contact.hpp"
 #include "exec/atomic.hpp"
-#include "exec/executor.hpp"
+#include "solver/joint_loops.hpp"
 
 namespace plumb::impulse {
 
@@ -54,5 +54,34 @@ struct ImpulsesBefore {
 };
 template <class N>
 ImpulsesBefore(const RowAccess<N>&, int) -> ImpulsesBefore<N>;
+
+/// A contact in one pass: normals, then friction, which so stays within the cone. noted: null where nobody asks.
+template <class N>
+PLUMB_HD void solve_whole_contact(const RowAccess<N>& row, int points, SolverBody<N>& a, SolverBody<N>& b,
+                                  const ContactPass& pass, PassChange* noted) {
+  const ImpulsesBefore before(row, noted == nullptr ? 0 : points);
+  solve_normals(row, points, a, b, pass);
+  if (pass.friction) solve_friction(row, points, a, b);
+  if (noted != nullptr) before.compare(row, points, *noted);
+}
+
+/// All joints in one pass.
+PLUMB_DEVICE inline void solve_joints_noted(Team& team, const JointSet& joints, const StepParameters& step,
+                                            PassChange* noted) {
+  const JointView view = joints.view;
+  const JointPass pass = {{step.bias_rate, 1, 0}, step.h, step.inverse_h, true};
+  for_joints(team, joints, [=](std::uint32_t j) {
+    const JointImpulse before = view.impulses[view.joints[j].slot];
+    solve_joint(view, j, pass);
+    if (noted == nullptr) return;
+    const JointImpulse& now = view.impulses[view.joints[j].slot];
+    Real changed = 0, reached = 0;
+    for (int i = 0; i < rows_of(view.joints[j].type); ++i) {
+      changed = max(changed, abs(now.along[i] - before.along[i]));
+      reached = max(reached, abs(now.along[i]));
+    }
+    noted->note(changed, reached);
+  });
+}
 
 }  // namespace plumb::impulse

@@ -22,17 +22,18 @@ struct StepSequentially : SolverStep {
       if (i < self.body_count) integrate_velocity(self.bodies, self.solver, step, true, i);
       if (i < step.passes) self.changes[i] = {0, 0};
     });
-    if (features.collision) {
-      start(team, step);
-      std::uint32_t passes = 0;
-      while (passes < step.passes) {
-        pass(team, step, changes[passes]);
-        ++passes;
-        if (step.stop_below > 0 && changes[passes - 1].is_below(step.stop_below)) break;
-      }
-      team.single([=] { self.counters->passes = passes; });
-      if (features.contact_impulses) add_up(team);
+    warm_start_joints(team, joints, true, step);
+    if (features.collision) start(team, step);
+    std::uint32_t passes = 0;
+    while (passes < step.passes) {
+      PassChange* const noted = step.stop_below > 0 ? &changes[passes] : nullptr;
+      solve_joints_noted(team, joints, step, noted);
+      if (features.collision) solve_contacts(team, noted);
+      ++passes;
+      if (noted != nullptr && noted->is_below(step.stop_below)) break;
     }
+    team.single([=] { self.counters->passes = passes; });
+    if (features.collision && features.contact_impulses) add_up(team);
     move_bodies(team, step);
     if (features.collision && features.restitution) bounce(team, step.restitution_speed);
     finish(team);
@@ -40,22 +41,19 @@ struct StepSequentially : SolverStep {
 
  private:
   PLUMB_DEVICE void start(Team& team, const StepParameters& step) const {
-    for_contacts(team, contacts, solver, false, [=](const auto& row, int points, auto& a, auto& b) {
+    for_contacts(team, contacts, solver, BodyUse::kVelocity, [=](const auto& row, int points, auto& a, auto& b) {
       put_bias(row, points, step);
       warm_start_contact(row, points, a, b);
     });
   }
-  PLUMB_DEVICE void pass(Team& team, const StepParameters& step, PassChange& change) const {
+  PLUMB_DEVICE void solve_contacts(Team& team, PassChange* noted) const {
     ContactPass pass{};
     pass.friction = features.friction;
     pass.note_impacts = features.restitution;
-    PassChange* const noted = step.stop_below > 0 ? &change : nullptr;
-    for_contacts(team, contacts, solver, false, [pass, noted](const auto& row, int points, auto& a, auto& b) {
-      const ImpulsesBefore before(row, noted == nullptr ? 0 : points);
-      solve_normals(row, points, a, b, pass);
-      if (pass.friction) solve_friction(row, points, a, b);
-      if (noted != nullptr) before.compare(row, points, *noted);
-    });
+    for_contacts(team, contacts, solver, BodyUse::kVelocity,
+                 [pass, noted](const auto& row, int points, auto& a, auto& b) {
+                   solve_whole_contact(row, points, a, b, pass, noted);
+                 });
   }
 };
 

@@ -32,7 +32,7 @@ struct StepSoftly : SolverStep {
  private:
   PLUMB_DEVICE void warm_start(Team& team) const {
     if (!features.collision) return;
-    for_contacts(team, contacts, solver, false,
+    for_contacts(team, contacts, solver, BodyUse::kVelocity,
                  [](const auto& row, int points, auto& a, auto& b) { warm_start_contact(row, points, a, b); });
   }
   PLUMB_DEVICE void solve_contacts(Team& team, const StepParameters& step, bool take_back_overlap) const {
@@ -45,7 +45,7 @@ struct StepSoftly : SolverStep {
                               features.friction,
                               take_back_overlap && features.restitution};
     const bool add_up = !take_back_overlap && features.contact_impulses;
-    for_contacts(team, contacts, solver, take_back_overlap,
+    for_contacts(team, contacts, solver, take_back_overlap ? BodyUse::kVelocityWhereMoved : BodyUse::kVelocity,
                  [pass, add_up](const auto& row, int points, auto& a, auto& b) {
                    solve_normals(row, points, a, b, pass);
                    if (pass.friction) {

@@ -1,7 +1,9 @@
 #include "solver/solver.hpp"
 
 #include "constraints/prepare_contacts.hpp"
+#include "solver/jacobi_step.hpp"
 #include "solver/motion.hpp"
+#include "solver/position_step.hpp"
 #include "solver/sequential_step.hpp"
 #include "solver/soft_step.hpp"
 
@@ -25,8 +27,14 @@ void Solver::reserve(Executor& /*executor*/, std::uint32_t bodies, std::uint32_t
   free_velocity_.grow(bodies);
   for (Buffer<std::uint32_t>* buffer : {&body_a_, &body_b_, &count_, &row_}) buffer->grow(slots_);
   if (features_.contact_impulses) step_impulses_.grow(manifolds);
-  pass_changes_.grow(kMostPasses);
   numbers_.grow(std::size_t{(slots_ + kRowBlock - 1) / kRowBlock} * kRowBlock * kAllFields);
+  choose(kind_);
+}
+
+void Solver::choose(SolverKind kind) {
+  kind_ = kind;
+  if (kind == SolverKind::kSequential || kind == SolverKind::kJacobi) pass_changes_.grow(kMostPasses);
+  if (kind == SolverKind::kJacobi) split_.reserve(nobody_ + 1, slots_ - slots_for(0));
 }
 
 void Solver::begin(Executor& executor, const Bodies& all, std::uint32_t body_count) {
@@ -36,21 +44,26 @@ void Solver::begin(Executor& executor, const Bodies& all, std::uint32_t body_cou
 void Solver::prepare(Executor& executor, const ContactCache& cache, const Bodies& all, const Proxies& proxies,
                      const Colouring& colouring, const StepParameters* parameters, StepCounters* counters) {
   const Count manifolds = {&counters->manifolds, slots_ - slots_for(0)};
-  executor.run(manifolds, PrepareContacts{cache, all, proxies, bodies(all), rows(), counters, colouring.order(),
-                                          colouring.colours(), parameters, nobody_});
+  const bool split = kind_ == SolverKind::kJacobi;
+  if (split) split_.list(executor, cache, all.velocity, proxies.rows, counters);
+  executor.run(manifolds,
+               PrepareContacts{cache, all, proxies, bodies(all), rows(), counters, colouring.order(),
+                               colouring.colours(), parameters, nobody_, split ? split_.parts().ranges : nullptr});
   executor.run(kOverflow + 1, PadColours{rows(), counters, nobody_});
 }
 
-void Solver::solve(Executor& executor, SolverKind kind, const Bodies& all, std::uint32_t body_count,
-                   const StepParameters* parameters, StepCounters* counters, std::uint32_t pair_capacity,
-                   JointStore& joints) {
+void Solver::solve(Executor& executor, const Bodies& all, std::uint32_t body_count, const StepParameters* parameters,
+                   StepCounters* counters, std::uint32_t pair_capacity, JointStore& joints) {
   const Count load = {&counters->largest_colour, slots_};
-  const SolverStep step = {all,       bodies(all), {rows(), counters}, body_count,
-                           features_, parameters,  counters,           pair_capacity, joints.set(all, bodies(all), features_.gyroscopic)};
+  const SolverStep step = {all,        bodies(all),   {rows(), counters},
+                           body_count, features_,     parameters,
+                           counters,   pair_capacity, joints.set(all, bodies(all), features_.gyroscopic)};
   const auto run = [&](const auto& solver) { executor.team(load, body_count / 2, solver); };
-  switch (kind) {
+  switch (kind_) {
     case SolverKind::kSequential: return run(StepSequentially{step, pass_changes_.data()});
-    default: return run(StepSoftly{step});
+    case SolverKind::kJacobi: return run(StepInParts{step, pass_changes_.data(), split_.parts()});
+    case SolverKind::kPosition: return run(StepPositions{step});
+    case SolverKind::kTgsSoft: return run(StepSoftly{step});
   }
 }
 

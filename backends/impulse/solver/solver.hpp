@@ -10,6 +10,7 @@
 #include "solver/colouring.hpp"
 #include "solver/pass_change.hpp"
 #include "solver/solver_bodies.hpp"
+#include "solver/split_bodies.hpp"
 #include "step_counters.hpp"
 #include "step_parameters.hpp"
 
@@ -24,6 +25,9 @@ class Solver {
  public:
   explicit Solver(const SolverFeatures& features) : features_(features) {}
   void reserve(Executor& executor, std::uint32_t bodies, std::uint32_t manifolds);
+  /// Which solver works from now on. Memory that only it needs is made here.
+  void choose(SolverKind kind);
+  [[nodiscard]] bool needs_colours() const { return kind_ != SolverKind::kJacobi; }
 
   /// World inertia of all bodies, no displacement.
   void begin(Executor& executor, const Bodies& bodies, std::uint32_t body_count);
@@ -31,9 +35,8 @@ class Solver {
   void prepare(Executor& executor, const ContactCache& cache, const Bodies& bodies, const Proxies& proxies,
                const Colouring& colouring, const StepParameters* parameters, StepCounters* counters);
   /// Moves the bodies through the step.
-  void solve(Executor& executor, SolverKind kind, const Bodies& bodies, std::uint32_t body_count,
-             const StepParameters* parameters, StepCounters* counters, std::uint32_t pair_capacity,
-             JointStore& joints);
+  void solve(Executor& executor, const Bodies& bodies, std::uint32_t body_count, const StepParameters* parameters,
+             StepCounters* counters, std::uint32_t pair_capacity, JointStore& joints);
   void keep_impulses(Executor& executor, const ContactCache& cache, StepCounters* counters);
 
   /// How far bodies moved in the last step, by body.
@@ -51,6 +54,7 @@ class Solver {
   }
 
   SolverFeatures features_;
+  SolverKind kind_ = SolverKind::kTgsSoft;
   std::uint32_t slots_ = 0, nobody_ = 0;
   Buffer<Displacement> displacement_;
   Buffer<WorldInertia> inertia_;
@@ -58,7 +62,8 @@ class Solver {
   Buffer<std::uint32_t> body_a_, body_b_, count_, row_;
   Buffer<Real> numbers_;
   Buffer<StepImpulses> step_impulses_;
-  Buffer<PassChange> pass_changes_;
+  Buffer<PassChange> pass_changes_;  // of si and jacobi
+  SplitBodies split_;                // of jacobi
 };
 
 }  // namespace plumb::impulse

@@ -94,4 +94,17 @@ PLUMB_HD void store_body(const SolverBodies& bodies, const std::uint32_t* indice
   }
 }
 
+/// Writes displacements back, of bodies that can be pushed only.
+template <class N>
+PLUMB_HD void store_displacement(const SolverBodies& bodies, const std::uint32_t* indices, const SolverBody<N>& body) {
+  constexpr std::uint32_t kHere = sizeof(N) / sizeof(Real);
+  for (std::uint32_t lane = 0; lane < kHere; ++lane) {
+    if (!(lane_of(body.inverse_mass, lane) > 0)) continue;
+    Displacement& row = bodies.displacement[indices[lane]];
+    row.linear = {lane_of(body.moved.x, lane), lane_of(body.moved.y, lane), lane_of(body.moved.z, lane)};
+    row.rotation = {lane_of(body.rotated.x, lane), lane_of(body.rotated.y, lane), lane_of(body.rotated.z, lane),
+                    lane_of(body.rotated.w, lane)};
+  }
+}
+
 }  // namespace plumb::impulse

@@ -24,7 +24,7 @@ struct SolverStep {
   PLUMB_DEVICE bool must_repeat() const { return counters->pairs > pair_capacity; }
 
   PLUMB_DEVICE void bounce(Team& team, Real slowest) const {
-    for_contacts(team, contacts, solver, false, [slowest](const auto& row, int points, auto& a, auto& b) {
+    for_contacts(team, contacts, solver, BodyUse::kVelocity, [slowest](const auto& row, int points, auto& a, auto& b) {
       bounce_contact(row, points, a, b, slowest);
     });
   }

@@ -1,0 +1,51 @@
+// Contacts of bodies that have moved already: position-based dynamics over the rows of contact.hpp.
+//
+// An impulse at the level of positions moves a body by what it would move in the sub-step with the velocity that the
+// impulse gives, and it gives that velocity too. So positions and velocities stay a sub-step's way from each other, and
+// velocities need not be formed from differences of positions.
+#pragma once
+
+#include "constraints/contact.hpp"
+
+namespace plumb::impulse {
+
+/// Starts a sub-step's impulses at 0 (compliance 0) and writes kOpen: what a point's relative speed must lose so that
+/// it ends the sub-step without overlap. Overlap from before is taken back no faster than push_speed.
+template <class N>
+PLUMB_HD void start_contact_position(const RowAccess<N>& row, int points, const SolverBody<N>& a,
+                                     const SolverBody<N>& b, const StepParameters& step) {
+  const N zero = N(0);
+  const Vec3<N> n = row.vector(kNormal);
+  for (int p = 0; p < points; ++p) {
+    const Vec3<N> ra = row.vector(point_field(p, kArmA)), rb = row.vector(point_field(p, kArmB));
+    const N separation = row.get(point_field(p, kSeparation)) + dot(displacement_at(b, rb) - displacement_at(a, ra), n);
+    const N before = separation * N(step.inverse_h) - dot(velocity_at(b, rb) - velocity_at(a, ra), n);
+    row.put(point_field(p, kOpen), max(before, N(-step.push_speed)));
+    for (std::uint32_t i = 0; i < 3; ++i) row.put(point_field(p, kNormalImpulse + i), zero);
+    row.put(point_field(p, kImpactSpeed), N(1));
+  }
+}
+
+/// Writes kOpen for the pass at the level of velocities: what was pushed leaves with Newton's restitution, or not at
+/// all, so that what took back overlap does not stay as velocity; what was not pushed is let be.
+template <class N>
+PLUMB_HD void start_contact_velocity(const RowAccess<N>& row, int points, Real slowest) {
+  const N zero = N(0);
+  const N restitution = row.get(kRestitution);
+  for (int p = 0; p < points; ++p) {
+    const N impact = row.get(point_field(p, kImpactSpeed));
+    const N leave = select(impact < N(-slowest), restitution * impact, zero);
+    row.put(point_field(p, kOpen), select(row.get(point_field(p, kNormalImpulse)) > zero, leave, N(kHuge)));
+  }
+}
+
+/// Moves a body by what its change of velocity since `before` makes in h seconds.
+template <class N>
+PLUMB_HD void displace(SolverBody<N>& body, const Vec3<N>& linear_before, const Vec3<N>& angular_before, Real h) {
+  body.moved += N(h) * (body.linear - linear_before);
+  const Vec3<N> half = N(h / 2) * (body.angular - angular_before);
+  const Quat4<N> q = body.rotated, by = Quat4<N>{half.x, half.y, half.z, N(0)} * q;
+  body.rotated = normalized(Quat4<N>{q.x + by.x, q.y + by.y, q.z + by.z, q.w + by.w});
+}
+
+}  // namespace plumb::impulse

@@ -1,0 +1,119 @@
+// The solver "jacobi": all contacts at once, on split bodies.
+#pragma once
+
+#include "constraints/contact_bias.hpp"
+#include "solver/body_parts.hpp"
+#include "solver/pass_change.hpp"
+#include "solver/solver_step.hpp"
+
+namespace plumb::impulse {
+
+/// Impulses as in "si", but a pass solves all contacts at once, none seeing what the others do (Jacobi). That diverges
+/// where a body has several contacts, unless it is split into as many parts of equal mass: each contact works on parts
+/// of its own, and after the pass a body's parts are put together again, at their mean velocity. Momentum is kept, and
+/// the energy of the impulses' error falls in every pass (R. Tonge, F. Benevolenski, A. Voroshilov, "Mass Splitting for
+/// Jitter-Free Parallel Rigid Body Simulation", ACM Trans. Graph. 31(4), 2012). The sum over a body's parts goes in the
+/// order of its contacts. Joints are solved by colours, between the passes.
+struct StepInParts : SolverStep {
+  PassChange* changes;  ///< by pass
+  BodyParts parts;
+
+  PLUMB_DEVICE void operator()(Team& team) const {
+    if (must_repeat()) return;
+    const StepInParts self = *this;
+    const StepParameters step = *parameters;
+    team.each(max(body_count, step.passes), [=](std::uint32_t i) {
+      if (i < self.body_count) integrate_velocity(self.bodies, self.solver, step, true, i);
+      if (i < step.passes) self.changes[i] = {0, 0};
+    });
+    warm_start_joints(team, joints, true, step);
+    if (features.collision) start(team, step);
+    std::uint32_t passes = 0;
+    while (passes < step.passes) {
+      PassChange* const noted = step.stop_below > 0 ? &changes[passes] : nullptr;
+      solve_joints_noted(team, joints, step, noted);
+      if (features.collision) solve_contacts(team, noted);
+      ++passes;
+      if (noted != nullptr && noted->is_below(step.stop_below)) break;
+    }
+    team.single([=] { self.counters->passes = passes; });
+    if (features.collision && features.contact_impulses) add_up(team);
+    move_bodies(team, step);
+    if (features.collision && features.restitution)
+      for (std::uint32_t k = 0; k < step.passes; ++k) bounce_parts(team, step.restitution_speed);
+    finish(team);
+  }
+
+ private:
+  PLUMB_DEVICE void start(Team& team, const StepParameters& step) const {
+    for_parts(team, [=](const auto& row, int points, auto& a, auto& b) {
+      put_bias(row, points, step);
+      warm_start_contact(row, points, a, b);
+    });
+  }
+  PLUMB_DEVICE void solve_contacts(Team& team, PassChange* noted) const {
+    ContactPass pass{};
+    pass.friction = features.friction;
+    pass.note_impacts = features.restitution;
+    for_parts(team, [pass, noted](const auto& row, int points, auto& a, auto& b) {
+      solve_whole_contact(row, points, a, b, pass, noted);
+    });
+  }
+  PLUMB_DEVICE void bounce_parts(Team& team, Real slowest) const {
+    for_parts(team,
+              [slowest](const auto& row, int points, auto& a, auto& b) { bounce_contact(row, points, a, b, slowest); });
+  }
+
+  /// work on every contact with parts of its own, then the parts put together.
+  template <class Work>
+  PLUMB_DEVICE void for_parts(Team& team, const Work& work) const {
+    const StepInParts self = *this;
+    team.each(counters->first_slot[kColours + 1] / kLanes,
+              [=](std::uint32_t i) { self.work_on_parts(i * kLanes, work); });
+    team.each(body_count, [=](std::uint32_t i) { self.put_together(i); });
+  }
+
+  template <class Work>
+  PLUMB_HD void work_on_parts(std::uint32_t slot, const Work& work) const {
+    const ContactRows& rows = contacts.rows;
+    std::uint32_t points = 0;
+    for (std::uint32_t lane = 0; lane < kLanes; ++lane) points = max(points, rows.count[slot + lane]);
+    if (points == 0) return;
+    SolverBody<Lanes> a = load_part(rows.body_a + slot), b = load_part(rows.body_b + slot);
+    const Vec3<Lanes> a_linear = a.linear, a_angular = a.angular, b_linear = b.linear, b_angular = b.angular;
+    work(RowAccess<Lanes>{rows.at(slot)}, static_cast<int>(points), a, b);
+    store_change(2 * slot, a.linear - a_linear, a.angular - a_angular);
+    store_change(2 * slot + 1, b.linear - b_linear, b.angular - b_angular);
+  }
+  PLUMB_HD SolverBody<Lanes> load_part(const std::uint32_t* indices) const {
+    SolverBody<Lanes> body = load_body<Lanes>(solver, indices, false);
+    Lanes count;
+    for (std::uint32_t lane = 0; lane < kLanes; ++lane) lane_of(count, lane) = parts.count(indices[lane]);
+    body.inverse_mass = count * body.inverse_mass;
+    body.inverse_inertia = count * body.inverse_inertia;
+    return body;
+  }
+  PLUMB_HD void store_change(std::uint32_t end, const Vec3<Lanes>& linear, const Vec3<Lanes>& angular) const {
+    for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
+      PartChange& change = parts.changes[end + 2 * lane];
+      change.linear = {lane_of(linear.x, lane), lane_of(linear.y, lane), lane_of(linear.z, lane)};
+      change.angular = {lane_of(angular.x, lane), lane_of(angular.y, lane), lane_of(angular.z, lane)};
+    }
+  }
+  PLUMB_HD void put_together(std::uint32_t body) const {
+    const PartRange range = parts.ranges[body];
+    if (range.first == range.end) return;
+    Vec linear = {0, 0, 0}, angular = {0, 0, 0};
+    for (std::uint32_t i = range.first; i < range.end; ++i) {
+      const PartChange& change = parts.changes[parts.ends[i]];
+      linear += change.linear;
+      angular += change.angular;
+    }
+    const Real share = Real(1) / parts.count(body);
+    Velocity& velocity = solver.velocity[body];
+    velocity.linear += share * linear;
+    velocity.angular += share * angular;
+  }
+};
+
+}  // namespace plumb::impulse

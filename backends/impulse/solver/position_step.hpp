@@ -1,0 +1,63 @@
+// The solver "xpbd": sub-steps of position-based dynamics.
+#pragma once
+
+#include "constraints/contact_position.hpp"
+#include "constraints/joint_position.hpp"
+#include "solver/solver_step.hpp"
+
+namespace plumb::impulse {
+
+/// Extended position-based dynamics in sub-steps of one pass each (M. Mueller, M. Macklin, N. Chentanez, S. Jeschke,
+/// T.-Y. Kim, "Detailed Rigid Body Simulation with Extended Position Based Dynamics", SCA 2020, algorithm 2): bodies
+/// move freely, constraints of no compliance put them back, and a pass over velocities sees to restitution and to
+/// friction of what slides. Unlike there, friction at the level of positions is cut to the cone and not refused beyond
+/// it: one point of a face would always be beyond, and a cube at rest on a slope would creep.
+struct StepPositions : SolverStep {
+  PLUMB_DEVICE void operator()(Team& team) const {
+    if (must_repeat()) return;
+    const StepPositions self = *this;
+    const StepParameters step = *parameters;
+    for (std::uint32_t k = 0; k < step.substeps; ++k) {
+      team.each(body_count, [=](std::uint32_t i) { integrate_velocity(self.bodies, self.solver, step, true, i); });
+      move_bodies(team, step);
+      correct_joints(team, step);
+      if (!features.collision) continue;
+      solve_positions(team, step);
+      solve_velocities(team, step);
+    }
+    finish(team);
+  }
+
+ private:
+  PLUMB_DEVICE void correct_joints(Team& team, const StepParameters& step) const {
+    const JointView view = joints.view;
+    for_joints(team, joints, [=](std::uint32_t j) { correct_joint(view, j, step); });
+  }
+  PLUMB_DEVICE void solve_positions(Team& team, const StepParameters& step) const {
+    ContactPass pass{};
+    pass.friction = features.friction;
+    pass.note_impacts = features.restitution;
+    for_contacts(team, contacts, solver, BodyUse::kAll, [=](const auto& row, int points, auto& a, auto& b) {
+      start_contact_position(row, points, a, b, step);
+      const auto a_linear = a.linear, a_angular = a.angular, b_linear = b.linear, b_angular = b.angular;
+      solve_normals(row, points, a, b, pass);
+      if (pass.friction) solve_friction(row, points, a, b);
+      displace(a, a_linear, a_angular, step.h);
+      displace(b, b_linear, b_angular, step.h);
+    });
+  }
+  PLUMB_DEVICE void solve_velocities(Team& team, const StepParameters& step) const {
+    ContactPass pass{};
+    pass.friction = features.friction;
+    const Real slowest = step.restitution_speed;
+    const bool add_up = features.contact_impulses;
+    for_contacts(team, contacts, solver, BodyUse::kVelocity, [=](const auto& row, int points, auto& a, auto& b) {
+      start_contact_velocity(row, points, slowest);
+      solve_normals(row, points, a, b, pass);
+      if (pass.friction) solve_friction(row, points, a, b);
+      if (add_up) add_up_impulses(row, points);
+    });
+  }
+};
+
+}  // namespace plumb::impulse
