@@ -34,6 +34,9 @@ class World final : public IPhysicsWorld, public IJoints, public IDebug, public 
   std::span<const PlumbContact> contacts() override;
   std::span<const PlumbEvent> events() override { return events_; }
 
+  /// Of the last step.
+  [[nodiscard]] const StepCounters& counters() const { return simulation_.counters(); }
+
   IJoints* joints() override { return this; }
   IDebug* debug() override { return this; }
   ISettings* settings() override { return this; }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "constraints/contact.hpp"
+#include "constraints/joint_bias.hpp"
 #include "exec/atomic.hpp"
 #include "solver/joint_loops.hpp"
 
@@ -69,10 +70,10 @@ PLUMB_HD void solve_whole_contact(const RowAccess<N>& row, int points, SolverBod
 PLUMB_DEVICE inline void solve_joints_noted(Team& team, const JointSet& joints, const StepParameters& step,
                                             PassChange* noted) {
   const JointView view = joints.view;
-  const JointPass pass = {{step.bias_rate, 1, 0}, step.h, step.inverse_h, true};
+  const Real bias_rate = step.bias_rate;
   for_joints(team, joints, [=](std::uint32_t j) {
     const JointImpulse before = view.impulses[view.joints[j].slot];
-    solve_joint(view, j, pass);
+    solve_joint_with_bias(view, j, bias_rate);
     if (noted == nullptr) return;
     const JointImpulse& now = view.impulses[view.joints[j].slot];
     Real changed = 0, reached = 0;
