@@ -25,7 +25,10 @@ struct StepSoftly : SolverStep {
       solve_mechanisms(team, joints, step, false);
       solve_contacts(team, step, false);
     }
-    if (features.collision && features.restitution) bounce(team, step.restitution_speed);
+    if (features.collision && features.restitution) {
+      bounce(team, step.restitution_speed);
+      solve_mechanisms(team, joints, step, false);  // what bounced takes along what it is joined to
+    }
     finish(team);
   }
 
