@@ -12,14 +12,15 @@ struct Softness {
   Real bias_rate;      ///< how fast an error is taken back, 1/s
   Real mass_scale;     ///< of the effective mass
   Real impulse_scale;  ///< of the accumulated impulse, taken off again
+  Real give = 0;       ///< impulse_scale over mass_scale
 };
 
 /// Softness of a damped spring of `hertz` and damping ratio `zeta` in steps of h seconds.
 inline Softness make_softness(double hertz, double zeta, double h) {
-  if (hertz <= 0) return {0, 1, 0};
+  if (hertz <= 0) return {0, 1, 0, 0};
   const double omega = 2 * 3.14159265358979323846 * hertz;
   const double a1 = 2 * zeta + h * omega, a2 = h * omega * a1, a3 = 1 / (1 + a2);
-  return {static_cast<Real>(omega / a1), static_cast<Real>(a2 * a3), static_cast<Real>(a3)};
+  return {static_cast<Real>(omega / a1), static_cast<Real>(a2 * a3), static_cast<Real>(a3), static_cast<Real>(1 / a2)};
 }
 
 /// How constraints are solved: the word of the setting "solver".
@@ -34,11 +35,11 @@ struct StepParameters {
   Real h;          ///< s, one sub-step
   Real inverse_h;  ///< 1/s
   std::uint32_t substeps;
-  std::uint32_t step;  ///< number of this step; steps count from 1
-  Softness contact;    ///< between two bodies that move
-  Softness ground;     ///< against a body that does not
-  Softness joint;      ///< of joints that are solved one by one
-  Real joint_rate;     ///< errors of mechanisms that are solved as a whole are taken back at this rate, 1/s
+  std::uint32_t step;      ///< number of this step; steps count from 1
+  Softness contact;        ///< between two bodies that move
+  Softness ground;         ///< against a body that does not
+  Softness joint;          ///< of joints that are solved one by one
+  Real joint_rate;         ///< errors of mechanisms that are solved as a whole are taken back at this rate, 1/s
   Real warm_start;         ///< share of the last step's impulses that is kept: its sub-step to this one's, or 0
   Real push_speed;         ///< overlap is taken back no faster than this, m/s
   Real restitution_speed;  ///< slower impacts do not bounce, m/s

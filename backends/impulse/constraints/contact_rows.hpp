@@ -1,5 +1,5 @@
 // Contact constraints as the solver reads them: structures of arrays in blocks of 32, so that neighbouring threads of a
-// GPU and neighbouring lanes of a CPU read neighbouring numbers. 80 bytes a point in float and 88 a manifold.
+// GPU and neighbouring lanes of a CPU read neighbouring numbers. 84 bytes a point in float and 88 a manifold.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,8 @@ enum PointField : std::uint32_t {
   kStepImpulse = 15,  ///< sums over the sub-steps so far, N s: normal, tangent, bitangent
   kTangentStep = 18,  ///< smallest eigenvalue of the tangent mass, kg
   kOpen = 19,  ///< speed that a point may approach with in the relaxing pass: 0, or without bound where it is apart
-  kPointFields = 20
+  kNormalGive = 20,  ///< 1 over the effective mass, 1/kg
+  kPointFields = 21
 };
 /// Inverse of the matrix that gives all points' speeds for all points' impulses, symmetric: 11 12 13 14 22 23 ... 44.
 constexpr std::uint32_t kBlockInverse = kRowFields + kManifoldPoints * kPointFields;

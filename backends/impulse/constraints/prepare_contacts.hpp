@@ -152,6 +152,7 @@ PLUMB_HD inline void PrepareContacts::operator()(std::uint32_t j) const {
     put_vector(field(kArmA), arm_a);
     put_vector(field(kArmB), arm_b);
     put(field(kSeparation), found.points[p].separation);
+    put(field(kNormalGive), give(n, n));
     put(field(kNormalMass), reciprocal_or_zero(give(n, n)));
     put_tangent_mass(numbers, p, give(t1, t1), give(t1, t2), give(t2, t2));
     put(field(kNormalImpulse), warm_start * kept.normal_impulse[p]);

@@ -9,6 +9,14 @@
 #include <cstdint>
 #include <type_traits>
 
+// Loops over the few points of a manifold are unrolled on a GPU, where an array that is indexed by a running number has
+// its place in memory and not in registers.
+#if defined(__CUDA_ARCH__)
+#define PLUMB_UNROLL _Pragma("unroll")
+#else
+#define PLUMB_UNROLL
+#endif
+
 #if defined(__CUDACC__)
 #define PLUMB_HD __host__ __device__
 #define PLUMB_DEVICE __device__  // what works with a Team, which a GPU's host has not

@@ -45,11 +45,11 @@ PLUMB_DEVICE void for_contacts(Team& team, const ContactSet& contacts, const Sol
   for (std::uint32_t colour = 0; colour < counters.colour_count; ++colour) {
     const std::uint32_t first = counters.first_slot[colour];
     team.each((counters.first_slot[colour + 1] - first) / kLanes,
-              [=](std::uint32_t i) { work_on_lanes<Lanes>(contacts, bodies, first + i * kLanes, use, work); });
+              [&](std::uint32_t i) { work_on_lanes<Lanes>(contacts, bodies, first + i * kLanes, use, work); });
   }
   const std::uint32_t first = counters.first_slot[kOverflow], end = counters.first_slot[kOverflow + 1];
   if (first == end) return;
-  team.single([=] {
+  team.single([&] {
     for (std::uint32_t slot = first; slot < end; ++slot) work_on_lanes<Real>(contacts, bodies, slot, use, work);
   });
 }

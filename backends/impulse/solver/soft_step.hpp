@@ -12,11 +12,10 @@ namespace plumb::impulse {
 struct StepSoftly : SolverStep {
   PLUMB_DEVICE void operator()(Team& team) const {
     if (must_repeat()) return;
-    const StepSoftly self = *this;
     const StepParameters step = *parameters;
     for (std::uint32_t k = 0; k < step.substeps; ++k) {
       const bool first = k == 0;
-      team.each(body_count, [=](std::uint32_t i) { integrate_velocity(self.bodies, self.solver, step, first, i); });
+      team.each(body_count, [&](std::uint32_t i) { integrate_velocity(bodies, solver, step, first, i); });
       if (first) warm_start(team);
       warm_start_mechanisms(team, joints, first, step);
       solve_mechanisms(team, joints, step, true);
@@ -49,12 +48,15 @@ struct StepSoftly : SolverStep {
                               take_back_overlap && features.restitution};
     const bool add_up = !take_back_overlap && features.contact_impulses;
     for_contacts(team, contacts, solver, take_back_overlap ? BodyUse::kVelocityWhereMoved : BodyUse::kVelocity,
-                 [pass, add_up](const auto& row, int points, auto& a, auto& b) {
-                   solve_normals(row, points, a, b, pass);
+                 [&](const auto& row, int points, auto& a, auto& b) {
+                   using N = std::remove_cvref_t<decltype(a.inverse_mass)>;
+                   ManifoldAim<N> aims;
+                   aim_normals(row, points, a, b, pass, aims);
+                   solve_normals(row, points, aims, a, b, pass);
                    if (pass.friction) {
+                     // Friction below the centre tilts a body: the normals have the last word.
                      solve_friction(row, points, a, b);
-                     solve_normals(row, points, a, b,
-                                   pass);  // friction below the centre tilts a body: normals have the last word
+                     solve_normals(row, points, aims, a, b, pass);
                    }
                    if (add_up) add_up_impulses(row, points);
                  });

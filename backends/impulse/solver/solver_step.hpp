@@ -33,15 +33,11 @@ struct SolverStep {
     for_rows(team, contacts, [](const auto& row, int points) { add_up_impulses(row, points); });
   }
   PLUMB_DEVICE void move_bodies(Team& team, const StepParameters& step) const {
-    const SolverStep self = *this;
-    team.each(body_count, [=](std::uint32_t i) {
-      integrate_position(self.bodies, self.solver, step, self.features.gyroscopic, i);
-    });
+    team.each(body_count, [&](std::uint32_t i) { integrate_position(bodies, solver, step, features.gyroscopic, i); });
   }
   PLUMB_DEVICE void finish(Team& team) const {
-    const SolverStep self = *this;
-    team.each(body_count, [=](std::uint32_t i) {
-      if (!finish_body(self.bodies, self.solver, i)) atomic_add(&self.counters->nonfinite, 1U);
+    team.each(body_count, [&](std::uint32_t i) {
+      if (!finish_body(bodies, solver, i)) atomic_add(&counters->nonfinite, 1U);
     });
   }
 };

@@ -47,18 +47,18 @@ class Recording {
 
 #if defined(__CUDACC__)
 template <class F>
-__global__ void run_kernel(F f, std::uint32_t n) {
+__global__ void run_kernel(const __grid_constant__ F f, std::uint32_t n) {
   const std::uint32_t i = blockIdx.x * blockDim.x + threadIdx.x;
   if (i < n) f(i);
 }
 template <class F>
-__global__ void run_counted_kernel(F f, Count n) {
+__global__ void run_counted_kernel(const __grid_constant__ F f, Count n) {
   const std::uint32_t i = blockIdx.x * blockDim.x + threadIdx.x;
   if (i < n.capacity && i < *n.value) f(i);
 }
 template <class F>
 __global__ void __launch_bounds__(kTeamThreads)
-    team_kernel(F f, TeamBarrier* barrier, Count load, std::uint32_t least) {
+    team_kernel(const __grid_constant__ F f, TeamBarrier* barrier, Count load, std::uint32_t least) {
   const std::uint32_t counted = *load.value < load.capacity ? *load.value : load.capacity;
   const std::uint32_t work = counted < least ? least : counted;
   const std::uint32_t wanted = (work + kTeamThreads - 1) / kTeamThreads;
