@@ -120,14 +120,18 @@ PLUMB_HD inline void touch_edges(const BoxPair& p, const BoxAxis& axis, Manifold
       mask_b |= positive ? 1U << k : 0U;
     }
   }
-  // Closest points of the lines on_a + s e and on_b + r u (Ericson 5.1.9), kept on the edges.
+  // Closest points of the lines on_a + s e and on_b + r u, kept on the edges (Ericson 5.1.9). The square of the sine
+  // from u's other components: 1 - cosine * cosine is 0 long before the edges are parallel.
   const Vec u = p.r[axis.b], w = on_b - on_a;
-  const Real cosine = u[axis.a], sine2 = 1 - cosine * cosine, along_a = w[axis.a], along_b = dot(u, w);
-  const Real s = (along_a - cosine * along_b) / sine2, r = (cosine * along_a - along_b) / sine2;
+  const Real u0 = u[axis.a == 0 ? 1 : 0], u1 = u[axis.a == 2 ? 1 : 2];
+  const Real cosine = u[axis.a], sine2 = u0 * u0 + u1 * u1, along_a = w[axis.a], along_b = dot(u, w);
   const Real half_a = p.a[axis.a], half_b = p.b[axis.b];
-  if (axis.separation > 0 && (abs(s) > half_a * (1 + kClipSlack) || abs(r) > half_b * (1 + kClipSlack))) return;
-  on_a[axis.a] = clamp(s, -half_a, half_a);
-  on_b += clamp(r, -half_b, half_b) * u;
+  const Real free_s = (along_a - cosine * along_b) / sine2, free_r = (cosine * along_a - along_b) / sine2;
+  if (axis.separation > 0 && (abs(free_s) > half_a * (1 + kClipSlack) || abs(free_r) > half_b * (1 + kClipSlack)))
+    return;
+  const Real r = clamp(cosine * clamp(free_s, -half_a, half_a) - along_b, -half_b, half_b);
+  on_a[axis.a] = clamp(along_a + cosine * r, -half_a, half_a);
+  on_b += r * u;
   out.count = 1;
   out.points[0] = {Real(0.5) * (on_a + on_b), axis.separation,
                    feature_id(Part::kEdge, box_edge(axis.a, mask_a), Part::kEdge, box_edge(axis.b, mask_b))};

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <set>
 
 #include "narrowphase/collide.hpp"
@@ -50,6 +51,27 @@ TEST(BoxBox, CrossingEdgesTouchAtOnePoint) {
   EXPECT_NEAR(m.points[0].position.x, 0, 1e-6);
   EXPECT_NEAR(m.points[0].position.y, 0.7, 1e-6);
   EXPECT_NEAR(m.points[0].position.z, 0, 1e-6);
+}
+
+TEST(BoxBox, EdgesThatAreAllButParallelTouchWithinBoth) {
+  const Shape cube = box(Real(0.5), Real(0.5), Real(0.5));
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  int touching = 0;
+  for (int i = 0; i < 100000; ++i) {  // corner line to corner line, tilted across it by 3e-5 to 3e-3 degrees
+    const double tilt = std::pow(10, -3.5 + unit(random)), roll = 45 + 5 * unit(random);
+    const Vec d = {static_cast<Real>(0.02 * unit(random)), static_cast<Real>(1.425 + 0.01 * unit(random)),
+                   static_cast<Real>(0.9 * unit(random))};
+    const Quat q = normalized(turned(tilt, unit(random), unit(random), 0) * turned(roll + unit(random), 0, 0, 1));
+    const Manifold m = touch(cube, turned(roll, 0, 0, 1), cube, q, d, Real(0.02));
+    touching += m.count != 0;
+    for (std::uint32_t p = 0; p < m.count; ++p) {
+      const Vec& at = m.points[p].position;
+      ASSERT_TRUE(length(at) < Real(0.95) && length(at - d) < Real(0.95))
+          << tilt << " degrees: " << at.x << ' ' << at.y << ' ' << at.z;
+    }
+  }
+  EXPECT_GT(touching, 500);
 }
 
 TEST(BoxBox, CubeOnItsDiagonalTouchesWithOneCorner) {
