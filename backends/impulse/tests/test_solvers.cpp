@@ -148,11 +148,15 @@ TEST_P(EachSolver, HoldsABoxOnASlopeOrLetsItSlide) {
   }
 }
 
-TEST_P(EachSolver, StaysWithinTheFrictionCone) {
+/// Those that end a pass with friction. tgs_soft ends it with the normals, and so does not promise the cone.
+class FrictionLastSolver : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Solvers, FrictionLastSolver, testing::Values("si", "jacobi", "xpbd"),
+                         [](const auto& at) { return std::string(at.param); });
+
+TEST_P(FrictionLastSolver, StaysWithinTheFrictionCone) {
   CubeWorld world(GetParam(), 1, leaning(20));
   for (int i = 0; i < 6; ++i) world.cube({0.15 * i, 0.5 + i, 0.1 * (i % 2)}, {0.5 * i, 0, -0.3});
-  // tgs_soft lets normals have the last word of a pass, and impulses of a step are sums over its parts.
-  const double slack = std::strcmp(GetParam(), "tgs_soft") == 0 ? 0.05 : 1e-4;
+  constexpr double slack = 1e-4;
   for (int k = 0; k < 90; ++k) {
     world.step();
     double most = 0;
