@@ -26,7 +26,7 @@ struct HullFace {
 };
 /// An edge between two vertices and the two faces that it joins.
 struct HullEdge {
-  std::uint32_t from, to;      ///< vertices
+  std::uint32_t from, to;     ///< vertices
   std::uint32_t left, right;  ///< faces; the left one's loop runs from -> to
 };
 /// Where a hull's parts lie in the pool's arrays.

@@ -85,8 +85,8 @@ PLUMB_HD constexpr Sym turned_by_arm(const Sym& s, const Vec& r) {
 PLUMB_HD inline Sym inverse_or_zero(const Sym& s) {
   const Real a = s.yy * s.zz - s.yz * s.yz, b = s.xz * s.yz - s.xy * s.zz, c = s.xy * s.yz - s.xz * s.yy;
   const Real d = reciprocal_or_zero(s.xx * a + s.xy * b + s.xz * c);
-  return {d * a, d * (s.xx * s.zz - s.xz * s.xz), d * (s.xx * s.yy - s.xy * s.xy),
-          d * b, d * c, d * (s.xy * s.xz - s.xx * s.yz)};
+  return {d * a, d * (s.xx * s.zz - s.xz * s.xz), d * (s.xx * s.yy - s.xy * s.xy), d * b,
+          d * c, d * (s.xy * s.xz - s.xx * s.yz)};
 }
 
 }  // namespace plumb::impulse
