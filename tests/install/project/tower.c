@@ -34,7 +34,8 @@ int main(int argc, char** argv) {
   result = table->create_world(&desc, &world);
   if (result < 0) return refuse("world", table->error_text(NULL), result);
 
-  PlumbShapeDesc shapes[2] = {{sizeof shapes[0], PLUMB_PLANE}, {sizeof shapes[0], PLUMB_BOX}};
+  PlumbShapeDesc shapes[2] = {{sizeof shapes[0], PLUMB_BOX}, {sizeof shapes[0], PLUMB_BOX}};
+  shapes[0].half_extents = (PlumbVec3){50, 1, 50};
   shapes[1].half_extents = (PlumbVec3){0.5, 0.5, 0.5};
   PlumbShape shape_ids[2];
   result = table->create_shapes(world, shapes, sizeof shapes[0], 2, shape_ids);
@@ -46,7 +47,7 @@ int main(int argc, char** argv) {
     bodies[i].struct_size = sizeof bodies[i];
     bodies[i].motion = i == 0 ? PLUMB_STATIC : PLUMB_DYNAMIC;
     bodies[i].shape = shape_ids[i != 0];
-    bodies[i].pose.position.y = i == 0 ? 0 : i - 0.5;
+    bodies[i].pose.position.y = i == 0 ? -1 : i - 0.5;
     bodies[i].pose.orientation.w = bodies[i].inertia_orientation.w = 1;
     bodies[i].density = 1000;
     bodies[i].gravity_scale = 1;
