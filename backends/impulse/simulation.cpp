@@ -208,9 +208,4 @@ std::vector<ContactRecord> Simulation::contacts() {
 
 std::vector<Pair> Simulation::candidates() { return narrow_phase_.candidates(step_, counters().pairs); }
 
-void Simulation::forget_contacts() {
-  executor_.wait();
-  narrow_phase_.forget();
-}
-
 }  // namespace plumb::impulse

@@ -62,8 +62,6 @@ class Simulation {
   [[nodiscard]] std::vector<ContactRecord> contacts();
   /// What the broad phase of the last step found.
   [[nodiscard]] std::vector<Pair> candidates();
-  /// The next step starts without anything remembered of contacts.
-  void forget_contacts();
 
  private:
   void upload_changes();

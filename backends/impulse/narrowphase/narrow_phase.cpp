@@ -180,10 +180,6 @@ void NarrowPhase::reserve(Executor& /*executor*/, std::uint32_t proxies, std::ui
   capacity_ = pairs;
 }
 
-void NarrowPhase::forget() {
-  for (Storage& cache : caches_) memory::fill(cache.ranges.data(), 0, cache.ranges.size() * sizeof(PairRange));
-}
-
 void NarrowPhase::collide(Executor& executor, const ContactCache& cache, const Bodies& bodies, const Proxies& proxies,
                           const Real* margins, std::uint32_t shape_types, StepCounters* counters) {
   const Count pairs = {&counters->pairs, capacity_};

@@ -20,7 +20,6 @@ class NarrowPhase {
   [[nodiscard]] std::vector<Pair> candidates(std::uint32_t parity, std::uint32_t count) const {
     return caches_[parity % 2].pairs.to_host(count);
   }
-  void forget();
 
   /// Collides the candidates in cache and numbers those that touch. margins: by proxy, how far ahead it looks, m.
   /// shape_types: a bit for each ShapeType in the scene.
