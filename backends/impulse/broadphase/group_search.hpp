@@ -5,10 +5,10 @@
 
 #include <emmintrin.h>
 
-#include <bit>
 #include <cstdint>
 
 #include "broadphase/lbvh.hpp"
+#include "math/bits.hpp"
 
 namespace plumb::impulse {
 
@@ -115,12 +115,12 @@ bool search_group(const TreeView& movers, const TreeView& statics, std::uint32_t
     for (std::uint32_t leaf = range.first; leaf < range.end; ++leaf) {
       const std::uint32_t before = leaf - first < count ? (1U << (leaf - first)) - 1U : all;
       for (std::uint32_t bits = group.touching(movers.box(leaf)) & before; bits != 0; bits &= bits - 1)
-        found(static_cast<std::uint32_t>(std::countr_zero(bits)), movers.leaf(leaf).child, false);
+        found(static_cast<std::uint32_t>(trailing_zeros(bits)), movers.leaf(leaf).child, false);
     }
   for (const LeafRange& range : of_statics)
     for (std::uint32_t leaf = range.first; leaf < range.end; ++leaf)
       for (std::uint32_t bits = group.touching(statics.box(leaf)) & all; bits != 0; bits &= bits - 1)
-        found(static_cast<std::uint32_t>(std::countr_zero(bits)), statics.leaf(leaf).child, true);
+        found(static_cast<std::uint32_t>(trailing_zeros(bits)), statics.leaf(leaf).child, true);
   return true;
 }
 

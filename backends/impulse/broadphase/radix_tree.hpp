@@ -1,27 +1,11 @@
 // One inner node of the binary radix tree over sorted keys, from the keys alone (Karras, HPG 2012, section 4).
 #pragma once
 
-#include <bit>
 #include <cstdint>
 
-#include "math/real.hpp"
+#include "math/bits.hpp"
 
 namespace plumb::impulse {
-
-PLUMB_HD inline int leading_zeros(std::uint32_t x) {
-#if defined(__CUDA_ARCH__)
-  return __clz(static_cast<int>(x));
-#else
-  return std::countl_zero(x);
-#endif
-}
-PLUMB_HD inline int leading_zeros(std::uint64_t x) {
-#if defined(__CUDA_ARCH__)
-  return __clzll(static_cast<long long>(x));
-#else
-  return std::countl_zero(x);
-#endif
-}
 
 template <class K>
 struct SortedKeys {

@@ -4,8 +4,7 @@
 // (box_box.hpp).
 #pragma once
 
-#include <bit>
-
+#include "math/bits.hpp"
 #include "math/mat33.hpp"
 #include "narrowphase/face_overlap.hpp"
 #include "narrowphase/segments.hpp"
@@ -120,7 +119,7 @@ PLUMB_HD bool find_edge_axes(const ViewA& a, const ViewB& b, const Placement& at
       const Vec from_b = at.turn * b.vertex(edge.from) + at.shift;
       const Vec e_b = at.turn * b.vertex(edge.to) + at.shift - from_b;
       for (std::uint64_t left = of_a; left != 0; left &= left - 1)
-        try_edges(a, b, at, first + static_cast<std::uint32_t>(std::countr_zero(left)), j, from_b, e_b, left_b, right_b,
+        try_edges(a, b, at, first + static_cast<std::uint32_t>(trailing_zeros(left)), j, from_b, e_b, left_b, right_b,
                   tie, best);
       if (best.separation > margin) return false;
     }

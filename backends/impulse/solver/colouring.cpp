@@ -1,6 +1,7 @@
 #include "solver/colouring.hpp"
 
 #include "exec/atomic.hpp"
+#include "math/bits.hpp"
 #include "math/wide.hpp"
 
 namespace plumb::impulse {
@@ -17,12 +18,7 @@ PLUMB_HD constexpr std::uint32_t scramble(std::uint32_t x) {
 }
 
 PLUMB_HD inline std::uint32_t lowest_zero_bit(std::uint64_t mask) {
-  if (mask == ~std::uint64_t{0}) return kOverflow;
-#if defined(__CUDA_ARCH__)
-  return static_cast<std::uint32_t>(__ffsll(static_cast<long long>(~mask)) - 1);
-#else
-  return static_cast<std::uint32_t>(__builtin_ctzll(~mask));
-#endif
+  return mask == ~std::uint64_t{0} ? kOverflow : static_cast<std::uint32_t>(trailing_zeros(~mask));
 }
 
 /// The two bodies of a manifold, and whether it pushes them.

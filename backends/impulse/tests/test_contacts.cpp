@@ -145,20 +145,24 @@ TEST(Contacts, AreRememberedFromStepToStep) {
   }
 }
 
-/// A light body in the slot and place of a heavy one does not get its impulses.
+/// A light body in the slot and place of a heavy one does not get its impulses. Bodies lie on it, or the one contact
+/// would be solved exactly whatever it began with.
 TEST(Contacts, OfTheDeadAreForgotten) {
   Scene scene(engine(), kNeeds, {0, -9.81, 0}, 1);
   scene.ground();
   const PlumbShape cube = scene.box({0.5, 0.5, 0.5});
   scene.body.density = 1e5;
   const PlumbBody heavy = scene.add(cube, {0, 0.5, 0});
+  scene.body.density = 10;
+  std::vector<PlumbBody> stack;
+  for (int i = 1; i < 4; ++i) stack.push_back(scene.add(cube, {0, 0.5 + i, 0}));
   scene.run(60);
   check(scene.world(), scene.world().destroy_bodies({&heavy, 1}));
-  scene.body.density = 10;
   const PlumbBody light = scene.add(cube, {0, 0.5, 0});
   ASSERT_EQ(slot_of(light), slot_of(heavy));
+  stack.push_back(light);
   scene.run(1);
-  EXPECT_NEAR(motion(scene, light).linear.norm(), 0, 1e-2);
+  for (const PlumbBody body : stack) EXPECT_LT(motion(scene, body).linear.norm(), 0.05);
 }
 
 /// The contacts of a step stay readable, and true, when a body of others dies or is moved after it.
