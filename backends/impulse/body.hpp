@@ -58,8 +58,14 @@ struct Bodies {
   Position* position;
   Quat* orientation;
   Velocity* velocity;
-  BodyForce* force;
+  const BodyForce* force;
   const BodyMass* mass;
+};
+
+/// From the frame in which the engine works to the body's own, which the interface speaks of.
+struct BodyFrame {
+  Position centre_of_mass;  ///< in the body's frame, m
+  Quat4<double> principal;  ///< from the principal axes to the body's frame
 };
 
 /// A shape on a body.

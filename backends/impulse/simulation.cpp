@@ -1,6 +1,7 @@
 #include "simulation.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "constraints/prepare_contacts.hpp"
 #include "geometry/proxy_bounds.hpp"
@@ -20,7 +21,7 @@ constexpr std::uint32_t kOriginSamples = 256;
 }  // namespace
 
 Simulation::Simulation(const PlumbHost* host, std::uint32_t threads, const SolverFeatures& features)
-    : executor_(host, threads), features_(features), solver_(features) {
+    : executor_(host, threads), state(executor_), features_(features), solver_(features) {
   parameters_.grow(1);
   counters_.grow(1);
   reserve_bodies(64);
@@ -30,130 +31,133 @@ Simulation::Simulation(const PlumbHost* host, std::uint32_t threads, const Solve
 
 void Simulation::reserve_bodies(std::uint32_t slots) {
   const std::size_t rows = std::size_t{slots} + 1;  // and nobody
-  if (rows <= position.size()) return;
-  bring_state_to_host();
+  if (rows <= state.size()) return;
   const std::size_t size = rows + rows / 2;
-  position.grow(size);
-  orientation.grow(size);
-  velocity.grow(size);
+  state.grow(size);
   force.grow(size);
   mass.grow(size);
+  frames.grow(size);
   proxies.grow(size);
   filters.grow(size);
   movers_.grow(size);
   statics_.grow(size);
   boxes_.grow(size);
   margins_.grow(size);
-  for (std::size_t i = body_count_; i < size; ++i) orientation[i] = {0, 0, 0, 1};
-  bodies_dirty_ = state_dirty_ = forces_dirty_ = true;
+  bodies_dirty_ = true;
   reserve_pairs(pair_capacity_);
 }
 
 void Simulation::reserve_shapes(std::uint32_t rows) {
-  if (rows <= shapes.size()) return;
-  shapes.grow(rows + rows / 2);
-  bodies_dirty_ = true;
-  for (Recording& recording : recordings_) recording.forget();
+  if (rows > shapes.size()) shapes.grow(rows + rows / 2);
 }
 
 void Simulation::reserve_pairs(std::uint32_t pairs) {
   pair_capacity_ = pairs;
-  const auto slots = static_cast<std::uint32_t>(position.size());
+  const auto slots = static_cast<std::uint32_t>(state.size());
   broad_phase_.reserve(executor_, slots, slots, pairs);
   narrow_phase_.reserve(executor_, slots, pairs);
   colouring_.reserve(executor_, slots, pairs);
   solver_.reserve(executor_, slots, pairs);
-  for (Recording& recording : recordings_) recording.forget();
+  forget_recordings();
+}
+
+void Simulation::forget_recordings() {
+  for (auto& of_each_parity : recordings_)
+    for (Recording& recording : of_each_parity) recording.forget();
 }
 
 Bodies Simulation::bodies() {
-  return {position.device(), orientation.device(), velocity.device(), force.device(), mass.device()};
+  return {state.position.device(), state.orientation.device(), state.velocity.device(), force.device(), mass.device()};
 }
 
 Proxies Simulation::proxy_view() { return {proxies.device(), shapes.device(), hulls.device()}; }
-
-void Simulation::bring_state_to_host() {
-  if (!host_stale_) return;
-  executor_.to_host(position, body_count_);
-  executor_.to_host(orientation, body_count_);
-  executor_.to_host(velocity, body_count_);
-  executor_.wait();
-  host_stale_ = false;
-}
 
 /// Bounds are floats from a place near the bodies, so that they are as sharp far from the world's origin as near it.
 /// That place is the median of some of them: one body that was lost far out does not move it.
 void Simulation::find_origin() {
   if (mover_count_ == 0) return;
-  const std::uint32_t stride = mover_count_ / kOriginSamples + 1;
+  std::vector<std::uint32_t> some;
+  for (std::uint32_t i = 0; i < mover_count_; i += mover_count_ / kOriginSamples + 1)
+    some.push_back(proxies[movers_[i]].body);
+  state.fetch(some, kPosePart);
   std::vector<double> along;
   for (int axis = 0; axis < 3; ++axis) {
     along.clear();
-    for (std::uint32_t i = 0; i < mover_count_; i += stride) along.push_back(position[proxies[movers_[i]].body][axis]);
+    for (const std::uint32_t body : some) along.push_back(state.position[body][axis]);
     const auto middle = along.begin() + static_cast<std::ptrdiff_t>(along.size() / 2);
     std::nth_element(along.begin(), middle, along.end());
     origin_[axis] = *middle;
   }
 }
 
-void Simulation::upload_changes() {
-  if (bodies_dirty_) {
-    bring_state_to_host();
-    mover_count_ = static_count_ = shape_types_ = 0;
-    for (std::uint32_t i = 0; i < body_count_; ++i) {
-      if (proxies[i].shape == kNone) continue;
-      shape_types_ |= 1U << static_cast<std::uint32_t>(shapes[proxies[i].shape].type);
-      if ((mass[i].flags & kBodyMoves) != 0)
-        movers_[mover_count_++] = i;
-      else
-        statics_[static_count_++] = i;
-    }
-    executor_.to_device(mass, position.size());
-    executor_.to_device(proxies, position.size());
-    executor_.to_device(filters, position.size());
-    executor_.to_device(shapes, shapes.size());
-    hulls.upload(executor_);
-    executor_.to_device(movers_, mover_count_);
-    executor_.to_device(statics_, static_count_);
-    find_origin();
-    statics_dirty_ = true;
-    for (Recording& recording : recordings_) recording.forget();  // the numbers of bodies are in them
+/// Who has a shape, and whether it moves.
+void Simulation::list_bodies() {
+  mover_count_ = static_count_ = shape_types_ = 0;
+  for (std::uint32_t i = 0; i < body_count_; ++i) {
+    if (proxies[i].shape == kNone) continue;
+    shape_types_ |= 1U << static_cast<std::uint32_t>(shapes[proxies[i].shape].type);
+    if ((mass[i].flags & kBodyMoves) != 0)
+      movers_[mover_count_++] = i;
+    else
+      statics_[static_count_++] = i;
   }
+  executor_.to_device(movers_, mover_count_);
+  executor_.to_device(statics_, static_count_);
+  find_origin();
+  statics_dirty_ = true;
+  bodies_dirty_ = false;
+}
+
+void Simulation::upload_changes() {
+  if (bodies_dirty_) list_bodies();
+  force.upload(executor_);
+  mass.upload(executor_);
+  frames.upload(executor_);
+  proxies.upload(executor_);
+  filters.upload(executor_);
+  shapes.upload(executor_);
+  hulls.upload(executor_);
+  state.upload();
   if (joints.changed()) {
     joints.upload(mass);
-    for (Recording& recording : recordings_) recording.forget();
+    forget_recordings();
   }
-  if (state_dirty_) {
-    executor_.to_device(position, position.size());
-    executor_.to_device(orientation, position.size());
-    executor_.to_device(velocity, position.size());
-  }
-  if (forces_dirty_) executor_.to_device(force, position.size());
   parameters_[0].origin = origin_;
   executor_.to_device(parameters_, 1);
   if (statics_dirty_) {
     executor_.run(static_count_, BoundProxies{bodies(), proxy_view(), parameters_.device(), statics_.device(),
                                               boxes_.data(), margins_.data()});
     broad_phase_.build_statics(executor_, boxes_.data(), statics_.device(), static_count_);
+    statics_dirty_ = false;
   }
-  bodies_dirty_ = state_dirty_ = forces_dirty_ = statics_dirty_ = false;
+}
+
+Simulation::Recorded Simulation::what_is_recorded() {
+  const Hulls all = hulls.device();
+  return {{shapes.device(), all.ranges, all.vertices, all.faces, all.loops, all.edges, joints.excluded()},
+          {body_count_, mover_count_, static_count_, shape_types_, joints.excluded_count(),
+           static_cast<std::uint32_t>(parameters_[0].solver)}};
 }
 
 void Simulation::step(const StepParameters& parameters) {
-  if (parameters.solver != parameters_[0].solver) {
-    solver_.choose(parameters.solver);
-    for (Recording& recording : recordings_) recording.forget();
-  }
+  if (parameters.solver != parameters_[0].solver) solver_.choose(parameters.solver);
   parameters_[0] = parameters;
   parameters_[0].step = ++step_;
   repeated_ = false;
   upload_changes();
+  reserve_rows();
+  if (const Recorded now = what_is_recorded(); now != recorded_) {
+    forget_recordings();
+    recorded_ = now;
+  }
   run_step();
 }
 
 void Simulation::run_step() {
-  executor_.record(recordings_[step_ % 2], [this] { enqueue(); });
-  host_stale_ = true;
+  executor_.record(recordings_[PhaseClock::measures(step_) ? 1 : 0][step_ % 2], [this] { enqueue(); });
+  state.stepped();
+  if (poses_.in_step()) poses_.written(state.version());
+  if (velocities_.in_step()) velocities_.written(state.version());
 }
 
 /// The step, from bounds to poses.
@@ -164,26 +168,33 @@ void Simulation::enqueue() {
   const StepParameters* parameters = parameters_.device();
   const ContactCache now = narrow_phase_.cache(step_), last = narrow_phase_.cache(step_ + 1);
 
+  phases_.start(executor_);
   executor_.run(1U, ClearCounters{counters});
-  solver_.begin(executor_, all, body_count_);
   if (features_.collision) {
     executor_.run(mover_count_,
                   BoundProxies{all, shapes_on, parameters, movers_.device(), boxes_.data(), margins_.data()});
     broad_phase_.find_pairs(executor_, boxes_.data(), movers_.device(), mover_count_,
                             PairFilter{filters.device(), joints.excluded(), joints.excluded_count()}, now.pairs,
                             now.ranges, &counters->pairs);
+    phases_.end(executor_, PLUMB_PHASE_BROAD);
     narrow_phase_.collide(executor_, now, all, shapes_on, margins_.data(), shape_types_, counters);
     colouring_.begin(executor_);
     narrow_phase_.match(executor_, now, last, all, shapes_on, parameters, counters, colouring_.masks());
+    phases_.end(executor_, PLUMB_PHASE_NARROW);
     if (solver_.needs_colours())
-      colouring_.colour(executor_, now, velocity.device(), proxies.device(), counters);
+      colouring_.colour(executor_, now, all.velocity, proxies.device(), counters);
     else
       colouring_.leave_out(executor_, counters);
-    solver_.prepare(executor_, now, all, shapes_on, colouring_, parameters, counters);
+    phases_.end(executor_, PLUMB_PHASE_ISLANDS);
   }
+  solver_.begin(executor_, all, body_count_);
+  if (features_.collision) solver_.prepare(executor_, now, all, shapes_on, colouring_, parameters, counters);
   solver_.solve(executor_, all, body_count_, parameters, counters, pair_capacity_, joints);
   if (features_.collision) solver_.keep_impulses(executor_, now, counters);
+  phases_.end(executor_, PLUMB_PHASE_SOLVE);
+  enqueue_rows();
   executor_.to_host(counters_, 1);
+  phases_.end(executor_, PLUMB_PHASE_OUTPUT);
 }
 
 void Simulation::wait() {
@@ -196,6 +207,11 @@ void Simulation::wait() {
   }
 }
 
+double Simulation::phase_seconds(PlumbPhase phase) const {
+  const bool told = phase <= PLUMB_PHASE_SOLVE || phase == PLUMB_PHASE_OUTPUT;
+  return told && PhaseClock::measures(step_) ? phases_.seconds(phase) : std::numeric_limits<double>::quiet_NaN();
+}
+
 std::vector<ContactRecord> Simulation::contacts() {
   const std::uint32_t count = counters().manifolds;
   if (count == 0) return {};
@@ -205,6 +221,34 @@ std::vector<ContactRecord> Simulation::contacts() {
   executor_.wait();
   return records_.to_host(count);
 }
+
+/// Room for the rows that steps bring, before a step is recorded.
+void Simulation::reserve_rows() {
+  bool anew = poses_.in_step() && poses_.reserve(state.size(), false);
+  anew = (velocities_.in_step() && velocities_.reserve(state.size(), false)) || anew;
+  if (anew) forget_recordings();
+}
+
+void Simulation::enqueue_rows() {
+  if (poses_.in_step()) poses_.write(executor_, bodies(), frames.device(), body_count_);
+  if (velocities_.in_step()) velocities_.write(executor_, bodies(), frames.device(), body_count_);
+}
+
+template <class Row>
+std::shared_ptr<RowBlock<Row>> Simulation::rows(FieldRows<Row>& field, bool on_host) {
+  if (field.want(on_host)) forget_recordings();
+  if (field.fresh(state.version(), on_host)) return field.block();
+  if (field.reserve(state.size(), true)) forget_recordings();
+  frames.upload(executor_);
+  state.upload();
+  field.write(executor_, bodies(), frames.device(), body_count_);
+  field.written(state.version());
+  executor_.wait();
+  return field.block();
+}
+
+template std::shared_ptr<RowBlock<PoseRow>> Simulation::rows(FieldRows<PoseRow>& field, bool on_host);
+template std::shared_ptr<RowBlock<VelocityRow>> Simulation::rows(FieldRows<VelocityRow>& field, bool on_host);
 
 std::vector<Pair> Simulation::candidates() { return narrow_phase_.candidates(step_, counters().pairs); }
 

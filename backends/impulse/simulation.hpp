@@ -1,36 +1,42 @@
 // The engine without its interface: bodies and shapes in memory, and the step.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <memory>
 
-#include "body.hpp"
+#include "body_state.hpp"
 #include "broadphase/broad_phase.hpp"
 #include "constraints/joint_store.hpp"
 #include "contact_record.hpp"
 #include "exec/executor.hpp"
 #include "exec/memory.hpp"
+#include "exec/phase_clock.hpp"
+#include "exec/table.hpp"
 #include "geometry/hull_pool.hpp"
 #include "narrowphase/narrow_phase.hpp"
 #include "solver/colouring.hpp"
 #include "solver/solver.hpp"
+#include "state_rows.hpp"
 #include "step_counters.hpp"
 #include "step_parameters.hpp"
 
 namespace plumb::impulse {
 
 class Simulation {
+  Executor executor_;  // before all that works with it
+
  public:
   Simulation(const PlumbHost* host, std::uint32_t threads, const SolverFeatures& features);
 
-  // --- what the host fills; rows are body slots. The last row is nobody. After a change say so. ---
-  Mirror<Position> position;
-  Mirror<Quat> orientation;
-  Mirror<Velocity> velocity;
-  Mirror<BodyForce> force;
-  Mirror<BodyMass> mass;
-  Mirror<Proxy> proxies;  // one a body, for now at the body's slot
-  Mirror<ProxyFilter> filters;
-  Mirror<Shape> shapes;
+  // --- what the host fills; rows are body slots. The last row is nobody. ---
+  BodyState state;  ///< say which rows were touched
+  Table<BodyForce> force;
+  Table<BodyMass> mass;
+  Table<BodyFrame> frames;
+  Table<Proxy> proxies;  // one a body, for now at the body's slot
+  Table<ProxyFilter> filters;
+  Table<Shape> shapes;
   JointStore joints;
   HullPool hulls;
 
@@ -41,12 +47,8 @@ class Simulation {
   void set_body_count(std::uint32_t slots) { body_count_ = slots; }
   [[nodiscard]] std::uint32_t body_count() const { return body_count_; }
 
-  /// The host side of state is up to date after this; and it may be changed before the next step.
-  void bring_state_to_host();
-  void state_changed() { state_dirty_ = true; }  ///< position, orientation, velocity
-  void forces_changed() { forces_dirty_ = true; }
-  void bodies_changed() { bodies_dirty_ = true; }    ///< everything else, made and gone bodies included
-  void statics_changed() { statics_dirty_ = true; }  ///< bodies that do not move: made, gone, placed elsewhere
+  void bodies_changed() { bodies_dirty_ = true; }    ///< made, gone
+  void statics_changed() { statics_dirty_ = true; }  ///< bodies that do not move: placed elsewhere
 
   /// Enqueues a step. parameters.step and .origin are filled in here.
   void step(const StepParameters& parameters);
@@ -56,6 +58,8 @@ class Simulation {
   [[nodiscard]] const StepCounters& counters() const { return *counters_.host(); }
   [[nodiscard]] std::uint32_t steps() const { return step_; }
   [[nodiscard]] bool repeated() const { return repeated_; }
+  /// Of the last step, s; NaN where it was not measured, and for phases that this engine does not tell apart.
+  [[nodiscard]] double phase_seconds(PlumbPhase phase) const;
   [[nodiscard]] Executor& executor() { return executor_; }
 
   /// Manifolds of the last step, copied to the host. Impulses are 0 where the scene did not ask for them.
@@ -63,20 +67,39 @@ class Simulation {
   /// What the broad phase of the last step found.
   [[nodiscard]] std::vector<Pair> candidates();
 
+  /// Rows of state by body slot, up to date. Steps bring them from now on. On the device they are there once what was
+  /// enqueued is done; on the host they are there.
+  [[nodiscard]] std::shared_ptr<RowBlock<PoseRow>> pose_rows(bool on_host) { return rows(poses_, on_host); }
+  [[nodiscard]] std::shared_ptr<RowBlock<VelocityRow>> velocity_rows(bool on_host) {
+    return rows(velocities_, on_host);
+  }
+
  private:
+  /// What a recorded step holds of the host's numbers and addresses.
+  struct Recorded {
+    std::array<const void*, 7> addresses{};
+    std::array<std::uint32_t, 6> numbers{};
+    bool operator==(const Recorded&) const = default;
+  };
+
   void upload_changes();
+  void list_bodies();
   void find_origin();
+  void reserve_rows();
   void enqueue();
+  void enqueue_rows();
   void run_step();
+  void forget_recordings();
+  [[nodiscard]] Recorded what_is_recorded();
+  template <class Row>
+  std::shared_ptr<RowBlock<Row>> rows(FieldRows<Row>& field, bool on_host);
   [[nodiscard]] Bodies bodies();
   [[nodiscard]] Proxies proxy_view();
   void reserve_pairs(std::uint32_t pairs);
 
-  Executor executor_;
   SolverFeatures features_;
   std::uint32_t body_count_ = 0, step_ = 0, pair_capacity_ = 0;
-  bool state_dirty_ = false, forces_dirty_ = false, bodies_dirty_ = true, statics_dirty_ = true;
-  bool host_stale_ = false, repeated_ = false;
+  bool bodies_dirty_ = true, statics_dirty_ = true, repeated_ = false;
   Position origin_{0, 0, 0};
 
   Mirror<std::uint32_t> movers_, statics_;
@@ -92,7 +115,11 @@ class Simulation {
   Colouring colouring_;
   Solver solver_;
   Buffer<ContactRecord> records_;
-  Recording recordings_[2];  // a step of each parity
+  FieldRows<PoseRow> poses_;
+  FieldRows<VelocityRow> velocities_;
+  PhaseClock phases_;
+  Recording recordings_[2][2];  // steps that are measured or not, of each parity
+  Recorded recorded_;
 };
 
 }  // namespace plumb::impulse

@@ -9,12 +9,12 @@ namespace plumb::impulse {
 
 namespace {
 
-bool is_pushed(std::uint32_t body, const Mirror<BodyMass>& masses) {
+bool is_pushed(std::uint32_t body, const Table<BodyMass>& masses) {
   return body != kWorld && (masses[body].flags & kBodyDynamic) != 0;
 }
 
 bool locks_turns(JointType type) { return type != JointType::kBall && type != JointType::kDistance; }
-bool both_turn(const Joint& joint, const Mirror<BodyMass>& masses) {
+bool both_turn(const Joint& joint, const Table<BodyMass>& masses) {
   const auto turns = [&](std::uint32_t body) {
     return !is_pushed(body, masses) || (masses[body].flags & kBodyTurns) != 0;
   };
@@ -40,7 +40,7 @@ void JointStore::remove(std::uint32_t slot) {
 }
 
 /// Greedily in the order given: deterministic. What finds no colour goes last.
-void JointStore::colour(const Mirror<BodyMass>& masses) {
+void JointStore::colour(const Table<BodyMass>& masses) {
   constexpr std::uint32_t kNoColour = kJointColours - 1;
   std::map<std::uint32_t, std::uint32_t> taken;
   struct Colour {
@@ -73,7 +73,7 @@ void JointStore::colour(const Mirror<BodyMass>& masses) {
   copy(system_first_, system);
 }
 
-void JointStore::list_pushed_bodies(const Mirror<BodyMass>& masses) {
+void JointStore::list_pushed_bodies(const Table<BodyMass>& masses) {
   std::map<std::uint32_t, std::vector<JointOnBody>> on_body;
   for (std::uint32_t j = base_; j < ordered_.size(); ++j) {
     const Joint& joint = ordered_[j];
@@ -105,7 +105,7 @@ void JointStore::list_excluded() {
   copy(excluded_, keys);
 }
 
-void JointStore::upload(const Mirror<BodyMass>& masses) {
+void JointStore::upload(const Table<BodyMass>& masses) {
   std::vector<Joint> all;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> joins;
   const auto moving = [&](std::uint32_t body) { return is_pushed(body, masses) ? body : kWorld; };

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "exec/memory.hpp"
+#include "exec/table.hpp"
 #include "solver/joint_loops.hpp"
 
 namespace plumb::impulse {
@@ -18,7 +19,7 @@ class JointStore {
   [[nodiscard]] bool changed() const { return changed_; }
 
   /// Puts the joints in order and copies them to where kernels run. masses tell which bodies can be pushed.
-  void upload(const Mirror<BodyMass>& masses);
+  void upload(const Table<BodyMass>& masses);
 
   [[nodiscard]] JointSet set(const Bodies& bodies, const SolverBodies& solver, bool gyroscopic);
   /// body_pair_key of bodies that do not collide, ascending.
@@ -30,8 +31,8 @@ class JointStore {
     Joint joint;
     bool used, lets_touch;
   };
-  void colour(const Mirror<BodyMass>& masses);
-  void list_pushed_bodies(const Mirror<BodyMass>& masses);
+  void colour(const Table<BodyMass>& masses);
+  void list_pushed_bodies(const Table<BodyMass>& masses);
   void list_excluded();
 
   bool changed_ = false, overflow_ = false;

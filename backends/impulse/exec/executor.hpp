@@ -6,13 +6,14 @@
 //   run(n, f)           f(i) for every i < n, all done before what is enqueued next
 //   run(Count, f)       the same, for a number of things that the device counted itself
 //   team(load, least, f)    f(team) with a team of threads that goes through several loops: team.each(n, f) runs f(i)
-//   for
-//                       every i < n and returns to all when all are done; team.single(f) runs f() once. load is the
-//                       length of the longest loop, which may be unknown to the host; it is at least `least`
+//                       for every i < n and returns to all when all are done; team.single(f) runs f() once. load is
+//                       the length of the longest loop, which may be unknown to the host; it is at least `least`
 //   Buffer<T>, Mirror<T>   memory where kernels run; the same with a twin on the host (memory.hpp)
+//   to_device, to_host  copy rows of a Mirror, in order with the kernels; uploaded_bytes() counts the first kind
 //   RadixSort<K>, Scan  (sort.hpp)
 //   record(graph, f)    f() enqueues a fixed sequence; a device captures it the first time and replays it afterwards
 //   wait()              returns when all that was enqueued is done
+//   send(Signal)        the signal is given when all that was enqueued is done: what an outsider's stream can wait for
 //   unmet_requirement() a sentence that says why this machine cannot run it, or ""
 //   device_name()       "cpu" or the name of the GPU
 //

@@ -72,6 +72,13 @@ class Buffer {
   std::size_t size_ = 0;
 };
 
+/// Whether the host and the kernels share their memory. They do on the CPU, but for a build that tests what travels.
+#if defined(PLUMB_IMPULSE_CUDA) || defined(PLUMB_IMPULSE_MEMORY_APART)
+constexpr bool kOneMemory = false;
+#else
+constexpr bool kOneMemory = true;
+#endif
+
 /// An array of which the host has a twin. On the CPU both are one. Who writes the one side says so by copying.
 template <class T>
 class Mirror {
@@ -83,7 +90,7 @@ class Mirror {
   Mirror& operator=(const Mirror&) = delete;
   ~Mirror() { memory::release_host(host_); }
 
-  [[nodiscard]] T* device() { return kOne ? host_ : device_.data(); }
+  [[nodiscard]] T* device() { return kOneMemory ? host_ : device_.data(); }
   [[nodiscard]] T* host() { return host_; }
   [[nodiscard]] const T* host() const { return host_; }
   [[nodiscard]] T& operator[](std::size_t i) { return host_[i]; }
@@ -100,15 +107,10 @@ class Mirror {
     memory::release_host(host_);
     host_ = host;
     size_ = size;
-    if (!kOne) device_.grow(size);
+    if (!kOneMemory) device_.grow(size);
   }
 
  private:
-#if defined(PLUMB_IMPULSE_CUDA)
-  static constexpr bool kOne = false;
-#else
-  static constexpr bool kOne = true;
-#endif
   T* host_ = nullptr;
   std::size_t size_ = 0;
   Buffer<T> device_;

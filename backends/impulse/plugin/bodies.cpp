@@ -11,8 +11,6 @@ namespace plumb::impulse {
 
 namespace {
 
-PlumbQuat plumb_quat(const QuatD& q) { return {q.x, q.y, q.z, q.w}; }
-bool is_identity(const QuatD& q) { return q.x == 0 && q.y == 0 && q.z == 0; }
 bool is_isotropic(const PlumbVec3& inertia) { return inertia.x == inertia.y && inertia.y == inertia.z; }
 
 Shape to_shape(const PlumbShapeDesc& desc, HullPool& hulls) {
@@ -61,9 +59,8 @@ PlumbResult World::create_shapes(std::span<const PlumbShapeDesc> descs, std::spa
   }
   for (std::size_t i = 0; i < descs.size(); ++i) {
     simulation_.reserve_shapes(slot_of(ids[i]) + 1);
-    simulation_.shapes[slot_of(ids[i])] = made[i];
+    simulation_.shapes.edit(slot_of(ids[i])) = made[i];
   }
-  simulation_.bodies_changed();
   return PLUMB_OK;
 }
 
@@ -78,34 +75,36 @@ PlumbResult World::create_bodies(std::span<const PlumbBodyDesc> descs, std::span
   std::uint32_t slots = simulation_.body_count();
   for (const PlumbBody id : ids) slots = std::max(slots, slot_of(id) + 1);
   simulation_.reserve_bodies(slots);
-  simulation_.bring_state_to_host();
   if (bodies_.size() < slots) bodies_.resize(slots);
-  for (std::uint32_t slot = simulation_.body_count(); slot < slots; ++slot) simulation_.proxies[slot].shape = kNone;
+  for (std::uint32_t slot = simulation_.body_count(); slot < slots; ++slot)
+    simulation_.proxies.edit(slot).shape = kNone;
   simulation_.set_body_count(slots);
+  row_ids_.resize(slots);
   for (std::size_t i = 0; i < descs.size(); ++i) make_body(descs[i], ids[i]);
+  ++row_generation_;
   simulation_.bodies_changed();
-  simulation_.state_changed();
   return PLUMB_OK;
 }
 
 PlumbResult World::destroy_bodies(std::span<const PlumbBody> ids) {
-  simulation_.bring_state_to_host();
   if (init_.needs(PLUMB_NEED_EVENTS)) touches_.forget(ids, early_events_);
   if (init_.needs(PLUMB_NEED_CONTACTS)) records();  // while the bodies are where the step left them
   for (const PlumbBody id : ids) {
     const std::uint32_t slot = slot_of(id);
     if (bodies_[slot].motion == PLUMB_DYNAMIC) --dynamic_count_;
     bodies_[slot] = {};
-    simulation_.proxies[slot].shape = kNone;
-    simulation_.mass[slot] = {};
-    simulation_.velocity[slot] = {};
-    simulation_.force[slot] = {};
+    row_ids_[slot] = 0;
+    simulation_.proxies.edit(slot).shape = kNone;
+    simulation_.mass.edit(slot) = {};
+    simulation_.force.edit(slot) = {};
+    simulation_.state.velocity[slot] = {};
+    simulation_.state.touch(slot, kVelocityPart);
   }
   std::erase_if(records_, [&](const ContactRecord& record) {  // their slots will be others'
     return bodies_[record.pair.a].id == 0 || bodies_[record.pair.b].id == 0;
   });
+  ++row_generation_;
   simulation_.bodies_changed();
-  simulation_.state_changed();
   return PLUMB_OK;
 }
 
@@ -113,7 +112,7 @@ void World::make_body(const PlumbBodyDesc& desc, PlumbBody id) {
   const std::uint32_t slot = slot_of(id);
   BodyRecord& body = bodies_[slot];
   body = {};
-  body.id = id;
+  body.id = row_ids_[slot] = id;
   body.motion = desc.motion;
   body.material = desc.material;
   body.filter = desc.filter;
@@ -121,6 +120,7 @@ void World::make_body(const PlumbBodyDesc& desc, PlumbBody id) {
   body.linear_damping = desc.linear_damping;
   body.angular_damping = desc.angular_damping;
 
+  BodyFrame frame{{0, 0, 0}, {0, 0, 0, 1}};
   BodyMass mass{};
   Real inverse_mass = 0;
   const bool dynamic = desc.motion == PLUMB_DYNAMIC;
@@ -129,7 +129,7 @@ void World::make_body(const PlumbBodyDesc& desc, PlumbBody id) {
     mass.flags |= kBodyDynamic;
     ++dynamic_count_;
     inverse_mass = static_cast<Real>(1 / desc.mass);
-    body.centre_of_mass = to_position(desc.centre_of_mass);
+    frame.centre_of_mass = to_position(desc.centre_of_mass);
     const bool turns = (desc.flags & PLUMB_BODY_NO_ROTATION) == 0 && init_.needs(PLUMB_NEED_ROTATION);
     if (turns) {
       mass.inertia = to_vec(desc.inertia);
@@ -137,30 +137,31 @@ void World::make_body(const PlumbBodyDesc& desc, PlumbBody id) {
       mass.inverse_inertia = {inverse(desc.inertia.x), inverse(desc.inertia.y), inverse(desc.inertia.z)};
       if (!is_isotropic(desc.inertia)) {
         mass.flags |= kBodyGyroscopic;
-        body.principal = to_double(desc.inertia_orientation);
+        frame.principal = to_double(desc.inertia_orientation);
       }
     } else {
       mass.flags &= ~static_cast<std::uint32_t>(kBodyTurns);
     }
   }
-  simulation_.mass[slot] = mass;
-  Velocity& velocity = simulation_.velocity[slot];
+  simulation_.mass.edit(slot) = mass;
+  simulation_.frames.edit(slot) = frame;
+  Velocity& velocity = simulation_.state.velocity[slot];
   velocity.inverse_mass = inverse_mass;
   velocity.linear = desc.motion == PLUMB_STATIC ? Vec{0, 0, 0} : to_vec(desc.linear_velocity);
   velocity.angular = (mass.flags & kBodyTurns) != 0 ? to_vec(desc.angular_velocity) : Vec{0, 0, 0};
   stop_infinite(slot);
-  simulation_.force[slot] = {};
-  simulation_.forces_changed();
+  simulation_.state.touch(slot, kVelocityPart);
+  simulation_.force.edit(slot) = {};
   place(slot, desc.pose);
 
-  Proxy& proxy = simulation_.proxies[slot];
+  Proxy& proxy = simulation_.proxies.edit(slot);
   proxy = {};
   proxy.body = slot;
   proxy.shape = desc.shape == 0 || !init_.needs(PLUMB_NEED_COLLISION) ? kNone : slot_of(desc.shape);
   proxy.born = simulation_.steps() + 1;
-  const QuatD to_principal = conjugate(body.principal);
+  const QuatD to_principal = conjugate(frame.principal);
   proxy.frame.orientation = to_quat(to_principal);
-  const Position offset = rotate(to_principal, -body.centre_of_mass);
+  const Position offset = rotate(to_principal, -frame.centre_of_mass);
   proxy.frame.position = {static_cast<Real>(offset.x), static_cast<Real>(offset.y), static_cast<Real>(offset.z)};
   put_proxy_rows(slot);
 }
@@ -168,53 +169,65 @@ void World::make_body(const PlumbBodyDesc& desc, PlumbBody id) {
 /// What of a body's record is copied into rows that kernels read.
 void World::put_proxy_rows(std::uint32_t slot) {
   const BodyRecord& body = bodies_[slot];
-  Proxy& proxy = simulation_.proxies[slot];
+  Proxy& proxy = simulation_.proxies.edit(slot);
   proxy.friction = static_cast<Real>(body.material.friction);
   proxy.restitution = static_cast<Real>(body.material.restitution);
-  BodyMass& mass = simulation_.mass[slot];
+  BodyMass& mass = simulation_.mass.edit(slot);
   mass.gravity_scale = static_cast<Real>(body.gravity_scale);
   mass.linear_damping = static_cast<Real>(body.linear_damping);
   mass.angular_damping = static_cast<Real>(body.angular_damping);
   const std::uint32_t immovable = body.motion == PLUMB_DYNAMIC ? 0 : kProxyImmovable;
-  simulation_.filters[slot] = {slot, body.filter.category, body.filter.mask, body.filter.group, immovable};
-  simulation_.bodies_changed();
+  simulation_.filters.edit(slot) = {slot, body.filter.category, body.filter.mask, body.filter.group, immovable};
 }
 
 void World::place(std::uint32_t slot, const PlumbPose& pose) {
-  const BodyRecord& body = bodies_[slot];
+  const BodyFrame& frame = simulation_.frames[slot];
   const QuatD q = to_double(pose.orientation);
-  simulation_.position[slot] = to_position(pose.position) + rotate(q, body.centre_of_mass);
-  simulation_.orientation[slot] = to_quat(q * body.principal);
-  if (body.motion == PLUMB_STATIC) simulation_.statics_changed();
+  simulation_.state.position[slot] = to_position(pose.position) + rotate(q, frame.centre_of_mass);
+  simulation_.state.orientation[slot] = to_quat(q * frame.principal);
+  simulation_.state.touch(slot, kPosePart);
+  if (bodies_[slot].motion == PLUMB_STATIC) simulation_.statics_changed();
 }
 
+/// Where the host's row is right.
 PlumbPose World::pose(std::uint32_t slot) const {
-  const BodyRecord& body = bodies_[slot];
-  const Position& p = simulation_.position[slot];
-  QuatD q = to_double(simulation_.orientation[slot]);
-  if (!is_identity(body.principal)) q = q * conjugate(body.principal);
-  const Position at = p - rotate(q, body.centre_of_mass);
-  return {{at.x, at.y, at.z}, plumb_quat(q)};
+  const BodyState& state = simulation_.state;
+  const PoseRow row = pose_row(simulation_.frames[slot], state.position[slot], state.orientation[slot]);
+  PlumbPose pose;
+  static_assert(sizeof pose == sizeof row);
+  std::memcpy(&pose, &row, sizeof pose);
+  return pose;
+}
+
+/// Where the host's rows are not right, all rows of the field are brought here at once: who reads reads many.
+void World::read_state(PlumbField field, std::span<const PlumbBody> ids, Rows rows) {
+  const BodyState& state = simulation_.state;
+  if (field == PLUMB_FIELD_POSE) {
+    const auto brought = state.on_host() ? nullptr : simulation_.pose_rows(true);
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+      const std::uint32_t slot = slot_of(ids[i]);
+      const PoseRow row = brought ? brought->rows[slot]
+                                  : pose_row(simulation_.frames[slot], state.position[slot], state.orientation[slot]);
+      rows.put(i, row.numbers, 7);
+    }
+    return;
+  }
+  const auto brought = state.on_host() ? nullptr : simulation_.velocity_rows(true);
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    const std::uint32_t slot = slot_of(ids[i]);
+    const VelocityRow narrow = brought ? brought->rows[slot] : velocity_row(state.velocity[slot]);
+    double row[6];
+    std::copy(std::begin(narrow.numbers), std::end(narrow.numbers), row);
+    rows.put(i, row, 6);
+  }
 }
 
 PlumbResult World::read(PlumbField field, std::span<const PlumbBody> ids, Rows rows) {
-  if (field == PLUMB_FIELD_POSE || field == PLUMB_FIELD_VELOCITY) simulation_.bring_state_to_host();
-  double row[7];
+  if (field == PLUMB_FIELD_POSE || field == PLUMB_FIELD_VELOCITY) return read_state(field, ids, rows), PLUMB_OK;
+  double row[3];
   for (std::size_t i = 0; i < ids.size(); ++i) {
-    const std::uint32_t slot = slot_of(ids[i]);
-    const BodyRecord& body = bodies_[slot];
+    const BodyRecord& body = bodies_[slot_of(ids[i])];
     switch (field) {
-      case PLUMB_FIELD_POSE: {
-        const PlumbPose at = pose(slot);
-        std::memcpy(row, &at, sizeof at);
-        break;
-      }
-      case PLUMB_FIELD_VELOCITY: {
-        const Velocity& v = simulation_.velocity[slot];
-        const PlumbVec3 both[2] = {to_plumb(v.linear), to_plumb(v.angular)};
-        std::memcpy(row, both, sizeof both);
-        break;
-      }
       case PLUMB_FIELD_AWAKE: row[0] = 1; break;
       case PLUMB_FIELD_MATERIAL:
         row[0] = body.material.friction;
@@ -240,7 +253,7 @@ PlumbResult World::read(PlumbField field, std::span<const PlumbBody> ids, Rows r
 PlumbResult World::write(PlumbField field, std::span<const PlumbBody> ids, ConstRows rows) {
   const FloatingPointScope scope;
   if (field == PLUMB_FIELD_POSE && init_.needs(PLUMB_NEED_CONTACTS)) records();  // they are told of by places
-  simulation_.bring_state_to_host();
+  fetch_for_write(field, ids);
   double row[16];
   for (std::size_t i = 0; i < ids.size(); ++i) {
     rows.get(i, row, columns_of(field));
@@ -249,17 +262,25 @@ PlumbResult World::write(PlumbField field, std::span<const PlumbBody> ids, Const
   return PLUMB_OK;
 }
 
+/// What of the bodies' state a write builds upon.
+void World::fetch_for_write(PlumbField field, std::span<const PlumbBody> ids) {
+  if (field < PLUMB_FIELD_IMPULSE || field > PLUMB_FIELD_IMPULSE_AT_POINT) return;
+  std::vector<std::uint32_t> slots(ids.size());
+  std::transform(ids.begin(), ids.end(), slots.begin(), [](PlumbBody id) { return slot_of(id); });
+  simulation_.state.fetch(slots, kPosePart | kVelocityPart);
+}
+
 /// The quarantine of what comes from outside: a velocity beyond the engine's numbers is 0 and reported, or it would
 /// spread to whatever the body touches.
 void World::stop_infinite(std::uint32_t slot) {
-  Velocity& velocity = simulation_.velocity[slot];
+  Velocity& velocity = simulation_.state.velocity[slot];
   if (is_finite(velocity.linear) && is_finite(velocity.angular)) return;
   velocity.linear = velocity.angular = {0, 0, 0};
   ++stopped_;
 }
 
 void World::push(std::uint32_t slot, const Vec& force, const Vec& torque) {
-  BodyForce& all = simulation_.force[slot];
+  BodyForce& all = simulation_.force.edit(slot);
   all.force += force;
   all.torque += torque;
   if (!is_finite(all.force) || !is_finite(all.torque)) {
@@ -267,35 +288,34 @@ void World::push(std::uint32_t slot, const Vec& force, const Vec& torque) {
     ++stopped_;
   }
   pushed_.push_back(slot);
-  simulation_.forces_changed();
 }
 
 void World::kick(std::uint32_t slot, const Vec& impulse, const Vec& angular_impulse) {
-  Velocity& velocity = simulation_.velocity[slot];
+  Velocity& velocity = simulation_.state.velocity[slot];
   velocity.linear += velocity.inverse_mass * impulse;
-  const Mat axes = to_matrix(simulation_.orientation[slot]);
+  const Mat axes = to_matrix(simulation_.state.orientation[slot]);
   velocity.angular += rotated_diagonal(axes, simulation_.mass[slot].inverse_inertia) * angular_impulse;
   stop_infinite(slot);
-  simulation_.state_changed();
+  simulation_.state.touch(slot, kVelocityPart);
 }
 
 void World::write_row(PlumbField field, std::uint32_t slot, const double* row) {
   BodyRecord& body = bodies_[slot];
   const Vec v = to_vec(row);
-  const auto arm = [&] { return between(simulation_.position[slot], {row[3], row[4], row[5]}); };
+  const auto arm = [&] { return between(simulation_.state.position[slot], {row[3], row[4], row[5]}); };
   switch (field) {
     case PLUMB_FIELD_POSE: {
       place(slot, {{row[0], row[1], row[2]}, {row[3], row[4], row[5], row[6]}});
       body.to_target = body.arrived = false;
-      return simulation_.state_changed();
+      return;
     }
     case PLUMB_FIELD_VELOCITY:
       if (body.motion == PLUMB_STATIC) return;
-      simulation_.velocity[slot].linear = v;
-      if ((simulation_.mass[slot].flags & kBodyTurns) != 0) simulation_.velocity[slot].angular = to_vec(row + 3);
+      simulation_.state.velocity[slot].linear = v;
+      if ((simulation_.mass[slot].flags & kBodyTurns) != 0) simulation_.state.velocity[slot].angular = to_vec(row + 3);
       stop_infinite(slot);
       body.to_target = body.arrived = false;
-      return simulation_.state_changed();
+      return simulation_.state.touch(slot, kVelocityPart);
     case PLUMB_FIELD_FORCE: return push(slot, v, {0, 0, 0});
     case PLUMB_FIELD_TORQUE: return push(slot, {0, 0, 0}, v);
     case PLUMB_FIELD_FORCE_AT_POINT: return push(slot, v, cross(arm(), v));

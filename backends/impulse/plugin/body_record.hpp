@@ -12,10 +12,6 @@ struct BodyRecord {
   PlumbFilter filter{};
   double gravity_scale = 1;
   double linear_damping = 0, angular_damping = 0;
-  /// From the frame of the principal axes about the centre of mass, in which the engine works, to the body's frame.
-  Position centre_of_mass{0, 0, 0};
-  QuatD principal{0, 0, 0, 1};
-
   /// A kinematic body under way to where the host wants it at the end of the step.
   bool to_target = false, arrived = false;
   PlumbPose target{};

@@ -48,6 +48,12 @@ Fact field_fact(std::uint32_t field, bool writing) {
   return kYes;
 }
 
+Fact phase_fact(std::uint32_t phase) {
+  if (phase > PLUMB_PHASE_SOLVE && phase != PLUMB_PHASE_OUTPUT) return kNotYet;
+  if (phase == PLUMB_PHASE_SOLVE) return {PLUMB_APPROXIMATE, "with integration: one kernel does both"};
+  return {PLUMB_NATIVE, PhaseClock::kEvery == 1 ? "" : "of one step in sixteen"};
+}
+
 Fact fact(PlumbCapability kind, std::uint32_t a, std::uint32_t b) {
   switch (kind) {
     case PLUMB_CAP_SHAPE: return has_shape(a) && b < PLUMB_MOTION_COUNT ? kYes : kNotYet;
@@ -57,6 +63,7 @@ Fact fact(PlumbCapability kind, std::uint32_t a, std::uint32_t b) {
     case PLUMB_CAP_NEED: return need_fact(a);
     case PLUMB_CAP_JOINT: return a <= PLUMB_JOINT_FIXED ? kYes : kNotYet;
     case PLUMB_CAP_EVENT: return a <= PLUMB_EVENT_CONTACT_END ? kYes : kNotYet;
+    case PLUMB_CAP_PHASE_TIME: return phase_fact(a);
     case PLUMB_CAP_HOST_JOBS: return kYes;
     default: return kNotYet;
   }

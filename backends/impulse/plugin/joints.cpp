@@ -22,7 +22,7 @@ JointType joint_type(PlumbJointType type) {
 }
 
 /// From the interface's frame on a body to the engine's, which is on the principal axes about the centre of mass.
-Frame principal_frame(const BodyRecord& body, const PlumbPose& frame) {
+Frame principal_frame(const BodyFrame& body, const PlumbPose& frame) {
   const QuatD to_principal = conjugate(body.principal);
   const Position at = rotate(to_principal, to_position(frame.position) - body.centre_of_mass);
   return {to_vec(PlumbVec3{at.x, at.y, at.z}), to_quat(to_principal * to_double(frame.orientation))};
@@ -58,9 +58,9 @@ PlumbResult World::create_joints(std::span<const PlumbJointDesc> descs, std::spa
     joint.slot = slot;
     joint.born = simulation_.steps() + 1;
     joint.rest_length = static_cast<Real>(desc.rest_length);
-    joint.frame_b = principal_frame(bodies_[joint.body_b], desc.frame_b);
+    joint.frame_b = principal_frame(simulation_.frames[joint.body_b], desc.frame_b);
     if (joint.body_a != kWorld) {
-      joint.frame_a = principal_frame(bodies_[joint.body_a], desc.frame_a);
+      joint.frame_a = principal_frame(simulation_.frames[joint.body_a], desc.frame_a);
     } else {
       joint.frame_a = {{0, 0, 0}, to_quat(to_double(desc.frame_a.orientation))};
       joint.world_anchor = to_position(desc.frame_a.position);
@@ -79,7 +79,13 @@ PlumbResult World::destroy_joints(std::span<const PlumbJoint> ids) {
 
 PlumbResult World::read_joints(PlumbJointField field, std::span<const PlumbJoint> ids, Rows rows) {
   if (field == PLUMB_JOINT_REACTION) throw Error(PLUMB_E_UNSUPPORTED, "reactions of joints are not in impulse yet");
-  simulation_.bring_state_to_host();
+  std::vector<std::uint32_t> bodies;
+  for (const PlumbJoint id : ids) {
+    const PlumbJointDesc& joint = joints_[slot_of(id)];
+    if (joint.body_a != 0) bodies.push_back(slot_of(joint.body_a));
+    bodies.push_back(slot_of(joint.body_b));
+  }
+  simulation_.state.fetch(bodies, kPosePart);
   for (std::size_t i = 0; i < ids.size(); ++i) {
     const PlumbJointDesc& joint = joints_[slot_of(ids[i])];
     std::array<double, 12> row{};  // no joint has a motor: its speed and force are 0

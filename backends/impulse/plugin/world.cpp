@@ -51,6 +51,8 @@ PlumbResult World::wait(PlumbStepReport& report) {
   report.dropped = 0;
   report.awake = dynamic_count_;  // nothing sleeps
   report.nonfinite = counters.nonfinite + stopped_;
+  for (PlumbPhase phase = 0; phase < PLUMB_PHASE_COUNT; ++phase)
+    report.phase_seconds[phase] = simulation_.phase_seconds(phase);
   stopped_ = 0;
   if (simulation_.repeated()) report.remarks |= PLUMB_REMARK_STEP_REPEATED | PLUMB_REMARK_CAPACITY_GREW;
   return simulation_.repeated() ? PLUMB_GROWN : PLUMB_OK;
@@ -58,11 +60,11 @@ PlumbResult World::wait(PlumbStepReport& report) {
 
 /// A kinematic body that is sent somewhere gets the velocity that leads there in one step; one that has arrived rests.
 void World::steer_kinematics(double dt) {
+  std::erase_if(steered_, [&](std::uint32_t slot) { return bodies_[slot].id == 0; });
+  simulation_.state.fetch(steered_, kPosePart);
   for (const std::uint32_t slot : steered_) {
     BodyRecord& body = bodies_[slot];
-    if (body.id == 0) continue;
-    Velocity& velocity = simulation_.velocity[slot];
-    simulation_.bring_state_to_host();
+    Velocity& velocity = simulation_.state.velocity[slot];
     if (body.to_target) {
       const PlumbPose from = pose(slot);
       const auto rate = [dt](double to, double at) { return static_cast<Real>((to - at) / dt); };
@@ -73,26 +75,23 @@ void World::steer_kinematics(double dt) {
       velocity.linear = velocity.angular = {0, 0, 0};
       body.arrived = false;
     }
-    simulation_.state_changed();
+    simulation_.state.touch(slot, kVelocityPart);
   }
-  std::erase_if(steered_, [&](std::uint32_t slot) { return bodies_[slot].id == 0 || !bodies_[slot].to_target; });
+  std::erase_if(steered_, [&](std::uint32_t slot) { return !bodies_[slot].to_target; });
 }
 
 void World::settle_kinematics() {
   for (const std::uint32_t slot : steered_) {
     BodyRecord& body = bodies_[slot];
     if (body.id == 0 || !body.to_target) continue;
-    simulation_.bring_state_to_host();
     place(slot, body.target);
-    simulation_.state_changed();
     body.to_target = false;
     body.arrived = true;
   }
 }
 
 void World::clear_forces() {
-  for (const std::uint32_t slot : pushed_) simulation_.force[slot] = {};
-  if (!pushed_.empty()) simulation_.forces_changed();
+  for (const std::uint32_t slot : pushed_) simulation_.force.edit(slot) = {};
   pushed_.clear();
 }
 

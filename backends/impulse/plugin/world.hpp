@@ -13,7 +13,7 @@
 
 namespace plumb::impulse {
 
-class World final : public IPhysicsWorld, public IJoints, public IDebug, public ISettings {
+class World final : public IPhysicsWorld, public IJoints, public IDebug, public ISettings, public IState {
  public:
   explicit World(const WorldInit& init);
 
@@ -36,10 +36,13 @@ class World final : public IPhysicsWorld, public IJoints, public IDebug, public 
 
   /// Of the last step.
   [[nodiscard]] const StepCounters& counters() const { return simulation_.counters(); }
+  /// To where kernels run, since the world was made.
+  [[nodiscard]] std::uint64_t uploaded_bytes() { return simulation_.executor().uploaded_bytes(); }
 
   IJoints* joints() override { return this; }
   IDebug* debug() override { return this; }
   ISettings* settings() override { return this; }
+  IState* state() override { return this; }
 
  private:
   PlumbResult create_joints(std::span<const PlumbJointDesc> descs, std::span<PlumbJoint> ids) override;
@@ -51,10 +54,14 @@ class World final : public IPhysicsWorld, public IJoints, public IDebug, public 
   PlumbResult separating_axes(std::span<const PlumbDebugAxis>& axes) override;
   PlumbResult get_setting(const char* name, PlumbSettingValue& value) override;
   PlumbResult set_setting(const char* name, const PlumbSettingValue& value) override;
+  PlumbResult borrow(const PlumbStateRequest& request, PlumbDLManagedTensor*& tensor, PlumbFence* fence) override;
+  PlumbResult row_map(std::span<const PlumbBody>& ids, std::uint64_t& generation) override;
 
   void make_body(const PlumbBodyDesc& desc, PlumbBody id);
   void place(std::uint32_t slot, const PlumbPose& pose);
   [[nodiscard]] PlumbPose pose(std::uint32_t slot) const;
+  void read_state(PlumbField field, std::span<const PlumbBody> ids, Rows rows);
+  void fetch_for_write(PlumbField field, std::span<const PlumbBody> ids);
   void write_row(PlumbField field, std::uint32_t slot, const double* row);
   void put_proxy_rows(std::uint32_t slot);
   void stop_infinite(std::uint32_t slot);
@@ -81,6 +88,8 @@ class World final : public IPhysicsWorld, public IJoints, public IDebug, public 
   std::vector<PlumbContact> contacts_;
   std::vector<PlumbEvent> events_, early_events_;
   std::vector<PlumbDebugPair> debug_pairs_;
+  std::vector<PlumbBody> row_ids_;    // by slot; 0 where nobody is
+  std::uint64_t row_generation_ = 0;  // changes with them
   backend::TouchTracker touches_;
 };
 

@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "exec/cpu/crew.hpp"
+#include "exec/cpu/recording.hpp"
 #include "exec/executor.hpp"
 #include "exec/memory.hpp"
 
@@ -28,14 +29,15 @@ class Team {
   Crew& crew_;
 };
 
-/// A sequence that record() has seen. Nothing to keep here: the CPU runs it anew each time.
-struct Recording {
-  void forget() {}
+/// Tells when rows may be read; on the CPU always.
+struct Signal {
+  [[nodiscard]] void* handle() const { return nullptr; }
 };
 
 class Executor {
  public:
   static constexpr bool kWarps = false;  // whether neighbouring threads must do the same to be fast
+  static constexpr std::int32_t kDeviceType = kOneMemory ? 1 : 2;  // of DLPack
 
   Executor(const PlumbHost* host, std::uint32_t threads) : crew_(host, threads) {}
 
@@ -47,30 +49,55 @@ class Executor {
 
   template <class F>
   void run(std::uint32_t n, const F& f) {
+    if (!kOneMemory && recording_ != nullptr) recording_->note(n, f);
     crew_.each(n, f);
   }
   template <class F>
   void run(Count n, const F& f) {
+    if (!kOneMemory && recording_ != nullptr) recording_->note(n.capacity, f);
     crew_.each(*n.value < n.capacity ? *n.value : n.capacity, f);
   }
   template <class F>
-  void team(Count /*load*/, std::uint32_t /*least*/, const F& f) {
+  void team(Count load, std::uint32_t least, const F& f) {
+    if (!kOneMemory && recording_ != nullptr) recording_->note(load.capacity < least ? least : load.capacity, f);
     Team team(crew_);
     f(team);
   }
   template <class F>
-  void record(Recording& /*recording*/, const F& f) {
-    f();
+  void record(Recording& recording, const F& f) {
+    if (kOneMemory) return f();
+    recording.begin();
+    recording_ = &recording;
+    try {
+      f();
+      recording.end();
+    } catch (...) {
+      recording_ = nullptr;
+      throw;
+    }
+    recording_ = nullptr;
   }
   template <class T>
-  void to_device(Mirror<T>& /*mirror*/, std::size_t /*count*/) {}
+  void to_device(Mirror<T>& mirror, std::size_t count, std::size_t first = 0) {
+    if (kOneMemory || count == 0) return;
+    memory::upload(mirror.device() + first, mirror.host() + first, count * sizeof(T));
+    uploaded_bytes_ += count * sizeof(T);
+  }
   template <class T>
-  void to_host(Mirror<T>& /*mirror*/, std::size_t /*count*/) {}
+  void to_host(Mirror<T>& mirror, std::size_t count) {
+    if (!kOneMemory && count != 0) memory::download(mirror.host(), mirror.device(), count * sizeof(T));
+  }
+  [[nodiscard]] std::uint64_t uploaded_bytes() const { return uploaded_bytes_; }
   void wait() {}
+  void send(Signal& /*signal*/) {}
+  [[nodiscard]] void* stream_handle() const { return nullptr; }
+  [[nodiscard]] static std::int32_t device_id() { return 0; }
   Crew& crew() { return crew_; }
 
  private:
   Crew crew_;
+  std::uint64_t uploaded_bytes_ = 0;
+  Recording* recording_ = nullptr;  // what is being recorded
 };
 
 }  // namespace plumb::impulse

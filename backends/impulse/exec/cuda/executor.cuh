@@ -45,6 +45,19 @@ class Recording {
   cudaGraphExec_t graph_ = nullptr;
 };
 
+/// An event that another stream can wait for. May outlive the executor.
+class Signal {
+ public:
+  Signal() { check_cuda(cudaEventCreateWithFlags(&event_, cudaEventDisableTiming), "cannot make an event"); }
+  Signal(const Signal&) = delete;
+  Signal& operator=(const Signal&) = delete;
+  ~Signal() { (void)cudaEventDestroy(event_); }
+  [[nodiscard]] cudaEvent_t handle() const { return event_; }
+
+ private:
+  cudaEvent_t event_ = nullptr;
+};
+
 #if defined(__CUDACC__)
 template <class F>
 __global__ void run_kernel(const __grid_constant__ F f, std::uint32_t n) {
@@ -71,7 +84,8 @@ __global__ void __launch_bounds__(kTeamThreads)
 
 class Executor {
  public:
-  static constexpr bool kWarps = true;  // whether neighbouring threads must do the same to be fast
+  static constexpr bool kWarps = true;            // whether neighbouring threads must do the same to be fast
+  static constexpr std::int32_t kDeviceType = 2;  // of DLPack
 
   Executor(const PlumbHost* host, std::uint32_t threads);
   Executor(const Executor&) = delete;
@@ -138,14 +152,23 @@ class Executor {
 #endif
   /// Enqueued, in order with the kernels; done after wait().
   template <class T>
-  void to_device(Mirror<T>& mirror, std::size_t count) {
-    copy(mirror.device(), mirror.host(), count * sizeof(T), cudaMemcpyHostToDevice);
+  void to_device(Mirror<T>& mirror, std::size_t count, std::size_t first = 0) {
+    copy(mirror.device() + first, mirror.host() + first, count * sizeof(T), cudaMemcpyHostToDevice);
+    uploaded_bytes_ += count * sizeof(T);
   }
   template <class T>
   void to_host(Mirror<T>& mirror, std::size_t count) {
     copy(mirror.host(), mirror.device(), count * sizeof(T), cudaMemcpyDeviceToHost);
   }
+  [[nodiscard]] std::uint64_t uploaded_bytes() const { return uploaded_bytes_; }
   void wait() { check_cuda(cudaStreamSynchronize(stream_), "a kernel failed"); }
+  void send(Signal& signal) { check_cuda(cudaEventRecord(signal.handle(), stream_), "cannot record an event"); }
+  [[nodiscard]] void* stream_handle() const { return stream_; }
+  [[nodiscard]] static std::int32_t device_id() {
+    int device = 0;
+    check_cuda(cudaGetDevice(&device), "there is no CUDA device");
+    return device;
+  }
 
  private:
   static constexpr std::uint32_t kBlock = 128;
@@ -157,6 +180,7 @@ class Executor {
   cudaStream_t stream_ = nullptr;
   std::uint32_t multiprocessors_ = 1;
   TeamBarrier* barrier_ = nullptr;  // on the device
+  std::uint64_t uploaded_bytes_ = 0;
 };
 
 }  // namespace plumb::impulse

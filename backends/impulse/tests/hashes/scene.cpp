@@ -115,6 +115,13 @@ void Scene::target(PlumbBody kinematic, const PlumbVec3& position) {
                                const_rows_over(std::span<const PlumbPose>(&pose, 1))));
 }
 
+void Scene::write(PlumbField field, PlumbBody written, const std::vector<double>& row) {
+  const ConstRows rows(reinterpret_cast<const std::byte*>(row.data()), 1, row.size() * sizeof(double), PLUMB_F64);
+  check(*world_, world_->write(field, {&written, 1}, rows));
+}
+
+void Scene::remove(PlumbBody gone) { check(*world_, world_->destroy_bodies({&gone, 1})); }
+
 void Scene::run(int steps) {
   PlumbStepReport report{};
   for (int i = 0; i < steps; ++i, ++steps_) {

@@ -48,6 +48,9 @@ class Scene {
   /// Called before each step with the number of steps done.
   std::function<void(Scene&, int)> before_step;
   void target(PlumbBody body, const PlumbVec3& position);
+  /// A row of the field, of as many numbers as it has.
+  void write(PlumbField field, PlumbBody body, const std::vector<double>& row);
+  void remove(PlumbBody body);
 
   /// Steps of 1/60 s.
   void run(int steps);

@@ -127,6 +127,56 @@ void chain(Scene& scene) {
   for (int i = 0; i < 4; ++i) scene.add(cube, {-1, 0.5 + i, 0});
 }
 
+/// Everything that a host may do to bodies between steps, done to a heap of them.
+struct Meddler {
+  std::vector<PlumbBody> bodies;
+  PlumbShape cube, ball;
+  PlumbBody pusher, shelf;
+
+  void operator()(Scene& scene, int step) {
+    Random random(static_cast<std::uint64_t>(step) + 77);
+    const auto any = [&] { return bodies[random.next() % bodies.size()]; };
+    const auto number = [&] { return random.between(-2, 2); };
+    if (step % 40 < 30) scene.target(pusher, {0.02 * (step % 40) - 3, 1, 0.3});
+    if (step % 3 == 0) {
+      const PlumbQuat q = random.turn();
+      scene.write(PLUMB_FIELD_POSE, any(), {number(), 6 + number(), number(), q.x, q.y, q.z, q.w});
+    }
+    if (step % 4 == 0) scene.write(PLUMB_FIELD_VELOCITY, any(), {number(), 0, number(), number(), 0, number()});
+    if (step % 5 == 0) scene.write(PLUMB_FIELD_IMPULSE_AT_POINT, any(), {900, 900, 0, number(), 1, number()});
+    if (step % 5 == 1) scene.write(PLUMB_FIELD_ANGULAR_IMPULSE, any(), {number(), 100, number()});
+    if (step % 6 == 0) scene.write(PLUMB_FIELD_FORCE_AT_POINT, any(), {5e3, 1e4, 0, number(), 1, number()});
+    if (step % 7 == 0) scene.write(PLUMB_FIELD_MATERIAL, any(), {random.uniform(), random.uniform()});
+    if (step % 11 == 0) scene.write(PLUMB_FIELD_GRAVITY_SCALE, any(), {random.uniform()});
+    if (step % 13 == 0) scene.write(PLUMB_FIELD_DAMPING, any(), {random.uniform(), random.uniform()});
+    if (step % 17 == 0) scene.write(PLUMB_FIELD_FILTER, any(), {1, 4294967295.0, 1.0 + step % 2});
+    if (step % 29 == 0) scene.write(PLUMB_FIELD_POSE, shelf, {3, 0.5 + 0.01 * step, 0, 0, 0, 0, 1});
+    if (step % 19 == 18) {
+      const auto gone = bodies.begin() + static_cast<std::ptrdiff_t>(random.next() % bodies.size());
+      scene.remove(*gone);
+      bodies.erase(gone);
+    }
+    if (step % 23 == 0) bodies.push_back(scene.add(step % 2 == 0 ? cube : ball, {number(), 9, number()}));
+    if (step == 150) cube = scene.box({0.3, 0.2, 0.5});
+  }
+};
+
+void meddling(Scene& scene) {
+  scene.container(4, 40);
+  Meddler meddler;
+  meddler.cube = scene.box({0.4, 0.3, 0.5});
+  meddler.ball = scene.sphere(0.4);
+  for (int i = 0; i < 120; ++i) {
+    Random random(static_cast<std::uint64_t>(3000 + i));
+    meddler.bodies.push_back(scene.add(i % 3 == 0 ? meddler.ball : meddler.cube,
+                                       {1.2 * (i % 5) - 2.4, 1 + 1.1 * (i / 25), 1.2 * (i / 5 % 5) - 2.4},
+                                       random.turn()));
+  }
+  meddler.pusher = scene.add_kinematic(meddler.cube, {-3, 1, 0.3});
+  meddler.shelf = scene.add_static(meddler.cube, {3, 0.5, 0});
+  scene.before_step = meddler;
+}
+
 bool has_choice(const Backend& backend, const char* solver) {
   for (const PlumbSettingInfo* info : backend.settings())
     for (std::uint32_t i = 0; std::string_view(info->name) == "solver" && i < info->choice_count; ++i)
@@ -139,6 +189,8 @@ bool has_choice(const Backend& backend, const char* solver) {
 const std::vector<NamedScene>& named_scenes() {
   constexpr PlumbNeeds kNoContacts = PLUMB_NEED_ROTATION | PLUMB_NEED_GYROSCOPIC;
   constexpr PlumbNeeds kAll = kContactNeeds | PLUMB_NEED_GYROSCOPIC;
+  constexpr PlumbNeeds kMeddlingNeeds =
+      PLUMB_NEED_RESTITUTION | PLUMB_NEED_KINEMATIC | PLUMB_NEED_DAMPING | PLUMB_NEED_FORCES | PLUMB_NEED_FILTERS;
   static const std::vector<NamedScene> scenes = {
       {"tower-20", nullptr, kContactNeeds, kDown, &tower},
       {"pyramid-20", nullptr, kContactNeeds, kDown, &pyramid_20},
@@ -153,6 +205,7 @@ const std::vector<NamedScene>& named_scenes() {
       {"pyramid-far", nullptr, kContactNeeds, kDown, &pyramid_far},
       {"dominoes", nullptr, kAll, kDown, &dominoes},
       {"chain", nullptr, kAll | PLUMB_NEED_JOINTS, kDown, &chain},
+      {"meddling", nullptr, kAll | kMeddlingNeeds, kDown, &meddling},
       {"pyramid-10-si", "si", kContactNeeds, kDown, &pyramid_10},
       {"pyramid-10-jacobi", "jacobi", kContactNeeds, kDown, &pyramid_10},
       {"pyramid-10-xpbd", "xpbd", kContactNeeds, kDown, &pyramid_10},
