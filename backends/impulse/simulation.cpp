@@ -238,10 +238,14 @@ template <class Row>
 std::shared_ptr<RowBlock<Row>> Simulation::rows(FieldRows<Row>& field, bool on_host) {
   if (field.want(on_host)) forget_recordings();
   if (field.fresh(state.version(), on_host)) return field.block();
-  if (field.reserve(state.size(), true)) forget_recordings();
-  frames.upload(executor_);
-  state.upload();
-  field.write(executor_, bodies(), frames.device(), body_count_);
+  if (field.fresh(state.version(), false)) {
+    field.bring(executor_, body_count_);
+  } else {
+    if (field.reserve(state.size(), true)) forget_recordings();
+    frames.upload(executor_);
+    state.upload();
+    field.write(executor_, bodies(), frames.device(), body_count_);
+  }
   field.written(state.version());
   executor_.wait();
   return field.block();

@@ -29,7 +29,7 @@ WriteVelocities writer(const Bodies& bodies, const BodyFrame* /*frames*/, Veloci
 template <class Row>
 void FieldRows<Row>::write(Executor& executor, const Bodies& bodies, const BodyFrame* frames, std::uint32_t count) {
   executor.run(count, writer(bodies, frames, block_->rows.device()));
-  if (to_host_) executor.to_host(block_->rows, count);
+  if (to_host_) bring(executor, count);
 }
 
 template class FieldRows<PoseRow>;

@@ -66,8 +66,10 @@ class FieldRows {
     block_->rows.grow(size);
     return true;
   }
-  /// Enqueues the writing of `count` rows.
+  /// Enqueues the writing of `count` rows, and their way to the host where they are wanted there.
   void write(Executor& executor, const Bodies& bodies, const BodyFrame* frames, std::uint32_t count);
+  /// Enqueues the way to the host alone.
+  void bring(Executor& executor, std::uint32_t count) { executor.to_host(block_->rows, count); }
   /// What write() enqueued, then or in a recording, is of this version of the state.
   void written(std::uint64_t version) {
     version_ = version;

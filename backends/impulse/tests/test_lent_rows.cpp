@@ -108,8 +108,10 @@ TEST_F(LentRows, AreWhatReadGives) {
 TEST_F(LentRows, FollowTheStepsAndStayAsTheyAreBetweenThem) {
   const Tensor lent = borrow(PLUMB_FIELD_POSE);
   scene_->run(3);
+  EXPECT_EQ(numbers(lent), read(PLUMB_FIELD_POSE)) << "rows that were lent before the steps";
+  scene_->run(3);
   const std::vector<double> before = numbers(lent);
-  EXPECT_EQ(before, read(PLUMB_FIELD_POSE)) << "rows that were lent before the step";
+  EXPECT_EQ(before, read(PLUMB_FIELD_POSE)) << "after more steps";
   scene_->write(PLUMB_FIELD_POSE, bodies_[4], {7, 8, 9, 0, 0, 0, 1});
   const Tensor again = borrow(PLUMB_FIELD_POSE);
   EXPECT_EQ(numbers(again), read(PLUMB_FIELD_POSE)) << "rows that were lent after the write";

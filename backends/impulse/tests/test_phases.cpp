@@ -61,6 +61,7 @@ TEST_F(Phases, ThatAreLeftOutTakeNoTime) {
   scene.body.mass_mode = PLUMB_MASS_FROM_TOTAL;
   scene.body.mass = 1;
   scene.body.flags = PLUMB_BODY_NO_ROTATION;
+  scene.body.material.friction = 0;
   scene.add(0, {0, 0, 0});
   TimedStep timed{};
   for (std::uint32_t i = 0; i < PhaseClock::kEvery; ++i) timed = timed_step(scene);
