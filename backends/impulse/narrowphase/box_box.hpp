@@ -270,8 +270,9 @@ PLUMB_HD inline void touch_faces(const BoxPair& p, const BoxAxis& axis, Real mar
   int count = overlap_faces(o, axis.separation, margin, at);
   if (count == 0 && axis.separation <= 0) at[count++] = deepest_corner(o, axis.separation);
   count = choose_points(at, count, tie);
-  // What is deepest along the axis is a candidate, but for the last digits and the slack of clipping.
-  if (axis.separation <= 0) at[0].separation = axis.separation;
+  // What is deepest along the axis is a candidate, but for the slack of clipping. Its last digits are left as they are:
+  // rounded as the other points' are, or a level face would lean towards one corner, and a tower of them with it.
+  if (axis.separation <= 0 && at[0].separation > axis.separation + tie) at[0].separation = axis.separation;
   out.count = static_cast<std::uint32_t>(count);
   for (int i = 0; i < count; ++i) {
     Vec position = {0, 0, 0};

@@ -1,0 +1,27 @@
+// Stacks that stand as they were built: nothing in a step may lean them.
+#include <gtest/gtest.h>
+
+#include "engine.hpp"
+
+namespace plumb::impulse::test {
+namespace {
+
+constexpr PlumbNeeds kNeeds = PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION;
+
+/// The largest way sideways of a cube of a tower, after so many steps, m.
+double drift_of_tower(int cubes, int steps) {
+  Scene scene(engine(), kNeeds, {0, -9.81, 0}, 1);
+  scene.ground();
+  const PlumbShape cube = scene.box({0.5, 0.5, 0.5});
+  for (int i = 0; i < cubes; ++i) scene.add(cube, {0, i + 0.5, 0});
+  scene.run(steps);
+  double drift = 0;
+  for (const PlumbPose& pose : scene.poses()) drift = std::max(drift, std::hypot(pose.position.x, pose.position.z));
+  return drift;
+}
+
+/// Rounding is no slope: every point of a level face is as deep as the others, to the last digit but one.
+TEST(Stacks, OfBoxesAreNotLeantByRounding) { EXPECT_LT(drift_of_tower(10, 300), 1e-5); }
+
+}  // namespace
+}  // namespace plumb::impulse::test
