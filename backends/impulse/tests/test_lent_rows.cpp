@@ -120,6 +120,7 @@ TEST_F(LentRows, FollowTheStepsAndStayAsTheyAreBetweenThem) {
 }
 
 TEST_F(LentRows, SayWhoseTheyAre) {
+  (void)borrow(PLUMB_FIELD_POSE);  // so that steps bring them
   std::vector<PlumbBody> first(bodies_.size());
   std::span<const PlumbBody> ids;
   std::uint64_t generation = 0, later = 0;
@@ -133,13 +134,16 @@ TEST_F(LentRows, SayWhoseTheyAre) {
   EXPECT_NE(later, generation);
   EXPECT_EQ(ids[5], 0U) << "the row of a body that is gone";
   EXPECT_EQ(ids[6], bodies_[6]);
-  const PlumbBody newcomer = scene_->add(box_, {0, 30, 0});
+  // Its centre of mass and principal axes are not those of its frame.
+  const PlumbBody newcomer = scene_->add(scene_->hull({{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {0.5, 0, 3}}), {0, 30, 0});
   generation = later;
   ASSERT_EQ(state().row_map(ids, later), PLUMB_OK);
   EXPECT_NE(later, generation);
   EXPECT_EQ(ids[5], newcomer);
   bodies_[5] = newcomer;
+  scene_->run(2);
   EXPECT_EQ(numbers(borrow(PLUMB_FIELD_POSE)), read(PLUMB_FIELD_POSE));
+  EXPECT_NEAR(numbers(borrow(PLUMB_FIELD_POSE))[5 * 7 + 1], 30, 0.1) << "its frame, not its centre of mass";
 }
 
 TEST_F(LentRows, OutliveGrowthAndTheWorld) {
