@@ -74,19 +74,5 @@ PLUMB_HD constexpr Sym33<N> rotated_diagonal(const Mat33<N>& r, const Vec3<N>& d
           d.x * r.x.x * r.x.z + d.y * r.y.x * r.y.z + d.z * r.z.x * r.z.z,
           d.x * r.x.y * r.x.z + d.y * r.y.y * r.y.z + d.z * r.z.y * r.z.z};
 }
-/// [r]^T S [r] with [r] the cross product matrix: how much turning by S gives way at arm r. (K = m^-1 + [r]^T I^-1 [r])
-PLUMB_HD constexpr Sym turned_by_arm(const Sym& s, const Vec& r) {
-  // Columns of S [r]: S (e_i -> r x e_i) written out; the result is -[r] (S [r]) = [r]^T S [r].
-  const Vec cx = s * Vec{0, r.z, -r.y}, cy = s * Vec{-r.z, 0, r.x}, cz = s * Vec{r.y, -r.x, 0};
-  return {r.z * cx.y - r.y * cx.z, r.x * cy.z - r.z * cy.x, r.y * cz.x - r.x * cz.y,
-          r.z * cy.y - r.y * cy.z, r.z * cz.y - r.y * cz.z, r.x * cz.z - r.z * cz.x};
-}
-/// By cofactors; 0 where s is singular (what cannot move has effective mass 0).
-PLUMB_HD inline Sym inverse_or_zero(const Sym& s) {
-  const Real a = s.yy * s.zz - s.yz * s.yz, b = s.xz * s.yz - s.xy * s.zz, c = s.xy * s.yz - s.xz * s.yy;
-  const Real d = reciprocal_or_zero(s.xx * a + s.xy * b + s.xz * c);
-  return {d * a, d * (s.xx * s.zz - s.xz * s.xz), d * (s.xx * s.yy - s.xy * s.xy), d * b,
-          d * c, d * (s.xy * s.xz - s.xx * s.yz)};
-}
 
 }  // namespace plumb::impulse
