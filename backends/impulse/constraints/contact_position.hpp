@@ -9,33 +9,35 @@
 
 namespace plumb::impulse {
 
-/// Starts a sub-step's impulses at 0 (compliance 0) and writes kOpen: what a point's relative speed must lose so that
-/// it ends the sub-step without overlap. Overlap from before is taken back no faster than push_speed.
-template <class N>
-PLUMB_HD void start_contact_position(const RowAccess<N>& row, int points, const SolverBody<N>& a,
-                                     const SolverBody<N>& b, const StepParameters& step) {
-  const N zero = N(0);
-  const Vec3<N> n = row.vector(kNormal);
-  for (int p = 0; p < points; ++p) {
-    const Vec3<N> ra = row.vector(point_field(p, kArmA)), rb = row.vector(point_field(p, kArmB));
-    const N separation = row.get(point_field(p, kSeparation)) + dot(displacement_at(b, rb) - displacement_at(a, ra), n);
+/// Starts a sub-step's impulses at 0 (compliance 0) and sets `open`: what a point's relative speed must lose so that it
+/// ends the sub-step without overlap. Overlap from before is taken back no faster than push_speed.
+template <int P, class N>
+PLUMB_HD void start_contact_position(Contact<N>& contact, const SolverBody<N>& a, const SolverBody<N>& b,
+                                     const StepParameters& step) {
+  const Vec3<N> n = contact.normal;
+  PLUMB_UNROLL
+  for (int p = 0; p < P; ++p) {
+    ContactPoint<N>& point = contact.points[p];
+    const Vec3<N> ra = contact.arm_a(p), rb = contact.arm_b(p);
+    const N separation = point.separation + dot(displacement_at(b, rb) - displacement_at(a, ra), n);
     const N before = separation * N(step.inverse_h) - dot(velocity_at(b, rb) - velocity_at(a, ra), n);
-    row.put(point_field(p, kOpen), max(before, N(-step.push_speed)));
-    for (std::uint32_t i = 0; i < 3; ++i) row.put(point_field(p, kNormalImpulse + i), zero);
-    row.put(point_field(p, kImpactSpeed), N(1));
+    point.open = max(before, N(-step.push_speed));
+    point.impulse[0] = point.impulse[1] = point.impulse[2] = N(0);
+    point.impact_speed = N(1);
   }
 }
 
-/// Writes kOpen for the pass at the level of velocities: what was pushed leaves with Newton's restitution, or not at
+/// Sets `open` for the pass at the level of velocities: what was pushed leaves with Newton's restitution, or not at
 /// all, so that what took back overlap does not stay as velocity; what was not pushed is let be.
-template <class N>
-PLUMB_HD void start_contact_velocity(const RowAccess<N>& row, int points, Real slowest) {
+template <int P, class N>
+PLUMB_HD void start_contact_velocity(Contact<N>& contact, Real slowest) {
   const N zero = N(0);
-  const N restitution = row.get(kRestitution);
-  for (int p = 0; p < points; ++p) {
-    const N impact = row.get(point_field(p, kImpactSpeed));
-    const N leave = select(impact < N(-slowest), restitution * impact, zero);
-    row.put(point_field(p, kOpen), select(row.get(point_field(p, kNormalImpulse)) > zero, leave, N(kHuge)));
+  PLUMB_UNROLL
+  for (int p = 0; p < P; ++p) {
+    ContactPoint<N>& point = contact.points[p];
+    const N impact = point.impact_speed;
+    const N leave = select(impact < N(-slowest), contact.restitution * impact, zero);
+    point.open = select(point.impulse[0] > zero, leave, N(kHuge));
   }
 }
 

@@ -42,6 +42,8 @@ struct PadColours {
       rows.row[slot] = kNone;
       Real* numbers = rows.at(slot);
       for (std::uint32_t f = 0; f < kAllFields; ++f) numbers[f * kRowBlock] = 0;
+      if (Real* sums = rows.sums_at(slot); sums != nullptr)
+        for (std::uint32_t f = 0; f < kSumFields; ++f) sums[f * kRowBlock] = 0;
     }
   }
 };
@@ -60,46 +62,66 @@ PLUMB_HD inline void put_tangent_mass(Real* numbers, int point, Real k11, Real k
 
 /// Inverse of a symmetric positive definite matrix by Gauss and Jordan's elimination, which needs no pivots for those.
 PLUMB_HD inline void invert(Real (&m)[kManifoldPoints][kManifoldPoints]) {
+  PLUMB_UNROLL
   for (int k = 0; k < kManifoldPoints; ++k) {
     const Real pivot = Real(1) / m[k][k];
     m[k][k] = 1;
+    PLUMB_UNROLL
     for (int j = 0; j < kManifoldPoints; ++j) m[k][j] = pivot * m[k][j];
+    PLUMB_UNROLL
     for (int i = 0; i < kManifoldPoints; ++i) {
       if (i == k) continue;
       const Real factor = m[i][k];
       m[i][k] = 0;
+      PLUMB_UNROLL
       for (int j = 0; j < kManifoldPoints; ++j) m[i][j] = m[i][j] - factor * m[k][j];
     }
   }
 }
 
-/// The matrix that gives all normal speeds for all normal impulses, inverted. Four points of a plane have but three
-/// ways to move: a share of each point's own softness is added, without which there is no inverse. With much less of it
-/// the impulses of the fourth way wander, and towers tremble.
-PLUMB_HD inline void put_block_inverse(Real* numbers, std::uint32_t count, Real inverse_mass, const Sym& inertia_a,
-                                       const Sym& inertia_b) {
-  const Real share = count > 1 ? Real(0.05) : Real(0);
-  const RowAccess<Real> row{numbers};
-  const Vec n = row.vector(kNormal);
-  Real m[kManifoldPoints][kManifoldPoints] = {};
-  Vec turn_a[kManifoldPoints], turn_b[kManifoldPoints];
-  for (int p = 0; p < kManifoldPoints; ++p) {
-    turn_a[p] = cross(row.vector(point_field(p, kArmA)), n);
-    turn_b[p] = cross(row.vector(point_field(p, kArmB)), n);
+/// The two bodies of a contact, and how they give way to impulses at it.
+struct ContactEnds {
+  Sym inertia_a, inertia_b;  ///< inverse
+  Real inverse_mass;         ///< of both together
+
+  /// Turns of both bodies by an impulse of 1 N s along a direction.
+  struct Turn {
+    Vec arm_a, arm_b;  ///< arm x direction
+    Vec by_a, by_b;    ///< change of angular velocity
+  };
+  PLUMB_HD Turn turn(const Vec& arm_a, const Vec& arm_b, const Vec& direction) const {
+    const Vec a = cross(arm_a, direction), b = cross(arm_b, direction);
+    return {a, b, inertia_a * a, inertia_b * b};
   }
-  for (int p = 0; p < kManifoldPoints; ++p)
-    for (int q = 0; q < kManifoldPoints; ++q) {
-      const bool there = max(p, q) < static_cast<int>(count);
-      m[p][q] = there ? inverse_mass + dot(turn_a[p], inertia_a * turn_a[q]) + dot(turn_b[p], inertia_b * turn_b[q])
-                      : Real(p == q ? 1 : 0);
-    }
+  /// Speed along the direction of u for an impulse along that of v, but for what the masses give.
+  PLUMB_HD static Real give(const Turn& u, const Turn& v) { return dot(u.arm_a, v.by_a) + dot(u.arm_b, v.by_b); }
+};
+
+/// The matrix that gives all normal speeds for all normal impulses, and its inverse. Four points of a plane have but
+/// three ways to move: a share of each point's own softness is added, without which there is no inverse. With much less
+/// of it the impulses of the fourth way wander, and towers tremble.
+PLUMB_HD inline void put_matrix(Real* numbers, int count, Real inverse_mass,
+                                const ContactEnds::Turn (&turns)[kManifoldPoints]) {
+  const Real share = count > 1 ? Real(0.05) : Real(0);
   const bool moves = inverse_mass > 0;
-  for (int p = 0; p < kManifoldPoints; ++p) m[p][p] = moves ? (1 + share) * m[p][p] : Real(1);
+  Real m[kManifoldPoints][kManifoldPoints];
+  std::uint32_t field = kCoupling;
+  PLUMB_UNROLL
+  for (int p = 0; p < kManifoldPoints; ++p) {
+    const bool there = moves && p < count;
+    m[p][p] = there ? (1 + share) * (inverse_mass + ContactEnds::give(turns[p], turns[p])) : Real(1);
+    PLUMB_UNROLL
+    for (int q = p + 1; q < kManifoldPoints; ++q, ++field) {
+      m[p][q] = m[q][p] = moves && q < count ? inverse_mass + ContactEnds::give(turns[p], turns[q]) : Real(0);
+      numbers[field * kRowBlock] = m[p][q];
+    }
+  }
   invert(m);
-  std::uint32_t field = kBlockInverse;
-  for (int p = 0; p < kManifoldPoints; ++p)
-    for (int q = p; q < kManifoldPoints; ++q, ++field)
-      row.put(field, moves && q < static_cast<int>(count) ? m[p][q] : Real(0));
+  field = kBlockInverse;
+  PLUMB_UNROLL
+  for (int p = 0; p < kManifoldPoints; ++p) PLUMB_UNROLL
+  for (int q = p; q < kManifoldPoints; ++q, ++field)
+    numbers[field * kRowBlock] = moves && q < count ? m[p][q] : Real(0);
 }
 
 PLUMB_HD inline void PrepareContacts::operator()(std::uint32_t j) const {
@@ -117,9 +139,8 @@ PLUMB_HD inline void PrepareContacts::operator()(std::uint32_t j) const {
     return parts == nullptr ? Real(1) : static_cast<Real>(parts[body].end - parts[body].first);
   };
   const Real parts_a = split(a), parts_b = split(b);
-  const Sym inertia_a = parts_a * solver_bodies.inertia[a].inverse,
-            inertia_b = parts_b * solver_bodies.inertia[b].inverse;
-  const Real inverse_mass = parts_a * bodies.velocity[a].inverse_mass + parts_b * bodies.velocity[b].inverse_mass;
+  const ContactEnds ends = {parts_a * solver_bodies.inertia[a].inverse, parts_b * solver_bodies.inertia[b].inverse,
+                            parts_a * bodies.velocity[a].inverse_mass + parts_b * bodies.velocity[b].inverse_mass};
 
   rows.body_a[slot] = a;
   rows.body_b[slot] = b;
@@ -136,33 +157,41 @@ PLUMB_HD inline void PrepareContacts::operator()(std::uint32_t j) const {
   const Vec n = kept.normal, t1 = kept.tangent, t2 = cross(n, t1);
   put_vector(kNormal, n);
   put_vector(kTangent, t1);
+  Vec centre = {0, 0, 0};
+  for (int p = 0; p < static_cast<int>(kept.count); ++p) centre += found.points[p].position;
+  centre = (Real(1) / static_cast<Real>(kept.count)) * centre;
+  const Vec centre_a = offset_a + centre, centre_b = centre_a - from_a_to_b;
+  put_vector(kCentreA, centre_a);
+  put_vector(kCentreB, centre_b);
   put(kFriction, sqrt(proxy_a.friction * proxy_b.friction));
   put(kRestitution, max(proxy_a.restitution, proxy_b.restitution));
+  ContactEnds::Turn normal_turns[kManifoldPoints] = {};
+  PLUMB_UNROLL
   for (int p = 0; p < kManifoldPoints; ++p) {
     const auto field = [p](std::uint32_t f) { return point_field(p, f); };
     if (p >= static_cast<int>(kept.count)) {
       for (std::uint32_t f = 0; f < kPointFields; ++f) put(field(f), 0);
       continue;
     }
-    const Vec arm_a = offset_a + found.points[p].position, arm_b = arm_a - from_a_to_b;
-    const auto give = [&](const Vec& u, const Vec& v) {  // u . K v, K the matrix of the point
-      return inverse_mass * dot(u, v) + dot(cross(arm_a, u), inertia_a * cross(arm_a, v)) +
-             dot(cross(arm_b, u), inertia_b * cross(arm_b, v));
-    };
-    put_vector(field(kArmA), arm_a);
-    put_vector(field(kArmB), arm_b);
+    const Vec arm = found.points[p].position - centre, arm_a = centre_a + arm, arm_b = centre_b + arm;
+    normal_turns[p] = ends.turn(arm_a, arm_b, n);
+    const ContactEnds::Turn turn1 = ends.turn(arm_a, arm_b, t1), turn2 = ends.turn(arm_a, arm_b, t2);
+    const Real normal_give = ends.inverse_mass + ContactEnds::give(normal_turns[p], normal_turns[p]);
+    put_vector(field(kArm), arm);
     put(field(kSeparation), found.points[p].separation);
-    put(field(kNormalGive), give(n, n));
-    put(field(kNormalMass), reciprocal_or_zero(give(n, n)));
-    put_tangent_mass(numbers, p, give(t1, t1), give(t1, t2), give(t2, t2));
+    put(field(kNormalGive), normal_give);
+    put(field(kNormalMass), reciprocal_or_zero(normal_give));
+    put_tangent_mass(numbers, p, ends.inverse_mass + ContactEnds::give(turn1, turn1), ContactEnds::give(turn1, turn2),
+                     ends.inverse_mass + ContactEnds::give(turn2, turn2));
     put(field(kNormalImpulse), warm_start * kept.normal_impulse[p]);
     put(field(kTangentImpulse), warm_start * kept.tangent_impulse[0][p]);
     put(field(kTangentImpulse + 1), warm_start * kept.tangent_impulse[1][p]);
     put(field(kImpactSpeed), 1);
     put(field(kOpen), 0);
-    for (std::uint32_t i = 0; i < 3; ++i) put(field(kStepImpulse + i), 0);
   }
-  put_block_inverse(numbers, kept.count, inverse_mass, inertia_a, inertia_b);
+  if (Real* sums = rows.sums_at(slot); sums != nullptr)
+    for (std::uint32_t i = 0; i < kSumFields; ++i) sums[i * kRowBlock] = 0;
+  put_matrix(numbers, static_cast<int>(kept.count), ends.inverse_mass, normal_turns);
 }
 
 /// Writes the impulses of a solver row back to the contact cache.
@@ -180,11 +209,12 @@ struct KeepImpulses {
       kept.tangent_impulse[1][p] = numbers[point_field(p, kTangentImpulse + 1) * kRowBlock];
     }
     if (step_impulses == nullptr) return;
-    StepImpulses& sums = step_impulses[rows.row[slot]];
-    for (int p = 0; p < kManifoldPoints; ++p) {
-      sums.normal[p] = numbers[point_field(p, kStepImpulse) * kRowBlock];
-      sums.tangent[0][p] = numbers[point_field(p, kStepImpulse + 1) * kRowBlock];
-      sums.tangent[1][p] = numbers[point_field(p, kStepImpulse + 2) * kRowBlock];
+    StepImpulses& kept_sums = step_impulses[rows.row[slot]];
+    const Real* sums = rows.sums_at(slot);
+    for (int p = 0; p < kManifoldPoints; ++p, sums += 3 * kRowBlock) {
+      kept_sums.normal[p] = sums[0];
+      kept_sums.tangent[0][p] = sums[kRowBlock];
+      kept_sums.tangent[1][p] = sums[2 * kRowBlock];
     }
   }
 };

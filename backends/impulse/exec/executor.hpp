@@ -5,9 +5,12 @@
 //
 //   run(n, f)           f(i) for every i < n, all done before what is enqueued next
 //   run(Count, f)       the same, for a number of things that the device counted itself
-//   team(load, least, f)    f(team) with a team of threads that goes through several loops: team.each(n, f) runs f(i)
-//                       for every i < n and returns to all when all are done; team.single(f) runs f() once. load is
-//                       the length of the longest loop, which may be unknown to the host; it is at least `least`
+//   team(load, least, f)   f(team) with a team of threads that goes through several loops. load is the length of the
+//                       longest loop, which may be unknown to the host; it is at least `least`. Members of team:
+//     each(n, f)        f(i) for every i < n, when all that came before is done
+//     each_ahead(n, load, f)   f(i, load(i)); load may run early and so must read nothing that the loop before writes
+//     single(f)         f() once, as each
+//     meet()            returns when all is done: needed before reading, between loops, what a loop has written
 //   Buffer<T>, Mirror<T>   memory where kernels run; the same with a twin on the host (memory.hpp)
 //   to_device, to_host  copy rows of a Mirror, in order with the kernels; uploaded_bytes() counts the first kind
 //   RadixSort<K>, Scan  (sort.hpp)

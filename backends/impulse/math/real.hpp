@@ -9,10 +9,12 @@
 #include <cstdint>
 #include <type_traits>
 
-// Loops over the few points of a manifold are unrolled on a GPU, where an array that is indexed by a running number has
-// its place in memory and not in registers.
+// Loops over the few points of a manifold are unrolled: an array that is indexed by a running number has its place in
+// memory and not in registers.
 #if defined(__CUDA_ARCH__)
 #define PLUMB_UNROLL _Pragma("unroll")
+#elif defined(__GNUC__) && !defined(__clang__) && !defined(__CUDACC__)
+#define PLUMB_UNROLL _Pragma("GCC unroll 16")
 #else
 #define PLUMB_UNROLL
 #endif

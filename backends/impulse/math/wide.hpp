@@ -66,6 +66,43 @@ inline Lanes sqrt(const Lanes& a) {
   return root;
 }
 
+/// Turns kLanes vectors of kLanes numbers into those of the first numbers, of the second and so on.
+inline void transpose(const Lanes (&rows)[kLanes], Lanes (&columns)[kLanes]) {
+  static_assert(kLanes == 8);
+  const auto& r = rows;
+  Lanes::Vector t[8], s[8];
+  for (int i = 0; i < 8; i += 2) {
+    t[i] = __builtin_shufflevector(r[i].v, r[i + 1].v, 0, 8, 1, 9, 4, 12, 5, 13);
+    t[i + 1] = __builtin_shufflevector(r[i].v, r[i + 1].v, 2, 10, 3, 11, 6, 14, 7, 15);
+  }
+  for (int i = 0; i < 8; i += 4) {
+    s[i] = __builtin_shufflevector(t[i], t[i + 2], 0, 1, 8, 9, 4, 5, 12, 13);
+    s[i + 1] = __builtin_shufflevector(t[i], t[i + 2], 2, 3, 10, 11, 6, 7, 14, 15);
+    s[i + 2] = __builtin_shufflevector(t[i + 1], t[i + 3], 0, 1, 8, 9, 4, 5, 12, 13);
+    s[i + 3] = __builtin_shufflevector(t[i + 1], t[i + 3], 2, 3, 10, 11, 6, 7, 14, 15);
+  }
+  for (int i = 0; i < 4; ++i) {
+    columns[i] = Lanes(__builtin_shufflevector(s[i], s[i + 4], 0, 1, 2, 3, 8, 9, 10, 11));
+    columns[i + 4] = Lanes(__builtin_shufflevector(s[i], s[i + 4], 4, 5, 6, 7, 12, 13, 14, 15));
+  }
+}
+
+/// Reads kLanes rows of kLanes numbers: the first numbers of all of them, the second and so on.
+template <class Row>
+void gather(const Row* rows, const std::uint32_t* indices, Lanes (&numbers)[kLanes]) {
+  Lanes found[kLanes];
+  for (std::uint32_t lane = 0; lane < kLanes; ++lane) __builtin_memcpy(&found[lane], rows + indices[lane], sizeof(Row));
+  transpose(found, numbers);
+}
+/// Writes kLanes rows, in the lanes where `where` is above 0.
+template <class Row>
+void scatter(const Lanes (&numbers)[kLanes], const Lanes& where, Row* rows, const std::uint32_t* indices) {
+  Lanes found[kLanes];
+  transpose(numbers, found);
+  for (std::uint32_t lane = 0; lane < kLanes; ++lane)
+    if (where.v[lane] > 0) __builtin_memcpy(static_cast<void*>(rows + indices[lane]), &found[lane], sizeof(Row));
+}
+
 #endif
 
 PLUMB_HD constexpr bool any(bool mask) { return mask; }

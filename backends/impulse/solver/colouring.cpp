@@ -87,8 +87,10 @@ struct ColourNew {
     StepCounters* counters = view.counters;
     team.each(counters->manifolds, [self](std::uint32_t row) { self.queue_if_new(row); });
     std::uint32_t round = 0;
-    for (; counters->uncoloured[round % 3] != 0; ++round) {
+    for (;; ++round) {
+      team.meet();
       const std::uint32_t waiting = counters->uncoloured[round % 3];
+      if (waiting == 0) break;
       const std::uint32_t* queue = view.waiting[round % 2];
       team.each(waiting, [self, round, queue](std::uint32_t i) {
         if (i == 0) self.view.counters->uncoloured[(round + 2) % 3] = 0;

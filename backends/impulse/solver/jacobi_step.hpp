@@ -34,6 +34,7 @@ struct StepInParts : SolverStep {
       solve_joints_noted(team, joints, step, noted);
       if (features.collision) solve_contacts(team, noted);
       ++passes;
+      team.meet();
       if (noted != nullptr && noted->is_below(step.stop_below)) break;
     }
     team.single([=] { self.counters->passes = passes; });
@@ -46,22 +47,24 @@ struct StepInParts : SolverStep {
 
  private:
   PLUMB_DEVICE void start(Team& team, const StepParameters& step) const {
-    for_parts(team, [=](const auto& row, int points, auto& a, auto& b) {
-      put_bias(row, points, step);
-      warm_start_contact(row, points, a, b);
+    for_parts(team, [=](auto points, const auto& row, auto& contact, auto& a, auto& b) {
+      put_bias<points()>(contact, step);
+      store_open<points()>(row, contact);
+      warm_start_contact<points()>(contact, a, b);
     });
   }
   PLUMB_DEVICE void solve_contacts(Team& team, PassChange* noted) const {
-    ContactPass pass{};
-    pass.friction = features.friction;
-    pass.note_impacts = features.restitution;
-    for_parts(team, [pass, noted](const auto& row, int points, auto& a, auto& b) {
-      solve_whole_contact(row, points, a, b, pass, noted);
+    const ContactPass pass = {features.friction, features.restitution, noted};
+    for_parts(team, [pass](auto points, const auto& row, auto& contact, auto& a, auto& b) {
+      pass.solve<points()>(row, contact, a, b);
     });
   }
   PLUMB_DEVICE void bounce_parts(Team& team, Real slowest) const {
-    for_parts(team,
-              [slowest](const auto& row, int points, auto& a, auto& b) { bounce_contact(row, points, a, b, slowest); });
+    const bool friction = features.friction;
+    for_parts(team, [=](auto points, const auto& row, auto& contact, auto& a, auto& b) {
+      bounce_contact<points()>(row, contact, a, b, slowest);
+      store_impulses<points()>(row, contact, friction);
+    });
   }
 
   /// work on every contact with parts of its own, then the parts put together.
@@ -76,14 +79,14 @@ struct StepInParts : SolverStep {
   template <class Work>
   PLUMB_HD void work_on_parts(std::uint32_t slot, const Work& work) const {
     const ContactRows& rows = contacts.rows;
-    std::uint32_t points = 0;
-    for (std::uint32_t lane = 0; lane < kLanes; ++lane) points = max(points, rows.count[slot + lane]);
-    if (points == 0) return;
-    SolverBody<Lanes> a = load_part(rows.body_a + slot), b = load_part(rows.body_b + slot);
-    const Vec3<Lanes> a_linear = a.linear, a_angular = a.angular, b_linear = b.linear, b_angular = b.angular;
-    work(RowAccess<Lanes>{rows.at(slot)}, static_cast<int>(points), a, b);
-    store_change(2 * slot, a.linear - a_linear, a.angular - a_angular);
-    store_change(2 * slot + 1, b.linear - b_linear, b.angular - b_angular);
+    LoadedContact<Lanes> loaded = load_slot<Lanes>(rows, slot);
+    with_point_count(loaded.points, [&](auto points) {
+      SolverBody<Lanes> a = load_part(loaded.a), b = load_part(loaded.b);
+      const Vec3<Lanes> a_linear = a.linear, a_angular = a.angular, b_linear = b.linear, b_angular = b.angular;
+      work(points, RowAccess<Lanes>(rows, slot), loaded.contact, a, b);
+      store_change(2 * slot, a.linear - a_linear, a.angular - a_angular);
+      store_change(2 * slot + 1, b.linear - b_linear, b.angular - b_angular);
+    });
   }
   PLUMB_HD SolverBody<Lanes> load_part(const std::uint32_t* indices) const {
     SolverBody<Lanes> body = load_body<Lanes>(solver, indices, false);

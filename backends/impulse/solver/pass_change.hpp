@@ -1,7 +1,8 @@
 // How much a pass over the constraints changed their impulses: what tells that further passes would buy nothing.
 #pragma once
 
-#include "constraints/contact.hpp"
+#include "constraints/contact_friction.hpp"
+#include "constraints/contact_normals.hpp"
 #include "constraints/joint_bias.hpp"
 #include "exec/atomic.hpp"
 #include "solver/joint_loops.hpp"
@@ -33,38 +34,43 @@ struct PassChange {
   }
 };
 
-/// The impulses of a manifold before a pass, and what the pass did to them.
-template <class N>
-struct ImpulsesBefore {
-  N value[kManifoldPoints][3];
+/// A contact in one pass of a solver that takes the step whole: normals, then friction, which so stays within the cone.
+struct ContactPass {
+  bool friction, note_impacts;
+  PassChange* noted;  ///< null where nobody asks
 
-  PLUMB_HD ImpulsesBefore(const RowAccess<N>& row, int points) {
-    for (int p = 0; p < points; ++p)
-      for (std::uint32_t i = 0; i < 3; ++i) value[p][i] = row.get(point_field(p, kNormalImpulse + i));
-  }
-  PLUMB_HD void compare(const RowAccess<N>& row, int points, PassChange& to) const {
+  template <int P, class N>
+  PLUMB_HD void solve(const RowAccess<N>& row, Contact<N>& contact, SolverBody<N>& a, SolverBody<N>& b) const {
+    Vec3<N> before[P];
+    PLUMB_UNROLL
+    for (int p = 0; p < P; ++p) before[p] = impulse_of(contact.points[p]);
+    ManifoldAim<N> aims;
+    aim_hard<P>(contact, aims);
+    solve_normals<P>(contact, aims, a, b, note_impacts);
+    if (friction) solve_friction<P>(contact, a, b);
+    store_impulses<P>(row, contact, friction);
+    if (note_impacts) store_impact_speeds<P>(row, contact);
+    if (noted == nullptr) return;
     N changed = N(0), reached = N(0);
-    for (int p = 0; p < points; ++p)
-      for (std::uint32_t i = 0; i < 3; ++i) {
-        const N now = row.get(point_field(p, kNormalImpulse + i)), by = now - value[p][i];
-        changed = max(changed, max(by, -by));
-        reached = max(reached, max(now, -now));
-      }
-    to.note(largest(changed), largest(reached));
+    PLUMB_UNROLL
+    for (int p = 0; p < P; ++p) {
+      const Vec3<N> now = impulse_of(contact.points[p]);
+      changed = max(changed, most_of(now - before[p]));
+      reached = max(reached, most_of(now));
+    }
+    noted->note(largest(changed), largest(reached));
+  }
+
+ private:
+  template <class N>
+  PLUMB_HD static Vec3<N> impulse_of(const ContactPoint<N>& point) {
+    return {point.impulse[0], point.impulse[1], point.impulse[2]};
+  }
+  template <class N>
+  PLUMB_HD static N most_of(const Vec3<N>& v) {
+    return max(max(max(v.x, -v.x), max(v.y, -v.y)), max(v.z, -v.z));
   }
 };
-template <class N>
-ImpulsesBefore(const RowAccess<N>&, int) -> ImpulsesBefore<N>;
-
-/// A contact in one pass: normals, then friction, which so stays within the cone. noted: null where nobody asks.
-template <class N>
-PLUMB_HD void solve_whole_contact(const RowAccess<N>& row, int points, SolverBody<N>& a, SolverBody<N>& b,
-                                  const ContactPass& pass, PassChange* noted) {
-  const ImpulsesBefore before(row, noted == nullptr ? 0 : points);
-  solve_normals(row, points, a, b, pass);
-  if (pass.friction) solve_friction(row, points, a, b);
-  if (noted != nullptr) before.compare(row, points, *noted);
-}
 
 /// All joints in one pass.
 PLUMB_DEVICE inline void solve_joints_noted(Team& team, const JointSet& joints, const StepParameters& step,

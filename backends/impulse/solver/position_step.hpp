@@ -1,6 +1,7 @@
 // The solver "xpbd": sub-steps of position-based dynamics.
 #pragma once
 
+#include "constraints/contact_friction.hpp"
 #include "constraints/contact_position.hpp"
 #include "constraints/joint_position.hpp"
 #include "solver/solver_step.hpp"
@@ -34,29 +35,37 @@ struct StepPositions : SolverStep {
     for_joints(team, joints, [=](std::uint32_t j) { correct_joint(view, j, step); });
   }
   PLUMB_DEVICE void solve_positions(Team& team, const StepParameters& step) const {
-    ContactPass pass{};
-    pass.friction = features.friction;
-    pass.note_impacts = features.restitution;
-    for_contacts(team, contacts, solver, BodyUse::kAll, [=](const auto& row, int points, auto& a, auto& b) {
-      start_contact_position(row, points, a, b, step);
-      const auto a_linear = a.linear, a_angular = a.angular, b_linear = b.linear, b_angular = b.angular;
-      solve_normals(row, points, a, b, pass);
-      if (pass.friction) solve_friction(row, points, a, b);
-      displace(a, a_linear, a_angular, step.h);
-      displace(b, b_linear, b_angular, step.h);
-    });
+    const bool friction = features.friction, note_impacts = features.restitution;
+    for_contacts(team, contacts, solver, BodyUse::kAll,
+                 [=](auto points, const auto& row, auto& contact, auto& a, auto& b) {
+                   constexpr int kPoints = points();
+                   start_contact_position<kPoints>(contact, a, b, step);
+                   const auto a_linear = a.linear, a_angular = a.angular, b_linear = b.linear, b_angular = b.angular;
+                   solve_contact<kPoints>(row, contact, a, b, friction, note_impacts);
+                   if (note_impacts) store_impact_speeds<kPoints>(row, contact);
+                   displace(a, a_linear, a_angular, step.h);
+                   displace(b, b_linear, b_angular, step.h);
+                 });
   }
   PLUMB_DEVICE void solve_velocities(Team& team, const StepParameters& step) const {
-    ContactPass pass{};
-    pass.friction = features.friction;
     const Real slowest = step.restitution_speed;
-    const bool add_up = features.contact_impulses;
-    for_contacts(team, contacts, solver, BodyUse::kVelocity, [=](const auto& row, int points, auto& a, auto& b) {
-      start_contact_velocity(row, points, slowest);
-      solve_normals(row, points, a, b, pass);
-      if (pass.friction) solve_friction(row, points, a, b);
-      if (add_up) add_up_impulses(row, points);
-    });
+    const bool friction = features.friction;
+    for_contacts(team, contacts, solver, BodyUse::kVelocity,
+                 [=](auto points, const auto& row, auto& contact, auto& a, auto& b) {
+                   constexpr int kPoints = points();
+                   start_contact_velocity<kPoints>(contact, slowest);
+                   solve_contact<kPoints>(row, contact, a, b, friction, false);
+                   add_up_impulses<kPoints>(row, contact);
+                 });
+  }
+  template <int P, class N>
+  PLUMB_HD static void solve_contact(const RowAccess<N>& row, Contact<N>& contact, SolverBody<N>& a, SolverBody<N>& b,
+                                     bool friction, bool note_impacts) {
+    ManifoldAim<N> aims;
+    aim_hard<P>(contact, aims);
+    solve_normals<P>(contact, aims, a, b, note_impacts);
+    if (friction) solve_friction<P>(contact, a, b);
+    store_impulses<P>(row, contact, friction);
   }
 };
 

@@ -30,6 +30,7 @@ struct StepSequentially : SolverStep {
       solve_joints_noted(team, joints, step, noted);
       if (features.collision) solve_contacts(team, noted);
       ++passes;
+      team.meet();
       if (noted != nullptr && noted->is_below(step.stop_below)) break;
     }
     team.single([=] { self.counters->passes = passes; });
@@ -41,18 +42,18 @@ struct StepSequentially : SolverStep {
 
  private:
   PLUMB_DEVICE void start(Team& team, const StepParameters& step) const {
-    for_contacts(team, contacts, solver, BodyUse::kVelocity, [=](const auto& row, int points, auto& a, auto& b) {
-      put_bias(row, points, step);
-      warm_start_contact(row, points, a, b);
-    });
+    for_contacts(team, contacts, solver, BodyUse::kVelocity,
+                 [=](auto points, const auto& row, auto& contact, auto& a, auto& b) {
+                   put_bias<points()>(contact, step);
+                   store_open<points()>(row, contact);
+                   warm_start_contact<points()>(contact, a, b);
+                 });
   }
   PLUMB_DEVICE void solve_contacts(Team& team, PassChange* noted) const {
-    ContactPass pass{};
-    pass.friction = features.friction;
-    pass.note_impacts = features.restitution;
+    const ContactPass pass = {features.friction, features.restitution, noted};
     for_contacts(team, contacts, solver, BodyUse::kVelocity,
-                 [pass, noted](const auto& row, int points, auto& a, auto& b) {
-                   solve_whole_contact(row, points, a, b, pass, noted);
+                 [pass](auto points, const auto& row, auto& contact, auto& a, auto& b) {
+                   pass.solve<points()>(row, contact, a, b);
                  });
   }
 };

@@ -1,6 +1,7 @@
 // The solver "tgs_soft": sub-steps with soft contacts and relaxation.
 #pragma once
 
+#include "constraints/contact_friction.hpp"
 #include "solver/mechanisms.hpp"
 #include "solver/solver_step.hpp"
 
@@ -9,6 +10,8 @@ namespace plumb::impulse {
 /// Sub-steps with soft constraints and relaxation ("soft step": Catto, "Solver2D", 2024; sub-stepping after Macklin et
 /// al., "Small Steps in Physics Simulation", SCA 2019). In each sub-step velocities are solved with a soft bias against
 /// overlap, positions moved, and velocities solved again without the bias, so that what it pushed does not stay.
+/// A step without joints is a kernel of its own: what joints take of a GPU's registers and code costs contacts dearly.
+template <bool kWithJoints>
 struct StepSoftly : SolverStep {
   PLUMB_DEVICE void operator()(Team& team) const {
     if (must_repeat()) return;
@@ -17,16 +20,19 @@ struct StepSoftly : SolverStep {
       const bool first = k == 0;
       team.each(body_count, [&](std::uint32_t i) { integrate_velocity(bodies, solver, step, first, i); });
       if (first) warm_start(team);
-      warm_start_mechanisms(team, joints, first, step);
-      solve_mechanisms(team, joints, step, true);
-      solve_contacts(team, step, true);
+      if constexpr (kWithJoints) {
+        warm_start_mechanisms(team, joints, first, step);
+        solve_mechanisms(team, joints, step, true);
+      }
+      push_contacts(team, step);
       move_bodies(team, step);
-      solve_mechanisms(team, joints, step, false);
-      solve_contacts(team, step, false);
+      if constexpr (kWithJoints) solve_mechanisms(team, joints, step, false);
+      relax_contacts(team);
     }
     if (features.collision && features.restitution) {
       bounce(team, step.restitution_speed);
-      solve_mechanisms(team, joints, step, false);  // what bounced takes along what it is joined to
+      if constexpr (kWithJoints)
+        solve_mechanisms(team, joints, step, false);  // what bounced takes along what it is joined to
     }
     finish(team);
   }
@@ -35,31 +41,58 @@ struct StepSoftly : SolverStep {
   PLUMB_DEVICE void warm_start(Team& team) const {
     if (!features.collision) return;
     for_contacts(team, contacts, solver, BodyUse::kVelocity,
-                 [](const auto& row, int points, auto& a, auto& b) { warm_start_contact(row, points, a, b); });
-  }
-  PLUMB_DEVICE void solve_contacts(Team& team, const StepParameters& step, bool take_back_overlap) const {
-    if (!features.collision) return;
-    const ContactPass pass = {step.contact,
-                              step.ground,
-                              step.inverse_h,
-                              step.push_speed,
-                              take_back_overlap,
-                              features.friction,
-                              take_back_overlap && features.restitution};
-    const bool add_up = !take_back_overlap && features.contact_impulses;
-    for_contacts(team, contacts, solver, take_back_overlap ? BodyUse::kVelocityWhereMoved : BodyUse::kVelocity,
-                 [&](const auto& row, int points, auto& a, auto& b) {
-                   using N = std::remove_cvref_t<decltype(a.inverse_mass)>;
-                   ManifoldAim<N> aims;
-                   aim_normals(row, points, a, b, pass, aims);
-                   solve_normals(row, points, aims, a, b, pass);
-                   if (pass.friction) {
-                     // Friction below the centre tilts a body: the normals have the last word.
-                     solve_friction(row, points, a, b);
-                     solve_normals(row, points, aims, a, b, pass);
-                   }
-                   if (add_up) add_up_impulses(row, points);
+                 [](auto points, const auto& /*row*/, const auto& contact, auto& a, auto& b) {
+                   warm_start_contact<points()>(contact, a, b);
                  });
+  }
+  /// Takes overlap back, softly.
+  PLUMB_DEVICE void push_contacts(Team& team, const StepParameters& step) const {
+    if (!features.collision) return;
+    const ContactSoftness softness = {step.contact, step.ground, step.inverse_h, step.push_speed};
+    const bool friction = features.friction, note_impacts = features.restitution;
+    for_contacts(team, contacts, solver, BodyUse::kVelocityWhereMoved,
+                 [=](auto points, const auto& row, auto& contact, auto& a, auto& b) {
+                   constexpr int kPoints = points();
+                   ManifoldAim<std::remove_cvref_t<decltype(a.inverse_mass)>> aims;
+                   aim_softly<kPoints>(contact, a, b, softness, aims);
+                   solve_contact<kPoints>(contact, aims, a, b, friction, note_impacts);
+                   close_pushed<kPoints>(contact);
+                   store_impulses<kPoints>(row, contact, friction);
+                   store_open<kPoints>(row, contact);
+                   if (note_impacts) store_impact_speeds<kPoints>(row, contact);
+                 });
+  }
+  /// After the positions have moved: nothing that touches approaches, and what was pushed does not stay as velocity.
+  PLUMB_DEVICE void relax_contacts(Team& team) const {
+    if (!features.collision) return;
+    const bool friction = features.friction;
+    for_contacts(team, contacts, solver, BodyUse::kVelocity,
+                 [=](auto points, const auto& row, auto& contact, auto& a, auto& b) {
+                   constexpr int kPoints = points();
+                   ManifoldAim<std::remove_cvref_t<decltype(a.inverse_mass)>> aims;
+                   aim_hard<kPoints>(contact, aims);
+                   solve_contact<kPoints>(contact, aims, a, b, friction, false);
+                   store_impulses<kPoints>(row, contact, friction);
+                   add_up_impulses<kPoints>(row, contact);
+                 });
+  }
+  /// Friction below the centre tilts a body: the normals have the first word and the last.
+  template <int P, class N>
+  PLUMB_HD static void solve_contact(Contact<N>& contact, const ManifoldAim<N>& aims, SolverBody<N>& a,
+                                     SolverBody<N>& b, bool friction, bool note_impacts) {
+    solve_normals<P>(contact, aims, a, b, note_impacts);
+    if (!friction) return;
+    solve_friction<P>(contact, a, b);
+    solve_normals<P>(contact, aims, a, b, note_impacts);
+  }
+  /// A point that was apart and had to be pushed is no longer free to approach.
+  template <int P, class N>
+  PLUMB_HD static void close_pushed(Contact<N>& contact) {
+    PLUMB_UNROLL
+    for (int p = 0; p < P; ++p) {
+      ContactPoint<N>& point = contact.points[p];
+      point.open = select(point.impulse[0] > N(0), N(0), point.open);
+    }
   }
 };
 

@@ -26,8 +26,12 @@ void Solver::reserve(Executor& /*executor*/, std::uint32_t bodies, std::uint32_t
   inertia_.grow(bodies);
   free_velocity_.grow(bodies);
   for (Buffer<std::uint32_t>* buffer : {&body_a_, &body_b_, &count_, &row_}) buffer->grow(slots_);
-  if (features_.contact_impulses) step_impulses_.grow(manifolds);
-  numbers_.grow(std::size_t{(slots_ + kRowBlock - 1) / kRowBlock} * kRowBlock * kAllFields);
+  const std::size_t padded = std::size_t{(slots_ + kRowBlock - 1) / kRowBlock} * kRowBlock;
+  numbers_.grow(padded * kAllFields);
+  if (features_.contact_impulses) {
+    sums_.grow(padded * kSumFields);
+    step_impulses_.grow(manifolds);
+  }
   choose(kind_);
 }
 
@@ -63,7 +67,8 @@ void Solver::solve(Executor& executor, const Bodies& all, std::uint32_t body_cou
     case SolverKind::kSequential: return run(StepSequentially{step, pass_changes_.data()});
     case SolverKind::kJacobi: return run(StepInParts{step, pass_changes_.data(), split_.parts()});
     case SolverKind::kPosition: return run(StepPositions{step});
-    case SolverKind::kTgsSoft: return run(StepSoftly{step});
+    case SolverKind::kTgsSoft:
+      return step.joints.count == 0 ? run(StepSoftly<false>{step}) : run(StepSoftly<true>{step});
   }
 }
 

@@ -45,7 +45,7 @@ class Solver {
   [[nodiscard]] StepImpulses* step_impulses() { return step_impulses_.data(); }
 
   [[nodiscard]] ContactRows rows() {
-    return {body_a_.data(), body_b_.data(), count_.data(), row_.data(), numbers_.data()};
+    return {body_a_.data(), body_b_.data(), count_.data(), row_.data(), numbers_.data(), sums_.data()};
   }
 
  private:
@@ -61,6 +61,7 @@ class Solver {
   Buffer<FreeVelocity> free_velocity_;
   Buffer<std::uint32_t> body_a_, body_b_, count_, row_;
   Buffer<Real> numbers_;
+  Buffer<Real> sums_;  // of the step's impulses, where somebody asks
   Buffer<StepImpulses> step_impulses_;
   Buffer<PassChange> pass_changes_;  // of si and jacobi
   SplitBodies split_;                // of jacobi

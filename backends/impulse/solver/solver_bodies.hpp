@@ -38,36 +38,20 @@ PLUMB_HD SolverBody<N> load_body(const SolverBodies& bodies, const std::uint32_t
     }
     return body;
   } else {
+    static_assert(sizeof(Velocity) == sizeof(N) && sizeof(WorldInertia) == sizeof(N) &&
+                  sizeof(Displacement) == sizeof(N));
     SolverBody<N> body;
-    const auto gather = [&](auto& to, const auto* rows) {
-      constexpr std::uint32_t kNumbers = sizeof(*rows) / sizeof(Real);
-      constexpr std::uint32_t kWanted = sizeof(to) / sizeof(N);
-      static_assert(kWanted <= kNumbers);
-      auto* lanes = reinterpret_cast<Real*>(&to);
-      for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
-        const auto* numbers = reinterpret_cast<const Real*>(rows + indices[lane]);
-        for (std::uint32_t i = 0; i < kWanted; ++i) lanes[i * kLanes + lane] = numbers[i];
-      }
-    };
-    struct VelocityLanes {
-      Vec3<N> linear;
-      N inverse_mass;
-      Vec3<N> angular;
-    } velocity;
-    gather(velocity, bodies.velocity);
-    gather(body.inverse_inertia, bodies.inertia);
-    body.linear = velocity.linear;
-    body.angular = velocity.angular;
-    body.inverse_mass = velocity.inverse_mass;
+    N numbers[kLanes];
+    gather(bodies.velocity, indices, numbers);
+    body.linear = {numbers[0], numbers[1], numbers[2]};
+    body.inverse_mass = numbers[3];
+    body.angular = {numbers[4], numbers[5], numbers[6]};
+    gather(bodies.inertia, indices, numbers);
+    __builtin_memcpy(&body.inverse_inertia, numbers, sizeof body.inverse_inertia);
     if (moved) {
-      struct DisplacementLanes {
-        Vec3<N> linear;
-        N unused;
-        Quat4<N> rotation;
-      } displacement;
-      gather(displacement, bodies.displacement);
-      body.moved = displacement.linear;
-      body.rotated = displacement.rotation;
+      gather(bodies.displacement, indices, numbers);
+      body.moved = {numbers[0], numbers[1], numbers[2]};
+      body.rotated = {numbers[4], numbers[5], numbers[6], numbers[7]};
     }
     return body;
   }
@@ -77,33 +61,23 @@ PLUMB_HD SolverBody<N> load_body(const SolverBodies& bodies, const std::uint32_t
 template <class N>
 PLUMB_HD void store_body(const SolverBodies& bodies, const std::uint32_t* indices, const SolverBody<N>& body) {
   if constexpr (sizeof(N) == sizeof(Real)) {
-    if (!(body.inverse_mass > 0)) return;
-    Velocity& row = bodies.velocity[*indices];
-    row.linear = body.linear;
-    row.angular = body.angular;
+    if (body.inverse_mass > 0) bodies.velocity[*indices] = {body.linear, body.inverse_mass, body.angular, 0};
   } else {
-    const auto* linear = reinterpret_cast<const Real*>(&body.linear);
-    const auto* angular = reinterpret_cast<const Real*>(&body.angular);
-    const auto* mass = reinterpret_cast<const Real*>(&body.inverse_mass);
-    for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
-      if (!(mass[lane] > 0)) continue;
-      Velocity& row = bodies.velocity[indices[lane]];
-      row.linear = {linear[lane], linear[kLanes + lane], linear[2 * kLanes + lane]};
-      row.angular = {angular[lane], angular[kLanes + lane], angular[2 * kLanes + lane]};
-    }
+    const N numbers[kLanes] = {body.linear.x,  body.linear.y,  body.linear.z,  body.inverse_mass,
+                               body.angular.x, body.angular.y, body.angular.z, N(0)};
+    scatter(numbers, body.inverse_mass, bodies.velocity, indices);
   }
 }
 
 /// Writes displacements back, of bodies that can be pushed only.
 template <class N>
 PLUMB_HD void store_displacement(const SolverBodies& bodies, const std::uint32_t* indices, const SolverBody<N>& body) {
-  constexpr std::uint32_t kHere = sizeof(N) / sizeof(Real);
-  for (std::uint32_t lane = 0; lane < kHere; ++lane) {
-    if (!(lane_of(body.inverse_mass, lane) > 0)) continue;
-    Displacement& row = bodies.displacement[indices[lane]];
-    row.linear = {lane_of(body.moved.x, lane), lane_of(body.moved.y, lane), lane_of(body.moved.z, lane)};
-    row.rotation = {lane_of(body.rotated.x, lane), lane_of(body.rotated.y, lane), lane_of(body.rotated.z, lane),
-                    lane_of(body.rotated.w, lane)};
+  if constexpr (sizeof(N) == sizeof(Real)) {
+    if (body.inverse_mass > 0) bodies.displacement[*indices] = {body.moved, 0, body.rotated};
+  } else {
+    const N numbers[kLanes] = {body.moved.x,   body.moved.y,   body.moved.z,   N(0),
+                               body.rotated.x, body.rotated.y, body.rotated.z, body.rotated.w};
+    scatter(numbers, body.inverse_mass, bodies.displacement, indices);
   }
 }
 

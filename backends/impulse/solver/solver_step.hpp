@@ -1,6 +1,7 @@
 // What every solver's step works on, and the parts that are the same in all of them.
 #pragma once
 
+#include "constraints/contact_normals.hpp"
 #include "exec/atomic.hpp"
 #include "solver/contact_loops.hpp"
 #include "solver/joint_loops.hpp"
@@ -24,13 +25,17 @@ struct SolverStep {
   PLUMB_DEVICE bool must_repeat() const { return counters->pairs > pair_capacity; }
 
   PLUMB_DEVICE void bounce(Team& team, Real slowest) const {
-    for_contacts(team, contacts, solver, BodyUse::kVelocity, [slowest](const auto& row, int points, auto& a, auto& b) {
-      bounce_contact(row, points, a, b, slowest);
-    });
+    const bool friction = features.friction;
+    for_contacts(team, contacts, solver, BodyUse::kVelocity,
+                 [=](auto points, const auto& row, auto& contact, auto& a, auto& b) {
+                   bounce_contact<points()>(row, contact, a, b, slowest);
+                   store_impulses<points()>(row, contact, friction);
+                 });
   }
   /// Impulses of a step that had no sub-steps are the step's.
   PLUMB_DEVICE void add_up(Team& team) const {
-    for_rows(team, contacts, [](const auto& row, int points) { add_up_impulses(row, points); });
+    for_rows(team, contacts,
+             [](auto points, const auto& row, const auto& contact) { add_up_impulses<points()>(row, contact); });
   }
   PLUMB_DEVICE void move_bodies(Team& team, const StepParameters& step) const {
     team.each(body_count, [&](std::uint32_t i) { integrate_position(bodies, solver, step, features.gyroscopic, i); });

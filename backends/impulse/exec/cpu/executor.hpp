@@ -20,10 +20,18 @@ class Team {
   void each(std::uint32_t n, const F& f) {
     crew_.each(n, f);
   }
+  template <class Load, class F>
+  void each_ahead(std::uint32_t n, const Load& load, const F& f) {
+    crew_.each(n, [&](std::uint32_t i) {
+      auto loaded = load(i);
+      f(i, loaded);
+    });
+  }
   template <class F>
   void single(const F& f) {
     f();
   }
+  void meet() {}
 
  private:
   Crew& crew_;

@@ -23,8 +23,11 @@ class Team {
   Team() = delete;
   template <class F>
   void each(std::uint32_t /*n*/, const F& /*f*/) {}
+  template <class Load, class F>
+  void each_ahead(std::uint32_t /*n*/, const Load& /*load*/, const F& /*f*/) {}
   template <class F>
   void single(const F& /*f*/) {}
+  void meet() {}
 };
 #endif
 

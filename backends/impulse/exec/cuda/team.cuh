@@ -1,8 +1,10 @@
-// A team: the threads of one cooperative launch, which go through several loops together and meet at a barrier after
-// each. Fewer blocks than were launched take part when there is little to do, and one block needs no barrier in memory.
+// A team: the threads of one cooperative launch, which go through several loops together. Fewer blocks than were
+// launched take part when there is little to do. Threads meet before a loop, not behind it, so that what a loop needs
+// and nobody changes can be on its way while they wait; and loops that one block can do alone are left to the first
+// one, whose threads need no barrier in memory.
 #pragma once
 
-#include <cooperative_groups.h>
+#include <cuda/atomic>
 
 #include <cstdint>
 
@@ -10,10 +12,9 @@ namespace plumb::impulse {
 
 struct TeamBarrier {
   std::uint32_t arrived;
-  std::uint32_t generation;
 };
 
-constexpr std::uint32_t kTeamThreads = 128;  // a block; few, so that a small loop still spreads over the device
+constexpr std::uint32_t kTeamThreads = 128;  // a block; few, so that a loop still spreads over the device
 
 class Team {
  public:
@@ -22,33 +23,63 @@ class Team {
 
   template <class F>
   __device__ void each(std::uint32_t n, const F& f) {
-    const std::uint32_t stride = blocks_ * kTeamThreads;
-    for (std::uint32_t i = index_; i < n; i += stride) f(i);
-    meet();
+    if (n == 0) return;
+    if (!join(n)) return;
+    for (std::uint32_t i = index_; i < n; i += stride_of(n)) f(i);
+  }
+  template <class Load, class F>
+  __device__ void each_ahead(std::uint32_t n, const Load& load, const F& f) {
+    if (n == 0) return;
+    decltype(load(0U)) loaded;
+    if (index_ < n) loaded = load(index_);
+    if (!join(n)) return;
+    for (std::uint32_t i = index_; i < n;) {
+      f(i, loaded);
+      i += stride_of(n);
+      if (i < n) loaded = load(i);
+    }
   }
   template <class F>
   __device__ void single(const F& f) {
-    if (index_ == 0) f();
-    meet();
+    if (join(1) && index_ == 0) f();
+  }
+  __device__ void meet() {
+    if (last_ == Work::kNone) return;
+    wait_for_all();
+    last_ = Work::kNone;
   }
 
  private:
-  __device__ void meet() {
+  enum class Work { kNone, kFirstBlock, kAll };  // that was done since threads met
+
+  __device__ std::uint32_t stride_of(std::uint32_t n) const {
+    return is_small(n) ? kTeamThreads : blocks_ * kTeamThreads;
+  }
+  __device__ bool is_small(std::uint32_t n) const { return blocks_ == 1 || n <= kTeamThreads; }
+
+  /// Meets as far as a loop over n things asks for. Returns whether this block takes part in it.
+  __device__ bool join(std::uint32_t n) {
+    const bool small = is_small(n);
+    if (small && last_ == Work::kFirstBlock) {
+      if (blockIdx.x == 0) __syncthreads();
+    } else if (last_ != Work::kNone) {
+      wait_for_all();
+    }
+    last_ = small ? Work::kFirstBlock : Work::kAll;
+    return !small || blockIdx.x == 0;
+  }
+
+  __device__ void wait_for_all() {
     __syncthreads();
     if (blocks_ == 1) return;
     if (threadIdx.x == 0) {
-      volatile std::uint32_t* generation = &barrier_->generation;
-      const std::uint32_t mine = *generation;
-      __threadfence();
-      if (atomicAdd(&barrier_->arrived, 1U) == blocks_ - 1) {
-        barrier_->arrived = 0;
-        __threadfence();
-        *generation = mine + 1;
-      } else {
-        while (*generation == mine) {
-        }
+      // All blocks together add 2^31, so that the highest bit tells one meeting from the next.
+      constexpr std::uint32_t kTurn = 1U << 31;
+      cuda::atomic_ref<std::uint32_t, cuda::thread_scope_device> arrived(barrier_->arrived);
+      const std::uint32_t before =
+          arrived.fetch_add(blockIdx.x == 0 ? kTurn - (blocks_ - 1) : 1U, cuda::memory_order_release);
+      while (((arrived.load(cuda::memory_order_acquire) ^ before) & kTurn) == 0) {
       }
-      __threadfence();
     }
     __syncthreads();
   }
@@ -56,6 +87,7 @@ class Team {
   std::uint32_t blocks_;
   TeamBarrier* barrier_;
   std::uint32_t index_;
+  Work last_ = Work::kNone;
 };
 
 }  // namespace plumb::impulse
