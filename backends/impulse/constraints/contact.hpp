@@ -77,54 +77,55 @@ struct Contact {
 template <class N>
 PLUMB_HD Contact<N> load_contact(const RowAccess<N>& row, int points) {
   Contact<N> contact;
-  contact.normal = row.vector(kNormal);
-  contact.tangent = row.vector(kTangent);
-  contact.centre_a = row.vector(kCentreA);
-  contact.centre_b = row.vector(kCentreB);
-  contact.friction = row.get(kFriction);
-  contact.restitution = row.get(kRestitution);
+  N quad[4];
+  const auto get_vector = [&](std::uint32_t field, Vec3<N>& v) {
+    row.get_quad(field, quad);
+    v = {quad[0], quad[1], quad[2]};
+    return quad[3];
+  };
+  contact.friction = get_vector(kNormal, contact.normal);
+  contact.restitution = get_vector(kTangent, contact.tangent);
+  get_vector(kCentreA, contact.centre_a);
+  get_vector(kCentreB, contact.centre_b);
   PLUMB_UNROLL
   for (int p = 0; p < kManifoldPoints; ++p) {
     const N zero = N(0);
     ContactPoint<N>& point = contact.points[p];
     point = {{zero, zero, zero}, zero, zero, zero, zero, {zero, zero, zero}, zero, {zero, zero, zero}, zero};
     if (kLanes > 1 && p >= points) continue;
-    const auto get = [&row, p](std::uint32_t field) { return row.get(point_field(p, field)); };
-    point.arm = row.vector(point_field(p, kArm));
-    point.separation = get(kSeparation);
-    point.normal_mass = get(kNormalMass);
-    point.normal_give = get(kNormalGive);
-    point.open = get(kOpen);
-    point.tangent_step = get(kTangentStep);
-    point.impact_speed = get(kImpactSpeed);
-    PLUMB_UNROLL
-    for (std::uint32_t i = 0; i < 3; ++i) {
-      point.tangent_mass[i] = get(kTangentMass + i);
-      point.impulse[i] = get(kNormalImpulse + i);
-    }
+    point.separation = get_vector(point_field(p, kArm), point.arm);
+    row.get_quad(point_field(p, kNormalMass), quad);
+    point.normal_mass = quad[0];
+    point.normal_give = quad[1];
+    point.tangent_step = quad[2];
+    point.impact_speed = quad[3];
+    row.get_quad(point_field(p, kTangentMass), quad);
+    for (int i = 0; i < 3; ++i) point.tangent_mass[i] = quad[i];
+    row.get_quad(point_field(p, kNormalImpulse), quad);
+    for (int i = 0; i < 3; ++i) point.impulse[i] = quad[i];
+    point.open = quad[3];
+  }
+  N matrix[kCouplingFields + kBlockFields];
+  PLUMB_UNROLL
+  for (std::uint32_t i = 0; i < kCouplingFields + kBlockFields; i += 4) {
+    row.get_quad(kCoupling + i, quad);
+    for (std::uint32_t j = 0; j < 4; ++j) matrix[i + j] = quad[j];
   }
   PLUMB_UNROLL
-  for (std::uint32_t i = 0; i < kCouplingFields; ++i) contact.coupling[i] = row.get(kCoupling + i);
+  for (std::uint32_t i = 0; i < kCouplingFields; ++i) contact.coupling[i] = matrix[i];
   PLUMB_UNROLL
-  for (std::uint32_t i = 0; i < kBlockFields; ++i) contact.block_inverse[i] = row.get(kBlockInverse + i);
+  for (std::uint32_t i = 0; i < kBlockFields; ++i) contact.block_inverse[i] = matrix[kCouplingFields + i];
   return contact;
 }
 
-/// Writes the impulses back.
+/// Writes back the impulses, and what may approach.
 template <int P, class N>
-PLUMB_HD void store_impulses(const RowAccess<N>& row, const Contact<N>& contact, bool friction) {
+PLUMB_HD void store_impulses(const RowAccess<N>& row, const Contact<N>& contact) {
   PLUMB_UNROLL
   for (int p = 0; p < P; ++p) {
-    row.put(point_field(p, kNormalImpulse), contact.points[p].impulse[0]);
-    if (!friction) continue;
-    row.put(point_field(p, kTangentImpulse), contact.points[p].impulse[1]);
-    row.put(point_field(p, kTangentImpulse + 1), contact.points[p].impulse[2]);
+    const ContactPoint<N>& point = contact.points[p];
+    row.put_quad(point_field(p, kNormalImpulse), point.impulse[0], point.impulse[1], point.impulse[2], point.open);
   }
-}
-template <int P, class N>
-PLUMB_HD void store_open(const RowAccess<N>& row, const Contact<N>& contact) {
-  PLUMB_UNROLL
-  for (int p = 0; p < P; ++p) row.put(point_field(p, kOpen), contact.points[p].open);
 }
 template <int P, class N>
 PLUMB_HD void store_impact_speeds(const RowAccess<N>& row, const Contact<N>& contact) {

@@ -1,5 +1,8 @@
-// Contact constraints as the solver reads them: structures of arrays in blocks of 32, so that neighbouring threads of a
-// GPU and neighbouring lanes of a CPU read neighbouring numbers. 60 bytes a point in float and 120 a manifold.
+// Contact constraints as the solver reads them, in blocks of 32 slots: neighbouring threads of a GPU, and neighbouring
+// lanes of a CPU, read neighbouring numbers. 64 bytes a point in float and 128 a manifold.
+//
+// The fields of a contact make whole quads. A GPU keeps a quad together and moves it at once; a CPU, whose lanes each
+// take one contact, keeps a field together.
 #pragma once
 
 #include <cstdint>
@@ -13,25 +16,25 @@ constexpr std::uint32_t kRowBlock = 32;
 
 enum RowField : std::uint32_t {
   kNormal = 0,
-  kTangent = 3,
-  kCentreA = 6,  ///< mean of the points, from the centre of mass of a, m
-  kCentreB = 9,  ///< and from that of b
-  kFriction = 12,
-  kRestitution = 13,
-  kRowFields = 14
+  kFriction = 3,
+  kTangent = 4,
+  kRestitution = 7,
+  kCentreA = 8,   ///< mean of the points, from the centre of mass of a, m
+  kCentreB = 12,  ///< and from that of b
+  kRowFields = 16
 };
 enum PointField : std::uint32_t {
-  kArm = 0,         ///< from the mean of the points, m
-  kSeparation = 3,  ///< at the start of the step, m
-  kNormalMass = 4,  ///< effective, kg
-  kNormalGive = 5,  ///< 1 over it, 1/kg
-  kOpen = 6,  ///< speed that a point may approach with in the relaxing pass: 0, or without bound where it is apart
-  kTangentMass = 7,   ///< 2 by 2 symmetric: 11, 12, 22
-  kTangentStep = 10,  ///< smallest eigenvalue of the tangent mass, kg
-  kNormalImpulse = 11,
-  kTangentImpulse = 12,  ///< along tangent and bitangent
-  kImpactSpeed = 14,  ///< relative normal velocity when the point was first pushed in this step, m/s; below 0: closing
-  kPointFields = 15
+  kArm = 0,          ///< from the mean of the points, m
+  kSeparation = 3,   ///< at the start of the step, m
+  kNormalMass = 4,   ///< effective, kg
+  kNormalGive = 5,   ///< 1 over it, 1/kg
+  kTangentStep = 6,  ///< smallest eigenvalue of the tangent mass, kg
+  kImpactSpeed = 7,  ///< relative normal velocity when the point was first pushed in this step, m/s; below 0: closing
+  kTangentMass = 8,  ///< 2 by 2 symmetric: 11, 12, 22
+  kNormalImpulse = 12,
+  kTangentImpulse = 13,  ///< along tangent and bitangent
+  kOpen = 15,  ///< speed that a point may approach with in the relaxing pass: 0, or without bound where it is apart
+  kPointFields = 16
 };
 /// The matrix that gives all points' speeds for all points' impulses, symmetric: beside its diagonal, which is
 /// kNormalGive, 12 13 14 23 24 34.
@@ -41,11 +44,17 @@ constexpr std::uint32_t kCouplingFields = kManifoldPoints * (kManifoldPoints - 1
 constexpr std::uint32_t kBlockInverse = kCoupling + kCouplingFields;
 constexpr std::uint32_t kBlockFields = kManifoldPoints * (kManifoldPoints + 1) / 2;
 constexpr std::uint32_t kAllFields = kBlockInverse + kBlockFields;
+static_assert(kAllFields % 4 == 0);
 /// Impulses of a point summed over the sub-steps so far, N s: normal, tangent, bitangent.
 constexpr std::uint32_t kSumFields = 3 * kManifoldPoints;
 
 /// Place of p, q (p < q) among the numbers beside the diagonal.
 PLUMB_HD constexpr int coupling_of(int p, int q) { return p * (2 * kManifoldPoints - p - 1) / 2 + (q - p - 1); }
+
+/// Where a field is, from the first number of its slot.
+PLUMB_HD constexpr std::uint32_t place_of(std::uint32_t field) {
+  return kLanes == 1 ? field / 4 * (4 * kRowBlock) + field % 4 : field * kRowBlock;
+}
 
 struct ContactRows {
   std::uint32_t* body_a;
@@ -55,9 +64,10 @@ struct ContactRows {
   Real* numbers;
   Real* sums;  ///< null where nobody asks for them
 
-  /// Where the numbers of a slot begin; field f is at [f * kRowBlock].
+  /// The first number of a slot.
   PLUMB_HD Real* at(std::uint32_t slot) const {
-    return numbers + std::size_t{slot / kRowBlock} * (kAllFields * kRowBlock) + slot % kRowBlock;
+    const std::uint32_t in_block = slot % kRowBlock;
+    return numbers + std::size_t{slot / kRowBlock} * (kAllFields * kRowBlock) + (kLanes == 1 ? 4 * in_block : in_block);
   }
   PLUMB_HD Real* sums_at(std::uint32_t slot) const {
     if (sums == nullptr) return nullptr;
@@ -68,6 +78,31 @@ PLUMB_HD constexpr std::uint32_t point_field(int point, std::uint32_t field) {
   return kRowFields + static_cast<std::uint32_t>(point) * kPointFields + field;
 }
 
+/// Four neighbouring fields of one contact.
+struct alignas(4 * sizeof(Real)) Quad {
+  Real at[4];
+};
+
+/// All fields of one contact.
+struct ContactNumbers {
+  Real at[kAllFields];
+
+  PLUMB_HD void put(std::uint32_t field, const Vec& v) {
+    at[field] = v.x;
+    at[field + 1] = v.y;
+    at[field + 2] = v.z;
+  }
+  PLUMB_HD void store(Real* slot) const {
+    PLUMB_UNROLL
+    for (std::uint32_t f = 0; f < kAllFields; f += 4) {
+      if constexpr (kLanes == 1)
+        *reinterpret_cast<Quad*>(slot + place_of(f)) = {at[f], at[f + 1], at[f + 2], at[f + 3]};
+      else
+        for (std::uint32_t i = f; i < f + 4; ++i) slot[place_of(i)] = at[i];
+    }
+  }
+};
+
 /// Reads and writes the fields of kLanes neighbouring slots.
 template <class N>
 struct RowAccess {
@@ -76,15 +111,32 @@ struct RowAccess {
 
   PLUMB_HD RowAccess(const ContactRows& rows, std::uint32_t slot) : base(rows.at(slot)), sums(rows.sums_at(slot)) {}
 
-  PLUMB_HD N get(std::uint32_t field) const { return read(base + field * kRowBlock); }
-  PLUMB_HD void put(std::uint32_t field, const N& value) const { write(base + field * kRowBlock, value); }
+  /// Fields f to f + 3, f being the first of a quad.
+  PLUMB_HD void get_quad(std::uint32_t f, N (&quad)[4]) const {
+    if constexpr (kLanes == 1) {
+      const Quad read = *reinterpret_cast<const Quad*>(base + place_of(f));
+      for (int i = 0; i < 4; ++i) quad[i] = read.at[i];
+    } else {
+      for (std::uint32_t i = 0; i < 4; ++i) quad[i] = read(base + place_of(f + i));
+    }
+  }
+  PLUMB_HD void put_quad(std::uint32_t f, const N& x, const N& y, const N& z, const N& w) const {
+    if constexpr (kLanes == 1) {
+      *reinterpret_cast<Quad*>(base + place_of(f)) = {x, y, z, w};
+    } else {
+      write(base + place_of(f), x);
+      write(base + place_of(f + 1), y);
+      write(base + place_of(f + 2), z);
+      write(base + place_of(f + 3), w);
+    }
+  }
+  PLUMB_HD void put(std::uint32_t field, const N& value) const { write(base + place_of(field), value); }
   /// Adds to the impulses of the step.
   PLUMB_HD void add_to_sum(int point, std::uint32_t direction, const N& impulse) const {
     if (sums == nullptr) return;
     Real* at = sums + (static_cast<std::uint32_t>(point) * 3 + direction) * kRowBlock;
     write(at, read(at) + impulse);
   }
-  PLUMB_HD Vec3<N> vector(std::uint32_t field) const { return {get(field), get(field + 1), get(field + 2)}; }
 
  private:
   PLUMB_HD static N read(const Real* at) {

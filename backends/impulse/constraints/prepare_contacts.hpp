@@ -40,8 +40,7 @@ struct PadColours {
       rows.body_a[slot] = rows.body_b[slot] = nobody;
       rows.count[slot] = 0;
       rows.row[slot] = kNone;
-      Real* numbers = rows.at(slot);
-      for (std::uint32_t f = 0; f < kAllFields; ++f) numbers[f * kRowBlock] = 0;
+      ContactNumbers{}.store(rows.at(slot));
       if (Real* sums = rows.sums_at(slot); sums != nullptr)
         for (std::uint32_t f = 0; f < kSumFields; ++f) sums[f * kRowBlock] = 0;
     }
@@ -49,15 +48,11 @@ struct PadColours {
 };
 
 /// Inverse of the 2 by 2 symmetric matrix of the tangents, or 0 where nothing gives way, and its smaller eigenvalue.
-PLUMB_HD inline void put_tangent_mass(Real* numbers, int point, Real k11, Real k12, Real k22) {
+PLUMB_HD inline void put_tangent_mass(ContactNumbers& numbers, int point, Real k11, Real k12, Real k22) {
   const Real inverse = reciprocal_or_zero(k11 * k22 - k12 * k12);
-  Real* mass = numbers + point_field(point, kTangentMass) * kRowBlock;
-  mass[0] = inverse * k22;
-  mass[kRowBlock] = -(inverse * k12);
-  mass[2 * kRowBlock] = inverse * k11;
+  numbers.put(point_field(point, kTangentMass), {inverse * k22, -(inverse * k12), inverse * k11});
   const Real half = (k11 - k22) / 2;
-  numbers[point_field(point, kTangentStep) * kRowBlock] =
-      reciprocal_or_zero((k11 + k22) / 2 + sqrt(half * half + k12 * k12));
+  numbers.at[point_field(point, kTangentStep)] = reciprocal_or_zero((k11 + k22) / 2 + sqrt(half * half + k12 * k12));
 }
 
 /// Inverse of a symmetric positive definite matrix by Gauss and Jordan's elimination, which needs no pivots for those.
@@ -100,7 +95,7 @@ struct ContactEnds {
 /// The matrix that gives all normal speeds for all normal impulses, and its inverse. Four points of a plane have but
 /// three ways to move: a share of each point's own softness is added, without which there is no inverse. With much less
 /// of it the impulses of the fourth way wander, and towers tremble.
-PLUMB_HD inline void put_matrix(Real* numbers, int count, Real inverse_mass,
+PLUMB_HD inline void put_matrix(ContactNumbers& numbers, int count, Real inverse_mass,
                                 const ContactEnds::Turn (&turns)[kManifoldPoints]) {
   const Real share = count > 1 ? Real(0.05) : Real(0);
   const bool moves = inverse_mass > 0;
@@ -113,15 +108,14 @@ PLUMB_HD inline void put_matrix(Real* numbers, int count, Real inverse_mass,
     PLUMB_UNROLL
     for (int q = p + 1; q < kManifoldPoints; ++q, ++field) {
       m[p][q] = m[q][p] = moves && q < count ? inverse_mass + ContactEnds::give(turns[p], turns[q]) : Real(0);
-      numbers[field * kRowBlock] = m[p][q];
+      numbers.at[field] = m[p][q];
     }
   }
   invert(m);
   field = kBlockInverse;
   PLUMB_UNROLL
   for (int p = 0; p < kManifoldPoints; ++p) PLUMB_UNROLL
-  for (int q = p; q < kManifoldPoints; ++q, ++field)
-    numbers[field * kRowBlock] = moves && q < count ? m[p][q] : Real(0);
+  for (int q = p; q < kManifoldPoints; ++q, ++field) numbers.at[field] = moves && q < count ? m[p][q] : Real(0);
 }
 
 PLUMB_HD inline void PrepareContacts::operator()(std::uint32_t j) const {
@@ -146,52 +140,43 @@ PLUMB_HD inline void PrepareContacts::operator()(std::uint32_t j) const {
   rows.body_b[slot] = b;
   rows.count[slot] = kept.count;
   rows.row[slot] = row;
-  Real* numbers = rows.at(slot);
+  ContactNumbers numbers{};
   const Real warm_start = parameters->warm_start;
-  const auto put = [numbers](std::uint32_t field, Real value) { numbers[field * kRowBlock] = value; };
-  const auto put_vector = [&put](std::uint32_t field, const Vec& v) {
-    put(field, v.x);
-    put(field + 1, v.y);
-    put(field + 2, v.z);
-  };
   const Vec n = kept.normal, t1 = kept.tangent, t2 = cross(n, t1);
-  put_vector(kNormal, n);
-  put_vector(kTangent, t1);
+  numbers.put(kNormal, n);
+  numbers.put(kTangent, t1);
   Vec centre = {0, 0, 0};
   for (int p = 0; p < static_cast<int>(kept.count); ++p) centre += found.points[p].position;
   centre = (Real(1) / static_cast<Real>(kept.count)) * centre;
   const Vec centre_a = offset_a + centre, centre_b = centre_a - from_a_to_b;
-  put_vector(kCentreA, centre_a);
-  put_vector(kCentreB, centre_b);
-  put(kFriction, sqrt(proxy_a.friction * proxy_b.friction));
-  put(kRestitution, max(proxy_a.restitution, proxy_b.restitution));
+  numbers.put(kCentreA, centre_a);
+  numbers.put(kCentreB, centre_b);
+  numbers.at[kFriction] = sqrt(proxy_a.friction * proxy_b.friction);
+  numbers.at[kRestitution] = max(proxy_a.restitution, proxy_b.restitution);
   ContactEnds::Turn normal_turns[kManifoldPoints] = {};
   PLUMB_UNROLL
   for (int p = 0; p < kManifoldPoints; ++p) {
     const auto field = [p](std::uint32_t f) { return point_field(p, f); };
-    if (p >= static_cast<int>(kept.count)) {
-      for (std::uint32_t f = 0; f < kPointFields; ++f) put(field(f), 0);
-      continue;
-    }
+    if (p >= static_cast<int>(kept.count)) continue;
     const Vec arm = found.points[p].position - centre, arm_a = centre_a + arm, arm_b = centre_b + arm;
     normal_turns[p] = ends.turn(arm_a, arm_b, n);
     const ContactEnds::Turn turn1 = ends.turn(arm_a, arm_b, t1), turn2 = ends.turn(arm_a, arm_b, t2);
     const Real normal_give = ends.inverse_mass + ContactEnds::give(normal_turns[p], normal_turns[p]);
-    put_vector(field(kArm), arm);
-    put(field(kSeparation), found.points[p].separation);
-    put(field(kNormalGive), normal_give);
-    put(field(kNormalMass), reciprocal_or_zero(normal_give));
+    numbers.put(field(kArm), arm);
+    numbers.at[field(kSeparation)] = found.points[p].separation;
+    numbers.at[field(kNormalGive)] = normal_give;
+    numbers.at[field(kNormalMass)] = reciprocal_or_zero(normal_give);
     put_tangent_mass(numbers, p, ends.inverse_mass + ContactEnds::give(turn1, turn1), ContactEnds::give(turn1, turn2),
                      ends.inverse_mass + ContactEnds::give(turn2, turn2));
-    put(field(kNormalImpulse), warm_start * kept.normal_impulse[p]);
-    put(field(kTangentImpulse), warm_start * kept.tangent_impulse[0][p]);
-    put(field(kTangentImpulse + 1), warm_start * kept.tangent_impulse[1][p]);
-    put(field(kImpactSpeed), 1);
-    put(field(kOpen), 0);
+    numbers.at[field(kNormalImpulse)] = warm_start * kept.normal_impulse[p];
+    numbers.at[field(kTangentImpulse)] = warm_start * kept.tangent_impulse[0][p];
+    numbers.at[field(kTangentImpulse) + 1] = warm_start * kept.tangent_impulse[1][p];
+    numbers.at[field(kImpactSpeed)] = 1;
   }
   if (Real* sums = rows.sums_at(slot); sums != nullptr)
     for (std::uint32_t i = 0; i < kSumFields; ++i) sums[i * kRowBlock] = 0;
   put_matrix(numbers, static_cast<int>(kept.count), ends.inverse_mass, normal_turns);
+  numbers.store(rows.at(slot));
 }
 
 /// Writes the impulses of a solver row back to the contact cache.
@@ -204,9 +189,9 @@ struct KeepImpulses {
     CachedManifold& kept = cache.kept[rows.row[slot]];
     const Real* numbers = rows.at(slot);
     for (int p = 0; p < static_cast<int>(kept.count); ++p) {
-      kept.normal_impulse[p] = numbers[point_field(p, kNormalImpulse) * kRowBlock];
-      kept.tangent_impulse[0][p] = numbers[point_field(p, kTangentImpulse) * kRowBlock];
-      kept.tangent_impulse[1][p] = numbers[point_field(p, kTangentImpulse + 1) * kRowBlock];
+      kept.normal_impulse[p] = numbers[place_of(point_field(p, kNormalImpulse))];
+      kept.tangent_impulse[0][p] = numbers[place_of(point_field(p, kTangentImpulse))];
+      kept.tangent_impulse[1][p] = numbers[place_of(point_field(p, kTangentImpulse + 1))];
     }
     if (step_impulses == nullptr) return;
     StepImpulses& kept_sums = step_impulses[rows.row[slot]];

@@ -42,10 +42,22 @@ PLUMB_HD LoadedContact<N> load_slot(const ContactRows& rows, std::uint32_t slot)
   return loaded;
 }
 
+/// The number of points that all who go the same way have to go through: on a GPU the threads of a warp, which would
+/// else take the ways for one, two and four points one after the other.
+PLUMB_HD inline std::uint32_t points_together(std::uint32_t points) {
+#if defined(__CUDA_ARCH__)
+  const unsigned together = __activemask();
+  return __any_sync(together, points > 2) ? kManifoldPoints : __any_sync(together, points > 1) ? 2 : 1;
+#else
+  return points;
+#endif
+}
+
 /// Calls f with the number of points as a constant, so that what it does goes straight: 1, 2 or all that there may be.
 template <class F>
-PLUMB_HD void with_point_count(std::uint32_t points, const F& f) {
-  if (points == 0) return;
+PLUMB_HD void with_point_count(std::uint32_t own, const F& f) {
+  if (own == 0) return;
+  const std::uint32_t points = points_together(own);
   if (points == 1) return f(std::integral_constant<int, 1>{});
   if (points == 2) return f(std::integral_constant<int, 2>{});
   f(std::integral_constant<int, kManifoldPoints>{});

@@ -49,7 +49,7 @@ struct StepInParts : SolverStep {
   PLUMB_DEVICE void start(Team& team, const StepParameters& step) const {
     for_parts(team, [=](auto points, const auto& row, auto& contact, auto& a, auto& b) {
       put_bias<points()>(contact, step);
-      store_open<points()>(row, contact);
+      store_impulses<points()>(row, contact);
       warm_start_contact<points()>(contact, a, b);
     });
   }
@@ -60,10 +60,9 @@ struct StepInParts : SolverStep {
     });
   }
   PLUMB_DEVICE void bounce_parts(Team& team, Real slowest) const {
-    const bool friction = features.friction;
     for_parts(team, [=](auto points, const auto& row, auto& contact, auto& a, auto& b) {
       bounce_contact<points()>(row, contact, a, b, slowest);
-      store_impulses<points()>(row, contact, friction);
+      store_impulses<points()>(row, contact);
     });
   }
 

@@ -48,7 +48,7 @@ struct ContactPass {
     aim_hard<P>(contact, aims);
     solve_normals<P>(contact, aims, a, b, note_impacts);
     if (friction) solve_friction<P>(contact, a, b);
-    store_impulses<P>(row, contact, friction);
+    store_impulses<P>(row, contact);
     if (note_impacts) store_impact_speeds<P>(row, contact);
     if (noted == nullptr) return;
     N changed = N(0), reached = N(0);

@@ -65,7 +65,7 @@ struct StepPositions : SolverStep {
     aim_hard<P>(contact, aims);
     solve_normals<P>(contact, aims, a, b, note_impacts);
     if (friction) solve_friction<P>(contact, a, b);
-    store_impulses<P>(row, contact, friction);
+    store_impulses<P>(row, contact);
   }
 };
 

@@ -45,7 +45,7 @@ struct StepSequentially : SolverStep {
     for_contacts(team, contacts, solver, BodyUse::kVelocity,
                  [=](auto points, const auto& row, auto& contact, auto& a, auto& b) {
                    put_bias<points()>(contact, step);
-                   store_open<points()>(row, contact);
+                   store_impulses<points()>(row, contact);
                    warm_start_contact<points()>(contact, a, b);
                  });
   }

@@ -57,8 +57,7 @@ struct StepSoftly : SolverStep {
                    aim_softly<kPoints>(contact, a, b, softness, aims);
                    solve_contact<kPoints>(contact, aims, a, b, friction, note_impacts);
                    close_pushed<kPoints>(contact);
-                   store_impulses<kPoints>(row, contact, friction);
-                   store_open<kPoints>(row, contact);
+                   store_impulses<kPoints>(row, contact);
                    if (note_impacts) store_impact_speeds<kPoints>(row, contact);
                  });
   }
@@ -72,7 +71,7 @@ struct StepSoftly : SolverStep {
                    ManifoldAim<std::remove_cvref_t<decltype(a.inverse_mass)>> aims;
                    aim_hard<kPoints>(contact, aims);
                    solve_contact<kPoints>(contact, aims, a, b, friction, false);
-                   store_impulses<kPoints>(row, contact, friction);
+                   store_impulses<kPoints>(row, contact);
                    add_up_impulses<kPoints>(row, contact);
                  });
   }

@@ -25,11 +25,10 @@ struct SolverStep {
   PLUMB_DEVICE bool must_repeat() const { return counters->pairs > pair_capacity; }
 
   PLUMB_DEVICE void bounce(Team& team, Real slowest) const {
-    const bool friction = features.friction;
     for_contacts(team, contacts, solver, BodyUse::kVelocity,
                  [=](auto points, const auto& row, auto& contact, auto& a, auto& b) {
                    bounce_contact<points()>(row, contact, a, b, slowest);
-                   store_impulses<points()>(row, contact, friction);
+                   store_impulses<points()>(row, contact);
                  });
   }
   /// Impulses of a step that had no sub-steps are the step's.
