@@ -42,6 +42,7 @@ struct StepParameters {
   Real joint_rate;         ///< errors of mechanisms that are solved as a whole are taken back at this rate, 1/s
   Real warm_start;         ///< share of the last step's impulses that is kept: its sub-step to this one's, or 0
   Real push_speed;         ///< overlap is taken back no faster than this, m/s
+  bool relaxes_once;       ///< in a step, and not in each sub-step
   Real restitution_speed;  ///< slower impacts do not bounce, m/s
   Position origin;         ///< of the bounds
 

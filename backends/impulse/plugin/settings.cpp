@@ -33,6 +33,7 @@ Row number(const char* name, PlumbSettingType type, PlumbSettingRole role, doubl
 
 /// In the order of SolverKind.
 constexpr const char* kSolvers[] = {"tgs_soft", "si", "jacobi", "xpbd"};
+constexpr const char* kRelaxations[] = {"substep", "step"};
 
 Row choice(const char* name, std::span<const char* const> words, double Settings::*member, const char* doc) {
   Row row = number(name, PLUMB_SETTING_CHOICE, PLUMB_ROLE_BEHAVIOUR, 0, 0, 0, "", member, doc);
@@ -52,6 +53,9 @@ const std::vector<Row>& rows() {
              "at once on split bodies; xpbd: positions in sub-steps"),
       number("substeps", whole, quality, 1, 256, 8, "1", &S::substeps,
              "tgs_soft, xpbd: parts of a step in which velocities are solved and positions moved"),
+      choice("relaxation", kRelaxations, &S::relaxation,
+             "tgs_soft: when contacts lose the speed that taking back overlap gave them: in each sub-step, or once at "
+             "the end of a step, which leaves time for more sub-steps: high stacks of stiffer contacts"),
       number("iterations", whole, quality, 1, kMostPasses, 10, "1", &S::iterations,
              "si, jacobi: passes over all constraints in a step, at most"),
       number("stop_below", real, behaviour, 0, 1, 1e-5, "1", &S::stop_below,
@@ -131,6 +135,7 @@ StepParameters Settings::parameters(double dt, double last_h, const PlumbVec3& g
   step.warm_start = static_cast<Real>(warm_starting == 0 || last_h == 0 ? 0 : h / last_h);
   step.push_speed = static_cast<Real>(push_speed);
   step.joint_rate = joint_hertz > 0 ? step.joint.bias_rate : step.inverse_h;
+  step.relaxes_once = relaxation != 0;
   step.restitution_speed = static_cast<Real>(restitution_speed);
   step.solver = static_cast<SolverKind>(solver);
   step.passes = static_cast<std::uint32_t>(iterations);

@@ -11,6 +11,7 @@ namespace plumb::impulse {
 /// A choice is the number of its word.
 struct Settings {
   double solver = 0;
+  double relaxation = 0;
   double substeps = 0;
   double iterations = 0;
   double stop_below = 0;

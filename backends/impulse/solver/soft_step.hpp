@@ -24,10 +24,11 @@ struct StepSoftly : SolverStep {
         warm_start_mechanisms(team, joints, first, step);
         solve_mechanisms(team, joints, step, true);
       }
-      push_contacts(team, step);
+      const bool relaxes = !step.relaxes_once || k + 1 == step.substeps;
+      push_contacts(team, step, !relaxes);
       move_bodies(team, step);
       if constexpr (kWithJoints) solve_mechanisms(team, joints, step, false);
-      relax_contacts(team);
+      if (relaxes) relax_contacts(team);
     }
     if (features.collision && features.restitution) {
       bounce(team, step.restitution_speed);
@@ -45,8 +46,8 @@ struct StepSoftly : SolverStep {
                    warm_start_contact<points()>(contact, a, b);
                  });
   }
-  /// Takes overlap back, softly.
-  PLUMB_DEVICE void push_contacts(Team& team, const StepParameters& step) const {
+  /// Takes overlap back, softly. final: no relaxing pass follows in this sub-step.
+  PLUMB_DEVICE void push_contacts(Team& team, const StepParameters& step, bool final) const {
     if (!features.collision) return;
     const ContactSoftness softness = {step.contact, step.ground, step.inverse_h, step.push_speed};
     const bool friction = features.friction, note_impacts = features.restitution;
@@ -59,6 +60,7 @@ struct StepSoftly : SolverStep {
                    close_pushed<kPoints>(contact);
                    store_impulses<kPoints>(row, contact);
                    if (note_impacts) store_impact_speeds<kPoints>(row, contact);
+                   if (final) add_up_impulses<kPoints>(row, contact);
                  });
   }
   /// After the positions have moved: nothing that touches approaches, and what was pushed does not stay as velocity.
