@@ -63,7 +63,7 @@ template <class N>
 struct Contact {
   Vec3<N> normal, tangent;
   Vec3<N> centre_a, centre_b;
-  N friction, restitution;
+  N friction, restitution, pull;
   ContactPoint<N> points[kManifoldPoints];
   N coupling[kCouplingFields];
   N block_inverse[kBlockFields];
@@ -85,7 +85,7 @@ PLUMB_HD Contact<N> load_contact(const RowAccess<N>& row, int points) {
   };
   contact.friction = get_vector(kNormal, contact.normal);
   contact.restitution = get_vector(kTangent, contact.tangent);
-  get_vector(kCentreA, contact.centre_a);
+  contact.pull = get_vector(kCentreA, contact.centre_a);
   get_vector(kCentreB, contact.centre_b);
   PLUMB_UNROLL
   for (int p = 0; p < kManifoldPoints; ++p) {

@@ -7,12 +7,20 @@
 // itself at 94 % of its friction.
 #pragma once
 
+#include <type_traits>
+
 #include "constraints/contact.hpp"
 
 namespace plumb::impulse {
 
-template <int P, class N>
-PLUMB_HD void solve_friction(Contact<N>& contact, SolverBody<N>& a, SolverBody<N>& b) {
+/// All points rub in all lanes.
+struct Always {
+  PLUMB_HD bool operator()(int) const { return true; }
+};
+
+/// rubs(p): the lanes in which point p takes part.
+template <int P, class N, class Rubs>
+PLUMB_HD void solve_friction_where(Contact<N>& contact, SolverBody<N>& a, SolverBody<N>& b, const Rubs& rubs) {
   const Vec3<N> t1 = contact.tangent;
   const Vec3<N> t2 = cross(contact.normal, t1);
   PLUMB_UNROLL
@@ -34,12 +42,20 @@ PLUMB_HD void solve_friction(Contact<N>& contact, SolverBody<N>& a, SolverBody<N
       new1 = select(slides, cut * slide1, stop1);
       new2 = select(slides, cut * slide2, stop2);
     }
+    if constexpr (!std::is_same_v<Rubs, Always>) {
+      new1 = select(rubs(p), new1, old1);
+      new2 = select(rubs(p), new2, old2);
+    }
     point.impulse[1] = new1;
     point.impulse[2] = new2;
     const Vec3<N> impulse = (new1 - old1) * t1 + (new2 - old2) * t2;
     push(a, ra, -impulse);
     push(b, rb, impulse);
   }
+}
+template <int P, class N>
+PLUMB_HD void solve_friction(Contact<N>& contact, SolverBody<N>& a, SolverBody<N>& b) {
+  solve_friction_where<P>(contact, a, b, Always{});
 }
 
 }  // namespace plumb::impulse

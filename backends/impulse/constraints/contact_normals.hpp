@@ -70,11 +70,13 @@ struct NormalPass {
 
 /// All points of a manifold at once, by the inverse of their matrix: exact where every point touches and none would
 /// have to pull (after the block solver of Box2D: Catto, "Modeling and Solving Constraints", GDC 2009). Returns the
-/// lanes where that holds.
+/// lanes where that holds. The points of a face that come down touch together, too: one after the other they would turn
+/// it. Of an edge they do not, measured in impacts with friction.
 template <int P, class N>
 PLUMB_HD auto solve_normal_block(const Contact<N>& contact, const ManifoldAim<N>& aims, NormalPass<P, N>& pass) {
   const N zero = N(0);
   N residual[P];
+  const auto is_face = (P > 2 ? contact.points[P > 2 ? 2 : 0].normal_mass : zero) > zero;
   auto holds = zero < N(1);
   PLUMB_UNROLL
   for (int p = 0; p < P; ++p) {
@@ -82,7 +84,7 @@ PLUMB_HD auto solve_normal_block(const Contact<N>& contact, const ManifoldAim<N>
     pass.total[p] = point.impulse[0];
     const auto there = point.normal_mass > zero;
     residual[p] = select(there, pass.speed[p] + aims[p].bias + aims[p].give * pass.total[p], zero);
-    holds = holds && !(there && point.open > N(kHuge / 2));
+    holds = holds && !(there && select(is_face, aims[p].bias, point.open) > N(kHuge / 2));
   }
   int field = 0;
   PLUMB_UNROLL
@@ -135,12 +137,44 @@ PLUMB_HD void push_normals(const Contact<N>& contact, const N (&change)[P], Solv
   b.angular += b.inverse_inertia * cross(sum * contact.centre_b + lever, n);
 }
 
+/// The speed with which a point touches that has come to be pushed while it is apart by s: its gap closes after the
+/// share s / (h |v|) of the sub-step, which is bias over speed. Half of the sub-step's pull that is in v already comes
+/// too early, for velocities are half a sub-step ahead of positions: by the conservation of energy the point touches
+/// with |v| - g h / 2 + g s / |v|. A body that leaves is pulled back half of g h too much in its turn, so that this
+/// half is left out here, and e = 1 brings it back to where it came from.
+template <class N>
+PLUMB_HD N speed_at_touch(const N& pull, const PointAim<N>& aim, const N& speed) {
+  const N zero = N(0), closing = -speed;
+  const auto apart = aim.bias > zero && aim.bias < closing;
+  const N share = aim.bias / max(closing, N(Real(1e-30)));
+  return min(speed + select(apart, share, zero) * pull, zero);
+}
+
+/// The first time in a step that one of the points is pushed, the speeds of all are noted: they hit together, though
+/// one of them may be pushed a sub-step later, when the blow on the first has changed its speed. From its own speed it
+/// would leave with energy that nobody put in. The noted speed of a point that is not pushed yet waits as kWaits less
+/// itself.
+template <int P, class N>
+PLUMB_HD void note_impact_speeds(Contact<N>& contact, const ManifoldAim<N>& aims, const NormalPass<P, N>& pass) {
+  const N zero = N(0), one = N(1), waits = N(kWaits);
+  N pushed = zero;
+  PLUMB_UNROLL
+  for (int p = 0; p < P; ++p)
+    pushed = select(pass.total[p] > zero && contact.points[p].impact_speed > zero, one, pushed);
+  PLUMB_UNROLL
+  for (int p = 0; p < P; ++p) {
+    N& noted = contact.points[p].impact_speed;
+    const N came = speed_at_touch(contact.pull, aims[p], pass.speed[p]);
+    noted = select(pushed > zero && noted > zero && noted < waits, waits - came, noted);
+    noted = select(pass.total[p] > zero && noted > zero, waits - noted, noted);
+  }
+}
+
 /// The normal impulses of a manifold: as a block, and point by point in the lanes where a block does not do. The first
 /// time in a step that a point is pushed, its speed is noted for restitution.
 template <int P, class N>
 PLUMB_HD void solve_normals(Contact<N>& contact, const ManifoldAim<N>& aims, SolverBody<N>& a, SolverBody<N>& b,
                             bool note_impacts) {
-  const N zero = N(0);
   const Vec3<N> n = contact.normal;
   const N at_centre = dot(velocity_at(b, contact.centre_b) - velocity_at(a, contact.centre_a), n);
   const Vec3<N> by_arm = cross(n, b.angular - a.angular);
@@ -157,33 +191,9 @@ PLUMB_HD void solve_normals(Contact<N>& contact, const ManifoldAim<N>& aims, Sol
     ContactPoint<N>& point = contact.points[p];
     change[p] = pass.total[p] - point.impulse[0];
     point.impulse[0] = pass.total[p];
-    if (!note_impacts) continue;
-    const auto first = pass.total[p] > zero && point.impact_speed > zero;
-    point.impact_speed = select(first, min(pass.speed[p], zero), point.impact_speed);
   }
+  if (note_impacts) note_impact_speeds<P>(contact, aims, pass);
   push_normals<P>(contact, change, a, b);
-}
-
-/// Newton's restitution: a point that closed faster than `slowest` and was pushed leaves with e times that speed.
-template <int P, class N>
-PLUMB_HD void bounce_contact(const RowAccess<N>& row, Contact<N>& contact, SolverBody<N>& a, SolverBody<N>& b,
-                             Real slowest) {
-  const Vec3<N> n = contact.normal;
-  PLUMB_UNROLL
-  for (int p = 0; p < P; ++p) {
-    ContactPoint<N>& point = contact.points[p];
-    const N impact = point.impact_speed;
-    const Vec3<N> ra = contact.arm_a(p), rb = contact.arm_b(p);
-    const N speed = dot(velocity_at(b, rb) - velocity_at(a, ra), n);
-    const N old = point.impulse[0];
-    const N wanted = max(old - point.normal_mass * (speed + contact.restitution * impact), N(0));
-    const N total = select(impact < N(-slowest) && contact.restitution > N(0), wanted, old);
-    point.impulse[0] = total;
-    row.add_to_sum(p, 0, total - old);
-    const Vec3<N> impulse = (total - old) * n;
-    push(a, ra, -impulse);
-    push(b, rb, impulse);
-  }
 }
 
 }  // namespace plumb::impulse

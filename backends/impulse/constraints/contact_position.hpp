@@ -23,7 +23,7 @@ PLUMB_HD void start_contact_position(Contact<N>& contact, const SolverBody<N>& a
     const N before = separation * N(step.inverse_h) - dot(velocity_at(b, rb) - velocity_at(a, ra), n);
     point.open = max(before, N(-step.push_speed));
     point.impulse[0] = point.impulse[1] = point.impulse[2] = N(0);
-    point.impact_speed = N(1);
+    point.impact_speed = N(kWaits / 2);
   }
 }
 

@@ -19,8 +19,9 @@ enum RowField : std::uint32_t {
   kFriction = 3,
   kTangent = 4,
   kRestitution = 7,
-  kCentreA = 8,   ///< mean of the points, from the centre of mass of a, m
-  kCentreB = 12,  ///< and from that of b
+  kCentreA = 8,   ///< mean of the points where they touch a, from its centre of mass, m
+  kPull = 11,     ///< what forces add to the speed with which b leaves a in a sub-step, m/s; 0 where nothing bounces
+  kCentreB = 12,  ///< where they touch b, from the centre of mass of b
   kRowFields = 16
 };
 enum PointField : std::uint32_t {
@@ -29,13 +30,16 @@ enum PointField : std::uint32_t {
   kNormalMass = 4,   ///< effective, kg
   kNormalGive = 5,   ///< 1 over it, 1/kg
   kTangentStep = 6,  ///< smallest eigenvalue of the tangent mass, kg
-  kImpactSpeed = 7,  ///< relative normal velocity when the point was first pushed in this step, m/s; below 0: closing
+  kImpactSpeed = 7,  ///< normal velocity with which a point came that was pushed in this step, m/s, 0 or less; above 0:
+                     ///< not pushed yet (kWaits)
   kTangentMass = 8,  ///< 2 by 2 symmetric: 11, 12, 22
   kNormalImpulse = 12,
   kTangentImpulse = 13,  ///< along tangent and bitangent
   kOpen = 15,  ///< speed that a point may approach with in the relaxing pass: 0, or without bound where it is apart
   kPointFields = 16
 };
+/// kImpactSpeed of a point that has not been pushed: kWaits / 2, or kWaits less the speed with which it came.
+constexpr Real kWaits = 2;
 /// The matrix that gives all points' speeds for all points' impulses, symmetric: beside its diagonal, which is
 /// kNormalGive, 12 13 14 23 24 34.
 constexpr std::uint32_t kCoupling = kRowFields + kManifoldPoints * kPointFields;

@@ -6,6 +6,7 @@
 #include "exec/executor.hpp"
 #include "narrowphase/contact_cache.hpp"
 #include "solver/body_parts.hpp"
+#include "solver/motion.hpp"
 #include "solver/solver_bodies.hpp"
 #include "step_counters.hpp"
 #include "step_parameters.hpp"
@@ -27,6 +28,13 @@ struct PrepareContacts {
 
   /// Place j in the order by colour.
   PLUMB_HD void operator()(std::uint32_t j) const;
+
+ private:
+  /// By forces, m/s2.
+  PLUMB_HD Vec acceleration(std::uint32_t body) const {
+    const bool falls = (bodies.mass[body].flags & kBodyDynamic) != 0;
+    return falls ? acceleration_by_forces(bodies, *parameters, body) : Vec{0, 0, 0};
+  }
 };
 
 /// Unused lanes at the end of a colour: no points, no body.
@@ -148,11 +156,17 @@ PLUMB_HD inline void PrepareContacts::operator()(std::uint32_t j) const {
   Vec centre = {0, 0, 0};
   for (int p = 0; p < static_cast<int>(kept.count); ++p) centre += found.points[p].position;
   centre = (Real(1) / static_cast<Real>(kept.count)) * centre;
-  const Vec centre_a = offset_a + centre, centre_b = centre_a - from_a_to_b;
+  // Points that are apart will touch each body where its surface is now, not midway: a ball that comes fast has its own
+  // radius for an arm. What touches first counts for all.
+  Real gap = found.points[0].separation;
+  for (int p = 1; p < static_cast<int>(kept.count); ++p) gap = min(gap, found.points[p].separation);
+  const Vec half_gap = max(gap, Real(0)) / 2 * n;
+  const Vec middle = offset_a + centre, centre_a = middle - half_gap, centre_b = middle + half_gap - from_a_to_b;
   numbers.put(kCentreA, centre_a);
   numbers.put(kCentreB, centre_b);
   numbers.at[kFriction] = sqrt(proxy_a.friction * proxy_b.friction);
   numbers.at[kRestitution] = max(proxy_a.restitution, proxy_b.restitution);
+  if (numbers.at[kRestitution] > 0) numbers.at[kPull] = parameters->h * dot(acceleration(b) - acceleration(a), n);
   ContactEnds::Turn normal_turns[kManifoldPoints] = {};
   PLUMB_UNROLL
   for (int p = 0; p < kManifoldPoints; ++p) {
@@ -171,7 +185,7 @@ PLUMB_HD inline void PrepareContacts::operator()(std::uint32_t j) const {
     numbers.at[field(kNormalImpulse)] = warm_start * kept.normal_impulse[p];
     numbers.at[field(kTangentImpulse)] = warm_start * kept.tangent_impulse[0][p];
     numbers.at[field(kTangentImpulse) + 1] = warm_start * kept.tangent_impulse[1][p];
-    numbers.at[field(kImpactSpeed)] = 1;
+    numbers.at[field(kImpactSpeed)] = kWaits / 2;
   }
   if (Real* sums = rows.sums_at(slot); sums != nullptr)
     for (std::uint32_t i = 0; i < kSumFields; ++i) sums[i * kRowBlock] = 0;

@@ -60,8 +60,9 @@ struct StepInParts : SolverStep {
     });
   }
   PLUMB_DEVICE void bounce_parts(Team& team, Real slowest) const {
+    const bool friction = features.friction;
     for_parts(team, [=](auto points, const auto& row, auto& contact, auto& a, auto& b) {
-      bounce_contact<points()>(row, contact, a, b, slowest);
+      bounce_contact<points()>(row, contact, a, b, slowest, friction);
       store_impulses<points()>(row, contact);
     });
   }

@@ -15,6 +15,11 @@ PLUMB_HD inline void begin_body(const Bodies& bodies, const SolverBodies& solver
   solver.displacement[i] = {{0, 0, 0}, 0, {0, 0, 0, 1}};
 }
 
+/// What forces do to the velocity of a body that they move, m/s2.
+PLUMB_HD inline Vec acceleration_by_forces(const Bodies& bodies, const StepParameters& step, std::uint32_t i) {
+  return bodies.mass[i].gravity_scale * step.gravity + bodies.velocity[i].inverse_mass * bodies.force[i].force;
+}
+
 /// Velocity after the forces of a sub-step and, from the second on, after the constraint impulses of the one before:
 /// these are what the velocity gained over its free value, so that no pass over the constraints is needed to apply
 /// them again.
@@ -26,7 +31,7 @@ PLUMB_HD inline void integrate_velocity(const Bodies& bodies, const SolverBodies
   FreeVelocity& free = solver.free_velocity[i];
   const Vec carried_linear = first ? Vec{0, 0, 0} : velocity.linear - free.linear;
   const Vec carried_angular = first ? Vec{0, 0, 0} : velocity.angular - free.angular;
-  const Vec acceleration = mass.gravity_scale * step.gravity + velocity.inverse_mass * bodies.force[i].force;
+  const Vec acceleration = acceleration_by_forces(bodies, step, i);
   const Real drag = Real(1) / (Real(1) + step.h * mass.linear_damping);
   const Real angular_drag = Real(1) / (Real(1) + step.h * mass.angular_damping);
   free.linear = drag * (velocity.linear + step.h * acceleration);

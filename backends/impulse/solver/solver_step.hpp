@@ -1,7 +1,7 @@
 // What every solver's step works on, and the parts that are the same in all of them.
 #pragma once
 
-#include "constraints/contact_normals.hpp"
+#include "constraints/contact_bounce.hpp"
 #include "exec/atomic.hpp"
 #include "solver/contact_loops.hpp"
 #include "solver/joint_loops.hpp"
@@ -25,9 +25,10 @@ struct SolverStep {
   PLUMB_DEVICE bool must_repeat() const { return counters->pairs > pair_capacity; }
 
   PLUMB_DEVICE void bounce(Team& team, Real slowest) const {
+    const bool friction = features.friction;
     for_contacts(team, contacts, solver, BodyUse::kVelocity,
                  [=](auto points, const auto& row, auto& contact, auto& a, auto& b) {
-                   bounce_contact<points()>(row, contact, a, b, slowest);
+                   bounce_contact<points()>(row, contact, a, b, slowest, friction);
                    store_impulses<points()>(row, contact);
                  });
   }
