@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 
 #include "engine.hpp"
 
@@ -69,7 +70,11 @@ void hit_a_brick(std::uint64_t seed, double friction) {
     const PlumbContact& contact = contacts[0];
     const bool brick_first = contact.body_a == brick;
     const Vector point = vector(contact.position), normal = vector(contact.normal) * (brick_first ? 1 : -1);
-    const Vector to_brick = point - vector(poses[0].position), to_ball = point - vector(poses[1].position);
+    // They touch later than the contact was found, each with its own surface.
+    const Vector half_gap = std::max(-contact.depth, 0.0) / 2 * normal;
+    const Vector to_brick = point - half_gap - vector(poses[0].position);
+    const Vector to_ball = point + half_gap - vector(poses[1].position);
+    EXPECT_NEAR((to_ball + 0.25 * normal).norm(), 0, 1e-5) << "seed " << seed;
     const Mass brick_mass = mass(scene, brick, poses[0].orientation), ball_mass = mass(scene, ball, {0, 0, 0, 1});
     const auto give = [&](const Mass& of, const Vector& arm) -> Eigen::Matrix3d {
       const Eigen::Matrix3d r = cross_matrix(arm);
