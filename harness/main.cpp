@@ -87,6 +87,7 @@ int main(int count, char** arguments) {
   add_scenes(program, status);
   add_run(program, status);
   add_compare(program, status);
+  add_curves(program, status);
   add_conform(program, status);
   add_report(program, status);
   add_replay(program, status);

@@ -10,6 +10,7 @@ void add_backends(CLI::App& program, int& status);
 void add_scenes(CLI::App& program, int& status);
 void add_run(CLI::App& program, int& status);
 void add_compare(CLI::App& program, int& status);
+void add_curves(CLI::App& program, int& status);
 void add_conform(CLI::App& program, int& status);
 void add_report(CLI::App& program, int& status);
 void add_worker(CLI::App& program, int& status);  ///< hidden: what the program starts itself as

@@ -83,6 +83,30 @@ void check_positive(const char* option, double value) {
     throw UsageError(fmt::format("{} {:g}: it must be above 0", option, value));
 }
 
+Sweep parse_sweep(const std::optional<SweepRequest>& request) {
+  Sweep sweep;
+  if (!request) return sweep;
+  for (const std::string& argument : request->over) sweep.over.push_back(parse_sweep_axis("--over", argument));
+  for (const std::string& argument : request->along) sweep.along.push_back(parse_sweep_axis("--along", argument));
+  return sweep;
+}
+
+// The cell once for each of the sweep's settings, and the ladders by their places in the block.
+void add_swept(CellBlock& block, const Cell& cell, const Sweep& sweep, const std::vector<SettingRequest>& fixed) {
+  const std::size_t first = block.cells.size();
+  SweptSettings swept = swept_settings(*cell.backend, cell.settings, sweep, fixed);
+  for (Json& settings : swept.settings) {
+    block.cells.push_back(cell);
+    block.cells.back().settings = std::move(settings);
+  }
+  for (Ladder& ladder : swept.ladders) {
+    ladder.base += first;
+    ladder.probe += first;
+    for (std::size_t& other : ladder.others) other += first;
+    block.ladders.push_back(std::move(ladder));
+  }
+}
+
 void check_words(const StudyRequest& request) {
   const auto check_word = [](const char* option, const std::string& word, const std::vector<std::string>& known) {
     if (std::find(known.begin(), known.end(), word) == known.end())
@@ -168,6 +192,8 @@ Plan make_plan(const StudyRequest& request) {
                      "; name one by --backend FILE or set PLUMB_BACKEND_PATH");
   }
   check_setting_requests(settings, backends);
+  const Sweep sweep = parse_sweep(request.sweep);
+  check_sweep(sweep, backends, settings);
 
   std::vector<std::pair<std::shared_ptr<const BackendDescription>, std::string>> built;
   for (BackendDescription& backend : backends) {
@@ -183,7 +209,11 @@ Plan make_plan(const StudyRequest& request) {
                   build,    Json::object(),   request.profile, request.needs,
                   scene.dt, scene.seconds,    request.threads};
         cell.settings = settings_for(*backend, file->id, request.profile, settings);
-        block.push_back(std::move(cell));
+        if (request.sweep && backend->error.empty()) {
+          add_swept(block, cell, sweep, settings);
+        } else {
+          block.cells.push_back(std::move(cell));
+        }
       }
       plan.blocks.push_back(std::move(block));
     }

@@ -7,15 +7,22 @@
 
 #include "run/cell.hpp"
 #include "run/settings.hpp"
+#include "run/sweep.hpp"
 #include "run/worker_process.hpp"
 
 namespace plumb::harness {
 
-/// What `run` and `compare` are asked.
+/// What a sweep is asked to turn, as typed; see Sweep.
+struct SweepRequest {
+  std::vector<std::string> over, along;
+};
+
+/// What `run`, `compare` and `curves` are asked.
 struct StudyRequest {
   std::vector<std::string> scenes;
   std::vector<std::string> backends;              ///< names or files; empty: all that load
   std::vector<std::string> parameters, settings;  ///< as typed
+  std::optional<SweepRequest> sweep;              ///< none: a cell a backend, with the settings above
   std::string profile = "default", needs = "scene";
   std::optional<double> dt, seconds;
   std::uint32_t threads = 1;
@@ -29,8 +36,11 @@ struct StudyRequest {
   [[nodiscard]] WorkerLimits limits() const;
 };
 
-/// Cells with the same scene and parameters, one a backend: what is repeated in turns.
-using CellBlock = std::vector<Cell>;
+/// Cells with the same scene and parameters, of all backends: what is repeated in turns.
+struct CellBlock {
+  std::vector<Cell> cells;
+  std::vector<Ladder> ladders;  ///< of a sweep, by places in `cells`
+};
 
 /// Asks a worker of its own what a backend is; whatever goes wrong stands in the description.
 [[nodiscard]] BackendDescription ask_description(const std::string& name, const std::string& file,

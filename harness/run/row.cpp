@@ -87,13 +87,40 @@ Json peak_of(const std::vector<Answer>& answers) {
   return peak;
 }
 
+// What a world of the cell starts with: it stands for the settings in force where none came to be.
+Json settings_at_start(const Cell& cell) {
+  Json settings = Json::object();
+  for (const SettingDescription& setting : cell.backend->settings) settings[setting.name] = setting.default_value;
+  settings.update(cell.settings);
+  return settings;
+}
+
+// The engine's own values of those settings that are not at them: with the settings in force, all of its defaults.
+Json defaults_left(const Cell& cell, const Json& settings) {
+  Json left = Json::object();
+  for (const SettingDescription& setting : cell.backend->settings) {
+    if (settings[setting.name] != setting.default_value) left[setting.name] = setting.default_value;
+  }
+  return left;
+}
+
+// Settings that buy accuracy with time, by the backend's own word.
+Json knobs_of(const Cell& cell) {
+  Json knobs = Json::array();
+  for (const SettingDescription& setting : cell.backend->settings) {
+    if (setting.role == "quality") knobs.push_back(setting.name);
+  }
+  return knobs;
+}
+
 }  // namespace
 
 Json make_row(const Cell& cell, const std::vector<Answer>& answers, const Json& machine) {
   const Answer& chosen = *std::max_element(answers.begin(), answers.end(), [](const Answer& a, const Answer& b) {
     return badness(status_of(a)) < badness(status_of(b));
   });
-  const Json in_force = part_of(chosen, "settings", Json::object());
+  Json settings = settings_at_start(cell);
+  settings.update(part_of(chosen, "settings", Json::object()));
   Json metrics = part_of(chosen, "metrics", Json::object());
   note_determinism(metrics, answers);
   return {{"scene", cell.scene->id},
@@ -101,7 +128,7 @@ Json make_row(const Cell& cell, const std::vector<Answer>& answers, const Json& 
           {"params", json_of(cell.shown)},
           {"backend", cell.backend->name},
           {"backend_version", cell.backend->version},
-          {"settings", in_force.empty() ? cell.settings : in_force},
+          {"settings", settings},
           {"profile", cell.profile},
           {"dt", cell.dt},
           {"seconds", cell.seconds},
@@ -114,6 +141,8 @@ Json make_row(const Cell& cell, const std::vector<Answer>& answers, const Json& 
           {"hash", part_of(chosen, "hash", "")},
           {"peak_mb", peak_of(answers)},
           {"machine", machine},
+          {"defaults", defaults_left(cell, settings)},
+          {"knobs", knobs_of(cell)},
           {"slug", cell.scene->slug},
           {"needs", cell.needs},
           {"repeats", answers.size()},

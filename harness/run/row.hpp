@@ -10,6 +10,7 @@ namespace plumb::harness {
 
 /// From the answers of all repetitions of a cell (at least one). Times are over the windows of all that ran to their
 /// end; status and metrics are those of the worst. Differing hashes show as the metric "determinism".
+/// "knobs" names the settings of the role "quality", "defaults" has the engine's own values of settings off them.
 [[nodiscard]] Json make_row(const Cell& cell, const std::vector<Answer>& answers, const Json& machine);
 
 }  // namespace plumb::harness

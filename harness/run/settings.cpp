@@ -40,21 +40,6 @@ Json number_value(const BackendDescription& backend, const SettingDescription& s
   return static_cast<std::int64_t>(*number);
 }
 
-// From text, as from the command line, checked against the description.
-Json checked_value(const BackendDescription& backend, const SettingDescription& setting, const std::string& text) {
-  if (setting.type == "bool") {
-    if (text == "true" || text == "1" || text == "on" || text == "yes") return true;
-    if (text == "false" || text == "0" || text == "off" || text == "no") return false;
-    refuse(backend, setting, text, "is neither true nor false");
-  }
-  if (setting.type == "choice") {
-    if (std::find(setting.choices.begin(), setting.choices.end(), text) == setting.choices.end())
-      refuse(backend, setting, text, "is not one of its choices" + suggestion(text, setting.choices));
-    return text;
-  }
-  return number_value(backend, setting, text);
-}
-
 std::string text_of(const Json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
 
 // Names under which engines have what the profile "matched" turns off.
@@ -106,6 +91,20 @@ Json tuned_settings(const BackendDescription& backend, const std::string& scene_
 }
 
 }  // namespace
+
+Json checked_value(const BackendDescription& backend, const SettingDescription& setting, const std::string& text) {
+  if (setting.type == "bool") {
+    if (text == "true" || text == "1" || text == "on" || text == "yes") return true;
+    if (text == "false" || text == "0" || text == "off" || text == "no") return false;
+    refuse(backend, setting, text, "is neither true nor false");
+  }
+  if (setting.type == "choice") {
+    if (std::find(setting.choices.begin(), setting.choices.end(), text) == setting.choices.end())
+      refuse(backend, setting, text, "is not one of its choices" + suggestion(text, setting.choices));
+    return text;
+  }
+  return number_value(backend, setting, text);
+}
 
 SettingRequest parse_setting_request(const std::string& argument) {
   const auto equals = argument.find('=');

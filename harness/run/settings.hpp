@@ -18,6 +18,10 @@ struct SettingRequest {
 /// Throws UsageError for what has no "=".
 [[nodiscard]] SettingRequest parse_setting_request(const std::string& argument);
 
+/// A setting's value from text, as from the command line. Throws UsageError for the wrong type or out of range.
+[[nodiscard]] Json checked_value(const BackendDescription& backend, const SettingDescription& setting,
+                                 const std::string& text);
+
 /// Throws UsageError, with the nearest right word, for requests that no backend of the list takes, or that one they
 /// name does not have.
 void check_setting_requests(const std::vector<SettingRequest>& requests,

@@ -19,14 +19,17 @@ std::string label_of(const Cell& cell) {
   std::string label = cell.scene->id;
   for (const auto& [name, value] : cell.shown)
     label += " " + name + "=" + std::visit([](const auto& v) { return fmt::format("{}", v); }, value);
-  return label + " " + cell.backend->name;
+  label += " " + cell.backend->name;
+  for (const auto& [name, value] : cell.settings.items())
+    label += fmt::format(" {}={}", name, value.is_string() ? value.get<std::string>() : value.dump());
+  return label;
 }
 
 class Study {
  public:
   Study(const Plan& plan, const StudyRequest& request, ResultsFile* results, const StudyCallbacks& callbacks)
       : plan_(plan), request_(request), results_(results), callbacks_(callbacks), machine_(describe_machine()) {
-    for (const CellBlock& block : plan.blocks) total_ += block.size();
+    for (const CellBlock& block : plan.blocks) total_ += block.cells.size();
   }
 
   void run() {
@@ -34,28 +37,57 @@ class Study {
   }
 
  private:
+  using Answers = std::map<const Cell*, std::vector<Answer>>;  ///< of all repetitions so far
+
   void run_block(const CellBlock& block) {
     std::vector<const Cell*> open;
-    for (const Cell& cell : block) {
-      const Json* row = results_ == nullptr ? nullptr : results_->find(cell_id(cell));
+    for (const Cell& cell : block.cells) {
+      const Json* row = known_row(cell);
       if (row == nullptr) {
         open.push_back(&cell);
       } else {
         hand_on(*row, false);
       }
     }
-    std::map<const Cell*, std::vector<Answer>> answers;
+    Answers answers;
+    for (const Ladder& ladder : block.ladders) leave_out_idle(block, ladder, open, answers);
     std::vector<const Cell*> order = open;
     for (std::uint32_t round = 1; round <= request_.repeat; ++round) {
       std::shuffle(order.begin(), order.end(), random_);
       for (const Cell* cell : order) {
         std::vector<Answer>& mine = answers[cell];
+        if (mine.size() >= round) continue;                         // a ladder's base or probe
         if (!mine.empty() && mine.back().status != "ok") continue;  // it would only crash or hang once more
         if (!mine.empty() && mine.back().json.value("status", "") == "unsupported") continue;
         mine.push_back(ask(*cell, round));
       }
     }
     for (const Cell* cell : open) finish(*cell, answers[cell]);
+  }
+
+  [[nodiscard]] const Json* known_row(const Cell& cell) const {
+    return results_ == nullptr ? nullptr : results_->find(cell_id(cell));
+  }
+
+  /// What came of a cell: its row of an earlier run, or its first repetition, which is run here when it was not yet.
+  Json first_result(const Cell& cell, Answers& answers) {
+    if (const Json* row = known_row(cell)) return *row;
+    std::vector<Answer>& mine = answers[&cell];
+    if (mine.empty()) mine.push_back(ask(cell, 1));
+    return mine.front().status == "ok" ? mine.front().json : Json::object();
+  }
+
+  void leave_out_idle(const CellBlock& block, const Ladder& ladder, std::vector<const Cell*>& open, Answers& answers) {
+    std::vector<std::size_t> idle = ladder.others;
+    const Json base = first_result(block.cells[ladder.base], answers);
+    if (base.value("status", "") == "unsupported") {
+      idle.push_back(ladder.probe);
+    } else {
+      const Json probe = first_result(block.cells[ladder.probe], answers);
+      const std::string hash = base.value("hash", "");
+      if (hash.empty() || hash != probe.value("hash", "")) return;
+    }
+    for (const std::size_t rung : idle) total_ -= std::erase(open, &block.cells[rung]);
   }
 
   Answer ask(const Cell& cell, std::uint32_t round) {

@@ -23,6 +23,8 @@ struct StudyCallbacks {
 
 /// Cells whose row `results` (may be null) has already are not run again. Repetitions of a block alternate between its
 /// backends' live workers in an order shuffled anew each round from a fixed seed; never are two cells run at a time.
+/// Of a ladder the base and the probe come first: where both end in the same state, or the base is unsupported, the
+/// ladder's other cells are left out.
 /// Throws Interrupted, with all finished cells written.
 void run_study(const Plan& plan, const StudyRequest& request, ResultsFile* results, const StudyCallbacks& callbacks);
 

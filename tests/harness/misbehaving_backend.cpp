@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <new>
@@ -58,12 +59,24 @@ const PlumbSettingInfo setting_list[] = {
      0,
      10,
      {PLUMB_SETTING_FLOAT, 0, 0, nullptr}},
+    {"substeps",
+     "1",
+     "parts of a step",
+     PLUMB_SETTING_INT,
+     PLUMB_ROLE_QUALITY,
+     0,
+     0,
+     nullptr,
+     1,
+     64,
+     {PLUMB_SETTING_INT, 0, 1, nullptr}},
 };
+constexpr std::size_t setting_count = std::size(setting_list);
 
 class MisbehavingWorld final : public plumb::IPhysicsWorld, public plumb::ISettings {
  public:
   explicit MisbehavingWorld(const plumb::WorldInit& init) : gravity_(init.desc.gravity) {
-    for (std::size_t i = 0; i < 3; ++i) set_setting(setting_list[i].name, init.values[i]);
+    for (std::size_t i = 0; i < setting_count; ++i) set_setting(setting_list[i].name, init.values[i]);
   }
 
   static const PlumbBackendInfo& info() {
@@ -121,6 +134,10 @@ class MisbehavingWorld final : public plumb::IPhysicsWorld, public plumb::ISetti
   PlumbResult step(double dt) override {
     if (++steps_ == 10) misbehave();
     if (values_[2].number > 0) std::this_thread::sleep_for(std::chrono::duration<double>(values_[2].number));
+    for (int part = 0; part < values_[3].number; ++part) move(dt / values_[3].number);
+    return PLUMB_OK;
+  }
+  void move(double dt) {
     for (PlumbBodyDesc& body : bodies_) {
       if (body.motion != PLUMB_DYNAMIC) continue;
       PlumbVec3 &x = body.pose.position, &v = body.linear_velocity;
@@ -128,7 +145,6 @@ class MisbehavingWorld final : public plumb::IPhysicsWorld, public plumb::ISetti
            v.z + dt * body.gravity_scale * gravity_.z};
       x = {x.x + dt * v.x, x.y + dt * v.y, x.z + dt * v.z};
     }
-    return PLUMB_OK;
   }
   PlumbResult wait(PlumbStepReport&) override { return PLUMB_OK; }
   std::span<const PlumbContact> contacts() override { return {}; }
@@ -136,7 +152,7 @@ class MisbehavingWorld final : public plumb::IPhysicsWorld, public plumb::ISetti
 
  private:
   PlumbSettingValue* find(const char* name) {
-    for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t i = 0; i < setting_count; ++i) {
       if (std::strcmp(name, setting_list[i].name) == 0) return &values_[i];
     }
     throw plumb::Error(PLUMB_E_INVALID_ARGUMENT, "no such setting");
@@ -181,8 +197,8 @@ class MisbehavingWorld final : public plumb::IPhysicsWorld, public plumb::ISetti
   std::vector<PlumbBodyDesc> bodies_;
   std::vector<std::unique_ptr<char[]>> eaten_;
   int steps_ = 0;
-  PlumbSettingValue values_[3] = {setting_list[0].default_value, setting_list[1].default_value,
-                                  setting_list[2].default_value};
+  PlumbSettingValue values_[setting_count] = {setting_list[0].default_value, setting_list[1].default_value,
+                                              setting_list[2].default_value, setting_list[3].default_value};
 };
 
 }  // namespace

@@ -50,6 +50,37 @@ TEST(Questions, negative_step) { expect_refusal(a1_with({"--dt", "-1"}), "--dt")
 TEST(Questions, tuned_profile_without_a_file) { expect_refusal(a1_with({"--profile", "tuned"}), "tuned.json"); }
 TEST(Questions, record_without_a_folder) { expect_refusal(a1_with({"--record"}), "--out"); }
 
+std::vector<std::string> curves_with(const std::vector<std::string>& more) {
+  std::vector<std::string> arguments = a1_with(more);
+  arguments.front() = "curves";
+  return arguments;
+}
+
+TEST(Questions, misspelt_setting_of_a_sweep) {
+  expect_refusal(curves_with({"--over", "misbehavior"}), "\"misbehaviour\"");
+  expect_refusal(curves_with({"--along", "substep"}), "\"substeps\"");
+  expect_refusal(curves_with({"--over", "misbehavin:misbehaviour"}), "\"misbehaving\"");
+}
+TEST(Questions, misspelt_value_of_a_sweep) {
+  expect_refusal(curves_with({"--over", "misbehaviour=none,segfalt"}), "\"segfault\"");
+  expect_refusal(curves_with({"--along", "substeps=1,1000"}), "from 1 to 64");
+}
+TEST(Questions, sweep_over_numbers_that_nobody_named) {
+  expect_refusal(curves_with({"--over", "pause"}), "--over pause=");
+}
+TEST(Questions, sweep_along_what_is_no_knob) {
+  expect_refusal(curves_with({"--along", "pause"}), "role speed");
+  expect_refusal(curves_with({"--along", "misbehaviour"}), "--over misbehaviour");
+}
+TEST(Questions, sweep_of_what_is_held_or_turned_already) {
+  expect_refusal(curves_with({"--over", "misbehaviour", "--set", "misbehaviour=none"}), "--set misbehaviour");
+  expect_refusal(curves_with({"--over", "substeps=1,2", "--along", "substeps"}), "--over turns it already");
+}
+TEST(Questions, malformed_sweep) {
+  for (const char* word : {"=1", "substeps=", "substeps=1,,2", ":substeps"})
+    expect_refusal(curves_with({"--along", word}), "name=value,value");
+}
+
 TEST(Questions, broken_scene_file_names_file_and_key) {
   const std::filesystem::path folder = fresh_folder("broken_scene");
   std::ofstream(folder / "X1-broken.json")
