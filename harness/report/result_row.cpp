@@ -134,6 +134,13 @@ ResultRow parse_row(const Json& line, std::size_t index) {
   row.needs = text(line, "needs");
   row.params = object_or_empty(member(line, "params"));
   row.settings = object_or_empty(member(line, "settings"));
+  row.tells_defaults = member(line, "defaults").is_object();
+  row.defaults = object_or_empty(member(line, "defaults"));
+  if (const Json& knobs = member(line, "knobs"); knobs.is_array()) {
+    for (const Json& knob : knobs) {
+      if (knob.is_string()) row.knobs.push_back(knob);
+    }
+  }
   row.machine = object_or_empty(member(line, "machine"));
   row.date = text(row.machine, "date");
   row.machine.erase("date");

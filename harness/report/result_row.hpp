@@ -38,6 +38,9 @@ struct ResultRow {
   std::string scene, slug, group, backend, backend_version, profile, needs, status, reason, hash;
   std::string date;                ///< when it ran, as the machine's entry said
   Json params, settings, machine;  ///< always objects; machine without its date, so that equal machines are equal
+  Json defaults;                   ///< the engine's own values of settings that are off them; always an object
+  std::vector<std::string> knobs;  ///< settings that buy accuracy with time
+  bool tells_defaults = false;     ///< the line has them; those of older programs do not
   std::optional<double> dt, seconds, threads, repeats;
   std::vector<MetricResult> metrics;  ///< in the order of the line
 

@@ -43,6 +43,8 @@ bool same(const std::optional<double>& a, const std::optional<double>& b) {
   return *a == *b || std::abs(*a - *b) <= 1e-12 * std::abs(*b);
 }
 
+bool default_profile(const ResultRow& row) { return row.profile.empty() || row.profile == "default"; }
+
 Baseline find_baseline(const std::vector<const ResultRow*>& rows) {
   Mode<Json> settings;
   Mode<std::optional<double>> dt, threads;
@@ -55,6 +57,13 @@ Baseline find_baseline(const std::vector<const ResultRow*>& rows) {
   }
   Baseline baseline;
   baseline.settings = settings.best().is_object() ? settings.best() : Json::object();
+  const auto telling = std::find_if(rows.begin(), rows.end(), [](const ResultRow* row) {
+    return row->tells_defaults && !row->settings.empty() && default_profile(*row);
+  });
+  if (telling != rows.end()) {
+    baseline.settings = (*telling)->settings;
+    baseline.settings.update((*telling)->defaults);
+  }
   const std::string usual_dt = key_of(dt.best());
   for (const auto& [scene, steps] : scene_dt) baseline.dt[scene] = steps.best(usual_dt);
   baseline.threads = threads.best();
@@ -71,8 +80,6 @@ bool variant_less(const ResultRow& a, const ResultRow& b) {
   }
   return a.params.size() < b.params.size();
 }
-
-bool default_profile(const ResultRow& row) { return row.profile.empty() || row.profile == "default"; }
 
 }  // namespace
 

@@ -18,9 +18,9 @@ struct Problem {
   [[nodiscard]] std::string title() const { return variant.empty() ? scene : scene + " " + variant; }
 };
 
-/// What a backend runs with when nobody asked for anything: the most frequent settings and threads among its cells of
-/// the default profile (of all its cells when none has that profile), and the most frequent dt for each scene, which
-/// may have one of its own.
+/// What a backend runs with when nobody asked for anything: the settings that a cell of the default profile says to be
+/// the engine's own, else the most frequent; the most frequent threads among those cells (of all its cells when none
+/// has that profile), and the most frequent dt for each scene, which may have one of its own.
 struct Baseline {
   Json settings;
   std::map<std::string, std::optional<double>> dt;  ///< by scene

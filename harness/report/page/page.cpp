@@ -13,12 +13,16 @@ namespace {
 
 constexpr std::size_t hues = 8;  ///< --hue0 ... in the style; further backends use them again, with another marker
 
-/// Each backend's colour, and the rule by which its switch hides it everywhere.
-std::string backend_style(const Study& study) {
+/// Each backend's colour and each method's, and the rule by which the backend's switch hides both everywhere.
+std::string colour_style(const PageContext& context) {
   std::string out;
-  for (std::size_t i = 0; i < study.backends.size(); ++i) {
-    out += fmt::format(".e{0}{{--c:var(--hue{1})}}.hide{0} main .e{0}{{display:none}}", i, i % hues);
-  }
+  const auto add = [&](std::size_t index, std::size_t hue, std::size_t backend) {
+    out += fmt::format(".e{0}{{--c:var(--hue{1})}}.hide{2} main .e{0}{{display:none}}", index, hue % hues, backend);
+  };
+  for (std::size_t i = 0; i < context.study.backends.size(); ++i) add(i, i, i);
+  if (context.curves.problems.empty()) return out;
+  for (std::size_t i = 0; i < context.curves.methods.size(); ++i)
+    add(context.method_index(i), i, context.backend_index(context.curves.methods[i].backend));
   return out;
 }
 
@@ -27,10 +31,11 @@ std::string toolbar(const PageContext& context) {
   std::string out =
       R"(<nav class="tools" aria-label="page"><div class="tools-in"><span class="links"><a href="#cost">Cost</a><a )"
       R"(href="#matrix">Matrix</a>)"
-      R"(<a href="#precision">Precision</a><a href="#scaling">Scaling</a><a href="#times">Times</a><a href="#runs">)"
-      R"(Runs</a></span>)"
-      R"(<span class="controls"><input id="filter" type="search" placeholder="filter: D1, stacking, failed" )"
-      R"(aria-label="filter">)";
+      R"(<a href="#precision">Precision</a>)";
+  if (!context.curves.problems.empty()) out += R"(<a href="#curves">Curves</a>)";
+  out += R"(<a href="#scaling">Scaling</a><a href="#times">Times</a><a href="#runs">Runs</a></span>)"
+         R"(<span class="controls"><input id="filter" type="search" placeholder="filter: D1, stacking, failed" )"
+         R"(aria-label="filter">)";
   out += R"(<select id="group" aria-label="group"><option value="">all groups</option>)";
   for (const std::string& group : context.study.groups) {
     if (!group.empty()) out += fmt::format(R"(<option>{}</option>)", escape_html(group));
@@ -49,17 +54,19 @@ void write_page(std::ostream& out, const std::vector<Json>& rows, const PageOpti
   const Study study(parse_rows(rows));
   const std::vector<CostLine> costs = cost_of_accuracy(study);
   const std::vector<BackendOverview> all = overviews(study, costs);
-  const PageContext context{study, costs, all, options};
+  const CurveSet curves(study);
+  const PageContext context{study, costs, all, curves, options};
   out << "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
          "content=\"width=device-width,initial-scale=1\">"
       << "<meta name=\"color-scheme\" content=\"light dark\"><title>Plumb report</title><style>" << page_style
-      << backend_style(study)
+      << colour_style(context)
       // Before anything is painted, so that a chosen theme does not flash.
       << "</style><script>" << page_theme_script << "</script></head><body>\n"
       << toolbar(context) << "<main>" << head_section(context) << '\n'
       << costs_section(context) << '\n'
       << matrix_section(context) << '\n'
       << precision_section(context) << '\n'
+      << curves_section(context) << '\n'
       << scaling_section(context) << '\n'
       << times_section(context) << '\n'
       << rows_section(context) << "</main><script>" << page_script << "</script></body></html>\n";

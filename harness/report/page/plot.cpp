@@ -123,8 +123,24 @@ class Drawing {
   void draw_level(double value, const std::string& label) {
     if (!y_.within(value)) return;
     const double at = y_.place(value);
-    add(R"(<path class="level" d="M{} {:.1f}H{}"/><text class="note" x="{}" y="{:.1f}">{}</text>)", margin_left, at,
-        right_edge_, margin_left + 5, at < margin_top + 12 ? at + 11 : at - 4, escape_html(label));
+    const bool at_right = points_near(at, right_edge_) < points_near(at, margin_left);
+    add(R"(<path class="level" d="M{} {:.1f}H{}"/><text class="note{}" x="{}" y="{:.1f}">{}</text>)", margin_left, at,
+        right_edge_, at_right ? " end" : "", at_right ? right_edge_ - 5 : margin_left + 5,
+        at < margin_top + 12 ? at + 11 : at - 4, escape_html(label));
+  }
+
+  /// Where a level's label would stand: points that it would cover.
+  [[nodiscard]] std::size_t points_near(double level, double edge) const {
+    constexpr double label_width = 85, label_height = 15;
+    std::size_t near = 0;
+    for (const PlotSeries& series : plot_.series) {
+      for (const PlotPoint& point : series.points) {
+        if (!series.right && drawable(point) && std::abs(x_.place(point.x) - edge) < label_width &&
+            std::abs(y_.place(point.y) - level) < label_height)
+          ++near;
+      }
+    }
+    return near;
   }
 
   /// From the upper left corner downwards: error falls with the first and second power of the cost.
@@ -147,10 +163,14 @@ class Drawing {
     if (!series.joined) return;
     const PlotScale& scale = series.right ? right_ : y_;
     std::string path;
+    bool broken = true;
     for (const PlotPoint& point : series.points) {
       if (!drawable(point)) continue;
-      fmt::format_to(std::back_inserter(path), "{}{:.1f} {:.1f}", path.empty() ? "M" : "L", x_.place(point.x),
+      broken = broken || point.failed;
+      if (point.failed) continue;
+      fmt::format_to(std::back_inserter(path), "{}{:.1f} {:.1f}", broken ? "M" : "L", x_.place(point.x),
                      scale.place(point.y));
+      broken = false;
     }
     if (path.find('L') == std::string::npos) return;
     const char* dash = dashes[series.pattern % plot_patterns];
@@ -168,8 +188,14 @@ class Drawing {
       add(R"(<g class="e{}{}">)", series.colour, series.right ? " small" : "");
       if (point.x_low && point.x_high)
         add(R"(<path class="bar" d="M{:.1f} {:.1f}H{:.1f}"/>)", x_.place(*point.x_low), y, x_.place(*point.x_high));
-      add(R"(<path class="{}" d="{}"/>)", point.filled ? "dot" : "ring",
-          marker_path(series.colour, x, y, series.right ? 2.5 : marker_radius));
+      if (point.marked) add(R"(<path class="halo" d="{}"/>)", marker_path(0, x, y, 2.1 * marker_radius));
+      if (point.failed) {
+        add(R"(<path class="cross" d="M{0:.1f} {1:.1f}l{2} {2}m0 -{2}l-{2} {2}"/>)", x - 0.8 * marker_radius,
+            y - 0.8 * marker_radius, 1.6 * marker_radius);
+      } else {
+        add(R"(<path class="{}" d="{}"/>)", point.filled ? "dot" : "ring",
+            marker_path(series.colour, x, y, series.right ? 2.5 : marker_radius));
+      }
       if (beyond != Beyond::no)
         add(R"(<path class="dot" d="{}"/>)", beyond_path(beyond, x, beyond == Beyond::below ? y + 6 : y - 6));
       add("<title>{}</title></g>", escape_html(point.hover));

@@ -12,8 +12,10 @@ struct PlotPoint {
   double x, y;
   std::optional<double> x_low, x_high;  ///< error bar
   bool filled = false;
-  std::string hover;  ///< plain text, may have lines
-  std::string link;   ///< "#r12", "" for none
+  std::string hover;    ///< plain text, may have lines
+  std::string link;     ///< "#r12", "" for none
+  bool marked = false;  ///< a ring around it
+  bool failed = false;  ///< a cross instead of the marker; lines end before it and begin anew behind it
 };
 
 struct PlotSeries {

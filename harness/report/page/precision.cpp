@@ -57,6 +57,7 @@ Figure make_figure(const PageContext& context, const std::vector<const ResultRow
   for (const ResultRow* row : rows) {
     const MetricResult* metric = row->metric(metric_name);
     if (!row->completed() || !metric || !metric->error || !row->ms_per_simulated_second()) continue;
+    if (context.curves.is_turned(*row)) continue;
     const std::size_t backend = context.backend_index(row->backend);
     const std::string method = method_of(context.study, *row);
     const auto [pattern, is_new] = patterns.try_emplace(method, patterns.size());
@@ -103,8 +104,9 @@ std::string scene_figures(const PageContext& context, const Problem* first, cons
   // With a sweep each variant has a diagram; without, a point each of all variants shares one.
   const bool swept = std::any_of(first, last, [&](const Problem& problem) {
     std::map<std::string, int> cells;
-    return std::any_of(problem.rows.begin(), problem.rows.end(),
-                       [&](const ResultRow* row) { return ++cells[row->backend] > 1; });
+    return std::any_of(problem.rows.begin(), problem.rows.end(), [&](const ResultRow* row) {
+      return !context.curves.is_turned(*row) && ++cells[row->backend] > 1;
+    });
   });
   std::string out;
   const auto add = [&](const Problem& problem, const std::vector<const ResultRow*>& rows, const std::string& metric,
@@ -132,7 +134,7 @@ std::string scene_figures(const PageContext& context, const Problem* first, cons
 std::string precision_section(const PageContext& context) {
   std::string out =
       R"(<section id="precision"><h2>Work and precision</h2><p class="about">Every run as a point: what a simulated )"
-      R"(second cost, and the error. )"
+      R"(second cost, and the error; those with a knob turned have curves of their own. )"
       R"(Lower left is better. Points are joined along the time step at equal settings; filled: the engine's )"
       R"(defaults; bars: fastest to 99th )"
       R"(percentile of the steps; an arrow: the error is zero, or beyond the frame.</p><p class="legend">)";

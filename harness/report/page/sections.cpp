@@ -85,6 +85,17 @@ std::string backend_label(const PageContext& context, const std::string& backend
                      escape_html(backend));
 }
 
+bool is_yes_or_no(const std::vector<const ResultRow*>& rows, const std::string& metric) {
+  bool answered = false;
+  for (const ResultRow* row : rows) {
+    const MetricResult* result = row->completed() ? row->metric(metric) : nullptr;
+    if (!result || !result->error) continue;
+    if (*result->error != 0 && *result->error != 1) return false;
+    answered = true;
+  }
+  return answered;
+}
+
 std::string group_title(const std::string& group) {
   std::string out = group.empty() ? "other" : group;
   if (out.front() >= 'a' && out.front() <= 'z') out.front() = static_cast<char>(out.front() - 'a' + 'A');

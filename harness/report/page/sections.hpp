@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "report/cost.hpp"
+#include "report/curves.hpp"
 #include "report/overview.hpp"
 #include "report/page/page.hpp"
 #include "report/study.hpp"
@@ -16,15 +17,20 @@ struct PageContext {
   const Study& study;
   const std::vector<CostLine>& costs;
   const std::vector<BackendOverview>& overviews;
+  const CurveSet& curves;
   const PageOptions& options;
 
   [[nodiscard]] std::size_t backend_index(const std::string& backend) const;
+  /// The colour of a method of `curves`; backends have theirs before them.
+  [[nodiscard]] std::size_t method_index(std::size_t method) const { return study.backends.size() + method; }
 };
 
 [[nodiscard]] std::string head_section(const PageContext& context);
 [[nodiscard]] std::string costs_section(const PageContext& context);
 [[nodiscard]] std::string matrix_section(const PageContext& context);
 [[nodiscard]] std::string precision_section(const PageContext& context);
+/// "" where no knob was turned.
+[[nodiscard]] std::string curves_section(const PageContext& context);
 [[nodiscard]] std::string scaling_section(const PageContext& context);
 [[nodiscard]] std::string times_section(const PageContext& context);
 [[nodiscard]] std::string rows_section(const PageContext& context);
@@ -40,6 +46,9 @@ struct PageContext {
 [[nodiscard]] std::string filter_key(const PageContext& context, const Problem& problem, std::string_view more = "");
 /// The name of a backend with its marker.
 [[nodiscard]] std::string backend_label(const PageContext& context, const std::string& backend);
+/// The errors of the metric over the rows are 0 and 1 only, and there are some: a yes/no question, of which no diagram
+/// can be drawn.
+[[nodiscard]] bool is_yes_or_no(const std::vector<const ResultRow*>& rows, const std::string& metric);
 /// A group's name as a heading: "Stacking"; "Other" for none.
 [[nodiscard]] std::string group_title(const std::string& group);
 [[nodiscard]] std::string verdict_title(Verdict verdict);  ///< "out of memory"

@@ -82,5 +82,15 @@ TEST(Plot, DrawsWhatIsFiniteAndNothingElse) {
   EXPECT_EQ(svg.find("inf"), std::string::npos);
 }
 
+TEST(Plot, LevelsAreNamedWhereNoPointsAre) {
+  Plot plot;
+  plot.levels.emplace_back(0.01, "limit");
+  plot.series.push_back(
+      {0, 0, true, false, "line", {{1, 0.01, {}, {}, false, "", ""}, {50, 1, {}, {}, false, "", ""}}});
+  EXPECT_NE(render_plot(plot).find("<text class=\"note end\""), std::string::npos);
+  std::swap(plot.series[0].points[0].x, plot.series[0].points[1].x);
+  EXPECT_NE(render_plot(plot).find("<text class=\"note\""), std::string::npos);
+}
+
 }  // namespace
 }  // namespace plumb::harness
