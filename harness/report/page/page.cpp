@@ -11,13 +11,12 @@
 namespace plumb::harness {
 namespace {
 
-constexpr std::size_t hues = 8;  ///< --hue0 ... in the style; further backends use them again, with another marker
-
 /// Each backend's colour and each method's, and the rule by which the backend's switch hides both everywhere.
 std::string colour_style(const PageContext& context) {
   std::string out;
   const auto add = [&](std::size_t index, std::size_t hue, std::size_t backend) {
-    out += fmt::format(".e{0}{{--c:var(--hue{1})}}.hide{2} main .e{0}{{display:none}}", index, hue % hues, backend);
+    out +=
+        fmt::format(".e{0}{{--c:var(--hue{1})}}.hide{2} main .e{0}{{display:none}}", index, hue % page_hues, backend);
   };
   for (std::size_t i = 0; i < context.study.backends.size(); ++i) add(i, i, i);
   if (context.curves.problems.empty()) return out;

@@ -15,7 +15,6 @@ namespace {
 constexpr double width = 400, height = 290;
 constexpr double margin_left = 62, margin_top = 16, margin_bottom = 44, margin_right = 16, margin_right_axis = 58;
 constexpr double marker_radius = 4;
-constexpr std::size_t marker_shapes = 6;
 constexpr const char* dashes[plot_patterns]{"", "6 3", "2 3", "8 3 2 3"};
 
 /// The path of marker number `shape` around (x, y): circle, square, triangle, diamond, triangle down, cross.

@@ -47,6 +47,7 @@ struct Plot {
 /// axis values of 0 and below stand at the lower edge. "" when there is no point to draw.
 [[nodiscard]] std::string render_plot(const Plot& plot);
 
+inline constexpr std::size_t marker_shapes = 6;
 /// The marker of a series by itself, for legends.
 [[nodiscard]] std::string render_marker(std::size_t colour, bool filled);
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 
 #include "report/format.hpp"
 #include "report/page/markup.hpp"
@@ -33,6 +34,11 @@ std::string metric_line(const MetricResult& metric) {
 std::size_t PageContext::backend_index(const std::string& backend) const {
   return static_cast<std::size_t>(std::find(study.backends.begin(), study.backends.end(), backend) -
                                   study.backends.begin());
+}
+
+std::size_t PageContext::method_index(std::size_t method) const {
+  constexpr std::size_t round = std::lcm(page_hues, marker_shapes);
+  return (study.backends.size() + round - 1) / round * round + method;
 }
 
 std::string row_link(const ResultRow& row, std::string_view text, std::string_view title) {

@@ -12,6 +12,9 @@
 
 namespace plumb::harness {
 
+/// --hue0 ... in the style; further backends use them again, with another marker.
+inline constexpr std::size_t page_hues = 8;
+
 /// What all sections draw on; lives as long as a page is written.
 struct PageContext {
   const Study& study;
@@ -21,8 +24,9 @@ struct PageContext {
   const PageOptions& options;
 
   [[nodiscard]] std::size_t backend_index(const std::string& backend) const;
-  /// The colour of a method of `curves`; backends have theirs before them.
-  [[nodiscard]] std::size_t method_index(std::size_t method) const { return study.backends.size() + method; }
+  /// The colour of a method of `curves`. Backends have theirs before them, in whole rounds of hues and markers, so that
+  /// backends with one method each look the same in both.
+  [[nodiscard]] std::size_t method_index(std::size_t method) const;
 };
 
 [[nodiscard]] std::string head_section(const PageContext& context);
