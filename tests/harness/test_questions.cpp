@@ -73,7 +73,7 @@ TEST(Questions, sweep_along_what_is_no_knob) {
   expect_refusal(curves_with({"--along", "misbehaviour"}), "--over misbehaviour");
 }
 TEST(Questions, sweep_of_what_is_held_or_turned_already) {
-  expect_refusal(curves_with({"--over", "misbehaviour", "--set", "misbehaviour=none"}), "--set misbehaviour");
+  expect_refusal(curves_with({"--along", "substeps", "--set", "substeps=2"}), "--set substeps");
   expect_refusal(curves_with({"--over", "substeps=1,2", "--along", "substeps"}), "--over turns it already");
 }
 TEST(Questions, malformed_sweep) {

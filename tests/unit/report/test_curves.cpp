@@ -168,13 +168,13 @@ TEST(CurvesPage, CellsThatDidNotComeThroughAreNamed) {
   Json refused = row("odd", 10, 4, 1, 1, "");
   refused["status"] = "unsupported";
   refused["reason"] = "joints of <kind> ball";
-  refused["metrics"] = Json::object();
   rows.push_back(refused);
   const std::string text = section(page_of(rows), "curves");
   EXPECT_TRUE(std::regex_search(
       text, std::regex("No point of way odd \\([^)]*way odd\\): <a href=\"#r7\"[^>]*>unsupported</a>, joints of "
                        "&lt;kind&gt; ball\\.")))
       << text;
+  EXPECT_EQ(count(text, "href=\"#r7\""), 1u) << "and have no point, whatever was measured before they ended";
 }
 
 }  // namespace
