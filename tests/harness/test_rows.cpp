@@ -100,6 +100,7 @@ TEST(Judgement, thresholds_are_missed_by_more_by_nan_and_by_silence) {
   EXPECT_EQ(rows["nan"]["pass"], false);
   EXPECT_EQ(rows["silent"]["pass"], false);
   EXPECT_TRUE(rows["may_be_silent"]["pass"].is_null());
+  EXPECT_TRUE(rows["may_be_silent"]["threshold"].is_null()) << "not scored, so that no report takes it for a miss";
   EXPECT_TRUE(rows["unlisted"]["pass"].is_null());
   ASSERT_EQ(judgement.missed.size(), 3u);
   EXPECT_EQ(judgement.missed[0], "more 0.11 > 0.1");
