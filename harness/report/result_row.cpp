@@ -163,7 +163,7 @@ ResultRow parse_row(const Json& line, std::size_t index) {
   }
   row.steps = number(time, "steps");
   row.setup_ms = number(time, "setup_ms");
-  if (const Json& phases = member(time, "phases_ms"); phases.is_object()) {
+  if (const Json& phases = member(time, "phase_ms"); phases.is_object()) {
     for (const auto& [name, ms] : phases.items()) {
       if (const auto value = as_number(ms)) row.phase_ms.emplace_back(name, *value);
     }

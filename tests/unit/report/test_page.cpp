@@ -48,7 +48,7 @@ TEST(Page, HostileTextStaysText) {
     row["settings"][hostile] = hostile;
     row["machine"][hostile] = hostile;
     row["metrics"][hostile] = {{"value", 1}, {"unit", hostile}, {"error", 1}, {"threshold", 1}, {"note", hostile}};
-    row["time"]["phases_ms"][hostile] = 1;
+    row["time"]["phase_ms"][hostile] = 1;
   }
   rows[0]["status"] = hostile;
   rows[1]["status"] = "crashed";

@@ -14,7 +14,7 @@ TEST(ResultRow, ReadsEveryFieldOfTheContract) {
     "status":"failed","reason":"r","metrics":{"z":{"value":1.5,"unit":"m","truth":1,"error":0.5,"threshold":0.1,
     "gold":0.01,"pass":false},"a":{"value":2,"unit":"1","truth":null,"error":0.001,"threshold":0.1,"gold":0.01,
     "pass":true}},"time":{"ms_per_step":{"median":2,"min":1,"max":4,"p99":3},"window":[10,990],"steps":1000,
-    "setup_ms":7,"phases_ms":{"broad":0.5,"solve":null}},"counts":{"bodies":51,"contacts_max":200,"dropped":3,
+    "setup_ms":7,"phase_ms":{"broad":0.5,"solve":null}},"counts":{"bodies":51,"contacts_max":200,"dropped":3,
     "nonfinite":1},"hash":"ab","peak_mb":12.5,"machine":{"cpu":"c"}})");
   const ResultRow row = parse_row(line, 7);
   EXPECT_EQ(row.index, 7u);
