@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 
 #include "report/format.hpp"
@@ -19,6 +20,10 @@ class Questions {
  public:
   Questions(const Study& study, const Problem& problem) {
     for (const std::string& metric : study.scored_metrics(problem)) {
+      const bool measured = std::any_of(problem.rows.begin(), problem.rows.end(), [&](const ResultRow* row) {
+        return row->metric(metric) && row->metric(metric)->error;
+      });
+      if (!measured) continue;
       (is_yes_or_no(problem.rows, metric) ? asked_ : graded_).push_back(metric);
     }
   }
@@ -85,7 +90,8 @@ class Figure {
     line.hover = curve.knob.empty() ? label : label + " along " + curve.knob;
     for (const ResultRow* row : curve.rows) {
       const MetricResult* metric = row->metric(metric_);
-      if (!row->completed() || !metric || !metric->error || !row->ms_per_simulated_second()) continue;
+      if (!row->completed() || !metric || !row->ms_per_simulated_second()) continue;
+      if (!metric->error && !metric->scored()) continue;
       line.points.push_back(point_of(label, curve.knob, *row, *metric));
       if (plot_.levels.empty() && metric->threshold && *metric->threshold > 0)
         plot_.levels.emplace_back(*metric->threshold, "threshold " + limit_text(*metric->threshold));
@@ -96,13 +102,15 @@ class Figure {
   [[nodiscard]] PlotPoint point_of(const std::string& label, const std::string& knob, const ResultRow& row,
                                    const MetricResult& metric) const {
     const std::string missed = questions_.missed_by(row);
-    PlotPoint point{*row.ms_per_simulated_second(), *metric.error, {}, {}, false, {}, {}};
+    // What is not finite is drawn as what lies beyond the frame, and not left out.
+    const double error = metric.error.value_or(std::numeric_limits<double>::max());
+    PlotPoint point{*row.ms_per_simulated_second(), error, {}, {}, false, {}, {}};
     point.filled = knob.empty() || at_default(row, knob);
     point.marked = context_.study.is_default(row);
     point.failed = !missed.empty();
     point.link = fmt::format("#r{}", row.index);
     point.hover = fmt::format("{}{}\n{} {}\n{} ms per simulated second", label, knob_text(row, knob), metric_,
-                              short_number(*metric.error), short_number(point.x));
+                              metric.error ? short_number(*metric.error) : "not finite", short_number(point.x));
     if (point.marked) point.hover += fmt::format("\n{} as it ships", row.backend);
     if (point.failed) point.hover += "\nfailed: " + missed;
     return point;
@@ -190,7 +198,7 @@ std::string curves_section(const PageContext& context) {
       R"(<section id="curves"><h2>Curves</h2><p class="about">What turning a knob costs and buys, scene by scene: a )"
       R"(line a method, its points along one setting of the role quality. Lower left is better. Filled: the knob at )"
       R"(the engine's own value; ringed: all settings there; a cross: the run missed one of the scene's yes/no )"
-      R"(questions, so that its error means little; an arrow: the error is zero, or beyond the frame.</p><p )"
+      R"(questions, so that its error means little; an arrow: the error is zero, beyond the frame or not finite.</p><p )"
       R"(class="legend">)";
   for (std::size_t i = 0; i < context.curves.methods.size(); ++i) {
     out += fmt::format(R"(<span class="e{0}">{1}{2}</span>)", context.method_index(i),

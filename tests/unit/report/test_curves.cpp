@@ -163,6 +163,15 @@ TEST(CurvesPage, RunsThatMissAYesNoQuestionAreCrossedOut) {
   EXPECT_EQ(count(text, "class=\"line e"), 1u) << "the crossed point was in the middle of three";
 }
 
+TEST(CurvesPage, ErrorsThatAreNotFiniteLieBeyondTheFrame) {
+  std::vector<Json> rows = turned_rows();
+  rows[3]["metrics"]["error_of_it"]["error"] = nullptr;
+  rows[3]["metrics"]["error_of_it"]["pass"] = false;
+  const std::string text = section(page_of(rows), "curves");
+  EXPECT_EQ(count(text, "error_of_it not finite"), 1u);
+  EXPECT_EQ(count(section(page_of(turned_rows()), "curves"), "<a href=\"#r"), count(text, "<a href=\"#r"));
+}
+
 TEST(CurvesPage, CellsThatDidNotComeThroughAreNamed) {
   std::vector<Json> rows = turned_rows();
   Json refused = row("odd", 10, 4, 1, 1, "");
