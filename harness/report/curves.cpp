@@ -138,6 +138,18 @@ bool turns_something(const MethodCurves& method) {
                                              [](const Curve& curve) { return !curve.knob.empty(); });
 }
 
+/// Settings that make methods were turned, of a backend with knobs, and no cell of all came through: what would have
+/// been curves.
+bool lacks_methods(const std::vector<std::vector<const ResultRow*>>& groups) {
+  std::map<std::string, int> methods;
+  for (const auto& rows : groups) {
+    if (std::any_of(rows.begin(), rows.end(), [](const ResultRow* row) { return row->completed(); })) return false;
+    const ResultRow& row = *rows.front();
+    if (!row.knobs.empty()) ++methods[value_text(Json::array({row.backend, row.profile, row.needs}))];
+  }
+  return std::any_of(methods.begin(), methods.end(), [](const auto& backend) { return backend.second > 1; });
+}
+
 }  // namespace
 
 bool at_default(const ResultRow& row, const std::string& knob) { return !row.defaults.contains(knob); }
@@ -149,7 +161,7 @@ CurveSet::CurveSet(const Study& study) {
     ProblemCurves found{&problem, {}};
     std::vector<std::vector<const ResultRow*>> groups = rows_of_methods(problem);
     for (const auto& rows : groups) found.methods.push_back(curves_of(rows));
-    if (std::none_of(found.methods.begin(), found.methods.end(), turns_something)) continue;
+    if (std::none_of(found.methods.begin(), found.methods.end(), turns_something) && !lacks_methods(groups)) continue;
     for (std::size_t i = 0; i < groups.size(); ++i) {
       const auto [place, is_new] = places.try_emplace(method_key(*groups[i].front()), first_rows.size());
       if (is_new) first_rows.push_back(groups[i].front());

@@ -40,8 +40,9 @@ class CurveSet {
  public:
   explicit CurveSet(const Study& study);
 
-  std::vector<Method> methods;          ///< those on `problems`, in order of appearance
-  std::vector<ProblemCurves> problems;  ///< in the study's order; only those with a knob that was turned
+  std::vector<Method> methods;  ///< those on `problems`, in order of appearance
+  std::vector<ProblemCurves>
+      problems;  ///< in the study's order; with a knob that was turned, or methods none of which ran
 
   /// The row is here because of a knob that is not at the engine's own value.
   [[nodiscard]] bool is_turned(const ResultRow& row) const { return turned_.contains(&row); }

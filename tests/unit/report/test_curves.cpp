@@ -183,6 +183,11 @@ TEST(CurvesPage, CellsThatDidNotComeThroughAreNamed) {
       text, std::regex("No point of way odd \\([^)]*way odd\\): <a href=\"#r7\"[^>]*>unsupported</a>, joints of "
                        "&lt;kind&gt; ball\\.")))
       << text;
+  rows.erase(rows.begin(), rows.end() - 1);
+  EXPECT_EQ(section(page_of(rows), "curves"), "") << "one method that did not come through is no lack of curves";
+  rows.push_back(row("soft", 10, 4, 1, 1, ""));
+  rows.back()["status"] = "unsupported";
+  EXPECT_EQ(count(section(page_of(rows), "curves"), "No point of"), 2u) << "none of two is";
   EXPECT_EQ(count(text, "href=\"#r7\""), 1u) << "and have no point, whatever was measured before they ended";
 }
 
