@@ -134,10 +134,11 @@ std::string scene_figures(const PageContext& context, const Problem* first, cons
 std::string precision_section(const PageContext& context) {
   std::string out =
       R"(<section id="precision"><h2>Work and precision</h2><p class="about">Every run as a point: what a simulated )"
-      R"(second cost, and the error; those with a knob turned have curves of their own. )"
-      R"(Lower left is better. Points are joined along the time step at equal settings; filled: the engine's )"
-      R"(defaults; bars: fastest to 99th )"
-      R"(percentile of the steps; an arrow: the error is zero, or beyond the frame.</p><p class="legend">)";
+      R"(second cost, and the error. )";
+  if (!context.curves.problems.empty()) out += R"(Runs with a knob turned are under <a href="#curves">Curves</a>. )";
+  out += R"(Lower left is better. Points are joined along the time step at equal settings; filled: the engine's )"
+         R"(defaults; bars: fastest to 99th )"
+         R"(percentile of the steps; an arrow: the error is zero, or beyond the frame.</p><p class="legend">)";
   for (const std::string& backend : context.study.backends)
     out +=
         fmt::format(R"(<span class="e{}">{}</span>)", context.backend_index(backend), backend_label(context, backend));
