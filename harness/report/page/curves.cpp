@@ -196,8 +196,8 @@ std::string curves_section(const PageContext& context) {
   if (context.curves.problems.empty()) return "";
   std::string out =
       R"(<section id="curves"><h2>Curves</h2><p class="about">What turning a knob costs and buys, scene by scene: a )"
-      R"(line a method, its points along one setting of the role quality. Costs are of the settled second half of a run, errors of )"
-      R"(all of it; lower left is better. Filled: the knob at )"
+      R"(line a method, its points along one setting of the role quality. Costs are of the settled second half of a )"
+      R"(run; lower left is better. Filled: the knob at )"
       R"(the engine's own value; ringed: all settings there; a cross: the run missed one of the scene's yes/no )"
       R"(questions, so that its error means little; an arrow: the error is zero, beyond the frame or not finite.</p><p )"
       R"(class="legend">)";
