@@ -67,7 +67,8 @@ void Simulation::forget_recordings() {
 }
 
 Bodies Simulation::bodies() {
-  return {state.position.device(), state.orientation.device(), state.velocity.device(), force.device(), mass.device()};
+  return {state.position.device(), state.orientation.device(), state.velocity.device(), force.device(),
+          mass.device(),           features_.rotation};
 }
 
 Proxies Simulation::proxy_view() { return {proxies.device(), shapes.device(), hulls.device()}; }
@@ -187,10 +188,14 @@ void Simulation::enqueue() {
       colouring_.leave_out(executor_, counters);
     phases_.end(executor_, PLUMB_PHASE_ISLANDS);
   }
-  solver_.begin(executor_, all, body_count_);
-  if (features_.collision) solver_.prepare(executor_, now, all, shapes_on, colouring_, parameters, counters);
-  solver_.solve(executor_, all, body_count_, parameters, counters, pair_capacity_, joints);
-  if (features_.collision) solver_.keep_impulses(executor_, now, counters);
+  if (features_.collision || joints.count() != 0) {
+    solver_.begin(executor_, all, body_count_);
+    if (features_.collision) solver_.prepare(executor_, now, all, shapes_on, colouring_, parameters, counters);
+    solver_.solve(executor_, all, body_count_, parameters, counters, pair_capacity_, joints);
+    if (features_.collision) solver_.keep_impulses(executor_, now, counters);
+  } else {
+    solver_.move_freely(executor_, all, body_count_, parameters, counters);
+  }
   phases_.end(executor_, PLUMB_PHASE_SOLVE);
   enqueue_rows();
   executor_.to_host(counters_, 1);

@@ -21,6 +21,8 @@ class JointStore {
   /// Puts the joints in order and copies them to where kernels run. masses tell which bodies can be pushed.
   void upload(const Table<BodyMass>& masses);
 
+  /// As of the last upload.
+  [[nodiscard]] std::uint32_t count() const { return count_; }
   [[nodiscard]] JointSet set(const Bodies& bodies, const SolverBodies& solver, bool gyroscopic);
   /// body_pair_key of bodies that do not collide, ascending.
   [[nodiscard]] const std::uint64_t* excluded() { return excluded_.data(); }

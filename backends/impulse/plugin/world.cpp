@@ -9,9 +9,12 @@ namespace plumb::impulse {
 namespace {
 
 SolverFeatures features_of(const WorldInit& init) {
-  return {init.needs(PLUMB_NEED_COLLISION), init.needs(PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION),
+  return {init.needs(PLUMB_NEED_ROTATION) || init.needs(PLUMB_NEED_KINEMATIC),
+          init.needs(PLUMB_NEED_COLLISION),
+          init.needs(PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION),
           init.needs(PLUMB_NEED_COLLISION | PLUMB_NEED_RESTITUTION),
-          init.needs(PLUMB_NEED_ROTATION | PLUMB_NEED_GYROSCOPIC), init.needs(PLUMB_NEED_CONTACT_IMPULSES)};
+          init.needs(PLUMB_NEED_ROTATION | PLUMB_NEED_GYROSCOPIC),
+          init.needs(PLUMB_NEED_CONTACT_IMPULSES)};
 }
 
 PlumbVec3 plumb_vec(const Position& p) { return {p.x, p.y, p.z}; }

@@ -8,10 +8,10 @@
 
 namespace plumb::impulse {
 
-/// I^-1 in world axes, and no displacement yet.
+/// I^-1 in world axes, which is 0 from the start where nothing turns, and no displacement yet.
 PLUMB_HD inline void begin_body(const Bodies& bodies, const SolverBodies& solver, std::uint32_t i) {
-  const Mat axes = to_matrix(bodies.orientation[i]);
-  solver.inertia[i] = {rotated_diagonal(axes, bodies.mass[i].inverse_inertia), {0, 0}};
+  if (bodies.turn)
+    solver.inertia[i] = {rotated_diagonal(to_matrix(bodies.orientation[i]), bodies.mass[i].inverse_inertia), {0, 0}};
   solver.displacement[i] = {{0, 0, 0}, 0, {0, 0, 0, 1}};
 }
 
@@ -29,15 +29,17 @@ PLUMB_HD inline void integrate_velocity(const Bodies& bodies, const SolverBodies
   if ((mass.flags & kBodyDynamic) == 0) return;
   Velocity& velocity = solver.velocity[i];
   FreeVelocity& free = solver.free_velocity[i];
-  const Vec carried_linear = first ? Vec{0, 0, 0} : velocity.linear - free.linear;
-  const Vec carried_angular = first ? Vec{0, 0, 0} : velocity.angular - free.angular;
-  const Vec acceleration = acceleration_by_forces(bodies, step, i);
+  const Vec carried = first ? Vec{0, 0, 0} : velocity.linear - free.linear;
   const Real drag = Real(1) / (Real(1) + step.h * mass.linear_damping);
-  const Real angular_drag = Real(1) / (Real(1) + step.h * mass.angular_damping);
-  free.linear = drag * (velocity.linear + step.h * acceleration);
-  free.angular = angular_drag * (velocity.angular + step.h * (solver.inertia[i].inverse * bodies.force[i].torque));
-  velocity.linear = free.linear + carried_linear;
-  velocity.angular = free.angular + carried_angular;
+  const Vec linear = drag * (velocity.linear + step.h * acceleration_by_forces(bodies, step, i));
+  if (bodies.turn) {
+    const Vec carried_angular = first ? Vec{0, 0, 0} : velocity.angular - free.angular;
+    const Real angular_drag = Real(1) / (Real(1) + step.h * mass.angular_damping);
+    free.angular = angular_drag * (velocity.angular + step.h * (solver.inertia[i].inverse * bodies.force[i].torque));
+    velocity.angular = free.angular + carried_angular;
+  }
+  free.linear = linear;
+  velocity.linear = linear + carried;
 }
 
 /// Where a body's turn since the start of the step goes in h seconds without torque, and its angular velocity then.

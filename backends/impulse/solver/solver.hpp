@@ -18,7 +18,7 @@ namespace plumb::impulse {
 
 /// What the scene asks for; the rest is left out.
 struct SolverFeatures {
-  bool collision, friction, restitution, gyroscopic, contact_impulses;
+  bool rotation, collision, friction, restitution, gyroscopic, contact_impulses;
 };
 
 class Solver {
@@ -28,6 +28,10 @@ class Solver {
   /// Which solver works from now on. Memory that only it needs is made here.
   void choose(SolverKind kind);
   [[nodiscard]] bool needs_colours() const { return kind_ != SolverKind::kJacobi; }
+
+  /// The whole step of bodies among which there are no constraints: without the stages below.
+  void move_freely(Executor& executor, const Bodies& bodies, std::uint32_t body_count, const StepParameters* parameters,
+                   StepCounters* counters);
 
   /// World inertia of all bodies, no displacement.
   void begin(Executor& executor, const Bodies& bodies, std::uint32_t body_count);

@@ -122,7 +122,7 @@ class Rig {
     std::uint32_t types = 0;
     for (const Kind& kind : kinds_)
       types |= 1U << static_cast<std::uint32_t>(kind.a) | 1U << static_cast<std::uint32_t>(kind.b);
-    narrow_phase.collide(executor_, cache, {position_.device(), orientation_.device(), nullptr, nullptr, nullptr},
+    narrow_phase.collide(executor_, cache, {position_.device(), orientation_.device(), nullptr, nullptr, nullptr, true},
                          {proxies_.device(), shapes_.device(), kit_.hulls.device()}, margins_.device(), types,
                          counters_.device());
     executor_.to_host(counters_, 1);

@@ -1,0 +1,52 @@
+// Steps of bodies that meet nothing and are joined to nothing.
+#include "exec/atomic.hpp"
+#include "solver/motion.hpp"
+#include "solver/solver.hpp"
+
+namespace plumb::impulse {
+
+namespace {
+
+/// With no constraint between them bodies need not go through the sub-steps together, and go through nothing else. What
+/// the solvers would do to them is the same, to the last bit.
+struct StepFreely {
+  /// Bodies that one thread takes through the step: on a CPU as many as stay in the nearest cache, for a sub-step of
+  /// one overlaps with those of the others.
+  static constexpr std::uint32_t kTogether = Executor::kWarps ? 1 : 32;
+
+  Bodies bodies;
+  SolverBodies solver;
+  std::uint32_t body_count;
+  const StepParameters* parameters;
+  StepCounters* counters;
+  bool gyroscopic;
+
+  [[nodiscard]] static constexpr std::uint32_t groups(std::uint32_t count) {
+    return (count + kTogether - 1) / kTogether;
+  }
+
+  PLUMB_HD void operator()(std::uint32_t group) const {
+    const StepParameters step = *parameters;
+    const bool whole = step.solver == SolverKind::kSequential || step.solver == SolverKind::kJacobi;
+    const bool carries = step.solver == SolverKind::kTgsSoft;
+    const std::uint32_t substeps = whole ? 1 : step.substeps;
+    const std::uint32_t first = group * kTogether, end = min(body_count, first + kTogether);
+    for (std::uint32_t i = first; i < end; ++i) begin_body(bodies, solver, i);
+    for (std::uint32_t k = 0; k < substeps; ++k) {
+      for (std::uint32_t i = first; i < end; ++i) integrate_velocity(bodies, solver, step, !carries || k == 0, i);
+      for (std::uint32_t i = first; i < end; ++i) integrate_position(bodies, solver, step, gyroscopic, i);
+    }
+    for (std::uint32_t i = first; i < end; ++i)
+      if (!finish_body(bodies, solver, i)) atomic_add(&counters->nonfinite, 1U);
+  }
+};
+
+}  // namespace
+
+void Solver::move_freely(Executor& executor, const Bodies& all, std::uint32_t body_count,
+                         const StepParameters* parameters, StepCounters* counters) {
+  executor.run(StepFreely::groups(body_count),
+               StepFreely{all, bodies(all), body_count, parameters, counters, features_.gyroscopic});
+}
+
+}  // namespace plumb::impulse
