@@ -1,10 +1,8 @@
 // The solver "jacobi": all contacts at once, on split bodies.
 #pragma once
 
-#include "constraints/contact_bias.hpp"
 #include "solver/body_parts.hpp"
-#include "solver/pass_change.hpp"
-#include "solver/solver_step.hpp"
+#include "solver/pass_step.hpp"
 
 namespace plumb::impulse {
 
@@ -14,68 +12,28 @@ namespace plumb::impulse {
 /// the energy of the impulses' error falls in every pass (R. Tonge, F. Benevolenski, A. Voroshilov, "Mass Splitting for
 /// Jitter-Free Parallel Rigid Body Simulation", ACM Trans. Graph. 31(4), 2012). The sum over a body's parts goes in the
 /// order of its contacts. Joints are solved by colours, between the passes.
-struct StepInParts : SolverStep {
-  PassChange* changes;  ///< by pass
+struct StepInParts : StepInPasses<StepInParts> {
   BodyParts parts;
-
-  PLUMB_DEVICE void operator()(Team& team) const {
-    if (must_repeat()) return;
-    const StepInParts self = *this;
-    const StepParameters step = *parameters;
-    team.each(max(body_count, step.passes), [=](std::uint32_t i) {
-      if (i < self.body_count) integrate_velocity(self.bodies, self.solver, step, true, i);
-      if (i < step.passes) self.changes[i] = {0, 0};
-    });
-    warm_start_joints(team, joints, true, step);
-    if (features.collision) start(team, step);
-    std::uint32_t passes = 0;
-    while (passes < step.passes) {
-      PassChange* const noted = step.stop_below > 0 ? &changes[passes] : nullptr;
-      solve_joints_noted(team, joints, step, noted);
-      if (features.collision) solve_contacts(team, noted);
-      ++passes;
-      team.meet();
-      if (noted != nullptr && noted->is_below(step.stop_below)) break;
-    }
-    team.single([=] { self.counters->passes = passes; });
-    if (features.collision && features.contact_impulses) add_up(team);
-    move_bodies(team, step);
-    if (features.collision && features.restitution)
-      for (std::uint32_t k = 0; k < step.passes; ++k) bounce_parts(team, step.restitution_speed);
-    finish(team);
-  }
-
- private:
-  PLUMB_DEVICE void start(Team& team, const StepParameters& step) const {
-    for_parts(team, [=](auto points, const auto& row, auto& contact, auto& a, auto& b) {
-      put_bias<points()>(contact, step);
-      store_impulses<points()>(row, contact);
-      warm_start_contact<points()>(contact, a, b);
-    });
-  }
-  PLUMB_DEVICE void solve_contacts(Team& team, PassChange* noted) const {
-    const ContactPass pass = {features.friction, features.restitution, noted};
-    for_parts(team, [pass](auto points, const auto& row, auto& contact, auto& a, auto& b) {
-      pass.solve<points()>(row, contact, a, b);
-    });
-  }
-  PLUMB_DEVICE void bounce_parts(Team& team, Real slowest) const {
-    const bool friction = features.friction;
-    for_parts(team, [=](auto points, const auto& row, auto& contact, auto& a, auto& b) {
-      bounce_contact<points()>(row, contact, a, b, slowest, friction);
-      store_impulses<points()>(row, contact);
-    });
-  }
 
   /// work on every contact with parts of its own, then the parts put together.
   template <class Work>
-  PLUMB_DEVICE void for_parts(Team& team, const Work& work) const {
+  PLUMB_DEVICE void for_each_contact(Team& team, const Work& work) const {
     const StepInParts self = *this;
     team.each(counters->first_slot[kColours + 1] / kLanes,
               [=](std::uint32_t i) { self.work_on_parts(i * kLanes, work); });
     team.each(body_count, [=](std::uint32_t i) { self.put_together(i); });
   }
+  PLUMB_DEVICE void bounce_contacts(Team& team, const StepParameters& step) const {
+    const bool friction = features.friction;
+    const Real slowest = step.restitution_speed;
+    for (std::uint32_t k = 0; k < step.passes; ++k)
+      for_each_contact(team, [=](auto points, const auto& row, auto& contact, auto& a, auto& b) {
+        bounce_contact<points()>(row, contact, a, b, slowest, friction);
+        store_impulses<points()>(row, contact);
+      });
+  }
 
+ private:
   template <class Work>
   PLUMB_HD void work_on_parts(std::uint32_t slot, const Work& work) const {
     const ContactRows& rows = contacts.rows;

@@ -60,11 +60,11 @@ PLUMB_DEVICE inline void refresh_joints(Team& team, const JointSet& joints) {
   team.each(joints.count, [=](std::uint32_t j) { refresh_joint(view, j); });
 }
 
-PLUMB_DEVICE inline void warm_start_joints(Team& team, const JointSet& joints, bool first, const StepParameters& step) {
+PLUMB_DEVICE inline void warm_start_joints(Team& team, const JointSet& joints, const StepParameters& step) {
   if (joints.count == 0) return;
-  if (first) refresh_joints(team, joints);
+  refresh_joints(team, joints);
   const JointView view = joints.view;
-  for_joints(team, joints, [=](std::uint32_t j) { warm_start_joint(view, j, first, step); });
+  for_joints(team, joints, [=](std::uint32_t j) { warm_start_joint(view, j, true, step); });
 }
 
 }  // namespace plumb::impulse

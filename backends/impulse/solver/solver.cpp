@@ -64,8 +64,8 @@ void Solver::solve(Executor& executor, const Bodies& all, std::uint32_t body_cou
                            counters,   pair_capacity, joints.set(all, bodies(all), features_.gyroscopic)};
   const auto run = [&](const auto& solver) { executor.team(load, body_count / 2, solver); };
   switch (kind_) {
-    case SolverKind::kSequential: return run(StepSequentially{step, pass_changes_.data()});
-    case SolverKind::kJacobi: return run(StepInParts{step, pass_changes_.data(), split_.parts()});
+    case SolverKind::kSequential: return run(StepSequentially{{step, pass_changes_.data()}});
+    case SolverKind::kJacobi: return run(StepInParts{{step, pass_changes_.data()}, split_.parts()});
     case SolverKind::kPosition: return run(StepPositions{step});
     case SolverKind::kTgsSoft:
       return step.joints.count == 0 ? run(StepSoftly<false>{step}) : run(StepSoftly<true>{step});

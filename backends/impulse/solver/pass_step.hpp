@@ -1,0 +1,63 @@
+// What the solvers that take the step whole have in common: passes over all constraints until these change no more.
+#pragma once
+
+#include "constraints/contact_bias.hpp"
+#include "solver/pass_change.hpp"
+#include "solver/solver_step.hpp"
+
+namespace plumb::impulse {
+
+/// All forces, then passes over the constraints, each of which takes the impulse that makes its own speed right, then
+/// positions from the final velocities. Overlap beyond the slop is taken back at a share a step (Baumgarte). No
+/// sub-steps. Solver says in what order contacts are gone through: for_each_contact(team, work), and bounces them:
+/// bounce_contacts(team, step).
+template <class Solver>
+struct StepInPasses : SolverStep {
+  PassChange* changes;  ///< by pass
+
+  PLUMB_DEVICE void operator()(Team& team) const {
+    if (must_repeat()) return;
+    const StepInPasses self = *this;
+    const Solver& own = static_cast<const Solver&>(*this);
+    const StepParameters step = *parameters;
+    team.each(max(body_count, step.passes), [=](std::uint32_t i) {
+      if (i < self.body_count) integrate_velocity(self.bodies, self.solver, step, true, i);
+      if (i < step.passes) self.changes[i] = {0, 0};
+    });
+    warm_start_joints(team, joints, step);
+    if (features.collision) start(team, step);
+    std::uint32_t passes = 0;
+    while (passes < step.passes) {
+      PassChange* const noted = step.stop_below > 0 ? &changes[passes] : nullptr;
+      solve_joints_noted(team, joints, step, noted);
+      if (features.collision) solve_contacts(team, noted);
+      ++passes;
+      team.meet();
+      if (noted != nullptr && noted->is_below(step.stop_below)) break;
+    }
+    team.single([=] { self.counters->passes = passes; });
+    if (features.collision && features.contact_impulses) add_up(team);
+    move_bodies(team, step);
+    if (features.collision && features.restitution) own.bounce_contacts(team, step);
+    finish(team);
+  }
+
+ private:
+  PLUMB_DEVICE void start(Team& team, const StepParameters& step) const {
+    static_cast<const Solver&>(*this).for_each_contact(
+        team, [=](auto points, const auto& row, auto& contact, auto& a, auto& b) {
+          put_bias<points()>(contact, step);
+          store_impulses<points()>(row, contact);
+          warm_start_contact<points()>(contact, a, b);
+        });
+  }
+  PLUMB_DEVICE void solve_contacts(Team& team, PassChange* noted) const {
+    const ContactPass pass = {features.friction, features.restitution, noted};
+    static_cast<const Solver&>(*this).for_each_contact(
+        team, [pass](auto points, const auto& row, auto& contact, auto& a, auto& b) {
+          pass.solve<points()>(row, contact, a, b);
+        });
+  }
+};
+
+}  // namespace plumb::impulse
