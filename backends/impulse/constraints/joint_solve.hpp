@@ -22,12 +22,6 @@ struct JointImpulse {
   Real along[kJointRows];  ///< N s, N m s
 };
 
-/// The two bodies of a joint in the solver's registers.
-struct JointBodies {
-  Velocity a, b;
-  bool pushes_a, pushes_b;
-};
-
 /// Everything that a kernel over joints reads and writes.
 struct JointView {
   Bodies bodies;

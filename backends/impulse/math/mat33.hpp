@@ -28,10 +28,6 @@ PLUMB_HD constexpr Mat33<N> operator*(const Mat33<N>& a, const Mat33<N>& b) {
   return {a * b.x, a * b.y, a * b.z};
 }
 template <class N>
-PLUMB_HD constexpr Mat33<N> transposed(const Mat33<N>& m) {
-  return {{m.x.x, m.y.x, m.z.x}, {m.x.y, m.y.y, m.z.y}, {m.x.z, m.y.z, m.z.z}};
-}
-template <class N>
 PLUMB_HD constexpr Mat33<N> to_matrix(const Quat4<N>& q) {
   const N x2 = q.x + q.x, y2 = q.y + q.y, z2 = q.z + q.z;
   const N xx = q.x * x2, yy = q.y * y2, zz = q.z * z2;
@@ -59,10 +55,6 @@ PLUMB_HD constexpr Sym33<N> operator+(const Sym33<N>& a, const Sym33<N>& b) {
 template <class N>
 PLUMB_HD constexpr Sym33<N> operator*(const N& k, const Sym33<N>& a) {
   return {k * a.xx, k * a.yy, k * a.zz, k * a.xy, k * a.xz, k * a.yz};
-}
-template <class N>
-PLUMB_HD constexpr Sym33<N> diagonal(const N& a) {
-  return {a, a, a, N(0), N(0), N(0)};
 }
 /// R diag(d) R^T
 template <class N>

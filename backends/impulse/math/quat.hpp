@@ -47,6 +47,5 @@ struct Frame {
   Vec position;
   Quat orientation;
 };
-PLUMB_HD constexpr Frame identity_frame() { return {{0, 0, 0}, {0, 0, 0, 1}}; }
 
 }  // namespace plumb::impulse

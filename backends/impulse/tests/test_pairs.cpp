@@ -177,7 +177,7 @@ class Rig {
     Proxy proxy{};
     proxy.body = body;
     proxy.shape = shape;
-    proxy.frame = identity_frame();
+    proxy.frame = {{0, 0, 0}, {0, 0, 0, 1}};
     position_[body] = place;
     orientation_[body] = turn;
     if (dice_.below(4) == 0) {
