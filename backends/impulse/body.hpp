@@ -60,7 +60,7 @@ struct Bodies {
   Velocity* velocity;
   const BodyForce* force;
   const BodyMass* mass;
-  bool turn;  ///< whether any of them may; else angular velocities are 0 and stay so
+  bool turn;  ///< whether any dynamic one may; else the angular velocities of those are 0 and stay so
 };
 
 /// From the frame in which the engine works to the body's own, which the interface speaks of.

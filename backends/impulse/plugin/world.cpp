@@ -9,7 +9,7 @@ namespace plumb::impulse {
 namespace {
 
 SolverFeatures features_of(const WorldInit& init) {
-  return {init.needs(PLUMB_NEED_ROTATION) || init.needs(PLUMB_NEED_KINEMATIC),
+  return {init.needs(PLUMB_NEED_ROTATION),
           init.needs(PLUMB_NEED_COLLISION),
           init.needs(PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION),
           init.needs(PLUMB_NEED_COLLISION | PLUMB_NEED_RESTITUTION),

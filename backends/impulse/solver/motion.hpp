@@ -8,7 +8,7 @@
 
 namespace plumb::impulse {
 
-/// I^-1 in world axes, which is 0 from the start where nothing turns, and no displacement yet.
+/// I^-1 in world axes, which is 0 from the start where nothing that is pushed turns, and no displacement yet.
 PLUMB_HD inline void begin_body(const Bodies& bodies, const SolverBodies& solver, std::uint32_t i) {
   if (bodies.turn)
     solver.inertia[i] = {rotated_diagonal(to_matrix(bodies.orientation[i]), bodies.mass[i].inverse_inertia), {0, 0}};

@@ -88,6 +88,7 @@ TEST(BoxBox, EightCornersAreReducedToFourThatSpanTheOctagon) {
   const Shape cube = box(1, 1, 1);
   const Manifold m = touch(cube, kUpright, cube, turned(45, 0, 1, 0), {0, Real(1.999), 0}, 0);
   ASSERT_EQ(m.count, 4U);
+  for (const ManifoldPoint& p : m.points) EXPECT_NEAR(p.position.y, 0.9995, 1e-6) << "midway between the surfaces";
   double area = 0;  // of the quadrangle by its diagonals: sort by angle first
   std::array<Vec, 4> p;
   for (std::size_t i = 0; i < 4; ++i) p[i] = m.points[i].position;
