@@ -5,11 +5,12 @@
 // are clamped (Catto, "Iterative Dynamics with Temporal Coherence", 2005). A contact's numbers are brought in whole
 // before any is worked with: what a GPU waits for then comes at once, and nothing that is written stands in its way.
 //
-// Points are counted from their mean. What acts along one normal is then one push at the mean and one torque for all
-// points, whatever their number.
+// It is solved in its own frame (contact_frame.hpp): what the points do is one wrench, whatever their number, and the
+// bodies are pushed once.
 #pragma once
 
 #include "body.hpp"
+#include "constraints/contact_frame.hpp"
 #include "constraints/contact_rows.hpp"
 #include "step_parameters.hpp"
 
@@ -48,35 +49,33 @@ PLUMB_HD Vec3<N> displacement_at(const SolverBody<N>& body, const Vec3<N>& arm) 
   return body.moved + change_by_turn(body.rotated, arm);
 }
 
-/// Numbers of a point; see PointField. impulse: along normal, tangent and bitangent.
-template <class N>
-struct ContactPoint {
-  Vec3<N> arm;
-  N separation, normal_mass, normal_give, open;
-  N tangent_mass[3], tangent_step;
-  N impulse[3];
-  N impact_speed;
-};
-
 /// A manifold, or kLanes of them. Points beyond the last one have no mass and no impulse.
-template <class N>
+template <int P, class N>
 struct Contact {
   Vec3<N> normal, tangent;
   Vec3<N> centre_a, centre_b;
-  N friction, restitution, pull;
-  ContactPoint<N> points[kManifoldPoints];
-  N coupling[kCouplingFields];
-  N block_inverse[kBlockFields];
+  N friction, restitution, pull, tangent_step;
+  N count;  ///< of points
+  ContactGive<N> give;
 
-  PLUMB_HD Vec3<N> arm_a(int p) const { return centre_a + points[p].arm; }
-  PLUMB_HD Vec3<N> arm_b(int p) const { return centre_b + points[p].arm; }
+  PlanePoint<PerPoint<P, N>> place;
+  PerPoint<P, N> separation, impact_speed, open;
+  PerPoint<P, N> impulse[3];  ///< along normal, tangent and bitangent
+  PerPoint<P, N> block_inverse[P];
+
+  PLUMB_HD Vec3<N> bitangent() const { return cross(normal, tangent); }
+  /// The points that there are.
+  PLUMB_HD PointMask<P, N> there() const {
+    PerPoint<P, N> index;
+    PLUMB_UNROLL
+    for (int i = 0; i < kHeld<P>; ++i) index.at[i] = N(point_of(i));
+    return index < count;
+  }
 };
 
-/// Reads a contact. points: the largest number among the lanes. A GPU reads all points, because it would have to wait
-/// for their number.
-template <class N>
-PLUMB_HD Contact<N> load_contact(const RowAccess<N>& row, int points) {
-  Contact<N> contact;
+template <int P, class N>
+PLUMB_HD Contact<P, N> load_contact(const RowAccess<N>& row) {
+  Contact<P, N> contact;
   N quad[4];
   const auto get_vector = [&](std::uint32_t field, Vec3<N>& v) {
     row.get_quad(field, quad);
@@ -86,77 +85,101 @@ PLUMB_HD Contact<N> load_contact(const RowAccess<N>& row, int points) {
   contact.friction = get_vector(kNormal, contact.normal);
   contact.restitution = get_vector(kTangent, contact.tangent);
   contact.pull = get_vector(kCentreA, contact.centre_a);
-  get_vector(kCentreB, contact.centre_b);
+  contact.tangent_step = get_vector(kCentreB, contact.centre_b);
   PLUMB_UNROLL
-  for (int p = 0; p < kManifoldPoints; ++p) {
-    const N zero = N(0);
-    ContactPoint<N>& point = contact.points[p];
-    point = {{zero, zero, zero}, zero, zero, zero, zero, {zero, zero, zero}, zero, {zero, zero, zero}, zero};
-    if (kLanes > 1 && p >= points) continue;
-    point.separation = get_vector(point_field(p, kArm), point.arm);
-    row.get_quad(point_field(p, kNormalMass), quad);
-    point.normal_mass = quad[0];
-    point.normal_give = quad[1];
-    point.tangent_step = quad[2];
-    point.impact_speed = quad[3];
-    row.get_quad(point_field(p, kTangentMass), quad);
-    for (int i = 0; i < 3; ++i) point.tangent_mass[i] = quad[i];
+  for (int i = 0; i < kHeld<P>; ++i) {
+    const int p = point_of(i);
+    row.get_quad(point_field(p, kPlace), quad);
+    contact.place.x.at[i] = quad[0];
+    contact.place.y.at[i] = quad[1];
+    contact.separation.at[i] = quad[2];
+    contact.impact_speed.at[i] = quad[3];
     row.get_quad(point_field(p, kNormalImpulse), quad);
-    for (int i = 0; i < 3; ++i) point.impulse[i] = quad[i];
-    point.open = quad[3];
+    for (int k = 0; k < 3; ++k) contact.impulse[k].at[i] = quad[k];
+    contact.open.at[i] = quad[3];
+    row.get_quad(point_field(p, kBlockInverse), quad);
+    for (int q = 0; q < P; ++q) contact.block_inverse[q].at[i] = quad[q];
   }
-  N matrix[kCouplingFields + kBlockFields];
+  N numbers[kAllFields - kGive];
   PLUMB_UNROLL
-  for (std::uint32_t i = 0; i < kCouplingFields + kBlockFields; i += 4) {
-    row.get_quad(kCoupling + i, quad);
-    for (std::uint32_t j = 0; j < 4; ++j) matrix[i + j] = quad[j];
+  for (std::uint32_t i = 0; i < kAllFields - kGive; i += 4) {
+    row.get_quad(kGive + i, quad);
+    for (std::uint32_t k = 0; k < 4; ++k) numbers[i + k] = quad[k];
   }
-  PLUMB_UNROLL
-  for (std::uint32_t i = 0; i < kCouplingFields; ++i) contact.coupling[i] = matrix[i];
-  PLUMB_UNROLL
-  for (std::uint32_t i = 0; i < kBlockFields; ++i) contact.block_inverse[i] = matrix[kCouplingFields + i];
+  const N* next = numbers;
+  const auto take = [&next](auto& array) {
+    PLUMB_UNROLL
+    for (N& number : array) number = *next++;
+  };
+  take(contact.give.normal);
+  take(contact.give.across);
+  take(contact.give.friction);
+  take(contact.give.stop_free);
+  take(contact.give.stop_held);
+  contact.count = *next;
   return contact;
 }
 
 /// Writes back the impulses, and what may approach.
 template <int P, class N>
-PLUMB_HD void store_impulses(const RowAccess<N>& row, const Contact<N>& contact) {
+PLUMB_HD void store_impulses(const RowAccess<N>& row, const Contact<P, N>& contact) {
   PLUMB_UNROLL
-  for (int p = 0; p < P; ++p) {
-    const ContactPoint<N>& point = contact.points[p];
-    row.put_quad(point_field(p, kNormalImpulse), point.impulse[0], point.impulse[1], point.impulse[2], point.open);
-  }
+  for (int i = 0; i < kHeld<P>; ++i)
+    row.put_quad(point_field(point_of(i), kNormalImpulse), contact.impulse[0].at[i], contact.impulse[1].at[i],
+                 contact.impulse[2].at[i], contact.open.at[i]);
 }
 template <int P, class N>
-PLUMB_HD void store_impact_speeds(const RowAccess<N>& row, const Contact<N>& contact) {
+PLUMB_HD void store_impact_speeds(const RowAccess<N>& row, const Contact<P, N>& contact) {
   PLUMB_UNROLL
-  for (int p = 0; p < P; ++p) row.put(point_field(p, kImpactSpeed), contact.points[p].impact_speed);
+  for (int i = 0; i < kHeld<P>; ++i) row.put(point_field(point_of(i), kImpactSpeed), contact.impact_speed.at[i]);
 }
-/// Adds the impulses of a sub-step that is done to those of the step.
+/// Adds impulses of a sub-step that is done to those of the step.
 template <int P, class N>
-PLUMB_HD void add_up_impulses(const RowAccess<N>& row, const Contact<N>& contact) {
+PLUMB_HD void add_up_impulses(const RowAccess<N>& row, const PerPoint<P, N> (&impulse)[3]) {
   PLUMB_UNROLL
-  for (int p = 0; p < P; ++p) PLUMB_UNROLL
-  for (std::uint32_t i = 0; i < 3; ++i) row.add_to_sum(p, i, contact.points[p].impulse[i]);
+  for (int i = 0; i < kHeld<P>; ++i) PLUMB_UNROLL
+  for (std::uint32_t k = 0; k < 3; ++k) row.add_to_sum(point_of(i), k, impulse[k].at[i]);
+}
+
+/// How b moves against a.
+template <int P, class N>
+PLUMB_HD ContactMotion<N> motion_of(const Contact<P, N>& contact, const SolverBody<N>& a, const SolverBody<N>& b) {
+  const Vec3<N> n = contact.normal, t1 = contact.tangent, t2 = contact.bitangent();
+  const Vec3<N> v = velocity_at(b, contact.centre_b) - velocity_at(a, contact.centre_a);
+  const Vec3<N> turn = b.angular - a.angular;
+  return {{dot(v, n), dot(turn, t1), dot(turn, t2)}, {dot(v, t1), dot(v, t2), dot(turn, n)}};
+}
+/// Pushes both bodies.
+template <int P, class N>
+PLUMB_HD void push(const Contact<P, N>& contact, const ContactWrench<N>& wrench, SolverBody<N>& a, SolverBody<N>& b) {
+  const Vec3<N> n = contact.normal, t1 = contact.tangent, t2 = contact.bitangent();
+  const NormalPart<N>& normal = wrench.normal;
+  const FrictionPart<N>& friction = wrench.friction;
+  const Vec3<N> impulse = normal.along_n * n + friction.along_t1 * t1 + friction.along_t2 * t2;
+  const Vec3<N> torque = friction.about_n * n + normal.about_t1 * t1 + normal.about_t2 * t2;
+  a.linear -= a.inverse_mass * impulse;
+  a.angular -= a.inverse_inertia * (cross(contact.centre_a, impulse) + torque);
+  b.linear += b.inverse_mass * impulse;
+  b.angular += b.inverse_inertia * (cross(contact.centre_b, impulse) + torque);
 }
 
 /// Applies the impulses that the last step ended with (warm starting).
 template <int P, class N>
-PLUMB_HD void warm_start_contact(const Contact<N>& contact, SolverBody<N>& a, SolverBody<N>& b) {
-  const Vec3<N> n = contact.normal, t1 = contact.tangent;
-  const Vec3<N> t2 = cross(n, t1);
-  Vec3<N> sum = {N(0), N(0), N(0)}, torque = sum;
-  PLUMB_UNROLL
-  for (int p = 0; p < P; ++p) {
-    const ContactPoint<N>& point = contact.points[p];
-    const Vec3<N> impulse = point.impulse[0] * n + point.impulse[1] * t1 + point.impulse[2] * t2;
-    sum += impulse;
-    torque += cross(point.arm, impulse);
-  }
-  a.linear -= a.inverse_mass * sum;
-  a.angular -= a.inverse_inertia * (cross(contact.centre_a, sum) + torque);
-  b.linear += b.inverse_mass * sum;
-  b.angular += b.inverse_inertia * (cross(contact.centre_b, sum) + torque);
+PLUMB_HD void warm_start_contact(const Contact<P, N>& contact, SolverBody<N>& a, SolverBody<N>& b) {
+  const auto& impulse = contact.impulse;
+  push(contact, {normal_wrench(contact.place, impulse[0]), friction_wrench(contact.place, impulse[1], impulse[2])}, a,
+       b);
+}
+
+/// Separation of each point now that the bodies have moved, m.
+template <int P, class N>
+PLUMB_HD PerPoint<P, N> separations_now(const Contact<P, N>& contact, const SolverBody<N>& a, const SolverBody<N>& b) {
+  const Vec3<N> n = contact.normal;
+  const N at_centre = dot(displacement_at(b, contact.centre_b) - displacement_at(a, contact.centre_a), n);
+  // n . (turn of b - turn of a) arm, by the turns' transposes
+  const Vec3<N> by_arm = change_by_turn(conjugate(b.rotated), n) - change_by_turn(conjugate(a.rotated), n);
+  const N along1 = dot(by_arm, contact.tangent), along2 = dot(by_arm, contact.bitangent());
+  return contact.separation + (at_centre + (contact.place.x * along1 + contact.place.y * along2));
 }
 
 }  // namespace plumb::impulse

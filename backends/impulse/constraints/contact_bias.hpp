@@ -10,14 +10,11 @@ namespace plumb::impulse {
 /// overlap beyond the slop a share is taken back (J. Baumgarte, "Stabilization of constraints and integrals of motion
 /// in dynamical systems", 1972).
 template <int P, class N>
-PLUMB_HD void put_bias(Contact<N>& contact, const StepParameters& step) {
+PLUMB_HD void put_bias(Contact<P, N>& contact, const StepParameters& step) {
   const N zero = N(0);
-  PLUMB_UNROLL
-  for (int p = 0; p < P; ++p) {
-    const N separation = contact.points[p].separation;
-    const N back = max(N(step.bias_rate) * min(separation + N(step.slop), zero), N(-step.push_speed));
-    contact.points[p].open = select(separation > zero, separation * N(step.inverse_h), back);
-  }
+  const PerPoint<P, N>& separation = contact.separation;
+  const PerPoint<P, N> back = max(min(separation + N(step.slop), zero) * N(step.bias_rate), N(-step.push_speed));
+  contact.open = select(separation > zero, separation * N(step.inverse_h), back);
 }
 
 }  // namespace plumb::impulse

@@ -15,27 +15,27 @@ constexpr int kBounceRounds = 3;
 /// throws a point back presses it on, too: by Coulomb's law it rubs as much more. Points that do not bounce keep their
 /// impulses.
 template <int P, class N>
-PLUMB_HD void bounce_contact(const RowAccess<N>& row, Contact<N>& contact, SolverBody<N>& a, SolverBody<N>& b,
+PLUMB_HD void bounce_contact(const RowAccess<N>& row, Contact<P, N>& contact, SolverBody<N>& a, SolverBody<N>& b,
                              Real slowest, bool friction) {
   const N zero = N(0);
-  ManifoldAim<N> aims;
-  N before[P][3];
+  const PointMask<P, N> bounces = contact.impact_speed < N(-slowest) && contact.restitution > zero;
+  contact.open = select(bounces, contact.impact_speed * contact.restitution, N(kHuge));
+  const ManifoldAim<P, N> aim = {contact.open, select_by_point(bounces, N(1), zero), for_all_points<P>(zero),
+                                 for_all_points<P>(zero)};
+  PerPoint<P, N> more[3];
   PLUMB_UNROLL
-  for (int p = 0; p < P; ++p) {
-    ContactPoint<N>& point = contact.points[p];
-    const auto bounces = point.impact_speed < N(-slowest) && contact.restitution > zero;
-    point.open = select(bounces, contact.restitution * point.impact_speed, N(kHuge));
-    aims[p] = {point.open, select(bounces, point.normal_mass, zero), zero, zero};
-    for (int i = 0; i < 3; ++i) before[p][i] = point.impulse[i];
-  }
+  for (int k = 0; k < 3; ++k) more[k] = -contact.impulse[k];
+  ContactMotion<N> motion = motion_of(contact, a, b);
+  ContactWrench<N> wrench = no_wrench<N>();
   for (int round = 0; round < kBounceRounds; ++round) {
-    solve_normals<P>(contact, aims, a, b, false);
-    if (friction) solve_friction_where<P>(contact, a, b, [&](int p) { return contact.points[p].open < zero; });
+    const auto held = solve_normals(contact, aim, motion, wrench, false);
+    if (friction) solve_friction_where(bounces, contact, motion, wrench, held);
   }
-  if (friction) solve_normals<P>(contact, aims, a, b, false);
+  if (friction) solve_normals(contact, aim, motion, wrench, false);
+  push(contact, wrench, a, b);
   PLUMB_UNROLL
-  for (int p = 0; p < P; ++p)
-    for (std::uint32_t i = 0; i < 3; ++i) row.add_to_sum(p, i, contact.points[p].impulse[i] - before[p][i]);
+  for (int k = 0; k < 3; ++k) more[k] = contact.impulse[k] + more[k];
+  add_up_impulses(row, more);
 }
 
 }  // namespace plumb::impulse

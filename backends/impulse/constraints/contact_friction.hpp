@@ -1,61 +1,150 @@
-// Friction impulses of a contact, both tangents of a point at once.
+// Friction impulses of a contact, all its points at once.
 //
-// What would stop the slip is taken as it is where it lies within the circle of radius mu times the current normal
-// impulse of the same point. Where it does not, the point slides, and the impulse takes a projected step against the
-// slip: only then is it opposite to the slip when it no longer changes (maximum dissipation). The impulse that stops
-// the slip, cut to the circle, is not: it leans by the ratio of the effective masses, and a cube on a slope slides by
-// itself at 94 % of its friction.
+// What would stop the slip of the whole patch, along the tangents and about the normal, is shared out over the points
+// by how hard each is pressed. It is taken as it is where every point's share lies within the circle of radius mu times
+// the current normal impulse of the same point. Where one does not, the patch slides, and each point takes a projected
+// step against its own slip: only then is the impulse opposite to the slip when it no longer changes (maximum
+// dissipation). The impulse that stops the slip, cut to the circle, is not: it leans by the ratio of the effective
+// masses, and a cube on a slope slides by itself at 94 % of its friction.
 #pragma once
-
-#include <type_traits>
 
 #include "constraints/contact.hpp"
 
 namespace plumb::impulse {
 
-/// All points rub in all lanes.
-struct Always {
-  PLUMB_HD bool operator()(int) const { return true; }
+/// Impulses along the tangents.
+template <int P, class N>
+struct TangentImpulses {
+  PerPoint<P, N> t1, t2;
 };
 
-/// rubs(p): the lanes in which point p takes part.
-template <int P, class N, class Rubs>
-PLUMB_HD void solve_friction_where(Contact<N>& contact, SolverBody<N>& a, SolverBody<N>& b, const Rubs& rubs) {
-  const Vec3<N> t1 = contact.tangent;
-  const Vec3<N> t2 = cross(contact.normal, t1);
-  PLUMB_UNROLL
-  for (int p = 0; p < P; ++p) {
-    ContactPoint<N>& point = contact.points[p];
-    const Vec3<N> ra = contact.arm_a(p), rb = contact.arm_b(p);
-    const Vec3<N> slip = velocity_at(b, rb) - velocity_at(a, ra);
-    const N v1 = dot(slip, t1), v2 = dot(slip, t2);
-    const N m11 = point.tangent_mass[0], m12 = point.tangent_mass[1], m22 = point.tangent_mass[2];
-    const N old1 = point.impulse[1], old2 = point.impulse[2];
-    const N most = contact.friction * point.impulse[0];
-    const N stop1 = old1 - (m11 * v1 + m12 * v2), stop2 = old2 - (m12 * v1 + m22 * v2);
-    const auto slides = stop1 * stop1 + stop2 * stop2 > most * most;
-    N new1 = stop1, new2 = stop2;
-    if (any(slides)) {
-      const N slide1 = old1 - point.tangent_step * v1, slide2 = old2 - point.tangent_step * v2;
-      const N size = sqrt(slide1 * slide1 + slide2 * slide2);
-      const N cut = select(size > most, most / max(size, N(Real(1e-30))), N(1));
-      new1 = select(slides, cut * slide1, stop1);
-      new2 = select(slides, cut * slide2, stop2);
-    }
-    if constexpr (!std::is_same_v<Rubs, Always>) {
-      new1 = select(rubs(p), new1, old1);
-      new2 = select(rubs(p), new2, old2);
-    }
-    point.impulse[1] = new1;
-    point.impulse[2] = new2;
-    const Vec3<N> impulse = (new1 - old1) * t1 + (new2 - old2) * t2;
-    push(a, ra, -impulse);
-    push(b, rb, impulse);
-  }
-}
+/// How the load lies on the points.
 template <int P, class N>
-PLUMB_HD void solve_friction(Contact<N>& contact, SolverBody<N>& a, SolverBody<N>& b) {
-  solve_friction_where<P>(contact, a, b, Always{});
+struct PressedPatch {
+  N load;                            ///< of all points, N s
+  PerPoint<P, N> share;              ///< of the load, 0 where there is none
+  PlanePoint<N> centre;              ///< of pressure
+  PlanePoint<PerPoint<P, N>> place;  ///< from there
+  N inverse_spread;                  ///< 1 over the mean square of the places, 1/m2; 0 for 0
+
+  PLUMB_HD PressedPatch(const PlanePoint<PerPoint<P, N>>& places, const PerPoint<P, N>& loads) {
+    const N zero = N(0);
+    load = sum(loads);
+    const N inverse = N(1) / max(load, N(Real(1e-30)));
+    // Who bears it all bears it all to the last bit, however many points there could be.
+    share = select(loads < load, loads * inverse, select(load > zero, N(1), zero));
+    centre = {sum(share * places.x), sum(share * places.y)};
+    place = {places.x - centre.x, places.y - centre.y};
+    // What all lies on one point resists no torque.
+    const N spread = sum(share * (place.x * place.x + place.y * place.y)), least = N(Real(1e-25));
+    inverse_spread = select(spread > least, N(1) / max(spread, least), zero);
+  }
+
+  /// About the centre of pressure.
+  PLUMB_HD N torque_of(const FrictionPart<N>& wrench) const {
+    return wrench.about_n - (centre.x * wrench.along_t2 - centre.y * wrench.along_t1);
+  }
+  /// Impulses that make a wrench, as a rigid patch bears it.
+  PLUMB_HD TangentImpulses<P, N> share_out(const FrictionPart<N>& wrench) const {
+    const N turn = inverse_spread * torque_of(wrench);
+    return {share * (wrench.along_t1 - place.y * turn), share * (wrench.along_t2 + place.x * turn)};
+  }
+};
+
+/// What stops slip: along the tangents and about the normal, with the normals held or free.
+template <class N>
+struct StopMass {
+  N at[6];
+
+  template <class M>
+  PLUMB_HD StopMass(const ContactGive<N>& give, const M& held) {
+    PLUMB_UNROLL
+    for (int i = 0; i < 6; ++i) at[i] = select(held, give.stop_held[i], give.stop_free[i]);
+  }
+  PLUMB_HD FrictionPart<N> stop(const FrictionPart<N>& motion) const {
+    N impulse[3];
+    multiply(at, motion.along_t1, motion.along_t2, motion.about_n, impulse);
+    return {-impulse[0], -impulse[1], -impulse[2]};
+  }
+  /// No more than what stops a slip along any tangent: Gershgorin's bound.
+  PLUMB_HD N along_any_tangent() const { return min(at[0], at[3]) - max(at[1], -at[1]); }
+  PLUMB_HD N about_normal() const { return at[5]; }
+};
+
+/// A patch that rubs one way nearly as hard as it can goes on to do so when the load moves from point to point.
+template <int P, class N>
+PLUMB_HD TangentImpulses<P, N> follow_load(const TangentImpulses<P, N>& old, const FrictionPart<N>& before,
+                                           const PressedPatch<P, N>& patch, const N& friction) {
+  const N most = N(Real(0.9)) * friction * patch.load;
+  const auto slid = before.along_t1 * before.along_t1 + before.along_t2 * before.along_t2 > most * most;
+  const TangentImpulses<P, N> anew = patch.share_out(before);
+  return {select_all(slid, anew.t1, old.t1), select_all(slid, anew.t2, old.t2)};
+}
+
+/// A projected step of each point against its own slip. Safe steps are small, for a point of a patch may turn about the
+/// others, and a patch that begins to slide would take many to reach its circle. So the direction is that of a safe
+/// step, and the length that of one as long as the whole patch allows, where this is more.
+template <int P, class N>
+PLUMB_HD TangentImpulses<P, N> step_against_slip(const Contact<P, N>& contact, const FrictionPart<N>& motion,
+                                                 const TangentImpulses<P, N>& old, const PressedPatch<P, N>& patch,
+                                                 const StopMass<N>& mass) {
+  const PerPoint<P, N>& share = patch.share;
+  const N step = contact.tangent_step, far = max(mass.along_any_tangent(), step);
+  const PerPoint<P, N> t1 = old.t1 - share * (slip1_at(motion, contact.place) * step);
+  const PerPoint<P, N> t2 = old.t2 - share * (slip2_at(motion, contact.place) * step);
+  const FrictionPart<N> far_step = {far * slip1_at(motion, patch.centre), far * slip2_at(motion, patch.centre),
+                                    min(far, mass.about_normal() * patch.inverse_spread) * motion.about_n};
+  const PerPoint<P, N> u1 = old.t1 - share * slip1_at(far_step, patch.place);
+  const PerPoint<P, N> u2 = old.t2 - share * slip2_at(far_step, patch.place);
+  const PerPoint<P, N> size = sqrt(t1 * t1 + t2 * t2), far_size = sqrt(u1 * u1 + u2 * u2);
+  const PerPoint<P, N> most = share * (contact.friction * patch.load);
+  const PerPoint<P, N> scale = min(max(size, far_size), most) / max(size, N(Real(1e-30)));
+  return {scale * t1, scale * t2};
+}
+
+/// New impulses of friction for old ones and loads; the motion and the wrench follow. held: the lanes in which the
+/// normals let no point come or go.
+template <int P, class N, class M>
+PLUMB_HD TangentImpulses<P, N> rub(const Contact<P, N>& contact, const PerPoint<P, N>& loads,
+                                   const TangentImpulses<P, N>& old, const M& held, ContactMotion<N>& motion,
+                                   ContactWrench<N>& wrench) {
+  const PressedPatch<P, N> patch(contact.place, loads);
+  const StopMass<N> mass(contact.give, held);
+  const FrictionPart<N> before = friction_wrench(contact.place, old.t1, old.t2);
+  FrictionPart<N> stopping = mass.stop(motion.friction);
+  add(stopping, before);
+  TangentImpulses<P, N> found = patch.share_out(stopping);
+  const PerPoint<P, N> most = loads * contact.friction;
+  const auto slides = in_any_point(found.t1 * found.t1 + found.t2 * found.t2 > most * most);
+  if (in_any_contact(slides)) {
+    const TangentImpulses<P, N> start = follow_load(old, before, patch, contact.friction);
+    const TangentImpulses<P, N> stepped = step_against_slip(contact, motion.friction, start, patch, mass);
+    found = {select_all(slides, stepped.t1, found.t1), select_all(slides, stepped.t2, found.t2)};
+  }
+  const FrictionPart<N> push = friction_wrench(contact.place, found.t1 - old.t1, found.t2 - old.t2);
+  answer(contact.give, push, motion);
+  add(wrench.friction, push);
+  return found;
+}
+
+template <int P, class N, class M>
+PLUMB_HD void solve_friction(Contact<P, N>& contact, ContactMotion<N>& motion, ContactWrench<N>& wrench,
+                             const M& held) {
+  auto& impulse = contact.impulse;
+  const TangentImpulses<P, N> found = rub(contact, impulse[0], {impulse[1], impulse[2]}, held, motion, wrench);
+  impulse[1] = found.t1;
+  impulse[2] = found.t2;
+}
+/// Only some points take part.
+template <int P, class N, class M>
+PLUMB_HD void solve_friction_where(const PointMask<P, N>& rubs, Contact<P, N>& contact, ContactMotion<N>& motion,
+                                   ContactWrench<N>& wrench, const M& held) {
+  auto& impulse = contact.impulse;
+  const N zero = N(0);
+  const TangentImpulses<P, N> old = {select(rubs, impulse[1], zero), select(rubs, impulse[2], zero)};
+  const TangentImpulses<P, N> found = rub(contact, select(rubs, impulse[0], zero), old, held, motion, wrench);
+  impulse[1] = select(rubs, found.t1, impulse[1]);
+  impulse[2] = select(rubs, found.t2, impulse[2]);
 }
 
 }  // namespace plumb::impulse

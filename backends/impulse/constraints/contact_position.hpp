@@ -12,33 +12,23 @@ namespace plumb::impulse {
 /// Starts a sub-step's impulses at 0 (compliance 0) and sets `open`: what a point's relative speed must lose so that it
 /// ends the sub-step without overlap. Overlap from before is taken back no faster than push_speed.
 template <int P, class N>
-PLUMB_HD void start_contact_position(Contact<N>& contact, const SolverBody<N>& a, const SolverBody<N>& b,
+PLUMB_HD void start_contact_position(Contact<P, N>& contact, const SolverBody<N>& a, const SolverBody<N>& b,
                                      const StepParameters& step) {
-  const Vec3<N> n = contact.normal;
-  PLUMB_UNROLL
-  for (int p = 0; p < P; ++p) {
-    ContactPoint<N>& point = contact.points[p];
-    const Vec3<N> ra = contact.arm_a(p), rb = contact.arm_b(p);
-    const N separation = point.separation + dot(displacement_at(b, rb) - displacement_at(a, ra), n);
-    const N before = separation * N(step.inverse_h) - dot(velocity_at(b, rb) - velocity_at(a, ra), n);
-    point.open = max(before, N(-step.push_speed));
-    point.impulse[0] = point.impulse[1] = point.impulse[2] = N(0);
-    point.impact_speed = N(kWaits / 2);
-  }
+  const PerPoint<P, N> before =
+      separations_now(contact, a, b) * N(step.inverse_h) - speed_at(motion_of(contact, a, b).normal, contact.place);
+  contact.open = max(before, N(-step.push_speed));
+  for (PerPoint<P, N>& impulse : contact.impulse) impulse = for_all_points<P>(N(0));
+  contact.impact_speed = for_all_points<P>(N(kWaits / 2));
 }
 
 /// Sets `open` for the pass at the level of velocities: what was pushed leaves with Newton's restitution, or not at
 /// all, so that what took back overlap does not stay as velocity; what was not pushed is let be.
 template <int P, class N>
-PLUMB_HD void start_contact_velocity(Contact<N>& contact, Real slowest) {
+PLUMB_HD void start_contact_velocity(Contact<P, N>& contact, Real slowest) {
   const N zero = N(0);
-  PLUMB_UNROLL
-  for (int p = 0; p < P; ++p) {
-    ContactPoint<N>& point = contact.points[p];
-    const N impact = point.impact_speed;
-    const N leave = select(impact < N(-slowest), contact.restitution * impact, zero);
-    point.open = select(point.impulse[0] > zero, leave, N(kHuge));
-  }
+  const PerPoint<P, N>& impact = contact.impact_speed;
+  const PerPoint<P, N> leave = select(impact < N(-slowest), impact * contact.restitution, zero);
+  contact.open = select(contact.impulse[0] > zero, leave, N(kHuge));
 }
 
 /// Moves a body by what its change of velocity since `before` makes in h seconds.

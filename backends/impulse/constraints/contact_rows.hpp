@@ -1,5 +1,5 @@
 // Contact constraints as the solver reads them, in blocks of 32 slots: neighbouring threads of a GPU, and neighbouring
-// lanes of a CPU, read neighbouring numbers. 64 bytes a point in float and 128 a manifold.
+// lanes of a CPU, read neighbouring numbers. 100 bytes a point in float, of four points.
 //
 // The fields of a contact make whole quads. A GPU keeps a quad together and moves it at once; a CPU, whose lanes each
 // take one contact, keeps a field together.
@@ -22,38 +22,31 @@ enum RowField : std::uint32_t {
   kCentreA = 8,   ///< mean of the points where they touch a, from its centre of mass, m
   kPull = 11,     ///< what forces add to the speed with which b leaves a in a sub-step, m/s; 0 where nothing bounces
   kCentreB = 12,  ///< where they touch b, from the centre of mass of b
+  kTangentStep = 15,  ///< impulse against a slip, kg: no more than would stop it at any point
   kRowFields = 16
 };
 enum PointField : std::uint32_t {
-  kArm = 0,          ///< from the mean of the points, m
-  kSeparation = 3,   ///< at the start of the step, m
-  kNormalMass = 4,   ///< effective, kg
-  kNormalGive = 5,   ///< 1 over it, 1/kg
-  kTangentStep = 6,  ///< smallest eigenvalue of the tangent mass, kg
-  kImpactSpeed = 7,  ///< normal velocity with which a point came that was pushed in this step, m/s, 0 or less; above 0:
+  kPlace = 0,        ///< from the mean of the points, along tangent and bitangent, m
+  kSeparation = 2,   ///< at the start of the step, m
+  kImpactSpeed = 3,  ///< normal velocity with which a point came that was pushed in this step, m/s, 0 or less; above 0:
                      ///< not pushed yet (kWaits)
-  kTangentMass = 8,  ///< 2 by 2 symmetric: 11, 12, 22
-  kNormalImpulse = 12,
-  kTangentImpulse = 13,  ///< along tangent and bitangent
-  kOpen = 15,  ///< speed that a point may approach with in the relaxing pass: 0, or without bound where it is apart
-  kPointFields = 16
+  kNormalImpulse = 4,
+  kTangentImpulse = 5,  ///< along tangent and bitangent
+  kOpen = 7,  ///< speed that a point may approach with in the relaxing pass: 0, or without bound where it is apart
+  /// Row of the inverse of the matrix that gives all points' normal speeds for all points' normal impulses, kg.
+  kBlockInverse = 8,
+  kPointFields = 12
 };
 /// kImpactSpeed of a point that has not been pushed: kWaits / 2, or kWaits less the speed with which it came.
 constexpr Real kWaits = 2;
-/// The matrix that gives all points' speeds for all points' impulses, symmetric: beside its diagonal, which is
-/// kNormalGive, 12 13 14 23 24 34.
-constexpr std::uint32_t kCoupling = kRowFields + kManifoldPoints * kPointFields;
-constexpr std::uint32_t kCouplingFields = kManifoldPoints * (kManifoldPoints - 1) / 2;
-/// Its inverse: 11 12 13 14 22 23 ... 44.
-constexpr std::uint32_t kBlockInverse = kCoupling + kCouplingFields;
-constexpr std::uint32_t kBlockFields = kManifoldPoints * (kManifoldPoints + 1) / 2;
-constexpr std::uint32_t kAllFields = kBlockInverse + kBlockFields;
-static_assert(kAllFields % 4 == 0);
+/// How the bodies give way to a wrench at the mean of the points (contact_frame.hpp), and how many points there are.
+constexpr std::uint32_t kGive = kRowFields + kManifoldPoints * kPointFields;
+constexpr std::uint32_t kGiveFields = 33;
+constexpr std::uint32_t kPointCount = kGive + kGiveFields;
+constexpr std::uint32_t kAllFields = kGive + 36;
+static_assert(kManifoldPoints == 4 && kAllFields % 4 == 0);
 /// Impulses of a point summed over the sub-steps so far, N s: normal, tangent, bitangent.
 constexpr std::uint32_t kSumFields = 3 * kManifoldPoints;
-
-/// Place of p, q (p < q) among the numbers beside the diagonal.
-PLUMB_HD constexpr int coupling_of(int p, int q) { return p * (2 * kManifoldPoints - p - 1) / 2 + (q - p - 1); }
 
 /// Where a field is, from the first number of its slot.
 PLUMB_HD constexpr std::uint32_t place_of(std::uint32_t field) {
@@ -66,7 +59,8 @@ struct ContactRows {
   std::uint32_t* count;  ///< points; 0 in slots that fill up a colour to whole lanes
   std::uint32_t* row;    ///< of the contact cache
   Real* numbers;
-  Real* sums;  ///< null where nobody asks for them
+  Real* sums;           ///< null where nobody asks for them
+  std::uint32_t spare;  ///< slot of no contact, for threads that have none to work on
 
   /// The first number of a slot.
   PLUMB_HD Real* at(std::uint32_t slot) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "body.hpp"
+#include "constraints/contact_frame.hpp"
 #include "constraints/contact_rows.hpp"
 #include "exec/executor.hpp"
 #include "narrowphase/contact_cache.hpp"
@@ -44,86 +45,169 @@ struct PadColours {
   std::uint32_t nobody;
   PLUMB_HD void operator()(std::uint32_t colour) const {
     const std::uint32_t used = counters->first_in_colour[colour + 1] - counters->first_in_colour[colour];
-    for (std::uint32_t slot = counters->first_slot[colour] + used; slot < counters->first_slot[colour + 1]; ++slot) {
-      rows.body_a[slot] = rows.body_b[slot] = nobody;
-      rows.count[slot] = 0;
-      rows.row[slot] = kNone;
-      ContactNumbers{}.store(rows.at(slot));
-      if (Real* sums = rows.sums_at(slot); sums != nullptr)
-        for (std::uint32_t f = 0; f < kSumFields; ++f) sums[f * kRowBlock] = 0;
-    }
+    for (std::uint32_t slot = counters->first_slot[colour] + used; slot < counters->first_slot[colour + 1]; ++slot)
+      clear(slot);
+    if (colour == 0) clear(rows.spare);
+  }
+
+ private:
+  PLUMB_HD void clear(std::uint32_t slot) const {
+    rows.body_a[slot] = rows.body_b[slot] = nobody;
+    rows.count[slot] = 0;
+    rows.row[slot] = kNone;
+    ContactNumbers{}.store(rows.at(slot));
+    if (Real* sums = rows.sums_at(slot); sums != nullptr)
+      for (std::uint32_t f = 0; f < kSumFields; ++f) sums[f * kRowBlock] = 0;
   }
 };
 
-/// Inverse of the 2 by 2 symmetric matrix of the tangents, or 0 where nothing gives way, and its smaller eigenvalue.
-PLUMB_HD inline void put_tangent_mass(ContactNumbers& numbers, int point, Real k11, Real k12, Real k22) {
-  const Real inverse = reciprocal_or_zero(k11 * k22 - k12 * k12);
-  numbers.put(point_field(point, kTangentMass), {inverse * k22, -(inverse * k12), inverse * k11});
-  const Real half = (k11 - k22) / 2;
-  numbers.at[point_field(point, kTangentStep)] = reciprocal_or_zero((k11 + k22) / 2 + sqrt(half * half + k12 * k12));
-}
-
 /// Inverse of a symmetric positive definite matrix by Gauss and Jordan's elimination, which needs no pivots for those.
-PLUMB_HD inline void invert(Real (&m)[kManifoldPoints][kManifoldPoints]) {
+template <int R>
+PLUMB_HD void invert(Real (&m)[R][R]) {
   PLUMB_UNROLL
-  for (int k = 0; k < kManifoldPoints; ++k) {
+  for (int k = 0; k < R; ++k) {
     const Real pivot = Real(1) / m[k][k];
     m[k][k] = 1;
     PLUMB_UNROLL
-    for (int j = 0; j < kManifoldPoints; ++j) m[k][j] = pivot * m[k][j];
+    for (int j = 0; j < R; ++j) m[k][j] = pivot * m[k][j];
     PLUMB_UNROLL
-    for (int i = 0; i < kManifoldPoints; ++i) {
+    for (int i = 0; i < R; ++i) {
       if (i == k) continue;
       const Real factor = m[i][k];
       m[i][k] = 0;
       PLUMB_UNROLL
-      for (int j = 0; j < kManifoldPoints; ++j) m[i][j] = m[i][j] - factor * m[k][j];
+      for (int j = 0; j < R; ++j) m[i][j] = m[i][j] - factor * m[k][j];
     }
   }
 }
 
-/// The two bodies of a contact, and how they give way to impulses at it.
-struct ContactEnds {
-  Sym inertia_a, inertia_b;  ///< inverse
-  Real inverse_mass;         ///< of both together
+/// The matrix of contact_frame.hpp. In its order: normal, turns about the tangents; tangents, turn about the normal.
+struct FrameGive {
+  Real at[6][6];
 
-  /// Turns of both bodies by an impulse of 1 N s along a direction.
-  struct Turn {
-    Vec arm_a, arm_b;  ///< arm x direction
-    Vec by_a, by_b;    ///< change of angular velocity
-  };
-  PLUMB_HD Turn turn(const Vec& arm_a, const Vec& arm_b, const Vec& direction) const {
-    const Vec a = cross(arm_a, direction), b = cross(arm_b, direction);
-    return {a, b, inertia_a * a, inertia_b * b};
+  PLUMB_HD FrameGive(const Vec& n, const Vec& t1, const Vec& arm_a, const Vec& arm_b, const Sym& inertia_a,
+                     const Sym& inertia_b, Real inverse_mass) {
+    const Vec t2 = cross(n, t1);
+    const Vec turns_a[6] = {cross(arm_a, n), t1, t2, cross(arm_a, t1), cross(arm_a, t2), n};
+    const Vec turns_b[6] = {cross(arm_b, n), t1, t2, cross(arm_b, t1), cross(arm_b, t2), n};
+    PLUMB_UNROLL
+    for (int j = 0; j < 6; ++j) {
+      const Vec by_a = inertia_a * turns_a[j], by_b = inertia_b * turns_b[j];
+      PLUMB_UNROLL
+      for (int i = 0; i <= j; ++i) at[i][j] = at[j][i] = dot(turns_a[i], by_a) + dot(turns_b[i], by_b);
+    }
+    at[0][0] = at[0][0] + inverse_mass;
+    at[3][3] = at[3][3] + inverse_mass;
+    at[4][4] = at[4][4] + inverse_mass;
   }
-  /// Speed along the direction of u for an impulse along that of v, but for what the masses give.
-  PLUMB_HD static Real give(const Turn& u, const Turn& v) { return dot(u.arm_a, v.by_a) + dot(u.arm_b, v.by_b); }
+
+  PLUMB_HD void copy_normal(Real (&m)[6]) const {
+    m[0] = at[0][0];
+    m[1] = at[0][1];
+    m[2] = at[0][2];
+    m[3] = at[1][1];
+    m[4] = at[1][2];
+    m[5] = at[2][2];
+  }
+  /// The largest that an impulse along a tangent at p gives in slip there, 1/kg.
+  PLUMB_HD Real largest_slip(const PlanePoint<Real>& p) const {
+    const Real x = p.x, y = p.y, spin = at[5][5];
+    const Real k11 = at[3][3] - 2 * y * at[3][5] + y * y * spin;
+    const Real k12 = at[3][4] + x * at[3][5] - y * at[4][5] - x * y * spin;
+    const Real k22 = at[4][4] + 2 * x * at[4][5] + x * x * spin;
+    const Real half = (k11 - k22) / 2;
+    return (k11 + k22) / 2 + sqrt(half * half + k12 * k12);
+  }
 };
 
-/// The matrix that gives all normal speeds for all normal impulses, and its inverse. Four points of a plane have but
-/// three ways to move: a share of each point's own softness is added, without which there is no inverse. With much less
-/// of it the impulses of the fourth way wander, and towers tremble.
-PLUMB_HD inline void put_matrix(ContactNumbers& numbers, int count, Real inverse_mass,
-                                const ContactEnds::Turn (&turns)[kManifoldPoints]) {
-  const Real share = count > 1 ? Real(0.05) : Real(0);
-  const bool moves = inverse_mass > 0;
-  Real m[kManifoldPoints][kManifoldPoints];
-  std::uint32_t field = kCoupling;
-  PLUMB_UNROLL
-  for (int p = 0; p < kManifoldPoints; ++p) {
-    const bool there = moves && p < count;
-    m[p][p] = there ? (1 + share) * (inverse_mass + ContactEnds::give(turns[p], turns[p])) : Real(1);
+/// Inverse of the matrix that gives all normal speeds for all normal impulses. Four points of a plane have but three
+/// ways to move: a share of each point's own softness is added, without which there is no inverse. With much less of it
+/// the impulses of the fourth way wander, and towers tremble.
+struct NormalBlock {
+  Real inverse[kManifoldPoints][kManifoldPoints];
+
+  PLUMB_HD NormalBlock(ContactNumbers& numbers, int count, const FrameGive& give,
+                       const PlanePoint<Real> (&places)[kManifoldPoints]) {
+    const Real share = count > 1 ? Real(0.05) : Real(0);
+    const bool moves = give.at[0][0] > 0;
+    Real normal[6];
+    give.copy_normal(normal);
     PLUMB_UNROLL
-    for (int q = p + 1; q < kManifoldPoints; ++q, ++field) {
-      m[p][q] = m[q][p] = moves && q < count ? inverse_mass + ContactEnds::give(turns[p], turns[q]) : Real(0);
-      numbers.at[field] = m[p][q];
+    for (int p = 0; p < kManifoldPoints; ++p) {
+      const bool there = moves && p < count;
+      const Real own = there ? speed_at(answer_at(normal, places[p]), places[p]) : Real(0);
+      inverse[p][p] = there ? (1 + share) * own : Real(1);
+      PLUMB_UNROLL
+      for (int q = p + 1; q < kManifoldPoints; ++q)
+        inverse[p][q] = inverse[q][p] =
+            moves && q < count ? speed_at(answer_at(normal, places[p]), places[q]) : Real(0);
+    }
+    invert(inverse);
+    PLUMB_UNROLL
+    for (int p = 0; p < kManifoldPoints; ++p) PLUMB_UNROLL
+    for (int q = 0; q < kManifoldPoints; ++q) {
+      if (!(moves && p < count && q < count)) inverse[p][q] = 0;
+      numbers.at[point_field(p, kBlockInverse) + static_cast<std::uint32_t>(q)] = inverse[p][q];
     }
   }
+};
+
+/// What stops slip: the inverse of a block of friction. One point does not rub against a turn about the normal; nor
+/// does a patch whose bodies cannot turn.
+PLUMB_HD inline void put_stop_mass(ContactNumbers& numbers, std::uint32_t field, int count, const Real (&block)[3][3]) {
+  const bool moves = block[0][0] > 0, turns = moves && count > 1 && block[2][2] > 0;
+  Real m[3][3];
+  PLUMB_UNROLL
+  for (int i = 0; i < 3; ++i) PLUMB_UNROLL
+  for (int j = 0; j < 3; ++j) {
+    const bool there = i < 2 && j < 2 ? moves : turns;
+    m[i][j] = there ? block[i][j] : i == j ? Real(1) : Real(0);
+  }
   invert(m);
-  field = kBlockInverse;
+  PLUMB_UNROLL
+  for (int i = 0; i < 3; ++i) PLUMB_UNROLL
+  for (int j = i; j < 3; ++j) {
+    const bool there = j < 2 ? moves : turns;
+    numbers.at[field++] = there ? m[i][j] : Real(0);
+  }
+}
+
+/// The matrix of the frame, and what stops slip in it.
+PLUMB_HD inline void put_frame_matrix(ContactNumbers& numbers, int count, const FrameGive& give,
+                                      const NormalBlock& normals, const PlanePoint<Real> (&places)[kManifoldPoints]) {
+  Real normal[6];
+  give.copy_normal(normal);
+  std::uint32_t field = kGive;
+  PLUMB_UNROLL
+  for (int i = 0; i < 6; ++i) numbers.at[field++] = normal[i];
+  Real across[kManifoldPoints][3];  // normal speed of each point for friction
+  PLUMB_UNROLL
+  for (int i = 0; i < 3; ++i) PLUMB_UNROLL
+  for (int j = 0; j < 3; ++j) numbers.at[field++] = give.at[i][3 + j];
+  Real free[3][3], held[3][3];
+  PLUMB_UNROLL
+  for (int j = 0; j < 3; ++j) {
+    PLUMB_UNROLL
+    for (int i = 0; i < 3; ++i) {
+      held[i][j] = free[i][j] = give.at[3 + i][3 + j];
+      if (j >= i) numbers.at[field + static_cast<std::uint32_t>(i * (5 - i) / 2 + j)] = free[i][j];
+    }
+    PLUMB_UNROLL
+    for (int p = 0; p < kManifoldPoints; ++p)
+      across[p][j] = speed_at(NormalPart<Real>{give.at[0][3 + j], give.at[1][3 + j], give.at[2][3 + j]}, places[p]);
+  }
+  // What friction does along the normals is undone by them.
   PLUMB_UNROLL
   for (int p = 0; p < kManifoldPoints; ++p) PLUMB_UNROLL
-  for (int q = p; q < kManifoldPoints; ++q, ++field) numbers.at[field] = moves && q < count ? m[p][q] : Real(0);
+  for (int j = 0; j < 3; ++j) {
+    Real undone = 0;
+    PLUMB_UNROLL
+    for (int q = 0; q < kManifoldPoints; ++q) undone = undone + normals.inverse[p][q] * across[q][j];
+    PLUMB_UNROLL
+    for (int i = 0; i < 3; ++i) held[i][j] = held[i][j] - across[p][i] * undone;
+  }
+  put_stop_mass(numbers, field + 6, count, free);
+  put_stop_mass(numbers, field + 12, count, held);
 }
 
 PLUMB_HD inline void PrepareContacts::operator()(std::uint32_t j) const {
@@ -141,8 +225,7 @@ PLUMB_HD inline void PrepareContacts::operator()(std::uint32_t j) const {
     return parts == nullptr ? Real(1) : static_cast<Real>(parts[body].end - parts[body].first);
   };
   const Real parts_a = split(a), parts_b = split(b);
-  const ContactEnds ends = {parts_a * solver_bodies.inertia[a].inverse, parts_b * solver_bodies.inertia[b].inverse,
-                            parts_a * bodies.velocity[a].inverse_mass + parts_b * bodies.velocity[b].inverse_mass};
+  const Real inverse_mass = parts_a * bodies.velocity[a].inverse_mass + parts_b * bodies.velocity[b].inverse_mass;
 
   rows.body_a[slot] = a;
   rows.body_b[slot] = b;
@@ -153,13 +236,21 @@ PLUMB_HD inline void PrepareContacts::operator()(std::uint32_t j) const {
   const Vec n = kept.normal, t1 = kept.tangent, t2 = cross(n, t1);
   numbers.put(kNormal, n);
   numbers.put(kTangent, t1);
-  Vec centre = {0, 0, 0};
-  for (int p = 0; p < static_cast<int>(kept.count); ++p) centre += found.points[p].position;
-  centre = (Real(1) / static_cast<Real>(kept.count)) * centre;
-  // Points that are apart will touch each body where its surface is now, not midway: a ball that comes fast has its own
-  // radius for an arm. What touches first counts for all.
-  Real gap = found.points[0].separation;
-  for (int p = 1; p < static_cast<int>(kept.count); ++p) gap = min(gap, found.points[p].separation);
+  const int count = static_cast<int>(kept.count);
+  // Points that are apart lie midway between the bodies, above those that touch; when they come to touch, they do so in
+  // the plane of the nearest.
+  Vec centre = found.points[0].position;
+  Real gap = found.points[0].separation, height = dot(centre, n);
+  for (int p = 1; p < count; ++p) {
+    centre += found.points[p].position;
+    const bool nearer = found.points[p].separation < gap;
+    gap = select(nearer, found.points[p].separation, gap);
+    height = select(nearer, dot(found.points[p].position, n), height);
+  }
+  centre = (Real(1) / static_cast<Real>(count)) * centre;
+  centre += (height - dot(centre, n)) * n;
+  // A patch that is apart will touch each body where its surface is now, not midway: a ball that comes fast has its own
+  // radius for an arm.
   const Vec half_gap = max(gap, Real(0)) / 2 * n;
   const Vec middle = offset_a + centre, centre_a = middle - half_gap, centre_b = middle + half_gap - from_a_to_b;
   numbers.put(kCentreA, centre_a);
@@ -167,29 +258,31 @@ PLUMB_HD inline void PrepareContacts::operator()(std::uint32_t j) const {
   numbers.at[kFriction] = sqrt(proxy_a.friction * proxy_b.friction);
   numbers.at[kRestitution] = max(proxy_a.restitution, proxy_b.restitution);
   if (numbers.at[kRestitution] > 0) numbers.at[kPull] = parameters->h * dot(acceleration(b) - acceleration(a), n);
-  ContactEnds::Turn normal_turns[kManifoldPoints] = {};
+  const FrameGive give(n, t1, centre_a, centre_b, parts_a * solver_bodies.inertia[a].inverse,
+                       parts_b * solver_bodies.inertia[b].inverse, inverse_mass);
+  PlanePoint<Real> places[kManifoldPoints] = {};
+  Real largest_slip = 0;
   PLUMB_UNROLL
   for (int p = 0; p < kManifoldPoints; ++p) {
     const auto field = [p](std::uint32_t f) { return point_field(p, f); };
-    if (p >= static_cast<int>(kept.count)) continue;
-    const Vec arm = found.points[p].position - centre, arm_a = centre_a + arm, arm_b = centre_b + arm;
-    normal_turns[p] = ends.turn(arm_a, arm_b, n);
-    const ContactEnds::Turn turn1 = ends.turn(arm_a, arm_b, t1), turn2 = ends.turn(arm_a, arm_b, t2);
-    const Real normal_give = ends.inverse_mass + ContactEnds::give(normal_turns[p], normal_turns[p]);
-    numbers.put(field(kArm), arm);
+    if (p >= count) continue;
+    const Vec arm = found.points[p].position - centre;
+    if (count > 1) places[p] = {dot(arm, t1), dot(arm, t2)};
+    largest_slip = max(largest_slip, give.largest_slip(places[p]));
+    numbers.at[field(kPlace)] = places[p].x;
+    numbers.at[field(kPlace) + 1] = places[p].y;
     numbers.at[field(kSeparation)] = found.points[p].separation;
-    numbers.at[field(kNormalGive)] = normal_give;
-    numbers.at[field(kNormalMass)] = reciprocal_or_zero(normal_give);
-    put_tangent_mass(numbers, p, ends.inverse_mass + ContactEnds::give(turn1, turn1), ContactEnds::give(turn1, turn2),
-                     ends.inverse_mass + ContactEnds::give(turn2, turn2));
     numbers.at[field(kNormalImpulse)] = warm_start * kept.normal_impulse[p];
     numbers.at[field(kTangentImpulse)] = warm_start * kept.tangent_impulse[0][p];
     numbers.at[field(kTangentImpulse) + 1] = warm_start * kept.tangent_impulse[1][p];
     numbers.at[field(kImpactSpeed)] = kWaits / 2;
   }
+  numbers.at[kTangentStep] = reciprocal_or_zero(largest_slip);
   if (Real* sums = rows.sums_at(slot); sums != nullptr)
     for (std::uint32_t i = 0; i < kSumFields; ++i) sums[i * kRowBlock] = 0;
-  put_matrix(numbers, static_cast<int>(kept.count), ends.inverse_mass, normal_turns);
+  const NormalBlock normals(numbers, count, give, places);
+  put_frame_matrix(numbers, count, give, normals, places);
+  numbers.at[kPointCount] = static_cast<Real>(count);
   numbers.store(rows.at(slot));
 }
 

@@ -46,6 +46,7 @@ inline Lanes operator/(const Lanes& a, const Lanes& b) { return Lanes(a.v / b.v)
 inline Mask operator<(const Lanes& a, const Lanes& b) { return {a.v < b.v}; }
 inline Mask operator>(const Lanes& a, const Lanes& b) { return {a.v > b.v}; }
 inline Mask operator&&(const Mask& a, const Mask& b) { return {a.v & b.v}; }
+inline Mask operator||(const Mask& a, const Mask& b) { return {a.v | b.v}; }
 inline Mask operator!(const Mask& m) { return {~m.v}; }
 inline bool any(const Mask& m) {
   Mask::Bits bits = 0;

@@ -1,5 +1,6 @@
 #include "solver/colouring.hpp"
 
+#include "constraints/per_point.hpp"
 #include "exec/atomic.hpp"
 #include "math/bits.hpp"
 #include "math/wide.hpp"
@@ -141,7 +142,7 @@ struct LayOutSlots {
     }
     counters->first_slot[kColours + 1] = slot;
     counters->colour_count = used;
-    counters->largest_colour = largest;
+    counters->largest_loop = contact_loop(largest);
   }
 };
 

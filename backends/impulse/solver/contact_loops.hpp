@@ -26,7 +26,9 @@ struct LoadedContact {
   static constexpr std::uint32_t kHere = sizeof(N) / sizeof(Real);
   std::uint32_t a[kHere], b[kHere];
   std::uint32_t points;  ///< the largest number among the lanes
-  Contact<N> contact;
+#if defined(PLUMB_IMPULSE_CUDA)
+  Contact<kManifoldPoints, N> contact;
+#endif
 };
 
 template <class N>
@@ -38,44 +40,54 @@ PLUMB_HD LoadedContact<N> load_slot(const ContactRows& rows, std::uint32_t slot)
     loaded.b[lane] = rows.body_b[slot + lane];
     loaded.points = max(loaded.points, rows.count[slot + lane]);
   }
-  loaded.contact = load_contact(RowAccess<N>(rows, slot), static_cast<int>(loaded.points));
+#if defined(PLUMB_IMPULSE_CUDA)
+  loaded.contact = load_contact<kManifoldPoints>(RowAccess<N>(rows, slot));
+#endif
   return loaded;
 }
 
-/// The number of points that all who go the same way have to go through: on a GPU the threads of a warp, which would
-/// else take the ways for one, two and four points one after the other.
-PLUMB_HD inline std::uint32_t points_together(std::uint32_t points) {
-#if defined(__CUDA_ARCH__)
-  const unsigned together = __activemask();
-  return __any_sync(together, points > 2) ? kManifoldPoints : __any_sync(together, points > 1) ? 2 : 1;
+/// Calls f with the contact. A CPU reads it now, and no more points than there are: 1, 2 or all that there may be. A
+/// GPU has read it whole already, because it would have had to wait for the number.
+template <class N, class F>
+PLUMB_HD void with_contact([[maybe_unused]] const ContactRows& rows, [[maybe_unused]] std::uint32_t slot,
+                           LoadedContact<N>& loaded, const F& f) {
+#if defined(PLUMB_IMPULSE_CUDA)
+  f(loaded.contact);  // even where there are no points, for the warp stays together
 #else
-  return points;
+  if (loaded.points == 0) return;
+  const RowAccess<N> row(rows, slot);
+  const auto call = [&](auto points) {
+    Contact<points(), N> contact = load_contact<points()>(row);
+    f(contact);
+  };
+  if (loaded.points == 1) return call(std::integral_constant<int, 1>{});
+  if (loaded.points == 2) return call(std::integral_constant<int, 2>{});
+  call(std::integral_constant<int, kManifoldPoints>{});
 #endif
 }
 
-/// Calls f with the number of points as a constant, so that what it does goes straight: 1, 2 or all that there may be.
-template <class F>
-PLUMB_HD void with_point_count(std::uint32_t own, const F& f) {
-  if (own == 0) return;
-  const std::uint32_t points = points_together(own);
-  if (points == 1) return f(std::integral_constant<int, 1>{});
-  if (points == 2) return f(std::integral_constant<int, 2>{});
-  f(std::integral_constant<int, kManifoldPoints>{});
+/// The slot that the i-th thread of a loop over the slots first .. first + n * lanes works on (contact_loop).
+PLUMB_HD inline std::uint32_t slot_of(const ContactRows& rows, std::uint32_t first, std::uint32_t n, std::uint32_t i,
+                                      std::uint32_t lanes) {
+  const std::uint32_t k = i / kContactThreads;
+  return k < n ? first + k * lanes : rows.spare;
 }
+/// Whether this thread stores body a (0) or b (1) of its contact.
+PLUMB_HD inline bool stores_body(int which) { return holds_point(which); }
 
-/// Runs work(points, row, contact, a, b) on a contact and keeps what it did to the bodies.
+/// Runs work(row, contact, a, b) on a contact and keeps what it did to the bodies.
 template <class N, class Work>
 PLUMB_HD void work_on(const ContactRows& rows, const SolverBodies& bodies, std::uint32_t slot, LoadedContact<N>& loaded,
                       BodyUse use, const Work& work) {
-  with_point_count(loaded.points, [&](auto points) {
+  with_contact(rows, slot, loaded, [&](auto& contact) {
     const bool moved = use != BodyUse::kVelocity;
     SolverBody<N> a = load_body<N>(bodies, loaded.a, moved), b = load_body<N>(bodies, loaded.b, moved);
-    work(points, RowAccess<N>(rows, slot), loaded.contact, a, b);
-    store_body<N>(bodies, loaded.a, a);
-    store_body<N>(bodies, loaded.b, b);
+    work(RowAccess<N>(rows, slot), contact, a, b);
+    if (stores_body(0)) store_body<N>(bodies, loaded.a, a);
+    if (stores_body(1)) store_body<N>(bodies, loaded.b, b);
     if (use != BodyUse::kAll) return;
-    store_displacement<N>(bodies, loaded.a, a);
-    store_displacement<N>(bodies, loaded.b, b);
+    if (stores_body(0)) store_displacement<N>(bodies, loaded.a, a);
+    if (stores_body(1)) store_displacement<N>(bodies, loaded.b, b);
   });
 }
 
@@ -83,11 +95,13 @@ PLUMB_HD void work_on(const ContactRows& rows, const SolverBodies& bodies, std::
 template <class N, class Work>
 PLUMB_DEVICE void for_slots(Team& team, const ContactSet& contacts, const SolverBodies& bodies, std::uint32_t first,
                             std::uint32_t n, BodyUse use, const Work& work) {
-  constexpr std::uint32_t kHere = LoadedContact<N>::kHere;
+  const auto slot = [=, &contacts](std::uint32_t i) {
+    return slot_of(contacts.rows, first, n, i, LoadedContact<N>::kHere);
+  };
   team.each_ahead(
-      n, [&](std::uint32_t i) { return load_slot<N>(contacts.rows, first + i * kHere); },
+      contact_loop(n), [&](std::uint32_t i) { return load_slot<N>(contacts.rows, slot(i)); },
       [&](std::uint32_t i, LoadedContact<N>& loaded) {
-        work_on<N>(contacts.rows, bodies, first + i * kHere, loaded, use, work);
+        work_on<N>(contacts.rows, bodies, slot(i), loaded, use, work);
       });
 }
 
@@ -113,14 +127,15 @@ PLUMB_DEVICE void for_contacts(Team& team, const ContactSet& contacts, const Sol
   }
 }
 
-/// Runs work(points, row, contact) on every contact, in any order.
+/// Runs work(row, contact) on every contact, in any order.
 template <class Work>
 PLUMB_DEVICE void for_rows(Team& team, const ContactSet& contacts, const Work& work) {
   const ContactRows& rows = contacts.rows;
-  team.each(contacts.counters->first_slot[kColours + 1] / kLanes, [=](std::uint32_t i) {
-    const LoadedContact<Lanes> loaded = load_slot<Lanes>(rows, i * kLanes);
-    with_point_count(loaded.points,
-                     [&](auto points) { work(points, RowAccess<Lanes>(rows, i * kLanes), loaded.contact); });
+  const std::uint32_t n = contacts.counters->first_slot[kColours + 1] / kLanes;
+  team.each(contact_loop(n), [=](std::uint32_t i) {
+    const std::uint32_t slot = slot_of(rows, 0, n, i, kLanes);
+    LoadedContact<Lanes> loaded = load_slot<Lanes>(rows, slot);
+    with_contact(rows, slot, loaded, [&](auto& contact) { work(RowAccess<Lanes>(rows, slot), contact); });
   });
 }
 

@@ -19,17 +19,18 @@ struct StepInParts : StepInPasses<StepInParts> {
   template <class Work>
   PLUMB_DEVICE void for_each_contact(Team& team, const Work& work) const {
     const StepInParts self = *this;
-    team.each(counters->first_slot[kColours + 1] / kLanes,
-              [=](std::uint32_t i) { self.work_on_parts(i * kLanes, work); });
+    const std::uint32_t n = counters->first_slot[kColours + 1] / kLanes;
+    team.each(contact_loop(n),
+              [=](std::uint32_t i) { self.work_on_parts(slot_of(self.contacts.rows, 0, n, i, kLanes), work); });
     team.each(body_count, [=](std::uint32_t i) { self.put_together(i); });
   }
   PLUMB_DEVICE void bounce_contacts(Team& team, const StepParameters& step) const {
     const bool friction = features.friction;
     const Real slowest = step.restitution_speed;
     for (std::uint32_t k = 0; k < step.passes; ++k)
-      for_each_contact(team, [=](auto points, const auto& row, auto& contact, auto& a, auto& b) {
-        bounce_contact<points()>(row, contact, a, b, slowest, friction);
-        store_impulses<points()>(row, contact);
+      for_each_contact(team, [=](const auto& row, auto& contact, auto& a, auto& b) {
+        bounce_contact(row, contact, a, b, slowest, friction);
+        store_impulses(row, contact);
       });
   }
 
@@ -38,12 +39,12 @@ struct StepInParts : StepInPasses<StepInParts> {
   PLUMB_HD void work_on_parts(std::uint32_t slot, const Work& work) const {
     const ContactRows& rows = contacts.rows;
     LoadedContact<Lanes> loaded = load_slot<Lanes>(rows, slot);
-    with_point_count(loaded.points, [&](auto points) {
+    with_contact(rows, slot, loaded, [&](auto& contact) {
       SolverBody<Lanes> a = load_part(loaded.a), b = load_part(loaded.b);
       const Vec3<Lanes> a_linear = a.linear, a_angular = a.angular, b_linear = b.linear, b_angular = b.angular;
-      work(points, RowAccess<Lanes>(rows, slot), loaded.contact, a, b);
-      store_change(2 * slot, a.linear - a_linear, a.angular - a_angular);
-      store_change(2 * slot + 1, b.linear - b_linear, b.angular - b_angular);
+      work(RowAccess<Lanes>(rows, slot), contact, a, b);
+      if (stores_body(0)) store_change(2 * slot, a.linear - a_linear, a.angular - a_angular);
+      if (stores_body(1)) store_change(2 * slot + 1, b.linear - b_linear, b.angular - b_angular);
     });
   }
   PLUMB_HD SolverBody<Lanes> load_part(const std::uint32_t* indices) const {

@@ -40,35 +40,30 @@ struct ContactPass {
   PassChange* noted;  ///< null where nobody asks
 
   template <int P, class N>
-  PLUMB_HD void solve(const RowAccess<N>& row, Contact<N>& contact, SolverBody<N>& a, SolverBody<N>& b) const {
-    Vec3<N> before[P];
+  PLUMB_HD void solve(const RowAccess<N>& row, Contact<P, N>& contact, SolverBody<N>& a, SolverBody<N>& b) const {
+    PerPoint<P, N> before[3];
     PLUMB_UNROLL
-    for (int p = 0; p < P; ++p) before[p] = impulse_of(contact.points[p]);
-    ManifoldAim<N> aims;
-    aim_hard<P>(contact, aims);
-    solve_normals<P>(contact, aims, a, b, note_impacts);
-    if (friction) solve_friction<P>(contact, a, b);
-    store_impulses<P>(row, contact);
-    if (note_impacts) store_impact_speeds<P>(row, contact);
+    for (int k = 0; k < 3; ++k) before[k] = contact.impulse[k];
+    const ManifoldAim<P, N> aim = aim_hard(contact);
+    ContactMotion<N> motion = motion_of(contact, a, b);
+    ContactWrench<N> wrench = no_wrench<N>();
+    const auto held = solve_normals(contact, aim, motion, wrench, note_impacts);
+    if (friction) solve_friction(contact, motion, wrench, held);
+    push(contact, wrench, a, b);
+    store_impulses(row, contact);
+    if (note_impacts) store_impact_speeds(row, contact);
     if (noted == nullptr) return;
-    N changed = N(0), reached = N(0);
     PLUMB_UNROLL
-    for (int p = 0; p < P; ++p) {
-      const Vec3<N> now = impulse_of(contact.points[p]);
-      changed = max(changed, most_of(now - before[p]));
-      reached = max(reached, most_of(now));
+    for (int i = 0; i < kHeld<P>; ++i) {
+      N changed = N(0), reached = N(0);
+      PLUMB_UNROLL
+      for (int k = 0; k < 3; ++k) {
+        const N now = contact.impulse[k].at[i], change = now - before[k].at[i];
+        changed = max(changed, max(change, -change));
+        reached = max(reached, max(now, -now));
+      }
+      noted->note(largest(changed), largest(reached));
     }
-    noted->note(largest(changed), largest(reached));
-  }
-
- private:
-  template <class N>
-  PLUMB_HD static Vec3<N> impulse_of(const ContactPoint<N>& point) {
-    return {point.impulse[0], point.impulse[1], point.impulse[2]};
-  }
-  template <class N>
-  PLUMB_HD static N most_of(const Vec3<N>& v) {
-    return max(max(max(v.x, -v.x), max(v.y, -v.y)), max(v.z, -v.z));
   }
 };
 

@@ -44,19 +44,16 @@ struct StepInPasses : SolverStep {
 
  private:
   PLUMB_DEVICE void start(Team& team, const StepParameters& step) const {
-    static_cast<const Solver&>(*this).for_each_contact(
-        team, [=](auto points, const auto& row, auto& contact, auto& a, auto& b) {
-          put_bias<points()>(contact, step);
-          store_impulses<points()>(row, contact);
-          warm_start_contact<points()>(contact, a, b);
-        });
+    static_cast<const Solver&>(*this).for_each_contact(team, [=](const auto& row, auto& contact, auto& a, auto& b) {
+      put_bias(contact, step);
+      store_impulses(row, contact);
+      warm_start_contact(contact, a, b);
+    });
   }
   PLUMB_DEVICE void solve_contacts(Team& team, PassChange* noted) const {
     const ContactPass pass = {features.friction, features.restitution, noted};
     static_cast<const Solver&>(*this).for_each_contact(
-        team, [pass](auto points, const auto& row, auto& contact, auto& a, auto& b) {
-          pass.solve<points()>(row, contact, a, b);
-        });
+        team, [pass](const auto& row, auto& contact, auto& a, auto& b) { pass.solve(row, contact, a, b); });
   }
 };
 

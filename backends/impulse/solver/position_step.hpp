@@ -36,36 +36,35 @@ struct StepPositions : SolverStep {
   }
   PLUMB_DEVICE void solve_positions(Team& team, const StepParameters& step) const {
     const bool friction = features.friction, note_impacts = features.restitution;
-    for_contacts(team, contacts, solver, BodyUse::kAll,
-                 [=](auto points, const auto& row, auto& contact, auto& a, auto& b) {
-                   constexpr int kPoints = points();
-                   start_contact_position<kPoints>(contact, a, b, step);
-                   const auto a_linear = a.linear, a_angular = a.angular, b_linear = b.linear, b_angular = b.angular;
-                   solve_contact<kPoints>(row, contact, a, b, friction, note_impacts);
-                   if (note_impacts) store_impact_speeds<kPoints>(row, contact);
-                   displace(a, a_linear, a_angular, step.h);
-                   displace(b, b_linear, b_angular, step.h);
-                 });
+    for_contacts(team, contacts, solver, BodyUse::kAll, [=](const auto& row, auto& contact, auto& a, auto& b) {
+      start_contact_position(contact, a, b, step);
+      const auto a_linear = a.linear, a_angular = a.angular, b_linear = b.linear, b_angular = b.angular;
+      solve_contact(row, contact, a, b, friction, note_impacts);
+      if (note_impacts) store_impact_speeds(row, contact);
+      displace(a, a_linear, a_angular, step.h);
+      displace(b, b_linear, b_angular, step.h);
+    });
   }
   PLUMB_DEVICE void solve_velocities(Team& team, const StepParameters& step) const {
     const Real slowest = step.restitution_speed;
     const bool friction = features.friction;
-    for_contacts(team, contacts, solver, BodyUse::kVelocity,
-                 [=](auto points, const auto& row, auto& contact, auto& a, auto& b) {
-                   constexpr int kPoints = points();
-                   start_contact_velocity<kPoints>(contact, slowest);
-                   solve_contact<kPoints>(row, contact, a, b, friction, false);
-                   add_up_impulses<kPoints>(row, contact);
-                 });
+    for_contacts(team, contacts, solver, BodyUse::kVelocity, [=](const auto& row, auto& contact, auto& a, auto& b) {
+      start_contact_velocity(contact, slowest);
+      solve_contact(row, contact, a, b, friction, false);
+      add_up_impulses(row, contact.impulse);
+    });
   }
   template <int P, class N>
-  PLUMB_HD static void solve_contact(const RowAccess<N>& row, Contact<N>& contact, SolverBody<N>& a, SolverBody<N>& b,
-                                     bool friction, bool note_impacts) {
-    ManifoldAim<N> aims;
-    aim_hard<P>(contact, aims);
-    solve_normals<P>(contact, aims, a, b, note_impacts);
-    if (friction) solve_friction<P>(contact, a, b);
-    store_impulses<P>(row, contact);
+  PLUMB_HD static void solve_contact(const RowAccess<N>& row, Contact<P, N>& contact, SolverBody<N>& a,
+                                     SolverBody<N>& b, bool friction, bool note_impacts) {
+    const ManifoldAim<P, N> aim = aim_hard(contact);
+    ContactMotion<N> motion = motion_of(contact, a, b);
+    ContactWrench<N> wrench = no_wrench<N>();
+    solve_normals(contact, aim, motion, wrench, note_impacts);
+    const auto held = N(1) < N(0);  // no normals follow that could
+    if (friction) solve_friction(contact, motion, wrench, held);
+    push(contact, wrench, a, b);
+    store_impulses(row, contact);
   }
 };
 

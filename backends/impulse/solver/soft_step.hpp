@@ -42,9 +42,7 @@ struct StepSoftly : SolverStep {
   PLUMB_DEVICE void warm_start(Team& team) const {
     if (!features.collision) return;
     for_contacts(team, contacts, solver, BodyUse::kVelocity,
-                 [](auto points, const auto& /*row*/, const auto& contact, auto& a, auto& b) {
-                   warm_start_contact<points()>(contact, a, b);
-                 });
+                 [](const auto& /*row*/, const auto& contact, auto& a, auto& b) { warm_start_contact(contact, a, b); });
   }
   /// Takes overlap back, softly. final: no relaxing pass follows in this sub-step.
   PLUMB_DEVICE void push_contacts(Team& team, const StepParameters& step, bool final) const {
@@ -52,48 +50,42 @@ struct StepSoftly : SolverStep {
     const ContactSoftness softness = {step.contact, step.ground, step.inverse_h, step.push_speed};
     const bool friction = features.friction, note_impacts = features.restitution;
     for_contacts(team, contacts, solver, BodyUse::kVelocityWhereMoved,
-                 [=](auto points, const auto& row, auto& contact, auto& a, auto& b) {
-                   constexpr int kPoints = points();
-                   ManifoldAim<std::remove_cvref_t<decltype(a.inverse_mass)>> aims;
-                   aim_softly<kPoints>(contact, a, b, softness, aims);
-                   solve_contact<kPoints>(contact, aims, a, b, friction, note_impacts);
-                   close_pushed<kPoints>(contact);
-                   store_impulses<kPoints>(row, contact);
-                   if (note_impacts) store_impact_speeds<kPoints>(row, contact);
-                   if (final) add_up_impulses<kPoints>(row, contact);
+                 [=](const auto& row, auto& contact, auto& a, auto& b) {
+                   const auto aim = aim_softly(contact, a, b, softness);
+                   solve_contact(contact, aim, a, b, friction, note_impacts);
+                   close_pushed(contact);
+                   store_impulses(row, contact);
+                   if (note_impacts) store_impact_speeds(row, contact);
+                   if (final) add_up_impulses(row, contact.impulse);
                  });
   }
   /// After the positions have moved: nothing that touches approaches, and what was pushed does not stay as velocity.
   PLUMB_DEVICE void relax_contacts(Team& team) const {
     if (!features.collision) return;
     const bool friction = features.friction;
-    for_contacts(team, contacts, solver, BodyUse::kVelocity,
-                 [=](auto points, const auto& row, auto& contact, auto& a, auto& b) {
-                   constexpr int kPoints = points();
-                   ManifoldAim<std::remove_cvref_t<decltype(a.inverse_mass)>> aims;
-                   aim_hard<kPoints>(contact, aims);
-                   solve_contact<kPoints>(contact, aims, a, b, friction, false);
-                   store_impulses<kPoints>(row, contact);
-                   add_up_impulses<kPoints>(row, contact);
-                 });
+    for_contacts(team, contacts, solver, BodyUse::kVelocity, [=](const auto& row, auto& contact, auto& a, auto& b) {
+      solve_contact(contact, aim_hard(contact), a, b, friction, false);
+      store_impulses(row, contact);
+      add_up_impulses(row, contact.impulse);
+    });
   }
   /// Friction below the centre tilts a body: the normals have the first word and the last.
   template <int P, class N>
-  PLUMB_HD static void solve_contact(Contact<N>& contact, const ManifoldAim<N>& aims, SolverBody<N>& a,
+  PLUMB_HD static void solve_contact(Contact<P, N>& contact, const ManifoldAim<P, N>& aim, SolverBody<N>& a,
                                      SolverBody<N>& b, bool friction, bool note_impacts) {
-    solve_normals<P>(contact, aims, a, b, note_impacts);
-    if (!friction) return;
-    solve_friction<P>(contact, a, b);
-    solve_normals<P>(contact, aims, a, b, note_impacts);
+    ContactMotion<N> motion = motion_of(contact, a, b);
+    ContactWrench<N> wrench = no_wrench<N>();
+    const auto held = solve_normals(contact, aim, motion, wrench, note_impacts);
+    if (friction) {
+      solve_friction(contact, motion, wrench, held);
+      solve_normals(contact, aim, motion, wrench, note_impacts);
+    }
+    push(contact, wrench, a, b);
   }
   /// A point that was apart and had to be pushed is no longer free to approach.
   template <int P, class N>
-  PLUMB_HD static void close_pushed(Contact<N>& contact) {
-    PLUMB_UNROLL
-    for (int p = 0; p < P; ++p) {
-      ContactPoint<N>& point = contact.points[p];
-      point.open = select(point.impulse[0] > N(0), N(0), point.open);
-    }
+  PLUMB_HD static void close_pushed(Contact<P, N>& contact) {
+    contact.open = select(contact.impulse[0] > N(0), N(0), contact.open);
   }
 };
 

@@ -25,8 +25,8 @@ void Solver::reserve(Executor& /*executor*/, std::uint32_t bodies, std::uint32_t
   displacement_.grow(bodies);
   inertia_.grow(bodies);
   free_velocity_.grow(bodies);
-  for (Buffer<std::uint32_t>* buffer : {&body_a_, &body_b_, &count_, &row_}) buffer->grow(slots_);
-  const std::size_t padded = std::size_t{(slots_ + kRowBlock - 1) / kRowBlock} * kRowBlock;
+  for (Buffer<std::uint32_t>* buffer : {&body_a_, &body_b_, &count_, &row_}) buffer->grow(slots_ + 1);
+  const std::size_t padded = std::size_t{slots_ / kRowBlock + 1} * kRowBlock;
   numbers_.grow(padded * kAllFields);
   if (features_.contact_impulses) {
     sums_.grow(padded * kSumFields);
@@ -58,7 +58,7 @@ void Solver::prepare(Executor& executor, const ContactCache& cache, const Bodies
 
 void Solver::solve(Executor& executor, const Bodies& all, std::uint32_t body_count, const StepParameters* parameters,
                    StepCounters* counters, std::uint32_t pair_capacity, JointStore& joints) {
-  const Count load = {&counters->largest_colour, slots_};
+  const Count load = {&counters->largest_loop, contact_loop(slots_)};
   const SolverStep step = {all,        bodies(all),   {rows(), counters},
                            body_count, features_,     parameters,
                            counters,   pair_capacity, joints.set(all, bodies(all), features_.gyroscopic)};

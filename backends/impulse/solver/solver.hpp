@@ -49,7 +49,7 @@ class Solver {
   [[nodiscard]] StepImpulses* step_impulses() { return step_impulses_.data(); }
 
   [[nodiscard]] ContactRows rows() {
-    return {body_a_.data(), body_b_.data(), count_.data(), row_.data(), numbers_.data(), sums_.data()};
+    return {body_a_.data(), body_b_.data(), count_.data(), row_.data(), numbers_.data(), sums_.data(), slots_};
   }
 
  private:

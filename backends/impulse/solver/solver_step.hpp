@@ -26,16 +26,14 @@ struct SolverStep {
 
   PLUMB_DEVICE void bounce(Team& team, Real slowest) const {
     const bool friction = features.friction;
-    for_contacts(team, contacts, solver, BodyUse::kVelocity,
-                 [=](auto points, const auto& row, auto& contact, auto& a, auto& b) {
-                   bounce_contact<points()>(row, contact, a, b, slowest, friction);
-                   store_impulses<points()>(row, contact);
-                 });
+    for_contacts(team, contacts, solver, BodyUse::kVelocity, [=](const auto& row, auto& contact, auto& a, auto& b) {
+      bounce_contact(row, contact, a, b, slowest, friction);
+      store_impulses(row, contact);
+    });
   }
   /// Impulses of a step that had no sub-steps are the step's.
   PLUMB_DEVICE void add_up(Team& team) const {
-    for_rows(team, contacts,
-             [](auto points, const auto& row, const auto& contact) { add_up_impulses<points()>(row, contact); });
+    for_rows(team, contacts, [](const auto& row, const auto& contact) { add_up_impulses(row, contact.impulse); });
   }
   PLUMB_DEVICE void move_bodies(Team& team, const StepParameters& step) const {
     team.each(body_count, [&](std::uint32_t i) { integrate_position(bodies, solver, step, features.gyroscopic, i); });

@@ -14,7 +14,7 @@ struct TeamBarrier {
   std::uint32_t arrived;
 };
 
-constexpr std::uint32_t kTeamThreads = 64;  // a block; few, so that a loop still spreads over the device
+constexpr std::uint32_t kTeamThreads = 128;  // a block; few, so that a loop still spreads over the device
 
 class Team {
  public:
