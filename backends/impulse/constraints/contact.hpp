@@ -30,11 +30,6 @@ template <class N>
 PLUMB_HD Vec3<N> velocity_at(const SolverBody<N>& body, const Vec3<N>& arm) {
   return body.linear + cross(body.angular, arm);
 }
-template <class N>
-PLUMB_HD void push(SolverBody<N>& body, const Vec3<N>& arm, const Vec3<N>& impulse) {
-  body.linear += body.inverse_mass * impulse;
-  body.angular += body.inverse_inertia * cross(arm, impulse);
-}
 /// By how much a turn changes a vector.
 template <class N>
 PLUMB_HD Vec3<N> change_by_turn(const Quat4<N>& turn, const Vec3<N>& v) {

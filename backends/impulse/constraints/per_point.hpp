@@ -66,84 +66,145 @@ struct PointMask {
   M at[kHeld<P>];
 };
 
+/// f(i) for each index that this thread has.
+template <int P, class N, class F>
+PLUMB_HD PerPoint<P, N> by_point(const F& f) {
+  PerPoint<P, N> result;
+  PLUMB_UNROLL
+  for (int i = 0; i < kHeld<P>; ++i) result.at[i] = f(i);
+  return result;
+}
+template <int P, class N, class F>
+PLUMB_HD PointMask<P, N> mask_by_point(const F& f) {
+  PointMask<P, N> result;
+  PLUMB_UNROLL
+  for (int i = 0; i < kHeld<P>; ++i) result.at[i] = f(i);
+  return result;
+}
 template <int P, class N>
 PLUMB_HD PerPoint<P, N> for_all_points(const N& x) {
-  PerPoint<P, N> all;
-  PLUMB_UNROLL
-  for (int i = 0; i < kHeld<P>; ++i) all.at[i] = x;
-  return all;
+  return by_point<P, N>([&](int) { return x; });
 }
 
-#define PLUMB_BY_POINT(expression)                                \
-  {                                                               \
-    PerPoint<P, N> result;                                        \
-    PLUMB_UNROLL                                                  \
-    for (int i = 0; i < kHeld<P>; ++i) result.at[i] = expression; \
-    return result;                                                \
-  }
-#define PLUMB_MASK_BY_POINT(expression)                           \
-  {                                                               \
-    PointMask<P, N> result;                                       \
-    PLUMB_UNROLL                                                  \
-    for (int i = 0; i < kHeld<P>; ++i) result.at[i] = expression; \
-    return result;                                                \
-  }
-#define PLUMB_POINTWISE(op)                                                             \
-  template <int P, class N>                                                             \
-  PLUMB_HD PerPoint<P, N> operator op(const PerPoint<P, N>& a, const PerPoint<P, N>& b) \
-      PLUMB_BY_POINT(a.at[i] op b.at[i]) template <int P, class N>                      \
-      PLUMB_HD PerPoint<P, N> operator op(const PerPoint<P, N>& a, const N& b)          \
-          PLUMB_BY_POINT(a.at[i] op b) template <int P, class N>                        \
-          PLUMB_HD PerPoint<P, N> operator op(const N& a, const PerPoint<P, N>& b) PLUMB_BY_POINT(a op b.at[i])
-PLUMB_POINTWISE(+)
-PLUMB_POINTWISE(-)
-PLUMB_POINTWISE(*)
-PLUMB_POINTWISE(/)
-#undef PLUMB_POINTWISE
-#define PLUMB_POINTWISE(op)                                                              \
-  template <int P, class N>                                                              \
-  PLUMB_HD PointMask<P, N> operator op(const PerPoint<P, N>& a, const PerPoint<P, N>& b) \
-      PLUMB_MASK_BY_POINT(a.at[i] op b.at[i]) template <int P, class N>                  \
-      PLUMB_HD PointMask<P, N> operator op(const PerPoint<P, N>& a, const N& b) PLUMB_MASK_BY_POINT(a.at[i] op b)
-PLUMB_POINTWISE(<)
-PLUMB_POINTWISE(>)
-#undef PLUMB_POINTWISE
+template <int P, class N>
+PLUMB_HD PerPoint<P, N> operator+(const PerPoint<P, N>& a, const PerPoint<P, N>& b) {
+  return by_point<P, N>([&](int i) { return a.at[i] + b.at[i]; });
+}
+template <int P, class N>
+PLUMB_HD PerPoint<P, N> operator+(const PerPoint<P, N>& a, const N& b) {
+  return by_point<P, N>([&](int i) { return a.at[i] + b; });
+}
+template <int P, class N>
+PLUMB_HD PerPoint<P, N> operator+(const N& a, const PerPoint<P, N>& b) {
+  return by_point<P, N>([&](int i) { return a + b.at[i]; });
+}
+template <int P, class N>
+PLUMB_HD PerPoint<P, N> operator-(const PerPoint<P, N>& a, const PerPoint<P, N>& b) {
+  return by_point<P, N>([&](int i) { return a.at[i] - b.at[i]; });
+}
+template <int P, class N>
+PLUMB_HD PerPoint<P, N> operator-(const PerPoint<P, N>& a, const N& b) {
+  return by_point<P, N>([&](int i) { return a.at[i] - b; });
+}
+template <int P, class N>
+PLUMB_HD PerPoint<P, N> operator-(const N& a, const PerPoint<P, N>& b) {
+  return by_point<P, N>([&](int i) { return a - b.at[i]; });
+}
+template <int P, class N>
+PLUMB_HD PerPoint<P, N> operator*(const PerPoint<P, N>& a, const PerPoint<P, N>& b) {
+  return by_point<P, N>([&](int i) { return a.at[i] * b.at[i]; });
+}
+template <int P, class N>
+PLUMB_HD PerPoint<P, N> operator*(const PerPoint<P, N>& a, const N& b) {
+  return by_point<P, N>([&](int i) { return a.at[i] * b; });
+}
+template <int P, class N>
+PLUMB_HD PerPoint<P, N> operator*(const N& a, const PerPoint<P, N>& b) {
+  return by_point<P, N>([&](int i) { return a * b.at[i]; });
+}
+template <int P, class N>
+PLUMB_HD PerPoint<P, N> operator/(const PerPoint<P, N>& a, const PerPoint<P, N>& b) {
+  return by_point<P, N>([&](int i) { return a.at[i] / b.at[i]; });
+}
+template <int P, class N>
+PLUMB_HD PerPoint<P, N> operator-(const PerPoint<P, N>& a) {
+  return by_point<P, N>([&](int i) { return -a.at[i]; });
+}
+template <int P, class N>
+PLUMB_HD PerPoint<P, N> sqrt(const PerPoint<P, N>& a) {
+  return by_point<P, N>([&](int i) { return sqrt(a.at[i]); });
+}
+template <int P, class N>
+PLUMB_HD PerPoint<P, N> min(const PerPoint<P, N>& a, const PerPoint<P, N>& b) {
+  return by_point<P, N>([&](int i) { return min(a.at[i], b.at[i]); });
+}
+template <int P, class N>
+PLUMB_HD PerPoint<P, N> min(const PerPoint<P, N>& a, const N& b) {
+  return by_point<P, N>([&](int i) { return min(a.at[i], b); });
+}
+template <int P, class N>
+PLUMB_HD PerPoint<P, N> max(const PerPoint<P, N>& a, const PerPoint<P, N>& b) {
+  return by_point<P, N>([&](int i) { return max(a.at[i], b.at[i]); });
+}
+template <int P, class N>
+PLUMB_HD PerPoint<P, N> max(const PerPoint<P, N>& a, const N& b) {
+  return by_point<P, N>([&](int i) { return max(a.at[i], b); });
+}
 
 template <int P, class N>
-PLUMB_HD PerPoint<P, N> operator-(const PerPoint<P, N>& a) PLUMB_BY_POINT(-a.at[i]) template <int P, class N>
-PLUMB_HD PerPoint<P, N> sqrt(const PerPoint<P, N>& a) PLUMB_BY_POINT(sqrt(a.at[i])) template <int P, class N>
-PLUMB_HD PerPoint<P, N> min(const PerPoint<P, N>& a,
-                            const PerPoint<P, N>& b) PLUMB_BY_POINT(min(a.at[i], b.at[i])) template <int P, class N>
-PLUMB_HD PerPoint<P, N> min(const PerPoint<P, N>& a, const N& b)
-    PLUMB_BY_POINT(min(a.at[i], b)) template <int P, class N>
-    PLUMB_HD PerPoint<P, N> max(const PerPoint<P, N>& a, const PerPoint<P, N>& b)
-        PLUMB_BY_POINT(max(a.at[i], b.at[i])) template <int P, class N>
-        PLUMB_HD PerPoint<P, N> max(const PerPoint<P, N>& a, const N& b)
-            PLUMB_BY_POINT(max(a.at[i], b)) template <int P, class N>
-            PLUMB_HD PerPoint<P, N> select(const PointMask<P, N>& m, const PerPoint<P, N>& a, const PerPoint<P, N>& b)
-                PLUMB_BY_POINT(select(m.at[i], a.at[i], b.at[i])) template <int P, class N>
-                PLUMB_HD PerPoint<P, N> select(const PointMask<P, N>& m, const PerPoint<P, N>& a, const N& b)
-                    PLUMB_BY_POINT(select(m.at[i], a.at[i], b)) template <int P, class N>
-                    PLUMB_HD PerPoint<P, N> select(const PointMask<P, N>& m, const N& a, const PerPoint<P, N>& b)
-                        PLUMB_BY_POINT(select(m.at[i], a, b.at[i])) template <int P, class N>
-                        PLUMB_HD PerPoint<P, N> select_by_point(const PointMask<P, N>& m, const N& a, const N& b)
-                            PLUMB_BY_POINT(select(m.at[i], a, b))
-    /// m: of the contact as a whole.
-    template <int P, class N, class M>
-    PLUMB_HD PerPoint<P, N> select_all(const M& m, const PerPoint<P, N>& a, const PerPoint<P, N>& b)
-        PLUMB_BY_POINT(select(m, a.at[i], b.at[i])) template <int P, class N>
-        PLUMB_HD PointMask<P, N> operator&&(const PointMask<P, N>& a, const PointMask<P, N>& b)
-            PLUMB_MASK_BY_POINT(a.at[i] && b.at[i]) template <int P, class N, class M>
-            PLUMB_HD PointMask<P, N> operator&&(const PointMask<P, N>& a, const M& b)
-                PLUMB_MASK_BY_POINT(a.at[i] && b) template <int P, class N>
-                PLUMB_HD PointMask<P, N> operator||(const PointMask<P, N>& a, const PointMask<P, N>& b)
-                    PLUMB_MASK_BY_POINT(a.at[i] || b.at[i]) template <int P, class N>
-                    PLUMB_HD PointMask<P, N> operator!(const PointMask<P, N>& a) PLUMB_MASK_BY_POINT(!a.at[i])
-#undef PLUMB_BY_POINT
-#undef PLUMB_MASK_BY_POINT
+PLUMB_HD PointMask<P, N> operator<(const PerPoint<P, N>& a, const PerPoint<P, N>& b) {
+  return mask_by_point<P, N>([&](int i) { return a.at[i] < b.at[i]; });
+}
+template <int P, class N>
+PLUMB_HD PointMask<P, N> operator<(const PerPoint<P, N>& a, const N& b) {
+  return mask_by_point<P, N>([&](int i) { return a.at[i] < b; });
+}
+template <int P, class N>
+PLUMB_HD PointMask<P, N> operator>(const PerPoint<P, N>& a, const PerPoint<P, N>& b) {
+  return mask_by_point<P, N>([&](int i) { return a.at[i] > b.at[i]; });
+}
+template <int P, class N>
+PLUMB_HD PointMask<P, N> operator>(const PerPoint<P, N>& a, const N& b) {
+  return mask_by_point<P, N>([&](int i) { return a.at[i] > b; });
+}
+template <int P, class N>
+PLUMB_HD PointMask<P, N> operator&&(const PointMask<P, N>& a, const PointMask<P, N>& b) {
+  return mask_by_point<P, N>([&](int i) { return a.at[i] && b.at[i]; });
+}
+template <int P, class N>
+PLUMB_HD PointMask<P, N> operator||(const PointMask<P, N>& a, const PointMask<P, N>& b) {
+  return mask_by_point<P, N>([&](int i) { return a.at[i] || b.at[i]; });
+}
+/// b: of the contact as a whole.
+template <int P, class N, class Whole>
+PLUMB_HD PointMask<P, N> operator&&(const PointMask<P, N>& a, const Whole& b) {
+  return mask_by_point<P, N>([&](int i) { return a.at[i] && b; });
+}
 
-                        template <int P, class N>
-                        PLUMB_HD N sum(const PerPoint<P, N>& x) {
+template <int P, class N>
+PLUMB_HD PerPoint<P, N> select(const PointMask<P, N>& m, const PerPoint<P, N>& a, const PerPoint<P, N>& b) {
+  return by_point<P, N>([&](int i) { return select(m.at[i], a.at[i], b.at[i]); });
+}
+template <int P, class N>
+PLUMB_HD PerPoint<P, N> select(const PointMask<P, N>& m, const PerPoint<P, N>& a, const N& b) {
+  return by_point<P, N>([&](int i) { return select(m.at[i], a.at[i], b); });
+}
+template <int P, class N>
+PLUMB_HD PerPoint<P, N> select(const PointMask<P, N>& m, const N& a, const PerPoint<P, N>& b) {
+  return by_point<P, N>([&](int i) { return select(m.at[i], a, b.at[i]); });
+}
+template <int P, class N>
+PLUMB_HD PerPoint<P, N> select_by_point(const PointMask<P, N>& m, const N& a, const N& b) {
+  return by_point<P, N>([&](int i) { return select(m.at[i], a, b); });
+}
+/// m: of the contact as a whole.
+template <int P, class N, class Whole>
+PLUMB_HD PerPoint<P, N> select_all(const Whole& m, const PerPoint<P, N>& a, const PerPoint<P, N>& b) {
+  return by_point<P, N>([&](int i) { return select(m, a.at[i], b.at[i]); });
+}
+
+template <int P, class N>
+PLUMB_HD N sum(const PerPoint<P, N>& x) {
 #if defined(__CUDA_ARCH__)
   const N of_two = x.at[0] + __shfl_xor_sync(kWholeWarp, x.at[0], 1);
   return of_two + __shfl_xor_sync(kWholeWarp, of_two, 2);
@@ -176,10 +237,6 @@ PLUMB_HD bool in_any_contact(const M& m) {
 #else
   return any(m);
 #endif
-}
-template <int P, class N>
-PLUMB_HD auto in_all_points(const PointMask<P, N>& m) {
-  return !in_any_point(!m);
 }
 
 }  // namespace plumb::impulse

@@ -11,7 +11,7 @@
 namespace plumb::impulse {
 
 /// The contacts of a step, ready to be solved. A contact's numbers are read before the loop before has ended: within a
-/// step nothing but work on that contact, by the same thread, may write them.
+/// step nothing but work on that contact, by the same threads, may write them.
 struct ContactSet {
   ContactRows rows;
   const StepCounters* counters;
