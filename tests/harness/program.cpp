@@ -72,7 +72,16 @@ Finished plumb(const std::vector<std::string>& arguments, const Environment& env
 pid_t start_plumb(const std::vector<std::string>& arguments) { return start(arguments, {}, "/dev/null", "/dev/null"); }
 
 std::filesystem::path fresh_folder(const std::string& name) {
-  const std::filesystem::path folder = std::filesystem::path(HARNESS_TEST_FOLDER) / name;
+  // Each test runs in a process of its own, and several at a time: none may take another's folder away.
+  struct OwnFolder {
+    std::filesystem::path path = std::filesystem::path(HARNESS_TEST_FOLDER) / std::to_string(getpid());
+    ~OwnFolder() {
+      std::error_code ignored;
+      std::filesystem::remove_all(path, ignored);
+    }
+  };
+  static const OwnFolder own;
+  const std::filesystem::path folder = own.path / name;
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder);
   return folder;
