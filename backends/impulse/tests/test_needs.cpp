@@ -11,7 +11,7 @@ constexpr const char* kSolvers[] = {"tgs_soft", "si", "jacobi", "xpbd"};
 
 /// Pushed and braked, all of them, and far enough apart to meet nobody.
 std::uint64_t hash_of_flight(PlumbNeeds needs, const char* solver, std::uint32_t flags) {
-  Scene scene(engine(), needs | PLUMB_NEED_FORCES | PLUMB_NEED_DAMPING, kDown, 1, solver);
+  Scene scene(engine(), needs | PLUMB_NEED_FORCES | PLUMB_NEED_DAMPING, kDown, 1, {"solver", solver});
   scene.body.flags = flags;
   scene.body.mass_mode = PLUMB_MASS_EXPLICIT;
   scene.body.material.friction = 0;
@@ -49,7 +49,7 @@ TEST(Needs, WhereNothingTurnsTheRestIsTheSame) {
 }
 
 std::uint64_t hash_of_pile(PlumbNeeds needs, const char* solver, bool steered) {
-  Scene scene(engine(), needs, kDown, 1, solver);
+  Scene scene(engine(), needs, kDown, 1, {"solver", solver});
   scene.container(3, 20);
   scene.body.material.friction = 0.4;
   scene.body.flags = PLUMB_BODY_NO_ROTATION;

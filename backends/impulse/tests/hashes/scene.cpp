@@ -23,13 +23,13 @@ PlumbQuat Random::turn() {
 }
 
 Scene::Scene(const Backend& backend, PlumbNeeds needs, const PlumbVec3& gravity, std::uint32_t threads,
-             const char* solver) {
+             const Choice& choice) {
   PlumbWorldDesc desc = world_desc(needs);
   desc.gravity = gravity;
   desc.threads = threads;
-  const PlumbSetting choice = {"solver", {PLUMB_SETTING_CHOICE, 0, 0, solver}};
-  if (solver != nullptr) {
-    desc.settings = &choice;
+  const PlumbSetting setting = {choice.setting, {PLUMB_SETTING_CHOICE, 0, 0, choice.choice}};
+  if (choice.setting != nullptr) {
+    desc.settings = &setting;
     desc.setting_count = 1;
   }
   world_ = backend.create_world(desc);

@@ -24,11 +24,17 @@ class Random {
   std::uint64_t state_;
 };
 
+/// A setting that is not at its default: one of its choices. No name: all are.
+struct Choice {
+  const char* setting = nullptr;
+  const char* choice = nullptr;
+};
+
 /// A world and what is put into it. Materials, filters and the like are set in `body` before a call of add.
 class Scene {
  public:
   Scene(const Backend& backend, PlumbNeeds needs, const PlumbVec3& gravity, std::uint32_t threads,
-        const char* solver = nullptr);
+        const Choice& choice = {});
 
   PlumbBodyDesc body = body_desc();
 
@@ -69,7 +75,7 @@ class Scene {
 /// The scenes by name.
 struct NamedScene {
   const char* name;
-  const char* solver;  ///< choice of the setting "solver", null: the default
+  Choice choice;
   PlumbNeeds needs;
   PlumbVec3 gravity;
   void (*build)(Scene&);

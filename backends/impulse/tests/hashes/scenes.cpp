@@ -177,10 +177,10 @@ void meddling(Scene& scene) {
   scene.before_step = meddler;
 }
 
-bool has_choice(const Backend& backend, const char* solver) {
+bool has(const Backend& backend, const Choice& wanted) {
   for (const PlumbSettingInfo* info : backend.settings())
-    for (std::uint32_t i = 0; std::string_view(info->name) == "solver" && i < info->choice_count; ++i)
-      if (std::string_view(info->choices[i]) == solver) return true;
+    for (std::uint32_t i = 0; std::string_view(info->name) == wanted.setting && i < info->choice_count; ++i)
+      if (std::string_view(info->choices[i]) == wanted.choice) return true;
   return false;
 }
 
@@ -192,23 +192,24 @@ const std::vector<NamedScene>& named_scenes() {
   constexpr PlumbNeeds kMeddlingNeeds =
       PLUMB_NEED_RESTITUTION | PLUMB_NEED_KINEMATIC | PLUMB_NEED_DAMPING | PLUMB_NEED_FORCES | PLUMB_NEED_FILTERS;
   static const std::vector<NamedScene> scenes = {
-      {"tower-20", nullptr, kContactNeeds, kDown, &tower},
-      {"pyramid-20", nullptr, kContactNeeds, kDown, &pyramid_20},
-      {"pile-1000", nullptr, kContactNeeds, kDown, &pile_of_boxes},
-      {"slope-27", nullptr, kContactNeeds, kDown, &slope},
-      {"bounces", nullptr, kContactNeeds | PLUMB_NEED_RESTITUTION, kDown, &bounces},
-      {"spheres-500", nullptr, kContactNeeds, kDown, &pile_of_spheres},
-      {"paddle", nullptr, kContactNeeds | PLUMB_NEED_KINEMATIC, kDown, &paddle},
-      {"rotors", nullptr, kNoContacts, {0, 0, 0}, &rotors},
-      {"mixed-300", nullptr, kAll, kDown, &pile_of_all},
-      {"heavy-tops", nullptr, kContactNeeds, kDown, &heavy_tops},
-      {"pyramid-far", nullptr, kContactNeeds, kDown, &pyramid_far},
-      {"dominoes", nullptr, kAll, kDown, &dominoes},
-      {"chain", nullptr, kAll | PLUMB_NEED_JOINTS, kDown, &chain},
-      {"meddling", nullptr, kAll | kMeddlingNeeds, kDown, &meddling},
-      {"pyramid-10-si", "si", kContactNeeds, kDown, &pyramid_10},
-      {"pyramid-10-jacobi", "jacobi", kContactNeeds, kDown, &pyramid_10},
-      {"pyramid-10-xpbd", "xpbd", kContactNeeds, kDown, &pyramid_10},
+      {"tower-20", {}, kContactNeeds, kDown, &tower},
+      {"pyramid-20", {}, kContactNeeds, kDown, &pyramid_20},
+      {"pile-1000", {}, kContactNeeds, kDown, &pile_of_boxes},
+      {"slope-27", {}, kContactNeeds, kDown, &slope},
+      {"bounces", {}, kContactNeeds | PLUMB_NEED_RESTITUTION, kDown, &bounces},
+      {"spheres-500", {}, kContactNeeds, kDown, &pile_of_spheres},
+      {"paddle", {}, kContactNeeds | PLUMB_NEED_KINEMATIC, kDown, &paddle},
+      {"rotors", {}, kNoContacts, {0, 0, 0}, &rotors},
+      {"mixed-300", {}, kAll, kDown, &pile_of_all},
+      {"heavy-tops", {}, kContactNeeds, kDown, &heavy_tops},
+      {"pyramid-far", {}, kContactNeeds, kDown, &pyramid_far},
+      {"dominoes", {}, kAll, kDown, &dominoes},
+      {"chain", {}, kAll | PLUMB_NEED_JOINTS, kDown, &chain},
+      {"meddling", {}, kAll | kMeddlingNeeds, kDown, &meddling},
+      {"pyramid-10-si", {"solver", "si"}, kContactNeeds, kDown, &pyramid_10},
+      {"pyramid-10-jacobi", {"solver", "jacobi"}, kContactNeeds, kDown, &pyramid_10},
+      {"pyramid-10-xpbd", {"solver", "xpbd"}, kContactNeeds, kDown, &pyramid_10},
+      {"pyramid-20-once", {"relaxation", "step"}, kContactNeeds, kDown, &pyramid_20},
   };
   return scenes;
 }
@@ -217,12 +218,13 @@ std::string missing(const Backend& backend, const NamedScene& scene) {
   for (std::uint32_t bit = 0; bit < PLUMB_NEED_COUNT; ++bit)
     if ((scene.needs >> bit & 1) != 0 && backend.capability(PLUMB_CAP_NEED, bit) == PLUMB_NONE)
       return "need " + std::to_string(bit);
-  if (scene.solver != nullptr && !has_choice(backend, scene.solver)) return std::string("solver ") + scene.solver;
+  if (scene.choice.setting != nullptr && !has(backend, scene.choice))
+    return std::string(scene.choice.setting) + " " + scene.choice.choice;
   return {};
 }
 
 std::unique_ptr<Scene> build(const Backend& backend, const NamedScene& scene, std::uint32_t threads) {
-  auto built = std::make_unique<Scene>(backend, scene.needs, scene.gravity, threads, scene.solver);
+  auto built = std::make_unique<Scene>(backend, scene.needs, scene.gravity, threads, scene.choice);
   scene.build(*built);
   return built;
 }
