@@ -35,7 +35,8 @@ enum BodyFlag : std::uint32_t {
   kBodyDynamic = 1u << 0,
   kBodyTurns = 1u << 1,       ///< has inertia: its orientation changes
   kBodyGyroscopic = 1u << 2,  ///< turns, and its principal moments differ: a free one tumbles
-  kBodyMoves = 1u << 3        ///< dynamic or kinematic
+  kBodyMoves = 1u << 3,       ///< dynamic or kinematic
+  kBodyNeverSleeps = 1u << 4
 };
 
 /// What is given once for a body.

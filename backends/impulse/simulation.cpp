@@ -43,6 +43,7 @@ void Simulation::reserve_bodies(std::uint32_t slots) {
   statics_.grow(size);
   boxes_.grow(size);
   margins_.grow(size);
+  if (features_.sleeping) sleep_.reserve(static_cast<std::uint32_t>(size));
   bodies_dirty_ = true;
   reserve_pairs(pair_capacity_);
 }
@@ -104,6 +105,7 @@ void Simulation::list_bodies() {
   }
   executor_.to_device(movers_, mover_count_);
   executor_.to_device(statics_, static_count_);
+  narrow_phase_.forget_found(executor_, statics_.device(), static_count_);
   find_origin();
   statics_dirty_ = true;
   bodies_dirty_ = false;
@@ -123,6 +125,10 @@ void Simulation::upload_changes() {
     joints.upload(mass);
     forget_recordings();
   }
+  if (features_.sleeping) {
+    sleep_.upload(executor_);
+    parameters_[0].woken_contacts = sleep_.woken_count();
+  }
   parameters_[0].origin = origin_;
   executor_.to_device(parameters_, 1);
   if (statics_dirty_) {
@@ -137,14 +143,20 @@ Simulation::Recorded Simulation::what_is_recorded() {
   const Hulls all = hulls.device();
   return {{shapes.device(), all.ranges, all.vertices, all.faces, all.loops, all.edges, joints.excluded()},
           {body_count_, mover_count_, static_count_, shape_types_, joints.excluded_count(),
-           static_cast<std::uint32_t>(parameters_[0].solver)}};
+           static_cast<std::uint32_t>(parameters_[0].solver), sleep_.count() == 0 ? 0U : 1U}};
 }
 
 void Simulation::step(const StepParameters& parameters) {
   if (parameters.solver != parameters_[0].solver) solver_.choose(parameters.solver);
   parameters_[0] = parameters;
   parameters_[0].step = ++step_;
-  repeated_ = false;
+  repeated_ = grew_ = false;
+  woken_.clear();
+  fallen_asleep_.clear();
+  launch();
+}
+
+void Simulation::launch() {
   upload_changes();
   reserve_rows();
   if (const Recorded now = what_is_recorded(); now != recorded_) {
@@ -180,7 +192,9 @@ void Simulation::enqueue() {
     phases_.end(executor_, PLUMB_PHASE_BROAD);
     narrow_phase_.collide(executor_, now, all, shapes_on, margins_.data(), shape_types_, counters);
     colouring_.begin(executor_);
-    narrow_phase_.match(executor_, now, last, all, shapes_on, parameters, counters, colouring_.masks());
+    const KeptPair* woken = features_.sleeping ? sleep_.woken_pairs() : nullptr;
+    narrow_phase_.match(executor_, now, last, woken, all, shapes_on, parameters, counters, colouring_.masks());
+    if (sleep_.count() != 0) sleep_.find_touched(executor_, now, pair_capacity_, all, shapes_on, counters);
     phases_.end(executor_, PLUMB_PHASE_NARROW);
     if (solver_.needs_colours())
       colouring_.colour(executor_, now, all.velocity, proxies.device(), counters);
@@ -196,6 +210,7 @@ void Simulation::enqueue() {
   } else {
     solver_.move_freely(executor_, all, body_count_, parameters, counters);
   }
+  if (features_.sleeping) sleep_.time_rest(executor_, all, body_count_, parameters, counters, pair_capacity_);
   phases_.end(executor_, PLUMB_PHASE_SOLVE);
   enqueue_rows();
   executor_.to_host(counters_, 1);
@@ -204,12 +219,21 @@ void Simulation::enqueue() {
 
 void Simulation::wait() {
   executor_.wait();
-  while (counters().pairs > pair_capacity_) {
-    reserve_pairs(counters().pairs + counters().pairs / 2);
+  while (is_undone(counters(), pair_capacity_)) {
+    if (counters().pairs > pair_capacity_) {
+      reserve_pairs(counters().pairs + counters().pairs / 2);
+      grew_ = true;
+    } else {
+      const Slots roused = wake(sleep_.touched());
+      woken_.insert(woken_.end(), roused.begin(), roused.end());
+    }
     repeated_ = true;
-    run_step();
+    launch();
     executor_.wait();
   }
+  if (!features_.sleeping) return;
+  sleep_.stepped();
+  if (step_ % Sleep::kPeriod == 0) let_islands_rest();
 }
 
 double Simulation::phase_seconds(PlumbPhase phase) const {
@@ -218,6 +242,12 @@ double Simulation::phase_seconds(PlumbPhase phase) const {
 }
 
 std::vector<ContactRecord> Simulation::contacts() {
+  std::vector<ContactRecord> all = contacts_of_step();
+  sleep_.for_records(step_, [&](const ContactRecord& record) { all.push_back(record); });
+  return all;
+}
+
+std::vector<ContactRecord> Simulation::contacts_of_step() {
   const std::uint32_t count = counters().manifolds;
   if (count == 0) return {};
   records_.grow(count);

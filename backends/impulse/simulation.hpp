@@ -4,6 +4,8 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
+#include <vector>
 
 #include "body_state.hpp"
 #include "broadphase/broad_phase.hpp"
@@ -14,6 +16,7 @@
 #include "exec/phase_clock.hpp"
 #include "exec/table.hpp"
 #include "geometry/hull_pool.hpp"
+#include "islands/sleep.hpp"
 #include "narrowphase/narrow_phase.hpp"
 #include "solver/colouring.hpp"
 #include "solver/solver.hpp"
@@ -27,6 +30,8 @@ class Simulation {
   Executor executor_;  // before all that works with it
 
  public:
+  using Slots = std::vector<std::uint32_t>;
+
   Simulation(const PlumbHost* host, std::uint32_t threads, const SolverFeatures& features);
 
   // --- what the host fills; rows are body slots. The last row is nobody. ---
@@ -50,6 +55,22 @@ class Simulation {
   void bodies_changed() { bodies_dirty_ = true; }    ///< made, gone
   void statics_changed() { statics_dirty_ = true; }  ///< bodies that do not move: placed elsewhere
 
+  // --- sleep, between steps; body slots. What wakes or falls asleep is told by its slots. ---
+  [[nodiscard]] bool sleeps(std::uint32_t body) const { return sleep_.sleeps(body); }
+  [[nodiscard]] std::uint32_t sleeper_count() const { return sleep_.count(); }
+  /// With their islands.
+  Slots wake(std::span<const std::uint32_t> bodies);
+  /// Those who are joined to these, and where asked for those who touch them, with their islands.
+  Slots wake_neighbours(std::span<const std::uint32_t> bodies, bool touching);
+  Slots wake_all();
+  /// With what is joined to them.
+  Slots put_to_sleep(std::span<const std::uint32_t> bodies);
+  /// The body is gone: nothing is remembered of it.
+  void forget(std::uint32_t body) { sleep_.forget(body); }
+  /// Of the last step.
+  [[nodiscard]] const Slots& woken() const { return woken_; }
+  [[nodiscard]] const Slots& fallen_asleep() const { return fallen_asleep_; }
+
   /// Enqueues a step. parameters.step and .origin are filled in here.
   void step(const StepParameters& parameters);
   /// Returns when the step is done; grows what was too small and repeats the step then.
@@ -58,6 +79,7 @@ class Simulation {
   [[nodiscard]] const StepCounters& counters() const { return *counters_.host(); }
   [[nodiscard]] std::uint32_t steps() const { return step_; }
   [[nodiscard]] bool repeated() const { return repeated_; }
+  [[nodiscard]] bool grew() const { return grew_; }
   /// Of the last step, s; NaN where it was not measured, and for phases that this engine does not tell apart.
   [[nodiscard]] double phase_seconds(PlumbPhase phase) const;
   [[nodiscard]] Executor& executor() { return executor_; }
@@ -78,7 +100,7 @@ class Simulation {
   /// What a recorded step holds of the host's numbers and addresses.
   struct Recorded {
     std::array<const void*, 7> addresses{};
-    std::array<std::uint32_t, 6> numbers{};
+    std::array<std::uint32_t, 7> numbers{};
     bool operator==(const Recorded&) const = default;
   };
 
@@ -88,7 +110,12 @@ class Simulation {
   void reserve_rows();
   void enqueue();
   void enqueue_rows();
+  void launch();
   void run_step();
+  void let_islands_rest();
+  void fall_asleep(const Slots& island);
+  void put_contacts_aside();
+  [[nodiscard]] std::vector<ContactRecord> contacts_of_step();
   void forget_recordings();
   [[nodiscard]] Recorded what_is_recorded();
   template <class Row>
@@ -99,7 +126,7 @@ class Simulation {
 
   SolverFeatures features_;
   std::uint32_t body_count_ = 0, step_ = 0, pair_capacity_ = 0;
-  bool bodies_dirty_ = true, statics_dirty_ = true, repeated_ = false;
+  bool bodies_dirty_ = true, statics_dirty_ = true, repeated_ = false, grew_ = false;
   Position origin_{0, 0, 0};
 
   Mirror<std::uint32_t> movers_, statics_;
@@ -114,6 +141,8 @@ class Simulation {
   NarrowPhase narrow_phase_;
   Colouring colouring_;
   Solver solver_;
+  Sleep sleep_;
+  Slots woken_, fallen_asleep_;
   Buffer<ContactRecord> records_;
   FieldRows<PoseRow> poses_;
   FieldRows<VelocityRow> velocities_;

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "math/real.hpp"
+
 namespace plumb::impulse {
 
 constexpr std::uint32_t kColours = 64;         // bits of a body's mask
@@ -18,8 +20,15 @@ struct StepCounters {
   std::uint32_t first_slot[kColours + 2];       ///< solver rows of a colour begin here, a multiple of the lanes
   std::uint32_t colour_count;                   ///< colours up to the last one in use; the overflow apart
   std::uint32_t largest_loop;                   ///< threads that go over the contacts of a colour at once
-  std::uint32_t passes;     ///< over the constraints, of the solvers that make them until it is enough
+  std::uint32_t passes;  ///< over the constraints, of the solvers that make them until it is enough
+  std::uint32_t
+      touched_sleepers;     ///< manifolds with somebody awake: the step does nothing, they wake, and it is repeated
   std::uint32_t nonfinite;  ///< bodies that came out not finite and were put back
 };
+
+/// The step did nothing and comes again: there was too little room for the pairs, or somebody must wake first.
+PLUMB_HD inline bool is_undone(const StepCounters& counters, std::uint32_t pair_capacity) {
+  return counters.pairs > pair_capacity || counters.touched_sleepers != 0;
+}
 
 }  // namespace plumb::impulse

@@ -46,6 +46,10 @@ struct StepParameters {
   Real restitution_speed;  ///< slower impacts do not bounce, m/s
   Position origin;         ///< of the bounds
 
+  Real sleep_speed;              ///< a body that is slower rests, m/s
+  Real sleep_time;               ///< an island that has rested for so long falls asleep, s
+  std::uint32_t woken_contacts;  ///< how many were put aside in sleep and are to be matched in this step
+
   SolverKind solver;
   // Of the solvers that take the step whole:
   std::uint32_t passes;  ///< over all constraints, at most

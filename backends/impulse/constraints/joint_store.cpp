@@ -110,7 +110,7 @@ void JointStore::upload(const Table<BodyMass>& masses) {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> joins;
   const auto moving = [&](std::uint32_t body) { return is_pushed(body, masses) ? body : kWorld; };
   for (const Row& row : rows_) {
-    if (!row.used) continue;
+    if (!row.used || !(is_pushed(row.joint.body_a, masses) || is_pushed(row.joint.body_b, masses))) continue;
     all.push_back(row.joint);
     joins.emplace_back(moving(row.joint.body_a), moving(row.joint.body_b));
   }

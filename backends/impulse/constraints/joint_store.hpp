@@ -15,6 +15,14 @@ class JointStore {
   /// joint.slot numbers it among the living.
   void add(const Joint& joint, bool lets_bodies_touch);
   void remove(std::uint32_t slot);
+  /// Bodies can be pushed, or cannot any more, who may have joints.
+  void bodies_changed() { changed_ = changed_ || !rows_.empty(); }
+  /// f(body_a, body_b) for every joint there is; body_a may be kWorld.
+  template <class F>
+  void for_joined(const F& f) const {
+    for (const Row& row : rows_)
+      if (row.used) f(row.joint.body_a, row.joint.body_b);
+  }
   /// Whether upload() is due.
   [[nodiscard]] bool changed() const { return changed_; }
 
@@ -23,6 +31,7 @@ class JointStore {
 
   /// As of the last upload.
   [[nodiscard]] std::uint32_t count() const { return count_; }
+  [[nodiscard]] const Joint* device() { return joints_.data(); }
   [[nodiscard]] JointSet set(const Bodies& bodies, const SolverBodies& solver, bool gyroscopic);
   /// body_pair_key of bodies that do not collide, ascending.
   [[nodiscard]] const std::uint64_t* excluded() { return excluded_.data(); }

@@ -20,6 +20,12 @@ struct CachedManifold {
   Real tangent_impulse[2][kManifoldPoints];  ///< along tangent and along cross(normal, tangent)
 };
 
+/// A manifold that was kept apart from a step's.
+struct KeptPair {
+  Pair pair;
+  CachedManifold kept;
+};
+
 /// Impulses of a manifold summed over a step, N s.
 struct StepImpulses {
   Real normal[kManifoldPoints];
@@ -47,6 +53,21 @@ PLUMB_HD inline std::uint32_t find_row(const ContactCache& cache, Pair wanted) {
         return cache.touching[p] != 0 ? cache.row[p] : kNone;
   }
   return kNone;
+}
+
+/// Likewise among n pairs in ascending order; null where it is not.
+PLUMB_HD inline const CachedManifold* find_kept(const KeptPair* pairs, std::uint32_t n, Pair wanted) {
+  std::uint32_t low = 0, high = n;
+  while (low < high) {
+    const std::uint32_t middle = (low + high) / 2;
+    const Pair pair = pairs[middle].pair;
+    if (pair.a < wanted.a || (pair.a == wanted.a && pair.b < wanted.b))
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  const bool found = low < n && pairs[low].pair.a == wanted.a && pairs[low].pair.b == wanted.b;
+  return found ? &pairs[low].kept : nullptr;
 }
 
 }  // namespace plumb::impulse

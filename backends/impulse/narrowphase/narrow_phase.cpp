@@ -106,8 +106,15 @@ struct NumberRows {
   }
 };
 
+struct ForgetFound {
+  PairRange *ranges, *other_ranges;
+  const std::uint32_t* statics;
+  PLUMB_HD void operator()(std::uint32_t i) const { ranges[statics[i]] = other_ranges[statics[i]] = {0, 0}; }
+};
+
 struct Match {
   ContactCache cache, last;
+  const KeptPair* woken;
   Bodies bodies;
   Proxies proxies;
   const StepParameters* parameters;
@@ -131,7 +138,9 @@ struct Match {
     }
     const std::uint32_t step = parameters->step;
     const std::uint32_t old_row = a.born == step || b.born == step ? kNone : find_row(last, pair);
-    if (old_row != kNone) remember(last.kept[old_row], kept);
+    const CachedManifold* old = old_row != kNone ? &last.kept[old_row] : nullptr;
+    if (old == nullptr && woken != nullptr) old = find_kept(woken, parameters->woken_contacts, pair);
+    if (old != nullptr) remember(*old, kept);
     cache.kept[row] = kept;
     atomic_add(&counters->points, kept.count);
     if (kept.colour == kNone) return;
@@ -220,11 +229,25 @@ void NarrowPhase::bin(Executor& executor, const ContactCache& cache, const Proxi
   executor.run(kPairKinds + 1, FindKinds{sorted_kinds_.data(), counters, capacity_, first_.data()});
 }
 
-void NarrowPhase::match(Executor& executor, const ContactCache& cache, const ContactCache& last, const Bodies& bodies,
-                        const Proxies& proxies, const StepParameters* parameters, StepCounters* counters,
-                        std::uint64_t* masks) {
+void NarrowPhase::match(Executor& executor, const ContactCache& cache, const ContactCache& last, const KeptPair* woken,
+                        const Bodies& bodies, const Proxies& proxies, const StepParameters* parameters,
+                        StepCounters* counters, std::uint64_t* masks) {
   executor.run(Count{&counters->manifolds, capacity_},
-               Match{cache, last, bodies, proxies, parameters, counters, masks});
+               Match{cache, last, woken, bodies, proxies, parameters, counters, masks});
+}
+
+void NarrowPhase::forget_found(Executor& executor, const std::uint32_t* statics, std::uint32_t n) {
+  executor.run(n, ForgetFound{caches_[0].ranges.data(), caches_[1].ranges.data(), statics});
+}
+
+std::vector<KeptPair> NarrowPhase::kept(std::uint32_t parity, const StepCounters& counters) const {
+  const Storage& cache = caches_[parity % 2];
+  const std::vector<Pair> pairs = cache.pairs.to_host(counters.pairs);
+  const std::vector<std::uint32_t> candidate = cache.candidate.to_host(counters.manifolds);
+  const std::vector<CachedManifold> manifolds = cache.kept.to_host(counters.manifolds);
+  std::vector<KeptPair> rows(manifolds.size());
+  for (std::size_t row = 0; row < rows.size(); ++row) rows[row] = {pairs[candidate[row]], manifolds[row]};
+  return rows;
 }
 
 }  // namespace plumb::impulse

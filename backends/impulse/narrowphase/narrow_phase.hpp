@@ -17,6 +17,11 @@ class NarrowPhase {
   /// This step's contacts and the last one's, for a step of the given parity.
   [[nodiscard]] ContactCache cache(std::uint32_t parity) { return caches_[parity % 2].view(); }
 
+  /// These proxies found no pairs: they are statics now. What they found when they were not must not be looked at.
+  void forget_found(Executor& executor, const std::uint32_t* statics, std::uint32_t n);
+
+  /// Manifolds of a step, by row.
+  [[nodiscard]] std::vector<KeptPair> kept(std::uint32_t parity, const StepCounters& counters) const;
   [[nodiscard]] std::vector<Pair> candidates(std::uint32_t parity, std::uint32_t count) const {
     return caches_[parity % 2].pairs.to_host(count);
   }
@@ -26,9 +31,11 @@ class NarrowPhase {
   void collide(Executor& executor, const ContactCache& cache, const Bodies& bodies, const Proxies& proxies,
                const Real* margins, std::uint32_t shape_types, StepCounters* counters);
 
-  /// Gives each manifold the impulses of the points with the same feature in the last step, and its colour.
-  void match(Executor& executor, const ContactCache& cache, const ContactCache& last, const Bodies& bodies,
-             const Proxies& proxies, const StepParameters* parameters, StepCounters* counters, std::uint64_t* masks);
+  /// Gives each manifold the impulses of the points with the same feature in the last step, and its colour. woken: the
+  /// manifolds of those who slept in the last step (StepParameters::woken_contacts, ascending); null where nobody does.
+  void match(Executor& executor, const ContactCache& cache, const ContactCache& last, const KeptPair* woken,
+             const Bodies& bodies, const Proxies& proxies, const StepParameters* parameters, StepCounters* counters,
+             std::uint64_t* masks);
 
  private:
   struct Storage {

@@ -80,17 +80,24 @@ PlumbResult World::create_bodies(std::span<const PlumbBodyDesc> descs, std::span
     simulation_.proxies.edit(slot).shape = kNone;
   simulation_.set_body_count(slots);
   row_ids_.resize(slots);
-  for (std::size_t i = 0; i < descs.size(); ++i) make_body(descs[i], ids[i]);
+  Simulation::Slots sleepers;
+  for (std::size_t i = 0; i < descs.size(); ++i) {
+    make_body(descs[i], ids[i]);
+    if ((descs[i].flags & PLUMB_BODY_ASLEEP) != 0) sleepers.push_back(slot_of(ids[i]));
+  }
   ++row_generation_;
   simulation_.bodies_changed();
+  if (!sleepers.empty()) simulation_.put_to_sleep(sleepers);
   return PLUMB_OK;
 }
 
 PlumbResult World::destroy_bodies(std::span<const PlumbBody> ids) {
   if (init_.needs(PLUMB_NEED_EVENTS)) touches_.forget(ids, early_events_);
   if (init_.needs(PLUMB_NEED_CONTACTS)) records();  // while the bodies are where the step left them
+  wake_for_write(PLUMB_FIELD_POSE, ids);
   for (const PlumbBody id : ids) {
     const std::uint32_t slot = slot_of(id);
+    simulation_.forget(slot);
     if (bodies_[slot].motion == PLUMB_DYNAMIC) --dynamic_count_;
     bodies_[slot] = {};
     row_ids_[slot] = 0;
@@ -127,6 +134,7 @@ void World::make_body(const PlumbBodyDesc& desc, PlumbBody id) {
   if (desc.motion != PLUMB_STATIC) mass.flags |= kBodyMoves | kBodyTurns;
   if (dynamic) {
     mass.flags |= kBodyDynamic;
+    if ((desc.flags & PLUMB_BODY_NEVER_SLEEPS) != 0) mass.flags |= kBodyNeverSleeps;
     ++dynamic_count_;
     inverse_mass = static_cast<Real>(1 / desc.mass);
     frame.centre_of_mass = to_position(desc.centre_of_mass);
@@ -228,7 +236,7 @@ PlumbResult World::read(PlumbField field, std::span<const PlumbBody> ids, Rows r
   for (std::size_t i = 0; i < ids.size(); ++i) {
     const BodyRecord& body = bodies_[slot_of(ids[i])];
     switch (field) {
-      case PLUMB_FIELD_AWAKE: row[0] = 1; break;
+      case PLUMB_FIELD_AWAKE: row[0] = simulation_.sleeps(slot_of(ids[i])) ? 0 : 1; break;
       case PLUMB_FIELD_MATERIAL:
         row[0] = body.material.friction;
         row[1] = body.material.restitution;
@@ -253,6 +261,8 @@ PlumbResult World::read(PlumbField field, std::span<const PlumbBody> ids, Rows r
 PlumbResult World::write(PlumbField field, std::span<const PlumbBody> ids, ConstRows rows) {
   const FloatingPointScope scope;
   if (field == PLUMB_FIELD_POSE && init_.needs(PLUMB_NEED_CONTACTS)) records();  // they are told of by places
+  if (field == PLUMB_FIELD_AWAKE) return write_awake(ids, rows), PLUMB_OK;
+  wake_for_write(field, ids);
   fetch_for_write(field, ids);
   double row[16];
   for (std::size_t i = 0; i < ids.size(); ++i) {
@@ -322,7 +332,6 @@ void World::write_row(PlumbField field, std::uint32_t slot, const double* row) {
     case PLUMB_FIELD_IMPULSE: return kick(slot, v, {0, 0, 0});
     case PLUMB_FIELD_ANGULAR_IMPULSE: return kick(slot, {0, 0, 0}, v);
     case PLUMB_FIELD_IMPULSE_AT_POINT: return kick(slot, v, cross(arm(), v));
-    case PLUMB_FIELD_AWAKE: return;  // nothing sleeps
     case PLUMB_FIELD_KINEMATIC_TARGET:
       body.target = {{row[0], row[1], row[2]}, {row[3], row[4], row[5], row[6]}};
       body.to_target = true;

@@ -33,6 +33,7 @@ Fact need_fact(std::uint32_t index) {
     case PLUMB_NEED_GYROSCOPIC:
     case PLUMB_NEED_DAMPING:
     case PLUMB_NEED_FORCES:
+    case PLUMB_NEED_SLEEPING:
     case PLUMB_NEED_FILTERS: return kYes;
     default: return kNotYet;
   }
@@ -54,6 +55,16 @@ Fact phase_fact(std::uint32_t phase) {
   return {PLUMB_NATIVE, PhaseClock::kEvery == 1 ? "" : "of one step in sixteen"};
 }
 
+Fact event_fact(std::uint32_t event) {
+  switch (event) {
+    case PLUMB_EVENT_CONTACT_BEGIN:
+    case PLUMB_EVENT_CONTACT_END:
+    case PLUMB_EVENT_WAKE:
+    case PLUMB_EVENT_SLEEP: return kYes;
+    default: return kNotYet;
+  }
+}
+
 Fact fact(PlumbCapability kind, std::uint32_t a, std::uint32_t b) {
   switch (kind) {
     case PLUMB_CAP_SHAPE: return has_shape(a) && b < PLUMB_MOTION_COUNT ? kYes : kNotYet;
@@ -62,7 +73,7 @@ Fact fact(PlumbCapability kind, std::uint32_t a, std::uint32_t b) {
     case PLUMB_CAP_FIELD_WRITE: return field_fact(a, true);
     case PLUMB_CAP_NEED: return need_fact(a);
     case PLUMB_CAP_JOINT: return a <= PLUMB_JOINT_FIXED ? kYes : kNotYet;
-    case PLUMB_CAP_EVENT: return a <= PLUMB_EVENT_CONTACT_END ? kYes : kNotYet;
+    case PLUMB_CAP_EVENT: return event_fact(a);
     case PLUMB_CAP_PHASE_TIME: return phase_fact(a);
     case PLUMB_CAP_HOST_JOBS: return kYes;
     default: return kNotYet;

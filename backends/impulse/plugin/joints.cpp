@@ -68,12 +68,16 @@ PlumbResult World::create_joints(std::span<const PlumbJointDesc> descs, std::spa
     simulation_.joints.add(joint, desc.collide_connected != 0);
     if (slot >= joints_.size()) joints_.resize(slot + 1);
     joints_[slot] = desc;
+    wake_for_joint(desc);
   }
   return PLUMB_OK;
 }
 
 PlumbResult World::destroy_joints(std::span<const PlumbJoint> ids) {
-  for (const PlumbJoint id : ids) simulation_.joints.remove(slot_of(id));
+  for (const PlumbJoint id : ids) {
+    wake_for_joint(joints_[slot_of(id)]);
+    simulation_.joints.remove(slot_of(id));
+  }
   return PLUMB_OK;
 }
 

@@ -77,6 +77,10 @@ const std::vector<Row>& rows() {
              "slower impacts do not bounce"),
       number("warm_starting", flag, behaviour, 0, 1, 1, "", &S::warm_starting,
              "start from the impulses of the last step"),
+      number("sleep_speed", real, behaviour, 0, 1e6, 0.05, "m/s", &S::sleep_speed,
+             "a body with less kinetic energy than at this speed rests"),
+      number("sleep_time", real, behaviour, 0, 1e6, 0.5, "s", &S::sleep_time,
+             "an island whose bodies have all rested for so long falls asleep"),
   };
   return all;
 }
@@ -136,6 +140,8 @@ StepParameters Settings::parameters(double dt, double last_h, const PlumbVec3& g
   step.push_speed = static_cast<Real>(push_speed);
   step.joint_rate = joint_hertz > 0 ? step.joint.bias_rate : step.inverse_h;
   step.relaxes_once = relaxation != 0;
+  step.sleep_speed = static_cast<Real>(sleep_speed);
+  step.sleep_time = static_cast<Real>(sleep_time);
   step.restitution_speed = static_cast<Real>(restitution_speed);
   step.solver = static_cast<SolverKind>(solver);
   step.passes = static_cast<std::uint32_t>(iterations);

@@ -24,6 +24,8 @@ struct Settings {
   double push_speed = 0;
   double restitution_speed = 0;
   double warm_starting = 0;
+  double sleep_speed = 0;
+  double sleep_time = 0;
 
   [[nodiscard]] PlumbSettingValue get(const char* name) const;
   void set(const char* name, const PlumbSettingValue& value);

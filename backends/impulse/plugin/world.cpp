@@ -14,7 +14,8 @@ SolverFeatures features_of(const WorldInit& init) {
           init.needs(PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION),
           init.needs(PLUMB_NEED_COLLISION | PLUMB_NEED_RESTITUTION),
           init.needs(PLUMB_NEED_ROTATION | PLUMB_NEED_GYROSCOPIC),
-          init.needs(PLUMB_NEED_CONTACT_IMPULSES)};
+          init.needs(PLUMB_NEED_CONTACT_IMPULSES),
+          init.needs(PLUMB_NEED_SLEEPING)};
 }
 
 PlumbVec3 plumb_vec(const Position& p) { return {p.x, p.y, p.z}; }
@@ -27,7 +28,11 @@ World::World(const WorldInit& init)
   if (init.desc.body_capacity != 0) simulation_.reserve_bodies(init.desc.body_capacity);
 }
 
-PlumbResult World::set_gravity(const PlumbVec3& gravity) { return gravity_ = gravity, PLUMB_OK; }
+PlumbResult World::set_gravity(const PlumbVec3& gravity) {
+  gravity_ = gravity;
+  tell(PLUMB_EVENT_WAKE, simulation_.wake_all(), early_events_);
+  return PLUMB_OK;
+}
 
 PlumbResult World::step(double dt) {
   const FloatingPointScope scope;
@@ -46,19 +51,22 @@ PlumbResult World::wait(PlumbStepReport& report) {
   clear_forces();
   events_.swap(early_events_);
   early_events_.clear();
+  tell(PLUMB_EVENT_WAKE, simulation_.woken(), events_);
+  tell(PLUMB_EVENT_SLEEP, simulation_.fallen_asleep(), events_);
   if (init_.needs(PLUMB_NEED_EVENTS)) find_events();
   const StepCounters& counters = simulation_.counters();
   report.threads = simulation_.executor().threads();
   report.pairs = counters.pairs;
   report.contacts = counters.points;
   report.dropped = 0;
-  report.awake = dynamic_count_;  // nothing sleeps
+  report.awake = dynamic_count_ - simulation_.sleeper_count();
   report.nonfinite = counters.nonfinite + stopped_;
   for (PlumbPhase phase = 0; phase < PLUMB_PHASE_COUNT; ++phase)
     report.phase_seconds[phase] = simulation_.phase_seconds(phase);
   stopped_ = 0;
-  if (simulation_.repeated()) report.remarks |= PLUMB_REMARK_STEP_REPEATED | PLUMB_REMARK_CAPACITY_GREW;
-  return simulation_.repeated() ? PLUMB_GROWN : PLUMB_OK;
+  if (simulation_.repeated()) report.remarks |= PLUMB_REMARK_STEP_REPEATED;
+  if (simulation_.grew()) report.remarks |= PLUMB_REMARK_CAPACITY_GREW;
+  return simulation_.grew() ? PLUMB_GROWN : PLUMB_OK;
 }
 
 /// A kinematic body that is sent somewhere gets the velocity that leads there in one step; one that has arrived rests.

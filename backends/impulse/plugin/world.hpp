@@ -71,6 +71,10 @@ class World final : public IPhysicsWorld, public IJoints, public IDebug, public 
   void settle_kinematics();
   void clear_forces();
   void find_events();
+  void tell(PlumbEventType type, const Simulation::Slots& bodies, std::vector<PlumbEvent>& events);
+  void wake_for_write(PlumbField field, std::span<const PlumbBody> ids);
+  void wake_for_joint(const PlumbJointDesc& desc);
+  void write_awake(std::span<const PlumbBody> ids, ConstRows rows);
   const std::vector<ContactRecord>& records();
 
   WorldInit init_;

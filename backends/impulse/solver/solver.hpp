@@ -18,7 +18,7 @@ namespace plumb::impulse {
 
 /// What the scene asks for; the rest is left out.
 struct SolverFeatures {
-  bool rotation, collision, friction, restitution, gyroscopic, contact_impulses;
+  bool rotation, collision, friction, restitution, gyroscopic, contact_impulses, sleeping = false;
 };
 
 class Solver {

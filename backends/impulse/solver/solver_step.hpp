@@ -21,8 +21,8 @@ struct SolverStep {
   std::uint32_t pair_capacity;
   JointSet joints;
 
-  /// There was too little room for the pairs: nothing may be done, the step comes again with more.
-  PLUMB_DEVICE bool must_repeat() const { return counters->pairs > pair_capacity; }
+  /// Nothing may be done.
+  PLUMB_DEVICE bool must_repeat() const { return is_undone(*counters, pair_capacity); }
 
   PLUMB_DEVICE void bounce(Team& team, Real slowest) const {
     const bool friction = features.friction;

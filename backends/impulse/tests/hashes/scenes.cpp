@@ -177,6 +177,22 @@ void meddling(Scene& scene) {
   scene.before_step = meddler;
 }
 
+/// Towers that fall asleep, and are struck, pushed, undermined and woken.
+void sleepers(Scene& scene) {
+  scene.ground();
+  const PlumbShape cube = scene.box({0.5, 0.5, 0.5}), ball = scene.sphere(0.6);
+  std::vector<PlumbBody> cubes;
+  for (int i = 0; i < 48; ++i) cubes.push_back(scene.add(cube, {3.0 * (i % 4), 0.5 + i / 12, 3.0 * (i / 4 % 3)}));
+  const PlumbBody pusher = scene.add_kinematic(scene.box({0.25, 0.5, 0.5}), {-2, 0.6, 6});
+  scene.before_step = [=](Scene& all, int step) {
+    if (step == 80) all.add(ball, {0.2, 7, 0.1});
+    if (step == 120) all.remove(cubes[1]);
+    if (step == 150) all.write(PLUMB_FIELD_AWAKE, cubes[14], {1});
+    if (step >= 160 && step < 220) all.target(pusher, {-2 + 0.025 * (step - 160), 0.6, 6});
+    if (step == 200) all.write(PLUMB_FIELD_IMPULSE, cubes[47], {900, 0, 100});
+  };
+}
+
 bool has(const Backend& backend, const Choice& wanted) {
   for (const PlumbSettingInfo* info : backend.settings())
     for (std::uint32_t i = 0; std::string_view(info->name) == wanted.setting && i < info->choice_count; ++i)
@@ -206,6 +222,11 @@ const std::vector<NamedScene>& named_scenes() {
       {"dominoes", {}, kAll, kDown, &dominoes},
       {"chain", {}, kAll | PLUMB_NEED_JOINTS, kDown, &chain},
       {"meddling", {}, kAll | kMeddlingNeeds, kDown, &meddling},
+      {"sleepers",
+       {},
+       kContactNeeds | PLUMB_NEED_KINEMATIC | PLUMB_NEED_FORCES | PLUMB_NEED_SLEEPING,
+       kDown,
+       &sleepers},
       {"pyramid-10-si", {"solver", "si"}, kContactNeeds, kDown, &pyramid_10},
       {"pyramid-10-jacobi", {"solver", "jacobi"}, kContactNeeds, kDown, &pyramid_10},
       {"pyramid-10-xpbd", {"solver", "xpbd"}, kContactNeeds, kDown, &pyramid_10},

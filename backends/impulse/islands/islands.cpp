@@ -1,0 +1,124 @@
+#include "islands/islands.hpp"
+
+#include "exec/atomic.hpp"
+
+namespace plumb::impulse {
+
+namespace {
+
+PLUMB_HD inline bool is_pushed(const Bodies& bodies, std::uint32_t body) {
+  return bodies.velocity[body].inverse_mass > 0;
+}
+PLUMB_HD inline bool moves(const Velocity& velocity) {
+  return length_squared(velocity.linear) > 0 || length_squared(velocity.angular) > 0;
+}
+
+struct Graph {
+  Bodies bodies;
+  std::uint32_t *parent, *restless;
+
+  /// Two bodies touch or are joined. What moves by itself lets nobody rest.
+  PLUMB_HD void join(std::uint32_t a, std::uint32_t b) const {
+    const bool push_a = is_pushed(bodies, a), push_b = is_pushed(bodies, b);
+    if (push_a && push_b) return unite(a, b);
+    if (push_a && moves(bodies.velocity[b])) restless_because_of(a);
+    if (push_b && moves(bodies.velocity[a])) restless_because_of(b);
+  }
+
+ private:
+  PLUMB_HD void restless_because_of(std::uint32_t body) const { atomic_or(&restless[body], 1U); }
+
+  /// Hooks the larger below the smaller. Where the larger was hooked already, to another, the two are still to be
+  /// united.
+  PLUMB_HD void unite(std::uint32_t a, std::uint32_t b) const {
+    while (a != b) {
+      const std::uint32_t larger = max(a, b), smaller = min(a, b);
+      const std::uint32_t before = atomic_min(&parent[larger], smaller);
+      if (before == larger) return;
+      a = before;
+      b = smaller;
+    }
+  }
+};
+
+struct Alone {
+  std::uint32_t *parent, *restless, *awake, *count;
+  PLUMB_HD void operator()(std::uint32_t i) const {
+    parent[i] = i;
+    restless[i] = awake[i] = 0;
+    if (i == 0) *count = 0;
+  }
+};
+
+struct JoinTouching {
+  Graph graph;
+  ContactCache cache;
+  Proxies proxies;
+  PLUMB_HD void operator()(std::uint32_t row) const {
+    const Pair pair = cache.pairs[cache.candidate[row]];
+    graph.join(proxies.rows[pair.a].body, proxies.rows[pair.b].body);
+  }
+};
+
+struct JoinJointed {
+  Graph graph;
+  JointEdges edges;
+  PLUMB_HD void operator()(std::uint32_t j) const {
+    const Joint& joint = edges.joints[j];
+    if (joint.body_a != kWorld) graph.join(joint.body_a, joint.body_b);
+  }
+};
+
+struct FindRoot {
+  const std::uint32_t* parent;
+  std::uint32_t* root;
+  PLUMB_HD void operator()(std::uint32_t i) const {
+    std::uint32_t at = i;
+    while (parent[at] != at) at = parent[at];
+    root[i] = at;
+  }
+};
+
+struct KeepAwake {
+  Bodies bodies;
+  const Real* rest;
+  Real time;
+  const std::uint32_t *root, *restless;
+  std::uint32_t* awake;
+  PLUMB_HD void operator()(std::uint32_t i) const {
+    if (is_pushed(bodies, i) && (rest[i] < time || restless[i] != 0)) atomic_or(&awake[root[i]], 1U);
+  }
+};
+
+struct ListResting {
+  Bodies bodies;
+  const std::uint32_t *root, *awake;
+  std::uint32_t *resting, *count;
+  PLUMB_HD void operator()(std::uint32_t i) const {
+    const bool rests = is_pushed(bodies, i) && awake[root[i]] == 0;
+    resting[i] = rests ? root[i] + 1 : 0;
+    if (rests) atomic_add(count, 1U);
+  }
+};
+
+}  // namespace
+
+void Islands::reserve(std::uint32_t bodies) {
+  for (Buffer<std::uint32_t>* buffer : {&parent_, &root_, &restless_, &awake_, &resting_}) buffer->grow(bodies);
+  count_.grow(1);
+}
+
+void Islands::find_resting(Executor& executor, const ContactCache& cache, std::uint32_t manifolds,
+                           const JointEdges& joints, const Bodies& bodies, const Proxies& proxies,
+                           std::uint32_t body_count, const Real* rest, Real time) {
+  executor.run(body_count, Alone{parent_.data(), restless_.data(), awake_.data(), count_.device()});
+  const Graph graph = {bodies, parent_.data(), restless_.data()};
+  executor.run(manifolds, JoinTouching{graph, cache, proxies});
+  executor.run(joints.count, JoinJointed{graph, joints});
+  executor.run(body_count, FindRoot{parent_.data(), root_.data()});
+  executor.run(body_count, KeepAwake{bodies, rest, time, root_.data(), restless_.data(), awake_.data()});
+  executor.run(body_count, ListResting{bodies, root_.data(), awake_.data(), resting_.data(), count_.device()});
+  executor.to_host(count_, 1);
+}
+
+}  // namespace plumb::impulse

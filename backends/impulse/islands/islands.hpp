@@ -1,0 +1,44 @@
+// Islands: what contacts and joints join, over bodies that can be pushed. Found where kernels run.
+//
+// Components of a graph by union-find without locks, an edge a thread: a root is hooked below a smaller one, so the
+// root of a component is its smallest body, whatever the order of the threads (Jayanti and Tarjan, "A randomized
+// concurrent algorithm for disjoint set union", PODC 2016, with indices for random numbers).
+#pragma once
+
+#include "body.hpp"
+#include "constraints/joint.hpp"
+#include "exec/executor.hpp"
+#include "exec/memory.hpp"
+#include "narrowphase/contact_cache.hpp"
+
+namespace plumb::impulse {
+
+/// Joints as edges.
+struct JointEdges {
+  const Joint* joints;
+  std::uint32_t count;
+};
+
+class Islands {
+ public:
+  void reserve(std::uint32_t bodies);
+
+  /// Enqueues the search for islands all of whose bodies have rested for at least `time` seconds, and which nothing
+  /// that moves by itself touches. rest: by body, s. Only between steps.
+  void find_resting(Executor& executor, const ContactCache& cache, std::uint32_t manifolds, const JointEdges& joints,
+                    const Bodies& bodies, const Proxies& proxies, std::uint32_t body_count, const Real* rest,
+                    Real time);
+
+  /// Of the last search, when it is done: how many bodies such islands have.
+  [[nodiscard]] std::uint32_t resting_count() const { return *count_.host(); }
+  /// By body: 1 + the smallest body of its island; 0 where it is not of such an island.
+  [[nodiscard]] std::vector<std::uint32_t> resting(std::uint32_t body_count) const {
+    return resting_.to_host(body_count);
+  }
+
+ private:
+  Buffer<std::uint32_t> parent_, root_, restless_, awake_, resting_;
+  Mirror<std::uint32_t> count_;
+};
+
+}  // namespace plumb::impulse
