@@ -128,6 +128,16 @@ void BodyState::fetch_all() {
   stale_ = false;
 }
 
+void BodyState::exchange(Archive& archive, std::size_t rows) {
+  fetch_all();
+  archive.items(position.host(), rows);
+  archive.items(orientation.host(), rows);
+  archive.items(velocity.host(), rows);
+  if (!archive.reads()) return;
+  ++version_;
+  whole_ = !kOneMemory;
+}
+
 void BodyState::stepped() {
   ++version_;
   ++epoch_;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "body.hpp"
+#include "exec/archive.hpp"
 #include "exec/executor.hpp"
 #include "exec/memory.hpp"
 
@@ -45,6 +46,9 @@ class BodyState {
   void fetch_all();
   /// Whether the host's rows are right, all of them.
   [[nodiscard]] bool on_host() const { return kOneMemory || !stale_; }
+
+  /// The first rows, to or from a snapshot.
+  void exchange(Archive& archive, std::size_t rows);
 
   /// A step was enqueued, which moves the bodies.
   void stepped();

@@ -23,6 +23,7 @@ constexpr std::uint32_t kOriginSamples = 256;
 Simulation::Simulation(const PlumbHost* host, std::uint32_t threads, const SolverFeatures& features)
     : executor_(host, threads), state(executor_), features_(features), solver_(features) {
   parameters_.grow(1);
+  statics_parameters_.grow(1);
   counters_.grow(1);
   reserve_bodies(64);
   reserve_shapes(16);
@@ -77,6 +78,7 @@ Proxies Simulation::proxy_view() { return {proxies.device(), shapes.device(), hu
 /// Bounds are floats from a place near the bodies, so that they are as sharp far from the world's origin as near it.
 /// That place is the median of some of them: one body that was lost far out does not move it.
 void Simulation::find_origin() {
+  origin_dirty_ = false;
   if (mover_count_ == 0) return;
   std::vector<std::uint32_t> some;
   for (std::uint32_t i = 0; i < mover_count_; i += mover_count_ / kOriginSamples + 1)
@@ -106,7 +108,7 @@ void Simulation::list_bodies() {
   executor_.to_device(movers_, mover_count_);
   executor_.to_device(statics_, static_count_);
   narrow_phase_.forget_found(executor_, statics_.device(), static_count_);
-  find_origin();
+  if (origin_dirty_) find_origin();
   statics_dirty_ = true;
   bodies_dirty_ = false;
 }
@@ -132,7 +134,10 @@ void Simulation::upload_changes() {
   parameters_[0].origin = origin_;
   executor_.to_device(parameters_, 1);
   if (statics_dirty_) {
-    executor_.run(static_count_, BoundProxies{bodies(), proxy_view(), parameters_.device(), statics_.device(),
+    if (!bound_again_) statics_parameters_[0] = parameters_[0];
+    bound_again_ = false;
+    executor_.to_device(statics_parameters_, 1);
+    executor_.run(static_count_, BoundProxies{bodies(), proxy_view(), statics_parameters_.device(), statics_.device(),
                                               boxes_.data(), margins_.data()});
     broad_phase_.build_statics(executor_, boxes_.data(), statics_.device(), static_count_);
     statics_dirty_ = false;
@@ -169,6 +174,7 @@ void Simulation::launch() {
 void Simulation::run_step() {
   executor_.record(recordings_[PhaseClock::measures(step_) ? 1 : 0][step_ % 2], [this] { enqueue(); });
   state.stepped();
+  restored_ = false;
   if (poses_.in_step()) poses_.written(state.version());
   if (velocities_.in_step()) velocities_.written(state.version());
 }
@@ -241,6 +247,25 @@ double Simulation::phase_seconds(PlumbPhase phase) const {
   return told && PhaseClock::measures(step_) ? phases_.seconds(phase) : std::numeric_limits<double>::quiet_NaN();
 }
 
+void Simulation::exchange(Archive& archive) {
+  archive.value(step_);
+  archive.value(origin_);
+  archive.value(origin_dirty_);
+  archive.value(statics_parameters_[0]);
+  bool statics_dirty = statics_dirty_;
+  archive.value(statics_dirty);
+  archive.value(*counters_.host());
+  if (counters().pairs > pair_capacity_) reserve_pairs(counters().pairs);
+  state.exchange(archive, body_count_);
+  narrow_phase_.exchange(archive, step_, static_cast<std::uint32_t>(state.size()), counters());
+  joints.exchange(archive);
+  if (features_.sleeping) sleep_.exchange(archive, body_count_, mass);
+  if (!archive.reads()) return;
+  bodies_dirty_ = restored_ = true;
+  bound_again_ = !statics_dirty && !origin_dirty_;
+  forget_recordings();
+}
+
 std::vector<ContactRecord> Simulation::contacts() {
   std::vector<ContactRecord> all = contacts_of_step();
   sleep_.for_records(step_, [&](const ContactRecord& record) { all.push_back(record); });
@@ -249,7 +274,7 @@ std::vector<ContactRecord> Simulation::contacts() {
 
 std::vector<ContactRecord> Simulation::contacts_of_step() {
   const std::uint32_t count = counters().manifolds;
-  if (count == 0) return {};
+  if (count == 0 || restored_) return {};
   records_.grow(count);
   executor_.run(count, DescribeContacts{narrow_phase_.cache(step_), bodies(), proxy_view(), solver_.displacements(),
                                         solver_.step_impulses(), records_.data()});

@@ -52,8 +52,12 @@ class Simulation {
   void set_body_count(std::uint32_t slots) { body_count_ = slots; }
   [[nodiscard]] std::uint32_t body_count() const { return body_count_; }
 
-  void bodies_changed() { bodies_dirty_ = true; }    ///< made, gone
-  void statics_changed() { statics_dirty_ = true; }  ///< bodies that do not move: placed elsewhere
+  void bodies_changed() { bodies_dirty_ = origin_dirty_ = true; }  ///< made, gone
+  void statics_changed() { statics_dirty_ = true; }                ///< bodies that do not move: placed elsewhere
+
+  /// All that the steps to come depend on and that steps change, to or from a snapshot. The same bodies, joints and
+  /// shapes must be there.
+  void exchange(Archive& archive);
 
   // --- sleep, between steps; body slots. What wakes or falls asleep is told by its slots. ---
   [[nodiscard]] bool sleeps(std::uint32_t body) const { return sleep_.sleeps(body); }
@@ -126,13 +130,16 @@ class Simulation {
 
   SolverFeatures features_;
   std::uint32_t body_count_ = 0, step_ = 0, pair_capacity_ = 0;
-  bool bodies_dirty_ = true, statics_dirty_ = true, repeated_ = false, grew_ = false;
+  bool bodies_dirty_ = true, origin_dirty_ = true, statics_dirty_ = true, repeated_ = false, grew_ = false;
   Position origin_{0, 0, 0};
 
   Mirror<std::uint32_t> movers_, statics_;
   std::uint32_t mover_count_ = 0, static_count_ = 0;
   std::uint32_t shape_types_ = 0;  // a bit for each ShapeType in the world
   Mirror<StepParameters> parameters_;
+  Mirror<StepParameters> statics_parameters_;  // with which the statics were bounded
+  bool bound_again_ = false;                   // the statics, as they were: with the same parameters
+  bool restored_ = false;                      // since the last step: what it found is not known
   Mirror<StepCounters> counters_;
   Buffer<Box> boxes_;     // by proxy
   Buffer<Real> margins_;  // by proxy

@@ -97,6 +97,7 @@ void Simulation::fall_asleep(const Slots& island) {
 
 /// Contacts of the last step of which neither body moves any more: no step will find them until somebody wakes.
 void Simulation::put_contacts_aside() {
+  if (restored_) return;
   const std::vector<KeptPair> kept = narrow_phase_.kept(step_, counters());
   const std::vector<ContactRecord> records = contacts_of_step();
   const auto stays = [&](std::uint32_t index) {

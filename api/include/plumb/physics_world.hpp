@@ -167,6 +167,8 @@ class ISnapshot {
   /// The bytes live until the next call on the world.
   virtual PlumbResult save(std::span<const std::byte>& data) = 0;
   virtual PlumbResult restore(std::span<const std::byte> data) = 0;
+  /// Backends with the same name of a format read each other's snapshots; "" is the format of this build alone.
+  [[nodiscard]] virtual std::string_view format() const { return {}; }
 };
 
 /// plumb.state/1

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "exec/archive.hpp"
 #include "exec/memory.hpp"
 #include "exec/table.hpp"
 #include "solver/joint_loops.hpp"
@@ -15,6 +16,12 @@ class JointStore {
   /// joint.slot numbers it among the living.
   void add(const Joint& joint, bool lets_bodies_touch);
   void remove(std::uint32_t slot);
+  /// What the next step remembers of the last one, to or from a snapshot.
+  void exchange(Archive& archive) {
+    if (changed_) impulses_.grow(rows_.size());
+    archive.rows(impulses_, rows_.size());
+    changed_ = changed_ || archive.reads();
+  }
   /// Bodies can be pushed, or cannot any more, who may have joints.
   void bodies_changed() { changed_ = changed_ || !rows_.empty(); }
   /// f(body_a, body_b) for every joint there is; body_a may be kWorld.

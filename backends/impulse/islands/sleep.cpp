@@ -151,6 +151,27 @@ void Sleep::forget(std::uint32_t body) {
                   [=](const ContactAside& contact) { return contact.body_a == body || contact.body_b == body; });
 }
 
+void Sleep::exchange(Archive& archive, std::uint32_t bodies, Table<BodyMass>& mass) {
+  if (archive.reads())
+    for (std::uint32_t body = 0; body < bodies; ++body)
+      if (sleeps(body)) mass.edit(body).flags = was_[body].flags;
+  archive.items(was_.data(), bodies);
+  archive.rows(rest_, bodies);
+  archive.list(aside_);
+  archive.list(woken_);
+  if (!archive.reads()) return;
+  count_ = 0;
+  made_of_.clear();
+  for (std::uint32_t body = 0; body < bodies; ++body) {
+    island_of_[body] = was_[body].island;
+    if (!sleeps(body)) continue;
+    mass.edit(body).flags &= ~static_cast<std::uint32_t>(kBodyDynamic | kBodyMoves);
+    made_of_[was_[body].island].push_back(body);
+    ++count_;
+  }
+  islands_changed_ = true;
+}
+
 void Sleep::upload(Executor& executor) {
   if (islands_changed_) executor.to_device(island_of_, island_of_.size());
   islands_changed_ = false;

@@ -15,6 +15,7 @@
 
 #include "body_state.hpp"
 #include "contact_record.hpp"
+#include "exec/archive.hpp"
 #include "exec/table.hpp"
 #include "islands/islands.hpp"
 #include "step_counters.hpp"
@@ -76,6 +77,8 @@ class Sleep {
   void upload(Executor& executor);
   [[nodiscard]] std::uint32_t woken_count() const { return static_cast<std::uint32_t>(woken_.size()); }
   [[nodiscard]] const KeptPair* woken_pairs() { return woken_pairs_.device(); }
+  /// Who sleeps and what is kept of them, to or from a snapshot.
+  void exchange(Archive& archive, std::uint32_t bodies, Table<BodyMass>& mass);
   /// A step was done: they have their place in it.
   void stepped() { woken_.clear(); }
 

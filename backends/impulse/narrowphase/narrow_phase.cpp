@@ -240,6 +240,16 @@ void NarrowPhase::forget_found(Executor& executor, const std::uint32_t* statics,
   executor.run(n, ForgetFound{caches_[0].ranges.data(), caches_[1].ranges.data(), statics});
 }
 
+void NarrowPhase::exchange(Archive& archive, std::uint32_t parity, std::uint32_t proxies,
+                           const StepCounters& counters) {
+  Storage& cache = caches_[parity % 2];
+  archive.rows(cache.pairs, counters.pairs);
+  archive.rows(cache.ranges, proxies);
+  archive.rows(cache.touching, counters.pairs);
+  archive.rows(cache.row, counters.pairs);
+  archive.rows(cache.kept, counters.manifolds);
+}
+
 std::vector<KeptPair> NarrowPhase::kept(std::uint32_t parity, const StepCounters& counters) const {
   const Storage& cache = caches_[parity % 2];
   const std::vector<Pair> pairs = cache.pairs.to_host(counters.pairs);

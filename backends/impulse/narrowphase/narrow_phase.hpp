@@ -2,6 +2,7 @@
 #pragma once
 
 #include "body.hpp"
+#include "exec/archive.hpp"
 #include "exec/sort.hpp"
 #include "narrowphase/contact_cache.hpp"
 #include "step_counters.hpp"
@@ -20,6 +21,8 @@ class NarrowPhase {
   /// These proxies found no pairs: they are statics now. What they found when they were not must not be looked at.
   void forget_found(Executor& executor, const std::uint32_t* statics, std::uint32_t n);
 
+  /// What the next step remembers of a step, to or from a snapshot.
+  void exchange(Archive& archive, std::uint32_t parity, std::uint32_t proxies, const StepCounters& counters);
   /// Manifolds of a step, by row.
   [[nodiscard]] std::vector<KeptPair> kept(std::uint32_t parity, const StepCounters& counters) const;
   [[nodiscard]] std::vector<Pair> candidates(std::uint32_t parity, std::uint32_t count) const {

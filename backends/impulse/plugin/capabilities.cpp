@@ -34,7 +34,8 @@ Fact need_fact(std::uint32_t index) {
     case PLUMB_NEED_DAMPING:
     case PLUMB_NEED_FORCES:
     case PLUMB_NEED_SLEEPING:
-    case PLUMB_NEED_FILTERS: return kYes;
+    case PLUMB_NEED_FILTERS:
+    case PLUMB_NEED_SNAPSHOT: return kYes;
     default: return kNotYet;
   }
 }
@@ -75,6 +76,7 @@ Fact fact(PlumbCapability kind, std::uint32_t a, std::uint32_t b) {
     case PLUMB_CAP_JOINT: return a <= PLUMB_JOINT_FIXED ? kYes : kNotYet;
     case PLUMB_CAP_EVENT: return event_fact(a);
     case PLUMB_CAP_PHASE_TIME: return phase_fact(a);
+    case PLUMB_CAP_SNAPSHOT:
     case PLUMB_CAP_HOST_JOBS: return kYes;
     default: return kNotYet;
   }

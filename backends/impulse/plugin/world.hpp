@@ -13,7 +13,12 @@
 
 namespace plumb::impulse {
 
-class World final : public IPhysicsWorld, public IJoints, public IDebug, public ISettings, public IState {
+class World final : public IPhysicsWorld,
+                    public IJoints,
+                    public IDebug,
+                    public ISettings,
+                    public ISnapshot,
+                    public IState {
  public:
   explicit World(const WorldInit& init);
 
@@ -42,6 +47,7 @@ class World final : public IPhysicsWorld, public IJoints, public IDebug, public 
   IJoints* joints() override { return this; }
   IDebug* debug() override { return this; }
   ISettings* settings() override { return this; }
+  ISnapshot* snapshot() override { return this; }
   IState* state() override { return this; }
 
  private:
@@ -54,9 +60,13 @@ class World final : public IPhysicsWorld, public IJoints, public IDebug, public 
   PlumbResult separating_axes(std::span<const PlumbDebugAxis>& axes) override;
   PlumbResult get_setting(const char* name, PlumbSettingValue& value) override;
   PlumbResult set_setting(const char* name, const PlumbSettingValue& value) override;
+  PlumbResult save(std::span<const std::byte>& data) override;
+  PlumbResult restore(std::span<const std::byte> data) override;
+  std::string_view format() const override;
   PlumbResult borrow(const PlumbStateRequest& request, PlumbDLManagedTensor*& tensor, PlumbFence* fence) override;
   PlumbResult row_map(std::span<const PlumbBody>& ids, std::uint64_t& generation) override;
 
+  void exchange(Archive& archive);
   void make_body(const PlumbBodyDesc& desc, PlumbBody id);
   void place(std::uint32_t slot, const PlumbPose& pose);
   [[nodiscard]] PlumbPose pose(std::uint32_t slot) const;
@@ -92,6 +102,7 @@ class World final : public IPhysicsWorld, public IJoints, public IDebug, public 
   std::vector<PlumbContact> contacts_;
   std::vector<PlumbEvent> events_, early_events_;
   std::vector<PlumbDebugPair> debug_pairs_;
+  std::vector<std::byte> snapshot_;
   std::vector<PlumbBody> row_ids_;    // by slot; 0 where nobody is
   std::uint64_t row_generation_ = 0;  // changes with them
   backend::TouchTracker touches_;

@@ -200,7 +200,7 @@ class GuardedExtensions : public GuardedWorld {
     std::span<const std::byte> payload;
     const PlumbResult result = extension.save(payload);
     const std::vector<std::byte> framed =
-        frame_snapshot(payload, facts_.info->build, bodies_.in_order(), joints_.in_order());
+        frame_snapshot(payload, format_of(extension), bodies_.in_order(), joints_.in_order());
     *size = framed.size();
     if (capacity < framed.size()) return PLUMB_TRUNCATED;
     require_pointer(data, capacity, "data");
@@ -208,11 +208,16 @@ class GuardedExtensions : public GuardedWorld {
     return result;
   }
 
+  [[nodiscard]] std::string_view format_of(const ISnapshot& extension) const {
+    const std::string_view format = extension.format();
+    return format.empty() ? facts_.info->build : format;
+  }
+
   PlumbResult restore(const void* data, std::size_t size) {
     ISnapshot& extension = require_snapshot();
     require_pointer(data, size, "data");
     const std::span<const std::byte> framed(static_cast<const std::byte*>(data), size);
-    return extension.restore(unframe_snapshot(framed, facts_.info->build, bodies_.in_order(), joints_.in_order()));
+    return extension.restore(unframe_snapshot(framed, format_of(extension), bodies_.in_order(), joints_.in_order()));
   }
 
   PlumbResult hash(std::uint64_t* value) {

@@ -60,14 +60,16 @@ class TouchTracker {
     std::erase_if(before_, gone);
   }
 
- private:
   struct Pair {
     PlumbBody a, b;
     bool sensor;
     friend bool operator==(const Pair&, const Pair&) = default;
     friend auto operator<=>(const Pair&, const Pair&) = default;
   };
+  /// Who touched in the step before, for snapshots.
+  [[nodiscard]] std::vector<Pair>& touching() { return before_; }
 
+ private:
   static PlumbEvent event(const Pair& pair, bool begins) {
     const PlumbEventType type = pair.sensor ? (begins ? PLUMB_EVENT_SENSOR_ENTER : PLUMB_EVENT_SENSOR_LEAVE)
                                             : (begins ? PLUMB_EVENT_CONTACT_BEGIN : PLUMB_EVENT_CONTACT_END);
