@@ -36,8 +36,17 @@ enum BodyFlag : std::uint32_t {
   kBodyTurns = 1u << 1,       ///< has inertia: its orientation changes
   kBodyGyroscopic = 1u << 2,  ///< turns, and its principal moments differ: a free one tumbles
   kBodyMoves = 1u << 3,       ///< dynamic or kinematic
-  kBodyNeverSleeps = 1u << 4
+  kBodyNeverSleeps = 1u << 4,
+  kBodyLocked = 1u << 5,  ///< some of the locks are set
+  kLockLinear = 1u << 6,  ///< along x; y and z follow
+  kLockAngular = 1u << 9  ///< about x; y and z follow
 };
+
+/// What is left of a vector without its components along locked axes; first: the flag of x.
+PLUMB_HD inline Vec unlocked(std::uint32_t flags, std::uint32_t first, const Vec& v) {
+  return {(flags & first) != 0 ? Real(0) : v.x, (flags & first << 1) != 0 ? Real(0) : v.y,
+          (flags & first << 2) != 0 ? Real(0) : v.z};
+}
 
 /// What is given once for a body.
 struct BodyMass {

@@ -6,6 +6,7 @@
 #include "exec/floating_point.hpp"
 #include "plugin/ranges.hpp"
 #include "plugin/world.hpp"
+#include "solver/motion.hpp"
 
 namespace plumb::impulse {
 
@@ -138,13 +139,14 @@ void World::make_body(const PlumbBodyDesc& desc, PlumbBody id) {
     ++dynamic_count_;
     inverse_mass = static_cast<Real>(1 / desc.mass);
     frame.centre_of_mass = to_position(desc.centre_of_mass);
+    if (desc.locks != 0) mass.flags |= kBodyLocked | desc.locks * kLockLinear;
     const bool turns = (desc.flags & PLUMB_BODY_NO_ROTATION) == 0 && init_.needs(PLUMB_NEED_ROTATION);
     if (turns) {
       mass.inertia = to_vec(desc.inertia);
       const auto inverse = [](double moment) { return moment > 0 ? static_cast<Real>(1 / moment) : Real(0); };
       mass.inverse_inertia = {inverse(desc.inertia.x), inverse(desc.inertia.y), inverse(desc.inertia.z)};
       if (!is_isotropic(desc.inertia)) {
-        mass.flags |= kBodyGyroscopic;
+        if ((desc.locks >> 3) == 0) mass.flags |= kBodyGyroscopic;  // whoever is held does not tumble
         frame.principal = to_double(desc.inertia_orientation);
       }
     } else {
@@ -157,6 +159,7 @@ void World::make_body(const PlumbBodyDesc& desc, PlumbBody id) {
   velocity.inverse_mass = inverse_mass;
   velocity.linear = desc.motion == PLUMB_STATIC ? Vec{0, 0, 0} : to_vec(desc.linear_velocity);
   velocity.angular = (mass.flags & kBodyTurns) != 0 ? to_vec(desc.angular_velocity) : Vec{0, 0, 0};
+  hold_locked(slot);
   stop_infinite(slot);
   simulation_.state.touch(slot, kVelocityPart);
   simulation_.force.edit(slot) = {};
@@ -289,6 +292,13 @@ void World::stop_infinite(std::uint32_t slot) {
   ++stopped_;
 }
 
+void World::hold_locked(std::uint32_t slot) {
+  const std::uint32_t flags = simulation_.mass[slot].flags;
+  Velocity& velocity = simulation_.state.velocity[slot];
+  velocity.linear = unlocked(flags, kLockLinear, velocity.linear);
+  velocity.angular = unlocked(flags, kLockAngular, velocity.angular);
+}
+
 void World::push(std::uint32_t slot, const Vec& force, const Vec& torque) {
   BodyForce& all = simulation_.force.edit(slot);
   all.force += force;
@@ -303,8 +313,9 @@ void World::push(std::uint32_t slot, const Vec& force, const Vec& torque) {
 void World::kick(std::uint32_t slot, const Vec& impulse, const Vec& angular_impulse) {
   Velocity& velocity = simulation_.state.velocity[slot];
   velocity.linear += velocity.inverse_mass * impulse;
-  const Mat axes = to_matrix(simulation_.state.orientation[slot]);
-  velocity.angular += rotated_diagonal(axes, simulation_.mass[slot].inverse_inertia) * angular_impulse;
+  const BodyMass& mass = simulation_.mass[slot];
+  velocity.angular += world_inverse_inertia(simulation_.state.orientation[slot], mass) * angular_impulse;
+  hold_locked(slot);
   stop_infinite(slot);
   simulation_.state.touch(slot, kVelocityPart);
 }
@@ -323,6 +334,7 @@ void World::write_row(PlumbField field, std::uint32_t slot, const double* row) {
       if (body.motion == PLUMB_STATIC) return;
       simulation_.state.velocity[slot].linear = v;
       if ((simulation_.mass[slot].flags & kBodyTurns) != 0) simulation_.state.velocity[slot].angular = to_vec(row + 3);
+      hold_locked(slot);
       stop_infinite(slot);
       body.to_target = body.arrived = false;
       return simulation_.state.touch(slot, kVelocityPart);

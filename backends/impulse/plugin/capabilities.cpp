@@ -35,6 +35,7 @@ Fact need_fact(std::uint32_t index) {
     case PLUMB_NEED_FORCES:
     case PLUMB_NEED_SLEEPING:
     case PLUMB_NEED_FILTERS:
+    case PLUMB_NEED_AXIS_LOCKS:
     case PLUMB_NEED_SNAPSHOT: return kYes;
     default: return kNotYet;
   }

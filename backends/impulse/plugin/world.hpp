@@ -74,6 +74,7 @@ class World final : public IPhysicsWorld,
   void fetch_for_write(PlumbField field, std::span<const PlumbBody> ids);
   void write_row(PlumbField field, std::uint32_t slot, const double* row);
   void put_proxy_rows(std::uint32_t slot);
+  void hold_locked(std::uint32_t slot);
   void stop_infinite(std::uint32_t slot);
   void push(std::uint32_t slot, const Vec& force, const Vec& torque);
   void kick(std::uint32_t slot, const Vec& impulse, const Vec& angular_impulse);

@@ -8,10 +8,32 @@
 
 namespace plumb::impulse {
 
+/// What is left of I^-1 when the turn about one axis is held: the Schur complement of that axis.
+PLUMB_HD inline Sym hold_turn(const Sym& inverse, int axis) {
+  const Vec unit = {axis == 0 ? Real(1) : Real(0), axis == 1 ? Real(1) : Real(0), axis == 2 ? Real(1) : Real(0)};
+  const Vec column = inverse * unit;
+  const Real own = dot(column, unit);
+  if (!(own > 0)) return inverse;
+  const Vec scaled = (Real(1) / own) * column;
+  Sym held = {inverse.xx - column.x * scaled.x, inverse.yy - column.y * scaled.y, inverse.zz - column.z * scaled.z,
+              inverse.xy - column.x * scaled.y, inverse.xz - column.x * scaled.z, inverse.yz - column.y * scaled.z};
+  if (axis == 0) held.xx = held.xy = held.xz = 0;
+  if (axis == 1) held.xy = held.yy = held.yz = 0;
+  if (axis == 2) held.xz = held.yz = held.zz = 0;
+  return held;
+}
+/// I^-1 in world axes of a body that does not turn about its locked ones.
+PLUMB_HD inline Sym world_inverse_inertia(const Quat& orientation, const BodyMass& mass) {
+  Sym inverse = rotated_diagonal(to_matrix(orientation), mass.inverse_inertia);
+  if ((mass.flags & kBodyLocked) == 0) return inverse;
+  for (int axis = 0; axis < 3; ++axis)
+    if ((mass.flags & kLockAngular << axis) != 0) inverse = hold_turn(inverse, axis);
+  return inverse;
+}
+
 /// I^-1 in world axes, which is 0 from the start where nothing that is pushed turns, and no displacement yet.
 PLUMB_HD inline void begin_body(const Bodies& bodies, const SolverBodies& solver, std::uint32_t i) {
-  if (bodies.turn)
-    solver.inertia[i] = {rotated_diagonal(to_matrix(bodies.orientation[i]), bodies.mass[i].inverse_inertia), {0, 0}};
+  if (bodies.turn) solver.inertia[i] = {world_inverse_inertia(bodies.orientation[i], bodies.mass[i]), {0, 0}};
   solver.displacement[i] = {{0, 0, 0}, 0, {0, 0, 0, 1}};
 }
 
@@ -31,7 +53,8 @@ PLUMB_HD inline void integrate_velocity(const Bodies& bodies, const SolverBodies
   FreeVelocity& free = solver.free_velocity[i];
   const Vec carried = first ? Vec{0, 0, 0} : velocity.linear - free.linear;
   const Real drag = Real(1) / (Real(1) + step.h * mass.linear_damping);
-  const Vec linear = drag * (velocity.linear + step.h * acceleration_by_forces(bodies, step, i));
+  Vec linear = drag * (velocity.linear + step.h * acceleration_by_forces(bodies, step, i));
+  if ((mass.flags & kBodyLocked) != 0) linear = unlocked(mass.flags, kLockLinear, linear);
   if (bodies.turn) {
     const Vec carried_angular = first ? Vec{0, 0, 0} : velocity.angular - free.angular;
     const Real angular_drag = Real(1) / (Real(1) + step.h * mass.angular_damping);
@@ -68,6 +91,7 @@ PLUMB_HD inline void integrate_position(const Bodies& bodies, const SolverBodies
   if ((flags & kBodyMoves) == 0) return;
   Velocity& velocity = solver.velocity[i];
   Displacement& displacement = solver.displacement[i];
+  if ((flags & kBodyLocked) != 0) velocity.linear = unlocked(flags, kLockLinear, velocity.linear);
   displacement.linear += step.h * velocity.linear;
   if ((flags & kBodyTurns) == 0) return;
   const Vec before = velocity.angular;
@@ -82,8 +106,12 @@ PLUMB_HD inline void integrate_position(const Bodies& bodies, const SolverBodies
 PLUMB_HD inline bool finish_body(const Bodies& bodies, const SolverBodies& solver, std::uint32_t i) {
   const std::uint32_t flags = bodies.mass[i].flags;
   if ((flags & kBodyMoves) == 0) return true;
-  const Displacement& displacement = solver.displacement[i];
+  Displacement& displacement = solver.displacement[i];
   Velocity& velocity = solver.velocity[i];
+  if ((flags & kBodyLocked) != 0) {
+    displacement.linear = unlocked(flags, kLockLinear, displacement.linear);
+    velocity.linear = unlocked(flags, kLockLinear, velocity.linear);
+  }
   if (!is_finite(displacement.linear) || !is_finite(velocity.linear) || !is_finite(velocity.angular) ||
       !is_finite(displacement.rotation.w)) {
     if ((flags & kBodyDynamic) != 0) velocity.linear = velocity.angular = {0, 0, 0};
