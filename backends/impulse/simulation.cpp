@@ -58,6 +58,7 @@ void Simulation::reserve_pairs(std::uint32_t pairs) {
   const auto slots = static_cast<std::uint32_t>(state.size());
   broad_phase_.reserve(executor_, slots, slots, pairs);
   narrow_phase_.reserve(executor_, slots, pairs);
+  if (features_.continuous) impacts_.reserve(pairs);
   colouring_.reserve(executor_, slots, pairs);
   solver_.reserve(executor_, slots, pairs);
   forget_recordings();
@@ -197,6 +198,9 @@ void Simulation::enqueue() {
                             now.ranges, &counters->pairs);
     phases_.end(executor_, PLUMB_PHASE_BROAD);
     narrow_phase_.collide(executor_, now, all, shapes_on, margins_.data(), shape_types_, counters);
+    if (features_.continuous)
+      impacts_.find(executor_, now, pair_capacity_, all, shapes_on, margins_.data(), parameters, counters);
+    narrow_phase_.number(executor_, now, counters);
     colouring_.begin(executor_);
     const KeptPair* woken = features_.sleeping ? sleep_.woken_pairs() : nullptr;
     narrow_phase_.match(executor_, now, last, woken, all, shapes_on, parameters, counters, colouring_.masks());
@@ -210,7 +214,9 @@ void Simulation::enqueue() {
   }
   if (features_.collision || joints.count() != 0) {
     solver_.begin(executor_, all, body_count_);
-    if (features_.collision) solver_.prepare(executor_, now, all, shapes_on, colouring_, parameters, counters);
+    if (features_.collision)
+      solver_.prepare(executor_, now, all, shapes_on, colouring_, features_.continuous ? impacts_.times() : nullptr,
+                      parameters, counters);
     solver_.solve(executor_, all, body_count_, parameters, counters, pair_capacity_, joints);
     if (features_.collision) solver_.keep_impulses(executor_, now, counters);
   } else {

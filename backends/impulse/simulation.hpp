@@ -11,6 +11,7 @@
 #include "broadphase/broad_phase.hpp"
 #include "constraints/joint_store.hpp"
 #include "contact_record.hpp"
+#include "continuous/impacts.hpp"
 #include "exec/executor.hpp"
 #include "exec/memory.hpp"
 #include "exec/phase_clock.hpp"
@@ -146,6 +147,7 @@ class Simulation {
 
   BroadPhase broad_phase_;
   NarrowPhase narrow_phase_;
+  Impacts impacts_;  // where the scene asks for them
   Colouring colouring_;
   Solver solver_;
   Sleep sleep_;

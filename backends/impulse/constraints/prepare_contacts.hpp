@@ -2,8 +2,10 @@
 #pragma once
 
 #include "body.hpp"
+#include "constraints/contact.hpp"
 #include "constraints/contact_frame.hpp"
 #include "constraints/contact_rows.hpp"
+#include "continuous/way.hpp"
 #include "exec/executor.hpp"
 #include "narrowphase/contact_cache.hpp"
 #include "solver/body_parts.hpp"
@@ -14,6 +16,25 @@
 
 namespace plumb::impulse {
 
+/// Where the bodies of a contact are when it closes, by their ways until then; as they are now for all contacts but
+/// those of an impact within the step.
+struct ContactTime {
+  Vec moved_a, moved_b;
+  Quat turn_a, turn_b;
+
+  PLUMB_HD ContactTime(const Way& a, const Way& b, Real time)
+      : moved_a(time * a.linear), moved_b(time * b.linear), turn_a(a.turn(time)), turn_b(b.turn(time)) {}
+  /// By how much a gap at the centre of the points, and at places about it, is smaller then.
+  PLUMB_HD Real closed(const Vec& n, const Vec& t1, const Vec& centre_a, const Vec& centre_b,
+                       const PlanePoint<Real>& place) const {
+    const Vec by_a = moved_a + change_by_turn(turn_a, centre_a), by_b = moved_b + change_by_turn(turn_b, centre_b);
+    const Vec by_arm = change_by_turn(conjugate(turn_b), n) - change_by_turn(conjugate(turn_a), n);
+    return dot(by_b - by_a, n) + place.x * dot(by_arm, t1) + place.y * dot(by_arm, cross(n, t1));
+  }
+};
+
+/// kImpacts: some contacts may be of impacts within the step.
+template <bool kImpacts>
 struct PrepareContacts {
   ContactCache cache;
   Bodies bodies;
@@ -26,6 +47,7 @@ struct PrepareContacts {
   const StepParameters* parameters;
   std::uint32_t nobody;    ///< body slot that stands for none in unused lanes
   const PartRange* parts;  ///< by body: how many it is split into; null: bodies are whole
+  const Real* impacts;     ///< by candidate: when it closes, s; 0: it is as it is now. With kImpacts only
 
   /// Place j in the order by colour.
   PLUMB_HD void operator()(std::uint32_t j) const;
@@ -210,7 +232,8 @@ PLUMB_HD inline void put_frame_matrix(ContactNumbers& numbers, int count, const 
   put_stop_mass(numbers, field + 12, count, held);
 }
 
-PLUMB_HD inline void PrepareContacts::operator()(std::uint32_t j) const {
+template <bool kImpacts>
+PLUMB_HD void PrepareContacts<kImpacts>::operator()(std::uint32_t j) const {
   const std::uint32_t row = order[j], colour = colours[j];
   const std::uint32_t slot = counters->first_slot[colour] + (j - counters->first_in_colour[colour]);
   const std::uint32_t candidate = cache.candidate[row];
@@ -219,8 +242,18 @@ PLUMB_HD inline void PrepareContacts::operator()(std::uint32_t j) const {
   const CachedManifold& kept = cache.kept[row];
   const Proxy &proxy_a = proxies.rows[pair.a], &proxy_b = proxies.rows[pair.b];
   const std::uint32_t a = proxy_a.body, b = proxy_b.body;
-  const Vec offset_a = rotate(bodies.orientation[a], proxy_a.frame.position);
-  const Vec from_a_to_b = between(bodies.position[a], bodies.position[b]);
+  Vec offset_a = rotate(bodies.orientation[a], proxy_a.frame.position);
+  Vec from_a_to_b = between(bodies.position[a], bodies.position[b]);
+  [[maybe_unused]] const Real closes_at = kImpacts ? impacts[candidate] : Real(0);
+  [[maybe_unused]] const auto then = [&] {
+    return ContactTime(way_through_step(bodies, *parameters, a), way_through_step(bodies, *parameters, b),
+                       closes_at);
+  };
+  if (kImpacts && closes_at > 0) {
+    const ContactTime at = then();
+    offset_a = rotate(normalized(at.turn_a * bodies.orientation[a]), proxy_a.frame.position);
+    from_a_to_b += at.moved_b - at.moved_a;
+  }
   const auto split = [this](std::uint32_t body) {
     return parts == nullptr ? Real(1) : static_cast<Real>(parts[body].end - parts[body].first);
   };
@@ -252,7 +285,13 @@ PLUMB_HD inline void PrepareContacts::operator()(std::uint32_t j) const {
   // A patch that is apart will touch each body where its surface is now, not midway: a ball that comes fast has its own
   // radius for an arm.
   const Vec half_gap = max(gap, Real(0)) / 2 * n;
-  const Vec middle = offset_a + centre, centre_a = middle - half_gap, centre_b = middle + half_gap - from_a_to_b;
+  const Vec middle = offset_a + centre;
+  Vec centre_a = middle - half_gap, centre_b = middle + half_gap - from_a_to_b;
+  if (kImpacts && closes_at > 0) {
+    const ContactTime at = then();
+    centre_a = rotate(conjugate(at.turn_a), centre_a);
+    centre_b = rotate(conjugate(at.turn_b), centre_b);
+  }
   numbers.put(kCentreA, centre_a);
   numbers.put(kCentreB, centre_b);
   numbers.at[kFriction] = sqrt(proxy_a.friction * proxy_b.friction);
@@ -272,6 +311,8 @@ PLUMB_HD inline void PrepareContacts::operator()(std::uint32_t j) const {
     numbers.at[field(kPlace)] = places[p].x;
     numbers.at[field(kPlace) + 1] = places[p].y;
     numbers.at[field(kSeparation)] = found.points[p].separation;
+    if (kImpacts && closes_at > 0)
+      numbers.at[field(kSeparation)] = found.points[p].separation - then().closed(n, t1, centre_a, centre_b, places[p]);
     numbers.at[field(kNormalImpulse)] = warm_start * kept.normal_impulse[p];
     numbers.at[field(kTangentImpulse)] = warm_start * kept.tangent_impulse[0][p];
     numbers.at[field(kTangentImpulse) + 1] = warm_start * kept.tangent_impulse[1][p];

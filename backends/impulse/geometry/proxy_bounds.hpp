@@ -2,6 +2,7 @@
 #pragma once
 
 #include "body.hpp"
+#include "continuous/way.hpp"
 #include "geometry/shape_box.hpp"
 #include "step_parameters.hpp"
 
@@ -25,9 +26,19 @@ struct BoundProxies {
     const Box local = shape_box(shape, pose.orientation, proxies.hulls);
     margins[index] = margin;
     boxes[index] = {outward(centre + local.low, -margin), outward(centre + local.high, margin)};
+    if ((bodies.mass[proxy.body].flags & kBodyContinuous) != 0) cover_way(proxy, shape, boxes[index]);
   }
 
  private:
+  /// All that the shape passes in the step, turns as it may.
+  PLUMB_HD void cover_way(const Proxy& proxy, const Shape& shape, Box& box) const {
+    const Vec centre = between(parameters->origin, bodies.position[proxy.body]);
+    const Vec end = centre + parameters->dt * way_through_step(bodies, *parameters, proxy.body).linear;
+    const Real reach = shape.reach + length(proxy.frame.position);
+    const Vec ball = {reach, reach, reach};
+    const Vec low = min(centre, end) - ball, high = max(centre, end) + ball;
+    box = {min(box.low, outward(low, 0)), max(box.high, outward(high, 0))};
+  }
   /// How far a point of the shape may travel in the step: contacts nearer than that are foreseen. Not beyond the
   /// shape's own size, or the plane of a contact would stand for a body that is elsewhere.
   PLUMB_HD Real look_ahead(const Proxy& proxy, const Shape& shape) const {

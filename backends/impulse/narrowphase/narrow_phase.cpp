@@ -217,6 +217,10 @@ void NarrowPhase::collide(Executor& executor, const ContactCache& cache, const B
     run_kind(OneKind<kCapsule, kHull>{});
     run_kind(OneKind<kHull, kHull>{});
   }
+}
+
+void NarrowPhase::number(Executor& executor, const ContactCache& cache, StepCounters* counters) {
+  const Count pairs = {&counters->pairs, capacity_};
   scan_.run(executor, pairs, cache.touching, cache.row, &counters->manifolds);
   executor.run(pairs, NumberRows{cache});
 }

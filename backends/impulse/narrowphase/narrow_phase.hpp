@@ -29,10 +29,13 @@ class NarrowPhase {
     return caches_[parity % 2].pairs.to_host(count);
   }
 
-  /// Collides the candidates in cache and numbers those that touch. margins: by proxy, how far ahead it looks, m.
+  /// Collides the candidates in cache. margins: by proxy, how far ahead it looks, m.
   /// shape_types: a bit for each ShapeType in the scene.
   void collide(Executor& executor, const ContactCache& cache, const Bodies& bodies, const Proxies& proxies,
                const Real* margins, std::uint32_t shape_types, StepCounters* counters);
+
+  /// Numbers those that touch.
+  void number(Executor& executor, const ContactCache& cache, StepCounters* counters);
 
   /// Gives each manifold the impulses of the points with the same feature in the last step, and its colour. woken: the
   /// manifolds of those who slept in the last step (StepParameters::woken_contacts, ascending); null where nobody does.

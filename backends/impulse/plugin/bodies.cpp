@@ -136,6 +136,7 @@ void World::make_body(const PlumbBodyDesc& desc, PlumbBody id) {
   if (dynamic) {
     mass.flags |= kBodyDynamic;
     if ((desc.flags & PLUMB_BODY_NEVER_SLEEPS) != 0) mass.flags |= kBodyNeverSleeps;
+    if ((desc.flags & PLUMB_BODY_CCD) != 0) mass.flags |= kBodyContinuous;
     ++dynamic_count_;
     inverse_mass = static_cast<Real>(1 / desc.mass);
     frame.centre_of_mass = to_position(desc.centre_of_mass);

@@ -36,6 +36,7 @@ Fact need_fact(std::uint32_t index) {
     case PLUMB_NEED_SLEEPING:
     case PLUMB_NEED_FILTERS:
     case PLUMB_NEED_AXIS_LOCKS:
+    case PLUMB_NEED_CCD:
     case PLUMB_NEED_SNAPSHOT: return kYes;
     default: return kNotYet;
   }

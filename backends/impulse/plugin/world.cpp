@@ -15,7 +15,8 @@ SolverFeatures features_of(const WorldInit& init) {
           init.needs(PLUMB_NEED_COLLISION | PLUMB_NEED_RESTITUTION),
           init.needs(PLUMB_NEED_ROTATION | PLUMB_NEED_GYROSCOPIC),
           init.needs(PLUMB_NEED_CONTACT_IMPULSES),
-          init.needs(PLUMB_NEED_SLEEPING)};
+          init.needs(PLUMB_NEED_SLEEPING),
+          init.needs(PLUMB_NEED_COLLISION | PLUMB_NEED_CCD)};
 }
 
 PlumbVec3 plumb_vec(const Position& p) { return {p.x, p.y, p.z}; }

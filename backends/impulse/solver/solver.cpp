@@ -46,13 +46,17 @@ void Solver::begin(Executor& executor, const Bodies& all, std::uint32_t body_cou
 }
 
 void Solver::prepare(Executor& executor, const ContactCache& cache, const Bodies& all, const Proxies& proxies,
-                     const Colouring& colouring, const StepParameters* parameters, StepCounters* counters) {
+                     const Colouring& colouring, const Real* impacts, const StepParameters* parameters,
+                     StepCounters* counters) {
   const Count manifolds = {&counters->manifolds, slots_ - slots_for(0)};
   const bool split = kind_ == SolverKind::kJacobi;
   if (split) split_.list(executor, cache, all.velocity, proxies.rows, counters);
-  executor.run(manifolds,
-               PrepareContacts{cache, all, proxies, bodies(all), rows(), counters, colouring.order(),
-                               colouring.colours(), parameters, nobody_, split ? split_.parts().ranges : nullptr});
+  const auto prepare = [&]<bool kImpacts>() {
+    executor.run(manifolds, PrepareContacts<kImpacts>{cache, all, proxies, bodies(all), rows(), counters,
+                                                      colouring.order(), colouring.colours(), parameters, nobody_,
+                                                      split ? split_.parts().ranges : nullptr, impacts});
+  };
+  impacts == nullptr ? prepare.operator()<false>() : prepare.operator()<true>();
   executor.run(kOverflow + 1, PadColours{rows(), counters, nobody_});
 }
 

@@ -18,7 +18,7 @@ namespace plumb::impulse {
 
 /// What the scene asks for; the rest is left out.
 struct SolverFeatures {
-  bool rotation, collision, friction, restitution, gyroscopic, contact_impulses, sleeping = false;
+  bool rotation, collision, friction, restitution, gyroscopic, contact_impulses, sleeping = false, continuous = false;
 };
 
 class Solver {
@@ -35,9 +35,10 @@ class Solver {
 
   /// World inertia of all bodies, no displacement.
   void begin(Executor& executor, const Bodies& bodies, std::uint32_t body_count);
-  /// Contacts into rows, in the order of their colours.
+  /// Contacts into rows, in the order of their colours. impacts: Impacts::times(), or null.
   void prepare(Executor& executor, const ContactCache& cache, const Bodies& bodies, const Proxies& proxies,
-               const Colouring& colouring, const StepParameters* parameters, StepCounters* counters);
+               const Colouring& colouring, const Real* impacts, const StepParameters* parameters,
+               StepCounters* counters);
   /// Moves the bodies through the step.
   void solve(Executor& executor, const Bodies& bodies, std::uint32_t body_count, const StepParameters* parameters,
              StepCounters* counters, std::uint32_t pair_capacity, JointStore& joints);
