@@ -33,7 +33,8 @@ Fact need_fact(std::uint32_t index) {
     case PLUMB_NEED_GYROSCOPIC:
     case PLUMB_NEED_DAMPING:
     case PLUMB_NEED_FORCES:
-    case PLUMB_NEED_FILTERS: return kYes;
+    case PLUMB_NEED_FILTERS:
+    case PLUMB_NEED_QUERIES: return kYes;
     default: return kNotYet;
   }
 }
@@ -48,6 +49,14 @@ Fact field_fact(std::uint32_t field, bool writing) {
   return kYes;
 }
 
+/// Rays ask for no shape; what is cast or overlapped is convex.
+Fact query_fact(std::uint32_t kind, std::uint32_t shape) {
+  if (kind == PLUMB_QUERY_RAY) return {PLUMB_NATIVE, "shapes are solid: a ray that starts inside hits at fraction 0"};
+  const bool convex =
+      shape == PLUMB_SPHERE || shape == PLUMB_BOX || shape == PLUMB_CAPSULE || shape == PLUMB_CONVEX_HULL;
+  return kind < PLUMB_QUERY_KIND_COUNT && convex ? kYes : kNotYet;
+}
+
 Fact phase_fact(std::uint32_t phase) {
   if (phase > PLUMB_PHASE_SOLVE && phase != PLUMB_PHASE_OUTPUT) return kNotYet;
   if (phase == PLUMB_PHASE_SOLVE) return {PLUMB_APPROXIMATE, "with integration: one kernel does both"};
@@ -58,6 +67,7 @@ Fact fact(PlumbCapability kind, std::uint32_t a, std::uint32_t b) {
   switch (kind) {
     case PLUMB_CAP_SHAPE: return has_shape(a) && b < PLUMB_MOTION_COUNT ? kYes : kNotYet;
     case PLUMB_CAP_PAIR: return has_shape(a) && has_shape(b) ? kYes : kNotYet;
+    case PLUMB_CAP_QUERY: return query_fact(a, b);
     case PLUMB_CAP_FIELD_READ: return field_fact(a, false);
     case PLUMB_CAP_FIELD_WRITE: return field_fact(a, true);
     case PLUMB_CAP_NEED: return need_fact(a);
