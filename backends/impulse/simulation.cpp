@@ -110,20 +110,25 @@ void Simulation::list_bodies() {
   executor_.to_device(statics_, static_count_);
   narrow_phase_.forget_found(executor_, statics_.device(), static_count_);
   if (origin_dirty_) find_origin();
-  statics_dirty_ = true;
+  statics_changed();
   bodies_dirty_ = false;
 }
 
-void Simulation::upload_changes() {
+/// Who is where, and of what shape.
+void Simulation::upload_bodies() {
   if (bodies_dirty_) list_bodies();
-  force.upload(executor_);
-  mass.upload(executor_);
-  frames.upload(executor_);
   proxies.upload(executor_);
   filters.upload(executor_);
   shapes.upload(executor_);
   hulls.upload(executor_);
   state.upload();
+}
+
+void Simulation::upload_changes() {
+  upload_bodies();
+  force.upload(executor_);
+  mass.upload(executor_);
+  frames.upload(executor_);
   if (joints.changed()) {
     joints.upload(mass);
     forget_recordings();
@@ -319,6 +324,42 @@ std::shared_ptr<RowBlock<Row>> Simulation::rows(FieldRows<Row>& field, bool on_h
 
 template std::shared_ptr<RowBlock<PoseRow>> Simulation::rows(FieldRows<PoseRow>& field, bool on_host);
 template std::shared_ptr<RowBlock<VelocityRow>> Simulation::rows(FieldRows<VelocityRow>& field, bool on_host);
+
+bool Simulation::have_several_proxies() const {
+  std::vector<bool> has_one(state.size());
+  const auto repeats = [&](const Mirror<std::uint32_t>& list, std::uint32_t count) {
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const std::uint32_t body = proxies[list[i]].body;
+      if (has_one[body]) return true;
+      has_one[body] = true;
+    }
+    return false;
+  };
+  return repeats(movers_, mover_count_) || repeats(statics_, static_count_);
+}
+
+QueryScene Simulation::query_scene(std::span<const PlumbBody> ids, std::uint64_t ids_version) {
+  upload_bodies();
+  if (query_trees_ == nullptr) query_trees_ = std::make_unique<QueryTrees>();
+  if (several_version_ != static_version_) several_ = have_several_proxies();
+  several_version_ = static_version_;
+  const PlacedProxies placed = {
+      bodies(),         proxy_view(),      filters.device(), static_cast<std::uint32_t>(proxies.size()),
+      movers_.device(), statics_.device(), mover_count_,     static_count_,
+      several_,         origin_,           state.version(),  static_version_};
+  query_trees_->update(executor_, placed, ids, ids_version);
+  executor_.wait();
+  return query_trees_->scene(placed);
+}
+
+QueryScene Simulation::shape_scene() {
+  shapes.upload(executor_);
+  hulls.upload(executor_);
+  QueryScene scene{};
+  scene.shapes = shapes.device();
+  scene.hulls = hulls.device();
+  return scene;
+}
 
 std::vector<Pair> Simulation::candidates() { return narrow_phase_.candidates(step_, counters().pairs); }
 

@@ -19,6 +19,7 @@
 #include "geometry/hull_pool.hpp"
 #include "islands/sleep.hpp"
 #include "narrowphase/narrow_phase.hpp"
+#include "queries/query_trees.hpp"
 #include "solver/colouring.hpp"
 #include "solver/solver.hpp"
 #include "state_rows.hpp"
@@ -54,7 +55,10 @@ class Simulation {
   [[nodiscard]] std::uint32_t body_count() const { return body_count_; }
 
   void bodies_changed() { bodies_dirty_ = origin_dirty_ = true; }  ///< made, gone
-  void statics_changed() { statics_dirty_ = true; }                ///< bodies that do not move: placed elsewhere
+  void statics_changed() {                                         ///< bodies that do not move: placed elsewhere
+    statics_dirty_ = true;
+    ++static_version_;
+  }
 
   /// All that the steps to come depend on and that steps change, to or from a snapshot. The same bodies, joints and
   /// shapes must be there.
@@ -94,6 +98,15 @@ class Simulation {
   /// What the broad phase of the last step found.
   [[nodiscard]] std::vector<Pair> candidates();
 
+  /// What queries look at, brought up to date. ids: of the bodies, by slot; ids_version changes with them. Between
+  /// steps; one caller at a time, but what it gave to an earlier one stays as it is until bodies or shapes change.
+  [[nodiscard]] QueryScene query_scene(std::span<const PlumbBody> ids, std::uint64_t ids_version);
+  /// The same without trees, for what asks of shapes alone.
+  [[nodiscard]] QueryScene shape_scene();
+  /// Nodes of the trees of the last step's broad phase, copied to the host, and what their boxes are relative to.
+  [[nodiscard]] std::vector<TreeNode> tree_nodes(BroadPhase::Tree tree) const { return broad_phase_.nodes(tree); }
+  [[nodiscard]] const Position& tree_origin() const { return parameters_[0].origin; }
+
   /// Rows of state by body slot, up to date. Steps bring them from now on. On the device they are there once what was
   /// enqueued is done; on the host they are there.
   [[nodiscard]] std::shared_ptr<RowBlock<PoseRow>> pose_rows(bool on_host) { return rows(poses_, on_host); }
@@ -110,6 +123,8 @@ class Simulation {
   };
 
   void upload_changes();
+  void upload_bodies();
+  [[nodiscard]] bool have_several_proxies() const;
   void list_bodies();
   void find_origin();
   void reserve_rows();
@@ -132,6 +147,7 @@ class Simulation {
   SolverFeatures features_;
   std::uint32_t body_count_ = 0, step_ = 0, pair_capacity_ = 0;
   bool bodies_dirty_ = true, origin_dirty_ = true, statics_dirty_ = true, repeated_ = false, grew_ = false;
+  std::uint64_t static_version_ = 1;  // changes when any static may have, and with the lists below
   Position origin_{0, 0, 0};
 
   Mirror<std::uint32_t> movers_, statics_;
@@ -153,6 +169,9 @@ class Simulation {
   Sleep sleep_;
   Slots woken_, fallen_asleep_;
   Buffer<ContactRecord> records_;
+  std::unique_ptr<QueryTrees> query_trees_;  // made when the first query comes
+  std::uint64_t several_version_ = 0;        // of the statics when `several_` was found out
+  bool several_ = false;                     // whether a body has more than one proxy
   FieldRows<PoseRow> poses_;
   FieldRows<VelocityRow> velocities_;
   PhaseClock phases_;

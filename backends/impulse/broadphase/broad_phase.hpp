@@ -28,6 +28,7 @@ namespace plumb::impulse {
 class BroadPhase {
  public:
   enum class Method : std::uint32_t { kLbvh, kSweepAndPrune, kGrid };
+  enum class Tree : std::uint32_t { kMovers, kStatics };
 
   Method method = Method::kLbvh;             ///< read by find_pairs
   MortonBits morton_bits = MortonBits::k63;  ///< read by build_statics and find_pairs
@@ -46,6 +47,11 @@ class BroadPhase {
   /// that or more.
   void find_pairs(Executor& executor, const Box* boxes, const std::uint32_t* movers, std::uint32_t n,
                   const PairFilter& filter, Pair* pairs, PairRange* ranges_by_proxy, std::uint32_t* pair_count);
+
+  /// Nodes of a tree as it was built last, copied to the host; none of movers where the method has no tree.
+  [[nodiscard]] std::vector<TreeNode> nodes(Tree tree) const {
+    return (tree == Tree::kMovers ? movers_ : statics_).nodes();
+  }
 
  private:
   template <class Movers>

@@ -22,6 +22,7 @@
 #endif
 
 #include <cstdint>
+#include <vector>
 
 #include "broadphase/scene_extent.hpp"
 #include "exec/executor.hpp"
@@ -99,6 +100,8 @@ class Lbvh {
              const SceneExtent* extent, MortonBits bits);
   /// The tree that was enqueued last.
   [[nodiscard]] TreeView view() const { return {nodes_.data(), leaves_}; }
+  /// Its nodes, copied to the host; for what looks at them from outside.
+  [[nodiscard]] std::vector<TreeNode> nodes() const { return nodes_.to_host(leaves_ == 0 ? 0 : 2 * leaves_ - 1); }
 
  private:
   template <class K>

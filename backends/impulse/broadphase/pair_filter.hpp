@@ -33,13 +33,13 @@ struct PairFilter {
     if (a.body == b.body || (a.flags & b.flags & kProxyImmovable) != 0 || !may_touch(a, b)) return false;
     return excluded_count == 0 || !is_excluded(body_pair_key(a.body, b.body));
   }
-
- private:
   /// The rule of PlumbFilter (plumb::may_touch, which device code cannot call).
   PLUMB_HD static bool may_touch(const ProxyFilter& a, const ProxyFilter& b) {
     if (a.group == b.group && a.group != 0) return a.group > 0;
     return (a.category & b.mask) != 0 && (b.category & a.mask) != 0;
   }
+
+ private:
   PLUMB_HD bool is_excluded(std::uint64_t key) const {
     std::uint32_t first = 0, last = excluded_count;
     while (first < last) {

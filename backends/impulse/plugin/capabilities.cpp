@@ -37,6 +37,7 @@ Fact need_fact(std::uint32_t index) {
     case PLUMB_NEED_FILTERS:
     case PLUMB_NEED_AXIS_LOCKS:
     case PLUMB_NEED_CCD:
+    case PLUMB_NEED_QUERIES:
     case PLUMB_NEED_SNAPSHOT: return kYes;
     default: return kNotYet;
   }
@@ -50,6 +51,14 @@ Fact field_fact(std::uint32_t field, bool writing) {
       (field >= PLUMB_FIELD_FORCE && field <= PLUMB_FIELD_IMPULSE_AT_POINT) || field == PLUMB_FIELD_KINEMATIC_TARGET;
   if (acts && !writing) return {PLUMB_NONE, "it acts and is spent"};
   return kYes;
+}
+
+/// Rays ask for no shape; what is cast or overlapped is convex.
+Fact query_fact(std::uint32_t kind, std::uint32_t shape) {
+  if (kind == PLUMB_QUERY_RAY) return {PLUMB_NATIVE, "shapes are solid: a ray that starts inside hits at fraction 0"};
+  const bool convex =
+      shape == PLUMB_SPHERE || shape == PLUMB_BOX || shape == PLUMB_CAPSULE || shape == PLUMB_CONVEX_HULL;
+  return kind < PLUMB_QUERY_KIND_COUNT && convex ? kYes : kNotYet;
 }
 
 Fact phase_fact(std::uint32_t phase) {
@@ -72,6 +81,7 @@ Fact fact(PlumbCapability kind, std::uint32_t a, std::uint32_t b) {
   switch (kind) {
     case PLUMB_CAP_SHAPE: return has_shape(a) && b < PLUMB_MOTION_COUNT ? kYes : kNotYet;
     case PLUMB_CAP_PAIR: return has_shape(a) && has_shape(b) ? kYes : kNotYet;
+    case PLUMB_CAP_QUERY: return query_fact(a, b);
     case PLUMB_CAP_FIELD_READ: return field_fact(a, false);
     case PLUMB_CAP_FIELD_WRITE: return field_fact(a, true);
     case PLUMB_CAP_NEED: return need_fact(a);

@@ -144,21 +144,6 @@ std::span<const PlumbContact> World::contacts() {
   return contacts_;
 }
 
-PlumbResult World::candidate_pairs(std::span<const PlumbDebugPair>& pairs) {
-  debug_pairs_.clear();
-  for (const Pair& pair : simulation_.candidates()) debug_pairs_.push_back({bodies_[pair.a].id, bodies_[pair.b].id});
-  pairs = debug_pairs_;
-  return PLUMB_OK;
-}
-
-PlumbResult World::tree_boxes(std::span<const PlumbDebugBox>& /*boxes*/) {
-  throw Error(PLUMB_E_UNSUPPORTED, "tree boxes are not shown yet");
-}
-
-PlumbResult World::separating_axes(std::span<const PlumbDebugAxis>& /*axes*/) {
-  throw Error(PLUMB_E_UNSUPPORTED, "separating axes are not shown yet");
-}
-
 PlumbResult World::get_setting(const char* name, PlumbSettingValue& value) {
   value = settings_.get(name);
   return PLUMB_OK;

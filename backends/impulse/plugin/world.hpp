@@ -1,20 +1,25 @@
 // IPhysicsWorld over a Simulation: handles and doubles outside, rows and Reals inside.
 #pragma once
 
+#include <mutex>
 #include <span>
 #include <vector>
 
+#include "plugin/batch_pool.hpp"
 #include "plugin/body_record.hpp"
 #include "plugin/settings.hpp"
 #include "plumb/backend/touch_tracker.hpp"
 #include "plumb/backend/world_init.hpp"
 #include "plumb/physics_world.hpp"
+#include "queries/query_batch.hpp"
 #include "simulation.hpp"
 
 namespace plumb::impulse {
 
 class World final : public IPhysicsWorld,
                     public IJoints,
+                    public IQueries,
+                    public ICollide,
                     public IDebug,
                     public ISettings,
                     public ISnapshot,
@@ -45,6 +50,8 @@ class World final : public IPhysicsWorld,
   [[nodiscard]] std::uint64_t uploaded_bytes() { return simulation_.executor().uploaded_bytes(); }
 
   IJoints* joints() override { return this; }
+  IQueries* queries() override { return this; }
+  ICollide* collide() override { return this; }
   IDebug* debug() override { return this; }
   ISettings* settings() override { return this; }
   ISnapshot* snapshot() override { return this; }
@@ -55,6 +62,11 @@ class World final : public IPhysicsWorld,
   PlumbResult destroy_joints(std::span<const PlumbJoint> ids) override;
   PlumbResult read_joints(PlumbJointField field, std::span<const PlumbJoint> ids, Rows rows) override;
   PlumbResult write_joints(PlumbJointField field, std::span<const PlumbJoint> ids, ConstRows rows) override;
+  Hits cast_rays(PlumbHitMode mode, std::span<const PlumbRay> rays) override;
+  Hits cast_shapes(PlumbHitMode mode, std::span<const PlumbCast> casts) override;
+  Hits overlap_shapes(std::span<const PlumbOverlap> overlaps) override;
+  PlumbResult collide_pairs(std::span<const PlumbPosedPair> pairs, std::span<PlumbPairResult> results,
+                            std::span<const PlumbPairPoint>& points) override;
   PlumbResult candidate_pairs(std::span<const PlumbDebugPair>& pairs) override;
   PlumbResult tree_boxes(std::span<const PlumbDebugBox>& boxes) override;
   PlumbResult separating_axes(std::span<const PlumbDebugAxis>& axes) override;
@@ -87,6 +99,10 @@ class World final : public IPhysicsWorld,
   void wake_for_joint(const PlumbJointDesc& desc);
   void write_awake(std::span<const PlumbBody> ids, ConstRows rows);
   const std::vector<ContactRecord>& records();
+  template <class Ask>
+  Hits ask(const Ask& ask);
+  [[nodiscard]] PlumbBody body_of_last_step(std::uint32_t proxy) const;
+  [[nodiscard]] std::vector<Pair> known_candidates();
 
   WorldInit init_;
   Simulation simulation_;
@@ -102,8 +118,13 @@ class World final : public IPhysicsWorld,
   std::vector<ContactRecord> records_;
   std::vector<PlumbContact> contacts_;
   std::vector<PlumbEvent> events_, early_events_;
+  std::mutex query_mutex_;  // of what queries build when they need it, and of the batches
+  BatchPool<QueryBatch> query_batches_;
+  BatchPool<PairBatch> pair_batches_;
   std::vector<PlumbDebugPair> debug_pairs_;
   std::vector<std::byte> snapshot_;
+  std::vector<PlumbDebugBox> debug_boxes_;
+  std::vector<PlumbDebugAxis> debug_axes_;
   std::vector<PlumbBody> row_ids_;    // by slot; 0 where nobody is
   std::uint64_t row_generation_ = 0;  // changes with them
   backend::TouchTracker touches_;

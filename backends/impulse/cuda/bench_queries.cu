@@ -1,0 +1,72 @@
+// Rays on a CUDA device: milliseconds of the kernel by events, and of the whole call with the way of the rays there and
+// of the hits back by the host's clock; and the hash of the hits, which bench_impulse_queries prints on the CPU too.
+// Needs no library beside the driver.
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <exception>
+
+#include "tests/broad_phase_cases.hpp"
+#include "tests/query_cases.hpp"
+
+namespace plumb::impulse {
+namespace {
+
+constexpr int kRuns = 21;
+
+double median(std::vector<double> times) {
+  std::sort(times.begin(), times.end());
+  return times[times.size() / 2];
+}
+
+double kernel_ms(QueryBench& bench) {
+  Executor& executor = bench.rig.executor;
+  const auto n = static_cast<std::uint32_t>(bench.rays().size());
+  Buffer<PlumbRay> rays;
+  rays.from_host(bench.rays().data(), n);
+  Buffer<PlumbHit> hits(n);
+  cudaEvent_t begin = nullptr, end = nullptr;
+  check_cuda(cudaEventCreate(&begin), "cannot make an event");
+  check_cuda(cudaEventCreate(&end), "cannot make an event");
+  std::vector<double> times;
+  for (int run = 0; run < kRuns; ++run) {
+    check_cuda(cudaEventRecord(begin, executor.stream()), "cannot record an event");
+    QueryBatch::closest_rays(executor, bench.rig.scene, rays.data(), n, hits.data());
+    check_cuda(cudaEventRecord(end, executor.stream()), "cannot record an event");
+    executor.wait();
+    float ms = 0;
+    check_cuda(cudaEventElapsedTime(&ms, begin, end), "cannot time");
+    times.push_back(static_cast<double>(ms));
+  }
+  (void)cudaEventDestroy(begin);
+  (void)cudaEventDestroy(end);
+  return median(times);
+}
+
+double call_ms(QueryBench& bench) {
+  std::vector<double> times;
+  for (int run = 0; run < kRuns; ++run) {
+    const auto start = std::chrono::steady_clock::now();
+    bench.ask();
+    times.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+  }
+  return median(times);
+}
+
+}  // namespace
+}  // namespace plumb::impulse
+
+int main() {
+  try {
+    for (const std::uint32_t rays : {1000U, 1000000U}) {
+      plumb::impulse::QueryBench bench(32000, rays, 1);
+      const double kernel = plumb::impulse::kernel_ms(bench), call = plumb::impulse::call_ms(bench);
+      std::printf("%8u rays  kernel %.4f  call %.4f ms  %zu hits  hash %s\n", rays, kernel, call, bench.found(),
+                  plumb::impulse::hexadecimal(bench.hash()).c_str());
+      std::fflush(stdout);
+    }
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "bench_impulse_queries_cuda: %s\n", error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,35 @@
+// plumb.queries/1. Threads that ask at once take turns where something is built first; on a device, altogether.
+#include "exec/floating_point.hpp"
+#include "plugin/world.hpp"
+
+namespace plumb::impulse {
+
+template <class Ask>
+Hits World::ask(const Ask& ask) {
+  const FloatingPointScope scope;
+  std::unique_lock lock(query_mutex_);
+  const QueryScene scene = simulation_.query_scene(row_ids_, row_generation_);
+  QueryBatch& batch = query_batches_.take();
+  if (kOneMemory) lock.unlock();
+  return {PLUMB_OK, ask(batch, simulation_.executor(), scene)};
+}
+
+Hits World::cast_rays(PlumbHitMode mode, std::span<const PlumbRay> rays) {
+  return ask([&](QueryBatch& batch, Executor& executor, const QueryScene& scene) {
+    return batch.rays(executor, scene, mode, rays);
+  });
+}
+
+Hits World::cast_shapes(PlumbHitMode mode, std::span<const PlumbCast> casts) {
+  return ask([&](QueryBatch& batch, Executor& executor, const QueryScene& scene) {
+    return batch.casts(executor, scene, mode, casts);
+  });
+}
+
+Hits World::overlap_shapes(std::span<const PlumbOverlap> overlaps) {
+  return ask([&](QueryBatch& batch, Executor& executor, const QueryScene& scene) {
+    return batch.overlaps(executor, scene, overlaps);
+  });
+}
+
+}  // namespace plumb::impulse

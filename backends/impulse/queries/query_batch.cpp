@@ -1,0 +1,228 @@
+#include "queries/query_batch.hpp"
+
+#include <limits>
+
+#include "plumb/physics_world.hpp"
+#include "queries/hit_order.hpp"
+#include "queries/sweep_search.hpp"
+
+namespace plumb::impulse {
+
+namespace {
+
+PLUMB_HD PlumbHit hit_of(const QueryScene& scene, const Target& target, std::uint32_t query, const Course& course,
+                         const Meeting& meeting) {
+  return {
+      scene.ids[target.body],       query, target.child, course.fraction(meeting.at), to_plumb_vec3(meeting.position),
+      to_plumb_vec3(meeting.normal)};
+}
+PLUMB_HD PlumbHit no_hit(std::uint32_t query) {
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  return {0, query, 0, kUnknown, {kUnknown, kUnknown, kUnknown}, {kUnknown, kUnknown, kUnknown}};
+}
+
+template <class Probe>
+PLUMB_HD Sweep sweep_of(const QueryScene& scene, const Probe& probe) {
+  return {probe.start - scene.origin, probe.course.along, probe.course.length, probe.carried(scene)};
+}
+
+/// Meets the proxies that a search finds, as far as the query's filter lets it see them.
+template <class Probe>
+struct Meet {
+  const QueryScene& scene;
+  const Probe& probe;
+
+  PLUMB_HD bool operator()(std::uint32_t proxy, double most, Meeting& meeting) const {
+    return PairFilter::may_touch(probe.filter, scene.filters[proxy]) &&
+           probe.meets(scene, scene.targets[proxy], most, meeting);
+  }
+};
+
+template <class Probe>
+struct KeepNearest {
+  Meet<Probe> meet;
+  Sweep& sweep;
+  std::uint32_t query;
+  double most;
+  PlumbHit best;
+
+  PLUMB_HD void operator()(std::uint32_t proxy) {
+    Meeting meeting{};
+    if (!meet(proxy, most, meeting)) return;
+    PlumbHit hit = hit_of(meet.scene, meet.scene.targets[proxy], query, meet.probe.course, meeting);
+    if (best.body != 0 && !NearerHit{}(hit, best)) return;
+    if (meeting.at_start) mark_overlap(proxy, hit);
+    best = hit;
+    most = meeting.at;
+    sweep.last = sweep.place_of(most);
+  }
+};
+
+template <class Probe>
+struct FindClosest {
+  QueryScene scene;
+  const typename Probe::Row* rows;
+  PlumbHit* hits;
+  PLUMB_HD void operator()(std::uint32_t i) const {
+    const Probe probe(scene, rows[i]);
+    Sweep sweep = sweep_of(scene, probe);
+    KeepNearest<Probe> keep{{scene, probe}, sweep, i, probe.course.length, no_hit(i)};
+    visit_nearest_first(scene.statics, sweep, keep);
+    visit_nearest_first(scene.movers, sweep, keep);
+    hits[i] = keep.best;
+  }
+};
+
+template <class Probe>
+struct CountMet {
+  Meet<Probe> meet;
+  std::uint32_t count;
+  PLUMB_HD void operator()(std::uint32_t proxy) {
+    Meeting meeting{};
+    if (meet(proxy, meet.probe.course.length, meeting)) ++count;
+  }
+};
+
+template <class Probe>
+struct CountHits {
+  QueryScene scene;
+  const typename Probe::Row* rows;
+  std::uint32_t* counts;
+  PLUMB_HD void operator()(std::uint32_t i) const {
+    const Probe probe(scene, rows[i]);
+    const Sweep sweep = sweep_of(scene, probe);
+    CountMet<Probe> met{{scene, probe}, 0};
+    visit_all(scene.statics, sweep, met);
+    visit_all(scene.movers, sweep, met);
+    counts[i] = met.count;
+  }
+};
+
+template <class Probe>
+struct WriteMet {
+  Meet<Probe> meet;
+  std::uint32_t query;
+  PlumbHit* to;
+  PLUMB_HD void operator()(std::uint32_t proxy) {
+    Meeting meeting{};
+    if (!meet(proxy, meet.probe.course.length, meeting)) return;
+    *to = hit_of(meet.scene, meet.scene.targets[proxy], query, meet.probe.course, meeting);
+    if (meeting.at_start) mark_overlap(proxy, *to);
+    ++to;
+  }
+};
+
+/// Writes and sorts the hits of a query; counts are then those of bodies.
+template <class Probe>
+struct ListHits {
+  QueryScene scene;
+  const typename Probe::Row* rows;
+  const std::uint32_t* offsets;
+  std::uint32_t* counts;
+  PlumbHit* hits;
+  PLUMB_HD void operator()(std::uint32_t i) const {
+    if (counts[i] == 0) return;
+    const Probe probe(scene, rows[i]);
+    const Sweep sweep = sweep_of(scene, probe);
+    PlumbHit* const first = hits + offsets[i];
+    WriteMet<Probe> write{{scene, probe}, i, first};
+    visit_all(scene.statics, sweep, write);
+    visit_all(scene.movers, sweep, write);
+    if (scene.several) {
+      sort_hits(first, counts[i], SameBodyHit{});
+      counts[i] = keep_first_of_bodies(first, counts[i]);
+    }
+    sort_hits(first, counts[i], NearerHit{});
+  }
+};
+
+/// Closes the gaps that hits of the same body have left.
+struct PackHits {
+  const PlumbHit* from;
+  const std::uint32_t *from_offsets, *offsets, *counts;
+  PlumbHit* to;
+  PLUMB_HD void operator()(std::uint32_t i) const {
+    for (std::uint32_t k = 0; k < counts[i]; ++k) to[offsets[i] + k] = from[from_offsets[i] + k];
+  }
+};
+
+}  // namespace
+
+void QueryBatch::closest_rays(Executor& executor, const QueryScene& scene, const PlumbRay* rays, std::uint32_t n,
+                              PlumbHit* hits) {
+  executor.run(n, FindClosest<RayProbe>{scene, rays, hits});
+}
+
+/// Offsets of the counts; returns their sum.
+std::uint32_t QueryBatch::scan_counts(Executor& executor, std::uint32_t n, Buffer<std::uint32_t>& offsets) {
+  scan_.reserve(n);
+  offsets.grow(n);
+  total_.grow(1);
+  scan_.run(executor, n, counts_.data(), offsets.data(), total_.data());
+  executor.wait();
+  const std::uint32_t total = total_.to_host(1)[0];
+  if (total == ~0U)
+    throw Error(PLUMB_E_OUT_OF_MEMORY, "a batch of queries has more hits than can be counted; ask fewer at a time");
+  return total;
+}
+
+template <class Probe>
+std::uint32_t QueryBatch::find_all(Executor& executor, const QueryScene& scene, const typename Probe::Row* rows,
+                                   std::uint32_t n) {
+  if (n == 0) return 0;
+  counts_.grow(n);
+  executor.run(n, CountHits<Probe>{scene, rows, counts_.data()});
+  const std::uint32_t met = scan_counts(executor, n, offsets_);
+  const auto list = [&](PlumbHit* hits) {
+    executor.run(n, ListHits<Probe>{scene, rows, offsets_.data(), counts_.data(), hits});
+  };
+  if (!scene.several) {
+    hits_.grow(met);
+    list(hits_.device());
+    return met;
+  }
+  found_.grow(met);
+  list(found_.data());
+  const std::uint32_t count = scan_counts(executor, n, packed_offsets_);
+  hits_.grow(count);
+  executor.run(n, PackHits{found_.data(), offsets_.data(), packed_offsets_.data(), counts_.data(), hits_.device()});
+  return count;
+}
+
+template <class Probe>
+std::uint32_t QueryBatch::find(Executor& executor, const QueryScene& scene, PlumbHitMode mode,
+                               const typename Probe::Row* rows, std::uint32_t n) {
+  if (mode == PLUMB_HIT_ALL) return find_all<Probe>(executor, scene, rows, n);
+  hits_.grow(n);
+  executor.run(n, FindClosest<Probe>{scene, rows, hits_.device()});
+  return n;
+}
+
+std::span<const PlumbHit> QueryBatch::hand_out(Executor& executor, std::uint32_t count) {
+  executor.to_host(hits_, count);
+  executor.wait();
+  return {hits_.host(), count};
+}
+
+std::span<const PlumbHit> QueryBatch::rays(Executor& executor, const QueryScene& scene, PlumbHitMode mode,
+                                           std::span<const PlumbRay> rays) {
+  const auto n = static_cast<std::uint32_t>(rays.size());
+  return hand_out(executor, find<RayProbe>(executor, scene, mode, rays_.bring(rays), n));
+}
+
+std::span<const PlumbHit> QueryBatch::casts(Executor& executor, const QueryScene& scene, PlumbHitMode mode,
+                                            std::span<const PlumbCast> casts) {
+  const auto n = static_cast<std::uint32_t>(casts.size());
+  const PlumbCast* rows = casts_.bring(casts);
+  const std::uint32_t count = find<CastProbe>(executor, scene, mode, rows, n);
+  depth_.describe(executor, scene, rows, hits_.device(), count);
+  return hand_out(executor, count);
+}
+
+std::span<const PlumbHit> QueryBatch::overlaps(Executor& executor, const QueryScene& scene,
+                                               std::span<const PlumbOverlap> overlaps) {
+  const auto n = static_cast<std::uint32_t>(overlaps.size());
+  return hand_out(executor, find_all<OverlapProbe>(executor, scene, overlaps_.bring(overlaps), n));
+}
+
+}  // namespace plumb::impulse

@@ -1,0 +1,33 @@
+// What queries look at: trees of tight boxes at the bodies' present places, and for each proxy all that a test of it
+// reads in one row.
+#pragma once
+
+#include "body.hpp"
+#include "broadphase/lbvh.hpp"
+#include "broadphase/pair_filter.hpp"
+#include "plumb/types.h"
+#include "queries/line_shapes.hpp"
+
+namespace plumb::impulse {
+
+/// A shape where it is in the world.
+struct alignas(32) Target {
+  Vec64 place;  ///< of the shape's origin
+  Quat64 turn;  ///< unit
+  Shape shape;
+  std::uint32_t body;   ///< slot
+  std::uint32_t child;  ///< of a body of several shapes, which of them
+};
+
+struct QueryScene {
+  TreeView movers, statics;  ///< leaves are proxies
+  Position origin;           ///< that the trees' boxes are relative to
+  const Target* targets;     ///< by proxy
+  const ProxyFilter* filters;
+  const PlumbBody* ids;  ///< by body slot
+  const Shape* shapes;   ///< those that are cast or overlapped too
+  Hulls hulls;
+  bool several;  ///< whether a body may have more than one proxy
+};
+
+}  // namespace plumb::impulse

@@ -1,0 +1,86 @@
+#include "queries/query_trees.hpp"
+
+#include <algorithm>
+
+#include "geometry/shape_box.hpp"
+
+namespace plumb::impulse {
+
+namespace {
+
+/// A body has one shape for now.
+PLUMB_HD std::uint32_t child_of(const Proxy& /*proxy*/) { return 0; }
+
+struct PlaceTargets {
+  Bodies bodies;
+  Proxies proxies;
+  const std::uint32_t* list;
+  Position origin;
+  Target* targets;
+  Box* boxes;
+
+  PLUMB_HD void operator()(std::uint32_t i) const {
+    const std::uint32_t index = list[i];
+    const Proxy& proxy = proxies.rows[index];
+    const Shape& shape = proxies.shapes[proxy.shape];
+    const Quat orientation = bodies.orientation[proxy.body];
+    const Quat64 turn = normalized(to_numbers<double>(orientation));
+    Target target;
+    target.place = bodies.position[proxy.body] + rotate(turn, to_numbers<double>(proxy.frame.position));
+    target.turn = normalized(turn * to_numbers<double>(proxy.frame.orientation));
+    target.shape = shape;
+    target.body = proxy.body;
+    target.child = child_of(proxy);
+    targets[index] = target;
+
+    const Box local = shape_box(shape, to_numbers<Real>(target.turn), proxies.hulls);
+    const Vec centre = between(origin, target.place);
+    boxes[index] = {outward(centre, local.low, Real(-1)), outward(centre, local.high, Real(1))};
+  }
+
+ private:
+  /// Rounding of either term must not make the box too small.
+  PLUMB_HD static Vec outward(const Vec& centre, const Vec& corner, Real side) {
+    const Vec size = abs(centre) + abs(corner);
+    return centre + corner + (side * (16 * kEpsilon)) * size;
+  }
+};
+
+}  // namespace
+
+void QueryTrees::update(Executor& executor, const PlacedProxies& placed, std::span<const PlumbBody> ids,
+                        std::uint64_t ids_version) {
+  if (ids_version != ids_version_) {
+    if (ids_.size() < ids.size()) ids_.grow(ids.size() + ids.size() / 2);
+    std::copy(ids.begin(), ids.end(), ids_.host());
+    executor.to_device(ids_, ids.size());
+    ids_version_ = ids_version;
+  }
+  if (fresh(placed.version)) return;
+  boxes_.grow(placed.rows);
+  targets_.grow(placed.rows);
+  extent_.grow(1);
+  reduce_.reserve(placed.rows);
+  const bool moved_origin = !(origin_ == placed.origin);
+  origin_ = placed.origin;
+  if (static_version_ != placed.static_version || moved_origin)
+    build(executor, placed, placed.statics, placed.static_count, statics_);
+  static_version_ = placed.static_version;
+  build(executor, placed, placed.movers, placed.mover_count, movers_);
+  version_ = placed.version;
+}
+
+void QueryTrees::build(Executor& executor, const PlacedProxies& placed, const std::uint32_t* list, std::uint32_t n,
+                       Lbvh& tree) {
+  tree.reserve(placed.rows);
+  executor.run(n, PlaceTargets{placed.bodies, placed.proxies, list, placed.origin, targets_.data(), boxes_.data()});
+  reduce_.run(executor, n, LoadExtent{boxes_.data(), list}, extent_.data());
+  tree.build(executor, boxes_.data(), list, n, extent_.data(), MortonBits::k63);
+}
+
+QueryScene QueryTrees::scene(const PlacedProxies& placed) {
+  return {movers_.view(),        statics_.view(),      origin_,       targets_.data(), placed.filters, ids_.device(),
+          placed.proxies.shapes, placed.proxies.hulls, placed.several};
+}
+
+}  // namespace plumb::impulse

@@ -1,0 +1,48 @@
+// The trees of queries, built when somebody asks for the first time after a change. That of the statics stays as long
+// as they do.
+#pragma once
+
+#include <span>
+
+#include "exec/reduce.hpp"
+#include "queries/query_scene.hpp"
+
+namespace plumb::impulse {
+
+/// Bodies with shapes, uploaded and listed, as they are now.
+struct PlacedProxies {
+  Bodies bodies;
+  Proxies proxies;
+  const ProxyFilter* filters;
+  std::uint32_t rows;  ///< of proxies
+  const std::uint32_t *movers, *statics;
+  std::uint32_t mover_count, static_count;
+  bool several;                           ///< whether a body may have more than one proxy
+  Position origin;                        ///< a place near most of them
+  std::uint64_t version, static_version;  ///< change when any body or any static may have
+};
+
+class QueryTrees {
+ public:
+  /// Whether the trees are those of this version of the bodies.
+  [[nodiscard]] bool fresh(std::uint64_t version) const { return version_ == version; }
+  /// Enqueues what it takes to be up to date. ids: of the bodies, by slot; ids_version changes with them.
+  void update(Executor& executor, const PlacedProxies& placed, std::span<const PlumbBody> ids,
+              std::uint64_t ids_version);
+  /// Of what was updated last, where kernels run.
+  [[nodiscard]] QueryScene scene(const PlacedProxies& placed);
+
+ private:
+  void build(Executor& executor, const PlacedProxies& placed, const std::uint32_t* list, std::uint32_t n, Lbvh& tree);
+
+  std::uint64_t version_ = 0, static_version_ = 0, ids_version_ = 0;
+  Position origin_{0, 0, 0};
+  Buffer<Box> boxes_;  // by proxy
+  Buffer<Target> targets_;
+  Mirror<PlumbBody> ids_;
+  Reduce<SceneExtent> reduce_;
+  Buffer<SceneExtent> extent_;
+  Lbvh movers_, statics_;
+};
+
+}  // namespace plumb::impulse
