@@ -2,15 +2,10 @@
 #pragma once
 
 #include "hashes/scene.hpp"
-#include "plugin/world.hpp"
-#include "plumb/backend/tables.hpp"
 
 namespace plumb::impulse::test {
 
 /// host: for the worlds made from now on; may be null.
-inline Backend engine(const PlumbHost* host = nullptr) {
-  backend::Tables<World>::host = host;
-  return Backend(negotiate(&backend::open<World>, "impulse"));
-}
+Backend engine(const PlumbHost* host = nullptr);
 
 }  // namespace plumb::impulse::test

@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "engine.hpp"
+#include "exec/phase_clock.hpp"
 
 namespace plumb::impulse::test {
 namespace {

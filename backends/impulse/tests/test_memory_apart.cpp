@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine.hpp"
+#include "plugin/world.hpp"
 
 namespace plumb::impulse::test {
 namespace {

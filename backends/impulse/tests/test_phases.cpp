@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine.hpp"
+#include "exec/phase_clock.hpp"
 
 namespace plumb::impulse::test {
 namespace {

@@ -1,0 +1,14 @@
+// Apart from its header, so that the interface's templates are compiled once and not with every test.
+#include "engine.hpp"
+
+#include "plugin/world.hpp"
+#include "plumb/backend/tables.hpp"
+
+namespace plumb::impulse::test {
+
+Backend engine(const PlumbHost* host) {
+  backend::Tables<World>::host = host;
+  return Backend(negotiate(&backend::open<World>, "impulse"));
+}
+
+}  // namespace plumb::impulse::test
