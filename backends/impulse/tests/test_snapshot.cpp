@@ -136,7 +136,7 @@ TEST(Snapshot, WhatIsNotOneIsRefused) {
   std::vector<std::byte> torn = saved, changed = saved;
   torn.pop_back();
   changed[changed.size() / 2] ^= std::byte{1};
-  EXPECT_EQ(refused({}), PLUMB_E_INVALID_ARGUMENT);
+  EXPECT_EQ(refused({}), PLUMB_E_CORRUPT);
   EXPECT_EQ(refused(torn), PLUMB_E_CORRUPT);
   EXPECT_EQ(refused(changed), PLUMB_E_CORRUPT);
   heap.scene.add(heap.scene.box({1, 1, 1}), {9, 9, 9});
