@@ -37,7 +37,17 @@ void Simulation::reserve_bodies(std::uint32_t slots) {
   force.grow(size);
   mass.grow(size);
   frames.grow(size);
+  bodies_dirty_ = true;
+  reserve_proxies(static_cast<std::uint32_t>(size));
+  reserve_pairs(pair_capacity_);
+}
+
+void Simulation::reserve_proxies(std::uint32_t rows) {
+  if (rows <= proxies.size()) return;
+  const std::size_t before = proxies.size();
+  const std::size_t size = std::max<std::size_t>(rows, before + before / 2);
   proxies.grow(size);
+  for (std::size_t i = before; i < size; ++i) proxies.edit(i).shape = kNone;
   filters.grow(size);
   movers_.grow(size);
   statics_.grow(size);
@@ -53,9 +63,10 @@ void Simulation::reserve_shapes(std::uint32_t rows) {
 
 void Simulation::reserve_pairs(std::uint32_t pairs) {
   pair_capacity_ = pairs;
-  const auto slots = static_cast<std::uint32_t>(state.size());
-  broad_phase_.reserve(executor_, slots, slots, pairs);
-  narrow_phase_.reserve(executor_, slots, pairs);
+  const auto slots = static_cast<std::uint32_t>(state.size()), rows = static_cast<std::uint32_t>(proxies.size());
+  broad_phase_.reserve(executor_, rows, rows, pairs);
+  narrow_phase_.reserve(executor_, rows, pairs);
+  if (in_pieces_) pieces_.reserve(rows, pairs);
   colouring_.reserve(executor_, slots, pairs);
   solver_.reserve(executor_, slots, pairs);
   forget_recordings();
@@ -71,7 +82,7 @@ Bodies Simulation::bodies() {
           mass.device(),           features_.rotation};
 }
 
-Proxies Simulation::proxy_view() { return {proxies.device(), shapes.device(), hulls.device()}; }
+Proxies Simulation::proxy_view() { return {proxies.device(), shapes.device(), hulls.device(), surfaces.device()}; }
 
 /// Bounds are floats from a place near the bodies, so that they are as sharp far from the world's origin as near it.
 /// That place is the median of some of them: one body that was lost far out does not move it.
@@ -93,17 +104,29 @@ void Simulation::find_origin() {
 
 /// Who has a shape, and whether it moves.
 void Simulation::list_bodies() {
-  mover_count_ = static_count_ = shape_types_ = 0;
-  for (std::uint32_t i = 0; i < body_count_; ++i) {
+  mover_count_ = static_count_ = plane_count_ = shape_types_ = 0;
+  for (std::uint32_t i = 0; i < proxy_count_; ++i) {
     if (proxies[i].shape == kNone) continue;
-    shape_types_ |= 1U << static_cast<std::uint32_t>(shapes[proxies[i].shape].type);
-    if ((mass[i].flags & kBodyMoves) != 0)
+    const ShapeType type = shapes[proxies[i].shape].type;
+    shape_types_ |= bit_of(type);
+    if (type == ShapeType::kPlane) {
+      planes_.grow(plane_count_ + 1);
+      planes_[plane_count_++] = i;
+      continue;
+    }
+    if ((mass[proxies[i].body].flags & kBodyMoves) != 0)
       movers_[mover_count_++] = i;
     else
       statics_[static_count_++] = i;
   }
   executor_.to_device(movers_, mover_count_);
   executor_.to_device(statics_, static_count_);
+  if (plane_count_ != 0) executor_.to_device(planes_, plane_count_);
+  if (!in_pieces_ && (shape_types_ & kTypesInPieces) != 0) {
+    in_pieces_ = true;
+    narrow_phase_.take_pieces();
+    reserve_pairs(pair_capacity_);
+  }
   find_origin();
   statics_dirty_ = true;
   bodies_dirty_ = false;
@@ -118,6 +141,7 @@ void Simulation::upload_changes() {
   filters.upload(executor_);
   shapes.upload(executor_);
   hulls.upload(executor_);
+  surfaces.upload(executor_);
   state.upload();
   if (joints.changed()) {
     joints.upload(mass);
@@ -126,8 +150,12 @@ void Simulation::upload_changes() {
   parameters_[0].origin = origin_;
   executor_.to_device(parameters_, 1);
   if (statics_dirty_) {
-    executor_.run(static_count_, BoundProxies{bodies(), proxy_view(), parameters_.device(), statics_.device(),
-                                              boxes_.data(), margins_.data()});
+    const auto bound = [this](std::uint32_t count, const std::uint32_t* list) {
+      executor_.run(count,
+                    BoundProxies{bodies(), proxy_view(), parameters_.device(), list, boxes_.data(), margins_.data()});
+    };
+    bound(static_count_, statics_.device());
+    if (plane_count_ != 0) bound(plane_count_, planes_.device());
     broad_phase_.build_statics(executor_, boxes_.data(), statics_.device(), static_count_);
     statics_dirty_ = false;
   }
@@ -135,8 +163,10 @@ void Simulation::upload_changes() {
 
 Simulation::Recorded Simulation::what_is_recorded() {
   const Hulls all = hulls.device();
-  return {{shapes.device(), all.ranges, all.vertices, all.faces, all.loops, all.edges, joints.excluded()},
-          {body_count_, mover_count_, static_count_, shape_types_, joints.excluded_count(),
+  const Surfaces on = surfaces.device();
+  return {{shapes.device(), all.ranges, all.vertices, all.faces, all.loops, all.edges, joints.excluded(), on.meshes,
+           on.fields},
+          {body_count_, mover_count_, static_count_, plane_count_, shape_types_, joints.excluded_count(),
            static_cast<std::uint32_t>(parameters_[0].solver)}};
 }
 
@@ -161,6 +191,20 @@ void Simulation::run_step() {
   if (velocities_.in_step()) velocities_.written(state.version());
 }
 
+/// The pairs that are worth a look, and of those that have pieces the pieces.
+void Simulation::find_candidates(const ContactCache& now) {
+  StepCounters* counters = counters_.device();
+  const PairFilter filter{filters.device(), joints.excluded(), joints.excluded_count()};
+  broad_phase_.find_pairs(executor_, boxes_.data(), movers_.device(), mover_count_, filter,
+                          in_pieces_ ? pieces_.pairs() : now.pairs, in_pieces_ ? pieces_.ranges() : now.ranges,
+                          &counters->pairs);
+  if (!in_pieces_) return;
+  pieces_.find(executor_,
+               {bodies(), proxy_view(), parameters_.device(), filter, boxes_.data(), margins_.data(), movers_.device(),
+                mover_count_, planes_.device(), plane_count_},
+               now, counters);
+}
+
 /// The step, from bounds to poses.
 void Simulation::enqueue() {
   const Bodies all = bodies();
@@ -174,9 +218,7 @@ void Simulation::enqueue() {
   if (features_.collision) {
     executor_.run(mover_count_,
                   BoundProxies{all, shapes_on, parameters, movers_.device(), boxes_.data(), margins_.data()});
-    broad_phase_.find_pairs(executor_, boxes_.data(), movers_.device(), mover_count_,
-                            PairFilter{filters.device(), joints.excluded(), joints.excluded_count()}, now.pairs,
-                            now.ranges, &counters->pairs);
+    find_candidates(now);
     phases_.end(executor_, PLUMB_PHASE_BROAD);
     narrow_phase_.collide(executor_, now, all, shapes_on, margins_.data(), shape_types_, counters);
     colouring_.begin(executor_);
@@ -259,6 +301,11 @@ std::shared_ptr<RowBlock<Row>> Simulation::rows(FieldRows<Row>& field, bool on_h
 template std::shared_ptr<RowBlock<PoseRow>> Simulation::rows(FieldRows<PoseRow>& field, bool on_host);
 template std::shared_ptr<RowBlock<VelocityRow>> Simulation::rows(FieldRows<VelocityRow>& field, bool on_host);
 
-std::vector<Pair> Simulation::candidates() { return narrow_phase_.candidates(step_, counters().pairs); }
+std::vector<Pair> Simulation::candidates() {
+  std::vector<Pair> found = narrow_phase_.candidates(step_, candidate_count());
+  const auto same = [](const Pair& a, const Pair& b) { return a.a == b.a && a.b == b.b; };
+  found.erase(std::unique(found.begin(), found.end(), same), found.end());  // of a pair's pieces one
+  return found;
+}
 
 }  // namespace plumb::impulse

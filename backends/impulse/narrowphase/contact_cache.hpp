@@ -35,15 +35,18 @@ struct ContactCache {
   std::uint32_t* row;        ///< by candidate: its manifold's row where touching
   std::uint32_t* candidate;  ///< by row
   CachedManifold* kept;      ///< by row
+  std::uint32_t* parts;      ///< by candidate: the triangle of a surface, or 0; null where nothing has pieces
 };
 
-/// The row of pair (a, b) in a step's cache, or kNone. The pair is in the list of whichever of both found it.
-PLUMB_HD inline std::uint32_t find_row(const ContactCache& cache, Pair wanted) {
+/// The row of pair (a, b), or of that part of it, in a step's cache, or kNone. The pair is in the list of whichever of
+/// both found it.
+PLUMB_HD inline std::uint32_t find_row(const ContactCache& cache, Pair wanted, std::uint32_t part = 0) {
   const std::uint32_t owners[2] = {wanted.a, wanted.b};
   for (const std::uint32_t owner : owners) {
     const PairRange range = cache.ranges[owner];
     for (std::uint32_t p = range.first; p < range.first + range.count; ++p)
-      if (cache.pairs[p].a == wanted.a && cache.pairs[p].b == wanted.b)
+      if (cache.pairs[p].a == wanted.a && cache.pairs[p].b == wanted.b &&
+          (cache.parts == nullptr || cache.parts[p] == part))
         return cache.touching[p] != 0 ? cache.row[p] : kNone;
   }
   return kNone;

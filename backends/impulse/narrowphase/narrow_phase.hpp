@@ -12,6 +12,8 @@ namespace plumb::impulse {
 class NarrowPhase {
  public:
   void reserve(Executor& executor, std::uint32_t proxies, std::uint32_t pairs);
+  /// From now on candidates have parts (pieces.hpp), and counters->pieces is how many there are. Reserve after this.
+  void take_pieces() { in_pieces_ = true; }
   [[nodiscard]] std::uint32_t capacity() const { return capacity_; }
 
   /// This step's contacts and the last one's, for a step of the given parity.
@@ -37,14 +39,20 @@ class NarrowPhase {
     Buffer<Manifold> found;
     Buffer<std::uint32_t> touching, row, candidate;
     Buffer<CachedManifold> kept;
+    Buffer<std::uint32_t> parts;
     ContactCache view() {
-      return {pairs.data(), ranges.data(), found.data(), touching.data(), row.data(), candidate.data(), kept.data()};
+      return {pairs.data(), ranges.data(),    found.data(), touching.data(),
+              row.data(),   candidate.data(), kept.data(),  parts.data()};
     }
   };
 
   void bin(Executor& executor, const ContactCache& cache, const Proxies& proxies, StepCounters* counters);
+  [[nodiscard]] Count candidates(StepCounters* counters) const {
+    return {in_pieces_ ? &counters->pieces : &counters->pairs, capacity_};
+  }
 
   std::uint32_t capacity_ = 0;
+  bool in_pieces_ = false;
   Storage caches_[2];
   Scan scan_;
   RadixSort<std::uint32_t> sort_;
