@@ -6,6 +6,7 @@
 
 #include "geometry/box.hpp"
 #include "geometry/shape.hpp"
+#include "geometry/surface.hpp"
 #include "math/mat33.hpp"
 
 namespace plumb::impulse {
@@ -93,6 +94,7 @@ struct Proxies {
   const Proxy* rows;
   const Shape* shapes;
   Hulls hulls;
+  Surfaces surfaces{};
 };
 
 /// A shape's placement: the turn in world axes, and where its origin is from the body's centre of mass.

@@ -7,7 +7,9 @@
 namespace plumb::impulse {
 
 struct ContactRecord {
-  Pair pair;
+  Pair pair;           ///< of proxies
+  Pair bodies;         ///< their bodies' slots
+  std::uint32_t part;  ///< triangle of a surface
   Vec normal;
   std::uint32_t count;
   std::uint32_t feature[kManifoldPoints];
@@ -31,9 +33,11 @@ struct DescribeContacts {
     const CachedManifold& kept = cache.kept[row];
     ContactRecord& record = records[row];
     record.pair = cache.pairs[candidate];
+    record.part = cache.parts == nullptr ? 0 : cache.parts[candidate];
     record.normal = found.normal;
     record.count = found.count;
     const Proxy& a = proxies.rows[record.pair.a];
+    record.bodies = {a.body, proxies.rows[record.pair.b].body};
     const Displacement& moved_by = displacements[a.body];
     const Quat orientation = conjugate(moved_by.rotation) * bodies.orientation[a.body];
     const Position origin = moved(bodies.position[a.body], rotate(orientation, a.frame.position) - moved_by.linear);

@@ -38,7 +38,17 @@ void Simulation::reserve_bodies(std::uint32_t slots) {
   force.grow(size);
   mass.grow(size);
   frames.grow(size);
+  bodies_dirty_ = true;
+  reserve_proxies(static_cast<std::uint32_t>(size));
+  reserve_pairs(pair_capacity_);
+}
+
+void Simulation::reserve_proxies(std::uint32_t rows) {
+  if (rows <= proxies.size()) return;
+  const std::size_t before = proxies.size();
+  const std::size_t size = std::max<std::size_t>(rows, before + before / 2);
   proxies.grow(size);
+  for (std::size_t i = before; i < size; ++i) proxies.edit(i).shape = kNone;
   filters.grow(size);
   movers_.grow(size);
   statics_.grow(size);
@@ -55,10 +65,11 @@ void Simulation::reserve_shapes(std::uint32_t rows) {
 
 void Simulation::reserve_pairs(std::uint32_t pairs) {
   pair_capacity_ = pairs;
-  const auto slots = static_cast<std::uint32_t>(state.size());
-  broad_phase_.reserve(executor_, slots, slots, pairs);
-  narrow_phase_.reserve(executor_, slots, pairs);
+  const auto slots = static_cast<std::uint32_t>(state.size()), rows = static_cast<std::uint32_t>(proxies.size());
+  broad_phase_.reserve(executor_, rows, rows, pairs);
+  narrow_phase_.reserve(executor_, rows, pairs);
   if (features_.continuous) impacts_.reserve(pairs);
+  if (in_pieces_) pieces_.reserve(rows, pairs);
   colouring_.reserve(executor_, slots, pairs);
   solver_.reserve(executor_, slots, pairs);
   forget_recordings();
@@ -74,7 +85,7 @@ Bodies Simulation::bodies() {
           mass.device(),           features_.rotation};
 }
 
-Proxies Simulation::proxy_view() { return {proxies.device(), shapes.device(), hulls.device()}; }
+Proxies Simulation::proxy_view() { return {proxies.device(), shapes.device(), hulls.device(), surfaces.device()}; }
 
 /// Bounds are floats from a place near the bodies, so that they are as sharp far from the world's origin as near it.
 /// That place is the median of some of them: one body that was lost far out does not move it.
@@ -97,11 +108,17 @@ void Simulation::find_origin() {
 
 /// Who has a shape, and whether it moves.
 void Simulation::list_bodies() {
-  mover_count_ = static_count_ = shape_types_ = 0;
-  for (std::uint32_t i = 0; i < body_count_; ++i) {
+  mover_count_ = static_count_ = plane_count_ = shape_types_ = 0;
+  for (std::uint32_t i = 0; i < proxy_count_; ++i) {
     if (proxies[i].shape == kNone) continue;
-    shape_types_ |= 1U << static_cast<std::uint32_t>(shapes[proxies[i].shape].type);
-    if ((mass[i].flags & kBodyMoves) != 0)
+    const ShapeType type = shapes[proxies[i].shape].type;
+    shape_types_ |= bit_of(type);
+    if (type == ShapeType::kPlane) {
+      planes_.grow(plane_count_ + 1);
+      planes_[plane_count_++] = i;
+      continue;
+    }
+    if ((mass[proxies[i].body].flags & kBodyMoves) != 0)
       movers_[mover_count_++] = i;
     else
       statics_[static_count_++] = i;
@@ -109,6 +126,12 @@ void Simulation::list_bodies() {
   executor_.to_device(movers_, mover_count_);
   executor_.to_device(statics_, static_count_);
   narrow_phase_.forget_found(executor_, statics_.device(), static_count_);
+  if (plane_count_ != 0) executor_.to_device(planes_, plane_count_);
+  if (!in_pieces_ && (shape_types_ & kTypesInPieces) != 0) {
+    in_pieces_ = true;
+    narrow_phase_.take_pieces();
+    reserve_pairs(pair_capacity_);
+  }
   if (origin_dirty_) find_origin();
   statics_changed();
   bodies_dirty_ = false;
@@ -121,6 +144,7 @@ void Simulation::upload_bodies() {
   filters.upload(executor_);
   shapes.upload(executor_);
   hulls.upload(executor_);
+  surfaces.upload(executor_);
   state.upload();
 }
 
@@ -143,8 +167,12 @@ void Simulation::upload_changes() {
     if (!bound_again_) statics_parameters_[0] = parameters_[0];
     bound_again_ = false;
     executor_.to_device(statics_parameters_, 1);
-    executor_.run(static_count_, BoundProxies{bodies(), proxy_view(), statics_parameters_.device(), statics_.device(),
-                                              boxes_.data(), margins_.data()});
+    const auto bound = [this](std::uint32_t count, const std::uint32_t* list) {
+      executor_.run(count, BoundProxies{bodies(), proxy_view(), statics_parameters_.device(), list, boxes_.data(),
+                                        margins_.data()});
+    };
+    bound(static_count_, statics_.device());
+    if (plane_count_ != 0) bound(plane_count_, planes_.device());
     broad_phase_.build_statics(executor_, boxes_.data(), statics_.device(), static_count_);
     statics_dirty_ = false;
   }
@@ -152,8 +180,10 @@ void Simulation::upload_changes() {
 
 Simulation::Recorded Simulation::what_is_recorded() {
   const Hulls all = hulls.device();
-  return {{shapes.device(), all.ranges, all.vertices, all.faces, all.loops, all.edges, joints.excluded()},
-          {body_count_, mover_count_, static_count_, shape_types_, joints.excluded_count(),
+  const Surfaces on = surfaces.device();
+  return {{shapes.device(), all.ranges, all.vertices, all.faces, all.loops, all.edges, joints.excluded(), on.meshes,
+           on.fields},
+          {body_count_, mover_count_, static_count_, plane_count_, shape_types_, joints.excluded_count(),
            static_cast<std::uint32_t>(parameters_[0].solver), sleep_.count() == 0 ? 0U : 1U}};
 }
 
@@ -185,6 +215,20 @@ void Simulation::run_step() {
   if (velocities_.in_step()) velocities_.written(state.version());
 }
 
+/// The pairs that are worth a look, and of those that have pieces the pieces.
+void Simulation::find_candidates(const ContactCache& now) {
+  StepCounters* counters = counters_.device();
+  const PairFilter filter{filters.device(), joints.excluded(), joints.excluded_count()};
+  broad_phase_.find_pairs(executor_, boxes_.data(), movers_.device(), mover_count_, filter,
+                          in_pieces_ ? pieces_.pairs() : now.pairs, in_pieces_ ? pieces_.ranges() : now.ranges,
+                          &counters->pairs);
+  if (!in_pieces_) return;
+  pieces_.find(executor_,
+               {bodies(), proxy_view(), parameters_.device(), filter, boxes_.data(), margins_.data(), movers_.device(),
+                mover_count_, planes_.device(), plane_count_},
+               now, counters);
+}
+
 /// The step, from bounds to poses.
 void Simulation::enqueue() {
   const Bodies all = bodies();
@@ -198,13 +242,11 @@ void Simulation::enqueue() {
   if (features_.collision) {
     executor_.run(mover_count_,
                   BoundProxies{all, shapes_on, parameters, movers_.device(), boxes_.data(), margins_.data()});
-    broad_phase_.find_pairs(executor_, boxes_.data(), movers_.device(), mover_count_,
-                            PairFilter{filters.device(), joints.excluded(), joints.excluded_count()}, now.pairs,
-                            now.ranges, &counters->pairs);
+    find_candidates(now);
     phases_.end(executor_, PLUMB_PHASE_BROAD);
     narrow_phase_.collide(executor_, now, all, shapes_on, margins_.data(), shape_types_, counters);
     if (features_.continuous)
-      impacts_.find(executor_, now, pair_capacity_, all, shapes_on, margins_.data(), parameters, counters);
+      impacts_.find(executor_, now, narrow_phase_.candidates(counters), all, shapes_on, margins_.data(), parameters);
     narrow_phase_.number(executor_, now, counters);
     colouring_.begin(executor_);
     const KeptPair* woken = features_.sleeping ? sleep_.woken_pairs() : nullptr;
@@ -259,6 +301,7 @@ double Simulation::phase_seconds(PlumbPhase phase) const {
 }
 
 void Simulation::exchange(Archive& archive) {
+  if (archive.reads() && bodies_dirty_) list_bodies();
   archive.value(step_);
   archive.value(origin_);
   archive.value(origin_dirty_);
@@ -266,9 +309,9 @@ void Simulation::exchange(Archive& archive) {
   bool statics_dirty = statics_dirty_;
   archive.value(statics_dirty);
   archive.value(*counters_.host());
-  if (counters().pairs > pair_capacity_) reserve_pairs(counters().pairs);
+  if (candidate_count() > pair_capacity_) reserve_pairs(candidate_count());
   state.exchange(archive, body_count_);
-  narrow_phase_.exchange(archive, step_, static_cast<std::uint32_t>(state.size()), counters());
+  narrow_phase_.exchange(archive, step_, proxy_count_, counters());
   joints.exchange(archive);
   if (features_.sleeping) sleep_.exchange(archive, body_count_, mass);
   if (!archive.reads()) return;
@@ -362,5 +405,11 @@ QueryScene Simulation::shape_scene() {
 }
 
 std::vector<Pair> Simulation::candidates() { return narrow_phase_.candidates(step_, counters().pairs); }
+std::vector<Pair> Simulation::candidates() {
+  std::vector<Pair> found = narrow_phase_.candidates(step_, candidate_count());
+  const auto same = [](const Pair& a, const Pair& b) { return a.a == b.a && a.b == b.b; };
+  found.erase(std::unique(found.begin(), found.end(), same), found.end());  // of a pair's pieces one
+  return found;
+}
 
 }  // namespace plumb::impulse

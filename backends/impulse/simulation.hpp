@@ -17,8 +17,10 @@
 #include "exec/phase_clock.hpp"
 #include "exec/table.hpp"
 #include "geometry/hull_pool.hpp"
+#include "geometry/surface_pool.hpp"
 #include "islands/sleep.hpp"
 #include "narrowphase/narrow_phase.hpp"
+#include "narrowphase/pieces.hpp"
 #include "queries/query_trees.hpp"
 #include "solver/colouring.hpp"
 #include "solver/solver.hpp"
@@ -41,18 +43,23 @@ class Simulation {
   Table<BodyForce> force;
   Table<BodyMass> mass;
   Table<BodyFrame> frames;
-  Table<Proxy> proxies;  // one a body, for now at the body's slot
-  Table<ProxyFilter> filters;
+  Table<Proxy> proxies;        // rows of their own: a body may have several, or none
+  Table<ProxyFilter> filters;  // by proxy
   Table<Shape> shapes;
   JointStore joints;
   HullPool hulls;
+  SurfacePool surfaces;
 
   /// Room for this many body slots, and the rows up to it.
   void reserve_bodies(std::uint32_t slots);
   void reserve_shapes(std::uint32_t rows);
+  /// Room for this many proxies, at least one a body slot. New rows have no shape.
+  void reserve_proxies(std::uint32_t rows);
   /// Slots in use; rows behind are nobody's.
   void set_body_count(std::uint32_t slots) { body_count_ = slots; }
   [[nodiscard]] std::uint32_t body_count() const { return body_count_; }
+  /// Proxy rows in use; those among them without a shape are nobody's.
+  void set_proxy_count(std::uint32_t rows) { proxy_count_ = rows; }
 
   void bodies_changed() { bodies_dirty_ = origin_dirty_ = true; }  ///< made, gone
   void statics_changed() {                                         ///< bodies that do not move: placed elsewhere
@@ -97,6 +104,7 @@ class Simulation {
   [[nodiscard]] std::vector<ContactRecord> contacts();
   /// What the broad phase of the last step found.
   [[nodiscard]] std::vector<Pair> candidates();
+  [[nodiscard]] std::uint32_t candidate_count() const { return narrow_phase_.candidate_count(counters()); }
 
   /// What queries look at, brought up to date. ids: of the bodies, by slot; ids_version changes with them. Between
   /// steps; one caller at a time, but what it gave to an earlier one stays as it is until bodies or shapes change.
@@ -117,8 +125,8 @@ class Simulation {
  private:
   /// What a recorded step holds of the host's numbers and addresses.
   struct Recorded {
-    std::array<const void*, 7> addresses{};
-    std::array<std::uint32_t, 7> numbers{};
+    std::array<const void*, 9> addresses{};
+    std::array<std::uint32_t, 8> numbers{};
     bool operator==(const Recorded&) const = default;
   };
 
@@ -127,6 +135,7 @@ class Simulation {
   [[nodiscard]] bool have_several_proxies() const;
   void list_bodies();
   void find_origin();
+  void find_candidates(const ContactCache& now);
   void reserve_rows();
   void enqueue();
   void enqueue_rows();
@@ -145,13 +154,14 @@ class Simulation {
   void reserve_pairs(std::uint32_t pairs);
 
   SolverFeatures features_;
-  std::uint32_t body_count_ = 0, step_ = 0, pair_capacity_ = 0;
+  std::uint32_t body_count_ = 0, proxy_count_ = 0, step_ = 0, pair_capacity_ = 0;
   bool bodies_dirty_ = true, origin_dirty_ = true, statics_dirty_ = true, repeated_ = false, grew_ = false;
   std::uint64_t static_version_ = 1;  // changes when any static may have, and with the lists below
   Position origin_{0, 0, 0};
 
-  Mirror<std::uint32_t> movers_, statics_;
-  std::uint32_t mover_count_ = 0, static_count_ = 0;
+  Mirror<std::uint32_t> movers_, statics_, planes_;
+  std::uint32_t mover_count_ = 0, static_count_ = 0, plane_count_ = 0;
+  bool in_pieces_ = false;         // once there was a plane or a surface
   std::uint32_t shape_types_ = 0;  // a bit for each ShapeType in the world
   Mirror<StepParameters> parameters_;
   Mirror<StepParameters> statics_parameters_;  // with which the statics were bounded
@@ -162,6 +172,7 @@ class Simulation {
   Buffer<Real> margins_;  // by proxy
 
   BroadPhase broad_phase_;
+  Pieces pieces_;
   NarrowPhase narrow_phase_;
   Impacts impacts_;  // where the scene asks for them
   Colouring colouring_;

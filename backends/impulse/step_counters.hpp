@@ -12,6 +12,7 @@ constexpr std::uint32_t kOverflow = kColours;  // the "colour" of constraints th
 
 struct StepCounters {
   std::uint32_t pairs;      ///< candidates found; more than there is room for: the step does nothing and is repeated
+  std::uint32_t pieces;     ///< of these, where there are planes, meshes or height fields (pieces.hpp)
   std::uint32_t manifolds;  ///< of these, touching
   std::uint32_t points;
   std::uint32_t uncoloured[3];                  ///< manifolds without a colour: this round, the next, the one after

@@ -19,6 +19,10 @@ struct FindImpacts {
     const Pair pair = cache.pairs[p];
     const Proxy &proxy_a = proxies.rows[pair.a], &proxy_b = proxies.rows[pair.b];
     if (((bodies.mass[proxy_a.body].flags | bodies.mass[proxy_b.body].flags) & kBodyContinuous) == 0) return;
+    const auto is_convex = [this](const Proxy& proxy) {
+      return static_cast<std::uint32_t>(proxies.shapes[proxy.shape].type) < kConvexTypes;
+    };
+    if (!is_convex(proxy_a) || !is_convex(proxy_b)) return;
     const StepParameters& step = *parameters;
     const MovingShape a = {&proxies.shapes[proxy_a.shape], proxy_a.frame, way_through_step(bodies, step, proxy_a.body)};
     const MovingShape b = {&proxies.shapes[proxy_b.shape], proxy_b.frame, way_through_step(bodies, step, proxy_b.body)};
@@ -52,11 +56,9 @@ struct FindImpacts {
 
 }  // namespace
 
-void Impacts::find(Executor& executor, const ContactCache& cache, std::uint32_t capacity, const Bodies& bodies,
-                   const Proxies& proxies, const Real* margins, const StepParameters* parameters,
-                   const StepCounters* counters) {
-  executor.run(Count{&counters->pairs, capacity},
-               FindImpacts{cache, bodies, proxies, margins, parameters, times_.data()});
+void Impacts::find(Executor& executor, const ContactCache& cache, Count candidates, const Bodies& bodies,
+                   const Proxies& proxies, const Real* margins, const StepParameters* parameters) {
+  executor.run(candidates, FindImpacts{cache, bodies, proxies, margins, parameters, times_.data()});
 }
 
 }  // namespace plumb::impulse

@@ -10,7 +10,6 @@
 #include "continuous/impact.hpp"
 #include "exec/executor.hpp"
 #include "narrowphase/contact_cache.hpp"
-#include "step_counters.hpp"
 
 namespace plumb::impulse {
 
@@ -24,9 +23,8 @@ class Impacts {
   void reserve(std::uint32_t pairs) { times_.grow(pairs); }
 
   /// Between the narrow phase's look at the pairs and their numbering. margins: by proxy, what it looked ahead, m.
-  void find(Executor& executor, const ContactCache& cache, std::uint32_t capacity, const Bodies& bodies,
-            const Proxies& proxies, const Real* margins, const StepParameters* parameters,
-            const StepCounters* counters);
+  void find(Executor& executor, const ContactCache& cache, Count candidates, const Bodies& bodies,
+            const Proxies& proxies, const Real* margins, const StepParameters* parameters);
 
   /// By candidate: of those whose manifold is one of an impact its time in the step, s; else 0.
   [[nodiscard]] const Real* times() const { return times_.data(); }

@@ -84,6 +84,13 @@ PLUMB_HD inline Extent shape_extent(const Shape& shape, const Quat& orientation,
       }
       return e;
     }
+    case ShapeType::kCylinder: {
+      high = abs(local.y) * shape.size.y + sqrt(local.x * local.x + local.z * local.z) * shape.size.x;
+      break;
+    }
+    case ShapeType::kMesh:
+    case ShapeType::kHeightField: high = dot(abs(local), shape.size); break;
+    case ShapeType::kPlane: return {kHuge, -kHuge};
   }
   return {-high, high};
 }

@@ -7,15 +7,37 @@
 
 namespace plumb::impulse {
 
-enum class ShapeType : std::uint32_t { kSphere = 0, kBox = 1, kCapsule = 2, kHull = 3 };
-constexpr std::uint32_t kShapeTypes = 4;
+enum class ShapeType : std::uint32_t {
+  kSphere = 0,
+  kBox = 1,
+  kCapsule = 2,
+  kHull = 3,
+  kCylinder = 4,
+  kPlane = 5,
+  kMesh = 6,
+  kHeightField = 7
+};
+constexpr std::uint32_t kShapeTypes = 8;
+/// Of those, the first so many are convex and finite.
+constexpr std::uint32_t kConvexTypes = 5;
+
+PLUMB_HD constexpr bool is_surface(ShapeType type) {
+  return type == ShapeType::kMesh || type == ShapeType::kHeightField;
+}
+/// A bit for each type in a set.
+constexpr std::uint32_t bit_of(ShapeType type) { return 1U << static_cast<std::uint32_t>(type); }
+/// Those that are not collided as they are found: planes are in no tree, surfaces are taken triangle by triangle.
+constexpr std::uint32_t kTypesInPieces =
+    bit_of(ShapeType::kPlane) | bit_of(ShapeType::kMesh) | bit_of(ShapeType::kHeightField);
 
 /// One shape, in its own frame.
 struct Shape {
   ShapeType type;
-  std::uint32_t hull;  ///< hulls: its row in Hulls
-  Vec size;            ///< sphere: radius, -, -; box: half extents; capsule: radius, half length of its segment, -
-  Real reach;          ///< radius of the ball about the frame's origin that holds the shape
+  std::uint32_t hull;  ///< hulls, meshes, height fields: its row among those
+  /// Sphere: radius, -, -. Box: half extents. Capsule: radius, half length of its segment, -. Cylinder: radius, half
+  /// height, -. Mesh and height field: half extents of its box, whose centre is the frame's origin.
+  Vec size;
+  Real reach;  ///< radius of the ball about the frame's origin that holds the shape
 };
 
 /// A face's polygon: `count` indices into the hull's loop array from `first`, counter-clockwise seen from outside.

@@ -60,8 +60,6 @@ struct TimeRest {
   }
 };
 
-bool earlier(const Pair& x, const Pair& y) { return x.a != y.a ? x.a < y.a : x.b < y.b; }
-
 }  // namespace
 
 void Sleep::reserve(std::uint32_t bodies) {
@@ -178,8 +176,7 @@ void Sleep::upload(Executor& executor) {
   if (woken_.empty()) return;
   woken_pairs_.grow(woken_.size());
   for (std::size_t i = 0; i < woken_.size(); ++i) woken_pairs_[i] = woken_[i].kept;
-  std::sort(woken_pairs_.host(), woken_pairs_.host() + woken_.size(),
-            [](const KeptPair& x, const KeptPair& y) { return earlier(x.pair, y.pair); });
+  std::sort(woken_pairs_.host(), woken_pairs_.host() + woken_.size(), earlier);
   executor.to_device(woken_pairs_, woken_.size());
 }
 

@@ -8,6 +8,7 @@
 
 #include "narrowphase/box_box.hpp"
 #include "narrowphase/capsule.hpp"
+#include "narrowphase/cylinder_pairs.hpp"
 #include "narrowphase/polyhedra.hpp"
 #include "narrowphase/round.hpp"
 #include "narrowphase/round_polyhedron.hpp"
@@ -23,7 +24,19 @@ PLUMB_HD inline void swap_sides(const Vec& d, Manifold& m) {
   }
 }
 
-/// Any two shapes with a.type <= b.type.
+/// A convex shape and a cylinder.
+PLUMB_HD inline bool collide_with_cylinder(const Shape& a, const Quat& qa, const Shape& b, const Quat& qb, const Vec& d,
+                                           Real margin, const Hulls& hulls, Manifold& out) {
+  switch (a.type) {
+    case ShapeType::kSphere: return collide_sphere_cylinder(a, qa, b, qb, d, margin, hulls, out);
+    case ShapeType::kBox: return collide_box_cylinder(a, qa, b, qb, d, margin, hulls, out);
+    case ShapeType::kCapsule: return collide_capsule_cylinder(a, qa, b, qb, d, margin, hulls, out);
+    case ShapeType::kHull: return collide_hull_cylinder(a, qa, b, qb, d, margin, hulls, out);
+    default: return collide_cylinder_cylinder(a, qa, b, qb, d, margin, hulls, out);
+  }
+}
+
+/// Any two convex shapes without cylinders, with a.type <= b.type.
 PLUMB_HD inline bool collide_ordered(const Shape& a, const Quat& qa, const Shape& b, const Quat& qb, const Vec& d,
                                      Real margin, const Hulls& hulls, Manifold& out) {
   const auto kind = [](ShapeType type_a, ShapeType type_b) {
@@ -44,11 +57,18 @@ PLUMB_HD inline bool collide_ordered(const Shape& a, const Quat& qa, const Shape
   }
 }
 
-/// Any two shapes.
+/// Any two convex shapes with a.type <= b.type.
+PLUMB_HD inline bool collide_convex(const Shape& a, const Quat& qa, const Shape& b, const Quat& qb, const Vec& d,
+                                    Real margin, const Hulls& hulls, Manifold& out) {
+  return b.type == ShapeType::kCylinder ? collide_with_cylinder(a, qa, b, qb, d, margin, hulls, out)
+                                        : collide_ordered(a, qa, b, qb, d, margin, hulls, out);
+}
+
+/// Any two convex shapes.
 PLUMB_HD inline bool collide(const Shape& a, const Quat& qa, const Shape& b, const Quat& qb, const Vec& d, Real margin,
                              const Hulls& hulls, Manifold& out) {
-  if (a.type <= b.type) return collide_ordered(a, qa, b, qb, d, margin, hulls, out);
-  const bool touch = collide_ordered(b, qb, a, qa, -d, margin, hulls, out);
+  if (a.type <= b.type) return collide_convex(a, qa, b, qb, d, margin, hulls, out);
+  const bool touch = collide_convex(b, qb, a, qa, -d, margin, hulls, out);
   if (touch) swap_sides(d, out);
   return touch;
 }

@@ -23,6 +23,7 @@ struct CachedManifold {
 /// A manifold that was kept apart from a step's.
 struct KeptPair {
   Pair pair;
+  std::uint32_t part;
   CachedManifold kept;
 };
 
@@ -41,32 +42,40 @@ struct ContactCache {
   std::uint32_t* row;        ///< by candidate: its manifold's row where touching
   std::uint32_t* candidate;  ///< by row
   CachedManifold* kept;      ///< by row
+  std::uint32_t* parts;      ///< by candidate: the triangle of a surface, or 0; null where nothing has pieces
 };
 
-/// The row of pair (a, b) in a step's cache, or kNone. The pair is in the list of whichever of both found it.
-PLUMB_HD inline std::uint32_t find_row(const ContactCache& cache, Pair wanted) {
+/// The row of pair (a, b), or of that part of it, in a step's cache, or kNone. The pair is in the list of whichever of
+/// both found it.
+PLUMB_HD inline std::uint32_t find_row(const ContactCache& cache, Pair wanted, std::uint32_t part = 0) {
   const std::uint32_t owners[2] = {wanted.a, wanted.b};
   for (const std::uint32_t owner : owners) {
     const PairRange range = cache.ranges[owner];
     for (std::uint32_t p = range.first; p < range.first + range.count; ++p)
-      if (cache.pairs[p].a == wanted.a && cache.pairs[p].b == wanted.b)
+      if (cache.pairs[p].a == wanted.a && cache.pairs[p].b == wanted.b &&
+          (cache.parts == nullptr || cache.parts[p] == part))
         return cache.touching[p] != 0 ? cache.row[p] : kNone;
   }
   return kNone;
 }
 
+PLUMB_HD inline bool earlier(const KeptPair& x, const KeptPair& y) {
+  if (x.pair.a != y.pair.a) return x.pair.a < y.pair.a;
+  return x.pair.b != y.pair.b ? x.pair.b < y.pair.b : x.part < y.part;
+}
 /// Likewise among n pairs in ascending order; null where it is not.
-PLUMB_HD inline const CachedManifold* find_kept(const KeptPair* pairs, std::uint32_t n, Pair wanted) {
+PLUMB_HD inline const CachedManifold* find_kept(const KeptPair* pairs, std::uint32_t n, Pair wanted,
+                                                std::uint32_t part) {
+  const KeptPair sought = {wanted, part, {}};
   std::uint32_t low = 0, high = n;
   while (low < high) {
     const std::uint32_t middle = (low + high) / 2;
-    const Pair pair = pairs[middle].pair;
-    if (pair.a < wanted.a || (pair.a == wanted.a && pair.b < wanted.b))
+    if (earlier(pairs[middle], sought))
       low = middle + 1;
     else
       high = middle;
   }
-  const bool found = low < n && pairs[low].pair.a == wanted.a && pairs[low].pair.b == wanted.b;
+  const bool found = low < n && !earlier(sought, pairs[low]);
   return found ? &pairs[low].kept : nullptr;
 }
 

@@ -46,8 +46,13 @@ PLUMB_HD Vec3<N> core_support(const Shape& shape, const Hulls& hulls, const Vec3
       }
       return best;
     }
+    case ShapeType::kCylinder: {
+      const N across = sqrt(n.x * n.x + n.z * n.z), y = n.y > 0 ? size.y : -size.y;
+      if (!(across > 0)) return {0, y, 0};
+      return {size.x / across * n.x, y, size.x / across * n.z};
+    }
+    default: return {0, 0, 0};  // planes and surfaces have no core
   }
-  return {0, 0, 0};
 }
 
 /// Two shapes, seen from the frame of A.

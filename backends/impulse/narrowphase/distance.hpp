@@ -21,8 +21,8 @@ struct CoreGap {
   Vec3<N> on_a, on_b;
 };
 
-/// The unit vector from A to B. Of cores that nearly touch, `nearest` is little more than rounding, but the corners that
-/// it lies between are not: the normal is across them.
+/// The unit vector from A to B. Of cores that nearly touch, `nearest` is little more than rounding, but the corners
+/// that it lies between are not: the normal is across them.
 template <class N>
 PLUMB_HD Vec3<N> gap_normal(const Simplex<N>& simplex, const Vec3<N>& nearest) {
   const N square = dot(nearest, nearest);

@@ -2,6 +2,7 @@
 
 #include "exec/atomic.hpp"
 #include "narrowphase/collide.hpp"
+#include "narrowphase/collide_pieces.hpp"
 
 namespace plumb::impulse {
 
@@ -15,11 +16,42 @@ PLUMB_HD constexpr std::uint32_t pair_kind(ShapeType a, ShapeType b) {
   return min(x, y) * kShapeTypes + max(x, y);
 }
 
-/// Any two shapes: a branch a pair, which is what a CPU does best.
+/// Two shapes as they lie, and the triangle where one is a surface.
+struct Placed {
+  const Shape &a, &b;
+  const Quat &qa, &qb;
+  Vec apart;
+  Real margin;
+};
+
+/// Any two convex shapes without cylinders: a branch a pair, which is what a CPU does best.
 struct AnyKind {
-  PLUMB_HD static bool collide(const Shape& a, const Quat& qa, const Shape& b, const Quat& qb, const Vec& apart,
-                               Real margin, const Hulls& hulls, Manifold& manifold) {
-    return impulse::collide(a, qa, b, qb, apart, margin, hulls, manifold);
+  PLUMB_HD static bool collide(const Placed& p, const Proxies& proxies, std::uint32_t, Manifold& manifold) {
+    if (p.a.type <= p.b.type) return collide_ordered(p.a, p.qa, p.b, p.qb, p.apart, p.margin, proxies.hulls, manifold);
+    const bool touch = collide_ordered(p.b, p.qb, p.a, p.qa, -p.apart, p.margin, proxies.hulls, manifold);
+    if (touch) swap_sides(p.apart, manifold);
+    return touch;
+  }
+};
+
+/// A convex shape and a piece of what is in pieces, in either order.
+struct PieceKind {
+  PLUMB_HD static bool collide(const Placed& p, const Proxies& proxies, std::uint32_t part, Manifold& manifold) {
+    if (in_pieces(p.b.type))
+      return collide_with_piece(p.a, p.qa, p.b, p.qb, p.apart, p.margin, proxies, part, manifold);
+    const bool touch = collide_with_piece(p.b, p.qb, p.a, p.qa, -p.apart, p.margin, proxies, part, manifold);
+    if (touch) swap_sides(p.apart, manifold);
+    return touch;
+  }
+  PLUMB_HD static constexpr bool in_pieces(ShapeType type) { return static_cast<std::uint32_t>(type) >= kConvexTypes; }
+};
+
+/// Any two shapes.
+struct AnyPiece {
+  PLUMB_HD static bool collide(const Placed& p, const Proxies& proxies, std::uint32_t part, Manifold& manifold) {
+    return PieceKind::in_pieces(p.a.type) || PieceKind::in_pieces(p.b.type)
+               ? PieceKind::collide(p, proxies, part, manifold)
+               : impulse::collide(p.a, p.qa, p.b, p.qb, p.apart, p.margin, proxies.hulls, manifold);
   }
 };
 
@@ -27,16 +59,31 @@ struct AnyKind {
 /// function.
 template <ShapeType kA, ShapeType kB>
 struct OneKind {
-  PLUMB_HD static bool collide(Shape a, const Quat& qa, Shape b, const Quat& qb, const Vec& apart, Real margin,
-                               const Hulls& hulls, Manifold& manifold) {
-    const bool swapped = kA != kB && a.type == kB;
-    const Shape first = swapped ? b : a;
-    const Shape second = swapped ? a : b;
+  PLUMB_HD static bool collide(const Placed& p, const Proxies& proxies, std::uint32_t, Manifold& manifold) {
+    const bool swapped = kA != kB && p.a.type == kB;
+    const Shape first = swapped ? p.b : p.a;
+    const Shape second = swapped ? p.a : p.b;
     const Shape typed_first = {kA, first.hull, first.size, first.reach};
     const Shape typed_second = {kB, second.hull, second.size, second.reach};
-    const bool touch = collide_ordered(typed_first, swapped ? qb : qa, typed_second, swapped ? qa : qb,
-                                       swapped ? -apart : apart, margin, hulls, manifold);
-    if (touch && swapped) swap_sides(apart, manifold);
+    const bool touch = collide_convex(typed_first, swapped ? p.qb : p.qa, typed_second, swapped ? p.qa : p.qb,
+                                      swapped ? -p.apart : p.apart, p.margin, proxies.hulls, manifold);
+    if (touch && swapped) swap_sides(p.apart, manifold);
+    return touch;
+  }
+};
+
+/// The same for a piece of type kB.
+template <ShapeType kA, ShapeType kB>
+struct OnePiece {
+  PLUMB_HD static bool collide(const Placed& p, const Proxies& proxies, std::uint32_t part, Manifold& manifold) {
+    const bool swapped = p.a.type == kB;
+    const Shape first = swapped ? p.b : p.a;
+    const Shape second = swapped ? p.a : p.b;
+    const Shape typed_first = {kA, first.hull, first.size, first.reach};
+    const Shape typed_second = {kB, second.hull, second.size, second.reach};
+    const bool touch = collide_with_piece(typed_first, swapped ? p.qb : p.qa, typed_second, swapped ? p.qa : p.qb,
+                                          swapped ? -p.apart : p.apart, p.margin, proxies, part, manifold);
+    if (touch && swapped) swap_sides(p.apart, manifold);
     return touch;
   }
 };
@@ -60,9 +107,9 @@ struct Collide {
                     pose_b = shape_pose(b, bodies.orientation[b.body]);
     const Vec apart = between(bodies.position[a.body], bodies.position[b.body]) + pose_b.offset - pose_a.offset;
     Manifold manifold;
-    const bool touch =
-        Kind::collide(proxies.shapes[a.shape], pose_a.orientation, proxies.shapes[b.shape], pose_b.orientation, apart,
-                      margins[pair.a] + margins[pair.b], proxies.hulls, manifold);
+    const bool touch = Kind::collide({proxies.shapes[a.shape], proxies.shapes[b.shape], pose_a.orientation,
+                                      pose_b.orientation, apart, margins[pair.a] + margins[pair.b]},
+                                     proxies, cache.parts == nullptr ? 0U : cache.parts[p], manifold);
     cache.touching[p] = touch ? 1 : 0;
     if (touch) cache.found[p] = manifold;
   }
@@ -83,11 +130,10 @@ struct SortKinds {
 /// Where a kind begins in the order.
 struct FindKinds {
   const std::uint32_t* kinds;
-  const StepCounters* counters;
-  std::uint32_t capacity;
+  Count pairs;
   std::uint32_t* first;
   PLUMB_HD void operator()(std::uint32_t kind) const {
-    std::uint32_t low = 0, high = min(counters->pairs, capacity);
+    std::uint32_t low = 0, high = min(*pairs.value, pairs.capacity);
     while (low < high) {
       const std::uint32_t middle = (low + high) / 2;
       if (kinds[middle] < kind)
@@ -137,9 +183,10 @@ struct Match {
       kept.normal_impulse[i] = kept.tangent_impulse[0][i] = kept.tangent_impulse[1][i] = 0;
     }
     const std::uint32_t step = parameters->step;
-    const std::uint32_t old_row = a.born == step || b.born == step ? kNone : find_row(last, pair);
+    const std::uint32_t part = cache.parts == nullptr ? 0U : cache.parts[candidate];
+    const std::uint32_t old_row = a.born == step || b.born == step ? kNone : find_row(last, pair, part);
     const CachedManifold* old = old_row != kNone ? &last.kept[old_row] : nullptr;
-    if (old == nullptr && woken != nullptr) old = find_kept(woken, parameters->woken_contacts, pair);
+    if (old == nullptr && woken != nullptr) old = find_kept(woken, parameters->woken_contacts, pair, part);
     if (old != nullptr) remember(*old, kept);
     cache.kept[row] = kept;
     atomic_add(&counters->points, kept.count);
@@ -179,6 +226,7 @@ void NarrowPhase::reserve(Executor& /*executor*/, std::uint32_t proxies, std::ui
     cache.row.grow(pairs);
     cache.candidate.grow(pairs);
     cache.kept.grow(pairs);
+    if (in_pieces_) cache.parts.grow(pairs);
   }
   scan_.reserve(pairs);
   if (Executor::kWarps) {
@@ -191,16 +239,20 @@ void NarrowPhase::reserve(Executor& /*executor*/, std::uint32_t proxies, std::ui
 
 void NarrowPhase::collide(Executor& executor, const ContactCache& cache, const Bodies& bodies, const Proxies& proxies,
                           const Real* margins, std::uint32_t shape_types, StepCounters* counters) {
-  const Count pairs = {&counters->pairs, capacity_};
+  const Count pairs = candidates(counters);
   const auto run = [&]<class Kind>(Kind, const std::uint32_t* order, const std::uint32_t* first) {
     executor.run(pairs, Collide<Kind>{cache, bodies, proxies, margins, order, first});
   };
   if constexpr (!Executor::kWarps) {
-    run(AnyKind{}, nullptr, nullptr);
+    if (in_pieces_ || (shape_types & bit_of(ShapeType::kCylinder)) != 0)
+      run(AnyPiece{}, nullptr, nullptr);
+    else
+      run(AnyKind{}, nullptr, nullptr);
   } else {
     const bool one = (shape_types & (shape_types - 1)) == 0;
     if (!one) bin(executor, cache, proxies, counters);
-    const auto run_kind = [&]<ShapeType kA, ShapeType kB>(OneKind<kA, kB> kind) {
+    const auto run_kind = [&]<template <ShapeType, ShapeType> class Kind, ShapeType kA, ShapeType kB>(
+                              Kind<kA, kB> kind) {
       const auto there = [&](ShapeType type) { return (shape_types >> static_cast<std::uint32_t>(type) & 1U) != 0; };
       if (!there(kA) || !there(kB)) return;
       run(kind, one ? nullptr : order_.data(), one ? nullptr : first_.data() + pair_kind(kA, kB));
@@ -216,21 +268,36 @@ void NarrowPhase::collide(Executor& executor, const ContactCache& cache, const B
     run_kind(OneKind<kCapsule, kCapsule>{});
     run_kind(OneKind<kCapsule, kHull>{});
     run_kind(OneKind<kHull, kHull>{});
+    run_kind(OneKind<kSphere, kCylinder>{});
+    run_kind(OneKind<kBox, kCylinder>{});
+    run_kind(OneKind<kCapsule, kCylinder>{});
+    run_kind(OneKind<kHull, kCylinder>{});
+    run_kind(OneKind<kCylinder, kCylinder>{});
+    const auto run_pieces = [&]<ShapeType kB>(std::integral_constant<ShapeType, kB>) {
+      run_kind(OnePiece<kSphere, kB>{});
+      run_kind(OnePiece<kBox, kB>{});
+      run_kind(OnePiece<kCapsule, kB>{});
+      run_kind(OnePiece<kHull, kB>{});
+      run_kind(OnePiece<kCylinder, kB>{});
+    };
+    run_pieces(std::integral_constant<ShapeType, kPlane>{});
+    run_pieces(std::integral_constant<ShapeType, kMesh>{});
+    run_pieces(std::integral_constant<ShapeType, kHeightField>{});
   }
 }
 
 void NarrowPhase::number(Executor& executor, const ContactCache& cache, StepCounters* counters) {
-  const Count pairs = {&counters->pairs, capacity_};
+  const Count pairs = candidates(counters);
   scan_.run(executor, pairs, cache.touching, cache.row, &counters->manifolds);
   executor.run(pairs, NumberRows{cache});
 }
 
 /// Orders the pairs by kind, so that a warp does one kind of work.
 void NarrowPhase::bin(Executor& executor, const ContactCache& cache, const Proxies& proxies, StepCounters* counters) {
-  const Count pairs = {&counters->pairs, capacity_};
+  const Count pairs = candidates(counters);
   executor.run(pairs, SortKinds{cache, proxies, kinds_.data(), unordered_.data()});
-  sort_.run(executor, pairs, kinds_.data(), unordered_.data(), sorted_kinds_.data(), order_.data(), 4);
-  executor.run(kPairKinds + 1, FindKinds{sorted_kinds_.data(), counters, capacity_, first_.data()});
+  sort_.run(executor, pairs, kinds_.data(), unordered_.data(), sorted_kinds_.data(), order_.data(), 6);
+  executor.run(kPairKinds + 1, FindKinds{sorted_kinds_.data(), pairs, first_.data()});
 }
 
 void NarrowPhase::match(Executor& executor, const ContactCache& cache, const ContactCache& last, const KeptPair* woken,
@@ -247,20 +314,27 @@ void NarrowPhase::forget_found(Executor& executor, const std::uint32_t* statics,
 void NarrowPhase::exchange(Archive& archive, std::uint32_t parity, std::uint32_t proxies,
                            const StepCounters& counters) {
   Storage& cache = caches_[parity % 2];
-  archive.rows(cache.pairs, counters.pairs);
+  const std::uint32_t candidates = candidate_count(counters);
+  archive.rows(cache.pairs, candidates);
+  if (cache.parts.size() != 0) archive.rows(cache.parts, candidates);
   archive.rows(cache.ranges, proxies);
-  archive.rows(cache.touching, counters.pairs);
-  archive.rows(cache.row, counters.pairs);
+  archive.rows(cache.touching, candidates);
+  archive.rows(cache.row, candidates);
   archive.rows(cache.kept, counters.manifolds);
 }
 
 std::vector<KeptPair> NarrowPhase::kept(std::uint32_t parity, const StepCounters& counters) const {
   const Storage& cache = caches_[parity % 2];
-  const std::vector<Pair> pairs = cache.pairs.to_host(counters.pairs);
+  const std::uint32_t candidates = candidate_count(counters);
+  const std::vector<Pair> pairs = cache.pairs.to_host(candidates);
+  const std::vector<std::uint32_t> parts = cache.parts.to_host(cache.parts.size() == 0 ? 0 : candidates);
   const std::vector<std::uint32_t> candidate = cache.candidate.to_host(counters.manifolds);
   const std::vector<CachedManifold> manifolds = cache.kept.to_host(counters.manifolds);
   std::vector<KeptPair> rows(manifolds.size());
-  for (std::size_t row = 0; row < rows.size(); ++row) rows[row] = {pairs[candidate[row]], manifolds[row]};
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    const std::uint32_t c = candidate[row];
+    rows[row] = {pairs[c], parts.empty() ? 0U : parts[c], manifolds[row]};
+  }
   return rows;
 }
 

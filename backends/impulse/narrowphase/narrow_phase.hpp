@@ -13,6 +13,8 @@ namespace plumb::impulse {
 class NarrowPhase {
  public:
   void reserve(Executor& executor, std::uint32_t proxies, std::uint32_t pairs);
+  /// From now on candidates have parts (pieces.hpp), and counters->pieces is how many there are. Reserve after this.
+  void take_pieces() { in_pieces_ = true; }
   [[nodiscard]] std::uint32_t capacity() const { return capacity_; }
 
   /// This step's contacts and the last one's, for a step of the given parity.
@@ -23,6 +25,13 @@ class NarrowPhase {
 
   /// What the next step remembers of a step, to or from a snapshot.
   void exchange(Archive& archive, std::uint32_t parity, std::uint32_t proxies, const StepCounters& counters);
+  /// How many candidates a step has, pieces and all: where kernels run, and when it is done.
+  [[nodiscard]] Count candidates(StepCounters* counters) const {
+    return {in_pieces_ ? &counters->pieces : &counters->pairs, capacity_};
+  }
+  [[nodiscard]] std::uint32_t candidate_count(const StepCounters& counters) const {
+    return in_pieces_ ? counters.pieces : counters.pairs;
+  }
   /// Manifolds of a step, by row.
   [[nodiscard]] std::vector<KeptPair> kept(std::uint32_t parity, const StepCounters& counters) const;
   [[nodiscard]] std::vector<Pair> candidates(std::uint32_t parity, std::uint32_t count) const {
@@ -50,14 +59,16 @@ class NarrowPhase {
     Buffer<Manifold> found;
     Buffer<std::uint32_t> touching, row, candidate;
     Buffer<CachedManifold> kept;
+    Buffer<std::uint32_t> parts;
     ContactCache view() {
-      return {pairs.data(), ranges.data(), found.data(), touching.data(), row.data(), candidate.data(), kept.data()};
+      return {pairs.data(), ranges.data(),    found.data(), touching.data(),
+              row.data(),   candidate.data(), kept.data(),  parts.data()};
     }
   };
 
   void bin(Executor& executor, const ContactCache& cache, const Proxies& proxies, StepCounters* counters);
-
   std::uint32_t capacity_ = 0;
+  bool in_pieces_ = false;
   Storage caches_[2];
   Scan scan_;
   RadixSort<std::uint32_t> sort_;

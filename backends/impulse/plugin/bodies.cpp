@@ -1,4 +1,4 @@
-// Shapes and bodies of a world: made, placed, read, written, taken away.
+// Bodies of a world: made, placed, read, written, taken away.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -14,61 +14,7 @@ namespace {
 
 bool is_isotropic(const PlumbVec3& inertia) { return inertia.x == inertia.y && inertia.y == inertia.z; }
 
-Shape to_shape(const PlumbShapeDesc& desc, HullPool& hulls) {
-  Shape shape{};
-  switch (desc.type) {
-    case PLUMB_SPHERE:
-      shape.type = ShapeType::kSphere;
-      shape.size = {static_cast<Real>(desc.radius), 0, 0};
-      shape.reach = shape.size.x;
-      break;
-    case PLUMB_BOX:
-      shape.type = ShapeType::kBox;
-      shape.size = to_vec(desc.half_extents);
-      shape.reach = length(shape.size);
-      break;
-    case PLUMB_CAPSULE:
-      shape.type = ShapeType::kCapsule;
-      shape.size = {static_cast<Real>(desc.radius), static_cast<Real>(desc.half_height), 0};
-      shape.reach = shape.size.x + shape.size.y;
-      break;
-    case PLUMB_CONVEX_HULL:
-      shape.type = ShapeType::kHull;
-      shape.hull = hulls.add({reinterpret_cast<const PlumbVec3*>(desc.vertices), desc.vertex_count});
-      shape.reach = hulls.reach(shape.hull);
-      break;
-    default: throw Error(PLUMB_E_UNSUPPORTED, "shape type " + std::to_string(desc.type) + " is not in impulse yet");
-  }
-  return shape;
-}
-
-void dismantle(const Shape& shape, HullPool& hulls) {
-  if (shape.type == ShapeType::kHull) hulls.remove(shape.hull);
-}
-
 }  // namespace
-
-PlumbResult World::create_shapes(std::span<const PlumbShapeDesc> descs, std::span<PlumbShape> ids) {
-  for (std::size_t i = 0; i < descs.size(); ++i) require_range(descs[i], i);
-  std::vector<Shape> made;
-  made.reserve(descs.size());
-  try {
-    for (const PlumbShapeDesc& desc : descs) made.push_back(to_shape(desc, simulation_.hulls));
-  } catch (...) {
-    for (const Shape& shape : made) dismantle(shape, simulation_.hulls);
-    throw;
-  }
-  for (std::size_t i = 0; i < descs.size(); ++i) {
-    simulation_.reserve_shapes(slot_of(ids[i]) + 1);
-    simulation_.shapes.edit(slot_of(ids[i])) = made[i];
-  }
-  return PLUMB_OK;
-}
-
-PlumbResult World::destroy_shapes(std::span<const PlumbShape> ids) {
-  for (const PlumbShape id : ids) dismantle(simulation_.shapes[slot_of(id)], simulation_.hulls);
-  return PLUMB_OK;
-}
 
 PlumbResult World::create_bodies(std::span<const PlumbBodyDesc> descs, std::span<PlumbBody> ids) {
   const FloatingPointScope scope;
@@ -77,8 +23,6 @@ PlumbResult World::create_bodies(std::span<const PlumbBodyDesc> descs, std::span
   for (const PlumbBody id : ids) slots = std::max(slots, slot_of(id) + 1);
   simulation_.reserve_bodies(slots);
   if (bodies_.size() < slots) bodies_.resize(slots);
-  for (std::uint32_t slot = simulation_.body_count(); slot < slots; ++slot)
-    simulation_.proxies.edit(slot).shape = kNone;
   simulation_.set_body_count(slots);
   row_ids_.resize(slots);
   Simulation::Slots sleepers;
@@ -100,16 +44,16 @@ PlumbResult World::destroy_bodies(std::span<const PlumbBody> ids) {
     const std::uint32_t slot = slot_of(id);
     simulation_.forget(slot);
     if (bodies_[slot].motion == PLUMB_DYNAMIC) --dynamic_count_;
+    detach(slot);
     bodies_[slot] = {};
     row_ids_[slot] = 0;
-    simulation_.proxies.edit(slot).shape = kNone;
     simulation_.mass.edit(slot) = {};
     simulation_.force.edit(slot) = {};
     simulation_.state.velocity[slot] = {};
     simulation_.state.touch(slot, kVelocityPart);
   }
   std::erase_if(records_, [&](const ContactRecord& record) {  // their slots will be others'
-    return bodies_[record.pair.a].id == 0 || bodies_[record.pair.b].id == 0;
+    return bodies_[record.bodies.a].id == 0 || bodies_[record.bodies.b].id == 0;
   });
   ++row_generation_;
   simulation_.bodies_changed();
@@ -166,30 +110,19 @@ void World::make_body(const PlumbBodyDesc& desc, PlumbBody id) {
   simulation_.force.edit(slot) = {};
   place(slot, desc.pose);
 
-  Proxy& proxy = simulation_.proxies.edit(slot);
-  proxy = {};
-  proxy.body = slot;
-  proxy.shape = desc.shape == 0 || !init_.needs(PLUMB_NEED_COLLISION) ? kNone : slot_of(desc.shape);
-  proxy.born = simulation_.steps() + 1;
-  const QuatD to_principal = conjugate(frame.principal);
-  proxy.frame.orientation = to_quat(to_principal);
-  const Position offset = rotate(to_principal, -frame.centre_of_mass);
-  proxy.frame.position = {static_cast<Real>(offset.x), static_cast<Real>(offset.y), static_cast<Real>(offset.z)};
-  put_proxy_rows(slot);
+  put_body_rows(slot);
+  if (desc.shape != 0 && init_.needs(PLUMB_NEED_COLLISION)) attach(slot, slot_of(desc.shape));
 }
 
 /// What of a body's record is copied into rows that kernels read.
-void World::put_proxy_rows(std::uint32_t slot) {
+void World::put_body_rows(std::uint32_t slot) {
   const BodyRecord& body = bodies_[slot];
-  Proxy& proxy = simulation_.proxies.edit(slot);
-  proxy.friction = static_cast<Real>(body.material.friction);
-  proxy.restitution = static_cast<Real>(body.material.restitution);
   BodyMass& mass = simulation_.mass.edit(slot);
   mass.gravity_scale = static_cast<Real>(body.gravity_scale);
   mass.linear_damping = static_cast<Real>(body.linear_damping);
   mass.angular_damping = static_cast<Real>(body.angular_damping);
-  const std::uint32_t immovable = body.motion == PLUMB_DYNAMIC ? 0 : kProxyImmovable;
-  simulation_.filters.edit(slot) = {slot, body.filter.category, body.filter.mask, body.filter.group, immovable};
+  if (body.proxy != kNone) put_proxy_row(slot, body.proxy);
+  for (const std::uint32_t row : body.more_proxies) put_proxy_row(slot, row);
 }
 
 void World::place(std::uint32_t slot, const PlumbPose& pose) {
@@ -353,17 +286,17 @@ void World::write_row(PlumbField field, std::uint32_t slot, const double* row) {
     case PLUMB_FIELD_MATERIAL:
       body.material.friction = row[0];
       body.material.restitution = row[1];
-      return put_proxy_rows(slot);
-    case PLUMB_FIELD_GRAVITY_SCALE: body.gravity_scale = row[0]; return put_proxy_rows(slot);
+      return put_body_rows(slot);
+    case PLUMB_FIELD_GRAVITY_SCALE: body.gravity_scale = row[0]; return put_body_rows(slot);
     case PLUMB_FIELD_DAMPING:
       body.linear_damping = row[0];
       body.angular_damping = row[1];
-      return put_proxy_rows(slot);
+      return put_body_rows(slot);
     case PLUMB_FIELD_FILTER:
       body.filter.category = static_cast<std::uint32_t>(row[0]);
       body.filter.mask = static_cast<std::uint32_t>(row[1]);
       body.filter.group = static_cast<std::int32_t>(row[2]);
-      return put_proxy_rows(slot);
+      return put_body_rows(slot);
     default: throw Error(PLUMB_E_UNSUPPORTED, "field " + std::to_string(field) + " cannot be written");
   }
 }

@@ -1,6 +1,9 @@
 // What the host side knows of a body beside the engine's rows.
 #pragma once
 
+#include <vector>
+
+#include "narrowphase/contact_cache.hpp"
 #include "plugin/convert.hpp"
 
 namespace plumb::impulse {
@@ -15,6 +18,8 @@ struct BodyRecord {
   /// A kinematic body under way to where the host wants it at the end of the step.
   bool to_target = false, arrived = false;
   PlumbPose target{};
+  std::uint32_t proxy = kNone;              ///< its first
+  std::vector<std::uint32_t> more_proxies;  ///< of a compound: the other children's, in their order
 };
 
 }  // namespace plumb::impulse

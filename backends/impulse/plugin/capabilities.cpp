@@ -14,8 +14,27 @@ struct Fact {
 constexpr Fact kYes{PLUMB_NATIVE};
 constexpr Fact kNotYet{PLUMB_NONE, "not in impulse yet"};
 
-bool has_shape(std::uint32_t type) {
-  return type == PLUMB_SPHERE || type == PLUMB_BOX || type == PLUMB_CAPSULE || type == PLUMB_CONVEX_HULL;
+/// Convex, or made of such: what may move freely.
+bool is_solid(std::uint32_t type) {
+  return type == PLUMB_SPHERE || type == PLUMB_BOX || type == PLUMB_CAPSULE || type == PLUMB_CYLINDER ||
+         type == PLUMB_CONVEX_HULL || type == PLUMB_COMPOUND;
+}
+bool is_ground(std::uint32_t type) {
+  return type == PLUMB_PLANE || type == PLUMB_TRIANGLE_MESH || type == PLUMB_HEIGHT_FIELD;
+}
+
+Fact shape_fact(std::uint32_t type, std::uint32_t motion) {
+  if (motion >= PLUMB_MOTION_COUNT) return {PLUMB_NONE};
+  if (is_solid(type)) return kYes;
+  if (!is_ground(type)) return kNotYet;
+  if (motion == PLUMB_STATIC) return kYes;
+  if (type == PLUMB_PLANE) return {PLUMB_NONE, "planes do not move"};
+  return motion == PLUMB_KINEMATIC ? kYes : Fact{PLUMB_NONE, "surfaces have no inside: use a hull or a compound"};
+}
+
+Fact pair_fact(std::uint32_t a, std::uint32_t b) {
+  if ((is_solid(a) && (is_solid(b) || is_ground(b))) || (is_ground(a) && is_solid(b))) return kYes;
+  return is_ground(a) && is_ground(b) ? Fact{PLUMB_NONE, "neither of them is pushed"} : kNotYet;
 }
 
 Fact need_fact(std::uint32_t index) {
@@ -79,9 +98,10 @@ Fact event_fact(std::uint32_t event) {
 
 Fact fact(PlumbCapability kind, std::uint32_t a, std::uint32_t b) {
   switch (kind) {
-    case PLUMB_CAP_SHAPE: return has_shape(a) && b < PLUMB_MOTION_COUNT ? kYes : kNotYet;
-    case PLUMB_CAP_PAIR: return has_shape(a) && has_shape(b) ? kYes : kNotYet;
+    case PLUMB_CAP_SHAPE: return shape_fact(a, b);
+    case PLUMB_CAP_PAIR: return pair_fact(a, b);
     case PLUMB_CAP_QUERY: return query_fact(a, b);
+    case PLUMB_CAP_CHILD_MATERIAL: return kYes;
     case PLUMB_CAP_FIELD_READ: return field_fact(a, false);
     case PLUMB_CAP_FIELD_WRITE: return field_fact(a, true);
     case PLUMB_CAP_NEED: return need_fact(a);

@@ -32,8 +32,9 @@ void require_inertia(const std::string& what, double value, const char* unit) {
 
 void require_range(const PlumbShapeDesc& desc, std::size_t i) {
   const std::string name = "descs[" + std::to_string(i) + "].";
-  if (desc.type == PLUMB_SPHERE || desc.type == PLUMB_CAPSULE) require_length(name + "radius", desc.radius);
-  if (desc.type == PLUMB_CAPSULE && desc.half_height != 0) require_length(name + "half_height", desc.half_height);
+  const bool round = desc.type == PLUMB_CAPSULE || desc.type == PLUMB_CYLINDER;
+  if (desc.type == PLUMB_SPHERE || round) require_length(name + "radius", desc.radius);
+  if (round && desc.half_height != 0) require_length(name + "half_height", desc.half_height);
   if (desc.type == PLUMB_BOX)
     for (const double half : {desc.half_extents.x, desc.half_extents.y, desc.half_extents.z})
       require_length(name + "half_extents", half);

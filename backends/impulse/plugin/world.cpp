@@ -57,7 +57,7 @@ PlumbResult World::wait(PlumbStepReport& report) {
   if (init_.needs(PLUMB_NEED_EVENTS)) find_events();
   const StepCounters& counters = simulation_.counters();
   report.threads = simulation_.executor().threads();
-  report.pairs = counters.pairs;
+  report.pairs = simulation_.candidate_count();
   report.contacts = counters.points;
   report.dropped = 0;
   report.awake = dynamic_count_ - simulation_.sleeper_count();
@@ -117,7 +117,7 @@ void World::find_events() {
   for (const ContactRecord& record : records())
     for (std::uint32_t p = 0; p < record.count; ++p)
       if (record.separation[p] <= 0 || record.normal_impulse[p] > 0) {
-        touches_.touch(bodies_[record.pair.a].id, bodies_[record.pair.b].id);
+        touches_.touch(bodies_[record.bodies.a].id, bodies_[record.bodies.b].id);
         break;
       }
   touches_.finish_step(events_);
@@ -131,8 +131,10 @@ std::span<const PlumbContact> World::contacts() {
   for (const ContactRecord& record : records())
     for (std::uint32_t p = 0; p < record.count; ++p) {
       PlumbContact contact{};
-      contact.body_a = bodies_[record.pair.a].id;
-      contact.body_b = bodies_[record.pair.b].id;
+      contact.body_a = bodies_[record.bodies.a].id;
+      contact.body_b = bodies_[record.bodies.b].id;
+      contact.child_a = child_of(record.pair.a, record.part);
+      contact.child_b = child_of(record.pair.b, record.part);
       contact.position = plumb_vec(record.position[p]);
       contact.normal = to_plumb(record.normal);
       contact.depth = -static_cast<double>(record.separation[p]);

@@ -7,6 +7,8 @@
 
 #include "plugin/batch_pool.hpp"
 #include "plugin/body_record.hpp"
+#include "plugin/compound.hpp"
+#include "plugin/proxy_slots.hpp"
 #include "plugin/settings.hpp"
 #include "plumb/backend/touch_tracker.hpp"
 #include "plumb/backend/world_init.hpp"
@@ -85,8 +87,15 @@ class World final : public IPhysicsWorld,
   void read_state(PlumbField field, std::span<const PlumbBody> ids, Rows rows);
   void fetch_for_write(PlumbField field, std::span<const PlumbBody> ids);
   void write_row(PlumbField field, std::uint32_t slot, const double* row);
-  void put_proxy_rows(std::uint32_t slot);
   void hold_locked(std::uint32_t slot);
+  Shape to_shape(const PlumbShapeDesc& desc, std::uint32_t row, Compound& parts);
+  void dismantle(const Shape& shape);
+  void attach(std::uint32_t slot, std::uint32_t shape);
+  void attach_part(std::uint32_t slot, std::uint32_t row, std::uint32_t shape, const PlumbPose* pose);
+  void detach(std::uint32_t slot);
+  void put_body_rows(std::uint32_t slot);
+  void put_proxy_row(std::uint32_t slot, std::uint32_t row);
+  [[nodiscard]] std::uint32_t child_of(std::uint32_t proxy, std::uint32_t part) const;
   void stop_infinite(std::uint32_t slot);
   void push(std::uint32_t slot, const Vec& force, const Vec& torque);
   void kick(std::uint32_t slot, const Vec& impulse, const Vec& angular_impulse);
@@ -109,7 +118,10 @@ class World final : public IPhysicsWorld,
   Settings settings_;
   PlumbVec3 gravity_;
   double last_h_ = 0, dt_ = 0;
-  std::vector<BodyRecord> bodies_;      // by slot
+  std::vector<BodyRecord> bodies_;    // by slot
+  std::vector<Compound> compounds_;   // by shape slot, as far as there are any
+  std::vector<ProxyRecord> proxies_;  // by proxy, as far as one is not as it comes
+  ProxySlots proxy_slots_;
   std::vector<PlumbJointDesc> joints_;  // by slot
   std::uint32_t dynamic_count_ = 0;
   std::uint32_t stopped_ = 0;  // bodies whose velocity a write made infinite, since the last step

@@ -42,6 +42,8 @@ class Scene {
   PlumbShape box(const PlumbVec3& half_extents);
   PlumbShape capsule(double radius, double half_height);
   PlumbShape hull(const std::vector<PlumbVec3>& points);
+  /// Any other; the arrays are copied.
+  PlumbShape make(const PlumbShapeDesc& desc);
   PlumbBody add(PlumbShape shape, const PlumbVec3& position, const PlumbQuat& orientation = {0, 0, 0, 1});
   PlumbBody add_static(PlumbShape shape, const PlumbVec3& position, const PlumbQuat& orientation = {0, 0, 0, 1});
   PlumbBody add_kinematic(PlumbShape shape, const PlumbVec3& position);
@@ -66,7 +68,6 @@ class Scene {
 
  private:
   PlumbBody put(PlumbMotion motion, PlumbShape shape, const PlumbVec3& position, const PlumbQuat& orientation);
-  PlumbShape make(const PlumbShapeDesc& desc);
 
   std::unique_ptr<IPhysicsWorld> world_;
   int steps_ = 0;

@@ -1,0 +1,111 @@
+#include "geometry/mesh_topology.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+
+#include "narrowphase/tolerance.hpp"
+
+namespace plumb::impulse {
+
+namespace {
+
+/// One triangle's side of an edge.
+struct Side {
+  std::uint32_t low, high;  ///< corners
+  std::uint32_t triangle, k;
+  [[nodiscard]] std::uint64_t edge() const { return static_cast<std::uint64_t>(low) << 32 | high; }
+};
+
+/// Whether the corners span a plane at all: of those that lie in a line nearly, the normal would be rounding.
+bool has_area(const Vec& a, const Vec& b, const Vec& c) {
+  const Vec u = b - a, v = c - a, w = c - b;
+  const Real longest = max(length_squared(u), max(length_squared(v), length_squared(w)));
+  return length(cross(u, v)) > kParallel * longest;
+}
+
+}  // namespace
+
+MeshTopology::MeshTopology(std::span<const PlumbVec3> vertices, std::span<const std::uint32_t> indices) {
+  std::vector<std::uint32_t> corner_of;
+  place_corners(vertices, corner_of);
+  triangles.resize(indices.size() / 3);
+  boxes.resize(triangles.size());
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    MeshTriangle& triangle = triangles[t];
+    for (std::size_t k = 0; k < 3; ++k) {
+      triangle.corner[k] = corner_of[indices[3 * t + k]];
+      triangle.across[k] = kNoCorner;
+    }
+    const Vec &a = corners[triangle.corner[0]], &b = corners[triangle.corner[1]], &c = corners[triangle.corner[2]];
+    boxes[t] = has_area(a, b, c) ? Box{min(a, min(b, c)), max(a, max(b, c))} : empty_box();
+  }
+  find_neighbours();
+}
+
+void MeshTopology::place_corners(std::span<const PlumbVec3> vertices, std::vector<std::uint32_t>& corner_of) {
+  PlumbVec3 low = vertices[0], high = vertices[0];
+  for (const PlumbVec3& v : vertices) {
+    low = {std::min(low.x, v.x), std::min(low.y, v.y), std::min(low.z, v.z)};
+    high = {std::max(high.x, v.x), std::max(high.y, v.y), std::max(high.z, v.z)};
+  }
+  centre = {0.5 * (low.x + high.x), 0.5 * (low.y + high.y), 0.5 * (low.z + high.z)};
+  std::vector<std::uint32_t> order(vertices.size());
+  std::iota(order.begin(), order.end(), 0U);
+  const auto key = [&](std::uint32_t v) { return std::tuple(vertices[v].x, vertices[v].y, vertices[v].z); };
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+  corner_of.resize(vertices.size());
+  half = {0, 0, 0};
+  reach = 0;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    if (i == 0 || key(order[i]) != key(order[i - 1])) {
+      const PlumbVec3& v = vertices[order[i]];
+      const Vec at = {static_cast<Real>(v.x - centre.x), static_cast<Real>(v.y - centre.y),
+                      static_cast<Real>(v.z - centre.z)};
+      corners.push_back(at);
+      half = max(half, abs(at));
+      reach = max(reach, length(at));
+    }
+    corner_of[order[i]] = static_cast<std::uint32_t>(corners.size() - 1);
+  }
+}
+
+void MeshTopology::find_neighbours() {
+  std::vector<Side> sides;
+  sides.reserve(3 * triangles.size());
+  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+    if (boxes[t].low.x > boxes[t].high.x) continue;
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const std::uint32_t a = triangles[t].corner[k], b = triangles[t].corner[(k + 1) % 3];
+      sides.push_back({std::min(a, b), std::max(a, b), t, k});
+    }
+  }
+  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+    return a.edge() != b.edge() ? a.edge() < b.edge() : a.triangle < b.triangle;
+  });
+  closed = true;
+  first_neighbour.assign(corners.size() + 1, 0);
+  for (std::size_t i = 0; i < sides.size();) {
+    std::size_t end = i + 1;
+    while (end < sides.size() && sides[end].edge() == sides[i].edge()) ++end;
+    closed = closed && end > i + 1;
+    for (std::size_t j = i; j < end && end > i + 1; ++j) {
+      const Side &side = sides[j], &other = sides[j + 1 < end ? j + 1 : i];
+      triangles[side.triangle].across[side.k] = triangles[other.triangle].corner[(other.k + 2) % 3];
+    }
+    ++first_neighbour[sides[i].low + 1];
+    ++first_neighbour[sides[i].high + 1];
+    sides[i].k = 3;  // the edge's first
+    i = end;
+  }
+  std::partial_sum(first_neighbour.begin(), first_neighbour.end(), first_neighbour.begin());
+  neighbours.resize(first_neighbour.back());
+  std::vector<std::uint32_t> next(first_neighbour.begin(), first_neighbour.end() - 1);
+  for (const Side& side : sides) {
+    if (side.k != 3) continue;
+    neighbours[next[side.low]++] = side.high;
+    neighbours[next[side.high]++] = side.low;
+  }
+}
+
+}  // namespace plumb::impulse

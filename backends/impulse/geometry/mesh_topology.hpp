@@ -1,0 +1,32 @@
+// What the host finds out about a triangle mesh when it is made: which corners are one place, which triangles have an
+// area, and who is whose neighbour.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "geometry/surface.hpp"
+#include "plumb/types.h"
+
+namespace plumb::impulse {
+
+struct MeshTopology {
+  PlumbVec3 centre;  ///< of the mesh's box; corners are relative to it
+  Vec half;          ///< extents of the box
+  Real reach;        ///< of the farthest corner from the centre
+  std::vector<Vec> corners;
+  std::vector<MeshTriangle> triangles;
+  std::vector<std::uint32_t> first_neighbour, neighbours;
+  std::vector<Box> boxes;  ///< by triangle; empty where it has no area
+  bool closed;             ///< every edge has two triangles at least
+
+  /// indices: 3 a triangle, each below the number of vertices.
+  MeshTopology(std::span<const PlumbVec3> vertices, std::span<const std::uint32_t> indices);
+
+ private:
+  void place_corners(std::span<const PlumbVec3> vertices, std::vector<std::uint32_t>& corner_of);
+  void find_neighbours();
+};
+
+}  // namespace plumb::impulse

@@ -1,0 +1,61 @@
+// All triangle meshes and height fields of a world, where kernels run.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "broadphase/lbvh.hpp"
+#include "exec/table.hpp"
+#include "geometry/surface.hpp"
+#include "plumb/shapes.h"
+
+namespace plumb::impulse {
+
+/// A surface that was added: its row among those of its kind, and what its Shape tells.
+struct AddedSurface {
+  std::uint32_t row;
+  PlumbVec3 centre;  ///< of its box in the frame of the description; the origin of the Shape's frame
+  Vec half;
+  Real reach;
+};
+
+/// Rows are names that stay. A mesh has a tree of its triangles in its own frame, which is right wherever it moves.
+class SurfacePool {
+ public:
+  /// Builds the tree on the executor and waits for it. Not within a step.
+  AddedSurface add_mesh(Executor& executor, const PlumbShapeDesc& desc);
+  AddedSurface add_field(const PlumbShapeDesc& desc);
+  void remove_mesh(std::uint32_t row) { remove(meshes_, row); }
+  void remove_field(std::uint32_t row) { remove(fields_, row); }
+
+  /// What changed since the last upload goes to where kernels run. Not within a step.
+  void upload(Executor& executor) {
+    mesh_views_.upload(executor);
+    field_views_.upload(executor);
+  }
+  /// To be asked for anew after an addition.
+  [[nodiscard]] Surfaces device() { return {mesh_views_.device(), field_views_.device()}; }
+
+ private:
+  struct Mesh {
+    Buffer<Vec> corners;
+    Buffer<MeshTriangle> triangles;
+    Buffer<std::uint32_t> first_neighbour, neighbours;
+    Buffer<TreeNode> nodes;
+  };
+  using Field = Buffer<Real>;
+
+  template <class T>
+  static std::uint32_t add(std::vector<std::unique_ptr<T>>& all, std::unique_ptr<T> one);
+  template <class T>
+  static void remove(std::vector<std::unique_ptr<T>>& all, std::uint32_t row) {
+    all[row].reset();
+  }
+
+  std::vector<std::unique_ptr<Mesh>> meshes_;  // by row; none where one was removed
+  std::vector<std::unique_ptr<Field>> fields_;
+  Table<MeshView> mesh_views_;
+  Table<HeightView> field_views_;
+};
+
+}  // namespace plumb::impulse

@@ -1,0 +1,142 @@
+#include "narrowphase/pieces.hpp"
+
+#include "geometry/shape_box.hpp"
+
+namespace plumb::impulse {
+
+namespace {
+
+/// Passes on triangles as pieces of a pair.
+template <class Sink>
+struct TrianglesOf {
+  Pair pair;
+  Sink& sink;
+  PLUMB_HD void operator()(std::uint32_t triangle) const { sink(pair, triangle); }
+};
+
+struct Search {
+  Pieces::Input in;
+  const Pair* pairs;
+  const PairRange* ranges;
+
+  /// sink(pair, triangle) for every piece of mover i.
+  template <class Sink>
+  PLUMB_HD void operator()(std::uint32_t i, Sink& sink) const {
+    const std::uint32_t mover = in.movers[i];
+    const PairRange range = ranges[mover];
+    for (std::uint32_t p = range.first; p < range.first + range.count; ++p) {
+      const Pair pair = pairs[p];
+      const bool surface_a = is_surface(type_of(pair.a)), surface_b = is_surface(type_of(pair.b));
+      if (surface_a && surface_b) continue;
+      if (surface_a || surface_b)
+        triangles(surface_a ? pair.a : pair.b, surface_a ? pair.b : pair.a, TrianglesOf<Sink>{pair, sink});
+      else
+        sink(pair, 0);
+    }
+    for (std::uint32_t k = 0; k < in.plane_count; ++k)
+      if (in.filter(mover, in.planes[k]) && reaches(mover, in.planes[k])) sink({mover, in.planes[k]}, 0);
+  }
+
+ private:
+  [[nodiscard]] PLUMB_HD ShapeType type_of(std::uint32_t proxy) const {
+    return in.proxies.shapes[in.proxies.rows[proxy].shape].type;
+  }
+
+  template <class Found>
+  PLUMB_HD void triangles(std::uint32_t surface, std::uint32_t other, const Found& found) const {
+    const Proxy &a = in.proxies.rows[surface], &b = in.proxies.rows[other];
+    const ShapePose pose_a = shape_pose(a, in.bodies.orientation[a.body]),
+                    pose_b = shape_pose(b, in.bodies.orientation[b.body]);
+    const Vec apart = between(in.bodies.position[a.body], in.bodies.position[b.body]) + pose_b.offset - pose_a.offset;
+    const Vec place = rotate_back(pose_a.orientation, apart);
+    const Shape &shape = in.proxies.shapes[b.shape], &on = in.proxies.shapes[a.shape];
+    Box box = shape_box(shape, conjugate(pose_a.orientation) * pose_b.orientation, in.proxies.hulls);
+    // Rounding must not lose a touch: a few units in the last place of the lengths that enter.
+    const Real more = in.margins[surface] + in.margins[other] + 8 * kEpsilon * (length(place) + shape.reach);
+    const Vec wider = {more, more, more};
+    box = {place + box.low - wider, place + box.high + wider};
+    if (!overlap(box, Box{-on.size, on.size})) return;
+    if (on.type == ShapeType::kMesh)
+      in.proxies.surfaces.meshes[on.hull].overlaps(box, found);
+    else
+      in.proxies.surfaces.fields[on.hull].overlaps(box, found);
+  }
+
+  /// Whether the mover's box comes below the plane.
+  [[nodiscard]] PLUMB_HD bool reaches(std::uint32_t mover, std::uint32_t plane) const {
+    const Proxy& proxy = in.proxies.rows[plane];
+    const ShapePose pose = shape_pose(proxy, in.bodies.orientation[proxy.body]);
+    const Vec n = rotate(pose.orientation, Vec{0, 1, 0});
+    const Vec at = between(in.parameters->origin, in.bodies.position[proxy.body]) + pose.offset;
+    const Box& box = in.boxes[mover];
+    const Vec middle = Real(.5) * (box.low + box.high), half = Real(.5) * (box.high - box.low);
+    const Real reach = dot(abs(n), half);
+    return dot(n, middle - at) - reach <= 8 * kEpsilon * (reach + length(middle - at));
+  }
+};
+
+struct CountSink {
+  std::uint32_t count;
+  PLUMB_HD void operator()(const Pair&, std::uint32_t) { ++count; }
+};
+struct CountPieces {
+  Search search;
+  std::uint32_t* counts;
+  PLUMB_HD void operator()(std::uint32_t i) const {
+    CountSink sink{0};
+    search(i, sink);
+    counts[i] = sink.count;
+  }
+};
+
+struct WriteSink {
+  ContactCache cache;
+  std::uint32_t at, end;
+  PLUMB_HD void operator()(const Pair& pair, std::uint32_t triangle) {
+    if (at >= end) return;
+    cache.pairs[at] = pair;
+    cache.parts[at++] = triangle;
+  }
+};
+struct WritePieces {
+  Search search;
+  ContactCache cache;
+  const std::uint32_t *counts, *offsets;
+  std::uint32_t capacity;
+  PLUMB_HD void operator()(std::uint32_t i) const {
+    const std::uint32_t first = min(offsets[i], capacity), count = min(counts[i], capacity - first);
+    cache.ranges[search.in.movers[i]] = {first, count};
+    WriteSink sink{cache, first, first + count};
+    search(i, sink);
+  }
+};
+
+/// The step is repeated where the pairs were more than there is room for.
+struct CountAsPairs {
+  StepCounters* counters;
+  std::uint32_t capacity;
+  PLUMB_HD void operator()(std::uint32_t) const {
+    if (counters->pieces > capacity) counters->pairs = max(counters->pairs, counters->pieces);
+  }
+};
+
+}  // namespace
+
+void Pieces::reserve(std::uint32_t proxies, std::uint32_t pairs) {
+  capacity_ = max(capacity_, pairs);
+  pairs_.grow(capacity_);
+  ranges_.grow(proxies);
+  counts_.grow(proxies);
+  offsets_.grow(proxies);
+  scan_.reserve(proxies);
+}
+
+void Pieces::find(Executor& executor, const Input& input, const ContactCache& cache, StepCounters* counters) {
+  const Search search{input, pairs_.data(), ranges_.data()};
+  executor.run(input.mover_count, CountPieces{search, counts_.data()});
+  scan_.run(executor, input.mover_count, counts_.data(), offsets_.data(), &counters->pieces);
+  executor.run(input.mover_count, WritePieces{search, cache, counts_.data(), offsets_.data(), capacity_});
+  executor.run(1U, CountAsPairs{counters, capacity_});
+}
+
+}  // namespace plumb::impulse

@@ -1,0 +1,50 @@
+// Between broad and narrow phase, in scenes with planes, meshes or height fields: what is collided piece by piece.
+//
+// A pair of the broad phase that has a surface becomes one piece for each of its triangles whose box the other shape's
+// box touches, in the surface's own frame; any other pair is one piece. Planes have no box: each is held against every
+// mover here.
+#pragma once
+
+#include "body.hpp"
+#include "broadphase/pair_filter.hpp"
+#include "exec/sort.hpp"
+#include "narrowphase/contact_cache.hpp"
+#include "step_counters.hpp"
+#include "step_parameters.hpp"
+
+namespace plumb::impulse {
+
+class Pieces {
+ public:
+  void reserve(std::uint32_t proxies, std::uint32_t pairs);
+
+  /// Where the broad phase writes what it finds.
+  [[nodiscard]] Pair* pairs() { return pairs_.data(); }
+  [[nodiscard]] PairRange* ranges() { return ranges_.data(); }
+
+  /// What this reads of the world.
+  struct Input {
+    Bodies bodies;
+    Proxies proxies;
+    const StepParameters* parameters;
+    PairFilter filter;
+    const Box* boxes;
+    const Real* margins;  ///< by proxy
+    const std::uint32_t* movers;
+    std::uint32_t mover_count;
+    const std::uint32_t* planes;
+    std::uint32_t plane_count;
+  };
+  /// Writes cache.pairs, cache.parts, cache.ranges and counters->pieces. More pieces than there is room for count as so
+  /// many pairs.
+  void find(Executor& executor, const Input& input, const ContactCache& cache, StepCounters* counters);
+
+ private:
+  Buffer<Pair> pairs_;
+  Buffer<PairRange> ranges_;
+  Buffer<std::uint32_t> counts_, offsets_;  // by mover
+  Scan scan_;
+  std::uint32_t capacity_ = 0;
+};
+
+}  // namespace plumb::impulse

@@ -1,0 +1,46 @@
+// Which rows of the proxies are in use. A body's first shape has the row of the body's own slot where that is free, so
+// that a world without compounds has as many proxies as bodies; the other children of compounds have any other row.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace plumb::impulse {
+
+class ProxySlots {
+ public:
+  std::uint32_t take(std::uint32_t body_slot) {
+    if (is_taken(body_slot)) return take_any(body_slot + 1);
+    mark(body_slot);
+    return body_slot;
+  }
+  /// A row that was given back, or one behind all in use and not below `least`.
+  std::uint32_t take_any(std::uint32_t least) {
+    while (!free_.empty()) {
+      const std::uint32_t row = free_.back();
+      free_.pop_back();
+      if (!is_taken(row)) return mark(row);
+    }
+    const auto end = static_cast<std::uint32_t>(taken_.size());
+    return mark(end < least ? least : end);
+  }
+  void give_back(std::uint32_t row) {
+    taken_[row] = false;
+    free_.push_back(row);
+  }
+  /// One beyond the last row that was ever in use.
+  [[nodiscard]] std::uint32_t end() const { return static_cast<std::uint32_t>(taken_.size()); }
+
+ private:
+  [[nodiscard]] bool is_taken(std::uint32_t row) const { return row < taken_.size() && taken_[row]; }
+  std::uint32_t mark(std::uint32_t row) {
+    if (row >= taken_.size()) taken_.resize(row + 1);
+    taken_[row] = true;
+    return row;
+  }
+
+  std::vector<bool> taken_;
+  std::vector<std::uint32_t> free_;  // may hold rows that were taken since as a body's own
+};
+
+}  // namespace plumb::impulse

@@ -1,0 +1,176 @@
+// Shapes of a world, and the proxies by which bodies have them.
+#include <string>
+
+#include "exec/floating_point.hpp"
+#include "plugin/ranges.hpp"
+#include "plugin/world.hpp"
+
+namespace plumb::impulse {
+
+namespace {
+
+bool is_identity(const PlumbPose& pose) {
+  return pose.position.x == 0 && pose.position.y == 0 && pose.position.z == 0 && pose.orientation.x == 0 &&
+         pose.orientation.y == 0 && pose.orientation.z == 0 && pose.orientation.w == 1;
+}
+
+/// A surface's own frame has its origin in the middle of its box.
+Shape to_surface(ShapeType type, const AddedSurface& added) { return {type, added.row, added.half, added.reach}; }
+
+}  // namespace
+
+/// The row of a shape. What consists of others, or has its origin elsewhere, is told in `parts` too; `row` is its own.
+Shape World::to_shape(const PlumbShapeDesc& desc, std::uint32_t row, Compound& parts) {
+  Shape shape{};
+  switch (desc.type) {
+    case PLUMB_SPHERE:
+      shape.type = ShapeType::kSphere;
+      shape.size = {static_cast<Real>(desc.radius), 0, 0};
+      shape.reach = shape.size.x;
+      break;
+    case PLUMB_BOX:
+      shape.type = ShapeType::kBox;
+      shape.size = to_vec(desc.half_extents);
+      shape.reach = length(shape.size);
+      break;
+    case PLUMB_CAPSULE:
+      shape.type = ShapeType::kCapsule;
+      shape.size = {static_cast<Real>(desc.radius), static_cast<Real>(desc.half_height), 0};
+      shape.reach = shape.size.x + shape.size.y;
+      break;
+    case PLUMB_CYLINDER:
+      shape.type = ShapeType::kCylinder;
+      shape.size = {static_cast<Real>(desc.radius), static_cast<Real>(desc.half_height), 0};
+      shape.reach = length(shape.size);
+      break;
+    case PLUMB_CONVEX_HULL:
+      shape.type = ShapeType::kHull;
+      shape.hull = simulation_.hulls.add({reinterpret_cast<const PlumbVec3*>(desc.vertices), desc.vertex_count});
+      shape.reach = simulation_.hulls.reach(shape.hull);
+      break;
+    case PLUMB_PLANE: shape.type = ShapeType::kPlane; break;
+    case PLUMB_TRIANGLE_MESH: {
+      const AddedSurface added = simulation_.surfaces.add_mesh(simulation_.executor(), desc);
+      shape = to_surface(ShapeType::kMesh, added);
+      parts = {{row, {added.centre, {0, 0, 0, 1}}, false, {}}};
+      break;
+    }
+    case PLUMB_HEIGHT_FIELD: {
+      const AddedSurface added = simulation_.surfaces.add_field(desc);
+      shape = to_surface(ShapeType::kHeightField, added);
+      parts = {{row, {added.centre, {0, 0, 0, 1}}, false, {}}};
+      break;
+    }
+    case PLUMB_COMPOUND: parts = to_compound(desc); break;  // its children have rows of their own
+    default: throw Error(PLUMB_E_UNSUPPORTED, "shape type " + std::to_string(desc.type) + " is not in impulse yet");
+  }
+  return shape;
+}
+
+void World::dismantle(const Shape& shape) {
+  if (shape.type == ShapeType::kHull) simulation_.hulls.remove(shape.hull);
+  if (shape.type == ShapeType::kMesh) simulation_.surfaces.remove_mesh(shape.hull);
+  if (shape.type == ShapeType::kHeightField) simulation_.surfaces.remove_field(shape.hull);
+}
+
+PlumbResult World::create_shapes(std::span<const PlumbShapeDesc> descs, std::span<PlumbShape> ids) {
+  const FloatingPointScope scope;
+  for (std::size_t i = 0; i < descs.size(); ++i) require_range(descs[i], i);
+  std::vector<Shape> made;
+  std::vector<Compound> parts(descs.size());
+  made.reserve(descs.size());
+  try {
+    for (std::size_t i = 0; i < descs.size(); ++i) made.push_back(to_shape(descs[i], slot_of(ids[i]), parts[i]));
+  } catch (...) {
+    for (const Shape& shape : made) dismantle(shape);
+    throw;
+  }
+  for (std::size_t i = 0; i < descs.size(); ++i) {
+    const std::uint32_t row = slot_of(ids[i]);
+    simulation_.reserve_shapes(row + 1);
+    simulation_.shapes.edit(row) = made[i];
+    if (parts[i].empty()) continue;
+    if (row >= compounds_.size()) compounds_.resize(row + 1);
+    compounds_[row] = std::move(parts[i]);
+  }
+  return PLUMB_OK;
+}
+
+PlumbResult World::destroy_shapes(std::span<const PlumbShape> ids) {
+  for (const PlumbShape id : ids) {
+    dismantle(simulation_.shapes[slot_of(id)]);
+    simulation_.shapes.edit(slot_of(id)) = {};
+    if (slot_of(id) < compounds_.size()) compounds_[slot_of(id)].clear();
+  }
+  return PLUMB_OK;
+}
+
+/// Gives the body the proxies of a shape.
+void World::attach(std::uint32_t slot, std::uint32_t shape) {
+  BodyRecord& body = bodies_[slot];
+  body.proxy = proxy_slots_.take(slot);
+  const Compound* parts = shape < compounds_.size() && !compounds_[shape].empty() ? &compounds_[shape] : nullptr;
+  for (std::size_t i = 1; parts != nullptr && i < parts->size(); ++i)
+    body.more_proxies.push_back(proxy_slots_.take_any(simulation_.body_count()));
+  simulation_.reserve_proxies(proxy_slots_.end());
+  simulation_.set_proxy_count(proxy_slots_.end());
+  if (parts == nullptr) {
+    if (body.proxy < proxies_.size()) proxies_[body.proxy] = {};
+    return attach_part(slot, body.proxy, shape, nullptr);
+  }
+  if (proxies_.size() < proxy_slots_.end()) proxies_.resize(proxy_slots_.end());
+  for (std::size_t i = 0; i < parts->size(); ++i) {
+    const CompoundPart& part = (*parts)[i];
+    const std::uint32_t row = i == 0 ? body.proxy : body.more_proxies[i - 1];
+    proxies_[row] = {static_cast<std::uint32_t>(i), part.has_material, part.material};
+    attach_part(slot, row, part.shape, is_identity(part.pose) ? nullptr : &part.pose);
+  }
+}
+
+/// pose: of the shape in the body's frame; null: the body's own.
+void World::attach_part(std::uint32_t slot, std::uint32_t row, std::uint32_t shape, const PlumbPose* pose) {
+  const BodyFrame& frame = simulation_.frames[slot];
+  Proxy& proxy = simulation_.proxies.edit(row);
+  proxy = {};
+  proxy.body = slot;
+  proxy.shape = shape;
+  proxy.born = simulation_.steps() + 1;
+  const QuatD to_principal = conjugate(frame.principal);
+  proxy.frame.orientation = to_quat(pose == nullptr ? to_principal : to_principal * to_double(pose->orientation));
+  const Position from_centre =
+      pose == nullptr ? -frame.centre_of_mass : to_position(pose->position) - frame.centre_of_mass;
+  const Position offset = rotate(to_principal, from_centre);
+  proxy.frame.position = {static_cast<Real>(offset.x), static_cast<Real>(offset.y), static_cast<Real>(offset.z)};
+  put_proxy_row(slot, row);
+}
+
+void World::detach(std::uint32_t slot) {
+  BodyRecord& body = bodies_[slot];
+  const auto give_back = [this](std::uint32_t row) {
+    simulation_.proxies.edit(row).shape = kNone;
+    proxy_slots_.give_back(row);
+  };
+  if (body.proxy != kNone) give_back(body.proxy);
+  for (const std::uint32_t row : body.more_proxies) give_back(row);
+  body.proxy = kNone;
+  body.more_proxies.clear();
+}
+
+void World::put_proxy_row(std::uint32_t slot, std::uint32_t row) {
+  const BodyRecord& body = bodies_[slot];
+  const bool own = row < proxies_.size() && proxies_[row].has_material;
+  const PlumbMaterial& material = own ? proxies_[row].material : body.material;
+  Proxy& proxy = simulation_.proxies.edit(row);
+  proxy.friction = static_cast<Real>(material.friction);
+  proxy.restitution = static_cast<Real>(material.restitution);
+  const std::uint32_t immovable = body.motion == PLUMB_DYNAMIC ? 0 : kProxyImmovable;
+  simulation_.filters.edit(row) = {slot, body.filter.category, body.filter.mask, body.filter.group, immovable};
+}
+
+/// What a contact tells of the proxy beside its body; part: the triangle where it is a surface.
+std::uint32_t World::child_of(std::uint32_t proxy, std::uint32_t part) const {
+  if (is_surface(simulation_.shapes[simulation_.proxies[proxy].shape].type)) return part;
+  return proxy < proxies_.size() ? proxies_[proxy].child : 0;
+}
+
+}  // namespace plumb::impulse
