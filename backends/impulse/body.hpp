@@ -11,6 +11,8 @@
 
 namespace plumb::impulse {
 
+constexpr std::uint32_t kNone = 0xffffffffu;  ///< no row
+
 /// What the solver reads and writes: 32 bytes in float. Rows with inverse mass 0 are never written.
 struct alignas(4 * sizeof(Real)) Velocity {
   Vec linear;  ///< of the centre of mass, m/s

@@ -1,6 +1,7 @@
 #include "simulation.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "constraints/prepare_contacts.hpp"
@@ -17,6 +18,7 @@ struct ClearCounters {
 
 constexpr std::uint32_t kLeastPairs = 1024;
 constexpr std::uint32_t kOriginSamples = 256;
+constexpr double kNear = 1000;  // m: floats from an origin so far still tell a tenth of a millimetre
 
 }  // namespace
 
@@ -102,12 +104,18 @@ void Simulation::find_origin() {
     for (const std::uint32_t body : some) along.push_back(state.position[body][axis]);
     const auto middle = along.begin() + static_cast<std::ptrdiff_t>(along.size() / 2);
     std::nth_element(along.begin(), middle, along.end());
+    if (origin_known_ && std::abs(origin_[axis] - *middle) < kNear)
+      continue;  // what is bounded from there need not be bounded anew
     origin_[axis] = *middle;
+    statics_changed();
   }
+  origin_known_ = true;
 }
 
 /// Who has a shape, and whether it moves.
 void Simulation::list_bodies() {
+  const std::uint32_t statics_before = static_count_;
+  bool same_statics = true;
   mover_count_ = static_count_ = plane_count_ = shape_types_ = 0;
   for (std::uint32_t i = 0; i < proxy_count_; ++i) {
     if (proxies[i].shape == kNone) continue;
@@ -116,15 +124,17 @@ void Simulation::list_bodies() {
     if (type == ShapeType::kPlane) {
       planes_.grow(plane_count_ + 1);
       planes_[plane_count_++] = i;
-      continue;
-    }
-    if ((mass[proxies[i].body].flags & kBodyMoves) != 0)
+    } else if ((mass[proxies[i].body].flags & kBodyMoves) != 0) {
       movers_[mover_count_++] = i;
-    else
+    } else {
+      same_statics = same_statics && static_count_ < statics_before && statics_[static_count_] == i;
       statics_[static_count_++] = i;
+    }
   }
-  executor_.to_device(movers_, mover_count_);
-  executor_.to_device(statics_, static_count_);
+  mover_room_ = fill_room(movers_, mover_count_);
+  static_room_ = fill_room(statics_, static_count_);
+  executor_.to_device(movers_, mover_room_);
+  executor_.to_device(statics_, static_room_);
   narrow_phase_.forget_found(executor_, statics_.device(), static_count_);
   if (plane_count_ != 0) executor_.to_device(planes_, plane_count_);
   if (!in_pieces_ && (shape_types_ & kTypesInPieces) != 0) {
@@ -133,8 +143,26 @@ void Simulation::list_bodies() {
     reserve_pairs(pair_capacity_);
   }
   if (origin_dirty_) find_origin();
-  statics_changed();
+  if (!same_statics || static_count_ != statics_before) statics_changed();
+  ++static_version_;
   bodies_dirty_ = false;
+}
+
+/// So many of a thing that a recorded step has room for, when there are n now. While bodies come and go the numbers
+/// stay in coarse steps, and the recording serves on.
+std::uint32_t Simulation::room_for(std::uint32_t n) const {
+  if (!Executor::kRecords || step_ == 0 || n == 0) return n;
+  std::uint32_t unit = 64;
+  while (unit * 32 <= n) unit *= 2;
+  return (n + unit - 1) / unit * unit;
+}
+
+/// Makes up a list with a row of nobody, who touches nothing. Returns the length.
+std::uint32_t Simulation::fill_room(Mirror<std::uint32_t>& list, std::uint32_t count) {
+  const auto nobody = static_cast<std::uint32_t>(proxies.size()) - 1;
+  const std::uint32_t room = proxy_count_ > nobody ? count : std::min<std::uint32_t>(room_for(count), nobody);
+  std::fill(list.host() + count, list.host() + room, nobody);
+  return room;
 }
 
 /// Who is where, and of what shape.
@@ -171,9 +199,9 @@ void Simulation::upload_changes() {
       executor_.run(count, BoundProxies{bodies(), proxy_view(), statics_parameters_.device(), list, boxes_.data(),
                                         margins_.data()});
     };
-    bound(static_count_, statics_.device());
+    bound(static_room_, statics_.device());
     if (plane_count_ != 0) bound(plane_count_, planes_.device());
-    broad_phase_.build_statics(executor_, boxes_.data(), statics_.device(), static_count_);
+    broad_phase_.build_statics(executor_, boxes_.data(), statics_.device(), static_room_);
     statics_dirty_ = false;
   }
 }
@@ -183,7 +211,7 @@ Simulation::Recorded Simulation::what_is_recorded() {
   const Surfaces on = surfaces.device();
   return {{shapes.device(), all.ranges, all.vertices, all.faces, all.loops, all.edges, joints.excluded(), on.meshes,
            on.fields},
-          {body_count_, mover_count_, static_count_, plane_count_, shape_types_, joints.excluded_count(),
+          {bodies_in_step(), mover_room_, static_room_, plane_count_, shape_types_, joints.excluded_count(),
            static_cast<std::uint32_t>(parameters_[0].solver), sleep_.count() == 0 ? 0U : 1U}};
 }
 
@@ -219,13 +247,13 @@ void Simulation::run_step() {
 void Simulation::find_candidates(const ContactCache& now) {
   StepCounters* counters = counters_.device();
   const PairFilter filter{filters.device(), joints.excluded(), joints.excluded_count()};
-  broad_phase_.find_pairs(executor_, boxes_.data(), movers_.device(), mover_count_, filter,
+  broad_phase_.find_pairs(executor_, boxes_.data(), movers_.device(), mover_room_, filter,
                           in_pieces_ ? pieces_.pairs() : now.pairs, in_pieces_ ? pieces_.ranges() : now.ranges,
                           &counters->pairs);
   if (!in_pieces_) return;
   pieces_.find(executor_,
                {bodies(), proxy_view(), parameters_.device(), filter, boxes_.data(), margins_.data(), movers_.device(),
-                mover_count_, planes_.device(), plane_count_},
+                mover_room_, planes_.device(), plane_count_},
                now, counters);
 }
 
@@ -240,7 +268,7 @@ void Simulation::enqueue() {
   phases_.start(executor_);
   executor_.run(1U, ClearCounters{counters});
   if (features_.collision) {
-    executor_.run(mover_count_,
+    executor_.run(mover_room_,
                   BoundProxies{all, shapes_on, parameters, movers_.device(), boxes_.data(), margins_.data()});
     find_candidates(now);
     phases_.end(executor_, PLUMB_PHASE_BROAD);
@@ -260,16 +288,16 @@ void Simulation::enqueue() {
     phases_.end(executor_, PLUMB_PHASE_ISLANDS);
   }
   if (features_.collision || joints.count() != 0) {
-    solver_.begin(executor_, all, body_count_);
+    solver_.begin(executor_, all, bodies_in_step());
     if (features_.collision)
       solver_.prepare(executor_, now, all, shapes_on, colouring_, features_.continuous ? impacts_.times() : nullptr,
                       parameters, counters);
-    solver_.solve(executor_, all, body_count_, parameters, counters, pair_capacity_, joints);
+    solver_.solve(executor_, all, bodies_in_step(), parameters, counters, pair_capacity_, joints);
     if (features_.collision) solver_.keep_impulses(executor_, now, counters);
   } else {
-    solver_.move_freely(executor_, all, body_count_, parameters, counters);
+    solver_.move_freely(executor_, all, bodies_in_step(), parameters, counters);
   }
-  if (features_.sleeping) sleep_.time_rest(executor_, all, body_count_, parameters, counters, pair_capacity_);
+  if (features_.sleeping) sleep_.time_rest(executor_, all, bodies_in_step(), parameters, counters, pair_capacity_);
   phases_.end(executor_, PLUMB_PHASE_SOLVE);
   enqueue_rows();
   executor_.to_host(counters_, 1);
@@ -344,8 +372,8 @@ void Simulation::reserve_rows() {
 }
 
 void Simulation::enqueue_rows() {
-  if (poses_.in_step()) poses_.write(executor_, bodies(), frames.device(), body_count_);
-  if (velocities_.in_step()) velocities_.write(executor_, bodies(), frames.device(), body_count_);
+  if (poses_.in_step()) poses_.write(executor_, bodies(), frames.device(), bodies_in_step());
+  if (velocities_.in_step()) velocities_.write(executor_, bodies(), frames.device(), bodies_in_step());
 }
 
 template <class Row>

@@ -1,6 +1,7 @@
 // The engine without its interface: bodies and shapes in memory, and the step.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -135,6 +136,12 @@ class Simulation {
   [[nodiscard]] bool have_several_proxies() const;
   void list_bodies();
   void find_origin();
+  [[nodiscard]] std::uint32_t room_for(std::uint32_t n) const;
+  std::uint32_t fill_room(Mirror<std::uint32_t>& list, std::uint32_t count);
+  /// Rows that kernels of a step go through; those without a body are nobody's.
+  [[nodiscard]] std::uint32_t bodies_in_step() const {
+    return std::min<std::uint32_t>(room_for(body_count_), static_cast<std::uint32_t>(state.size()) - 1);
+  }
   void find_candidates(const ContactCache& now);
   void reserve_rows();
   void enqueue();
@@ -155,14 +162,16 @@ class Simulation {
 
   SolverFeatures features_;
   std::uint32_t body_count_ = 0, proxy_count_ = 0, step_ = 0, pair_capacity_ = 0;
-  bool bodies_dirty_ = true, origin_dirty_ = true, statics_dirty_ = true, repeated_ = false, grew_ = false;
+  bool bodies_dirty_ = true, origin_dirty_ = true, origin_known_ = false, statics_dirty_ = true, repeated_ = false,
+       grew_ = false;
   std::uint64_t static_version_ = 1;  // changes when any static may have, and with the lists below
   Position origin_{0, 0, 0};
 
   Mirror<std::uint32_t> movers_, statics_, planes_;
   std::uint32_t mover_count_ = 0, static_count_ = 0, plane_count_ = 0;
-  bool in_pieces_ = false;         // once there was a plane or a surface
-  std::uint32_t shape_types_ = 0;  // a bit for each ShapeType in the world
+  std::uint32_t mover_room_ = 0, static_room_ = 0;  // lengths of the lists as steps see them
+  bool in_pieces_ = false;                          // once there was a plane or a surface
+  std::uint32_t shape_types_ = 0;                   // a bit for each ShapeType in the world
   Mirror<StepParameters> parameters_;
   Mirror<StepParameters> statics_parameters_;  // with which the statics were bounded
   bool bound_again_ = false;                   // the statics, as they were: with the same parameters

@@ -92,6 +92,7 @@ void Simulation::let_islands_rest() {
 void Simulation::fall_asleep(const Slots& island) {
   sleep_.fall_asleep(island, mass, state);
   bodies_changed();
+  statics_changed();
   joints.bodies_changed();
 }
 

@@ -19,6 +19,11 @@ struct BoundProxies {
   PLUMB_HD void operator()(std::uint32_t i) const {
     const std::uint32_t index = list[i];
     const Proxy& proxy = proxies.rows[index];
+    if (proxy.shape == kNone) {  // nobody
+      boxes[index] = {{1, 1, 1}, {-1, -1, -1}};
+      margins[index] = 0;
+      return;
+    }
     const Shape& shape = proxies.shapes[proxy.shape];
     const ShapePose pose = shape_pose(proxy, bodies.orientation[proxy.body]);
     const Vec centre = between(parameters->origin, bodies.position[proxy.body]) + pose.offset;

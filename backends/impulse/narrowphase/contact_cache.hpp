@@ -3,12 +3,11 @@
 
 #include <cstdint>
 
+#include "body.hpp"
 #include "broadphase/pairs.hpp"
 #include "narrowphase/manifold.hpp"
 
 namespace plumb::impulse {
-
-constexpr std::uint32_t kNone = 0xffffffffu;
 
 /// A manifold as the last step left it.
 struct CachedManifold {

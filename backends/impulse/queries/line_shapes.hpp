@@ -120,8 +120,8 @@ PLUMB_HD inline bool cross_shape(const Shape& shape, const Hulls& hulls, const V
     case ShapeType::kBox: return line_shapes::cross_box(size, p, d, part);
     case ShapeType::kCapsule: return line_shapes::cross_capsule(size.x, size.y, p, d, part);
     case ShapeType::kHull: return line_shapes::cross_hull(hulls, shape.hull, p, d, part);
+    default: return false;
   }
-  return false;
 }
 
 }  // namespace plumb::impulse

@@ -2,8 +2,11 @@
 #include <gtest/gtest.h>
 #include <xmmintrin.h>
 
+#include <cmath>
+
 #include "engine.hpp"
 #include "job_host.hpp"
+#include "math/real.hpp"
 
 namespace plumb::impulse::test {
 namespace {
