@@ -4,7 +4,9 @@
 #include <thread>
 
 #include "engine.hpp"
+#include "exec/memory.hpp"
 #include "exec/phase_clock.hpp"
+#include "math/real.hpp"
 
 namespace plumb::impulse::test {
 namespace {

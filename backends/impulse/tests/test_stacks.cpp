@@ -1,6 +1,8 @@
 // Stacks that stand as they were built: nothing in a step may lean them.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "engine.hpp"
 
 namespace plumb::impulse::test {
