@@ -118,7 +118,7 @@ void Simulation::list_bodies() {
   bool same_statics = true;
   mover_count_ = static_count_ = plane_count_ = shape_types_ = 0;
   for (std::uint32_t i = 0; i < proxy_count_; ++i) {
-    if (proxies[i].shape == kNone) continue;
+    if (proxies[i].shape == kNone || (filters[i].flags & kProxyUnseen) != 0) continue;
     const ShapeType type = shapes[proxies[i].shape].type;
     shape_types_ |= bit_of(type);
     if (type == ShapeType::kPlane) {

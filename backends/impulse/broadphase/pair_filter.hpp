@@ -9,6 +9,8 @@ namespace plumb::impulse {
 
 /// Two proxies that both have this flag never make a pair: bodies that no contact moves.
 constexpr std::uint32_t kProxyImmovable = 1U << 0;
+/// A proxy that no step and no query sees.
+constexpr std::uint32_t kProxyUnseen = 1U << 1;
 
 /// What a proxy may touch; category, mask and group as in PlumbFilter.
 struct alignas(16) ProxyFilter {

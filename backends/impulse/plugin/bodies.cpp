@@ -37,12 +37,13 @@ PlumbResult World::create_bodies(std::span<const PlumbBodyDesc> descs, std::span
 }
 
 PlumbResult World::destroy_bodies(std::span<const PlumbBody> ids) {
-  if (init_.needs(PLUMB_NEED_EVENTS)) touches_.forget(ids, early_events_);
+  if (init_.needs(PLUMB_NEED_EVENTS) || init_.needs(PLUMB_NEED_SENSORS)) touches_.forget(ids, early_events_);
   if (init_.needs(PLUMB_NEED_CONTACTS)) records();  // while the bodies are where the step left them
   wake_for_write(PLUMB_FIELD_POSE, ids);
   for (const PlumbBody id : ids) {
     const std::uint32_t slot = slot_of(id);
     simulation_.forget(slot);
+    std::erase(sensors_, slot);
     if (bodies_[slot].motion == PLUMB_DYNAMIC) --dynamic_count_;
     detach(slot);
     bodies_[slot] = {};
@@ -111,7 +112,10 @@ void World::make_body(const PlumbBodyDesc& desc, PlumbBody id) {
   place(slot, desc.pose);
 
   put_body_rows(slot);
-  if (desc.shape != 0 && init_.needs(PLUMB_NEED_COLLISION)) attach(slot, slot_of(desc.shape));
+  body.senses = (desc.flags & PLUMB_BODY_SENSOR) != 0;
+  if (body.senses) sensors_.push_back(slot);
+  const bool has_place = init_.needs(PLUMB_NEED_COLLISION) || init_.needs(PLUMB_NEED_SENSORS);
+  if (desc.shape != 0 && has_place) attach(slot, slot_of(desc.shape));
 }
 
 /// What of a body's record is copied into rows that kernels read.

@@ -11,6 +11,7 @@ namespace plumb::impulse {
 struct BodyRecord {
   PlumbBody id = 0;  ///< 0: the slot is free
   PlumbMotion motion = PLUMB_STATIC;
+  bool senses = false;  ///< a sensor
   PlumbMaterial material{};
   PlumbFilter filter{};
   double gravity_scale = 1;

@@ -56,6 +56,7 @@ Fact need_fact(std::uint32_t index) {
     case PLUMB_NEED_FILTERS:
     case PLUMB_NEED_AXIS_LOCKS:
     case PLUMB_NEED_CCD:
+    case PLUMB_NEED_SENSORS:
     case PLUMB_NEED_QUERIES:
     case PLUMB_NEED_SNAPSHOT: return kYes;
     default: return kNotYet;
@@ -90,6 +91,8 @@ Fact event_fact(std::uint32_t event) {
   switch (event) {
     case PLUMB_EVENT_CONTACT_BEGIN:
     case PLUMB_EVENT_CONTACT_END:
+    case PLUMB_EVENT_SENSOR_ENTER:
+    case PLUMB_EVENT_SENSOR_LEAVE:
     case PLUMB_EVENT_WAKE:
     case PLUMB_EVENT_SLEEP: return kYes;
     default: return kNotYet;

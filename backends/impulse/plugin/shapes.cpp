@@ -163,8 +163,8 @@ void World::put_proxy_row(std::uint32_t slot, std::uint32_t row) {
   Proxy& proxy = simulation_.proxies.edit(row);
   proxy.friction = static_cast<Real>(material.friction);
   proxy.restitution = static_cast<Real>(material.restitution);
-  const std::uint32_t immovable = body.motion == PLUMB_DYNAMIC ? 0 : kProxyImmovable;
-  simulation_.filters.edit(row) = {slot, body.filter.category, body.filter.mask, body.filter.group, immovable};
+  const std::uint32_t flags = (body.motion == PLUMB_DYNAMIC ? 0 : kProxyImmovable) | (body.senses ? kProxyUnseen : 0);
+  simulation_.filters.edit(row) = {slot, body.filter.category, body.filter.mask, body.filter.group, flags};
 }
 
 /// What a contact tells of the proxy beside its body; part: the triangle where it is a surface.

@@ -54,7 +54,7 @@ PlumbResult World::wait(PlumbStepReport& report) {
   early_events_.clear();
   tell(PLUMB_EVENT_WAKE, simulation_.woken(), events_);
   tell(PLUMB_EVENT_SLEEP, simulation_.fallen_asleep(), events_);
-  if (init_.needs(PLUMB_NEED_EVENTS)) find_events();
+  if (init_.needs(PLUMB_NEED_EVENTS) || init_.needs(PLUMB_NEED_SENSORS)) find_events();
   const StepCounters& counters = simulation_.counters();
   report.threads = simulation_.executor().threads();
   report.pairs = simulation_.candidate_count();
@@ -114,14 +114,19 @@ const std::vector<ContactRecord>& World::records() {
 }
 
 void World::find_events() {
+  if (init_.needs(PLUMB_NEED_EVENTS)) find_touches();
+  if (!sensors_.empty()) sense();
+  touches_.finish_step(events_);
+  backend::sort_events(events_);
+}
+
+void World::find_touches() {
   for (const ContactRecord& record : records())
     for (std::uint32_t p = 0; p < record.count; ++p)
       if (record.separation[p] <= 0 || record.normal_impulse[p] > 0) {
         touches_.touch(bodies_[record.bodies.a].id, bodies_[record.bodies.b].id);
         break;
       }
-  touches_.finish_step(events_);
-  backend::sort_events(events_);
 }
 
 std::span<const PlumbContact> World::contacts() {

@@ -103,6 +103,8 @@ class World final : public IPhysicsWorld,
   void settle_kinematics();
   void clear_forces();
   void find_events();
+  void find_touches();
+  void sense();
   void tell(PlumbEventType type, const Simulation::Slots& bodies, std::vector<PlumbEvent>& events);
   void wake_for_write(PlumbField field, std::span<const PlumbBody> ids);
   void wake_for_joint(const PlumbJointDesc& desc);
@@ -129,6 +131,7 @@ class World final : public IPhysicsWorld,
   bool records_known_ = false;
   std::vector<ContactRecord> records_;
   std::vector<PlumbContact> contacts_;
+  std::vector<std::uint32_t> sensors_;  // slots
   std::vector<PlumbEvent> events_, early_events_;
   std::mutex query_mutex_;  // of what queries build when they need it, and of the batches
   BatchPool<QueryBatch> query_batches_;
