@@ -432,7 +432,6 @@ QueryScene Simulation::shape_scene() {
   return scene;
 }
 
-std::vector<Pair> Simulation::candidates() { return narrow_phase_.candidates(step_, counters().pairs); }
 std::vector<Pair> Simulation::candidates() {
   std::vector<Pair> found = narrow_phase_.candidates(step_, candidate_count());
   const auto same = [](const Pair& a, const Pair& b) { return a.a == b.a && a.b == b.b; };
