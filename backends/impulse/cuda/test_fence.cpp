@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "engine.hpp"
+#include "exec/executor.hpp"
 
 namespace plumb::impulse::test {
 namespace {

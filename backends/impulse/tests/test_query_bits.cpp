@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "engine.hpp"
+#include "exec/executor.hpp"
 
 namespace plumb::impulse::test {
 namespace {
