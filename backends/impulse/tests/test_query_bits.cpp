@@ -3,6 +3,7 @@
 
 #include "engine.hpp"
 #include "exec/executor.hpp"
+#include "math/real.hpp"
 
 namespace plumb::impulse::test {
 namespace {
