@@ -475,6 +475,26 @@ TEST_F(Queries, ChangeNothingOfTheStep) {
   EXPECT_EQ(tumble(true), tumble(false));
 }
 
+/// Places that halve their way to a corner make a tree of one leaf a level, and the ray meets all of it.
+TEST_F(Queries, DeepTreesAreSearchedToTheEnd) {
+  QueryRig rig;
+  const std::uint32_t ball = rig.add_shape({ShapeType::kSphere, 0, {2, 0, 0}, 2});
+  for (int axis = 0; axis < 3; ++axis)
+    for (double away = 1; away > 1e-6; away /= 2) {
+      Position at = {0, 0, 0};
+      at[axis] = away;
+      rig.add(ball, at, {0, 0, 0, 1}, true);
+    }
+  rig.update({0, 0, 0});
+  const std::vector<PlumbRay> rays = {{{-9, -9, -9}, {18, 18, 18}, kSeesAll}, {{9, 9, 9}, {-18, -18, -18}, kSeesAll}};
+  const Hits all = {PLUMB_OK, rig.rays(PLUMB_HIT_ALL, rays)};
+  ASSERT_EQ(all.hits.size(), 2 * rig.ids.size());
+  const PlumbHit first = all.hits[0], last = all.hits[rig.ids.size()];
+  const std::span<const PlumbHit> closest = rig.rays(PLUMB_HIT_CLOSEST, rays);
+  EXPECT_EQ(closest[0].body, first.body);
+  EXPECT_EQ(closest[1].body, last.body);
+}
+
 TEST_F(Queries, ABodyOfSeveralProxiesIsHitOnce) {
   QueryRig rig;
   const std::uint32_t ball = rig.add_shape({ShapeType::kSphere, 0, {1, 0, 0}, 1});
