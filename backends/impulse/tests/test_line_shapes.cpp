@@ -26,7 +26,7 @@ double least_outside(const Shape& shape, const Hulls& hulls, const V& p, const V
   const auto at = [&](double s) { return outside(shape, hulls, p + s * d); };
   const double middle = -dot(p, d), reach = 2 * static_cast<double>(shape.reach);
   double low = middle - reach, high = middle + reach;
-  for (int i = 0; i < 200; ++i) {
+  for (int i = 0; i < 100; ++i) {
     const double l = low + (high - low) / 3, h = high - (high - low) / 3;
     (at(l) < at(h) ? high : low) = at(l) < at(h) ? h : l;
   }
@@ -36,8 +36,8 @@ double least_outside(const Shape& shape, const Hulls& hulls, const V& p, const V
 TEST(LineShapes, AreEnteredAndLeftOnTheirSurface) {
   Dice dice(17);
   HullPool pool;
-  int hits = 0, misses = 0, grazing = 0;
-  for (int i = 0; i < 8000; ++i) {
+  int hits = 0, misses = 0;
+  for (int i = 0; i < 3000; ++i) {
     const Shape shape = random_shape(dice, pool, i % 2 == 0 ? 1 : 1e-2);
     const Hulls hulls = pool.host();
     const double reach = static_cast<double>(shape.reach);
@@ -53,7 +53,6 @@ TEST(LineShapes, AreEnteredAndLeftOnTheirSurface) {
     const double near = 1e-12 * (reach + away), least = least_outside(shape, hulls, p, d);
     LinePart part{};
     const bool hit = cross_shape(shape, hulls, p, d, part);
-    if (std::abs(least) < 1e-5 * reach) ++grazing;
     if (!hit) {
       EXPECT_GT(least, -1e-7 * reach - near) << i;
       ++misses;
@@ -70,8 +69,8 @@ TEST(LineShapes, AreEnteredAndLeftOnTheirSurface) {
     const Features solid = features_of(shape, hulls, {0, 0, 0, 1}, {0, 0, 0});
     EXPECT_NEAR(dot(part.normal, p + part.enter * d), high(solid, part.normal), flat) << i;
   }
-  EXPECT_GT(hits, 3000);
-  EXPECT_GT(misses, 1000);
+  EXPECT_GT(hits, 1000);
+  EXPECT_GT(misses, 400);
 }
 
 TEST(LineShapes, ThatAreOnlyTouchedAreCrossed) {
