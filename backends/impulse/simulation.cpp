@@ -91,25 +91,32 @@ Proxies Simulation::proxy_view() { return {proxies.device(), shapes.device(), hu
 
 /// Bounds are floats from a place near the bodies, so that they are as sharp far from the world's origin as near it.
 /// That place is the median of some of them: one body that was lost far out does not move it.
-void Simulation::find_origin() {
-  origin_dirty_ = false;
-  if (mover_count_ == 0) return;
+Position Simulation::middle_of(const Mirror<std::uint32_t>& list, std::uint32_t count) {
   std::vector<std::uint32_t> some;
-  for (std::uint32_t i = 0; i < mover_count_; i += mover_count_ / kOriginSamples + 1)
-    some.push_back(proxies[movers_[i]].body);
+  for (std::uint32_t i = 0; i < count; i += count / kOriginSamples + 1) some.push_back(proxies[list[i]].body);
   state.fetch(some, kPosePart);
+  Position middle = {0, 0, 0};
   std::vector<double> along;
   for (int axis = 0; axis < 3; ++axis) {
     along.clear();
     for (const std::uint32_t body : some) along.push_back(state.position[body][axis]);
-    const auto middle = along.begin() + static_cast<std::ptrdiff_t>(along.size() / 2);
-    std::nth_element(along.begin(), middle, along.end());
-    if (origin_known_ && std::abs(origin_[axis] - *middle) < kNear)
-      continue;  // what is bounded from there need not be bounded anew
-    origin_[axis] = *middle;
-    statics_changed();
+    const auto half = along.begin() + static_cast<std::ptrdiff_t>(along.size() / 2);
+    std::nth_element(along.begin(), half, along.end());
+    middle[axis] = *half;
   }
+  return middle;
+}
+
+/// Places that are near one that was good stay: what is bounded from there need not be bounded anew.
+void Simulation::find_origin() {
+  origin_dirty_ = false;
+  if (mover_count_ == 0) return;
+  const Position middle = middle_of(movers_, mover_count_);
+  const Position off = middle - origin_;
+  if (origin_known_ && std::max({std::abs(off.x), std::abs(off.y), std::abs(off.z)}) < kNear) return;
+  origin_ = middle;
   origin_known_ = true;
+  statics_changed();
 }
 
 /// Who has a shape, and whether it moves.
@@ -144,7 +151,6 @@ void Simulation::list_bodies() {
   }
   if (origin_dirty_) find_origin();
   if (!same_statics || static_count_ != statics_before) statics_changed();
-  ++static_version_;
   bodies_dirty_ = false;
 }
 
@@ -165,9 +171,8 @@ std::uint32_t Simulation::fill_room(Mirror<std::uint32_t>& list, std::uint32_t c
   return room;
 }
 
-/// Who is where, and of what shape.
+/// Where all are, and of what shape.
 void Simulation::upload_bodies() {
-  if (bodies_dirty_) list_bodies();
   proxies.upload(executor_);
   filters.upload(executor_);
   shapes.upload(executor_);
@@ -177,6 +182,7 @@ void Simulation::upload_bodies() {
 }
 
 void Simulation::upload_changes() {
+  if (bodies_dirty_) list_bodies();
   upload_bodies();
   force.upload(executor_);
   mass.upload(executor_);
@@ -395,42 +401,6 @@ std::shared_ptr<RowBlock<Row>> Simulation::rows(FieldRows<Row>& field, bool on_h
 
 template std::shared_ptr<RowBlock<PoseRow>> Simulation::rows(FieldRows<PoseRow>& field, bool on_host);
 template std::shared_ptr<RowBlock<VelocityRow>> Simulation::rows(FieldRows<VelocityRow>& field, bool on_host);
-
-bool Simulation::have_several_proxies() const {
-  std::vector<bool> has_one(state.size());
-  const auto repeats = [&](const Mirror<std::uint32_t>& list, std::uint32_t count) {
-    for (std::uint32_t i = 0; i < count; ++i) {
-      const std::uint32_t body = proxies[list[i]].body;
-      if (has_one[body]) return true;
-      has_one[body] = true;
-    }
-    return false;
-  };
-  return repeats(movers_, mover_count_) || repeats(statics_, static_count_);
-}
-
-QueryScene Simulation::query_scene(std::span<const PlumbBody> ids, std::uint64_t ids_version) {
-  upload_bodies();
-  if (query_trees_ == nullptr) query_trees_ = std::make_unique<QueryTrees>();
-  if (several_version_ != static_version_) several_ = have_several_proxies();
-  several_version_ = static_version_;
-  const PlacedProxies placed = {
-      bodies(),         proxy_view(),      filters.device(), static_cast<std::uint32_t>(proxies.size()),
-      movers_.device(), statics_.device(), mover_count_,     static_count_,
-      several_,         origin_,           state.version(),  static_version_};
-  query_trees_->update(executor_, placed, ids, ids_version);
-  executor_.wait();
-  return query_trees_->scene(placed);
-}
-
-QueryScene Simulation::shape_scene() {
-  shapes.upload(executor_);
-  hulls.upload(executor_);
-  QueryScene scene{};
-  scene.shapes = shapes.device();
-  scene.hulls = hulls.device();
-  return scene;
-}
 
 std::vector<Pair> Simulation::candidates() {
   std::vector<Pair> found = narrow_phase_.candidates(step_, candidate_count());

@@ -62,10 +62,13 @@ class Simulation {
   /// Proxy rows in use; those among them without a shape are nobody's.
   void set_proxy_count(std::uint32_t rows) { proxy_count_ = rows; }
 
-  void bodies_changed() { bodies_dirty_ = origin_dirty_ = true; }  ///< made, gone
-  void statics_changed() {                                         ///< bodies that do not move: placed elsewhere
+  void bodies_changed() {  ///< made, gone, asleep, awake
+    bodies_dirty_ = origin_dirty_ = true;
+    ++list_version_;
+  }
+  void statics_changed() {  ///< bodies that do not move: placed elsewhere
     statics_dirty_ = true;
-    ++static_version_;
+    ++list_version_;
   }
 
   /// All that the steps to come depend on and that steps change, to or from a snapshot. The same bodies, joints and
@@ -133,7 +136,8 @@ class Simulation {
 
   void upload_changes();
   void upload_bodies();
-  [[nodiscard]] bool have_several_proxies() const;
+  void list_for_queries();
+  [[nodiscard]] Position middle_of(const Mirror<std::uint32_t>& list, std::uint32_t count);
   void list_bodies();
   void find_origin();
   [[nodiscard]] std::uint32_t room_for(std::uint32_t n) const;
@@ -164,7 +168,7 @@ class Simulation {
   std::uint32_t body_count_ = 0, proxy_count_ = 0, step_ = 0, pair_capacity_ = 0;
   bool bodies_dirty_ = true, origin_dirty_ = true, origin_known_ = false, statics_dirty_ = true, repeated_ = false,
        grew_ = false;
-  std::uint64_t static_version_ = 1;  // changes when any static may have, and with the lists below
+  std::uint64_t list_version_ = 1;  // changes when a body may have, but for those that the step moves
   Position origin_{0, 0, 0};
 
   Mirror<std::uint32_t> movers_, statics_, planes_;
@@ -189,9 +193,12 @@ class Simulation {
   Sleep sleep_;
   Slots woken_, fallen_asleep_;
   Buffer<ContactRecord> records_;
-  std::unique_ptr<QueryTrees> query_trees_;  // made when the first query comes
-  std::uint64_t several_version_ = 0;        // of the statics when `several_` was found out
-  bool several_ = false;                     // whether a body has more than one proxy
+  struct ForQueries {
+    QueryTrees trees;
+    Mirror<std::uint32_t> movers, statics;
+    PlacedProxies placed{};
+  };
+  std::unique_ptr<ForQueries> for_queries_;  // made when the first query comes; the step's own are not touched
   FieldRows<PoseRow> poses_;
   FieldRows<VelocityRow> velocities_;
   PhaseClock phases_;
