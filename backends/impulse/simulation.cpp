@@ -121,6 +121,7 @@ void Simulation::upload_changes() {
   shapes.upload(executor_);
   hulls.upload(executor_);
   state.upload();
+  joints.drives.upload(executor_);
   if (joints.changed()) {
     joints.upload(mass);
     forget_recordings();

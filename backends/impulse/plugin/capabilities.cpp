@@ -1,5 +1,6 @@
 // What impulse truly has.
 #include "physics_revision.hpp"
+#include "plugin/joint_rows.hpp"
 #include "plugin/world.hpp"
 
 namespace plumb::impulse {
@@ -34,7 +35,8 @@ Fact need_fact(std::uint32_t index) {
     case PLUMB_NEED_DAMPING:
     case PLUMB_NEED_FORCES:
     case PLUMB_NEED_SLEEPING:
-    case PLUMB_NEED_FILTERS: return kYes;
+    case PLUMB_NEED_FILTERS:
+    case PLUMB_NEED_JOINT_REACTIONS: return kYes;
     default: return kNotYet;
   }
 }
@@ -49,6 +51,12 @@ Fact field_fact(std::uint32_t field, bool writing) {
   return kYes;
 }
 
+Fact joint_fact(std::uint32_t type, std::uint32_t feature) {
+  if (type >= PLUMB_JOINT_TYPE_COUNT || feature >= PLUMB_JOINT_FEATURE_COUNT) return {PLUMB_NONE};
+  const bool on_an_axis = feature <= PLUMB_JOINT_HAS_SPRINGS;
+  return on_an_axis && free_axes(type) == 0 ? Fact{PLUMB_NONE, "it leaves no axis free"} : kYes;
+}
+
 Fact phase_fact(std::uint32_t phase) {
   if (phase > PLUMB_PHASE_SOLVE && phase != PLUMB_PHASE_OUTPUT) return kNotYet;
   if (phase == PLUMB_PHASE_SOLVE) return {PLUMB_APPROXIMATE, "with integration: one kernel does both"};
@@ -60,7 +68,8 @@ Fact event_fact(std::uint32_t event) {
     case PLUMB_EVENT_CONTACT_BEGIN:
     case PLUMB_EVENT_CONTACT_END:
     case PLUMB_EVENT_WAKE:
-    case PLUMB_EVENT_SLEEP: return kYes;
+    case PLUMB_EVENT_SLEEP:
+    case PLUMB_EVENT_JOINT_BROKEN: return kYes;
     default: return kNotYet;
   }
 }
@@ -72,7 +81,8 @@ Fact fact(PlumbCapability kind, std::uint32_t a, std::uint32_t b) {
     case PLUMB_CAP_FIELD_READ: return field_fact(a, false);
     case PLUMB_CAP_FIELD_WRITE: return field_fact(a, true);
     case PLUMB_CAP_NEED: return need_fact(a);
-    case PLUMB_CAP_JOINT: return a <= PLUMB_JOINT_FIXED ? kYes : kNotYet;
+    case PLUMB_CAP_JOINT: return a < PLUMB_JOINT_TYPE_COUNT ? kYes : kNotYet;
+    case PLUMB_CAP_JOINT_FEATURE: return joint_fact(a, b);
     case PLUMB_CAP_EVENT: return event_fact(a);
     case PLUMB_CAP_PHASE_TIME: return phase_fact(a);
     case PLUMB_CAP_HOST_JOBS: return kYes;

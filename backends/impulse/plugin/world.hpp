@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "plugin/body_record.hpp"
+#include "plugin/joint_record.hpp"
 #include "plugin/settings.hpp"
 #include "plumb/backend/touch_tracker.hpp"
 #include "plumb/backend/world_init.hpp"
@@ -49,6 +50,9 @@ class World final : public IPhysicsWorld, public IJoints, public IDebug, public 
   PlumbResult destroy_joints(std::span<const PlumbJoint> ids) override;
   PlumbResult read_joints(PlumbJointField field, std::span<const PlumbJoint> ids, Rows rows) override;
   PlumbResult write_joints(PlumbJointField field, std::span<const PlumbJoint> ids, ConstRows rows) override;
+  void put_joint(std::uint32_t slot);
+  void remove_joint(std::uint32_t slot);
+  void break_joints();
   PlumbResult candidate_pairs(std::span<const PlumbDebugPair>& pairs) override;
   PlumbResult tree_boxes(std::span<const PlumbDebugBox>& boxes) override;
   PlumbResult separating_axes(std::span<const PlumbDebugAxis>& axes) override;
@@ -82,8 +86,9 @@ class World final : public IPhysicsWorld, public IJoints, public IDebug, public 
   Settings settings_;
   PlumbVec3 gravity_;
   double last_h_ = 0, dt_ = 0;
-  std::vector<BodyRecord> bodies_;      // by slot
-  std::vector<PlumbJointDesc> joints_;  // by slot
+  std::vector<BodyRecord> bodies_;   // by slot
+  std::vector<JointRecord> joints_;  // by slot
+  std::uint32_t breakable_joints_ = 0;
   std::uint32_t dynamic_count_ = 0;
   std::uint32_t stopped_ = 0;  // bodies whose velocity a write made infinite, since the last step
   std::vector<std::uint32_t> pushed_, steered_;
