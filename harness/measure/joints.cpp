@@ -70,6 +70,7 @@ std::span<const MeasureEntry> joint_measures() {
       {"cantilever", "sag and root moment of a beam of welded cubes", cantilever_args, measure_cantilever},
       {"four_bar", "rocker's angle of a four-bar linkage by that of its driven crank", four_bar_args, measure_four_bar},
       {"universal", "second shaft of a universal joint by the first", universal_args, measure_universal},
+      {"free_figure", "momentum of a jointed figure in free space", {}, measure_free_figure},
   };
   return entries;
 }

@@ -27,6 +27,7 @@ void measure_spring(MeasureContext& context);
 void measure_cantilever(MeasureContext& context);
 void measure_four_bar(MeasureContext& context);
 void measure_universal(MeasureContext& context);
+void measure_free_figure(MeasureContext& context);
 
 /// Places rods end to end from `start`, rod i turned by angles[i] about z, along its own axis `along` (body frame), at
 /// rest. The joints' frames are theirs, so they fit when the rods are joined at their ends.

@@ -1,5 +1,5 @@
 // Measures of single joints and of what they drive: a falling plank, a spring, a cantilever, a four-bar linkage, a
-// universal joint.
+// universal joint, a figure in free space.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -136,6 +136,35 @@ void measure_universal(MeasureContext& context) {
   context.deviation("angle", worst * degrees);
   context.compare("slowest", least, std::cos(bend), std::cos(bend));
   context.compare("fastest", most, 1 / std::cos(bend), 1 / std::cos(bend));
+  context.deviation("gap", gap);
+}
+
+void measure_free_figure(MeasureContext& context) {
+  const Scene& scene = context.scene();
+  const RefereeView view(scene);
+  Simulation simulation = context.simulate(scene);
+  referee::Vec3 first_linear = referee::Vec3::Zero(), first_angular = referee::Vec3::Zero();
+  double linear = 0, angular = 0, linear_sum = 0, angular_sum = 0, gap = 0;
+  const auto observe = [&](Simulation& now) {
+    const std::vector<referee::BodyState> states = view.states(now);
+    const referee::Vec3 p = referee::linear_momentum(states), l = referee::angular_momentum(states);
+    if (now.steps() == 0) {
+      first_linear = p;
+      first_angular = l;
+    }
+    double sum = 0;
+    for (const referee::BodyState& state : states)
+      sum += (state.centre().cross(state.momentum()) + state.spin()).norm();
+    linear_sum = largest(linear_sum, referee::sum_of_momenta(states));
+    angular_sum = largest(angular_sum, sum);
+    linear = largest(linear, (p - first_linear).norm());
+    angular = largest(angular, (l - first_angular).norm());
+    gap = largest(gap, view.joint_gap(now.poses()));
+  };
+  observe(simulation);
+  simulation.run(observe);
+  context.deviation("momentum", linear / linear_sum);
+  context.deviation("angular_momentum", angular / angular_sum);
   context.deviation("gap", gap);
 }
 
