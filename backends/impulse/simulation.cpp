@@ -187,6 +187,7 @@ void Simulation::upload_changes() {
   force.upload(executor_);
   mass.upload(executor_);
   frames.upload(executor_);
+  joints.drives.upload(executor_);
   if (joints.changed()) {
     joints.upload(mass);
     forget_recordings();

@@ -64,6 +64,7 @@ struct Check {
 [[nodiscard]] std::span<const Check> handle_checks();
 [[nodiscard]] std::span<const Check> event_checks();
 [[nodiscard]] std::span<const Check> joint_checks();
+[[nodiscard]] std::span<const Check> joint_axis_checks();
 [[nodiscard]] std::span<const Check> query_checks();
 [[nodiscard]] std::span<const Check> setting_checks();
 [[nodiscard]] std::span<const Check> snapshot_checks();

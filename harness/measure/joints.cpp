@@ -33,7 +33,8 @@ void ReactionAccount::add(Simulation& simulation) {
   std::array<double, 6> row{};
   const Rows rows(reinterpret_cast<std::byte*>(row.data()), 1, sizeof(row), PLUMB_F64);
   check(simulation.world(), joints->read_joints(PLUMB_JOINT_REACTION, {&id, 1}, rows));
-  sum_ += referee::Vec3(row[0], row[1], row[2]);
+  force_ += referee::Vec3(row[0], row[1], row[2]);
+  torque_ += referee::Vec3(row[3], row[4], row[5]);
   ++count_;
 }
 
@@ -50,6 +51,11 @@ std::span<const MeasureEntry> joint_measures() {
   static constexpr const char* parallelogram_args[] = {"crank", "length", "amplitude"};
   static constexpr const char* motor_args[] = {"disc", "torque", "target", "load"};
   static constexpr const char* stop_args[] = {"rod", "length", "stop"};
+  static constexpr const char* toppling_args[] = {"plank", "length", "start"};
+  static constexpr const char* spring_args[] = {"bob", "rest", "frequency", "damping_ratio", "task"};
+  static constexpr const char* cantilever_args[] = {"cubes", "root", "length"};
+  static constexpr const char* four_bar_args[] = {"crank", "rocker", "lengths", "start", "speed"};
+  static constexpr const char* universal_args[] = {"first", "second", "bend"};
   static constexpr MeasureEntry entries[] = {
       {"heavy_chain", "joint gaps of a chain with a heavy tip, and its tension at rest", chain_args,
        measure_heavy_chain},
@@ -59,6 +65,12 @@ std::span<const MeasureEntry> joint_measures() {
       {"parallelogram", "period and gaps of a closed linkage that swings", parallelogram_args, measure_parallelogram},
       {"motor", "speed and angle of a disc on a motor", motor_args, measure_motor},
       {"limit_stop", "a rod that falls on the limit of its hinge", stop_args, measure_limit_stop},
+      {"toppling", "time and speed of a plank that topples about its foot", toppling_args, measure_toppling},
+      {"spring", "ringing or sag of a body on a damped spring from the origin", spring_args, measure_spring},
+      {"cantilever", "sag and root moment of a beam of welded cubes", cantilever_args, measure_cantilever},
+      {"four_bar", "rocker's angle of a four-bar linkage by that of its driven crank", four_bar_args, measure_four_bar},
+      {"universal", "second shaft of a universal joint by the first", universal_args, measure_universal},
+      {"free_figure", "momentum of a jointed figure in free space", {}, measure_free_figure},
   };
   return entries;
 }

@@ -21,6 +21,14 @@ void measure_parallelogram(MeasureContext& context);
 void measure_motor(MeasureContext& context);
 void measure_limit_stop(MeasureContext& context);
 
+// joints_single.cpp
+void measure_toppling(MeasureContext& context);
+void measure_spring(MeasureContext& context);
+void measure_cantilever(MeasureContext& context);
+void measure_four_bar(MeasureContext& context);
+void measure_universal(MeasureContext& context);
+void measure_free_figure(MeasureContext& context);
+
 /// Places rods end to end from `start`, rod i turned by angles[i] about z, along its own axis `along` (body frame), at
 /// rest. The joints' frames are theirs, so they fit when the rods are joined at their ends.
 void place_rods(Scene& scene, const std::vector<std::size_t>& rods, double length, const referee::Vec3& start,
@@ -29,16 +37,17 @@ void place_rods(Scene& scene, const std::vector<std::size_t>& rods, double lengt
 /// Angle that a body has turned about z since the start, in -pi..pi.
 [[nodiscard]] double turn_about_z(const Scene& scene, std::span<const PoseRow> poses, std::size_t body);
 
-/// Mean force that a joint puts on its body b, over the steps added. For engines that tell reactions.
+/// Mean force and torque that a joint puts on its body b, over the steps added. For engines that tell reactions.
 class ReactionAccount {
  public:
   explicit ReactionAccount(std::size_t joint) : joint_(joint) {}
   void add(Simulation& simulation);
-  [[nodiscard]] referee::Vec3 force() const { return sum_ / count_; }
+  [[nodiscard]] referee::Vec3 force() const { return force_ / count_; }
+  [[nodiscard]] referee::Vec3 torque() const { return torque_ / count_; }
 
  private:
   std::size_t joint_;
-  referee::Vec3 sum_ = referee::Vec3::Zero();
+  referee::Vec3 force_ = referee::Vec3::Zero(), torque_ = referee::Vec3::Zero();
   double count_ = 0;
 };
 /// Whether the backend tells reactions of this joint's type.

@@ -100,6 +100,25 @@ void no_reactions() {
     return result;
   };
 }
+void no_torques() {
+  liar.joints.read = [](PlumbWorld* world, PlumbJointField field, PlumbDataType type, const PlumbJoint* ids,
+                        std::uint32_t count, void* rows, std::size_t stride) {
+    const PlumbResult result = honest.joints.read(world, field, type, ids, count, rows, stride);
+    if (result >= 0 && field == PLUMB_JOINT_REACTION)
+      change_rows(type, rows, stride, count, [](double* row) { std::fill_n(row + 3, 3, 0.0); });
+    return result;
+  };
+}
+void limits_moved() {
+  change_joints<[](PlumbJointDesc& desc) {
+    for (PlumbLimit& limit : desc.limits) limit.upper += limit.enabled != 0 ? 0.1 : 0;
+  }>();
+}
+void springs_too_stiff() {
+  change_joints<[](PlumbJointDesc& desc) {
+    for (PlumbSpring& spring : desc.springs) spring.frequency *= 1.1;
+  }>();
+}
 void joints_stay() {
   liar.joints.destroy = [](PlumbWorld*, const PlumbJoint*, std::uint32_t) -> PlumbResult { return PLUMB_OK; };
 }

@@ -1,4 +1,4 @@
-// The joint constraints: ball, hinge, slider, distance and fixed, as up to six scalar rows each.
+// The joint constraints that always hold: ball, hinge, slider, distance and fixed, as up to six scalar rows each.
 //
 // A row is a number C that should be 0, its rate J V for the velocities V of the two bodies, and the impulse along J^T.
 // All rows of a joint are solved at once by the inverse of their matrix K = J M^-1 J^T (Catto, "Modeling and Solving
@@ -16,7 +16,8 @@ namespace plumb::impulse {
 constexpr int kJointRows = 6;
 constexpr std::uint32_t kWorld = 0xffffffffu;  // stands for a body that is not there: the world
 
-enum class JointType : std::uint32_t { kBall, kHinge, kSlider, kDistance, kFixed };
+/// kOther: what only joint_axes.hpp can describe, as it can all others.
+enum class JointType : std::uint32_t { kBall, kHinge, kSlider, kDistance, kFixed, kOther };
 
 PLUMB_HD constexpr int rows_of(JointType type) {
   switch (type) {
@@ -25,6 +26,7 @@ PLUMB_HD constexpr int rows_of(JointType type) {
     case JointType::kSlider: return 5;
     case JointType::kDistance: return 1;
     case JointType::kFixed: return 6;
+    case JointType::kOther: return 0;
   }
   return 0;
 }
@@ -36,8 +38,9 @@ struct Joint {
   std::uint32_t body_b;
   std::uint32_t slot;  ///< of its impulses, which outlive the order of the joints
   std::uint32_t born;  ///< the step before which it was made: older impulses of the slot are another's
-  Real rest_length;    ///< m
-  bool in_loop;        ///< of its mechanism some rows may repeat others; found when joints are put in order
+  int rows;
+  Real rest_length;  ///< m
+  bool in_loop;      ///< of its mechanism some rows may repeat others; found when joints are put in order
   Frame frame_a, frame_b;
   Position world_anchor;  ///< of frame a where body_a is kWorld
 };
@@ -70,12 +73,12 @@ PLUMB_HD inline Vec distance_direction(const JointPlace& place) {
   return normalized_or(place.gap, rotate(place.frame_a, {1, 0, 0}));
 }
 
-/// Two numbers that are 0 where the x axes of the frames coincide, and grow up to a right angle; beyond it they stay.
-PLUMB_HD inline void hinge_errors(const JointPlace& place, Real* error) {
-  const Vec axis = rotate(place.frame_a, {1, 0, 0});
-  const Mat b = to_matrix(place.frame_b);
-  const Real y = dot(b.y, axis), z = dot(b.z, axis);
-  const bool beyond = dot(b.x, axis) < 0;
+/// Two numbers that are 0 where an axis of frame a coincides with b's of the same name, and grow up to a right angle;
+/// beyond it they stay. b_next and b_last are the other axes of frame b.
+PLUMB_HD inline void hinge_errors(const Vec& axis, const Vec& b_axis, const Vec& b_next, const Vec& b_last,
+                                  Real* error) {
+  const Real y = dot(b_next, axis), z = dot(b_last, axis);
+  const bool beyond = dot(b_axis, axis) < 0;
   const Real size = sqrt(y * y + z * z);
   error[0] = beyond ? (size > 0 ? y / size : Real(1)) : y;
   error[1] = beyond && size > 0 ? z / size : z;
@@ -104,14 +107,17 @@ PLUMB_HD inline void joint_errors(const Joint& joint, const JointPlace& place, R
       return;
     }
     case JointType::kBall: put(0, place.gap); return;
-    case JointType::kHinge:
+    case JointType::kHinge: {
       put(0, place.gap);
-      hinge_errors(place, error + 3);
+      const Mat b = to_matrix(place.frame_b);
+      hinge_errors(rotate(place.frame_a, {1, 0, 0}), b.x, b.y, b.z, error + 3);
       return;
+    }
     case JointType::kFixed:
       put(0, place.gap);
       put(3, turn_error(place));
       return;
+    case JointType::kOther: return;
   }
 }
 
@@ -158,6 +164,7 @@ PLUMB_HD inline void joint_rows(const Joint& joint, const JointPlace& place, Joi
       put_point();
       put_turns(3);
       return;
+    case JointType::kOther: return;
   }
 }
 

@@ -133,10 +133,12 @@ JointElimination eliminate_joints(const std::vector<std::pair<std::uint32_t, std
   Rounds all;
   Neighbours neighbours(joins.size());
   result.in_loop.resize(joins.size());
+  result.size.resize(joins.size());
   const auto joints_of = [&](std::uint32_t body) -> const Numbers& { return of_body.at(body); };
   for (const Numbers& members : mechanisms(joins.size(), of_body)) {
     if (has_loop(members, joins))
       for (const std::uint32_t j : members) result.in_loop[j] = true;
+    for (const std::uint32_t j : members) result.size[j] = static_cast<std::uint32_t>(members.size());
     std::size_t links = 0;
     for (const std::uint32_t j : members)
       for (const std::uint32_t body : {joins[j].first, joins[j].second})

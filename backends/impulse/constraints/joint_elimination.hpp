@@ -27,6 +27,7 @@ struct JointElimination {
   std::vector<std::uint32_t> order;       ///< the joints that are eliminated; rows and columns count in this order
   std::vector<std::uint32_t> one_by_one;  ///< joints of mechanisms that would fill too much, in order of their numbers
   std::vector<bool> in_loop;              ///< by joint: whether its mechanism has a loop, through what stands still too
+  std::vector<std::uint32_t> size;        ///< by joint: how many joints its mechanism has
   std::vector<std::uint32_t> level_first;  ///< columns of each round, and the end
   std::vector<JointEntry> entries;         ///< by column
   std::vector<std::uint32_t> column_first;

@@ -1,7 +1,7 @@
 // Joints of bodies that have moved already: position-based dynamics over the rows of joint_solve.hpp.
 #pragma once
 
-#include "constraints/joint_solve.hpp"
+#include "constraints/joint_axis_solve.hpp"
 
 namespace plumb::impulse {
 
@@ -19,7 +19,7 @@ PLUMB_HD inline void correct_joint(const JointView& view, std::uint32_t j, const
   refresh_joint(view, j);
   const Joint& joint = view.joints[j];
   const JointWork& work = view.work[j];
-  const int n = rows_of(joint.type);
+  const int n = joint.rows;
   Real impulse[kJointRows];
   for (int i = 0; i < n; ++i) impulse[i] = -(step.inverse_h * work.error[i]);
   solve_factored(work.factor, n, impulse);
@@ -29,6 +29,22 @@ PLUMB_HD inline void correct_joint(const JointView& view, std::uint32_t j, const
   push_joint(work, n, impulse, new_a, new_b);
   view.store(joint.body_a, a, new_a);
   view.store(joint.body_b, b, new_b);
+  displace(view, joint.body_a, a, new_a, step.h);
+  displace(view, joint.body_b, b, new_b, step.h);
+}
+
+/// The same with rows that do not always hold. first: of a step.
+PLUMB_HD inline void correct_axis_joint(const AxisView& view, std::uint32_t j, const StepParameters& step, bool first) {
+  const Joint& joint = view.joints[j];
+  refresh_axis_joint(view, j);
+  begin_reaction(view, j, first);
+  for (int i = 0; i < joint.rows; ++i) view.total(j)[i] = 0;
+  const Velocity a = view.velocity(joint.body_a), b = view.velocity(joint.body_b);
+  Velocity new_a = a, new_b = b;
+  solve_axis_rows(view, j, {RowPass::kMoved, step.h, step.inverse_h, step.inverse_h, 0}, new_a, new_b);
+  view.store(joint.body_a, a, new_a);
+  view.store(joint.body_b, b, new_b);
+  add_reaction(view, j);
   displace(view, joint.body_a, a, new_a, step.h);
   displace(view, joint.body_b, b, new_b, step.h);
 }

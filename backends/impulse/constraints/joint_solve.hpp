@@ -83,6 +83,22 @@ PLUMB_HD inline void push_joint(const JointWork& work, int n, const Real* impuls
   }
 }
 
+/// K of the work's rows, with the bodies at those ends.
+PLUMB_HD inline void find_mobility(const JointView& view, const Joint& joint, const JointEnd& a, const JointEnd& b,
+                                   JointWork& work, Block& mobility) {
+  const Sym inertia_a = view.inverse_inertia(joint.body_a, a.orientation);
+  const Sym inertia_b = view.inverse_inertia(joint.body_b, b.orientation);
+  const Real inverse_mass = view.velocity(joint.body_a).inverse_mass + view.velocity(joint.body_b).inverse_mass;
+  const int n = joint.rows;
+  for (int i = 0; i < n; ++i) {
+    work.turn_a[i] = inertia_a * work.rows[i].on_a;
+    work.turn_b[i] = inertia_b * work.rows[i].on_b;
+    for (int k = 0; k <= i; ++k)
+      mobility(i, k) = inverse_mass * dot(work.rows[i].direction, work.rows[k].direction) +
+                       dot(work.turn_a[i], work.rows[k].on_a) + dot(work.turn_b[i], work.rows[k].on_b);
+  }
+}
+
 /// Rows, errors and K where the bodies are now.
 PLUMB_HD inline void make_joint_rows(const JointView& view, std::uint32_t j) {
   const Joint& joint = view.joints[j];
@@ -91,21 +107,11 @@ PLUMB_HD inline void make_joint_rows(const JointView& view, std::uint32_t j) {
   const JointPlace place = place_joint(joint, view.base(joint), a, b);
   joint_errors(joint, place, work.error);
   joint_rows(joint, place, work.rows);
-  const Sym inertia_a = view.inverse_inertia(joint.body_a, a.orientation);
-  const Sym inertia_b = view.inverse_inertia(joint.body_b, b.orientation);
-  const Real inverse_mass = view.velocity(joint.body_a).inverse_mass + view.velocity(joint.body_b).inverse_mass;
-  const int n = rows_of(joint.type);
-  for (int i = 0; i < n; ++i) {
-    work.turn_a[i] = inertia_a * work.rows[i].on_a;
-    work.turn_b[i] = inertia_b * work.rows[i].on_b;
-    for (int k = 0; k <= i; ++k)
-      work.factor(i, k) = inverse_mass * dot(work.rows[i].direction, work.rows[k].direction) +
-                          dot(work.turn_a[i], work.rows[k].on_a) + dot(work.turn_b[i], work.rows[k].on_b);
-  }
+  find_mobility(view, joint, a, b, work, work.factor);
 }
 
 PLUMB_HD inline void factor_joint(const JointView& view, std::uint32_t j) {
-  factor(view.work[j].factor, rows_of(view.joints[j].type));
+  factor(view.work[j].factor, view.joints[j].rows);
 }
 /// Both, for a joint that is solved by itself.
 PLUMB_HD inline void refresh_joint(const JointView& view, std::uint32_t j) {
@@ -118,7 +124,7 @@ PLUMB_HD inline void joint_residuals(const JointView& view, std::uint32_t j, con
                                      const Velocity& b, Real (&residual)[kJointRows]) {
   const Joint& joint = view.joints[j];
   const JointWork& work = view.work[j];
-  const int n = rows_of(joint.type);
+  const int n = joint.rows;
   if (!pass.take_back_error) {
     for (int i = 0; i < n; ++i)
       residual[i] = dot(work.rows[i].direction, b.linear - a.linear) + dot(work.rows[i].on_a, a.angular) +
@@ -142,7 +148,7 @@ PLUMB_HD inline void take_over_impulse(const JointView& view, std::uint32_t j, c
 
 PLUMB_HD inline void keep_change(const JointView& view, std::uint32_t j) {
   JointImpulse& impulse = view.impulses[view.joints[j].slot];
-  for (int i = 0; i < rows_of(view.joints[j].type); ++i) impulse.along[i] = impulse.along[i] + view.work[j].change[i];
+  for (int i = 0; i < view.joints[j].rows; ++i) impulse.along[i] = impulse.along[i] + view.work[j].change[i];
 }
 
 /// The impulses that the joint had before act again, along its rows as they are now.
@@ -151,7 +157,7 @@ PLUMB_HD inline void warm_start_joint(const JointView& view, std::uint32_t j, bo
   if (first) take_over_impulse(view, j, step);
   const Velocity a = view.velocity(joint.body_a), b = view.velocity(joint.body_b);
   Velocity new_a = a, new_b = b;
-  push_joint(view.work[j], rows_of(joint.type), view.impulses[joint.slot].along, new_a, new_b);
+  push_joint(view.work[j], joint.rows, view.impulses[joint.slot].along, new_a, new_b);
   view.store(joint.body_a, a, new_a);
   view.store(joint.body_b, b, new_b);
 }
@@ -160,7 +166,7 @@ PLUMB_HD inline void solve_joint(const JointView& view, std::uint32_t j, const J
   const Joint& joint = view.joints[j];
   const JointWork& work = view.work[j];
   JointImpulse& total = view.impulses[joint.slot];
-  const int n = rows_of(joint.type);
+  const int n = joint.rows;
   const Velocity a = view.velocity(joint.body_a), b = view.velocity(joint.body_b);
   Real impulse[kJointRows];
   joint_residuals(view, j, pass, a, b, impulse);

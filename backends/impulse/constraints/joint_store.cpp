@@ -13,7 +13,11 @@ bool is_pushed(std::uint32_t body, const Table<BodyMass>& masses) {
   return body != kWorld && (masses[body].flags & kBodyDynamic) != 0;
 }
 
-bool locks_turns(JointType type) { return type != JointType::kBall && type != JointType::kDistance; }
+/// Of so many joints in a row that lock turns the mobility of one end differs from the other's by more than float can
+/// tell apart, and a whip of them turns too far in a sub-step for the rows at its start: they yield as those whose rows
+/// repeat others.
+constexpr std::uint32_t kLongBeam = 4;
+
 bool both_turn(const Joint& joint, const Table<BodyMass>& masses) {
   const auto turns = [&](std::uint32_t body) {
     return !is_pushed(body, masses) || (masses[body].flags & kBodyTurns) != 0;
@@ -28,15 +32,28 @@ void copy(Buffer<T>& to, const std::vector<T>& from) {
 
 }  // namespace
 
-void JointStore::add(const Joint& joint, bool lets_bodies_touch) {
-  if (joint.slot >= rows_.size()) rows_.resize(joint.slot + 1);
-  rows_[joint.slot] = {joint, true, lets_bodies_touch};
+void JointStore::add(const Joint& joint, const JointAxes& axes, const JointTraits& traits) {
+  if (joint.slot >= rows_.size()) {
+    rows_.resize(joint.slot + 1);
+    drives.grow(rows_.size());
+  }
+  rows_[joint.slot] = {joint, axes, traits, true};
   changed_ = true;
 }
 
 void JointStore::remove(std::uint32_t slot) {
   rows_[slot].used = false;
   changed_ = true;
+}
+
+JointCode JointStore::needed_code() const {
+  JointCode code = JointCode::kNone;
+  for (const Row& row : rows_) {
+    if (!row.used) continue;
+    code = JointCode::kPlain;
+    if (wants_reactions_ || row.traits.breaks || row.joint.rows != rows_of(row.joint.type)) return JointCode::kAll;
+  }
+  return code;
 }
 
 /// Greedily in the order given: deterministic. What finds no colour goes last.
@@ -97,7 +114,7 @@ void JointStore::list_pushed_bodies(const Table<BodyMass>& masses) {
 void JointStore::list_excluded() {
   std::vector<std::uint64_t> keys;
   for (const Row& row : rows_)
-    if (row.used && !row.lets_touch && row.joint.body_a != kWorld)
+    if (row.used && !row.traits.lets_bodies_touch && row.joint.body_a != kWorld)
       keys.push_back(body_pair_key(row.joint.body_a, row.joint.body_b));
   std::sort(keys.begin(), keys.end());
   keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
@@ -106,22 +123,32 @@ void JointStore::list_excluded() {
 }
 
 void JointStore::upload(const Table<BodyMass>& masses) {
+  code_ = needed_code();
   std::vector<Joint> all;
+  std::vector<JointAxes> axes, ordered_axes;
+  std::vector<bool> is_stiff;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> joins;
   const auto moving = [&](std::uint32_t body) { return is_pushed(body, masses) ? body : kWorld; };
   for (const Row& row : rows_) {
     if (!row.used || !(is_pushed(row.joint.body_a, masses) || is_pushed(row.joint.body_b, masses))) continue;
     all.push_back(row.joint);
+    all.back().in_loop = row.traits.locks_turns && !both_turn(row.joint, masses);
+    is_stiff.push_back(row.traits.locks_turns);
+    axes.push_back(row.axes);
     joins.emplace_back(moving(row.joint.body_a), moving(row.joint.body_b));
   }
   const JointElimination found = eliminate_joints(joins, kWorld);
 
   ordered_.clear();
   for (std::uint32_t j = 0; j < all.size(); ++j)
-    all[j].in_loop = found.in_loop[j] || (locks_turns(all[j].type) && !both_turn(all[j], masses));
-  for (const std::uint32_t j : found.one_by_one) ordered_.push_back(all[j]);
+    all[j].in_loop = all[j].in_loop || found.in_loop[j] || (is_stiff[j] && found.size[j] >= kLongBeam);
+  const auto put = [&](std::uint32_t j) {
+    ordered_.push_back(all[j]);
+    ordered_axes.push_back(axes[j]);
+  };
+  for (const std::uint32_t j : found.one_by_one) put(j);
   base_ = static_cast<std::uint32_t>(ordered_.size());
-  for (const std::uint32_t j : found.order) ordered_.push_back(all[j]);
+  for (const std::uint32_t j : found.order) put(j);
   count_ = static_cast<std::uint32_t>(ordered_.size());
   levels_ = static_cast<std::uint32_t>(found.level_first.size() - 1);
   copy(joints_, ordered_);
@@ -139,6 +166,12 @@ void JointStore::upload(const Table<BodyMass>& masses) {
   impulses_.grow(rows_.size());
   scaled_.grow(found.entries.size());
   whole_.grow(found.entries.size());
+  if (code_ == JointCode::kAll) {
+    copy(axes_, ordered_axes);
+    axis_work_.grow(count_);
+    reactions_.grow(rows_.size());
+    changes_.grow(3);
+  }
   changed_ = false;
 }
 
@@ -161,7 +194,8 @@ JointSet JointStore::set(const Bodies& bodies, const SolverBodies& solver, bool 
                               pushed_first_.data(),
                               on_body_.data()};
   const JointColours colours = {by_colour_.data(), first_.data(), system_first_.data(), colours_, overflow_};
-  return {view, count_, colours, system};
+  const AxisParts axes = {axes_.data(), drives.device(), axis_work_.data(), reactions_.data(), changes_.data()};
+  return {view, count_, colours, system, axes};
 }
 
 }  // namespace plumb::impulse

@@ -11,10 +11,16 @@
 
 namespace plumb::impulse {
 
+struct JointTraits {
+  bool lets_bodies_touch;
+  bool locks_turns;
+  bool breaks;
+};
+
 class JointStore {
  public:
-  /// joint.slot numbers it among the living.
-  void add(const Joint& joint, bool lets_bodies_touch);
+  /// joint.slot numbers it among the living. axes: of the rows beyond those of its type.
+  void add(const Joint& joint, const JointAxes& axes, const JointTraits& traits);
   void remove(std::uint32_t slot);
   /// What the next step remembers of the last one, to or from a snapshot.
   void exchange(Archive& archive) {
@@ -30,6 +36,12 @@ class JointStore {
     for (const Row& row : rows_)
       if (row.used) f(row.joint.body_a, row.joint.body_b);
   }
+  /// What motors do, by slot; may be edited between steps.
+  Table<JointDrive> drives;
+  /// Reactions are summed up for all joints from the next step on.
+  void want_reactions() { wants_reactions_ = true; }
+  /// Of the last step, by slot; of joints that it had, and where reactions are wanted or a joint breaks.
+  [[nodiscard]] std::vector<JointReaction> reactions() const { return reactions_.to_host(reactions_.size()); }
   /// Whether upload() is due.
   [[nodiscard]] bool changed() const { return changed_; }
 
@@ -39,6 +51,8 @@ class JointStore {
   /// As of the last upload.
   [[nodiscard]] std::uint32_t count() const { return count_; }
   [[nodiscard]] const Joint* device() { return joints_.data(); }
+  /// What the joints ask of a step's code.
+  [[nodiscard]] JointCode code() const { return code_; }
   [[nodiscard]] JointSet set(const Bodies& bodies, const SolverBodies& solver, bool gyroscopic);
   /// body_pair_key of bodies that do not collide, ascending.
   [[nodiscard]] const std::uint64_t* excluded() { return excluded_.data(); }
@@ -47,13 +61,17 @@ class JointStore {
  private:
   struct Row {
     Joint joint;
-    bool used, lets_touch;
+    JointAxes axes;
+    JointTraits traits;
+    bool used;
   };
+  [[nodiscard]] JointCode needed_code() const;
   void colour(const Table<BodyMass>& masses);
   void list_pushed_bodies(const Table<BodyMass>& masses);
   void list_excluded();
 
-  bool changed_ = false, overflow_ = false;
+  bool changed_ = false, overflow_ = false, wants_reactions_ = false;
+  JointCode code_ = JointCode::kNone;
   std::vector<Row> rows_;       // by slot
   std::vector<Joint> ordered_;  // those that are solved one by one, by slot; then the system, in its order
   std::uint32_t count_ = 0, colours_ = 0, excluded_count_ = 0;
@@ -62,6 +80,11 @@ class JointStore {
   Buffer<std::uint64_t> excluded_;
   Buffer<JointWork> work_;
   Buffer<JointImpulse> impulses_;  // by slot
+  // Where the code is JointCode::kAll:
+  Buffer<JointAxes> axes_;  // as ordered_
+  Buffer<AxisWork> axis_work_;
+  Buffer<JointReaction> reactions_;  // by slot
+  Buffer<std::uint32_t> changes_;
 
   std::uint32_t base_ = 0, levels_ = 0, pushed_count_ = 0;  // of the system
   Buffer<std::uint32_t> level_first_, column_first_, row_entries_, row_first_, product_first_, pushed_, pushed_first_;

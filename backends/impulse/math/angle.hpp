@@ -1,4 +1,4 @@
-// Rotations by an angle without libm: sine and cosine by polynomials, and the free rotor.
+// Rotations by an angle without libm: sine, cosine and arc tangent by polynomials, and the free rotor.
 #pragma once
 
 #include "math/mat33.hpp"
@@ -49,6 +49,30 @@ PLUMB_HD inline SinCos sin_cos(Real x) {
   SinCos r = small_sin_cos(x);
   for (; halvings > 0; --halvings) r = {2 * r.sine * r.cosine, Real(1) - 2 * r.sine * r.sine};
   return r;
+}
+
+/// The angle of (cosine, sine) times any positive number, in -pi..pi; 0 of (0, 0). Halved twice by
+/// tan(a / 2) = sin a / (1 + cos a), then by Gregory's series.
+PLUMB_HD inline Real angle_of(Real sine, Real cosine) {
+  const Real size = sqrt(sine * sine + cosine * cosine);
+  if (!(size > 0)) return 0;
+  const bool behind = cosine < 0;  // then the angle beyond a right one, which is small where cosine is
+  const Real across = behind ? abs(cosine) : abs(sine), ahead = behind ? abs(sine) : cosine;
+  const Real half = across / (size + ahead);
+  const Real t = half / (Real(1) + sqrt(Real(1) + half * half));
+  const Real y = t * t;
+  constexpr int kTerms = sizeof(Real) == 8 ? 20 : 9;
+  Real sum = 0;
+  for (int n = kTerms; n-- > 0;) sum = Real(1) / static_cast<Real>(2 * n + 1) - y * sum;
+  const Real angle = 4 * t * sum;
+  const Real whole = behind ? kPi / 2 + angle : angle;
+  return sine < 0 ? -whole : whole;
+}
+
+/// The same angle within half a turn of 0. Of angles no further than a turn beyond.
+PLUMB_HD inline Real wrapped(Real angle) {
+  if (angle > kPi) return angle - 2 * kPi;
+  return angle < -kPi ? angle + 2 * kPi : angle;
 }
 
 /// The rotation by the vector's length about its direction.

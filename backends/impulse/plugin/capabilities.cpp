@@ -1,5 +1,6 @@
 // What impulse truly has.
 #include "physics_revision.hpp"
+#include "plugin/joint_rows.hpp"
 #include "plugin/world.hpp"
 
 namespace plumb::impulse {
@@ -58,6 +59,7 @@ Fact need_fact(std::uint32_t index) {
     case PLUMB_NEED_CCD:
     case PLUMB_NEED_SENSORS:
     case PLUMB_NEED_QUERIES:
+    case PLUMB_NEED_JOINT_REACTIONS:
     case PLUMB_NEED_SNAPSHOT: return kYes;
     default: return kNotYet;
   }
@@ -81,6 +83,12 @@ Fact query_fact(std::uint32_t kind, std::uint32_t shape) {
   return kind < PLUMB_QUERY_KIND_COUNT && convex ? kYes : kNotYet;
 }
 
+Fact joint_fact(std::uint32_t type, std::uint32_t feature) {
+  if (type >= PLUMB_JOINT_TYPE_COUNT || feature >= PLUMB_JOINT_FEATURE_COUNT) return {PLUMB_NONE};
+  const bool on_an_axis = feature <= PLUMB_JOINT_HAS_SPRINGS;
+  return on_an_axis && free_axes(type) == 0 ? Fact{PLUMB_NONE, "it leaves no axis free"} : kYes;
+}
+
 Fact phase_fact(std::uint32_t phase) {
   if (phase > PLUMB_PHASE_SOLVE && phase != PLUMB_PHASE_OUTPUT) return kNotYet;
   if (phase == PLUMB_PHASE_SOLVE) return {PLUMB_APPROXIMATE, "with integration: one kernel does both"};
@@ -94,7 +102,8 @@ Fact event_fact(std::uint32_t event) {
     case PLUMB_EVENT_SENSOR_ENTER:
     case PLUMB_EVENT_SENSOR_LEAVE:
     case PLUMB_EVENT_WAKE:
-    case PLUMB_EVENT_SLEEP: return kYes;
+    case PLUMB_EVENT_SLEEP:
+    case PLUMB_EVENT_JOINT_BROKEN: return kYes;
     default: return kNotYet;
   }
 }
@@ -108,7 +117,8 @@ Fact fact(PlumbCapability kind, std::uint32_t a, std::uint32_t b) {
     case PLUMB_CAP_FIELD_READ: return field_fact(a, false);
     case PLUMB_CAP_FIELD_WRITE: return field_fact(a, true);
     case PLUMB_CAP_NEED: return need_fact(a);
-    case PLUMB_CAP_JOINT: return a <= PLUMB_JOINT_FIXED ? kYes : kNotYet;
+    case PLUMB_CAP_JOINT: return a < PLUMB_JOINT_TYPE_COUNT ? kYes : kNotYet;
+    case PLUMB_CAP_JOINT_FEATURE: return joint_fact(a, b);
     case PLUMB_CAP_EVENT: return event_fact(a);
     case PLUMB_CAP_PHASE_TIME: return phase_fact(a);
     case PLUMB_CAP_SNAPSHOT:

@@ -1,25 +1,15 @@
-// Joints of a world: made, taken away, read.
+// Joints of a world: made, broken, taken away, read, driven.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
 
+#include "plugin/joint_rows.hpp"
 #include "plugin/world.hpp"
 
 namespace plumb::impulse {
 
 namespace {
-
-JointType joint_type(PlumbJointType type) {
-  switch (type) {
-    case PLUMB_JOINT_BALL: return JointType::kBall;
-    case PLUMB_JOINT_HINGE: return JointType::kHinge;
-    case PLUMB_JOINT_SLIDER: return JointType::kSlider;
-    case PLUMB_JOINT_DISTANCE: return JointType::kDistance;
-    case PLUMB_JOINT_FIXED: return JointType::kFixed;
-    default: throw Error(PLUMB_E_UNSUPPORTED, "joint type " + std::to_string(type) + " is not in impulse yet");
-  }
-}
 
 /// From the interface's frame on a body to the engine's, which is on the principal axes about the centre of mass.
 Frame principal_frame(const BodyFrame& body, const PlumbPose& frame) {
@@ -47,56 +37,109 @@ std::array<double, 6> coordinates(const Placed& a, const Placed& b) {
 
 }  // namespace
 
+/// Puts the joint's descriptor before the engine, at first or as it is after a change.
+void World::put_joint(std::uint32_t slot) {
+  const PlumbJointDesc& desc = joints_[slot].desc;
+  const JointRows rows = rows_of_joint(desc);
+  Joint joint{};
+  joint.type = rows.type;
+  joint.rows = rows.rows;
+  joint.body_a = desc.body_a == 0 ? kWorld : slot_of(desc.body_a);
+  joint.body_b = slot_of(desc.body_b);
+  joint.slot = slot;
+  joint.born = simulation_.steps() + 1;
+  joint.rest_length = static_cast<Real>(desc.rest_length);
+  joint.frame_b = principal_frame(simulation_.frames[joint.body_b], desc.frame_b);
+  if (joint.body_a != kWorld) {
+    joint.frame_a = principal_frame(simulation_.frames[joint.body_a], desc.frame_a);
+  } else {
+    joint.frame_a = {{0, 0, 0}, to_quat(to_double(desc.frame_a.orientation))};
+    joint.world_anchor = to_position(desc.frame_a.position);
+  }
+  simulation_.joints.add(joint, rows.axes, {desc.collide_connected != 0, rows.locks_turns, joints_[slot].breaks()});
+  simulation_.joints.drives.edit(slot) = rows.drive;
+}
+
 PlumbResult World::create_joints(std::span<const PlumbJointDesc> descs, std::span<PlumbJoint> ids) {
+  for (const PlumbJointDesc& desc : descs) (void)rows_of_joint(desc);
   for (std::size_t i = 0; i < descs.size(); ++i) {
-    const PlumbJointDesc& desc = descs[i];
     const std::uint32_t slot = slot_of(ids[i]);
-    Joint joint{};
-    joint.type = joint_type(desc.type);
-    joint.body_a = desc.body_a == 0 ? kWorld : slot_of(desc.body_a);
-    joint.body_b = slot_of(desc.body_b);
-    joint.slot = slot;
-    joint.born = simulation_.steps() + 1;
-    joint.rest_length = static_cast<Real>(desc.rest_length);
-    joint.frame_b = principal_frame(simulation_.frames[joint.body_b], desc.frame_b);
-    if (joint.body_a != kWorld) {
-      joint.frame_a = principal_frame(simulation_.frames[joint.body_a], desc.frame_a);
-    } else {
-      joint.frame_a = {{0, 0, 0}, to_quat(to_double(desc.frame_a.orientation))};
-      joint.world_anchor = to_position(desc.frame_a.position);
-    }
-    simulation_.joints.add(joint, desc.collide_connected != 0);
     if (slot >= joints_.size()) joints_.resize(slot + 1);
-    joints_[slot] = desc;
-    wake_for_joint(desc);
+    joints_[slot] = {ids[i], descs[i], simulation_.steps()};
+    put_joint(slot);
+    if (joints_[slot].breaks()) ++breakable_joints_;
+    wake_for_joint(descs[i]);
   }
   return PLUMB_OK;
+}
+
+void World::remove_joint(std::uint32_t slot) {
+  simulation_.joints.remove(slot);
+  if (joints_[slot].breaks()) --breakable_joints_;
+  joints_[slot].id = 0;
 }
 
 PlumbResult World::destroy_joints(std::span<const PlumbJoint> ids) {
   for (const PlumbJoint id : ids) {
-    wake_for_joint(joints_[slot_of(id)]);
-    simulation_.joints.remove(slot_of(id));
+    wake_for_joint(joints_[slot_of(id)].desc);
+    remove_joint(slot_of(id));
   }
   return PLUMB_OK;
 }
 
-PlumbResult World::read_joints(PlumbJointField field, std::span<const PlumbJoint> ids, Rows rows) {
-  if (field == PLUMB_JOINT_REACTION) throw Error(PLUMB_E_UNSUPPORTED, "reactions of joints are not in impulse yet");
-  std::vector<std::uint32_t> bodies;
-  for (const PlumbJoint id : ids) {
-    const PlumbJointDesc& joint = joints_[slot_of(id)];
-    if (joint.body_a != 0) bodies.push_back(slot_of(joint.body_a));
-    bodies.push_back(slot_of(joint.body_b));
+/// Joints whose mean load over the step was above their strength.
+void World::break_joints() {
+  if (breakable_joints_ == 0) return;
+  const std::vector<JointReaction> reactions = simulation_.joints.reactions();
+  for (std::uint32_t slot = 0; slot < joints_.size(); ++slot) {
+    const JointRecord& joint = joints_[slot];
+    if (joint.id == 0 || !joint.breaks()) continue;
+    const auto above = [&](const Vec& impulse, double strength) {
+      return strength > 0 && static_cast<double>(length(impulse)) > strength * dt_;
+    };
+    if (!above(reactions[slot].force, joint.desc.break_force) &&
+        !above(reactions[slot].torque, joint.desc.break_torque))
+      continue;
+    events_.push_back({PLUMB_EVENT_JOINT_BROKEN, 0, joint.desc.body_a, joint.desc.body_b, joint.id});
+    wake_for_joint(joint.desc);
+    remove_joint(slot);
   }
-  simulation_.state.fetch(bodies, kPosePart);
+}
+
+PlumbResult World::read_joints(PlumbJointField field, std::span<const PlumbJoint> ids, Rows rows) {
+  std::vector<JointReaction> reactions;
+  if (field == PLUMB_JOINT_REACTION) reactions = simulation_.joints.reactions();
+  if (field == PLUMB_JOINT_COORDINATES) {
+    std::vector<std::uint32_t> bodies;
+    for (const PlumbJoint id : ids) {
+      const PlumbJointDesc& joint = joints_[slot_of(id)].desc;
+      if (joint.body_a != 0) bodies.push_back(slot_of(joint.body_a));
+      bodies.push_back(slot_of(joint.body_b));
+    }
+    simulation_.state.fetch(bodies, kPosePart);
+  }
   for (std::size_t i = 0; i < ids.size(); ++i) {
-    const PlumbJointDesc& joint = joints_[slot_of(ids[i])];
-    std::array<double, 12> row{};  // no joint has a motor: its speed and force are 0
+    const std::uint32_t slot = slot_of(ids[i]);
+    const PlumbJointDesc& joint = joints_[slot].desc;
+    std::array<double, 12> row{};
     if (field == PLUMB_JOINT_COORDINATES) {
       const PlumbPose a = joint.body_a == 0 ? identity_pose() : pose(slot_of(joint.body_a));
       const auto six = coordinates(placed(a, joint.frame_a), placed(pose(slot_of(joint.body_b)), joint.frame_b));
       std::copy(six.begin(), six.end(), row.begin());
+    } else if (field == PLUMB_JOINT_REACTION) {
+      if (joints_[slot].made_after == simulation_.steps()) {  // it has not been in a step yet
+        rows.put(i, row.data(), joint_columns_of(field));
+        continue;
+      }
+      for (int axis = 0; axis < 3; ++axis) {
+        row[static_cast<std::size_t>(axis)] = static_cast<double>(reactions[slot].force[axis]) / dt_;
+        row[static_cast<std::size_t>(axis) + 3] = static_cast<double>(reactions[slot].torque[axis]) / dt_;
+      }
+    } else {
+      for (std::size_t axis = 0; axis < 6; ++axis) {
+        row[2 * axis] = joint.motors[axis].target_velocity;
+        row[2 * axis + 1] = joint.motors[axis].enabled != 0 ? joint.motors[axis].max_force : 0;
+      }
     }
     rows.put(i, row.data(), joint_columns_of(field));
   }
@@ -104,11 +147,31 @@ PlumbResult World::read_joints(PlumbJointField field, std::span<const PlumbJoint
 }
 
 PlumbResult World::write_joints(PlumbJointField /*field*/, std::span<const PlumbJoint> ids, ConstRows rows) {
+  std::vector<PlumbJointDesc> written;
   std::array<double, 12> row{};
   for (std::size_t i = 0; i < ids.size(); ++i) {
     rows.get(i, row.data(), row.size());
-    if (std::any_of(row.begin(), row.end(), [](double number) { return number != 0; }))
-      throw Error(PLUMB_E_UNSUPPORTED, "rows[" + std::to_string(i) + "]: motors of joints are not in impulse yet");
+    written.push_back(joints_[slot_of(ids[i])].desc);
+    for (std::size_t axis = 0; axis < 6; ++axis) {
+      PlumbMotor& motor = written.back().motors[axis];
+      motor.target_velocity = row[2 * axis];
+      motor.max_force = row[2 * axis + 1];
+      if (motor.max_force > 0) motor.enabled = 1;
+    }
+    (void)rows_of_joint(written.back());
+  }
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    const std::uint32_t slot = slot_of(ids[i]);
+    const auto has_motor = [](const PlumbMotor& motor) { return motor.enabled != 0; };
+    const auto motors = std::span(joints_[slot].desc.motors), now = std::span(written[i].motors);
+    const bool same = std::equal(motors.begin(), motors.end(), now.begin(),
+                                 [&](const auto& a, const auto& b) { return has_motor(a) == has_motor(b); });
+    joints_[slot].desc = written[i];
+    wake_for_joint(written[i]);
+    if (same)
+      simulation_.joints.drives.edit(slot) = rows_of_joint(written[i]).drive;
+    else
+      put_joint(slot);  // a motor where there was none is a row more
   }
   return PLUMB_OK;
 }

@@ -26,6 +26,7 @@ PlumbVec3 plumb_vec(const Position& p) { return {p.x, p.y, p.z}; }
 World::World(const WorldInit& init)
     : init_(init), simulation_(init.host, init.desc.threads, features_of(init)), gravity_(init.desc.gravity) {
   for (std::size_t i = 0; i < init.infos.size(); ++i) settings_.set(init.infos[i].name, init.values[i]);
+  if (init.needs(PLUMB_NEED_JOINT_REACTIONS)) simulation_.joints.want_reactions();
   if (init.desc.body_capacity != 0) simulation_.reserve_bodies(init.desc.body_capacity);
 }
 
@@ -54,6 +55,7 @@ PlumbResult World::wait(PlumbStepReport& report) {
   early_events_.clear();
   tell(PLUMB_EVENT_WAKE, simulation_.woken(), events_);
   tell(PLUMB_EVENT_SLEEP, simulation_.fallen_asleep(), events_);
+  break_joints();
   if (init_.needs(PLUMB_NEED_EVENTS) || init_.needs(PLUMB_NEED_SENSORS)) find_events();
   const StepCounters& counters = simulation_.counters();
   report.threads = simulation_.executor().threads();

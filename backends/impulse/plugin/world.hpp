@@ -8,6 +8,7 @@
 #include "plugin/batch_pool.hpp"
 #include "plugin/body_record.hpp"
 #include "plugin/compound.hpp"
+#include "plugin/joint_record.hpp"
 #include "plugin/proxy_slots.hpp"
 #include "plugin/settings.hpp"
 #include "plumb/backend/touch_tracker.hpp"
@@ -69,6 +70,9 @@ class World final : public IPhysicsWorld,
   Hits overlap_shapes(std::span<const PlumbOverlap> overlaps) override;
   PlumbResult collide_pairs(std::span<const PlumbPosedPair> pairs, std::span<PlumbPairResult> results,
                             std::span<const PlumbPairPoint>& points) override;
+  void put_joint(std::uint32_t slot);
+  void remove_joint(std::uint32_t slot);
+  void break_joints();
   PlumbResult candidate_pairs(std::span<const PlumbDebugPair>& pairs) override;
   PlumbResult tree_boxes(std::span<const PlumbDebugBox>& boxes) override;
   PlumbResult separating_axes(std::span<const PlumbDebugAxis>& axes) override;
@@ -124,7 +128,8 @@ class World final : public IPhysicsWorld,
   std::vector<Compound> compounds_;   // by shape slot, as far as there are any
   std::vector<ProxyRecord> proxies_;  // by proxy, as far as one is not as it comes
   ProxySlots proxy_slots_;
-  std::vector<PlumbJointDesc> joints_;  // by slot
+  std::vector<JointRecord> joints_;  // by slot
+  std::uint32_t breakable_joints_ = 0;
   std::uint32_t dynamic_count_ = 0;
   std::uint32_t stopped_ = 0;  // bodies whose velocity a write made infinite, since the last step
   std::vector<std::uint32_t> pushed_, steered_;

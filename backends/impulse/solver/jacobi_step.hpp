@@ -12,20 +12,21 @@ namespace plumb::impulse {
 /// the energy of the impulses' error falls in every pass (R. Tonge, F. Benevolenski, A. Voroshilov, "Mass Splitting for
 /// Jitter-Free Parallel Rigid Body Simulation", ACM Trans. Graph. 31(4), 2012). The sum over a body's parts goes in the
 /// order of its contacts. Joints are solved by colours, between the passes.
-struct StepInParts : StepInPasses<StepInParts> {
+template <JointCode kJoints>
+struct StepInParts : StepInPasses<StepInParts<kJoints>, kJoints> {
   BodyParts parts;
 
   /// work on every contact with parts of its own, then the parts put together.
   template <class Work>
   PLUMB_DEVICE void for_each_contact(Team& team, const Work& work) const {
     const StepInParts self = *this;
-    const std::uint32_t n = counters->first_slot[kColours + 1] / kLanes;
+    const std::uint32_t n = this->counters->first_slot[kColours + 1] / kLanes;
     team.each(contact_loop(n),
               [=](std::uint32_t i) { self.work_on_parts(slot_of(self.contacts.rows, 0, n, i, kLanes), work); });
-    team.each(body_count, [=](std::uint32_t i) { self.put_together(i); });
+    team.each(this->body_count, [=](std::uint32_t i) { self.put_together(i); });
   }
   PLUMB_DEVICE void bounce_contacts(Team& team, const StepParameters& step) const {
-    const bool friction = features.friction;
+    const bool friction = this->features.friction;
     const Real slowest = step.restitution_speed;
     for (std::uint32_t k = 0; k < step.passes; ++k)
       for_each_contact(team, [=](const auto& row, auto& contact, auto& a, auto& b) {
@@ -37,7 +38,7 @@ struct StepInParts : StepInPasses<StepInParts> {
  private:
   template <class Work>
   PLUMB_HD void work_on_parts(std::uint32_t slot, const Work& work) const {
-    const ContactRows& rows = contacts.rows;
+    const ContactRows& rows = this->contacts.rows;
     LoadedContact<Lanes> loaded = load_slot<Lanes>(rows, slot);
     with_contact(rows, slot, loaded, [&](auto& contact) {
       SolverBody<Lanes> a = load_part(loaded.a), b = load_part(loaded.b);
@@ -48,7 +49,7 @@ struct StepInParts : StepInPasses<StepInParts> {
     });
   }
   PLUMB_HD SolverBody<Lanes> load_part(const std::uint32_t* indices) const {
-    SolverBody<Lanes> body = load_body<Lanes>(solver, indices, false);
+    SolverBody<Lanes> body = load_body<Lanes>(this->solver, indices, false);
     Lanes count;
     for (std::uint32_t lane = 0; lane < kLanes; ++lane) lane_of(count, lane) = parts.count(indices[lane]);
     body.inverse_mass = count * body.inverse_mass;
@@ -72,7 +73,7 @@ struct StepInParts : StepInPasses<StepInParts> {
       angular += change.angular;
     }
     const Real share = Real(1) / parts.count(body);
-    Velocity& velocity = solver.velocity[body];
+    Velocity& velocity = this->solver.velocity[body];
     velocity.linear += share * linear;
     velocity.angular += share * angular;
   }

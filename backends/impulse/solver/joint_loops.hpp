@@ -25,13 +25,21 @@ struct JointSet {
   std::uint32_t count;
   JointColours colours;
   JointSystem system;
+  AxisParts axes;  ///< of a set that has them
+};
+
+/// What of joints a step's code can do: a step that needs less is a kernel of its own, for what joints take of a GPU's
+/// registers and code costs contacts dearly.
+enum class JointCode {
+  kNone,
+  kPlain,  ///< rows that always hold
+  kAll     ///< limits, motors, springs, universal and generic joints, and reactions
 };
 
 template <class F>
-PLUMB_DEVICE void for_joints_of_colour(Team& team, const JointColours& colours, std::uint32_t colour, std::uint32_t end,
-                                       const F& f) {
+PLUMB_DEVICE void for_joints_of_colour(Team& team, const JointColours& colours, std::uint32_t colour,
+                                       std::uint32_t first, std::uint32_t end, const F& f) {
   const std::uint32_t* list = colours.joints;
-  const std::uint32_t first = colours.first[colour];
   if (first == end) return;
   if (colours.last_is_overflow && colour + 1 == colours.count)
     team.single([=] {
@@ -45,14 +53,22 @@ PLUMB_DEVICE void for_joints_of_colour(Team& team, const JointColours& colours, 
 template <class F>
 PLUMB_DEVICE void for_joints(Team& team, const JointSet& joints, const F& f) {
   for (std::uint32_t colour = 0; colour < joints.colours.count; ++colour)
-    for_joints_of_colour(team, joints.colours, colour, joints.colours.first[colour + 1], f);
+    for_joints_of_colour(team, joints.colours, colour, joints.colours.first[colour], joints.colours.first[colour + 1],
+                         f);
 }
 /// f(j) for every joint that is not in the system.
 template <class F>
 PLUMB_DEVICE void for_single_joints(Team& team, const JointSet& joints, const F& f) {
   if (joints.system.base == 0) return;
   for (std::uint32_t colour = 0; colour < joints.colours.count; ++colour)
-    for_joints_of_colour(team, joints.colours, colour, joints.colours.system[colour], f);
+    for_joints_of_colour(team, joints.colours, colour, joints.colours.first[colour], joints.colours.system[colour], f);
+}
+/// f(j) for every joint that is, colour after colour.
+template <class F>
+PLUMB_DEVICE void for_system_joints(Team& team, const JointSet& joints, const F& f) {
+  for (std::uint32_t colour = 0; colour < joints.colours.count; ++colour)
+    for_joints_of_colour(team, joints.colours, colour, joints.colours.system[colour], joints.colours.first[colour + 1],
+                         f);
 }
 
 PLUMB_DEVICE inline void refresh_joints(Team& team, const JointSet& joints) {

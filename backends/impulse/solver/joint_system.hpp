@@ -2,14 +2,12 @@
 // level. Each thread gathers what earlier levels give to its own row, so that sums have one order.
 #pragma once
 
+#include "constraints/joint_axis_solve.hpp"
 #include "constraints/joint_elimination.hpp"
-#include "constraints/joint_solve.hpp"
 #include "exec/executor.hpp"
 
 namespace plumb::impulse {
 
-/// How much a row yields beside what the bodies do, relative to that: below what positions resolve.
-inline constexpr Real kGiveShare = sizeof(Real) == 8 ? Real(1e-10) : Real(1e-5);
 /// In a mechanism with a loop rows may repeat others (those of four parallel hinges do), and would leave their impulses
 /// undetermined. Those grow where turns of the rows feed back on them: by the square of the angle turned in a sub-step,
 /// over the share.
@@ -44,7 +42,7 @@ struct JointSystem {
   const std::uint32_t* body_first;
   const JointOnBody* on_body;
 
-  PLUMB_HD int rows(std::uint32_t column) const { return rows_of(view.joints[base + column].type); }
+  PLUMB_HD int rows(std::uint32_t column) const { return view.joints[base + column].rows; }
   PLUMB_HD JointWork& work(std::uint32_t column) const { return view.work[base + column]; }
 };
 
@@ -81,14 +79,12 @@ PLUMB_HD inline Real give_share(const JointView& view, const Joint& joint, Real 
   return kGiveShareInLoops + kGiveShareByTurn * (a + b);
 }
 
-PLUMB_HD inline void factor_column(const JointSystem& system, std::uint32_t j, Real h) {
+/// Takes the column's products off it and factors it. coupled(i, p, j, q): the speed of row p of joint i for a unit
+/// impulse along row q of joint j.
+template <class Coupled>
+PLUMB_HD void eliminate_column(const JointSystem& system, std::uint32_t j, const Coupled& coupled) {
   Block& diagonal = system.work(j).factor;
   const int n = system.rows(j);
-  const Real share = give_share(system.view, system.view.joints[system.base + j], h);
-  for (int p = 0; p < n; ++p) {
-    system.work(j).give[p] = share * diagonal(p, p);
-    diagonal(p, p) = diagonal(p, p) + system.work(j).give[p];
-  }
   for (std::uint32_t r = system.row_first[j]; r < system.row_first[j + 1]; ++r) {
     const std::uint32_t e = system.row_entries[r];
     const JointBlock &scaled = system.scaled[e], &whole = system.whole[e];
@@ -101,9 +97,9 @@ PLUMB_HD inline void factor_column(const JointSystem& system, std::uint32_t j, R
   for (std::uint32_t e = system.column_first[j]; e < system.column_first[j + 1]; ++e) {
     const std::uint32_t i = system.entries[e].row;
     const int rows = system.rows(i);
-    JointBlock block;
+    JointBlock block{};
     for (int p = 0; p < rows; ++p)
-      for (int q = 0; q < n; ++q) block.at[p][q] = coupling(system, i, p, j, q);
+      for (int q = 0; q < n; ++q) block.at[p][q] = coupled(i, p, j, q);
     for (std::uint32_t t = system.product_first[e]; t < system.product_first[e + 1]; ++t) {
       const JointProduct product = system.products[t];
       take_product(block, rows, n, system.scaled[product.left], system.whole[product.right],
@@ -115,14 +111,21 @@ PLUMB_HD inline void factor_column(const JointSystem& system, std::uint32_t j, R
   }
 }
 
-PLUMB_HD inline void solve_forward(const JointSystem& system, std::uint32_t j, const JointPass& pass) {
-  const Joint& joint = system.view.joints[system.base + j];
+PLUMB_HD inline void factor_column(const JointSystem& system, std::uint32_t j, Real h) {
+  Block& diagonal = system.work(j).factor;
+  const Real share = give_share(system.view, system.view.joints[system.base + j], h);
+  for (int p = 0; p < system.rows(j); ++p) {
+    system.work(j).give[p] = share * diagonal(p, p);
+    diagonal(p, p) = diagonal(p, p) + system.work(j).give[p];
+  }
+  eliminate_column(system, j,
+                   [&](std::uint32_t i, int p, std::uint32_t k, int q) { return coupling(system, i, p, k, q); });
+}
+
+/// Takes off a row's residuals in work.change what the joints before it give.
+PLUMB_HD inline void take_earlier(const JointSystem& system, std::uint32_t j) {
   Real(&y)[kJointRows] = system.work(j).change;
-  joint_residuals(system.view, system.base + j, pass, system.view.velocity(joint.body_a),
-                  system.view.velocity(joint.body_b), y);
   const int n = system.rows(j);
-  const JointImpulse& total = system.view.impulses[joint.slot];
-  for (int p = 0; p < n; ++p) y[p] = -(y[p] + system.work(j).give[p] * total.along[p]);
   for (std::uint32_t r = system.row_first[j]; r < system.row_first[j + 1]; ++r) {
     const std::uint32_t e = system.row_entries[r];
     const JointBlock& scaled = system.scaled[e];
@@ -131,6 +134,16 @@ PLUMB_HD inline void solve_forward(const JointSystem& system, std::uint32_t j, c
     for (int p = 0; p < n; ++p)
       for (int q = 0; q < system.rows(k); ++q) y[p] = y[p] - scaled.at[p][q] * from[q];
   }
+}
+
+PLUMB_HD inline void solve_forward(const JointSystem& system, std::uint32_t j, const JointPass& pass) {
+  const Joint& joint = system.view.joints[system.base + j];
+  Real(&y)[kJointRows] = system.work(j).change;
+  joint_residuals(system.view, system.base + j, pass, system.view.velocity(joint.body_a),
+                  system.view.velocity(joint.body_b), y);
+  const JointImpulse& total = system.view.impulses[joint.slot];
+  for (int p = 0; p < system.rows(j); ++p) y[p] = -(y[p] + system.work(j).give[p] * total.along[p]);
+  take_earlier(system, j);
 }
 
 PLUMB_HD inline void solve_backward(const JointSystem& system, std::uint32_t j) {
@@ -157,7 +170,7 @@ PLUMB_HD inline void push_body(const JointSystem& system, std::uint32_t place, b
     const JointWork& work = system.view.work[on.joint];
     const Joint& joint = system.view.joints[on.joint];
     const Real* impulse = total ? system.view.impulses[joint.slot].along : work.change;
-    for (int i = 0; i < rows_of(joint.type); ++i) {
+    for (int i = 0; i < joint.rows; ++i) {
       const Real along = after.inverse_mass * impulse[i];
       after.linear += (on.is_b ? along : -along) * work.rows[i].direction;
       after.angular += impulse[i] * (on.is_b ? work.turn_b[i] : work.turn_a[i]);
@@ -166,28 +179,40 @@ PLUMB_HD inline void push_body(const JointSystem& system, std::uint32_t place, b
   system.view.store(body, before, after);
 }
 
-PLUMB_DEVICE inline void factor_system(Team& team, const JointSystem& system, Real h) {
+/// f(column) level after level, upward or downward.
+template <class F>
+PLUMB_DEVICE void for_columns_up(Team& team, const JointSystem& system, const F& f) {
   for (std::uint32_t level = 0; level < system.levels; ++level) {
     const std::uint32_t first = system.level_first[level];
-    team.each(system.level_first[level + 1] - first, [=](std::uint32_t i) { factor_column(system, first + i, h); });
+    team.each(system.level_first[level + 1] - first, [=](std::uint32_t i) { f(first + i); });
+  }
+}
+template <class F>
+PLUMB_DEVICE void for_columns_down(Team& team, const JointSystem& system, const F& f) {
+  for (std::uint32_t level = system.levels; level-- > 0;) {
+    const std::uint32_t first = system.level_first[level];
+    team.each(system.level_first[level + 1] - first, [=](std::uint32_t i) { f(first + i); });
   }
 }
 
-PLUMB_DEVICE inline void solve_system(Team& team, const JointSystem& system, const JointPass& pass) {
-  if (system.levels == 0) return;
-  for (std::uint32_t level = 0; level < system.levels; ++level) {
-    const std::uint32_t first = system.level_first[level];
-    team.each(system.level_first[level + 1] - first, [=](std::uint32_t i) { solve_forward(system, first + i, pass); });
-  }
-  for (std::uint32_t level = system.levels; level-- > 0;) {
-    const std::uint32_t first = system.level_first[level];
-    team.each(system.level_first[level + 1] - first, [=](std::uint32_t i) { solve_backward(system, first + i); });
-  }
+/// The changes found act on all bodies.
+PLUMB_DEVICE inline void push_changes(Team& team, const JointSystem& system) {
   const std::uint32_t joints = system.level_first[system.levels];
   team.each(max(joints, system.body_count), [=](std::uint32_t i) {
     if (i < joints) keep_change(system.view, system.base + i);
     if (i < system.body_count) push_body(system, i, false);
   });
+}
+
+PLUMB_DEVICE inline void factor_system(Team& team, const JointSystem& system, Real h) {
+  for_columns_up(team, system, [=](std::uint32_t j) { factor_column(system, j, h); });
+}
+
+PLUMB_DEVICE inline void solve_system(Team& team, const JointSystem& system, const JointPass& pass) {
+  if (system.levels == 0) return;
+  for_columns_up(team, system, [=](std::uint32_t j) { solve_forward(system, j, pass); });
+  for_columns_down(team, system, [=](std::uint32_t j) { solve_backward(system, j); });
+  push_changes(team, system);
 }
 
 }  // namespace plumb::impulse

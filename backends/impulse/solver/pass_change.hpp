@@ -5,7 +5,7 @@
 #include "constraints/contact_normals.hpp"
 #include "constraints/joint_bias.hpp"
 #include "exec/atomic.hpp"
-#include "solver/joint_loops.hpp"
+#include "solver/axis_mechanisms.hpp"
 
 namespace plumb::impulse {
 
@@ -67,23 +67,38 @@ struct ContactPass {
   }
 };
 
+/// f(j) on a joint, and how much it changed the impulses.
+template <class F>
+PLUMB_HD void note_joint(const JointView& view, std::uint32_t j, PassChange* noted, const F& f) {
+  const JointImpulse before = view.impulses[view.joints[j].slot];
+  f(j);
+  if (noted == nullptr) return;
+  const JointImpulse& now = view.impulses[view.joints[j].slot];
+  Real changed = 0, reached = 0;
+  for (int i = 0; i < view.joints[j].rows; ++i) {
+    changed = max(changed, abs(now.along[i] - before.along[i]));
+    reached = max(reached, abs(now.along[i]));
+  }
+  noted->note(changed, reached);
+}
+
 /// All joints in one pass.
-PLUMB_DEVICE inline void solve_joints_noted(Team& team, const JointSet& joints, const StepParameters& step,
-                                            PassChange* noted) {
-  const JointView view = joints.view;
-  const Real bias_rate = step.bias_rate;
-  for_joints(team, joints, [=](std::uint32_t j) {
-    const JointImpulse before = view.impulses[view.joints[j].slot];
-    solve_joint_with_bias(view, j, bias_rate);
-    if (noted == nullptr) return;
-    const JointImpulse& now = view.impulses[view.joints[j].slot];
-    Real changed = 0, reached = 0;
-    for (int i = 0; i < rows_of(view.joints[j].type); ++i) {
-      changed = max(changed, abs(now.along[i] - before.along[i]));
-      reached = max(reached, abs(now.along[i]));
-    }
-    noted->note(changed, reached);
-  });
+template <JointCode kJoints>
+PLUMB_DEVICE void solve_joints_noted(Team& team, const JointSet& joints, const StepParameters& step,
+                                     PassChange* noted) {
+  if constexpr (kJoints == JointCode::kAll) {
+    const AxisView view = axis_view(joints);
+    const RowTime time = {RowPass::kWhole, step.h, step.inverse_h, step.bias_rate, 0};
+    for_joints(team, joints, [=](std::uint32_t j) {
+      note_joint(view, j, noted, [&](std::uint32_t i) { solve_axis_joint(view, i, time); });
+    });
+  } else {
+    const JointView view = joints.view;
+    const Real bias_rate = step.bias_rate;
+    for_joints(team, joints, [=](std::uint32_t j) {
+      note_joint(view, j, noted, [&](std::uint32_t i) { solve_joint_with_bias(view, i, bias_rate); });
+    });
+  }
 }
 
 }  // namespace plumb::impulse

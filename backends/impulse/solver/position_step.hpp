@@ -4,6 +4,7 @@
 #include "constraints/contact_friction.hpp"
 #include "constraints/contact_position.hpp"
 #include "constraints/joint_position.hpp"
+#include "solver/axis_mechanisms.hpp"
 #include "solver/solver_step.hpp"
 
 namespace plumb::impulse {
@@ -13,6 +14,7 @@ namespace plumb::impulse {
 /// move freely, constraints of no compliance put them back, and a pass over velocities sees to restitution and to
 /// friction of what slides. Unlike there, friction at the level of positions is cut to the cone and not refused beyond
 /// it: one point of a face would always be beyond, and a cube at rest on a slope would creep.
+template <JointCode kJoints>
 struct StepPositions : SolverStep {
   PLUMB_DEVICE void operator()(Team& team) const {
     if (must_repeat()) return;
@@ -21,7 +23,7 @@ struct StepPositions : SolverStep {
     for (std::uint32_t k = 0; k < step.substeps; ++k) {
       team.each(body_count, [=](std::uint32_t i) { integrate_velocity(self.bodies, self.solver, step, true, i); });
       move_bodies(team, step);
-      correct_joints(team, step);
+      correct_joints(team, step, k == 0);
       if (!features.collision) continue;
       solve_positions(team, step);
       solve_velocities(team, step);
@@ -30,9 +32,14 @@ struct StepPositions : SolverStep {
   }
 
  private:
-  PLUMB_DEVICE void correct_joints(Team& team, const StepParameters& step) const {
-    const JointView view = joints.view;
-    for_joints(team, joints, [=](std::uint32_t j) { correct_joint(view, j, step); });
+  PLUMB_DEVICE void correct_joints(Team& team, const StepParameters& step, [[maybe_unused]] bool first) const {
+    if constexpr (kJoints == JointCode::kAll) {
+      const AxisView view = axis_view(joints);
+      for_joints(team, joints, [=](std::uint32_t j) { correct_axis_joint(view, j, step, first); });
+    } else {
+      const JointView view = joints.view;
+      for_joints(team, joints, [=](std::uint32_t j) { correct_joint(view, j, step); });
+    }
   }
   PLUMB_DEVICE void solve_positions(Team& team, const StepParameters& step) const {
     const bool friction = features.friction, note_impacts = features.restitution;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "constraints/contact_friction.hpp"
+#include "solver/axis_mechanisms.hpp"
 #include "solver/mechanisms.hpp"
 #include "solver/solver_step.hpp"
 
@@ -10,35 +11,42 @@ namespace plumb::impulse {
 /// Sub-steps with soft constraints and relaxation ("soft step": Catto, "Solver2D", 2024; sub-stepping after Macklin et
 /// al., "Small Steps in Physics Simulation", SCA 2019). In each sub-step velocities are solved with a soft bias against
 /// overlap, positions moved, and velocities solved again without the bias, so that what it pushed does not stay.
-/// A step without joints is a kernel of its own: what joints take of a GPU's registers and code costs contacts dearly.
-template <bool kWithJoints>
+template <JointCode kJoints>
 struct StepSoftly : SolverStep {
   PLUMB_DEVICE void operator()(Team& team) const {
     if (must_repeat()) return;
     const StepParameters step = *parameters;
+    [[maybe_unused]] std::uint32_t turn = 0;
     for (std::uint32_t k = 0; k < step.substeps; ++k) {
       const bool first = k == 0;
       team.each(body_count, [&](std::uint32_t i) { integrate_velocity(bodies, solver, step, first, i); });
       if (first) warm_start(team);
-      if constexpr (kWithJoints) {
+      if constexpr (kJoints == JointCode::kPlain) {
         warm_start_mechanisms(team, joints, first, step);
         solve_mechanisms(team, joints, step, true);
+      }
+      if constexpr (kJoints == JointCode::kAll) {
+        warm_start_axes(team, joints, first, step);
+        solve_axes(team, joints, step, RowPass::kPlaces, turn);
       }
       const bool relaxes = !step.relaxes_once || k + 1 == step.substeps;
       push_contacts(team, step, !relaxes);
       move_bodies(team, step);
-      if constexpr (kWithJoints) solve_mechanisms(team, joints, step, false);
+      hold_speeds(team, step, turn);
       if (relaxes) relax_contacts(team);
     }
     if (features.collision && features.restitution) {
       bounce(team, step.restitution_speed);
-      if constexpr (kWithJoints)
-        solve_mechanisms(team, joints, step, false);  // what bounced takes along what it is joined to
+      hold_speeds(team, step, turn);  // what bounced takes along what it is joined to
     }
     finish(team);
   }
 
  private:
+  PLUMB_DEVICE void hold_speeds(Team& team, const StepParameters& step, [[maybe_unused]] std::uint32_t& turn) const {
+    if constexpr (kJoints == JointCode::kPlain) solve_mechanisms(team, joints, step, false);
+    if constexpr (kJoints == JointCode::kAll) solve_axes(team, joints, step, RowPass::kSpeeds, turn);
+  }
   PLUMB_DEVICE void warm_start(Team& team) const {
     if (!features.collision) return;
     for_contacts(team, contacts, solver, BodyUse::kVelocity,

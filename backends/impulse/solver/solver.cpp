@@ -1,11 +1,8 @@
 #include "solver/solver.hpp"
 
 #include "constraints/prepare_contacts.hpp"
-#include "solver/jacobi_step.hpp"
+#include "solver/enqueue_step.hpp"
 #include "solver/motion.hpp"
-#include "solver/position_step.hpp"
-#include "solver/sequential_step.hpp"
-#include "solver/soft_step.hpp"
 
 namespace plumb::impulse {
 
@@ -66,13 +63,11 @@ void Solver::solve(Executor& executor, const Bodies& all, std::uint32_t body_cou
   const SolverStep step = {all,        bodies(all),   {rows(), counters},
                            body_count, features_,     parameters,
                            counters,   pair_capacity, joints.set(all, bodies(all), features_.gyroscopic)};
-  const auto run = [&](const auto& solver) { executor.team(load, body_count / 2, solver); };
-  switch (kind_) {
-    case SolverKind::kSequential: return run(StepSequentially{{step, pass_changes_.data()}});
-    case SolverKind::kJacobi: return run(StepInParts{{step, pass_changes_.data()}, split_.parts()});
-    case SolverKind::kPosition: return run(StepPositions{step});
-    case SolverKind::kTgsSoft:
-      return step.joints.count == 0 ? run(StepSoftly<false>{step}) : run(StepSoftly<true>{step});
+  const StepWork work = {step, pass_changes_.data(), split_.parts(), kind_, load, body_count / 2};
+  switch (joints.code()) {
+    case JointCode::kNone: return enqueue_step<JointCode::kNone>(executor, work);
+    case JointCode::kPlain: return enqueue_step<JointCode::kPlain>(executor, work);
+    case JointCode::kAll: return enqueue_step_with_axes(executor, work);
   }
 }
 

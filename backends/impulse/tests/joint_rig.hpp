@@ -87,6 +87,36 @@ class JointRig {
     static_cast<IJoints&>(world_).read_joints(PLUMB_JOINT_COORDINATES, {&joint, 1}, rows_over(std::span(&six, 1)));
     return six;
   }
+  std::array<double, 6> reaction(PlumbJoint joint) {
+    std::array<double, 6> six{};
+    static_cast<IJoints&>(world_).read_joints(PLUMB_JOINT_REACTION, {&joint, 1}, rows_over(std::span(&six, 1)));
+    return six;
+  }
+  /// The motor on an axis.
+  void drive(PlumbJoint joint, std::size_t axis, double velocity, double max_force) {
+    std::array<double, 12> row{};
+    static_cast<IJoints&>(world_).read_joints(PLUMB_JOINT_MOTOR, {&joint, 1}, rows_over(std::span(&row, 1)));
+    row[2 * axis] = velocity;
+    row[2 * axis + 1] = max_force;
+    const ConstRows rows(reinterpret_cast<const std::byte*>(row.data()), 1, sizeof row, PLUMB_F64);
+    static_cast<IJoints&>(world_).write_joints(PLUMB_JOINT_MOTOR, {&joint, 1}, rows);
+  }
+  void push(PlumbBody body, const PlumbVec3& impulse) {
+    const ConstRows rows(reinterpret_cast<const std::byte*>(&impulse), 1, sizeof impulse, PLUMB_F64);
+    world_.write(PLUMB_FIELD_IMPULSE, {&body, 1}, rows);
+  }
+  std::vector<PlumbEvent> events() {
+    const auto told = world_.events();
+    return {told.begin(), told.end()};
+  }
+  /// By number, in the order of the setting's words.
+  void choose_solver(double number) {
+    constexpr const char* words[] = {"tgs_soft", "si", "jacobi", "xpbd"};
+    PlumbSettingValue setting{};
+    setting.type = PLUMB_SETTING_CHOICE;
+    setting.choice = words[static_cast<int>(number)];
+    world_.settings()->set_setting("solver", setting);
+  }
   void set(const char* name, double value) {
     PlumbSettingValue setting{};
     setting.number = value;
@@ -107,6 +137,22 @@ class JointRig {
   World world_;
   std::uint64_t bodies_ = 0, joints_ = 0;
 };
+
+/// Linear, and angular about the origin, of bodies with inertia diag(d) along their axes.
+inline std::array<double, 6> momentum(JointRig& rig, const std::vector<PlumbBody>& bodies, double mass,
+                                      const PlumbVec3& d) {
+  std::array<double, 6> sum{};
+  for (const PlumbBody body : bodies) {
+    const PlumbPose pose = rig.pose(body);
+    const auto speed = rig.speed(body);
+    const QuatD q = to_double(pose.orientation);
+    const Position p = mass * to_position(speed.linear), w = rotate_back(q, to_position(speed.angular));
+    const Position l = cross(to_position(pose.position), p) + rotate(q, {d.x * w.x, d.y * w.y, d.z * w.z});
+    const std::array<double, 6> all = {p.x, p.y, p.z, l.x, l.y, l.z};
+    for (std::size_t i = 0; i < all.size(); ++i) sum[i] += all[i];
+  }
+  return sum;
+}
 
 /// The turn by `angle` about a unit axis.
 inline PlumbQuat about(const PlumbVec3& axis, double angle) {

@@ -1,0 +1,338 @@
+// Joints with rows that do not always hold: which piece of its law each row is on, and the equations of that.
+#pragma once
+
+#include "constraints/joint_law.hpp"
+#include "constraints/joint_solve.hpp"
+
+namespace plumb::impulse {
+
+/// How much a row yields beside what the bodies do, relative to that: below what positions resolve.
+inline constexpr Real kGiveShare = sizeof(Real) == 8 ? Real(1e-10) : Real(1e-5);
+/// A row changes its mind no more often than this in a pass.
+inline constexpr std::uint32_t kMostChanges = 4;
+/// Rounds in a pass: after these rows are cut to what their laws allow, and the next sub-step goes on.
+inline constexpr std::uint32_t kMostRounds = 12;
+
+/// Beside JointWork.
+struct AxisWork {
+  Block whole;  ///< K of all rows
+  Real share;   ///< by which rows yield in a mechanism that is solved as a whole, relative to K
+  RowPiece piece[kJointRows];
+  RowPiece reached[kJointRows];  ///< at the end of the pass over places
+  std::uint8_t changes[kJointRows];
+  Real aim[kJointRows];     ///< the speed of hard rows, the impulse without speed of others
+  Real yield[kJointRows];   ///< speed for a unit impulse by which a row yields; below 0: its impulse is its aim
+  Real spring[kJointRows];  ///< impulse of the spring in this sub-step
+  Real before[kJointRows];  ///< speeds when the pass began
+  Real bend[kJointRows];    ///< what the speeds over a sub-step have beyond those now, where that was last looked at
+  Real start[kJointRows];   ///< impulses when the pass began
+
+  PLUMB_HD bool is_active(int row) const { return yield[row] >= 0; }
+};
+
+/// What the joint does to body b at frame b's origin, summed over a step. By slot.
+struct JointReaction {
+  Vec force, torque;             ///< N s, N m s
+  Real counted[kJointRows];      ///< of the impulses in this sub-step
+  Real spring_mass[kJointRows];  ///< against which the springs were made, kg or kg m2
+  std::uint32_t born;            ///< of the joint for which that was
+};
+
+struct AxisParts {
+  const JointAxes* axes;     ///< by joint
+  const JointDrive* drives;  ///< by slot
+  AxisWork* work;            ///< by joint
+  JointReaction* reactions;  ///< by slot
+  std::uint32_t* changes;    ///< three, in turn: rows that changed their piece in a round
+};
+
+struct AxisView : JointView {
+  AxisParts parts;
+
+  PLUMB_HD JointReaction& reaction(std::uint32_t j) const { return parts.reactions[joints[j].slot]; }
+  PLUMB_HD Real* total(std::uint32_t j) const { return impulses[joints[j].slot].along; }
+};
+
+PLUMB_HD inline bool is_held(const AxisView& view, std::uint32_t j, int row) {
+  const int first = rows_of(view.joints[j].type);
+  return row < first || view.parts.axes[j].row[row - first].coordinate == kLocked;
+}
+
+/// Mass against which the spring of a row works: where no turn is free the arms do not count.
+PLUMB_HD inline Real spring_mass(const JointAxes& axes, Real mobility, Real inverse_mass) {
+  return reciprocal_or_zero(axes.masses_alone != 0 ? inverse_mass : mobility);
+}
+
+/// Rows, errors and K where the bodies are now.
+PLUMB_HD inline void refresh_axis_joint(const AxisView& view, std::uint32_t j) {
+  const Joint& joint = view.joints[j];
+  const JointAxes& axes = view.parts.axes[j];
+  JointWork& work = view.work[j];
+  AxisWork& own = view.parts.work[j];
+  const JointEnd a = view.end(joint.body_a), b = view.end(joint.body_b);
+  const JointPlace place = place_joint(joint, view.base(joint), a, b);
+  all_errors(joint, axes, place, work.error);
+  all_rows(joint, axes, place, work.rows);
+  find_mobility(view, joint, a, b, work, own.whole);
+  JointReaction& reaction = view.reaction(j);
+  if (reaction.born == joint.born) return;
+  reaction.born = joint.born;
+  const Real inverse_mass = view.velocity(joint.body_a).inverse_mass + view.velocity(joint.body_b).inverse_mass;
+  for (int i = rows_of(joint.type); i < joint.rows; ++i)
+    reaction.spring_mass[i] = spring_mass(axes, own.whole(i, i), inverse_mass);
+}
+
+/// Speeds along the rows as they stand.
+PLUMB_HD inline void speeds_now(const AxisView& view, std::uint32_t j, const Velocity& a, const Velocity& b,
+                                Real (&speed)[kJointRows]) {
+  const JointWork& work = view.work[j];
+  for (int i = 0; i < view.joints[j].rows; ++i)
+    speed[i] = dot(work.rows[i].direction, b.linear - a.linear) + dot(work.rows[i].on_a, a.angular) +
+               dot(work.rows[i].on_b, b.angular);
+}
+
+/// Over the sub-step, with velocities a and b.
+PLUMB_HD inline void speeds_over_places(const AxisView& view, std::uint32_t j, const RowTime& time, const Velocity& a,
+                                        const Velocity& b, Real (&speed)[kJointRows]) {
+  const Joint& joint = view.joints[j];
+  const JointWork& work = view.work[j];
+  const JointAxes& axes = view.parts.axes[j];
+  const JointPlace place = place_joint(joint, view.base(joint), view.end_after(joint.body_a, a, time.h),
+                                       view.end_after(joint.body_b, b, time.h));
+  all_errors(joint, axes, place, speed);
+  const int first = rows_of(joint.type);
+  for (int i = 0; i < joint.rows; ++i) {
+    Real moved = speed[i] - work.error[i];
+    if (i >= first && axes.row[i - first].kind == RowKind::kAngle) moved = wrapped(moved);
+    speed[i] = moved * time.inverse_h;
+  }
+}
+
+/// What a pass sees of the speeds. Places are not linear in them: the rounds of a pass work on one tangent, so that
+/// what they try on the way does not matter. anew: at the speeds as they are.
+PLUMB_HD inline void row_speeds(const AxisView& view, std::uint32_t j, const RowTime& time, const Velocity& a,
+                                const Velocity& b, bool anew, Real (&speed)[kJointRows]) {
+  AxisWork& own = view.parts.work[j];
+  const int n = view.joints[j].rows;
+  if (time.pass != RowPass::kPlaces) return speeds_now(view, j, a, b, speed);
+  if (anew) {
+    Real now[kJointRows];
+    speeds_now(view, j, a, b, now);
+    speeds_over_places(view, j, time, a, b, speed);
+    for (int i = 0; i < n; ++i) own.bend[i] = speed[i] - now[i];
+    return;
+  }
+  speeds_now(view, j, a, b, speed);
+  for (int i = 0; i < n; ++i) speed[i] = speed[i] + own.bend[i];
+}
+
+PLUMB_HD inline RowLaw law_of_row(const AxisView& view, std::uint32_t j, int row, const RowTime& time) {
+  const Joint& joint = view.joints[j];
+  const AxisWork& own = view.parts.work[j];
+  const Real x = view.work[j].error[row] - (time.pass == RowPass::kMoved ? time.h * own.before[row] : Real(0));
+  RowLaw law = law_of_places(view.parts.axes[j], row - rows_of(joint.type), x, view.parts.drives[joint.slot],
+                             view.reaction(j).spring_mass[row], time);
+  if (time.pass != RowPass::kSpeeds) return law;
+  law.lower = own.reached[row] == RowPiece::kLower ? Real(0) : -kHuge;
+  law.upper = own.reached[row] == RowPiece::kUpper ? Real(0) : kHuge;
+  law.spring = own.spring[row];
+  law.drag = 0;
+  return law;
+}
+
+/// The speed that a row which always holds should have.
+PLUMB_HD inline Real speed_of_held(const AxisView& view, std::uint32_t j, int row, const RowTime& time) {
+  const Real error = view.work[j].error[row];
+  switch (time.pass) {
+    case RowPass::kSpeeds: return 0;
+    case RowPass::kMoved: return view.parts.work[j].before[row] - time.rate * error;
+    default: return -(time.rate * error);
+  }
+}
+
+/// Finds the piece of each row, and its equation. jump: what brings impulses that do not depend on the speed to where
+/// they should be; 0 of others. Returns whether a piece is another than before.
+PLUMB_HD inline bool choose_pieces(const AxisView& view, std::uint32_t j, const RowTime& time, const Velocity& a,
+                                   const Velocity& b, bool first_round, Real share, Real (&jump)[kJointRows]) {
+  const Joint& joint = view.joints[j];
+  AxisWork& own = view.parts.work[j];
+  const Real* total = view.total(j);
+  const bool all_held = rows_of(joint.type) == joint.rows;
+  for (int i = 0; i < joint.rows; ++i) jump[i] = 0;
+  if (all_held && !first_round) return false;
+  Real speed[kJointRows]{};
+  if (!all_held || time.pass == RowPass::kMoved) row_speeds(view, j, time, a, b, first_round, speed);
+  bool changed = false;
+  for (int i = 0; i < joint.rows; ++i) {
+    const Real mobility = own.whole(i, i);
+    if (first_round) {
+      own.before[i] = speed[i];
+      own.start[i] = total[i];
+    }
+    if (is_held(view, j, i)) {
+      own.piece[i] = RowPiece::kHeld;
+      own.aim[i] = speed_of_held(view, j, i, time);
+      own.yield[i] = share * mobility;
+      continue;
+    }
+    const RowLaw law = law_of_row(view, j, i, time);
+    const RowPiece piece =
+        first_round ? law.piece(speed[i], total[i], mobility) : law.next(own.piece[i], speed[i], total[i]);
+    if (first_round) {
+      own.changes[i] = 0;
+      own.piece[i] = piece;
+    } else if (piece != own.piece[i] && own.changes[i] < kMostChanges) {
+      own.changes[i] = static_cast<std::uint8_t>(own.changes[i] + 1);
+      own.piece[i] = piece;
+      changed = true;
+    }
+    if (is_hard(own.piece[i])) {
+      own.aim[i] = law.speed(own.piece[i]);
+      own.yield[i] = share * mobility;
+    } else {
+      own.aim[i] = law.sign_of(own.piece[i]) + law.spring;
+      own.yield[i] = law.drag > 0 ? Real(1) / law.drag : Real(-1);
+      if (!own.is_active(i)) jump[i] = own.aim[i] - total[i];
+    }
+  }
+  return changed;
+}
+
+/// The matrix of the rows that are active, others being 0.
+PLUMB_HD inline void mask_matrix(const AxisWork& own, int n, Block& matrix) {
+  for (int p = 0; p < n; ++p) {
+    for (int q = 0; q <= p; ++q) matrix(p, q) = own.is_active(p) && own.is_active(q) ? own.whole(p, q) : Real(0);
+    if (own.is_active(p)) matrix(p, p) = matrix(p, p) + own.yield[p];
+  }
+}
+
+/// How far the rows are from their equations, with the other sign.
+PLUMB_HD inline void row_residuals(const AxisView& view, std::uint32_t j, const RowTime& time, const Velocity& a,
+                                   const Velocity& b, bool anew, Real (&y)[kJointRows]) {
+  const AxisWork& own = view.parts.work[j];
+  const Real* total = view.total(j);
+  row_speeds(view, j, time, a, b, anew, y);
+  for (int i = 0; i < view.joints[j].rows; ++i) {
+    if (!own.is_active(i))
+      y[i] = 0;
+    else if (is_hard(own.piece[i]))
+      y[i] = -((y[i] - own.aim[i]) + own.yield[i] * total[i]);
+    else
+      y[i] = -(y[i] + own.yield[i] * (total[i] - own.aim[i]));
+  }
+}
+
+/// At the end of a pass: cut says that rounds ran out. change: what brings impulses back to what the laws allow.
+PLUMB_HD inline void settle_pieces(const AxisView& view, std::uint32_t j, const RowTime& time, bool cut,
+                                   Real (&change)[kJointRows]) {
+  const Joint& joint = view.joints[j];
+  AxisWork& own = view.parts.work[j];
+  const Real* total = view.total(j);
+  for (int i = 0; i < joint.rows; ++i) change[i] = 0;
+  for (int i = rows_of(joint.type); i < joint.rows; ++i) {
+    if (own.piece[i] == RowPiece::kHeld) continue;
+    const RowLaw law = law_of_row(view, j, i, time);
+    if (cut) change[i] = law.allowed(own.piece[i], total[i]) - total[i];
+    if (time.pass != RowPass::kPlaces) continue;
+    own.reached[i] = own.piece[i];
+    own.spring[i] =
+        is_hard(own.piece[i]) ? law.spring - law.drag * law.speed(own.piece[i]) : total[i] - law.sign_of(own.piece[i]);
+  }
+}
+
+/// What a round solves: nothing more; the first equations; those of other pieces; or of the same where they lead to.
+enum class RoundKind : std::uint8_t { kNone, kFirst, kNewPieces, kAnew };
+PLUMB_HD constexpr bool has_new_matrix(RoundKind kind) { return kind != RoundKind::kAnew; }
+PLUMB_HD constexpr bool has_new_tangent(RoundKind kind) { return kind != RoundKind::kNewPieces; }
+
+/// Goes through the rounds of a pass, until no piece changes. Where some did, another tangent is taken there.
+class RoundCount {
+ public:
+  PLUMB_HD bool is_first() const { return round_ == 0; }
+  PLUMB_HD RoundKind next(bool changed) {
+    const std::uint32_t round = round_++;
+    if (round == 0) return RoundKind::kFirst;
+    ran_out_ = changed && round >= kMostRounds;
+    if (ran_out_) return RoundKind::kNone;
+    if (changed) return RoundKind::kNewPieces;
+    if (anew_ || round == 1) return RoundKind::kNone;
+    anew_ = true;
+    return RoundKind::kAnew;
+  }
+  /// Pieces still changed at the end.
+  PLUMB_HD bool ran_out() const { return ran_out_; }
+
+ private:
+  std::uint32_t round_ = 0;
+  bool anew_ = false, ran_out_ = false;
+};
+
+/// What takes the impulses back to where the pass began.
+PLUMB_HD inline void take_back(const AxisView& view, std::uint32_t j, Real (&change)[kJointRows]) {
+  const Real* total = view.total(j);
+  for (int i = 0; i < view.joints[j].rows; ++i) change[i] = view.parts.work[j].start[i] - total[i];
+}
+
+/// One joint by itself, exactly. Changes the velocities given, and the total.
+PLUMB_HD inline void solve_axis_rows(const AxisView& view, std::uint32_t j, const RowTime& time, Velocity& a,
+                                     Velocity& b) {
+  const Joint& joint = view.joints[j];
+  const AxisWork& own = view.parts.work[j];
+  JointWork& work = view.work[j];
+  Real* total = view.total(j);
+  Real change[kJointRows];
+  const auto push = [&] {
+    for (int i = 0; i < joint.rows; ++i) total[i] = total[i] + change[i];
+    push_joint(work, joint.rows, change, a, b);
+  };
+  RoundCount rounds;
+  for (bool go = true; go;) {
+    const bool changed = choose_pieces(view, j, time, a, b, rounds.is_first(), time.share, change);
+    const RoundKind kind = rounds.next(changed);
+    if (kind == RoundKind::kNone) break;
+    push();
+    if (has_new_matrix(kind)) {
+      mask_matrix(own, joint.rows, work.factor);
+      factor(work.factor, joint.rows);
+    }
+    row_residuals(view, j, time, a, b, has_new_tangent(kind), change);
+    solve_factored(work.factor, joint.rows, change);
+    push();
+    go = rows_of(joint.type) != joint.rows;
+  }
+  settle_pieces(view, j, time, rounds.ran_out(), change);
+  push();
+}
+
+PLUMB_HD inline void solve_axis_joint(const AxisView& view, std::uint32_t j, const RowTime& time) {
+  const Joint& joint = view.joints[j];
+  const Velocity a = view.velocity(joint.body_a), b = view.velocity(joint.body_b);
+  Velocity new_a = a, new_b = b;
+  solve_axis_rows(view, j, time, new_a, new_b);
+  view.store(joint.body_a, a, new_a);
+  view.store(joint.body_b, b, new_b);
+}
+
+/// A sub-step begins, or a step.
+PLUMB_HD inline void begin_reaction(const AxisView& view, std::uint32_t j, bool step) {
+  JointReaction& reaction = view.reaction(j);
+  if (step) reaction.force = reaction.torque = {0, 0, 0};
+  for (int i = 0; i < kJointRows; ++i) reaction.counted[i] = 0;
+}
+
+/// Adds what the impulses have gained since this was called last, along the rows as they are.
+PLUMB_HD inline void add_reaction(const AxisView& view, std::uint32_t j) {
+  const Joint& joint = view.joints[j];
+  const JointWork& work = view.work[j];
+  JointReaction& reaction = view.reaction(j);
+  const Real* total = view.total(j);
+  const Vec arm = rotate(view.end(joint.body_b).orientation, joint.frame_b.position);
+  for (int i = 0; i < joint.rows; ++i) {
+    const Real gained = total[i] - reaction.counted[i];
+    reaction.force += gained * work.rows[i].direction;
+    reaction.torque += gained * (work.rows[i].on_b - cross(arm, work.rows[i].direction));
+    reaction.counted[i] = total[i];
+  }
+}
+
+}  // namespace plumb::impulse

@@ -1,0 +1,131 @@
+// What solvers do with joints of which some have rows that do not always hold, and with reactions. As in
+// mechanisms.hpp mechanisms are solved as a whole where their matrix stays sparse: in rounds, until each row is on the
+// piece of its law that the solution asks for.
+#pragma once
+
+#include "solver/joint_loops.hpp"
+
+namespace plumb::impulse {
+
+PLUMB_HD inline AxisView axis_view(const JointSet& joints) {
+  AxisView view;
+  static_cast<JointView&>(view) = joints.view;
+  view.parts = joints.axes;
+  return view;
+}
+
+PLUMB_HD inline void choose_in_system(const AxisView& view, const JointSystem& system, std::uint32_t column,
+                                      const RowTime& time, bool first_round, std::uint32_t turn) {
+  const std::uint32_t j = system.base + column;
+  const Joint& joint = view.joints[j];
+  if (column == 0) view.parts.changes[(turn + 1) % 3] = 0;
+  const bool changed = choose_pieces(view, j, time, view.velocity(joint.body_a), view.velocity(joint.body_b),
+                                     first_round, view.parts.work[j].share, system.work(column).change);
+  if (changed) atomic_add(&view.parts.changes[turn % 3], 1U);
+}
+
+PLUMB_DEVICE inline void factor_axis_system(Team& team, const JointSystem& system, const AxisView& view) {
+  for_columns_up(team, system, [=](std::uint32_t column) {
+    const AxisWork& own = view.parts.work[system.base + column];
+    mask_matrix(own, system.rows(column), system.work(column).factor);
+    eliminate_column(system, column, [&](std::uint32_t i, int p, std::uint32_t k, int q) {
+      const bool both = view.parts.work[system.base + i].is_active(p) && own.is_active(q);
+      return both ? coupling(system, i, p, k, q) : Real(0);
+    });
+  });
+}
+
+/// Joint after joint instead, where the rounds do not come to an end.
+constexpr std::uint32_t kSweeps = 10;
+PLUMB_DEVICE inline void sweep_system(Team& team, const JointSet& joints, const RowTime& time) {
+  const AxisView view = axis_view(joints);
+  for_system_joints(team, joints, [=](std::uint32_t j) { solve_axis_joint(view, j, time); });
+}
+
+/// The system's joints in one pass. turn: counts the rounds of a step; the count of one is cleared while the one before
+/// is counted, when everybody has long read what it was.
+PLUMB_DEVICE inline void solve_axis_system(Team& team, const JointSet& joints, const RowTime& time,
+                                           std::uint32_t& turn) {
+  const JointSystem system = joints.system;
+  if (system.levels == 0) return;
+  const AxisView view = axis_view(joints);
+  std::uint32_t* const changes = view.parts.changes;
+  const std::uint32_t count = joints.count - system.base;
+  RoundCount rounds;
+  while (true) {
+    const std::uint32_t now = turn++;
+    const bool first = rounds.is_first();
+    team.each(count, [=](std::uint32_t column) { choose_in_system(view, system, column, time, first, now); });
+    team.meet();
+    const RoundKind kind = rounds.next(changes[now % 3] != 0);
+    if (kind == RoundKind::kNone) break;
+    push_changes(team, system);
+    if (has_new_matrix(kind)) factor_axis_system(team, system, view);
+    for_columns_up(team, system, [=](std::uint32_t column) {
+      const std::uint32_t j = system.base + column;
+      const Joint& joint = view.joints[j];
+      row_residuals(view, j, time, view.velocity(joint.body_a), view.velocity(joint.body_b), has_new_tangent(kind),
+                    system.work(column).change);
+      take_earlier(system, column);
+    });
+    for_columns_down(team, system, [=](std::uint32_t column) { solve_backward(system, column); });
+    push_changes(team, system);
+  }
+  if (rounds.ran_out()) {
+    team.each(count, [=](std::uint32_t column) { take_back(view, system.base + column, system.work(column).change); });
+    push_changes(team, system);
+    for (std::uint32_t sweep = 0; sweep < kSweeps; ++sweep) sweep_system(team, joints, time);
+    return;  // each joint has settled its pieces
+  }
+  team.each(count, [=](std::uint32_t column) {
+    settle_pieces(view, system.base + column, time, false, system.work(column).change);
+  });
+}
+
+PLUMB_DEVICE inline void add_reactions(Team& team, const JointSet& joints) {
+  const AxisView view = axis_view(joints);
+  team.each(joints.count, [=](std::uint32_t j) { add_reaction(view, j); });
+}
+
+/// Rows where the bodies are now.
+PLUMB_DEVICE inline void refresh_axes(Team& team, const JointSet& joints, const StepParameters& step) {
+  const AxisView view = axis_view(joints);
+  const Real h = step.h;
+  team.each(joints.count, [=](std::uint32_t j) {
+    const Joint& joint = view.joints[j];
+    refresh_axis_joint(view, j);
+    view.parts.work[j].share = give_share(view, joint, h);
+  });
+}
+
+/// The impulses of the last sub-step, or step, act again.
+PLUMB_DEVICE inline void warm_start_axes(Team& team, const JointSet& joints, bool first, const StepParameters& step) {
+  if (joints.count == 0) return;
+  const AxisView view = axis_view(joints);
+  const JointSystem system = joints.system;
+  if (first) refresh_axes(team, joints, step);
+  team.each(joints.count, [=](std::uint32_t j) {
+    if (j == 0) view.parts.changes[0] = 0;
+    if (first) take_over_impulse(view, j, step);
+    begin_reaction(view, j, first);
+  });
+  for_single_joints(team, joints, [=](std::uint32_t j) { warm_start_joint(view, j, false, step); });
+  team.each(system.body_count, [=](std::uint32_t i) { push_body(system, i, true); });
+}
+
+/// One pass of the sub-stepped solver: over places, or over speeds after positions have moved.
+PLUMB_DEVICE inline void solve_axes(Team& team, const JointSet& joints, const StepParameters& step, RowPass pass,
+                                    std::uint32_t& turn) {
+  if (joints.count == 0) return;
+  const AxisView view = axis_view(joints);
+  if (pass == RowPass::kSpeeds) refresh_axes(team, joints, step);
+  const RowTime time = {pass, step.h, step.inverse_h, step.joint.bias_rate,
+                        pass == RowPass::kSpeeds ? Real(0) : step.joint.give};
+  for_single_joints(team, joints, [=](std::uint32_t j) { solve_axis_joint(view, j, time); });
+  RowTime exact = time;
+  exact.rate = step.joint_rate;
+  solve_axis_system(team, joints, exact, turn);
+  add_reactions(team, joints);
+}
+
+}  // namespace plumb::impulse

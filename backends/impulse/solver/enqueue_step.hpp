@@ -1,0 +1,36 @@
+// The kernel of a step: which solver, and how much of joints it can do.
+#pragma once
+
+#include "solver/jacobi_step.hpp"
+#include "solver/position_step.hpp"
+#include "solver/sequential_step.hpp"
+#include "solver/soft_step.hpp"
+
+namespace plumb::impulse {
+
+struct StepWork {
+  SolverStep step;
+  PassChange* changes;
+  BodyParts parts;
+  SolverKind kind;
+  Count load;
+  std::uint32_t least;
+};
+
+/// Only the default solver has code of its own for a step without joints.
+template <JointCode kJoints>
+void enqueue_step(Executor& executor, const StepWork& work) {
+  constexpr JointCode kOthers = kJoints == JointCode::kNone ? JointCode::kPlain : kJoints;
+  const auto run = [&](const auto& solver) { executor.team(work.load, work.least, solver); };
+  switch (work.kind) {
+    case SolverKind::kSequential: return run(StepSequentially<kOthers>{{work.step, work.changes}});
+    case SolverKind::kJacobi: return run(StepInParts<kOthers>{{work.step, work.changes}, work.parts});
+    case SolverKind::kPosition: return run(StepPositions<kOthers>{work.step});
+    case SolverKind::kTgsSoft: return run(StepSoftly<kJoints>{work.step});
+  }
+}
+
+/// Of JointCode::kAll, compiled in a file of its own.
+void enqueue_step_with_axes(Executor& executor, const StepWork& work);
+
+}  // namespace plumb::impulse
