@@ -46,12 +46,6 @@ enum BodyFlag : std::uint32_t {
   kBodyContinuous = 1u << 12  ///< must not pass through others however fast it is
 };
 
-/// What is left of a vector without its components along locked axes; first: the flag of x.
-PLUMB_HD inline Vec unlocked(std::uint32_t flags, std::uint32_t first, const Vec& v) {
-  return {(flags & first) != 0 ? Real(0) : v.x, (flags & first << 1) != 0 ? Real(0) : v.y,
-          (flags & first << 2) != 0 ? Real(0) : v.z};
-}
-
 /// What is given once for a body.
 struct BodyMass {
   Vec inverse_inertia;  ///< principal, 1/(kg m2)

@@ -1,6 +1,7 @@
 // Joints while they are solved: rows of the sub-step, what impulses along them do to the two bodies, and the passes.
 #pragma once
 
+#include "axis_locks.hpp"
 #include "constraints/joint.hpp"
 #include "math/block.hpp"
 #include "solver/motion.hpp"
@@ -52,7 +53,7 @@ struct JointView {
   }
   PLUMB_HD Sym inverse_inertia(std::uint32_t body, const Quat& orientation) const {
     if (body == kWorld) return {0, 0, 0, 0, 0, 0};
-    return rotated_diagonal(to_matrix(orientation), bodies.mass[body].inverse_inertia);
+    return world_inverse_inertia(orientation, bodies.mass[body]);
   }
   /// Joint impulses go into the free velocity too: the next sub-step starts from them along its own rows, so they must
   /// not be carried over as velocity (motion.hpp).

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <string>
 
+#include "axis_locks.hpp"
 #include "exec/floating_point.hpp"
 #include "plugin/ranges.hpp"
 #include "plugin/world.hpp"
-#include "solver/motion.hpp"
 
 namespace plumb::impulse {
 

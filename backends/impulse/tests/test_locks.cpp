@@ -3,8 +3,8 @@
 
 #include <cmath>
 
+#include "axis_locks.hpp"
 #include "engine.hpp"
-#include "solver/motion.hpp"
 
 namespace plumb::impulse::test {
 namespace {
