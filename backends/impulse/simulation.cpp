@@ -157,7 +157,7 @@ void Simulation::list_bodies() {
 /// So many of a thing that a recorded step has room for, when there are n now. While bodies come and go the numbers
 /// stay in coarse steps, and the recording serves on.
 std::uint32_t Simulation::room_for(std::uint32_t n) const {
-  if (!Executor::kRecords || step_ == 0 || n == 0) return n;
+  if (!Executor::kRecords || step_ <= 1 || n == 0) return n;
   std::uint32_t unit = 64;
   while (unit * 32 <= n) unit *= 2;
   return (n + unit - 1) / unit * unit;
@@ -217,7 +217,7 @@ Simulation::Recorded Simulation::what_is_recorded() {
   const Hulls all = hulls.device();
   const Surfaces on = surfaces.device();
   return {{shapes.device(), all.ranges, all.vertices, all.faces, all.loops, all.edges, joints.excluded(), on.meshes,
-           on.fields},
+           on.fields, planes_.device(), sleep_.woken_pairs()},
           {bodies_in_step(), mover_room_, static_room_, plane_count_, shape_types_, joints.excluded_count(),
            static_cast<std::uint32_t>(parameters_[0].solver), sleep_.count() == 0 ? 0U : 1U}};
 }

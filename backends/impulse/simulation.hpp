@@ -129,7 +129,7 @@ class Simulation {
  private:
   /// What a recorded step holds of the host's numbers and addresses.
   struct Recorded {
-    std::array<const void*, 9> addresses{};
+    std::array<const void*, 11> addresses{};
     std::array<std::uint32_t, 8> numbers{};
     bool operator==(const Recorded&) const = default;
   };

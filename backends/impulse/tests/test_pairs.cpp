@@ -125,6 +125,7 @@ class Rig {
     narrow_phase.collide(executor_, cache, {position_.device(), orientation_.device(), nullptr, nullptr, nullptr, true},
                          {proxies_.device(), shapes_.device(), kit_.hulls.device()}, margins_.device(), types,
                          counters_.device());
+    narrow_phase.number(executor_, cache, counters_.device());
     executor_.to_host(counters_, 1);
     executor_.wait();
 
