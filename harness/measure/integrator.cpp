@@ -103,6 +103,8 @@ std::span<const MeasureEntry> integrator_measures() {
       {"free_fall", "drop and speed of a body let go at rest", free_fall_args, free_fall},
       {"projectile", "apex and end of a thrown body, and a damped fall", projectile_args, projectile},
       {"spin_up", "angular velocity after a constant torque about each axis", spin_up_args, spin_up},
+      {"symmetric_rotation", "how the axis of a body with two equal moments goes round", body_args,
+       measure_symmetric_rotation},
       {"free_rotation", "energy, momentum and flips of a box that spins freely", body_args, measure_free_rotation},
       {"heavy_top", "steady precession, or the nutation of a top let go at rest", top_args, measure_heavy_top},
       {"pendulum", "period, energy and length of a plane pendulum", pendulum_args, measure_pendulum},

@@ -7,6 +7,7 @@ namespace plumb::harness {
 
 // integrator_rotation.cpp
 void measure_free_rotation(MeasureContext& context);
+void measure_symmetric_rotation(MeasureContext& context);
 void measure_heavy_top(MeasureContext& context);
 
 // integrator_pendulums.cpp

@@ -1,4 +1,4 @@
-// Measures of rotation: the free asymmetric body and the heavy top.
+// Measures of rotation: free bodies and the heavy top.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -105,6 +105,34 @@ void measure_free_rotation(MeasureContext& context) {
   const double interval = flips.size() < 2 ? not_measured : (flips.back() - flips.front()) / (count - 1);
   context.compare("flip_interval", interval, truth.flip_interval(), truth.flip_interval());
   context.deviation("spin_after_1s", early);
+}
+
+/// A body with two equal moments: its axis, local y, goes evenly round the angular momentum L at the rate |L| / I1
+/// (Landau & Lifshitz, Mechanics, section 33).
+void measure_symmetric_rotation(MeasureContext& context) {
+  const Scene& scene = context.scene();
+  const std::size_t body = arg_body(scene, "body");
+  const referee::Mass mass = mass_of_body(scene, body);
+  Simulation simulation = context.simulate(scene);
+  const referee::Vec3 momentum = state_of(simulation, body, mass).spin(), along = momentum.normalized();
+  const auto axis_of = [&](Simulation& now) -> referee::Vec3 {
+    return referee::quat(now.poses()[body].orientation) * referee::Vec3::UnitY();
+  };
+  const auto angle_of = [&](const referee::Vec3& axis) {
+    return std::atan2(along.cross(axis).norm(), along.dot(axis));
+  };
+  const referee::Vec3 start = axis_of(simulation);
+  const double cone = angle_of(start), rate = momentum.norm() / mass.inertia(0, 0);
+  const referee::Vec3 x = (start - start.dot(along) * along).normalized(), y = along.cross(x);
+  Unwrapped unwrap;
+  double phase = 0, drift = 0;
+  simulation.run([&](Simulation& now) {
+    const referee::Vec3 axis = axis_of(now);
+    phase = unwrap(std::atan2(axis.dot(y), axis.dot(x)));
+    drift = largest(drift, std::abs(angle_of(axis) - cone));
+  });
+  context.compare("precession", phase / simulation.time(), rate, rate);
+  context.add({"cone_drift", drift * degrees, 0.0, drift / cone, std::nullopt, ""});
 }
 
 void measure_heavy_top(MeasureContext& context) {

@@ -68,6 +68,7 @@ std::span<const MeasureEntry> robustness_measures() {
   static constexpr const char* offset_args[] = {"offset"};
   static constexpr const char* turn_args[] = {"axis", "angle"};
   static constexpr const char* repeat_args[] = {"orders"};
+  static constexpr const char* edges_args[] = {"bodies", "friction", "speed", "slides"};
   static constexpr MeasureEntry entries[] = {
       {"bullet", "bodies that passed through a thin wall", bullet_args, bullet},
       {"deep_overlap", "how gently bodies that start in each other part", {}, deep_overlap},
@@ -77,6 +78,7 @@ std::span<const MeasureEntry> robustness_measures() {
       {"rotation", "a scene against itself turned, gravity too", turn_args, measure_rotation},
       {"repeat", "a scene against itself run again, on more threads, and in another order", repeat_args,
        measure_repeat},
+      {"inner_edges", "bodies that slide or roll over the edges within a plane", edges_args, measure_inner_edges},
       {"bad_input", "whether bad arguments of every kind are refused by name and harm nothing", {}, measure_bad_input},
   };
   return entries;

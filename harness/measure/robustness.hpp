@@ -12,6 +12,9 @@ void measure_translation(MeasureContext& context);
 void measure_rotation(MeasureContext& context);
 void measure_repeat(MeasureContext& context);
 
+// robustness_edges.cpp
+void measure_inner_edges(MeasureContext& context);
+
 // robustness_bad_input.cpp
 void measure_bad_input(MeasureContext& context);
 

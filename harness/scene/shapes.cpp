@@ -35,6 +35,22 @@ void read_indices(const Node& node, SceneShape& shape) {
   }
 }
 
+/// A flat square of cells about the origin, in two triangles each.
+void read_grid(const Node& node, SceneShape& shape) {
+  const auto numbers = node.elements();
+  if (numbers.size() != 2) node.fail("a grid has two numbers: cells a side, and the side of one");
+  const auto cells = static_cast<std::uint32_t>(numbers[0].integer(1, 2048));
+  const double side = numbers[1].number();
+  for (std::uint32_t row = 0; row <= cells; ++row)
+    for (std::uint32_t column = 0; column <= cells; ++column)
+      shape.vertices.insert(shape.vertices.end(), {(column - cells / 2.0) * side, 0, (row - cells / 2.0) * side});
+  for (std::uint32_t row = 0; row < cells; ++row)
+    for (std::uint32_t column = 0; column < cells; ++column) {
+      const std::uint32_t near = row * (cells + 1) + column, far = near + cells + 1;
+      shape.indices.insert(shape.indices.end(), {near, far, near + 1, near + 1, far, far + 1});
+    }
+}
+
 void read_heights(const Node& node, SceneShape& shape) {
   const auto rows = node.elements();
   if (rows.size() < 2) node.fail("a height field has two rows or more");
@@ -68,12 +84,17 @@ SceneShape read_shape(const Node& node, const std::string& name, const SceneBuil
   shape.name = name;
   const std::size_t type = node.at("type").word("shape", shape_words());
   shape.desc = shape_desc(static_cast<PlumbShapeType>(type));
+  const auto grid = node.find("grid");
+  const bool as_grid = grid && type == PLUMB_TRIANGLE_MESH;
   for (const auto& [key, member] : node.members()) {
     const auto& keys = keys_by_type()[type];
+    if (as_grid && key == "grid") continue;
     if (key == "type" || key == "user_data" || std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
     member.fail(fmt::format("a {} has no {}", shape_words()[type], key));
   }
+  if (as_grid) read_grid(*grid, shape);
   for (const std::string& key : keys_by_type()[type]) {
+    if (as_grid) break;
     const Node value = node.at(key.c_str());
     if (key == "radius") shape.desc.radius = value.number();
     if (key == "half_height") shape.desc.half_height = value.number();

@@ -89,9 +89,12 @@ PLUMB_HD inline void touch_edge(const Cylinder& c, const Vec& n, const Vec& p, c
   if (lies && part_over(c, part, p, d, s0, s1) && s1 > s0) {
     // Heights over the foremost of the cylinder in the direction n, at both ends.
     const Real from = dot(n, p) - c.reach(n) - radius, along = dot(n, d);
-    add(p + s0 * d, max(from + s0 * along, separation), 1);
-    add(p + s1 * d, max(from + s1 * along, separation), 2);
-    if (out.count != 0) return;
+    const Real first = max(from + s0 * along, separation), last = max(from + s1 * along, separation);
+    if (min(first, last) <= separation + kClipSlack * (long_d + c.radius)) {  // else its deepest point is between
+      add(p + s0 * d, first, 1);
+      add(p + s1 * d, last, 2);
+      if (out.count != 0) return;
+    }
   }
   if (part == Part3::kRim) {
     out.count = 0;

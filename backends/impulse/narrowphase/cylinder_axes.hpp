@@ -87,8 +87,8 @@ PLUMB_HD bool try_corners(const Cylinder& c, const View& view, const polyhedra::
     const std::uint32_t v = view.support(-multiply_transposed(at.turn, n));
     return dot(n, at.turn * view.vertex(v) + at.shift) - c.reach(n);
   };
-  for (const Real sign : {Real(-1), Real(1)}) {
-    const Vec n = {0, sign, 0};
+  for (int cap = 0; cap < 2; ++cap) {
+    const Vec n = {0, cap == 0 ? Real(-1) : Real(1), 0};
     const Real s = gap(n);
     if (s > margin) return false;
     if (s > best.separation + tie) best = {n, s, Axis::Kind::kCap, 0};

@@ -89,11 +89,13 @@ PLUMB_HD inline bool touch_segment(const Cylinder& c, const Vec& p, const Vec& d
   Real s = nearest_on_segment(c, p, d);
   // Its ends are met exactly, and so is the middle of what lies level.
   Nearest near = nearest(c, p + s * d);
-  for (const Real end : {Real(0), Real(1)})
+  for (int k = 0; k < 2; ++k) {
+    const auto end = static_cast<Real>(k);
     if (const Nearest at_end = nearest(c, p + end * d); at_end.distance <= near.distance + tie) {
       near = at_end;
       s = end;
     }
+  }
   if (near.distance - radius > margin) return false;
   out.normal = near.normal;
   Real separation = near.distance;
@@ -198,33 +200,50 @@ PLUMB_HD inline bool find_axis_of_two(const Cylinder& c, const Other& b, Real ma
 
   // What is found by search is worth to leave a known direction for only if it is better by more than its rounding.
   const Real gain = 8 * tie + Real(1e-6) * min(c.radius, b.c.radius);
+  Vec of_rims = best.normal;
+  Real best_of_rims = -kHuge;
+  const auto note = [&](const Vec& n) {
+    if (const Real s = gap(n); s > best_of_rims) {
+      best_of_rims = s;
+      of_rims = n;
+    }
+  };
   const Vec back = -b.local(t);  // this one's centre, seen from the other
   const Vec own_axis = b.local({0, 1, 0}), own_x = b.local({c.radius, 0, 0}), own_z = b.local({0, 0, c.radius});
-  for (const Real side : {Real(-1), Real(1)}) {
+  for (int cap = 0; cap < 2; ++cap) {
+    const Real side = cap == 0 ? Real(-1) : Real(1);
     const Vec theirs = nearest_of_rim(c, t + (side * b.c.half) * axis, b.c.radius * b.turn.x, b.c.radius * b.turn.z);
-    take(nearest(c, theirs).normal, gain);
+    const Vec n_theirs = nearest(c, theirs).normal;
+    take(n_theirs, gain);
     const Vec own = nearest_of_rim(b.c, back + (side * c.half) * own_axis, own_x, own_z);
-    take(-(b.turn * nearest(b.c, own).normal), gain);
+    const Vec n_own = -(b.turn * nearest(b.c, own).normal);
+    take(n_own, gain);
+    note(n_theirs);
+    note(n_own);
   }
   if (apart) return false;
 
-  Vec n = best.normal;
-  Real at = best.separation, step = Real(0.25);
-  for (int i = 0; i < 60 && step > 64 * kEpsilon; ++i) {
-    const Vec u = perpendicular(n), v = cross(n, u);
-    const Vec ways[4] = {u, -u, v, -v};
-    bool better = false;
-    for (int k = 0; k < 4 && !better; ++k) {
-      const Vec trial = normalized_or(n + step * ways[k], n);
-      if (const Real s = gap(trial); s > at) {
-        at = s;
-        n = trial;
-        better = true;
+  // From the best, and from between the best and what the rims told: where two rims cross, it lies between them.
+  const Vec seeds[3] = {best.normal, normalized_or(best.normal + of_rims, best.normal), of_rims};
+  for (const Vec& seed : seeds) {
+    Vec n = seed;
+    Real at = gap(n), step = Real(0.25);
+    for (int i = 0; i < 60 && step > 64 * kEpsilon; ++i) {
+      const Vec u = perpendicular(n), v = cross(n, u);
+      const Vec ways[8] = {u, -u, v, -v, u + v, u - v, v - u, -u - v};
+      bool better = false;
+      for (int k = 0; k < 8 && !better; ++k) {
+        const Vec trial = normalized_or(n + step * ways[k], n);
+        if (const Real s = gap(trial); s > at) {
+          at = s;
+          n = trial;
+          better = true;
+        }
       }
+      if (!better) step *= Real(0.5);
     }
-    if (!better) step *= Real(0.5);
+    take(n, gain);
   }
-  take(n, gain);
   return !apart;
 }
 
@@ -279,6 +298,11 @@ PLUMB_HD inline void touch_caps(const Cylinder& c, const Other& b, const Vec& n,
       own_point({along * ux + side * uz, own_y, along * uz - side * ux}, 10);
     }
   }
+  // Rims that cross beside both discs' middles are deepest where neither's foremost point lies over the other disc.
+  Real least = kHuge;
+  for (int i = 0; i < overlap.count; ++i) least = min(least, overlap.at[i].separation);
+  if (overlap.count != 0 && least > separation + kClipSlack * min(c.radius, b.c.radius))
+    add(rim_point(c, n), separation, 11);
   const int count = choose_points(overlap.at, overlap.count, tie);
   out.count = static_cast<std::uint32_t>(count);
   for (int i = 0; i < count; ++i) {

@@ -117,9 +117,11 @@ PLUMB_HD std::uint32_t face_at_support(const View& view, const Vec& n) {
   return best;
 }
 
-/// Names an edge by its ends, whichever face it is seen from. Unique for up to 128 vertices.
+/// Names an edge by its ends, whichever face it is seen from, in the 14 bits of a feature. Unique for up to 128
+/// corners; beyond, names are spread so that two edges of one contact hardly share one.
 PLUMB_HD constexpr std::uint32_t edge_between(std::uint32_t v, std::uint32_t w) {
-  return v < w ? (v << 7U) + w : (w << 7U) + v;
+  const std::uint32_t low = min(v, w), high = max(v, w);
+  return high < 128U ? (low << 7U) + high : (low * 0x9e3779b1U + high * 0x85ebca6bU) >> 18U;
 }
 
 }  // namespace plumb::impulse

@@ -17,7 +17,7 @@ PLUMB_HD bool touch_cylinder(const Surface& on, std::uint32_t t, const cylinder:
   const auto to_cylinder = [&](const Vec& v) { return multiply_transposed(of_cylinder.turn, v); };
   const Real middle = side.height(of_cylinder.shift), reach = c.reach(to_cylinder(side.normal));
   if (middle - reach > margin || middle + reach < -margin) return false;
-  choose_side(on, of_cylinder.shift, middle - reach, middle + reach, side);
+  if (!choose_side(on, of_cylinder.shift, middle - reach, middle + reach, side)) return false;
   const Real separation = (side.reversed ? -middle : middle) - reach;
   if (separation > margin) return false;
 
@@ -35,26 +35,23 @@ PLUMB_HD bool touch_cylinder(const Surface& on, std::uint32_t t, const cylinder:
       !cylinder::try_edges(c, view, at, arc, margin, tie, axis))
     return false;
 
+  const Vec direction = -(of_cylinder.turn * axis.normal);
+  Touches touches = Touches::kFace;
+  if (axis.separation > separation + tie)
+    touches = what_touches(on, t, side, direction, separation, 2 * reach, of_cylinder.shift);
+  if (touches == Touches::kNeighbour) return false;
   Vec normal = -to_cylinder(side.normal);
-  bool by_face = true;
-  if (axis.separation > separation + tie) {
-    const Vec direction = -(of_cylinder.turn * axis.normal);
-    const Foremost front = foremost(side.triangle, direction);
-    const Touches touches = what_touches(on, t, side, front, direction, axis.separation, separation, of_cylinder.shift);
-    if (touches == Touches::kNeighbour) return false;
-    if (touches == Touches::kEdge) {
-      by_face = false;
-      normal = axis.normal;
-      const int from = front.edge >= 0 ? front.edge : front.corner;
-      const Vec p = at.turn * side.triangle.at[from] + at.shift;
-      const Vec d =
-          front.edge >= 0 ? at.turn * side.triangle.at[from == 2 ? 0 : from + 1] + at.shift - p : Vec{0, 0, 0};
-      cylinder::touch_edge(c, normal, p, d, 0, axis.separation, margin, out);
-    }
-  }
-  if (by_face) {
+  if (touches != Touches::kEdge) {
     const FacePolygon<TriangleView> polygon = {view, 0, ContactPlane(normal), at.turn, at.shift, true, 3};
     cylinder::touch_face(c, normal, polygon, separation, margin, tie, out);
+  }
+  if (out.count == 0 && touches != Touches::kFace) {
+    normal = axis.normal;
+    const Foremost front = foremost(side.triangle, direction);
+    const int from = front.edge >= 0 ? front.edge : front.corner;
+    const Vec p = at.turn * side.triangle.at[from] + at.shift;
+    const Vec d = front.edge >= 0 ? at.turn * side.triangle.at[from == 2 ? 0 : from + 1] + at.shift - p : Vec{0, 0, 0};
+    cylinder::touch_edge(c, normal, p, d, 0, axis.separation, margin, out);
   }
   out.normal = -(of_cylinder.turn * normal);
   for (std::uint32_t i = 0; i < out.count; ++i)

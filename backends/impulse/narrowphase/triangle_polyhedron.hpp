@@ -89,26 +89,30 @@ PLUMB_HD inline Foremost foremost(const Triangle& t, const Vec& n) {
 template <class Surface>
 PLUMB_HD Bulge bulge_at(const Surface& on, std::uint32_t t, const Triangle& triangle, const Foremost& front,
                         const Vec& direction) {
-  return front.edge >= 0 ? bulge_at_edge(on, t, triangle, front.edge, direction)
-                         : bulge_at_corner(on, triangle.corner[front.corner], direction);
+  return bulge_of(front.edge >= 0 ? rise_at_edge(on, t, triangle, front.edge, direction)
+                                  : rise_at_corner(on, triangle.corner[front.corner], direction));
 }
 
 /// What a better axis than that of the triangle's plane means.
 enum class Touches {
-  kFace,  ///< the surface does not bulge that way: its plane holds all the same
-  kEdge,  ///< the contact is across that axis
+  kFace,    ///< the surface does not bulge that way: its plane holds all the same
+  kEdge,    ///< the contact is across that axis
+  kEither,  ///< both: across the plane if the face lies over the triangle, else across the axis
   kNeighbour
 };
-/// direction: the better axis, from the triangle to what touches, whose centre is given; by_axis and by_plane: the
-/// separations. The plane holds what comes from before it, what lies over the triangle, and what is not much deeper
-/// below it than across the other axis; but not a box that stands at a rim, and is behind the whole wall below.
+/// direction: the better axis, from the triangle to what touches, of which centre and extent across the plane are
+/// given; by_plane: the separation there. The plane holds what comes from before it, what lies over the triangle, and
+/// what is not deep below it; but not a box that stands at a rim, and is behind the whole wall below.
 template <class Surface>
-PLUMB_HD Touches what_touches(const Surface& on, std::uint32_t t, const TriangleSide& side, const Foremost& front,
-                              const Vec& direction, Real by_axis, Real by_plane, const Vec& centre) {
+PLUMB_HD Touches what_touches(const Surface& on, std::uint32_t t, const TriangleSide& side, const Vec& direction,
+                              Real by_plane, Real extent, const Vec& centre) {
+  const Real along = dot(direction, side.normal);
+  const Foremost front = foremost(side.triangle, direction);
   const Bulge bulge = front.all ? Bulge::kOut : bulge_at(on, t, side.triangle, front, direction);
-  if (bulge == Bulge::kStrict) return Touches::kEdge;
+  if (bulge == Bulge::kStrict) return along > kNearFace ? Touches::kEither : Touches::kEdge;
+  if (along > kNearFace) return Touches::kFace;
   if (bulge == Bulge::kShared) return Touches::kNeighbour;
-  const bool holds = dot(direction, side.normal) > Real(0.7) || by_plane >= 4 * by_axis || side.is_over(centre, 0);
+  const bool holds = along > Real(0.7) || -by_plane <= Real(0.25) * extent || side.is_over(centre, 0);
   return holds ? Touches::kFace : Touches::kNeighbour;
 }
 
@@ -191,24 +195,23 @@ PLUMB_HD bool touch_polyhedron(const Surface& on, std::uint32_t t, const View& v
   const Real low = shift + dot(n_b, view.vertex(view.support(-n_b))),
              high = shift + dot(n_b, view.vertex(view.support(n_b)));
   if (low > margin || high < -margin) return false;
-  choose_side(on, at.turn * view.centre() + at.shift, low, high, side);
+  if (!choose_side(on, at.turn * view.centre() + at.shift, low, high, side)) return false;
   const Real separation = side.reversed ? -high : low;
   SideAxis axis;
   if (separation > margin || !find_side_axis(side.triangle, view, at, margin, tie, axis)) return false;
 
-  out.normal = side.normal;
-  if (axis.separation > separation + tie) {
-    const Foremost front = foremost(side.triangle, axis.normal);
-    const Touches touches =
-        what_touches(on, t, side, front, axis.normal, axis.separation, separation, at.turn * view.centre() + at.shift);
-    if (touches == Touches::kNeighbour) return false;
-    if (touches == Touches::kEdge) {
-      out.normal = axis.normal;
-      touch_with_edge(side.triangle, view, at, axis, front, margin, out);
-      return out.count != 0;
-    }
+  Touches touches = Touches::kFace;
+  if (axis.separation > separation + tie)
+    touches = what_touches(on, t, side, axis.normal, separation, high - low, at.turn * view.centre() + at.shift);
+  if (touches == Touches::kNeighbour) return false;
+  if (touches != Touches::kEdge) {
+    out.normal = side.normal;
+    touch_with_face(side, view, at, separation, margin, tie, out);
   }
-  touch_with_face(side, view, at, separation, margin, tie, out);
+  if (out.count == 0 && touches != Touches::kFace) {
+    out.normal = axis.normal;
+    touch_with_edge(side.triangle, view, at, axis, foremost(side.triangle, axis.normal), margin, out);
+  }
   return out.count != 0;
 }
 

@@ -58,7 +58,7 @@ PLUMB_HD bool touch_round(const Surface& on, std::uint32_t t, const Vec& p, cons
   TriangleSide side(on.triangle(t));
   const Vec middle = p + Real(0.5) * d;
   const Real from = side.height(p), to = side.height(p + d);
-  choose_side(on, middle, min(from, to) - radius, max(from, to) + radius, side);
+  if (!choose_side(on, middle, min(from, to) - radius, max(from, to) + radius, side)) return false;
   const Real h0 = side.reversed ? -from : from, h1 = side.reversed ? -to : to;
   if (min(h0, h1) - radius > margin) return false;
 
@@ -74,9 +74,9 @@ PLUMB_HD bool touch_round(const Surface& on, std::uint32_t t, const Vec& p, cons
     const ClosestEdge closest = closest_edge(side.triangle, p, d);
     if (closest.distance < lowest - kBeside * radius) {
       const Vec direction = normalized_or(closest.away, side.normal);
-      const Bulge bulge = closest.corner >= 0 ? bulge_at_corner(on, side.triangle.corner[closest.corner], direction)
-                                              : bulge_at_edge(on, t, side.triangle, closest.edge, direction);
-      if (bulge != Bulge::kOut) {
+      const Real rise = closest.corner >= 0 ? rise_at_corner(on, side.triangle.corner[closest.corner], direction)
+                                            : rise_at_edge(on, t, side.triangle, closest.edge, direction);
+      if (rise <= kAlongPlane) {
         out.normal = direction;
         add(closest.on_triangle, closest.distance - radius,
             16U + static_cast<std::uint32_t>(closest.corner >= 0 ? 4 + closest.corner : closest.edge));

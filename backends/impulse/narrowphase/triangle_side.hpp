@@ -12,12 +12,18 @@ namespace surface {
 
 /// Sine of an angle below which a direction counts as along a neighbour's plane.
 constexpr Real kAlongPlane = Real(2e-3);
+/// And up to which it is the neighbour that touches, although it rises: along a direction so close to its normal.
+constexpr Real kNearlyAlong = Real(0.1);
 
 enum class Bulge {
   kOut,     ///< some part of the surface near by reaches further along the direction
   kShared,  ///< a neighbour's edge or face is as far
   kStrict   ///< this corner or edge is foremost by itself
 };
+/// rise: as found below.
+PLUMB_HD constexpr Bulge bulge_of(Real rise) {
+  return rise > kNearlyAlong ? Bulge::kOut : rise >= -kAlongPlane ? Bulge::kShared : Bulge::kStrict;
+}
 
 struct RingTest {
   Vec from, direction;
@@ -27,30 +33,28 @@ struct RingTest {
     const Vec along = neighbour - from;
     most = max(most, dot(direction, along) / length(along));
   }
-  [[nodiscard]] PLUMB_HD Bulge result() const {
-    return most > kAlongPlane ? Bulge::kOut : most >= -kAlongPlane ? Bulge::kShared : Bulge::kStrict;
-  }
 };
 
+/// Sine of the angle by which the steepest neighbour of a corner rises along a direction.
 template <class Surface>
-PLUMB_HD Bulge bulge_at_corner(const Surface& surface, std::uint32_t corner, const Vec& direction) {
+PLUMB_HD Real rise_at_corner(const Surface& surface, std::uint32_t corner, const Vec& direction) {
   RingTest test{surface.corner(corner), direction};
   const auto look = [&](std::uint32_t neighbour) {
     test.add(surface.corner(neighbour));
-    return test.most <= kAlongPlane;
+    return test.most <= kNearlyAlong;
   };
   surface.around(corner, look);
-  return test.result();
+  return test.most;
 }
 
-/// Of a direction across the edge from corner k of triangle t.
+/// The same at the edge from corner k of triangle t, for a direction across it.
 template <class Surface>
-PLUMB_HD Bulge bulge_at_edge(const Surface& surface, std::uint32_t t, const Triangle& triangle, int k,
-                             const Vec& direction) {
+PLUMB_HD Real rise_at_edge(const Surface& surface, std::uint32_t t, const Triangle& triangle, int k,
+                           const Vec& direction) {
   RingTest test{triangle.at[k], direction};
   test.add(triangle.at[k == 0 ? 2 : k - 1]);
   if (const std::uint32_t far = surface.across(t, k); far != kNoCorner) test.add(surface.corner(far));
-  return test.result();
+  return test.most;
 }
 
 /// The side of a triangle that pushes: its plane, and the corners counter-clockwise seen from there.
@@ -87,13 +91,14 @@ struct TriangleSide {
 };
 
 /// The outside pushes, unless what touches lies clearly behind: three quarters of its extent from low to high along the
-/// normal, and its centre. Inside a closed mesh it must also be over the triangle, or what stands on another face of it
-/// would be held back by this one.
+/// normal. Of a closed mesh the inside pushes only what is over the triangle: false for all other, which stands on
+/// another face, or its rim, and must not be held back by the wall below it.
 template <class Surface>
-PLUMB_HD void choose_side(const Surface& surface, const Vec& centre, Real low, Real high, TriangleSide& side) {
-  if (!(3 * high < -low)) return;
-  if (surface.is_closed() && !side.is_over(centre, 0)) return;
+PLUMB_HD bool choose_side(const Surface& surface, const Vec& centre, Real low, Real high, TriangleSide& side) {
+  if (!(3 * high < -low)) return true;
+  if (surface.is_closed() && !side.is_over(centre, kAlongPlane * (high - low))) return false;
   side.turn_over();
+  return true;
 }
 
 }  // namespace surface

@@ -23,6 +23,12 @@ void require_length(const std::string& what, double metres) {
   const Real length = static_cast<Real>(metres), square = length * length;
   if (!(square > 0 && is_finite(square))) refuse_range(what, metres, "m");
 }
+/// Coordinates may be 0, and small beside others.
+void require_coordinates(const std::string& name, const double* metres, std::size_t count) {
+  for (std::size_t k = 0; k < count; ++k)
+    if (const Real x = static_cast<Real>(metres[k]); !is_finite(x * x))
+      refuse_range(name + "[" + std::to_string(k) + "]", metres[k], "m");
+}
 void require_inertia(const std::string& what, double value, const char* unit) {
   const auto inverse = static_cast<Real>(1 / value);
   if (!(inverse > 0 && is_finite(inverse) && is_finite(static_cast<Real>(value)))) refuse_range(what, value, unit);
@@ -35,6 +41,15 @@ void require_range(const PlumbShapeDesc& desc, std::size_t i) {
   const bool round = desc.type == PLUMB_CAPSULE || desc.type == PLUMB_CYLINDER;
   if (desc.type == PLUMB_SPHERE || round) require_length(name + "radius", desc.radius);
   if (round && desc.half_height != 0) require_length(name + "half_height", desc.half_height);
+  if (desc.type == PLUMB_CONVEX_HULL || desc.type == PLUMB_TRIANGLE_MESH)
+    require_coordinates(name + "vertices", desc.vertices, std::size_t{3} * desc.vertex_count);
+  if (desc.type == PLUMB_HEIGHT_FIELD) {
+    require_coordinates(name + "heights", desc.heights, std::size_t{desc.rows} * desc.columns);
+    require_length(name + "spacing", desc.spacing.x);
+    require_length(name + "spacing", desc.spacing.z);
+    require_length(name + "spacing", desc.spacing.x * desc.columns);
+    require_length(name + "spacing", desc.spacing.z * desc.rows);
+  }
   if (desc.type == PLUMB_BOX)
     for (const double half : {desc.half_extents.x, desc.half_extents.y, desc.half_extents.z})
       require_length(name + "half_extents", half);

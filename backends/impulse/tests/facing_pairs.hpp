@@ -28,11 +28,12 @@ class ShapeKit {
       } else {
         add(random_hull(dice, hulls, 1, 8 * i));  // those of many corners have more than 64 edges
       }
+      add({ShapeType::kCylinder, 0, {radius, half, 0}, sqrt(radius * radius + half * half)});
     }
   }
   /// Row among `shapes`, of a shape of that type.
   [[nodiscard]] std::uint32_t row(ShapeType type, std::uint32_t i) const {
-    return static_cast<std::uint32_t>(type) + kShapeTypes * i;
+    return static_cast<std::uint32_t>(type) + kConvexTypes * i;
   }
 
   std::vector<Shape> shapes;

@@ -17,16 +17,17 @@ namespace {
 using namespace reference;
 using enum ShapeType;
 
-constexpr const char* kNames[] = {"sphere", "box", "capsule", "hull"};
+constexpr const char* kNames[] = {"sphere", "box", "capsule", "hull", "cylinder"};
 constexpr std::uint32_t kPairsOfAKind = 1U << 14;
 constexpr std::uint64_t kRounds = Executor::kWarps ? 8 : 1;  // seeds 1 to 8; each gives that many of every kind
 
 struct Kind {
   ShapeType a, b;
 };
-constexpr Kind kKinds[] = {{kSphere, kSphere}, {kSphere, kBox},  {kSphere, kCapsule}, {kSphere, kHull},
-                           {kBox, kBox},       {kBox, kCapsule}, {kBox, kHull},       {kCapsule, kCapsule},
-                           {kCapsule, kHull},  {kHull, kHull}};
+constexpr Kind kKinds[] = {{kSphere, kSphere},    {kSphere, kBox},    {kSphere, kCapsule},   {kSphere, kHull},
+                           {kBox, kBox},          {kBox, kCapsule},   {kBox, kHull},         {kCapsule, kCapsule},
+                           {kCapsule, kHull},     {kHull, kHull},     {kSphere, kCylinder},  {kBox, kCylinder},
+                           {kCapsule, kCylinder}, {kHull, kCylinder}, {kCylinder, kCylinder}};
 std::string name_of(const Kind& kind) {
   return std::string(kNames[static_cast<int>(kind.a)]) + "-" + kNames[static_cast<int>(kind.b)];
 }

@@ -168,6 +168,17 @@ TEST(Surfaces, ContactsNameTheTriangle) {
   }
 }
 
+/// More triangles under one body than there was room for, and than there are colours.
+TEST(Surfaces, ALargeBoxRestsOnManySmallTriangles) {
+  Scene scene(engine(), kNeeds, kDown, 1);
+  scene.add_static(scene.make(flat_grid(60, 0.06).desc()), {0, 0, 0});
+  scene.add(scene.box({0.9, 0.2, 0.9}), {0, 0.21, 0});
+  scene.run(60);
+  EXPECT_GT(scene.world().contacts().size(), 1024U);
+  EXPECT_NEAR(scene.poses().back().position.y, 0.2, 0.01);
+  EXPECT_NEAR(scene.poses().back().position.x, 0, 0.01);
+}
+
 TEST(Surfaces, FlatTrianglesOfNoAreaAreLeftOut) {
   Scene scene(engine(), kNeeds, kDown, 1);
   TriangleSet set = flat_grid(4, 1);
@@ -177,6 +188,52 @@ TEST(Surfaces, FlatTrianglesOfNoAreaAreLeftOut) {
   scene.add(scene.box({0.3, 0.3, 0.3}), {0, 0.3, 0});
   scene.run(60);
   EXPECT_NEAR(scene.poses().back().position.y, 0.3, 0.01);
+}
+
+PlumbShape make_cylinder(Scene& scene, double radius, double half) {
+  PlumbShapeDesc desc = shape_desc(PLUMB_CYLINDER);
+  desc.radius = radius;
+  desc.half_height = half;
+  return scene.make(desc);
+}
+
+TEST(RoundBodies, CylindersStandAndStackOnEveryGround) {
+  for (const Ground ground : {Ground::kBox, Ground::kPlane, Ground::kMesh, Ground::kField}) {
+    Scene scene(engine(), kNeeds, kDown, 1);
+    add_ground(scene, ground);
+    const PlumbShape thick = make_cylinder(scene, 0.5, 0.5), thin = make_cylinder(scene, 0.3, 0.4);
+    scene.add(thick, {0.2, 0.51, 0.1});
+    scene.add(thick, {0.2, 1.52, 0.1});
+    scene.add(thin, {0.2, 2.43, 0.1});
+    scene.add(scene.box({0.3, 0.3, 0.3}), {0.2, 3.14, 0.1});
+    scene.run(240);
+    const std::vector<PlumbPose> poses = scene.poses();
+    const double heights[] = {0.5, 1.5, 2.4, 3.1};
+    for (std::size_t i = 0; i < 4; ++i) {
+      SCOPED_TRACE("ground " + std::to_string(static_cast<int>(ground)) + " body " + std::to_string(i));
+      EXPECT_NEAR(poses[i + 1].position.y, heights[i], 0.01);
+      EXPECT_NEAR(poses[i + 1].position.x, 0.2, 0.01);
+      EXPECT_NEAR(poses[i + 1].position.z, 0.1, 0.01);
+    }
+  }
+}
+
+/// A rolling cylinder keeps its speed and its heading.
+TEST(RoundBodies, CylindersRollTrueOnEveryGround) {
+  for (const Ground ground : {Ground::kBox, Ground::kPlane, Ground::kMesh, Ground::kField}) {
+    SCOPED_TRACE("ground " + std::to_string(static_cast<int>(ground)));
+    Scene scene(engine(), kNeeds, kDown, 1);
+    add_ground(scene, ground);
+    const double half = std::sqrt(0.5);
+    scene.body.linear_velocity = {2, 0, 0};
+    scene.body.angular_velocity = {0, 0, -4};
+    scene.add(make_cylinder(scene, 0.5, 0.7), {0, 0.5, 0}, {half, 0, 0, half});
+    scene.run(240);
+    const PlumbVec3 at = scene.poses()[1].position;
+    EXPECT_NEAR(at.x, 8, 0.02);
+    EXPECT_NEAR(at.y, 0.5, 0.005);
+    EXPECT_NEAR(at.z, 0, 0.01);
+  }
 }
 
 }  // namespace

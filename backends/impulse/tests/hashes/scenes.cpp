@@ -1,5 +1,6 @@
 // The scenes whose hashes are recorded.
 #include "hashes/scene.hpp"
+#include "hashes/shape_scenes.hpp"
 
 namespace plumb::impulse::test {
 
@@ -230,6 +231,9 @@ const std::vector<NamedScene>& named_scenes() {
       {"pyramid-10-si", {"solver", "si"}, kContactNeeds, kDown, &pyramid_10},
       {"pyramid-10-jacobi", {"solver", "jacobi"}, kContactNeeds, kDown, &pyramid_10},
       {"pyramid-10-xpbd", {"solver", "xpbd"}, kContactNeeds, kDown, &pyramid_10},
+      {"cylinders", {}, kAll, kDown, &pile_of_cylinders},
+      {"compounds", {}, kAll, kDown, &pile_of_compounds},
+      {"surfaces", {}, kAll | PLUMB_NEED_KINEMATIC, kDown, &pile_on_surfaces},
       {"pyramid-20-once", {"relaxation", "step"}, kContactNeeds, kDown, &pyramid_20},
   };
   return scenes;

@@ -1,0 +1,112 @@
+#include "hashes/shape_scenes.hpp"
+
+namespace plumb::impulse::test {
+
+namespace {
+
+PlumbShape make_cylinder(Scene& scene, double radius, double half) {
+  PlumbShapeDesc desc = shape_desc(PLUMB_CYLINDER);
+  desc.radius = radius;
+  desc.half_height = half;
+  return scene.make(desc);
+}
+PlumbShape make_compound(Scene& scene, const std::vector<PlumbCompoundChild>& children) {
+  PlumbShapeDesc desc = shape_desc(PLUMB_COMPOUND);
+  desc.children = children.data();
+  desc.child_count = static_cast<std::uint32_t>(children.size());
+  return scene.make(desc);
+}
+PlumbCompoundChild child(PlumbShape shape, const PlumbVec3& position) {
+  return {shape, {position, {0, 0, 0, 1}}, 0, 0, {}};
+}
+
+/// One of each convex type, of about half a metre.
+std::vector<PlumbShape> convex_shapes(Scene& scene) {
+  return {scene.sphere(0.25), scene.box({0.2, 0.25, 0.3}), scene.capsule(0.15, 0.2), make_cylinder(scene, 0.25, 0.2),
+          scene.hull({{0.3, -0.2, 0}, {-0.2, -0.2, 0.25}, {-0.2, -0.2, -0.25}, {0, 0.3, 0}, {0.1, 0.1, 0.2}})};
+}
+
+constexpr std::uint32_t kCells = 24;
+constexpr double kSide = 0.4;
+/// Hills of numbers that every machine computes alike.
+double hill(std::uint32_t column, std::uint32_t row) {
+  const double x = static_cast<double>(column % 8) - 4, z = static_cast<double>(row % 6) - 3;
+  return 0.03 * (x * x - 8) + 0.02 * z * z;
+}
+std::vector<double> hills() {
+  std::vector<double> heights;
+  for (std::uint32_t row = 0; row <= kCells; ++row)
+    for (std::uint32_t column = 0; column <= kCells; ++column) heights.push_back(hill(column, row));
+  return heights;
+}
+PlumbShape make_mesh(Scene& scene, const std::vector<double>& heights) {
+  std::vector<double> vertices;
+  std::vector<std::uint32_t> indices;
+  for (std::uint32_t row = 0; row <= kCells; ++row)
+    for (std::uint32_t column = 0; column <= kCells; ++column) {
+      const std::uint32_t near = row * (kCells + 1) + column, far = near + kCells + 1;
+      vertices.insert(vertices.end(), {(column - kCells / 2.0) * kSide, heights[near], (row - kCells / 2.0) * kSide});
+      if (row < kCells && column < kCells) indices.insert(indices.end(), {near, far, near + 1, near + 1, far, far + 1});
+    }
+  PlumbShapeDesc desc = shape_desc(PLUMB_TRIANGLE_MESH);
+  desc.vertices = vertices.data();
+  desc.vertex_count = static_cast<std::uint32_t>(vertices.size() / 3);
+  desc.indices = indices.data();
+  desc.triangle_count = static_cast<std::uint32_t>(indices.size() / 3);
+  return scene.make(desc);
+}
+PlumbShape make_field(Scene& scene, const std::vector<double>& heights) {
+  PlumbShapeDesc desc = shape_desc(PLUMB_HEIGHT_FIELD);
+  desc.heights = heights.data();
+  desc.rows = desc.columns = kCells + 1;
+  desc.spacing = {kSide, 0, kSide};
+  return scene.make(desc);
+}
+
+}  // namespace
+
+void pile_of_cylinders(Scene& scene) {
+  scene.container(3, 20);
+  const std::vector<PlumbShape> shapes = convex_shapes(scene);
+  const PlumbShape drum = make_cylinder(scene, 0.3, 0.25);
+  for (int i = 0; i < 5; ++i) scene.add(drum, {-2, 0.25 + 0.5 * i, -2});
+  Random random(41);
+  for (int i = 0; i < 120; ++i)
+    scene.add(i % 2 == 0 ? shapes[3] : shapes[static_cast<std::size_t>(i / 2 % 5)],
+              {0.7 * (i % 5) - 1.4, 1 + 0.7 * (i / 25), 0.7 * (i / 5 % 5) - 1.4}, random.turn());
+}
+
+void pile_of_compounds(Scene& scene) {
+  scene.add_static(scene.make(shape_desc(PLUMB_PLANE)), {0, 0, 0});
+  const std::vector<PlumbShape> shapes = convex_shapes(scene);
+  const PlumbShape dumbbell = make_compound(
+      scene, {child(shapes[0], {-0.4, 0, 0}), child(shapes[0], {0.4, 0, 0}), child(shapes[3], {0, 0, 0})});
+  std::vector<PlumbCompoundChild> parts = {child(shapes[1], {0, -0.3, 0}), child(shapes[2], {0, 0.2, 0})};
+  parts[0].has_material = 1;
+  parts[0].material.friction = 0.1;
+  const PlumbShape hammer = make_compound(scene, parts);
+  Random random(42);
+  for (int i = 0; i < 80; ++i)
+    scene.add(i % 3 == 0   ? dumbbell
+              : i % 3 == 1 ? hammer
+                           : shapes[static_cast<std::size_t>(i % 5)],
+              {1.1 * (i % 4) - 1.6, 1 + 1.1 * (i / 16), 1.1 * (i / 4 % 4) - 1.6}, random.turn());
+}
+
+void pile_on_surfaces(Scene& scene) {
+  const std::vector<double> heights = hills();
+  const PlumbShape mesh = make_mesh(scene, heights);
+  scene.add_static(mesh, {0, 0, 0});
+  scene.add_static(make_field(scene, heights), {kCells * kSide, 0, 0});
+  const PlumbBody lift = scene.add_kinematic(mesh, {0, 0, -kCells * kSide});
+  const std::vector<PlumbShape> shapes = convex_shapes(scene);
+  Random random(43);
+  for (int i = 0; i < 150; ++i)
+    scene.add(shapes[static_cast<std::size_t>(i % 5)], {random.between(-3, 12), 1 + 0.05 * i, random.between(-8, 3)},
+              random.turn());
+  scene.before_step = [lift](Scene& moved, int step) {
+    moved.target(lift, {0, 0.004 * (step + 1), -kCells * kSide + 0.002 * (step + 1)});
+  };
+}
+
+}  // namespace plumb::impulse::test
