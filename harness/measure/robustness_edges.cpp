@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "measure/args.hpp"
+#include "measure/mechanics.hpp"
 #include "measure/robustness.hpp"
 #include "measure/series.hpp"
 
