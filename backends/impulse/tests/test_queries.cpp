@@ -475,6 +475,27 @@ TEST_F(Queries, ChangeNothingOfTheStep) {
   EXPECT_EQ(tumble(true), tumble(false));
 }
 
+TEST_F(Queries, SeeSleepersAndWhereTheyAreWhenTheyHaveWoken) {
+  Scene scene(engine(), kNeeds | PLUMB_NEED_SLEEPING, {0, -9.81, 0}, 1);
+  scene.ground();
+  const PlumbBody cube = scene.add(scene.box({0.5, 0.5, 0.5}), {0, 0.5, 0});
+  const auto seen_at = [&](double x) {
+    const PlumbRay ray = {{x, 5, 0}, {0, -10, 0}, kSeesAll};
+    return scene.world().queries()->cast_rays(PLUMB_HIT_CLOSEST, {&ray, 1}).hits[0].body == cube;
+  };
+  EXPECT_TRUE(seen_at(0));
+  scene.run(200);
+  double awake = 1;
+  check(scene.world(), scene.world().read(PLUMB_FIELD_AWAKE, {&cube, 1}, rows_over(std::span(&awake, 1))));
+  ASSERT_EQ(awake, 0);
+  EXPECT_TRUE(seen_at(0));
+  scene.write(PLUMB_FIELD_VELOCITY, cube, {6, 0, 0, 0, 0, 0});
+  EXPECT_TRUE(seen_at(0));
+  scene.run(30);
+  EXPECT_FALSE(seen_at(0));
+  EXPECT_TRUE(seen_at(2.4));
+}
+
 /// Places that halve their way to a corner make a tree of one leaf a level, and the ray meets all of it.
 TEST_F(Queries, DeepTreesAreSearchedToTheEnd) {
   QueryRig rig;
