@@ -171,45 +171,62 @@ void rays_after_motion(Conformance& c) {
            "a destroyed ball is still seen");
 }
 
-/// A sphere that is cast hits spheres where a ray hits ones that are larger by its radius, and boxes no later than
-/// that.
-void casts(Conformance& c) {
-  c.require_needs(kQueryNeeds);
-  c.require(PLUMB_CAP_QUERY, PLUMB_QUERY_CAST, PLUMB_SPHERE, "sphere casts");
+/// Along the way of a cast up to its hit nothing may be overlapped by more than a hair, and at it something must be
+/// touched; what overlaps at the start is hit there.
+void compare_casts(Conformance& c, PlumbShapeType type) {
   Cloud cloud(c, 0, 40);
-  const double radius = 0.3;
-  PlumbShapeDesc desc = shape_desc(PLUMB_SPHERE);
-  desc.radius = radius;
+  PlumbShapeDesc desc = shape_desc(type);
+  desc.radius = 0.3;
+  desc.half_height = 0.25;
+  desc.half_extents = {0.3, 0.2, 0.4};
   const PlumbShape shape = cloud.probe.shape(desc);
-  const referee::ShapePtr ball = referee::Shape::make(desc);
-  std::vector<PlumbCast> batch;
-  for (const PlumbRay& ray : random_rays(cloud, 120, kSeesAll)) {
-    bool overlaps = false;
-    for (const Cloud::Item& item : cloud.items)
-      overlaps =
-          overlaps ||
-          referee::penetration(*ball, {referee::Mat3::Identity(), vec(ray.origin)}, *item.shape, item.pose).depth >
-              -0.01;
-    if (!overlaps) batch.push_back({shape, {ray.origin, {0, 0, 0, 1}}, ray.translation, kSeesAll});
+  const referee::ShapePtr moved = referee::Shape::make(desc);
+  const auto depth_of = [&](const PlumbPose& pose, const Cloud::Item& item) {
+    return referee::penetration(*moved, referee::pose(pose), *item.shape, item.pose).depth;
+  };
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  std::vector<PlumbCast> batch, from_within;
+  for (const PlumbRay& ray : random_rays(cloud, 160, kSeesAll)) {
+    const Eigen::Quaterniond q =
+        Eigen::Quaterniond(unit(random), unit(random), unit(random), unit(random)).normalized();
+    const PlumbCast cast = {shape, {ray.origin, {q.x(), q.y(), q.z(), q.w()}}, ray.translation, kSeesAll};
+    double depth = -1;
+    for (const Cloud::Item& item : cloud.items) depth = std::max(depth, depth_of(cast.pose, item));
+    if (depth < -0.01) batch.push_back(cast);
+    if (depth > 0.05) from_within.push_back(cast);  // beyond an engine's margin
   }
-  const Hits hits = cloud.probe.world().queries()->cast_shapes(PLUMB_HIT_CLOSEST, batch);
-  c.expect(hits.hits.size() == batch.size(), "{} closest hits for {} casts", hits.hits.size(), batch.size());
+  const Hits found = cloud.probe.world().queries()->cast_shapes(PLUMB_HIT_CLOSEST, batch);
+  const char* name = backend::shape_name(type);
+  c.expect(found.hits.size() == batch.size(), "{} closest hits for {} casts of a {}", found.hits.size(), batch.size(),
+           name);
   int wrong = 0;
-  for (std::size_t i = 0; i < hits.hits.size(); ++i) {
-    // Along the way up to the hit nothing may be overlapped by more than a hair, and at it something must be touched.
-    const double fraction = hits.hits[i].body == 0 ? 1 : hits.hits[i].fraction;
+  for (std::size_t i = 0; i < found.hits.size(); ++i) {
+    const double fraction = found.hits[i].body == 0 ? 1 : found.hits[i].fraction;
     double deepest = -1, at_end = -1;
     for (const double part : {0.25, 0.5, 0.75, 0.98, 1.0})
       for (const Cloud::Item& item : cloud.items) {
-        const Vec centre = vec(batch[i].pose.position) + part * fraction * vec(batch[i].translation);
-        const double depth =
-            referee::penetration(*ball, {referee::Mat3::Identity(), centre}, *item.shape, item.pose).depth;
+        PlumbPose pose = batch[i].pose;
+        pose.position = vec3(vec(pose.position) + part * fraction * vec(batch[i].translation));
+        const double depth = depth_of(pose, item);
         deepest = std::max(deepest, depth);
-        if (part == 1.0 && item.body == hits.hits[i].body) at_end = depth;
+        if (part == 1.0 && item.body == found.hits[i].body) at_end = depth;
       }
-    if (deepest > 0.05 || (hits.hits[i].body != 0 && std::abs(at_end) > 0.05)) ++wrong;
+    if (deepest > 0.05 || (found.hits[i].body != 0 && std::abs(at_end) > 0.05)) ++wrong;
   }
-  c.expect(wrong <= 2, "{} of {} sphere casts end too late or too early", wrong, batch.size());
+  c.expect(wrong <= 2, "{} of {} casts of a {} end too late or too early", wrong, batch.size(), name);
+  const Hits at_start = cloud.probe.world().queries()->cast_shapes(PLUMB_HIT_CLOSEST, from_within);
+  for (const PlumbHit& hit : at_start.hits)
+    c.expect(hit.body != 0 && hit.fraction == 0, "a {} that overlaps at the start hits at fraction {:.4f}", name,
+             hit.fraction);
+  c.expect(!from_within.empty(), "no cast of a {} overlaps at the start", name);
+}
+
+void casts(Conformance& c) {
+  c.require_needs(kQueryNeeds);
+  c.require(PLUMB_CAP_QUERY, PLUMB_QUERY_CAST, PLUMB_SPHERE, "sphere casts");
+  for (const PlumbShapeType type : {PLUMB_SPHERE, PLUMB_BOX, PLUMB_CAPSULE})
+    if (c.backend().capability(PLUMB_CAP_QUERY, PLUMB_QUERY_CAST, type) != PLUMB_NONE) compare_casts(c, type);
 }
 
 void overlaps(Conformance& c) {
@@ -320,7 +337,7 @@ constexpr Check kChecks[] = {
     {"queries.rays", "closest and all hits of rays against brute force", &rays},
     {"queries.filtered", "rays see by the filters' rule", &filtered_rays},
     {"queries.moved", "rays see bodies where they are now", &rays_after_motion},
-    {"queries.casts", "sphere casts end where they touch", &casts},
+    {"queries.casts", "casts end where they touch, or start", &casts},
     {"queries.overlaps", "overlaps against the referee", &overlaps},
     {"collide.pairs", "collision without a step against the referee", &stepless},
     {"debug.pairs", "candidate pairs hold every overlap", &candidates},
