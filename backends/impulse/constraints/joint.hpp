@@ -45,6 +45,13 @@ struct Joint {
   Position world_anchor;  ///< of frame a where body_a is kWorld
 };
 
+/// Of a joint, in words that let a compiler see how few there are.
+PLUMB_HD inline int row_count(const Joint& joint) {
+  const int rows = joint.rows;
+  if (rows < 0 || rows > kJointRows) __builtin_unreachable();
+  return rows;
+}
+
 /// A joint's frames as they stand.
 struct JointPlace {
   Vec gap;           ///< from the origin of frame a to that of frame b, m

@@ -132,17 +132,17 @@ PLUMB_HD inline void all_errors(const Joint& joint, const JointAxes& axes, const
                                 Real (&error)[kJointRows]) {
   joint_errors(joint, place, error);
   const int first = rows_of(joint.type);
-  if (first == joint.rows) return;
+  if (first == row_count(joint)) return;
   const JointAxesPlace at = axes_of(place);
-  for (int i = first; i < joint.rows; ++i) error[i] = axis_error(axes.row[i - first], place, at);
+  for (int i = first; i < row_count(joint); ++i) error[i] = axis_error(axes.row[i - first], place, at);
 }
 PLUMB_HD inline void all_rows(const Joint& joint, const JointAxes& axes, const JointPlace& place,
                               JointRow (&rows)[kJointRows]) {
   joint_rows(joint, place, rows);
   const int first = rows_of(joint.type);
-  if (first == joint.rows) return;
+  if (first == row_count(joint)) return;
   const JointAxesPlace at = axes_of(place);
-  for (int i = first; i < joint.rows; ++i) rows[i] = axis_row(axes.row[i - first], place, at);
+  for (int i = first; i < row_count(joint); ++i) rows[i] = axis_row(axes.row[i - first], place, at);
 }
 
 }  // namespace plumb::impulse

@@ -10,7 +10,7 @@ namespace plumb::impulse {
 inline constexpr Real kGiveShare = sizeof(Real) == 8 ? Real(1e-10) : Real(1e-5);
 /// A row changes its mind no more often than this in a pass.
 inline constexpr std::uint32_t kMostChanges = 4;
-/// Rounds in a pass: after these rows are cut to what their laws allow, and the next sub-step goes on.
+/// Rounds in a pass; a mechanism that needs more is solved joint by joint.
 inline constexpr std::uint32_t kMostRounds = 12;
 
 /// Beside JointWork.
@@ -78,7 +78,7 @@ PLUMB_HD inline void refresh_axis_joint(const AxisView& view, std::uint32_t j) {
   if (reaction.born == joint.born) return;
   reaction.born = joint.born;
   const Real inverse_mass = view.velocity(joint.body_a).inverse_mass + view.velocity(joint.body_b).inverse_mass;
-  for (int i = rows_of(joint.type); i < joint.rows; ++i)
+  for (int i = rows_of(joint.type); i < row_count(joint); ++i)
     reaction.spring_mass[i] = spring_mass(axes, own.whole(i, i), inverse_mass);
 }
 
@@ -86,7 +86,7 @@ PLUMB_HD inline void refresh_axis_joint(const AxisView& view, std::uint32_t j) {
 PLUMB_HD inline void speeds_now(const AxisView& view, std::uint32_t j, const Velocity& a, const Velocity& b,
                                 Real (&speed)[kJointRows]) {
   const JointWork& work = view.work[j];
-  for (int i = 0; i < view.joints[j].rows; ++i)
+  for (int i = 0; i < row_count(view.joints[j]); ++i)
     speed[i] = dot(work.rows[i].direction, b.linear - a.linear) + dot(work.rows[i].on_a, a.angular) +
                dot(work.rows[i].on_b, b.angular);
 }
@@ -101,7 +101,7 @@ PLUMB_HD inline void speeds_over_places(const AxisView& view, std::uint32_t j, c
                                        view.end_after(joint.body_b, b, time.h));
   all_errors(joint, axes, place, speed);
   const int first = rows_of(joint.type);
-  for (int i = 0; i < joint.rows; ++i) {
+  for (int i = 0; i < row_count(joint); ++i) {
     Real moved = speed[i] - work.error[i];
     if (i >= first && axes.row[i - first].kind == RowKind::kAngle) moved = wrapped(moved);
     speed[i] = moved * time.inverse_h;
@@ -113,7 +113,7 @@ PLUMB_HD inline void speeds_over_places(const AxisView& view, std::uint32_t j, c
 PLUMB_HD inline void row_speeds(const AxisView& view, std::uint32_t j, const RowTime& time, const Velocity& a,
                                 const Velocity& b, bool anew, Real (&speed)[kJointRows]) {
   AxisWork& own = view.parts.work[j];
-  const int n = view.joints[j].rows;
+  const int n = row_count(view.joints[j]);
   if (time.pass != RowPass::kPlaces) return speeds_now(view, j, a, b, speed);
   if (anew) {
     Real now[kJointRows];
@@ -157,13 +157,13 @@ PLUMB_HD inline bool choose_pieces(const AxisView& view, std::uint32_t j, const 
   const Joint& joint = view.joints[j];
   AxisWork& own = view.parts.work[j];
   const Real* total = view.total(j);
-  const bool all_held = rows_of(joint.type) == joint.rows;
-  for (int i = 0; i < joint.rows; ++i) jump[i] = 0;
+  const bool all_held = rows_of(joint.type) == row_count(joint);
+  for (int i = 0; i < row_count(joint); ++i) jump[i] = 0;
   if (all_held && !first_round) return false;
   Real speed[kJointRows]{};
   if (!all_held || time.pass == RowPass::kMoved) row_speeds(view, j, time, a, b, first_round, speed);
   bool changed = false;
-  for (int i = 0; i < joint.rows; ++i) {
+  for (int i = 0; i < row_count(joint); ++i) {
     const Real mobility = own.whole(i, i);
     if (first_round) {
       own.before[i] = speed[i];
@@ -212,7 +212,7 @@ PLUMB_HD inline void row_residuals(const AxisView& view, std::uint32_t j, const 
   const AxisWork& own = view.parts.work[j];
   const Real* total = view.total(j);
   row_speeds(view, j, time, a, b, anew, y);
-  for (int i = 0; i < view.joints[j].rows; ++i) {
+  for (int i = 0; i < row_count(view.joints[j]); ++i) {
     if (!own.is_active(i))
       y[i] = 0;
     else if (is_hard(own.piece[i]))
@@ -222,17 +222,18 @@ PLUMB_HD inline void row_residuals(const AxisView& view, std::uint32_t j, const 
   }
 }
 
-/// At the end of a pass: cut says that rounds ran out. change: what brings impulses back to what the laws allow.
-PLUMB_HD inline void settle_pieces(const AxisView& view, std::uint32_t j, const RowTime& time, bool cut,
+/// At the end of a pass. change: what brings impulses to what the laws allow, of rows that might not change their minds
+/// any more.
+PLUMB_HD inline void settle_pieces(const AxisView& view, std::uint32_t j, const RowTime& time,
                                    Real (&change)[kJointRows]) {
   const Joint& joint = view.joints[j];
   AxisWork& own = view.parts.work[j];
   const Real* total = view.total(j);
-  for (int i = 0; i < joint.rows; ++i) change[i] = 0;
-  for (int i = rows_of(joint.type); i < joint.rows; ++i) {
+  for (int i = 0; i < row_count(joint); ++i) change[i] = 0;
+  for (int i = rows_of(joint.type); i < row_count(joint); ++i) {
     if (own.piece[i] == RowPiece::kHeld) continue;
     const RowLaw law = law_of_row(view, j, i, time);
-    if (cut) change[i] = law.allowed(own.piece[i], total[i]) - total[i];
+    change[i] = law.allowed(own.piece[i], total[i]) - total[i];
     if (time.pass != RowPass::kPlaces) continue;
     own.reached[i] = own.piece[i];
     own.spring[i] =
@@ -270,7 +271,7 @@ class RoundCount {
 /// What takes the impulses back to where the pass began.
 PLUMB_HD inline void take_back(const AxisView& view, std::uint32_t j, Real (&change)[kJointRows]) {
   const Real* total = view.total(j);
-  for (int i = 0; i < view.joints[j].rows; ++i) change[i] = view.parts.work[j].start[i] - total[i];
+  for (int i = 0; i < row_count(view.joints[j]); ++i) change[i] = view.parts.work[j].start[i] - total[i];
 }
 
 /// One joint by itself, exactly. Changes the velocities given, and the total.
@@ -282,8 +283,8 @@ PLUMB_HD inline void solve_axis_rows(const AxisView& view, std::uint32_t j, cons
   Real* total = view.total(j);
   Real change[kJointRows];
   const auto push = [&] {
-    for (int i = 0; i < joint.rows; ++i) total[i] = total[i] + change[i];
-    push_joint(work, joint.rows, change, a, b);
+    for (int i = 0; i < row_count(joint); ++i) total[i] = total[i] + change[i];
+    push_joint(work, row_count(joint), change, a, b);
   };
   RoundCount rounds;
   for (bool go = true; go;) {
@@ -292,15 +293,15 @@ PLUMB_HD inline void solve_axis_rows(const AxisView& view, std::uint32_t j, cons
     if (kind == RoundKind::kNone) break;
     push();
     if (has_new_matrix(kind)) {
-      mask_matrix(own, joint.rows, work.factor);
-      factor(work.factor, joint.rows);
+      mask_matrix(own, row_count(joint), work.factor);
+      factor(work.factor, row_count(joint));
     }
     row_residuals(view, j, time, a, b, has_new_tangent(kind), change);
-    solve_factored(work.factor, joint.rows, change);
+    solve_factored(work.factor, row_count(joint), change);
     push();
-    go = rows_of(joint.type) != joint.rows;
+    go = rows_of(joint.type) != row_count(joint);
   }
-  settle_pieces(view, j, time, rounds.ran_out(), change);
+  settle_pieces(view, j, time, change);
   push();
 }
 
@@ -327,7 +328,7 @@ PLUMB_HD inline void add_reaction(const AxisView& view, std::uint32_t j) {
   JointReaction& reaction = view.reaction(j);
   const Real* total = view.total(j);
   const Vec arm = rotate(view.end(joint.body_b).orientation, joint.frame_b.position);
-  for (int i = 0; i < joint.rows; ++i) {
+  for (int i = 0; i < row_count(joint); ++i) {
     const Real gained = total[i] - reaction.counted[i];
     reaction.force += gained * work.rows[i].direction;
     reaction.torque += gained * (work.rows[i].on_b - cross(arm, work.rows[i].direction));

@@ -10,7 +10,7 @@ PLUMB_HD inline void solve_joint_with_bias(const JointView& view, std::uint32_t 
   const Joint& joint = view.joints[j];
   const JointWork& work = view.work[j];
   JointImpulse& total = view.impulses[joint.slot];
-  const int n = joint.rows;
+  const int n = row_count(joint);
   const Velocity a = view.velocity(joint.body_a), b = view.velocity(joint.body_b);
   Real impulse[kJointRows];
   joint_residuals(view, j, JointPass{}, a, b, impulse);

@@ -19,7 +19,7 @@ PLUMB_HD inline void correct_joint(const JointView& view, std::uint32_t j, const
   refresh_joint(view, j);
   const Joint& joint = view.joints[j];
   const JointWork& work = view.work[j];
-  const int n = joint.rows;
+  const int n = row_count(joint);
   Real impulse[kJointRows];
   for (int i = 0; i < n; ++i) impulse[i] = -(step.inverse_h * work.error[i]);
   solve_factored(work.factor, n, impulse);
@@ -38,7 +38,7 @@ PLUMB_HD inline void correct_axis_joint(const AxisView& view, std::uint32_t j, c
   const Joint& joint = view.joints[j];
   refresh_axis_joint(view, j);
   begin_reaction(view, j, first);
-  for (int i = 0; i < joint.rows; ++i) view.total(j)[i] = 0;
+  for (int i = 0; i < row_count(joint); ++i) view.total(j)[i] = 0;
   const Velocity a = view.velocity(joint.body_a), b = view.velocity(joint.body_b);
   Velocity new_a = a, new_b = b;
   solve_axis_rows(view, j, {RowPass::kMoved, step.h, step.inverse_h, step.inverse_h, 0}, new_a, new_b);

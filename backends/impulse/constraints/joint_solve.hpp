@@ -90,7 +90,7 @@ PLUMB_HD inline void find_mobility(const JointView& view, const Joint& joint, co
   const Sym inertia_a = view.inverse_inertia(joint.body_a, a.orientation);
   const Sym inertia_b = view.inverse_inertia(joint.body_b, b.orientation);
   const Real inverse_mass = view.velocity(joint.body_a).inverse_mass + view.velocity(joint.body_b).inverse_mass;
-  const int n = joint.rows;
+  const int n = row_count(joint);
   for (int i = 0; i < n; ++i) {
     work.turn_a[i] = inertia_a * work.rows[i].on_a;
     work.turn_b[i] = inertia_b * work.rows[i].on_b;
@@ -112,7 +112,7 @@ PLUMB_HD inline void make_joint_rows(const JointView& view, std::uint32_t j) {
 }
 
 PLUMB_HD inline void factor_joint(const JointView& view, std::uint32_t j) {
-  factor(view.work[j].factor, view.joints[j].rows);
+  factor(view.work[j].factor, row_count(view.joints[j]));
 }
 /// Both, for a joint that is solved by itself.
 PLUMB_HD inline void refresh_joint(const JointView& view, std::uint32_t j) {
@@ -125,7 +125,7 @@ PLUMB_HD inline void joint_residuals(const JointView& view, std::uint32_t j, con
                                      const Velocity& b, Real (&residual)[kJointRows]) {
   const Joint& joint = view.joints[j];
   const JointWork& work = view.work[j];
-  const int n = joint.rows;
+  const int n = row_count(joint);
   if (!pass.take_back_error) {
     for (int i = 0; i < n; ++i)
       residual[i] = dot(work.rows[i].direction, b.linear - a.linear) + dot(work.rows[i].on_a, a.angular) +
@@ -149,7 +149,7 @@ PLUMB_HD inline void take_over_impulse(const JointView& view, std::uint32_t j, c
 
 PLUMB_HD inline void keep_change(const JointView& view, std::uint32_t j) {
   JointImpulse& impulse = view.impulses[view.joints[j].slot];
-  for (int i = 0; i < view.joints[j].rows; ++i) impulse.along[i] = impulse.along[i] + view.work[j].change[i];
+  for (int i = 0; i < row_count(view.joints[j]); ++i) impulse.along[i] = impulse.along[i] + view.work[j].change[i];
 }
 
 /// The impulses that the joint had before act again, along its rows as they are now.
@@ -158,7 +158,7 @@ PLUMB_HD inline void warm_start_joint(const JointView& view, std::uint32_t j, bo
   if (first) take_over_impulse(view, j, step);
   const Velocity a = view.velocity(joint.body_a), b = view.velocity(joint.body_b);
   Velocity new_a = a, new_b = b;
-  push_joint(view.work[j], joint.rows, view.impulses[joint.slot].along, new_a, new_b);
+  push_joint(view.work[j], row_count(joint), view.impulses[joint.slot].along, new_a, new_b);
   view.store(joint.body_a, a, new_a);
   view.store(joint.body_b, b, new_b);
 }
@@ -167,7 +167,7 @@ PLUMB_HD inline void solve_joint(const JointView& view, std::uint32_t j, const J
   const Joint& joint = view.joints[j];
   const JointWork& work = view.work[j];
   JointImpulse& total = view.impulses[joint.slot];
-  const int n = joint.rows;
+  const int n = row_count(joint);
   const Velocity a = view.velocity(joint.body_a), b = view.velocity(joint.body_b);
   Real impulse[kJointRows];
   joint_residuals(view, j, pass, a, b, impulse);

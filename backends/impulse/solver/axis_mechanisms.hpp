@@ -77,9 +77,9 @@ PLUMB_DEVICE inline void solve_axis_system(Team& team, const JointSet& joints, c
     for (std::uint32_t sweep = 0; sweep < kSweeps; ++sweep) sweep_system(team, joints, time);
     return;  // each joint has settled its pieces
   }
-  team.each(count, [=](std::uint32_t column) {
-    settle_pieces(view, system.base + column, time, false, system.work(column).change);
-  });
+  team.each(count,
+            [=](std::uint32_t column) { settle_pieces(view, system.base + column, time, system.work(column).change); });
+  push_changes(team, system);
 }
 
 PLUMB_DEVICE inline void add_reactions(Team& team, const JointSet& joints) {

@@ -42,7 +42,7 @@ struct JointSystem {
   const std::uint32_t* body_first;
   const JointOnBody* on_body;
 
-  PLUMB_HD int rows(std::uint32_t column) const { return view.joints[base + column].rows; }
+  PLUMB_HD int rows(std::uint32_t column) const { return row_count(view.joints[base + column]); }
   PLUMB_HD JointWork& work(std::uint32_t column) const { return view.work[base + column]; }
 };
 
@@ -97,7 +97,7 @@ PLUMB_HD void eliminate_column(const JointSystem& system, std::uint32_t j, const
   for (std::uint32_t e = system.column_first[j]; e < system.column_first[j + 1]; ++e) {
     const std::uint32_t i = system.entries[e].row;
     const int rows = system.rows(i);
-    JointBlock block{};
+    JointBlock block;
     for (int p = 0; p < rows; ++p)
       for (int q = 0; q < n; ++q) block.at[p][q] = coupled(i, p, j, q);
     for (std::uint32_t t = system.product_first[e]; t < system.product_first[e + 1]; ++t) {
@@ -170,7 +170,7 @@ PLUMB_HD inline void push_body(const JointSystem& system, std::uint32_t place, b
     const JointWork& work = system.view.work[on.joint];
     const Joint& joint = system.view.joints[on.joint];
     const Real* impulse = total ? system.view.impulses[joint.slot].along : work.change;
-    for (int i = 0; i < joint.rows; ++i) {
+    for (int i = 0; i < row_count(joint); ++i) {
       const Real along = after.inverse_mass * impulse[i];
       after.linear += (on.is_b ? along : -along) * work.rows[i].direction;
       after.angular += impulse[i] * (on.is_b ? work.turn_b[i] : work.turn_a[i]);

@@ -75,7 +75,7 @@ PLUMB_HD void note_joint(const JointView& view, std::uint32_t j, PassChange* not
   if (noted == nullptr) return;
   const JointImpulse& now = view.impulses[view.joints[j].slot];
   Real changed = 0, reached = 0;
-  for (int i = 0; i < view.joints[j].rows; ++i) {
+  for (int i = 0; i < row_count(view.joints[j]); ++i) {
     changed = max(changed, abs(now.along[i] - before.along[i]));
     reached = max(reached, abs(now.along[i]));
   }

@@ -82,6 +82,11 @@ class JointRig {
     world_.read(PLUMB_FIELD_VELOCITY, {&body, 1}, rows_over(std::span(&v, 1)));
     return v;
   }
+  bool is_awake(PlumbBody body) {
+    double awake = 0;
+    world_.read(PLUMB_FIELD_AWAKE, {&body, 1}, rows_over(std::span(&awake, 1)));
+    return awake != 0;
+  }
   std::array<double, 6> coordinates(PlumbJoint joint) {
     std::array<double, 6> six{};
     static_cast<IJoints&>(world_).read_joints(PLUMB_JOINT_COORDINATES, {&joint, 1}, rows_over(std::span(&six, 1)));

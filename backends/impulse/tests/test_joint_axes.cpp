@@ -115,6 +115,31 @@ TEST(JointLimits, ChainFoldsOntoItsStops) {
   }
 }
 
+TEST(JointLimits, ThreadsGiveTheSameBits) {
+  std::vector<PlumbPose> ends;
+  for (const std::uint32_t threads : {1U, 2U}) {
+    JointRig rig(kNeeds, {0, -kGravity, 0}, threads);
+    PlumbBody before = 0;
+    for (std::size_t i = 0; i < 150; ++i) {
+      const double x = static_cast<double>(i);
+      const PlumbBody rod = rig.body({x + 0.5, 0, 0}, 1, {0.01, 1.0 / 12, 1.0 / 12});
+      PlumbJointDesc desc = axle(rod);
+      desc.body_a = i % 10 == 0 ? 0 : before;
+      desc.frame_a.position = {desc.body_a == 0 ? x : 0.5, 0, 0};
+      desc.frame_b.position = {-0.5, 0, 0};
+      desc.limits[3] = {-0.1, 0.1, 1, 0};
+      desc.motors[3] = {0.5, 1, 1, 0};
+      rig.join(desc);
+      before = rod;
+    }
+    rig.run(1);
+    ends.push_back(rig.pose(before));
+  }
+  EXPECT_EQ(ends[0].position.x, ends[1].position.x);
+  EXPECT_EQ(ends[0].position.y, ends[1].position.y);
+  EXPECT_LT(ends[0].position.y, -1);
+}
+
 TEST(JointMotors, GiveNoMoreThanTheyMay) {
   for (const double solver : {0, 1, 2, 3}) {
     JointRig rig(kNeeds, kNoGravity);
@@ -159,6 +184,20 @@ TEST(JointMotors, AreSwitchedOnByWriting) {
   rig.drive(hinge, 3, 0, 0);
   rig.run(0.5);
   EXPECT_NEAR(rig.speed(disc).angular.z, 3, 1e-4);
+}
+
+TEST(JointMotors, WakeWhomTheyDrive) {
+  JointRig rig(kNeeds | PLUMB_NEED_SLEEPING, kNoGravity);
+  const PlumbBody disc = rig.body({0, 0, 0}, 2, {0.1, 0.1, 0.25});
+  PlumbJointDesc desc = axle(disc);
+  desc.motors[3] = {0, 1e4, 1, 0};
+  const PlumbJoint hinge = rig.join(desc);
+  rig.run(2);
+  EXPECT_FALSE(rig.is_awake(disc));
+  rig.drive(hinge, 3, 2, 1e4);
+  rig.run(0.5);
+  EXPECT_TRUE(rig.is_awake(disc));
+  EXPECT_NEAR(rig.speed(disc).angular.z, 2, 1e-5);
 }
 
 /// Angles or places of a body on a spring, at each step.
