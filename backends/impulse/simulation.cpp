@@ -121,7 +121,7 @@ void Simulation::find_origin() {
 
 /// Who has a shape, and whether it moves.
 void Simulation::list_bodies() {
-  const std::uint32_t statics_before = static_count_;
+  const std::uint32_t statics_before = static_count_, room_before = static_room_;
   bool same_statics = true;
   mover_count_ = static_count_ = plane_count_ = shape_types_ = 0;
   for (std::uint32_t i = 0; i < proxy_count_; ++i) {
@@ -150,7 +150,7 @@ void Simulation::list_bodies() {
     reserve_pairs(pair_capacity_);
   }
   if (origin_dirty_) find_origin();
-  if (!same_statics || static_count_ != statics_before) statics_changed();
+  if (!same_statics || static_count_ != statics_before || static_room_ != room_before) statics_changed();
   bodies_dirty_ = false;
 }
 
@@ -340,6 +340,7 @@ void Simulation::exchange(Archive& archive) {
   archive.value(step_);
   archive.value(origin_);
   archive.value(origin_dirty_);
+  archive.value(origin_known_);
   archive.value(statics_parameters_[0]);
   bool statics_dirty = statics_dirty_;
   archive.value(statics_dirty);

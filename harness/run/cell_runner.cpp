@@ -143,7 +143,7 @@ class CellContext : public MeasureContext {
 
 SceneFile scene_file_of(const Json& request) {
   SceneFile file = SceneFile::load(request.at("scene").get<std::string>());
-  if (fmt::format("{:016x}", file.hash) != request.at("scene_hash"))
+  if (fmt::format("{:016x}", file.hash) != request.at("scene_hash").get<std::string>())
     throw Error(PLUMB_E_CORRUPT, "the scene file has changed since the program was started: " + file.path.string());
   return file;
 }

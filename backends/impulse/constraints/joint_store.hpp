@@ -24,8 +24,10 @@ class JointStore {
   void remove(std::uint32_t slot);
   /// What the next step remembers of the last one, to or from a snapshot.
   void exchange(Archive& archive) {
-    if (changed_) impulses_.grow(rows_.size());
+    impulses_.grow(rows_.size());
+    reactions_.grow(rows_.size());
     archive.rows(impulses_, rows_.size());
+    archive.rows(reactions_, rows_.size());
     changed_ = changed_ || archive.reads();
   }
   /// Bodies can be pushed, or cannot any more, who may have joints.

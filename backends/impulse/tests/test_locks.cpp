@@ -55,7 +55,7 @@ TEST(Locks, CarryWhatTheyHold) {
   const PlumbBody ball = scene.add(scene.sphere(0.5), {0, 0.70710678118654752, 0});
   scene.run(120);
   EXPECT_NEAR(scene.poses()[1].position.y, 0.70710678118654752, 5e-3);
-  EXPECT_NEAR(velocity(scene, ball)[1], 0, 1e-3);
+  EXPECT_NEAR(velocity(scene, ball)[1], 0, 5e-3);
 }
 
 /// Free about z alone: it turns by the moment about z, however it lies; and not when it is pushed about others.

@@ -49,7 +49,7 @@ struct Sensors : ::testing::Test {
 TEST_F(Sensors, SeeWhoFliesThroughThem) {
   const PlumbBody gate = sensor(PLUMB_STATIC, {0, 0, 0});
   const PlumbBody through = flying({-3, 0, 0}, {4, 0, 0}), beside = flying({-3, 2, 0}, {4, 0, 0});
-  const PlumbBody stays = flying({0.5, 0, 0.5}, {0, 0, 0});
+  const PlumbBody stays = flying({0.5, 0, 0.9}, {0, 0, 0});
   run(120);
   EXPECT_EQ((seen[{gate, through}].entered), 1);
   EXPECT_EQ((seen[{gate, through}].left), 1);
