@@ -1,4 +1,5 @@
 // The scenes whose hashes are recorded.
+#include "hashes/motion_scenes.hpp"
 #include "hashes/scene.hpp"
 #include "hashes/shape_scenes.hpp"
 
@@ -234,6 +235,9 @@ const std::vector<NamedScene>& named_scenes() {
       {"cylinders", {}, kAll, kDown, &pile_of_cylinders},
       {"compounds", {}, kAll, kDown, &pile_of_compounds},
       {"surfaces", {}, kAll | PLUMB_NEED_KINEMATIC, kDown, &pile_on_surfaces},
+      {"puppets", {}, kAll | PLUMB_NEED_JOINTS, kDown, &puppets},
+      {"bullets", {}, kAll | PLUMB_NEED_CCD, kDown, &bullets},
+      {"held", {}, kAll | PLUMB_NEED_AXIS_LOCKS, kDown, &held},
       {"pyramid-20-once", {"relaxation", "step"}, kContactNeeds, kDown, &pyramid_20},
   };
   return scenes;

@@ -1,0 +1,77 @@
+// Scenes of bodies that are joined with limits, motors and springs, held along axes, or too fast for a step.
+#include "hashes/motion_scenes.hpp"
+
+namespace plumb::impulse::test {
+
+namespace {
+
+PlumbJoint join(Scene& scene, PlumbJointDesc desc, PlumbBody a, const PlumbVec3& in_a, PlumbBody b,
+                const PlumbVec3& in_b) {
+  desc.body_a = a;
+  desc.body_b = b;
+  desc.frame_a.position = in_a;
+  desc.frame_b.position = in_b;
+  PlumbJoint id = 0;
+  check(scene.world(), scene.world().joints()->create_joints({&desc, 1}, {&id, 1}));
+  return id;
+}
+
+}  // namespace
+
+/// Puppets of a trunk and four limbs, which stiffen, kick and break as they fall on a step.
+void puppets(Scene& scene) {
+  scene.ground();
+  scene.add_static(scene.box({1, 0.5, 4}), {0.5, 0.5, 0});
+  const PlumbShape trunk = scene.box({0.2, 0.4, 0.15}), limb = scene.capsule(0.08, 0.25);
+  PlumbJointDesc hinge = joint_desc(PLUMB_JOINT_HINGE), universal = joint_desc(PLUMB_JOINT_UNIVERSAL),
+                 generic = joint_desc(PLUMB_JOINT_GENERIC);
+  hinge.limits[3] = {-0.5, 1.2, 1, 0};
+  hinge.motors[3] = {4, 20, 1, 0};
+  universal.limits[3] = universal.limits[4] = {-0.6, 0.6, 1, 0};
+  universal.springs[3] = {0.1, 2, 0.3, 1, 0};
+  universal.break_force = 20000;
+  for (int axis = 0; axis < 6; ++axis) generic.axis_modes[axis] = axis < 3 ? PLUMB_AXIS_LOCKED : PLUMB_AXIS_LIMITED;
+  for (int axis = 3; axis < 6; ++axis) generic.limits[axis] = {-0.4, 0.3, 1, 0};
+  for (int i = 0; i < 6; ++i) {
+    const double x = 0.9 * i - 2, y = 2.5 + 0.2 * i, z = 0.5 * (i % 2);
+    const PlumbBody body = scene.add(trunk, {x, y, z});
+    const PlumbBody arms[2] = {scene.add(limb, {x - 0.35, y, z}), scene.add(limb, {x + 0.35, y, z})};
+    const PlumbBody legs[2] = {scene.add(limb, {x - 0.12, y - 0.8, z}), scene.add(limb, {x + 0.12, y - 0.8, z})};
+    join(scene, generic, body, {-0.3, 0.3, 0}, arms[0], {0.05, 0.3, 0});
+    join(scene, universal, body, {0.3, 0.3, 0}, arms[1], {-0.05, 0.3, 0});
+    join(scene, hinge, body, {-0.12, -0.42, 0}, legs[0], {0, 0.38, 0});
+    join(scene, hinge, body, {0.12, -0.42, 0}, legs[1], {0, 0.38, 0});
+  }
+}
+
+/// Bullets through a wall of cubes that stand on a ground, and a spinning rod beside them.
+void bullets(Scene& scene) {
+  scene.ground();
+  const PlumbShape cube = scene.box({0.25, 0.25, 0.25});
+  for (int i = 0; i < 40; ++i) scene.add(cube, {2, 0.25 + 0.5 * (i / 10), 0.51 * (i % 10) - 2.3});
+  scene.body.flags = PLUMB_BODY_CCD;
+  const PlumbShape ball = scene.sphere(0.1), rod = scene.box({0.02, 1, 0.02});
+  for (int i = 0; i < 8; ++i) {
+    scene.body.linear_velocity = {150.0 + 60 * i, 3, 4.0 - i};
+    scene.add(ball, {-20.0 - 7 * i, 0.6 + 0.1 * i, 0.5 * i - 1.7});
+  }
+  scene.body.linear_velocity = {3, 0, 0};
+  scene.body.angular_velocity = {0, 0, 45};
+  scene.add(rod, {0, 1.2, 3});
+}
+
+/// A heap in a plane, pushed by bodies that only slide or only turn.
+void held(Scene& scene) {
+  scene.container(4, 30);
+  scene.body.locks = PLUMB_LOCK_LINEAR_Z | PLUMB_LOCK_ANGULAR_X | PLUMB_LOCK_ANGULAR_Y;
+  const PlumbShape brick = scene.box({0.4, 0.25, 0.3}), ball = scene.sphere(0.3);
+  for (int i = 0; i < 40; ++i) scene.add(i % 3 == 0 ? ball : brick, {1.1 * (i % 6) - 2.8, 1 + 0.8 * (i / 6), 0});
+  scene.body.locks = PLUMB_LOCK_ANGULAR_X | PLUMB_LOCK_ANGULAR_Y | PLUMB_LOCK_ANGULAR_Z;
+  scene.body.linear_velocity = {5, 0, 0};
+  for (int i = 0; i < 4; ++i) scene.add(brick, {-3, 4.0 + i, 1.5});
+  scene.body.locks = PLUMB_LOCK_LINEAR_X | PLUMB_LOCK_LINEAR_Y | PLUMB_LOCK_ANGULAR_X;
+  scene.body.angular_velocity = {0, 2, 5};
+  for (int i = 0; i < 3; ++i) scene.add(brick, {1.0 * i - 1, 2.0 + i, -2});
+}
+
+}  // namespace plumb::impulse::test

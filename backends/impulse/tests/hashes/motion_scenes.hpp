@@ -1,0 +1,15 @@
+// Scenes for hash tests of bodies whose motion is bound in other ways than by contact, or too fast for a step.
+#pragma once
+
+#include "hashes/scene.hpp"
+
+namespace plumb::impulse::test {
+
+/// Puppets on hinges, universal and generic joints with limits, motors and springs, some of which break.
+void puppets(Scene& scene);
+/// Continuous collision: bullets through a wall of cubes, and a spinning rod.
+void bullets(Scene& scene);
+/// A heap of bodies with locked axes.
+void held(Scene& scene);
+
+}  // namespace plumb::impulse::test
