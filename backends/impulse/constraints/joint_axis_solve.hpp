@@ -242,7 +242,7 @@ PLUMB_HD inline void settle_pieces(const AxisView& view, std::uint32_t j, const 
 }
 
 /// What a round solves: nothing more; the first equations; those of other pieces; or of the same where they lead to.
-enum class RoundKind : std::uint8_t { kNone, kFirst, kNewPieces, kAnew };
+enum class RoundKind : std::uint8_t { kDone, kFirst, kNewPieces, kAnew };
 PLUMB_HD constexpr bool has_new_matrix(RoundKind kind) { return kind != RoundKind::kAnew; }
 PLUMB_HD constexpr bool has_new_tangent(RoundKind kind) { return kind != RoundKind::kNewPieces; }
 
@@ -254,9 +254,9 @@ class RoundCount {
     const std::uint32_t round = round_++;
     if (round == 0) return RoundKind::kFirst;
     ran_out_ = changed && round >= kMostRounds;
-    if (ran_out_) return RoundKind::kNone;
+    if (ran_out_) return RoundKind::kDone;
     if (changed) return RoundKind::kNewPieces;
-    if (anew_ || round == 1) return RoundKind::kNone;
+    if (anew_ || round == 1) return RoundKind::kDone;
     anew_ = true;
     return RoundKind::kAnew;
   }
@@ -290,7 +290,7 @@ PLUMB_HD inline void solve_axis_rows(const AxisView& view, std::uint32_t j, cons
   for (bool go = true; go;) {
     const bool changed = choose_pieces(view, j, time, a, b, rounds.is_first(), time.share, change);
     const RoundKind kind = rounds.next(changed);
-    if (kind == RoundKind::kNone) break;
+    if (kind == RoundKind::kDone) break;
     push();
     if (has_new_matrix(kind)) {
       mask_matrix(own, row_count(joint), work.factor);

@@ -47,7 +47,7 @@ void JointStore::remove(std::uint32_t slot) {
 }
 
 JointCode JointStore::needed_code() const {
-  JointCode code = JointCode::kNone;
+  JointCode code = JointCode::kContacts;
   for (const Row& row : rows_) {
     if (!row.used) continue;
     code = JointCode::kPlain;

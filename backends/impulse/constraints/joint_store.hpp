@@ -73,7 +73,7 @@ class JointStore {
   void list_excluded();
 
   bool changed_ = false, overflow_ = false, wants_reactions_ = false;
-  JointCode code_ = JointCode::kNone;
+  JointCode code_ = JointCode::kContacts;
   std::vector<Row> rows_;       // by slot
   std::vector<Joint> ordered_;  // those that are solved one by one, by slot; then the system, in its order
   std::uint32_t count_ = 0, colours_ = 0, excluded_count_ = 0;

@@ -20,7 +20,7 @@ struct StepWork {
 /// Only the default solver has code of its own for a step without joints.
 template <JointCode kJoints>
 void enqueue_step(Executor& executor, const StepWork& work) {
-  constexpr JointCode kOthers = kJoints == JointCode::kNone ? JointCode::kPlain : kJoints;
+  constexpr JointCode kOthers = kJoints == JointCode::kContacts ? JointCode::kPlain : kJoints;
   const auto run = [&](const auto& solver) { executor.team(work.load, work.least, solver); };
   switch (work.kind) {
     case SolverKind::kSequential: return run(StepSequentially<kOthers>{{work.step, work.changes}});

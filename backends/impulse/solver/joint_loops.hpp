@@ -31,7 +31,7 @@ struct JointSet {
 /// What of joints a step's code can do: a step that needs less is a kernel of its own, for what joints take of a GPU's
 /// registers and code costs contacts dearly.
 enum class JointCode {
-  kNone,
+  kContacts,  ///< none
   kPlain,  ///< rows that always hold
   kAll     ///< limits, motors, springs, universal and generic joints, and reactions
 };

@@ -65,7 +65,7 @@ void Solver::solve(Executor& executor, const Bodies& all, std::uint32_t body_cou
                            counters,   pair_capacity, joints.set(all, bodies(all), features_.gyroscopic)};
   const StepWork work = {step, pass_changes_.data(), split_.parts(), kind_, load, body_count / 2};
   switch (joints.code()) {
-    case JointCode::kNone: return enqueue_step<JointCode::kNone>(executor, work);
+    case JointCode::kContacts: return enqueue_step<JointCode::kContacts>(executor, work);
     case JointCode::kPlain: return enqueue_step<JointCode::kPlain>(executor, work);
     case JointCode::kAll: return enqueue_step_with_axes(executor, work);
   }
