@@ -33,11 +33,11 @@ struct Impact {
 /// `end`, or are so near at the start that it is the narrow phase's to see to.
 PLUMB_HD inline bool find_impact(const MovingShape& a, const MovingShape& b, const Vec& apart, Real end, Real close,
                                  const Hulls& hulls, Impact& impact) {
-  constexpr int kMostRounds = 48;  // after them the impact is put where the search has come, which is before it
+  constexpr int kMostAdvances = 48;  // after them the impact is put where the search has come, which is before it
   const Real turning = length(a.way.angular) * a.reach() + length(b.way.angular) * b.reach();
   const Vec approach = a.way.linear - b.way.linear;
   impact.time = 0;
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0; round < kMostAdvances; ++round) {
     const Real t = impact.time;
     const ShapePose pose_a = a.pose(t), pose_b = b.pose(t);
     const Mat axes_a = to_matrix(pose_a.orientation);

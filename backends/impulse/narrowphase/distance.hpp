@@ -46,7 +46,7 @@ PLUMB_HD Vec3<N> gap_normal(const Simplex<N>& simplex, const Vec3<N>& nearest) {
 /// Of cores that turn out to be further apart than `enough` the gap need not be found to the end; it is above that.
 template <class N>
 PLUMB_HD CoreGap<N> core_gap(const PlacedPair<N>& pair, Simplex<N>& simplex, N enough) {
-  constexpr int kMostRounds = 128;  // far beyond what polyhedra take; curved cores come closer with every round
+  constexpr int kMostRefinements = 128;  // far beyond what polyhedra take; curved cores come closer with every round
   constexpr N kNoise = 16 * kRounding<N>;
   if (simplex.count == 0) {
     Vec3<N> on_a;
@@ -58,7 +58,7 @@ PLUMB_HD CoreGap<N> core_gap(const PlacedPair<N>& pair, Simplex<N>& simplex, N e
   for (int i = 0; i < simplex.count; ++i) size2 = max(size2, dot(simplex.point[i], simplex.point[i]));
   Vec3<N> nearest;
   N square = 0, last = -1;
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0; round < kMostRefinements; ++round) {
     if (!simplex.reduce(nearest, square) || square <= kNoise * kNoise * size2) return {true, 0, {}, {}, {}};
     if (last >= 0 && !(square < last)) break;  // all that is left is rounding
     last = square;
@@ -68,7 +68,7 @@ PLUMB_HD CoreGap<N> core_gap(const PlacedPair<N>& pair, Simplex<N>& simplex, N e
     // The plane across `nearest` at p bounds the distance from below.
     const N bound = dot(nearest, p);
     if (bound > 0 && bound * bound > enough * enough * square) break;
-    if (square - bound <= kNoise * (square + sqrt(square * size2)) || round + 1 == kMostRounds) break;
+    if (square - bound <= kNoise * (square + sqrt(square * size2)) || round + 1 == kMostRefinements) break;
     simplex.add(p, on_a);
   }
   const Vec3<N> on_a = simplex.nearest_on_a();
@@ -120,7 +120,7 @@ struct CastTouch {
 /// for motions without turning, where the bound is the distance over the speed along the normal).
 template <class N>
 PLUMB_HD bool cast_shape(PlacedPair<N> pair, const Vec3<N>& along, N most, CastTouch<N>& touch) {
-  constexpr int kMostRounds = 64;  // each at least halves what is left of the way, also where they graze
+  constexpr int kMostRefinements = 64;  // each at least halves what is left of the way, also where they graze
   const N radii = pair.radii();
   // Up to where balls about both origins touch nothing can happen; they are a little too large, so that there is a gap.
   const N reach = (static_cast<N>(pair.a.reach) + static_cast<N>(pair.b.reach)) * N(1 + 0x1p-10);
@@ -136,7 +136,7 @@ PLUMB_HD bool cast_shape(PlacedPair<N> pair, const Vec3<N>& along, N most, CastT
   touch.at = max(middle - half, N(0));
   pair.shift = start + touch.at * along;
   bool advanced = false;
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0; round < kMostRefinements; ++round) {
     const CoreGap<N> core = core_gap(pair, simplex, N(kHuge));
     const N gap = core.overlap ? 0 : core.distance - radii;
     if (core.overlap || gap <= enough) {

@@ -58,7 +58,7 @@ PLUMB_DEVICE inline void solve_axis_system(Team& team, const JointSet& joints, c
     team.each(count, [=](std::uint32_t column) { choose_in_system(view, system, column, time, first, now); });
     team.meet();
     const RoundKind kind = rounds.next(changes[now % 3] != 0);
-    if (kind == RoundKind::kNone) break;
+    if (kind == RoundKind::kDone) break;
     push_changes(team, system);
     if (has_new_matrix(kind)) factor_axis_system(team, system, view);
     for_columns_up(team, system, [=](std::uint32_t column) {

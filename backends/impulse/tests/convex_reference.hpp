@@ -58,6 +58,7 @@ inline Features features_of(const Shape& shape, const Hulls& hulls, const Quat4<
     }
     case ShapeType::kBox: add_features(BoxView{shape.size}, q, out); break;
     case ShapeType::kHull: add_features(HullView(hulls, shape.hull), q, out); break;
+    default: break;  // has other features
   }
   out.move(place);
   return out;
