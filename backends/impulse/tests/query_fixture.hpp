@@ -59,6 +59,7 @@ class Queries : public ::testing::Test {
         }
         return scene_->hull(points);
       }
+      default: break;  // has queries of its own
     }
     return 0;
   }
