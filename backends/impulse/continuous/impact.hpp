@@ -33,7 +33,7 @@ struct Impact {
 /// `end`, or are so near at the start that it is the narrow phase's to see to.
 PLUMB_HD inline bool find_impact(const MovingShape& a, const MovingShape& b, const Vec& apart, Real end, Real close,
                                  const Hulls& hulls, Impact& impact) {
-  constexpr int kMostAdvances = 48;  // after them the impact is put where the search has come, which is before it
+  constexpr int kMostAdvances = 200;  // after them the impact is put where the search has come, which is before it
   const Real turning = length(a.way.angular) * a.reach() + length(b.way.angular) * b.reach();
   const Vec approach = a.way.linear - b.way.linear;
   impact.time = 0;

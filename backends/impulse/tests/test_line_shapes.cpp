@@ -18,6 +18,7 @@ double outside(const Shape& shape, const Hulls& hulls, const V& p) {
     case ShapeType::kCapsule: return distance(p, std::pair{V{0, -size.y, 0}, V{0, size.y, 0}}) - size.x;
     case ShapeType::kBox: return std::max({std::abs(p.x) - size.x, std::abs(p.y) - size.y, std::abs(p.z) - size.z});
     case ShapeType::kHull: return polyhedron(shape, hulls, {0, 0, 0, 1}, {0, 0, 0}).outside(p);
+    default: break;
   }
   return 0;
 }
