@@ -246,8 +246,7 @@ PLUMB_HD void PrepareContacts<kImpacts>::operator()(std::uint32_t j) const {
   Vec from_a_to_b = between(bodies.position[a], bodies.position[b]);
   [[maybe_unused]] const Real closes_at = kImpacts ? impacts[candidate] : Real(0);
   [[maybe_unused]] const auto then = [&] {
-    return ContactTime(way_through_step(bodies, *parameters, a), way_through_step(bodies, *parameters, b),
-                       closes_at);
+    return ContactTime(way_through_step(bodies, *parameters, a), way_through_step(bodies, *parameters, b), closes_at);
   };
   if (kImpacts && closes_at > 0) {
     const ContactTime at = then();

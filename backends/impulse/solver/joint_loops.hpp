@@ -32,8 +32,8 @@ struct JointSet {
 /// registers and code costs contacts dearly.
 enum class JointCode {
   kContacts,  ///< none
-  kPlain,  ///< rows that always hold
-  kAll     ///< limits, motors, springs, universal and generic joints, and reactions
+  kPlain,     ///< rows that always hold
+  kAll        ///< limits, motors, springs, universal and generic joints, and reactions
 };
 
 template <class F>
