@@ -44,13 +44,13 @@ class Team {
     if (join(1) && index_ == 0) f();
   }
   __device__ void meet() {
-    if (last_ == Work::kNone) return;
+    if (last_ == Work::kNothing) return;
     wait_for_all();
-    last_ = Work::kNone;
+    last_ = Work::kNothing;
   }
 
  private:
-  enum class Work { kNone, kFirstBlock, kAll };  // that was done since threads met
+  enum class Work { kNothing, kFirstBlock, kAll };  // that was done since threads met
 
   __device__ std::uint32_t stride_of(std::uint32_t n) const {
     return is_small(n) ? kTeamThreads : blocks_ * kTeamThreads;
@@ -62,7 +62,7 @@ class Team {
     const bool small = is_small(n);
     if (small && last_ == Work::kFirstBlock) {
       if (blockIdx.x == 0) __syncthreads();
-    } else if (last_ != Work::kNone) {
+    } else if (last_ != Work::kNothing) {
       wait_for_all();
     }
     last_ = small ? Work::kFirstBlock : Work::kAll;
@@ -87,7 +87,7 @@ class Team {
   std::uint32_t blocks_;
   TeamBarrier* barrier_;
   std::uint32_t index_;
-  Work last_ = Work::kNone;
+  Work last_ = Work::kNothing;
 };
 
 }  // namespace plumb::impulse
