@@ -24,10 +24,11 @@ class JointStore {
   void remove(std::uint32_t slot);
   /// What the next step remembers of the last one, to or from a snapshot.
   void exchange(Archive& archive) {
-    impulses_.grow(rows_.size());
-    reactions_.grow(rows_.size());
+    if (changed_) impulses_.grow(rows_.size());
     archive.rows(impulses_, rows_.size());
-    archive.rows(reactions_, rows_.size());
+    std::uint64_t borne = reactions_.size();  // which only some scenes have
+    archive.value(borne);
+    archive.rows(reactions_, borne);
     changed_ = changed_ || archive.reads();
   }
   /// Bodies can be pushed, or cannot any more, who may have joints.

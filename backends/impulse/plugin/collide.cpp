@@ -1,4 +1,6 @@
 // plumb.collide/1: pairs of shapes that need no bodies, by the pair functions of the step.
+#include <string>
+
 #include "exec/floating_point.hpp"
 #include "plugin/world.hpp"
 
@@ -34,6 +36,17 @@ PlumbPairResult add_points(const PlumbPosedPair& pair, const PairAnswer& answer,
 PlumbResult World::collide_pairs(std::span<const PlumbPosedPair> pairs, std::span<PlumbPairResult> results,
                                  std::span<const PlumbPairPoint>& points) {
   const FloatingPointScope scope;
+  const auto require_convex = [this](PlumbShape id, std::size_t i, const char* which) {
+    const std::uint32_t slot = slot_of(id);
+    const bool has_parts = slot < compounds_.size() && !compounds_[slot].empty();
+    if (has_parts || static_cast<std::uint32_t>(simulation_.shapes[slot].type) >= kConvexTypes)
+      throw Error(PLUMB_E_UNSUPPORTED, "pairs[" + std::to_string(i) + "]." + which +
+                                           " is no single convex shape; ask for the children of a compound one by one");
+  };
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    require_convex(pairs[i].shape_a, i, "shape_a");
+    require_convex(pairs[i].shape_b, i, "shape_b");
+  }
   std::unique_lock lock(query_mutex_);
   const QueryScene scene = simulation_.shape_scene();
   PairBatch& batch = pair_batches_.take();
