@@ -335,8 +335,12 @@ double Simulation::phase_seconds(PlumbPhase phase) const {
   return told && PhaseClock::measures(step_) ? phases_.seconds(phase) : std::numeric_limits<double>::quiet_NaN();
 }
 
-void Simulation::exchange(Archive& archive) {
-  if (archive.reads() && bodies_dirty_) list_bodies();
+Simulation::Extent Simulation::extent(bool to_restore) {
+  if (to_restore && bodies_dirty_) list_bodies();
+  return {body_count_, proxy_count_, joints.slots(), in_pieces_ ? 1U : 0U};
+}
+
+void Simulation::exchange(Archive& archive, const Extent& extent) {
   archive.value(step_);
   archive.value(origin_);
   archive.value(origin_dirty_);
@@ -345,11 +349,12 @@ void Simulation::exchange(Archive& archive) {
   bool statics_dirty = statics_dirty_;
   archive.value(statics_dirty);
   archive.value(*counters_.host());
+  if (in_pieces_ && extent.in_pieces == 0) counters_.host()->pieces = counters().pairs;
   if (candidate_count() > pair_capacity_) reserve_pairs(candidate_count());
-  state.exchange(archive, body_count_);
-  narrow_phase_.exchange(archive, step_, proxy_count_, counters());
-  joints.exchange(archive);
-  if (features_.sleeping) sleep_.exchange(archive, body_count_, mass);
+  state.exchange(archive, extent.bodies);
+  narrow_phase_.exchange(archive, step_, extent.proxies, counters(), extent.in_pieces != 0);
+  joints.exchange(archive, extent.joints);
+  if (features_.sleeping) sleep_.exchange(archive, extent.bodies, mass);
   if (!archive.reads()) return;
   bodies_dirty_ = restored_ = true;
   bound_again_ = !statics_dirty && !origin_dirty_;

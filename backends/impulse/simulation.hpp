@@ -71,9 +71,15 @@ class Simulation {
     ++list_version_;
   }
 
-  /// All that the steps to come depend on and that steps change, to or from a snapshot. The same bodies, joints and
-  /// shapes must be there.
-  void exchange(Archive& archive);
+  /// How many rows a snapshot has of each kind. Those that came later and are gone again are not in it.
+  struct Extent {
+    std::uint32_t bodies, proxies, joints, in_pieces;
+  };
+  /// Of a snapshot taken now; to restore one, of what there is room for.
+  [[nodiscard]] Extent extent(bool to_restore);
+  /// All that the steps to come depend on and that steps change, to or from a snapshot of that extent. The same bodies,
+  /// joints and shapes must be there.
+  void exchange(Archive& archive, const Extent& extent);
 
   // --- sleep, between steps; body slots. What wakes or falls asleep is told by its slots. ---
   [[nodiscard]] bool sleeps(std::uint32_t body) const { return sleep_.sleeps(body); }
@@ -85,8 +91,8 @@ class Simulation {
   Slots wake_all();
   /// With what is joined to them.
   Slots put_to_sleep(std::span<const std::uint32_t> bodies);
-  /// The body is gone: nothing is remembered of it.
-  void forget(std::uint32_t body) { sleep_.forget(body); }
+  /// These are gone: nothing is remembered of them.
+  void forget(std::span<const std::uint32_t> bodies) { sleep_.forget(bodies); }
   /// Of the last step.
   [[nodiscard]] const Slots& woken() const { return woken_; }
   [[nodiscard]] const Slots& fallen_asleep() const { return fallen_asleep_; }

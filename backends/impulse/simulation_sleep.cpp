@@ -41,10 +41,12 @@ Simulation::Slots Simulation::wake_neighbours(std::span<const std::uint32_t> bod
   if (sleep_.count() == 0) return {};
   Slots near;
   if (touching) near = sleep_.neighbours(bodies);
-  const auto is_one = [&](std::uint32_t body) { return std::find(bodies.begin(), bodies.end(), body) != bodies.end(); };
+  std::vector<bool> is_one(body_count_, false);
+  for (const std::uint32_t body : bodies) is_one[body] = true;
   joints.for_joined([&](std::uint32_t a, std::uint32_t b) {
-    if (is_one(a)) near.push_back(b);
-    if (a != kWorld && is_one(b)) near.push_back(a);
+    if (a == kWorld) return;
+    if (is_one[a]) near.push_back(b);
+    if (is_one[b]) near.push_back(a);
   });
   return wake(near);
 }

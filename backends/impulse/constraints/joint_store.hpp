@@ -22,10 +22,11 @@ class JointStore {
   /// joint.slot numbers it among the living. axes: of the rows beyond those of its type.
   void add(const Joint& joint, const JointAxes& axes, const JointTraits& traits);
   void remove(std::uint32_t slot);
-  /// What the next step remembers of the last one, to or from a snapshot.
-  void exchange(Archive& archive) {
+  [[nodiscard]] std::uint32_t slots() const { return static_cast<std::uint32_t>(rows_.size()); }
+  /// What the next step remembers of the last one, of the first slots, to or from a snapshot.
+  void exchange(Archive& archive, std::size_t slots) {
     if (changed_) impulses_.grow(rows_.size());
-    archive.rows(impulses_, rows_.size());
+    archive.rows(impulses_, slots);
     std::uint64_t borne = reactions_.size();  // which only some scenes have
     archive.value(borne);
     archive.rows(reactions_, borne);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "exec/memory.hpp"
+#include "plumb/physics_world.hpp"
 
 namespace plumb::impulse {
 
@@ -41,6 +42,7 @@ class Archive {
       written_.insert(written_.end(), from, from + n * sizeof(T));
       return;
     }
+    if (unread_.size() / sizeof(T) < n) throw Error(PLUMB_E_CORRUPT, "the snapshot ends too early");
     std::memcpy(static_cast<void*>(first), unread_.data(), n * sizeof(T));
     unread_ = unread_.subspan(n * sizeof(T));
   }

@@ -133,25 +133,33 @@ std::vector<std::uint32_t> Sleep::wake(std::span<const std::uint32_t> bodies, Ta
   return woken;
 }
 
+std::vector<bool> Sleep::marks_of(std::span<const std::uint32_t> bodies) const {
+  std::vector<bool> marks(was_.size(), false);
+  for (const std::uint32_t body : bodies) marks[body] = true;
+  return marks;
+}
+
 std::vector<std::uint32_t> Sleep::neighbours(std::span<const std::uint32_t> bodies) const {
-  const auto is_one = [&](std::uint32_t body) { return std::find(bodies.begin(), bodies.end(), body) != bodies.end(); };
+  const std::vector<bool> is_one = marks_of(bodies);
   std::vector<std::uint32_t> found;
   for (const ContactAside& contact : aside_) {
-    if (sleeps(contact.body_a) && is_one(contact.body_b)) found.push_back(contact.body_a);
-    if (sleeps(contact.body_b) && is_one(contact.body_a)) found.push_back(contact.body_b);
+    if (sleeps(contact.body_a) && is_one[contact.body_b]) found.push_back(contact.body_a);
+    if (sleeps(contact.body_b) && is_one[contact.body_a]) found.push_back(contact.body_b);
   }
   return found;
 }
 
-void Sleep::forget(std::uint32_t body) {
+void Sleep::forget(std::span<const std::uint32_t> bodies) {
+  if (aside_.empty() && woken_.empty()) return;
+  const std::vector<bool> is_one = marks_of(bodies);
   for (auto* contacts : {&aside_, &woken_})
     std::erase_if(*contacts,
-                  [=](const ContactAside& contact) { return contact.body_a == body || contact.body_b == body; });
+                  [&](const ContactAside& contact) { return is_one[contact.body_a] || is_one[contact.body_b]; });
 }
 
 void Sleep::exchange(Archive& archive, std::uint32_t bodies, Table<BodyMass>& mass) {
   if (archive.reads())
-    for (std::uint32_t body = 0; body < bodies; ++body)
+    for (std::uint32_t body = 0; body < was_.size(); ++body)
       if (sleeps(body)) mass.edit(body).flags = was_[body].flags;
   archive.items(was_.data(), bodies);
   archive.rows(rest_, bodies);

@@ -63,8 +63,8 @@ class Sleep {
   void put_aside(ContactAside contact) { aside_.push_back(std::move(contact)); }
   /// Those that sleep and touch one of these bodies.
   [[nodiscard]] std::vector<std::uint32_t> neighbours(std::span<const std::uint32_t> bodies) const;
-  /// No contact with this body is kept any more.
-  void forget(std::uint32_t body);
+  /// No contact with these is kept any more.
+  void forget(std::span<const std::uint32_t> bodies);
   /// What contacts() tells of beyond the last step's own.
   template <class F>
   void for_records(std::uint32_t step, const F& f) const {
@@ -88,6 +88,8 @@ class Sleep {
     std::uint32_t flags;
     Real inverse_mass;
   };
+  [[nodiscard]] std::vector<bool> marks_of(std::span<const std::uint32_t> bodies) const;
+
   std::uint32_t count_ = 0;
   std::vector<Was> was_;                                         // by body
   std::map<std::uint32_t, std::vector<std::uint32_t>> made_of_;  // by island

@@ -311,12 +311,15 @@ void NarrowPhase::forget_found(Executor& executor, const std::uint32_t* statics,
   executor.run(n, ForgetFound{caches_[0].ranges.data(), caches_[1].ranges.data(), statics});
 }
 
-void NarrowPhase::exchange(Archive& archive, std::uint32_t parity, std::uint32_t proxies,
-                           const StepCounters& counters) {
+void NarrowPhase::exchange(Archive& archive, std::uint32_t parity, std::uint32_t proxies, const StepCounters& counters,
+                           bool with_parts) {
   Storage& cache = caches_[parity % 2];
   const std::uint32_t candidates = candidate_count(counters);
   archive.rows(cache.pairs, candidates);
-  if (cache.parts.size() != 0) archive.rows(cache.parts, candidates);
+  if (with_parts)
+    archive.rows(cache.parts, candidates);
+  else if (in_pieces_ && archive.reads())
+    cache.parts.from_host(std::vector<std::uint32_t>(candidates, 0U).data(), candidates);
   archive.rows(cache.ranges, proxies);
   archive.rows(cache.touching, candidates);
   archive.rows(cache.row, candidates);

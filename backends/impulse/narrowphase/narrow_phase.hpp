@@ -23,8 +23,9 @@ class NarrowPhase {
   /// These proxies found no pairs: they are statics now. What they found when they were not must not be looked at.
   void forget_found(Executor& executor, const std::uint32_t* statics, std::uint32_t n);
 
-  /// What the next step remembers of a step, to or from a snapshot.
-  void exchange(Archive& archive, std::uint32_t parity, std::uint32_t proxies, const StepCounters& counters);
+  /// What the next step remembers of a step, to or from a snapshot, in which candidates may have parts or not.
+  void exchange(Archive& archive, std::uint32_t parity, std::uint32_t proxies, const StepCounters& counters,
+                bool with_parts);
   /// How many candidates a step has, pieces and all: where kernels run, and when it is done.
   [[nodiscard]] Count candidates(StepCounters* counters) const {
     return {in_pieces_ ? &counters->pieces : &counters->pairs, capacity_};

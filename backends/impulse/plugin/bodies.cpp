@@ -42,7 +42,6 @@ PlumbResult World::destroy_bodies(std::span<const PlumbBody> ids) {
   wake_for_write(PLUMB_FIELD_POSE, ids);
   for (const PlumbBody id : ids) {
     const std::uint32_t slot = slot_of(id);
-    simulation_.forget(slot);
     std::erase(sensors_, slot);
     if (bodies_[slot].motion == PLUMB_DYNAMIC) --dynamic_count_;
     detach(slot);
@@ -56,6 +55,9 @@ PlumbResult World::destroy_bodies(std::span<const PlumbBody> ids) {
   std::erase_if(records_, [&](const ContactRecord& record) {  // their slots will be others'
     return bodies_[record.bodies.a].id == 0 || bodies_[record.bodies.b].id == 0;
   });
+  Simulation::Slots gone;
+  for (const PlumbBody id : ids) gone.push_back(slot_of(id));
+  simulation_.forget(gone);
   ++row_generation_;
   simulation_.bodies_changed();
   return PLUMB_OK;

@@ -22,7 +22,6 @@ PlumbResult World::save(std::span<const std::byte>& data) {
 
 PlumbResult World::restore(std::span<const std::byte> data) {
   const FloatingPointScope scope;
-  clear_forces();
   Archive archive(data);
   exchange(archive);
   records_.clear();  // contacts are told of by the steps to come
@@ -31,7 +30,19 @@ PlumbResult World::restore(std::span<const std::byte> data) {
 }
 
 void World::exchange(Archive& archive) {
-  simulation_.exchange(archive);
+  struct Header {
+    PlumbNeeds needs;
+    Simulation::Extent rows;
+  };
+  const Header here = {init_.desc.needs, simulation_.extent(archive.reads())};
+  Header saved = here;
+  archive.value(saved);
+  if (saved.needs != here.needs) throw Error(PLUMB_E_CORRUPT, "the snapshot is of a world that declared other needs");
+  if (saved.rows.bodies > here.rows.bodies || saved.rows.proxies > here.rows.proxies ||
+      saved.rows.joints > here.rows.joints || saved.rows.in_pieces > here.rows.in_pieces)
+    throw Error(PLUMB_E_CORRUPT, "the snapshot is of a world that has had more bodies, joints or shapes than this one");
+  if (archive.reads()) clear_forces();
+  simulation_.exchange(archive, saved.rows);
   archive.value(gravity_);
   archive.value(last_h_);
   archive.value(stopped_);
@@ -40,7 +51,8 @@ void World::exchange(Archive& archive) {
   for (const std::uint32_t slot : pushed_) archive.value(simulation_.force.edit(slot));
   archive.list(early_events_);
   archive.list(touches_.touching());
-  for (BodyRecord& body : bodies_) {
+  for (std::uint32_t slot = 0; slot < saved.rows.bodies; ++slot) {
+    BodyRecord& body = bodies_[slot];
     archive.value(body.to_target);
     archive.value(body.arrived);
     archive.value(body.target);

@@ -126,6 +126,36 @@ TEST(Snapshot, HoldsWhatJointsBear) {
   EXPECT_EQ(heap.scene.hash(), end);
 }
 
+/// Bodies and joints that came after it and are gone again leave no trace.
+TEST(Snapshot, IsOfTheBodiesThatLive) {
+  Heap heap(PLUMB_NEED_JOINTS | PLUMB_NEED_SLEEPING);
+  heap.scene.run(20);
+  const std::vector<std::byte> saved = save(heap.scene);
+  heap.scene.run(40);
+  const std::uint64_t end = heap.scene.hash();
+  std::vector<PlumbBody> passing;
+  PlumbShapeDesc plane = shape_desc(PLUMB_PLANE);
+  PlumbShape below = 0;
+  check(heap.scene.world(), heap.scene.world().create_shapes({&plane, 1}, {&below, 1}));
+  passing.push_back(heap.scene.add_static(below, {0, -3, 0}));
+  for (int i = 0; i < 3; ++i)
+    passing.push_back(heap.scene.add(heap.scene.box({0.5, 0.5, 0.5}), {0.1 * i, 20.0 + i, 0}));
+  heap.scene.run(30);
+  for (const PlumbBody body : passing) heap.scene.remove(body);
+  restore(heap.scene, saved);
+  heap.scene.run(40);
+  EXPECT_EQ(heap.scene.hash(), end);
+}
+
+/// Another world with the same bodies that declared less is told apart.
+TEST(Snapshot, OfOtherNeedsIsRefused) {
+  Heap one(PLUMB_NEED_SLEEPING), other;
+  one.scene.run(10);
+  const std::uint64_t before = other.scene.hash();
+  EXPECT_EQ(other.scene.world().snapshot()->restore(save(one.scene)), PLUMB_E_CORRUPT);
+  EXPECT_EQ(other.scene.hash(), before);
+}
+
 /// Contact events tell of what begins and ends since the state that was restored.
 TEST(Snapshot, HoldsWhoTouchesWhom) {
   Heap heap(PLUMB_NEED_EVENTS);
