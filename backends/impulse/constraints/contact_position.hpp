@@ -31,7 +31,8 @@ PLUMB_HD void start_contact_velocity(Contact<P, N>& contact, Real slowest) {
   contact.open = select(contact.impulse[0] > zero, leave, N(kHuge));
 }
 
-/// Moves a body by what its change of velocity since `before` makes in h seconds.
+/// Moves a body by what its change of velocity since `before` makes in h seconds; one that tumbles about axes that
+/// swing with it (solver/swung_frame.hpp), which are the world's to first order.
 template <class N>
 PLUMB_HD void displace(SolverBody<N>& body, const Vec3<N>& linear_before, const Vec3<N>& angular_before, Real h) {
   body.moved += N(h) * (body.linear - linear_before);

@@ -48,8 +48,12 @@ struct JointView {
     const Position from = joint.body_a == kWorld ? joint.world_anchor : bodies.position[joint.body_a];
     return between(from, bodies.position[joint.body_b]);
   }
+  /// In world axes.
   PLUMB_HD Velocity velocity(std::uint32_t body) const {
-    return body == kWorld ? Velocity{{0, 0, 0}, 0, {0, 0, 0}, 0} : solver.velocity[body];
+    if (body == kWorld) return {{0, 0, 0}, 0, {0, 0, 0}, 0};
+    Velocity velocity = solver.velocity[body];
+    velocity.angular = to_world(bodies, solver, body, velocity.angular);
+    return velocity;
   }
   PLUMB_HD Sym inverse_inertia(std::uint32_t body, const Quat& orientation) const {
     if (body == kWorld) return {0, 0, 0, 0, 0, 0};
@@ -62,9 +66,10 @@ struct JointView {
     Velocity& velocity = solver.velocity[body];
     FreeVelocity& free = solver.free_velocity[body];
     velocity.linear = after.linear;
-    velocity.angular = after.angular;
     free.linear += after.linear - before.linear;
-    free.angular += after.angular - before.angular;
+    const Vec change = to_solver(bodies, solver, body, after.angular - before.angular);
+    velocity.angular = swings(bodies, solver, body) ? velocity.angular + change : after.angular;
+    free.angular += change;
   }
 };
 

@@ -163,7 +163,7 @@ PLUMB_HD inline void solve_backward(const JointSystem& system, std::uint32_t j) 
 /// All impulses on one body act. With `total` those that the joints have gathered, else the change just found.
 PLUMB_HD inline void push_body(const JointSystem& system, std::uint32_t place, bool total) {
   const std::uint32_t body = system.bodies[place];
-  const Velocity before = system.view.solver.velocity[body];
+  const Velocity before = system.view.velocity(body);
   Velocity after = before;
   for (std::uint32_t k = system.body_first[place]; k < system.body_first[place + 1]; ++k) {
     const JointOnBody on = system.on_body[k];

@@ -4,7 +4,7 @@
 #include "axis_locks.hpp"
 #include "body.hpp"
 #include "math/angle.hpp"
-#include "solver/solver_bodies.hpp"
+#include "solver/swung_frame.hpp"
 #include "step_parameters.hpp"
 
 namespace plumb::impulse {
@@ -36,7 +36,8 @@ PLUMB_HD inline void integrate_velocity(const Bodies& bodies, const SolverBodies
   if (bodies.turn) {
     const Vec carried_angular = first ? Vec{0, 0, 0} : velocity.angular - free.angular;
     const Real angular_drag = Real(1) / (Real(1) + step.h * mass.angular_damping);
-    free.angular = angular_drag * (velocity.angular + step.h * (solver.inertia[i].inverse * bodies.force[i].torque));
+    const Vec torque = to_solver(bodies, solver, i, bodies.force[i].torque);
+    free.angular = angular_drag * (velocity.angular + step.h * (solver.inertia[i].inverse * torque));
     velocity.angular = free.angular + carried_angular;
   }
   free.linear = linear;
@@ -73,10 +74,11 @@ PLUMB_HD inline void integrate_position(const Bodies& bodies, const SolverBodies
   displacement.linear += step.h * velocity.linear;
   if ((flags & kBodyTurns) == 0) return;
   const Vec before = velocity.angular;
-  const Turned turned = turn_freely(bodies, displacement.rotation, before, step.h, gyroscopic, i);
+  const Vec angular_velocity = to_world(bodies, solver, i, before);
+  const Turned turned = turn_freely(bodies, displacement.rotation, angular_velocity, step.h, gyroscopic, i);
   displacement.rotation = turned.rotation;
   if (!gyroscopic || (flags & kBodyGyroscopic) == 0) return;
-  velocity.angular = turned.angular_velocity;
+  velocity.angular = to_solver(bodies, solver, i, turned.angular_velocity);
   solver.free_velocity[i].angular += velocity.angular - before;
 }
 
@@ -86,6 +88,7 @@ PLUMB_HD inline bool finish_body(const Bodies& bodies, const SolverBodies& solve
   if ((flags & kBodyMoves) == 0) return true;
   Displacement& displacement = solver.displacement[i];
   Velocity& velocity = solver.velocity[i];
+  velocity.angular = to_world(bodies, solver, i, velocity.angular);
   if ((flags & kBodyLocked) != 0) {
     displacement.linear = unlocked(flags, kLockLinear, displacement.linear);
     velocity.linear = unlocked(flags, kLockLinear, velocity.linear);

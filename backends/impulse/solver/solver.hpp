@@ -55,7 +55,7 @@ class Solver {
 
  private:
   SolverBodies bodies(const Bodies& bodies) {
-    return {bodies.velocity, displacement_.data(), inertia_.data(), free_velocity_.data()};
+    return {bodies.velocity, displacement_.data(), inertia_.data(), free_velocity_.data(), features_.gyroscopic};
   }
 
   SolverFeatures features_;

@@ -19,6 +19,7 @@ struct SolverBodies {
   Displacement* displacement;
   WorldInertia* inertia;
   FreeVelocity* free_velocity;
+  bool swings;  ///< angular velocities of bodies that tumble are those of swung_frame.hpp
 };
 
 /// Brings bodies in. Without `moved` their displacement is not read (it is not needed).

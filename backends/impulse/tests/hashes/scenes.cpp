@@ -236,7 +236,7 @@ const std::vector<NamedScene>& named_scenes() {
       {"compounds", {}, kAll, kDown, &pile_of_compounds},
       {"surfaces", {}, kAll | PLUMB_NEED_KINEMATIC, kDown, &pile_on_surfaces},
       {"puppets", {}, kAll | PLUMB_NEED_JOINTS | PLUMB_NEED_EVENTS, kDown, &puppets},
-      {"bullets", {}, kContactNeeds | PLUMB_NEED_CCD, kDown, &bullets},
+      {"bullets", {}, kAll | PLUMB_NEED_CCD, kDown, &bullets},
       {"held", {}, kAll | PLUMB_NEED_AXIS_LOCKS, kDown, &held},
       {"pyramid-20-once", {"relaxation", "step"}, kContactNeeds, kDown, &pyramid_20},
   };
