@@ -119,10 +119,11 @@ PLUMB_HD inline RotorState step_free_rotor(const RotorState& start, const Vec& i
     q = q * spin;
     momentum = rotate_back(spin, momentum);
   };
-  turn(second, h / 2);
+  const bool differ = inertia[first] != inertia[second];
+  if (differ) turn(second, h / 2);
   q = q * turn_by((h / inertia[first]) * momentum);
   turn(odd, h);
-  turn(second, h / 2);
+  if (differ) turn(second, h / 2);
   q = normalized(q);
   return {q, rotate(q, {momentum.x / inertia.x, momentum.y / inertia.y, momentum.z / inertia.z})};
 }

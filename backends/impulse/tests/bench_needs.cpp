@@ -105,6 +105,61 @@ void falling_joined_pairs(Scene& scene) {
     scene.ball_joint(bodies[i], {0.5, 0, 0}, bodies[i + 1], {-0.5, 0, 0});
 }
 
+/// Pairs a metre apart on hinges of which one, with a limit, has a row that does not always hold.
+void hinges(Scene& scene, bool limited) {
+  falling_pairs(scene);
+  const auto bodies = scene.world().bodies();
+  for (std::size_t i = 0; i < bodies.size(); i += 2) {
+    PlumbJointDesc hinge = joint_desc(PLUMB_JOINT_HINGE);
+    hinge.body_a = bodies[i];
+    hinge.body_b = bodies[i + 1];
+    hinge.frame_a.position = {0.5, 0, 0};
+    hinge.frame_b.position = {-0.5, 0, 0};
+    if (limited && i == 0) hinge.limits[3] = {-1, 1, 1, 0};
+    PlumbJoint id = 0;
+    check(scene.world(), scene.world().joints()->create_joints({&hinge, 1}, {&id, 1}));
+  }
+}
+void plain_hinges(Scene& scene) { hinges(scene, false); }
+void hinges_and_a_limit(Scene& scene) { hinges(scene, true); }
+
+/// Nobody comes near a step's way of anything, but all would have to be looked after.
+void rough_boxes_of_ccd(Scene& scene) {
+  scene.body.flags |= PLUMB_BODY_CCD;
+  rough_boxes(scene);
+}
+/// A mesh of two triangles beside the container, which nobody touches.
+void rough_boxes_by_a_mesh(Scene& scene) {
+  rough_boxes(scene);
+  const double vertices[] = {0, 0, 0, 0, 0, 5, 5, 0, 0, 5, 0, 5};
+  const std::uint32_t indices[] = {0, 1, 2, 2, 1, 3};
+  PlumbShapeDesc desc = shape_desc(PLUMB_TRIANGLE_MESH);
+  desc.vertices = vertices;
+  desc.vertex_count = 4;
+  desc.indices = indices;
+  desc.triangle_count = 2;
+  scene.add_static(scene.make(desc), {20, 0, 0});
+}
+void rough_boxes_and_a_sensor(Scene& scene) {
+  rough_boxes(scene);
+  scene.body.flags |= PLUMB_BODY_SENSOR;
+  scene.add_static(scene.box({7, 1, 7}), {0, 2, 0});
+}
+void rough_boxes_and_a_lift(Scene& scene) {
+  rough_boxes(scene);
+  scene.add_kinematic(scene.box({1, 1, 1}), {20, 0, 0});
+}
+
+/// Columns that have come to rest: asleep, or of bodies that never sleep.
+void cubes_asleep(Scene& scene) {
+  scene.ground();
+  columns(scene, scene.box({0.5, 0.5, 0.5}), 2);
+}
+void cubes_awake(Scene& scene) {
+  scene.body.flags |= PLUMB_BODY_NEVER_SLEEPS;
+  cubes_asleep(scene);
+}
+
 double seconds_of_step(Scene& scene) {
   const auto start = std::chrono::steady_clock::now();
   scene.run(1);
@@ -153,6 +208,17 @@ SAVING(no_gyroscopic_term, kRotation, &spinning_bricks, kGyroscopic, &spinning_b
 SAVING(isotropic, kRotation | kGyroscopic, &spinning_cubes, 0, &spinning_almost_cubes);
 SAVING(no_collision, kRotation, &spinning_cubes, kCollision, &spinning_cubes);
 SAVING(no_restitution, kRough, &rough_boxes, PLUMB_NEED_RESTITUTION, &rough_boxes);
+SAVING(no_sleeping, kRough, &rough_boxes, PLUMB_NEED_SLEEPING, &rough_boxes);
+SAVING(asleep, kRough | PLUMB_NEED_SLEEPING, &cubes_asleep, 0, &cubes_awake);
+SAVING(no_ccd, kRough, &rough_boxes, PLUMB_NEED_CCD, &rough_boxes_of_ccd);
+SAVING(no_surfaces, kRough, &rough_boxes, 0, &rough_boxes_by_a_mesh);
+SAVING(no_sensors, kRough, &rough_boxes, PLUMB_NEED_SENSORS, &rough_boxes_and_a_sensor);
+SAVING(no_kinematics, kRough, &rough_boxes, PLUMB_NEED_KINEMATIC, &rough_boxes_and_a_lift);
+SAVING(no_axis_locks, kRough, &rough_boxes, PLUMB_NEED_AXIS_LOCKS, &rough_boxes);
+SAVING(no_queries, kRough, &rough_boxes, PLUMB_NEED_QUERIES, &rough_boxes);
+SAVING(no_snapshots, kRough, &rough_boxes, PLUMB_NEED_SNAPSHOT, &rough_boxes);
+SAVING(no_reactions, kRotation | PLUMB_NEED_JOINTS, &plain_hinges, PLUMB_NEED_JOINT_REACTIONS, &plain_hinges);
+SAVING(no_joint_limits, kRotation | PLUMB_NEED_JOINTS, &plain_hinges, 0, &hinges_and_a_limit);
 SAVING(no_events, kCollision, &balls_that_do_not_turn, PLUMB_NEED_EVENTS, &balls_that_do_not_turn);
 
 }  // namespace

@@ -44,6 +44,51 @@ void puppets(Scene& scene) {
   }
 }
 
+/// Doors swing between limits, pistons are driven back and forth, wheels hang on springs, planks are welded to a bridge
+/// that breaks under what falls on it.
+void clockwork(Scene& scene) {
+  scene.ground();
+  const PlumbShape plank = scene.box({0.5, 0.05, 0.3}), block = scene.box({0.3, 0.3, 0.3}), wheel = scene.sphere(0.3);
+  PlumbJointDesc door = joint_desc(PLUMB_JOINT_HINGE), piston = joint_desc(PLUMB_JOINT_SLIDER);
+  door.limits[3] = {-0.8, 0.6, 1, 0};
+  door.motors[3] = {3, 40, 1, 0};
+  piston.limits[0] = {-0.7, 0.7, 1, 0};
+  piston.motors[0] = {1, 5000, 1, 0};
+  std::vector<PlumbJoint> driven;
+  for (int i = 0; i < 4; ++i) {
+    const double z = 1.5 * i;
+    driven.push_back(join(scene, door, 0, {-6, 2, z}, scene.add(plank, {-5.5, 2, z}), {-0.5, 0, 0}));
+    driven.push_back(join(scene, piston, 0, {-2, 0.4, z}, scene.add(block, {-2, 0.4, z}), {0, 0, 0}));
+    PlumbJointDesc strut = joint_desc(PLUMB_JOINT_DISTANCE);
+    strut.rest_length = 1;
+    strut.springs[0] = {0, 2.0 + i, 0.1, 1, 0};
+    join(scene, strut, 0, {1, 3, z}, scene.add(wheel, {1, 2, z}), {0, 0, 0});
+  }
+  PlumbJointDesc weld = joint_desc(PLUMB_JOINT_FIXED);
+  weld.break_torque = 900;
+  PlumbBody before = 0;
+  for (int i = 0; i < 6; ++i) {
+    const PlumbBody here = scene.add(plank, {4.5 + i, 3, 0});
+    join(scene, weld, before, before == 0 ? PlumbVec3{4, 3, 0} : PlumbVec3{0.5, 0, 0}, here, {-0.5, 0, 0});
+    before = here;
+  }
+  join(scene, weld, before, {0.5, 0, 0}, scene.add_static(block, {10.3, 3, 0}), {-0.3, 0, 0});
+  scene.before_step = [=](Scene& all, int step) {
+    if (step == 60) all.add(block, {7, 5, 0});
+    if (step % 50 != 49) return;
+    const double way = step % 100 < 50 ? -1 : 1;
+    for (std::size_t i = 0; i < driven.size(); ++i) {
+      const std::size_t axis = i % 2 == 0 ? 3 : 0;
+      std::vector<double> row(12, 0);  // speed and strength of each axis
+      row[2 * axis] = way * (axis == 3 ? 3 : 1);
+      row[2 * axis + 1] = axis == 3 ? 40 : 5000;
+      check(all.world(), all.world().joints()->write_joints(PLUMB_JOINT_MOTOR, {&driven[i], 1},
+                                                            ConstRows(reinterpret_cast<const std::byte*>(row.data()), 1,
+                                                                      12 * sizeof(double), PLUMB_F64)));
+    }
+  };
+}
+
 /// Bullets through a wall of cubes that stand on a ground, and a spinning rod beside them.
 void bullets(Scene& scene) {
   scene.ground();

@@ -7,6 +7,8 @@ namespace plumb::impulse::test {
 
 /// Puppets on hinges, universal and generic joints with limits, motors and springs, some of which break.
 void puppets(Scene& scene);
+/// Doors, pistons and cranks: motors that turn back, limits that are struck, springs, and a bridge that gives way.
+void clockwork(Scene& scene);
 /// Continuous collision: bullets through a wall of cubes, and a spinning rod.
 void bullets(Scene& scene);
 /// A heap of bodies with locked axes.

@@ -109,8 +109,8 @@ void Scene::ball_joint(PlumbBody a, const PlumbVec3& in_a, PlumbBody b, const Pl
   check(*world_, world_->joints()->create_joints({&desc, 1}, {&id, 1}));
 }
 
-void Scene::target(PlumbBody kinematic, const PlumbVec3& position) {
-  const PlumbPose pose = {position, {0, 0, 0, 1}};
+void Scene::target(PlumbBody kinematic, const PlumbVec3& position, const PlumbQuat& orientation) {
+  const PlumbPose pose = {position, orientation};
   check(*world_, world_->write(PLUMB_FIELD_KINEMATIC_TARGET, {&kinematic, 1},
                                const_rows_over(std::span<const PlumbPose>(&pose, 1))));
 }

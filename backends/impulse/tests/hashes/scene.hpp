@@ -55,7 +55,7 @@ class Scene {
 
   /// Called before each step with the number of steps done.
   std::function<void(Scene&, int)> before_step;
-  void target(PlumbBody body, const PlumbVec3& position);
+  void target(PlumbBody body, const PlumbVec3& position, const PlumbQuat& orientation = {0, 0, 0, 1});
   /// A row of the field, of as many numbers as it has.
   void write(PlumbField field, PlumbBody body, const std::vector<double>& row);
   void remove(PlumbBody body);

@@ -1,4 +1,5 @@
 // The scenes whose hashes are recorded.
+#include "hashes/busy_scenes.hpp"
 #include "hashes/motion_scenes.hpp"
 #include "hashes/scene.hpp"
 #include "hashes/shape_scenes.hpp"
@@ -238,6 +239,11 @@ const std::vector<NamedScene>& named_scenes() {
       {"puppets", {}, kAll | PLUMB_NEED_JOINTS | PLUMB_NEED_EVENTS, kDown, &puppets},
       {"bullets", {}, kAll | PLUMB_NEED_CCD, kDown, &bullets},
       {"held", {}, kAll | PLUMB_NEED_AXIS_LOCKS, kDown, &held},
+      {"boulders", {}, kAll, kDown, &boulders},
+      {"clockwork", {}, kAll | PLUMB_NEED_JOINTS | PLUMB_NEED_JOINT_REACTIONS | PLUMB_NEED_EVENTS, kDown, &clockwork},
+      {"comers", {}, kAll | PLUMB_NEED_SLEEPING, kDown, &comers},
+      {"machines", {}, kContactNeeds | PLUMB_NEED_KINEMATIC | PLUMB_NEED_SLEEPING, kDown, &machines},
+      {"far-off", {}, kAll | PLUMB_NEED_JOINTS, kDown, &far_off},
       {"pyramid-20-once", {"relaxation", "step"}, kContactNeeds, kDown, &pyramid_20},
   };
   return scenes;

@@ -2,14 +2,20 @@
 
 namespace plumb::impulse::test {
 
-namespace {
-
-PlumbShape make_cylinder(Scene& scene, double radius, double half) {
+PlumbShape make_cylinder(Scene& scene, double radius, double half_height) {
   PlumbShapeDesc desc = shape_desc(PLUMB_CYLINDER);
   desc.radius = radius;
-  desc.half_height = half;
+  desc.half_height = half_height;
   return scene.make(desc);
 }
+
+std::vector<PlumbShape> convex_shapes(Scene& scene) {
+  return {scene.sphere(0.25), scene.box({0.2, 0.25, 0.3}), scene.capsule(0.15, 0.2), make_cylinder(scene, 0.25, 0.2),
+          scene.hull({{0.3, -0.2, 0}, {-0.2, -0.2, 0.25}, {-0.2, -0.2, -0.25}, {0, 0.3, 0}, {0.1, 0.1, 0.2}})};
+}
+
+namespace {
+
 PlumbShape make_compound(Scene& scene, const std::vector<PlumbCompoundChild>& children) {
   PlumbShapeDesc desc = shape_desc(PLUMB_COMPOUND);
   desc.children = children.data();
@@ -18,12 +24,6 @@ PlumbShape make_compound(Scene& scene, const std::vector<PlumbCompoundChild>& ch
 }
 PlumbCompoundChild child(PlumbShape shape, const PlumbVec3& position) {
   return {shape, {position, {0, 0, 0, 1}}, 0, 0, {}};
-}
-
-/// One of each convex type, of about half a metre.
-std::vector<PlumbShape> convex_shapes(Scene& scene) {
-  return {scene.sphere(0.25), scene.box({0.2, 0.25, 0.3}), scene.capsule(0.15, 0.2), make_cylinder(scene, 0.25, 0.2),
-          scene.hull({{0.3, -0.2, 0}, {-0.2, -0.2, 0.25}, {-0.2, -0.2, -0.25}, {0, 0.3, 0}, {0.1, 0.1, 0.2}})};
 }
 
 constexpr std::uint32_t kCells = 24;
@@ -107,6 +107,22 @@ void pile_on_surfaces(Scene& scene) {
   scene.before_step = [lift](Scene& moved, int step) {
     moved.target(lift, {0, 0.004 * (step + 1), -kCells * kSide + 0.002 * (step + 1)});
   };
+}
+
+void boulders(Scene& scene) {
+  scene.add_static(make_field(scene, hills()), {0, 0, 0});
+  std::vector<PlumbVec3> corners;
+  Random random(44);
+  for (int i = 0; i < 200; ++i) {
+    const PlumbQuat q = random.turn();  // its z axis is uniform over the sphere
+    corners.push_back({0.8 * (q.x * q.z + q.w * q.y), 0.6 * (q.y * q.z - q.w * q.x),
+                       0.35 * (q.w * q.w - q.x * q.x - q.y * q.y + q.z * q.z)});
+  }
+  const PlumbShape stone = scene.hull(corners);
+  const std::vector<PlumbShape> shapes = convex_shapes(scene);
+  for (int i = 0; i < 32; ++i)
+    scene.add(i % 3 == 0 ? shapes[static_cast<std::size_t>(i / 3 % 5)] : stone,
+              {1.1 * (i % 3) - 1.1, 1 + 1.1 * (i / 9), 1.1 * (i / 3 % 3) - 1.1}, random.turn());
 }
 
 }  // namespace plumb::impulse::test

@@ -5,11 +5,17 @@
 
 namespace plumb::impulse::test {
 
+/// One of each convex type, of about half a metre.
+std::vector<PlumbShape> convex_shapes(Scene& scene);
+PlumbShape make_cylinder(Scene& scene, double radius, double half_height);
+
 /// Cylinders, standing stacks of them and a heap, with boxes, balls, capsules and a hull among them.
 void pile_of_cylinders(Scene& scene);
 /// Compounds with other compounds and single shapes on a plane.
 void pile_of_compounds(Scene& scene);
 /// All convex shapes on a hilly mesh and a hilly height field, and a mesh that moves.
 void pile_on_surfaces(Scene& scene);
+/// Stones of two hundred corners on hills, among themselves and with other shapes.
+void boulders(Scene& scene);
 
 }  // namespace plumb::impulse::test

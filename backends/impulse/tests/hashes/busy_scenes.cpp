@@ -1,0 +1,68 @@
+#include "hashes/busy_scenes.hpp"
+
+#include <cmath>
+
+#include "hashes/shape_scenes.hpp"
+
+namespace plumb::impulse::test {
+
+void comers(Scene& scene) {
+  scene.container(3, 30);
+  scene.before_step = [shapes = convex_shapes(scene), bodies = std::vector<PlumbBody>()](Scene& all, int step) mutable {
+    Random random(static_cast<std::uint64_t>(step) + 9000);
+    if (step >= 90) return;
+    for (int i = 0; i < 3; ++i)
+      bodies.push_back(all.add(shapes[static_cast<std::size_t>(random.next() % shapes.size())],
+                               {random.between(-2.5, 2.5), 5.0 + i, random.between(-2.5, 2.5)}, random.turn()));
+    for (int i = 0; i < 2 && step > 40; ++i) {
+      const auto gone = bodies.begin() + static_cast<std::ptrdiff_t>(random.next() % bodies.size());
+      all.remove(*gone);
+      bodies.erase(gone);
+    }
+  };
+}
+
+void machines(Scene& scene) {
+  scene.ground();
+  const PlumbShape cube = scene.box({0.5, 0.5, 0.5}), plate = scene.box({0.2, 0.6, 0.6});
+  for (int i = 0; i < 3; ++i) scene.add(cube, {1.0 * i, 0.5, 0});
+  const PlumbBody left = scene.add_kinematic(plate, {-0.9, 0.7, 0}), right = scene.add_kinematic(plate, {2.9, 0.7, 0});
+  const PlumbBody table = scene.add_kinematic(scene.box({2, 0.1, 2}), {8, 0.1, 0});
+  const PlumbBody lift = scene.add_kinematic(scene.box({1, 0.1, 1}), {0, 0.1, 6});
+  const PlumbBody wall = scene.add_static(plate, {12, 0.6, 0});
+  for (int i = 0; i < 4; ++i) scene.add(cube, {7.3 + 1.3 * (i % 2), 0.7, 1.3 * (i / 2) - 0.6});
+  for (int i = 0; i < 3; ++i) scene.add(cube, {0, 0.7 + i, 6});
+  scene.before_step = [=, sine = 0.0, cosine = 1.0](Scene& all, int step) mutable {
+    const double closed = step < 120 ? 0.002 * step : step < 200 ? 0.24 : 0;
+    all.target(left, {-0.9 + closed, 0.7, 0});
+    all.target(right, {2.9 - closed, 0.7, 0});
+    // by half of .04 rad, about
+    const double s = sine + 0.02 * cosine, c = cosine - 0.02 * sine, size = std::sqrt(s * s + c * c);
+    sine = s / size;
+    cosine = c / size;
+    all.target(table, {8, 0.1, 0}, {0, sine, 0, cosine});
+    const int phase = step % 100;
+    all.target(lift, {0, 0.1 + 0.01 * (phase < 50 ? phase : 100 - phase), 6});
+    if (step == 150) all.write(PLUMB_FIELD_POSE, wall, {8.5, 1.2, 0.5, 0, 0, 0, 1});
+  };
+}
+
+void far_off(Scene& scene) {
+  constexpr double kX = 1e5, kZ = -7e4;
+  scene.ground(kX, kZ);
+  const PlumbShape cube = scene.box({0.5, 0.5, 0.5}), link = scene.capsule(0.1, 0.3);
+  const std::vector<PlumbShape> shapes = convex_shapes(scene);
+  for (int i = 0; i < 8; ++i) scene.add(cube, {kX, 0.5 + i, kZ});
+  Random random(45);
+  for (int i = 0; i < 60; ++i)
+    scene.add(shapes[static_cast<std::size_t>(i % 5)],
+              {kX + 4 + 0.6 * (i % 4), 0.6 + 0.6 * (i / 16), kZ + 0.6 * (i / 4 % 4)}, random.turn());
+  PlumbBody before = 0;
+  for (int i = 0; i < 6; ++i) {
+    const PlumbBody here = scene.add(link, {kX - 3, 6 - 0.8 * i, kZ + 0.05 * i});
+    scene.ball_joint(before, before == 0 ? PlumbVec3{kX - 3, 6.4, kZ} : PlumbVec3{0, -0.4, 0}, here, {0, 0.4, 0});
+    before = here;
+  }
+}
+
+}  // namespace plumb::impulse::test

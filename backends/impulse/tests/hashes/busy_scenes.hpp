@@ -1,0 +1,15 @@
+// Scenes for hash tests in which bodies come, go, sleep, wake and are moved about.
+#pragma once
+
+#include "hashes/scene.hpp"
+
+namespace plumb::impulse::test {
+
+/// A heap out of which bodies are taken while others fall into it, where those may sleep that lie still.
+void comers(Scene& scene);
+/// A press that closes on cubes and lets go, a turning table, a lift, and a wall that is put elsewhere.
+void machines(Scene& scene);
+/// A tower, a heap, a chain and a sensor, 100 km from the origin.
+void far_off(Scene& scene);
+
+}  // namespace plumb::impulse::test
