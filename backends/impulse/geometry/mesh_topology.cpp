@@ -1,9 +1,10 @@
 #include "geometry/mesh_topology.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <numeric>
-#include <tuple>
 
+#include "geometry/key_order.hpp"
 #include "narrowphase/tolerance.hpp"
 
 namespace plumb::impulse {
@@ -24,11 +25,45 @@ bool has_area(const Vec& a, const Vec& b, const Vec& c) {
   return length(cross(u, v)) > kParallel * longest;
 }
 
+bool same_place(const PlumbVec3& a, const PlumbVec3& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+
+/// The same for vertices at the same place, and of others hardly ever (finished as SplitMix64 does; Steele, Lea and
+/// Flood 2014).
+std::uint64_t place_key(const PlumbVec3& v) {
+  std::uint64_t key = 0;
+  for (const double x : {v.x, v.y, v.z}) {
+    const double positive = x + 0.0;  // 0 is -0
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &positive, sizeof bits);
+    key = (key ^ bits) * 0xbf58476d1ce4e5b9U;
+    key = (key ^ key >> 27) * 0x94d049bb133111ebU;
+    key ^= key >> 31;
+  }
+  return key;
+}
+
+/// For each vertex the first one at its place.
+std::vector<std::uint32_t> first_at_place(Executor& executor, std::span<const PlumbVec3> vertices) {
+  std::vector<std::uint64_t> keys(vertices.size());
+  for (std::size_t v = 0; v < vertices.size(); ++v) keys[v] = place_key(vertices[v]);
+  const std::vector<std::uint32_t> order = order_by_key(executor, keys);
+  std::vector<std::uint32_t> first(vertices.size()), places;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    if (i == 0 || keys[order[i]] != keys[order[i - 1]]) places.clear();
+    const auto same = [&](std::uint32_t v) { return same_place(vertices[v], vertices[order[i]]); };
+    const auto found = std::find_if(places.begin(), places.end(), same);
+    first[order[i]] = found == places.end() ? order[i] : *found;
+    if (found == places.end()) places.push_back(order[i]);
+  }
+  return first;
+}
+
 }  // namespace
 
-MeshTopology::MeshTopology(std::span<const PlumbVec3> vertices, std::span<const std::uint32_t> indices) {
+MeshTopology::MeshTopology(Executor& executor, std::span<const PlumbVec3> vertices,
+                           std::span<const std::uint32_t> indices) {
   std::vector<std::uint32_t> corner_of;
-  place_corners(vertices, corner_of);
+  place_corners(executor, vertices, corner_of);
   triangles.resize(indices.size() / 3);
   boxes.resize(triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t) {
@@ -40,49 +75,49 @@ MeshTopology::MeshTopology(std::span<const PlumbVec3> vertices, std::span<const 
     const Vec &a = corners[triangle.corner[0]], &b = corners[triangle.corner[1]], &c = corners[triangle.corner[2]];
     boxes[t] = has_area(a, b, c) ? Box{min(a, min(b, c)), max(a, max(b, c))} : empty_box();
   }
-  find_neighbours();
+  find_neighbours(executor);
 }
 
-void MeshTopology::place_corners(std::span<const PlumbVec3> vertices, std::vector<std::uint32_t>& corner_of) {
+void MeshTopology::place_corners(Executor& executor, std::span<const PlumbVec3> vertices,
+                                 std::vector<std::uint32_t>& corner_of) {
   PlumbVec3 low = vertices[0], high = vertices[0];
   for (const PlumbVec3& v : vertices) {
     low = {std::min(low.x, v.x), std::min(low.y, v.y), std::min(low.z, v.z)};
     high = {std::max(high.x, v.x), std::max(high.y, v.y), std::max(high.z, v.z)};
   }
   centre = {0.5 * (low.x + high.x), 0.5 * (low.y + high.y), 0.5 * (low.z + high.z)};
-  std::vector<std::uint32_t> order(vertices.size());
-  std::iota(order.begin(), order.end(), 0U);
-  const auto key = [&](std::uint32_t v) { return std::tuple(vertices[v].x, vertices[v].y, vertices[v].z); };
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+  const std::vector<std::uint32_t> first = first_at_place(executor, vertices);
   corner_of.resize(vertices.size());
   half = {0, 0, 0};
   reach = 0;
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    if (i == 0 || key(order[i]) != key(order[i - 1])) {
-      const PlumbVec3& v = vertices[order[i]];
-      const Vec at = {static_cast<Real>(v.x - centre.x), static_cast<Real>(v.y - centre.y),
-                      static_cast<Real>(v.z - centre.z)};
-      corners.push_back(at);
-      half = max(half, abs(at));
-      reach = max(reach, length(at));
-    }
-    corner_of[order[i]] = static_cast<std::uint32_t>(corners.size() - 1);
+  for (std::uint32_t i = 0; i < vertices.size(); ++i) {
+    corner_of[i] = first[i] == i ? static_cast<std::uint32_t>(corners.size()) : corner_of[first[i]];
+    if (first[i] != i) continue;
+    const PlumbVec3& v = vertices[i];
+    const Vec at = {static_cast<Real>(v.x - centre.x), static_cast<Real>(v.y - centre.y),
+                    static_cast<Real>(v.z - centre.z)};
+    corners.push_back(at);
+    half = max(half, abs(at));
+    reach = max(reach, length(at));
   }
 }
 
-void MeshTopology::find_neighbours() {
-  std::vector<Side> sides;
-  sides.reserve(3 * triangles.size());
+void MeshTopology::find_neighbours(Executor& executor) {
+  std::vector<Side> unsorted;
+  std::vector<std::uint64_t> keys;
+  unsorted.reserve(3 * triangles.size());
+  keys.reserve(3 * triangles.size());
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {
     if (boxes[t].low.x > boxes[t].high.x) continue;
     for (std::uint32_t k = 0; k < 3; ++k) {
       const std::uint32_t a = triangles[t].corner[k], b = triangles[t].corner[(k + 1) % 3];
-      sides.push_back({std::min(a, b), std::max(a, b), t, k});
+      unsorted.push_back({std::min(a, b), std::max(a, b), t, k});
+      keys.push_back(unsorted.back().edge());
     }
   }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    return a.edge() != b.edge() ? a.edge() < b.edge() : a.triangle < b.triangle;
-  });
+  std::vector<Side> sides(unsorted.size());
+  const std::vector<std::uint32_t> order = order_by_key(executor, keys);
+  for (std::size_t i = 0; i < order.size(); ++i) sides[i] = unsorted[order[i]];
   closed = true;
   first_neighbour.assign(corners.size() + 1, 0);
   for (std::size_t i = 0; i < sides.size();) {

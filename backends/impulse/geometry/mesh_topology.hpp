@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "exec/executor.hpp"
 #include "geometry/surface.hpp"
 #include "plumb/types.h"
 
@@ -21,12 +22,12 @@ struct MeshTopology {
   std::vector<Box> boxes;  ///< by triangle; empty where it has no area
   bool closed;             ///< every edge has two triangles at least
 
-  /// indices: 3 a triangle, each below the number of vertices.
-  MeshTopology(std::span<const PlumbVec3> vertices, std::span<const std::uint32_t> indices);
+  /// indices: 3 a triangle, each below the number of vertices. Sorts on the executor's threads, or its device.
+  MeshTopology(Executor& executor, std::span<const PlumbVec3> vertices, std::span<const std::uint32_t> indices);
 
  private:
-  void place_corners(std::span<const PlumbVec3> vertices, std::vector<std::uint32_t>& corner_of);
-  void find_neighbours();
+  void place_corners(Executor& executor, std::span<const PlumbVec3> vertices, std::vector<std::uint32_t>& corner_of);
+  void find_neighbours(Executor& executor);
 };
 
 }  // namespace plumb::impulse

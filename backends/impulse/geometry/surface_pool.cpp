@@ -47,7 +47,7 @@ std::uint32_t SurfacePool::add(std::vector<std::unique_ptr<T>>& all, std::unique
 }
 
 AddedSurface SurfacePool::add_mesh(Executor& executor, const PlumbShapeDesc& desc) {
-  const MeshTopology topology({reinterpret_cast<const PlumbVec3*>(desc.vertices), desc.vertex_count},
+  const MeshTopology topology(executor, {reinterpret_cast<const PlumbVec3*>(desc.vertices), desc.vertex_count},
                               {desc.indices, std::size_t{3} * desc.triangle_count});
   auto mesh = std::make_unique<Mesh>();
   put(mesh->corners, topology.corners);

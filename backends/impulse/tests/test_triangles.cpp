@@ -15,9 +15,11 @@ using namespace reference;
 using enum ShapeType;
 
 struct Mesh {
+  Executor executor{nullptr, 1};
   MeshTopology topology;
   explicit Mesh(const test::TriangleSet& set)
-      : topology({reinterpret_cast<const PlumbVec3*>(set.vertices.data()), set.vertices.size() / 3}, set.indices) {}
+      : topology(executor, {reinterpret_cast<const PlumbVec3*>(set.vertices.data()), set.vertices.size() / 3},
+                 set.indices) {}
   [[nodiscard]] MeshView view() const {
     return {topology.corners.data(),
             topology.triangles.data(),
@@ -159,6 +161,31 @@ TEST(Topology, FindsNeighboursAndTheCornersAround) {
       EXPECT_LT(length(s - Real(0.5) * (p + q)), 1.2) << "and next to it";
     }
   EXPECT_EQ(borders, 12);
+}
+
+/// A soup of triangles with corners of their own, of which some zeros are negative.
+TEST(Topology, VerticesAtOnePlaceAreOneCorner) {
+  const test::TriangleSet shared = test::flat_grid(6, 0.5);
+  test::TriangleSet soup;
+  for (std::size_t i = 0; i < shared.indices.size(); i += 3) {
+    std::uint32_t corner[3];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double* v = &shared.vertices[3 * shared.indices[i + k]];
+      const double sign = (i + k) % 2 == 0 ? 1 : -1;
+      corner[k] = soup.add(v[0] == 0 ? sign * 0.0 : v[0], v[1] == 0 ? sign * 0.0 : v[1], v[2]);
+    }
+    soup.triangle(corner[0], corner[1], corner[2]);
+  }
+  const Mesh one(shared), other(soup);
+  ASSERT_EQ(other.topology.corners.size(), one.topology.corners.size());
+  for (std::uint32_t t = 0; t < one.topology.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t a = one.view().across(t, k), b = other.view().across(t, k);
+      ASSERT_EQ(a == kNoCorner, b == kNoCorner) << t << " " << k;
+      if (a != kNoCorner) {
+        EXPECT_EQ(length(one.view().corner(a) - other.view().corner(b)), 0);
+      }
+    }
 }
 
 /// The view of a height field tells what a mesh of the same triangles does.
