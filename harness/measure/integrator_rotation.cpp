@@ -80,7 +80,7 @@ void measure_free_rotation(MeasureContext& context) {
   const std::size_t body = arg_body(scene, "body");
   const referee::Mass mass = mass_of_body(scene, body);
   const PlumbVec3 w0 = scene.bodies[body].desc.angular_velocity;
-  const truth::FreeRotation truth(mass.inertia.diagonal(), w0.x, w0.y);
+  const truth::FreeRotation truth(mass.inertia.diagonal(), referee::vec(w0));
 
   Simulation simulation = context.simulate(scene);
   Series middle;  // the angular velocity about the body's own middle axis

@@ -20,6 +20,25 @@ HeadOn head_on(double mass_a, double velocity_a, double mass_b, double velocity_
   return {centre - restitution * closing * mass_b / total, centre + restitution * closing * mass_a / total};
 }
 
+std::vector<double> sequential_row(std::size_t spheres) {
+  std::vector<double> velocities(spheres, 0.0);
+  velocities.back() = 1;
+  return velocities;
+}
+
+std::vector<double> simultaneous_row(std::size_t spheres, double restitution) {
+  const double common = (1 + restitution) / static_cast<double>(spheres);  // keeps the momentum
+  std::vector<double> velocities(spheres, common);
+  velocities.front() = common - restitution;
+  return velocities;
+}
+
+GlancingImpact glancing_impact(double angle, double restitution) {
+  const Eigen::Vector3d line(std::cos(angle), std::sin(angle), 0);
+  const Eigen::Vector3d target = (1 + restitution) / 2 * line.x() * line;
+  return {Eigen::Vector3d::UnitX() - target, target};
+}
+
 ObliqueImpact oblique_impact(double radius, double tangential, double normal, double friction, double restitution) {
   const double impulse = std::min(2.0 / 7 * tangential, friction * (1 + restitution) * normal);
   return {tangential - impulse, restitution * normal, impulse * 5 / (2 * radius)};
@@ -62,6 +81,11 @@ SpinStop spin_stop(double g, double friction, double side, double lever, double 
 
 double corner_lever(double side) { return side * std::sqrt(0.5); }
 double uniform_lever(double side) { return side * (std::sqrt(2.0) + std::asinh(1.0)) / 6; }
+
+BeltSlip belt_slip(double g, double friction, double speed) {
+  const double time = speed / (friction * g);
+  return {time, speed * time / 2};
+}
 
 LoadedBox pushed_box(double g, double box_mass, double balls_mass, double friction_ground, double push) {
   const double left = push - friction_ground * (box_mass + balls_mass) * g;

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
+#include <vector>
 
 namespace plumb::truth {
 
@@ -17,6 +19,19 @@ struct HeadOn {
   double a, b;
 };
 [[nodiscard]] HeadOn head_on(double mass_a, double velocity_a, double mass_b, double velocity_b, double restitution);
+
+/// Velocities, relative to the runner's, of a row of equal spheres after one runs into the rest at rest.
+/// One impact after the other, elastic: the last one takes all.
+[[nodiscard]] std::vector<double> sequential_row(std::size_t spheres);
+/// Newton's law at all contacts at once: the first contact parts by e, the others, at rest before, do not part.
+[[nodiscard]] std::vector<double> simultaneous_row(std::size_t spheres, double restitution);
+
+/// Two equal spheres, frictionless, of which one was at rest: velocities relative to the runner's, whose direction is
+/// x. angle: of the line of centres from it, rad, in the x y plane.
+struct GlancingImpact {
+  Eigen::Vector3d runner, target;
+};
+[[nodiscard]] GlancingImpact glancing_impact(double angle, double restitution);
 
 /// A solid sphere without spin that strikes a plane: tangential and normal speed and spin afterwards. The tangential
 /// impulse is the smaller of what stops the slip, 2 m v / 7, and mu (1 + e) m v_n.
@@ -69,6 +84,13 @@ struct SpinStop {
 [[nodiscard]] SpinStop spin_stop(double g, double friction, double side, double lever, double spin);
 [[nodiscard]] double corner_lever(double side);
 [[nodiscard]] double uniform_lever(double side);
+
+/// A block set down at rest on a belt of the given speed: how long it slips, and the way of the belt under it
+/// meanwhile.
+struct BeltSlip {
+  double time, slip;
+};
+[[nodiscard]] BeltSlip belt_slip(double g, double friction, double speed);
 
 /// A box on which balls rest, pushed without the balls slipping: accelerations of both. All balls roll on the box.
 struct LoadedBox {

@@ -20,6 +20,14 @@ double pendulum_angle(double g, double length, double amplitude, double t) {
   return 2 * std::asin(k * jacobi(u, k * k).sn);
 }
 
+PendulumState semi_implicit_pendulum(double g, double length, PendulumState start, double dt, std::uint64_t steps) {
+  for (std::uint64_t i = 0; i < steps; ++i) {
+    start.rate -= dt * g / length * std::sin(start.angle);
+    start.angle += dt * start.rate;
+  }
+  return start;
+}
+
 SphericalPendulum::Cycle SphericalPendulum::cycle() const {
   const double w = 2 * g / length, u0 = std::cos(theta), s = std::sin(theta);
   const double lz = s * s * rate;

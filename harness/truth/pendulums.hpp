@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 
 namespace plumb::truth {
 
@@ -9,6 +10,13 @@ namespace plumb::truth {
 [[nodiscard]] double pendulum_period(double g, double length, double amplitude);
 /// Its angle at t, released at rest at the amplitude.
 [[nodiscard]] double pendulum_angle(double g, double length, double amplitude, double t);
+
+/// What semi-implicit Euler in the angle itself makes of it: first the angular velocity, then the angle, `steps` times.
+struct PendulumState {
+  double angle, rate;
+};
+[[nodiscard]] PendulumState semi_implicit_pendulum(double g, double length, PendulumState start, double dt,
+                                                   std::uint64_t steps);
 
 /// A point on a massless rod, started horizontally at the angle theta with the azimuth rate w: the start is a turning
 /// point of theta. u = cos(theta) obeys u'^2 = (1 - u^2)(c + 2 g u / l) - Lz^2 (Landau & Lifshitz, section 14).

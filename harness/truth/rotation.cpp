@@ -13,27 +13,38 @@ Eigen::Vector3d box_inertia(double mass, const Eigen::Vector3d& half_extents) {
   return mass / 3 * Eigen::Vector3d(s.y() + s.z(), s.z() + s.x(), s.x() + s.y());
 }
 
-FreeRotation::FreeRotation(const Eigen::Vector3d& inertia, double w1, double w2) {
+FreeRotation::FreeRotation(const Eigen::Vector3d& inertia, const Eigen::Vector3d& w) {
   const double i1 = inertia.x(), i2 = inertia.y(), i3 = inertia.z();
-  energy_ = (i1 * w1 * w1 + i2 * w2 * w2) / 2;
-  momentum_ = std::hypot(i1 * w1, i2 * w2);
-  const double square = momentum_ * momentum_;
-  const double above = 2 * energy_ * i3 - square;  // > 0
-  const double below = square - 2 * energy_ * i1;  // > 0
-  rate_ = std::sqrt(above * (i2 - i1) / (i1 * i2 * i3));
-  m_ = below * (i3 - i2) / (above * (i2 - i1));
-  amplitudes_ = {std::sqrt(above / (i1 * (i3 - i1))), std::sqrt(below / (i2 * (i2 - i1))),
-                 std::sqrt(below / (i3 * (i3 - i1)))};
+  energy_ = w.dot(inertia.cwiseProduct(w)) / 2;
+  momentum_ = inertia.cwiseProduct(w).norm();
+  // 2 E I3 - L^2, L^2 - 2 E I1 and L^2 - 2 E I2 without the difference of large numbers.
+  const Eigen::Vector3d s = inertia.cwiseProduct(w.cwiseAbs2());
+  const double above = s.x() * (i3 - i1) + s.y() * (i3 - i2), below = s.y() * (i2 - i1) + s.z() * (i3 - i1);
+  about_third_ = s.z() * (i3 - i2) > s.x() * (i2 - i1);
+  const double fast = about_third_ ? below * (i3 - i2) : above * (i2 - i1);
+  const double slow = about_third_ ? above * (i2 - i1) : below * (i3 - i2);
+  m_ = slow / fast;
   quarter_ = complete_elliptic(m_);
+  const double middle = about_third_ ? above / (i2 * (i3 - i2)) : below / (i2 * (i2 - i1));
+  amplitudes_ = {std::sqrt(above / (i1 * (i3 - i1))), std::sqrt(middle), std::sqrt(below / (i3 * (i3 - i1)))};
+  double& kept = about_third_ ? amplitudes_.z() : amplitudes_.x();  // of dn, which never changes its sign
+  kept = std::copysign(kept, about_third_ ? w.z() : w.x());
+  rate_ = std::copysign(std::sqrt(fast / (i1 * i2 * i3)), kept);
+  const double cn = about_third_ ? w.x() / amplitudes_.x() : w.z() / amplitudes_.z();
+  start_ = std::ellint_1(std::sqrt(m_), std::atan2(w.y() / amplitudes_.y(), cn));
 }
 
 Eigen::Vector3d FreeRotation::angular_velocity(double t) const {
-  const Jacobi j = jacobi(quarter_ + rate_ * t, m_);
-  return {amplitudes_.x() * j.dn, amplitudes_.y() * j.sn, amplitudes_.z() * j.cn};
+  const Jacobi j = jacobi(start_ + rate_ * t, m_);
+  return amplitudes_.cwiseProduct(Eigen::Vector3d(about_third_ ? j.cn : j.dn, j.sn, about_third_ ? j.dn : j.cn));
 }
 
-double FreeRotation::first_flip() const { return quarter_ / rate_; }
-double FreeRotation::flip_interval() const { return 2 * quarter_ / rate_; }
+double FreeRotation::first_flip() const {
+  // sn is 0 at whole multiples of 2 K.
+  const double along = (rate_ > 0 ? start_ : -start_) / (2 * quarter_);
+  return (std::floor(along) + 1 - along) * flip_interval();
+}
+double FreeRotation::flip_interval() const { return 2 * quarter_ / std::abs(rate_); }
 
 int FreeRotation::flips(double seconds) const {
   return static_cast<int>(std::floor((seconds - first_flip()) / flip_interval())) + 1;

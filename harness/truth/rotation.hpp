@@ -8,12 +8,12 @@ namespace plumb::truth {
 /// A box of mass m and half extents h about its centre: m / 3 (hy^2 + hz^2) ...
 [[nodiscard]] Eigen::Vector3d box_inertia(double mass, const Eigen::Vector3d& half_extents);
 
-/// Free rotation that starts in the plane of the first two principal axes, w = (w1, w2, 0) with I1 < I2 < I3 and energy
-/// on the side of axis 1: w(t) = (a1 dn u, w2 sn u, -a3 cn u ...) in body axes (Landau & Lifshitz, Mechanics, section
-/// 37).
+/// Free rotation of a body with I1 < I2 < I3 from the angular velocity w (body axes). The component about the middle
+/// axis is a2 sn u; of the others, the axis that the motion stays about (3 where L^2 > 2 E I2, else 1) has dn u and the
+/// third one cn u; u goes evenly with time (Landau & Lifshitz, Mechanics, section 37).
 class FreeRotation {
  public:
-  FreeRotation(const Eigen::Vector3d& inertia, double w1, double w2);
+  FreeRotation(const Eigen::Vector3d& inertia, const Eigen::Vector3d& w);
   [[nodiscard]] Eigen::Vector3d angular_velocity(double t) const;  ///< body axes
   [[nodiscard]] double energy() const { return energy_; }
   [[nodiscard]] double momentum() const { return momentum_; }
@@ -25,7 +25,9 @@ class FreeRotation {
   [[nodiscard]] Eigen::Quaterniond orientation(double t) const;
 
  private:
-  double energy_, momentum_, m_, rate_, quarter_;
+  double energy_, momentum_, m_, quarter_;
+  double start_, rate_;  ///< u = start + rate t
+  bool about_third_;     ///< the motion stays about axis 3, else about axis 1
   Eigen::Vector3d amplitudes_;
 };
 

@@ -37,6 +37,45 @@ TEST(Impact, HeadOnPairs) {
   EXPECT_NEAR(head_on(1e4, 1, 1, 0, 1).b, 1.99980002, digits);
 }
 
+TEST(Impact, RowOfSpheresAtOnceAndOneAfterTheOther) {
+  const std::vector<double> once = simultaneous_row(5, 1), turns = sequential_row(5);
+  EXPECT_EQ(turns, (std::vector<double>{0, 0, 0, 0, 1}));
+  double energy = 0, momentum = 0;
+  for (std::size_t i = 0; i < 5; ++i) {
+    EXPECT_NEAR(once[i], i == 0 ? -.6 : .4, digits);
+    energy += once[i] * once[i];
+    momentum += once[i];
+  }
+  EXPECT_NEAR(energy, 1, 1e-15);
+  EXPECT_NEAR(momentum, 1, 1e-15);
+  // The same from the impulses p of the contacts: the change of their relative speeds is A p, A = 2 on the diagonal
+  // and -1 beside it; and by a chain of single impacts.
+  for (const double e : {1.0, .5}) {
+    Eigen::Matrix4d a = 2 * Eigen::Matrix4d::Identity();
+    for (int i = 0; i < 3; ++i) a(i, i + 1) = a(i + 1, i) = -1;
+    const Eigen::Vector4d p = a.inverse() * Eigen::Vector4d(1 + e, 0, 0, 0);
+    const std::vector<double> row = simultaneous_row(5, e);
+    EXPECT_NEAR(row[0], 1 - p[0], 1e-14);
+    EXPECT_NEAR(row[2], p[1] - p[2], 1e-14);
+    EXPECT_NEAR(row[4], p[3], 1e-14);
+  }
+  std::vector<double> chain{1, 0, 0, 0, 0};
+  for (std::size_t i = 0; i + 1 < 5; ++i) {
+    const HeadOn after = head_on(1, chain[i], 1, chain[i + 1], 1);
+    chain[i] = after.a, chain[i + 1] = after.b;
+  }
+  for (std::size_t i = 0; i < 5; ++i) EXPECT_NEAR(chain[i], turns[i], 1e-15);
+}
+
+TEST(Impact, GlancingPair) {
+  const GlancingImpact after = glancing_impact(30 * degree, 1);
+  EXPECT_NEAR((after.runner - Eigen::Vector3d(.25, -.43301270, 0)).norm(), 0, digits);
+  EXPECT_NEAR((after.target - Eigen::Vector3d(.75, .43301270, 0)).norm(), 0, digits);
+  EXPECT_NEAR(after.runner.squaredNorm() + after.target.squaredNorm(), 1, 1e-15);
+  EXPECT_NEAR(after.runner.dot(after.target), 0, 1e-15);  // equal masses part at right angles
+  EXPECT_NEAR(glancing_impact(0, .5).target.x(), head_on(1, 1, 1, 0, .5).b, 1e-15);
+}
+
 TEST(Impact, ObliqueSphere) {
   const ObliqueImpact slips = oblique_impact(.1, 5, 5, .1, .5);
   EXPECT_NEAR(slips.tangential, 4.25, digits);
@@ -127,6 +166,20 @@ TEST(Friction, SpinningCube) {
   EXPECT_NEAR(spin_stop(g, .5, 1, corner_lever(1), 10).angle, 2.40267340, digits);
   EXPECT_NEAR(spin_stop(g, .5, 1, uniform_lever(1), 10).time, .88811091, digits);
   EXPECT_NEAR(spin_stop(g, .5, 1, uniform_lever(1), 10).angle, 4.44055453, digits);
+}
+
+TEST(Friction, BeltThatPicksUpABlock) {
+  const BeltSlip slip = belt_slip(g, .3, 2);
+  EXPECT_NEAR(slip.time, .67957866, digits);
+  EXPECT_NEAR(slip.slip, .67957866, digits);
+  // The same by small steps, at another speed.
+  double v = 0, t = 0, under = 0;
+  for (constexpr double dt = 1e-6; v < 5; t += dt) {
+    v += .3 * g * dt;
+    under += (5 - v) * dt;
+  }
+  EXPECT_NEAR(belt_slip(g, .3, 5).time, t, 2e-6);
+  EXPECT_NEAR(belt_slip(g, .3, 5).slip, under, 1e-5);
 }
 
 TEST(Friction, PushedBoxWithBalls) {

@@ -50,7 +50,7 @@ TEST(FreeRotation, BoxOnItsMiddleAxis) {
   EXPECT_NEAR(inertia.x(), 2.41666667, digits);
   EXPECT_NEAR(inertia.y(), 8.66666667, digits);
   EXPECT_NEAR(inertia.z(), 10.41666667, digits);
-  const FreeRotation motion(inertia, 0.5, 5);
+  const FreeRotation motion(inertia, {0.5, 5, 0});
   EXPECT_NEAR(motion.energy(), 108.63541667, digits);
   EXPECT_NEAR(motion.momentum(), 43.35017701, digits);
   EXPECT_NEAR(motion.modulus(), 0.98741319, digits);
@@ -62,6 +62,34 @@ TEST(FreeRotation, BoxOnItsMiddleAxis) {
   EXPECT_NEAR((motion.angular_velocity(10) - Eigen::Vector3d(3.06265904, -3.65539474, -2.75041052)).norm(), 0, 2e-8);
   const Eigen::Quaterniond expected(-0.64396075, -0.37688240, 0.47780877, -0.46365179);
   EXPECT_NEAR(std::abs(motion.orientation(1).dot(expected)), 1, 1e-8);
+}
+
+TEST(FreeRotation, BoxNearlyOnItsMiddleAxis) {
+  const FreeRotation motion(box_inertia(100, {0.5, 0.25, 0.1}), {0.01, 5, 0.01});
+  EXPECT_NEAR(motion.energy(), 108.33397500, digits);
+  EXPECT_NEAR(motion.momentum(), 43.33346527, digits);
+  EXPECT_NEAR(motion.flip_interval(), 5.01691357, digits);
+  EXPECT_NEAR(motion.first_flip(), 2.97239462, digits);
+  EXPECT_EQ(motion.flips(60), 12);
+  EXPECT_NEAR((motion.angular_velocity(1) - Eigen::Vector3d(-.01291991, 4.99999147, .01246801)).norm(), 0, 2e-8);
+}
+
+TEST(FreeRotation, FromAnywhereSolvesEulersEquations) {
+  const Eigen::Vector3d inertia(1, 2, 3.5);
+  const Derivative euler = [&](double, const Eigen::VectorXd& y) -> Eigen::VectorXd {
+    const Eigen::Vector3d w = y;
+    return (inertia.cwiseProduct(w)).cross(w).cwiseQuotient(inertia);
+  };
+  for (const Eigen::Vector3d& start : {Eigen::Vector3d(1, 2, 3), Eigen::Vector3d(-3, 1, 0.5),
+                                       Eigen::Vector3d(0.2, -2, -1), Eigen::Vector3d(2, 3, -0.1)}) {
+    const FreeRotation motion(inertia, start);
+    EXPECT_NEAR((motion.angular_velocity(0) - start).norm(), 0, 1e-9);
+    const Eigen::Vector3d later = integrate(euler, start, 0, 5);
+    EXPECT_NEAR((motion.angular_velocity(5) - later).norm(), 0, 1e-8);
+    EXPECT_NEAR(motion.angular_velocity(motion.first_flip()).y(), 0, 1e-8);
+    EXPECT_NE(motion.angular_velocity(motion.first_flip() - 1e-3).y() > 0,
+              motion.angular_velocity(motion.first_flip() + 1e-3).y() > 0);
+  }
 }
 
 TEST(HeavyTop, SteadyPrecessionAndNutation) {
@@ -83,6 +111,15 @@ TEST(Pendulum, PeriodsAndAngles) {
   EXPECT_NEAR(pendulum_period(9.81, 2.0 / 3, 90 * degree), 1.93333485, digits);
   EXPECT_NEAR(pendulum_angle(9.81, 1, 90 * degree, 1), -1.40502731, digits);
   EXPECT_NEAR(pendulum_angle(9.81, 1, 90 * degree, 10), 0.27868067, digits);
+}
+
+TEST(Pendulum, SemiImplicitEulerConvergesToTheMotionAndIsOffByItsOrder) {
+  const auto error = [](std::uint64_t steps) {
+    const PendulumState end = semi_implicit_pendulum(9.81, 1, {std::numbers::pi / 2, 0}, 1.0 / double(steps), steps);
+    return end.angle - pendulum_angle(9.81, 1, std::numbers::pi / 2, 1);
+  };
+  EXPECT_LT(std::abs(error(1000000)), 1e-5);
+  EXPECT_NEAR(error(1000) / error(2000), 2, 0.01);
 }
 
 TEST(SphericalPendulum, RangeAzimuthAndPosition) {
