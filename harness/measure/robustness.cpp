@@ -69,13 +69,23 @@ std::span<const MeasureEntry> robustness_measures() {
   static constexpr const char* turn_args[] = {"axis", "angle"};
   static constexpr const char* repeat_args[] = {"orders"};
   static constexpr const char* edges_args[] = {"bodies", "friction", "speed", "slides"};
+  static constexpr const char* velocity_args[] = {"velocity"};
+  static constexpr const char* rod_args[] = {"rods", "half_length", "wall", "thickness"};
+  static constexpr const char* stack_args[] = {"bullet", "boxes"};
+  static constexpr const char* press_args[] = {"lower", "upper", "box", "squeeze"};
+  static constexpr const char* reversal_args[] = {"size", "pendulum"};
   static constexpr MeasureEntry entries[] = {
       {"bullet", "bodies that passed through a thin wall", bullet_args, bullet},
+      {"spinning_rod", "rods that spin through a thin wall, and how deep they get", rod_args, measure_spinning_rod},
+      {"bullet_stack", "momentum and order of what a bullet hits", stack_args, measure_bullet_stack},
+      {"press", "how a cube leaves a press that gave it no room", press_args, measure_press},
+      {"time_reversal", "a scene that runs back to its start", reversal_args, measure_time_reversal},
       {"deep_overlap", "how gently bodies that start in each other part", {}, deep_overlap},
       {"similarity", "a scene against itself made larger or smaller", factor_args, measure_similarity},
       {"mass_scaling", "a scene against itself made heavier or lighter", factor_args, measure_mass_scaling},
       {"translation", "a scene against itself far from the origin", offset_args, measure_translation},
       {"rotation", "a scene against itself turned, gravity too", turn_args, measure_rotation},
+      {"galilean", "a scene against itself seen from a moving frame", velocity_args, measure_galilean},
       {"repeat", "a scene against itself run again, on more threads, and in another order", repeat_args,
        measure_repeat},
       {"inner_edges", "bodies that slide or roll over the edges within a plane", edges_args, measure_inner_edges},

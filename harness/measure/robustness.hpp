@@ -10,10 +10,19 @@ void measure_similarity(MeasureContext& context);
 void measure_mass_scaling(MeasureContext& context);
 void measure_translation(MeasureContext& context);
 void measure_rotation(MeasureContext& context);
+void measure_galilean(MeasureContext& context);
 void measure_repeat(MeasureContext& context);
 
 // robustness_edges.cpp
 void measure_inner_edges(MeasureContext& context);
+
+// robustness_continuous.cpp: what is too fast or too thin for one look a step
+void measure_spinning_rod(MeasureContext& context);
+void measure_bullet_stack(MeasureContext& context);
+
+// robustness_driven.cpp: what the host does to a scene while it runs
+void measure_press(MeasureContext& context);
+void measure_time_reversal(MeasureContext& context);
 
 // robustness_bad_input.cpp
 void measure_bad_input(MeasureContext& context);

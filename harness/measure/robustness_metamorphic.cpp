@@ -19,18 +19,22 @@ constexpr double side = 1;  // m, of the boxes in all of these scenes
 using referee::vec;
 using referee::Vec3;
 
-/// Largest distance of any body's centre between the scene and its copy at any step. back: from the copy's world.
-double follow(Simulation& original, Simulation& copy, const std::function<Vec3(const Vec3&)>& back) {
+/// From the copy's world to the scene's: where, and when, s.
+using WayBack = std::function<Vec3(const Vec3&, double)>;
+
+/// Largest distance of any body's centre between the scene and its copy at any step.
+double follow(Simulation& original, Simulation& copy, const WayBack& back) {
   double worst = 0;
   while (original.advance() && copy.advance())
     for (std::size_t i = 0; i < original.poses().size(); ++i)
-      worst = largest(worst, (back(vec(copy.poses()[i].position)) - vec(original.poses()[i].position)).norm());
+      worst =
+          largest(worst, (back(vec(copy.poses()[i].position), copy.time()) - vec(original.poses()[i].position)).norm());
   if (original.steps() != copy.steps()) return not_measured;
   return worst;
 }
 
 /// Metric "deviation". An engine that refuses the copy, whose numbers are all legal, has not done the same either.
-void follow(MeasureContext& context, const Scene& copied, const std::function<Vec3(const Vec3&)>& back) {
+void follow(MeasureContext& context, const Scene& copied, const WayBack& back) {
   Simulation original = context.simulate(context.scene());
   try {
     Simulation copy = context.simulate(copied);
@@ -70,18 +74,18 @@ bool in_place(const Scene& scene, std::span<const PoseRow> poses) {
 
 void measure_similarity(MeasureContext& context) {
   const double factor = arg_number(context.scene(), "factor");
-  const auto back = [&](const Vec3& x) -> Vec3 { return x / factor; };
+  const auto back = [&](const Vec3& x, double) -> Vec3 { return x / factor; };
   follow(context, scaled(context.scene(), factor), back);
 }
 
 void measure_mass_scaling(MeasureContext& context) {
   const Scene copy = heavier(context.scene(), arg_number(context.scene(), "factor"));
-  follow(context, copy, [](const Vec3& x) { return x; });
+  follow(context, copy, [](const Vec3& x, double) { return x; });
 }
 
 void measure_translation(MeasureContext& context) {
   const Vec3 offset(arg_number(context.scene(), "offset"), 0, 0);
-  const auto back = [&](const Vec3& x) -> Vec3 { return x - offset; };
+  const auto back = [&](const Vec3& x, double) -> Vec3 { return x - offset; };
   follow(context, translated(context.scene(), offset), back);
 }
 
@@ -89,8 +93,15 @@ void measure_rotation(MeasureContext& context) {
   const std::vector<double> axis = arg_numbers(context.scene(), "axis");
   const referee::Quat turn(
       Eigen::AngleAxisd(arg_number(context.scene(), "angle"), Vec3(axis.at(0), axis.at(1), axis.at(2)).normalized()));
-  const auto back = [&](const Vec3& x) -> Vec3 { return turn.conjugate() * x; };
+  const auto back = [&](const Vec3& x, double) -> Vec3 { return turn.conjugate() * x; };
   follow(context, rotated(context.scene(), turn), back);
+}
+
+void measure_galilean(MeasureContext& context) {
+  const std::vector<double> numbers = arg_numbers(context.scene(), "velocity");
+  const Vec3 velocity(numbers.at(0), numbers.at(1), numbers.at(2));
+  const auto back = [&](const Vec3& x, double t) -> Vec3 { return x - t * velocity; };
+  follow(context, boosted(context.scene(), velocity), back);
 }
 
 void measure_repeat(MeasureContext& context) {

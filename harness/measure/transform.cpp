@@ -90,6 +90,16 @@ Scene translated(Scene scene, const Vec3& offset) {
   return scene;
 }
 
+Scene boosted(Scene scene, const Vec3& velocity) {
+  for (SceneBody& body : scene.bodies) {
+    if (body.desc.motion != PLUMB_DYNAMIC) throw std::logic_error("body " + body.name + " would be left behind");
+    body.desc.linear_velocity = referee::plain(vec(body.desc.linear_velocity) + velocity);
+  }
+  for (const SceneJoint& joint : scene.joints)
+    if (!joint.body_a) throw std::logic_error("joint " + joint.name + " holds on to the world");
+  return scene;
+}
+
 Scene rotated(Scene scene, const Quat& turn) {
   scene.gravity = referee::plain(turn * vec(scene.gravity));
   for (SceneBody& body : scene.bodies) {

@@ -20,6 +20,10 @@ namespace plumb::harness {
 /// Everything shifted.
 [[nodiscard]] Scene translated(Scene scene, const referee::Vec3& offset);
 
+/// Everything seen from a frame that moves with -velocity: the same motion, with `velocity` added to it. Throws
+/// std::logic_error for scenes with bodies that do not move freely or joints to the world, which would stay behind.
+[[nodiscard]] Scene boosted(Scene scene, const referee::Vec3& velocity);
+
 /// Everything turned about the origin, gravity too. Throws std::logic_error for scenes with locked axes, which are the
 /// world's.
 [[nodiscard]] Scene rotated(Scene scene, const referee::Quat& turn);

@@ -89,6 +89,19 @@ TEST(Transform, TranslatedMovesOnlyTheWorldsFrames) {
   EXPECT_EQ(after.joints[1].desc.frame_a.position.x, 0);
 }
 
+TEST(Transform, BoostedAddsAVelocityToFreeBodiesOnly) {
+  Scene scene = sample();
+  EXPECT_THROW(static_cast<void>(boosted(scene, {10, 0, 0})), std::logic_error);  // hinged to the world
+  scene.joints.erase(scene.joints.begin());
+  const Scene after = boosted(scene, {10, 20, 0});
+  EXPECT_EQ(after.bodies[0].desc.linear_velocity.x, 14);
+  EXPECT_EQ(after.bodies[1].desc.linear_velocity.y, 20);
+  EXPECT_EQ(after.bodies[0].desc.angular_velocity.y, 6);
+  EXPECT_EQ(after.bodies[0].desc.pose.position.x, 1);
+  scene.bodies[0].desc.motion = PLUMB_STATIC;
+  EXPECT_THROW(static_cast<void>(boosted(scene, {10, 0, 0})), std::logic_error);
+}
+
 TEST(Transform, RotatedAQuarterAboutZ) {
   const referee::Quat turn(Eigen::AngleAxisd(std::numbers::pi / 2, referee::Vec3::UnitZ()));
   const Scene after = rotated(sample(), turn);
