@@ -107,6 +107,9 @@ std::span<const MeasureEntry> friction_measures() {
   static constexpr const char* spin_args[] = {"body", "side", "friction", "spin"};
   static constexpr const char* pushed_args[] = {"box", "balls", "friction", "force", "heading"};
   static constexpr const char* ramp_args[] = {"body", "friction", "rate"};
+  static constexpr const char* belt_args[] = {"belt", "box", "friction", "speed", "heading"};
+  static constexpr const char* painleve_args[] = {"rod", "length"};
+  static constexpr const char* ladder_args[] = {"ladder", "length", "radius", "slope", "friction"};
   static constexpr MeasureEntry entries[] = {
       {"incline", "whether a block slides, how far, or how it creeps", incline_args, incline},
       {"sliding_stop", "stopping distances of blocks in many directions", stop_args, sliding_stop},
@@ -116,6 +119,9 @@ std::span<const MeasureEntry> friction_measures() {
       {"spin_stop", "time and angle in which a spinning cube stops", spin_args, measure_spin_stop},
       {"pushed_box", "velocities of a pushed box and the balls on it", pushed_args, measure_pushed_box},
       {"force_ramp", "when a growing force moves a block, and how far", ramp_args, measure_force_ramp},
+      {"conveyor", "how long and how far a box slips on a belt", belt_args, measure_conveyor},
+      {"painleve", "laws that a rod keeps that no finite force can carry on", painleve_args, measure_painleve},
+      {"ladder", "whether a ladder stands on the floor and against a wall", ladder_args, measure_ladder},
   };
   return entries;
 }

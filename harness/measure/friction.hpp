@@ -14,4 +14,11 @@ void measure_spin_stop(MeasureContext& context);
 void measure_pushed_box(MeasureContext& context);
 void measure_force_ramp(MeasureContext& context);
 
+// friction_belt.cpp
+void measure_conveyor(MeasureContext& context);
+
+// friction_rods.cpp
+void measure_painleve(MeasureContext& context);
+void measure_ladder(MeasureContext& context);
+
 }  // namespace plumb::harness
