@@ -92,6 +92,9 @@ std::span<const MeasureEntry> collision_measures() {
   static constexpr const char* oblique_args[] = {"body", "radius", "friction", "restitution"};
   static constexpr const char* cube_args[] = {"body", "half", "friction", "restitution"};
   static constexpr const char* box_args[] = {"body", "radius", "offset_x", "offset_z", "restitution"};
+  static constexpr const char* cradle_args[] = {"balls", "touching"};
+  static constexpr const char* glancing_args[] = {"runner", "target", "angle"};
+  static constexpr const char* answers_args[] = {"case", "pairs", "depth", "height"};
   static constexpr MeasureEntry entries[] = {
       {"bounce_ladder", "heights of the first five bounces", ladder_args, bounce_ladder},
       {"flat_bounce", "how far a box that falls flat rises again, and its spin", flat_args, flat_bounce},
@@ -100,6 +103,10 @@ std::span<const MeasureEntry> collision_measures() {
       {"tilted_cube", "velocity and spin of a cube that lands on an edge or a vertex", cube_args, measure_tilted_cube},
       {"sphere_on_box", "velocity and normal of a sphere that strikes a box's edge or corner", box_args,
        measure_sphere_on_box},
+      {"cradle", "velocities, energy and momentum of a row of spheres that one runs into", cradle_args, measure_cradle},
+      {"glancing_pair", "velocities of two spheres that meet off centre", glancing_args, measure_glancing_pair},
+      {"static_answers", "depth, normal and points of boxes in each other, without a step", answers_args,
+       measure_static_answers},
   };
   return entries;
 }

@@ -11,4 +11,11 @@ void measure_oblique_impact(MeasureContext& context);
 void measure_tilted_cube(MeasureContext& context);
 void measure_sphere_on_box(MeasureContext& context);
 
+// collision_spheres.cpp: impacts among several spheres
+void measure_cradle(MeasureContext& context);
+void measure_glancing_pair(MeasureContext& context);
+
+// collision_answers.cpp: the narrow phase alone
+void measure_static_answers(MeasureContext& context);
+
 }  // namespace plumb::harness
