@@ -2,6 +2,7 @@
 #include "measure/stacking.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "measure/groups.hpp"
 
@@ -9,6 +10,10 @@ namespace plumb::harness {
 
 double distance_from_start(const Scene& scene, std::span<const PoseRow> poses, std::size_t body) {
   return (referee::vec(poses[body].position) - referee::vec(scene.bodies[body].desc.pose.position)).norm();
+}
+
+double tilt_of(const PoseRow& pose) {
+  return std::acos(std::clamp((referee::quat(pose.orientation) * referee::Vec3::UnitY()).y(), -1.0, 1.0));
 }
 
 void add_survival(MeasureContext& context, const Survival& survival, double seconds) {
@@ -29,12 +34,24 @@ std::span<const MeasureEntry> stacking_measures() {
   static constexpr const char* overhang_args[] = {"blocks", "share"};
   static constexpr const char* spheres_args[] = {"top", "base", "ground", "friction"};
   static constexpr const char* lattice_args[] = {"spheres"};
+  static constexpr const char* arch_args[] = {"stones", "radius", "thickness", "friction"};
+  static constexpr const char* catto_args[] = {"stones", "boxes", "wide", "friction"};
+  static constexpr const char* cards_args[] = {"cards", "lean", "friction", "length"};
+  static constexpr const char* masonry_args[] = {"blocks"};
+  static constexpr const char* big_args[] = {"big", "small"};
+  static constexpr const char* taken_args[] = {"balls", "load", "time", "away"};
   static constexpr MeasureEntry entries[] = {
       {"tower", "sink, drift, depth and rest of a tower, from the ground up", boxes_args, measure_tower},
       {"pyramid", "boxes in place, symmetry and depth of a planar pyramid", pyramid_args, measure_pyramid},
       {"mass_ratio", "depth, rest and forces of one box on another", ratio_args, measure_mass_ratio},
       {"overhang", "whether the harmonic stack stands", overhang_args, measure_overhang},
       {"four_spheres", "whether three spheres carry a fourth, and by which forces", spheres_args, measure_four_spheres},
+      {"voussoir_arch", "whether an arch of wedges stands", arch_args, measure_voussoir_arch},
+      {"catto_arch", "whether Catto's arch stands under its load", catto_args, measure_catto_arch},
+      {"cards", "whether a leaning card stands, or for how long a house of cards", cards_args, measure_cards},
+      {"masonry", "how long loose blocks keep their places, and how they creep", masonry_args, measure_masonry},
+      {"big_on_small", "depth, tilt and loads of a big cube on small ones", big_args, measure_big_on_small},
+      {"taken_load", "how a stack jumps when its load is taken", taken_args, measure_taken_load},
       {"sphere_lattice", "overlaps of many spheres that fall and scatter", lattice_args, measure_sphere_lattice},
   };
   return entries;

@@ -24,11 +24,24 @@ void measure_mass_ratio(MeasureContext& context);
 void measure_overhang(MeasureContext& context);
 void measure_four_spheres(MeasureContext& context);
 
+// stacking_masonry.cpp
+void measure_voussoir_arch(MeasureContext& context);
+void measure_catto_arch(MeasureContext& context);
+void measure_cards(MeasureContext& context);
+void measure_masonry(MeasureContext& context);
+
+// stacking_loads.cpp
+void measure_big_on_small(MeasureContext& context);
+void measure_taken_load(MeasureContext& context);
+
 // stacking_spheres.cpp
 void measure_sphere_lattice(MeasureContext& context);
 
 /// How far a body is from where it started, m. NaN when its pose is.
 [[nodiscard]] double distance_from_start(const Scene& scene, std::span<const PoseRow> poses, std::size_t body);
+
+/// Angle of a body's y axis from the vertical, rad.
+[[nodiscard]] double tilt_of(const PoseRow& pose);
 
 /// The time (s) for which a condition held without a break from the start.
 class Survival {

@@ -28,11 +28,6 @@ double sideways(const Scene& scene, std::span<const PoseRow> poses, std::size_t 
   return std::hypot(now.x - start.x, now.z - start.z);
 }
 
-/// Angle of the body's y axis from the vertical, rad.
-double tilt(const PoseRow& pose) {
-  return std::acos(std::clamp((referee::quat(pose.orientation) * referee::Vec3::UnitY()).y(), -1.0, 1.0));
-}
-
 }  // namespace
 
 bool tower_stands(const Scene& scene, std::span<const PoseRow> poses, const std::vector<std::size_t>& boxes) {
@@ -78,7 +73,7 @@ void measure_tower(MeasureContext& context) {
   context.deviation("drift", drift / side);
   context.deviation("depth", depth / side);
   double most_tilt = 0;
-  for (const std::size_t box : boxes) most_tilt = largest(most_tilt, tilt(poses[box]));
+  for (const std::size_t box : boxes) most_tilt = largest(most_tilt, tilt_of(poses[box]));
   context.deviation("tilt", most_tilt);
   double weight = 0;
   for (const std::size_t box : boxes) weight += view.masses()[box].mass * g;
