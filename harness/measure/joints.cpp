@@ -56,10 +56,12 @@ std::span<const MeasureEntry> joint_measures() {
   static constexpr const char* cantilever_args[] = {"cubes", "root", "length"};
   static constexpr const char* four_bar_args[] = {"crank", "rocker", "lengths", "start", "speed"};
   static constexpr const char* universal_args[] = {"first", "second", "bend"};
+  static constexpr const char* net_args[] = {"length", "stretched"};
   static constexpr MeasureEntry entries[] = {
       {"heavy_chain", "joint gaps of a chain with a heavy tip, and its tension at rest", chain_args,
        measure_heavy_chain},
       {"chain_mode", "period of a hanging chain's slowest mode", mode_args, measure_chain_mode},
+      {"net", "gaps of a net of joints, or of a chain that starts stretched", net_args, measure_net},
       {"catenary", "shape and end force of a chain at rest between two points", catenary_args, measure_catenary},
       {"slider", "a sled on a slope, or the piston of a slider-crank", slider_args, measure_slider},
       {"parallelogram", "period and gaps of a closed linkage that swings", parallelogram_args, measure_parallelogram},

@@ -8,6 +8,9 @@
 
 namespace plumb::harness {
 
+// joints_nets.cpp
+void measure_net(MeasureContext& context);
+
 // joints_chains.cpp
 void measure_heavy_chain(MeasureContext& context);
 void measure_chain_mode(MeasureContext& context);
