@@ -6,6 +6,7 @@
 #include "measure/args.hpp"
 #include "measure/groups.hpp"
 #include "measure/referee_view.hpp"
+#include "measure/scale.hpp"
 #include "measure/series.hpp"
 
 namespace plumb::harness {
@@ -70,8 +71,13 @@ void throughput(MeasureContext& context) {
 
 std::span<const MeasureEntry> scale_measures() {
   static constexpr const char* throughput_args[] = {"boxes", "stack", "reach"};
+  static constexpr const char* crowd_args[] = {"size",        "reach", "floor", "wave", "repeat", "stack", "launch",
+                                               "launch_time", "speed", "drum",  "rate", "radius", "length"};
+  static constexpr const char* broad_args[] = {"boxes", "extent", "clumps"};
   static constexpr MeasureEntry entries[] = {
-      {"throughput", "depth, energy and order at the end of a large timed run", throughput_args, throughput}};
+      {"throughput", "depth, energy and order at the end of a large timed run", throughput_args, throughput},
+      {"crowd", "depth, order and bounds of many bodies, driven or falling", crowd_args, measure_crowd},
+      {"broad_phase", "pairs of bounding boxes against the referee's", broad_args, measure_broad_phase}};
   return entries;
 }
 
