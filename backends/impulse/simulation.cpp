@@ -52,6 +52,7 @@ void Simulation::reserve_proxies(std::uint32_t rows) {
   proxies.grow(size);
   for (std::size_t i = before; i < size; ++i) proxies.edit(i).shape = kNone;
   filters.grow(size);
+  if (features_.belts) belts.grow(size);
   movers_.grow(size);
   statics_.grow(size);
   boxes_.grow(size);
@@ -186,6 +187,7 @@ void Simulation::upload_changes() {
   upload_bodies();
   force.upload(executor_);
   mass.upload(executor_);
+  belts.upload(executor_);
   frames.upload(executor_);
   joints.drives.upload(executor_);
   if (joints.changed()) {
@@ -299,6 +301,9 @@ void Simulation::enqueue() {
     if (features_.collision)
       solver_.prepare(executor_, now, all, shapes_on, colouring_, features_.continuous ? impacts_.times() : nullptr,
                       parameters, counters);
+    if (features_.belts)
+      put_drifts(executor_, now, pair_capacity_, all, shapes_on, belts.device(), colouring_.order(),
+                 colouring_.colours(), solver_.rows(), counters);
     solver_.solve(executor_, all, bodies_in_step(), parameters, counters, pair_capacity_, joints);
     if (features_.collision) solver_.keep_impulses(executor_, now, counters);
   } else {

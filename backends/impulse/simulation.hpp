@@ -10,6 +10,7 @@
 
 #include "body_state.hpp"
 #include "broadphase/broad_phase.hpp"
+#include "constraints/belts.hpp"
 #include "constraints/joint_store.hpp"
 #include "contact_record.hpp"
 #include "continuous/impacts.hpp"
@@ -46,6 +47,7 @@ class Simulation {
   Table<BodyFrame> frames;
   Table<Proxy> proxies;        // rows of their own: a body may have several, or none
   Table<ProxyFilter> filters;  // by proxy
+  BeltSpeeds belts;            // in worlds that have them
   Table<Shape> shapes;
   JointStore joints;
   HullPool hulls;

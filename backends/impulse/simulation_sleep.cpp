@@ -77,7 +77,7 @@ Simulation::Slots Simulation::put_to_sleep(std::span<const std::uint32_t> bodies
 void Simulation::let_islands_rest() {
   sleep_.islands().find_resting(executor_, narrow_phase_.cache(step_), counters().manifolds,
                                 {joints.device(), joints.count()}, bodies(), proxy_view(), body_count_, sleep_.rest(),
-                                parameters_[0].sleep_time);
+                                parameters_[0].sleep_time, features_.belts ? belts.device() : nullptr);
   executor_.wait();
   if (sleep_.islands().resting_count() == 0) return;
   const Slots names = sleep_.islands().resting(body_count_);

@@ -43,8 +43,11 @@ constexpr Real kWaits = 2;
 constexpr std::uint32_t kGive = kRowFields + kManifoldPoints * kPointFields;
 constexpr std::uint32_t kGiveFields = 33;
 constexpr std::uint32_t kPointCount = kGive + kGiveFields;
+/// How fast the surface of b runs over that of a though neither body moves, along tangent and bitangent, m/s
+/// (belts.hpp).
+constexpr std::uint32_t kDrift = kPointCount + 1;
 constexpr std::uint32_t kAllFields = kGive + 36;
-static_assert(kManifoldPoints == 4 && kAllFields % 4 == 0);
+static_assert(kManifoldPoints == 4 && kAllFields % 4 == 0 && kDrift + 2 == kAllFields);
 /// Impulses of a point summed over the sub-steps so far, N s: normal, tangent, bitangent.
 constexpr std::uint32_t kSumFields = 3 * kManifoldPoints;
 

@@ -21,13 +21,12 @@ struct Graph {
   PLUMB_HD void join(std::uint32_t a, std::uint32_t b) const {
     const bool push_a = is_pushed(bodies, a), push_b = is_pushed(bodies, b);
     if (push_a && push_b) return unite(a, b);
-    if (push_a && moves(bodies.velocity[b])) restless_because_of(a);
-    if (push_b && moves(bodies.velocity[a])) restless_because_of(b);
+    if (push_a && moves(bodies.velocity[b])) keep_awake(a);
+    if (push_b && moves(bodies.velocity[a])) keep_awake(b);
   }
+  PLUMB_HD void keep_awake(std::uint32_t body) const { atomic_or(&restless[body], 1U); }
 
  private:
-  PLUMB_HD void restless_because_of(std::uint32_t body) const { atomic_or(&restless[body], 1U); }
-
   /// Hooks the larger below the smaller. Where the larger was hooked already, to another, the two are still to be
   /// united.
   PLUMB_HD void unite(std::uint32_t a, std::uint32_t b) const {
@@ -54,9 +53,14 @@ struct JoinTouching {
   Graph graph;
   ContactCache cache;
   Proxies proxies;
+  const Vec* belts;
   PLUMB_HD void operator()(std::uint32_t row) const {
     const Pair pair = cache.pairs[cache.candidate[row]];
-    graph.join(proxies.rows[pair.a].body, proxies.rows[pair.b].body);
+    const std::uint32_t a = proxies.rows[pair.a].body, b = proxies.rows[pair.b].body;
+    graph.join(a, b);
+    if (belts == nullptr || !runs(belts, pair)) return;
+    graph.keep_awake(a);
+    graph.keep_awake(b);
   }
 };
 
@@ -110,10 +114,10 @@ void Islands::reserve(std::uint32_t bodies) {
 
 void Islands::find_resting(Executor& executor, const ContactCache& cache, std::uint32_t manifolds,
                            const JointEdges& joints, const Bodies& bodies, const Proxies& proxies,
-                           std::uint32_t body_count, const Real* rest, Real time) {
+                           std::uint32_t body_count, const Real* rest, Real time, const Vec* belts) {
   executor.run(body_count, Alone{parent_.data(), restless_.data(), awake_.data(), count_.device()});
   const Graph graph = {bodies, parent_.data(), restless_.data()};
-  executor.run(manifolds, JoinTouching{graph, cache, proxies});
+  executor.run(manifolds, JoinTouching{graph, cache, proxies, belts});
   executor.run(joints.count, JoinJointed{graph, joints});
   executor.run(body_count, FindRoot{parent_.data(), root_.data()});
   executor.run(body_count, KeepAwake{bodies, rest, time, root_.data(), restless_.data(), awake_.data()});

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "body.hpp"
+#include "constraints/belts.hpp"
 #include "constraints/joint.hpp"
 #include "exec/executor.hpp"
 #include "exec/memory.hpp"
@@ -24,10 +25,11 @@ class Islands {
   void reserve(std::uint32_t bodies);
 
   /// Enqueues the search for islands all of whose bodies have rested for at least `time` seconds, and which nothing
-  /// that moves by itself touches. rest: by body, s. Only between steps.
+  /// that moves by itself touches. rest: by body, s. belts: by proxy, or null; what touches a surface that runs does
+  /// not rest either. Only between steps.
   void find_resting(Executor& executor, const ContactCache& cache, std::uint32_t manifolds, const JointEdges& joints,
-                    const Bodies& bodies, const Proxies& proxies, std::uint32_t body_count, const Real* rest,
-                    Real time);
+                    const Bodies& bodies, const Proxies& proxies, std::uint32_t body_count, const Real* rest, Real time,
+                    const Vec* belts = nullptr);
 
   /// Of the last search, when it is done: how many bodies such islands have.
   [[nodiscard]] std::uint32_t resting_count() const { return *count_.host(); }

@@ -184,6 +184,11 @@ PlumbResult World::read(PlumbField field, std::span<const PlumbBody> ids, Rows r
         row[0] = body.material.friction;
         row[1] = body.material.restitution;
         break;
+      case PLUMB_FIELD_SURFACE_VELOCITY:
+        row[0] = body.material.surface_velocity.x;
+        row[1] = body.material.surface_velocity.y;
+        row[2] = body.material.surface_velocity.z;
+        break;
       case PLUMB_FIELD_GRAVITY_SCALE: row[0] = body.gravity_scale; break;
       case PLUMB_FIELD_DAMPING:
         row[0] = body.linear_damping;
@@ -205,9 +210,13 @@ PlumbResult World::write(PlumbField field, std::span<const PlumbBody> ids, Const
   const FloatingPointScope scope;
   if (field == PLUMB_FIELD_POSE && init_.needs(PLUMB_NEED_CONTACTS)) records();  // they are told of by places
   if (field == PLUMB_FIELD_AWAKE) return write_awake(ids, rows), PLUMB_OK;
+  double row[16];
+  for (std::size_t i = 0; field == PLUMB_FIELD_SURFACE_VELOCITY && i < ids.size(); ++i) {
+    rows.get(i, row, 3);
+    require_speed("rows[" + std::to_string(i) + "]", {row[0], row[1], row[2]});
+  }
   wake_for_write(field, ids);
   fetch_for_write(field, ids);
-  double row[16];
   for (std::size_t i = 0; i < ids.size(); ++i) {
     rows.get(i, row, columns_of(field));
     write_row(field, slot_of(ids[i]), row);
@@ -292,6 +301,9 @@ void World::write_row(PlumbField field, std::uint32_t slot, const double* row) {
     case PLUMB_FIELD_MATERIAL:
       body.material.friction = row[0];
       body.material.restitution = row[1];
+      return put_body_rows(slot);
+    case PLUMB_FIELD_SURFACE_VELOCITY:
+      body.material.surface_velocity = {row[0], row[1], row[2]};
       return put_body_rows(slot);
     case PLUMB_FIELD_GRAVITY_SCALE: body.gravity_scale = row[0]; return put_body_rows(slot);
     case PLUMB_FIELD_DAMPING:

@@ -59,6 +59,7 @@ Fact need_fact(std::uint32_t index) {
     case PLUMB_NEED_CCD:
     case PLUMB_NEED_SENSORS:
     case PLUMB_NEED_QUERIES:
+    case PLUMB_NEED_SURFACE_VELOCITY:
     case PLUMB_NEED_JOINT_REACTIONS:
     case PLUMB_NEED_SNAPSHOT: return kYes;
     default: return kNotYet;
@@ -67,7 +68,6 @@ Fact need_fact(std::uint32_t index) {
 
 Fact field_fact(std::uint32_t field, bool writing) {
   if (field >= PLUMB_FIELD_COUNT) return {PLUMB_NONE};
-  if (field == PLUMB_FIELD_SURFACE_VELOCITY) return kNotYet;
   if (field == PLUMB_FIELD_MASS) return {writing ? PLUMB_NONE : PLUMB_NATIVE};
   const bool acts =
       (field >= PLUMB_FIELD_FORCE && field <= PLUMB_FIELD_IMPULSE_AT_POINT) || field == PLUMB_FIELD_KINEMATIC_TARGET;

@@ -36,8 +36,16 @@ void require_inertia(const std::string& what, double value, const char* unit) {
 
 }  // namespace
 
+void require_speed(const std::string& name, const PlumbVec3& speed) {
+  for (const double along : {speed.x, speed.y, speed.z})
+    if (const Real x = static_cast<Real>(along); !is_finite(x * x)) refuse_range(name, along, "m/s");
+}
+
 void require_range(const PlumbShapeDesc& desc, std::size_t i) {
   const std::string name = "descs[" + std::to_string(i) + "].";
+  for (std::uint32_t k = 0; desc.type == PLUMB_COMPOUND && k < desc.child_count; ++k)
+    require_speed(name + "children[" + std::to_string(k) + "].material.surface_velocity",
+                  desc.children[k].material.surface_velocity);
   const bool round = desc.type == PLUMB_CAPSULE || desc.type == PLUMB_CYLINDER;
   if (desc.type == PLUMB_SPHERE || round) require_length(name + "radius", desc.radius);
   if (round && desc.half_height != 0) require_length(name + "half_height", desc.half_height);
@@ -56,8 +64,9 @@ void require_range(const PlumbShapeDesc& desc, std::size_t i) {
 }
 
 void require_range(const PlumbBodyDesc& desc, std::size_t i) {
-  if (desc.motion != PLUMB_DYNAMIC) return;
   const std::string name = "descs[" + std::to_string(i) + "].";
+  require_speed(name + "material.surface_velocity", desc.material.surface_velocity);
+  if (desc.motion != PLUMB_DYNAMIC) return;
   require_inertia(name + "mass", desc.mass, "kg");
   for (const double moment : {desc.inertia.x, desc.inertia.y, desc.inertia.z})
     if (moment != 0) require_inertia(name + "inertia", moment, "kg m2");

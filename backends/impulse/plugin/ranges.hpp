@@ -1,7 +1,8 @@
-// Sizes and masses that the engine's numbers cannot hold are refused.
+// Sizes, masses and speeds of surfaces that the engine's numbers cannot hold are refused.
 #pragma once
 
 #include <cstddef>
+#include <string>
 
 #include "plumb/plumb.h"
 
@@ -10,5 +11,7 @@ namespace plumb::impulse {
 /// Throws Error PLUMB_E_INVALID_ARGUMENT, naming row i and its member.
 void require_range(const PlumbShapeDesc& desc, std::size_t i);
 void require_range(const PlumbBodyDesc& desc, std::size_t i);
+/// Throws likewise; name: of the speed, which is in m/s.
+void require_speed(const std::string& name, const PlumbVec3& speed);
 
 }  // namespace plumb::impulse

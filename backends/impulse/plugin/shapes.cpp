@@ -164,6 +164,11 @@ void World::put_proxy_row(std::uint32_t slot, std::uint32_t row) {
   proxy.friction = static_cast<Real>(material.friction);
   proxy.restitution = static_cast<Real>(material.restitution);
   const std::uint32_t flags = (body.motion == PLUMB_DYNAMIC ? 0 : kProxyImmovable) | (body.senses ? kProxyUnseen : 0);
+  if (row < simulation_.belts.size()) {
+    const PlumbVec3& v = material.surface_velocity;
+    const Position principal = rotate(conjugate(simulation_.frames[slot].principal), Position{v.x, v.y, v.z});
+    simulation_.belts.edit(row) = to_vec(PlumbVec3{principal.x, principal.y, principal.z});
+  }
   simulation_.filters.edit(row) = {slot, body.filter.category, body.filter.mask, body.filter.group, flags};
 }
 

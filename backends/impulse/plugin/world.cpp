@@ -16,7 +16,8 @@ SolverFeatures features_of(const WorldInit& init) {
           init.needs(PLUMB_NEED_ROTATION | PLUMB_NEED_GYROSCOPIC),
           init.needs(PLUMB_NEED_CONTACT_IMPULSES),
           init.needs(PLUMB_NEED_SLEEPING),
-          init.needs(PLUMB_NEED_COLLISION | PLUMB_NEED_CCD)};
+          init.needs(PLUMB_NEED_COLLISION | PLUMB_NEED_CCD),
+          init.needs(PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION | PLUMB_NEED_SURFACE_VELOCITY)};
 }
 
 PlumbVec3 plumb_vec(const Position& p) { return {p.x, p.y, p.z}; }
@@ -26,7 +27,8 @@ PlumbVec3 plumb_vec(const Position& p) { return {p.x, p.y, p.z}; }
 World::World(const WorldInit& init)
     : init_(init), simulation_(init.host, init.desc.threads, features_of(init)), gravity_(init.desc.gravity) {
   for (std::size_t i = 0; i < init.infos.size(); ++i) settings_.set(init.infos[i].name, init.values[i]);
-  if (init.needs(PLUMB_NEED_JOINT_REACTIONS)) simulation_.joints.want_reactions();
+  // The step with belts has the code of all joints, which reactions ask for.
+  if (init.needs(PLUMB_NEED_JOINT_REACTIONS) || features_of(init).belts) simulation_.joints.want_reactions();
   if (init.desc.body_capacity != 0) simulation_.reserve_bodies(init.desc.body_capacity);
 }
 

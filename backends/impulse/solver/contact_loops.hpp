@@ -75,14 +75,31 @@ PLUMB_HD inline std::uint32_t slot_of(const ContactRows& rows, std::uint32_t fir
 /// Whether this thread stores body a (0) or b (1) of its contact.
 PLUMB_HD inline bool stores_body(int which) { return holds_point(which); }
 
+/// Runs work(row, contact, a, b) with the velocities of the surfaces: kBelts says whether these may differ from the
+/// bodies' own.
+template <bool kBelts, class N, class C, class Work>
+PLUMB_HD void work_on_surfaces(const RowAccess<N>& row, C& contact, SolverBody<N>& a, SolverBody<N>& b,
+                               const Work& work) {
+  if constexpr (kBelts) {
+    N quad[4];
+    row.get_quad(kDrift - 2, quad);
+    const Vec3<N> own = b.linear, drift = quad[2] * contact.tangent + quad[3] * contact.bitangent();
+    const Vec3<N> before = b.linear = own + drift;
+    work(row, contact, a, b);
+    b.linear = own + (b.linear - before);
+  } else {
+    work(row, contact, a, b);
+  }
+}
+
 /// Runs work(row, contact, a, b) on a contact and keeps what it did to the bodies.
-template <class N, class Work>
+template <bool kBelts, class N, class Work>
 PLUMB_HD void work_on(const ContactRows& rows, const SolverBodies& bodies, std::uint32_t slot, LoadedContact<N>& loaded,
                       BodyUse use, const Work& work) {
   with_contact(rows, slot, loaded, [&](auto& contact) {
     const bool moved = use != BodyUse::kVelocity;
     SolverBody<N> a = load_body<N>(bodies, loaded.a, moved), b = load_body<N>(bodies, loaded.b, moved);
-    work(RowAccess<N>(rows, slot), contact, a, b);
+    work_on_surfaces<kBelts>(RowAccess<N>(rows, slot), contact, a, b, work);
     if (stores_body(0)) store_body<N>(bodies, loaded.a, a);
     if (stores_body(1)) store_body<N>(bodies, loaded.b, b);
     if (use != BodyUse::kAll) return;
@@ -92,7 +109,7 @@ PLUMB_HD void work_on(const ContactRows& rows, const SolverBodies& bodies, std::
 }
 
 /// Runs work on the contacts of slots first .. first + n * lanes, which share no body that they push.
-template <class N, class Work>
+template <bool kBelts, class N, class Work>
 PLUMB_DEVICE void for_slots(Team& team, const ContactSet& contacts, const SolverBodies& bodies, std::uint32_t first,
                             std::uint32_t n, BodyUse use, const Work& work) {
   const auto slot = [=, &contacts](std::uint32_t i) {
@@ -101,12 +118,12 @@ PLUMB_DEVICE void for_slots(Team& team, const ContactSet& contacts, const Solver
   team.each_ahead(
       contact_loop(n), [&](std::uint32_t i) { return load_slot<N>(contacts.rows, slot(i)); },
       [&](std::uint32_t i, LoadedContact<N>& loaded) {
-        work_on<N>(contacts.rows, bodies, slot(i), loaded, use, work);
+        work_on<kBelts, N>(contacts.rows, bodies, slot(i), loaded, use, work);
       });
 }
 
 /// Runs work on every contact, colour after colour, and on those without a colour one after the other.
-template <class Work>
+template <bool kBelts = false, class Work>
 PLUMB_DEVICE void for_contacts(Team& team, const ContactSet& contacts, const SolverBodies& bodies, BodyUse use,
                                const Work& work) {
   const StepCounters& counters = *contacts.counters;
@@ -117,12 +134,12 @@ PLUMB_DEVICE void for_contacts(Team& team, const ContactSet& contacts, const Sol
     const std::uint32_t first = k < colours ? counters.first_slot[k] : lone + (k - colours);
     const std::uint32_t slots = k < colours ? counters.first_slot[k + 1] - first : 1;
     if constexpr (kLanes == 1) {
-      for_slots<Real>(team, contacts, bodies, first, slots, use, work);
+      for_slots<kBelts, Real>(team, contacts, bodies, first, slots, use, work);
     } else {
       if (k < colours)
-        for_slots<Lanes>(team, contacts, bodies, first, slots / kLanes, use, work);
+        for_slots<kBelts, Lanes>(team, contacts, bodies, first, slots / kLanes, use, work);
       else
-        for_slots<Real>(team, contacts, bodies, first, 1, use, work);
+        for_slots<kBelts, Real>(team, contacts, bodies, first, 1, use, work);
     }
   }
 }

@@ -17,20 +17,22 @@ struct StepWork {
   std::uint32_t least;
 };
 
-/// Only the default solver has code of its own for a step without joints.
-template <JointCode kJoints>
+/// Only the default solver has code of its own for a step without joints. kBelts: surfaces may run on bodies that
+/// stand.
+template <JointCode kJoints, bool kBelts = false>
 void enqueue_step(Executor& executor, const StepWork& work) {
   constexpr JointCode kOthers = kJoints == JointCode::kContacts ? JointCode::kPlain : kJoints;
   const auto run = [&](const auto& solver) { executor.team(work.load, work.least, solver); };
   switch (work.kind) {
-    case SolverKind::kSequential: return run(StepSequentially<kOthers>{{work.step, work.changes}});
-    case SolverKind::kJacobi: return run(StepInParts<kOthers>{{work.step, work.changes}, work.parts});
-    case SolverKind::kPosition: return run(StepPositions<kOthers>{work.step});
-    case SolverKind::kTgsSoft: return run(StepSoftly<kJoints>{work.step});
+    case SolverKind::kSequential: return run(StepSequentially<kOthers, kBelts>{{work.step, work.changes}});
+    case SolverKind::kJacobi: return run(StepInParts<kOthers, kBelts>{{work.step, work.changes}, work.parts});
+    case SolverKind::kPosition: return run(StepPositions<kOthers, kBelts>{work.step});
+    case SolverKind::kTgsSoft: return run(StepSoftly<kJoints, kBelts>{work.step});
   }
 }
 
-/// Of JointCode::kAll, compiled in a file of its own.
+/// Of JointCode::kAll, compiled in files of their own: without belts, and with them.
 void enqueue_step_with_axes(Executor& executor, const StepWork& work);
+void enqueue_step_with_belts(Executor& executor, const StepWork& work);
 
 }  // namespace plumb::impulse

@@ -12,8 +12,8 @@ namespace plumb::impulse {
 /// the energy of the impulses' error falls in every pass (R. Tonge, F. Benevolenski, A. Voroshilov, "Mass Splitting for
 /// Jitter-Free Parallel Rigid Body Simulation", ACM Trans. Graph. 31(4), 2012). The sum over a body's parts goes in the
 /// order of its contacts. Joints are solved by colours, between the passes.
-template <JointCode kJoints>
-struct StepInParts : StepInPasses<StepInParts<kJoints>, kJoints> {
+template <JointCode kJoints, bool kBelts>
+struct StepInParts : StepInPasses<StepInParts<kJoints, kBelts>, kJoints> {
   BodyParts parts;
 
   /// work on every contact with parts of its own, then the parts put together.
@@ -43,7 +43,7 @@ struct StepInParts : StepInPasses<StepInParts<kJoints>, kJoints> {
     with_contact(rows, slot, loaded, [&](auto& contact) {
       SolverBody<Lanes> a = load_part(loaded.a), b = load_part(loaded.b);
       const Vec3<Lanes> a_linear = a.linear, a_angular = a.angular, b_linear = b.linear, b_angular = b.angular;
-      work(RowAccess<Lanes>(rows, slot), contact, a, b);
+      work_on_surfaces<kBelts>(RowAccess<Lanes>(rows, slot), contact, a, b, work);
       if (stores_body(0)) store_change(2 * slot, a.linear - a_linear, a.angular - a_angular);
       if (stores_body(1)) store_change(2 * slot + 1, b.linear - b_linear, b.angular - b_angular);
     });

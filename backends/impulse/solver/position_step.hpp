@@ -14,7 +14,7 @@ namespace plumb::impulse {
 /// move freely, constraints of no compliance put them back, and a pass over velocities sees to restitution and to
 /// friction of what slides. Unlike there, friction at the level of positions is cut to the cone and not refused beyond
 /// it: one point of a face would always be beyond, and a cube at rest on a slope would creep.
-template <JointCode kJoints>
+template <JointCode kJoints, bool kBelts>
 struct StepPositions : SolverStep {
   PLUMB_DEVICE void operator()(Team& team) const {
     if (must_repeat()) return;
@@ -43,7 +43,7 @@ struct StepPositions : SolverStep {
   }
   PLUMB_DEVICE void solve_positions(Team& team, const StepParameters& step) const {
     const bool friction = features.friction, note_impacts = features.restitution;
-    for_contacts(team, contacts, solver, BodyUse::kAll, [=](const auto& row, auto& contact, auto& a, auto& b) {
+    for_contacts<kBelts>(team, contacts, solver, BodyUse::kAll, [=](const auto& row, auto& contact, auto& a, auto& b) {
       start_contact_position(contact, a, b, step);
       const auto a_linear = a.linear, a_angular = a.angular, b_linear = b.linear, b_angular = b.angular;
       solve_contact(row, contact, a, b, friction, note_impacts);
@@ -55,11 +55,12 @@ struct StepPositions : SolverStep {
   PLUMB_DEVICE void solve_velocities(Team& team, const StepParameters& step) const {
     const Real slowest = step.restitution_speed;
     const bool friction = features.friction;
-    for_contacts(team, contacts, solver, BodyUse::kVelocity, [=](const auto& row, auto& contact, auto& a, auto& b) {
-      start_contact_velocity(contact, slowest);
-      solve_contact(row, contact, a, b, friction, false);
-      add_up_impulses(row, contact.impulse);
-    });
+    for_contacts<kBelts>(team, contacts, solver, BodyUse::kVelocity,
+                         [=](const auto& row, auto& contact, auto& a, auto& b) {
+                           start_contact_velocity(contact, slowest);
+                           solve_contact(row, contact, a, b, friction, false);
+                           add_up_impulses(row, contact.impulse);
+                         });
   }
   template <int P, class N>
   PLUMB_HD static void solve_contact(const RowAccess<N>& row, Contact<P, N>& contact, SolverBody<N>& a,

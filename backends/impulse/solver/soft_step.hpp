@@ -11,7 +11,7 @@ namespace plumb::impulse {
 /// Sub-steps with soft constraints and relaxation ("soft step": Catto, "Solver2D", 2024; sub-stepping after Macklin et
 /// al., "Small Steps in Physics Simulation", SCA 2019). In each sub-step velocities are solved with a soft bias against
 /// overlap, positions moved, and velocities solved again without the bias, so that what it pushed does not stay.
-template <JointCode kJoints>
+template <JointCode kJoints, bool kBelts>
 struct StepSoftly : SolverStep {
   PLUMB_DEVICE void operator()(Team& team) const {
     if (must_repeat()) return;
@@ -36,7 +36,7 @@ struct StepSoftly : SolverStep {
       if (relaxes) relax_contacts(team);
     }
     if (features.collision && features.restitution) {
-      bounce(team, step.restitution_speed);
+      bounce<kBelts>(team, step.restitution_speed);
       hold_speeds(team, step, turn);  // what bounced takes along what it is joined to
     }
     finish(team);
@@ -57,25 +57,26 @@ struct StepSoftly : SolverStep {
     if (!features.collision) return;
     const ContactSoftness softness = {step.contact, step.ground, step.inverse_h, step.push_speed};
     const bool friction = features.friction, note_impacts = features.restitution;
-    for_contacts(team, contacts, solver, BodyUse::kVelocityWhereMoved,
-                 [=](const auto& row, auto& contact, auto& a, auto& b) {
-                   const auto aim = aim_softly(contact, a, b, softness);
-                   solve_contact(contact, aim, a, b, friction, note_impacts);
-                   close_pushed(contact);
-                   store_impulses(row, contact);
-                   if (note_impacts) store_impact_speeds(row, contact);
-                   if (final) add_up_impulses(row, contact.impulse);
-                 });
+    for_contacts<kBelts>(team, contacts, solver, BodyUse::kVelocityWhereMoved,
+                         [=](const auto& row, auto& contact, auto& a, auto& b) {
+                           const auto aim = aim_softly(contact, a, b, softness);
+                           solve_contact(contact, aim, a, b, friction, note_impacts);
+                           close_pushed(contact);
+                           store_impulses(row, contact);
+                           if (note_impacts) store_impact_speeds(row, contact);
+                           if (final) add_up_impulses(row, contact.impulse);
+                         });
   }
   /// After the positions have moved: nothing that touches approaches, and what was pushed does not stay as velocity.
   PLUMB_DEVICE void relax_contacts(Team& team) const {
     if (!features.collision) return;
     const bool friction = features.friction;
-    for_contacts(team, contacts, solver, BodyUse::kVelocity, [=](const auto& row, auto& contact, auto& a, auto& b) {
-      solve_contact(contact, aim_hard(contact), a, b, friction, false);
-      store_impulses(row, contact);
-      add_up_impulses(row, contact.impulse);
-    });
+    for_contacts<kBelts>(team, contacts, solver, BodyUse::kVelocity,
+                         [=](const auto& row, auto& contact, auto& a, auto& b) {
+                           solve_contact(contact, aim_hard(contact), a, b, friction, false);
+                           store_impulses(row, contact);
+                           add_up_impulses(row, contact.impulse);
+                         });
   }
   /// Friction below the centre tilts a body: the normals have the first word and the last.
   template <int P, class N>

@@ -64,6 +64,7 @@ void Solver::solve(Executor& executor, const Bodies& all, std::uint32_t body_cou
                            body_count, features_,     parameters,
                            counters,   pair_capacity, joints.set(all, bodies(all), features_.gyroscopic)};
   const StepWork work = {step, pass_changes_.data(), split_.parts(), kind_, load, body_count / 2};
+  if (features_.belts) return enqueue_step_with_belts(executor, work);
   switch (joints.code()) {
     case JointCode::kContacts: return enqueue_step<JointCode::kContacts>(executor, work);
     case JointCode::kPlain: return enqueue_step<JointCode::kPlain>(executor, work);

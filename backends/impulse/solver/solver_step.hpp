@@ -24,12 +24,14 @@ struct SolverStep {
   /// Nothing may be done.
   PLUMB_DEVICE bool must_repeat() const { return is_undone(*counters, pair_capacity); }
 
+  template <bool kBelts>
   PLUMB_DEVICE void bounce(Team& team, Real slowest) const {
     const bool friction = features.friction;
-    for_contacts(team, contacts, solver, BodyUse::kVelocity, [=](const auto& row, auto& contact, auto& a, auto& b) {
-      bounce_contact(row, contact, a, b, slowest, friction);
-      store_impulses(row, contact);
-    });
+    for_contacts<kBelts>(team, contacts, solver, BodyUse::kVelocity,
+                         [=](const auto& row, auto& contact, auto& a, auto& b) {
+                           bounce_contact(row, contact, a, b, slowest, friction);
+                           store_impulses(row, contact);
+                         });
   }
   /// Impulses of a step that had no sub-steps are the step's.
   PLUMB_DEVICE void add_up(Team& team) const {

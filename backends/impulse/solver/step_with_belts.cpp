@@ -1,0 +1,10 @@
+// Steps with belts, and with any joints.
+#include "solver/enqueue_step.hpp"
+
+namespace plumb::impulse {
+
+void enqueue_step_with_belts(Executor& executor, const StepWork& work) {
+  enqueue_step<JointCode::kAll, true>(executor, work);
+}
+
+}  // namespace plumb::impulse
