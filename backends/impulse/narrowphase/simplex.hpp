@@ -98,7 +98,20 @@ struct Simplex {
     best.take_between(p + s * e, i, 1 - s, j, s, j, 0);
   }
 
+  /// Whether the edge from j to k is by far the shortest of the triangle: with i as its origin both others would be
+  /// long and nearly parallel, and all that tells them apart lost in rounding. Curved cores give such triangles.
+  [[nodiscard]] PLUMB_HD bool is_sliver(int i, int j, int k) const {
+    const Vec3<N> e = point[j] - point[i], f = point[k] - point[i], g = point[k] - point[j];
+    return N(0x1p20) * dot(g, g) < min(dot(e, e), dot(f, f));
+  }
+
   PLUMB_HD void try_triangle(int i, int j, int k, Candidate& best) const {
+    if (is_sliver(i, j, k))
+      try_triangle_from(j, k, i, best);
+    else
+      try_triangle_from(i, j, k, best);
+  }
+  PLUMB_HD void try_triangle_from(int i, int j, int k, Candidate& best) const {
     const Vec3<N>&p = point[i], e = point[j] - p, f = point[k] - p, n = cross(e, f);
     const N square = dot(n, n), thin = 64 * kRounding<N>;
     if (square > thin * thin * dot(e, e) * dot(f, f)) {
@@ -115,11 +128,13 @@ struct Simplex {
     bool outside = false;
     for (int d = 0; d < 4; ++d) {
       const int a = d == 0 ? 1 : 0, b = d <= 1 ? 2 : 1, c = d <= 2 ? 3 : 2;
-      const Vec3<N> n = cross(point[b] - point[a], point[c] - point[a]), across = point[d] - point[a];
+      const Vec3<N> e = point[b] - point[a], f = point[c] - point[a], n = cross(e, f), across = point[d] - point[a];
       const N height = dot(n, across), flat = 64 * kRounding<N>;
-      const bool is_flat = height * height <= flat * flat * dot(n, n) * dot(across, across);
+      const N rounding = flat * flat * dot(e, e) * dot(f, f);  // of n, which is nearly 0 for a sliver
       const N of_origin = -dot(n, point[a]);
-      if (!is_flat && (height > 0 ? of_origin >= 0 : of_origin <= 0)) continue;
+      const bool sure = height * height > rounding * dot(across, across) &&
+                        of_origin * of_origin > rounding * dot(point[a], point[a]);
+      if (sure && (height > 0 ? of_origin >= 0 : of_origin <= 0)) continue;
       outside = true;
       try_triangle(a, b, c, best);
     }
