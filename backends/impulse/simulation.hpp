@@ -118,9 +118,9 @@ class Simulation {
   [[nodiscard]] std::vector<Pair> candidates();
   [[nodiscard]] std::uint32_t candidate_count() const { return narrow_phase_.candidate_count(counters()); }
 
-  /// What queries look at, brought up to date. ids: of the bodies, by slot; ids_version changes with them. Between
-  /// steps; one caller at a time, but what it gave to an earlier one stays as it is until bodies or shapes change.
-  [[nodiscard]] QueryScene query_scene(std::span<const PlumbBody> ids, std::uint64_t ids_version);
+  /// What queries look at, brought up to date. Between steps; one caller at a time, but what it gave to an earlier one
+  /// stays as it is until bodies or shapes change.
+  [[nodiscard]] QueryScene query_scene(const HitNames& names);
   /// The same without trees, for what asks of shapes alone.
   [[nodiscard]] QueryScene shape_scene();
   /// Nodes of the trees of the last step's broad phase, copied to the host, and what their boxes are relative to.
@@ -203,7 +203,7 @@ class Simulation {
   Buffer<ContactRecord> records_;
   struct ForQueries {
     QueryTrees trees;
-    Mirror<std::uint32_t> movers, statics;
+    Mirror<std::uint32_t> movers, statics, planes;
     PlacedProxies placed{};
   };
   std::unique_ptr<ForQueries> for_queries_;  // made when the first query comes; the step's own are not touched

@@ -58,6 +58,8 @@ PLUMB_HD Vec3<N> core_support(const Shape& shape, const Hulls& hulls, const Vec3
 /// Two shapes, seen from the frame of A.
 template <class N>
 struct PlacedPair {
+  using Number = N;
+
   Shape a, b;
   Mat33<N> turn;  ///< of B's axes
   Vec3<N> shift;  ///< to B's origin
@@ -68,7 +70,11 @@ struct PlacedPair {
     on_a = core_support(a, hulls, n);
     return on_a - (turn * core_support(b, hulls, multiply_transposed(turn, -n)) + shift);
   }
-  PLUMB_HD N radii() const { return static_cast<N>(core_radius(a)) + static_cast<N>(core_radius(b)); }
+  PLUMB_HD N radius_a() const { return static_cast<N>(core_radius(a)); }
+  PLUMB_HD N radius_b() const { return static_cast<N>(core_radius(b)); }
+  PLUMB_HD N radii() const { return radius_a() + radius_b(); }
+  /// No further apart are the origins of shapes that touch.
+  PLUMB_HD N reach() const { return static_cast<N>(a.reach) + static_cast<N>(b.reach); }
 };
 
 }  // namespace plumb::impulse

@@ -3,8 +3,9 @@
 // Journal of Robotics and Automation 4, 1988; ended as by van den Bergh, "A fast and robust GJK implementation for
 // collision detection of convex objects", Journal of Graphics Tools 4, 1999).
 //
-// The number is a parameter, float or double. Nothing in here is absolute: what counts as touching is a multiple of
-// what rounding does to coordinates of the size that the shapes and their distance have.
+// Pair tells what is asked about: PlacedPair (core.hpp), or a triangle and a shape (triangle_core.hpp). Its Number is
+// float or double. Nothing in here is absolute: what counts as touching is a multiple of what rounding does to
+// coordinates of the size that the shapes and their distance have.
 #pragma once
 
 #include "narrowphase/core.hpp"
@@ -44,8 +45,8 @@ PLUMB_HD Vec3<N> gap_normal(const Simplex<N>& simplex, const Vec3<N>& nearest) {
 
 /// simplex: empty, or what an earlier call left for the same pair, moved as B was moved against it: then it is quick.
 /// Of cores that turn out to be further apart than `enough` the gap need not be found to the end; it is above that.
-template <class N>
-PLUMB_HD CoreGap<N> core_gap(const PlacedPair<N>& pair, Simplex<N>& simplex, N enough) {
+template <class Pair, class N = typename Pair::Number>
+PLUMB_HD CoreGap<N> core_gap(const Pair& pair, Simplex<N>& simplex, typename Pair::Number enough) {
   constexpr int kMostRefinements = 128;  // far beyond what polyhedra take; curved cores come closer with every round
   constexpr N kNoise = 16 * kRounding<N>;
   if (simplex.count == 0) {
@@ -85,20 +86,19 @@ struct ShapeGap {
   Vec3<N> on_a, on_b;  ///< of the surfaces
 };
 
-template <class N>
-PLUMB_HD ShapeGap<N> shape_gap(const PlacedPair<N>& pair) {
+template <class Pair, class N = typename Pair::Number>
+PLUMB_HD ShapeGap<N> shape_gap(const Pair& pair) {
   Simplex<N> simplex;
   const CoreGap<N> core = core_gap(pair, simplex, N(kHuge));
   if (core.overlap) return {true, 0, {}, {}, {}};
-  return {false, core.distance - pair.radii(), core.normal,
-          core.on_a + static_cast<N>(core_radius(pair.a)) * core.normal,
-          core.on_b - static_cast<N>(core_radius(pair.b)) * core.normal};
+  return {false, core.distance - pair.radii(), core.normal, core.on_a + pair.radius_a() * core.normal,
+          core.on_b - pair.radius_b() * core.normal};
 }
 
 /// Touching counts.
-template <class N>
-PLUMB_HD bool shapes_overlap(const PlacedPair<N>& pair) {
-  const N reach = static_cast<N>(pair.a.reach) + static_cast<N>(pair.b.reach);
+template <class Pair, class N = typename Pair::Number>
+PLUMB_HD bool shapes_overlap(const Pair& pair) {
+  const N reach = pair.reach();
   if (dot(pair.shift, pair.shift) > reach * reach * N(1 + 0x1p-10)) return false;
   Simplex<N> simplex;
   const CoreGap<N> core = core_gap(pair, simplex, pair.radii());
@@ -118,12 +118,12 @@ struct CastTouch {
 /// Directed advancement: the plane that parts the shapes tells how far B may go at least, and that it never arrives
 /// when it does not come closer (Mirtich, "Impulse-based dynamic simulation of rigid body systems", 1996, section 2.3,
 /// for motions without turning, where the bound is the distance over the speed along the normal).
-template <class N>
-PLUMB_HD bool cast_shape(PlacedPair<N> pair, const Vec3<N>& along, N most, CastTouch<N>& touch) {
+template <class Pair, class N = typename Pair::Number>
+PLUMB_HD bool cast_shape(Pair pair, const Vec3<N>& along, typename Pair::Number most, CastTouch<N>& touch) {
   constexpr int kMostRefinements = 64;  // each at least halves what is left of the way, also where they graze
   const N radii = pair.radii();
   // Up to where balls about both origins touch nothing can happen; they are a little too large, so that there is a gap.
-  const N reach = (static_cast<N>(pair.a.reach) + static_cast<N>(pair.b.reach)) * N(1 + 0x1p-10);
+  const N reach = pair.reach() * N(1 + 0x1p-10);
   const N middle = -dot(pair.shift, along);
   const Vec3<N> beside = pair.shift + middle * along;
   const N inside = (reach - length(beside)) * (reach + length(beside));
@@ -157,7 +157,7 @@ PLUMB_HD bool cast_shape(PlacedPair<N> pair, const Vec3<N>& along, N most, CastT
   }
   touch.at_start = !advanced;
   if (touch.at_start) touch.at = 0;
-  if (advanced) touch.on_a += static_cast<N>(core_radius(pair.a)) * touch.normal;
+  if (advanced) touch.on_a += pair.radius_a() * touch.normal;
   return true;
 }
 

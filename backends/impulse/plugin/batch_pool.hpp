@@ -37,6 +37,7 @@ class BatchPool {
 struct PairBatch {
   Mirror<PosedPair> pairs;
   Mirror<PairAnswer> answers;
+  PieceTouches touches;
   std::vector<PlumbPairPoint> points;
 
   /// Room for n of each.

@@ -77,10 +77,11 @@ Fact field_fact(std::uint32_t field, bool writing) {
 
 /// Rays ask for no shape; what is cast or overlapped is convex.
 Fact query_fact(std::uint32_t kind, std::uint32_t shape) {
-  if (kind == PLUMB_QUERY_RAY) return {PLUMB_NATIVE, "shapes are solid: a ray that starts inside hits at fraction 0"};
-  const bool convex =
-      shape == PLUMB_SPHERE || shape == PLUMB_BOX || shape == PLUMB_CAPSULE || shape == PLUMB_CONVEX_HULL;
-  return kind < PLUMB_QUERY_KIND_COUNT && convex ? kYes : kNotYet;
+  if (kind == PLUMB_QUERY_RAY)
+    return {PLUMB_NATIVE, "convex shapes and planes are solid: a ray that starts inside hits at fraction 0"};
+  if (kind >= PLUMB_QUERY_KIND_COUNT) return {PLUMB_NONE};
+  if (is_ground(shape) || shape == PLUMB_COMPOUND) return {PLUMB_NONE, "what is cast or overlapped is convex"};
+  return is_solid(shape) ? kYes : kNotYet;
 }
 
 Fact joint_fact(std::uint32_t type, std::uint32_t feature) {

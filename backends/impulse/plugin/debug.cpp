@@ -56,7 +56,7 @@ PlumbResult World::tree_boxes(std::span<const PlumbDebugBox>& boxes) {
 PlumbResult World::separating_axes(std::span<const PlumbDebugAxis>& axes) {
   const FloatingPointScope scope;
   const std::vector<Pair> pairs = known_candidates();
-  const QueryScene scene = simulation_.query_scene(row_ids_, row_generation_);
+  const QueryScene scene = simulation_.query_scene(hit_names());
   Executor& executor = simulation_.executor();
   const auto n = static_cast<std::uint32_t>(pairs.size());
   Buffer<Pair> candidates;
@@ -64,7 +64,7 @@ PlumbResult World::separating_axes(std::span<const PlumbDebugAxis>& axes) {
   PairBatch batch;
   batch.reserve(n);
   pose_pairs(executor, scene, candidates.data(), n, batch.pairs.device());
-  answer_pairs(executor, batch.pairs.device(), n, scene.hulls, batch.answers.device());
+  answer_pairs(executor, batch.pairs.device(), n, scene, (scene.types & kTypesInPieces) != 0, batch.answers.device());
   executor.to_host(batch.answers, n);
   executor.wait();
   debug_axes_.clear();

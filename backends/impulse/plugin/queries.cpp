@@ -4,11 +4,20 @@
 
 namespace plumb::impulse {
 
+HitNames World::hit_names() {
+  if (hit_children_generation_ != row_generation_) {
+    hit_children_.resize(proxies_.size());
+    for (std::size_t i = 0; i < proxies_.size(); ++i) hit_children_[i] = proxies_[i].child;
+    hit_children_generation_ = row_generation_;
+  }
+  return {row_ids_, hit_children_, row_generation_};
+}
+
 template <class Ask>
 Hits World::ask(const Ask& ask) {
   const FloatingPointScope scope;
   std::unique_lock lock(query_mutex_);
-  const QueryScene scene = simulation_.query_scene(row_ids_, row_generation_);
+  const QueryScene scene = simulation_.query_scene(hit_names());
   QueryBatch& batch = query_batches_.take();
   if (kOneMemory) lock.unlock();
   return {PLUMB_OK, ask(batch, simulation_.executor(), scene)};

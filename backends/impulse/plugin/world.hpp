@@ -116,6 +116,8 @@ class World final : public IPhysicsWorld,
   const std::vector<ContactRecord>& records();
   template <class Ask>
   Hits ask(const Ask& ask);
+  HitNames hit_names();
+  void pose_parts(PlumbShape id, const PlumbPose& pose, std::vector<PosedShape>& parts) const;
   [[nodiscard]] PlumbBody body_of_last_step(std::uint32_t proxy) const;
   [[nodiscard]] std::vector<Pair> known_candidates();
 
@@ -141,6 +143,8 @@ class World final : public IPhysicsWorld,
   std::mutex query_mutex_;  // of what queries build when they need it, and of the batches
   BatchPool<QueryBatch> query_batches_;
   BatchPool<PairBatch> pair_batches_;
+  std::vector<std::uint32_t> hit_children_;  // by proxy; as of that generation of the rows
+  std::uint64_t hit_children_generation_ = 0;
   std::vector<PlumbDebugPair> debug_pairs_;
   std::vector<std::byte> snapshot_;
   std::vector<PlumbDebugBox> debug_boxes_;

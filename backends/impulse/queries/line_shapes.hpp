@@ -83,6 +83,30 @@ PLUMB_HD inline bool cross_capsule(double radius, double half, const Vec64& p, c
   return true;
 }
 
+/// Where the line enters the tube last or the slab between the caps, and leaves either first.
+PLUMB_HD inline bool cross_cylinder(double radius, double half, const Vec64& p, const Vec64& d, LinePart& part) {
+  part = {-kFar, kFar, {0, 0, 0}};
+  const double across = d.x * d.x + d.z * d.z;
+  const double middle = across > 0 ? -(p.x * d.x + p.z * d.z) / across : 0;
+  const double x = p.x + middle * d.x, z = p.z + middle * d.z, far = sqrt(x * x + z * z);
+  const double inside = (radius - far) * (radius + far);
+  if (!(inside >= 0)) return false;
+  if (across > 0) {
+    const double chord = sqrt(inside / across);
+    part.enter = middle - chord;
+    part.leave = middle + chord;
+    part.normal = {(x - chord * d.x) / radius, 0, (z - chord * d.z) / radius};
+  }
+  if (d.y == 0) return abs(p.y) <= half;
+  const double side = d.y > 0 ? half : -half, enter = (-side - p.y) / d.y, leave = (side - p.y) / d.y;
+  if (enter > part.enter) {
+    part.enter = enter;
+    part.normal = {0, d.y > 0 ? -1.0 : 1.0, 0};
+  }
+  part.leave = min(part.leave, leave);
+  return part.enter <= part.leave;
+}
+
 /// Face by face (Cyrus and Beck, "Generalized two- and three-dimensional clipping", 1978).
 PLUMB_HD inline bool cross_hull(const Hulls& hulls, std::uint32_t row, const Vec64& p, const Vec64& d, LinePart& part) {
   const HullRange& hull = hulls.ranges[row];
@@ -111,7 +135,8 @@ PLUMB_HD inline bool cross_hull(const Hulls& hulls, std::uint32_t row, const Vec
 
 }  // namespace line_shapes
 
-/// False where the line passes the shape by. d is a unit vector; a line that only touches crosses.
+/// False where the line passes the shape by. d is a unit vector; a line that only touches crosses. Without cylinders:
+/// kernels of scenes that have none are the smaller for it.
 PLUMB_HD inline bool cross_shape(const Shape& shape, const Hulls& hulls, const Vec64& p, const Vec64& d,
                                  LinePart& part) {
   const Vec64 size = to_numbers<double>(shape.size);
@@ -122,6 +147,13 @@ PLUMB_HD inline bool cross_shape(const Shape& shape, const Hulls& hulls, const V
     case ShapeType::kHull: return line_shapes::cross_hull(hulls, shape.hull, p, d, part);
     default: return false;
   }
+}
+/// Any convex shape.
+PLUMB_HD inline bool cross_convex(const Shape& shape, const Hulls& hulls, const Vec64& p, const Vec64& d,
+                                  LinePart& part) {
+  if (shape.type != ShapeType::kCylinder) return cross_shape(shape, hulls, p, d, part);
+  const Vec64 size = to_numbers<double>(shape.size);
+  return line_shapes::cross_cylinder(size.x, size.y, p, d, part);
 }
 
 }  // namespace plumb::impulse

@@ -31,6 +31,7 @@ struct MakePairs {
 };
 
 struct Describe {
+  QueryScene scene;
   const std::uint32_t *marked, *rows;
   const PosedPair* pairs;
   const PairAnswer* answers;
@@ -38,6 +39,8 @@ struct Describe {
   PLUMB_HD void operator()(std::uint32_t i) const {
     if (marked[i] == 0) return;
     const PairAnswer& answer = answers[rows[i]];
+    const Target& target = scene.targets[static_cast<std::uint32_t>(hits[i].position.x)];
+    if (is_surface(target.shape.type)) hits[i].child = child_at(target, answer.triangle);
     hits[i].position = to_plumb_vec3(pairs[rows[i]].place_a + answer.at);
     hits[i].normal = to_plumb_vec3(answer.normal);
   }
@@ -60,8 +63,8 @@ void OverlapDepth::describe(Executor& executor, const QueryScene& scene, const P
   pairs_.grow(count);
   answers_.grow(count);
   executor.run(n, MakePairs{scene, casts, hits, marked_.data(), rows_.data(), pairs_.data()});
-  answer_pairs(executor, pairs_.data(), count, scene.hulls, answers_.data());
-  executor.run(n, Describe{marked_.data(), rows_.data(), pairs_.data(), answers_.data(), hits});
+  answer_pairs(executor, pairs_.data(), count, scene, (scene.types & kTypesInPieces) != 0, answers_.data());
+  executor.run(n, Describe{scene, marked_.data(), rows_.data(), pairs_.data(), answers_.data(), hits});
 }
 
 }  // namespace plumb::impulse

@@ -13,7 +13,7 @@ namespace {
 PLUMB_HD PlumbHit hit_of(const QueryScene& scene, const Target& target, std::uint32_t query, const Course& course,
                          const Meeting& meeting) {
   return {
-      scene.ids[target.body],       query, target.child, course.fraction(meeting.at), to_plumb_vec3(meeting.position),
+      scene.ids[target.body],       query, meeting.child, course.fraction(meeting.at), to_plumb_vec3(meeting.position),
       to_plumb_vec3(meeting.normal)};
 }
 PLUMB_HD PlumbHit no_hit(std::uint32_t query) {
@@ -24,6 +24,12 @@ PLUMB_HD PlumbHit no_hit(std::uint32_t query) {
 template <class Probe>
 PLUMB_HD Sweep sweep_of(const QueryScene& scene, const Probe& probe) {
   return {probe.start - scene.origin, probe.course.along, probe.course.length, probe.carried(scene)};
+}
+
+/// What is in no tree, where there may be any.
+template <class Visit>
+PLUMB_HD void visit_planes(const QueryScene& scene, Visit& visit) {
+  for (std::uint32_t i = 0; i < scene.plane_count; ++i) visit(scene.planes[i]);
 }
 
 /// Meets the proxies that a search finds, as far as the query's filter lets it see them.
@@ -67,6 +73,7 @@ struct FindClosest {
     const Probe probe(scene, rows[i]);
     Sweep sweep = sweep_of(scene, probe);
     KeepNearest<Probe> keep{{scene, probe}, sweep, i, probe.course.length, no_hit(i)};
+    visit_planes(scene, keep);
     visit_nearest_first(scene.statics, sweep, keep);
     visit_nearest_first(scene.movers, sweep, keep);
     hits[i] = keep.best;
@@ -92,6 +99,7 @@ struct CountHits {
     const Probe probe(scene, rows[i]);
     const Sweep sweep = sweep_of(scene, probe);
     CountMet<Probe> met{{scene, probe}, 0};
+    visit_planes(scene, met);
     visit_all(scene.statics, sweep, met);
     visit_all(scene.movers, sweep, met);
     counts[i] = met.count;
@@ -126,6 +134,7 @@ struct ListHits {
     const Sweep sweep = sweep_of(scene, probe);
     PlumbHit* const first = hits + offsets[i];
     WriteMet<Probe> write{{scene, probe}, i, first};
+    visit_planes(scene, write);
     visit_all(scene.statics, sweep, write);
     visit_all(scene.movers, sweep, write);
     if (scene.several) {
@@ -146,11 +155,16 @@ struct PackHits {
   }
 };
 
+bool has_few_types(const QueryScene& scene) { return (scene.types & ~kFewTypes) == 0; }
+
 }  // namespace
 
 void QueryBatch::closest_rays(Executor& executor, const QueryScene& scene, const PlumbRay* rays, std::uint32_t n,
                               PlumbHit* hits) {
-  executor.run(n, FindClosest<RayProbe>{scene, rays, hits});
+  if (has_few_types(scene))
+    executor.run(n, FindClosest<RayProbe<Kinds::kFew>>{scene, rays, hits});
+  else
+    executor.run(n, FindClosest<RayProbe<Kinds::kAll>>{scene, rays, hits});
 }
 
 /// Offsets of the counts; returns their sum.
@@ -190,12 +204,19 @@ std::uint32_t QueryBatch::find_all(Executor& executor, const QueryScene& scene, 
 }
 
 template <class Probe>
-std::uint32_t QueryBatch::find(Executor& executor, const QueryScene& scene, PlumbHitMode mode,
-                               const typename Probe::Row* rows, std::uint32_t n) {
+std::uint32_t QueryBatch::find_of(Executor& executor, const QueryScene& scene, PlumbHitMode mode,
+                                  const typename Probe::Row* rows, std::uint32_t n) {
   if (mode == PLUMB_HIT_ALL) return find_all<Probe>(executor, scene, rows, n);
   hits_.grow(n);
   executor.run(n, FindClosest<Probe>{scene, rows, hits_.device()});
   return n;
+}
+
+template <template <Kinds> class Probe, class Row>
+std::uint32_t QueryBatch::find(Executor& executor, const QueryScene& scene, PlumbHitMode mode, const Row* rows,
+                               std::uint32_t n) {
+  return has_few_types(scene) ? find_of<Probe<Kinds::kFew>>(executor, scene, mode, rows, n)
+                              : find_of<Probe<Kinds::kAll>>(executor, scene, mode, rows, n);
 }
 
 std::span<const PlumbHit> QueryBatch::hand_out(Executor& executor, std::uint32_t count) {
@@ -222,7 +243,7 @@ std::span<const PlumbHit> QueryBatch::casts(Executor& executor, const QueryScene
 std::span<const PlumbHit> QueryBatch::overlaps(Executor& executor, const QueryScene& scene,
                                                std::span<const PlumbOverlap> overlaps) {
   const auto n = static_cast<std::uint32_t>(overlaps.size());
-  return hand_out(executor, find_all<OverlapProbe>(executor, scene, overlaps_.bring(overlaps), n));
+  return hand_out(executor, find<OverlapProbe>(executor, scene, PLUMB_HIT_ALL, overlaps_.bring(overlaps), n));
 }
 
 }  // namespace plumb::impulse

@@ -40,9 +40,11 @@ class QueryBatch {
                            PlumbHit* hits);
 
  private:
+  template <template <Kinds> class Probe, class Row>
+  std::uint32_t find(Executor& executor, const QueryScene& scene, PlumbHitMode mode, const Row* rows, std::uint32_t n);
   template <class Probe>
-  std::uint32_t find(Executor& executor, const QueryScene& scene, PlumbHitMode mode, const typename Probe::Row* rows,
-                     std::uint32_t n);
+  std::uint32_t find_of(Executor& executor, const QueryScene& scene, PlumbHitMode mode, const typename Probe::Row* rows,
+                        std::uint32_t n);
   template <class Probe>
   std::uint32_t find_all(Executor& executor, const QueryScene& scene, const typename Probe::Row* rows, std::uint32_t n);
   std::uint32_t scan_counts(Executor& executor, std::uint32_t n, Buffer<std::uint32_t>& offsets);

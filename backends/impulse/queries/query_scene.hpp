@@ -16,8 +16,16 @@ struct alignas(32) Target {
   Quat64 turn;  ///< unit
   Shape shape;
   std::uint32_t body;   ///< slot
-  std::uint32_t child;  ///< of a body of several shapes, which of them
+  std::uint32_t child;  ///< of a compound, which of its children
 };
+
+/// Which types of shapes there are to meet.
+enum class Kinds {
+  kFew,  ///< spheres, boxes, capsules and hulls
+  kAll
+};
+constexpr std::uint32_t kFewTypes =
+    bit_of(ShapeType::kSphere) | bit_of(ShapeType::kBox) | bit_of(ShapeType::kCapsule) | bit_of(ShapeType::kHull);
 
 struct QueryScene {
   TreeView movers, statics;  ///< leaves are proxies
@@ -28,6 +36,10 @@ struct QueryScene {
   const Shape* shapes;   ///< those that are cast or overlapped too
   Hulls hulls;
   bool several;  ///< whether a body may have more than one proxy
+  Surfaces surfaces;
+  const std::uint32_t* planes;  ///< proxies that are in no tree
+  std::uint32_t plane_count;
+  std::uint32_t types;  ///< a bit for each ShapeType there is to meet
 };
 
 }  // namespace plumb::impulse

@@ -8,14 +8,20 @@ namespace plumb::impulse {
 
 namespace {
 
-/// A body has one shape for now.
-PLUMB_HD std::uint32_t child_of(const Proxy& /*proxy*/) { return 0; }
+template <class Row>
+void bring(Executor& executor, std::span<const Row> rows, Mirror<Row>& to) {
+  if (to.size() < rows.size()) to.grow(rows.size() + rows.size() / 2);
+  std::copy(rows.begin(), rows.end(), to.host());
+  executor.to_device(to, rows.size());
+}
 
 struct PlaceTargets {
   Bodies bodies;
   Proxies proxies;
   const std::uint32_t* list;
   Position origin;
+  const std::uint32_t* children;
+  std::uint32_t child_count;
   Target* targets;
   Box* boxes;
 
@@ -30,7 +36,7 @@ struct PlaceTargets {
     target.turn = normalized(turn * to_numbers<double>(proxy.frame.orientation));
     target.shape = shape;
     target.body = proxy.body;
-    target.child = child_of(proxy);
+    target.child = index < child_count ? children[index] : 0U;
     targets[index] = target;
 
     const Box local = shape_box(shape, to_numbers<Real>(target.turn), proxies.hulls);
@@ -48,13 +54,12 @@ struct PlaceTargets {
 
 }  // namespace
 
-void QueryTrees::update(Executor& executor, const PlacedProxies& placed, std::span<const PlumbBody> ids,
-                        std::uint64_t ids_version) {
-  if (ids_version != ids_version_) {
-    if (ids_.size() < ids.size()) ids_.grow(ids.size() + ids.size() / 2);
-    std::copy(ids.begin(), ids.end(), ids_.host());
-    executor.to_device(ids_, ids.size());
-    ids_version_ = ids_version;
+void QueryTrees::update(Executor& executor, const PlacedProxies& placed, const HitNames& names) {
+  if (names.version != names_version_) {
+    bring(executor, names.bodies, ids_);
+    bring(executor, names.children, children_);
+    child_count_ = static_cast<std::uint32_t>(names.children.size());
+    names_version_ = names.version;
   }
   if (fresh(placed.version)) return;
   boxes_.grow(placed.rows);
@@ -63,24 +68,42 @@ void QueryTrees::update(Executor& executor, const PlacedProxies& placed, std::sp
   reduce_.reserve(placed.rows);
   const bool moved_origin = !(origin_ == placed.origin);
   origin_ = placed.origin;
-  if (static_version_ != placed.static_version || moved_origin)
+  if (static_version_ != placed.static_version || moved_origin) {
     build(executor, placed, placed.statics, placed.static_count, statics_);
+    place(executor, placed, placed.planes, placed.plane_count);
+  }
   static_version_ = placed.static_version;
   build(executor, placed, placed.movers, placed.mover_count, movers_);
   version_ = placed.version;
 }
 
+void QueryTrees::place(Executor& executor, const PlacedProxies& placed, const std::uint32_t* list, std::uint32_t n) {
+  executor.run(n, PlaceTargets{placed.bodies, placed.proxies, list, placed.origin, children_.device(), child_count_,
+                               targets_.data(), boxes_.data()});
+}
+
 void QueryTrees::build(Executor& executor, const PlacedProxies& placed, const std::uint32_t* list, std::uint32_t n,
                        Lbvh& tree) {
   tree.reserve(placed.rows);
-  executor.run(n, PlaceTargets{placed.bodies, placed.proxies, list, placed.origin, targets_.data(), boxes_.data()});
+  place(executor, placed, list, n);
   reduce_.run(executor, n, LoadExtent{boxes_.data(), list}, extent_.data());
   tree.build(executor, boxes_.data(), list, n, extent_.data(), MortonBits::k63);
 }
 
 QueryScene QueryTrees::scene(const PlacedProxies& placed) {
-  return {movers_.view(),        statics_.view(),      origin_,       targets_.data(), placed.filters, ids_.device(),
-          placed.proxies.shapes, placed.proxies.hulls, placed.several};
+  return {movers_.view(),
+          statics_.view(),
+          origin_,
+          targets_.data(),
+          placed.filters,
+          ids_.device(),
+          placed.proxies.shapes,
+          placed.proxies.hulls,
+          placed.several,
+          placed.proxies.surfaces,
+          placed.planes,
+          placed.plane_count,
+          placed.types};
 }
 
 }  // namespace plumb::impulse

@@ -11,8 +11,8 @@ namespace plumb::impulse::test {
 
 using namespace reference;
 
-inline constexpr PlumbNeeds kNeeds =
-    PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION | PLUMB_NEED_FILTERS | PLUMB_NEED_QUERIES;
+inline constexpr PlumbNeeds kNeeds = PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION |
+                                     PLUMB_NEED_FILTERS | PLUMB_NEED_QUERIES | PLUMB_NEED_KINEMATIC;
 inline constexpr PlumbFilter kSeesAll = {1, ~0u, 0, 0};
 
 /// Shapes of all kinds, thrown about a place, in a world and on a list.

@@ -62,9 +62,10 @@ struct QueryRig {
     placed.mover_count = static_cast<std::uint32_t>(movers.size());
     placed.static_count = static_cast<std::uint32_t>(statics.size());
     placed.several = several;
+    for (const Proxy& proxy : proxies) placed.types |= bit_of(shapes[proxy.shape].type);
     placed.origin = origin;
     placed.version = placed.static_version = version;
-    trees.update(executor, placed, ids, version);
+    trees.update(executor, placed, {ids, {}, version});
     executor.wait();
     scene = trees.scene(placed);
   }

@@ -1,0 +1,162 @@
+// Posed pairs of convex shapes, and of a convex shape and a plane or a surface: what touches by the pair functions of
+// the step, else how far they are apart.
+#pragma once
+
+#include "narrowphase/collide.hpp"
+#include "narrowphase/collide_pieces.hpp"
+#include "queries/line_surface.hpp"
+#include "queries/pair_contacts.hpp"
+#include "queries/surface_pairs.hpp"
+
+namespace plumb::impulse {
+
+PLUMB_HD inline void take_deepest(PairAnswer& answer) {
+  const Manifold& manifold = answer.manifold;
+  std::uint32_t deepest = 0;
+  for (std::uint32_t i = 1; i < manifold.count; ++i)
+    if (manifold.points[i].separation < manifold.points[deepest].separation) deepest = i;
+  answer.distance = static_cast<double>(manifold.points[deepest].separation);
+  answer.normal = to_numbers<double>(manifold.normal);
+  answer.at = to_numbers<double>(manifold.points[deepest].position);
+}
+
+PLUMB_HD inline PairAnswer answer_convex(const PosedPair& pair, const Hulls& hulls) {
+  PairAnswer answer;
+  answer.triangle = 0;
+  const Vec apart = between(pair.place_a, pair.place_b);
+  if (collide(pair.a, to_numbers<Real>(pair.turn_a), pair.b, to_numbers<Real>(pair.turn_b), apart, 0, hulls,
+              answer.manifold)) {
+    take_deepest(answer);
+    return answer;
+  }
+  answer.manifold.count = 0;
+  const ShapeGap<double> gap =
+      shape_gap(PlacedPair<double>{pair.a, pair.b, to_matrix(conjugate(pair.turn_a) * pair.turn_b),
+                                   rotate_back(pair.turn_a, pair.place_b - pair.place_a), hulls});
+  if (gap.cores_overlap) {  // by rounding alone
+    answer.distance = 0;
+    answer.normal = to_numbers<double>(normalized_or(apart, {0, 1, 0}));
+    answer.at = {0, 0, 0};
+  } else {
+    answer.distance = max(gap.distance, 0.0);
+    answer.normal = rotate(pair.turn_a, gap.normal);
+    answer.at = rotate(pair.turn_a, gap.on_a);
+  }
+  return answer;
+}
+
+/// One of both is a plane or a surface.
+class PiecePair {
+ public:
+  PLUMB_HD PiecePair(const PosedPair& pair, const Hulls& hulls, const Surfaces& surfaces)
+      : pair_(pair),
+        hulls_(hulls),
+        surfaces_(surfaces),
+        swapped_(is_in_pieces(pair.a)),
+        piece_(swapped_ ? pair.a : pair.b),
+        convex_(swapped_ ? pair.b : pair.a),
+        apart_(between(pair.place_a, pair.place_b)) {}
+
+  /// found(triangle, manifold) for each piece that touches; the manifold is that of (a, b).
+  template <class Found>
+  PLUMB_HD void touches(Found& found) const {
+    if (piece_.type == ShapeType::kPlane) {
+      touch(0, found);
+      return;
+    }
+    const Box box = box_in_piece();
+    if (!overlap(box, Box{-piece_.size, piece_.size})) return;
+    const auto look = [&](std::uint32_t triangle) { touch(triangle, found); };
+    if (piece_.type == ShapeType::kMesh)
+      surfaces_.meshes[piece_.hull].overlaps(box, look);
+    else
+      surfaces_.fields[piece_.hull].overlaps(box, look);
+  }
+
+  [[nodiscard]] PLUMB_HD PairAnswer answer() const {
+    Deepest deepest;
+    touches(deepest);
+    PairAnswer answer = deepest.answer;
+    if (answer.manifold.count == 0) tell_gap(answer);
+    return answer;
+  }
+
+ private:
+  /// The deepest of all, and of equal ones that of the first triangle.
+  struct Deepest {
+    PairAnswer answer{};
+    PLUMB_HD void operator()(std::uint32_t triangle, const Manifold& manifold) {
+      PairAnswer other;
+      other.manifold = manifold;
+      other.triangle = triangle;
+      take_deepest(other);
+      const bool better =
+          other.distance < answer.distance || (other.distance == answer.distance && triangle < answer.triangle);
+      if (answer.manifold.count == 0 || better) answer = other;
+    }
+  };
+
+  [[nodiscard]] PLUMB_HD const Quat64& turn_piece() const { return swapped_ ? pair_.turn_a : pair_.turn_b; }
+  [[nodiscard]] PLUMB_HD const Quat64& turn_convex() const { return swapped_ ? pair_.turn_b : pair_.turn_a; }
+
+  /// Of the convex shape, in the piece's frame; touching counts whatever was rounded.
+  [[nodiscard]] PLUMB_HD Box box_in_piece() const {
+    const Vec place = rotate_back(to_numbers<Real>(turn_piece()), swapped_ ? apart_ : -apart_);
+    const Box box = shape_box(convex_, to_numbers<Real>(conjugate(turn_piece()) * turn_convex()), hulls_);
+    const Real more = 8 * kEpsilon * (length(place) + convex_.reach);
+    const Vec wider = {more, more, more};
+    return {place + box.low - wider, place + box.high + wider};
+  }
+
+  template <class Found>
+  PLUMB_HD void touch(std::uint32_t triangle, Found& found) const {
+    Manifold manifold;
+    if (!collide_with_piece(convex_, to_numbers<Real>(turn_convex()), piece_, to_numbers<Real>(turn_piece()),
+                            swapped_ ? -apart_ : apart_, 0, {nullptr, nullptr, hulls_, surfaces_}, triangle, manifold))
+      return;
+    if (swapped_) swap_sides(apart_, manifold);
+    found(triangle, manifold);
+  }
+
+  /// Of what does not touch, or only where another triangle should, which does not either: by rounding alone.
+  PLUMB_HD void tell_gap(PairAnswer& answer) const {
+    const Quat64 relative = conjugate(turn_piece()) * turn_convex();
+    const Vec64 to_convex = swapped_ ? pair_.place_b - pair_.place_a : pair_.place_a - pair_.place_b;
+    const SurfacePair pair = {piece_, convex_, to_matrix(relative), rotate_back(turn_piece(), to_convex), hulls_};
+    Vec64 normal = {0, 1, 0}, on_piece, on_convex;  // from the piece to the convex shape
+    if (piece_.type == ShapeType::kPlane) {
+      on_convex = plane::lowest(pair);
+      on_piece = {on_convex.x, 0, on_convex.z};
+      answer.distance = on_convex.y;
+    } else {
+      surface::NearestTriangle nearest;
+      const Box box = box_in_piece();
+      with_surface(surfaces_, piece_, [&](const auto& on) {
+        surface::find_nearest(on, box, pair, nearest);
+        if (!nearest.gap.cores_overlap) return;
+        const Triangle triangle = on.triangle(nearest.triangle);
+        normal = normal_against(triangle, to_numbers<double>(triangle.at[0]) - pair.shift);
+      });
+      answer.triangle = nearest.triangle;
+      answer.distance = nearest.gap.distance;
+      on_piece = on_convex = pair.shift;
+      if (!nearest.gap.cores_overlap) {
+        normal = nearest.gap.normal;
+        on_piece = nearest.gap.on_a;
+        on_convex = nearest.gap.on_b;
+      }
+    }
+    answer.distance = max(answer.distance, 0.0);
+    answer.normal = rotate(turn_piece(), swapped_ ? normal : -normal);
+    answer.at = rotate(turn_piece(), swapped_ ? on_piece : on_convex - pair.shift);
+  }
+
+  const PosedPair& pair_;
+  Hulls hulls_;
+  Surfaces surfaces_;
+  bool swapped_;
+  Shape piece_, convex_;
+  Vec apart_;
+};
+
+}  // namespace plumb::impulse
