@@ -47,6 +47,31 @@ void machines(Scene& scene) {
   };
 }
 
+void belts(Scene& scene) {
+  scene.ground();
+  const PlumbShape belt = scene.box({2, 0.2, 0.8});
+  const auto run = [](Scene& all, PlumbBody body, const PlumbVec3& speed) {
+    all.write(PLUMB_FIELD_SURFACE_VELOCITY, body, {speed.x, speed.y, speed.z});
+  };
+  const PlumbBody level = scene.add_static(belt, {0, 0.5, 0});
+  const PlumbBody uphill = scene.add_static(belt, {3.9, 0.9, 0}, {0, 0, 0.1, std::sqrt(0.99)});
+  const PlumbBody corner = scene.add_static(belt, {-2.5, 0.4, 1.5}, {0, 0.6, 0, 0.8});
+  const PlumbBody carriage = scene.add_kinematic(belt, {0, 0.5, -3});
+  run(scene, level, {1.5, 0, 0});
+  run(scene, uphill, {2, 0, 0});
+  run(scene, corner, {0, 0, -1});
+  run(scene, carriage, {-0.8, 0, 0.2});
+  const std::vector<PlumbShape> shapes = convex_shapes(scene);
+  Random random(46);
+  for (int i = 0; i < 40; ++i)
+    scene.add(shapes[static_cast<std::size_t>(i % 5)],
+              {random.between(-3, 3), 1.2 + 0.15 * i, i % 4 == 3 ? -3.0 : random.between(-0.6, 0.6)}, random.turn());
+  scene.before_step = [=](Scene& all, int step) {
+    all.target(carriage, {0.01 * step, 0.5, -3});
+    if (step == 200) run(all, level, {-1.5, 0, 0});
+  };
+}
+
 void far_off(Scene& scene) {
   constexpr double kX = 1e5, kZ = -7e4;
   scene.ground(kX, kZ);

@@ -9,6 +9,8 @@ namespace plumb::impulse::test {
 void comers(Scene& scene);
 /// A press that closes on cubes and lets go, a turning table, a lift, and a wall that is put elsewhere.
 void machines(Scene& scene);
+/// Boxes, balls and capsules on belts that run level, uphill, round a corner and back, and on one that moves.
+void belts(Scene& scene);
 /// A tower, a heap, a chain and a sensor, 100 km from the origin.
 void far_off(Scene& scene);
 

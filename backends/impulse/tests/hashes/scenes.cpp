@@ -243,6 +243,7 @@ const std::vector<NamedScene>& named_scenes() {
       {"clockwork", {}, kAll | PLUMB_NEED_JOINTS | PLUMB_NEED_JOINT_REACTIONS | PLUMB_NEED_EVENTS, kDown, &clockwork},
       {"comers", {}, kAll | PLUMB_NEED_SLEEPING, kDown, &comers},
       {"machines", {}, kContactNeeds | PLUMB_NEED_KINEMATIC | PLUMB_NEED_SLEEPING, kDown, &machines},
+      {"belts", {}, kAll | PLUMB_NEED_KINEMATIC | PLUMB_NEED_SURFACE_VELOCITY | PLUMB_NEED_SLEEPING, kDown, &belts},
       {"far-off", {}, kAll | PLUMB_NEED_JOINTS, kDown, &far_off},
       {"pyramid-20-once", {"relaxation", "step"}, kContactNeeds, kDown, &pyramid_20},
   };
