@@ -82,15 +82,6 @@ PLUMB_HD inline void refresh_axis_joint(const AxisView& view, std::uint32_t j) {
     reaction.spring_mass[i] = spring_mass(axes, own.whole(i, i), inverse_mass);
 }
 
-/// Speeds along the rows as they stand.
-PLUMB_HD inline void speeds_now(const AxisView& view, std::uint32_t j, const Velocity& a, const Velocity& b,
-                                Real (&speed)[kJointRows]) {
-  const JointWork& work = view.work[j];
-  for (int i = 0; i < row_count(view.joints[j]); ++i)
-    speed[i] = dot(work.rows[i].direction, b.linear - a.linear) + dot(work.rows[i].on_a, a.angular) +
-               dot(work.rows[i].on_b, b.angular);
-}
-
 /// Over the sub-step, with velocities a and b.
 PLUMB_HD inline void speeds_over_places(const AxisView& view, std::uint32_t j, const RowTime& time, const Velocity& a,
                                         const Velocity& b, Real (&speed)[kJointRows]) {
@@ -118,7 +109,10 @@ PLUMB_HD inline void row_speeds(const AxisView& view, std::uint32_t j, const Row
   if (anew) {
     Real now[kJointRows];
     speeds_now(view, j, a, b, now);
-    speeds_over_places(view, j, time, a, b, speed);
+    if (turns_far(a, b, time.h))
+      speeds_now(view, j, a, b, speed);
+    else
+      speeds_over_places(view, j, time, a, b, speed);
     for (int i = 0; i < n; ++i) own.bend[i] = speed[i] - now[i];
     return;
   }

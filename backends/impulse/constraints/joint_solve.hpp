@@ -125,16 +125,31 @@ PLUMB_HD inline void refresh_joint(const JointView& view, std::uint32_t j) {
   factor_joint(view, j);
 }
 
+/// Whether a body turns so far in that time, a radian or more, that its rows as they stand say nothing of where they
+/// will be: such a joint is held by its speeds alone. Seen ahead, it would be flung about, ever faster.
+PLUMB_HD inline bool turns_far(const Velocity& a, const Velocity& b, Real h) {
+  return h * h * max(length_squared(a.angular), length_squared(b.angular)) > 1;
+}
+
+/// Speeds along the rows as they stand.
+PLUMB_HD inline void speeds_now(const JointView& view, std::uint32_t j, const Velocity& a, const Velocity& b,
+                                Real (&speed)[kJointRows]) {
+  const JointWork& work = view.work[j];
+  for (int i = 0; i < row_count(view.joints[j]); ++i)
+    speed[i] = dot(work.rows[i].direction, b.linear - a.linear) + dot(work.rows[i].on_a, a.angular) +
+               dot(work.rows[i].on_b, b.angular);
+}
+
 /// How far the velocities of the rows are from what they should be in this pass.
 PLUMB_HD inline void joint_residuals(const JointView& view, std::uint32_t j, const JointPass& pass, const Velocity& a,
                                      const Velocity& b, Real (&residual)[kJointRows]) {
   const Joint& joint = view.joints[j];
   const JointWork& work = view.work[j];
   const int n = row_count(joint);
-  if (!pass.take_back_error) {
-    for (int i = 0; i < n; ++i)
-      residual[i] = dot(work.rows[i].direction, b.linear - a.linear) + dot(work.rows[i].on_a, a.angular) +
-                    dot(work.rows[i].on_b, b.angular);
+  if (!pass.take_back_error || turns_far(a, b, pass.h)) {
+    speeds_now(view, j, a, b, residual);
+    for (int i = 0; i < n && pass.take_back_error; ++i)
+      residual[i] = residual[i] + pass.softness.bias_rate * work.error[i];
     return;
   }
   const JointPlace place = place_joint(joint, view.base(joint), view.end_after(joint.body_a, a, pass.h),
