@@ -40,10 +40,11 @@ enum BodyFlag : std::uint32_t {
   kBodyGyroscopic = 1u << 2,  ///< turns, and its principal moments differ: a free one tumbles
   kBodyMoves = 1u << 3,       ///< dynamic or kinematic
   kBodyNeverSleeps = 1u << 4,
-  kBodyLocked = 1u << 5,      ///< some of the locks are set
-  kLockLinear = 1u << 6,      ///< along x; y and z follow
-  kLockAngular = 1u << 9,     ///< about x; y and z follow
-  kBodyContinuous = 1u << 12  ///< must not pass through others however fast it is
+  kBodyLocked = 1u << 5,       ///< some of the locks are set
+  kLockLinear = 1u << 6,       ///< along x; y and z follow
+  kLockAngular = 1u << 9,      ///< about x; y and z follow
+  kBodyContinuous = 1u << 12,  ///< must not pass through others however fast it is
+  kBodySweeps = 1u << 13       ///< kinematic, and must find those in time who must not pass through it
 };
 
 /// What is given once for a body.

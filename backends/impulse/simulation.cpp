@@ -71,7 +71,10 @@ void Simulation::reserve_pairs(std::uint32_t pairs) {
   const auto slots = static_cast<std::uint32_t>(state.size()), rows = static_cast<std::uint32_t>(proxies.size());
   broad_phase_.reserve(executor_, rows, rows, pairs);
   narrow_phase_.reserve(executor_, rows, pairs);
-  if (features_.continuous) impacts_.reserve(pairs);
+  if (features_.continuous) {
+    impacts_.reserve(pairs);
+    guard_.reserve(slots);
+  }
   if (in_pieces_) pieces_.reserve(rows, pairs);
   colouring_.reserve(executor_, slots, pairs);
   solver_.reserve(executor_, slots, pairs);
@@ -263,7 +266,7 @@ void Simulation::find_candidates(const ContactCache& now) {
   pieces_.find(executor_,
                {bodies(), proxy_view(), parameters_.device(), filter, boxes_.data(), margins_.data(), movers_.device(),
                 mover_room_, planes_.device(), plane_count_},
-               now, counters);
+               now, counters, features_.continuous);
 }
 
 /// The step, from bounds to poses.
@@ -283,7 +286,8 @@ void Simulation::enqueue() {
     phases_.end(executor_, PLUMB_PHASE_BROAD);
     narrow_phase_.collide(executor_, now, all, shapes_on, margins_.data(), shape_types_, counters);
     if (features_.continuous)
-      impacts_.find(executor_, now, narrow_phase_.candidates(counters), all, shapes_on, margins_.data(), parameters);
+      impacts_.find(executor_, now, narrow_phase_.candidates(counters), all, shapes_on, margins_.data(), parameters,
+                    in_pieces_);
     narrow_phase_.number(executor_, now, counters);
     colouring_.begin(executor_);
     const KeptPair* woken = features_.sleeping ? sleep_.woken_pairs() : nullptr;
@@ -305,6 +309,12 @@ void Simulation::enqueue() {
       put_drifts(executor_, now, pair_capacity_, all, shapes_on, belts.device(), colouring_.order(),
                  colouring_.colours(), solver_.rows(), counters);
     solver_.solve(executor_, all, bodies_in_step(), parameters, counters, pair_capacity_, joints);
+    if (features_.continuous)
+      guard_.hold(
+          executor_,
+          {now, narrow_phase_.candidates(counters), pair_capacity_, counters, parameters, shapes_on, boxes_.data(),
+           movers_.device(), mover_room_, broad_phase_.statics(), planes_.device(), plane_count_},
+          all, bodies_in_step(), solver_.displacements());
     if (features_.collision) solver_.keep_impulses(executor_, now, counters);
   } else {
     solver_.move_freely(executor_, all, bodies_in_step(), parameters, counters);

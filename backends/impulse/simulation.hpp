@@ -13,6 +13,7 @@
 #include "constraints/belts.hpp"
 #include "constraints/joint_store.hpp"
 #include "contact_record.hpp"
+#include "continuous/guard.hpp"
 #include "continuous/impacts.hpp"
 #include "exec/executor.hpp"
 #include "exec/memory.hpp"
@@ -195,7 +196,8 @@ class Simulation {
   BroadPhase broad_phase_;
   Pieces pieces_;
   NarrowPhase narrow_phase_;
-  Impacts impacts_;  // where the scene asks for them
+  Impacts impacts_;  // these two where the scene asks for them
+  Guard guard_;
   Colouring colouring_;
   Solver solver_;
   Sleep sleep_;

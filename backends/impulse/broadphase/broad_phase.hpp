@@ -48,6 +48,8 @@ class BroadPhase {
   void find_pairs(Executor& executor, const Box* boxes, const std::uint32_t* movers, std::uint32_t n,
                   const PairFilter& filter, Pair* pairs, PairRange* ranges_by_proxy, std::uint32_t* pair_count);
 
+  /// As it was built last, for kernels of the same step.
+  [[nodiscard]] TreeView statics() const { return statics_.view(); }
   /// Nodes of a tree as it was built last, copied to the host; none of movers where the method has no tree.
   [[nodiscard]] std::vector<TreeNode> nodes(Tree tree) const {
     return (tree == Tree::kMovers ? movers_ : statics_).nodes();

@@ -31,10 +31,17 @@ struct BoundProxies {
     const Box local = shape_box(shape, pose.orientation, proxies.hulls);
     margins[index] = margin;
     boxes[index] = {outward(centre + local.low, -margin), outward(centre + local.high, margin)};
-    if ((bodies.mass[proxy.body].flags & kBodyContinuous) != 0) cover_way(proxy, shape, boxes[index]);
+    if (is_swept(proxy.body)) cover_way(proxy, shape, boxes[index]);
   }
 
  private:
+  [[nodiscard]] PLUMB_HD bool is_swept(std::uint32_t body) const {
+    const std::uint32_t flags = bodies.mass[body].flags;
+    if ((flags & (kBodyContinuous | kBodySweeps)) == 0) return false;
+    const Velocity& velocity = bodies.velocity[body];
+    return (flags & kBodyContinuous) != 0 || length_squared(velocity.linear) > 0 ||
+           length_squared(velocity.angular) > 0;
+  }
   /// All that the shape passes in the step, turns as it may.
   PLUMB_HD void cover_way(const Proxy& proxy, const Shape& shape, Box& box) const {
     const Vec centre = between(parameters->origin, bodies.position[proxy.body]);

@@ -8,6 +8,8 @@
 // coordinates of the size that the shapes and their distance have.
 #pragma once
 
+#include <type_traits>
+
 #include "narrowphase/core.hpp"
 #include "narrowphase/simplex.hpp"
 
@@ -45,8 +47,9 @@ PLUMB_HD Vec3<N> gap_normal(const Simplex<N>& simplex, const Vec3<N>& nearest) {
 
 /// simplex: empty, or what an earlier call left for the same pair, moved as B was moved against it: then it is quick.
 /// Of cores that turn out to be further apart than `enough` the gap need not be found to the end; it is above that.
-template <class Pair, class N = typename Pair::Number>
-PLUMB_HD CoreGap<N> core_gap(const Pair& pair, Simplex<N>& simplex, typename Pair::Number enough) {
+/// A pair has the members `shift`, from A's origin to B's, and `support` of PlacedPair.
+template <class Pair, class N>
+PLUMB_HD CoreGap<N> core_gap(const Pair& pair, Simplex<N>& simplex, std::type_identity_t<N> enough) {
   constexpr int kMostRefinements = 128;  // far beyond what polyhedra take; curved cores come closer with every round
   constexpr N kNoise = 16 * kRounding<N>;
   if (simplex.count == 0) {

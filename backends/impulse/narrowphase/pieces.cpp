@@ -1,5 +1,6 @@
 #include "narrowphase/pieces.hpp"
 
+#include "continuous/way.hpp"
 #include "geometry/shape_box.hpp"
 
 namespace plumb::impulse {
@@ -14,6 +15,8 @@ struct TrianglesOf {
   PLUMB_HD void operator()(std::uint32_t triangle) const { sink(pair, triangle); }
 };
 
+/// kSwept: some bodies must not pass through others however fast they are.
+template <bool kSwept>
 struct Search {
   Pieces::Input in;
   const Pair* pairs;
@@ -55,11 +58,31 @@ struct Search {
     const Real more = in.margins[surface] + in.margins[other] + 8 * kEpsilon * (length(place) + shape.reach);
     const Vec wider = {more, more, more};
     box = {place + box.low - wider, place + box.high + wider};
+    if constexpr (kSwept) {
+      if ((in.bodies.mass[b.body].flags & kBodyContinuous) != 0) cover_way(a, pose_a, in.boxes[other], box);
+    }
     if (!overlap(box, Box{-on.size, on.size})) return;
     if (on.type == ShapeType::kMesh)
       in.proxies.surfaces.meshes[on.hull].overlaps(box, found);
     else
       in.proxies.surfaces.fields[on.hull].overlaps(box, found);
+  }
+
+  /// Adds to a box in the frame of a surface where others may be in the step whose box in the world is `swept`.
+  PLUMB_HD void cover_way(const Proxy& a, const ShapePose& pose_a, const Box& swept, Box& box) const {
+    const StepParameters& step = *in.parameters;
+    const Way way = way_through_step(in.bodies, step, a.body);
+    const Vec middle = Real(.5) * (swept.low + swept.high), half = Real(.5) * (swept.high - swept.low);
+    const Vec at = middle - between(step.origin, in.bodies.position[a.body]) - pose_a.offset;
+    const Mat axes = to_matrix(pose_a.orientation);
+    // As a surface that moves sees it, they move the other way; where it turns, about the centre of its body.
+    const Vec place = multiply_transposed(axes, at), back = multiply_transposed(axes, -step.dt * way.linear);
+    const Real furthest = length(at) + length(half) + length(back) + length(a.frame.position);
+    const Real turned = min(step.dt * length(way.angular), Real(2)) * furthest + 8 * kEpsilon * length(middle);
+    const Vec reach = {dot(abs(axes.x), half) + turned, dot(abs(axes.y), half) + turned,
+                       dot(abs(axes.z), half) + turned};
+    box.low = min(box.low, min(place, place + back) - reach);
+    box.high = max(box.high, max(place, place + back) + reach);
   }
 
   /// Whether the mover's box comes below the plane.
@@ -79,8 +102,9 @@ struct CountSink {
   std::uint32_t count;
   PLUMB_HD void operator()(const Pair&, std::uint32_t) { ++count; }
 };
+template <bool kSwept>
 struct CountPieces {
-  Search search;
+  Search<kSwept> search;
   std::uint32_t* counts;
   PLUMB_HD void operator()(std::uint32_t i) const {
     CountSink sink{0};
@@ -98,8 +122,9 @@ struct WriteSink {
     cache.parts[at++] = triangle;
   }
 };
+template <bool kSwept>
 struct WritePieces {
-  Search search;
+  Search<kSwept> search;
   ContactCache cache;
   const std::uint32_t *counts, *offsets;
   std::uint32_t capacity;
@@ -131,11 +156,15 @@ void Pieces::reserve(std::uint32_t proxies, std::uint32_t pairs) {
   scan_.reserve(proxies);
 }
 
-void Pieces::find(Executor& executor, const Input& input, const ContactCache& cache, StepCounters* counters) {
-  const Search search{input, pairs_.data(), ranges_.data()};
-  executor.run(input.mover_count, CountPieces{search, counts_.data()});
-  scan_.run(executor, input.mover_count, counts_.data(), offsets_.data(), &counters->pieces);
-  executor.run(input.mover_count, WritePieces{search, cache, counts_.data(), offsets_.data(), capacity_});
+void Pieces::find(Executor& executor, const Input& input, const ContactCache& cache, StepCounters* counters,
+                  bool swept) {
+  const auto find = [&]<bool kSwept>() {
+    const Search<kSwept> search{input, pairs_.data(), ranges_.data()};
+    executor.run(input.mover_count, CountPieces<kSwept>{search, counts_.data()});
+    scan_.run(executor, input.mover_count, counts_.data(), offsets_.data(), &counters->pieces);
+    executor.run(input.mover_count, WritePieces<kSwept>{search, cache, counts_.data(), offsets_.data(), capacity_});
+  };
+  swept ? find.operator()<true>() : find.operator()<false>();
   executor.run(1U, CountAsPairs{counters, capacity_});
 }
 

@@ -36,8 +36,8 @@ class Pieces {
     std::uint32_t plane_count;
   };
   /// Writes cache.pairs, cache.parts, cache.ranges and counters->pieces. More pieces than there is room for count as so
-  /// many pairs.
-  void find(Executor& executor, const Input& input, const ContactCache& cache, StepCounters* counters);
+  /// many pairs. swept: what some bodies must not pass through in the step is found, too.
+  void find(Executor& executor, const Input& input, const ContactCache& cache, StepCounters* counters, bool swept);
 
  private:
   Buffer<Pair> pairs_;

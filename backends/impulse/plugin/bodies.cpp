@@ -80,10 +80,14 @@ void World::make_body(const PlumbBodyDesc& desc, PlumbBody id) {
   Real inverse_mass = 0;
   const bool dynamic = desc.motion == PLUMB_DYNAMIC;
   if (desc.motion != PLUMB_STATIC) mass.flags |= kBodyMoves | kBodyTurns;
+  if (desc.motion == PLUMB_KINEMATIC && kinematics_sweep_) mass.flags |= kBodySweeps;
   if (dynamic) {
     mass.flags |= kBodyDynamic;
     if ((desc.flags & PLUMB_BODY_NEVER_SLEEPS) != 0) mass.flags |= kBodyNeverSleeps;
-    if ((desc.flags & PLUMB_BODY_CCD) != 0) mass.flags |= kBodyContinuous;
+    if ((desc.flags & PLUMB_BODY_CCD) != 0) {
+      mass.flags |= kBodyContinuous;
+      let_kinematics_sweep();
+    }
     ++dynamic_count_;
     inverse_mass = static_cast<Real>(1 / desc.mass);
     frame.centre_of_mass = to_position(desc.centre_of_mass);
@@ -118,6 +122,15 @@ void World::make_body(const PlumbBodyDesc& desc, PlumbBody id) {
   if (body.senses) sensors_.push_back(slot);
   const bool has_place = init_.needs(PLUMB_NEED_COLLISION) || init_.needs(PLUMB_NEED_SENSORS);
   if (desc.shape != 0 && has_place) attach(slot, slot_of(desc.shape));
+}
+
+/// From the first flagged body on: where there is none kinematic bodies go as they would without.
+void World::let_kinematics_sweep() {
+  if (kinematics_sweep_) return;
+  kinematics_sweep_ = true;
+  for (std::uint32_t slot = 0; slot < bodies_.size(); ++slot)
+    if (bodies_[slot].id != 0 && bodies_[slot].motion == PLUMB_KINEMATIC)
+      simulation_.mass.edit(slot).flags |= kBodySweeps;
 }
 
 /// What of a body's record is copied into rows that kernels read.

@@ -46,7 +46,7 @@ class Solver {
   void keep_impulses(Executor& executor, const ContactCache& cache, StepCounters* counters);
 
   /// How far bodies moved in the last step, by body.
-  [[nodiscard]] const Displacement* displacements() const { return displacement_.data(); }
+  [[nodiscard]] Displacement* displacements() { return displacement_.data(); }
   /// By row of the contact cache; null unless asked for.
   [[nodiscard]] StepImpulses* step_impulses() { return step_impulses_.data(); }
 

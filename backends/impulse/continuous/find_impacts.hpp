@@ -1,0 +1,53 @@
+// What the searches for impacts have in common, of convex pairs and of pieces.
+#pragma once
+
+#include "continuous/impacts.hpp"
+
+namespace plumb::impulse {
+
+/// A pair of candidates, as a kernel looks at it.
+struct ImpactSearch {
+  ContactCache cache;
+  Bodies bodies;
+  Proxies proxies;
+  const Real* margins;
+  const StepParameters* parameters;
+  Real* times;
+
+  [[nodiscard]] PLUMB_HD bool is_flagged(const Pair& pair) const {
+    const auto flags = [this](std::uint32_t proxy) { return bodies.mass[proxies.rows[proxy].body].flags; };
+    return ((flags(pair.a) | flags(pair.b)) & kBodyContinuous) != 0;
+  }
+  [[nodiscard]] PLUMB_HD const Shape& shape(std::uint32_t proxy) const {
+    return proxies.shapes[proxies.rows[proxy].shape];
+  }
+  [[nodiscard]] PLUMB_HD bool is_convex(std::uint32_t proxy) const {
+    return static_cast<std::uint32_t>(shape(proxy).type) < kConvexTypes;
+  }
+  [[nodiscard]] PLUMB_HD MovingShape moving(std::uint32_t proxy) const {
+    const Proxy& row = proxies.rows[proxy];
+    return {&proxies.shapes[row.shape], row.frame, way_through_step(bodies, *parameters, row.body)};
+  }
+  [[nodiscard]] PLUMB_HD Vec apart(const Pair& pair) const {
+    return between(bodies.position[proxies.rows[pair.a].body], bodies.position[proxies.rows[pair.b].body]);
+  }
+  /// Whether they go further than the narrow phase looks ahead.
+  [[nodiscard]] PLUMB_HD bool is_fast(const Pair& pair, const MovingShape& a, const MovingShape& b) const {
+    return travel(a, parameters->dt) + travel(b, parameters->dt) > margins[pair.a] + margins[pair.b];
+  }
+  [[nodiscard]] PLUMB_HD bool touches_within(std::uint32_t p, Real close) const {
+    if (cache.touching[p] == 0) return false;
+    const Manifold& manifold = cache.found[p];
+    Real least = manifold.points[0].separation;
+    for (std::uint32_t i = 1; i < manifold.count; ++i) least = min(least, manifold.points[i].separation);
+    return least <= close;
+  }
+};
+
+/// Of the smaller shape: what is nearer touches.
+constexpr Real kCloseShare = Real(0.005);
+
+/// Of the pairs of which one is a plane or a surface.
+void find_piece_impacts(Executor& executor, Count candidates, const ImpactSearch& search);
+
+}  // namespace plumb::impulse
