@@ -288,6 +288,10 @@ void World::write_row(PlumbField field, std::uint32_t slot, const double* row) {
   const auto arm = [&] { return between(simulation_.state.position[slot], {row[3], row[4], row[5]}); };
   switch (field) {
     case PLUMB_FIELD_POSE: {
+      if (body.arrived) {  // the velocity was that of the way there
+        simulation_.state.velocity[slot].linear = simulation_.state.velocity[slot].angular = {0, 0, 0};
+        simulation_.state.touch(slot, kVelocityPart);
+      }
       place(slot, {{row[0], row[1], row[2]}, {row[3], row[4], row[5], row[6]}});
       body.to_target = body.arrived = false;
       return;
