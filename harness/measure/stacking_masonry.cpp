@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "measure/args.hpp"
+#include "measure/drift.hpp"
 #include "measure/series.hpp"
 #include "measure/stacking.hpp"
 #include "truth/limit_analysis.hpp"
@@ -89,8 +90,10 @@ void measure_masonry(MeasureContext& context) {
   const RefereeView view(scene);
   Simulation simulation = context.simulate(scene);
   Survival survival;
+  RestWatch rest(scene.seconds);
   double half_way = not_measured;
   simulation.run([&](Simulation& now) {
+    rest.add(now);
     const double way = largest_way(now, blocks);
     survival.add(now.time(), way <= reach);
     if (now.time() <= scene.seconds / 2 + scene.dt / 2) half_way = way;
@@ -100,6 +103,7 @@ void measure_masonry(MeasureContext& context) {
   context.deviation("drift", way / height);
   context.deviation("drift_rate", (way - half_way) / height / (scene.seconds / 2));
   context.deviation("depth", view.penetration(simulation.poses()).max / height);
+  rest.add_to(context);
 }
 
 }  // namespace plumb::harness

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "measure/args.hpp"
+#include "measure/drift.hpp"
 #include "measure/series.hpp"
 #include "measure/stacking.hpp"
 
@@ -56,8 +57,10 @@ void measure_tower(MeasureContext& context) {
   Simulation simulation = context.simulate(scene);
   ImpulseAccount account(simulation);
   Survival standing, intact;
+  RestWatch rest(scene.seconds);
   double drift = 0, depth = 0;
   simulation.run([&](Simulation& now) {
+    rest.add(now);
     standing.add(now.time(), tower_stands(scene, now.poses(), boxes));
     intact.add(now.time(), tower_is_intact(scene, now.poses(), boxes));
     for (const std::size_t box : boxes) drift = largest(drift, sideways(scene, now.poses(), box));
@@ -78,6 +81,7 @@ void measure_tower(MeasureContext& context) {
   double weight = 0;
   for (const std::size_t box : boxes) weight += view.masses()[box].mass * g;
   context.deviation("kinetic_energy", view.energy(simulation).kinetic() / (weight * side));
+  rest.add_to(context);
   if (impulses) add_ground_force(context, account, view.total_mass());
 }
 

@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <unordered_map>
 
+#include "measure/contact_laws.hpp"
+#include "measure/drift.hpp"
 #include "measure/mechanics.hpp"
-#include "referee/contacts.hpp"
-#include "referee/joints.hpp"
 #include "referee/world_penetration.hpp"
 
 namespace plumb::harness {
@@ -48,24 +47,16 @@ Nature nature_of(const Scene& scene) {
   return nature;
 }
 
-bool has_child_materials(const Scene& scene) {
-  for (const SceneShape& shape : scene.shapes) {
-    for (const SceneShape::Child& child : shape.children) {
-      if (child.material) return true;
-    }
-  }
-  return false;
-}
-
 }  // namespace
 
 struct GeneralMetrics::State {
+  explicit State(Simulation& simulation) : laws(simulation) {}
+
   Nature nature;
   std::vector<referee::ShapePtr> shapes;
   std::vector<referee::Mass> masses;
   std::set<std::pair<std::uint32_t, std::uint32_t>> joined;  ///< bodies that a joint keeps from touching
-  std::unordered_map<PlumbBody, std::uint32_t> index;
-  bool judge_cone = false;
+  ContactLaws laws;
   std::uint64_t energy_stride = 1, overlap_stride = 1;
 
   referee::EnergyAccount energy;
@@ -74,14 +65,10 @@ struct GeneralMetrics::State {
   referee::Vec3 momentum_start = referee::Vec3::Zero();
   double momentum_sum = 0, momentum_drift = 0;
   double depth_max = 0, depth_p99 = 0;
-  double gap_max = 0;
-  double cone_max = 0;
-  bool cone_known = false;
+  JointDrift joints;
 
   void sample_energy(Simulation& simulation);
   void sample_geometry(Simulation& simulation);
-  void sample_joints(Simulation& simulation);
-  void sample_cone(Simulation& simulation);
 };
 
 void GeneralMetrics::State::sample_energy(Simulation& simulation) {
@@ -117,41 +104,7 @@ void GeneralMetrics::State::sample_geometry(Simulation& simulation) {
   depth_p99 = std::max(depth_p99, found.p99);
 }
 
-void GeneralMetrics::State::sample_joints(Simulation& simulation) {
-  const Scene& scene = simulation.scene();
-  const auto pose_of = [&](std::size_t body) {
-    const PoseRow& row = simulation.poses()[body];
-    return referee::pose(row.position, row.orientation);
-  };
-  for (const SceneJoint& joint : scene.joints) {
-    const referee::Pose a = joint.body_a ? pose_of(*joint.body_a) : referee::Pose{};
-    const double gap = referee::joint_error(joint.desc, a, pose_of(joint.body_b)).position;
-    gap_max = std::isnan(gap) ? gap : std::max(gap_max, gap);
-  }
-}
-
-void GeneralMetrics::State::sample_cone(Simulation& simulation) {
-  if (!judge_cone) return;
-  const Scene& scene = simulation.scene();
-  const std::span<const PlumbContact> contacts = simulation.contacts();
-  const auto states = referee::body_states<PoseRow, VelocityRow>(masses, simulation.poses(), simulation.velocities());
-  std::vector<referee::ContactSample> samples;
-  for (const PlumbContact& contact : contacts) {
-    const auto a = index.find(contact.body_a), b = index.find(contact.body_b);
-    if (a == index.end() || b == index.end()) continue;
-    const double friction =
-        std::sqrt(scene.bodies[a->second].desc.material.friction * scene.bodies[b->second].desc.material.friction);
-    samples.push_back({&contact, &states[a->second], &states[b->second], friction});
-  }
-  const double gravity = referee::vec(scene.gravity).norm();
-  const referee::Scale scale = referee::scale_of(referee::total_mass(states), gravity, scene.dt, 1.0);
-  const referee::ContactQuality quality = referee::contact_quality(samples, scale);
-  if (quality.contacts <= quality.without_impulse) return;
-  cone_max = std::max(cone_max, quality.cone_max);
-  cone_known = true;
-}
-
-GeneralMetrics::GeneralMetrics(Simulation& simulation) : state_(std::make_unique<State>()) {
+GeneralMetrics::GeneralMetrics(Simulation& simulation) : state_(std::make_unique<State>(simulation)) {
   State& s = *state_;
   const Scene& scene = simulation.scene();
   s.nature = nature_of(scene);
@@ -159,7 +112,6 @@ GeneralMetrics::GeneralMetrics(Simulation& simulation) : state_(std::make_unique
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const SceneBody& body = scene.bodies[i];
     s.masses.push_back(referee::mass_of(body.desc, body.shape ? s.shapes[*body.shape].get() : nullptr));
-    s.index[simulation.handle(i)] = static_cast<std::uint32_t>(i);
   }
   for (const SceneJoint& joint : scene.joints) {
     if (!joint.body_a || joint.desc.collide_connected != 0) continue;
@@ -167,14 +119,14 @@ GeneralMetrics::GeneralMetrics(Simulation& simulation) : state_(std::make_unique
         std::minmax(static_cast<std::uint32_t>(*joint.body_a), static_cast<std::uint32_t>(joint.body_b));
     s.joined.insert({low, high});
   }
-  s.judge_cone = (scene.needs & PLUMB_NEED_CONTACT_IMPULSES) != 0 && !has_child_materials(scene);
   const auto steps = static_cast<std::uint64_t>(std::max(1.0, scene.seconds / scene.dt));
   s.energy_stride = std::max<std::uint64_t>(1, steps / energy_samples);
   s.overlap_stride =
       scene.bodies.size() > many_bodies ? steps + 1 : std::max<std::uint64_t>(1, steps / overlap_samples);
   s.sample_energy(simulation);
   s.sample_geometry(simulation);
-  s.sample_joints(simulation);
+  s.joints.add(scene, simulation.poses(), 0);
+  if (s.overlap_stride == 1) s.laws.before_step(simulation);
 }
 
 GeneralMetrics::~GeneralMetrics() = default;
@@ -183,12 +135,13 @@ void GeneralMetrics::stepped(Simulation& simulation) {
   State& s = *state_;
   if (simulation.steps() % s.energy_stride == 0) {
     s.sample_energy(simulation);
-    s.sample_joints(simulation);
+    s.joints.add(simulation.scene(), simulation.poses(), simulation.time());
   }
   if (simulation.steps() % s.overlap_stride == 0) {
     s.sample_geometry(simulation);
-    s.sample_cone(simulation);
+    s.laws.after_step(simulation);
   }
+  if ((simulation.steps() + 1) % s.overlap_stride == 0) s.laws.before_step(simulation);
 }
 
 std::vector<Metric> GeneralMetrics::finish(Simulation& simulation) {
@@ -199,7 +152,7 @@ std::vector<Metric> GeneralMetrics::finish(Simulation& simulation) {
   const auto add = [&](const char* name, double value, const std::string& note) {
     metrics.push_back({name, value, 0.0, std::abs(value), std::nullopt, note});
   };
-  if (simulation.steps() % s.overlap_stride != 0) s.sample_geometry(simulation), s.sample_cone(simulation);
+  if (simulation.steps() % s.overlap_stride != 0) s.sample_geometry(simulation);
   if ((scene.needs & PLUMB_NEED_COLLISION) != 0) {
     add("penetration_max", s.depth_max, "deepest overlap at sampled times, by the referee");
     add("penetration_p99", s.depth_p99, "worst 99th percentile of overlaps at a sampled time");
@@ -213,8 +166,14 @@ std::vector<Metric> GeneralMetrics::finish(Simulation& simulation) {
   }
   if (s.nature.closed && s.momentum_sum > 0)
     add("momentum_drift", s.momentum_drift / s.momentum_sum, "largest, of the sum of all momenta");
-  if (!scene.joints.empty()) add("joint_gap_max", s.gap_max, "largest at sampled times");
-  if (s.cone_known) add("cone_violation_max", s.cone_max, "of the friction cone, at sampled times");
+  if (!scene.joints.empty()) {
+    add("joint_gap_max", s.joints.gap_max(), "largest at sampled times");
+    add("joint_gap_rms", s.joints.gap_rms(), "of all joints at sampled times");
+    add("joint_gap_slope", s.joints.gap_slope(), "growth of the worst gap");
+    add("joint_angle_max", s.joints.angle_max(), "largest locked angle at sampled times");
+    add("joint_limit_max", s.joints.limit_max(), "beyond a limit, rad or m");
+  }
+  s.laws.add_to(metrics);
   if (simulation.statistics().solver_fallbacks > 0)
     add("solver_fallbacks", static_cast<double>(simulation.statistics().solver_fallbacks),
         "steps that another solver finished");
@@ -229,9 +188,14 @@ std::vector<MetricSpec> general_metric_specs() {
                                    {"energy_drift", "1"},
                                    {"momentum_drift", "1"},
                                    {"joint_gap_max", "m"},
-                                   {"cone_violation_max", "1"},
+                                   {"joint_gap_rms", "m"},
+                                   {"joint_gap_slope", "m/s"},
+                                   {"joint_angle_max", "rad"},
+                                   {"joint_limit_max", "1"},
                                    {"solver_fallbacks", "1"}})
     specs.push_back({name, unit, "", std::nullopt, std::nullopt});
+  const std::vector<MetricSpec> laws = ContactLaws::specs();
+  specs.insert(specs.end(), laws.begin(), laws.end());
   return specs;
 }
 
