@@ -74,6 +74,8 @@ std::span<const MeasureEntry> robustness_measures() {
   static constexpr const char* stack_args[] = {"bullet", "boxes"};
   static constexpr const char* press_args[] = {"lower", "upper", "box", "squeeze"};
   static constexpr const char* reversal_args[] = {"size", "pendulum"};
+  static constexpr const char* size_args[] = {"size"};
+  static constexpr const char* nudge_args[] = {"size", "nudge", "seeds"};
   static constexpr MeasureEntry entries[] = {
       {"bullet", "bodies that passed through a thin wall", bullet_args, bullet},
       {"spinning_rod", "rods that spin through a thin wall, and how deep they get", rod_args, measure_spinning_rod},
@@ -88,6 +90,9 @@ std::span<const MeasureEntry> robustness_measures() {
       {"galilean", "a scene against itself seen from a moving frame", velocity_args, measure_galilean},
       {"repeat", "a scene against itself run again, on more threads, and in another order", repeat_args,
        measure_repeat},
+      {"mirror", "a scene against itself in a mirror", size_args, measure_mirror},
+      {"self_convergence", "order in which a scene converges with shorter steps", size_args, measure_self_convergence},
+      {"predictability", "how far ends spread that begin a hair apart", nudge_args, measure_predictability},
       {"inner_edges", "bodies that slide or roll over the edges within a plane", edges_args, measure_inner_edges},
       {"bad_input", "whether bad arguments of every kind are refused by name and harm nothing", {}, measure_bad_input},
   };

@@ -24,6 +24,11 @@ void measure_bullet_stack(MeasureContext& context);
 void measure_press(MeasureContext& context);
 void measure_time_reversal(MeasureContext& context);
 
+// robustness_outcomes.cpp: a scene against itself, run otherwise
+void measure_mirror(MeasureContext& context);
+void measure_self_convergence(MeasureContext& context);
+void measure_predictability(MeasureContext& context);
+
 // robustness_bad_input.cpp
 void measure_bad_input(MeasureContext& context);
 

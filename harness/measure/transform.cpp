@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace plumb::harness {
 namespace {
@@ -110,6 +111,38 @@ Scene rotated(Scene scene, const Quat& turn) {
   }
   for (SceneJoint& joint : scene.joints)
     if (!joint.body_a) joint.desc.frame_a = turned(joint.desc.frame_a, turn);
+  return scene;
+}
+
+Scene mirrored(Scene scene) {
+  const auto place = [](PlumbVec3& v) { v.x = -v.x; };
+  const auto turn = [](PlumbQuat& q) { q.y = -q.y, q.z = -q.z; };  // the axis of a turn is a pseudovector
+  const auto spin = [](PlumbVec3& w) { w.y = -w.y, w.z = -w.z; };
+  place(scene.gravity);
+  for (SceneShape& shape : scene.shapes) {
+    if (shape.desc.type == PLUMB_COMPOUND || shape.desc.type == PLUMB_HEIGHT_FIELD)
+      throw std::logic_error("shape " + shape.name + " is of a type that is not mirrored");
+    for (std::size_t i = 0; i < shape.vertices.size(); i += 3) shape.vertices[i] = -shape.vertices[i];
+    for (std::size_t i = 0; i + 2 < shape.indices.size(); i += 3) std::swap(shape.indices[i + 1], shape.indices[i + 2]);
+  }
+  for (SceneBody& body : scene.bodies) {
+    if (body.desc.locks != 0) throw std::logic_error("body " + body.name + " has locked axes");
+    place(body.desc.pose.position);
+    turn(body.desc.pose.orientation);
+    place(body.desc.linear_velocity);
+    spin(body.desc.angular_velocity);
+    place(body.desc.material.surface_velocity);
+    place(body.desc.centre_of_mass);
+    turn(body.desc.inertia_orientation);
+  }
+  for (SceneJoint& joint : scene.joints) {
+    if (joint.desc.type != PLUMB_JOINT_BALL && joint.desc.type != PLUMB_JOINT_DISTANCE)
+      throw std::logic_error("joint " + joint.name + " is of a type that is not mirrored");
+    for (PlumbPose* frame : {&joint.desc.frame_a, &joint.desc.frame_b}) {
+      place(frame->position);
+      turn(frame->orientation);
+    }
+  }
   return scene;
 }
 

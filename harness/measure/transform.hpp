@@ -28,6 +28,10 @@ namespace plumb::harness {
 /// world's.
 [[nodiscard]] Scene rotated(Scene scene, const referee::Quat& turn);
 
+/// Everything in the mirror x -> -x. Throws std::logic_error for scenes with locked axes, joints other than balls and
+/// distances (the axes of which have a hand), compounds and height fields.
+[[nodiscard]] Scene mirrored(Scene scene);
+
 /// Bodies in another order of creation: body i of the result is body order[i] of the scene.
 [[nodiscard]] Scene permuted(const Scene& scene, std::span<const std::size_t> order);
 

@@ -7,6 +7,7 @@
 
 #include "measure/contact_laws.hpp"
 #include "measure/drift.hpp"
+#include "measure/statistics.hpp"
 
 namespace plumb::harness {
 namespace {
@@ -113,6 +114,27 @@ TEST(RestWatch, CountsTheLastSecondsOnly) {
   EXPECT_DOUBLE_EQ(rest.jitter(), std::sqrt(26.0 / 4));
   rest.add(10, std::array{std::numeric_limits<double>::quiet_NaN()});
   EXPECT_TRUE(std::isnan(rest.jitter()));
+}
+
+TEST(Statistics, OrderAndErrorOfWhatConverges) {
+  // x(h) = 1 + 3 h^2: D(h) = 3 (h^2 - h^2 / 4), so p = 2 and the error at h / 4 is 3 h^2 / 16.
+  const auto x = [](double h) { return 1 + 3 * h * h; };
+  const Convergence second = convergence(std::abs(x(.1) - x(.05)), std::abs(x(.05) - x(.025)));
+  EXPECT_NEAR(second.order, 2, 1e-12);
+  EXPECT_NEAR(second.error, x(.025) - 1, 1e-15);
+  EXPECT_NEAR(convergence(0.2, 0.1).order, 1, 1e-15);
+  EXPECT_NEAR(convergence(0.2, 0.1).error, 0.1, 1e-15);
+  EXPECT_LT(convergence(0.1, 0.2).order, 0);
+  EXPECT_TRUE(std::isnan(convergence(0.1, 0.2).error));
+  EXPECT_EQ(convergence(0, 0).error, 0);
+}
+
+TEST(Statistics, SpreadAndGrowth) {
+  const std::array values{1.0, 2.0, 3.0, 4.0};
+  EXPECT_DOUBLE_EQ(spread_of(values).mean, 2.5);
+  EXPECT_DOUBLE_EQ(spread_of(values).deviation, std::sqrt(5.0 / 3));
+  EXPECT_EQ(spread_of(std::span(values).first(1)).deviation, 0);
+  EXPECT_NEAR(growth_rate(1e-6, 1e-6 * std::exp(8.0), 2), 4, 1e-12);
 }
 
 }  // namespace

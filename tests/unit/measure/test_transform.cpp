@@ -124,6 +124,26 @@ TEST(Transform, RotatedRefusesLockedAxes) {
   EXPECT_THROW(static_cast<void>(rotated(scene, referee::Quat::Identity())), std::logic_error);
 }
 
+TEST(Transform, MirroredTwiceIsTheSameAndSpinsTurnTheOtherWay) {
+  Scene scene = sample();
+  EXPECT_THROW(static_cast<void>(mirrored(scene)), std::logic_error);  // a hinge has a hand
+  scene.joints.erase(scene.joints.begin(), scene.joints.end());
+  scene.bodies[0].desc.pose.orientation = {0.1, 0.5, 0.3, std::sqrt(1 - 0.35)};
+  const Scene after = mirrored(scene);
+  EXPECT_EQ(after.bodies[0].desc.pose.position.x, -1);
+  EXPECT_EQ(after.bodies[0].desc.pose.position.y, 2);
+  EXPECT_EQ(after.bodies[0].desc.linear_velocity.x, -4);
+  EXPECT_EQ(after.bodies[0].desc.angular_velocity.y, -6);
+  // A point of the mirrored box, seen in the mirror, is a point of the box.
+  const auto corner = [](const Scene& of, double x) -> referee::Vec3 {
+    const PlumbPose& pose = of.bodies[0].desc.pose;
+    return referee::quat(pose.orientation) * referee::Vec3(x, 2, 3) + referee::vec(pose.position);
+  };
+  const referee::Vec3 seen = corner(after, -1).cwiseProduct(referee::Vec3(-1, 1, 1));
+  EXPECT_NEAR((seen - corner(scene, 1)).norm(), 0, 1e-14);
+  EXPECT_EQ(mirrored(after).bodies[0].desc.pose.orientation.y, 0.5);
+}
+
 TEST(Transform, PermutedTakesJointsAlong) {
   const std::vector<std::size_t> order{1, 0};
   const Scene after = permuted(sample(), order);
