@@ -73,9 +73,9 @@ struct CattoArch {
   static constexpr std::size_t corners = 9;
   static const double inner[corners][2], outer[corners][2];
 };
-/// With a pile of boxes on the keystone, 1 m high, each of the weight of 4 m x 1 m of stone. wide: they are 4 m long, as
-/// in the sample; the lowest then rests on the corners of the keystone's neighbours too, which end at one height with
-/// it. Else they are 1.4 m long and rest on the keystone alone.
+/// With a pile of boxes on the keystone, 1 m high, each of the weight of 4 m x 1 m of stone. wide: they are 4 m long,
+/// as in the sample; the lowest then rests on the corners of the keystone's neighbours too, which end at one height
+/// with it. Else they are 1.4 m long and rest on the keystone alone.
 [[nodiscard]] PlaneStructure catto_arch(std::size_t boxes, bool wide, double friction);
 
 /// Two equal thin cards that lean on each other at the angle `lean` from the vertical, without thickness.
