@@ -109,6 +109,30 @@ void pile_on_surfaces(Scene& scene) {
   };
 }
 
+void sheets(Scene& scene) {
+  const std::vector<double> heights = hills();
+  const PlumbShape mesh = make_mesh(scene, heights);
+  constexpr double kHalf = 0.70710678118654752;
+  scene.add_static(mesh, {0, 0, 0});
+  scene.add_static(mesh, {6, 3, 0}, {0, 0, kHalf, kHalf});  // upright
+  scene.add_static(make_field(scene, heights), {0, -4, 0});
+  scene.add_static(scene.make(shape_desc(PLUMB_PLANE)), {0, -6, 0});
+  const PlumbBody door = scene.add_kinematic(mesh, {0, 3, -9});
+  const std::vector<PlumbShape> shapes = convex_shapes(scene);
+  scene.body.flags = PLUMB_BODY_CCD;
+  Random random(47);
+  for (int i = 0; i < 60; ++i) {
+    const double speed = random.between(30, 250);
+    scene.body.linear_velocity = {i % 3 == 0 ? speed : 0, i % 3 == 1 ? -speed : 0, i % 3 == 2 ? -speed : 0};
+    scene.body.angular_velocity = {random.between(-40, 40), random.between(-40, 40), random.between(-40, 40)};
+    scene.add(shapes[static_cast<std::size_t>(i % 5)],
+              {random.between(-3, 3), random.between(1.5, 5), random.between(-3, 3)}, random.turn());
+  }
+  scene.before_step = [door](Scene& moved, int step) {
+    moved.target(door, {0, 3 - 0.02 * step, -9 + 0.05 * step}, {kHalf, 0, 0, kHalf});
+  };
+}
+
 void boulders(Scene& scene) {
   scene.add_static(make_field(scene, hills()), {0, 0, 0});
   std::vector<PlumbVec3> corners;
