@@ -8,7 +8,7 @@ namespace plumb::impulse {
 namespace {
 
 /// With no constraint between them bodies need not go through the sub-steps together, and go through nothing else. What
-/// the solvers would do to them is the same, to the last bit where they do not tumble.
+/// the solvers would do to them is the same, to the last bit.
 struct StepFreely {
   /// Bodies that one thread takes through the step: on a CPU as many as stay in the nearest cache, for a sub-step of
   /// one overlaps with those of the others.
@@ -45,10 +45,8 @@ struct StepFreely {
 
 void Solver::move_freely(Executor& executor, const Bodies& all, std::uint32_t body_count,
                          const StepParameters* parameters, StepCounters* counters) {
-  SolverBodies free = bodies(all);
-  free.swings = false;  // nothing is solved in those axes
   executor.run(StepFreely::groups(body_count),
-               StepFreely{all, free, body_count, parameters, counters, features_.gyroscopic});
+               StepFreely{all, bodies(all), body_count, parameters, counters, features_.gyroscopic});
 }
 
 }  // namespace plumb::impulse
