@@ -37,7 +37,7 @@ std::span<const MeasureEntry> stacking_measures() {
   static constexpr const char* arch_args[] = {"stones", "radius", "thickness", "friction"};
   static constexpr const char* catto_args[] = {"stones", "boxes", "wide", "friction"};
   static constexpr const char* cards_args[] = {"cards", "lean", "friction", "length"};
-  static constexpr const char* masonry_args[] = {"blocks"};
+  static constexpr const char* masonry_args[] = {"blocks", "height", "reach"};
   static constexpr const char* big_args[] = {"big", "small"};
   static constexpr const char* taken_args[] = {"balls", "load", "time", "away"};
   static constexpr MeasureEntry entries[] = {

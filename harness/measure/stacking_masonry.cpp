@@ -85,8 +85,7 @@ void measure_cards(MeasureContext& context) {
 void measure_masonry(MeasureContext& context) {
   const Scene& scene = context.scene();
   const std::vector<std::size_t> blocks = arg_bodies(scene, "blocks");
-  const referee::Vec3 half = referee::vec(scene.shapes[*scene.bodies[blocks.front()].shape].desc.half_extents);
-  const double height = 2 * half.y(), reach = half.maxCoeff();
+  const double height = arg_number(scene, "height"), reach = arg_number(scene, "reach");
   const RefereeView view(scene);
   Simulation simulation = context.simulate(scene);
   Survival survival;

@@ -48,6 +48,29 @@ TEST(LimitAnalysis, ThicknessOfSemicircularArches) {
   EXPECT_NEAR(critical_value(0.05, 0.8, [](double mu) { return voussoir_arch({15, 4.5, 5.5}, mu); }), .30899, 6e-6);
 }
 
+/// A sixteenth of the dome of D11, as an arch of stones whose weights go with their width; at the eye the ring of the
+/// uppermost stones props it with level forces.
+TEST(LimitAnalysis, AGoreOfTheDomeStandsOnItsOwnThickness) {
+  const auto gore = [](double thickness) {
+    PlaneStructure arch;
+    const double inner = 5 * (1 - thickness / 2), outer = 5 * (1 + thickness / 2), step = 12.5 * degree;
+    const auto along = [](double angle) { return Eigen::Vector2d(std::cos(angle), std::sin(angle)); };
+    for (int i = 0; i < 6; ++i) {
+      const Eigen::Vector2d low = along(i * step), high = along((i + 1) * step);
+      arch.add_face(i - 1, i, inner * low, outer * low, {-low.y(), low.x()}, 0.8);
+      const Eigen::Vector2d corners[] = {inner * low, outer * low, outer * high, inner * high};
+      PlaneBlock stone = polygon_block(corners);
+      stone.weight *= stone.centre.x();
+      arch.blocks.push_back(stone);
+    }
+    const Eigen::Vector2d top = along(6 * step);
+    arch.add_face(PlaneContact::ground, 5, inner * top, outer * top, {1, 0}, 0);
+    return arch;
+  };
+  EXPECT_TRUE(can_stand(gore(0.15)));
+  EXPECT_FALSE(can_stand(gore(0.01)));
+}
+
 TEST(LimitAnalysis, FrictionOfCattosArch) {
   const auto critical = [](std::size_t boxes, bool wide) {
     return critical_value(0.05, 2, [&](double mu) { return catto_arch(boxes, wide, mu); });
