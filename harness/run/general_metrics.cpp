@@ -64,7 +64,7 @@ struct GeneralMetrics::State {
   bool energy_known = false;
   referee::Vec3 momentum_start = referee::Vec3::Zero();
   double momentum_sum = 0, momentum_drift = 0;
-  double depth_max = 0, depth_p99 = 0;
+  double depth_max = 0, depth_p50 = 0, depth_p95 = 0, depth_p99 = 0;
   JointDrift joints;
 
   void sample_energy(Simulation& simulation);
@@ -101,6 +101,8 @@ void GeneralMetrics::State::sample_geometry(Simulation& simulation) {
   };
   const referee::WorldPenetration found = referee::world_penetration(posed, may_touch);
   depth_max = std::max(depth_max, found.max);
+  depth_p50 = std::max(depth_p50, found.p50);
+  depth_p95 = std::max(depth_p95, found.p95);
   depth_p99 = std::max(depth_p99, found.p99);
 }
 
@@ -155,6 +157,8 @@ std::vector<Metric> GeneralMetrics::finish(Simulation& simulation) {
   if (simulation.steps() % s.overlap_stride != 0) s.sample_geometry(simulation);
   if ((scene.needs & PLUMB_NEED_COLLISION) != 0) {
     add("penetration_max", s.depth_max, "deepest overlap at sampled times, by the referee");
+    add("penetration_p50", s.depth_p50, "worst median of overlaps at a sampled time");
+    add("penetration_p95", s.depth_p95, "worst 95th percentile of overlaps at a sampled time");
     add("penetration_p99", s.depth_p99, "worst 99th percentile of overlaps at a sampled time");
   }
   const double reference = s.kinetic_max + (s.potential_high - s.potential_low);
@@ -183,6 +187,8 @@ std::vector<Metric> GeneralMetrics::finish(Simulation& simulation) {
 std::vector<MetricSpec> general_metric_specs() {
   std::vector<MetricSpec> specs;
   for (const auto& [name, unit] : {std::pair{"penetration_max", "m"},
+                                   {"penetration_p50", "m"},
+                                   {"penetration_p95", "m"},
                                    {"penetration_p99", "m"},
                                    {"energy_injected", "1"},
                                    {"energy_drift", "1"},
