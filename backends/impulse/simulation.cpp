@@ -224,7 +224,7 @@ Simulation::Recorded Simulation::what_is_recorded() {
   return {{shapes.device(), all.ranges, all.vertices, all.faces, all.loops, all.edges, joints.excluded(), on.meshes,
            on.fields, planes_.device(), sleep_.woken_pairs()},
           {bodies_in_step(), mover_room_, static_room_, plane_count_, shape_types_, joints.excluded_count(),
-           static_cast<std::uint32_t>(parameters_[0].solver), sleep_.count() == 0 ? 0U : 1U}};
+           static_cast<std::uint32_t>(parameters_[0].solver), sleep_.count() == 0 ? 0U : 1U, continuous_ ? 1U : 0U}};
 }
 
 void Simulation::step(const StepParameters& parameters) {
@@ -266,7 +266,7 @@ void Simulation::find_candidates(const ContactCache& now) {
   pieces_.find(executor_,
                {bodies(), proxy_view(), parameters_.device(), filter, boxes_.data(), margins_.data(), movers_.device(),
                 mover_room_, planes_.device(), plane_count_},
-               now, counters, features_.continuous);
+               now, counters, continuous_);
 }
 
 /// The step, from bounds to poses.
@@ -285,7 +285,7 @@ void Simulation::enqueue() {
     find_candidates(now);
     phases_.end(executor_, PLUMB_PHASE_BROAD);
     narrow_phase_.collide(executor_, now, all, shapes_on, margins_.data(), shape_types_, counters);
-    if (features_.continuous)
+    if (continuous_)
       impacts_.find(executor_, now, narrow_phase_.candidates(counters), all, shapes_on, margins_.data(), parameters,
                     in_pieces_);
     narrow_phase_.number(executor_, now, counters);
@@ -303,13 +303,13 @@ void Simulation::enqueue() {
   if (features_.collision || joints.count() != 0) {
     solver_.begin(executor_, all, bodies_in_step());
     if (features_.collision)
-      solver_.prepare(executor_, now, all, shapes_on, colouring_, features_.continuous ? impacts_.times() : nullptr,
-                      parameters, counters);
+      solver_.prepare(executor_, now, all, shapes_on, colouring_, continuous_ ? impacts_.times() : nullptr, parameters,
+                      counters);
     if (features_.belts)
       put_drifts(executor_, now, pair_capacity_, all, shapes_on, belts.device(), colouring_.order(),
                  colouring_.colours(), solver_.rows(), counters);
     solver_.solve(executor_, all, bodies_in_step(), parameters, counters, pair_capacity_, joints);
-    if (features_.continuous)
+    if (continuous_)
       guard_.hold(
           executor_,
           {now, narrow_phase_.candidates(counters), pair_capacity_, counters, parameters, shapes_on, boxes_.data(),

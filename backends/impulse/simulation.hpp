@@ -62,6 +62,8 @@ class Simulation {
   /// Slots in use; rows behind are nobody's.
   void set_body_count(std::uint32_t slots) { body_count_ = slots; }
   [[nodiscard]] std::uint32_t body_count() const { return body_count_; }
+  /// From now on there may be bodies that must not pass through others; what they cost begins here.
+  void expect_continuous() { continuous_ = features_.continuous; }
   /// Proxy rows in use; those among them without a shape are nobody's.
   void set_proxy_count(std::uint32_t rows) { proxy_count_ = rows; }
 
@@ -139,7 +141,7 @@ class Simulation {
   /// What a recorded step holds of the host's numbers and addresses.
   struct Recorded {
     std::array<const void*, 11> addresses{};
-    std::array<std::uint32_t, 8> numbers{};
+    std::array<std::uint32_t, 9> numbers{};
     bool operator==(const Recorded&) const = default;
   };
 
@@ -184,6 +186,7 @@ class Simulation {
   std::uint32_t mover_count_ = 0, static_count_ = 0, plane_count_ = 0;
   std::uint32_t mover_room_ = 0, static_room_ = 0;  // lengths of the lists as steps see them
   bool in_pieces_ = false;                          // once there was a plane or a surface
+  bool continuous_ = false;                         // once there was a body that must not pass through others
   std::uint32_t shape_types_ = 0;                   // a bit for each ShapeType in the world
   Mirror<StepParameters> parameters_;
   Mirror<StepParameters> statics_parameters_;  // with which the statics were bounded

@@ -80,13 +80,13 @@ void World::make_body(const PlumbBodyDesc& desc, PlumbBody id) {
   Real inverse_mass = 0;
   const bool dynamic = desc.motion == PLUMB_DYNAMIC;
   if (desc.motion != PLUMB_STATIC) mass.flags |= kBodyMoves | kBodyTurns;
-  if (desc.motion == PLUMB_KINEMATIC && kinematics_sweep_) mass.flags |= kBodySweeps;
+  if (desc.motion == PLUMB_KINEMATIC && continuous_) mass.flags |= kBodySweeps;
   if (dynamic) {
     mass.flags |= kBodyDynamic;
     if ((desc.flags & PLUMB_BODY_NEVER_SLEEPS) != 0) mass.flags |= kBodyNeverSleeps;
     if ((desc.flags & PLUMB_BODY_CCD) != 0) {
       mass.flags |= kBodyContinuous;
-      let_kinematics_sweep();
+      expect_continuous();
     }
     ++dynamic_count_;
     inverse_mass = static_cast<Real>(1 / desc.mass);
@@ -125,9 +125,10 @@ void World::make_body(const PlumbBodyDesc& desc, PlumbBody id) {
 }
 
 /// From the first flagged body on: where there is none kinematic bodies go as they would without.
-void World::let_kinematics_sweep() {
-  if (kinematics_sweep_) return;
-  kinematics_sweep_ = true;
+void World::expect_continuous() {
+  if (continuous_) return;
+  continuous_ = true;
+  simulation_.expect_continuous();
   for (std::uint32_t slot = 0; slot < bodies_.size(); ++slot)
     if (bodies_[slot].id != 0 && bodies_[slot].motion == PLUMB_KINEMATIC)
       simulation_.mass.edit(slot).flags |= kBodySweeps;

@@ -97,7 +97,7 @@ class World final : public IPhysicsWorld,
   void attach(std::uint32_t slot, std::uint32_t shape);
   void attach_part(std::uint32_t slot, std::uint32_t row, std::uint32_t shape, const PlumbPose* pose);
   void detach(std::uint32_t slot);
-  void let_kinematics_sweep();
+  void expect_continuous();
   void put_body_rows(std::uint32_t slot);
   void put_proxy_row(std::uint32_t slot, std::uint32_t row);
   [[nodiscard]] std::uint32_t child_of(std::uint32_t proxy, std::uint32_t part) const;
@@ -134,7 +134,7 @@ class World final : public IPhysicsWorld,
   std::vector<JointRecord> joints_;  // by slot
   std::uint32_t breakable_joints_ = 0;
   std::uint32_t dynamic_count_ = 0;
-  bool kinematics_sweep_ = false;
+  bool continuous_ = false;
   std::uint32_t stopped_ = 0;  // bodies whose velocity a write made infinite, since the last step
   std::vector<std::uint32_t> pushed_, steered_;
   bool records_known_ = false;

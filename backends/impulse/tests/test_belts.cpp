@@ -153,6 +153,26 @@ TEST(Belts, KeepMomentum) {
   }
 }
 
+/// Whatever the axes of inertia are: a slab that lies askew in its body's frame runs along that.
+TEST(Belts, RunInTheirBodysFrame) {
+  Scene scene(engine(), kNeeds, kDown, 1);
+  scene.body.material.friction = 0;
+  scene.ground();
+  scene.body.material.friction = 0.8;
+  std::vector<PlumbVec3> corners;
+  for (int i = 0; i < 8; ++i) {
+    const double x = i % 2 * 12 - 6, y = i / 2 % 2 - 0.5, z = i / 4 * 6 - 3;
+    corners.push_back({0.8 * x + 0.6 * z, y, 0.8 * z - 0.6 * x});
+  }
+  set_belt(scene, {kSpeed, 0, 0});
+  const PlumbBody slab = scene.add(scene.hull(corners), {0, 0.5, 0});
+  set_belt(scene, {0, 0, 0});
+  const PlumbBody body = scene.add(scene.box({0.5, 0.5, 0.5}), {-1, 1.5, 0});
+  scene.run(60);
+  EXPECT_NEAR(velocity(scene, body)[0] - velocity(scene, slab)[0], kSpeed, 5e-3);
+  EXPECT_NEAR(velocity(scene, body)[2] - velocity(scene, slab)[2], 0, 2e-2);
+}
+
 TEST(Belts, RunOnEveryGround) {
   for (const PlumbShapeType type : {PLUMB_PLANE, PLUMB_TRIANGLE_MESH, PLUMB_HEIGHT_FIELD}) {
     SCOPED_TRACE(type);
