@@ -36,7 +36,8 @@ class HostWorld final : public IPhysicsWorld,
                         private IDebug,
                         private ISettings,
                         private ISnapshot,
-                        private IState {
+                        private IState,
+                        private IExceptions {
  public:
   HostWorld(const PlumbBackendTable& table, PlumbWorld* world)
       : table_(table),
@@ -47,7 +48,8 @@ class HostWorld final : public IPhysicsWorld,
         debug_(find<PlumbDebugTable>(PLUMB_EXT_DEBUG)),
         settings_(find<PlumbSettingsTable>(PLUMB_EXT_SETTINGS)),
         snapshot_(find<PlumbSnapshotTable>(PLUMB_EXT_SNAPSHOT)),
-        state_(find<PlumbStateTable>(PLUMB_EXT_STATE)) {}
+        state_(find<PlumbStateTable>(PLUMB_EXT_STATE)),
+        exceptions_(find<PlumbExceptionsTable>(PLUMB_EXT_EXCEPTIONS)) {}
   ~HostWorld() override { table_.destroy_world(world_); }
 
   // --- core ----------------------------------------------------------------------------------------------------------
@@ -111,6 +113,7 @@ class HostWorld final : public IPhysicsWorld,
   ISettings* settings() override { return settings_ == nullptr ? nullptr : this; }
   ISnapshot* snapshot() override { return snapshot_ == nullptr ? nullptr : this; }
   IState* state() override { return state_ == nullptr ? nullptr : this; }
+  IExceptions* exceptions() override { return exceptions_ == nullptr ? nullptr : this; }
 
  private:
   // --- extensions ----------------------------------------------------------------------------------------------------
@@ -200,6 +203,13 @@ class HostWorld final : public IPhysicsWorld,
     return result;
   }
 
+  PlumbResult set_exceptions(std::span<const PlumbBodyPair> pairs, bool touch) override {
+    return exceptions_->set(world_, pairs.data(), sizeof(PlumbBodyPair), count_of(pairs), touch ? 1 : 0);
+  }
+  PlumbResult list_exceptions(std::span<const PlumbBodyPair>& pairs) override {
+    return look(exceptions_->list, exception_pairs_, pairs);
+  }
+
   // --- plumbing ------------------------------------------------------------------------------------------------------
 
   template <class Table>
@@ -234,6 +244,7 @@ class HostWorld final : public IPhysicsWorld,
   const PlumbSettingsTable* settings_;
   const PlumbSnapshotTable* snapshot_;
   const PlumbStateTable* state_;
+  const PlumbExceptionsTable* exceptions_;
   std::vector<PlumbContact> contact_rows_;
   std::vector<PlumbEvent> event_rows_;
   std::vector<PlumbBody> body_ids_, row_ids_;
@@ -241,6 +252,7 @@ class HostWorld final : public IPhysicsWorld,
   std::vector<PlumbDebugBox> debug_boxes_;
   std::vector<PlumbDebugAxis> debug_axes_;
   std::vector<std::byte> snapshot_bytes_;
+  std::vector<PlumbBodyPair> exception_pairs_;
 };
 
 }  // namespace

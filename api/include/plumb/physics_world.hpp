@@ -180,6 +180,17 @@ class IState {
   virtual PlumbResult row_map(std::span<const PlumbBody>& ids, std::uint64_t& generation) = 0;
 };
 
+/// plumb.exceptions/1. A backend gets pairs of living bodies, the lower slot first, each once, and only such as change;
+/// those of bodies that are destroyed are taken back before. backend.hpp knows the list, wakes who sleeps, and saves
+/// it.
+class IExceptions {
+ public:
+  virtual ~IExceptions() = default;
+  virtual PlumbResult set_exceptions(std::span<const PlumbBodyPair> pairs, bool touch) = 0;
+  /// Only the host calls this. The pairs live until the next call on the world.
+  virtual PlumbResult list_exceptions(std::span<const PlumbBodyPair>& /*pairs*/) { return PLUMB_E_UNSUPPORTED; }
+};
+
 // --- the world -------------------------------------------------------------------------------------------------------
 
 class IPhysicsWorld {
@@ -219,6 +230,7 @@ class IPhysicsWorld {
   virtual ISettings* settings() { return nullptr; }
   virtual ISnapshot* snapshot() { return nullptr; }
   virtual IState* state() { return nullptr; }
+  virtual IExceptions* exceptions() { return nullptr; }
 
   // Only the host calls what follows; backend.hpp answers it for every backend.
 

@@ -22,6 +22,7 @@ using debug = PlumbDebugTable;
 using settings = PlumbSettingsTable;
 using snapshot = PlumbSnapshotTable;
 using state = PlumbStateTable;
+using exceptions = PlumbExceptionsTable;
 }  // namespace tables
 
 enum class Call : std::uint8_t {
@@ -76,6 +77,7 @@ void for_each_extension(Visit&& visit) {
   visit.template operator()<PlumbSettingsTable>(PLUMB_EXT_SETTINGS);
   visit.template operator()<PlumbSnapshotTable>(PLUMB_EXT_SNAPSHOT);
   visit.template operator()<PlumbStateTable>(PLUMB_EXT_STATE);
+  visit.template operator()<PlumbExceptionsTable>(PLUMB_EXT_EXCEPTIONS);
 }
 
 }  // namespace plumb::layers

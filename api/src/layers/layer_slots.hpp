@@ -59,7 +59,7 @@ class LayerBase {
  private:
   const PlumbBackendTable* core_;
   std::tuple<const PlumbJointsTable*, const PlumbQueriesTable*, const PlumbCollideTable*, const PlumbDebugTable*,
-             const PlumbSettingsTable*, const PlumbSnapshotTable*, const PlumbStateTable*>
+             const PlumbSettingsTable*, const PlumbSnapshotTable*, const PlumbStateTable*, const PlumbExceptionsTable*>
       extensions_{};
 };
 
@@ -107,7 +107,7 @@ class LayerSlots {
   struct Slot {
     std::unique_ptr<Layer> layer;
     std::tuple<PlumbBackendTable, PlumbJointsTable, PlumbQueriesTable, PlumbCollideTable, PlumbDebugTable,
-               PlumbSettingsTable, PlumbSnapshotTable, PlumbStateTable>
+               PlumbSettingsTable, PlumbSnapshotTable, PlumbStateTable, PlumbExceptionsTable>
         tables;
   };
 

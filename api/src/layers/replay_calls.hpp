@@ -311,5 +311,10 @@ inline PlumbResult again(CallTag<Call::state_rows>, Decoding& d, decltype(PlumbS
   if (result >= 0) d.output(count, {});
   return result;
 }
+inline PlumbResult again(CallTag<Call::exceptions_set>, Decoding& d, decltype(PlumbExceptionsTable::set) next) {
+  auto pairs = d.rows<PlumbBodyPair>();
+  const auto touch = d.in.get<std::uint32_t>();
+  return next(d.to.world, pairs.data(), pairs.stride, pairs.count, touch);
+}
 
 }  // namespace plumb::layers

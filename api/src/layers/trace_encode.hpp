@@ -118,7 +118,7 @@ template <Call call>
 void encode(CallTag<call>, Encoding e, const std::uint64_t* ids, std::uint32_t count) {
   e.handles(ids, count, CallTraits<call>::objects);
 }
-// list_bodies, debug.*
+// list_bodies, debug.*, exceptions.list
 template <Call call, class Row>
 void encode(CallTag<call>, Encoding e, Row* out, std::uint32_t capacity, std::uint32_t* count) {
   e.room(out, capacity);
@@ -250,6 +250,11 @@ inline void encode(CallTag<Call::state_rows>, Encoding e, PlumbBody* ids, std::u
                    std::uint64_t*) {
   e.room(ids, capacity);
   if (e.done()) e.output(*count, {});
+}
+inline void encode(CallTag<Call::exceptions_set>, Encoding e, const PlumbBodyPair* pairs, std::size_t stride,
+                   std::uint32_t count, std::uint32_t touch) {
+  e.rows(pairs, stride, count);
+  e.out.put(touch);
 }
 
 }  // namespace plumb::layers

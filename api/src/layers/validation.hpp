@@ -68,6 +68,8 @@ class ValidationLayer : public LayerBase {
   PlumbResult run(CallTag<Call::collide_pairs>, ValidatedWorld&, PlumbWorld*, const PlumbPosedPair* pairs,
                   std::size_t stride, std::uint32_t count, PlumbPairResult* results, PlumbPairPoint* points,
                   std::uint32_t capacity, std::uint32_t* point_count);
+  PlumbResult run(CallTag<Call::exceptions_set>, ValidatedWorld&, PlumbWorld*, const PlumbBodyPair* pairs,
+                  std::size_t stride, std::uint32_t count, std::uint32_t touch);
   PlumbResult run(CallTag<Call::core_user_data>, ValidatedWorld&, PlumbWorld*, PlumbBody id, std::uint64_t* user_data);
   PlumbResult run(CallTag<Call::core_set_gravity>, ValidatedWorld&, PlumbWorld*, const PlumbVec3* gravity);
   PlumbResult run(CallTag<Call::core_step>, ValidatedWorld&, PlumbWorld*, const PlumbStepDesc* desc);

@@ -34,6 +34,15 @@ PlumbResult ValidationLayer::run(CallTag<call>, ValidatedWorld& state, PlumbWorl
   return result;
 }
 
+inline void check_order(const PlumbBodyPair* pairs, std::size_t count) {
+  const auto key = [](const PlumbBodyPair& pair) { return std::pair(slot_of(pair.body_a), slot_of(pair.body_b)); };
+  for (std::size_t i = 0; i < count; ++i)
+    if (slot_of(pairs[i].body_a) >= slot_of(pairs[i].body_b) || (i > 0 && key(pairs[i]) <= key(pairs[i - 1])))
+      throw BackendError{"row " + std::to_string(i) + " breaks the order of body_a, body_b"};
+}
+template <class Row>
+void check_order(const Row*, std::size_t) {}
+
 template <Call call, class Row>
 PlumbResult ValidationLayer::run(CallTag<call>, ValidatedWorld& state, PlumbWorld* world, Row* out,
                                  std::uint32_t capacity, std::uint32_t* count) {
@@ -50,6 +59,7 @@ PlumbResult ValidationLayer::run(CallTag<call>, ValidatedWorld& state, PlumbWorl
     throw BackendError{"left row " + std::to_string(i) + " unwritten"};
   canary.copy_to(out, written);
   *count = found;
+  check_order(out, written);
   if (call == Call::core_list_bodies && found != state.bodies)
     throw BackendError{"lists " + std::to_string(found) + " bodies where " + std::to_string(state.bodies) + " live"};
   return result;

@@ -35,6 +35,15 @@ inline PlumbResult ValidationLayer::run(CallTag<Call::collide_pairs>, ValidatedW
   return result;
 }
 
+inline PlumbResult ValidationLayer::run(CallTag<Call::exceptions_set>, ValidatedWorld&, PlumbWorld* world,
+                                        const PlumbBodyPair* pairs, std::size_t stride, std::uint32_t count,
+                                        std::uint32_t touch) {
+  require_memory(pairs, count, "pairs");
+  require_stride<PlumbBodyPair>(stride, count, "pairs");
+  if (touch > 1) refuse_argument("touch is " + std::to_string(touch) + "; it must be 0 or 1");
+  return next<Call::exceptions_set>()(world, pairs, stride, count, touch);
+}
+
 inline PlumbResult ValidationLayer::run(CallTag<Call::core_user_data>, ValidatedWorld&, PlumbWorld* world, PlumbBody id,
                                         std::uint64_t* user_data) {
   require_memory(user_data, 1, "user_data");

@@ -9,7 +9,12 @@
 
 namespace plumb::test {
 
-class FakeWorld final : public IPhysicsWorld, public IJoints, public IQueries, public ISettings, public ISnapshot {
+class FakeWorld final : public IPhysicsWorld,
+                        public IJoints,
+                        public IQueries,
+                        public ISettings,
+                        public ISnapshot,
+                        public IExceptions {
  public:
   explicit FakeWorld(const WorldInit& init) : iterations_(init.setting("iterations").number) { last = this; }
 
@@ -18,6 +23,7 @@ class FakeWorld final : public IPhysicsWorld, public IJoints, public IQueries, p
   int calls = 0;
   std::vector<PlumbBodyDesc> made;
   std::function<void()> on_step;
+  bool fails_to_destroy = false;
   PlumbResult answer = PLUMB_OK;  ///< of every call that changes the world
   std::vector<PlumbEvent> event_rows;
   std::map<PlumbField, std::vector<double>> written;
@@ -80,7 +86,7 @@ class FakeWorld final : public IPhysicsWorld, public IJoints, public IQueries, p
     }
     return called();
   }
-  PlumbResult destroy_bodies(std::span<const PlumbBody>) override { return called(); }
+  PlumbResult destroy_bodies(std::span<const PlumbBody>) override { return fails_to_destroy ? -1 : called(); }
   PlumbResult read(PlumbField field, std::span<const PlumbBody> ids, Rows rows) override {
     for (std::size_t i = 0; i < ids.size(); ++i) {
       std::vector<double> row(columns_of(field), static_cast<double>(slot_of(ids[i])));
@@ -106,6 +112,7 @@ class FakeWorld final : public IPhysicsWorld, public IJoints, public IQueries, p
   IQueries* queries() override { return this; }
   ISettings* settings() override { return this; }
   ISnapshot* snapshot() override { return this; }
+  IExceptions* exceptions() override { return this; }
 
   PlumbResult create_joints(std::span<const PlumbJointDesc>, std::span<PlumbJoint>) override { return called(); }
   PlumbResult destroy_joints(std::span<const PlumbJoint>) override { return called(); }
@@ -136,6 +143,18 @@ class FakeWorld final : public IPhysicsWorld, public IJoints, public IQueries, p
     return called();
   }
 
+  PlumbResult set_exceptions(std::span<const PlumbBodyPair> pairs, bool touch) override {
+    if (const PlumbResult result = called(); result < 0) return result;
+    for (const PlumbBodyPair& pair : pairs) exception_calls.push_back({pair.body_a, pair.body_b, touch});
+    return PLUMB_OK;
+  }
+
+  struct ExceptionCall {
+    PlumbBody a, b;
+    bool touch;
+    friend bool operator==(const ExceptionCall&, const ExceptionCall&) = default;
+  };
+  std::vector<ExceptionCall> exception_calls;
   std::vector<PlumbBody> handles;
   std::vector<PlumbHit> hit_rows;
   std::size_t restored = 0;

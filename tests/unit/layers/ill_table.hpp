@@ -17,6 +17,7 @@ struct IllTables {
   PlumbSnapshotTable snapshot;
   PlumbCollideTable collide;
   PlumbStateTable state;
+  PlumbExceptionsTable exceptions;
 };
 
 template <class Table>
@@ -30,7 +31,8 @@ inline const IllTables& good() {
                                    table_named<PlumbSettingsTable>(PLUMB_EXT_SETTINGS),
                                    table_named<PlumbSnapshotTable>(PLUMB_EXT_SNAPSHOT),
                                    table_named<PlumbCollideTable>(PLUMB_EXT_COLLIDE),
-                                   table_named<PlumbStateTable>(PLUMB_EXT_STATE)};
+                                   table_named<PlumbStateTable>(PLUMB_EXT_STATE),
+                                   table_named<PlumbExceptionsTable>(PLUMB_EXT_EXCEPTIONS)};
   return tables;
 }
 
@@ -56,6 +58,7 @@ class Validated : public ::testing::Test {
       if (wanted == PLUMB_EXT_SNAPSHOT) return &ill().snapshot;
       if (wanted == PLUMB_EXT_COLLIDE) return &ill().collide;
       if (wanted == PLUMB_EXT_STATE) return &ill().state;
+      if (wanted == PLUMB_EXT_EXCEPTIONS) return &ill().exceptions;
       if (wanted == "test.unknown/1") return &unknown_table;
       return nullptr;
     };

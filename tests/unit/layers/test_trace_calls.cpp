@@ -118,6 +118,15 @@ class Everything {
     ok(snapshot.restore(world_, data.data(), data.size()));
     std::uint64_t hash = 0;
     ok(snapshot.hash(world_, &hash));
+    const auto& exceptions = extension<PlumbExceptionsTable>(PLUMB_EXT_EXCEPTIONS);
+    const PlumbBodyPair apart = {bodies_[1], bodies_[0]};
+    PlumbBodyPair listed;
+    ok(exceptions.set(world_, &apart, sizeof apart, 1, 0));
+    ok(exceptions.list(world_, &listed, 1, &count));
+    EXPECT_EQ(count, 1u);
+    ok(exceptions.set(world_, &apart, sizeof apart, 1, 1));
+    ok(exceptions.list(world_, nullptr, 0, &count));
+    EXPECT_EQ(count, 0u);
     const auto& state = extension<PlumbStateTable>(PLUMB_EXT_STATE);
     const PlumbStateRequest request = {sizeof request, PLUMB_FIELD_POSE, 1, 1};
     PlumbDLManagedTensor* tensor = nullptr;

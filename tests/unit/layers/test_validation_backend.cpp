@@ -290,6 +290,23 @@ TEST_F(ValidatedBackend, RowsOfContactsAndStates) {
          "wrote more than 1 ids");
 }
 
+TEST_F(ValidatedBackend, ExceptionsOutOfOrder) {
+  static PlumbBodyPair answer[2];
+  ill().exceptions.list = [](PlumbWorld*, PlumbBodyPair* out, std::uint32_t, std::uint32_t* found) -> PlumbResult {
+    std::copy_n(answer, 2, out);
+    return *found = 2, PLUMB_OK;
+  };
+  PlumbBodyPair pairs[2];
+  std::uint32_t count = 0;
+  const auto list = [&] { return extension<PlumbExceptionsTable>(PLUMB_EXT_EXCEPTIONS).list(world, pairs, 2, &count); };
+  answer[0] = {5, 6}, answer[1] = {5, 7};
+  EXPECT_EQ(list(), PLUMB_OK);
+  answer[1] = {5, 6};
+  expect(PLUMB_E_INTERNAL, list(), "row 1 breaks the order of body_a, body_b");
+  answer[0] = {6, 5};
+  expect(PLUMB_E_INTERNAL, list(), "row 0 breaks the order");
+}
+
 TEST_F(ValidatedBackend, MoreIdsThanWereAskedFor) {
   ill().core.create_shapes = [](PlumbWorld*, const PlumbShapeDesc*, std::size_t, std::uint32_t,
                                 PlumbShape* ids) -> PlumbResult {

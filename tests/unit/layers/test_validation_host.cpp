@@ -219,6 +219,14 @@ TEST_F(ValidatedHost, SizesAndPointersOfExtensions) {
           [&] { return collide.pairs(world, &pair, sizeof pair, 1, &result, nullptr, 1, &count); });
   refused(PLUMB_E_INVALID_ARGUMENT, "point_count is null",
           [&] { return collide.pairs(world, &pair, sizeof pair, 1, &result, &point, 1, nullptr); });
+  const auto& exceptions = extension<PlumbExceptionsTable>(PLUMB_EXT_EXCEPTIONS);
+  const PlumbBodyPair apart{bodies[0], bodies[1]};
+  refused(PLUMB_E_INVALID_ARGUMENT, "pairs is null",
+          [&] { return exceptions.set(world, nullptr, sizeof apart, 1, 0); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "stride of pairs is 8", [&] { return exceptions.set(world, &apart, 8, 1, 0); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "touch is 2", [&] { return exceptions.set(world, &apart, sizeof apart, 1, 2); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "out is null", [&] { return exceptions.list(world, nullptr, 1, &count); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "count is null", [&] { return exceptions.list(world, nullptr, 0, nullptr); });
   const auto& settings = extension<PlumbSettingsTable>(PLUMB_EXT_SETTINGS);
   const PlumbSettingValue value{PLUMB_SETTING_INT, 0, 5, nullptr};
   refused(PLUMB_E_INVALID_ARGUMENT, "value is null", [&] { return settings.get(world, "iterations", nullptr); });

@@ -11,6 +11,7 @@
 #include "plumb/backend/check_descs.hpp"
 #include "plumb/backend/check_rows.hpp"
 #include "plumb/backend/mass_properties.hpp"
+#include "plumb/backend/pair_exceptions.hpp"
 #include "plumb/backend/slot_table.hpp"
 #include "plumb/backend/state_hash.hpp"
 #include "plumb/backend/world_init.hpp"
@@ -102,7 +103,10 @@ class GuardedWorld {
       if (bodies_[ids[i]].joints != 0)
         refuse(PLUMB_E_IN_USE, Where{"bodies", i}.member("") + " still has " + std::to_string(bodies_[ids[i]].joints) +
                                    " joints; destroy those first");
-    const PlumbResult result = done(world_->destroy_bodies(handles));
+    const PairExceptions::Pairs excepted = exceptions_.of(handles);
+    PairExceptions::Pairs others = exceptions_.after(excepted, true);
+    const PlumbResult result = with_exceptions_set(excepted, true, [&] { return world_->destroy_bodies(handles); });
+    exceptions_.become(std::move(others));
     for (const PlumbBody handle : handles)
       if (const PlumbShape shape = bodies_[handle].shape; shape != 0) --shapes_[shape].uses;
     bodies_.remove(handles);
@@ -234,6 +238,19 @@ class GuardedWorld {
     return result;
   }
 
+  /// Tells the class of changed exceptions, then runs a call; takes them back when that failed.
+  template <class Call>
+  PlumbResult with_exceptions_set(const PairExceptions::Pairs& changed, bool touch, Call&& call) {
+    if (changed.empty()) return done(call());
+    done(world_->exceptions()->set_exceptions(changed, touch));
+    try {
+      return done(call());
+    } catch (...) {
+      static_cast<void>(world_->exceptions()->set_exceptions(changed, !touch));
+      throw;
+    }
+  }
+
   template <class Record>
   static void require_live(const SlotTable<Record>& table, std::span<const std::uint64_t> handles, const char* name) {
     for (std::size_t i = 0; i < handles.size(); ++i)
@@ -294,6 +311,7 @@ class GuardedWorld {
   SlotTable<ShapeRecord> shapes_;
   SlotTable<BodyRecord> bodies_;
   SlotTable<JointRecord> joints_;
+  PairExceptions exceptions_;
   std::uint32_t breakable_joints_ = 0;
   std::uint64_t row_generation_ = 1;
 

@@ -50,6 +50,9 @@ inline const PlumbDebugTable kDebugTable = {sizeof(PlumbDebugTable), 0, &Entry<&
 inline const PlumbSnapshotTable kSnapshotTable = {sizeof(PlumbSnapshotTable), 0, &Entry<&GuardedExtensions::save>::call,
                                                   &Entry<&GuardedExtensions::restore>::call,
                                                   &Entry<&GuardedExtensions::hash>::call};
+inline const PlumbExceptionsTable kExceptionsTable = {sizeof(PlumbExceptionsTable), 0,
+                                                      &Entry<&GuardedExtensions::set_exceptions>::call,
+                                                      &Entry<&GuardedExtensions::list_exceptions>::call};
 inline const PlumbStateTable kStateTable = {sizeof(PlumbStateTable), 0, &Entry<&GuardedExtensions::borrow>::call,
                                             &Entry<&GuardedExtensions::state_rows>::call};
 
@@ -125,6 +128,7 @@ class Tables {
     if (wanted == PLUMB_EXT_QUERIES && std::derived_from<World, IQueries>) return &kQueriesTable;
     if (wanted == PLUMB_EXT_COLLIDE && std::derived_from<World, ICollide>) return &kCollideTable;
     if (wanted == PLUMB_EXT_DEBUG && std::derived_from<World, IDebug>) return &kDebugTable;
+    if (wanted == PLUMB_EXT_EXCEPTIONS && std::derived_from<World, IExceptions>) return &kExceptionsTable;
     if (wanted == PLUMB_EXT_SETTINGS && std::derived_from<World, ISettings>) return &settings_table();
     return nullptr;
   }
