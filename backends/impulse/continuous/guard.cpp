@@ -173,8 +173,9 @@ struct FindPassed {
   PLUMB_HD void operator()(std::uint32_t p) const {
     if (is_undone(*in.counters, in.pair_capacity)) return;
     const Pair pair = in.cache.pairs[p];
-    const auto is_guarded = [this](std::uint32_t proxy) {
-      return (bodies.mass[in.proxies.rows[proxy].body].flags & kBodyContinuous) != 0;
+    const auto is_guarded = [this](std::uint32_t proxy) {  // not asleep
+      constexpr std::uint32_t kBoth = kBodyContinuous | kBodyDynamic;
+      return (bodies.mass[in.proxies.rows[proxy].body].flags & kBoth) == kBoth;
     };
     if (is_guarded(pair.b))
       look(p, in.proxies.rows[pair.b], in.proxies.rows[pair.a]);

@@ -255,6 +255,25 @@ TEST(ContinuousSurfaces, NoPaddlePasses) {
     }
 }
 
+/// Who sleeps is woken by a bullet, flagged or not, and takes its momentum.
+TEST(ContinuousSurfaces, ASleeperIsHit) {
+  for (const std::uint32_t flag : {0U, static_cast<std::uint32_t>(PLUMB_BODY_CCD)}) {
+    Scene scene(engine(), kNeeds | PLUMB_NEED_SLEEPING, {0, 0, 0}, 1);
+    scene.body.mass_mode = PLUMB_MASS_FROM_TOTAL;
+    scene.body.mass = 3;
+    scene.body.flags = PLUMB_BODY_ASLEEP | flag;
+    const PlumbBody sleeper = scene.add(scene.box({0.02, 1, 1}), {5, 0, 0});
+    scene.body.mass = 1;
+    scene.body.flags = PLUMB_BODY_CCD;
+    scene.body.linear_velocity = {800, 0, 0};
+    const PlumbBody bullet = scene.add(scene.sphere(0.1), {0, 0, 0});
+    scene.run(3);
+    EXPECT_NEAR(velocity(scene, sleeper)[0], 200, 1);
+    EXPECT_NEAR(velocity(scene, bullet)[0], 200, 1);
+    EXPECT_LT(scene.poses()[1].position.x, scene.poses()[0].position.x);
+  }
+}
+
 /// Bodies without the flag go as where nobody asks, bit for bit, on surfaces and with what moves among them.
 TEST(ContinuousSurfaces, CostNothingWithoutFlags) {
   std::uint64_t hashes[2];
