@@ -160,7 +160,7 @@ PLUMB_HD inline bool choose_pieces(const AxisView& view, std::uint32_t j, const 
   for (int i = 0; i < row_count(joint); ++i) {
     const Real mobility = own.whole(i, i);
     if (first_round) {
-      own.before[i] = speed[i];
+      own.before[i] = turns_far(a, b, time.h) ? Real(0) : speed[i];
       own.start[i] = total[i];
     }
     if (is_held(view, j, i)) {

@@ -14,17 +14,19 @@ PLUMB_HD inline void displace(const JointView& view, std::uint32_t body, const V
   displacement.rotation = normalized(turn_by(h * (after.angular - before.angular)) * displacement.rotation);
 }
 
-/// Puts the two bodies where the joint holds (to first order), and gives them the velocity that this took.
+/// Puts the two bodies where the joint holds (to first order), and gives them the velocity that this took. To those
+/// that turn too far for that it gives the velocity that would take them there.
 PLUMB_HD inline void correct_joint(const JointView& view, std::uint32_t j, const StepParameters& step) {
   refresh_joint(view, j);
   const Joint& joint = view.joints[j];
   const JointWork& work = view.work[j];
   const int n = row_count(joint);
-  Real impulse[kJointRows];
-  for (int i = 0; i < n; ++i) impulse[i] = -(step.inverse_h * work.error[i]);
+  const Velocity a = view.velocity(joint.body_a), b = view.velocity(joint.body_b);
+  Real impulse[kJointRows]{};
+  if (turns_far(a, b, step.h)) speeds_now(view, j, a, b, impulse);
+  for (int i = 0; i < n; ++i) impulse[i] = -(impulse[i] + step.inverse_h * work.error[i]);
   solve_factored(work.factor, n, impulse);
   for (int i = 0; i < n; ++i) view.impulses[joint.slot].along[i] = impulse[i];
-  const Velocity a = view.velocity(joint.body_a), b = view.velocity(joint.body_b);
   Velocity new_a = a, new_b = b;
   push_joint(work, n, impulse, new_a, new_b);
   view.store(joint.body_a, a, new_a);

@@ -29,7 +29,7 @@ TEST_P(SameBits, AsWhereTheMemoryIsOne) {
   FAIL() << "there is no scene " << GetParam();
 }
 INSTANTIATE_TEST_SUITE_P(Memory, SameBits,
-                         ::testing::Values("meddling", "shots", "belts", "paddle", "chain", "bounces", "rotors"),
+                         ::testing::Values("meddling", "sheets", "belts", "paddle", "chain", "bounces", "rotors"),
                          [](const auto& scene) { return std::string(scene.param); });
 
 /// 2000 bodies, and what the next step uploads.
