@@ -75,7 +75,7 @@ PlumbResult World::collide_pairs(std::span<const PlumbPosedPair> pairs, std::spa
   answer_pairs(executor, batch.pairs.device(), n, scene, pieces, batch.answers.device());
   executor.to_host(batch.answers, n);
   executor.wait();
-  if (pieces) batch.touches.find(executor, batch.pairs.device(), n, scene);
+  if (pieces) batch.touches.find(executor, batch.pairs.device(), batch.answers.device(), n, scene);
 
   batch.points.clear();
   for (std::size_t i = 0; i < pairs.size(); ++i) {
@@ -83,8 +83,8 @@ PlumbResult World::collide_pairs(std::span<const PlumbPosedPair> pairs, std::spa
     double distance = batch.answers[first[i]].distance;
     for (std::uint32_t p = first[i]; p < first[i + 1]; ++p) {
       distance = std::min(distance, batch.answers[p].distance);
-      if (!is_in_pieces(posed[p])) {
-        add_points(posed[p], batch.answers[p].manifold, p - first[i], 0, batch.points);
+      if (batch.answers[p].touches == 0) {
+        add_points(posed[p], batch.answers[p].manifold, p - first[i], batch.answers[p].triangle, batch.points);
         continue;
       }
       for (std::uint32_t t = batch.touches.offsets()[p]; t < batch.touches.offsets()[p + 1]; ++t)

@@ -16,63 +16,45 @@ struct AnswerPairs {
   Hulls hulls;
   PairAnswer* answers;
 
-  PLUMB_HD void operator()(std::uint32_t i) const { answers[i] = answer_convex(pairs[i], hulls); }
+  PLUMB_HD void operator()(std::uint32_t i) const {
+    if (!is_in_pieces(pairs[i])) answers[i] = answer_convex(pairs[i], hulls);
+  }
 };
 
-/// The same where any of them may be a plane or a surface.
-struct AnswerAllPairs {
+/// Pairs with planes and surfaces: the answers, or where there is room for them all touches. One kernel does both,
+/// because the pair functions in it take a compiler's time.
+struct LookAtPieces {
   const PosedPair* pairs;
   Hulls hulls;
   Surfaces surfaces;
   PairAnswer* answers;
+  const std::uint32_t* offsets;
+  PieceTouch* rows;
 
   PLUMB_HD void operator()(std::uint32_t i) const {
     const PosedPair& pair = pairs[i];
-    if (!is_in_pieces(pair)) {
-      answers[i] = answer_convex(pair, hulls);
-    } else if (is_in_pieces(pair.a) && is_in_pieces(pair.b)) {
-      PairAnswer answer{};
+    if (!is_in_pieces(pair)) return;
+    TouchesOfPair touches{rows == nullptr ? nullptr : rows + offsets[i]};
+    const bool one = is_in_pieces(pair.a) != is_in_pieces(pair.b);
+    const PiecePair pieces(pair, hulls, surfaces);
+    if (one) pieces.look(touches);
+    if (rows != nullptr) return;
+    PairAnswer answer = touches.deepest;
+    answer.touches = touches.count;
+    if (!one) {
       answer.distance = std::numeric_limits<double>::quiet_NaN();
       answer.normal = {0, 1, 0};
-      answers[i] = answer;
-    } else {
-      answers[i] = PiecePair(pair, hulls, surfaces).answer();
+    } else if (answer.touches == 0) {
+      pieces.tell_gap(answer);
     }
+    answers[i] = answer;
   }
 };
 
 struct CountTouches {
-  std::uint32_t count;
-  PLUMB_HD void operator()(std::uint32_t /*triangle*/, const Manifold& /*manifold*/) { ++count; }
-};
-struct CountPieceTouches {
-  const PosedPair* pairs;
-  Hulls hulls;
-  Surfaces surfaces;
+  const PairAnswer* answers;
   std::uint32_t* counts;
-  PLUMB_HD void operator()(std::uint32_t i) const {
-    CountTouches touches{0};
-    const bool one = is_in_pieces(pairs[i].a) != is_in_pieces(pairs[i].b);
-    if (one) PiecePair(pairs[i], hulls, surfaces).touches(touches);
-    counts[i] = touches.count;
-  }
-};
-
-struct WriteTouches {
-  PieceTouch* to;
-  PLUMB_HD void operator()(std::uint32_t triangle, const Manifold& manifold) { *to++ = {manifold, triangle}; }
-};
-struct WritePieceTouches {
-  const PosedPair* pairs;
-  Hulls hulls;
-  Surfaces surfaces;
-  const std::uint32_t *counts, *offsets;
-  PieceTouch* rows;
-  PLUMB_HD void operator()(std::uint32_t i) const {
-    if (counts[i] == 0) return;
-    WriteTouches touches{rows + offsets[i]};
-    PiecePair(pairs[i], hulls, surfaces).touches(touches);
-  }
+  PLUMB_HD void operator()(std::uint32_t i) const { counts[i] = answers[i].touches; }
 };
 
 struct PosePairs {
@@ -93,26 +75,25 @@ void pose_pairs(Executor& executor, const QueryScene& scene, const Pair* pairs, 
 
 void answer_pairs(Executor& executor, const PosedPair* pairs, std::uint32_t n, const QueryScene& scene, bool pieces,
                   PairAnswer* answers) {
-  if (pieces)
-    executor.run(n, AnswerAllPairs{pairs, scene.hulls, scene.surfaces, answers});
-  else
-    executor.run(n, AnswerPairs{pairs, scene.hulls, answers});
+  executor.run(n, AnswerPairs{pairs, scene.hulls, answers});
+  if (pieces) executor.run(n, LookAtPieces{pairs, scene.hulls, scene.surfaces, answers, nullptr, nullptr});
 }
 
-void PieceTouches::find(Executor& executor, const PosedPair* pairs, std::uint32_t n, const QueryScene& scene) {
+void PieceTouches::find(Executor& executor, const PosedPair* pairs, const PairAnswer* answers, std::uint32_t n,
+                        const QueryScene& scene) {
   counts_.grow(n);
   offsets_.grow(n + 1);
   scan_.reserve(n);
-  executor.run(n, CountPieceTouches{pairs, scene.hulls, scene.surfaces, counts_.data()});
+  executor.run(n, CountTouches{answers, counts_.data()});
   scan_.run(executor, n, counts_.data(), offsets_.device(), offsets_.device() + n);
   executor.to_host(offsets_, n + 1);
   executor.wait();
   const std::uint32_t total = offsets_[n];
   if (total == ~0U)
     throw Error(PLUMB_E_OUT_OF_MEMORY, "pairs of shapes touch in more places than can be counted; ask fewer at a time");
+  if (total == 0) return;
   rows_.grow(total);
-  executor.run(
-      n, WritePieceTouches{pairs, scene.hulls, scene.surfaces, counts_.data(), offsets_.device(), rows_.device()});
+  executor.run(n, LookAtPieces{pairs, scene.hulls, scene.surfaces, nullptr, offsets_.device(), rows_.device()});
   executor.to_host(rows_, total);
   executor.wait();
 }

@@ -30,6 +30,7 @@ struct PairAnswer {
   Vec64 at;           ///< from a's origin, world axes: the deepest point, or where a comes closest
   Manifold manifold;  ///< of shapes that touch; else count 0. Of a surface it is that with the deepest point
   std::uint32_t triangle;  ///< of a surface, which it is that touches or comes closest; else 0
+  std::uint32_t touches;   ///< of a plane or a surface, how many pieces of it a step would find to touch; else 0
 };
 
 /// Enqueues posed[i], the proxies of pairs[i] where they are in the scene, i < n; all where kernels run.
@@ -47,8 +48,9 @@ struct PieceTouch {
 class PieceTouches {
  public:
   /// Those of pairs[i] are [offsets()[i], offsets()[i + 1]) of the rows, for i < n, in the order of the surface's
-  /// search; none of other pairs. pairs: where kernels run. Waits until it is done.
-  void find(Executor& executor, const PosedPair* pairs, std::uint32_t n, const QueryScene& scene);
+  /// search; none of other pairs. pairs and the answers to them: where kernels run. Waits until it is done.
+  void find(Executor& executor, const PosedPair* pairs, const PairAnswer* answers, std::uint32_t n,
+            const QueryScene& scene);
   [[nodiscard]] const std::uint32_t* offsets() const { return offsets_.host(); }
   [[nodiscard]] const PieceTouch* rows() const { return rows_.host(); }
 

@@ -22,7 +22,7 @@ PLUMB_HD inline void take_deepest(PairAnswer& answer) {
 
 PLUMB_HD inline PairAnswer answer_convex(const PosedPair& pair, const Hulls& hulls) {
   PairAnswer answer;
-  answer.triangle = 0;
+  answer.triangle = answer.touches = 0;
   const Vec apart = between(pair.place_a, pair.place_b);
   if (collide(pair.a, to_numbers<Real>(pair.turn_a), pair.b, to_numbers<Real>(pair.turn_b), apart, 0, hulls,
               answer.manifold)) {
@@ -45,6 +45,26 @@ PLUMB_HD inline PairAnswer answer_convex(const PosedPair& pair, const Hulls& hul
   return answer;
 }
 
+/// Takes pieces that touch: keeps the deepest, of equal ones that of the first triangle, and where there is room
+/// writes them all.
+struct TouchesOfPair {
+  PieceTouch* rows;
+  std::uint32_t count = 0;
+  PairAnswer deepest{};
+
+  PLUMB_HD void add(std::uint32_t triangle, const Manifold& manifold) {
+    if (rows != nullptr) rows[count] = {manifold, triangle};
+    PairAnswer other{};
+    other.manifold = manifold;
+    other.triangle = triangle;
+    take_deepest(other);
+    const bool better =
+        other.distance < deepest.distance || (other.distance == deepest.distance && triangle < deepest.triangle);
+    if (count == 0 || better) deepest = other;
+    ++count;
+  }
+};
+
 /// One of both is a plane or a surface.
 class PiecePair {
  public:
@@ -57,45 +77,58 @@ class PiecePair {
         convex_(swapped_ ? pair.b : pair.a),
         apart_(between(pair.place_a, pair.place_b)) {}
 
-  /// found(triangle, manifold) for each piece that touches; the manifold is that of (a, b).
-  template <class Found>
-  PLUMB_HD void touches(Found& found) const {
+  /// The manifolds are those of (a, b).
+  PLUMB_HD void look(TouchesOfPair& touches) const {
     if (piece_.type == ShapeType::kPlane) {
-      touch(0, found);
+      look_at(0, touches);
       return;
     }
     const Box box = box_in_piece();
     if (!overlap(box, Box{-piece_.size, piece_.size})) return;
-    const auto look = [&](std::uint32_t triangle) { touch(triangle, found); };
+    const auto each = [&](std::uint32_t triangle) { look_at(triangle, touches); };
     if (piece_.type == ShapeType::kMesh)
-      surfaces_.meshes[piece_.hull].overlaps(box, look);
+      surfaces_.meshes[piece_.hull].overlaps(box, each);
     else
-      surfaces_.fields[piece_.hull].overlaps(box, look);
+      surfaces_.fields[piece_.hull].overlaps(box, each);
   }
 
-  [[nodiscard]] PLUMB_HD PairAnswer answer() const {
-    Deepest deepest;
-    touches(deepest);
-    PairAnswer answer = deepest.answer;
-    if (answer.manifold.count == 0) tell_gap(answer);
-    return answer;
+  /// Of what does not touch. What overlaps all the same, where the pair functions leave it to a triangle beside that
+  /// does not touch either, is told by one point: where the shape is deepest below the triangle's plane.
+  PLUMB_HD void tell_gap(PairAnswer& answer) const {
+    const Quat64 relative = conjugate(turn_piece()) * turn_convex();
+    const Vec64 to_convex = swapped_ ? pair_.place_b - pair_.place_a : pair_.place_a - pair_.place_b;
+    const SurfacePair pair = {piece_, convex_, to_matrix(relative), rotate_back(turn_piece(), to_convex), hulls_};
+    Vec64 normal = {0, 1, 0}, on_piece, on_convex;  // from the piece to the convex shape
+    if (piece_.type == ShapeType::kPlane) {
+      on_convex = plane::lowest(pair);
+      on_piece = {on_convex.x, 0, on_convex.z};
+      answer.distance = max(on_convex.y, 0.0);  // touches by rounding alone
+    } else {
+      surface::NearestTriangle nearest;
+      const Box box = box_in_piece();
+      with_surface(surfaces_, piece_, [&](const auto& on) {
+        surface::find_nearest(on, box, pair, nearest);
+        if (nearest.gap.cores_overlap) nearest.gap = surface::gap_below(on.triangle(nearest.triangle), pair);
+      });
+      answer.triangle = nearest.triangle;
+      answer.distance = nearest.gap.distance;
+      normal = nearest.gap.normal;
+      on_piece = nearest.gap.on_a;
+      on_convex = nearest.gap.on_b;
+    }
+    answer.normal = rotate(turn_piece(), swapped_ ? normal : -normal);
+    answer.at = rotate(turn_piece(), swapped_ ? on_piece : on_convex - pair.shift);
+    if (answer.distance < 0) {
+      const Vec64 between = 0.5 * (on_piece + on_convex);
+      const Vec64 at = rotate(turn_piece(), swapped_ ? between : between - pair.shift);
+      answer.manifold.normal = to_numbers<Real>(answer.normal);
+      answer.manifold.count = 1;
+      answer.manifold.points[0] = {to_numbers<Real>(at), static_cast<Real>(answer.distance), 0};
+      take_deepest(answer);
+    }
   }
 
  private:
-  /// The deepest of all, and of equal ones that of the first triangle.
-  struct Deepest {
-    PairAnswer answer{};
-    PLUMB_HD void operator()(std::uint32_t triangle, const Manifold& manifold) {
-      PairAnswer other;
-      other.manifold = manifold;
-      other.triangle = triangle;
-      take_deepest(other);
-      const bool better =
-          other.distance < answer.distance || (other.distance == answer.distance && triangle < answer.triangle);
-      if (answer.manifold.count == 0 || better) answer = other;
-    }
-  };
-
   [[nodiscard]] PLUMB_HD const Quat64& turn_piece() const { return swapped_ ? pair_.turn_a : pair_.turn_b; }
   [[nodiscard]] PLUMB_HD const Quat64& turn_convex() const { return swapped_ ? pair_.turn_b : pair_.turn_a; }
 
@@ -108,47 +141,13 @@ class PiecePair {
     return {place + box.low - wider, place + box.high + wider};
   }
 
-  template <class Found>
-  PLUMB_HD void touch(std::uint32_t triangle, Found& found) const {
+  PLUMB_HD PLUMB_OUT_OF_LINE void look_at(std::uint32_t triangle, TouchesOfPair& touches) const {
     Manifold manifold;
     if (!collide_with_piece(convex_, to_numbers<Real>(turn_convex()), piece_, to_numbers<Real>(turn_piece()),
                             swapped_ ? -apart_ : apart_, 0, {nullptr, nullptr, hulls_, surfaces_}, triangle, manifold))
       return;
     if (swapped_) swap_sides(apart_, manifold);
-    found(triangle, manifold);
-  }
-
-  /// Of what does not touch, or only where another triangle should, which does not either: by rounding alone.
-  PLUMB_HD void tell_gap(PairAnswer& answer) const {
-    const Quat64 relative = conjugate(turn_piece()) * turn_convex();
-    const Vec64 to_convex = swapped_ ? pair_.place_b - pair_.place_a : pair_.place_a - pair_.place_b;
-    const SurfacePair pair = {piece_, convex_, to_matrix(relative), rotate_back(turn_piece(), to_convex), hulls_};
-    Vec64 normal = {0, 1, 0}, on_piece, on_convex;  // from the piece to the convex shape
-    if (piece_.type == ShapeType::kPlane) {
-      on_convex = plane::lowest(pair);
-      on_piece = {on_convex.x, 0, on_convex.z};
-      answer.distance = on_convex.y;
-    } else {
-      surface::NearestTriangle nearest;
-      const Box box = box_in_piece();
-      with_surface(surfaces_, piece_, [&](const auto& on) {
-        surface::find_nearest(on, box, pair, nearest);
-        if (!nearest.gap.cores_overlap) return;
-        const Triangle triangle = on.triangle(nearest.triangle);
-        normal = normal_against(triangle, to_numbers<double>(triangle.at[0]) - pair.shift);
-      });
-      answer.triangle = nearest.triangle;
-      answer.distance = nearest.gap.distance;
-      on_piece = on_convex = pair.shift;
-      if (!nearest.gap.cores_overlap) {
-        normal = nearest.gap.normal;
-        on_piece = nearest.gap.on_a;
-        on_convex = nearest.gap.on_b;
-      }
-    }
-    answer.distance = max(answer.distance, 0.0);
-    answer.normal = rotate(turn_piece(), swapped_ ? normal : -normal);
-    answer.at = rotate(turn_piece(), swapped_ ? on_piece : on_convex - pair.shift);
+    touches.add(triangle, manifold);
   }
 
   const PosedPair& pair_;

@@ -87,8 +87,8 @@ struct RayProbe {
   }
 
  private:
-  PLUMB_HD bool meets_surface(const QueryScene& scene, const Target& target, const Vec64& p, const Vec64& d,
-                              double most, Meeting& meeting) const {
+  PLUMB_HD PLUMB_OUT_OF_LINE bool meets_surface(const QueryScene& scene, const Target& target, const Vec64& p,
+                                                const Vec64& d, double most, Meeting& meeting) const {
     bool met = false;
     with_surface(scene.surfaces, target.shape, [&](const auto& on) {
       SurfaceCross cross;

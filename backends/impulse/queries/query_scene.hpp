@@ -8,6 +8,14 @@
 #include "plumb/types.h"
 #include "queries/line_shapes.hpp"
 
+// What is much code and not used all the time: a GPU's compiler makes one copy of it for all kernels of a file, which
+// would else take it minutes.
+#if defined(__CUDACC__)
+#define PLUMB_OUT_OF_LINE __noinline__
+#else
+#define PLUMB_OUT_OF_LINE
+#endif
+
 namespace plumb::impulse {
 
 /// A shape where it is in the world.

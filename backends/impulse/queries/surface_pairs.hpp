@@ -5,7 +5,8 @@
 #include "geometry/shape_box.hpp"
 #include "narrowphase/distance.hpp"
 #include "narrowphase/triangle_core.hpp"
-#include "queries/surface_search.hpp"
+#include "queries/line_surface.hpp"
+#include "queries/query_scene.hpp"
 
 namespace plumb::impulse {
 
@@ -106,6 +107,16 @@ struct NearestTriangle {
   }
 };
 
+/// How deep the shape is below the triangle's plane, on the side where its origin is not.
+PLUMB_HD inline ShapeGap<double> gap_below(const Triangle& triangle, const SurfacePair& pair) {
+  const Vec64 corner = to_numbers<double>(triangle.at[0]);
+  const Vec64 n = normal_against(triangle, corner - pair.shift);
+  const Vec64 core = core_support(pair.b, pair.hulls, multiply_transposed(pair.turn, -n));
+  const Vec64 deepest = pair.turn * core + pair.shift - pair.radius_b() * n;
+  const double height = min(dot(n, deepest - corner), 0.0);
+  return {false, height, n, deepest - height * n, deepest};
+}
+
 /// How far apart two boxes are, squared.
 PLUMB_HD inline Real square_between(const Box& a, const Box& b) {
   const Vec none = {0, 0, 0};
@@ -151,9 +162,9 @@ PLUMB_HD inline void find_nearest(const HeightView& field, const Box& box, const
 }  // namespace surface
 
 /// B along a unit vector against the surface. turn: of B. triangle: that which is met.
-PLUMB_HD inline bool cast_at_surface(const Surfaces& surfaces, const SurfacePair& pair, const Quat64& turn,
-                                     const Vec64& along, double most, CastTouch<double>& touch,
-                                     std::uint32_t& triangle) {
+PLUMB_HD PLUMB_OUT_OF_LINE inline bool cast_at_surface(const Surfaces& surfaces, const SurfacePair& pair,
+                                                       const Quat64& turn, const Vec64& along, double most,
+                                                       CastTouch<double>& touch, std::uint32_t& triangle) {
   const SurfaceWay way = {pair.shift, along, box_about(pair.b, turn, pair.hulls)};
   with_surface(surfaces, pair.a, [&](const auto& on) {
     surface::NearestTouch<std::decay_t<decltype(on)>> nearest{on, pair, along, most, touch};
@@ -163,8 +174,8 @@ PLUMB_HD inline bool cast_at_surface(const Surfaces& surfaces, const SurfacePair
   return triangle != kNoCorner;
 }
 
-PLUMB_HD inline bool overlaps_surface(const Surfaces& surfaces, const SurfacePair& pair, const Quat64& turn,
-                                      std::uint32_t& triangle) {
+PLUMB_HD PLUMB_OUT_OF_LINE inline bool overlaps_surface(const Surfaces& surfaces, const SurfacePair& pair,
+                                                        const Quat64& turn, std::uint32_t& triangle) {
   const SurfaceWay way = {pair.shift, {0, 0, 0}, box_about(pair.b, turn, pair.hulls)};
   with_surface(surfaces, pair.a, [&](const auto& on) {
     surface::AnyOverlap<std::decay_t<decltype(on)>> any{on, pair};

@@ -4,6 +4,7 @@
 #include "engine.hpp"
 #include "exec/executor.hpp"
 #include "math/real.hpp"
+#include "shape_scenes.hpp"
 
 namespace plumb::impulse::test {
 namespace {
@@ -84,6 +85,51 @@ TEST_F(QueryBits, OfPosedPairsAreThoseRecorded) {
   hash.add(std::span<const PlumbPairResult>(results));
   hash.add(points);
   EXPECT_EQ(hash.value, kDouble ? 0xaa91cb9a47b3b144U : 0xb9a90a6190e34de5U);
+}
+
+/// A cylinder, a plane, a mesh and a height field among the others, and all questions at once. The surfaces' heights
+/// are sums of products, which are the same everywhere.
+TEST_F(QueryBits, OfAllShapesAreThoseRecorded) {
+  PlumbShapeDesc round = shape_desc(PLUMB_CYLINDER);
+  round.radius = 0.4;
+  round.half_height = 0.3;
+  shapes_.push_back(scene_->make(round));
+  for (int i = 0; i < 20; ++i) scene_->add(shapes_[4], place(), random_.turn());
+  const auto hill = [](double x, double z) { return 0.05 * x * z + 0.1 * x * x - 0.02 * z * z * z; };
+  std::vector<double> heights;
+  for (int row = 0; row < 20; ++row)
+    for (int column = 0; column < 15; ++column) heights.push_back(hill(0.3 * (column - 7), 0.2 * (row - 10)));
+  const PlumbShape mesh = scene_->make(grid(14, 0.4, hill).desc()),
+                   field = scene_->make(field_desc(heights, 20, 15, 0.35)),
+                   plane = scene_->make(shape_desc(PLUMB_PLANE));
+  scene_->add_static(mesh, {0.5, 3, 0}, random_.turn());
+  scene_->add_static(field, {-1, 4, 1}, random_.turn());
+  scene_->add_static(plane, {0, 0.5, 0}, random_.turn());
+  std::vector<PlumbRay> rays;
+  std::vector<PlumbCast> casts;
+  std::vector<PlumbOverlap> overlaps;
+  std::vector<PlumbPosedPair> pairs;
+  for (std::size_t i = 0; i < 1000; ++i) {
+    rays.push_back({place(), way(), kSeesAll});
+    casts.push_back({shapes_[i % 5], {place(), random_.turn()}, way(), kSeesAll});
+    overlaps.push_back({shapes_[i % 5], {place(), random_.turn()}, kSeesAll});
+    const PlumbVec3 a = {random_.between(-2, 2), random_.between(-2, 2), random_.between(-2, 2)};
+    const PlumbShape ground = i % 4 == 0 ? mesh : i % 4 == 1 ? field : i % 4 == 2 ? plane : shapes_[4];
+    pairs.push_back({shapes_[i % 5], ground, {a, random_.turn()}, {{0, 0, 0}, random_.turn()}});
+    if (i % 3 == 0) std::swap(pairs.back().shape_a, pairs.back().shape_b);
+  }
+  Hash hash;
+  hash.add(ask().cast_rays(PLUMB_HIT_CLOSEST, rays).hits);
+  hash.add(ask().cast_rays(PLUMB_HIT_ALL, rays).hits);
+  hash.add(ask().cast_shapes(PLUMB_HIT_CLOSEST, casts).hits);
+  hash.add(ask().cast_shapes(PLUMB_HIT_ALL, casts).hits);
+  hash.add(ask().overlap_shapes(overlaps).hits);
+  std::vector<PlumbPairResult> results(pairs.size());
+  std::span<const PlumbPairPoint> points;
+  check(scene_->world(), scene_->world().collide()->collide_pairs(pairs, results, points));
+  hash.add(std::span<const PlumbPairResult>(results));
+  hash.add(points);
+  EXPECT_EQ(hash.value, kDouble ? 0x3f14eb75be0232ddU : 0xa09453ff1eb97731U);
 }
 
 }  // namespace

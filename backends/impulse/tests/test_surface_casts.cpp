@@ -178,7 +178,7 @@ TEST_F(SurfaceCasts, OfCylindersTouchTrianglesAndConvexShapes) {
           }
           ++starts;
         } else {
-          for (int k = 0; k < 40; ++k) EXPECT_GT(at(end * k / 40.0), 0.0) << "passes through";
+          for (int k = 0; k < 20; ++k) EXPECT_GT(at(end * k / 20.0), 0.0) << "passes through";
           if (hit != touched.end()) {
             const PlacedCylinder there = {radius, half, normalized(to_quat64(pose.orientation)),
                                           to_vec64(pose.position) + end * way};

@@ -68,9 +68,9 @@ TEST_F(SurfacePairs, DistancesAreThoseOfBruteForce) {
   } grounds[] = {{scene_->make(hills.desc()), hills}, {scene_->make(field), triangles_of_field(field)}};
   const double radius = 0.3, half = 0.4;
   const PlumbShape round = cylinder(radius, half);
-  int apart = 0, touching = 0, without = 0;
+  int apart = 0, touching = 0;
   for (const auto& ground : grounds)
-    for (int i = 0; i < 250; ++i) {
+    for (int i = 0; i < 300; ++i) {
       SCOPED_TRACE(i);
       const PlumbPose pose = pose_about(1), other = pose_about(i % 3 == 0 ? 4 : 1.2);
       const std::vector<Corners> triangles = triangles_of(ground.set, pose);
@@ -92,15 +92,14 @@ TEST_F(SurfacePairs, DistancesAreThoseOfBruteForce) {
         EXPECT_NEAR(answer.distance, truth, near);
         EXPECT_TRUE(answer.points.empty());
         ++apart;
-      } else if (truth < -near || (truth <= 0 && !answer.points.empty())) {
+      } else if (truth < -near) {
         EXPECT_LE(answer.distance, near);
         ++touching;
-        if (answer.points.empty()) ++without;
+        EXPECT_FALSE(answer.points.empty());
       }
     }
   EXPECT_GT(apart, 150);
-  EXPECT_GT(touching, 60);
-  EXPECT_LT(without, touching / 10) << "what a step leaves to the triangle beside, which is not touched";
+  EXPECT_GT(touching, 50);
 }
 
 TEST_F(SurfacePairs, OnLevelGroundAreClosedForms) {
