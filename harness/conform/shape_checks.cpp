@@ -1,6 +1,7 @@
 // Shapes and pairs of shapes: every claim of the matrix is dropped, pushed and looked at.
 #include "conform/probe.hpp"
 #include "plumb/backend/check_descs.hpp"
+#include "referee/mass.hpp"
 
 namespace plumb::harness::conform {
 namespace {
@@ -151,9 +152,46 @@ void inertia(Conformance& c) {
   }
 }
 
+/// Mass, centre and inertia of a solid without symmetry, as a hull and as a closed mesh, against the referee's.
+void mass_of_solids(Conformance& c) {
+  c.require_needs(kPlainNeeds);
+  c.require(PLUMB_CAP_FIELD_READ, PLUMB_FIELD_MASS, 0, "reading of masses");
+  // A pyramid over a trapezoid, its tip to one side.
+  static constexpr double kVertices[] = {-1, 0, -0.5, 1, 0, -0.5, 0.4, 0, 0.7, -0.6, 0, 0.7, 0.3, 1.2, 0.1};
+  static constexpr std::uint32_t kTriangles[] = {0, 1, 2, 0, 2, 3, 1, 0, 4, 2, 1, 4, 3, 2, 4, 0, 3, 4};
+  for (const PlumbShapeType type : {PLUMB_CONVEX_HULL, PLUMB_TRIANGLE_MESH}) {
+    if (c.backend().capability(PLUMB_CAP_SHAPE, type, PLUMB_DYNAMIC) == PLUMB_NONE) continue;
+    PlumbShapeDesc shape = shape_desc(type);
+    shape.vertices = kVertices;
+    shape.vertex_count = 5;
+    shape.indices = kTriangles;
+    shape.triangle_count = 6;
+    const referee::ShapePtr known = referee::Shape::make(shape);
+    for (const PlumbMassMode mode : {PLUMB_MASS_FROM_DENSITY, PLUMB_MASS_FROM_TOTAL}) {
+      Probe probe(c, kPlainNeeds, Vec::Zero());
+      PlumbBodyDesc desc = dynamic_desc(probe.shape(shape), {1, 2, 3});
+      desc.mass_mode = mode;
+      desc.density = 700;
+      desc.mass = 25;
+      const std::vector<double> row = probe.read(PLUMB_FIELD_MASS, probe.body(desc));
+      const referee::Mass told = referee::mass_of_row(std::span<const double, 11>(row.data(), 11)),
+                          truth = referee::mass_of(desc, known.get());
+      c.expect(std::abs(told.mass - truth.mass) < 1e-5 * truth.mass, "{}: the mass is {:.6f} kg instead of {:.6f}",
+               shape_name(type), told.mass, truth.mass);
+      c.expect((told.centre - truth.centre).norm() < 1e-5,
+               "{}: the centre of mass is {:.6f} m beside where it should be", shape_name(type),
+               (told.centre - truth.centre).norm());
+      c.expect((told.inertia - truth.inertia).norm() < 1e-4 * truth.inertia.norm(),
+               "{}: the inertia differs by {:.6f} of itself", shape_name(type),
+               (told.inertia - truth.inertia).norm() / truth.inertia.norm());
+    }
+  }
+}
+
 constexpr Check kChecks[] = {
     {"shapes.declared", "a shape can be made exactly where the matrix says so", &declared_shapes},
     {"shapes.inertia", "angular impulses turn bodies by the inertia of their shape", &inertia},
+    {"shapes.mass", "mass, centre and inertia of hulls and closed meshes against the referee", &mass_of_solids},
     {"pairs.static", "every dynamic shape dropped on every static one", &static_pairs},
     {"pairs.dynamic", "every dynamic shape pushed into every other", &dynamic_pairs},
 };
