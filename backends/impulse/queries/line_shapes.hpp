@@ -4,6 +4,13 @@
 
 #include "narrowphase/core.hpp"
 
+// Rays spend their time here; a call costs a tenth of it.
+#if defined(__CUDACC__)
+#define PLUMB_IN_PLACE __forceinline__
+#else
+#define PLUMB_IN_PLACE [[gnu::always_inline]] inline
+#endif
+
 namespace plumb::impulse {
 
 using Vec64 = Vec3<double>;
@@ -20,7 +27,8 @@ namespace line_shapes {
 constexpr double kFar = 1e300;
 
 /// d is a unit vector. Touching counts.
-PLUMB_HD inline bool cross_ball(const Vec64& centre, double radius, const Vec64& p, const Vec64& d, LinePart& part) {
+PLUMB_HD PLUMB_IN_PLACE bool cross_ball(const Vec64& centre, double radius, const Vec64& p, const Vec64& d,
+                                        LinePart& part) {
   const Vec64 from = p - centre;
   const double along = -dot(from, d);
   const Vec64 beside = from + along * d;
@@ -34,7 +42,7 @@ PLUMB_HD inline bool cross_ball(const Vec64& centre, double radius, const Vec64&
 }
 
 /// The slabs of Kay and Kajiya, "Ray tracing complex scenes", 1986.
-PLUMB_HD inline bool cross_box(const Vec64& half, const Vec64& p, const Vec64& d, LinePart& part) {
+PLUMB_HD PLUMB_IN_PLACE bool cross_box(const Vec64& half, const Vec64& p, const Vec64& d, LinePart& part) {
   part = {-kFar, kFar, {0, 0, 0}};
   int axis = 0;
   for (int k = 0; k < 3; ++k) {
@@ -55,7 +63,7 @@ PLUMB_HD inline bool cross_box(const Vec64& half, const Vec64& p, const Vec64& d
 }
 
 /// Where the line passes the surface of the capsule's tube, if that is between its ends, else of the ball at that end.
-PLUMB_HD inline bool cross_capsule(double radius, double half, const Vec64& p, const Vec64& d, LinePart& part) {
+PLUMB_HD PLUMB_IN_PLACE bool cross_capsule(double radius, double half, const Vec64& p, const Vec64& d, LinePart& part) {
   const double across = d.x * d.x + d.z * d.z;
   if (!(across > 0)) {  // along the axis
     LinePart last;
@@ -108,7 +116,8 @@ PLUMB_HD inline bool cross_cylinder(double radius, double half, const Vec64& p, 
 }
 
 /// Face by face (Cyrus and Beck, "Generalized two- and three-dimensional clipping", 1978).
-PLUMB_HD inline bool cross_hull(const Hulls& hulls, std::uint32_t row, const Vec64& p, const Vec64& d, LinePart& part) {
+PLUMB_HD PLUMB_IN_PLACE bool cross_hull(const Hulls& hulls, std::uint32_t row, const Vec64& p, const Vec64& d,
+                                        LinePart& part) {
   const HullRange& hull = hulls.ranges[row];
   part = {-kFar, kFar, {0, 0, 0}};
   std::uint32_t entered = 0;
@@ -135,25 +144,20 @@ PLUMB_HD inline bool cross_hull(const Hulls& hulls, std::uint32_t row, const Vec
 
 }  // namespace line_shapes
 
-/// False where the line passes the shape by. d is a unit vector; a line that only touches crosses. Without cylinders:
-/// kernels of scenes that have none are the smaller for it.
-PLUMB_HD inline bool cross_shape(const Shape& shape, const Hulls& hulls, const Vec64& p, const Vec64& d,
-                                 LinePart& part) {
+/// False where the line passes the shape by. d is a unit vector; a line that only touches crosses. Kernels of scenes
+/// without cylinders are the smaller for not knowing them; each has its own copy of all this.
+template <bool kCylinders>
+PLUMB_HD PLUMB_IN_PLACE bool cross_convex(const Shape& shape, const Hulls& hulls, const Vec64& p, const Vec64& d,
+                                          LinePart& part) {
   const Vec64 size = to_numbers<double>(shape.size);
   switch (shape.type) {
     case ShapeType::kSphere: return line_shapes::cross_ball({0, 0, 0}, size.x, p, d, part);
     case ShapeType::kBox: return line_shapes::cross_box(size, p, d, part);
     case ShapeType::kCapsule: return line_shapes::cross_capsule(size.x, size.y, p, d, part);
     case ShapeType::kHull: return line_shapes::cross_hull(hulls, shape.hull, p, d, part);
+    case ShapeType::kCylinder: return kCylinders && line_shapes::cross_cylinder(size.x, size.y, p, d, part);
     default: return false;
   }
-}
-/// Any convex shape.
-PLUMB_HD inline bool cross_convex(const Shape& shape, const Hulls& hulls, const Vec64& p, const Vec64& d,
-                                  LinePart& part) {
-  if (shape.type != ShapeType::kCylinder) return cross_shape(shape, hulls, p, d, part);
-  const Vec64 size = to_numbers<double>(shape.size);
-  return line_shapes::cross_cylinder(size.x, size.y, p, d, part);
 }
 
 }  // namespace plumb::impulse

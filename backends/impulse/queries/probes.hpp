@@ -75,9 +75,7 @@ struct RayProbe {
       const Vec64 p = rotate_back(target.turn, from), d = rotate_back(target.turn, course.along);
       if (kKinds == Kinds::kAll && is_surface(target.shape.type))
         return meets_surface(scene, target, p, d, most, meeting);
-      if (!(kKinds == Kinds::kAll ? cross_convex(target.shape, scene.hulls, p, d, part)
-                                  : cross_shape(target.shape, scene.hulls, p, d, part)))
-        return false;
+      if (!cross_convex<kKinds == Kinds::kAll>(target.shape, scene.hulls, p, d, part)) return false;
     }
     if (part.leave < 0 || part.enter > most) return false;
     meeting.at = max(part.enter, 0.0);

@@ -243,7 +243,9 @@ std::span<const PlumbHit> QueryBatch::casts(Executor& executor, const QueryScene
 std::span<const PlumbHit> QueryBatch::overlaps(Executor& executor, const QueryScene& scene,
                                                std::span<const PlumbOverlap> overlaps) {
   const auto n = static_cast<std::uint32_t>(overlaps.size());
-  return hand_out(executor, find<OverlapProbe>(executor, scene, PLUMB_HIT_ALL, overlaps_.bring(overlaps), n));
+  const PlumbOverlap* rows = overlaps_.bring(overlaps);
+  return hand_out(executor, has_few_types(scene) ? find_all<OverlapProbe<Kinds::kFew>>(executor, scene, rows, n)
+                                                 : find_all<OverlapProbe<Kinds::kAll>>(executor, scene, rows, n));
 }
 
 }  // namespace plumb::impulse

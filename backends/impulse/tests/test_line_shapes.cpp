@@ -66,7 +66,7 @@ TEST(LineShapes, AreEnteredAndLeftOnTheirSurface) {
     const V p = through - away * d;
     const double near = 1e-12 * (reach + away), least = least_outside(shape, hulls, p, d);
     LinePart part{};
-    const bool hit = cross_convex(shape, hulls, p, d, part);
+    const bool hit = cross_convex<true>(shape, hulls, p, d, part);
     if (!hit) {
       EXPECT_GT(least, -1e-7 * reach - near) << i;
       ++misses;
@@ -90,16 +90,16 @@ TEST(LineShapes, ThatAreOnlyTouchedAreCrossed) {
   LinePart part{};
   const Shape box = make_box(1, 2, 3), ball = {ShapeType::kSphere, 0, {1, 0, 0}, 1},
               capsule = {ShapeType::kCapsule, 0, {1, 2, 0}, 3};
-  EXPECT_TRUE(cross_shape(box, {}, {1, -9, 0}, {0, 1, 0}, part)) << "within a face";
+  EXPECT_TRUE(cross_convex<true>(box, {}, {1, -9, 0}, {0, 1, 0}, part)) << "within a face";
   EXPECT_DOUBLE_EQ(part.enter, 7);
-  EXPECT_TRUE(cross_shape(box, {}, {1, -9, 3}, {0, 1, 0}, part)) << "along an edge";
-  EXPECT_FALSE(cross_shape(box, {}, {std::nextafter(1.0, 2.0), -9, 0}, {0, 1, 0}, part));
-  EXPECT_TRUE(cross_shape(ball, {}, {1, -9, 0}, {0, 1, 0}, part));
+  EXPECT_TRUE(cross_convex<true>(box, {}, {1, -9, 3}, {0, 1, 0}, part)) << "along an edge";
+  EXPECT_FALSE(cross_convex<true>(box, {}, {std::nextafter(1.0, 2.0), -9, 0}, {0, 1, 0}, part));
+  EXPECT_TRUE(cross_convex<true>(ball, {}, {1, -9, 0}, {0, 1, 0}, part));
   EXPECT_DOUBLE_EQ(part.enter, 9);
-  EXPECT_FALSE(cross_shape(ball, {}, {std::nextafter(1.0, 2.0), -9, 0}, {0, 1, 0}, part));
-  EXPECT_TRUE(cross_shape(capsule, {}, {1, -9, 0}, {0, 1, 0}, part)) << "along the side";
+  EXPECT_FALSE(cross_convex<true>(ball, {}, {std::nextafter(1.0, 2.0), -9, 0}, {0, 1, 0}, part));
+  EXPECT_TRUE(cross_convex<true>(capsule, {}, {1, -9, 0}, {0, 1, 0}, part)) << "along the side";
   EXPECT_DOUBLE_EQ(part.enter, 7);
-  EXPECT_TRUE(cross_shape(capsule, {}, {0, -9, 0}, {0, 1, 0}, part)) << "through both ends";
+  EXPECT_TRUE(cross_convex<true>(capsule, {}, {0, -9, 0}, {0, 1, 0}, part)) << "through both ends";
   EXPECT_DOUBLE_EQ(part.enter, 6);
   EXPECT_DOUBLE_EQ(part.leave, 12);
 }

@@ -50,7 +50,8 @@ class Rays : public Queries {
         const Target& at = targets[i];
         const V from = rotate_back(at.turn, to_vec64(ray.origin) - at.place), d = rotate_back(at.turn, along);
         LinePart part{};
-        if (!cross_shape(at.shape, pool_.host(), from, d, part) || part.leave < 0 || part.enter > length) continue;
+        if (!cross_convex<true>(at.shape, pool_.host(), from, d, part) || part.leave < 0 || part.enter > length)
+          continue;
         const double reach = static_cast<double>(at.shape.reach), slack = 1e-9 * length;
         const double rounding = 16 * static_cast<double>(kEpsilon) * reach + 1e-15 * (length + reach);
         expected.push_back(
