@@ -106,6 +106,9 @@ void inertia_doubled_in_words() {
     for (int i = 4; i < 7; ++i) row[i] *= 2;
   }>();
 }
+void mass_halved_in_words() {
+  change_reads<PLUMB_FIELD_MASS, [](double* row) { row[0] /= 2; }>();
+}
 void lost_bodies_not_told() {
   change_reads<PLUMB_FIELD_POSE, [](double* row) {
     if (1000 < std::hypot(row[0], row[1], row[2])) row[1] = std::numeric_limits<double>::quiet_NaN();

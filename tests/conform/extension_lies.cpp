@@ -129,6 +129,9 @@ void rays_too_long() {
 void ray_normals_turned_round() {
   change_ray_hits<[](PlumbHit& hit) { hit.normal = {-hit.normal.x, -hit.normal.y, -hit.normal.z}; }>();
 }
+void other_triangles_are_told() {
+  change_ray_hits<[](PlumbHit& hit) { hit.child += 1000; }>();
+}
 void other_threads_see_nothing() {
   change_ray_hits<[](PlumbHit& hit) {
     if (std::this_thread::get_id() != first_thread) hit.body = 0;
@@ -148,6 +151,33 @@ void casts_end_early() {
     const PlumbResult result = honest.queries.casts(world, mode, casts, stride, count, hits, capacity, hit_count);
     for (std::uint32_t i = 0; result >= 0 && i < std::min(capacity, *hit_count); ++i) hits[i].fraction /= 2;
     return result;
+  };
+}
+void casts_end_late() {
+  liar.queries.casts = [](PlumbWorld* world, PlumbHitMode mode, const PlumbCast* casts, std::size_t stride,
+                          std::uint32_t count, PlumbHit* hits, std::uint32_t capacity, std::uint32_t* hit_count) {
+    const PlumbResult result = honest.queries.casts(world, mode, casts, stride, count, hits, capacity, hit_count);
+    for (std::uint32_t i = 0; result >= 0 && i < std::min(capacity, *hit_count); ++i)
+      if (hits[i].fraction > 0) hits[i].fraction = std::min(1.0, hits[i].fraction + 0.2);
+    return result;
+  };
+}
+void overlaps_beside() {
+  liar.queries.overlaps = [](PlumbWorld* world, const PlumbOverlap* overlaps, std::size_t stride, std::uint32_t count,
+                             PlumbHit* hits, std::uint32_t capacity, std::uint32_t* hit_count) {
+    std::vector<PlumbOverlap> changed = copied(overlaps, stride, count);
+    for (PlumbOverlap& overlap : changed) overlap.pose.position.x += 0.5;
+    return honest.queries.overlaps(world, changed.data(), sizeof(PlumbOverlap), count, hits, capacity, hit_count);
+  };
+}
+void pairs_posed_beside() {
+  liar.collide.pairs = [](PlumbWorld* world, const PlumbPosedPair* pairs, std::size_t stride, std::uint32_t count,
+                          PlumbPairResult* results, PlumbPairPoint* points, std::uint32_t capacity,
+                          std::uint32_t* point_count) {
+    std::vector<PlumbPosedPair> changed = copied(pairs, stride, count);
+    for (PlumbPosedPair& pair : changed) pair.pose_b.position.x += 0.5;
+    return honest.collide.pairs(world, changed.data(), sizeof(PlumbPosedPair), count, results, points, capacity,
+                                point_count);
   };
 }
 void no_overlaps() {
