@@ -208,6 +208,17 @@ void World::wake_neighbours(const Body& body) {
   }
 }
 
+/// Joints write into the same lists: Bullet keeps a body there as often as it was put, and takes it out once a time.
+PlumbResult World::set_exceptions(std::span<const PlumbBodyPair> pairs, bool touch) {
+  for (const PlumbBodyPair& pair : pairs) {
+    Body &a = body(pair.body_a), &b = body(pair.body_b);
+    a.setIgnoreCollisionCheck(&b, !touch);
+    b.setIgnoreCollisionCheck(&a, !touch);
+    if (!touch) forget_contacts(a, b);
+  }
+  return PLUMB_OK;
+}
+
 void World::forget_contacts(Body& a, Body& b) {
   btOverlappingPairCache& pairs = *parts_.broadphase.getOverlappingPairCache();
   if (btBroadphasePair* pair = pairs.findPair(a.getBroadphaseHandle(), b.getBroadphaseHandle()); pair != nullptr)

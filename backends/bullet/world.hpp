@@ -21,6 +21,7 @@ class World final : public IPhysicsWorld,
                     public IDebug,
                     public ISettings,
                     public ISnapshot,
+                    public IExceptions,
                     private btOverlapFilterCallback,
                     private StepHooks {
  public:
@@ -37,6 +38,7 @@ class World final : public IPhysicsWorld,
   PlumbResult create_bodies(std::span<const PlumbBodyDesc> descs, std::span<PlumbBody> ids) override;
   PlumbResult destroy_bodies(std::span<const PlumbBody> ids) override;
   PlumbResult set_gravity(const PlumbVec3& gravity) override;
+  PlumbResult set_exceptions(std::span<const PlumbBodyPair> pairs, bool touch) override;
 
   // fields.cpp
   PlumbResult read(PlumbField field, std::span<const PlumbBody> ids, Rows rows) override;
@@ -56,6 +58,7 @@ class World final : public IPhysicsWorld,
   IDebug* debug() override { return this; }
   ISettings* settings() override { return this; }
   ISnapshot* snapshot() override { return this; }
+  IExceptions* exceptions() override { return this; }
 
   // joints.cpp
   PlumbResult create_joints(std::span<const PlumbJointDesc> descs, std::span<PlumbJoint> ids) override;

@@ -1,6 +1,7 @@
 // Frames and centres of mass, masses, damping, locks and kinematic targets of one body.
 #include "bodies.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -102,6 +103,23 @@ void refresh_tags(Body& body) {
     tag->restitution = material.restitution;
     tag->surface_velocity = material.surface_velocity;
   }
+}
+
+void keep_apart(Body& a, Body& b) {
+  a.untouchable.push_back(&b);
+  b.untouchable.push_back(&a);
+  refresh_tags(a);
+  refresh_tags(b);
+}
+
+void let_touch(Body& a, Body& b) {
+  const auto forget_one = [](std::vector<const Body*>& list, const Body* other) {
+    if (const auto at = std::find(list.begin(), list.end(), other); at != list.end()) list.erase(at);
+  };
+  forget_one(a.untouchable, &b);
+  forget_one(b.untouchable, &a);
+  refresh_tags(a);
+  refresh_tags(b);
 }
 
 void set_mass(Body& body, const PlumbBodyDesc& desc) {

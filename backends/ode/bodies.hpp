@@ -46,10 +46,11 @@ struct Body {
 
   const Shape* shape = nullptr;
   std::vector<std::unique_ptr<GeomTag>> geoms;
-  std::vector<const Body*> untouchable;  ///< joined by joints without collide_connected
-  PlumbPose pose{};                      ///< of a static body
-  PlumbVec3 idle_spin{};                 ///< angular velocity of a body that cannot turn: kept and never used
-  PlumbVec3 locked_position{};           ///< of the centre of mass, along locked axes
+  /// Joined by joints without collide_connected, or excepted by the host; as often as there is a reason.
+  std::vector<const Body*> untouchable;
+  PlumbPose pose{};             ///< of a static body
+  PlumbVec3 idle_spin{};        ///< angular velocity of a body that cannot turn: kept and never used
+  PlumbVec3 locked_position{};  ///< of the centre of mass, along locked axes
   double inverse_mass = 0;
   Matrix3 inverse_inertia{};  ///< body frame
   PlumbMaterial material{};
@@ -96,6 +97,10 @@ struct Body {
 
 /// After a change of the body's material or untouchables.
 void refresh_tags(Body& body);
+
+/// One reason more, or one less, for which two bodies do not touch.
+void keep_apart(Body& a, Body& b);
+void let_touch(Body& a, Body& b);
 
 /// The mass properties of a dynamic body's descriptor, to ODE and to the record.
 void set_mass(Body& body, const PlumbBodyDesc& desc);

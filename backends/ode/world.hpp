@@ -27,7 +27,8 @@ class World final : public IPhysicsWorld,
                     public ICollide,
                     public IDebug,
                     public ISettings,
-                    public ISnapshot {
+                    public ISnapshot,
+                    public IExceptions {
  public:
   explicit World(const WorldInit& init);
   ~World() override;
@@ -54,6 +55,7 @@ class World final : public IPhysicsWorld,
   IDebug* debug() override { return this; }
   ISettings* settings() override { return this; }
   ISnapshot* snapshot() override { return this; }
+  IExceptions* exceptions() override { return this; }
 
  private:
   PlumbResult create_joints(std::span<const PlumbJointDesc> descs, std::span<PlumbJoint> ids) override;
@@ -72,6 +74,7 @@ class World final : public IPhysicsWorld,
   PlumbResult set_setting(const char* name, const PlumbSettingValue& value) override;
   PlumbResult save(std::span<const std::byte>& data) override;
   PlumbResult restore(std::span<const std::byte> data) override;
+  PlumbResult set_exceptions(std::span<const PlumbBodyPair> pairs, bool touch) override;
 
   // Step phases (step.cpp).
   void set_substep(double h);

@@ -31,6 +31,11 @@ PlumbResult World::destroy_bodies(std::span<const PlumbBody> ids) {
   });
 }
 
+PlumbResult World::set_exceptions(std::span<const PlumbBodyPair> pairs, bool touch) {
+  for (const PlumbBodyPair& pair : pairs) (touch ? let_touch : keep_apart)(body(pair.body_a), body(pair.body_b));
+  return PLUMB_OK;
+}
+
 std::unique_ptr<Body> World::make_body(const PlumbBodyDesc& desc, PlumbBody handle) {
   auto body = body_stock_.take();
   body->handle = handle;

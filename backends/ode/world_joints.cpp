@@ -19,12 +19,7 @@ PlumbResult World::create_joints(std::span<const PlumbJointDesc> descs, std::spa
       joint->watched = init_.needs(PLUMB_NEED_JOINT_REACTIONS) || desc.break_force > 0 || desc.break_torque > 0;
       attach(*joint, world_);
       if (substep_ != 0) set_parameters(*joint, settings_, substep_);
-      if (joint->a != nullptr && desc.collide_connected == 0) {
-        joint->a->untouchable.push_back(joint->b);
-        joint->b->untouchable.push_back(joint->a);
-        refresh_tags(*joint->a);
-        refresh_tags(*joint->b);
-      }
+      if (joint->a != nullptr && desc.collide_connected == 0) keep_apart(*joint->a, *joint->b);
       joint_order_.push_back(joint.get());
       if (joint->watched || joint->made_of_rows()) busy_joints_.push_back(joint.get());
       put(joints_, ids[i], std::move(joint));
@@ -41,15 +36,7 @@ PlumbResult World::destroy_joints(std::span<const PlumbJoint> ids) {
 }
 
 void World::remove_joint(Joint& joint) {
-  const auto forget_one = [](std::vector<const Body*>& list, const Body* other) {
-    if (const auto at = std::find(list.begin(), list.end(), other); at != list.end()) list.erase(at);
-  };
-  if (joint.a != nullptr && joint.desc.collide_connected == 0) {
-    forget_one(joint.a->untouchable, joint.b);
-    forget_one(joint.b->untouchable, joint.a);
-    refresh_tags(*joint.a);
-    refresh_tags(*joint.b);
-  }
+  if (joint.a != nullptr && joint.desc.collide_connected == 0) let_touch(*joint.a, *joint.b);
   for (Body* body : {joint.a, joint.b})
     if (body != nullptr) body->wake();
   dJointDestroy(joint.id);
