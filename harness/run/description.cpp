@@ -65,7 +65,7 @@ Json capabilities_of(const Backend& backend) {
 Json extensions_of(const Backend& backend) {
   Json names = Json::array();
   for (const char* name : {PLUMB_EXT_JOINTS, PLUMB_EXT_QUERIES, PLUMB_EXT_COLLIDE, PLUMB_EXT_DEBUG, PLUMB_EXT_SETTINGS,
-                           PLUMB_EXT_SNAPSHOT, PLUMB_EXT_STATE}) {
+                           PLUMB_EXT_SNAPSHOT, PLUMB_EXT_STATE, PLUMB_EXT_EXCEPTIONS}) {
     if (backend.table().extension(name) != nullptr) names.push_back(name);
   }
   return names;

@@ -45,23 +45,6 @@ void change_reads() {
   };
 }
 
-template <PlumbEventType type>
-void hide_events() {
-  liar.core.events = [](PlumbWorld* world, PlumbEvent* out, std::size_t stride, std::uint32_t capacity,
-                        std::uint32_t* count) -> PlumbResult {
-    std::vector<PlumbEvent> all(10000);
-    const PlumbResult result =
-        honest.core.events(world, all.data(), sizeof(PlumbEvent), static_cast<std::uint32_t>(all.size()), count);
-    if (result != PLUMB_OK) return result;
-    all.resize(*count);
-    std::erase_if(all, [](const PlumbEvent& event) { return event.type == type; });
-    *count = static_cast<std::uint32_t>(all.size());
-    for (std::uint32_t i = 0; i < std::min(capacity, *count); ++i)
-      std::memcpy(reinterpret_cast<std::byte*>(out) + i * stride, &all[i], sizeof all[i]);
-    return *count > capacity ? PLUMB_TRUNCATED : PLUMB_OK;
-  };
-}
-
 template <auto change>
 void change_contacts() {
   liar.core.contacts = [](PlumbWorld* world, PlumbContact* out, std::size_t stride, std::uint32_t capacity,

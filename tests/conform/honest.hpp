@@ -18,6 +18,7 @@ struct Tables {
   PlumbSnapshotTable snapshot;
   PlumbCollideTable collide;
   PlumbDebugTable debug;
+  PlumbExceptionsTable exceptions;
 };
 
 inline Tables honest{}, liar{};
@@ -40,6 +41,23 @@ void change_rows(PlumbDataType type, void* rows, std::size_t stride, std::uint32
   if (type != PLUMB_F64) return;
   for (std::uint32_t i = 0; i < count; ++i)
     change(reinterpret_cast<double*>(static_cast<std::byte*>(rows) + i * stride));
+}
+
+template <PlumbEventType type>
+void hide_events() {
+  liar.core.events = [](PlumbWorld* world, PlumbEvent* out, std::size_t stride, std::uint32_t capacity,
+                        std::uint32_t* count) -> PlumbResult {
+    std::vector<PlumbEvent> all(10000);
+    const PlumbResult result =
+        honest.core.events(world, all.data(), sizeof(PlumbEvent), static_cast<std::uint32_t>(all.size()), count);
+    if (result != PLUMB_OK) return result;
+    all.resize(*count);
+    std::erase_if(all, [](const PlumbEvent& event) { return event.type == type; });
+    *count = static_cast<std::uint32_t>(all.size());
+    for (std::uint32_t i = 0; i < std::min(capacity, *count); ++i)
+      std::memcpy(reinterpret_cast<std::byte*>(out) + i * stride, &all[i], sizeof all[i]);
+    return *count > capacity ? PLUMB_TRUNCATED : PLUMB_OK;
+  };
 }
 
 }  // namespace plumb::lying

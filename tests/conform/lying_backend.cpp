@@ -29,6 +29,7 @@ const void* extension(const char* name) {
   if (wanted == PLUMB_EXT_SNAPSHOT) return &liar.snapshot;
   if (wanted == PLUMB_EXT_COLLIDE) return &liar.collide;
   if (wanted == PLUMB_EXT_DEBUG) return &liar.debug;
+  if (wanted == PLUMB_EXT_EXCEPTIONS) return &liar.exceptions;
   return truth;
 }
 
@@ -46,6 +47,7 @@ void take_tables(const PlumbBackendTable& table) {
   take(honest.snapshot, PLUMB_EXT_SNAPSHOT);
   take(honest.collide, PLUMB_EXT_COLLIDE);
   take(honest.debug, PLUMB_EXT_DEBUG);
+  take(honest.exceptions, PLUMB_EXT_EXCEPTIONS);
   liar = honest;
   liar.core.extension = &extension;
   liar.core.info = []() -> const PlumbBackendInfo* { return &liar.info; };

@@ -23,6 +23,7 @@ class Fuzzer {
     snapshot_ = static_cast<const PlumbSnapshotTable*>(table_.extension(PLUMB_EXT_SNAPSHOT));
     collide_ = static_cast<const PlumbCollideTable*>(table_.extension(PLUMB_EXT_COLLIDE));
     debug_ = static_cast<const PlumbDebugTable*>(table_.extension(PLUMB_EXT_DEBUG));
+    exceptions_ = static_cast<const PlumbExceptionsTable*>(table_.extension(PLUMB_EXT_EXCEPTIONS));
     state_ = static_cast<const PlumbStateTable*>(table_.extension(PLUMB_EXT_STATE));
     fresh_world();
   }
@@ -255,6 +256,17 @@ class Fuzzer {
     if (judge(state_->borrow(world_, &request, &tensor, nullptr))) tensor->deleter(tensor);
   }
 
+  void except() {
+    if (exceptions_ == nullptr) return;
+    PlumbBodyPair pairs[3];
+    for (PlumbBodyPair& pair : pairs) pair = {handle(bodies_), handle(bodies_)};
+    judge(exceptions_->set(world_, chance(60) ? nullptr : pairs, chance(60) ? 8 : sizeof pairs[0], below(4),
+                           chance(30) ? below(9) : below(2)));
+    std::uint32_t count = 0;
+    if (!judge(exceptions_->list(world_, pairs, below(4), &count))) return;
+    if (count > bodies_.size() * bodies_.size()) broken_ = "more pair exceptions than pairs";
+  }
+
   void destroy_some() {
     const PlumbBody body = handle(bodies_);
     const PlumbShape shape = handle(shapes_);
@@ -279,7 +291,7 @@ class Fuzzer {
 
   void one_call() {
     const bool full = bodies_.size() > 40;
-    switch (below(16)) {
+    switch (below(17)) {
       case 0: return shapes_.size() < 30 ? create_shape() : destroy_some();
       case 1:
       case 2: return full ? destroy_some() : create_bodies();
@@ -293,6 +305,7 @@ class Fuzzer {
       case 10: return chance(10) ? save_and_restore() : step();
       case 11: return borrow();
       case 12: return destroy_some();
+      case 13: return except();
       default: return step();
     }
   }
@@ -308,6 +321,7 @@ class Fuzzer {
   const PlumbCollideTable* collide_ = nullptr;
   const PlumbDebugTable* debug_ = nullptr;
   const PlumbStateTable* state_ = nullptr;
+  const PlumbExceptionsTable* exceptions_ = nullptr;
   std::vector<std::uint64_t> shapes_, bodies_, joint_ids_;
   std::uint64_t refused_ = 0, done_ = 0, worlds_lost_ = 0;
   const char* broken_ = nullptr;
