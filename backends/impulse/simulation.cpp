@@ -195,8 +195,10 @@ void Simulation::upload_changes() {
   joints.drives.upload(executor_);
   if (joints.changed()) {
     joints.upload(mass);
+    exclusions.set_joined(joints.excluded());
     forget_recordings();
   }
+  exclusions.upload();
   if (features_.sleeping) {
     sleep_.upload(executor_);
     parameters_[0].woken_contacts = sleep_.woken_count();
@@ -221,9 +223,9 @@ void Simulation::upload_changes() {
 Simulation::Recorded Simulation::what_is_recorded() {
   const Hulls all = hulls.device();
   const Surfaces on = surfaces.device();
-  return {{shapes.device(), all.ranges, all.vertices, all.faces, all.loops, all.edges, joints.excluded(), on.meshes,
+  return {{shapes.device(), all.ranges, all.vertices, all.faces, all.loops, all.edges, exclusions.device(), on.meshes,
            on.fields, planes_.device(), sleep_.woken_pairs()},
-          {bodies_in_step(), mover_room_, static_room_, plane_count_, shape_types_, joints.excluded_count(),
+          {bodies_in_step(), mover_room_, static_room_, plane_count_, shape_types_, exclusions.count(),
            static_cast<std::uint32_t>(parameters_[0].solver), sleep_.count() == 0 ? 0U : 1U, continuous_ ? 1U : 0U}};
 }
 
@@ -258,7 +260,7 @@ void Simulation::run_step() {
 /// The pairs that are worth a look, and of those that have pieces the pieces.
 void Simulation::find_candidates(const ContactCache& now) {
   StepCounters* counters = counters_.device();
-  const PairFilter filter{filters.device(), joints.excluded(), joints.excluded_count()};
+  const PairFilter filter{filters.device(), exclusions.device(), exclusions.count()};
   broad_phase_.find_pairs(executor_, boxes_.data(), movers_.device(), mover_room_, filter,
                           in_pieces_ ? pieces_.pairs() : now.pairs, in_pieces_ ? pieces_.ranges() : now.ranges,
                           &counters->pairs);

@@ -10,6 +10,7 @@
 
 #include "body_state.hpp"
 #include "broadphase/broad_phase.hpp"
+#include "broadphase/exclusions.hpp"
 #include "constraints/belts.hpp"
 #include "constraints/joint_store.hpp"
 #include "contact_record.hpp"
@@ -51,6 +52,7 @@ class Simulation {
   BeltSpeeds belts;            // in worlds that have them
   Table<Shape> shapes;
   JointStore joints;
+  Exclusions exclusions;
   HullPool hulls;
   SurfacePool surfaces;
 

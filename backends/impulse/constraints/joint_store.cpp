@@ -111,15 +111,12 @@ void JointStore::list_pushed_bodies(const Table<BodyMass>& masses) {
   copy(on_body_, list);
 }
 
-void JointStore::list_excluded() {
+std::vector<std::uint64_t> JointStore::excluded() const {
   std::vector<std::uint64_t> keys;
   for (const Row& row : rows_)
     if (row.used && !row.traits.lets_bodies_touch && row.joint.body_a != kWorld)
       keys.push_back(body_pair_key(row.joint.body_a, row.joint.body_b));
-  std::sort(keys.begin(), keys.end());
-  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
-  excluded_count_ = static_cast<std::uint32_t>(keys.size());
-  copy(excluded_, keys);
+  return keys;
 }
 
 void JointStore::upload(const Table<BodyMass>& masses) {
@@ -161,7 +158,6 @@ void JointStore::upload(const Table<BodyMass>& masses) {
   copy(product_first_, found.product_first);
   colour(masses);
   list_pushed_bodies(masses);
-  list_excluded();
   work_.grow(count_);
   impulses_.grow(rows_.size());
   scaled_.grow(found.entries.size());

@@ -58,9 +58,8 @@ class JointStore {
   /// What the joints ask of a step's code.
   [[nodiscard]] JointCode code() const { return code_; }
   [[nodiscard]] JointSet set(const Bodies& bodies, const SolverBodies& solver, bool gyroscopic);
-  /// body_pair_key of bodies that do not collide, ascending.
-  [[nodiscard]] const std::uint64_t* excluded() { return excluded_.data(); }
-  [[nodiscard]] std::uint32_t excluded_count() const { return excluded_count_; }
+  /// body_pair_key of bodies that do not collide; in any order, and as often as they are joined.
+  [[nodiscard]] std::vector<std::uint64_t> excluded() const;
 
  private:
   struct Row {
@@ -72,16 +71,14 @@ class JointStore {
   [[nodiscard]] JointCode needed_code() const;
   void colour(const Table<BodyMass>& masses);
   void list_pushed_bodies(const Table<BodyMass>& masses);
-  void list_excluded();
 
   bool changed_ = false, overflow_ = false, wants_reactions_ = false;
   JointCode code_ = JointCode::kContacts;
   std::vector<Row> rows_;       // by slot
   std::vector<Joint> ordered_;  // those that are solved one by one, by slot; then the system, in its order
-  std::uint32_t count_ = 0, colours_ = 0, excluded_count_ = 0;
+  std::uint32_t count_ = 0, colours_ = 0;
   Buffer<Joint> joints_;  // as ordered_
   Buffer<std::uint32_t> by_colour_, first_, system_first_;
-  Buffer<std::uint64_t> excluded_;
   Buffer<JointWork> work_;
   Buffer<JointImpulse> impulses_;  // by slot
   // Where the code is JointCode::kAll:

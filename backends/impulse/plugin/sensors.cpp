@@ -23,6 +23,7 @@ void World::sense() {
     for (const std::uint32_t row : body.more_proxies) look(slot, row);
   }
   for (const PlumbHit& hit : overlap_shapes(looks).hits) {
+    if (simulation_.exclusions.excepts(who[hit.query], slot_of(hit.body))) continue;
     const BodyRecord& sensor = bodies_[who[hit.query]];
     const bool moves = sensor.motion != PLUMB_STATIC || bodies_[slot_of(hit.body)].motion != PLUMB_STATIC;
     if (moves) touches_.touch_sensor(sensor.id, hit.body);

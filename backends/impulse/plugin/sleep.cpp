@@ -26,6 +26,16 @@ void World::wake_for_joint(const PlumbJointDesc& desc) {
   tell(PLUMB_EVENT_WAKE, simulation_.wake(slots), early_events_);
 }
 
+PlumbResult World::set_exceptions(std::span<const PlumbBodyPair> pairs, bool touch) {
+  Exclusions::Keys keys;
+  for (const PlumbBodyPair& pair : pairs) keys.push_back(body_pair_key(slot_of(pair.body_a), slot_of(pair.body_b)));
+  if (touch)
+    simulation_.exclusions.remove_exceptions(std::move(keys));
+  else
+    simulation_.exclusions.add_exceptions(std::move(keys));
+  return PLUMB_OK;
+}
+
 void World::write_awake(std::span<const PlumbBody> ids, ConstRows rows) {
   Simulation::Slots sleepers, risers;
   for (std::size_t i = 0; i < ids.size(); ++i) {

@@ -26,7 +26,8 @@ class World final : public IPhysicsWorld,
                     public IDebug,
                     public ISettings,
                     public ISnapshot,
-                    public IState {
+                    public IState,
+                    public IExceptions {
  public:
   explicit World(const WorldInit& init);
 
@@ -59,6 +60,7 @@ class World final : public IPhysicsWorld,
   ISettings* settings() override { return this; }
   ISnapshot* snapshot() override { return this; }
   IState* state() override { return this; }
+  IExceptions* exceptions() override { return this; }
 
  private:
   PlumbResult create_joints(std::span<const PlumbJointDesc> descs, std::span<PlumbJoint> ids) override;
@@ -83,6 +85,7 @@ class World final : public IPhysicsWorld,
   std::string_view format() const override;
   PlumbResult borrow(const PlumbStateRequest& request, PlumbDLManagedTensor*& tensor, PlumbFence* fence) override;
   PlumbResult row_map(std::span<const PlumbBody>& ids, std::uint64_t& generation) override;
+  PlumbResult set_exceptions(std::span<const PlumbBodyPair> pairs, bool touch) override;
 
   void exchange(Archive& archive);
   void make_body(const PlumbBodyDesc& desc, PlumbBody id);
