@@ -146,7 +146,7 @@ std::vector<FoundBackend> find_backends() {
 }
 
 const PlumbBackendTable* negotiate(PlumbOpenFunction open, const std::string& name, const PlumbHost* host) {
-  constexpr std::uint32_t oldest = PLUMB_MAKE_VERSION(0, 9), newest = PLUMB_VERSION;
+  constexpr std::uint32_t oldest = PLUMB_MAKE_VERSION(1, 0), newest = PLUMB_VERSION;
   const PlumbOpenRequest request = {sizeof request, oldest, newest, 0, host};
   PlumbOpenReply reply{};
   reply.struct_size = sizeof reply;

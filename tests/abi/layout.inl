@@ -132,6 +132,13 @@ SIZE(PlumbDebugTable, 32)
   AT(PlumbDebugTable, struct_size, 0) AT(PlumbDebugTable, reserved, 4) AT(PlumbDebugTable, pairs, 8)
   AT(PlumbDebugTable, boxes, 16) AT(PlumbDebugTable, axes, 24)
 
+/* exceptions.h */
+SIZE(PlumbBodyPair, 16)
+  AT(PlumbBodyPair, body_a, 0) AT(PlumbBodyPair, body_b, 8)
+SIZE(PlumbExceptionsTable, 24)
+  AT(PlumbExceptionsTable, struct_size, 0) AT(PlumbExceptionsTable, reserved, 4) AT(PlumbExceptionsTable, set, 8)
+  AT(PlumbExceptionsTable, list, 16)
+
 /* snapshot.h */
 SIZE(PlumbSnapshotTable, 32)
   AT(PlumbSnapshotTable, struct_size, 0) AT(PlumbSnapshotTable, reserved, 4) AT(PlumbSnapshotTable, save, 8)

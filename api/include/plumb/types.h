@@ -13,11 +13,11 @@
 extern "C" {
 #endif
 
-/* The revision of this interface. Minor versions only append; 0.x may still change between minors. */
+/* The revision of this interface. Minor versions only append; nothing that is here moves or changes its meaning. */
 #define PLUMB_MAKE_VERSION(major, minor) (((uint32_t)(major) << 16) | (uint32_t)(minor))
 #define PLUMB_VERSION_MAJOR(version) ((uint32_t)(version) >> 16)
 #define PLUMB_VERSION_MINOR(version) ((uint32_t)(version)&0xffffu)
-#define PLUMB_VERSION PLUMB_MAKE_VERSION(0, 9)
+#define PLUMB_VERSION PLUMB_MAKE_VERSION(1, 0)
 
 #if defined(_WIN32)
 #define PLUMB_EXPORT __declspec(dllexport)

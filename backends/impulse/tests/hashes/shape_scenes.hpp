@@ -15,7 +15,8 @@ void pile_of_cylinders(Scene& scene);
 void pile_of_compounds(Scene& scene);
 /// All convex shapes on a hilly mesh and a hilly height field, and a mesh that moves.
 void pile_on_surfaces(Scene& scene);
-/// Flagged bodies of every convex shape, too fast for a step, into a mesh, a height field, a plane and a mesh that moves.
+/// Flagged bodies of every convex shape, too fast for a step, into a mesh, a height field, a plane and a mesh that
+/// moves.
 void sheets(Scene& scene);
 /// Stones of two hundred corners on hills, among themselves and with other shapes.
 void boulders(Scene& scene);

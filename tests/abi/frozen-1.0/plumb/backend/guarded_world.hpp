@@ -11,6 +11,7 @@
 #include "plumb/backend/check_descs.hpp"
 #include "plumb/backend/check_rows.hpp"
 #include "plumb/backend/mass_properties.hpp"
+#include "plumb/backend/pair_exceptions.hpp"
 #include "plumb/backend/slot_table.hpp"
 #include "plumb/backend/state_hash.hpp"
 #include "plumb/backend/world_init.hpp"
@@ -36,8 +37,7 @@ class GuardedWorld {
   PlumbResult guard(Call&& call) noexcept {
     if (lost_ != PLUMB_OK) return lost_;
     try {
-      const PlumbResult result = call();
-      return result < 0 ? fail(result, "the backend failed without a text") : result;
+      return done(call());
     } catch (const Error& error) {
       return fail(error.code(), error.what());
     } catch (const std::bad_alloc&) {
@@ -60,7 +60,7 @@ class GuardedWorld {
     for (std::uint32_t i = 0; i < count; ++i) records[i] = examine_shape({"shapes", i}, adopted[i]);
     return create(shapes_, std::move(records), {ids, count}, [&](std::span<const std::uint64_t> handles) {
       std::vector<PlumbShape> given(handles.begin(), handles.end());
-      const PlumbResult result = world_->create_shapes(adopted, given);
+      const PlumbResult result = done(world_->create_shapes(adopted, given));
       for (const PlumbShape handle : handles)
         for (const PlumbShape child : shapes_[handle].children) ++shapes_[child].uses;
       return result;
@@ -73,7 +73,7 @@ class GuardedWorld {
       if (shapes_[ids[i]].uses != 0)
         refuse(PLUMB_E_IN_USE, Where{"shapes", i}.member("") + " is used by " + std::to_string(shapes_[ids[i]].uses) +
                                    " bodies or compounds; destroy those first");
-    const PlumbResult result = world_->destroy_shapes(handles);
+    const PlumbResult result = done(world_->destroy_shapes(handles));
     for (const PlumbShape handle : handles)
       for (const PlumbShape child : shapes_[handle].children) --shapes_[child].uses;
     shapes_.remove(handles);
@@ -89,7 +89,7 @@ class GuardedWorld {
     for (std::uint32_t i = 0; i < count; ++i) records[i] = examine_body({"bodies", i}, adopted[i]);
     return create(bodies_, std::move(records), {ids, count}, [&](std::span<const std::uint64_t> handles) {
       std::vector<PlumbBody> given(handles.begin(), handles.end());
-      const PlumbResult result = world_->create_bodies(adopted, given);
+      const PlumbResult result = done(world_->create_bodies(adopted, given));
       for (const PlumbBodyDesc& desc : adopted)
         if (desc.shape != 0) ++shapes_[desc.shape].uses;
       ++row_generation_;
@@ -103,7 +103,10 @@ class GuardedWorld {
       if (bodies_[ids[i]].joints != 0)
         refuse(PLUMB_E_IN_USE, Where{"bodies", i}.member("") + " still has " + std::to_string(bodies_[ids[i]].joints) +
                                    " joints; destroy those first");
-    const PlumbResult result = world_->destroy_bodies(handles);
+    const PairExceptions::Pairs excepted = exceptions_.of(handles);
+    PairExceptions::Pairs others = exceptions_.after(excepted, true);
+    const PlumbResult result = with_exceptions_set(excepted, true, [&] { return world_->destroy_bodies(handles); });
+    exceptions_.become(std::move(others));
     for (const PlumbBody handle : handles)
       if (const PlumbShape shape = bodies_[handle].shape; shape != 0) --shapes_[shape].uses;
     bodies_.remove(handles);
@@ -165,8 +168,8 @@ class GuardedWorld {
     require_pointer(desc, 1, "desc");
     require_positive({"step", 0}, "dt", desc->dt);
     if (stepping_) refuse(PLUMB_E_WRONG_PHASE, "step was called twice; wait for the first");
-    const PlumbResult result = world_->step(desc->dt);
-    stepping_ = true;  // a step that failed has not begun
+    const PlumbResult result = done(world_->step(desc->dt));
+    stepping_ = true;
     return result;
   }
 
@@ -229,6 +232,25 @@ class GuardedWorld {
              std::string(facts_.info->name) + " has no " + what + (*note == '\0' ? "" : ": ") + note);
   }
 
+  /// What the class answered. A failure ends the call here, as an exception does: nothing has changed.
+  static PlumbResult done(PlumbResult result) {
+    if (result < 0) refuse(result, "the backend failed without a text");
+    return result;
+  }
+
+  /// Tells the class of changed exceptions, then runs a call; takes them back when that failed.
+  template <class Call>
+  PlumbResult with_exceptions_set(const PairExceptions::Pairs& changed, bool touch, Call&& call) {
+    if (changed.empty()) return done(call());
+    done(world_->exceptions()->set_exceptions(changed, touch));
+    try {
+      return done(call());
+    } catch (...) {
+      static_cast<void>(world_->exceptions()->set_exceptions(changed, !touch));
+      throw;
+    }
+  }
+
   template <class Record>
   static void require_live(const SlotTable<Record>& table, std::span<const std::uint64_t> handles, const char* name) {
     for (std::size_t i = 0; i < handles.size(); ++i)
@@ -272,17 +294,15 @@ class GuardedWorld {
                             Make&& make) {
     std::vector<std::uint64_t> handles;
     handles.reserve(records.size());
-    PlumbResult result = PLUMB_OK;
     try {
       for (Record& record : records) handles.push_back(table.add(std::move(record)));
-      result = make(std::span<const std::uint64_t>(handles));
-      if (result < 0) refuse(result, "the backend failed without a text");
+      const PlumbResult result = make(std::span<const std::uint64_t>(handles));
+      std::copy(handles.begin(), handles.end(), ids.begin());
+      return result;
     } catch (...) {
       table.remove(handles);
       throw;
     }
-    std::copy(handles.begin(), handles.end(), ids.begin());
-    return result;
   }
 
   const BackendFacts& facts_;
@@ -291,6 +311,7 @@ class GuardedWorld {
   SlotTable<ShapeRecord> shapes_;
   SlotTable<BodyRecord> bodies_;
   SlotTable<JointRecord> joints_;
+  PairExceptions exceptions_;
   std::uint32_t breakable_joints_ = 0;
   std::uint64_t row_generation_ = 1;
 

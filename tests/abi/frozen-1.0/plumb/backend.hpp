@@ -6,14 +6,15 @@
 //   static const PlumbBackendInfo& info();
 //   static PlumbDegree capability(PlumbCapability kind, std::uint32_t a, std::uint32_t b, const char*& note);
 //   static std::span<const PlumbSettingInfo> setting_infos();        // only when it derives from ISettings
+//   static std::string unmet_requirement();                          // optional: why this machine cannot run it, or ""
 //
 // For each extension, derive from its interface too (IJoints, IQueries, ...) and override its getter to return this.
 //
 // What stands between the table and your class (backend/guarded_world.hpp), in every build: exceptions become results;
 // stale handles, numbers that are not finite or out of range, undeclared needs and unsupported capabilities are refused
 // in words before your class is called; handles are allotted, mass properties worked out, and bodies(), hash(),
-// user_data, PLUMB_FIELD_MASS and shapes in use answered for you. A Plumb call that fails must have changed nothing:
-// throw before you change, or undo. Throw PLUMB_E_WORLD_LOST when you cannot.
+// user_data, PLUMB_FIELD_MASS, the list of pair exceptions and shapes in use answered for you. A Plumb call that fails
+// must have changed nothing: throw before you change, or undo. Throw PLUMB_E_WORLD_LOST when you cannot.
 //
 // For the taking: backend/touch_tracker.hpp makes begin and end events out of "who touches whom";
 // backend/convex_hull.hpp gives the faces of a hull.

@@ -167,6 +167,8 @@ class ISnapshot {
   /// The bytes live until the next call on the world.
   virtual PlumbResult save(std::span<const std::byte>& data) = 0;
   virtual PlumbResult restore(std::span<const std::byte> data) = 0;
+  /// Backends with the same name of a format read each other's snapshots; "" is the format of this build alone.
+  [[nodiscard]] virtual std::string_view format() const { return {}; }
 };
 
 /// plumb.state/1
@@ -176,6 +178,17 @@ class IState {
   virtual PlumbResult borrow(const PlumbStateRequest& request, PlumbDLManagedTensor*& tensor, PlumbFence* fence) = 0;
   /// The map lives until the next call on the world.
   virtual PlumbResult row_map(std::span<const PlumbBody>& ids, std::uint64_t& generation) = 0;
+};
+
+/// plumb.exceptions/1. A backend gets pairs of living bodies, the lower slot first, each once, and only such as change;
+/// those of bodies that are destroyed are taken back before. backend.hpp knows the list, wakes who sleeps, and saves
+/// it.
+class IExceptions {
+ public:
+  virtual ~IExceptions() = default;
+  virtual PlumbResult set_exceptions(std::span<const PlumbBodyPair> pairs, bool touch) = 0;
+  /// Only the host calls this. The pairs live until the next call on the world.
+  virtual PlumbResult list_exceptions(std::span<const PlumbBodyPair>& /*pairs*/) { return PLUMB_E_UNSUPPORTED; }
 };
 
 // --- the world -------------------------------------------------------------------------------------------------------
@@ -217,6 +230,7 @@ class IPhysicsWorld {
   virtual ISettings* settings() { return nullptr; }
   virtual ISnapshot* snapshot() { return nullptr; }
   virtual IState* state() { return nullptr; }
+  virtual IExceptions* exceptions() { return nullptr; }
 
   // Only the host calls what follows; backend.hpp answers it for every backend.
 

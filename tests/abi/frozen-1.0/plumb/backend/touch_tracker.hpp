@@ -51,23 +51,25 @@ class TouchTracker {
 
   /// Bodies that were destroyed: appends the ends of what they touched, to be told with the next step's events.
   void forget(std::span<const PlumbBody> bodies, std::vector<PlumbEvent>& events) {
-    const auto gone = [&](const Pair& pair) {
-      const auto is = [&](PlumbBody body) { return std::find(bodies.begin(), bodies.end(), body) != bodies.end(); };
-      return is(pair.a) || is(pair.b);
-    };
+    std::vector<PlumbBody> sorted(bodies.begin(), bodies.end());
+    std::sort(sorted.begin(), sorted.end());
+    const auto is = [&](PlumbBody body) { return std::binary_search(sorted.begin(), sorted.end(), body); };
+    const auto gone = [&](const Pair& pair) { return is(pair.a) || is(pair.b); };
     for (const Pair& pair : before_)
       if (gone(pair)) events.push_back(event(pair, false));
     std::erase_if(before_, gone);
   }
 
- private:
   struct Pair {
     PlumbBody a, b;
     bool sensor;
     friend bool operator==(const Pair&, const Pair&) = default;
     friend auto operator<=>(const Pair&, const Pair&) = default;
   };
+  /// Who touched in the step before, for snapshots.
+  [[nodiscard]] std::vector<Pair>& touching() { return before_; }
 
+ private:
   static PlumbEvent event(const Pair& pair, bool begins) {
     const PlumbEventType type = pair.sensor ? (begins ? PLUMB_EVENT_SENSOR_ENTER : PLUMB_EVENT_SENSOR_LEAVE)
                                             : (begins ? PLUMB_EVENT_CONTACT_BEGIN : PLUMB_EVENT_CONTACT_END);

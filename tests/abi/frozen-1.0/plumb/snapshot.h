@@ -10,9 +10,10 @@ extern "C" {
 
 #define PLUMB_EXT_SNAPSHOT "plumb.snapshot/1"
 
-/* A snapshot holds what moves (poses, velocities, sleep, warm-start data, random state), not shapes, descriptors or
- * settings: it is restored into the world that saved it, while the same bodies and joints live there. Native means that
- * save, n steps, restore, n steps gives the same bits; approximate that warm-start data is lost. */
+/* A snapshot holds what moves (poses, velocities, sleep, warm-start data, random state) and the pair exceptions
+ * (plumb.exceptions/1), not shapes, descriptors or settings: it is restored into the world that saved it, while the
+ * same bodies and joints live there. Native means that save, n steps, restore, n steps gives the same bits; approximate
+ * that warm-start data is lost. */
 typedef struct PlumbSnapshotTable {
   uint32_t struct_size;
   uint32_t reserved;

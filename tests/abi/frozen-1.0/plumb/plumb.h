@@ -13,6 +13,7 @@
 #include "plumb/bodies.h"
 #include "plumb/collide.h"
 #include "plumb/debug.h"
+#include "plumb/exceptions.h"
 #include "plumb/joints.h"
 #include "plumb/queries.h"
 #include "plumb/settings.h"

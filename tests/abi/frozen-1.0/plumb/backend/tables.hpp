@@ -13,6 +13,13 @@ concept HasSettings = requires {
   { World::setting_infos() } -> std::convertible_to<std::span<const PlumbSettingInfo>>;
 };
 
+/// A class may say in a sentence why it cannot run on this machine (no device, no driver); "" where it can. The backend
+/// is then refused when it is opened, and steps aside.
+template <class World>
+concept HasRequirement = requires {
+  { World::unmet_requirement() } -> std::convertible_to<std::string>;
+};
+
 /// A table entry that calls one member function of the guard.
 template <auto Member>
 struct Entry;
@@ -43,6 +50,9 @@ inline const PlumbDebugTable kDebugTable = {sizeof(PlumbDebugTable), 0, &Entry<&
 inline const PlumbSnapshotTable kSnapshotTable = {sizeof(PlumbSnapshotTable), 0, &Entry<&GuardedExtensions::save>::call,
                                                   &Entry<&GuardedExtensions::restore>::call,
                                                   &Entry<&GuardedExtensions::hash>::call};
+inline const PlumbExceptionsTable kExceptionsTable = {sizeof(PlumbExceptionsTable), 0,
+                                                      &Entry<&GuardedExtensions::set_exceptions>::call,
+                                                      &Entry<&GuardedExtensions::list_exceptions>::call};
 inline const PlumbStateTable kStateTable = {sizeof(PlumbStateTable), 0, &Entry<&GuardedExtensions::borrow>::call,
                                             &Entry<&GuardedExtensions::state_rows>::call};
 
@@ -118,6 +128,7 @@ class Tables {
     if (wanted == PLUMB_EXT_QUERIES && std::derived_from<World, IQueries>) return &kQueriesTable;
     if (wanted == PLUMB_EXT_COLLIDE && std::derived_from<World, ICollide>) return &kCollideTable;
     if (wanted == PLUMB_EXT_DEBUG && std::derived_from<World, IDebug>) return &kDebugTable;
+    if (wanted == PLUMB_EXT_EXCEPTIONS && std::derived_from<World, IExceptions>) return &kExceptionsTable;
     if (wanted == PLUMB_EXT_SETTINGS && std::derived_from<World, ISettings>) return &settings_table();
     return nullptr;
   }
@@ -208,6 +219,10 @@ PlumbResult open(const PlumbOpenRequest* request, PlumbOpenReply* reply) noexcep
       return answer(PLUMB_E_VERSION, "backend %s speaks interface %u.%u and the host at most %u.%u; get a newer host",
                     info.name, major, minor, PLUMB_VERSION_MAJOR(request->max_version),
                     PLUMB_VERSION_MINOR(request->max_version));
+    if constexpr (HasRequirement<World>) {
+      const std::string why = World::unmet_requirement();
+      if (!why.empty()) return answer(PLUMB_E_UNSUPPORTED, "%s", why.c_str());
+    }
     if (Tables<World>::host == nullptr) Tables<World>::host = request->host;
     reply->version = PLUMB_VERSION;
     reply->table = &Tables<World>::backend();

@@ -44,7 +44,7 @@ enum {
 };
 
 /* Whether two bodies may touch: equal non-zero groups decide (positive: always, negative: never);
- * otherwise each one's category must be in the other's mask. */
+ * otherwise each one's category must be in the other's mask. Single pairs: plumb.exceptions/1. */
 typedef struct PlumbFilter {
   uint32_t category; /* bits */
   uint32_t mask;     /* bits */

@@ -4,6 +4,7 @@
 #include "plumb/backend/guarded_world.hpp"
 #include "plumb/backend/snapshot_frame.hpp"
 #include "plumb/backend/state_copy.hpp"
+#include "plumb/nearest.hpp"
 
 namespace plumb::backend {
 
@@ -22,7 +23,7 @@ class GuardedExtensions : public GuardedWorld {
     for (std::uint32_t i = 0; i < count; ++i) records[i] = examine_joint({"joints", i}, adopted[i]);
     return create(joints_, std::move(records), {ids, count}, [&](std::span<const std::uint64_t> handles) {
       std::vector<PlumbJoint> given(handles.begin(), handles.end());
-      const PlumbResult result = extension.create_joints(adopted, given);
+      const PlumbResult result = done(extension.create_joints(adopted, given));
       for (const PlumbJoint handle : handles) {
         const JointRecord& record = joints_[handle];
         if (record.body_a != 0) ++bodies_[record.body_a].joints;
@@ -36,7 +37,7 @@ class GuardedExtensions : public GuardedWorld {
   PlumbResult destroy_joints(const PlumbJoint* ids, std::uint32_t count) {
     IJoints& extension = require_extension(world_->joints(), PLUMB_EXT_JOINTS);
     const auto handles = distinct_live(joints_, ids, count, "joints");
-    const PlumbResult result = extension.destroy_joints(handles);
+    const PlumbResult result = done(extension.destroy_joints(handles));
     release_joints(handles);
     return result;
   }
@@ -68,6 +69,35 @@ class GuardedExtensions : public GuardedWorld {
       }
     }
     return extension.write_joints(field, spelled_out, in);
+  }
+
+  // --- exceptions ----------------------------------------------------------------------------------------------------
+
+  PlumbResult set_exceptions(const PlumbBodyPair* pairs, std::size_t stride, std::uint32_t count, std::uint32_t touch) {
+    static_cast<void>(require_extension(world_->exceptions(), PLUMB_EXT_EXCEPTIONS));
+    if (touch > 1)
+      refuse(PLUMB_E_INVALID_ARGUMENT, "touch is " + std::to_string(touch) +
+                                           "; it must be 0, for pairs that do not touch, or 1, to take that back");
+    std::vector<PlumbBodyPair> adopted = adopt_rows(pairs, stride, count, "pairs");
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const PlumbBody both[2] = {adopted[i].body_a, adopted[i].body_b};
+      for (const PlumbBody body : both)
+        if (!bodies_.alive(body))
+          refuse(PLUMB_E_STALE_HANDLE, Where{"pairs", i}.member(body == both[0] ? "body_a" : "body_b") + " is handle " +
+                                           std::to_string(body) + ", which names nothing that lives in this world");
+      if (both[0] == both[1])
+        refuse(PLUMB_E_INVALID_ARGUMENT, Where{"pairs", i}.member("body_b") + " is body_a; a pair is of two bodies");
+    }
+    const PairExceptions::Pairs changed = exceptions_.changes(std::move(adopted), touch != 0);
+    PairExceptions::Pairs after = exceptions_.after(changed, touch != 0);
+    const PlumbResult result = with_exceptions_set(changed, touch != 0, [&] { return wake_sleepers_of(changed); });
+    exceptions_.become(std::move(after));
+    return result;
+  }
+
+  PlumbResult list_exceptions(PlumbBodyPair* out, std::uint32_t capacity, std::uint32_t* count) {
+    static_cast<void>(require_extension(world_->exceptions(), PLUMB_EXT_EXCEPTIONS));
+    return hand_out(std::span<const PlumbBodyPair>(exceptions_.list()), out, sizeof(PlumbBodyPair), capacity, count);
   }
 
   // --- queries -------------------------------------------------------------------------------------------------------
@@ -162,8 +192,10 @@ class GuardedExtensions : public GuardedWorld {
     require_pointer(name, 1, "name");
     for (const PlumbSettingInfo& info : facts.settings)
       if (std::strcmp(info.name, name) == 0) return info;
-    refuse(PLUMB_E_INVALID_ARGUMENT, std::string(facts.info->name) + " has no setting \"" + name +
-                                         "\"; " PLUMB_EXT_SETTINGS " lists those it has");
+    std::vector<std::string> known;
+    for (const PlumbSettingInfo& info : facts.settings) known.emplace_back(info.name);
+    refuse(PLUMB_E_INVALID_ARGUMENT,
+           std::string(facts.info->name) + " has no setting \"" + name + "\"" + suggestion(name, known));
   }
 
   /// The value, of the setting's type and range; a choice points to the backend's own word.
@@ -197,7 +229,7 @@ class GuardedExtensions : public GuardedWorld {
     std::span<const std::byte> payload;
     const PlumbResult result = extension.save(payload);
     const std::vector<std::byte> framed =
-        frame_snapshot(payload, facts_.info->build, bodies_.in_order(), joints_.in_order());
+        frame_snapshot(payload, format_of(extension), bodies_.in_order(), joints_.in_order(), exceptions_.list());
     *size = framed.size();
     if (capacity < framed.size()) return PLUMB_TRUNCATED;
     require_pointer(data, capacity, "data");
@@ -205,11 +237,25 @@ class GuardedExtensions : public GuardedWorld {
     return result;
   }
 
+  [[nodiscard]] std::string_view format_of(const ISnapshot& extension) const {
+    const std::string_view format = extension.format();
+    return format.empty() ? facts_.info->build : format;
+  }
+
   PlumbResult restore(const void* data, std::size_t size) {
     ISnapshot& extension = require_snapshot();
     require_pointer(data, size, "data");
     const std::span<const std::byte> framed(static_cast<const std::byte*>(data), size);
-    return extension.restore(unframe_snapshot(framed, facts_.info->build, bodies_.in_order(), joints_.in_order()));
+    SnapshotContents saved = unframe_snapshot(framed, format_of(extension), bodies_.in_order(), joints_.in_order());
+    check_saved_exceptions(saved.exceptions);
+    const PairExceptions::Pairs rejoined = PairExceptions::difference(exceptions_.list(), saved.exceptions);
+    const PairExceptions::Pairs parted = PairExceptions::difference(saved.exceptions, exceptions_.list());
+    // Before the rest: who sleeps and who touches stands there.
+    const PlumbResult result = with_exceptions_set(rejoined, true, [&] {
+      return with_exceptions_set(parted, false, [&] { return extension.restore(saved.payload); });
+    });
+    exceptions_.become(std::move(saved.exceptions));
+    return result;
   }
 
   PlumbResult hash(std::uint64_t* value) {
@@ -312,6 +358,40 @@ class GuardedExtensions : public GuardedWorld {
     if (field >= PLUMB_JOINT_FIELD_COUNT)
       refuse(PLUMB_E_INVALID_ARGUMENT, "field is " + std::to_string(field) + "; it must be a PlumbJointField");
     check_row_memory("joint rows", joint_columns_of(field), type, count, rows, stride);
+  }
+
+  /// What stood on the other must fall.
+  PlumbResult wake_sleepers_of(const PairExceptions::Pairs& pairs) {
+    const char* note = "";
+    if ((init_.desc.needs & PLUMB_NEED_SLEEPING) == 0 ||
+        degree(PLUMB_CAP_FIELD_READ, PLUMB_FIELD_AWAKE, 0, note) == PLUMB_NONE ||
+        degree(PLUMB_CAP_FIELD_WRITE, PLUMB_FIELD_AWAKE, 0, note) == PLUMB_NONE)
+      return PLUMB_OK;
+    std::vector<PlumbBody> bodies;
+    for (const PlumbBodyPair& pair : pairs)
+      for (const PlumbBody body : {pair.body_a, pair.body_b})
+        if (bodies_[body].motion == PLUMB_DYNAMIC) bodies.push_back(body);
+    std::sort(bodies.begin(), bodies.end());
+    bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
+    std::vector<double> awake(bodies.size());
+    done(world_->read(PLUMB_FIELD_AWAKE, bodies, rows_over(std::span(awake))));
+    std::size_t sleepers = 0;
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+      if (awake[i] == 0) bodies[sleepers++] = bodies[i];
+    if (sleepers == 0) return PLUMB_OK;
+    bodies.resize(sleepers);
+    awake.assign(sleepers, 1);
+    done(world_->write(PLUMB_FIELD_AWAKE, bodies, const_rows_over(std::span<const double>(awake))));
+    return PLUMB_OK;
+  }
+
+  void check_saved_exceptions(const PairExceptions::Pairs& saved) const {
+    const bool known = std::all_of(saved.begin(), saved.end(), [this](const PlumbBodyPair& pair) {
+      return bodies_.alive(pair.body_a) && bodies_.alive(pair.body_b) && slot_of(pair.body_a) < slot_of(pair.body_b);
+    });
+    if (!known || !std::is_sorted(saved.begin(), saved.end(), PairExceptions::before) ||
+        (!saved.empty() && world_->exceptions() == nullptr))
+      refuse(PLUMB_E_CORRUPT, "the snapshot has pair exceptions that cannot be of this world");
   }
 
   static void check_hit_mode(PlumbHitMode mode) {
