@@ -19,6 +19,7 @@ class ProxySlots {
     while (!free_.empty()) {
       const std::uint32_t row = free_.back();
       free_.pop_back();
+      listed_[row] = false;
       if (!is_taken(row)) return mark(row);
     }
     const auto end = static_cast<std::uint32_t>(taken_.size());
@@ -26,21 +27,29 @@ class ProxySlots {
   }
   void give_back(std::uint32_t row) {
     taken_[row] = false;
+    if (listed_[row]) return;
+    listed_[row] = true;
     free_.push_back(row);
   }
   /// One beyond the last row that was ever in use.
   [[nodiscard]] std::uint32_t end() const { return static_cast<std::uint32_t>(taken_.size()); }
+  /// Never more than end(), however many rows come and go.
+  [[nodiscard]] std::size_t listed() const { return free_.size(); }
 
  private:
   [[nodiscard]] bool is_taken(std::uint32_t row) const { return row < taken_.size() && taken_[row]; }
   std::uint32_t mark(std::uint32_t row) {
-    if (row >= taken_.size()) taken_.resize(row + 1);
+    if (row >= taken_.size()) {
+      taken_.resize(row + 1);
+      listed_.resize(row + 1);
+    }
     taken_[row] = true;
     return row;
   }
 
   std::vector<bool> taken_;
   std::vector<std::uint32_t> free_;  // may hold rows that were taken since as a body's own
+  std::vector<bool> listed_;         // in free_
 };
 
 }  // namespace plumb::impulse

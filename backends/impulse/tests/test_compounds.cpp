@@ -1,9 +1,11 @@
 // Bodies of several shapes.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <set>
 
+#include "plugin/proxy_slots.hpp"
 #include "shape_scenes.hpp"
 
 namespace plumb::impulse::test {
@@ -120,6 +122,22 @@ TEST(Compounds, ComeAndGoBesideBodiesOfOneShape) {
   }
   scene.run(200);
   for (const PlumbPose& pose : scene.poses()) EXPECT_GT(pose.position.y, -0.6);
+}
+
+TEST(Compounds, RowsOfProxiesAreListedOnceHoweverManyComeAndGo) {
+  ProxySlots slots;
+  const std::uint32_t single = slots.take(0);
+  std::vector<std::uint32_t> parts = {slots.take(1), slots.take_any(2), slots.take_any(2)};
+  for (int i = 0; i < 1000; ++i) {
+    slots.give_back(single);
+    EXPECT_EQ(slots.take(0), single);
+    for (const std::uint32_t row : parts) slots.give_back(row);
+    parts = {slots.take(1), slots.take_any(2), slots.take_any(2)};
+    EXPECT_EQ(std::set<std::uint32_t>(parts.begin(), parts.end()).size(), 3U);
+    EXPECT_EQ(std::count(parts.begin(), parts.end(), single), 0);
+  }
+  EXPECT_EQ(slots.end(), 4U);
+  EXPECT_LE(slots.listed(), slots.end());
 }
 
 }  // namespace
