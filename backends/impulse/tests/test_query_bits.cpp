@@ -94,7 +94,10 @@ TEST_F(QueryBits, OfAllShapesAreThoseRecorded) {
   round.radius = 0.4;
   round.half_height = 0.3;
   shapes_.push_back(scene_->make(round));
-  for (int i = 0; i < 20; ++i) scene_->add(shapes_[4], place(), random_.turn());
+  for (int i = 0; i < 20; ++i) {
+    const PlumbQuat turn = random_.turn();  // first: arguments have no order
+    scene_->add(shapes_[4], place(), turn);
+  }
   const auto hill = [](double x, double z) { return 0.05 * x * z + 0.1 * x * x - 0.02 * z * z * z; };
   std::vector<double> heights;
   for (int row = 0; row < 20; ++row)

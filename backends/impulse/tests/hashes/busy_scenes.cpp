@@ -11,9 +11,11 @@ void comers(Scene& scene) {
   scene.before_step = [shapes = convex_shapes(scene), bodies = std::vector<PlumbBody>()](Scene& all, int step) mutable {
     Random random(static_cast<std::uint64_t>(step) + 9000);
     if (step >= 90) return;
-    for (int i = 0; i < 3; ++i)
-      bodies.push_back(all.add(shapes[static_cast<std::size_t>(random.next() % shapes.size())],
-                               {random.between(-2.5, 2.5), 5.0 + i, random.between(-2.5, 2.5)}, random.turn()));
+    for (int i = 0; i < 3; ++i) {
+      const PlumbQuat turn = random.turn();  // one after the other: arguments have no order
+      const PlumbVec3 at = {random.between(-2.5, 2.5), 5.0 + i, random.between(-2.5, 2.5)};
+      bodies.push_back(all.add(shapes[static_cast<std::size_t>(random.next() % shapes.size())], at, turn));
+    }
     for (int i = 0; i < 2 && step > 40; ++i) {
       const auto gone = bodies.begin() + static_cast<std::ptrdiff_t>(random.next() % bodies.size());
       all.remove(*gone);
@@ -63,9 +65,11 @@ void belts(Scene& scene) {
   run(scene, carriage, {-0.8, 0, 0.2});
   const std::vector<PlumbShape> shapes = convex_shapes(scene);
   Random random(46);
-  for (int i = 0; i < 40; ++i)
+  for (int i = 0; i < 40; ++i) {
+    const PlumbQuat turn = random.turn();
     scene.add(shapes[static_cast<std::size_t>(i % 5)],
-              {random.between(-3, 3), 1.2 + 0.15 * i, i % 4 == 3 ? -3.0 : random.between(-0.6, 0.6)}, random.turn());
+              {random.between(-3, 3), 1.2 + 0.15 * i, i % 4 == 3 ? -3.0 : random.between(-0.6, 0.6)}, turn);
+  }
   scene.before_step = [=](Scene& all, int step) {
     all.target(carriage, {0.01 * step, 0.5, -3});
     if (step == 200) run(all, level, {-1.5, 0, 0});

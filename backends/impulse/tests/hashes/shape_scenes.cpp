@@ -101,9 +101,11 @@ void pile_on_surfaces(Scene& scene) {
   const PlumbBody lift = scene.add_kinematic(mesh, {0, 0, -kCells * kSide});
   const std::vector<PlumbShape> shapes = convex_shapes(scene);
   Random random(43);
-  for (int i = 0; i < 150; ++i)
+  for (int i = 0; i < 150; ++i) {
+    const PlumbQuat turn = random.turn();
     scene.add(shapes[static_cast<std::size_t>(i % 5)], {random.between(-3, 12), 1 + 0.05 * i, random.between(-8, 3)},
-              random.turn());
+              turn);
+  }
   scene.before_step = [lift](Scene& moved, int step) {
     moved.target(lift, {0, 0.004 * (step + 1), -kCells * kSide + 0.002 * (step + 1)});
   };
@@ -125,8 +127,9 @@ void sheets(Scene& scene) {
     const double speed = random.between(30, 250);
     scene.body.linear_velocity = {i % 3 == 0 ? speed : 0, i % 3 == 1 ? -speed : 0, i % 3 == 2 ? -speed : 0};
     scene.body.angular_velocity = {random.between(-40, 40), random.between(-40, 40), random.between(-40, 40)};
+    const PlumbQuat turn = random.turn();
     scene.add(shapes[static_cast<std::size_t>(i % 5)],
-              {random.between(-3, 3), random.between(1.5, 5), random.between(-3, 3)}, random.turn());
+              {random.between(-3, 3), random.between(1.5, 5), random.between(-3, 3)}, turn);
   }
   scene.before_step = [door](Scene& moved, int step) {
     moved.target(door, {0, 3 - 0.02 * step, -9 + 0.05 * step}, {kHalf, 0, 0, kHalf});
