@@ -2,6 +2,8 @@
 // how far they are apart. The plane or surface is A and holds still, everything is in its frame; numbers are double.
 #pragma once
 
+#include <limits>
+
 #include "geometry/shape_box.hpp"
 #include "narrowphase/distance.hpp"
 #include "narrowphase/triangle_core.hpp"
@@ -83,7 +85,7 @@ struct AnyOverlap {
 
 /// What of a surface comes nearest to a shape.
 struct NearestTriangle {
-  ShapeGap<double> gap{true, static_cast<double>(kHuge), {}, {}, {}};
+  ShapeGap<double> gap{true, std::numeric_limits<double>::infinity(), {}, {}, {}};
   std::uint32_t triangle = kNoCorner;
 
   /// Looks at one more. Of those that are overlapped, and of equal ones, the first counts.
