@@ -10,6 +10,19 @@
 
 namespace plumb::impulse {
 
+/// How far B is from A where that is so far that its fourth power is beyond all numbers, and their sizes count for
+/// nothing. False: it is not.
+PLUMB_HD inline bool is_beyond(const Vec64& shift, ShapeGap<double>& gap) {
+  constexpr double kBeyond = 1e70;
+  const Vec64 m = abs(shift);
+  const double most = max(m.x, max(m.y, m.z));
+  if (!(most > kBeyond)) return false;
+  const Vec64 scaled = {shift.x / most, shift.y / most, shift.z / most};
+  const double size = length(scaled);
+  gap = {false, most * size, {scaled.x / size, scaled.y / size, scaled.z / size}, {0, 0, 0}, shift};
+  return true;
+}
+
 PLUMB_HD inline void take_deepest(PairAnswer& answer) {
   const Manifold& manifold = answer.manifold;
   std::uint32_t deepest = 0;
@@ -30,9 +43,10 @@ PLUMB_HD inline PairAnswer answer_convex(const PosedPair& pair, const Hulls& hul
     return answer;
   }
   answer.manifold.count = 0;
-  const ShapeGap<double> gap =
-      shape_gap(PlacedPair<double>{pair.a, pair.b, to_matrix(conjugate(pair.turn_a) * pair.turn_b),
-                                   rotate_back(pair.turn_a, pair.place_b - pair.place_a), hulls});
+  const PlacedPair<double> placed = {pair.a, pair.b, to_matrix(conjugate(pair.turn_a) * pair.turn_b),
+                                     rotate_back(pair.turn_a, pair.place_b - pair.place_a), hulls};
+  ShapeGap<double> gap;
+  if (!is_beyond(placed.shift, gap)) gap = shape_gap(placed);
   if (gap.cores_overlap) {  // by rounding alone
     answer.distance = 0;
     answer.normal = to_numbers<double>(normalized_or(apart, {0, 1, 0}));
@@ -106,10 +120,13 @@ class PiecePair {
     } else {
       surface::NearestTriangle nearest;
       const Box box = box_in_piece();
-      with_surface(surfaces_, piece_, [&](const auto& on) {
-        surface::find_nearest(on, box, pair, nearest);
-        if (nearest.gap.cores_overlap) nearest.gap = surface::gap_below(on.triangle(nearest.triangle), pair);
-      });
+      if (is_beyond(pair.shift, nearest.gap))
+        nearest.triangle = 0;
+      else
+        with_surface(surfaces_, piece_, [&](const auto& on) {
+          surface::find_nearest(on, box, pair, nearest);
+          if (nearest.gap.cores_overlap) nearest.gap = surface::gap_below(on.triangle(nearest.triangle), pair);
+        });
       answer.triangle = nearest.triangle;
       answer.distance = nearest.gap.distance;
       normal = nearest.gap.normal;
