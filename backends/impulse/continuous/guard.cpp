@@ -21,18 +21,10 @@ struct Obstacle {
     Shape dot_shape{};  // a ball of no size
     dot_shape.type = ShapeType::kSphere;
     Simplex<Real> simplex;
-    if (!is_surface(shape.type)) {
-      const PlacedPair<Real> pair = {shape, dot_shape, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, point, proxies.hulls};
-      return plane_of(core_gap(pair, simplex, kHuge), core_radius(shape));
-    }
-    const Triangle t = shape.type == ShapeType::kMesh ? proxies.surfaces.meshes[shape.hull].triangle(triangle)
-                                                      : proxies.surfaces.fields[shape.hull].triangle(triangle);
-    const TrianglePair pair = {{{0, 0, 0}, t.at[1] - t.at[0], t.at[2] - t.at[0]},
-                               dot_shape,
-                               proxies.hulls,
-                               {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
-                               point - t.at[0]};
-    return plane_of(core_gap(pair, simplex, kHuge), 0);
+    const PlacedPair<Real> pair = {shape, dot_shape, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, point, proxies.hulls};
+    if (!is_surface(shape.type)) return plane_of(core_gap(pair, simplex, kHuge), core_radius(shape));
+    const Triangle seen = triangle_of(shape, proxies.surfaces, triangle);
+    return plane_of(core_gap(TrianglePair<Real>(seen, pair, seen.at[0]), simplex, kHuge), 0);
   }
 
  private:

@@ -6,8 +6,8 @@
 #pragma once
 
 #include "continuous/way.hpp"
-#include "geometry/surface.hpp"
 #include "narrowphase/distance.hpp"
+#include "narrowphase/triangle_core.hpp"
 
 namespace plumb::impulse {
 
@@ -83,21 +83,6 @@ PLUMB_HD inline Course find_impact(const MovingShape& a, const MovingShape& b, c
   return advance(approach, turning, end, close, part, impact);
 }
 
-/// A triangle and a convex shape, seen from the triangle's first corner in the frame of its surface.
-struct TrianglePair {
-  Vec corners[3];
-  const Shape& b;
-  const Hulls& hulls;
-  Mat turn;   ///< of B's axes
-  Vec shift;  ///< to B's origin
-
-  PLUMB_HD Vec support(const Vec& n, Vec& on_a) const {
-    const Real first = dot(n, corners[0]), second = dot(n, corners[1]), third = dot(n, corners[2]);
-    on_a = third > max(first, second) ? corners[2] : second > first ? corners[1] : corners[0];
-    return on_a - (turn * core_support(b, hulls, multiply_transposed(turn, -n)) + shift);
-  }
-};
-
 /// Of a triangle of the surface a, and the convex shape b.
 PLUMB_HD inline Course find_impact_on_triangle(const MovingShape& a, const Triangle& triangle, const MovingShape& b,
                                                const Vec& apart, Real end, Real close, const Hulls& hulls,
@@ -109,12 +94,10 @@ PLUMB_HD inline Course find_impact_on_triangle(const MovingShape& a, const Trian
   const auto part = [&](Real t) {
     const ShapePose pose_a = a.pose(t), pose_b = b.pose(t);
     const Mat axes_a = to_matrix(pose_a.orientation);
-    const TrianglePair pair = {
-        {{0, 0, 0}, along, beside},
-        *b.shape,
-        hulls,
-        to_matrix(conjugate(pose_a.orientation) * pose_b.orientation),
-        multiply_transposed(axes_a, apart - t * approach + pose_b.offset - pose_a.offset) - first};
+    const PlacedPair<Real> placed = {*a.shape, *b.shape, to_matrix(conjugate(pose_a.orientation) * pose_b.orientation),
+                                     multiply_transposed(axes_a, apart - t * approach + pose_b.offset - pose_a.offset),
+                                     hulls};
+    const TrianglePair<Real> pair(triangle, placed, first);
     Simplex<Real> simplex;
     const CoreGap<Real> gap = core_gap(pair, simplex, kHuge);
     if (gap.overlap) return PartingPlane{0, {0, 0, 0}};

@@ -31,11 +31,6 @@ struct SidedSurface {
   PLUMB_HD bool is_closed() const { return on.is_closed(); }
 };
 
-PLUMB_HD inline Triangle triangle_of(const Shape& surface, const Surfaces& surfaces, std::uint32_t t) {
-  return surface.type == ShapeType::kMesh ? surfaces.meshes[surface.hull].triangle(t)
-                                          : surfaces.fields[surface.hull].triangle(t);
-}
-
 /// Whether the middle of a convex shape is behind the triangle of a sheet at the start. Of a plane or a closed mesh
 /// nobody is behind. apart: from its body's centre of mass to that of the sheet's.
 PLUMB_HD inline bool is_behind(const MovingShape& own, const MovingShape& on, const Vec& apart, const Proxies& proxies,

@@ -6,31 +6,31 @@
 
 namespace plumb::impulse {
 
-/// Seen from the triangle's middle, the axes those of the surface.
+PLUMB_HD inline Triangle triangle_of(const Shape& surface, const Surfaces& surfaces, std::uint32_t t) {
+  return surface.type == ShapeType::kMesh ? surfaces.meshes[surface.hull].triangle(t)
+                                          : surfaces.fields[surface.hull].triangle(t);
+}
+
+template <class N>
+PLUMB_HD Vec3<N> middle_of(const Triangle& triangle) {
+  return (N(1) / 3) * (to_numbers<N>(triangle.at[0]) + to_numbers<N>(triangle.at[1]) + to_numbers<N>(triangle.at[2]));
+}
+
+/// Seen from a point near the triangle, the axes those of the surface.
 template <class N>
 struct TrianglePair {
   using Number = N;
 
   Vec3<N> corners[3];
-  N triangle_reach;  ///< of the ball about the middle that holds the triangle
   Shape b;
   Mat33<N> turn;  ///< of B's axes
   Vec3<N> shift;  ///< to B's origin
   Hulls hulls;
-  Vec3<N> middle;  ///< in the surface's frame
 
-  /// other: the surface as A, and the shape.
-  PLUMB_HD TrianglePair(const Triangle& triangle, const PlacedPair<N>& other)
-      : triangle_reach(0), b(other.b), turn(other.turn), hulls(other.hulls) {
-    for (int k = 0; k < 3; ++k) corners[k] = to_numbers<N>(triangle.at[k]);
-    middle = (N(1) / 3) * (corners[0] + corners[1] + corners[2]);
-    N square = 0;
-    for (int k = 0; k < 3; ++k) {
-      corners[k] -= middle;
-      square = max(square, dot(corners[k], corners[k]));
-    }
-    triangle_reach = sqrt(square);
-    shift = other.shift - middle;
+  /// other: the surface as A, and the shape. about: the point, in the surface's frame.
+  PLUMB_HD TrianglePair(const Triangle& triangle, const PlacedPair<N>& other, const Vec3<N>& about)
+      : b(other.b), turn(other.turn), shift(other.shift - about), hulls(other.hulls) {
+    for (int k = 0; k < 3; ++k) corners[k] = to_numbers<N>(triangle.at[k]) - about;
   }
 
   PLUMB_HD Vec3<N> support(const Vec3<N>& n, Vec3<N>& on_a) const {
@@ -41,7 +41,11 @@ struct TrianglePair {
   PLUMB_HD N radius_a() const { return 0; }
   PLUMB_HD N radius_b() const { return static_cast<N>(core_radius(b)); }
   PLUMB_HD N radii() const { return radius_b(); }
-  PLUMB_HD N reach() const { return triangle_reach + static_cast<N>(b.reach); }
+  PLUMB_HD N reach() const {
+    N square = 0;
+    for (const Vec3<N>& corner : corners) square = max(square, dot(corner, corner));
+    return sqrt(square) + static_cast<N>(b.reach);
+  }
 };
 
 }  // namespace plumb::impulse

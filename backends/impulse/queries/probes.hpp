@@ -32,12 +32,12 @@ PLUMB_HD inline std::uint32_t child_at(const Target& target, std::uint32_t trian
 }
 
 /// The way that a query goes.
-struct Course {
+struct QueryWay {
   Vec64 along = {0, 0, 0};  ///< unit, or 0
   double length = 0;        ///< m; infinite where it is beyond all numbers
 
-  PLUMB_HD Course() {}
-  PLUMB_HD explicit Course(const PlumbVec3& translation) {
+  PLUMB_HD QueryWay() {}
+  PLUMB_HD explicit QueryWay(const PlumbVec3& translation) {
     const Vec64 t = to_vec64(translation), m = abs(t);
     const double most = max(m.x, max(m.y, m.z));
     const Vec64 scaled = {t.x / most, t.y / most, t.z / most};
@@ -54,7 +54,7 @@ template <Kinds kKinds>
 struct RayProbe {
   using Row = PlumbRay;
   Vec64 start;
-  Course course;
+  QueryWay course;
   ProxyFilter filter;
 
   PLUMB_HD RayProbe(const QueryScene& /*scene*/, const PlumbRay& ray)
@@ -112,7 +112,7 @@ template <Kinds kKinds>
 struct CastProbe {
   using Row = PlumbCast;
   Vec64 start;
-  Course course;
+  QueryWay course;
   ProxyFilter filter;
   Shape shape;
   Quat64 turn;
@@ -156,7 +156,7 @@ template <Kinds kKinds>
 struct OverlapProbe {
   using Row = PlumbOverlap;
   Vec64 start;
-  Course course;
+  QueryWay course;
   ProxyFilter filter;
   Shape shape;
   Quat64 turn;

@@ -10,7 +10,7 @@ namespace plumb::impulse {
 
 namespace {
 
-PLUMB_HD PlumbHit hit_of(const QueryScene& scene, const Target& target, std::uint32_t query, const Course& course,
+PLUMB_HD PlumbHit hit_of(const QueryScene& scene, const Target& target, std::uint32_t query, const QueryWay& course,
                          const Meeting& meeting) {
   return {
       scene.ids[target.body],       query, meeting.child, course.fraction(meeting.at), to_plumb_vec3(meeting.position),
@@ -22,7 +22,7 @@ PLUMB_HD PlumbHit no_hit(std::uint32_t query) {
 }
 
 template <class Probe>
-PLUMB_HD Sweep sweep_of(const QueryScene& scene, const Probe& probe) {
+PLUMB_HD SweptBox sweep_of(const QueryScene& scene, const Probe& probe) {
   return {probe.start - scene.origin, probe.course.along, probe.course.length, probe.carried(scene)};
 }
 
@@ -47,7 +47,7 @@ struct Meet {
 template <class Probe>
 struct KeepNearest {
   Meet<Probe> meet;
-  Sweep& sweep;
+  SweptBox& sweep;
   std::uint32_t query;
   double most;
   PlumbHit best;
@@ -71,7 +71,7 @@ struct FindClosest {
   PlumbHit* hits;
   PLUMB_HD void operator()(std::uint32_t i) const {
     const Probe probe(scene, rows[i]);
-    Sweep sweep = sweep_of(scene, probe);
+    SweptBox sweep = sweep_of(scene, probe);
     KeepNearest<Probe> keep{{scene, probe}, sweep, i, probe.course.length, no_hit(i)};
     visit_planes(scene, keep);
     visit_nearest_first(scene.statics, sweep, keep);
@@ -97,7 +97,7 @@ struct CountHits {
   std::uint32_t* counts;
   PLUMB_HD void operator()(std::uint32_t i) const {
     const Probe probe(scene, rows[i]);
-    const Sweep sweep = sweep_of(scene, probe);
+    const SweptBox sweep = sweep_of(scene, probe);
     CountMet<Probe> met{{scene, probe}, 0};
     visit_planes(scene, met);
     visit_all(scene.statics, sweep, met);
@@ -131,7 +131,7 @@ struct ListHits {
   PLUMB_HD void operator()(std::uint32_t i) const {
     if (counts[i] == 0) return;
     const Probe probe(scene, rows[i]);
-    const Sweep sweep = sweep_of(scene, probe);
+    const SweptBox sweep = sweep_of(scene, probe);
     PlumbHit* const first = hits + offsets[i];
     WriteMet<Probe> write{{scene, probe}, i, first};
     visit_planes(scene, write);

@@ -58,13 +58,14 @@ struct NearestTouch {
   std::uint32_t triangle = kNoCorner;
 
   PLUMB_HD void operator()(std::uint32_t t) {
-    const TrianglePair<double> with(on.triangle(t), pair);
+    const Triangle seen = on.triangle(t);
+    const Vec64 middle = middle_of<double>(seen);
     CastTouch<double> found;
-    if (!cast_shape(with, along, most, found)) return;
+    if (!cast_shape(TrianglePair<double>(seen, pair, middle), along, most, found)) return;
     if (!found.at_start && found.at == most && triangle != kNoCorner && t > triangle) return;
     triangle = t;
     touch = found;
-    touch.on_a += with.middle;
+    touch.on_a += middle;
     most = found.at_start ? -1 : found.at;
   }
 };
@@ -77,7 +78,8 @@ struct AnyOverlap {
   std::uint32_t triangle = kNoCorner;
 
   PLUMB_HD void operator()(std::uint32_t t) {
-    if (!shapes_overlap(TrianglePair<double>(on.triangle(t), pair))) return;
+    const Triangle seen = on.triangle(t);
+    if (!shapes_overlap(TrianglePair<double>(seen, pair, middle_of<double>(seen)))) return;
     triangle = t;
     most = -1;
   }
@@ -91,14 +93,15 @@ struct NearestTriangle {
   /// Looks at one more. Of those that are overlapped, and of equal ones, the first counts.
   template <class Surface>
   PLUMB_HD void look(const Surface& on, std::uint32_t t, const SurfacePair& pair) {
-    const TrianglePair<double> with(on.triangle(t), pair);
-    ShapeGap<double> found = shape_gap(with);
+    const Triangle seen = on.triangle(t);
+    const Vec64 middle = middle_of<double>(seen);
+    ShapeGap<double> found = shape_gap(TrianglePair<double>(seen, pair, middle));
     if (found.cores_overlap) found.distance = -static_cast<double>(kHuge);
     if (found.distance > gap.distance || (found.distance == gap.distance && t > triangle)) return;
     triangle = t;
     gap = found;
-    gap.on_a += with.middle;
-    gap.on_b += with.middle;
+    gap.on_a += middle;
+    gap.on_b += middle;
   }
   /// `box` and what is about it as far as the nearest so far, in the engine's numbers and a little larger.
   [[nodiscard]] PLUMB_HD Box within(const Box& box) const {

@@ -17,7 +17,7 @@ struct SurfaceWay {
 /// By the mesh's tree, what is nearer first.
 template <class Visit>
 PLUMB_HD void visit_way(const MeshView& mesh, const SurfaceWay& way, Visit& visit) {
-  Sweep sweep(way.start, way.along, visit.most, way.carried);
+  SweptBox sweep(way.start, way.along, visit.most, way.carried);
   const auto look = [&](std::uint32_t triangle) {
     visit(triangle);
     sweep.last = sweep.place_of(visit.most);

@@ -10,10 +10,10 @@
 
 namespace plumb::impulse {
 
-class Sweep {
+class SweptBox {
  public:
   /// start: from the origin of the boxes; along: unit, or 0 for what stays; carried: about the start.
-  PLUMB_HD Sweep(const Vec64& start, const Vec64& along, double length, const Box& carried) {
+  PLUMB_HD SweptBox(const Vec64& start, const Vec64& along, double length, const Box& carried) {
     middle_ = -dot(start, along);
     const Vec64 from = start + middle_ * along;
     for (int k = 0; k < 3; ++k) {
@@ -60,7 +60,7 @@ class Sweep {
 
 /// visit(proxy) for every leaf of the subtree at `id` that the sweep meets, in the tree's order; `end` follows it.
 template <class Visit>
-PLUMB_HD void visit_subtree(const TreeView& tree, std::uint32_t id, std::uint32_t end, const Sweep& sweep,
+PLUMB_HD void visit_subtree(const TreeView& tree, std::uint32_t id, std::uint32_t end, const SweptBox& sweep,
                             Visit& visit) {
   while (id != end) {
     const TreeNode& node = tree.nodes[id];
@@ -71,14 +71,14 @@ PLUMB_HD void visit_subtree(const TreeView& tree, std::uint32_t id, std::uint32_
   }
 }
 template <class Visit>
-PLUMB_HD void visit_all(const TreeView& tree, const Sweep& sweep, Visit& visit) {
+PLUMB_HD void visit_all(const TreeView& tree, const SweptBox& sweep, Visit& visit) {
   visit_subtree(tree, tree.root(), TreeView::kEnd, sweep, visit);
 }
 
 /// The same, nearer subtrees first, for a visitor that brings sweep.last closer. What is left for later is noted; where
 /// there is no more room for notes a subtree is gone through in the tree's order, so that nothing is ever missed.
 template <class Visit>
-PLUMB_HD void visit_nearest_first(const TreeView& tree, const Sweep& sweep, Visit& visit) {
+PLUMB_HD void visit_nearest_first(const TreeView& tree, const SweptBox& sweep, Visit& visit) {
   constexpr std::uint32_t kRoom = 32;
   std::uint32_t later[kRoom];
   Real later_from[kRoom];
