@@ -14,5 +14,6 @@ namespace plumb::harness {
 [[nodiscard]] std::span<const MeasureEntry> joint_measures();
 [[nodiscard]] std::span<const MeasureEntry> robustness_measures();
 [[nodiscard]] std::span<const MeasureEntry> scale_measures();
+[[nodiscard]] std::span<const MeasureEntry> geometry_measures();
 
 }  // namespace plumb::harness

@@ -24,7 +24,7 @@ std::span<const MeasureEntry> all_measures() {
   static const std::vector<MeasureEntry> all = [] {
     std::vector<MeasureEntry> joined;
     for (const auto group : {integrator_measures(), collision_measures(), friction_measures(), stacking_measures(),
-                             joint_measures(), robustness_measures(), scale_measures()})
+                             joint_measures(), robustness_measures(), scale_measures(), geometry_measures()})
       joined.insert(joined.end(), group.begin(), group.end());
     return joined;
   }();

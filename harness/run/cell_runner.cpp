@@ -271,6 +271,7 @@ Json run_cell(Backend& backend, const Json& request, Progress& progress) {
   Outcome outcome = outcome_of([&] {
     const SceneFile file = scene_file_of(request);
     scene.emplace(scene_of(file, request));
+    if (!scene->lacks.empty()) throw Error(PLUMB_E_UNSUPPORTED, scene->lacks);
     const SimulationOptions options = options_of(backend, request);
     trace.emplace(backend, request.value("trace", ""));
     context.emplace(trace->backend(), *scene, options, progress, request.value("trajectory", ""));

@@ -84,6 +84,8 @@ struct Scene {
   std::string measure;          ///< name of the measure (measure/measure.hpp)
   nlohmann::json measure_args;  ///< its arguments, expressions resolved to numbers
   std::vector<MetricSpec> metrics;
+  std::string lacks;  ///< what this machine has not and the scene needs, with the remedy; "" when nothing: else it
+                      ///< cannot be built
 
   /// Index of a body by name; throws UsageError with the nearest name.
   [[nodiscard]] std::size_t body(const std::string& name) const;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "scene/build.hpp"
+#include "scene/model.hpp"
 
 namespace plumb::harness {
 namespace {
@@ -64,6 +65,36 @@ void read_heights(const Node& node, SceneShape& shape) {
   shape.desc.columns = static_cast<std::uint32_t>(shape.heights.size() / rows.size());
 }
 
+/// A model of a package. Where the machine lacks it the scene says so and cannot be built.
+void read_model(const Node& node, SceneShape& shape, Scene& scene) {
+  node.only(scene_keys().at("model"));
+  ModelRequest request;
+  request.file = node.at("file").text();
+  request.size = node.number_or("size", 1);
+  request.orientation = node.orientation_or("orientation", request.orientation);
+  if (!(request.size > 0)) node.at("size").fail(fmt::format("the size of a model is above 0, not {}", request.size));
+  const bool hull = shape.desc.type == PLUMB_CONVEX_HULL;
+  if (hull != node.find("corners").has_value())
+    node.fail(hull ? "a hull of a model says its \"corners\"" : "a mesh of a model has all its corners");
+  std::optional<Model> model;
+  try {
+    model = load_model(request);
+  } catch (const std::runtime_error& error) {
+    node.at("file").fail(fmt::format("{}: {}", request.file.string(), error.what()));
+  }
+  if (!model) {
+    scene.lacks =
+        fmt::format("the scene needs {}; install the package {}", request.file.string(), node.at("package").text());
+    return;
+  }
+  if (hull) {
+    shape.vertices = extreme_points(*model, static_cast<std::size_t>(node.at("corners").integer(4, 4096)));
+  } else {
+    shape.vertices = std::move(model->vertices);
+    shape.indices = std::move(model->indices);
+  }
+}
+
 SceneShape::Child read_child(const Node& node, const SceneBuilder& builder) {
   node.only(scene_keys().at("child"));
   SceneShape::Child child{};
@@ -79,22 +110,24 @@ SceneShape::Child read_child(const Node& node, const SceneBuilder& builder) {
   return child;
 }
 
-SceneShape read_shape(const Node& node, const std::string& name, const SceneBuilder& builder) {
+SceneShape read_shape(const Node& node, const std::string& name, SceneBuilder& builder) {
   SceneShape shape;
   shape.name = name;
   const std::size_t type = node.at("type").word("shape", shape_words());
   shape.desc = shape_desc(static_cast<PlumbShapeType>(type));
-  const auto grid = node.find("grid");
+  const auto grid = node.find("grid"), model = node.find("model");
   const bool as_grid = grid && type == PLUMB_TRIANGLE_MESH;
+  const bool as_model = model && (type == PLUMB_TRIANGLE_MESH || type == PLUMB_CONVEX_HULL);
   for (const auto& [key, member] : node.members()) {
     const auto& keys = keys_by_type()[type];
-    if (as_grid && key == "grid") continue;
+    if ((as_grid && key == "grid") || (as_model && key == "model")) continue;
     if (key == "type" || key == "user_data" || std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
     member.fail(fmt::format("a {} has no {}", shape_words()[type], key));
   }
   if (as_grid) read_grid(*grid, shape);
+  if (as_model) read_model(*model, shape, builder.scene);
   for (const std::string& key : keys_by_type()[type]) {
-    if (as_grid) break;
+    if (as_grid || as_model) break;
     const Node value = node.at(key.c_str());
     if (key == "radius") shape.desc.radius = value.number();
     if (key == "half_height") shape.desc.half_height = value.number();
