@@ -24,10 +24,19 @@ PLUMB_HD inline bool are_level(const Candidate* at, int count) {
   return high.z - low.z <= kLevel * (high.x - low.x + high.y - low.y);
 }
 
+/// How much a point counts for where it lies: fully when it is as deep as `deepest`, less the further the body has to
+/// tip over that one until this one touches, a half at kTip. Points that hover far out would else take the places of
+/// those that a body on a narrow face rests on, and it would rock for ever.
+PLUMB_HD inline Real tip_weight(const Candidate& deepest, const Candidate& at) {
+  const Real dx = at.x - deepest.x, dy = at.y - deepest.y, height = max(at.separation - deepest.separation, Real(0));
+  const Real reach = kTip * kTip * (dx * dx + dy * dy);
+  return reach > 0 ? reach / (reach + height * height) : Real(0);
+}
+
 /// Puts the four points that matter first in `at` and returns how many there are: the deepest, the farthest from it,
-/// the one that spans the largest triangle with both, and the one that widens that triangle most. Points that are equal
-/// within `tie` (a length) are taken in their order. Of more than four that are level the first takes the place of the
-/// deepest, so that a trembling body rests on the same four all the time.
+/// the one that spans the largest triangle with both, and the one that widens that triangle most, each by its
+/// tip_weight. Points that are equal within `tie` (a length) are taken in their order. Of more than four that are level
+/// the first takes the place of the deepest, so that a trembling body rests on the same four all the time.
 PLUMB_HD inline int choose_points(Candidate* at, int count, Real tie) {
   const auto swap = [at](int i, int j) {
     const Candidate c = at[i];
@@ -46,7 +55,7 @@ PLUMB_HD inline int choose_points(Candidate* at, int count, Real tie) {
   Real most = 0;
   best = 1;
   for (int i = 1; i < count; ++i) {
-    const Real dx = at[i].x - at[0].x, dy = at[i].y - at[0].y, far = dx * dx + dy * dy;
+    const Real dx = at[i].x - at[0].x, dy = at[i].y - at[0].y, far = (dx * dx + dy * dy) * tip_weight(at[0], at[i]);
     if (far > most * (1 + kClipSlack)) {
       most = far;
       best = i;
@@ -59,7 +68,7 @@ PLUMB_HD inline int choose_points(Candidate* at, int count, Real tie) {
   most = 0;
   best = 2;
   for (int i = 2; i < count; ++i)
-    if (const Real area = abs(side(i)); area > most * (1 + kClipSlack)) {
+    if (const Real area = abs(side(i)) * tip_weight(at[0], at[i]); area > most * (1 + kClipSlack)) {
       most = area;
       best = i;
     }
@@ -77,6 +86,7 @@ PLUMB_HD inline int choose_points(Candidate* at, int count, Real tie) {
       const Real area = (q.x - p.x) * (at[i].y - p.y) - (q.y - p.y) * (at[i].x - p.x);
       outside = max(outside, turned ? area : -area);
     }
+    outside *= tip_weight(at[0], at[i]);
     if (outside > most * (1 + kClipSlack)) {
       most = outside;
       best = i;
