@@ -170,6 +170,14 @@ class HostWorld final : public IPhysicsWorld,
   PlumbResult separating_axes(std::span<const PlumbDebugAxis>& axes) override {
     return look(debug_->axes, debug_axes_, axes);
   }
+  PlumbResult body_states(std::span<const PlumbDebugBody>& bodies) override {
+    if (!has(*debug_, &PlumbDebugTable::bodies)) return PLUMB_E_UNSUPPORTED;
+    return look(debug_->bodies, debug_bodies_, bodies);
+  }
+  PlumbResult solved_constraints(std::span<const PlumbDebugConstraint>& constraints) override {
+    if (!has(*debug_, &PlumbDebugTable::constraints)) return PLUMB_E_UNSUPPORTED;
+    return look(debug_->constraints, debug_constraints_, constraints);
+  }
 
   PlumbResult get_setting(const char* name, PlumbSettingValue& value) override {
     return settings_->get(world_, name, &value);
@@ -251,6 +259,8 @@ class HostWorld final : public IPhysicsWorld,
   std::vector<PlumbDebugPair> debug_pairs_;
   std::vector<PlumbDebugBox> debug_boxes_;
   std::vector<PlumbDebugAxis> debug_axes_;
+  std::vector<PlumbDebugBody> debug_bodies_;
+  std::vector<PlumbDebugConstraint> debug_constraints_;
   std::vector<std::byte> snapshot_bytes_;
   std::vector<PlumbBodyPair> exception_pairs_;
 };

@@ -202,8 +202,15 @@ class Fuzzer {
     if (debug_ != nullptr) {
       PlumbDebugPair pairs[8];
       PlumbDebugBox boxes[8];
+      PlumbDebugAxis axes[8];
+      PlumbDebugBody states[8];
+      PlumbDebugConstraint constraints[8];
       judge(debug_->pairs(world_, pairs, below(9), &count));
       judge(debug_->boxes(world_, boxes, below(9), &count));
+      judge(debug_->axes(world_, axes, below(9), &count));
+      if (plumb::has(*debug_, &PlumbDebugTable::bodies)) judge(debug_->bodies(world_, states, below(9), &count));
+      if (plumb::has(*debug_, &PlumbDebugTable::constraints))
+        judge(debug_->constraints(world_, constraints, below(9), &count));
     }
   }
 

@@ -35,6 +35,14 @@ class Error : public std::runtime_error {
   return static_cast<std::uint32_t>(handle >> 32);
 }
 
+/// Whether a table of the other side is long enough to have a function, which a later minor version may have appended,
+/// and has it.
+template <class Table, class Member>
+[[nodiscard]] bool has(const Table& table, Member Table::*member) {
+  const auto offset = reinterpret_cast<const char*>(&(table.*member)) - reinterpret_cast<const char*>(&table);
+  return static_cast<std::size_t>(offset) + sizeof(Member) <= table.struct_size && table.*member != nullptr;
+}
+
 /// Columns of a field's rows; 0 for what is not a field.
 [[nodiscard]] constexpr std::uint32_t columns_of(PlumbField field) {
   constexpr std::uint32_t columns[PLUMB_FIELD_COUNT] = {7, 6, 3, 3, 3, 3, 6, 6, 1, 7, 11, 2, 1, 2, 3, 3};
@@ -141,13 +149,20 @@ class ICollide {
                                     std::span<const PlumbPairPoint>& points) = 0;
 };
 
-/// plumb.debug/1. Spans live until the next call on the world.
+/// plumb.debug/1. Spans live until the next call on the world. Every one may answer PLUMB_E_UNSUPPORTED; a backend that
+/// cannot show a thing throws that, with a sentence.
 class IDebug {
  public:
   virtual ~IDebug() = default;
   virtual PlumbResult candidate_pairs(std::span<const PlumbDebugPair>& pairs) = 0;
   virtual PlumbResult tree_boxes(std::span<const PlumbDebugBox>& boxes) = 0;
   virtual PlumbResult separating_axes(std::span<const PlumbDebugAxis>& axes) = 0;
+  virtual PlumbResult body_states(std::span<const PlumbDebugBody>& /*bodies*/) {
+    throw Error(PLUMB_E_UNSUPPORTED, "this engine does not tell its islands");
+  }
+  virtual PlumbResult solved_constraints(std::span<const PlumbDebugConstraint>& /*constraints*/) {
+    throw Error(PLUMB_E_UNSUPPORTED, "this engine does not tell in what order it solves its constraints");
+  }
 };
 
 /// plumb.settings/1

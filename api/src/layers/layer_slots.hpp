@@ -20,13 +20,6 @@
 
 namespace plumb::layers {
 
-/// Whether a table is long enough to have the member, and has it.
-template <class Table, class Member>
-[[nodiscard]] bool has(const Table& table, Member Table::*member) {
-  const auto offset = reinterpret_cast<const char*>(&(table.*member)) - reinterpret_cast<const char*>(&table);
-  return static_cast<std::size_t>(offset) + sizeof(Member) <= table.struct_size && table.*member != nullptr;
-}
-
 /// What every layer has: the tables it forwards to, and answers to questions that it does not care to change.
 class LayerBase {
  public:

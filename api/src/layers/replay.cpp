@@ -21,7 +21,9 @@ TraceHeader read_header(ByteReader& in, std::span<const std::byte> all) {
   if (std::memcmp(magic, trace_magic, sizeof magic) != 0) corrupt("it does not begin as a trace does");
   if (const auto format = in.get<std::uint32_t>(); format != trace_format)
     corrupt("its format is " + std::to_string(format) + ", and this program reads " + std::to_string(trace_format));
-  if (const auto version = in.get<std::uint32_t>(); version != PLUMB_VERSION)
+  // Minor versions only append, so what an older one recorded is understood.
+  if (const auto version = in.get<std::uint32_t>();
+      PLUMB_VERSION_MAJOR(version) != PLUMB_VERSION_MAJOR(PLUMB_VERSION) || version > PLUMB_VERSION)
     corrupt("it was recorded with version " + std::to_string(PLUMB_VERSION_MAJOR(version)) + "." +
             std::to_string(PLUMB_VERSION_MINOR(version)) + " of the interface, and this program speaks " +
             std::to_string(PLUMB_VERSION_MAJOR(PLUMB_VERSION)) + "." +

@@ -38,7 +38,7 @@ PlumbResult fake_row(PlumbWorld* world, Row* out, std::uint32_t capacity, std::u
   if (capacity == 0) return PLUMB_TRUNCATED;
   out[0] = Row{};
   if constexpr (requires { out->body; }) out->body = body;
-  if constexpr (requires { out->body_a; }) out->body_a = body;
+  if constexpr (requires { out->body_a; }) out->body_a = out->body_b = body;
   return PLUMB_OK;
 }
 inline PlumbResult fake_cast(PlumbWorld*, PlumbHitMode, const PlumbCast* casts, std::size_t, std::uint32_t count,
@@ -51,8 +51,10 @@ inline PlumbResult fake_cast(PlumbWorld*, PlumbHitMode, const PlumbCast* casts, 
 /// The fake world with every extension.
 inline const PlumbBackendTable& complete() {
   static const PlumbCollideTable collide_table = {sizeof(PlumbCollideTable), 0, &fake_collide};
-  static const PlumbDebugTable debug_table = {sizeof(PlumbDebugTable), 0, &fake_row<PlumbDebugPair>,
-                                              &fake_row<PlumbDebugBox>, &fake_row<PlumbDebugAxis>};
+  static const PlumbDebugTable debug_table = {sizeof(PlumbDebugTable),        0,
+                                              &fake_row<PlumbDebugPair>,      &fake_row<PlumbDebugBox>,
+                                              &fake_row<PlumbDebugAxis>,      &fake_row<PlumbDebugBody>,
+                                              &fake_row<PlumbDebugConstraint>};
   static const PlumbQueriesTable queries_table = [] {
     PlumbQueriesTable queries = fake_table<PlumbQueriesTable>(PLUMB_EXT_QUERIES);
     queries.casts = &fake_cast;

@@ -103,9 +103,13 @@ class Everything {
     PlumbDebugPair pair;
     PlumbDebugBox box;
     PlumbDebugAxis axis;
+    PlumbDebugBody body;
+    PlumbDebugConstraint constraint;
     ok(debug.pairs(world_, &pair, 1, &count));
     ok(debug.boxes(world_, &box, 1, &count));
     ok(debug.axes(world_, &axis, 1, &count));
+    ok(debug.bodies(world_, &body, 1, &count));
+    ok(debug.constraints(world_, &constraint, 1, &count));
     const auto& settings = extension<PlumbSettingsTable>(PLUMB_EXT_SETTINGS);
     PlumbSettingValue value = {PLUMB_SETTING_CHOICE, 0, 0, "fast"};
     ok(settings.set(world_, "solver", &value));

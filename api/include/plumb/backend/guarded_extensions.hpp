@@ -167,6 +167,12 @@ class GuardedExtensions : public GuardedWorld {
   PlumbResult debug_axes(PlumbDebugAxis* out, std::uint32_t capacity, std::uint32_t* count) {
     return hand_out_debug(&IDebug::separating_axes, out, capacity, count);
   }
+  PlumbResult debug_bodies(PlumbDebugBody* out, std::uint32_t capacity, std::uint32_t* count) {
+    return hand_out_debug(&IDebug::body_states, out, capacity, count);
+  }
+  PlumbResult debug_constraints(PlumbDebugConstraint* out, std::uint32_t capacity, std::uint32_t* count) {
+    return hand_out_debug(&IDebug::solved_constraints, out, capacity, count);
+  }
 
   // --- settings ------------------------------------------------------------------------------------------------------
 

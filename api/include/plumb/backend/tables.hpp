@@ -44,9 +44,13 @@ inline const PlumbQueriesTable kQueriesTable = {sizeof(PlumbQueriesTable), 0, &E
                                                 &Entry<&GuardedExtensions::overlaps>::call};
 inline const PlumbCollideTable kCollideTable = {sizeof(PlumbCollideTable), 0,
                                                 &Entry<&GuardedExtensions::collide_pairs>::call};
-inline const PlumbDebugTable kDebugTable = {sizeof(PlumbDebugTable), 0, &Entry<&GuardedExtensions::debug_pairs>::call,
+inline const PlumbDebugTable kDebugTable = {sizeof(PlumbDebugTable),
+                                            0,
+                                            &Entry<&GuardedExtensions::debug_pairs>::call,
                                             &Entry<&GuardedExtensions::debug_boxes>::call,
-                                            &Entry<&GuardedExtensions::debug_axes>::call};
+                                            &Entry<&GuardedExtensions::debug_axes>::call,
+                                            &Entry<&GuardedExtensions::debug_bodies>::call,
+                                            &Entry<&GuardedExtensions::debug_constraints>::call};
 inline const PlumbSnapshotTable kSnapshotTable = {sizeof(PlumbSnapshotTable), 0, &Entry<&GuardedExtensions::save>::call,
                                                   &Entry<&GuardedExtensions::restore>::call,
                                                   &Entry<&GuardedExtensions::hash>::call};
