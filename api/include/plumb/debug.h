@@ -48,7 +48,7 @@ typedef struct PlumbDebugTable {
   PlumbResult (*pairs)(PlumbWorld* world, PlumbDebugPair* out, uint32_t capacity, uint32_t* count);
   PlumbResult (*boxes)(PlumbWorld* world, PlumbDebugBox* out, uint32_t capacity, uint32_t* count);
   PlumbResult (*axes)(PlumbWorld* world, PlumbDebugAxis* out, uint32_t capacity, uint32_t* count);
-  /* Since 1.1: look at struct_size before. Every body that the last step knew and that still lives, once. */
+  /* Since 1.1: look at struct_size before. Every body that lives, once. */
   PlumbResult (*bodies)(PlumbWorld* world, PlumbDebugBody* out, uint32_t capacity, uint32_t* count);
   /* Since 1.1. What the last step's solver had to satisfy. */
   PlumbResult (*constraints)(PlumbWorld* world, PlumbDebugConstraint* out, uint32_t capacity, uint32_t* count);
