@@ -1,4 +1,5 @@
-// What Bullet sees: candidate pairs of the broad phase and the boxes of its two trees.
+// What Bullet sees: candidate pairs of the broad phase, the boxes of its two trees, the axes of its manifolds, its
+// islands and what its solver took one after the other.
 #include "world.hpp"
 
 namespace plumb::bullet {
@@ -46,8 +47,55 @@ PlumbResult World::tree_boxes(std::span<const PlumbDebugBox>& boxes) {
   return PLUMB_OK;
 }
 
-PlumbResult World::separating_axes(std::span<const PlumbDebugAxis>& /*axes*/) {
-  throw Error(PLUMB_E_UNSUPPORTED, "Bullet does not keep separating axes");
+/// Of those that are near enough for contact points; Bullet keeps no axes of others.
+PlumbResult World::separating_axes(std::span<const PlumbDebugAxis>& axes) {
+  debug_axes_.clear();
+  btDispatcher& dispatcher = parts_.dispatcher;
+  for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
+    const btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(i);
+    const btManifoldPoint* deepest = nullptr;
+    for (int k = 0; k < manifold.getNumContacts(); ++k) {
+      const btManifoldPoint& point = manifold.getContactPoint(k);
+      if (deepest == nullptr || point.m_distance1 < deepest->m_distance1) deepest = &point;
+    }
+    if (deepest == nullptr) continue;
+    debug_axes_.push_back({our_body(manifold.getBody0())->handle, our_body(manifold.getBody1())->handle,
+                           to_plumb(-deepest->m_normalWorldOnB), static_cast<double>(deepest->m_distance1)});
+  }
+  axes = debug_axes_;
+  return PLUMB_OK;
+}
+
+/// Bullet's islands hold together what is near enough to be a candidate pair, whether it touches or not.
+PlumbResult World::body_states(std::span<const PlumbDebugBody>& bodies) {
+  debug_bodies_.clear();
+  for (const auto& body : bodies_) {
+    if (!body) continue;
+    const bool dynamic = body->is(PLUMB_DYNAMIC);
+    debug_bodies_.push_back(
+        {body->handle, dynamic ? body->getIslandTag() : -1, dynamic && body->is_asleep() ? 1U : 0U});
+  }
+  bodies = debug_bodies_;
+  return PLUMB_OK;
+}
+
+PlumbResult World::solved_constraints(std::span<const PlumbDebugConstraint>& constraints) {
+  if (solver_kind_ == SolverKind::MlcpDantzig || solver_kind_ == SolverKind::MlcpLemke)
+    throw Error(PLUMB_E_UNSUPPORTED, "a direct solver of Bullet takes all constraints of an island as one system");
+  debug_constraints_.clear();
+  btDispatcher& dispatcher = parts_.dispatcher;
+  for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
+    const btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(i);
+    if (manifold.getNumContacts() != 0 && is_solved(manifold))
+      debug_constraints_.push_back(
+          {our_body(manifold.getBody0())->handle, our_body(manifold.getBody1())->handle, 0, -1, 0});
+  }
+  const auto moves = [](const Body* body) { return body != nullptr && body->is(PLUMB_DYNAMIC) && body->isActive(); };
+  for (const auto& joint : joints_)
+    if (joint && (moves(joint->body_a) || moves(joint->body_b)))
+      debug_constraints_.push_back({joint->desc.body_a, joint->desc.body_b, joint->handle, -1, 0});
+  constraints = debug_constraints_;
+  return PLUMB_OK;
 }
 
 }  // namespace plumb::bullet

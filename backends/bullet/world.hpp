@@ -79,6 +79,8 @@ class World final : public IPhysicsWorld,
   PlumbResult candidate_pairs(std::span<const PlumbDebugPair>& pairs) override;
   PlumbResult tree_boxes(std::span<const PlumbDebugBox>& boxes) override;
   PlumbResult separating_axes(std::span<const PlumbDebugAxis>& axes) override;
+  PlumbResult body_states(std::span<const PlumbDebugBody>& bodies) override;
+  PlumbResult solved_constraints(std::span<const PlumbDebugConstraint>& constraints) override;
 
   // step.cpp
   PlumbResult get_setting(const char* name, PlumbSettingValue& value) override;
@@ -166,6 +168,9 @@ class World final : public IPhysicsWorld,
   std::vector<std::byte> snapshot_;
   std::vector<PlumbDebugPair> debug_pairs_;
   std::vector<PlumbDebugBox> debug_boxes_;
+  std::vector<PlumbDebugAxis> debug_axes_;
+  std::vector<PlumbDebugBody> debug_bodies_;
+  std::vector<PlumbDebugConstraint> debug_constraints_;
   double h_ = 0;            ///< of the sub-step in hand, s
   std::mutex query_mutex_;  ///< Bullet's tree keeps one stack for all of its rays
 };
