@@ -81,14 +81,40 @@ void ContactPass::near(void* self, dGeomID first, dGeomID second) {
   static_cast<ContactPass*>(self)->meet(first, second);
 }
 
+bool ContactPass::may_meet(const GeomTag& one, const GeomTag& two) const {
+  const bool sensor = one.sensor || two.sensor;
+  if (sensor ? (one.sensor && two.sensor) : !one.dynamic && !two.dynamic) return false;
+  if (!sensor && !physical_) return false;
+  if (filtered_ && !may_touch(one.body->filter, two.body->filter)) return false;
+  return !(one.choosy && two.choosy && knows(*one.body, *two.body));
+}
+
+std::vector<ContactPass::Touch> ContactPass::look(dSpaceID space) {
+  struct Look {
+    const ContactPass* self;
+    std::vector<dContactGeom> points;
+    std::vector<Touch> found;
+  } look = {this, std::vector<dContactGeom>(scratch_.size()), {}};
+  dSpaceCollide(space, &look, [](void* data, dGeomID first, dGeomID second) {
+    auto& [self, points, found] = *static_cast<Look*>(data);
+    const GeomTag& one = *static_cast<const GeomTag*>(dGeomGetData(first));
+    const GeomTag& two = *static_cast<const GeomTag*>(dGeomGetData(second));
+    if (one.sensor || two.sensor || !self->may_meet(one, two)) return;
+    const int count = dCollide(first, second, static_cast<int>(points.size()), points.data(), sizeof(dContactGeom));
+    if (count == 0) return;
+    const dContactGeom& deepest =
+        *std::max_element(points.begin(), points.begin() + count,
+                          [](const dContactGeom& p, const dContactGeom& q) { return p.depth < q.depth; });
+    found.push_back({one.body, two.body, scale(-1, vec(deepest.normal)), deepest.depth});
+  });
+  return std::move(look.found);
+}
+
 void ContactPass::meet(dGeomID first, dGeomID second) {
   const GeomTag& one = *static_cast<const GeomTag*>(dGeomGetData(first));
   const GeomTag& two = *static_cast<const GeomTag*>(dGeomGetData(second));
+  if (!may_meet(one, two)) return;
   const bool sensor = one.sensor || two.sensor;
-  if (sensor ? (one.sensor && two.sensor) : !one.dynamic && !two.dynamic) return;
-  if (!sensor && !physical_) return;
-  if (filtered_ && !may_touch(one.body->filter, two.body->filter)) return;
-  if (one.choosy && two.choosy && knows(*one.body, *two.body)) return;
   ++pairs_;
   const auto sleeps = [](const GeomTag& tag) { return tag.id == nullptr || dBodyIsEnabled(tag.id) == 0; };
   const Pair pair{one, two, !sleeping_ || !sleeps(one) || !sleeps(two)};

@@ -27,6 +27,14 @@ class ContactPass {
   void begin_substep();
   /// One sub-step's detection: a contact joint for every point, in the group that end_substep empties.
   void detect(dSpaceID space);
+  /// Two geoms that touch where they are, at their deepest point.
+  struct Touch {
+    Body *a, *b;
+    PlumbVec3 normal;  ///< unit, from a to b
+    double depth;      ///< m
+  };
+  /// What a detection would find now, sensors left out. It leaves nothing behind.
+  [[nodiscard]] std::vector<Touch> look(dSpaceID space);
   /// After the solver: reads the impulses that its forces made in h seconds, and takes the contact joints away.
   void end_substep(double h);
   /// Merges the sub-steps' contacts and hands pairs to the events.
@@ -44,6 +52,7 @@ class ContactPass {
   struct Surface;
   static void near(void* self, dGeomID first, dGeomID second);
   void meet(dGeomID first, dGeomID second);
+  [[nodiscard]] bool may_meet(const GeomTag& one, const GeomTag& two) const;
   void respond(const Pair& pair, int count);
   void record(const Pair& pair, const dContactGeom& point, dJointID joint);
   void merge_substeps();

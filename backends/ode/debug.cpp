@@ -1,4 +1,7 @@
-// What ODE sees: the pairs and bounds of its space, where the last step has left the bodies.
+// What ODE sees: the pairs and bounds of its space, and what touches, where the last step has left the bodies.
+#include <algorithm>
+#include <map>
+
 #include "world.hpp"
 
 namespace plumb::ode {
@@ -32,8 +35,48 @@ PlumbResult World::tree_boxes(std::span<const PlumbDebugBox>& boxes) {
   });
 }
 
-PlumbResult World::separating_axes(std::span<const PlumbDebugAxis>&) {
-  throw Error(PLUMB_E_UNSUPPORTED, "ODE does not tell the axes that it tries");
+/// Of those that touch: ODE does not tell along which axes others are apart.
+PlumbResult World::separating_axes(std::span<const PlumbDebugAxis>& axes) {
+  return inside_ode([&] {
+    debug_axes_.clear();
+    if (space_ != nullptr)
+      for (const ContactPass::Touch& touch : contacts_.look(space_))
+        debug_axes_.push_back({touch.a->handle, touch.b->handle, touch.normal, -touch.depth});
+    axes = debug_axes_;
+    return PLUMB_OK;
+  });
+}
+
+/// ODE finds its islands anew in each step and does not tell them: the same are worked out here, of the bodies that
+/// contacts and joints bind.
+PlumbResult World::body_states(std::span<const PlumbDebugBody>& bodies) {
+  return inside_ode([&] {
+    std::map<const Body*, const Body*> parent;
+    const auto root = [&](const Body* body) {
+      for (auto at = parent.find(body); at != parent.end() && at->second != body; at = parent.find(body))
+        body = at->second;
+      return body;
+    };
+    const auto join = [&](const Body* a, const Body* b) {
+      if (a == nullptr || b == nullptr || !a->dynamic() || !b->dynamic()) return;
+      parent[root(a)] = root(b);
+    };
+    if (space_ != nullptr)
+      for (const ContactPass::Touch& touch : contacts_.look(space_)) join(touch.a, touch.b);
+    for (const Joint* joint : joint_order_) join(joint->a, joint->b);
+    debug_bodies_.clear();
+    for (const Body* body : order_) {
+      const std::int32_t island = body->dynamic() ? static_cast<std::int32_t>(slot_of(root(body)->handle)) : -1;
+      debug_bodies_.push_back({body->handle, island, body->dynamic() && body->asleep() ? 1U : 0U});
+    }
+    bodies = debug_bodies_;
+    return PLUMB_OK;
+  });
+}
+
+/// Also for quickstep, which goes row by row in an order that it draws anew: what it worked on is gone after the step.
+PlumbResult World::solved_constraints(std::span<const PlumbDebugConstraint>&) {
+  throw Error(PLUMB_E_UNSUPPORTED, "ODE does not keep its contact constraints beyond the step that solves them");
 }
 
 }  // namespace plumb::ode

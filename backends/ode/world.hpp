@@ -70,6 +70,8 @@ class World final : public IPhysicsWorld,
   PlumbResult candidate_pairs(std::span<const PlumbDebugPair>& pairs) override;
   PlumbResult tree_boxes(std::span<const PlumbDebugBox>& boxes) override;
   PlumbResult separating_axes(std::span<const PlumbDebugAxis>& axes) override;
+  PlumbResult body_states(std::span<const PlumbDebugBody>& bodies) override;
+  PlumbResult solved_constraints(std::span<const PlumbDebugConstraint>& constraints) override;
   PlumbResult get_setting(const char* name, PlumbSettingValue& value) override;
   PlumbResult set_setting(const char* name, const PlumbSettingValue& value) override;
   PlumbResult save(std::span<const std::byte>& data) override;
@@ -152,6 +154,8 @@ class World final : public IPhysicsWorld,
   std::mutex query_mutex_;  // ODE's spaces note things even while they are only asked
   std::vector<PlumbDebugPair> debug_pairs_;
   std::vector<PlumbDebugBox> debug_boxes_;
+  std::vector<PlumbDebugAxis> debug_axes_;
+  std::vector<PlumbDebugBody> debug_bodies_;
   std::vector<std::byte> snapshot_;
 };
 
