@@ -384,6 +384,10 @@ std::vector<ContactRecord> Simulation::contacts() {
   return all;
 }
 
+std::vector<KeptPair> Simulation::solved_manifolds() const {
+  return restored_ || counters().manifolds == 0 ? std::vector<KeptPair>() : narrow_phase_.kept(step_, counters());
+}
+
 std::vector<ContactRecord> Simulation::contacts_of_step() {
   const std::uint32_t count = counters().manifolds;
   if (count == 0 || restored_) return {};

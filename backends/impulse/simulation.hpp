@@ -91,6 +91,8 @@ class Simulation {
   // --- sleep, between steps; body slots. What wakes or falls asleep is told by its slots. ---
   [[nodiscard]] bool sleeps(std::uint32_t body) const { return sleep_.sleeps(body); }
   [[nodiscard]] std::uint32_t sleeper_count() const { return sleep_.count(); }
+  /// 1 + the smallest body of those with whom it fell asleep; 0 where it is awake.
+  [[nodiscard]] std::uint32_t island_asleep(std::uint32_t body) const { return sleep_.island(body); }
   /// With their islands.
   Slots wake(std::span<const std::uint32_t> bodies);
   /// Those who are joined to these, and where asked for those who touch them, with their islands.
@@ -119,6 +121,9 @@ class Simulation {
 
   /// Manifolds of the last step, copied to the host. Impulses are 0 where the scene did not ask for them.
   [[nodiscard]] std::vector<ContactRecord> contacts();
+  /// Likewise with the colours in which they were solved, which mean something where the solver has any.
+  [[nodiscard]] std::vector<KeptPair> solved_manifolds() const;
+  [[nodiscard]] bool solves_in_colours() const { return solver_.needs_colours(); }
   /// What the broad phase of the last step found.
   [[nodiscard]] std::vector<Pair> candidates();
   [[nodiscard]] std::uint32_t candidate_count() const { return narrow_phase_.candidate_count(counters()); }

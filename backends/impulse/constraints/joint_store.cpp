@@ -171,6 +171,16 @@ void JointStore::upload(const Table<BodyMass>& masses) {
   changed_ = false;
 }
 
+std::vector<SolvedJoint> JointStore::solved() const {
+  std::vector<SolvedJoint> joints;
+  if (count_ == 0) return joints;
+  const std::vector<std::uint32_t> list = by_colour_.to_host(count_), first = first_.to_host(kJointColours + 1);
+  for (std::uint32_t colour = 0; colour < colours_; ++colour)
+    for (std::uint32_t i = first[colour]; i < first[colour + 1]; ++i)
+      joints.push_back({ordered_[list[i]].slot, overflow_ && colour + 1 == colours_ ? kJointColours : colour});
+  return joints;
+}
+
 JointSet JointStore::set(const Bodies& bodies, const SolverBodies& solver, bool gyroscopic) {
   const JointView view = {bodies, solver, joints_.data(), work_.data(), impulses_.data(), gyroscopic};
   const JointSystem system = {view,

@@ -11,6 +11,12 @@
 
 namespace plumb::impulse {
 
+/// A joint as the last step took it.
+struct SolvedJoint {
+  std::uint32_t slot;
+  std::uint32_t colour;  ///< kJointColours: it went by itself
+};
+
 struct JointTraits {
   bool lets_bodies_touch;
   bool locks_turns;
@@ -55,6 +61,8 @@ class JointStore {
   /// As of the last upload.
   [[nodiscard]] std::uint32_t count() const { return count_; }
   [[nodiscard]] const Joint* device() { return joints_.data(); }
+  /// Copied to the host.
+  [[nodiscard]] std::vector<SolvedJoint> solved() const;
   /// What the joints ask of a step's code.
   [[nodiscard]] JointCode code() const { return code_; }
   [[nodiscard]] JointSet set(const Bodies& bodies, const SolverBodies& solver, bool gyroscopic);

@@ -40,6 +40,8 @@ class Sleep {
 
   [[nodiscard]] std::uint32_t count() const { return count_; }  ///< of sleepers
   [[nodiscard]] bool sleeps(std::uint32_t body) const { return body < was_.size() && was_[body].island != 0; }
+  /// 1 + the smallest body of those with whom it fell asleep; 0 where it is awake.
+  [[nodiscard]] std::uint32_t island(std::uint32_t body) const { return body < was_.size() ? was_[body].island : 0; }
 
   // --- in a step ---
   /// Marks the islands of sleepers that have a manifold with somebody who is awake and can push, or moves.

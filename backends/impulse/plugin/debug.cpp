@@ -1,4 +1,8 @@
-// plumb.debug/1: candidates and trees of the last step's broad phase, and the axes along which candidates are apart.
+// plumb.debug/1: candidates and trees of the last step's broad phase, the axes along which candidates are apart, and
+// how the solver took what binds the bodies. All is worked out or copied when it is asked for; no step pays.
+#include <cmath>
+#include <numeric>
+
 #include "exec/floating_point.hpp"
 #include "plugin/world.hpp"
 
@@ -70,12 +74,75 @@ PlumbResult World::separating_axes(std::span<const PlumbDebugAxis>& axes) {
   debug_axes_.clear();
   for (std::uint32_t i = 0; i < n; ++i) {
     const PairAnswer& answer = batch.answers[i];
+    if (!std::isfinite(answer.distance)) continue;  // two surfaces: nothing is convex
     debug_axes_.push_back({body_of_last_step(pairs[i].a),
                            body_of_last_step(pairs[i].b),
                            {answer.normal.x, answer.normal.y, answer.normal.z},
                            answer.distance});
   }
   axes = debug_axes_;
+  return PLUMB_OK;
+}
+
+/// By slot: 1 + the smallest slot of those who are bound to it by contacts and joints, or with whom it fell asleep; 0
+/// for a body that nothing pushes.
+std::vector<std::uint32_t> World::islands_of_bodies() {
+  std::vector<std::uint32_t> parent(bodies_.size());
+  std::iota(parent.begin(), parent.end(), 0U);
+  const auto root = [&](std::uint32_t slot) {
+    while (parent[slot] != slot) slot = parent[slot] = parent[parent[slot]];
+    return slot;
+  };
+  const auto is_pushed = [&](std::uint32_t slot) {
+    return bodies_[slot].id != 0 && bodies_[slot].motion == PLUMB_DYNAMIC;
+  };
+  const auto join = [&](std::uint32_t a, std::uint32_t b) {
+    if (!is_pushed(a) || !is_pushed(b) || simulation_.sleeps(a) || simulation_.sleeps(b)) return;
+    const std::uint32_t root_a = root(a), root_b = root(b);
+    parent[std::max(root_a, root_b)] = std::min(root_a, root_b);
+  };
+  for (const ContactRecord& record : records())
+    if (body_of_last_step(record.pair.a) != 0 && body_of_last_step(record.pair.b) != 0)
+      join(record.bodies.a, record.bodies.b);
+  for (const JointRecord& joint : joints_)
+    if (joint.id != 0 && joint.desc.body_a != 0) join(slot_of(joint.desc.body_a), slot_of(joint.desc.body_b));
+  std::vector<std::uint32_t> islands(bodies_.size());
+  for (std::uint32_t slot = 0; slot < bodies_.size(); ++slot)
+    if (is_pushed(slot)) islands[slot] = simulation_.sleeps(slot) ? simulation_.island_asleep(slot) : root(slot) + 1;
+  return islands;
+}
+
+PlumbResult World::body_states(std::span<const PlumbDebugBody>& bodies) {
+  debug_bodies_.clear();
+  const std::vector<std::uint32_t> islands = islands_of_bodies();
+  for (std::uint32_t slot = 0; slot < bodies_.size(); ++slot)
+    if (bodies_[slot].id != 0)
+      debug_bodies_.push_back(
+          {bodies_[slot].id, static_cast<std::int32_t>(islands[slot]) - 1, simulation_.sleeps(slot) ? 1U : 0U});
+  bodies = debug_bodies_;
+  return PLUMB_OK;
+}
+
+/// Contacts have the first colours. A sub-step takes them and the joints in turn, so joints have colours of their own.
+PlumbResult World::solved_constraints(std::span<const PlumbDebugConstraint>& constraints) {
+  if (!simulation_.solves_in_colours())
+    throw Error(PLUMB_E_UNSUPPORTED, "the solver jacobi takes all contacts at once, in no colours");
+  debug_constraints_.clear();
+  for (const KeptPair& contact : simulation_.solved_manifolds()) {
+    const PlumbBody a = body_of_last_step(contact.pair.a), b = body_of_last_step(contact.pair.b);
+    if (a == 0 || b == 0) continue;
+    if (bodies_[slot_of(a)].motion != PLUMB_DYNAMIC && bodies_[slot_of(b)].motion != PLUMB_DYNAMIC) continue;
+    const std::uint32_t colour = contact.kept.colour;
+    debug_constraints_.push_back({a, b, 0, colour < kOverflow ? static_cast<std::int32_t>(colour) : -1, 0});
+  }
+  const std::uint32_t first = simulation_.counters().colour_count;
+  for (const SolvedJoint& solved : simulation_.joints.solved()) {
+    const JointRecord& joint = joints_[solved.slot];
+    if (joint.id == 0 || joint.made_after == simulation_.steps()) continue;
+    const std::int32_t colour = solved.colour < kJointColours ? static_cast<std::int32_t>(first + solved.colour) : -1;
+    debug_constraints_.push_back({joint.desc.body_a, joint.desc.body_b, joint.id, colour, 0});
+  }
+  constraints = debug_constraints_;
   return PLUMB_OK;
 }
 

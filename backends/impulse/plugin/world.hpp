@@ -78,6 +78,8 @@ class World final : public IPhysicsWorld,
   PlumbResult candidate_pairs(std::span<const PlumbDebugPair>& pairs) override;
   PlumbResult tree_boxes(std::span<const PlumbDebugBox>& boxes) override;
   PlumbResult separating_axes(std::span<const PlumbDebugAxis>& axes) override;
+  PlumbResult body_states(std::span<const PlumbDebugBody>& bodies) override;
+  PlumbResult solved_constraints(std::span<const PlumbDebugConstraint>& constraints) override;
   PlumbResult get_setting(const char* name, PlumbSettingValue& value) override;
   PlumbResult set_setting(const char* name, const PlumbSettingValue& value) override;
   PlumbResult save(std::span<const std::byte>& data) override;
@@ -124,6 +126,7 @@ class World final : public IPhysicsWorld,
   void pose_parts(PlumbShape id, const PlumbPose& pose, std::vector<PosedShape>& parts) const;
   [[nodiscard]] PlumbBody body_of_last_step(std::uint32_t proxy) const;
   [[nodiscard]] std::vector<Pair> known_candidates();
+  [[nodiscard]] std::vector<std::uint32_t> islands_of_bodies();
 
   WorldInit init_;
   Simulation simulation_;
@@ -154,6 +157,8 @@ class World final : public IPhysicsWorld,
   std::vector<std::byte> snapshot_;
   std::vector<PlumbDebugBox> debug_boxes_;
   std::vector<PlumbDebugAxis> debug_axes_;
+  std::vector<PlumbDebugBody> debug_bodies_;
+  std::vector<PlumbDebugConstraint> debug_constraints_;
   std::vector<PlumbBody> row_ids_;    // by slot; 0 where nobody is
   std::uint64_t row_generation_ = 0;  // changes with them
   backend::TouchTracker touches_;
