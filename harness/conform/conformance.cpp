@@ -22,8 +22,8 @@ std::vector<Check> all_checks() {
   std::vector<Check> checks;
   for (const std::span<const Check> group :
        {shape_checks(), body_checks(), material_checks(), handle_checks(), event_checks(), exception_checks(),
-        joint_checks(), joint_axis_checks(), query_checks(), query_target_checks(), setting_checks(), snapshot_checks(),
-        thread_checks()})
+        joint_checks(), joint_axis_checks(), query_checks(), query_target_checks(), debug_checks(), setting_checks(),
+        snapshot_checks(), thread_checks()})
     checks.insert(checks.end(), group.begin(), group.end());
   return checks;
 }
