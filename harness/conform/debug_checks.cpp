@@ -337,12 +337,37 @@ void counts(Conformance& c) {
   if (has(*debug, &PlumbDebugTable::constraints)) world.count(c, "constraints", debug->constraints);
 }
 
+/// A world that is asked for all of it after each step goes the way of one that is not.
+void silence(Conformance& c) {
+  if (c.backend().info().determinism < PLUMB_DETERMINISM_RUN) throw Skipped{"no determinism is claimed"};
+  const PlumbNeeds more = c.available(PLUMB_NEED_JOINTS | PLUMB_NEED_SLEEPING);
+  Piles asked(c, more), left(c, more);
+  if (asked.probe.world().debug() == nullptr) throw Skipped{"no " PLUMB_EXT_DEBUG};
+  IDebug& debug = *asked.probe.world().debug();
+  for (int step = 1; step <= 90; ++step) {
+    asked.probe.step();
+    left.probe.step();
+    const auto ask = [&]<class Row>(PlumbResult (IDebug::*look)(std::span<const Row>&)) {
+      std::span<const Row> rows;
+      c.expect((debug.*look)(rows) != PLUMB_E_INTERNAL, "step {}: {}", step, asked.probe.world().error_text());
+    };
+    ask(&IDebug::candidate_pairs);
+    ask(&IDebug::tree_boxes);
+    ask(&IDebug::separating_axes);
+    ask(&IDebug::body_states);
+    ask(&IDebug::solved_constraints);
+  }
+  c.expect(asked.probe.hash() == left.probe.hash(),
+           "after 90 steps a world that was asked differs from one that was not");
+}
+
 constexpr Check kChecks[] = {
     {"debug.boxes", "boxes hold their bodies", &boxes},
     {"debug.trees", "inner boxes hold what is below them", &trees},
     {"debug.axes", "axes against the referee, one for each touch", &axes},
     {"debug.bodies", "islands are who is bound, sleepers who sleeps", &bodies},
     {"debug.constraints", "constraints of a colour share no body, and none is missing", &constraints},
+    {"debug.silence", "asking changes nothing", &silence},
     {"debug.counts", "short arrays are filled, and told to be short", &counts},
 };
 

@@ -61,6 +61,16 @@ void one_colour_for_all() {
 void joints_are_not_told() {
   change_rows_of<&PlumbDebugTable::constraints, [](PlumbDebugConstraint& row) { row.joint = 0; }>();
 }
+void who_asks_pushes() {
+  liar.debug.boxes = [](PlumbWorld* world, PlumbDebugBox* out, std::uint32_t capacity, std::uint32_t* count) {
+    PlumbBody bodies[2];
+    std::uint32_t living = 0;
+    const double velocity[6] = {1e-3, 0, 0, 0, 0, 0};
+    if (honest.core.list_bodies(world, bodies, 2, &living) >= 0 && living > 1)
+      honest.core.write(world, PLUMB_FIELD_VELOCITY, PLUMB_F64, &bodies[1], 1, velocity, sizeof velocity);
+    return honest.debug.boxes(world, out, capacity, count);
+  };
+}
 void boxes_told_whole() {
   liar.debug.boxes = [](PlumbWorld* world, PlumbDebugBox* out, std::uint32_t capacity, std::uint32_t* count) {
     const PlumbResult result = honest.debug.boxes(world, out, capacity, count);
