@@ -73,12 +73,15 @@ StepProblem::StepProblem(std::span<const BodyState> before, std::vector<StepCont
 
 VectorXd StepProblem::impulse_on_bodies(const VectorXd& impulse) const { return h_.transpose() * impulse; }
 
-VectorXd StepProblem::velocity_after(const VectorXd& impulse) const {
-  const VectorXd given = impulse_on_bodies(impulse);
-  VectorXd velocity = free_;
+VectorXd StepProblem::velocity_of(const VectorXd& on_bodies) const {
+  VectorXd velocity(on_bodies.size());
   for (std::size_t i = 0; i < mobility_.size(); ++i)
-    velocity.segment<6>(column(i)) += mobility_[i] * given.segment<6>(column(i));
+    velocity.segment<6>(column(i)) = mobility_[i] * on_bodies.segment<6>(column(i));
   return velocity;
+}
+
+VectorXd StepProblem::velocity_after(const VectorXd& impulse) const {
+  return free_ + velocity_of(impulse_on_bodies(impulse));
 }
 
 }  // namespace plumb::reference

@@ -44,6 +44,8 @@ class StepProblem {
   [[nodiscard]] Eigen::VectorXd velocity_after(const Eigen::VectorXd& impulse) const;
   /// What the contacts give each body: linear (N s) and angular impulse about its centre of mass (N m s).
   [[nodiscard]] Eigen::VectorXd impulse_on_bodies(const Eigen::VectorXd& impulse) const;
+  /// The change of velocity that such impulses on bodies make.
+  [[nodiscard]] Eigen::VectorXd velocity_of(const Eigen::VectorXd& on_bodies) const;
 
  private:
   ContactProblem problem_;
