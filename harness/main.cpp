@@ -91,6 +91,8 @@ int main(int count, char** arguments) {
   add_conform(program, status);
   add_report(program, status);
   add_replay(program, status);
+  add_problem(program, status);
+  add_solve(program, status);
   add_worker(program, status);
   return parse_and_do(program, count, arguments, status);
 }

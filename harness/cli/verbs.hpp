@@ -13,6 +13,8 @@ void add_compare(CLI::App& program, int& status);
 void add_curves(CLI::App& program, int& status);
 void add_conform(CLI::App& program, int& status);
 void add_report(CLI::App& program, int& status);
+void add_problem(CLI::App& program, int& status);
+void add_solve(CLI::App& program, int& status);
 void add_worker(CLI::App& program, int& status);  ///< hidden: what the program starts itself as
 
 }  // namespace plumb::harness

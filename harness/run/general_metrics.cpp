@@ -7,6 +7,7 @@
 #include "measure/contact_laws.hpp"
 #include "measure/drift.hpp"
 #include "measure/mechanics.hpp"
+#include "measure/reference_score.hpp"
 #include "referee/world_penetration.hpp"
 
 namespace plumb::harness {
@@ -50,13 +51,14 @@ Nature nature_of(const Scene& scene) {
 }  // namespace
 
 struct GeneralMetrics::State {
-  explicit State(Simulation& simulation) : laws(simulation) {}
+  explicit State(Simulation& simulation) : laws(simulation), reference(simulation) {}
 
   Nature nature;
   std::vector<referee::ShapePtr> shapes;
   std::vector<referee::Mass> masses;
   std::set<std::pair<std::uint32_t, std::uint32_t>> joined;  ///< bodies that a joint keeps from touching
   ContactLaws laws;
+  ReferenceScore reference;
   std::uint64_t energy_stride = 1, overlap_stride = 1;
 
   referee::EnergyAccount energy;
@@ -128,7 +130,10 @@ GeneralMetrics::GeneralMetrics(Simulation& simulation) : state_(std::make_unique
   s.sample_energy(simulation);
   s.sample_geometry(simulation);
   s.joints.add(scene, simulation.poses(), 0);
-  if (s.overlap_stride == 1) s.laws.before_step(simulation);
+  if (s.overlap_stride == 1) {
+    s.laws.before_step(simulation);
+    s.reference.before_step(simulation);
+  }
 }
 
 GeneralMetrics::~GeneralMetrics() = default;
@@ -142,8 +147,12 @@ void GeneralMetrics::stepped(Simulation& simulation) {
   if (simulation.steps() % s.overlap_stride == 0) {
     s.sample_geometry(simulation);
     s.laws.after_step(simulation);
+    s.reference.after_step(simulation);
   }
-  if ((simulation.steps() + 1) % s.overlap_stride == 0) s.laws.before_step(simulation);
+  if ((simulation.steps() + 1) % s.overlap_stride == 0) {
+    s.laws.before_step(simulation);
+    s.reference.before_step(simulation);
+  }
 }
 
 std::vector<Metric> GeneralMetrics::finish(Simulation& simulation) {
@@ -178,6 +187,7 @@ std::vector<Metric> GeneralMetrics::finish(Simulation& simulation) {
     add("joint_limit_max", s.joints.limit_max(), "beyond a limit, rad or m");
   }
   s.laws.add_to(metrics);
+  s.reference.add_to(metrics);
   if (simulation.statistics().solver_fallbacks > 0)
     add("solver_fallbacks", static_cast<double>(simulation.statistics().solver_fallbacks),
         "steps that another solver finished");
@@ -200,8 +210,8 @@ std::vector<MetricSpec> general_metric_specs() {
                                    {"joint_limit_max", "1"},
                                    {"solver_fallbacks", "1"}})
     specs.push_back({name, unit, "", std::nullopt, std::nullopt});
-  const std::vector<MetricSpec> laws = ContactLaws::specs();
-  specs.insert(specs.end(), laws.begin(), laws.end());
+  for (const std::vector<MetricSpec>& more : {ContactLaws::specs(), ReferenceScore::specs()})
+    specs.insert(specs.end(), more.begin(), more.end());
   return specs;
 }
 
