@@ -1,0 +1,153 @@
+// All bodies of a replay as instances: one draw call for each kind of shape, matrices written in place every frame.
+import { DynamicDrawUsage, EdgesGeometry, Group, InstancedBufferAttribute, InstancedMesh, LineSegments, StaticDrawUsage } from 'three';
+import { writeBodyColour } from './colour.js';
+import { kPose } from './replay.js';
+import { detailFor, kNoShape, shapeGeometry } from './shapes.js';
+
+const kRound = new Set(['sphere', 'capsule', 'plane', 'height_field']);
+const kEdgeAngle = 25; // degrees between faces that show their common edge
+const kManyEdges = 4000; // triangles of one shape beyond which its edges only blur
+
+/** Column-major rotation of a unit quaternion times scale, and the position, into out at offset. */
+export function writeMatrix(poses, pose, scale, out, offset) {
+  const x = poses[pose + 3], y = poses[pose + 4], z = poses[pose + 5], w = poses[pose + 6];
+  const [sx, sy, sz] = scale;
+  out[offset] = (1 - 2 * (y * y + z * z)) * sx;
+  out[offset + 1] = 2 * (x * y + w * z) * sx;
+  out[offset + 2] = 2 * (x * z - w * y) * sx;
+  out[offset + 3] = 0;
+  out[offset + 4] = 2 * (x * y - w * z) * sy;
+  out[offset + 5] = (1 - 2 * (x * x + z * z)) * sy;
+  out[offset + 6] = 2 * (y * z + w * x) * sy;
+  out[offset + 7] = 0;
+  out[offset + 8] = 2 * (x * z + w * y) * sz;
+  out[offset + 9] = 2 * (y * z - w * x) * sz;
+  out[offset + 10] = (1 - 2 * (x * x + y * y)) * sz;
+  out[offset + 11] = 0;
+  out[offset + 12] = poses[pose];
+  out[offset + 13] = poses[pose + 1];
+  out[offset + 14] = poses[pose + 2];
+  out[offset + 15] = 1;
+}
+
+/** Lines drawn once an instance, with the matrices of a mesh: the renderer takes any object that says it is instanced. */
+function instancedEdges(mesh, geometry, material) {
+  const lines = new LineSegments(geometry, material);
+  Object.assign(lines, { isInstancedMesh: true, instanceMatrix: mesh.instanceMatrix, instanceColor: null, morphTexture: null,
+    count: mesh.count, frustumCulled: false });
+  lines.raycast = () => {};
+  return lines;
+}
+
+export class Bodies {
+  constructor(replay, materials, extent) {
+    this.replay = replay;
+    this.materials = materials;
+    this.object = new Group();
+    this.groups = [];
+    /** Where a body is drawn: its group and its place there. */
+    this.place = new Array(replay.bodies.length).fill(null);
+    const detail = detailFor(replay.bodies.length), shapes = replay.header.shapes, kinds = new Map(), made = new Map();
+    replay.bodies.forEach((body, index) => {
+      const number = body.shape ?? -1;
+      const shape = number < 0 ? kNoShape : shapes[number];
+      if (!made.has(number)) made.set(number, shapeGeometry(shape, shapes, { detail, extent }));
+      const shared = made.get(number), fixed = replay.column[index] < 0;
+      const scale = number < 0 ? [extent / 600, extent / 600, extent / 600] : shared.scale;
+      const key = `${fixed} ${shared.key}`;
+      if (!kinds.has(key)) kinds.set(key, { geometry: shared.geometry, fixed, type: shape.type, members: [] });
+      kinds.get(key).members.push({ index, scale });
+    });
+    for (const kind of kinds.values()) this.addGroup(kind);
+    this.baseColours = this.bodyColours();
+    this.paint();
+    this.update();
+  }
+
+  addGroup({ geometry, fixed, type, members }) {
+    const open = type === 'mesh' || type === 'height_field';
+    const material = fixed ? this.materials.ground : open ? this.materials.openBody : this.materials.body;
+    const mesh = new InstancedMesh(geometry, material, members.length);
+    mesh.instanceMatrix.setUsage(fixed ? StaticDrawUsage : DynamicDrawUsage);
+    mesh.frustumCulled = false;
+    mesh.castShadow = type !== 'plane';
+    mesh.receiveShadow = true;
+    if (!fixed) mesh.instanceColor = new InstancedBufferAttribute(new Float32Array(members.length * 3), 3).setUsage(DynamicDrawUsage);
+    const group = { mesh, fixed, members, written: false };
+    members.forEach((member, at) => { this.place[member.index] = { group, at }; });
+    this.groups.push(group);
+    this.object.add(mesh);
+    const triangles = (geometry.index ?? geometry.attributes.position).count / 3;
+    if (!kRound.has(type) && triangles < kManyEdges) {
+      group.edges = new EdgesGeometry(geometry, kEdgeAngle);
+      this.object.add(instancedEdges(mesh, group.edges, fixed ? this.materials.fixedEdge : this.materials.edge));
+    }
+  }
+
+  /** Along the scene by where the bodies start, lowest first; neighbours differ a little, to be told apart. */
+  bodyColours() {
+    const { replay } = this, order = Array.from(replay.moving), colours = new Float32Array(replay.bodies.length * 3);
+    const start = (body) => replay.bodies[body].start;
+    order.sort((a, b) => start(a)[1] - start(b)[1] || start(a)[0] - start(b)[0] || a - b);
+    order.forEach((body, rank) => {
+      const t = order.length > 1 ? rank / (order.length - 1) : 0.35;
+      writeBodyColour(t, rank % 2 ? 0.93 : 1.05, colours, body * 3);
+    });
+    return colours;
+  }
+
+  /** Colours of all moving bodies: by their own colour, or by write(body, out, offset) where given. */
+  paint(write) {
+    for (const { mesh, fixed, members } of this.groups) {
+      if (fixed) continue;
+      const colours = mesh.instanceColor.array;
+      for (let i = 0; i < members.length; ++i) {
+        const body = members[i].index;
+        for (let k = 0; k < 3; ++k) colours[i * 3 + k] = this.baseColours[body * 3 + k];
+        if (write) write(body, colours, i * 3);
+      }
+      mesh.instanceColor.needsUpdate = true;
+    }
+  }
+
+  /** Puts the bodies where the replay's last sample says. */
+  update() {
+    const { poses } = this.replay;
+    for (const group of this.groups) {
+      if (group.fixed && group.written) continue;
+      const { mesh, members } = group, matrices = mesh.instanceMatrix.array;
+      for (let i = 0; i < members.length; ++i) writeMatrix(poses, members[i].index * kPose, members[i].scale, matrices, i * 16);
+      mesh.instanceMatrix.needsUpdate = true;
+      group.written = true;
+    }
+  }
+
+  /** Shows these bodies only; of others nothing is drawn. */
+  showOnly(wanted) {
+    for (const { mesh, members } of this.groups) {
+      const matrices = mesh.instanceMatrix.array;
+      members.forEach(({ index }, i) => { if (!wanted.has(index)) matrices.fill(0, i * 16, i * 16 + 16); });
+      mesh.instanceMatrix.needsUpdate = true;
+    }
+  }
+
+  /** The body that the ray meets first, or null. */
+  pick(raycaster) {
+    let best = null;
+    for (const { mesh, members } of this.groups) {
+      mesh.boundingSphere = null; // of the matrices as they are now
+      for (const hit of raycaster.intersectObject(mesh, false)) {
+        if (!best || hit.distance < best.distance) best = { distance: hit.distance, body: members[hit.instanceId].index };
+      }
+    }
+    return best && best.body;
+  }
+
+  dispose() {
+    for (const { mesh, edges } of this.groups) {
+      mesh.geometry.dispose();
+      mesh.dispose();
+      edges?.dispose();
+    }
+  }
+}

@@ -1,0 +1,62 @@
+// Surfaces of the scenes: matt bodies, and ground with metre lines that fades into the background.
+import { Color, DoubleSide, LineBasicMaterial, MeshLambertMaterial } from 'three';
+
+const kVertexHead = `#include <common>
+varying vec3 vWorld;`;
+const kVertexBody = `#include <project_vertex>
+vec4 worldPoint = vec4(transformed, 1.0);
+#ifdef USE_INSTANCING
+worldPoint = instanceMatrix * worldPoint;
+#endif
+vWorld = (modelMatrix * worldPoint).xyz;`;
+const kFragmentHead = `#include <common>
+varying vec3 vWorld;
+uniform vec3 gridColour, horizon, gridCentre;
+uniform float gridStep, fadeBegin, fadeEnd;
+float gridLine(vec2 at) {
+  vec2 width = fwidth(at), away = abs(fract(at - 0.5) - 0.5) / max(width, vec2(1e-6));
+  vec2 line = (1.0 - min(away, 1.0)) * clamp(0.5 / max(width, vec2(1e-6)) - 0.6, 0.0, 1.0);
+  return max(line.x, line.y);
+}
+float fade() { return smoothstep(fadeBegin, fadeEnd, distance(vWorld, gridCentre)); }`;
+// The two axes along the surface carry the lines: the normal of the face decides which two.
+const kFragmentGrid = `#include <color_fragment>
+vec3 facing = abs(normalize(cross(dFdx(vWorld), dFdy(vWorld))));
+vec2 along = facing.y > 0.5 ? vWorld.xz : facing.x > facing.z ? vWorld.yz : vWorld.xy;
+diffuseColor.rgb = mix(diffuseColor.rgb, gridColour, 0.55 * gridLine(along / gridStep) + 0.25 * gridLine(along / (gridStep * 5.0)));`;
+const kFragmentFade = `gl_FragColor.rgb = mix(gl_FragColor.rgb, horizon, fade());
+#include <colorspace_fragment>`;
+
+/** The nearest of 1, 2, 5 times a power of ten. */
+export function roundStep(length) {
+  const power = 10 ** Math.floor(Math.log10(length)), part = length / power;
+  return power * (part < 1.5 ? 1 : part < 3.5 ? 2 : part < 7.5 ? 5 : 10);
+}
+
+export function makeMaterials(radius, centre) {
+  const uniforms = {
+    gridColour: { value: new Color() }, horizon: { value: new Color() }, gridCentre: { value: centre },
+    gridStep: { value: roundStep(radius / 4) }, fadeBegin: { value: radius * 2.5 }, fadeEnd: { value: radius * 9 },
+  };
+  const behindEdges = { polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 }; // so that edges are not broken by their own faces
+  const ground = new MeshLambertMaterial({ side: DoubleSide, ...behindEdges });
+  ground.onBeforeCompile = (shader) => {
+    Object.assign(shader.uniforms, uniforms);
+    shader.vertexShader = shader.vertexShader.replace('#include <common>', kVertexHead).replace('#include <project_vertex>', kVertexBody);
+    shader.fragmentShader = shader.fragmentShader.replace('#include <common>', kFragmentHead)
+      .replace('#include <color_fragment>', kFragmentGrid).replace('#include <colorspace_fragment>', kFragmentFade);
+  };
+  const body = new MeshLambertMaterial(behindEdges), openBody = new MeshLambertMaterial({ side: DoubleSide, ...behindEdges });
+  const edge = new LineBasicMaterial({ transparent: true, opacity: 0.35, depthWrite: false });
+  const fixedEdge = new LineBasicMaterial({ transparent: true, opacity: 0.22, depthWrite: false });
+  return {
+    ground, body, openBody, edge, fixedEdge, gridStep: uniforms.gridStep.value,
+    paint(theme) {
+      uniforms.gridColour.value.copy(theme.gridLine);
+      uniforms.horizon.value.copy(theme.horizon);
+      ground.color.copy(theme.ground);
+      for (const line of [edge, fixedEdge]) line.color.copy(theme.edge);
+    },
+    dispose() { for (const material of [ground, body, openBody, edge, fixedEdge]) material.dispose(); },
+  };
+}

@@ -1,0 +1,89 @@
+// The 3D scene of one replay: bodies, light, ground and whatever layers are switched on.
+import { DirectionalLight, HemisphereLight, Raycaster, Scene, Vector3 } from 'three';
+import { Bodies } from './bodies.js';
+import { makeMaterials } from './materials.js';
+import { Selection } from './selection.js';
+
+const kSun = new Vector3(-0.55, 1, 0.75).normalize();
+const kExtent = 12; // radius of the disc that stands for a plane, in radii of what happens
+
+export class SceneView {
+  constructor(replay, frame) {
+    this.replay = replay;
+    this.scene = new Scene();
+    this.materials = makeMaterials(frame.radius, frame.centre);
+    this.bodies = new Bodies(replay, this.materials, frame.radius * kExtent);
+    this.markSize = frame.markSize;
+    this.raycaster = new Raycaster();
+    this.sky = new HemisphereLight(0xffffff, 0xffffff, 1);
+    this.sun = new DirectionalLight(0xffffff, 1);
+    this.aimSun(frame);
+    this.selection = new Selection(replay, this.bodies);
+    this.scene.add(this.bodies.object, this.sky, this.sun, this.sun.target, this.selection.object);
+    this.layers = new Map();
+    this.shownFrame = -1;
+  }
+
+  aimSun({ centre, radius }) {
+    const { sun } = this, reach = radius * 1.5;
+    sun.target.position.copy(centre);
+    sun.position.copy(kSun).multiplyScalar(radius * 4).add(centre);
+    sun.castShadow = true;
+    sun.shadow.mapSize.set(2048, 2048);
+    Object.assign(sun.shadow.camera, { left: -reach, right: reach, top: reach, bottom: -reach, near: radius * 0.5, far: radius * 8 });
+    sun.shadow.normalBias = radius / 300;
+    sun.shadow.radius = 3;
+  }
+
+  paint(theme) {
+    this.theme = theme;
+    this.scene.background = theme.background;
+    this.sky.groundColor.copy(theme.ground).lerp(theme.ink, theme.dark ? 0 : 0.15);
+    this.sky.intensity = theme.sky;
+    this.sun.intensity = theme.sun;
+    this.materials.paint(theme);
+    this.selection.paint(theme);
+  }
+
+  /** Layers that draw: created when first switched on, kept for the next time. */
+  setLayer(kind, on) {
+    let layer = this.layers.get(kind.name);
+    if (on && !layer && kind.Drawing) {
+      layer = new kind.Drawing(this.replay, this.markSize);
+      this.layers.set(kind.name, layer);
+      this.scene.add(layer.object);
+    }
+    if (layer) layer.object.visible = on;
+    this.shownFrame = -1;
+  }
+
+  /** Shows the time; colours (may be null) paints bodies that a layer colours. */
+  update(time, colours, context) {
+    const { replay } = this;
+    replay.sample(time);
+    this.bodies.update();
+    if (context.only) this.bodies.showOnly(context.only(replay));
+    this.selection.update();
+    if (replay.frame !== this.shownFrame || context.always) {
+      this.shownFrame = replay.frame;
+      this.bodies.paint(colours);
+      for (const layer of this.layers.values()) {
+        if (layer.object.visible) layer.update(context);
+      }
+    }
+  }
+
+  /** The body under the point, in -1..1 of the view. */
+  pick(point, camera) {
+    this.raycaster.setFromCamera(point, camera);
+    return this.bodies.pick(this.raycaster);
+  }
+
+  dispose() {
+    this.bodies.dispose();
+    this.materials.dispose();
+    this.selection.dispose();
+    for (const layer of this.layers.values()) layer.dispose();
+    this.sun.shadow.map?.dispose();
+  }
+}

@@ -1,0 +1,100 @@
+// One engine's place in the viewer: its name and verdict, the window onto its scene, its curves.
+import { Vector2, Vector3 } from 'three';
+import { Curves } from './curves.js';
+import { element } from './dom.js';
+import { missing } from './layers.js';
+import { kPose } from './replay.js';
+import { digits, quantity } from './quantity.js';
+import { SceneView } from './scene_view.js';
+
+const kLabels = 24; // contact ids written beside their points, at most
+
+export class View {
+  constructor(replay, frame, hue, callbacks) {
+    this.replay = replay;
+    this.scene = new SceneView(replay, frame);
+    this.curves = new Curves(replay);
+    this.notes = element('ul', { class: 'pv-notes', 'aria-live': 'polite' });
+    this.card = element('dl', { class: 'pv-card', hidden: true });
+    this.labels = Array.from({ length: kLabels }, () => element('span', { class: 'pv-label', hidden: true }));
+    const { backend, label, status, reason } = replay.header, name = label || backend;
+    this.port = element('div', { class: 'pv-port', tabindex: 0, role: 'img', 'aria-label': `${name}: 3D replay. Drag to turn, click a body for its numbers.` },
+      ...this.labels, this.notes, this.card);
+    this.verdict = element('span', { class: `chip ${status ?? ''}`, title: reason || undefined }, status ?? '');
+    this.element = element('article', { class: 'pv-view', style: `--c:var(--hue${hue},#0072b2)`, 'aria-label': name },
+      element('header', {}, element('i', { class: 'pv-engine' }), element('b', {}, name), status ? this.verdict : null,
+        reason ? element('small', { title: reason }, reason) : null),
+      this.port, this.curves.element);
+    this.pressed = new Vector2();
+    this.port.addEventListener('pointerdown', (event) => this.pressed.set(event.clientX, event.clientY));
+    this.port.addEventListener('pointerup', (event) => {
+      if (this.pressed.distanceTo(new Vector2(event.clientX, event.clientY)) < 4) callbacks.pick(this, event);
+    });
+    this.projected = new Vector3();
+  }
+
+  get name() { return this.replay.header.label || this.replay.header.backend; }
+
+  /** Writes into the view what of the layers that are on this replay does not have. */
+  explain(kinds) {
+    this.notes.replaceChildren(...kinds.map((kind) => [kind, missing(kind, this.replay)]).filter(([, why]) => why)
+      .map(([kind, why]) => element('li', {}, `${kind.label}: ${why}`)));
+  }
+
+  select(body) {
+    this.scene.selection.set(body);
+    this.card.hidden = body === null;
+    if (body !== null) this.describe();
+  }
+
+  /** The picked body in numbers. */
+  describe() {
+    const { replay } = this, { body } = this.scene.selection;
+    if (body === null) return;
+    const { name, motion } = replay.bodies[body], p = body * kPose, facts = [];
+    facts.push(['position', `${digits(replay.poses[p])}, ${digits(replay.poses[p + 1])}, ${digits(replay.poses[p + 2])} m`]);
+    if (motion !== 'static') facts.push(['speed', quantity(replay.speed(body), 'm/s')]);
+    const overlap = replay.value('penetration', body), island = replay.value('islands', body);
+    if (overlap !== undefined) facts.push(['overlap', quantity(overlap, 'm')]);
+    const touching = this.contactsOf(body);
+    if (touching) facts.push(['contacts', touching.force === null ? `${touching.count}` : `${touching.count}, ${quantity(touching.force, 'N')}`]);
+    if (island !== undefined) facts.push(['island', island < 0 ? 'none' : `${island}`]);
+    if (replay.has('asleep')) facts.push(['asleep', replay.value('asleep', body) ? 'yes' : 'no']);
+    this.card.replaceChildren(element('dt', { class: 'pv-card-name' }, name || `body ${body}`), element('dd', {}, motion),
+      ...facts.flatMap(([title, text]) => [element('dt', {}, title), element('dd', {}, text)]));
+  }
+
+  /** {count, force: sum along the normals or null} of a body, or null where contacts were not recorded. */
+  contactsOf(body) {
+    const { replay } = this, { sections } = replay, a = sections['contacts/body_a'], b = sections['contacts/body_b'], forces = sections['contacts/force'];
+    if (!a) return null;
+    let count = 0, force = forces ? 0 : null;
+    for (let row = replay.first('contacts'), end = replay.first('contacts', 1); row < end; ++row) {
+      if (a[row] !== body && b[row] !== body) continue;
+      ++count;
+      if (forces) force += forces[row];
+    }
+    return { count, force: Number.isFinite(force) ? force : null };
+  }
+
+  /** Ids beside the contacts of the picked body, or of all where they are few. */
+  placeLabels(camera, on) {
+    const { replay } = this, { sections } = replay, ids = sections['contacts/id'], { body } = this.scene.selection;
+    let used = 0;
+    if (on && ids && sections['contacts/point']) {
+      const first = replay.first('contacts'), end = replay.first('contacts', 1);
+      for (let row = first; row < end && used < kLabels; ++row) {
+        if (body === null ? end - first > kLabels : sections['contacts/body_a'][row] !== body && sections['contacts/body_b'][row] !== body) continue;
+        const at = this.projected.fromArray(sections['contacts/point'], row * 3).project(camera);
+        if (at.z > 1) continue;
+        const label = this.labels[used++];
+        label.hidden = false;
+        label.textContent = ids[row].toString(16);
+        label.style.transform = `translate(${((at.x + 1) / 2) * this.port.clientWidth + 7}px, ${((1 - at.y) / 2) * this.port.clientHeight - 8}px)`;
+      }
+    }
+    for (; used < kLabels && !this.labels[used].hidden; ++used) this.labels[used].hidden = true;
+  }
+
+  dispose() { this.scene.dispose(); }
+}
