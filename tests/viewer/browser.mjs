@@ -7,7 +7,7 @@ import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { pathToFileURL } from 'node:url';
 import { page as makePage } from './page.mjs';
-import { crowd, script, tower, zoo } from './synthetic.mjs';
+import { crowd, pairScripts, script, tower, zoo } from './synthetic.mjs';
 
 const folder = process.env.PLUMB_VIEWER_FOLDER, root = process.env.PLUMB_SOURCE;
 const executablePath = process.env.PLUMB_CHROMIUM ?? '/usr/bin/chromium';
@@ -27,6 +27,7 @@ before(async () => {
   writeFileSync(file, makePage(root, join(folder, 'viewer.js'), [
     script('tower H=10', 'alpha', tower('alpha')), script('tower H=10', 'beta', tower('beta', { lean: 3, layers: false, status: 'failed', reason: 'it leans' })),
     script('shapes', 'alpha', zoo('alpha')), script('crowd 5000', 'alpha', crowd('alpha', { frames: 8 })),
+    ...pairScripts(['alpha', 'beta']),
   ]));
   browser = await chromium.launch({ executablePath, args: kArguments });
 });
@@ -151,6 +152,25 @@ test('all shapes, five thousand bodies, both themes and a telephone', async () =
     }, { size: { width: 390, height: 780 }, context: { colorScheme, hasTouch: true, isMobile: true } });
   }
 });
+
+test('pairs of shapes are chosen from a matrix and shown side by side', () => visit(async (page) => {
+  await page.locator('.pv-scene select').selectOption({ label: 'pairs of shapes' });
+  await page.waitForFunction(() => window.plumbViewer.describe().kind === 'pairs');
+  assert.equal(await page.locator('.pv-pairs button').count(), 6);
+  await page.locator('[data-pair="pair box-sphere"]').click();
+  await page.waitForFunction(() => window.plumbViewer.describe().scene === 'pair box-sphere');
+  const { backends, layers } = await page.evaluate(() => window.plumbViewer.describe());
+  assert.deepEqual(backends, ['alpha', 'beta']);
+  assert.deepEqual(layers.filter(({ on }) => on).map(({ name }) => name), ['contacts', 'axes']);
+  const apart = await picture(page);
+  await page.evaluate(() => window.plumbViewer.seek(0.8));
+  assert.notEqual((await picture(page)).sum, apart.sum);
+  assert.deepEqual(await page.locator('.pv-strip:first-child .pv-value').allTextContents(), ['\u2212197 mm', '\u2212187 mm']);
+  await page.evaluate(() => window.plumbViewer.selectPair('capsule', 'capsule'));
+  assert.equal((await page.evaluate(() => window.plumbViewer.describe())).scene, 'pair capsule-capsule');
+  await page.evaluate(() => window.plumbViewer.select('tower H=10'));
+  assert.deepEqual((await page.evaluate(() => window.plumbViewer.describe())).layers.filter(({ on }) => on), []);
+}));
 
 test('without WebGL it says so in words', async () => {
   const blind = await chromium.launch({ executablePath, args: [...kArguments.filter((argument) => !/gl|swiftshader/.test(argument)), '--disable-gpu', '--disable-3d-apis'] });

@@ -140,3 +140,28 @@ export function crowd(backend, { count = 5000, frames = 30 } = {}) {
   return replay({ scene: `crowd ${count}`, title: 'many boxes', backend, bodies, frames, pose,
     shapes: [{ type: 'plane', normal: [0, 1, 0], offset: 0 }, { type: 'box', half_extents: [0.25, 0.25, 0.25] }] });
 }
+
+/** A tour of one shape around another as the pair viewer plays it; `bias` is added to the engine's distance, m. */
+export function pair(a, b, backend, { bias = 0, frames = 60 } = {}) {
+  const kinds = { sphere: { type: 'sphere', radius: 0.45 }, box: { type: 'box', half_extents: [0.5, 0.35, 0.4] }, capsule: { type: 'capsule', radius: 0.25, half_height: 0.35 } };
+  const bodies = [{ name: a, shape: 0, motion: 'static', start: [0, 0, 0, 0, 0, 0, 1] }, { name: b, shape: 1, motion: 'dynamic' }];
+  const height = (f) => 0.85 + 0.25 * Math.cos(f / 8), pose = (f) => [0, height(f), 0, ...quaternion([0, 1, 0], f / 20)];
+  const each = (make) => Array.from({ length: frames }, (_, f) => make(f)), gap = (f) => height(f) - 0.8;
+  const contacts = ragged(each((f) => (gap(f) < 0 ? [[-0.2, 0.4, -0.2], [0.2, 0.4, 0.2]] : []))), axes = ragged(each((f) => [gap(f)]));
+  return replay({ scene: `pair ${a}-${b}`, title: `${a} and ${b}`, backend, frames, rate: 30, status: 'ok', bodies, pose, shapes: [kinds[a], kinds[b]], quantised: false,
+    header: { kind: 'pairs', series: { distance: { unit: 'm' }, true_distance: { unit: 'm' } } },
+    extra: {
+      'series/distance': ['f32', each((f) => gap(f) + bias)], 'series/true_distance': ['f32', each(gap)],
+      'contacts/start': ['u32', contacts.start], 'contacts/body_a': ['u32', contacts.rows.map(() => 0)], 'contacts/body_b': ['u32', contacts.rows.map(() => 1)],
+      'contacts/point': ['f32', contacts.rows.flat()], 'contacts/normal': ['f32', contacts.rows.flatMap(() => [0, 1, 0])], 'contacts/depth': ['f32', contacts.rows.map(() => 0.01)],
+      'contacts/id': ['u32', contacts.rows.map((_, i) => i % 2)],
+      'axes/start': ['u32', axes.start], 'axes/body_a': ['u32', axes.rows.map(() => 0)], 'axes/body_b': ['u32', axes.rows.map(() => 1)],
+      'axes/axis': ['f32', axes.rows.flatMap(() => [0, 1, 0])], 'axes/separation': ['f32', axes.rows],
+    } });
+}
+
+/** Scripts of all pairs of three kinds in the given backends. */
+export function pairScripts(backends) {
+  const pairs = [['sphere', 'sphere'], ['box', 'sphere'], ['capsule', 'sphere'], ['box', 'box'], ['capsule', 'box'], ['capsule', 'capsule']];
+  return pairs.flatMap(([a, b]) => backends.map((backend, i) => script(`pair ${a}-${b}`, backend, pair(a, b, backend, { bias: 0.01 * i }))));
+}

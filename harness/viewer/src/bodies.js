@@ -5,6 +5,7 @@ import { kPose } from './replay.js';
 import { detailFor, kNoShape, shapeGeometry } from './shapes.js';
 
 const kRound = new Set(['sphere', 'capsule', 'plane', 'height_field']);
+const kGround = new Set(['plane', 'mesh', 'height_field']);
 const kEdgeAngle = 25; // degrees between faces that show their common edge
 const kManyEdges = 4000; // triangles of one shape beyond which its edges only blur
 
@@ -52,7 +53,8 @@ export class Bodies {
       const number = body.shape ?? -1;
       const shape = number < 0 ? kNoShape : shapes[number];
       if (!made.has(number)) made.set(number, shapeGeometry(shape, shapes, { detail, extent }));
-      const shared = made.get(number), fixed = replay.column[index] < 0;
+      // Of a pair of shapes the one at rest is a body like the other, not ground.
+      const shared = made.get(number), fixed = !replay.moves(index) && (replay.header.kind !== 'pairs' || kGround.has(shape.type));
       const scale = number < 0 ? [extent / 600, extent / 600, extent / 600] : shared.scale;
       const key = `${fixed} ${shared.key}`;
       if (!kinds.has(key)) kinds.set(key, { geometry: shared.geometry, fixed, type: shape.type, members: [] });
@@ -86,7 +88,7 @@ export class Bodies {
 
   /** Along the scene by where the bodies start, lowest first; neighbours differ a little, to be told apart. */
   bodyColours() {
-    const { replay } = this, order = Array.from(replay.moving), colours = new Float32Array(replay.bodies.length * 3);
+    const { replay } = this, order = [...replay.bodies.keys()].filter((body) => !this.place[body].group.fixed), colours = new Float32Array(replay.bodies.length * 3);
     const start = (body) => replay.bodies[body].start;
     order.sort((a, b) => start(a)[1] - start(b)[1] || start(a)[0] - start(b)[0] || a - b);
     order.forEach((body, rank) => {
@@ -119,15 +121,6 @@ export class Bodies {
       for (let i = 0; i < members.length; ++i) writeMatrix(poses, members[i].index * kPose, members[i].scale, matrices, i * 16);
       mesh.instanceMatrix.needsUpdate = true;
       group.written = true;
-    }
-  }
-
-  /** Shows these bodies only; of others nothing is drawn. */
-  showOnly(wanted) {
-    for (const { mesh, members } of this.groups) {
-      const matrices = mesh.instanceMatrix.array;
-      members.forEach(({ index }, i) => { if (!wanted.has(index)) matrices.fill(0, i * 16, i * 16 + 16); });
-      mesh.instanceMatrix.needsUpdate = true;
     }
   }
 

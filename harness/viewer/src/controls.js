@@ -3,6 +3,7 @@ import { kSpeeds } from './clock.js';
 import { seriesName } from './curves.js';
 import { element, icon } from './dom.js';
 import { kKeys } from './keys.js';
+import { pairOf } from './pairs.js';
 import { kLayers, missing } from './layers.js';
 import { legends } from './legends.js';
 
@@ -10,7 +11,7 @@ const kPlay = 'M4 2.5v11l9-5.5z', kPause = 'M4 2.5h3v11H4zM9 2.5h3v11H9z', kBack
 const kLoop = 'M4 5h6V3l3.5 3L10 9V7H5v2H3.5V5.5zM12 11H6v2l-3.5-3L6 7v2h5V7h1.5v3.5z';
 const kCamera = 'M2 2h4v1.5H3.5V6H2zM10 2h4v4h-1.5V3.5H10zM2 10h1.5v2.5H6V14H2zM12.5 10H14v4h-4v-1.5h2.5zM8 6a2 2 0 110 4 2 2 0 010-4z';
 const kFull = 'M2 2h5v1.6H4.7L7 5.9 5.9 7 3.6 4.7V7H2zM9 14v-1.6h2.3L9 10.1 10.1 9l2.3 2.3V9H14v5z';
-const kFirstSeries = ['energy', 'energy_drift'];
+const kFirstSeries = ['energy', 'energy_drift', 'distance', 'true_distance']; // shown at first, where recorded
 const kTicks = 2000; // of the time line
 
 export class Controls {
@@ -18,8 +19,9 @@ export class Controls {
     this.viewer = viewer;
     this.playing = false;
     this.chosen = new Set(kFirstSeries);
+    const { names } = viewer.library, scenes = names.filter((name) => !pairOf(name));
     this.scene = element('select', { 'aria-label': 'scene', onchange: () => viewer.select(this.scene.value) },
-      ...viewer.library.names.map((name) => element('option', { value: name }, name)));
+      ...scenes.map((name) => element('option', { value: name }, name)), viewer.pairs.first ? element('option', { value: viewer.pairs.first }, 'pairs of shapes') : null);
     this.title = element('span', { class: 'pv-title' });
     this.engines = element('span', { class: 'pv-group', role: 'group', 'aria-label': 'engines' });
     this.layers = element('span', { class: 'pv-group', role: 'group', 'aria-label': 'layers' });
@@ -28,7 +30,7 @@ export class Controls {
     this.depth = element('select', { 'aria-label': 'depth of the tree boxes', hidden: true, onchange: () => viewer.setBoxDepth(this.depthValue()) });
     this.message = element('p', { class: 'pv-message', role: 'status', hidden: true });
     this.top = element('div', { class: 'pv-top' },
-      element('div', { class: 'pv-row' }, viewer.library.names.length > 1 ? element('label', { class: 'pv-scene' }, this.scene) : null, this.title, this.engines),
+      element('div', { class: 'pv-row' }, this.scene.options.length > 1 ? element('label', { class: 'pv-scene' }, this.scene) : null, this.title, this.engines),
       element('div', { class: 'pv-row' }, element('span', { class: 'pv-word' }, 'Layers'), this.layers, this.depth),
       element('div', { class: 'pv-row pv-curve-row' }, element('span', { class: 'pv-word' }, 'Curves'), this.curves, element('label', { class: 'pv-check' }, this.scale, 'same scale')),
       this.message);
@@ -50,7 +52,7 @@ export class Controls {
     const keys = element('details', { class: 'pv-keys' }, element('summary', { title: 'keys', 'aria-label': 'keys' }, '?'),
       element('dl', {}, ...kKeys.flatMap(([key, does]) => [element('dt', {}, key), element('dd', {}, does)])));
     return element('div', { class: 'pv-transport', role: 'group', 'aria-label': 'playback' },
-      this.playButton, button(kBack, 'a frame back', () => viewer.stepFrames(-1)), button(kOn, 'a frame on', () => viewer.stepFrames(1)),
+      this.playButton, button(kBack, 'a frame back', () => viewer.stepFrames(-1), { class: 'pv-button pv-step' }), button(kOn, 'a frame on', () => viewer.stepFrames(1), { class: 'pv-button pv-step' }),
       this.slider, this.readout, this.speed, this.loopButton,
       button(kCamera, 'reset the camera', () => viewer.resetCamera()), button(kFull, 'fill the window', () => viewer.present()), keys);
   }
@@ -58,7 +60,7 @@ export class Controls {
   /** Fits the controls to the scene that is shown. */
   show({ views, sceneName }) {
     const { viewer } = this, { header } = views[0].replay;
-    this.scene.value = sceneName;
+    this.scene.value = pairOf(sceneName) ? viewer.pairs.first : sceneName;
     this.title.textContent = header.title ?? '';
     this.engines.replaceChildren(...(views.length < 2 ? [] : views.map((view) => {
       const { backend } = view.replay.header;

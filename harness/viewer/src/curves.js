@@ -4,8 +4,9 @@ import { digits, quantity } from './quantity.js';
 
 export const kSeries = {
   energy: 'energy', energy_drift: 'energy drift', momentum_drift: 'momentum drift', max_penetration: 'deepest overlap', contacts: 'contacts',
+  distance: 'distance', true_distance: 'true distance', depth_error: 'error of the depth',
 };
-const kUnits = { energy: 'J', energy_drift: '1', momentum_drift: '1', max_penetration: 'm', contacts: '1' };
+const kUnits = { energy: 'J', energy_drift: '1', momentum_drift: '1', max_penetration: 'm', contacts: '1', distance: 'm', true_distance: 'm', depth_error: 'm' };
 const kWidth = 400, kHeight = 40; // of the drawing, stretched to the strip
 const kColumns = 400; // beyond so many frames a column shows the least and the most of its frames
 

@@ -4,6 +4,7 @@ import { shapeRadius } from './shapes.js';
 
 const kFrames = 24; // looked at, of each replay
 const kTail = 0.04; // of the positions at either end, left out
+const kSmall = 3; // times the largest that moves: what stands still and is larger is ground
 
 function quantile(sorted, q) {
   return sorted[Math.min(sorted.length - 1, Math.max(0, Math.round(q * (sorted.length - 1))))];
@@ -35,11 +36,11 @@ export function framing(replays) {
       if (values.length) grow(axis, quantile(values, kTail) - largest, quantile(values, 1 - kTail) + largest);
       replay.moving.forEach((body, c) => grow(axis, replay.bodies[body].start[axis] - radii[c] * 0.6, replay.bodies[body].start[axis] + radii[c] * 0.6));
     }
-    if (!replay.moving.length) {
-      for (const body of replay.bodies) {
-        const radius = shapeRadius(replay.header.shapes[body.shape], replay.header.shapes);
-        for (let axis = 0; axis < 3; ++axis) grow(axis, body.start[axis] - radius, body.start[axis] + radius);
-      }
+    const widest = radii.length ? kSmall * Math.max(...radii) : Infinity;
+    for (const body of replay.bodies) {
+      const radius = shapeRadius(replay.header.shapes[body.shape], replay.header.shapes);
+      if (body.motion === 'dynamic' || !(radius > 0) || radius > widest) continue;
+      for (let axis = 0; axis < 3; ++axis) grow(axis, body.start[axis] - 0.6 * radius, body.start[axis] + 0.6 * radius);
     }
   }
   const centre = new Vector3(), size = new Vector3(1, 1, 1);
@@ -51,7 +52,7 @@ export function framing(replays) {
   return { centre, radius, half: size.multiplyScalar(0.5), markSize: Math.min(radius / 55, (bodySize(replays) || radius) / 9) };
 }
 
-const kMargin = 0.88; // of the half view that the picture may fill
+const kMargin = 0.9; // of the half view that the picture may fill
 
 /** Puts the camera as near as shows the whole box of the framing. */
 export function placeCamera(camera, target, { centre, radius, half }, direction = new Vector3(0.62, 0.42, 1)) {

@@ -18,14 +18,14 @@ export class ConstraintLayer {
   }
 
   update() {
-    const { replay, marks } = this, { sections, poses, column } = replay;
+    const { replay, marks } = this, { sections, poses } = replay;
     const a = sections['constraints/body_a'], b = sections['constraints/body_b'], colours = sections['constraints/colour'];
     marks.clear();
     for (let row = replay.first('constraints'), end = replay.first('constraints', 1); row < end; ++row) {
       const [x, y, z] = this.partners.meet(a[row], b[row]), rgb = graphColour(colours[row]);
       for (let side = 0; side < 2; ++side) {
         const body = side ? b[row] : a[row];
-        if (column[body] < 0) continue;
+        if (!replay.moves(body)) continue;
         const mark = marks.next(), p = body * kPose;
         writeAlong(marks.matrices, mark * 16, x, y, z, poses[p] - x, poses[p + 1] - y, poses[p + 2] - z, this.size * 0.6);
         marks.colour(mark, rgb);

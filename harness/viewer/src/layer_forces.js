@@ -25,7 +25,7 @@ export class ForceLayer {
       const x = points[row * 3], y = points[row * 3 + 1], z = points[row * 3 + 2];
       for (const bodies of ends) {
         const body = bodies[row];
-        if (replay.column[body] < 0) continue;
+        if (!replay.moves(body)) continue;
         const p = body * kPose, mark = marks.next();
         writeAlong(marks.matrices, mark * 16, x, y, z, poses[p] - x, poses[p + 1] - y, poses[p + 2] - z, this.size * (0.25 + 1.6 * Math.sqrt(Math.min(t, 1))));
         forceMap.write(t, marks.colours, mark * 3);

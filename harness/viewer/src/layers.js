@@ -36,11 +36,15 @@ export const kLayers = [
   { name: 'constraints', label: 'Graph colours', about: 'constraints of one colour are solved at the same time', needs: ['constraints/start', 'constraints/colour'], Drawing: ConstraintLayer },
 ];
 
+/** Engines that do not tell a number write what is none. */
+const told = (values) => !(values instanceof Float32Array) || values.length === 0 || values.some(Number.isFinite);
+
 /** Why the replay cannot show the layer, or null where it can. */
 export function missing(kind, replay) {
-  if (kind.needs.every((section) => replay.has(section))) return null;
-  const said = replay.header.missing?.[kind.name];
-  return said ?? `${replay.header.backend} did not record ${kind.needs.find((section) => !replay.has(section)).replace('/', ' ')}`;
+  const { backend, recorded } = replay.header, lacking = kind.needs.find((section) => !replay.has(section));
+  if (lacking) return recorded?.without?.[lacking.split('/')[0]] ?? `${backend} did not record ${lacking.split('/')[0]}`;
+  const silent = kind.needs.find((section) => !told(replay.sections[section]));
+  return silent ? `${backend} does not tell ${silent.replace('/', ' ')}` : null;
 }
 
 /** One painter of those that are on, in their order, or null. */

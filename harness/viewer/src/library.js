@@ -2,22 +2,27 @@
 import { decodeBundle } from './bundle.js';
 import { Replay } from './replay.js';
 
+const kHues = 8; // --hue0 to --hue7 in the page's style
+
 export class Library {
   constructor(scripts) {
     this.scenes = new Map();
-    this.backends = [];
+    this.hues = new Map();
     for (const script of scripts) {
-      const { scene = 'scene', backend = 'engine' } = script.dataset;
+      const { scene = 'scene', backend = 'engine', hue } = script.dataset;
       if (!this.scenes.has(scene)) this.scenes.set(scene, []);
-      if (!this.backends.includes(backend)) this.backends.push(backend);
+      if (!this.hues.has(backend)) this.hues.set(backend, Number(hue ?? this.hues.size) % kHues);
       this.scenes.get(scene).push({ script, backend, replay: null });
     }
   }
 
+  /** Backends of a scene. */
+  backendsOf(scene) { return this.scenes.get(scene).map(({ backend }) => backend); }
+
   get names() { return [...this.scenes.keys()]; }
 
-  /** The page's colour of a backend. */
-  hue(backend) { return Math.max(this.backends.indexOf(backend), 0) % 8; }
+  /** Number of the page's colour of a backend: what its script says in data-hue, else by order. */
+  hue(backend) { return this.hues.get(backend); }
 
   /** Replays of a scene. Throws an Error that names the bundle which cannot be opened. */
   async open(scene) {

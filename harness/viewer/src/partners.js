@@ -1,5 +1,8 @@
 // Where a pair of bodies meets: their contact of this frame where there is one, else between their centres.
 import { kPose } from './replay.js';
+import { shapeRadius } from './shapes.js';
+
+const kWide = 4; // as many times the other's radius: the centre of such a body is nowhere near the place
 
 export class Partners {
   constructor(replay) {
@@ -7,7 +10,12 @@ export class Partners {
     this.rows = new Map();
     this.point = new Float64Array(3);
     this.frame = -1;
+    const { shapes } = replay.header;
+    this.radii = Float64Array.from(replay.bodies, (body) => shapeRadius(shapes[body.shape], shapes) || Infinity);
   }
+
+  /** Whether the centre of a body says where it is, beside the other. */
+  compact(body, other) { return this.replay.moves(body) || this.radii[body] < kWide * this.radii[other]; }
 
   index() {
     const { replay, rows } = this, a = replay.sections['contacts/body_a'], b = replay.sections['contacts/body_b'];
@@ -19,15 +27,15 @@ export class Partners {
     }
   }
 
-  /** The point in this.point. A body that does not move has its centre anywhere, so the other one's counts. */
+  /** The point in this.point. */
   meet(a, b) {
-    const { replay, point } = this, { poses, column } = replay;
+    const { replay, point } = this, { poses } = replay;
     if (this.frame !== replay.frame) this.index();
     const row = this.rows.get(Math.min(a, b) * replay.bodies.length + Math.max(a, b));
     for (let i = 0; i < 3; ++i) {
       if (row !== undefined) point[i] = replay.sections['contacts/point'][row * 3 + i];
-      else if (column[a] < 0) point[i] = poses[b * kPose + i];
-      else if (column[b] < 0) point[i] = poses[a * kPose + i];
+      else if (!this.compact(a, b)) point[i] = poses[b * kPose + i];
+      else if (!this.compact(b, a)) point[i] = poses[a * kPose + i];
       else point[i] = 0.5 * (poses[a * kPose + i] + poses[b * kPose + i]);
     }
     return point;

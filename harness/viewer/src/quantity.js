@@ -5,8 +5,8 @@ const kPrefixes = [[1e9, 'G'], [1e6, 'M'], [1e3, 'k'], [1, ''], [1e-3, 'm'], [1e
 export function digits(value, count = 3) {
   if (value === 0) return '0';
   if (!Number.isFinite(value)) return Number.isNaN(value) ? 'not a number' : value > 0 ? '\u221e' : '\u2212\u221e';
-  const exponent = Math.floor(Math.log10(Math.abs(value)));
-  const text = exponent < -3 || exponent >= 6 ? value.toExponential(count - 1).replace(/\.?0+e/, 'e').replace('e+', 'e')
+  const rounded = value.toExponential(count - 1), exponent = Number(rounded.slice(rounded.indexOf('e') + 1));
+  const text = exponent < -3 || exponent >= 6 ? rounded.replace(/\.?0+e/, 'e').replace('e+', 'e')
     : value.toFixed(Math.min(Math.max(count - 1 - exponent, 0), 8));
   return text.replace('-', '\u2212');
 }

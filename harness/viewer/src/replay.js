@@ -26,6 +26,9 @@ export class Replay {
   get begin() { return this.frames ? this.times[0] : 0; }
   get end() { return this.frames ? this.times[this.frames - 1] : 0; }
 
+  /** False for what stands still, and for a body that is not in the list. */
+  moves(body) { return this.column[body] >= 0; }
+
   has(section) { return this.sections[section] !== undefined; }
 
   /** The last frame that is not after the time; times are stored in single precision. */
@@ -82,14 +85,14 @@ export class Replay {
   /** A value of a moving body at the current frame, or undefined where the section or the column is missing. */
   value(section, body) {
     const values = this.sections[section], column = this.column[body];
-    return values === undefined || column < 0 ? undefined : values[this.frame * this.moving.length + column];
+    return values === undefined || !(column >= 0) ? undefined : values[this.frame * this.moving.length + column];
   }
 
   /** Metres a second between the frames around the current one. */
   speed(body) {
     const column = this.column[body];
     const a = Math.max(this.frame - 1, 0), b = Math.min(this.frame + 1, this.frames - 1), span = this.times[b] - this.times[a];
-    if (column < 0 || !(span > 0)) return 0;
+    if (!(column >= 0) || !(span > 0)) return 0;
     let sum = 0;
     for (let axis = 0; axis < 3; ++axis) sum += (this.coordinate(b, column, axis) - this.coordinate(a, column, axis)) ** 2;
     return Math.sqrt(sum) / span;

@@ -4,7 +4,7 @@ import { Bodies } from './bodies.js';
 import { makeMaterials } from './materials.js';
 import { Selection } from './selection.js';
 
-const kSun = new Vector3(-0.55, 1, 0.75).normalize();
+const kSun = new Vector3(-0.42, 1, 0.62).normalize();
 const kExtent = 12; // radius of the disc that stands for a plane, in radii of what happens
 
 export class SceneView {
@@ -62,11 +62,11 @@ export class SceneView {
     const { replay } = this;
     replay.sample(time);
     this.bodies.update();
-    if (context.only) this.bodies.showOnly(context.only(replay));
     this.selection.update();
-    if (replay.frame !== this.shownFrame || context.always) {
+    if (replay.frame !== this.shownFrame) {
       this.shownFrame = replay.frame;
-      this.bodies.paint(colours);
+      if (colours || this.painted !== colours) this.bodies.paint(colours);
+      this.painted = colours;
       for (const layer of this.layers.values()) {
         if (layer.object.visible) layer.update(context);
       }

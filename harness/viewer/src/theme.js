@@ -13,14 +13,13 @@ export function readTheme(element) {
     dark,
     background: new Color(dark ? '#16181c' : '#f1f2f3'),
     horizon: new Color(dark ? '#16181c' : '#f1f2f3'),
-    ground: new Color(dark ? '#2c3036' : '#e9eaec'),
-    fixed: new Color(dark ? '#4a5058' : '#c9ccd1'),
-    gridLine: new Color(dark ? '#4b525b' : '#c3c7cd'),
+    ground: new Color(dark ? '#272a30' : '#e9eaec'),
+    gridLine: new Color(dark ? '#444a53' : '#c3c7cd'),
     edge: new Color(dark ? '#0b0c0e' : '#2a2522'),
     ink,
     mark: new Color(dark ? '#ffffff' : '#111111'),
-    sky: dark ? 1.35 : 1.75,
-    sun: dark ? 1.75 : 1.75,
+    sky: dark ? 1.75 : 1.75,
+    sun: dark ? 2 : 1.75,
   };
 }
 

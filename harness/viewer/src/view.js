@@ -4,7 +4,7 @@ import { Curves } from './curves.js';
 import { element } from './dom.js';
 import { missing } from './layers.js';
 import { kPose } from './replay.js';
-import { digits, quantity } from './quantity.js';
+import { quantity } from './quantity.js';
 import { SceneView } from './scene_view.js';
 
 const kLabels = 24; // contact ids written beside their points, at most
@@ -17,14 +17,13 @@ export class View {
     this.notes = element('ul', { class: 'pv-notes', 'aria-live': 'polite' });
     this.card = element('dl', { class: 'pv-card', hidden: true });
     this.labels = Array.from({ length: kLabels }, () => element('span', { class: 'pv-label', hidden: true }));
-    const { backend, label, status, reason } = replay.header, name = label || backend;
+    const { backend, label, status, reason, note } = replay.header, name = label || backend, verdict = status === 'ok' ? '' : status;
     this.port = element('div', { class: 'pv-port', tabindex: 0, role: 'img', 'aria-label': `${name}: 3D replay. Drag to turn, click a body for its numbers.` },
       ...this.labels, this.notes, this.card);
-    this.verdict = element('span', { class: `chip ${status ?? ''}`, title: reason || undefined }, status ?? '');
     this.element = element('article', { class: 'pv-view', style: `--c:var(--hue${hue},#0072b2)`, 'aria-label': name },
-      element('header', {}, element('i', { class: 'pv-engine' }), element('b', {}, name), status ? this.verdict : null,
+      element('header', {}, element('i', { class: 'pv-engine' }), element('b', {}, name), verdict ? element('span', { class: `chip ${verdict}`, title: reason || undefined }, verdict) : null,
         reason ? element('small', { title: reason }, reason) : null),
-      this.port, this.curves.element);
+      this.port, this.curves.element, note ? element('p', { class: 'pv-note' }, note) : null);
     this.pressed = new Vector2();
     this.port.addEventListener('pointerdown', (event) => this.pressed.set(event.clientX, event.clientY));
     this.port.addEventListener('pointerup', (event) => {
@@ -52,7 +51,7 @@ export class View {
     const { replay } = this, { body } = this.scene.selection;
     if (body === null) return;
     const { name, motion } = replay.bodies[body], p = body * kPose, facts = [];
-    facts.push(['position', `${digits(replay.poses[p])}, ${digits(replay.poses[p + 1])}, ${digits(replay.poses[p + 2])} m`]);
+    facts.push(['position', `${[0, 1, 2].map((i) => replay.poses[p + i].toFixed(2).replace('-', '\u2212')).join(' ')} m`]);
     if (motion !== 'static') facts.push(['speed', quantity(replay.speed(body), 'm/s')]);
     const overlap = replay.value('penetration', body), island = replay.value('islands', body);
     if (overlap !== undefined) facts.push(['overlap', quantity(overlap, 'm')]);

@@ -24,7 +24,7 @@ export class Viewer {
     this.hidden = new Set(); // backends that are switched off
     this.clock = new Clock();
     this.cameras = new Cameras(() => this.touch());
-    this.context = { penetrationRange: 1, forceRange: 1, deepestBox: 0, boxDepth: 'all', only: null, always: false };
+    this.context = { penetrationRange: 1, forceRange: 1, deepestBox: 0, boxDepth: 'all' };
     this.failure = null;
     this.stage = element('div', { class: 'pv-stage' });
     this.canvas = element('canvas', { class: 'pv-canvas', 'aria-hidden': 'true' });
@@ -46,8 +46,8 @@ export class Viewer {
     this.renderer.setScissorTest(true);
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = PCFShadowMap;
-    this.controls = new Controls(this);
     this.pairs = new PairPanel(this);
+    this.controls = new Controls(this);
     this.stage.append(this.canvas);
     this.place.replaceChildren(this.controls.top, this.pairs.element, this.controls.legend, this.stage, this.controls.transport);
     listenToKeys(this);
@@ -74,7 +74,7 @@ export class Viewer {
     for (const view of this.views) { view.element.remove(); view.dispose(); }
     const replays = opened.map(({ replay }) => replay);
     this.kind = replays[0].header.kind ?? 'scene';
-    Object.assign(this.context, colourRanges(replays), { only: null, boxDepth: 'all' });
+    Object.assign(this.context, colourRanges(replays), { boxDepth: 'all' });
     this.framing = framing(replays);
     this.views = opened.map(({ backend, replay }) =>
       new View(replay, this.framing, this.library.hue(backend), { pick: (view, event) => this.pick(view, event) }));
@@ -83,9 +83,10 @@ export class Viewer {
       this.stage.append(view.element);
       this.cameras.attach(view.port);
     }
-    this.pairs.show(this.kind === 'pairs' ? replays : null);
+    this.pairs.show(name);
+    this.enterPairs(this.kind === 'pairs');
     for (const kind of kLayers) if (this.on.has(kind.name) && !this.available(kind)) this.on.delete(kind.name);
-    this.series = this.controls.show(this);
+    this.controls.show(this);
     this.applyLayers();
     this.buildCurves();
     this.applyHidden();
@@ -93,6 +94,14 @@ export class Viewer {
     this.layout();
     this.resetCamera();
     this.renderOnce();
+  }
+
+  /** Among pairs, contacts and axes are what one came for; leaving them, the scenes are as they were. */
+  enterPairs(inside) {
+    if (inside === Boolean(this.before)) return;
+    const on = inside ? new Set(['contacts', 'axes']) : this.before;
+    this.before = inside ? this.on : null;
+    this.on = on;
   }
 
   available(kind) { return this.views.some((view) => !missing(kind, view.replay)); }
@@ -261,7 +270,6 @@ export class Viewer {
       renderer.setScissor(x, y, width, height);
       renderer.render(view.scene.scene, camera);
     }
-    this.pairs.update();
     this.controls.showTime(time, this.clock);
   }
 
