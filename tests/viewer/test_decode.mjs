@@ -6,7 +6,9 @@ import { kPose, Replay } from '../../harness/viewer/src/replay.js';
 import { base64, encode, quaternion, ragged, replay, tower } from './synthetic.mjs';
 
 const rotate = ([x, y, z, w], [a, b, c]) => {
-  const tx = 2 * (y * c - z * b), ty = 2 * (z * a - x * c), tz = 2 * (x * b - y * a);
+  const tx = 2 * (y * c - z * b),
+    ty = 2 * (z * a - x * c),
+    tz = 2 * (x * b - y * a);
   return [a + w * tx + y * tz - z * ty, b + w * ty + z * tx - x * tz, c + w * tz + x * ty - y * tx];
 };
 
@@ -20,7 +22,10 @@ test('a bundle goes through base64 and zlib and comes back', async () => {
 });
 
 test('sections that are not aligned are read all the same', () => {
-  const bytes = encode({ bodies: [] }, { times: ['f32', [0, 0.5]], first: ['u8', [1, 2, 3]], second: ['u32', [7, 70000]] });
+  const bytes = encode(
+    { bodies: [] },
+    { times: ['f32', [0, 0.5]], first: ['u8', [1, 2, 3]], second: ['u32', [7, 70000]] },
+  );
   const shifted = new Uint8Array(bytes.length + 1);
   shifted.set(bytes, 1);
   const { sections } = parseBundle(shifted.subarray(1));
@@ -41,7 +46,15 @@ test('what is no bundle is refused in words', () => {
 /** One body on a spiral that turns as it goes. */
 function spiral(quantised) {
   const pose = (f) => [3 * Math.sin(f / 5), f / 10, -40 + 2 * f, ...quaternion([1, 2, 3], f / 3)];
-  const bytes = replay({ scene: 's', backend: 'b', shapes: [{ type: 'sphere', radius: 1 }], bodies: [{ name: 'ball', shape: 0, motion: 'dynamic' }], frames: 40, pose, quantised });
+  const bytes = replay({
+    scene: 's',
+    backend: 'b',
+    shapes: [{ type: 'sphere', radius: 1 }],
+    bodies: [{ name: 'ball', shape: 0, motion: 'dynamic' }],
+    frames: 40,
+    pose,
+    quantised,
+  });
   return { replay: new Replay(parseBundle(bytes)), pose };
 }
 
@@ -61,14 +74,24 @@ test('orientations come back as the rotations that they were', () => {
   const { replay: spin, pose } = spiral(true);
   for (let f = 0; f < spin.frames; ++f) {
     spin.sample(spin.times[f]);
-    const got = rotate(spin.poses.subarray(3, 7), [1, -2, 0.5]), want = rotate(pose(f).slice(3), [1, -2, 0.5]);
+    const got = rotate(spin.poses.subarray(3, 7), [1, -2, 0.5]),
+      want = rotate(pose(f).slice(3), [1, -2, 0.5]);
     assert.ok(Math.hypot(...got.map((v, k) => v - want[k])) < 3e-4, `frame ${f}`);
   }
 });
 
 test('between frames positions go straight and rotations the short way', () => {
   const pose = (f) => [f, 0, 0, ...quaternion([0, 1, 0], f * 0.2).map((v) => (f % 2 ? -v : v))]; // q and -q are one rotation
-  const bytes = replay({ scene: 's', backend: 'b', shapes: [], bodies: [{ name: 'a', shape: null, motion: 'dynamic' }], frames: 4, rate: 1, pose, quantised: false });
+  const bytes = replay({
+    scene: 's',
+    backend: 'b',
+    shapes: [],
+    bodies: [{ name: 'a', shape: null, motion: 'dynamic' }],
+    frames: 4,
+    rate: 1,
+    pose,
+    quantised: false,
+  });
   const spin = new Replay(parseBundle(bytes));
   spin.sample(1.5);
   assert.equal(spin.frame, 1);
@@ -88,10 +111,21 @@ test('time is clamped to the frames, and frames are found by time', () => {
 });
 
 test('ragged lists give each frame its rows', () => {
-  const list = ragged([[1, 2], [], [3, 4, 5]]), pose = () => [0, 0, 0, 0, 0, 0, 1];
-  const bytes = replay({ scene: 's', backend: 'b', shapes: [], bodies: [{ name: 'a', shape: null, motion: 'dynamic' }], frames: 3, rate: 1, pose, quantised: false,
-    extra: { 'axes/start': ['u32', list.start], 'axes/body_a': ['u32', list.rows] } });
-  const spin = new Replay(parseBundle(bytes)), rows = [];
+  const list = ragged([[1, 2], [], [3, 4, 5]]),
+    pose = () => [0, 0, 0, 0, 0, 0, 1];
+  const bytes = replay({
+    scene: 's',
+    backend: 'b',
+    shapes: [],
+    bodies: [{ name: 'a', shape: null, motion: 'dynamic' }],
+    frames: 3,
+    rate: 1,
+    pose,
+    quantised: false,
+    extra: { 'axes/start': ['u32', list.start], 'axes/body_a': ['u32', list.rows] },
+  });
+  const spin = new Replay(parseBundle(bytes)),
+    rows = [];
   for (let f = 0; f < 3; ++f) {
     spin.sample(f);
     rows.push([...spin.sections['axes/body_a'].subarray(spin.first('axes'), spin.first('axes', 1))]);

@@ -4,6 +4,7 @@ import test from 'node:test';
 import { Clock } from '../../harness/viewer/src/clock.js';
 import { forceMap, penetrationMap } from '../../harness/viewer/src/colour.js';
 import { curvePath, valueRange } from '../../harness/viewer/src/curves.js';
+import { kLevels, Pace } from '../../harness/viewer/src/pace.js';
 import { kindsOf, pairOf } from '../../harness/viewer/src/pairs.js';
 import { quantity } from '../../harness/viewer/src/quantity.js';
 import { upperRange } from '../../harness/viewer/src/ranges.js';
@@ -12,7 +13,9 @@ test('equal steps of a colour map look equal, and its lightness only grows', () 
   for (const map of [penetrationMap, forceMap]) {
     const steps = [];
     for (let i = 3; i < map.lab.length; i += 3) {
-      steps.push(Math.hypot(map.lab[i] - map.lab[i - 3], map.lab[i + 1] - map.lab[i - 2], map.lab[i + 2] - map.lab[i - 1]));
+      steps.push(
+        Math.hypot(map.lab[i] - map.lab[i - 3], map.lab[i + 1] - map.lab[i - 2], map.lab[i + 2] - map.lab[i - 1]),
+      );
       assert.ok(map.lab[i] > map.lab[i - 3]);
     }
     assert.ok(Math.max(...steps) / Math.min(...steps) < 1.1, `${Math.min(...steps)} to ${Math.max(...steps)}`);
@@ -29,11 +32,17 @@ test('quantities have three digits and a prefix', () => {
 });
 
 test('a curve keeps its peaks when it has more frames than columns, and leaves gaps for what is no number', () => {
-  const times = Float32Array.from({ length: 5000 }, (_, i) => i), values = new Float32Array(5000);
+  const times = Float32Array.from({ length: 5000 }, (_, i) => i),
+    values = new Float32Array(5000);
   values[2503] = 7;
   assert.deepEqual(valueRange(values), { low: 0, high: 7 });
   assert.match(curvePath(times, values, { begin: 0, end: 4999 }, { low: 0, high: 7 }), /L\d+\.\d 0\.00/);
-  const broken = curvePath(Float32Array.of(0, 1, 2, 3), Float32Array.of(1, NaN, 2, 3), { begin: 0, end: 3 }, { low: 1, high: 3 });
+  const broken = curvePath(
+    Float32Array.of(0, 1, 2, 3),
+    Float32Array.of(1, NaN, 2, 3),
+    { begin: 0, end: 3 },
+    { low: 1, high: 3 },
+  );
   assert.equal(broken.match(/M/g).length, 2);
 });
 
@@ -67,6 +76,17 @@ test('the clock plays, rests at the end, begins anew or stops', () => {
 test('pairs of shapes make a triangle', () => {
   assert.deepEqual(pairOf('pair height_field-box'), ['height_field', 'box']);
   assert.equal(pairOf('D1 H=10'), null);
-  const kinds = ['sphere', 'box', 'hull'], pairs = kinds.flatMap((b, i) => [...kinds.slice(i), 'plane'].map((a) => [a, b]));
+  const kinds = ['sphere', 'box', 'hull'],
+    pairs = kinds.flatMap((b, i) => [...kinds.slice(i), 'plane'].map((a) => [a, b]));
   assert.deepEqual(kindsOf(pairs), ['sphere', 'box', 'hull', 'plane']);
+});
+
+test('slow frames give something up, step by step; fast ones and a pause nothing', () => {
+  const pace = new Pace(),
+    frames = (count, seconds) => Array.from({ length: count }, () => pace.late(seconds)).filter(Boolean).length;
+  assert.equal(frames(200, 1 / 60), 0);
+  assert.equal(frames(50, 30), 0);
+  assert.ok(frames(12, 0.2) === 1 && pace.level === 1);
+  frames(500, 0.2);
+  assert.equal(pace.level, kLevels);
 });

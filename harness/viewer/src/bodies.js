@@ -1,5 +1,13 @@
 // All bodies of a replay as instances: one draw call for each kind of shape, matrices written in place every frame.
-import { DynamicDrawUsage, EdgesGeometry, Group, InstancedBufferAttribute, InstancedMesh, LineSegments, StaticDrawUsage } from 'three';
+import {
+  DynamicDrawUsage,
+  EdgesGeometry,
+  Group,
+  InstancedBufferAttribute,
+  InstancedMesh,
+  LineSegments,
+  StaticDrawUsage,
+} from 'three';
 import { writeBodyColour } from './colour.js';
 import { kPose } from './replay.js';
 import { detailFor, kNoShape, shapeGeometry } from './shapes.js';
@@ -11,7 +19,10 @@ const kManyEdges = 4000; // triangles of one shape beyond which its edges only b
 
 /** Column-major rotation of a unit quaternion times scale, and the position, into out at offset. */
 export function writeMatrix(poses, pose, scale, out, offset) {
-  const x = poses[pose + 3], y = poses[pose + 4], z = poses[pose + 5], w = poses[pose + 6];
+  const x = poses[pose + 3],
+    y = poses[pose + 4],
+    z = poses[pose + 5],
+    w = poses[pose + 6];
   const [sx, sy, sz] = scale;
   out[offset] = (1 - 2 * (y * y + z * z)) * sx;
   out[offset + 1] = 2 * (x * y + w * z) * sx;
@@ -31,11 +42,17 @@ export function writeMatrix(poses, pose, scale, out, offset) {
   out[offset + 15] = 1;
 }
 
-/** Lines drawn once an instance, with the matrices of a mesh: the renderer takes any object that says it is instanced. */
+/** Lines drawn once an instance, with a mesh's matrices: the renderer takes any object that says it is instanced. */
 function instancedEdges(mesh, geometry, material) {
   const lines = new LineSegments(geometry, material);
-  Object.assign(lines, { isInstancedMesh: true, instanceMatrix: mesh.instanceMatrix, instanceColor: null, morphTexture: null,
-    count: mesh.count, frustumCulled: false });
+  Object.assign(lines, {
+    isInstancedMesh: true,
+    instanceMatrix: mesh.instanceMatrix,
+    instanceColor: null,
+    morphTexture: null,
+    count: mesh.count,
+    frustumCulled: false,
+  });
   lines.raycast = () => {};
   return lines;
 }
@@ -48,13 +65,17 @@ export class Bodies {
     this.groups = [];
     /** Where a body is drawn: its group and its place there. */
     this.place = new Array(replay.bodies.length).fill(null);
-    const detail = detailFor(replay.bodies.length), shapes = replay.header.shapes, kinds = new Map(), made = new Map();
+    const detail = detailFor(replay.bodies.length),
+      shapes = replay.header.shapes,
+      kinds = new Map(),
+      made = new Map();
     replay.bodies.forEach((body, index) => {
       const number = body.shape ?? -1;
       const shape = number < 0 ? kNoShape : shapes[number];
       if (!made.has(number)) made.set(number, shapeGeometry(shape, shapes, { detail, extent }));
       // Of a pair of shapes the one at rest is a body like the other, not ground.
-      const shared = made.get(number), fixed = !replay.moves(index) && (replay.header.kind !== 'pairs' || kGround.has(shape.type));
+      const shared = made.get(number),
+        fixed = !replay.moves(index) && (replay.header.kind !== 'pairs' || kGround.has(shape.type));
       const scale = number < 0 ? [extent / 600, extent / 600, extent / 600] : shared.scale;
       const key = `${fixed} ${shared.key}`;
       if (!kinds.has(key)) kinds.set(key, { geometry: shared.geometry, fixed, type: shape.type, members: [] });
@@ -74,21 +95,29 @@ export class Bodies {
     mesh.frustumCulled = false;
     mesh.castShadow = type !== 'plane';
     mesh.receiveShadow = true;
-    if (!fixed) mesh.instanceColor = new InstancedBufferAttribute(new Float32Array(members.length * 3), 3).setUsage(DynamicDrawUsage);
+    if (!fixed)
+      mesh.instanceColor = new InstancedBufferAttribute(new Float32Array(members.length * 3), 3).setUsage(
+        DynamicDrawUsage,
+      );
     const group = { mesh, fixed, members, written: false };
-    members.forEach((member, at) => { this.place[member.index] = { group, at }; });
+    members.forEach((member, at) => {
+      this.place[member.index] = { group, at };
+    });
     this.groups.push(group);
     this.object.add(mesh);
     const triangles = (geometry.index ?? geometry.attributes.position).count / 3;
     if (!kRound.has(type) && triangles < kManyEdges) {
       group.edges = new EdgesGeometry(geometry, kEdgeAngle);
-      this.object.add(instancedEdges(mesh, group.edges, fixed ? this.materials.fixedEdge : this.materials.edge));
+      group.lines = instancedEdges(mesh, group.edges, fixed ? this.materials.fixedEdge : this.materials.edge);
+      this.object.add(group.lines);
     }
   }
 
   /** Along the scene by where the bodies start, lowest first; neighbours differ a little, to be told apart. */
   bodyColours() {
-    const { replay } = this, order = [...replay.bodies.keys()].filter((body) => !this.place[body].group.fixed), colours = new Float32Array(replay.bodies.length * 3);
+    const { replay } = this,
+      order = [...replay.bodies.keys()].filter((body) => !this.place[body].group.fixed),
+      colours = new Float32Array(replay.bodies.length * 3);
     const start = (body) => replay.bodies[body].start;
     order.sort((a, b) => start(a)[1] - start(b)[1] || start(a)[0] - start(b)[0] || a - b);
     order.forEach((body, rank) => {
@@ -117,11 +146,17 @@ export class Bodies {
     const { poses } = this.replay;
     for (const group of this.groups) {
       if (group.fixed && group.written) continue;
-      const { mesh, members } = group, matrices = mesh.instanceMatrix.array;
-      for (let i = 0; i < members.length; ++i) writeMatrix(poses, members[i].index * kPose, members[i].scale, matrices, i * 16);
+      const { mesh, members } = group,
+        matrices = mesh.instanceMatrix.array;
+      for (let i = 0; i < members.length; ++i)
+        writeMatrix(poses, members[i].index * kPose, members[i].scale, matrices, i * 16);
       mesh.instanceMatrix.needsUpdate = true;
       group.written = true;
     }
+  }
+
+  showEdges(on) {
+    for (const { lines } of this.groups) if (lines) lines.visible = on;
   }
 
   /** The body that the ray meets first, or null. */
@@ -130,7 +165,8 @@ export class Bodies {
     for (const { mesh, members } of this.groups) {
       mesh.boundingSphere = null; // of the matrices as they are now
       for (const hit of raycaster.intersectObject(mesh, false)) {
-        if (!best || hit.distance < best.distance) best = { distance: hit.distance, body: members[hit.instanceId].index };
+        if (!best || hit.distance < best.distance)
+          best = { distance: hit.distance, body: members[hit.instanceId].index };
       }
     }
     return best && best.body;

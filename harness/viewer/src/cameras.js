@@ -19,7 +19,9 @@ export class Cameras {
     controls.enableZoom = this.zooms;
     controls.zoomToCursor = false;
     controls.minPolarAngle = 0.02;
-    controls.addEventListener('start', () => { this.moved = true; });
+    controls.addEventListener('start', () => {
+      this.moved = true;
+    });
     controls.addEventListener('change', this.changed);
     port.style.touchAction = this.zooms ? 'none' : 'pan-y'; // a finger that goes up or down scrolls the page
     this.controls.push(controls);
@@ -44,9 +46,17 @@ export class Cameras {
     this.sync();
   }
 
+  /** Follows a change of the views' shape; frames anew unless the reader has moved the camera. */
+  fit(framing, aspect) {
+    if (!this.moved && Math.abs(aspect - this.camera.aspect) > 1e-3) this.frame(framing, aspect);
+    this.camera.aspect = aspect;
+    this.camera.updateProjectionMatrix();
+  }
+
   /** Turns by angles and moves nearer by a factor: for the keyboard. */
   turn(azimuth, polar, zoom = 1) {
-    const offset = this.camera.position.clone().sub(this.target), up = new Vector3(0, 1, 0);
+    const offset = this.camera.position.clone().sub(this.target),
+      up = new Vector3(0, 1, 0);
     offset.applyAxisAngle(up, azimuth);
     const angle = Math.min(Math.max(offset.angleTo(up) + polar, 0.02), Math.PI - 0.02) - offset.angleTo(up);
     offset.applyAxisAngle(new Vector3().crossVectors(up, offset).normalize(), angle).multiplyScalar(zoom);

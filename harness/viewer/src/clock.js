@@ -18,14 +18,18 @@ export class Clock {
     this.time = begin;
   }
 
-  seek(time) { this.time = Math.min(Math.max(time, this.begin), this.end); }
+  seek(time) {
+    this.time = Math.min(Math.max(time, this.begin), this.end);
+  }
 
   play() {
     if (this.time >= this.end) this.time = this.begin;
     this.playing = this.end > this.begin;
   }
 
-  pause() { this.playing = false; }
+  pause() {
+    this.playing = false;
+  }
 
   /** Goes on by so many seconds of the wall; true where the time has changed. */
   tick(seconds) {
@@ -35,11 +39,16 @@ export class Clock {
     if (this.time >= this.end) {
       // A moment's rest at the end, so that a loop does not cut off what came out.
       if (this.loop && this.time >= this.end + Math.min(0.6 * this.speed, length)) this.time = this.begin;
-      else if (!this.loop) { this.time = this.end; this.playing = false; }
+      else if (!this.loop) {
+        this.time = this.end;
+        this.playing = false;
+      }
     }
     return true;
   }
 
   /** The time to show, during the rest at the end, too. */
-  get shown() { return Math.min(this.time, this.end); }
+  get shown() {
+    return Math.min(this.time, this.end);
+  }
 }

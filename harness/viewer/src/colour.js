@@ -28,14 +28,16 @@ export class ColourMap {
     const fine = [];
     for (let i = 0; i + 1 < points.length; ++i) {
       for (let j = 0; j < 64; ++j) {
-        const t = j / 64, [l, c, h] = points[i].map((from, k) => from + (points[i + 1][k] - from) * t);
+        const t = j / 64,
+          [l, c, h] = points[i].map((from, k) => from + (points[i + 1][k] - from) * t);
         fine.push([l, c * Math.cos((h * Math.PI) / 180), c * Math.sin((h * Math.PI) / 180)]);
       }
     }
     const [l, c, h] = points[points.length - 1];
     fine.push([l, c * Math.cos((h * Math.PI) / 180), c * Math.sin((h * Math.PI) / 180)]);
     const lengths = [0];
-    for (let i = 1; i < fine.length; ++i) lengths.push(lengths[i - 1] + Math.hypot(...fine[i].map((v, k) => v - fine[i - 1][k])));
+    for (let i = 1; i < fine.length; ++i)
+      lengths.push(lengths[i - 1] + Math.hypot(...fine[i].map((v, k) => v - fine[i - 1][k])));
     this.lab = new Float32Array(kSteps * 3);
     this.linear = new Float32Array(kSteps * 3);
     for (let i = 0, at = 0; i < kSteps; ++i) {
@@ -68,9 +70,21 @@ export class ColourMap {
 }
 
 /** Overlap: from deep blue over green to yellow. */
-export const penetrationMap = new ColourMap([[0.3, 0.1, 285], [0.46, 0.115, 245], [0.6, 0.115, 190], [0.76, 0.16, 140], [0.93, 0.17, 103]]);
+export const penetrationMap = new ColourMap([
+  [0.3, 0.1, 285],
+  [0.46, 0.115, 245],
+  [0.6, 0.115, 190],
+  [0.76, 0.16, 140],
+  [0.93, 0.17, 103],
+]);
 /** Force: from black-violet over red to pale gold. */
-export const forceMap = new ColourMap([[0.26, 0.08, 300], [0.42, 0.16, 335], [0.58, 0.2, 380], [0.74, 0.16, 412], [0.93, 0.09, 452]]);
+export const forceMap = new ColourMap([
+  [0.26, 0.08, 300],
+  [0.42, 0.16, 335],
+  [0.58, 0.2, 380],
+  [0.74, 0.16, 412],
+  [0.93, 0.09, 452],
+]);
 
 /** The n-th of any number of kinds: hues by the golden angle, so that neighbours differ. */
 export function kindColour(n, lightness = 0.7, chroma = 0.135) {
@@ -78,7 +92,15 @@ export function kindColour(n, lightness = 0.7, chroma = 0.135) {
 }
 
 /** Bodies in their order along the scene, t in 0..1: warm sand over coral and plum to sea green. */
-const bodyMap = new ColourMap([[0.83, 0.1, 88], [0.75, 0.135, 52], [0.68, 0.14, 22], [0.63, 0.12, -25], [0.62, 0.11, -75], [0.66, 0.1, -125], [0.76, 0.1, -180]]);
+const bodyMap = new ColourMap([
+  [0.83, 0.1, 88],
+  [0.75, 0.135, 52],
+  [0.68, 0.14, 22],
+  [0.63, 0.12, -25],
+  [0.62, 0.11, -75],
+  [0.66, 0.1, -125],
+  [0.76, 0.1, -180],
+]);
 export function writeBodyColour(t, shade, out, offset) {
   bodyMap.write(t, out, offset);
   for (let i = 0; i < 3; ++i) out[offset + i] = Math.min(out[offset + i] * shade, 1);

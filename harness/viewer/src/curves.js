@@ -1,13 +1,29 @@
-// Curves under a view, running along with the replay: one strip a series, a cursor at the time shown, its value in words.
+// Curves under a view, running along with the replay: a strip a series, a cursor at the time, its value in words.
 import { element, svg } from './dom.js';
 import { digits, quantity } from './quantity.js';
 
 export const kSeries = {
-  energy: 'energy', energy_drift: 'energy drift', momentum_drift: 'momentum drift', max_penetration: 'deepest overlap', contacts: 'contacts',
-  distance: 'distance', true_distance: 'true distance', depth_error: 'error of the depth',
+  energy: 'energy',
+  energy_drift: 'energy drift',
+  momentum_drift: 'momentum drift',
+  max_penetration: 'deepest overlap',
+  contacts: 'contacts',
+  distance: 'distance',
+  true_distance: 'true distance',
+  depth_error: 'error of the depth',
 };
-const kUnits = { energy: 'J', energy_drift: '1', momentum_drift: '1', max_penetration: 'm', contacts: '1', distance: 'm', true_distance: 'm', depth_error: 'm' };
-const kWidth = 400, kHeight = 40; // of the drawing, stretched to the strip
+const kUnits = {
+  energy: 'J',
+  energy_drift: '1',
+  momentum_drift: '1',
+  max_penetration: 'm',
+  contacts: '1',
+  distance: 'm',
+  true_distance: 'm',
+  depth_error: 'm',
+};
+const kWidth = 400,
+  kHeight = 40; // of the drawing, stretched to the strip
 const kColumns = 400; // beyond so many frames a column shows the least and the most of its frames
 
 export const seriesName = (name) => kSeries[name] ?? name.replaceAll('_', ' ');
@@ -15,7 +31,8 @@ export const seriesUnit = (replay, name) => replay.header.series?.[name]?.unit ?
 
 /** {low, high} of the finite values. */
 export function valueRange(values) {
-  let low = Infinity, high = -Infinity;
+  let low = Infinity,
+    high = -Infinity;
   for (const value of values) {
     if (!Number.isFinite(value)) continue;
     low = Math.min(low, value);
@@ -26,13 +43,18 @@ export function valueRange(values) {
 
 /** A path over the times; values that are not finite leave gaps. */
 export function curvePath(times, values, span, { low, high }) {
-  const parts = [], stride = Math.max(1, Math.ceil(values.length / kColumns)), height = high - low || 1;
+  const parts = [],
+    stride = Math.max(1, Math.ceil(values.length / kColumns)),
+    height = high - low || 1;
   const x = (frame) => (((times[frame] - span.begin) / (span.end - span.begin || 1)) * kWidth).toFixed(1);
   const y = (value) => ((1 - (value - low) / height) * kHeight).toFixed(2);
   let pen = 'M';
   for (let begin = 0; begin < values.length; begin += stride) {
     const { low: least, high: most } = valueRange(values.subarray(begin, begin + stride));
-    if (!Number.isFinite(values[begin]) && least === 0 && most === 0) { pen = 'M'; continue; }
+    if (!Number.isFinite(values[begin]) && least === 0 && most === 0) {
+      pen = 'M';
+      continue;
+    }
     parts.push(`${pen}${x(begin)} ${y(stride === 1 ? values[begin] : least)}`);
     if (stride > 1 && most !== least) parts.push(`L${x(begin)} ${y(most)}`);
     pen = 'L';
@@ -56,20 +78,55 @@ export class Curves {
   }
 
   strip(name, sharedRange) {
-    const values = this.replay.sections[`series/${name}`], title = seriesName(name), unit = seriesUnit(this.replay, name);
+    const values = this.replay.sections[`series/${name}`],
+      title = seriesName(name),
+      unit = seriesUnit(this.replay, name);
     const readout = element('output', { class: 'pv-value' });
     const caption = element('div', { class: 'pv-caption' }, element('span', {}, title), readout);
     if (!values) {
       readout.textContent = 'not recorded';
       return { element: element('div', { class: 'pv-strip missing' }, caption) };
     }
-    const range = sharedRange ?? valueRange(values), { low, high } = range, cursor = svg('line', { y1: 0, y2: kHeight, class: 'pv-cursor' });
-    const zero = low < 0 && high > 0 ? [svg('line', { x1: 0, x2: kWidth, y1: (high / (high - low)) * kHeight, y2: (high / (high - low)) * kHeight, class: 'pv-zero' })] : [];
-    const drawing = svg('svg', { viewBox: `0 -2 ${kWidth} ${kHeight + 4}`, preserveAspectRatio: 'none', role: 'img',
-      'aria-label': `${title} over time, ${quantity(low, unit)} to ${quantity(high, unit)}` },
-    ...zero, svg('path', { d: curvePath(this.replay.times, values, this.span, range), class: 'pv-line' }), cursor);
-    const scale = element('div', { class: 'pv-scale', 'aria-hidden': 'true' }, element('span', {}, quantity(high, unit)), element('span', {}, quantity(low, unit)));
-    return { element: element('div', { class: 'pv-strip' }, caption, element('div', { class: 'pv-plot' }, drawing, scale)), cursor, readout, values, unit };
+    const range = sharedRange ?? valueRange(values),
+      { low, high } = range,
+      cursor = svg('line', { y1: 0, y2: kHeight, class: 'pv-cursor' });
+    const zero =
+      low < 0 && high > 0
+        ? [
+            svg('line', {
+              x1: 0,
+              x2: kWidth,
+              y1: (high / (high - low)) * kHeight,
+              y2: (high / (high - low)) * kHeight,
+              class: 'pv-zero',
+            }),
+          ]
+        : [];
+    const drawing = svg(
+      'svg',
+      {
+        viewBox: `0 -2 ${kWidth} ${kHeight + 4}`,
+        preserveAspectRatio: 'none',
+        role: 'img',
+        'aria-label': `${title} over time, ${quantity(low, unit)} to ${quantity(high, unit)}`,
+      },
+      ...zero,
+      svg('path', { d: curvePath(this.replay.times, values, this.span, range), class: 'pv-line' }),
+      cursor,
+    );
+    const scale = element(
+      'div',
+      { class: 'pv-scale', 'aria-hidden': 'true' },
+      element('span', {}, quantity(high, unit)),
+      element('span', {}, quantity(low, unit)),
+    );
+    return {
+      element: element('div', { class: 'pv-strip' }, caption, element('div', { class: 'pv-plot' }, drawing, scale)),
+      cursor,
+      readout,
+      values,
+      unit,
+    };
   }
 
   update(time) {
@@ -79,7 +136,8 @@ export class Curves {
     for (const { cursor, readout, values, unit } of this.strips) {
       if (!values) continue;
       cursor.setAttribute('transform', `translate(${x.toFixed(1)} 0)`);
-      if (frame !== this.shown) readout.textContent = unit === '1' ? digits(values[frame]) : quantity(values[frame], unit);
+      if (frame !== this.shown)
+        readout.textContent = unit === '1' ? digits(values[frame]) : quantity(values[frame], unit);
     }
     this.shown = frame;
   }

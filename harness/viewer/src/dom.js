@@ -23,5 +23,9 @@ export function svg(tag, attributes = {}, ...children) {
 
 /** An icon of 16 by 16 from one path, hidden from screen readers. */
 export function icon(path) {
-  return svg('svg', { viewBox: '0 0 16 16', width: 16, height: 16, 'aria-hidden': 'true', class: 'pv-icon' }, svg('path', { d: path }));
+  return svg(
+    'svg',
+    { viewBox: '0 0 16 16', width: 16, height: 16, 'aria-hidden': 'true', class: 'pv-icon' },
+    svg('path', { d: path }),
+  );
 }

@@ -12,19 +12,29 @@ function quantile(sorted, q) {
 
 /** Radius of the body in the middle of all that move. */
 function bodySize(replays) {
-  const radii = replays.flatMap(({ header, moving }) => Array.from(moving, (body) => shapeRadius(header.shapes[header.bodies[body].shape], header.shapes)));
-  return radii.length ? quantile(radii.sort((a, b) => a - b), 0.5) : 0;
+  const radii = replays.flatMap(({ header, moving }) =>
+    Array.from(moving, (body) => shapeRadius(header.shapes[header.bodies[body].shape], header.shapes)),
+  );
+  return radii.length
+    ? quantile(
+        radii.sort((a, b) => a - b),
+        0.5,
+      )
+    : 0;
 }
 
 /** {centre, radius} of what happens in the replays and the size of marks on it, m. */
 export function framing(replays) {
-  const lower = [Infinity, Infinity, Infinity], upper = [-Infinity, -Infinity, -Infinity];
+  const lower = [Infinity, Infinity, Infinity],
+    upper = [-Infinity, -Infinity, -Infinity];
   const grow = (axis, low, high) => {
     if (Number.isFinite(low)) lower[axis] = Math.min(lower[axis], low);
     if (Number.isFinite(high)) upper[axis] = Math.max(upper[axis], high);
   };
   for (const replay of replays) {
-    const radii = Array.from(replay.moving, (body) => shapeRadius(replay.header.shapes[replay.bodies[body].shape], replay.header.shapes));
+    const radii = Array.from(replay.moving, (body) =>
+      shapeRadius(replay.header.shapes[replay.bodies[body].shape], replay.header.shapes),
+    );
     for (let axis = 0; axis < 3; ++axis) {
       const values = [];
       for (let i = 0; i < kFrames && replay.frames; ++i) {
@@ -32,9 +42,16 @@ export function framing(replays) {
         for (let c = 0; c < replay.moving.length; ++c) values.push(replay.coordinate(frame, c, axis));
       }
       values.sort((a, b) => a - b);
-      const largest = radii.length ? quantile([...radii].sort((a, b) => a - b), 0.9) * (axis === 1 ? 0.6 : 0.8) : 0;
+      const largest = radii.length
+        ? quantile(
+            [...radii].sort((a, b) => a - b),
+            0.9,
+          ) * (axis === 1 ? 0.6 : 0.8)
+        : 0;
       if (values.length) grow(axis, quantile(values, kTail) - largest, quantile(values, 1 - kTail) + largest);
-      replay.moving.forEach((body, c) => grow(axis, replay.bodies[body].start[axis] - radii[c] * 0.6, replay.bodies[body].start[axis] + radii[c] * 0.6));
+      replay.moving.forEach((body, c) =>
+        grow(axis, replay.bodies[body].start[axis] - radii[c] * 0.6, replay.bodies[body].start[axis] + radii[c] * 0.6),
+      );
     }
     const widest = radii.length ? kSmall * Math.max(...radii) : Infinity;
     for (const body of replay.bodies) {
@@ -43,21 +60,30 @@ export function framing(replays) {
       for (let axis = 0; axis < 3; ++axis) grow(axis, body.start[axis] - 0.6 * radius, body.start[axis] + 0.6 * radius);
     }
   }
-  const centre = new Vector3(), size = new Vector3(1, 1, 1);
+  const centre = new Vector3(),
+    size = new Vector3(1, 1, 1);
   if (lower.every(Number.isFinite) && upper.every(Number.isFinite)) {
     centre.set(...lower.map((low, i) => 0.5 * (low + upper[i])));
     size.set(...lower.map((low, i) => upper[i] - low));
   }
   const radius = Math.max(0.5 * size.length(), 1e-3);
-  return { centre, radius, half: size.multiplyScalar(0.5), markSize: Math.min(radius / 55, (bodySize(replays) || radius) / 9) };
+  return {
+    centre,
+    radius,
+    half: size.multiplyScalar(0.5),
+    markSize: Math.min(radius / 55, (bodySize(replays) || radius) / 9),
+  };
 }
 
 const kMargin = 0.9; // of the half view that the picture may fill
 
 /** Puts the camera as near as shows the whole box of the framing. */
 export function placeCamera(camera, target, { centre, radius, half }, direction = new Vector3(0.62, 0.42, 1)) {
-  const towards = direction.clone().normalize(), right = new Vector3().crossVectors(new Vector3(0, 1, 0), towards).normalize();
-  const up = new Vector3().crossVectors(towards, right), tall = Math.tan((camera.fov * Math.PI) / 360) * kMargin, corner = new Vector3();
+  const towards = direction.clone().normalize(),
+    right = new Vector3().crossVectors(new Vector3(0, 1, 0), towards).normalize();
+  const up = new Vector3().crossVectors(towards, right),
+    tall = Math.tan((camera.fov * Math.PI) / 360) * kMargin,
+    corner = new Vector3();
   let distance = 0;
   for (let i = 0; i < 8; ++i) {
     corner.set(i & 1 ? half.x : -half.x, i & 2 ? half.y : -half.y, i & 4 ? half.z : -half.z);

@@ -13,26 +13,47 @@ export class ConstraintLayer {
     this.replay = replay;
     this.size = size;
     this.partners = new Partners(replay);
-    this.marks = new Marks(new CylinderGeometry(1, 1, 1, 7).translate(0, 0.5, 0), new MeshBasicMaterial({ depthTest: false, transparent: true, opacity: 0.95 }), { order: 12 });
+    this.marks = new Marks(
+      new CylinderGeometry(1, 1, 1, 7).translate(0, 0.5, 0),
+      new MeshBasicMaterial({ depthTest: false, transparent: true, opacity: 0.95 }),
+      { order: 12 },
+    );
     this.object = this.marks.object;
   }
 
   update() {
-    const { replay, marks } = this, { sections, poses } = replay;
-    const a = sections['constraints/body_a'], b = sections['constraints/body_b'], colours = sections['constraints/colour'];
+    const { replay, marks } = this,
+      { sections, poses } = replay;
+    const a = sections['constraints/body_a'],
+      b = sections['constraints/body_b'],
+      colours = sections['constraints/colour'];
     marks.clear();
     for (let row = replay.first('constraints'), end = replay.first('constraints', 1); row < end; ++row) {
-      const [x, y, z] = this.partners.meet(a[row], b[row]), rgb = graphColour(colours[row]);
+      const [x, y, z] = this.partners.meet(a[row], b[row]),
+        rgb = graphColour(colours[row]);
       for (let side = 0; side < 2; ++side) {
         const body = side ? b[row] : a[row];
         if (!replay.moves(body)) continue;
-        const mark = marks.next(), p = body * kPose;
-        writeAlong(marks.matrices, mark * 16, x, y, z, poses[p] - x, poses[p + 1] - y, poses[p + 2] - z, this.size * 0.6);
+        const mark = marks.next(),
+          p = body * kPose;
+        writeAlong(
+          marks.matrices,
+          mark * 16,
+          x,
+          y,
+          z,
+          poses[p] - x,
+          poses[p + 1] - y,
+          poses[p + 2] - z,
+          this.size * 0.6,
+        );
         marks.colour(mark, rgb);
       }
     }
     marks.flush();
   }
 
-  dispose() { this.marks.dispose(); }
+  dispose() {
+    this.marks.dispose();
+  }
 }

@@ -21,16 +21,27 @@ export class ContactLayer {
   }
 
   update() {
-    const { replay, dots, sticks, tips, size } = this, { sections } = replay;
-    const points = sections['contacts/point'], normals = sections['contacts/normal'], ids = sections['contacts/id'];
+    const { replay, dots, sticks, tips, size } = this,
+      { sections } = replay;
+    const points = sections['contacts/point'],
+      normals = sections['contacts/normal'],
+      ids = sections['contacts/id'];
     for (const marks of [dots, sticks, tips]) marks.clear();
     for (let row = replay.first('contacts'), end = replay.first('contacts', 1); row < end; ++row) {
-      const i = row * 3, rgb = idColour(ids ? ids[row] : 0), x = points[i], y = points[i + 1], z = points[i + 2];
+      const i = row * 3,
+        rgb = idColour(ids ? ids[row] : 0),
+        x = points[i],
+        y = points[i + 1],
+        z = points[i + 2];
       const dot = dots.next();
       writeScaled(dots.matrices, dot * 16, x, y, z, size, size, size);
       dots.colour(dot, rgb);
       if (!normals) continue;
-      const nx = normals[i] * size, ny = normals[i + 1] * size, nz = normals[i + 2] * size, stick = sticks.next(), tip = tips.next();
+      const nx = normals[i] * size,
+        ny = normals[i + 1] * size,
+        nz = normals[i + 2] * size,
+        stick = sticks.next(),
+        tip = tips.next();
       writeAlong(sticks.matrices, stick * 16, x, y, z, nx * 5, ny * 5, nz * 5, size * 0.3);
       writeAlong(tips.matrices, tip * 16, x + nx * 5, y + ny * 5, z + nz * 5, nx * 2, ny * 2, nz * 2, size * 0.8);
       sticks.colour(stick, rgb);
@@ -39,5 +50,7 @@ export class ContactLayer {
     for (const marks of [dots, sticks, tips]) marks.flush();
   }
 
-  dispose() { for (const marks of [this.dots, this.sticks, this.tips]) marks.dispose(); }
+  dispose() {
+    for (const marks of [this.dots, this.sticks, this.tips]) marks.dispose();
+  }
 }

@@ -4,7 +4,13 @@ import { element } from './dom.js';
 import { kApart, kOverlap } from './layer_axes.js';
 import { quantity } from './quantity.js';
 
-const depthMap = new ColourMap([[0.62, 0.2, 20], [0.78, 0.16, 75], [0.82, 0.15, 140], [0.74, 0.12, 205], [0.62, 0.16, 275]]);
+const depthMap = new ColourMap([
+  [0.62, 0.2, 20],
+  [0.78, 0.16, 75],
+  [0.82, 0.15, 140],
+  [0.74, 0.12, 205],
+  [0.62, 0.16, 275],
+]);
 const depthCache = new Map();
 
 /** Linear colour of a depth in the tree; what hangs in no tree is grey. */
@@ -19,26 +25,54 @@ export function depthColour(depth, deepest) {
 }
 
 function ramp(title, gradient, low, high) {
-  return element('div', { class: 'pv-legend' }, element('span', { class: 'pv-legend-title' }, title), element('span', {}, low),
-    element('i', { class: 'pv-ramp', style: `background:${gradient}`, role: 'img', 'aria-label': `${title} from ${low} to ${high}` }), element('span', {}, high));
+  return element(
+    'div',
+    { class: 'pv-legend' },
+    element('span', { class: 'pv-legend-title' }, title),
+    element('span', {}, low),
+    element('i', {
+      class: 'pv-ramp',
+      style: `background:${gradient}`,
+      role: 'img',
+      'aria-label': `${title} from ${low} to ${high}`,
+    }),
+    element('span', {}, high),
+  );
 }
 
 function kinds(title, entries) {
-  return element('div', { class: 'pv-legend' }, element('span', { class: 'pv-legend-title' }, title),
-    ...entries.map(([colour, text]) => element('span', {}, element('i', { class: 'pv-dot', style: `background:${colour}` }), text)));
+  return element(
+    'div',
+    { class: 'pv-legend' },
+    element('span', { class: 'pv-legend-title' }, title),
+    ...entries.map(([colour, text]) =>
+      element('span', {}, element('i', { class: 'pv-dot', style: `background:${colour}` }), text),
+    ),
+  );
 }
 
 /** Legends of the layers that are on. */
 export function legends(names, { penetrationRange, forceRange, deepestBox }) {
   const all = {
-    penetration: () => ramp('deepest overlap of a body', penetrationMap.gradient(), '0', `\u2265 ${quantity(penetrationRange, 'm')}`),
-    forces: () => ramp('contact force along the normal', forceMap.gradient(), '0', `\u2265 ${quantity(forceRange, 'N')}`),
+    penetration: () =>
+      ramp('deepest overlap of a body', penetrationMap.gradient(), '0', `\u2265 ${quantity(penetrationRange, 'm')}`),
+    forces: () =>
+      ramp('contact force along the normal', forceMap.gradient(), '0', `\u2265 ${quantity(forceRange, 'N')}`),
     boxes: () => ramp('depth in the tree', depthMap.gradient(), 'root', `${deepestBox}`),
-    axes: () => kinds('axis', [[cssColour(kOverlap), 'of least overlap'], [cssColour(kApart), 'that separates']]),
+    axes: () =>
+      kinds('axis', [
+        [cssColour(kOverlap), 'of least overlap'],
+        [cssColour(kApart), 'that separates'],
+      ]),
     sleep: () => kinds('asleep', [['#55585c', 'dark bodies']]),
-    islands: () => kinds('islands', [['conic-gradient(#d66, #cb4, #5b8, #59d, #c6b, #d66)', 'one colour each; grey: in none']]),
+    islands: () =>
+      kinds('islands', [['conic-gradient(#d66, #cb4, #5b8, #59d, #c6b, #d66)', 'one colour each; grey: in none']]),
     contacts: () => kinds('contacts', [['conic-gradient(#d66, #cb4, #5b8, #59d, #c6b, #d66)', 'a colour for each id']]),
-    constraints: () => kinds('constraint graph', [['conic-gradient(#d66, #cb4, #5b8, #59d, #c6b, #d66)', 'solved at once'], ['#808080', 'one by one']]),
+    constraints: () =>
+      kinds('constraint graph', [
+        ['conic-gradient(#d66, #cb4, #5b8, #59d, #c6b, #d66)', 'solved at once'],
+        ['#808080', 'one by one'],
+      ]),
   };
   return names.filter((name) => all[name]).map((name) => all[name]());
 }

@@ -17,24 +17,35 @@ export class Library {
   }
 
   /** Backends of a scene. */
-  backendsOf(scene) { return this.scenes.get(scene).map(({ backend }) => backend); }
+  backendsOf(scene) {
+    return this.scenes.get(scene).map(({ backend }) => backend);
+  }
 
-  get names() { return [...this.scenes.keys()]; }
+  get names() {
+    return [...this.scenes.keys()];
+  }
 
   /** Number of the page's colour of a backend: what its script says in data-hue, else by order. */
-  hue(backend) { return this.hues.get(backend); }
+  hue(backend) {
+    return this.hues.get(backend);
+  }
 
-  /** Replays of a scene. Throws an Error that names the bundle which cannot be opened. */
+  /** Replays of a scene, kept until another one is opened. Throws an Error that names the bundle that cannot be opened. */
   async open(scene) {
     const entries = this.scenes.get(scene);
     if (!entries) throw new Error(`there is no replay of the scene "${scene}"; there are: ${this.names.join(', ')}`);
-    return Promise.all(entries.map(async (entry) => {
-      try {
-        entry.replay ??= new Replay(await decodeBundle(entry.script.textContent));
-      } catch (error) {
-        throw new Error(`the replay of ${scene} in ${entry.backend} cannot be opened: ${error.message}`);
-      }
-      return { backend: entry.backend, replay: entry.replay };
-    }));
+    for (const [other, kept] of this.scenes) {
+      if (other !== scene) for (const entry of kept) entry.replay = null; // they are large
+    }
+    return Promise.all(
+      entries.map(async (entry) => {
+        try {
+          entry.replay ??= new Replay(await decodeBundle(entry.script.textContent));
+        } catch (error) {
+          throw new Error(`the replay of ${scene} in ${entry.backend} cannot be opened: ${error.message}`);
+        }
+        return { backend: entry.backend, replay: entry.replay };
+      }),
+    );
   }
 }

@@ -1,4 +1,5 @@
 // Finds the replays of the page, builds the viewer into #plumb-viewer and hands it out as window.plumbViewer.
+import { apiOf } from './api.js';
 import { Library } from './library.js';
 import css from './viewer.css';
 import { Viewer } from './viewer.js';
@@ -10,7 +11,7 @@ function start() {
   const style = document.createElement('style');
   style.textContent = css;
   document.head.append(style);
-  window.plumbViewer = new Viewer(place, new Library(scripts)).api();
+  window.plumbViewer = apiOf(new Viewer(place, new Library(scripts)));
 }
 
 if (document.readyState === 'loading') document.addEventListener('DOMContentLoaded', start);

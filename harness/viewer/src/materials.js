@@ -23,40 +23,59 @@ float fade() { return smoothstep(fadeBegin, fadeEnd, distance(vWorld, gridCentre
 const kFragmentGrid = `#include <color_fragment>
 vec3 facing = abs(normalize(cross(dFdx(vWorld), dFdy(vWorld))));
 vec2 along = facing.y > 0.5 ? vWorld.xz : facing.x > facing.z ? vWorld.yz : vWorld.xy;
-diffuseColor.rgb = mix(diffuseColor.rgb, gridColour, 0.55 * gridLine(along / gridStep) + 0.25 * gridLine(along / (gridStep * 5.0)));`;
+float lines = 0.55 * gridLine(along / gridStep) + 0.25 * gridLine(along / (gridStep * 5.0));
+diffuseColor.rgb = mix(diffuseColor.rgb, gridColour, lines);`;
 const kFragmentFade = `gl_FragColor.rgb = mix(gl_FragColor.rgb, horizon, fade());
 #include <colorspace_fragment>`;
 
 /** The nearest of 1, 2, 5 times a power of ten. */
 export function roundStep(length) {
-  const power = 10 ** Math.floor(Math.log10(length)), part = length / power;
+  const power = 10 ** Math.floor(Math.log10(length)),
+    part = length / power;
   return power * (part < 1.5 ? 1 : part < 3.5 ? 2 : part < 7.5 ? 5 : 10);
 }
 
 export function makeMaterials(radius, centre) {
   const uniforms = {
-    gridColour: { value: new Color() }, horizon: { value: new Color() }, gridCentre: { value: centre },
-    gridStep: { value: roundStep(radius / 4) }, fadeBegin: { value: radius * 2.5 }, fadeEnd: { value: radius * 9 },
+    gridColour: { value: new Color() },
+    horizon: { value: new Color() },
+    gridCentre: { value: centre },
+    gridStep: { value: roundStep(radius / 4) },
+    fadeBegin: { value: radius * 2.5 },
+    fadeEnd: { value: radius * 9 },
   };
-  const behindEdges = { polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 }; // so that edges are not broken by their own faces
+  // Faces lie a little behind their own edges, which they would break up otherwise.
+  const behindEdges = { polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 };
   const ground = new MeshLambertMaterial({ side: DoubleSide, ...behindEdges });
   ground.onBeforeCompile = (shader) => {
     Object.assign(shader.uniforms, uniforms);
-    shader.vertexShader = shader.vertexShader.replace('#include <common>', kVertexHead).replace('#include <project_vertex>', kVertexBody);
-    shader.fragmentShader = shader.fragmentShader.replace('#include <common>', kFragmentHead)
-      .replace('#include <color_fragment>', kFragmentGrid).replace('#include <colorspace_fragment>', kFragmentFade);
+    shader.vertexShader = shader.vertexShader
+      .replace('#include <common>', kVertexHead)
+      .replace('#include <project_vertex>', kVertexBody);
+    shader.fragmentShader = shader.fragmentShader
+      .replace('#include <common>', kFragmentHead)
+      .replace('#include <color_fragment>', kFragmentGrid)
+      .replace('#include <colorspace_fragment>', kFragmentFade);
   };
-  const body = new MeshLambertMaterial(behindEdges), openBody = new MeshLambertMaterial({ side: DoubleSide, ...behindEdges });
+  const body = new MeshLambertMaterial(behindEdges),
+    openBody = new MeshLambertMaterial({ side: DoubleSide, ...behindEdges });
   const edge = new LineBasicMaterial({ transparent: true, opacity: 0.35, depthWrite: false });
   const fixedEdge = new LineBasicMaterial({ transparent: true, opacity: 0.22, depthWrite: false });
   return {
-    ground, body, openBody, edge, fixedEdge, gridStep: uniforms.gridStep.value,
+    ground,
+    body,
+    openBody,
+    edge,
+    fixedEdge,
+    gridStep: uniforms.gridStep.value,
     paint(theme) {
       uniforms.gridColour.value.copy(theme.gridLine);
       uniforms.horizon.value.copy(theme.horizon);
       ground.color.copy(theme.ground);
       for (const line of [edge, fixedEdge]) line.color.copy(theme.edge);
     },
-    dispose() { for (const material of [ground, body, openBody, edge, fixedEdge]) material.dispose(); },
+    dispose() {
+      for (const material of [ground, body, openBody, edge, fixedEdge]) material.dispose();
+    },
   };
 }

@@ -9,9 +9,10 @@ export function pairOf(scene) {
   return parts && [parts[1], parts[2]];
 }
 
-/** Kinds in the order in which they lead: those that are first in most pairs first, so that the matrix is a triangle. */
+/** Kinds by how many others they come first with, fewest first, so that the matrix is a triangle. */
 export function kindsOf(pairs) {
-  const kinds = [...new Set(pairs.flat())], lead = (kind) => new Set(pairs.filter(([a, b]) => a === kind && b !== kind).map(([, b]) => b)).size;
+  const kinds = [...new Set(pairs.flat())],
+    lead = (kind) => new Set(pairs.filter(([a, b]) => a === kind && b !== kind).map(([, b]) => b)).size;
   return kinds.sort((a, b) => lead(a) - lead(b));
 }
 
@@ -19,7 +20,8 @@ export class PairPanel {
   constructor(viewer) {
     this.viewer = viewer;
     this.scenes = new Map(); // "a b" and "b a": the scene's name
-    const { library } = viewer, pairs = [];
+    const { library } = viewer,
+      pairs = [];
     for (const scene of library.names) {
       const pair = pairOf(scene);
       if (!pair) continue;
@@ -27,33 +29,70 @@ export class PairPanel {
       this.scenes.set(pair.join(' '), scene).set([...pair].reverse().join(' '), scene);
     }
     this.kinds = kindsOf(pairs);
-    this.element = element('div', { class: 'pv-pairs', hidden: true, role: 'group', 'aria-label': 'pairs of shapes' }, this.table());
+    this.element = element(
+      'div',
+      { class: 'pv-pairs', hidden: true, role: 'group', 'aria-label': 'pairs of shapes' },
+      this.table(),
+    );
   }
 
   /** The scene that stands for all pairs in the list of scenes, or undefined. */
-  get first() { return this.scenes.values().next().value; }
+  get first() {
+    return this.scenes.values().next().value;
+  }
 
   table() {
     const words = (kind) => kind.replaceAll('_', ' ');
-    const head = element('tr', {}, element('td'), ...this.kinds.map((kind) => element('th', { scope: 'col' }, words(kind))));
-    return element('table', {}, element('thead', {}, head), element('tbody', {}, ...this.kinds.map((row, i) =>
-      element('tr', {}, element('th', { scope: 'row' }, words(row)), ...this.kinds.map((column, j) => {
-        const scene = j <= i ? this.scenes.get(`${row} ${column}`) : undefined;
-        return element('td', {}, scene ? this.button(scene, `${words(row)} and ${words(column)}`) : null);
-      })))));
+    const head = element(
+      'tr',
+      {},
+      element('td'),
+      ...this.kinds.map((kind) => element('th', { scope: 'col' }, words(kind))),
+    );
+    return element(
+      'table',
+      {},
+      element('thead', {}, head),
+      element(
+        'tbody',
+        {},
+        ...this.kinds.map((row, i) =>
+          element(
+            'tr',
+            {},
+            element('th', { scope: 'row' }, words(row)),
+            ...this.kinds.map((column, j) => {
+              const scene = j <= i ? this.scenes.get(`${row} ${column}`) : undefined;
+              return element('td', {}, scene ? this.button(scene, `${words(row)} and ${words(column)}`) : null);
+            }),
+          ),
+        ),
+      ),
+    );
   }
 
   /** A dot for each engine that answers for the pair. */
   button(scene, name) {
-    const { library } = this.viewer, backends = library.backendsOf(scene);
-    return element('button', { type: 'button', 'data-pair': scene, 'aria-pressed': 'false', 'aria-label': `${name}: ${backends.join(', ')}`,
-      title: `${name}: ${backends.join(', ')}`, onclick: () => this.viewer.select(scene) },
-    ...backends.map((backend) => element('i', { style: `--c:var(--hue${library.hue(backend)},#0072b2)` })));
+    const { library } = this.viewer,
+      backends = library.backendsOf(scene);
+    return element(
+      'button',
+      {
+        type: 'button',
+        'data-pair': scene,
+        'aria-pressed': 'false',
+        'aria-label': `${name}: ${backends.join(', ')}`,
+        title: `${name}: ${backends.join(', ')}`,
+        onclick: () => this.viewer.select(scene),
+      },
+      ...backends.map((backend) => element('i', { style: `--c:var(--hue${library.hue(backend)},#0072b2)` })),
+    );
   }
 
   show(scene) {
     this.element.hidden = !pairOf(scene);
-    for (const button of this.element.querySelectorAll('button')) button.setAttribute('aria-pressed', `${button.dataset.pair === scene}`);
+    for (const button of this.element.querySelectorAll('button'))
+      button.setAttribute('aria-pressed', `${button.dataset.pair === scene}`);
   }
 
   /** Shows a pair by its two kinds, in either order. */

@@ -15,10 +15,14 @@ export class Partners {
   }
 
   /** Whether the centre of a body says where it is, beside the other. */
-  compact(body, other) { return this.replay.moves(body) || this.radii[body] < kWide * this.radii[other]; }
+  compact(body, other) {
+    return this.replay.moves(body) || this.radii[body] < kWide * this.radii[other];
+  }
 
   index() {
-    const { replay, rows } = this, a = replay.sections['contacts/body_a'], b = replay.sections['contacts/body_b'];
+    const { replay, rows } = this,
+      a = replay.sections['contacts/body_a'],
+      b = replay.sections['contacts/body_b'];
     rows.clear();
     this.frame = replay.frame;
     if (!a || !replay.has('contacts/point')) return;
@@ -29,7 +33,8 @@ export class Partners {
 
   /** The point in this.point. */
   meet(a, b) {
-    const { replay, point } = this, { poses } = replay;
+    const { replay, point } = this,
+      { poses } = replay;
     if (this.frame !== replay.frame) this.index();
     const row = this.rows.get(Math.min(a, b) * replay.bodies.length + Math.max(a, b));
     for (let i = 0; i < 3; ++i) {

@@ -23,16 +23,27 @@ export function colourRanges(replays) {
     for (const depth of sections['boxes/depth'] ?? []) deepestBox = Math.max(deepestBox, depth);
   }
   return {
-    penetrationRange: upperRange(replays.map(({ sections }) => sections.penetration), 1e-9),
-    forceRange: upperRange(replays.map(({ sections }) => sections['contacts/force']), 1e-9),
+    penetrationRange: upperRange(
+      replays.map(({ sections }) => sections.penetration),
+      1e-9,
+    ),
+    forceRange: upperRange(
+      replays.map(({ sections }) => sections['contacts/force']),
+      1e-9,
+    ),
     deepestBox,
   };
 }
 
 /** {series: {low, high}} over all replays. */
 export function seriesRanges(replays, names) {
-  return Object.fromEntries(names.map((name) => {
-    const each = replays.map(({ sections }) => sections[`series/${name}`]).filter(Boolean).map((values) => valueRange(values));
-    return [name, { low: Math.min(...each.map(({ low }) => low)), high: Math.max(...each.map(({ high }) => high)) }];
-  }));
+  return Object.fromEntries(
+    names.map((name) => {
+      const each = replays
+        .map(({ sections }) => sections[`series/${name}`])
+        .filter(Boolean)
+        .map((values) => valueRange(values));
+      return [name, { low: Math.min(...each.map(({ low }) => low)), high: Math.max(...each.map(({ high }) => high)) }];
+    }),
+  );
 }

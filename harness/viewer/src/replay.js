@@ -12,7 +12,9 @@ export class Replay {
     this.bodies = header.bodies;
     this.moving = Int32Array.from(header.moving);
     this.column = new Int32Array(this.bodies.length).fill(-1);
-    this.moving.forEach((body, column) => { this.column[body] = column; });
+    this.moving.forEach((body, column) => {
+      this.column[body] = column;
+    });
     this.quantised = sections.positions instanceof Uint16Array;
     this.lower = header.lower ?? [0, 0, 0];
     this.step = this.lower.map((low, i) => (header.upper ? (header.upper[i] - low) / 65535 : 0));
@@ -23,21 +25,31 @@ export class Replay {
     this.sample(this.times[0] ?? 0);
   }
 
-  get begin() { return this.frames ? this.times[0] : 0; }
-  get end() { return this.frames ? this.times[this.frames - 1] : 0; }
+  get begin() {
+    return this.frames ? this.times[0] : 0;
+  }
+  get end() {
+    return this.frames ? this.times[this.frames - 1] : 0;
+  }
 
   /** False for what stands still, and for a body that is not in the list. */
-  moves(body) { return this.column[body] >= 0; }
+  moves(body) {
+    return this.column[body] >= 0;
+  }
 
-  has(section) { return this.sections[section] !== undefined; }
+  has(section) {
+    return this.sections[section] !== undefined;
+  }
 
   /** The last frame that is not after the time; times are stored in single precision. */
   frameAt(seconds) {
     const time = seconds + 1e-6;
-    let low = 0, high = this.frames - 1;
+    let low = 0,
+      high = this.frames - 1;
     while (low < high) {
       const middle = (low + high + 1) >> 1;
-      if (this.times[middle] <= time) low = middle; else high = middle - 1;
+      if (this.times[middle] <= time) low = middle;
+      else high = middle - 1;
     }
     return low;
   }
@@ -49,21 +61,26 @@ export class Replay {
 
   /** Fills poses; between two frames positions go straight and orientations the short way round. Allocates nothing. */
   sample(time) {
-    const count = this.moving.length, { positions, orientations } = this.sections;
+    const count = this.moving.length,
+      { positions, orientations } = this.sections;
     if (!this.frames) return;
-    const frame = this.frame = this.frameAt(time);
-    const next = Math.min(frame + 1, this.frames - 1), span = this.times[next] - this.times[frame];
+    const frame = (this.frame = this.frameAt(time));
+    const next = Math.min(frame + 1, this.frames - 1),
+      span = this.times[next] - this.times[frame];
     const t = span > 0 ? Math.min(Math.max((time - this.times[frame]) / span, 0), 1) : 0;
     const { poses, lower, step, quantised } = this;
     for (let column = 0; column < count; ++column) {
       const out = this.moving[column] * kPose;
-      const p = (frame * count + column) * 3, r = (next * count + column) * 3;
+      const p = (frame * count + column) * 3,
+        r = (next * count + column) * 3;
       for (let axis = 0; axis < 3; ++axis) {
         const value = positions[p + axis] * (1 - t) + positions[r + axis] * t;
         poses[out + axis] = quantised ? lower[axis] + value * step[axis] : value;
       }
-      const a = (frame * count + column) * 4, b = (next * count + column) * 4;
-      let dot = 0, norm = 0;
+      const a = (frame * count + column) * 4,
+        b = (next * count + column) * 4;
+      let dot = 0,
+        norm = 0;
       for (let i = 0; i < 4; ++i) dot += orientations[a + i] * orientations[b + i];
       const to = dot < 0 ? -t : t;
       for (let i = 0; i < 4; ++i) {
@@ -84,17 +101,21 @@ export class Replay {
 
   /** A value of a moving body at the current frame, or undefined where the section or the column is missing. */
   value(section, body) {
-    const values = this.sections[section], column = this.column[body];
+    const values = this.sections[section],
+      column = this.column[body];
     return values === undefined || !(column >= 0) ? undefined : values[this.frame * this.moving.length + column];
   }
 
   /** Metres a second between the frames around the current one. */
   speed(body) {
     const column = this.column[body];
-    const a = Math.max(this.frame - 1, 0), b = Math.min(this.frame + 1, this.frames - 1), span = this.times[b] - this.times[a];
+    const a = Math.max(this.frame - 1, 0),
+      b = Math.min(this.frame + 1, this.frames - 1),
+      span = this.times[b] - this.times[a];
     if (!(column >= 0) || !(span > 0)) return 0;
     let sum = 0;
-    for (let axis = 0; axis < 3; ++axis) sum += (this.coordinate(b, column, axis) - this.coordinate(a, column, axis)) ** 2;
+    for (let axis = 0; axis < 3; ++axis)
+      sum += (this.coordinate(b, column, axis) - this.coordinate(a, column, axis)) ** 2;
     return Math.sqrt(sum) / span;
   }
 }

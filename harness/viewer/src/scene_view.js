@@ -25,12 +25,23 @@ export class SceneView {
   }
 
   aimSun({ centre, radius }) {
-    const { sun } = this, reach = radius * 1.5;
+    const { sun } = this,
+      reach = radius * 1.5;
     sun.target.position.copy(centre);
-    sun.position.copy(kSun).multiplyScalar(radius * 4).add(centre);
+    sun.position
+      .copy(kSun)
+      .multiplyScalar(radius * 4)
+      .add(centre);
     sun.castShadow = true;
     sun.shadow.mapSize.set(2048, 2048);
-    Object.assign(sun.shadow.camera, { left: -reach, right: reach, top: reach, bottom: -reach, near: radius * 0.5, far: radius * 8 });
+    Object.assign(sun.shadow.camera, {
+      left: -reach,
+      right: reach,
+      top: reach,
+      bottom: -reach,
+      near: radius * 0.5,
+      far: radius * 8,
+    });
     sun.shadow.normalBias = radius / 300;
     sun.shadow.radius = 3;
   }
@@ -49,7 +60,7 @@ export class SceneView {
   setLayer(kind, on) {
     let layer = this.layers.get(kind.name);
     if (on && !layer && kind.Drawing) {
-      layer = new kind.Drawing(this.replay, this.markSize);
+      layer = new kind.Drawing(this.replay, this.markSize, this.bodies);
       this.layers.set(kind.name, layer);
       this.scene.add(layer.object);
     }

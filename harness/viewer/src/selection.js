@@ -1,5 +1,16 @@
 // The picked body: its edges in front of everything, and the path that it takes through the whole replay.
-import { BufferAttribute, BufferGeometry, EdgesGeometry, Group, Line, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial, BackSide } from 'three';
+import {
+  BufferAttribute,
+  BufferGeometry,
+  EdgesGeometry,
+  Group,
+  Line,
+  LineBasicMaterial,
+  LineSegments,
+  Mesh,
+  MeshBasicMaterial,
+  BackSide,
+} from 'three';
 import { kPose } from './replay.js';
 import { writeMatrix } from './bodies.js';
 
@@ -37,13 +48,14 @@ export class Selection {
     }
     this.halo.visible = !place.group.fixed;
     this.lines.renderOrder = 5;
-    if (this.replay.column[body] >= 0) this.object.add(this.path = this.pathOf(this.replay.column[body]));
+    if (this.replay.column[body] >= 0) this.object.add((this.path = this.pathOf(this.replay.column[body])));
     this.object.visible = true;
     this.update();
   }
 
   pathOf(column) {
-    const { replay } = this, points = new Float32Array(replay.frames * 3);
+    const { replay } = this,
+      points = new Float32Array(replay.frames * 3);
     for (let i = 0; i < points.length; ++i) points[i] = replay.coordinate(Math.floor(i / 3), column, i % 3);
     const geometry = new BufferGeometry();
     geometry.setAttribute('position', new BufferAttribute(points, 3));
@@ -55,7 +67,13 @@ export class Selection {
   update() {
     if (this.body === null) return;
     writeMatrix(this.replay.poses, this.body * kPose, this.scale, this.lines.matrix.elements, 0);
-    writeMatrix(this.replay.poses, this.body * kPose, this.scale.map((s) => s * kGrow), this.halo.matrix.elements, 0);
+    writeMatrix(
+      this.replay.poses,
+      this.body * kPose,
+      this.scale.map((s) => s * kGrow),
+      this.halo.matrix.elements,
+      0,
+    );
     for (const part of [this.halo, this.lines]) part.matrixWorldNeedsUpdate = true;
   }
 

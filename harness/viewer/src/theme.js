@@ -7,7 +7,8 @@ function variable(style, name, otherwise) {
 
 export function readTheme(element) {
   const style = getComputedStyle(element);
-  const paper = new Color(variable(style, '--paper', '#ffffff')), ink = new Color(variable(style, '--ink', '#1b1d20'));
+  const paper = new Color(variable(style, '--paper', '#ffffff')),
+    ink = new Color(variable(style, '--ink', '#1b1d20'));
   const dark = paper.getHSL({}).l < 0.5;
   return {
     dark,
@@ -25,6 +26,9 @@ export function readTheme(element) {
 
 /** Calls back when the reader or the system changes between light and dark. */
 export function watchTheme(callback) {
-  new MutationObserver(callback).observe(document.documentElement, { attributes: true, attributeFilter: ['data-theme', 'class'] });
+  new MutationObserver(callback).observe(document.documentElement, {
+    attributes: true,
+    attributeFilter: ['data-theme', 'class'],
+  });
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', callback);
 }

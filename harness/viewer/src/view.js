@@ -17,13 +17,36 @@ export class View {
     this.notes = element('ul', { class: 'pv-notes', 'aria-live': 'polite' });
     this.card = element('dl', { class: 'pv-card', hidden: true });
     this.labels = Array.from({ length: kLabels }, () => element('span', { class: 'pv-label', hidden: true }));
-    const { backend, label, status, reason, note } = replay.header, name = label || backend, verdict = status === 'ok' ? '' : status;
-    this.port = element('div', { class: 'pv-port', tabindex: 0, role: 'img', 'aria-label': `${name}: 3D replay. Drag to turn, click a body for its numbers.` },
-      ...this.labels, this.notes, this.card);
-    this.element = element('article', { class: 'pv-view', style: `--c:var(--hue${hue},#0072b2)`, 'aria-label': name },
-      element('header', {}, element('i', { class: 'pv-engine' }), element('b', {}, name), verdict ? element('span', { class: `chip ${verdict}`, title: reason || undefined }, verdict) : null,
-        reason ? element('small', { title: reason }, reason) : null),
-      this.port, this.curves.element, note ? element('p', { class: 'pv-note' }, note) : null);
+    const { backend, label, status, reason, note } = replay.header,
+      name = label || backend,
+      verdict = status === 'ok' ? '' : status;
+    this.port = element(
+      'div',
+      {
+        class: 'pv-port',
+        tabindex: 0,
+        role: 'img',
+        'aria-label': `${name}: 3D replay. Drag to turn, click a body for its numbers.`,
+      },
+      ...this.labels,
+      this.notes,
+      this.card,
+    );
+    this.element = element(
+      'article',
+      { class: 'pv-view', style: `--c:var(--hue${hue},#0072b2)`, 'aria-label': name },
+      element(
+        'header',
+        {},
+        element('i', { class: 'pv-engine' }),
+        element('b', {}, name),
+        verdict ? element('span', { class: `chip ${verdict}`, title: reason || undefined }, verdict) : null,
+        reason ? element('small', { title: reason }, reason) : null,
+      ),
+      this.port,
+      this.curves.element,
+      note ? element('p', { class: 'pv-note' }, note) : null,
+    );
     this.pressed = new Vector2();
     this.port.addEventListener('pointerdown', (event) => this.pressed.set(event.clientX, event.clientY));
     this.port.addEventListener('pointerup', (event) => {
@@ -32,42 +55,69 @@ export class View {
     this.projected = new Vector3();
   }
 
-  get name() { return this.replay.header.label || this.replay.header.backend; }
+  get name() {
+    return this.replay.header.label || this.replay.header.backend;
+  }
 
   /** Writes into the view what of the layers that are on this replay does not have. */
   explain(kinds) {
-    this.notes.replaceChildren(...kinds.map((kind) => [kind, missing(kind, this.replay)]).filter(([, why]) => why)
-      .map(([kind, why]) => element('li', {}, `${kind.label}: ${why}`)));
+    this.notes.replaceChildren(
+      ...kinds
+        .map((kind) => [kind, missing(kind, this.replay)])
+        .filter(([, why]) => why)
+        .map(([kind, why]) => element('li', {}, `${kind.label}: ${why}`)),
+    );
   }
 
   select(body) {
     this.scene.selection.set(body);
     this.card.hidden = body === null;
+    this.described = -1;
     if (body !== null) this.describe();
   }
 
   /** The picked body in numbers. */
   describe() {
-    const { replay } = this, { body } = this.scene.selection;
-    if (body === null) return;
-    const { name, motion } = replay.bodies[body], p = body * kPose, facts = [];
-    facts.push(['position', `${[0, 1, 2].map((i) => replay.poses[p + i].toFixed(2).replace('-', '\u2212')).join(' ')} m`]);
+    const { replay } = this,
+      { body } = this.scene.selection;
+    if (body === null || replay.frame === this.described) return;
+    this.described = replay.frame;
+    const { name, motion } = replay.bodies[body],
+      p = body * kPose,
+      facts = [];
+    facts.push([
+      'position',
+      `${[0, 1, 2].map((i) => replay.poses[p + i].toFixed(2).replace('-', '\u2212')).join(' ')} m`,
+    ]);
     if (motion !== 'static') facts.push(['speed', quantity(replay.speed(body), 'm/s')]);
-    const overlap = replay.value('penetration', body), island = replay.value('islands', body);
+    const overlap = replay.value('penetration', body),
+      island = replay.value('islands', body);
     if (overlap !== undefined) facts.push(['overlap', quantity(overlap, 'm')]);
     const touching = this.contactsOf(body);
-    if (touching) facts.push(['contacts', touching.force === null ? `${touching.count}` : `${touching.count}, ${quantity(touching.force, 'N')}`]);
+    if (touching)
+      facts.push([
+        'contacts',
+        touching.force === null ? `${touching.count}` : `${touching.count}, ${quantity(touching.force, 'N')}`,
+      ]);
     if (island !== undefined) facts.push(['island', island < 0 ? 'none' : `${island}`]);
     if (replay.has('asleep')) facts.push(['asleep', replay.value('asleep', body) ? 'yes' : 'no']);
-    this.card.replaceChildren(element('dt', { class: 'pv-card-name' }, name || `body ${body}`), element('dd', {}, motion),
-      ...facts.flatMap(([title, text]) => [element('dt', {}, title), element('dd', {}, text)]));
+    this.card.replaceChildren(
+      element('dt', { class: 'pv-card-name' }, name || `body ${body}`),
+      element('dd', {}, motion),
+      ...facts.flatMap(([title, text]) => [element('dt', {}, title), element('dd', {}, text)]),
+    );
   }
 
   /** {count, force: sum along the normals or null} of a body, or null where contacts were not recorded. */
   contactsOf(body) {
-    const { replay } = this, { sections } = replay, a = sections['contacts/body_a'], b = sections['contacts/body_b'], forces = sections['contacts/force'];
+    const { replay } = this,
+      { sections } = replay,
+      a = sections['contacts/body_a'],
+      b = sections['contacts/body_b'],
+      forces = sections['contacts/force'];
     if (!a) return null;
-    let count = 0, force = forces ? 0 : null;
+    let count = 0,
+      force = forces ? 0 : null;
     for (let row = replay.first('contacts'), end = replay.first('contacts', 1); row < end; ++row) {
       if (a[row] !== body && b[row] !== body) continue;
       ++count;
@@ -78,22 +128,35 @@ export class View {
 
   /** Ids beside the contacts of the picked body, or of all where they are few. */
   placeLabels(camera, on) {
-    const { replay } = this, { sections } = replay, ids = sections['contacts/id'], { body } = this.scene.selection;
+    const { replay } = this,
+      { sections } = replay,
+      ids = sections['contacts/id'],
+      { body } = this.scene.selection;
     let used = 0;
     if (on && ids && sections['contacts/point']) {
-      const first = replay.first('contacts'), end = replay.first('contacts', 1);
+      const first = replay.first('contacts'),
+        end = replay.first('contacts', 1);
       for (let row = first; row < end && used < kLabels; ++row) {
-        if (body === null ? end - first > kLabels : sections['contacts/body_a'][row] !== body && sections['contacts/body_b'][row] !== body) continue;
+        if (
+          body === null
+            ? end - first > kLabels
+            : sections['contacts/body_a'][row] !== body && sections['contacts/body_b'][row] !== body
+        )
+          continue;
         const at = this.projected.fromArray(sections['contacts/point'], row * 3).project(camera);
         if (at.z > 1) continue;
         const label = this.labels[used++];
         label.hidden = false;
         label.textContent = ids[row].toString(16);
-        label.style.transform = `translate(${((at.x + 1) / 2) * this.port.clientWidth + 7}px, ${((1 - at.y) / 2) * this.port.clientHeight - 8}px)`;
+        const x = ((at.x + 1) / 2) * this.port.clientWidth,
+          y = ((1 - at.y) / 2) * this.port.clientHeight;
+        label.style.transform = `translate(${x + 7}px, ${y - 8}px)`;
       }
     }
     for (; used < kLabels && !this.labels[used].hidden; ++used) this.labels[used].hidden = true;
   }
 
-  dispose() { this.scene.dispose(); }
+  dispose() {
+    this.scene.dispose();
+  }
 }
