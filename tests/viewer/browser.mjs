@@ -6,12 +6,12 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { pathToFileURL } from 'node:url';
+import { kArguments, kBrowser as executablePath } from './launch.mjs';
 import { page as makePage } from './page.mjs';
 import { crowd, pairScripts, script, tower, zoo } from './synthetic.mjs';
 
 const folder = process.env.PLUMB_VIEWER_FOLDER,
   root = process.env.PLUMB_SOURCE;
-const executablePath = process.env.PLUMB_CHROMIUM ?? '/usr/bin/chromium';
 if (!existsSync(executablePath)) {
   console.log(
     `skipped: there is no browser at ${executablePath}; install the package chromium or name one in PLUMB_CHROMIUM`,
@@ -19,16 +19,6 @@ if (!existsSync(executablePath)) {
   process.exit(0);
 }
 const { chromium } = createRequire(join(folder, 'package.json'))('playwright-core');
-const kArguments = [
-  '--headless',
-  '--no-sandbox',
-  '--disable-quic',
-  '--no-first-run',
-  '--disable-background-networking',
-  '--use-gl=angle',
-  '--use-angle=swiftshader',
-  '--enable-unsafe-swiftshader',
-];
 
 let browser, scratch, file;
 
@@ -108,6 +98,14 @@ test('a scene is drawn, and scrubbing moves it', () =>
     await page.locator('.pv-time').fill('1000');
     const { time, begin, end } = await page.evaluate(() => window.plumbViewer.describe());
     assert.ok(Math.abs(time - (begin + end) / 2) < 1e-6);
+    await page
+      .locator('.pv-plot svg')
+      .first()
+      .click({ position: { x: 1, y: 20 } });
+    assert.ok(
+      (await page.evaluate(() => window.plumbViewer.describe())).time < 0.05 * end,
+      'a curve leads to its time',
+    );
   }));
 
 test('it plays, and pauses', () =>

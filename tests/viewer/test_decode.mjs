@@ -105,8 +105,10 @@ test('time is clamped to the frames, and frames are found by time', () => {
   const { replay: spin } = spiral(true);
   spin.sample(-5);
   assert.equal(spin.frame, 0);
+  assert.ok(Math.abs(spin.poses[2] + 40) < 1e-2);
   spin.sample(1e9);
   assert.equal(spin.frame, spin.frames - 1);
+  assert.ok(Math.abs(spin.poses[2] - 38) < 1e-2);
   for (const f of [0, 1, 7, 38]) assert.equal(spin.frameAt(spin.times[f]), f);
 });
 

@@ -63,10 +63,18 @@ export function curvePath(times, values, span, { low, high }) {
 }
 
 export class Curves {
-  constructor(replay) {
+  /** seek: called with the time where the reader presses a curve. */
+  constructor(replay, seek) {
     this.replay = replay;
     this.element = element('div', { class: 'pv-curves' });
     this.strips = [];
+    const follow = (event) => {
+      const drawing = event.target.closest('.pv-plot svg');
+      if (!drawing || !(event.buttons & 1)) return;
+      const { left, width } = drawing.getBoundingClientRect();
+      seek(this.span.begin + ((event.clientX - left) / width) * (this.span.end - this.span.begin));
+    };
+    for (const name of ['pointerdown', 'pointermove']) this.element.addEventListener(name, follow);
   }
 
   /** ranges: {name: {low, high}} where all engines share a scale, else null. */

@@ -13,7 +13,7 @@ export class View {
   constructor(replay, frame, hue, callbacks) {
     this.replay = replay;
     this.scene = new SceneView(replay, frame);
-    this.curves = new Curves(replay);
+    this.curves = new Curves(replay, callbacks.seek);
     this.notes = element('ul', { class: 'pv-notes', 'aria-live': 'polite' });
     this.card = element('dl', { class: 'pv-card', hidden: true });
     this.labels = Array.from({ length: kLabels }, () => element('span', { class: 'pv-label', hidden: true }));

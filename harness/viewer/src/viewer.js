@@ -101,9 +101,15 @@ export class Viewer {
     this.kind = replays[0].header.kind ?? 'scene';
     Object.assign(this.context, colourRanges(replays), { boxDepth: 'all' });
     this.framing = framing(replays);
+    const callbacks = {
+      pick: (view, event) => this.pick(view, event),
+      seek: (time) => {
+        this.pause();
+        this.seek(time);
+      },
+    };
     this.views = opened.map(
-      ({ backend, replay }) =>
-        new View(replay, this.framing, this.library.hue(backend), { pick: (view, event) => this.pick(view, event) }),
+      ({ backend, replay }) => new View(replay, this.framing, this.library.hue(backend), callbacks),
     );
     this.clock.setRange(Math.min(...replays.map((r) => r.begin)), Math.max(...replays.map((r) => r.end)));
     for (const view of this.views) {

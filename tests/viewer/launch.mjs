@@ -1,0 +1,12 @@
+// The browser that the viewer is tested in: without a window, and with graphics drawn in software.
+export const kBrowser = process.env.PLUMB_CHROMIUM ?? '/usr/bin/chromium';
+export const kArguments = [
+  '--headless',
+  '--no-sandbox',
+  '--disable-quic',
+  '--no-first-run',
+  '--disable-background-networking',
+  '--use-gl=angle',
+  '--use-angle=swiftshader',
+  '--enable-unsafe-swiftshader',
+];
