@@ -60,7 +60,11 @@ void add_study_options(CLI::App& verb, StudyOptions& options) {
       ->capture_default_str();
   verb.add_option("--out", request.out, "Folder for results.jsonl; cells that are finished there are not run again")
       ->capture_default_str();
-  verb.add_flag("--record", request.record, "Write trajectories to the folder of --out");
+  verb.add_flag("--record", request.record,
+                "Run every cell once more and write its trajectory to the folder of --out, for replays in the report");
+  verb.add_flag("--layers", request.layers,
+                "With --record: also what the engine shows of its inside, such as the boxes of its trees; files grow")
+      ->needs("--record");
   verb.add_flag("--trace", request.trace,
                 "Write every call to the folder of --out, for plumb replay; times include that");
   verb.add_flag("--json", options.output.json, "One object a cell, one a line, as they finish");

@@ -21,6 +21,16 @@ class TextHash {
   std::uint64_t state_ = 0xcbf29ce484222325u;
 };
 
+std::string text_of(const Json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
+
+// The backend and what it was asked to be.
+std::string label_of(const Cell& cell) {
+  std::string label = cell.backend->name;
+  for (const auto& [name, value] : cell.settings.items()) label += " " + name + "=" + text_of(value);
+  if (cell.profile != "default") label += " " + cell.profile;
+  return label;
+}
+
 }  // namespace
 
 Json json_of(const Parameters& parameters) {
@@ -67,6 +77,12 @@ Json request_of(const Cell& cell, const std::string& trajectory_file, const std:
           {"threads", cell.threads},
           {"needs", cell.needs},
           {"trajectory", trajectory_file},
+          {"about",
+           {{"title", cell.scene->title},
+            {"params", json_of(cell.shown)},
+            {"backend", cell.backend->name},
+            {"label", label_of(cell)},
+            {"cell", cell_id(cell)}}},
           {"trace", trace_file}};
 }
 

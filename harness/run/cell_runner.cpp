@@ -15,7 +15,8 @@
 #include "run/machine.hpp"
 #include "run/metric_rows.hpp"
 #include "run/names.hpp"
-#include "run/trajectory.hpp"
+#include "run/recording.hpp"
+#include "run/support.hpp"
 
 namespace plumb::harness {
 
@@ -59,25 +60,26 @@ Json settings_in_force(const Backend& backend, Simulation& simulation) {
 
 class Recorder : public Tracker {
  public:
-  Recorder(const Backend& backend, Progress& progress, Record& record, const std::string& trajectory)
-      : Tracker(progress), backend_(backend), record_(record), trajectory_file_(trajectory) {}
+  Recorder(const Backend& backend, Progress& progress, Record& record, const RecordingRequest& recording,
+           PlumbNeeds declared)
+      : Tracker(progress), backend_(backend), record_(record), request_(recording), declared_(declared) {}
 
   void started(Simulation& simulation) override {
     Tracker::started(simulation);
     record_.bodies = simulation.poses().size();
     record_.settings = settings_in_force(backend_, simulation);
     general_.emplace(simulation);
-    if (!trajectory_file_.empty()) trajectory_.emplace(trajectory_file_, simulation, backend_.info().name);
+    if (!request_.file.empty()) recording_.emplace(request_, simulation, backend_, declared_);
   }
   void stepped(Simulation& simulation) override {
     general_->stepped(simulation);
-    if (trajectory_) trajectory_->stepped(simulation);
+    if (recording_) recording_->stepped(simulation);
     Tracker::stepped(simulation);
   }
   void ended(Simulation& simulation) noexcept override {
     try {
       record_.statistics = simulation.statistics();
-      if (trajectory_) trajectory_->finish();
+      if (recording_) recording_->finish();
       record_.metrics = general_->finish(simulation);
       record_.hash = simulation.state_hash();
     } catch (const std::exception& error) {
@@ -88,32 +90,36 @@ class Recorder : public Tracker {
  private:
   const Backend& backend_;
   Record& record_;
-  std::string trajectory_file_;
+  RecordingRequest request_;
+  PlumbNeeds declared_;
   std::optional<GeneralMetrics> general_;
-  std::optional<TrajectoryWriter> trajectory_;
+  std::optional<Recording> recording_;
 };
 
 class CellContext : public MeasureContext {
  public:
   CellContext(Backend& backend, const Scene& scene, SimulationOptions options, Progress& progress,
-              std::string trajectory)
+              RecordingRequest recording)
       : backend_(backend),
         scene_(scene),
         options_(std::move(options)),
         progress_(progress),
-        trajectory_(std::move(trajectory)) {}
+        recording_(std::move(recording)) {}
 
   [[nodiscard]] const Scene& scene() const override { return scene_; }
   Simulation simulate(const Scene& scene) override { return simulate(scene, options_); }
   Simulation simulate(const Scene& scene, const SimulationOptions& options) override {
     SimulationOptions watched = options;
-    if (!record_.made) {
-      record_.made = true;
-      watched.observer = std::make_shared<Recorder>(backend_, progress_, record_, trajectory_);
-    } else {
+    if (record_.made) {
       watched.observer = std::make_shared<Tracker>(progress_);
+      return {backend_, scene, watched};
     }
-    return {backend_, scene, watched};
+    record_.made = true;
+    Scene seen = scene;
+    if (!recording_.file.empty()) seen.needs |= needs_of_layers(backend_);
+    const PlumbNeeds declared = seen.needs | (watched.needs_all ? needs_of(backend_) : 0);
+    watched.observer = std::make_shared<Recorder>(backend_, progress_, record_, recording_, declared);
+    return {backend_, seen, watched};
   }
   [[nodiscard]] const SimulationOptions& options() const override { return options_; }
   [[nodiscard]] Backend& backend() override { return backend_; }
@@ -136,7 +142,7 @@ class CellContext : public MeasureContext {
   const Scene& scene_;
   SimulationOptions options_;
   Progress& progress_;
-  std::string trajectory_;
+  RecordingRequest recording_;
   Record record_;
   std::vector<Metric> metrics_;
 };
@@ -169,6 +175,10 @@ SimulationOptions options_of(const Backend& backend, const Json& request) {
     if (asked != request.at("settings").end()) options.settings.emplace_back(info->name, setting_value(*info, *asked));
   }
   return options;
+}
+
+RecordingRequest recording_of(const Json& request) {
+  return {request.value("trajectory", ""), request.value("layers", false), request.value("about", Json::object())};
 }
 
 struct Outcome {
@@ -274,7 +284,7 @@ Json run_cell(Backend& backend, const Json& request, Progress& progress) {
     if (!scene->lacks.empty()) throw Error(PLUMB_E_UNSUPPORTED, scene->lacks);
     const SimulationOptions options = options_of(backend, request);
     trace.emplace(backend, request.value("trace", ""));
-    context.emplace(trace->backend(), *scene, options, progress, request.value("trajectory", ""));
+    context.emplace(trace->backend(), *scene, options, progress, recording_of(request));
     find_measure(file).run(*context);
   });
   if (outcome.status == "ok" && !context->record().trouble.empty()) outcome = {"error", context->record().trouble};
@@ -291,6 +301,9 @@ Json run_cell(Backend& backend, const Json& request, Progress& progress) {
   answer["status"] = outcome.status;
   answer["reason"] = outcome.reason;
   answer["peak_mb"] = peak_memory_mb();
+  if (const RecordingRequest recording = recording_of(request); context && !recording.file.empty())
+    end_trajectory(recording.file,
+                   {{"status", answer["status"]}, {"reason", answer["reason"]}, {"hash", answer["hash"]}});
   return answer;
 }
 

@@ -9,6 +9,7 @@
 #include "measure/mechanics.hpp"
 #include "measure/reference_score.hpp"
 #include "referee/world_penetration.hpp"
+#include "run/scene_nature.hpp"
 
 namespace plumb::harness {
 
@@ -18,42 +19,12 @@ constexpr std::uint64_t energy_samples = 250;
 constexpr std::uint64_t overlap_samples = 10;
 constexpr std::size_t many_bodies = 3000;  // from here on overlaps are looked for twice only: they cost seconds
 
-// What the scene holds that works on it or stores energy, so that its mechanical energy is no account of the engine.
-struct Nature {
-  bool driven = false;      ///< host forces, motors, kinematic bodies, moving surfaces
-  bool stores = false;      ///< springs
-  bool dissipates = false;  ///< collisions, damping, limits
-  bool closed = true;       ///< nothing outside pushes: momentum is kept
-};
-
-Nature nature_of(const Scene& scene) {
-  Nature nature;
-  nature.driven = (scene.needs & (PLUMB_NEED_FORCES | PLUMB_NEED_KINEMATIC | PLUMB_NEED_SURFACE_VELOCITY)) != 0;
-  nature.dissipates = (scene.needs & (PLUMB_NEED_COLLISION | PLUMB_NEED_DAMPING)) != 0;
-  const bool weightless = scene.gravity.x == 0 && scene.gravity.y == 0 && scene.gravity.z == 0;
-  nature.closed = weightless && !nature.driven && (scene.needs & PLUMB_NEED_DAMPING) == 0;
-  for (const SceneBody& body : scene.bodies) {
-    if (body.desc.motion != PLUMB_DYNAMIC) nature.closed = false;
-    if (body.desc.gravity_scale != 1) nature.driven = true;  // the account knows one gravity only
-    if (body.desc.locks != 0) nature.closed = false;
-  }
-  for (const SceneJoint& joint : scene.joints) {
-    if (!joint.body_a) nature.closed = false;
-    for (std::size_t axis = 0; axis < 6; ++axis) {
-      nature.driven = nature.driven || joint.desc.motors[axis].enabled != 0;
-      nature.stores = nature.stores || joint.desc.springs[axis].enabled != 0;
-      nature.dissipates = nature.dissipates || joint.desc.limits[axis].enabled != 0;
-    }
-  }
-  return nature;
-}
-
 }  // namespace
 
 struct GeneralMetrics::State {
   explicit State(Simulation& simulation) : laws(simulation), reference(simulation) {}
 
-  Nature nature;
+  SceneNature nature;
   std::vector<referee::ShapePtr> shapes;
   std::vector<referee::Mass> masses;
   std::set<std::pair<std::uint32_t, std::uint32_t>> joined;  ///< bodies that a joint keeps from touching

@@ -30,8 +30,9 @@ struct StudyRequest {
   double timeout = 300;
   double memory_limit_mb = 0;  ///< 0: three quarters of the machine's memory
   std::string out;             ///< folder; empty: none
-  bool record = false;
-  bool trace = false;  ///< times then include the writing of the trace
+  bool record = false;  ///< each cell once more than `repeat`, and that one to a file: no time or error comes from it
+  bool layers = false;  ///< what plumb.debug/1 shows, too
+  bool trace = false;   ///< times then include the writing of the trace
 
   [[nodiscard]] WorkerLimits limits() const;
 };

@@ -14,6 +14,7 @@ namespace plumb::harness {
 namespace {
 
 constexpr unsigned shuffle_seed = 20240229;
+constexpr std::uint32_t recording = 0;  // in place of a repetition's number
 
 std::string label_of(const Cell& cell) {
   std::string label = cell.scene->id;
@@ -46,6 +47,7 @@ class Study {
       if (row == nullptr) {
         open.push_back(&cell);
       } else {
+        record(cell, *row, false);
         hand_on(*row, false);
       }
     }
@@ -107,7 +109,11 @@ class Study {
     std::unique_ptr<WorkerProcess>& worker = workers_[cell.backend->file];
     if (!worker || !worker->alive()) worker = std::make_unique<WorkerProcess>(cell.backend->file);
     StudyProgress progress{done_, total_, label_of(cell), 0, 0};
-    if (request_.repeat > 1) progress.cell += fmt::format(" {}/{}", round, request_.repeat);
+    if (round == recording) {
+      progress.cell += " recording";
+    } else if (request_.repeat > 1) {
+      progress.cell += fmt::format(" {}/{}", round, request_.repeat);
+    }
     const auto tick = [&](const Progress& now) {
       if (!callbacks_.progress) return;
       progress.step = now.step;
@@ -115,9 +121,20 @@ class Study {
       callbacks_.progress(progress);
     };
     if (callbacks_.progress) callbacks_.progress(progress);
-    return worker->ask(request_of(cell, round == 1 && request_.record ? file_for(cell, "trajectories", ".plt") : "",
-                                  round == 1 && request_.trace ? file_for(cell, "traces", ".trace") : ""),
-                       request_.limits(), tick);
+    Json request = request_of(cell, round == recording ? file_for(cell, "trajectories", ".plt") : "",
+                              round == 1 && request_.trace ? file_for(cell, "traces", ".trace") : "");
+    request["layers"] = request_.layers;
+    return worker->ask(request, request_.limits(), tick);
+  }
+
+  /// Runs the cell once more to look at it. Of that run only the trajectory is kept: looking costs time, and some of
+  /// what is looked at an engine must keep books for.
+  void record(const Cell& cell, const Json& row, bool is_new) {
+    if (!request_.record || results_ == nullptr) return;
+    const std::string status = row.value("status", "");
+    if (status == "unsupported" || status == "timeout" || status == "out_of_memory") return;
+    const bool is_there = std::filesystem::exists(file_for(cell, "trajectories", ".plt"));
+    if (is_new || !is_there) static_cast<void>(ask(cell, recording));
   }
 
   /// A file of the cell's own in a folder beside results.jsonl; "" without --out.
@@ -132,6 +149,7 @@ class Study {
     const Json row = make_row(cell, answers, machine_);
     const bool killed =
         std::any_of(answers.begin(), answers.end(), [](const Answer& a) { return a.killed_from_outside; });
+    if (!killed) record(cell, row, true);
     if (results_ != nullptr && !killed) results_->append(row);  // a killed cell is run again by the next start
     hand_on(row, true);
   }

@@ -30,21 +30,95 @@ TEST(Trajectory, round_trip_through_a_run) {
   const Finished finished =
       plumb({"run", "A1", "--backend", SAMPLE_BACKEND, "--record", "--out", folder.string(), "--json"});
   ASSERT_EQ(finished.rows().size(), 1u) << finished.err;
-  const auto file = folder / "trajectories" / (finished.rows()[0]["cell"].get<std::string>() + ".plt");
+  const Json row = finished.rows()[0];
+  const auto file = folder / "trajectories" / (row["cell"].get<std::string>() + ".plt");
   const Trajectory trajectory = read_trajectory(file);
   EXPECT_EQ(trajectory.header["scene"], "A1");
+  EXPECT_EQ(trajectory.header["cell"], row["cell"]);
+  EXPECT_EQ(trajectory.outcome["status"], row["status"]);
+  EXPECT_EQ(trajectory.outcome["hash"], row["hash"]) << "looking changes nothing";
+  EXPECT_TRUE(trajectory.header["recorded"]["without"].contains("contacts")) << "nothing touches: it says so";
   ASSERT_EQ(trajectory.frames.size(), 121u);
+  ASSERT_EQ(trajectory.layers.at(0).name, "series");
   const double dt = trajectory.header["dt"];
+  const double mass = trajectory.frames[0].layers[0]->get<double>(1, 0) / (9.81 * 100);
+  EXPECT_GT(mass, 0);
   for (const TrajectoryFrame& frame : trajectory.frames) {
     const double n = frame.step;
     const double y = 100 - 9.81 * dt * dt * n * (n + 1) / 2;  // semi-implicit Euler
     EXPECT_NEAR(frame.poses.at(0).position.y, y, 1e-5);
+    const double speed = 9.81 * dt * n;
+    EXPECT_NEAR(frame.layers[0]->get<double>(0, 0), mass * speed * speed / 2, 1e-9 * mass * (1 + speed * speed));
+    EXPECT_NEAR(frame.layers[0]->get<double>(1, 0), mass * 9.81 * y, 1e-9 * mass * 1000);
   }
   // A torn end loses its block and nothing else.
   std::filesystem::resize_file(file, std::filesystem::file_size(file) - 5);
-  EXPECT_EQ(read_trajectory(file).frames.size(), 64u);
+  EXPECT_TRUE(read_trajectory(file).outcome.is_null());
   std::ofstream(file) << "something else";
   EXPECT_THROW(static_cast<void>(read_trajectory(file)), Error);
+  std::ofstream(file) << "PLUMBTR1 and what an older program wrote";
+  try {
+    static_cast<void>(read_trajectory(file));
+    FAIL() << "an older file is refused";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("record the cell again"), std::string::npos) << error.what();
+  }
+}
+
+TEST(Trajectory, cells_that_are_finished_are_recorded_when_asked_for) {
+  const std::filesystem::path folder = fresh_folder("later");
+  const std::vector<std::string> run{"run", "A1", "--backend", SAMPLE_BACKEND, "--out", folder.string(), "--json"};
+  const Finished measured = plumb(run);
+  ASSERT_EQ(measured.rows().size(), 1u) << measured.err;
+  EXPECT_FALSE(std::filesystem::exists(folder / "trajectories"));
+  std::vector<std::string> record = run;
+  record.emplace_back("--record");
+  const Finished recorded = plumb(record);
+  ASSERT_EQ(recorded.rows().size(), 1u) << recorded.err;
+  EXPECT_EQ(recorded.rows()[0], measured.rows()[0]) << "its numbers are those of the first time";
+  const auto file = folder / "trajectories" / (measured.rows()[0]["cell"].get<std::string>() + ".plt");
+  EXPECT_EQ(read_trajectory(file).outcome["status"], measured.rows()[0]["status"]);
+}
+
+TEST(Trajectory, layers_come_back_where_they_were_looked_at) {
+  const auto file = fresh_folder("layers") / "made.plt";
+  const std::vector<LayerSpec> layers{{"depths", LayerRows::moving, {{"depth", "f32"}}},
+                                      {"points", LayerRows::list, {{"at", "f32", 3}, {"id", "u32"}}}};
+  const Json header{{"bodies", Json::array({{{"start", {0, 0, 0, 0, 0, 0, 1}}}, {{"start", {1e5, 0, 0, 0, 0, 0, 1}}}})},
+                    {"moving", {1}}};
+  TrajectoryWriter writer(file, header, layers);
+  for (std::uint32_t step = 0; step < 100; ++step) {
+    const PoseRow pose{{1e5 + step, 0, 0}, {0, 0, 0, 1}};
+    FrameLayers frame(2);
+    frame[0].emplace(layers[0]).put(0, static_cast<float>(step));
+    if (step % 3 == 0) {
+      LayerData& points = frame[1].emplace(layers[1]);
+      for (points.rows = 0; points.rows < step % 5; ++points.rows) {
+        for (int axis = 0; axis < 3; ++axis) points.put(0, static_cast<float>(step + points.rows));
+        points.put(1, points.rows);
+      }
+    }
+    writer.add_frame(step, {&pose, 1}, frame);
+  }
+  writer.finish();
+  end_trajectory(file, {{"status", "ok"}});
+  const Trajectory read = read_trajectory(file);
+  ASSERT_EQ(read.frames.size(), 100u);
+  EXPECT_EQ(read.outcome["status"], "ok");
+  for (std::uint32_t step = 0; step < 100; ++step) {
+    const TrajectoryFrame& frame = read.frames[step];
+    EXPECT_EQ(frame.step, step);
+    ASSERT_EQ(frame.poses.size(), 1u) << "of what moves";
+    EXPECT_NEAR(frame.poses[0].position.x, 1e5 + step, 1e-6);
+    EXPECT_EQ(frame.layers[0]->get<float>(0, 0), static_cast<float>(step));
+    ASSERT_EQ(frame.layers[1].has_value(), step % 3 == 0);
+    if (!frame.layers[1]) continue;
+    ASSERT_EQ(frame.layers[1]->rows, step % 5);
+    for (std::uint32_t row = 0; row < step % 5; ++row) {
+      EXPECT_EQ(frame.layers[1]->get<float>(0, 3 * row + 2), static_cast<float>(step + row));
+      EXPECT_EQ(frame.layers[1]->get<std::uint32_t>(1, row), row);
+    }
+  }
 }
 
 }  // namespace

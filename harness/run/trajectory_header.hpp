@@ -1,0 +1,21 @@
+// What a trajectory's file says before its frames: enough to draw the scene and to say what is seen.
+#pragma once
+
+#include <span>
+
+#include "run/json.hpp"
+#include "run/simulation.hpp"
+
+namespace plumb::harness {
+
+/// {"type":"box","half_extents"}, {"type":"sphere","radius"}, {"type":"capsule"|"cylinder","radius","half_height"}
+/// (along y), {"type":"hull","vertices":[[3]],"faces":[[..]]}, {"type":"mesh","vertices","triangles"},
+/// {"type":"plane","normal","offset"}, {"type":"height_field","rows","columns","spacing":[x, z],"heights"},
+/// {"type":"compound","children":[{"shape","position","orientation"}]}. m; orientations x y z w.
+[[nodiscard]] Json replay_shape(const SceneShape& shape);
+
+/// {"kind":"scene","scene","dt","seconds","shapes","bodies":[{"name","shape","motion","start":[7]}],"moving"}: bodies
+/// start at `poses`; moving are those that are not static.
+[[nodiscard]] Json replay_header(const Scene& scene, std::span<const PoseRow> poses);
+
+}  // namespace plumb::harness
