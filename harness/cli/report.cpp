@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "cli/output.hpp"
+#include "cli/page_replays.hpp"
 #include "cli/verbs.hpp"
 #include "report/csv.hpp"
 #include "report/markdown.hpp"
@@ -23,6 +24,8 @@ namespace {
 struct ReportOptions {
   std::string folder, html;
   bool markdown = false, csv = false, json = false;
+  bool no_replays = false;
+  ReplayLimits replays;
 };
 
 /// Titles of the scenes that are at hand: without them (results from elsewhere, a broken file) a page shows ids alone.
@@ -37,12 +40,11 @@ std::map<std::string, SceneText> scene_texts() {
 }
 
 /// Written beside and moved into place, so that a reader never sees half a page.
-void write_page_file(const std::string& file, const std::string& source, const std::vector<Json>& rows) {
+void write_page_file(const std::string& file, const PageOptions& options, const std::vector<Json>& rows) {
   const std::string draft = file + ".part";
   {
     std::ofstream out(draft, std::ios::binary);
-    const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-    write_page(out, rows, {fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(now)), source, scene_texts()});
+    write_page(out, rows, options);
     out.close();
     if (!out) {
       std::error_code ignored;
@@ -68,7 +70,10 @@ void report(const ReportOptions& options) {
     throw UsageError("there are no results in " + options.folder + "; make some with plumb run --out " +
                      options.folder);
   if (!options.html.empty()) {
-    write_page_file(options.html, options.folder, results.rows);
+    const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+    PageOptions page{fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(now)), options.folder, scene_texts()};
+    if (!options.no_replays) add_replays(options.folder, options.replays, page);
+    write_page_file(options.html, page, results.rows);
     fmt::print(stderr, "wrote {}\n", options.html);
   }
   if (options.markdown) write_markdown(std::cout, results.rows);
@@ -89,6 +94,8 @@ void add_report(CLI::App& program, int& status) {
       program.add_subcommand("report", "Show results that were made before: tables, or a page for a browser");
   verb->add_option("DIR", options->folder, "Folder with results.jsonl, or such a file")->required();
   verb->add_option("--html", options->html, "Write one self-contained page to this file");
+  verb->add_option("--replays", options->replays.scenes, "At most so many scenes as replays in the page");
+  verb->add_flag("--no-replays", options->no_replays, "No replays in the page")->excludes("--replays");
   CLI::Option* markdown = verb->add_flag("--md", options->markdown, "Print Markdown");
   CLI::Option* csv = verb->add_flag("--csv", options->csv, "Print CSV, a line a metric");
   CLI::Option* json = verb->add_flag("--json", options->json, "Print one JSON object a cell, one a line");

@@ -32,6 +32,7 @@ std::string toolbar(const PageContext& context) {
       R"(href="#matrix">Matrix</a>)"
       R"(<a href="#precision">Precision</a>)";
   if (!context.curves.problems.empty()) out += R"(<a href="#curves">Curves</a>)";
+  if (!context.options.replays.empty()) out += R"(<a href="#replays">Replays</a>)";
   out += R"(<a href="#scaling">Scaling</a><a href="#times">Times</a><a href="#runs">Runs</a></span>)"
          R"(<span class="controls"><input id="filter" type="search" placeholder="filter: D1, stacking, failed" )"
          R"(aria-label="filter">)";
@@ -66,6 +67,7 @@ void write_page(std::ostream& out, const std::vector<Json>& rows, const PageOpti
       << matrix_section(context) << '\n'
       << precision_section(context) << '\n'
       << curves_section(context) << '\n'
+      << replays_section(context) << '\n'
       << scaling_section(context) << '\n'
       << times_section(context) << '\n'
       << rows_section(context) << "</main><script>" << page_script << "</script></body></html>\n";

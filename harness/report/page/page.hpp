@@ -15,12 +15,26 @@ struct SceneText {
   std::string title, doc;
 };
 
+/// One replay that the page plays.
+struct PageReplay {
+  std::string scene;    ///< with its parameters, "D1 H=10": replays of the same scene are shown side by side
+  std::string backend;  ///< by name
+  std::string bundle;   ///< packed (replay/container.hpp)
+};
+
 struct PageOptions {
   std::string written;  ///< when, as it shall stand on the page
   std::string source;   ///< where the results came from
   std::map<std::string, SceneText>
-      scenes;  ///< by scene id as rows have it; scenes without an entry show their id alone
+      scenes;                            ///< by scene id as rows have it; scenes without an entry show their id alone
+  std::vector<PageReplay> replays = {};  ///< scenes in the order in which they shall stand
+  std::string replays_note = {};         ///< what was recorded and is not among them, in words; or ""
 };
+
+/// Whether the program was built with the viewer that plays them.
+[[nodiscard]] bool has_viewer();
+/// A page that does nothing but play.
+[[nodiscard]] std::string replay_page(const std::vector<PageReplay>& replays);
 
 void write_page(std::ostream& out, const std::vector<Json>& rows, const PageOptions& options);
 

@@ -35,6 +35,8 @@ struct PageContext {
 [[nodiscard]] std::string precision_section(const PageContext& context);
 /// "" where no knob was turned.
 [[nodiscard]] std::string curves_section(const PageContext& context);
+/// "" where nothing was recorded.
+[[nodiscard]] std::string replays_section(const PageContext& context);
 [[nodiscard]] std::string scaling_section(const PageContext& context);
 [[nodiscard]] std::string times_section(const PageContext& context);
 [[nodiscard]] std::string rows_section(const PageContext& context);

@@ -7,7 +7,9 @@
 #include <set>
 #include <sstream>
 
+#include "report/page/base64.hpp"
 #include "report/page/markup.hpp"
+#include "report/page/viewer_script.hpp"
 #include "sample_rows.hpp"
 
 namespace plumb::harness {
@@ -94,6 +96,33 @@ TEST(Page, AsksForNothingFromOutside) {
   for (const char* reference : {"http:", "https:", "src=", "@import", "url(", "<link", "fetch("}) {
     EXPECT_EQ(page.find(reference), std::string::npos) << reference;
   }
+}
+
+TEST(Markup, BytesAsText) {
+  // RFC 4648, section 10
+  EXPECT_EQ(base64(""), "");
+  EXPECT_EQ(base64("f"), "Zg==");
+  EXPECT_EQ(base64("fo"), "Zm8=");
+  EXPECT_EQ(base64("foo"), "Zm9v");
+  EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
+  EXPECT_EQ(base64("\xff\xfe\xfd"), "//79");
+}
+
+TEST(Page, ReplaysAreEmbeddedWhereThereIsAViewer) {
+  PageOptions options{"2026-01-01 00:00 UTC", "results", {}};
+  options.replays = {{"D1 H=10", "one", "foobar"}, {"D1 H=10", "\"two\"", "foo"}};
+  options.replays_note = "G1 was left out.";
+  std::ostringstream out;
+  write_page(out, testing::sample_rows(1), options);
+  const std::string page = out.str();
+  EXPECT_EQ(count(page, "<section id=\"replays\""), 1u);
+  EXPECT_EQ(count(page, "G1 was left out."), 1u);
+  const std::size_t expected = viewer_script.empty() ? 0 : 1;
+  EXPECT_EQ(count(page, "id=\"plumb-viewer\""), expected);
+  EXPECT_EQ(count(page, "class=\"plumb-replay\" data-scene=\"D1 H=10\" data-backend=\"one\">Zm9vYmFy<"), expected);
+  EXPECT_EQ(count(page, "data-backend=\"&quot;two&quot;\">Zm9v<"), expected);
+  EXPECT_EQ(count(page, "without node"), 1 - expected) << "said in words";
+  EXPECT_EQ(page_of(testing::sample_rows(1)).find("id=\"replays\""), std::string::npos) << "nothing was recorded";
 }
 
 TEST(Page, FiveThousandRowsInSeconds) {

@@ -1,0 +1,299 @@
+#include "replay/bundle.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+namespace plumb::harness {
+
+namespace {
+
+constexpr double steps_of_position = 65535;
+constexpr double steps_of_component = 32767;
+constexpr double fine_enough = 1e-3;  // m: the largest step of a position in 16 bits
+constexpr double fewest_frames_a_second = 15;
+constexpr std::size_t fewest_frames = 90;
+
+template <class Number>
+void put(std::string& bytes, Number number) {
+  bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
+}
+
+struct Choice {
+  std::size_t stride = 1;  ///< every so many frames, and the last
+  std::set<std::string> left_out;
+};
+
+class Maker {
+ public:
+  Maker(const Trajectory& trajectory, const Choice& choice) : from_(trajectory), left_out_(choice.left_out) {
+    const std::size_t count = trajectory.frames.size();
+    for (std::size_t i = 0; i < count; i += choice.stride) frames_.push_back(i);
+    if (count > 0 && frames_.back() != count - 1) frames_.push_back(count - 1);
+  }
+
+  Bundle make() {
+    add_header();
+    add_times();
+    add_positions();
+    add_orientations();
+    for (std::size_t i = 0; i < from_.layers.size(); ++i) {
+      const LayerSpec& spec = from_.layers[i];
+      if (left_out_.contains(spec.name)) continue;
+      if (spec.name == "series") {
+        add_accounts(i);
+      } else if (spec.rows == LayerRows::one) {
+        for (std::size_t c = 0; c < spec.columns.size(); ++c)
+          add_series(spec.columns[c].name, numbers(i, c), unit_of(spec.columns[c].name), "");
+      } else if (spec.rows == LayerRows::moving) {
+        add_columns(i);
+      } else {
+        add_list(i);
+      }
+    }
+    return std::move(bundle_);
+  }
+
+ private:
+  [[nodiscard]] std::size_t bodies() const { return from_.moving.size(); }
+
+  [[nodiscard]] std::string unit_of(const std::string& column) const {
+    return from_.header.value("units", Json::object()).value(column, "");
+  }
+
+  /// The layer as it was last looked at; null before the first time.
+  [[nodiscard]] const LayerData* layer_at(std::size_t layer, std::size_t frame) const {
+    for (std::size_t f = frame + 1; f-- > 0;)
+      if (const auto& data = from_.frames[f].layers[layer]) return &*data;
+    return nullptr;
+  }
+
+  void add_header() {
+    Json& header = bundle_.header;
+    header = from_.header;
+    for (const char* key : {"layers", "driven", "closed", "units"}) header.erase(key);
+    const bool ended = from_.outcome.is_object();
+    header["status"] = ended ? from_.outcome.value("status", "") : "crashed";
+    header["reason"] = ended ? from_.outcome.value("reason", "") : "the recording breaks off: its process ended";
+    header["frames"] = frames_.size();
+    header["series"] = Json::object();
+  }
+
+  void add_times() {
+    std::string bytes;
+    const double dt = from_.header.value("dt", 1.0);
+    for (const std::size_t frame : frames_) put(bytes, static_cast<float>(from_.frames[frame].step * dt));
+    bundle_.sections["times"] = {"f32", {frames_.size()}, bytes};
+  }
+
+  void add_positions() {
+    std::array<double, 3> lower{}, upper{};
+    lower.fill(INFINITY);
+    upper.fill(-INFINITY);
+    bool finite = true;
+    const auto coordinates = [](const PoseRow& row) {
+      return std::array{row.position.x, row.position.y, row.position.z};
+    };
+    for (const std::size_t frame : frames_) {
+      for (const PoseRow& row : from_.frames[frame].poses) {
+        const auto at = coordinates(row);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          lower[axis] = std::min(lower[axis], at[axis]);
+          upper[axis] = std::max(upper[axis], at[axis]);
+          finite = finite && std::isfinite(at[axis]);
+        }
+      }
+    }
+    double step = 0, largest = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (!(lower[axis] <= upper[axis])) lower[axis] = upper[axis] = 0;
+      step = std::max(step, (upper[axis] - lower[axis]) / steps_of_position);
+      largest = std::max({largest, std::abs(lower[axis]), std::abs(upper[axis])});
+    }
+    const bool whole = finite && (step <= fine_enough || step <= largest * 0x1p-24);
+    std::string bytes;
+    for (const std::size_t frame : frames_) {
+      for (const PoseRow& row : from_.frames[frame].poses) {
+        const auto at = coordinates(row);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          const double span = upper[axis] - lower[axis];
+          if (whole) {
+            put(bytes, static_cast<std::uint16_t>(
+                           span > 0 ? std::round((at[axis] - lower[axis]) / span * steps_of_position) : 0));
+          } else {
+            put(bytes, static_cast<float>(at[axis]));
+          }
+        }
+      }
+    }
+    if (whole) {
+      bundle_.header["lower"] = lower;
+      bundle_.header["upper"] = upper;
+    }
+    bundle_.sections["positions"] = {whole ? "u16" : "f32", {frames_.size(), bodies(), 3}, bytes};
+  }
+
+  void add_orientations() {
+    std::string bytes;
+    for (const std::size_t frame : frames_) {
+      for (const PoseRow& row : from_.frames[frame].poses) {
+        const auto& [x, y, z, w] = row.orientation;
+        for (const double component : {x, y, z, w})
+          put(bytes, static_cast<std::int16_t>(std::round(std::clamp(component, -1.0, 1.0) * steps_of_component)));
+      }
+    }
+    bundle_.sections["orientations"] = {"i16", {frames_.size(), bodies(), 4}, bytes};
+  }
+
+  void add_series(const std::string& name, const std::vector<double>& values, const std::string& unit,
+                  const char* doc) {
+    std::string bytes;
+    for (const double value : values) put(bytes, static_cast<float>(value));
+    bundle_.header["series"][name] = {{"unit", unit}, {"doc", doc}};
+    bundle_.sections["series/" + name] = {"f32", {frames_.size()}, bytes};
+  }
+
+  /// One column of a layer of one row over the frames, the part-th number of those that it is wide.
+  [[nodiscard]] std::vector<double> numbers(std::size_t layer, std::size_t column, std::size_t part = 0) const {
+    const std::string& type = from_.layers[layer].columns[column].type;
+    std::vector<double> values;
+    for (const std::size_t frame : frames_) {
+      const LayerData* data = layer_at(layer, frame);
+      double value = NAN;
+      if (data != nullptr && type == "f64") value = data->get<double>(column, part);
+      if (data != nullptr && type == "f32") value = static_cast<double>(data->get<float>(column, part));
+      if (data != nullptr && type == "u32") value = data->get<std::uint32_t>(column, part);
+      values.push_back(value);
+    }
+    return values;
+  }
+
+  /// Energy and momentum as people ask for them, from the layer "series" of a scene.
+  void add_accounts(std::size_t layer) {
+    const std::vector<double> kinetic = numbers(layer, 0), potential = numbers(layer, 1), momenta = numbers(layer, 3);
+    std::vector<double> energy, energy_drift, momentum_drift;
+    double kinetic_most = 0, potential_least = INFINITY, potential_most = -INFINITY, momenta_most = 0;
+    for (std::size_t f = 0; f < frames_.size(); ++f) {
+      energy.push_back(kinetic[f] + potential[f]);
+      kinetic_most = std::max(kinetic_most, kinetic[f]);
+      potential_least = std::min(potential_least, potential[f]);
+      potential_most = std::max(potential_most, potential[f]);
+      momenta_most = std::max(momenta_most, momenta[f]);
+    }
+    add_series("energy", energy, "J", "kinetic and potential, by the referee");
+    const double reference = kinetic_most + (potential_most - potential_least);
+    if (reference > 0 && !from_.header.value("driven", false)) {
+      for (const double value : energy) energy_drift.push_back((value - energy.front()) / reference);
+      add_series("energy_drift", energy_drift, "1",
+                 "change of the energy since the start, of the largest kinetic energy and potential range");
+    }
+    if (momenta_most > 0 && from_.header.value("closed", false)) {
+      const std::vector<double> x = numbers(layer, 2, 0), y = numbers(layer, 2, 1), z = numbers(layer, 2, 2);
+      for (std::size_t f = 0; f < frames_.size(); ++f)
+        momentum_drift.push_back(std::hypot(x[f] - x[0], y[f] - y[0], z[f] - z[0]) / momenta_most);
+      add_series("momentum_drift", momentum_drift, "1",
+                 "change of the momentum since the start, of the largest sum of all momenta");
+    }
+    add_series("contacts", numbers(layer, 4), "1", "points, by the engine's count");
+  }
+
+  void add_columns(std::size_t layer) {
+    const LayerSpec& spec = from_.layers[layer];
+    for (std::size_t c = 0; c < spec.columns.size(); ++c) {
+      const LayerColumn& column = spec.columns[c];
+      std::string bytes;
+      std::vector<double> deepest;
+      for (const std::size_t frame : frames_) {
+        const LayerData* data = layer_at(layer, frame);
+        bytes += data != nullptr ? data->columns[c] : std::string(bodies() * bytes_of(column), '\0');
+        if (column.name != "penetration") continue;
+        deepest.push_back(0);
+        for (std::size_t b = 0; data != nullptr && b < bodies(); ++b)
+          deepest.back() = std::max(deepest.back(), static_cast<double>(data->get<float>(c, b)));
+      }
+      if (column.name == "penetration")
+        add_series("max_penetration", deepest, "m", "deepest overlap of any two bodies, by the referee");
+      bundle_.sections[column.name] = {column.type, {frames_.size(), bodies()}, bytes};
+    }
+  }
+
+  void add_list(std::size_t layer) {
+    const LayerSpec& spec = from_.layers[layer];
+    std::string start;
+    std::uint32_t rows = 0;
+    std::vector<std::string> columns(spec.columns.size());
+    for (const std::size_t frame : frames_) {
+      put(start, rows);
+      const LayerData* data = layer_at(layer, frame);
+      if (data == nullptr) continue;
+      rows += data->rows;
+      for (std::size_t c = 0; c < columns.size(); ++c) columns[c] += data->columns[c];
+    }
+    put(start, rows);
+    bundle_.sections[spec.name + "/start"] = {"u32", {frames_.size() + 1}, start};
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      const LayerColumn& column = spec.columns[c];
+      std::vector<std::size_t> shape{rows};
+      if (column.width > 1) shape.push_back(column.width);
+      bundle_.sections[spec.name + "/" + column.name] = {column.type, shape, columns[c]};
+    }
+  }
+
+  const Trajectory& from_;
+  const std::set<std::string>& left_out_;
+  std::vector<std::size_t> frames_;
+  Bundle bundle_;
+};
+
+double seconds_of(const Trajectory& trajectory) {
+  return trajectory.frames.empty() ? 0 : trajectory.frames.back().step * trajectory.header.value("dt", 1.0);
+}
+
+std::string note_of(const Trajectory& trajectory, const Choice& choice) {
+  std::vector<std::string> parts;
+  const Json recorded = trajectory.header.value("recorded", Json::object());
+  const Json looks = recorded.value("every", Json::object());
+  for (const auto& [layer, every] : looks.items()) {
+    if (every.get<std::size_t>() > choice.stride && !choice.left_out.contains(layer))
+      parts.push_back(fmt::format("{} of every {}th recorded frame, held in between", layer, every.get<std::size_t>()));
+  }
+  if (choice.stride > 1) parts.push_back(fmt::format("to keep it small, every {}th recorded frame", choice.stride));
+  if (!choice.left_out.empty()) parts.push_back(fmt::format("and without {}", fmt::join(choice.left_out, ", ")));
+  return fmt::format("{}", fmt::join(parts, "; "));
+}
+
+std::string packed(const Trajectory& trajectory, const Choice& choice) {
+  Bundle bundle = Maker(trajectory, choice).make();
+  if (const std::string note = note_of(trajectory, choice); !note.empty()) bundle.header["note"] = note;
+  return pack(bundle);
+}
+
+}  // namespace
+
+Bundle whole_bundle(const Trajectory& trajectory) { return Maker(trajectory, {}).make(); }
+
+std::string bounded_bundle(const Trajectory& trajectory, std::size_t most_bytes) {
+  Choice choice;
+  std::string bytes = packed(trajectory, choice);
+  const auto halve_frames = [&](std::size_t least) {
+    while (bytes.size() > most_bytes && trajectory.frames.size() / (2 * choice.stride) >= least) {
+      choice.stride *= 2;
+      bytes = packed(trajectory, choice);
+    }
+  };
+  halve_frames(std::max(fewest_frames, static_cast<std::size_t>(fewest_frames_a_second * seconds_of(trajectory))));
+  for (const char* layer : {"boxes", "axes", "constraints", "contacts", "penetration"}) {
+    const bool has = std::any_of(trajectory.layers.begin(), trajectory.layers.end(),
+                                 [&](const LayerSpec& spec) { return spec.name == layer; });
+    if (bytes.size() <= most_bytes || !has) continue;
+    choice.left_out.insert(layer);
+    bytes = packed(trajectory, choice);
+  }
+  halve_frames(2);
+  return bytes;
+}
+
+}  // namespace plumb::harness

@@ -1,0 +1,110 @@
+#include "replay/container.hpp"
+
+#include <zlib.h>
+
+#include <cstdint>
+#include <cstring>
+#include <stdexcept>
+
+#include "plumb/physics_world.hpp"
+
+namespace plumb::harness {
+
+namespace {
+
+constexpr char magic[] = "PLRP";
+constexpr std::uint32_t version = 1;
+constexpr std::size_t alignment = 8;
+
+void pad(std::string& bytes, char with) {
+  while (bytes.size() % alignment != 0) bytes += with;
+}
+
+std::size_t size_of(const std::string& type, const std::vector<std::size_t>& shape) {
+  std::size_t size = bytes_of_number(type);
+  for (const std::size_t side : shape) size *= side;
+  return size;
+}
+
+[[noreturn]] void corrupt(const std::string& why) { throw Error(PLUMB_E_CORRUPT, "this is no replay bundle: " + why); }
+
+std::string deflated(const std::string& bytes) {
+  uLongf size = compressBound(static_cast<uLong>(bytes.size()));
+  std::string packed(size, '\0');
+  if (compress2(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
+                static_cast<uLong>(bytes.size()), Z_DEFAULT_COMPRESSION) != Z_OK)
+    throw std::bad_alloc();
+  packed.resize(size);
+  return packed;
+}
+
+std::string inflated(const std::string& bytes) {
+  z_stream stream{};
+  if (inflateInit(&stream) != Z_OK) throw std::bad_alloc();
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));  // zlib only reads it
+  stream.avail_in = static_cast<uInt>(bytes.size());
+  std::string all, block(1 << 16, '\0');
+  int result = Z_OK;
+  while (result == Z_OK) {
+    stream.next_out = reinterpret_cast<Bytef*>(block.data());
+    stream.avail_out = static_cast<uInt>(block.size());
+    result = inflate(&stream, Z_NO_FLUSH);
+    all.append(block, 0, block.size() - stream.avail_out);
+  }
+  inflateEnd(&stream);
+  if (result != Z_STREAM_END) corrupt("it does not unpack");
+  return all;
+}
+
+}  // namespace
+
+std::size_t bytes_of_number(const std::string& type) {
+  static const std::map<std::string, std::size_t> sizes{{"f32", 4}, {"f64", 8}, {"u16", 2}, {"i16", 2},
+                                                        {"u32", 4}, {"i32", 4}, {"u8", 1}};
+  const auto found = sizes.find(type);
+  if (found == sizes.end()) corrupt("numbers of the unknown type " + type);
+  return found->second;
+}
+
+std::string pack(const Bundle& bundle) {
+  Json header = bundle.header;
+  header["sections"] = Json::object();
+  std::string body;
+  for (const auto& [name, section] : bundle.sections) {
+    if (section.bytes.size() != size_of(section.type, section.shape))
+      throw std::logic_error("section " + name + " has not the bytes of its shape");
+    header["sections"][name] = {{"offset", body.size()}, {"type", section.type}, {"shape", section.shape}};
+    body += section.bytes;
+    pad(body, '\0');
+  }
+  std::string bytes(magic, 4);
+  std::string text = line_of(header);
+  while ((3 * sizeof(std::uint32_t) + text.size()) % alignment != 0) text += ' ';
+  for (const std::uint32_t number : {version, static_cast<std::uint32_t>(text.size())})
+    bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
+  return deflated(bytes + text + body);
+}
+
+Bundle unpack(const std::string& packed) {
+  const std::string bytes = inflated(packed);
+  if (bytes.size() < 12 || bytes.compare(0, 4, magic) != 0) corrupt("it does not begin with PLRP");
+  std::uint32_t numbers[2];
+  std::memcpy(numbers, bytes.data() + 4, sizeof numbers);
+  if (numbers[0] != version) corrupt("its version is " + std::to_string(numbers[0]));
+  if (numbers[1] > bytes.size() - 12) corrupt("its header is cut short");
+  Bundle bundle;
+  bundle.header = Json::parse(bytes.data() + 12, bytes.data() + 12 + numbers[1], nullptr, false);
+  if (!bundle.header.is_object() || !bundle.header.contains("sections")) corrupt("its header is not JSON");
+  const std::size_t start = 12 + numbers[1];
+  for (const auto& [name, entry] : bundle.header["sections"].items()) {
+    BundleSection section{entry.at("type"), entry.at("shape").get<std::vector<std::size_t>>(), {}};
+    const std::size_t size = size_of(section.type, section.shape), at = start + entry.at("offset").get<std::size_t>();
+    if (at > bytes.size() || size > bytes.size() - at) corrupt("section " + name + " is cut short");
+    section.bytes = bytes.substr(at, size);
+    bundle.sections[name] = std::move(section);
+  }
+  bundle.header.erase("sections");
+  return bundle;
+}
+
+}  // namespace plumb::harness

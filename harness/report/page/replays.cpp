@@ -1,0 +1,50 @@
+// Replays: recorded scenes in three dimensions, all engines side by side. The viewer finds the bundles by their class.
+#include <fmt/format.h>
+
+#include "report/page/assets.hpp"
+#include "report/page/base64.hpp"
+#include "report/page/markup.hpp"
+#include "report/page/sections.hpp"
+#include "report/page/viewer_script.hpp"
+
+namespace plumb::harness {
+namespace {
+
+std::string player(const std::vector<PageReplay>& replays) {
+  std::string out = R"(<div id="plumb-viewer"></div>)";
+  for (const PageReplay& replay : replays) {
+    out += fmt::format(
+        R"(<script type="application/octet-stream" class="plumb-replay" data-scene="{}" data-backend="{}">{}</script>)",
+        escape_html(replay.scene), escape_html(replay.backend), base64(replay.bundle));
+  }
+  return fmt::format("{}<script>{}</script>", out, viewer_script);
+}
+
+}  // namespace
+
+bool has_viewer() { return !viewer_script.empty(); }
+
+std::string replay_page(const std::vector<PageReplay>& replays) {
+  const std::string title = replays.empty() ? "" : escape_html(replays.front().scene);
+  return fmt::format(R"(<!doctype html><html lang="en"><head><meta charset="utf-8"><title>{}</title><style>{}</style>)"
+                     "</head><body><main>{}</main></body></html>\n",
+                     title, page_style, player(replays));
+}
+
+std::string replays_section(const PageContext& context) {
+  const PageOptions& options = context.options;
+  if (options.replays.empty() && options.replays_note.empty()) return "";
+  std::string out =
+      R"(<section id="replays"><h2>Replays</h2><p class="about">What the engines made of the same scene, side by )"
+      R"(side. Curves and colours of depth are the referee's; contact forces are the engine's own.</p>)";
+  if (!options.replays_note.empty())
+    out += fmt::format(R"(<p class="about">{}</p>)", escape_html(options.replays_note));
+  if (options.replays.empty()) return out + "</section>";
+  if (!has_viewer()) {
+    return out + R"(<p class="about">This program was built without node and therefore shows no replays. Build it )"
+                 R"(where node and npm are, and write the page again: what was recorded stays valid.</p></section>)";
+  }
+  return out + player(options.replays) + "</section>";
+}
+
+}  // namespace plumb::harness
