@@ -15,6 +15,7 @@
 #include "run/cell_runner.hpp"
 #include "run/description.hpp"
 #include "run/names.hpp"
+#include "run/pair_tour.hpp"
 
 namespace plumb::harness {
 
@@ -49,6 +50,7 @@ class Server {
     const std::string what = request.at("request");
     if (what == "describe") return describe(*backend_);
     if (what == "conform") return conform::answer_request(*backend_, request);
+    if (what == "pairs") return answer_pair_request(*backend_, request);
     return run_cell(*backend_, request, progress_);
   }
 

@@ -1,0 +1,88 @@
+// plumb pairs: what backends find between all pairs of shapes, as recordings for the report's viewer.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "cli/verbs.hpp"
+#include "plumb/nearest.hpp"
+#include "run/pair_tour.hpp"
+#include "run/plan.hpp"
+
+namespace plumb::harness {
+
+namespace {
+
+struct PairsOptions {
+  std::string out;
+  std::vector<std::string> backends, pairs;
+  double timeout = 60;
+};
+
+std::vector<PairTour> wanted_tours(const std::vector<std::string>& asked) {
+  std::vector<PairTour> tours = all_pair_tours();
+  std::vector<std::string> names;
+  for (const PairTour& tour : tours) names.push_back(tour.name);
+  for (const std::string& name : asked)
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      throw UsageError("--pair " + name + ": there is no such pair" + suggestion(name, names));
+  if (!asked.empty())
+    std::erase_if(
+        tours, [&](const PairTour& tour) { return std::find(asked.begin(), asked.end(), tour.name) == asked.end(); });
+  return tours;
+}
+
+void record_pairs(const PairsOptions& options) {
+  const std::vector<PairTour> tours = wanted_tours(options.pairs);
+  const auto files = backend_files(options.backends);
+  const std::filesystem::path folder = std::filesystem::path(options.out) / "trajectories";
+  std::error_code failure;
+  std::filesystem::create_directories(folder, failure);
+  if (failure) throw UsageError("--out " + options.out + ": " + failure.message());
+  const auto file_of = [&](const PairTour& tour, const std::string& who) {
+    return std::filesystem::absolute(folder / ("pair-" + tour.name + "-" + who + ".plt")).string();
+  };
+  for (const PairTour& tour : tours) record_pair_of_referee(tour, file_of(tour, "referee"));
+  for (const auto& [name, file] : files) {
+    std::unique_ptr<WorkerProcess> worker;
+    std::size_t recorded = 0;
+    for (const PairTour& tour : tours) {
+      if (!worker || !worker->alive()) worker = std::make_unique<WorkerProcess>(file);
+      const Answer answer =
+          worker->ask({{"request", "pairs"}, {"pair", tour.name}, {"file", file_of(tour, name)}}, {options.timeout});
+      const bool answered = answer.status == "ok";
+      const std::string status = answered ? answer.json.value("status", "error") : answer.status;
+      if (status == "ok") {
+        ++recorded;
+      } else {
+        std::cout << fmt::format("{} {}: {}: {}\n", name, tour.name, status,
+                                 answered ? answer.json.value("reason", "") : answer.reason);
+      }
+    }
+    std::cout << fmt::format("{}: {} of {} pairs\n", name, recorded, tours.size());
+  }
+  std::cout << "recordings in " << folder.string() << "\n";
+}
+
+}  // namespace
+
+void add_pairs(CLI::App& program, int& status) {
+  const auto options = std::make_shared<PairsOptions>();
+  CLI::App* verb = program.add_subcommand(
+      "pairs", "Record what backends find between all pairs of shapes as one passes around and into the other");
+  verb->add_option("BACKEND", options->backends, "Names or files; none: all on the search path");
+  verb->add_option("--out", options->out, "Results folder: its report shows them")->required();
+  verb->add_option("--pair", options->pairs, "Only this pair, such as box-capsule; repeatable")
+      ->take_all()
+      ->expected(1)
+      ->allow_extra_args(false);
+  verb->add_option("--timeout", options->timeout, "Seconds that one pair may take")->check(CLI::PositiveNumber);
+  verb->callback([options, &status] {
+    catch_signals();
+    record_pairs(*options);
+    status = 0;
+  });
+}
+
+}  // namespace plumb::harness
