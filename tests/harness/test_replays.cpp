@@ -41,5 +41,41 @@ TEST(Replays, files_that_are_none_are_told_and_left_out) {
   EXPECT_EQ(text_of(page).find("<section id=\"replays\">"), std::string::npos);
 }
 
+TEST(Replays, are_exported_as_gltf) {
+  const std::filesystem::path folder = fresh_folder("export");
+  const Finished run =
+      plumb({"run", "A1", "--backend", SAMPLE_BACKEND, "--record", "--out", folder.string(), "--json"});
+  ASSERT_EQ(run.rows().size(), 1u) << run.err;
+  const std::string file = (folder / "trajectories" / (run.rows()[0]["cell"].get<std::string>() + ".plt")).string();
+  const std::string glb = (folder / "a1.glb").string();
+  ASSERT_EQ(plumb({"export", file, "--gltf", glb}).status, 0);
+  EXPECT_EQ(text_of(glb).substr(0, 4), "glTF");
+  const Finished unsaid = plumb({"export", file});
+  EXPECT_EQ(unsaid.status, 2);
+  EXPECT_NE(unsaid.err.find("--gltf"), std::string::npos) << unsaid.err;
+  const Finished nowhere = plumb({"export", (folder / "none.plt").string(), "--gltf", glb});
+  EXPECT_EQ(nowhere.status, 2);
+  EXPECT_NE(nowhere.err.find("none.plt"), std::string::npos) << nowhere.err;
+}
+
+TEST(Replays, are_exported_as_pictures_or_it_is_said_what_is_missing) {
+  const std::filesystem::path folder = fresh_folder("picture");
+  const Finished run =
+      plumb({"run", "A1", "--backend", SAMPLE_BACKEND, "--record", "--out", folder.string(), "--json"});
+  ASSERT_EQ(run.rows().size(), 1u) << run.err;
+  const std::string file = (folder / "trajectories" / (run.rows()[0]["cell"].get<std::string>() + ".plt")).string();
+  const std::string png = (folder / "a1.png").string();
+  const Finished finished = plumb({"export", file, "--png", png, "--at", "1", "--size", "320x200"});
+  if (finished.status != 0) {
+    EXPECT_EQ(finished.status, 2);
+    const bool named =
+        finished.err.find("node") != std::string::npos || finished.err.find("browser") != std::string::npos;
+    EXPECT_TRUE(named) << finished.err;
+    GTEST_SKIP() << "this machine takes no pictures: " << finished.err;
+  }
+  EXPECT_EQ(text_of(png).substr(1, 3), "PNG");
+  EXPECT_GT(std::filesystem::file_size(png), 1000u);
+}
+
 }  // namespace
 }  // namespace plumb::harness::testing
