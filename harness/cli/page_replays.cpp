@@ -13,6 +13,8 @@ namespace plumb::harness {
 
 namespace {
 
+constexpr std::size_t least_room = 64 << 10;  // bytes: less shows nothing that moves well
+
 struct Recorded {
   std::filesystem::path file;
   std::string label;
@@ -21,6 +23,7 @@ struct RecordedScene {
   std::string id, title;
   std::map<std::string, Recorded> backends;
   std::uintmax_t bytes = 0;
+  bool is_pair = false;   ///< of shapes, from plumb pairs
   std::size_t place = 0;  ///< among those of the same id, smallest first
 };
 
@@ -37,6 +40,7 @@ std::vector<RecordedScene> recorded_scenes(const std::filesystem::path& folder) 
       RecordedScene& scene = by_title[replay_title(header)];
       scene.id = header.value("scene", "");
       scene.title = replay_title(header);
+      scene.is_pair = header.value("kind", "") == "pairs";
       const std::string label = header.value("label", "");
       Recorded& mine = scene.backends[header.value("backend", "")];
       if (mine.file.empty() || label.size() < mine.label.size()) mine = {file, label};
@@ -64,8 +68,7 @@ void put_in_order(std::vector<RecordedScene>& scenes) {
 std::string replay_title(const Json& header) {
   std::string title = header.value("scene", "");
   const Json parameters = header.value("params", Json::object());
-  for (const auto& [name, value] : parameters.items())
-    title += " " + name + "=" + value_text(value);
+  for (const auto& [name, value] : parameters.items()) title += " " + name + "=" + value_text(value);
   return title;
 }
 
@@ -77,17 +80,19 @@ void add_replays(const std::filesystem::path& folder, const ReplayLimits& limits
   for (const RecordedScene& scene : scenes) {
     std::vector<PageReplay> replays;
     std::size_t size = 0;
+    // The room that is left is for all engines alike: a replay alone has nothing to be compared with.
+    const std::size_t room = std::min(limits.bytes_of_replay, (limits.bytes_of_all - bytes) / scene.backends.size());
     for (const auto& [backend, recorded] : scene.backends) {
-      if (taken == limits.scenes) break;
+      if ((taken == limits.scenes && !scene.is_pair) || room < least_room) break;
       const Trajectory trajectory = read_trajectory(recorded.file);
-      replays.push_back({scene.title, backend, bounded_bundle(trajectory, limits.bytes_of_replay)});
+      replays.push_back({scene.title, backend, bounded_bundle(trajectory, room)});
       size += replays.back().bundle.size();
     }
     if (replays.empty() || bytes + size > limits.bytes_of_all) {
       left_out.push_back(scene.title);
       continue;
     }
-    ++taken;
+    if (!scene.is_pair) ++taken;
     bytes += size;
     std::move(replays.begin(), replays.end(), std::back_inserter(options.replays));
   }

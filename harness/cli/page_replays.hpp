@@ -8,7 +8,7 @@
 namespace plumb::harness {
 
 struct ReplayLimits {
-  std::size_t scenes = 1000;               ///< at most so many (scene, parameters)
+  std::size_t scenes = 1000;               ///< at most so many (scene, parameters), pairs of shapes apart
   std::size_t bytes_of_replay = 6u << 20;  ///< packed; 4/3 of it in the page
   std::size_t bytes_of_all = std::size_t{30} << 20;
 };

@@ -94,7 +94,8 @@ void add_report(CLI::App& program, int& status) {
       program.add_subcommand("report", "Show results that were made before: tables, or a page for a browser");
   verb->add_option("DIR", options->folder, "Folder with results.jsonl, or such a file")->required();
   verb->add_option("--html", options->html, "Write one self-contained page to this file");
-  verb->add_option("--replays", options->replays.scenes, "At most so many scenes as replays in the page");
+  verb->add_option("--replays", options->replays.scenes,
+                   "At most so many scenes as replays in the page, pairs of shapes apart");
   verb->add_flag("--no-replays", options->no_replays, "No replays in the page")->excludes("--replays");
   CLI::Option* markdown = verb->add_flag("--md", options->markdown, "Print Markdown");
   CLI::Option* csv = verb->add_flag("--csv", options->csv, "Print CSV, a line a metric");
