@@ -1,12 +1,12 @@
 // Pictures of a report's replays, made by a browser without a window: one PNG, or one for each frame of a film.
-// node still.mjs PAGE.html --size 1280x720 (--at SECONDS --png FILE | --frames DIR --fps F) [--scene NAME] [--layers A,B] [--theme dark]
 import { existsSync, mkdirSync } from 'node:fs';
 import { join, resolve } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { parseArgs } from 'node:util';
 
 const kUsage =
-  'usage: node still.mjs PAGE.html --size 1280x720 (--at SECONDS --png FILE | --frames DIR --fps F) [--scene NAME] [--layers A,B] [--theme light|dark]';
+  'usage: node still.mjs PAGE.html --size 1280x720 (--at SECONDS --png FILE | --frames DIR --fps F) ' +
+  '[--scene NAME] [--layers A,B] [--theme light|dark]';
 const kBrowserArguments = [
   '--headless',
   '--no-sandbox',

@@ -1,4 +1,4 @@
-// The viewer in a browser without a window: it loads without a word of complaint, plays, scrubs, draws, and every layer shows.
+// The viewer in a browser without a window: loads without a word of complaint, plays, scrubs, draws, shows every layer.
 import assert from 'node:assert/strict';
 import { existsSync, mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { createRequire } from 'node:module';

@@ -1,4 +1,4 @@
-// What a frame costs, in the browser without a window: node measure.mjs [BODIES...], with the two folders of browser.mjs
+// What a frame costs, in the browser without a window: node measure.mjs [BODIES...], with the folders of browser.mjs
 // in the environment. Drawing is by a software renderer here, so only the first number is that of a reader's machine.
 import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { createRequire } from 'node:module';

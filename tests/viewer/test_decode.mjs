@@ -81,7 +81,8 @@ test('orientations come back as the rotations that they were', () => {
 });
 
 test('between frames positions go straight and rotations the short way', () => {
-  const pose = (f) => [f, 0, 0, ...quaternion([0, 1, 0], f * 0.2).map((v) => (f % 2 ? -v : v))]; // q and -q are one rotation
+  // q and -q are one rotation.
+  const pose = (f) => [f, 0, 0, ...quaternion([0, 1, 0], f * 0.2).map((v) => (f % 2 ? -v : v))];
   const bytes = replay({
     scene: 's',
     backend: 'b',

@@ -4,6 +4,7 @@ import test from 'node:test';
 import { Clock } from '../../harness/viewer/src/clock.js';
 import { forceMap, penetrationMap } from '../../harness/viewer/src/colour.js';
 import { curvePath, valueRange } from '../../harness/viewer/src/curves.js';
+import { kLayers, missingEverywhere } from '../../harness/viewer/src/layers.js';
 import { kLevels, Pace } from '../../harness/viewer/src/pace.js';
 import { kindsOf, pairOf } from '../../harness/viewer/src/pairs.js';
 import { quantity } from '../../harness/viewer/src/quantity.js';
@@ -27,7 +28,7 @@ test('quantities have three digits and a prefix', () => {
   assert.equal(quantity(-36700, 'N'), '\u221236.7 kN');
   assert.equal(quantity(0, 'J'), '0 J');
   assert.equal(quantity(4, '1'), '4.00');
-  assert.equal(quantity(NaN, 'J'), 'not a number J');
+  assert.equal(quantity(NaN, 'J'), 'no number');
   assert.equal(quantity(0.9999, 'm'), '1.00 m');
 });
 
@@ -89,4 +90,14 @@ test('slow frames give something up, step by step; fast ones and a pause nothing
   assert.ok(frames(12, 0.2) === 1 && pace.level === 1);
   frames(500, 0.2);
   assert.equal(pace.level, kLevels);
+});
+
+test('a layer that nobody recorded has one reason for all', () => {
+  const replay = (backend, without) => ({ header: { backend, recorded: { without } }, has: () => false, sections: {} });
+  const islands = kLayers.find(({ name }) => name === 'islands');
+  assert.equal(missingEverywhere(islands, [replay('alpha'), replay('beta')]), 'no engine recorded islands');
+  assert.equal(
+    missingEverywhere(islands, [replay('alpha', { islands: 'has none' }), replay('beta')]),
+    'has none; beta did not record islands',
+  );
 });

@@ -15,6 +15,7 @@ import { detailFor, kNoShape, shapeGeometry } from './shapes.js';
 const kRound = new Set(['sphere', 'capsule', 'plane', 'height_field']);
 const kGround = new Set(['plane', 'mesh', 'height_field']);
 const kEdgeAngle = 25; // degrees between faces that show their common edge
+const kPlaces = 1e5; // to the extent: so finely bodies are put in order
 const kManyEdges = 4000; // triangles of one shape beyond which its edges only blur
 
 /** Column-major rotation of a unit quaternion times scale, and the position, into out at offset. */
@@ -61,6 +62,7 @@ export class Bodies {
   constructor(replay, materials, extent) {
     this.replay = replay;
     this.materials = materials;
+    this.extent = extent;
     this.object = new Group();
     this.groups = [];
     /** Where a body is drawn: its group and its place there. */
@@ -106,7 +108,8 @@ export class Bodies {
     this.groups.push(group);
     this.object.add(mesh);
     const triangles = (geometry.index ?? geometry.attributes.position).count / 3;
-    if (!kRound.has(type) && triangles < kManyEdges) {
+    const endless = fixed && members.some(({ scale }) => Math.max(...scale) > this.extent / 3); // edges beyond the haze
+    if (!kRound.has(type) && triangles < kManyEdges && !endless) {
       group.edges = new EdgesGeometry(geometry, kEdgeAngle);
       group.lines = instancedEdges(mesh, group.edges, fixed ? this.materials.fixedEdge : this.materials.edge);
       this.object.add(group.lines);
@@ -118,8 +121,8 @@ export class Bodies {
     const { replay } = this,
       order = [...replay.bodies.keys()].filter((body) => !this.place[body].group.fixed),
       colours = new Float32Array(replay.bodies.length * 3);
-    const start = (body) => replay.bodies[body].start;
-    order.sort((a, b) => start(a)[1] - start(b)[1] || start(a)[0] - start(b)[0] || a - b);
+    const place = (body, axis) => Math.round((replay.bodies[body].start[axis] * kPlaces) / this.extent);
+    order.sort((a, b) => place(a, 1) - place(b, 1) || place(a, 0) - place(b, 0) || a - b);
     order.forEach((body, rank) => {
       const t = order.length > 1 ? rank / (order.length - 1) : 0.35;
       writeBodyColour(t, rank % 2 ? 0.93 : 1.05, colours, body * 3);

@@ -1,10 +1,10 @@
 // What the reader handles: scene, engines, layers and curves above the views; play, time, speed and camera below.
 import { kSpeeds } from './clock.js';
-import { seriesName } from './curves.js';
+import { kSeries, seriesName } from './curves.js';
 import { element, icon } from './dom.js';
 import { kKeys } from './keys.js';
 import { pairOf } from './pairs.js';
-import { kLayers, missing } from './layers.js';
+import { kLayers, missing, missingEverywhere } from './layers.js';
 import { legends } from './legends.js';
 
 const kPlay = 'M4 2.5v11l9-5.5z',
@@ -123,7 +123,7 @@ export class Controls {
     const { viewer } = this,
       { header } = views[0].replay;
     this.scene.value = pairOf(sceneName) ? viewer.pairs.first : sceneName;
-    this.title.textContent = header.title ?? '';
+    this.title.textContent = (header.title ?? '').replaceAll('_', ' ');
     this.engines.replaceChildren(
       ...(views.length < 2
         ? []
@@ -153,6 +153,8 @@ export class Controls {
         ),
       ),
     ];
+    const place = (name) => Object.keys(kSeries).indexOf(name) + 1 || Infinity;
+    names.sort((a, b) => place(a) - place(b) || (a < b ? -1 : 1));
     this.names = names;
     this.curves.replaceChildren(
       ...names.map((name) => {
@@ -196,7 +198,12 @@ export class Controls {
         'data-layer': kind.name,
         'aria-pressed': 'false',
         'aria-disabled': none ? 'true' : undefined,
-        title: none ? [...new Set(whys)].join('; ') : kind.about,
+        title: none
+          ? missingEverywhere(
+              kind,
+              views.map((view) => view.replay),
+            )
+          : kind.about,
         onclick: () => this.viewer.setLayer(kind.name, !this.viewer.on.has(kind.name)),
       },
       kind.label,

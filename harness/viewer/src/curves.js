@@ -7,10 +7,10 @@ export const kSeries = {
   energy_drift: 'energy drift',
   momentum_drift: 'momentum drift',
   max_penetration: 'deepest overlap',
-  contacts: 'contacts',
   distance: 'distance',
   true_distance: 'true distance',
   depth_error: 'error of the depth',
+  contacts: 'contacts',
 };
 const kUnits = {
   energy: 'J',

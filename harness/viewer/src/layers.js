@@ -113,6 +113,16 @@ export function missing(kind, replay) {
   return silent ? `${backend} does not tell ${silent.replace('/', ' ')}` : null;
 }
 
+/** Why nobody can show the layer: each reason once, and without the names where all give the same. */
+export function missingEverywhere(kind, replays) {
+  const reasons = replays.map((replay) => missing(kind, replay)),
+    rest = (i) => reasons[i].replace(`${replays[i].header.backend} did not`, 'no engine');
+  const same = reasons.every((reason, i) => reason.startsWith(replays[i].header.backend) && rest(i) === rest(0));
+  return same && replays.length > 1
+    ? rest(0).replace('no engine record', 'no engine recorded')
+    : [...new Set(reasons)].join('; ');
+}
+
 /** One painter of those that are on, in their order, or null. */
 export function painter(kinds, replay, context) {
   const parts = kinds

@@ -30,7 +30,7 @@ export class Library {
     return this.hues.get(backend);
   }
 
-  /** Replays of a scene, kept until another one is opened. Throws an Error that names the bundle that cannot be opened. */
+  /** Replays of a scene, kept until another one is opened. Throws an Error that names what cannot be opened. */
   async open(scene) {
     const entries = this.scenes.get(scene);
     if (!entries) throw new Error(`there is no replay of the scene "${scene}"; there are: ${this.names.join(', ')}`);

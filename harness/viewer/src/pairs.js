@@ -43,30 +43,27 @@ export class PairPanel {
 
   table() {
     const words = (kind) => kind.replaceAll('_', ' ');
-    const head = element(
-      'tr',
-      {},
-      element('td'),
-      ...this.kinds.map((kind) => element('th', { scope: 'col' }, words(kind))),
-    );
+    const at = (i, j) => (j <= i ? this.scenes.get(`${this.kinds[i]} ${this.kinds[j]}`) : undefined);
+    const places = [...this.kinds.keys()];
+    const columns = places.filter((j) => places.some((i) => at(i, j))),
+      rows = places.filter((i) => places.some((j) => at(i, j)));
+    const head = columns.map((j) => element('th', { scope: 'col' }, words(this.kinds[j])));
+    const line = (i) =>
+      columns.map((j) =>
+        element(
+          'td',
+          {},
+          at(i, j) ? this.button(at(i, j), `${words(this.kinds[i])} and ${words(this.kinds[j])}`) : null,
+        ),
+      );
     return element(
       'table',
       {},
-      element('thead', {}, head),
+      element('thead', {}, element('tr', {}, element('td'), ...head)),
       element(
         'tbody',
         {},
-        ...this.kinds.map((row, i) =>
-          element(
-            'tr',
-            {},
-            element('th', { scope: 'row' }, words(row)),
-            ...this.kinds.map((column, j) => {
-              const scene = j <= i ? this.scenes.get(`${row} ${column}`) : undefined;
-              return element('td', {}, scene ? this.button(scene, `${words(row)} and ${words(column)}`) : null);
-            }),
-          ),
-        ),
+        ...rows.map((i) => element('tr', {}, element('th', { scope: 'row' }, words(this.kinds[i])), ...line(i))),
       ),
     );
   }
@@ -91,6 +88,7 @@ export class PairPanel {
 
   show(scene) {
     this.element.hidden = !pairOf(scene);
+    this.viewer.place.classList.toggle('pv-of-pairs', !this.element.hidden);
     for (const button of this.element.querySelectorAll('button'))
       button.setAttribute('aria-pressed', `${button.dataset.pair === scene}`);
   }

@@ -13,7 +13,7 @@ const kPrefixes = [
 
 export function digits(value, count = 3) {
   if (value === 0) return '0';
-  if (!Number.isFinite(value)) return Number.isNaN(value) ? 'not a number' : value > 0 ? '\u221e' : '\u2212\u221e';
+  if (!Number.isFinite(value)) return Number.isNaN(value) ? 'no number' : value > 0 ? '\u221e' : '\u2212\u221e';
   const rounded = value.toExponential(count - 1),
     exponent = Number(rounded.slice(rounded.indexOf('e') + 1));
   const text =
@@ -25,6 +25,7 @@ export function digits(value, count = 3) {
 
 /** "1.25 mm", "980 N"; a unit of "" or "1" has no prefix. */
 export function quantity(value, unit) {
+  if (Number.isNaN(value)) return digits(value);
   if (!unit || unit === '1' || value === 0 || !Number.isFinite(value))
     return `${digits(value)}${unit && unit !== '1' ? ` ${unit}` : ''}`;
   const size = Math.abs(value),

@@ -8,6 +8,7 @@ import { quantity } from './quantity.js';
 import { SceneView } from './scene_view.js';
 
 const kLabels = 24; // contact ids written beside their points, at most
+const kLabelsUnasked = 14; // contacts of a scene whose ids are written although no body was picked
 
 export class View {
   constructor(replay, frame, hue, callbacks) {
@@ -45,7 +46,7 @@ export class View {
       ),
       this.port,
       this.curves.element,
-      note ? element('p', { class: 'pv-note' }, note) : null,
+      note ? element('p', { class: 'pv-note', title: note }, note) : null,
     );
     this.pressed = new Vector2();
     this.port.addEventListener('pointerdown', (event) => this.pressed.set(event.clientX, event.clientY));
@@ -137,12 +138,9 @@ export class View {
       const first = replay.first('contacts'),
         end = replay.first('contacts', 1);
       for (let row = first; row < end && used < kLabels; ++row) {
-        if (
-          body === null
-            ? end - first > kLabels
-            : sections['contacts/body_a'][row] !== body && sections['contacts/body_b'][row] !== body
-        )
-          continue;
+        const known = ids[row] !== 0; // as the engines say
+        const ofBody = sections['contacts/body_a'][row] === body || sections['contacts/body_b'][row] === body;
+        if (!known || (body === null ? end - first > kLabelsUnasked : !ofBody)) continue;
         const at = this.projected.fromArray(sections['contacts/point'], row * 3).project(camera);
         if (at.z > 1) continue;
         const label = this.labels[used++];

@@ -6,7 +6,7 @@ import { Controls } from './controls.js';
 import { element } from './dom.js';
 import { framing } from './framing.js';
 import { listenToKeys } from './keys.js';
-import { kLayers, missing, painter } from './layers.js';
+import { kLayers, missing, missingEverywhere, painter } from './layers.js';
 import { Pace } from './pace.js';
 import { PairPanel } from './pairs.js';
 import { colourRanges, seriesRanges } from './ranges.js';
@@ -14,6 +14,7 @@ import { Stage } from './stage.js';
 import { readTheme, watchTheme } from './theme.js';
 import { View } from './view.js';
 
+const kPairZoom = 0.75; // of the way of the second shape: where the two touch is what counts
 const kFewPaths = 4; // bodies that move: of so few one sees the paths without asking
 const kLongestTick = 0.1; // s: slower machines play slower rather than by leaps
 
@@ -35,7 +36,8 @@ export class Viewer {
       this.fail('There are no replays in this page: run with --record and make the report again.');
     else if (!this.stage.gl)
       this.fail(
-        'The replays need WebGL 2, which this browser does not offer or has switched off. Everything else on this page works without it.',
+        'The replays need WebGL 2, which this browser does not offer or has switched off. ' +
+          'Everything else on this page works without it.',
       );
     this.ready = this.failure ? Promise.resolve() : this.begin();
   }
@@ -101,6 +103,7 @@ export class Viewer {
     this.kind = replays[0].header.kind ?? 'scene';
     Object.assign(this.context, colourRanges(replays), { boxDepth: 'all' });
     this.framing = framing(replays);
+    if (this.kind === 'pairs') this.framing.half.multiplyScalar(kPairZoom);
     const callbacks = {
       pick: (view, event) => this.pick(view, event),
       seek: (time) => {
@@ -154,7 +157,10 @@ export class Viewer {
       throw new Error(`there is no layer "${name}"; there are: ${kLayers.map((layer) => layer.name).join(', ')}`);
     if (on && !this.available(kind)) {
       this.controls.say(
-        `${kind.label}: ${[...new Set(this.views.map((view) => missing(kind, view.replay)))].join('; ')}`,
+        `${kind.label}: ${missingEverywhere(
+          kind,
+          this.views.map((view) => view.replay),
+        )}`,
       );
       return false;
     }
