@@ -5,6 +5,8 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 
@@ -16,6 +18,14 @@ int width_of(int descriptor) {
   winsize size{};
   if (isatty(descriptor) == 0) return 0;
   return ioctl(descriptor, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+}
+
+// 0:07, 12:30, 3:04:00.
+std::string time_text(double seconds) {
+  const auto whole = static_cast<std::int64_t>(std::ceil(std::min(seconds, 3.6e6)));
+  const auto minutes = whole / 60 % 60, rest = whole % 60;
+  return whole >= 3600 ? fmt::format("{}:{:02}:{:02}", whole / 3600, minutes, rest)
+                       : fmt::format("{}:{:02}", minutes, rest);
 }
 
 }  // namespace
@@ -32,12 +42,16 @@ std::string column(const std::string& text, std::size_t width) {
   return text + std::string(width - text.size(), ' ');
 }
 
-ProgressBar::ProgressBar() : width_(width_of(STDERR_FILENO)) {}
+ProgressBar::ProgressBar(bool logs)
+    : width_(width_of(STDERR_FILENO)), logs_(logs), logged_(std::chrono::steady_clock::now()) {}
 
 ProgressBar::~ProgressBar() { clear(); }
 
 void ProgressBar::draw(const StudyProgress& progress) {
-  if (width_ == 0) return;
+  if (width_ == 0) {
+    if (logs_) log(progress);
+    return;
+  }
   constexpr std::size_t bar_width = 24;
   const double within =
       progress.steps == 0 ? 0 : std::min(1.0, static_cast<double>(progress.step) / static_cast<double>(progress.steps));
@@ -46,12 +60,22 @@ void ProgressBar::draw(const StudyProgress& progress) {
   const auto filled = static_cast<std::size_t>(std::min(1.0, share) * bar_width);
   std::string line = fmt::format("[{}{}] {}/{}  {}", std::string(filled, '#'), std::string(bar_width - filled, '.'),
                                  progress.cells_done, progress.cells_total, progress.cell);
+  if (progress.seconds_left) line += "  " + time_text(*progress.seconds_left) + " left";
   if (progress.steps != 0)
     line += fmt::format("  step {} of {}", std::min(progress.step, progress.steps), progress.steps);
   line.resize(std::min(line.size(), static_cast<std::size_t>(width_ - 1)));
   fmt::print(stderr, "\r\033[K{}", line);
   std::fflush(stderr);
   drawn_ = true;
+}
+
+void ProgressBar::log(const StudyProgress& progress) {
+  constexpr std::chrono::seconds pause{30};
+  const auto now = std::chrono::steady_clock::now();
+  if (now - logged_ < pause) return;
+  logged_ = now;
+  fmt::print(stderr, "{} of {} cells{}\n", progress.cells_done, progress.cells_total,
+             progress.seconds_left ? ", about " + time_text(*progress.seconds_left) + " left" : "");
 }
 
 void ProgressBar::clear() {

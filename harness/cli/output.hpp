@@ -1,6 +1,7 @@
 // Where output goes and how: formats, the width of the terminal, a progress bar on a terminal only.
 #pragma once
 
+#include <chrono>
 #include <string>
 #include <vector>
 
@@ -21,10 +22,11 @@ struct OutputOptions {
 /// Text, cut to a width and filled up with blanks.
 [[nodiscard]] std::string column(const std::string& text, std::size_t width);
 
-/// A line on standard error that is drawn over itself; nothing where that is no terminal.
+/// A line on standard error that is drawn over itself. Where that is no terminal: nothing, or, with `logs`, a line of
+/// its own now and then.
 class ProgressBar {
  public:
-  ProgressBar();
+  explicit ProgressBar(bool logs = false);
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
@@ -32,8 +34,11 @@ class ProgressBar {
   void clear();
 
  private:
+  void log(const StudyProgress& progress);
+
   int width_ = 0;
-  bool drawn_ = false;
+  bool logs_ = false, drawn_ = false;
+  std::chrono::steady_clock::time_point logged_;
 };
 
 }  // namespace plumb::harness

@@ -43,7 +43,8 @@ void add_study_options(CLI::App& verb, StudyOptions& options) {
   verb.add_option("--profile", request.profile,
                   "default: as the engine ships; matched: its own damping and sleeping off; tuned: its author's file")
       ->capture_default_str();
-  verb.add_option("--needs", request.needs, "scene: declare what the scene needs; all: whatever the engine has")
+  verb.add_option("--needs", request.needs,
+                  "scene: declare what the scene needs; scene+sleeping: one more; all: whatever the engine has")
       ->capture_default_str();
   verb.add_option("--dt", request.dt, "Step in s instead of the scene's");
   verb.add_option("--seconds", request.seconds, "Simulated time in s instead of the scene's");

@@ -1,5 +1,6 @@
 #include "report/results_file.hpp"
 
+#include <algorithm>
 #include <fstream>
 #include <istream>
 #include <string>
@@ -29,11 +30,9 @@ std::string cell_key(const Json& row) {
   return line_of(key);
 }
 
-}  // namespace
+using Cells = std::unordered_map<std::string, std::size_t>;  ///< places of rows, by their keys
 
-Results read_results(std::istream& in) {
-  Results results;
-  std::unordered_map<std::string, std::size_t> cells;
+void read_into(std::istream& in, Results& results, Cells& cells) {
   std::string line;
   for (std::size_t number = 1; std::getline(in, line); ++number) {
     const bool torn = in.eof();  // no newline ended it
@@ -50,17 +49,43 @@ Results read_results(std::istream& in) {
       results.rows[cell->second] = std::move(row);
     }
   }
+}
+
+/// Each process that worked on a study has a file of its own.
+std::vector<std::filesystem::path> files_of(const std::filesystem::path& where) {
+  if (!std::filesystem::is_directory(where)) return {where};
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(where)) {
+    const std::string name = entry.path().filename().string();
+    if (name == "results.jsonl" || (name.starts_with("results-") && name.ends_with(".jsonl")))
+      files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  if (files.empty()) files.push_back(where / "results.jsonl");
+  return files;
+}
+
+}  // namespace
+
+Results read_results(std::istream& in) {
+  Results results;
+  Cells cells;
+  read_into(in, results, cells);
   return results;
 }
 
 Results read_results(const std::filesystem::path& where) {
-  const std::filesystem::path file = std::filesystem::is_directory(where) ? where / "results.jsonl" : where;
-  std::ifstream in(file, std::ios::binary);
-  if (!in) {
-    throw UsageError("cannot read " + file.string() +
-                     "; name a folder that `plumb run --out` or `plumb compare` wrote");
+  Results results;
+  Cells cells;
+  for (const std::filesystem::path& file : files_of(where)) {
+    std::ifstream in(file, std::ios::binary);
+    if (!in) {
+      throw UsageError("cannot read " + file.string() +
+                       "; name a folder that `plumb run --out` or `plumb compare` wrote");
+    }
+    read_into(in, results, cells);
   }
-  return read_results(in);
+  return results;
 }
 
 }  // namespace plumb::harness

@@ -16,7 +16,8 @@ struct Results {
 
 /// One object a line; empty lines count for nothing. A cell that was run again replaces its earlier row in place.
 [[nodiscard]] Results read_results(std::istream& in);
-/// `where` is the file, or the folder with results.jsonl in it. Throws UsageError when it cannot be opened.
+/// `where` is the file, or the folder with results.jsonl or several results-*.jsonl in it. Throws UsageError when it
+/// cannot be opened.
 [[nodiscard]] Results read_results(const std::filesystem::path& where);
 
 }  // namespace plumb::harness

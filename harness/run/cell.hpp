@@ -19,7 +19,7 @@ struct Cell {
   std::string backend_build;       ///< of library and engine together
   Json settings = Json::object();  ///< asked for
   std::string profile = "default";
-  std::string needs = "scene";  ///< or "all"
+  std::string needs = "scene";  ///< or "all", or "scene+NAME"
   double dt = 0, seconds = 0;
   std::uint32_t threads = 1;
 };

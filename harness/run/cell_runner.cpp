@@ -17,6 +17,7 @@
 #include "run/names.hpp"
 #include "run/recording.hpp"
 #include "run/support.hpp"
+#include "scene/build.hpp"
 
 namespace plumb::harness {
 
@@ -166,6 +167,20 @@ Scene scene_of(const SceneFile& file, const Json& request) {
   return instantiate_with(file, parameters, request.at("dt").get<double>(), request.at("seconds").get<double>());
 }
 
+// "scene+sleeping+ccd": the scene's needs and these.
+PlumbNeeds needs_beside(const std::string& asked) {
+  PlumbNeeds needs = 0;
+  for (std::size_t at = asked.find('+'); at != std::string::npos;) {
+    const std::size_t next = asked.find('+', at + 1);
+    const std::string word = asked.substr(at + 1, next == std::string::npos ? next : next - at - 1);
+    const auto found = std::find(need_words().begin(), need_words().end(), word);
+    if (found == need_words().end()) throw Error(PLUMB_E_INVALID_ARGUMENT, "there is no need " + word);
+    needs |= PlumbNeeds{1} << (found - need_words().begin());
+    at = next;
+  }
+  return needs;
+}
+
 SimulationOptions options_of(const Backend& backend, const Json& request) {
   SimulationOptions options;
   options.threads = request.at("threads");
@@ -282,6 +297,7 @@ Json run_cell(Backend& backend, const Json& request, Progress& progress) {
     const SceneFile file = scene_file_of(request);
     scene.emplace(scene_of(file, request));
     if (!scene->lacks.empty()) throw Error(PLUMB_E_UNSUPPORTED, scene->lacks);
+    scene->needs |= needs_beside(request.at("needs").get<std::string>());
     const SimulationOptions options = options_of(backend, request);
     trace.emplace(backend, request.value("trace", ""));
     context.emplace(trace->backend(), *scene, options, progress, recording_of(request));

@@ -9,6 +9,7 @@
 #include "measure/measure.hpp"
 #include "plumb/nearest.hpp"
 #include "run/machine.hpp"
+#include "scene/build.hpp"
 #include "scene/catalogue.hpp"
 #include "scene/parameters.hpp"
 
@@ -113,7 +114,7 @@ void check_words(const StudyRequest& request) {
       throw UsageError(fmt::format("{} {}: there is no such choice{}", option, word, suggestion(word, known)));
   };
   check_word("--profile", request.profile, profile_words());
-  check_word("--needs", request.needs, {"scene", "all"});
+  check_needs("--needs", request.needs);
   if (request.dt) check_positive("--dt", *request.dt);
   if (request.seconds) check_positive("--seconds", *request.seconds);
   check_positive("--timeout", request.timeout);
@@ -170,41 +171,69 @@ std::vector<std::pair<std::string, std::string>> backend_files(const std::vector
   return files;
 }
 
-Plan make_plan(const StudyRequest& request) {
+void check_needs(const std::string& option, const std::string& needs) {
+  if (needs == "scene" || needs == "all") return;
+  const auto refuse = [&](const std::string& why) { throw UsageError(fmt::format("{} {}: {}", option, needs, why)); };
+  std::vector<std::string> known{"scene", "all"};
+  if (!needs.starts_with("scene+")) {
+    known.emplace_back("scene+" + need_words().front());
+    refuse("there is no such choice" + suggestion(needs, known));
+  }
+  for (std::size_t at = 5; at != std::string::npos;) {
+    const std::size_t next = needs.find('+', at + 1);
+    const std::string word = needs.substr(at + 1, next == std::string::npos ? next : next - at - 1);
+    if (std::find(need_words().begin(), need_words().end(), word) == need_words().end())
+      refuse("there is no need \"" + word + "\"" + suggestion(word, need_words()));
+    at = next;
+  }
+}
+
+OpenedBackends open_backends(const StudyRequest& request) {
+  OpenedBackends opened;
+  for (const auto& [name, file] : backend_files(request.backends)) {
+    BackendDescription backend = ask_description(name, file, request.limits());
+    const bool unasked = request.backends.empty() && !backend.error.empty();
+    (unasked ? opened.broken : opened.usable).push_back(std::move(backend));
+  }
+  if (opened.usable.empty()) {
+    std::string folders;
+    for (const auto& folder : backend_path()) folders += (folders.empty() ? "" : ", ") + folder.string();
+    throw UsageError("no backend loads; looked in " + (folders.empty() ? "no folder" : folders) +
+                     "; name one by --backend FILE or set PLUMB_BACKEND_PATH");
+  }
+  return opened;
+}
+
+std::vector<BuiltBackend> build_ids(std::vector<BackendDescription> backends) {
+  std::vector<BuiltBackend> built;
+  for (BackendDescription& backend : backends) {
+    std::string build = build_id(backend);
+    built.push_back({std::make_shared<const BackendDescription>(std::move(backend)), std::move(build)});
+  }
+  return built;
+}
+
+std::vector<CellBlock> plan_blocks(const StudyRequest& request, const std::vector<BuiltBackend>& backends) {
   check_words(request);
   const std::vector<std::shared_ptr<const SceneFile>> scenes = scenes_for(request.scenes);
   const std::vector<ParameterRequest> parameters = parse_parameters(request.parameters);
   check_parameter_names(parameters, scenes);
   std::vector<SettingRequest> settings;
   for (const std::string& argument : request.settings) settings.push_back(parse_setting_request(argument));
-
-  Plan plan;
-  std::vector<BackendDescription> backends;
-  for (const auto& [name, file] : backend_files(request.backends)) {
-    BackendDescription backend = ask_description(name, file, request.limits());
-    const bool unasked = request.backends.empty() && !backend.error.empty();
-    (unasked ? plan.broken : backends).push_back(std::move(backend));
-  }
-  if (backends.empty()) {
-    std::string folders;
-    for (const auto& folder : backend_path()) folders += (folders.empty() ? "" : ", ") + folder.string();
-    throw UsageError("no backend loads; looked in " + (folders.empty() ? "no folder" : folders) +
-                     "; name one by --backend FILE or set PLUMB_BACKEND_PATH");
-  }
-  check_setting_requests(settings, backends);
+  std::vector<BackendDescription> descriptions;
+  for (const BuiltBackend& backend : backends) descriptions.push_back(*backend.description);
+  check_setting_requests(settings, descriptions);
   const Sweep sweep = parse_sweep(request.sweep);
-  check_sweep(sweep, backends, settings);
+  check_sweep(sweep, descriptions, settings);
 
-  std::vector<std::pair<std::shared_ptr<const BackendDescription>, std::string>> built;
-  for (BackendDescription& backend : backends) {
-    std::string build = build_id(backend);
-    built.emplace_back(std::make_shared<const BackendDescription>(std::move(backend)), std::move(build));
-  }
+  std::vector<CellBlock> blocks;
   for (const auto& file : scenes) {
-    for (const Parameters& variant : variants_of(*file, given_to(*file, parameters))) {
+    const Parameters given = given_to(*file, parameters);
+    for (const Parameters& variant :
+         request.own_variants ? variants_of(*file, given) : std::vector<Parameters>{given}) {
       const Scene scene = instantiate_with(*file, variant, request.dt, request.seconds);
       CellBlock block;
-      for (const auto& [backend, build] : built) {
+      for (const auto& [backend, build] : backends) {
         Cell cell{file,     scene.parameters, variant,         backend,
                   build,    Json::object(),   request.profile, request.needs,
                   scene.dt, scene.seconds,    request.threads};
@@ -215,9 +244,19 @@ Plan make_plan(const StudyRequest& request) {
           block.cells.push_back(std::move(cell));
         }
       }
-      plan.blocks.push_back(std::move(block));
+      blocks.push_back(std::move(block));
     }
   }
+  return blocks;
+}
+
+Plan make_plan(const StudyRequest& request) {
+  check_words(request);
+  (void)scenes_for(request.scenes);  // a misspelt scene is told before a backend is asked anything
+  Plan plan;
+  OpenedBackends opened = open_backends(request);
+  plan.broken = std::move(opened.broken);
+  plan.blocks = plan_blocks(request, build_ids(std::move(opened.usable)));
   return plan;
 }
 

@@ -1,6 +1,7 @@
 // From what a user asked to the cells of a study.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,6 +23,7 @@ struct StudyRequest {
   std::vector<std::string> scenes;
   std::vector<std::string> backends;              ///< names or files; empty: all that load
   std::vector<std::string> parameters, settings;  ///< as typed
+  bool own_variants = true;                       ///< false: one cell of the parameters, not the scene's variants
   std::optional<SweepRequest> sweep;              ///< none: a cell a backend, with the settings above
   std::string profile = "default", needs = "scene";
   std::optional<double> dt, seconds;
@@ -36,6 +38,10 @@ struct StudyRequest {
 
   [[nodiscard]] WorkerLimits limits() const;
 };
+
+/// Needs as a user names them: "scene", "all", or "scene" and more needs, "scene+sleeping". Throws UsageError, with the
+/// nearest right word, after `option`.
+void check_needs(const std::string& option, const std::string& needs);
 
 /// Cells with the same scene and parameters, of all backends: what is repeated in turns.
 struct CellBlock {
@@ -54,6 +60,25 @@ struct Plan {
   std::vector<CellBlock> blocks;
   std::vector<BackendDescription> broken;  ///< not asked for by name, and they do not load
 };
+
+/// The backends of a request: those that load, and those that do not and were not asked for by name. Throws UsageError
+/// when there are none at all.
+struct OpenedBackends {
+  std::vector<BackendDescription> usable, broken;
+};
+[[nodiscard]] OpenedBackends open_backends(const StudyRequest& request);
+
+/// A backend's description and its build id: what all cells of it share.
+struct BuiltBackend {
+  std::shared_ptr<const BackendDescription> description;
+  std::string build;
+};
+[[nodiscard]] std::vector<BuiltBackend> build_ids(std::vector<BackendDescription> backends);
+
+/// The blocks of a request on these backends, whatever it says of backends itself. Throws UsageError for everything
+/// that is asked wrongly.
+[[nodiscard]] std::vector<CellBlock> plan_blocks(const StudyRequest& request,
+                                                 const std::vector<BuiltBackend>& backends);
 
 /// Throws UsageError for everything that is asked wrongly.
 [[nodiscard]] Plan make_plan(const StudyRequest& request);

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -12,21 +13,27 @@
 
 namespace plumb::harness {
 
-ResultsFile::ResultsFile(const std::filesystem::path& folder) : folder_(folder) {
+std::vector<std::filesystem::path> results_files(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+    const std::string name = entry.path().filename().string();
+    if (name == "results.jsonl" || (name.starts_with("results-") && name.ends_with(".jsonl")))
+      files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+ResultsFile::ResultsFile(const std::filesystem::path& folder, const std::string& name)
+    : folder_(folder), file_(folder / name) {
   std::error_code failure;
   std::filesystem::create_directories(folder, failure);
   if (failure) throw UsageError("--out " + folder.string() + ": " + failure.message());
-  const std::filesystem::path file = folder / "results.jsonl";
+  refresh();
   bool torn = false;
-  std::ifstream in(file);
-  for (std::string line; std::getline(in, line);) {
-    torn = in.eof();
-    Json row = Json::parse(line, nullptr, false);
-    if (!row.is_object() || !row.contains("cell") || !row["cell"].is_string()) continue;
-    const std::string cell = row["cell"];
-    rows_[cell] = std::move(row);
-  }
-  descriptor_ = open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
+  if (std::ifstream in(file_, std::ios::binary); in && in.seekg(-1, std::ios::end)) torn = in.get() != '\n';
+  descriptor_ = open(file_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
   if (descriptor_ < 0) throw UsageError("--out " + folder.string() + ": " + std::strerror(errno));
   if (torn) write_all("\n");  // the torn line stays as it is, and the next row gets a line of its own
 }
@@ -38,10 +45,33 @@ const Json* ResultsFile::find(const std::string& cell_id) const {
   return found == rows_.end() ? nullptr : &found->second;
 }
 
+void ResultsFile::refresh() {
+  for (const std::filesystem::path& file : results_files(folder_)) read_on(file);
+}
+
+// Whole lines only: the last one may be on its way. A file that ends without a newline gives that line when it is whole
+// by itself, and is read again from there.
+void ResultsFile::read_on(const std::filesystem::path& file) {
+  std::uintmax_t& done = read_[file];
+  std::ifstream in(file, std::ios::binary);
+  if (!in || !in.seekg(static_cast<std::streamoff>(done))) return;
+  for (std::string line; std::getline(in, line);) {
+    take(line);
+    if (!in.eof()) done += line.size() + 1;
+  }
+}
+
+void ResultsFile::take(const std::string& line) {
+  Json row = Json::parse(line, nullptr, false);
+  if (!row.is_object() || !row.contains("cell") || !row["cell"].is_string()) return;
+  const std::string cell = row["cell"];
+  rows_[cell] = std::move(row);
+}
+
 void ResultsFile::append(const Json& row) {
   write_all(line_of(row) + "\n");
   if (fsync(descriptor_) != 0 && errno != EINVAL && errno != EROFS)
-    throw std::system_error(errno, std::generic_category(), "flushing results.jsonl");
+    throw std::system_error(errno, std::generic_category(), "flushing " + file_.string());
 }
 
 void ResultsFile::write_all(const std::string& bytes) {
@@ -49,7 +79,7 @@ void ResultsFile::write_all(const std::string& bytes) {
   while (written < bytes.size()) {
     const ssize_t count = write(descriptor_, bytes.data() + written, bytes.size() - written);
     if (count < 0 && errno == EINTR) continue;
-    if (count < 0) throw std::system_error(errno, std::generic_category(), "writing results.jsonl");
+    if (count < 0) throw std::system_error(errno, std::generic_category(), "writing " + file_.string());
     written += static_cast<std::size_t>(count);
   }
 }

@@ -1,34 +1,45 @@
-// results.jsonl of a study: finished cells are appended at once, so that whatever happens next loses none of them.
+// results*.jsonl of a study: finished cells are appended at once, so that whatever happens next loses none of them.
+// A folder may have several such files, one for each process that worked on it; all are read, one is written.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "run/json.hpp"
 
 namespace plumb::harness {
 
+/// results.jsonl and results-*.jsonl of a folder, in the order of their names.
+[[nodiscard]] std::vector<std::filesystem::path> results_files(const std::filesystem::path& folder);
+
 class ResultsFile {
  public:
-  /// Makes the folder and the file, or opens what is there and reads its finished cells. A line that is not an object
-  /// (torn by a kill) counts for nothing. Throws UsageError when the folder cannot be used.
-  explicit ResultsFile(const std::filesystem::path& folder);
+  /// Makes the folder and the file, or opens what is there and reads the finished cells of all files. A line that is
+  /// not an object (torn by a kill) counts for nothing. Throws UsageError when the folder cannot be used.
+  explicit ResultsFile(const std::filesystem::path& folder, const std::string& name = "results.jsonl");
   ~ResultsFile();
   ResultsFile(const ResultsFile&) = delete;
   ResultsFile& operator=(const ResultsFile&) = delete;
 
-  /// The finished row of a cell; null when there is none.
+  /// The finished row of a cell; null when there is none. It stays where it is.
   [[nodiscard]] const Json* find(const std::string& cell_id) const;
   /// One write a row, flushed to the disk. Throws std::system_error.
   void append(const Json& row);
+  /// Reads what other processes have appended since.
+  void refresh();
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
 
  private:
   void write_all(const std::string& bytes);
+  void read_on(const std::filesystem::path& file);
+  void take(const std::string& line);
 
-  std::filesystem::path folder_;
+  std::filesystem::path folder_, file_;
   std::map<std::string, Json> rows_;
+  std::map<std::filesystem::path, std::uintmax_t> read_;  ///< bytes of whole lines that are in rows_
   int descriptor_ = -1;
 };
 

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
+
+#include "run/spread.hpp"
 
 namespace plumb::harness {
 
@@ -33,9 +36,32 @@ Json percentile(const std::vector<double>& sorted, double share) {
   return sorted[std::min(rank, sorted.size() - 1)];
 }
 
+// Repetitions that met a busy machine say nothing of the engine's time, where there are calm ones.
+bool all_contended(const std::vector<Answer>& answers) {
+  return std::none_of(answers.begin(), answers.end(), [](const Answer& a) { return a.contended.is_null(); });
+}
+
+Json worst_contention(const std::vector<Answer>& answers) {
+  if (!all_contended(answers)) return nullptr;
+  return std::max_element(answers.begin(), answers.end(),
+                          [](const Answer& a, const Answer& b) {
+                            return a.contended.value("load", 0.0) < b.contended.value("load", 0.0);
+                          })
+      ->contended;
+}
+
+Json confidence_of(const std::vector<double>& runs) {
+  const std::optional<Interval> interval = median_interval(runs);
+  return interval ? Json::array({interval->low, interval->high}) : Json(nullptr);
+}
+
 Json time_of(const std::vector<Answer>& answers, const Answer& chosen) {
   std::vector<double> steps, setups;
+  const bool none_calm = all_contended(answers);
+  double wall = 0;
   for (const Answer& answer : answers) {
+    wall += answer.wall_seconds;
+    if (!answer.contended.is_null() && !none_calm) continue;
     for (const Json& ms : part_of(answer, "step_ms", Json::array())) {
       if (ms.is_number()) steps.push_back(ms.get<double>());
     }
@@ -49,6 +75,9 @@ Json time_of(const std::vector<Answer>& answers, const Answer& chosen) {
             {"min", percentile(steps, 0)},
             {"max", percentile(steps, 1)},
             {"p99", percentile(steps, 0.99)}}},
+          {"runs", medians_of_runs(answers)},
+          {"ci95", confidence_of(medians_of_runs(answers))},
+          {"wall_s", wall},
           {"window", part_of(chosen, "window", Json::array())},
           {"steps", part_of(chosen, "steps", 0)},
           {"setup_ms", percentile(setups, 0.5)},
@@ -115,6 +144,21 @@ Json knobs_of(const Cell& cell) {
 
 }  // namespace
 
+std::vector<double> medians_of_runs(const std::vector<Answer>& answers) {
+  const bool none_calm = all_contended(answers);
+  std::vector<double> runs;
+  for (const Answer& answer : answers) {
+    if (!answer.contended.is_null() && !none_calm) continue;
+    std::vector<double> steps;
+    for (const Json& ms : part_of(answer, "step_ms", Json::array())) {
+      if (ms.is_number()) steps.push_back(ms.get<double>());
+    }
+    std::sort(steps.begin(), steps.end());
+    if (!steps.empty()) runs.push_back(percentile(steps, 0.5).get<double>());
+  }
+  return runs;
+}
+
 Json make_row(const Cell& cell, const std::vector<Answer>& answers, const Json& machine) {
   const Answer& chosen = *std::max_element(answers.begin(), answers.end(), [](const Answer& a, const Answer& b) {
     return badness(status_of(a)) < badness(status_of(b));
@@ -141,6 +185,7 @@ Json make_row(const Cell& cell, const std::vector<Answer>& answers, const Json& 
           {"hash", part_of(chosen, "hash", "")},
           {"peak_mb", peak_of(answers)},
           {"machine", machine},
+          {"contended", worst_contention(answers)},
           {"defaults", defaults_left(cell, settings)},
           {"knobs", knobs_of(cell)},
           {"slug", cell.scene->slug},

@@ -68,9 +68,12 @@ void merge_checked(Json& settings, const Json& more, const BackendDescription& b
   }
 }
 
+std::filesystem::path tuned_file(const BackendDescription& backend) {
+  return std::filesystem::path(backend.file).parent_path() / ("plumb-" + backend.name + ".tuned.json");
+}
+
 Json tuned_settings(const BackendDescription& backend, const std::string& scene_id) {
-  const std::filesystem::path file =
-      std::filesystem::path(backend.file).parent_path() / ("plumb-" + backend.name + ".tuned.json");
+  const std::filesystem::path file = tuned_file(backend);
   std::ifstream in(file);
   if (!in)
     throw UsageError(
@@ -91,6 +94,8 @@ Json tuned_settings(const BackendDescription& backend, const std::string& scene_
 }
 
 }  // namespace
+
+bool has_tuned_settings(const BackendDescription& backend) { return std::filesystem::exists(tuned_file(backend)); }
 
 Json checked_value(const BackendDescription& backend, const SettingDescription& setting, const std::string& text) {
   if (setting.type == "bool") {

@@ -29,6 +29,9 @@ void check_setting_requests(const std::vector<SettingRequest>& requests,
 
 [[nodiscard]] const std::vector<std::string>& profile_words();  ///< default, matched, tuned
 
+/// Whether the backend's author has written the file of the profile "tuned".
+[[nodiscard]] bool has_tuned_settings(const BackendDescription& backend);
+
 /// The settings that a cell asks for, by name: the profile's, then the user's over them.
 ///   default: none. matched: sleeping and damping of the engine's own off, under their usual names. tuned: those of
 ///   plumb-NAME.tuned.json beside the library: {"settings": {...}, "scenes": {"D1": {...}}}, the scene's over the rest.

@@ -6,6 +6,7 @@
 #include <map>
 #include <random>
 
+#include "run/cell_workers.hpp"
 #include "run/machine.hpp"
 #include "run/row.hpp"
 
@@ -15,16 +16,6 @@ namespace {
 
 constexpr unsigned shuffle_seed = 20240229;
 constexpr std::uint32_t recording = 0;  // in place of a repetition's number
-
-std::string label_of(const Cell& cell) {
-  std::string label = cell.scene->id;
-  for (const auto& [name, value] : cell.shown)
-    label += " " + name + "=" + std::visit([](const auto& v) { return fmt::format("{}", v); }, value);
-  label += " " + cell.backend->name;
-  for (const auto& [name, value] : cell.settings.items())
-    label += fmt::format(" {}={}", name, value.is_string() ? value.get<std::string>() : value.dump());
-  return label;
-}
 
 class Study {
  public:
@@ -93,22 +84,7 @@ class Study {
   }
 
   Answer ask(const Cell& cell, std::uint32_t round) {
-    Answer answer;
-    if (!cell.backend->error.empty()) {
-      answer.status = cell.backend->status;
-      answer.reason = cell.backend->error;
-      return answer;
-    }
-    answer = ask_worker(cell, round);
-    // Somebody ended the worker, perhaps together with this program: that says nothing of the engine, so once more.
-    if (answer.killed_from_outside) answer = ask_worker(cell, round);
-    return answer;
-  }
-
-  Answer ask_worker(const Cell& cell, std::uint32_t round) {
-    std::unique_ptr<WorkerProcess>& worker = workers_[cell.backend->file];
-    if (!worker || !worker->alive()) worker = std::make_unique<WorkerProcess>(cell.backend->file);
-    StudyProgress progress{done_, total_, label_of(cell), 0, 0};
+    StudyProgress progress{done_, total_, label_of(cell), 0, 0, {}};
     if (round == recording) {
       progress.cell += " recording";
     } else if (request_.repeat > 1) {
@@ -121,28 +97,17 @@ class Study {
       callbacks_.progress(progress);
     };
     if (callbacks_.progress) callbacks_.progress(progress);
-    Json request = request_of(cell, round == recording ? file_for(cell, "trajectories", ".plt") : "",
-                              round == 1 && request_.trace ? file_for(cell, "traces", ".trace") : "");
-    request["layers"] = request_.layers;
-    return worker->ask(request, request_.limits(), tick);
+    CellFiles files;
+    files.layers = request_.layers;
+    if (round == recording) files.trajectory = trajectory_of(results_->folder(), cell);
+    if (round == 1 && results_ != nullptr && request_.trace)
+      files.trace = cell_file(results_->folder(), cell, "traces", ".trace");
+    return workers_.ask(cell, files, request_.limits(), tick);
   }
 
-  /// Runs the cell once more to look at it. Of that run only the trajectory is kept: looking costs time, and some of
-  /// what is looked at an engine must keep books for.
   void record(const Cell& cell, const Json& row, bool is_new) {
-    if (!request_.record || results_ == nullptr) return;
-    const std::string status = row.value("status", "");
-    if (status == "unsupported" || status == "timeout" || status == "out_of_memory") return;
-    const bool is_there = std::filesystem::exists(file_for(cell, "trajectories", ".plt"));
-    if (is_new || !is_there) static_cast<void>(ask(cell, recording));
-  }
-
-  /// A file of the cell's own in a folder beside results.jsonl; "" without --out.
-  [[nodiscard]] std::string file_for(const Cell& cell, const char* kind, const char* suffix) const {
-    if (results_ == nullptr) return "";
-    const std::filesystem::path folder = results_->folder() / kind;
-    std::filesystem::create_directories(folder);
-    return std::filesystem::absolute(folder / (cell_id(cell) + suffix)).string();
+    if (request_.record && results_ != nullptr && wants_recording(results_->folder(), cell, row, is_new))
+      static_cast<void>(ask(cell, recording));
   }
 
   void finish(const Cell& cell, const std::vector<Answer>& answers) {
@@ -165,7 +130,7 @@ class Study {
   const StudyCallbacks& callbacks_;
   Json machine_;
   std::size_t done_ = 0, total_ = 0;
-  std::map<std::string, std::unique_ptr<WorkerProcess>> workers_;  ///< by file
+  CellWorkers workers_;
   std::mt19937 random_{shuffle_seed};
 };
 

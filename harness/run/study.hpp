@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "run/plan.hpp"
@@ -12,8 +13,9 @@ namespace plumb::harness {
 /// How far it is, for a progress bar.
 struct StudyProgress {
   std::size_t cells_done, cells_total;
-  std::string cell;           ///< "D1 H=10 bullet 2/3": what is being run
-  std::uint64_t step, steps;  ///< of it
+  std::string cell;                    ///< "D1 H=10 bullet 2/3": what is being run
+  std::uint64_t step, steps;           ///< of it
+  std::optional<double> seconds_left;  ///< of wall time until the end, where that can be told
 };
 
 struct StudyCallbacks {

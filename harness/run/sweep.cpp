@@ -86,7 +86,7 @@ std::vector<Knob> knobs_of(const BackendDescription& backend, const Sweep& sweep
     const SettingDescription* setting = backend.setting(axis.name);
     if (setting != nullptr && concerns(axis.backend, backend.name)) knobs.push_back({setting, &axis});
   }
-  if (!sweep.along.empty()) return knobs;
+  if (!sweep.along.empty() || !sweep.unnamed_knobs) return knobs;
   for (const SettingDescription& setting : backend.settings) {
     const bool turned = std::any_of(sweep.over.begin(), sweep.over.end(), [&](const SweepAxis& axis) {
       return axis.name == setting.name && concerns(axis.backend, backend.name);

@@ -23,6 +23,7 @@ struct SweepAxis {
 /// What is turned. No `along`: every whole-numbered setting of the role "quality" that nobody has set.
 struct Sweep {
   std::vector<SweepAxis> over, along;
+  bool unnamed_knobs = true;  ///< false: no `along` turns none
 };
 
 /// Throws UsageError, naming the setting, the trouble and the remedy: names that no backend has or that are turned

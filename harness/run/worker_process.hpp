@@ -35,6 +35,8 @@ struct Answer {
   std::string reason;
   Json json;
   bool killed_from_outside = false;  ///< by a signal that neither this program nor a fault sent
+  double wall_seconds = 0;           ///< that it took
+  Json contended = nullptr;          ///< see contended(): whether the machine had more to do than cores
 };
 
 class WorkerProcess {
@@ -49,6 +51,8 @@ class WorkerProcess {
   /// dead. Throws Interrupted.
   Answer ask(const Json& request, const WorkerLimits& limits, const std::function<void(const Progress&)>& tick = {});
   [[nodiscard]] bool alive() const { return pid_ > 0; }
+  /// Of processors, of all its threads since it started, s; 0 when it is dead.
+  [[nodiscard]] double processor_seconds() const;
 
  private:
   bool send(const std::string& line);
