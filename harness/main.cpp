@@ -89,6 +89,7 @@ int main(int count, char** arguments) {
   add_compare(program, status);
   add_curves(program, status);
   add_conform(program, status);
+  add_study(program, status);
   add_export(program, status);
   add_pairs(program, status);
   add_report(program, status);

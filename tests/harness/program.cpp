@@ -69,7 +69,9 @@ Finished plumb(const std::vector<std::string>& arguments, const Environment& env
   return finished;
 }
 
-pid_t start_plumb(const std::vector<std::string>& arguments) { return start(arguments, {}, "/dev/null", "/dev/null"); }
+pid_t start_plumb(const std::vector<std::string>& arguments, const Environment& environment) {
+  return start(arguments, environment, "/dev/null", "/dev/null");
+}
 
 std::filesystem::path fresh_folder(const std::string& name) {
   // Each test runs in a process of its own, and several at a time: none may take another's folder away.

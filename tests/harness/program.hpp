@@ -23,7 +23,7 @@ using Environment = std::vector<std::pair<std::string, std::string>>;
 [[nodiscard]] Finished plumb(const std::vector<std::string>& arguments, const Environment& environment = {});
 
 /// Starts it and does not wait; its output goes nowhere. The caller waits for the process.
-[[nodiscard]] pid_t start_plumb(const std::vector<std::string>& arguments);
+[[nodiscard]] pid_t start_plumb(const std::vector<std::string>& arguments, const Environment& environment = {});
 
 /// A new empty folder for one test.
 [[nodiscard]] std::filesystem::path fresh_folder(const std::string& name);
