@@ -280,7 +280,7 @@ class StudyRunner {
       if (!is_open(planned) || given_up_.contains(planned.id)) continue;
       if (study_.budget && claims_.take(planned.id)) {
         claims_.give_back(planned.id);
-        outcome_.out_of_time.push_back(label_of(planned.cell));
+        outcome_.out_of_time.push_back(fmt::format("{} dt={:.4g}", label_of(planned.cell), planned.cell.dt));
       } else {
         ++outcome_.elsewhere;
       }
