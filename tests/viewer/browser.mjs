@@ -8,7 +8,7 @@ import { after, before, test } from 'node:test';
 import { pathToFileURL } from 'node:url';
 import { kArguments, kBrowser as executablePath } from './launch.mjs';
 import { page as makePage } from './page.mjs';
-import { crowd, pairScripts, script, tower, zoo } from './synthetic.mjs';
+import { crowd, pairScripts, room, script, tower, zoo } from './synthetic.mjs';
 
 const folder = process.env.PLUMB_VIEWER_FOLDER,
   root = process.env.PLUMB_SOURCE;
@@ -32,6 +32,7 @@ before(async () => {
       script('tower H=10', 'beta', tower('beta', { lean: 3, layers: false, status: 'failed', reason: 'it leans' })),
       script('shapes', 'alpha', zoo('alpha')),
       script('crowd 5000', 'alpha', crowd('alpha', { frames: 8 })),
+      script('room', 'alpha', room('alpha')),
       ...pairScripts(['alpha', 'beta']),
     ]),
   );
@@ -162,6 +163,15 @@ test('a layer that nobody recorded is grey and says why', () =>
     assert.equal(await chip.getAttribute('aria-disabled'), 'true');
     await chip.click({ force: true });
     assert.match(await page.locator('.pv-message').textContent(), /Islands: alpha did not record islands/);
+  }));
+
+test('a wall does not hide what happens behind it', () =>
+  visit(async (page) => {
+    await page.evaluate(() => window.plumbViewer.select('room'));
+    await page.evaluate(() => window.plumbViewer.setLayer('paths', false));
+    const first = await picture(page);
+    await page.evaluate(() => window.plumbViewer.seek(0.2));
+    assert.notEqual((await picture(page)).sum, first.sum);
   }));
 
 test('picking a body shows its name and its numbers in every view', () =>

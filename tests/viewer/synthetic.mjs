@@ -414,3 +414,24 @@ export function pairScripts(backends) {
     backends.map((backend, i) => script(`pair ${a}-${b}`, backend, pair(a, b, backend, { bias: 0.01 * i }))),
   );
 }
+
+/** A ball that rolls to and fro between four high walls. */
+export function room(backend) {
+  const wall = (name, shape, x, z) => ({ name, shape, motion: 'static', start: [x, 2, z, 0, 0, 0, 1] });
+  const bodies = [
+    kGround,
+    wall('east', 1, 1.2, 0),
+    wall('west', 1, -1.2, 0),
+    wall('south', 2, 0, 1.2),
+    wall('north', 2, 0, -1.2),
+  ];
+  bodies.push({ name: 'ball', shape: 3, motion: 'dynamic' });
+  const shapes = [
+    { type: 'plane', normal: [0, 1, 0], offset: 0 },
+    { type: 'box', half_extents: [0.1, 2, 1.3] },
+    { type: 'box', half_extents: [1.3, 2, 0.1] },
+    { type: 'sphere', radius: 0.3 },
+  ];
+  const pose = (f) => [0.6 * Math.sin(f / 8), 0.3, 0, 0, 0, 0, 1];
+  return replay({ scene: 'room', backend, shapes, bodies, frames: 60, pose });
+}

@@ -91,11 +91,12 @@ export class Bodies {
 
   addGroup({ geometry, fixed, type, members }) {
     const open = type === 'mesh' || type === 'height_field';
-    const material = fixed ? this.materials.ground : open ? this.materials.openBody : this.materials.body;
+    const { ground, openGround, body, openBody } = this.materials;
+    const material = fixed ? (open ? openGround : ground) : open ? openBody : body;
     const mesh = new InstancedMesh(geometry, material, members.length);
     mesh.instanceMatrix.setUsage(fixed ? StaticDrawUsage : DynamicDrawUsage);
     mesh.frustumCulled = false;
-    mesh.castShadow = type !== 'plane';
+    mesh.castShadow = !fixed; // walls would darken what they hold
     mesh.receiveShadow = true;
     if (!fixed)
       mesh.instanceColor = new InstancedBufferAttribute(new Float32Array(members.length * 3), 3).setUsage(

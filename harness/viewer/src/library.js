@@ -2,6 +2,7 @@
 import { decodeBundle } from './bundle.js';
 import { Replay } from './replay.js';
 
+const kNamed = 12; // scenes that an error lists
 const kHues = 8; // --hue0 to --hue7 in the page's style
 
 export class Library {
@@ -33,7 +34,10 @@ export class Library {
   /** Replays of a scene, kept until another one is opened. Throws an Error that names what cannot be opened. */
   async open(scene) {
     const entries = this.scenes.get(scene);
-    if (!entries) throw new Error(`there is no replay of the scene "${scene}"; there are: ${this.names.join(', ')}`);
+    if (!entries)
+      throw new Error(
+        `there is no replay of the scene "${scene}"; there are: ${this.names.slice(0, kNamed).join(', ')}`,
+      );
     for (const [other, kept] of this.scenes) {
       if (other !== scene) for (const entry of kept) entry.replay = null; // they are large
     }

@@ -1,4 +1,5 @@
-// Surfaces of the scenes: matt bodies, and ground with metre lines that fades into the background.
+// Surfaces of the scenes: matt bodies, and ground with metre lines that fades into the background. A wall that stands
+// between the reader and what happens shows its lines only.
 import { Color, DoubleSide, LineBasicMaterial, MeshLambertMaterial } from 'three';
 
 const kVertexHead = `#include <common>
@@ -21,10 +22,16 @@ float gridLine(vec2 at) {
 float fade() { return smoothstep(fadeBegin, fadeEnd, distance(vWorld, gridCentre)); }`;
 // The two axes along the surface carry the lines: the normal of the face decides which two.
 const kFragmentGrid = `#include <color_fragment>
-vec3 facing = abs(normalize(cross(dFdx(vWorld), dFdy(vWorld))));
+vec3 outward = normalize(cross(dFdx(vWorld), dFdy(vWorld)));
+vec3 facing = abs(outward);
 vec2 along = facing.y > 0.5 ? vWorld.xz : facing.x > facing.z ? vWorld.yz : vWorld.xy;
 float lines = 0.55 * gridLine(along / gridStep) + 0.25 * gridLine(along / (gridStep * 5.0));
-diffuseColor.rgb = mix(diffuseColor.rgb, gridColour, lines);`;
+diffuseColor.rgb = mix(diffuseColor.rgb, gridColour, lines);
+#ifndef OPEN
+outward *= sign(dot(outward, cameraPosition - vWorld));
+bool between = facing.y < 0.3 && dot(outward, gridCentre - vWorld) < 0.0;
+if (between && gridLine(along / (gridStep * 5.0)) < 0.5) discard;
+#endif`;
 const kFragmentFade = `gl_FragColor.rgb = mix(gl_FragColor.rgb, horizon, fade());
 #include <colorspace_fragment>`;
 
@@ -46,8 +53,10 @@ export function makeMaterials(radius, centre) {
   };
   // Faces lie a little behind their own edges, which they would break up otherwise.
   const behindEdges = { polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 };
-  const ground = new MeshLambertMaterial({ side: DoubleSide, ...behindEdges });
-  ground.onBeforeCompile = (shader) => {
+  const ground = new MeshLambertMaterial(behindEdges),
+    openGround = new MeshLambertMaterial({ side: DoubleSide, ...behindEdges });
+  openGround.defines = { ...openGround.defines, OPEN: '' };
+  ground.onBeforeCompile = openGround.onBeforeCompile = (shader) => {
     Object.assign(shader.uniforms, uniforms);
     shader.vertexShader = shader.vertexShader
       .replace('#include <common>', kVertexHead)
@@ -63,6 +72,7 @@ export function makeMaterials(radius, centre) {
   const fixedEdge = new LineBasicMaterial({ transparent: true, opacity: 0.22, depthWrite: false });
   return {
     ground,
+    openGround,
     body,
     openBody,
     edge,
@@ -71,11 +81,11 @@ export function makeMaterials(radius, centre) {
     paint(theme) {
       uniforms.gridColour.value.copy(theme.gridLine);
       uniforms.horizon.value.copy(theme.horizon);
-      ground.color.copy(theme.ground);
+      for (const material of [ground, openGround]) material.color.copy(theme.ground);
       for (const line of [edge, fixedEdge]) line.color.copy(theme.edge);
     },
     dispose() {
-      for (const material of [ground, body, openBody, edge, fixedEdge]) material.dispose();
+      for (const material of [ground, openGround, body, openBody, edge, fixedEdge]) material.dispose();
     },
   };
 }

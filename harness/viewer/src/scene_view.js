@@ -49,7 +49,7 @@ export class SceneView {
   paint(theme) {
     this.theme = theme;
     this.scene.background = theme.background;
-    this.sky.groundColor.copy(theme.ground).lerp(theme.ink, theme.dark ? 0 : 0.15);
+    this.sky.groundColor.copy(theme.ground).lerp(theme.ink, theme.dark ? 0.25 : 0.15);
     this.sky.intensity = theme.sky;
     this.sun.intensity = theme.sun;
     this.materials.paint(theme);
