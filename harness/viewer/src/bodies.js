@@ -78,7 +78,7 @@ export class Bodies {
       // Of a pair of shapes the one at rest is a body like the other, not ground.
       const shared = made.get(number),
         fixed = !replay.moves(index) && (replay.header.kind !== 'pairs' || kGround.has(shape.type));
-      const scale = number < 0 ? [extent / 600, extent / 600, extent / 600] : shared.scale;
+      const scale = number < 0 ? [extent / 350, extent / 350, extent / 350] : shared.scale;
       const key = `${fixed} ${shared.key}`;
       if (!kinds.has(key)) kinds.set(key, { geometry: shared.geometry, fixed, type: shape.type, members: [] });
       kinds.get(key).members.push({ index, scale });

@@ -71,16 +71,16 @@ export class ColourMap {
 
 /** Overlap: from deep blue over green to yellow. */
 export const penetrationMap = new ColourMap([
-  [0.3, 0.1, 285],
-  [0.46, 0.115, 245],
-  [0.6, 0.115, 190],
+  [0.4, 0.1, 285],
+  [0.52, 0.115, 245],
+  [0.63, 0.115, 190],
   [0.76, 0.16, 140],
   [0.93, 0.17, 103],
 ]);
 /** Force: from black-violet over red to pale gold. */
 export const forceMap = new ColourMap([
-  [0.26, 0.08, 300],
-  [0.42, 0.16, 335],
+  [0.36, 0.1, 300],
+  [0.47, 0.16, 335],
   [0.58, 0.2, 380],
   [0.74, 0.16, 412],
   [0.93, 0.09, 452],

@@ -143,7 +143,7 @@ export class Curves {
     const { frame } = this.replay;
     for (const { cursor, readout, values, unit } of this.strips) {
       if (!values) continue;
-      cursor.setAttribute('transform', `translate(${x.toFixed(1)} 0)`);
+      cursor.setAttribute('transform', `translate(${Math.min(x, kWidth - 1).toFixed(1)} 0)`);
       if (frame !== this.shown)
         readout.textContent = unit === '1' ? digits(values[frame]) : quantity(values[frame], unit);
     }
