@@ -103,13 +103,11 @@ TEST(Resume, after_program_and_workers_were_killed) { kill_half_way_and_go_on("a
 
 TEST(Resume, a_worker_that_hangs_dies_with_the_program) {
   const std::filesystem::path folder = fresh_folder("hanging");
-  const std::filesystem::path trajectories = folder / "out" / "trajectories";
+  const std::filesystem::path traces = folder / "out" / "traces";
   const pid_t pid = start_plumb({"run", particle_scene(folder), "--backend", MISBEHAVING_BACKEND, "--set",
-                                 "misbehaviour=hang", "--record", "--out", (folder / "out").string()});
-  // The worker that has begun a trajectory is a few steps from where it hangs and hears of nothing any more.
-  const auto has_begun = [&] {
-    return std::filesystem::exists(trajectories) && !std::filesystem::is_empty(trajectories);
-  };
+                                 "misbehaviour=hang", "--trace", "--out", (folder / "out").string()});
+  // The worker that has begun a trace is a few steps from where it hangs and hears of nothing any more.
+  const auto has_begun = [&] { return std::filesystem::exists(traces) && !std::filesystem::is_empty(traces); };
   ASSERT_TRUE(wait_until(has_begun));
   std::this_thread::sleep_for(std::chrono::milliseconds(200));
   const std::vector<pid_t> workers = workers_of(pid);
