@@ -57,6 +57,7 @@ struct SceneLayers::State {
   PlumbNeeds declared;
   std::vector<std::size_t> moving;
   std::unordered_map<PlumbBody, std::uint32_t> index;
+  std::uint64_t spread = 1;  ///< frames between looks at what costs
   std::vector<Layer> layers;
   Json without = Json::object();
   referee::WorldPenetration overlaps;  ///< of the frame that is being looked at
@@ -69,6 +70,9 @@ struct SceneLayers::State {
 
   void add_scene_layers();
   void add_debug_layers(Simulation& simulation);
+  void add_graph_layers(Simulation& simulation);
+  template <class Ask>
+  bool shows(Simulation& simulation, const char* layer, const Ask& ask);
 
   LayerData series(Simulation& simulation, const LayerSpec& spec);
   LayerData penetration(Simulation& simulation, const LayerSpec& spec);
@@ -77,10 +81,12 @@ struct SceneLayers::State {
   LayerData asleep(Simulation& simulation, const LayerSpec& spec);
   LayerData boxes(Simulation& simulation, const LayerSpec& spec);
   LayerData axes(Simulation& simulation, const LayerSpec& spec);
+  LayerData islands(Simulation& simulation, const LayerSpec& spec);
+  LayerData constraints(Simulation& simulation, const LayerSpec& spec);
 };
 
 void SceneLayers::State::add_scene_layers() {
-  const std::uint64_t spread =
+  spread =
       std::max<std::uint64_t>(1, (scene.bodies.size() + bodies_looked_at_each_frame - 1) / bodies_looked_at_each_frame);
   layers.push_back(
       {{"series",
@@ -122,20 +128,22 @@ void SceneLayers::State::add_scene_layers() {
 }
 
 // Whether an engine can show a layer is known only by asking for it.
+template <class Ask>
+bool SceneLayers::State::shows(Simulation& simulation, const char* layer, const Ask& ask) {
+  if (simulation.world().debug() == nullptr) {
+    without[layer] = "the engine shows nothing of its inside";
+    return false;
+  }
+  if (ask() != PLUMB_E_UNSUPPORTED) return true;
+  without[layer] = simulation.world().error_text();
+  return false;
+}
+
 void SceneLayers::State::add_debug_layers(Simulation& simulation) {
   IDebug* debug = simulation.world().debug();
-  const auto shows = [&](const char* layer, const auto& ask) {
-    if (debug == nullptr) {
-      without[layer] = "the engine shows nothing of its inside";
-      return false;
-    }
-    if (ask() != PLUMB_E_UNSUPPORTED) return true;
-    without[layer] = simulation.world().error_text();
-    return false;
-  };
-  const std::uint64_t every = frames_between_debug_layers * layers.back().every;
+  const std::uint64_t every = frames_between_debug_layers * spread;
   std::span<const PlumbDebugBox> some_boxes;
-  if (shows("boxes", [&] { return debug->tree_boxes(some_boxes); })) {
+  if (shows(simulation, "boxes", [&] { return debug->tree_boxes(some_boxes); })) {
     layers.push_back({{"boxes",
                        LayerRows::list,
                        {{"lower", "f32", 3}, {"upper", "f32", 3}, {"depth", "i32"}, {"body", "i32"}, {"tree", "u32"}}},
@@ -144,12 +152,27 @@ void SceneLayers::State::add_debug_layers(Simulation& simulation) {
                       &State::boxes});
   }
   std::span<const PlumbDebugAxis> some_axes;
-  if (shows("axes", [&] { return debug->separating_axes(some_axes); })) {
+  if (shows(simulation, "axes", [&] { return debug->separating_axes(some_axes); })) {
     layers.push_back(
         {{"axes", LayerRows::list, {{"body_a", "u32"}, {"body_b", "u32"}, {"axis", "f32", 3}, {"separation", "f32"}}},
          every,
          "the engine's narrow phase",
          &State::axes});
+  }
+}
+
+void SceneLayers::State::add_graph_layers(Simulation& simulation) {
+  IDebug* debug = simulation.world().debug();
+  const std::uint64_t every = spread;
+  std::span<const PlumbDebugBody> some_bodies;
+  if (shows(simulation, "islands", [&] { return debug->body_states(some_bodies); }))
+    layers.push_back({{"islands", LayerRows::moving, {{"islands", "i32"}}}, every, "the engine", &State::islands});
+  std::span<const PlumbDebugConstraint> some_constraints;
+  if (shows(simulation, "constraints", [&] { return debug->solved_constraints(some_constraints); })) {
+    layers.push_back({{"constraints", LayerRows::list, {{"body_a", "u32"}, {"body_b", "u32"}, {"colour", "i32"}}},
+                      every,
+                      "the engine's solver; a joint with the world has its body twice",
+                      &State::constraints});
   }
 }
 
@@ -259,10 +282,39 @@ LayerData SceneLayers::State::axes(Simulation& simulation, const LayerSpec& spec
   return data;
 }
 
+LayerData SceneLayers::State::islands(Simulation& simulation, const LayerSpec& spec) {
+  LayerData data(spec);
+  std::span<const PlumbDebugBody> bodies;
+  check(simulation.world(), simulation.world().debug()->body_states(bodies));
+  std::vector<std::int32_t> island(scene.bodies.size(), -1);
+  for (const PlumbDebugBody& body : bodies)
+    if (const std::uint32_t i = index_of(body.body); i < island.size()) island[i] = body.island;
+  for (const std::size_t body : moving) data.put(0, island[body]);
+  return data;
+}
+
+LayerData SceneLayers::State::constraints(Simulation& simulation, const LayerSpec& spec) {
+  LayerData data(spec);
+  std::span<const PlumbDebugConstraint> constraints;
+  check(simulation.world(), simulation.world().debug()->solved_constraints(constraints));
+  for (const PlumbDebugConstraint& constraint : constraints) {
+    const std::uint32_t b = index_of(constraint.body_b);
+    const std::uint32_t a = constraint.body_a == 0 ? b : index_of(constraint.body_a);
+    if (std::max(a, b) >= scene.bodies.size()) continue;
+    data.put(0, a);
+    data.put(1, b);
+    data.put(2, constraint.colour);
+    ++data.rows;
+  }
+  return data;
+}
+
 SceneLayers::SceneLayers(Simulation& simulation, const Backend& backend, PlumbNeeds declared, bool debug)
     : state_(std::make_unique<State>(simulation, backend, declared)) {
   state_->add_scene_layers();
-  if (debug) state_->add_debug_layers(simulation);
+  if (!debug) return;
+  state_->add_graph_layers(simulation);
+  state_->add_debug_layers(simulation);
 }
 
 SceneLayers::~SceneLayers() = default;

@@ -15,7 +15,7 @@ namespace plumb::harness {
 ///                the referee sees none), the engine's depth of the point, force from the impulse (N, NaN where not
 ///                told), the feature's id in 32 bits. Where the engine tells no contacts: the referee's overlaps
 ///   asleep       moving
-/// and with `debug`: boxes and axes (lists).
+/// and with `debug`: islands (moving), constraints, boxes and axes (lists).
 class SceneLayers {
  public:
   /// declared: the needs of the simulation's world.
