@@ -4,7 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <vector>
 
 #include "reference/one_contact.hpp"
 
@@ -33,18 +33,6 @@ Scaled scaled(const ContactProblem& given) {
   result.problem.q /= size;
   result.factors *= size;
   return result;
-}
-
-double natural_map_of(const ContactProblem& scaled_problem, const VectorXd& impulse) {
-  const VectorXd velocity = scaled_problem.velocity(impulse);
-  double sum = 0;
-  for (Index c = 0; c < scaled_problem.contacts(); ++c) {
-    const Vector3d r = impulse.segment<3>(3 * c);
-    Vector3d u = velocity.segment<3>(3 * c);
-    u[0] += scaled_problem.mu[c] * std::hypot(u[1], u[2]);
-    sum += (r - nearest_in_cone(r - u, scaled_problem.mu[c])).squaredNorm();
-  }
-  return std::sqrt(sum);
 }
 
 /// One round over all contacts, forth or back.
@@ -122,7 +110,7 @@ struct Best {
   double value;
 
   bool offer(const VectorXd& other) {
-    const double now = other.allFinite() ? natural_map_of(problem, other) : INFINITY;
+    const double now = other.allFinite() ? residual(problem, other).natural_map : INFINITY;
     if (!(now < value)) return false;
     value = now;
     impulse = other;
@@ -194,7 +182,7 @@ void proximal_points(Best& best, VectorXd& impulse, double weight, double tolera
   nearer.w.diagonal().array() += weight;
   for (int k = 0; k < most_points && best.value > tolerance; ++k) {
     nearer.q = best.problem.q - weight * impulse;
-    Best inner{nearer, impulse, natural_map_of(nearer, impulse)};
+    Best inner{nearer, impulse, residual(nearer, impulse).natural_map};
     VectorXd sweeping = impulse;
     approach(inner, sweeping, sweeps, tolerance / 10, effort);
     impulse = inner.impulse;
@@ -213,7 +201,7 @@ Solution solve(const ContactProblem& problem, const SolverOptions& options) {
     const Scaled work = scaled(problem);
     const double tolerance = options.tolerance / 2;  // the rest is for the rounding of scaling back
     VectorXd impulse = VectorXd::Zero(size);
-    Best best{work.problem, impulse, natural_map_of(work.problem, impulse)};
+    Best best{work.problem, impulse, residual(work.problem, impulse).natural_map};
     Effort effort;
     int sweeps = 20;
     double weight = 0.1;

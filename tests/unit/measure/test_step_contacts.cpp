@@ -60,6 +60,10 @@ TEST(StepContacts, FourSpheresRestAboveTheCriticalFriction) {
   const Step slides(file.instantiate({{"mu", 0.3}}));
   ASSERT_TRUE(slides.solution.converged);
   EXPECT_LT(slides.velocity(4).y(), -1e-4);
+  // What is symmetric stays so: the lower three part alike, the top falls straight.
+  EXPECT_LT(slides.velocity(4).cross(Eigen::Vector3d::UnitY()).norm(), 1e-10);
+  EXPECT_NEAR(slides.velocity(1).norm(), slides.velocity(2).norm(), 1e-10);
+  EXPECT_NEAR(slides.velocity(1).norm(), slides.velocity(3).norm(), 1e-10);
 }
 
 TEST(StepContacts, FourSpheresThroughAFile) {
