@@ -1,5 +1,6 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <chrono>
 #include <filesystem>
@@ -10,6 +11,7 @@
 #include "cli/output.hpp"
 #include "cli/page_replays.hpp"
 #include "cli/verbs.hpp"
+#include "report/against_text.hpp"
 #include "report/csv.hpp"
 #include "report/markdown.hpp"
 #include "report/page/page.hpp"
@@ -22,8 +24,10 @@ namespace plumb::harness {
 namespace {
 
 struct ReportOptions {
-  std::string folder, html;
-  bool markdown = false, csv = false, json = false;
+  std::vector<std::string> folders;
+  std::string html, against;
+  AgainstLimits limits;
+  bool markdown = false, csv = false, json = false, strict = false;
   bool no_replays = false;
   ReplayLimits replays;
 };
@@ -40,11 +44,14 @@ std::map<std::string, SceneText> scene_texts() {
 }
 
 /// Written beside and moved into place, so that a reader never sees half a page.
-void write_page_file(const std::string& file, const PageOptions& options, const std::vector<Json>& rows) {
+void write_page_file(const std::string& file, const std::vector<Json>& rows, PageOptions page) {
   const std::string draft = file + ".part";
   {
     std::ofstream out(draft, std::ios::binary);
-    write_page(out, rows, options);
+    const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+    page.written = fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(now));
+    page.scenes = scene_texts();
+    write_page(out, rows, page);
     out.close();
     if (!out) {
       std::error_code ignored;
@@ -61,29 +68,70 @@ void write_page_file(const std::string& file, const PageOptions& options, const 
   }
 }
 
-void report(const ReportOptions& options) {
-  const Results results = read_results(std::filesystem::path(options.folder));
+/// The folder's rows; what is wrong with some is said, and none at all is an error.
+std::vector<Json> rows_of(const std::string& folder) {
+  Results results = read_results(std::filesystem::path(folder));
   for (const std::size_t line : results.unreadable_lines) {
-    fmt::print(stderr, "plumb: line {} of the results in {} is no JSON object and is left out\n", line, options.folder);
+    fmt::print(stderr, "plumb: line {} of the results in {} is no JSON object and is left out\n", line, folder);
   }
   if (results.rows.empty())
-    throw UsageError("there are no results in " + options.folder + "; make some with plumb run --out " +
-                     options.folder);
+    throw UsageError("there are no results in " + folder + "; make some with plumb run --out " + folder);
+  return std::move(results.rows);
+}
+
+PageOptions page_options(const ReportOptions& options, const std::vector<Json>& baseline) {
+  PageOptions page{{}, fmt::format("{}", fmt::join(options.folders, ", ")), {}, {}, {}};
+  for (const std::string& folder : options.folders) {
+    const Json study = read_study(folder);
+    const auto text = [&](const char* name) {
+      const auto found = study.find(name);
+      return found != study.end() && found->is_string() ? found->get<std::string>() : std::string();
+    };
+    if (study.is_object()) page.studies.push_back({text("name"), text("command")});
+  }
+  if (!options.against.empty()) page.against = AgainstPart{options.against, baseline, options.limits};
+  return page;
+}
+
+/// Prints what changed, in the form that was asked for, and returns whether something got worse.
+bool report_against(const ReportOptions& options, const std::vector<Json>& rows, const std::vector<Json>& baseline) {
+  const Study before(parse_rows(baseline)), after(parse_rows(rows));
+  const Comparison comparison = compare_results(before.rows, after.rows, options.limits);
+  if (options.markdown) {
+    write_against_markdown(std::cout, comparison, before, after, options.against, options.limits);
+  } else if (options.json) {
+    std::cout << line_of(against_json(comparison, options.against, options.limits)) << '\n';
+  } else {
+    print_against(std::cout, comparison, before, after, options.against, options.limits, terminal_width(),
+                  wants_colour());
+  }
+  return comparison.count(Sense::worse) > 0;
+}
+
+int report(const ReportOptions& options) {
+  std::vector<Json> rows;
+  for (const std::string& folder : options.folders) {
+    for (Json& row : rows_of(folder)) rows.push_back(std::move(row));
+  }
+  const std::vector<Json> baseline = options.against.empty() ? std::vector<Json>() : rows_of(options.against);
   if (!options.html.empty()) {
-    const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-    PageOptions page{fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(now)), options.folder, scene_texts()};
-    if (!options.no_replays) add_replays(options.folder, options.replays, page);
-    write_page_file(options.html, page, results.rows);
+    PageOptions page = page_options(options, baseline);
+    // Of several machines one was looked at, if any.
+    for (const std::string& folder : options.folders)
+      if (!options.no_replays && page.replays.empty()) add_replays(folder, options.replays, page);
+    write_page_file(options.html, rows, std::move(page));
     fmt::print(stderr, "wrote {}\n", options.html);
   }
-  if (options.markdown) write_markdown(std::cout, results.rows);
-  if (options.csv) write_csv(std::cout, results.rows);
+  if (!options.against.empty()) return report_against(options, rows, baseline) && options.strict ? 1 : 0;
+  if (options.markdown) write_markdown(std::cout, rows);
+  if (options.csv) write_csv(std::cout, rows);
   if (options.json) {
-    for (const Json& row : results.rows) std::cout << line_of(row) << '\n';
+    for (const Json& row : rows) std::cout << line_of(row) << '\n';
   }
   if (options.html.empty() && !options.markdown && !options.csv && !options.json) {
-    print_comparison(std::cout, results.rows, terminal_width(), wants_colour());
+    print_comparison(std::cout, rows, terminal_width(), wants_colour());
   }
+  return 0;
 }
 
 }  // namespace
@@ -92,7 +140,9 @@ void add_report(CLI::App& program, int& status) {
   const auto options = std::make_shared<ReportOptions>();
   CLI::App* verb =
       program.add_subcommand("report", "Show results that were made before: tables, or a page for a browser");
-  verb->add_option("DIR", options->folder, "Folder with results.jsonl, or such a file")->required();
+  verb->add_option("DIR", options->folders,
+                   "Folders with results*.jsonl, or such files; those of several machines are told apart")
+      ->required();
   verb->add_option("--html", options->html, "Write one self-contained page to this file");
   verb->add_option("--replays", options->replays.scenes,
                    "At most so many scenes as replays in the page, pairs of shapes apart");
@@ -100,12 +150,21 @@ void add_report(CLI::App& program, int& status) {
   CLI::Option* markdown = verb->add_flag("--md", options->markdown, "Print Markdown");
   CLI::Option* csv = verb->add_flag("--csv", options->csv, "Print CSV, a line a metric");
   CLI::Option* json = verb->add_flag("--json", options->json, "Print one JSON object a cell, one a line");
+  CLI::Option* against = verb->add_option("--against", options->against,
+                                          "Say what got better or worse than in this folder of earlier results");
+  verb->add_flag("--strict", options->strict, "Exit with 1 when something got worse")->needs(against);
+  verb->add_option("--error-limit", options->limits.error, "Relative change of an error that counts")
+      ->needs(against)
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  verb->add_option("--time-limit", options->limits.single_time,
+                   "Relative change of a time that counts where it was measured once")
+      ->needs(against)
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   markdown->excludes(csv)->excludes(json);
-  csv->excludes(json);
-  verb->callback([options, &status] {
-    report(*options);
-    status = 0;
-  });
+  csv->excludes(json)->excludes(against);
+  verb->callback([options, &status] { status = report(*options); });
 }
 
 }  // namespace plumb::harness

@@ -89,7 +89,9 @@ std::vector<std::vector<const ResultRow*>> rows_of_methods(const Problem& proble
   std::vector<std::vector<const ResultRow*>> groups;
   std::map<std::string, std::size_t> places;
   for (const ResultRow* row : problem.rows) {
-    const std::string times = value_text(Json::array({row->dt.value_or(0), row->seconds.value_or(0)}));
+    // Seeds have lines of their own: beside each other they show how far apart outcomes lie.
+    const std::string times =
+        value_text(Json::array({row->dt.value_or(0), row->seconds.value_or(0), row->params.value("seed", Json())}));
     const auto [place, is_new] = places.try_emplace(method_key(*row) + times, groups.size());
     if (is_new) groups.emplace_back();
     groups[place->second].push_back(row);
@@ -103,6 +105,7 @@ class Labels {
   void add(const ResultRow& row) {
     note("backend", row.backend);
     note("profile", row.profile);
+    note("needs", row.needs);
     note("threads", threads(row));
     for (const auto& [name, value] : row.settings.items()) {
       if (!is_knob(row, name)) note(row.backend + ":" + name, value_text(value));
@@ -113,6 +116,7 @@ class Labels {
     const auto add = [&](const std::string& text) { out += (out.empty() ? "" : ", ") + text; };
     if (varies("backend")) add(row.backend);
     if (varies("profile")) add(row.profile);
+    if (varies("needs")) add("needs " + row.needs);
     if (varies("threads")) add(threads(row));
     for (const auto& [name, value] : row.settings.items()) {
       if (!is_knob(row, name) && varies(row.backend + ":" + name)) add(name + " " + value_text(value));

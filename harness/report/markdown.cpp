@@ -4,6 +4,7 @@
 
 #include <ostream>
 
+#include "report/answers.hpp"
 #include "report/cost.hpp"
 #include "report/format.hpp"
 #include "report/overview.hpp"
@@ -27,6 +28,18 @@ std::string matrix_cell(const ResultRow* row) {
   const MetricResult* worst = row->worst();
   if (!worst) return word;
   return word + ", " + worst->name + " " + (worst->error ? short_number(*worst->error) : "not finite");
+}
+
+void write_answers(std::ostream& out, const Study& study, const std::vector<CostLine>& costs) {
+  const std::vector<Answer> all = answers(study, costs);
+  if (all.empty()) return;
+  out << "## Answers\n\n";
+  for (const Answer& answer : all) {
+    out << "**" << markdown_text(answer.question) << "** " << markdown_text(answer.verdict) << "\n\n";
+    for (const AnswerLine& line : answer.lines)
+      out << "- " << markdown_text(line.backend) << ": " << markdown_text(line.statement.text) << '\n';
+    out << '\n';
+  }
 }
 
 void write_matrix(std::ostream& out, const Study& study) {
@@ -74,8 +87,8 @@ void write_times(std::ostream& out, const Study& study) {
     bool any = false;
     for (const std::string& backend : study.backends) {
       const ResultRow* row = study.representative(problem, backend);
-      any = any || (row && row->median_ms);
-      cells += fmt::format(" {} |", row ? short_number(row->median_ms) : std::string(no_value));
+      any = any || (row && row->fair_ms());
+      cells += fmt::format(" {} |", row ? short_number(row->fair_ms()) : std::string(no_value));
       if (row && row->bodies) bodies = shortest_number(*row->bodies);
     }
     if (any) out << "| " << markdown_text(problem.title()) << " | " << bodies << " |" << cells << '\n';
@@ -123,6 +136,7 @@ void write_markdown(std::ostream& out, const std::vector<Json>& rows) {
         << markdown_text(describe_backend(overview, study.backends.size() == 1)) << '\n';
   }
   out << '\n';
+  write_answers(out, study, costs);
   write_matrix(out, study);
   write_costs(out, study, costs);
   write_times(out, study);

@@ -35,6 +35,32 @@ std::optional<double> number(const Json& object, const char* key) { return as_nu
 
 Json object_or_empty(const Json& value) { return value.is_object() ? value : Json::object(); }
 
+std::string params_text(const Json& params, bool with_seed) {
+  std::string out;
+  for (const auto& [name, value] : params.items()) {
+    if (name == "seed" && !with_seed) continue;
+    if (!out.empty()) out += ' ';
+    out += name + "=" + value_text(value);
+  }
+  return out;
+}
+
+/// Times over repetitions, and what spoilt them; lines of older programs have none of it.
+void parse_repetitions(ResultRow& row, const Json& line) {
+  const Json& time = member(line, "time");
+  if (const Json& runs = member(time, "runs"); runs.is_array()) {
+    for (const Json& run : runs) {
+      if (const auto ms = as_number(run)) row.runs_ms.push_back(*ms);
+    }
+  }
+  if (const Json& band = member(time, "ci95"); band.is_array() && band.size() == 2) {
+    const auto low = as_number(band[0]), high = as_number(band[1]);
+    if (low && high && *low <= *high) row.ci95 = Interval{*low, *high};
+  }
+  if (const Json& contended = member(line, "contended"); !contended.is_null() && contended != Json(false))
+    row.contended = contended.is_object() ? text(contended, "why") : value_text(contended);
+}
+
 MetricResult parse_metric(const std::string& name, const Json& from) {
   MetricResult metric;
   metric.name = name;
@@ -104,20 +130,16 @@ const MetricResult* ResultRow::metric(std::string_view name) const {
 }
 
 std::optional<double> ResultRow::ms_per_simulated_second() const {
-  if (!median_ms || !dt || *median_ms <= 0 || *dt <= 0) return std::nullopt;
-  return *median_ms / *dt;
+  const std::optional<double> ms = fair_ms();
+  if (!ms || !dt || *ms <= 0 || *dt <= 0) return std::nullopt;
+  return *ms / *dt;
 }
 
 bool ResultRow::completed() const { return status == "ok" || status == "failed"; }
 
-std::string ResultRow::variant() const {
-  std::string out;
-  for (const auto& [name, value] : params.items()) {
-    if (!out.empty()) out += ' ';
-    out += name + "=" + value_text(value);
-  }
-  return out;
-}
+std::string ResultRow::variant() const { return params_text(params, true); }
+
+std::string ResultRow::problem_variant() const { return params_text(params, false); }
 
 ResultRow parse_row(const Json& line, std::size_t index) {
   ResultRow row;
@@ -161,6 +183,7 @@ ResultRow parse_row(const Json& line, std::size_t index) {
     row.window_first = as_number(window[0]);
     row.window_last = as_number(window[1]);
   }
+  parse_repetitions(row, line);
   row.steps = number(time, "steps");
   row.setup_ms = number(time, "setup_ms");
   if (const Json& phases = member(time, "phase_ms"); phases.is_object()) {

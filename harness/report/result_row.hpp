@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "report/statistics.hpp"
 #include "run/json.hpp"
 
 namespace plumb::harness {
@@ -45,6 +46,9 @@ struct ResultRow {
   std::vector<MetricResult> metrics;  ///< in the order of the line
 
   std::optional<double> median_ms, min_ms, max_ms, p99_ms;  ///< per step
+  std::vector<double> runs_ms;                              ///< medians per step of each repetition
+  std::optional<Interval> ci95;                             ///< of ms per step, over the repetitions
+  std::optional<std::string> contended;                     ///< why, where the machine had more to do than cores
   std::optional<double> window_first, window_last, steps, setup_ms;
   std::vector<std::pair<std::string, double>> phase_ms;  ///< medians by phase, where the engine tells
   std::optional<double> bodies, contacts_max, dropped, nonfinite, peak_mb;
@@ -53,12 +57,18 @@ struct ResultRow {
   /// The metric with the largest badness; null when nothing is scored.
   [[nodiscard]] const MetricResult* worst() const;
   [[nodiscard]] const MetricResult* metric(std::string_view name) const;
-  /// median_ms / dt; absent where either is, or is not above zero.
+  /// median_ms where it may be compared: absent when the machine was contended.
+  [[nodiscard]] std::optional<double> fair_ms() const { return contended ? std::nullopt : median_ms; }
+  /// fair_ms() / dt; absent where either is, or is not above zero.
   [[nodiscard]] std::optional<double> ms_per_simulated_second() const;
+  /// It declared what its scene needs, and nothing else.
+  [[nodiscard]] bool own_needs() const { return needs.empty() || needs == "scene"; }
   /// It ran to its end, so that its errors and times mean something.
   [[nodiscard]] bool completed() const;
   /// "H=50 mu=0.3", "" without parameters: what tells the variants of a scene apart.
   [[nodiscard]] std::string variant() const;
+  /// The same without the parameter `seed`: rows that differ in it only are a distribution on one problem.
+  [[nodiscard]] std::string problem_variant() const;
 };
 
 /// Never throws on wrong types inside; anything but an object gives an empty row with status "error".

@@ -81,11 +81,17 @@ Results read_results(const std::filesystem::path& where) {
     std::ifstream in(file, std::ios::binary);
     if (!in) {
       throw UsageError("cannot read " + file.string() +
-                       "; name a folder that `plumb run --out` or `plumb compare` wrote");
+                       "; name a folder that `plumb run --out`, `plumb compare` or `plumb study` wrote");
     }
     read_into(in, results, cells);
   }
   return results;
+}
+
+Json read_study(const std::filesystem::path& where) {
+  std::ifstream in(where / "study.json", std::ios::binary);
+  Json study = in ? Json::parse(in, nullptr, false) : Json();
+  return study.is_object() ? study : Json();
 }
 
 }  // namespace plumb::harness

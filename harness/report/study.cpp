@@ -89,8 +89,8 @@ Study::Study(std::vector<ResultRow> given) : rows(std::move(given)) {
   for (const ResultRow& row : rows) {
     by_backend[row.backend].push_back(&row);
     if (default_profile(row)) default_by_backend[row.backend].push_back(&row);
-    const auto [at, is_new] = by_problem.try_emplace({row.scene, row.group, row.variant()}, problems.size());
-    if (is_new) problems.push_back({row.scene, row.group, row.variant(), {}});
+    const auto [at, is_new] = by_problem.try_emplace({row.scene, row.group, row.problem_variant()}, problems.size());
+    if (is_new) problems.push_back({row.scene, row.group, row.problem_variant(), {}});
     problems[at->second].rows.push_back(&row);
   }
   for (const auto& [name, of_backend] : by_backend) {
@@ -105,13 +105,17 @@ Study::Study(std::vector<ResultRow> given) : rows(std::move(given)) {
   for (const Problem& problem : problems) {
     if (std::find(groups.begin(), groups.end(), problem.group) == groups.end()) groups.push_back(problem.group);
   }
+  is_default_.reserve(rows.size());
+  for (const ResultRow& row : rows) is_default_.push_back(find_default(row));
 }
 
-bool Study::is_default(const ResultRow& row) const {
+bool Study::is_default(const ResultRow& row) const { return is_default_[static_cast<std::size_t>(&row - rows.data())]; }
+
+bool Study::find_default(const ResultRow& row) const {
   const Baseline& baseline = baselines_.at(row.backend);
   const auto dt = baseline.dt.find(row.scene);
   return default_profile(row) && same(row.dt, dt == baseline.dt.end() ? std::nullopt : dt->second) &&
-         same(row.threads, baseline.threads) && changed_settings(row).empty();
+         same(row.threads, baseline.threads) && row.own_needs() && changed_settings(row).empty();
 }
 
 std::vector<std::pair<std::string, std::string>> Study::changed_settings(const ResultRow& row) const {
@@ -129,14 +133,16 @@ std::string Study::configuration(const ResultRow& row) const {
   const auto add = [&](const std::string& part) { out += (out.empty() ? "" : ", ") + part; };
   if (!default_profile(row)) add(row.profile);
   for (const auto& [name, value] : changed_settings(row)) add(name + " " + value);
+  if (!row.own_needs()) add("needs " + row.needs);
   if (row.threads && !same(row.threads, baselines_.at(row.backend).threads)) {
     add(shortest_number(*row.threads) + (*row.threads == 1 ? " thread" : " threads"));
   }
   return out;
 }
 
-std::string Study::command(const ResultRow& row) const {
-  std::string out = "plumb run " + shell_word(row.scene) + " --backend " + shell_word(row.backend);
+std::string Study::command_for(const ResultRow& row, const std::vector<std::string>& backends_of_it) const {
+  std::string out = "plumb run " + shell_word(row.scene);
+  for (const std::string& backend : backends_of_it) out += " --backend " + shell_word(backend);
   for (const auto& [name, value] : row.params.items()) out += " --param " + shell_word(name + "=" + value_text(value));
   if (!default_profile(row)) out += " --profile " + shell_word(row.profile);
   for (const auto& [name, value] : changed_settings(row)) out += " --set " + shell_word(name + "=" + value);
@@ -144,14 +150,36 @@ std::string Study::command(const ResultRow& row) const {
   if (row.seconds) out += " --seconds " + shortest_number(*row.seconds);
   if (row.threads) out += " --threads " + shortest_number(*row.threads);
   if (row.repeats && *row.repeats > 1) out += " --repeat " + shortest_number(*row.repeats);
-  if (row.needs == "all") out += " --needs all";
+  if (!row.own_needs()) out += " --needs " + shell_word(row.needs);
+  return out;
+}
+
+std::string Study::command(const ResultRow& row) const { return command_for(row, {row.backend}); }
+
+std::string Study::commands(const std::vector<const ResultRow*>& of) const {
+  constexpr std::size_t most = 3;
+  std::vector<std::pair<const ResultRow*, std::vector<std::string>>> alike;
+  std::map<std::string, std::size_t> places;
+  for (const ResultRow* row : of) {
+    const auto [place, is_new] = places.try_emplace(command_for(*row, {}), alike.size());
+    if (is_new) alike.push_back({row, {}});
+    std::vector<std::string>& names = alike[place->second].second;
+    if (std::find(names.begin(), names.end(), row->backend) == names.end()) names.push_back(row->backend);
+  }
+  // The commands that stand for the most backends first.
+  std::stable_sort(alike.begin(), alike.end(),
+                   [](const auto& a, const auto& b) { return a.second.size() > b.second.size(); });
+  std::string out;
+  for (std::size_t i = 0; i < std::min(most, alike.size()); ++i)
+    out += (i == 0 ? "" : "\n") + command_for(*alike[i].first, alike[i].second);
+  if (alike.size() > most) out += "\n# and " + std::to_string(alike.size() - most) + " more: each run tells its own";
   return out;
 }
 
 const ResultRow* Study::representative(const Problem& problem, const std::string& backend) const {
   const ResultRow* chosen = nullptr;
   for (const ResultRow* row : problem.rows) {
-    if (row->backend != backend) continue;
+    if (row->backend != backend || !row->own_needs()) continue;
     if (is_default(*row)) return row;
     if (!chosen) chosen = row;
   }

@@ -39,7 +39,7 @@ class Study {
   std::vector<std::string> groups;    ///< in order of their first scene
   std::vector<Problem> problems;      ///< by scene id, then variant, both in natural order
 
-  /// The cell was run as the backend ships: profile, dt, settings and threads are the baseline's.
+  /// The cell, one of `rows`, was run as the backend ships: profile, dt, settings and threads are the baseline's.
   [[nodiscard]] bool is_default(const ResultRow& row) const;
   /// What tells the cell from the backend's baseline: "1/240 s, iterations 20"; dt always stands first.
   [[nodiscard]] std::string configuration(const ResultRow& row) const;
@@ -47,13 +47,20 @@ class Study {
   [[nodiscard]] std::vector<std::pair<std::string, std::string>> changed_settings(const ResultRow& row) const;
   /// The command that runs the cell again.
   [[nodiscard]] std::string command(const ResultRow& row) const;
+  /// Commands that run the cells again, those that differ in the backend only in one; the first few, and how many more.
+  [[nodiscard]] std::string commands(const std::vector<const ResultRow*>& rows) const;
   /// The cell that stands for the backend on the problem: the default one, else the first; null when there is none.
   [[nodiscard]] const ResultRow* representative(const Problem& problem, const std::string& backend) const;
   /// Metrics of the problem that are scored somewhere (all with an error when none is), in order of appearance.
   [[nodiscard]] std::vector<std::string> scored_metrics(const Problem& problem) const;
 
  private:
+  [[nodiscard]] std::string command_for(const ResultRow& row, const std::vector<std::string>& backends_of_it) const;
+
+  [[nodiscard]] bool find_default(const ResultRow& row) const;
+
   std::map<std::string, Baseline> baselines_;
+  std::vector<bool> is_default_;  ///< by place in rows: asked for again and again
 };
 
 /// A word as a shell takes it, quoted where it must be.

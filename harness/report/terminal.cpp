@@ -45,7 +45,12 @@ std::string worst_text(const ResultRow& row) {
   return fmt::format("{} {} {} {}", name, error, missed ? ">" : "\u2264", limit_text(*limit));
 }
 
-std::string ms_text(const ResultRow& row) { return row.median_ms ? short_number(*row.median_ms) : ""; }
+/// In brackets where it was measured on a contended machine.
+std::string ms_text(const ResultRow& row) {
+  if (!row.median_ms) return "";
+  const std::string ms = short_number(*row.median_ms);
+  return row.contended ? "(" + ms + ")" : ms;
+}
 
 /// Verdicts by backend, those columns only that occur.
 void print_counts(std::ostream& out, const Study& study, int terminal_width, bool colour) {

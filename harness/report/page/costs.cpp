@@ -20,10 +20,17 @@ LineRange next_range(std::vector<CostLine>::const_iterator first, std::vector<Co
           })};
 }
 
+/// " ±0.3" where the time has a band.
+std::string band_text(const Reached& reached) {
+  if (!reached.band) return "";
+  const double half = std::max(reached.ms - reached.band->low, reached.band->high - reached.ms);
+  return fmt::format(R"(<small title="95 % of the median: {} to {}"> &#177;{}</small>)",
+                     short_number(reached.band->low), short_number(reached.band->high), short_number(half, 2));
+}
+
 std::string reached_hover(const PageContext& context, const Reached& reached, const std::string& metric) {
-  return fmt::format("{}: error {} at {} ms per simulated second\n{}\n{}", metric, short_number(reached.error),
-                     short_number(reached.ms), context.study.configuration(*reached.row),
-                     context.study.command(*reached.row));
+  return fmt::format("{}: error {} at {} ms per simulated second\n{}", metric, short_number(reached.error),
+                     short_number(reached.ms), context.study.configuration(*reached.row));
 }
 
 /// Counts over all problems: what an engine reaches at all, and where it is the cheapest.
@@ -62,9 +69,14 @@ std::string line_row(const PageContext& context, const CostLine& line, const std
   if (!line.floor) {
     const Verdict verdict = line.representative->verdict();
     const bool ran = line.representative->completed();
-    const std::string why = ran ? "not finite or not measured" : line.representative->reason;
+    const std::string missed =
+        Questions(context.study.scored_metrics(*line.problem), *line.problem).missed_by(*line.representative);
+    const std::string why = !ran              ? line.representative->reason
+                            : line.contended  ? "measured on a contended machine only: its times are left out"
+                            : !missed.empty() ? "missed " + missed + ", so that its errors mean little"
+                                              : "not finite or not measured";
     return out +
-           fmt::format(R"(<td colspan="5" class="none"><span class="chip {}">{}</span> {}</td></tr>)",
+           fmt::format(R"(<td colspan="4" class="none"><span class="chip {}">{}</span> {}</td></tr>)",
                        verdict_word(verdict),
                        row_link(*line.representative, verdict_title(verdict), row_hover(context, *line.representative)),
                        escape_html(why));
@@ -75,25 +87,23 @@ std::string line_row(const PageContext& context, const CostLine& line, const std
       continue;
     }
     out += fmt::format(
-        "<td{}>{}</td>", line.at[t]->ms == cheapest[t] ? " class=\"best\"" : "",
-        row_link(*line.at[t]->row, short_number(line.at[t]->ms), reached_hover(context, *line.at[t], line.metric)));
+        R"(<td{}>{}{}<span class="cfg">{}</span></td>)", line.at[t]->ms == cheapest[t] ? " class=\"best\"" : "",
+        row_link(*line.at[t]->row, short_number(line.at[t]->ms), reached_hover(context, *line.at[t], line.metric)),
+        band_text(*line.at[t]), escape_html(context.study.configuration(*line.at[t]->row)));
   }
-  const Reached& named = line.at[1] ? *line.at[1] : *line.floor;
-  out += fmt::format(
-      R"(<td>{} <small>at {}</small></td>)",
-      row_link(*line.floor->row, short_number(line.floor->error, 2), reached_hover(context, *line.floor, line.metric)),
-      short_number(line.floor->ms));
-  return out + fmt::format(R"(<td class="text">{}{}</td></tr>)", escape_html(context.study.configuration(*named.row)),
-                           line.at[1] ? "" : " <small>(floor)</small>");
+  return out + fmt::format(R"(<td>{} <small>at {} ms</small><span class="cfg">{}</span></td></tr>)",
+                           row_link(*line.floor->row, short_number(line.floor->error, 2),
+                                    reached_hover(context, *line.floor, line.metric)),
+                           short_number(line.floor->ms), escape_html(context.study.configuration(*line.floor->row)));
 }
 
 std::string group_table(const PageContext& context, const std::string& group) {
   std::string out =
-      R"(<div class="scroll"><table class="numbers costs"><thead><tr><th scope="col">scene, metric</th><th )"
+      R"(<div class="scroll tall"><table class="numbers costs"><thead><tr><th scope="col">scene, metric</th><th )"
       R"(scope="col" class="name">backend</th>)";
   for (const double target : target_errors)
     out += fmt::format(R"(<th scope="col">{} %</th>)", limit_text(100 * target));
-  out += R"(<th scope="col">floor</th><th scope="col" class="text">settings at 1 %</th></tr></thead>)";
+  out += R"(<th scope="col">best error reached</th></tr></thead>)";
   for (auto first = context.costs.begin(); first != context.costs.end();) {
     const auto [begin, end] = next_range(first, context.costs.end());
     first = end;
@@ -119,11 +129,20 @@ std::string group_table(const PageContext& context, const std::string& group) {
 
 std::string costs_section(const PageContext& context) {
   std::string out =
-      R"(<section id="cost"><h2>What accuracy costs</h2><p class="about">Wall-clock milliseconds per simulated )"
-      R"(second of the cheapest )"
-      R"(configuration (time step, settings, threads) among these results that reaches the error. <b>Never</b>: )"
-      R"(none of them does. )"
-      R"(The cheapest engine of a metric is set off; floor is the smallest error reached, and what it costs.</p>)";
+      section_start(context, "cost", "What accuracy costs") +
+      R"(<p class="about">Wall-clock milliseconds per simulated )"
+      R"(second of the cheapest configuration (time step, settings, threads, which stand below) among these results )"
+      R"(that reaches the error. <b>Never</b>: none of them does. The cheapest engine of a metric is set off; the last )"
+      R"(column is the smallest error reached, and what it costs. A run that missed one of its scene's yes/no )"
+      R"(questions (a tower that fell) has reached nothing.)";
+  const auto contended = std::count_if(context.study.rows.begin(), context.study.rows.end(),
+                                       [](const ResultRow& row) { return row.contended.has_value(); });
+  if (contended > 0) {
+    out += fmt::format(R"( <b>{} of {} runs</b> were measured while the machine had more to do than cores: their )"
+                       R"(errors count, and their times are left out here and in all diagrams.)",
+                       contended, context.study.rows.size());
+  }
+  out += "</p>";
   out += reach_table(context);
   const bool few = context.costs.size() <= 60;
   for (const std::string& group : context.study.groups) {

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "report/format.hpp"
+#include "report/order.hpp"
 #include "report/page/markup.hpp"
 #include "report/page/plot.hpp"
 #include "report/page/sections.hpp"
@@ -14,33 +15,6 @@ namespace plumb::harness {
 namespace {
 
 constexpr double largest_error = 10;  ///< beyond that nothing is told apart: all of it is wrong
-
-/// The yes/no questions of a problem, by which its diagrams strike out runs: what fell down has little error left.
-class Questions {
- public:
-  Questions(const Study& study, const Problem& problem) {
-    for (const std::string& metric : study.scored_metrics(problem)) {
-      const bool measured = std::any_of(problem.rows.begin(), problem.rows.end(), [&](const ResultRow* row) {
-        return row->metric(metric) && row->metric(metric)->error;
-      });
-      if (!measured) continue;
-      (is_yes_or_no(problem.rows, metric) ? asked_ : graded_).push_back(metric);
-    }
-  }
-  [[nodiscard]] const std::vector<std::string>& graded() const { return graded_; }
-  /// "stands, survives": those that the row has missed.
-  [[nodiscard]] std::string missed_by(const ResultRow& row) const {
-    std::string out;
-    for (const std::string& name : asked_) {
-      const MetricResult* metric = row.metric(name);
-      if (metric && !metric->pass.value_or(true)) out += (out.empty() ? "" : ", ") + name;
-    }
-    return out;
-  }
-
- private:
-  std::vector<std::string> asked_, graded_;
-};
 
 std::string knob_text(const ResultRow& row, const std::string& knob) {
   return knob.empty() ? "" : fmt::format(", {} {}", knob, value_text(row.settings.at(knob)));
@@ -65,8 +39,15 @@ class Figure {
     std::string knobs;
     for (std::size_t i = 0; i < std::min(knobs_.size(), plot_patterns); ++i)
       knobs += fmt::format("<span>{}{}</span>", render_pattern(i), escape_html(knobs_[i]));
-    return fmt::format(R"(<figure {}><figcaption>{}</figcaption>{}<div class="methods">{}</div></figure>)",
-                       filter_key(context_, *curves_.problem, metric_), escape_html(title()), plot, knobs);
+    const std::string orders =
+        orders_.empty()
+            ? ""
+            : R"(<p class="frame-note">Power of the knob with which the error goes, with its 95 % interval:</p>)"
+              R"(<ul class="frame-list">)" +
+                  orders_ + "</ul>";
+    return fmt::format(R"(<figure {}><figcaption>{}</figcaption>{}<div class="methods">{}</div>{}{}</figure>)",
+                       filter_key(context_, *curves_.problem, metric_), escape_html(title()), plot, knobs, orders,
+                       figure_foot(context_, rows_, curves_.problem->title()));
   }
 
  private:
@@ -88,15 +69,31 @@ class Figure {
     if (!curve.knob.empty()) line.pattern = pattern_of(curve.knob);
     const std::string& label = context_.curves.methods[method.method].label;
     line.hover = curve.knob.empty() ? label : label + " along " + curve.knob;
+    std::vector<OrderPoint> turned;
     for (const ResultRow* row : curve.rows) {
       const MetricResult* metric = row->metric(metric_);
       if (!row->completed() || !metric || !row->ms_per_simulated_second()) continue;
       if (!metric->error && !metric->scored()) continue;
       line.points.push_back(point_of(label, curve.knob, *row, *metric));
+      rows_.push_back(row);
+      // What has failed has no accuracy to gain, and is no part of the slope.
+      const bool counts = !curve.knob.empty() && metric->error && !line.points.back().failed;
+      turned.push_back({counts ? row->settings.at(curve.knob).get<double>() : 0, metric->error.value_or(0)});
       if (plot_.levels.empty() && metric->threshold && *metric->threshold > 0)
         plot_.levels.emplace_back(*metric->threshold, "threshold " + limit_text(*metric->threshold));
     }
+    if (const std::optional<Order> order = fit_order(turned)) add_order(*order, line, turned, label, curve.knob);
     plot_.series.push_back(std::move(line));
+  }
+
+  void add_order(const Order& order, PlotSeries& line, const std::vector<OrderPoint>& turned, const std::string& label,
+                 const std::string& knob) {
+    for (std::size_t i = 0; i < turned.size(); ++i) {
+      if (turned[i].turned > 0) line.fit.emplace_back(line.points[i].x, order.at(turned[i].turned));
+    }
+    line.fit_hover = fmt::format("{}: error goes with {} to the power {}", label, knob, order_text(order));
+    orders_ += fmt::format(R"(<li class="e{}">{}{} <small>{}</small> {}</li>)", line.colour,
+                           render_marker(line.colour, true), escape_html(label), escape_html(knob), order_text(order));
   }
 
   [[nodiscard]] PlotPoint point_of(const std::string& label, const std::string& knob, const ResultRow& row,
@@ -109,6 +106,10 @@ class Figure {
     point.marked = context_.study.is_default(row);
     point.failed = !missed.empty();
     point.link = fmt::format("#r{}", row.index);
+    if (row.ci95) {
+      point.x_low = row.ci95->low / *row.dt;
+      point.x_high = row.ci95->high / *row.dt;
+    }
     point.hover = fmt::format("{}{}\n{} {}\n{} ms per simulated second", label, knob_text(row, knob), metric_,
                               metric.error ? short_number(*metric.error) : "not finite", short_number(point.x));
     if (point.marked) point.hover += fmt::format("\n{} as it ships", row.backend);
@@ -121,7 +122,9 @@ class Figure {
   const Questions& questions_;
   std::string metric_;
   Plot plot_;
-  std::vector<std::string> knobs_;  ///< by line pattern
+  std::vector<std::string> knobs_;      ///< by line pattern
+  std::vector<const ResultRow*> rows_;  ///< that have a point
+  std::string orders_;                  ///< list items
 };
 
 /// What diagrams cannot show, said once for all variants of a scene that it holds for.
@@ -177,7 +180,7 @@ std::string render_scene(const PageContext& context, ProblemIterator first, Prob
   std::string figures;
   Notes notes;
   for (auto curves = first; curves != last; ++curves) {
-    const Questions questions(context.study, *curves->problem);
+    const Questions questions(context.study.scored_metrics(*curves->problem), *curves->problem);
     for (const std::string& metric : questions.graded())
       figures += Figure(context, *curves, questions, metric).render();
     add_notes(context, *curves, notes);
@@ -195,7 +198,8 @@ std::string render_scene(const PageContext& context, ProblemIterator first, Prob
 std::string curves_section(const PageContext& context) {
   if (context.curves.problems.empty()) return "";
   std::string out =
-      R"(<section id="curves"><h2>Curves</h2><p class="about">What turning a knob costs and buys, scene by scene: a )"
+      section_start(context, "curves", "Curves") +
+      R"(<p class="about">What turning a knob costs and buys, scene by scene: a )"
       R"(line a method, its points along one setting of the role quality. Costs are of the settled second half of a )"
       R"(run; lower left is better. Filled: the knob at )"
       R"(the engine's own value; ringed: all settings there; a cross: the run missed one of the scene's yes/no )"

@@ -8,6 +8,7 @@
 #include "report/format.hpp"
 #include "report/page/markup.hpp"
 #include "report/page/sections.hpp"
+#include "report/summary.hpp"
 
 namespace plumb::harness {
 namespace {
@@ -26,11 +27,21 @@ std::string verdict_bar(const BackendOverview& overview) {
                      parts, legend);
 }
 
+std::string statements(const char* title, const char* style, const std::vector<Statement>& list) {
+  if (list.empty()) return "";
+  std::string items;
+  for (const Statement& statement : list)
+    items += fmt::format("<li>{}</li>",
+                         statement.row ? row_link(*statement.row, statement.text, "") : escape_html(statement.text));
+  return fmt::format(R"(<h4>{}</h4><ul class="{}">{}</ul>)", title, style, items);
+}
+
 std::string backend_card(const PageContext& context, const BackendOverview& overview) {
-  return fmt::format(R"(<article class="card e{}"><h3>{} <small>{}</small></h3>{}<p>{}</p></article>)",
+  const Summary summary = summary_of(context.study, context.costs, context.fronts, overview);
+  return fmt::format(R"(<article class="card e{}"><h3>{} <small>{}</small></h3>{}{}{}</article>)",
                      context.backend_index(overview.backend), backend_label(context, overview.backend),
-                     escape_html(overview.version), verdict_bar(overview),
-                     escape_html(describe_backend(overview, context.study.backends.size() == 1)));
+                     escape_html(overview.version), verdict_bar(overview), statements("Best", "best-at", summary.best),
+                     statements("Breaks", "breaks-at", summary.breaks));
 }
 
 std::string join_words(const std::vector<std::string>& words) {
@@ -60,7 +71,9 @@ std::string machine_facts(const Study& study) {
 }  // namespace
 
 std::string head_section(const PageContext& context) {
-  std::string out = R"(<header class="head"><p class="kicker">Plumb report</p><h1>)";
+  std::string out = R"(<header class="head"><p class="kicker">Plumb report)";
+  if (!context.machine.empty()) out += " &#183; " + escape_html(context.machine);
+  out += "</p><h1>";
   out += escape_html(context.study.backends.empty() ? std::string("No results") : join_words(context.study.backends));
   out += "</h1>";
   out += fmt::format(
@@ -68,9 +81,7 @@ std::string head_section(const PageContext& context) {
       R"(are measured )"
       R"(by the harness's own float64 geometry against exact truths.</p>)",
       escape_html(describe_study(context.study)));
-  out += R"(<div class="cards">)";
-  for (const BackendOverview& overview : context.overviews) out += backend_card(context, overview);
-  out += R"(</div><dl class="facts">)";
+  out += R"(<dl class="facts">)";
   if (!context.options.written.empty())
     out += fmt::format("<div><dt>written</dt><dd>{}</dd></div>", escape_html(context.options.written));
   std::string first, last;
@@ -83,9 +94,23 @@ std::string head_section(const PageContext& context) {
     out +=
         fmt::format("<div><dt>ran</dt><dd>{}</dd></div>", escape_html(first == last ? first : first + " to " + last));
   }
+  for (const StudyText& study : context.options.studies) {
+    out += fmt::format("<div><dt>study {}</dt><dd><code>{}</code></dd></div>", escape_html(study.name),
+                       escape_html(study.command));
+  }
   if (!context.options.source.empty())
     out += fmt::format("<div><dt>results</dt><dd>{}</dd></div>", escape_html(context.options.source));
   return out + machine_facts(context.study) + "</dl></header>";
+}
+
+std::string engines_section(const PageContext& context) {
+  if (context.overviews.empty()) return "";
+  std::string out = section_start(context, "engines", "Engines in words");
+  out +=
+      R"(<p class="about">Where each is best and where it breaks, made from the numbers; what is underlined leads to )"
+      R"(a run that shows it.</p><div class="cards">)";
+  for (const BackendOverview& overview : context.overviews) out += backend_card(context, overview);
+  return out + "</div></section>";
 }
 
 }  // namespace plumb::harness

@@ -33,7 +33,8 @@ std::string cell(const PageContext& context, const Problem& problem, const std::
 
 std::string matrix_section(const PageContext& context) {
   std::string out =
-      R"(<section id="matrix"><h2>Pass matrix</h2><p class="about">Each engine at its defaults. The number is the )"
+      section_start(context, "matrix", "Pass matrix") +
+      R"(<p class="about">Each engine at its defaults. The number is the )"
       R"(error of the metric that )"
       R"(comes closest to its threshold or exceeds it most; hover for all metrics, click for the run.</p>)";
   out += R"(<div class="scroll"><table class="matrix sortable"><thead><tr><th scope="col" data-sort>scene</th>)";

@@ -3,9 +3,11 @@
 
 #include <iosfwd>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "report/against.hpp"
 #include "run/json.hpp"
 
 namespace plumb::harness {
@@ -22,11 +24,25 @@ struct PageReplay {
   std::string bundle;   ///< packed (replay/container.hpp)
 };
 
+/// A baseline to hold the results against.
+struct AgainstPart {
+  std::string name;  ///< its folder
+  std::vector<Json> rows;
+  AgainstLimits limits;
+};
+
+/// What DIR/study.json says of a study that made rows.
+struct StudyText {
+  std::string name, command;
+};
+
 struct PageOptions {
   std::string written;  ///< when, as it shall stand on the page
   std::string source;   ///< where the results came from
   std::map<std::string, SceneText>
-      scenes;                            ///< by scene id as rows have it; scenes without an entry show their id alone
+      scenes;  ///< by scene id as rows have it; scenes without an entry show their id alone
+  std::vector<StudyText> studies = {};
+  std::optional<AgainstPart> against = std::nullopt;
   std::vector<PageReplay> replays = {};  ///< scenes in the order in which they shall stand
   std::string replays_note = {};         ///< what was recorded and is not among them, in words; or ""
 };

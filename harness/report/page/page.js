@@ -1,6 +1,6 @@
 (function () {
   'use strict';
-  var root = document.documentElement, data = null;
+  var root = document.documentElement;
   var all = function (what, where) { return Array.prototype.slice.call((where || document).querySelectorAll(what)); };
   var make = function (tag, text, className) {
     var element = document.createElement(tag);
@@ -57,10 +57,20 @@
                className: changed && changed.indexOf(name) >= 0 ? 'changed' : '' };
     }));
   }
+  // Each machine has its own.
+  function dataOf(element) {
+    var machine = element.closest('.machine');
+    if (!machine.plumbData) {
+      var script = machine.querySelector('script.data');
+      machine.plumbData = JSON.parse(script.textContent);
+      machine.plumbData.first = Number(script.dataset.first);
+    }
+    return machine.plumbData;
+  }
   function detailsOf(index) {
-    if (!data) data = JSON.parse(document.getElementById('data').textContent);
-    var row = data.rows[index], panes = make('div', null, 'panes');
+    var data = dataOf(document.getElementById('r' + index)), row = data.rows[index - data.first], panes = make('div', null, 'panes');
     panes.appendChild(pane('Run it again', make('code', row.c), 'whole'));
+    if (row.o) panes.appendChild(pane('Contended: its times stand in no diagram', make('div', row.o), 'whole'));
     if (row.w) panes.appendChild(pane('Reason', make('div', row.w), 'whole'));
     if (row.m.length) {
       panes.appendChild(pane('Metrics', table(['metric', 'value', 'unit', 'truth', 'error', 'without known bias', 'threshold', 'gold', ''],
@@ -70,7 +80,7 @@
     }
     var t = row.t, n = row.n, facts = [
       ['ms per step, median', short(t[0])], ['fastest to slowest', short(t[1]) + ' to ' + short(t[2])], ['99th percentile', short(t[3])],
-      ['set-up, ms', short(t[4])], ['steps', t[5]], ['timed steps', t[6] === null ? null : t[6] + ' to ' + t[7]]];
+      ['95 % interval', row.b ? short(row.b[0]) + ' to ' + short(row.b[1]) : null], ['set-up, ms', short(t[4])], ['steps', t[5]], ['timed steps', t[6] === null ? null : t[6] + ' to ' + t[7]]];
     row.p.forEach(function (p) { facts.push(['phase ' + p[0] + ', ms', short(p[1])]); });
     facts.push(['bodies', n[0]], ['most contacts', n[1]], ['dropped contacts', n[2]], ['bodies not finite', n[3]], ['peak memory, MB', short(n[4])], ['state hash', row.h], ['ran', row.a]);
     panes.appendChild(pane('Times and counts', table(null, facts.filter(function (f) { return f[1] !== null && f[1] !== ''; }).map(function (f) { return { cells: f }; }))));
@@ -101,6 +111,8 @@
   function follow() {
     var id = /^#(r\d+)/.exec(location.hash), tr = id && document.getElementById(id[1]);
     if (!tr) return;
+    var machine = tr.closest('.machine');
+    if (machine.hidden) choose(all('.machine').indexOf(machine));
     if (tr.hidden || tr.offsetParent === null) {
       document.getElementById('filter').value = document.getElementById('group').value = '';
       all('[data-backend]').forEach(function (box) { box.checked = true; });
@@ -146,6 +158,37 @@
   document.getElementById('group').addEventListener('change', filter);
   all('[data-backend]').forEach(function (box) { box.addEventListener('change', hideBackends); });
 
+  // ---- what a diagram shows, among all runs ----
+  document.addEventListener('click', function (event) {
+    var link = event.target.closest && event.target.closest('[data-show]');
+    if (!link) return;
+    event.preventDefault();
+    document.getElementById('filter').value = link.dataset.show;
+    document.getElementById('group').value = '';
+    filter();
+    document.querySelector(link.getAttribute('href')).scrollIntoView();
+  });
+
+  // ---- who is beaten by whom ----
+  function name(index) {
+    var row = document.getElementById('r' + index), link = make('a', row.cells[1].textContent + ' ' + row.cells[2].textContent);
+    link.href = '#r' + index;
+    return link;
+  }
+  document.addEventListener('toggle', function (event) {
+    var details = event.target;
+    if (!details.open || !details.dataset || !details.dataset.beaten || details.querySelector('ul')) return;
+    var list = make('ul');
+    details.dataset.beaten.split(';').forEach(function (text) {
+      var parts = text.split(','), item = make('li');
+      item.appendChild(name(parts[0]));
+      item.appendChild(document.createTextNode(', ' + (parts[2] === '1.00' ? 'as dear as ' : parts[2] + '\u00d7 as dear as ')));
+      item.appendChild(name(parts[1]));
+      list.appendChild(item);
+    });
+    details.appendChild(list);
+  }, true);
+
   // ---- sorting ----
   var collator = new Intl.Collator(undefined, { numeric: true });
   all('.sortable').forEach(function (sorted) {
@@ -169,6 +212,22 @@
       });
     });
   });
+
+  // ---- machines: one at a time ----
+  function choose(index) {
+    all('.machine').forEach(function (machine, i) { machine.hidden = i !== index; });
+    all('.links a').forEach(function (link) {
+      var at = link.getAttribute('href').replace(/-\d+$/, '') + (index ? '-' + index : '');
+      link.hidden = !document.querySelector(at);
+      if (!link.hidden) link.href = at;
+    });
+    document.getElementById('machine').value = String(index);
+  }
+  var machines = document.getElementById('machine');
+  if (machines) {
+    machines.addEventListener('change', function () { choose(Number(machines.value)); });
+    choose(0);
+  }
 
   // ---- theme ----
   document.getElementById('theme').addEventListener('click', function () {

@@ -60,6 +60,7 @@ class Drawing {
     for (const auto& [value, label] : plot_.levels) draw_level(value, label);
     if (plot_.slopes) draw_slopes();
     for (const PlotSeries& series : plot_.series) draw_line(series);
+    for (const PlotSeries& series : plot_.series) draw_fit(series);
     for (const PlotSeries& series : plot_.series) draw_points(series);
     out_ += "</svg>";
     return std::move(out_);
@@ -78,6 +79,8 @@ class Drawing {
       if (right && series.right != *right) continue;
       for (const PlotPoint& point : series.points) {
         all.push_back(point.*coordinate);
+        if (right && point.y_low) all.push_back(*point.y_low);
+        if (right && point.y_high) all.push_back(*point.y_high);
         if (!right && point.x_low) all.push_back(*point.x_low);
         if (!right && point.x_high) all.push_back(*point.x_high);
       }
@@ -163,12 +166,14 @@ class Drawing {
     const PlotScale& scale = series.right ? right_ : y_;
     std::string path;
     bool broken = true;
+    double at = 0;
     for (const PlotPoint& point : series.points) {
       if (!drawable(point)) continue;
       broken = broken || point.failed;
       if (point.failed) continue;
-      fmt::format_to(std::back_inserter(path), "{}{:.1f} {:.1f}", broken ? "M" : "L", x_.place(point.x),
-                     scale.place(point.y));
+      if (series.stepped && !broken) fmt::format_to(std::back_inserter(path), "L{:.1f} {:.1f}", x_.place(point.x), at);
+      at = scale.place(point.y);
+      fmt::format_to(std::back_inserter(path), "{}{:.1f} {:.1f}", broken ? "M" : "L", x_.place(point.x), at);
       broken = false;
     }
     if (path.find('L') == std::string::npos) return;
@@ -177,7 +182,27 @@ class Drawing {
         *dash ? fmt::format(R"( stroke-dasharray="{}")", dash) : "", path, escape_html(series.hover));
   }
 
+  void draw_fit(const PlotSeries& series) {
+    std::string path;
+    for (const auto& [x, y] : series.fit) {
+      if (std::isfinite(x) && std::isfinite(y))
+        fmt::format_to(std::back_inserter(path), "{}{:.1f} {:.1f}", path.empty() ? "M" : "L", x_.place(x), y_.place(y));
+    }
+    if (path.find('L') == std::string::npos) return;
+    add(R"(<path class="fit e{}" d="{}"><title>{}</title></path>)", series.colour, path, escape_html(series.fit_hover));
+  }
+
+  void draw_specks(const PlotSeries& series) {
+    std::string path;
+    for (const PlotPoint& point : series.points) {
+      if (drawable(point))
+        fmt::format_to(std::back_inserter(path), "M{:.0f} {:.0f}h0", x_.place(point.x), y_.place(point.y));
+    }
+    add(R"(<path class="specks e{}" d="{}"/>)", series.colour, path);
+  }
+
   void draw_points(const PlotSeries& series) {
+    if (series.quiet) return draw_specks(series);
     const PlotScale& scale = series.right ? right_ : y_;
     for (const PlotPoint& point : series.points) {
       if (!drawable(point)) continue;
@@ -187,6 +212,9 @@ class Drawing {
       add(R"(<g class="e{}{}">)", series.colour, series.right ? " small" : "");
       if (point.x_low && point.x_high)
         add(R"(<path class="bar" d="M{:.1f} {:.1f}H{:.1f}"/>)", x_.place(*point.x_low), y, x_.place(*point.x_high));
+      if (point.y_low && point.y_high)
+        add(R"(<path class="bar" d="M{:.1f} {:.1f}V{:.1f}"/>)", x, scale.place(*point.y_low),
+            scale.place(*point.y_high));
       if (point.marked) add(R"(<path class="halo" d="{}"/>)", marker_path(0, x, y, 2.1 * marker_radius));
       if (point.failed) {
         add(R"(<path class="cross" d="M{0:.1f} {1:.1f}l{2} {2}m0 -{2}l-{2} {2}"/>)", x - 0.8 * marker_radius,

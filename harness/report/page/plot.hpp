@@ -8,6 +8,9 @@
 
 namespace plumb::harness {
 
+/// The colour of a series that is no engine's: the text's own.
+inline constexpr std::size_t no_colour = 1000000;
+
 struct PlotPoint {
   double x, y;
   std::optional<double> x_low, x_high;  ///< error bar
@@ -16,6 +19,7 @@ struct PlotPoint {
   std::string link;     ///< "#r12", "" for none
   bool marked = false;  ///< a ring around it
   bool failed = false;  ///< a cross instead of the marker; lines end before it and begin anew behind it
+  std::optional<double> y_low = std::nullopt, y_high = std::nullopt;  ///< error bar
 };
 
 struct PlotSeries {
@@ -24,7 +28,11 @@ struct PlotSeries {
   bool joined = true;
   bool right = false;  ///< on the right axis
   std::string hover;   ///< of the line
-  std::vector<PlotPoint> points;
+  std::vector<PlotPoint> points = {};
+  bool stepped = false;  ///< a staircase: each value holds up to the next point's x
+  bool quiet = false;    ///< points as specks without hover and link; for many that matter little
+  std::vector<std::pair<double, double>> fit = {};  ///< a thin line beside the points; "" without
+  std::string fit_hover = {};
 };
 
 struct PlotAxis {

@@ -2,10 +2,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
-#include <set>
+#include <numeric>
 
 #include "report/format.hpp"
+#include "report/order.hpp"
 #include "report/page/markup.hpp"
 #include "report/page/plot.hpp"
 #include "report/page/sections.hpp"
@@ -27,24 +29,53 @@ std::string method_of(const Study& study, const ResultRow& row) {
 struct Figure {
   std::string title;
   Plot plot;
-  std::vector<std::string> methods;  ///< by line pattern
+  std::vector<std::string> methods;    ///< by line pattern
+  std::string orders;                  ///< list items
+  std::vector<const ResultRow*> rows;  ///< that have a point
 };
 
-PlotPoint point_of(const PageContext& context, const ResultRow& row, const MetricResult& metric) {
-  PlotPoint point{*row.ms_per_simulated_second(), *metric.error, {}, {}, context.study.is_default(row), {},
-                  fmt::format("#r{}", row.index)};
-  if (row.min_ms && row.p99_ms && *row.min_ms > 0) {
-    point.x_low = *row.min_ms / *row.dt;
-    point.x_high = *row.p99_ms / *row.dt;
+PlotPoint point_of(const PageContext& context, const Sample& sample, const std::string& metric, const Measured& cost,
+                   const Measured& error) {
+  const ResultRow& row = sample.row();
+  PlotPoint point{cost.value, error.value, {}, {}, context.study.is_default(row), {}, fmt::format("#r{}", row.index)};
+  if (cost.band) {
+    point.x_low = cost.band->low;
+    point.x_high = cost.band->high;
   }
-  point.hover = fmt::format("{} {}\n{}\n{} {}\n{} ms per simulated second{}", row.backend, row.variant(),
-                            context.study.configuration(row), metric.name, short_number(*metric.error),
-                            short_number(point.x), point.filled ? "\ndefaults" : "");
+  if (error.band && std::isfinite(error.band->high)) {
+    point.y_low = error.band->low;
+    point.y_high = error.band->high;
+  }
+  point.hover = fmt::format("{} {}\n{}\n{} {}\n{} ms per simulated second{}", row.backend, row.problem_variant(),
+                            context.study.configuration(row), metric, short_number(point.y), short_number(point.x),
+                            point.filled ? "\ndefaults" : "");
+  if (sample.rows.size() > 1) point.hover += fmt::format("\n{} seeds", sample.rows.size());
   return point;
 }
 
-Figure make_figure(const PageContext& context, const std::vector<const ResultRow*>& rows,
-                   const std::string& metric_name, const std::string& title) {
+/// A line over dt as it is made, with what its order is fitted to.
+struct DtLine {
+  PlotSeries series;
+  std::vector<OrderPoint> points;
+  std::string backend, method, variant;
+};
+
+/// The fitted line where the points are: at their cost, which stands for the time step that it was paid for.
+void add_order(const PageContext& context, DtLine& line, bool one_method, Figure& figure) {
+  const std::optional<Order> order = fit_order(line.points);
+  if (!order) return;
+  for (std::size_t i = 0; i < line.points.size(); ++i)
+    line.series.fit.emplace_back(line.series.points[i].x, order->at(line.points[i].turned));
+  std::string name = line.variant;
+  if (!one_method) name += (name.empty() ? "" : ", ") + line.method;
+  line.series.fit_hover = fmt::format("{}: error falls with dt to the power {}", line.backend, order_text(*order));
+  figure.orders += fmt::format(R"(<li class="e{}">{} {}{}</li>)", context.backend_index(line.backend),
+                               backend_label(context, line.backend), order_text(*order),
+                               name.empty() ? "" : fmt::format(" <small>{}</small>", escape_html(name)));
+}
+
+Figure make_figure(const PageContext& context, const Problem& problem, const std::string& metric,
+                   const std::string& title) {
   Figure figure;
   figure.title = title;
   figure.plot.description = fmt::format("{}: error against cost of each backend", title);
@@ -53,24 +84,38 @@ Figure make_figure(const PageContext& context, const std::vector<const ResultRow
   figure.plot.y.highest = largest_error;
   figure.plot.slopes = true;
   std::map<std::string, std::size_t> patterns;
-  std::map<std::tuple<std::size_t, std::string, std::string>, PlotSeries> series;  // backend, method, variant
-  for (const ResultRow* row : rows) {
-    const MetricResult* metric = row->metric(metric_name);
-    if (!row->completed() || !metric || !metric->error || !row->ms_per_simulated_second()) continue;
-    if (context.curves.is_turned(*row)) continue;
-    const std::size_t backend = context.backend_index(row->backend);
-    const std::string method = method_of(context.study, *row);
+  std::map<std::tuple<std::size_t, std::string, std::string>, DtLine> lines;  // backend, method, variant
+  for (const Sample& sample : samples_of(problem, "")) {
+    const ResultRow& row = sample.row();
+    const std::optional<Measured> error = sample.error(metric), cost = sample.cost();
+    if (!error || !cost || context.curves.is_turned(row)) continue;
+    const std::size_t backend = context.backend_index(row.backend);
+    const std::string method = method_of(context.study, row);
     const auto [pattern, is_new] = patterns.try_emplace(method, patterns.size());
     if (is_new) figure.methods.push_back(method);
-    PlotSeries& line = series[{backend, method, row->variant()}];
-    line.colour = backend;
-    line.pattern = pattern->second;
-    line.hover = fmt::format("{}, {}", row->backend, method);
-    line.points.push_back(point_of(context, *row, *metric));
+    DtLine& line = lines[{backend, method, row.problem_variant()}];
+    line.backend = row.backend;
+    line.method = method;
+    line.variant = problem.variant.empty() ? row.problem_variant() : "";
+    line.series.colour = backend;
+    line.series.pattern = pattern->second;
+    line.series.hover = fmt::format("{}, {}", row.backend, method);
+    line.series.points.push_back(point_of(context, sample, metric, *cost, *error));
+    line.points.push_back({row.dt.value_or(0), error->value});
+    figure.rows.insert(figure.rows.end(), sample.rows.begin(), sample.rows.end());
   }
-  for (auto& [key, line] : series) {
-    std::sort(line.points.begin(), line.points.end(), [](const PlotPoint& a, const PlotPoint& b) { return a.x < b.x; });
-    figure.plot.series.push_back(std::move(line));
+  for (auto& [key, line] : lines) {
+    std::vector<std::size_t> order(line.points.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return line.series.points[a].x < line.series.points[b].x; });
+    DtLine sorted = line;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      sorted.series.points[i] = std::move(line.series.points[order[i]]);
+      sorted.points[i] = line.points[order[i]];
+    }
+    add_order(context, sorted, patterns.size() < 2, figure);
+    figure.plot.series.push_back(std::move(sorted.series));
   }
   return figure;
 }
@@ -94,9 +139,14 @@ std::string render_figure(const PageContext& context, const Problem& problem, co
     if (figure.methods.size() > plot_patterns)
       legend += fmt::format("<span>and {} more</span>", figure.methods.size() - plot_patterns);
   }
-  return fmt::format(R"(<figure {}><figcaption>{}</figcaption>{}<div class="methods">{}</div></figure>)",
+  const std::string orders =
+      figure.orders.empty()
+          ? ""
+          : R"(<p class="frame-note">Order in dt, with its 95 % interval:</p><ul class="frame-list">)" + figure.orders +
+                "</ul>";
+  return fmt::format(R"(<figure {}><figcaption>{}</figcaption>{}<div class="methods">{}</div>{}{}</figure>)",
                      filter_key(context, problem, figure.title), escape_html(figure.title), render_plot(figure.plot),
-                     legend);
+                     legend, orders, figure_foot(context, figure.rows, problem.title()));
 }
 
 /// Consecutive problems of one scene.
@@ -109,36 +159,37 @@ std::string scene_figures(const PageContext& context, const Problem* first, cons
     });
   });
   std::string out;
-  const auto add = [&](const Problem& problem, const std::vector<const ResultRow*>& rows, const std::string& metric,
-                       const std::string& title) {
-    const Figure figure = make_figure(context, rows, metric, title);
+  const auto add = [&](const Problem& problem, const std::string& metric, const std::string& title) {
+    const Figure figure = make_figure(context, problem, metric, title);
     if (graded(figure)) out += render_figure(context, problem, figure);
   };
   if (swept) {
     for (const Problem* problem = first; problem != last; ++problem) {
       for (const std::string& metric : context.study.scored_metrics(*problem))
-        add(*problem, problem->rows, metric, problem->title() + ", " + metric);
+        add(*problem, metric, problem->title() + ", " + metric);
     }
     return out;
   }
   Problem all{first->scene, first->group, "", {}};
   for (const Problem* problem = first; problem != last; ++problem)
     all.rows.insert(all.rows.end(), problem->rows.begin(), problem->rows.end());
-  for (const std::string& metric : context.study.scored_metrics(all))
-    add(*first, all.rows, metric, first->scene + ", " + metric);
+  for (const std::string& metric : context.study.scored_metrics(all)) add(all, metric, first->scene + ", " + metric);
   return out;
 }
 
 }  // namespace
 
 std::string precision_section(const PageContext& context) {
-  std::string out =
-      R"(<section id="precision"><h2>Work and precision</h2><p class="about">Every run as a point: what a simulated )"
-      R"(second cost, and the error. )";
-  if (!context.curves.problems.empty()) out += R"(Runs with a knob turned are under <a href="#curves">Curves</a>. )";
-  out += R"(Lower left is better. Points are joined along the time step at equal settings; filled: the engine's )"
-         R"(defaults; bars: fastest to 99th )"
-         R"(percentile of the steps; an arrow: the error is zero, or beyond the frame.</p><p class="legend">)";
+  std::string out = section_start(context, "precision", "Work and precision") +
+                    R"(<p class="about">Every run as a point: what a simulated )"
+                    R"(second cost, and the error. )";
+  if (!context.curves.problems.empty())
+    out += R"(Runs with a knob turned are under <a href="#curves)" + context.suffix + R"(">Curves</a>. )";
+  out +=
+      R"(Lower left is better. Points are joined along the time step at equal settings; filled: the engine's )"
+      R"(defaults; bars across: 95 % interval of the time over repetitions, bars upwards: smallest to largest error )"
+      R"(over seeds; broken lines: the fitted order in dt, whose number stands below; an arrow: the error is zero, or )"
+      R"(beyond the frame.</p><p class="legend">)";
   for (const std::string& backend : context.study.backends)
     out +=
         fmt::format(R"(<span class="e{}">{}</span>)", context.backend_index(backend), backend_label(context, backend));

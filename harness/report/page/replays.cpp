@@ -31,8 +31,7 @@ std::string replay_page(const std::vector<PageReplay>& replays) {
                      title, page_style, player(replays));
 }
 
-std::string replays_section(const PageContext& context) {
-  const PageOptions& options = context.options;
+std::string replays_section(const PageOptions& options) {
   if (options.replays.empty() && options.replays_note.empty()) return "";
   std::string out =
       R"(<section id="replays"><h2>Replays</h2><p class="about">What the engines made of the same scene, side by )"

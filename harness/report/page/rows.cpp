@@ -51,6 +51,8 @@ Json row_data(const PageContext& context, const ResultRow& row, Pool& settings, 
           {"h", row.hash},
           {"a", row.date},
           {"w", row.reason},
+          {"o", row.contended.value_or("")},
+          {"b", row.ci95 ? Json::array({row.ci95->low, row.ci95->high}) : Json()},
           {"x", machines.index_of(row.machine)},
           {"p", phases},
           {"t",
@@ -75,14 +77,15 @@ std::string table_row(const PageContext& context, const Problem& problem, const 
       filter_key(context, problem, fmt::format("{} {}", row.backend, verdict_title(verdict))),
       escape_html(problem.title()), backend_label(context, row.backend), escape_html(context.study.configuration(row)),
       static_cast<int>(verdict), verdict_word(verdict), escape_html(verdict_title(verdict)), row.median_ms.value_or(-1),
-      short_number(row.median_ms), escape_html(decided));
+      row.contended ? "(" + short_number(row.median_ms) + ")" : short_number(row.median_ms), escape_html(decided));
 }
 
 }  // namespace
 
 std::string rows_section(const PageContext& context) {
   std::string out =
-      R"(<section id="runs"><h2>Every run</h2><p class="about">Open a line for its metrics, the settings in force, )"
+      section_start(context, "runs", "Every run") +
+      R"(<p class="about">Open a line for its metrics, the settings in force, )"
       R"(the state hash, the machine, and the )"
       R"(command that runs it again.</p><div class="scroll"><table class="numbers runs sortable"><thead><tr><th )"
       R"(scope="col" data-sort>scene</th>)"
@@ -91,15 +94,17 @@ std::string rows_section(const PageContext& context) {
       R"(scope="col" class="text" data-sort>decided by</th></tr></thead><tbody>)";
   Pool settings, machines;
   std::vector<Json> data(context.study.rows.size());
+  const std::size_t first = context.study.rows.empty() ? 0 : context.study.rows.front().index;
   for (const Problem& problem : context.study.problems) {
     for (const ResultRow* row : problem.rows) {
       out += table_row(context, problem, *row);
-      data[row->index] = row_data(context, *row, settings, machines);
+      data[row->index - first] = row_data(context, *row, settings, machines);
     }
   }
   out += "</tbody></table></div></section>";
   const Json all{{"settings", settings.values()}, {"machines", machines.values()}, {"rows", data}};
-  return out + fmt::format(R"(<script type="application/json" id="data">{}</script>)", script_json(all));
+  return out + fmt::format(R"(<script type="application/json" class="data" data-first="{}">{}</script>)", first,
+                           script_json(all));
 }
 
 }  // namespace plumb::harness

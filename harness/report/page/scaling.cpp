@@ -26,7 +26,7 @@ std::vector<Sized> sizes_of(const PageContext& context, const Problem* first, co
   std::vector<Sized> sizes;
   for (const Problem* problem = first; problem != last; ++problem) {
     const ResultRow* row = context.study.representative(*problem, backend);
-    if (row && row->bodies && *row->bodies > 0 && row->median_ms && *row->median_ms > 0)
+    if (row && row->bodies && *row->bodies > 0 && row->fair_ms() && *row->fair_ms() > 0)
       sizes.push_back({*row->bodies, row});
   }
   std::stable_sort(sizes.begin(), sizes.end(), [](const Sized& a, const Sized& b) { return a.bodies < b.bodies; });
@@ -40,9 +40,9 @@ std::vector<Sized> sizes_of(const PageContext& context, const Problem* first, co
 
 /// Bodies at which a step takes a frame, between the two sizes around it as a power law; "" where it was not reached.
 std::string bodies_at_frame(const std::vector<Sized>& sizes) {
-  if (*sizes.front().row->median_ms > frame_ms) return fmt::format("below {}", shortest_number(sizes.front().bodies));
+  if (*sizes.front().row->fair_ms() > frame_ms) return fmt::format("below {}", shortest_number(sizes.front().bodies));
   for (std::size_t i = 1; i < sizes.size(); ++i) {
-    const double a = *sizes[i - 1].row->median_ms, b = *sizes[i].row->median_ms;
+    const double a = *sizes[i - 1].row->fair_ms(), b = *sizes[i].row->fair_ms();
     if (a <= frame_ms && b > frame_ms) {
       const double share = std::log(frame_ms / a) / std::log(b / a);
       const double bodies = sizes[i - 1].bodies * std::pow(sizes[i].bodies / sizes[i - 1].bodies, share);
@@ -61,6 +61,7 @@ std::string scene_figure(const PageContext& context, const Problem* first, const
   plot.levels = {{frame_ms, "16.7 ms"}};
   plot.description = fmt::format("{}: time per step and error against the number of bodies", first->scene);
   std::string table;
+  std::vector<const ResultRow*> rows;
   for (const std::string& backend : context.study.backends) {
     const std::vector<Sized> sizes = sizes_of(context, first, last, backend);
     if (sizes.empty()) continue;
@@ -69,7 +70,12 @@ std::string scene_figure(const PageContext& context, const Problem* first, const
     PlotSeries error{colour, 2, true, true, fmt::format("{}: error of the worst metric", backend), {}};
     for (const Sized& sized : sizes) {
       const std::string link = fmt::format("#r{}", sized.row->index), hover = row_hover(context, *sized.row);
-      time.points.push_back({sized.bodies, *sized.row->median_ms, {}, {}, true, hover, link});
+      time.points.push_back({sized.bodies, *sized.row->fair_ms(), {}, {}, true, hover, link});
+      if (const std::optional<Interval>& band = sized.row->ci95) {
+        time.points.back().y_low = band->low;
+        time.points.back().y_high = band->high;
+      }
+      rows.push_back(sized.row);
       const MetricResult* worst = sized.row->worst();
       if (worst && worst->error && sized.row->completed())
         error.points.push_back({sized.bodies, *worst->error, {}, {}, false, hover, link});
@@ -81,8 +87,9 @@ std::string scene_figure(const PageContext& context, const Problem* first, const
   }
   if (plot.series.empty()) return "";
   return fmt::format(R"(<figure {}><figcaption>{}</figcaption>{}<p class="frame-note">In a frame of 16.7 ms:</p><ul )"
-                     R"(class="frame-list">{}</ul></figure>)",
-                     filter_key(context, *first), escape_html(first->scene), render_plot(plot), table);
+                     R"(class="frame-list">{}</ul>{}</figure>)",
+                     filter_key(context, *first), escape_html(first->scene), render_plot(plot), table,
+                     figure_foot(context, rows, first->scene));
 }
 
 }  // namespace
@@ -99,7 +106,8 @@ std::string scaling_section(const PageContext& context) {
     i = end;
   }
   std::string out =
-      R"(<section id="scaling"><h2>Scaling</h2><p class="about">Scenes that were run at several sizes, each engine )"
+      section_start(context, "scaling", "Scaling") +
+      R"(<p class="about">Scenes that were run at several sizes, each engine )"
       R"(at its defaults: time per step on )"
       R"(the left axis, the worst error at that size on the right. The line at 16.7 ms is one frame at 60 Hz.</p>)";
   if (figures.empty()) return out + R"(<p class="about">No scene here was run at several sizes.</p></section>)";

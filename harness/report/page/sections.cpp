@@ -12,11 +12,6 @@
 namespace plumb::harness {
 namespace {
 
-std::string lower(std::string text) {
-  for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return text;
-}
-
 std::string metric_line(const MetricResult& metric) {
   std::string line = fmt::format("{}: {}", metric.name, metric.value ? short_number(*metric.value, 6) : "not finite");
   if (!metric.unit.empty() && metric.unit != "1") line += fmt::format(" {}", metric.unit);
@@ -31,14 +26,23 @@ std::string metric_line(const MetricResult& metric) {
 
 }  // namespace
 
+std::string lower(std::string text) {
+  for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return text;
+}
+
 std::size_t PageContext::backend_index(const std::string& backend) const {
-  return static_cast<std::size_t>(std::find(study.backends.begin(), study.backends.end(), backend) -
-                                  study.backends.begin());
+  return static_cast<std::size_t>(std::find(backends.begin(), backends.end(), backend) - backends.begin());
 }
 
 std::size_t PageContext::method_index(std::size_t method) const {
   constexpr std::size_t round = std::lcm(page_hues, marker_shapes);
-  return (study.backends.size() + round - 1) / round * round + method;
+  return (backends.size() + round - 1) / round * round + first_method + method;
+}
+
+std::string section_start(const PageContext& context, std::string_view id, std::string_view title) {
+  const std::string of = context.machine.empty() ? "" : fmt::format(" <small>{}</small>", escape_html(context.machine));
+  return fmt::format(R"(<section id="{}{}"><h2>{}{}</h2>)", id, context.suffix, title, of);
 }
 
 std::string row_link(const ResultRow& row, std::string_view text, std::string_view title) {
@@ -86,20 +90,18 @@ std::string filter_key(const PageContext& context, const Problem& problem, std::
   return fmt::format(R"(data-k="{}")", escape_html(lower(key)));
 }
 
+std::string figure_foot(const PageContext& context, const std::vector<const ResultRow*>& rows,
+                        std::string_view filter) {
+  if (rows.empty()) return "";
+  return fmt::format(R"(<details class="how"><summary><a href="#runs{}" data-show="{}">{} {}</a>, command</summary>)"
+                     R"(<code>{}</code></details>)",
+                     context.suffix, escape_html(lower(std::string(filter))), rows.size(),
+                     rows.size() == 1 ? "run" : "runs", escape_html(context.study.commands(rows)));
+}
+
 std::string backend_label(const PageContext& context, const std::string& backend) {
   return fmt::format(R"(<span class="backend">{}{}</span>)", render_marker(context.backend_index(backend), true),
                      escape_html(backend));
-}
-
-bool is_yes_or_no(const std::vector<const ResultRow*>& rows, const std::string& metric) {
-  bool answered = false;
-  for (const ResultRow* row : rows) {
-    const MetricResult* result = row->completed() ? row->metric(metric) : nullptr;
-    if (!result || !result->error) continue;
-    if (*result->error != 0 && *result->error != 1) return false;
-    answered = true;
-  }
-  return answered;
 }
 
 std::string group_title(const std::string& group) {

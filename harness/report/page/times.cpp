@@ -15,21 +15,23 @@ std::optional<double> fastest(const PageContext& context, const Problem& problem
   std::optional<double> best;
   for (const std::string& backend : context.study.backends) {
     const ResultRow* row = context.study.representative(problem, backend);
-    if (row && row->completed() && row->median_ms && (!best || *row->median_ms < *best)) best = row->median_ms;
+    if (row && row->completed() && row->fair_ms() && (!best || *row->fair_ms() < *best)) best = row->fair_ms();
   }
   return best && *best > 0 ? best : std::nullopt;
 }
 
 std::string time_cells(const PageContext& context, const ResultRow* row, std::size_t index, double best) {
-  if (!row || !row->completed() || !row->median_ms) {
-    const std::string why = row ? verdict_title(row->verdict()) : std::string(no_value);
+  if (!row || !row->completed() || !row->fair_ms()) {
+    const std::string why = !row                                 ? std::string(no_value)
+                            : row->completed() && row->contended ? "contended"
+                                                                 : verdict_title(row->verdict());
     const std::string link = row ? row_link(*row, why, row_hover(context, *row)) : why;
     return fmt::format(R"(<td class="e{0} none">{1}</td><td class="e{0}"></td>)", index, link);
   }
-  const double ratio = *row->median_ms / best;
+  const double ratio = *row->fair_ms() / best;
   return fmt::format(
-      R"(<td class="e{0}" data-v="{1}">{2}{3}</td><td class="e{0}{4}" data-v="{5}">{6}</td>)", index, *row->median_ms,
-      row_link(*row, short_number(*row->median_ms), row_hover(context, *row)),
+      R"(<td class="e{0}" data-v="{1}">{2}{3}</td><td class="e{0}{4}" data-v="{5}">{6}</td>)", index, *row->fair_ms(),
+      row_link(*row, short_number(*row->fair_ms()), row_hover(context, *row)),
       row->verdict() == Verdict::failed ? R"(<sup title="failed: a threshold is missed">&#8224;</sup>)" : "",
       ratio == 1 ? " best" : "", ratio, ratio_text(ratio));
 }
@@ -123,11 +125,12 @@ std::string phase_table(const PageContext& context) {
       if (!row || !row->completed()) continue;
       double sum = 0;
       for (const auto& [name, ms] : row->phase_ms) sum += std::max(ms, 0.0);
-      longest = std::max({longest, sum, row->median_ms.value_or(0)});
+      longest = std::max({longest, sum, row->fair_ms().value_or(0)});
     }
     for (const std::string& backend : context.study.backends) {
       const ResultRow* row = context.study.representative(problem, backend);
-      if (row && row->completed() && !row->phase_ms.empty()) rows += phase_row(context, problem, *row, phases, longest);
+      if (row && row->completed() && !row->contended && !row->phase_ms.empty())
+        rows += phase_row(context, problem, *row, phases, longest);
     }
   }
   std::string legend;
@@ -147,7 +150,8 @@ std::string phase_table(const PageContext& context) {
 }  // namespace
 
 std::string times_section(const PageContext& context) {
-  return R"(<section id="times"><h2>Times side by side</h2><p class="about">Median milliseconds per step at each )"
+  return section_start(context, "times", "Times side by side") +
+         R"(<p class="about">Median milliseconds per step at each )"
          R"(engine's defaults, and how many times the fastest )"
          R"(engine's that is. A dagger marks a run that missed a threshold: its time bought a wrong answer.</p>)" +
          ratio_table(context) + phase_table(context) + "</section>";

@@ -1,0 +1,27 @@
+// Questions that people ask first, answered from the numbers.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "report/facts.hpp"
+
+namespace plumb::harness {
+
+struct AnswerLine {
+  std::string backend;
+  Statement statement;
+  bool good = false;  ///< the engine is an answer to "who?"
+};
+
+struct Answer {
+  std::string question;
+  std::string verdict;            ///< the answer in a sentence
+  std::vector<AnswerLine> lines;  ///< by engine, the best first
+  std::string section;            ///< of the page that has it all: "cost"
+};
+
+/// Those that the results can answer.
+[[nodiscard]] std::vector<Answer> answers(const Study& study, const std::vector<CostLine>& costs);
+
+}  // namespace plumb::harness

@@ -1,0 +1,69 @@
+// What results say of an engine beyond verdicts: energy, friction, accuracy it never reaches, scenes where it is
+// beaten.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "report/cost.hpp"
+#include "report/study.hpp"
+
+namespace plumb::harness {
+
+/// A statement, and the run that shows it; null where many do.
+struct Statement {
+  std::string text;
+  const ResultRow* row = nullptr;
+};
+
+/// Energy over the engine's runs at its defaults.
+struct EnergyFacts {
+  std::size_t drifts = 0;                    ///< runs of scenes that conserve energy: metric energy_drift
+  double worst_drift = 0, median_drift = 0;  ///< largest on the way, relative
+  const ResultRow* drift_row = nullptr;
+  bool gains = false;          ///< the worst one ended with more than it began with
+  std::size_t injections = 0;  ///< runs of scenes that score it: metric energy_injected
+  double worst_injection = 0;  ///< relative to the largest energy
+  const ResultRow* injection_row = nullptr;
+};
+[[nodiscard]] EnergyFacts energy_of(const Study& study, const std::string& backend);
+/// "loses up to 98 % (A7 joint=ball), half of 8 runs stay within 0.3 %"; "" where nothing was measured.
+[[nodiscard]] Statement energy_statement(const EnergyFacts& facts);
+
+inline constexpr double conserving = 0.01;      ///< relative drift that an engine may have and be called conserving
+inline constexpr double injecting = 0.01;       ///< relative injection above which it is said to make energy
+inline constexpr double pyramid_spread = 0.15;  ///< of the stopping distance over headings: more is no cone
+inline constexpr double ideal_pyramid = 0.36;   ///< spread of a four-sided pyramid over 16 headings, in closed form
+inline constexpr double cone_spread = 0.02;     ///< the scene's threshold
+
+/// How the stopping distance depends on the heading (metric `spread` of the scene with slug sliding-stop).
+struct FrictionFacts {
+  const ResultRow* row = nullptr;  ///< at the defaults; null where nothing was measured. Of variants the worst
+  double spread = 0;
+  const ResultRow* best_row = nullptr;  ///< any configuration
+  double best_spread = 0;
+
+  [[nodiscard]] bool pyramid() const { return row && spread >= pyramid_spread; }
+};
+[[nodiscard]] FrictionFacts friction_of(const Study& study, const std::string& backend);
+
+/// Lines of the backend on which no configuration reaches target_errors[target], while another engine's does.
+[[nodiscard]] std::vector<const CostLine*> never_reached(const std::vector<CostLine>& costs, const std::string& backend,
+                                                         std::size_t target);
+
+/// Where another engine reaches the target for less.
+struct Beaten {
+  const CostLine *line, *by;
+  double factor;  ///< above 1: how many times dearer
+};
+/// The largest factor first.
+[[nodiscard]] std::vector<Beaten> beaten_at(const std::vector<CostLine>& costs, const std::string& backend,
+                                            std::size_t target);
+
+/// 0.35 as "35 %".
+[[nodiscard]] std::string percent_text(double share);
+/// "D1 H=50"
+[[nodiscard]] std::string row_title(const ResultRow& row);
+
+}  // namespace plumb::harness

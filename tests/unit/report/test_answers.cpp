@@ -1,0 +1,136 @@
+#include "report/answers.hpp"
+
+#include <gtest/gtest.h>
+
+#include "report/needs.hpp"
+#include "report/order.hpp"
+#include "report/robustness.hpp"
+#include "sample_rows.hpp"
+
+namespace plumb::harness {
+namespace {
+
+Json scene_row(const char* scene, const char* slug, const char* backend, double ms, const Json& metrics) {
+  Json row = testing::sample_row(scene, backend, 0.001, ms);
+  row["slug"] = slug;
+  row["metrics"] = metrics;
+  return row;
+}
+
+Json metric(double value, double error, const Json& threshold) {
+  Json out{{"value", value}, {"truth", 0}, {"error", error}, {"unit", "1"}, {"threshold", threshold}};
+  if (!threshold.is_null()) out["pass"] = error <= threshold.get<double>();
+  return out;
+}
+
+const Answer* find(const std::vector<Answer>& all, const std::string& words) {
+  for (const Answer& answer : all) {
+    if (answer.question.find(words) != std::string::npos) return &answer;
+  }
+  return nullptr;
+}
+
+TEST(Answers, TheTowerOfFiftyIsStoodByTheCheapestThatStandsIt) {
+  std::vector<Json> rows;
+  for (const auto& [backend, ms, fell] : {std::tuple{"a", 9.0, 0}, std::tuple{"b", 4.0, 0}, std::tuple{"c", 1.0, 1}}) {
+    rows.push_back(scene_row("D1", "tower", backend, ms, {{"stands", metric(1 - fell, fell, 0)}}));
+    rows.back()["params"]["H"] = 50;
+    rows.push_back(scene_row("D1", "tower", backend, 0.1, {{"stands", metric(1, 0, 0)}}));
+    rows.back()["params"]["H"] = 10;
+  }
+  const Study study(parse_rows(rows));
+  const std::vector<Answer> all = answers(study, cost_of_accuracy(study));
+  const Answer* tower = find(all, "tower of 50");
+  ASSERT_NE(tower, nullptr);
+  ASSERT_EQ(tower->lines.size(), 3u);
+  EXPECT_EQ(tower->verdict.rfind("b, at 400 ms", 0), 0u) << tower->verdict;
+  EXPECT_EQ(tower->lines[0].backend, "b");
+  EXPECT_EQ(tower->lines[1].backend, "a");
+  EXPECT_FALSE(tower->lines[2].good);
+  EXPECT_EQ(tower->lines[2].statement.text.rfind("never", 0), 0u);
+}
+
+TEST(Answers, EnergyIsConservedByWhomNoRunLosesOrGainsIt) {
+  const Study study(parse_rows({scene_row("A7", "pendulum", "a", 1, {{"energy_drift", metric(-0.9, 0.9, 0.05)}}),
+                                scene_row("A9", "double", "a", 1, {{"energy_drift", metric(0, 0.001, 0.05)}}),
+                                scene_row("A7", "pendulum", "b", 1, {{"energy_drift", metric(0.001, 0.002, 0.05)}})}));
+  const std::vector<Answer> all = answers(study, cost_of_accuracy(study));
+  const Answer* energy = find(all, "energy");
+  ASSERT_NE(energy, nullptr);
+  EXPECT_EQ(energy->verdict.rfind("b, within", 0), 0u) << energy->verdict;
+  EXPECT_EQ(energy->lines[1].statement.text.rfind("loses up to 90 % (A7)", 0), 0u) << energy->lines[1].statement.text;
+}
+
+TEST(Answers, APyramidIsToldByTheSpreadOfHeadings) {
+  const Study study(parse_rows({scene_row("C2", "sliding-stop", "a", 1, {{"spread", metric(0.35, 0.35, 0.02)}}),
+                                scene_row("C2", "sliding-stop", "b", 1, {{"spread", metric(0.01, 0.01, 0.02)}}),
+                                scene_row("C2", "sliding-stop", "c", 1, {{"spread", metric(0.04, 0.04, 0.02)}})}));
+  EXPECT_TRUE(friction_of(study, "a").pyramid());
+  EXPECT_FALSE(friction_of(study, "c").pyramid());
+  const std::vector<Answer> all = answers(study, cost_of_accuracy(study));
+  const Answer* friction = find(all, "pyramid");
+  ASSERT_NE(friction, nullptr);
+  EXPECT_EQ(friction->verdict.rfind("That of a at", 0), 0u) << friction->verdict;
+  EXPECT_EQ(friction->lines.front().backend, "a");
+}
+
+TEST(Answers, LosingIsNeverReachingWhatAnotherReachesOrPayingMore) {
+  const Study study(parse_rows({testing::sample_row("S1", "a", 0.5, 1), testing::sample_row("S1", "b", 0.001, 1),
+                                testing::sample_row("S2", "a", 0.001, 1), testing::sample_row("S2", "b", 0.001, 7)}));
+  const std::vector<CostLine> costs = cost_of_accuracy(study);
+  ASSERT_EQ(never_reached(costs, "a", 1).size(), 1u);
+  EXPECT_EQ(never_reached(costs, "a", 1)[0]->problem->scene, "S1");
+  EXPECT_TRUE(never_reached(costs, "b", 1).empty());
+  ASSERT_EQ(beaten_at(costs, "b", 1).size(), 1u);
+  EXPECT_DOUBLE_EQ(beaten_at(costs, "b", 1)[0].factor, 7);
+  const std::vector<Answer> all = answers(study, costs);
+  const Answer* losing = find(all, "lose");
+  ASSERT_NE(losing, nullptr);
+  EXPECT_NE(losing->lines[0].statement.text.find("S1 error_of_it"), std::string::npos);
+  EXPECT_NE(losing->lines[1].statement.text.find("7.00\u00d7 what a does"), std::string::npos);
+}
+
+TEST(Needs, PairsAreEqualButForTheNeeds) {
+  std::vector<Json> rows{testing::sample_row("S", "b", 0.1, 2), testing::sample_row("S", "b", 0.1, 3),
+                         testing::sample_row("T", "b", 0.1, 1), testing::sample_row("T", "b", 0.1, 4),
+                         testing::sample_row("U", "b", 0.1, 9)};
+  rows[1]["needs"] = rows[3]["needs"] = rows[4]["needs"] = "scene+sleeping";
+  rows[0]["needs"] = "scene";
+  const Study study(parse_rows(rows));
+  const std::vector<NeedCost> costs = costs_of_needs(study);
+  ASSERT_EQ(costs.size(), 1u);
+  EXPECT_EQ(costs[0].need, "sleeping");
+  ASSERT_EQ(costs[0].pairs.size(), 2u) << "U has no run without";
+  EXPECT_DOUBLE_EQ(costs[0].pairs[0].factor, 4);
+  EXPECT_DOUBLE_EQ(costs[0].median, 2.75);
+}
+
+TEST(Robustness, WorstMedianAndCountOverScenes) {
+  std::vector<Json> rows;
+  for (const auto& [scene, value] : {std::pair{"S1", 0.001}, std::pair{"S2", 0.2}, std::pair{"S3", 0.005}})
+    rows.push_back(scene_row(scene, "s", "b", 1, {{"energy_injected", metric(value, value, nullptr)}}));
+  rows.push_back(scene_row("S1", "s", "b", 1, {{"energy_injected", metric(9, 9, nullptr)}}));
+  rows.back()["dt"] = 0.001;
+  const Study study(parse_rows(rows));
+  const std::vector<RobustnessLine> lines = robustness(study);
+  ASSERT_EQ(lines.size(), 1u);
+  const RobustnessCell& cell = lines[0].cells.at(0).value();
+  EXPECT_EQ(cell.worst, 0.2) << "at the defaults";
+  EXPECT_EQ(cell.row->scene, "S2");
+  EXPECT_EQ(cell.median, 0.005);
+  EXPECT_EQ(cell.beyond, 1u);
+  EXPECT_EQ(cell.runs, 3u);
+}
+
+TEST(Order, IsTheSlopeInLogarithms) {
+  EXPECT_FALSE(fit_order({{0.1, 1}, {0.05, 0.5}})) << "two points lie on a line in any case";
+  const auto order = fit_order({{0.1, 0.02}, {0.05, 0.005}, {0.025, 0.00125}, {0.01, 0}});
+  ASSERT_TRUE(order);
+  EXPECT_EQ(order->points, 3u) << "zero has no logarithm";
+  EXPECT_NEAR(order->power, 2, 1e-9);
+  EXPECT_NEAR(order->at(0.2), 0.08, 1e-9);
+  EXPECT_EQ(order_text(*order), "2.00 (2.00 to 2.00)");
+}
+
+}  // namespace
+}  // namespace plumb::harness

@@ -1,0 +1,80 @@
+#include "report/sample.hpp"
+
+#include <gtest/gtest.h>
+
+#include "report/cost.hpp"
+#include "sample_rows.hpp"
+
+namespace plumb::harness {
+namespace {
+
+std::vector<Json> seeds(const std::vector<double>& errors) {
+  std::vector<Json> rows;
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    rows.push_back(testing::sample_row("S", "b", errors[i], static_cast<double>(i + 1)));
+    rows.back()["params"] = {{"H", 5}, {"seed", i}};
+  }
+  return rows;
+}
+
+TEST(Sample, RowsThatDifferInTheSeedOnlyAreOneDistribution) {
+  const Study study(parse_rows(seeds({0.3, 0.1, 0.2})));
+  ASSERT_EQ(study.problems.size(), 1u);
+  EXPECT_EQ(study.problems[0].variant, "H=5");
+  const std::vector<Sample> samples = samples_of(study.problems[0], "b");
+  ASSERT_EQ(samples.size(), 1u);
+  const auto error = samples[0].error("error_of_it");
+  ASSERT_TRUE(error && error->band);
+  EXPECT_EQ(error->value, 0.2);
+  EXPECT_EQ(error->band->low, 0.1);
+  EXPECT_EQ(error->band->high, 0.3);
+  EXPECT_EQ(samples[0].cost()->value, 200) << "the median of 1, 2, 3 ms at 0.01 s";
+}
+
+TEST(Sample, OtherSettingsAreAnotherOne) {
+  std::vector<Json> rows = seeds({0.3, 0.1, 0.2});
+  rows[2]["settings"]["iterations"] = 40;
+  const Study study(parse_rows(rows));
+  EXPECT_EQ(samples_of(study.problems[0], "b").size(), 2u);
+}
+
+TEST(Sample, ASeedThatDidNotComeThroughIsInfinitelyWrong) {
+  std::vector<Json> rows = seeds({0.1, 0.2, 0.3});
+  rows[0]["status"] = "crashed";
+  const Study study(parse_rows(rows));
+  EXPECT_EQ(samples_of(study.problems[0], "b")[0].error("error_of_it")->value, 0.3);
+  rows[1]["status"] = "crashed";
+  const Study most(parse_rows(rows));
+  EXPECT_FALSE(samples_of(most.problems[0], "b")[0].error("error_of_it")) << "the median is infinite";
+}
+
+TEST(Sample, ContendedTimesDoNotCountAndErrorsDo) {
+  std::vector<Json> rows{testing::sample_row("S", "b", 0.005, 1), testing::sample_row("S", "b", 0.005, 4)};
+  rows[0]["contended"] = {{"load", 7.5}, {"why", "load 7.5 on 2 cores"}};
+  rows[1]["time"]["ci95"] = {3.9, 4.2};
+  const Study study(parse_rows(rows));
+  EXPECT_EQ(study.rows[0].contended, "load 7.5 on 2 cores");
+  const std::vector<CostLine> costs = cost_of_accuracy(study);
+  ASSERT_TRUE(costs.at(0).at[1]);
+  EXPECT_EQ(costs[0].at[1]->row->index, 1u);
+  ASSERT_TRUE(costs[0].at[1]->band);
+  EXPECT_DOUBLE_EQ(costs[0].at[1]->band->low, 390);
+  const Study alone(parse_rows({rows[0]}));
+  const std::vector<CostLine> none = cost_of_accuracy(alone);
+  EXPECT_FALSE(none.at(0).at[0]);
+  EXPECT_TRUE(none.at(0).contended) << "which is not the same as never";
+}
+
+TEST(Sample, ATowerThatFellHasReachedNothing) {
+  std::vector<Json> rows{testing::sample_row("S", "b", 1e-5, 1), testing::sample_row("S", "b", 0.005, 4)};
+  rows[0]["metrics"]["stands"] = {{"error", 1}, {"threshold", 0}, {"pass", false}};
+  rows[1]["metrics"]["stands"] = {{"error", 0}, {"threshold", 0}, {"pass", true}};
+  const Study study(parse_rows(rows));
+  for (const CostLine& line : cost_of_accuracy(study)) {
+    ASSERT_TRUE(line.at[1]) << line.metric;
+    EXPECT_EQ(line.at[1]->row->index, 1u) << line.metric;
+  }
+}
+
+}  // namespace
+}  // namespace plumb::harness
