@@ -75,7 +75,8 @@
     if (row.m.length) {
       panes.appendChild(pane('Metrics', table(['metric', 'value', 'unit', 'truth', 'error', 'without known bias', 'threshold', 'gold', ''],
         row.m.map(function (m) {
-          return { cells: [m[9] ? m[0] + ' (' + m[9] + ')' : m[0], short(m[1], 7), m[2], short(m[3], 7), short(m[4]), short(m[5]), limit(m[6]), limit(m[7]), ''], chip: m[8] };
+          var of = data.metrics[m[0]];  // name, unit, truth, threshold, gold, note
+          return { cells: [of[5] ? of[0] + ' (' + of[5] + ')' : of[0], short(m[1], 7), of[1], short(of[2], 7), short(m[2]), short(m[3]), limit(of[3]), limit(of[4]), ''], chip: m[4] };
         })), 'whole'));
     }
     var t = row.t, n = row.n, facts = [

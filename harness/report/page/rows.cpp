@@ -27,19 +27,26 @@ class Pool {
 
 Json number(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
 
-Json metric_data(const MetricResult& metric) {
+/// Eight digits: one more than the page shows, and half of what a double may take.
+Json short_digits(const std::optional<double>& value) {
+  return value ? Json::parse(fmt::format("{:.8g}", *value)) : Json();
+}
+
+/// What all runs of a scene share about a metric stands in the pool.
+Json metric_data(const MetricResult& metric, Pool& metrics) {
   const char* verdict = !metric.scored()             ? ""
                         : metric.is_gold             ? "gold"
                         : metric.pass.value_or(true) ? "pass"
                                                      : "failed";
-  return Json::array({metric.name, number(metric.value), metric.unit, number(metric.truth), number(metric.error),
-                      number(metric.unbiased_error), number(metric.threshold), number(metric.gold), verdict,
-                      metric.note});
+  const std::size_t shared = metrics.index_of(Json::array(
+      {metric.name, metric.unit, number(metric.truth), number(metric.threshold), number(metric.gold), metric.note}));
+  return Json::array(
+      {shared, short_digits(metric.value), short_digits(metric.error), short_digits(metric.unbiased_error), verdict});
 }
 
-Json row_data(const PageContext& context, const ResultRow& row, Pool& settings, Pool& machines) {
+Json row_data(const PageContext& context, const ResultRow& row, Pool& settings, Pool& machines, Pool& shared_metrics) {
   Json metrics = Json::array();
-  for (const MetricResult& metric : row.metrics) metrics.push_back(metric_data(metric));
+  for (const MetricResult& metric : row.metrics) metrics.push_back(metric_data(metric, shared_metrics));
   Json changed = Json::array();
   for (const auto& [name, value] : context.study.changed_settings(row)) changed.push_back(name);
   Json phases = Json::array();
@@ -92,17 +99,18 @@ std::string rows_section(const PageContext& context) {
       R"(<th scope="col" class="name" data-sort>backend</th><th scope="col" class="text" data-sort>configuration</th>)"
       R"(<th scope="col" class="text" data-sort>result</th><th scope="col" data-sort>ms per step</th><th )"
       R"(scope="col" class="text" data-sort>decided by</th></tr></thead><tbody>)";
-  Pool settings, machines;
+  Pool settings, machines, metrics;
   std::vector<Json> data(context.study.rows.size());
   const std::size_t first = context.study.rows.empty() ? 0 : context.study.rows.front().index;
   for (const Problem& problem : context.study.problems) {
     for (const ResultRow* row : problem.rows) {
       out += table_row(context, problem, *row);
-      data[row->index - first] = row_data(context, *row, settings, machines);
+      data[row->index - first] = row_data(context, *row, settings, machines, metrics);
     }
   }
   out += "</tbody></table></div></section>";
-  const Json all{{"settings", settings.values()}, {"machines", machines.values()}, {"rows", data}};
+  const Json all{
+      {"settings", settings.values()}, {"machines", machines.values()}, {"metrics", metrics.values()}, {"rows", data}};
   return out + fmt::format(R"(<script type="application/json" class="data" data-first="{}">{}</script>)", first,
                            script_json(all));
 }
