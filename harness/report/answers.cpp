@@ -179,6 +179,9 @@ std::string names_of(const std::vector<const CostLine*>& lines) {
 Answer losing_answer(const Study& study, const std::vector<CostLine>& costs) {
   Answer answer{"Where does each engine lose?", "", {}, "matrix"};
   for (const std::string& backend : study.backends) {
+    const bool took_part =
+        std::any_of(costs.begin(), costs.end(), [&](const CostLine& line) { return line.backend == backend; });
+    if (!took_part) continue;
     std::vector<std::string> parts;
     const ResultRow* shown = nullptr;
     const std::vector<const CostLine*> missed = never_reached(costs, backend, one_percent);
