@@ -146,7 +146,9 @@ std::vector<FoundBackend> find_backends() {
 }
 
 const PlumbBackendTable* negotiate(PlumbOpenFunction open, const std::string& name, const PlumbHost* host) {
-  constexpr std::uint32_t oldest = PLUMB_MAKE_VERSION(1, 0), newest = PLUMB_VERSION;
+  // Minor versions append only, so every later one of this major will do: what it has more, nobody here calls.
+  constexpr std::uint32_t oldest = PLUMB_MAKE_VERSION(1, 0),
+                          newest = PLUMB_MAKE_VERSION(PLUMB_VERSION_MAJOR(PLUMB_VERSION), 0xffff);
   const PlumbOpenRequest request = {sizeof request, oldest, newest, 0, host};
   PlumbOpenReply reply{};
   reply.struct_size = sizeof reply;

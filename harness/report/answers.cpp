@@ -56,10 +56,10 @@ std::string price(const Study& study, const Reached& reached) {
 }
 
 /// What reaching the target on the problem's metric costs, the cheapest first, then who never does.
-Answer cost_answer(const Study& study, const std::vector<CostLine>& costs, const Problem& problem,
-                   const std::string& metric, std::size_t target, const std::string& question,
-                   const std::string& verb) {
-  Answer answer{question, "", {}, "cost"};
+AnsweredQuestion cost_answer(const Study& study, const std::vector<CostLine>& costs, const Problem& problem,
+                             const std::string& metric, std::size_t target, const std::string& question,
+                             const std::string& verb) {
+  AnsweredQuestion answer{question, "", {}, "cost"};
   std::vector<const CostLine*> lines;
   for (const CostLine& line : costs) {
     if (line.problem == &problem && line.metric == metric && !line.contended) lines.push_back(&line);
@@ -91,8 +91,8 @@ Answer cost_answer(const Study& study, const std::vector<CostLine>& costs, const
   return answer;
 }
 
-Answer energy_answer(const Study& study) {
-  Answer answer{"Who conserves energy?", "", {}, "robust"};
+AnsweredQuestion energy_answer(const Study& study) {
+  AnsweredQuestion answer{"Who conserves energy?", "", {}, "robust"};
   std::vector<std::pair<double, AnswerLine>> lines;
   for (const std::string& backend : study.backends) {
     const EnergyFacts facts = energy_of(study, backend);
@@ -112,8 +112,8 @@ Answer energy_answer(const Study& study) {
   return answer;
 }
 
-Answer friction_answer(const Study& study) {
-  Answer answer{"Whose friction is a pyramid instead of a cone?", "", {}, "matrix"};
+AnsweredQuestion friction_answer(const Study& study) {
+  AnsweredQuestion answer{"Whose friction is a pyramid instead of a cone?", "", {}, "matrix"};
   std::vector<std::pair<double, AnswerLine>> lines;
   std::vector<std::string> pyramids;
   for (const std::string& backend : study.backends) {
@@ -139,8 +139,8 @@ Answer friction_answer(const Study& study) {
   return answer;
 }
 
-Answer reach_answer(const Study& study, const std::vector<CostLine>& costs) {
-  Answer answer{"Who gets within 1 % most often, and who is cheapest there?", "", {}, "profiles"};
+AnsweredQuestion reach_answer(const Study& study, const std::vector<CostLine>& costs) {
+  AnsweredQuestion answer{"Who gets within 1 % most often, and who is cheapest there?", "", {}, "profiles"};
   std::vector<std::pair<std::size_t, AnswerLine>> lines;
   for (const std::string& backend : study.backends) {
     std::size_t ran = 0, reached = 0;
@@ -176,8 +176,8 @@ std::string names_of(const std::vector<const CostLine*>& lines) {
   return out;
 }
 
-Answer losing_answer(const Study& study, const std::vector<CostLine>& costs) {
-  Answer answer{"Where does each engine lose?", "", {}, "matrix"};
+AnsweredQuestion losing_answer(const Study& study, const std::vector<CostLine>& costs) {
+  AnsweredQuestion answer{"Where does each engine lose?", "", {}, "matrix"};
   for (const std::string& backend : study.backends) {
     const bool took_part =
         std::any_of(costs.begin(), costs.end(), [&](const CostLine& line) { return line.backend == backend; });
@@ -205,9 +205,9 @@ Answer losing_answer(const Study& study, const std::vector<CostLine>& costs) {
 
 }  // namespace
 
-std::vector<Answer> answers(const Study& study, const std::vector<CostLine>& costs) {
-  std::vector<Answer> all;
-  const auto add = [&](Answer answer) {
+std::vector<AnsweredQuestion> answers(const Study& study, const std::vector<CostLine>& costs) {
+  std::vector<AnsweredQuestion> all;
+  const auto add = [&](AnsweredQuestion answer) {
     if (!answer.lines.empty()) all.push_back(std::move(answer));
   };
   if (const Problem* tower = problem_of(study, "tower", "H", 50)) {

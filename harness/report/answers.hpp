@@ -14,7 +14,7 @@ struct AnswerLine {
   bool good = false;  ///< the engine is an answer to "who?"
 };
 
-struct Answer {
+struct AnsweredQuestion {
   std::string question;
   std::string verdict;            ///< the answer in a sentence
   std::vector<AnswerLine> lines;  ///< by engine, the best first
@@ -22,6 +22,6 @@ struct Answer {
 };
 
 /// Those that the results can answer.
-[[nodiscard]] std::vector<Answer> answers(const Study& study, const std::vector<CostLine>& costs);
+[[nodiscard]] std::vector<AnsweredQuestion> answers(const Study& study, const std::vector<CostLine>& costs);
 
 }  // namespace plumb::harness

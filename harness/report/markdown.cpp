@@ -31,10 +31,10 @@ std::string matrix_cell(const ResultRow* row) {
 }
 
 void write_answers(std::ostream& out, const Study& study, const std::vector<CostLine>& costs) {
-  const std::vector<Answer> all = answers(study, costs);
+  const std::vector<AnsweredQuestion> all = answers(study, costs);
   if (all.empty()) return;
   out << "## Answers\n\n";
-  for (const Answer& answer : all) {
+  for (const AnsweredQuestion& answer : all) {
     out << "**" << markdown_text(answer.question) << "** " << markdown_text(answer.verdict) << "\n\n";
     for (const AnswerLine& line : answer.lines)
       out << "- " << markdown_text(line.backend) << ": " << markdown_text(line.statement.text) << '\n';

@@ -51,7 +51,7 @@ Json worst_contention(const std::vector<Answer>& answers) {
 }
 
 Json confidence_of(const std::vector<double>& runs) {
-  const std::optional<Interval> interval = median_interval(runs);
+  const std::optional<MedianInterval> interval = median_interval(runs);
   return interval ? Json::array({interval->low, interval->high}) : Json(nullptr);
 }
 

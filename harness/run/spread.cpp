@@ -32,7 +32,7 @@ double student_quantile(std::size_t degrees) {
   return high;
 }
 
-std::optional<Interval> median_interval(const std::vector<double>& values) {
+std::optional<MedianInterval> median_interval(const std::vector<double>& values) {
   const std::size_t n = values.size();
   if (n < 2 || std::any_of(values.begin(), values.end(), [](double v) { return !(v > 0); })) return std::nullopt;
   double mean = 0, square = 0;
@@ -40,7 +40,7 @@ std::optional<Interval> median_interval(const std::vector<double>& values) {
   for (const double value : values) square += std::pow(std::log(value) - mean, 2);
   const double error = std::sqrt(square / static_cast<double>(n - 1) / static_cast<double>(n));
   const double half = student_quantile(n - 1) * error;
-  return Interval{std::exp(mean - half), std::exp(mean + half)};
+  return MedianInterval{std::exp(mean - half), std::exp(mean + half)};
 }
 
 std::optional<double> relative_spread(const std::vector<double>& values) {

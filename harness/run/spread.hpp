@@ -6,14 +6,14 @@
 
 namespace plumb::harness {
 
-struct Interval {
+struct MedianInterval {
   double low, high;
 };
 
 /// The 95 % confidence interval of the median of positive values, taken as log-normal as times are: Student's interval
 /// of the mean of the logarithms, whose exponential is that distribution's median. None for fewer than two values or
 /// values that are not above zero.
-[[nodiscard]] std::optional<Interval> median_interval(const std::vector<double>& values);
+[[nodiscard]] std::optional<MedianInterval> median_interval(const std::vector<double>& values);
 
 /// Half of the interval's width over its geometric middle; none where there is no interval.
 [[nodiscard]] std::optional<double> relative_spread(const std::vector<double>& values);

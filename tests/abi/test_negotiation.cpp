@@ -85,6 +85,20 @@ TEST(Negotiation, VersionsThatWereNotOffered) {
       PLUMB_E_VERSION, "did not offer");
 }
 
+TEST(Negotiation, ALaterMinorVersionIsTaken) {
+  const PlumbBackendTable* table = negotiate(
+      [](const PlumbOpenRequest* request, PlumbOpenReply* reply) -> PlumbResult {
+        static PlumbBackendTable later = honest();
+        later.version = PLUMB_VERSION + 1;
+        if (later.version > request->max_version) return PLUMB_E_VERSION;
+        reply->version = later.version;
+        reply->table = &later;
+        return PLUMB_OK;
+      },
+      "later");
+  EXPECT_EQ(table->version, PLUMB_VERSION + 1);
+}
+
 TEST(Negotiation, TablesThatAreNotThere) {
   refused(
       [](const PlumbOpenRequest* request, PlumbOpenReply* reply) -> PlumbResult {

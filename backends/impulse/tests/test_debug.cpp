@@ -111,7 +111,7 @@ TEST(DebugBodies, IslandsOutlastSleep) {
   }
 }
 
-TEST(Debug, AskingChangesNothing) {
+TEST(DebugStep, AskingChangesNothing) {
   Scene asked{engine(), kNeeds, kDown, 1}, left{engine(), kNeeds, kDown, 1};
   const Tray one(asked, 4, 3), other(left, 4, 3);
   for (int step = 0; step < 60; ++step) {

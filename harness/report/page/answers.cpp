@@ -19,12 +19,12 @@ std::string line_item(const PageContext& context, const AnswerLine& line) {
 }  // namespace
 
 std::string answers_section(const PageContext& context) {
-  const std::vector<Answer> all = answers(context.study, context.costs);
+  const std::vector<AnsweredQuestion> all = answers(context.study, context.costs);
   if (all.empty()) return "";
   std::string out = section_start(context, "answers", "Answers") +
                     R"(<p class="about">Made from the numbers below; each line )"
                     R"(leads to the run that shows it.</p><div class="answers">)";
-  for (const Answer& answer : all) {
+  for (const AnsweredQuestion& answer : all) {
     std::string lines;
     for (const AnswerLine& line : answer.lines) lines += line_item(context, line);
     out += fmt::format(

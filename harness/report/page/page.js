@@ -116,7 +116,7 @@
     if (machine.hidden) choose(all('.machine').indexOf(machine));
     if (tr.hidden || tr.offsetParent === null) {
       document.getElementById('filter').value = document.getElementById('group').value = '';
-      all('[data-backend]').forEach(function (box) { box.checked = true; });
+      all('input[data-backend]').forEach(function (box) { box.checked = true; });
       hideBackends();
       filter();
     }
@@ -140,7 +140,7 @@
     });
   }
   function hideBackends() {
-    all('[data-backend]').forEach(function (box) { root.classList.toggle('hide' + box.dataset.backend, !box.checked); });
+    all('input[data-backend]').forEach(function (box) { root.classList.toggle('hide' + box.dataset.backend, !box.checked); });
     label();
   }
   function filter() {
@@ -157,7 +157,7 @@
   var pending = 0;
   document.getElementById('filter').addEventListener('input', function () { clearTimeout(pending); pending = setTimeout(filter, 120); });
   document.getElementById('group').addEventListener('change', filter);
-  all('[data-backend]').forEach(function (box) { box.addEventListener('change', hideBackends); });
+  all('input[data-backend]').forEach(function (box) { box.addEventListener('change', hideBackends); });
 
   // ---- what a diagram shows, among all runs ----
   document.addEventListener('click', function (event) {

@@ -23,8 +23,8 @@ Json metric(double value, double error, const Json& threshold) {
   return out;
 }
 
-const Answer* find(const std::vector<Answer>& all, const std::string& words) {
-  for (const Answer& answer : all) {
+const AnsweredQuestion* find(const std::vector<AnsweredQuestion>& all, const std::string& words) {
+  for (const AnsweredQuestion& answer : all) {
     if (answer.question.find(words) != std::string::npos) return &answer;
   }
   return nullptr;
@@ -39,8 +39,8 @@ TEST(Answers, TheTowerOfFiftyIsStoodByTheCheapestThatStandsIt) {
     rows.back()["params"]["H"] = 10;
   }
   const Study study(parse_rows(rows));
-  const std::vector<Answer> all = answers(study, cost_of_accuracy(study));
-  const Answer* tower = find(all, "tower of 50");
+  const std::vector<AnsweredQuestion> all = answers(study, cost_of_accuracy(study));
+  const AnsweredQuestion* tower = find(all, "tower of 50");
   ASSERT_NE(tower, nullptr);
   ASSERT_EQ(tower->lines.size(), 3u);
   EXPECT_EQ(tower->verdict.rfind("b, at 400 ms", 0), 0u) << tower->verdict;
@@ -54,8 +54,8 @@ TEST(Answers, EnergyIsConservedByWhomNoRunLosesOrGainsIt) {
   const Study study(parse_rows({scene_row("A7", "pendulum", "a", 1, {{"energy_drift", metric(-0.9, 0.9, 0.05)}}),
                                 scene_row("A9", "double", "a", 1, {{"energy_drift", metric(0, 0.001, 0.05)}}),
                                 scene_row("A7", "pendulum", "b", 1, {{"energy_drift", metric(0.001, 0.002, 0.05)}})}));
-  const std::vector<Answer> all = answers(study, cost_of_accuracy(study));
-  const Answer* energy = find(all, "energy");
+  const std::vector<AnsweredQuestion> all = answers(study, cost_of_accuracy(study));
+  const AnsweredQuestion* energy = find(all, "energy");
   ASSERT_NE(energy, nullptr);
   EXPECT_EQ(energy->verdict.rfind("b, within", 0), 0u) << energy->verdict;
   EXPECT_EQ(energy->lines[1].statement.text.rfind("loses up to 90 % (A7)", 0), 0u) << energy->lines[1].statement.text;
@@ -67,8 +67,8 @@ TEST(Answers, APyramidIsToldByTheSpreadOfHeadings) {
                                 scene_row("C2", "sliding-stop", "c", 1, {{"spread", metric(0.04, 0.04, 0.02)}})}));
   EXPECT_TRUE(friction_of(study, "a").pyramid());
   EXPECT_FALSE(friction_of(study, "c").pyramid());
-  const std::vector<Answer> all = answers(study, cost_of_accuracy(study));
-  const Answer* friction = find(all, "pyramid");
+  const std::vector<AnsweredQuestion> all = answers(study, cost_of_accuracy(study));
+  const AnsweredQuestion* friction = find(all, "pyramid");
   ASSERT_NE(friction, nullptr);
   EXPECT_EQ(friction->verdict.rfind("That of a at", 0), 0u) << friction->verdict;
   EXPECT_EQ(friction->lines.front().backend, "a");
@@ -83,8 +83,8 @@ TEST(Answers, LosingIsNeverReachingWhatAnotherReachesOrPayingMore) {
   EXPECT_TRUE(never_reached(costs, "b", 1).empty());
   ASSERT_EQ(beaten_at(costs, "b", 1).size(), 1u);
   EXPECT_DOUBLE_EQ(beaten_at(costs, "b", 1)[0].factor, 7);
-  const std::vector<Answer> all = answers(study, costs);
-  const Answer* losing = find(all, "lose");
+  const std::vector<AnsweredQuestion> all = answers(study, costs);
+  const AnsweredQuestion* losing = find(all, "lose");
   ASSERT_NE(losing, nullptr);
   EXPECT_NE(losing->lines[0].statement.text.find("S1 error_of_it"), std::string::npos);
   EXPECT_NE(losing->lines[1].statement.text.find("7.00\u00d7 what a does"), std::string::npos);
