@@ -64,7 +64,7 @@ TEST(Report, takes_all_results_of_a_folder_and_several_folders) {
   Json other = row_with(0.004, "X");
   other["scene"] = "X2";
   const std::string ranks =
-      folder_with("report_ranks", {{"results.jsonl", row_with(0.004, "X")}, {"results.1.jsonl", other}});
+      folder_with("report_ranks", {{"results.jsonl", row_with(0.004, "X")}, {"results-1.jsonl", other}});
   EXPECT_EQ(plumb({"report", ranks, "--json"}).rows().size(), 2u);
   const std::string elsewhere = folder_with("report_elsewhere", {{"results.jsonl", row_with(0.005, "Y")}});
   EXPECT_EQ(plumb({"report", ranks, elsewhere, "--json"}).rows().size(), 3u);
