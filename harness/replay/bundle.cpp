@@ -184,11 +184,14 @@ class Maker {
       momenta_most = std::max(momenta_most, momenta[f]);
     }
     add_series("energy", energy, "J", "kinetic and potential, by the referee");
-    const double reference = kinetic_most + (potential_most - potential_least);
+    // What hardly moves has hardly any range: there the energy itself, above y = 0, is the measure.
+    double reference = kinetic_most + (potential_most - potential_least);
+    for (const double value : energy) reference = std::max(reference, std::abs(value));
     if (reference > 0 && !from_.header.value("driven", false)) {
       for (const double value : energy) energy_drift.push_back((value - energy.front()) / reference);
-      add_series("energy_drift", energy_drift, "1",
-                 "change of the energy since the start, of the largest kinetic energy and potential range");
+      add_series(
+          "energy_drift", energy_drift, "1",
+          "change of the energy since the start, of the largest kinetic energy and potential range, or of the energy");
     }
     if (momenta_most > 0 && from_.header.value("closed", false)) {
       const std::vector<double> x = numbers(layer, 2, 0), y = numbers(layer, 2, 1), z = numbers(layer, 2, 2);

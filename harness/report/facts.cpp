@@ -40,7 +40,7 @@ EnergyFacts energy_of(const Study& study, const std::string& backend) {
   for (const Problem& problem : study.problems) {
     const ResultRow* row = study.representative(problem, backend);
     if (!row || !row->completed()) continue;
-    if (const MetricResult* metric = row->metric("energy_drift"); metric && metric->error) {
+    if (const MetricResult* metric = row->metric("energy_drift"); metric && metric->scored() && metric->error) {
       drifts.push_back(*metric->error);
       if (!facts.drift_row || *metric->error > facts.worst_drift) {
         facts.worst_drift = *metric->error;

@@ -19,7 +19,7 @@ struct Statement {
 
 /// Energy over the engine's runs at its defaults.
 struct EnergyFacts {
-  std::size_t drifts = 0;                    ///< runs of scenes that conserve energy: metric energy_drift
+  std::size_t drifts = 0;                    ///< runs of scenes that score it: metric energy_drift
   double worst_drift = 0, median_drift = 0;  ///< largest on the way, relative
   const ResultRow* drift_row = nullptr;
   bool gains = false;          ///< the worst one ended with more than it began with

@@ -162,25 +162,21 @@ std::string describe_backend(const BackendOverview& o, bool alone) {
 }
 
 std::string describe_study(const Study& study) {
-  std::set<std::string> scenes, profiles, steps;
+  std::set<std::string> scenes, profiles;
+  std::set<double> steps;
   for (const ResultRow& row : study.rows) {
     scenes.insert(row.scene);
     if (!row.profile.empty()) profiles.insert(row.profile);
-    if (row.dt) steps.insert(dt_text(row.dt));
+    if (row.dt) steps.insert(*row.dt);
   }
-  std::vector<std::string> dts(steps.begin(), steps.end());
-  std::sort(dts.begin(), dts.end(), natural_less);
   std::string out = fmt::format(
       "{} on {} ({} with their variants), {}.", plural(study.backends.size(), "backend", "backends"),
       plural(scenes.size(), "scene", "scenes"), study.problems.size(), plural(study.rows.size(), "cell", "cells"));
   if (!profiles.empty()) out += fmt::format(" Profile {}.", fmt::join(profiles, ", "));
-  if (!dts.empty()) {
-    constexpr std::size_t most = 8;
-    const std::size_t shown = std::min(most, dts.size());
-    out += fmt::format(" Time step {} s{}.",
-                       fmt::join(dts.begin(), dts.begin() + static_cast<std::ptrdiff_t>(shown), ", "),
-                       dts.size() > shown ? " and others" : "");
-  }
+  if (steps.size() == 1) out += fmt::format(" Time step {} s.", dt_text(*steps.begin()));
+  if (steps.size() > 1)
+    out +=
+        fmt::format(" {} time steps from {} to {} s.", steps.size(), dt_text(*steps.begin()), dt_text(*steps.rbegin()));
   return out;
 }
 
