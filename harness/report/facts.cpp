@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "report/format.hpp"
-#include "report/statistics.hpp"
+#include "rows/statistics.hpp"
 
 namespace plumb::harness {
 namespace {

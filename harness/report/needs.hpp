@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "report/statistics.hpp"
 #include "report/study.hpp"
+#include "rows/statistics.hpp"
 
 namespace plumb::harness {
 

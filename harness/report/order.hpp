@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "report/statistics.hpp"
+#include "rows/statistics.hpp"
 
 namespace plumb::harness {
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "report/statistics.hpp"
+#include "rows/statistics.hpp"
 #include "run/json.hpp"
 
 namespace plumb::harness {

@@ -6,6 +6,7 @@
 #include <string>
 #include <unordered_map>
 
+#include "rows/results_folder.hpp"
 #include "scene/scene.hpp"
 
 namespace plumb::harness {
@@ -51,20 +52,6 @@ void read_into(std::istream& in, Results& results, Cells& cells) {
   }
 }
 
-/// Each process that worked on a study has a file of its own.
-std::vector<std::filesystem::path> files_of(const std::filesystem::path& where) {
-  if (!std::filesystem::is_directory(where)) return {where};
-  std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(where)) {
-    const std::string name = entry.path().filename().string();
-    if (name == "results.jsonl" || (name.starts_with("results-") && name.ends_with(".jsonl")))
-      files.push_back(entry.path());
-  }
-  std::sort(files.begin(), files.end());
-  if (files.empty()) files.push_back(where / "results.jsonl");
-  return files;
-}
-
 }  // namespace
 
 Results read_results(std::istream& in) {
@@ -77,7 +64,10 @@ Results read_results(std::istream& in) {
 Results read_results(const std::filesystem::path& where) {
   Results results;
   Cells cells;
-  for (const std::filesystem::path& file : files_of(where)) {
+  std::vector<std::filesystem::path> files{where};
+  if (std::filesystem::is_directory(where)) files = results_files(where);
+  if (files.empty()) files.push_back(where / "results.jsonl");  // which the message names
+  for (const std::filesystem::path& file : files) {
     std::ifstream in(file, std::ios::binary);
     if (!in) {
       throw UsageError("cannot read " + file.string() +

@@ -4,7 +4,7 @@
 #include <map>
 #include <set>
 
-#include "report/statistics.hpp"
+#include "rows/statistics.hpp"
 
 namespace plumb::harness {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "report/result_row.hpp"
-#include "report/statistics.hpp"
+#include "rows/statistics.hpp"
 
 namespace plumb::harness {
 

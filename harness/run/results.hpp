@@ -12,9 +12,6 @@
 
 namespace plumb::harness {
 
-/// results.jsonl and results-*.jsonl of a folder, in the order of their names.
-[[nodiscard]] std::vector<std::filesystem::path> results_files(const std::filesystem::path& folder);
-
 class ResultsFile {
  public:
   /// Makes the folder and the file, or opens what is there and reads the finished cells of all files. A line that is

@@ -5,7 +5,7 @@
 #include <optional>
 #include <set>
 
-#include "run/spread.hpp"
+#include "rows/statistics.hpp"
 
 namespace plumb::harness {
 
@@ -51,7 +51,7 @@ Json worst_contention(const std::vector<Answer>& answers) {
 }
 
 Json confidence_of(const std::vector<double>& runs) {
-  const std::optional<MedianInterval> interval = median_interval(runs);
+  const std::optional<Interval> interval = log_normal_interval(runs);
   return interval ? Json::array({interval->low, interval->high}) : Json(nullptr);
 }
 

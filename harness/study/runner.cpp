@@ -9,10 +9,10 @@
 #include <random>
 #include <set>
 
+#include "rows/statistics.hpp"
 #include "run/cell_workers.hpp"
 #include "run/machine.hpp"
 #include "run/row.hpp"
-#include "run/spread.hpp"
 #include "study/claims.hpp"
 #include "study/cost.hpp"
 #include "study/refine.hpp"

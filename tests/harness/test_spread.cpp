@@ -3,8 +3,8 @@
 
 #include <cmath>
 
+#include "rows/statistics.hpp"
 #include "run/contention.hpp"
-#include "run/spread.hpp"
 #include "study/cost.hpp"
 #include "study/refine.hpp"
 
@@ -12,17 +12,17 @@ namespace plumb::harness::testing {
 namespace {
 
 TEST(Spread, quantiles_are_those_of_the_tables) {
-  EXPECT_NEAR(student_quantile(1), 12.7062, 1e-4);
-  EXPECT_NEAR(student_quantile(2), 4.3027, 1e-4);
-  EXPECT_NEAR(student_quantile(5), 2.5706, 1e-4);
-  EXPECT_NEAR(student_quantile(10), 2.2281, 1e-4);
-  EXPECT_NEAR(student_quantile(1000), 1.9623, 1e-4);
+  EXPECT_NEAR(student_t(1), 12.7062, 1e-4);
+  EXPECT_NEAR(student_t(2), 4.3027, 1e-4);
+  EXPECT_NEAR(student_t(5), 2.5706, 1e-4);
+  EXPECT_NEAR(student_t(10), 2.2281, 1e-4);
+  EXPECT_NEAR(student_t(1000), 1.9623, 1e-4);
 }
 
 TEST(Spread, the_interval_is_about_the_geometric_mean) {
-  EXPECT_FALSE(median_interval({1}).has_value());
-  EXPECT_FALSE(median_interval({1, 0}).has_value());
-  const auto interval = median_interval({1, 2, 4});
+  EXPECT_FALSE(log_normal_interval({1}).has_value());
+  EXPECT_FALSE(log_normal_interval({1, 0}).has_value());
+  const auto interval = log_normal_interval({1, 2, 4});
   ASSERT_TRUE(interval.has_value());
   EXPECT_NEAR(std::sqrt(interval->low * interval->high), 2, 1e-12);
   EXPECT_NEAR(std::log(interval->high / 2), 4.302653 * std::log(2) / std::sqrt(3), 1e-6);

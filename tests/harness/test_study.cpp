@@ -11,7 +11,7 @@
 #include <thread>
 
 #include "program.hpp"
-#include "run/results.hpp"
+#include "rows/results_folder.hpp"
 #include "scene/scene.hpp"
 #include "study/study_file.hpp"
 

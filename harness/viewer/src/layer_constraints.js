@@ -1,7 +1,7 @@
 // The constraint graph: an edge for each constraint, in the colour whose constraints are solved at the same time.
 import { CylinderGeometry, MeshBasicMaterial } from 'three';
 import { kindColour, oklch } from './colour.js';
-import { Marks, writeAlong } from './marks.js';
+import { Marks, writeToPlace } from './marks.js';
 import { Partners } from './partners.js';
 import { kPose } from './replay.js';
 
@@ -36,17 +36,7 @@ export class ConstraintLayer {
         if (!replay.moves(body)) continue;
         const mark = marks.next(),
           p = body * kPose;
-        writeAlong(
-          marks.matrices,
-          mark * 16,
-          x,
-          y,
-          z,
-          poses[p] - x,
-          poses[p + 1] - y,
-          poses[p + 2] - z,
-          this.size * 0.6,
-        );
+        writeToPlace(marks.matrices, mark * 16, x, y, z, poses, p, this.size * 0.6);
         marks.colour(mark, rgb);
       }
     }

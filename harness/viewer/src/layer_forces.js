@@ -1,7 +1,7 @@
 // Contact forces as chains: from centre to contact to centre, as wide and as bright as the force along the normal.
 import { CylinderGeometry, MeshBasicMaterial } from 'three';
 import { forceMap } from './colour.js';
-import { Marks, writeAlong } from './marks.js';
+import { Marks, writeToPlace } from './marks.js';
 import { kPose } from './replay.js';
 
 const kLeast = 0.004; // of the range: what is less is not drawn
@@ -36,17 +36,7 @@ export class ForceLayer {
         if (!replay.moves(body)) continue;
         const p = body * kPose,
           mark = marks.next();
-        writeAlong(
-          marks.matrices,
-          mark * 16,
-          x,
-          y,
-          z,
-          poses[p] - x,
-          poses[p + 1] - y,
-          poses[p + 2] - z,
-          this.size * (0.25 + 1.6 * Math.sqrt(Math.min(t, 1))),
-        );
+        writeToPlace(marks.matrices, mark * 16, x, y, z, poses, p, this.size * (0.25 + 1.6 * Math.sqrt(Math.min(t, 1))));
         forceMap.write(t, marks.colours, mark * 3);
       }
     }

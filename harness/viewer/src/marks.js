@@ -135,3 +135,8 @@ export function writeAlong(out, offset, x, y, z, dx, dy, dz, width) {
   out[offset + 14] = z;
   out[offset + 15] = 1;
 }
+
+/** The same from (x, y, z) to the three numbers of `places` that begin at `first`. */
+export function writeToPlace(out, offset, x, y, z, places, first, width) {
+  writeAlong(out, offset, x, y, z, places[first] - x, places[first + 1] - y, places[first + 2] - z, width);
+}

@@ -1,4 +1,4 @@
-#include "report/statistics.hpp"
+#include "rows/statistics.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "report/statistics.hpp"
+#include "rows/statistics.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,21 +7,17 @@
 namespace plumb::harness {
 namespace {
 
-/// P(|T| <= limit): the density integrated over an angle, in which it is smooth for every number of degrees.
-double student_share(double limit, std::size_t degrees) {
-  // t = sqrt(v) tan(a) turns the density into cos(a)^(v - 1) up to a constant, which the whole range fixes.
-  const double v = static_cast<double>(degrees);
-  const auto integral = [&](double end) {
-    constexpr int parts = 400;  // Simpson
-    const double step = end / parts;
-    double sum = 0;
-    for (int i = 0; i <= parts; ++i) {
-      const double weight = i == 0 || i == parts ? 1 : i % 2 == 1 ? 4 : 2;
-      sum += weight * std::pow(std::max(0.0, std::cos(i * step)), v - 1);
-    }
-    return sum * step / 3;
-  };
-  return integral(std::atan(limit / std::sqrt(v))) / integral(std::numbers::pi / 2);
+/// The probability that |t| stays below a bound, in closed form for whole degrees of freedom (Abramowitz and Stegun
+/// 1964, 26.7.3 and 26.7.4).
+double two_sided(double t, std::size_t degrees) {
+  const double angle = std::atan2(t, std::sqrt(static_cast<double>(degrees)));
+  const double c = std::cos(angle), s = std::sin(angle);
+  double term = degrees % 2 == 1 ? c : 1, sum = degrees == 1 ? 0 : term;
+  for (std::size_t k = degrees % 2 == 1 ? 3 : 2; k + 1 < degrees; k += 2) {
+    term *= c * c * static_cast<double>(k - 1) / static_cast<double>(k);
+    sum += term;
+  }
+  return degrees % 2 == 1 ? 2 / std::numbers::pi * (angle + s * sum) : s * sum;
 }
 
 }  // namespace
@@ -57,12 +53,29 @@ std::optional<Interval> median_interval(std::vector<double> values, double confi
 
 double student_t(std::size_t degrees, double confidence) {
   double low = 0, high = 1;
-  while (student_share(high, degrees) < confidence && high < 1e6) high *= 2;
-  for (int i = 0; i < 60; ++i) {
+  while (two_sided(high, degrees) < confidence && high < 1e6) high *= 2;
+  for (int i = 0; i < 80; ++i) {
     const double middle = (low + high) / 2;
-    (student_share(middle, degrees) < confidence ? low : high) = middle;
+    (two_sided(middle, degrees) < confidence ? low : high) = middle;
   }
-  return (low + high) / 2;
+  return high;
+}
+
+std::optional<Interval> log_normal_interval(const std::vector<double>& values) {
+  const std::size_t n = values.size();
+  if (n < 2 || std::any_of(values.begin(), values.end(), [](double v) { return !(v > 0); })) return std::nullopt;
+  double mean = 0, square = 0;
+  for (const double value : values) mean += std::log(value) / static_cast<double>(n);
+  for (const double value : values) square += std::pow(std::log(value) - mean, 2);
+  const double error = std::sqrt(square / static_cast<double>(n - 1) / static_cast<double>(n));
+  const double half = student_t(n - 1) * error;
+  return Interval{std::exp(mean - half), std::exp(mean + half)};
+}
+
+std::optional<double> relative_spread(const std::vector<double>& values) {
+  const auto interval = log_normal_interval(values);
+  if (!interval) return std::nullopt;
+  return (interval->high - interval->low) / 2 / std::sqrt(interval->high * interval->low);
 }
 
 std::optional<LineFit> fit_line(const std::vector<double>& x, const std::vector<double>& y) {

@@ -1,5 +1,4 @@
-// The few statistics that reports need: quantiles, an interval of a median, a line through points with its slope's
-// interval.
+// The few statistics of rows: quantiles, intervals of a median, a line through points with its slope's interval.
 #pragma once
 
 #include <cstddef>
@@ -24,6 +23,13 @@ struct Interval {
 
 /// The value that a Student t variable of this many degrees of freedom stays below in magnitude with the confidence.
 [[nodiscard]] double student_t(std::size_t degrees, double confidence = 0.95);
+
+/// The 95 % confidence interval of the median of a few positive values, taken as log-normal as times are: Student's
+/// interval of the mean of the logarithms, whose exponential is that distribution's median. None for fewer than two
+/// values or values that are not above zero.
+[[nodiscard]] std::optional<Interval> log_normal_interval(const std::vector<double>& values);
+/// Half of that interval's width over its geometric middle; none where there is no interval.
+[[nodiscard]] std::optional<double> relative_spread(const std::vector<double>& values);
 
 /// y = offset + slope x by least squares.
 struct LineFit {
