@@ -50,7 +50,8 @@ struct Contact {
   Vec3<N> normal, tangent;
   Vec3<N> centre_a, centre_b;
   N friction, restitution, pull, tangent_step;
-  N count;  ///< of points
+  N count;              ///< of points
+  N rolling_radius[2];  ///< of a and b (rolling.hpp)
   ContactGive<N> give;
 
   PlanePoint<PerPoint<P, N>> place;
@@ -95,9 +96,9 @@ PLUMB_HD Contact<P, N> load_contact(const RowAccess<N>& row) {
     row.get_quad(point_field(p, kBlockInverse), quad);
     for (int q = 0; q < P; ++q) contact.block_inverse[q].at[i] = quad[q];
   }
-  N numbers[kAllFields - kGive];
+  N numbers[kDrift - kGive];
   PLUMB_UNROLL
-  for (std::uint32_t i = 0; i < kAllFields - kGive; i += 4) {
+  for (std::uint32_t i = 0; i < kDrift - kGive; i += 4) {
     row.get_quad(kGive + i, quad);
     for (std::uint32_t k = 0; k < 4; ++k) numbers[i + k] = quad[k];
   }
@@ -111,7 +112,8 @@ PLUMB_HD Contact<P, N> load_contact(const RowAccess<N>& row) {
   take(contact.give.friction);
   take(contact.give.stop_free);
   take(contact.give.stop_held);
-  contact.count = *next;
+  contact.count = *next++;
+  take(contact.rolling_radius);
   return contact;
 }
 
@@ -166,15 +168,18 @@ PLUMB_HD void warm_start_contact(const Contact<P, N>& contact, SolverBody<N>& a,
        b);
 }
 
-/// Separation of each point now that the bodies have moved, m.
+/// Separation of each point now that the bodies have moved, m. What rolls turns about the axis of what is round, which
+/// leaves the gap as it is.
 template <int P, class N>
 PLUMB_HD PerPoint<P, N> separations_now(const Contact<P, N>& contact, const SolverBody<N>& a, const SolverBody<N>& b) {
   const Vec3<N> n = contact.normal;
   const N at_centre = dot(displacement_at(b, contact.centre_b) - displacement_at(a, contact.centre_a), n);
   // n . (turn of b - turn of a) arm, by the turns' transposes
-  const Vec3<N> by_arm = change_by_turn(conjugate(b.rotated), n) - change_by_turn(conjugate(a.rotated), n);
+  const Vec3<N> by_b = change_by_turn(conjugate(b.rotated), n), by_a = change_by_turn(conjugate(a.rotated), n);
+  const Vec3<N> by_arm = by_b - by_a;
+  const N rolled = contact.rolling_radius[0] * dot(by_a, n) + contact.rolling_radius[1] * dot(by_b, n);
   const N along1 = dot(by_arm, contact.tangent), along2 = dot(by_arm, contact.bitangent());
-  return contact.separation + (at_centre + (contact.place.x * along1 + contact.place.y * along2));
+  return contact.separation + (at_centre + rolled + (contact.place.x * along1 + contact.place.y * along2));
 }
 
 }  // namespace plumb::impulse

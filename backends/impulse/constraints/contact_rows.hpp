@@ -1,5 +1,5 @@
 // Contact constraints as the solver reads them, in blocks of 32 slots: neighbouring threads of a GPU, and neighbouring
-// lanes of a CPU, read neighbouring numbers. 100 bytes a point in float, of four points.
+// lanes of a CPU, read neighbouring numbers. 104 bytes a point in float, of four points.
 //
 // The fields of a contact make whole quads. A GPU keeps a quad together and moves it at once; a CPU, whose lanes each
 // take one contact, keeps a field together.
@@ -43,11 +43,13 @@ constexpr Real kWaits = 2;
 constexpr std::uint32_t kGive = kRowFields + kManifoldPoints * kPointFields;
 constexpr std::uint32_t kGiveFields = 33;
 constexpr std::uint32_t kPointCount = kGive + kGiveFields;
+/// Radii of a and b where they are round there and roll (rolling.hpp), m.
+constexpr std::uint32_t kRollingRadius = kPointCount + 1;
 /// How fast the surface of b runs over that of a though neither body moves, along tangent and bitangent, m/s
 /// (belts.hpp).
-constexpr std::uint32_t kDrift = kPointCount + 1;
-constexpr std::uint32_t kAllFields = kGive + 36;
-static_assert(kManifoldPoints == 4 && kAllFields % 4 == 0 && kDrift + 2 == kAllFields);
+constexpr std::uint32_t kDrift = kRollingRadius + 2;
+constexpr std::uint32_t kAllFields = kDrift + 4;
+static_assert(kManifoldPoints == 4 && kAllFields % 4 == 0 && kDrift % 4 == 0);
 /// Impulses of a point summed over the sub-steps so far, N s: normal, tangent, bitangent.
 constexpr std::uint32_t kSumFields = 3 * kManifoldPoints;
 

@@ -5,6 +5,7 @@
 #include "constraints/contact.hpp"
 #include "constraints/contact_frame.hpp"
 #include "constraints/contact_rows.hpp"
+#include "constraints/rolling.hpp"
 #include "continuous/way.hpp"
 #include "exec/executor.hpp"
 #include "narrowphase/contact_cache.hpp"
@@ -26,10 +27,12 @@ struct ContactTime {
       : moved_a(time * a.linear), moved_b(time * b.linear), turn_a(a.turn(time)), turn_b(b.turn(time)) {}
   /// By how much a gap at the centre of the points, and at places about it, is smaller then.
   PLUMB_HD Real closed(const Vec& n, const Vec& t1, const Vec& centre_a, const Vec& centre_b,
-                       const PlanePoint<Real>& place) const {
+                       const PlanePoint<Real>& place, Real rolling_a, Real rolling_b) const {
     const Vec by_a = moved_a + change_by_turn(turn_a, centre_a), by_b = moved_b + change_by_turn(turn_b, centre_b);
-    const Vec by_arm = change_by_turn(conjugate(turn_b), n) - change_by_turn(conjugate(turn_a), n);
-    return dot(by_b - by_a, n) + place.x * dot(by_arm, t1) + place.y * dot(by_arm, cross(n, t1));
+    const Vec turned_b = change_by_turn(conjugate(turn_b), n), turned_a = change_by_turn(conjugate(turn_a), n);
+    const Vec by_arm = turned_b - turned_a;
+    const Real rolled = rolling_a * dot(turned_a, n) + rolling_b * dot(turned_b, n);
+    return dot(by_b - by_a, n) + rolled + place.x * dot(by_arm, t1) + place.y * dot(by_arm, cross(n, t1));
   }
 };
 
@@ -291,6 +294,10 @@ PLUMB_HD void PrepareContacts<kImpacts>::operator()(std::uint32_t j) const {
     centre_a = rotate(conjugate(at.turn_a), centre_a);
     centre_b = rotate(conjugate(at.turn_b), centre_b);
   }
+  const Real rolling_a = rolling_radius(proxies.shapes[proxy_a.shape], shape_pose(proxy_a, bodies.orientation[a]), n);
+  const Real rolling_b = rolling_radius(proxies.shapes[proxy_b.shape], shape_pose(proxy_b, bodies.orientation[b]), n);
+  numbers.at[kRollingRadius] = rolling_a;
+  numbers.at[kRollingRadius + 1] = rolling_b;
   numbers.put(kCentreA, centre_a);
   numbers.put(kCentreB, centre_b);
   numbers.at[kFriction] = sqrt(proxy_a.friction * proxy_b.friction);
@@ -311,7 +318,8 @@ PLUMB_HD void PrepareContacts<kImpacts>::operator()(std::uint32_t j) const {
     numbers.at[field(kPlace) + 1] = places[p].y;
     numbers.at[field(kSeparation)] = found.points[p].separation;
     if (kImpacts && closes_at > 0)
-      numbers.at[field(kSeparation)] = found.points[p].separation - then().closed(n, t1, centre_a, centre_b, places[p]);
+      numbers.at[field(kSeparation)] =
+          found.points[p].separation - then().closed(n, t1, centre_a, centre_b, places[p], rolling_a, rolling_b);
     numbers.at[field(kNormalImpulse)] = warm_start * kept.normal_impulse[p];
     numbers.at[field(kTangentImpulse)] = warm_start * kept.tangent_impulse[0][p];
     numbers.at[field(kTangentImpulse) + 1] = warm_start * kept.tangent_impulse[1][p];

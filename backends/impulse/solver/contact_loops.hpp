@@ -82,8 +82,8 @@ PLUMB_HD void work_on_surfaces(const RowAccess<N>& row, C& contact, SolverBody<N
                                const Work& work) {
   if constexpr (kBelts) {
     N quad[4];
-    row.get_quad(kDrift - 2, quad);
-    const Vec3<N> own = b.linear, drift = quad[2] * contact.tangent + quad[3] * contact.bitangent();
+    row.get_quad(kDrift, quad);
+    const Vec3<N> own = b.linear, drift = quad[0] * contact.tangent + quad[1] * contact.bitangent();
     const Vec3<N> before = b.linear = own + drift;
     work(row, contact, a, b);
     b.linear = own + (b.linear - before);
