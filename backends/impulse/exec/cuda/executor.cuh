@@ -137,6 +137,7 @@ class Executor {
   template <class F>
   void record(Recording& recording, const F& f) {
     if (recording.graph_ == nullptr) {
+      const std::scoped_lock alone(recording_mutex());
       check_cuda(cudaStreamBeginCapture(stream_, cudaStreamCaptureModeThreadLocal), "cannot begin a recording");
       cudaGraph_t graph = nullptr;
       try {
