@@ -73,7 +73,7 @@ std::span<const MeasureEntry> scale_measures() {
   static constexpr const char* throughput_args[] = {"boxes", "stack", "reach"};
   static constexpr const char* crowd_args[] = {"size",        "reach", "floor", "wave", "repeat", "stack", "launch",
                                                "launch_time", "speed", "drum",  "rate", "radius", "length"};
-  static constexpr const char* broad_args[] = {"boxes", "extent", "clumps"};
+  static constexpr const char* broad_args[] = {"boxes", "extent", "clumps", "seed"};
   static constexpr MeasureEntry entries[] = {
       {"throughput", "depth, energy and order at the end of a large timed run", throughput_args, throughput},
       {"crowd", "depth, order and bounds of many bodies, driven or falling", crowd_args, measure_crowd},

@@ -17,9 +17,10 @@ namespace {
 using Pair = std::pair<std::uint32_t, std::uint32_t>;
 
 /// Anywhere in a cube about the origin; or in so many clumps of it, each tight.
-void place(Scene& scene, const std::vector<std::size_t>& bodies, double extent, std::size_t clumps) {
+void place(Scene& scene, const std::vector<std::size_t>& bodies, double extent, std::size_t clumps,
+           std::uint64_t seed) {
   constexpr double tight = 0.5;  // of the extent that the bodies of a clump would have among themselves
-  SplitMix64 random(1);
+  SplitMix64 random(seed);
   const auto within = [&](double side) {
     const auto coordinate = [&] { return side * (random.uniform() - 0.5); };
     const double x = coordinate(), y = coordinate(), z = coordinate();
@@ -51,7 +52,7 @@ std::vector<Pair> overlapping(const std::vector<referee::PosedShape>& shapes) {
 void measure_broad_phase(MeasureContext& context) {
   Scene scene = context.scene();
   place(scene, arg_bodies(scene, "boxes"), arg_number(scene, "extent"),
-        static_cast<std::size_t>(arg_number(scene, "clumps")));
+        static_cast<std::size_t>(arg_number(scene, "clumps")), static_cast<std::uint64_t>(arg_number(scene, "seed")));
   Simulation simulation = context.simulate(scene);
   IDebug* debug = simulation.world().debug();
   if (debug == nullptr) throw Error(PLUMB_E_UNSUPPORTED, "pairs of the broad phase");

@@ -79,7 +79,9 @@ void read_generator(const Node& node, SceneBuilder& builder) {
   Scene& scene = builder.scene;
   const std::size_t first_shape = scene.shapes.size();
   const std::size_t first_body = scene.bodies.size();
-  generate(generator, count, node.number_or("friction", 0.5), scene.shapes, scene.bodies);
+  std::uint32_t seed = 0;
+  if (const auto given = node.find("seed")) seed = static_cast<std::uint32_t>(given->integer(0, largest_seed));
+  generate(generator, count, seed, node.number_or("friction", 0.5), scene.shapes, scene.bodies);
   for (std::size_t i = first_shape; i < scene.shapes.size(); ++i)
     add_name(node, "shape", scene.shapes[i].name, builder.shape_index, i);
   for (std::size_t i = first_body; i < scene.bodies.size(); ++i)

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "plumb/nearest.hpp"
+#include "scene/generators.hpp"
 
 namespace plumb::harness {
 namespace {
@@ -19,6 +20,14 @@ double ceil_of(double x) { return std::ceil(x); }
 double round_of(double x) { return std::round(x); }
 double modulo(double a, double b) { return a - b * std::floor(a / b); }
 
+std::uint32_t whole(const char* what, double x) {
+  if (!(x >= 0 && x <= static_cast<double>(largest_seed)) || x != std::floor(x))
+    throw std::invalid_argument(
+        fmt::format("random(seed, i): {} {} is not a whole number from 0 to {}", what, x, largest_seed));
+  return static_cast<std::uint32_t>(x);
+}
+double random_of(double seed, double i) { return SplitMix64(whole("seed", seed), whole("i", i)).uniform(); }
+
 mu::Parser make_parser() {
   mu::Parser parser;
   parser.DefineConst("pi", std::numbers::pi);
@@ -27,6 +36,7 @@ mu::Parser make_parser() {
   parser.DefineFun("ceil", ceil_of);
   parser.DefineFun("round", round_of);
   parser.DefineFun("mod", modulo);
+  parser.DefineFun("random", random_of);
   return parser;
 }
 
@@ -73,8 +83,9 @@ double Expressions::evaluate(const std::string& text) {
       throw std::invalid_argument(fmt::format("\"{}\" is not an expression: {}", text, error.GetMsg()));
     std::string name = error.GetToken();
     if (const auto end = name.find_first_of(" +-*/^()<>=!&|?:,"); end != std::string::npos) name.resize(end);
-    std::vector<std::string> known{"pi", "sin", "cos", "tan", "asin", "acos",  "atan", "atan2", "sqrt", "exp",
-                                   "ln", "abs", "min", "max", "sign", "floor", "ceil", "round", "mod",  "deg"};
+    std::vector<std::string> known{"pi",    "sin",   "cos",  "tan",   "asin", "acos", "atan",
+                                   "atan2", "sqrt",  "exp",  "ln",    "abs",  "min",  "max",
+                                   "sign",  "floor", "ceil", "round", "mod",  "deg",  "random"};
     for (const auto& [defined, value] : values_) known.insert(known.begin(), defined);
     throw std::invalid_argument(fmt::format("\"{}\": unknown name \"{}\"{}", text, name, suggestion(name, known)));
   }

@@ -78,7 +78,7 @@ PlumbQuat random_orientation(double u1, double u2, double u3) {
   return {a * std::sin(t * u2), a * std::cos(t * u2), b * std::sin(t * u3), b * std::cos(t * u3)};
 }
 
-void pile(Writer& writer, std::int64_t count, double spacing, double layer) {
+void pile(Writer& writer, std::int64_t count, std::uint32_t seed, double spacing, double layer) {
   const auto columns = static_cast<std::int64_t>(std::nearbyint(std::pow(static_cast<double>(count) / 2, 1.0 / 3)));
   const std::int64_t k = std::max<std::int64_t>(columns, 1);
   const std::int64_t layers = (count + k * k - 1) / (k * k);
@@ -94,7 +94,7 @@ void pile(Writer& writer, std::int64_t count, double spacing, double layer) {
                  {0, height / 2, side * (half + .5)}, {half + 1, height / 2, .5});
   const double middle = static_cast<double>(k - 1) / 2;
   for (std::int64_t j = 0; j < count; ++j) {
-    SplitMix64 random(static_cast<std::uint64_t>(j));
+    SplitMix64 random(seed, static_cast<std::uint32_t>(j));
     const double jx = random.uniform(), jy = random.uniform(), jz = random.uniform();
     const double u1 = random.uniform(), u2 = random.uniform(), u3 = random.uniform();
     const auto ix = static_cast<double>(j % k);
@@ -123,14 +123,14 @@ const std::vector<std::string>& generator_words() {
   return words;
 }
 
-void generate(std::size_t generator, std::int64_t count, double friction, std::vector<SceneShape>& shapes,
-              std::vector<SceneBody>& bodies) {
+void generate(std::size_t generator, std::int64_t count, std::uint32_t seed, double friction,
+              std::vector<SceneShape>& shapes, std::vector<SceneBody>& bodies) {
   Writer writer(friction, shapes, bodies);
   switch (generator) {
     case 0: writer.ground(500); return pyramid(writer, count, 0, 0);
     case 1: writer.ground(std::max(500.0, 6 * static_cast<double>(count) + 50)); return many_pyramids(writer, count);
-    case 2: return pile(writer, count, 1.3, 1.5);
-    case 3: return pile(writer, count, 2, 2);
+    case 2: return pile(writer, count, seed, 1.3, 1.5);
+    case 3: return pile(writer, count, seed, 2, 2);
     default: throw std::logic_error("a generator beyond generator_words()");
   }
 }

@@ -9,10 +9,15 @@
 
 namespace plumb::harness {
 
-/// SplitMix64 (Steele, Lea & Flood 2014), the random numbers of the piles.
+/// The greatest seed, and the greatest number of a thing under it.
+inline constexpr std::int64_t largest_seed = 0xffffffff;
+
+/// SplitMix64 (Steele, Lea & Flood 2014), the random numbers of scenes.
 class SplitMix64 {
  public:
   explicit SplitMix64(std::uint64_t seed) : state_(seed) {}
+  /// The numbers of the i-th thing under a seed: others for every pair, and for seed 0 those of SplitMix64(i).
+  SplitMix64(std::uint32_t seed, std::uint32_t i) : SplitMix64((std::uint64_t{seed} << 32) + i) {}
   std::uint64_t next();
   double uniform();  ///< in [0, 1): the top 53 bits
 
@@ -24,8 +29,9 @@ class SplitMix64 {
 [[nodiscard]] const std::vector<std::string>& generator_words();
 
 /// Appends the shapes and bodies of a generator: statics (ground, wall0 ...) first, then cubes box0, box1 ...
-/// generator: an index into generator_words(). Bodies refer to shapes by their index in `shapes`.
-void generate(std::size_t generator, std::int64_t count, double friction, std::vector<SceneShape>& shapes,
-              std::vector<SceneBody>& bodies);
+/// generator: an index into generator_words(). seed: of the piles' random numbers; that of the published figures is 0.
+/// Bodies refer to shapes by their index in `shapes`.
+void generate(std::size_t generator, std::int64_t count, std::uint32_t seed, double friction,
+              std::vector<SceneShape>& shapes, std::vector<SceneBody>& bodies);
 
 }  // namespace plumb::harness

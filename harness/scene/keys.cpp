@@ -47,7 +47,7 @@ const std::map<std::string, std::vector<std::string>>& scene_keys() {
         "angular_damping",
         "filter",
         "user_data"}},
-      {"generator", {"generate", "count", "friction"}},
+      {"generator", {"generate", "count", "seed", "friction"}},
       {"frame", {"position", "orientation"}},
       {"limit", {"lower", "upper"}},
       {"motor", {"target_velocity", "max_force"}},

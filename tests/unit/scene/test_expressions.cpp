@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "scene/expressions.hpp"
+#include "scene/generators.hpp"
 #include "scene/units.hpp"
 
 namespace plumb::harness {
@@ -42,6 +43,25 @@ TEST(Expressions, CompareWordsWithTheirChoices) {
   EXPECT_EQ(e.evaluate("kind == cylinder"), 1);
   EXPECT_EQ(e.evaluate("kind == sphere"), 0);
   EXPECT_EQ(e.evaluate("kind != sphere ? 7 : 8"), 7);
+}
+
+TEST(Expressions, DrawNumbersThatDependOnSeedAndPlaceOnly) {
+  Expressions e;
+  e.set("i", 3);
+  const double drawn = e.evaluate("random(7, i)");
+  EXPECT_EQ(drawn, SplitMix64((std::uint64_t{7} << 32) + 3).uniform());
+  EXPECT_NE(drawn, e.evaluate("random(3, 7)"));
+  double sum = 0, squares = 0;
+  for (int i = 0; i < 10000; ++i) {
+    e.set("i", i);
+    const double x = e.evaluate("random(1, i)");
+    sum += x;
+    squares += x * x;
+  }
+  EXPECT_NEAR(sum / 1e4, 1. / 2, 0.01);  // 3.5 standard deviations of the mean
+  EXPECT_NEAR(squares / 1e4, 1. / 3, 0.01);
+  EXPECT_NE(refusal(e, "random(0.5, 1)").find("seed 0.5 is not a whole number"), std::string::npos);
+  EXPECT_NE(refusal(e, "random(1, 0 - 1)").find("i -1 is not"), std::string::npos);
 }
 
 TEST(Expressions, ReplaceBracesInNames) {

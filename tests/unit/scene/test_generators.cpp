@@ -16,10 +16,10 @@ struct Generated {
   std::vector<SceneBody> bodies;
   std::size_t statics = 0;
 
-  Generated(const std::string& word, std::int64_t count) {
+  Generated(const std::string& word, std::int64_t count, std::uint32_t seed = 0) {
     const auto& words = generator_words();
     const auto found = std::find(words.begin(), words.end(), word);
-    generate(static_cast<std::size_t>(found - words.begin()), count, 0.5, shapes, bodies);
+    generate(static_cast<std::size_t>(found - words.begin()), count, seed, 0.5, shapes, bodies);
     while (statics < bodies.size() && bodies[statics].desc.motion == PLUMB_STATIC) ++statics;
   }
   [[nodiscard]] Row cube(std::size_t i) const {
@@ -52,6 +52,17 @@ TEST(Generators, ManyPyramidsEqualTheirDefinition) {
   EXPECT_EQ(pyramids.cube(131), (Row{-13.53, 2.5, 3, 0, 0, 0, 1}));
   EXPECT_EQ(pyramids.cube(494), (Row{12, 9.5, 3, 0, 0, 0, 1}));
   EXPECT_EQ(Generated("manypyramids", 100).fixed(0), (std::array<double, 6>{0, -1, 0, 650, 1, 650}));
+}
+
+TEST(Generators, ASeedMakesAnotherPileOfTheSameSize) {
+  const Generated first("pile", 100), same("pile", 100, 0), other("pile", 100, 1), third("pile", 100, 2);
+  ASSERT_EQ(other.bodies.size(), first.bodies.size());
+  for (std::size_t i = 0; i < 100; ++i) {
+    EXPECT_EQ(first.cube(i), same.cube(i));
+    EXPECT_NE(first.cube(i), other.cube(i));
+    EXPECT_NE(other.cube(i), third.cube(i));
+    EXPECT_NEAR(first.cube(i)[1], other.cube(i)[1], 0.2);
+  }
 }
 
 TEST(Generators, PileEqualsItsDefinition) {
