@@ -53,6 +53,8 @@ class StudyRunner {
       }
       take_stock();
     }
+    // What is still to be put between others is left, too.
+    if (!fixed_ && time_left() <= 0 && refine()) take_stock();
     tell_what_is_left();
     return outcome_;
   }
