@@ -1,12 +1,11 @@
 #include "replay/container.hpp"
 
-#include <zlib.h>
-
 #include <cstdint>
 #include <cstring>
 #include <stdexcept>
 
 #include "plumb/physics_world.hpp"
+#include "rows/deflate.hpp"
 
 namespace plumb::harness {
 
@@ -27,34 +26,6 @@ std::size_t size_of(const std::string& type, const std::vector<std::size_t>& sha
 }
 
 [[noreturn]] void corrupt(const std::string& why) { throw Error(PLUMB_E_CORRUPT, "this is no replay bundle: " + why); }
-
-std::string deflated(const std::string& bytes) {
-  uLongf size = compressBound(static_cast<uLong>(bytes.size()));
-  std::string packed(size, '\0');
-  if (compress2(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
-                static_cast<uLong>(bytes.size()), Z_DEFAULT_COMPRESSION) != Z_OK)
-    throw std::bad_alloc();
-  packed.resize(size);
-  return packed;
-}
-
-std::string inflated(const std::string& bytes) {
-  z_stream stream{};
-  if (inflateInit(&stream) != Z_OK) throw std::bad_alloc();
-  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));  // zlib only reads it
-  stream.avail_in = static_cast<uInt>(bytes.size());
-  std::string all, block(1 << 16, '\0');
-  int result = Z_OK;
-  while (result == Z_OK) {
-    stream.next_out = reinterpret_cast<Bytef*>(block.data());
-    stream.avail_out = static_cast<uInt>(block.size());
-    result = inflate(&stream, Z_NO_FLUSH);
-    all.append(block, 0, block.size() - stream.avail_out);
-  }
-  inflateEnd(&stream);
-  if (result != Z_STREAM_END) corrupt("it does not unpack");
-  return all;
-}
 
 }  // namespace
 

@@ -76,8 +76,9 @@ Statement energy_statement(const EnergyFacts& facts) {
     text += fmt::format("{}makes energy: up to {} of the largest there is ({})", text.empty() ? "" : "; ",
                         percent_text(facts.worst_injection), row_title(*facts.injection_row));
   } else if (facts.injections > 0) {
-    text += fmt::format("{}makes no more than {} of it in any of {} runs", text.empty() ? "" : "; ",
-                        percent_text(facts.worst_injection), facts.injections);
+    text += fmt::format("{}makes no more than {} of it in {}", text.empty() ? "" : "; ",
+                        percent_text(facts.worst_injection),
+                        facts.injections == 1 ? "one run" : fmt::format("any of {} runs", facts.injections));
   }
   return {text, facts.drift_row && facts.worst_drift > conserving ? facts.drift_row : facts.injection_row};
 }

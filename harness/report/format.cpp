@@ -77,7 +77,9 @@ std::string dt_text(std::optional<double> dt) {
     const double rate = std::round(1 / *dt);
     if (rate < 1e6 && std::abs(rate * *dt - 1) < 1e-6) return fmt::format("1/{:.0f}", rate);
   }
-  return shortest_number(*dt);
+  const std::string text = shortest_number(*dt);
+  constexpr std::size_t readable = 8;  // characters; a refined step lies between others and has no short number
+  return text.size() > readable && *dt > 0 ? fmt::format("1/{:.4g}", 1 / *dt) : text;
 }
 
 std::string ratio_text(double ratio) { return short_number(ratio) + "\u00d7"; }

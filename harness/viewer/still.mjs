@@ -3,21 +3,11 @@ import { existsSync, mkdirSync } from 'node:fs';
 import { join, resolve } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { parseArgs } from 'node:util';
+import { kArguments, kBrowser } from './chromium.mjs';
 
 const kUsage =
   'usage: node still.mjs PAGE.html --size 1280x720 (--at SECONDS --png FILE | --frames DIR --fps F) ' +
   '[--scene NAME] [--layers A,B] [--theme light|dark]';
-const kBrowserArguments = [
-  '--headless',
-  '--no-sandbox',
-  '--disable-quic',
-  '--no-first-run',
-  '--disable-background-networking',
-  '--use-gl=angle',
-  '--use-angle=swiftshader',
-  '--enable-unsafe-swiftshader',
-  '--hide-scrollbars',
-];
 
 class Refusal extends Error {}
 
@@ -72,13 +62,13 @@ function readOptions() {
 }
 
 async function launch() {
-  const executablePath = process.env.PLUMB_CHROMIUM ?? '/usr/bin/chromium';
+  const executablePath = kBrowser;
   need(
     existsSync(executablePath),
     `there is no browser at ${executablePath}; install the package chromium or name one in PLUMB_CHROMIUM`,
   );
   const { chromium } = await import('playwright-core');
-  return chromium.launch({ executablePath, args: kBrowserArguments });
+  return chromium.launch({ executablePath, args: [...kArguments, '--hide-scrollbars'] });
 }
 
 /** Opens the page, chooses scene and layers, and fills the window with the views alone. */

@@ -6,7 +6,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { pathToFileURL } from 'node:url';
-import { kArguments, kBrowser as executablePath } from './launch.mjs';
+import { kArguments, kBrowser as executablePath } from '../../harness/viewer/chromium.mjs';
 import { page as makePage } from './page.mjs';
 import { crowd, pairScripts, room, script, tower, zoo } from './synthetic.mjs';
 

@@ -5,7 +5,7 @@ import { createRequire } from 'node:module';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
-import { kArguments, kBrowser } from './launch.mjs';
+import { kArguments, kBrowser } from '../../harness/viewer/chromium.mjs';
 import { page as makePage } from './page.mjs';
 import { crowd, script } from './synthetic.mjs';
 

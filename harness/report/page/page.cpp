@@ -9,6 +9,7 @@
 
 #include "report/page/assets.hpp"
 #include "report/page/markup.hpp"
+#include "report/page/packed.hpp"
 #include "report/page/sections.hpp"
 
 namespace plumb::harness {
@@ -111,7 +112,8 @@ std::string toolbar(const std::vector<PageContext>& contexts, const Links& links
   return out + R"(</span><button type="button" id="theme" title="light or dark">theme</button></span></div></nav>)";
 }
 
-/// All sections of a machine; what is there is added to the links, once for all machines.
+/// All sections of a machine; what is there is added to the links, once for all machines. What is said in words can be
+/// read without the script; tables and diagrams are packed.
 std::string machine_body(const PageContext& context, Links& links) {
   std::string body = head_section(context) + "\n";
   const auto add = [&](const char* id, const char* title, const std::string& section) {
@@ -120,21 +122,25 @@ std::string machine_body(const PageContext& context, Links& links) {
     if (!known) links.emplace_back(id, title);
     body += section + "\n";
   };
+  const auto add_packed = [&](const char* id, const char* title, const std::string& section) {
+    add(id, title, section.empty() ? "" : packed_markup(section));
+  };
   add("against", "Against", against_section(context));
-  add("cost", "Cost", costs_section(context));
+  add_packed("cost", "Cost", costs_section(context));
   add("answers", "Answers", answers_section(context));
   add("engines", "Engines", engines_section(context));
-  add("precision", "Precision", precision_section(context));
-  add("fronts", "Fronts", fronts_section(context));
-  add("profiles", "Profiles", profiles_section(context));
-  add("matrix", "Matrix", matrix_section(context));
-  add("robust", "Robustness", robustness_section(context));
-  add("curves", "Curves", curves_section(context));
+  add_packed("precision", "Precision", precision_section(context));
+  add_packed("fronts", "Fronts", fronts_section(context));
+  add_packed("profiles", "Profiles", profiles_section(context));
+  add_packed("matrix", "Matrix", matrix_section(context));
+  add_packed("robust", "Robustness", robustness_section(context));
+  add_packed("seeds", "Seeds", distributions_section(context));
+  add_packed("curves", "Curves", curves_section(context));
   if (context.machine.empty()) add("replays", "Replays", replays_section(context.options));
-  add("scaling", "Scaling", scaling_section(context));
-  add("times", "Times", times_section(context));
-  add("needs", "Needs", needs_section(context));
-  add("runs", "Runs", rows_section(context));
+  add_packed("scaling", "Scaling", scaling_section(context));
+  add_packed("times", "Times", times_section(context));
+  add_packed("needs", "Needs", needs_section(context));
+  add_packed("runs", "Runs", rows_section(context));
   return fmt::format(R"(<div class="machine">{}</div>)", body);
 }
 
@@ -166,8 +172,10 @@ void write_page(std::ostream& out, const std::vector<Json>& rows, const PageOpti
       << colour_style(contexts)
       // Before anything is painted, so that a chosen theme does not flash.
       << "</style><script>" << page_theme_script << "</script></head><body>\n"
-      << toolbar(contexts, links) << "<main>" << body << "</main><script>" << page_script
-      << "</script></body></html>\n";
+      << toolbar(contexts, links)
+      << "<main><noscript><p class=\"about\">The tables and diagrams of this page are packed, and a script "
+         "opens them.</p></noscript>"
+      << body << "</main><script>" << page_script << "</script></body></html>\n";
 }
 
 }  // namespace plumb::harness

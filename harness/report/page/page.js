@@ -192,7 +192,7 @@
 
   // ---- sorting ----
   var collator = new Intl.Collator(undefined, { numeric: true });
-  all('.sortable').forEach(function (sorted) {
+  function makeSortable(sorted) {
     all('th[data-sort]', sorted).forEach(function (head) {
       head.addEventListener('click', function () {
         var up = head.getAttribute('aria-sort') !== 'ascending', column = head.cellIndex, body = sorted.tBodies[0];
@@ -212,7 +212,7 @@
         keyed.forEach(function (k) { body.appendChild(k.row); });
       });
     });
-  });
+  }
 
   // ---- machines: one at a time ----
   function choose(index) {
@@ -227,7 +227,7 @@
   var machines = document.getElementById('machine');
   if (machines) {
     machines.addEventListener('change', function () { choose(Number(machines.value)); });
-    choose(0);
+    choose(0);  // before the rest is unpacked, so that the others do not flash
   }
 
   // ---- theme ----
@@ -237,5 +237,21 @@
     try { localStorage.setItem('plumb-theme', root.dataset.theme); } catch (refused) { return; }
   });
 
-  follow();
+  // ---- what is packed: base64, zlib ----
+  function unpack(script) {
+    var bytes = Uint8Array.from(atob(script.textContent), function (c) { return c.charCodeAt(0); });
+    var html = new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream('deflate'))).text();
+    return html.then(function (text) { script.outerHTML = text; });
+  }
+  function start() {
+    all('.sortable').forEach(makeSortable);
+    if (machines) choose(Number(machines.value));
+    root.dataset.unpacked = '';
+    var place = /^#[\w-]+$/.test(location.hash) && document.querySelector(location.hash);
+    if (place) place.scrollIntoView();
+    follow();
+  }
+  Promise.all(all('script.packed').map(unpack)).then(start, function (error) {
+    document.querySelector('main').prepend(make('p', 'The tables and diagrams cannot be unpacked: ' + error.message, 'about'));
+  });
 })();

@@ -58,6 +58,8 @@ struct PageContext {
 [[nodiscard]] std::string times_section(const PageContext& context);
 /// "" where no measure without a truth was made in two scenes.
 [[nodiscard]] std::string robustness_section(const PageContext& context);
+/// "" where no scene was run with several seeds.
+[[nodiscard]] std::string distributions_section(const PageContext& context);
 /// "" where no cells differ in their needs only.
 [[nodiscard]] std::string needs_section(const PageContext& context);
 /// Times and errors of machines beside each other, for what ran on at least two; "" for one machine.

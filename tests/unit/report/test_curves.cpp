@@ -3,13 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <regex>
-#include <sstream>
 
-#include "report/page/page.hpp"
+#include "page_reader.hpp"
 #include "sample_rows.hpp"
 
 namespace plumb::harness {
 namespace {
+
+using testing::count;
+using testing::page_of;
 
 /// A row whose engine has the knobs "passes" (10) and "parts" (4) and the choice "way" (soft).
 Json row(const char* way, int passes, int parts, double error, double ms, const std::string& hash) {
@@ -31,22 +33,10 @@ std::vector<Json> turned_rows() {
           row("soft", 10, 8, 0.001, 6, "s8")};
 }
 
-std::string page_of(const std::vector<Json>& rows) {
-  std::ostringstream out;
-  write_page(out, rows, {"2026-01-01 00:00 UTC", "results", {}});
-  return out.str();
-}
-
 /// A section of the page.
 std::string section(const std::string& page, const std::string& id) {
   const std::size_t at = page.find("<section id=\"" + id + "\"");
   return at == std::string::npos ? "" : page.substr(at, page.find("</section>", at) - at);
-}
-
-std::size_t count(const std::string& text, const std::string& what) {
-  std::size_t found = 0;
-  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++found;
-  return found;
 }
 
 bool has(const std::string& text, const std::string& what) { return text.find(what) != std::string::npos; }

@@ -40,6 +40,7 @@ TEST(Format, TimeStepsAreFractions) {
   EXPECT_EQ(dt_text(1.0 / 960), "1/960");
   EXPECT_EQ(dt_text(0.0123), "0.0123");
   EXPECT_EQ(dt_text(2.0), "2");
+  EXPECT_EQ(dt_text(0.005892556509887896), "1/169.7");
   EXPECT_EQ(dt_text(std::nullopt), no_value);
 }
 

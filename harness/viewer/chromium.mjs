@@ -1,4 +1,4 @@
-// The browser that the viewer is tested in: without a window, and with graphics drawn in software.
+// The browser that takes pictures and runs tests: without a window, and with graphics drawn in software.
 export const kBrowser = process.env.PLUMB_CHROMIUM ?? '/usr/bin/chromium';
 export const kArguments = [
   '--headless',

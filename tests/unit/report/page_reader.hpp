@@ -1,0 +1,18 @@
+// The page as a browser has it once its script has unpacked what is packed.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "report/page/page.hpp"
+
+namespace plumb::harness::testing {
+
+/// As it is written to a file.
+[[nodiscard]] std::string packed_page(const std::vector<Json>& rows, PageOptions options = {});
+[[nodiscard]] std::string page_of(const std::vector<Json>& rows, PageOptions options = {});
+
+/// How often `what` stands in the text.
+[[nodiscard]] std::size_t count(const std::string& text, const std::string& what);
+
+}  // namespace plumb::harness::testing
