@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fstream>
 #include <istream>
+#include <sstream>
 #include <string>
 #include <unordered_map>
 
@@ -73,7 +74,12 @@ Results read_results(const std::filesystem::path& where) {
       throw UsageError("cannot read " + file.string() +
                        "; name a folder that `plumb run --out`, `plumb compare` or `plumb study` wrote");
     }
-    read_into(in, results, cells);
+    if (is_packed(file)) {
+      std::istringstream text(unpacked_text(file));
+      read_into(text, results, cells);
+    } else {
+      read_into(in, results, cells);
+    }
   }
   return results;
 }

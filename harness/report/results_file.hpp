@@ -17,8 +17,8 @@ struct Results {
 /// One object a line; empty lines count for nothing. A cell that was run again replaces its earlier row in place.
 [[nodiscard]] Results read_results(std::istream& in);
 /// `where` is the file, or a folder: all results*.jsonl in it, of which each rank of a study may have written one, in
-/// the order of their names. Unreadable lines are counted over all of them. Throws UsageError when nothing can be
-/// opened.
+/// the order of their names, and before them those packed by zstd. Unreadable lines are counted over all of them.
+/// Throws UsageError when nothing can be opened.
 [[nodiscard]] Results read_results(const std::filesystem::path& where);
 
 /// DIR/study.json as it is; null where `where` is no folder, or has none that is an object.

@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <sstream>
 #include <system_error>
 
 #include "rows/results_folder.hpp"
@@ -41,6 +42,13 @@ void ResultsFile::refresh() {
 // by itself, and is read again from there.
 void ResultsFile::read_on(const std::filesystem::path& file) {
   std::uintmax_t& done = read_[file];
+  if (is_packed(file)) {
+    if (done != 0) return;
+    std::istringstream text(unpacked_text(file));
+    for (std::string line; std::getline(text, line);) take(line);
+    done = 1;
+    return;
+  }
   std::ifstream in(file, std::ios::binary);
   if (!in || !in.seekg(static_cast<std::streamoff>(done))) return;
   for (std::string line; std::getline(in, line);) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
+#include <zstd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -126,6 +127,21 @@ TEST(Resume, torn_last_line_is_run_again) {
   expect_complete(folder);
   const Finished again = plumb(study(folder));
   EXPECT_NE(again.err.find("6 cells were finished already"), std::string::npos) << again.err;
+}
+
+TEST(Resume, packed_rows_are_finished) {
+  const std::filesystem::path folder = fresh_folder("packed");
+  ASSERT_EQ(plumb(study(folder)).status, 0);
+  const std::filesystem::path file = folder / "out" / "results.jsonl";
+  std::ifstream in(file, std::ios::binary);
+  const std::string text((std::istreambuf_iterator<char>(in)), {});
+  std::string packed(ZSTD_compressBound(text.size()), '\0');
+  packed.resize(ZSTD_compress(packed.data(), packed.size(), text.data(), text.size(), 3));
+  std::ofstream(file.string() + ".zst", std::ios::binary) << packed;
+  std::filesystem::remove(file);
+  const Finished again = plumb(study(folder));
+  EXPECT_NE(again.err.find("6 cells were finished already"), std::string::npos) << again.err;
+  EXPECT_TRUE(readable_rows(file).empty());
 }
 
 TEST(Resume, terminate_kills_the_workers_and_ends_by_the_signal) {

@@ -1,11 +1,14 @@
 #include "report/results_file.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
+#include <zstd.h>
 
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 
+#include "plumb/physics_world.hpp"
 #include "sample_rows.hpp"
 #include "scene/scene.hpp"
 
@@ -51,6 +54,43 @@ TEST(ResultsFile, ACellRunAgainReplacesItsRow) {
   const Results results = read(first + "\n" + other + "\n" + again + "\n");
   ASSERT_EQ(results.rows.size(), 2u);
   EXPECT_EQ(results.rows[0]["metrics"]["error_of_it"]["error"], 0.25);
+}
+
+class PackedResults : public ::testing::Test {
+ protected:
+  PackedResults() { std::filesystem::create_directories(folder_); }
+  ~PackedResults() override { std::filesystem::remove_all(folder_); }
+
+  static std::string packed(const std::string& text) {
+    std::string bytes(ZSTD_compressBound(text.size()), '\0');
+    bytes.resize(ZSTD_compress(bytes.data(), bytes.size(), text.data(), text.size(), 3));
+    return bytes;
+  }
+  void write(const char* name, const std::string& bytes) const {
+    std::ofstream(folder_ / name, std::ios::binary) << bytes;
+  }
+
+  std::filesystem::path folder_ =
+      std::filesystem::path(::testing::TempDir()) / ("plumb-packed-" + std::to_string(getpid()));
+};
+
+TEST_F(PackedResults, AreReadAndWhatWasRunSinceReplacesThem) {
+  const std::string first = line_of(testing::sample_row("S", "a", 0.5, 1)) + "\n";
+  const std::string other = line_of(testing::sample_row("S", "b", 0.5, 1)) + "\n";
+  write("results.jsonl.zst", packed(first + other));
+  EXPECT_EQ(read_results(folder_).rows.size(), 2u);
+  write("results.jsonl", line_of(testing::sample_row("S", "a", 0.25, 1)) + "\n");
+  const Results results = read_results(folder_);
+  ASSERT_EQ(results.rows.size(), 2u);
+  EXPECT_EQ(results.rows[0]["metrics"]["error_of_it"]["error"], 0.25);
+}
+
+TEST_F(PackedResults, ThatAreCutShortAreRefused) {
+  const std::string whole = packed(line_of(testing::sample_row("S", "a", 0.5, 1)) + "\n");
+  for (const std::string& bytes : {whole.substr(0, whole.size() - 1), whole.substr(0, 3), std::string("{}\n")}) {
+    write("results.jsonl.zst", bytes);
+    EXPECT_THROW(static_cast<void>(read_results(folder_)), Error) << bytes.size();
+  }
 }
 
 TEST(ResultsFile, AMissingFolderIsTheUsersMistake) {
