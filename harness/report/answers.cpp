@@ -211,7 +211,12 @@ std::vector<AnsweredQuestion> answers(const Study& study, const std::vector<Cost
     if (!answer.lines.empty()) all.push_back(std::move(answer));
   };
   if (const Problem* tower = problem_of(study, "tower", "H", 50)) {
-    add(cost_answer(study, costs, *tower, "stands", one_per_mille,
+    // A tower on its way down stands until it has sunk by a tenth: one that stands is at rest, too.
+    const bool tells_rest = std::any_of(costs.begin(), costs.end(), [&](const CostLine& line) {
+      return line.problem == tower && line.metric == "kinetic_energy";
+    });
+    add(cost_answer(study, costs, *tower, tells_rest ? "kinetic_energy" : "stands",
+                    tells_rest ? one_percent : one_per_mille,
                     fmt::format("Which engine stands the tower of {} cubes cheapest?",
                                 value_text(tower->rows.front()->params.value("H", Json(10)))),
                     "makes it stand"));

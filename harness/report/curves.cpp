@@ -99,7 +99,8 @@ std::vector<std::vector<const ResultRow*>> rows_of_methods(const Problem& proble
   return groups;
 }
 
-/// Labels by what differs between the methods of a study: backends, profiles, threads, settings.
+/// Labels by what differs between the methods of a study: backends, profiles, threads, settings. Where a backend's name
+/// stands already, what it does by itself needs no words.
 class Labels {
  public:
   void add(const ResultRow& row) {
@@ -115,11 +116,12 @@ class Labels {
     std::string out;
     const auto add = [&](const std::string& text) { out += (out.empty() ? "" : ", ") + text; };
     if (varies("backend")) add(row.backend);
-    if (varies("profile")) add(row.profile);
-    if (varies("needs")) add("needs " + row.needs);
+    if (varies("profile") && row.profile != "default") add(row.profile);
+    if (varies("needs") && !row.own_needs()) add("needs " + row.needs);
     if (varies("threads")) add(threads(row));
     for (const auto& [name, value] : row.settings.items()) {
-      if (!is_knob(row, name) && varies(row.backend + ":" + name)) add(name + " " + value_text(value));
+      const bool is_own = varies("backend") && row.tells_defaults && at_default(row, name);
+      if (!is_knob(row, name) && !is_own && varies(row.backend + ":" + name)) add(name + " " + value_text(value));
     }
     return out.empty() ? row.backend : out;
   }

@@ -205,9 +205,11 @@ std::string curves_section(const PageContext& context) {
       R"(the engine's own value; ringed: all settings there; a cross: the run missed one of the scene's yes/no )"
       R"(questions, so that its error means little; an arrow: the error is zero, beyond the frame or not finite.</p><p )"
       R"(class="legend">)";
-  for (std::size_t i = 0; i < context.curves.methods.size(); ++i) {
+  std::map<std::string, std::size_t> by_label;
+  for (std::size_t i = 0; i < context.curves.methods.size(); ++i) by_label.emplace(context.curves.methods[i].label, i);
+  for (const auto& [label, i] : by_label) {
     out += fmt::format(R"(<span class="e{0}">{1}{2}</span>)", context.method_index(i),
-                       render_marker(context.method_index(i), true), escape_html(context.curves.methods[i].label));
+                       render_marker(context.method_index(i), true), escape_html(label));
   }
   out += "</p>";
   const std::vector<ProblemCurves>& problems = context.curves.problems;

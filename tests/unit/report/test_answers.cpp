@@ -50,6 +50,21 @@ TEST(Answers, TheTowerOfFiftyIsStoodByTheCheapestThatStandsIt) {
   EXPECT_EQ(tower->lines[2].statement.text.rfind("never", 0), 0u);
 }
 
+TEST(Answers, ATowerOnItsWayDownDoesNotStand) {
+  std::vector<Json> rows;
+  for (const auto& [backend, ms, moving] : {std::tuple{"a", 9.0, 1e-7}, std::tuple{"b", 4.0, 3.0}}) {
+    rows.push_back(scene_row("D1", "tower", backend, ms,
+                             {{"stands", metric(1, 0, 0)}, {"kinetic_energy", metric(moving, moving, 1e-6)}}));
+    rows.back()["params"]["H"] = 50;
+  }
+  const Study study(parse_rows(rows));
+  const std::vector<AnsweredQuestion> all = answers(study, cost_of_accuracy(study));
+  const AnsweredQuestion* tower = find(all, "tower of 50");
+  ASSERT_NE(tower, nullptr);
+  EXPECT_EQ(tower->verdict.rfind("a, at 900 ms", 0), 0u) << tower->verdict;
+  EXPECT_FALSE(tower->lines[1].good);
+}
+
 TEST(Answers, EnergyIsConservedByWhomNoRunLosesOrGainsIt) {
   const Study study(parse_rows({scene_row("A7", "pendulum", "a", 1, {{"energy_drift", metric(-0.9, 0.9, 0.05)}}),
                                 scene_row("A9", "double", "a", 1, {{"energy_drift", metric(0, 0.001, 0.05)}}),

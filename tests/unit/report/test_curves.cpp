@@ -110,6 +110,7 @@ TEST(Curves, EnginesWithoutKnobsStandBesideThemAsPoints) {
   ASSERT_EQ(curves.methods.size(), 3u);
   EXPECT_EQ(curves.methods.back().label, "other");
   EXPECT_EQ(curves.methods.front().label, "b, way hard");
+  EXPECT_EQ(curves.methods[1].label, "b") << "soft is its own way";
   const MethodCurves& other = curves.problems[0].methods.back();
   ASSERT_EQ(other.curves.size(), 1u);
   EXPECT_EQ(other.curves[0].knob, "");
