@@ -88,7 +88,10 @@ MethodCurves curves_of(const std::vector<const ResultRow*>& rows) {
 std::vector<std::vector<const ResultRow*>> rows_of_methods(const Problem& problem) {
   std::vector<std::vector<const ResultRow*>> groups;
   std::map<std::string, std::size_t> places;
+  const bool has_own =
+      std::any_of(problem.rows.begin(), problem.rows.end(), [](const ResultRow* row) { return row->own_needs(); });
   for (const ResultRow* row : problem.rows) {
+    if (has_own && !row->own_needs()) continue;  // it answers another question (needs.hpp)
     // Seeds have lines of their own: beside each other they show how far apart outcomes lie.
     const std::string times =
         value_text(Json::array({row->dt.value_or(0), row->seconds.value_or(0), row->params.value("seed", Json())}));
@@ -106,7 +109,6 @@ class Labels {
   void add(const ResultRow& row) {
     note("backend", row.backend);
     note("profile", row.profile);
-    note("needs", row.needs);
     note("threads", threads(row));
     for (const auto& [name, value] : row.settings.items()) {
       if (!is_knob(row, name)) note(row.backend + ":" + name, value_text(value));
@@ -117,7 +119,6 @@ class Labels {
     const auto add = [&](const std::string& text) { out += (out.empty() ? "" : ", ") + text; };
     if (varies("backend")) add(row.backend);
     if (varies("profile") && row.profile != "default") add(row.profile);
-    if (varies("needs") && !row.own_needs()) add("needs " + row.needs);
     if (varies("threads")) add(threads(row));
     for (const auto& [name, value] : row.settings.items()) {
       const bool is_own = varies("backend") && row.tells_defaults && at_default(row, name);
@@ -151,7 +152,7 @@ bool lacks_methods(const std::vector<std::vector<const ResultRow*>>& groups) {
   for (const auto& rows : groups) {
     if (std::any_of(rows.begin(), rows.end(), [](const ResultRow* row) { return row->completed(); })) return false;
     const ResultRow& row = *rows.front();
-    if (!row.knobs.empty()) ++methods[value_text(Json::array({row.backend, row.profile, row.needs}))];
+    if (!row.knobs.empty()) ++methods[value_text(Json::array({row.backend, row.profile}))];
   }
   return std::any_of(methods.begin(), methods.end(), [](const auto& backend) { return backend.second > 1; });
 }

@@ -158,7 +158,7 @@ void add_notes(const PageContext& context, const ProblemCurves& curves, Notes& n
   std::map<std::string, std::string> idle;  // methods by knob
   for (const MethodCurves& method : curves.methods) {
     const std::string& label = context.curves.methods[method.method].label;
-    for (const std::string& knob : method.idle) idle[knob] += (idle[knob].empty() ? "" : ", ") + label;
+    for (const std::string& knob : method.idle) idle[knob] += (idle[knob].empty() ? "" : "; ") + label;
   }
   for (const auto& [knob, methods] : idle)
     notes.add(fmt::format("{} changes nothing with {}.", escape_html(knob), escape_html(methods)), *curves.problem);

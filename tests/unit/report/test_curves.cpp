@@ -87,6 +87,17 @@ TEST(Curves, OtherTimesAndProfilesAreOtherCurves) {
   EXPECT_EQ(curves.methods.back().label, "matched, way soft");
 }
 
+TEST(Curves, LeaveOutWhatDeclaredMoreThanItsScene) {
+  std::vector<Json> rows = turned_rows();
+  rows.push_back(rows.front());
+  rows.back()["needs"] = "all";
+  const Study both(parse_rows(rows));
+  EXPECT_EQ(CurveSet(both).methods.size(), 2u);
+  for (Json& at : rows) at["needs"] = "all";
+  const Study all(parse_rows(rows));
+  EXPECT_EQ(CurveSet(all).methods.size(), 2u) << "where nothing else was run, that is the question";
+}
+
 TEST(Curves, NeedAKnobThatWasTurned) {
   const Study one(parse_rows({row("soft", 10, 4, 0.1, 1, "a"), row("hard", 10, 4, 0.1, 1, "b")}));
   EXPECT_TRUE(CurveSet(one).problems.empty()) << "methods alone are none";
