@@ -20,16 +20,24 @@ struct PairsOptions {
   double timeout = 60;
 };
 
+/// The tour's name, or its shapes the other way round.
+bool is_called(const PairTour& tour, const std::string& name) {
+  const auto& bodies = tour.scene.bodies;
+  return name == tour.name || name == bodies[1].name + "-" + bodies[0].name;
+}
+
 std::vector<PairTour> wanted_tours(const std::vector<std::string>& asked) {
   std::vector<PairTour> tours = all_pair_tours();
-  std::vector<std::string> names;
-  for (const PairTour& tour : tours) names.push_back(tour.name);
-  for (const std::string& name : asked)
-    if (std::find(names.begin(), names.end(), name) == names.end())
-      throw UsageError("--pair " + name + ": there is no such pair" + suggestion(name, names));
-  if (!asked.empty())
-    std::erase_if(
-        tours, [&](const PairTour& tour) { return std::find(asked.begin(), asked.end(), tour.name) == asked.end(); });
+  for (const std::string& name : asked) {
+    if (std::any_of(tours.begin(), tours.end(), [&](const PairTour& tour) { return is_called(tour, name); })) continue;
+    std::vector<std::string> names;
+    for (const PairTour& tour : tours) names.push_back(tour.name);
+    throw UsageError("--pair " + name + ": there is no such pair" + suggestion(name, names));
+  }
+  if (asked.empty()) return tours;
+  std::erase_if(tours, [&](const PairTour& tour) {
+    return std::none_of(asked.begin(), asked.end(), [&](const std::string& name) { return is_called(tour, name); });
+  });
   return tours;
 }
 
@@ -73,7 +81,7 @@ void add_pairs(CLI::App& program, int& status) {
       "pairs", "Record what backends find between all pairs of shapes as one passes around and into the other");
   verb->add_option("BACKEND", options->backends, "Names or files; none: all on the search path");
   verb->add_option("--out", options->out, "Results folder: its report shows them")->required();
-  verb->add_option("--pair", options->pairs, "Only this pair, such as box-capsule; repeatable")
+  verb->add_option("--pair", options->pairs, "Only this pair, such as box-capsule or capsule-box; repeatable")
       ->take_all()
       ->expected(1)
       ->allow_extra_args(false);

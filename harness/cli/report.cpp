@@ -17,6 +17,7 @@
 #include "report/page/page.hpp"
 #include "report/results_file.hpp"
 #include "report/terminal.hpp"
+#include "rows/results_folder.hpp"
 #include "scene/catalogue.hpp"
 
 namespace plumb::harness {
@@ -79,6 +80,12 @@ std::vector<Json> rows_of(const std::string& folder) {
   return std::move(results.rows);
 }
 
+/// What `plumb pairs` makes by itself: recordings, which a page shows, and no rows.
+bool has_recordings_alone(const std::string& folder) {
+  std::error_code ignored;
+  return results_files(folder).empty() && std::filesystem::is_directory(folder + "/trajectories", ignored);
+}
+
 PageOptions page_options(const ReportOptions& options, const std::vector<Json>& baseline) {
   PageOptions page{{}, fmt::format("{}", fmt::join(options.folders, ", ")), {}, {}, {}};
   for (const std::string& folder : options.folders) {
@@ -111,6 +118,7 @@ bool report_against(const ReportOptions& options, const std::vector<Json>& rows,
 int report(const ReportOptions& options) {
   std::vector<Json> rows;
   for (const std::string& folder : options.folders) {
+    if (!options.html.empty() && has_recordings_alone(folder)) continue;
     for (Json& row : rows_of(folder)) rows.push_back(std::move(row));
   }
   const std::vector<Json> baseline = options.against.empty() ? std::vector<Json>() : rows_of(options.against);

@@ -11,7 +11,7 @@
 
 namespace plumb::harness {
 
-/// Two shapes, the first at rest, the second on its way; named by their kinds, "box-capsule".
+/// Two shapes, the first at rest, the second on its way; named by their kinds, "capsule-box".
 struct PairTour {
   std::string name;
   Scene scene;                   ///< two bodies

@@ -42,9 +42,14 @@ TEST(Pairs, what_a_backend_lacks_is_said_and_left_out) {
   EXPECT_NE(finished.out.find("plane-box: unsupported: "), std::string::npos) << finished.out;
   EXPECT_NE(finished.out.find("0 of 2 pairs"), std::string::npos) << finished.out;
   EXPECT_TRUE(std::filesystem::exists(folder / "trajectories" / "pair-plane-box-referee.plt"));
-  const Finished misspelt = plumb({"pairs", SAMPLE_BACKEND, "--pair", "box-plane", "--out", folder.string()});
+  const std::string page = (folder / "page.html").string();
+  EXPECT_EQ(plumb({"report", folder.string(), "--html", page}).status, 0) << "recordings need no rows beside them";
+  EXPECT_EQ(plumb({"report", folder.string()}).status, 2) << "but a table does";
+  const Finished reversed = plumb({"pairs", SAMPLE_BACKEND, "--pair", "box-plane", "--out", folder.string()});
+  EXPECT_NE(reversed.out.find("plane-box: unsupported: "), std::string::npos) << reversed.out << reversed.err;
+  const Finished misspelt = plumb({"pairs", SAMPLE_BACKEND, "--pair", "box-plain", "--out", folder.string()});
   EXPECT_EQ(misspelt.status, 2);
-  EXPECT_NE(misspelt.err.find("box-plane"), std::string::npos) << misspelt.err;
+  EXPECT_NE(misspelt.err.find("box-plain"), std::string::npos) << misspelt.err;
 }
 
 }  // namespace
