@@ -21,7 +21,6 @@ std::vector<double> read(Scene& scene, PlumbField field, PlumbBody body, std::si
                            Rows(reinterpret_cast<std::byte*>(row.data()), 1, columns * sizeof(double), PLUMB_F64)));
   return row;
 }
-std::vector<double> velocity(Scene& scene, PlumbBody body) { return read(scene, PLUMB_FIELD_VELOCITY, body, 6); }
 PlumbVec3 place(Scene& scene, PlumbBody body) {
   const std::vector<double> row = read(scene, PLUMB_FIELD_POSE, body, 7);
   return {row[0], row[1], row[2]};
@@ -49,7 +48,7 @@ TEST(Belts, TakeABoxAlongAsCoulombSays) {
     double slips = 0, first = 0, last = 0;
     for (int step = 1; step <= 90; ++step) {
       scene.run(1);
-      const double speed = velocity(scene, body)[0], t = step / 60.0;
+      const double speed = scene.velocity(body)[0], t = step / 60.0;
       EXPECT_NEAR(speed, std::min(kFriction * kGravity * t, kSpeed), kFriction * kGravity / 60) << "at " << t << " s";
       if (speed < kSpeed * 0.999) slips = t + (kSpeed - speed) / (kFriction * kGravity);
       (step == 30 ? first : last) = speed;
@@ -77,7 +76,7 @@ TEST(Belts, CarryABoxUphill) {
     set_belt(scene, {0, 0, 0});
     const PlumbBody body = scene.add(scene.box({0.5, 0.5, 0.5}), {-std::sin(kSlope), std::cos(kSlope), 0}, tilt);
     const auto along = [&] {
-      const std::vector<double> v = velocity(scene, body);
+      const std::vector<double> v = scene.velocity(body);
       return v[0] * std::cos(kSlope) + v[1] * std::sin(kSlope);
     };
     scene.run(15);
@@ -97,9 +96,9 @@ TEST(Belts, TurnWithTheirBodies) {
   set_belt(scene, {0, 0, 0});
   const PlumbBody body = scene.add(scene.box({0.5, 0.5, 0.5}), {0, 0.5, 0});
   scene.run(120);
-  EXPECT_NEAR(velocity(scene, body)[0], kSpeed * std::cos(kYaw), 1e-3);
-  EXPECT_NEAR(velocity(scene, body)[2], -kSpeed * std::sin(kYaw), 1e-3);
-  EXPECT_NEAR(velocity(scene, body)[4], 0, 1e-3) << "nothing turns it";
+  EXPECT_NEAR(scene.velocity(body)[0], kSpeed * std::cos(kYaw), 1e-3);
+  EXPECT_NEAR(scene.velocity(body)[2], -kSpeed * std::sin(kYaw), 1e-3);
+  EXPECT_NEAR(scene.velocity(body)[4], 0, 1e-3) << "nothing turns it";
 }
 
 /// A ball takes its spin from the belt, too: it rolls on the belt when 2/7 of its speed is the ball's.
@@ -113,10 +112,10 @@ TEST(Belts, RollABall) {
     set_belt(scene, {0, 0, 0});
     const PlumbBody ball = scene.add(scene.sphere(0.5), {0, 0.5, 0});
     scene.run(5);
-    EXPECT_NEAR(velocity(scene, ball)[0], kFriction * kGravity * 5 / 60, 5e-3);
+    EXPECT_NEAR(scene.velocity(ball)[0], kFriction * kGravity * 5 / 60, 5e-3);
     scene.run(55);
-    EXPECT_NEAR(velocity(scene, ball)[0], kSpeed * 2 / 7, 2e-3);
-    EXPECT_NEAR(velocity(scene, ball)[5], kSpeed * 5 / 7 / 0.5, 1e-2);
+    EXPECT_NEAR(scene.velocity(ball)[0], kSpeed * 2 / 7, 2e-3);
+    EXPECT_NEAR(scene.velocity(ball)[5], kSpeed * 5 / 7 / 0.5, 1e-2);
   }
 }
 
@@ -128,8 +127,8 @@ TEST(Belts, RunOnBodiesThatMove) {
   scene.write(PLUMB_FIELD_VELOCITY, carrier, {-0.5, 0, 1, 0, 0, 0});
   const PlumbBody body = scene.add(scene.box({0.5, 0.5, 0.5}), {0, 0.5, 0});
   scene.run(120);
-  EXPECT_NEAR(velocity(scene, body)[0], kSpeed - 0.5, 1e-4);
-  EXPECT_NEAR(velocity(scene, body)[2], 1, 1e-4);
+  EXPECT_NEAR(scene.velocity(body)[0], kSpeed - 0.5, 1e-4);
+  EXPECT_NEAR(scene.velocity(body)[2], 1, 1e-4);
 }
 
 /// What a belt gives to one body it takes from its own.
@@ -148,8 +147,8 @@ TEST(Belts, KeepMomentum) {
     scene.body.mass = 10;
     const PlumbBody body = scene.add(scene.box({0.5, 0.5, 0.5}), {-1, 1.5, 0});
     scene.run(60);
-    EXPECT_NEAR(velocity(scene, body)[0], kSpeed * 0.75, 2e-3);
-    EXPECT_NEAR(velocity(scene, slab)[0], -kSpeed * 0.25, 2e-3);
+    EXPECT_NEAR(scene.velocity(body)[0], kSpeed * 0.75, 2e-3);
+    EXPECT_NEAR(scene.velocity(slab)[0], -kSpeed * 0.25, 2e-3);
   }
 }
 
@@ -169,8 +168,8 @@ TEST(Belts, RunInTheirBodysFrame) {
   set_belt(scene, {0, 0, 0});
   const PlumbBody body = scene.add(scene.box({0.5, 0.5, 0.5}), {-1, 1.5, 0});
   scene.run(60);
-  EXPECT_NEAR(velocity(scene, body)[0] - velocity(scene, slab)[0], kSpeed, 5e-3);
-  EXPECT_NEAR(velocity(scene, body)[2] - velocity(scene, slab)[2], 0, 2e-2);
+  EXPECT_NEAR(scene.velocity(body)[0] - scene.velocity(slab)[0], kSpeed, 5e-3);
+  EXPECT_NEAR(scene.velocity(body)[2] - scene.velocity(slab)[2], 0, 2e-2);
 }
 
 TEST(Belts, RunOnEveryGround) {
@@ -186,8 +185,8 @@ TEST(Belts, RunOnEveryGround) {
     set_belt(scene, {0, 0, 0});
     const PlumbBody body = scene.add(scene.box({0.5, 0.5, 0.5}), {0.1, 0.5, 0.2});
     scene.run(90);
-    EXPECT_NEAR(velocity(scene, body)[2], kSpeed, 1e-3);
-    EXPECT_NEAR(velocity(scene, body)[0], 0, 1e-3);
+    EXPECT_NEAR(scene.velocity(body)[2], kSpeed, 1e-3);
+    EXPECT_NEAR(scene.velocity(body)[0], 0, 1e-3);
   }
 }
 
@@ -206,13 +205,13 @@ TEST(Belts, OfChildren) {
   const PlumbShape cube = scene.box({0.5, 0.5, 0.5});
   const PlumbBody on_first = scene.add(cube, {-3, 0.5, 0}), on_second = scene.add(cube, {3, 0.5, 0});
   scene.run(60);
-  EXPECT_NEAR(velocity(scene, on_first)[2], 0, 1e-4);
-  EXPECT_NEAR(velocity(scene, on_second)[2], kSpeed, 1e-3);
+  EXPECT_NEAR(scene.velocity(on_first)[2], 0, 1e-4);
+  EXPECT_NEAR(scene.velocity(on_second)[2], kSpeed, 1e-3);
   scene.write(PLUMB_FIELD_SURFACE_VELOCITY, ground, {0, 0, -1});
   EXPECT_EQ(read(scene, PLUMB_FIELD_SURFACE_VELOCITY, ground, 3)[2], -1);
   scene.run(60);
-  EXPECT_NEAR(velocity(scene, on_first)[2], -1, 1e-3);
-  EXPECT_NEAR(velocity(scene, on_second)[2], kSpeed, 1e-3);
+  EXPECT_NEAR(scene.velocity(on_first)[2], -1, 1e-3);
+  EXPECT_NEAR(scene.velocity(on_second)[2], kSpeed, 1e-3);
 }
 
 /// Slow as it is, a belt lets nobody sleep; nor does it start without those who sleep on it.
@@ -233,7 +232,7 @@ TEST(Belts, LetNobodySleep) {
   scene.write(PLUMB_FIELD_SURFACE_VELOCITY, belt, {1, 0, 0});
   EXPECT_TRUE(is_awake(scene, below));
   scene.run(60);
-  EXPECT_NEAR(velocity(scene, above)[0], 1, 1e-2);
+  EXPECT_NEAR(scene.velocity(above)[0], 1, 1e-2);
 }
 
 TEST(Belts, AreInSnapshots) {

@@ -16,10 +16,8 @@ struct Speed {
   PlumbVec3 linear, angular;
 };
 Speed speed(Scene& scene, PlumbBody body) {
-  Speed v{};
-  check(scene.world(), scene.world().read(PLUMB_FIELD_VELOCITY, {&body, 1},
-                                          Rows(reinterpret_cast<std::byte*>(&v), 1, sizeof v, PLUMB_F64)));
-  return v;
+  const std::vector<double> v = scene.velocity(body);
+  return {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
 }
 
 /// With e = 1 a ball comes back to where it fell from, wherever in a sub-step it touches.

@@ -19,9 +19,8 @@ std::vector<double> read(Scene& scene, PlumbField field, PlumbBody body, std::si
                            Rows(reinterpret_cast<std::byte*>(row.data()), 1, columns * sizeof(double), PLUMB_F64)));
   return row;
 }
-std::vector<double> velocity(Scene& scene, PlumbBody body) { return read(scene, PLUMB_FIELD_VELOCITY, body, 6); }
 double speed(Scene& scene, PlumbBody body) {
-  const std::vector<double> v = velocity(scene, body);
+  const std::vector<double> v = scene.velocity(body);
   return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
 PlumbVec3 place(Scene& scene, PlumbBody body) {
@@ -74,7 +73,7 @@ TEST(Carriers, ATurningPlatformTakesABoxAround) {
       const PlumbVec3 at = place(scene, body);
       EXPECT_NEAR(at.x, std::cos(6.0), 0.06);
       EXPECT_NEAR(at.z, -std::sin(6.0), 0.06);
-      EXPECT_NEAR(velocity(scene, body)[4], 1, 0.01);
+      EXPECT_NEAR(scene.velocity(body)[4], 1, 0.01);
       EXPECT_NEAR(at.y, 0.3, 0.01);
     }
 }
@@ -128,10 +127,10 @@ TEST(Carriers, ATeleportKicksNobody) {
     scene.run(1);
     EXPECT_EQ(speed(scene, platform), 0) << "the target is forgotten";
     EXPECT_NEAR(place(scene, platform).x, 5.4, 1e-6);
-    EXPECT_LT(std::abs(velocity(scene, body)[0]), 0.65) << "no more than it had";
-    EXPECT_LT(std::abs(velocity(scene, other)[0]), 0.65);
+    EXPECT_LT(std::abs(scene.velocity(body)[0]), 0.65) << "no more than it had";
+    EXPECT_LT(std::abs(scene.velocity(other)[0]), 0.65);
     scene.run(19);
-    EXPECT_NEAR(velocity(scene, body)[1], -9.81 / 3, 0.2) << "it falls";
+    EXPECT_NEAR(scene.velocity(body)[1], -9.81 / 3, 0.2) << "it falls";
     EXPECT_NEAR(place(scene, other).y, 0.3, 0.02) << "and this stands";
     EXPECT_LT(speed(scene, other), 0.05);
   }

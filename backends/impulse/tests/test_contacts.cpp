@@ -20,10 +20,8 @@ struct Motion {
   Vector linear, angular;
 };
 Motion motion(Scene& scene, PlumbBody body) {
-  double row[6];
-  check(scene.world(), scene.world().read(PLUMB_FIELD_VELOCITY, {&body, 1},
-                                          Rows(reinterpret_cast<std::byte*>(row), 1, sizeof row, PLUMB_F64)));
-  return {{row[0], row[1], row[2]}, {row[3], row[4], row[5]}};
+  const std::vector<double> v = scene.velocity(body);
+  return {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};
 }
 
 /// Mass and inverse inertia in world axes at a pose, from the interface's own mass row.

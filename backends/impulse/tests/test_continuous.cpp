@@ -100,14 +100,6 @@ TEST(Continuous, TimeOfImpactOfTurningBoxes) {
   EXPECT_GT(hits, 30);
 }
 
-std::vector<double> velocity(Scene& scene, PlumbBody body) {
-  std::vector<double> row(6);
-  check(scene.world(),
-        scene.world().read(PLUMB_FIELD_VELOCITY, {&body, 1},
-                           Rows(reinterpret_cast<std::byte*>(row.data()), 1, 6 * sizeof(double), PLUMB_F64)));
-  return row;
-}
-
 /// Where the bullet is when it has flown 8 m, with a wall of 0.1 m at 5 m.
 double end_of_bullet(double speed, std::uint32_t flags, double offset) {
   Scene scene(engine(), kNeeds, {0, 0, 0}, 1);
@@ -140,8 +132,8 @@ TEST(Continuous, ABulletGivesItsMomentum) {
     scene.body.linear_velocity = {600, 0, 0};
     const PlumbBody bullet = scene.add(ball, {0, 0, 0});
     scene.run(3);
-    EXPECT_NEAR(velocity(scene, target)[0], e == 0 ? 300 : 600, 0.1);
-    EXPECT_NEAR(velocity(scene, bullet)[0], e == 0 ? 300 : 0, 0.1);
+    EXPECT_NEAR(scene.velocity(target)[0], e == 0 ? 300 : 600, 0.1);
+    EXPECT_NEAR(scene.velocity(bullet)[0], e == 0 ? 300 : 0, 0.1);
   }
 }
 
@@ -173,7 +165,7 @@ TEST(Continuous, ABulletAndAPaddleMeet) {
   const PlumbBody bullet = scene.add(scene.sphere(0.1), {0, 0, 0});
   scene.run(4);
   EXPECT_LT(scene.poses()[1].position.x, scene.poses()[0].position.x);
-  EXPECT_NEAR(velocity(scene, bullet)[0], -30, 0.5);
+  EXPECT_NEAR(scene.velocity(bullet)[0], -30, 0.5);
 }
 
 /// Bodies without the flag go as where nobody asks for continuous collision, bit for bit.

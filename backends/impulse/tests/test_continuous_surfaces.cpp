@@ -11,14 +11,6 @@ namespace {
 constexpr PlumbNeeds kNeeds =
     PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION | PLUMB_NEED_CCD | PLUMB_NEED_KINEMATIC;
 
-std::vector<double> velocity(Scene& scene, PlumbBody body) {
-  std::vector<double> row(6);
-  check(scene.world(),
-        scene.world().read(PLUMB_FIELD_VELOCITY, {&body, 1},
-                           Rows(reinterpret_cast<std::byte*>(row.data()), 1, 6 * sizeof(double), PLUMB_F64)));
-  return row;
-}
-
 constexpr const char* kSolvers[] = {"tgs_soft", "si", "jacobi", "xpbd"};
 
 enum class Floor { kPlane, kSheet, kFineSheet, kHills, kField, kCompound, kCylinder };
@@ -100,7 +92,7 @@ TEST(ContinuousSurfaces, NoBulletPasses) {
         const double end = scene.poses()[1].position.y * side;
         EXPECT_GT(end, -kRough - 0.1) << "floor " << static_cast<int>(floor) << " bullet " << static_cast<int>(bullet)
                                       << " shot " << shot << " by " << kSolvers[shot % 4] << " at " << speed << " m/s";
-        const std::vector<double> v = velocity(scene, body);
+        const std::vector<double> v = scene.velocity(body);
         const PlumbVec3& came = scene.body.linear_velocity;
         const double most = came.x * came.x + came.y * came.y + came.z * came.z + 1;
         EXPECT_LT(v[0] * v[0] + v[1] * v[1] + v[2] * v[2], most) << "nobody pushes it";
@@ -210,9 +202,9 @@ TEST(ContinuousSurfaces, AStackTakesTheMomentumOfABullet) {
     const PlumbBody ball = scene.add(scene.sphere(0.2), {-11, 0.1, 0.05});
     scene.run(5);
     double momentum[3] = {}, last = -100;
-    for (int k = 0; k < 3; ++k) momentum[k] = 4 * velocity(scene, ball)[static_cast<std::size_t>(k)];
+    for (int k = 0; k < 3; ++k) momentum[k] = 4 * scene.velocity(ball)[static_cast<std::size_t>(k)];
     for (const PlumbBody box : boxes) {
-      const std::vector<double> v = velocity(scene, box);
+      const std::vector<double> v = scene.velocity(box);
       for (int k = 0; k < 3; ++k) momentum[k] += 10 * v[static_cast<std::size_t>(k)];
       last = std::max(last, v[0]);
     }
@@ -220,7 +212,7 @@ TEST(ContinuousSurfaces, AStackTakesTheMomentumOfABullet) {
     EXPECT_NEAR(momentum[1], 0, 2);
     EXPECT_NEAR(momentum[2], 0, 2);
     EXPECT_GT(last, 10) << "somebody was hit";
-    EXPECT_LE(velocity(scene, ball)[0], last + 1);
+    EXPECT_LE(scene.velocity(ball)[0], last + 1);
   }
 }
 
@@ -238,7 +230,7 @@ TEST(ContinuousSurfaces, NoPaddlePasses) {
         const PlumbBody ball = scene.add(scene.sphere(0.1), {0, 0.21, 0.13});
         scene.run(static_cast<int>(5 / speed * 60) + 2);
         EXPECT_LT(scene.poses()[1].position.x, scene.poses()[0].position.x) << speed << " m/s, sheet " << sheet;
-        EXPECT_NEAR(velocity(scene, ball)[0], -speed, 0.02 * speed);
+        EXPECT_NEAR(scene.velocity(ball)[0], -speed, 0.02 * speed);
       }
   for (const bool sheet : {false, true})
     for (const double turn : {10.0, 40.0, 70.0}) {
@@ -249,9 +241,8 @@ TEST(ContinuousSurfaces, NoPaddlePasses) {
       scene.body.flags = PLUMB_BODY_CCD;
       const PlumbBody ball = scene.add(scene.sphere(0.05), {-1, 0.1, 0.2});  // the paddle's upper half comes its way
       scene.run(static_cast<int>(1.6 / turn * 60) + 2);
-      EXPECT_GT(
-          velocity(scene, ball)[1] * velocity(scene, ball)[1] + velocity(scene, ball)[0] * velocity(scene, ball)[0],
-          0.6 * turn * turn)
+      EXPECT_GT(scene.velocity(ball)[1] * scene.velocity(ball)[1] + scene.velocity(ball)[0] * scene.velocity(ball)[0],
+                0.6 * turn * turn)
           << turn << " rad/s, sheet " << sheet;
     }
 }
@@ -269,8 +260,8 @@ TEST(ContinuousSurfaces, ASleeperIsHit) {
     scene.body.linear_velocity = {800, 0, 0};
     const PlumbBody bullet = scene.add(scene.sphere(0.1), {0, 0, 0});
     scene.run(3);
-    EXPECT_NEAR(velocity(scene, sleeper)[0], 200, 1);
-    EXPECT_NEAR(velocity(scene, bullet)[0], 200, 1);
+    EXPECT_NEAR(scene.velocity(sleeper)[0], 200, 1);
+    EXPECT_NEAR(scene.velocity(bullet)[0], 200, 1);
     EXPECT_LT(scene.poses()[1].position.x, scene.poses()[0].position.x);
   }
 }

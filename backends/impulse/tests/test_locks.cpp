@@ -14,14 +14,6 @@ constexpr PlumbNeeds kNeeds = PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB
                               PLUMB_NEED_FORCES | PLUMB_NEED_GYROSCOPIC;
 constexpr const char* kSolvers[] = {"tgs_soft", "si", "jacobi", "xpbd"};
 
-std::vector<double> velocity(Scene& scene, PlumbBody body) {
-  std::vector<double> row(6);
-  check(scene.world(),
-        scene.world().read(PLUMB_FIELD_VELOCITY, {&body, 1},
-                           Rows(reinterpret_cast<std::byte*>(row.data()), 1, 6 * sizeof(double), PLUMB_F64)));
-  return row;
-}
-
 /// A heap of boxes that move in the plane z = 0 only: not a bit of z, and no turn out of the plane.
 TEST(Locks, HoldExactly) {
   for (const char* solver : kSolvers) {
@@ -55,7 +47,7 @@ TEST(Locks, CarryWhatTheyHold) {
   const PlumbBody ball = scene.add(scene.sphere(0.5), {0, 0.70710678118654752, 0});
   scene.run(120);
   EXPECT_NEAR(scene.poses()[1].position.y, 0.70710678118654752, 5e-3);
-  EXPECT_NEAR(velocity(scene, ball)[1], 0, 5e-3);
+  EXPECT_NEAR(scene.velocity(ball)[1], 0, 5e-3);
 }
 
 /// Free about z alone: it turns by the moment about z, however it lies; and not when it is pushed about others.
@@ -70,14 +62,14 @@ TEST(Locks, LeaveTheMomentAboutWhatIsFree) {
   const double s = 2 * kSine * kCosine, c = kCosine * kCosine - kSine * kSine;
   const double about_z = 1 * s * s + 3.5 * c * c;
   scene.write(PLUMB_FIELD_ANGULAR_IMPULSE, body, {5, 7, 2});
-  EXPECT_NEAR(velocity(scene, body)[5], 2 / about_z, 1e-6);
-  EXPECT_EQ(velocity(scene, body)[3], 0);
+  EXPECT_NEAR(scene.velocity(body)[5], 2 / about_z, 1e-6);
+  EXPECT_EQ(scene.velocity(body)[3], 0);
   scene.write(PLUMB_FIELD_TORQUE, body, {1, 1, 3});
   scene.run(1);
-  EXPECT_NEAR(velocity(scene, body)[5], (2 + 3.0 / 60) / about_z, 1e-6);
+  EXPECT_NEAR(scene.velocity(body)[5], (2 + 3.0 / 60) / about_z, 1e-6);
   scene.write(PLUMB_FIELD_VELOCITY, body, {1, 2, 3, 4, 5, 6});
-  EXPECT_EQ(velocity(scene, body)[3], 0);
-  EXPECT_EQ(velocity(scene, body)[5], 6);
+  EXPECT_EQ(scene.velocity(body)[3], 0);
+  EXPECT_EQ(scene.velocity(body)[5], 6);
 }
 
 /// The Schur complement, axis by axis, is the inverse of what is left of the inertia.

@@ -53,18 +53,6 @@ TEST(Step, HasTheSameBitsUnderAnyRoundingOfTheHost) {
   EXPECT_EQ(scene.hash(), pile_hash(1));
 }
 
-std::vector<double> velocity(Scene& scene, PlumbBody body) {
-  std::vector<double> row(6);
-  check(scene.world(),
-        scene.world().read(PLUMB_FIELD_VELOCITY, {&body, 1},
-                           Rows(reinterpret_cast<std::byte*>(row.data()), 1, 6 * sizeof(double), PLUMB_F64)));
-  return row;
-}
-void write(Scene& scene, PlumbField field, PlumbBody body, const std::vector<double>& row) {
-  check(scene.world(), scene.world().write(field, {&body, 1},
-                                           ConstRows(reinterpret_cast<const std::byte*>(row.data()), 1,
-                                                     row.size() * sizeof(double), PLUMB_F64)));
-}
 PlumbStepReport step(Scene& scene) {
   PlumbStepReport report{};
   check(scene.world(), scene.world().step(1.0 / 60));
@@ -76,7 +64,7 @@ bool all_finite(Scene& scene) {
     for (const double x : {pose.position.x, pose.position.y, pose.position.z, pose.orientation.w})
       if (!std::isfinite(x)) return false;
   for (const PlumbBody body : scene.world().bodies())
-    for (const double x : velocity(scene, body))
+    for (const double x : scene.velocity(body))
       if (!std::isfinite(x)) return false;
   return true;
 }
@@ -93,13 +81,13 @@ void harms_nobody(const std::vector<double>& velocity_row, Stopped stopped) {
   const PlumbBody on_top = scene.add(cube, {0, 1.5, 0});
   const PlumbBody far = scene.add(cube, {20, 3, 0});
   step(scene);
-  write(scene, PLUMB_FIELD_VELOCITY, wild, velocity_row);
+  scene.write(PLUMB_FIELD_VELOCITY, wild, velocity_row);
   std::uint32_t nonfinite = 0;
   if (stopped == Stopped::kAtTheWrite) {
-    EXPECT_EQ(velocity(scene, wild), std::vector<double>(6, 0)) << "before it has reached a step";
+    EXPECT_EQ(scene.velocity(wild), std::vector<double>(6, 0)) << "before it has reached a step";
     nonfinite = step(scene).nonfinite;
     EXPECT_EQ(nonfinite, 1U) << "the body itself and nobody else, once";
-    EXPECT_NEAR(velocity(scene, on_top)[1], 0, 0.01) << "who lies on it";
+    EXPECT_NEAR(scene.velocity(on_top)[1], 0, 0.01) << "who lies on it";
   }
   for (int i = 0; i < 60; ++i) {
     nonfinite += step(scene).nonfinite;
@@ -108,11 +96,11 @@ void harms_nobody(const std::vector<double>& velocity_row, Stopped stopped) {
   EXPECT_EQ(nonfinite > 0, stopped != Stopped::kNot);
   EXPECT_EQ(step(scene).nonfinite, 0U) << "still at it after a second";
   EXPECT_NEAR(scene.poses()[3].position.y, 0.5, 0.01) << "the far one did not fall to the ground";
-  write(scene, PLUMB_FIELD_POSE, on_top, {0, 5, 10, 0, 0, 0, 1});
-  write(scene, PLUMB_FIELD_VELOCITY, on_top, {0, 0, 0, 0, 0, 0});
+  scene.write(PLUMB_FIELD_POSE, on_top, {0, 5, 10, 0, 0, 0, 1});
+  scene.write(PLUMB_FIELD_VELOCITY, on_top, {0, 0, 0, 0, 0, 0});
   for (int i = 0; i < 6; ++i) step(scene);
-  EXPECT_NEAR(velocity(scene, on_top)[1], -0.981, 1e-3) << "the neighbour no longer falls";
-  EXPECT_NEAR(velocity(scene, far)[1], 0, 1e-3);
+  EXPECT_NEAR(scene.velocity(on_top)[1], -0.981, 1e-3) << "the neighbour no longer falls";
+  EXPECT_NEAR(scene.velocity(far)[1], 0, 1e-3);
 }
 
 TEST(Step, AWildBodyHarmsNobody) {
@@ -156,7 +144,7 @@ TEST(Step, IsRepeatedWithMoreRoomAndLosesNothing) {
   EXPECT_EQ(report.dropped, 0U);
   EXPECT_GE(report.contacts, 2U * kSide * (kSide - 1)) << "neighbours that touch";
   for (const PlumbBody body : scene.world().bodies())
-    ASSERT_NEAR(velocity(scene, body)[1], -9.81 / 60, 1e-5) << "one step of fall, not two";
+    ASSERT_NEAR(scene.velocity(body)[1], -9.81 / 60, 1e-5) << "one step of fall, not two";
   EXPECT_EQ(step(scene).remarks & PLUMB_REMARK_STEP_REPEATED, 0U);
 }
 
@@ -176,7 +164,7 @@ TEST(Step, ABodyWithHundredsOfContactsIsSolved) {
   const std::vector<PlumbPose> poses = scene.poses();
   EXPECT_NEAR(poses[1].position.y, 0.5, 2e-3);
   for (std::size_t i = 2; i < poses.size(); ++i) ASSERT_NEAR(poses[i].position.y, 1.1, 4e-3) << i;
-  EXPECT_NEAR(velocity(scene, plate)[1], 0, 1e-3);
+  EXPECT_NEAR(scene.velocity(plate)[1], 0, 1e-3);
 }
 
 }  // namespace

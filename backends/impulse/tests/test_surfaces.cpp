@@ -58,10 +58,7 @@ Ride ride(Ground ground, Rider rider) {
   Ride out{0, 0, 0};
   for (int i = 0; i < 150; ++i) {
     scene.run(1);
-    double row[6];
-    check(scene.world(), scene.world().read(PLUMB_FIELD_VELOCITY, {&body, 1},
-                                            Rows(reinterpret_cast<std::byte*>(row), 1, sizeof row, PLUMB_F64)));
-    if (i > 30) out.most_rise = std::max(out.most_rise, std::abs(row[1]) / speed);
+    if (i > 30) out.most_rise = std::max(out.most_rise, std::abs(scene.velocity(body)[1]) / speed);
   }
   const PlumbVec3 at = scene.poses().back().position;
   const double dx = at.x - 0.113, dz = at.z - 0.071;

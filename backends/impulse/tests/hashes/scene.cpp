@@ -120,6 +120,13 @@ void Scene::write(PlumbField field, PlumbBody written, const std::vector<double>
   check(*world_, world_->write(field, {&written, 1}, rows));
 }
 
+std::vector<double> Scene::velocity(PlumbBody asked) {
+  std::vector<double> row(6);
+  check(*world_, world_->read(PLUMB_FIELD_VELOCITY, {&asked, 1},
+                              Rows(reinterpret_cast<std::byte*>(row.data()), 1, 6 * sizeof(double), PLUMB_F64)));
+  return row;
+}
+
 void Scene::remove(PlumbBody gone) { check(*world_, world_->destroy_bodies({&gone, 1})); }
 
 void Scene::run(int steps) {

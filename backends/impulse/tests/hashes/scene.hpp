@@ -64,6 +64,8 @@ class Scene {
   void run(int steps);
   [[nodiscard]] std::uint64_t hash();
   [[nodiscard]] std::vector<PlumbPose> poses();
+  /// Linear and angular, m/s and rad/s: six numbers.
+  [[nodiscard]] std::vector<double> velocity(PlumbBody body);
   [[nodiscard]] IPhysicsWorld& world() { return *world_; }
 
  private:
