@@ -7,6 +7,7 @@
 
 #include "report/csv.hpp"
 #include "run/study.hpp"
+#include "scene/expressions.hpp"
 
 namespace plumb::harness {
 
@@ -19,6 +20,15 @@ bool misses_something(const Json& row) {
 void say_what_is_left_out(const Plan& plan) {
   for (const BackendDescription& backend : plan.broken)
     fmt::print(stderr, "left out: backend {}: {}: {}\n", backend.name, backend.status, backend.error);
+}
+
+/// A number as scene files may write it, "1/240", as one that the parser of options reads.
+std::string evaluated(const std::string& text) {
+  try {
+    return fmt::format("{}", Expressions().evaluate(text));
+  } catch (const std::invalid_argument& error) {
+    throw CLI::ValidationError(error.what());
+  }
 }
 
 }  // namespace
@@ -46,8 +56,8 @@ void add_study_options(CLI::App& verb, StudyOptions& options) {
   verb.add_option("--needs", request.needs,
                   "scene: declare what the scene needs; scene+sleeping: one more; all: whatever the engine has")
       ->capture_default_str();
-  verb.add_option("--dt", request.dt, "Step in s instead of the scene's");
-  verb.add_option("--seconds", request.seconds, "Simulated time in s instead of the scene's");
+  verb.add_option("--dt", request.dt, "Step in s instead of the scene's: 1/240 or 0.004")->transform(evaluated);
+  verb.add_option("--seconds", request.seconds, "Simulated time in s instead of the scene's")->transform(evaluated);
   verb.add_option("--threads", request.threads, "Threads that a world may use")
       ->check(CLI::Range(1u, 4096u))
       ->capture_default_str();

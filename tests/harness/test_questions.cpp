@@ -46,6 +46,12 @@ TEST(Questions, misspelt_choice) { expect_refusal(a1_with({"--set", "misbehaviou
 TEST(Questions, misspelt_profile) { expect_refusal(a1_with({"--profile", "matchd"}), "\"matched\""); }
 TEST(Questions, misspelt_flag) { expect_refusal(a1_with({"--repeats", "3"}), "\"--repeat\""); }
 TEST(Questions, flag_value_of_the_wrong_type) { expect_refusal(a1_with({"--repeat", "often"}), "--repeat"); }
+TEST(Questions, step_that_is_no_number) { expect_refusal(a1_with({"--dt", "1/x"}), "1/x"); }
+TEST(Questions, step_as_a_fraction_is_one) {
+  const Finished finished = plumb(a1_with({"--dt", "1/240", "--json"}));
+  EXPECT_EQ(finished.status, 0) << finished.err;
+  EXPECT_EQ(Json::parse(finished.out)["dt"], 1.0 / 240);
+}
 TEST(Questions, negative_step) { expect_refusal(a1_with({"--dt", "-1"}), "--dt"); }
 TEST(Questions, tuned_profile_without_a_file) { expect_refusal(a1_with({"--profile", "tuned"}), "tuned.json"); }
 TEST(Questions, record_without_a_folder) { expect_refusal(a1_with({"--record"}), "--out"); }
