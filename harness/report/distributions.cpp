@@ -7,6 +7,8 @@
 namespace plumb::harness {
 namespace {
 
+constexpr std::size_t fewest_seeds = 3;
+
 /// The seeds that a backend ran with at its defaults; empty where it did not.
 std::vector<const ResultRow*> seeds_at_defaults(const Study& study, const Problem& problem,
                                                 const std::string& backend) {
@@ -60,14 +62,14 @@ DistributionCell cell_of(const std::vector<const ResultRow*>& rows, const Metric
 
 }  // namespace
 
-std::vector<DistributionLine> distributions(const Study& study, std::size_t fewest) {
+std::vector<DistributionLine> distributions(const Study& study) {
   std::vector<DistributionLine> lines;
   for (const Problem& problem : study.problems) {
     std::vector<std::vector<const ResultRow*>> seeds;
     bool any = false;
     for (const std::string& backend : study.backends) {
       seeds.push_back(seeds_at_defaults(study, problem, backend));
-      if (seeds.back().size() < fewest) seeds.back().clear();
+      if (seeds.back().size() < fewest_seeds) seeds.back().clear();
       any = any || !seeds.back().empty();
     }
     if (!any) continue;

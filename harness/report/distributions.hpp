@@ -25,7 +25,7 @@ struct DistributionLine {
   std::vector<std::optional<DistributionCell>> cells;  ///< by backend, in the study's order
 };
 
-/// Of every problem that some backend ran with at least `fewest` seeds, its scored metrics and those without a truth.
-[[nodiscard]] std::vector<DistributionLine> distributions(const Study& study, std::size_t fewest = 3);
+/// Of every problem that some backend ran with at least three seeds, its scored metrics and those without a truth.
+[[nodiscard]] std::vector<DistributionLine> distributions(const Study& study);
 
 }  // namespace plumb::harness

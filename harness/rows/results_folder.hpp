@@ -1,4 +1,5 @@
-// Which files of a folder hold rows, for those who write them and those who read them.
+// Which files of a folder hold rows, and what is in those that are packed, for those who write rows and those who read
+// them.
 #pragma once
 
 #include <filesystem>
