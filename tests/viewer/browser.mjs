@@ -8,7 +8,7 @@ import { after, before, test } from 'node:test';
 import { pathToFileURL } from 'node:url';
 import { kArguments, kBrowser as executablePath } from '../../harness/viewer/chromium.mjs';
 import { page as makePage } from './page.mjs';
-import { crowd, pairScripts, room, script, tower, zoo } from './synthetic.mjs';
+import { crowd, linkage, pairScripts, room, script, specks, tower, zoo } from './synthetic.mjs';
 
 const folder = process.env.PLUMB_VIEWER_FOLDER,
   root = process.env.PLUMB_SOURCE;
@@ -33,6 +33,17 @@ before(async () => {
       script('shapes', 'alpha', zoo('alpha')),
       script('crowd 5000', 'alpha', crowd('alpha', { frames: 8 })),
       script('room', 'alpha', room('alpha')),
+      script(
+        'linkage',
+        'alpha',
+        linkage('alpha', { gap: 0.01, header: { badge: { verdict: 'gold', words: 'nearest to its limit' } } }),
+      ),
+      script(
+        'linkage',
+        'beta',
+        linkage('beta', { gap: 0.25, header: { badge: { verdict: 'failed', words: 'gap 0.25 > 0.05' } } }),
+      ),
+      script('specks', 'alpha', specks('alpha')),
       ...pairScripts(['alpha', 'beta']),
     ]),
   );
@@ -146,6 +157,7 @@ test('every layer changes the picture and comes off again', () =>
       layers = (await page.evaluate(() => window.plumbViewer.describe())).layers;
     assert.ok(layers.length >= 9);
     for (const { name, available } of layers) {
+      if (name === 'joints') continue; // of which a tower has none
       assert.ok(available, `the tower was made with ${name}`);
       assert.equal(await page.evaluate((layer) => window.plumbViewer.setLayer(layer, true), name), true);
       assert.notEqual((await picture(page)).sum, bare.sum, `${name} changes nothing`);
@@ -217,6 +229,185 @@ test('all shapes, five thousand bodies, both themes and a telephone', async () =
       { size: { width: 390, height: 780 }, context: { colorScheme, hasTouch: true, isMobile: true } },
     );
   }
+});
+
+const describe = (page) => page.evaluate(() => window.plumbViewer.describe());
+const select = (page, scene) => page.evaluate((name) => window.plumbViewer.select(name), scene);
+
+/** Pixels of the canvas that are nearly of a CSS colour, in the left half and in the right. */
+const pixelsOf = (page, colour) =>
+  page.evaluate(([r, g, b]) => {
+    window.plumbViewer.renderOnce();
+    const canvas = document.querySelector('.pv-canvas'),
+      copy = document.createElement('canvas');
+    Object.assign(copy, { width: canvas.width, height: canvas.height });
+    const pen = copy.getContext('2d');
+    pen.drawImage(canvas, 0, 0);
+    const { data } = pen.getImageData(0, 0, copy.width, copy.height),
+      halves = [0, 0];
+    for (let i = 0; i < data.length; i += 4) {
+      if (Math.abs(data[i] - r) + Math.abs(data[i + 1] - g) + Math.abs(data[i + 2] - b) > 40) continue;
+      ++halves[(i / 4) % copy.width < copy.width / 2 ? 0 : 1];
+    }
+    return halves;
+  }, colour);
+
+test('joints are drawn where there are any, their gap as a colour on one scale for all engines', () =>
+  visit(async (page) => {
+    await select(page, 'linkage');
+    const { layers, gapRange } = await describe(page);
+    assert.ok(layers.find(({ name }) => name === 'joints').on, 'nobody has to ask for them');
+    assert.ok(Math.abs(gapRange - 0.25) < 1e-6);
+    assert.match(await page.locator('.pv-legends').textContent(), /gap of a joint0\u2265 250 mmspring/);
+    const widest = (
+      await page.evaluate(() => getComputedStyle(document.querySelector('.pv-legends .pv-ramp')).backgroundImage)
+    )
+      .match(/rgb\(([^)]*)\)\)$/)[1]
+      .split(/[ ,]+/)
+      .map(Number);
+    const [alpha, beta] = await pixelsOf(page, widest);
+    assert.ok(beta > 20 && alpha < beta / 10, `the widest gap is beta's: ${alpha} and ${beta} pixels of its colour`);
+    await page.evaluate(() => window.plumbViewer.seek(1.2));
+    const after = await pixelsOf(page, widest);
+    assert.ok(after[1] < beta / 4, 'a joint that broke is gone');
+    await page.evaluate(() => window.plumbViewer.setLayer('joints', false));
+    assert.deepEqual(await pixelsOf(page, widest), [0, 0]);
+  }));
+
+test('a scene without ground has a grid and a scale in metres, one with ground no grid', () =>
+  visit(async (page) => {
+    await select(page, 'linkage');
+    const [{ bar, grid }] = (await describe(page)).scale;
+    assert.ok(grid > 0 && bar > 0);
+    assert.match(await page.locator('.pv-scale-bar').first().textContent(), /^\d+ m; grid \d+ mm, no ground$/);
+    // The bar is as long as it says: bob and sled are 4 m apart at the start, and near the turning point.
+    await page.evaluate(() => {
+      window.plumbViewer.seek(0);
+      window.plumbViewer.renderOnce();
+    });
+    const port = await page.locator('.pv-port').first().boundingBox(),
+      [left, right] = await page.evaluate(() => ['bob', 'sled'].map((name) => window.plumbViewer.onScreen(name))),
+      apart = Math.hypot((left[0] - right[0]) * port.width, (left[1] - right[1]) * port.height),
+      metre = (await page.locator('.pv-scale-bar i').first().boundingBox()).width / bar;
+    assert.ok(
+      apart / 4 < 1.1 * metre && apart / 4 > 0.6 * metre,
+      `${apart} pixels for 4 m, seen askew, of ${metre} to a metre`,
+    );
+    await page.locator('.pv-port').first().focus();
+    for (let i = 0; i < 12; ++i) await page.keyboard.press('+');
+    await page.evaluate(() => window.plumbViewer.renderOnce());
+    assert.ok((await describe(page)).scale[0].bar < bar, 'it goes with the camera');
+    await select(page, 'tower H=10');
+    assert.equal((await describe(page)).scale[0].grid, null);
+    assert.doesNotMatch(await page.locator('.pv-scale-bar').first().textContent(), /grid/);
+  }));
+
+test('a followed body stays in the middle of each view, until escape', () =>
+  visit(async (page) => {
+    await select(page, 'linkage');
+    const find = page.locator('.pv-find');
+    await find.fill('nobody');
+    await find.press('Enter');
+    assert.match(await page.locator('.pv-message').textContent(), /no body "nobody" among 5/);
+    await find.fill('lower');
+    await find.press('Enter');
+    assert.ok((await describe(page)).following);
+    for (const time of [0, 0.4, 0.9]) {
+      const places = await page.evaluate((seconds) => {
+        window.plumbViewer.seek(seconds);
+        window.plumbViewer.renderOnce();
+        return [0, 1].map((view) => window.plumbViewer.onScreen('lower', view));
+      }, time);
+      for (const [x, y] of places) assert.ok(Math.hypot(x - 0.5, y - 0.5) < 0.01, `at ${time} s it is at ${x}, ${y}`);
+    }
+    const port = page.locator('.pv-port').first();
+    await port.focus();
+    await page.keyboard.press('Escape');
+    let state = await describe(page);
+    assert.deepEqual([state.following, state.picked], [false, [1, 1]], 'it stays picked');
+    await page.keyboard.press('Escape');
+    assert.deepEqual((await describe(page)).picked, [null, null]);
+    await page.keyboard.press('.');
+    await page.keyboard.press('.');
+    await page.keyboard.press('c');
+    state = await describe(page);
+    assert.deepEqual([state.following, state.picked], [true, [1, 1]], 'the keyboard picks and follows, too');
+  }));
+
+test('names stand beside bodies when asked for, and of five thousand only the nearest', () =>
+  visit(async (page) => {
+    const names = page.locator('.pv-body-name:visible');
+    await select(page, 'linkage');
+    assert.equal(await names.count(), 0);
+    await page.locator('.pv-port').first().focus();
+    await page.keyboard.press('n');
+    await page.evaluate(() => window.plumbViewer.renderOnce());
+    const words = await page.locator('.pv-view').first().locator('.pv-body-name:visible').allTextContents();
+    assert.deepEqual(words.sort(), ['bob', 'lower', 'sled', 'upper', 'wheel']);
+    await select(page, 'crowd 5000');
+    await page.evaluate(() => window.plumbViewer.renderOnce());
+    const count = await names.count();
+    assert.ok(count > 10 && count <= 40, `${count} names`);
+    await page.locator('.pv-port').first().focus();
+    await page.keyboard.press('n');
+    await page.evaluate(() => window.plumbViewer.renderOnce());
+    assert.equal(await names.count(), 0);
+  }));
+
+test('every run has its badge, those that pass, too', () =>
+  visit(async (page) => {
+    const chips = page.locator('.pv-view > header .chip');
+    assert.deepEqual(await chips.allTextContents(), ['pass', 'failed'], 'as older recordings tell it');
+    await select(page, 'linkage');
+    assert.deepEqual(await chips.allTextContents(), ['gold', 'failed']);
+    assert.deepEqual(await page.locator('.pv-view > header small').allTextContents(), [
+      'nearest to its limit',
+      'gap 0.25 > 0.05',
+    ]);
+  }));
+
+test('bodies far smaller than a pixel are seen all the same', () =>
+  visit(async (page) => {
+    await select(page, 'specks');
+    const { colours } = await picture(page),
+      seen = await page.evaluate(() => {
+        const canvas = document.querySelector('.pv-canvas'),
+          copy = document.createElement('canvas');
+        window.plumbViewer.renderOnce();
+        Object.assign(copy, { width: canvas.width, height: canvas.height });
+        const pen = copy.getContext('2d');
+        pen.drawImage(canvas, 0, 0);
+        const { data } = pen.getImageData(0, 0, copy.width, copy.height);
+        let vivid = 0;
+        for (let i = 0; i < data.length; i += 4)
+          if (Math.max(data[i], data[i + 1], data[i + 2]) - Math.min(data[i], data[i + 1], data[i + 2]) > 60) ++vivid;
+        return vivid;
+      });
+    assert.ok(seen >= 9 * 4, `${seen} pixels of nine bodies are coloured, of ${colours} colours in all`);
+  }));
+
+test('a page may have a replay elsewhere, which begins when the reader comes near', async () => {
+  const other = join(scratch, 'mounted.html');
+  writeFileSync(
+    other,
+    makePage(root, join(folder, 'viewer.js'), [
+      '<div id="near" data-plumb-replay="shapes"></div><div style="height:6000px"></div><div id="far" data-plumb-replay=""></div>',
+      script('tower H=10', 'alpha', tower('alpha')),
+      script('shapes', 'alpha', zoo('alpha')),
+    ]),
+  );
+  await visit(
+    async (page) => {
+      await page.waitForSelector('#near .pv-view');
+      assert.equal(await page.locator('#near .pv-title').textContent(), 'every kind of shape');
+      assert.equal(await page.locator('#near .pv-curves *').count(), 0, 'without curves');
+      assert.equal(await page.locator('#far > *').count(), 0);
+      await page.evaluate(() => document.getElementById('far').scrollIntoView());
+      await page.waitForSelector('#far .pv-view');
+      assert.equal(await page.locator('#far .pv-title').textContent(), 'a tower of boxes');
+    },
+    { url: pathToFileURL(other).href },
+  );
 });
 
 test('pairs of shapes are chosen from a matrix and shown side by side', () =>

@@ -435,3 +435,84 @@ export function room(backend) {
   const pose = (f) => [0.6 * Math.sin(f / 8), 0.3, 0, 0, 0, 0, 1];
   return replay({ scene: 'room', backend, shapes, bodies, frames: 60, pose });
 }
+
+/** Nine balls of a millimetre, metres apart over the ground. */
+export function specks(backend) {
+  const bodies = [
+    kGround,
+    ...Array.from({ length: 9 }, (_, i) => ({ name: `speck ${i}`, shape: 1, motion: 'dynamic' })),
+  ];
+  return replay({
+    scene: 'specks',
+    backend,
+    bodies,
+    frames: 2,
+    pose: (_, i) => [4 * ((i - 1) % 3) - 4, 0.5, 4 * Math.floor((i - 1) / 3) - 4, 0, 0, 0, 1],
+    shapes: [
+      { type: 'plane', normal: [0, 1, 0], offset: 0 },
+      { type: 'sphere', radius: 0.001 },
+    ],
+  });
+}
+
+/** A joint as recordings have it, between points of two bodies; body_a null: the world. */
+const joint = (name, type, body_a, at_a, body_b, at_b, more = {}) => ({
+  name,
+  type,
+  body_a,
+  body_b,
+  frame_a: [...at_a, 0, 0, 0, 1],
+  frame_b: [...at_b, 0, 0, 0, 1],
+  ...more,
+});
+
+/**
+ * Joints of every kind over empty space: a rod swings about the world's origin, its lower end `gap` metres off the next
+ * rod's; a sled on a rail, a bob on a spring, a wheel on a fork. The joint between the rods is gone from `broken` on.
+ */
+export function linkage(backend, { frames = 90, gap = 0.1, broken = 60, header = {} } = {}) {
+  const bodies = ['upper', 'lower', 'sled', 'bob', 'wheel'].map((name, i) => ({
+    name,
+    shape: [0, 0, 1, 2, 2][i],
+    motion: 'dynamic',
+  }));
+  const angle = (f) => 0.6 * Math.cos(f / 15),
+    turn = (f) => quaternion([0, 0, 1], angle(f));
+  const pose = (f, i) => {
+    const a = angle(f),
+      down = [Math.sin(a), -Math.cos(a)];
+    if (i === 0) return [0.5 * down[0], 0.5 * down[1], 0, ...turn(f)];
+    if (i === 1) return [(1.5 + gap) * down[0], (1.5 + gap) * down[1], 0, ...turn(f)];
+    if (i === 2) return [2 + 0.4 * Math.sin(f / 10), -1, 0, 0, 0, 0, 1];
+    if (i === 3) return [-2, -1 - 0.3 * Math.sin(f / 9), 0, 0, 0, 0, 1];
+    return [-1, 0.4, 0, ...quaternion([1, 0, 0], f / 8)];
+  };
+  const joints = [
+    joint('top', 'ball', null, [0, 0, 0], 0, [0, 0.5, 0]),
+    joint('middle', 'hinge', 0, [0, -0.5, 0], 1, [0, 0.5, 0]),
+    joint('rail', 'slider', null, [2, -1, 0], 2, [0, 0, 0]),
+    joint('spring', 'distance', null, [-2, 0, 0], 3, [0, 0, 0], { rest_length: 1, spring: true }),
+    joint('fork', 'universal', null, [-1, 0.4, 0], 4, [0, 0, 0]),
+  ];
+  const rows = ragged(Array.from({ length: frames }, (_, f) => [0, 1, 2, 3, 4].filter((j) => j !== 1 || f < broken)));
+  return replay({
+    scene: 'linkage',
+    title: 'joints of every kind',
+    backend,
+    shapes: [
+      { type: 'box', half_extents: [0.06, 0.5, 0.06] },
+      { type: 'box', half_extents: [0.2, 0.1, 0.15] },
+      { type: 'sphere', radius: 0.15 },
+    ],
+    bodies,
+    frames,
+    pose,
+    header: { joints, ...header },
+    extra: {
+      'joints/start': ['u32', rows.start],
+      'joints/joint': ['u32', rows.rows],
+      'joints/gap': ['f32', rows.rows.map((j) => (j === 1 ? gap : j === 3 ? NaN : 0))],
+      'joints/angle': ['f32', rows.rows.map(() => 0)],
+    },
+  });
+}

@@ -1,5 +1,6 @@
 // All bodies of a replay as instances: one draw call for each kind of shape, matrices written in place every frame.
 import {
+  BufferAttribute,
   DynamicDrawUsage,
   EdgesGeometry,
   Group,
@@ -58,6 +59,14 @@ function instancedEdges(mesh, geometry, material) {
   return lines;
 }
 
+/** Tells the shader how far a geometry reaches, so that it can keep tiny bodies visible. */
+function addReach(geometry) {
+  geometry.computeBoundingSphere();
+  const { radius, center } = geometry.boundingSphere;
+  const reach = new Float32Array(geometry.attributes.position.count).fill(radius + center.length());
+  geometry.setAttribute('reach', new BufferAttribute(reach, 1));
+}
+
 export class Bodies {
   constructor(replay, materials, extent) {
     this.replay = replay;
@@ -93,6 +102,7 @@ export class Bodies {
     const open = type === 'mesh' || type === 'height_field';
     const { ground, openGround, body, openBody } = this.materials;
     const material = fixed ? (open ? openGround : ground) : open ? openBody : body;
+    if (!fixed) addReach(geometry);
     const mesh = new InstancedMesh(geometry, material, members.length);
     mesh.instanceMatrix.setUsage(fixed ? StaticDrawUsage : DynamicDrawUsage);
     mesh.frustumCulled = false;

@@ -65,6 +65,29 @@ export class Cameras {
     this.sync();
   }
 
+  /** Moves camera and target alike. */
+  move(offset) {
+    this.target.add(offset);
+    this.camera.position.add(offset);
+    this.moved = true;
+    this.sync();
+  }
+
+  /** The camera that stands so far from the shared one. */
+  shifted(offset) {
+    if (offset.lengthSq() === 0) return this.camera;
+    this.other ??= this.camera.clone();
+    this.other.copy(this.camera);
+    this.other.position.add(offset);
+    this.other.updateMatrixWorld();
+    return this.other;
+  }
+
+  /** From the camera to what it turns about. */
+  get distance() {
+    return this.camera.position.distanceTo(this.target);
+  }
+
   sync() {
     this.camera.lookAt(this.target);
     for (const controls of this.controls) controls.update();

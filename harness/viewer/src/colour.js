@@ -86,6 +86,15 @@ export const forceMap = new ColourMap([
   [0.93, 0.09, 452],
 ]);
 
+/** Gap of a joint: from blue over violet and red to bright amber. */
+export const gapMap = new ColourMap([
+  [0.5, 0.11, 250],
+  [0.54, 0.17, 310],
+  [0.62, 0.22, 380],
+  [0.72, 0.18, 410],
+  [0.88, 0.16, 450],
+]);
+
 /** The n-th of any number of kinds: hues by the golden angle, so that neighbours differ. */
 export function kindColour(n, lightness = 0.7, chroma = 0.135) {
   return oklch(lightness, chroma, (n * 137.50776 + 25) % 360);

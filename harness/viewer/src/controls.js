@@ -22,7 +22,7 @@ export class Controls {
   constructor(viewer) {
     this.viewer = viewer;
     this.playing = false;
-    this.chosen = new Set(kFirstSeries);
+    this.chosen = new Set(viewer.compact ? [] : kFirstSeries);
     const { names } = viewer.library,
       scenes = names.filter((name) => !pairOf(name));
     this.scene = element(
@@ -41,6 +41,18 @@ export class Controls {
       hidden: true,
       onchange: () => viewer.setBoxDepth(this.depthValue()),
     });
+    this.namesButton = element(
+      'button',
+      {
+        type: 'button',
+        class: 'pv-chip',
+        'aria-pressed': 'false',
+        title: 'names of the bodies nearest to you (n)',
+        onclick: () => viewer.showNames(!viewer.names),
+      },
+      'Names',
+    );
+    viewer.follow.element.append(this.namesButton);
     this.message = element('p', { class: 'pv-message', role: 'status', hidden: true });
     this.top = element(
       'div',
@@ -53,6 +65,12 @@ export class Controls {
         this.engines,
       ),
       element('div', { class: 'pv-row' }, element('span', { class: 'pv-word' }, 'Layers'), this.layers, this.depth),
+      element(
+        'div',
+        { class: 'pv-row pv-body-row' },
+        element('span', { class: 'pv-word' }, 'Bodies'),
+        viewer.follow.element,
+      ),
       element(
         'div',
         { class: 'pv-row pv-curve-row' },
@@ -231,6 +249,10 @@ export class Controls {
   setLoop(on) {
     this.viewer.clock.loop = on;
     this.loopButton.setAttribute('aria-pressed', `${on}`);
+  }
+
+  showNames(on) {
+    this.namesButton.setAttribute('aria-pressed', `${on}`);
   }
 
   showSpeed(speed) {

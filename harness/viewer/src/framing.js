@@ -60,6 +60,11 @@ export function framing(replays) {
       for (let axis = 0; axis < 3; ++axis) grow(axis, body.start[axis] - 0.6 * radius, body.start[axis] + 0.6 * radius);
     }
   }
+  for (const { header } of replays) {
+    for (const { body_a, frame_a } of header.joints ?? []) {
+      if (body_a === null) for (let axis = 0; axis < 3; ++axis) grow(axis, frame_a[axis], frame_a[axis]);
+    }
+  }
   const centre = new Vector3(),
     size = new Vector3(1, 1, 1);
   if (lower.every(Number.isFinite) && upper.every(Number.isFinite)) {

@@ -2,6 +2,8 @@
 import { kSpeeds } from './clock.js';
 import { kLayers } from './layers.js';
 
+const kDigits = 10; // 1 to 9, then 0
+
 export const kKeys = [
   ['space', 'play or pause'],
   ['\u2190 \u2192', 'a frame back or on'],
@@ -12,8 +14,11 @@ export const kKeys = [
   ['l', 'loop'],
   ['r', 'reset the camera'],
   ['f', 'fill the window'],
-  [`1 to ${kLayers.length}`, 'layers'],
-  ['esc', 'let go of the body, leave the full view'],
+  ['1 to 9, 0', 'layers'],
+  [', .', 'pick the body before, after'],
+  ['c', 'camera follows the picked body'],
+  ['n', 'names of bodies'],
+  ['esc', 'let go of the camera, of the body; leave the full view'],
 ];
 
 export function listenToKeys(viewer) {
@@ -41,17 +46,26 @@ export function listenToKeys(viewer) {
     '-': () => cameras.turn(0, 0, 1.15),
     r: () => viewer.resetCamera(),
     f: () => viewer.present(),
+    ',': () => viewer.follow.step(-1),
+    '.': () => viewer.follow.step(1),
+    c: () => viewer.follow.toggle(),
+    n: () => viewer.showNames(!viewer.names),
     Escape: () => {
-      if (viewer.place.classList.contains('pv-full')) viewer.present(false);
-      else viewer.selectBody(null, null);
+      const held = viewer.follow.on || viewer.views.some((view) => view.scene.selection.body !== null);
+      if (!held && viewer.place.classList.contains('pv-full')) viewer.present(false);
+      else viewer.letGo();
     },
   };
   kLayers.forEach((kind, i) => {
-    actions[`${i + 1}`] = () => viewer.setLayer(kind.name, !viewer.on.has(kind.name));
+    if (i < kDigits) actions[`${(i + 1) % kDigits}`] = () => viewer.setLayer(kind.name, !viewer.on.has(kind.name));
   });
   viewer.place.addEventListener('keydown', (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     const { tagName, type } = event.target;
+    if (tagName === 'INPUT' && type === 'text') {
+      if (event.key === 'Escape') viewer.letGo();
+      return;
+    }
     if (tagName === 'SELECT' || (tagName === 'BUTTON' && (event.key === ' ' || event.key === 'Enter'))) return;
     if (tagName === 'INPUT' && type === 'checkbox' && event.key === ' ') return;
     const turn = event.shiftKey && turns[event.key],

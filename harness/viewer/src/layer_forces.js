@@ -36,7 +36,16 @@ export class ForceLayer {
         if (!replay.moves(body)) continue;
         const p = body * kPose,
           mark = marks.next();
-        writeToPlace(marks.matrices, mark * 16, x, y, z, poses, p, this.size * (0.25 + 1.6 * Math.sqrt(Math.min(t, 1))));
+        writeToPlace(
+          marks.matrices,
+          mark * 16,
+          x,
+          y,
+          z,
+          poses,
+          p,
+          this.size * (0.25 + 1.6 * Math.sqrt(Math.min(t, 1))),
+        );
         forceMap.write(t, marks.colours, mark * 3);
       }
     }

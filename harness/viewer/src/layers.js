@@ -5,6 +5,7 @@ import { BoxLayer } from './layer_boxes.js';
 import { ConstraintLayer } from './layer_constraints.js';
 import { ContactLayer } from './layer_contacts.js';
 import { ForceLayer } from './layer_forces.js';
+import { JointLayer } from './layer_joints.js';
 import { kMostPaths, PathLayer } from './layer_paths.js';
 
 const kPale = oklch(0.72, 0.012, 250);
@@ -35,6 +36,13 @@ export const kLayers = [
     family: 'colour',
     Drawing: ForceLayer,
     colours: () => (body, out, offset) => put(kPale, out, offset),
+  },
+  {
+    name: 'joints',
+    label: 'Joints',
+    about: 'joints and their anchors; the colour is the gap, measured by the referee',
+    needs: ['joints/start', 'joints/joint'],
+    Drawing: JointLayer,
   },
   {
     name: 'islands',

@@ -1,7 +1,8 @@
 // What the colours of the layers that are on mean, in words and units.
-import { ColourMap, cssColour, forceMap, penetrationMap } from './colour.js';
+import { ColourMap, cssColour, forceMap, gapMap, penetrationMap } from './colour.js';
 import { element } from './dom.js';
 import { kApart, kOverlap } from './layer_axes.js';
+import { kSpring } from './layer_joints.js';
 import { quantity } from './quantity.js';
 
 const depthMap = new ColourMap([
@@ -52,12 +53,19 @@ function kinds(title, entries) {
 }
 
 /** Legends of the layers that are on. */
-export function legends(names, { penetrationRange, forceRange, deepestBox }) {
+export function legends(names, { penetrationRange, forceRange, gapRange, deepestBox }) {
   const all = {
     penetration: () =>
       ramp('deepest overlap of a body', penetrationMap.gradient(), '0', `\u2265 ${quantity(penetrationRange, 'm')}`),
     forces: () =>
       ramp('contact force along the normal', forceMap.gradient(), '0', `\u2265 ${quantity(forceRange, 'N')}`),
+    joints: () => {
+      const legend = ramp('gap of a joint', gapMap.gradient(), '0', `\u2265 ${quantity(gapRange, 'm')}`);
+      legend.append(
+        element('span', {}, element('i', { class: 'pv-dot', style: `background:${cssColour(kSpring)}` }), 'spring'),
+      );
+      return legend;
+    },
     boxes: () => ramp('depth in the tree', depthMap.gradient(), 'root', `${deepestBox}`),
     axes: () =>
       kinds('axis', [

@@ -1,17 +1,36 @@
-// Finds the replays of the page, builds the viewer into #plumb-viewer and hands it out as window.plumbViewer.
+// Finds the replays of the page and plays them in #plumb-viewer, handed out as window.plumbViewer, and in whatever other
+// places a page has for one.
+//
+// A place is any element: <div data-plumb-replay="E1 L=10"></div> shows that scene (or, where it is empty or was not
+// recorded, the first one) without the rows of layers, bodies and curves. A script makes one by
+// window.plumbReplays.mount(element, {scene, compact}), which returns what api.js has. Nothing is unpacked and no
+// graphics begin before a place is near the window, or somebody asks for its `ready`.
 import { apiOf } from './api.js';
 import { Library } from './library.js';
 import css from './viewer.css';
 import { Viewer } from './viewer.js';
 
+let styled = false;
+
+function mount(place, options = {}) {
+  if (!styled) {
+    const style = document.createElement('style');
+    style.textContent = css;
+    document.head.append(style);
+    styled = true;
+  }
+  // Each with a library of its own: a replay knows the time that it shows.
+  const viewer = new Viewer(place, new Library(document.querySelectorAll('script.plumb-replay')), options);
+  return apiOf(viewer);
+}
+
 function start() {
+  if (window.plumbReplays) return;
+  window.plumbReplays = { mount };
+  for (const place of document.querySelectorAll('[data-plumb-replay]'))
+    mount(place, { scene: place.dataset.plumbReplay, compact: true });
   const place = document.getElementById('plumb-viewer');
-  const scripts = document.querySelectorAll('script.plumb-replay');
-  if (!place || window.plumbViewer) return;
-  const style = document.createElement('style');
-  style.textContent = css;
-  document.head.append(style);
-  window.plumbViewer = apiOf(new Viewer(place, new Library(scripts)));
+  if (place) window.plumbViewer = mount(place);
 }
 
 if (document.readyState === 'loading') document.addEventListener('DOMContentLoaded', start);

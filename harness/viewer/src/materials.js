@@ -42,6 +42,17 @@ export function roundStep(length) {
   return power * (part < 1.5 ? 1 : part < 3.5 ? 2 : part < 7.5 ? 5 : 10);
 }
 
+const kLeastPixels = 1.6; // of the radius of a body: what is far or tiny is still a dot
+const kReachHead = `#include <common>
+attribute float reach;
+uniform float leastSize;`;
+const kReachBody = `#include <begin_vertex>
+#ifdef USE_INSTANCING
+vec3 across = vec3(length(instanceMatrix[0].xyz), length(instanceMatrix[1].xyz), length(instanceMatrix[2].xyz));
+float depth = -(modelViewMatrix * instanceMatrix * vec4(0.0, 0.0, 0.0, 1.0)).z;
+transformed *= max(1.0, leastSize * depth / max(reach * max(across.x, max(across.y, across.z)), 1e-12));
+#endif`;
+
 export function makeMaterials(radius, centre) {
   const uniforms = {
     gridColour: { value: new Color() },
@@ -68,6 +79,13 @@ export function makeMaterials(radius, centre) {
   };
   const body = new MeshLambertMaterial(behindEdges),
     openBody = new MeshLambertMaterial({ side: DoubleSide, ...behindEdges });
+  const leastSize = { value: 0 };
+  body.onBeforeCompile = openBody.onBeforeCompile = (shader) => {
+    shader.uniforms.leastSize = leastSize;
+    shader.vertexShader = shader.vertexShader
+      .replace('#include <common>', kReachHead)
+      .replace('#include <begin_vertex>', kReachBody);
+  };
   const edge = new LineBasicMaterial({ transparent: true, opacity: 0.35, depthWrite: false });
   const fixedEdge = new LineBasicMaterial({ transparent: true, opacity: 0.22, depthWrite: false });
   return {
@@ -78,6 +96,10 @@ export function makeMaterials(radius, centre) {
     edge,
     fixedEdge,
     gridStep: uniforms.gridStep.value,
+    /** metres: that a pixel covers at 1 m from the camera. */
+    keepVisible(metres) {
+      leastSize.value = metres * kLeastPixels;
+    },
     paint(theme) {
       uniforms.gridColour.value.copy(theme.gridLine);
       uniforms.horizon.value.copy(theme.horizon);

@@ -31,6 +31,10 @@ export function colourRanges(replays) {
       replays.map(({ sections }) => sections['contacts/force']),
       1e-9,
     ),
+    gapRange: upperRange(
+      replays.map(({ sections }) => sections['joints/gap']),
+      1e-9,
+    ),
     deepestBox,
   };
 }

@@ -20,9 +20,21 @@ export class Replay {
     this.step = this.lower.map((low, i) => (header.upper ? (header.upper[i] - low) / 65535 : 0));
     /** Poses of all bodies at the time of the last sample(). */
     this.poses = new Float32Array(this.bodies.length * kPose);
+    this.fillStarts();
     this.bodies.forEach((body, i) => this.poses.set(body.start, i * kPose));
     this.frame = 0;
     this.sample(this.times[0] ?? 0);
+  }
+
+  /** A bundle leaves out where bodies start that move: it is where the first frame has them. */
+  fillStarts() {
+    const { orientations } = this.sections;
+    this.moving.forEach((body, column) => {
+      this.bodies[body].start ??= [
+        ...[0, 1, 2].map((axis) => this.coordinate(0, column, axis)),
+        ...Array.from(orientations.subarray(column * 4, column * 4 + 4), (part) => part / 32767),
+      ];
+    });
   }
 
   get begin() {

@@ -2,6 +2,7 @@
 import { DirectionalLight, HemisphereLight, Raycaster, Scene, Vector3 } from 'three';
 import { Bodies } from './bodies.js';
 import { makeMaterials } from './materials.js';
+import { hasGround, ReferenceGrid } from './reference_grid.js';
 import { Selection } from './selection.js';
 
 const kSun = new Vector3(-0.42, 1, 0.62).normalize();
@@ -20,6 +21,10 @@ export class SceneView {
     this.aimSun(frame);
     this.selection = new Selection(replay, this.bodies);
     this.scene.add(this.bodies.object, this.sky, this.sun, this.sun.target, this.selection.object);
+    if (replay.header.kind !== 'pairs' && !hasGround(replay, frame)) {
+      this.grid = new ReferenceGrid(frame, this.materials.gridStep);
+      this.scene.add(this.grid.object);
+    }
     this.layers = new Map();
     this.shownFrame = -1;
   }
@@ -54,6 +59,7 @@ export class SceneView {
     this.sun.intensity = theme.sun;
     this.materials.paint(theme);
     this.selection.paint(theme);
+    this.grid?.paint(theme);
   }
 
   /** Layers that draw: created when first switched on, kept for the next time. */
@@ -74,13 +80,14 @@ export class SceneView {
     replay.sample(time);
     this.bodies.update();
     this.selection.update();
-    if (replay.frame !== this.shownFrame) {
+    const isNew = replay.frame !== this.shownFrame;
+    if (isNew) {
       this.shownFrame = replay.frame;
       if (colours || this.painted !== colours) this.bodies.paint(colours);
       this.painted = colours;
-      for (const layer of this.layers.values()) {
-        if (layer.object.visible) layer.update(context);
-      }
+    }
+    for (const layer of this.layers.values()) {
+      if (layer.object.visible && (isNew || layer.constructor.follows)) layer.update(context);
     }
   }
 
@@ -94,6 +101,7 @@ export class SceneView {
     this.bodies.dispose();
     this.materials.dispose();
     this.selection.dispose();
+    this.grid?.dispose();
     for (const layer of this.layers.values()) layer.dispose();
     this.sun.shadow.map?.dispose();
   }

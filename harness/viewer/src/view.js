@@ -1,14 +1,23 @@
 // One engine's place in the viewer: its name and verdict, the window onto its scene, its curves.
-import { Vector2, Vector3 } from 'three';
+import { Vector2 } from 'three';
 import { Curves } from './curves.js';
 import { element } from './dom.js';
+import { Labels } from './labels.js';
 import { missing } from './layers.js';
+import { Names } from './names.js';
 import { kPose } from './replay.js';
 import { quantity } from './quantity.js';
+import { metresOfPixel, ScaleBar } from './scale_bar.js';
 import { SceneView } from './scene_view.js';
 
 const kLabels = 24; // contact ids written beside their points, at most
 const kLabelsUnasked = 14; // contacts of a scene whose ids are written although no body was picked
+
+/** {verdict, words} of a run; older recordings tell no more than how they ended. */
+export function badgeOf({ badge, status, reason }) {
+  if (badge) return badge;
+  return !status || status === 'ok' ? null : { verdict: status, words: reason ?? '' };
+}
 
 export class View {
   constructor(replay, frame, hue, callbacks) {
@@ -17,10 +26,10 @@ export class View {
     this.curves = new Curves(replay, callbacks.seek);
     this.notes = element('ul', { class: 'pv-notes', 'aria-live': 'polite' });
     this.card = element('dl', { class: 'pv-card', hidden: true });
-    this.labels = Array.from({ length: kLabels }, () => element('span', { class: 'pv-label', hidden: true }));
-    const { backend, label, status, reason, note } = replay.header,
+    this.scale = new ScaleBar();
+    const { backend, label, note } = replay.header,
       name = label || backend,
-      verdict = status === 'ok' ? '' : status;
+      badge = badgeOf(replay.header);
     this.port = element(
       'div',
       {
@@ -29,10 +38,12 @@ export class View {
         role: 'img',
         'aria-label': `${name}: 3D replay. Drag to turn, click a body for its numbers.`,
       },
-      ...this.labels,
       this.notes,
       this.card,
+      this.scale.element,
     );
+    this.labels = new Labels(this.port, kLabels);
+    this.names = new Names(this.port, replay);
     this.element = element(
       'article',
       { class: 'pv-view', style: `--c:var(--hue${hue},#0072b2)`, 'aria-label': name },
@@ -41,8 +52,13 @@ export class View {
         {},
         element('i', { class: 'pv-engine' }),
         element('b', {}, name),
-        verdict ? element('span', { class: `chip ${verdict}`, title: reason || undefined }, verdict) : null,
-        reason ? element('small', { title: reason }, reason) : null,
+        badge &&
+          element(
+            'span',
+            { class: `chip ${badge.verdict}`, title: badge.words || undefined },
+            badge.verdict.replaceAll('_', ' '),
+          ),
+        badge?.words ? element('small', { title: badge.words }, badge.words) : null,
       ),
       this.port,
       this.curves.element,
@@ -53,7 +69,6 @@ export class View {
     this.port.addEventListener('pointerup', (event) => {
       if (this.pressed.distanceTo(new Vector2(event.clientX, event.clientY)) < 4) callbacks.pick(this, event);
     });
-    this.projected = new Vector3();
   }
 
   get name() {
@@ -128,30 +143,33 @@ export class View {
   }
 
   /** Ids beside the contacts of the picked body, or of all where they are few. */
-  placeLabels(camera, on) {
-    const { replay } = this,
+  placeIds(camera, on) {
+    const { replay, labels } = this,
       { sections } = replay,
       ids = sections['contacts/id'],
+      points = sections['contacts/point'],
       { body } = this.scene.selection;
-    let used = 0;
-    if (on && ids && sections['contacts/point']) {
+    labels.begin(camera);
+    if (on && ids && points) {
       const first = replay.first('contacts'),
         end = replay.first('contacts', 1);
-      for (let row = first; row < end && used < kLabels; ++row) {
+      for (let row = first; row < end && !labels.isFull; ++row) {
         const known = ids[row] !== 0; // as the engines say
         const ofBody = sections['contacts/body_a'][row] === body || sections['contacts/body_b'][row] === body;
         if (!known || (body === null ? end - first > kLabelsUnasked : !ofBody)) continue;
-        const at = this.projected.fromArray(sections['contacts/point'], row * 3).project(camera);
-        if (at.z > 1) continue;
-        const label = this.labels[used++];
-        label.hidden = false;
-        label.textContent = ids[row].toString(16);
-        const x = ((at.x + 1) / 2) * this.port.clientWidth,
-          y = ((1 - at.y) / 2) * this.port.clientHeight;
-        label.style.transform = `translate(${x + 7}px, ${y - 8}px)`;
+        labels.add(ids[row].toString(16), points[row * 3], points[row * 3 + 1], points[row * 3 + 2]);
       }
     }
-    for (; used < kLabels && !this.labels[used].hidden; ++used) this.labels[used].hidden = true;
+    labels.end();
+  }
+
+  /** What depends on where the camera stands: the smallest dots, the scale, and words beside places. */
+  annotate(camera, distance, { ids, names }) {
+    const { height } = this.box ?? { height: 1 };
+    this.scene.materials.keepVisible(metresOfPixel(camera, 1, height));
+    this.scale.update(camera, distance, height, this.scene.grid?.step ?? null);
+    this.placeIds(camera, ids);
+    this.names.place(camera, names);
   }
 
   dispose() {

@@ -1,37 +1,46 @@
 // The viewer: views side by side on one canvas, one clock and one camera for all of them.
-import { Vector2 } from 'three';
+import { Vector2, Vector3 } from 'three';
 import { Cameras } from './cameras.js';
 import { Clock } from './clock.js';
 import { Controls } from './controls.js';
 import { element } from './dom.js';
+import { Follow } from './follow.js';
 import { framing } from './framing.js';
 import { listenToKeys } from './keys.js';
 import { kLayers, missing, missingEverywhere, painter } from './layers.js';
 import { Pace } from './pace.js';
 import { PairPanel } from './pairs.js';
 import { colourRanges, seriesRanges } from './ranges.js';
+import { kPose } from './replay.js';
 import { Stage } from './stage.js';
 import { readTheme, watchTheme } from './theme.js';
 import { View } from './view.js';
 
 const kPairZoom = 0.75; // of the way of the second shape: where the two touch is what counts
+const kNear = '400px'; // round the window: so near a place begins to play
+const kManyJoints = 400; // beyond, they are drawn when asked for
 const kFewPaths = 4; // bodies that move: of so few one sees the paths without asking
 const kLongestTick = 0.1; // s: slower machines play slower rather than by leaps
 
 export class Viewer {
-  constructor(place, library) {
+  /** options: scene (the first of the page where there is none of that name), compact (views and time alone). */
+  constructor(place, library, { scene, compact = false } = {}) {
     this.place = place;
     this.library = library;
+    this.firstScene = library.names.includes(scene) ? scene : library.names[0];
+    this.compact = compact;
     this.views = [];
     this.on = new Set();
     this.hidden = new Set(); // backends that are switched off
+    this.names = false; // of bodies, beside them
     this.clock = new Clock();
     this.pace = new Pace();
     this.cameras = new Cameras(() => this.touch());
-    this.context = { penetrationRange: 1, forceRange: 1, deepestBox: 0, boxDepth: 'all' };
+    this.context = { penetrationRange: 1, forceRange: 1, gapRange: 1, deepestBox: 0, boxDepth: 'all' };
     this.failure = null;
     this.stage = new Stage();
     place.classList.add('pv');
+    place.classList.toggle('pv-compact', compact);
     if (!library.names.length)
       this.fail('There are no replays in this page: run with --record and make the report again.');
     else if (!this.stage.gl)
@@ -39,7 +48,25 @@ export class Viewer {
         'The replays need WebGL 2, which this browser does not offer or has switched off. ' +
           'Everything else on this page works without it.',
       );
-    this.ready = this.failure ? Promise.resolve() : this.begin();
+    if (!this.failure) this.startWhenNear();
+  }
+
+  /** Resolves when the first scene is shown. */
+  start() {
+    this.started ??= this.failure ? Promise.resolve() : this.begin();
+    return this.started;
+  }
+
+  startWhenNear() {
+    const near = new IntersectionObserver(
+      ([entry]) => {
+        if (!entry.isIntersecting) return;
+        near.disconnect();
+        this.start();
+      },
+      { rootMargin: kNear },
+    );
+    near.observe(this.place);
   }
 
   /** Says in words what is wrong, in the viewer's place. */
@@ -51,6 +78,7 @@ export class Viewer {
   async begin() {
     this.stage.start();
     this.pairs = new PairPanel(this);
+    this.follow = new Follow(this);
     this.controls = new Controls(this);
     this.place.replaceChildren(
       this.controls.top,
@@ -76,7 +104,7 @@ export class Viewer {
       if (!this.place.contains(event.target)) this.cameras.allowZoom(false);
     });
     this.fresh = !calm;
-    await this.select(this.library.names[0]);
+    await this.select(this.firstScene);
     this.greet();
   }
 
@@ -123,7 +151,9 @@ export class Viewer {
     this.enterPairs(this.kind === 'pairs');
     if (!this.pathsChosen)
       this.setPaths(this.kind === 'scene' && Math.max(...replays.map(({ moving }) => moving.length)) <= kFewPaths);
+    if (!this.jointsChosen) this.setJoints(replays.every(({ header }) => (header.joints?.length ?? 0) <= kManyJoints));
     for (const kind of kLayers) if (this.on.has(kind.name) && !this.available(kind)) this.on.delete(kind.name);
+    this.follow.show(replays[0]);
     this.controls.show(this);
     this.applyLayers();
     this.buildCurves();
@@ -137,6 +167,11 @@ export class Viewer {
   setPaths(on) {
     if (on) this.on.add('paths');
     else this.on.delete('paths');
+  }
+
+  setJoints(on) {
+    if (on) this.on.add('joints');
+    else this.on.delete('joints');
   }
 
   /** Among pairs, contacts and axes are what one came for; leaving them, the scenes are as they were. */
@@ -165,6 +200,7 @@ export class Viewer {
       return false;
     }
     if (name === 'paths') this.pathsChosen = true;
+    if (name === 'joints') this.jointsChosen = true;
     if (on) {
       for (const other of kLayers) if (other.family && other.family === kind.family) this.on.delete(other.name);
       this.on.add(name);
@@ -281,7 +317,7 @@ export class Viewer {
       ((event.clientX - rect.left) / rect.width) * 2 - 1,
       1 - ((event.clientY - rect.top) / rect.height) * 2,
     );
-    const body = view.scene.pick(point, this.cameras.camera);
+    const body = view.scene.pick(point, this.cameras.shifted(this.follow.offsetOf(view)));
     this.selectBody(body === null ? null : view.replay, body);
   }
 
@@ -294,6 +330,28 @@ export class Viewer {
         body === null ? null : bodies[body]?.name === name ? body : bodies.findIndex((other) => other.name === name);
       view.select(same === -1 ? null : same);
     }
+    this.touch();
+  }
+
+  /** Lets go of what was picked, first of the camera. */
+  letGo() {
+    if (this.follow.on) this.follow.stop();
+    else this.selectBody(null, null);
+  }
+
+  /** In 0..1 of the port, from the left and from the top. */
+  onScreen(name, number) {
+    const view = this.views[number],
+      body = this.follow.bodyOf(view.replay, name),
+      at = new Vector3()
+        .fromArray(view.replay.poses, body * kPose)
+        .project(this.cameras.shifted(this.follow.offsetOf(view)));
+    return [(at.x + 1) / 2, (1 - at.y) / 2];
+  }
+
+  showNames(on) {
+    this.names = on;
+    this.controls.showNames(on);
     this.touch();
   }
 
@@ -335,15 +393,13 @@ export class Viewer {
   draw() {
     this.dirty = false;
     const time = this.clock.shown,
-      {
-        context,
-        cameras: { camera },
-      } = this;
+      { context, cameras } = this;
     for (const view of this.shown()) {
       view.scene.update(time, view.colours, context);
       view.curves.update(time);
       view.describe();
-      view.placeLabels(camera, this.on.has('contacts'));
+      const camera = cameras.shifted(this.follow.offsetOf(view));
+      view.annotate(camera, cameras.distance, { ids: this.on.has('contacts'), names: this.names });
       this.stage.draw(view, camera);
     }
     this.controls.showTime(time, this.clock);
