@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "truth/limit_load.hpp"
+#include "limit_load.hpp"
 #include "truth/structures.hpp"
 
 namespace plumb::truth {

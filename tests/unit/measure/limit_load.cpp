@@ -1,4 +1,4 @@
-#include "truth/limit_load.hpp"
+#include "limit_load.hpp"
 
 #include <glpk.h>
 
