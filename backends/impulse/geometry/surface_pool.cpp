@@ -30,7 +30,7 @@ Buffer<TreeNode> build_tree(Executor& executor, const std::vector<Box>& boxes) {
   reduce.run(executor, count, LoadExtent{leaves.data(), order.data()}, extent.data());
   Lbvh tree;
   tree.reserve(count);
-  tree.build(executor, leaves.data(), order.data(), count, extent.data(), MortonBits::k63);
+  tree.build(executor, leaves.data(), order.data(), count, extent.data());
   executor.wait();
   return tree.take_nodes();
 }

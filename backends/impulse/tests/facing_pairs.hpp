@@ -2,10 +2,40 @@
 // the other; apart by a hair, touching, a hair deep and far inside each other.
 #pragma once
 
-#include "geometry/bounds.hpp"
 #include "narrow_reference.hpp"
 
 namespace plumb::impulse::reference {
+
+/// The range of dot(n, p) over the shape.
+struct Extent {
+  Real low, high;
+};
+inline Extent shape_extent(const Shape& shape, const Quat& orientation, const Vec& n, const Hulls& hulls) {
+  const Vec local = rotate_back(orientation, n);
+  Real high = 0;
+  switch (shape.type) {
+    case ShapeType::kSphere: high = length(n) * shape.size.x; break;
+    case ShapeType::kBox: high = dot(abs(local), shape.size); break;
+    case ShapeType::kCapsule: high = abs(local.y) * shape.size.y + length(n) * shape.size.x; break;
+    case ShapeType::kHull: {
+      const HullRange& hull = hulls.ranges[shape.hull];
+      Extent e = {kHuge, -kHuge};
+      for (std::uint32_t v = 0; v < hull.vertex_count; ++v) {
+        const Real s = dot(local, hulls.vertices[hull.first_vertex + v]);
+        e = {min(e.low, s), max(e.high, s)};
+      }
+      return e;
+    }
+    case ShapeType::kCylinder: {
+      high = abs(local.y) * shape.size.y + sqrt(local.x * local.x + local.z * local.z) * shape.size.x;
+      break;
+    }
+    case ShapeType::kMesh:
+    case ShapeType::kHeightField: high = dot(abs(local), shape.size); break;
+    case ShapeType::kPlane: return {kHuge, -kHuge};
+  }
+  return {-high, high};
+}
 
 /// Some shapes of every type, of about a metre.
 class ShapeKit {
