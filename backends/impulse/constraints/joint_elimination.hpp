@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cstdint>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -23,6 +24,20 @@ struct JointProduct {
   std::uint32_t left, right;  ///< entries (i, k) and (j, k)
 };
 
+/// One mechanism by itself. Joints are numbered from 0 on, in the order of their numbers in the world.
+struct MechanismElimination {
+  bool has_loop = false;  ///< through what stands still, too
+  bool too_full = false;  ///< it is solved joint by joint, and there is nothing below
+  std::vector<std::uint32_t> order;
+  std::vector<std::uint32_t> level_first;
+  std::vector<JointEntry> entries;  ///< by column
+  std::vector<std::uint32_t> column_first;
+  std::vector<JointProduct> products;  ///< by entry
+  std::vector<std::uint32_t> product_first;
+};
+
+/// All of a world. A round takes the joints of a mechanism after those of the one before; mechanisms go by their first
+/// joint.
 struct JointElimination {
   std::vector<std::uint32_t> order;       ///< the joints that are eliminated; rows and columns count in this order
   std::vector<std::uint32_t> one_by_one;  ///< joints of mechanisms that would fill too much, in order of their numbers
@@ -37,8 +52,29 @@ struct JointElimination {
   std::vector<std::uint32_t> product_first;
 };
 
-/// joins: the moving bodies of each joint; a body number of `none` is no body.
-[[nodiscard]] JointElimination eliminate_joints(const std::vector<std::pair<std::uint32_t, std::uint32_t>>& joins,
-                                                std::uint32_t none);
+/// The moving bodies of a joint.
+using Join = std::pair<std::uint32_t, std::uint32_t>;
+
+/// Mechanisms are eliminated one by one, and those of one shape alike: what was found for a shape is kept while there
+/// is a mechanism of it, so that a joint that comes or goes has only its own mechanism worked out anew.
+class JointEliminator {
+ public:
+  /// A body number of `none` is no body.
+  [[nodiscard]] JointElimination eliminate(const std::vector<Join>& joins, std::uint32_t none);
+
+ private:
+  /// Of a mechanism's joints in their order both bodies, numbered as they first appear; or kNoBody.
+  using Shape = std::vector<std::uint32_t>;
+  struct Hash {
+    std::size_t operator()(const Shape& shape) const;
+  };
+  struct Known {
+    MechanismElimination elimination;
+    std::uint64_t used = 0;  // in which call
+  };
+
+  std::unordered_map<Shape, Known, Hash> known_;
+  std::uint64_t calls_ = 0;
+};
 
 }  // namespace plumb::impulse

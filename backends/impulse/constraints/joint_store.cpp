@@ -1,7 +1,7 @@
 #include "constraints/joint_store.hpp"
 
 #include <algorithm>
-#include <map>
+#include <utility>
 
 #include "broadphase/pair_filter.hpp"
 
@@ -59,7 +59,7 @@ JointCode JointStore::needed_code() const {
 /// Greedily in the order given: deterministic. What finds no colour goes last.
 void JointStore::colour(const Table<BodyMass>& masses) {
   constexpr std::uint32_t kNoColour = kJointColours - 1;
-  std::map<std::uint32_t, std::uint32_t> taken;
+  std::vector<std::uint32_t> taken(masses.size());  // by body
   struct Colour {
     std::vector<std::uint32_t> single, in_system;
   };
@@ -91,20 +91,24 @@ void JointStore::colour(const Table<BodyMass>& masses) {
 }
 
 void JointStore::list_pushed_bodies(const Table<BodyMass>& masses) {
-  std::map<std::uint32_t, std::vector<JointOnBody>> on_body;
-  for (std::uint32_t j = base_; j < ordered_.size(); ++j) {
-    const Joint& joint = ordered_[j];
-    if (is_pushed(joint.body_a, masses)) on_body[joint.body_a].push_back({j, false});
-    if (is_pushed(joint.body_b, masses)) on_body[joint.body_b].push_back({j, true});
-  }
-  std::vector<std::uint32_t> bodies, first;
-  std::vector<JointOnBody> list;
-  for (const auto& [body, ends] : on_body) {
+  const auto for_ends = [&](const auto& f) {
+    for (std::uint32_t j = base_; j < ordered_.size(); ++j) {
+      if (is_pushed(ordered_[j].body_a, masses)) f(ordered_[j].body_a, JointOnBody{j, false});
+      if (is_pushed(ordered_[j].body_b, masses)) f(ordered_[j].body_b, JointOnBody{j, true});
+    }
+  };
+  std::vector<std::uint32_t> next(masses.size()), bodies, first;  // next: by body, how many; then where the next goes
+  for_ends([&](std::uint32_t body, const JointOnBody&) { ++next[body]; });
+  std::uint32_t ends = 0;
+  for (std::uint32_t body = 0; body < next.size(); ++body) {
+    if (next[body] == 0) continue;
     bodies.push_back(body);
-    first.push_back(static_cast<std::uint32_t>(list.size()));
-    list.insert(list.end(), ends.begin(), ends.end());
+    first.push_back(ends);
+    ends += std::exchange(next[body], ends);
   }
-  first.push_back(static_cast<std::uint32_t>(list.size()));
+  first.push_back(ends);
+  std::vector<JointOnBody> list(ends);
+  for_ends([&](std::uint32_t body, const JointOnBody& end) { list[next[body]++] = end; });
   pushed_count_ = static_cast<std::uint32_t>(bodies.size());
   copy(pushed_, bodies);
   copy(pushed_first_, first);
@@ -124,7 +128,7 @@ void JointStore::upload(const Table<BodyMass>& masses) {
   std::vector<Joint> all;
   std::vector<JointAxes> axes, ordered_axes;
   std::vector<bool> is_stiff;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> joins;
+  std::vector<Join> joins;
   const auto moving = [&](std::uint32_t body) { return is_pushed(body, masses) ? body : kWorld; };
   for (const Row& row : rows_) {
     if (!row.used || !(is_pushed(row.joint.body_a, masses) || is_pushed(row.joint.body_b, masses))) continue;
@@ -134,7 +138,7 @@ void JointStore::upload(const Table<BodyMass>& masses) {
     axes.push_back(row.axes);
     joins.emplace_back(moving(row.joint.body_a), moving(row.joint.body_b));
   }
-  const JointElimination found = eliminate_joints(joins, kWorld);
+  const JointElimination found = eliminator_.eliminate(joins, kWorld);
 
   ordered_.clear();
   for (std::uint32_t j = 0; j < all.size(); ++j)

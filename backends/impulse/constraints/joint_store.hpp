@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "constraints/joint_elimination.hpp"
 #include "exec/archive.hpp"
 #include "exec/memory.hpp"
 #include "exec/table.hpp"
@@ -82,7 +83,8 @@ class JointStore {
 
   bool changed_ = false, overflow_ = false, wants_reactions_ = false;
   JointCode code_ = JointCode::kContacts;
-  std::vector<Row> rows_;       // by slot
+  std::vector<Row> rows_;  // by slot
+  JointEliminator eliminator_;
   std::vector<Joint> ordered_;  // those that are solved one by one, by slot; then the system, in its order
   std::uint32_t count_ = 0, colours_ = 0;
   Buffer<Joint> joints_;  // as ordered_
