@@ -229,6 +229,12 @@ Simulation::Recorded Simulation::what_is_recorded() {
            static_cast<std::uint32_t>(parameters_[0].solver), sleep_.count() == 0 ? 0U : 1U, continuous_ ? 1U : 0U}};
 }
 
+void Simulation::choose(BroadPhase::Method method) {
+  if (broad_phase_.method == method) return;
+  broad_phase_.method = method;
+  reserve_pairs(pair_capacity_);
+}
+
 void Simulation::step(const StepParameters& parameters) {
   if (parameters.solver != parameters_[0].solver) solver_.choose(parameters.solver);
   parameters_[0] = parameters;

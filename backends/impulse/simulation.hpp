@@ -106,6 +106,8 @@ class Simulation {
   [[nodiscard]] const Slots& woken() const { return woken_; }
   [[nodiscard]] const Slots& fallen_asleep() const { return fallen_asleep_; }
 
+  /// How the steps to come find pairs; changes no result.
+  void choose(BroadPhase::Method method);
   /// Enqueues a step. parameters.step and .origin are filled in here.
   void step(const StepParameters& parameters);
   /// Returns when the step is done; grows what was too small and repeats the step then.

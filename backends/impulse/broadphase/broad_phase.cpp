@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "broadphase/long_search.hpp"
+#include "broadphase/search.hpp"
 #include "plumb/physics_world.hpp"
 #if !defined(PLUMB_IMPULSE_CUDA)
 #include "broadphase/group_search.hpp"
@@ -10,68 +12,6 @@
 namespace plumb::impulse {
 
 namespace {
-
-constexpr std::uint32_t kNotes = 32;             // partners that a mover notes while it counts; few find more
-constexpr std::uint32_t kStaticMark = 1U << 31;  // marks a noted partner as a static: proxies are fewer than 2^31
-
-/// Movers in the order of a method, and what each finds behind itself there.
-struct TreeMovers {
-  TreeView tree;
-  [[nodiscard]] PLUMB_HD std::uint32_t proxy(std::uint32_t i) const { return tree.leaf(i).child; }
-  [[nodiscard]] PLUMB_HD Box box(std::uint32_t i) const { return tree.box(i); }
-  template <class Found>
-  PLUMB_HD void overlaps(std::uint32_t i, const Box& box, Found& found) const {
-    tree.overlaps(box, tree.leaf(i).next, found);
-  }
-};
-
-/// Passes on what the filter lets through.
-template <class Sink>
-struct Filtered {
-  const PairFilter& filter;
-  const ProxyFilter own;
-  std::uint32_t mark;
-  Sink& sink;
-  PLUMB_HD void operator()(std::uint32_t proxy) {
-    if (filter(own, filter.proxies[proxy])) sink(proxy | mark);
-  }
-};
-
-template <class Movers>
-struct Search {
-  Movers movers;
-  TreeView statics;
-  PairFilter filter;
-
-  /// sink(partner) for every partner that mover i finds, statics marked and last.
-  template <class Sink>
-  PLUMB_HD void operator()(std::uint32_t i, std::uint32_t proxy, Sink& sink) const {
-    const Box box = movers.box(i);
-    Filtered<Sink> found{filter, filter.proxies[proxy], 0, sink};
-    movers.overlaps(i, box, found);
-    found.mark = kStaticMark;
-    statics.overlaps(box, statics.root(), found);
-  }
-};
-
-struct NotePartners {
-  std::uint32_t* notes;
-  std::uint32_t count;
-  PLUMB_HD void operator()(std::uint32_t partner) {
-    if (count < kNotes) notes[count] = partner;
-    ++count;
-  }
-};
-
-struct WritePairs {
-  Pair* pairs;
-  std::uint32_t proxy, at, capacity;
-  PLUMB_HD void operator()(std::uint32_t partner) {
-    if (at >= capacity) return;
-    const std::uint32_t other = partner & ~kStaticMark;
-    pairs[at++] = partner != other || proxy < other ? Pair{proxy, other} : Pair{other, proxy};
-  }
-};
 
 template <class Movers>
 struct CountPartners {
@@ -83,11 +23,6 @@ struct CountPartners {
     counts[i] = sink.count;
   }
 };
-
-template <class Movers>
-void count_partners(Executor& executor, std::uint32_t n, const CountPartners<Movers>& count) {
-  executor.run(n, count);
-}
 
 #if !defined(PLUMB_IMPULSE_CUDA)
 /// The same for a group of neighbours in the tree.
@@ -127,29 +62,58 @@ struct CountPartnersOfGroup {
     return true;
   }
 };
-
-void count_partners(Executor& executor, std::uint32_t n, const CountPartners<TreeMovers>& count) {
-  executor.run((n + BoxGroup::kMost - 1) / BoxGroup::kMost, CountPartnersOfGroup{count, n});
-}
 #endif
 
-template <class Movers>
+/// What was noted, or where that is not all what is found again.
+template <class Movers, class Sink>
+PLUMB_HD void write_partners(const Search<Movers>& search, std::uint32_t i, std::uint32_t proxy,
+                             const std::uint32_t* notes, std::uint32_t count, Sink& sink) {
+  if (count > kNotes) return search(i, proxy, sink);
+  for (std::uint32_t k = 0; k < count; ++k) sink(notes[k]);
+}
+
 struct ListPairs {
-  Search<Movers> search;
+  Search<TreeMovers> search;
   const std::uint32_t *notes, *counts, *offsets;
   Pair* pairs;
   std::uint32_t capacity;
   PairRange* ranges;
+  bool deals_out;
   PLUMB_HD void operator()(std::uint32_t i) const {
     const std::uint32_t proxy = search.movers.proxy(i), count = counts[i], first = min(offsets[i], capacity);
     ranges[proxy] = {first, min(count, capacity - first)};
+    const std::uint32_t* own_notes = notes + std::size_t{i} * kNotes;
+    if (deals_out && own_notes[0] == LongSearches::kDealtOut) return;
     WritePairs sink{pairs, proxy, first, capacity};
-    if (count > kNotes) {
-      search(i, proxy, sink);
-    } else {
-      for (std::uint32_t k = 0; k < count; ++k) sink(notes[std::size_t{i} * kNotes + k]);
-    }
+    write_partners(search, i, proxy, own_notes, count, sink);
   }
+};
+
+/// Writes the keys of a proxy's pairs one after the other, as far as there is room.
+struct WriteKeys {
+  const PairKeys& to;
+  std::uint32_t proxy, at, capacity;
+  PLUMB_HD void operator()(std::uint32_t partner) {
+    if (at < capacity) to.keys[at++] = to.key(proxy, partner & ~kStaticMark);
+  }
+};
+
+template <class Movers>
+struct ListKeys {
+  Search<Movers> search;
+  const std::uint32_t *notes, *counts, *offsets;
+  PairKeys to;
+  std::uint32_t capacity;
+  PLUMB_HD void operator()(std::uint32_t i) const {
+    const std::uint32_t proxy = search.movers.proxy(i);
+    WriteKeys sink{to, proxy, offsets[i], capacity};
+    write_partners(search, i, proxy, notes + std::size_t{i} * kNotes, counts[i], sink);
+  }
+};
+
+struct ClearNumber {
+  std::uint32_t* number;
+  PLUMB_HD void operator()(std::uint32_t) const { *number = 0; }
 };
 
 void require(const char* what, std::uint32_t n, std::uint32_t capacity) {
@@ -166,14 +130,24 @@ void BroadPhase::reserve(Executor& /*executor*/, std::uint32_t movers, std::uint
   pair_capacity_ = max(pair_capacity_, pairs);
   reduce_.reserve(max(mover_capacity_, static_capacity_));
   extent_.grow(1);
-  movers_.reserve(mover_capacity_);
-  sweep_.reserve(mover_capacity_);
-  grid_.reserve(mover_capacity_);
-  statics_.reserve(static_capacity_);
+  const auto only_if = [](bool chosen, auto& part, const auto&... room) {
+    if (!chosen) return part.reset();
+    if (!part) part.emplace();
+    part->reserve(room...);
+  };
+  only_if(method == Method::kLbvh, movers_, mover_capacity_, morton_bits);
+  only_if(method == Method::kSweep, sweep_, mover_capacity_);
+  only_if(method == Method::kGrid, grid_, mover_capacity_);
+  only_if(method != Method::kLbvh, order_, mover_capacity_, static_capacity_, pair_capacity_, morton_bits);
+  statics_.reserve(static_capacity_, morton_bits);
   scan_.reserve(mover_capacity_);
   counts_.grow(mover_capacity_);
   offsets_.grow(mover_capacity_);
   noted_.grow(std::size_t{mover_capacity_} * kNotes);
+  if (!deals_out_long_searches) return;
+  long_movers_.grow(LongSearches::kMost);
+  long_parts_.grow(1);
+  long_counts_.grow(std::size_t{LongSearches::kMost} * LongSearches::kParts);
 }
 
 void BroadPhase::build_statics(Executor& executor, const Box* boxes, const std::uint32_t* proxies, std::uint32_t n) {
@@ -187,26 +161,58 @@ void BroadPhase::find_pairs(Executor& executor, const Box* boxes, const std::uin
                             std::uint32_t* pair_count) {
   require("movers", n, mover_capacity_);
   reduce_.run(executor, n, LoadExtent{boxes, movers}, extent_.data());
-  const auto list = [&](const auto& ordered) {
-    list_pairs(executor, ordered, n, filter, pairs, ranges_by_proxy, pair_count);
+  const auto list = [&](auto& ordered) {
+    ordered.build(executor, boxes, movers, n, extent_.data());
+    list_in_order(executor, ordered.view(), boxes, movers, n, filter, pairs, ranges_by_proxy, pair_count);
   };
   switch (method) {
     case Method::kLbvh:
-      movers_.build(executor, boxes, movers, n, extent_.data(), morton_bits);
-      return list(TreeMovers{movers_.view()});
-    case Method::kSweepAndPrune: sweep_.build(executor, boxes, movers, n, extent_.data()); return list(sweep_.view());
-    case Method::kGrid: grid_.build(executor, boxes, movers, n, extent_.data()); return list(grid_.view());
+      movers_->build(executor, boxes, movers, n, extent_.data(), morton_bits);
+      return list_of_tree(executor, filter, pairs, ranges_by_proxy, pair_count);
+    case Method::kSweep: return list(*sweep_);
+    case Method::kGrid: return list(*grid_);
   }
 }
 
-template <class Movers>
-void BroadPhase::list_pairs(Executor& executor, const Movers& movers, std::uint32_t n, const PairFilter& filter,
-                            Pair* pairs, PairRange* ranges_by_proxy, std::uint32_t* pair_count) {
-  const Search<Movers> search{movers, statics_.view(), filter};
-  count_partners(executor, n, CountPartners<Movers>{search, noted_.data(), counts_.data()});
+void BroadPhase::list_of_tree(Executor& executor, const PairFilter& filter, Pair* pairs, PairRange* ranges_by_proxy,
+                              std::uint32_t* pair_count) {
+  const Search<TreeMovers> search{{movers_->view()}, statics_.view(), filter};
+  const std::uint32_t n = search.movers.tree.leaves;
+  const LongSearches longs{long_movers_.data(), long_parts_.data(), long_counts_.data()};
+  const Count parts{longs.parts, LongSearches::kMost * LongSearches::kParts};
+  // A tree has two nodes a leaf: among few leaves no search is long.
+  const bool deals_out = deals_out_long_searches && 2 * (n + search.statics.leaves) > LongSearches::kVisits;
+  if (deals_out) {
+    executor.run(1U, ClearNumber{longs.parts});
+    executor.run(n, CountShortSearches{search, noted_.data(), counts_.data(), longs});
+    executor.run(parts, CountPart{{search, longs}});
+    executor.run(LongSearches::kMost, SumParts{longs, counts_.data()});
+  } else {
+    const CountPartners<TreeMovers> count{search, noted_.data(), counts_.data()};
+#if defined(PLUMB_IMPULSE_CUDA)
+    executor.run(n, count);
+#else
+    executor.run((n + BoxGroup::kMost - 1) / BoxGroup::kMost, CountPartnersOfGroup{count, n});
+#endif
+  }
   scan_.run(executor, n, counts_.data(), offsets_.data(), pair_count);
-  executor.run(n, ListPairs<Movers>{search, noted_.data(), counts_.data(), offsets_.data(), pairs, pair_capacity_,
-                                    ranges_by_proxy});
+  executor.run(n, ListPairs{search, noted_.data(), counts_.data(), offsets_.data(), pairs, pair_capacity_,
+                            ranges_by_proxy, deals_out});
+  if (deals_out) executor.run(parts, ListPart{{search, longs}, offsets_.data(), pairs, pair_capacity_});
+}
+
+/// Of a method that finds them in another order than the tree.
+template <class Movers>
+void BroadPhase::list_in_order(Executor& executor, const Movers& movers, const Box* boxes, const std::uint32_t* list,
+                               std::uint32_t n, const PairFilter& filter, Pair* pairs, PairRange* ranges_by_proxy,
+                               std::uint32_t* pair_count) {
+  const Search<Movers> search{movers, statics_.view(), filter};
+  order_->number(executor, boxes, list, n, extent_.data(), morton_bits, search.statics);
+  executor.run(n, CountPartners<Movers>{search, noted_.data(), counts_.data()});
+  scan_.run(executor, n, counts_.data(), offsets_.data(), pair_count);
+  executor.run(
+      n, ListKeys<Movers>{search, noted_.data(), counts_.data(), offsets_.data(), order_->keys(), pair_capacity_});
+  order_->list(executor, pair_count, pairs, ranges_by_proxy);
 }
 
 }  // namespace plumb::impulse

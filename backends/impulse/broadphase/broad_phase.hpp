@@ -2,18 +2,23 @@
 // that depends on nothing but the boxes.
 //
 // Movers among themselves are found by one of three methods, as a setting: a tree (lbvh.hpp), sort and sweep
-// (sweep.hpp) or a uniform grid (grid.hpp). All find the same pairs, in another order. Statics lie in a tree of their
-// own, which is built when they change and asked by every mover.
+// (sweep.hpp) or a uniform grid (grid.hpp). All list the same pairs in the same order, which is that of the tree: what
+// the other two find is sorted into it (pair_order.hpp). Statics lie in a tree of their own, which is built when they
+// change and asked by every mover.
 //
 // Every mover is looked up once: it notes the first few partners, a scan of the counts gives it its place in the list,
-// and it copies them there; only who found more than it could note looks again.
+// and it copies them there; only who found more than it could note looks again. On a device a search that takes very
+// long is dealt out to many threads (long_search.hpp).
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <vector>
 
 #include "broadphase/grid.hpp"
 #include "broadphase/lbvh.hpp"
 #include "broadphase/pair_filter.hpp"
+#include "broadphase/pair_order.hpp"
 #include "broadphase/pairs.hpp"
 #include "broadphase/scene_extent.hpp"
 #include "broadphase/sweep.hpp"
@@ -27,13 +32,15 @@ namespace plumb::impulse {
 
 class BroadPhase {
  public:
-  enum class Method : std::uint32_t { kLbvh, kSweepAndPrune, kGrid };
+  enum class Method : std::uint32_t { kLbvh, kSweep, kGrid };
   enum class Tree : std::uint32_t { kMovers, kStatics };
 
-  Method method = Method::kLbvh;             ///< read by find_pairs
-  MortonBits morton_bits = MortonBits::k63;  ///< read by build_statics and find_pairs
+  Method method = Method::kLbvh;                    ///< reserve after a change
+  MortonBits morton_bits = MortonBits::k63;         ///< reserve after a change
+  bool deals_out_long_searches = Executor::kWarps;  ///< of the tree; reserve after a change
 
-  /// Makes room for that many movers, statics and pairs. Only between steps.
+  /// Makes room for that many movers, statics and pairs with the method, and gives back what another one had. Only
+  /// between steps.
   void reserve(Executor& executor, std::uint32_t movers, std::uint32_t statics, std::uint32_t pairs);
 
   /// The statics are boxes[proxies[i]], i < n. Only between steps; enqueues. Boxes are copied into the tree.
@@ -42,9 +49,9 @@ class BroadPhase {
   /// Enqueues only. The movers are boxes[movers[i]], i < n; more than was reserved is an Error. All pointers are the
   /// executor's memory, and are read and written when the kernels run. A recording of this holds n, the number of
   /// statics and the settings. A box that is not sound (scene_extent.hpp) touches nothing.
-  /// pairs: the first `pairs` of reserve() at most are written. ranges_by_proxy: of every mover the pairs that it
-  /// found, as far as they were written. pair_count: how many there are, even if that is more than fit; 2^32 - 1 is
-  /// that or more.
+  /// pairs: `pairs` of reserve() at most are written, and which of them where there are more is the method's.
+  /// ranges_by_ proxy: of every mover the pairs that it found, as far as they were written. pair_count: how many there
+  /// are, even if that is more than fit; 2^32 - 1 is that or more.
   void find_pairs(Executor& executor, const Box* boxes, const std::uint32_t* movers, std::uint32_t n,
                   const PairFilter& filter, Pair* pairs, PairRange* ranges_by_proxy, std::uint32_t* pair_count);
 
@@ -52,21 +59,28 @@ class BroadPhase {
   [[nodiscard]] TreeView statics() const { return statics_.view(); }
   /// Nodes of a tree as it was built last, copied to the host; none of movers where the method has no tree.
   [[nodiscard]] std::vector<TreeNode> nodes(Tree tree) const {
-    return (tree == Tree::kMovers ? movers_ : statics_).nodes();
+    if (tree == Tree::kStatics) return statics_.nodes();
+    return movers_ ? movers_->nodes() : std::vector<TreeNode>();
   }
 
  private:
+  void list_of_tree(Executor& executor, const PairFilter& filter, Pair* pairs, PairRange* ranges_by_proxy,
+                    std::uint32_t* pair_count);
   template <class Movers>
-  void list_pairs(Executor& executor, const Movers& movers, std::uint32_t n, const PairFilter& filter, Pair* pairs,
-                  PairRange* ranges_by_proxy, std::uint32_t* pair_count);
+  void list_in_order(Executor& executor, const Movers& movers, const Box* boxes, const std::uint32_t* list,
+                     std::uint32_t n, const PairFilter& filter, Pair* pairs, PairRange* ranges_by_proxy,
+                     std::uint32_t* pair_count);
 
   Reduce<SceneExtent> reduce_;
   Buffer<SceneExtent> extent_;
-  Lbvh movers_, statics_;
-  Sweep sweep_;
-  Grid grid_;
+  Lbvh statics_;
+  std::optional<Lbvh> movers_;
+  std::optional<Sweep> sweep_;
+  std::optional<Grid> grid_;
+  std::optional<PairOrder> order_;  // of what is not found by the tree
   Scan scan_;
   Buffer<std::uint32_t> counts_, offsets_, noted_;
+  Buffer<std::uint32_t> long_movers_, long_parts_, long_counts_;  // where long searches are dealt out
   std::uint32_t mover_capacity_ = 0, static_capacity_ = 0, pair_capacity_ = 0;
 };
 

@@ -97,15 +97,35 @@ struct BoundNodes {
 
 }  // namespace
 
-void Lbvh::reserve(std::uint32_t capacity) {
-  keys_30_.codes.grow(capacity);
-  keys_30_.sorted.grow(capacity);
-  keys_30_.sort.reserve(capacity);
-  keys_63_.codes.grow(capacity);
-  keys_63_.sorted.grow(capacity);
-  keys_63_.sort.reserve(capacity);
+template <class K>
+void MortonOrder::reserve(Keys<K>& keys, std::uint32_t capacity) {
+  keys.codes.grow(capacity);
+  keys.sorted.grow(capacity);
+  keys.sort.reserve(capacity);
+}
+
+void MortonOrder::reserve(std::uint32_t capacity, MortonBits bits) {
+  bits == MortonBits::k30 ? reserve(keys_30_, capacity) : reserve(keys_63_, capacity);
   indices_.grow(capacity);
   order_.grow(capacity);
+}
+
+template <class K>
+void MortonOrder::sort_by(Keys<K>& keys, Executor& executor, const Box* boxes, const std::uint32_t* proxies,
+                          std::uint32_t n, const SceneExtent* extent) {
+  executor.run(n, CodeBoxes<K>{boxes, proxies, extent, keys.codes.data(), indices_.data()});
+  keys.sort.run(executor, n, keys.codes.data(), indices_.data(), keys.sorted.data(), order_.data(),
+                Morton<K>::kBits + Morton<K>::kSpareBits);
+}
+
+void MortonOrder::sort(Executor& executor, const Box* boxes, const std::uint32_t* proxies, std::uint32_t n,
+                       const SceneExtent* extent, MortonBits bits) {
+  bits == MortonBits::k30 ? sort_by(keys_30_, executor, boxes, proxies, n, extent)
+                          : sort_by(keys_63_, executor, boxes, proxies, n, extent);
+}
+
+void Lbvh::reserve(std::uint32_t capacity, MortonBits bits) {
+  order_.reserve(capacity, bits);
   nodes_.grow(std::size_t{2} * capacity);
   parents_.grow(std::size_t{2} * capacity);
   seconds_.grow(capacity);
@@ -116,21 +136,11 @@ void Lbvh::build(Executor& executor, const Box* boxes, const std::uint32_t* prox
                  const SceneExtent* extent, MortonBits bits) {
   leaves_ = n;
   if (n == 0) return;
-  if (bits == MortonBits::k30)
-    build_by(keys_30_, executor, boxes, proxies, n, extent);
-  else
-    build_by(keys_63_, executor, boxes, proxies, n, extent);
-}
-
-template <class K>
-void Lbvh::build_by(Keys<K>& keys, Executor& executor, const Box* boxes, const std::uint32_t* proxies, std::uint32_t n,
-                    const SceneExtent* extent) {
-  executor.run(n, CodeBoxes<K>{boxes, proxies, extent, keys.codes.data(), indices_.data()});
-  keys.sort.run(executor, n, keys.codes.data(), indices_.data(), keys.sorted.data(), order_.data(),
-                Morton<K>::kBits + Morton<K>::kSpareBits);
-  executor.run(
-      n - 1, LinkNodes<K>{{keys.sorted.data(), n}, nodes_.data(), parents_.data(), seconds_.data(), arrivals_.data()});
-  executor.run(n, BoundNodes{boxes, proxies, order_.data(), n, nodes_.data(), parents_.data(), seconds_.data(),
+  order_.sort(executor, boxes, proxies, n, extent, bits);
+  order_.with_codes(bits, [&]<class K>(const K* sorted) {
+    executor.run(n - 1, LinkNodes<K>{{sorted, n}, nodes_.data(), parents_.data(), seconds_.data(), arrivals_.data()});
+  });
+  executor.run(n, BoundNodes{boxes, proxies, order_.order(), n, nodes_.data(), parents_.data(), seconds_.data(),
                              arrivals_.data()});
 }
 

@@ -32,19 +32,21 @@ namespace plumb::impulse {
 
 enum class MortonBits : std::uint32_t { k30 = 30, k63 = 63 };
 
-class Lbvh {
+/// Boxes in the order of the tree's leaves.
+class MortonOrder {
  public:
-  /// Makes room for trees of up to `capacity` boxes. Not within a step.
-  void reserve(std::uint32_t capacity);
-  /// Enqueues the building of the tree of boxes[proxies[i]], i < n. extent: of these boxes, in the executor's memory.
-  void build(Executor& executor, const Box* boxes, const std::uint32_t* proxies, std::uint32_t n,
-             const SceneExtent* extent, MortonBits bits);
-  /// The tree that was enqueued last.
-  [[nodiscard]] TreeView view() const { return {nodes_.data(), leaves_}; }
-  /// Its nodes, copied to the host; for what looks at them from outside.
-  [[nodiscard]] std::vector<TreeNode> nodes() const { return nodes_.to_host(leaves_ == 0 ? 0 : 2 * leaves_ - 1); }
-  /// The nodes of that tree, built by now, to be kept elsewhere; nothing is left here but to reserve again.
-  [[nodiscard]] Buffer<TreeNode> take_nodes() { return std::move(nodes_); }
+  /// Makes room for up to `capacity` boxes and codes of that many bits. Not within a step.
+  void reserve(std::uint32_t capacity, MortonBits bits);
+  /// Enqueues the sorting of boxes[proxies[i]], i < n. extent: of these boxes, in the executor's memory.
+  void sort(Executor& executor, const Box* boxes, const std::uint32_t* proxies, std::uint32_t n,
+            const SceneExtent* extent, MortonBits bits);
+  /// Leaf i is proxies[order()[i]].
+  [[nodiscard]] const std::uint32_t* order() const { return order_.data(); }
+  /// f(keys): the sorted codes of that many bits.
+  template <class F>
+  void with_codes(MortonBits bits, const F& f) const {
+    bits == MortonBits::k30 ? f(keys_30_.sorted.data()) : f(keys_63_.sorted.data());
+  }
 
  private:
   template <class K>
@@ -53,12 +55,32 @@ class Lbvh {
     RadixSort<K> sort;
   };
   template <class K>
-  void build_by(Keys<K>& keys, Executor& executor, const Box* boxes, const std::uint32_t* proxies, std::uint32_t n,
-                const SceneExtent* extent);
+  void reserve(Keys<K>& keys, std::uint32_t capacity);
+  template <class K>
+  void sort_by(Keys<K>& keys, Executor& executor, const Box* boxes, const std::uint32_t* proxies, std::uint32_t n,
+               const SceneExtent* extent);
 
   Keys<std::uint32_t> keys_30_;
   Keys<std::uint64_t> keys_63_;
   Buffer<std::uint32_t> indices_, order_;
+};
+
+class Lbvh {
+ public:
+  /// Makes room for trees of up to `capacity` boxes. Not within a step.
+  void reserve(std::uint32_t capacity, MortonBits bits = MortonBits::k63);
+  /// Enqueues the building of the tree of boxes[proxies[i]], i < n. extent: of these boxes, in the executor's memory.
+  void build(Executor& executor, const Box* boxes, const std::uint32_t* proxies, std::uint32_t n,
+             const SceneExtent* extent, MortonBits bits = MortonBits::k63);
+  /// The tree that was enqueued last.
+  [[nodiscard]] TreeView view() const { return {nodes_.data(), leaves_}; }
+  /// Its nodes, copied to the host; for what looks at them from outside.
+  [[nodiscard]] std::vector<TreeNode> nodes() const { return nodes_.to_host(leaves_ == 0 ? 0 : 2 * leaves_ - 1); }
+  /// The nodes of that tree, built by now, to be kept elsewhere; nothing is left here but to reserve again.
+  [[nodiscard]] Buffer<TreeNode> take_nodes() { return std::move(nodes_); }
+
+ private:
+  MortonOrder order_;
   Buffer<TreeNode> nodes_;
   Buffer<std::uint32_t> parents_;   // by node
   Buffer<std::uint32_t> seconds_;   // by split: its second child

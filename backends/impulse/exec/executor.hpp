@@ -15,6 +15,8 @@
 //   to_device, to_host  copy rows of a Mirror, in order with the kernels; uploaded_bytes() counts the first kind
 //   RadixSort<K>, Scan  (sort.hpp)
 //   record(graph, f)    f() enqueues a fixed sequence; a device captures it the first time and replays it afterwards
+//   on_host(n, f)       f(i) for every i < n on threads of the host, for a few i that take long; host_threads() is how
+//                       many there are. Not enqueued: all is done when it returns
 //   wait()              returns when all that was enqueued is done
 //   send(Signal)        the signal is given when all that was enqueued is done: what an outsider's stream can wait for
 //   unmet_requirement() a sentence that says why this machine cannot run it, or ""

@@ -5,6 +5,7 @@
 
 #include "axis_locks.hpp"
 #include "exec/floating_point.hpp"
+#include "plugin/put_rows.hpp"
 #include "plugin/ranges.hpp"
 #include "plugin/world.hpp"
 
@@ -42,7 +43,6 @@ PlumbResult World::destroy_bodies(std::span<const PlumbBody> ids) {
   wake_for_write(PLUMB_FIELD_POSE, ids);
   for (const PlumbBody id : ids) {
     const std::uint32_t slot = slot_of(id);
-    std::erase(sensors_, slot);
     if (bodies_[slot].motion == PLUMB_DYNAMIC) --dynamic_count_;
     detach(slot);
     bodies_[slot] = {};
@@ -52,6 +52,7 @@ PlumbResult World::destroy_bodies(std::span<const PlumbBody> ids) {
     simulation_.state.velocity[slot] = {};
     simulation_.state.touch(slot, kVelocityPart);
   }
+  sensors_.remove_if([&](std::uint32_t slot) { return bodies_[slot].id == 0; });
   std::erase_if(records_, [&](const ContactRecord& record) {  // their slots will be others'
     return bodies_[record.bodies.a].id == 0 || bodies_[record.bodies.b].id == 0;
   });
@@ -119,7 +120,7 @@ void World::make_body(const PlumbBodyDesc& desc, PlumbBody id) {
 
   put_body_rows(slot);
   body.senses = (desc.flags & PLUMB_BODY_SENSOR) != 0;
-  if (body.senses) sensors_.push_back(slot);
+  if (body.senses) sensors_.add(slot);
   const bool has_place = init_.needs(PLUMB_NEED_COLLISION) || init_.needs(PLUMB_NEED_SENSORS);
   if (desc.shape != 0 && has_place) attach(slot, slot_of(desc.shape));
 }
@@ -167,24 +168,15 @@ PlumbPose World::pose(std::uint32_t slot) const {
 /// Where the host's rows are not right, all rows of the field are brought here at once: who reads reads many.
 void World::read_state(PlumbField field, std::span<const PlumbBody> ids, Rows rows) {
   const BodyState& state = simulation_.state;
+  Executor& executor = simulation_.executor();
   if (field == PLUMB_FIELD_POSE) {
-    const auto brought = state.on_host() ? nullptr : simulation_.pose_rows(true);
-    for (std::size_t i = 0; i < ids.size(); ++i) {
-      const std::uint32_t slot = slot_of(ids[i]);
-      const PoseRow row = brought ? brought->rows[slot]
-                                  : pose_row(simulation_.frames[slot], state.position[slot], state.orientation[slot]);
-      rows.put(i, row.numbers, 7);
-    }
-    return;
+    if (!state.on_host()) return copy_rows(executor, simulation_.pose_rows(true)->rows.host(), ids, rows);
+    return put_rows(executor, ids, rows, [&](std::uint32_t slot) {
+      return pose_row(simulation_.frames[slot], state.position[slot], state.orientation[slot]);
+    });
   }
-  const auto brought = state.on_host() ? nullptr : simulation_.velocity_rows(true);
-  for (std::size_t i = 0; i < ids.size(); ++i) {
-    const std::uint32_t slot = slot_of(ids[i]);
-    const VelocityRow narrow = brought ? brought->rows[slot] : velocity_row(state.velocity[slot]);
-    double row[6];
-    std::copy(std::begin(narrow.numbers), std::end(narrow.numbers), row);
-    rows.put(i, row, 6);
-  }
+  if (!state.on_host()) return copy_rows(executor, simulation_.velocity_rows(true)->rows.host(), ids, rows);
+  put_rows(executor, ids, rows, [&](std::uint32_t slot) { return velocity_row(state.velocity[slot]); });
 }
 
 PlumbResult World::read(PlumbField field, std::span<const PlumbBody> ids, Rows rows) {
@@ -314,8 +306,7 @@ void World::write_row(PlumbField field, std::uint32_t slot, const double* row) {
     case PLUMB_FIELD_KINEMATIC_TARGET:
       body.target = {{row[0], row[1], row[2]}, {row[3], row[4], row[5], row[6]}};
       body.to_target = true;
-      if (std::find(steered_.begin(), steered_.end(), slot) == steered_.end()) steered_.push_back(slot);
-      return;
+      return steered_.add(slot);
     case PLUMB_FIELD_MATERIAL:
       body.material.friction = row[0];
       body.material.restitution = row[1];

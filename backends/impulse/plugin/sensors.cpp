@@ -6,7 +6,7 @@
 namespace plumb::impulse {
 
 void World::sense() {
-  simulation_.state.fetch(sensors_, kPosePart);
+  simulation_.state.fetch(sensors_.all(), kPosePart);
   std::vector<PlumbOverlap> looks;
   std::vector<std::uint32_t> who;
   const auto look = [&](std::uint32_t slot, std::uint32_t row) {

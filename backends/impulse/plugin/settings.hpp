@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "broadphase/broad_phase.hpp"
 #include "plumb/plumb.h"
 #include "step_parameters.hpp"
 
@@ -11,6 +12,7 @@ namespace plumb::impulse {
 /// A choice is the number of its word.
 struct Settings {
   double solver = 0;
+  double broad_phase = 0;
   double relaxation = 0;
   double substeps = 0;
   double iterations = 0;
@@ -30,6 +32,9 @@ struct Settings {
   [[nodiscard]] PlumbSettingValue get(const char* name) const;
   void set(const char* name, const PlumbSettingValue& value);
 
+  [[nodiscard]] BroadPhase::Method broad_phase_method() const {
+    return static_cast<BroadPhase::Method>(static_cast<std::uint32_t>(broad_phase));
+  }
   /// Length of the parts that a step of dt is solved in.
   [[nodiscard]] double substep(double dt) const;
   /// What a step of dt works with. last_h: the sub-step before, 0 when there was none.

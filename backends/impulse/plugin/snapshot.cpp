@@ -47,7 +47,7 @@ void World::exchange(Archive& archive) {
   archive.value(gravity_);
   archive.value(last_h_);
   archive.value(stopped_);
-  archive.list(steered_);
+  steered_.exchange(archive);
   archive.list(pushed_);
   for (const std::uint32_t slot : pushed_) archive.value(simulation_.force.edit(slot));
   archive.list(early_events_);

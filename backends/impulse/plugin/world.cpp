@@ -43,6 +43,7 @@ PlumbResult World::step(double dt) {
   steer_kinematics(dt);
   dt_ = dt;
   records_known_ = false;
+  simulation_.choose(settings_.broad_phase_method());
   simulation_.step(settings_.parameters(dt, last_h_, gravity_));
   last_h_ = settings_.substep(dt);
   return PLUMB_OK;
@@ -76,8 +77,8 @@ PlumbResult World::wait(PlumbStepReport& report) {
 
 /// A kinematic body that is sent somewhere gets the velocity that leads there in one step; one that has arrived rests.
 void World::steer_kinematics(double dt) {
-  std::erase_if(steered_, [&](std::uint32_t slot) { return bodies_[slot].id == 0; });
-  simulation_.state.fetch(steered_, kPosePart);
+  steered_.remove_if([&](std::uint32_t slot) { return bodies_[slot].id == 0; });
+  simulation_.state.fetch(steered_.all(), kPosePart);
   for (const std::uint32_t slot : steered_) {
     BodyRecord& body = bodies_[slot];
     Velocity& velocity = simulation_.state.velocity[slot];
@@ -93,7 +94,7 @@ void World::steer_kinematics(double dt) {
     }
     simulation_.state.touch(slot, kVelocityPart);
   }
-  std::erase_if(steered_, [&](std::uint32_t slot) { return !bodies_[slot].to_target; });
+  steered_.remove_if([&](std::uint32_t slot) { return !bodies_[slot].to_target; });
 }
 
 void World::settle_kinematics() {

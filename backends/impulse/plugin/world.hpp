@@ -11,6 +11,7 @@
 #include "plugin/joint_record.hpp"
 #include "plugin/proxy_slots.hpp"
 #include "plugin/settings.hpp"
+#include "plugin/slot_list.hpp"
 #include "plumb/backend/touch_tracker.hpp"
 #include "plumb/backend/world_init.hpp"
 #include "plumb/physics_world.hpp"
@@ -142,11 +143,12 @@ class World final : public IPhysicsWorld,
   std::uint32_t dynamic_count_ = 0;
   bool continuous_ = false;
   std::uint32_t stopped_ = 0;  // bodies whose velocity a write made infinite, since the last step
-  std::vector<std::uint32_t> pushed_, steered_;
+  std::vector<std::uint32_t> pushed_;
+  SlotList steered_;  // kinematic bodies with a target, or that have arrived at one
   bool records_known_ = false;
   std::vector<ContactRecord> records_;
   std::vector<PlumbContact> contacts_;
-  std::vector<std::uint32_t> sensors_;  // slots
+  SlotList sensors_;
   std::vector<PlumbEvent> events_, early_events_;
   std::mutex query_mutex_;  // of what queries build when they need it, and of the batches
   BatchPool<QueryBatch> query_batches_;

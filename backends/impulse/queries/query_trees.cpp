@@ -87,7 +87,7 @@ void QueryTrees::build(Executor& executor, const PlacedProxies& placed, const st
   tree.reserve(placed.rows);
   place(executor, placed, list, n);
   reduce_.run(executor, n, LoadExtent{boxes_.data(), list}, extent_.data());
-  tree.build(executor, boxes_.data(), list, n, extent_.data(), MortonBits::k63);
+  tree.build(executor, boxes_.data(), list, n, extent_.data());
 }
 
 QueryScene QueryTrees::scene(const PlacedProxies& placed) {

@@ -86,6 +86,12 @@ class Executor {
     }
     recording_ = nullptr;
   }
+  [[nodiscard]] std::uint32_t host_threads() const { return threads(); }
+  template <class F>
+  void on_host(std::uint32_t n, const F& f) {
+    const F* task = &f;
+    crew_.run_chunks(n, &task, [](void* context, std::uint32_t i) { (**static_cast<const F**>(context))(i); });
+  }
   template <class T>
   void to_device(Mirror<T>& mirror, std::size_t count, std::size_t first = 0) {
     if (kOneMemory || count == 0) return;

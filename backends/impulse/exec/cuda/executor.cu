@@ -1,6 +1,9 @@
 #include "exec/cuda/executor.cuh"
 
+#include <algorithm>
 #include <string>
+#include <thread>
+#include <vector>
 
 namespace plumb::impulse {
 
@@ -24,7 +27,12 @@ const char* Executor::device_name() {
   return name.c_str();
 }
 
-Executor::Executor(const PlumbHost* /*host*/, std::uint32_t /*threads*/) {
+/// On the host, where only rows that are read keep more than one busy.
+std::uint32_t Executor::max_threads() { return std::max(1U, std::thread::hardware_concurrency()); }
+
+Executor::Executor(const PlumbHost* host, std::uint32_t threads)
+    : host_(host != nullptr && host->run != nullptr && host->worker_count > 0 ? host : nullptr),
+      host_threads_(std::clamp(threads, 1U, host_ != nullptr ? host_->worker_count : max_threads())) {
   int device = 0, multiprocessors = 0;
   check_cuda(cudaGetDevice(&device), "there is no CUDA device");
   check_cuda(cudaDeviceGetAttribute(&multiprocessors, cudaDevAttrMultiProcessorCount, device), "cannot ask the device");
@@ -39,6 +47,14 @@ Executor::~Executor() {
   (void)cudaStreamSynchronize(stream_);
   memory::release(barrier_);
   (void)cudaStreamDestroy(stream_);
+}
+
+/// A thread a task, which lasts longer than it takes to start one.
+void Executor::run_on_host(std::uint32_t n, void* context, PlumbTask task) const {
+  if (host_ != nullptr) return host_->run(host_->user, task, context, n);
+  std::vector<std::jthread> others;
+  for (std::uint32_t i = 1; i < n; ++i) others.emplace_back(task, context, i);
+  task(context, 0);
 }
 
 }  // namespace plumb::impulse

@@ -98,7 +98,7 @@ class Executor {
 
   static std::string unmet_requirement();
   static const char* device_name();
-  static std::uint32_t max_threads() { return 1; }
+  static std::uint32_t max_threads();
 
   [[nodiscard]] std::uint32_t threads() const { return 1; }
   [[nodiscard]] cudaStream_t stream() const { return stream_; }
@@ -155,6 +155,12 @@ class Executor {
     check_cuda(cudaGraphLaunch(recording.graph_, stream_), "cannot launch a graph");
   }
 #endif
+  [[nodiscard]] std::uint32_t host_threads() const { return host_threads_; }
+  template <class F>
+  void on_host(std::uint32_t n, const F& f) {
+    const F* task = &f;
+    run_on_host(n, &task, [](void* context, std::uint32_t i) { (**static_cast<const F**>(context))(i); });
+  }
   /// Enqueued, in order with the kernels; done after wait().
   template <class T>
   void to_device(Mirror<T>& mirror, std::size_t count, std::size_t first = 0) {
@@ -178,6 +184,7 @@ class Executor {
  private:
   static constexpr std::uint32_t kBlock = 128;
 
+  void run_on_host(std::uint32_t n, void* context, PlumbTask task) const;
   void copy(void* to, const void* from, std::size_t bytes, cudaMemcpyKind kind) {
     if (bytes != 0) check_cuda(cudaMemcpyAsync(to, from, bytes, kind, stream_), "cannot copy");
   }
@@ -186,6 +193,8 @@ class Executor {
   std::uint32_t multiprocessors_ = 1;
   TeamBarrier* barrier_ = nullptr;  // on the device
   std::uint64_t uploaded_bytes_ = 0;
+  const PlumbHost* host_;  // null where it lends no job system
+  std::uint32_t host_threads_;
 };
 
 }  // namespace plumb::impulse
