@@ -10,12 +10,13 @@
 
 namespace plumb::impulse {
 
-enum class Field { kUniform, kClustered, kCoincident, kPlanar, kGiant, kMixed, kTouching };
+enum class Field { kUniform, kClustered, kCoincident, kPlanar, kGiant, kMixed, kTouching, kDecades };
 inline constexpr Field kFields[] = {Field::kUniform, Field::kClustered, Field::kCoincident, Field::kPlanar,
-                                    Field::kGiant,   Field::kMixed,     Field::kTouching};
+                                    Field::kGiant,   Field::kMixed,     Field::kTouching,   Field::kDecades};
 
 inline std::string name_of(Field field) {
-  constexpr const char* names[] = {"uniform", "clustered", "coincident", "planar", "giant", "mixed", "touching"};
+  constexpr const char* names[] = {"uniform", "clustered", "coincident", "planar",
+                                   "giant",   "mixed",     "touching",   "decades"};
   return names[static_cast<int>(field)];
 }
 
@@ -82,6 +83,13 @@ inline std::vector<Box> make_boxes(Field field, std::uint32_t n, std::uint64_t s
         const Real size = Real(1) / static_cast<Real>(1U << dice.bits() % 11);
         const Real large = dice.unit() < Real(.002) ? 30 : 1;
         box = box_at(dice.in_cube(half_scene), i % 7 == 0 ? Vec{0, 0, 0} : large * size * half_size());
+        break;
+      }
+      case Field::kDecades: {  // radii from 1e-3 to 1e3, as many of each decade; the cube of two's sum is 6.4e7 on
+                               // average
+        constexpr Real decades[] = {Real(1e-3), Real(1e-2), Real(1e-1), 1, 10, 100};
+        const Real radius = decades[dice.bits() % 6] * dice.between(1, 10);
+        box = box_at(dice.in_cube(Real(400) * half_scene), {radius, radius, radius});
         break;
       }
       case Field::kTouching: {  // unit cubes on a grid: every face, edge and corner touches

@@ -30,9 +30,17 @@ inline constexpr BroadPhaseCase kBroadPhaseCases[] = {
     {"mixed 2^17", Field::kMixed, 17, 20, BroadPhase::Method::kLbvh, MortonBits::k63},
     {"uniform 2^20", Field::kUniform, 20, 20, BroadPhase::Method::kLbvh, MortonBits::k63},
     {"uniform 2^20, 30 bits", Field::kUniform, 20, 20, BroadPhase::Method::kLbvh, MortonBits::k30},
-    {"sweep 2^14", Field::kUniform, 14, 20, BroadPhase::Method::kSweepAndPrune, MortonBits::k63},
+    {"sweep 2^14", Field::kUniform, 14, 20, BroadPhase::Method::kSweep, MortonBits::k63},
     {"grid 2^14", Field::kUniform, 14, 20, BroadPhase::Method::kGrid, MortonBits::k63},
     {"grid 2^17", Field::kUniform, 17, 20, BroadPhase::Method::kGrid, MortonBits::k63},
+    {"uniform 2^9", Field::kUniform, 9, 20, BroadPhase::Method::kLbvh, MortonBits::k63},
+    {"sweep 2^9", Field::kUniform, 9, 20, BroadPhase::Method::kSweep, MortonBits::k63},
+    {"grid 2^9", Field::kUniform, 9, 20, BroadPhase::Method::kGrid, MortonBits::k63},
+    {"mixed 2^11", Field::kMixed, 11, 20, BroadPhase::Method::kLbvh, MortonBits::k63},
+    {"mixed 2^14", Field::kMixed, 14, 20, BroadPhase::Method::kLbvh, MortonBits::k63},
+    {"mixed 2^20", Field::kMixed, 20, 20, BroadPhase::Method::kLbvh, MortonBits::k63},
+    {"decades 2^14", Field::kDecades, 14, 20, BroadPhase::Method::kLbvh, MortonBits::k63},
+    {"decades 2^17", Field::kDecades, 17, 20, BroadPhase::Method::kLbvh, MortonBits::k63},
     {"sparse 2^20", Field::kUniform, 20, 10, BroadPhase::Method::kLbvh, MortonBits::k63},
 };
 
