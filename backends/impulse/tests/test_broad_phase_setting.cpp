@@ -71,13 +71,12 @@ TEST_P(BroadPhases, GiveTheSameBits) {
 }
 
 std::vector<NamedScene> scenes() {
-  std::vector<NamedScene> all = {
-      {"decades",
-       {},
-       PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION | PLUMB_NEED_SLEEPING | PLUMB_NEED_KINEMATIC |
-           PLUMB_NEED_EVENTS,
-       {0, -9.81, 0},
-       &decades}};
+  std::vector<NamedScene> all = {{"decades",
+                                  {},
+                                  PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION |
+                                      PLUMB_NEED_SLEEPING | PLUMB_NEED_KINEMATIC | PLUMB_NEED_EVENTS,
+                                  {0, -9.81, 0},
+                                  &decades}};
   for (const NamedScene& scene : named_scenes())
     if (std::string_view(scene.name) != "pile-1000") all.push_back(scene);  // that takes long
   return all;

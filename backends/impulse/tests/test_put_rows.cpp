@@ -39,8 +39,8 @@ class PutRows : public ::testing::TestWithParam<std::uint32_t> {
     constexpr T untouched = -77;
     std::vector<T> rows(stride * ids_.size(), untouched);
     check(scene_.world(),
-          scene_.world().read(field, ids_, Rows(at(rows, 0), ids_.size(), stride * sizeof(T),
-                                                sizeof(T) == 8 ? PLUMB_F64 : PLUMB_F32)));
+          scene_.world().read(
+              field, ids_, Rows(at(rows, 0), ids_.size(), stride * sizeof(T), sizeof(T) == 8 ? PLUMB_F64 : PLUMB_F32)));
     for (std::size_t i = 0; i < ids_.size(); ++i)
       for (std::size_t k = 0; k < stride; ++k)
         ASSERT_EQ(rows[stride * i + k], k < columns ? static_cast<T>(expected[columns * i + k]) : untouched)

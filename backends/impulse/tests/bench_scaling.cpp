@@ -1,5 +1,5 @@
-// Whether a cost grows as its cause does: each of these is measured at four sizes, and what one item of it costs is held
-// against what it costs at the smallest. A ratio of 1 is flat; the table at the end marks what is above 2.
+// Whether a cost grows as its cause does: each of these is measured at four sizes, and what one item of it costs is
+// held against what it costs at the smallest. A ratio of 1 is flat; the table at the end marks what is above 2.
 //
 //   kinematic_targets   writing a target for each of n kinematic bodies, per body
 //   step_after_destroy  the step after one joint of n, in chains of ten, was destroyed, per joint
@@ -8,7 +8,7 @@
 //   mixed_sizes         a step of n kinematic balls of radii over three decades, which is little but its broad phase,
 //                       per ball
 //
-// usage: bench_scaling [BACKEND [KEY=CHOICE]...] [--benchmark_...]     BACKEND: a name or a file
+// usage: bench_scaling [BACKEND [KEY=CHOICE]...] [--benchmark_...]     BACKEND: a name or a file; by itself impulse
 #include <benchmark/benchmark.h>
 
 #include <chrono>
@@ -141,9 +141,7 @@ class Chains {
     check(*world, world->joints()->create_joints(descs_, joints));
   }
   void destroy(std::size_t i) { check(*world, world->joints()->destroy_joints({&joints[i], 1})); }
-  void make_again(std::size_t i) {
-    check(*world, world->joints()->create_joints({&descs_[i], 1}, {&joints[i], 1}));
-  }
+  void make_again(std::size_t i) { check(*world, world->joints()->create_joints({&descs_[i], 1}, {&joints[i], 1})); }
 
   World world;
   std::vector<PlumbJoint> joints;
@@ -229,12 +227,20 @@ struct Family {
 };
 const Family kFamilies[] = {
     {"kinematic_targets", &kinematic_targets, PLUMB_NEED_KINEMATIC, {4000, 8000, 16000, 32000}, false, true},
-    {"step_after_destroy", &step_after_destroy, PLUMB_NEED_ROTATION | PLUMB_NEED_JOINTS, {500, 2000, 4000, 16000}, false,
+    {"step_after_destroy",
+     &step_after_destroy,
+     PLUMB_NEED_ROTATION | PLUMB_NEED_JOINTS,
+     {500, 2000, 4000, 16000},
+     false,
      true},
     {"read_one_pose", &read_one_pose, PLUMB_NEED_ROTATION, {1000, 4000, 16000, 64000}, true, false},
     {"read_all_poses", &read_all_poses, PLUMB_NEED_ROTATION, {8000, 64000, 256000, 901120}, false, true},
-    {"mixed_sizes", &mixed_sizes, PLUMB_NEED_COLLISION | PLUMB_NEED_KINEMATIC, {1 << 11, 1 << 13, 1 << 15, 1 << 17},
-     false, true}};
+    {"mixed_sizes",
+     &mixed_sizes,
+     PLUMB_NEED_COLLISION | PLUMB_NEED_KINEMATIC,
+     {1 << 11, 1 << 13, 1 << 15, 1 << 17},
+     false,
+     true}};
 
 /// The console's table, and after it the cost of an item at each size.
 class Costs : public benchmark::ConsoleReporter {
@@ -269,7 +275,7 @@ class Costs : public benchmark::ConsoleReporter {
 int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   try {
-    Engine engine{plumb::open_backend(argc > 1 ? argv[1] : STANDARD_BACKEND), {}};
+    Engine engine{plumb::open_backend(argc > 1 ? argv[1] : IMPULSE_LIBRARY), {}};
     for (int i = 2; i < argc; ++i) {
       const char* equals = std::strchr(argv[i], '=');
       if (equals == nullptr) {
