@@ -50,7 +50,7 @@ class BroadPhase {
   /// executor's memory, and are read and written when the kernels run. A recording of this holds n, the number of
   /// statics and the settings. A box that is not sound (scene_extent.hpp) touches nothing.
   /// pairs: `pairs` of reserve() at most are written, and which of them where there are more is the method's.
-  /// ranges_by_ proxy: of every mover the pairs that it found, as far as they were written. pair_count: how many there
+  /// ranges_by_proxy: of every mover the pairs that it found, as far as they were written. pair_count: how many there
   /// are, even if that is more than fit; 2^32 - 1 is that or more.
   void find_pairs(Executor& executor, const Box* boxes, const std::uint32_t* movers, std::uint32_t n,
                   const PairFilter& filter, Pair* pairs, PairRange* ranges_by_proxy, std::uint32_t* pair_count);

@@ -125,27 +125,27 @@ std::vector<std::uint64_t> JointStore::excluded() const {
 
 void JointStore::upload(const Table<BodyMass>& masses) {
   code_ = needed_code();
-  std::vector<Joint> all;
-  std::vector<JointAxes> axes, ordered_axes;
-  std::vector<bool> is_stiff;
+  std::vector<std::uint32_t> slots;
   std::vector<Join> joins;
   const auto moving = [&](std::uint32_t body) { return is_pushed(body, masses) ? body : kWorld; };
-  for (const Row& row : rows_) {
+  for (std::uint32_t slot = 0; slot < rows_.size(); ++slot) {
+    const Row& row = rows_[slot];
     if (!row.used || !(is_pushed(row.joint.body_a, masses) || is_pushed(row.joint.body_b, masses))) continue;
-    all.push_back(row.joint);
-    all.back().in_loop = row.traits.locks_turns && !both_turn(row.joint, masses);
-    is_stiff.push_back(row.traits.locks_turns);
-    axes.push_back(row.axes);
+    slots.push_back(slot);
     joins.emplace_back(moving(row.joint.body_a), moving(row.joint.body_b));
   }
   const JointElimination found = eliminator_.eliminate(joins, kWorld);
 
   ordered_.clear();
-  for (std::uint32_t j = 0; j < all.size(); ++j)
-    all[j].in_loop = all[j].in_loop || found.in_loop[j] || (is_stiff[j] && found.size[j] >= kLongBeam);
+  ordered_.reserve(slots.size());
+  std::vector<JointAxes> ordered_axes;
   const auto put = [&](std::uint32_t j) {
-    ordered_.push_back(all[j]);
-    ordered_axes.push_back(axes[j]);
+    const Row& row = rows_[slots[j]];
+    ordered_.push_back(row.joint);
+    const bool is_stiff = row.traits.locks_turns;
+    ordered_.back().in_loop =
+        found.in_loop[j] || (is_stiff && (found.size[j] >= kLongBeam || !both_turn(row.joint, masses)));
+    if (code_ == JointCode::kAll) ordered_axes.push_back(row.axes);
   };
   for (const std::uint32_t j : found.one_by_one) put(j);
   base_ = static_cast<std::uint32_t>(ordered_.size());
