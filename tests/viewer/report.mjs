@@ -1,4 +1,5 @@
-// The report's page in a browser without a window: it unpacks, leads from figures to runs, and hides what is filtered.
+// The report's page in a browser without a window: it draws what is in sight, leads from figures to runs, sorts, folds,
+// and leaves what the filter names; no table is cut, and no two series of a figure look alike.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { existsSync, mkdtempSync, rmSync } from 'node:fs';
@@ -9,6 +10,8 @@ import { after, before, test } from 'node:test';
 import { pathToFileURL } from 'node:url';
 import { kArguments, kBrowser } from '../../harness/viewer/chromium.mjs';
 
+const kMostElements = 30000; // of a page of five thousand rows, wherever one reads
+
 const { PLUMB_VIEWER_FOLDER: folder, PLUMB_SOURCE: root, PLUMB_PROGRAM: program } = process.env;
 if (!existsSync(kBrowser)) {
   console.log(`skipped: there is no browser at ${kBrowser}; install the package chromium or name one in PLUMB_CHROMIUM`);
@@ -16,14 +19,18 @@ if (!existsSync(kBrowser)) {
 }
 const { chromium } = createRequire(join(folder, 'package.json'))('playwright-core');
 
-let browser, scratch, url;
+let browser, scratch, one, both;
 
 before(async () => {
   scratch = mkdtempSync(join(tmpdir(), 'plumb-report-'));
-  const file = join(scratch, 'page.html'),
-    results = ['xeon-2-cores', 'h200'].map((machine) => join(root, 'harness/results', machine));
-  execFileSync(program, ['report', ...results, '--html', file], { env: { ...process.env, PLUMB_SCENES: join(root, 'scenes') } });
-  url = pathToFileURL(file).href;
+  const results = ['xeon-2-cores', 'h200'].map((machine) => join(root, 'harness/results', machine));
+  const pageOf = (folders, name) => {
+    const file = join(scratch, name);
+    execFileSync(program, ['report', ...folders, '--html', file], { env: { ...process.env, PLUMB_SCENES: join(root, 'scenes') } });
+    return pathToFileURL(file).href;
+  };
+  one = pageOf(results.slice(0, 1), 'one.html');
+  both = pageOf(results, 'both.html');
   browser = await chromium.launch({ executablePath: kBrowser, args: kArguments });
 });
 
@@ -32,60 +39,202 @@ after(async () => {
   if (scratch) rmSync(scratch, { recursive: true });
 });
 
-/** Runs use(page) on a fresh page that has unpacked, and fails on anything that its console says. */
-async function visit(hash, use) {
-  const page = await browser.newPage({ viewport: { width: 1200, height: 800 } }),
+/** Runs use(page) on a fresh page, and fails on anything that its console says or that it asks of a network. */
+async function visit(url, use, { width = 1400, ...context } = {}) {
+  const page = await browser.newPage({ viewport: { width, height: 900 }, reducedMotion: 'reduce', ...context }),
     said = [];
   page.on('console', (message) => {
     if (['error', 'warning'].includes(message.type())) said.push(message.text());
   });
   page.on('pageerror', (error) => said.push(error.stack));
-  await page.goto(url + hash);
-  await page.waitForFunction(() => 'unpacked' in document.documentElement.dataset, null, { timeout: 60000 });
+  page.on('request', (request) => {
+    if (!/^(file|data|blob):/.test(request.url())) said.push(request.url());
+  });
+  await page.goto(url);
+  await page.waitForFunction(() => 'ready' in document.documentElement.dataset, null, { timeout: 60000 });
   await use(page);
   await page.close();
   assert.deepEqual(said, []);
 }
 
-test('what is packed is unpacked, and only one machine is shown', () =>
-  visit('', async (page) => {
-    assert.equal(await page.locator('script.packed').count(), 0);
-    assert.equal(await page.locator('.machine').count(), 2);
-    assert.equal(await page.locator('.machine:visible').count(), 1);
-    for (const id of ['cost', 'answers', 'engines', 'precision', 'fronts', 'matrix', 'runs'])
-      assert.ok(await page.locator(`#${id}`).isVisible(), id);
-    await page.locator('#machine').selectOption('1');
-    assert.ok(!(await page.locator('#cost').isVisible()));
-    assert.ok(await page.locator('#cost-1').isVisible());
+/** Reads from top to bottom, a screen at a time, and calls look() on each. */
+async function read(page, look) {
+  for (let top = 0; top < (await page.evaluate(() => document.documentElement.scrollHeight)); top += 800) {
+    await page.evaluate((y) => scrollTo(0, y), top);
+    await page.waitForTimeout(60);
+    await look();
+  }
+}
+const settle = (page) => page.waitForFunction(() => ![...document.querySelectorAll('.pending')].some((e) => e.getBoundingClientRect().top < innerHeight && e.getBoundingClientRect().bottom > 0 && e.offsetParent));
+const goTo = async (page, id) => {
+  await page.evaluate((place) => {
+    location.hash = place;
+  }, id);
+  await page.waitForFunction((place) => 'drawn' in document.getElementById(place).dataset, id);
+};
+
+test('five thousand rows, every group open: few elements wherever one reads, and nothing is cut', async () => {
+  for (const width of [1400, 420])
+    await visit(
+      one,
+      async (page) => {
+        await read(page, async () => {
+          for (const group of await page.locator('details.group:not([open]) > summary').all()) await group.evaluate((s) => s.click());
+          const { elements, cut, page: wide } = await page.evaluate(() => ({
+            elements: document.querySelectorAll('*').length,
+            cut: [...document.querySelectorAll('.scroll')].filter((e) => e.scrollWidth > e.clientWidth + 1).map((e) => e.getAttribute('aria-label')),
+            page: document.documentElement.scrollWidth,
+          }));
+          assert.ok(elements < kMostElements, `${elements} elements`);
+          assert.deepEqual(cut, [], `cut at ${width}`);
+          assert.ok(wide <= width, `the page is ${wide} wide`);
+        });
+      },
+      { width },
+    );
+});
+
+test('the first screen has the answers and a picture', () =>
+  visit(one, async (page) => {
+    await page.waitForSelector('#speed svg.plot');
+    for (const id of ['answers', 'speed']) {
+      const box = await page.locator(`#${id}`).boundingBox();
+      assert.ok(box.y + Math.min(box.height, 300) < 900, `${id} is at ${box.y}`);
+    }
+  }));
+
+test('no two series of a figure look alike, as drawn', () =>
+  visit(one, async (page) => {
+    const seen = { figures: 0, series: 0 };
+    const look = async () => {
+      await settle(page);
+      const figures = await page.evaluate(() =>
+        [...document.querySelectorAll('figure .series')].map((legend) => ({
+          title: legend.closest('figure').querySelector('figcaption')?.textContent,
+          keys: [...legend.children].map((entry) => {
+            const dot = entry.querySelector('[aria-label=dot] path, [aria-label=dot] circle'),
+              line = entry.querySelector('[aria-label=line] path'),
+              style = getComputedStyle(dot.closest('[fill]') ?? dot);
+            return [style.fill, dot.getAttribute('d') ?? 'circle', line ? getComputedStyle(line).strokeDasharray : ''].join('|');
+          }),
+        })),
+      );
+      for (const { title, keys } of figures) {
+        assert.equal(new Set(keys).size, keys.length, `${title}: ${keys.join('\n')}`);
+        seen.figures += 1;
+        seen.series = Math.max(seen.series, keys.length);
+      }
+    };
+    for (const section of ['precision', 'curves']) {
+      await goTo(page, section);
+      for (const group of await page.locator(`#${section} details.group:not([open]) > summary`).all()) await group.evaluate((s) => s.click());
+      await read(page, look);
+    }
+    assert.ok(seen.figures > 100 && seen.series >= 12, JSON.stringify(seen));
+  }));
+
+test('an engine has the same hue whatever is beside it', async () => {
+  const huesOf = async (url) => {
+    let hues;
+    await visit(url, async (page) => {
+      hues = await page.evaluate(() =>
+        Object.fromEntries([...document.querySelectorAll('.switch')].map((s) => [s.textContent, getComputedStyle(s.querySelector('.backend'), '::before').backgroundColor])),
+      );
+    });
+    return hues;
+  };
+  const [few, many] = [await huesOf(one), await huesOf(both)];
+  assert.ok(Object.keys(many).length > Object.keys(few).length);
+  for (const [engine, hue] of Object.entries(few)) assert.equal(many[engine], hue, engine);
+  assert.equal(new Set(Object.values(many)).size, Object.keys(many).length, 'and none has another one\'s');
+});
+
+test('every section folds, by keyboard', () =>
+  visit(one, async (page) => {
+    for (const fold of await page.locator('main section > details.fold').all()) {
+      const summary = fold.locator(':scope > summary');
+      await summary.focus();
+      await page.keyboard.press('Enter');
+      assert.equal(await fold.getAttribute('open'), null, await summary.textContent());
+      await page.keyboard.press('Enter');
+      assert.notEqual(await fold.getAttribute('open'), null);
+    }
+  }));
+
+test('headers sort by keyboard, and say so', () =>
+  visit(one, async (page) => {
+    await goTo(page, 'runs');
+    const header = page.locator('#runs thead th', { hasText: 'ms per step' }),
+      times = async () => (await page.locator('#runs tbody[data-index] td[data-label="ms per step"]').allInnerTexts()).map((text) => Number(text.replace(/[()]/g, '')));
+    await header.locator('button').focus();
+    await page.keyboard.press('Enter');
+    assert.equal(await page.locator('#runs th[aria-sort]').getAttribute('aria-sort'), 'ascending');
+    assert.equal(await page.evaluate(() => document.activeElement.textContent), 'ms per step', 'the focus stays');
+    const rising = await times();
+    assert.deepEqual(rising, rising.slice().sort((a, b) => a - b));
+    await page.keyboard.press('Enter');
+    assert.equal(await page.locator('#runs th[aria-sort]').getAttribute('aria-sort'), 'descending');
+    const falling = await times();
+    assert.deepEqual(falling, falling.slice().sort((a, b) => b - a));
+    assert.ok(falling[0] > rising[0]);
   }));
 
 test('an address leads to a run, with the command that repeats it', () =>
-  visit('#r3', async (page) => {
-    const details = page.locator('tr.details');
-    assert.equal(await details.count(), 1);
+  visit(`${one}#r3`, async (page) => {
+    const details = page.locator('#r3 .details');
+    await details.waitFor();
     assert.match(await details.innerText(), /plumb run \w+ --backend /);
-    await page.locator('tr#r3').click();
+    await page.locator('#r3 .opener').click();
     assert.equal(await details.count(), 0);
   }));
 
-test('a figure leads to its run, on either machine', () =>
-  visit('#cost-1', async (page) => {
-    await page.locator('#machine').selectOption('1');
-    const link = page.locator('#cost-1 tbody a[href^="#r"]').first(),
-      row = await link.getAttribute('href');
-    await link.click();
-    assert.equal(await page.locator(`${row}.open`).count(), 1);
+test('a point of a diagram leads to its run, by keyboard, too', () =>
+  visit(one, async (page) => {
+    const plot = page.locator('#speed svg.plot');
+    await plot.focus();
+    await page.keyboard.press('ArrowRight');
+    await page.keyboard.press('Enter');
+    await page.waitForFunction(() => /^#r\d+/.test(location.hash));
+    await page.locator('#runs tbody.open').waitFor();
   }));
 
-test('a filter leaves what it names', () =>
-  visit('', async (page) => {
-    const rows = page.locator('#runs tbody > tr:visible'),
-      all = await rows.count();
-    await page.locator('#filter').fill('D1 gold');
-    await page.waitForFunction(
-      (before) => [...document.querySelectorAll('#runs tbody > tr')].filter((row) => !row.hidden).length < before,
-      all,
-    );
-    const texts = await rows.allInnerTexts();
-    assert.ok(texts.length > 0 && texts.every((text) => /^D1/.test(text.trim()) && /gold/.test(text)), texts[0]);
+test('a figure leads to its run, on either machine', () =>
+  visit(`${both}#cost-1`, async (page) => {
+    assert.equal(await page.locator('.machine:visible').count(), 1);
+    const link = page.locator('#cost-1 tbody a[href^="#r"]').first();
+    await link.waitFor();
+    const row = await link.getAttribute('href');
+    await link.hover();
+    assert.match(await link.getAttribute('title'), / ms per step/);
+    await link.click();
+    await page.locator(`tbody${row}.open`).waitFor();
   }));
+
+test('a filter leaves what it names, and its address brings it back', async () => {
+  let address;
+  const linesOf = async (page) => {
+    await page.waitForSelector('#runs tbody[data-index]');
+    return page.locator('#runs tbody[data-index]').allInnerTexts();
+  };
+  const isLeft = (texts) => texts.length > 0 && texts.every((text) => /^\s*D1/.test(text) && /gold/.test(text));
+  await visit(one, async (page) => {
+    await goTo(page, 'runs');
+    await page.locator('.filter > summary').click();
+    await page.locator('#filter').fill('D1 ');
+    await page.locator('#result').selectOption('gold');
+    const engine = page.locator('.switch').first(),
+      name = await engine.textContent();
+    await engine.click();
+    await page.waitForFunction(() => /filter=D1/.test(location.hash) && /hide=/.test(location.hash));
+    const texts = await linesOf(page);
+    assert.ok(isLeft(texts) && texts.every((text) => !text.split(/\s+/).includes(name)), texts[0]);
+    address = await page.evaluate(() => location.hash);
+  });
+  await visit(one + address, async (page) => {
+    assert.ok(isLeft(await linesOf(page)));
+    assert.match(await page.locator('.filter > summary').textContent(), /D1/);
+    await page.locator('.filter > summary').click();
+    await page.locator('#clear').click();
+    assert.ok(!/filter=/.test(await page.evaluate(() => location.hash)));
+  });
+});

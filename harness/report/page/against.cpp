@@ -18,16 +18,22 @@ std::string changes_list(const CellChange& cell) {
   return out;
 }
 
-std::string cell_row(const PageContext& context, const CellChange& cell) {
-  const ResultRow& row = *cell.after;
-  const std::string title = problem_title(row);
-  return fmt::format(
-      R"(<tr class="e{}" data-k="{}"><th scope="row">{}</th><td class="name">{}</td><td class="text">{}</td>)"
-      R"(<td class="text why">{}</td></tr>)",
-      context.backend_index(row.backend),
-      escape_html(lower(fmt::format("{} {} {} {}", title, row.group, row.backend, sense_word(cell.sense)))),
-      row_link(row, title, ""), backend_label(context, row.backend), escape_html(context.study.configuration(row)),
-      changes_list(cell));
+Table change_table(const PageContext& context, const Comparison& comparison, Sense sense) {
+  Table table(fmt::format("cells that are {}", sense_word(sense)));
+  table.column({"scene", 7, Column::Kind::name});
+  table.column({"backend", 7, Column::Kind::name});
+  table.column({"configuration", 10, Column::Kind::text});
+  table.column({"changes", 18, Column::Kind::text});
+  for (const CellChange& change : comparison.cells) {
+    if (change.sense != sense) continue;
+    const ResultRow& row = *change.after;
+    const std::string title = problem_title(row);
+    table.row({row_link(row, title), backend_label(context, row.backend),
+               escape_html(context.study.configuration(row)), changes_list(change)},
+              lower(fmt::format("{} {} {} {}", title, row.group, row.backend, sense_word(sense))),
+              context.backend_index(row.backend));
+  }
+  return table;
 }
 
 std::string only_list(const std::vector<const ResultRow*>& rows, const char* title) {
@@ -42,30 +48,25 @@ std::string only_list(const std::vector<const ResultRow*>& rows, const char* tit
 
 }  // namespace
 
-std::string against_section(const PageContext& context) {
-  if (!context.options.against) return "";
+PageSection against_section(const PageContext& context) {
+  PageSection section{"against", "Against the baseline", ""};
+  if (!context.options.against) return section;
   const AgainstPart& part = *context.options.against;
   const std::vector<ResultRow> before = parse_rows(part.rows);
   const Comparison comparison = compare_results(before, context.study.rows, part.limits);
-  std::string out = section_start(context, "against", "Against the baseline");
   for (const std::string& sentence : describe_comparison(comparison, part.name, part.limits))
-    out += fmt::format(R"(<p class="about">{}</p>)", escape_html(sentence));
+    section.words += about(escape_html(sentence));
   for (const Sense sense : {Sense::worse, Sense::better, Sense::changed}) {
     const std::size_t count = comparison.count(sense);
     if (count == 0) continue;
-    std::string rows;
-    for (const CellChange& cell : comparison.cells) {
-      if (cell.sense == sense) rows += cell_row(context, cell);
-    }
-    out += fmt::format(
-        R"(<details class="group"{}><summary><span class="sense {}">{}</span> <small>{} {}</small></summary>)"
-        R"(<div class="scroll"><table class="numbers runs-like"><tbody>{}</tbody></table></div></details>)",
-        sense == Sense::changed ? "" : " open", sense_word(sense), group_title(std::string(sense_word(sense))), count,
-        count == 1 ? "cell" : "cells", rows);
+    section.blocks.push_back(group_block(group_title(std::string(sense_word(sense))),
+                                         fmt::format("{} {}", count, count == 1 ? "cell" : "cells"),
+                                         sense != Sense::changed,
+                                         Json::array({change_table(context, comparison, sense).block()})));
   }
-  out += only_list(comparison.only_before, "cells only in the baseline");
-  out += only_list(comparison.only_after, "cells only in these results");
-  return out + "</section>";
+  section.words += only_list(comparison.only_before, "cells only in the baseline");
+  section.words += only_list(comparison.only_after, "cells only in these results");
+  return section;
 }
 
 }  // namespace plumb::harness

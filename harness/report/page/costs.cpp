@@ -12,6 +12,7 @@ namespace plumb::harness {
 namespace {
 
 using LineRange = std::pair<std::vector<CostLine>::const_iterator, std::vector<CostLine>::const_iterator>;
+using Cheapest = std::array<double, target_errors.size()>;
 
 /// Lines of one problem and metric.
 LineRange next_range(std::vector<CostLine>::const_iterator first, std::vector<CostLine>::const_iterator last) {
@@ -28,87 +29,82 @@ std::string band_text(const Reached& reached) {
                      short_number(reached.band->low), short_number(reached.band->high), short_number(half, 2));
 }
 
-std::string reached_hover(const PageContext& context, const Reached& reached, const std::string& metric) {
-  return fmt::format("{}: error {} at {} ms per simulated second\n{}", metric, short_number(reached.error),
-                     short_number(reached.ms), context.study.configuration(*reached.row));
-}
-
 /// Counts over all problems: what an engine reaches at all, and where it is the cheapest.
-std::string reach_table(const PageContext& context) {
-  std::string out =
-      R"(<div class="scroll"><table class="numbers reach"><thead><tr><th scope="col">backend</th><th scope="col">)"
-      R"(metrics</th>)";
-  for (const double target : target_errors)
-    out += fmt::format(R"(<th scope="col">reaches {} %</th><th scope="col">cheapest</th>)", limit_text(100 * target));
-  out += "</tr></thead><tbody>";
+Table reach_table(const PageContext& context) {
+  Table table("how often each engine reaches an error");
+  table.column({"backend", 8, Column::Kind::name});
+  table.column({"metrics", 4});
+  for (const double target : target_errors) {
+    table.column({fmt::format("reaches {} %", limit_text(100 * target)), 6});
+    table.column({"cheapest", 5});
+  }
   for (const BackendOverview& overview : context.overviews) {
-    out += fmt::format(R"(<tr class="e{}"><th scope="row">{}</th><td>{}</td>)", context.backend_index(overview.backend),
-                       backend_label(context, overview.backend), overview.cost_lines);
+    Json cells = Json::array({backend_label(context, overview.backend), std::to_string(overview.cost_lines)});
     for (std::size_t t = 0; t < target_errors.size(); ++t) {
       const double share = overview.cost_lines > 0 ? 100.0 * overview.reached[t] / overview.cost_lines : 0;
-      out += fmt::format(R"(<td class="share" style="--share:{:.0f}%">{} <small>{:.0f} %</small></td><td>{}</td>)",
-                         share, overview.reached[t], share, overview.cheapest[t]);
+      cells.push_back(cell(fmt::format(R"(<span class="share e{}" style="--share:{:.0f}%">{} <small>{:.0f} %</small></span>)",
+                                       context.backend_index(overview.backend), share, overview.reached[t], share),
+                           overview.reached[t]));
+      cells.push_back(std::to_string(overview.cheapest[t]));
     }
-    out += "</tr>";
+    table.row(std::move(cells), "", context.backend_index(overview.backend));
   }
-  return out + "</tbody></table></div>";
+  return table;
 }
 
-/// The cell that names problem and metric, beside all lines of it. The script moves it to the first line that is shown.
-std::string label_cell(const CostLine& line, std::ptrdiff_t lines) {
-  return fmt::format(
-      R"(<th scope="row" class="label" rowspan="{}"><b>{}</b> <span class="variant">{}</span> <span class="metric">)"
-      R"({}</span></th>)",
-      lines, escape_html(line.problem->scene), escape_html(line.problem->variant), escape_html(line.metric));
+std::string metric_label(const CostLine& line) {
+  return fmt::format(R"(<b>{}</b> <span class="variant">{}</span> <span class="metric">{}</span>)",
+                     escape_html(line.problem->scene), escape_html(line.problem->variant), escape_html(line.metric));
 }
 
-std::string line_row(const PageContext& context, const CostLine& line, const std::string& label,
-                     const std::array<double, target_errors.size()>& cheapest) {
-  std::string out = fmt::format(R"(<tr class="e{}">{})", context.backend_index(line.backend), label);
-  out += fmt::format("<td class=\"name\">{}</td>", backend_label(context, line.backend));
+/// Why nothing was reached.
+std::string why_nothing(const PageContext& context, const CostLine& line) {
+  const ResultRow& row = *line.representative;
+  const std::string missed =
+      Questions(context.study.scored_metrics(*line.problem), *line.problem).missed_by(row);
+  const std::string why = !row.completed()  ? row.reason
+                          : line.contended  ? "measured on a contended machine only: its times are left out"
+                          : !missed.empty() ? "missed " + missed + ", so that its errors mean little"
+                                            : "not finite or not measured";
+  return fmt::format(R"(<span class="chip {}">{}</span> {})", verdict_word(row.verdict()),
+                     row_link(row, verdict_title(row.verdict())), escape_html(why));
+}
+
+std::string configured(const PageContext& context, const Reached& reached) {
+  return fmt::format(R"(<span class="cfg">{}</span>)", escape_html(context.study.configuration(*reached.row)));
+}
+
+Json line_cells(const PageContext& context, const CostLine& line, const Cheapest& cheapest) {
+  Json cells = Json::array({metric_label(line), backend_label(context, line.backend)});
   if (!line.floor) {
-    const Verdict verdict = line.representative->verdict();
-    const bool ran = line.representative->completed();
-    const std::string missed =
-        Questions(context.study.scored_metrics(*line.problem), *line.problem).missed_by(*line.representative);
-    const std::string why = !ran              ? line.representative->reason
-                            : line.contended  ? "measured on a contended machine only: its times are left out"
-                            : !missed.empty() ? "missed " + missed + ", so that its errors mean little"
-                                              : "not finite or not measured";
-    return out +
-           fmt::format(R"(<td colspan="4" class="none"><span class="chip {}">{}</span> {}</td></tr>)",
-                       verdict_word(verdict),
-                       row_link(*line.representative, verdict_title(verdict), row_hover(context, *line.representative)),
-                       escape_html(why));
+    for (std::size_t t = 0; t < target_errors.size(); ++t) cells.push_back(cell(std::string(no_value), {}, "quiet"));
+    cells.push_back(cell(why_nothing(context, line), {}, "why"));
+    return cells;
   }
   for (std::size_t t = 0; t < target_errors.size(); ++t) {
-    if (!line.at[t]) {
-      out += R"(<td class="never">never</td>)";
-      continue;
-    }
-    out += fmt::format(
-        R"(<td{}>{}{}<span class="cfg">{}</span></td>)", line.at[t]->ms == cheapest[t] ? " class=\"best\"" : "",
-        row_link(*line.at[t]->row, short_number(line.at[t]->ms), reached_hover(context, *line.at[t], line.metric)),
-        band_text(*line.at[t]), escape_html(context.study.configuration(*line.at[t]->row)));
+    const std::optional<Reached>& at = line.at[t];
+    cells.push_back(!at ? cell("never", {}, "quiet")
+                        : cell(row_link(*at->row, short_number(at->ms)) + band_text(*at) + configured(context, *at), at->ms,
+                               at->ms == cheapest[t] ? "best" : ""));
   }
-  return out + fmt::format(R"(<td>{} <small>at {} ms</small><span class="cfg">{}</span></td></tr>)",
-                           row_link(*line.floor->row, short_number(line.floor->error, 2),
-                                    reached_hover(context, *line.floor, line.metric)),
-                           short_number(line.floor->ms), escape_html(context.study.configuration(*line.floor->row)));
+  cells.push_back(cell(fmt::format("{} <small>at {} ms</small>{}",
+                                   row_link(*line.floor->row, short_number(line.floor->error, 2)),
+                                   short_number(line.floor->ms), configured(context, *line.floor)),
+                       line.floor->error));
+  return cells;
 }
 
-std::string group_table(const PageContext& context, const std::string& group) {
-  std::string out =
-      R"(<div class="scroll tall"><table class="numbers costs"><thead><tr><th scope="col">scene, metric</th><th )"
-      R"(scope="col" class="name">backend</th>)";
-  for (const double target : target_errors)
-    out += fmt::format(R"(<th scope="col">{} %</th>)", limit_text(100 * target));
-  out += R"(<th scope="col">best error reached</th></tr></thead>)";
+Table group_table(const PageContext& context, const std::string& group) {
+  Table table("what accuracy costs: " + group_title(group));
+  table.column({"scene, metric", 9, Column::Kind::name, {}, true});
+  table.column({"backend", 6.5, Column::Kind::name});
+  for (const double target : target_errors) table.column({fmt::format("{} %", limit_text(100 * target)), 8});
+  table.column({"best error reached", 10});
   for (auto first = context.costs.begin(); first != context.costs.end();) {
     const auto [begin, end] = next_range(first, context.costs.end());
     first = end;
     if (begin->problem->group != group) continue;
-    std::array<double, target_errors.size()> cheapest;
+    Cheapest cheapest;
     cheapest.fill(std::numeric_limits<double>::infinity());
     for (auto line = begin; line != end; ++line) {
       for (std::size_t t = 0; t < target_errors.size(); ++t) {
@@ -117,20 +113,20 @@ std::string group_table(const PageContext& context, const std::string& group) {
     }
     // One backend alone is not the cheapest of anything.
     if (end - begin < 2) cheapest.fill(0);
-    out += fmt::format("<tbody {}>", filter_key(context, *begin->problem, begin->metric));
     for (auto line = begin; line != end; ++line)
-      out += line_row(context, *line, line == begin ? label_cell(*line, end - begin) : "", cheapest);
-    out += "</tbody>";
+      table.row(line_cells(context, *line, cheapest),
+                filter_key(context, *line->problem, line->metric + " " + line->backend),
+                context.backend_index(line->backend));
   }
-  return out + "</table></div>";
+  return table;
 }
 
 }  // namespace
 
-std::string costs_section(const PageContext& context) {
-  std::string out =
-      section_start(context, "cost", "What accuracy costs") +
-      R"(<p class="about">Wall-clock milliseconds per simulated )"
+PageSection costs_section(const PageContext& context) {
+  PageSection section{"cost", "What accuracy costs", ""};
+  std::string words =
+      R"(Wall-clock milliseconds per simulated )"
       R"(second of the cheapest configuration (time step, settings, threads, which stand below) among these results )"
       R"(that reaches the error. <b>Never</b>: none of them does. The cheapest engine of a metric is set off; the last )"
       R"(column is the smallest error reached, and what it costs. A run that missed one of its scene's yes/no )"
@@ -138,23 +134,22 @@ std::string costs_section(const PageContext& context) {
   const auto contended = std::count_if(context.study.rows.begin(), context.study.rows.end(),
                                        [](const ResultRow& row) { return row.contended.has_value(); });
   if (contended > 0) {
-    out += fmt::format(R"( <b>{} of {} runs</b> were measured while the machine had more to do than cores: their )"
-                       R"(errors count, and their times are left out here and in all diagrams.)",
-                       contended, context.study.rows.size());
+    words += fmt::format(R"( <b>{} of {} runs</b> were measured while the machine had more to do than cores: their )"
+                         R"(errors count, and their times are left out here and in all diagrams.)",
+                         contended, context.study.rows.size());
   }
-  out += "</p>";
-  out += reach_table(context);
+  section.words = about(words);
+  section.blocks.push_back(reach_table(context).block());
   const bool few = context.costs.size() <= 60;
   for (const std::string& group : context.study.groups) {
     const auto lines = std::count_if(context.costs.begin(), context.costs.end(),
                                      [&](const CostLine& line) { return line.problem->group == group; });
     if (lines == 0) continue;
-    out += fmt::format(R"(<details class="group"{}><summary>{} <small>{} lines</small></summary>)",
-                       few || group == context.study.groups.front() ? " open" : "", escape_html(group_title(group)),
-                       lines);
-    out += group_table(context, group) + "</details>";
+    section.blocks.push_back(group_block(group_title(group), fmt::format("{} lines", lines),
+                                         few || group == context.study.groups.front(),
+                                         Json::array({group_table(context, group).block()})));
   }
-  return out + "</section>";
+  return section;
 }
 
 }  // namespace plumb::harness

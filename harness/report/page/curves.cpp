@@ -7,8 +7,8 @@
 
 #include "report/format.hpp"
 #include "report/order.hpp"
+#include "report/page/looks.hpp"
 #include "report/page/markup.hpp"
-#include "report/page/plot.hpp"
 #include "report/page/sections.hpp"
 
 namespace plumb::harness {
@@ -16,113 +16,92 @@ namespace {
 
 constexpr double largest_error = 10;  ///< beyond that nothing is told apart: all of it is wrong
 
-std::string knob_text(const ResultRow& row, const std::string& knob) {
-  return knob.empty() ? "" : fmt::format(", {} {}", knob, value_text(row.settings.at(knob)));
+/// Places of methods among those of their family of engines, which share a hue: by them a method has its shape.
+std::vector<std::size_t> ranks_of(const std::vector<Method>& methods) {
+  std::map<std::string, std::size_t, std::less<>> members;
+  std::vector<std::size_t> ranks;
+  for (const Method& method : methods) ranks.push_back(members[std::string(engine_family(method.backend))]++);
+  return ranks;
 }
 
 class Figure {
  public:
-  Figure(const PageContext& context, const ProblemCurves& curves, const Questions& questions, std::string metric)
-      : context_(context), curves_(curves), questions_(questions), metric_(std::move(metric)) {
+  Figure(const PageContext& context, const std::vector<std::size_t>& ranks, const ProblemCurves& curves,
+         const Questions& questions, std::string metric)
+      : context_(context), ranks_(ranks), curves_(curves), questions_(questions), metric_(std::move(metric)) {
     plot_.description = fmt::format("{}, {}: error against cost along knobs", curves.problem->title(), metric_);
     plot_.x.title = "ms per simulated second";
-    plot_.y.title = "error";
-    plot_.y.highest = largest_error;
+    plot_.y = {metric_ + " error", true, std::nullopt, largest_error};
     for (const MethodCurves& method : curves.methods) {
       for (const Curve& curve : method.curves) add_line(method, curve);
     }
   }
 
-  [[nodiscard]] std::string render() const {
-    const std::string plot = render_plot(plot_);
-    if (plot.empty()) return "";
-    std::string knobs;
-    for (std::size_t i = 0; i < std::min(knobs_.size(), plot_patterns); ++i)
-      knobs += fmt::format("<span>{}{}</span>", render_pattern(i), escape_html(knobs_[i]));
-    const std::string orders =
-        orders_.empty()
-            ? ""
-            : R"(<p class="frame-note">Power of the knob with which the error goes, with its 95 % interval:</p>)"
-              R"(<ul class="frame-list">)" +
-                  orders_ + "</ul>";
-    return fmt::format(R"(<figure {}><figcaption>{}</figcaption>{}<div class="methods">{}</div>{}{}</figure>)",
-                       filter_key(context_, *curves_.problem, metric_), escape_html(title()), plot, knobs, orders,
-                       figure_foot(context_, rows_, curves_.problem->title()));
+  /// null where there is nothing to draw.
+  [[nodiscard]] Json data() const {
+    FigureData figure;
+    const std::string& variant = curves_.problem->variant;
+    figure.title = variant.empty() ? metric_ : variant + ", " + metric_;
+    figure.key = filter_key(context_, *curves_.problem, metric_);
+    figure.plots = {plot_};
+    if (!orders_.empty()) {
+      figure.notes = fmt::format(
+          R"(<details class="how"><summary>power of the knob with which the error goes, with its 95 % interval</summary>)"
+          R"(<ul>{}</ul></details>)",
+          orders_);
+    }
+    figure.notes += figure_foot(context_, rows_, curves_.problem->title());
+    return figure_data(figure);
   }
 
  private:
-  [[nodiscard]] std::string title() const {
-    const std::string& variant = curves_.problem->variant;
-    return variant.empty() ? metric_ : variant + ", " + metric_;
-  }
-
-  std::size_t pattern_of(const std::string& knob) {
-    const auto known = std::find(knobs_.begin(), knobs_.end(), knob);
-    if (known != knobs_.end()) return static_cast<std::size_t>(known - knobs_.begin());
-    knobs_.push_back(knob);
-    return knobs_.size() - 1;
-  }
-
   void add_line(const MethodCurves& method, const Curve& curve) {
-    PlotSeries line;
-    line.colour = context_.method_index(method.method);
-    if (!curve.knob.empty()) line.pattern = pattern_of(curve.knob);
-    const std::string& label = context_.curves.methods[method.method].label;
-    line.hover = curve.knob.empty() ? label : label + " along " + curve.knob;
+    const Method& of = context_.curves.methods[method.method];
+    PlotSeries line{curve.knob.empty() ? of.label : of.label + " along " + curve.knob,
+                    context_.backend_index(of.backend)};
+    line.method = of.label;
+    line.rank = ranks_[method.method];
+    line.line = curve.knob;
     std::vector<OrderPoint> turned;
     for (const ResultRow* row : curve.rows) {
       const MetricResult* metric = row->metric(metric_);
       if (!row->completed() || !metric || !row->ms_per_simulated_second()) continue;
       if (!metric->error && !metric->scored()) continue;
-      line.points.push_back(point_of(label, curve.knob, *row, *metric));
+      line.points.push_back(point_of(curve.knob, *row, *metric));
       rows_.push_back(row);
       // What has failed has no accuracy to gain, and is no part of the slope.
-      const bool counts = !curve.knob.empty() && metric->error && !line.points.back().failed;
+      const bool counts = !curve.knob.empty() && metric->error && line.points.back().failed.empty();
       turned.push_back({counts ? row->settings.at(curve.knob).get<double>() : 0, metric->error.value_or(0)});
       if (plot_.levels.empty() && metric->threshold && *metric->threshold > 0)
         plot_.levels.emplace_back(*metric->threshold, "threshold " + limit_text(*metric->threshold));
     }
-    if (const std::optional<Order> order = fit_order(turned)) add_order(*order, line, turned, label, curve.knob);
+    if (const std::optional<Order> order = fit_order(turned)) {
+      for (std::size_t i = 0; i < turned.size(); ++i) {
+        if (turned[i].turned > 0) line.fit.emplace_back(line.points[i].x, order->at(turned[i].turned));
+      }
+      orders_ += fmt::format("<li>{} <small>{}</small> {}</li>", escape_html(of.label), escape_html(curve.knob),
+                             order_text(*order));
+    }
     plot_.series.push_back(std::move(line));
   }
 
-  void add_order(const Order& order, PlotSeries& line, const std::vector<OrderPoint>& turned, const std::string& label,
-                 const std::string& knob) {
-    for (std::size_t i = 0; i < turned.size(); ++i) {
-      if (turned[i].turned > 0) line.fit.emplace_back(line.points[i].x, order.at(turned[i].turned));
-    }
-    line.fit_hover = fmt::format("{}: error goes with {} to the power {}", label, knob, order_text(order));
-    orders_ += fmt::format(R"(<li class="e{}">{}{} <small>{}</small> {}</li>)", line.colour,
-                           render_marker(line.colour, true), escape_html(label), escape_html(knob), order_text(order));
-  }
-
-  [[nodiscard]] PlotPoint point_of(const std::string& label, const std::string& knob, const ResultRow& row,
-                                   const MetricResult& metric) const {
-    const std::string missed = questions_.missed_by(row);
+  [[nodiscard]] PlotPoint point_of(const std::string& knob, const ResultRow& row, const MetricResult& metric) const {
     // What is not finite is drawn as what lies beyond the frame, and not left out.
-    const double error = metric.error.value_or(std::numeric_limits<double>::max());
-    PlotPoint point{*row.ms_per_simulated_second(), error, {}, {}, false, {}, {}};
+    PlotPoint point{*row.ms_per_simulated_second(), metric.error.value_or(std::numeric_limits<double>::infinity()),
+                    &row};
     point.filled = knob.empty() || at_default(row, knob);
     point.marked = context_.study.is_default(row);
-    point.failed = !missed.empty();
-    point.link = fmt::format("#r{}", row.index);
-    if (row.ci95) {
-      point.x_low = row.ci95->low / *row.dt;
-      point.x_high = row.ci95->high / *row.dt;
-    }
-    point.hover = fmt::format("{}{}\n{} {}\n{} ms per simulated second", label, knob_text(row, knob), metric_,
-                              metric.error ? short_number(*metric.error) : "not finite", short_number(point.x));
-    if (point.marked) point.hover += fmt::format("\n{} as it ships", row.backend);
-    if (point.failed) point.hover += "\nfailed: " + missed;
+    point.failed = questions_.missed_by(row);
+    if (row.ci95) point.x_band = Interval{row.ci95->low / *row.dt, row.ci95->high / *row.dt};
     return point;
   }
 
   const PageContext& context_;
+  const std::vector<std::size_t>& ranks_;
   const ProblemCurves& curves_;
   const Questions& questions_;
   std::string metric_;
   Plot plot_;
-  std::vector<std::string> knobs_;      ///< by line pattern
   std::vector<const ResultRow*> rows_;  ///< that have a point
   std::string orders_;                  ///< list items
 };
@@ -166,7 +145,7 @@ void add_notes(const PageContext& context, const ProblemCurves& curves, Notes& n
     for (const ResultRow* row : method.broken) {
       notes.add(fmt::format("No point of {} ({}): {}{}.", escape_html(context.curves.methods[method.method].label),
                             escape_html(context.study.configuration(*row)),
-                            row_link(*row, verdict_title(row->verdict()), row_hover(context, *row)),
+                            row_link(*row, verdict_title(row->verdict())),
                             row->reason.empty() ? "" : ", " + escape_html(row->reason)),
                 *curves.problem);
     }
@@ -176,51 +155,48 @@ void add_notes(const PageContext& context, const ProblemCurves& curves, Notes& n
 using ProblemIterator = std::vector<ProblemCurves>::const_iterator;
 
 /// Consecutive problems of one scene.
-std::string render_scene(const PageContext& context, ProblemIterator first, ProblemIterator last) {
-  std::string figures;
+Json scene_block(const PageContext& context, const std::vector<std::size_t>& ranks, bool open, ProblemIterator first,
+                 ProblemIterator last) {
+  Json figures = Json::array();
   Notes notes;
   for (auto curves = first; curves != last; ++curves) {
     const Questions questions(context.study.scored_metrics(*curves->problem), *curves->problem);
-    for (const std::string& metric : questions.graded())
-      figures += Figure(context, *curves, questions, metric).render();
+    for (const std::string& metric : questions.graded()) {
+      if (Json figure = Figure(context, ranks, *curves, questions, metric).data(); !figure.is_null())
+        figures.push_back(std::move(figure));
+    }
     add_notes(context, *curves, notes);
   }
   const std::string& scene = first->problem->scene;
   const auto text = context.options.scenes.find(scene);
-  return fmt::format(
-      R"(<details class="group" open><summary>{} <small>{}</small></summary>{}<div class="figures">{}</div></details>)",
-      escape_html(scene), text == context.options.scenes.end() ? "" : escape_html(text->second.title),
-      notes.render(static_cast<std::size_t>(last - first)), figures);
+  Json blocks = Json::array();
+  if (const std::string said = notes.render(static_cast<std::size_t>(last - first)); !said.empty())
+    blocks.push_back(words_block(said));
+  if (!figures.empty()) blocks.push_back(figures_block(std::move(figures)));
+  return group_block(scene, text == context.options.scenes.end() ? "" : text->second.title, open, std::move(blocks));
 }
 
 }  // namespace
 
-std::string curves_section(const PageContext& context) {
-  if (context.curves.problems.empty()) return "";
-  std::string out =
-      section_start(context, "curves", "Curves") +
-      R"(<p class="about">What turning a knob costs and buys, scene by scene: a )"
+PageSection curves_section(const PageContext& context) {
+  PageSection section{"curves", "Curves", ""};
+  if (context.curves.problems.empty()) return section;
+  section.words = about(
+      R"(What turning a knob costs and buys, scene by scene: a )"
       R"(line a method, its points along one setting of the role quality. Costs are of the settled second half of a )"
-      R"(run; lower left is better. Filled: the knob at )"
-      R"(the engine's own value; ringed: all settings there; a cross: the run missed one of the scene's yes/no )"
-      R"(questions, so that its error means little; an arrow: the error is zero, beyond the frame or not finite.</p><p )"
-      R"(class="legend">)";
-  std::map<std::string, std::size_t> by_label;
-  for (std::size_t i = 0; i < context.curves.methods.size(); ++i) by_label.emplace(context.curves.methods[i].label, i);
-  for (const auto& [label, i] : by_label) {
-    out += fmt::format(R"(<span class="e{0}">{1}{2}</span>)", context.method_index(i),
-                       render_marker(context.method_index(i), true), escape_html(label));
-  }
-  out += "</p>";
+      R"(run; lower left is better. The hue is the engine's, the shape the method's, the dashes are the knob's. Filled: )"
+      R"(the knob at the engine's own value; ringed: all settings there; a cross: the run missed one of the scene's )"
+      R"(yes/no questions, so that its error means little; an arrow: the error is zero, beyond the frame or not finite.)");
+  const std::vector<std::size_t> ranks = ranks_of(context.curves.methods);
   const std::vector<ProblemCurves>& problems = context.curves.problems;
   for (auto first = problems.begin(); first != problems.end();) {
     const auto last = std::find_if(first, problems.end(), [&](const ProblemCurves& curves) {
       return curves.problem->scene != first->problem->scene;
     });
-    out += render_scene(context, first, last);
+    section.blocks.push_back(scene_block(context, ranks, first == problems.begin(), first, last));
     first = last;
   }
-  return out + "</section>";
+  return section;
 }
 
 }  // namespace plumb::harness

@@ -12,52 +12,44 @@
 namespace plumb::harness {
 namespace {
 
-std::string cell_text(const PageContext& context, std::size_t backend, const DistributionLine& line,
-                      const std::optional<DistributionCell>& cell) {
-  if (!cell) return fmt::format(R"(<td class="e{} absent">{}</td>)", backend, no_value);
-  const std::string middle = short_number(cell->median, 2);
-  const std::string share = fmt::format("{} of {}", cell->passed, cell->runs);
+Json distribution_cell(const DistributionLine& line, const std::optional<DistributionCell>& runs) {
+  if (!runs) return cell(std::string(no_value), {}, "quiet");
+  const std::string middle = short_number(runs->median, 2);
+  const std::string share = fmt::format("{} of {}", runs->passed, runs->runs);
   const std::string range =
-      cell->median ? fmt::format("{} to {}", short_number(cell->least, 2), short_number(cell->most, 2)) : "";
+      runs->median ? fmt::format("{} to {}", short_number(runs->least, 2), short_number(runs->most, 2)) : "";
   const std::string below = line.asked ? "" : line.scored ? fmt::format("{}; {}", middle, range) : range;
-  return fmt::format(R"(<td class="e{}{}">{}<span class="cfg">{}</span></td>)", backend,
-                     line.scored && cell->passed == cell->runs ? " best" : "",
-                     row_link(*cell->row, line.scored ? share : middle, row_hover(context, *cell->row)), below);
+  return cell(fmt::format(R"({}<span class="cfg">{}</span>)", row_link(*runs->row, line.scored ? share : middle), below),
+              line.scored ? static_cast<double>(runs->passed) / static_cast<double>(runs->runs) : runs->median.value_or(0),
+              line.scored && runs->passed == runs->runs ? "best" : "");
 }
 
 }  // namespace
 
-std::string distributions_section(const PageContext& context) {
+PageSection distributions_section(const PageContext& context) {
+  PageSection section{"seeds", "Distributions over seeds", ""};
   const std::vector<DistributionLine> lines = distributions(context.study);
-  if (lines.empty()) return "";
-  std::string out = section_start(context, "seeds", "Distributions over seeds");
-  out +=
-      R"(<p class="about">Scenes that were begun in several ways, at each engine's defaults: how many runs met the )"
+  if (lines.empty()) return section;
+  section.words = about(
+      R"(Scenes that were begun in several ways, at each engine's defaults: how many runs met the )"
       R"(threshold, with the median of the errors and their range; of what has no truth, the median of the values and )"
-      R"(their range. A link leads to the run that lies farthest out. Set off: all runs met it.</p>)"
-      R"(<div class="scroll"><table class="numbers robust"><thead><tr><th scope="col">scene</th>)"
-      R"(<th scope="col" class="text">measure</th>)";
-  for (const std::string& backend : context.study.backends) {
-    out += fmt::format(R"(<th scope="col" class="e{}">{}</th>)", context.backend_index(backend),
-                       backend_label(context, backend));
-  }
-  out += "</tr></thead><tbody>";
-  const Problem* last = nullptr;
+      R"(their range. A link leads to the run that lies farthest out. Set off: all runs met it.)");
+  Table table("distributions over seeds");
+  table.column({"scene", 10, Column::Kind::name, {}, true});
+  table.column({"measure", 8, Column::Kind::text});
+  add_backend_columns(context, table, 8);
   for (const DistributionLine& line : lines) {
     std::string name = line.metric;
     std::replace(name.begin(), name.end(), '_', ' ');
-    out += fmt::format(R"(<tr {}>{}<td class="text">{}{}</td>)", filter_key(context, *line.problem),
-                       line.problem == last ? R"(<th scope="row"></th>)" : problem_header(context, *line.problem),
-                       escape_html(name),
-                       line.scored || line.unit.empty() || line.unit == "1"
-                           ? ""
-                           : fmt::format(" <small>{}</small>", escape_html(line.unit)));
-    for (std::size_t i = 0; i < line.cells.size(); ++i)
-      out += cell_text(context, context.backend_index(context.study.backends[i]), line, line.cells[i]);
-    out += "</tr>";
-    last = line.problem;
+    name = escape_html(name);
+    if (!line.scored && !line.unit.empty() && line.unit != "1")
+      name += fmt::format(" <small>{}</small>", escape_html(line.unit));
+    Json cells = Json::array({problem_label(context, *line.problem), name});
+    for (const auto& runs : line.cells) cells.push_back(distribution_cell(line, runs));
+    table.row(std::move(cells), filter_key(context, *line.problem, line.metric));
   }
-  return out + "</tbody></table></div></section>";
+  section.blocks.push_back(table.block());
+  return section;
 }
 
 }  // namespace plumb::harness

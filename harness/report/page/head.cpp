@@ -32,13 +32,13 @@ std::string statements(const char* title, const char* style, const std::vector<S
   std::string items;
   for (const Statement& statement : list)
     items += fmt::format("<li>{}</li>",
-                         statement.row ? row_link(*statement.row, statement.text, "") : escape_html(statement.text));
+                         statement.row ? row_link(*statement.row, statement.text) : escape_html(statement.text));
   return fmt::format(R"(<h4>{}</h4><ul class="{}">{}</ul>)", title, style, items);
 }
 
 std::string backend_card(const PageContext& context, const BackendOverview& overview) {
   const Summary summary = summary_of(context.study, context.costs, context.fronts, overview);
-  return fmt::format(R"(<article class="card e{}"><h3>{} <small>{}</small></h3>{}{}{}</article>)",
+  return fmt::format(R"(<article class="card of{0} e{0}"><h3>{1} <small>{2}</small></h3>{3}{4}{5}</article>)",
                      context.backend_index(overview.backend), backend_label(context, overview.backend),
                      escape_html(overview.version), verdict_bar(overview), statements("Best", "best-at", summary.best),
                      statements("Breaks", "breaks-at", summary.breaks));
@@ -81,7 +81,7 @@ std::string head_section(const PageContext& context) {
       R"(are measured )"
       R"(by the harness's own float64 geometry against exact truths.</p>)",
       escape_html(describe_study(context.study)));
-  out += R"(<dl class="facts">)";
+  out += R"(<details class="how"><summary>machine, dates and command</summary><dl class="facts">)";
   if (!context.options.written.empty())
     out += fmt::format("<div><dt>written</dt><dd>{}</dd></div>", escape_html(context.options.written));
   std::string first, last;
@@ -100,17 +100,18 @@ std::string head_section(const PageContext& context) {
   }
   if (!context.options.source.empty())
     out += fmt::format("<div><dt>results</dt><dd>{}</dd></div>", escape_html(context.options.source));
-  return out + machine_facts(context.study) + "</dl></header>";
+  return out + machine_facts(context.study) + "</dl></details></header>";
 }
 
-std::string engines_section(const PageContext& context) {
-  if (context.overviews.empty()) return "";
-  std::string out = section_start(context, "engines", "Engines in words");
-  out +=
-      R"(<p class="about">Where each is best and where it breaks, made from the numbers; what is underlined leads to )"
-      R"(a run that shows it.</p><div class="cards">)";
-  for (const BackendOverview& overview : context.overviews) out += backend_card(context, overview);
-  return out + "</div></section>";
+PageSection engines_section(const PageContext& context) {
+  PageSection section{"engines", "Engines in words", ""};
+  if (context.overviews.empty()) return section;
+  std::string cards;
+  for (const BackendOverview& overview : context.overviews) cards += backend_card(context, overview);
+  section.words = about("Where each is best and where it breaks, made from the numbers; what is underlined leads to a run "
+                        "that shows it.") +
+                  fmt::format(R"(<div class="cards">{}</div>)", cards);
+  return section;
 }
 
 }  // namespace plumb::harness

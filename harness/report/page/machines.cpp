@@ -14,14 +14,18 @@ namespace {
 /// Rows of one problem and backend, by machine; null where it did not run there.
 using Beside = std::vector<const ResultRow*>;
 
-std::string cell(const PageContext& context, const ResultRow* row) {
-  if (!row) return fmt::format(R"(<td class="absent">{}</td><td class="absent"></td>)", no_value);
+void add_cells(const ResultRow* row, Json& cells) {
+  if (!row) {
+    cells.push_back(cell(std::string(no_value), {}, "quiet"));
+    cells.push_back("");
+    return;
+  }
   const MetricResult* worst = row->completed() ? row->worst() : nullptr;
   const std::string time = row->completed() && row->fair_ms()   ? short_number(*row->fair_ms())
                            : row->completed() && row->contended ? "contended"
                                                                 : verdict_title(row->verdict());
-  return fmt::format("<td>{}</td><td>{}</td>", row_link(*row, time, row_hover(context, *row)),
-                     worst ? short_number(worst->error, 2) : "");
+  cells.push_back(cell(row_link(*row, time), row->completed() ? row->fair_ms() : std::nullopt));
+  cells.push_back(cell(worst ? short_number(worst->error, 2) : "", worst ? worst->error : std::nullopt));
 }
 
 /// "yes" where all that ran have the same bits at the end.
@@ -38,8 +42,9 @@ const char* same_bits(const Beside& rows) {
 
 }  // namespace
 
-std::string machines_section(const std::vector<PageContext>& machines) {
-  if (machines.size() < 2) return "";
+PageSection machines_section(const std::vector<PageContext>& machines) {
+  PageSection section{"machines", fmt::format("{} machines", machines.size()), ""};
+  if (machines.size() < 2) return section;
   std::map<std::pair<std::string, std::string>, Beside> beside;  // by problem and backend
   std::vector<std::pair<std::string, std::string>> order;
   for (std::size_t i = 0; i < machines.size(); ++i) {
@@ -57,29 +62,31 @@ std::string machines_section(const std::vector<PageContext>& machines) {
     const Beside& rows = beside.at(key);
     return std::count(rows.begin(), rows.end(), nullptr) + 1 >= static_cast<std::ptrdiff_t>(rows.size());
   });
-  std::string out = fmt::format(
-      R"(<section id="machines"><h2>{} machines</h2><p class="about">Everything below is told machine by machine; the )"
+  section.words = about(
+      R"(Everything above is told machine by machine; the )"
       R"(switch at the top chooses. Times of different machines stand beside each other here, at the engines' defaults, )"
-      R"(and in no diagram and no ratio.</p>)",
-      machines.size());
-  if (order.empty()) return out + R"(<p class="about">Nothing ran on two of them.</p></section>)";
-  out +=
-      R"(<details class="group"><summary>Side by side</summary><div class="scroll"><table class="numbers"><thead><tr>)"
-      R"(<th scope="col">scene</th><th scope="col" class="name">backend</th>)";
-  for (const PageContext& machine : machines)
-    out += fmt::format(R"(<th scope="col">{} <small>ms a step</small></th><th scope="col">error</th>)",
-                       escape_html(machine.machine));
-  out += R"(<th scope="col">same bits</th></tr></thead><tbody>)";
+      R"(and in no diagram and no ratio.)");
+  if (order.empty()) {
+    section.words += about("Nothing ran on two of them.");
+    return section;
+  }
+  Table table("machines side by side");
+  table.column({"scene", 9, Column::Kind::name, {}, true});
+  table.column({"backend", 7, Column::Kind::name});
+  for (const PageContext& machine : machines) {
+    table.column({escape_html(machine.machine) + " <small>ms a step</small>", 8});
+    table.column({"error", 5});
+  }
+  table.column({"same bits", 5, Column::Kind::text});
   for (const auto& key : order) {
     const Beside& rows = beside.at(key);
-    const std::size_t backend = machines.front().backend_index(key.second);
-    out += fmt::format(R"(<tr class="e{}" data-k="{}"><th scope="row">{}</th><td class="name">{}</td>)", backend,
-                       escape_html(lower(key.first + " " + key.second)), escape_html(key.first),
-                       backend_label(machines.front(), key.second));
-    for (std::size_t i = 0; i < rows.size(); ++i) out += cell(machines[i], rows[i]);
-    out += fmt::format("<td>{}</td></tr>", same_bits(rows));
+    Json cells = Json::array({escape_html(key.first), backend_label(machines.front(), key.second)});
+    for (const ResultRow* row : rows) add_cells(row, cells);
+    cells.push_back(same_bits(rows));
+    table.row(std::move(cells), lower(key.first + " " + key.second), machines.front().backend_index(key.second));
   }
-  return out + "</tbody></table></div></details></section>";
+  section.blocks.push_back(table.block());
+  return section;
 }
 
 }  // namespace plumb::harness

@@ -32,17 +32,4 @@ std::string escape_html(std::string_view text) {
   }
 }
 
-std::string script_json(const Json& value) {
-  std::string out;
-  // ASCII only: U+2028 and U+2029 would end lines in old readers of scripts.
-  for (const char c : value.dump(-1, ' ', true, Json::error_handler_t::replace)) {
-    if (c == '<') {
-      out += "\\u003c";
-    } else {
-      out += c;
-    }
-  }
-  return out;
-}
-
 }  // namespace plumb::harness

@@ -1,11 +1,13 @@
-// Markup that travels packed: tables and diagrams repeat themselves, and packed they take a tenth of the room.
+// Data on the page that only its script reads: JSON, deflated, as base64.
 #pragma once
 
 #include <string>
 
+#include "run/json.hpp"
+
 namespace plumb::harness {
 
-/// A script element with the markup in it, zlib and base64, in whose place page.js puts the markup.
-[[nodiscard]] std::string packed_markup(const std::string& html);
+/// <script class="packed"> with a section's blocks; "" where the program was built without the script that draws them.
+[[nodiscard]] std::string packed_blocks(const Json& blocks);
 
 }  // namespace plumb::harness

@@ -8,6 +8,8 @@
 #include <set>
 
 #include "report/page/assets.hpp"
+#include "report/page/bundled_scripts.hpp"
+#include "report/page/looks.hpp"
 #include "report/page/markup.hpp"
 #include "report/page/packed.hpp"
 #include "report/page/sections.hpp"
@@ -66,116 +68,148 @@ std::vector<std::string> all_backends(const std::vector<std::unique_ptr<MachineP
   return names;
 }
 
-/// Each backend's colour and each method's, and the rule by which the backend's switch hides both everywhere.
-std::string colour_style(const std::vector<PageContext>& contexts) {
+/// Each backend's colour and marker, and the rule by which its switch hides what is said of it.
+std::string colour_style(const std::vector<std::string>& backends) {
   std::string out;
-  const auto add = [&](std::size_t index, std::size_t hue, std::size_t backend) {
-    out +=
-        fmt::format(".e{0}{{--c:var(--hue{1})}}.hide{2} main .e{0}{{display:none}}", index, hue % page_hues, backend);
-  };
-  for (std::size_t i = 0; i < contexts.front().backends.size(); ++i) add(i, i, i);
-  for (const PageContext& context : contexts) {
-    if (context.curves.problems.empty()) continue;
-    for (std::size_t i = 0; i < context.curves.methods.size(); ++i)
-      add(context.method_index(i), context.first_method + i, context.backend_index(context.curves.methods[i].backend));
+  for (std::size_t i = 0; i < backends.size(); ++i) {
+    const EngineLook look = look_of(backends[i]);
+    out += fmt::format(".e{0}{{--c:var(--hue{1});--m:var(--mark{2})}}.hide{0} main .of{0}{{display:none}}", i,
+                       look.colour(), look.shade);
   }
   return out;
 }
 
 using Links = std::vector<std::pair<std::string, std::string>>;  ///< id and title of sections
 
-/// Sections, machines, filter, groups, backends, theme: stays in view.
+std::string group_options(const std::vector<PageContext>& contexts) {
+  std::string out = R"(<option value="">all groups</option>)";
+  std::set<std::string> groups;
+  for (const PageContext& context : contexts) {
+    for (const std::string& group : context.study.groups) {
+      if (!group.empty() && groups.insert(group).second) out += fmt::format("<option>{}</option>", escape_html(group));
+    }
+  }
+  return out;
+}
+
+std::string result_options() {
+  std::string out = R"(<option value="">all results</option>)";
+  for (std::size_t v = 0; v < verdict_count; ++v)
+    out += fmt::format("<option>{}</option>", verdict_title(static_cast<Verdict>(v)));
+  return out;
+}
+
+std::string engine_switches(const PageContext& context) {
+  std::string out;
+  for (std::size_t i = 0; i < context.backends.size(); ++i) {
+    const EngineLook look = look_of(context.backends[i]);
+    out += fmt::format(
+        R"(<label class="switch e{0}"><input type="checkbox" data-backend="{0}" data-hue="{1}" data-shade="{2}" )"
+        R"(value="{3}" checked>{4}</label>)",
+        i, look.hue, look.shade, escape_html(context.backends[i]), backend_label(context, context.backends[i]));
+  }
+  return out;
+}
+
+/// Sections, machines, filter, theme: stays in view.
 std::string toolbar(const std::vector<PageContext>& contexts, const Links& links) {
   std::string out = R"(<nav class="tools" aria-label="page"><div class="tools-in"><span class="links">)";
   for (const auto& [id, title] : links) out += fmt::format(R"(<a href="#{}">{}</a>)", id, title);
-  out += R"(</span><span class="controls">)";
+  out += R"(</span><span class="controls" hidden>)";
   if (contexts.size() > 1) {
     out += R"(<select id="machine" aria-label="machine">)";
     for (std::size_t i = 0; i < contexts.size(); ++i)
       out += fmt::format(R"(<option value="{}">{}</option>)", i, escape_html(contexts[i].machine));
     out += "</select>";
   }
-  out += R"(<input id="filter" type="search" placeholder="filter: D1, stacking, failed" aria-label="filter">)";
-  out += R"(<select id="group" aria-label="group"><option value="">all groups</option>)";
-  std::set<std::string> groups;
-  for (const PageContext& context : contexts) {
-    for (const std::string& group : context.study.groups) {
-      if (!group.empty() && groups.insert(group).second)
-        out += fmt::format(R"(<option>{}</option>)", escape_html(group));
-    }
-  }
-  out += R"(</select><span class="switches">)";
-  for (std::size_t i = 0; i < contexts.front().backends.size(); ++i) {
-    out += fmt::format(R"(<label class="switch e{0}"><input type="checkbox" data-backend="{0}" checked>{1}</label>)", i,
-                       backend_label(contexts.front(), contexts.front().backends[i]));
-  }
-  return out + R"(</span><button type="button" id="theme" title="light or dark">theme</button></span></div></nav>)";
+  return out +
+         fmt::format(R"(<details class="filter"><summary>Filter</summary><div class="filter-in">)"
+                     R"(<input id="filter" type="search" placeholder="D1, tower, gold" aria-label="words">)"
+                     R"(<select id="group" aria-label="group">{}</select>)"
+                     R"(<select id="result" aria-label="result">{}</select><span class="switches">{}</span>)"
+                     R"(<button type="button" id="clear">Show all</button></div></details>)"
+                     R"(<button type="button" id="theme" title="light or dark">Theme</button></span></div></nav>)",
+                     group_options(contexts), result_options(), engine_switches(contexts.front()));
 }
 
-/// All sections of a machine; what is there is added to the links, once for all machines. What is said in words can be
-/// read without the script; tables and diagrams are packed.
+std::string section_html(const PageContext& context, const PageSection& section) {
+  const std::string of = context.machine.empty() ? "" : fmt::format(" <small>{}</small>", escape_html(context.machine));
+  return fmt::format(
+      R"(<section id="{0}{1}"><details class="fold" open><summary><h2>{2}{3}</h2></summary>{4}{5}</details></section>)"
+      "\n",
+      section.id, context.suffix, section.title, of, section.words, packed_blocks(section.blocks));
+}
+
+/// All sections of a machine; what is there is added to the links, once for all machines.
 std::string machine_body(const PageContext& context, Links& links) {
-  std::string body = head_section(context) + "\n";
-  const auto add = [&](const char* id, const char* title, const std::string& section) {
-    if (section.empty()) return;
-    const bool known = std::any_of(links.begin(), links.end(), [&](const auto& link) { return link.first == id; });
+  const auto link = [&](const std::string& id, const char* title) {
+    const bool known = std::any_of(links.begin(), links.end(), [&](const auto& other) { return other.first == id; });
     if (!known) links.emplace_back(id, title);
-    body += section + "\n";
   };
-  const auto add_packed = [&](const char* id, const char* title, const std::string& section) {
-    add(id, title, section.empty() ? "" : packed_markup(section));
+  std::string body = head_section(context) + first_screen(context) + "\n";
+  link("answers", "Answers");
+  const auto add = [&](const char* title, const PageSection& section) {
+    if (section.empty()) return;
+    link(section.id, title);
+    body += section_html(context, section);
   };
-  add("against", "Against", against_section(context));
-  add_packed("cost", "Cost", costs_section(context));
-  add("answers", "Answers", answers_section(context));
-  add("engines", "Engines", engines_section(context));
-  add_packed("precision", "Precision", precision_section(context));
-  add_packed("fronts", "Fronts", fronts_section(context));
-  add_packed("profiles", "Profiles", profiles_section(context));
-  add_packed("matrix", "Matrix", matrix_section(context));
-  add_packed("robust", "Robustness", robustness_section(context));
-  add_packed("seeds", "Seeds", distributions_section(context));
-  add_packed("curves", "Curves", curves_section(context));
-  if (context.machine.empty()) add("replays", "Replays", replays_section(context.options));
-  add_packed("scaling", "Scaling", scaling_section(context));
-  add_packed("times", "Times", times_section(context));
-  add_packed("needs", "Needs", needs_section(context));
-  add_packed("runs", "Runs", rows_section(context));
+  add("Against", against_section(context));
+  add("Engines", engines_section(context));
+  add("Cost", costs_section(context));
+  add("Precision", precision_section(context));
+  add("Fronts", fronts_section(context));
+  add("Profiles", profiles_section(context));
+  add("Matrix", matrix_section(context));
+  add("Robustness", robustness_section(context));
+  add("Seeds", distributions_section(context));
+  add("Curves", curves_section(context));
+  add("Scaling", scaling_section(context));
+  add("Times", times_section(context));
+  add("Needs", needs_section(context));
+  add("Runs", rows_section(context));
   return fmt::format(R"(<div class="machine">{}</div>)", body);
 }
 
+constexpr std::string_view without_script =
+    "This program was built without node and npm, whose libraries draw the tables and diagrams: what can be said in "
+    "words stands here. plumb report prints tables in a terminal, and with --csv or --md elsewhere.";
+
 }  // namespace
+
+bool has_page_script() { return !page_script.empty(); }
 
 void write_page(std::ostream& out, const std::vector<Json>& rows, const PageOptions& options) {
   const std::vector<std::unique_ptr<MachinePart>> parts = split_by_machine(rows);
   const std::vector<std::string> backends = all_backends(parts);
   std::vector<PageContext> contexts;
-  std::size_t methods = 0;
   for (const auto& part : parts) {
-    PageContext context{part->study,  part->costs, part->overviews, part->curves,
-                        part->fronts, options,     backends,        methods};
+    PageContext context{part->study, part->costs, part->overviews, part->curves, part->fronts, options, backends};
     if (parts.size() > 1) context.machine = part->name;
     if (!contexts.empty()) context.suffix = fmt::format("-{}", contexts.size());
-    methods += part->curves.methods.size();
     contexts.push_back(std::move(context));
   }
   Links links;
-  std::string body = machines_section(contexts);
+  std::string body;
   for (const PageContext& context : contexts) body += machine_body(context, links);
-  if (const std::string replays = replays_section(options); contexts.size() > 1 && !replays.empty()) {
-    links.emplace_back("replays", "Replays");
-    body += replays;
+  if (const PageSection machines = machines_section(contexts); !machines.empty()) {
+    links.emplace_back(machines.id, "Machines");
+    PageContext all = contexts.front();
+    all.machine.clear();
+    body += section_html(all, machines);
   }
   out << "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
          "content=\"width=device-width,initial-scale=1\">"
+      // Nothing is asked of a network, and the browser sees to it.
+      << "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src 'unsafe-inline'; "
+         "style-src 'unsafe-inline'; img-src data: blob:\">"
       << "<meta name=\"color-scheme\" content=\"light dark\"><title>Plumb report</title><style>" << page_style
-      << colour_style(contexts)
+      << colour_style(backends)
       // Before anything is painted, so that a chosen theme does not flash.
       << "</style><script>" << page_theme_script << "</script></head><body>\n"
-      << toolbar(contexts, links)
-      << "<main><noscript><p class=\"about\">The tables and diagrams of this page are packed, and a script "
-         "opens them.</p></noscript>"
-      << body << "</main><script>" << page_script << "</script></body></html>\n";
+      << toolbar(contexts, links) << "<main>"
+      << (has_page_script() ? "<noscript>" + about("Tables and diagrams are drawn by a script.") + "</noscript>"
+                            : about(without_script))
+      << body << replays_place(options) << "</main><script>" << page_script << "</script></body></html>\n";
 }
 
 }  // namespace plumb::harness

@@ -1,4 +1,4 @@
-// The report as one HTML file: no network, no fonts, no libraries; diagrams are inline SVG made here.
+// The report as one HTML file without network: words as HTML, tables and diagrams as data that its script draws.
 #pragma once
 
 #include <iosfwd>
@@ -49,6 +49,8 @@ struct PageOptions {
 
 /// Whether the program was built with the viewer that plays them.
 [[nodiscard]] bool has_viewer();
+/// Whether it was built with the script that draws tables and diagrams: without, a page has words alone, and says so.
+[[nodiscard]] bool has_page_script();
 /// A page that does nothing but play.
 [[nodiscard]] std::string replay_page(const std::vector<PageReplay>& replays);
 

@@ -7,7 +7,6 @@
 
 #include "report/format.hpp"
 #include "report/page/markup.hpp"
-#include "report/page/plot.hpp"
 #include "report/page/sections.hpp"
 
 namespace plumb::harness {
@@ -17,17 +16,14 @@ constexpr double smallest_error = 1e-8, largest_error = 10;
 
 /// The staircase of a curve from x = `from` to `to`, where all curves end.
 PlotSeries stairs(const PageContext& context, const ProfileCurve& curve, double from, double to) {
-  PlotSeries series;
-  series.colour = context.backend_index(curve.backend);
+  PlotSeries series{curve.backend, context.backend_index(curve.backend)};
   series.stepped = true;
   series.quiet = true;
-  series.hover = curve.backend;
-  const auto add = [&](double x, double y) { series.points.push_back({x, y, {}, {}, false, {}, {}}); };
-  add(from, curve.at(from));
+  series.points.push_back({from, curve.at(from)});
   for (const ProfileStep& step : curve.steps) {
-    if (step.x > from && step.x < to) add(step.x, step.share);
+    if (step.x > from && step.x < to) series.points.push_back({step.x, step.share});
   }
-  add(to, curve.at(to));
+  series.points.push_back({to, curve.at(to)});
   return series;
 }
 
@@ -46,61 +42,69 @@ std::string note(const Profile& profile) {
                      profile.unsolved > 0 ? fmt::format(", {} of them solved by nobody", profile.unsolved) : "");
 }
 
-std::string figure(const Profile& profile, const Plot& plot, const std::string& title, const std::string& list) {
-  return fmt::format(R"(<figure><figcaption>{}</figcaption>{}{}<ul class="frame-list">{}</ul></figure>)",
-                     escape_html(title), render_plot(plot), note(profile), list);
+/// words: what is said of each curve. null where there is nothing to draw.
+template <typename Words>
+Json profile_figure(const PageContext& context, const Profile& profile, const std::string& title, Plot plot, double from,
+                    double to, const Words& words) {
+  if (profile.tests == 0 || last_step(profile) == 0) return nullptr;
+  std::string list;
+  for (const ProfileCurve& curve : profile.curves) {
+    plot.series.push_back(stairs(context, curve, from, to));
+    list += fmt::format("<li>{}: {}</li>", backend_label(context, curve.backend), words(curve));
+  }
+  FigureData figure;
+  figure.title = title;
+  figure.legend = false;
+  figure.plots = {std::move(plot)};
+  figure.notes = note(profile) + fmt::format(R"(<ul class="frame-list">{}</ul>)", list);
+  return figure_data(figure);
 }
 
-std::string cost_figure(const PageContext& context, const std::string& group, std::size_t target) {
+Json cost_figure(const PageContext& context, const std::string& group, std::size_t target) {
   const Profile profile = cost_profile(context.study, context.costs, group, target);
-  const double end = std::max(2.0, 1.3 * last_step(profile));
-  if (profile.tests == 0 || last_step(profile) == 0) return "";
   const std::string name = fmt::format("cost to reach {} %", limit_text(100 * target_errors[target]));
   Plot plot;
   plot.description = fmt::format("{}: performance profile, {}", group.empty() ? "all groups" : group, name);
   plot.x.title = "times the cost of the cheapest engine";
   plot.y = {"share of tests solved", false, 0.0, 1.0};
-  std::string list;
-  for (const ProfileCurve& curve : profile.curves) {
-    plot.series.push_back(stairs(context, curve, 1, end));
-    list += fmt::format(R"(<li class="e{}">{}: cheapest on {}, solves {}</li>)", context.backend_index(curve.backend),
-                        backend_label(context, curve.backend), percent(curve.at(1)), percent(curve.reliability()));
-  }
-  return figure(profile, plot, name, list);
+  return profile_figure(context, profile, name, std::move(plot), 1, std::max(2.0, 1.3 * last_step(profile)),
+                        [](const ProfileCurve& curve) {
+                          return fmt::format("cheapest on {}, solves {}", percent(curve.at(1)),
+                                             percent(curve.reliability()));
+                        });
 }
 
-std::string error_figure(const PageContext& context, const std::string& group) {
-  const Profile profile = error_profile(context.study, context.costs, group);
-  if (profile.tests == 0 || last_step(profile) == 0) return "";
+Json error_figure(const PageContext& context, const std::string& group) {
   Plot plot;
   plot.description = fmt::format("{}: share of tests by error at defaults", group.empty() ? "all groups" : group);
   plot.x.title = "error at the engine's defaults";
   plot.y = {"share of tests with no more error", false, 0.0, 1.0};
-  std::string list;
-  for (const ProfileCurve& curve : profile.curves) {
-    plot.series.push_back(stairs(context, curve, smallest_error, largest_error));
-    list += fmt::format(R"(<li class="e{}">{}: within 1 % on {}, within 0.1 % on {}</li>)",
-                        context.backend_index(curve.backend), backend_label(context, curve.backend),
-                        percent(curve.at(0.01)), percent(curve.at(0.001)));
-  }
-  return figure(profile, plot, "error at defaults", list);
+  return profile_figure(context, error_profile(context.study, context.costs, group), "error at defaults",
+                        std::move(plot), smallest_error, largest_error, [](const ProfileCurve& curve) {
+                          return fmt::format("within 1 % on {}, within 0.1 % on {}", percent(curve.at(0.01)),
+                                             percent(curve.at(0.001)));
+                        });
 }
 
-std::string group_figures(const PageContext& context, const std::string& group) {
-  std::string out;
-  for (std::size_t t = 0; t < target_errors.size(); ++t) out += cost_figure(context, group, t);
-  return out + error_figure(context, group);
+Json group_figures(const PageContext& context, const std::string& group) {
+  Json out = Json::array();
+  const auto add = [&](Json figure) {
+    if (!figure.is_null()) out.push_back(std::move(figure));
+  };
+  for (std::size_t t = 0; t < target_errors.size(); ++t) add(cost_figure(context, group, t));
+  add(error_figure(context, group));
+  return out;
 }
 
 }  // namespace
 
-std::string profiles_section(const PageContext& context) {
-  if (context.study.backends.size() < 2) return "";
-  const std::string all = group_figures(context, "");
-  if (all.empty()) return "";
-  std::string out =
-      section_start(context, "profiles", "Performance profiles") +
-      R"(<p class="about">After Dolan and Mor&eacute;. A test is a )"
+PageSection profiles_section(const PageContext& context) {
+  PageSection section{"profiles", "Performance profiles", ""};
+  if (context.study.backends.size() < 2) return section;
+  Json all = group_figures(context, "");
+  if (all.empty()) return section;
+  section.words = about(
+      R"(After Dolan and Mor&eacute;. A test is a )"
       R"(scene's metric that every engine of the diagram has a run of (one that ran less than half of them is left out); its cost for an engine is that of the cheapest )"
       R"(configuration that reaches the error (the <a href="#cost)" +
       context.suffix +
@@ -108,16 +112,15 @@ std::string profiles_section(const PageContext& context) {
       R"(tests the engine needs at most x times what the cheapest one needs. Read it at two places: its height at the )"
       R"(left edge is how often the engine is the cheapest, its height at the right edge how often it gets there at )"
       R"(all. Higher is better everywhere; between, a curve that rises early loses by little. The fourth diagram is of )"
-      R"(errors at the engines' own settings, whatever they cost.</p>)";
-  out += fmt::format(
-      R"(<details class="group" open><summary>All groups</summary><div class="figures">{}</div></details>)", all);
+      R"(errors at the engines' own settings, whatever they cost.)");
+  section.blocks.push_back(group_block("All groups", "", true, Json::array({figures_block(std::move(all))})));
   for (const std::string& group : context.study.groups) {
-    const std::string figures = context.study.groups.size() > 1 ? group_figures(context, group) : "";
-    if (figures.empty()) continue;
-    out += fmt::format(R"(<details class="group"><summary>{}</summary><div class="figures">{}</div></details>)",
-                       escape_html(group_title(group)), figures);
+    Json figures = context.study.groups.size() > 1 ? group_figures(context, group) : Json::array();
+    if (!figures.empty())
+      section.blocks.push_back(
+          group_block(group_title(group), "", false, Json::array({figures_block(std::move(figures))})));
   }
-  return out + "</section>";
+  return section;
 }
 
 }  // namespace plumb::harness

@@ -3,9 +3,10 @@
 
 #include "report/page/assets.hpp"
 #include "report/page/base64.hpp"
+#include "report/page/looks.hpp"
 #include "report/page/markup.hpp"
 #include "report/page/sections.hpp"
-#include "report/page/viewer_script.hpp"
+#include "report/page/bundled_scripts.hpp"
 
 namespace plumb::harness {
 namespace {
@@ -14,8 +15,10 @@ std::string player(const std::vector<PageReplay>& replays) {
   std::string out = R"(<div id="plumb-viewer"></div>)";
   for (const PageReplay& replay : replays) {
     out += fmt::format(
-        R"(<script type="application/octet-stream" class="plumb-replay" data-scene="{}" data-backend="{}">{}</script>)",
-        escape_html(replay.scene), escape_html(replay.backend), base64(replay.bundle));
+        R"(<script type="application/octet-stream" class="plumb-replay" data-scene="{}" data-backend="{}" data-hue="{}">)"
+        "{}</script>",
+        escape_html(replay.scene), escape_html(replay.backend), look_of(replay.backend).colour(),
+        base64(replay.bundle));
   }
   return fmt::format("{}<script>{}</script>", out, viewer_script);
 }
@@ -31,19 +34,20 @@ std::string replay_page(const std::vector<PageReplay>& replays) {
                      title, page_style, player(replays));
 }
 
-std::string replays_section(const PageOptions& options) {
+std::string replays_place(const PageOptions& options) {
   if (options.replays.empty() && options.replays_note.empty()) return "";
-  std::string out =
-      R"(<section id="replays"><h2>Replays</h2><p class="about">What the engines made of the same scene, side by )"
-      R"(side. Curves and colours of depth are the referee's; contact forces are the engine's own.</p>)";
-  if (!options.replays_note.empty())
-    out += fmt::format(R"(<p class="about">{}</p>)", escape_html(options.replays_note));
-  if (options.replays.empty()) return out + "</section>";
+  std::string words = "What the engines made of the same scene, side by side. Curves and colours of depth are the "
+                      "referee's; contact forces are the engine's own. ";
+  words += escape_html(options.replays_note);
+  const std::string start = R"(<section id="replays" class="part replays"><h2>Replays</h2>)";
+  if (options.replays.empty()) return start + about(words) + "</section>";
   if (!has_viewer()) {
-    return out + R"(<p class="about">This program was built without node and therefore shows no replays. Build it )"
-                 R"(where node and npm are, and write the page again: what was recorded stays valid.</p></section>)";
+    return start + about(words) +
+           about("This program was built without node and therefore shows no replays. Build it where node and npm are, "
+                 "and write the page again: what was recorded stays valid.") +
+           "</section>";
   }
-  return out + player(options.replays) + "</section>";
+  return start + player(options.replays) + about(words) + "</section>";
 }
 
 }  // namespace plumb::harness

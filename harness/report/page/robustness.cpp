@@ -12,44 +12,39 @@
 namespace plumb::harness {
 namespace {
 
-std::string cell_text(const PageContext& context, std::size_t backend, const std::optional<RobustnessCell>& cell) {
-  if (!cell) return fmt::format(R"(<td class="e{} absent">{}</td>)", backend, no_value);
-  const std::string scene = problem_title(*cell->row);
-  return fmt::format(
-      R"(<td class="e{}{}">{} <small>{}</small><span class="cfg">median {}; beyond in {} of {}</span></td>)", backend,
-      cell->beyond == 0 ? " best" : "",
-      row_link(*cell->row, short_number(cell->worst, 2), row_hover(context, *cell->row)), escape_html(scene),
-      short_number(cell->median, 2), cell->beyond, cell->runs);
+Json robustness_cell(const std::optional<RobustnessCell>& runs) {
+  if (!runs) return cell(std::string(no_value), {}, "quiet");
+  return cell(fmt::format(R"({} <small>{}</small><span class="cfg">median {}; beyond in {} of {}</span>)",
+                          row_link(*runs->row, short_number(runs->worst, 2)), escape_html(problem_title(*runs->row)),
+                          short_number(runs->median, 2), runs->beyond, runs->runs),
+              runs->worst, runs->beyond == 0 ? "best" : "");
 }
 
 }  // namespace
 
-std::string robustness_section(const PageContext& context) {
+PageSection robustness_section(const PageContext& context) {
+  PageSection section{"robust", "Robustness", ""};
   const std::vector<RobustnessLine> lines = robustness(context.study);
-  if (lines.empty()) return "";
-  std::string out = section_start(context, "robust", "Robustness");
-  out +=
-      R"(<p class="about">Measures that need no truth of their own and hold in every scene, at each engine's defaults: )"
+  if (lines.empty()) return section;
+  section.words = about(
+      R"(Measures that need no truth of their own and hold in every scene, at each engine's defaults: )"
       R"(the worst and where, the median over scenes, and how many runs are beyond the bound (a reading aid, no )"
-      R"(threshold of a scene). Set off: none is.</p><div class="scroll"><table class="numbers robust"><thead><tr>)"
-      R"(<th scope="col">measure</th><th scope="col">bound</th>)";
-  for (const std::string& backend : context.study.backends) {
-    out += fmt::format(R"(<th scope="col" class="e{}">{}</th>)", context.backend_index(backend),
-                       backend_label(context, backend));
-  }
-  out += "</tr></thead><tbody>";
+      R"(threshold of a scene). Set off: none is.)");
+  Table table("measures that hold in every scene");
+  table.column({"measure", 9, Column::Kind::name});
+  table.column({"bound", 4});
+  add_backend_columns(context, table, 9);
   for (const RobustnessLine& line : lines) {
     std::string name = line.metric;
     std::replace(name.begin(), name.end(), '_', ' ');
-    out += fmt::format(
-        R"(<tr><th scope="row">{}{}</th><td>{}</td>)", escape_html(name),
-        line.unit.empty() || line.unit == "1" ? "" : fmt::format(" <small>{}</small>", escape_html(line.unit)),
-        limit_text(line.bound));
-    for (std::size_t i = 0; i < line.cells.size(); ++i)
-      out += cell_text(context, context.backend_index(context.study.backends[i]), line.cells[i]);
-    out += "</tr>";
+    name = escape_html(name);
+    if (!line.unit.empty() && line.unit != "1") name += fmt::format(" <small>{}</small>", escape_html(line.unit));
+    Json cells = Json::array({name, cell(limit_text(line.bound), line.bound)});
+    for (const auto& runs : line.cells) cells.push_back(robustness_cell(runs));
+    table.row(std::move(cells));
   }
-  return out + "</tbody></table></div></section>";
+  section.blocks.push_back(table.block());
+  return section;
 }
 
 }  // namespace plumb::harness

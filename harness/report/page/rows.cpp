@@ -1,10 +1,9 @@
-// Every run: one line each here; the script opens its details from the data that follows the table.
+// Every run as data: the table of all, the details of each, and what a hover says of it where a figure leads to it.
 #include <fmt/format.h>
 
 #include <map>
 
 #include "report/format.hpp"
-#include "report/page/markup.hpp"
 #include "report/page/sections.hpp"
 
 namespace plumb::harness {
@@ -51,68 +50,62 @@ Json row_data(const PageContext& context, const ResultRow& row, Pool& settings, 
   for (const auto& [name, value] : context.study.changed_settings(row)) changed.push_back(name);
   Json phases = Json::array();
   for (const auto& [name, ms] : row.phase_ms) phases.push_back({name, ms});
-  return {{"m", metrics},
-          {"s", settings.index_of(row.settings)},
-          {"d", changed},
-          {"c", context.study.command(row)},
-          {"h", row.hash},
-          {"a", row.date},
-          {"w", row.reason},
-          {"o", row.contended.value_or("")},
-          {"b", row.ci95 ? Json::array({row.ci95->low, row.ci95->high}) : Json()},
-          {"x", machines.index_of(row.machine)},
-          {"p", phases},
-          {"t",
+  const MetricResult* worst = row.completed() ? row.worst() : nullptr;
+  const std::string decided =
+      worst ? fmt::format("{} {}", worst->name, worst->error ? short_number(*worst->error) : "not finite")
+            : row.completed() ? std::string() : row.reason;
+  return {{"engine", context.backend_index(row.backend)},
+          {"title", problem_title(row)},
+          {"configuration", context.study.configuration(row)},
+          {"verdict", verdict_title(row.verdict())},
+          {"decided", decided},
+          {"metrics", metrics},
+          {"settings", settings.index_of(row.settings)},
+          {"changed", changed},
+          {"command", context.study.command(row)},
+          {"hash", row.hash},
+          {"date", row.date},
+          {"reason", row.reason},
+          {"contended", row.contended.value_or("")},
+          {"band", row.ci95 ? Json::array({row.ci95->low, row.ci95->high}) : Json()},
+          {"machine", machines.index_of(row.machine)},
+          {"phases", phases},
+          {"times",
            {number(row.median_ms), number(row.min_ms), number(row.max_ms), number(row.p99_ms), number(row.setup_ms),
             number(row.steps), number(row.window_first), number(row.window_last)}},
-          {"n",
+          {"counts",
            {number(row.bodies), number(row.contacts_max), number(row.dropped), number(row.nonfinite),
             number(row.peak_mb)}}};
 }
 
-std::string table_row(const PageContext& context, const Problem& problem, const ResultRow& row) {
-  const MetricResult* worst = row.completed() ? row.worst() : nullptr;
-  const Verdict verdict = row.verdict();
-  std::string decided = row.completed() ? std::string() : row.reason;
-  if (worst) decided = fmt::format("{} {}", worst->name, worst->error ? short_number(*worst->error) : "not finite");
-  return fmt::format(
-      R"(<tr id="r{}" class="e{}" {}><th scope="row"><button type="button">{}</button></th><td class="name">{}</td>)"
-      R"(<td class="text">{}</td>)"
-      R"(<td class="text" data-v="{}"><span class="chip {}">{}</span></td><td data-v="{}">{}</td><td class="text )"
-      R"(why">{}</td></tr>)",
-      row.index, context.backend_index(row.backend),
-      filter_key(context, problem, fmt::format("{} {}", row.backend, verdict_title(verdict))),
-      escape_html(problem.title()), backend_label(context, row.backend), escape_html(context.study.configuration(row)),
-      static_cast<int>(verdict), verdict_word(verdict), escape_html(verdict_title(verdict)), row.median_ms.value_or(-1),
-      row.contended ? "(" + short_number(row.median_ms) + ")" : short_number(row.median_ms), escape_html(decided));
-}
-
 }  // namespace
 
-std::string rows_section(const PageContext& context) {
-  std::string out =
-      section_start(context, "runs", "Every run") +
-      R"(<p class="about">Open a line for its metrics, the settings in force, )"
-      R"(the state hash, the machine, and the )"
-      R"(command that runs it again.</p><div class="scroll"><table class="numbers runs sortable"><thead><tr><th )"
-      R"(scope="col" data-sort>scene</th>)"
-      R"(<th scope="col" class="name" data-sort>backend</th><th scope="col" class="text" data-sort>configuration</th>)"
-      R"(<th scope="col" class="text" data-sort>result</th><th scope="col" data-sort>ms per step</th><th )"
-      R"(scope="col" class="text" data-sort>decided by</th></tr></thead><tbody>)";
+PageSection rows_section(const PageContext& context) {
+  PageSection section{"runs", "Every run", ""};
+  section.words = about(
+      "Open a line for its metrics, the settings in force, the state hash, the machine, and the command that runs it "
+      "again.");
   Pool settings, machines, metrics;
-  std::vector<Json> data(context.study.rows.size());
+  std::vector<Json> rows(context.study.rows.size());
   const std::size_t first = context.study.rows.empty() ? 0 : context.study.rows.front().index;
+  Json order = Json::array();
   for (const Problem& problem : context.study.problems) {
+    const std::string key = filter_key(context, problem);
     for (const ResultRow* row : problem.rows) {
-      out += table_row(context, problem, *row);
-      data[row->index - first] = row_data(context, *row, settings, machines, metrics);
+      Json data = row_data(context, *row, settings, machines, metrics);
+      data["k"] = key;
+      rows[row->index - first] = std::move(data);
+      order.push_back(row->index - first);
     }
   }
-  out += "</tbody></table></div></section>";
-  const Json all{
-      {"settings", settings.values()}, {"machines", machines.values()}, {"metrics", metrics.values()}, {"rows", data}};
-  return out + fmt::format(R"(<script type="application/json" class="data" data-first="{}">{}</script>)", first,
-                           script_json(all));
+  section.blocks.push_back({{"runs",
+                             {{"first", first},
+                              {"order", std::move(order)},
+                              {"settings", settings.values()},
+                              {"machines", machines.values()},
+                              {"metrics", metrics.values()},
+                              {"rows", std::move(rows)}}}});
+  return section;
 }
 
 }  // namespace plumb::harness

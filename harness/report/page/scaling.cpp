@@ -1,19 +1,18 @@
-// Scaling: time per step against the number of bodies, with the error on a second axis.
+// Scaling: time per step against the number of bodies, and the error beside it.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "report/format.hpp"
 #include "report/page/markup.hpp"
-#include "report/page/plot.hpp"
 #include "report/page/sections.hpp"
 
 namespace plumb::harness {
 namespace {
 
 constexpr double frame_ms = 1000.0 / 60;
+constexpr double largest_error = 10;  ///< beyond that nothing is told apart: all of it is wrong
 
 struct Sized {
   double bodies;
@@ -53,65 +52,69 @@ std::string bodies_at_frame(const std::vector<Sized>& sizes) {
   return fmt::format("above {}", shortest_number(sizes.back().bodies));
 }
 
-std::string scene_figure(const PageContext& context, const Problem* first, const Problem* last) {
-  Plot plot;
-  plot.x.title = "bodies";
-  plot.y.title = "ms per step (solid)";
-  plot.right = PlotAxis{"error of the worst metric (dotted)", true, std::nullopt, 10.0};
-  plot.levels = {{frame_ms, "16.7 ms"}};
-  plot.description = fmt::format("{}: time per step and error against the number of bodies", first->scene);
-  std::string table;
+Json scene_figure(const PageContext& context, const Problem* first, const Problem* last) {
+  Plot time, error;
+  time.description = fmt::format("{}: time per step against the number of bodies", first->scene);
+  time.x.title = error.x.title = "bodies";
+  time.y.title = "ms per step";
+  time.levels = {{frame_ms, "16.7 ms"}};
+  error.description = fmt::format("{}: error against the number of bodies", first->scene);
+  error.y = {"error of the worst metric", true, std::nullopt, largest_error};
+  std::string list;
   std::vector<const ResultRow*> rows;
   for (const std::string& backend : context.study.backends) {
     const std::vector<Sized> sizes = sizes_of(context, first, last, backend);
     if (sizes.empty()) continue;
-    const std::size_t colour = context.backend_index(backend);
-    PlotSeries time{colour, 0, true, false, fmt::format("{}: ms per step", backend), {}};
-    PlotSeries error{colour, 2, true, true, fmt::format("{}: error of the worst metric", backend), {}};
+    PlotSeries times{backend, context.backend_index(backend)}, errors = times;
     for (const Sized& sized : sizes) {
-      const std::string link = fmt::format("#r{}", sized.row->index), hover = row_hover(context, *sized.row);
-      time.points.push_back({sized.bodies, *sized.row->fair_ms(), {}, {}, true, hover, link});
-      if (const std::optional<Interval>& band = sized.row->ci95) {
-        time.points.back().y_low = band->low;
-        time.points.back().y_high = band->high;
-      }
+      times.points.push_back({sized.bodies, *sized.row->fair_ms(), sized.row, true, false, {}, sized.row->ci95});
+      std::swap(times.points.back().x_band, times.points.back().y_band);
       rows.push_back(sized.row);
       const MetricResult* worst = sized.row->worst();
       if (worst && worst->error && sized.row->completed())
-        error.points.push_back({sized.bodies, *worst->error, {}, {}, false, hover, link});
+        errors.points.push_back({sized.bodies, *worst->error, sized.row, true});
     }
-    plot.series.push_back(std::move(time));
-    plot.series.push_back(std::move(error));
-    table += fmt::format(R"(<li class="e{}">{}: {} bodies</li>)", colour, backend_label(context, backend),
-                         bodies_at_frame(sizes));
+    time.series.push_back(std::move(times));
+    error.series.push_back(std::move(errors));
+    list += fmt::format("<li>{}: {} bodies</li>", backend_label(context, backend), bodies_at_frame(sizes));
   }
-  if (plot.series.empty()) return "";
-  return fmt::format(R"(<figure {}><figcaption>{}</figcaption>{}<p class="frame-note">In a frame of 16.7 ms:</p><ul )"
-                     R"(class="frame-list">{}</ul>{}</figure>)",
-                     filter_key(context, *first), escape_html(first->scene), render_plot(plot), table,
-                     figure_foot(context, rows, first->scene));
+  FigureData figure;
+  figure.title = first->scene;
+  figure.key = filter_key(context, *first);
+  figure.legend = false;
+  figure.plots = {std::move(time), std::move(error)};
+  figure.notes = fmt::format(
+      R"(<p class="frame-note">In a frame of 16.7 ms:</p><ul class="frame-list">{}</ul>{})", list,
+      figure_foot(context, rows, first->scene));
+  return figure_data(figure);
 }
 
 }  // namespace
 
-std::string scaling_section(const PageContext& context) {
-  std::string figures;
+PageSection scaling_section(const PageContext& context) {
+  PageSection section{"scaling", "Scaling", ""};
+  Json figures = Json::array();
   const std::vector<Problem>& problems = context.study.problems;
   for (std::size_t i = 0; i < problems.size();) {
     std::size_t end = i;
     while (end < problems.size() && problems[end].scene == problems[i].scene &&
            problems[end].group == problems[i].group)
       ++end;
-    if (end - i > 1) figures += scene_figure(context, &problems[i], &problems[i] + (end - i));
+    if (end - i > 1) {
+      if (Json figure = scene_figure(context, &problems[i], &problems[i] + (end - i)); !figure.is_null())
+        figures.push_back(std::move(figure));
+    }
     i = end;
   }
-  std::string out =
-      section_start(context, "scaling", "Scaling") +
-      R"(<p class="about">Scenes that were run at several sizes, each engine )"
-      R"(at its defaults: time per step on )"
-      R"(the left axis, the worst error at that size on the right. The line at 16.7 ms is one frame at 60 Hz.</p>)";
-  if (figures.empty()) return out + R"(<p class="about">No scene here was run at several sizes.</p></section>)";
-  return out + fmt::format(R"(<div class="figures">{}</div></section>)", figures);
+  section.words = about(
+      "Scenes that were run at several sizes, each engine at its defaults: time per step, and below it the worst error "
+      "at that size. The line at 16.7 ms is one frame at 60 Hz.");
+  if (figures.empty()) {
+    section.words += about("No scene here was run at several sizes.");
+  } else {
+    section.blocks.push_back(figures_block(std::move(figures)));
+  }
+  return section;
 }
 
 }  // namespace plumb::harness

@@ -3,28 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
 
 #include "report/format.hpp"
 #include "report/page/markup.hpp"
-#include "report/page/plot.hpp"
 
 namespace plumb::harness {
-namespace {
-
-std::string metric_line(const MetricResult& metric) {
-  std::string line = fmt::format("{}: {}", metric.name, metric.value ? short_number(*metric.value, 6) : "not finite");
-  if (!metric.unit.empty() && metric.unit != "1") line += fmt::format(" {}", metric.unit);
-  if (metric.truth) line += fmt::format(", truth {}", short_number(*metric.truth, 6));
-  line += fmt::format(", error {}", metric.error ? short_number(*metric.error) : "not finite");
-  if (metric.threshold) line += fmt::format(", threshold {}", limit_text(*metric.threshold));
-  if (metric.gold) line += fmt::format(", gold {}", limit_text(*metric.gold));
-  if (metric.scored()) line += metric.is_gold ? ": gold" : metric.pass.value_or(true) ? ": pass" : ": failed";
-  if (!metric.note.empty()) line += fmt::format(" ({})", metric.note);
-  return line;
-}
-
-}  // namespace
 
 std::string lower(std::string text) {
   for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
@@ -35,18 +18,10 @@ std::size_t PageContext::backend_index(const std::string& backend) const {
   return static_cast<std::size_t>(std::find(backends.begin(), backends.end(), backend) - backends.begin());
 }
 
-std::size_t PageContext::method_index(std::size_t method) const {
-  constexpr std::size_t round = std::lcm(page_hues, marker_shapes);
-  return (backends.size() + round - 1) / round * round + first_method + method;
-}
+std::string about(std::string_view html) { return fmt::format(R"(<p class="about">{}</p>)", html); }
 
-std::string section_start(const PageContext& context, std::string_view id, std::string_view title) {
-  const std::string of = context.machine.empty() ? "" : fmt::format(" <small>{}</small>", escape_html(context.machine));
-  return fmt::format(R"(<section id="{}{}"><h2>{}{}</h2>)", id, context.suffix, title, of);
-}
-
-std::string row_link(const ResultRow& row, std::string_view text, std::string_view title) {
-  return fmt::format(R"(<a href="#r{}" title="{}">{}</a>)", row.index, escape_html(title), escape_html(text));
+std::string row_link(const ResultRow& row, std::string_view text) {
+  return fmt::format(R"(<a href="#r{}">{}</a>)", row.index, escape_html(text));
 }
 
 std::string problem_title(const ResultRow& row) {
@@ -54,40 +29,19 @@ std::string problem_title(const ResultRow& row) {
   return variant.empty() ? row.scene : row.scene + " " + variant;
 }
 
-std::string row_hover(const PageContext& context, const ResultRow& row) {
-  std::string out = fmt::format("{} on {}, {}", problem_title(row), row.backend, verdict_title(row.verdict()));
-  if (const std::string configuration = context.study.configuration(row); !configuration.empty())
-    out += fmt::format("\n{}", configuration);
-  if (row.median_ms) {
-    out += fmt::format("\n{} ms per step", short_number(*row.median_ms));
-    if (row.min_ms && row.max_ms)
-      out += fmt::format(" ({} to {})", short_number(*row.min_ms), short_number(*row.max_ms));
-  }
-  if (!row.reason.empty()) out += fmt::format("\n{}", row.reason);
-  for (const MetricResult& metric : row.metrics) out += fmt::format("\n{}", metric_line(metric));
-  return out;
-}
-
-std::string problem_header(const PageContext& context, const Problem& problem) {
+std::string problem_label(const PageContext& context, const Problem& problem) {
   const auto text = context.options.scenes.find(problem.scene);
-  std::string out = R"(<th scope="row" class="problem">)";
-  out += fmt::format("<b>{}</b>", escape_html(problem.scene));
+  std::string out = fmt::format("<b>{}</b>", escape_html(problem.scene));
   if (!problem.variant.empty()) out += fmt::format(R"( <span class="variant">{}</span>)", escape_html(problem.variant));
-  if (text == context.options.scenes.end()) {
-    const std::string& slug = problem.rows.front()->slug;
-    if (!slug.empty()) out += fmt::format(R"( <span class="scene-title">{}</span>)", escape_html(slug));
-  } else {
-    out += fmt::format(R"( <span class="scene-title" title="{}">{}</span>)", escape_html(text->second.doc),
-                       escape_html(text->second.title));
-  }
-  return out + "</th>";
+  const std::string title =
+      text == context.options.scenes.end() ? problem.rows.front()->slug : text->second.title;
+  return title.empty() ? out : out + fmt::format(R"( <span class="scene-title">{}</span>)", escape_html(title));
 }
 
 std::string filter_key(const PageContext& context, const Problem& problem, std::string_view more) {
   const auto text = context.options.scenes.find(problem.scene);
-  const std::string key = fmt::format("{} {} {} {} {}", problem.scene, problem.variant, problem.group,
-                                      text == context.options.scenes.end() ? std::string() : text->second.title, more);
-  return fmt::format(R"(data-k="{}")", escape_html(lower(key)));
+  return lower(fmt::format("{} {} {} {} {}", problem.scene, problem.variant, problem.group,
+                           text == context.options.scenes.end() ? std::string() : text->second.title, more));
 }
 
 std::string figure_foot(const PageContext& context, const std::vector<const ResultRow*>& rows,
@@ -100,8 +54,12 @@ std::string figure_foot(const PageContext& context, const std::vector<const Resu
 }
 
 std::string backend_label(const PageContext& context, const std::string& backend) {
-  return fmt::format(R"(<span class="backend">{}{}</span>)", render_marker(context.backend_index(backend), true),
-                     escape_html(backend));
+  return fmt::format(R"(<span class="backend e{}">{}</span>)", context.backend_index(backend), escape_html(backend));
+}
+
+void add_backend_columns(const PageContext& context, Table& table, double width) {
+  for (const std::string& backend : context.study.backends)
+    table.column({backend_label(context, backend), width, Column::Kind::number, context.backend_index(backend)});
 }
 
 std::string group_title(const std::string& group) {

@@ -8,14 +8,21 @@
 #include "report/curves.hpp"
 #include "report/front.hpp"
 #include "report/overview.hpp"
+#include "report/page/blocks.hpp"
 #include "report/page/page.hpp"
 #include "report/sample.hpp"
 #include "report/study.hpp"
 
 namespace plumb::harness {
 
-/// --hue0 ... in the style; further backends use them again, with another marker.
-inline constexpr std::size_t page_hues = 8;
+/// A section: what is said in words, which can be read without the script, and what the script draws from data.
+struct PageSection {
+  std::string id, title;  ///< the title is HTML
+  std::string words;      ///< HTML
+  Json blocks = Json::array();
+
+  [[nodiscard]] bool empty() const { return words.empty() && blocks.empty(); }
+};
 
 /// What all sections draw on; lives as long as a page is written.
 struct PageContext {
@@ -26,62 +33,58 @@ struct PageContext {
   const std::vector<Front>& fronts;
   const PageOptions& options;
   const std::vector<std::string>& backends;  ///< of all machines: those of `study` among them
-  std::size_t first_method = 0;              ///< methods of machines before this one
   std::string machine = {};  ///< its name, where the page has several: no figure shows runs of two of them
   std::string suffix = {};   ///< of the sections' ids; "" for the first machine
 
   [[nodiscard]] std::size_t backend_index(const std::string& backend) const;
-  /// The colour of a method of `curves`. Backends have theirs before them, in whole rounds of hues and markers, so that
-  /// backends with one method each look the same in both.
-  [[nodiscard]] std::size_t method_index(std::size_t method) const;
 };
 
 [[nodiscard]] std::string head_section(const PageContext& context);
-/// A card an engine: verdicts, where it is best, where it breaks. "" without rows.
-[[nodiscard]] std::string engines_section(const PageContext& context);
-/// Near the top: what people ask first. "" where nothing can be answered.
-[[nodiscard]] std::string answers_section(const PageContext& context);
-/// "" without a baseline.
-[[nodiscard]] std::string against_section(const PageContext& context);
-[[nodiscard]] std::string costs_section(const PageContext& context);
+/// What people ask first, a picture of speed against error, and a place for a replay. "" where nothing can be answered
+/// or drawn.
+[[nodiscard]] std::string first_screen(const PageContext& context);
+/// A card an engine: verdicts, where it is best, where it breaks.
+[[nodiscard]] PageSection engines_section(const PageContext& context);
+/// Every engine's defaults in one picture: time over the fastest engine's, error over the scene's threshold. null
+/// where no engine has both.
+[[nodiscard]] Json speed_figure(const PageContext& context);
+/// Sections are empty where there is nothing to show.
+[[nodiscard]] PageSection against_section(const PageContext& context);
+[[nodiscard]] PageSection costs_section(const PageContext& context);
 /// Which configurations no other one beats, and which are beaten by whom.
-[[nodiscard]] std::string fronts_section(const PageContext& context);
+[[nodiscard]] PageSection fronts_section(const PageContext& context);
 /// Dolan-More profiles.
-[[nodiscard]] std::string profiles_section(const PageContext& context);
-[[nodiscard]] std::string matrix_section(const PageContext& context);
-[[nodiscard]] std::string precision_section(const PageContext& context);
-/// "" where no knob was turned.
-[[nodiscard]] std::string curves_section(const PageContext& context);
-/// "" where nothing was recorded.
-[[nodiscard]] std::string replays_section(const PageOptions& options);
-[[nodiscard]] std::string scaling_section(const PageContext& context);
-[[nodiscard]] std::string times_section(const PageContext& context);
-/// "" where no measure without a truth was made in two scenes.
-[[nodiscard]] std::string robustness_section(const PageContext& context);
-/// "" where no scene was run with several seeds.
-[[nodiscard]] std::string distributions_section(const PageContext& context);
-/// "" where no cells differ in their needs only.
-[[nodiscard]] std::string needs_section(const PageContext& context);
-/// Times and errors of machines beside each other, for what ran on at least two; "" for one machine.
-[[nodiscard]] std::string machines_section(const std::vector<PageContext>& machines);
-[[nodiscard]] std::string rows_section(const PageContext& context);
+[[nodiscard]] PageSection profiles_section(const PageContext& context);
+[[nodiscard]] PageSection matrix_section(const PageContext& context);
+[[nodiscard]] PageSection precision_section(const PageContext& context);
+[[nodiscard]] PageSection curves_section(const PageContext& context);
+[[nodiscard]] PageSection scaling_section(const PageContext& context);
+[[nodiscard]] PageSection times_section(const PageContext& context);
+[[nodiscard]] PageSection robustness_section(const PageContext& context);
+[[nodiscard]] PageSection distributions_section(const PageContext& context);
+[[nodiscard]] PageSection needs_section(const PageContext& context);
+[[nodiscard]] PageSection rows_section(const PageContext& context);
+/// Times and errors of machines beside each other, for what ran on at least two.
+[[nodiscard]] PageSection machines_section(const std::vector<PageContext>& machines);
+/// The recorded scenes and the viewer that plays them; "" where nothing was recorded.
+[[nodiscard]] std::string replays_place(const PageOptions& options);
 
-/// <section id="..."> and its heading. The title is HTML.
-[[nodiscard]] std::string section_start(const PageContext& context, std::string_view id, std::string_view title);
-/// A figure as a link to the row that it comes from: <a href="#r12" title="...">text</a>. Text and title are escaped
-/// here.
-[[nodiscard]] std::string row_link(const ResultRow& row, std::string_view text, std::string_view title);
-/// What a hover says of a row: its configuration, verdict, time, and each metric with value, truth, error, threshold.
-[[nodiscard]] std::string row_hover(const PageContext& context, const ResultRow& row);
-/// <th> with a problem's scene, variant and title.
-[[nodiscard]] std::string problem_header(const PageContext& context, const Problem& problem);
-/// The attribute by which the page's filter finds an element: data-k="...", lower case.
+/// A figure as a link to the row that it comes from: <a href="#r12">text</a>. The text is escaped here; what a hover
+/// says of the row, the script knows.
+[[nodiscard]] std::string row_link(const ResultRow& row, std::string_view text);
+/// A problem's scene, variant and title.
+[[nodiscard]] std::string problem_label(const PageContext& context, const Problem& problem);
+/// What the page's filter finds an element by: lower case.
 [[nodiscard]] std::string filter_key(const PageContext& context, const Problem& problem, std::string_view more = "");
 /// Below a figure: the runs that it shows, and what makes them again. `filter` finds them among all.
 [[nodiscard]] std::string figure_foot(const PageContext& context, const std::vector<const ResultRow*>& rows,
                                       std::string_view filter);
 /// The name of a backend with its marker.
 [[nodiscard]] std::string backend_label(const PageContext& context, const std::string& backend);
+/// A column for each backend of the study.
+void add_backend_columns(const PageContext& context, Table& table, double width);
+/// <p class="about">...</p>
+[[nodiscard]] std::string about(std::string_view html);
 /// A group's name as a heading: "Stacking"; "Other" for none.
 [[nodiscard]] std::string group_title(const std::string& group);
 [[nodiscard]] std::string verdict_title(Verdict verdict);  ///< "out of memory"

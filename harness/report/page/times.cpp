@@ -20,49 +20,51 @@ std::optional<double> fastest(const PageContext& context, const Problem& problem
   return best && *best > 0 ? best : std::nullopt;
 }
 
-std::string time_cells(const PageContext& context, const ResultRow* row, std::size_t index, double best) {
+/// Time and ratio of an engine on a problem.
+void add_time_cells(const ResultRow* row, double best, Json& cells) {
   if (!row || !row->completed() || !row->fair_ms()) {
     const std::string why = !row                                 ? std::string(no_value)
                             : row->completed() && row->contended ? "contended"
                                                                  : verdict_title(row->verdict());
-    const std::string link = row ? row_link(*row, why, row_hover(context, *row)) : why;
-    return fmt::format(R"(<td class="e{0} none">{1}</td><td class="e{0}"></td>)", index, link);
+    cells.push_back(cell(row ? row_link(*row, why) : why, {}, "quiet"));
+    cells.push_back("");
+    return;
   }
   const double ratio = *row->fair_ms() / best;
-  return fmt::format(
-      R"(<td class="e{0}" data-v="{1}">{2}{3}</td><td class="e{0}{4}" data-v="{5}">{6}</td>)", index, *row->fair_ms(),
-      row_link(*row, short_number(*row->fair_ms()), row_hover(context, *row)),
-      row->verdict() == Verdict::failed ? R"(<sup title="failed: a threshold is missed">&#8224;</sup>)" : "",
-      ratio == 1 ? " best" : "", ratio, ratio_text(ratio));
+  cells.push_back(cell(row_link(*row, short_number(*row->fair_ms())) +
+                           (row->verdict() == Verdict::failed
+                                ? R"(<sup title="failed: a threshold is missed">&#8224;</sup>)"
+                                : ""),
+                       *row->fair_ms()));
+  cells.push_back(cell(ratio_text(ratio), ratio, ratio == 1 ? "best" : ""));
 }
 
-std::string ratio_table(const PageContext& context) {
-  std::string out =
-      R"(<div class="scroll"><table class="numbers times sortable"><thead><tr><th scope="col" data-sort>scene</th>)"
-      R"(<th scope="col" data-sort>bodies</th>)";
+Table ratio_table(const PageContext& context) {
+  Table table("times side by side");
+  table.column({"scene", 9, Column::Kind::name});
+  table.column({"bodies", 4});
   for (const std::string& backend : context.study.backends) {
-    const std::size_t index = context.backend_index(backend);
-    out += fmt::format(
-        R"(<th scope="col" class="e{0}" data-sort>{1} <small>ms</small></th><th scope="col" class="e{0}" data-sort )"
-        R"(title="relative to the fastest">&times;</th>)",
-        index, backend_label(context, backend));
+    const std::size_t engine = context.backend_index(backend);
+    table.column(
+        {backend_label(context, backend) + " <small>ms</small>", 6, Column::Kind::number, engine});
+    table.column({"&times;", 4, Column::Kind::number, engine, false, backend + ", relative to the fastest"});
   }
-  out += "</tr></thead><tbody>";
   for (const Problem& problem : context.study.problems) {
     const std::optional<double> best = fastest(context, problem);
     if (!best) continue;
     std::optional<double> bodies;
-    std::string cells;
+    Json times = Json::array();
     for (const std::string& backend : context.study.backends) {
       const ResultRow* row = context.study.representative(problem, backend);
       if (row && row->bodies) bodies = row->bodies;
-      cells += time_cells(context, row, context.backend_index(backend), *best);
+      add_time_cells(row, *best, times);
     }
-    out += fmt::format(R"(<tr {}>{}<td data-v="{}">{}</td>{}</tr>)", filter_key(context, problem),
-                       problem_header(context, problem), bodies.value_or(0),
-                       bodies ? shortest_number(*bodies) : std::string(no_value), cells);
+    Json cells = Json::array({problem_label(context, problem),
+                              cell(bodies ? shortest_number(*bodies) : std::string(no_value), bodies)});
+    cells.insert(cells.end(), times.begin(), times.end());
+    table.row(std::move(cells), filter_key(context, problem));
   }
-  return out + "</tbody></table></div>";
+  return table;
 }
 
 /// Phases that any row has, in the order of a step.
@@ -88,12 +90,9 @@ std::vector<std::string> phases_of(const Study& study) {
   return used;
 }
 
-std::string phase_row(const PageContext& context, const Problem& problem, const ResultRow& row,
-                      const std::vector<std::string>& phases, double longest) {
-  double sum = 0;
-  for (const auto& [name, ms] : row.phase_ms) sum += std::max(ms, 0.0);
-  const double total = std::max(sum, row.median_ms.value_or(sum));
-  if (!(total > 0)) return "";
+/// The step of a row as a bar, as long as its share of the slowest engine's.
+std::string phase_bar(const ResultRow& row, const std::vector<std::string>& phases, double sum, double total,
+                      double longest) {
   std::string bar;
   const auto add = [&](const std::string& name, const std::string& style, double ms) {
     const double share = 100 * ms / total;
@@ -106,55 +105,60 @@ std::string phase_row(const PageContext& context, const Problem& problem, const 
     }
   }
   if (total - sum > 0.005 * total) add("not told", "rest", total - sum);
-  return fmt::format(R"(<tr class="e{}" {}>{}<td class="name">{}</td><td>{}</td><td class="phases"><div class="bar" )"
-                     R"(style="width:{:.1f}%">{}</div></td></tr>)",
-                     context.backend_index(row.backend), filter_key(context, problem, row.backend),
-                     problem_header(context, problem), backend_label(context, row.backend),
-                     row_link(row, short_number(row.median_ms ? *row.median_ms : sum), row_hover(context, row)),
-                     100 * std::max(0.02, total / longest), bar);
+  return fmt::format(R"(<div class="bar" style="width:{:.1f}%">{}</div>)", 100 * std::max(0.02, total / longest), bar);
 }
 
-std::string phase_table(const PageContext& context) {
-  const std::vector<std::string> phases = phases_of(context.study);
-  if (phases.empty()) return "";
-  std::string rows;
+double phase_sum(const ResultRow& row) {
+  double sum = 0;
+  for (const auto& [name, ms] : row.phase_ms) sum += std::max(ms, 0.0);
+  return sum;
+}
+
+Table phase_table(const PageContext& context, const std::vector<std::string>& phases) {
+  Table table("time by phase");
+  table.column({"scene", 9, Column::Kind::name, {}, true});
+  table.column({"backend", 7, Column::Kind::name});
+  table.column({"ms per step", 5});
+  table.column({"share of the slowest engine's step", 16, Column::Kind::text});
   for (const Problem& problem : context.study.problems) {
     double longest = 0;
     for (const std::string& backend : context.study.backends) {
       const ResultRow* row = context.study.representative(problem, backend);
-      if (!row || !row->completed()) continue;
-      double sum = 0;
-      for (const auto& [name, ms] : row->phase_ms) sum += std::max(ms, 0.0);
-      longest = std::max({longest, sum, row->fair_ms().value_or(0)});
+      if (row && row->completed()) longest = std::max({longest, phase_sum(*row), row->fair_ms().value_or(0)});
     }
     for (const std::string& backend : context.study.backends) {
       const ResultRow* row = context.study.representative(problem, backend);
-      if (row && row->completed() && !row->contended && !row->phase_ms.empty())
-        rows += phase_row(context, problem, *row, phases, longest);
+      if (!row || !row->completed() || row->contended || row->phase_ms.empty()) continue;
+      const double sum = phase_sum(*row), total = std::max(sum, row->median_ms.value_or(sum));
+      if (!(total > 0)) continue;
+      const double shown = row->median_ms.value_or(sum);
+      table.row({problem_label(context, problem), backend_label(context, row->backend),
+                 cell(row_link(*row, short_number(shown)), shown),
+                 cell(phase_bar(*row, phases, sum, total, longest), total)},
+                filter_key(context, problem, row->backend), context.backend_index(row->backend));
     }
   }
-  std::string legend;
-  for (std::size_t i = 0; i < phases.size(); ++i)
-    legend += fmt::format(R"(<span><i class="p{}"></i>{}</span>)", i % 8, escape_html(phases[i]));
-  legend += R"(<span><i class="rest"></i>not told by the engine</span>)";
-  return fmt::format(
-      R"(<details class="group"><summary>Time by phase <small>{}</small></summary><p class="legend">{}</p><div )"
-      R"(class="scroll"><table class="numbers phase-table">)"
-      R"(<thead><tr><th scope="col">scene</th><th scope="col" class="name">backend</th><th scope="col">ms per )"
-      R"(step</th>)"
-      R"(<th scope="col" class="text">share of the slowest engine's step</th></tr></thead><tbody>{}</tbody></table>)"
-      R"(</div></details>)",
-      "as each engine tells it", legend, rows);
+  return table;
 }
 
 }  // namespace
 
-std::string times_section(const PageContext& context) {
-  return section_start(context, "times", "Times side by side") +
-         R"(<p class="about">Median milliseconds per step at each )"
-         R"(engine's defaults, and how many times the fastest )"
-         R"(engine's that is. A dagger marks a run that missed a threshold: its time bought a wrong answer.</p>)" +
-         ratio_table(context) + phase_table(context) + "</section>";
+PageSection times_section(const PageContext& context) {
+  PageSection section{"times", "Times side by side", ""};
+  section.words = about(
+      R"(Median milliseconds per step at each engine's defaults, and how many times the fastest )"
+      R"(engine's that is. A dagger marks a run that missed a threshold: its time bought a wrong answer.)");
+  section.blocks.push_back(ratio_table(context).block());
+  const std::vector<std::string> phases = phases_of(context.study);
+  if (phases.empty()) return section;
+  std::string legend;
+  for (std::size_t i = 0; i < phases.size(); ++i)
+    legend += fmt::format(R"(<span><i class="p{}"></i>{}</span>)", i % 8, escape_html(phases[i]));
+  legend += R"(<span><i class="rest"></i>not told by the engine</span>)";
+  section.blocks.push_back(group_block(
+      "Time by phase", "as each engine tells it", false,
+      Json::array({words_block(fmt::format(R"(<p class="legend">{}</p>)", legend)), phase_table(context, phases).block()})));
+  return section;
 }
 
 }  // namespace plumb::harness

@@ -3,7 +3,7 @@ import { decodeBundle } from './bundle.js';
 import { Replay } from './replay.js';
 
 const kNamed = 12; // scenes that an error lists
-const kHues = 8; // --hue0 to --hue7 in the page's style
+const kHues = 24; // --hue0 to --hue23 in the page's style: eight hues in three shades
 
 export class Library {
   constructor(scripts) {

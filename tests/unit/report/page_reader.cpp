@@ -38,18 +38,37 @@ std::string packed_page(const std::vector<Json>& rows, PageOptions options) {
   return out.str();
 }
 
-std::string page_of(const std::vector<Json>& rows, PageOptions options) {
-  const std::string page = packed_page(rows, std::move(options));
+namespace {
+
+/// Calls plain() with what stands outside of packed scripts, and packed() with what stands in them, in order.
+template <typename Plain, typename Packed>
+void read_page(const std::string& page, const Plain& plain, const Packed& packed) {
   const std::string start = R"(<script type="application/octet-stream" class="packed">)", end = "</script>";
-  std::string opened;
   std::size_t from = 0;
   for (std::size_t at = page.find(start); at != std::string::npos; at = page.find(start, from)) {
-    opened += page.substr(from, at - from);
+    plain(page.substr(from, at - from));
     const std::size_t first = at + start.size(), last = page.find(end, first);
-    opened += inflated(bytes_of_base64(std::string_view(page).substr(first, last - first)));
+    packed(inflated(bytes_of_base64(std::string_view(page).substr(first, last - first))));
     from = last + end.size();
   }
-  return opened + page.substr(from);
+  plain(page.substr(from));
+}
+
+}  // namespace
+
+std::string page_of(const std::vector<Json>& rows, PageOptions options) {
+  std::string opened;
+  const auto append = [&](const std::string& text) { opened += text; };
+  read_page(packed_page(rows, std::move(options)), append, append);
+  return opened;
+}
+
+std::vector<Json> packed_data(const std::vector<Json>& rows, PageOptions options) {
+  std::vector<Json> all;
+  read_page(
+      packed_page(rows, std::move(options)), [](const std::string&) {},
+      [&](const std::string& text) { all.push_back(Json::parse(text)); });
+  return all;
 }
 
 std::size_t count(const std::string& text, const std::string& what) {

@@ -1,4 +1,4 @@
-// The page as a browser has it once its script has unpacked what is packed.
+// The page with what is packed in it opened: blocks of sections stand there as JSON.
 #pragma once
 
 #include <string>
@@ -11,6 +11,9 @@ namespace plumb::harness::testing {
 /// As it is written to a file.
 [[nodiscard]] std::string packed_page(const std::vector<Json>& rows, PageOptions options = {});
 [[nodiscard]] std::string page_of(const std::vector<Json>& rows, PageOptions options = {});
+
+/// The blocks of each section that travels packed.
+[[nodiscard]] std::vector<Json> packed_data(const std::vector<Json>& rows, PageOptions options = {});
 
 /// How often `what` stands in the text.
 [[nodiscard]] std::size_t count(const std::string& text, const std::string& what);
