@@ -57,9 +57,9 @@ async function visit(url, use, { width = 1400, ...context } = {}) {
   assert.deepEqual(said, []);
 }
 
-/** Reads from top to bottom, a screen at a time, and calls look() on each. */
+/** Reads from top to bottom, by what is drawn around a screen, and calls look() each time. */
 async function read(page, look) {
-  for (let top = 0; top < (await page.evaluate(() => document.documentElement.scrollHeight)); top += 800) {
+  for (let top = 0; top < (await page.evaluate(() => document.documentElement.scrollHeight)); top += 1900) {
     await page.evaluate((y) => scrollTo(0, y), top);
     await page.waitForTimeout(60);
     await look();
@@ -113,15 +113,19 @@ test('no two series of a figure look alike, as drawn', () =>
     const look = async () => {
       await settle(page);
       const figures = await page.evaluate(() =>
-        [...document.querySelectorAll('figure .series')].map((legend) => ({
-          title: legend.closest('figure').querySelector('figcaption')?.textContent,
-          keys: [...legend.children].map((entry) => {
-            const dot = entry.querySelector('[aria-label=dot] path, [aria-label=dot] circle'),
-              line = entry.querySelector('[aria-label=line] path'),
-              style = getComputedStyle(dot.closest('[fill]') ?? dot);
-            return [style.fill, dot.getAttribute('d') ?? 'circle', line ? getComputedStyle(line).strokeDasharray : ''].join('|');
-          }),
-        })),
+        [...document.querySelectorAll('figure svg.plot')].map((plot) => {
+          const looks = new Map(); // by series: its first line and its first marker, as they are painted
+          for (const mark of plot.querySelectorAll('g[aria-label=line], g[aria-label=dot]')) {
+            const name = mark.getAttribute('aria-description'),
+              kind = mark.getAttribute('aria-label');
+            if (!name) continue;
+            const look = looks.get(name) ?? looks.set(name, {}).get(name),
+              style = getComputedStyle(mark.firstElementChild),
+              hue = style.stroke === 'none' || mark.getAttribute('stroke') === 'var(--paper)' ? style.fill : style.stroke;
+            look[kind] ??= kind === 'line' ? `${hue} ${style.strokeDasharray}` : `${hue} ${mark.firstElementChild.getAttribute('d') ?? mark.firstElementChild.getAttribute('r')}`;
+          }
+          return { title: plot.getAttribute('aria-label'), keys: [...looks.values()].map((look) => JSON.stringify(look)) };
+        }),
       );
       for (const { title, keys } of figures) {
         assert.equal(new Set(keys).size, keys.length, `${title}: ${keys.join('\n')}`);
@@ -129,7 +133,7 @@ test('no two series of a figure look alike, as drawn', () =>
         seen.series = Math.max(seen.series, keys.length);
       }
     };
-    for (const section of ['precision', 'curves']) {
+    for (const section of ['precision', 'profiles', 'curves', 'scaling']) {
       await goTo(page, section);
       await openGroups(page);
       await read(page, look);

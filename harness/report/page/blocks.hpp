@@ -53,6 +53,8 @@ struct FigureData {
 
 [[nodiscard]] Json words_block(std::string html);
 [[nodiscard]] Json figures_block(Json figures);
+/// Of so many figures at most a group is open from the start.
+inline constexpr std::size_t open_figures = 12;
 /// Folds. small: plain text beside the title.
 [[nodiscard]] Json group_block(std::string title, std::string small, bool open, Json blocks);
 

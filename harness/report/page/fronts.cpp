@@ -126,7 +126,6 @@ PageSection fronts_section(const PageContext& context) {
       R"(which the list under each diagram names with the front's cheapest that is as exact; ringed: an engine as it )"
       R"(ships. Runs that missed a yes/no question are not in the race.)");
   section.blocks.push_back(counts_table(context, fronts).block());
-  bool any = false;
   for (const std::string& group : context.study.groups) {
     Json figures = Json::array();
     for (const Front* front : fronts) {
@@ -136,8 +135,7 @@ PageSection fronts_section(const PageContext& context) {
     if (figures.empty()) continue;
     const std::string count = fmt::format("{} {}", figures.size(), figures.size() == 1 ? "front" : "fronts");
     section.blocks.push_back(
-        group_block(group_title(group), count, !any, Json::array({figures_block(std::move(figures))})));
-    any = true;
+        group_block(group_title(group), count, figures.size() <= open_figures, Json::array({figures_block(std::move(figures))})));
   }
   return section;
 }

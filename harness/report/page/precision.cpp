@@ -177,7 +177,7 @@ PageSection precision_section(const PageContext& context) {
     }
     if (figures.empty()) continue;
     const std::string count = fmt::format("{} {}", figures.size(), figures.size() == 1 ? "diagram" : "diagrams");
-    section.blocks.push_back(group_block(group_title(group), count, section.blocks.empty(),
+    section.blocks.push_back(group_block(group_title(group), count, figures.size() <= open_figures,
                                          Json::array({figures_block(std::move(figures))})));
   }
   if (section.blocks.empty()) section.words += about("No metric has an error and a time to draw.");

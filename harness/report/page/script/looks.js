@@ -89,13 +89,13 @@ export function looksOf(series, engines) {
     return shapes.get(key);
   };
   // An engine's own marker goes to its default settings.
-  for (const one of series) if (one.engine !== undefined && !one.method) shapeOf(one);
+  for (const one of series) if (one.engine !== undefined && !one.method && !one.stepped) shapeOf(one);
   return series.map((one) => {
     if (one.engine === undefined) return { colour: 'var(--frame)', shape: 0, dash: 0 };
     const { hue, colour } = engines[one.engine],
-      shape = shapeOf(one);
+      shape = one.stepped ? 'none' : shapeOf(one);
     let dash = lines.indexOf(one.line ?? '') % kDashes.length;
-    if (!one.quiet && !one.large)
+    if (one.stepped || !(one.quiet || one.large))
       for (let tries = 0; looks.has(`${hue} ${shape} ${dash}`) && tries < kDashes.length; ++tries)
         dash = (dash + 1) % kDashes.length;
     looks.add(`${hue} ${shape} ${dash}`);
