@@ -113,11 +113,16 @@ struct SumParts {
   std::uint32_t* counts;  ///< by mover
   PLUMB_HD void operator()(std::uint32_t i) const {
     if (i * LongSearches::kParts >= *longs.parts) return;
+    constexpr std::uint32_t kAtOnce = 16;  // are on their way from memory together
     std::uint32_t sum = 0;
-    for (std::uint32_t part = i * LongSearches::kParts; part < (i + 1) * LongSearches::kParts; ++part) {
-      const std::uint32_t count = longs.counts[part];
-      longs.counts[part] = sum;
-      sum += count;
+    for (std::uint32_t first = 0; first < LongSearches::kParts; first += kAtOnce) {
+      std::uint32_t* of_parts = longs.counts + i * LongSearches::kParts + first;
+      std::uint32_t own[kAtOnce];
+      for (std::uint32_t k = 0; k < kAtOnce; ++k) own[k] = of_parts[k];
+      for (std::uint32_t k = 0; k < kAtOnce; ++k) {
+        of_parts[k] = sum;
+        sum += own[k];
+      }
     }
     counts[longs.movers[i]] = sum;
   }
