@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "exec/memory.hpp"
-#include "plumb/physics_world.hpp"
 
 namespace plumb::impulse {
 
@@ -42,7 +41,7 @@ class Archive {
       written_.insert(written_.end(), from, from + n * sizeof(T));
       return;
     }
-    if (unread_.size() / sizeof(T) < n) throw Error(PLUMB_E_CORRUPT, "the snapshot ends too early");
+    if (unread_.size() / sizeof(T) < n) ends_too_early();
     std::memcpy(static_cast<void*>(first), unread_.data(), n * sizeof(T));
     unread_ = unread_.subspan(n * sizeof(T));
   }
@@ -54,6 +53,8 @@ class Archive {
   }
 
  private:
+  [[noreturn]] static void ends_too_early();
+
   bool reads_ = false;
   std::vector<std::byte> written_;
   std::span<const std::byte> unread_;

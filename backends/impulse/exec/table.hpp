@@ -1,8 +1,6 @@
 // Rows that the host alone writes and kernels read. What it touched travels before the next step, and no more.
 #pragma once
 
-#include <algorithm>
-
 #include "exec/executor.hpp"
 #include "exec/memory.hpp"
 
@@ -34,8 +32,8 @@ class Table {
 
   void touch(std::size_t i) {
     if (kOneMemory) return;
-    first_ = std::min(first_, i);
-    end_ = std::max(end_, i + 1);
+    if (i < first_) first_ = i;
+    if (i >= end_) end_ = i + 1;
   }
 
   Mirror<T> rows_;

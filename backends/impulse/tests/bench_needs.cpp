@@ -6,6 +6,7 @@
 // declared. There the one thing more is in the scene: cubes, moments that differ in the sixth place, idle joints.
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <chrono>
 
 #include "engine.hpp"

@@ -2,6 +2,7 @@
 // CUDA bench must print too.
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <thread>
 
 #include "broad_phase_cases.hpp"

@@ -2,6 +2,8 @@
 // nothing with the engine but the shapes.
 #pragma once
 
+#include <algorithm>
+
 #include "narrow_reference.hpp"
 
 namespace plumb::impulse::reference {

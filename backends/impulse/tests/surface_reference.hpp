@@ -2,6 +2,7 @@
 // nothing with the engine.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <limits>
 

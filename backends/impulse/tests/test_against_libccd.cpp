@@ -2,6 +2,8 @@
 #include <ccd/ccd.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "narrow_reference.hpp"
 
 namespace plumb::impulse {

@@ -1,6 +1,7 @@
 // Surfaces that run on bodies that stand, against closed forms.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "shape_scenes.hpp"

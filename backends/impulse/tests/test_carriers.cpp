@@ -1,6 +1,7 @@
 // Kinematic bodies carry what stands on them, press what is between them, and may be put elsewhere.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "shape_scenes.hpp"

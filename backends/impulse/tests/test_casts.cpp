@@ -1,4 +1,5 @@
 // Batches of casts and overlaps against distances by brute force.
+#include <algorithm>
 #include <cmath>
 
 #include "query_fixture.hpp"

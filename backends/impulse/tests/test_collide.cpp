@@ -1,6 +1,7 @@
 // Collision without a step, what the engine lets one see, and what is refused at both and at queries.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>

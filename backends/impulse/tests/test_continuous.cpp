@@ -1,6 +1,7 @@
 // Continuous collision: when two moving shapes meet, and that nothing passes through what it is flagged against.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "continuous/impacts.hpp"

@@ -1,6 +1,7 @@
 // Continuous collision against what is not convex, and of what turns: nothing passes that is flagged not to.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "shape_scenes.hpp"

@@ -2,6 +2,7 @@
 // the same pair the other way round and turned as a whole.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 

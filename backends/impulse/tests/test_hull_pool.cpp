@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "narrow_reference.hpp"
 #include "plumb/physics_world.hpp"
 

@@ -1,7 +1,9 @@
 // Limits, motors, springs, universal and generic joints against closed forms, with each solver where it promises them.
+#include <algorithm>
 #include <array>
 
 #include "joint_rig.hpp"
+#include "plumb/physics_world.hpp"
 
 namespace plumb::impulse {
 namespace {

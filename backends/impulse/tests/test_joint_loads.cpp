@@ -1,4 +1,6 @@
 // Reactions of joints, and joints that break.
+#include <algorithm>
+
 #include "joint_rig.hpp"
 
 namespace plumb::impulse {

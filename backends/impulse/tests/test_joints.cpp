@@ -1,4 +1,5 @@
 // Joints against closed forms: pendulums, a slope, free flight; and that momentum and bits are kept.
+#include <algorithm>
 #include <array>
 
 #include "joint_rig.hpp"

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "convex_reference.hpp"
 
 namespace plumb::impulse {

@@ -1,6 +1,7 @@
 // Boxes and hulls against brute force in double. PLUMB_NARROW_PAIRS sets how many random pairs of each kind are tried.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 #include "narrow_reference.hpp"

@@ -1,4 +1,5 @@
 // Batches of rays against all shapes one by one.
+#include <algorithm>
 #include <cmath>
 
 #include "query_fixture.hpp"

@@ -1,6 +1,7 @@
 // Pairs with a sphere or a capsule against brute force in double: distances by search, depths by all axes.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 
 #include "narrow_reference.hpp"

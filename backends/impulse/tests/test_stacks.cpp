@@ -1,6 +1,7 @@
 // Stacks that stand as they were built: nothing in a step may lean them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine.hpp"

@@ -2,6 +2,7 @@
 // brute force over all triangles, and closed forms.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "surface_fixture.hpp"

@@ -2,6 +2,7 @@
 // force over all triangles, in both orders, and closed forms.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 

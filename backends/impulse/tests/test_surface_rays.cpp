@@ -1,6 +1,7 @@
 // Rays against planes, meshes, height fields and cylinders: all triangles one by one in double, and closed forms.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "surface_fixture.hpp"

@@ -1,6 +1,7 @@
 // Planes, triangle meshes and height fields in the world: what stands, slides and rolls on them does as on a box.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "shape_scenes.hpp"

@@ -1,6 +1,7 @@
 // Convex shapes against the triangles of a surface: together they touch as the solid does that the surface bounds.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "geometry/mesh_topology.hpp"

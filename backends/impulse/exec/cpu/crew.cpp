@@ -32,11 +32,12 @@ Crew::Crew(const PlumbHost* host, std::uint32_t threads) : host_(host), threads_
   const bool lends = host_ != nullptr && host_->run != nullptr && host_->worker_count > 0;
   if (!lends) host_ = nullptr;
   if (lends && threads_ > host_->worker_count) threads_ = host_->worker_count;
-  const std::uint32_t processors = std::max(1U, std::thread::hardware_concurrency());
-  if (!lends && threads_ > processors) threads_ = processors;
-  if (!lends && threads_ > 1) arena_ = std::make_unique<Arena>(static_cast<int>(threads_));
+  if (!lends) threads_ = std::min(threads_, processors());
+  if (!lends && threads_ > 1) arena_ = new Arena(static_cast<int>(threads_));
 }
-Crew::~Crew() = default;
+Crew::~Crew() { delete arena_; }
+
+std::uint32_t Crew::processors() { return std::max(1U, std::thread::hardware_concurrency()); }
 
 void Crew::run_chunks(std::uint32_t count, void* context, PlumbTask task) const {
   GuardedTask guarded{context, task};

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 
 #include "plumb/plumb.h"
 
@@ -12,8 +11,12 @@ class Crew {
  public:
   /// host may be null. Where it lends a job system and more than one thread is asked for, that is used.
   Crew(const PlumbHost* host, std::uint32_t threads);
+  Crew(const Crew&) = delete;
+  Crew& operator=(const Crew&) = delete;
   ~Crew();
 
+  /// Of this machine, at least one.
+  static std::uint32_t processors();
   [[nodiscard]] std::uint32_t threads() const { return threads_; }
 
   /// f(i) for every i < n. Small n, or one thread: a plain loop here.
@@ -49,7 +52,7 @@ class Crew {
   struct Arena;
   const PlumbHost* host_;
   std::uint32_t threads_;
-  std::unique_ptr<Arena> arena_;  // null with one thread or with the host's job system
+  Arena* arena_ = nullptr;  // own; null with one thread or with the host's job system
 };
 
 }  // namespace plumb::impulse

@@ -1,9 +1,7 @@
 // The executor of the CPU library: kernels run at once, on the world's threads.
 #pragma once
 
-#include <algorithm>
 #include <string>
-#include <thread>
 
 #include "exec/cpu/crew.hpp"
 #include "exec/cpu/recording.hpp"
@@ -52,7 +50,7 @@ class Executor {
 
   static std::string unmet_requirement() { return {}; }
   static const char* device_name() { return "cpu"; }
-  static std::uint32_t max_threads() { return std::max(1U, std::thread::hardware_concurrency()); }
+  static std::uint32_t max_threads() { return Crew::processors(); }
 
   [[nodiscard]] std::uint32_t threads() const { return crew_.threads(); }
 

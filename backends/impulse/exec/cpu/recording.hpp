@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "exec/memory.hpp"
-#include "plumb/physics_world.hpp"
 
 namespace plumb::impulse {
 
@@ -39,9 +38,7 @@ class Recording {
     if (replays_ && (at_ + size > noted_.size() || std::memcmp(noted_.data() + at_, bytes, size) != 0)) stale();
     at_ += size;
   }
-  [[noreturn]] static void stale() {
-    throw Error(PLUMB_E_INTERNAL, "a recorded step would be replayed with numbers or addresses that have changed");
-  }
+  [[noreturn]] static void stale();
 
   std::vector<std::byte> noted_;
   std::size_t at_ = 0;
