@@ -1,5 +1,5 @@
-// Pair functions of a convex shape A with a plane, or with one triangle of a mesh or a height field, B. Parameters as
-// in collide.hpp, the shape's row among the surfaces, and the triangle.
+// Pair functions of a convex shape with one triangle of a mesh or a height field, in the surface's frame; the surface
+// is the first shape.
 #pragma once
 
 #include "body.hpp"
@@ -33,21 +33,5 @@ PLUMB_HD bool touch(const Surface& on, std::uint32_t t, const Shape& shape, cons
 }
 
 }  // namespace surface
-
-PLUMB_HD inline bool collide_with_piece(const Shape& a, const Quat& qa, const Shape& b, const Quat& qb, const Vec& d,
-                                        Real margin, const Proxies& proxies, std::uint32_t triangle, Manifold& out) {
-  const Quat turn = conjugate(qb) * qa;
-  const Vec shift = rotate_back(qb, -d);
-  const Real tie = kTie * (a.reach + length(shift));
-  bool touch = false;
-  if (b.type == ShapeType::kPlane)
-    touch = touch_plane(a, turn, shift, margin, proxies.hulls, out);
-  else if (b.type == ShapeType::kMesh)
-    touch = surface::touch(proxies.surfaces.meshes[b.hull], triangle, a, turn, shift, margin, tie, proxies.hulls, out);
-  else
-    touch = surface::touch(proxies.surfaces.fields[b.hull], triangle, a, turn, shift, margin, tie, proxies.hulls, out);
-  if (touch) round_polyhedron::put_second(qb, d, out);
-  return touch;
-}
 
 }  // namespace plumb::impulse

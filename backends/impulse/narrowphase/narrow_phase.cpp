@@ -1,8 +1,7 @@
 #include "narrowphase/narrow_phase.hpp"
 
 #include "exec/atomic.hpp"
-#include "narrowphase/collide.hpp"
-#include "narrowphase/collide_pieces.hpp"
+#include "narrowphase/collide_any.hpp"
 
 namespace plumb::impulse {
 

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "narrowphase/collide.hpp"
-#include "narrowphase/collide_pieces.hpp"
 #include "queries/line_surface.hpp"
 #include "queries/pair_contacts.hpp"
 #include "queries/surface_pairs.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "geometry/mesh_topology.hpp"
-#include "narrowphase/collide_pieces.hpp"
+#include "narrowphase/collide.hpp"
 #include "shape_scenes.hpp"
 #include "support_reference.hpp"
 

@@ -1,0 +1,89 @@
+// Pair functions by the types that shapes turn out to have. On a CPU one file has them (narrow_phase.cpp), the others
+// call them (collide.hpp).
+#pragma once
+
+#include "narrowphase/box_box.hpp"
+#include "narrowphase/capsule.hpp"
+#include "narrowphase/collide.hpp"
+#include "narrowphase/collide_pieces.hpp"
+#include "narrowphase/cylinder_pairs.hpp"
+#include "narrowphase/polyhedra.hpp"
+#include "narrowphase/round.hpp"
+#include "narrowphase/round_polyhedron.hpp"
+
+// In one file of a CPU's library; on a device in each kernel that calls it.
+#if defined(__CUDACC__)
+#define PLUMB_ONCE inline
+#else
+#define PLUMB_ONCE
+#endif
+
+namespace plumb::impulse {
+
+/// A convex shape and a cylinder.
+PLUMB_HD inline bool collide_with_cylinder(const Shape& a, const Quat& qa, const Shape& b, const Quat& qb, const Vec& d,
+                                           Real margin, const Hulls& hulls, Manifold& out) {
+  switch (a.type) {
+    case ShapeType::kSphere: return collide_sphere_cylinder(a, qa, b, qb, d, margin, hulls, out);
+    case ShapeType::kBox: return collide_box_cylinder(a, qa, b, qb, d, margin, hulls, out);
+    case ShapeType::kCapsule: return collide_capsule_cylinder(a, qa, b, qb, d, margin, hulls, out);
+    case ShapeType::kHull: return collide_hull_cylinder(a, qa, b, qb, d, margin, hulls, out);
+    default: return collide_cylinder_cylinder(a, qa, b, qb, d, margin, hulls, out);
+  }
+}
+
+/// Any two convex shapes without cylinders, with a.type <= b.type.
+PLUMB_HD inline bool collide_ordered(const Shape& a, const Quat& qa, const Shape& b, const Quat& qb, const Vec& d,
+                                     Real margin, const Hulls& hulls, Manifold& out) {
+  const auto kind = [](ShapeType type_a, ShapeType type_b) {
+    return static_cast<std::uint32_t>(type_a) * kShapeTypes + static_cast<std::uint32_t>(type_b);
+  };
+  using enum ShapeType;
+  switch (kind(a.type, b.type)) {
+    case kind(kSphere, kSphere): return collide_sphere_sphere(a, qa, b, qb, d, margin, hulls, out);
+    case kind(kSphere, kBox): return collide_sphere_box(a, qa, b, qb, d, margin, hulls, out);
+    case kind(kSphere, kCapsule): return collide_sphere_capsule(a, qa, b, qb, d, margin, hulls, out);
+    case kind(kSphere, kHull): return collide_sphere_hull(a, qa, b, qb, d, margin, hulls, out);
+    case kind(kBox, kBox): return collide_box_box(a, qa, b, qb, d, margin, hulls, out);
+    case kind(kBox, kCapsule): return collide_box_capsule(a, qa, b, qb, d, margin, hulls, out);
+    case kind(kBox, kHull): return collide_box_hull(a, qa, b, qb, d, margin, hulls, out);
+    case kind(kCapsule, kCapsule): return collide_capsule_capsule(a, qa, b, qb, d, margin, hulls, out);
+    case kind(kCapsule, kHull): return collide_capsule_hull(a, qa, b, qb, d, margin, hulls, out);
+    default: return collide_hull_hull(a, qa, b, qb, d, margin, hulls, out);
+  }
+}
+
+/// Any two convex shapes with a.type <= b.type.
+PLUMB_HD inline bool collide_convex(const Shape& a, const Quat& qa, const Shape& b, const Quat& qb, const Vec& d,
+                                    Real margin, const Hulls& hulls, Manifold& out) {
+  return b.type == ShapeType::kCylinder ? collide_with_cylinder(a, qa, b, qb, d, margin, hulls, out)
+                                        : collide_ordered(a, qa, b, qb, d, margin, hulls, out);
+}
+
+/// Any two convex shapes.
+PLUMB_HD PLUMB_ONCE bool collide(const Shape& a, const Quat& qa, const Shape& b, const Quat& qb, const Vec& d,
+                                 Real margin, const Hulls& hulls, Manifold& out) {
+  if (a.type <= b.type) return collide_convex(a, qa, b, qb, d, margin, hulls, out);
+  const bool touch = collide_convex(b, qb, a, qa, -d, margin, hulls, out);
+  if (touch) swap_sides(d, out);
+  return touch;
+}
+
+PLUMB_HD PLUMB_ONCE bool collide_with_piece(const Shape& a, const Quat& qa, const Shape& b, const Quat& qb,
+                                            const Vec& d, Real margin, const Proxies& proxies, std::uint32_t triangle,
+                                            Manifold& out) {
+  const Quat turn = conjugate(qb) * qa;
+  const Vec shift = rotate_back(qb, -d);
+  const Real tie = kTie * (a.reach + length(shift));
+  bool touch = false;
+  if (b.type == ShapeType::kPlane)
+    touch = touch_plane(a, turn, shift, margin, proxies.hulls, out);
+  else if (b.type == ShapeType::kMesh)
+    touch = surface::touch(proxies.surfaces.meshes[b.hull], triangle, a, turn, shift, margin, tie, proxies.hulls, out);
+  else
+    touch = surface::touch(proxies.surfaces.fields[b.hull], triangle, a, turn, shift, margin, tie, proxies.hulls, out);
+  if (touch) round_polyhedron::put_second(qb, d, out);
+  return touch;
+}
+
+}  // namespace plumb::impulse
