@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <new>
 #include <optional>
@@ -293,6 +294,8 @@ Json run_cell(Backend& backend, const Json& request, Progress& progress) {
   std::optional<Scene> scene;
   std::optional<Trace> trace;
   std::optional<CellContext> context;
+  const RecordingRequest recording = recording_of(request);
+  if (!recording.file.empty()) std::filesystem::remove(recording.file);
   Outcome outcome = outcome_of([&] {
     const SceneFile file = scene_file_of(request);
     scene.emplace(scene_of(file, request));
@@ -300,7 +303,7 @@ Json run_cell(Backend& backend, const Json& request, Progress& progress) {
     scene->needs |= needs_beside(request.at("needs").get<std::string>());
     const SimulationOptions options = options_of(backend, request);
     trace.emplace(backend, request.value("trace", ""));
-    context.emplace(trace->backend(), *scene, options, progress, recording_of(request));
+    context.emplace(trace->backend(), *scene, options, progress, recording);
     find_measure(file).run(*context);
   });
   if (outcome.status == "ok" && !context->record().trouble.empty()) outcome = {"error", context->record().trouble};
@@ -317,9 +320,13 @@ Json run_cell(Backend& backend, const Json& request, Progress& progress) {
   answer["status"] = outcome.status;
   answer["reason"] = outcome.reason;
   answer["peak_mb"] = peak_memory_mb();
-  if (const RecordingRequest recording = recording_of(request); context && !recording.file.empty())
-    end_trajectory(recording.file,
-                   {{"status", answer["status"]}, {"reason", answer["reason"]}, {"hash", answer["hash"]}});
+  if (scene && !recording.file.empty() && !std::filesystem::exists(recording.file) && scene->lacks.empty())
+    record_start(recording, *scene);
+  if (context && !recording.file.empty())
+    end_trajectory(recording.file, {{"status", answer["status"]},
+                                    {"reason", answer["reason"]},
+                                    {"hash", answer["hash"]},
+                                    {"metrics", answer["metrics"]}});
   return answer;
 }
 

@@ -40,7 +40,7 @@ std::string trajectory_of(const std::filesystem::path& results, const Cell& cell
 
 bool wants_recording(const std::filesystem::path& results, const Cell& cell, const Json& row, bool is_new) {
   const std::string status = row.value("status", "");
-  if (status == "unsupported" || status == "timeout" || status == "out_of_memory") return false;
+  if (status == "timeout" || status == "out_of_memory") return false;
   return is_new || !std::filesystem::exists(trajectory_of(results, cell));
 }
 

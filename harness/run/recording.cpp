@@ -33,6 +33,14 @@ std::uint64_t stride_of(const Scene& scene) {
 
 }  // namespace
 
+void record_start(const RecordingRequest& request, const Scene& scene) {
+  std::vector<PoseRow> poses;
+  for (const SceneBody& body : scene.bodies) poses.push_back({body.desc.pose.position, body.desc.pose.orientation});
+  Json header = replay_header(scene, poses);
+  header.update(request.about);
+  TrajectoryWriter(request.file, std::move(header), {}).finish();
+}
+
 Recording::Recording(const RecordingRequest& request, Simulation& simulation, const Backend& backend,
                      PlumbNeeds declared)
     : layers_(simulation, backend, declared, request.debug),

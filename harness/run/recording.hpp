@@ -15,6 +15,9 @@ struct RecordingRequest {
   Json about = Json::object();  ///< "title", "params", "backend", "label", "cell"
 };
 
+/// Writes a recording without frames: the scene as it would have begun, where nothing could run.
+void record_start(const RecordingRequest& request, const Scene& scene);
+
 class Recording {
  public:
   /// Writes the header and the frame of the start. declared: the needs of the simulation's world. Throws Error when the

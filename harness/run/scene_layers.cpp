@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "measure/referee_view.hpp"
+#include "run/joint_layer.hpp"
 
 namespace plumb::harness {
 
@@ -44,7 +45,7 @@ struct SceneLayers::State {
   };
 
   State(Simulation& simulation, const Backend& used, PlumbNeeds needs)
-      : scene(simulation.scene()), view(scene), backend(used), declared(needs) {
+      : scene(simulation.scene()), view(scene), backend(used), declared(needs), joint_rows(simulation) {
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
       index[simulation.handle(i)] = static_cast<std::uint32_t>(i);
       if (scene.bodies[i].desc.motion != PLUMB_STATIC) moving.push_back(i);
@@ -55,6 +56,7 @@ struct SceneLayers::State {
   RefereeView view;
   const Backend& backend;
   PlumbNeeds declared;
+  JointLayer joint_rows;
   std::vector<std::size_t> moving;
   std::unordered_map<PlumbBody, std::uint32_t> index;
   std::uint64_t spread = 1;  ///< frames between looks at what costs
@@ -75,6 +77,7 @@ struct SceneLayers::State {
   bool shows(Simulation& simulation, const char* layer, const Ask& ask);
 
   LayerData series(Simulation& simulation, const LayerSpec& spec);
+  LayerData joints(Simulation& simulation, const LayerSpec&) { return joint_rows.look(simulation); }
   LayerData penetration(Simulation& simulation, const LayerSpec& spec);
   LayerData contacts(Simulation& simulation, const LayerSpec& spec);
   LayerData overlaps_as_contacts(Simulation& simulation, const LayerSpec& spec);
@@ -95,6 +98,11 @@ void SceneLayers::State::add_scene_layers() {
        1,
        "the referee; the number of contacts is the engine's",
        &State::series});
+  if (scene.joints.empty()) {
+    without["joints"] = "the scene has no joints";
+  } else {
+    layers.push_back({JointLayer::spec(), spread, "the referee", &State::joints});
+  }
   if (has_need(PLUMB_NEED_COLLISION)) {
     layers.push_back(
         {{"penetration", LayerRows::moving, {{"penetration", "f32"}}}, spread, "the referee", &State::penetration});

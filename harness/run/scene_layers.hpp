@@ -1,5 +1,5 @@
-// What is looked at beside the poses in the frames of a recording: the referee's account of energy, momentum and
-// overlaps, the engine's contacts and who sleeps; and, when asked for, what plumb.debug/1 shows.
+// What is looked at beside the poses in the frames of a recording: the referee's account of energy, momentum, overlaps
+// and the gaps of joints, the engine's contacts and who sleeps; and, when asked for, what plumb.debug/1 shows.
 #pragma once
 
 #include <memory>
@@ -10,6 +10,7 @@ namespace plumb::harness {
 
 /// The layers, where scene and backend have them; bodies are indices of the scene:
 ///   series       one: kinetic, potential (J), momentum (kg m/s), momenta (sum of sizes), contacts (points)
+///   joints       list: the joints that there are, with their gaps (run/joint_layer.hpp)
 ///   penetration  moving: deepest overlap of each body by the referee, m
 ///   contacts     list: the engine's points and normals, the referee's depth of the two bodies (the engine's own where
 ///                the referee sees none), the engine's depth of the point, force from the impulse (N, NaN where not

@@ -14,8 +14,9 @@ namespace plumb::harness {
 /// {"type":"compound","children":[{"shape","position","orientation"}]}. m; orientations x y z w.
 [[nodiscard]] Json replay_shape(const SceneShape& shape);
 
-/// {"kind":"scene","scene","dt","seconds","shapes","bodies":[{"name","shape","motion","start":[7]}],"moving"}: bodies
-/// start at `poses`; moving are those that are not static.
+/// {"kind","scene","dt","seconds","shapes","bodies":[{"name","shape","motion","start":[7]}],"moving","joints"}:
+/// bodies start at `poses`; moving are those that are not static; joints as in run/joint_layer.hpp, missing in the files
+/// of older programs.
 [[nodiscard]] Json replay_header(const Scene& scene, std::span<const PoseRow> poses);
 
 }  // namespace plumb::harness

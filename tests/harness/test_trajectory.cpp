@@ -1,6 +1,8 @@
 // Trajectories come back as they were written, within what the format keeps.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <random>
@@ -63,6 +65,73 @@ TEST(Trajectory, round_trip_through_a_run) {
   } catch (const Error& error) {
     EXPECT_NE(std::string(error.what()).find("record the cell again"), std::string::npos) << error.what();
   }
+}
+
+/// Where a point of a body's frame is in the world.
+std::array<double, 3> world_point(const PoseRow& row, const Json& frame) {
+  const auto& [p, q] = row;
+  const double x = frame[0], y = frame[1], z = frame[2];
+  const double tx = 2 * (q.y * z - q.z * y), ty = 2 * (q.z * x - q.x * z), tz = 2 * (q.x * y - q.y * x);
+  return {p.x + x + q.w * tx + q.y * tz - q.z * ty, p.y + y + q.w * ty + q.z * tx - q.x * tz,
+          p.z + z + q.w * tz + q.x * ty - q.y * tx};
+}
+
+TEST(Trajectory, joints_are_recorded_with_their_anchors_and_gaps) {
+  const std::filesystem::path folder = fresh_folder("joints");
+  const Finished finished = plumb({"run", "E1", "--param", "L=4", "motion=hanging", "--seconds", "0.5", "--record",
+                                   "--out", folder.string(), "--json"});
+  int seen = 0;
+  for (const Json& row : finished.rows()) {
+    if (row["status"] != "ok" && row["status"] != "failed") continue;
+    const auto file = folder / "trajectories" / (row["cell"].get<std::string>() + ".plt");
+    const Trajectory trajectory = read_trajectory(file);
+    const Json& joints = trajectory.header["joints"];
+    ASSERT_EQ(joints.size(), 5u) << "the world, four links, the tip";
+    EXPECT_TRUE(joints[0]["body_a"].is_null());
+    EXPECT_EQ(trajectory.outcome["metrics"], row["metrics"]);
+    const auto layer = static_cast<std::size_t>(std::find_if(trajectory.layers.begin(), trajectory.layers.end(),
+                                                             [](const auto& l) { return l.name == "joints"; }) -
+                                                trajectory.layers.begin());
+    ASSERT_LT(layer, trajectory.layers.size());
+    for (std::size_t f = 0; f < trajectory.frames.size(); ++f) {
+      const TrajectoryFrame& frame = trajectory.frames[f];
+      const auto& rows = frame.layers[layer];
+      ASSERT_TRUE(rows && rows->rows == 5);
+      for (std::uint32_t j = 0; j < 5; ++j) {
+        EXPECT_EQ(rows->get<std::uint32_t>(0, j), j);
+        EXPECT_EQ(joints[j]["type"], "ball");
+        // Of a chain that hangs at rest anchor j is j metres below the world's.
+        const auto b = world_point(frame.poses.at(joints[j]["body_b"].get<std::size_t>()), joints[j]["frame_b"]);
+        const PoseRow world{{0, 0, 0}, {0, 0, 0, 1}};
+        const PoseRow& body_a =
+            joints[j]["body_a"].is_null() ? world : frame.poses.at(joints[j]["body_a"].get<std::size_t>());
+        const auto a = world_point(body_a, joints[j]["frame_a"]);
+        if (f == 0) {
+          EXPECT_NEAR(a[1], -static_cast<double>(j), 1e-9);
+          EXPECT_NEAR(b[1], -static_cast<double>(j), 1e-9);
+        }
+        // Poses are kept as float32 and orientations in 15 bits; the gap is of the poses before that.
+        const double apart = std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+        EXPECT_NEAR(rows->get<float>(1, j), apart, 2e-4) << row["backend"] << " frame " << f << " joint " << j;
+      }
+    }
+    ++seen;
+  }
+  if (seen == 0) GTEST_SKIP() << "no backend here has ball joints";
+}
+
+TEST(Trajectory, what_cannot_run_is_recorded_as_it_would_have_begun) {
+  const std::filesystem::path folder = fresh_folder("unsupported");
+  const Finished finished =
+      plumb({"run", "E1", "--backend", SAMPLE_BACKEND, "--record", "--out", folder.string(), "--json"});
+  ASSERT_FALSE(finished.rows().empty()) << finished.err;
+  const Json row = finished.rows()[0];
+  ASSERT_EQ(row["status"], "unsupported") << "the sample has no joints";
+  const Trajectory trajectory = read_trajectory(folder / "trajectories" / (row["cell"].get<std::string>() + ".plt"));
+  EXPECT_EQ(trajectory.outcome["status"], "unsupported");
+  EXPECT_EQ(trajectory.outcome["reason"], row["reason"]);
+  EXPECT_EQ(trajectory.header["bodies"].size(), 11u);
+  EXPECT_TRUE(trajectory.frames.empty());
 }
 
 TEST(Trajectory, cells_that_are_finished_are_recorded_when_asked_for) {

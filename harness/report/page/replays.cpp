@@ -36,8 +36,8 @@ std::string replay_page(const std::vector<PageReplay>& replays) {
 
 std::string replays_place(const PageOptions& options) {
   if (options.replays.empty() && options.replays_note.empty()) return "";
-  std::string words = "What the engines made of the same scene, side by side. Curves and colours of depth are the "
-                      "referee's; contact forces are the engine's own. ";
+  std::string words = "What the engines made of the same scene, side by side. Curves, depths and the gaps of "
+                      "joints are the referee's; contact forces are the engine's own. ";
   words += escape_html(options.replays_note);
   const std::string start = R"(<section id="replays" class="part replays"><h2>Replays</h2>)";
   if (options.replays.empty()) return start + about(words) + "</section>";
