@@ -9,8 +9,8 @@ namespace plumb::harness {
 
 struct ReplayLimits {
   std::size_t scenes = 1000;               ///< at most so many (scene, parameters), pairs of shapes apart
-  std::size_t bytes_of_replay = 6u << 20;  ///< packed; 4/3 of it in the page
-  std::size_t bytes_of_all = std::size_t{30} << 20;
+  std::size_t bytes_of_replay = 1u << 20;  ///< packed; 4/3 of it in the page
+  std::size_t bytes_of_all = 9u << 19;
 };
 
 /// Sets options.replays and replays_note from FOLDER/trajectories: of every scene with its parameters one replay a

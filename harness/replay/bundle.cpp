@@ -5,21 +5,40 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
+#include <cstring>
 #include <set>
+
+#include "replay/badge.hpp"
+#include "replay/fineness.hpp"
+#include "replay/lists.hpp"
+#include "replay/motion.hpp"
 
 namespace plumb::harness {
 
 namespace {
 
-constexpr double steps_of_position = 65535;
-constexpr double steps_of_component = 32767;
-constexpr double fine_enough = 1e-3;  // m: the largest step of a position in 16 bits
 constexpr double fewest_frames_a_second = 15;
 constexpr std::size_t fewest_frames = 90;
+constexpr int mantissa_bits = 10;     // of depths, forces and gaps: three digits
+constexpr float least_depth = 1e-9f;  // m: below it the viewer's colours do not begin
+constexpr double step_of_normal = 1.0 / 256;
+constexpr int digits_of_header = 7;
+const std::set<std::string> not_drawn{"contacts/depth", "contacts/engine_depth", "boxes/tree"};
 
 template <class Number>
 void put(std::string& bytes, Number number) {
   bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
+}
+
+/// The same JSON with numbers as short as a float32 needs.
+Json shortened(const Json& json) {
+  if (json.is_number_float())
+    return std::strtod(fmt::format("{:.{}g}", json.get<double>(), digits_of_header).c_str(), nullptr);
+  Json result = json;
+  if (json.is_structured())
+    for (Json& entry : result) entry = shortened(entry);
+  return result;
 }
 
 struct Choice {
@@ -29,7 +48,8 @@ struct Choice {
 
 class Maker {
  public:
-  Maker(const Trajectory& trajectory, const Choice& choice) : from_(trajectory), left_out_(choice.left_out) {
+  Maker(const Trajectory& trajectory, const Choice& choice)
+      : from_(trajectory), left_out_(choice.left_out), step_(step_of_positions(trajectory)) {
     const std::size_t count = trajectory.frames.size();
     for (std::size_t i = 0; i < count; i += choice.stride) frames_.push_back(i);
     if (count > 0 && frames_.back() != count - 1) frames_.push_back(count - 1);
@@ -38,8 +58,7 @@ class Maker {
   Bundle make() {
     add_header();
     add_times();
-    add_positions();
-    add_orientations();
+    add_poses();
     for (std::size_t i = 0; i < from_.layers.size(); ++i) {
       const LayerSpec& spec = from_.layers[i];
       if (left_out_.contains(spec.name)) continue;
@@ -75,77 +94,48 @@ class Maker {
     Json& header = bundle_.header;
     header = from_.header;
     for (const char* key : {"layers", "driven", "closed", "units"}) header.erase(key);
+    for (const char* key : {"shapes", "bodies", "joints"})
+      if (header.contains(key)) header[key] = shortened(header[key]);
+    if (!frames_.empty() && header.contains("bodies"))
+      for (const std::size_t body : from_.moving) header["bodies"].at(body).erase("start");
     const bool ended = from_.outcome.is_object();
     header["status"] = ended ? from_.outcome.value("status", "") : "crashed";
     header["reason"] = ended ? from_.outcome.value("reason", "") : "the recording breaks off: its process ended";
+    if (const Json badge = badge_of(from_.outcome); !badge.is_null()) header["badge"] = badge;
     header["frames"] = frames_.size();
     header["series"] = Json::object();
+    header["bounds"] = {{"position", step_}, {"angle", angle_bound}};
   }
 
   void add_times() {
     std::string bytes;
     const double dt = from_.header.value("dt", 1.0);
     for (const std::size_t frame : frames_) put(bytes, static_cast<float>(from_.frames[frame].step * dt));
-    bundle_.sections["times"] = {"f32", {frames_.size()}, bytes};
+    add_by_frame("times", "f32", 1, bytes, {});
   }
 
-  void add_positions() {
-    std::array<double, 3> lower{}, upper{};
-    lower.fill(INFINITY);
-    upper.fill(-INFINITY);
-    bool finite = true;
-    const auto coordinates = [](const PoseRow& row) {
-      return std::array{row.position.x, row.position.y, row.position.z};
-    };
-    for (const std::size_t frame : frames_) {
-      for (const PoseRow& row : from_.frames[frame].poses) {
-        const auto at = coordinates(row);
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-          lower[axis] = std::min(lower[axis], at[axis]);
-          upper[axis] = std::max(upper[axis], at[axis]);
-          finite = finite && std::isfinite(at[axis]);
-        }
-      }
-    }
-    double step = 0, largest = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (!(lower[axis] <= upper[axis])) lower[axis] = upper[axis] = 0;
-      step = std::max(step, (upper[axis] - lower[axis]) / steps_of_position);
-      largest = std::max({largest, std::abs(lower[axis]), std::abs(upper[axis])});
-    }
-    const bool whole = finite && (step <= fine_enough || step <= largest * 0x1p-24);
-    std::string bytes;
-    for (const std::size_t frame : frames_) {
-      for (const PoseRow& row : from_.frames[frame].poses) {
-        const auto at = coordinates(row);
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-          const double span = upper[axis] - lower[axis];
-          if (whole) {
-            put(bytes, static_cast<std::uint16_t>(
-                           span > 0 ? std::round((at[axis] - lower[axis]) / span * steps_of_position) : 0));
-          } else {
-            put(bytes, static_cast<float>(at[axis]));
-          }
-        }
-      }
-    }
-    if (whole) {
-      bundle_.header["lower"] = lower;
-      bundle_.header["upper"] = upper;
-    }
-    bundle_.sections["positions"] = {whole ? "u16" : "f32", {frames_.size(), bodies(), 3}, bytes};
+  void add_poses() {
+    std::vector<std::vector<PoseRow>> poses;
+    for (const std::size_t frame : frames_) poses.push_back(from_.frames[frame].poses);
+    bundle_.sections["positions"] = coded_positions(poses, step_);
+    bundle_.sections["orientations"] = coded_orientations(poses);
   }
 
-  void add_orientations() {
-    std::string bytes;
-    for (const std::size_t frame : frames_) {
-      for (const PoseRow& row : from_.frames[frame].poses) {
-        const auto& [x, y, z, w] = row.orientation;
-        for (const double component : {x, y, z, w})
-          put(bytes, static_cast<std::int16_t>(std::round(std::clamp(component, -1.0, 1.0) * steps_of_component)));
-      }
-    }
-    bundle_.sections["orientations"] = {"i16", {frames_.size(), bodies(), 4}, bytes};
+  /// A section of `width` numbers for each frame, which are held against those of the frame before.
+  void add_by_frame(const std::string& name, const std::string& type, std::size_t width, const std::string& bytes,
+                    const Exactness& exactness) {
+    std::vector<std::size_t> shape{frames_.size()};
+    if (width != 1) shape.push_back(width);
+    bundle_.sections[name] =
+        coded_column(type, shape, bytes, 1, rows_earlier(frames_.size() * width, width), width, exactness);
+  }
+
+  /// What a column is rounded to: lengths in space to steps of positions, directions, the others to digits.
+  [[nodiscard]] Exactness exactness_of(const std::string& column) const {
+    if (column == "point" || column == "lower" || column == "upper") return {step_, 0, 0};
+    if (column == "normal" || column == "axis") return {step_of_normal, 0, 0};
+    const bool is_force = column == "force";
+    return {0, mantissa_bits, is_force ? 0 : least_depth};
   }
 
   void add_series(const std::string& name, const std::vector<double>& values, const std::string& unit,
@@ -153,7 +143,7 @@ class Maker {
     std::string bytes;
     for (const double value : values) put(bytes, static_cast<float>(value));
     bundle_.header["series"][name] = {{"unit", unit}, {"doc", doc}};
-    bundle_.sections["series/" + name] = {"f32", {frames_.size()}, bytes};
+    add_by_frame("series/" + name, "f32", 1, bytes, {});
   }
 
   /// One column of a layer of one row over the frames, the part-th number of those that it is wide.
@@ -219,34 +209,63 @@ class Maker {
       }
       if (column.name == "penetration")
         add_series("max_penetration", deepest, "m", "deepest overlap of any two bodies, by the referee");
-      bundle_.sections[column.name] = {column.type, {frames_.size(), bodies()}, bytes};
+      add_by_frame(column.name, column.type, bodies(), bytes, exactness_of(column.name));
     }
   }
 
   void add_list(std::size_t layer) {
     const LayerSpec& spec = from_.layers[layer];
-    std::string start;
-    std::uint32_t rows = 0;
+    std::vector<std::uint32_t> start{0};
     std::vector<std::string> columns(spec.columns.size());
     for (const std::size_t frame : frames_) {
-      put(start, rows);
       const LayerData* data = layer_at(layer, frame);
-      if (data == nullptr) continue;
-      rows += data->rows;
-      for (std::size_t c = 0; c < columns.size(); ++c) columns[c] += data->columns[c];
+      start.push_back(start.back() + (data != nullptr ? data->rows : 0));
+      for (std::size_t c = 0; data != nullptr && c < columns.size(); ++c) columns[c] += data->columns[c];
     }
-    put(start, rows);
-    bundle_.sections[spec.name + "/start"] = {"u32", {frames_.size() + 1}, start};
+    std::string start_bytes;
+    for (const std::uint32_t row : start) put(start_bytes, row);
+    bundle_.sections[spec.name + "/start"] =
+        coded_column("u32", {start.size()}, start_bytes, 1, rows_earlier(start.size(), 1), 1, {});
+    add_rows(spec, start, columns);
+  }
+
+  /// Rows in the order of their keys: who is meant is told from the row above, the rest from the same ones in the frame
+  /// before.
+  void add_rows(const LayerSpec& spec, const std::vector<std::uint32_t>& start, std::vector<std::string>& columns) {
+    static const std::set<std::string> names_of_keys{"body_a", "body_b", "body", "joint"};
+    Json key_names = Json::array();
+    std::vector<std::vector<std::uint32_t>> keys;
+    std::vector<std::uint32_t> ids;
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      const bool is_key = names_of_keys.contains(spec.columns[c].name);
+      if (!is_key && spec.columns[c].name != "id") continue;
+      std::vector<std::uint32_t> numbers(start.back());
+      std::memcpy(numbers.data(), columns[c].data(), columns[c].size());
+      if (is_key) key_names.push_back(spec.columns[c].name);
+      if (is_key)
+        keys.push_back(std::move(numbers));
+      else
+        ids = std::move(numbers);
+    }
+    const MatchedRows matched = match_rows(start, keys, ids);
+    const Before above = rows_earlier(start.back(), 1);
     for (std::size_t c = 0; c < columns.size(); ++c) {
       const LayerColumn& column = spec.columns[c];
-      std::vector<std::size_t> shape{rows};
+      if (not_drawn.contains(spec.name + "/" + column.name)) continue;
+      std::string sorted;
+      for (const std::size_t row : matched.order) sorted.append(columns[c], row * bytes_of(column), bytes_of(column));
+      std::vector<std::size_t> shape{start.back()};
       if (column.width > 1) shape.push_back(column.width);
-      bundle_.sections[spec.name + "/" + column.name] = {column.type, shape, columns[c]};
+      const bool is_key = names_of_keys.contains(column.name);
+      bundle_.sections[spec.name + "/" + column.name] =
+          coded_column(column.type, shape, sorted, column.width, is_key ? above : matched.before,
+                       is_key ? Json(1) : Json(key_names), exactness_of(column.name));
     }
   }
 
   const Trajectory& from_;
   const std::set<std::string>& left_out_;
+  double step_;
   std::vector<std::size_t> frames_;
   Bundle bundle_;
 };

@@ -12,7 +12,7 @@ namespace plumb::harness {
 namespace {
 
 constexpr char magic[] = "PLRP";
-constexpr std::uint32_t version = 1;
+constexpr std::uint32_t version = 2;
 constexpr std::size_t alignment = 8;
 
 void pad(std::string& bytes, char with) {
@@ -42,9 +42,14 @@ std::string pack(const Bundle& bundle) {
   header["sections"] = Json::object();
   std::string body;
   for (const auto& [name, section] : bundle.sections) {
-    if (section.bytes.size() != size_of(section.type, section.shape))
+    if (section.coding.is_null() && section.bytes.size() != size_of(section.type, section.shape))
       throw std::logic_error("section " + name + " has not the bytes of its shape");
-    header["sections"][name] = {{"offset", body.size()}, {"type", section.type}, {"shape", section.shape}};
+    Json& entry = header["sections"][name];
+    entry = {{"offset", body.size()}, {"type", section.type}, {"shape", section.shape}};
+    if (!section.coding.is_null()) {
+      entry["coding"] = section.coding;
+      entry["length"] = section.bytes.size();
+    }
     body += section.bytes;
     pad(body, '\0');
   }
@@ -61,15 +66,18 @@ Bundle unpack(const std::string& packed) {
   if (bytes.size() < 12 || bytes.compare(0, 4, magic) != 0) corrupt("it does not begin with PLRP");
   std::uint32_t numbers[2];
   std::memcpy(numbers, bytes.data() + 4, sizeof numbers);
-  if (numbers[0] != version) corrupt("its version is " + std::to_string(numbers[0]));
+  if (numbers[0] < 1 || numbers[0] > version) corrupt("its version is " + std::to_string(numbers[0]));
   if (numbers[1] > bytes.size() - 12) corrupt("its header is cut short");
   Bundle bundle;
   bundle.header = Json::parse(bytes.data() + 12, bytes.data() + 12 + numbers[1], nullptr, false);
   if (!bundle.header.is_object() || !bundle.header.contains("sections")) corrupt("its header is not JSON");
   const std::size_t start = 12 + numbers[1];
   for (const auto& [name, entry] : bundle.header["sections"].items()) {
-    BundleSection section{entry.at("type"), entry.at("shape").get<std::vector<std::size_t>>(), {}};
-    const std::size_t size = size_of(section.type, section.shape), at = start + entry.at("offset").get<std::size_t>();
+    BundleSection section{
+        entry.at("type"), entry.at("shape").get<std::vector<std::size_t>>(), {}, entry.value("coding", Json())};
+    const std::size_t size = section.coding.is_null() ? size_of(section.type, section.shape)
+                                                      : entry.at("length").get<std::size_t>(),
+                      at = start + entry.at("offset").get<std::size_t>();
     if (at > bytes.size() || size > bytes.size() - at) corrupt("section " + name + " is cut short");
     section.bytes = bytes.substr(at, size);
     bundle.sections[name] = std::move(section);

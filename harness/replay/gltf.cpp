@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "replay/fineness.hpp"
 #include "replay/mesh.hpp"
 
 namespace plumb::harness {
@@ -12,6 +13,9 @@ namespace {
 
 constexpr int type_float = 5126, type_u32 = 5125;         // accessor.componentType
 constexpr int for_vertices = 34962, for_indices = 34963;  // bufferView.target
+constexpr double share_of_anchor = 1.0 / 6;  // of a small body's radius: of the balls that stand for anchors
+constexpr double anchor_alone = 0.02;        // m: where no body has a shape
+constexpr std::size_t colour_of_anchors = 6;
 constexpr std::uint32_t chunk_json = 0x4e4f534a, chunk_binary = 0x004e4942;
 
 // Colours that people with any colour vision tell apart (Okabe and Ito 2008), the first for what does not move.
@@ -49,6 +53,7 @@ class Maker {
     Json roots = Json::array();
     for (std::size_t i = 0; i < bodies.size(); ++i) roots.push_back(add_body(bodies[i], colour_of(i, moves[i])));
     Json scene{{"name", from_.header.value("scene", "")}};
+    add_joints(roots);
     if (!roots.empty()) scene["nodes"] = roots;  // glTF has no empty lists
     gltf_["scenes"].push_back(scene);
     add_animation();
@@ -104,19 +109,25 @@ class Maker {
     const auto [found, is_new] = meshes_.try_emplace({shape, colour}, 0);
     if (!is_new) return found->second;
     const auto [geometry, is_new_shape] = geometry_.try_emplace(shape, Json());
-    if (is_new_shape) {
-      const DrawnMesh mesh =
-          drawn_mesh(shape < 0 ? Json() : from_.header.at("shapes").at(static_cast<std::size_t>(shape)));
-      std::string indices;
-      for (const std::uint32_t index : mesh.indices) put(indices, index);
-      const std::size_t positions = add_points(mesh.positions, true), normals = add_points(mesh.normals, false);
-      geometry->second = {{"attributes", {{"POSITION", positions}, {"NORMAL", normals}}},
-                          {"indices", add_accessor(indices, type_u32, "SCALAR", mesh.indices.size(), for_indices)}};
-    }
-    Json primitive = geometry->second;
+    if (is_new_shape)
+      geometry->second =
+          add_geometry(drawn_mesh(shape < 0 ? Json() : from_.header.at("shapes").at(static_cast<std::size_t>(shape))));
+    return found->second = add_mesh(geometry->second, colour);
+  }
+
+  /// Returns a primitive without material.
+  Json add_geometry(const DrawnMesh& mesh) {
+    std::string indices;
+    for (const std::uint32_t index : mesh.indices) put(indices, index);
+    const std::size_t positions = add_points(mesh.positions, true), normals = add_points(mesh.normals, false);
+    return {{"attributes", {{"POSITION", positions}, {"NORMAL", normals}}},
+            {"indices", add_accessor(indices, type_u32, "SCALAR", mesh.indices.size(), for_indices)}};
+  }
+
+  std::size_t add_mesh(Json primitive, std::size_t colour) {
     primitive["material"] = colour;
-    gltf_["meshes"].push_back({{"primitives", {primitive}}});
-    return found->second = gltf_["meshes"].size() - 1;
+    gltf_["meshes"].push_back({{"primitives", {std::move(primitive)}}});
+    return gltf_["meshes"].size() - 1;
   }
 
   std::size_t add_body(const Json& body, std::size_t colour) {
@@ -142,6 +153,49 @@ class Maker {
     gltf_["nodes"].push_back(node);
     body_nodes_.push_back(gltf_["nodes"].size() - 1);
     return body_nodes_.back();
+  }
+
+  void add_joints(Json& roots) {
+    const Json joints = from_.header.value("joints", Json::array());
+    if (joints.empty()) return;
+    const std::vector<double> gaps = largest_gaps(joints.size());
+    const double radius = radius_of_small_bodies(from_), size = radius > 0 ? radius * share_of_anchor : anchor_alone;
+    const DrawnMesh ball = drawn_mesh({{"type", "sphere"}, {"radius", size}});
+    const std::size_t mesh = add_mesh(add_geometry(ball), colour_of_anchors);
+    for (std::size_t i = 0; i < joints.size(); ++i) {
+      for (const char side : {'a', 'b'}) {
+        const Json& body = joints[i].at(std::string("body_") + side);
+        const auto frame = joints[i].at(std::string("frame_") + side).get<std::array<double, 7>>();
+        Json node{{"name", joints[i].value("name", "") + " " + side},
+                  {"mesh", mesh},
+                  {"translation", {frame[0], frame[1], frame[2]}},
+                  {"rotation", {frame[3], frame[4], frame[5], frame[6]}},
+                  {"extras", {{"type", joints[i].at("type")}}}};
+        if (std::isfinite(gaps[i])) node["extras"]["largest_gap"] = gaps[i];
+        gltf_["nodes"].push_back(std::move(node));
+        const std::size_t number = gltf_["nodes"].size() - 1;
+        if (body.is_null())
+          roots.push_back(number);
+        else
+          gltf_["nodes"][body_nodes_.at(body.get<std::size_t>())]["children"].push_back(number);
+      }
+    }
+  }
+
+  /// By joint; NaN for one that holds no distance.
+  [[nodiscard]] std::vector<double> largest_gaps(std::size_t joints) const {
+    std::vector<double> gaps(joints, NAN);
+    for (std::size_t layer = 0; layer < from_.layers.size(); ++layer) {
+      if (from_.layers[layer].name != "joints") continue;
+      for (const TrajectoryFrame& frame : from_.frames) {
+        const auto& rows = frame.layers[layer];
+        for (std::size_t row = 0; rows && row < rows->rows; ++row) {
+          double& gap = gaps.at(rows->get<std::uint32_t>(0, row));
+          gap = std::fmax(gap, static_cast<double>(rows->get<float>(1, row)));
+        }
+      }
+    }
+    return gaps;
   }
 
   void add_animation() {

@@ -6,6 +6,10 @@
 #include <cmath>
 #include <random>
 
+#include "decode.hpp"
+#include "replay/badge.hpp"
+#include "replay/motion.hpp"
+
 namespace plumb::harness {
 namespace {
 
@@ -63,45 +67,186 @@ Number at(const Bundle& bundle, const std::string& section, std::size_t index) {
   return number;
 }
 
+/// Angle between two orientations, rad; either may have any norm above 0.
+double angle_between(const std::array<double, 4>& a, const PlumbQuat& b) {
+  const double norm = std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2] + a[3] * a[3]);
+  const double dot = (a[0] * b.x + a[1] * b.y + a[2] * b.z + a[3] * b.w) / norm;
+  const std::array<double, 3> across{a[3] * b.x - a[0] * b.w - a[1] * b.z + a[2] * b.y,
+                                     a[3] * b.y + a[0] * b.z - a[1] * b.w - a[2] * b.x,
+                                     a[3] * b.z - a[0] * b.y + a[1] * b.x - a[2] * b.w};
+  return 2 * std::atan2(std::hypot(across[0], across[1], across[2]) / norm, std::abs(dot));
+}
+
+/// Every pose comes back within what the header states.
+void expect_poses_within_bounds(const Bundle& bundle, const Trajectory& trajectory) {
+  const auto positions = decoded_positions(bundle.sections.at("positions"));
+  const auto orientations = decoded_orientations(bundle.sections.at("orientations"));
+  const double most = bundle.header["bounds"]["position"], most_angle = bundle.header["bounds"]["angle"];
+  double worst = 0, worst_angle = 0;
+  ASSERT_EQ(positions.size(), trajectory.frames.size());
+  for (std::size_t f = 0; f < positions.size(); ++f) {
+    for (std::size_t body = 0; body < positions[f].size(); ++body) {
+      const auto& [p, q] = trajectory.frames[f].poses[body];
+      for (const double off : {positions[f][body][0] - p.x, positions[f][body][1] - p.y, positions[f][body][2] - p.z})
+        worst = std::max(worst, std::abs(off));
+      worst_angle = std::max(worst_angle, angle_between(orientations[f][body], q));
+    }
+  }
+  EXPECT_LE(worst, most * (1 + 1e-9));
+  EXPECT_LE(worst_angle, most_angle);
+}
+
 TEST(Bundle, SaysWhatTheTrajectorySays) {
   const Trajectory trajectory = made(50, 5);
   const Bundle bundle = unpack(pack(whole_bundle(trajectory)));
   EXPECT_EQ(bundle.header["status"], "failed");
   EXPECT_EQ(bundle.header["reason"], "it fell");
+  EXPECT_EQ(bundle.header["badge"], Json({{"verdict", "failed"}, {"words", "it fell"}}));
   EXPECT_EQ(bundle.header["frames"], 50);
-  EXPECT_EQ(bundle.sections.at("positions").type, "u16");
   EXPECT_EQ(bundle.sections.at("positions").shape, (std::vector<std::size_t>{50, 2, 3}));
+  expect_poses_within_bounds(bundle, trajectory);
+  const auto column = [&](const char* name) { return decoded_column(bundle, name); };
+  const std::vector<double> times = column("times"), energy = column("series/energy"),
+                            energy_drift = column("series/energy_drift"), momentum = column("series/momentum_drift"),
+                            deepest = column("series/max_penetration"), count = column("series/contacts"),
+                            depth = column("penetration"), start = column("contacts/start"),
+                            of_body = column("contacts/body_a"), points = column("contacts/point");
   for (std::size_t f = 0; f < 50; ++f) {
-    EXPECT_FLOAT_EQ(at<float>(bundle, "times", f), 0.02f * static_cast<float>(f));
-    for (std::size_t body = 0; body < 2; ++body) {
-      const PoseRow& pose = trajectory.frames[f].poses[body];
-      const double position[3] = {pose.position.x, pose.position.y, pose.position.z};
-      const double turn[4] = {pose.orientation.x, pose.orientation.y, pose.orientation.z, pose.orientation.w};
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double low = bundle.header["lower"][axis], high = bundle.header["upper"][axis];
-        const double found =
-            low + at<std::uint16_t>(bundle, "positions", (2 * f + body) * 3 + axis) / 65535.0 * (high - low);
-        EXPECT_NEAR(found, position[axis], 0.5001 * (high - low) / 65535);
-      }
-      for (std::size_t part = 0; part < 4; ++part)
-        EXPECT_NEAR(at<std::int16_t>(bundle, "orientations", (2 * f + body) * 4 + part) / 32767.0, turn[part], 1.6e-5);
-    }
-    EXPECT_FLOAT_EQ(at<float>(bundle, "series/energy", f), 3.0f + static_cast<float>(f));
-    EXPECT_FLOAT_EQ(at<float>(bundle, "series/energy_drift", f), static_cast<float>(f) / 52.0f);  // the largest energy
-    EXPECT_FLOAT_EQ(at<float>(bundle, "series/momentum_drift", f), static_cast<float>(f) / 2.0f);
-    EXPECT_FLOAT_EQ(at<float>(bundle, "series/max_penetration", f), std::max(0.25f, static_cast<float>(f)));
-    EXPECT_FLOAT_EQ(at<float>(bundle, "series/contacts", f), static_cast<float>(f));
-    EXPECT_FLOAT_EQ(at<float>(bundle, "penetration", 2 * f), 0.25f);
+    const auto frame = static_cast<float>(f);
+    EXPECT_FLOAT_EQ(static_cast<float>(times[f]), 0.02f * frame);
+    EXPECT_EQ(energy[f], 3.0f + frame);
+    EXPECT_FLOAT_EQ(static_cast<float>(energy_drift[f]), frame / 52.0f);  // the largest energy
+    EXPECT_FLOAT_EQ(static_cast<float>(momentum[f]), frame / 2.0f);
+    EXPECT_EQ(deepest[f], std::max(0.25f, frame));
+    EXPECT_EQ(count[f], frame);
+    EXPECT_EQ(depth[2 * f], 0.25);
+    EXPECT_NEAR(depth[2 * f + 1], frame, 1.5e-3 * frame);
     // Contacts of the frame itself or of the one before it.
-    const std::uint32_t looked = static_cast<std::uint32_t>(f - f % 2);
-    const auto start = at<std::uint32_t>(bundle, "contacts/start", f),
-               end = at<std::uint32_t>(bundle, "contacts/start", f + 1);
-    ASSERT_EQ(end - start, looked % 3);
-    for (std::uint32_t row = start; row < end; ++row) {
-      EXPECT_EQ(at<std::uint32_t>(bundle, "contacts/body_a", row), looked);
-      EXPECT_EQ(at<float>(bundle, "contacts/point", 3 * row + 2), 2.0f);
+    const std::size_t looked = f - f % 2;
+    ASSERT_EQ(start[f + 1] - start[f], looked % 3);
+    for (auto row = static_cast<std::size_t>(start[f]); row < static_cast<std::size_t>(start[f + 1]); ++row) {
+      EXPECT_EQ(of_body[row], looked);
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        EXPECT_NEAR(points[3 * row + axis], static_cast<double>(axis),
+                    1.5 * bundle.header["bounds"]["position"].get<double>());
     }
   }
+}
+
+/// Bodies of radius 1 that rest, fall, turn evenly, and tumble with changes of the largest component, with noise below
+/// what is kept: a replay such as most are.
+Trajectory moving_scene(std::size_t frames, std::size_t bodies) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> noise(0, 1e-5);
+  Trajectory trajectory;
+  trajectory.header = {{"scene", "T2"}, {"dt", 1.0 / 60}, {"shapes", {{{"type", "sphere"}, {"radius", 1.0}}}}};
+  for (std::size_t body = 0; body < bodies; ++body) {
+    trajectory.moving.push_back(body);
+    trajectory.header["bodies"].push_back(
+        {{"name", "b" + std::to_string(body)}, {"shape", 0}, {"motion", "dynamic"}, {"start", {0, 0, 0, 0, 0, 0, 1}}});
+  }
+  trajectory.header["moving"] = trajectory.moving;
+  for (std::uint32_t f = 0; f < frames; ++f) {
+    TrajectoryFrame frame{f, {}, {}};
+    for (std::size_t body = 0; body < bodies; ++body) {
+      const double t = f / 60.0, phase = 0.37 * static_cast<double>(body), x = 3 * phase;
+      PoseRow row{{x, 1 + noise(random), 0}, {0, 0, 0, 1}};
+      const bool falls = t < 1;  // and then rests
+      if (body % 4 == 1 && falls) row.position.y = 6 + phase - 4.905 * t * t;
+      if (body % 4 == 2) row.orientation = {0, std::sin(2 * t + phase), 0, std::cos(2 * t + phase)};
+      if (body % 4 == 3) {
+        const double a = 5 * std::sin(t + phase), b = 3 * t + phase;
+        row.orientation = {std::sin(a) * std::cos(b), std::sin(a) * std::sin(b), std::cos(a) * std::sin(2 * b),
+                           std::cos(a) * std::cos(2 * b)};
+        if (f % 2 == 1)
+          row.orientation = {-row.orientation.x, -row.orientation.y, -row.orientation.z, -row.orientation.w};
+      }
+      frame.poses.push_back(row);
+    }
+    trajectory.frames.push_back(std::move(frame));
+  }
+  return trajectory;
+}
+
+TEST(Bundle, PosesComeBackWithinTheStatedBounds) {
+  const Trajectory trajectory = moving_scene(600, 40);
+  const Bundle bundle = unpack(pack(whole_bundle(trajectory)));
+  EXPECT_LE(bundle.header["bounds"]["position"].get<double>(), 1.0 / 511)
+      << "of a body's radius, which is drawn in float32";
+  EXPECT_EQ(bundle.header["bounds"]["angle"], angle_bound);
+  expect_poses_within_bounds(bundle, trajectory);
+}
+
+TEST(Bundle, ABodyCostsLittleAFrameAndNextToNothingAtRest) {
+  const Trajectory moving = moving_scene(600, 40);
+  const double bytes = static_cast<double>(pack(whole_bundle(moving)).size()) / (600 * 40);
+  EXPECT_LT(bytes, 1.6) << "packed bytes a body and frame; 18 in the recording";
+  RecordProperty("bytes_per_body_frame", std::to_string(bytes));
+  Trajectory resting = moving_scene(600, 40);
+  for (TrajectoryFrame& frame : resting.frames) frame.poses = resting.frames.front().poses;
+  EXPECT_LT(pack(whole_bundle(resting)).size(), pack(whole_bundle(moving)).size() / 4);
+  EXPECT_LT(static_cast<double>(pack(whole_bundle(resting)).size()) / (600 * 40), 0.15);
+}
+
+TEST(Bundle, JointsKeepTheirGapsAndBrokenOnesGo) {
+  const LayerSpec joints{"joints", LayerRows::list, {{"joint", "u32"}, {"gap", "f32"}, {"angle", "f32"}}};
+  Trajectory trajectory = moving_scene(50, 4);
+  trajectory.header["joints"] = Json::array({{{"name", "first"}}, {{"name", "second"}}});
+  trajectory.layers = {joints};
+  const auto gap = [](std::size_t f) { return 0.1f / static_cast<float>(f + 1); };
+  for (std::size_t f = 0; f < 50; ++f) {
+    LayerData& data = trajectory.frames[f].layers.emplace_back().emplace(joints);
+    for (std::uint32_t joint = 0; joint < (f < 20 ? 2u : 1u); ++joint, ++data.rows) {
+      data.put(0, joint);
+      data.put(1, joint == 0 ? NAN : gap(f));
+      data.put(2, 0.0f);
+    }
+    if (f < 20) continue;
+    data = LayerData(joints);  // the second alone is left
+    data.put(0, 1u);
+    data.put(1, gap(f));
+    data.put(2, 0.0f);
+    data.rows = 1;
+  }
+  const Bundle bundle = unpack(pack(whole_bundle(trajectory)));
+  EXPECT_EQ(bundle.header["joints"][1]["name"], "second");
+  const std::vector<double> start = decoded_column(bundle, "joints/start"),
+                            number = decoded_column(bundle, "joints/joint"),
+                            gaps = decoded_column(bundle, "joints/gap");
+  for (std::size_t f = 0; f < 50; ++f) {
+    const auto row = static_cast<std::size_t>(start[f]);
+    ASSERT_EQ(start[f + 1] - start[f], f < 20 ? 2 : 1);
+    if (f < 20) {
+      EXPECT_TRUE(std::isnan(gaps[row])) << "a spring alone";
+    }
+    const std::size_t second = f < 20 ? row + 1 : row;
+    EXPECT_EQ(number[second], 1);
+    EXPECT_NEAR(gaps[second], gap(f), 1.5e-3 * gap(f));
+  }
+}
+
+TEST(Badge, SaysTheVerdictAndTheMeasureThatDecidedIt) {
+  const auto metric = [](double error, Json threshold, Json gold) {
+    Json row{{"value", error},         {"unit", "m"},  {"truth", 0},     {"error", error},
+             {"threshold", threshold}, {"gold", gold}, {"pass", nullptr}};
+    if (!threshold.is_null()) row["pass"] = error <= threshold.get<double>();
+    return row;
+  };
+  const auto badge = [](const char* status, const char* reason, const Json& metrics) {
+    return badge_of({{"status", status}, {"reason", reason}, {"metrics", metrics}});
+  };
+  const Json gold = badge("ok", "", {{"drift", metric(1e-5, 0.01, 1e-3)}, {"gap", metric(5e-4, 0.05, 1e-3)}});
+  EXPECT_EQ(gold["verdict"], "gold");
+  EXPECT_EQ(gold["words"], "nearest to its limit: gap 5e-4 of 0.001 for gold");
+  const Json pass = badge("ok", "", {{"drift", metric(0.008, 0.01, 1e-3)}, {"gap", metric(5e-4, 0.05, 1e-3)}});
+  EXPECT_EQ(pass["verdict"], "pass");
+  EXPECT_EQ(pass["words"], "nearest to its limit: drift 0.00800 of 0.01");
+  const Json failed = badge("failed", "gap 0.144 > 0.05", {{"gap", metric(0.144, 0.05, 1e-3)}});
+  EXPECT_EQ(failed, Json({{"verdict", "failed"}, {"words", "gap 0.144 > 0.05"}}));
+  EXPECT_EQ(badge("unsupported", "joints", Json::object())["verdict"], "unsupported");
+  EXPECT_EQ(badge("ok", "", {{"ms", metric(1, nullptr, nullptr)}})["verdict"], "ran");
+  EXPECT_EQ(badge_of(nullptr)["verdict"], "crashed");
+  EXPECT_TRUE(badge_of({{"status", "ok"}, {"reason", ""}}).is_null()) << "an older recording tells no more";
 }
 
 TEST(Bundle, SectionsLieAtMultiplesOfEight) {
@@ -119,13 +264,16 @@ TEST(Bundle, SectionsLieAtMultiplesOfEight) {
 }
 
 TEST(Bundle, FarFliersAndNumbersThatAreNoneKeepFloats) {
-  Trajectory trajectory = made(20, 1e4);
-  EXPECT_EQ(whole_bundle(trajectory).sections.at("positions").type, "f32");
-  trajectory = made(20, 1);
+  Trajectory trajectory = moving_scene(20, 3);
   trajectory.frames[3].poses[0].position.x = NAN;
-  const Bundle bundle = whole_bundle(trajectory);
-  ASSERT_EQ(bundle.sections.at("positions").type, "f32");
-  EXPECT_TRUE(std::isnan(at<float>(bundle, "positions", 3 * 6)));
+  trajectory.frames[7].poses[2].position.y = 1e9;
+  const Bundle bundle = unpack(pack(whole_bundle(trajectory)));
+  EXPECT_EQ(bundle.sections.at("positions").coding["raw"], Json({0, 2}));
+  const auto positions = decoded_positions(bundle.sections.at("positions"));
+  EXPECT_TRUE(std::isnan(positions[3][0][0]));
+  EXPECT_EQ(positions[7][2][1], 1e9);
+  EXPECT_NEAR(positions[5][1][1], trajectory.frames[5].poses[1].position.y,
+              bundle.header["bounds"]["position"].get<double>());
 }
 
 TEST(Bundle, StaysBelowItsBound) {

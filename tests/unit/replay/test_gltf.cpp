@@ -163,6 +163,43 @@ TEST(Gltf, TheAnimationMovesWhatMoves) {
   }
 }
 
+TEST(Gltf, AnchorsHangOnTheirBodies) {
+  Trajectory trajectory = made();
+  trajectory.header["joints"] = {{{"name", "top"},
+                                  {"type", "ball"},
+                                  {"body_a", nullptr},
+                                  {"body_b", 1},
+                                  {"frame_a", {1, 2, 3, 0, 0, 0, 1}},
+                                  {"frame_b", {0, 4, 0, 0, 0, 0, 1}}},
+                                 {{"name", "link"},
+                                  {"type", "hinge"},
+                                  {"body_a", 1},
+                                  {"body_b", 8},
+                                  {"frame_a", {0, -4, 0, 0, 0, 0, 1}},
+                                  {"frame_b", {0, 0, 5, 0, 0, 0, 1}}}};
+  const LayerSpec joints{"joints", LayerRows::list, {{"joint", "u32"}, {"gap", "f32"}, {"angle", "f32"}}};
+  trajectory.layers.push_back(joints);
+  for (std::size_t f = 0; f < trajectory.frames.size(); ++f) {
+    LayerData& rows = trajectory.frames[f].layers.emplace_back().emplace(joints);
+    rows.put(0, 1u);
+    rows.put(1, f == 2 ? 0.5f : 0.25f);
+    rows.put(2, 0.0f);
+    rows.rows = 1;
+  }
+  const Glb glb = parsed(binary_gltf(trajectory));
+  const auto node = [&](const Json& number) { return glb.json["nodes"].at(number.get<std::size_t>()); };
+  const Json& roots = glb.json["scenes"].at(0)["nodes"];
+  ASSERT_EQ(roots.size(), 11u) << "ten bodies, and an anchor in the world";
+  EXPECT_EQ(node(roots[10])["name"], "top a");
+  EXPECT_EQ(node(roots[10])["translation"], Json({1.0, 2.0, 3.0}));
+  const Json children = node(roots[1])["children"];
+  ASSERT_EQ(children.size(), 2u);
+  EXPECT_EQ(node(children[0])["name"], "top b");
+  EXPECT_EQ(node(children[1])["translation"], Json({0.0, -4.0, 0.0}));
+  EXPECT_EQ(node(children[1])["extras"], Json({{"type", "hinge"}, {"largest_gap", 0.5}}));
+  EXPECT_EQ(node(node(roots[8])["children"].back())["name"], "link b") << "beside the children of a compound";
+}
+
 /// Six times the volume inside, which is above zero only where all triangles look outward.
 double volume6(const DrawnMesh& mesh) {
   double sum = 0;
