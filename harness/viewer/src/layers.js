@@ -18,6 +18,14 @@ function put(rgb, out, offset) {
 /** Layers of one `family` exclude each other: a body has one colour. */
 export const kLayers = [
   {
+    name: 'joints',
+    label: 'Joints',
+    about: 'joints and their anchors; the colour is the gap, measured by the referee',
+    needs: ['joints/start', 'joints/joint'],
+    Drawing: JointLayer,
+    colours: () => (body, out, offset) => put(kPale, out, offset), // unless a layer below has colours
+  },
+  {
     name: 'penetration',
     label: 'Overlap',
     about: 'colour of a body: its deepest overlap, measured by the referee',
@@ -36,13 +44,6 @@ export const kLayers = [
     family: 'colour',
     Drawing: ForceLayer,
     colours: () => (body, out, offset) => put(kPale, out, offset),
-  },
-  {
-    name: 'joints',
-    label: 'Joints',
-    about: 'joints and their anchors; the colour is the gap, measured by the referee',
-    needs: ['joints/start', 'joints/joint'],
-    Drawing: JointLayer,
   },
   {
     name: 'islands',
