@@ -20,6 +20,10 @@ const nlohmann::json& find(const Scene& scene, const std::string& name, bool rig
 
 }  // namespace
 
+void fail_at(const SceneFile& file, const JsonPath& path, const std::string& sentence) {
+  throw UsageError(fmt::format("{}:{}: {}", file.path.string(), line_of(file.text, path), sentence));
+}
+
 double arg_number(const Scene& scene, const std::string& name) {
   const auto is_number = [](const nlohmann::json& value) { return value.is_number(); };
   return find(scene, name, is_number, "a number (an expression starts with =)").get<double>();

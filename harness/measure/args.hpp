@@ -4,9 +4,13 @@
 #include <string>
 #include <vector>
 
+#include "scene/locate.hpp"
 #include "scene/scene.hpp"
 
 namespace plumb::harness {
+
+/// Throws UsageError "file:line: sentence" for a place in a scene file.
+[[noreturn]] void fail_at(const SceneFile& file, const JsonPath& path, const std::string& sentence);
 
 /// All throw UsageError when the argument is missing or of another kind.
 [[nodiscard]] double arg_number(const Scene& scene, const std::string& name);

@@ -86,15 +86,20 @@ void flat_bounce(MeasureContext& context) {
 }  // namespace
 
 std::span<const MeasureEntry> collision_measures() {
-  static constexpr const char* ladder_args[] = {"body", "radius", "restitution"};
-  static constexpr const char* flat_args[] = {"body", "half_height"};
-  static constexpr const char* head_on_args[] = {"a", "b", "restitution"};
-  static constexpr const char* oblique_args[] = {"body", "radius", "friction", "restitution"};
-  static constexpr const char* cube_args[] = {"body", "half", "friction", "restitution"};
-  static constexpr const char* box_args[] = {"body", "radius", "offset_x", "offset_z", "restitution"};
-  static constexpr const char* cradle_args[] = {"balls", "touching"};
-  static constexpr const char* glancing_args[] = {"runner", "target", "angle"};
-  static constexpr const char* answers_args[] = {"case", "pairs", "depth", "height"};
+  using enum ArgumentType;
+  static constexpr MeasureArgument ladder_args[] = {{"body", body}, {"radius", number}, {"restitution", number}};
+  static constexpr MeasureArgument flat_args[] = {{"body", body}, {"half_height", number}};
+  static constexpr MeasureArgument head_on_args[] = {{"a", body}, {"b", body}, {"restitution", number}};
+  static constexpr MeasureArgument oblique_args[] = {
+      {"body", body}, {"radius", number}, {"friction", number}, {"restitution", number}};
+  static constexpr MeasureArgument cube_args[] = {
+      {"body", body}, {"half", number}, {"friction", number}, {"restitution", number}};
+  static constexpr MeasureArgument box_args[] = {
+      {"body", body}, {"radius", number}, {"offset_x", number}, {"offset_z", number}, {"restitution", number}};
+  static constexpr MeasureArgument cradle_args[] = {{"balls", bodies}, {"touching", number}};
+  static constexpr MeasureArgument glancing_args[] = {{"runner", body}, {"target", body}, {"angle", number}};
+  static constexpr MeasureArgument answers_args[] = {
+      {"case", word}, {"pairs", number}, {"depth", number}, {"height", number}};
   static constexpr MeasureEntry entries[] = {
       {"bounce_ladder", "heights of the first five bounces", ladder_args, bounce_ladder},
       {"flat_bounce", "how far a box that falls flat rises again, and its spin", flat_args, flat_bounce},

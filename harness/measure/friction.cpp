@@ -99,17 +99,26 @@ void tip_or_stand(MeasureContext& context) {
 }  // namespace
 
 std::span<const MeasureEntry> friction_measures() {
-  static constexpr const char* incline_args[] = {"body", "slope", "yaw", "friction", "side"};
-  static constexpr const char* stop_args[] = {"blocks", "friction", "speed"};
-  static constexpr const char* tip_args[] = {"body", "slope", "width", "height"};
-  static constexpr const char* roll_args[] = {"body", "radius", "inertia_factor", "friction", "speed", "surface_spin"};
-  static constexpr const char* down_args[] = {"body", "radius", "inertia_factor", "friction", "slope"};
-  static constexpr const char* spin_args[] = {"body", "side", "friction", "spin"};
-  static constexpr const char* pushed_args[] = {"box", "balls", "friction", "force", "heading"};
-  static constexpr const char* ramp_args[] = {"body", "friction", "rate"};
-  static constexpr const char* belt_args[] = {"belt", "box", "friction", "speed", "heading"};
-  static constexpr const char* painleve_args[] = {"rod", "length"};
-  static constexpr const char* ladder_args[] = {"ladder", "length", "radius", "slope", "friction"};
+  using enum ArgumentType;
+  static constexpr MeasureArgument incline_args[] = {
+      {"body", body}, {"slope", number}, {"yaw", number}, {"friction", number}, {"side", number}};
+  static constexpr MeasureArgument stop_args[] = {{"blocks", bodies}, {"friction", number}, {"speed", number}};
+  static constexpr MeasureArgument tip_args[] = {
+      {"body", body}, {"slope", number}, {"width", number}, {"height", number}};
+  static constexpr MeasureArgument roll_args[] = {{"body", body},       {"radius", number}, {"inertia_factor", number},
+                                                  {"friction", number}, {"speed", number},  {"surface_spin", number}};
+  static constexpr MeasureArgument down_args[] = {
+      {"body", body}, {"radius", number}, {"inertia_factor", number}, {"friction", number}, {"slope", number}};
+  static constexpr MeasureArgument spin_args[] = {
+      {"body", body}, {"side", number}, {"friction", number}, {"spin", number}};
+  static constexpr MeasureArgument pushed_args[] = {
+      {"box", body}, {"balls", bodies}, {"friction", number}, {"force", number}, {"heading", number}};
+  static constexpr MeasureArgument ramp_args[] = {{"body", body}, {"friction", number}, {"rate", number}};
+  static constexpr MeasureArgument belt_args[] = {
+      {"belt", body}, {"box", body}, {"friction", number}, {"speed", number}, {"heading", number}};
+  static constexpr MeasureArgument painleve_args[] = {{"rod", body}, {"length", number}};
+  static constexpr MeasureArgument ladder_args[] = {
+      {"ladder", body}, {"length", number}, {"radius", number}, {"slope", number}, {"friction", number}};
   static constexpr MeasureEntry entries[] = {
       {"incline", "whether a block slides, how far, or how it creeps", incline_args, incline},
       {"sliding_stop", "stopping distances of blocks in many directions", stop_args, sliding_stop},

@@ -153,9 +153,10 @@ void bounce_off_mesh(MeasureContext& context) {
 }  // namespace
 
 std::span<const MeasureEntry> geometry_measures() {
-  static constexpr const char* tumble_args[] = {"body"};
-  static constexpr const char* rest_args[] = {"bodies", "size"};
-  static constexpr const char* bounce_args[] = {"bodies", "model"};
+  using enum ArgumentType;
+  static constexpr MeasureArgument tumble_args[] = {{"body", body}};
+  static constexpr MeasureArgument rest_args[] = {{"bodies", bodies}, {"size", number}};
+  static constexpr MeasureArgument bounce_args[] = {{"bodies", bodies}, {"model", body}};
   static constexpr MeasureEntry entries[] = {
       {"tumble", "orientation, energy and momentum of a free body of any shape", tumble_args, tumble},
       {"rest", "hulls that fell stand on a face that bears them", rest_args, come_to_rest},

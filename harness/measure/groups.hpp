@@ -15,5 +15,6 @@ namespace plumb::harness {
 [[nodiscard]] std::span<const MeasureEntry> robustness_measures();
 [[nodiscard]] std::span<const MeasureEntry> scale_measures();
 [[nodiscard]] std::span<const MeasureEntry> geometry_measures();
+[[nodiscard]] std::span<const MeasureEntry> quantity_measures();
 
 }  // namespace plumb::harness

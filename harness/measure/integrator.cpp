@@ -91,14 +91,19 @@ void spin_up(MeasureContext& context) {
 }  // namespace
 
 std::span<const MeasureEntry> integrator_measures() {
-  static constexpr const char* free_fall_args[] = {"body"};
-  static constexpr const char* projectile_args[] = {"thrown", "damped"};
-  static constexpr const char* spin_up_args[] = {"x", "y", "z", "torque"};
-  static constexpr const char* body_args[] = {"body"};
-  static constexpr const char* top_args[] = {"body", "arm", "spin", "tilt", "motion"};
-  static constexpr const char* pendulum_args[] = {"body", "length", "reduced_length", "amplitude"};
-  static constexpr const char* spherical_args[] = {"body", "length", "tilt", "rate"};
-  static constexpr const char* double_args[] = {"upper", "lower", "length", "amplitude"};
+  using enum ArgumentType;
+  static constexpr MeasureArgument free_fall_args[] = {{"body", body}};
+  static constexpr MeasureArgument projectile_args[] = {{"thrown", body}, {"damped", body}};
+  static constexpr MeasureArgument spin_up_args[] = {{"x", body}, {"y", body}, {"z", body}, {"torque", number}};
+  static constexpr MeasureArgument body_args[] = {{"body", body}};
+  static constexpr MeasureArgument top_args[] = {
+      {"body", body}, {"arm", number}, {"spin", number}, {"tilt", number}, {"motion", word}};
+  static constexpr MeasureArgument pendulum_args[] = {
+      {"body", body}, {"length", number}, {"reduced_length", number}, {"amplitude", number}};
+  static constexpr MeasureArgument spherical_args[] = {
+      {"body", body}, {"length", number}, {"tilt", number}, {"rate", number}};
+  static constexpr MeasureArgument double_args[] = {
+      {"upper", body}, {"lower", body}, {"length", number}, {"amplitude", number}};
   static constexpr MeasureEntry entries[] = {
       {"free_fall", "drop and speed of a body let go at rest", free_fall_args, free_fall},
       {"projectile", "apex and end of a thrown body, and a damped fall", projectile_args, projectile},

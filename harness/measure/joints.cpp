@@ -44,19 +44,29 @@ bool tells_reaction(MeasureContext& context, std::size_t joint) {
 }
 
 std::span<const MeasureEntry> joint_measures() {
-  static constexpr const char* chain_args[] = {"tip", "top", "motion"};
-  static constexpr const char* mode_args[] = {"rods", "tip", "length", "tip_mass", "amplitude"};
-  static constexpr const char* catenary_args[] = {"planks", "length", "span", "end"};
-  static constexpr const char* slider_args[] = {"mechanism", "slope", "crank_length", "rod_length"};
-  static constexpr const char* parallelogram_args[] = {"crank", "length", "amplitude"};
-  static constexpr const char* motor_args[] = {"disc", "torque", "target", "load"};
-  static constexpr const char* stop_args[] = {"rod", "length", "stop"};
-  static constexpr const char* toppling_args[] = {"plank", "length", "start"};
-  static constexpr const char* spring_args[] = {"bob", "rest", "frequency", "damping_ratio", "task"};
-  static constexpr const char* cantilever_args[] = {"cubes", "root", "length"};
-  static constexpr const char* four_bar_args[] = {"crank", "rocker", "lengths", "start", "speed"};
-  static constexpr const char* universal_args[] = {"first", "second", "bend"};
-  static constexpr const char* net_args[] = {"length", "stretched"};
+  using enum ArgumentType;
+  static constexpr MeasureArgument chain_args[] = {{"tip", body}, {"top", joint}, {"motion", word}};
+  static constexpr MeasureArgument mode_args[] = {{"rods", bodies},
+                                                  {"tip", body, may_be_left_out},
+                                                  {"length", number},
+                                                  {"tip_mass", number},
+                                                  {"amplitude", number}};
+  static constexpr MeasureArgument catenary_args[] = {
+      {"planks", bodies}, {"length", number}, {"span", number}, {"end", joint}};
+  static constexpr MeasureArgument slider_args[] = {
+      {"mechanism", word}, {"slope", number}, {"crank_length", number}, {"rod_length", number}};
+  static constexpr MeasureArgument parallelogram_args[] = {{"crank", body}, {"length", number}, {"amplitude", number}};
+  static constexpr MeasureArgument motor_args[] = {
+      {"disc", body}, {"torque", number}, {"target", number}, {"load", number}};
+  static constexpr MeasureArgument stop_args[] = {{"rod", body}, {"length", number}, {"stop", number}};
+  static constexpr MeasureArgument toppling_args[] = {{"plank", body}, {"length", number}, {"start", number}};
+  static constexpr MeasureArgument spring_args[] = {
+      {"bob", body}, {"rest", number}, {"frequency", number}, {"damping_ratio", number}, {"task", word}};
+  static constexpr MeasureArgument cantilever_args[] = {{"cubes", bodies}, {"root", joint}, {"length", number}};
+  static constexpr MeasureArgument four_bar_args[] = {
+      {"crank", body}, {"rocker", body}, {"lengths", numbers}, {"start", number}, {"speed", number}};
+  static constexpr MeasureArgument universal_args[] = {{"first", body}, {"second", body}, {"bend", number}};
+  static constexpr MeasureArgument net_args[] = {{"length", number}, {"stretched", number}};
   static constexpr MeasureEntry entries[] = {
       {"heavy_chain", "joint gaps of a chain with a heavy tip, and its tension at rest", chain_args,
        measure_heavy_chain},

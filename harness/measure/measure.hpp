@@ -47,19 +47,49 @@ class MeasureContext {
 };
 
 using MeasureFunction = void (*)(MeasureContext&);
+/// Throws UsageError for what the scene's measure cannot do, beyond arguments that are missing or of another type.
+using MeasureCheck = void (*)(const SceneFile&, const Scene&);
+
+/// What an argument of a measure is: numbers may be expressions, body and joint are names, bodies is what comes before
+/// the number in the names of several.
+enum class ArgumentType { number, numbers, word, body, bodies, joint, object };
+
+struct MeasureArgument {
+  const char* name;
+  ArgumentType type;
+  bool optional = false;
+};
+inline constexpr bool may_be_left_out = true;
 
 struct MeasureEntry {
+  /// There is no measure without a name and a line that says what it measures: such a list does not compile.
+  consteval MeasureEntry(const char* its_name, const char* its_doc, std::span<const MeasureArgument> its_args,
+                         MeasureFunction function, MeasureCheck its_check = nullptr)
+      : name(its_name), doc(its_doc), args(its_args), run(function), check(its_check) {
+    if (*name == '\0' || *doc == '\0') throw "a measure has a name and a doc";
+  }
+
   const char* name;
-  const char* doc;                    ///< one line
-  std::span<const char* const> args;  ///< argument names that the scene file may give
+  const char* doc;                        ///< one line
+  std::span<const MeasureArgument> args;  ///< what the scene file gives
   MeasureFunction run;
+  MeasureCheck check;  ///< null where there is nothing more to check
 };
 
 /// All measures; each file of measure/ has a list of its own that registry.cpp joins.
 [[nodiscard]] std::span<const MeasureEntry> all_measures();
 
+/// "number", "body" ...: what an argument of the type is called.
+[[nodiscard]] const char* word_of(ArgumentType type);
+
+/// The measure of a name; throws UsageError with the nearest one.
+[[nodiscard]] const MeasureEntry& find_measure(const std::string& name);
+
 /// The measure of a scene file. Throws UsageError with file, line and the nearest word when its kind or an argument is
-/// unknown.
+/// unknown, and likewise when an argument is missing or of another type.
 [[nodiscard]] const MeasureEntry& find_measure(const SceneFile& file);
+
+/// Throws likewise when an argument names what this scene of the file does not have, or asks what cannot be measured.
+void check_measure(const SceneFile& file, const Scene& scene);
 
 }  // namespace plumb::harness

@@ -63,19 +63,23 @@ void deep_overlap(MeasureContext& context) {
 }  // namespace
 
 std::span<const MeasureEntry> robustness_measures() {
-  static constexpr const char* bullet_args[] = {"bullets", "wall"};
-  static constexpr const char* factor_args[] = {"factor"};
-  static constexpr const char* offset_args[] = {"offset"};
-  static constexpr const char* turn_args[] = {"axis", "angle"};
-  static constexpr const char* repeat_args[] = {"orders"};
-  static constexpr const char* edges_args[] = {"bodies", "friction", "speed", "slides"};
-  static constexpr const char* velocity_args[] = {"velocity"};
-  static constexpr const char* rod_args[] = {"rods", "half_length", "wall", "thickness"};
-  static constexpr const char* stack_args[] = {"bullet", "boxes"};
-  static constexpr const char* press_args[] = {"lower", "upper", "box", "squeeze"};
-  static constexpr const char* reversal_args[] = {"size", "pendulum"};
-  static constexpr const char* size_args[] = {"size"};
-  static constexpr const char* nudge_args[] = {"size", "nudge", "seeds"};
+  using enum ArgumentType;
+  static constexpr MeasureArgument bullet_args[] = {{"bullets", bodies}, {"wall", number}};
+  static constexpr MeasureArgument factor_args[] = {{"factor", number}};
+  static constexpr MeasureArgument offset_args[] = {{"offset", number}};
+  static constexpr MeasureArgument turn_args[] = {{"axis", numbers}, {"angle", number}};
+  static constexpr MeasureArgument repeat_args[] = {{"orders", number}};
+  static constexpr MeasureArgument edges_args[] = {
+      {"bodies", bodies}, {"friction", number}, {"speed", number}, {"slides", number}};
+  static constexpr MeasureArgument velocity_args[] = {{"velocity", numbers}};
+  static constexpr MeasureArgument rod_args[] = {
+      {"rods", bodies}, {"half_length", number}, {"wall", number}, {"thickness", number}};
+  static constexpr MeasureArgument stack_args[] = {{"bullet", body}, {"boxes", bodies}};
+  static constexpr MeasureArgument press_args[] = {
+      {"lower", body}, {"upper", body}, {"box", body}, {"squeeze", number}};
+  static constexpr MeasureArgument reversal_args[] = {{"size", number}, {"pendulum", number}};
+  static constexpr MeasureArgument size_args[] = {{"size", number}};
+  static constexpr MeasureArgument nudge_args[] = {{"size", number}, {"nudge", number}, {"seeds", number}};
   static constexpr MeasureEntry entries[] = {
       {"bullet", "bodies that passed through a thin wall", bullet_args, bullet},
       {"spinning_rod", "rods that spin through a thin wall, and how deep they get", rod_args, measure_spinning_rod},

@@ -70,10 +70,23 @@ void throughput(MeasureContext& context) {
 }  // namespace
 
 std::span<const MeasureEntry> scale_measures() {
-  static constexpr const char* throughput_args[] = {"boxes", "stack", "reach"};
-  static constexpr const char* crowd_args[] = {"size",        "reach", "floor", "wave", "repeat", "stack", "launch",
-                                               "launch_time", "speed", "drum",  "rate", "radius", "length"};
-  static constexpr const char* broad_args[] = {"boxes", "extent", "clumps", "seed"};
+  using enum ArgumentType;
+  static constexpr MeasureArgument throughput_args[] = {{"boxes", bodies}, {"stack", number}, {"reach", number}};
+  static constexpr MeasureArgument crowd_args[] = {{"size", number},
+                                                   {"reach", number},
+                                                   {"floor", number, may_be_left_out},
+                                                   {"wave", number, may_be_left_out},
+                                                   {"repeat", number, may_be_left_out},
+                                                   {"stack", bodies, may_be_left_out},
+                                                   {"launch", body, may_be_left_out},
+                                                   {"launch_time", number, may_be_left_out},
+                                                   {"speed", number, may_be_left_out},
+                                                   {"drum", body, may_be_left_out},
+                                                   {"rate", number, may_be_left_out},
+                                                   {"radius", number, may_be_left_out},
+                                                   {"length", number, may_be_left_out}};
+  static constexpr MeasureArgument broad_args[] = {
+      {"boxes", bodies}, {"extent", number}, {"clumps", number}, {"seed", number}};
   static constexpr MeasureEntry entries[] = {
       {"throughput", "depth, energy and order at the end of a large timed run", throughput_args, throughput},
       {"crowd", "depth, order and bounds of many bodies, driven or falling", crowd_args, measure_crowd},

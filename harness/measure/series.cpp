@@ -4,41 +4,49 @@
 
 namespace plumb::harness {
 
+double parabola_at(const SeriesPoint& a, const SeriesPoint& b, const SeriesPoint& c, double time) {
+  const auto& [t0, y0] = a;
+  const auto& [t1, y1] = b;
+  const auto& [t2, y2] = c;
+  return y0 * (time - t1) * (time - t2) / ((t0 - t1) * (t0 - t2)) +
+         y1 * (time - t0) * (time - t2) / ((t1 - t0) * (t1 - t2)) +
+         y2 * (time - t0) * (time - t1) / ((t2 - t0) * (t2 - t1));
+}
+
+std::optional<SeriesPoint> vertex(const SeriesPoint& a, const SeriesPoint& b, const SeriesPoint& c, double sign) {
+  const double before = sign * a.value, here = sign * b.value, after = sign * c.value;
+  if (!(here > before && here >= after)) return std::nullopt;
+  const double slope = (after - before) / 2, curvature = before - 2 * here + after;
+  const double shift = -slope / curvature;  // in steps from b
+  return SeriesPoint{b.time + shift * (c.time - b.time), sign * (here + slope * shift / 2)};
+}
+
+std::optional<double> crossing(const SeriesPoint& a, const SeriesPoint& b, double level) {
+  const double before = a.value - level, after = b.value - level;
+  if ((before < 0) == (after < 0)) return std::nullopt;
+  return a.time + (b.time - a.time) * before / (before - after);
+}
+
 double Series::at(double time) const {
   if (points_.size() < 3) return not_measured;
   const auto after = std::lower_bound(points_.begin(), points_.end(), time,
                                       [](const SeriesPoint& point, double t) { return point.time < t; });
   const auto index = std::clamp<std::ptrdiff_t>(after - points_.begin(), 1, std::ssize(points_) - 2);
   const auto middle = static_cast<std::size_t>(index);
-  const auto& [t0, y0] = points_[middle - 1];
-  const auto& [t1, y1] = points_[middle];
-  const auto& [t2, y2] = points_[middle + 1];
-  return y0 * (time - t1) * (time - t2) / ((t0 - t1) * (t0 - t2)) +
-         y1 * (time - t0) * (time - t2) / ((t1 - t0) * (t1 - t2)) +
-         y2 * (time - t0) * (time - t1) / ((t2 - t0) * (t2 - t1));
+  return parabola_at(points_[middle - 1], points_[middle], points_[middle + 1], time);
 }
 
 std::vector<SeriesPoint> Series::extremes(double sign) const {
   std::vector<SeriesPoint> found;
-  for (std::size_t i = 1; i + 1 < points_.size(); ++i) {
-    const double before = sign * points_[i - 1].value, here = sign * points_[i].value,
-                 after = sign * points_[i + 1].value;
-    if (!(here > before && here >= after)) continue;
-    const double slope = (after - before) / 2, curvature = before - 2 * here + after;
-    const double shift = -slope / curvature;  // in steps from i
-    const double step = points_[i + 1].time - points_[i].time;
-    found.push_back({points_[i].time + shift * step, sign * (here + slope * shift / 2)});
-  }
+  for (std::size_t i = 1; i + 1 < points_.size(); ++i)
+    if (const auto extreme = vertex(points_[i - 1], points_[i], points_[i + 1], sign)) found.push_back(*extreme);
   return found;
 }
 
 std::vector<double> Series::crossings(double level) const {
   std::vector<double> times;
-  for (std::size_t i = 1; i < points_.size(); ++i) {
-    const double before = points_[i - 1].value - level, after = points_[i].value - level;
-    if ((before < 0) == (after < 0)) continue;
-    times.push_back(points_[i - 1].time + (points_[i].time - points_[i - 1].time) * before / (before - after));
-  }
+  for (std::size_t i = 1; i < points_.size(); ++i)
+    if (const auto time = crossing(points_[i - 1], points_[i], level)) times.push_back(*time);
   return times;
 }
 

@@ -18,6 +18,15 @@ struct SeriesPoint {
   double time, value;
 };
 
+/// On the parabola through three points.
+[[nodiscard]] double parabola_at(const SeriesPoint& a, const SeriesPoint& b, const SeriesPoint& c, double time);
+/// The vertex of the parabola through three points at equal intervals, where the middle one is their maximum (sign 1)
+/// or minimum (-1).
+[[nodiscard]] std::optional<SeriesPoint> vertex(const SeriesPoint& a, const SeriesPoint& b, const SeriesPoint& c,
+                                                double sign);
+/// When the line from a to b passes through a level; none when it does not.
+[[nodiscard]] std::optional<double> crossing(const SeriesPoint& a, const SeriesPoint& b, double level);
+
 /// Samples at equal intervals.
 class Series {
  public:

@@ -28,18 +28,24 @@ void add_ground_force(MeasureContext& context, const ImpulseAccount& account, do
 }
 
 std::span<const MeasureEntry> stacking_measures() {
-  static constexpr const char* boxes_args[] = {"boxes"};
-  static constexpr const char* pyramid_args[] = {"boxes", "base"};
-  static constexpr const char* ratio_args[] = {"lower", "upper"};
-  static constexpr const char* overhang_args[] = {"blocks", "share"};
-  static constexpr const char* spheres_args[] = {"top", "base", "ground", "friction"};
-  static constexpr const char* lattice_args[] = {"spheres"};
-  static constexpr const char* arch_args[] = {"stones", "radius", "thickness", "friction"};
-  static constexpr const char* catto_args[] = {"stones", "boxes", "wide", "friction"};
-  static constexpr const char* cards_args[] = {"cards", "lean", "friction", "length"};
-  static constexpr const char* masonry_args[] = {"blocks", "height", "reach"};
-  static constexpr const char* big_args[] = {"big", "small"};
-  static constexpr const char* taken_args[] = {"balls", "load", "time", "away"};
+  using enum ArgumentType;
+  static constexpr MeasureArgument boxes_args[] = {{"boxes", bodies}};
+  static constexpr MeasureArgument pyramid_args[] = {{"boxes", bodies}, {"base", number}};
+  static constexpr MeasureArgument ratio_args[] = {{"lower", body}, {"upper", body}};
+  static constexpr MeasureArgument overhang_args[] = {{"blocks", bodies}, {"share", number}};
+  static constexpr MeasureArgument spheres_args[] = {
+      {"top", body}, {"base", bodies}, {"ground", body}, {"friction", number}};
+  static constexpr MeasureArgument lattice_args[] = {{"spheres", bodies}};
+  static constexpr MeasureArgument arch_args[] = {
+      {"stones", bodies}, {"radius", number}, {"thickness", number}, {"friction", number}};
+  static constexpr MeasureArgument catto_args[] = {
+      {"stones", bodies}, {"boxes", number}, {"wide", number}, {"friction", number}};
+  static constexpr MeasureArgument cards_args[] = {
+      {"cards", bodies}, {"lean", number}, {"friction", number}, {"length", number}};
+  static constexpr MeasureArgument masonry_args[] = {{"blocks", bodies}, {"height", number}, {"reach", number}};
+  static constexpr MeasureArgument big_args[] = {{"big", body}, {"small", bodies}};
+  static constexpr MeasureArgument taken_args[] = {
+      {"balls", bodies}, {"load", body}, {"time", number}, {"away", number}};
   static constexpr MeasureEntry entries[] = {
       {"tower", "sink, drift, depth and rest of a tower, from the ground up", boxes_args, measure_tower},
       {"pyramid", "boxes in place, symmetry and depth of a planar pyramid", pyramid_args, measure_pyramid},

@@ -232,6 +232,7 @@ std::vector<CellBlock> plan_blocks(const StudyRequest& request, const std::vecto
     for (const Parameters& variant :
          request.own_variants ? variants_of(*file, given) : std::vector<Parameters>{given}) {
       const Scene scene = instantiate_with(*file, variant, request.dt, request.seconds);
+      check_measure(*file, scene);
       CellBlock block;
       for (const auto& [backend, build] : backends) {
         Cell cell{file,     scene.parameters, variant,         backend,

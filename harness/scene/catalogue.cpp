@@ -72,6 +72,16 @@ std::vector<fs::path> scene_directories() {
 
 std::vector<SceneFile> all_scenes() { return load_all(find_files()); }
 
+std::vector<std::string> scene_words() {
+  std::vector<std::string> words{"core", "all"};
+  for (const Found& file : find_files()) {
+    words.push_back(file.id);
+    words.push_back(file.slug);
+    if (std::find(words.begin(), words.end(), file.group) == words.end()) words.push_back(file.group);
+  }
+  return words;
+}
+
 std::vector<SceneFile> find_scenes(const std::string& what) {
   if (what.ends_with(".json")) return {SceneFile::load(what)};
   const std::vector<Found> files = find_files();

@@ -14,6 +14,9 @@ namespace plumb::harness {
 /// All scenes, sorted by id (A1 A2 ... A10, B1). Throws UsageError when a file is broken.
 [[nodiscard]] std::vector<SceneFile> all_scenes();
 
+/// All that find_scenes takes but paths: ids, slugs and groups, from the files' names alone.
+[[nodiscard]] std::vector<std::string> scene_words();
+
 /// Scenes for what a user typed: an id ("D1"), slug ("tower"), "stacking/tower", a group ("stacking", "core", "all")
 /// or a path to a file. Throws UsageError with the nearest right word.
 [[nodiscard]] std::vector<SceneFile> find_scenes(const std::string& what);

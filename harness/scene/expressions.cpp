@@ -65,6 +65,16 @@ void Expressions::erase(const std::string& name) {
   compiled_.clear();
 }
 
+bool Expressions::uses(const std::string& text, const std::string& name) {
+  try {
+    mu::Parser parser = make_parser();
+    parser.SetExpr(text);
+    return parser.GetUsedVar().contains(name);
+  } catch (const mu::ParserError&) {
+    return false;
+  }
+}
+
 double Expressions::evaluate(const std::string& text) {
   try {
     auto found = compiled_.find(text);

@@ -27,6 +27,11 @@ class Expressions {
   void erase(const std::string& name);
   [[nodiscard]] bool has(const std::string& name) const { return values_.contains(name); }
 
+  /// All names with their values; those of words have values that tell them apart.
+  [[nodiscard]] const std::map<std::string, double>& values() const { return values_; }
+  /// Whether the expression uses the name, which need not be known. False for what is no expression.
+  [[nodiscard]] static bool uses(const std::string& text, const std::string& name);
+
   /// Throws std::invalid_argument with a sentence that names the fault and the nearest known name.
   [[nodiscard]] double evaluate(const std::string& text);
   /// Replaces every {expression} by its whole number and {parameter} by its word. Throws std::invalid_argument.

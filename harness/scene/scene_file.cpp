@@ -130,7 +130,13 @@ void read_definitions(const Node& definitions, Expressions& expressions) {
   }
 }
 
-/// Arguments of a measure: strings that start with = become numbers, {} in others is replaced.
+/// Whether an expression waits for the time t, which measures give it.
+bool waits_for_time(const Node& node, const std::string& expression) {
+  return !node.expressions().has("t") && Expressions::uses(expression, "t");
+}
+
+/// Arguments of a measure: strings that start with = become numbers, those of the time t {"expression", "names"} with
+/// all that it may use besides t; {} in others is replaced.
 nlohmann::json resolve(const Node& node) {
   nlohmann::json out = node.json();
   if (node.json().is_object()) {
@@ -140,7 +146,11 @@ nlohmann::json resolve(const Node& node) {
     for (const Node& element : node.elements()) out[i++] = resolve(element);
   } else if (node.json().is_string() && node.text().starts_with("=")) {
     try {
-      out = node.expressions().evaluate(node.text().substr(1));
+      const std::string expression = node.text().substr(1);
+      if (waits_for_time(node, expression))
+        out = {{"expression", expression}, {"names", node.expressions().values()}};
+      else
+        out = node.expressions().evaluate(expression);
     } catch (const std::invalid_argument& error) {
       node.fail(error.what());
     }
@@ -211,10 +221,10 @@ Scene SceneFile::instantiate(const Parameters& given) const {
   if (const auto joints = root.find("joints")) read_joints(*joints, builder);
   const Node measure_node = root.at("measure");
   scene.measure = measure_node.at("kind").text();
-  scene.measure_args = resolve(measure_node);
-  scene.measure_args.erase("kind");
   expressions.set("dt", scene.dt);
   expressions.set("seconds", scene.seconds);
+  scene.measure_args = resolve(measure_node);
+  scene.measure_args.erase("kind");
   scene.metrics = read_metrics(root.at("metrics"));
   return scene;
 }

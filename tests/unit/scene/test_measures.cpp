@@ -1,6 +1,8 @@
 // The list of measures, and what scene files may ask of it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <fstream>
 #include <set>
 
 #include "measure/measure.hpp"
@@ -8,6 +10,14 @@
 
 namespace plumb::harness {
 namespace {
+
+/// Whether to make the scene would take long.
+bool is_large(const Parameters& variant) {
+  return std::any_of(variant.begin(), variant.end(), [](const auto& parameter) {
+    const auto* number = std::get_if<double>(&parameter.second);
+    return number != nullptr && *number > 5000;
+  });
+}
 
 TEST(Measures, HaveNamesOfTheirOwnAndADoc) {
   std::set<std::string> names;
@@ -17,30 +27,62 @@ TEST(Measures, HaveNamesOfTheirOwnAndADoc) {
   }
 }
 
+TEST(Measures, AreThoseOfTheSchema) {
+  std::ifstream file(std::string(PLUMB_SCENES_FOLDER) + "/scene.schema.json");
+  const auto schema = nlohmann::json::parse(file);
+  std::vector<std::string> names;
+  for (const MeasureEntry& entry : all_measures()) names.emplace_back(entry.name);
+  EXPECT_EQ(schema.at("properties").at("measure").at("properties").at("kind").at("enum"), nlohmann::json(names));
+}
+
 TEST(Measures, KnowWhatEverySceneAsksFor) {
-  for (const SceneFile& file : all_scenes()) EXPECT_NO_THROW(static_cast<void>(find_measure(file))) << file.path;
+  for (const SceneFile& file : all_scenes()) {
+    EXPECT_NO_THROW(static_cast<void>(find_measure(file))) << file.path;
+    for (const Parameters& variant : file.variants) {
+      if (is_large(variant)) continue;
+      EXPECT_NO_THROW(check_measure(file, file.instantiate(variant))) << file.path;
+    }
+  }
+}
+
+/// How A1's measure is refused with another value for a key; without one when the value is null.
+std::string refusal(const char* key, const nlohmann::json& to) {
+  SceneFile file = find_scenes("A1").at(0);
+  nlohmann::json& measure = file.json["measure"];
+  if (to.is_null())
+    measure.erase(key);
+  else
+    measure[key] = to;
+  try {
+    check_measure(file, file.instantiate({}));
+  } catch (const UsageError& error) {
+    return error.what();
+  }
+  return "nothing was thrown";
 }
 
 TEST(Measures, RefuseUnknownKindsAndArguments) {
-  const auto refusal = [](const char* key, const char* to) {
-    SceneFile file = find_scenes("A1").at(0);
-    if (std::string(key) == "kind")
-      file.json["measure"]["kind"] = to;
-    else
-      file.json["measure"][key] = to;
-    try {
-      static_cast<void>(find_measure(file));
-    } catch (const UsageError& error) {
-      return std::string(error.what());
-    }
-    return std::string("nothing was thrown");
-  };
   EXPECT_NE(refusal("kind", "free_fal")
                 .find("A1-free-fall.json:15: unknown measure \"free_fal\"; did you mean \"free_fall\"?"),
             std::string::npos)
       << refusal("kind", "free_fal");
   EXPECT_NE(refusal("bodi", "ball").find("unknown argument of measure free_fall \"bodi\"; did you mean \"body\"?"),
             std::string::npos);
+}
+
+TEST(Measures, RefuseArgumentsThatAreMissingOrOfAnotherKind) {
+  EXPECT_NE(
+      refusal("body", nullptr).find("A1-free-fall.json:15: measure free_fall needs the argument \"body\": the name"),
+      std::string::npos)
+      << refusal("body", nullptr);
+  EXPECT_NE(
+      refusal("body", 3).find("A1-free-fall.json:15: argument \"body\" of measure free_fall must be the name of a "
+                              "body, not 3"),
+      std::string::npos)
+      << refusal("body", 3);
+  EXPECT_NE(refusal("body", "bal").find("A1-free-fall.json:15: scene A1: unknown body \"bal\"; did you mean \"ball\"?"),
+            std::string::npos)
+      << refusal("body", "bal");
 }
 
 /// Keeps what is added.
