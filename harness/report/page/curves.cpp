@@ -16,11 +16,15 @@ namespace {
 
 constexpr double largest_error = 10;  ///< beyond that nothing is told apart: all of it is wrong
 
-/// Places of methods among those of their family of engines, which share a hue: by them a method has its shape.
+/// Places of methods among those of their family of engines, which share a hue: by them a method has its shape. The
+/// first are kept for engines without a choice of method, which look as they do everywhere.
 std::vector<std::size_t> ranks_of(const std::vector<Method>& methods) {
-  std::map<std::string, std::size_t, std::less<>> members;
+  std::map<std::string_view, std::size_t> chosen;
   std::vector<std::size_t> ranks;
-  for (const Method& method : methods) ranks.push_back(members[std::string(engine_family(method.backend))]++);
+  for (const Method& method : methods) {
+    ranks.push_back(method.label == method.backend ? look_of(method.backend).shade
+                                                   : page_shades + chosen[engine_family(method.backend)]++);
+  }
   return ranks;
 }
 

@@ -68,7 +68,6 @@ Json scene_figure(const PageContext& context, const Problem* first, const Proble
     PlotSeries times{backend, context.backend_index(backend)}, errors = times;
     for (const Sized& sized : sizes) {
       times.points.push_back({sized.bodies, *sized.row->fair_ms(), sized.row, true, false, {}, sized.row->ci95});
-      std::swap(times.points.back().x_band, times.points.back().y_band);
       rows.push_back(sized.row);
       const MetricResult* worst = sized.row->worst();
       if (worst && worst->error && sized.row->completed())

@@ -4,7 +4,8 @@ import { looksOf } from './looks.js';
 import { drawPlot, seriesKey } from './plot.js';
 import { whileInSight } from './sight.js';
 
-const kWidest = 620;
+const kWidest = 620,
+  kShown = 12; // series that a legend names unasked
 
 /** Series by name, once each, where there is more than one. */
 function legendOf(figure, page) {
@@ -16,7 +17,8 @@ function legendOf(figure, page) {
     });
   }
   if (entries.size < 2) return null;
-  return element('ul', { class: 'series' }, ...[...entries.values()].map(([one, look]) => element('li', {}, seriesKey(one, look), one.name)));
+  const list = element('ul', { class: 'series' }, ...[...entries.values()].map(([one, look]) => element('li', {}, seriesKey(one, look), one.name)));
+  return entries.size <= kShown ? list : element('details', { class: 'how' }, element('summary', {}, `legend of ${entries.size} series`), list);
 }
 
 /** The configurations that are beaten, and by whom; made when it is opened. */
