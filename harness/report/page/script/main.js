@@ -10,6 +10,7 @@ import { onceInSight } from './sight.js';
 import { unpack } from './unpack.js';
 
 const root = document.documentElement;
+const replays = document.getElementById('replays');
 const all = (selector, where = document) => [...where.querySelectorAll(selector)];
 
 /** What the parts of one machine's half of the page share. */
@@ -75,15 +76,25 @@ const filter = new Filter(),
 const machines = all('.machine').map((place) => new MachinePage(place, filter, engines));
 
 // ---- machines: one at a time ----
-const picker = document.getElementById('machine'),
-  replays = document.getElementById('replays');
+const picker = document.getElementById('machine');
+
+// The one live replay stands small on the first screen, until one wants all that the viewer has.
+if (replays) {
+  const whole = element('button', { type: 'button', class: 'whole', 'aria-expanded': 'false' }, 'All scenes, layers and curves');
+  whole.addEventListener('click', () => {
+    const on = replays.classList.toggle('large');
+    whole.setAttribute('aria-expanded', `${on}`);
+    whole.textContent = on ? 'Smaller' : 'All scenes, layers and curves';
+    if (on) replays.scrollIntoView();
+  });
+  replays.querySelector('h2').after(whole);
+}
 
 function choose(machine) {
   const index = machines.indexOf(machine);
   machines.forEach((other) => {
     other.place.hidden = other !== machine;
   });
-  // The one live replay stands on the first screen of whatever is shown.
   if (replays) machine.place.querySelector('.first').append(replays);
   for (const link of all('.links a')) {
     const base = link.getAttribute('href').replace(/-\d+$/, ''),
