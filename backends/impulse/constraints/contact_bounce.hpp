@@ -38,4 +38,15 @@ PLUMB_HD void bounce_contact(const RowAccess<N>& row, Contact<P, N>& contact, So
   add_up_impulses(row, more);
 }
 
+/// The same as work on contacts.
+struct BounceContact {
+  Real slowest;
+  bool friction;
+  template <int P, class N>
+  PLUMB_HD void operator()(const RowAccess<N>& row, Contact<P, N>& contact, SolverBody<N>& a, SolverBody<N>& b) const {
+    bounce_contact(row, contact, a, b, slowest, friction);
+    store_impulses(row, contact);
+  }
+};
+
 }  // namespace plumb::impulse

@@ -27,6 +27,13 @@
 #define PLUMB_DEVICE
 #endif
 
+// Templates that a CPU's library has in one of its files. A kernel is compiled with all that it calls.
+#if defined(__CUDACC__)
+#define PLUMB_COMPILED_ONCE(...) static_assert(true)
+#else
+#define PLUMB_COMPILED_ONCE(...) extern template __VA_ARGS__
+#endif
+
 namespace plumb::impulse {
 
 #if defined(PLUMB_IMPULSE_DOUBLE)

@@ -3,6 +3,7 @@
 // piece of its law that the solution asks for.
 #pragma once
 
+#include "exec/atomic.hpp"
 #include "solver/joint_loops.hpp"
 
 namespace plumb::impulse {

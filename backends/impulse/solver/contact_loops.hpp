@@ -15,6 +15,7 @@ namespace plumb::impulse {
 struct ContactSet {
   ContactRows rows;
   const StepCounters* counters;
+  bool belts;  ///< surfaces may run on bodies that stand
 };
 
 /// What a pass reads and writes of a body.
@@ -75,18 +76,23 @@ PLUMB_HD inline std::uint32_t slot_of(const ContactRows& rows, std::uint32_t fir
 /// Whether this thread stores body a (0) or b (1) of its contact.
 PLUMB_HD inline bool stores_body(int which) { return holds_point(which); }
 
-/// Runs work(row, contact, a, b) with the velocities of the surfaces: kBelts says whether these may differ from the
-/// bodies' own.
+/// Runs work(row, contact, a, b) with the velocities of the surfaces. kBelts says whether these may differ from the
+/// bodies' own. A GPU's kernels are for worlds with belts or without; a CPU asks each time, and so is compiled once.
 template <bool kBelts, class N, class C, class Work>
-PLUMB_HD void work_on_surfaces(const RowAccess<N>& row, C& contact, SolverBody<N>& a, SolverBody<N>& b,
-                               const Work& work) {
+PLUMB_HD void work_on_surfaces([[maybe_unused]] bool belts, const RowAccess<N>& row, C& contact, SolverBody<N>& a,
+                               SolverBody<N>& b, const Work& work) {
   if constexpr (kBelts) {
-    N quad[4];
-    row.get_quad(kDrift, quad);
-    const Vec3<N> own = b.linear, drift = quad[0] * contact.tangent + quad[1] * contact.bitangent();
-    const Vec3<N> before = b.linear = own + drift;
+    const bool runs = Executor::kWarps || belts;
+    const Vec3<N> own = b.linear;
+    Vec3<N> before = own;
+    if (runs) {
+      N quad[4];
+      row.get_quad(kDrift, quad);
+      const Vec3<N> drift = quad[0] * contact.tangent + quad[1] * contact.bitangent();
+      before = b.linear = own + drift;
+    }
     work(row, contact, a, b);
-    b.linear = own + (b.linear - before);
+    if (runs) b.linear = own + (b.linear - before);
   } else {
     work(row, contact, a, b);
   }
@@ -94,12 +100,13 @@ PLUMB_HD void work_on_surfaces(const RowAccess<N>& row, C& contact, SolverBody<N
 
 /// Runs work(row, contact, a, b) on a contact and keeps what it did to the bodies.
 template <bool kBelts, class N, class Work>
-PLUMB_HD void work_on(const ContactRows& rows, const SolverBodies& bodies, std::uint32_t slot, LoadedContact<N>& loaded,
-                      BodyUse use, const Work& work) {
+PLUMB_HD void work_on(const ContactSet& contacts, const SolverBodies& bodies, std::uint32_t slot,
+                      LoadedContact<N>& loaded, BodyUse use, const Work& work) {
+  const ContactRows& rows = contacts.rows;
   with_contact(rows, slot, loaded, [&](auto& contact) {
     const bool moved = use != BodyUse::kVelocity;
     SolverBody<N> a = load_body<N>(bodies, loaded.a, moved), b = load_body<N>(bodies, loaded.b, moved);
-    work_on_surfaces<kBelts>(RowAccess<N>(rows, slot), contact, a, b, work);
+    work_on_surfaces<kBelts>(contacts.belts, RowAccess<N>(rows, slot), contact, a, b, work);
     if (stores_body(0)) store_body<N>(bodies, loaded.a, a);
     if (stores_body(1)) store_body<N>(bodies, loaded.b, b);
     if (use != BodyUse::kAll) return;
@@ -118,7 +125,7 @@ PLUMB_DEVICE void for_slots(Team& team, const ContactSet& contacts, const Solver
   team.each_ahead(
       contact_loop(n), [&](std::uint32_t i) { return load_slot<N>(contacts.rows, slot(i)); },
       [&](std::uint32_t i, LoadedContact<N>& loaded) {
-        work_on<kBelts, N>(contacts.rows, bodies, slot(i), loaded, use, work);
+        work_on<kBelts, N>(contacts, bodies, slot(i), loaded, use, work);
       });
 }
 

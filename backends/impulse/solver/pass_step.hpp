@@ -1,46 +1,79 @@
 // What the solvers that take the step whole have in common: passes over all constraints until these change no more.
 #pragma once
 
-#include "constraints/contact_bias.hpp"
-#include "solver/pass_change.hpp"
-#include "solver/solver_step.hpp"
+#include "constraints/joint_bias.hpp"
+#include "solver/axis_mechanisms.hpp"
+#include "solver/pass_contacts.hpp"
 
 namespace plumb::impulse {
 
+/// f(j) on a joint, and how much it changed the impulses.
+template <class F>
+PLUMB_HD void note_joint(const JointView& view, std::uint32_t j, PassChange* noted, const F& f) {
+  const JointImpulse before = view.impulses[view.joints[j].slot];
+  f(j);
+  if (noted == nullptr) return;
+  const JointImpulse& now = view.impulses[view.joints[j].slot];
+  Real changed = 0, reached = 0;
+  for (int i = 0; i < row_count(view.joints[j]); ++i) {
+    changed = max(changed, abs(now.along[i] - before.along[i]));
+    reached = max(reached, abs(now.along[i]));
+  }
+  noted->note(changed, reached);
+}
+
+/// All joints in one pass.
+template <JointCode kJoints>
+PLUMB_DEVICE void solve_joints_noted(Team& team, const JointSet& joints, const StepParameters& step,
+                                     PassChange* noted) {
+  if constexpr (kJoints == JointCode::kAll) {
+    const AxisView view = axis_view(joints);
+    const RowTime time = {RowPass::kWhole, step.h, step.inverse_h, step.bias_rate, 0};
+    for_joints(team, joints, [=](std::uint32_t j) {
+      note_joint(view, j, noted, [&](std::uint32_t i) { solve_axis_joint(view, i, time); });
+    });
+  } else {
+    const JointView view = joints.view;
+    const Real bias_rate = step.bias_rate;
+    for_joints(team, joints, [=](std::uint32_t j) {
+      note_joint(view, j, noted, [&](std::uint32_t i) { solve_joint_with_bias(view, i, bias_rate); });
+    });
+  }
+}
+
 /// All forces, then passes over the constraints, each of which takes the impulse that makes its own speed right, then
 /// positions from the final velocities. Overlap beyond the slop is taken back at a share a step (Baumgarte). No
-/// sub-steps. Solver says in what order contacts are gone through: for_each_contact(team, work), and bounces them:
-/// bounce_contacts(team, step).
-template <class Solver, JointCode kJoints>
-struct StepInPasses : SolverStep {
-  PassChange* changes;  ///< by pass
+/// sub-steps.
+template <class Order, JointCode kJoints>
+struct StepInPasses : PassContacts<Order> {
+  using SolverStep::body_count, SolverStep::features, SolverStep::joints;
+  using PassContacts<Order>::changes;
 
   PLUMB_DEVICE void operator()(Team& team) const {
-    if (must_repeat()) return;
+    if (this->must_repeat()) return;
     const StepInPasses self = *this;
-    const Solver& own = static_cast<const Solver&>(*this);
-    const StepParameters step = *parameters;
+    const StepParameters step = *this->parameters;
     team.each(max(body_count, step.passes), [=](std::uint32_t i) {
       if (i < self.body_count) integrate_velocity(self.bodies, self.solver, step, true, i);
       if (i < step.passes) self.changes[i] = {0, 0};
     });
     start_joints(team, step);
-    if (features.collision) start(team, step);
+    if (features.collision) this->start_contacts(team, step);
     std::uint32_t passes = 0;
     while (passes < step.passes) {
       PassChange* const noted = step.stop_below > 0 ? &changes[passes] : nullptr;
       solve_joints_noted<kJoints>(team, joints, step, noted);
-      if (features.collision) solve_contacts(team, noted);
+      if (features.collision) this->solve_contacts(team, noted);
       ++passes;
       team.meet();
       if (noted != nullptr && noted->is_below(step.stop_below)) break;
     }
     team.single([=] { self.counters->passes = passes; });
     if constexpr (kJoints == JointCode::kAll) add_reactions(team, joints);
-    if (features.collision && features.contact_impulses) add_up(team);
-    move_bodies(team, step);
-    if (features.collision && features.restitution) own.bounce_contacts(team, step);
-    finish(team);
+    if (features.collision && features.contact_impulses) this->add_up(team);
+    this->move_bodies(team, step);
+    if (features.collision && features.restitution) this->bounce_contacts(team, step);
+    this->finish(team);
   }
 
  private:
@@ -53,18 +86,6 @@ struct StepInPasses : SolverStep {
       warm_start_axes(team, joints, true, leaking);
     else
       warm_start_joints(team, joints, leaking);
-  }
-  PLUMB_DEVICE void start(Team& team, const StepParameters& step) const {
-    static_cast<const Solver&>(*this).for_each_contact(team, [=](const auto& row, auto& contact, auto& a, auto& b) {
-      put_bias(contact, step);
-      store_impulses(row, contact);
-      warm_start_contact(contact, a, b);
-    });
-  }
-  PLUMB_DEVICE void solve_contacts(Team& team, PassChange* noted) const {
-    const ContactPass pass = {features.friction, features.restitution, noted};
-    static_cast<const Solver&>(*this).for_each_contact(
-        team, [pass](const auto& row, auto& contact, auto& a, auto& b) { pass.solve(row, contact, a, b); });
   }
 };
 

@@ -60,12 +60,14 @@ void Solver::prepare(Executor& executor, const ContactCache& cache, const Bodies
 void Solver::solve(Executor& executor, const Bodies& all, std::uint32_t body_count, const StepParameters* parameters,
                    StepCounters* counters, std::uint32_t pair_capacity, JointStore& joints) {
   const Count load = {&counters->largest_loop, contact_loop(slots_)};
-  const SolverStep step = {all,        bodies(all),   {rows(), counters},
+  const SolverStep step = {all,        bodies(all),   {rows(), counters, features_.belts},
                            body_count, features_,     parameters,
                            counters,   pair_capacity, joints.set(all, bodies(all), features_.gyroscopic)};
   const StepWork work = {step, pass_changes_.data(), split_.parts(), kind_, load, body_count / 2};
-  if (features_.belts) return enqueue_step_with_belts(executor, work);
-  switch (joints.code()) {
+  if constexpr (Executor::kWarps) {
+    if (features_.belts) return enqueue_step_with_belts(executor, work);
+  }
+  switch (features_.belts ? JointCode::kAll : joints.code()) {
     case JointCode::kContacts: return enqueue_step<JointCode::kContacts>(executor, work);
     case JointCode::kPlain: return enqueue_step<JointCode::kPlain>(executor, work);
     case JointCode::kAll: return enqueue_step_with_axes(executor, work);

@@ -1,7 +1,6 @@
 // What every solver's step works on, and the parts that are the same in all of them.
 #pragma once
 
-#include "constraints/contact_bounce.hpp"
 #include "exec/atomic.hpp"
 #include "solver/contact_loops.hpp"
 #include "solver/joint_loops.hpp"
@@ -24,19 +23,6 @@ struct SolverStep {
   /// Nothing may be done.
   PLUMB_DEVICE bool must_repeat() const { return is_undone(*counters, pair_capacity); }
 
-  template <bool kBelts>
-  PLUMB_DEVICE void bounce(Team& team, Real slowest) const {
-    const bool friction = features.friction;
-    for_contacts<kBelts>(team, contacts, solver, BodyUse::kVelocity,
-                         [=](const auto& row, auto& contact, auto& a, auto& b) {
-                           bounce_contact(row, contact, a, b, slowest, friction);
-                           store_impulses(row, contact);
-                         });
-  }
-  /// Impulses of a step that had no sub-steps are the step's.
-  PLUMB_DEVICE void add_up(Team& team) const {
-    for_rows(team, contacts, [](const auto& row, const auto& contact) { add_up_impulses(row, contact.impulse); });
-  }
   PLUMB_DEVICE void move_bodies(Team& team, const StepParameters& step) const {
     team.each(body_count, [&](std::uint32_t i) { integrate_position(bodies, solver, step, features.gyroscopic, i); });
   }

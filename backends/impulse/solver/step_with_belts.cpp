@@ -1,4 +1,4 @@
-// Steps with belts, and with any joints.
+// Steps with belts, and with any joints, on a device.
 #include "solver/enqueue_step.hpp"
 
 namespace plumb::impulse {

@@ -1,0 +1,57 @@
+// What the solver "xpbd" does to all contacts.
+#pragma once
+
+#include "constraints/contact_friction.hpp"
+#include "constraints/contact_normals.hpp"
+#include "constraints/contact_position.hpp"
+#include "solver/solver_step.hpp"
+
+namespace plumb::impulse {
+
+template <bool kBelts>
+struct PositionContacts : SolverStep {
+  PLUMB_DEVICE void solve_positions(Team& team, const StepParameters& step) const;
+  PLUMB_DEVICE void solve_velocities(Team& team, const StepParameters& step) const;
+};
+
+template <int P, class N>
+PLUMB_HD void solve_contact_once(const RowAccess<N>& row, Contact<P, N>& contact, SolverBody<N>& a, SolverBody<N>& b,
+                                 bool friction, bool note_impacts) {
+  const ManifoldAim<P, N> aim = aim_hard(contact);
+  ContactMotion<N> motion = motion_of(contact, a, b);
+  ContactWrench<N> wrench = no_wrench<N>();
+  solve_normals(contact, aim, motion, wrench, note_impacts);
+  const auto held = N(1) < N(0);  // no normals follow that could
+  if (friction) solve_friction(contact, motion, wrench, held);
+  push(contact, wrench, a, b);
+  store_impulses(row, contact);
+}
+
+template <bool kBelts>
+PLUMB_DEVICE void PositionContacts<kBelts>::solve_positions(Team& team, const StepParameters& step) const {
+  const bool friction = features.friction, note_impacts = features.restitution;
+  for_contacts<kBelts>(team, contacts, solver, BodyUse::kAll, [=](const auto& row, auto& contact, auto& a, auto& b) {
+    start_contact_position(contact, a, b, step);
+    const auto a_linear = a.linear, a_angular = a.angular, b_linear = b.linear, b_angular = b.angular;
+    solve_contact_once(row, contact, a, b, friction, note_impacts);
+    if (note_impacts) store_impact_speeds(row, contact);
+    displace(a, a_linear, a_angular, step.h);
+    displace(b, b_linear, b_angular, step.h);
+  });
+}
+
+template <bool kBelts>
+PLUMB_DEVICE void PositionContacts<kBelts>::solve_velocities(Team& team, const StepParameters& step) const {
+  const Real slowest = step.restitution_speed;
+  const bool friction = features.friction;
+  for_contacts<kBelts>(team, contacts, solver, BodyUse::kVelocity,
+                       [=](const auto& row, auto& contact, auto& a, auto& b) {
+                         start_contact_velocity(contact, slowest);
+                         solve_contact_once(row, contact, a, b, friction, false);
+                         add_up_impulses(row, contact.impulse);
+                       });
+}
+
+PLUMB_COMPILED_ONCE(struct PositionContacts<true>);
+
+}  // namespace plumb::impulse
