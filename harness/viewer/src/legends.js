@@ -53,7 +53,7 @@ function kinds(title, entries) {
 }
 
 /** Legends of the layers that are on. */
-export function legends(names, { penetrationRange, forceRange, gapRange, deepestBox }) {
+export function legends(names, { penetrationRange, forceRange, gapRange, hasSprings, deepestBox }) {
   const all = {
     penetration: () =>
       ramp('deepest overlap of a body', penetrationMap.gradient(), '0', `\u2265 ${quantity(penetrationRange, 'm')}`),
@@ -61,9 +61,10 @@ export function legends(names, { penetrationRange, forceRange, gapRange, deepest
       ramp('contact force along the normal', forceMap.gradient(), '0', `\u2265 ${quantity(forceRange, 'N')}`),
     joints: () => {
       const legend = ramp('gap of a joint', gapMap.gradient(), '0', `\u2265 ${quantity(gapRange, 'm')}`);
-      legend.append(
-        element('span', {}, element('i', { class: 'pv-dot', style: `background:${cssColour(kSpring)}` }), 'spring'),
-      );
+      if (hasSprings)
+        legend.append(
+          element('span', {}, element('i', { class: 'pv-dot', style: `background:${cssColour(kSpring)}` }), 'spring'),
+        );
       return legend;
     },
     boxes: () => ramp('depth in the tree', depthMap.gradient(), 'root', `${deepestBox}`),

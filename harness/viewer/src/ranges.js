@@ -35,6 +35,7 @@ export function colourRanges(replays) {
       replays.map(({ sections }) => sections['joints/gap']),
       1e-9,
     ),
+    hasSprings: replays.some(({ header }) => header.joints?.some(({ spring }) => spring)),
     deepestBox,
   };
 }

@@ -180,7 +180,7 @@ TEST(Bundle, PosesComeBackWithinTheStatedBounds) {
 TEST(Bundle, ABodyCostsLittleAFrameAndNextToNothingAtRest) {
   const Trajectory moving = moving_scene(600, 40);
   const double bytes = static_cast<double>(pack(whole_bundle(moving)).size()) / (600 * 40);
-  EXPECT_LT(bytes, 1.6) << "packed bytes a body and frame; 18 in the recording";
+  EXPECT_LT(bytes, 1.1) << "packed bytes a body and frame; 18 in the recording";
   RecordProperty("bytes_per_body_frame", std::to_string(bytes));
   Trajectory resting = moving_scene(600, 40);
   for (TrajectoryFrame& frame : resting.frames) frame.poses = resting.frames.front().poses;
