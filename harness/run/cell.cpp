@@ -41,11 +41,7 @@ Json json_of(const Parameters& parameters) {
 
 Scene instantiate_with(const SceneFile& file, const Parameters& parameters, std::optional<double> dt,
                        std::optional<double> seconds) {
-  if (!dt && !seconds) return file.instantiate(parameters);
-  SceneFile changed = file;
-  if (dt) changed.json["dt"] = *dt;
-  if (seconds) changed.json["seconds"] = *seconds;
-  return changed.instantiate(parameters);
+  return file.instantiate(parameters, {dt, seconds});
 }
 
 std::string cell_id(const Cell& cell) {

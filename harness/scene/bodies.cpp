@@ -43,6 +43,7 @@ SceneBody read_body(const Node& node, const SceneBuilder& builder) {
                                               "angular_x", "angular_y", "angular_z"};
   SceneBody body;
   body.name = node.at("name").name();
+  if (body.name == "world") node.at("name").fail("\"world\" is what joints call the world; choose another name");
   PlumbMotion motion = PLUMB_DYNAMIC;
   if (const auto given = node.find("motion")) motion = static_cast<PlumbMotion>(given->word("motion", motions));
   body.desc = body_desc(motion);
@@ -73,37 +74,41 @@ SceneBody read_body(const Node& node, const SceneBuilder& builder) {
 void read_generator(const Node& node, SceneBuilder& builder) {
   node.only(scene_keys().at("generator"));
   const std::size_t generator = node.at("generate").word("generator", generator_words());
-  // The largest count of each whose bodies still fit: a pyramid has n (n + 1) / 2, m x m pyramids have 55 m^2.
-  constexpr std::int64_t most[] = {1999, 190, most_objects, most_objects};
-  const auto count = node.at("count").integer(1, most[generator]);
+  const auto count = node.at("count").integer(1, largest_count(generator));
   Scene& scene = builder.scene;
   const std::size_t first_shape = scene.shapes.size();
   const std::size_t first_body = scene.bodies.size();
   std::uint32_t seed = 0;
   if (const auto given = node.find("seed")) seed = static_cast<std::uint32_t>(given->integer(0, largest_seed));
-  generate(generator, count, seed, node.number_or("friction", 0.5), scene.shapes, scene.bodies);
+  const double friction = node.number_or("friction", 0.5);
+  PlumbMaterial material{};
+  material.friction = friction;
+  check_values(node, material);
+  generate(generator, count, seed, friction, scene.shapes, scene.bodies);
   for (std::size_t i = first_shape; i < scene.shapes.size(); ++i)
     add_name(node, "shape", scene.shapes[i].name, builder.shape_index, i);
   for (std::size_t i = first_body; i < scene.bodies.size(); ++i)
     add_name(node, "body", scene.bodies[i].name, builder.body_index, i);
 }
 
+void read_bodies_of(const Node& node, SceneBuilder& builder) {
+  node.only(scene_keys().at("body"));
+  for_each_repeat(node, [&] {
+    SceneBody body = read_body(node, builder);
+    check_values(node, body);
+    add_name(node.at("name"), "body", body.name, builder.body_index, builder.scene.bodies.size());
+    builder.scene.bodies.push_back(std::move(body));
+  });
+}
+
 }  // namespace
 
 void read_bodies(const Node& bodies, SceneBuilder& builder) {
   for (const Node& node : bodies.elements()) {
-    if (node.find("generate")) {
+    if (node.find("generate"))
       read_generator(node, builder);
-      continue;
-    }
-    node.only(scene_keys().at("body"));
-    for_each_repeat(node, [&] {
-      if (builder.scene.bodies.size() >= most_objects)
-        node.fail(fmt::format("more than {} bodies: is a count mistaken?", most_objects));
-      SceneBody body = read_body(node, builder);
-      add_name(node.at("name"), "body", body.name, builder.body_index, builder.scene.bodies.size());
-      builder.scene.bodies.push_back(std::move(body));
-    });
+    else
+      read_bodies_of(node, builder);
   }
 }
 

@@ -7,6 +7,9 @@
 #include <sstream>
 
 #include "plumb/nearest.hpp"
+#include "scene/json_file.hpp"
+#include "scene/locate.hpp"
+#include "scene/shown.hpp"
 
 namespace plumb::harness {
 namespace {
@@ -16,7 +19,7 @@ namespace fs = std::filesystem;
 /// A scene file by its name alone, before anything is read.
 struct Found {
   std::string id, slug, group;
-  fs::path path;
+  fs::path path, root;
 };
 
 /// "D1" -> letter D, number 1; "A5b" also a suffix b.
@@ -35,9 +38,15 @@ std::vector<Found> find_files() {
         const std::string stem = entry.path().stem().string();
         const auto dash = stem.find('-');
         if (entry.path().extension() != ".json" || dash == std::string::npos) continue;
-        Found file{stem.substr(0, dash), stem.substr(dash + 1), group.path().filename().string(), entry.path()};
-        const auto same = [&](const Found& other) { return other.id == file.id; };
-        if (std::none_of(files.begin(), files.end(), same)) files.push_back(std::move(file));
+        Found file{stem.substr(0, dash), stem.substr(dash + 1), group.path().filename().string(), entry.path(),
+                   directory};
+        const auto same = std::find_if(files.begin(), files.end(), [&](const Found& o) { return o.id == file.id; });
+        if (same == files.end()) {
+          files.push_back(std::move(file));
+        } else if (same->root == directory) {  // of another folder the first one holds
+          throw UsageError(
+              fmt::format("{} and {} have one id; rename one of them", same->path.string(), file.path.string()));
+        }
       }
     }
   }
@@ -47,8 +56,28 @@ std::vector<Found> find_files() {
 
 std::vector<SceneFile> load_all(const std::vector<Found>& files) {
   std::vector<SceneFile> scenes;
-  for (const Found& file : files) scenes.push_back(SceneFile::load(file.path));
+  for (const Found& found : files) {
+    scenes.push_back(SceneFile::load(found.path));
+    const SceneFile& file = scenes.back();
+    if (file.id != found.id || file.slug != found.slug)
+      throw UsageError(fmt::format("{}: its id and slug are {} and {}; name the file {}-{}.json", file.path.string(),
+                                   file.id, file.slug, file.id, file.slug));
+  }
   return scenes;
+}
+
+/// A file that the catalogue does not know may not go by the id of one that it knows, unless it is a copy.
+SceneFile load_alone(const fs::path& path) {
+  SceneFile file = SceneFile::load(path);
+  std::error_code ignored;
+  for (const Found& known : find_files()) {
+    if (known.id != file.id || fs::equivalent(known.path, path, ignored)) continue;
+    if (read_json_text(known.path, "scene") == file.text) continue;
+    throw UsageError(fmt::format(
+        "{}:{}: id: \"{}\" is the id of {}; give this scene one of its own, and its rows are told from that one's",
+        path.string(), line_of(file.text, {std::string("id")}), file.id, known.path.string()));
+  }
+  return file;
 }
 
 bool same_word(const std::string& a, const std::string& b) {
@@ -83,7 +112,7 @@ std::vector<std::string> scene_words() {
 }
 
 std::vector<SceneFile> find_scenes(const std::string& what) {
-  if (what.ends_with(".json")) return {SceneFile::load(what)};
+  if (what.ends_with(".json")) return {load_alone(what)};
   const std::vector<Found> files = find_files();
   if (files.empty()) throw UsageError("no scenes found: set PLUMB_SCENES to the folder that holds them");
   if (what == "all") return load_all(files);
@@ -102,7 +131,8 @@ std::vector<SceneFile> find_scenes(const std::string& what) {
         std::any_of(std::begin(names), std::end(names), [&](const std::string& name) { return same_word(name, what); });
     if (named || same_word(file.group, what)) chosen.push_back(file);
   }
-  if (chosen.empty()) throw UsageError(fmt::format("unknown scene \"{}\"{}", what, suggestion(what, known)));
+  if (chosen.empty())
+    throw UsageError(fmt::format("unknown scene \"{}\"{}", shortened(what), suggestion(shortened(what), known)));
   return load_all(chosen);
 }
 

@@ -10,6 +10,7 @@
 
 #include "plumb/nearest.hpp"
 #include "scene/generators.hpp"
+#include "scene/shown.hpp"
 
 namespace plumb::harness {
 namespace {
@@ -28,6 +29,11 @@ std::uint32_t whole(const char* what, double x) {
 }
 double random_of(double seed, double i) { return SplitMix64(whole("seed", seed), whole("i", i)).uniform(); }
 
+const std::vector<std::string> documented_words{"pi",    "sin",   "cos",  "tan",   "asin", "acos", "atan",
+                                                "atan2", "sqrt",  "exp",  "ln",    "abs",  "min",  "max",
+                                                "sign",  "floor", "ceil", "round", "mod",  "deg",  "random"};
+constexpr std::size_t longest_expression = 2000;
+
 mu::Parser make_parser() {
   mu::Parser parser;
   parser.DefineConst("pi", std::numbers::pi);
@@ -41,6 +47,18 @@ mu::Parser make_parser() {
 }
 
 }  // namespace
+
+const std::vector<std::string>& expression_words() {
+  static const std::vector<std::string> words = [] {
+    std::vector<std::string> all = documented_words;
+    // The times, which thresholds may use, and what the parser has of its own.
+    for (const char* word : {"dt", "seconds", "_pi", "_e", "sinh", "cosh", "tanh", "asinh", "acosh", "atanh", "log",
+                             "log2", "log10", "rint", "sum", "avg"})
+      all.emplace_back(word);
+    return all;
+  }();
+  return words;
+}
 
 Expressions::Expressions() = default;
 Expressions::~Expressions() = default;
@@ -76,6 +94,9 @@ bool Expressions::uses(const std::string& text, const std::string& name) {
 }
 
 double Expressions::evaluate(const std::string& text) {
+  if (text.size() > longest_expression)
+    throw std::invalid_argument(
+        fmt::format("\"{}\" is too long for an expression; the most are {}", shortened(text), longest_expression));
   try {
     auto found = compiled_.find(text);
     if (found == compiled_.end()) {
@@ -85,19 +106,21 @@ double Expressions::evaluate(const std::string& text) {
       found->second.SetExpr(text);
     }
     const double result = found->second.Eval();
-    if (!std::isfinite(result)) throw std::invalid_argument(fmt::format("\"{}\" gives {}", text, result));
+    if (!std::isfinite(result)) throw std::invalid_argument(fmt::format("\"{}\" gives {}", shortened(text), result));
     return result;
   } catch (const mu::ParserError& error) {
     compiled_.erase(text);
     if (error.GetCode() != mu::ecUNASSIGNABLE_TOKEN)
-      throw std::invalid_argument(fmt::format("\"{}\" is not an expression: {}", text, error.GetMsg()));
+      throw std::invalid_argument(
+          fmt::format("\"{}\" is not an expression: {}", shortened(text), shortened(error.GetMsg(), 160)));
     std::string name = error.GetToken();
     if (const auto end = name.find_first_of(" +-*/^()<>=!&|?:,"); end != std::string::npos) name.resize(end);
-    std::vector<std::string> known{"pi",    "sin",   "cos",  "tan",   "asin", "acos", "atan",
-                                   "atan2", "sqrt",  "exp",  "ln",    "abs",  "min",  "max",
-                                   "sign",  "floor", "ceil", "round", "mod",  "deg",  "random"};
+    std::vector<std::string> known = documented_words;
     for (const auto& [defined, value] : values_) known.insert(known.begin(), defined);
-    throw std::invalid_argument(fmt::format("\"{}\": unknown name \"{}\"{}", text, name, suggestion(name, known)));
+    const std::string remedy = name == "degrees" || name == "radians"
+                                   ? "; deg(x) makes radians of degrees, and angles are radians otherwise"
+                                   : suggestion(shortened(name), known);
+    throw std::invalid_argument(fmt::format("\"{}\": unknown name \"{}\"{}", shortened(text), shortened(name), remedy));
   }
 }
 
@@ -108,14 +131,16 @@ std::string Expressions::interpolate(const std::string& text) {
     out += text.substr(at, open - at);
     if (open == std::string::npos) break;
     const std::size_t close = text.find('}', open);
-    if (close == std::string::npos) throw std::invalid_argument(fmt::format("\"{}\" has a {{ without a }}", text));
+    if (close == std::string::npos)
+      throw std::invalid_argument(fmt::format("\"{}\" has a {{ without a }}", shortened(text)));
     const std::string inner = text.substr(open + 1, close - open - 1);
     if (const auto word = words_.find(inner); word != words_.end()) {
       out += word->second;
     } else {
       const double value = evaluate(inner);
       if (value != std::rint(value) || std::abs(value) > 1e15)
-        throw std::invalid_argument(fmt::format("\"{{{}}}\" gives {}, which is not a whole number", inner, value));
+        throw std::invalid_argument(
+            fmt::format("\"{{{}}}\" gives {}, which is not a whole number", shortened(inner), value));
       out += fmt::format("{}", static_cast<long long>(value));
     }
     at = close + 1;

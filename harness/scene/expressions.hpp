@@ -3,12 +3,16 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 namespace mu {
 class Parser;
 }
 
 namespace plumb::harness {
+
+/// Names that expressions know by themselves: functions, constants, and the times that thresholds may use.
+[[nodiscard]] const std::vector<std::string>& expression_words();
 
 /// Evaluates expressions over named numbers and words. Texts are compiled once for a set of names.
 class Expressions {

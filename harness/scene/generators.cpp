@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "scene/limits.hpp"
+
 namespace plumb::harness {
 namespace {
 
@@ -121,6 +123,17 @@ double SplitMix64::uniform() { return static_cast<double>(next() >> 11) * 0x1p-5
 const std::vector<std::string>& generator_words() {
   static const std::vector<std::string> words{"pyramid", "manypyramids", "pile", "wide_pile"};
   return words;
+}
+
+std::int64_t largest_count(std::size_t generator) {
+  constexpr std::int64_t most[] = {1999, 190, most_objects, most_objects};
+  return most[generator];
+}
+
+std::size_t generated_bodies(std::size_t generator, std::int64_t count) {
+  const auto n = static_cast<std::size_t>(count);
+  if (generator == 0) return n * (n + 1) / 2;
+  return generator == 1 ? 55 * n * n : n;
 }
 
 void generate(std::size_t generator, std::int64_t count, std::uint32_t seed, double friction,

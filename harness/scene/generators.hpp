@@ -28,6 +28,11 @@ class SplitMix64 {
 /// Names of the generators, as scene files say them.
 [[nodiscard]] const std::vector<std::string>& generator_words();
 
+/// The largest count of a generator whose bodies are still no more than most_objects.
+[[nodiscard]] std::int64_t largest_count(std::size_t generator);
+/// How many bodies it makes, statics aside.
+[[nodiscard]] std::size_t generated_bodies(std::size_t generator, std::int64_t count);
+
 /// Appends the shapes and bodies of a generator: statics (ground, wall0 ...) first, then cubes box0, box1 ...
 /// generator: an index into generator_words(). seed: of the piles' random numbers; that of the published figures is 0.
 /// Bodies refer to shapes by their index in `shapes`.

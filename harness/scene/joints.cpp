@@ -109,9 +109,8 @@ void read_joints(const Node& joints, SceneBuilder& builder) {
   for (const Node& node : joints.elements()) {
     node.only(scene_keys().at("joint"));
     for_each_repeat(node, [&] {
-      if (builder.scene.joints.size() >= most_objects)
-        node.fail(fmt::format("more than {} joints: is a count mistaken?", most_objects));
       SceneJoint joint = read_joint(node, builder);
+      check_values(node, joint);
       add_name(node.at("name"), "joint", joint.name, builder.joint_index, builder.scene.joints.size());
       builder.scene.joints.push_back(std::move(joint));
     });

@@ -84,6 +84,17 @@ JsonPath path_to(const nlohmann::json& root, const nlohmann::json* value) {
   return path;
 }
 
+std::string text_of(const JsonPath& path) {
+  std::string text;
+  for (const auto& step : path) {
+    if (const auto* index = std::get_if<std::size_t>(&step))
+      text += "[" + std::to_string(*index) + "]";
+    else
+      text += (text.empty() ? "" : ".") + std::get<std::string>(step);
+  }
+  return text;
+}
+
 std::size_t line_of_byte(const std::string& text, std::size_t byte) {
   const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(byte, text.size()));
   return 1 + static_cast<std::size_t>(std::count(text.begin(), end, '\n'));

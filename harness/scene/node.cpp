@@ -4,14 +4,18 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <numbers>
 
 #include "plumb/nearest.hpp"
 #include "scene/locate.hpp"
+#include "scene/shown.hpp"
 
 namespace plumb::harness {
 namespace {
+
+constexpr std::size_t longest_name = 200;
 
 Eigen::Quaterniond rotation(const Node& node) {
   node.only({"axis", "degrees", "radians", "x_axis"});
@@ -34,20 +38,26 @@ Eigen::Quaterniond rotation(const Node& node) {
 
 }  // namespace
 
-void Node::fail(const std::string& sentence) const {
+void Node::fail(const std::string& sentence) const { fail_in(*this, sentence); }
+
+// The line is this value's, and the key that of a whole which it may be a part of.
+void Node::fail_in(const Node& whole, const std::string& sentence) const {
   const std::size_t line = line_of(file_->text, path_to(file_->json, value_));
-  throw UsageError(fmt::format("{}:{}: {}", file_->path.string(), line, sentence));
+  const std::string key = text_of(path_to(file_->json, whole.value_));
+  throw UsageError(
+      fmt::format("{}:{}: {}{}{}", file_->path.string(), line, shortened(key), key.empty() ? "" : ": ", sentence));
 }
 
 void Node::fail_unknown(const std::string& what, const std::string& word, const std::vector<std::string>& known) const {
-  fail(fmt::format("unknown {} \"{}\"{}", what, word, suggestion(word, known)));
+  fail(fmt::format("unknown {} \"{}\"{}", what, shortened(word), suggestion(shortened(word), known)));
 }
 
 void Node::only(const std::vector<std::string>& keys) const {
   if (!value_->is_object()) fail(fmt::format("expected an object, found {}", value_->type_name()));
   for (const auto& [key, member] : value_->items())
     if (std::find(keys.begin(), keys.end(), key) == keys.end())
-      Node(*file_, member, *expressions_).fail_unknown("key", key, keys);
+      Node(*file_, member, *expressions_)
+          .fail_in(*this, fmt::format("unknown key \"{}\"{}", shortened(key), suggestion(shortened(key), keys)));
 }
 
 std::optional<Node> Node::find(const char* key) const {
@@ -90,7 +100,7 @@ double Node::number() const {
 std::int64_t Node::integer(std::int64_t minimum, std::int64_t maximum) const {
   const double value = number();
   if (value != std::rint(value) || value < static_cast<double>(minimum) || value > static_cast<double>(maximum))
-    fail(fmt::format("expected a whole number from {} to {}, found {}", minimum, maximum, value));
+    fail(fmt::format("expected a whole number from {} to {}, found {:g}", minimum, maximum, value));
   return static_cast<std::int64_t>(value);
 }
 
@@ -105,11 +115,45 @@ std::string Node::text() const {
 }
 
 std::string Node::name() const {
+  std::string name;
   try {
-    return expressions_->interpolate(text());
+    name = expressions_->interpolate(text());
   } catch (const std::invalid_argument& error) {
     fail(error.what());
   }
+  check_shown_name(name);
+  return name;
+}
+
+std::string Node::title() const {
+  std::string shown = text();
+  if (shown.empty()) fail("a few words are missing here");
+  if (has_control_characters(shown)) fail("there is a control character in this text; take it out");
+  return shown;
+}
+
+void Node::check_new_name(const std::string& name) const {
+  check_new_word(name);
+  const auto& words = expression_words();
+  if (std::find(words.begin(), words.end(), name) != words.end())
+    fail(fmt::format("\"{}\" has a meaning in expressions; choose another name", name));
+}
+
+void Node::check_new_word(const std::string& word) const {
+  constexpr const char* letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_";
+  const bool begins = !word.empty() && std::isalpha(static_cast<unsigned char>(word[0])) != 0;
+  if (!begins || word.find_first_not_of(letters) != std::string::npos || word.size() > longest_name)
+    fail(fmt::format("\"{}\" is no name for expressions: those begin with a letter and go on with letters, digits or _",
+                     shortened(word)));
+  if (expressions_->has(word)) fail(fmt::format("\"{}\" is the name of something else already", word));
+}
+
+void Node::check_shown_name(const std::string& name) const {
+  if (name.empty()) fail("a name has one character or more");
+  if (name.size() > longest_name)
+    fail(fmt::format("the name \"{}\" has more than {} characters", shortened(name), longest_name));
+  if (has_control_characters(name))
+    fail(fmt::format("there is a control character in the name \"{}\"; take it out", shortened(name)));
 }
 
 PlumbVec3 Node::vector() const {

@@ -95,6 +95,11 @@ struct Scene {
   [[nodiscard]] const std::string& word(const std::string& parameter) const;
 };
 
+/// Times that a user asks for in place of the file's; whatever the file works out from them sees these.
+struct Times {
+  std::optional<double> dt, seconds;
+};
+
 /// A scene file, parsed and checked, its parameters still open.
 class SceneFile {
  public:
@@ -114,8 +119,12 @@ class SceneFile {
   std::string text;     ///< likewise, in which errors find their line
 
   /// The scene for these values (missing ones take their default). Throws UsageError for unknown names, values out of
-  /// range, and expressions that fail.
-  [[nodiscard]] Scene instantiate(const Parameters& given) const;
+  /// range, expressions that fail, numbers that no engine may be given, and sizes beyond limits.hpp, which are judged
+  /// before anything is made.
+  [[nodiscard]] Scene instantiate(const Parameters& given, const Times& times = {}) const;
+  /// The scene without its shapes, bodies and joints, in which nothing is wrong. One of many_objects is not made for
+  /// that: whoever makes it finds what is wrong.
+  [[nodiscard]] Scene outline(const Parameters& given, const Times& times = {}) const;
 };
 
 }  // namespace plumb::harness

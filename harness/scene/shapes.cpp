@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "scene/build.hpp"
+#include "scene/limits.hpp"
 #include "scene/model.hpp"
 
 namespace plumb::harness {
@@ -19,7 +20,8 @@ const std::vector<std::vector<std::string>>& keys_by_type() {
   return keys;
 }
 
-void read_vertices(const Node& node, SceneShape& shape) {
+void read_vertices(const Node& node, SceneShape& shape, SceneBuilder& builder) {
+  builder.add_vertices(node, node.elements().size());
   for (const Node& vertex : node.elements()) {
     const PlumbVec3 v = vertex.vector();
     shape.vertices.insert(shape.vertices.end(), {v.x, v.y, v.z});
@@ -37,11 +39,13 @@ void read_indices(const Node& node, SceneShape& shape) {
 }
 
 /// A flat square of cells about the origin, in two triangles each.
-void read_grid(const Node& node, SceneShape& shape) {
+void read_grid(const Node& node, SceneShape& shape, SceneBuilder& builder) {
   const auto numbers = node.elements();
   if (numbers.size() != 2) node.fail("a grid has two numbers: cells a side, and the side of one");
   const auto cells = static_cast<std::uint32_t>(numbers[0].integer(1, 2048));
   const double side = numbers[1].number();
+  if (!(side > 0)) numbers[1].fail(fmt::format("the side of a cell is above 0, not {:g}", side));
+  builder.add_vertices(node, std::size_t{cells + 1} * (cells + 1));
   for (std::uint32_t row = 0; row <= cells; ++row)
     for (std::uint32_t column = 0; column <= cells; ++column)
       shape.vertices.insert(shape.vertices.end(), {(column - cells / 2.0) * side, 0, (row - cells / 2.0) * side});
@@ -52,8 +56,9 @@ void read_grid(const Node& node, SceneShape& shape) {
     }
 }
 
-void read_heights(const Node& node, SceneShape& shape) {
+void read_heights(const Node& node, SceneShape& shape, SceneBuilder& builder) {
   const auto rows = node.elements();
+  for (const Node& row : rows) builder.add_vertices(row, row.elements().size());
   if (rows.size() < 2) node.fail("a height field has two rows or more");
   for (const Node& row : rows) {
     const auto columns = row.elements();
@@ -105,6 +110,7 @@ SceneShape::Child read_child(const Node& node, const SceneBuilder& builder) {
     material.friction = node.number_or("friction", 0.5);
     material.restitution = node.number_or("restitution", 0);
     material.surface_velocity = node.vector_or("surface_velocity", {});
+    check_values(node, material);
     child.material = material;
   }
   return child;
@@ -124,7 +130,7 @@ SceneShape read_shape(const Node& node, const std::string& name, SceneBuilder& b
     if (key == "type" || key == "user_data" || std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
     member.fail(fmt::format("a {} has no {}", shape_words()[type], key));
   }
-  if (as_grid) read_grid(*grid, shape);
+  if (as_grid) read_grid(*grid, shape, builder);
   if (as_model) read_model(*model, shape, builder.scene);
   for (const std::string& key : keys_by_type()[type]) {
     if (as_grid || as_model) break;
@@ -132,9 +138,9 @@ SceneShape read_shape(const Node& node, const std::string& name, SceneBuilder& b
     if (key == "radius") shape.desc.radius = value.number();
     if (key == "half_height") shape.desc.half_height = value.number();
     if (key == "half_extents") shape.desc.half_extents = value.vector();
-    if (key == "vertices") read_vertices(value, shape);
+    if (key == "vertices") read_vertices(value, shape, builder);
     if (key == "indices") read_indices(value, shape);
-    if (key == "heights") read_heights(value, shape);
+    if (key == "heights") read_heights(value, shape, builder);
     if (key == "spacing") shape.desc.spacing = value.vector();
     if (key == "children")
       for (const Node& child : value.elements()) shape.children.push_back(read_child(child, builder));
@@ -143,13 +149,24 @@ SceneShape read_shape(const Node& node, const std::string& name, SceneBuilder& b
     shape.desc.user_data = static_cast<std::uint64_t>(data->integer(0, std::int64_t{1} << 53));
   shape.desc.vertex_count = static_cast<std::uint32_t>(shape.vertices.size() / 3);
   shape.desc.triangle_count = static_cast<std::uint32_t>(shape.indices.size() / 3);
+  if (builder.scene.lacks.empty() || !as_model) check_values(node, shape);
   return shape;
 }
 
 }  // namespace
 
+void SceneBuilder::add_vertices(const Node& place, std::size_t count) {
+  vertices += count;
+  if (vertices > most_vertices)
+    place.fail(
+        fmt::format("with this the scene's shapes have more than {} vertices: is a count mistaken?", most_vertices));
+}
+
 void read_shapes(const Node& shapes, SceneBuilder& builder) {
-  for (const auto& [name, node] : shapes.members()) node.only(scene_keys().at("shape"));
+  for (const auto& [name, node] : shapes.members()) {
+    node.only(scene_keys().at("shape"));
+    node.check_shown_name(name);
+  }
   // Compounds come last, so that all their children have smaller indices; a compound in a compound is thus unknown.
   for (const bool compounds : {false, true}) {
     for (const auto& [name, node] : shapes.members()) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "plumb/nearest.hpp"
+#include "scene/shown.hpp"
 
 namespace plumb::harness {
 namespace {
@@ -18,6 +19,19 @@ struct Unit {
   double factor = 1;
   std::array<int, 4> powers{};
 };
+
+/// The unit for a word that people write in its place; "" where there is none.
+std::string unit_for(const std::string& word) {
+  static const std::map<std::string, const char*> words{
+      {"degree", "deg"},  {"degrees", "deg"},   {"radian", "rad"},     {"radians", "rad"},   {"second", "s"},
+      {"seconds", "s"},   {"sec", "s"},         {"minute", "min"},     {"minutes", "min"},   {"hour", "h"},
+      {"hours", "h"},     {"metre", "m"},       {"metres", "m"},       {"meter", "m"},       {"meters", "m"},
+      {"kilogram", "kg"}, {"kilograms", "kg"},  {"gram", "g"},         {"grams", "g"},       {"newton", "N"},
+      {"newtons", "N"},   {"joule", "J"},       {"joules", "J"},       {"watt", "W"},        {"hertz", "Hz"},
+      {"percent", "%"},   {"centimetre", "cm"}, {"centimetres", "cm"}, {"millimetre", "mm"}, {"millimetres", "mm"}};
+  const auto found = words.find(word);
+  return found == words.end() ? "" : found->second;
+}
 
 const std::map<std::string, Unit, std::less<>>& atoms() {
   static const std::map<std::string, Unit, std::less<>> table{
@@ -71,7 +85,10 @@ Unit parse(const std::string& text) {
     if (atom == atoms().end()) {
       std::vector<std::string> known;
       for (const auto& [name, ignored] : atoms()) known.push_back(name);
-      throw std::invalid_argument(fmt::format("unknown unit \"{}\"{}", word, suggestion(word, known)));
+      const std::string meant = unit_for(word);
+      throw std::invalid_argument(
+          fmt::format("unknown unit \"{}\"{}", shortened(word),
+                      meant.empty() ? suggestion(shortened(word), known) : "; did you mean \"" + meant + "\"?"));
     }
     for (int i = 0; i < power; ++i) {
       unit.factor = sign > 0 ? unit.factor * atom->second.factor : unit.factor / atom->second.factor;

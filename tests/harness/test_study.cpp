@@ -113,11 +113,12 @@ TEST(StudyFiles, schema_and_reader_know_the_same_keys) {
 
 TEST(StudyFiles, errors_name_the_line_and_the_remedy) {
   EXPECT_EQ(refusal("{\"name\": \"x\",\n\"sets\": [{\"scenes\": \"A1\",\n\"repetitons\": 3}]}"),
-            "some.json:3: unknown key \"repetitons\"; did you mean \"repetitions\"?");
-  EXPECT_EQ(refusal("{\"name\": \"x\",\n\"sets\": [{\"scenes\": \"A1\",\n\"needs\": \"scene+sleping\"}]}"),
-            "some.json:3: needs scene+sleping: there is no need \"sleping\"; did you mean \"sleeping\"?");
+            "some.json:3: sets[0]: unknown key \"repetitons\"; did you mean \"repetitions\"?");
+  EXPECT_EQ(
+      refusal("{\"name\": \"x\",\n\"sets\": [{\"scenes\": \"A1\",\n\"needs\": \"scene+sleping\"}]}"),
+      "some.json:3: sets[0].needs: needs scene+sleping: there is no need \"sleping\"; did you mean \"sleeping\"?");
   EXPECT_EQ(refusal("{\"name\": \"x\",\n\"budget\": \"5 mins\", \"sets\": [{\"scenes\": \"A1\"}]}"),
-            "some.json:2: budget 5 mins: a time is a number above 0 and s, min or h: 90s, 20min, 2h");
+            "some.json:2: budget: budget 5 mins: a time is a number above 0 and s, min or h: 90s, 20min, 2h");
   EXPECT_NE(refusal("{\"name\": \"x\", \"sets\": [{\"scenes\": \"A1\", \"dt\": 0}]}").find("above 0"),
             std::string::npos);
   EXPECT_NE(refusal("{\"name\": \"x\", \"sets\": [{\"scenes\": \"A1\", \"along\": {\"role\": \"qualty\"}}]}")

@@ -124,38 +124,106 @@ TEST_F(SceneFiles, TakeWhatTheyDoNotNeedFromTheirBodies) {
 }
 
 TEST_F(SceneFiles, AreRefusedWithLineAndNearestWord) {
-  EXPECT_EQ(refusal("\"radius\"", "\"radios\""), "T1-test.json:13: unknown key \"radios\"; did you mean \"radius\"?");
+  EXPECT_EQ(refusal("\"radius\"", "\"radios\""),
+            "T1-test.json:13: shapes.ball: unknown key \"radios\"; did you mean \"radius\"?");
   EXPECT_EQ(refusal("\"friction\", \"joints\"", "\"fricton\""),
-            "T1-test.json:9: unknown need \"fricton\"; did you mean \"friction\"?");
+            "T1-test.json:9: needs[2]: unknown need \"fricton\"; did you mean \"friction\"?");
   EXPECT_EQ(refusal("\"unit\": \"1\"", "\"unit\": \"kgg\""),
-            "T1-test.json:4: unknown unit \"kgg\"; did you mean \"kg\"?");
+            "T1-test.json:4: parameters.n.unit: unknown unit \"kgg\"; did you mean \"kg\"?");
   EXPECT_EQ(refusal("\"half / 2\"", "\"hlaf / 2\""),
-            "T1-test.json:8: \"hlaf / 2\": unknown name \"hlaf\"; did you mean \"half\"?");
+            "T1-test.json:8: let[1].value: \"hlaf / 2\": unknown name \"hlaf\"; did you mean \"half\"?");
   EXPECT_EQ(refusal("\"body_b\": \"{kind}0_0\"", "\"body_b\": \"{kind}0_9\""),
-            "T1-test.json:22: unknown body \"ball0_9\"; did you mean \"ball0_0\"?");
+            "T1-test.json:22: joints[0].body_b: unknown body \"ball0_9\"; did you mean \"ball0_0\"?");
   EXPECT_EQ(refusal("\"shape\": \"{kind}\"", "\"shape\": \"bal\""),
-            "T1-test.json:17: unknown shape \"bal\"; did you mean \"ball\"?");
+            "T1-test.json:17: bodies[0].shape: unknown shape \"bal\"; did you mean \"ball\"?");
   EXPECT_EQ(refusal("\"radius\": 0.5", "\"radius\": true"),
-            "T1-test.json:13: expected a number or an expression, found boolean");
-  EXPECT_EQ(refusal("\"seconds\": \"n + 1\"", "\"seconds\": -1"), "T1-test.json:10: seconds must be above 0, not -1");
-  EXPECT_EQ(refusal("\"rx\"", "\"rw\""), "T1-test.json:23: unknown axis \"rw\"; did you mean \"rx\"?");
+            "T1-test.json:13: shapes.ball.radius: expected a number or an expression, found boolean");
+  EXPECT_EQ(refusal("\"seconds\": \"n + 1\"", "\"seconds\": -1"), "T1-test.json:10: seconds: must be above 0, not -1");
+  EXPECT_EQ(refusal("\"rx\"", "\"rw\""),
+            "T1-test.json:23: joints[0].motors.rw: unknown axis \"rw\"; did you mean \"rx\"?");
   EXPECT_EQ(refusal("\"slug\": \"test\", ", ""), "T1-test.json:1: the key \"slug\" is missing here");
-  EXPECT_EQ(refusal("[1, 2]", "[1, -2]"), "T1-test.json:7: parameter n = -2 is below its minimum 0");
-  EXPECT_EQ(refusal("{ \"n\": 5 }", "{ \"m\": 5 }").substr(0, 47), "T1-test.json:7: scene T1: unknown parameter \"m\"");
+  EXPECT_EQ(refusal("[1, 2]", "[1, -2]"),
+            "T1-test.json:7: variants[0].sweep.n[1]: parameter n = -2 is below its minimum 0");
+  EXPECT_EQ(refusal("{ \"n\": 5 }", "{ \"m\": 5 }").substr(0, 62),
+            "T1-test.json:7: variants[1].m: scene T1: unknown parameter \"m\"");
   EXPECT_EQ(refusal("\"name\": \"extra\", \"when\": \"kind == box\"", "\"name\": \"ball0_0\""),
-            "T1-test.json:18: a second body is named \"ball0_0\"");
+            "T1-test.json:18: bodies[1].name: a second body is named \"ball0_0\"");
   EXPECT_EQ(refusal("\"name\": \"quarter\"", "\"name\": \"n\""),
-            "T1-test.json:8: \"n\" is the name of something else already");
+            "T1-test.json:8: let[1].name: \"n\" is the name of something else already");
   EXPECT_EQ(refusal("\"type\": \"sphere\",", "\"type\": \"sphere\", \"half_height\": 1,"),
-            "T1-test.json:13: a sphere has no half_height");
+            "T1-test.json:13: shapes.ball.half_height: a sphere has no half_height");
   EXPECT_EQ(refusal("\"repeat\": { \"i\": \"n\"", "\"repeat\": { \"i\": 1e9"),
-            "T1-test.json:17: expected a whole number from 0 to 2000000, found 1000000000");
+            "T1-test.json:17: bodies[0].repeat.i: expected a whole number from 0 to 2000000, found 1e+09");
+}
+
+/// The parser's side of the list that check_schema.py holds against the schema.
+TEST_F(SceneFiles, OfTheListOfWrongOnesAreRefused) {
+  std::ifstream file(WRONG_SCENES);
+  const auto list = nlohmann::json::parse(file);
+  EXPECT_NO_THROW(load(list.at("good").dump(1)));
+  for (const auto& wrong : list.at("wrong")) {
+    nlohmann::json scene = list.at("good");
+    scene[nlohmann::json::json_pointer(wrong.at("at"))] = wrong.at("value");
+    const std::string what = wrong.at("at").get<std::string>() + " = " + wrong.at("value").dump();
+    try {
+      load(scene.dump(1));
+      ADD_FAILURE() << what << " is taken";
+    } catch (const UsageError& error) {
+      const std::string said = error.what();
+      EXPECT_NE(said.find(wrong.at("says").get<std::string>()), std::string::npos) << what << "\n  " << said;
+      EXPECT_NE(said.find("T1-test.json:"), std::string::npos) << "no line: " << said;
+      EXPECT_LT(said.size(), 500u) << what;
+      EXPECT_EQ(said.find_first_of("\n\x1b\x07"), std::string::npos) << what;
+    }
+  }
+}
+
+TEST_F(SceneFiles, TimesInPlaceOfTheFilesAreJudgedAsTheirs) {
+  const SceneFile file = load(good);
+  const auto said = [&](const Times& times) -> std::string {
+    try {
+      static_cast<void>(file.outline({}, times));
+      return "";
+    } catch (const UsageError& error) {
+      return error.what();
+    }
+  };
+  EXPECT_EQ(said({0.01, 2}), "");
+  EXPECT_EQ(
+      said({{}, 1e300}),
+      "scene T1: seconds: 1e+300 s in steps of 0.0166667 s are 6e+301 steps, and 1e+07 are the most; ask for fewer "
+      "seconds or a longer dt");
+  EXPECT_EQ(said({1e6, {}}), "scene T1: dt: 3 s are less than one step of 1e+06 s; nothing would run");
+  EXPECT_EQ(said({1e-300, 1e-299}), "scene T1: dt: must be from 1e-09 to 1e+06 s, not 1e-300");
+  EXPECT_NE(said({1e-9, {}}).find("are 3e+09 steps"), std::string::npos);
+  EXPECT_NE(said({NAN, {}}), "");
+  EXPECT_NE(said({{}, NAN}), "");
+  EXPECT_NE(said({{}, INFINITY}), "");
+}
+
+TEST_F(SceneFiles, OfCrowdsHaveAnOutlineWithoutBeingMade) {
+  std::string text = good;
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    text.replace(text.find(from), from.size(), to);
+  };
+  replace(R"("i": "n", "j": "i + 1")", R"("i": 400, "j": 300)");
+  // The density of the last body alone is wrong: what is not made is not looked at.
+  replace(R"("position": ["i", "j", 0])", R"*("density": "119999 - (300 * i + j)")*");
+  const SceneFile file = load(text);
+  EXPECT_EQ(file.outline({}).bodies.size(), 0u);
+  try {
+    static_cast<void>(file.instantiate({}));
+    FAIL();
+  } catch (const UsageError& error) {
+    EXPECT_NE(std::string(error.what()).find("bodies[0].density: density is 0"), std::string::npos) << error.what();
+  }
 }
 
 TEST_F(SceneFiles, ThatAreNotJsonAreRefusedWithTheLine) {
   EXPECT_EQ(refusal("\"seconds\": \"n + 1\",", "\"seconds\" \"n + 1\",").substr(0, 31),
             "T1-test.json:10: not valid JSON");
-  EXPECT_NE(refusal("\"id\": \"T1\",", "\"id\": \"T1\", \"id\": \"T2\",").find("stands twice"), std::string::npos);
+  EXPECT_EQ(refusal("\"seconds\": \"n + 1\",", "\"seconds\": 1, \"seconds\": 2,"),
+            "T1-test.json:10: the key \"seconds\" stands twice in one object; take one out");
   EXPECT_NE(refusal("0.5", "1e999").find("JSON"), std::string::npos);
   EXPECT_NE(refusal("[1, 2]", std::string(100, '[') + std::string(100, ']')).find("nested deeper"), std::string::npos);
   EXPECT_THROW(SceneFile::load(folder_ / "none.json"), UsageError);
