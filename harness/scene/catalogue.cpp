@@ -43,7 +43,7 @@ std::vector<Found> find_files() {
         const auto same = std::find_if(files.begin(), files.end(), [&](const Found& o) { return o.id == file.id; });
         if (same == files.end()) {
           files.push_back(std::move(file));
-        } else if (same->root == directory) {  // of another folder the first one holds
+        } else if (same->root == directory && same->path != file.path) {  // of another folder the first one holds
           throw UsageError(
               fmt::format("{} and {} have one id; rename one of them", same->path.string(), file.path.string()));
         }
