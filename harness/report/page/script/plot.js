@@ -47,14 +47,16 @@ function seriesMarks(one, look, points, x, y) {
     between = (axis, band, side) => (p) => axis.place(p[band][side]);
   add(Plot.ruleY, points.filter((p) => p.xb), { x1: between(x, 'xb', 0), x2: between(x, 'xb', 1), ...bar, x: undefined });
   add(Plot.ruleX, points.filter((p) => p.yb), { y1: between(y, 'yb', 0), y2: between(y, 'yb', 1), ...bar, y: undefined });
-  add(Plot.dot, points.filter((p) => p.marked), { r: 8, stroke: 'currentColor', strokeWidth: 1.2 });
+  add(Plot.dot, points.filter((p) => p.marked), { r: 8, stroke: 'currentColor', strokeWidth: 1.2, ariaDescription: 'as it ships' });
   const runs = points.filter((p) => !p.failed),
     r = one.large ? 8 : kRadius;
   add(Plot.dot, runs.filter((p) => p.filled), { r, symbol, fill: colour, stroke: kPaper, strokeWidth: 1 });
   add(Plot.dot, runs.filter((p) => !p.filled), { r, symbol, fill: kPaper, stroke: colour, strokeWidth: 1.6 });
-  add(Plot.dot, points.filter((p) => p.failed), { r: kRadius, symbol: 'times', stroke: colour, strokeWidth: 1.8 });
+  const failed = points.filter((p) => p.failed);
+  add(Plot.dot, failed, { r, symbol, fill: kPaper, stroke: colour, strokeWidth: 1, strokeOpacity: 0.6 });
+  add(Plot.dot, failed, { r: kRadius, symbol: 'times', stroke: colour, strokeWidth: 1.8, ariaDescription: 'failed' });
   for (const side of [1, -1])
-    add(Plot.dot, points.filter((p) => p.beyond === side), { r: 3, dy: -9 * side, symbol: kShapes[side > 0 ? 2 : 4], fill: colour });
+    add(Plot.dot, points.filter((p) => p.beyond === side), { r: 3, dy: -9 * side, symbol: kShapes[side > 0 ? 2 : 4], fill: colour, ariaDescription: 'beyond' });
   return marks;
 }
 
