@@ -147,7 +147,7 @@ test('no two series of a figure look alike, as drawn', () =>
           for (const mark of plot.querySelectorAll('g[aria-label=line], g[aria-label=dot]')) {
             const name = mark.getAttribute('aria-description'),
               kind = mark.getAttribute('aria-label');
-            if (!name) continue;
+            if (!name || !mark.firstElementChild) continue;
             const look = looks.get(name) ?? looks.set(name, {}).get(name),
               style = getComputedStyle(mark.firstElementChild),
               hue = style.stroke === 'none' || mark.getAttribute('stroke') === 'var(--paper)' ? style.fill : style.stroke;
