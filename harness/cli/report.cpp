@@ -13,6 +13,7 @@
 #include "cli/verbs.hpp"
 #include "report/against_text.hpp"
 #include "report/csv.hpp"
+#include "report/failures.hpp"
 #include "report/markdown.hpp"
 #include "report/page/page.hpp"
 #include "report/results_file.hpp"
@@ -28,7 +29,7 @@ struct ReportOptions {
   std::vector<std::string> folders;
   std::string html, against;
   AgainstLimits limits;
-  bool markdown = false, csv = false, json = false, strict = false;
+  bool markdown = false, csv = false, json = false, failures = false, strict = false;
   bool no_replays = false;
   ReplayLimits replays;
 };
@@ -132,11 +133,12 @@ int report(const ReportOptions& options) {
   }
   if (!options.against.empty()) return report_against(options, rows, baseline) && options.strict ? 1 : 0;
   if (options.markdown) write_markdown(std::cout, rows);
+  if (options.failures) write_failures(std::cout, rows);
   if (options.csv) write_csv(std::cout, rows);
   if (options.json) {
     for (const Json& row : rows) std::cout << line_of(row) << '\n';
   }
-  if (options.html.empty() && !options.markdown && !options.csv && !options.json) {
+  if (options.html.empty() && !options.markdown && !options.csv && !options.json && !options.failures) {
     print_comparison(std::cout, rows, terminal_width(), wants_colour());
   }
   return 0;
@@ -158,6 +160,9 @@ void add_report(CLI::App& program, int& status) {
   CLI::Option* markdown = verb->add_flag("--md", options->markdown, "Print Markdown");
   CLI::Option* csv = verb->add_flag("--csv", options->csv, "Print CSV, a line a metric");
   CLI::Option* json = verb->add_flag("--json", options->json, "Print one JSON object a cell, one a line");
+  CLI::Option* failures =
+      verb->add_flag("--failures", options->failures,
+                     "Print as Markdown what each engine does not pass at its defaults, and by how much");
   CLI::Option* against = verb->add_option("--against", options->against,
                                           "Say what got better or worse than in this folder of earlier results");
   verb->add_flag("--strict", options->strict, "Exit with 1 when something got worse")->needs(against);
@@ -170,8 +175,9 @@ void add_report(CLI::App& program, int& status) {
       ->needs(against)
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
-  markdown->excludes(csv)->excludes(json);
-  csv->excludes(json)->excludes(against);
+  markdown->excludes(csv)->excludes(json)->excludes(failures);
+  csv->excludes(json)->excludes(against)->excludes(failures);
+  failures->excludes(json)->excludes(against);
   verb->callback([options, &status] { status = report(*options); });
 }
 

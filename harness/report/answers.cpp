@@ -8,6 +8,7 @@
 #include <map>
 
 #include "report/format.hpp"
+#include "report/overview.hpp"
 
 namespace plumb::harness {
 namespace {
@@ -48,46 +49,70 @@ const Problem* problem_of(const Study& study, const std::string& slug, const std
   return nearest;
 }
 
+/// What a line's configuration costs, and which it is.
 std::string price(const Study& study, const Reached& reached) {
-  std::string out = fmt::format("{} ms per simulated second", short_number(reached.ms));
+  const std::string with = " with " + study.configuration(*reached.row);
+  if (!reached.ms) return "at a cost that is not known, the machine having had other work," + with;
+  std::string out =
+      fmt::format("{}{} ms per simulated second", reached.untimed > 0 ? "at most " : "", short_number(*reached.ms));
   if (reached.band)
     out += fmt::format(" (95 %: {} to {})", short_number(reached.band->low), short_number(reached.band->high));
-  return out + " with " + study.configuration(*reached.row);
+  out += with;
+  if (reached.untimed > 0)
+    out += fmt::format("; {} that reach it, too, were measured while the machine had other work", reached.untimed);
+  return out;
 }
 
-/// What reaching the target on the problem's metric costs, the cheapest first, then who never does.
-AnsweredQuestion cost_answer(const Study& study, const std::vector<CostLine>& costs, const Problem& problem,
+/// What a backend's line says of a target, and whether it is reached by a run that passes.
+AnswerLine cost_line(const Study& study, const CostLine& line, std::size_t target) {
+  if (line.at[target]) return {line.backend, {{price(study, *line.at[target]), line.at[target]->row}}, true};
+  Statement statement;
+  if (const auto& failing = line.failing[target]) {
+    statement = {fmt::format("not in a run that passes; with {} it misses {}", study.configuration(*failing->row),
+                             failing->row->missed()),
+                 failing->row};
+  } else if (line.floor && line.floor->error < 1) {
+    statement = {fmt::format("never; its best is {} with {}", percent_text(line.floor->error),
+                             study.configuration(*line.floor->row)),
+                 line.floor->row};
+    if (!line.floor->row->passes()) statement.text += ", which misses " + line.floor->row->missed();
+  } else {
+    const ResultRow& row = *line.representative;
+    statement = {row.completed() ? "never, in any configuration here" : "did not come through: " + row.missed(), &row};
+  }
+  return {line.backend, {statement}, false};
+}
+
+/// What reaching the target on the problem's metric costs, the cheapest first, then those whose cost is not known, then
+/// who never does.
+AnsweredQuestion cost_answer(const Study& study, const std::vector<CostTest>& tests, const Problem& problem,
                              const std::string& metric, std::size_t target, const std::string& question,
                              const std::string& verb) {
   AnsweredQuestion answer{question, "", {}, "cost"};
-  std::vector<const CostLine*> lines;
-  for (const CostLine& line : costs) {
-    if (line.problem == &problem && line.metric == metric && !line.contended) lines.push_back(&line);
-  }
-  std::stable_sort(lines.begin(), lines.end(), [&](const CostLine* a, const CostLine* b) {
-    return (a->at[target] ? a->at[target]->ms : never) < (b->at[target] ? b->at[target]->ms : never);
+  const auto test = std::find_if(tests.begin(), tests.end(), [&](const CostTest& candidate) {
+    return candidate.lines.front().problem == &problem && candidate.lines.front().metric == metric;
   });
-  for (const CostLine* line : lines) {
-    Statement statement;
-    if (line->at[target]) {
-      statement = {price(study, *line->at[target]), line->at[target]->row};
-      const MetricResult* worst = statement.row->worst();
-      if (statement.row->verdict() == Verdict::failed && worst && worst->name != metric)
-        statement.text += fmt::format(", yet it misses {} ({})", worst->name, short_number(worst->error));
-    } else if (line->floor && line->floor->error < 1) {
-      statement = {fmt::format("never; its best is {} at {} ms", percent_text(line->floor->error),
-                               short_number(line->floor->ms)),
-                   line->floor->row};
-    } else {
-      const ResultRow& row = *line->representative;
-      statement = {row.completed() ? "never, in any configuration here" : "did not come through: " + row.reason, &row};
-    }
-    answer.lines.push_back({line->backend, statement, line->at[target].has_value()});
+  if (test == tests.end()) return answer;
+  const auto cost = [&](const CostLine* line) {
+    const auto& reached = line->at[target];
+    return std::pair(!reached, reached && reached->ms ? *reached->ms : never);
+  };
+  std::vector<const CostLine*> lines;
+  for (const CostLine& line : test->lines) lines.push_back(&line);
+  std::stable_sort(lines.begin(), lines.end(), [&](const CostLine* a, const CostLine* b) { return cost(a) < cost(b); });
+  for (const CostLine* line : lines) answer.lines.push_back(cost_line(study, *line, target));
+  std::vector<std::string> good = good_ones(answer.lines);
+  if (good.empty()) {
+    answer.verdict = fmt::format("Nobody {} here in a run that passes the scene.", verb);
+  } else if (test->cheapest(target)) {
+    answer.verdict = fmt::format("{}, at {}.", good.front(), price(study, *lines.front()->at[target]));
+  } else {
+    std::sort(good.begin(), good.end(), natural_less);
+    answer.verdict = fmt::format(
+        "{} can. Who is cheapest is not known: runs were measured while the machine had other "
+        "work, and their times do not count.",
+        list_of(good));
   }
-  if (answer.lines.empty()) return answer;
-  const std::vector<std::string> good = good_ones(answer.lines);
-  answer.verdict = good.empty() ? fmt::format("Nobody {} here.", verb)
-                                : fmt::format("{}, at {}.", good.front(), price(study, *lines.front()->at[target]));
   return answer;
 }
 
@@ -98,8 +123,7 @@ AnsweredQuestion energy_answer(const Study& study) {
     const EnergyFacts facts = energy_of(study, backend);
     const Statement statement = energy_statement(facts);
     if (statement.text.empty()) continue;
-    const bool good = facts.worst_drift <= conserving && facts.worst_injection <= injecting;
-    lines.push_back({std::max(facts.worst_drift, facts.worst_injection), {backend, statement, good}});
+    lines.push_back({facts.lost > 0 ? never : facts.worst_drift, {backend, {statement}, facts.conserves()}});
   }
   std::stable_sort(lines.begin(), lines.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   for (auto& [worst, line] : lines) answer.lines.push_back(std::move(line));
@@ -108,7 +132,8 @@ AnsweredQuestion energy_answer(const Study& study) {
   answer.verdict = good.empty()
                        ? fmt::format("At their defaults nobody within {}; {} comes closest.", percent_text(conserving),
                                      answer.lines.front().backend)
-                       : fmt::format("{}, within {} at their defaults.", list_of(good), percent_text(conserving));
+                       : fmt::format("{}, within {} at their defaults, wherever a scene has a threshold for it.",
+                                     list_of(good), percent_text(conserving));
   return answer;
 }
 
@@ -127,8 +152,9 @@ AnsweredQuestion friction_answer(const Study& study) {
     if (facts.spread > cone_spread && facts.best_row && facts.best_spread <= cone_spread) {
       text += fmt::format("; {} with {}", percent_text(facts.best_spread), study.configuration(*facts.best_row));
     }
+    if (!facts.row->passes()) text += "; that run misses " + facts.row->missed();
     if (facts.pyramid()) pyramids.push_back(backend);
-    lines.push_back({facts.spread, {backend, {text, facts.row}, !facts.pyramid()}});
+    lines.push_back({facts.spread, {backend, {{text, facts.row}}, facts.row->passes()}});
   }
   std::stable_sort(lines.begin(), lines.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
   for (auto& [spread, line] : lines) answer.lines.push_back(std::move(line));
@@ -139,65 +165,57 @@ AnsweredQuestion friction_answer(const Study& study) {
   return answer;
 }
 
-AnsweredQuestion reach_answer(const Study& study, const std::vector<CostLine>& costs) {
-  AnsweredQuestion answer{"Who gets within 1 % most often, and who is cheapest there?", "", {}, "profiles"};
-  std::vector<std::pair<std::size_t, AnswerLine>> lines;
-  for (const std::string& backend : study.backends) {
-    std::size_t ran = 0, reached = 0;
-    for (const CostLine& line : costs) {
-      if (line.backend != backend || line.contended) continue;
-      ++ran;
-      reached += line.at[one_percent].has_value();
-    }
-    if (ran == 0) continue;
-    const std::size_t beaten = beaten_at(costs, backend, one_percent).size();
-    lines.push_back(
-        {reached,
-         {backend,
-          {fmt::format("within 1 % in {} of {} metrics, the cheapest in {} of them", reached, ran, reached - beaten),
-           nullptr},
-          false}});
+AnsweredQuestion reach_answer(const std::vector<BackendOverview>& overviews) {
+  AnsweredQuestion answer{"Who gets within 1 % most often, and who is cheapest there?", "", {}, "cost"};
+  std::vector<std::pair<ReachCount, AnswerLine>> lines;
+  for (const BackendOverview& overview : overviews) {
+    const ReachCount& count = overview.reach[one_percent];
+    if (count.tests > 0) lines.push_back({count, {overview.backend, {{reach_text(count, false)}}}});
   }
-  std::stable_sort(lines.begin(), lines.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-  for (auto& [reached, line] : lines) answer.lines.push_back(std::move(line));
-  if (answer.lines.size() < 2) return {};
-  answer.verdict = fmt::format("{}: {}.", answer.lines.front().backend, answer.lines.front().statement.text);
-  answer.lines.front().good = true;
+  std::stable_sort(lines.begin(), lines.end(),
+                   [](const auto& a, const auto& b) { return a.first.reached > b.first.reached; });
+  if (lines.size() < 2) return answer;
+  const std::size_t most = lines.front().first.reached;
+  std::vector<std::string> first;
+  for (auto& [count, line] : lines) {
+    line.good = most > 0 && count.reached == most;
+    if (line.good) first.push_back(line.backend);
+    answer.lines.push_back(std::move(line));
+  }
+  answer.verdict = first.empty() ? "Nobody does."
+                                 : fmt::format("{}: {}.", list_of(first), answer.lines.front().statements.front().text);
   return answer;
 }
 
-std::string names_of(const std::vector<const CostLine*>& lines) {
-  constexpr std::size_t most = 3;
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < std::min(most, lines.size()); ++i)
-    names.push_back(lines[i]->problem->title() + " " + lines[i]->metric);
-  std::string out = fmt::format("{}", fmt::join(names, ", "));
-  if (lines.size() > most) out += fmt::format(" and {} more", lines.size() - most);
-  return out;
-}
-
-AnsweredQuestion losing_answer(const Study& study, const std::vector<CostLine>& costs) {
+/// What an engine fails, what it never gets right, and where it pays most.
+AnsweredQuestion losing_answer(const std::vector<CostTest>& tests, const std::vector<BackendOverview>& overviews) {
   AnsweredQuestion answer{"Where does each engine lose?", "", {}, "matrix"};
-  for (const std::string& backend : study.backends) {
-    const bool took_part =
-        std::any_of(costs.begin(), costs.end(), [&](const CostLine& line) { return line.backend == backend; });
-    if (!took_part) continue;
-    std::vector<std::string> parts;
-    const ResultRow* shown = nullptr;
-    const std::vector<const CostLine*> missed = never_reached(costs, backend, one_percent);
-    if (!missed.empty()) {
-      parts.push_back(fmt::format("never within 1 %, where another engine is: {}", names_of(missed)));
-      shown = missed.front()->representative;
+  for (const BackendOverview& overview : overviews) {
+    std::vector<Statement> parts;
+    if (const std::size_t lost = overview.lost.size(); lost > 0) {
+      std::vector<Statement> names;
+      for (const auto* rows : {&overview.broken, &overview.failures}) {
+        for (const ResultRow* row : *rows) names.push_back({row_title(*row), row});
+      }
+      parts.push_back(
+          name_some(fmt::format("fails {} of {} problems at its defaults:", lost, overview.problems), names));
     }
-    const std::vector<Beaten> beaten = beaten_at(costs, backend, one_percent);
+    if (const std::vector<Statement> missed = names_of(never_reached(tests, overview.backend, one_percent));
+        !missed.empty())
+      parts.push_back(name_some("never passes within 1 %, where another engine does:", missed));
+    const std::vector<Beaten> beaten = beaten_at(tests, overview.backend, one_percent);
     if (!beaten.empty() && beaten.front().factor > 1.05) {
       const Beaten& worst = beaten.front();
-      parts.push_back(fmt::format("pays up to {} what {} does for 1 % ({} {})", ratio_text(worst.factor),
-                                  worst.by->backend, worst.line->problem->title(), worst.line->metric));
-      if (!shown) shown = worst.line->at[one_percent]->row;
+      parts.push_back({fmt::format("pays up to {} what {} does for 1 % ({} {})", ratio_text(worst.factor),
+                                   worst.by->backend, worst.line->problem->title(), worst.line->metric),
+                       worst.line->at[one_percent]->row});
     }
-    if (parts.empty()) parts.push_back("nowhere in these results");
-    answer.lines.push_back({backend, {fmt::format("{}", fmt::join(parts, "; ")), shown}, false});
+    if (parts.empty()) parts.push_back({"nowhere in these results"});
+    const ReachCount& count = overview.reach[one_percent];
+    if (count.compared < count.reached)
+      parts.push_back(
+          {fmt::format("where it is dearer is known of {} of {} metrics only", count.compared, count.reached)});
+    answer.lines.push_back({overview.backend, std::move(parts)});
   }
   if (answer.lines.size() < 2) answer.lines.clear();
   return answer;
@@ -210,13 +228,10 @@ std::vector<AnsweredQuestion> answers(const Study& study, const std::vector<Cost
   const auto add = [&](AnsweredQuestion answer) {
     if (!answer.lines.empty()) all.push_back(std::move(answer));
   };
+  const std::vector<CostTest> tests = tests_of(costs);
+  const std::vector<BackendOverview> backends = overviews(study, costs);
   if (const Problem* tower = problem_of(study, "tower", "H", 50)) {
-    // A tower on its way down stands until it has sunk by a tenth: one that stands is at rest, too.
-    const bool tells_rest = std::any_of(costs.begin(), costs.end(), [&](const CostLine& line) {
-      return line.problem == tower && line.metric == "kinetic_energy";
-    });
-    add(cost_answer(study, costs, *tower, tells_rest ? "kinetic_energy" : "stands",
-                    tells_rest ? one_percent : one_per_mille,
+    add(cost_answer(study, tests, *tower, "stands", one_per_mille,
                     fmt::format("Which engine stands the tower of {} cubes cheapest?",
                                 value_text(tower->rows.front()->params.value("H", Json(10)))),
                     "makes it stand"));
@@ -224,13 +239,13 @@ std::vector<AnsweredQuestion> answers(const Study& study, const std::vector<Cost
   add(energy_answer(study));
   add(friction_answer(study));
   if (const Problem* pendulum = problem_of(study, "pendulum", "amplitude", 90)) {
-    add(cost_answer(study, costs, *pendulum, "period", one_per_mille,
+    add(cost_answer(study, tests, *pendulum, "period", one_per_mille,
                     fmt::format("What does 0.1 % on the pendulum's period cost ({})?",
                                 pendulum->variant.empty() ? "from 90 degrees" : pendulum->variant),
                     "gets there"));
   }
-  add(reach_answer(study, costs));
-  add(losing_answer(study, costs));
+  add(reach_answer(backends));
+  add(losing_answer(tests, backends));
   return all;
 }
 

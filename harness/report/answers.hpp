@@ -10,8 +10,8 @@ namespace plumb::harness {
 
 struct AnswerLine {
   std::string backend;
-  Statement statement;
-  bool good = false;  ///< the engine is an answer to "who?"
+  std::vector<Statement> statements;  ///< at least one
+  bool good = false;                  ///< the engine is an answer to "who?": each row that it shows passes its scene
 };
 
 struct AnsweredQuestion {

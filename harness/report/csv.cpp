@@ -17,10 +17,10 @@ std::string json_field(const Json& value) {
 std::string truth_field(const std::optional<bool>& value) { return value ? *value ? "true" : "false" : ""; }
 
 constexpr const char* header =
-    "scene,group,variant,backend,backend_version,profile,dt,seconds,threads,status,verdict,reason,"
+    "scene,group,variant,backend,backend_version,profile,needs,dt,seconds,threads,status,verdict,reason,"
     "metric,value,unit,truth,error,unbiased_error,threshold,gold,pass,is_gold,note,"
     "ms_per_step_median,ms_per_step_min,ms_per_step_max,ms_per_step_p99,ms_per_simulated_second,steps,setup_ms,"
-    "bodies,contacts_max,dropped,nonfinite,peak_mb,hash,params,settings,machine\n";
+    "contended,bodies,contacts_max,dropped,nonfinite,peak_mb,hash,params,settings,machine\n";
 
 }  // namespace
 
@@ -43,7 +43,7 @@ void write_csv(std::ostream& out, const std::vector<Json>& rows) {
     std::string head, tail;
     const auto add = [](std::string& line, const std::string& field) { line += field + ","; };
     for (const std::string& text :
-         {row.scene, row.group, row.variant(), row.backend, row.backend_version, row.profile}) {
+         {row.scene, row.group, row.variant(), row.backend, row.backend_version, row.profile, row.needs}) {
       add(head, csv_field(text));
     }
     for (const auto& value : {row.dt, row.seconds, row.threads}) add(head, number_field(value));
@@ -51,10 +51,12 @@ void write_csv(std::ostream& out, const std::vector<Json>& rows) {
       add(head, csv_field(text));
     }
     for (const auto& value :
-         {row.median_ms, row.min_ms, row.max_ms, row.p99_ms, row.ms_per_simulated_second(), row.steps, row.setup_ms,
-          row.bodies, row.contacts_max, row.dropped, row.nonfinite, row.peak_mb}) {
+         {row.median_ms, row.min_ms, row.max_ms, row.p99_ms, row.ms_per_simulated_second(), row.steps, row.setup_ms}) {
       add(tail, number_field(value));
     }
+    add(tail, csv_field(row.contended.value_or("")));
+    for (const auto& value : {row.bodies, row.contacts_max, row.dropped, row.nonfinite, row.peak_mb})
+      add(tail, number_field(value));
     add(tail, csv_field(row.hash));
     add(tail, json_field(row.params));
     add(tail, json_field(row.settings));

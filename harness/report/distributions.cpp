@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "report/default_run.hpp"
 #include "rows/statistics.hpp"
 
 namespace plumb::harness {
@@ -12,7 +13,7 @@ constexpr std::size_t fewest_seeds = 3;
 /// The seeds that a backend ran with at its defaults; empty where it did not.
 std::vector<const ResultRow*> seeds_at_defaults(const Study& study, const Problem& problem,
                                                 const std::string& backend) {
-  const ResultRow* representative = study.representative(problem, backend);
+  const ResultRow* representative = default_run(study, problem, backend);
   if (!representative) return {};
   for (Sample& sample : samples_of(problem, backend)) {
     if (std::find(sample.rows.begin(), sample.rows.end(), representative) != sample.rows.end())

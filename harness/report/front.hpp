@@ -25,11 +25,22 @@ struct Front {
   std::string metric;
   std::vector<FrontPoint> best;   ///< cheapest first; each dearer one is more exact
   std::vector<Dominated> others;  ///< cheapest first
+  std::size_t untimed = 0;        ///< configurations that would be in the race, and have no time that counts
 };
 
-/// For every problem and graded metric with a configuration that counts (see cost_of_accuracy). One that equals
-/// another in cost and error is on the front with it.
+/// For every problem and graded metric with a configuration that counts: its runs pass all thresholds of the scene, and
+/// have a fair time. One that equals another in cost and error is on the front with it.
 [[nodiscard]] std::vector<Front> pareto_fronts(const Study& study);
+
+/// Where an engine stands among all fronts that say something: of three configurations or more, all of them timed.
+struct FrontCount {
+  std::size_t ran = 0;                       ///< fronts that it has a configuration of
+  std::size_t on = 0;                        ///< of those it stands on, alone or with others
+  std::size_t alone = 0;                     ///< it stands on alone
+  std::size_t cheapest = 0, most_exact = 0;  ///< it has that end of
+};
+[[nodiscard]] FrontCount count_fronts(const std::vector<Front>& fronts, const std::string& backend);
+[[nodiscard]] bool says_something(const Front& front);
 
 /// The rule alone.
 [[nodiscard]] Front pareto_front(const Problem& problem, const std::string& metric, std::vector<FrontPoint> points);

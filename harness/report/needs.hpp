@@ -1,6 +1,8 @@
-// What each need costs: cells that are equal but for the needs that were declared.
+// What each need costs: cells that are equal but for the needs that were declared, and end in the same state. Where
+// they do not, the engine did something else (bodies sleep, collisions begin), and the times are of different work.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,8 +19,9 @@ struct NeedPair {
 struct NeedCost {
   std::string need;  ///< "sleeping" for rows with needs "scene+sleeping"; "all"
   std::string backend;
-  std::vector<NeedPair> pairs;  ///< at least one; the largest factor first
-  double median;                ///< of the factors
+  std::vector<NeedPair> pairs;    ///< that ended with the same bits; the largest factor first
+  std::vector<NeedPair> changed;  ///< that did not, or do not tell
+  std::optional<double> median;   ///< of the factors of `pairs`
 };
 
 /// By need, then backend. Only cells that ran to their end on a machine that was not contended.

@@ -4,10 +4,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <set>
 
+#include "report/default_run.hpp"
 #include "report/format.hpp"
 
 namespace plumb::harness {
@@ -67,14 +67,18 @@ BackendOverview overview_of(const Study& study, const std::string& backend) {
   overview.backend = backend;
   std::map<std::string, std::pair<int, int>> passed_of;
   for (const Problem& problem : study.problems) {
-    const ResultRow* row = study.representative(problem, backend);
+    const ResultRow* any = study.representative(problem, backend);
+    if (any && overview.version.empty()) overview.version = any->backend_version;
+    const ResultRow* row = default_run(study, problem, backend);
+    overview.elsewhere += any && !row;
     if (!row) continue;
-    if (overview.version.empty()) overview.version = row->backend_version;
     const Verdict verdict = row->verdict();
     ++overview.problems;
     ++overview.counts[static_cast<std::size_t>(verdict)];
     if (verdict == Verdict::failed) overview.failures.push_back(row);
     if (verdict > Verdict::unsupported) overview.broken.push_back(row);
+    if (verdict == Verdict::failed || verdict > Verdict::unsupported) overview.lost.push_back(row);
+    if (verdict == Verdict::unsupported) overview.unsupported.push_back(row);
     if (verdict != Verdict::unsupported && verdict != Verdict::ran) {
       auto& [passed, all] = passed_of[problem.group];
       passed += verdict <= Verdict::pass;
@@ -91,38 +95,19 @@ BackendOverview overview_of(const Study& study, const std::string& backend) {
   return overview;
 }
 
-void count_costs(std::vector<BackendOverview>& all, const std::vector<CostLine>& costs) {
-  std::map<std::string, BackendOverview*> by_name;
-  for (BackendOverview& overview : all) by_name[overview.backend] = &overview;
-  for (auto first = costs.begin(); first != costs.end();) {
-    const auto last = std::find_if(first, costs.end(), [&](const CostLine& line) {
-      return line.problem != first->problem || line.metric != first->metric;
-    });
-    for (std::size_t t = 0; t < target_errors.size(); ++t) {
-      double cheapest = std::numeric_limits<double>::infinity();
-      for (auto line = first; line != last; ++line) {
-        if (line->at[t]) cheapest = std::min(cheapest, line->at[t]->ms);
-      }
-      for (auto line = first; line != last; ++line) {
-        if (!line->at[t]) continue;
-        ++by_name[line->backend]->reached[t];
-        by_name[line->backend]->cheapest[t] += line->at[t]->ms == cheapest;
-      }
-    }
-    for (; first != last; ++first) by_name[first->backend]->cost_lines += first->floor.has_value();
-  }
-}
-
 }  // namespace
 
 std::vector<BackendOverview> overviews(const Study& study, const std::vector<CostLine>& costs) {
   std::vector<BackendOverview> all;
-  for (const std::string& backend : study.backends) all.push_back(overview_of(study, backend));
-  count_costs(all, costs);
+  const std::vector<CostTest> tests = tests_of(costs);
+  for (const std::string& backend : study.backends) {
+    all.push_back(overview_of(study, backend));
+    for (std::size_t t = 0; t < target_errors.size(); ++t) all.back().reach[t] = count_reached(tests, backend, t);
+  }
   return all;
 }
 
-std::string describe_backend(const BackendOverview& o, bool alone) {
+std::string describe_counts(const BackendOverview& o) {
   std::vector<std::string> counts;
   const auto count = [&](Verdict verdict, const char* words) {
     if (o.count(verdict) > 0) counts.push_back(fmt::format("{} {}", o.count(verdict), words));
@@ -136,11 +121,17 @@ std::string describe_backend(const BackendOverview& o, bool alone) {
   count(Verdict::timeout, "timed out");
   count(Verdict::out_of_memory, "out of memory");
   count(Verdict::error, "ended in an error");
-  std::string out = fmt::format("Of {}: {}.", plural(o.problems, "problem", "problems"), fmt::join(counts, ", "));
-  if (o.cost_lines > 0) {
-    out += fmt::format(" It reaches 1 % error in {} of {}", o.reached[1], plural(o.cost_lines, "metric", "metrics"));
-    out += alone ? "." : fmt::format(", in {} of them at the lowest cost of all.", o.cheapest[1]);
-  }
+  std::string out = o.problems == 0 ? "Nothing was run at its defaults."
+                                    : fmt::format("Of {} at its defaults: {}.",
+                                                  plural(o.problems, "problem", "problems"), fmt::join(counts, ", "));
+  if (o.elsewhere > 0)
+    out += fmt::format(" {} ran with other settings only.", plural(o.elsewhere, "more problem", "more problems"));
+  return out;
+}
+
+std::string describe_backend(const BackendOverview& o, bool alone) {
+  std::string out = describe_counts(o);
+  if (o.reach[1].tests > 0) out += fmt::format(" It gets {}.", reach_text(o.reach[1], alone));
   if (!o.best_groups.empty()) {
     out += fmt::format(" Best in {}; weakest in {}.", fmt::join(o.best_groups, ", "), fmt::join(o.worst_groups, ", "));
   }
@@ -159,6 +150,14 @@ std::string describe_backend(const BackendOverview& o, bool alone) {
     return fmt::format("{} ({})", title(row), word);
   });
   return out;
+}
+
+std::string reach_text(const ReachCount& count, bool alone) {
+  std::string out = fmt::format("within 1 % in {} of {}", count.reached, plural(count.tests, "metric", "metrics"));
+  if (alone || count.reached == 0) return out;
+  if (count.compared == 0) return out + ", at a cost that is not known";
+  out += fmt::format(", the cheapest in {} of ", count.cheapest);
+  return out + (count.compared == count.reached ? "them" : fmt::format("the {} whose costs are known", count.compared));
 }
 
 std::string describe_study(const Study& study) {

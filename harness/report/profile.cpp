@@ -24,14 +24,12 @@ std::vector<std::string> engines_of(const Study& study, const std::vector<Lines>
 }
 
 /// Lines of each problem and metric of the group on which all engines have a cell.
-std::vector<Lines> tests_of(const Study& study, const std::vector<CostLine>& costs, const std::string& group) {
+std::vector<Lines> common_tests(const Study& study, const std::vector<CostLine>& costs, const std::string& group) {
   std::vector<Lines> tests;
-  for (const CostLine& line : costs) {
-    if (!group.empty() && line.problem->group != group) continue;
-    const bool same =
-        !tests.empty() && tests.back().front()->problem == line.problem && tests.back().front()->metric == line.metric;
-    if (!same) tests.emplace_back();
-    tests.back().push_back(&line);
+  for (const CostTest& test : tests_of(costs)) {
+    if (!group.empty() && test.lines.front().problem->group != group) continue;
+    tests.emplace_back();
+    for (const CostLine& line : test.lines) tests.back().push_back(&line);
   }
   const std::vector<std::string> engines = engines_of(study, tests);
   for (Lines& test : tests) {
@@ -95,23 +93,27 @@ double ProfileCurve::at(double x) const {
 
 Profile cost_profile(const Study& study, const std::vector<CostLine>& costs, const std::string& group,
                      std::size_t target) {
-  std::vector<Lines> tests = tests_of(study, costs, group);
-  // Where an engine has errors but no fair time, nothing is known of its cost: that is no failure.
-  std::erase_if(tests, [](const Lines& test) {
-    return std::any_of(test.begin(), test.end(), [](const CostLine* line) { return line->contended; });
-  });
-  return profile_of(study, tests, [&](const CostLine& line, const Lines& test) -> std::optional<double> {
+  const std::vector<Lines> tests = common_tests(study, costs, group);
+  const auto unpriced = [&](const Lines& test) {
+    return std::any_of(test.begin(), test.end(),
+                       [&](const CostLine* line) { return line->at[target] && !line->at[target]->priced(); });
+  };
+  Profile profile = profile_of(study, tests, [&](const CostLine& line, const Lines& test) -> std::optional<double> {
     if (!line.at[target]) return std::nullopt;
     double cheapest = std::numeric_limits<double>::infinity();
+    // With one price unknown nobody's ratio to the cheapest is known; that it is solved is.
+    if (unpriced(test)) return cheapest;
     for (const CostLine* other : test) {
-      if (other->at[target]) cheapest = std::min(cheapest, other->at[target]->ms);
+      if (other->at[target]) cheapest = std::min(cheapest, *other->at[target]->ms);
     }
-    return line.at[target]->ms / cheapest;
+    return *line.at[target]->ms / cheapest;
   });
+  profile.unpriced = static_cast<std::size_t>(std::count_if(tests.begin(), tests.end(), unpriced));
+  return profile;
 }
 
 Profile error_profile(const Study& study, const std::vector<CostLine>& costs, const std::string& group) {
-  std::vector<Lines> tests = tests_of(study, costs, group);
+  std::vector<Lines> tests = common_tests(study, costs, group);
   std::map<const Problem*, Questions> questions;
   for (const Lines& test : tests) {
     const Problem& problem = *test.front()->problem;
@@ -119,7 +121,9 @@ Profile error_profile(const Study& study, const std::vector<CostLine>& costs, co
   }
   std::erase_if(tests, [&](const Lines& test) {
     const std::vector<std::string>& graded = questions.at(test.front()->problem).graded();
-    return std::find(graded.begin(), graded.end(), test.front()->metric) == graded.end();
+    return std::find(graded.begin(), graded.end(), test.front()->metric) == graded.end() ||
+           !std::all_of(test.begin(), test.end(),
+                        [&](const CostLine* line) { return study.is_default(*line->representative); });
   });
   return profile_of(study, tests, [&](const CostLine& line, const Lines&) -> std::optional<double> {
     const ResultRow& row = *line.representative;

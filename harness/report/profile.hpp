@@ -21,13 +21,14 @@ struct ProfileCurve {
 
   /// Share at x; 0 before the first step.
   [[nodiscard]] double at(double x) const;
-  /// Share that is solved at any cost.
+  /// Share that is solved at any cost, known or not.
   [[nodiscard]] double reliability() const { return steps.empty() ? 0 : steps.back().share; }
 };
 
 struct Profile {
   std::size_t tests = 0;     ///< pairs of a problem and a metric that all engines here have a cell of
   std::size_t unsolved = 0;  ///< of those, nobody reaches the error; they count as not solved for all
+  std::size_t unpriced = 0;  ///< somebody reaches it at a price that no fair time tells: solved, at x = infinity
   std::vector<ProfileCurve>
       curves;  ///< by backend, in the study's order; without engines that ran less than half of the tests
 };

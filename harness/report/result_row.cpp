@@ -1,5 +1,6 @@
 #include "report/result_row.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <cmath>
@@ -133,6 +134,26 @@ std::optional<double> ResultRow::ms_per_simulated_second() const {
   const std::optional<double> ms = fair_ms();
   if (!ms || !dt || *ms <= 0 || *dt <= 0) return std::nullopt;
   return *ms / *dt;
+}
+
+std::string ResultRow::missed() const {
+  if (passes()) return "";
+  std::vector<const MetricResult*> misses;
+  for (const MetricResult& metric : metrics) {
+    if (completed() && metric.scored() && !metric.pass.value_or(true)) misses.push_back(&metric);
+  }
+  std::stable_sort(misses.begin(), misses.end(),
+                   [](const auto* a, const auto* b) { return a->badness().value_or(0) > b->badness().value_or(0); });
+  std::string out;
+  for (const MetricResult* metric : misses) {
+    out += (out.empty() ? "" : ", ") + metric->name;
+    const bool is_question = metric->threshold == 0.0 && metric->error == 1.0;
+    if (!metric->error) out += " not finite";
+    if (metric->error && metric->threshold && !is_question)
+      out += " " + short_number(*metric->error) + " > " + limit_text(*metric->threshold);
+  }
+  if (out.empty()) out = reason.empty() ? std::string(verdict_word(verdict())) : reason;
+  return out;
 }
 
 bool ResultRow::completed() const { return status == "ok" || status == "failed"; }

@@ -65,6 +65,10 @@ struct ResultRow {
   [[nodiscard]] bool own_needs() const { return needs.empty() || needs == "scene"; }
   /// It ran to its end, so that its errors and times mean something.
   [[nodiscard]] bool completed() const;
+  /// It ran to its end and missed no threshold of its scene: only such a run may win anything.
+  [[nodiscard]] bool passes() const { return verdict() <= Verdict::ran; }
+  /// What it misses, by most first: "drift 0.0139 > 0.01, stands"; else why it has no result; "" for one that passes.
+  [[nodiscard]] std::string missed() const;
   /// "H=50 mu=0.3", "" without parameters: what tells the variants of a scene apart.
   [[nodiscard]] std::string variant() const;
   /// The same without the parameter `seed`: rows that differ in it only are a distribution on one problem.

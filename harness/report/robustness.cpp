@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 
+#include "report/default_run.hpp"
 #include "rows/statistics.hpp"
 
 namespace plumb::harness {
@@ -21,22 +22,36 @@ double robustness_bound(std::string_view metric) {
   return 1e-2;
 }
 
+namespace {
+
+/// Problems of those that the backend was run on, and can run.
+std::size_t runs_tried(const Study& study, const std::set<const Problem*>& problems, const std::string& backend) {
+  return static_cast<std::size_t>(std::count_if(problems.begin(), problems.end(), [&](const Problem* problem) {
+    const ResultRow* row = default_run(study, *problem, backend);
+    return row && row->verdict() != Verdict::unsupported;
+  }));
+}
+
+}  // namespace
+
 std::vector<RobustnessLine> robustness(const Study& study) {
   struct Found {
     std::set<std::string> scenes;  // that do not score it
     std::string unit;
+    std::set<const Problem*> problems;
     std::map<std::string, std::vector<std::pair<double, const ResultRow*>>> errors;  // by backend
   };
   std::map<std::string, Found> by_name;
   for (const Problem& problem : study.problems) {
     for (const std::string& backend : study.backends) {
-      const ResultRow* row = study.representative(problem, backend);
+      const ResultRow* row = default_run(study, problem, backend);
       if (!row || !row->completed()) continue;
       for (const MetricResult& metric : row->metrics) {
         Found& found = by_name[metric.name];
         if (!metric.error || (metric.truth != 0 && metric.truth != 1)) continue;
         if (!metric.scored()) found.scenes.insert(row->scene);
         found.unit = metric.unit;
+        found.problems.insert(&problem);
         found.errors[backend].emplace_back(*metric.error, row);
       }
     }
@@ -62,6 +77,7 @@ std::vector<RobustnessLine> robustness(const Study& study) {
         }
       }
       cell.runs = errors.size();
+      cell.lost = runs_tried(study, found.problems, backend) - cell.runs;
       cell.median = *median(errors);
       line.cells.emplace_back(cell);
     }

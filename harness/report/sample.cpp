@@ -21,10 +21,16 @@ std::string configuration_key(const ResultRow& row) {
 
 }  // namespace
 
+bool Sample::passes() const {
+  const auto passed = std::count_if(rows.begin(), rows.end(), [](const ResultRow* row) { return row->passes(); });
+  return 2 * static_cast<std::size_t>(passed) >= rows.size();
+}
+
 std::optional<Measured> Sample::cost() const {
   std::vector<double> all;
   std::optional<Interval> band;
   for (const ResultRow* row : rows) {
+    if (row->contended) return std::nullopt;
     const std::optional<double> ms = row->ms_per_simulated_second();
     if (!ms) continue;
     all.push_back(*ms);
@@ -64,6 +70,11 @@ std::vector<Sample> samples_of(const Problem& problem, const std::string& backen
     const auto [place, is_new] = places.try_emplace(configuration_key(*row), samples.size());
     if (is_new) samples.emplace_back();
     samples[place->second].rows.push_back(row);
+  }
+  // Whoever names a sample names its first row.
+  for (Sample& sample : samples) {
+    if (sample.passes())
+      std::stable_partition(sample.rows.begin(), sample.rows.end(), [](const ResultRow* row) { return row->passes(); });
   }
   return samples;
 }

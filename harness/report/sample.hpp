@@ -20,11 +20,14 @@ struct Measured {
 };
 
 struct Sample {
-  std::vector<const ResultRow*> rows;  ///< at least one, of one backend
+  std::vector<const ResultRow*> rows;  ///< at least one, of one backend; those that pass first, where most do
 
   [[nodiscard]] const ResultRow& row() const { return *rows.front(); }
+  /// Most of its rows pass their scene.
+  [[nodiscard]] bool passes() const;
   /// Wall-clock ms per simulated second: of one row with its 95 % interval, of several their median with its 95 %
-  /// interval. Rows without a time, or measured on a contended machine, do not count; absent when none does.
+  /// interval. Absent where a row was measured on a contended machine, since the rest would be another distribution,
+  /// and where none has a time.
   [[nodiscard]] std::optional<Measured> cost() const;
   /// Of several rows the median, the band reaching from the smallest to the largest. A row that did not come through
   /// has an infinite error. Absent where no row has the metric, or the median is infinite.

@@ -177,13 +177,15 @@ std::string Study::commands(const std::vector<const ResultRow*>& of) const {
 }
 
 const ResultRow* Study::representative(const Problem& problem, const std::string& backend) const {
-  const ResultRow* chosen = nullptr;
+  std::vector<const ResultRow*> defaults, others;
   for (const ResultRow* row : problem.rows) {
-    if (row->backend != backend || !row->own_needs()) continue;
-    if (is_default(*row)) return row;
-    if (!chosen) chosen = row;
+    if (row->backend == backend && row->own_needs()) (is_default(*row) ? defaults : others).push_back(row);
   }
-  return chosen;
+  if (defaults.empty()) return others.empty() ? nullptr : others.front();
+  if (!defaults.front()->params.contains("seed")) return defaults.front();
+  std::stable_sort(defaults.begin(), defaults.end(),
+                   [](const ResultRow* a, const ResultRow* b) { return a->verdict() < b->verdict(); });
+  return defaults[defaults.size() / 2];
 }
 
 std::vector<std::string> Study::scored_metrics(const Problem& problem) const {

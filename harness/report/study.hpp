@@ -49,7 +49,8 @@ class Study {
   [[nodiscard]] std::string command(const ResultRow& row) const;
   /// Commands that run the cells again, those that differ in the backend only in one; the first few, and how many more.
   [[nodiscard]] std::string commands(const std::vector<const ResultRow*>& rows) const;
-  /// The cell that stands for the backend on the problem: the default one, else the first; null when there is none.
+  /// The cell that stands for the backend on the problem: the default one, of several seeds the one in the middle of
+  /// their verdicts; else the first; null when there is none.
   [[nodiscard]] const ResultRow* representative(const Problem& problem, const std::string& backend) const;
   /// Metrics of the problem that are scored somewhere (all with an error when none is), in order of appearance.
   [[nodiscard]] std::vector<std::string> scored_metrics(const Problem& problem) const;

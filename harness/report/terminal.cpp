@@ -7,6 +7,7 @@
 #include <ostream>
 
 #include "report/format.hpp"
+#include "report/machine_rows.hpp"
 #include "report/study.hpp"
 #include "report/text_table.hpp"
 
@@ -50,6 +51,22 @@ std::string ms_text(const ResultRow& row) {
   if (!row.median_ms) return "";
   const std::string ms = short_number(*row.median_ms);
   return row.contended ? "(" + ms + ")" : ms;
+}
+
+void print_legend(std::ostream& out, const Study& study) {
+  const bool any = std::any_of(study.rows.begin(), study.rows.end(),
+                               [](const ResultRow& row) { return row.contended && row.median_ms; });
+  if (any) out << "(ms): the machine had other work;\nsuch a time counts nowhere.\n";
+}
+
+/// Whatever a backend ran, it ran at its defaults, too.
+bool runs_at_defaults(const Study& study) {
+  return std::all_of(study.problems.begin(), study.problems.end(), [&](const Problem& problem) {
+    return std::all_of(study.backends.begin(), study.backends.end(), [&](const std::string& backend) {
+      const ResultRow* row = study.representative(problem, backend);
+      return !row || study.is_default(*row);
+    });
+  });
 }
 
 /// Verdicts by backend, those columns only that occur.
@@ -107,7 +124,7 @@ void print_block_of_backends(std::ostream& out, const Study& study, const std::v
         line.insert(line.end(), {{std::string(no_value), dim}, {}, {}});
         continue;
       }
-      line.push_back({prose(row->verdict()), colour_of(row->verdict())});
+      line.push_back({prose(row->verdict()) + (study.is_default(*row) ? "" : "*"), colour_of(row->verdict())});
       line.push_back({error_text(*row)});
       line.push_back({ms_text(*row), dim});
     }
@@ -133,6 +150,30 @@ void print_reasons(std::ostream& out, const Study& study, int terminal_width, bo
   out << '\n';
 }
 
+/// Columns of a terminal; of none, as many as a text may have.
+std::size_t width_or_all(int terminal_width) {
+  return terminal_width <= 0 ? std::string::npos : static_cast<std::size_t>(terminal_width);
+}
+
+void print_machine(std::ostream& out, const Study& study, int terminal_width, bool colour) {
+  // A block of backends a table: name or verdict, error, time need about 30 columns each, the scene about 20.
+  constexpr int scene_width = 20, backend_width = 30;
+  const std::size_t at_once =
+      terminal_width <= 0 ? study.backends.size()
+                          : static_cast<std::size_t>(std::max(1, (terminal_width - scene_width) / backend_width));
+  for (std::size_t first = 0; first < study.backends.size(); first += at_once) {
+    const auto begin = study.backends.begin() + static_cast<std::ptrdiff_t>(first);
+    const auto end =
+        study.backends.begin() + static_cast<std::ptrdiff_t>(std::min(first + at_once, study.backends.size()));
+    print_block_of_backends(out, study, {begin, end}, terminal_width, colour);
+    out << '\n';
+  }
+  print_legend(out, study);
+  if (!runs_at_defaults(study)) out << "*: it ran with other settings than\nits own only.\n";
+  print_reasons(out, study, terminal_width, colour);
+  print_counts(out, study, terminal_width, colour);
+}
+
 }  // namespace
 
 void print_table(std::ostream& out, const std::vector<Json>& rows, int terminal_width, bool colour) {
@@ -154,24 +195,16 @@ void print_table(std::ostream& out, const std::vector<Json>& rows, int terminal_
     }
   }
   table.print(out, terminal_width, colour);
+  print_legend(out, study);
 }
 
 void print_comparison(std::ostream& out, const std::vector<Json>& rows, int terminal_width, bool colour) {
-  const Study study(parse_rows(rows));
-  // A block of backends a table: name or verdict, error, time need about 30 columns each, the scene about 20.
-  constexpr int scene_width = 20, backend_width = 30;
-  const std::size_t at_once =
-      terminal_width <= 0 ? study.backends.size()
-                          : static_cast<std::size_t>(std::max(1, (terminal_width - scene_width) / backend_width));
-  for (std::size_t first = 0; first < study.backends.size(); first += at_once) {
-    const auto begin = study.backends.begin() + static_cast<std::ptrdiff_t>(first);
-    const auto end =
-        study.backends.begin() + static_cast<std::ptrdiff_t>(std::min(first + at_once, study.backends.size()));
-    print_block_of_backends(out, study, {begin, end}, terminal_width, colour);
-    out << '\n';
+  const std::vector<MachineRows> machines = rows_by_machine(rows);
+  for (const MachineRows& machine : machines) {
+    if (machines.size() > 1) out << printable(clipped(machine.name, width_or_all(terminal_width))) << '\n';
+    print_machine(out, Study(machine.rows), terminal_width, colour);
+    if (&machine != &machines.back()) out << '\n';
   }
-  print_reasons(out, study, terminal_width, colour);
-  print_counts(out, study, terminal_width, colour);
 }
 
 }  // namespace plumb::harness

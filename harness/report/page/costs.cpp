@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 
 #include "report/format.hpp"
 #include "report/page/markup.hpp"
@@ -11,20 +10,10 @@
 namespace plumb::harness {
 namespace {
 
-using LineRange = std::pair<std::vector<CostLine>::const_iterator, std::vector<CostLine>::const_iterator>;
-using Cheapest = std::array<double, target_errors.size()>;
-
-/// Lines of one problem and metric.
-LineRange next_range(std::vector<CostLine>::const_iterator first, std::vector<CostLine>::const_iterator last) {
-  return {first, std::find_if(first, last, [&](const CostLine& line) {
-            return line.problem != first->problem || line.metric != first->metric;
-          })};
-}
-
 /// " ±0.3" where the time has a band.
 std::string band_text(const Reached& reached) {
   if (!reached.band) return "";
-  const double half = std::max(reached.ms - reached.band->low, reached.band->high - reached.ms);
+  const double half = std::max(*reached.ms - reached.band->low, reached.band->high - *reached.ms);
   return fmt::format(R"(<small title="95 % of the median: {} to {}"> &#177;{}</small>)",
                      short_number(reached.band->low), short_number(reached.band->high), short_number(half, 2));
 }
@@ -39,13 +28,18 @@ Table reach_table(const PageContext& context) {
     table.column({"cheapest", 5});
   }
   for (const BackendOverview& overview : context.overviews) {
-    Json cells = Json::array({backend_label(context, overview.backend), std::to_string(overview.cost_lines)});
-    for (std::size_t t = 0; t < target_errors.size(); ++t) {
-      const double share = overview.cost_lines > 0 ? 100.0 * overview.reached[t] / overview.cost_lines : 0;
-      cells.push_back(cell(fmt::format(R"(<span class="share e{}" style="--share:{:.0f}%">{} <small>{:.0f} %</small></span>)",
-                                       context.backend_index(overview.backend), share, overview.reached[t], share),
-                           overview.reached[t]));
-      cells.push_back(std::to_string(overview.cheapest[t]));
+    Json cells = Json::array({backend_label(context, overview.backend), std::to_string(overview.reach.front().tests)});
+    for (const ReachCount& count : overview.reach) {
+      const auto reached = static_cast<double>(count.reached);
+      const double share = count.tests > 0 ? 100 * reached / static_cast<double>(count.tests) : 0;
+      cells.push_back(
+          cell(fmt::format(R"(<span class="share e{}" style="--share:{:.0f}%">{} <small>{:.0f} %</small></span>)",
+                           context.backend_index(overview.backend), share, count.reached, share),
+               reached));
+      cells.push_back(
+          cell(std::to_string(count.cheapest) +
+                   (count.compared < count.reached ? fmt::format(" <small>of {}</small>", count.compared) : ""),
+               static_cast<double>(count.cheapest)));
     }
     table.row(std::move(cells), "", context.backend_index(overview.backend));
   }
@@ -60,10 +54,8 @@ std::string metric_label(const CostLine& line) {
 /// Why nothing was reached.
 std::string why_nothing(const PageContext& context, const CostLine& line) {
   const ResultRow& row = *line.representative;
-  const std::string missed =
-      Questions(context.study.scored_metrics(*line.problem), *line.problem).missed_by(row);
+  const std::string missed = Questions(context.study.scored_metrics(*line.problem), *line.problem).missed_by(row);
   const std::string why = !row.completed()  ? row.reason
-                          : line.contended  ? "measured on a contended machine only: its times are left out"
                           : !missed.empty() ? "missed " + missed + ", so that its errors mean little"
                                             : "not finite or not measured";
   return fmt::format(R"(<span class="chip {}">{}</span> {})", verdict_word(row.verdict()),
@@ -74,7 +66,12 @@ std::string configured(const PageContext& context, const Reached& reached) {
   return fmt::format(R"(<span class="cfg">{}</span>)", escape_html(context.study.configuration(*reached.row)));
 }
 
-Json line_cells(const PageContext& context, const CostLine& line, const Cheapest& cheapest) {
+std::string ms_text(const Reached& reached) {
+  if (!reached.ms) return "not timed";
+  return (reached.untimed > 0 ? "\u2264 " : "") + short_number(*reached.ms);
+}
+
+Json line_cells(const PageContext& context, const CostTest& test, const CostLine& line) {
   Json cells = Json::array({metric_label(line), backend_label(context, line.backend)});
   if (!line.floor) {
     for (std::size_t t = 0; t < target_errors.size(); ++t) cells.push_back(cell(std::string(no_value), {}, "quiet"));
@@ -82,15 +79,16 @@ Json line_cells(const PageContext& context, const CostLine& line, const Cheapest
     return cells;
   }
   for (std::size_t t = 0; t < target_errors.size(); ++t) {
-    const std::optional<Reached>& at = line.at[t];
-    cells.push_back(!at ? cell("never", {}, "quiet")
-                        : cell(row_link(*at->row, short_number(at->ms)) + band_text(*at) + configured(context, *at), at->ms,
-                               at->ms == cheapest[t] ? "best" : ""));
+    const std::optional<Reached>& at = line.at[t] ? line.at[t] : line.failing[t];
+    cells.push_back(
+        !at ? cell("never", {}, "quiet")
+            : cell(row_link(*at->row, ms_text(*at)) + failed_mark(*at->row) + band_text(*at) + configured(context, *at),
+                   at->ms, test.is_cheapest(line, t) ? "best" : ""));
   }
-  cells.push_back(cell(fmt::format("{} <small>at {} ms</small>{}",
-                                   row_link(*line.floor->row, short_number(line.floor->error, 2)),
-                                   short_number(line.floor->ms), configured(context, *line.floor)),
-                       line.floor->error));
+  cells.push_back(
+      cell(fmt::format("{}{} <small>at {} ms</small>{}", row_link(*line.floor->row, short_number(line.floor->error, 2)),
+                       failed_mark(*line.floor->row), ms_text(*line.floor), configured(context, *line.floor)),
+           line.floor->error));
   return cells;
 }
 
@@ -100,23 +98,11 @@ Table group_table(const PageContext& context, const std::string& group) {
   table.column({"backend", 6.5, Column::Kind::name});
   for (const double target : target_errors) table.column({fmt::format("{} %", limit_text(100 * target)), 8});
   table.column({"best error reached", 10});
-  for (auto first = context.costs.begin(); first != context.costs.end();) {
-    const auto [begin, end] = next_range(first, context.costs.end());
-    first = end;
-    if (begin->problem->group != group) continue;
-    Cheapest cheapest;
-    cheapest.fill(std::numeric_limits<double>::infinity());
-    for (auto line = begin; line != end; ++line) {
-      for (std::size_t t = 0; t < target_errors.size(); ++t) {
-        if (line->at[t]) cheapest[t] = std::min(cheapest[t], line->at[t]->ms);
-      }
-    }
-    // One backend alone is not the cheapest of anything.
-    if (end - begin < 2) cheapest.fill(0);
-    for (auto line = begin; line != end; ++line)
-      table.row(line_cells(context, *line, cheapest),
-                filter_key(context, *line->problem, line->metric + " " + line->backend),
-                context.backend_index(line->backend));
+  for (const CostTest& test : tests_of(context.costs)) {
+    if (test.lines.front().problem->group != group) continue;
+    for (const CostLine& line : test.lines)
+      table.row(line_cells(context, test, line), filter_key(context, *line.problem, line.metric + " " + line.backend),
+                context.backend_index(line.backend));
   }
   return table;
 }
@@ -128,15 +114,18 @@ PageSection costs_section(const PageContext& context) {
   std::string words =
       R"(Wall-clock milliseconds per simulated )"
       R"(second of the cheapest configuration (time step, settings, threads, which stand below) among these results )"
-      R"(that reaches the error. <b>Never</b>: none of them does. The cheapest engine of a metric is set off; the last )"
+      R"(that reaches the error and passes all thresholds of its scene. A dagger: only runs that miss one reach it, )"
+      R"(which counts nowhere. <b>Never</b>: none does. The cheapest engine of a metric is set off; the last )"
       R"(column is the smallest error reached, and what it costs. A run that missed one of its scene's yes/no )"
       R"(questions (a tower that fell) has reached nothing.)";
   const auto contended = std::count_if(context.study.rows.begin(), context.study.rows.end(),
                                        [](const ResultRow& row) { return row.contended.has_value(); });
   if (contended > 0) {
-    words += fmt::format(R"( <b>{} of {} runs</b> were measured while the machine had more to do than cores: their )"
-                         R"(errors count, and their times are left out here and in all diagrams.)",
-                         contended, context.study.rows.size());
+    words += fmt::format(
+        R"( <b>{} of {} runs</b> were measured while the machine had more to do than cores: their )"
+        R"(errors count, and their times are left out here and in all diagrams. &#8804;: some of the runs that )"
+        R"(reach it have no time that counts, and nobody is called the cheapest there.)",
+        contended, context.study.rows.size());
   }
   section.words = about(words);
   section.blocks.push_back(reach_table(context).block());

@@ -147,11 +147,11 @@ void add_notes(const PageContext& context, const ProblemCurves& curves, Notes& n
     notes.add(fmt::format("{} changes nothing with {}.", escape_html(knob), escape_html(methods)), *curves.problem);
   for (const MethodCurves& method : curves.methods) {
     for (const ResultRow* row : method.broken) {
-      notes.add(fmt::format("No point of {} ({}): {}{}.", escape_html(context.curves.methods[method.method].label),
-                            escape_html(context.study.configuration(*row)),
-                            row_link(*row, verdict_title(row->verdict())),
-                            row->reason.empty() ? "" : ", " + escape_html(row->reason)),
-                *curves.problem);
+      notes.add(
+          fmt::format("No point of {} ({}): {}{}.", escape_html(context.curves.methods[method.method].label),
+                      escape_html(context.study.configuration(*row)), row_link(*row, verdict_title(row->verdict())),
+                      row->reason.empty() ? "" : ", " + escape_html(row->reason)),
+          *curves.problem);
     }
   }
 }
@@ -190,7 +190,8 @@ PageSection curves_section(const PageContext& context) {
       R"(line a method, its points along one setting of the role quality. Costs are of the settled second half of a )"
       R"(run; lower left is better. The hue is the engine's, the shape the method's, the dashes are the knob's. Filled: )"
       R"(the knob at the engine's own value; ringed: all settings there; a cross: the run missed one of the scene's )"
-      R"(yes/no questions, so that its error means little; an arrow: the error is zero, beyond the frame or not finite.)");
+      R"(yes/no questions, so that its error means little; an arrow: the error is zero, beyond the frame or not finite.)" +
+      untimed_note(context));
   const std::vector<std::size_t> ranks = ranks_of(context.curves.methods);
   const std::vector<ProblemCurves>& problems = context.curves.problems;
   for (auto first = problems.begin(); first != problems.end();) {

@@ -10,8 +10,8 @@ namespace plumb::harness {
 namespace {
 
 std::string line_item(const PageContext& context, const AnswerLine& line) {
-  const std::string text =
-      line.statement.row ? row_link(*line.statement.row, line.statement.text) : escape_html(line.statement.text);
+  std::string text;
+  for (const Statement& statement : line.statements) text += (text.empty() ? "" : "; ") + statement_text(statement);
   return fmt::format(R"(<li class="of{}{}">{} <span>{}</span></li>)", context.backend_index(line.backend),
                      line.good ? " good" : "", backend_label(context, line.backend), text);
 }
@@ -41,8 +41,7 @@ std::string first_screen(const PageContext& context) {
   std::string parts = answers_part(context);
   if (Json figure = speed_figure(context); !figure.is_null()) {
     parts += fmt::format(R"(<section id="speed{}" class="part speed"><h2>Speed and error</h2>{}</section>)",
-                         context.suffix,
-                         packed_blocks(Json::array({figures_block(Json::array({std::move(figure)}))})));
+                         context.suffix, packed_blocks(Json::array({figures_block(Json::array({std::move(figure)}))})));
   }
   return fmt::format(R"(<div class="first">{}</div>)", parts);
 }

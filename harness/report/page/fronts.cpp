@@ -11,8 +11,7 @@
 namespace plumb::harness {
 namespace {
 
-constexpr double largest_error = 10;      ///< beyond that nothing is told apart: all of it is wrong
-constexpr std::size_t fewest_points = 3;  ///< of which a front says something
+constexpr double largest_error = 10;  ///< beyond that nothing is told apart: all of it is wrong
 
 PlotSeries loose_series(const PageContext& context, const std::string& backend) {
   PlotSeries series{backend, context.backend_index(backend)};
@@ -85,26 +84,17 @@ Json figure(const PageContext& context, const Front& front) {
 }
 
 /// On how many fronts each engine stands, and how many it holds alone.
-Table counts_table(const PageContext& context, const std::vector<const Front*>& fronts) {
+Table counts_table(const PageContext& context) {
   Table table("on how many fronts each engine stands");
   table.column({"backend", 8, Column::Kind::name});
-  for (const char* title :
-       {"fronts it ran for", "is on", "holds alone", "has the cheapest point of", "has the most exact point of"})
+  for (const char* title : {"fronts it has a passing run for", "is on", "holds alone", "has the cheapest point of",
+                            "has the most exact point of"})
     table.column({title, 6});
   for (const std::string& backend : context.study.backends) {
-    std::size_t ran = 0, on = 0, alone = 0, cheapest = 0, exact = 0;
-    for (const Front* front : fronts) {
-      const auto is_of = [&](const FrontPoint& point) { return point.sample.row().backend == backend; };
-      const bool present = std::any_of(front->best.begin(), front->best.end(), is_of);
-      ran += present || std::any_of(front->others.begin(), front->others.end(),
-                                    [&](const Dominated& other) { return is_of(other.point); });
-      on += present;
-      alone += std::all_of(front->best.begin(), front->best.end(), is_of);
-      cheapest += is_of(front->best.front());
-      exact += is_of(front->best.back());
-    }
+    const FrontCount count = count_fronts(context.fronts, backend);
     Json cells = Json::array({backend_label(context, backend)});
-    for (const std::size_t count : {ran, on, alone, cheapest, exact}) cells.push_back(std::to_string(count));
+    for (const std::size_t number : {count.ran, count.on, count.alone, count.cheapest, count.most_exact})
+      cells.push_back(std::to_string(number));
     table.row(std::move(cells), "", context.backend_index(backend));
   }
   return table;
@@ -116,16 +106,22 @@ PageSection fronts_section(const PageContext& context) {
   PageSection section{"fronts", "Pareto fronts", ""};
   std::vector<const Front*> fronts;
   for (const Front& front : context.fronts) {
-    if (front.best.size() + front.others.size() >= fewest_points) fronts.push_back(&front);
+    if (says_something(front)) fronts.push_back(&front);
   }
+  const auto untimed =
+      std::count_if(context.fronts.begin(), context.fronts.end(), [](const Front& front) { return front.untimed > 0; });
   if (fronts.empty()) return section;
   section.words = about(
       R"(Over all engines and settings: a configuration is )"
       R"(on the front of a scene and metric when no other is at least as cheap and as exact. Whoever uses anything )"
       R"(off the line pays more for the same error, or gets more error for the same price. Specks: the beaten ones, )"
       R"(which the list under each diagram names with the front's cheapest that is as exact; ringed: an engine as it )"
-      R"(ships. Runs that missed a yes/no question are not in the race.)");
-  section.blocks.push_back(counts_table(context, fronts).block());
+      R"(ships. Only runs that pass all thresholds of their scene are in the race.)" +
+      (untimed == 0 ? ""
+                    : fmt::format(" {} fronts are left out: runs in their race were measured while the machine had "
+                                  "other work, and have no time that counts.",
+                                  untimed)));
+  section.blocks.push_back(counts_table(context).block());
   for (const std::string& group : context.study.groups) {
     Json figures = Json::array();
     for (const Front* front : fronts) {
@@ -134,8 +130,8 @@ PageSection fronts_section(const PageContext& context) {
     }
     if (figures.empty()) continue;
     const std::string count = fmt::format("{} {}", figures.size(), figures.size() == 1 ? "front" : "fronts");
-    section.blocks.push_back(
-        group_block(group_title(group), count, figures.size() <= open_figures, Json::array({figures_block(std::move(figures))})));
+    section.blocks.push_back(group_block(group_title(group), count, figures.size() <= open_figures,
+                                         Json::array({figures_block(std::move(figures))})));
   }
   return section;
 }

@@ -30,9 +30,7 @@ std::string verdict_bar(const BackendOverview& overview) {
 std::string statements(const char* title, const char* style, const std::vector<Statement>& list) {
   if (list.empty()) return "";
   std::string items;
-  for (const Statement& statement : list)
-    items += fmt::format("<li>{}</li>",
-                         statement.row ? row_link(*statement.row, statement.text) : escape_html(statement.text));
+  for (const Statement& statement : list) items += fmt::format("<li>{}</li>", statement_text(statement));
   return fmt::format(R"(<h4>{}</h4><ul class="{}">{}</ul>)", title, style, items);
 }
 
@@ -108,9 +106,11 @@ PageSection engines_section(const PageContext& context) {
   if (context.overviews.empty()) return section;
   std::string cards;
   for (const BackendOverview& overview : context.overviews) cards += backend_card(context, overview);
-  section.words = about("Where each is best and where it breaks, made from the numbers; what is underlined leads to a run "
-                        "that shows it.") +
-                  fmt::format(R"(<div class="cards">{}</div>)", cards);
+  section.words =
+      about(
+          "Where each is best and where it breaks, made from the numbers; what is underlined leads to a run "
+          "that shows it.") +
+      fmt::format(R"(<div class="cards">{}</div>)", cards);
   return section;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 
+#include "report/default_run.hpp"
 #include "report/format.hpp"
 #include "report/page/markup.hpp"
 #include "report/page/sections.hpp"
@@ -24,7 +25,8 @@ void add_cells(const ResultRow* row, Json& cells) {
   const std::string time = row->completed() && row->fair_ms()   ? short_number(*row->fair_ms())
                            : row->completed() && row->contended ? "contended"
                                                                 : verdict_title(row->verdict());
-  cells.push_back(cell(row_link(*row, time), row->completed() ? row->fair_ms() : std::nullopt));
+  cells.push_back(cell(row_link(*row, time) + (row->completed() ? failed_mark(*row) : ""),
+                       row->completed() ? row->fair_ms() : std::nullopt));
   cells.push_back(cell(worst ? short_number(worst->error, 2) : "", worst ? worst->error : std::nullopt));
 }
 
@@ -50,7 +52,7 @@ PageSection machines_section(const std::vector<PageContext>& machines) {
   for (std::size_t i = 0; i < machines.size(); ++i) {
     for (const Problem& problem : machines[i].study.problems) {
       for (const std::string& backend : machines[i].study.backends) {
-        const ResultRow* row = machines[i].study.representative(problem, backend);
+        const ResultRow* row = default_run(machines[i].study, problem, backend);
         if (!row) continue;
         const auto [at, is_new] = beside.try_emplace({problem.title(), backend}, machines.size(), nullptr);
         if (is_new) order.push_back(at->first);

@@ -18,9 +18,10 @@ Json matrix_cell(const PageContext& context, const Problem& problem, const std::
   const ResultRow* row = context.study.representative(problem, backend);
   if (!row) return cell(std::string(no_value), {}, "quiet");
   const Verdict verdict = row->verdict();
+  std::string below = row->completed() ? cell_number(*row) : row->reason;
+  if (!context.study.is_default(*row)) below += " with " + context.study.configuration(*row);
   return cell(fmt::format(R"(<a href="#r{}"><b>{}</b><span>{}</span></a>)", row->index,
-                          escape_html(verdict_title(verdict)),
-                          escape_html(row->completed() ? cell_number(*row) : row->reason)),
+                          escape_html(verdict_title(verdict)), escape_html(below)),
               static_cast<double>(verdict), fmt::format("verdict {}", verdict_word(verdict)));
 }
 
@@ -29,7 +30,7 @@ Json matrix_cell(const PageContext& context, const Problem& problem, const std::
 PageSection matrix_section(const PageContext& context) {
   PageSection section{"matrix", "Pass matrix", ""};
   section.words = about(
-      R"(Each engine at its defaults. The number is the error of the metric that )"
+      R"(Each engine at its defaults, or with the settings that are told where it ran with others only. The number is the error of the metric that )"
       R"(comes closest to its threshold or exceeds it most; hover for all metrics, click for the run.)");
   Table table("the pass matrix", "matrix");
   table.column({"scene", 11, Column::Kind::name});

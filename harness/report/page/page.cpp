@@ -7,6 +7,7 @@
 #include <ostream>
 #include <set>
 
+#include "report/machine_rows.hpp"
 #include "report/page/assets.hpp"
 #include "report/page/bundled_scripts.hpp"
 #include "report/page/looks.hpp"
@@ -35,28 +36,10 @@ struct MachinePart {
         fronts(pareto_fronts(study)) {}
 };
 
-/// Rows by the hardware they ran on, in order of appearance: times of different machines are never held against each
-/// other. Indices count on over all of them.
 std::vector<std::unique_ptr<MachinePart>> split_by_machine(const std::vector<Json>& lines) {
-  std::vector<std::pair<std::string, std::vector<ResultRow>>> groups;
-  for (const Json& line : lines) {
-    ResultRow row = parse_row(line, 0);
-    const std::string machine = hardware_of(row.machine);
-    auto group = std::find_if(groups.begin(), groups.end(), [&](const auto& g) { return g.first == machine; });
-    if (group == groups.end()) {
-      groups.push_back({machine, {}});
-      group = groups.end() - 1;
-    }
-    group->second.push_back(std::move(row));
-  }
-  if (groups.empty()) groups.emplace_back();
-  std::size_t index = 0;
   std::vector<std::unique_ptr<MachinePart>> parts;
-  for (auto& [machine, rows] : groups) {
-    for (ResultRow& row : rows) row.index = index++;
-    parts.push_back(
-        std::make_unique<MachinePart>(machine.empty() ? "a machine that is not named" : machine, std::move(rows)));
-  }
+  for (MachineRows& machine : rows_by_machine(lines))
+    parts.push_back(std::make_unique<MachinePart>(std::move(machine.name), std::move(machine.rows)));
   return parts;
 }
 

@@ -59,6 +59,7 @@ class Figure {
     plot_.description = fmt::format("{}: error against cost of each backend", title_);
     plot_.x.title = "ms per simulated second";
     plot_.y = {metric + " error", true, std::nullopt, largest_error};
+    const Questions questions(context.study.scored_metrics(problem), problem);
     std::map<std::pair<std::size_t, std::string>, DtLine> lines;  // backend, method
     for (const Sample& sample : samples_of(problem, "")) {
       const ResultRow& row = sample.row();
@@ -72,7 +73,10 @@ class Figure {
       line.series.method = method;
       line.series.joined = joined;
       line.series.points.push_back(point_of(context, row, *cost, *error));
-      line.points.push_back({row.dt.value_or(0), error->value});
+      // What fell down has no accuracy to gain, and is no part of the slope.
+      const bool counts = questions.counts(sample, metric);
+      if (!counts) line.series.points.back().failed = questions.missed_by(row);
+      line.points.push_back({counts ? row.dt.value_or(0) : 0, error->value});
       rows_.insert(rows_.end(), sample.rows.begin(), sample.rows.end());
     }
     for (auto& [key, line] : lines) {
@@ -110,8 +114,10 @@ class Figure {
   void add_order(DtLine& line, const std::string& method, const std::string& backend) {
     const std::optional<Order> order = fit_order(line.points);
     if (!order) return;
-    for (std::size_t i = 0; i < line.points.size(); ++i)
-      line.series.fit.emplace_back(line.series.points[i].x, order->at(line.points[i].turned));
+    for (std::size_t i = 0; i < line.points.size(); ++i) {
+      if (line.points[i].turned > 0)
+        line.series.fit.emplace_back(line.series.points[i].x, order->at(line.points[i].turned));
+    }
     orders_ += fmt::format("<li>{} {}{}</li>", backend_label(context_, backend), order_text(*order),
                            method.empty() ? "" : fmt::format(" <small>{}</small>", escape_html(method)));
   }
@@ -163,7 +169,10 @@ PageSection precision_section(const PageContext& context) {
       R"(defaults; bars across: 95 % interval of the time over repetitions, bars upwards: smallest to largest error )"
       R"(over seeds; thin broken lines: the fitted order in dt, whose number stands below; an arrow: the error is zero, )"
       R"(or beyond the frame.)";
-  section.words = about(words);
+  section.words = about(words +
+                        " A cross: the run missed one of the scene's yes/no questions, so that its error means "
+                        "little." +
+                        untimed_note(context));
   const std::vector<Problem>& problems = context.study.problems;
   for (const std::string& group : context.study.groups) {
     Json figures = Json::array();

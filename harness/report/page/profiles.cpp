@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "report/format.hpp"
 #include "report/page/markup.hpp"
@@ -27,10 +28,13 @@ PlotSeries stairs(const PageContext& context, const ProfileCurve& curve, double 
   return series;
 }
 
+/// The largest x that is known.
 double last_step(const Profile& profile) {
   double last = 0;
   for (const ProfileCurve& curve : profile.curves) {
-    if (!curve.steps.empty()) last = std::max(last, curve.steps.back().x);
+    for (const ProfileStep& step : curve.steps) {
+      if (std::isfinite(step.x)) last = std::max(last, step.x);
+    }
   }
   return last;
 }
@@ -38,18 +42,22 @@ double last_step(const Profile& profile) {
 std::string percent(double share) { return fmt::format("{:.0f} %", 100 * share); }
 
 std::string note(const Profile& profile) {
-  return fmt::format(R"(<p class="frame-note">{} {}{}</p>)", profile.tests, profile.tests == 1 ? "test" : "tests",
-                     profile.unsolved > 0 ? fmt::format(", {} of them solved by nobody", profile.unsolved) : "");
+  std::string out = fmt::format("{} {}", profile.tests, profile.tests == 1 ? "test" : "tests");
+  if (profile.unsolved > 0) out += fmt::format(", {} of them solved by nobody", profile.unsolved);
+  if (profile.unpriced > 0)
+    out += fmt::format(", {} at costs that no fair time tells: they count at the right edge alone", profile.unpriced);
+  return fmt::format(R"(<p class="frame-note">{}</p>)", out);
 }
 
 /// words: what is said of each curve. null where there is nothing to draw.
 template <typename Words>
-Json profile_figure(const PageContext& context, const Profile& profile, const std::string& title, Plot plot, double from,
-                    double to, const Words& words) {
+Json profile_figure(const PageContext& context, const Profile& profile, const std::string& title, Plot plot,
+                    double from, double to, const Words& words) {
   if (profile.tests == 0 || last_step(profile) == 0) return nullptr;
   std::string list;
   for (const ProfileCurve& curve : profile.curves) {
     plot.series.push_back(stairs(context, curve, from, to));
+    if (profile.unpriced > 0) plot.series.back().points.push_back({to, curve.reliability()});
     list += fmt::format("<li>{}: {}</li>", backend_label(context, curve.backend), words(curve));
   }
   FigureData figure;
@@ -68,9 +76,9 @@ Json cost_figure(const PageContext& context, const std::string& group, std::size
   plot.x.title = "times the cost of the cheapest engine";
   plot.y = {"share of tests solved", false, 0.0, 1.0};
   return profile_figure(context, profile, name, std::move(plot), 1, std::max(2.0, 1.3 * last_step(profile)),
-                        [](const ProfileCurve& curve) {
-                          return fmt::format("cheapest on {}, solves {}", percent(curve.at(1)),
-                                             percent(curve.reliability()));
+                        [&](const ProfileCurve& curve) {
+                          return fmt::format("cheapest on {}{}, solves {}", profile.unpriced > 0 ? "at least " : "",
+                                             percent(curve.at(1)), percent(curve.reliability()));
                         });
 }
 
@@ -106,7 +114,7 @@ PageSection profiles_section(const PageContext& context) {
   section.words = about(
       R"(After Dolan and Mor&eacute;. A test is a )"
       R"(scene's metric that every engine of the diagram has a run of (one that ran less than half of them is left out); its cost for an engine is that of the cheapest )"
-      R"(configuration that reaches the error (the <a href="#cost)" +
+      R"(configuration that reaches the error and passes its scene (the <a href="#cost)" +
       context.suffix +
       R"(">table above</a>). A curve says on which share of the )"
       R"(tests the engine needs at most x times what the cheapest one needs. Read it at two places: its height at the )"

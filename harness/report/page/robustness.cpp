@@ -14,10 +14,11 @@ namespace {
 
 Json robustness_cell(const std::optional<RobustnessCell>& runs) {
   if (!runs) return cell(std::string(no_value), {}, "quiet");
-  return cell(fmt::format(R"({} <small>{}</small><span class="cfg">median {}; beyond in {} of {}</span>)",
+  return cell(fmt::format(R"({} <small>{}</small><span class="cfg">median {}; beyond in {} of {}{}</span>)",
                           row_link(*runs->row, short_number(runs->worst, 2)), escape_html(problem_title(*runs->row)),
-                          short_number(runs->median, 2), runs->beyond, runs->runs),
-              runs->worst, runs->beyond == 0 ? "best" : "");
+                          short_number(runs->median, 2), runs->beyond, runs->runs,
+                          runs->lost > 0 ? fmt::format("; {} without a result", runs->lost) : ""),
+              runs->worst, runs->beyond == 0 && runs->lost == 0 ? "best" : "");
 }
 
 }  // namespace
@@ -26,10 +27,10 @@ PageSection robustness_section(const PageContext& context) {
   PageSection section{"robust", "Robustness", ""};
   const std::vector<RobustnessLine> lines = robustness(context.study);
   if (lines.empty()) return section;
-  section.words = about(
-      R"(Measures that need no truth of their own and hold in every scene, at each engine's defaults: )"
-      R"(the worst and where, the median over scenes, and how many runs are beyond the bound (a reading aid, no )"
-      R"(threshold of a scene). Set off: none is.)");
+  section.words =
+      about(R"(Measures that need no truth of their own and hold in every scene, at each engine's defaults: )"
+            R"(the worst and where, the median over scenes, and how many runs are beyond the bound (a reading aid, no )"
+            R"(threshold of a scene). Set off: none is, and all have a result.)");
   Table table("measures that hold in every scene");
   table.column({"measure", 9, Column::Kind::name});
   table.column({"bound", 4});

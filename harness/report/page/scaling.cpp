@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
+#include "report/default_run.hpp"
 #include "report/format.hpp"
 #include "report/page/markup.hpp"
 #include "report/page/sections.hpp"
@@ -24,8 +26,8 @@ std::vector<Sized> sizes_of(const PageContext& context, const Problem* first, co
                             const std::string& backend) {
   std::vector<Sized> sizes;
   for (const Problem* problem = first; problem != last; ++problem) {
-    const ResultRow* row = context.study.representative(*problem, backend);
-    if (row && row->bodies && *row->bodies > 0 && row->fair_ms() && *row->fair_ms() > 0)
+    const ResultRow* row = default_run(context.study, *problem, backend);
+    if (row && row->completed() && row->bodies && *row->bodies > 0 && row->fair_ms() && *row->fair_ms() > 0)
       sizes.push_back({*row->bodies, row});
   }
   std::stable_sort(sizes.begin(), sizes.end(), [](const Sized& a, const Sized& b) { return a.bodies < b.bodies; });
@@ -37,19 +39,31 @@ std::vector<Sized> sizes_of(const PageContext& context, const Problem* first, co
   return varies && distinct ? sizes : std::vector<Sized>{};
 }
 
-/// Bodies at which a step takes a frame, between the two sizes around it as a power law; "" where it was not reached.
+/// "about 1200 bodies": at which a step takes a frame, between the two sizes around it as a power law.
 std::string bodies_at_frame(const std::vector<Sized>& sizes) {
-  if (*sizes.front().row->fair_ms() > frame_ms) return fmt::format("below {}", shortest_number(sizes.front().bodies));
+  if (*sizes.front().row->fair_ms() > frame_ms)
+    return fmt::format("below {} bodies", shortest_number(sizes.front().bodies));
   for (std::size_t i = 1; i < sizes.size(); ++i) {
     const double a = *sizes[i - 1].row->fair_ms(), b = *sizes[i].row->fair_ms();
     if (a <= frame_ms && b > frame_ms) {
       const double share = std::log(frame_ms / a) / std::log(b / a);
       const double bodies = sizes[i - 1].bodies * std::pow(sizes[i].bodies / sizes[i - 1].bodies, share);
       const double unit = std::max(1.0, std::pow(10.0, std::floor(std::log10(bodies)) - 1));  // two digits are known
-      return fmt::format("about {}", shortest_number(std::round(bodies / unit) * unit));
+      return fmt::format("about {} bodies", shortest_number(std::round(bodies / unit) * unit));
     }
   }
-  return fmt::format("above {}", shortest_number(sizes.back().bodies));
+  return fmt::format("above {} bodies", shortest_number(sizes.back().bodies));
+}
+
+/// The same over the sizes at which the engine passes: what fails its scene tells nothing of what an engine can carry.
+std::string carried(const std::vector<Sized>& sizes) {
+  std::vector<Sized> passing;
+  std::copy_if(sizes.begin(), sizes.end(), std::back_inserter(passing),
+               [](const Sized& sized) { return sized.row->passes(); });
+  if (passing.empty()) return "fails at every size";
+  const std::string bodies = bodies_at_frame(passing);
+  const std::size_t failed = sizes.size() - passing.size();
+  return failed == 0 ? bodies : fmt::format("{}; fails at {} of {} sizes", bodies, failed, sizes.size());
 }
 
 Json scene_figure(const PageContext& context, const Problem* first, const Problem* last) {
@@ -68,6 +82,7 @@ Json scene_figure(const PageContext& context, const Problem* first, const Proble
     PlotSeries times{backend, context.backend_index(backend)}, errors = times;
     for (const Sized& sized : sizes) {
       times.points.push_back({sized.bodies, *sized.row->fair_ms(), sized.row, true, false, {}, sized.row->ci95});
+        times.points.back().failed = sized.row->missed();
       rows.push_back(sized.row);
       const MetricResult* worst = sized.row->worst();
       if (worst && worst->error && sized.row->completed())
@@ -75,16 +90,15 @@ Json scene_figure(const PageContext& context, const Problem* first, const Proble
     }
     time.series.push_back(std::move(times));
     error.series.push_back(std::move(errors));
-    list += fmt::format("<li>{}: {} bodies</li>", backend_label(context, backend), bodies_at_frame(sizes));
+    list += fmt::format("<li>{}: {}</li>", backend_label(context, backend), carried(sizes));
   }
   FigureData figure;
   figure.title = first->scene;
   figure.key = filter_key(context, *first);
   figure.legend = false;
   figure.plots = {std::move(time), std::move(error)};
-  figure.notes = fmt::format(
-      R"(<p class="frame-note">In a frame of 16.7 ms:</p><ul class="frame-list">{}</ul>{})", list,
-      figure_foot(context, rows, first->scene));
+  figure.notes = fmt::format(R"(<p class="frame-note">In a frame of 16.7 ms:</p><ul class="frame-list">{}</ul>{})",
+                             list, figure_foot(context, rows, first->scene));
   return figure_data(figure);
 }
 
@@ -105,9 +119,10 @@ PageSection scaling_section(const PageContext& context) {
     }
     i = end;
   }
-  section.words = about(
-      "Scenes that were run at several sizes, each engine at its defaults: time per step, and below it the worst error "
-      "at that size. The line at 16.7 ms is one frame at 60 Hz.");
+  section.words = about(std::string("Scenes that were run at several sizes, each engine at its defaults: time per "
+                                    "step, and below it the worst error "
+                                    "at that size. The line at 16.7 ms is one frame at 60 Hz.") +
+                        untimed_note(context));
   if (figures.empty()) {
     section.words += about("No scene here was run at several sizes.");
   } else {

@@ -29,12 +29,33 @@ std::string problem_title(const ResultRow& row) {
   return variant.empty() ? row.scene : row.scene + " " + variant;
 }
 
+std::string failed_mark(const ResultRow& row) {
+  return row.passes() ? "" : fmt::format(R"(<sup title="misses {}">&#8224;</sup>)", escape_html(row.missed()));
+}
+
+std::string statement_text(const Statement& statement) {
+  std::string out = statement.row ? row_link(*statement.row, statement.text) : escape_html(statement.text);
+  if (statement.more.empty()) return out;
+  std::string items;
+  for (const Statement& more : statement.more) items += fmt::format("<li>{}</li>", statement_text(more));
+  return fmt::format(R"({} <details class="how"><summary>all {} more</summary><ul>{}</ul></details>)", out,
+                     statement.more.size(), items);
+}
+
+std::string untimed_note(const PageContext& context) {
+  const auto contended = std::count_if(context.study.rows.begin(), context.study.rows.end(),
+                                       [](const ResultRow& row) { return row.contended.has_value(); });
+  if (contended == 0) return "";
+  return fmt::format(R"( <b>{} of {} runs</b> were measured while the machine had other work: they have no time that )"
+                     R"(counts, and are not among these.)",
+                     contended, context.study.rows.size());
+}
+
 std::string problem_label(const PageContext& context, const Problem& problem) {
   const auto text = context.options.scenes.find(problem.scene);
   std::string out = fmt::format("<b>{}</b>", escape_html(problem.scene));
   if (!problem.variant.empty()) out += fmt::format(R"( <span class="variant">{}</span>)", escape_html(problem.variant));
-  const std::string title =
-      text == context.options.scenes.end() ? problem.rows.front()->slug : text->second.title;
+  const std::string title = text == context.options.scenes.end() ? problem.rows.front()->slug : text->second.title;
   return title.empty() ? out : out + fmt::format(R"( <span class="scene-title">{}</span>)", escape_html(title));
 }
 

@@ -6,6 +6,7 @@
 
 #include "report/cost.hpp"
 #include "report/curves.hpp"
+#include "report/facts.hpp"
 #include "report/front.hpp"
 #include "report/overview.hpp"
 #include "report/page/blocks.hpp"
@@ -72,6 +73,12 @@ struct PageContext {
 /// A figure as a link to the row that it comes from: <a href="#r12">text</a>. The text is escaped here; what a hover
 /// says of the row, the script knows.
 [[nodiscard]] std::string row_link(const ResultRow& row, std::string_view text);
+/// A dagger behind a figure of a run that fails its scene; what it misses is its title. "" for one that passes.
+[[nodiscard]] std::string failed_mark(const ResultRow& row);
+/// A statement with a link to its run, and what it only counts as a list that opens.
+[[nodiscard]] std::string statement_text(const Statement& statement);
+/// A sentence for figures that need times: how many runs have none that counts; "" where all have.
+[[nodiscard]] std::string untimed_note(const PageContext& context);
 /// A problem's scene, variant and title.
 [[nodiscard]] std::string problem_label(const PageContext& context, const Problem& problem);
 /// What the page's filter finds an element by: lower case.

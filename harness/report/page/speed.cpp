@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "report/default_run.hpp"
 #include "report/page/sections.hpp"
 #include "rows/statistics.hpp"
 
@@ -17,7 +18,7 @@ struct Run {
 };
 
 std::optional<Run> run_of(const PageContext& context, const Problem& problem, const std::string& backend) {
-  const ResultRow* row = context.study.representative(problem, backend);
+  const ResultRow* row = default_run(context.study, problem, backend);
   if (!row || !row->completed() || !row->fair_ms() || *row->fair_ms() <= 0) return std::nullopt;
   const MetricResult* worst = row->worst();
   const std::optional<double> badness = worst ? worst->badness() : std::nullopt;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "report/default_run.hpp"
 #include "report/format.hpp"
 #include "report/page/markup.hpp"
 #include "report/page/sections.hpp"
@@ -11,17 +12,18 @@
 namespace plumb::harness {
 namespace {
 
+/// Of those that pass: a wrong answer is no faster way to the right one.
 std::optional<double> fastest(const PageContext& context, const Problem& problem) {
   std::optional<double> best;
   for (const std::string& backend : context.study.backends) {
-    const ResultRow* row = context.study.representative(problem, backend);
-    if (row && row->completed() && row->fair_ms() && (!best || *row->fair_ms() < *best)) best = row->fair_ms();
+    const ResultRow* row = default_run(context.study, problem, backend);
+    if (row && row->passes() && row->fair_ms() && (!best || *row->fair_ms() < *best)) best = row->fair_ms();
   }
   return best && *best > 0 ? best : std::nullopt;
 }
 
 /// Time and ratio of an engine on a problem.
-void add_time_cells(const ResultRow* row, double best, Json& cells) {
+void add_time_cells(const ResultRow* row, const std::optional<double>& best, Json& cells) {
   if (!row || !row->completed() || !row->fair_ms()) {
     const std::string why = !row                                 ? std::string(no_value)
                             : row->completed() && row->contended ? "contended"
@@ -30,13 +32,13 @@ void add_time_cells(const ResultRow* row, double best, Json& cells) {
     cells.push_back("");
     return;
   }
-  const double ratio = *row->fair_ms() / best;
-  cells.push_back(cell(row_link(*row, short_number(*row->fair_ms())) +
-                           (row->verdict() == Verdict::failed
-                                ? R"(<sup title="failed: a threshold is missed">&#8224;</sup>)"
-                                : ""),
-                       *row->fair_ms()));
-  cells.push_back(cell(ratio_text(ratio), ratio, ratio == 1 ? "best" : ""));
+  cells.push_back(cell(row_link(*row, short_number(*row->fair_ms())) + failed_mark(*row), *row->fair_ms()));
+  if (!best) {
+    cells.push_back(cell(std::string(no_value), {}, "quiet"));
+    return;
+  }
+  const double ratio = *row->fair_ms() / *best;
+  cells.push_back(cell(ratio_text(ratio), ratio, row->passes() && ratio == 1 ? "best" : ""));
 }
 
 Table ratio_table(const PageContext& context) {
@@ -45,22 +47,24 @@ Table ratio_table(const PageContext& context) {
   table.column({"bodies", 4});
   for (const std::string& backend : context.study.backends) {
     const std::size_t engine = context.backend_index(backend);
+    table.column({backend_label(context, backend) + " <small>ms</small>", 6, Column::Kind::number, engine});
     table.column(
-        {backend_label(context, backend) + " <small>ms</small>", 6, Column::Kind::number, engine});
-    table.column({"&times;", 4, Column::Kind::number, engine, false, backend + ", relative to the fastest"});
+        {"&times;", 4, Column::Kind::number, engine, false, backend + ", relative to the fastest that passes"});
   }
   for (const Problem& problem : context.study.problems) {
     const std::optional<double> best = fastest(context, problem);
-    if (!best) continue;
     std::optional<double> bodies;
+    bool any = false;
     Json times = Json::array();
     for (const std::string& backend : context.study.backends) {
-      const ResultRow* row = context.study.representative(problem, backend);
+      const ResultRow* row = default_run(context.study, problem, backend);
       if (row && row->bodies) bodies = row->bodies;
-      add_time_cells(row, *best, times);
+      any = any || (row && row->completed() && row->fair_ms());
+      add_time_cells(row, best, times);
     }
-    Json cells = Json::array({problem_label(context, problem),
-                              cell(bodies ? shortest_number(*bodies) : std::string(no_value), bodies)});
+    if (!any) continue;
+    Json cells = Json::array(
+        {problem_label(context, problem), cell(bodies ? shortest_number(*bodies) : std::string(no_value), bodies)});
     cells.insert(cells.end(), times.begin(), times.end());
     table.row(std::move(cells), filter_key(context, problem));
   }
@@ -123,19 +127,19 @@ Table phase_table(const PageContext& context, const std::vector<std::string>& ph
   for (const Problem& problem : context.study.problems) {
     double longest = 0;
     for (const std::string& backend : context.study.backends) {
-      const ResultRow* row = context.study.representative(problem, backend);
+      const ResultRow* row = default_run(context.study, problem, backend);
       if (row && row->completed()) longest = std::max({longest, phase_sum(*row), row->fair_ms().value_or(0)});
     }
     for (const std::string& backend : context.study.backends) {
-      const ResultRow* row = context.study.representative(problem, backend);
+      const ResultRow* row = default_run(context.study, problem, backend);
       if (!row || !row->completed() || row->contended || row->phase_ms.empty()) continue;
       const double sum = phase_sum(*row), total = std::max(sum, row->median_ms.value_or(sum));
       if (!(total > 0)) continue;
       const double shown = row->median_ms.value_or(sum);
-      table.row({problem_label(context, problem), backend_label(context, row->backend),
-                 cell(row_link(*row, short_number(shown)), shown),
-                 cell(phase_bar(*row, phases, sum, total, longest), total)},
-                filter_key(context, problem, row->backend), context.backend_index(row->backend));
+      table.row(
+          {problem_label(context, problem), backend_label(context, row->backend),
+           cell(row_link(*row, short_number(shown)), shown), cell(phase_bar(*row, phases, sum, total, longest), total)},
+          filter_key(context, problem, row->backend), context.backend_index(row->backend));
     }
   }
   return table;
@@ -146,8 +150,10 @@ Table phase_table(const PageContext& context, const std::vector<std::string>& ph
 PageSection times_section(const PageContext& context) {
   PageSection section{"times", "Times side by side", ""};
   section.words = about(
-      R"(Median milliseconds per step at each engine's defaults, and how many times the fastest )"
-      R"(engine's that is. A dagger marks a run that missed a threshold: its time bought a wrong answer.)");
+      R"(Median milliseconds per step at each engine's defaults, and how many times that is of the fastest engine )"
+      R"(whose run passes. A dagger marks a run that missed a threshold: its time bought a wrong answer, and it is the )"
+      R"(fastest of nothing.)" +
+      untimed_note(context));
   section.blocks.push_back(ratio_table(context).block());
   const std::vector<std::string> phases = phases_of(context.study);
   if (phases.empty()) return section;
@@ -155,9 +161,9 @@ PageSection times_section(const PageContext& context) {
   for (std::size_t i = 0; i < phases.size(); ++i)
     legend += fmt::format(R"(<span><i class="p{}"></i>{}</span>)", i % 8, escape_html(phases[i]));
   legend += R"(<span><i class="rest"></i>not told by the engine</span>)";
-  section.blocks.push_back(group_block(
-      "Time by phase", "as each engine tells it", false,
-      Json::array({words_block(fmt::format(R"(<p class="legend">{}</p>)", legend)), phase_table(context, phases).block()})));
+  section.blocks.push_back(group_block("Time by phase", "as each engine tells it", false,
+                                       Json::array({words_block(fmt::format(R"(<p class="legend">{}</p>)", legend)),
+                                                    phase_table(context, phases).block()})));
   return section;
 }
 

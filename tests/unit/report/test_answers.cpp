@@ -4,6 +4,7 @@
 
 #include "report/needs.hpp"
 #include "report/order.hpp"
+#include "report/overview.hpp"
 #include "report/robustness.hpp"
 #include "sample_rows.hpp"
 
@@ -47,7 +48,7 @@ TEST(Answers, TheTowerOfFiftyIsStoodByTheCheapestThatStandsIt) {
   EXPECT_EQ(tower->lines[0].backend, "b");
   EXPECT_EQ(tower->lines[1].backend, "a");
   EXPECT_FALSE(tower->lines[2].good);
-  EXPECT_EQ(tower->lines[2].statement.text.rfind("never", 0), 0u);
+  EXPECT_EQ(tower->lines[2].statements.at(0).text.rfind("never", 0), 0u);
 }
 
 TEST(Answers, ATowerOnItsWayDownDoesNotStand) {
@@ -73,7 +74,8 @@ TEST(Answers, EnergyIsConservedByWhomNoRunLosesOrGainsIt) {
   const AnsweredQuestion* energy = find(all, "energy");
   ASSERT_NE(energy, nullptr);
   EXPECT_EQ(energy->verdict.rfind("b, within", 0), 0u) << energy->verdict;
-  EXPECT_EQ(energy->lines[1].statement.text.rfind("loses up to 90 % (A7)", 0), 0u) << energy->lines[1].statement.text;
+  EXPECT_EQ(energy->lines[1].statements.at(0).text.rfind("loses up to 90 % (A7)", 0), 0u)
+      << energy->lines[1].statements.at(0).text;
 }
 
 TEST(Answers, APyramidIsToldByTheSpreadOfHeadings) {
@@ -89,20 +91,61 @@ TEST(Answers, APyramidIsToldByTheSpreadOfHeadings) {
   EXPECT_EQ(friction->lines.front().backend, "a");
 }
 
-TEST(Answers, LosingIsNeverReachingWhatAnotherReachesOrPayingMore) {
+TEST(Answers, AWinnerPassesItsSceneAndWhatTheOthersMissIsSaid) {
+  std::vector<Json> rows;
+  for (const auto& [backend, ms, drift] : {std::tuple{"a", 9.0, 0.002}, std::tuple{"b", 4.0, 0.0139}}) {
+    rows.push_back(
+        scene_row("D1", "tower", backend, ms, {{"stands", metric(1, 0, 0)}, {"drift", metric(drift, drift, 0.01)}}));
+    rows.back()["params"]["H"] = 50;
+    rows.back()["status"] = drift > 0.01 ? "failed" : "ok";
+  }
+  const Study study(parse_rows(rows));
+  const std::vector<AnsweredQuestion> all = answers(study, cost_of_accuracy(study));
+  const AnsweredQuestion* tower = find(all, "tower of 50");
+  ASSERT_NE(tower, nullptr);
+  EXPECT_EQ(tower->verdict.rfind("a, at 900 ms", 0), 0u) << tower->verdict;
+  EXPECT_TRUE(tower->lines[0].good);
+  EXPECT_FALSE(tower->lines[1].good);
+  EXPECT_NE(tower->lines[1].statements.at(0).text.find("misses drift 0.0139 > 0.01"), std::string::npos)
+      << tower->lines[1].statements.at(0).text;
+}
+
+TEST(Answers, ABusyMachineLeavesWhoDoesItAndTakesAtWhatCost) {
+  std::vector<Json> rows;
+  for (const auto& [backend, ms, fell] : {std::tuple{"a", 9.0, 0}, std::tuple{"b", 4.0, 0}, std::tuple{"c", 1.0, 1}}) {
+    rows.push_back(scene_row("D1", "tower", backend, ms, {{"stands", metric(1 - fell, fell, 0)}}));
+    rows.back()["params"]["H"] = 50;
+    rows.back()["status"] = fell ? "failed" : "ok";
+    if (backend != std::string("a")) rows.back()["contended"] = {{"load", 3}, {"why", "load 3 on 2 cores"}};
+  }
+  const Study study(parse_rows(rows));
+  const std::vector<CostLine> costs = cost_of_accuracy(study);
+  const std::vector<AnsweredQuestion> all = answers(study, costs);
+  const AnsweredQuestion* tower = find(all, "tower of 50");
+  ASSERT_NE(tower, nullptr);
+  EXPECT_EQ(tower->verdict.rfind("a and b can. Who is cheapest is not known", 0), 0u) << tower->verdict;
+  EXPECT_TRUE(tower->lines[0].good && tower->lines[1].good);
+  EXPECT_FALSE(tower->lines[2].good);
+  EXPECT_EQ(overviews(study, costs)[1].reach[1].reached, 1u);
+  EXPECT_EQ(overviews(study, costs)[0].reach[1].cheapest, 0u) << "b may be cheaper";
+}
+
+TEST(Answers, LosingIsFailingNeverReachingWhatAnotherReachesOrPayingMore) {
   const Study study(parse_rows({testing::sample_row("S1", "a", 0.5, 1), testing::sample_row("S1", "b", 0.001, 1),
                                 testing::sample_row("S2", "a", 0.001, 1), testing::sample_row("S2", "b", 0.001, 7)}));
   const std::vector<CostLine> costs = cost_of_accuracy(study);
-  ASSERT_EQ(never_reached(costs, "a", 1).size(), 1u);
-  EXPECT_EQ(never_reached(costs, "a", 1)[0]->problem->scene, "S1");
-  EXPECT_TRUE(never_reached(costs, "b", 1).empty());
-  ASSERT_EQ(beaten_at(costs, "b", 1).size(), 1u);
-  EXPECT_DOUBLE_EQ(beaten_at(costs, "b", 1)[0].factor, 7);
+  const std::vector<CostTest> tests = tests_of(costs);
+  ASSERT_EQ(never_reached(tests, "a", 1).size(), 1u);
+  EXPECT_EQ(never_reached(tests, "a", 1)[0]->problem->scene, "S1");
+  EXPECT_TRUE(never_reached(tests, "b", 1).empty());
+  ASSERT_EQ(beaten_at(tests, "b", 1).size(), 1u);
+  EXPECT_DOUBLE_EQ(beaten_at(tests, "b", 1)[0].factor, 7);
   const std::vector<AnsweredQuestion> all = answers(study, costs);
   const AnsweredQuestion* losing = find(all, "lose");
   ASSERT_NE(losing, nullptr);
-  EXPECT_NE(losing->lines[0].statement.text.find("S1 error_of_it"), std::string::npos);
-  EXPECT_NE(losing->lines[1].statement.text.find("7.00\u00d7 what a does"), std::string::npos);
+  EXPECT_EQ(losing->lines[0].statements.at(0).text, "fails 1 of 2 problems at its defaults: S1");
+  EXPECT_NE(losing->lines[0].statements.at(1).text.find("S1 error_of_it"), std::string::npos);
+  EXPECT_NE(losing->lines[1].statements.at(0).text.find("7.00\u00d7 what a does"), std::string::npos);
 }
 
 TEST(Needs, PairsAreEqualButForTheNeeds) {
@@ -117,7 +160,21 @@ TEST(Needs, PairsAreEqualButForTheNeeds) {
   EXPECT_EQ(costs[0].need, "sleeping");
   ASSERT_EQ(costs[0].pairs.size(), 2u) << "U has no run without";
   EXPECT_DOUBLE_EQ(costs[0].pairs[0].factor, 4);
-  EXPECT_DOUBLE_EQ(costs[0].median, 2.75);
+  EXPECT_DOUBLE_EQ(costs[0].median.value(), 2.75);
+}
+
+TEST(Needs, WhatChangesTheRunIsNotItsPrice) {
+  std::vector<Json> rows{testing::sample_row("S", "b", 0.1, 2), testing::sample_row("S", "b", 0.1, 3),
+                         testing::sample_row("T", "b", 0.1, 1), testing::sample_row("T", "b", 0.1, 0.04)};
+  rows[1]["needs"] = rows[3]["needs"] = "all";
+  rows[3]["hash"] = "asleep";
+  const Study study(parse_rows(rows));
+  const std::vector<NeedCost> costs = costs_of_needs(study);
+  ASSERT_EQ(costs.size(), 1u);
+  ASSERT_EQ(costs[0].pairs.size(), 1u);
+  EXPECT_DOUBLE_EQ(costs[0].median.value(), 1.5);
+  ASSERT_EQ(costs[0].changed.size(), 1u);
+  EXPECT_DOUBLE_EQ(costs[0].changed[0].factor, 0.04);
 }
 
 TEST(Robustness, WorstMedianAndCountOverScenes) {

@@ -77,5 +77,21 @@ TEST(Csv, WhatIsNotFiniteIsEmpty) {
   EXPECT_EQ(lines[1][at], "");
 }
 
+TEST(Csv, TellsWhichTimesCountAndWhatWasDeclared) {
+  std::vector<Json> rows{testing::sample_row("S", "b", 0.1, 1), testing::sample_row("S", "b", 0.1, 1)};
+  rows[1]["contended"] = {{"load", 9}, {"why", "load 9 on 2 cores"}};
+  rows[1]["needs"] = "all";
+  std::ostringstream out;
+  write_csv(out, rows);
+  const auto lines = parse_csv(out.str());
+  const auto column = [&](const char* name) {
+    return static_cast<std::size_t>(std::find(lines[0].begin(), lines[0].end(), name) - lines[0].begin());
+  };
+  EXPECT_EQ(lines[1].at(column("contended")), "");
+  EXPECT_EQ(lines[2].at(column("contended")), "load 9 on 2 cores");
+  EXPECT_EQ(lines[2].at(column("ms_per_simulated_second")), "");
+  EXPECT_EQ(lines[2].at(column("needs")), "all");
+}
+
 }  // namespace
 }  // namespace plumb::harness

@@ -7,6 +7,15 @@
 namespace plumb::harness {
 namespace {
 
+/// A run that passes its scene, whatever its error.
+Json passing_row(const char* scene, const char* backend, double error, double ms) {
+  Json row = testing::sample_row(scene, backend, error, ms);
+  row["status"] = "ok";
+  row["metrics"]["error_of_it"]["threshold"] = 1;
+  row["metrics"]["error_of_it"]["pass"] = true;
+  return row;
+}
+
 std::vector<std::size_t> indices(const std::vector<FrontPoint>& points) {
   std::vector<std::size_t> out;
   for (const FrontPoint& point : points) out.push_back(point.sample.row().index);
@@ -15,14 +24,14 @@ std::vector<std::size_t> indices(const std::vector<FrontPoint>& points) {
 
 TEST(Front, WhatNoOtherBeatsStandsOnItAndTheRestKnowsByWhom) {
   const std::vector<Json> rows{
-      testing::sample_row("S", "a", 0.5, 1),      // 0: cheapest
-      testing::sample_row("S", "a", 0.1, 4),      // 1
-      testing::sample_row("S", "b", 0.2, 5),      // 2: beaten by 1
-      testing::sample_row("S", "b", 0.1, 4),      // 3: the same as 1
-      testing::sample_row("S", "b", 0.1, 9),      // 4: as exact as 1, dearer
-      testing::sample_row("S", "b", 0.0001, 20),  // 5: most exact
-      testing::sample_row("S", "a", 0.7, 1),      // 6: as cheap as 0, less exact
-      testing::sample_row("S", "a", 0.6, 30),     // 7: by 0, which is the cheapest that is as exact
+      passing_row("S", "a", 0.5, 1),      // 0: cheapest
+      passing_row("S", "a", 0.1, 4),      // 1
+      passing_row("S", "b", 0.2, 5),      // 2: beaten by 1
+      passing_row("S", "b", 0.1, 4),      // 3: the same as 1
+      passing_row("S", "b", 0.1, 9),      // 4: as exact as 1, dearer
+      passing_row("S", "b", 0.0001, 20),  // 5: most exact
+      passing_row("S", "a", 0.7, 1),      // 6: as cheap as 0, less exact
+      passing_row("S", "a", 0.6, 30),     // 7: by 0, which is the cheapest that is as exact
   };
   const Study study(parse_rows(rows));
   const std::vector<Front> fronts = pareto_fronts(study);
@@ -51,17 +60,39 @@ TEST(Front, EqualsBruteForce) {
   }
 }
 
-TEST(Front, WhatFellDownOrWasMeasuredInACrowdIsNotInTheRace) {
-  std::vector<Json> rows{testing::sample_row("S", "a", 0.2, 5), testing::sample_row("S", "a", 0.001, 1),
-                         testing::sample_row("S", "a", 0.001, 1)};
+TEST(Front, WhatFailsOrWasMeasuredInACrowdIsNotInTheRace) {
+  std::vector<Json> rows{passing_row("S", "a", 0.2, 5), passing_row("S", "a", 0.001, 1),
+                         passing_row("S", "a", 0.001, 1), passing_row("S", "a", 0.001, 1)};
   for (Json& row : rows) row["metrics"]["stands"] = {{"error", 0}, {"threshold", 0}, {"pass", true}};
   rows[1]["metrics"]["stands"] = {{"error", 1}, {"threshold", 0}, {"pass", false}};
   rows[2]["contended"] = {{"load", 9}, {"why", "load 9 on 2 cores"}};
+  rows[3]["metrics"]["error_of_it"]["pass"] = false;
   const Study study(parse_rows(rows));
   const std::vector<Front> fronts = pareto_fronts(study);
   ASSERT_EQ(fronts.size(), 1u) << "and the question has no front";
   EXPECT_EQ(indices(fronts[0].best), (std::vector<std::size_t>{0}));
   EXPECT_TRUE(fronts[0].others.empty());
+  EXPECT_EQ(fronts[0].untimed, 1u);
+}
+
+TEST(Front, IsCountedWhereItSaysSomething) {
+  std::vector<Json> rows;
+  for (const char* scene : {"S1", "S2", "S3"}) {
+    rows.push_back(passing_row(scene, "a", 0.5, 1));
+    rows.push_back(passing_row(scene, "a", 0.1, 4));
+    rows.push_back(passing_row(scene, "b", 0.2, 5));
+  }
+  rows.pop_back();                                                     // S3 has two points
+  rows[3]["contended"] = {{"load", 9}, {"why", "load 9 on 2 cores"}};  // and of S2 one is not known
+  const Study study(parse_rows(rows));
+  const std::vector<Front> fronts = pareto_fronts(study);
+  ASSERT_EQ(fronts.size(), 3u);
+  const FrontCount a = count_fronts(fronts, "a"), b = count_fronts(fronts, "b");
+  EXPECT_EQ(a.ran, 1u);
+  EXPECT_EQ(a.on, 1u);
+  EXPECT_EQ(a.alone, 1u);
+  EXPECT_EQ(b.ran, 1u);
+  EXPECT_EQ(b.on, 0u);
 }
 
 }  // namespace

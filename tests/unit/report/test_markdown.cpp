@@ -42,5 +42,24 @@ TEST(Markdown, EveryTableLineHasAsManyCellsAsItsHeader) {
   EXPECT_EQ(tables, 3u);
 }
 
+TEST(Markdown, NoTableHoldsTimesOfTwoMachines) {
+  std::vector<Json> rows{testing::sample_row("S", "a", 1e-6, 1), testing::sample_row("S", "b", 1e-6, 2)};
+  rows[0]["machine"] = {{"cpu", "one"}};
+  rows[1]["machine"] = {{"cpu", "two"}};
+  std::ostringstream out;
+  write_markdown(out, rows);
+  const std::size_t one = out.str().find("# one"), two = out.str().find("# two");
+  ASSERT_NE(one, std::string::npos);
+  ASSERT_NE(two, std::string::npos);
+  EXPECT_EQ(out.str().substr(one, two - one).find("**b**"), std::string::npos);
+}
+
+TEST(Markdown, ARunThatFailsHasADagger) {
+  const std::vector<Json> rows{testing::sample_row("S", "a", 0.5, 1), testing::sample_row("S", "b", 1e-6, 2)};
+  std::ostringstream out;
+  write_markdown(out, rows);
+  EXPECT_NE(out.str().find("| S | 2 | 1.00\u2020 | 2.00 |"), std::string::npos) << out.str();
+}
+
 }  // namespace
 }  // namespace plumb::harness

@@ -51,15 +51,18 @@ TEST(Profile, AnEngineThatRanLittleIsLeftOutAndSpoilsNothing) {
   EXPECT_EQ(profile.curves[0].at(1), 0.5) << "relative to the engines that take part";
 }
 
-TEST(Profile, ACrashIsNotSolvedAndContentionIsNoFailure) {
+TEST(Profile, ACrashIsNotSolvedAndWhatContentionHidesIsSolvedAtAnUnknownCost) {
   std::vector<Json> rows = four_scenes();
   rows[0]["status"] = "crashed";
   rows[3]["contended"] = {{"load", 9}, {"why", "load 9 on 2 cores"}};
   const Study study(parse_rows(rows));
   const Profile profile = cost_profile(study, cost_of_accuracy(study), "", 1);
-  EXPECT_EQ(profile.tests, 3u) << "S2 has no fair time of b";
-  EXPECT_DOUBLE_EQ(profile.curves[0].reliability(), 1.0 / 3);
-  EXPECT_DOUBLE_EQ(profile.curves[1].reliability(), 1.0 / 3);
+  EXPECT_EQ(profile.tests, 4u);
+  EXPECT_EQ(profile.unpriced, 1u) << "S2 has no fair time of b";
+  EXPECT_EQ(profile.curves[0].reliability(), 0.5) << "S2 and S3";
+  EXPECT_EQ(profile.curves[0].at(1e9), 0.25) << "on S3 its cost is known";
+  EXPECT_EQ(profile.curves[1].reliability(), 0.5) << "S1 and S2";
+  EXPECT_EQ(profile.curves[1].at(1e9), 0.25);
 }
 
 TEST(Profile, ErrorsAtDefaultsAreSharesOfGradedTests) {

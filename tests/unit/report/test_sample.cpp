@@ -61,8 +61,34 @@ TEST(Sample, ContendedTimesDoNotCountAndErrorsDo) {
   EXPECT_DOUBLE_EQ(costs[0].at[1]->band->low, 390);
   const Study alone(parse_rows({rows[0]}));
   const std::vector<CostLine> none = cost_of_accuracy(alone);
-  EXPECT_FALSE(none.at(0).at[0]);
-  EXPECT_TRUE(none.at(0).contended) << "which is not the same as never";
+  ASSERT_TRUE(none.at(0).at[0]) << "its error counts";
+  EXPECT_FALSE(none.at(0).at[0]->ms) << "its time does not";
+}
+
+TEST(Sample, OfSeveralSeedsAContendedOneHidesTheirCost) {
+  std::vector<Json> rows;
+  for (int seed = 0; seed < 3; ++seed) {
+    rows.push_back(testing::sample_row("S", "b", 0.005, 1 + seed));
+    rows.back()["params"]["seed"] = seed;
+  }
+  const Study idle(parse_rows(rows));
+  EXPECT_DOUBLE_EQ(samples_of(idle.problems[0], "b").at(0).cost()->value, 200);
+  rows[2]["contended"] = {{"load", 7.5}, {"why", "load 7.5 on 2 cores"}};
+  const Study busy(parse_rows(rows));
+  EXPECT_FALSE(samples_of(busy.problems[0], "b").at(0).cost()) << "the median of the rest is another one";
+}
+
+TEST(Sample, PassesWhereMostSeedsDoAndIsNamedByOneThatDoes) {
+  std::vector<Json> rows;
+  for (const double error : {0.5, 0.001, 0.002}) {
+    rows.push_back(testing::sample_row("S", "b", error, 1));
+    rows.back()["params"]["seed"] = error;
+  }
+  const Study study(parse_rows(rows));
+  const Sample sample = samples_of(study.problems[0], "b").at(0);
+  EXPECT_TRUE(sample.passes());
+  EXPECT_TRUE(sample.row().passes());
+  EXPECT_TRUE(study.representative(study.problems[0], "b")->passes()) << "the one in the middle";
 }
 
 TEST(Sample, ATowerThatFellHasReachedNothing) {

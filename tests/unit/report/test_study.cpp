@@ -66,9 +66,23 @@ TEST(Overview, CountsEveryProblemOnce) {
     for (const int count : overview.counts) sum += count;
     EXPECT_EQ(sum, static_cast<int>(study.problems.size()));
     EXPECT_EQ(overview.problems, sum);
-    for (std::size_t t = 0; t < target_errors.size(); ++t) EXPECT_LE(overview.cheapest[t], overview.reached[t]);
+    for (const ReachCount& count : overview.reach) EXPECT_LE(count.cheapest, count.reached);
     EXPECT_NE(describe_backend(overview, false).find("failed"), std::string::npos);
   }
+}
+
+TEST(Overview, WhatRanWithOtherSettingsOnlyIsNoWordOnTheDefaults) {
+  std::vector<Json> rows{testing::sample_row("A1", "b", 1e-6, 1), testing::sample_row("A2", "b", 5.0, 1)};
+  for (Json& row : rows) row["settings"] = {{"passes", 10}}, row["defaults"] = Json::object();
+  rows[1]["settings"]["passes"] = 1;
+  rows[1]["defaults"]["passes"] = 10;
+  const Study study(parse_rows(rows));
+  const BackendOverview overview = overviews(study, cost_of_accuracy(study)).at(0);
+  EXPECT_EQ(overview.problems, 1);
+  EXPECT_EQ(overview.elsewhere, 1);
+  EXPECT_TRUE(overview.lost.empty());
+  EXPECT_EQ(describe_counts(overview),
+            "Of 1 problem at its defaults: 1 gold. 1 more problem ran with other settings only.");
 }
 
 TEST(Overview, TheWorstFailureIsNamedFirst) {
@@ -77,9 +91,10 @@ TEST(Overview, TheWorstFailureIsNamedFirst) {
   const Study study(parse_rows(rows));
   const auto all = overviews(study, cost_of_accuracy(study));
   ASSERT_EQ(all.size(), 1u);
-  EXPECT_EQ(describe_backend(all[0], true),
-            "Of 3 problems: 1 gold, 2 failed. It reaches 1 % error in 1 of 3 metrics. It misses by most in A2 "
-            "(error_of_it at 500× its threshold), A1 (error_of_it at 2.00× its threshold).");
+  EXPECT_EQ(
+      describe_backend(all[0], true),
+      "Of 3 problems at its defaults: 1 gold, 2 failed. It gets within 1 % in 1 of 3 metrics. It misses by most in A2 "
+      "(error_of_it at 500× its threshold), A1 (error_of_it at 2.00× its threshold).");
 }
 
 }  // namespace

@@ -63,6 +63,23 @@ TEST(Terminal, ColourOnlyWhereAsked) {
   EXPECT_NE(coloured.str().find("\x1b[31mfailed\x1b[0m"), std::string::npos);
 }
 
+TEST(Terminal, BracketsAndStarsAreExplained) {
+  std::vector<Json> rows{testing::sample_row("A1", "b", 1e-6, 0.5), testing::sample_row("A2", "b", 1e-6, 0.5)};
+  std::ostringstream plain;
+  print_comparison(plain, rows, 80, false);
+  EXPECT_EQ(plain.str().find("other"), std::string::npos);
+  for (Json& row : rows) row["settings"] = {{"passes", 10}}, row["defaults"] = Json::object();
+  rows[0]["contended"] = {{"load", 9}, {"why", "load 9 on 2 cores"}};
+  rows[1]["settings"]["passes"] = 1;
+  rows[1]["defaults"]["passes"] = 10;
+  std::ostringstream told;
+  print_comparison(told, rows, 80, false);
+  EXPECT_NE(told.str().find("(0.500)"), std::string::npos) << told.str();
+  EXPECT_NE(told.str().find("(ms): the machine had other work"), std::string::npos);
+  EXPECT_NE(told.str().find("gold*"), std::string::npos);
+  EXPECT_NE(told.str().find("*: it ran with other settings"), std::string::npos);
+}
+
 TEST(Terminal, NoRowsAreNoCrash) {
   std::ostringstream out;
   print_table(out, {}, 80, true);

@@ -1,0 +1,45 @@
+#include "report/failures.hpp"
+
+#include <algorithm>
+#include <ostream>
+
+#include "report/facts.hpp"
+#include "report/format.hpp"
+#include "report/machine_rows.hpp"
+#include "report/markdown.hpp"
+#include "report/overview.hpp"
+
+namespace plumb::harness {
+namespace {
+
+void write_rows(std::ostream& out, const std::vector<const ResultRow*>& rows) {
+  for (const ResultRow* row : rows) {
+    std::string word(verdict_word(row->verdict()));
+    std::replace(word.begin(), word.end(), '_', ' ');
+    out << "| " << markdown_text(row_title(*row)) << " | " << word << " | " << markdown_text(row->missed()) << " |\n";
+  }
+}
+
+void write_backend(std::ostream& out, const BackendOverview& overview) {
+  out << "\n### " << markdown_text(overview.backend) << ' ' << markdown_text(overview.version) << "\n\n"
+      << markdown_text(describe_counts(overview)) << "\n\n";
+  if (overview.lost.empty() && overview.unsupported.empty()) return;
+  out << "| problem | result | misses |\n|---|---|---|\n";
+  write_rows(out, overview.lost);
+  write_rows(out, overview.unsupported);
+}
+
+}  // namespace
+
+void write_failures(std::ostream& out, const std::vector<Json>& rows) {
+  out << "# What fails at the defaults\n\n"
+         "Made by `plumb report DIR --failures` from the rows beside it: every scene variant (problem) that an engine "
+         "does not pass at its own defaults, and what it misses there (error > threshold; by most first).\n";
+  for (const MachineRows& machine : rows_by_machine(rows)) {
+    const Study study(machine.rows);
+    out << "\n## " << markdown_text(machine.name) << '\n';
+    for (const BackendOverview& overview : overviews(study, {})) write_backend(out, overview);
+  }
+}
+
+}  // namespace plumb::harness
