@@ -75,6 +75,8 @@ PlumbDegree query_degree(std::uint32_t kind, std::uint32_t type, const char*& no
   if (kind == PLUMB_QUERY_RAY)
     return answer(PLUMB_NATIVE, note, "spheres and boxes by their equations, others by Bullet's convex casts");
   if (kind >= PLUMB_QUERY_KIND_COUNT || !is_convex(type)) return PLUMB_NONE;
+  if (kind == PLUMB_QUERY_CAST && type != PLUMB_SPHERE && type != PLUMB_CAPSULE)
+    return answer(PLUMB_APPROXIMATE, note, "edges and corners are rounded off by the shape's margin: up to 2 cm late");
   if (kind == PLUMB_QUERY_CAST)
     return answer(PLUMB_NATIVE, note, "overlap at the start is found by a query of its own");
   return PLUMB_NATIVE;
@@ -106,6 +108,8 @@ PlumbDegree write_degree(std::uint32_t field, const char*& note) {
 PlumbDegree need_degree(std::uint32_t index, const char*& note) {
   if (index >= PLUMB_NEED_COUNT) return PLUMB_NONE;
   switch (PlumbNeeds{1} << index) {
+    case PLUMB_NEED_FRICTION:
+      return answer(PLUMB_APPROXIMATE, note, "a slide slows down by up to 3 % less or more, depending on its heading");
     case PLUMB_NEED_CCD:
       return answer(PLUMB_APPROXIMATE, note,
                     "a sphere inside a convex body is swept; compounds are not, and turning is not seen");

@@ -1,6 +1,9 @@
 // plumb conform: what backends claim against what they do, one check at a time, each backend in a process of its own.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <iostream>
 #include <map>
 #include <memory>
@@ -40,24 +43,63 @@ std::vector<conform::Check> wanted_checks(const std::vector<std::string>& names)
   return wanted;
 }
 
-void print_text(const std::string& backend, const conform::Check& check, const Json& row) {
-  const std::string outcome = row.at("outcome");
-  std::cout << fmt::format("{:10} {:28} {:8} {}\n", backend, check.name, outcome,
-                           outcome == "skipped" ? std::string(row.at("failures").at(0)) : check.doc);
-  if (outcome != "failed") return;
-  const Json& failures = row.at("failures");
-  for (std::size_t i = 0; i < failures.size() && i < kShown; ++i)
-    std::cout << "    " << std::string(failures.at(i)) << "\n";
+std::vector<std::string> failures_of(const Json& row) { return row.at("failures"); }
+
+void print_failed(const Json& row) {
+  const std::vector<std::string> failures = failures_of(row);
+  for (std::size_t i = 0; i < failures.size() && i < kShown; ++i) std::cout << "    " << failures[i] << "\n";
   if (failures.size() > kShown) std::cout << fmt::format("    and {} more\n", failures.size() - kShown);
 }
 
+/// What the backend does not claim, and so nobody looked at: the reasons, those of most checks first.
+void print_untested(const std::string& backend, const std::vector<Json>& rows) {
+  std::map<std::string, std::vector<std::string>> checks;  // by reason
+  std::size_t untested = 0;
+  for (const Json& row : rows)
+    if (row.at("outcome") == "skipped") {
+      ++untested;
+      checks[failures_of(row).at(0)].push_back(row.at("check"));
+    }
+  if (untested == 0) return;
+  std::vector<std::pair<std::string, std::vector<std::string>>> reasons(checks.begin(), checks.end());
+  std::stable_sort(reasons.begin(), reasons.end(),
+                   [](const auto& a, const auto& b) { return a.second.size() > b.second.size(); });
+  std::cout << fmt::format("{}: {} of {} checks are NOT TESTED, for it claims none of what they ask:\n", backend,
+                           untested, rows.size());
+  for (const auto& [reason, names] : reasons) std::cout << fmt::format("    {}: {}\n", reason, fmt::join(names, ", "));
+}
+
+/// What is untested, what failed, what passed; and all three in one line.
+void print_text(const std::string& backend, const std::vector<Json>& rows) {
+  print_untested(backend, rows);
+  std::map<std::string, int> counts;
+  for (const char* outcome : {"failed", "passed"})
+    for (const Json& row : rows) {
+      if (row.at("outcome") != outcome) continue;
+      ++counts[outcome];
+      std::cout << fmt::format("{:10} {:28} {:8} {}\n", backend, std::string(row.at("check")), outcome,
+                               std::string(row.at("doc")));
+      if (row.at("outcome") == "failed") print_failed(row);
+    }
+  const int untested = static_cast<int>(rows.size()) - counts["passed"] - counts["failed"];
+  std::cout << fmt::format("{}: {}{} passed, {} failed\n", backend,
+                           untested == 0 ? "" : fmt::format("{} of {} NOT TESTED, ", untested, rows.size()),
+                           counts["passed"], counts["failed"]);
+}
+
+/// A line that the next one overwrites, for who waits at a terminal.
+void show_progress(const std::string& backend, const std::string& check) {
+  if (isatty(STDERR_FILENO) != 0) std::cerr << fmt::format("\r\x1b[K{}: {}", backend, check) << std::flush;
+}
+
 /// Runs the checks on one backend; a worker that ends uncleanly is a failed check, and the next check gets a new one.
-void conform_backend(const std::string& name, const std::string& file, const ConformOptions& options,
-                     std::map<std::string, int>& counts) {
+std::vector<Json> conform_backend(const std::string& name, const std::string& file, const ConformOptions& options) {
   WorkerLimits limits = StudyRequest().limits();
   limits.seconds = options.timeout;
   std::unique_ptr<WorkerProcess> worker;
+  std::vector<Json> rows;
   for (const conform::Check& check : wanted_checks(options.checks)) {
+    show_progress(name, check.name);
     if (!worker || !worker->alive()) worker = std::make_unique<WorkerProcess>(file);
     const Answer answer = worker->ask({{"request", "conform"}, {"check", check.name}}, limits);
     Json row = answer.json;
@@ -69,13 +111,13 @@ void conform_backend(const std::string& name, const std::string& file, const Con
     }
     row["backend"] = name;
     row["check"] = check.name;
+    row["doc"] = check.doc;
     row.erase("status");
-    ++counts[row.at("outcome")];
-    if (options.json)
-      std::cout << line_of(row) << std::endl;
-    else
-      print_text(name, check, row);
+    if (options.json) std::cout << line_of(row) << std::endl;
+    rows.push_back(std::move(row));
   }
+  show_progress("", "");
+  return rows;
 }
 
 }  // namespace
@@ -97,12 +139,16 @@ void add_conform(CLI::App& program, int& status) {
     }
     (void)wanted_checks(options->checks);
     catch_signals();
-    std::map<std::string, int> counts;
-    for (const auto& [name, file] : backend_files(options->backends)) conform_backend(name, file, *options, counts);
-    if (!options->json)
-      std::cout << fmt::format("{} passed, {} failed, {} skipped\n", counts["passed"], counts["failed"],
-                               counts["skipped"]);
-    status = counts["failed"] == 0 ? 0 : 1;
+    bool failed = false, tested = false;
+    for (const auto& [name, file] : backend_files(options->backends)) {
+      const std::vector<Json> rows = conform_backend(name, file, *options);
+      if (!options->json) print_text(name, rows);
+      for (const Json& row : rows) {
+        failed = failed || row.at("outcome") == "failed";
+        tested = tested || row.at("outcome") != "skipped";
+      }
+    }
+    status = failed || !tested ? 1 : 0;
   });
 }
 

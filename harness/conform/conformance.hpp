@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <bit>
 #include <span>
 #include <string>
 #include <vector>
@@ -12,10 +13,13 @@
 
 namespace plumb::harness::conform {
 
-/// Thrown by Conformance::skip; the reason names the capability.
+/// Ends a check that the backend's claims leave out; the reason names the capability.
 struct Skipped {
   std::string reason;
 };
+
+/// What PLUMB_CAP_NEED calls one PLUMB_NEED_ bit.
+constexpr std::uint32_t need_index(PlumbNeeds need) { return static_cast<std::uint32_t>(std::countr_zero(need)); }
 
 /// What a check gets: the backend, and a place for what is wrong.
 class Conformance {
@@ -39,6 +43,16 @@ class Conformance {
   }
   void require_needs(PlumbNeeds needs);
 
+  /// Whether the backend claims the thing with the interface's own meaning: as native or emulated.
+  [[nodiscard]] bool is_exact(PlumbCapability kind, std::uint32_t a, std::uint32_t b = 0) const {
+    return backend_.capability(kind, a, b) > PLUMB_APPROXIMATE;
+  }
+  /// Ends the check where the backend has not this, or says that it only approximates it.
+  void require_exact(PlumbCapability kind, std::uint32_t a, std::uint32_t b, const char* what) {
+    if (require(kind, a, b, what) == PLUMB_APPROXIMATE)
+      throw Skipped{fmt::format("approximate {}: {}", what, backend_.capability_note(kind, a, b))};
+  }
+
   /// The needs of `wanted` that the backend has.
   [[nodiscard]] PlumbNeeds available(PlumbNeeds wanted) const;
 
@@ -60,6 +74,10 @@ struct Check {
 /// Each file of checks has a list; all_checks joins them.
 [[nodiscard]] std::span<const Check> shape_checks();
 [[nodiscard]] std::span<const Check> body_checks();
+[[nodiscard]] std::span<const Check> exact_body_checks();
+[[nodiscard]] std::span<const Check> exact_contact_checks();
+[[nodiscard]] std::span<const Check> exact_joint_checks();
+[[nodiscard]] std::span<const Check> exact_query_checks();
 [[nodiscard]] std::span<const Check> material_checks();
 [[nodiscard]] std::span<const Check> handle_checks();
 [[nodiscard]] std::span<const Check> event_checks();

@@ -21,7 +21,9 @@ constexpr std::array<std::uint32_t, 36> kCubeTriangles = {0, 1, 3, 0, 3, 2, 4, 6
 Probe::Probe(Conformance& conformance, PlumbNeeds needs, const Vec& gravity) : Probe(conformance, needs, gravity, {}) {}
 
 Probe::Probe(Conformance& conformance, PlumbNeeds needs, const Vec& gravity, std::span<const PlumbSetting> settings,
-             std::uint32_t threads) {
+             std::uint32_t threads)
+    : needs_(needs),
+      has_boxes_(conformance.backend().capability(PLUMB_CAP_SHAPE, PLUMB_BOX, PLUMB_DYNAMIC) != PLUMB_NONE) {
   conformance.require_needs(needs);
   PlumbWorldDesc desc = world_desc(needs);
   desc.gravity = vec3(gravity);
@@ -92,7 +94,24 @@ PlumbBodyDesc dynamic_desc(PlumbShape shape, const Vec& position, const Vec& vel
   return desc;
 }
 
-PlumbBody Probe::body(const PlumbBodyDesc& desc) {
+PlumbBodyDesc Probe::free_desc(const Vec& position, const Vec& velocity) {
+  PlumbBodyDesc desc = dynamic_desc(declares(PLUMB_NEED_ROTATION) ? sphere(0.5) : 0, position, velocity);
+  desc.material.friction = 0;
+  if (desc.shape == 0) {
+    desc.mass_mode = PLUMB_MASS_FROM_TOTAL;
+    desc.mass = 1;
+  }
+  return desc;
+}
+
+PlumbBodyDesc Probe::declared(PlumbBodyDesc desc) const {
+  if (!declares(PLUMB_NEED_FRICTION)) desc.material.friction = 0;
+  if (!declares(PLUMB_NEED_ROTATION) && desc.motion == PLUMB_DYNAMIC) desc.flags |= PLUMB_BODY_NO_ROTATION;
+  return desc;
+}
+
+PlumbBody Probe::body(const PlumbBodyDesc& given) {
+  const PlumbBodyDesc desc = declared(given);
   PlumbBody id = 0;
   check(*world_, world_->create_bodies({&desc, 1}, {&id, 1}));
   return id;
@@ -109,7 +128,9 @@ PlumbBody Probe::fixed(PlumbShape shape, const Vec& position) {
   return body(desc);
 }
 
-PlumbBody Probe::ground() { return fixed(box({100, 1, 100}), {0, -1, 0}); }
+PlumbBody Probe::ground() {
+  return has_boxes_ ? fixed(box({100, 1, 100}), {0, -1, 0}) : fixed(sphere(100), {0, -100, 0});
+}
 
 PlumbStepReport Probe::step(int steps, double dt) {
   PlumbStepReport report{};

@@ -20,7 +20,8 @@ inline constexpr PlumbNeeds kPlainNeeds = PLUMB_NEED_ROTATION | PLUMB_NEED_COLLI
 
 class Probe {
  public:
-  /// Throws Skipped when the backend lacks one of the needs.
+  /// Throws Skipped when the backend lacks one of the needs; a check that can do with fewer asks for
+  /// Conformance::available, so that a backend of few claims is tested in those.
   Probe(Conformance& conformance, PlumbNeeds needs, const Vec& gravity = {0, -9.81, 0});
   /// The same with settings.
   Probe(Conformance& conformance, PlumbNeeds needs, const Vec& gravity, std::span<const PlumbSetting> settings,
@@ -32,13 +33,23 @@ class Probe {
   PlumbShape shape(const PlumbShapeDesc& desc);
   PlumbShape sphere(double radius);
   PlumbShape box(const Vec& half_extents);
+  /// A cube of that half edge, or a ball of that radius where the backend has no boxes.
+  PlumbShape lump(double size) { return has_boxes_ ? box({size, size, size}) : sphere(size); }
   /// One of every type, with a flat top at y = 0.5 where the type has one when it stands as it is (see probe.cpp).
   PlumbShape standard(PlumbShapeType type);
 
+  /// Without the rotation or friction that the world did not declare.
+  [[nodiscard]] PlumbBodyDesc declared(PlumbBodyDesc desc) const;
+  /// What is declared of it.
   PlumbBody body(const PlumbBodyDesc& desc);
+  /// A ball of 1 m without friction, or a particle where rotation was not declared.
+  PlumbBodyDesc free_desc(const Vec& position, const Vec& velocity = Vec::Zero());
+  PlumbBody free_body(const Vec& position, const Vec& velocity = Vec::Zero()) {
+    return body(free_desc(position, velocity));
+  }
   PlumbBody dynamic(PlumbShape shape, const Vec& position, const Vec& velocity = Vec::Zero());
   PlumbBody fixed(PlumbShape shape, const Vec& position);
-  /// A static box 200 m wide whose top is at y = 0, friction .5.
+  /// A static lump 200 m wide whose top is at y = 0 above the origin, friction .5.
   PlumbBody ground();
 
   /// Steps of 1/60 s (or dt); the last one's report.
@@ -64,7 +75,11 @@ class Probe {
   PlumbJoint joint(const PlumbJointDesc& desc);
   [[nodiscard]] std::vector<double> read_joint(PlumbJointField field, PlumbJoint joint);
 
+  [[nodiscard]] bool declares(PlumbNeeds need) const { return (needs_ & need) == need; }
+
  private:
+  PlumbNeeds needs_;
+  bool has_boxes_;
   std::unique_ptr<IPhysicsWorld> world_;
 };
 

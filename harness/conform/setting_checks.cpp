@@ -63,7 +63,7 @@ void in_force(Conformance& c) {
       try {
         const bool at_creation = (info->flags & PLUMB_SETTING_CREATION_ONLY) != 0;
         const PlumbSetting setting = {info->name, value};
-        Probe probe(c, kPlainNeeds, {0, -9.81, 0},
+        Probe probe(c, c.available(kPlainNeeds), {0, -9.81, 0},
                     at_creation ? std::span(&setting, 1) : std::span<const PlumbSetting>{});
         PlumbSettingValue before{};
         check(probe.world(), probe.world().settings()->get_setting(info->name, before));
@@ -76,7 +76,7 @@ void in_force(Conformance& c) {
         check(probe.world(), probe.world().settings()->get_setting(info->name, after));
         c.expect(equal(after, value), "{}: {} is in force", what, value_text(after));
         probe.ground();
-        const PlumbShape cube = probe.box({0.5, 0.5, 0.5});
+        const PlumbShape cube = probe.lump(0.5);
         for (int i = 0; i < 3; ++i) probe.dynamic(cube, {0.1 * i, 0.5 + 1.0 * i, 0});
         probe.step(5);
       } catch (const Error& error) {

@@ -7,7 +7,7 @@ namespace {
 /// A heap of cubes and spheres on the ground.
 std::vector<PlumbBody> heap(Probe& probe) {
   probe.ground();
-  const PlumbShape shapes[2] = {probe.box({0.5, 0.5, 0.5}), probe.sphere(0.5)};
+  const PlumbShape shapes[2] = {probe.lump(0.5), probe.sphere(0.5)};
   std::vector<PlumbBody> bodies;
   for (int i = 0; i < 24; ++i)
     bodies.push_back(probe.dynamic(shapes[i % 2], {0.9 * (i % 3), 1 + 1.1 * (i / 6), 0.8 * (i / 3 % 2)}));
@@ -42,7 +42,7 @@ void repeatable(Conformance& c) {
   if (c.backend().info().determinism == PLUMB_DETERMINISM_NONE) throw Skipped{"no determinism is claimed"};
   std::uint64_t hashes[2];
   for (std::uint64_t& hash : hashes) {
-    Probe probe(c, kPlainNeeds);
+    Probe probe(c, c.available(kPlainNeeds));
     heap(probe);
     probe.step(200);
     hash = probe.hash();
@@ -51,7 +51,7 @@ void repeatable(Conformance& c) {
 }
 
 void hash_is_sensitive(Conformance& c) {
-  Probe probe(c, kPlainNeeds);
+  Probe probe(c, c.available(kPlainNeeds));
   const std::vector<PlumbBody> bodies = heap(probe);
   const std::uint64_t before = probe.hash();
   c.expect(probe.hash() == before, "asking twice gives two hashes");

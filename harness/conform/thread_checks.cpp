@@ -7,9 +7,9 @@ namespace plumb::harness::conform {
 namespace {
 
 std::uint64_t tumble(Conformance& c, std::uint32_t threads) {
-  Probe probe(c, kPlainNeeds, {0, -9.81, 0}, {}, threads);
+  Probe probe(c, c.available(kPlainNeeds), {0, -9.81, 0}, {}, threads);
   probe.ground();
-  const PlumbShape cube = probe.box({0.4, 0.4, 0.4});
+  const PlumbShape cube = probe.lump(0.4);
   for (int i = 0; i < 20; ++i) probe.dynamic(cube, {0.3 * (i % 3), 1 + 0.9 * i, 0.2 * (i % 2)});
   probe.step(150);
   return probe.hash();
@@ -17,7 +17,6 @@ std::uint64_t tumble(Conformance& c, std::uint32_t threads) {
 
 /// Two worlds in two threads end as they do alone.
 void worlds_apart(Conformance& c) {
-  c.require_needs(kPlainNeeds);
   const std::uint64_t alone = tumble(c, 1);
   std::uint64_t together[2] = {0, 0};
   std::string failures[2];

@@ -2,78 +2,9 @@
 #include <cmath>
 #include <limits>
 
-#include "honest.hpp"
+#include "changes.hpp"
 
 namespace plumb::lying {
-namespace {
-
-template <auto change>
-void change_bodies() {
-  liar.core.create_bodies = [](PlumbWorld* world, const PlumbBodyDesc* descs, std::size_t stride, std::uint32_t count,
-                               PlumbBody* ids) {
-    std::vector<PlumbBodyDesc> changed = copied(descs, stride, count);
-    for (PlumbBodyDesc& desc : changed) change(desc);
-    return honest.core.create_bodies(world, changed.data(), sizeof(PlumbBodyDesc), count, ids);
-  };
-}
-
-template <auto change>
-void change_shapes() {
-  liar.core.create_shapes = [](PlumbWorld* world, const PlumbShapeDesc* descs, std::size_t stride, std::uint32_t count,
-                               PlumbShape* ids) {
-    std::vector<PlumbShapeDesc> changed = copied(descs, stride, count);
-    for (PlumbShapeDesc& desc : changed) change(desc);
-    return honest.core.create_shapes(world, changed.data(), sizeof(PlumbShapeDesc), count, ids);
-  };
-}
-
-template <PlumbField field>
-void lose_writes() {
-  liar.core.write = [](PlumbWorld* world, PlumbField asked, PlumbDataType type, const PlumbBody* ids,
-                       std::uint32_t count, const void* rows, std::size_t stride) -> PlumbResult {
-    return asked == field ? PLUMB_OK : honest.core.write(world, asked, type, ids, count, rows, stride);
-  };
-}
-
-template <PlumbField field, auto change>
-void change_reads() {
-  liar.core.read = [](PlumbWorld* world, PlumbField asked, PlumbDataType type, const PlumbBody* ids,
-                      std::uint32_t count, void* rows, std::size_t stride) {
-    const PlumbResult result = honest.core.read(world, asked, type, ids, count, rows, stride);
-    if (result >= 0 && asked == field) change_rows(type, rows, stride, count, change);
-    return result;
-  };
-}
-
-template <auto change>
-void change_contacts() {
-  liar.core.contacts = [](PlumbWorld* world, PlumbContact* out, std::size_t stride, std::uint32_t capacity,
-                          std::uint32_t* count) {
-    const PlumbResult result = honest.core.contacts(world, out, stride, capacity, count);
-    for (std::uint32_t i = 0; result >= 0 && i < std::min(capacity, *count); ++i)
-      change(*reinterpret_cast<PlumbContact*>(reinterpret_cast<std::byte*>(out) + i * stride));
-    return result;
-  };
-}
-
-template <auto change>
-void change_reports() {
-  liar.core.wait = [](PlumbWorld* world, PlumbStepReport* report) {
-    const PlumbResult result = honest.core.wait(world, report);
-    if (result >= 0 && report != nullptr) change(*report);
-    return result;
-  };
-}
-
-template <PlumbCapability kind, std::uint32_t a, std::uint32_t b, PlumbDegree claim>
-void change_capability() {
-  liar.core.capability = [](PlumbCapability asked, std::uint32_t x, std::uint32_t y, const char** note) -> PlumbDegree {
-    const PlumbDegree truth = honest.core.capability(asked, x, y, note);
-    return asked == kind && x == a && y == b ? claim : truth;
-  };
-}
-
-}  // namespace
 
 void dynamic_planes() { change_capability<PLUMB_CAP_SHAPE, PLUMB_PLANE, PLUMB_DYNAMIC, PLUMB_NATIVE>(); }
 void notes_are_null() {
@@ -113,11 +44,7 @@ void children_without_material() {
 }
 
 void gravity_too_weak() {
-  liar.core.create_world = [](const PlumbWorldDesc* desc, PlumbWorld** world) {
-    PlumbWorldDesc changed = *desc;
-    changed.gravity.y *= 0.99;
-    return honest.core.create_world(&changed, world);
-  };
+  change_worlds<[](PlumbWorldDesc& desc) { desc.gravity.y *= 0.99; }>();
 }
 void gravity_scale_ignored() {
   change_bodies<[](PlumbBodyDesc& desc) { desc.gravity_scale = 1; }>();

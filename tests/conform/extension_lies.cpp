@@ -2,32 +2,12 @@
 #include <functional>
 #include <thread>
 
-#include "honest.hpp"
+#include "changes.hpp"
 
 namespace plumb::lying {
 namespace {
 
 const std::thread::id first_thread = std::this_thread::get_id();
-
-template <auto change>
-void change_joints() {
-  liar.joints.create = [](PlumbWorld* world, const PlumbJointDesc* descs, std::size_t stride, std::uint32_t count,
-                          PlumbJoint* ids) {
-    std::vector<PlumbJointDesc> changed = copied(descs, stride, count);
-    for (PlumbJointDesc& desc : changed) change(desc);
-    return honest.joints.create(world, changed.data(), sizeof(PlumbJointDesc), count, ids);
-  };
-}
-
-template <auto change>
-void change_ray_hits() {
-  liar.queries.rays = [](PlumbWorld* world, PlumbHitMode mode, const PlumbRay* rays, std::size_t stride,
-                         std::uint32_t count, PlumbHit* hits, std::uint32_t capacity, std::uint32_t* hit_count) {
-    const PlumbResult result = honest.queries.rays(world, mode, rays, stride, count, hits, capacity, hit_count);
-    for (std::uint32_t i = 0; result >= 0 && i < std::min(capacity, *hit_count); ++i) change(hits[i]);
-    return result;
-  };
-}
 
 template <auto change>
 void change_hashes() {
@@ -92,22 +72,10 @@ void joined_bodies_never_touch() {
   change_joints<[](PlumbJointDesc& desc) { desc.collide_connected = 0; }>();
 }
 void no_reactions() {
-  liar.joints.read = [](PlumbWorld* world, PlumbJointField field, PlumbDataType type, const PlumbJoint* ids,
-                        std::uint32_t count, void* rows, std::size_t stride) {
-    const PlumbResult result = honest.joints.read(world, field, type, ids, count, rows, stride);
-    if (result >= 0 && field == PLUMB_JOINT_REACTION)
-      change_rows(type, rows, stride, count, [](double* row) { std::fill_n(row, 6, 0.0); });
-    return result;
-  };
+  change_joint_reads<[](double* row) { std::fill_n(row, 6, 0.0); }>();
 }
 void no_torques() {
-  liar.joints.read = [](PlumbWorld* world, PlumbJointField field, PlumbDataType type, const PlumbJoint* ids,
-                        std::uint32_t count, void* rows, std::size_t stride) {
-    const PlumbResult result = honest.joints.read(world, field, type, ids, count, rows, stride);
-    if (result >= 0 && field == PLUMB_JOINT_REACTION)
-      change_rows(type, rows, stride, count, [](double* row) { std::fill_n(row + 3, 3, 0.0); });
-    return result;
-  };
+  change_joint_reads<[](double* row) { std::fill_n(row + 3, 3, 0.0); }>();
 }
 void limits_moved() {
   change_joints<[](PlumbJointDesc& desc) {
