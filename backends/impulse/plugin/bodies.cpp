@@ -4,7 +4,6 @@
 #include <string>
 
 #include "axis_locks.hpp"
-#include "exec/floating_point.hpp"
 #include "plugin/put_rows.hpp"
 #include "plugin/ranges.hpp"
 #include "plugin/world.hpp"
@@ -18,7 +17,6 @@ bool is_isotropic(const PlumbVec3& inertia) { return inertia.x == inertia.y && i
 }  // namespace
 
 PlumbResult World::create_bodies(std::span<const PlumbBodyDesc> descs, std::span<PlumbBody> ids) {
-  const FloatingPointScope scope;
   for (std::size_t i = 0; i < descs.size(); ++i) require_range(descs[i], i);
   std::uint32_t slots = simulation_.body_count();
   for (const PlumbBody id : ids) slots = std::max(slots, slot_of(id) + 1);
@@ -213,7 +211,6 @@ PlumbResult World::read(PlumbField field, std::span<const PlumbBody> ids, Rows r
 }
 
 PlumbResult World::write(PlumbField field, std::span<const PlumbBody> ids, ConstRows rows) {
-  const FloatingPointScope scope;
   if (field == PLUMB_FIELD_POSE && init_.needs(PLUMB_NEED_CONTACTS)) records();  // they are told of by places
   if (field == PLUMB_FIELD_AWAKE) return write_awake(ids, rows), PLUMB_OK;
   double row[16];

@@ -1,6 +1,5 @@
 // plumb.collide/1: pairs of shapes that need no bodies, by the pair functions of the step. Compounds are taken apart,
 // and each of their children is held against all of the other shape.
-#include "exec/floating_point.hpp"
 #include "plugin/world.hpp"
 
 namespace plumb::impulse {
@@ -46,7 +45,6 @@ void World::pose_parts(PlumbShape id, const PlumbPose& pose, std::vector<PosedSh
 
 PlumbResult World::collide_pairs(std::span<const PlumbPosedPair> pairs, std::span<PlumbPairResult> results,
                                  std::span<const PlumbPairPoint>& points) {
-  const FloatingPointScope scope;
   std::vector<PosedPair> posed;
   std::vector<PosedShape> parts_a, parts_b;
   std::vector<std::uint32_t> first(1, 0U);

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "exec/floating_point.hpp"
 #include "plugin/world.hpp"
 
 namespace plumb::impulse {
@@ -58,7 +57,6 @@ PlumbResult World::tree_boxes(std::span<const PlumbDebugBox>& boxes) {
 }
 
 PlumbResult World::separating_axes(std::span<const PlumbDebugAxis>& axes) {
-  const FloatingPointScope scope;
   const std::vector<Pair> pairs = known_candidates();
   const QueryScene scene = simulation_.query_scene(hit_names());
   Executor& executor = simulation_.executor();

@@ -1,8 +1,7 @@
 #include "plugin/engine.hpp"
 
-#include "plugin/world.hpp"
-#include "plumb/backend.hpp"
+#include "plugin/open.hpp"
 
 PlumbResult plumb_impulse_open(const PlumbOpenRequest* request, PlumbOpenReply* reply) {
-  return plumb::backend::open<plumb::impulse::World>(request, reply);
+  return plumb::impulse::open(request, reply);
 }

@@ -1,5 +1,6 @@
 // The one exported symbol.
-#include "plugin/world.hpp"
-#include "plumb/backend.hpp"
+#include "plugin/open.hpp"
 
-PLUMB_BACKEND(plumb::impulse::World)
+extern "C" PLUMB_EXPORT PlumbResult plumb_backend_open(const PlumbOpenRequest* request, PlumbOpenReply* reply) {
+  return plumb::impulse::open(request, reply);
+}

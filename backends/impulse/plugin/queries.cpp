@@ -1,5 +1,4 @@
 // plumb.queries/1. Threads that ask at once take turns where something is built first; on a device, altogether.
-#include "exec/floating_point.hpp"
 #include "plugin/world.hpp"
 
 namespace plumb::impulse {
@@ -15,7 +14,6 @@ HitNames World::hit_names() {
 
 template <class Ask>
 Hits World::ask(const Ask& ask) {
-  const FloatingPointScope scope;
   std::unique_lock lock(query_mutex_);
   const QueryScene scene = simulation_.query_scene(hit_names());
   QueryBatch& batch = query_batches_.take();

@@ -1,6 +1,5 @@
 // Bodies that see whom they overlap and push nobody: the step does not know of them, and afterwards they ask like any
 // query.
-#include "exec/floating_point.hpp"
 #include "plugin/world.hpp"
 
 namespace plumb::impulse {

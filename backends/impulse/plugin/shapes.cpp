@@ -1,7 +1,6 @@
 // Shapes of a world, and the proxies by which bodies have them.
 #include <string>
 
-#include "exec/floating_point.hpp"
 #include "plugin/ranges.hpp"
 #include "plugin/world.hpp"
 
@@ -74,7 +73,6 @@ void World::dismantle(const Shape& shape) {
 }
 
 PlumbResult World::create_shapes(std::span<const PlumbShapeDesc> descs, std::span<PlumbShape> ids) {
-  const FloatingPointScope scope;
   for (std::size_t i = 0; i < descs.size(); ++i) require_range(descs[i], i);
   std::vector<Shape> made;
   std::vector<Compound> parts(descs.size());

@@ -1,5 +1,4 @@
 // plumb.snapshot/1: what moves, with the impulses that the next step starts from.
-#include "exec/floating_point.hpp"
 #include "physics_revision.hpp"
 #include "plugin/world.hpp"
 
@@ -12,7 +11,6 @@ std::string_view World::format() const {
 }
 
 PlumbResult World::save(std::span<const std::byte>& data) {
-  const FloatingPointScope scope;
   Archive archive;
   exchange(archive);
   snapshot_ = archive.bytes();
@@ -21,7 +19,6 @@ PlumbResult World::save(std::span<const std::byte>& data) {
 }
 
 PlumbResult World::restore(std::span<const std::byte> data) {
-  const FloatingPointScope scope;
   Archive archive(data);
   exchange(archive);
   records_.clear();  // contacts are told of by the steps to come

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "exec/floating_point.hpp"
 
 namespace plumb::impulse {
 
@@ -39,7 +38,6 @@ PlumbResult World::set_gravity(const PlumbVec3& gravity) {
 }
 
 PlumbResult World::step(double dt) {
-  const FloatingPointScope scope;
   steer_kinematics(dt);
   dt_ = dt;
   records_known_ = false;
@@ -50,7 +48,6 @@ PlumbResult World::step(double dt) {
 }
 
 PlumbResult World::wait(PlumbStepReport& report) {
-  const FloatingPointScope scope;
   simulation_.wait();
   settle_kinematics();
   clear_forces();

@@ -1,6 +1,7 @@
 // Apart from its header, so that the interface's templates are compiled once and not with every test.
 #include "engine.hpp"
 
+#include "plugin/open.hpp"
 #include "plugin/world.hpp"
 #include "plumb/backend/tables.hpp"
 
@@ -8,7 +9,7 @@ namespace plumb::impulse::test {
 
 Backend engine(const PlumbHost* host) {
   backend::Tables<World>::host = host;
-  return Backend(negotiate(&backend::open<World>, "impulse"));
+  return Backend(negotiate(&open, "impulse"));
 }
 
 }  // namespace plumb::impulse::test

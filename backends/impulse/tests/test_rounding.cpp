@@ -1,0 +1,170 @@
+// A host may call in any rounding and with flushing to zero: every entry of every table gives the same bits, and the
+// host finds its mode as it left it.
+#include <gtest/gtest.h>
+#include <xmmintrin.h>
+
+#include <bit>
+#include <limits>
+
+#include "engine.hpp"
+#include "plugin/decorated_tables.hpp"
+#include "plugin/open.hpp"
+
+namespace plumb::impulse::test {
+namespace {
+
+constexpr std::uint32_t kModeBits = 0xe040;  // flush to zero, rounding, denormals are zero
+constexpr std::uint32_t kNearest = 0, kDown = 0x2000, kUp = 0x4000, kToZero = 0x6000, kFlush = 0x8040;
+
+/// The host's thread is in this mode while it calls, and in its own while the test computes.
+struct HostMode {
+  HostMode() : own(_mm_getcsr()) {
+    _mm_setcsr((own & ~kModeBits) | mode);
+    ++calls;
+  }
+  ~HostMode() {
+    if ((_mm_getcsr() & kModeBits) != mode) ++lost;
+    _mm_setcsr(own);
+  }
+  std::uint32_t own;
+  static inline std::uint32_t mode = kNearest;
+  static inline int calls = 0, lost = 0;
+};
+
+PlumbResult open_from_any_mode(const PlumbOpenRequest* request, PlumbOpenReply* reply) {
+  const PlumbResult result = open(request, reply);
+  if (result >= 0) reply->table = DecoratedTables<HostMode>::of(*reply->table);
+  return result;
+}
+
+/// FNV-1a over the bits of numbers.
+class Digest {
+ public:
+  void add(std::uint64_t bits) {
+    for (int byte = 0; byte < 8; ++byte) value_ = (value_ ^ (bits >> (8 * byte) & 0xff)) * 0x100000001b3U;
+  }
+  void add(double number) {
+    add(std::bit_cast<std::uint64_t>(number == number ? number : std::numeric_limits<double>::quiet_NaN()));
+  }
+  void add(const PlumbVec3& v) {
+    for (const double x : {v.x, v.y, v.z}) add(x);
+  }
+  void add(const Hits& hits) {
+    for (const PlumbHit& hit : hits.hits) {
+      add(hit.body);
+      add(hit.fraction);
+      add(hit.position);
+      add(hit.normal);
+    }
+  }
+  [[nodiscard]] std::uint64_t value() const { return value_; }
+
+ private:
+  std::uint64_t value_ = 0xcbf29ce484222325U;
+};
+
+void ask_queries(Scene& scene, Digest& digest) {
+  PlumbBodyDesc ball = body_desc();
+  const PlumbShape shapes[] = {scene.sphere(0.3), scene.box({0.3, 0.2, 0.1})};
+  std::vector<PlumbRay> rays;
+  std::vector<PlumbCast> casts;
+  std::vector<PlumbOverlap> overlaps;
+  for (int i = 0; i < 16; ++i) {
+    const PlumbPose pose = {{0.37 * i - 3, 4.1, 0.29 * i - 2}, {0.1, 0.7, 0.1, 0.7}};
+    rays.push_back({pose.position, {0.3, -9, 0.1}, ball.filter});
+    casts.push_back({shapes[i % 2], pose, {0.3, -9, 0.1}, ball.filter});
+    overlaps.push_back({shapes[i % 2], {{pose.position.x, 0.4, pose.position.z}, pose.orientation}, ball.filter});
+  }
+  IQueries& queries = *scene.world().queries();
+  digest.add(queries.cast_rays(PLUMB_HIT_ALL, rays));
+  digest.add(queries.cast_shapes(PLUMB_HIT_CLOSEST, casts));
+  digest.add(queries.overlap_shapes(overlaps));
+
+  const PlumbPosedPair pair = {
+      shapes[0], shapes[1], {{0.1, 0.2, 0.3}, {0, 0, 0, 1}}, {{0.3, 0.4, 0.3}, {0.6, 0, 0, 0.8}}};
+  PlumbPairResult result{};
+  std::span<const PlumbPairPoint> points;
+  check(scene.world(), scene.world().collide()->collide_pairs({&pair, 1}, {&result, 1}, points));
+  digest.add(result.distance);
+  for (const PlumbPairPoint& point : points) digest.add(point.position);
+}
+
+void ask_what_the_engine_sees(Scene& scene, Digest& digest) {
+  IDebug& debug = *scene.world().debug();
+  std::span<const PlumbDebugBox> boxes;
+  std::span<const PlumbDebugAxis> axes;
+  check(scene.world(), debug.tree_boxes(boxes));
+  for (const PlumbDebugBox& box : boxes) {
+    digest.add(box.lower);
+    digest.add(box.upper);
+  }
+  check(scene.world(), debug.separating_axes(axes));
+  for (const PlumbDebugAxis& axis : axes) {
+    digest.add(axis.axis);
+    digest.add(axis.separation);
+  }
+}
+
+void read_rows(Scene& scene, Digest& digest) {
+  for (const PlumbField field : {PLUMB_FIELD_MASS, PLUMB_FIELD_POSE, PLUMB_FIELD_VELOCITY}) {
+    for (const PlumbBody body : scene.world().bodies()) {
+      std::vector<double> row(columns_of(field));
+      check(scene.world(), scene.world().read(field, {&body, 1},
+                                              Rows(reinterpret_cast<std::byte*>(row.data()), 1,
+                                                   row.size() * sizeof(double), PLUMB_F64)));
+      for (const double x : row) digest.add(x);
+    }
+  }
+  for (const PlumbContact& contact : scene.world().contacts()) {
+    digest.add(contact.position);
+    digest.add(contact.normal_impulse);
+  }
+}
+
+/// Everything that a scene says of itself when the host is in this mode.
+std::uint64_t digest_of(const NamedScene& recorded, std::uint32_t mode) {
+  HostMode::mode = mode;
+  const Backend backend(negotiate(&open_from_any_mode, "impulse"));
+  NamedScene all = recorded;
+  all.needs |= PLUMB_NEED_QUERIES | PLUMB_NEED_CONTACTS | PLUMB_NEED_CONTACT_IMPULSES | PLUMB_NEED_SNAPSHOT;
+  if ((all.needs & PLUMB_NEED_COLLISION) == 0) all.needs = recorded.needs | PLUMB_NEED_SNAPSHOT;
+  const std::unique_ptr<Scene> scene = build(backend, all, 1);
+  scene->run(15);
+  std::span<const std::byte> lent;
+  check(scene->world(), scene->world().snapshot()->save(lent));
+  const std::vector<std::byte> saved(lent.begin(), lent.end());
+  Digest digest;
+  digest.add(scene->hash());
+  read_rows(*scene, digest);
+  if ((all.needs & PLUMB_NEED_QUERIES) != 0) {
+    ask_queries(*scene, digest);
+    ask_what_the_engine_sees(*scene, digest);
+  }
+  check(scene->world(), scene->world().set_gravity({0.1, -9.7, 0.3}));
+  check(scene->world(), scene->world().snapshot()->restore(saved));
+  digest.add(scene->hash());
+  HostMode::mode = kNearest;
+  return digest.value();
+}
+
+class Rounding : public ::testing::TestWithParam<NamedScene> {};
+
+TEST_P(Rounding, OfTheHostChangesNoBit) {
+  HostMode::calls = HostMode::lost = 0;
+  const std::uint64_t nearest = digest_of(GetParam(), kNearest);
+  EXPECT_GT(HostMode::calls, 20);
+  for (const std::uint32_t mode : {kDown, kUp, kToZero, kFlush}) {
+    EXPECT_EQ(digest_of(GetParam(), mode), nearest) << "control word " << std::hex << mode;
+    EXPECT_EQ(HostMode::lost, 0) << "the host's mode was not put back, control word " << std::hex << mode;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Rounding, ::testing::ValuesIn(named_scenes()), [](const auto& scene) {
+  std::string name = scene.param.name;
+  for (char& letter : name)
+    if (letter == '-') letter = '_';
+  return name;
+});
+
+}  // namespace
+}  // namespace plumb::impulse::test
