@@ -5,7 +5,7 @@ function(plumb_add_backend name)
   set(target plumb-backend-${name})
   add_library(${target} MODULE ${ARGN})
   set_property(GLOBAL APPEND PROPERTY PLUMB_BACKENDS ${name})
-  target_link_libraries(${target} PRIVATE plumb::api)
+  target_link_libraries(${target} PRIVATE plumb::backend)
   target_compile_features(${target} PRIVATE cxx_std_20)
   set_target_properties(${target} PROPERTIES PREFIX "" OUTPUT_NAME plumb-${name}
     CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON LINK_DEPENDS "${PLUMB_BACKEND_MAP}")

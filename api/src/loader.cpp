@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
 #include <map>
 #include <mutex>
 
@@ -21,7 +22,7 @@ constexpr std::string_view kSuffix = ".so";
 /// Libraries are never unloaded, so what is open stays open; one entry a file.
 struct OpenBackends {
   std::mutex mutex;
-  std::map<fs::path, const PlumbBackendTable*> by_file;
+  std::map<std::string, const PlumbBackendTable*> by_file;
 };
 
 OpenBackends& open_backends() {
@@ -41,17 +42,17 @@ fs::path program_folder() {
 
 bool is_file_name(const std::string& name) { return name.find('/') != std::string::npos || name.ends_with(kSuffix); }
 
-fs::path file_of(const std::string& name_or_file) {
+std::string file_of(const std::string& name_or_file) {
   if (is_file_name(name_or_file)) {
     std::error_code error;
     const fs::path file = fs::canonical(name_or_file, error);
     if (error)
       throw Error(PLUMB_E_INVALID_ARGUMENT, "backend file " + name_or_file + " cannot be found; check the path");
-    return file;
+    return file.string();
   }
   const std::vector<FoundBackend> found = find_backends();
   for (const FoundBackend& backend : found)
-    if (backend.name == name_or_file) return fs::canonical(backend.file);
+    if (backend.name == name_or_file) return fs::canonical(backend.file).string();
   std::string text = "no backend is called \"" + name_or_file + "\"";
   std::vector<std::string> names;
   for (const FoundBackend& backend : found) names.push_back(backend.name);
@@ -82,7 +83,7 @@ void require_whole(const PlumbBackendTable& table, const std::string& name) {
 
 }  // namespace
 
-Backend::Backend(const PlumbBackendTable* table, fs::path file) : table_(table), file_(std::move(file)) {}
+Backend::Backend(const PlumbBackendTable* table, std::string file) : table_(table), file_(std::move(file)) {}
 
 PlumbDegree Backend::capability(PlumbCapability kind, std::uint32_t a, std::uint32_t b) const {
   return table_->capability(kind, a, b, nullptr);
@@ -108,7 +109,7 @@ std::unique_ptr<IPhysicsWorld> Backend::create_world(const PlumbWorldDesc& desc)
   return adopt_world(*table_, world);
 }
 
-std::vector<fs::path> backend_path() {
+std::vector<std::string> backend_path() {
   std::vector<fs::path> wanted;
   if (const char* given = std::getenv("PLUMB_BACKEND_PATH"); given != nullptr) {
     std::string_view rest = given;
@@ -120,24 +121,25 @@ std::vector<fs::path> backend_path() {
   }
   wanted.push_back(program_folder() / ".." / "lib" / "plumb");
   wanted.emplace_back(PLUMB_INSTALLED_BACKENDS);
-  std::vector<fs::path> folders;
+  std::vector<std::string> folders;
   for (const fs::path& folder : wanted) {
     std::error_code error;
     const fs::path real = fs::canonical(folder, error);
-    if (!error && fs::is_directory(real) && std::find(folders.begin(), folders.end(), real) == folders.end())
-      folders.push_back(real);
+    if (!error && fs::is_directory(real) && std::find(folders.begin(), folders.end(), real.string()) == folders.end())
+      folders.push_back(real.string());
   }
   return folders;
 }
 
 std::vector<FoundBackend> find_backends() {
-  std::map<std::string, fs::path> by_name;
-  for (const fs::path& folder : backend_path()) {
+  std::map<std::string, std::string> by_name;
+  for (const std::string& folder : backend_path()) {
     std::error_code error;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
       const std::string file = entry.path().filename().string();
       if (file.starts_with(kPrefix) && file.ends_with(kSuffix) && file.size() > kPrefix.size() + kSuffix.size())
-        by_name.try_emplace(file.substr(kPrefix.size(), file.size() - kPrefix.size() - kSuffix.size()), entry.path());
+        by_name.try_emplace(file.substr(kPrefix.size(), file.size() - kPrefix.size() - kSuffix.size()),
+                            entry.path().string());
     }
   }
   std::vector<FoundBackend> found;
@@ -172,7 +174,7 @@ const PlumbBackendTable* negotiate(PlumbOpenFunction open, const std::string& na
 }
 
 Backend open_backend(const std::string& name_or_file, const PlumbHost* host) {
-  const fs::path file = file_of(name_or_file);
+  const std::string file = file_of(name_or_file);
   OpenBackends& backends = open_backends();
   const std::lock_guard lock(backends.mutex);
   if (const auto known = backends.by_file.find(file); known != backends.by_file.end())
@@ -183,9 +185,8 @@ Backend open_backend(const std::string& name_or_file, const PlumbHost* host) {
   if (library == nullptr) throw Error(PLUMB_E_INVALID_ARGUMENT, std::string("backend cannot be loaded: ") + dlerror());
   const auto open = reinterpret_cast<PlumbOpenFunction>(dlsym(library, PLUMB_OPEN_SYMBOL));
   if (open == nullptr)
-    throw Error(PLUMB_E_INVALID_ARGUMENT,
-                file.string() + " is no Plumb backend: it does not export " PLUMB_OPEN_SYMBOL);
-  const PlumbBackendTable* table = negotiate(open, file.string(), host);
+    throw Error(PLUMB_E_INVALID_ARGUMENT, file + " is no Plumb backend: it does not export " PLUMB_OPEN_SYMBOL);
+  const PlumbBackendTable* table = negotiate(open, file, host);
   const std::string group = table->info()->exclusion_group;
   for (const auto& [other_file, other] : backends.by_file)
     if (!group.empty() && group == other->info()->exclusion_group)

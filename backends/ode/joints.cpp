@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "generic_joint.hpp"
-#include "plumb/backend/check_descs.hpp"
+#include "plumb/backend/names.hpp"
 
 namespace plumb::ode {
 namespace {

@@ -13,7 +13,7 @@ namespace {
 
 void print_nothing_found() {
   std::string folders;
-  for (const auto& folder : backend_path()) folders += "\n  " + folder.string();
+  for (const auto& folder : backend_path()) folders += "\n  " + folder;
   fmt::print(stderr, "no backend found{}\n",
              folders.empty() ? "; set PLUMB_BACKEND_PATH to the folder of some" : ", looked in" + folders);
 }

@@ -1,6 +1,6 @@
 #include "conform/conformance.hpp"
 
-#include "plumb/backend/check_needs.hpp"
+#include "plumb/backend/names.hpp"
 #include "plumb/layers.hpp"
 
 namespace plumb::harness::conform {

@@ -1,7 +1,7 @@
 // Closed forms at tight tolerances: motors, limits, springs, reactions and gaps of joints. Asked of what is claimed as
 // native or emulated.
 #include "conform/joint_pair.hpp"
-#include "plumb/backend/check_descs.hpp"
+#include "plumb/backend/names.hpp"
 
 namespace plumb::harness::conform {
 namespace {

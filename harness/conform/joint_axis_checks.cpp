@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "conform/joint_pair.hpp"
-#include "plumb/backend/check_descs.hpp"
+#include "plumb/backend/names.hpp"
 
 namespace plumb::harness::conform {
 namespace {

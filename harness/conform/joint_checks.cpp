@@ -1,7 +1,7 @@
 // Joints: each type holds what it locks, lets go what it frees, and its limits, motors, springs, breaking and reactions
 // do what they say. The geometry is the referee's.
 #include "conform/joint_pair.hpp"
-#include "plumb/backend/check_descs.hpp"
+#include "plumb/backend/names.hpp"
 
 namespace plumb::harness::conform {
 namespace {

@@ -4,7 +4,7 @@
 #include <random>
 
 #include "conform/probe.hpp"
-#include "plumb/backend/check_descs.hpp"
+#include "plumb/backend/names.hpp"
 #include "referee/penetration.hpp"
 
 namespace plumb::harness::conform {

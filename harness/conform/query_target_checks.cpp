@@ -4,7 +4,7 @@
 #include <random>
 
 #include "conform/query_target.hpp"
-#include "plumb/backend/check_descs.hpp"
+#include "plumb/backend/names.hpp"
 
 namespace plumb::harness::conform {
 namespace {

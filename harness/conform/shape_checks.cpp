@@ -1,6 +1,6 @@
 // Shapes and pairs of shapes: every claim of the matrix is dropped, pushed and looked at.
 #include "conform/probe.hpp"
-#include "plumb/backend/check_descs.hpp"
+#include "plumb/backend/names.hpp"
 #include "referee/mass.hpp"
 
 namespace plumb::harness::conform {

@@ -129,7 +129,7 @@ Json describe(const Backend& backend) {
             {"reason", ""},
             {"description", info.description},
             {"build", info.build},
-            {"file", backend.file().string()},
+            {"file", backend.file()},
             {"device", info.device},
             {"precision", info.precision == PLUMB_F32 ? "f32" : "f64"},
             {"max_threads", info.max_threads},

@@ -149,7 +149,7 @@ std::vector<std::pair<std::string, std::string>> backend_files(const std::vector
   std::vector<std::string> names;
   for (const FoundBackend& backend : found) names.push_back(backend.name);
   if (asked.empty()) {
-    for (const FoundBackend& backend : found) files.emplace_back(backend.name, backend.file.string());
+    for (const FoundBackend& backend : found) files.emplace_back(backend.name, backend.file);
     return files;
   }
   for (const std::string& what : asked) {
@@ -164,7 +164,7 @@ std::vector<std::pair<std::string, std::string>> backend_files(const std::vector
     }
     const auto at = std::find(names.begin(), names.end(), what);
     if (at == names.end()) throw UsageError(fmt::format("there is no backend \"{}\"{}", what, suggestion(what, names)));
-    files.emplace_back(what, found[static_cast<std::size_t>(at - names.begin())].file.string());
+    files.emplace_back(what, found[static_cast<std::size_t>(at - names.begin())].file);
   }
   std::sort(files.begin(), files.end());
   files.erase(std::unique(files.begin(), files.end()), files.end());
@@ -197,7 +197,7 @@ OpenedBackends open_backends(const StudyRequest& request) {
   }
   if (opened.usable.empty()) {
     std::string folders;
-    for (const auto& folder : backend_path()) folders += (folders.empty() ? "" : ", ") + folder.string();
+    for (const auto& folder : backend_path()) folders += (folders.empty() ? "" : ", ") + folder;
     throw UsageError("no backend loads; looked in " + (folders.empty() ? "no folder" : folders) +
                      "; name one by --backend FILE or set PLUMB_BACKEND_PATH");
   }

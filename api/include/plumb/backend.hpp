@@ -10,7 +10,8 @@
 //
 // For each extension, derive from its interface too (IJoints, IQueries, ...) and override its getter to return this.
 //
-// What stands between the table and your class (backend/guarded_world.hpp), in every build: exceptions become results;
+// What stands between the table and your class (the library plumb::backend, which plumb_add_backend links), in every
+// build: exceptions become results;
 // stale handles, numbers that are not finite or out of range, undeclared needs and unsupported capabilities are refused
 // in words before your class is called; handles are allotted, mass properties worked out, and bodies(), hash(),
 // user_data, PLUMB_FIELD_MASS, the list of pair exceptions and shapes in use answered for you. A Plumb call that fails

@@ -10,7 +10,6 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
@@ -46,7 +45,7 @@ struct TraceOptions {
 
 /// A table that forwards to next and writes every call with its inputs, its result, and its outputs to file (format:
 /// src/layers/trace_format.hpp). Throws Error when the file cannot be written. The table is good until end_trace.
-[[nodiscard]] const PlumbBackendTable* trace(const PlumbBackendTable* next, const std::filesystem::path& file,
+[[nodiscard]] const PlumbBackendTable* trace(const PlumbBackendTable* next, const std::string& file,
                                              const TraceOptions& options = {});
 
 /// Completes and closes the file of a table that trace() gave; its worlds must be destroyed by then, and the table is
@@ -92,11 +91,11 @@ struct ReplayReport {
 };
 
 /// The header alone; throws as replay() does.
-[[nodiscard]] TraceHeader trace_header(const std::filesystem::path& file);
+[[nodiscard]] TraceHeader trace_header(const std::string& file);
 
 /// Replays a trace on a backend: the same calls in the same order, handles translated. Throws Error: PLUMB_E_CORRUPT
 /// for a file that is foreign, torn or of another version, PLUMB_E_INVALID_ARGUMENT for one that cannot be read.
-[[nodiscard]] ReplayReport replay(const std::filesystem::path& file, const PlumbBackendTable* table);
+[[nodiscard]] ReplayReport replay(const std::string& file, const PlumbBackendTable* table);
 
 /// Which call is to fail: the nth (from 1) of a name, of all worlds together, answers result and is not forwarded.
 struct Fault {

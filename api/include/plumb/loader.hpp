@@ -1,7 +1,6 @@
 // Finds backends, opens them, and says in a sentence why one cannot be opened.
 #pragma once
 
-#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -14,11 +13,11 @@ namespace plumb {
 class Backend {
  public:
   /// table must live as long as the process.
-  explicit Backend(const PlumbBackendTable* table, std::filesystem::path file = {});
+  explicit Backend(const PlumbBackendTable* table, std::string file = {});
 
   [[nodiscard]] const PlumbBackendInfo& info() const { return *table_->info(); }
   [[nodiscard]] const PlumbBackendTable& table() const { return *table_; }
-  [[nodiscard]] const std::filesystem::path& file() const { return file_; }
+  [[nodiscard]] const std::string& file() const { return file_; }
   [[nodiscard]] PlumbDegree capability(PlumbCapability kind, std::uint32_t a = 0, std::uint32_t b = 0) const;
   /// A sentence on the capability, or "".
   [[nodiscard]] std::string capability_note(PlumbCapability kind, std::uint32_t a = 0, std::uint32_t b = 0) const;
@@ -30,17 +29,17 @@ class Backend {
 
  private:
   const PlumbBackendTable* table_;
-  std::filesystem::path file_;
+  std::string file_;
 };
 
 struct FoundBackend {
   std::string name;  ///< "bullet" for plumb-bullet.so
-  std::filesystem::path file;
+  std::string file;
 };
 
 /// The folders that are searched, in order: each of $PLUMB_BACKEND_PATH (colons between), ../lib/plumb beside the
 /// program's folder, the install prefix's lib/plumb. Folders that do not exist are left out.
-[[nodiscard]] std::vector<std::filesystem::path> backend_path();
+[[nodiscard]] std::vector<std::string> backend_path();
 
 /// Backends on the path, by name; the first of a name wins. Nothing is opened.
 [[nodiscard]] std::vector<FoundBackend> find_backends();

@@ -1,7 +1,6 @@
 // The nearest right word to a misspelt one, for error messages of hosts and backends.
 #pragma once
 
-#include <algorithm>
 #include <cctype>
 #include <cstddef>
 #include <string>
@@ -19,10 +18,12 @@ namespace plumb {
   for (std::size_t i = 1; i <= a.size(); ++i) {
     row[0] = i;
     for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t replaced = last[j - 1] + (lower(a[i - 1]) == lower(b[j - 1]) ? 0 : 1);
-      row[j] = std::min({last[j] + 1, row[j - 1] + 1, replaced});
+      std::size_t fewest = last[j - 1] + (lower(a[i - 1]) == lower(b[j - 1]) ? 0 : 1);
+      if (last[j] + 1 < fewest) fewest = last[j] + 1;
+      if (row[j - 1] + 1 < fewest) fewest = row[j - 1] + 1;
       const bool swapped = i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) && lower(a[i - 2]) == lower(b[j - 1]);
-      if (swapped) row[j] = std::min(row[j], before[j - 2] + 1);
+      if (swapped && before[j - 2] + 1 < fewest) fewest = before[j - 2] + 1;
+      row[j] = fewest;
     }
     before.swap(last);
     last.swap(row);
@@ -34,14 +35,14 @@ namespace plumb {
 /// enough to be meant.
 [[nodiscard]] inline std::string nearest(std::string_view word, const std::vector<std::string>& known) {
   std::string best;
-  std::ptrdiff_t best_prefix = 0;
-  std::size_t best_distance = std::max<std::size_t>(2, word.size() / 3) + 1;
+  std::size_t best_prefix = 0;
+  std::size_t best_distance = (word.size() / 3 > 2 ? word.size() / 3 : 2) + 1;
   for (const std::string& candidate : known) {
     const bool begins = word.size() >= 3 && candidate.starts_with(word);
     const std::size_t distance = begins ? 1 : edit_distance(word, candidate);
-    if (distance >= std::max(word.size(), candidate.size())) continue;  // not one letter in common
-    const std::ptrdiff_t prefix =
-        std::mismatch(word.begin(), word.end(), candidate.begin(), candidate.end()).first - word.begin();
+    if (distance >= word.size() && distance >= candidate.size()) continue;  // not one letter in common
+    std::size_t prefix = 0;
+    while (prefix < word.size() && prefix < candidate.size() && word[prefix] == candidate[prefix]) ++prefix;
     if (distance < best_distance || (distance == best_distance && !best.empty() && prefix > best_prefix)) {
       best_distance = distance;
       best_prefix = prefix;
@@ -56,7 +57,7 @@ namespace plumb {
   if (const std::string best = nearest(word, known); !best.empty()) return "; did you mean \"" + best + "\"?";
   constexpr std::size_t most = 12;
   std::string text;
-  for (std::size_t i = 0; i < std::min(most, known.size()); ++i) text += (i == 0 ? "; known are " : ", ") + known[i];
+  for (std::size_t i = 0; i < most && i < known.size(); ++i) text += (i == 0 ? "; known are " : ", ") + known[i];
   return known.size() > most ? text + ", ..." : text;
 }
 

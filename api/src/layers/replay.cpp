@@ -250,29 +250,29 @@ class Replay {
 
 /// Runs read(bytes) on a file's bytes; what is corrupt is said with the file's name.
 template <class Read>
-auto read_trace(const std::filesystem::path& file, Read&& read) {
+auto read_trace(const std::string& file, Read&& read) {
   std::ifstream in(file, std::ios::binary);
   const std::vector<char> bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
   if (!in.is_open() || in.bad())
-    throw Error(PLUMB_E_INVALID_ARGUMENT, "cannot read the trace " + file.string() + ": " + std::strerror(errno));
+    throw Error(PLUMB_E_INVALID_ARGUMENT, "cannot read the trace " + file + ": " + std::strerror(errno));
   try {
     return read(std::as_bytes(std::span(bytes)));
   } catch (const Error& error) {
     if (error.code() != PLUMB_E_CORRUPT) throw;
-    throw Error(PLUMB_E_CORRUPT, file.string() + " is not a whole trace: " + error.what() + "; record it again");
+    throw Error(PLUMB_E_CORRUPT, file + " is not a whole trace: " + error.what() + "; record it again");
   }
 }
 
 }  // namespace
 
-TraceHeader trace_header(const std::filesystem::path& file) {
+TraceHeader trace_header(const std::string& file) {
   return read_trace(file, [](std::span<const std::byte> bytes) {
     ByteReader reader(bytes);
     return read_header(reader, bytes);
   });
 }
 
-ReplayReport replay(const std::filesystem::path& file, const PlumbBackendTable* table) {
+ReplayReport replay(const std::string& file, const PlumbBackendTable* table) {
   return read_trace(file, [table](std::span<const std::byte> bytes) { return Replay(bytes, table).run(); });
 }
 

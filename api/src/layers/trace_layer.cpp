@@ -20,12 +20,11 @@ struct TracedWorld {
 
 class TraceLayer : public LayerBase {
  public:
-  TraceLayer(const PlumbBackendTable* next, const std::filesystem::path& file, const TraceOptions& options)
+  TraceLayer(const PlumbBackendTable* next, const std::string& file, const TraceOptions& options)
       : LayerBase(next), path_(file), rows_every_(options.rows_every), out_(file, std::ios::binary) {
     if (rows_every_ == 0)
       throw Error(PLUMB_E_INVALID_ARGUMENT, "rows_every is 0; a trace needs rows every 1 or more steps");
-    if (!out_)
-      throw Error(PLUMB_E_INVALID_ARGUMENT, "cannot write the trace " + file.string() + ": " + std::strerror(errno));
+    if (!out_) throw Error(PLUMB_E_INVALID_ARGUMENT, "cannot write the trace " + file + ": " + std::strerror(errno));
     const PlumbBackendInfo& info = *next->info();
     ByteWriter header;
     header.put(trace_magic);
@@ -55,8 +54,7 @@ class TraceLayer : public LayerBase {
     put_record(body);
     out_.close();
     if (!out_)
-      throw Error(PLUMB_E_INVALID_ARGUMENT,
-                  "the trace " + path_.string() + " could not be written whole; is the disk full?");
+      throw Error(PLUMB_E_INVALID_ARGUMENT, "the trace " + path_ + " could not be written whole; is the disk full?");
   }
 
  private:
@@ -168,7 +166,7 @@ class TraceLayer : public LayerBase {
     out_.write(reinterpret_cast<const char*>(bytes.bytes().data()), static_cast<std::streamsize>(bytes.bytes().size()));
   }
 
-  std::filesystem::path path_;
+  std::string path_;
   std::uint32_t rows_every_;
   std::ofstream out_;
   std::mutex mutex_;
@@ -179,8 +177,7 @@ class TraceLayer : public LayerBase {
 
 }  // namespace
 
-const PlumbBackendTable* trace(const PlumbBackendTable* next, const std::filesystem::path& file,
-                               const TraceOptions& options) {
+const PlumbBackendTable* trace(const PlumbBackendTable* next, const std::string& file, const TraceOptions& options) {
   return LayerSlots<TraceLayer>::open("trace", next, file, options);
 }
 

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "plumb/backend/convex_hull.hpp"
+#include "plumb/backend/small_math.hpp"
 
 namespace plumb::impulse {
 

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <string>
 
-#include "plumb/backend/check_descs.hpp"
+#include "plumb/backend/names.hpp"
 
 namespace plumb::impulse {
 

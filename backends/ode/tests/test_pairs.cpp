@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "plumb/backend/check_descs.hpp"
+#include "plumb/backend/names.hpp"
 #include "plumb_program.hpp"
 
 namespace plumb::ode_test {

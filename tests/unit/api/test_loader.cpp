@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 
 namespace plumb::test {
@@ -25,9 +26,9 @@ std::string refusal(const std::string& name, PlumbResult code) {
 
 TEST(Loader, FindsBackendsOnTheEnvironmentsPathFirst) {
   setenv("PLUMB_BACKEND_PATH", "/nowhere:" SAMPLE_FOLDER, 1);
-  const std::vector<fs::path> folders = backend_path();
+  const std::vector<std::string> folders = backend_path();
   ASSERT_FALSE(folders.empty());
-  EXPECT_EQ(folders.front(), fs::canonical(SAMPLE_FOLDER));
+  EXPECT_EQ(folders.front(), fs::canonical(SAMPLE_FOLDER).string());
   const Backend backend = open_backend("sample");
   EXPECT_STREQ(backend.info().name, "sample");
   EXPECT_NE(refusal("sampel", PLUMB_E_INVALID_ARGUMENT).find("did you mean \"sample\"?"), std::string::npos);

@@ -1,4 +1,5 @@
 // A trace replays to the same bits, and a difference is found at the step, body and field where it is.
+#include <filesystem>
 #include <fstream>
 
 #include "ill_table.hpp"

@@ -1,4 +1,5 @@
 // Every call of the one list goes into a trace and comes back out of it as it was.
+#include <filesystem>
 #include <fstream>
 #include <set>
 

@@ -1,5 +1,6 @@
 // The convex hull that the backend side offers, held against its definition.
 #include "plumb/backend/convex_hull.hpp"
+#include "plumb/backend/small_math.hpp"
 
 #include <gtest/gtest.h>
 

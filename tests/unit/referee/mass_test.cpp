@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "plumb/backend/convex_hull.hpp"
 #include "plumb/backend/mass_properties.hpp"
 #include "shapes.hpp"
 

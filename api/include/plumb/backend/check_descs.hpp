@@ -2,31 +2,10 @@
 #pragma once
 
 #include "plumb/backend/checks.hpp"
+#include "plumb/backend/names.hpp"
 #include "plumb/physics_world.hpp"
 
 namespace plumb::backend {
-
-[[nodiscard]] constexpr const char* shape_name(PlumbShapeType type) {
-  constexpr const char* names[PLUMB_SHAPE_TYPE_COUNT] = {
-      "sphere", "box", "capsule", "cylinder", "convex hull", "triangle mesh", "height field", "plane", "compound"};
-  return type < PLUMB_SHAPE_TYPE_COUNT ? names[type] : "unknown shape";
-}
-
-[[nodiscard]] constexpr const char* motion_name(PlumbMotion motion) {
-  constexpr const char* names[PLUMB_MOTION_COUNT] = {"static", "kinematic", "dynamic"};
-  return motion < PLUMB_MOTION_COUNT ? names[motion] : "unknown motion";
-}
-
-[[nodiscard]] constexpr const char* joint_name(PlumbJointType type) {
-  constexpr const char* names[PLUMB_JOINT_TYPE_COUNT] = {"ball",  "hinge",     "slider", "distance",
-                                                         "fixed", "universal", "generic"};
-  return type < PLUMB_JOINT_TYPE_COUNT ? names[type] : "unknown joint";
-}
-
-[[nodiscard]] constexpr bool is_convex(PlumbShapeType type) {
-  return type == PLUMB_SPHERE || type == PLUMB_BOX || type == PLUMB_CAPSULE || type == PLUMB_CYLINDER ||
-         type == PLUMB_CONVEX_HULL;
-}
 
 inline void check_material(const Where& where, const char* member, const PlumbMaterial& material) {
   const std::string name(member);

@@ -1,30 +1,11 @@
 // Checks of field rows before a backend sees them.
 #pragma once
 
-#include "plumb/backend/check_needs.hpp"
+#include "check_needs.hpp"
 #include "plumb/backend/checks.hpp"
+#include "plumb/backend/names.hpp"
 
 namespace plumb::backend {
-
-[[nodiscard]] constexpr const char* field_name(PlumbField field) {
-  constexpr const char* names[PLUMB_FIELD_COUNT] = {"pose",
-                                                    "velocity",
-                                                    "force",
-                                                    "torque",
-                                                    "impulse",
-                                                    "angular impulse",
-                                                    "force at point",
-                                                    "impulse at point",
-                                                    "awake",
-                                                    "kinematic target",
-                                                    "mass",
-                                                    "material",
-                                                    "gravity scale",
-                                                    "damping",
-                                                    "surface velocity",
-                                                    "filter"};
-  return field < PLUMB_FIELD_COUNT ? names[field] : "unknown field";
-}
 
 /// The memory of a bulk call: columns of the type must fit in the stride.
 inline void check_row_memory(const char* what, std::uint32_t columns, PlumbDataType type, std::uint32_t count,

@@ -8,22 +8,15 @@
 #include <mutex>
 #include <optional>
 
+#include "check_rows.hpp"
+#include "pair_exceptions.hpp"
 #include "plumb/backend/check_descs.hpp"
-#include "plumb/backend/check_rows.hpp"
 #include "plumb/backend/mass_properties.hpp"
-#include "plumb/backend/pair_exceptions.hpp"
-#include "plumb/backend/slot_table.hpp"
 #include "plumb/backend/state_hash.hpp"
-#include "plumb/backend/world_init.hpp"
+#include "plumb/backend/tables.hpp"
+#include "slot_table.hpp"
 
 namespace plumb::backend {
-
-/// What the guard knows of a backend's class.
-struct BackendFacts {
-  const PlumbBackendInfo* info;
-  PlumbDegree (*capability)(PlumbCapability kind, std::uint32_t a, std::uint32_t b, const char*& note);
-  std::span<const PlumbSettingInfo> settings;
-};
 
 class GuardedWorld {
  public:

@@ -1,10 +1,10 @@
 // The guard of the extension tables, on top of the core's.
 #pragma once
 
-#include "plumb/backend/guarded_world.hpp"
-#include "plumb/backend/snapshot_frame.hpp"
-#include "plumb/backend/state_copy.hpp"
+#include "guarded_world.hpp"
 #include "plumb/nearest.hpp"
+#include "snapshot_frame.hpp"
+#include "state_copy.hpp"
 
 namespace plumb::backend {
 
