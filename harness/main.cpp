@@ -1,11 +1,10 @@
-// plumb: holds physics backends against the truth. This file adds the verbs and turns failures into exit statuses.
+// plumb: holds physics backends against the truth. This file parses the line and turns failures into exit statuses.
 #include <fmt/format.h>
 #include <signal.h>
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
-#include "cli/replay.hpp"
 #include "cli/verbs.hpp"
 #include "plumb/nearest.hpp"
 #include "run/worker_process.hpp"
@@ -80,22 +79,7 @@ int parse_and_do(CLI::App& program, int count, char** arguments, const int& stat
 int main(int count, char** arguments) {
   CLI::App program("Holds physics backends against the truth: the same scenes, the same measures, any engine.",
                    "plumb");
-  program.set_version_flag("--version", "plumb " PLUMB_PROGRAM_VERSION);
-  program.require_subcommand(1);
   int status = 0;
-  add_backends(program, status);
-  add_scenes(program, status);
-  add_run(program, status);
-  add_compare(program, status);
-  add_curves(program, status);
-  add_conform(program, status);
-  add_study(program, status);
-  add_export(program, status);
-  add_pairs(program, status);
-  add_report(program, status);
-  add_replay(program, status);
-  add_problem(program, status);
-  add_solve(program, status);
-  add_worker(program, status);
+  add_verbs(program, status);
   return parse_and_do(program, count, arguments, status);
 }

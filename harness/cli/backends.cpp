@@ -1,8 +1,12 @@
+// plumb backends: what can be loaded, and of one backend all that it says of itself.
 #include <fmt/format.h>
 
 #include <iostream>
 #include <memory>
 
+#include "cli/backend_sheet.hpp"
+#include "cli/examples.hpp"
+#include "cli/layout.hpp"
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
 #include "run/plan.hpp"
@@ -32,18 +36,28 @@ void add_backends(CLI::App& program, int& status) {
   const auto json = std::make_shared<bool>(false);
   const auto asked = std::make_shared<std::vector<std::string>>();
   CLI::App* verb = program.add_subcommand("backends", "List the backends, what they can do, and their settings");
-  verb->add_option("BACKEND", *asked, "Names or files; none: all on the search path");
+  verb->add_option("BACKEND", *asked, "Names or files, of which all is told; none: a line for each on the search path");
   verb->add_flag("--json", *json, "One object a backend, one a line");
+  add_examples(*verb, {{"plumb backends", "what can be loaded"},
+                       {"plumb backends impulse", "its settings, and its capabilities with notes"},
+                       {"plumb backends ./plumb-mine.so --json", "all that a file says of itself"}});
   verb->callback([json, asked, &status] {
     catch_signals();
     const auto files = backend_files(*asked);
     if (files.empty()) print_nothing_found();
+    bool first = true;
     for (const auto& [name, file] : files) {
       StudyRequest defaults;
       WorkerLimits limits = defaults.limits();
       limits.seconds = 60;
       const BackendDescription backend = ask_description(name, file, limits);
-      std::cout << (*json ? line_of(backend.json) : line_for(backend)) << std::endl;
+      if (*json)
+        std::cout << line_of(backend.json) << std::endl;
+      else if (asked->empty() || !backend.error.empty())
+        std::cout << line_for(backend) << std::endl;
+      else
+        std::cout << (first ? "" : "\n") << backend_sheet(backend, text_width()) << std::flush;
+      first = false;
     }
     status = 0;
   });

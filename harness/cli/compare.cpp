@@ -1,5 +1,6 @@
 #include <memory>
 
+#include "cli/examples.hpp"
 #include "cli/study_options.hpp"
 #include "cli/verbs.hpp"
 #include "report/terminal.hpp"
@@ -12,6 +13,10 @@ void add_compare(CLI::App& program, int& status) {
   options->request.out = "plumb-results";
   CLI::App* verb = program.add_subcommand("compare", "Run scenes on all backends in turns, and hold them side by side");
   add_study_options(*verb, *options);
+  add_examples(
+      *verb, {{"plumb compare core --out results", "the whole table; stop it at any time and start it again"},
+              {"plumb compare A7 E8 --backend ode --backend bullet --csv", "two scenes, two engines, a line a metric"},
+              {"plumb compare G1 --param N=1000 --threads 2", "with two threads for each world"}});
   verb->callback([options, &status] { status = run_and_print(*options, print_comparison); });
 }
 

@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 
+#include "cli/examples.hpp"
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
 #include "conform/conformance.hpp"
@@ -126,10 +127,16 @@ void add_conform(CLI::App& program, int& status) {
   const auto options = std::make_shared<ConformOptions>();
   CLI::App* verb = program.add_subcommand("conform", "Check what backends claim against what they do");
   verb->add_option("BACKEND", options->backends, "Names or files; none: all on the search path");
-  verb->add_option("--check", options->checks, "Only this check, or this group of checks (\"joints\")");
-  verb->add_option("--timeout", options->timeout, "Seconds that one check may take")->check(CLI::PositiveNumber);
+  verb->add_option("--check", options->checks, "Only this check, or this group of checks (\"joints\")")
+      ->type_name("CHECK");
+  verb->add_option("--timeout", options->timeout, "Seconds that one check may take")
+      ->type_name("SECONDS")
+      ->check(CLI::PositiveNumber);
   verb->add_flag("--list", options->list, "List the checks");
   verb->add_flag("--json", options->json, "One object a check, one a line");
+  add_examples(*verb, {{"plumb conform ode", "what a backend claims against what it does"},
+                       {"plumb conform build/plumb-mine.so --check joints", "one group of checks, of a file"},
+                       {"plumb conform --list", "the checks"}});
   verb->callback([options, &status] {
     if (options->list) {
       for (const conform::Check& check : wanted_checks(options->checks))

@@ -11,6 +11,7 @@
 #include <memory>
 #include <optional>
 
+#include "cli/examples.hpp"
 #include "cli/page_replays.hpp"
 #include "cli/verbs.hpp"
 #include "replay/bundle.hpp"
@@ -135,18 +136,28 @@ void add_export(CLI::App& program, int& status) {
   CLI::App* verb = program.add_subcommand("export", "Make recorded trajectories into glTF, a page, or pictures");
   verb->add_option("FILE", options->files, "Trajectories (.plt) that --record wrote; several are shown side by side")
       ->required();
-  verb->add_option("--gltf", options->gltf, "Binary glTF 2.0 with the motion as animation, to this file (.glb)");
-  verb->add_option("--page", options->page, "A page that plays them, to this file (.html)");
-  CLI::Option* png = verb->add_option("--png", options->png, "A picture, to this file; needs node and chromium");
-  verb->add_option("--at", options->at, "Seconds of the scene that --png shows; 0 when not given")->needs(png);
+  verb->add_option("--gltf", options->gltf, "Binary glTF 2.0 with the motion as animation, to this file (.glb)")
+      ->type_name("FILE");
+  verb->add_option("--page", options->page, "A page that plays them, to this file (.html)")->type_name("FILE");
+  CLI::Option* png =
+      verb->add_option("--png", options->png, "A picture, to this file; needs node and chromium")->type_name("FILE");
+  verb->add_option("--at", options->at, "Seconds of the scene that --png shows; 0 when not given")
+      ->type_name("SECONDS")
+      ->needs(png);
   CLI::Option* frames =
-      verb->add_option("--frames", options->frames, "The pictures of a film, to this folder; needs node and chromium");
+      verb->add_option("--frames", options->frames, "The pictures of a film, to this folder; needs node and chromium")
+          ->type_name("DIR");
   verb->add_option("--fps", options->fps, "Frames a second of --frames; 30 when not given")
       ->check(CLI::PositiveNumber)
       ->needs(frames);
-  verb->add_option("--size", options->size, "Of pictures, in pixels")->capture_default_str();
-  verb->add_option("--show", options->layers, "Layers to switch on in pictures: contacts,boxes,axes,islands,...");
+  verb->add_option("--size", options->size, "Of pictures, in pixels")->type_name("WIDTHxHEIGHT")->capture_default_str();
+  verb->add_option("--show", options->layers, "Layers to switch on in pictures: contacts,boxes,axes,islands,...")
+      ->type_name("LAYERS");
   verb->add_option("--theme", options->theme, "Of pictures: light or dark")->check(CLI::IsMember({"light", "dark"}));
+  add_examples(*verb,
+               {{"plumb export results/trajectories/D12-*.plt --page d12.html", "several side by side, to be played"},
+                {"plumb export run.plt --gltf run.glb", "for other 3D programs"},
+                {"plumb export run.plt --png end.png --at 5 --show contacts", "a picture, with contact forces"}});
   verb->callback([options, &status] {
     export_files(*options);
     status = 0;

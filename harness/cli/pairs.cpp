@@ -5,6 +5,7 @@
 #include <iostream>
 #include <memory>
 
+#include "cli/examples.hpp"
 #include "cli/verbs.hpp"
 #include "plumb/nearest.hpp"
 #include "run/pair_tour.hpp"
@@ -80,12 +81,17 @@ void add_pairs(CLI::App& program, int& status) {
   CLI::App* verb = program.add_subcommand(
       "pairs", "Record what backends find between all pairs of shapes as one passes around and into the other");
   verb->add_option("BACKEND", options->backends, "Names or files; none: all on the search path");
-  verb->add_option("--out", options->out, "Results folder: its report shows them")->required();
+  verb->add_option("--out", options->out, "Results folder: its report shows them")->type_name("DIR")->required();
   verb->add_option("--pair", options->pairs, "Only this pair, such as box-capsule or capsule-box; repeatable")
+      ->type_name("PAIR")
       ->take_all()
       ->expected(1)
       ->allow_extra_args(false);
-  verb->add_option("--timeout", options->timeout, "Seconds that one pair may take")->check(CLI::PositiveNumber);
+  verb->add_option("--timeout", options->timeout, "Seconds that one pair may take")
+      ->type_name("SECONDS")
+      ->check(CLI::PositiveNumber);
+  add_examples(*verb, {{"plumb pairs --out pairs", "all backends; then plumb report pairs --html pairs.html"},
+                       {"plumb pairs ode --pair box-capsule --out pairs", "one backend, one pair"}});
   verb->callback([options, &status] {
     catch_signals();
     record_pairs(*options);

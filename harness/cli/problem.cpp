@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "cli/examples.hpp"
 #include "cli/verbs.hpp"
 #include "measure/step_contacts.hpp"
 #include "plumb/loader.hpp"
@@ -173,14 +174,18 @@ void add_problem(CLI::App& program, int& status) {
   CLI::App* verb = program.add_subcommand(
       "problem", "Write the contact problem of one step of a scene in FCLIB's HDF5 layout, with its exact solution");
   verb->add_option("SCENE", options->scene, "Id, slug or file of one scene")->required();
-  verb->add_option("--backend", options->backend, "Name or file of the backend that does the steps before");
+  verb->add_option("--backend", options->backend, "Name or file of the backend that does the steps before")
+      ->type_name("BACKEND");
   verb->add_option("--step", options->step, "Steps done before; 0: as the scene starts")->capture_default_str();
   verb->add_option("--param", options->parameters, "name=value of a scene's parameter, repeatable")
+      ->type_name("NAME=VALUE")
       ->take_all()
       ->expected(1)
       ->allow_extra_args(false);
-  verb->add_option("--out", options->out, "The file to write")->required();
+  verb->add_option("--out", options->out, "The file to write")->type_name("FILE")->required();
   verb->add_flag("--json", options->json, "Print one JSON object");
+  add_examples(*verb, {{"plumb problem D7 --out d7.hdf5", "as the scene starts"},
+                       {"plumb problem D7 --backend ode --step 20 --out d7.hdf5", "after 20 steps of an engine"}});
   verb->callback([options, &status] { status = write_problem(*options); });
 }
 
@@ -192,6 +197,8 @@ void add_solve(CLI::App& program, int& status) {
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   verb->add_flag("--json", options->json, "Print one JSON object, with impulses and velocities");
+  add_examples(*verb, {{"plumb solve d7.hdf5", "impulses, velocities and the residual"},
+                       {"plumb solve d7.hdf5 --tolerance 1e-12 --json", "as JSON"}});
   verb->callback([options, &status] { status = solve_file(*options); });
 }
 

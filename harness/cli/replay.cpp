@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "cli/examples.hpp"
 #include "plumb/layers.hpp"
 #include "plumb/loader.hpp"
 #include "run/json.hpp"
@@ -105,8 +106,11 @@ void add_replay(CLI::App& program, int& status) {
   CLI::App* verb = program.add_subcommand("replay", "Run a recorded trace again and find the first step that differs");
   verb->add_option("TRACE", options->trace, "File that a trace was recorded to")->required();
   verb->add_option("--backend", options->backends,
-                   "Name or file of a backend to replay on; the one it was recorded with when not given");
+                   "Name or file of a backend to replay on; the one it was recorded with when not given")
+      ->type_name("BACKEND");
   verb->add_flag("--json", options->json, "Print one JSON object a backend, one a line");
+  add_examples(*verb, {{"plumb replay results/traces/D1.trace", "on the backend that it was recorded with"},
+                       {"plumb replay results/traces/D1.trace --backend ode --json", "on another"}});
   verb->callback([options, &status] { status = replay_on_all(*options); });
 }
 

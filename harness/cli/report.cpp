@@ -8,6 +8,7 @@
 #include <iostream>
 #include <memory>
 
+#include "cli/examples.hpp"
 #include "cli/output.hpp"
 #include "cli/page_replays.hpp"
 #include "cli/verbs.hpp"
@@ -153,7 +154,7 @@ void add_report(CLI::App& program, int& status) {
   verb->add_option("DIR", options->folders,
                    "Folders with results*.jsonl, or such files; those of several machines are told apart")
       ->required();
-  verb->add_option("--html", options->html, "Write one self-contained page to this file");
+  verb->add_option("--html", options->html, "Write one self-contained page to this file")->type_name("FILE");
   verb->add_option("--replays", options->replays.scenes,
                    "At most so many scenes as replays in the page, pairs of shapes apart");
   verb->add_flag("--no-replays", options->no_replays, "No replays in the page")->excludes("--replays");
@@ -164,7 +165,8 @@ void add_report(CLI::App& program, int& status) {
       verb->add_flag("--failures", options->failures,
                      "Print as Markdown what each engine does not pass at its defaults, and by how much");
   CLI::Option* against = verb->add_option("--against", options->against,
-                                          "Say what got better or worse than in this folder of earlier results");
+                                          "Say what got better or worse than in this folder of earlier results")
+                             ->type_name("DIR");
   verb->add_flag("--strict", options->strict, "Exit with 1 when something got worse")->needs(against);
   verb->add_option("--error-limit", options->limits.error, "Relative change of an error that counts")
       ->needs(against)
@@ -178,6 +180,10 @@ void add_report(CLI::App& program, int& status) {
   markdown->excludes(csv)->excludes(json)->excludes(failures);
   csv->excludes(json)->excludes(against)->excludes(failures);
   failures->excludes(json)->excludes(against);
+  add_examples(*verb, {{"plumb report results", "the table again"},
+                       {"plumb report results --html page.html", "one page that needs no network"},
+                       {"plumb report new --against old --strict", "for CI: status 1 when something got worse"},
+                       {"plumb report xeon h200 --md", "two machines, as Markdown"}});
   verb->callback([options, &status] { status = report(*options); });
 }
 

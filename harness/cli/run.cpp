@@ -1,5 +1,6 @@
 #include <memory>
 
+#include "cli/examples.hpp"
 #include "cli/study_options.hpp"
 #include "cli/verbs.hpp"
 #include "report/terminal.hpp"
@@ -10,6 +11,13 @@ void add_run(CLI::App& program, int& status) {
   const auto options = std::make_shared<StudyOptions>();
   CLI::App* verb = program.add_subcommand("run", "Run scenes on backends and measure them");
   add_study_options(*verb, *options);
+  add_examples(
+      *verb,
+      {{"plumb run tower --param H=10", "one scene on every backend"},
+       {"plumb run C1 --backend ode --set iterations=50 --json", "another setting; a row as JSON"},
+       {"plumb run D1 --backend impulse --profile tuned --seconds 2", "with the settings of the engine's author"},
+       {"plumb run ./my-scene.json --strict", "a file of one's own; status 1 when a threshold is missed"},
+       {"plumb run D12 --record --out results", "with a trajectory for plumb report and plumb export"}});
   verb->callback([options, &status] { status = run_and_print(*options, print_table); });
 }
 

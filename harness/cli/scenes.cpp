@@ -1,9 +1,13 @@
+// plumb scenes: what can be run, and of one scene all that its file says.
 #include <fmt/format.h>
 
 #include <iostream>
 #include <memory>
 
+#include "cli/examples.hpp"
+#include "cli/layout.hpp"
 #include "cli/output.hpp"
+#include "cli/scene_sheet.hpp"
 #include "cli/verbs.hpp"
 #include "run/cell.hpp"
 #include "run/names.hpp"
@@ -48,6 +52,7 @@ Json json_of(const SceneFile& file) {
   for (const ParameterSpec& spec : file.parameters) json["parameters"].push_back(json_of(spec));
   for (const Parameters& variant : file.variants) json["variants"].push_back(harness::json_of(variant));
   for (const MetricSpec& spec : file.metrics) json["truths"].push_back(json_of(spec));
+  json["measure"] = Json::parse(file.json.at("measure").dump());
   return json;
 }
 
@@ -66,15 +71,26 @@ void add_scenes(CLI::App& program, int& status) {
   const auto asked = std::make_shared<std::vector<std::string>>();
   CLI::App* verb =
       program.add_subcommand("scenes", "List the scenes, their parameters, and what they are held against");
-  verb->add_option("SCENE", *asked, "Ids, slugs, groups or files; none: all");
+  verb->add_option("SCENE", *asked,
+                   "Ids, slugs or files, of which all is told, or groups; none: a line for each of all");
   verb->add_flag("--json", *json, "One object a scene, one a line");
+  add_examples(*verb, {{"plumb scenes", "the scenes, a line each"},
+                       {"plumb scenes D1", "its parameters, truths and thresholds"},
+                       {"plumb scenes stacking --json", "a group, an object a scene"}});
   verb->callback([json, asked, &status] {
-    std::vector<SceneFile> files;
-    if (asked->empty()) files = all_scenes();
+    bool first = true;
+    const auto print_list = [&](const std::vector<SceneFile>& files) {
+      for (const SceneFile& file : files) std::cout << (*json ? line_of(json_of(file)) : line_for(file)) << "\n";
+    };
+    if (asked->empty()) print_list(all_scenes());
     for (const std::string& what : *asked) {
-      for (SceneFile& file : find_scenes(what)) files.push_back(std::move(file));
+      const std::vector<SceneFile> files = find_scenes(what);
+      if (*json || files.size() != 1)
+        print_list(files);
+      else
+        std::cout << (first ? "" : "\n") << scene_sheet(files.front(), text_width());
+      first = false;
     }
-    for (const SceneFile& file : files) std::cout << (*json ? line_of(json_of(file)) : line_for(file)) << "\n";
     status = 0;
   });
 }

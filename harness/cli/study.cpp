@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 
+#include "cli/examples.hpp"
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
 #include "plumb/nearest.hpp"
@@ -162,9 +163,12 @@ void add_study(CLI::App& program, int& status) {
       "study", "Run a whole study: scenes, backends, knobs, steps and seeds as a file or a preset says");
   verb->add_option("STUDY", options->what, "A preset (quick, standard, full) or a study file")->required();
   verb->add_option("--out", options->out, "Folder for the results; what is finished there is not run again")
+      ->type_name("DIR")
       ->capture_default_str();
-  verb->add_option("--budget", options->budget, "Wall time of this start, in place of the study's: 90s, 20min, 2h");
+  verb->add_option("--budget", options->budget, "Wall time of this start, in place of the study's: 90s, 20min, 2h")
+      ->type_name("TIME");
   verb->add_option("--backend", options->backends, "Backend by name or file, repeatable; none: the study's")
+      ->type_name("BACKEND")
       ->take_all()
       ->expected(1)
       ->allow_extra_args(false);
@@ -178,6 +182,10 @@ void add_study(CLI::App& program, int& status) {
   verb->add_flag("--print", options->print, "Print the preset's file");
   verb->add_flag("--json", options->json, "One object a cell, one a line, as they finish");
   verb->add_flag("--strict", options->strict, "Exit with 1 when a threshold is missed");
+  add_examples(*verb, {{"plumb study quick --out results", "five minutes; the same line goes on after a kill"},
+                       {"plumb study quick --print", "the preset's file, a start for one's own"},
+                       {"plumb study mine.json --out results --budget 20min", "a file of one's own, in that time"},
+                       {"mpirun -n 4 plumb study mine.json --out results", "the cells shared among processes"}});
   verb->callback([options, &status] { status = run_study_verb(*options); });
 }
 

@@ -38,26 +38,35 @@ void add_study_options(CLI::App& verb, StudyOptions& options) {
   verb.add_option("SCENE", request.scenes, "Scenes: ids (D1), slugs (tower), groups (stacking, core, all) or files")
       ->required();
   verb.add_option("--backend", request.backends, "Backend by name or file, repeatable; none: all that load")
+      ->type_name("BACKEND")
       ->take_all()
       ->expected(1)
       ->allow_extra_args(false);
   verb.add_option("--param", request.parameters,
                   "name=value of a scene's parameter, repeatable; \"50 cm\" and 1/60 are values")
+      ->type_name("NAME=VALUE")
       ->take_all()
       ->expected(1)
       ->allow_extra_args(false);
   verb.add_option("--set", request.settings, "[backend:]name=value of a backend's setting, repeatable")
+      ->type_name("NAME=VALUE")
       ->take_all()
       ->expected(1)
       ->allow_extra_args(false);
   verb.add_option("--profile", request.profile,
                   "default: as the engine ships; matched: its own damping and sleeping off; tuned: its author's file")
+      ->type_name("WORD:{default,matched,tuned}")
       ->capture_default_str();
   verb.add_option("--needs", request.needs,
                   "scene: declare what the scene needs; scene+sleeping: one more; all: whatever the engine has")
+      ->type_name("NEEDS")
       ->capture_default_str();
-  verb.add_option("--dt", request.dt, "Step in s instead of the scene's: 1/240 or 0.004")->transform(evaluated);
-  verb.add_option("--seconds", request.seconds, "Simulated time in s instead of the scene's")->transform(evaluated);
+  verb.add_option("--dt", request.dt, "Step in s instead of the scene's: 1/240 or 0.004")
+      ->type_name("SECONDS")
+      ->transform(evaluated);
+  verb.add_option("--seconds", request.seconds, "Simulated time in s instead of the scene's")
+      ->type_name("SECONDS")
+      ->transform(evaluated);
   verb.add_option("--threads", request.threads, "Threads that a world may use")
       ->check(CLI::Range(1u, 4096u))
       ->capture_default_str();
@@ -70,6 +79,7 @@ void add_study_options(CLI::App& verb, StudyOptions& options) {
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   verb.add_option("--out", request.out, "Folder for results.jsonl; cells that are finished there are not run again")
+      ->type_name("DIR")
       ->capture_default_str();
   verb.add_flag("--record", request.record,
                 "Run every cell once more and write its trajectory to the folder of --out, for replays in the report");

@@ -8,6 +8,7 @@ namespace plumb::harness {
 
 void add_backends(CLI::App& program, int& status);
 void add_scenes(CLI::App& program, int& status);
+void add_measures(CLI::App& program, int& status);
 void add_run(CLI::App& program, int& status);
 void add_compare(CLI::App& program, int& status);
 void add_curves(CLI::App& program, int& status);
@@ -18,6 +19,11 @@ void add_pairs(CLI::App& program, int& status);
 void add_report(CLI::App& program, int& status);
 void add_problem(CLI::App& program, int& status);
 void add_solve(CLI::App& program, int& status);
+void add_man(CLI::App& program, int& status);
+void add_completion(CLI::App& program, int& status);
 void add_worker(CLI::App& program, int& status);  ///< hidden: what the program starts itself as
+
+/// The program's own options and all verbs.
+void add_verbs(CLI::App& program, int& status);
 
 }  // namespace plumb::harness

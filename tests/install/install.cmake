@@ -32,6 +32,14 @@ foreach(file ${package_files})
   endif()
 endforeach()
 
+# Manual pages and completions lie where man and the shells look.
+foreach(file man/man1/plumb.1 man/man1/plumb-run.1 bash-completion/completions/plumb zsh/site-functions/_plumb
+             fish/vendor_completions.d/plumb.fish)
+  if(NOT EXISTS ${prefix}/share/${file})
+    message(SEND_ERROR "share/${file} is not installed")
+  endif()
+endforeach()
+
 # The backend that was made outside, found by name on the path.
 file(GLOB outside ${WORK}/build/plumb-outside.so)
 set(ENV{PLUMB_BACKEND_PATH} ${WORK}/build)
