@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <type_traits>
 
 #include "math/quat.hpp"
 
@@ -26,6 +27,19 @@ PLUMB_HD constexpr bool is_surface(ShapeType type) {
 }
 /// A bit for each type in a set.
 constexpr std::uint32_t bit_of(ShapeType type) { return 1U << static_cast<std::uint32_t>(type); }
+/// f(std::integral_constant of the type), of a convex type; false of others.
+template <class F>
+PLUMB_HD bool with_convex_type(ShapeType type, const F& f) {
+  using enum ShapeType;
+  switch (type) {
+    case kSphere: return f(std::integral_constant<ShapeType, kSphere>{});
+    case kBox: return f(std::integral_constant<ShapeType, kBox>{});
+    case kCapsule: return f(std::integral_constant<ShapeType, kCapsule>{});
+    case kHull: return f(std::integral_constant<ShapeType, kHull>{});
+    case kCylinder: return f(std::integral_constant<ShapeType, kCylinder>{});
+    default: return false;
+  }
+}
 /// Those that are not collided as they are found: planes are in no tree, surfaces are taken triangle by triangle.
 constexpr std::uint32_t kTypesInPieces =
     bit_of(ShapeType::kPlane) | bit_of(ShapeType::kMesh) | bit_of(ShapeType::kHeightField);

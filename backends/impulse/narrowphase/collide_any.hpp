@@ -1,5 +1,5 @@
-// Pair functions by the types that shapes turn out to have. On a CPU one file has them (narrow_phase.cpp), the others
-// call them (collide.hpp).
+// Pair functions by the types that shapes turn out to have. On a CPU one file has them (collide_candidates.cpp), the
+// others call them (collide.hpp).
 #pragma once
 
 #include "narrowphase/box_box.hpp"
@@ -69,21 +69,19 @@ PLUMB_HD PLUMB_ONCE bool collide(const Shape& a, const Quat& qa, const Shape& b,
   return touch;
 }
 
+/// A convex, B not.
 PLUMB_HD PLUMB_ONCE bool collide_with_piece(const Shape& a, const Quat& qa, const Shape& b, const Quat& qb,
                                             const Vec& d, Real margin, const Proxies& proxies, std::uint32_t triangle,
                                             Manifold& out) {
-  const Quat turn = conjugate(qb) * qa;
-  const Vec shift = rotate_back(qb, -d);
-  const Real tie = kTie * (a.reach + length(shift));
-  bool touch = false;
-  if (b.type == ShapeType::kPlane)
-    touch = touch_plane(a, turn, shift, margin, proxies.hulls, out);
-  else if (b.type == ShapeType::kMesh)
-    touch = surface::touch(proxies.surfaces.meshes[b.hull], triangle, a, turn, shift, margin, tie, proxies.hulls, out);
-  else
-    touch = surface::touch(proxies.surfaces.fields[b.hull], triangle, a, turn, shift, margin, tie, proxies.hulls, out);
-  if (touch) round_polyhedron::put_second(qb, d, out);
-  return touch;
+  out.count = 0;
+  return with_convex_type(a.type, [&](auto type) {
+    using enum ShapeType;
+    switch (b.type) {
+      case kPlane: return collide_with_piece_of<type(), kPlane>(a, qa, b, qb, d, margin, proxies, triangle, out);
+      case kMesh: return collide_with_piece_of<type(), kMesh>(a, qa, b, qb, d, margin, proxies, triangle, out);
+      default: return collide_with_piece_of<type(), kHeightField>(a, qa, b, qb, d, margin, proxies, triangle, out);
+    }
+  });
 }
 
 }  // namespace plumb::impulse

@@ -1,118 +1,11 @@
 #include "narrowphase/narrow_phase.hpp"
 
 #include "exec/atomic.hpp"
-#include "narrowphase/collide_any.hpp"
+#include "narrowphase/collide_candidates.hpp"
 
 namespace plumb::impulse {
 
 namespace {
-
-constexpr std::uint32_t kPairKinds = kShapeTypes * kShapeTypes;
-
-/// A number for two types in either order.
-PLUMB_HD constexpr std::uint32_t pair_kind(ShapeType a, ShapeType b) {
-  const auto x = static_cast<std::uint32_t>(a), y = static_cast<std::uint32_t>(b);
-  return min(x, y) * kShapeTypes + max(x, y);
-}
-
-/// Two shapes as they lie, and the triangle where one is a surface.
-struct Placed {
-  const Shape &a, &b;
-  const Quat &qa, &qb;
-  Vec apart;
-  Real margin;
-};
-
-/// Any two convex shapes without cylinders: a branch a pair, which is what a CPU does best.
-struct AnyKind {
-  PLUMB_HD static bool collide(const Placed& p, const Proxies& proxies, std::uint32_t, Manifold& manifold) {
-    if (p.a.type <= p.b.type) return collide_ordered(p.a, p.qa, p.b, p.qb, p.apart, p.margin, proxies.hulls, manifold);
-    const bool touch = collide_ordered(p.b, p.qb, p.a, p.qa, -p.apart, p.margin, proxies.hulls, manifold);
-    if (touch) swap_sides(p.apart, manifold);
-    return touch;
-  }
-};
-
-/// A convex shape and a piece of what is in pieces, in either order.
-struct PieceKind {
-  PLUMB_HD static bool collide(const Placed& p, const Proxies& proxies, std::uint32_t part, Manifold& manifold) {
-    if (in_pieces(p.b.type))
-      return collide_with_piece(p.a, p.qa, p.b, p.qb, p.apart, p.margin, proxies, part, manifold);
-    const bool touch = collide_with_piece(p.b, p.qb, p.a, p.qa, -p.apart, p.margin, proxies, part, manifold);
-    if (touch) swap_sides(p.apart, manifold);
-    return touch;
-  }
-  PLUMB_HD static constexpr bool in_pieces(ShapeType type) { return static_cast<std::uint32_t>(type) >= kConvexTypes; }
-};
-
-/// Any two shapes.
-struct AnyPiece {
-  PLUMB_HD static bool collide(const Placed& p, const Proxies& proxies, std::uint32_t part, Manifold& manifold) {
-    return PieceKind::in_pieces(p.a.type) || PieceKind::in_pieces(p.b.type)
-               ? PieceKind::collide(p, proxies, part, manifold)
-               : impulse::collide(p.a, p.qa, p.b, p.qb, p.apart, p.margin, proxies.hulls, manifold);
-  }
-};
-
-/// Shapes whose types are known when the kernel is compiled, so that it has the code and registers of one pair
-/// function.
-template <ShapeType kA, ShapeType kB>
-struct OneKind {
-  PLUMB_HD static bool collide(const Placed& p, const Proxies& proxies, std::uint32_t, Manifold& manifold) {
-    const bool swapped = kA != kB && p.a.type == kB;
-    const Shape first = swapped ? p.b : p.a;
-    const Shape second = swapped ? p.a : p.b;
-    const Shape typed_first = {kA, first.hull, first.size, first.reach};
-    const Shape typed_second = {kB, second.hull, second.size, second.reach};
-    const bool touch = collide_convex(typed_first, swapped ? p.qb : p.qa, typed_second, swapped ? p.qa : p.qb,
-                                      swapped ? -p.apart : p.apart, p.margin, proxies.hulls, manifold);
-    if (touch && swapped) swap_sides(p.apart, manifold);
-    return touch;
-  }
-};
-
-/// The same for a piece of type kB.
-template <ShapeType kA, ShapeType kB>
-struct OnePiece {
-  PLUMB_HD static bool collide(const Placed& p, const Proxies& proxies, std::uint32_t part, Manifold& manifold) {
-    const bool swapped = p.a.type == kB;
-    const Shape first = swapped ? p.b : p.a;
-    const Shape second = swapped ? p.a : p.b;
-    const Shape typed_first = {kA, first.hull, first.size, first.reach};
-    const Shape typed_second = {kB, second.hull, second.size, second.reach};
-    const bool touch = collide_with_piece(typed_first, swapped ? p.qb : p.qa, typed_second, swapped ? p.qa : p.qb,
-                                          swapped ? -p.apart : p.apart, p.margin, proxies, part, manifold);
-    if (touch && swapped) swap_sides(p.apart, manifold);
-    return touch;
-  }
-};
-
-/// Pairs of one kind: places first[0] to first[1] of the order; every pair where there is no order.
-template <class Kind>
-struct Collide {
-  ContactCache cache;
-  Bodies bodies;
-  Proxies proxies;
-  const Real* margins;
-  const std::uint32_t* order;
-  const std::uint32_t* first;
-
-  PLUMB_HD void operator()(std::uint32_t i) const {
-    if (order != nullptr && i >= first[1] - first[0]) return;
-    const std::uint32_t p = order == nullptr ? i : order[first[0] + i];
-    const Pair pair = cache.pairs[p];
-    const Proxy &a = proxies.rows[pair.a], &b = proxies.rows[pair.b];
-    const ShapePose pose_a = shape_pose(a, bodies.orientation[a.body]),
-                    pose_b = shape_pose(b, bodies.orientation[b.body]);
-    const Vec apart = between(bodies.position[a.body], bodies.position[b.body]) + pose_b.offset - pose_a.offset;
-    Manifold manifold;
-    const bool touch = Kind::collide({proxies.shapes[a.shape], proxies.shapes[b.shape], pose_a.orientation,
-                                      pose_b.orientation, apart, margins[pair.a] + margins[pair.b]},
-                                     proxies, cache.parts == nullptr ? 0U : cache.parts[p], manifold);
-    cache.touching[p] = touch ? 1 : 0;
-    if (touch) cache.found[p] = manifold;
-  }
-};
 
 struct SortKinds {
   ContactCache cache;
@@ -238,51 +131,10 @@ void NarrowPhase::reserve(Executor& /*executor*/, std::uint32_t proxies, std::ui
 
 void NarrowPhase::collide(Executor& executor, const ContactCache& cache, const Bodies& bodies, const Proxies& proxies,
                           const Real* margins, std::uint32_t shape_types, StepCounters* counters) {
-  const Count pairs = candidates(counters);
-  const auto run = [&]<class Kind>(Kind, const std::uint32_t* order, const std::uint32_t* first) {
-    executor.run(pairs, Collide<Kind>{cache, bodies, proxies, margins, order, first});
-  };
-  if constexpr (!Executor::kWarps) {
-    if (in_pieces_ || (shape_types & bit_of(ShapeType::kCylinder)) != 0)
-      run(AnyPiece{}, nullptr, nullptr);
-    else
-      run(AnyKind{}, nullptr, nullptr);
-  } else {
-    const bool one = (shape_types & (shape_types - 1)) == 0;
-    if (!one) bin(executor, cache, proxies, counters);
-    const auto run_kind = [&]<template <ShapeType, ShapeType> class Kind, ShapeType kA, ShapeType kB>(
-                              Kind<kA, kB> kind) {
-      const auto there = [&](ShapeType type) { return (shape_types >> static_cast<std::uint32_t>(type) & 1U) != 0; };
-      if (!there(kA) || !there(kB)) return;
-      run(kind, one ? nullptr : order_.data(), one ? nullptr : first_.data() + pair_kind(kA, kB));
-    };
-    using enum ShapeType;
-    run_kind(OneKind<kSphere, kSphere>{});
-    run_kind(OneKind<kSphere, kBox>{});
-    run_kind(OneKind<kSphere, kCapsule>{});
-    run_kind(OneKind<kSphere, kHull>{});
-    run_kind(OneKind<kBox, kBox>{});
-    run_kind(OneKind<kBox, kCapsule>{});
-    run_kind(OneKind<kBox, kHull>{});
-    run_kind(OneKind<kCapsule, kCapsule>{});
-    run_kind(OneKind<kCapsule, kHull>{});
-    run_kind(OneKind<kHull, kHull>{});
-    run_kind(OneKind<kSphere, kCylinder>{});
-    run_kind(OneKind<kBox, kCylinder>{});
-    run_kind(OneKind<kCapsule, kCylinder>{});
-    run_kind(OneKind<kHull, kCylinder>{});
-    run_kind(OneKind<kCylinder, kCylinder>{});
-    const auto run_pieces = [&]<ShapeType kB>(std::integral_constant<ShapeType, kB>) {
-      run_kind(OnePiece<kSphere, kB>{});
-      run_kind(OnePiece<kBox, kB>{});
-      run_kind(OnePiece<kCapsule, kB>{});
-      run_kind(OnePiece<kHull, kB>{});
-      run_kind(OnePiece<kCylinder, kB>{});
-    };
-    run_pieces(std::integral_constant<ShapeType, kPlane>{});
-    run_pieces(std::integral_constant<ShapeType, kMesh>{});
-    run_pieces(std::integral_constant<ShapeType, kHeightField>{});
-  }
+  const bool binned = Executor::kWarps && (shape_types & (shape_types - 1)) != 0;
+  if (binned) bin(executor, cache, proxies, counters);
+  collide_candidates(executor, candidates(counters),
+                     {cache, bodies, proxies, margins, binned ? order_.data() : nullptr, first_.data()}, shape_types);
 }
 
 void NarrowPhase::number(Executor& executor, const ContactCache& cache, StepCounters* counters) {

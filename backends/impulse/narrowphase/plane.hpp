@@ -62,29 +62,36 @@ PLUMB_HD inline void touch_cylinder(const Vec& size, const Placement& at, Real m
 
 }  // namespace plane
 
-/// The convex shape as second, the plane as first, in the plane's frame.
-PLUMB_HD inline bool touch_plane(const Shape& shape, const Quat& turn, const Vec& shift, Real margin,
-                                 const Hulls& hulls, Manifold& out) {
+/// A convex shape of type kType as second, the plane as first, in the plane's frame.
+template <ShapeType kType>
+PLUMB_HD bool touch_plane_with(const Shape& shape, const Quat& turn, const Vec& shift, Real margin,
+                               [[maybe_unused]] const Hulls& hulls, Manifold& out) {
   out.count = 0;
   out.normal = {0, 1, 0};
   if (shift.y - shape.reach > margin) return false;
-  const plane::Placement at = {to_matrix(turn), shift};
-  switch (shape.type) {
-    case ShapeType::kSphere: plane::add({shift.x, shift.y - shape.size.x, shift.z}, margin, 0, out); break;
-    case ShapeType::kBox: plane::touch_polyhedron(BoxView{shape.size}, at, margin, kTie * shape.reach, out); break;
-    case ShapeType::kCapsule: {
-      const Vec half = shape.size.y * at.turn.y, down = {0, -shape.size.x, 0};
-      plane::add(shift - half + down, margin, 0, out);
-      if (shape.size.y > 0) plane::add(shift + half + down, margin, 1, out);
-      break;
-    }
-    case ShapeType::kHull:
-      plane::touch_polyhedron(HullView(hulls, shape.hull), at, margin, kTie * shape.reach, out);
-      break;
-    case ShapeType::kCylinder: plane::touch_cylinder(shape.size, at, margin, out); break;
-    default: break;
+  [[maybe_unused]] const plane::Placement at = {to_matrix(turn), shift};
+  if constexpr (kType == ShapeType::kSphere) {
+    plane::add({shift.x, shift.y - shape.size.x, shift.z}, margin, 0, out);
+  } else if constexpr (kType == ShapeType::kBox) {
+    plane::touch_polyhedron(BoxView{shape.size}, at, margin, kTie * shape.reach, out);
+  } else if constexpr (kType == ShapeType::kCapsule) {
+    const Vec half = shape.size.y * at.turn.y, down = {0, -shape.size.x, 0};
+    plane::add(shift - half + down, margin, 0, out);
+    if (shape.size.y > 0) plane::add(shift + half + down, margin, 1, out);
+  } else if constexpr (kType == ShapeType::kHull) {
+    plane::touch_polyhedron(HullView(hulls, shape.hull), at, margin, kTie * shape.reach, out);
+  } else {
+    static_assert(kType == ShapeType::kCylinder);
+    plane::touch_cylinder(shape.size, at, margin, out);
   }
   return out.count != 0;
+}
+
+PLUMB_HD inline bool touch_plane(const Shape& shape, const Quat& turn, const Vec& shift, Real margin,
+                                 const Hulls& hulls, Manifold& out) {
+  out.count = 0;
+  return with_convex_type(shape.type,
+                          [&](auto type) { return touch_plane_with<type()>(shape, turn, shift, margin, hulls, out); });
 }
 
 }  // namespace plumb::impulse

@@ -1,0 +1,69 @@
+// A kernel for the candidates of one pair of types, known when it is compiled.
+#pragma once
+
+#include "narrowphase/collide_any.hpp"
+#include "narrowphase/collide_candidates.hpp"
+
+namespace plumb::impulse {
+
+/// A function of collide.hpp.
+using PairFunction = bool (*)(const Shape& a, const Quat& qa, const Shape& b, const Quat& qb, const Vec& d, Real margin,
+                              const Hulls& hulls, Manifold& out);
+
+/// Two convex shapes.
+template <ShapeType kA, ShapeType kB, PairFunction kCollide>
+struct OneKind {
+  static constexpr std::uint32_t kTypes = bit_of(kA) | bit_of(kB), kNumber = pair_kind(kA, kB);
+
+  __device__ static bool collide(const Placed& p, const Proxies& proxies, std::uint32_t, Manifold& manifold) {
+    const bool swapped = kA != kB && p.a.type == kB;
+    const Shape first = swapped ? p.b : p.a;
+    const Shape second = swapped ? p.a : p.b;
+    const bool touch = kCollide(first, swapped ? p.qb : p.qa, second, swapped ? p.qa : p.qb,
+                                swapped ? -p.apart : p.apart, p.margin, proxies.hulls, manifold);
+    if (touch && swapped) swap_sides(p.apart, manifold);
+    return touch;
+  }
+};
+
+/// A convex shape and a piece of a kB.
+template <ShapeType kA, ShapeType kB>
+struct OnePiece {
+  static constexpr std::uint32_t kTypes = bit_of(kA) | bit_of(kB), kNumber = pair_kind(kA, kB);
+
+  __device__ static bool collide(const Placed& p, const Proxies& proxies, std::uint32_t part, Manifold& manifold) {
+    const bool swapped = p.a.type == kB;
+    const Shape first = swapped ? p.b : p.a;
+    const Shape second = swapped ? p.a : p.b;
+    const bool touch = collide_with_piece_of<kA, kB>(first, swapped ? p.qb : p.qa, second, swapped ? p.qa : p.qb,
+                                                     swapped ? -p.apart : p.apart, p.margin, proxies, part, manifold);
+    if (touch && swapped) swap_sides(p.apart, manifold);
+    return touch;
+  }
+};
+
+/// Places first[0] to first[1] of the order; every candidate where there is no order.
+template <class Kind>
+struct CollideKind {
+  CollideInput input;
+  const std::uint32_t* first;
+
+  __device__ void operator()(std::uint32_t i) const {
+    const bool in_order = input.order != nullptr;
+    if (in_order && i >= first[1] - first[0]) return;
+    collide_candidate<Kind>(input, in_order ? input.order[first[0] + i] : i);
+  }
+};
+
+/// Where the scene has shapes of both types.
+template <class Kind>
+void collide_kind(Executor& executor, Count candidates, const CollideInput& input, std::uint32_t shape_types, Kind) {
+  if ((shape_types & Kind::kTypes) == Kind::kTypes)
+    executor.run(candidates, CollideKind<Kind>{input, input.first + Kind::kNumber});
+}
+
+/// Of collide_candidates(), in files of their own so that they are compiled side by side.
+void collide_cylinders(Executor& executor, Count candidates, const CollideInput& input, std::uint32_t shape_types);
+void collide_pieces(Executor& executor, Count candidates, const CollideInput& input, std::uint32_t shape_types);
+
+}  // namespace plumb::impulse

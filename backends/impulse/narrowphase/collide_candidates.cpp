@@ -1,0 +1,48 @@
+// On a CPU: a branch a pair, which is what it does best.
+#include "narrowphase/collide_candidates.hpp"
+
+#include "narrowphase/collide_any.hpp"
+
+namespace plumb::impulse {
+
+namespace {
+
+/// Any two convex shapes without cylinders.
+struct AnyKind {
+  static bool collide(const Placed& p, const Proxies& proxies, std::uint32_t, Manifold& manifold) {
+    if (p.a.type <= p.b.type) return collide_ordered(p.a, p.qa, p.b, p.qb, p.apart, p.margin, proxies.hulls, manifold);
+    const bool touch = collide_ordered(p.b, p.qb, p.a, p.qa, -p.apart, p.margin, proxies.hulls, manifold);
+    if (touch) swap_sides(p.apart, manifold);
+    return touch;
+  }
+};
+
+/// Any two shapes.
+struct AnyPiece {
+  static bool collide(const Placed& p, const Proxies& proxies, std::uint32_t part, Manifold& manifold) {
+    if (in_pieces(p.b.type))
+      return collide_with_piece(p.a, p.qa, p.b, p.qb, p.apart, p.margin, proxies, part, manifold);
+    if (!in_pieces(p.a.type)) return impulse::collide(p.a, p.qa, p.b, p.qb, p.apart, p.margin, proxies.hulls, manifold);
+    const bool touch = collide_with_piece(p.b, p.qb, p.a, p.qa, -p.apart, p.margin, proxies, part, manifold);
+    if (touch) swap_sides(p.apart, manifold);
+    return touch;
+  }
+  static constexpr bool in_pieces(ShapeType type) { return static_cast<std::uint32_t>(type) >= kConvexTypes; }
+};
+
+template <class Kind>
+struct Collide {
+  CollideInput input;
+  void operator()(std::uint32_t p) const { collide_candidate<Kind>(input, p); }
+};
+
+}  // namespace
+
+void collide_candidates(Executor& executor, Count candidates, const CollideInput& input, std::uint32_t shape_types) {
+  if (input.cache.parts != nullptr || (shape_types & bit_of(ShapeType::kCylinder)) != 0)
+    executor.run(candidates, Collide<AnyPiece>{input});
+  else
+    executor.run(candidates, Collide<AnyKind>{input});
+}
+
+}  // namespace plumb::impulse
