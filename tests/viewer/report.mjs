@@ -128,7 +128,7 @@ test('one live replay stands on the first screen, and grows on request', () => {
       const small = await port.boundingBox();
       assert.ok(small.y + small.height < 1000, `the replay ends at ${small.y + small.height}`);
       assert.ok(!(await opened.locator('.pv-top').isVisible()));
-      await opened.locator('#replays .whole').click();
+      await opened.locator('#replays .grow').click();
       await opened.locator('.pv-top').waitFor();
       assert.ok((await port.boundingBox()).width > small.width);
     },

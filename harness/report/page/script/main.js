@@ -80,14 +80,14 @@ const picker = document.getElementById('machine');
 
 // The one live replay stands small on the first screen, until one wants all that the viewer has.
 if (replays) {
-  const whole = element('button', { type: 'button', class: 'whole', 'aria-expanded': 'false' }, 'All scenes, layers and curves');
-  whole.addEventListener('click', () => {
+  const grow = element('button', { type: 'button', class: 'grow', 'aria-expanded': 'false' }, 'All scenes, layers and curves');
+  grow.addEventListener('click', () => {
     const on = replays.classList.toggle('large');
-    whole.setAttribute('aria-expanded', `${on}`);
-    whole.textContent = on ? 'Smaller' : 'All scenes, layers and curves';
+    grow.setAttribute('aria-expanded', `${on}`);
+    grow.textContent = on ? 'Smaller' : 'All scenes, layers and curves';
     if (on) replays.scrollIntoView();
   });
-  replays.querySelector('h2').after(whole);
+  replays.querySelector('h2').after(grow);
 }
 
 function choose(machine) {
