@@ -318,8 +318,7 @@ class Measured {
     if (truth_ && !within && !request_.reduction.smooth) return;
     try {
       const double truth = truth_ ? (*truth_)(now.time()) : 0;
-      const double factor = gives_a_time(request_.reduction.take) ? 1 : request_.in_unit;
-      reduction_->add({now.time(), *value * factor - truth});
+      reduction_->add({now.time(), *value - truth});
     } catch (const std::invalid_argument& error) {
       if (within)
         throw Error(PLUMB_E_INVALID_ARGUMENT,
@@ -329,8 +328,8 @@ class Measured {
 
   void add_to(MeasureContext& context) const {
     const auto [value, trouble] = reduction_->result();
-    const double factor = gives_a_time(request_.reduction.take) ? request_.in_unit : 1;
-    context.compare(request_.name, value * factor, request_.truth, request_.scale, trouble);
+    const double unit = request_.in_unit, error = std::abs(value - request_.truth) / request_.scale;
+    context.add({request_.name, value * unit, request_.truth * unit, error, std::nullopt, trouble});
   }
 
  private:

@@ -17,10 +17,10 @@ struct QuantityRequest {
   std::string name;
   QuantityWatch::Target target;
   ReductionSpec reduction;
-  double in_unit = 1;            ///< factor from SI to the unit of the metric
-  double truth = 0;              ///< in that unit; 0 where it is a function of the time
+  double in_unit = 1;            ///< factor from SI, in which all else is, to the unit in which the metric is told
+  double truth = 0;              ///< 0 where it is a function of the time
   nlohmann::json truth_of_time;  ///< that function, as the argument has it; null where the truth is one number
-  double scale = 1;              ///< what an error of 1 is, in that unit
+  double scale = 1;              ///< what an error of 1 is
 };
 
 /// What may stand in an entry.

@@ -59,8 +59,9 @@ TEST(Quantities, ProjectileHasTheCompiledDigits) {
       expect_same(compiled[name], own[name]);
       expect_same_error(compiled[name], own[name]);
     }
-    // No scheme of first order leaves the parabola by more than g t dt / 2, at 1.5 s; in cm.
-    EXPECT_LE(double(own["off_the_parabola"]["error"]), 100 * 9.81 * 1.5 / 60 / 2 * (1 + 1e-3));
+    // No scheme of first order leaves the parabola by more than g t dt / 2, at 1.5 s.
+    EXPECT_LE(double(own["off_the_parabola"]["error"]), 9.81 * 1.5 / 60 / 2 * (1 + 1e-3));
+    EXPECT_DOUBLE_EQ(double(own["off_the_parabola"]["value"]), 100 * double(own["off_the_parabola"]["error"])) << "cm";
     EXPECT_EQ(own["off_the_parabola"]["truth"], 0);
   });
 }
@@ -74,7 +75,8 @@ TEST(Quantities, PendulumHasTheCompiledDigits) {
                  const Json& drift = compiled["energy_drift"];
                  EXPECT_NEAR(double(drift["value"]) * 9.81, double(own["energy_change"]["value"]), 1e-13);
                  EXPECT_NEAR(double(drift["error"]), double(own["energy_error"]["error"]), 1e-14);
-                 EXPECT_NEAR(1e3 * double(compiled["length"]["error"]), double(own["stretch"]["error"]), 1e-12);
+                 EXPECT_NEAR(double(compiled["length"]["error"]), double(own["stretch"]["error"]), 1e-14);
+                 EXPECT_NEAR(1e3 * double(own["stretch"]["error"]), double(own["stretch"]["value"]), 1e-12) << "mm";
                  EXPECT_LT(std::abs(double(own["quarter"]["value"])), 0.2);
                });
 }
@@ -84,7 +86,8 @@ TEST(Quantities, BlockOnASlopeHasTheCompiledDigits) {
                {own_words("X3-incline.json")}, [](const Json& compiled, const Json& own) {
                  expect_same(compiled["distance"], own["distance"]);
                  expect_same_error(compiled["distance"], own["distance"]);
-                 EXPECT_NEAR(double(compiled["penetration_max"]["value"]), double(own["overlap"]["value"]), 1e-3);
+                 // The referee's own metric looks at fewer steps.
+                 EXPECT_GE(double(own["overlap"]["value"]), double(compiled["penetration_max"]["value"]) - 1e-12);
                  EXPECT_NEAR(double(own["push"]["truth"]), 9.81 / 2 * std::sqrt(0.5), 1e-12);
                  EXPECT_GT(double(own["push"]["value"]), 1);
                });

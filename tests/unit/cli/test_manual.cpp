@@ -80,8 +80,8 @@ TEST(ManPages, TellOfEveryVerbAndEveryOption) {
       if (option->get_group().empty()) continue;
       for (const std::string& name : option->get_lnames())
         EXPECT_NE(page.find("\\fB" + escaped("--" + name) + "\\fR"), std::string::npos) << verb->get_name() << name;
-      if (option->get_positional())
-        EXPECT_NE(page.find("\\fI" + option->get_name(true) + "\\fR"), std::string::npos) << option->get_name(true);
+      if (!option->get_positional()) continue;
+      EXPECT_NE(page.find("\\fI" + option->get_name(true) + "\\fR"), std::string::npos) << option->get_name(true);
     }
     for (const char* section : {".SH NAME", ".SH SYNOPSIS", ".SH DESCRIPTION", ".SH EXAMPLES", ".SH SEE ALSO"})
       EXPECT_NE(page.find(section), std::string::npos) << verb->get_name() << section;
@@ -107,10 +107,11 @@ TEST_F(Written, ScriptsAreReadByTheirShells) {
   for (const auto& [shell, file] :
        {std::pair{"zsh", "zsh/site-functions/_plumb"}, std::pair{"fish", "fish/vendor_completions.d/plumb.fish"}}) {
     ASSERT_TRUE(fs::exists(folder_ / file));
-    if (has_command(shell))
+    if (has_command(shell)) {
       EXPECT_EQ(in_bash(std::string(shell) + " -n " + (folder_ / file).string()).text, "");
-    else
+    } else {
       all = false;
+    }
   }
   if (!all) GTEST_SKIP() << "not all of zsh and fish are here";
 }
@@ -123,9 +124,10 @@ TEST_F(Written, BashCompletesVerbsAndOptions) {
   for (const VerbEntry& verb : table.verbs) {
     EXPECT_TRUE(contains(offered, verb.name)) << verb.name;
     const auto options = completions({verb.name, "--"});
-    for (const OptionEntry& option : verb.options)
-      if (!option.positional && option.names.front().starts_with("--"))
-        EXPECT_TRUE(contains(options, option.names.front())) << verb.name << option.names.front();
+    for (const OptionEntry& option : verb.options) {
+      if (option.positional || !option.names.front().starts_with("--")) continue;
+      EXPECT_TRUE(contains(options, option.names.front())) << verb.name << option.names.front();
+    }
   }
   EXPECT_FALSE(contains(offered, "worker"));
   EXPECT_EQ(completions({"run", "D1", "--prof"}), std::vector<std::string>{"--profile"});

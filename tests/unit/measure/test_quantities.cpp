@@ -32,7 +32,7 @@ const char* const good = R"json({
     "kind": "quantities",
     "quantities": {
       "speed": { "body": "ball{n-1}", "quantity": "velocity", "at": "=1 / 2", "truth": "=v * t", "scale": "=v" },
-      "turn": { "joint": "rod", "quantity": "angle", "take": "max", "over": [0.5, "=seconds"], "truth": 90 },
+      "turn": { "joint": "rod", "quantity": "angle", "take": "max", "over": [0.5, "=seconds"], "truth": "=deg(90)" },
       "way": { "body": "ball0", "quantity": "position", "along": [0, -3, "=-4"], "take": "rms", "truth": "=h * t" },
       "near": { "pair": ["ball0", "ball1"], "quantity": "distance", "truth": 0 },
       "all": { "quantity": "energy", "truth": 0 }
@@ -100,7 +100,7 @@ TEST_F(QuantityFiles, AreReadAsTheyStand) {
   EXPECT_DOUBLE_EQ(turn.in_unit, 180 / std::acos(-1.0));
   EXPECT_EQ(turn.reduction.begin, 0.5);
   EXPECT_EQ(turn.reduction.end, 2);
-  EXPECT_EQ(turn.scale, 90) << "relative to the truth";
+  EXPECT_DOUBLE_EQ(turn.scale, std::acos(-1.0) / 2) << "relative to the truth";
   const QuantityRequest way = named("way");
   EXPECT_EQ(way.truth_of_time["expression"], "h * t");
   EXPECT_EQ(way.truth, 0);
@@ -158,7 +158,7 @@ TEST_F(QuantityFiles, AreRefusedWithFileLineAndRemedy) {
   expect("\"scale\": \"=v\"", "\"scal\": 1", "unknown key \"scal\"; did you mean \"scale\"?");
   expect("\"truth\": \"=h * t\"", "\"truth\": \"=h / (t - 2)\"", "gives inf");
   expect("\"truth\": \"=h * t\"", "\"truth\": \"=hh * t\"", "unknown name \"hh\"");
-  expect(", \"truth\": 90", "", "the key \"truth\" is missing here");
+  expect(", \"truth\": \"=deg(90)\"", "", "the key \"truth\" is missing here");
   expect("\"unit\": \"cm/s\"", "\"unit\": \"kg\"", "it is in m/s, and its metric is in \"kg\"");
   expect("\"near\": { \"pair\"", "\"nearer\": { \"pair\"",
          "T1-test.json:22: quantity \"nearer\" is no metric of the scene; did you mean \"near\"?");
