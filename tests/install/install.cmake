@@ -60,6 +60,21 @@ if(NOT result EQUAL 3)
 endif()
 message(STATUS "${output}")
 
+# The host that the README shows is the one that was built here.
+file(READ ${PROJECT}/drop.cpp shown)
+file(READ ${PROJECT}/../../../README.md readme)
+string(FIND "${readme}" "${shown}" place)
+if(place EQUAL -1)
+  message(SEND_ERROR "README.md does not show tests/install/project/drop.cpp as it is")
+endif()
+if(EXISTS ${prefix}/lib/plumb/plumb-impulse.so)
+  set(ENV{PLUMB_BACKEND_PATH} ${prefix}/lib/plumb)
+  run("the README's host" ${WORK}/build/drop)
+  if(NOT output MATCHES "rests at 0\\.(49|50)")
+    message(SEND_ERROR "the README's host printed: ${output}")
+  endif()
+endif()
+
 # Every installed engine holds the tower up, a process each.
 file(GLOB backends ${prefix}/lib/plumb/plumb-*.so)
 foreach(backend ${backends})
