@@ -195,7 +195,7 @@ PlumbResult answer_opening(const Opening& opening, const PlumbOpenRequest* reque
   } catch (const std::exception& error) {
     return answer(PLUMB_E_INTERNAL, "%s", error.what());
   } catch (...) {
-    return answer(PLUMB_E_INTERNAL, "the backend threw something that is not a std::exception");
+    return answer(PLUMB_E_INTERNAL, "%s", "the backend threw something that is not a std::exception");
   }
 }
 
