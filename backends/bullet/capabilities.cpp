@@ -123,7 +123,8 @@ PlumbDegree need_degree(std::uint32_t index, const char*& note) {
       return answer(PLUMB_EMULATED, note, "out of the contact points of bodies without response");
     case PLUMB_NEED_EVENTS: return answer(PLUMB_EMULATED, note, "by comparing the contacts of one step with the next");
     case PLUMB_NEED_SURFACE_VELOCITY:
-      return answer(PLUMB_EMULATED, note, "by the direction and target velocity of each contact's friction");
+      return answer(PLUMB_APPROXIMATE, note,
+                    "by the direction and target velocity of each contact's friction, which is up to 3 % off");
     case PLUMB_NEED_AXIS_LOCKS: return answer(PLUMB_NATIVE, note, "the solver still counts the locked axes' mass");
     case PLUMB_NEED_SNAPSHOT: return answer(PLUMB_APPROXIMATE, note, "warm-start data are lost");
     default: return PLUMB_NATIVE;

@@ -19,14 +19,14 @@ TEST(Replays, stand_in_the_page_or_are_said_to_be_missing) {
   ASSERT_EQ(plumb({"run", "A1", "--backend", SAMPLE_BACKEND, "--record", "--out", folder.string()}).status, 0);
   ASSERT_EQ(plumb({"report", folder.string(), "--html", page}).status, 0);
   const std::string text = text_of(page);
-  ASSERT_NE(text.find("<section id=\"replays\">"), std::string::npos);
+  ASSERT_NE(text.find("<section id=\"replays\""), std::string::npos);
   const bool viewer = text.find("id=\"plumb-viewer\"") != std::string::npos;
   EXPECT_EQ(text.find("class=\"plumb-replay\" data-scene=\"A1\"") != std::string::npos, viewer);
   EXPECT_EQ(text.find("without node") != std::string::npos, !viewer);
   EXPECT_NE(text.find("</html>"), std::string::npos);
 
   ASSERT_EQ(plumb({"report", folder.string(), "--html", page, "--no-replays"}).status, 0);
-  EXPECT_EQ(text_of(page).find("<section id=\"replays\">"), std::string::npos);
+  EXPECT_EQ(text_of(page).find("<section id=\"replays\""), std::string::npos);
 }
 
 TEST(Replays, files_that_are_none_are_told_and_left_out) {

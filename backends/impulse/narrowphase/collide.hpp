@@ -31,6 +31,4 @@ PLUMB_HD bool collide_with_piece(const Shape& a, const Quat& qa, const Shape& b,
 
 }  // namespace plumb::impulse
 
-#if defined(__CUDACC__)
-#include "narrowphase/collide_any.hpp"  // a kernel is compiled with all that it calls
-#endif
+#include "narrowphase/collide_any.hpp"

@@ -1,5 +1,5 @@
-// Pair functions by the types that shapes turn out to have. On a CPU one file has them (collide_candidates.cpp), the
-// others call them (collide.hpp).
+// Pair functions by the types that shapes turn out to have, compiled with each file that calls them: kernels have to
+// be, and hits of queries at surfaces have been seen to end in other bits where a CPU called them from another file.
 #pragma once
 
 #include "narrowphase/box_box.hpp"
@@ -10,13 +10,6 @@
 #include "narrowphase/polyhedra.hpp"
 #include "narrowphase/round.hpp"
 #include "narrowphase/round_polyhedron.hpp"
-
-// In one file of a CPU's library; on a device in each kernel that calls it.
-#if defined(__CUDACC__)
-#define PLUMB_ONCE inline
-#else
-#define PLUMB_ONCE
-#endif
 
 namespace plumb::impulse {
 
@@ -61,8 +54,8 @@ PLUMB_HD inline bool collide_convex(const Shape& a, const Quat& qa, const Shape&
 }
 
 /// Any two convex shapes.
-PLUMB_HD PLUMB_ONCE bool collide(const Shape& a, const Quat& qa, const Shape& b, const Quat& qb, const Vec& d,
-                                 Real margin, const Hulls& hulls, Manifold& out) {
+PLUMB_HD inline bool collide(const Shape& a, const Quat& qa, const Shape& b, const Quat& qb, const Vec& d, Real margin,
+                             const Hulls& hulls, Manifold& out) {
   if (a.type <= b.type) return collide_convex(a, qa, b, qb, d, margin, hulls, out);
   const bool touch = collide_convex(b, qb, a, qa, -d, margin, hulls, out);
   if (touch) swap_sides(d, out);
@@ -70,9 +63,8 @@ PLUMB_HD PLUMB_ONCE bool collide(const Shape& a, const Quat& qa, const Shape& b,
 }
 
 /// A convex, B not.
-PLUMB_HD PLUMB_ONCE bool collide_with_piece(const Shape& a, const Quat& qa, const Shape& b, const Quat& qb,
-                                            const Vec& d, Real margin, const Proxies& proxies, std::uint32_t triangle,
-                                            Manifold& out) {
+PLUMB_HD inline bool collide_with_piece(const Shape& a, const Quat& qa, const Shape& b, const Quat& qb, const Vec& d,
+                                        Real margin, const Proxies& proxies, std::uint32_t triangle, Manifold& out) {
   out.count = 0;
   return with_convex_type(a.type, [&](auto type) {
     using enum ShapeType;

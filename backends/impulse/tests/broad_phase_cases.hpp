@@ -57,7 +57,7 @@ class BroadPhaseBench {
     if (rig.found != pairs.size()) throw Error(PLUMB_E_INTERNAL, std::string(of.name) + ": more pairs than expected");
     reduce_.reserve(n);
     extent_.grow(1);
-    tree_.reserve(n);
+    tree_.reserve(n, bits_);
   }
 
   void extent() { reduce_.run(rig.executor, n, LoadExtent{rig.boxes.data(), rig.movers.data()}, extent_.data()); }

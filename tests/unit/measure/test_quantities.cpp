@@ -25,7 +25,7 @@ const char* const good = R"json({
   "shapes": { "ball": { "type": "sphere", "radius": 0.5 } },
   "bodies": [
     { "name": "ball{i}", "repeat": { "i": "n" }, "shape": "ball", "position": ["2 * i", "h", 0] },
-    { "name": "point", "mass": 1 }
+    { "name": "point", "mass": 1, "flags": ["no_rotation"] }
   ],
   "joints": [{ "name": "rod", "type": "hinge", "body_a": "ball0", "body_b": "ball1", "anchor": [1, 0, 0] }],
   "measure": {
