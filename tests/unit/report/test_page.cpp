@@ -8,8 +8,8 @@
 
 #include "page_reader.hpp"
 #include "report/page/base64.hpp"
-#include "report/page/markup.hpp"
 #include "report/page/bundled_scripts.hpp"
+#include "report/page/markup.hpp"
 #include "sample_rows.hpp"
 
 namespace plumb::harness {
