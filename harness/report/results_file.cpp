@@ -8,39 +8,28 @@
 #include <unordered_map>
 
 #include "rows/results_folder.hpp"
+#include "rows/row_format.hpp"
 #include "scene/scene.hpp"
 
 namespace plumb::harness {
 namespace {
 
-/// What makes two rows the same cell: the runner's own id of it, else all that was asked for; and the machine that
-/// answered, whenever that was.
+/// What makes two rows the same cell: the runner's id of it, and the machine that answered, whenever that was.
 std::string cell_key(const Json& row) {
-  const auto member = [&](const char* name) {
-    const auto found = row.find(name);
-    return found == row.end() ? Json() : *found;
-  };
-  Json machine = member("machine");
+  Json machine = row.value("machine", Json());
   if (machine.is_object()) machine.erase("date");
-  Json key = Json::array({machine, member("cell")});
-  if (key[1].is_null()) {
-    for (const char* name :
-         {"scene", "params", "backend", "backend_version", "settings", "profile", "dt", "seconds", "threads"}) {
-      key.push_back(member(name));
-    }
-  }
-  return line_of(key);
+  return line_of({machine, row["cell"]});
 }
 
 using Cells = std::unordered_map<std::string, std::size_t>;  ///< places of rows, by their keys
 
-void read_into(std::istream& in, Results& results, Cells& cells) {
+void read_into(std::istream& in, const std::filesystem::path& file, Results& results, Cells& cells) {
   std::string line;
   for (std::size_t number = 1; std::getline(in, line); ++number) {
     const bool torn = in.eof();  // no newline ended it
     if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
-    Json row = Json::parse(line, nullptr, false);
-    if (!row.is_object()) {
+    Json row = read_row(line, file, number);
+    if (row.is_null()) {
       if (!torn) results.unreadable_lines.push_back(number);
       continue;
     }
@@ -55,10 +44,10 @@ void read_into(std::istream& in, Results& results, Cells& cells) {
 
 }  // namespace
 
-Results read_results(std::istream& in) {
+Results read_results(std::istream& in, const std::filesystem::path& file) {
   Results results;
   Cells cells;
-  read_into(in, results, cells);
+  read_into(in, file, results, cells);
   return results;
 }
 
@@ -76,9 +65,9 @@ Results read_results(const std::filesystem::path& where) {
     }
     if (is_packed(file)) {
       std::istringstream text(unpacked_text(file));
-      read_into(text, results, cells);
+      read_into(text, file, results, cells);
     } else {
-      read_into(in, results, cells);
+      read_into(in, file, results, cells);
     }
   }
   return results;

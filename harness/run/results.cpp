@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "rows/results_folder.hpp"
+#include "rows/row_format.hpp"
 #include "scene/scene.hpp"
 
 namespace plumb::harness {
@@ -41,25 +42,26 @@ void ResultsFile::refresh() {
 // Whole lines only: the last one may be on its way. A file that ends without a newline gives that line when it is whole
 // by itself, and is read again from there.
 void ResultsFile::read_on(const std::filesystem::path& file) {
-  std::uintmax_t& done = read_[file];
+  Place& done = read_[file];
   if (is_packed(file)) {
-    if (done != 0) return;
+    if (done.lines != 0) return;
     std::istringstream text(unpacked_text(file));
-    for (std::string line; std::getline(text, line);) take(line);
-    done = 1;
+    for (std::string line; std::getline(text, line);) take(line, file, ++done.lines);
     return;
   }
   std::ifstream in(file, std::ios::binary);
-  if (!in || !in.seekg(static_cast<std::streamoff>(done))) return;
+  if (!in || !in.seekg(static_cast<std::streamoff>(done.bytes))) return;
   for (std::string line; std::getline(in, line);) {
-    take(line);
-    if (!in.eof()) done += line.size() + 1;
+    take(line, file, done.lines + 1);
+    if (in.eof()) return;
+    done.bytes += line.size() + 1;
+    ++done.lines;
   }
 }
 
-void ResultsFile::take(const std::string& line) {
-  Json row = Json::parse(line, nullptr, false);
-  if (!row.is_object() || !row.contains("cell") || !row["cell"].is_string()) return;
+void ResultsFile::take(const std::string& line, const std::filesystem::path& file, std::size_t number) {
+  Json row = read_row(line, file, number);
+  if (row.is_null()) return;
   const std::string cell = row["cell"];
   rows_[cell] = std::move(row);
 }

@@ -15,7 +15,8 @@ namespace plumb::harness {
 class ResultsFile {
  public:
   /// Makes the folder and the file, or opens what is there and reads the finished cells of all files. A line that is
-  /// not an object (torn by a kill) counts for nothing. Throws UsageError when the folder cannot be used.
+  /// not an object (torn by a kill) counts for nothing. Throws UsageError when the folder cannot be used, and Error for
+  /// what is no row of this format.
   explicit ResultsFile(const std::filesystem::path& folder, const std::string& name = "results.jsonl");
   ~ResultsFile();
   ResultsFile(const ResultsFile&) = delete;
@@ -30,13 +31,18 @@ class ResultsFile {
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
 
  private:
+  struct Place {
+    std::uintmax_t bytes = 0;
+    std::size_t lines = 0;
+  };
+
   void write_all(const std::string& bytes);
   void read_on(const std::filesystem::path& file);
-  void take(const std::string& line);
+  void take(const std::string& line, const std::filesystem::path& file, std::size_t number);
 
   std::filesystem::path folder_, file_;
   std::map<std::string, Json> rows_;
-  std::map<std::filesystem::path, std::uintmax_t> read_;  ///< bytes of whole lines that are in rows_
+  std::map<std::filesystem::path, Place> read_;  ///< to where rows_ has what the files hold
   int descriptor_ = -1;
 };
 

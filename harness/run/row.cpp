@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 
+#include "rows/row_format.hpp"
 #include "rows/statistics.hpp"
 
 namespace plumb::harness {
@@ -167,7 +168,8 @@ Json make_row(const Cell& cell, const std::vector<Answer>& answers, const Json& 
   settings.update(part_of(chosen, "settings", Json::object()));
   Json metrics = part_of(chosen, "metrics", Json::object());
   note_determinism(metrics, answers);
-  return {{"scene", cell.scene->id},
+  return {{"format", row_format},
+          {"scene", cell.scene->id},
           {"group", cell.scene->group},
           {"params", json_of(cell.shown)},
           {"backend", cell.backend->name},

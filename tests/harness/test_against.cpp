@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "program.hpp"
+#include "rows/row_format.hpp"
 
 namespace plumb::harness::testing {
 namespace {
@@ -13,7 +14,8 @@ namespace fs = std::filesystem;
 Json row_with(double error, const char* cpu) {
   const Json metric{{"value", error}, {"unit", "m"},       {"truth", 0},
                     {"error", error}, {"threshold", 0.01}, {"pass", error <= 0.01}};
-  return {{"scene", "X1"},
+  return {{"format", row_format},
+          {"scene", "X1"},
           {"params", Json::object()},
           {"backend", "engine"},
           {"settings", Json::object()},
@@ -24,7 +26,8 @@ Json row_with(double error, const char* cpu) {
           {"status", error <= 0.01 ? "ok" : "failed"},
           {"metrics", {{"way", metric}}},
           {"time", {{"ms_per_step", {{"median", 1.0}}}}},
-          {"machine", {{"cpu", cpu}, {"cores", 2}}}};
+          {"machine", {{"cpu", cpu}, {"cores", 2}}},
+          {"cell", "X1"}};
 }
 
 std::string folder_with(const std::string& name, const std::vector<std::pair<std::string, Json>>& files) {
@@ -62,7 +65,7 @@ TEST(Against, a_baseline_without_rows_is_the_users_mistake) {
 
 TEST(Report, takes_all_results_of_a_folder_and_several_folders) {
   Json other = row_with(0.004, "X");
-  other["scene"] = "X2";
+  other["scene"] = other["cell"] = "X2";
   const std::string ranks =
       folder_with("report_ranks", {{"results.jsonl", row_with(0.004, "X")}, {"results-1.jsonl", other}});
   EXPECT_EQ(plumb({"report", ranks, "--json"}).rows().size(), 2u);

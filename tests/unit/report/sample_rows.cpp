@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <string>
 
+#include "rows/row_format.hpp"
+
 namespace plumb::harness::testing {
 namespace {
 
@@ -96,7 +98,8 @@ Json row_of(const SampleScene& scene, double value, const SampleEngine& engine, 
   }
   Json params = Json::object();
   if (*scene.parameter) params[scene.parameter] = value;
-  return {{"scene", scene.id},
+  return {{"format", row_format},
+          {"scene", scene.id},
           {"group", scene.group},
           {"params", params},
           {"backend", engine.name},
@@ -123,7 +126,8 @@ Json row_of(const SampleScene& scene, double value, const SampleEngine& engine, 
           {"counts", {{"bodies", bodies}, {"contacts_max", bodies * 4}, {"dropped", 0}, {"nonfinite", 0}}},
           {"hash", "9f86d081884c7d65"},
           {"peak_mb", 40 + bodies * 0.01},
-          {"machine", machine()}};
+          {"machine", machine()},
+          {"cell", scene.id + params.dump() + engine.name + std::to_string(sweep)}};
 }
 
 /// What does not come through, one of a kind.
@@ -151,6 +155,7 @@ void spoil(Json& row, const std::string& scene, double value, const std::string&
 
 Json sample_row(const char* scene, const char* backend, double error, double ms_per_step) {
   return {
+      {"format", row_format},
       {"scene", scene},
       {"group", "sample"},
       {"params", Json::object()},
@@ -180,7 +185,8 @@ Json sample_row(const char* scene, const char* backend, double error, double ms_
       {"counts", {{"bodies", 2}, {"contacts_max", 1}, {"dropped", 0}, {"nonfinite", 0}}},
       {"hash", "00"},
       {"peak_mb", 10},
-      {"machine", Json::object()}};
+      {"machine", Json::object()},
+      {"cell", std::string(scene) + " " + backend}};
 }
 
 std::vector<Json> sample_rows(int sweeps) {

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "plumb/physics_world.hpp"
+#include "rows/row_format.hpp"
 #include "sample_rows.hpp"
 #include "scene/scene.hpp"
 
@@ -17,7 +18,7 @@ namespace {
 
 Results read(const std::string& text) {
   std::istringstream in(text);
-  return read_results(in);
+  return read_results(in, "some.jsonl");
 }
 
 TEST(ResultsFile, EveryRowComesBackAsItWas) {
@@ -54,6 +55,38 @@ TEST(ResultsFile, ACellRunAgainReplacesItsRow) {
   const Results results = read(first + "\n" + other + "\n" + again + "\n");
   ASSERT_EQ(results.rows.size(), 2u);
   EXPECT_EQ(results.rows[0]["metrics"]["error_of_it"]["error"], 0.25);
+}
+
+std::string refusal(const Json& row) {
+  try {
+    static_cast<void>(read("\n" + line_of(row) + "\n"));
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(ResultsFile, RowsOfOtherFormatsAreRefusedByFileAndLine) {
+  Json row = testing::sample_row("S", "a", 0.5, 1);
+  EXPECT_EQ(refusal(row), "");
+  row["format"] = row_format + 1;
+  EXPECT_EQ(refusal(row),
+            "some.jsonl:2: this row has format 2, and this plumb reads 1; read it with the plumb that wrote it, or a "
+            "newer one");
+  row.erase("format");
+  EXPECT_EQ(refusal(row).find("some.jsonl:2: this row does not say its \"format\""), 0u) << refusal(row);
+  for (const Json& strange : {Json("1"), Json(0), Json(-1), Json(1.5), Json()}) {
+    row["format"] = strange;
+    EXPECT_NE(refusal(row).find("does not say its \"format\""), std::string::npos) << strange;
+  }
+}
+
+TEST(ResultsFile, ObjectsThatAreNoRowsAreRefused) {
+  EXPECT_EQ(refusal({{"event", "click"}}).find("some.jsonl:2: this is no row that plumb wrote: it has no \"scene\""),
+            0u);
+  Json row = testing::sample_row("S", "a", 0.5, 1);
+  row["cell"] = 7;
+  EXPECT_NE(refusal(row).find("no \"cell\""), std::string::npos);
 }
 
 class PackedResults : public ::testing::Test {
