@@ -54,7 +54,9 @@ Answer CellWorkers::ask(const Cell& cell, const CellFiles& files, const WorkerLi
   }
   answer = ask_once(cell, files, limits, tick);
   // Somebody ended the worker, perhaps together with this program: that says nothing of the engine, so once more.
-  if (answer.killed_from_outside) answer = ask_once(cell, files, limits, tick);
+  if (!answer.killed_from_outside) return answer;
+  answer = ask_once(cell, files, limits, tick);
+  answer.restarted = true;
   return answer;
 }
 

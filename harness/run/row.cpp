@@ -193,6 +193,7 @@ Json make_row(const Cell& cell, const std::vector<Answer>& answers, const Json& 
           {"slug", cell.scene->slug},
           {"needs", cell.needs},
           {"repeats", answers.size()},
+          {"restarted", std::count_if(answers.begin(), answers.end(), [](const Answer& a) { return a.restarted; })},
           {"backend_build", cell.backend->build},
           {"cell", cell_id(cell)}};
 }

@@ -3,10 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
+#include <list>
 #include <map>
 #include <random>
+#include <thread>
 
 #include "run/cell_workers.hpp"
+#include "run/claims.hpp"
 #include "run/machine.hpp"
 #include "run/row.hpp"
 
@@ -22,14 +26,50 @@ class Study {
   Study(const Plan& plan, const StudyRequest& request, ResultsFile* results, const StudyCallbacks& callbacks)
       : plan_(plan), request_(request), results_(results), callbacks_(callbacks), machine_(describe_machine()) {
     for (const CellBlock& block : plan.blocks) total_ += block.cells.size();
+    if (results != nullptr) claims_.emplace(results->folder(), true);
   }
 
+  /// Blocks that another process is at come last, when it has finished them or is gone.
   void run() {
-    for (const CellBlock& block : plan_.blocks) run_block(block);
+    std::list<const CellBlock*> left;
+    for (const CellBlock& block : plan_.blocks) left.push_back(&block);
+    while (true) {
+      left.remove_if([&](const CellBlock* block) { return run_if_free(*block); });
+      if (left.empty()) return;
+      wait_for_others();
+    }
   }
 
  private:
   using Answers = std::map<const Cell*, std::vector<Answer>>;  ///< of all repetitions so far
+
+  /// False when another process has one of the cells: then none is run.
+  bool run_if_free(const CellBlock& block) {
+    std::vector<std::string> mine;
+    const auto give_back = [&] {
+      for (const std::string& id : mine) claims_->give_back(id);
+    };
+    for (const Cell& cell : block.cells) {
+      if (!claims_) break;
+      std::string id = cell_id(cell);
+      if (!claims_->take(id)) {
+        give_back();
+        return false;
+      }
+      mine.push_back(std::move(id));
+    }
+    if (results_ != nullptr) results_->refresh();  // whoever had a claim until a moment ago has written its row by now
+    run_block(block);
+    give_back();
+    return true;
+  }
+
+  void wait_for_others() const {
+    if (callbacks_.progress)
+      callbacks_.progress({done_, total_, "another plumb runs the rest in " + results_->folder().string(), 0, 0, {}});
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    throw_if_interrupted();
+  }
 
   void run_block(const CellBlock& block) {
     std::vector<const Cell*> open;
@@ -127,6 +167,7 @@ class Study {
   const Plan& plan_;
   const StudyRequest& request_;
   ResultsFile* results_;
+  std::optional<Claims> claims_;  ///< where there are results
   const StudyCallbacks& callbacks_;
   Json machine_;
   std::size_t done_ = 0, total_ = 0;

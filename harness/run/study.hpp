@@ -23,7 +23,8 @@ struct StudyCallbacks {
   std::function<void(const StudyProgress&)> progress;          ///< may be empty
 };
 
-/// Cells whose row `results` (may be null) has already are not run again. Repetitions of a block alternate between its
+/// Cells whose row `results` (may be null) has already are not run again, and those that another process is running in
+/// the same folder are waited for. Repetitions of a block alternate between its
 /// backends' live workers in an order shuffled anew each round from a fixed seed; never are two cells run at a time.
 /// Of a ladder the base and the probe come first: where both end in the same state, or the base is unsupported, the
 /// ladder's other cells are left out.

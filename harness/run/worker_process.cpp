@@ -94,6 +94,10 @@ void catch_signals() {
   sigaction(SIGPIPE, &action, nullptr);
 }
 
+void throw_if_interrupted() {
+  if (signal_caught != 0) throw Interrupted{static_cast<int>(signal_caught)};
+}
+
 WorkerProcess::WorkerProcess(const std::string& backend_file) {
   Pipe requests = make_pipe(), answers = make_pipe(), output = make_pipe();
   const int shared = moved_up(memfd_create("plumb-progress", MFD_CLOEXEC));
@@ -147,10 +151,8 @@ Answer WorkerProcess::ask(const Json& request, const WorkerLimits& limits,
     std::array<pollfd, 2> watched{{{answers_, POLLIN, 0}, {output_, POLLIN, 0}}};
     poll(watched.data(), watched.size(), poll_milliseconds);
     read_output();
-    if (signal_caught != 0) {
-      end_process(false);
-      throw Interrupted{static_cast<int>(signal_caught)};
-    }
+    if (signal_caught != 0) end_process(false);
+    throw_if_interrupted();
     const bool open = read_answer();
     if (const auto end = pending_.find('\n'); end != std::string::npos) {
       Answer answer;

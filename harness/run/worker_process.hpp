@@ -24,6 +24,8 @@ struct Interrupted {
 
 /// From now on SIGINT, SIGTERM and SIGHUP make the next wait for a worker throw Interrupted; SIGPIPE is ignored.
 void catch_signals();
+/// For whoever waits for something else. Throws Interrupted.
+void throw_if_interrupted();
 
 struct WorkerLimits {
   double seconds = 300;            ///< wall time for an answer
@@ -35,6 +37,7 @@ struct Answer {
   std::string reason;
   Json json;
   bool killed_from_outside = false;  ///< by a signal that neither this program nor a fault sent
+  bool restarted = false;            ///< after it had been killed so once
   double wall_seconds = 0;           ///< that it took
   Json contended = nullptr;          ///< see contended(): whether the machine had more to do than cores
 };

@@ -11,9 +11,9 @@
 
 #include "rows/statistics.hpp"
 #include "run/cell_workers.hpp"
+#include "run/claims.hpp"
 #include "run/machine.hpp"
 #include "run/row.hpp"
-#include "study/claims.hpp"
 #include "study/cost.hpp"
 #include "study/refine.hpp"
 

@@ -102,6 +102,36 @@ void kill_half_way_and_go_on(const std::string& name, bool workers_first) {
 TEST(Resume, after_the_program_was_killed) { kill_half_way_and_go_on("killed", false); }
 TEST(Resume, after_program_and_workers_were_killed) { kill_half_way_and_go_on("all_killed", true); }
 
+TEST(Resume, two_at_once_in_one_folder_share_the_cells) {
+  const std::filesystem::path folder = fresh_folder("two_at_once");
+  const std::vector<std::string> arguments = study(folder);
+  const pid_t other = start_plumb(arguments);
+  const Finished finished = plumb(arguments);
+  int status = 0;
+  waitpid(other, &status, 0);
+  EXPECT_EQ(status, 0);
+  EXPECT_EQ(finished.status, 0) << finished.err;
+  for (const char* backend : {"misbehaving", "sample"})
+    EXPECT_NE(finished.out.find(backend), std::string::npos) << "each shows all rows: " << finished.out;
+  EXPECT_EQ(readable_rows(folder / "out" / "results.jsonl").size(), 6u);
+  expect_complete(folder);
+}
+
+TEST(Resume, a_cell_whose_worker_was_killed_says_that_it_was_repeated) {
+  const std::filesystem::path folder = fresh_folder("repeated");
+  const std::filesystem::path traces = folder / "out" / "traces";
+  const pid_t pid = start_plumb({"run", particle_scene(folder), "--backend", MISBEHAVING_BACKEND, "--param",
+                                 "height=10", "--set", "pause=0.02", "--trace", "--out", (folder / "out").string()});
+  // The worker that has begun a trace has a second of steps before it.
+  ASSERT_TRUE(wait_until([&] { return std::filesystem::exists(traces) && !std::filesystem::is_empty(traces); }));
+  for (const pid_t worker : workers_of(pid)) kill(worker, SIGKILL);
+  waitpid(pid, nullptr, 0);
+  const std::vector<Json> rows = readable_rows(folder / "out" / "results.jsonl");
+  ASSERT_EQ(rows.size(), 1u);
+  EXPECT_EQ(rows[0]["status"], "ok") << rows[0].dump();
+  EXPECT_EQ(rows[0]["restarted"], 1);
+}
+
 TEST(Resume, a_worker_that_hangs_dies_with_the_program) {
   const std::filesystem::path folder = fresh_folder("hanging");
   const std::filesystem::path traces = folder / "out" / "traces";

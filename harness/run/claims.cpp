@@ -1,4 +1,4 @@
-#include "study/claims.hpp"
+#include "run/claims.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
