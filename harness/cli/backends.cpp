@@ -49,7 +49,7 @@ void add_backends(CLI::App& program, int& status) {
     for (const auto& [name, file] : files) {
       StudyRequest defaults;
       WorkerLimits limits = defaults.limits();
-      limits.seconds = 60;
+      limits.engine_seconds = 60;
       const BackendDescription backend = ask_description(name, file, limits);
       if (*json)
         std::cout << line_of(backend.json) << std::endl;

@@ -73,7 +73,11 @@ void add_study_options(CLI::App& verb, StudyOptions& options) {
   verb.add_option("--repeat", request.repeat, "Repetitions, in turns between backends")
       ->check(CLI::Range(1u, 100000u))
       ->capture_default_str();
-  verb.add_option("--timeout", request.timeout, "Wall time in s that a cell may take")->capture_default_str();
+  verb.add_option("--timeout", request.timeout, "Wall time in s that an engine may take for a cell")
+      ->capture_default_str();
+  verb.add_option("--judge-timeout", request.judge_timeout,
+                  "Wall time in s that the referee may take for a cell; none: as --timeout, and at least 60")
+      ->type_name("SECONDS");
   verb.add_option("--memory-limit", request.memory_limit_mb,
                   "Resident memory in MB that a worker may take; 0: 3/4 of the machine's")
       ->check(CLI::NonNegativeNumber)

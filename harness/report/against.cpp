@@ -50,7 +50,8 @@ void compare_verdicts(CellChange& cell) {
   const Verdict a = cell.before->verdict(), b = cell.after->verdict();
   if (a == b) return;
   const bool unscored = a == Verdict::ran || b == Verdict::ran;
-  const bool comparable = !unscored || !cell.before->completed() || !cell.after->completed();
+  const bool unjudged = a == Verdict::unjudged || b == Verdict::unjudged;
+  const bool comparable = !unjudged && (!unscored || !cell.before->completed() || !cell.after->completed());
   const Sense sense = !comparable ? Sense::changed : b > a ? Sense::worse : Sense::better;
   std::string text = arrow(plain_verdict(*cell.before), plain_verdict(*cell.after));
   if (!cell.after->completed() && !cell.after->reason.empty()) text += ": " + cell.after->reason;

@@ -113,7 +113,7 @@ ReachCount count_reached(const std::vector<CostTest>& tests, const std::string& 
   ReachCount count;
   for (const CostTest& test : tests) {
     const CostLine* line = test.line_of(backend);
-    if (!line || (!line->floor && line->representative->verdict() == Verdict::unsupported)) continue;
+    if (!line || (!line->floor && says_nothing(line->representative->verdict()))) continue;
     ++count.tests;
     if (!line->at[target]) continue;
     ++count.reached;

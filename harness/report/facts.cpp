@@ -40,7 +40,7 @@ EnergyFacts energy_of(const Study& study, const std::string& backend) {
   std::vector<double> drifts;
   for (const Problem& problem : study.problems) {
     const ResultRow* row = default_run(study, problem, backend);
-    if (!row || row->verdict() == Verdict::unsupported || !scores(problem, "energy_drift")) continue;
+    if (!row || says_nothing(row->verdict()) || !scores(problem, "energy_drift")) continue;
     const MetricResult* metric = row->completed() ? row->metric("energy_drift") : nullptr;
     if (!metric || !metric->error) {
       ++facts.lost;

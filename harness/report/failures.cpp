@@ -23,10 +23,9 @@ void write_rows(std::ostream& out, const std::vector<const ResultRow*>& rows) {
 void write_backend(std::ostream& out, const BackendOverview& overview) {
   out << "\n### " << markdown_text(overview.backend) << ' ' << markdown_text(overview.version) << "\n\n"
       << markdown_text(describe_counts(overview)) << "\n\n";
-  if (overview.lost.empty() && overview.unsupported.empty()) return;
+  if (overview.lost.empty() && overview.unsupported.empty() && overview.unjudged.empty()) return;
   out << "| problem | result | misses |\n|---|---|---|\n";
-  write_rows(out, overview.lost);
-  write_rows(out, overview.unsupported);
+  for (const auto* rows : {&overview.lost, &overview.unsupported, &overview.unjudged}) write_rows(out, *rows);
 }
 
 }  // namespace

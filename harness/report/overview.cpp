@@ -76,10 +76,12 @@ BackendOverview overview_of(const Study& study, const std::string& backend) {
     ++overview.problems;
     ++overview.counts[static_cast<std::size_t>(verdict)];
     if (verdict == Verdict::failed) overview.failures.push_back(row);
-    if (verdict > Verdict::unsupported) overview.broken.push_back(row);
-    if (verdict == Verdict::failed || verdict > Verdict::unsupported) overview.lost.push_back(row);
+    const bool broke = verdict > Verdict::unjudged;
+    if (broke) overview.broken.push_back(row);
+    if (verdict == Verdict::failed || broke) overview.lost.push_back(row);
     if (verdict == Verdict::unsupported) overview.unsupported.push_back(row);
-    if (verdict != Verdict::unsupported && verdict != Verdict::ran) {
+    if (verdict == Verdict::unjudged) overview.unjudged.push_back(row);
+    if (!says_nothing(verdict) && verdict != Verdict::ran) {
       auto& [passed, all] = passed_of[problem.group];
       passed += verdict <= Verdict::pass;
       ++all;
@@ -117,6 +119,7 @@ std::string describe_counts(const BackendOverview& o) {
   count(Verdict::failed, "failed");
   count(Verdict::ran, "ran without a threshold");
   count(Verdict::unsupported, "unsupported");
+  count(Verdict::unjudged, "not judged");
   count(Verdict::crashed, "crashed");
   count(Verdict::timeout, "timed out");
   count(Verdict::out_of_memory, "out of memory");

@@ -21,7 +21,7 @@ struct BackendOverview {
   std::vector<const ResultRow*> failures;                ///< failed, the farthest from its threshold first
   std::vector<const ResultRow*> broken;                  ///< crashed, timed out, out of memory, errors
   std::vector<const ResultRow*> lost;                    ///< both of them, in the order of problems
-  std::vector<const ResultRow*> unsupported;
+  std::vector<const ResultRow*> unsupported, unjudged;
 
   [[nodiscard]] int count(Verdict verdict) const { return counts[static_cast<std::size_t>(verdict)]; }
 };

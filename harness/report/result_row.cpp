@@ -12,7 +12,7 @@ namespace plumb::harness {
 namespace {
 
 constexpr std::array<std::string_view, verdict_count> verdict_words{
-    "gold", "pass", "ran", "failed", "unsupported", "crashed", "timeout", "out_of_memory", "error"};
+    "gold", "pass", "ran", "failed", "unsupported", "unjudged", "crashed", "timeout", "out_of_memory", "error"};
 
 const Json& member(const Json& object, const char* key) {
   static const Json none;
@@ -98,7 +98,8 @@ std::optional<double> MetricResult::badness() const {
 }
 
 Verdict ResultRow::verdict() const {
-  for (const Verdict verdict : {Verdict::unsupported, Verdict::crashed, Verdict::timeout, Verdict::out_of_memory}) {
+  for (const Verdict verdict :
+       {Verdict::unsupported, Verdict::unjudged, Verdict::crashed, Verdict::timeout, Verdict::out_of_memory}) {
     if (status == verdict_word(verdict)) return verdict;
   }
   if (!completed()) return Verdict::error;

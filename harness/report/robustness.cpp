@@ -28,7 +28,7 @@ namespace {
 std::size_t runs_tried(const Study& study, const std::set<const Problem*>& problems, const std::string& backend) {
   return static_cast<std::size_t>(std::count_if(problems.begin(), problems.end(), [&](const Problem* problem) {
     const ResultRow* row = default_run(study, *problem, backend);
-    return row && row->verdict() != Verdict::unsupported;
+    return row && !says_nothing(row->verdict());
   }));
 }
 

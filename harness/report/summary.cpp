@@ -30,7 +30,7 @@ std::map<std::string, GroupCount> counts_by_group(const Study& study, const std:
   }
   for (const Problem& problem : study.problems) {
     const ResultRow* row = default_run(study, problem, backend);
-    if (!row || row->verdict() == Verdict::unsupported || row->verdict() == Verdict::ran) continue;
+    if (!row || says_nothing(row->verdict()) || row->verdict() == Verdict::ran) continue;
     ++groups[problem.group].scored;
     groups[problem.group].passed += row->verdict() <= Verdict::pass;
   }

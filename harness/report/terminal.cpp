@@ -22,7 +22,8 @@ const char* colour_of(Verdict verdict) {
     case Verdict::pass: return "32";
     case Verdict::ran: return "";
     case Verdict::failed: return "31";
-    case Verdict::unsupported: return dim;
+    case Verdict::unsupported:
+    case Verdict::unjudged: return dim;
     default: return "35";
   }
 }

@@ -1,6 +1,7 @@
 #include "run/cell_runner.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,9 +17,11 @@
 #include "run/machine.hpp"
 #include "run/metric_rows.hpp"
 #include "run/names.hpp"
+#include "run/part_refused.hpp"
 #include "run/recording.hpp"
 #include "run/support.hpp"
 #include "scene/build.hpp"
+#include "scene/locate.hpp"
 
 namespace plumb::harness {
 
@@ -28,6 +31,7 @@ namespace {
 class Tracker : public SimulationObserver {
  public:
   explicit Tracker(Progress& progress) : progress_(progress) {}
+  [[nodiscard]] CellClock& clock() { return progress_.clock; }
   void started(Simulation& simulation) override {
     progress_.total = static_cast<std::uint64_t>(std::llround(simulation.scene().seconds / simulation.scene().dt));
     progress_.step = 1;
@@ -69,7 +73,10 @@ class Recorder : public Tracker {
   void started(Simulation& simulation) override {
     Tracker::started(simulation);
     record_.bodies = simulation.poses().size();
-    record_.settings = settings_in_force(backend_, simulation);
+    {
+      const EngineAtWork at_work(&clock());
+      record_.settings = settings_in_force(backend_, simulation);
+    }
     general_.emplace(simulation);
     if (!request_.file.empty()) recording_.emplace(request_, simulation, backend_, declared_);
   }
@@ -112,6 +119,7 @@ class CellContext : public MeasureContext {
   Simulation simulate(const Scene& scene) override { return simulate(scene, options_); }
   Simulation simulate(const Scene& scene, const SimulationOptions& options) override {
     SimulationOptions watched = options;
+    watched.clock = &progress_.clock;
     if (record_.made) {
       watched.observer = std::make_shared<Tracker>(progress_);
       return {backend_, scene, watched};
@@ -152,7 +160,7 @@ class CellContext : public MeasureContext {
 SceneFile scene_file_of(const Json& request) {
   SceneFile file = SceneFile::load(request.at("scene").get<std::string>());
   if (fmt::format("{:016x}", file.hash) != request.at("scene_hash").get<std::string>())
-    throw Error(PLUMB_E_CORRUPT, "the scene file has changed since the program was started: " + file.path.string());
+    throw UsageError(file.path.string() + ":1: this scene file has changed since the program was started; start again");
   return file;
 }
 
@@ -201,15 +209,45 @@ struct Outcome {
   std::string status = "ok", reason;
 };
 
+/// Whether an entry of a scene file, by its "name", is where the name comes from: "ball{i}" is where "ball7" does.
+bool gives_name(const std::string& entry, const std::string& name) {
+  const auto open = entry.find('{'), close = entry.rfind('}');
+  if (open == std::string::npos || close == std::string::npos) return entry == name;
+  return name.starts_with(entry.substr(0, open)) && name.ends_with(entry.substr(close + 1));
+}
+
+/// "FILE:LINE: " of a part of the scene, of its list where it was generated.
+std::string place_of(const SceneFile& file, const PartRefused& refused) {
+  JsonPath path{refused.list()};
+  const auto list = file.json.find(refused.list());
+  if (list != file.json.end() && list->is_object()) path.emplace_back(refused.name());
+  if (list != file.json.end() && list->is_array()) {
+    for (std::size_t i = 0; i < list->size(); ++i) {
+      if (!gives_name((*list)[i].value("name", ""), refused.name())) continue;
+      path.emplace_back(i);
+      break;
+    }
+  }
+  return fmt::format("{}:{}: ", file.path.string(), line_of(file.text, path));
+}
+
+Outcome outcome_of(const Error& error, const std::string& said) {
+  if (error.code() == PLUMB_E_UNSUPPORTED) return {"unsupported", said};
+  if (error.code() == PLUMB_E_OUT_OF_MEMORY) return {"out_of_memory", said};
+  return {"error", result_word(error.code()) + ": " + said};
+}
+
 // Runs the work and says how it ended: what an engine refuses or throws is a row, not the end of a worker.
-Outcome outcome_of(const std::function<void()>& work) {
+Outcome outcome_of(const std::optional<SceneFile>& file, const std::function<void()>& work) {
   try {
     work();
     return {};
+  } catch (const UsageError& error) {
+    return {wrong_scene, error.what()};
+  } catch (const PartRefused& refused) {
+    return outcome_of(refused, place_of(*file, refused) + refused.what());
   } catch (const Error& error) {
-    if (error.code() == PLUMB_E_UNSUPPORTED) return {"unsupported", error.what()};
-    if (error.code() == PLUMB_E_OUT_OF_MEMORY) return {"out_of_memory", error.what()};
-    return {"error", result_word(error.code()) + ": " + error.what()};
+    return outcome_of(error, error.what());
   } catch (const std::bad_alloc&) {
     return {"out_of_memory", "the process could not allocate memory"};
   } catch (const std::exception& error) {
@@ -286,36 +324,52 @@ std::string joined(const std::vector<std::string>& sentences) {
   return text;
 }
 
+/// What a run that came to its end is worth. Where less time was asked for than the scene takes, and something did not
+/// come about in it, there is no telling whether the engine would have missed it.
+Outcome verdict_on(const CellContext& context, const SceneFile& file) {
+  const Scene& scene = context.scene();
+  Judgement judgement = judge(context.metrics(), scene.metrics, general_metric_specs());
+  const auto& statistics = context.record().statistics;
+  if (statistics && statistics->nonfinite != 0) {
+    judgement.missed.push_back(fmt::format("{} bodies became NaN or infinite", statistics->nonfinite));
+  } else if (!judgement.silent.empty()) {
+    const double whole = file.outline(scene.parameters, {scene.dt, std::nullopt}).seconds;
+    if (scene.seconds < whole)
+      return {"unjudged", fmt::format("{:g} s are too short to measure {}: the scene takes {:g} s", scene.seconds,
+                                      fmt::join(judgement.silent, ", "), whole)};
+  }
+  return judgement.missed.empty() ? Outcome{} : Outcome{"failed", joined(judgement.missed)};
+}
+
 }  // namespace
 
 Json run_cell(Backend& backend, const Json& request, Progress& progress) {
   Json answer = empty_answer();
   reset_peak_memory();
+  std::optional<SceneFile> file;
   std::optional<Scene> scene;
   std::optional<Trace> trace;
   std::optional<CellContext> context;
   const RecordingRequest recording = recording_of(request);
   if (!recording.file.empty()) std::filesystem::remove(recording.file);
-  Outcome outcome = outcome_of([&] {
-    const SceneFile file = scene_file_of(request);
-    scene.emplace(scene_of(file, request));
+  Outcome outcome = outcome_of(file, [&] {
+    file.emplace(scene_file_of(request));
+    scene.emplace(scene_of(*file, request));
+    check_measure(*file, *scene);
     if (!scene->lacks.empty()) throw Error(PLUMB_E_UNSUPPORTED, scene->lacks);
     scene->needs |= needs_beside(request.at("needs").get<std::string>());
     const SimulationOptions options = options_of(backend, request);
     trace.emplace(backend, request.value("trace", ""));
     context.emplace(trace->backend(), *scene, options, progress, recording);
-    find_measure(file).run(*context);
+    find_measure(*file).run(*context);
   });
   if (outcome.status == "ok" && !context->record().trouble.empty()) outcome = {"error", context->record().trouble};
   if (context) {
     add_record(answer, context->record());
-    const bool complete = outcome.status == "ok";
-    Judgement judgement =
-        judge(context->metrics(), complete ? scene->metrics : std::vector<MetricSpec>{}, general_metric_specs());
-    answer["metrics"] = judgement.metrics;
-    if (const auto& statistics = context->record().statistics; statistics && statistics->nonfinite != 0)
-      judgement.missed.push_back(fmt::format("{} bodies became NaN or infinite", statistics->nonfinite));
-    if (complete && !judgement.missed.empty()) outcome = {"failed", joined(judgement.missed)};
+    if (outcome.status == "ok") outcome = verdict_on(*context, *file);
+    const bool judged = outcome.status == "ok" || outcome.status == "failed";
+    answer["metrics"] =
+        judge(context->metrics(), judged ? scene->metrics : std::vector<MetricSpec>{}, general_metric_specs()).metrics;
   }
   answer["status"] = outcome.status;
   answer["reason"] = outcome.reason;

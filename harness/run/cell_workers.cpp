@@ -6,6 +6,8 @@
 
 #include <algorithm>
 
+#include "run/cell_runner.hpp"
+
 namespace plumb::harness {
 
 namespace {
@@ -40,7 +42,7 @@ std::string trajectory_of(const std::filesystem::path& results, const Cell& cell
 
 bool wants_recording(const std::filesystem::path& results, const Cell& cell, const Json& row, bool is_new) {
   const std::string status = row.value("status", "");
-  if (status == "timeout" || status == "out_of_memory") return false;
+  if (status == "timeout" || status == "unjudged" || status == "out_of_memory") return false;
   return is_new || !std::filesystem::exists(trajectory_of(results, cell));
 }
 
@@ -69,6 +71,8 @@ Answer CellWorkers::ask_once(const Cell& cell, const CellFiles& files, const Wor
   Json request = request_of(cell, files.trajectory, files.trace);
   request["layers"] = files.layers;
   Answer answer = worker->ask(request, limits, tick);
+  if (answer.status == "ok" && answer.json.value("status", "") == wrong_scene)
+    throw UsageError(answer.json.value("reason", ""));
   answer.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (!worker->alive()) {
     watch_ = LoadWatch();  // what the dead one has used nobody can tell any more

@@ -24,7 +24,8 @@ class CellWorkers {
   explicit CellWorkers(unsigned ranks = 1) : ranks_(ranks) {}
 
   /// One repetition, with its wall time and contention in the answer. A broken backend answers by what is wrong with
-  /// it; a worker that somebody killed is asked once more. Throws Interrupted.
+  /// it; a worker that somebody killed is asked once more. Throws Interrupted, and UsageError for a scene that
+  /// is wrong.
   Answer ask(const Cell& cell, const CellFiles& files, const WorkerLimits& limits,
              const std::function<void(const Progress&)>& tick);
 

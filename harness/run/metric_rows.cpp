@@ -31,6 +31,11 @@ Json row_of(const Metric& metric, const MetricSpec* spec) {
   return row;
 }
 
+void say_silent(Judgement& judgement, const std::string& metric) {
+  judgement.silent.push_back(metric);
+  judgement.missed.push_back(metric + " was not measured");
+}
+
 }  // namespace
 
 Judgement judge(const std::vector<Metric>& metrics, const std::vector<MetricSpec>& specs,
@@ -40,9 +45,13 @@ Judgement judge(const std::vector<Metric>& metrics, const std::vector<MetricSpec
     const MetricSpec* spec = find_spec(specs, metric.name);
     if (spec == nullptr) spec = find_spec(general, metric.name);
     const Json row = row_of(metric, spec);
-    if (row["pass"] == false)
-      judgement.missed.push_back(fmt::format("{} {:.4g} > {:.4g}", metric.name, metric.error, *spec->threshold));
     judgement.metrics[metric.name] = row;
+    if (row["pass"] != false) continue;
+    if (std::isnan(metric.error)) {
+      say_silent(judgement, metric.name);
+    } else {
+      judgement.missed.push_back(fmt::format("{} {:.4g} > {:.4g}", metric.name, metric.error, *spec->threshold));
+    }
   }
   for (MetricSpec spec : specs) {
     if (judgement.metrics.contains(spec.name)) continue;
@@ -50,7 +59,7 @@ Judgement judge(const std::vector<Metric>& metrics, const std::vector<MetricSpec
     if (spec.optional) spec.threshold = spec.gold = std::nullopt;
     const Metric absent{spec.name, NAN, std::nullopt, NAN, std::nullopt, "not measured"};
     judgement.metrics[spec.name] = row_of(absent, &spec);
-    if (spec.threshold) judgement.missed.push_back(spec.name + " was not measured");
+    if (spec.threshold) say_silent(judgement, spec.name);
   }
   return judgement;
 }

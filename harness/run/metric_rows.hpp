@@ -12,6 +12,7 @@ namespace plumb::harness {
 struct Judgement {
   Json metrics = Json::object();    ///< by name
   std::vector<std::string> missed;  ///< a sentence for each threshold that was missed
+  std::vector<std::string> silent;  ///< scored metrics without a number
 };
 
 /// A metric that the scene lists but that was not measured misses its threshold; one that it does not list has none,

@@ -11,6 +11,7 @@
 #include "run/machine.hpp"
 #include "scene/build.hpp"
 #include "scene/catalogue.hpp"
+#include "scene/limits.hpp"
 #include "scene/parameters.hpp"
 
 namespace plumb::harness {
@@ -79,6 +80,14 @@ std::vector<std::shared_ptr<const SceneFile>> scenes_for(const std::vector<std::
   return scenes;
 }
 
+// With nothing wrong in it, as far as that can be told without making many objects: those the worker makes and checks.
+Scene checked_scene(const SceneFile& file, const Parameters& parameters, const Times& times) {
+  if (count_objects(file, parameters, times) >= many_objects) return file.outline(parameters, times);
+  Scene scene = file.instantiate(parameters, times);
+  check_measure(file, scene);
+  return scene;
+}
+
 void check_positive(const char* option, double value) {
   if (!(value > 0) || !std::isfinite(value))
     throw UsageError(fmt::format("{} {:g}: it must be above 0", option, value));
@@ -118,13 +127,16 @@ void check_words(const StudyRequest& request) {
   if (request.dt) check_positive("--dt", *request.dt);
   if (request.seconds) check_positive("--seconds", *request.seconds);
   check_positive("--timeout", request.timeout);
+  if (request.judge_timeout) check_positive("--judge-timeout", *request.judge_timeout);
 }
 
 }  // namespace
 
 WorkerLimits StudyRequest::limits() const {
   WorkerLimits limits;
-  limits.seconds = timeout;
+  constexpr double a_minute = 60;
+  limits.engine_seconds = timeout;
+  limits.judge_seconds = judge_timeout.value_or(std::max(timeout, a_minute));
   limits.memory_bytes =
       memory_limit_mb > 0 ? static_cast<std::uint64_t>(memory_limit_mb * 1e6) : machine_memory_bytes() / 4 * 3;
   return limits;
@@ -231,8 +243,7 @@ std::vector<CellBlock> plan_blocks(const StudyRequest& request, const std::vecto
     const Parameters given = given_to(*file, parameters);
     for (const Parameters& variant :
          request.own_variants ? variants_of(*file, given) : std::vector<Parameters>{given}) {
-      const Scene scene = instantiate_with(*file, variant, request.dt, request.seconds);
-      check_measure(*file, scene);
+      const Scene scene = checked_scene(*file, variant, {request.dt, request.seconds});
       CellBlock block;
       for (const auto& [backend, build] : backends) {
         Cell cell{file,     scene.parameters, variant,         backend,

@@ -29,9 +29,10 @@ struct StudyRequest {
   std::optional<double> dt, seconds;
   std::uint32_t threads = 1;
   std::uint32_t repeat = 1;
-  double timeout = 300;
-  double memory_limit_mb = 0;  ///< 0: three quarters of the machine's memory
-  std::string out;             ///< folder; empty: none
+  double timeout = 300;                 ///< of an engine
+  std::optional<double> judge_timeout;  ///< of the referee; none: that of the engine, and at least a minute
+  double memory_limit_mb = 0;           ///< 0: three quarters of the machine's memory
+  std::string out;                      ///< folder; empty: none
   bool record = false;  ///< each cell once more than `repeat`, and that one to a file: no time or error comes from it
   bool layers = false;  ///< what plumb.debug/1 shows, too
   bool trace = false;   ///< times then include the writing of the trace

@@ -14,8 +14,8 @@ namespace {
 
 // From good to bad; a row says the worst that happened.
 int badness(const std::string& status) {
-  static const std::vector<std::string> order{"ok",      "failed", "unsupported", "error", "out_of_memory",
-                                              "timeout", "crashed"};
+  static const std::vector<std::string> order{"ok",    "failed",        "unjudged", "unsupported",
+                                              "error", "out_of_memory", "timeout",  "crashed"};
   return static_cast<int>(std::find(order.begin(), order.end(), status) - order.begin());
 }
 

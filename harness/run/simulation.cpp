@@ -7,6 +7,7 @@
 
 #include "plumb/backend/small_math.hpp"
 #include "referee/hash.hpp"
+#include "run/part_refused.hpp"
 #include "run/support.hpp"
 
 namespace plumb::harness {
@@ -77,7 +78,11 @@ void Simulation::State::create_shapes() {
     simple.push_back(i);
   }
   std::vector<PlumbShape> handles(descs.size());
-  if (!descs.empty()) check(*world, world->create_shapes(descs, handles));
+  naming_parts(
+      "shapes", [&](std::size_t k) { return scene.shapes.at(simple.at(k)).name; },
+      [&] {
+        if (!descs.empty()) check(*world, world->create_shapes(descs, handles));
+      });
   for (std::size_t k = 0; k < simple.size(); ++k) shapes[simple[k]] = handles[k];
 
   for (std::size_t i = 0; i < scene.shapes.size(); ++i) {
@@ -95,7 +100,9 @@ void Simulation::State::create_shapes() {
     PlumbShapeDesc desc = shape.descriptor();
     desc.children = children.data();
     desc.child_count = static_cast<std::uint32_t>(children.size());
-    check(*world, world->create_shapes(std::span(&desc, 1), std::span(&shapes[i], 1)));
+    naming_parts(
+        "shapes", [&](std::size_t) { return shape.name; },
+        [&] { check(*world, world->create_shapes(std::span(&desc, 1), std::span(&shapes[i], 1))); });
   }
 }
 
@@ -107,7 +114,11 @@ void Simulation::State::create_bodies() {
     descs.back().shape = body.shape ? shapes.at(*body.shape) : 0;
   }
   bodies.resize(descs.size());
-  if (!descs.empty()) check(*world, world->create_bodies(descs, bodies));
+  naming_parts(
+      "bodies", [&](std::size_t i) { return scene.bodies.at(i).name; },
+      [&] {
+        if (!descs.empty()) check(*world, world->create_bodies(descs, bodies));
+      });
 }
 
 void Simulation::State::create_joints() {
@@ -122,7 +133,9 @@ void Simulation::State::create_joints() {
     descs.back().body_b = bodies.at(joint.body_b);
   }
   joints.resize(descs.size());
-  check(*world, extension->create_joints(descs, joints));
+  naming_parts(
+      "joints", [&](std::size_t i) { return scene.joints.at(i).name; },
+      [&] { check(*world, extension->create_joints(descs, joints)); });
 }
 
 void Simulation::State::read_poses() {
@@ -162,18 +175,20 @@ Simulation::Simulation(Backend& backend, const Scene& scene, const SimulationOpt
   desc.settings = settings.data();
   desc.setting_count = static_cast<std::uint32_t>(settings.size());
 
-  const auto start = Clock::now();
-  s.world = backend.create_world(desc);
-  s.create_shapes();
-  s.create_bodies();
-  s.create_joints();
-  s.statistics.setup_ms = milliseconds_since(start);
-
-  s.poses.resize(s.bodies.size());
+  {
+    const EngineAtWork at_work(options.clock);
+    const auto start = Clock::now();
+    s.world = backend.create_world(desc);
+    s.create_shapes();
+    s.create_bodies();
+    s.create_joints();
+    s.statistics.setup_ms = milliseconds_since(start);
+    s.poses.resize(s.bodies.size());
+    s.read_poses();
+  }
   s.velocities.resize(s.bodies.size());
   s.statistics.step_ms.reserve(s.steps_total);
   std::fill(std::begin(s.report.phase_seconds), std::end(s.report.phase_seconds), not_known);
-  s.read_poses();
   s.take_stock();
   if (s.options.observer) s.options.observer->started(*this);
 }
@@ -181,11 +196,17 @@ Simulation::Simulation(Backend& backend, const Scene& scene, const SimulationOpt
 Simulation::Simulation(Simulation&&) noexcept = default;
 
 Simulation::~Simulation() {
-  if (state_ && state_->options.observer) state_->options.observer->ended(*this);
+  if (!state_) return;
+  if (state_->options.observer) state_->options.observer->ended(*this);
+  const EngineAtWork at_work(state_->options.clock);
+  state_->world.reset();
 }
 
 const Scene& Simulation::scene() const { return state_->scene; }
-IPhysicsWorld& Simulation::world() { return *state_->world; }
+IPhysicsWorld& Simulation::world() {
+  if (state_->options.clock != nullptr) state_->options.clock->engine();
+  return *state_->world;
+}
 PlumbBody Simulation::handle(std::size_t body) const { return state_->bodies.at(body); }
 PlumbJoint Simulation::joint_handle(std::size_t joint) const { return state_->joints.at(joint); }
 
@@ -194,11 +215,14 @@ bool Simulation::advance() {
   if (s.steps >= s.steps_total) return false;
   PlumbStepReport report{};
   report.struct_size = sizeof(report);
-  const auto start = Clock::now();
-  check(*s.world, s.world->step(s.scene.dt));
-  check(*s.world, s.world->wait(report));
-  s.read_poses();
-  s.statistics.step_ms.push_back(milliseconds_since(start));
+  {
+    const EngineAtWork at_work(s.options.clock);
+    const auto start = Clock::now();
+    check(*s.world, s.world->step(s.scene.dt));
+    check(*s.world, s.world->wait(report));
+    s.read_poses();
+    s.statistics.step_ms.push_back(milliseconds_since(start));
+  }
   s.report = report;
   ++s.steps;
   s.velocities_fresh = false;
@@ -220,6 +244,7 @@ std::span<const PoseRow> Simulation::poses() const { return state_->poses; }
 std::span<const VelocityRow> Simulation::velocities() {
   State& s = *state_;
   if (!s.velocities_fresh && !s.velocities.empty()) {
+    const EngineAtWork at_work(s.options.clock);
     check(*s.world, s.world->read(PLUMB_FIELD_VELOCITY, {}, rows_over(std::span(s.velocities))));
     s.velocities_fresh = true;
   }
@@ -229,15 +254,20 @@ std::span<const VelocityRow> Simulation::velocities() {
 std::span<const PlumbContact> Simulation::contacts() {
   if ((state_->scene.needs & (PLUMB_NEED_CONTACTS | PLUMB_NEED_CONTACT_IMPULSES)) == 0)
     throw Error(PLUMB_E_NOT_DECLARED, "scene " + state_->scene.id + " reads contacts without the need \"contacts\"");
+  const EngineAtWork at_work(state_->options.clock);
   return state_->world->contacts();
 }
 
-std::span<const PlumbEvent> Simulation::events() { return state_->world->events(); }
+std::span<const PlumbEvent> Simulation::events() {
+  const EngineAtWork at_work(state_->options.clock);
+  return state_->world->events();
+}
 const PlumbStepReport& Simulation::report() const { return state_->report; }
 
 PlumbVec3 Simulation::centre_of_mass(std::size_t body) const {
   State& s = *state_;
   if (s.masses.empty()) {
+    const EngineAtWork at_work(s.options.clock);
     s.masses.resize(s.bodies.size());
     check(*s.world, s.world->read(PLUMB_FIELD_MASS, {}, rows_over(std::span(s.masses))));
   }
@@ -255,12 +285,18 @@ void Simulation::write(PlumbField field, std::size_t body, std::span<const doubl
                            " numbers, not " + std::to_string(row.size()));
   const PlumbBody id = handle(body);
   const ConstRows rows(reinterpret_cast<const std::byte*>(row.data()), 1, row.size_bytes(), PLUMB_F64);
-  check(*s.world, s.world->write(field, std::span(&id, 1), rows));
+  const EngineAtWork at_work(s.options.clock);
+  naming_parts(
+      "bodies", [&](std::size_t) { return s.scene.bodies.at(body).name; },
+      [&] { check(*s.world, s.world->write(field, std::span(&id, 1), rows)); });
   s.velocities_fresh = false;
   if (field == PLUMB_FIELD_POSE) s.read_poses();
 }
 
-void Simulation::set_gravity(const PlumbVec3& gravity) { check(world(), world().set_gravity(gravity)); }
+void Simulation::set_gravity(const PlumbVec3& gravity) {
+  const EngineAtWork at_work(state_->options.clock);
+  check(*state_->world, state_->world->set_gravity(gravity));
+}
 
 const StepStatistics& Simulation::statistics() const {
   State& s = *state_;

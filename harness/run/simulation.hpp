@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "plumb/loader.hpp"
+#include "run/cell_clock.hpp"
 #include "scene/scene.hpp"
 
 namespace plumb::harness {
@@ -38,6 +39,7 @@ struct SimulationOptions {
   std::uint32_t threads = 1;
   bool needs_all = false;  ///< declare every need that the backend has, not just the scene's
   std::shared_ptr<SimulationObserver> observer = nullptr;
+  CellClock* clock = nullptr;  ///< told which time is the engine's; null: nobody asks
 };
 
 /// Wall times of the steps, and the worst of what the reports said.
@@ -59,6 +61,7 @@ class Simulation {
   Simulation(Simulation&&) noexcept;
 
   [[nodiscard]] const Scene& scene() const;
+  /// What is done with it is taken for the engine's doing, until the next call here returns.
   [[nodiscard]] IPhysicsWorld& world();
   [[nodiscard]] PlumbBody handle(std::size_t body) const;
   [[nodiscard]] PlumbJoint joint_handle(std::size_t joint) const;

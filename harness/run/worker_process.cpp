@@ -82,7 +82,12 @@ std::string signal_text(int number) {
                      description == nullptr ? "unknown signal" : description);
 }
 
-std::string gigabytes(std::uint64_t bytes) { return fmt::format("{:.2f} GB", static_cast<double>(bytes) / 1e9); }
+// "1.25 GB", "400 MB", "12 kB": three digits.
+std::string bytes_text(std::uint64_t bytes) {
+  const auto size = static_cast<double>(bytes);
+  if (size >= 1e9) return fmt::format("{:.3g} GB", size / 1e9);
+  return size >= 1e6 ? fmt::format("{:.3g} MB", size / 1e6) : fmt::format("{:.3g} kB", size / 1e3);
+}
 
 }  // namespace
 
@@ -142,10 +147,10 @@ Answer WorkerProcess::ask(const Json& request, const WorkerLimits& limits,
                           const std::function<void(const Progress&)>& tick) {
   progress_->step = 0;
   progress_->total = 0;
+  progress_->clock.start();
   pending_.clear();
   tail_.clear();
   if (!send(line_of(request) + "\n")) return bury();
-  const auto start = Clock::now();
   int rounds = 0;
   while (true) {
     std::array<pollfd, 2> watched{{{answers_, POLLIN, 0}, {output_, POLLIN, 0}}};
@@ -164,11 +169,10 @@ Answer WorkerProcess::ask(const Json& request, const WorkerLimits& limits,
     if (!open) return bury();
     if (limits.memory_bytes != 0 && resident_bytes() > limits.memory_bytes) {
       return put_down("out_of_memory",
-                      fmt::format("resident memory of {} is above the limit of {}{}", gigabytes(resident_bytes()),
-                                  gigabytes(limits.memory_bytes), where()));
+                      fmt::format("resident memory of {} is above the limit of {}{}", bytes_text(resident_bytes()),
+                                  bytes_text(limits.memory_bytes), where()));
     }
-    if (std::chrono::duration<double>(Clock::now() - start).count() > limits.seconds)
-      return put_down("timeout", fmt::format("no answer within {:g} s{}", limits.seconds, where()));
+    if (const auto late = too_late(limits)) return put_down(late->first, late->second);
     if (tick && ++rounds % 10 == 0) tick(*progress_);
   }
 }
@@ -218,6 +222,18 @@ double WorkerProcess::processor_seconds() const {
   timespec time{};
   if (!alive() || clock_getcpuclockid(pid_, &clock) != 0 || clock_gettime(clock, &time) != 0) return 0;
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+std::optional<std::pair<std::string, std::string>> WorkerProcess::too_late(const WorkerLimits& limits) const {
+  const CellClock::Times times = progress_->clock.times();
+  const double engine = 1e-9 * static_cast<double>(times.engine), judge = 1e-9 * static_cast<double>(times.judge);
+  if (engine + judge > limits.all_seconds) return {{"out_of_time", "the time for all of it is over" + where()}};
+  if (engine > limits.engine_seconds)
+    return {{"timeout", fmt::format("no answer within {:g} s{}", limits.engine_seconds, where())}};
+  if (judge > limits.judge_seconds)
+    return {{"unjudged", fmt::format("the referee has no answer within {:g} s, beside {:.2g} s of the engine{}",
+                                     limits.judge_seconds, engine, where())}};
+  return std::nullopt;
 }
 
 std::string WorkerProcess::where() const {

@@ -10,6 +10,8 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <limits>
+#include <optional>
 #include <string>
 
 #include "run/json.hpp"
@@ -27,13 +29,16 @@ void catch_signals();
 /// For whoever waits for something else. Throws Interrupted.
 void throw_if_interrupted();
 
+/// Wall times, s, and memory of an answer.
 struct WorkerLimits {
-  double seconds = 300;            ///< wall time for an answer
-  std::uint64_t memory_bytes = 0;  ///< resident size; 0: no limit
+  double engine_seconds = 300;
+  double judge_seconds = 300;  ///< what the harness itself takes to look and to work out what is true
+  double all_seconds = std::numeric_limits<double>::infinity();  ///< of both
+  std::uint64_t memory_bytes = 0;                                ///< resident size; 0: no limit
 };
 
 struct Answer {
-  std::string status = "ok";  ///< or crashed, timeout, out_of_memory, error
+  std::string status = "ok";  ///< or crashed, timeout, unjudged, out_of_time, out_of_memory, error
   std::string reason;
   Json json;
   bool killed_from_outside = false;  ///< by a signal that neither this program nor a fault sent
@@ -62,6 +67,8 @@ class WorkerProcess {
   void read_output();
   bool read_answer();  ///< false at the end of the pipe
   [[nodiscard]] std::uint64_t resident_bytes() const;
+  /// The status and reason of what took longer than it may.
+  [[nodiscard]] std::optional<std::pair<std::string, std::string>> too_late(const WorkerLimits& limits) const;
   [[nodiscard]] std::string where() const;
   [[nodiscard]] std::string last_words() const;
   Answer bury();

@@ -25,5 +25,7 @@ constexpr std::size_t many_objects = 100'000;      ///< from here on a scene is 
 
 /// Bodies and joints of a scene file whose parameters have values. Fails where one of the two is beyond most_objects.
 [[nodiscard]] std::size_t count_objects(const Node& root);
+/// Likewise, of the scene that SceneFile::instantiate would make; throws as that does, and makes none.
+[[nodiscard]] std::size_t count_objects(const SceneFile& file, const Parameters& given, const Times& times);
 
 }  // namespace plumb::harness

@@ -346,6 +346,10 @@ Scene SceneFile::instantiate(const Parameters& given, const Times& times) const 
   return maker.take();
 }
 
+std::size_t count_objects(const SceneFile& file, const Parameters& given, const Times& times) {
+  return SceneMaker(file, given, times).objects();
+}
+
 Scene SceneFile::outline(const Parameters& given, const Times& times) const {
   SceneMaker maker(*this, given, times);
   if (maker.objects() < many_objects) maker.make_contents();

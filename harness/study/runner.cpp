@@ -155,7 +155,7 @@ class StudyRunner {
     StudyRequest request;
     request.timeout = study_.timeout;
     WorkerLimits limits = request.limits();
-    limits.seconds = std::min(limits.seconds, left);
+    limits.all_seconds = left;
     StudyProgress progress{seen_.size(), total(), label_of(planned.cell), 0, 0, seconds_left()};
     if (planned.repetitions.at_most > 1) progress.cell += fmt::format(" {}/{}", round, planned.repetitions.at_most);
     const auto tick = [&](const Progress& now) {
@@ -167,7 +167,7 @@ class StudyRunner {
     };
     if (callbacks_.progress) callbacks_.progress(progress);
     Answer answer = workers_.ask(planned.cell, {}, limits, tick);
-    if (answer.status == "timeout" && limits.seconds < study_.timeout) return false;
+    if (answer.status == "out_of_time") return false;
     cell.answers.push_back(std::move(answer));
     return true;
   }

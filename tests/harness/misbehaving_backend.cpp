@@ -112,6 +112,8 @@ class MisbehavingWorld final : public plumb::IPhysicsWorld, public plumb::ISetti
   PlumbResult destroy_shapes(std::span<const PlumbShape>) override { return PLUMB_OK; }
   PlumbResult create_bodies(std::span<const PlumbBodyDesc> descs, std::span<PlumbBody> ids) override {
     for (std::size_t i = 0; i < descs.size(); ++i) {
+      if (descs[i].mass > 1e12)
+        throw plumb::Error(PLUMB_E_INVALID_ARGUMENT, "descs[" + std::to_string(i) + "].mass is beyond this engine");
       if (plumb::slot_of(ids[i]) >= bodies_.size()) bodies_.resize(plumb::slot_of(ids[i]) + 1);
       bodies_[plumb::slot_of(ids[i])] = descs[i];
     }

@@ -76,6 +76,13 @@ TEST(Against, AMetricWithoutAThresholdHasChangedAndNoMore) {
   EXPECT_EQ(compared.result.count(Sense::worse), 0u);
 }
 
+TEST(Against, WhatNobodyCouldJudgeIsNeitherWorseNorBetter) {
+  std::vector<Json> passed{row_of(0.004, 1)}, unjudged{row_of(0.004, 1)};
+  unjudged[0]["status"] = "unjudged";
+  EXPECT_EQ(changes(compare(passed, unjudged).result), "result changed");
+  EXPECT_EQ(changes(compare(unjudged, passed).result), "result changed");
+}
+
 TEST(Against, VerdictsAreWorseBetterOrChanged) {
   std::vector<Json> passed{row_of(0.004, 1)}, crashed{row_of(0.004, 1)};
   crashed[0]["status"] = "crashed";

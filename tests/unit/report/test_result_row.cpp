@@ -72,7 +72,7 @@ TEST(ResultRow, VerdictsFollowStatusAndMetrics) {
   EXPECT_EQ(verdict(1e-5), Verdict::gold);
   EXPECT_EQ(verdict(1e-3), Verdict::pass);
   EXPECT_EQ(verdict(0.02), Verdict::failed);
-  for (const char* status : {"unsupported", "crashed", "timeout", "out_of_memory", "error"}) {
+  for (const char* status : {"unsupported", "unjudged", "crashed", "timeout", "out_of_memory", "error"}) {
     Json line = testing::sample_row("S", "b", 1e-5, 1);
     line["status"] = status;
     EXPECT_EQ(verdict_word(parse_row(line, 0).verdict()), status);

@@ -252,9 +252,10 @@ TEST_P(Verdicts, SumsAddUp) {
               of(Verdict::crashed) + of(Verdict::timeout) + of(Verdict::out_of_memory) + of(Verdict::error));
     EXPECT_EQ(overview.lost.size(), overview.failures.size() + overview.broken.size());
     EXPECT_EQ(overview.unsupported.size(), of(Verdict::unsupported));
-    EXPECT_EQ(
-        of(Verdict::gold) + of(Verdict::pass) + of(Verdict::ran) + overview.lost.size() + overview.unsupported.size(),
-        static_cast<std::size_t>(overview.problems));
+    EXPECT_EQ(overview.unjudged.size(), of(Verdict::unjudged));
+    EXPECT_EQ(of(Verdict::gold) + of(Verdict::pass) + of(Verdict::ran) + overview.lost.size() +
+                  overview.unsupported.size() + overview.unjudged.size(),
+              static_cast<std::size_t>(overview.problems));
     for (std::size_t t = 0; t < target_errors.size(); ++t) {
       const ReachCount& count = overview.reach[t];
       EXPECT_LE(count.reached, count.tests);
