@@ -46,8 +46,8 @@ struct PageContext {
 [[nodiscard]] std::string first_screen(const PageContext& context);
 /// A card an engine: verdicts, where it is best, where it breaks.
 [[nodiscard]] PageSection engines_section(const PageContext& context);
-/// Every engine's defaults in one picture: time over the fastest engine's, error over the scene's threshold. null
-/// where no engine has both.
+/// Every engine's defaults in one picture: time over that of the fastest engine that passes, error over the scene's
+/// threshold. null where no engine has both.
 [[nodiscard]] Json speed_figure(const PageContext& context);
 /// Sections are empty where there is nothing to show.
 [[nodiscard]] PageSection against_section(const PageContext& context);

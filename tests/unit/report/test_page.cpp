@@ -86,6 +86,26 @@ TEST(Page, EveryFigureLinksToARowThatIsThere) {
   }
 }
 
+TEST(Page, TimeIsToldByTheFastestRunThatPasses) {
+  if (!has_page_script()) GTEST_SKIP() << "built without node";
+  const std::vector<Json> rows{
+      testing::sample_row("S1", "fails", 0.02, 1), testing::sample_row("S1", "passes", 0.005, 2),
+      testing::sample_row("S2", "fails", 0.02, 1), testing::sample_row("S2", "passes", 0.02, 2)};
+  Json plot;
+  for (const Json& section : testing::packed_data(rows)) {
+    for (const Json& block : section) {
+      for (const Json& figure : block.value("figures", Json::array())) {
+        if (figure["plots"][0]["description"].get<std::string>().ends_with("every engine as it ships"))
+          plot = figure["plots"][0];
+      }
+    }
+  }
+  ASSERT_EQ(plot["series"].size(), 4u) << plot.dump();
+  EXPECT_EQ(plot["series"][0]["points"], Json::parse(R"([{"x": 0.5, "y": 2, "r": 0}])"))
+      << "of S2 nobody passes, so that it has no fastest";
+  EXPECT_EQ(plot["series"][1]["points"], Json::parse(R"([{"x": 1, "y": 0.5, "r": 1}])"));
+}
+
 TEST(Page, AsksForNothingFromOutside) {
   std::string page = testing::packed_page(testing::sample_rows(1));
   EXPECT_EQ(count(page, "content=\"default-src 'none'; script-src 'unsafe-inline';"), 1u) << "the browser sees to it";
