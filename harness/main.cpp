@@ -3,12 +3,15 @@
 #include <signal.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
+#include <iostream>
 
 #include "cli/verbs.hpp"
 #include "plumb/nearest.hpp"
 #include "run/worker_process.hpp"
 #include "scene/scene.hpp"
+#include "scene/shown.hpp"
 
 namespace {
 
@@ -46,6 +49,19 @@ std::string hint(const CLI::App& program, int count, char** arguments) {
   return "";
 }
 
+// What was typed may be long, and is told in one line of some length, without what a terminal obeys.
+void complain(const std::string& text) {
+  constexpr std::size_t longest_word = 300, longest = 1500;
+  std::string shown;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find(' ', at), text.size());
+    shown += shortened(text.substr(at, end - at), longest_word);
+    if (end < text.size()) shown += ' ';
+    at = end + 1;
+  }
+  fmt::print(stderr, "plumb: {}\n", shortened(shown, longest));
+}
+
 int parse_and_do(CLI::App& program, int count, char** arguments, const int& status) {
   try {
     if (count >= 2 && arguments[1][0] != '-') {
@@ -55,21 +71,21 @@ int parse_and_do(CLI::App& program, int count, char** arguments, const int& stat
         throw UsageError("there is no verb \"" + verb + "\"" + suggestion(verb, verbs));
     }
     program.parse(count, arguments);
+    if (!std::cout.flush() || std::fflush(stdout) != 0)
+      throw UsageError("cannot write to standard output: is its disk full?");
     return status;
   } catch (const CLI::Success& asked_for_help) {
     return program.exit(asked_for_help);
   } catch (const CLI::ParseError& error) {
-    fmt::print(stderr, "plumb: {}{}\n", error.what(), hint(program, count, arguments));
-    return wrong_question;
-  } catch (const UsageError& error) {
-    fmt::print(stderr, "plumb: {}\n", error.what());
+    complain(error.what() + hint(program, count, arguments));
     return wrong_question;
   } catch (const Interrupted& interrupted) {
+    std::cout.flush();
     signal(interrupted.signal, SIG_DFL);
     raise(interrupted.signal);
     return 128 + interrupted.signal;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "plumb: {}\n", error.what());
+    complain(error.what());
     return wrong_question;
   }
 }
@@ -77,6 +93,7 @@ int parse_and_do(CLI::App& program, int count, char** arguments, const int& stat
 }  // namespace
 
 int main(int count, char** arguments) {
+  signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error like others
   CLI::App program("Holds physics backends against the truth: the same scenes, the same measures, any engine.",
                    "plumb");
   int status = 0;

@@ -7,10 +7,10 @@
 
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <optional>
 
+#include "cli/draft_file.hpp"
 #include "cli/examples.hpp"
 #include "cli/page_replays.hpp"
 #include "cli/verbs.hpp"
@@ -29,13 +29,6 @@ struct ExportOptions {
   std::string size = "1280x720", layers, theme;
   std::optional<double> at, fps;
 };
-
-void write_file(const std::string& file, const std::string& bytes) {
-  std::ofstream out(file, std::ios::binary | std::ios::trunc);
-  out << bytes;
-  if (!out.flush())
-    throw UsageError("cannot write " + file + "; name a file in a folder that is there and may be written to");
-}
 
 std::string page_of(const std::vector<Trajectory>& trajectories) {
   if (!has_viewer())
@@ -59,7 +52,7 @@ class TemporaryPage {
     if (descriptor < 0) throw UsageError("cannot make a file in " + std::filesystem::temp_directory_path().string());
     close(descriptor);
     file_ = name;
-    write_file(file_, text);
+    DraftFile(file_).write(text);
   }
   ~TemporaryPage() {
     std::error_code ignored;
@@ -116,16 +109,19 @@ void take_pictures(const ExportOptions& options, const std::string& page) {
 void export_files(const ExportOptions& options) {
   if (options.gltf.empty() && options.page.empty() && options.png.empty() && options.frames.empty())
     throw UsageError("say what to make: --gltf FILE.glb, --page FILE.html, --png FILE --at SECONDS, or --frames DIR");
+  std::optional<DraftFile> gltf_file, page_file;
+  if (!options.gltf.empty()) gltf_file.emplace(options.gltf);
+  if (!options.page.empty()) page_file.emplace(options.page);
   std::vector<Trajectory> trajectories;
   for (const std::string& file : options.files) trajectories.push_back(read_trajectory(file));
-  if (!options.gltf.empty()) {
+  if (gltf_file) {
     if (trajectories.size() != 1)
       throw UsageError("--gltf takes one trajectory, not " + std::to_string(trajectories.size()));
-    write_file(options.gltf, binary_gltf(trajectories.front()));
+    gltf_file->write(binary_gltf(trajectories.front()));
   }
   if (options.page.empty() && options.png.empty() && options.frames.empty()) return;
   const std::string page = page_of(trajectories);
-  if (!options.page.empty()) write_file(options.page, page);
+  if (page_file) page_file->write(page);
   if (!options.png.empty() || !options.frames.empty()) take_pictures(options, page);
 }
 

@@ -15,17 +15,17 @@ std::vector<std::string> split(const std::string& text, char at) {
   return parts;
 }
 
-OptionEntry entry_of(const CLI::Option& option) {
+OptionEntry entry_of(const CLI::Option& option, bool positional) {
   OptionEntry entry;
   entry.doc = option.get_description();
   entry.default_text = option.get_default_str();
   entry.required = option.get_required();
-  entry.positional = option.get_positional();
+  entry.positional = positional;
   entry.repeatable =
       option.get_items_expected_max() > 1 || option.get_multi_option_policy() == CLI::MultiOptionPolicy::TakeAll;
   for (const std::string& name : option.get_lnames()) entry.names.push_back("--" + name);
   for (const std::string& name : option.get_snames()) entry.names.push_back("-" + name);
-  if (entry.positional) entry.names = {option.get_name(true)};
+  if (positional) entry.names = {option.get_name(true)};
   const bool takes_value = option.get_type_size_max() != 0;
   if (!takes_value) return entry;
   // "WORD:{light,dark}": a type, and after a colon what its validator allows.
@@ -39,8 +39,12 @@ OptionEntry entry_of(const CLI::Option& option) {
 
 std::vector<OptionEntry> options_of(const CLI::App& app) {
   std::vector<OptionEntry> options;
-  for (const CLI::Option* option : app.get_options())
-    if (!option->get_group().empty()) options.push_back(entry_of(*option));
+  for (const CLI::Option* option : app.get_options()) {
+    if (option->get_group().empty()) continue;
+    // What may be given either way is both.
+    if (option->get_positional()) options.push_back(entry_of(*option, true));
+    if (option->nonpositional()) options.push_back(entry_of(*option, false));
+  }
   std::stable_partition(options.begin(), options.end(), [](const OptionEntry& option) { return option.positional; });
   return options;
 }

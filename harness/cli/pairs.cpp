@@ -16,7 +16,7 @@ namespace plumb::harness {
 namespace {
 
 struct PairsOptions {
-  std::string out;
+  std::string out = "plumb-results";
   std::vector<std::string> backends, pairs;
   double timeout = 60;
 };
@@ -80,8 +80,12 @@ void add_pairs(CLI::App& program, int& status) {
   const auto options = std::make_shared<PairsOptions>();
   CLI::App* verb = program.add_subcommand(
       "pairs", "Record what backends find between all pairs of shapes as one passes around and into the other");
-  verb->add_option("BACKEND", options->backends, "Names or files; none: all on the search path");
-  verb->add_option("--out", options->out, "Results folder: its report shows them")->type_name("DIR")->required();
+  verb->add_option("--backend,BACKEND", options->backends,
+                   "Names or files, with or without --backend; none: all on the search path")
+      ->type_name("BACKEND");
+  verb->add_option("--out", options->out, "Results folder: its report shows them")
+      ->type_name("DIR")
+      ->capture_default_str();
   verb->add_option("--pair", options->pairs, "Only this pair, such as box-capsule or capsule-box; repeatable")
       ->type_name("PAIR")
       ->take_all()

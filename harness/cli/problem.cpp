@@ -1,6 +1,7 @@
 // plumb problem: writes the contact problem of a scene's step for other solvers. plumb solve: solves such a file.
 #include <fmt/format.h>
 
+#include <charconv>
 #include <chrono>
 #include <iostream>
 #include <memory>
@@ -96,6 +97,14 @@ Json rows_of(const Eigen::VectorXd& values, int dimension) {
   return rows;
 }
 
+/// "" for what is one, else what is wrong with it.
+std::string whole_number(const std::string& text) {
+  std::uint64_t number = 0;
+  const char* end = text.data() + text.size();
+  const auto [stop, failure] = std::from_chars(text.data(), end, number);
+  return failure == std::errc{} && stop == end ? "" : text + " is no number of a step: they are 0, 1, 2 and so on";
+}
+
 std::string verdict(const reference::Solution& solution) {
   return fmt::format(
       "{}: residual {:.3g} (cone {:.3g}, dual cone {:.3g}, complementarity {:.3g}), {} sweeps, {} Newton "
@@ -176,7 +185,9 @@ void add_problem(CLI::App& program, int& status) {
   verb->add_option("SCENE", options->scene, "Id, slug or file of one scene")->required();
   verb->add_option("--backend", options->backend, "Name or file of the backend that does the steps before")
       ->type_name("BACKEND");
-  verb->add_option("--step", options->step, "Steps done before; 0: as the scene starts")->capture_default_str();
+  verb->add_option("--step", options->step, "Steps done before; 0: as the scene starts")
+      ->check(whole_number)
+      ->capture_default_str();
   verb->add_option("--param", options->parameters, "name=value of a scene's parameter, repeatable")
       ->type_name("NAME=VALUE")
       ->take_all()

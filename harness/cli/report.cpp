@@ -4,10 +4,12 @@
 
 #include <chrono>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <memory>
+#include <optional>
+#include <sstream>
 
+#include "cli/draft_file.hpp"
 #include "cli/examples.hpp"
 #include "cli/output.hpp"
 #include "cli/page_replays.hpp"
@@ -46,29 +48,13 @@ std::map<std::string, SceneText> scene_texts() {
   return texts;
 }
 
-/// Written beside and moved into place, so that a reader never sees half a page.
-void write_page_file(const std::string& file, const std::vector<Json>& rows, PageOptions page) {
-  const std::string draft = file + ".part";
-  {
-    std::ofstream out(draft, std::ios::binary);
-    const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-    page.written = fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(now));
-    page.scenes = scene_texts();
-    write_page(out, rows, page);
-    out.close();
-    if (!out) {
-      std::error_code ignored;
-      std::filesystem::remove(draft, ignored);
-      throw UsageError("cannot write " + file + "; name a file in a folder that is there and may be written to");
-    }
-  }
-  std::error_code failure;
-  std::filesystem::rename(draft, file, failure);
-  if (failure) {
-    std::error_code ignored;
-    std::filesystem::remove(draft, ignored);
-    throw UsageError("cannot write " + file + ": " + failure.message());
-  }
+std::string page_text(const std::vector<Json>& rows, PageOptions page) {
+  const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  page.written = fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(now));
+  page.scenes = scene_texts();
+  std::ostringstream out;
+  write_page(out, rows, page);
+  return out.str();
 }
 
 /// The folder's rows; what is wrong with some is said, and none at all is an error.
@@ -118,18 +104,20 @@ bool report_against(const ReportOptions& options, const std::vector<Json>& rows,
 }
 
 int report(const ReportOptions& options) {
+  std::optional<DraftFile> file;
+  if (!options.html.empty()) file.emplace(options.html);
   std::vector<Json> rows;
   for (const std::string& folder : options.folders) {
-    if (!options.html.empty() && has_recordings_alone(folder)) continue;
+    if (file && has_recordings_alone(folder)) continue;
     for (Json& row : rows_of(folder)) rows.push_back(std::move(row));
   }
   const std::vector<Json> baseline = options.against.empty() ? std::vector<Json>() : rows_of(options.against);
-  if (!options.html.empty()) {
+  if (file) {
     PageOptions page = page_options(options, baseline);
     // Of several machines one was looked at, if any.
     for (const std::string& folder : options.folders)
       if (!options.no_replays && page.replays.empty()) add_replays(folder, options.replays, page);
-    write_page_file(options.html, rows, std::move(page));
+    file->write(page_text(rows, std::move(page)));
     fmt::print(stderr, "wrote {}\n", options.html);
   }
   if (!options.against.empty()) return report_against(options, rows, baseline) && options.strict ? 1 : 0;

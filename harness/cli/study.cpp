@@ -1,12 +1,11 @@
 #include <fmt/format.h>
 
-#include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <map>
 #include <memory>
 
 #include "cli/examples.hpp"
+#include "cli/going_on.hpp"
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
 #include "plumb/nearest.hpp"
@@ -41,22 +40,6 @@ StudyFile resolved_study(const StudyVerbOptions& options) {
     study.json["confidence"] = options.confidence;
   }
   return study;
-}
-
-/// The line that started this program, as somebody would type it again.
-std::string typed_line() {
-  std::ifstream file("/proc/self/cmdline", std::ios::binary);
-  std::string line, word;
-  while (std::getline(file, word, '\0')) {
-    if (line.empty()) word = std::filesystem::path(word).filename().string();
-    const bool plain = !word.empty() && word.find_first_of(" '\"\\$*?;&|<>()") == std::string::npos;
-    line += (line.empty() ? "" : " ") + (plain ? word : "'" + word + "'");
-  }
-  return line;
-}
-
-std::string count_of(std::size_t count, const char* thing) {
-  return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
 }
 
 void print_plan(const StudyPlan& plan, const StudyFile& study) {
@@ -129,6 +112,7 @@ int run_study_verb(const StudyVerbOptions& options) {
   }
   std::map<std::string, std::map<std::string, std::size_t>> statuses;
   bool missed = false;
+  std::size_t finished = 0;
   StudyOutcome outcome;
   {
     ProgressBar bar(true);
@@ -136,13 +120,20 @@ int run_study_verb(const StudyVerbOptions& options) {
     callbacks.finished = [&](const Json& row, bool is_new) {
       const std::string status = row.value("status", "error");
       ++statuses[row.value("backend", "")][status];
+      ++finished;
       missed = missed || (status != "ok" && status != "unsupported");
       if (!options.json || (!is_new && !ranks.speaks())) return;
       bar.clear();
       std::cout << line_of(row) << std::endl;  // whoever reads the pipe has it at once
     };
     if (ranks.speaks()) callbacks.progress = [&](const StudyProgress& progress) { bar.draw(progress); };
-    outcome = run_study_plan(plan, study, options.fixed, ranks, results, callbacks);
+    try {
+      outcome = run_study_plan(plan, study, options.fixed, ranks, results, callbacks);
+    } catch (const Interrupted&) {
+      bar.clear();
+      if (ranks.speaks()) say_how_to_go_on(finished, options.out);
+      throw;
+    }
   }
   if (ranks.speaks()) {
     print_outcome(outcome);

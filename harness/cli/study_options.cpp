@@ -5,6 +5,7 @@
 #include <iostream>
 #include <optional>
 
+#include "cli/going_on.hpp"
 #include "report/csv.hpp"
 #include "run/study.hpp"
 #include "scene/expressions.hpp"
@@ -110,12 +111,24 @@ int run_and_print(const StudyOptions& options, PrintRows print) {
   if (!request.out.empty()) results.emplace(request.out);
 
   std::vector<Json> rows;
-  std::size_t known = 0;
+  std::size_t known = 0, finished = 0;
   bool missed = false;
+  const auto show = [&] {
+    if (options.output.csv) {
+      write_csv(std::cout, rows);
+    } else if (!options.output.json) {
+      print(std::cout, rows, terminal_width(), wants_colour());
+    }
+    if (!results) return;
+    // Behind a table for people; beside lines for programs.
+    const std::string where = "results in " + (results->folder() / "results.jsonl").string() + "\n";
+    (options.output.json || options.output.csv ? std::cerr : std::cout) << where;
+  };
   {
     ProgressBar bar;
     StudyCallbacks callbacks;
     callbacks.finished = [&](const Json& row, bool is_new) {
+      ++finished;
       if (!is_new) ++known;
       missed = missed || misses_something(row);
       if (options.output.json) {
@@ -126,15 +139,21 @@ int run_and_print(const StudyOptions& options, PrintRows print) {
       }
     };
     callbacks.progress = [&](const StudyProgress& progress) { bar.draw(progress); };
-    run_study(plan, request, results ? &*results : nullptr, callbacks);
+    try {
+      run_study(plan, request, results ? &*results : nullptr, callbacks);
+    } catch (const Interrupted&) {
+      bar.clear();
+      if (!rows.empty()) show();
+      say_how_to_go_on(finished, request.out);
+      throw;
+    } catch (...) {
+      bar.clear();
+      if (!rows.empty()) show();
+      throw;
+    }
   }
   if (known > 0) fmt::print(stderr, "{} cells were finished already in {}\n", known, request.out);
-  if (options.output.csv) {
-    write_csv(std::cout, rows);
-  } else if (!options.output.json) {
-    print(std::cout, rows, terminal_width(), wants_colour());
-    if (results) std::cout << "results in " << (results->folder() / "results.jsonl").string() << "\n";
-  }
+  show();
   return options.strict && missed ? 1 : 0;
 }
 

@@ -15,6 +15,16 @@
 
 namespace plumb::harness {
 
+namespace {
+
+// Of a row that did not go in whole nothing stays, unless another process has written behind it.
+void take_back(int descriptor, std::size_t written) {
+  const off_t end = lseek(descriptor, 0, SEEK_CUR), last = lseek(descriptor, 0, SEEK_END);
+  if (written > 0 && end == last) (void)!ftruncate(descriptor, end - static_cast<off_t>(written));
+}
+
+}  // namespace
+
 ResultsFile::ResultsFile(const std::filesystem::path& folder, const std::string& name)
     : folder_(folder), file_(folder / name) {
   std::error_code failure;
@@ -77,7 +87,11 @@ void ResultsFile::write_all(const std::string& bytes) {
   while (written < bytes.size()) {
     const ssize_t count = write(descriptor_, bytes.data() + written, bytes.size() - written);
     if (count < 0 && errno == EINTR) continue;
-    if (count < 0) throw std::system_error(errno, std::generic_category(), "writing " + file_.string());
+    if (count < 0) {
+      const int error = errno;
+      take_back(descriptor_, written);
+      throw std::system_error(error, std::generic_category(), "writing " + file_.string());
+    }
     written += static_cast<std::size_t>(count);
   }
 }

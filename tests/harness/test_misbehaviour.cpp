@@ -41,6 +41,11 @@ TEST(Misbehaviour, hang_is_a_timeout) { expect_row(row_of("hang", {"--timeout", 
 TEST(Misbehaviour, eaten_memory_is_out_of_memory) {
   expect_row(row_of("eat_memory", {"--memory-limit", "400"}), "out_of_memory", "limit");
 }
+TEST(Misbehaviour, memory_is_told_in_units_that_say_something) {
+  const Json row = row_of("none", {"--memory-limit", "1", "--set", "pause=0.01"});
+  expect_row(row, "out_of_memory", " is above the limit of 1 MB");
+  EXPECT_EQ(row.value("reason", "").find("0.00"), std::string::npos) << row["reason"];
+}
 TEST(Misbehaviour, exception_is_an_error_with_its_text) { expect_row(row_of("throw"), "error", "the engine threw"); }
 TEST(Misbehaviour, refusal_for_memory_is_out_of_memory) {
   expect_row(row_of("refuse"), "out_of_memory", "no room for contacts");

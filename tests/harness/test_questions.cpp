@@ -62,6 +62,39 @@ std::vector<std::string> curves_with(const std::vector<std::string>& more) {
   return arguments;
 }
 
+TEST(Questions, pairs_of_a_backend_that_is_not_there) {
+  expect_refusal({"pairs", "--backend", "nope"}, "there is no backend \"nope\"");
+  expect_refusal({"pairs", "nope"}, "there is no backend \"nope\"");
+}
+TEST(Questions, number_of_a_step_below_0) {
+  expect_refusal({"problem", "D7", "--step", "-1", "--out", "never.hdf5"}, "-1 is no number of a step");
+  expect_refusal({"problem", "D7", "--step", "1.5", "--out", "never.hdf5"}, "1.5 is no number of a step");
+}
+TEST(Questions, long_ones_are_cut_short_in_the_answer) {
+  const std::string chatter(40000, 'x');
+  std::string prose;
+  for (int i = 0; i < 8000; ++i) prose += "word ";
+  for (const std::string& text : {chatter, "--" + chatter, prose}) {
+    for (const std::vector<std::string>& arguments : {std::vector<std::string>{text},
+                                                      {"run", text},
+                                                      a1_with({"--param", text + "=1"}),
+                                                      a1_with({text}),
+                                                      a1_with({"--set", text}),
+                                                      a1_with({"--dt", text}),
+                                                      a1_with({"--profile", text}),
+                                                      {"report", text},
+                                                      {"study", text},
+                                                      {"measures", text}}) {
+      const Finished finished = plumb(arguments);
+      EXPECT_EQ(finished.status, 2) << arguments.front().substr(0, 20);
+      EXPECT_LT(finished.err.size(), 2000u) << arguments.front().substr(0, 20);
+      EXPECT_FALSE(finished.err.empty());
+    }
+  }
+}
+TEST(Questions, degrees_are_called_deg) { expect_refusal(a1_with({"--dt", "degrees(1)"}), "deg(x)"); }
+TEST(Questions, judge_timeout_of_nothing) { expect_refusal(a1_with({"--judge-timeout", "0"}), "--judge-timeout"); }
+
 TEST(Questions, misspelt_setting_of_a_sweep) {
   expect_refusal(curves_with({"--over", "misbehavior"}), "\"misbehaviour\"");
   expect_refusal(curves_with({"--along", "substep"}), "\"substeps\"");
