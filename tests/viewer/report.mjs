@@ -227,6 +227,69 @@ test('an address leads to a run, with the command that repeats it', () =>
     assert.equal(await details.count(), 0);
   }));
 
+/** Where a run's line is: how far below the head of its table, and whether one sees it. */
+const lineOf = (page, id) =>
+  page.evaluate((name) => {
+    const line = document.querySelector(`tbody#${name} > tr`),
+      table = line.closest('.scroll'),
+      box = line.getBoundingClientRect(),
+      head = table.querySelector('thead').offsetHeight,
+      seen = document.elementFromPoint(box.left + box.width / 2, box.top + 4);
+    return { below: box.top - table.getBoundingClientRect().top - head, seen: line.contains(seen) };
+  }, id);
+
+test('an address leads to exactly its run, however much is drawn on the way, and to the next one', async () => {
+  for (const width of [1400, 420])
+    await visit(
+      one,
+      async (page) => {
+        // As in browsers that do not keep in place what one looks at.
+        await page.evaluate(() => document.documentElement.style.setProperty('overflow-anchor', 'none'));
+        for (const run of ['r4321', 'r17', 'r2500', 'r2510']) {
+          await page.evaluate((place) => {
+            location.hash = place;
+          }, run);
+          await page.locator(`tbody#${run}.open`).waitFor();
+          await page.waitForTimeout(1500);
+          const { below, seen } = await lineOf(page, run);
+          assert.ok(Math.abs(below) < 3 && seen, `${run} is ${below} px below the head of its table at ${width}${seen ? '' : ', out of sight'}`);
+        }
+      },
+      { width },
+    );
+});
+
+test('a link leads to its run through sections that are folded, and none unfolds by itself', () =>
+  visit(`${one}#cost`, async (page) => {
+    const isOpen = (id) => page.evaluate((name) => document.querySelector(`#${name} > details.fold`).open, id);
+    await goTo(page, 'runs');
+    for (const id of ['runs', 'fronts']) await page.locator(`#${id} > details.fold > summary`).click();
+    await page.locator('.links a[href="#cost"]').click();
+    await page.evaluate(() => document.documentElement.style.setProperty('overflow-anchor', 'none'));
+    const link = page.locator('#cost tbody a[href^="#r"]').first();
+    await link.waitFor();
+    const run = (await link.getAttribute('href')).slice(1);
+    await link.click();
+    await page.locator(`tbody#${run}.open`).waitFor();
+    await page.waitForTimeout(1500);
+    const { below, seen } = await lineOf(page, run);
+    assert.ok(Math.abs(below) < 3 && seen, `${run} is ${below} px below the head of its table${seen ? '' : ', out of sight'}`);
+    assert.deepEqual([await isOpen('runs'), await isOpen('fronts')], [true, false]);
+  }));
+
+test('sections that are folded stay folded for whoever is sent the address', async () => {
+  let address;
+  await visit(one, async (page) => {
+    await page.locator('#matrix > details.fold > summary').click();
+    await page.waitForFunction(() => /folded=matrix/.test(location.hash));
+    address = await page.evaluate(() => location.hash);
+  });
+  await visit(one + address, async (page) => {
+    const folded = await page.evaluate(() => [...document.querySelectorAll('section > details.fold:not([open])')].map((fold) => fold.parentElement.id));
+    assert.deepEqual(folded, ['matrix']);
+  });
+});
+
 test('a point of a diagram leads to its run, by keyboard, too', () =>
   visit(one, async (page) => {
     const plot = page.locator('#speed svg.plot');

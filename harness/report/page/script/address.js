@@ -1,8 +1,9 @@
-// The address says where the reader is and what the filter leaves: #runs&filter=D1+gold&group=stacking&hide=ode.
+// The address says where the reader is, what the filter leaves and which sections are folded:
+// #runs&filter=D1+gold&group=stacking&hide=ode&folded=cost.
 
-const kKeys = ['filter', 'group', 'result', 'hide', 'machine', 'theme'];
+const kKeys = ['filter', 'group', 'result', 'hide', 'folded', 'machine', 'theme'];
 
-/** {place, filter, group, result, hide, machine, theme}, each "" where the address has none. */
+/** {place, filter, group, result, hide, folded, machine, theme}, each "" where the address has none. */
 export function readAddress(hash = location.hash) {
   const parts = hash.replace(/^#/, '').split('&'),
     place = parts[0].includes('=') ? '' : parts.shift(),

@@ -1,9 +1,11 @@
-// The report's page: opens what is packed when it comes into sight, keeps filter and place in the address, and leads
-// from every figure to its run.
+// The report's page: opens what is packed when it comes into sight, keeps filter, folds and place in the address, and
+// leads from every figure to its run.
 import { element } from '../../../viewer/src/dom.js';
 import { changeAddress, readAddress } from './address.js';
 import { blockElement } from './blocks.js';
 import { Filter } from './filter.js';
+import { readFolds, watchFolds } from './folds.js';
+import { landOn } from './land.js';
 import { enginesOfPage } from './looks.js';
 import { Runs } from './runs.js';
 import { onceInSight } from './sight.js';
@@ -65,8 +67,14 @@ class MachinePage {
     const table = await this.table,
       row = table.data.rows.find((other) => other.index === index);
     if (!this.filter.passes(row)) this.filter.set({});
-    table.reveal(row);
-    table.element.scrollIntoView({ block: 'start' });
+    table.unfold(row);
+    await landOn(
+      () => table.lineIn(row),
+      () => {
+        table.element.scrollIntoView({ block: 'start' });
+        table.bring(row);
+      },
+    );
     return true;
   }
 }
@@ -123,7 +131,10 @@ async function go(place, { push = true } = {}) {
   if (machine) choose(machine);
   const fold = target.querySelector('details.fold');
   if (fold) fold.open = true;
-  target.scrollIntoView();
+  await landOn(
+    () => target,
+    () => target.scrollIntoView(),
+  );
 }
 
 document.addEventListener('click', (event) => {
@@ -136,6 +147,7 @@ document.addEventListener('click', (event) => {
 function arrive() {
   const { machine, place } = readAddress();
   filter.read();
+  readFolds();
   choose(machines[Number(machine)] ?? machines[0]);
   if (place) go(place, { push: false });
 }
@@ -172,6 +184,7 @@ window.addEventListener('resize', () => {
 
 document.querySelector('.controls').hidden = false;
 arrive();
+watchFolds();
 Promise.all(machines.map((machine) => machine.opened)).then(() => {
   root.dataset.ready = '';
 });

@@ -212,13 +212,20 @@ export class TableView {
     if (focused) fresh.querySelector('.opener').focus();
   }
 
-  /** Opens the line and brings it into sight. */
-  reveal(row) {
-    this.open.add(row);
-    const index = this.rows.indexOf(row);
-    this.virtual.scrollToIndex(index, { align: 'start' });
-    this.draw();
+  /** Opens the line, in sight or not. */
+  unfold(row) {
     this.toggle(row, true);
-    this.virtual.scrollToIndex(index, { align: 'start' });
+  }
+
+  /** The line as it is drawn; undefined out of sight. */
+  lineIn(row) {
+    return this.drawn.get(row);
+  }
+
+  /** Scrolls the table to the line: to where it ought to be, and once it is drawn to where it is. */
+  bring(row) {
+    const body = this.drawn.get(row);
+    if (!body) return this.virtual.scrollToIndex(this.rows.indexOf(row), { align: 'start' });
+    this.scroll.scrollTop += body.getBoundingClientRect().top - this.scroll.getBoundingClientRect().top - this.head.offsetHeight;
   }
 }
