@@ -227,7 +227,10 @@ test('an address leads to a run, with the command that repeats it', () =>
     assert.equal(await details.count(), 0);
   }));
 
-/** Where a run's line is: how far below the head of its table, and whether one sees it. */
+/**
+ * Where a run's line is: how far below the head of its table, how far that table could still be moved up towards the top
+ * of the screen, and whether one sees the line.
+ */
 const lineOf = (page, id) =>
   page.evaluate((name) => {
     const line = document.querySelector(`tbody#${name} > tr`),
@@ -235,7 +238,9 @@ const lineOf = (page, id) =>
       box = line.getBoundingClientRect(),
       head = table.querySelector('thead').offsetHeight,
       seen = document.elementFromPoint(box.left + box.width / 2, box.top + 4);
-    return { below: box.top - table.getBoundingClientRect().top - head, seen: line.contains(seen) };
+    const { top } = table.getBoundingClientRect(),
+      rest = document.documentElement.scrollHeight - innerHeight - scrollY;
+    return { below: box.top - top - head, short: Math.min(top - 100, rest), seen: line.contains(seen) };
   }, id);
 
 test('an address leads to exactly its run, however much is drawn on the way, and to the next one', async () => {
@@ -251,7 +256,8 @@ test('an address leads to exactly its run, however much is drawn on the way, and
           }, run);
           await page.locator(`tbody#${run}.open`).waitFor();
           await page.waitForTimeout(1500);
-          const { below, seen } = await lineOf(page, run);
+          const { below, short, seen } = await lineOf(page, run);
+          assert.ok(short < 3, `the table of ${run} is ${short} px too low at ${width}`);
           assert.ok(Math.abs(below) < 3 && seen, `${run} is ${below} px below the head of its table at ${width}${seen ? '' : ', out of sight'}`);
         }
       },
