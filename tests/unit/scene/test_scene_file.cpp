@@ -115,6 +115,22 @@ TEST_F(SceneFiles, BecomeScenes) {
   EXPECT_EQ(file.instantiate({}).bodies.size(), 3u);
 }
 
+TEST_F(SceneFiles, GiveAGridTheHeightOfAnExpression) {
+  std::string text = good;
+  const std::string shapes = "\"shapes\": {";
+  text.replace(text.find(shapes), shapes.size(),
+               shapes + R"("hills": { "type": "triangle_mesh", "grid": [2, 3], "height": "n + x / 3 + 10 * z" },)");
+  const Scene scene = load(text).instantiate({{"n", 2.0}});
+  const auto hills = std::find_if(scene.shapes.begin(), scene.shapes.end(),
+                                  [](const SceneShape& shape) { return shape.name == "hills"; });
+  ASSERT_NE(hills, scene.shapes.end());
+  ASSERT_EQ(hills->vertices.size(), 27u);
+  for (std::size_t i = 0; i < 27; i += 3)
+    EXPECT_DOUBLE_EQ(hills->vertices[i + 1], 2 + hills->vertices[i] / 3 + 10 * hills->vertices[i + 2]);
+  EXPECT_EQ(hills->vertices[0], -3);
+  EXPECT_EQ(hills->vertices[1], 2 - 1 - 30);
+}
+
 TEST_F(SceneFiles, TakeWhatTheyDoNotNeedFromTheirBodies) {
   std::string text = good;
   text.replace(text.find(R"("rotation", "collision", "friction", )"), 37, R"("collision", )");
