@@ -166,7 +166,13 @@ double all_way(const Observation& o) {
     return (referee::vec(of.now.poses()[body].position) - referee::vec(start)).norm();
   });
 }
-double all_gap(const Observation& o) { return o.scene.view().joint_gap(o.now.poses()); }
+/// Of bodies that do not move on those that do.
+Vec3 all_ground_force(const Observation& o) {
+  ImpulseAccount step(o.now);
+  step.add(o.now);
+  return step.from_ground();
+}
+double all_gap(const Observation& o) { return o.scene.view().joint_gap(o.now.poses(), o.now.time()); }
 
 }  // namespace
 
@@ -228,6 +234,8 @@ std::span<const QuantitySpec> quantity_specs() {
       {all, "angular_momentum", "kg m2/s", "of all bodies, about the origin", all_angular_momentum},
       {all, "overlap", "m", "the deepest of any two that may touch", nullptr, all_overlap},
       {all, "gap", "m", "the widest of any joint", nullptr, all_gap},
+      {all, "ground_force", "N", "of static and kinematic bodies on the others, as the engine tells its contacts",
+       all_ground_force, nullptr, of_step, PLUMB_NEED_CONTACTS | PLUMB_NEED_CONTACT_IMPULSES},
       {all, "speed", "m/s", "of the fastest body: 0 at rest", nullptr, all_speed},
       {all, "spin", "rad/s", "of the body that turns fastest", nullptr, all_spin},
       {all, "way", "m", "of the body that is farthest from where it was at the start", nullptr, all_way},

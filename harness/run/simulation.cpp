@@ -7,6 +7,7 @@
 
 #include "plumb/backend/small_math.hpp"
 #include "referee/hash.hpp"
+#include "run/host.hpp"
 #include "run/support.hpp"
 
 namespace plumb::harness {
@@ -44,6 +45,7 @@ double median(std::vector<double> values) {
 struct Simulation::State {
   Scene scene;
   SimulationOptions options;
+  std::unique_ptr<Host> host;
   std::unique_ptr<IPhysicsWorld> world;
   std::vector<PlumbShape> shapes;
   std::vector<PlumbBody> bodies;
@@ -148,6 +150,7 @@ Simulation::Simulation(Backend& backend, const Scene& scene, const SimulationOpt
   State& s = *state_;
   s.scene = scene;
   s.options = options;
+  s.host = std::make_unique<Host>(s.scene);
   if (const std::string lacking = missing_support(backend, scene); !lacking.empty())
     throw Error(PLUMB_E_UNSUPPORTED, lacking);
   s.steps_total = static_cast<std::uint64_t>(std::max(0.0, std::ceil(scene.seconds / scene.dt - 1e-6)));
@@ -192,6 +195,7 @@ PlumbJoint Simulation::joint_handle(std::size_t joint) const { return state_->jo
 bool Simulation::advance() {
   State& s = *state_;
   if (s.steps >= s.steps_total) return false;
+  s.host->before_step(*this);
   PlumbStepReport report{};
   report.struct_size = sizeof(report);
   const auto start = Clock::now();
