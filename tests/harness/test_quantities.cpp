@@ -92,6 +92,8 @@ TEST(Quantities, BlockOnASlopeHasTheCompiledDigits) {
                  EXPECT_GE(double(own["overlap"]["value"]), double(compiled["penetration_max"]["value"]) - 1e-12);
                  EXPECT_NEAR(double(own["push"]["truth"]), 9.81 / 2 * std::sqrt(0.5), 1e-12);
                  EXPECT_GT(double(own["push"]["value"]), 1);
+                 EXPECT_NEAR(double(own["borne"]["truth"]), 9.81 * 0.75, 1e-12);
+                 if (own["borne"]["note"] != "not measured") EXPECT_LT(double(own["borne"]["error"]), 0.3);
                });
 }
 
@@ -113,9 +115,10 @@ TEST(Host, DoesWhatTheSceneSays) {
       EXPECT_NEAR(double(values[name]["value"]), double(values[name]["truth"]), tolerance) << name;
     };
     for (const char* name : {"still", "before"}) expect_near(name, 1e-12);
-    for (const char* name : {"pushed", "ramped", "struck", "spun", "twisted", "carried", "turned"})
+    for (const char* name : {"pushed", "ramped", "struck", "spun", "twisted", "carried", "turned", "fastest"})
       expect_near(name, 1e-5);
-    for (const char* name : {"first", "then"}) expect_near(name, 1e-3);
+    for (const char* name : {"first", "then", "spin"}) expect_near(name, 1e-3);
+    expect_near("farthest", 2.5 / 60);
     expect_near("free", 1e-3);
     expect_near("held", 0.01);
     EXPECT_EQ(double(row["gap"]["value"]), double(row["held"]["value"])) << "a joint that was cut has no gap";
