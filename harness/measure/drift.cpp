@@ -7,9 +7,11 @@ namespace plumb::harness {
 void JointDrift::add(const Scene& scene, std::span<const PoseRow> poses, double time) {
   const auto pose_of = [&](std::size_t body) { return referee::pose(poses[body].position, poses[body].orientation); };
   std::vector<referee::JointError> errors;
-  for (const SceneJoint& joint : scene.joints)
+  for (const SceneJoint& joint : scene.joints) {
+    if (time > joint.cut) continue;
     errors.push_back(referee::joint_error(joint.desc, joint.body_a ? pose_of(*joint.body_a) : referee::Pose{},
                                           pose_of(joint.body_b)));
+  }
   add(errors, time);
 }
 

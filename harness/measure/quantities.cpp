@@ -164,10 +164,11 @@ class EntryReader {
 
   void check_needs(const QuantityWatch::Target& target) {
     const QuantitySpec& spec = *target.spec;
-    for (std::uint32_t bit = 0; bit < PLUMB_NEED_COUNT; ++bit)
+    for (std::uint32_t bit = 0; !metric().optional && bit < PLUMB_NEED_COUNT; ++bit)
       if ((spec.needs >> bit & 1) != 0 && (scene_.needs >> bit & 1) == 0)
-        fail("quantity", fmt::format("{} of a {} is for scenes that need \"{}\": add it to needs", spec.name,
-                                     word_of(spec.of), need_words()[bit]));
+        fail("quantity",
+             fmt::format("{} of a {} is for scenes that need \"{}\": add it to needs, or make the metric optional",
+                         spec.name, word_of(spec.of), need_words()[bit]));
     const bool of_shapes =
         spec.of == Observed::pair && (spec.name == std::string("distance") || spec.name == std::string("overlap"));
     for (const std::size_t body : {target.first, target.second})
@@ -229,14 +230,17 @@ class EntryReader {
       fail(key, fmt::format("{:g} s is beyond the scene's end at {:g} s", time, scene_.seconds));
   }
 
+  [[nodiscard]] const MetricSpec& metric() const {
+    return *std::find_if(scene_.metrics.begin(), scene_.metrics.end(),
+                         [&](const MetricSpec& spec) { return spec.name == name_; });
+  }
+
   void read_unit(QuantityRequest& request) {
-    const auto metric = std::find_if(scene_.metrics.begin(), scene_.metrics.end(),
-                                     [&](const MetricSpec& spec) { return spec.name == name_; });
     const std::string unit = gives_a_time(request.reduction.take) ? "s" : request.target.spec->unit;
     try {
-      request.in_unit = conversion(unit, metric->unit);
+      request.in_unit = conversion(unit, metric().unit);
     } catch (const std::invalid_argument&) {
-      fail("quantity", fmt::format("it is in {}, and its metric is in \"{}\"", unit, metric->unit));
+      fail("quantity", fmt::format("it is in {}, and its metric is in \"{}\"", unit, metric().unit));
     }
   }
 
@@ -362,8 +366,14 @@ void check_quantities(const SceneFile& file, const Scene& scene) {
 }
 
 void measure_quantities(MeasureContext& context) {
-  const Scene& scene = context.scene();
-  const std::vector<QuantityRequest> requests = read_quantities(scene, nullptr);
+  std::vector<QuantityRequest> requests = read_quantities(context.scene(), nullptr);
+  // What an optional metric takes is asked of the engine where it has it.
+  PlumbNeeds wanted = 0;
+  for (const QuantityRequest& request : requests) wanted |= request.target.spec->needs;
+  const PlumbNeeds declared = context.scene().needs;
+  const auto [scene, granted] = with_wanted(context, wanted & ~declared);
+  if (!granted)
+    std::erase_if(requests, [&](const QuantityRequest& one) { return (one.target.spec->needs & ~declared) != 0; });
   ObservedScene observed(scene);
   std::vector<Measured> all;
   for (const QuantityRequest& request : requests) all.emplace_back(request);

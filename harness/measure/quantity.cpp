@@ -143,7 +143,36 @@ Vec3 all_centre(const Observation& o) {
   return sum / o.scene.view().total_mass();
 }
 double all_overlap(const Observation& o) { return std::max(0.0, o.scene.view().penetration(o.now.poses()).max); }
-double all_gap(const Observation& o) { return o.scene.view().joint_gap(o.now.poses()); }
+/// The largest of what the moving bodies give.
+double largest_of_moving(const Observation& o, double (*of_body)(const Observation&, std::size_t body)) {
+  const std::vector<SceneBody>& bodies = o.scene.scene().bodies;
+  double most = 0;
+  for (std::size_t body = 0; body < bodies.size(); ++body)
+    if (bodies[body].desc.motion == PLUMB_DYNAMIC) most = largest(most, of_body(o, body));
+  return most;
+}
+double all_speed(const Observation& o) {
+  return largest_of_moving(
+      o, [](const Observation& of, std::size_t body) { return referee::vec(of.now.velocities()[body].linear).norm(); });
+}
+double all_spin(const Observation& o) {
+  return largest_of_moving(o, [](const Observation& of, std::size_t body) {
+    return referee::vec(of.now.velocities()[body].angular).norm();
+  });
+}
+double all_way(const Observation& o) {
+  return largest_of_moving(o, [](const Observation& of, std::size_t body) {
+    const PlumbVec3& start = of.scene.scene().bodies[body].desc.pose.position;
+    return (referee::vec(of.now.poses()[body].position) - referee::vec(start)).norm();
+  });
+}
+/// Of bodies that do not move on those that do.
+Vec3 all_ground_force(const Observation& o) {
+  ImpulseAccount step(o.now);
+  step.add(o.now);
+  return step.from_ground();
+}
+double all_gap(const Observation& o) { return o.scene.view().joint_gap(o.now.poses(), o.now.time()); }
 
 }  // namespace
 
@@ -205,6 +234,11 @@ std::span<const QuantitySpec> quantity_specs() {
       {all, "angular_momentum", "kg m2/s", "of all bodies, about the origin", all_angular_momentum},
       {all, "overlap", "m", "the deepest of any two that may touch", nullptr, all_overlap},
       {all, "gap", "m", "the widest of any joint", nullptr, all_gap},
+      {all, "ground_force", "N", "of static and kinematic bodies on the others, as the engine tells its contacts",
+       all_ground_force, nullptr, of_step, PLUMB_NEED_CONTACTS | PLUMB_NEED_CONTACT_IMPULSES},
+      {all, "speed", "m/s", "of the fastest body: 0 at rest", nullptr, all_speed},
+      {all, "spin", "rad/s", "of the body that turns fastest", nullptr, all_spin},
+      {all, "way", "m", "of the body that is farthest from where it was at the start", nullptr, all_way},
   };
   return specs;
 }

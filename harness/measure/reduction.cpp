@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace plumb::harness {
@@ -110,6 +111,28 @@ class Mean : public Reduction {
   std::size_t count_ = 0;
 };
 
+/// How far samples lie apart: the largest from the smallest, or each from the smallest before it.
+class Spread : public Reduction {
+ public:
+  explicit Spread(const ReductionSpec& spec) : Reduction(spec) {}
+
+ private:
+  void take(const SeriesPoint& sample) override {
+    if (!holds(sample.time)) return;
+    lowest_ = count_ == 0 ? sample.value : std::min(lowest_, sample.value);
+    highest_ = count_ == 0 ? sample.value : std::max(highest_, sample.value);
+    rise_ = std::max(rise_, sample.value - lowest_);
+    ++count_;
+  }
+  [[nodiscard]] Result taken() const override {
+    if (count_ == 0) return {not_measured, "there was no sample"};
+    return {spec().take == Take::rise ? rise_ : highest_ - lowest_, ""};
+  }
+
+  double lowest_ = 0, highest_ = 0, rise_ = 0;
+  std::size_t count_ = 0;
+};
+
 /// Passes of a level: the first, or the mean interval between passes in the direction of the first.
 class Passes : public Reduction {
  public:
@@ -140,8 +163,8 @@ class Passes : public Reduction {
 }  // namespace
 
 const std::vector<std::string>& take_words() {
-  static const std::vector<std::string> words{"at",  "min",         "max",         "max_abs",       "mean",
-                                              "rms", "time_of_min", "time_of_max", "crossing_time", "period"};
+  static const std::vector<std::string> words{"at",   "min",   "max",         "max_abs",     "mean",          "rms",
+                                              "rise", "range", "time_of_min", "time_of_max", "crossing_time", "period"};
   return words;
 }
 
@@ -153,6 +176,8 @@ const std::vector<std::string>& take_docs() {
       "the largest magnitude",
       "the mean over time; of a quantity that belongs to a step, over the steps that lie wholly within",
       "the root of the mean square, likewise",
+      "the most by which it rose above its smallest value until then: of an energy what was made of nothing",
+      "the largest value less the smallest",
       "when it was smallest",
       "when it was largest",
       "when it first passed \"level\"",
@@ -188,6 +213,7 @@ Reduction::Result Reduction::result() const {
 std::unique_ptr<Reduction> make_reduction(const ReductionSpec& spec) {
   if (spec.take == Take::at) return std::make_unique<AtTime>(spec);
   if (spec.take == Take::mean || spec.take == Take::rms) return std::make_unique<Mean>(spec);
+  if (spec.take == Take::rise || spec.take == Take::range) return std::make_unique<Spread>(spec);
   if (needs_a_level(spec.take)) return std::make_unique<Passes>(spec);
   return std::make_unique<Extreme>(spec);
 }

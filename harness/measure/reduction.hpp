@@ -11,7 +11,7 @@
 
 namespace plumb::harness {
 
-enum class Take { at, min, max, max_abs, mean, rms, time_of_min, time_of_max, crossing_time, period };
+enum class Take { at, min, max, max_abs, mean, rms, rise, range, time_of_min, time_of_max, crossing_time, period };
 
 /// "min", "max" ... by Take, the first ("at") among them.
 [[nodiscard]] const std::vector<std::string>& take_words();

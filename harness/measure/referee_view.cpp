@@ -70,9 +70,10 @@ referee::Energy RefereeView::energy(Simulation& simulation) const {
   return referee::energy(states(simulation), referee::vec(scene_->gravity));
 }
 
-double RefereeView::joint_gap(std::span<const PoseRow> poses) const {
+double RefereeView::joint_gap(std::span<const PoseRow> poses, double time) const {
   double gap = 0;
   for (const SceneJoint& joint : scene_->joints) {
+    if (time > joint.cut) continue;
     const referee::Pose a = joint.body_a ? pose_of(poses[*joint.body_a]) : referee::Pose{};
     gap = largest(gap, referee::joint_error(joint.desc, a, pose_of(poses[joint.body_b])).position);
   }

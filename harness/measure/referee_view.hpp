@@ -26,8 +26,9 @@ class RefereeView {
   [[nodiscard]] referee::Energy energy(Simulation& simulation) const;
   [[nodiscard]] const std::vector<referee::Mass>& masses() const { return masses_; }
   [[nodiscard]] double total_mass() const { return total_mass_; }
-  /// Largest drift of any joint: how far its frames' origins are from where it allows them, m.
-  [[nodiscard]] double joint_gap(std::span<const PoseRow> poses) const;
+  /// Largest drift of any joint: how far its frames' origins are from where it allows them, m. Those that the host
+  /// has cut until the time are left out.
+  [[nodiscard]] double joint_gap(std::span<const PoseRow> poses, double time = 0) const;
 
  private:
   const Scene* scene_;

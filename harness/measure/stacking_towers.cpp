@@ -97,11 +97,17 @@ void measure_pyramid(MeasureContext& context) {
     return distance_from_start(scene, simulation.poses(), box) <= side / 2;
   };
   Survival survival;
+  RestWatch rest(scene.seconds);
+  double drift = 0;
   simulation.run([&](Simulation& now) {
+    rest.add(now);
     survival.add(now.time(), survival.whole() && std::all_of(boxes.begin(), boxes.end(), in_place));
+    for (const std::size_t box : boxes) drift = largest(drift, sideways(scene, now.poses(), box));
   });
   add_survival(context, survival, simulation.time());
   const auto kept = static_cast<double>(std::count_if(boxes.begin(), boxes.end(), in_place));
+  context.deviation("drift", drift / side);
+  rest.add_to(context);
   context.compare("in_place", kept, static_cast<double>(boxes.size()), static_cast<double>(boxes.size()));
 
   // The scene is its own mirror image: box i of a row answers to the i-th from the row's other end.

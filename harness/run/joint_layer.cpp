@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -85,7 +86,8 @@ LayerData JointLayer::look(Simulation& simulation) {
 // A handle tells whether its joint is there; asking costs a call, so only those that may break are asked for.
 void JointLayer::forget_broken(Simulation& simulation) {
   std::erase_if(alive_, [&](std::size_t joint) {
-    return may_break(simulation.scene().joints[joint].desc) && !is_there(simulation, joint);
+    const SceneJoint& described = simulation.scene().joints[joint];
+    return (may_break(described.desc) || std::isfinite(described.cut)) && !is_there(simulation, joint);
   });
 }
 

@@ -8,6 +8,7 @@ SceneNature nature_of(const Scene& scene) {
   nature.dissipates = (scene.needs & (PLUMB_NEED_COLLISION | PLUMB_NEED_DAMPING)) != 0;
   const bool weightless = scene.gravity.x == 0 && scene.gravity.y == 0 && scene.gravity.z == 0;
   nature.closed = weightless && !nature.driven && (scene.needs & PLUMB_NEED_DAMPING) == 0;
+  nature.driven = nature.driven || !scene.host.empty();
   for (const SceneBody& body : scene.bodies) {
     if (body.desc.motion != PLUMB_DYNAMIC) nature.closed = false;
     if (body.desc.gravity_scale != 1) nature.driven = true;  // the account knows one gravity only

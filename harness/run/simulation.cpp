@@ -7,6 +7,7 @@
 
 #include "plumb/backend/small_math.hpp"
 #include "referee/hash.hpp"
+#include "run/host.hpp"
 #include "run/part_refused.hpp"
 #include "run/support.hpp"
 
@@ -45,6 +46,7 @@ double median(std::vector<double> values) {
 struct Simulation::State {
   Scene scene;
   SimulationOptions options;
+  std::unique_ptr<Host> host;
   std::unique_ptr<IPhysicsWorld> world;
   std::vector<PlumbShape> shapes;
   std::vector<PlumbBody> bodies;
@@ -161,6 +163,7 @@ Simulation::Simulation(Backend& backend, const Scene& scene, const SimulationOpt
   State& s = *state_;
   s.scene = scene;
   s.options = options;
+  s.host = std::make_unique<Host>(s.scene);
   if (const std::string lacking = missing_support(backend, scene); !lacking.empty())
     throw Error(PLUMB_E_UNSUPPORTED, lacking);
   s.steps_total = static_cast<std::uint64_t>(std::max(0.0, std::ceil(scene.seconds / scene.dt - 1e-6)));
@@ -217,6 +220,7 @@ bool Simulation::advance() {
   report.struct_size = sizeof(report);
   {
     const EngineAtWork at_work(s.options.clock);
+    s.host->before_step(*this);
     const auto start = Clock::now();
     check(*s.world, s.world->step(s.scene.dt));
     check(*s.world, s.world->wait(report));

@@ -24,6 +24,10 @@ struct SceneBuilder {
 void read_shapes(const Node& shapes, SceneBuilder& builder);
 void read_bodies(const Node& bodies, SceneBuilder& builder);
 void read_joints(const Node& joints, SceneBuilder& builder);
+void read_host(const Node& host, SceneBuilder& builder);
+
+/// Calls each(axis index, value) for the members of an object keyed by axis.
+void for_each_axis(const Node& node, const std::function<void(std::size_t, const Node&)>& each);
 
 /// The indices of an entry's repeat, known to its expressions as long as this lives.
 struct RepeatIndices {

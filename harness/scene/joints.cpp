@@ -14,16 +14,6 @@ const std::vector<std::string>& axis_words() {
   return words;
 }
 
-/// Calls each(axis index, value) for the members of an object keyed by axis.
-template <class Each>
-void for_each_axis(const Node& node, const Each& each) {
-  for (const auto& [key, value] : node.members()) {
-    const auto found = std::find(axis_words().begin(), axis_words().end(), key);
-    if (found == axis_words().end()) value.fail_unknown("axis", key, axis_words());
-    each(static_cast<std::size_t>(found - axis_words().begin()), value);
-  }
-}
-
 PlumbPose read_frame(const Node& node) {
   node.only(scene_keys().at("frame"));
   return {node.vector_or("position", {}), node.orientation_or("orientation", {0, 0, 0, 1})};
@@ -98,12 +88,24 @@ SceneJoint read_joint(const Node& node, const SceneBuilder& builder) {
   joint.desc.rest_length = length ? length->number() : 0;
   joint.desc.break_force = node.number_or("break_force", 0);
   joint.desc.break_torque = node.number_or("break_torque", 0);
+  if (const auto cut = node.find("cut")) {
+    joint.cut = cut->number();
+    if (!(joint.cut >= 0)) cut->fail(fmt::format("the time of the cut is 0 or above, not {:g}", joint.cut));
+  }
   if (const auto data = node.find("user_data"))
     joint.desc.user_data = static_cast<std::uint64_t>(data->integer(0, std::int64_t{1} << 53));
   return joint;
 }
 
 }  // namespace
+
+void for_each_axis(const Node& node, const std::function<void(std::size_t, const Node&)>& each) {
+  for (const auto& [key, value] : node.members()) {
+    const auto found = std::find(axis_words().begin(), axis_words().end(), key);
+    if (found == axis_words().end()) value.fail_unknown("axis", key, axis_words());
+    each(static_cast<std::size_t>(found - axis_words().begin()), value);
+  }
+}
 
 void read_joints(const Node& joints, SceneBuilder& builder) {
   for (const Node& node : joints.elements()) {

@@ -23,8 +23,10 @@ std::size_t count_all(const Node& root, const char* key) {
   if (!list) return 0;
   for (const Node& entry : list->elements()) {
     objects += count_entry(entry, most_objects);
-    if (objects > most_objects)
-      entry.fail(fmt::format("with this the scene has more than {} {}: is a count mistaken?", most_objects, key));
+    const std::size_t most = key == std::string("host") ? most_actions : most_objects;
+    if (objects > most)
+      entry.fail(fmt::format("with this the scene has more than {} {}: is a count mistaken?", most,
+                             key == std::string("host") ? "actions of the host" : key));
   }
   return objects;
 }
@@ -53,6 +55,8 @@ std::size_t count_repeats(const Node& entry, std::size_t most) {
   return total;
 }
 
-std::size_t count_objects(const Node& root) { return count_all(root, "bodies") + count_all(root, "joints"); }
+std::size_t count_objects(const Node& root) {
+  return count_all(root, "bodies") + count_all(root, "joints") + count_all(root, "host");
+}
 
 }  // namespace plumb::harness

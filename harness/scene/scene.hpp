@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -67,7 +68,26 @@ struct SceneJoint {
   std::string name;
   std::optional<std::size_t> body_a;  ///< index into Scene::bodies; none: the world
   std::size_t body_b = 0;
-  PlumbJointDesc desc{};  ///< body handles unset
+  PlumbJointDesc desc{};                                 ///< body handles unset
+  double cut = std::numeric_limits<double>::infinity();  ///< s; the host takes the joint away
+};
+
+/// What the host does to a body or a joint while the scene runs.
+struct SceneAction {
+  /// What its numbers are: a path's position and the angle about `axis`; force and torque; impulse and angular impulse;
+  /// target velocity and largest force of each of six motors.
+  enum Kind { path, force, impulse, motors };
+  struct Number {
+    double constant = 0;
+    std::string text;  ///< an expression over the time t; "" where it is the constant
+  };
+  Kind kind = path;
+  std::size_t target = 0;     ///< index into Scene::bodies, of motors into Scene::joints
+  std::string name;           ///< of the target
+  PlumbVec3 axis{};           ///< a unit, world; about which a path turns the body from its start
+  double begin = 0, end = 0;  ///< s; of an impulse both are its time
+  std::vector<Number> numbers;
+  std::map<std::string, double> names;  ///< what expressions may use besides t
 };
 
 /// A scene whose parameters have values: plain numbers, ready to be built in a world or transformed.
@@ -81,6 +101,7 @@ struct Scene {
   std::vector<SceneShape> shapes;
   std::vector<SceneBody> bodies;
   std::vector<SceneJoint> joints;
+  std::vector<SceneAction> host;
   std::string measure;          ///< name of the measure (measure/measure.hpp)
   nlohmann::json measure_args;  ///< its arguments, expressions resolved to numbers
   std::vector<MetricSpec> metrics;

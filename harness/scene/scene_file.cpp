@@ -240,6 +240,7 @@ class SceneMaker {
     if (const auto shapes = root_.find("shapes")) read_shapes(*shapes, builder_);
     read_bodies(root_.at("bodies"), builder_);
     if (const auto joints = root_.find("joints")) read_joints(*joints, builder_);
+    if (const auto host = root_.find("host")) read_host(*host, builder_);
   }
 
   [[nodiscard]] Scene take() {
@@ -357,6 +358,7 @@ Scene SceneFile::outline(const Parameters& given, const Times& times) const {
   scene.shapes.clear();
   scene.bodies.clear();
   scene.joints.clear();
+  scene.host.clear();
   return scene;
 }
 

@@ -38,17 +38,48 @@ void read_indices(const Node& node, SceneShape& shape) {
   }
 }
 
-/// A flat square of cells about the origin, in two triangles each.
-void read_grid(const Node& node, SceneShape& shape, SceneBuilder& builder) {
+/// Heights of a grid as an expression over x and z, which it alone knows.
+class GridHeight {
+ public:
+  explicit GridHeight(std::optional<Node> node) : node_(std::move(node)) {
+    for (const char* name : {"x", "z"}) {
+      if (!node_) return;
+      node_->check_new_name(name);
+      node_->expressions().set(name, 0);
+    }
+  }
+  ~GridHeight() {
+    for (const char* name : {"x", "z"})
+      if (node_) node_->expressions().erase(name);
+  }
+  GridHeight(const GridHeight&) = delete;
+  GridHeight& operator=(const GridHeight&) = delete;
+
+  [[nodiscard]] double at(double x, double z) const {
+    if (!node_) return 0;
+    node_->expressions().set("x", x);
+    node_->expressions().set("z", z);
+    return node_->number();
+  }
+
+ private:
+  std::optional<Node> node_;
+};
+
+/// A square of cells about the origin, in two triangles each.
+void read_grid(const Node& node, const std::optional<Node>& height, SceneShape& shape, SceneBuilder& builder) {
   const auto numbers = node.elements();
   if (numbers.size() != 2) node.fail("a grid has two numbers: cells a side, and the side of one");
   const auto cells = static_cast<std::uint32_t>(numbers[0].integer(1, 2048));
   const double side = numbers[1].number();
   if (!(side > 0)) numbers[1].fail(fmt::format("the side of a cell is above 0, not {:g}", side));
   builder.add_vertices(node, std::size_t{cells + 1} * (cells + 1));
+  const GridHeight y(height);
   for (std::uint32_t row = 0; row <= cells; ++row)
-    for (std::uint32_t column = 0; column <= cells; ++column)
-      shape.vertices.insert(shape.vertices.end(), {(column - cells / 2.0) * side, 0, (row - cells / 2.0) * side});
+    for (std::uint32_t column = 0; column <= cells; ++column) {
+      const double x = (column - cells / 2.0) * side, z = (row - cells / 2.0) * side;
+      shape.vertices.insert(shape.vertices.end(), {x, y.at(x, z), z});
+    }
   for (std::uint32_t row = 0; row < cells; ++row)
     for (std::uint32_t column = 0; column < cells; ++column) {
       const std::uint32_t near = row * (cells + 1) + column, far = near + cells + 1;
@@ -126,11 +157,11 @@ SceneShape read_shape(const Node& node, const std::string& name, SceneBuilder& b
   const bool as_model = model && (type == PLUMB_TRIANGLE_MESH || type == PLUMB_CONVEX_HULL);
   for (const auto& [key, member] : node.members()) {
     const auto& keys = keys_by_type()[type];
-    if ((as_grid && key == "grid") || (as_model && key == "model")) continue;
+    if ((as_grid && (key == "grid" || key == "height")) || (as_model && key == "model")) continue;
     if (key == "type" || key == "user_data" || std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
     member.fail(fmt::format("a {} has no {}", shape_words()[type], key));
   }
-  if (as_grid) read_grid(*grid, shape, builder);
+  if (as_grid) read_grid(*grid, node.find("height"), shape, builder);
   if (as_model) read_model(*model, shape, builder.scene);
   for (const std::string& key : keys_by_type()[type]) {
     if (as_grid || as_model) break;

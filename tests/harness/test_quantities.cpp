@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <functional>
 #include <map>
 
@@ -90,6 +92,8 @@ TEST(Quantities, BlockOnASlopeHasTheCompiledDigits) {
                  EXPECT_GE(double(own["overlap"]["value"]), double(compiled["penetration_max"]["value"]) - 1e-12);
                  EXPECT_NEAR(double(own["push"]["truth"]), 9.81 / 2 * std::sqrt(0.5), 1e-12);
                  EXPECT_GT(double(own["push"]["value"]), 1);
+                 EXPECT_NEAR(double(own["borne"]["truth"]), 9.81 * 0.75, 1e-12);
+                 if (own["borne"].value("note", "") != "not measured") EXPECT_LT(double(own["borne"]["error"]), 0.3);
                });
 }
 
@@ -100,6 +104,40 @@ TEST(Quantities, SpringHasTheCompiledDigits) {
                  EXPECT_NEAR(double(own["length"]["value"]), double(own["place"]["value"]), 1e-14);
                  EXPECT_LT(double(own["ringing"]["error"]), 1);
                });
+}
+
+TEST(Host, DoesWhatTheSceneSays) {
+  const auto metrics = metrics_of({own_words("X5-host.json")});
+  if (metrics.empty()) GTEST_SKIP() << "no backend here runs the scene";
+  for (const auto& [backend, row] : metrics) {
+    SCOPED_TRACE(backend);
+    const auto expect_near = [&, &values = row](const char* name, double tolerance) {
+      EXPECT_NEAR(double(values[name]["value"]), double(values[name]["truth"]), tolerance) << name;
+    };
+    for (const char* name : {"still", "before"}) expect_near(name, 1e-12);
+    for (const char* name : {"pushed", "ramped", "struck", "spun", "twisted", "carried", "turned", "fastest"})
+      expect_near(name, 1e-5);
+    for (const char* name : {"first", "then", "spin"}) expect_near(name, 1e-3);
+    expect_near("farthest", 2.5 / 60);
+    expect_near("free", 1e-3);
+    expect_near("held", 0.01);
+    EXPECT_EQ(double(row["gap"]["value"]), double(row["held"]["value"])) << "a joint that was cut has no gap";
+    EXPECT_FALSE(row.contains("energy_injected")) << "the host works";
+  }
+}
+
+TEST(Host, OfANumberThatFailsOnTheWayIsAnErrorInWords) {
+  std::ifstream in(own_words("X5-host.json"));
+  Json scene = Json::parse(in);
+  scene["host"][1]["force"][2] = "1 / (t - 61 / 60 + 1 / 120)";
+  const auto path = std::filesystem::path(HARNESS_TEST_FOLDER) / "X5-host-that-divides.json";
+  std::ofstream(path) << scene.dump(1);
+  const Finished finished = plumb({"run", path.string(), "--backend", "impulse", "--json"});
+  for (const Json& row : finished.rows()) {
+    EXPECT_EQ(row["status"], "error");
+    const std::string reason = row["reason"];
+    EXPECT_NE(reason.find("the host's action on ramped at 1.008333 s"), std::string::npos) << reason;
+  }
 }
 
 TEST(Quantities, LongRunsAreMeasuredInOnePass) {

@@ -146,7 +146,7 @@ TEST_F(QuantityFiles, AreRefusedWithFileLineAndRemedy) {
   expect("\"quantity\": \"energy\"", "\"quantity\": \"velocity\"",
          "of all bodies together (name a body, joint or pair");
   expect("\"quantity\": \"angle\"", "\"quantity\": \"torque\"",
-         "for scenes that need \"joint_reactions\": add it to needs");
+         "for scenes that need \"joint_reactions\": add it to needs, or make the metric optional");
   expect("\"quantity\": \"angle\"", "\"quantity\": \"gap\", \"along\": \"x\"", "gap has no direction");
   expect("\"take\": \"max\"", "\"take\": \"maximum\"", "there is no take \"maximum\"");
   expect("\"take\": \"max\"", "\"take\": \"period\"", "crossing_time and period need a level");

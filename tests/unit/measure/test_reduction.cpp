@@ -82,6 +82,20 @@ TEST(Reduction, InventsNothingBesideAKink) {
   EXPECT_EQ(reduced(window(Take::max, 0, 10), jump).value, 0.99);
 }
 
+TEST(Reduction, RisesAreAboveWhatWasLowestBefore) {
+  const auto falls = [](double t) { return -t; };
+  EXPECT_EQ(reduced(window(Take::rise, 0, 10), falls).value, 0);
+  EXPECT_EQ(reduced(window(Take::range, 0, 10), falls).value, 10);
+  // Down by 4, up by 1 twice with a fall between, down to the end: once 1, not 2, and not what lies before the window.
+  const auto hops = [](double t) { return t < 4 ? -t : std::abs(std::fmod(t, 2) - 1) - 5; };
+  EXPECT_NEAR(reduced(window(Take::rise, 0, 10), hops).value, 1, 1e-12);
+  EXPECT_NEAR(reduced(window(Take::range, 0, 10), hops).value, 5, 1e-12);
+  EXPECT_NEAR(reduced(window(Take::range, 4, 10), hops).value, 1, 1e-12);
+  EXPECT_NEAR(reduced(window(Take::rise, 4, 4.5), hops).value, 0, 1e-12);
+  const auto explodes = [](double t) { return t < 2 ? 1.0 : NAN; };
+  EXPECT_TRUE(std::isnan(reduced(window(Take::rise, 0, 10), explodes).value));
+}
+
 TEST(Reduction, MeansAreOverTime) {
   const double whole = 2 * std::numbers::pi;
   const auto sine = [](double t) { return std::sin(t) + 2; };

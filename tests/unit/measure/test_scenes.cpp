@@ -54,7 +54,7 @@ TEST_P(SceneGroup, JointsFitAtTheStart) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Groups, SceneGroup, testing::Values("stacking", "joints", "robustness", "scale"),
+INSTANTIATE_TEST_SUITE_P(Groups, SceneGroup, testing::Values("stacking", "joints", "machines", "robustness", "scale"),
                          [](const auto& group) { return std::string(group.param); });
 
 TEST(StackingScenes, NothingOverlapsAtTheStart) {
@@ -62,6 +62,16 @@ TEST(StackingScenes, NothingOverlapsAtTheStart) {
     for (const Parameters& variant : file.variants) {
       const Scene scene = file.instantiate(variant);
       EXPECT_LT(RefereeView(scene).penetration(start_of(scene)).max, 1e-12) << file.path;
+    }
+  }
+}
+
+TEST(MachineScenes, NothingOverlapsAtTheStart) {
+  for (const SceneFile& file : scenes_of("machines")) {
+    for (const Parameters& variant : file.variants) {
+      const Scene scene = file.instantiate(variant);
+      if ((scene.needs & PLUMB_NEED_COLLISION) == 0) continue;
+      EXPECT_LT(RefereeView(scene).penetration(start_of(scene)).max, 1e-9) << file.path;
     }
   }
 }

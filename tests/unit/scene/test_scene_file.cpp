@@ -115,6 +115,55 @@ TEST_F(SceneFiles, BecomeScenes) {
   EXPECT_EQ(file.instantiate({}).bodies.size(), 3u);
 }
 
+TEST_F(SceneFiles, GiveAGridTheHeightOfAnExpression) {
+  std::string text = good;
+  const std::string shapes = "\"shapes\": {";
+  text.replace(text.find(shapes), shapes.size(),
+               shapes + R"("hills": { "type": "triangle_mesh", "grid": [2, 3], "height": "n + x / 3 + 10 * z" },)");
+  const Scene scene = load(text).instantiate({{"n", 2.0}});
+  const auto hills = std::find_if(scene.shapes.begin(), scene.shapes.end(),
+                                  [](const SceneShape& shape) { return shape.name == "hills"; });
+  ASSERT_NE(hills, scene.shapes.end());
+  ASSERT_EQ(hills->vertices.size(), 27u);
+  for (std::size_t i = 0; i < 27; i += 3)
+    EXPECT_DOUBLE_EQ(hills->vertices[i + 1], 2 + hills->vertices[i] / 3 + 10 * hills->vertices[i + 2]);
+  EXPECT_EQ(hills->vertices[0], -3);
+  EXPECT_EQ(hills->vertices[1], 2 - 1 - 30);
+}
+
+TEST_F(SceneFiles, SayWhatTheHostDoes) {
+  std::string text = good;
+  const std::string measure = "\"measure\":", needs = "\"needs\": [", pin = "\"name\": \"pin\",";
+  text.replace(text.find(measure), measure.size(),
+               R"("host": [
+    { "body": "{kind}{i}_0", "repeat": { "i": "n" }, "when": "i > 0", "force": ["i * t", 1, 0], "over": [1, "n"] },
+    { "joint": "pin", "motors": { "rx": { "target_velocity": "half - t" } } }
+  ], "measure":)");
+  text.replace(text.find(needs), needs.size(), "\"needs\": [\"forces\", ");
+  text.replace(text.find(pin), pin.size(), "\"name\": \"pin\", \"cut\": \"half\",");
+  const Scene scene = load(text).instantiate({{"n", 3.0}});
+  ASSERT_EQ(scene.host.size(), 3u);
+  const SceneAction& push = scene.host[1];
+  EXPECT_EQ(push.kind, SceneAction::force);
+  EXPECT_EQ(push.target, scene.body("ball2_0"));
+  EXPECT_EQ(push.begin, 1);
+  EXPECT_EQ(push.end, 3);
+  ASSERT_EQ(push.numbers.size(), 6u);
+  EXPECT_EQ(push.numbers[0].text, "i * t");
+  EXPECT_EQ(push.names.at("i"), 2);
+  EXPECT_FALSE(push.names.contains("t"));
+  EXPECT_EQ(push.numbers[1].text, "");
+  EXPECT_EQ(push.numbers[1].constant, 1);
+  const SceneAction& motor = scene.host[2];
+  EXPECT_EQ(motor.kind, SceneAction::motors);
+  ASSERT_EQ(motor.numbers.size(), 12u);
+  EXPECT_EQ(motor.numbers[6].text, "half - t");
+  EXPECT_EQ(motor.numbers[7].constant, 3) << "as the joint has it";
+  EXPECT_EQ(motor.begin, 0);
+  EXPECT_EQ(motor.end, scene.seconds);
+  EXPECT_EQ(scene.joints[0].cut, 1.5);
+}
+
 TEST_F(SceneFiles, TakeWhatTheyDoNotNeedFromTheirBodies) {
   std::string text = good;
   text.replace(text.find(R"("rotation", "collision", "friction", )"), 37, R"("collision", )");
