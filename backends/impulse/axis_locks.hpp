@@ -5,6 +5,9 @@
 
 namespace plumb::impulse {
 
+/// Largest moment to the smallest, of bodies that do not tumble.
+inline constexpr Real kMostSlender = 25;
+
 /// What is left of a vector without its components along locked axes; first: the flag of x.
 PLUMB_HD inline Vec unlocked(std::uint32_t flags, std::uint32_t first, const Vec& v) {
   return {(flags & first) != 0 ? Real(0) : v.x, (flags & first << 1) != 0 ? Real(0) : v.y,
@@ -25,13 +28,26 @@ PLUMB_HD inline Sym hold_turn(const Sym& inverse, int axis) {
   if (axis == 2) held.xz = held.yz = held.zz = 0;
   return held;
 }
-/// I^-1 in world axes of a body that does not turn about its locked ones.
-PLUMB_HD inline Sym world_inverse_inertia(const Quat& orientation, const BodyMass& mass) {
-  Sym inverse = rotated_diagonal(to_matrix(orientation), mass.inverse_inertia);
-  if ((mass.flags & kBodyLocked) == 0) return inverse;
+/// I^-1 in world axes of a body that does not turn about its locked ones, from inverse principal moments.
+PLUMB_HD inline Sym world_inverse_inertia(const Quat& orientation, std::uint32_t flags, const Vec& inverse_moments) {
+  Sym inverse = rotated_diagonal(to_matrix(orientation), inverse_moments);
+  if ((flags & kBodyLocked) == 0) return inverse;
   for (int axis = 0; axis < 3; ++axis)
-    if ((mass.flags & kLockAngular << axis) != 0) inverse = hold_turn(inverse, axis);
+    if ((flags & kLockAngular << axis) != 0) inverse = hold_turn(inverse, axis);
   return inverse;
+}
+/// Inverse principal moments as constraints see them. Where bodies do not tumble, angular velocity is kept while the
+/// moments turn with the body, and makes energy of what differs: no moment is then less than a share of the largest.
+PLUMB_HD inline Vec inverse_moments(const BodyMass& mass, bool tumbles) {
+  const Vec& inverse = mass.inverse_inertia;
+  if (tumbles) return inverse;
+  const Real most = max(max(mass.inertia.x, mass.inertia.y), mass.inertia.z);
+  if (!(most > 0)) return inverse;
+  const Real bound = kMostSlender / most;
+  return {min(inverse.x, bound), min(inverse.y, bound), min(inverse.z, bound)};
+}
+PLUMB_HD inline Sym world_inverse_inertia(const Quat& orientation, const BodyMass& mass) {
+  return world_inverse_inertia(orientation, mass.flags, mass.inverse_inertia);
 }
 
 }  // namespace plumb::impulse

@@ -40,6 +40,7 @@ void Simulation::reserve_bodies(std::uint32_t slots) {
   force.grow(size);
   mass.grow(size);
   frames.grow(size);
+  joints.reserve_bodies(size);
   bodies_dirty_ = true;
   reserve_proxies(static_cast<std::uint32_t>(size));
   reserve_pairs(pair_capacity_);
@@ -285,6 +286,7 @@ void Simulation::enqueue() {
   const StepParameters* parameters = parameters_.device();
   const ContactCache now = narrow_phase_.cache(step_), last = narrow_phase_.cache(step_ + 1);
 
+  const Mechanisms mechanisms = solver_.meet(joints);
   phases_.start(executor_);
   executor_.run(1U, ClearCounters{counters});
   if (features_.collision) {
@@ -299,17 +301,20 @@ void Simulation::enqueue() {
     narrow_phase_.number(executor_, now, counters);
     colouring_.begin(executor_);
     const KeptPair* woken = features_.sleeping ? sleep_.woken_pairs() : nullptr;
-    narrow_phase_.match(executor_, now, last, woken, all, shapes_on, parameters, counters, colouring_.masks());
+    narrow_phase_.match(executor_, now, last, woken, all, shapes_on, parameters, counters, mechanisms,
+                        colouring_.masks());
     if (sleep_.count() != 0) sleep_.find_touched(executor_, now, pair_capacity_, all, shapes_on, counters);
     phases_.end(executor_, PLUMB_PHASE_NARROW);
     if (solver_.needs_colours())
-      colouring_.colour(executor_, now, all.velocity, proxies.device(), counters);
+      colouring_.colour(executor_, now, all.velocity, proxies.device(), mechanisms, counters);
     else
       colouring_.leave_out(executor_, counters);
     phases_.end(executor_, PLUMB_PHASE_ISLANDS);
   }
   if (features_.collision || joints.count() != 0) {
     solver_.begin(executor_, all, bodies_in_step());
+    if (features_.collision && mechanisms.count != 0)
+      solver_.find_mobility(executor_, now, all, shapes_on, parameters, counters, joints);
     if (features_.collision)
       solver_.prepare(executor_, now, all, shapes_on, colouring_, continuous_ ? impacts_.times() : nullptr, parameters,
                       counters);

@@ -40,6 +40,7 @@ struct StepParameters {
   Softness ground;         ///< against a body that does not
   Softness joint;          ///< of joints that are solved one by one
   Real joint_rate;         ///< errors of mechanisms that are solved as a whole are taken back at this rate, 1/s
+  Real chain_rate;         ///< those of long mechanisms no faster than at this one
   Real warm_start;         ///< share of the last step's impulses that is kept: its sub-step to this one's, or 0
   Real push_speed;         ///< overlap is taken back no faster than this, m/s
   bool relaxes_once;       ///< in a step, and not in each sub-step

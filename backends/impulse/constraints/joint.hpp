@@ -31,6 +31,19 @@ PLUMB_HD constexpr int rows_of(JointType type) {
   return 0;
 }
 
+/// Of these the rows whose impulse is one of force, not of torque, as bits.
+PLUMB_HD constexpr std::uint32_t pulls_of(JointType type) {
+  switch (type) {
+    case JointType::kBall:
+    case JointType::kHinge:
+    case JointType::kFixed: return 0b111;
+    case JointType::kSlider: return 0b11;
+    case JointType::kDistance: return 0b1;
+    case JointType::kOther: return 0;
+  }
+  return 0;
+}
+
 /// What is given once for a joint. Frames are in the bodies' principal frames, from their centres of mass.
 struct Joint {
   JointType type;
@@ -39,8 +52,10 @@ struct Joint {
   std::uint32_t slot;  ///< of its impulses, which outlive the order of the joints
   std::uint32_t born;  ///< the step before which it was made: older impulses of the slot are another's
   int rows;
-  Real rest_length;  ///< m
-  bool in_loop;      ///< of its mechanism some rows may repeat others; found when joints are put in order
+  std::uint32_t pulls;  ///< a bit for each row whose impulse is one of force, not of torque
+  Real rest_length;     ///< m
+  bool in_loop;         ///< of its mechanism some rows may repeat others; found when joints are put in order
+  bool in_chain;        ///< of so many joints that errors are taken back by degrees; likewise
   Frame frame_a, frame_b;
   Position world_anchor;  ///< of frame a where body_a is kWorld
 };

@@ -137,10 +137,11 @@ PLUMB_HD inline RowLaw law_of_row(const AxisView& view, std::uint32_t j, int row
 /// The speed that a row which always holds should have.
 PLUMB_HD inline Real speed_of_held(const AxisView& view, std::uint32_t j, int row, const RowTime& time) {
   const Real error = view.work[j].error[row];
+  const Real rate = view.joints[j].in_chain ? min(time.rate, time.chain_rate) : time.rate;
   switch (time.pass) {
     case RowPass::kSpeeds: return 0;
-    case RowPass::kMoved: return view.parts.work[j].before[row] - time.rate * error;
-    default: return -(time.rate * error);
+    case RowPass::kMoved: return view.parts.work[j].before[row] - rate * error;
+    default: return -(rate * error);
   }
 }
 
@@ -198,6 +199,14 @@ PLUMB_HD inline void mask_matrix(const AxisWork& own, int n, Block& matrix) {
     for (int q = 0; q <= p; ++q) matrix(p, q) = own.is_active(p) && own.is_active(q) ? own.whole(p, q) : Real(0);
     if (own.is_active(p)) matrix(p, p) = matrix(p, p) + own.yield[p];
   }
+}
+
+/// Which rows hold while contacts push: those that always do. A limit may be left and a motor overcome, and what pushes
+/// as if they held would push too hard.
+PLUMB_HD inline void choose_rows_met(const AxisView& view, std::uint32_t j, Real share) {
+  AxisWork& own = view.parts.work[j];
+  for (int i = 0; i < row_count(view.joints[j]); ++i)
+    own.yield[i] = is_held(view, j, i) ? share * own.whole(i, i) : Real(-1);
 }
 
 /// How far the rows are from their equations, with the other sign.

@@ -58,6 +58,19 @@ std::vector<Numbers> neighbours_of(const Numbers& ends, std::uint32_t bodies) {
   return neighbours;
 }
 
+/// The joint that is farthest from one, and how many joints lead there, both ends counted.
+std::pair<std::uint32_t, std::uint32_t> farthest_from(std::uint32_t joint, const std::vector<Numbers>& neighbours) {
+  Numbers way(neighbours.size()), queue = {joint};
+  way[joint] = 1;
+  for (std::size_t i = 0; i < queue.size(); ++i)
+    for (const std::uint32_t near : neighbours[queue[i]]) {
+      if (way[near] != 0) continue;
+      way[near] = way[queue[i]] + 1;
+      queue.push_back(near);
+    }
+  return {queue.back(), way[queue.back()]};
+}
+
 /// Joint j goes: those around it become neighbours of each other.
 void join_around(std::uint32_t j, const Numbers& around, std::vector<Numbers>& neighbours) {
   Numbers all;
@@ -136,21 +149,24 @@ void list_entries(MechanismElimination& found, const std::vector<Numbers>& below
 }
 
 MechanismElimination eliminate_mechanism(const Numbers& ends) {
-  std::uint32_t bodies = 0;
-  bool stands = false;  // something of it does
+  std::uint32_t bodies = 0, standing = 0;
   for (const std::uint32_t body : ends)
     if (body == kNoBody)
-      stands = true;
+      ++standing;
     else
       bodies = std::max(bodies, body + 1);
   MechanismElimination found;
   // A tree has one joint fewer than bodies; all that stands still is one body.
-  found.has_loop = count_of(ends) / 2 + 1 > bodies + (stands ? 1U : 0U);
+  found.has_loop = count_of(ends) / 2 + 1 > bodies + (standing != 0 ? 1U : 0U);
+  found.is_closed = count_of(ends) / 2 - standing + 1 > bodies;
   std::vector<Numbers> neighbours = neighbours_of(ends, bodies), below(neighbours.size());
+  found.length = neighbours.empty() ? bodies : farthest_from(farthest_from(0, neighbours).first, neighbours).second;
   if (neighbours.empty() || !order_joints(neighbours, found, below)) {
     MechanismElimination full;
     full.has_loop = found.has_loop;
+    full.is_closed = found.is_closed;
     full.too_full = true;
+    full.length = found.length;
     return full;
   }
   list_entries(found, below);
@@ -256,7 +272,9 @@ JointElimination JointEliminator::eliminate(const std::vector<Join>& joins, std:
       if (body != none) bodies = std::max(bodies, body + 1);
   JointElimination whole;
   whole.in_loop.resize(joins.size());
-  whole.size.resize(joins.size());
+  whole.length.resize(joins.size());
+  whole.is_closed.resize(joins.size());
+  whole.mechanism.resize(joins.size());
   const Lists mechanisms = mechanisms_of(joins, none, bodies);
   std::vector<Part> parts;
   std::uint32_t columns = 0, entries = 0;
@@ -276,7 +294,9 @@ JointElimination JointEliminator::eliminate(const std::vector<Join>& joins, std:
     const MechanismElimination& found = known->second.elimination;
     for (const std::uint32_t j : mechanisms[m]) {
       whole.in_loop[j] = found.has_loop;
-      whole.size[j] = static_cast<std::uint32_t>(mechanisms[m].size());
+      whole.length[j] = found.length;
+      whole.is_closed[j] = found.is_closed;
+      whole.mechanism[j] = m;
       if (found.too_full) whole.one_by_one.push_back(j);
     }
     if (found.too_full) continue;

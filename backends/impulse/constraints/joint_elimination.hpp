@@ -26,8 +26,11 @@ struct JointProduct {
 
 /// One mechanism by itself. Joints are numbered from 0 on, in the order of their numbers in the world.
 struct MechanismElimination {
-  bool has_loop = false;  ///< through what stands still, too
-  bool too_full = false;  ///< it is solved joint by joint, and there is nothing below
+  bool has_loop = false;   ///< through what stands still, too
+  bool is_closed = false;  ///< has a loop of bodies that move
+  bool too_full = false;   ///< it is solved joint by joint, and there is nothing below but its length
+  std::uint32_t length =
+      0;  ///< joints of the longest way through it that takes no joint twice, as long as it is a tree
   std::vector<std::uint32_t> order;
   std::vector<std::uint32_t> level_first;
   std::vector<JointEntry> entries;  ///< by column
@@ -42,7 +45,9 @@ struct JointElimination {
   std::vector<std::uint32_t> order;       ///< the joints that are eliminated; rows and columns count in this order
   std::vector<std::uint32_t> one_by_one;  ///< joints of mechanisms that would fill too much, in order of their numbers
   std::vector<bool> in_loop;              ///< by joint: whether its mechanism has a loop, through what stands still too
-  std::vector<std::uint32_t> size;        ///< by joint: how many joints its mechanism has
+  std::vector<bool> is_closed;            ///< by joint: MechanismElimination::is_closed
+  std::vector<std::uint32_t> length;      ///< by joint: MechanismElimination::length
+  std::vector<std::uint32_t> mechanism;   ///< by joint: the number of its mechanism
   std::vector<std::uint32_t> level_first;  ///< columns of each round, and the end
   std::vector<JointEntry> entries;         ///< by column
   std::vector<std::uint32_t> column_first;

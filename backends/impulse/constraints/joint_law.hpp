@@ -98,8 +98,9 @@ enum class RowPass : std::uint8_t {
 struct RowTime {
   RowPass pass;
   Real h, inverse_h;
-  Real rate;   ///< at which errors are taken back, 1/s
-  Real share;  ///< softness of rows that always hold, relative to their own
+  Real rate;                ///< at which errors are taken back, 1/s
+  Real share;               ///< softness of rows that always hold, relative to their own
+  Real chain_rate = kHuge;  ///< the most at which those of chains are, 1/s
 };
 
 /// e^x - 1 for small x; a little less for large ones.

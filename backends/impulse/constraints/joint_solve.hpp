@@ -30,6 +30,7 @@ struct JointView {
   const Joint* joints;
   JointWork* work;
   JointImpulse* impulses;  ///< by slot
+  Real* least_moment;      ///< by body: what tension asks of its principal moments (solver/tension.hpp), kg m2
   bool gyroscopic;
 
   PLUMB_HD JointEnd end(std::uint32_t body) const {
@@ -57,7 +58,11 @@ struct JointView {
   }
   PLUMB_HD Sym inverse_inertia(std::uint32_t body, const Quat& orientation) const {
     if (body == kWorld) return {0, 0, 0, 0, 0, 0};
-    return world_inverse_inertia(orientation, bodies.mass[body]);
+    const BodyMass& mass = bodies.mass[body];
+    const Real most = least_moment[body] > 0 ? Real(1) / least_moment[body] : kHuge;
+    const Vec inverse = inverse_moments(mass, solver.swings);
+    return world_inverse_inertia(orientation, mass.flags,
+                                 {min(inverse.x, most), min(inverse.y, most), min(inverse.z, most)});
   }
   /// Joint impulses go into the free velocity too: the next sub-step starts from them along its own rows, so they must
   /// not be carried over as velocity (motion.hpp).
@@ -76,6 +81,7 @@ struct JointView {
 /// How the first pass takes back an error.
 struct JointPass {
   Softness softness;
+  Real chain_rate;  ///< the most at which those of chains are, 1/s
   Real h, inverse_h;
   bool take_back_error;  ///< the first pass; else the second
 };
@@ -146,17 +152,16 @@ PLUMB_HD inline void joint_residuals(const JointView& view, std::uint32_t j, con
   const Joint& joint = view.joints[j];
   const JointWork& work = view.work[j];
   const int n = row_count(joint);
+  const Real rate = joint.in_chain ? min(pass.softness.bias_rate, pass.chain_rate) : pass.softness.bias_rate;
   if (!pass.take_back_error || turns_far(a, b, pass.h)) {
     speeds_now(view, j, a, b, residual);
-    for (int i = 0; i < n && pass.take_back_error; ++i)
-      residual[i] = residual[i] + pass.softness.bias_rate * work.error[i];
+    for (int i = 0; i < n && pass.take_back_error; ++i) residual[i] = residual[i] + rate * work.error[i];
     return;
   }
   const JointPlace place = place_joint(joint, view.base(joint), view.end_after(joint.body_a, a, pass.h),
                                        view.end_after(joint.body_b, b, pass.h));
   joint_errors(joint, place, residual);
-  for (int i = 0; i < n; ++i)
-    residual[i] = (residual[i] - work.error[i]) * pass.inverse_h + pass.softness.bias_rate * work.error[i];
+  for (int i = 0; i < n; ++i) residual[i] = (residual[i] - work.error[i]) * pass.inverse_h + rate * work.error[i];
 }
 
 /// What the last step ended with is where this one begins.

@@ -1,7 +1,7 @@
 #include "constraints/joint_store.hpp"
 
 #include <algorithm>
-#include <utility>
+#include <numeric>
 
 #include "broadphase/pair_filter.hpp"
 
@@ -17,6 +17,13 @@ bool is_pushed(std::uint32_t body, const Table<BodyMass>& masses) {
 /// tell apart, and a whip of them turns too far in a sub-step for the rows at its start: they yield as those whose rows
 /// repeat others.
 constexpr std::uint32_t kLongBeam = 4;
+
+/// Whether a row may come to hold, or let go, from one sub-step to the next.
+bool has_limits(const Joint& joint, const JointAxes& axes) {
+  for (int i = 0; i < row_count(joint) - rows_of(joint.type); ++i)
+    if (axes.row[i].coordinate != kLocked && (axes.lower[i] > -kHuge / 2 || axes.upper[i] < kHuge / 2)) return true;
+  return false;
+}
 
 bool both_turn(const Joint& joint, const Table<BodyMass>& masses) {
   const auto turns = [&](std::uint32_t body) {
@@ -90,29 +97,81 @@ void JointStore::colour(const Table<BodyMass>& masses) {
   copy(system_first_, system);
 }
 
+/// By mechanism, and in each by body.
 void JointStore::list_pushed_bodies(const Table<BodyMass>& masses) {
-  const auto for_ends = [&](const auto& f) {
-    for (std::uint32_t j = base_; j < ordered_.size(); ++j) {
-      if (is_pushed(ordered_[j].body_a, masses)) f(ordered_[j].body_a, JointOnBody{j, false});
-      if (is_pushed(ordered_[j].body_b, masses)) f(ordered_[j].body_b, JointOnBody{j, true});
-    }
+  struct End {
+    std::uint32_t mechanism, body;
+    JointOnBody on;
   };
-  std::vector<std::uint32_t> next(masses.size()), bodies, first;  // next: by body, how many; then where the next goes
-  for_ends([&](std::uint32_t body, const JointOnBody&) { ++next[body]; });
-  std::uint32_t ends = 0;
-  for (std::uint32_t body = 0; body < next.size(); ++body) {
-    if (next[body] == 0) continue;
-    bodies.push_back(body);
-    first.push_back(ends);
-    ends += std::exchange(next[body], ends);
+  std::vector<End> ends;
+  for (std::uint32_t j = base_; j < ordered_.size(); ++j) {
+    if (is_pushed(ordered_[j].body_a, masses)) ends.push_back({mechanism_of_[j], ordered_[j].body_a, {j, false}});
+    if (is_pushed(ordered_[j].body_b, masses)) ends.push_back({mechanism_of_[j], ordered_[j].body_b, {j, true}});
   }
-  first.push_back(ends);
-  std::vector<JointOnBody> list(ends);
-  for_ends([&](std::uint32_t body, const JointOnBody& end) { list[next[body]++] = end; });
-  pushed_count_ = static_cast<std::uint32_t>(bodies.size());
-  copy(pushed_, bodies);
+  std::stable_sort(ends.begin(), ends.end(), [](const End& x, const End& y) {
+    return x.mechanism != y.mechanism ? x.mechanism < y.mechanism : x.body < y.body;
+  });
+  pushed_list_.clear();
+  std::vector<std::uint32_t> first;
+  std::vector<JointOnBody> list;
+  for (const End& end : ends) {
+    if (pushed_list_.empty() || pushed_list_.back() != end.body) {
+      pushed_list_.push_back(end.body);
+      first.push_back(static_cast<std::uint32_t>(list.size()));
+    }
+    list.push_back(end.on);
+  }
+  first.push_back(static_cast<std::uint32_t>(list.size()));
+  pushed_count_ = static_cast<std::uint32_t>(pushed_list_.size());
+  copy(pushed_, pushed_list_);
   copy(pushed_first_, first);
   copy(on_body_, list);
+}
+
+/// Which mechanisms contacts move as a whole, and room for what that takes.
+void JointStore::list_mechanisms(std::size_t bodies) {
+  const auto columns = static_cast<std::uint32_t>(ordered_.size()) - base_;
+  std::vector<std::uint32_t> by_mechanism(columns), number(columns), mechanism_of_body(bodies, kNone);
+  std::iota(by_mechanism.begin(), by_mechanism.end(), 0U);
+  const auto mechanism = [&](std::uint32_t column) { return mechanism_of_[base_ + column]; };
+  std::stable_sort(by_mechanism.begin(), by_mechanism.end(),
+                   [&](std::uint32_t x, std::uint32_t y) { return mechanism(x) < mechanism(y); });
+  for (std::uint32_t column = 0; column < columns; ++column)
+    for (const std::uint32_t body : {ordered_[base_ + column].body_a, ordered_[base_ + column].body_b})
+      if (body != kWorld) mechanism_of_body[body] = mechanism(column);  // of what stands any that it holds
+
+  std::vector<MechanismBody> rows(pushed_list_.size());
+  std::vector<std::uint32_t> place_of(bodies, 0U);
+  std::uint64_t mobility = 0, scratch = 0;
+  held_ = 0;
+  for (std::uint32_t first = 0, column = 0; first < pushed_list_.size();) {
+    const std::uint32_t of = mechanism_of_body[pushed_list_[first]];
+    std::uint32_t end = first, last_column = column;
+    while (end < pushed_list_.size() && mechanism_of_body[pushed_list_[end]] == of) ++end;
+    while (last_column < columns && mechanism(by_mechanism[last_column]) == of) {
+      number[by_mechanism[last_column]] = last_column - column;
+      ++last_column;
+    }
+    const bool whole = end - first <= kMostInMechanism && !changing_.contains(of);
+    for (std::uint32_t place = first; place < end; ++place) {
+      rows[place] = {
+          pushed_list_[place], first, whole ? end - first : 0, column, last_column - column, mobility, scratch};
+      if (!whole) continue;
+      place_of[pushed_list_[place]] = place + 1;
+      mobility += std::uint64_t{end - first} * 36;
+      scratch += std::uint64_t{last_column - column} * 36;
+      held_ = pushed_count_;
+    }
+    first = end;
+    column = last_column;
+  }
+  copy(place_of_, place_of);
+  copy(columns_, by_mechanism);
+  copy(number_of_, number);
+  copy(mechanism_bodies_, rows);
+  loads_.grow(rows.size());
+  mobility_.grow(mobility);
+  scratch_.grow(scratch);
 }
 
 std::vector<std::uint64_t> JointStore::excluded() const {
@@ -138,13 +197,17 @@ void JointStore::upload(const Table<BodyMass>& masses) {
 
   ordered_.clear();
   ordered_.reserve(slots.size());
+  mechanism_of_.clear();
+  changing_.clear();
   std::vector<JointAxes> ordered_axes;
   const auto put = [&](std::uint32_t j) {
     const Row& row = rows_[slots[j]];
     ordered_.push_back(row.joint);
-    const bool is_stiff = row.traits.locks_turns;
-    ordered_.back().in_loop =
-        found.in_loop[j] || (is_stiff && (found.size[j] >= kLongBeam || !both_turn(row.joint, masses)));
+    const bool is_stiff = row.traits.locks_turns, is_long = found.length[j] >= kLongBeam;
+    ordered_.back().in_chain = is_long;
+    ordered_.back().in_loop = found.in_loop[j] || (is_stiff && (is_long || !both_turn(row.joint, masses)));
+    mechanism_of_.push_back(found.mechanism[j]);
+    if (found.is_closed[j] || has_limits(row.joint, row.axes)) changing_.insert(found.mechanism[j]);
     if (code_ == JointCode::kAll) ordered_axes.push_back(row.axes);
   };
   for (const std::uint32_t j : found.one_by_one) put(j);
@@ -152,7 +215,6 @@ void JointStore::upload(const Table<BodyMass>& masses) {
   for (const std::uint32_t j : found.order) put(j);
   count_ = static_cast<std::uint32_t>(ordered_.size());
   levels_ = static_cast<std::uint32_t>(found.level_first.size() - 1);
-  copy(joints_, ordered_);
   copy(level_first_, found.level_first);
   copy(entries_, found.entries);
   copy(column_first_, found.column_first);
@@ -162,6 +224,8 @@ void JointStore::upload(const Table<BodyMass>& masses) {
   copy(product_first_, found.product_first);
   colour(masses);
   list_pushed_bodies(masses);
+  list_mechanisms(masses.size());
+  copy(joints_, ordered_);
   work_.grow(count_);
   impulses_.grow(rows_.size());
   scaled_.grow(found.entries.size());
@@ -186,7 +250,8 @@ std::vector<SolvedJoint> JointStore::solved() const {
 }
 
 JointSet JointStore::set(const Bodies& bodies, const SolverBodies& solver, bool gyroscopic) {
-  const JointView view = {bodies, solver, joints_.data(), work_.data(), impulses_.data(), gyroscopic};
+  const JointView view = {bodies,    solver, joints_.data(), work_.data(), impulses_.data(), least_moment_.data(),
+                          gyroscopic};
   const JointSystem system = {view,
                               base_,
                               levels_,

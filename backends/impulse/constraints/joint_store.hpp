@@ -2,9 +2,11 @@
 // that they keep apart.
 #pragma once
 
+#include <unordered_set>
 #include <vector>
 
 #include "constraints/joint_elimination.hpp"
+#include "constraints/mechanism.hpp"
 #include "exec/archive.hpp"
 #include "exec/memory.hpp"
 #include "exec/table.hpp"
@@ -37,7 +39,15 @@ class JointStore {
     std::uint64_t borne = reactions_.size();  // which only some scenes have
     archive.value(borne);
     archive.rows(reactions_, borne);
+    std::uint64_t bodies = rows_.empty() ? 0 : least_moment_.size();
+    archive.value(bodies);
+    archive.rows(least_moment_, bodies);
     changed_ = changed_ || archive.reads();
+  }
+  /// Room for so many bodies.
+  void reserve_bodies(std::size_t bodies) {
+    place_of_.grow(bodies);
+    least_moment_.grow(bodies);
   }
   /// Bodies can be pushed, or cannot any more, who may have joints.
   void bodies_changed() { changed_ = changed_ || !rows_.empty(); }
@@ -67,6 +77,11 @@ class JointStore {
   /// What the joints ask of a step's code.
   [[nodiscard]] JointCode code() const { return code_; }
   [[nodiscard]] JointSet set(const Bodies& bodies, const SolverBodies& solver, bool gyroscopic);
+  /// That contacts move as a whole.
+  [[nodiscard]] Mechanisms mechanisms() {
+    return {held_ == 0 ? nullptr : place_of_.data(), mechanism_bodies_.data(), loads_.data(), mobility_.data(), held_};
+  }
+  [[nodiscard]] MechanismColumns mechanism_columns() { return {columns_.data(), number_of_.data(), scratch_.data()}; }
   /// body_pair_key of bodies that do not collide; in any order, and as often as they are joined.
   [[nodiscard]] std::vector<std::uint64_t> excluded() const;
 
@@ -80,12 +95,16 @@ class JointStore {
   [[nodiscard]] JointCode needed_code() const;
   void colour(const Table<BodyMass>& masses);
   void list_pushed_bodies(const Table<BodyMass>& masses);
+  void list_mechanisms(std::size_t bodies);
 
   bool changed_ = false, overflow_ = false, wants_reactions_ = false;
   JointCode code_ = JointCode::kContacts;
   std::vector<Row> rows_;  // by slot
   JointEliminator eliminator_;
-  std::vector<Joint> ordered_;  // those that are solved one by one, by slot; then the system, in its order
+  std::vector<Joint> ordered_;               // those that are solved one by one, by slot; then the system, in its order
+  std::vector<std::uint32_t> mechanism_of_;  // as ordered_: a number
+  std::vector<std::uint32_t> pushed_list_;   // bodies by place: mechanism after mechanism
+  std::unordered_set<std::uint32_t> changing_;  // mechanisms that contacts push body by body, whatever their size
   std::uint32_t count_ = 0, colours_ = 0;
   Buffer<Joint> joints_;  // as ordered_
   Buffer<std::uint32_t> by_colour_, first_, system_first_;
@@ -103,6 +122,14 @@ class JointStore {
   Buffer<JointProduct> products_;
   Buffer<JointOnBody> on_body_;
   Buffer<JointBlock> scaled_, whole_;
+
+  Buffer<Real> least_moment_;  // by body
+
+  std::uint32_t held_ = 0;  // places, or 0 where contacts see all bodies alone
+  Buffer<std::uint32_t> place_of_, columns_, number_of_;
+  Buffer<MechanismBody> mechanism_bodies_;
+  Buffer<ContactLoad> loads_;
+  Buffer<Real> mobility_, scratch_;
 };
 
 }  // namespace plumb::impulse

@@ -36,8 +36,70 @@ struct ContactTime {
   }
 };
 
-/// kImpacts: some contacts may be of impacts within the step.
-template <bool kImpacts>
+/// The matrix of contact_frame.hpp. In its order: normal, turns about the tangents; tangents, turn about the normal.
+struct FrameGive {
+  Real at[6][6];
+
+  PLUMB_HD FrameGive(const Vec& n, const Vec& t1, const Vec& arm_a, const Vec& arm_b, const Sym& inertia_a,
+                     const Sym& inertia_b, Real inverse_mass) {
+    const Vec t2 = cross(n, t1);
+    const Vec turns_a[6] = {cross(arm_a, n), t1, t2, cross(arm_a, t1), cross(arm_a, t2), n};
+    const Vec turns_b[6] = {cross(arm_b, n), t1, t2, cross(arm_b, t1), cross(arm_b, t2), n};
+    PLUMB_UNROLL
+    for (int j = 0; j < 6; ++j) {
+      const Vec by_a = inertia_a * turns_a[j], by_b = inertia_b * turns_b[j];
+      PLUMB_UNROLL
+      for (int i = 0; i <= j; ++i) at[i][j] = at[j][i] = dot(turns_a[i], by_a) + dot(turns_b[i], by_b);
+    }
+    at[0][0] = at[0][0] + inverse_mass;
+    at[3][3] = at[3][3] + inverse_mass;
+    at[4][4] = at[4][4] + inverse_mass;
+  }
+  /// Adds what wrenches on body `from` give at body `to`, of one mechanism or the same body: sign is -1 where one is a
+  /// and the other b.
+  PLUMB_HD void add(const Mechanisms& mechanisms, std::uint32_t from, const Six (&at_from)[6], std::uint32_t to,
+                    const Six (&at_to)[6], Real sign) {
+    for (int j = 0; j < 6; ++j)
+      for (int i = 0; i < 6; ++i) at[i][j] = at[i][j] + sign * mechanisms.work(from, at_from[j], to, at_to[i]);
+  }
+  /// The half below the diagonal is that above it.
+  PLUMB_HD void mirror() {
+    for (int j = 0; j < 6; ++j)
+      for (int i = 0; i < j; ++i) at[j][i] = at[i][j];
+  }
+
+  PLUMB_HD void copy_normal(Real (&m)[6]) const {
+    m[0] = at[0][0];
+    m[1] = at[0][1];
+    m[2] = at[0][2];
+    m[3] = at[1][1];
+    m[4] = at[1][2];
+    m[5] = at[2][2];
+  }
+  /// The largest that an impulse along a tangent at p gives in slip there, 1/kg.
+  PLUMB_HD Real largest_slip(const PlanePoint<Real>& p) const {
+    const Real x = p.x, y = p.y, spin = at[5][5];
+    const Real k11 = at[3][3] - 2 * y * at[3][5] + y * y * spin;
+    const Real k12 = at[3][4] + x * at[3][5] - y * at[4][5] - x * y * spin;
+    const Real k22 = at[4][4] + 2 * x * at[4][5] + x * x * spin;
+    const Real half = (k11 - k22) / 2;
+    return (k11 + k22) / 2 + sqrt(half * half + k12 * k12);
+  }
+};
+
+/// The wrenches of the frame's six directions on a body, or the motions there that they see.
+PLUMB_HD inline void frame_wrenches(const Vec& n, const Vec& t1, const Vec& arm, Six (&wrenches)[6]) {
+  const Vec t2 = cross(n, t1), zero = {0, 0, 0};
+  wrenches[0] = six(n, cross(arm, n));
+  wrenches[1] = six(zero, t1);
+  wrenches[2] = six(zero, t2);
+  wrenches[3] = six(t1, cross(arm, t1));
+  wrenches[4] = six(t2, cross(arm, t2));
+  wrenches[5] = six(zero, n);
+}
+
+/// kImpacts: some contacts may be of impacts within the step. kMechanisms: some bodies may move with a mechanism.
+template <bool kImpacts, bool kMechanisms>
 struct PrepareContacts {
   ContactCache cache;
   Bodies bodies;
@@ -56,6 +118,31 @@ struct PrepareContacts {
   PLUMB_HD void operator()(std::uint32_t j) const;
 
  private:
+  [[nodiscard]] PLUMB_HD bool is_alone(std::uint32_t body) const {
+    return !kMechanisms || !solver_bodies.mechanisms.hold(body);
+  }
+  /// Of a body that does not move with a mechanism; else 0.
+  PLUMB_HD Real inverse_mass_alone(std::uint32_t body) const {
+    return is_alone(body) ? bodies.velocity[body].inverse_mass : Real(0);
+  }
+  PLUMB_HD Sym inverse_inertia(std::uint32_t body) const {
+    return is_alone(body) ? solver_bodies.inertia[body].inverse : Sym{0, 0, 0, 0, 0, 0};
+  }
+  PLUMB_HD void add_mechanisms(FrameGive& give, const Vec& n, const Vec& t1, std::uint32_t a, const Vec& arm_a,
+                               std::uint32_t b, const Vec& arm_b) const {
+    const Mechanisms& mechanisms = solver_bodies.mechanisms;
+    const bool a_is_in = mechanisms.hold(a), b_is_in = mechanisms.hold(b);
+    Six on_a[6], on_b[6];
+    frame_wrenches(n, t1, arm_a, on_a);
+    frame_wrenches(n, t1, arm_b, on_b);
+    if (a_is_in) give.add(mechanisms, a, on_a, a, on_a, 1);
+    if (b_is_in) give.add(mechanisms, b, on_b, b, on_b, 1);
+    if (mechanisms.together(a, b)) {
+      give.add(mechanisms, a, on_a, b, on_b, -1);
+      give.add(mechanisms, b, on_b, a, on_a, -1);
+    }
+    if (a_is_in || b_is_in) give.mirror();
+  }
   /// By forces, m/s2.
   PLUMB_HD Vec acceleration(std::uint32_t body) const {
     const bool falls = (bodies.mass[body].flags & kBodyDynamic) != 0;
@@ -105,45 +192,6 @@ PLUMB_HD void invert(Real (&m)[R][R]) {
     }
   }
 }
-
-/// The matrix of contact_frame.hpp. In its order: normal, turns about the tangents; tangents, turn about the normal.
-struct FrameGive {
-  Real at[6][6];
-
-  PLUMB_HD FrameGive(const Vec& n, const Vec& t1, const Vec& arm_a, const Vec& arm_b, const Sym& inertia_a,
-                     const Sym& inertia_b, Real inverse_mass) {
-    const Vec t2 = cross(n, t1);
-    const Vec turns_a[6] = {cross(arm_a, n), t1, t2, cross(arm_a, t1), cross(arm_a, t2), n};
-    const Vec turns_b[6] = {cross(arm_b, n), t1, t2, cross(arm_b, t1), cross(arm_b, t2), n};
-    PLUMB_UNROLL
-    for (int j = 0; j < 6; ++j) {
-      const Vec by_a = inertia_a * turns_a[j], by_b = inertia_b * turns_b[j];
-      PLUMB_UNROLL
-      for (int i = 0; i <= j; ++i) at[i][j] = at[j][i] = dot(turns_a[i], by_a) + dot(turns_b[i], by_b);
-    }
-    at[0][0] = at[0][0] + inverse_mass;
-    at[3][3] = at[3][3] + inverse_mass;
-    at[4][4] = at[4][4] + inverse_mass;
-  }
-
-  PLUMB_HD void copy_normal(Real (&m)[6]) const {
-    m[0] = at[0][0];
-    m[1] = at[0][1];
-    m[2] = at[0][2];
-    m[3] = at[1][1];
-    m[4] = at[1][2];
-    m[5] = at[2][2];
-  }
-  /// The largest that an impulse along a tangent at p gives in slip there, 1/kg.
-  PLUMB_HD Real largest_slip(const PlanePoint<Real>& p) const {
-    const Real x = p.x, y = p.y, spin = at[5][5];
-    const Real k11 = at[3][3] - 2 * y * at[3][5] + y * y * spin;
-    const Real k12 = at[3][4] + x * at[3][5] - y * at[4][5] - x * y * spin;
-    const Real k22 = at[4][4] + 2 * x * at[4][5] + x * x * spin;
-    const Real half = (k11 - k22) / 2;
-    return (k11 + k22) / 2 + sqrt(half * half + k12 * k12);
-  }
-};
 
 /// Inverse of the matrix that gives all normal speeds for all normal impulses. Four points of a plane have but three
 /// ways to move: a share of each point's own softness is added, without which there is no inverse. With much less of it
@@ -235,8 +283,8 @@ PLUMB_HD inline void put_frame_matrix(ContactNumbers& numbers, int count, const 
   put_stop_mass(numbers, field + 12, count, held);
 }
 
-template <bool kImpacts>
-PLUMB_HD void PrepareContacts<kImpacts>::operator()(std::uint32_t j) const {
+template <bool kImpacts, bool kMechanisms>
+PLUMB_HD void PrepareContacts<kImpacts, kMechanisms>::operator()(std::uint32_t j) const {
   const std::uint32_t row = order[j], colour = colours[j];
   const std::uint32_t slot = counters->first_slot[colour] + (j - counters->first_in_colour[colour]);
   const std::uint32_t candidate = cache.candidate[row];
@@ -260,7 +308,7 @@ PLUMB_HD void PrepareContacts<kImpacts>::operator()(std::uint32_t j) const {
     return parts == nullptr ? Real(1) : static_cast<Real>(parts[body].end - parts[body].first);
   };
   const Real parts_a = split(a), parts_b = split(b);
-  const Real inverse_mass = parts_a * bodies.velocity[a].inverse_mass + parts_b * bodies.velocity[b].inverse_mass;
+  const Real inverse_mass = parts_a * inverse_mass_alone(a) + parts_b * inverse_mass_alone(b);
 
   rows.body_a[slot] = a;
   rows.body_b[slot] = b;
@@ -303,8 +351,8 @@ PLUMB_HD void PrepareContacts<kImpacts>::operator()(std::uint32_t j) const {
   numbers.at[kFriction] = sqrt(proxy_a.friction * proxy_b.friction);
   numbers.at[kRestitution] = max(proxy_a.restitution, proxy_b.restitution);
   if (numbers.at[kRestitution] > 0) numbers.at[kPull] = parameters->h * dot(acceleration(b) - acceleration(a), n);
-  const FrameGive give(n, t1, centre_a, centre_b, parts_a * solver_bodies.inertia[a].inverse,
-                       parts_b * solver_bodies.inertia[b].inverse, inverse_mass);
+  FrameGive give(n, t1, centre_a, centre_b, parts_a * inverse_inertia(a), parts_b * inverse_inertia(b), inverse_mass);
+  if constexpr (kMechanisms) add_mechanisms(give, n, t1, a, centre_a, b, centre_b);
   PlanePoint<Real> places[kManifoldPoints] = {};
   Real largest_slip = 0;
   PLUMB_UNROLL

@@ -57,6 +57,7 @@ struct Match {
   Proxies proxies;
   const StepParameters* parameters;
   StepCounters* counters;
+  Mechanisms mechanisms;
   std::uint64_t* masks;
 
   PLUMB_HD void operator()(std::uint32_t row) const {
@@ -70,6 +71,8 @@ struct Match {
     kept.tangent = perpendicular(found.normal);
     kept.count = found.count;
     kept.colour = kNone;
+    kept.owner_a = mechanisms.owner(a.body);
+    kept.owner_b = mechanisms.owner(b.body);
     for (std::uint32_t i = 0; i < kManifoldPoints; ++i) {
       kept.feature[i] = i < found.count ? found.points[i].feature : 0;
       kept.normal_impulse[i] = kept.tangent_impulse[0][i] = kept.tangent_impulse[1][i] = 0;
@@ -84,14 +87,14 @@ struct Match {
     atomic_add(&counters->points, kept.count);
     if (kept.colour == kNone) return;
     const std::uint64_t bit = std::uint64_t{1} << kept.colour;
-    if (bodies.velocity[a.body].inverse_mass > 0) atomic_or(&masks[a.body], bit);
-    if (bodies.velocity[b.body].inverse_mass > 0) atomic_or(&masks[b.body], bit);
+    if (bodies.velocity[a.body].inverse_mass > 0) atomic_or(&masks[kept.owner_a], bit);
+    if (bodies.velocity[b.body].inverse_mass > 0) atomic_or(&masks[kept.owner_b], bit);
   }
 
  private:
   /// Impulses of points that are still there; those across the normal keep their direction in the world.
   PLUMB_HD static void remember(const CachedManifold& old, CachedManifold& kept) {
-    if (old.colour < kOverflow) kept.colour = old.colour;
+    if (old.colour < kOverflow && old.owner_a == kept.owner_a && old.owner_b == kept.owner_b) kept.colour = old.colour;
     const Vec old_bitangent = cross(old.normal, old.tangent), bitangent = cross(kept.normal, kept.tangent);
     for (std::uint32_t i = 0; i < kept.count; ++i)
       for (std::uint32_t j = 0; j < old.count; ++j) {
@@ -153,9 +156,9 @@ void NarrowPhase::bin(Executor& executor, const ContactCache& cache, const Proxi
 
 void NarrowPhase::match(Executor& executor, const ContactCache& cache, const ContactCache& last, const KeptPair* woken,
                         const Bodies& bodies, const Proxies& proxies, const StepParameters* parameters,
-                        StepCounters* counters, std::uint64_t* masks) {
+                        StepCounters* counters, const Mechanisms& mechanisms, std::uint64_t* masks) {
   executor.run(Count{&counters->manifolds, capacity_},
-               Match{cache, last, woken, bodies, proxies, parameters, counters, masks});
+               Match{cache, last, woken, bodies, proxies, parameters, counters, mechanisms, masks});
 }
 
 void NarrowPhase::forget_found(Executor& executor, const std::uint32_t* statics, std::uint32_t n) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "body.hpp"
+#include "constraints/mechanism.hpp"
 #include "exec/archive.hpp"
 #include "exec/sort.hpp"
 #include "narrowphase/contact_cache.hpp"
@@ -51,7 +52,7 @@ class NarrowPhase {
   /// manifolds of those who slept in the last step (StepParameters::woken_contacts, ascending); null where nobody does.
   void match(Executor& executor, const ContactCache& cache, const ContactCache& last, const KeptPair* woken,
              const Bodies& bodies, const Proxies& proxies, const StepParameters* parameters, StepCounters* counters,
-             std::uint64_t* masks);
+             const Mechanisms& mechanisms, std::uint64_t* masks);
 
  private:
   struct Storage {

@@ -72,6 +72,8 @@ class RowList {
 
  private:
   int put(RowKind kind, std::size_t axis, std::size_t other, std::uint8_t coordinate) {
+    if (kind == RowKind::kPoint || kind == RowKind::kAlong || kind == RowKind::kDistance)
+      rows_.pulls |= 1U << rows_.rows;
     const int i = rows_.rows++ - rows_of(rows_.type);
     rows_.axes.row[i] = {kind, static_cast<std::uint8_t>(axis), static_cast<std::uint8_t>(other), coordinate};
     return i;
@@ -127,6 +129,7 @@ JointRows rows_of_joint(const PlumbJointDesc& desc) {
   JointRows rows{};
   rows.type = plain_type(desc);
   rows.rows = rows_of(rows.type);
+  rows.pulls = pulls_of(rows.type);
   const std::uint32_t free = free_axes(desc), turns = free >> 3;
   const bool pulls = desc.type == PLUMB_JOINT_DISTANCE;
   rows.locks_turns = !pulls && turns != 7;

@@ -14,6 +14,7 @@ namespace plumb::impulse {
 struct JointRows {
   JointType type;
   int rows;
+  std::uint32_t pulls;  ///< Joint::pulls
   JointAxes axes;
   JointDrive drive;
   bool locks_turns;

@@ -44,6 +44,7 @@ void World::put_joint(std::uint32_t slot) {
   Joint joint{};
   joint.type = rows.type;
   joint.rows = rows.rows;
+  joint.pulls = rows.pulls;
   joint.body_a = desc.body_a == 0 ? kWorld : slot_of(desc.body_a);
   joint.body_b = slot_of(desc.body_b);
   joint.slot = slot;

@@ -1,5 +1,7 @@
 #include "plugin/settings.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <iterator>
 #include <string>
@@ -33,6 +35,10 @@ Row number(const char* name, PlumbSettingType type, PlumbSettingRole role, doubl
   return row;
 }
 
+/// Errors of long mechanisms are taken back as these say, however short the sub-steps: all of it in one would pluck
+/// what is taut, and whips would crack.
+constexpr double kChainHertz = 240, kChainDampingRatio = 10;
+
 /// In the order of SolverKind.
 constexpr const char* kSolvers[] = {"tgs_soft", "si", "jacobi", "xpbd"};
 /// In the order of BroadPhase::Method. Where kernels have a memory of their own the tree is offered alone: there the
@@ -58,8 +64,10 @@ const std::vector<Row>& rows() {
       choice("solver", behaviour, kSolvers, &S::solver,
              "tgs_soft: soft constraints in sub-steps; si: sequential impulses, the step whole; jacobi: likewise, all "
              "at once on split bodies; xpbd: positions in sub-steps"),
-      number("substeps", whole, quality, 1, 256, 8, "1", &S::substeps,
-             "tgs_soft, xpbd: parts of a step in which velocities are solved and positions moved"),
+      number(
+          "substeps", whole, quality, 1, 256, 8, "1", &S::substeps,
+          "tgs_soft, xpbd: parts of a step in which velocities are solved and positions moved; a step longer than 1/60 "
+          "s has as many in each 1/60 s"),
       choice("relaxation", behaviour, kRelaxations, &S::relaxation,
              "tgs_soft: when contacts lose the speed that taking back overlap gave them: in each sub-step, or once at "
              "the end of a step, which leaves time for more sub-steps: high stacks of stiffer contacts"),
@@ -75,7 +83,9 @@ const std::vector<Row>& rows() {
       number("contact_damping_ratio", real, behaviour, 0, 1000, 50, "1", &S::contact_damping_ratio,
              "how slowly overlap is taken back: 1 is critical damping"),
       number("joint_hertz", real, behaviour, 0, 1e5, 0, "1/s", &S::joint_hertz,
-             "stiffness of joints against drift; 0: a quarter of the sub-steps a second"),
+             "stiffness of joints against drift; 0: all of it is taken back in a sub-step, of mechanisms of four "
+             "joints in a "
+             "row and more as at 240; of joints that are solved one by one a quarter of the sub-steps a second"),
       number("joint_damping_ratio", real, behaviour, 0, 1000, 10, "1", &S::joint_damping_ratio,
              "how slowly drift of joints is taken back"),
       number("push_speed", real, behaviour, 0, 1e6, 3, "m/s", &S::push_speed,
@@ -129,9 +139,14 @@ void Settings::set(const char* name, const PlumbSettingValue& value) {
     if (std::strcmp(r.info.choices[i], value.choice) == 0) this->*r.member = i;
 }
 
+/// What holds at 1/60 s does not at sub-steps twice as long; beyond sixteen times no step is one of a game.
+double Settings::substeps_in(double dt) const {
+  return substeps * std::clamp(std::ceil(60 * dt * (1 - 1e-6)), 1.0, 16.0);
+}
+
 double Settings::substep(double dt) const {
   const auto kind = static_cast<SolverKind>(solver);
-  return kind == SolverKind::kSequential || kind == SolverKind::kJacobi ? dt : dt / substeps;
+  return kind == SolverKind::kSequential || kind == SolverKind::kJacobi ? dt : dt / substeps_in(dt);
 }
 
 StepParameters Settings::parameters(double dt, double last_h, const PlumbVec3& gravity) const {
@@ -141,7 +156,7 @@ StepParameters Settings::parameters(double dt, double last_h, const PlumbVec3& g
   step.dt = static_cast<Real>(dt);
   step.h = static_cast<Real>(h);
   step.inverse_h = static_cast<Real>(1 / h);
-  step.substeps = static_cast<std::uint32_t>(substeps);
+  step.substeps = static_cast<std::uint32_t>(substeps_in(dt));
   const double hertz = contact_hertz > 0 ? contact_hertz : 0.25 / h;
   step.contact = make_softness(hertz, contact_damping_ratio, h);
   step.ground = make_softness(2 * hertz, contact_damping_ratio, h);
@@ -149,6 +164,7 @@ StepParameters Settings::parameters(double dt, double last_h, const PlumbVec3& g
   step.warm_start = static_cast<Real>(warm_starting == 0 || last_h == 0 ? 0 : h / last_h);
   step.push_speed = static_cast<Real>(push_speed);
   step.joint_rate = joint_hertz > 0 ? step.joint.bias_rate : step.inverse_h;
+  step.chain_rate = joint_hertz > 0 ? step.joint_rate : make_softness(kChainHertz, kChainDampingRatio, h).bias_rate;
   step.relaxes_once = relaxation != 0;
   step.sleep_speed = static_cast<Real>(sleep_speed);
   step.sleep_time = static_cast<Real>(sleep_time);

@@ -5,6 +5,7 @@
 
 #include "exec/atomic.hpp"
 #include "solver/joint_loops.hpp"
+#include "solver/tension.hpp"
 
 namespace plumb::impulse {
 
@@ -91,7 +92,9 @@ PLUMB_DEVICE inline void add_reactions(Team& team, const JointSet& joints) {
 /// Rows where the bodies are now.
 PLUMB_DEVICE inline void refresh_axes(Team& team, const JointSet& joints, const StepParameters& step) {
   const AxisView view = axis_view(joints);
+  const JointSystem system = joints.system;
   const Real h = step.h;
+  team.each(system.body_count, [=](std::uint32_t place) { find_least_moment(system, place, h, 1, 0); });
   team.each(joints.count, [=](std::uint32_t j) {
     const Joint& joint = view.joints[j];
     refresh_axis_joint(view, j);
@@ -114,17 +117,45 @@ PLUMB_DEVICE inline void warm_start_axes(Team& team, const JointSet& joints, boo
   team.each(system.body_count, [=](std::uint32_t i) { push_body(system, i, true); });
 }
 
+/// The rows that always hold pass on what contacts did to single bodies, so that all others start from where they
+/// nearly are: from speeds that no mechanism has they would not find their pieces.
+PLUMB_DEVICE inline void pass_on_loads(Team& team, const JointSet& joints) {
+  const JointSystem system = joints.system;
+  if (system.levels == 0) return;
+  const AxisView view = axis_view(joints);
+  team.each(joints.count - system.base, [=](std::uint32_t column) {
+    const std::uint32_t j = system.base + column;
+    choose_rows_met(view, j, view.parts.work[j].share);
+  });
+  factor_axis_system(team, system, view);
+  for_columns_up(team, system, [=](std::uint32_t column) {
+    const std::uint32_t j = system.base + column;
+    const Joint& joint = view.joints[j];
+    const AxisWork& own = view.parts.work[j];
+    Real(&y)[kJointRows] = system.work(column).change;
+    speeds_now(view, j, view.velocity(joint.body_a), view.velocity(joint.body_b), y);
+    for (int i = 0; i < row_count(joint); ++i)
+      y[i] = own.is_active(i) ? -(y[i] + own.yield[i] * view.total(j)[i]) : Real(0);
+    take_earlier(system, column);
+  });
+  for_columns_down(team, system, [=](std::uint32_t column) { solve_backward(system, column); });
+  push_changes(team, system);
+}
+
 /// One pass of the sub-stepped solver: over places, or over speeds after positions have moved.
+/// loaded: contacts have handed over what they did to mechanisms.
 PLUMB_DEVICE inline void solve_axes(Team& team, const JointSet& joints, const StepParameters& step, RowPass pass,
-                                    std::uint32_t& turn) {
+                                    bool loaded, std::uint32_t& turn) {
   if (joints.count == 0) return;
   const AxisView view = axis_view(joints);
   if (pass == RowPass::kSpeeds) refresh_axes(team, joints, step);
+  if (loaded) pass_on_loads(team, joints);
   const RowTime time = {pass, step.h, step.inverse_h, step.joint.bias_rate,
                         pass == RowPass::kSpeeds ? Real(0) : step.joint.give};
   for_single_joints(team, joints, [=](std::uint32_t j) { solve_axis_joint(view, j, time); });
   RowTime exact = time;
   exact.rate = step.joint_rate;
+  exact.chain_rate = step.chain_rate;
   solve_axis_system(team, joints, exact, turn);
   add_reactions(team, joints);
 }

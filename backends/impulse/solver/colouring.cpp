@@ -22,7 +22,7 @@ PLUMB_HD inline std::uint32_t lowest_zero_bit(std::uint64_t mask) {
   return mask == ~std::uint64_t{0} ? kOverflow : static_cast<std::uint32_t>(trailing_zeros(~mask));
 }
 
-/// The two bodies of a manifold, and whether it pushes them.
+/// The two bodies of a manifold, or the owners of their mechanisms, and whether it pushes them.
 struct Ends {
   std::uint32_t a, b;
   bool pushes_a, pushes_b;
@@ -32,6 +32,7 @@ struct View {
   ContactCache cache;
   const Velocity* velocities;
   const Proxy* proxies;
+  Mechanisms mechanisms;
   StepCounters* counters;
   std::uint64_t* masks;
   std::uint64_t* claims;
@@ -40,7 +41,7 @@ struct View {
   PLUMB_HD Ends ends(std::uint32_t row) const {
     const Pair pair = cache.pairs[cache.candidate[row]];
     const std::uint32_t a = proxies[pair.a].body, b = proxies[pair.b].body;
-    return {a, b, velocities[a].inverse_mass > 0, velocities[b].inverse_mass > 0};
+    return {mechanisms.owner(a), mechanisms.owner(b), velocities[a].inverse_mass > 0, velocities[b].inverse_mass > 0};
   }
 };
 
@@ -176,9 +177,9 @@ void Colouring::reserve(Executor& /*executor*/, std::uint32_t bodies, std::uint3
 void Colouring::begin(Executor& executor) { executor.run(bodies_, ClearBody{masks_.data(), claims_.data()}); }
 
 void Colouring::colour(Executor& executor, const ContactCache& cache, const Velocity* velocities, const Proxy* proxies,
-                       StepCounters* counters) {
-  const View view = {
-      cache, velocities, proxies, counters, masks_.data(), claims_.data(), {waiting_[0].data(), waiting_[1].data()}};
+                       const Mechanisms& mechanisms, StepCounters* counters) {
+  const View view = {cache,    velocities,    proxies,        mechanisms,
+                     counters, masks_.data(), claims_.data(), {waiting_[0].data(), waiting_[1].data()}};
   const Count manifolds = {&counters->manifolds, capacity_};
   executor.team(manifolds, 0, ColourNew{view});
   executor.run(manifolds, ListColours{view, colours_.data(), rows_.data()});

@@ -8,6 +8,7 @@
 #pragma once
 
 #include "body.hpp"
+#include "constraints/mechanism.hpp"
 #include "exec/sort.hpp"
 #include "math/wide.hpp"
 #include "narrowphase/contact_cache.hpp"
@@ -19,15 +20,16 @@ class Colouring {
  public:
   void reserve(Executor& executor, std::uint32_t bodies, std::uint32_t manifolds);
 
-  /// Per body: bit c is set where a manifold of colour c pushes it. Cleared by begin(); whoever keeps a manifold's old
-  /// colour sets its bit.
+  /// Per body, or owner of a mechanism: bit c is set where a manifold of colour c pushes it. Cleared by begin();
+  /// whoever keeps a manifold's old colour sets its bit.
   [[nodiscard]] std::uint64_t* masks() { return masks_.data(); }
 
   void begin(Executor& executor);
   /// Colours what has none in cache.kept[row].colour, then orders the rows: order()[j] is the row in place j by colour
   /// (and by row within it), slot(j) its solver row.
+  /// Of mechanisms that contacts move as a whole no two manifolds of a colour push the same one.
   void colour(Executor& executor, const ContactCache& cache, const Velocity* velocities, const Proxy* proxies,
-              StepCounters* counters);
+              const Mechanisms& mechanisms, StepCounters* counters);
 
   /// Instead of colour(): all rows in one colour, in their own order, for a solver that needs none. Colours that
   /// manifolds have are kept for one that does.

@@ -98,15 +98,35 @@ PLUMB_HD void work_on_surfaces([[maybe_unused]] bool belts, const RowAccess<N>& 
   }
 }
 
+/// Keeps the velocities that a contact has given its bodies, where these are of mechanisms. A thread that pushes a
+/// mechanism does so from both ends.
+template <class N>
+PLUMB_HD void store_mechanisms(const SolverBodies& bodies, const LoadedContact<N>& loaded,
+                               const SolverBody<N>& a_before, const SolverBody<N>& b_before, SolverBody<N>& a,
+                               SolverBody<N>& b) {
+  const bool both = kContactThreads > 1 && bodies.mechanisms.together(*loaded.a, *loaded.b);
+  if (stores_body(0)) push_mechanisms<N>(bodies, loaded.a, a, a_before);
+  if (both ? stores_body(0) : stores_body(1)) push_mechanisms<N>(bodies, loaded.b, b, b_before);
+  if (both) b.inverse_mass = N(0);
+}
+
 /// Runs work(row, contact, a, b) on a contact and keeps what it did to the bodies.
-template <bool kBelts, class N, class Work>
+template <bool kBelts, bool kMechanisms, class N, class Work>
 PLUMB_HD void work_on(const ContactSet& contacts, const SolverBodies& bodies, std::uint32_t slot,
                       LoadedContact<N>& loaded, BodyUse use, const Work& work) {
   const ContactRows& rows = contacts.rows;
   with_contact(rows, slot, loaded, [&](auto& contact) {
     const bool moved = use != BodyUse::kVelocity;
     SolverBody<N> a = load_body<N>(bodies, loaded.a, moved), b = load_body<N>(bodies, loaded.b, moved);
-    work_on_surfaces<kBelts>(contacts.belts, RowAccess<N>(rows, slot), contact, a, b, work);
+    if (kMechanisms && bodies.mechanisms.count != 0) {
+      stand_for_mechanisms<N>(bodies, loaded.a, a);
+      stand_for_mechanisms<N>(bodies, loaded.b, b);
+      const SolverBody<N> a_before = a, b_before = b;
+      work_on_surfaces<kBelts>(contacts.belts, RowAccess<N>(rows, slot), contact, a, b, work);
+      store_mechanisms<N>(bodies, loaded, a_before, b_before, a, b);
+    } else {
+      work_on_surfaces<kBelts>(contacts.belts, RowAccess<N>(rows, slot), contact, a, b, work);
+    }
     if (stores_body(0)) store_body<N>(bodies, loaded.a, a);
     if (stores_body(1)) store_body<N>(bodies, loaded.b, b);
     if (use != BodyUse::kAll) return;
@@ -116,7 +136,7 @@ PLUMB_HD void work_on(const ContactSet& contacts, const SolverBodies& bodies, st
 }
 
 /// Runs work on the contacts of slots first .. first + n * lanes, which share no body that they push.
-template <bool kBelts, class N, class Work>
+template <bool kBelts, bool kMechanisms, class N, class Work>
 PLUMB_DEVICE void for_slots(Team& team, const ContactSet& contacts, const SolverBodies& bodies, std::uint32_t first,
                             std::uint32_t n, BodyUse use, const Work& work) {
   const auto slot = [=, &contacts](std::uint32_t i) {
@@ -125,12 +145,13 @@ PLUMB_DEVICE void for_slots(Team& team, const ContactSet& contacts, const Solver
   team.each_ahead(
       contact_loop(n), [&](std::uint32_t i) { return load_slot<N>(contacts.rows, slot(i)); },
       [&](std::uint32_t i, LoadedContact<N>& loaded) {
-        work_on<kBelts, N>(contacts, bodies, slot(i), loaded, use, work);
+        work_on<kBelts, kMechanisms, N>(contacts, bodies, slot(i), loaded, use, work);
       });
 }
 
-/// Runs work on every contact, colour after colour, and on those without a colour one after the other.
-template <bool kBelts = false, class Work>
+/// Runs work on every contact, colour after colour, and on those without a colour one after the other. kMechanisms:
+/// what it pushes may be in mechanisms that move as a whole.
+template <bool kBelts = false, bool kMechanisms = false, class Work>
 PLUMB_DEVICE void for_contacts(Team& team, const ContactSet& contacts, const SolverBodies& bodies, BodyUse use,
                                const Work& work) {
   const StepCounters& counters = *contacts.counters;
@@ -141,12 +162,12 @@ PLUMB_DEVICE void for_contacts(Team& team, const ContactSet& contacts, const Sol
     const std::uint32_t first = k < colours ? counters.first_slot[k] : lone + (k - colours);
     const std::uint32_t slots = k < colours ? counters.first_slot[k + 1] - first : 1;
     if constexpr (kLanes == 1) {
-      for_slots<kBelts, Real>(team, contacts, bodies, first, slots, use, work);
+      for_slots<kBelts, kMechanisms, Real>(team, contacts, bodies, first, slots, use, work);
     } else {
       if (k < colours)
-        for_slots<kBelts, Lanes>(team, contacts, bodies, first, slots / kLanes, use, work);
+        for_slots<kBelts, kMechanisms, Lanes>(team, contacts, bodies, first, slots / kLanes, use, work);
       else
-        for_slots<kBelts, Real>(team, contacts, bodies, first, 1, use, work);
+        for_slots<kBelts, kMechanisms, Real>(team, contacts, bodies, first, 1, use, work);
     }
   }
 }

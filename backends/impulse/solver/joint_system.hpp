@@ -38,7 +38,7 @@ struct JointSystem {
   JointBlock* scaled;  ///< L
   JointBlock* whole;   ///< L D
   std::uint32_t body_count;
-  const std::uint32_t* bodies;  ///< that these joints push
+  const std::uint32_t* bodies;  ///< that these joints push, by place: mechanism after mechanism
   const std::uint32_t* body_first;
   const JointOnBody* on_body;
 

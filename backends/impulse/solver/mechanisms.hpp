@@ -3,13 +3,16 @@
 #pragma once
 
 #include "solver/joint_loops.hpp"
+#include "solver/tension.hpp"
 
 namespace plumb::impulse {
 
 /// The joints as they stand now.
 PLUMB_DEVICE inline void refresh_mechanisms(Team& team, const JointSet& joints, Real h) {
   const JointView view = joints.view;
-  const std::uint32_t base = joints.system.base;
+  const JointSystem system = joints.system;
+  const std::uint32_t base = system.base;
+  team.each(system.body_count, [=](std::uint32_t place) { find_least_moment(system, place, h, 1, 0); });
   team.each(joints.count, [=](std::uint32_t j) {
     make_joint_rows(view, j);
     if (j < base) factor_joint(view, j);
@@ -37,7 +40,7 @@ PLUMB_DEVICE inline void solve_mechanisms(Team& team, const JointSet& joints, co
   if (joints.count == 0) return;
   if (!take_back_error) refresh_mechanisms(team, joints, step.h);
   const JointView view = joints.view;
-  const JointPass pass = {step.joint, step.h, step.inverse_h, take_back_error};
+  const JointPass pass = {step.joint, step.chain_rate, step.h, step.inverse_h, take_back_error};
   for_single_joints(team, joints, [=](std::uint32_t j) { solve_joint(view, j, pass); });
   JointPass exact = pass;
   exact.softness = {step.joint_rate, 1, 0};

@@ -11,7 +11,10 @@ namespace plumb::impulse {
 
 /// I^-1 in world axes, which is 0 from the start where nothing that is pushed turns, and no displacement yet.
 PLUMB_HD inline void begin_body(const Bodies& bodies, const SolverBodies& solver, std::uint32_t i) {
-  if (bodies.turn) solver.inertia[i] = {world_inverse_inertia(bodies.orientation[i], bodies.mass[i]), {0, 0}};
+  const BodyMass& mass = bodies.mass[i];
+  if (bodies.turn)
+    solver.inertia[i] = {world_inverse_inertia(bodies.orientation[i], mass.flags, inverse_moments(mass, solver.swings)),
+                         {0, 0}};
   solver.displacement[i] = {{0, 0, 0}, 0, {0, 0, 0, 1}};
 }
 

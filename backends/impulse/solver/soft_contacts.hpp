@@ -7,7 +7,7 @@
 
 namespace plumb::impulse {
 
-template <bool kBelts>
+template <bool kBelts, bool kMechanisms>
 struct SoftContacts : SolverStep {
   PLUMB_DEVICE void warm_start_contacts(Team& team) const;
   /// Takes overlap back, softly. final: no relaxing pass follows in this sub-step.
@@ -36,44 +36,45 @@ PLUMB_HD void close_pushed(Contact<P, N>& contact) {
   contact.open = select(contact.impulse[0] > N(0), N(0), contact.open);
 }
 
-template <bool kBelts>
-PLUMB_DEVICE void SoftContacts<kBelts>::warm_start_contacts(Team& team) const {
+template <bool kBelts, bool kMechanisms>
+PLUMB_DEVICE void SoftContacts<kBelts, kMechanisms>::warm_start_contacts(Team& team) const {
   for_contacts(team, contacts, solver, BodyUse::kVelocity,
                [](const auto& /*row*/, const auto& contact, auto& a, auto& b) { warm_start_contact(contact, a, b); });
 }
 
-template <bool kBelts>
-PLUMB_DEVICE void SoftContacts<kBelts>::push_contacts(Team& team, const StepParameters& step, bool final) const {
+template <bool kBelts, bool kMechanisms>
+PLUMB_DEVICE void SoftContacts<kBelts, kMechanisms>::push_contacts(Team& team, const StepParameters& step,
+                                                                   bool final) const {
   const ContactSoftness softness = {step.contact, step.ground, step.inverse_h, step.push_speed};
   const bool friction = features.friction, note_impacts = features.restitution;
-  for_contacts<kBelts>(team, contacts, solver, BodyUse::kVelocityWhereMoved,
-                       [=](const auto& row, auto& contact, auto& a, auto& b) {
-                         const auto aim = aim_softly(contact, a, b, softness);
-                         solve_contact_softly(contact, aim, a, b, friction, note_impacts);
-                         close_pushed(contact);
-                         store_impulses(row, contact);
-                         if (note_impacts) store_impact_speeds(row, contact);
-                         if (final) add_up_impulses(row, contact.impulse);
-                       });
+  for_contacts<kBelts, kMechanisms>(team, contacts, solver, BodyUse::kVelocityWhereMoved,
+                                    [=](const auto& row, auto& contact, auto& a, auto& b) {
+                                      const auto aim = aim_softly(contact, a, b, softness);
+                                      solve_contact_softly(contact, aim, a, b, friction, note_impacts);
+                                      close_pushed(contact);
+                                      store_impulses(row, contact);
+                                      if (note_impacts) store_impact_speeds(row, contact);
+                                      if (final) add_up_impulses(row, contact.impulse);
+                                    });
 }
 
-template <bool kBelts>
-PLUMB_DEVICE void SoftContacts<kBelts>::relax_contacts(Team& team) const {
+template <bool kBelts, bool kMechanisms>
+PLUMB_DEVICE void SoftContacts<kBelts, kMechanisms>::relax_contacts(Team& team) const {
   const bool friction = features.friction;
-  for_contacts<kBelts>(team, contacts, solver, BodyUse::kVelocity,
-                       [=](const auto& row, auto& contact, auto& a, auto& b) {
-                         solve_contact_softly(contact, aim_hard(contact), a, b, friction, false);
-                         store_impulses(row, contact);
-                         add_up_impulses(row, contact.impulse);
-                       });
+  for_contacts<kBelts, kMechanisms>(team, contacts, solver, BodyUse::kVelocity,
+                                    [=](const auto& row, auto& contact, auto& a, auto& b) {
+                                      solve_contact_softly(contact, aim_hard(contact), a, b, friction, false);
+                                      store_impulses(row, contact);
+                                      add_up_impulses(row, contact.impulse);
+                                    });
 }
 
-template <bool kBelts>
-PLUMB_DEVICE void SoftContacts<kBelts>::bounce_contacts(Team& team, Real slowest) const {
+template <bool kBelts, bool kMechanisms>
+PLUMB_DEVICE void SoftContacts<kBelts, kMechanisms>::bounce_contacts(Team& team, Real slowest) const {
   const BounceContact bounce = {slowest, features.friction};
-  for_contacts<kBelts>(team, contacts, solver, BodyUse::kVelocity, bounce);
+  for_contacts<kBelts, kMechanisms>(team, contacts, solver, BodyUse::kVelocity, bounce);
 }
 
-PLUMB_COMPILED_ONCE(struct SoftContacts<true>);
+PLUMB_COMPILED_ONCE(struct SoftContacts<true, true>);
 
 }  // namespace plumb::impulse

@@ -11,7 +11,7 @@ namespace plumb::impulse {
 /// al., "Small Steps in Physics Simulation", SCA 2019). In each sub-step velocities are solved with a soft bias against
 /// overlap, positions moved, and velocities solved again without the bias, so that what it pushed does not stay.
 template <JointCode kJoints, bool kBelts>
-struct StepSoftly : SoftContacts<kBelts> {
+struct StepSoftly : SoftContacts<kBelts, !Executor::kWarps || kJoints != JointCode::kContacts> {
   using SolverStep::bodies, SolverStep::solver, SolverStep::body_count, SolverStep::features, SolverStep::joints;
 
   PLUMB_DEVICE void operator()(Team& team) const {
@@ -28,16 +28,29 @@ struct StepSoftly : SoftContacts<kBelts> {
       }
       if constexpr (kJoints == JointCode::kAll) {
         warm_start_axes(team, joints, first, step);
-        solve_axes(team, joints, step, RowPass::kPlaces, turn);
+        solve_axes(team, joints, step, RowPass::kPlaces, !first && loads(), turn);
       }
       const bool relaxes = !step.relaxes_once || k + 1 == step.substeps;
-      if (features.collision) this->push_contacts(team, step, !relaxes);
+      if (features.collision) {
+        begin_loads(team);
+        this->push_contacts(team, step, !relaxes);
+        end_loads(team);
+      }
       this->move_bodies(team, step);
+      if (features.collision) hand_over_loads(team);
       hold_speeds(team, step, turn);
-      if (relaxes && features.collision) this->relax_contacts(team);
+      if (!relaxes || !features.collision) continue;
+      begin_loads(team);
+      this->relax_contacts(team);
+      if (k + 1 == step.substeps) continue;
+      end_loads(team);
+      hand_over_loads(team);
     }
     if (features.collision && features.restitution) {
+      begin_loads(team);
       this->bounce_contacts(team, step.restitution_speed);
+      end_loads(team);
+      hand_over_loads(team);
       hold_speeds(team, step, turn);  // what bounced takes along what it is joined to
     }
     this->finish(team);
@@ -46,7 +59,22 @@ struct StepSoftly : SoftContacts<kBelts> {
  private:
   PLUMB_DEVICE void hold_speeds(Team& team, const StepParameters& step, [[maybe_unused]] std::uint32_t& turn) const {
     if constexpr (kJoints == JointCode::kPlain) solve_mechanisms(team, joints, step, false);
-    if constexpr (kJoints == JointCode::kAll) solve_axes(team, joints, step, RowPass::kSpeeds, turn);
+    if constexpr (kJoints == JointCode::kAll) solve_axes(team, joints, step, RowPass::kSpeeds, loads(), turn);
+  }
+  PLUMB_DEVICE bool loads() const { return features.collision && solver.mechanisms.count != 0; }
+  /// Contacts are about to push mechanisms as a whole.
+  PLUMB_DEVICE void begin_loads(Team& team) const {
+    if constexpr (kJoints != JointCode::kContacts)
+      team.each(solver.mechanisms.count, [&](std::uint32_t place) { begin_load(solver, place); });
+  }
+  PLUMB_DEVICE void end_loads(Team& team) const {
+    if constexpr (kJoints != JointCode::kContacts)
+      team.each(solver.mechanisms.count, [&](std::uint32_t place) { end_load(solver, place); });
+  }
+  /// The joints have yet to pass on what contacts did.
+  PLUMB_DEVICE void hand_over_loads(Team& team) const {
+    if constexpr (kJoints != JointCode::kContacts)
+      team.each(solver.mechanisms.count, [&](std::uint32_t place) { hand_over_load(solver, place); });
   }
 };
 

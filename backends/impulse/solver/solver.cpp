@@ -2,6 +2,7 @@
 
 #include "constraints/prepare_contacts.hpp"
 #include "solver/enqueue_step.hpp"
+#include "solver/mechanism_mobility.hpp"
 #include "solver/motion.hpp"
 
 namespace plumb::impulse {
@@ -42,18 +43,36 @@ void Solver::begin(Executor& executor, const Bodies& all, std::uint32_t body_cou
   executor.run(body_count, BeginBody{all, bodies(all)});
 }
 
+const Mechanisms& Solver::meet(JointStore& joints) {
+  mechanisms_ = kind_ == SolverKind::kTgsSoft && features_.collision ? joints.mechanisms() : Mechanisms{};
+  return mechanisms_;
+}
+
+void Solver::find_mobility(Executor& executor, const ContactCache& cache, const Bodies& all, const Proxies& proxies,
+                           const StepParameters* parameters, const StepCounters* counters, JointStore& joints) {
+  enqueue_mobility(executor, joints.code(),
+                   {joints.set(all, bodies(all), features_.gyroscopic), mechanisms_, joints.mechanism_columns(), cache,
+                    proxies.rows, parameters, counters},
+                   {&counters->manifolds, slots_});
+}
+
 void Solver::prepare(Executor& executor, const ContactCache& cache, const Bodies& all, const Proxies& proxies,
                      const Colouring& colouring, const Real* impacts, const StepParameters* parameters,
                      StepCounters* counters) {
   const Count manifolds = {&counters->manifolds, slots_ - slots_for(0)};
   const bool split = kind_ == SolverKind::kJacobi;
   if (split) split_.list(executor, cache, all.velocity, proxies.rows, counters);
-  const auto prepare = [&]<bool kImpacts>() {
-    executor.run(manifolds, PrepareContacts<kImpacts>{cache, all, proxies, bodies(all), rows(), counters,
-                                                      colouring.order(), colouring.colours(), parameters, nobody_,
-                                                      split ? split_.parts().ranges : nullptr, impacts});
+  const auto prepare = [&]<bool kImpacts, bool kMechanisms>() {
+    executor.run(manifolds,
+                 PrepareContacts<kImpacts, kMechanisms>{cache, all, proxies, bodies(all), rows(), counters,
+                                                        colouring.order(), colouring.colours(), parameters, nobody_,
+                                                        split ? split_.parts().ranges : nullptr, impacts});
   };
-  impacts == nullptr ? prepare.operator()<false>() : prepare.operator()<true>();
+  const bool whole = mechanisms_.count != 0;
+  if (impacts == nullptr)
+    whole ? prepare.operator()<false, true>() : prepare.operator()<false, false>();
+  else
+    whole ? prepare.operator()<true, true>() : prepare.operator()<true, false>();
   executor.run(kOverflow + 1, PadColours{rows(), counters, nobody_});
 }
 

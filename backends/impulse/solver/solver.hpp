@@ -36,6 +36,11 @@ class Solver {
 
   /// World inertia of all bodies, no displacement.
   void begin(Executor& executor, const Bodies& bodies, std::uint32_t body_count);
+  /// The mechanisms that contacts push as a whole, as far as this solver does that.
+  const Mechanisms& meet(JointStore& joints);
+  /// Of those that touch something.
+  void find_mobility(Executor& executor, const ContactCache& cache, const Bodies& bodies, const Proxies& proxies,
+                     const StepParameters* parameters, const StepCounters* counters, JointStore& joints);
   /// Contacts into rows, in the order of their colours. impacts: Impacts::times(), or null.
   void prepare(Executor& executor, const ContactCache& cache, const Bodies& bodies, const Proxies& proxies,
                const Colouring& colouring, const Real* impacts, const StepParameters* parameters,
@@ -56,11 +61,13 @@ class Solver {
 
  private:
   SolverBodies bodies(const Bodies& bodies) {
-    return {bodies.velocity, displacement_.data(), inertia_.data(), free_velocity_.data(), features_.gyroscopic};
+    return {bodies.velocity,       displacement_.data(), inertia_.data(),
+            free_velocity_.data(), features_.gyroscopic, mechanisms_};
   }
 
   SolverFeatures features_;
   SolverKind kind_ = SolverKind::kTgsSoft;
+  Mechanisms mechanisms_{};  // of the step that is being enqueued
   std::uint32_t slots_ = 0, nobody_ = 0;
   Buffer<Displacement> displacement_;
   Buffer<WorldInertia> inertia_;

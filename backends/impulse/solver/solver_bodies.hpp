@@ -3,6 +3,7 @@
 
 #include "body.hpp"
 #include "constraints/contact.hpp"
+#include "constraints/mechanism.hpp"
 
 namespace plumb::impulse {
 
@@ -20,6 +21,7 @@ struct SolverBodies {
   WorldInertia* inertia;
   FreeVelocity* free_velocity;
   bool swings;  ///< angular velocities of bodies that tumble are those of swung_frame.hpp
+  Mechanisms mechanisms;
 };
 
 /// Brings bodies in. Without `moved` their displacement is not read (it is not needed).
@@ -80,6 +82,73 @@ PLUMB_HD void store_displacement(const SolverBodies& bodies, const std::uint32_t
                                body.rotated.x, body.rotated.y, body.rotated.z, body.rotated.w};
     scatter(numbers, body.inverse_mass, bodies.displacement, indices);
   }
+}
+
+/// What stands for a mechanism's body while a contact is solved: as heavy, and a ball. What pushes it then is what it
+/// gains, to the last digits that its velocity has.
+struct Pushed {
+  Real per_force, per_torque;  ///< inverse mass and inverse moment
+
+  PLUMB_HD Pushed(const SolverBodies& bodies, std::uint32_t body) : per_force(bodies.velocity[body].inverse_mass) {
+    const Sym& inverse = bodies.inertia[body].inverse;
+    per_torque = max(max(inverse.xx, inverse.yy), inverse.zz);
+  }
+};
+template <class N>
+PLUMB_HD void stand_for_mechanisms(const SolverBodies& bodies, const std::uint32_t* indices, SolverBody<N>& body) {
+  for (std::uint32_t lane = 0; lane < sizeof(N) / sizeof(Real); ++lane) {
+    if (!bodies.mechanisms.hold(indices[lane])) continue;
+    const Pushed pushed(bodies, indices[lane]);
+    Sym33<N>& inertia = body.inverse_inertia;
+    lane_of(inertia.xx, lane) = lane_of(inertia.yy, lane) = lane_of(inertia.zz, lane) = pushed.per_torque;
+    lane_of(inertia.xy, lane) = lane_of(inertia.xz, lane) = lane_of(inertia.yz, lane) = 0;
+  }
+}
+/// What pushed the bodies that stood for mechanisms moves these. Nothing of their lanes is left for store_body.
+template <class N>
+PLUMB_HD void push_mechanisms(const SolverBodies& bodies, const std::uint32_t* indices, SolverBody<N>& body,
+                              const SolverBody<N>& before) {
+  for (std::uint32_t lane = 0; lane < sizeof(N) / sizeof(Real); ++lane) {
+    if (!bodies.mechanisms.hold(indices[lane])) continue;
+    const Pushed pushed(bodies, indices[lane]);
+    const auto gained = [lane](const Vec3<N>& now, const Vec3<N>& then) {
+      return Vec{lane_of(now.x, lane) - lane_of(then.x, lane), lane_of(now.y, lane) - lane_of(then.y, lane),
+                 lane_of(now.z, lane) - lane_of(then.z, lane)};
+    };
+    bodies.mechanisms.push(indices[lane], reciprocal_or_zero(pushed.per_force) * gained(body.linear, before.linear),
+                           reciprocal_or_zero(pushed.per_torque) * gained(body.angular, before.angular),
+                           bodies.velocity);
+    lane_of(body.inverse_mass, lane) = 0;
+  }
+}
+
+/// Contacts are about to push the body at a place of the mechanisms.
+PLUMB_HD inline void begin_load(const SolverBodies& bodies, std::uint32_t place) {
+  const MechanismBody& of = bodies.mechanisms.bodies[place];
+  if (of.count == 0) return;
+  const Velocity& velocity = bodies.velocity[of.body];
+  ContactLoad& load = bodies.mechanisms.loads[place];
+  load.linear = velocity.linear;
+  load.angular = velocity.angular;
+  load.force = load.torque = {0, 0, 0};
+}
+/// They have: what is missing to the velocity that the body would have had they pushed it alone.
+PLUMB_HD inline void end_load(const SolverBodies& bodies, std::uint32_t place) {
+  const MechanismBody& of = bodies.mechanisms.bodies[place];
+  if (of.count == 0) return;
+  const Velocity& velocity = bodies.velocity[of.body];
+  ContactLoad& load = bodies.mechanisms.loads[place];
+  load.linear = load.linear + velocity.inverse_mass * load.force - velocity.linear;
+  load.angular = load.angular + bodies.inertia[of.body].inverse * load.torque - velocity.angular;
+}
+/// The body moves as if contacts had pushed it alone, and the joints are to pass that on: they know better, where the
+/// bodies have moved, which of them hold, and what they bear.
+PLUMB_HD inline void hand_over_load(const SolverBodies& bodies, std::uint32_t place) {
+  const MechanismBody& of = bodies.mechanisms.bodies[place];
+  if (of.count == 0) return;
+  Velocity& velocity = bodies.velocity[of.body];
+  velocity.linear += bodies.mechanisms.loads[place].linear;
+  velocity.angular += bodies.mechanisms.loads[place].angular;
 }
 
 }  // namespace plumb::impulse

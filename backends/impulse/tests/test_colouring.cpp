@@ -40,7 +40,7 @@ struct ColouringRig {
       for (const std::uint32_t body : {pairs[i].a, pairs[i].b})
         if (velocities[body].inverse_mass > 0) colouring.masks()[body] |= std::uint64_t{1} << kept[i].colour;
     }
-    colouring.colour(executor, cache, velocities.data(), proxies.data(), counters.data());
+    colouring.colour(executor, cache, velocities.data(), proxies.data(), Mechanisms{}, counters.data());
   }
 
   /// No body twice in a colour, every manifold once in the order, colours one after the other, whole groups of slots.

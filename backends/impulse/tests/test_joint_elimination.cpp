@@ -21,7 +21,6 @@ struct Plain {
   std::vector<std::vector<std::uint32_t>> rounds;
   std::vector<std::uint32_t> one_by_one;
   std::map<std::uint32_t, bool> in_loop;
-  std::map<std::uint32_t, std::uint32_t> size;
   Sets below;
 
   explicit Plain(const std::vector<Join>& joins) {
@@ -61,7 +60,6 @@ struct Plain {
     }
     for (const std::uint32_t j : members) {
       in_loop[j] = members.size() + 1 > bodies.size();
-      size[j] = static_cast<std::uint32_t>(members.size());
     }
     std::vector<std::vector<std::uint32_t>> own;
     Sets own_below;
@@ -119,7 +117,6 @@ void expect_as_plain(const JointElimination& found, const std::vector<Join>& joi
   ASSERT_EQ(found.one_by_one, plain.one_by_one);
   for (std::uint32_t j = 0; j < joins.size(); ++j) {
     EXPECT_EQ(found.in_loop[j], plain.in_loop.at(j)) << j;
-    EXPECT_EQ(found.size[j], plain.size.at(j)) << j;
   }
 
   Numbers place(joins.size());

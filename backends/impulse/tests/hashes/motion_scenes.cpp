@@ -1,6 +1,8 @@
 // Scenes of bodies that are joined with limits, motors and springs, held along axes, or too fast for a step.
 #include "hashes/motion_scenes.hpp"
 
+#include <cmath>
+
 namespace plumb::impulse::test {
 
 namespace {
@@ -14,6 +16,13 @@ PlumbJoint join(Scene& scene, PlumbJointDesc desc, PlumbBody a, const PlumbVec3&
   PlumbJoint id = 0;
   check(scene.world(), scene.world().joints()->create_joints({&desc, 1}, {&id, 1}));
   return id;
+}
+
+PlumbBodyDesc of_mass(double mass) {
+  PlumbBodyDesc desc = body_desc();
+  desc.mass_mode = PLUMB_MASS_FROM_TOTAL;
+  desc.mass = mass;
+  return desc;
 }
 
 }  // namespace
@@ -103,6 +112,51 @@ void bullets(Scene& scene) {
   scene.body.linear_velocity = {3, 0, 0};
   scene.body.angular_velocity = {0, 0, 45};
   scene.add(rod, {0, 1.2, 3});
+}
+
+/// A cart and a table with boxes on them, a chain that falls into a heap, and a heavy ball that swings on a rope.
+void loads(Scene& scene) {
+  scene.ground();
+  const PlumbShape hull = scene.box({1.5, 0.25, 0.7}), wheel = scene.sphere(0.35), crate = scene.box({0.4, 0.4, 0.4});
+  scene.body = of_mass(800);
+  const PlumbBody cart = scene.add(hull, {0, 0.6, 0});
+  for (const PlumbVec3& at : {PlumbVec3{1, 0, 0.9}, {1, 0, -0.9}, {-1, 0, 0.9}, {-1, 0, -0.9}}) {
+    scene.body = of_mass(15);
+    PlumbJointDesc axle = joint_desc(PLUMB_JOINT_HINGE);
+    axle.frame_a.orientation = axle.frame_b.orientation = {0, -std::sqrt(0.5), 0, std::sqrt(0.5)};  // about z
+    join(scene, axle, cart, {at.x, -0.25, at.z}, scene.add(wheel, {at.x, 0.35, at.z}), {0, 0, 0});
+  }
+  scene.body = of_mass(2000);
+  scene.add(crate, {0, 1.25, 0});
+
+  const PlumbShape plate = scene.box({0.8, 0.03, 0.5}), leg = scene.box({0.03, 0.35, 0.03});
+  scene.body = of_mass(30);
+  const PlumbBody top = scene.add(plate, {6, 0.73, 0});
+  for (const PlumbVec3& at : {PlumbVec3{0.7, 0, 0.4}, {0.7, 0, -0.4}, {-0.7, 0, 0.4}, {-0.7, 0, -0.4}}) {
+    scene.body = of_mass(2);
+    join(scene, joint_desc(PLUMB_JOINT_FIXED), top, {at.x, -0.03, at.z}, scene.add(leg, {6 + at.x, 0.35, at.z}),
+         {0, 0.35, 0});
+  }
+  scene.body = of_mass(300);
+  scene.add(crate, {6, 1.16, 0});
+
+  const PlumbShape link = scene.capsule(0.05, 0.15), ball = scene.sphere(0.25);
+  PlumbBody before = 0;
+  for (int i = 0; i < 10; ++i) {
+    scene.body = of_mass(5);
+    const PlumbBody here = scene.add(link, {-6 + 0.002 * (i % 3), 0.7 + 0.4 * i, 0.001 * i});
+    if (before != 0) scene.ball_joint(before, {0, 0.2, 0}, here, {0, -0.2, 0});
+    before = here;
+  }
+  before = 0;
+  for (int i = 0; i < 12; ++i) {
+    scene.body = of_mass(0.1);
+    const PlumbBody here = scene.add(link, {0.2 + 0.4 * i, 8, 4}, {0, 0, std::sqrt(0.5), std::sqrt(0.5)});
+    scene.ball_joint(before, before == 0 ? PlumbVec3{0, 8, 4} : PlumbVec3{0, -0.2, 0}, here, {0, 0.2, 0});
+    before = here;
+  }
+  scene.body = of_mass(100);
+  scene.ball_joint(before, {0, -0.2, 0}, scene.add(ball, {5.05, 8, 4}), {-0.25, 0, 0});
 }
 
 /// A heap in a plane, pushed by bodies that only slide or only turn.

@@ -13,5 +13,7 @@ void clockwork(Scene& scene);
 void bullets(Scene& scene);
 /// A heap of bodies with locked axes.
 void held(Scene& scene);
+/// Machines that bear loads: a cart and a table with boxes on them, a chain in a heap, a rope with a heavy ball.
+void loads(Scene& scene);
 
 }  // namespace plumb::impulse::test

@@ -239,6 +239,7 @@ const std::vector<NamedScene>& named_scenes() {
       {"puppets", {}, kAll | PLUMB_NEED_JOINTS | PLUMB_NEED_EVENTS, kDown, &puppets},
       {"bullets", {}, kAll | PLUMB_NEED_CCD, kDown, &bullets},
       {"held", {}, kAll | PLUMB_NEED_AXIS_LOCKS, kDown, &held},
+      {"loads", {}, kContactNeeds | PLUMB_NEED_JOINTS, kDown, &loads},
       {"sheets", {}, kAll | PLUMB_NEED_CCD | PLUMB_NEED_KINEMATIC, kDown, &sheets},
       {"boulders", {}, kAll, kDown, &boulders},
       {"clockwork", {}, kAll | PLUMB_NEED_JOINTS | PLUMB_NEED_JOINT_REACTIONS | PLUMB_NEED_EVENTS, kDown, &clockwork},

@@ -1,0 +1,27 @@
+// Finds the mobility of mechanisms that touch something (constraints/mechanism.hpp), at the start of a step: their
+// joints' matrix is factored where the bodies are, and solved for a unit wrench along and about each axis of each body
+// that has a contact.
+#pragma once
+
+#include "exec/executor.hpp"
+#include "narrowphase/contact_cache.hpp"
+#include "solver/joint_loops.hpp"
+#include "step_counters.hpp"
+
+namespace plumb::impulse {
+
+/// What it is found from.
+struct MobilityWork {
+  JointSet joints;
+  Mechanisms mechanisms;
+  MechanismColumns columns;
+  ContactCache cache;
+  const Proxy* proxies;
+  const StepParameters* parameters;
+  const StepCounters* counters;
+};
+
+/// contacts: how many manifolds there are. Joints and mechanisms are those of a world that has some.
+void enqueue_mobility(Executor& executor, JointCode joints, const MobilityWork& work, Count contacts);
+
+}  // namespace plumb::impulse

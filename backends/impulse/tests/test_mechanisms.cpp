@@ -1,0 +1,212 @@
+// Joints and contacts together: what stands on wheels or legs comes to rest whatever it bears, light links swing heavy
+// loads, and joints bear what contacts press.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "engine.hpp"
+
+namespace plumb::impulse::test {
+namespace {
+
+constexpr PlumbNeeds kNeeds =
+    PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION | PLUMB_NEED_JOINTS | PLUMB_NEED_SNAPSHOT;
+constexpr PlumbVec3 kDown = {0, -9.81, 0};
+constexpr PlumbQuat kAboutZ = {0, -0.70710678118654752, 0, 0.70710678118654752};  // an x axis along z
+
+/// Bodies of given masses, and their joints.
+class Workshop {
+ public:
+  explicit Workshop(PlumbNeeds needs = kNeeds, std::uint32_t threads = 1) : scene(engine(), needs, kDown, threads) {}
+
+  PlumbBody add(PlumbShape shape, double mass, const PlumbVec3& at, const PlumbQuat& turn = {0, 0, 0, 1}) {
+    scene.body.mass_mode = PLUMB_MASS_FROM_TOTAL;
+    scene.body.mass = mass;
+    bodies.push_back(scene.add(shape, at, turn));
+    masses.push_back(mass);
+    return bodies.back();
+  }
+  PlumbJoint join(PlumbJointType type, PlumbBody a, const PlumbVec3& in_a, PlumbBody b, const PlumbVec3& in_b,
+                  const PlumbQuat& frame_a = {0, 0, 0, 1}, const PlumbQuat& frame_b = {0, 0, 0, 1}) {
+    PlumbJointDesc desc = joint_desc(type);
+    desc.body_a = a;
+    desc.body_b = b;
+    desc.frame_a = {in_a, frame_a};
+    desc.frame_b = {in_b, frame_b};
+    PlumbJoint id = 0;
+    check(scene.world(), scene.world().joints()->create_joints({&desc, 1}, {&id, 1}));
+    return id;
+  }
+  /// Of the fastest body, m/s.
+  double speed() {
+    double most = 0;
+    for (const PlumbBody body : bodies) {
+      const std::vector<double> v = scene.velocity(body);
+      most = std::max(most, std::hypot(v[0], v[1], v[2]));
+    }
+    return most;
+  }
+  /// The largest within so many steps of dt.
+  double run(int steps, double dt = 1.0 / 60) {
+    double most = 0;
+    PlumbStepReport report{};
+    for (int i = 0; i < steps; ++i) {
+      check(scene.world(), scene.world().step(dt));
+      check(scene.world(), scene.world().wait(report));
+      most = std::max(most, speed());
+    }
+    return most;
+  }
+
+  Scene scene;
+  std::vector<PlumbBody> bodies;
+  std::vector<double> masses;
+};
+
+constexpr PlumbVec3 kCorners[4] = {{0.7, 0, 0.4}, {0.7, 0, -0.4}, {-0.7, 0, 0.4}, {-0.7, 0, -0.4}};
+
+void put_cart(Workshop& shop, double load) {
+  shop.scene.ground();
+  const PlumbBody hull = shop.add(shop.scene.box({2, 0.3, 0.8}), 1200, {0, 0.65, 0});
+  const PlumbShape wheel = shop.scene.sphere(0.35);
+  for (const PlumbVec3& at : kCorners) {
+    const PlumbVec3 end = {2 * at.x, 0.35, 2.4 * at.z};
+    shop.join(PLUMB_JOINT_HINGE, hull, {end.x, -0.3, end.z}, shop.add(wheel, 20, end), {0, 0, 0}, kAboutZ, kAboutZ);
+  }
+  if (load > 0) shop.add(shop.scene.box({0.5, 0.5, 0.5}), load, {0, 1.45, 0});
+}
+
+std::vector<PlumbJoint> put_table(Workshop& shop, double load) {
+  shop.scene.ground();
+  const PlumbBody top = shop.add(shop.scene.box({0.8, 0.03, 0.5}), 30, {0, 0.73, 0});
+  const PlumbShape leg = shop.scene.box({0.03, 0.35, 0.03});
+  std::vector<PlumbJoint> joints;
+  for (const PlumbVec3& at : kCorners)
+    joints.push_back(
+        shop.join(PLUMB_JOINT_FIXED, top, {at.x, -0.03, at.z}, shop.add(leg, 2, {at.x, 0.35, at.z}), {0, 0.35, 0}));
+  shop.add(shop.scene.box({0.25, 0.25, 0.25}), load, {0, 1.01, 0});
+  return joints;
+}
+
+/// Links of .1 kg and .2 m with a ball at their end, let go at 60 degrees. Returns the bodies' first.
+void put_rope(Workshop& shop, int links, double load) {
+  const double s = std::sqrt(0.75), c = 0.5, half = std::sqrt(3.0) / 2;
+  const PlumbQuat turn = {0, 0, c, half};
+  const PlumbShape link = shop.scene.capsule(0.02, 0.08), ball = shop.scene.sphere(0.25);
+  PlumbBody before = 0;
+  for (int i = 0; i < links; ++i) {
+    const double along = 0.2 * (i + 0.5);
+    const PlumbBody here = shop.add(link, 0.1, {s * along, 20 - c * along, 0}, turn);
+    shop.join(PLUMB_JOINT_BALL, before, before == 0 ? PlumbVec3{0, 20, 0} : PlumbVec3{0, -0.1, 0}, here, {0, 0.1, 0});
+    before = here;
+  }
+  const double end = 0.2 * links + 0.25;
+  shop.join(PLUMB_JOINT_BALL, before, {0, -0.1, 0}, shop.add(ball, load, {s * end, 20 - c * end, 0}),
+            {-0.25 * s, 0.25 * c, 0});
+}
+
+TEST(Mechanisms, ACartStandsWhateverItBears) {
+  for (const double load : {0.0, 1000.0, 5000.0})
+    for (const double dt : {1.0 / 30, 1.0 / 60, 1.0 / 240}) {
+      Workshop shop;
+      put_cart(shop, load);
+      shop.run(static_cast<int>(4 / dt), dt);
+      EXPECT_LT(shop.run(60, dt), 1e-3) << load << " kg, " << dt << " s";
+    }
+}
+
+TEST(Mechanisms, ATableComesToRestUnderItsLoad) {
+  for (const double load : {30.0, 300.0}) {
+    Workshop shop;
+    put_table(shop, load);
+    shop.run(180);
+    EXPECT_LT(shop.run(120), 1e-3) << load;
+  }
+}
+
+TEST(Mechanisms, JointsBearWhatContactsPress) {
+  Workshop shop(kNeeds | PLUMB_NEED_JOINT_REACTIONS);
+  const std::vector<PlumbJoint> legs = put_table(shop, 300);
+  shop.run(240);
+  std::vector<double> rows(6 * legs.size());
+  check(shop.scene.world(), shop.scene.world().joints()->read_joints(PLUMB_JOINT_REACTION, legs,
+                                                                     Rows(reinterpret_cast<std::byte*>(rows.data()),
+                                                                          legs.size(), 6 * sizeof(double), PLUMB_F64)));
+  double up = 0;
+  for (std::size_t i = 0; i < legs.size(); ++i) up += rows[6 * i + 1];
+  EXPECT_NEAR(up, -330 * 9.81, 0.01 * 330 * 9.81);  // on the legs
+}
+
+TEST(Mechanisms, AChainInAHeapComesToRest) {
+  Workshop shop;
+  shop.scene.ground();
+  const PlumbShape link = shop.scene.capsule(0.05, 0.15);
+  PlumbBody before = 0;
+  for (int i = 0; i < 10; ++i) {
+    const PlumbBody here = shop.add(link, 5, {0.002 * (i % 3), 0.7 + 0.4 * i, 0.001 * i});
+    if (before != 0) shop.join(PLUMB_JOINT_BALL, before, {0, 0.2, 0}, here, {0, -0.2, 0});
+    before = here;
+  }
+  shop.run(360);
+  EXPECT_LT(shop.run(60), 1e-2);
+}
+
+/// The ball's height and speed: nothing else weighs.
+TEST(Mechanisms, HeavyLoadsSwingOnLightLinks) {
+  for (const double load : {80.0, 1000.0}) {
+    Workshop shop;
+    put_rope(shop, 20, load);
+    const auto energy = [&] {
+      const std::vector<double> v = shop.scene.velocity(shop.bodies.back());
+      const PlumbPose pose = shop.scene.poses().back();
+      return 9.81 * pose.position.y + (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) / 2;
+    };
+    const double start = energy(), range = 9.81 * 4.25 / 2;
+    for (int i = 0; i < 10; ++i) {
+      shop.run(60);
+      EXPECT_NEAR(energy(), start, 0.02 * range) << load << ", " << i;
+      const PlumbPose end = shop.scene.poses().back();
+      EXPECT_LT(std::hypot(end.position.x, end.position.y - 20), 4.25 + 1e-2);
+    }
+  }
+}
+
+/// A mechanism's bodies are pushed one after the other, whatever the threads.
+TEST(Mechanisms, AreTheSameWithAnyNumberOfThreads) {
+  std::vector<std::uint64_t> hashes;
+  for (const std::uint32_t threads : {1U, 4U}) {
+    Workshop shop(kNeeds, threads);
+    put_cart(shop, 1000);
+    put_rope(shop, 12, 100);
+    shop.run(120);
+    hashes.push_back(shop.scene.hash());
+  }
+  EXPECT_EQ(hashes[0], hashes[1]);
+}
+
+/// A joint more or less joins and parts mechanisms whose contacts were coloured apart.
+TEST(Mechanisms, ComeTogetherAndPartWhileTheyTouch) {
+  Workshop shop;
+  shop.scene.ground();
+  const PlumbShape cube = shop.scene.box({0.25, 0.25, 0.25});
+  for (int i = 0; i < 6; ++i) shop.add(cube, 50, {0.6 * i, 0.25, 0});
+  const auto tie = [&](std::size_t i) {
+    return shop.join(PLUMB_JOINT_FIXED, shop.bodies[i], {0.3, 0, 0}, shop.bodies[i + 1], {-0.3, 0, 0});
+  };
+  shop.run(30);
+  const PlumbJoint left = tie(0), right = tie(3);
+  shop.run(30);
+  const PlumbJoint middle = tie(2);
+  (void)left;
+  (void)right;
+  shop.run(30);
+  check(shop.scene.world(), shop.scene.world().joints()->destroy_joints({&middle, 1}));
+  EXPECT_LT(shop.run(60), 1e-3);
+  for (const PlumbPose& pose : shop.scene.poses())
+    if (pose.position.y > -0.4) EXPECT_NEAR(pose.position.y, 0.25, 1e-3);
+}
+
+}  // namespace
+}  // namespace plumb::impulse::test
