@@ -18,6 +18,9 @@ bool is_pushed(std::uint32_t body, const Table<BodyMass>& masses) {
 /// repeat others.
 constexpr std::uint32_t kLongBeam = 4;
 
+/// Errors of so many joints in a row that have no limits are taken back by degrees.
+constexpr std::uint32_t kLongChain = 8;
+
 /// Whether a row may come to hold, or let go, from one sub-step to the next.
 bool has_limits(const Joint& joint, const JointAxes& axes) {
   for (int i = 0; i < row_count(joint) - rows_of(joint.type); ++i)
@@ -204,7 +207,7 @@ void JointStore::upload(const Table<BodyMass>& masses) {
     const Row& row = rows_[slots[j]];
     ordered_.push_back(row.joint);
     const bool is_stiff = row.traits.locks_turns, is_long = found.length[j] >= kLongBeam;
-    ordered_.back().in_chain = is_long;
+    ordered_.back().in_chain = found.length[j] >= kLongChain;
     ordered_.back().in_loop = found.in_loop[j] || (is_stiff && (is_long || !both_turn(row.joint, masses)));
     mechanism_of_.push_back(found.mechanism[j]);
     if (found.is_closed[j] || has_limits(row.joint, row.axes)) changing_.insert(found.mechanism[j]);
@@ -213,6 +216,8 @@ void JointStore::upload(const Table<BodyMass>& masses) {
   for (const std::uint32_t j : found.one_by_one) put(j);
   base_ = static_cast<std::uint32_t>(ordered_.size());
   for (const std::uint32_t j : found.order) put(j);
+  for (std::uint32_t j = 0; j < ordered_.size(); ++j)
+    if (changing_.contains(mechanism_of_[j])) ordered_[j].in_chain = false;
   count_ = static_cast<std::uint32_t>(ordered_.size());
   levels_ = static_cast<std::uint32_t>(found.level_first.size() - 1);
   copy(level_first_, found.level_first);

@@ -83,9 +83,8 @@ const std::vector<Row>& rows() {
       number("contact_damping_ratio", real, behaviour, 0, 1000, 50, "1", &S::contact_damping_ratio,
              "how slowly overlap is taken back: 1 is critical damping"),
       number("joint_hertz", real, behaviour, 0, 1e5, 0, "1/s", &S::joint_hertz,
-             "stiffness of joints against drift; 0: all of it is taken back in a sub-step, of mechanisms of four "
-             "joints in a "
-             "row and more as at 240; of joints that are solved one by one a quarter of the sub-steps a second"),
+             "stiffness of joints against drift; 0: all of it is taken back in a sub-step, of chains of eight joints and "
+             "more as at 240; of joints that are solved one by one a quarter of the sub-steps a second"),
       number("joint_damping_ratio", real, behaviour, 0, 1000, 10, "1", &S::joint_damping_ratio,
              "how slowly drift of joints is taken back"),
       number("push_speed", real, behaviour, 0, 1e6, 3, "m/s", &S::push_speed,
