@@ -1,7 +1,5 @@
 #include "plugin/settings.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <iterator>
 #include <string>
@@ -66,8 +64,7 @@ const std::vector<Row>& rows() {
              "at once on split bodies; xpbd: positions in sub-steps"),
       number(
           "substeps", whole, quality, 1, 256, 8, "1", &S::substeps,
-          "tgs_soft, xpbd: parts of a step in which velocities are solved and positions moved; a step longer than 1/60 "
-          "s has as many in each 1/60 s"),
+          "tgs_soft, xpbd: parts of a step in which velocities are solved and positions moved"),
       choice("relaxation", behaviour, kRelaxations, &S::relaxation,
              "tgs_soft: when contacts lose the speed that taking back overlap gave them: in each sub-step, or once at "
              "the end of a step, which leaves time for more sub-steps: high stacks of stiffer contacts"),
@@ -138,14 +135,9 @@ void Settings::set(const char* name, const PlumbSettingValue& value) {
     if (std::strcmp(r.info.choices[i], value.choice) == 0) this->*r.member = i;
 }
 
-/// What holds at 1/60 s does not at sub-steps twice as long; beyond sixteen times no step is one of a game.
-double Settings::substeps_in(double dt) const {
-  return substeps * std::clamp(std::ceil(60 * dt * (1 - 1e-6)), 1.0, 16.0);
-}
-
 double Settings::substep(double dt) const {
   const auto kind = static_cast<SolverKind>(solver);
-  return kind == SolverKind::kSequential || kind == SolverKind::kJacobi ? dt : dt / substeps_in(dt);
+  return kind == SolverKind::kSequential || kind == SolverKind::kJacobi ? dt : dt / substeps;
 }
 
 StepParameters Settings::parameters(double dt, double last_h, const PlumbVec3& gravity) const {
@@ -155,7 +147,7 @@ StepParameters Settings::parameters(double dt, double last_h, const PlumbVec3& g
   step.dt = static_cast<Real>(dt);
   step.h = static_cast<Real>(h);
   step.inverse_h = static_cast<Real>(1 / h);
-  step.substeps = static_cast<std::uint32_t>(substeps_in(dt));
+  step.substeps = static_cast<std::uint32_t>(substeps);
   const double hertz = contact_hertz > 0 ? contact_hertz : 0.25 / h;
   step.contact = make_softness(hertz, contact_damping_ratio, h);
   step.ground = make_softness(2 * hertz, contact_damping_ratio, h);

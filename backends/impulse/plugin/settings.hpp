@@ -35,8 +35,7 @@ struct Settings {
   [[nodiscard]] BroadPhase::Method broad_phase_method() const {
     return static_cast<BroadPhase::Method>(static_cast<std::uint32_t>(broad_phase));
   }
-  /// Parts that a step of dt is solved in, by solvers that have them, and their length.
-  [[nodiscard]] double substeps_in(double dt) const;
+  /// Length of the parts that a step of dt is solved in.
   [[nodiscard]] double substep(double dt) const;
   /// What a step of dt works with. last_h: the sub-step before, 0 when there was none.
   [[nodiscard]] StepParameters parameters(double dt, double last_h, const PlumbVec3& gravity) const;
