@@ -93,7 +93,9 @@ TEST(Quantities, BlockOnASlopeHasTheCompiledDigits) {
                  EXPECT_NEAR(double(own["push"]["truth"]), 9.81 / 2 * std::sqrt(0.5), 1e-12);
                  EXPECT_GT(double(own["push"]["value"]), 1);
                  EXPECT_NEAR(double(own["borne"]["truth"]), 9.81 * 0.75, 1e-12);
-                 if (own["borne"].value("note", "") != "not measured") EXPECT_LT(double(own["borne"]["error"]), 0.3);
+                 if (own["borne"].value("note", "") != "not measured") {
+                   EXPECT_LT(double(own["borne"]["error"]), 0.3);
+                 }
                });
 }
 

@@ -204,8 +204,11 @@ TEST(Mechanisms, ComeTogetherAndPartWhileTheyTouch) {
   shop.run(30);
   check(shop.scene.world(), shop.scene.world().joints()->destroy_joints({&middle, 1}));
   EXPECT_LT(shop.run(60), 1e-3);
-  for (const PlumbPose& pose : shop.scene.poses())
-    if (pose.position.y > -0.4) EXPECT_NEAR(pose.position.y, 0.25, 1e-3);
+  for (const PlumbPose& pose : shop.scene.poses()) {
+    if (pose.position.y > -0.4) {
+      EXPECT_NEAR(pose.position.y, 0.25, 1e-3);
+    }
+  }
 }
 
 }  // namespace
