@@ -17,13 +17,13 @@ constexpr std::size_t name_width = 20;
 
 std::string plain(const Json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
 
-std::string joined(const std::vector<std::string>& words) { return fmt::format("{}", fmt::join(words, ", ")); }
+std::string listed(const std::vector<std::string>& words) { return fmt::format("{}", fmt::join(words, ", ")); }
 
 /// "float from 0 to 0.1 m, default 0.005 m; role quality; only when a world is made".
 std::string facts_of(const SettingDescription& setting) {
   const std::string unit = setting.unit.empty() || setting.unit == "1" ? "" : " " + setting.unit;
   std::string facts = setting.type;
-  if (!setting.choices.empty()) facts += " of " + joined(setting.choices);
+  if (!setting.choices.empty()) facts += " of " + listed(setting.choices);
   if (std::isfinite(setting.minimum) && std::isfinite(setting.maximum))
     facts += fmt::format(" from {} to {}{}", setting.minimum, setting.maximum, unit);
   else if (std::isfinite(setting.minimum))
@@ -50,7 +50,7 @@ std::string degrees_of(const Json& words) {
     for (const auto& [word, its] : words.items())
       if (its == *degree) of_it.push_back(word);
     if (of_it.size() == words.size()) return *degree;
-    if (!of_it.empty()) parts.push_back(*degree + ": " + joined(of_it));
+    if (!of_it.empty()) parts.push_back(*degree + ": " + listed(of_it));
   }
   return fmt::format("{}", fmt::join(parts, "; "));
 }
@@ -69,7 +69,7 @@ std::string table_of(const Json& rows) {
   if (lines.size() == 1) return lines.front().first;
   std::string text;
   for (const auto& [degrees, words] : lines)
-    text += fmt::format("{}{} ({})", text.empty() ? "" : ", ", joined(words), degrees);
+    text += fmt::format("{}{} ({})", text.empty() ? "" : ", ", listed(words), degrees);
   return text;
 }
 
@@ -102,7 +102,7 @@ std::string notes_of(const Json& notes, std::size_t width) {
       named.clear();
       for (const auto& [title, count] : counts) named.push_back(fmt::format("{} of {}", count, spaced(title)));
     }
-    text += wrapped(note, 2, width) + "\n" + wrapped("(" + joined(named) + ")", 6, width) + "\n";
+    text += wrapped(note, 2, width) + "\n" + wrapped("(" + listed(named) + ")", 6, width) + "\n";
   }
   return text.empty() ? "" : "\nNotes on capabilities:\n" + text;
 }
@@ -135,7 +135,7 @@ std::string backend_sheet(const BackendDescription& backend, std::size_t width) 
   text += line("precision", json.value("precision", ""));
   text +=
       line("threads", fmt::format("up to {}; the same bits: {}", backend.max_threads, json.value("determinism", "")));
-  text += line("extensions", joined(json.value("extensions", std::vector<std::string>{})));
+  text += line("extensions", listed(json.value("extensions", std::vector<std::string>{})));
   text += line("beside it in a process", json.value("exclusion_group", ""));
   text += settings_of(backend, width);
   text += capabilities_of(json.value("capabilities", Json::object()), width);

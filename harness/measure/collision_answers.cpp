@@ -13,8 +13,7 @@
 namespace plumb::harness {
 namespace {
 
-constexpr double degrees = 180 / std::numbers::pi;
-constexpr double side = 1;  // m, that depths are relative to
+constexpr double shape_side = 1;  // m, that depths are relative to
 
 /// What the engine says of one pair.
 struct Answer {
@@ -92,10 +91,10 @@ void random_pairs(MeasureContext& context, Simulation& simulation, std::size_t c
   }
   std::sort(depth_errors.begin(), depth_errors.end());
   const std::size_t errors = depth_errors.size();
-  context.deviation("depth", errors == 0 ? not_measured : depth_errors.back() / side);
-  context.deviation("depth_p99", errors == 0 ? not_measured : depth_errors[(errors - 1) * 99 / 100] / side);
+  context.deviation("depth", errors == 0 ? not_measured : depth_errors.back() / shape_side);
+  context.deviation("depth_p99", errors == 0 ? not_measured : depth_errors[(errors - 1) * 99 / 100] / shape_side);
   context.deviation("wrong_signs", wrong_signs);
-  context.deviation("still_in", still_in / side);
+  context.deviation("still_in", still_in / shape_side);
 }
 
 }  // namespace
@@ -119,7 +118,7 @@ void measure_static_answers(MeasureContext& context) {
   check(world, world.collide()->collide_pairs({&pair, 1}, {&result, 1}, points));
   const Answer answer = answer_of(result, points);
   const double depth = arg_number(scene, "depth");
-  context.compare("depth", answer.touch ? answer.deepest.depth : not_measured, depth, side);
+  context.compare("depth", answer.touch ? answer.deepest.depth : not_measured, depth, shape_side);
   if (which == "parallel") return;
   const double up = answer.touch ? answer.deepest.normal.y : not_measured;
   const referee::Vec3 normal = referee::vec(answer.deepest.normal);

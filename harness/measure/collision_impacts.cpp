@@ -1,7 +1,6 @@
 // Measures of single impacts without gravity: velocities are constant before and after.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "measure/args.hpp"
 #include "measure/collision.hpp"
@@ -11,8 +10,6 @@
 
 namespace plumb::harness {
 namespace {
-
-constexpr double degrees = 180 / std::numbers::pi;
 
 /// Velocity of a body two steps after its first touch: engines with soft contacts spread an impulse over steps. What it
 /// was all along when nothing touched.

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "measure/args.hpp"
 #include "measure/groups.hpp"
@@ -13,8 +12,6 @@
 
 namespace plumb::harness {
 namespace {
-
-constexpr double degrees = 180 / std::numbers::pi;
 
 /// Turn of a body since its start about any axis, rad.
 double turn_of(const Simulation& simulation, std::size_t body) {

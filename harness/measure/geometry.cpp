@@ -2,7 +2,6 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 #include "measure/args.hpp"
@@ -18,8 +17,6 @@ namespace {
 
 using referee::Mat3;
 using referee::Vec3;
-
-constexpr double degrees = 180 / std::numbers::pi;
 
 /// Principal moments, rising, and their right-handed axes in the body's frame.
 struct Principal {

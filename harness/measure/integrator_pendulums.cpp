@@ -1,7 +1,6 @@
 // Measures of pendulums: plane, spherical, double. Their pivots are at the origin.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "measure/args.hpp"
 #include "measure/integrator.hpp"
@@ -10,11 +9,7 @@
 #include "truth/pendulums.hpp"
 
 namespace plumb::harness {
-namespace {
-
-constexpr double degrees = 180 / std::numbers::pi;
-
-}  // namespace
+namespace {}  // namespace
 
 void measure_pendulum(MeasureContext& context) {
   constexpr std::size_t swings = 10;

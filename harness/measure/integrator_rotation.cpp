@@ -1,7 +1,6 @@
 // Measures of rotation: free bodies and the heavy top.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "measure/args.hpp"
 #include "measure/integrator.hpp"
@@ -11,8 +10,6 @@
 
 namespace plumb::harness {
 namespace {
-
-constexpr double degrees = 180 / std::numbers::pi;
 
 /// Angle of the body's y axis from the vertical and its azimuth about it (counter-clockwise seen from above).
 struct AxisSeries {

@@ -10,16 +10,6 @@
 #include "truth/structures.hpp"
 
 namespace plumb::harness {
-namespace {
-
-constexpr double rest_seconds = 1;  // at the end of a run, over which forces are averaged
-
-bool in_last_second(Simulation& simulation) {
-  return simulation.time() > simulation.scene().seconds - rest_seconds + simulation.scene().dt / 2;
-}
-
-}  // namespace
-
 void measure_heavy_chain(MeasureContext& context) {
   const std::string& motion = arg_text(context.scene(), "motion");
   const bool hanging = motion == "hanging";

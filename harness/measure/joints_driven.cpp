@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "measure/args.hpp"
 #include "measure/joints.hpp"
@@ -11,11 +10,7 @@
 #include "truth/structures.hpp"
 
 namespace plumb::harness {
-namespace {
-
-constexpr double degrees = 180 / std::numbers::pi;
-
-}  // namespace
+namespace {}  // namespace
 
 void measure_motor(MeasureContext& context) {
   const Scene& scene = context.scene();

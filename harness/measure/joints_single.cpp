@@ -10,11 +10,7 @@
 #include "truth/mechanisms.hpp"
 
 namespace plumb::harness {
-namespace {
-
-constexpr double degrees = 180 / std::numbers::pi;
-
-}  // namespace
+namespace {}  // namespace
 
 void measure_toppling(MeasureContext& context) {
   const Scene& scene = context.scene();

@@ -1,5 +1,5 @@
 // Metamorphic measures: the truth is an exact symmetry of mechanics. The scene and its transformed copy run side by
-// side; what the copy does, transformed back, must be what the scene does.
+// box_side; what the copy does, transformed back, must be what the scene does.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -8,13 +8,12 @@
 #include "measure/args.hpp"
 #include "measure/robustness.hpp"
 #include "measure/series.hpp"
+#include "measure/stacking.hpp"
 #include "measure/transform.hpp"
 #include "scene/generators.hpp"
 
 namespace plumb::harness {
 namespace {
-
-constexpr double side = 1;  // m, of the boxes in all of these scenes
 
 using referee::vec;
 using referee::Vec3;
@@ -38,7 +37,7 @@ void follow(MeasureContext& context, const Scene& copied, const WayBack& back) {
   Simulation original = context.simulate(context.scene());
   try {
     Simulation copy = context.simulate(copied);
-    context.deviation("deviation", follow(original, copy, back) / side);
+    context.deviation("deviation", follow(original, copy, back) / box_side);
   } catch (const Error& error) {
     if (error.code() != PLUMB_E_INVALID_ARGUMENT) throw;
     original.run();
@@ -66,7 +65,7 @@ std::vector<std::size_t> shuffled(const Scene& scene, std::uint64_t seed) {
 
 bool in_place(const Scene& scene, std::span<const PoseRow> poses) {
   for (std::size_t i = 0; i < poses.size(); ++i)
-    if (!((vec(poses[i].position) - vec(scene.bodies[i].desc.pose.position)).norm() <= side / 2)) return false;
+    if (!((vec(poses[i].position) - vec(scene.bodies[i].desc.pose.position)).norm() <= box_side / 2)) return false;
   return true;
 }
 
@@ -132,7 +131,7 @@ void measure_repeat(MeasureContext& context) {
                 static_cast<double>(order.size() * orders);
   }
   context.deviation("other_outcomes", outcomes);
-  context.deviation("order_deviation", std::sqrt(square) / side);
+  context.deviation("order_deviation", std::sqrt(square) / box_side);
 }
 
 }  // namespace plumb::harness

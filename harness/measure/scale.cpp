@@ -8,11 +8,10 @@
 #include "measure/referee_view.hpp"
 #include "measure/scale.hpp"
 #include "measure/series.hpp"
+#include "measure/stacking.hpp"
 
 namespace plumb::harness {
 namespace {
-
-constexpr double side = 1;  // m, of the boxes in all of these scenes
 
 /// Share of the stacks (equal runs of boxes) of which every box is within half a side of its start.
 double standing(const Scene& scene, std::span<const PoseRow> poses, const std::vector<std::size_t>& boxes,
@@ -21,7 +20,7 @@ double standing(const Scene& scene, std::span<const PoseRow> poses, const std::v
   for (std::size_t first = 0; first < boxes.size(); first += stack) {
     const auto in_place = [&](std::size_t box) {
       return (referee::vec(poses[box].position) - referee::vec(scene.bodies[box].desc.pose.position)).norm() <=
-             side / 2;
+             box_side / 2;
     };
     const auto begin = boxes.begin() + static_cast<std::ptrdiff_t>(first);
     if (std::all_of(begin, begin + static_cast<std::ptrdiff_t>(stack), in_place)) ++whole;
@@ -52,9 +51,9 @@ void throughput(MeasureContext& context) {
 
   const std::span<const PoseRow> poses = simulation.poses();
   const DepthSummary depth = depth_summary(view.penetration(poses));
-  context.deviation("depth_max", depth.max / side);
-  context.deviation("depth_p99", depth.p99 / side);
-  context.deviation("depth_mean", depth.mean / side);
+  context.deviation("depth_max", depth.max / box_side);
+  context.deviation("depth_p99", depth.p99 / box_side);
+  context.deviation("depth_mean", depth.mean / box_side);
   context.deviation("energy_injected", energy.injected() / start);
   const referee::Energy end = view.energy(simulation);
   context.deviation("kinetic_energy", end.kinetic() / start);

@@ -4,11 +4,13 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <vector>
 
 namespace plumb::harness {
 
+constexpr double degrees = 180 / std::numbers::pi;  ///< in a radian
 constexpr double not_measured = std::numeric_limits<double>::quiet_NaN();
 
 /// The larger, or NaN when one of them is: a maximum that forgets no explosion.

@@ -8,6 +8,10 @@
 
 namespace plumb::harness {
 
+bool in_last_second(Simulation& simulation) {
+  return simulation.time() > simulation.scene().seconds - 1 + simulation.scene().dt / 2;
+}
+
 double distance_from_start(const Scene& scene, std::span<const PoseRow> poses, std::size_t body) {
   return (referee::vec(poses[body].position) - referee::vec(scene.bodies[body].desc.pose.position)).norm();
 }

@@ -6,6 +6,8 @@
 
 namespace plumb::harness {
 
+constexpr double box_side = 1;  ///< m, of the boxes in scenes of towers, pyramids, crowds and mirrored piles
+
 // stacking_towers.cpp
 void measure_tower(MeasureContext& context);
 void measure_pyramid(MeasureContext& context);
@@ -36,6 +38,9 @@ void measure_taken_load(MeasureContext& context);
 
 // stacking_spheres.cpp
 void measure_sphere_lattice(MeasureContext& context);
+
+/// Whether the simulation is in the last second of its run, over which forces are averaged.
+[[nodiscard]] bool in_last_second(Simulation& simulation);
 
 /// How far a body is from where it started, m. NaN when its pose is.
 [[nodiscard]] double distance_from_start(const Scene& scene, std::span<const PoseRow> poses, std::size_t body);

@@ -8,12 +8,6 @@
 #include "truth/structures.hpp"
 
 namespace plumb::harness {
-namespace {
-
-constexpr double rest_seconds = 1;  // at the end of a run, over which forces are averaged
-
-}  // namespace
-
 void measure_overhang(MeasureContext& context) {
   const Scene& scene = context.scene();
   const std::vector<std::size_t> blocks = arg_bodies(scene, "blocks");
@@ -45,7 +39,7 @@ void measure_four_spheres(MeasureContext& context) {
   Survival survival;
   simulation.run([&](Simulation& now) {
     survival.add(now.time(), distance_from_start(scene, now.poses(), top) <= radius / 5);
-    if (impulses && now.time() > scene.seconds - rest_seconds + scene.dt / 2) account.add(now);
+    if (impulses && in_last_second(now)) account.add(now);
   });
   const bool should_stand = arg_number(scene, "friction") >= truth.critical_friction;
   context.expect("stands", survival.whole(), should_stand);

@@ -10,8 +10,7 @@
 namespace plumb::harness {
 
 void measure_big_on_small(MeasureContext& context) {
-  constexpr double rest_seconds = 1;  // at the end of a run, over which forces are averaged
-  constexpr double side = 1;          // m, of a small cube
+  constexpr double side = 1;  // m, of a small cube
   const auto [scene, impulses] = with_wanted(context, PLUMB_NEED_CONTACTS | PLUMB_NEED_CONTACT_IMPULSES);
   const std::size_t big = arg_body(scene, "big");
   const std::vector<std::size_t> small = arg_bodies(scene, "small");
@@ -23,7 +22,7 @@ void measure_big_on_small(MeasureContext& context) {
   simulation.run([&](Simulation& now) {
     const auto in_place = [&](std::size_t body) { return distance_from_start(scene, now.poses(), body) <= side / 2; };
     survival.add(now.time(), in_place(big) && std::all_of(small.begin(), small.end(), in_place));
-    if (now.time() <= scene.seconds - rest_seconds + scene.dt / 2) return;
+    if (!in_last_second(now)) return;
     depth = largest(depth, view.penetration(now.poses()).max);
     if (impulses) account.add(now);
   });

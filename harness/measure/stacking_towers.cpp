@@ -10,18 +10,11 @@
 namespace plumb::harness {
 namespace {
 
-constexpr double side = 1;          // m, of the boxes in all of these scenes
-constexpr double rest_seconds = 1;  // at the end of a run, over which forces are averaged
-constexpr double still = 0.01;      // m/s: slower is at rest
+constexpr double still = 0.01;  // m/s: slower is at rest
 
 /// How much lower than at the start a body is, m.
 double sink_of(const Scene& scene, std::span<const PoseRow> poses, std::size_t body) {
   return scene.bodies[body].desc.pose.position.y - poses[body].position.y;
-}
-
-/// Steps up to the last second of the run, then `observe` sees every step of it.
-bool in_last_second(Simulation& simulation) {
-  return simulation.time() > simulation.scene().seconds - rest_seconds + simulation.scene().dt / 2;
 }
 
 double sideways(const Scene& scene, std::span<const PoseRow> poses, std::size_t body) {
@@ -32,7 +25,7 @@ double sideways(const Scene& scene, std::span<const PoseRow> poses, std::size_t 
 }  // namespace
 
 bool tower_stands(const Scene& scene, std::span<const PoseRow> poses, const std::vector<std::size_t>& boxes) {
-  const double height = static_cast<double>(boxes.size()) * side;
+  const double height = static_cast<double>(boxes.size()) * box_side;
   return sink_of(scene, poses, boxes.back()) <= height / 10;
 }
 
@@ -44,7 +37,7 @@ bool tower_is_intact(const Scene& scene, std::span<const PoseRow> poses, const s
       now -= referee::vec(poses[boxes[i - 1]].position);
       start -= referee::vec(scene.bodies[boxes[i - 1]].desc.pose.position);
     }
-    if (!((now - start).norm() <= side / 2)) return false;
+    if (!((now - start).norm() <= box_side / 2)) return false;
   }
   return true;
 }
@@ -52,7 +45,7 @@ bool tower_is_intact(const Scene& scene, std::span<const PoseRow> poses, const s
 void measure_tower(MeasureContext& context) {
   const auto [scene, impulses] = with_wanted(context, PLUMB_NEED_CONTACTS | PLUMB_NEED_CONTACT_IMPULSES);
   const std::vector<std::size_t> boxes = arg_bodies(scene, "boxes");
-  const double height = static_cast<double>(boxes.size()) * side, g = std::abs(scene.gravity.y);
+  const double height = static_cast<double>(boxes.size()) * box_side, g = std::abs(scene.gravity.y);
   const RefereeView view(scene);
   Simulation simulation = context.simulate(scene);
   ImpulseAccount account(simulation);
@@ -73,14 +66,14 @@ void measure_tower(MeasureContext& context) {
   const std::span<const PoseRow> poses = simulation.poses();
   const double sink = sink_of(scene, poses, boxes.back());
   context.add({"sink", sink, 0.0, std::abs(sink) / height, std::nullopt, ""});
-  context.deviation("drift", drift / side);
-  context.deviation("depth", depth / side);
+  context.deviation("drift", drift / box_side);
+  context.deviation("depth", depth / box_side);
   double most_tilt = 0;
   for (const std::size_t box : boxes) most_tilt = largest(most_tilt, tilt_of(poses[box]));
   context.deviation("tilt", most_tilt);
   double weight = 0;
   for (const std::size_t box : boxes) weight += view.masses()[box].mass * g;
-  context.deviation("kinetic_energy", view.energy(simulation).kinetic() / (weight * side));
+  context.deviation("kinetic_energy", view.energy(simulation).kinetic() / (weight * box_side));
   rest.add_to(context);
   if (impulses) add_ground_force(context, account, view.total_mass());
 }
@@ -94,7 +87,7 @@ void measure_pyramid(MeasureContext& context) {
   const RefereeView view(scene);
   Simulation simulation = context.simulate(scene);
   const auto in_place = [&](std::size_t box) {
-    return distance_from_start(scene, simulation.poses(), box) <= side / 2;
+    return distance_from_start(scene, simulation.poses(), box) <= box_side / 2;
   };
   Survival survival;
   RestWatch rest(scene.seconds);
@@ -106,7 +99,7 @@ void measure_pyramid(MeasureContext& context) {
   });
   add_survival(context, survival, simulation.time());
   const auto kept = static_cast<double>(std::count_if(boxes.begin(), boxes.end(), in_place));
-  context.deviation("drift", drift / side);
+  context.deviation("drift", drift / box_side);
   rest.add_to(context);
   context.compare("in_place", kept, static_cast<double>(boxes.size()), static_cast<double>(boxes.size()));
 
@@ -120,10 +113,10 @@ void measure_pyramid(MeasureContext& context) {
       asymmetry = largest(asymmetry, (here - there.cwiseProduct(referee::Vec3(-1, 1, 1))).norm());
     }
   }
-  context.deviation("asymmetry", asymmetry / side);
+  context.deviation("asymmetry", asymmetry / box_side);
   const DepthSummary depth = depth_summary(view.penetration(simulation.poses()));
-  context.deviation("depth", depth.max / side);
-  context.deviation("depth_p99", depth.p99 / side);
+  context.deviation("depth", depth.max / box_side);
+  context.deviation("depth_p99", depth.p99 / box_side);
 }
 
 void measure_mass_ratio(MeasureContext& context) {
@@ -141,7 +134,7 @@ void measure_mass_ratio(MeasureContext& context) {
     if (impulses && in_last_second(now)) account.add(now);
   });
   add_survival(context, survival, simulation.time());
-  context.deviation("depth", view.penetration(simulation.poses()).max / side);
+  context.deviation("depth", view.penetration(simulation.poses()).max / box_side);
   context.deviation("settling", settled);
   if (!impulses) return;
   const double load = view.masses()[upper].mass * std::abs(scene.gravity.y);

@@ -13,7 +13,7 @@
 namespace plumb::harness {
 namespace {
 
-constexpr std::size_t examples = 3;  ///< how many cells a sentence names
+constexpr std::size_t most_named = 3;  ///< how many cells a sentence names
 
 std::string plural(std::size_t count, const char* one, const char* many) {
   return fmt::format("{} {}", count, count == 1 ? one : many);
@@ -29,7 +29,7 @@ std::string title(const ResultRow& row) {
 }
 
 /// "tower (12x its threshold)"
-std::string failure_text(const ResultRow& row) {
+std::string worst_miss(const ResultRow& row) {
   const MetricResult* worst = row.worst();
   if (!worst || !worst->badness()) return title(row);
   if (!worst->error) return fmt::format("{} ({} not finite)", title(row), worst->name);
@@ -57,8 +57,8 @@ void find_groups(BackendOverview& overview, const std::map<std::string, std::pai
   if (shares.empty() || shares.front().share <= shares.back().share) return;
   const double best = shares.front().share, worst = shares.back().share;
   for (const Share& share : shares) {
-    if (share.share == best && overview.best_groups.size() < examples) overview.best_groups.push_back(share.text);
-    if (share.share == worst && overview.worst_groups.size() < examples) overview.worst_groups.push_back(share.text);
+    if (share.share == best && overview.best_groups.size() < most_named) overview.best_groups.push_back(share.text);
+    if (share.share == worst && overview.worst_groups.size() < most_named) overview.worst_groups.push_back(share.text);
   }
 }
 
@@ -141,12 +141,12 @@ std::string describe_backend(const BackendOverview& o, bool alone) {
   const auto name_some = [&](const char* verb, const std::vector<const ResultRow*>& rows, const auto& text) {
     if (rows.empty()) return;
     std::vector<std::string> names;
-    for (std::size_t i = 0; i < std::min(examples, rows.size()); ++i) names.push_back(text(*rows[i]));
+    for (std::size_t i = 0; i < std::min(most_named, rows.size()); ++i) names.push_back(text(*rows[i]));
     out += fmt::format(" {} {}", verb, fmt::join(names, ", "));
-    if (rows.size() > examples) out += fmt::format(" and {} more", rows.size() - examples);
+    if (rows.size() > most_named) out += fmt::format(" and {} more", rows.size() - most_named);
     out += '.';
   };
-  name_some("It misses by most in", o.failures, failure_text);
+  name_some("It misses by most in", o.failures, worst_miss);
   name_some("It did not come through", o.broken, [](const ResultRow& row) {
     std::string word(verdict_word(row.verdict()));
     std::replace(word.begin(), word.end(), '_', ' ');

@@ -10,7 +10,7 @@ namespace plumb::harness {
 
 namespace {
 
-constexpr double frames_a_second = 60;
+constexpr double frame_rate = 60;
 constexpr double fewest_frames = 150;     // of a scene that is over in a blink
 constexpr double most_poses = 3'000'000;  // in a file: bodies times frames
 
@@ -25,7 +25,7 @@ Json header_of(const RecordingRequest& request, const Simulation& simulation, co
 }
 
 std::uint64_t stride_of(const Scene& scene) {
-  const double rate = std::max(frames_a_second, fewest_frames / scene.seconds);
+  const double rate = std::max(frame_rate, fewest_frames / scene.seconds);
   const double most_frames = std::max(fewest_frames, most_poses / static_cast<double>(scene.bodies.size() + 1));
   const double interval = std::max(1 / rate, scene.seconds / most_frames);
   return static_cast<std::uint64_t>(std::max(1.0, std::round(interval / scene.dt)));

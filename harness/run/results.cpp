@@ -85,7 +85,7 @@ void ResultsFile::append(const Json& row) {
 void ResultsFile::write_all(const std::string& bytes) {
   std::size_t written = 0;
   while (written < bytes.size()) {
-    const ssize_t count = write(descriptor_, bytes.data() + written, bytes.size() - written);
+    const ssize_t count = ::write(descriptor_, bytes.data() + written, bytes.size() - written);
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) {
       const int error = errno;

@@ -68,7 +68,7 @@ class DecoratedTables {
     using Exceptions = PlumbExceptionsTable;
     using Joints = PlumbJointsTable;
     using Queries = PlumbQueriesTable;
-    using Settings = PlumbSettingsTable;
+    using SettingsTable = PlumbSettingsTable;
     using Snapshot = PlumbSnapshotTable;
     using State = PlumbStateTable;
     const std::string_view wanted = name == nullptr ? "" : name;
@@ -80,7 +80,7 @@ class DecoratedTables {
       return served<Joints, &Joints::create, &Joints::destroy, &Joints::read, &Joints::write>(name);
     if (wanted == PLUMB_EXT_QUERIES) return served<Queries, &Queries::rays, &Queries::casts, &Queries::overlaps>(name);
     if (wanted == PLUMB_EXT_SETTINGS)
-      return served<Settings, &Settings::describe, &Settings::get, &Settings::set>(name);
+      return served<SettingsTable, &SettingsTable::describe, &SettingsTable::get, &SettingsTable::set>(name);
     if (wanted == PLUMB_EXT_SNAPSHOT)
       return served<Snapshot, &Snapshot::save, &Snapshot::restore, &Snapshot::hash>(name);
     if (wanted == PLUMB_EXT_STATE) return served<State, &State::borrow, &State::rows>(name);

@@ -66,7 +66,7 @@ std::string configured(const PageContext& context, const Reached& reached) {
   return fmt::format(R"(<span class="cfg">{}</span>)", escape_html(context.study.configuration(*reached.row)));
 }
 
-std::string ms_text(const Reached& reached) {
+std::string ms_cell(const Reached& reached) {
   if (!reached.ms) return "not timed";
   return (reached.untimed > 0 ? "\u2264 " : "") + short_number(*reached.ms);
 }
@@ -82,12 +82,12 @@ Json line_cells(const PageContext& context, const CostTest& test, const CostLine
     const std::optional<Reached>& at = line.at[t] ? line.at[t] : line.failing[t];
     cells.push_back(
         !at ? cell("never", {}, "quiet")
-            : cell(row_link(*at->row, ms_text(*at)) + failed_mark(*at->row) + band_text(*at) + configured(context, *at),
+            : cell(row_link(*at->row, ms_cell(*at)) + failed_mark(*at->row) + band_text(*at) + configured(context, *at),
                    at->ms, test.is_cheapest(line, t) ? "best" : ""));
   }
   cells.push_back(
       cell(fmt::format("{}{} <small>at {} ms</small>{}", row_link(*line.floor->row, short_number(line.floor->error, 2)),
-                       failed_mark(*line.floor->row), ms_text(*line.floor), configured(context, *line.floor)),
+                       failed_mark(*line.floor->row), ms_cell(*line.floor), configured(context, *line.floor)),
            line.floor->error));
   return cells;
 }

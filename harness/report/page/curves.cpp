@@ -14,8 +14,6 @@
 namespace plumb::harness {
 namespace {
 
-constexpr double largest_error = 10;  ///< beyond that nothing is told apart: all of it is wrong
-
 /// Places of methods among those of their family of engines, which share a hue: by them a method has its shape. The
 /// first are kept for engines without a choice of method, which look as they do everywhere.
 std::vector<std::size_t> ranks_of(const std::vector<Method>& methods) {

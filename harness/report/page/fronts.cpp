@@ -11,8 +11,6 @@
 namespace plumb::harness {
 namespace {
 
-constexpr double largest_error = 10;  ///< beyond that nothing is told apart: all of it is wrong
-
 PlotSeries loose_series(const PageContext& context, const std::string& backend) {
   PlotSeries series{backend, context.backend_index(backend)};
   series.joined = false;

@@ -14,8 +14,6 @@
 namespace plumb::harness {
 namespace {
 
-constexpr double largest_error = 10;  ///< beyond that nothing is told apart: all of it is wrong
-
 /// All that must be equal for points to be joined along dt; "" for default settings.
 std::string method_of(const Study& study, const ResultRow& row) {
   std::string out = row.profile == "default" ? "" : row.profile;

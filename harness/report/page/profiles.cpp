@@ -13,7 +13,7 @@
 namespace plumb::harness {
 namespace {
 
-constexpr double smallest_error = 1e-8, largest_error = 10;
+constexpr double smallest_error = 1e-8;
 
 /// The staircase of a curve from x = `from` to `to`, where all curves end.
 PlotSeries stairs(const PageContext& context, const ProfileCurve& curve, double from, double to) {

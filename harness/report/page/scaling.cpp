@@ -14,7 +14,6 @@ namespace plumb::harness {
 namespace {
 
 constexpr double frame_ms = 1000.0 / 60;
-constexpr double largest_error = 10;  ///< beyond that nothing is told apart: all of it is wrong
 
 struct Sized {
   double bodies;
@@ -82,7 +81,7 @@ Json scene_figure(const PageContext& context, const Problem* first, const Proble
     PlotSeries times{backend, context.backend_index(backend)}, errors = times;
     for (const Sized& sized : sizes) {
       times.points.push_back({sized.bodies, *sized.row->fair_ms(), sized.row, true, false, {}, sized.row->ci95});
-        times.points.back().failed = sized.row->missed();
+      times.points.back().failed = sized.row->missed();
       rows.push_back(sized.row);
       const MetricResult* worst = sized.row->worst();
       if (worst && worst->error && sized.row->completed())
