@@ -16,7 +16,6 @@ inline constexpr std::uint32_t kMostRounds = 12;
 /// Beside JointWork.
 struct AxisWork {
   Block whole;  ///< K of all rows
-  Real share;   ///< by which rows yield in a mechanism that is solved as a whole, relative to K
   RowPiece piece[kJointRows];
   RowPiece reached[kJointRows];  ///< at the end of the pass over places
   std::uint8_t changes[kJointRows];
@@ -203,10 +202,10 @@ PLUMB_HD inline void mask_matrix(const AxisWork& own, int n, Block& matrix) {
 
 /// Which rows hold while contacts push: those that always do. A limit may be left and a motor overcome, and what pushes
 /// as if they held would push too hard.
-PLUMB_HD inline void choose_rows_met(const AxisView& view, std::uint32_t j, Real share) {
+PLUMB_HD inline void choose_rows_met(const AxisView& view, std::uint32_t j) {
   AxisWork& own = view.parts.work[j];
   for (int i = 0; i < row_count(view.joints[j]); ++i)
-    own.yield[i] = is_held(view, j, i) ? share * own.whole(i, i) : Real(-1);
+    own.yield[i] = is_held(view, j, i) ? view.work[j].share * own.whole(i, i) : Real(-1);
 }
 
 /// How far the rows are from their equations, with the other sign.

@@ -15,6 +15,7 @@ struct JointWork {
   Real error[kJointRows];                      ///< C where the rows were made
   Block factor;                                ///< K, and then its factors
   // While a mechanism is solved as a whole:
+  Real share;               ///< by which rows yield, relative to K
   Real change[kJointRows];  ///< of the impulse
   Real give[kJointRows];    ///< speed for a unit impulse by which a row yields beside what the bodies do
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <unordered_set>
 
 #include "broadphase/pair_filter.hpp"
 
@@ -155,7 +156,7 @@ void JointStore::list_mechanisms(std::size_t bodies) {
       number[by_mechanism[last_column]] = last_column - column;
       ++last_column;
     }
-    const bool whole = end - first <= kMostInMechanism && !changing_.contains(of);
+    const bool whole = end - first <= kMostInMechanism;
     for (std::uint32_t place = first; place < end; ++place) {
       rows[place] = {
           pushed_list_[place], first, whole ? end - first : 0, column, last_column - column, mobility, scratch};
@@ -201,7 +202,7 @@ void JointStore::upload(const Table<BodyMass>& masses) {
   ordered_.clear();
   ordered_.reserve(slots.size());
   mechanism_of_.clear();
-  changing_.clear();
+  std::unordered_set<std::uint32_t> no_chains;
   std::vector<JointAxes> ordered_axes;
   const auto put = [&](std::uint32_t j) {
     const Row& row = rows_[slots[j]];
@@ -210,14 +211,14 @@ void JointStore::upload(const Table<BodyMass>& masses) {
     ordered_.back().in_chain = found.length[j] >= kLongChain;
     ordered_.back().in_loop = found.in_loop[j] || (is_stiff && (is_long || !both_turn(row.joint, masses)));
     mechanism_of_.push_back(found.mechanism[j]);
-    if (found.is_closed[j] || has_limits(row.joint, row.axes)) changing_.insert(found.mechanism[j]);
+    if (found.is_closed[j] || has_limits(row.joint, row.axes)) no_chains.insert(found.mechanism[j]);
     if (code_ == JointCode::kAll) ordered_axes.push_back(row.axes);
   };
   for (const std::uint32_t j : found.one_by_one) put(j);
   base_ = static_cast<std::uint32_t>(ordered_.size());
   for (const std::uint32_t j : found.order) put(j);
   for (std::uint32_t j = 0; j < ordered_.size(); ++j)
-    if (changing_.contains(mechanism_of_[j])) ordered_[j].in_chain = false;
+    if (no_chains.contains(mechanism_of_[j])) ordered_[j].in_chain = false;
   count_ = static_cast<std::uint32_t>(ordered_.size());
   levels_ = static_cast<std::uint32_t>(found.level_first.size() - 1);
   copy(level_first_, found.level_first);

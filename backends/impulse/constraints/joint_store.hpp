@@ -2,7 +2,6 @@
 // that they keep apart.
 #pragma once
 
-#include <unordered_set>
 #include <vector>
 
 #include "constraints/joint_elimination.hpp"
@@ -104,7 +103,6 @@ class JointStore {
   std::vector<Joint> ordered_;               // those that are solved one by one, by slot; then the system, in its order
   std::vector<std::uint32_t> mechanism_of_;  // as ordered_: a number
   std::vector<std::uint32_t> pushed_list_;   // bodies by place: mechanism after mechanism
-  std::unordered_set<std::uint32_t> changing_;  // mechanisms that contacts push body by body, whatever their size
   std::uint32_t count_ = 0, colours_ = 0;
   Buffer<Joint> joints_;  // as ordered_
   Buffer<std::uint32_t> by_colour_, first_, system_first_;

@@ -22,7 +22,7 @@ PLUMB_HD inline void choose_in_system(const AxisView& view, const JointSystem& s
   const Joint& joint = view.joints[j];
   if (column == 0) view.parts.changes[(turn + 1) % 3] = 0;
   const bool changed = choose_pieces(view, j, time, view.velocity(joint.body_a), view.velocity(joint.body_b),
-                                     first_round, view.parts.work[j].share, system.work(column).change);
+                                     first_round, view.work[j].share, system.work(column).change);
   if (changed) atomic_add(&view.parts.changes[turn % 3], 1U);
 }
 
@@ -89,25 +89,25 @@ PLUMB_DEVICE inline void add_reactions(Team& team, const JointSet& joints) {
   team.each(joints.count, [=](std::uint32_t j) { add_reaction(view, j); });
 }
 
-/// Rows where the bodies are now.
-PLUMB_DEVICE inline void refresh_axes(Team& team, const JointSet& joints, const StepParameters& step) {
+/// Rows where the bodies are now. loaded: as of refresh_mechanisms.
+PLUMB_DEVICE inline void refresh_axes(Team& team, const JointSet& joints, const StepParameters& step, bool loaded) {
   const AxisView view = axis_view(joints);
   const JointSystem system = joints.system;
   const Real h = step.h;
   team.each(system.body_count, [=](std::uint32_t place) { find_least_moment(system, place, h, 1, 0); });
   team.each(joints.count, [=](std::uint32_t j) {
-    const Joint& joint = view.joints[j];
     refresh_axis_joint(view, j);
-    view.parts.work[j].share = give_share(view, joint, h);
+    if (!loaded) choose_share(view, j, h);
   });
 }
 
 /// The impulses of the last sub-step, or step, act again.
-PLUMB_DEVICE inline void warm_start_axes(Team& team, const JointSet& joints, bool first, const StepParameters& step) {
+PLUMB_DEVICE inline void warm_start_axes(Team& team, const JointSet& joints, bool first, bool loaded,
+                                         const StepParameters& step) {
   if (joints.count == 0) return;
   const AxisView view = axis_view(joints);
   const JointSystem system = joints.system;
-  if (first) refresh_axes(team, joints, step);
+  if (first) refresh_axes(team, joints, step, loaded);
   team.each(joints.count, [=](std::uint32_t j) {
     if (j == 0) view.parts.changes[0] = 0;
     if (first) take_over_impulse(view, j, step);
@@ -125,7 +125,7 @@ PLUMB_DEVICE inline void pass_on_loads(Team& team, const JointSet& joints) {
   const AxisView view = axis_view(joints);
   team.each(joints.count - system.base, [=](std::uint32_t column) {
     const std::uint32_t j = system.base + column;
-    choose_rows_met(view, j, view.parts.work[j].share);
+    choose_rows_met(view, j);
   });
   factor_axis_system(team, system, view);
   for_columns_up(team, system, [=](std::uint32_t column) {
@@ -148,7 +148,7 @@ PLUMB_DEVICE inline void solve_axes(Team& team, const JointSet& joints, const St
                                     bool loaded, std::uint32_t& turn) {
   if (joints.count == 0) return;
   const AxisView view = axis_view(joints);
-  if (pass == RowPass::kSpeeds) refresh_axes(team, joints, step);
+  if (pass == RowPass::kSpeeds) refresh_axes(team, joints, step, loaded);
   if (loaded) pass_on_loads(team, joints);
   const RowTime time = {pass, step.h, step.inverse_h, step.joint.bias_rate,
                         pass == RowPass::kSpeeds ? Real(0) : step.joint.give};

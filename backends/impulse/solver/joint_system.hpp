@@ -72,11 +72,11 @@ PLUMB_HD inline void take_product(JointBlock& m, int rows, int columns, const Jo
       for (int r = 0; r < inner; ++r) m.at[p][q] = m.at[p][q] - left.at[p][r] * right.at[q][r];
 }
 
-PLUMB_HD inline Real give_share(const JointView& view, const Joint& joint, Real h) {
-  if (!joint.in_loop) return kGiveShare;
+PLUMB_HD inline void choose_share(const JointView& view, std::uint32_t j, Real h) {
+  const Joint& joint = view.joints[j];
   const Real a = length_squared(h * view.velocity(joint.body_a).angular);
   const Real b = length_squared(h * view.velocity(joint.body_b).angular);
-  return kGiveShareInLoops + kGiveShareByTurn * (a + b);
+  view.work[j].share = joint.in_loop ? kGiveShareInLoops + kGiveShareByTurn * (a + b) : kGiveShare;
 }
 
 /// Takes the column's products off it and factors it. coupled(i, p, j, q): the speed of row p of joint i for a unit
@@ -111,12 +111,11 @@ PLUMB_HD void eliminate_column(const JointSystem& system, std::uint32_t j, const
   }
 }
 
-PLUMB_HD inline void factor_column(const JointSystem& system, std::uint32_t j, Real h) {
-  Block& diagonal = system.work(j).factor;
-  const Real share = give_share(system.view, system.view.joints[system.base + j], h);
+PLUMB_HD inline void factor_column(const JointSystem& system, std::uint32_t j) {
+  JointWork& work = system.work(j);
   for (int p = 0; p < system.rows(j); ++p) {
-    system.work(j).give[p] = share * diagonal(p, p);
-    diagonal(p, p) = diagonal(p, p) + system.work(j).give[p];
+    work.give[p] = work.share * work.factor(p, p);
+    work.factor(p, p) = work.factor(p, p) + work.give[p];
   }
   eliminate_column(system, j,
                    [&](std::uint32_t i, int p, std::uint32_t k, int q) { return coupling(system, i, p, k, q); });
@@ -204,8 +203,8 @@ PLUMB_DEVICE inline void push_changes(Team& team, const JointSystem& system) {
   });
 }
 
-PLUMB_DEVICE inline void factor_system(Team& team, const JointSystem& system, Real h) {
-  for_columns_up(team, system, [=](std::uint32_t j) { factor_column(system, j, h); });
+PLUMB_DEVICE inline void factor_system(Team& team, const JointSystem& system) {
+  for_columns_up(team, system, [=](std::uint32_t j) { factor_column(system, j); });
 }
 
 PLUMB_DEVICE inline void solve_system(Team& team, const JointSystem& system, const JointPass& pass) {

@@ -162,14 +162,18 @@ struct FindMobility : MobilityWork {
       team.each(joints.count - base, [=](std::uint32_t column) {
         const std::uint32_t j = base + column;
         refresh_axis_joint(view, j);
-        choose_rows_met(view, j, give_share(view, view.joints[j], h));
+        choose_share(view, j, h);
+        choose_rows_met(view, j);
       });
       factor_axis_system(team, joints.system, view);
     } else {
       const JointView view = joints.view;
       const std::uint32_t base = joints.system.base;
-      team.each(joints.count - base, [=](std::uint32_t column) { make_joint_rows(view, base + column); });
-      factor_system(team, joints.system, h);
+      team.each(joints.count - base, [=](std::uint32_t column) {
+        make_joint_rows(view, base + column);
+        choose_share(view, base + column, h);
+      });
+      factor_system(team, joints.system);
     }
   }
 };

@@ -7,8 +7,9 @@
 
 namespace plumb::impulse {
 
-/// The joints as they stand now.
-PLUMB_DEVICE inline void refresh_mechanisms(Team& team, const JointSet& joints, Real h) {
+/// The joints as they stand now. loaded: contacts push mechanisms as a whole (mechanism_mobility.hpp), and count on it
+/// that joints yield as they did there.
+PLUMB_DEVICE inline void refresh_mechanisms(Team& team, const JointSet& joints, Real h, bool loaded) {
   const JointView view = joints.view;
   const JointSystem system = joints.system;
   const std::uint32_t base = system.base;
@@ -16,19 +17,20 @@ PLUMB_DEVICE inline void refresh_mechanisms(Team& team, const JointSet& joints, 
   team.each(joints.count, [=](std::uint32_t j) {
     make_joint_rows(view, j);
     if (j < base) factor_joint(view, j);
+    if (j >= base && !loaded) choose_share(view, j, h);
   });
-  factor_system(team, joints.system, h);
+  factor_system(team, joints.system);
 }
 
 /// The impulses of the last sub-step, or step, act again.
-PLUMB_DEVICE inline void warm_start_mechanisms(Team& team, const JointSet& joints, bool first,
+PLUMB_DEVICE inline void warm_start_mechanisms(Team& team, const JointSet& joints, bool first, bool loaded,
                                                const StepParameters& step) {
   if (joints.count == 0) return;
   const JointView view = joints.view;
   const JointSystem system = joints.system;
   if (first) {
     team.each(joints.count, [=](std::uint32_t j) { take_over_impulse(view, j, step); });
-    refresh_mechanisms(team, joints, step.h);
+    refresh_mechanisms(team, joints, step.h, loaded);
   }
   for_single_joints(team, joints, [=](std::uint32_t j) { warm_start_joint(view, j, false, step); });
   team.each(system.body_count, [=](std::uint32_t i) { push_body(system, i, true); });
@@ -36,9 +38,9 @@ PLUMB_DEVICE inline void warm_start_mechanisms(Team& team, const JointSet& joint
 
 /// One pass: the first of a sub-step, which takes errors back, or the second, after positions have moved.
 PLUMB_DEVICE inline void solve_mechanisms(Team& team, const JointSet& joints, const StepParameters& step,
-                                          bool take_back_error) {
+                                          bool take_back_error, bool loaded) {
   if (joints.count == 0) return;
-  if (!take_back_error) refresh_mechanisms(team, joints, step.h);
+  if (!take_back_error) refresh_mechanisms(team, joints, step.h, loaded);
   const JointView view = joints.view;
   const JointPass pass = {step.joint, step.chain_rate, step.h, step.inverse_h, take_back_error};
   for_single_joints(team, joints, [=](std::uint32_t j) { solve_joint(view, j, pass); });

@@ -23,11 +23,11 @@ struct StepSoftly : SoftContacts<kBelts, !Executor::kWarps || kJoints != JointCo
       team.each(body_count, [&](std::uint32_t i) { integrate_velocity(bodies, solver, step, first, i); });
       if (first && features.collision) this->warm_start_contacts(team);
       if constexpr (kJoints == JointCode::kPlain) {
-        warm_start_mechanisms(team, joints, first, step);
-        solve_mechanisms(team, joints, step, true);
+        warm_start_mechanisms(team, joints, first, loads(), step);
+        solve_mechanisms(team, joints, step, true, loads());
       }
       if constexpr (kJoints == JointCode::kAll) {
-        warm_start_axes(team, joints, first, step);
+        warm_start_axes(team, joints, first, loads(), step);
         solve_axes(team, joints, step, RowPass::kPlaces, !first && loads(), turn);
       }
       const bool relaxes = !step.relaxes_once || k + 1 == step.substeps;
@@ -58,7 +58,7 @@ struct StepSoftly : SoftContacts<kBelts, !Executor::kWarps || kJoints != JointCo
 
  private:
   PLUMB_DEVICE void hold_speeds(Team& team, const StepParameters& step, [[maybe_unused]] std::uint32_t& turn) const {
-    if constexpr (kJoints == JointCode::kPlain) solve_mechanisms(team, joints, step, false);
+    if constexpr (kJoints == JointCode::kPlain) solve_mechanisms(team, joints, step, false, loads());
     if constexpr (kJoints == JointCode::kAll) solve_axes(team, joints, step, RowPass::kSpeeds, loads(), turn);
   }
   PLUMB_DEVICE bool loads() const { return features.collision && solver.mechanisms.count != 0; }
