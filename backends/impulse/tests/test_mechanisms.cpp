@@ -126,6 +126,24 @@ TEST(Mechanisms, ATableComesToRestUnderItsLoad) {
   }
 }
 
+/// Boards fixed to a side at either end close loops, whose rows repeat each other.
+TEST(Mechanisms, AShelfComesToRestUnderItsLoad) {
+  Workshop shop;
+  shop.scene.ground();
+  const PlumbShape side = shop.scene.box({0.02, 0.8, 0.15}), board = shop.scene.box({0.48, 0.015, 0.15});
+  const PlumbBody left = shop.add(side, 12, {-0.5, 0.8, 0}), right = shop.add(side, 12, {0.5, 0.8, 0});
+  const PlumbShape book = shop.scene.box({0.05, 0.12, 0.1});
+  for (int i = 0; i < 4; ++i) {
+    const double height = 0.2 + 0.4 * i;
+    const PlumbBody shelf = shop.add(board, 8, {0, height, 0});
+    shop.join(PLUMB_JOINT_FIXED, left, {0.02, height - 0.8, 0}, shelf, {-0.48, 0, 0});
+    shop.join(PLUMB_JOINT_FIXED, right, {-0.02, height - 0.8, 0}, shelf, {0.48, 0, 0});
+    for (int k = 0; k < 4; ++k) shop.add(book, 20, {0.2 * k - 0.3, height + 0.135, 0});
+  }
+  shop.run(540);
+  EXPECT_LT(shop.run(60), 2e-3);
+}
+
 TEST(Mechanisms, JointsBearWhatContactsPress) {
   Workshop shop(kNeeds | PLUMB_NEED_JOINT_REACTIONS);
   const std::vector<PlumbJoint> legs = put_table(shop, 300);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "engine.hpp"
 
@@ -25,6 +26,25 @@ double drift_of_tower(int cubes, int steps) {
 
 /// Rounding is no slope: every point of a level face is as deep as the others, to the last digit but one.
 TEST(Stacks, OfBoxesAreNotLeantByRounding) { EXPECT_LT(drift_of_tower(20, 300), 1e-5); }
+
+/// A motion of all of its cubes at once swings up where contacts are stiffer than one sweep a sub-step bears.
+TEST(Stacks, OfManyRowsComeToRest) {
+  Scene scene(engine(), kNeeds, {0, -9.81, 0}, 1);
+  scene.ground();
+  const PlumbShape cube = scene.box({0.5, 0.5, 0.5});
+  constexpr int base = 10;
+  std::vector<PlumbBody> cubes;
+  for (int row = 0; row < base; ++row)
+    for (int i = 0; i < base - row; ++i)
+      cubes.push_back(scene.add(cube, {1.02 * (i - (base - row - 1) / 2.0), row + 0.5, 0}));
+  scene.run(2400);
+  double fastest = 0;
+  for (const PlumbBody body : cubes) {
+    const std::vector<double> v = scene.velocity(body);
+    fastest = std::max(fastest, std::hypot(v[0], v[1], v[2]));
+  }
+  EXPECT_LT(fastest, 1e-4);
+}
 
 }  // namespace
 }  // namespace plumb::impulse::test
