@@ -81,10 +81,10 @@ const std::vector<Row>& rows() {
       number("bias", real, behaviour, 0, 1, 0.2, "1", &S::bias,
              "si, jacobi: share of the overlap beyond the slop that a step takes back; 0: none"),
       number("slop", real, behaviour, 0, 1e6, 0.01, "m", &S::slop, "si, jacobi: overlap that is let be"),
-      number("contact_hertz", real, behaviour, 0, 1e5, 0, "1/s", &S::contact_hertz,
-             "stiffness of contacts against overlap, against what does not move half as much again; 0: three "
-             "sixteenths of the "
-             "sub-steps a second, the most at which stacks come to rest"),
+      number(
+          "contact_hertz", real, behaviour, 0, 1e5, 0, "1/s", &S::contact_hertz,
+          "stiffness of contacts against overlap, half as much again against what does not move; 0: three sixteenths "
+          "of the sub-steps a second, the most at which stacks come to rest"),
       number("contact_damping_ratio", real, behaviour, 0, 1000, 50, "1", &S::contact_damping_ratio,
              "how slowly overlap is taken back: 1 is critical damping"),
       number(

@@ -72,6 +72,8 @@ PLUMB_HD inline void take_product(JointBlock& m, int rows, int columns, const Jo
       for (int r = 0; r < inner; ++r) m.at[p][q] = m.at[p][q] - left.at[p][r] * right.at[q][r];
 }
 
+/// By how much of their own mobility the rows of joint j yield. Where contacts push mechanisms as a whole it is chosen
+/// once a step: they push too hard, and more so each time, where joints then yield more than they counted on.
 PLUMB_HD inline void choose_share(const JointView& view, std::uint32_t j, Real h) {
   const Joint& joint = view.joints[j];
   const Real a = length_squared(h * view.velocity(joint.body_a).angular);
