@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <exception>
 
-#include "plugin/put_rows.hpp"
+#include "put_rows.hpp"
 
 namespace plumb::impulse {
 namespace {

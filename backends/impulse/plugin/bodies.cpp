@@ -4,9 +4,9 @@
 #include <string>
 
 #include "axis_locks.hpp"
-#include "plugin/put_rows.hpp"
 #include "plugin/ranges.hpp"
 #include "plugin/world.hpp"
+#include "put_rows.hpp"
 
 namespace plumb::impulse {
 
