@@ -42,7 +42,6 @@ struct AxisParts {
   const JointDrive* drives;  ///< by slot
   AxisWork* work;            ///< by joint
   JointReaction* reactions;  ///< by slot
-  std::uint32_t* changes;    ///< three, in turn: rows that changed their piece in a round
 };
 
 struct AxisView : JointView {
@@ -208,17 +207,20 @@ PLUMB_HD inline void choose_rows_met(const AxisView& view, std::uint32_t j) {
     own.yield[i] = is_held(view, j, i) ? view.work[j].share * own.whole(i, i) : Real(-1);
 }
 
-/// How far the rows are from their equations, with the other sign.
+/// How far the rows are from their equations, with the other sign. leak: as JointWork's. A motor's row never counts
+/// what it has gathered: nothing takes back how far its speed was off, and it would creep under load.
 PLUMB_HD inline void row_residuals(const AxisView& view, std::uint32_t j, const RowTime& time, const Velocity& a,
-                                   const Velocity& b, bool anew, Real (&y)[kJointRows]) {
+                                   const Velocity& b, bool anew, Real leak, Real (&y)[kJointRows]) {
   const AxisWork& own = view.parts.work[j];
   const Real* total = view.total(j);
   row_speeds(view, j, time, a, b, anew, y);
   for (int i = 0; i < row_count(view.joints[j]); ++i) {
     if (!own.is_active(i))
       y[i] = 0;
+    else if (own.piece[i] == RowPiece::kSteady)
+      y[i] = -(y[i] - own.aim[i]);
     else if (is_hard(own.piece[i]))
-      y[i] = -((y[i] - own.aim[i]) + own.yield[i] * total[i]);
+      y[i] = -((y[i] - own.aim[i]) + leak * own.yield[i] * total[i]);
     else
       y[i] = -(y[i] + own.yield[i] * (total[i] - own.aim[i]));
   }
@@ -298,7 +300,7 @@ PLUMB_HD inline void solve_axis_rows(const AxisView& view, std::uint32_t j, cons
       mask_matrix(own, row_count(joint), work.factor);
       factor(work.factor, row_count(joint));
     }
-    row_residuals(view, j, time, a, b, has_new_tangent(kind), change);
+    row_residuals(view, j, time, a, b, has_new_tangent(kind), Real(1), change);
     solve_factored(work.factor, row_count(joint), change);
     push();
     go = rows_of(joint.type) != row_count(joint);

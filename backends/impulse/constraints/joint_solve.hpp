@@ -16,6 +16,7 @@ struct JointWork {
   Block factor;                                ///< K, and then its factors
   // While a mechanism is solved as a whole:
   Real share;               ///< by which rows yield, relative to K
+  Real leak;                ///< the part of that which the impulses gathered so far count for
   Real change[kJointRows];  ///< of the impulse
   Real give[kJointRows];    ///< speed for a unit impulse by which a row yields beside what the bodies do
 };

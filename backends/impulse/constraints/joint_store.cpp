@@ -236,11 +236,11 @@ void JointStore::upload(const Table<BodyMass>& masses) {
   impulses_.grow(rows_.size());
   scaled_.grow(found.entries.size());
   whole_.grow(found.entries.size());
+  changes_.grow(3);
   if (code_ == JointCode::kAll) {
     copy(axes_, ordered_axes);
     axis_work_.grow(count_);
     reactions_.grow(rows_.size());
-    changes_.grow(3);
   }
   changed_ = false;
 }
@@ -273,9 +273,10 @@ JointSet JointStore::set(const Bodies& bodies, const SolverBodies& solver, bool 
                               pushed_count_,
                               pushed_.data(),
                               pushed_first_.data(),
-                              on_body_.data()};
+                              on_body_.data(),
+                              changes_.data()};
   const JointColours colours = {by_colour_.data(), first_.data(), system_first_.data(), colours_, overflow_};
-  const AxisParts axes = {axes_.data(), drives.device(), axis_work_.data(), reactions_.data(), changes_.data()};
+  const AxisParts axes = {axes_.data(), drives.device(), axis_work_.data(), reactions_.data()};
   return {view, count_, colours, system, axes};
 }
 

@@ -20,10 +20,10 @@ PLUMB_HD inline void choose_in_system(const AxisView& view, const JointSystem& s
                                       const RowTime& time, bool first_round, std::uint32_t turn) {
   const std::uint32_t j = system.base + column;
   const Joint& joint = view.joints[j];
-  if (column == 0) view.parts.changes[(turn + 1) % 3] = 0;
+  if (column == 0) system.changes[(turn + 1) % 3] = 0;
   const bool changed = choose_pieces(view, j, time, view.velocity(joint.body_a), view.velocity(joint.body_b),
                                      first_round, view.work[j].share, system.work(column).change);
-  if (changed) atomic_add(&view.parts.changes[turn % 3], 1U);
+  if (changed) atomic_add(&system.changes[turn % 3], 1U);
 }
 
 PLUMB_DEVICE inline void factor_axis_system(Team& team, const JointSystem& system, const AxisView& view) {
@@ -44,6 +44,19 @@ PLUMB_DEVICE inline void sweep_system(Team& team, const JointSet& joints, const 
   for_system_joints(team, joints, [=](std::uint32_t j) { solve_axis_joint(view, j, time); });
 }
 
+/// The changes that solve the system with its rows on the pieces chosen. anew: as of row_speeds.
+PLUMB_DEVICE inline void find_axis_changes(Team& team, const JointSystem& system, const AxisView& view,
+                                           const RowTime& time, bool anew) {
+  for_columns_up(team, system, [=](std::uint32_t column) {
+    const std::uint32_t j = system.base + column;
+    const Joint& joint = view.joints[j];
+    row_residuals(view, j, time, view.velocity(joint.body_a), view.velocity(joint.body_b), anew, view.work[j].leak,
+                  system.work(column).change);
+    take_earlier(system, column);
+  });
+  for_columns_down(team, system, [=](std::uint32_t column) { solve_backward(system, column); });
+}
+
 /// The system's joints in one pass. turn: counts the rounds of a step; the count of one is cleared while the one before
 /// is counted, when everybody has long read what it was.
 PLUMB_DEVICE inline void solve_axis_system(Team& team, const JointSet& joints, const RowTime& time,
@@ -51,26 +64,25 @@ PLUMB_DEVICE inline void solve_axis_system(Team& team, const JointSet& joints, c
   const JointSystem system = joints.system;
   if (system.levels == 0) return;
   const AxisView view = axis_view(joints);
-  std::uint32_t* const changes = view.parts.changes;
   const std::uint32_t count = joints.count - system.base;
   RoundCount rounds;
+  std::uint32_t stiffened = 0;
   while (true) {
     const std::uint32_t now = turn++;
     const bool first = rounds.is_first();
     team.each(count, [=](std::uint32_t column) { choose_in_system(view, system, column, time, first, now); });
     team.meet();
-    const RoundKind kind = rounds.next(changes[now % 3] != 0);
+    const RoundKind kind = rounds.next(system.changes[now % 3] != 0);
     if (kind == RoundKind::kDone) break;
     push_changes(team, system);
     if (has_new_matrix(kind)) factor_axis_system(team, system, view);
-    for_columns_up(team, system, [=](std::uint32_t column) {
-      const std::uint32_t j = system.base + column;
-      const Joint& joint = view.joints[j];
-      row_residuals(view, j, time, view.velocity(joint.body_a), view.velocity(joint.body_b), has_new_tangent(kind),
-                    system.work(column).change);
-      take_earlier(system, column);
-    });
-    for_columns_down(team, system, [=](std::uint32_t column) { solve_backward(system, column); });
+    find_axis_changes(team, system, view, time, has_new_tangent(kind));
+    while (time.pass == RowPass::kPlaces && stiffened < kMostStiffenings && tension_grows(team, system, time.h, turn)) {
+      ++stiffened;
+      team.each(count, [=](std::uint32_t column) { refresh_axis_joint(view, system.base + column); });
+      factor_axis_system(team, system, view);
+      find_axis_changes(team, system, view, time, has_new_tangent(kind));
+    }
     push_changes(team, system);
   }
   if (rounds.ran_out()) {
@@ -94,7 +106,7 @@ PLUMB_DEVICE inline void refresh_axes(Team& team, const JointSet& joints, const 
   const AxisView view = axis_view(joints);
   const JointSystem system = joints.system;
   const Real h = step.h;
-  team.each(system.body_count, [=](std::uint32_t place) { find_least_moment(system, place, h, 1, 0); });
+  team.each(system.body_count, [=](std::uint32_t place) { find_least_moment(system, place, h); });
   team.each(joints.count, [=](std::uint32_t j) {
     refresh_axis_joint(view, j);
     if (!loaded) choose_share(view, j, h);
@@ -109,7 +121,7 @@ PLUMB_DEVICE inline void warm_start_axes(Team& team, const JointSet& joints, boo
   const JointSystem system = joints.system;
   if (first) refresh_axes(team, joints, step, loaded);
   team.each(joints.count, [=](std::uint32_t j) {
-    if (j == 0) view.parts.changes[0] = 0;
+    if (j == 0) system.changes[0] = 0;
     if (first) take_over_impulse(view, j, step);
     begin_reaction(view, j, first);
   });
@@ -135,7 +147,7 @@ PLUMB_DEVICE inline void pass_on_loads(Team& team, const JointSet& joints) {
     Real(&y)[kJointRows] = system.work(column).change;
     speeds_now(view, j, view.velocity(joint.body_a), view.velocity(joint.body_b), y);
     for (int i = 0; i < row_count(joint); ++i)
-      y[i] = own.is_active(i) ? -(y[i] + own.yield[i] * view.total(j)[i]) : Real(0);
+      y[i] = own.is_active(i) ? -(y[i] + view.work[j].leak * own.yield[i] * view.total(j)[i]) : Real(0);
     take_earlier(system, column);
   });
   for_columns_down(team, system, [=](std::uint32_t column) { solve_backward(system, column); });

@@ -12,6 +12,10 @@ namespace plumb::impulse {
 /// undetermined. Those grow where turns of the rows feed back on them: by the square of the angle turned in a sub-step,
 /// over the share.
 inline constexpr Real kGiveShareInLoops = Real(1e-4), kGiveShareByTurn = 16;
+/// Of what rows yield whatever the turn, the part that leaks: that counts for the impulse gathered so far, too. All of
+/// it (Tikhonov's regularisation), and every mechanism gives way under its load; none of it (a proximal step), and what
+/// rows leave undetermined never fades. (Parikh, Boyd, "Proximal Algorithms", 2014, section 4.1.)
+inline constexpr Real kLeak = Real(0.1);
 
 /// A dense block of L, rows of the later joint by columns of the earlier one.
 struct JointBlock {
@@ -41,6 +45,7 @@ struct JointSystem {
   const std::uint32_t* bodies;  ///< that these joints push, by place: mechanism after mechanism
   const std::uint32_t* body_first;
   const JointOnBody* on_body;
+  std::uint32_t* changes;  ///< three, in turn: how many changed in a round what the next one begins with
 
   PLUMB_HD int rows(std::uint32_t column) const { return row_count(view.joints[base + column]); }
   PLUMB_HD JointWork& work(std::uint32_t column) const { return view.work[base + column]; }
@@ -78,7 +83,11 @@ PLUMB_HD inline void choose_share(const JointView& view, std::uint32_t j, Real h
   const Joint& joint = view.joints[j];
   const Real a = length_squared(h * view.velocity(joint.body_a).angular);
   const Real b = length_squared(h * view.velocity(joint.body_b).angular);
-  view.work[j].share = joint.in_loop ? kGiveShareInLoops + kGiveShareByTurn * (a + b) : kGiveShare;
+  const Real still = joint.in_loop ? kGiveShareInLoops : kGiveShare;
+  const Real turned = joint.in_loop ? kGiveShareByTurn * (a + b) : Real(0);
+  JointWork& work = view.work[j];
+  work.share = still + turned;
+  work.leak = (kLeak * still + turned) / work.share;
 }
 
 /// Takes the column's products off it and factors it. coupled(i, p, j, q): the speed of row p of joint i for a unit
@@ -143,7 +152,8 @@ PLUMB_HD inline void solve_forward(const JointSystem& system, std::uint32_t j, c
   joint_residuals(system.view, system.base + j, pass, system.view.velocity(joint.body_a),
                   system.view.velocity(joint.body_b), y);
   const JointImpulse& total = system.view.impulses[joint.slot];
-  for (int p = 0; p < system.rows(j); ++p) y[p] = -(y[p] + system.work(j).give[p] * total.along[p]);
+  const JointWork& work = system.work(j);
+  for (int p = 0; p < system.rows(j); ++p) y[p] = -(y[p] + work.leak * work.give[p] * total.along[p]);
   take_earlier(system, j);
 }
 
@@ -209,11 +219,10 @@ PLUMB_DEVICE inline void factor_system(Team& team, const JointSystem& system) {
   for_columns_up(team, system, [=](std::uint32_t j) { factor_column(system, j); });
 }
 
-PLUMB_DEVICE inline void solve_system(Team& team, const JointSystem& system, const JointPass& pass) {
-  if (system.levels == 0) return;
+/// The changes that solve the system, which do not act yet.
+PLUMB_DEVICE inline void find_changes(Team& team, const JointSystem& system, const JointPass& pass) {
   for_columns_up(team, system, [=](std::uint32_t j) { solve_forward(system, j, pass); });
   for_columns_down(team, system, [=](std::uint32_t j) { solve_backward(system, j); });
-  push_changes(team, system);
 }
 
 }  // namespace plumb::impulse

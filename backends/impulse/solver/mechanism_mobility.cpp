@@ -150,7 +150,6 @@ struct FindMobility : MobilityWork {
   /// What tension asks of a body holds for contacts, too.
   PLUMB_HD void stiffen(std::uint32_t place) const {
     const JointView& view = joints.view;
-    find_least_moment(joints.system, place, parameters->h, parameters->warm_start, parameters->step);
     const std::uint32_t body = joints.system.bodies[place];
     view.solver.inertia[body].inverse = view.inverse_inertia(body, view.bodies.orientation[body]);
   }

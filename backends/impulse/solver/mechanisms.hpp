@@ -13,7 +13,7 @@ PLUMB_DEVICE inline void refresh_mechanisms(Team& team, const JointSet& joints, 
   const JointView view = joints.view;
   const JointSystem system = joints.system;
   const std::uint32_t base = system.base;
-  team.each(system.body_count, [=](std::uint32_t place) { find_least_moment(system, place, h, 1, 0); });
+  team.each(system.body_count, [=](std::uint32_t place) { find_least_moment(system, place, h); });
   team.each(joints.count, [=](std::uint32_t j) {
     make_joint_rows(view, j);
     if (j < base) factor_joint(view, j);
@@ -29,16 +29,35 @@ PLUMB_DEVICE inline void warm_start_mechanisms(Team& team, const JointSet& joint
   const JointView view = joints.view;
   const JointSystem system = joints.system;
   if (first) {
-    team.each(joints.count, [=](std::uint32_t j) { take_over_impulse(view, j, step); });
+    team.each(joints.count, [=](std::uint32_t j) {
+      if (j == 0) system.changes[0] = 0;
+      take_over_impulse(view, j, step);
+    });
     refresh_mechanisms(team, joints, step.h, loaded);
   }
   for_single_joints(team, joints, [=](std::uint32_t j) { warm_start_joint(view, j, false, step); });
   team.each(system.body_count, [=](std::uint32_t i) { push_body(system, i, true); });
 }
 
+/// The system's joints in one pass. The first of a sub-step finds tension, and reckons with it. turn: counts the rounds
+/// of a step.
+PLUMB_DEVICE inline void solve_system(Team& team, const JointSystem& system, const JointPass& pass,
+                                      std::uint32_t& turn) {
+  if (system.levels == 0) return;
+  find_changes(team, system, pass);
+  for (std::uint32_t stiffened = 0; pass.take_back_error && stiffened < kMostStiffenings; ++stiffened) {
+    if (!tension_grows(team, system, pass.h, turn)) break;
+    team.each(system.level_first[system.levels],
+              [=](std::uint32_t i) { make_joint_rows(system.view, system.base + i); });
+    factor_system(team, system);
+    find_changes(team, system, pass);
+  }
+  push_changes(team, system);
+}
+
 /// One pass: the first of a sub-step, which takes errors back, or the second, after positions have moved.
 PLUMB_DEVICE inline void solve_mechanisms(Team& team, const JointSet& joints, const StepParameters& step,
-                                          bool take_back_error, bool loaded) {
+                                          bool take_back_error, bool loaded, std::uint32_t& turn) {
   if (joints.count == 0) return;
   if (!take_back_error) refresh_mechanisms(team, joints, step.h, loaded);
   const JointView view = joints.view;
@@ -46,7 +65,7 @@ PLUMB_DEVICE inline void solve_mechanisms(Team& team, const JointSet& joints, co
   for_single_joints(team, joints, [=](std::uint32_t j) { solve_joint(view, j, pass); });
   JointPass exact = pass;
   exact.softness = {step.joint_rate, 1, 0};
-  solve_system(team, joints.system, exact);
+  solve_system(team, joints.system, exact, turn);
 }
 
 }  // namespace plumb::impulse

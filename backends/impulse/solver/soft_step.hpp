@@ -24,7 +24,7 @@ struct StepSoftly : SoftContacts<kBelts, !Executor::kWarps || kJoints != JointCo
       if (first && features.collision) this->warm_start_contacts(team);
       if constexpr (kJoints == JointCode::kPlain) {
         warm_start_mechanisms(team, joints, first, loads(), step);
-        solve_mechanisms(team, joints, step, true, loads());
+        solve_mechanisms(team, joints, step, true, loads(), turn);
       }
       if constexpr (kJoints == JointCode::kAll) {
         warm_start_axes(team, joints, first, loads(), step);
@@ -58,7 +58,7 @@ struct StepSoftly : SoftContacts<kBelts, !Executor::kWarps || kJoints != JointCo
 
  private:
   PLUMB_DEVICE void hold_speeds(Team& team, const StepParameters& step, [[maybe_unused]] std::uint32_t& turn) const {
-    if constexpr (kJoints == JointCode::kPlain) solve_mechanisms(team, joints, step, false, loads());
+    if constexpr (kJoints == JointCode::kPlain) solve_mechanisms(team, joints, step, false, loads(), turn);
     if constexpr (kJoints == JointCode::kAll) solve_axes(team, joints, step, RowPass::kSpeeds, loads(), turn);
   }
   PLUMB_DEVICE bool loads() const { return features.collision && solver.mechanisms.count != 0; }

@@ -7,31 +7,90 @@
 // Constrained Multibody Dynamics", Eurographics 2017, section 4, bounds its diagonal likewise; Tournier et al., "Stable
 // Constrained Dynamics", SIGGRAPH 2015, on why it is needed). What turns slowly keeps its own inertia. About the arm,
 // too, though nothing pulls there: moments that differ much make energy where a body tumbles.
+//
+// Tension that comes at once, as where a rope snaps taut, is found by the very solve that it upsets: what that finds is
+// thrown away, and found again with the moments that it asks for.
 #pragma once
 
+#include "exec/atomic.hpp"
 #include "solver/joint_system.hpp"
 
 namespace plumb::impulse {
 
 /// The least moment falls no faster than this, s: tension that comes and goes would pump.
-inline constexpr Real kTensionFades = Real(0.25);
+inline constexpr Real kTensionFades = 1;
 
-/// Of the body at a place of the system. warm_start: a sub-step of this length to the one in which impulses were found.
-PLUMB_HD inline void find_least_moment(const JointSystem& system, std::uint32_t place, Real h, Real warm_start,
-                                       std::uint32_t step) {
-  Real least = 0;
+/// Moments that tension asks for may be short of that by this factor before the changes found are found again, and that
+/// is done no more often than this in a pass.
+inline constexpr Real kTensionGrows = Real(1.2);
+inline constexpr std::uint32_t kMostStiffenings = 2;
+
+/// What the tension in its joints asks for, h^2 |F| |r| of each, for the body at a place of the system; kg m2. changed:
+/// when the changes found have acted.
+PLUMB_HD inline Real moment_by_tension(const JointSystem& system, std::uint32_t place, Real h, bool changed) {
+  Real moment = 0;
   for (std::uint32_t k = system.body_first[place]; k < system.body_first[place + 1]; ++k) {
     const JointOnBody on = system.on_body[k];
     const Joint& joint = system.view.joints[on.joint];
-    if (joint.born == step) continue;
-    const Real* impulse = system.view.impulses[joint.slot].along;
+    const Real* total = system.view.impulses[joint.slot].along;
+    const Real* change = system.view.work[on.joint].change;
     Real pull = 0;
-    for (int i = 0; i < row_count(joint); ++i)
-      if ((joint.pulls >> i & 1U) != 0) pull = pull + impulse[i] * impulse[i];
-    least = least + h * warm_start * sqrt(pull * length_squared((on.is_b ? joint.frame_b : joint.frame_a).position));
+    for (int i = 0; i < row_count(joint); ++i) {
+      const Real impulse = changed ? total[i] + change[i] : total[i];
+      if ((joint.pulls >> i & 1U) != 0) pull = pull + impulse * impulse;
+    }
+    moment = moment + h * sqrt(pull * length_squared((on.is_b ? joint.frame_b : joint.frame_a).position));
   }
-  Real& kept = system.view.least_moment[system.bodies[place]];
-  kept = max(least, max(Real(0), Real(1) - h / kTensionFades) * kept);
+  return moment;
+}
+
+/// One over the least of the moments that the body has by itself.
+PLUMB_HD inline Real largest_inverse(const JointView& view, std::uint32_t body) {
+  const Vec inverse = inverse_moments(view.bodies.mass[body], view.solver.swings);
+  return max(max(inverse.x, inverse.y), inverse.z);
+}
+
+/// A body whose moments grow from one bound to the other keeps its angular momentum: with its angular velocity it would
+/// gain energy each time a rope snaps taut.
+PLUMB_HD inline void slow_down(const JointView& view, std::uint32_t body, Real from, Real to) {
+  if (largest_inverse(view, body) * to <= 1) return;
+  const BodyMass& mass = view.bodies.mass[body];
+  const Vec inverse = inverse_moments(mass, view.solver.swings);
+  const Velocity before = view.velocity(body);
+  const Quat orientation = view.end(body).orientation;
+  Vec turn = rotate_back(orientation, before.angular);
+  for (int i = 0; i < 3; ++i)
+    if (inverse[i] * to > 1) turn[i] = turn[i] * (max(Real(1), inverse[i] * from) / (inverse[i] * to));
+  Velocity after = before;
+  after.angular = unlocked(mass.flags, kLockAngular, rotate(orientation, turn));
+  view.store(body, before, after);
+}
+
+/// In a sub-step of h seconds, for the body at a place of the system.
+PLUMB_HD inline void find_least_moment(const JointSystem& system, std::uint32_t place, Real h) {
+  const std::uint32_t body = system.bodies[place];
+  Real& kept = system.view.least_moment[body];
+  const Real before = kept;
+  kept = max(moment_by_tension(system, place, h, false), max(Real(0), Real(1) - h / kTensionFades) * before);
+  if (kept > before) slow_down(system.view, body, before, kept);
+}
+
+/// Whether the changes found, which have not acted yet, bring tension that asks for larger moments, which bodies have
+/// from then on: the changes must be found again. turn: counts the rounds of a step.
+PLUMB_DEVICE inline bool tension_grows(Team& team, const JointSystem& system, Real h, std::uint32_t& turn) {
+  const std::uint32_t now = turn++;
+  team.each(system.body_count, [=](std::uint32_t place) {
+    if (place == 0) system.changes[(now + 1) % 3] = 0;
+    const std::uint32_t body = system.bodies[place];
+    Real& kept = system.view.least_moment[body];
+    const Real before = kept, asked = moment_by_tension(system, place, h, true);
+    if (!(asked > kTensionGrows * before && asked * largest_inverse(system.view, body) > kTensionGrows)) return;
+    kept = asked;
+    slow_down(system.view, body, before, asked);
+    atomic_add(&system.changes[now % 3], 1U);
+  });
+  team.meet();
+  return system.changes[now % 3] != 0;
 }
 
 }  // namespace plumb::impulse

@@ -174,6 +174,28 @@ TEST(JointMotors, HoldTheirSpeedUnderLoad) {
   }
 }
 
+/// Motors that hold do not give way under what they bear, however heavy against their arms.
+TEST(JointMotors, HoldAnArmStill) {
+  for (const double load : {10.0, 1000.0}) {
+    JointRig rig(kNeeds);
+    PlumbBody before = 0;
+    for (int i = 0; i < 3; ++i) {
+      const PlumbBody arm = rig.body({0.25 + 0.5 * i, 0, 0}, 10, {0.02, 0.22, 0.22});
+      PlumbJointDesc desc = axle(arm);
+      desc.body_a = before;
+      desc.frame_a.position = {i == 0 ? 0.0 : 0.25, 0, 0};
+      desc.frame_b.position = {-0.25, 0, 0};
+      desc.motors[3] = {0, 1e6, 1, 0};
+      rig.join(desc);
+      before = arm;
+    }
+    const PlumbBody hand = rig.body({1.5, 0, 0}, load);
+    rig.join_at(PLUMB_JOINT_FIXED, before, hand, {1.5, 0, 0});
+    rig.run(20);
+    EXPECT_NEAR(rig.pose(hand).position.y, 0, 5e-3) << load;
+  }
+}
+
 TEST(JointMotors, AreSwitchedOnByWriting) {
   JointRig rig(kNeeds, kNoGravity);
   const PlumbBody disc = rig.body({0, 0, 0}, 2, {0.1, 0.1, 0.25});

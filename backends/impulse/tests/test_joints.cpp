@@ -185,6 +185,38 @@ TEST(Joints, HeavyTipStretchesAChainWherePassesDoNotSuffice) {
   }
 }
 
+/// A light chain hangs in folds while the load at its end falls: when it snaps taut, again and again, energy is lost
+/// and none made. The load is nearly all that weighs.
+TEST(Joints, AChainThatSnapsTautMakesNoEnergy) {
+  for (const int links : {6, 10, 20})
+    for (const double load : {100.0, 1000.0}) {
+      JointRig rig;
+      PlumbVec3 end = {0, 0, 0};
+      PlumbBody before = 0;
+      const auto add = [&](double mass, const PlumbVec3& way) {
+        const PlumbVec3 at = {end.x + way.x / 2, end.y + way.y / 2, 0};
+        const PlumbBody link =
+            rig.body(at, mass, {mass / 300, mass / 3000, mass / 300}, about({0, 0, 1}, std::atan2(way.x, -way.y)));
+        rig.join_at(PLUMB_JOINT_BALL, before, link, end);
+        before = link;
+        end = {end.x + way.x, end.y + way.y, 0};
+      };
+      for (int i = 0; i < links; ++i) add(0.5, {i % 2 == 0 ? 0.17 : -0.17, -0.1, 0});
+      add(load, {0.1, -0.2, 0});
+      const auto energy = [&] {
+        const PlumbVec3 v = rig.speed(before).linear;
+        return kGravity * rig.pose(before).position.y + (v.x * v.x + v.y * v.y + v.z * v.z) / 2;
+      };
+      const double start = energy();
+      double most = start;
+      for (int i = 0; i < 600; ++i) {
+        rig.step();
+        most = std::max(most, energy());
+      }
+      EXPECT_LT(most, start + 0.01 * kGravity * 0.2 * links) << links << " links, " << load << " kg";
+    }
+}
+
 /// Twelve rods let go level crack like a whip; moments across them are the worst that float has to tell apart.
 TEST(Joints, LongChainOfHingesSwings) {
   JointRig rig;
