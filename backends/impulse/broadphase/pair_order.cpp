@@ -21,7 +21,8 @@ struct PlaceStatics {
   PLUMB_HD void operator()(std::uint32_t i) const {
     const std::uint32_t proxy = tree.leaf(i).child;
     proxies[movers + i] = proxy;
-    place[proxy] = movers + i;
+    // A row that was nobody's when the tree was built may be a mover's by now.
+    if (is_sound(tree.box(i))) place[proxy] = movers + i;
   }
 };
 

@@ -114,8 +114,9 @@ PLUMB_HD inline RotorState step_free_rotor(const RotorState& start, const Vec& i
   Vec momentum = scale(inertia, rotate_back(q, start.angular_velocity));  // in principal axes
   const auto turn = [&](int axis, Real time) {
     const SinCos half = sin_cos((time * momentum[axis]) * (excess(axis) / 2));
-    Quat spin = {0, 0, 0, half.cosine};
-    (&spin.x)[axis] = half.sine;
+    Vec along = {0, 0, 0};
+    along[axis] = half.sine;
+    const Quat spin = {along.x, along.y, along.z, half.cosine};
     q = q * spin;
     momentum = rotate_back(spin, momentum);
   };

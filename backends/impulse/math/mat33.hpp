@@ -10,7 +10,7 @@ template <class N>
 struct Mat33 {
   Vec3<N> x, y, z;
 
-  PLUMB_HD const Vec3<N>& operator[](int i) const { return (&x)[i]; }
+  PLUMB_HD constexpr const Vec3<N>& operator[](int i) const { return i == 0 ? x : i == 1 ? y : z; }
 };
 using Mat = Mat33<Real>;
 

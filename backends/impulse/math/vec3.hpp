@@ -9,8 +9,10 @@ template <class N>
 struct Vec3 {
   N x, y, z;
 
-  PLUMB_HD N& operator[](int i) { return (&x)[i]; }
-  PLUMB_HD const N& operator[](int i) const { return (&x)[i]; }
+  // No steps from member to member by pointer: compilers may, and gcc 12 does, take what is written so for another
+  // place.
+  PLUMB_HD constexpr N& operator[](int i) { return i == 0 ? x : i == 1 ? y : z; }
+  PLUMB_HD constexpr const N& operator[](int i) const { return i == 0 ? x : i == 1 ? y : z; }
 };
 
 using Vec = Vec3<Real>;

@@ -7,6 +7,7 @@
 
 namespace plumb::impulse {
 
+// Not to Real and back to double in one function: gcc 12 forgets to round two such numbers that lie side by side.
 template <class N, class M>
 PLUMB_HD constexpr Vec3<N> to_numbers(const Vec3<M>& v) {
   return {static_cast<N>(v.x), static_cast<N>(v.y), static_cast<N>(v.z)};

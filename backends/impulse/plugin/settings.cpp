@@ -46,10 +46,8 @@ constexpr double kContactRate = 0.1875, kGroundStiffness = 1.5;
 
 /// In the order of SolverKind.
 constexpr const char* kSolvers[] = {"tgs_soft", "si", "jacobi", "xpbd"};
-/// In the order of BroadPhase::Method. Where kernels have a memory of their own the tree is offered alone: there the
-/// pairs of the others have given other bits than the tree's where bodies come and go.
+/// In the order of BroadPhase::Method.
 constexpr const char* kBroadPhases[] = {"lbvh", "sweep", "grid"};
-constexpr std::size_t kBroadPhasesOffered = kOneMemory ? std::size(kBroadPhases) : 1;
 constexpr const char* kRelaxations[] = {"substep", "step"};
 
 Row choice(const char* name, PlumbSettingRole role, std::span<const char* const> words, double Settings::*member,
@@ -103,7 +101,7 @@ const std::vector<Row>& rows() {
              "a body with less kinetic energy than at this speed rests"),
       number("sleep_time", real, behaviour, 0, 1e6, 0.5, "s", &S::sleep_time,
              "an island whose bodies have all rested for so long falls asleep"),
-      choice("broad_phase", PLUMB_ROLE_SPEED, std::span(kBroadPhases).first(kBroadPhasesOffered), &S::broad_phase,
+      choice("broad_phase", PLUMB_ROLE_SPEED, kBroadPhases, &S::broad_phase,
              "how bodies that move are found near each other: lbvh: a tree; sweep: sort and sweep on one axis; grid: "
              "cells as wide as the common body. All give the same bits; the tree was the fastest wherever measured"),
   };

@@ -136,11 +136,10 @@ class PiecePair {
     answer.at = rotate(turn_piece(), swapped_ ? on_piece : on_convex - pair.shift);
     if (answer.distance < 0) {
       const Vec64 between = 0.5 * (on_piece + on_convex);
-      const Vec64 at = rotate(turn_piece(), swapped_ ? between : between - pair.shift);
+      answer.at = rotate(turn_piece(), swapped_ ? between : between - pair.shift);
       answer.manifold.normal = to_numbers<Real>(answer.normal);
       answer.manifold.count = 1;
-      answer.manifold.points[0] = {to_numbers<Real>(at), static_cast<Real>(answer.distance), 0};
-      take_deepest(answer);
+      answer.manifold.points[0] = {to_numbers<Real>(answer.at), static_cast<Real>(answer.distance), 0};
     }
   }
 

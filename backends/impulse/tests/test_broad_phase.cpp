@@ -225,6 +225,34 @@ TEST(BroadPhase, WhatIsNotABoxTouchesNothingAndSpoilsNothing) {
   }
 }
 
+/// A list of statics may be made up with a row of nobody; whoever gets that row later may move, and is found.
+TEST(BroadPhase, WhoGetsARowOfNobodyIsFoundLikeAnyOther) {
+  const std::vector<Box> all = make_boxes(Field::kUniform, 1000, 9);
+  std::vector<Box> boxes = all;
+  constexpr std::uint32_t kNobody = 500, kMovers = 800;
+  boxes[kNobody] = empty_box();
+  const std::vector<Pair> truth = all_pairs(all, kMovers);
+  std::vector<Pair> tree;
+  for (const Way& way : kWays) {
+    if (way.bits != MortonBits::k63) continue;
+    BroadPhaseRig rig;
+    choose(rig, way);
+    rig.set(boxes, kMovers);
+    std::vector<std::uint32_t> statics = {kNobody};
+    for (std::uint32_t i = kMovers; i < 1000; ++i) statics.push_back(i);
+    rig.static_count = static_cast<std::uint32_t>(statics.size());
+    rig.statics.from_host(statics.data(), statics.size());
+    rig.find(size(truth));
+    rig.boxes.from_host(all.data(), all.size());
+    rig.enqueue();
+    rig.executor.wait();
+    const std::vector<Pair> pairs = rig.pairs.to_host(rig.count.to_host(1)[0]);
+    EXPECT_EQ(sorted(pairs), truth) << static_cast<int>(way.method);
+    if (tree.empty()) tree = pairs;
+    EXPECT_EQ(pairs, tree) << static_cast<int>(way.method);
+  }
+}
+
 TEST(BroadPhase, RefusesMoreThanItHasRoomFor) {
   BroadPhaseRig rig;
   rig.set(make_boxes(Field::kUniform, 10, 1), 10);

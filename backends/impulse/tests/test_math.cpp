@@ -14,6 +14,16 @@ namespace {
 
 constexpr double kUnit = kEpsilon;
 
+// Components by index are the members that they name: what steps from one to another by pointer is no constant.
+static_assert(Vec{1, 2, 3}[0] == 1 && Vec{1, 2, 3}[1] == 2 && Vec{1, 2, 3}[2] == 3);
+static_assert(Mat{{1, 0, 0}, {0, 2, 0}, {0, 0, 3}}[2][2] == 3);
+constexpr Vec written(int i) {
+  Vec v = {};
+  v[i] = 7;
+  return v;
+}
+static_assert(written(1) == Vec{0, 7, 0} && written(2) == Vec{0, 0, 7});
+
 double real(std::mt19937_64& random, double low, double high) {
   return std::uniform_real_distribution<double>(low, high)(random);
 }
