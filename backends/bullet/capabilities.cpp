@@ -1,4 +1,5 @@
 // What Bullet has, and how truly.
+#include "plumb/backend/usual_capability.hpp"
 #include "world.hpp"
 
 namespace plumb::bullet {
@@ -7,6 +8,11 @@ namespace {
 PlumbDegree answer(PlumbDegree degree, const char*& note, const char* text) {
   note = text;
   return degree;
+}
+
+PlumbDegree usual_degree(PlumbCapability kind, std::uint32_t a, const char*& note) {
+  const backend::Capability usual = backend::usual_capability(kind, a, 0);
+  return answer(usual.degree, note, usual.note);
 }
 
 bool is_convex(std::uint32_t type) { return type <= PLUMB_CONVEX_HULL; }
@@ -82,27 +88,11 @@ PlumbDegree query_degree(std::uint32_t kind, std::uint32_t type, const char*& no
   return PLUMB_NATIVE;
 }
 
-PlumbDegree read_degree(std::uint32_t field) {
-  switch (field) {
-    case PLUMB_FIELD_POSE:
-    case PLUMB_FIELD_VELOCITY:
-    case PLUMB_FIELD_AWAKE:
-    case PLUMB_FIELD_MASS:
-    case PLUMB_FIELD_MATERIAL:
-    case PLUMB_FIELD_GRAVITY_SCALE:
-    case PLUMB_FIELD_DAMPING:
-    case PLUMB_FIELD_SURFACE_VELOCITY:
-    case PLUMB_FIELD_FILTER: return PLUMB_NATIVE;
-    default: return PLUMB_NONE;
-  }
-}
-
 PlumbDegree write_degree(std::uint32_t field, const char*& note) {
-  if (field >= PLUMB_FIELD_COUNT || field == PLUMB_FIELD_MASS) return PLUMB_NONE;
   if (field == PLUMB_FIELD_DAMPING)
     return answer(PLUMB_EMULATED, note, "exp(-c dt) by the adapter, which holds for any c");
   if (field == PLUMB_FIELD_SURFACE_VELOCITY) return PLUMB_EMULATED;
-  return PLUMB_NATIVE;
+  return usual_degree(PLUMB_CAP_FIELD_WRITE, field, note);
 }
 
 PlumbDegree need_degree(std::uint32_t index, const char*& note) {
@@ -142,7 +132,7 @@ PlumbDegree World::capability(PlumbCapability kind, std::uint32_t a, std::uint32
     case PLUMB_CAP_JOINT: return joint_degree(a, note);
     case PLUMB_CAP_JOINT_FEATURE: return joint_feature_degree(a, b, note);
     case PLUMB_CAP_QUERY: return query_degree(a, b, note);
-    case PLUMB_CAP_FIELD_READ: return read_degree(a);
+    case PLUMB_CAP_FIELD_READ: return usual_degree(kind, a, note);
     case PLUMB_CAP_FIELD_WRITE: return write_degree(a, note);
     case PLUMB_CAP_NEED: return need_degree(a, note);
     case PLUMB_CAP_EVENT: return a < PLUMB_EVENT_COUNT ? PLUMB_EMULATED : PLUMB_NONE;

@@ -12,7 +12,7 @@ void read_row(PlumbField field, const Body& body, double* row) {
     case PLUMB_FIELD_VELOCITY:
       put_vector(body.getLinearVelocity(), row);
       return put_vector(body.getAngularVelocity(), row + 3);
-    case PLUMB_FIELD_AWAKE: row[0] = body.is(PLUMB_STATIC) || body.is_asleep() ? 0 : 1; return;
+    case PLUMB_FIELD_AWAKE: row[0] = body.is(PLUMB_DYNAMIC) && body.is_asleep() ? 0 : 1; return;
     case PLUMB_FIELD_MATERIAL:
       row[0] = body.getFriction();
       row[1] = body.getRestitution();

@@ -4,7 +4,7 @@
 #include <span>
 
 #include "dynamics_world.hpp"
-#include "plumb/backend/world_init.hpp"
+#include "plumb/backend/settings_table.hpp"
 #include "shapes.hpp"
 #include "solvers.hpp"
 
@@ -31,6 +31,7 @@ class Settings {
 
  private:
   [[nodiscard]] std::size_t index_of(const char* name) const;
+  [[nodiscard]] std::uint32_t word(const char* name) const;  ///< of a choice, its number
   [[nodiscard]] int solver_mode(bool conveyors) const;
 
   std::vector<PlumbSettingValue> values_;

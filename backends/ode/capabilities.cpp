@@ -3,15 +3,13 @@
 
 #include <algorithm>
 
+#include "plumb/backend/usual_capability.hpp"
 #include "world.hpp"
 
 namespace plumb::ode {
 namespace {
 
-struct Fact {
-  PlumbDegree degree;
-  const char* note = "";
-};
+using Fact = backend::Capability;
 
 // --- shapes and pairs ------------------------------------------------------------------------------------------------
 
@@ -94,20 +92,17 @@ Fact need_fact(std::uint32_t index) {
   }
 }
 
-Fact field_fact(std::uint32_t field, bool writing) {
-  if (field >= PLUMB_FIELD_COUNT) return {PLUMB_NONE};
-  const bool acts =
-      (field >= PLUMB_FIELD_FORCE && field <= PLUMB_FIELD_IMPULSE_AT_POINT) || field == PLUMB_FIELD_KINEMATIC_TARGET;
-  if (acts && !writing) return {PLUMB_NONE, "it acts and is spent"};
+Fact field_fact(PlumbCapability kind, std::uint32_t field) {
+  const Fact usual = backend::usual_capability(kind, field, 0);
+  if (usual.degree == PLUMB_NONE) return usual;
   switch (field) {
-    case PLUMB_FIELD_MASS: return {writing ? PLUMB_NONE : PLUMB_NATIVE};
     case PLUMB_FIELD_IMPULSE:
     case PLUMB_FIELD_ANGULAR_IMPULSE:
     case PLUMB_FIELD_IMPULSE_AT_POINT: return {PLUMB_EMULATED, "a change of velocity"};
     case PLUMB_FIELD_KINEMATIC_TARGET:
       return {PLUMB_EMULATED, "the velocity that leads there, and the pose at the end"};
     case PLUMB_FIELD_GRAVITY_SCALE: return {PLUMB_EMULATED, "0 and 1 natively, others as a force"};
-    default: return {PLUMB_NATIVE};
+    default: return usual;
   }
 }
 
@@ -130,8 +125,8 @@ Fact fact(PlumbCapability kind, std::uint32_t a, std::uint32_t b) {
     case PLUMB_CAP_JOINT: return joint_fact(a);
     case PLUMB_CAP_JOINT_FEATURE: return joint_feature_fact(a, b);
     case PLUMB_CAP_QUERY: return query_fact(a, b);
-    case PLUMB_CAP_FIELD_READ: return field_fact(a, false);
-    case PLUMB_CAP_FIELD_WRITE: return field_fact(a, true);
+    case PLUMB_CAP_FIELD_READ:
+    case PLUMB_CAP_FIELD_WRITE: return field_fact(kind, a);
     case PLUMB_CAP_NEED: return need_fact(a);
     case PLUMB_CAP_EVENT: return event_fact(a);
     case PLUMB_CAP_PHASE_TIME: return phase_fact(a);

@@ -9,6 +9,7 @@
 
 #include "generic_joint.hpp"
 #include "plumb/backend/names.hpp"
+#include "plumb/backend/usual_capability.hpp"
 
 namespace plumb::ode {
 namespace {
@@ -43,17 +44,8 @@ void with_frames_together(const Joint& joint, Set&& set) {
   dBodySetQuaternion(first.body, OdeQuaternion(q).wxyz);
 }
 
-/// The axes that a type leaves free, as bits.
-unsigned free_axes(PlumbJointType type) {
-  switch (type) {
-    case PLUMB_JOINT_HINGE: return 1u << 3;
-    case PLUMB_JOINT_SLIDER:
-    case PLUMB_JOINT_DISTANCE: return 1u << 0;
-    case PLUMB_JOINT_UNIVERSAL: return 1u << 3 | 1u << 4;
-    case PLUMB_JOINT_GENERIC: return 0b111111;
-    default: return 0;
-  }
-}
+/// The axes that a type leaves free and has rows for, as bits: ODE's ball joint has none.
+unsigned free_axes(PlumbJointType type) { return type == PLUMB_JOINT_BALL ? 0 : backend::free_axes(type); }
 
 /// Those of one joint.
 unsigned free_axes(const PlumbJointDesc& desc) {

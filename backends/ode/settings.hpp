@@ -3,9 +3,7 @@
 
 #include <ode/ode.h>
 
-#include <span>
-
-#include "plumb/backend/world_init.hpp"
+#include "plumb/backend/settings_table.hpp"
 
 namespace plumb::ode {
 
@@ -39,15 +37,9 @@ struct Settings {
   int sap_axes;  ///< index of the word
   int threads;
   int random_seed;
-
-  explicit Settings(const WorldInit& init);
 };
 
-[[nodiscard]] std::span<const PlumbSettingInfo> setting_infos();
-
-/// Sets one by name; the name, type and range are known to be right.
-void assign_setting(Settings& settings, const char* name, const PlumbSettingValue& value);
-[[nodiscard]] PlumbSettingValue setting_value(const Settings& settings, const char* name);
+[[nodiscard]] const backend::SettingsTable<Settings>& settings_table();
 
 /// A new, empty broad phase.
 [[nodiscard]] dSpaceID make_space(const Settings& settings);

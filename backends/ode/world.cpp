@@ -31,7 +31,7 @@ dWorldID create_ode_world() {
 
 World::World(const WorldInit& init)
     : init_(init),
-      settings_(init),
+      settings_(settings_table().values(init)),
       gravity_(init.desc.gravity),
       world_(create_ode_world()),
       contacts_(init_, world_),
@@ -99,13 +99,13 @@ PlumbResult World::destroy_shapes(std::span<const PlumbShape> ids) {
 }
 
 PlumbResult World::get_setting(const char* name, PlumbSettingValue& value) {
-  value = setting_value(settings_, name);
+  value = settings_table().get(settings_, name);
   return PLUMB_OK;
 }
 
 PlumbResult World::set_setting(const char* name, const PlumbSettingValue& value) {
   return inside_ode([&] {
-    assign_setting(settings_, name, value);
+    settings_table().set(settings_, name, value);
     apply_to_world(settings_, world_);
     contacts_.configure(settings_);
     for (Body* body : dynamic_) apply_body_settings(*body);

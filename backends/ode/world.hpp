@@ -35,7 +35,7 @@ class World final : public IPhysicsWorld,
 
   static const PlumbBackendInfo& info();
   static PlumbDegree capability(PlumbCapability kind, std::uint32_t a, std::uint32_t b, const char*& note);
-  static std::span<const PlumbSettingInfo> setting_infos() { return ode::setting_infos(); }
+  static std::span<const PlumbSettingInfo> setting_infos() { return settings_table().infos(); }
 
   PlumbResult create_shapes(std::span<const PlumbShapeDesc> descs, std::span<PlumbShape> ids) override;
   PlumbResult destroy_shapes(std::span<const PlumbShape> ids) override;

@@ -112,7 +112,7 @@ void sleeping(Conformance& c) {
   const PlumbNeeds needs = kPlainNeeds | PLUMB_NEED_SLEEPING | PLUMB_NEED_EVENTS;
   c.require_needs(needs);
   Probe probe(c, needs);
-  probe.ground();
+  const PlumbBody ground = probe.ground();
   const PlumbShape cube = probe.box({0.5, 0.5, 0.5});
   const PlumbBody body = probe.dynamic(cube, {0, 0.5, 0});
   int asleep_at = 0;
@@ -123,6 +123,7 @@ void sleeping(Conformance& c) {
   }
   c.expect(asleep_at != 0, "a cube at rest did not fall asleep in 15 s, or no event told");
   c.expect(probe.read(PLUMB_FIELD_AWAKE, body)[0] == 0, "the event says asleep, the field says awake");
+  c.expect(probe.read(PLUMB_FIELD_AWAKE, ground)[0] == 1, "what is static never sleeps, and its field says asleep");
   c.expect(probe.step().awake == 0, "the report counts a sleeping body as awake");
   probe.dynamic(cube, {0.2, 3, 0});
   bool woke = false;

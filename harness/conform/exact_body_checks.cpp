@@ -86,7 +86,7 @@ void damping(Conformance& c) {
   c.expect(std::abs(angular - 1.5) < 0.015, "an angular damping of 1.5/s acts as {:.5f}/s", angular);
 }
 
-/// A target is reached and the body has the velocity that led there.
+/// A target is reached, the body has the velocity that led there, and then it stands.
 void kinematic(Conformance& c) {
   const PlumbNeeds needs = PLUMB_NEED_ROTATION | PLUMB_NEED_KINEMATIC;
   c.require_needs(needs);
@@ -104,7 +104,12 @@ void kinematic(Conformance& c) {
     c.expect((probe.position(body) - target).norm() < 1e-5 && probe.orientation(body).angularDistance(turn) < 1e-4,
              "target {} is missed by {:.6f} m and {:.6f} rad", i, (probe.position(body) - target).norm(),
              probe.orientation(body).angularDistance(turn));
+    const Vec led = Vec(0.03, -0.01, 0.02) * 60, read = probe.velocity(body);
+    c.expect((read - led).norm() < 0.01 * led.norm(), "at target {} it moved at {:.4f} m/s and reads {:.4f}", i,
+             led.norm(), read.norm());
   }
+  probe.step();
+  c.expect(probe.velocity(body).norm() < 1e-6, "without a new target it reads {:.6f} m/s", probe.velocity(body).norm());
 }
 
 constexpr Check kChecks[] = {

@@ -19,7 +19,8 @@ enum {
 
 /* PlumbBodyDesc.flags */
 enum {
-  PLUMB_BODY_SENSOR = 1u << 0,      /* reports overlaps as events, pushes nothing; needs PLUMB_NEED_SENSORS */
+  PLUMB_BODY_SENSOR = 1u << 0,      /* reports overlaps as events, pushes nothing; needs PLUMB_NEED_SENSORS. Sees every
+                                       body that its filter lets it see, but where both are static */
   PLUMB_BODY_CCD = 1u << 1,         /* must not pass through others however fast it is; needs PLUMB_NEED_CCD */
   PLUMB_BODY_NO_ROTATION = 1u << 2, /* a particle: orientation and angular velocity stay as they are */
   PLUMB_BODY_ASLEEP = 1u << 3,      /* starts asleep; needs PLUMB_NEED_SLEEPING */
@@ -88,8 +89,10 @@ enum {
   PLUMB_FIELD_ANGULAR_IMPULSE = 5,  /* 3: N m s, write only; changes the velocity at once */
   PLUMB_FIELD_FORCE_AT_POINT = 6,   /* 6: force, world point, write only */
   PLUMB_FIELD_IMPULSE_AT_POINT = 7, /* 6: impulse, world point, write only */
-  PLUMB_FIELD_AWAKE = 8,            /* 1: 0 asleep, 1 awake */
-  PLUMB_FIELD_KINEMATIC_TARGET = 9, /* 7: pose that a kinematic body reaches in exactly the next step, write only */
+  PLUMB_FIELD_AWAKE = 8,            /* 1: 0 asleep, 1 awake; what is not dynamic never sleeps */
+  PLUMB_FIELD_KINEMATIC_TARGET = 9, /* 7: pose that a kinematic body reaches in exactly the next step, write only. After
+                                       that step it reads the velocity that led there; without a new target it stands
+                                       still in the one after */
   PLUMB_FIELD_MASS = 10, /* 11: mass, centre of mass (3), principal inertia (3), inertia orientation (4); read only */
   PLUMB_FIELD_MATERIAL = 11,         /* 2: friction, restitution */
   PLUMB_FIELD_GRAVITY_SCALE = 12,    /* 1 */

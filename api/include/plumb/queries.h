@@ -21,7 +21,8 @@ enum {
   PLUMB_HIT_ALL = 1      /* hits has all rows, sorted by query, then fraction, then body slot: one a body */
 };
 
-/* Sees a body when the rule of PlumbFilter says that the two may touch. Sensors are not seen. */
+/* Sees a body when the rule of PlumbFilter says that the two may touch. Sensors are not seen. Of a body in which the ray
+ * starts engines tell different things: a hit at fraction 0, the far side, or nothing; see the note of PLUMB_CAP_QUERY. */
 typedef struct PlumbRay {
   PlumbVec3 origin;      /* m */
   PlumbVec3 translation; /* m: direction and length in one, not 0 */
@@ -45,7 +46,7 @@ typedef struct PlumbOverlap {
 typedef struct PlumbHit {
   PlumbBody body;     /* 0: nothing */
   uint32_t query;     /* index into the batch */
-  uint32_t child;     /* of a compound, triangle of a mesh; else 0 */
+  uint32_t child;     /* of a compound, triangle of a mesh; else 0, also for a height field */
   double fraction;    /* of the translation, 0..1; 0 for overlaps */
   PlumbVec3 position; /* world, m; NaN for overlaps */
   PlumbVec3 normal;   /* of the surface that was hit, unit; NaN for overlaps */

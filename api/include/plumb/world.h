@@ -96,7 +96,7 @@ enum {
 typedef struct PlumbContact {
   PlumbBody body_a, body_b;
   uint32_t child_a, child_b; /* child of a compound, triangle of a mesh; else 0 */
-  PlumbVec3 position;        /* world, m */
+  PlumbVec3 position;        /* world, m; between the two surfaces, where is the engine's choice */
   PlumbVec3 normal;          /* unit, from a to b */
   double depth;              /* m; positive: overlap, negative: gap */
   double normal_impulse;     /* N s on b along the normal; NaN where the engine does not tell */

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "plumb/backend/names.hpp"
+#include "plumb/backend/usual_capability.hpp"
 
 namespace plumb::impulse {
 
@@ -104,21 +105,9 @@ void lock_turns(RowList& list, std::uint32_t free) {
 
 }  // namespace
 
-std::uint32_t free_axes(PlumbJointType type) {
-  switch (type) {
-    case PLUMB_JOINT_BALL: return 0b111000;
-    case PLUMB_JOINT_HINGE: return 0b001000;
-    case PLUMB_JOINT_SLIDER:
-    case PLUMB_JOINT_DISTANCE: return 0b000001;
-    case PLUMB_JOINT_UNIVERSAL: return 0b011000;
-    case PLUMB_JOINT_GENERIC: return 0b111111;
-    default: return 0;
-  }
-}
-
 std::uint32_t free_axes(const PlumbJointDesc& desc) {
   if (desc.type == PLUMB_JOINT_DISTANCE && desc.limits[0].enabled == 0 && desc.springs[0].enabled == 0) return 0;
-  std::uint32_t axes = free_axes(desc.type);
+  std::uint32_t axes = backend::free_axes(desc.type);
   for (std::size_t axis = 0; desc.type == PLUMB_JOINT_GENERIC && axis < 6; ++axis)
     if (desc.axis_modes[axis] == PLUMB_AXIS_LOCKED) axes &= ~(1U << axis);
   return axes;

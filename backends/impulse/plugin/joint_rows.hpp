@@ -8,8 +8,6 @@ namespace plumb::impulse {
 
 /// Axes that a joint leaves free, as bits.
 [[nodiscard]] std::uint32_t free_axes(const PlumbJointDesc& desc);
-/// Of a type whose descriptor does not say which.
-[[nodiscard]] std::uint32_t free_axes(PlumbJointType type);
 
 struct JointRows {
   JointType type;

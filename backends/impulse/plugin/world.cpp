@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-
 namespace plumb::impulse {
 
 namespace {
@@ -24,8 +23,10 @@ PlumbVec3 plumb_vec(const Position& p) { return {p.x, p.y, p.z}; }
 }  // namespace
 
 World::World(const WorldInit& init)
-    : init_(init), simulation_(init.host, init.desc.threads, features_of(init)), gravity_(init.desc.gravity) {
-  for (std::size_t i = 0; i < init.infos.size(); ++i) settings_.set(init.infos[i].name, init.values[i]);
+    : init_(init),
+      simulation_(init.host, init.desc.threads, features_of(init)),
+      settings_(settings_table().values(init)),
+      gravity_(init.desc.gravity) {
   // The step with belts has the code of all joints, which reactions ask for.
   if (init.needs(PLUMB_NEED_JOINT_REACTIONS) || features_of(init).belts) simulation_.joints.want_reactions();
   if (init.desc.body_capacity != 0) simulation_.reserve_bodies(init.desc.body_capacity);
@@ -41,7 +42,7 @@ PlumbResult World::step(double dt) {
   steer_kinematics(dt);
   dt_ = dt;
   records_known_ = false;
-  simulation_.choose(settings_.broad_phase_method());
+  simulation_.choose(settings_.broad_phase);
   simulation_.step(settings_.parameters(dt, last_h_, gravity_));
   last_h_ = settings_.substep(dt);
   return PLUMB_OK;
@@ -154,12 +155,12 @@ std::span<const PlumbContact> World::contacts() {
 }
 
 PlumbResult World::get_setting(const char* name, PlumbSettingValue& value) {
-  value = settings_.get(name);
+  value = settings_table().get(settings_, name);
   return PLUMB_OK;
 }
 
 PlumbResult World::set_setting(const char* name, const PlumbSettingValue& value) {
-  settings_.set(name, value);
+  settings_table().set(settings_, name, value);
   return PLUMB_OK;
 }
 

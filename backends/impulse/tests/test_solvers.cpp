@@ -86,7 +86,7 @@ class CubeWorld {
                            PLUMB_NEED_CONTACTS | PLUMB_NEED_CONTACT_IMPULSES);
     made.desc.gravity = gravity;
     made.desc.threads = threads;
-    made.infos = setting_infos();
+    made.infos = settings_table().infos();
     for (const PlumbSettingInfo& info : made.infos) made.values.push_back(info.default_value);
     return made;
   }

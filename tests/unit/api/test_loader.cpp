@@ -57,7 +57,8 @@ TEST(Loader, OpensAFileOnce) {
                 second = open_backend(SAMPLE_FOLDER "/./plumb-sample.so");
   EXPECT_EQ(&first.table(), &second.table());
   EXPECT_EQ(first.capability(PLUMB_CAP_JOINT, PLUMB_JOINT_BALL), PLUMB_NONE);
-  EXPECT_TRUE(first.settings().empty());
+  ASSERT_EQ(first.settings().size(), 2U);
+  EXPECT_STREQ(first.settings()[0]->name, "substeps");
 }
 
 TEST(Loader, SaysWhyAFileIsNoBackend) {

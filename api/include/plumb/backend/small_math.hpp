@@ -20,6 +20,51 @@ namespace plumb::backend {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 [[nodiscard]] inline double length(const PlumbVec3& a) { return std::sqrt(dot(a, a)); }
+[[nodiscard]] inline PlumbVec3 normalized(const PlumbVec3& v) { return scale(1 / length(v), v); }
+
+[[nodiscard]] constexpr PlumbQuat conjugate(const PlumbQuat& q) { return {-q.x, -q.y, -q.z, q.w}; }
+
+/// First b, then a.
+[[nodiscard]] constexpr PlumbQuat multiply(const PlumbQuat& a, const PlumbQuat& b) {
+  return {a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y, a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
+          a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w, a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z};
+}
+
+/// Of unit length.
+[[nodiscard]] inline PlumbQuat normalized(const PlumbQuat& q) {
+  const double n = 1 / std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
+  return {n * q.x, n * q.y, n * q.z, n * q.w};
+}
+
+/// By a unit quaternion. An identity leaves the bits of v alone.
+[[nodiscard]] constexpr PlumbVec3 rotate(const PlumbQuat& q, const PlumbVec3& v) {
+  if (q.x == 0 && q.y == 0 && q.z == 0) return v;
+  const PlumbVec3 u{q.x, q.y, q.z};
+  const PlumbVec3 t = scale(2, cross(u, v));
+  return add(v, add(scale(q.w, t), cross(u, t)));
+}
+/// The other way.
+[[nodiscard]] constexpr PlumbVec3 unrotate(const PlumbQuat& q, const PlumbVec3& v) { return rotate(conjugate(q), v); }
+
+/// Axis times angle, rad, of a unit quaternion, the shorter way round: what a body turns by. Divided by a time it is
+/// the angular velocity, in world axes, of one that turns from a to b where q = multiply(b, conjugate(a)).
+[[nodiscard]] inline PlumbVec3 rotation_vector(const PlumbQuat& q) {
+  const PlumbVec3 u{q.x, q.y, q.z};
+  const double sine = length(u);
+  if (sine < 1e-12) return scale(q.w < 0 ? -2 : 2, u);
+  const double angle = 2 * std::atan2(q.w < 0 ? -sine : sine, std::abs(q.w));
+  return scale(angle / sine, u);
+}
+
+/// The pose of `inner`, given in the frame of `outer`, in the frame that `outer` is given in.
+[[nodiscard]] constexpr PlumbPose compose(const PlumbPose& outer, const PlumbPose& inner) {
+  return {add(outer.position, rotate(outer.orientation, inner.position)),
+          multiply(outer.orientation, inner.orientation)};
+}
+[[nodiscard]] constexpr PlumbPose inverse(const PlumbPose& pose) {
+  const PlumbQuat back = conjugate(pose.orientation);
+  return {rotate(back, scale(-1, pose.position)), back};
+}
 
 /// A 3x3 matrix, row by row.
 struct Matrix3 {
