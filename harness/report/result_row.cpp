@@ -58,6 +58,7 @@ void parse_repetitions(ResultRow& row, const Json& line) {
     const auto low = as_number(band[0]), high = as_number(band[1]);
     if (low && high && *low <= *high) row.ci95 = Interval{*low, *high};
   }
+  row.restarted = number(line, "restarted").value_or(0);
   if (const Json& contended = member(line, "contended"); !contended.is_null() && contended != Json(false))
     row.contended = contended.is_object() ? text(contended, "why") : value_text(contended);
 }

@@ -54,7 +54,8 @@ struct ResultRow {
   std::optional<double> median_ms, min_ms, max_ms, p99_ms;  ///< per step
   std::vector<double> runs_ms;                              ///< medians per step of each repetition
   std::optional<Interval> ci95;                             ///< of ms per step, over the repetitions
-  std::optional<std::string> contended;                     ///< why, where the machine had more to do than cores
+  double restarted = 0;                  ///< repetitions whose worker was killed from outside, and that ran once more
+  std::optional<std::string> contended;  ///< why, where the machine had more to do than cores
   std::optional<double> window_first, window_last, steps, setup_ms;
   std::vector<std::pair<std::string, double>> phase_ms;  ///< medians by phase, where the engine tells
   std::optional<double> bodies, contacts_max, dropped, nonfinite, peak_mb;

@@ -157,8 +157,8 @@ class LayerSlots {
     core.capability = &capability<slot>;
     core.extension = &extension<slot>;
     core.error_text = &error_text<slot>;
-    for_each_call([&tables]<Call call>() {
-      auto& table = std::get<typename CallTraits<call>::Table>(tables);
+    for_each_call([]<Call call>() {
+      auto& table = std::get<typename CallTraits<call>::Table>(slots_[slot].tables);
       if (has(table, CallTraits<call>::pointer))
         table.*CallTraits<call>::pointer =
             &Thunk<slot, call, std::remove_cv_t<decltype(CallTraits<call>::pointer)>>::run;

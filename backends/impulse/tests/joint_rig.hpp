@@ -134,7 +134,7 @@ class JointRig {
     made.desc = world_desc(needs);
     made.desc.gravity = gravity;
     made.desc.threads = threads;
-    made.infos = setting_infos();
+    made.infos = settings_table().infos();
     for (const PlumbSettingInfo& info : made.infos) made.values.push_back(info.default_value);
     return made;
   }

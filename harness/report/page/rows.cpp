@@ -52,30 +52,33 @@ Json row_data(const PageContext& context, const ResultRow& row, Pool& settings, 
   for (const auto& [name, ms] : row.phase_ms) phases.push_back({name, ms});
   const MetricResult* worst = row.completed() ? row.worst() : nullptr;
   const std::string decided =
-      worst ? fmt::format("{} {}", worst->name, worst->error ? short_number(*worst->error) : "not finite")
-            : row.completed() ? std::string() : row.reason;
-  return {{"engine", context.backend_index(row.backend)},
-          {"title", problem_title(row)},
-          {"configuration", context.study.configuration(row)},
-          {"verdict", verdict_title(row.verdict())},
-          {"decided", decided},
-          {"metrics", metrics},
-          {"settings", settings.index_of(row.settings)},
-          {"changed", changed},
-          {"command", context.study.command(row)},
-          {"hash", row.hash},
-          {"date", row.date},
-          {"reason", row.reason},
-          {"contended", row.contended.value_or("")},
-          {"band", row.ci95 ? Json::array({row.ci95->low, row.ci95->high}) : Json()},
-          {"machine", machines.index_of(row.machine)},
-          {"phases", phases},
-          {"times",
-           {number(row.median_ms), number(row.min_ms), number(row.max_ms), number(row.p99_ms), number(row.setup_ms),
-            number(row.steps), number(row.window_first), number(row.window_last)}},
-          {"counts",
-           {number(row.bodies), number(row.contacts_max), number(row.dropped), number(row.nonfinite),
-            number(row.peak_mb)}}};
+      worst             ? fmt::format("{} {}", worst->name, worst->error ? short_number(*worst->error) : "not finite")
+      : row.completed() ? std::string()
+                        : row.reason;
+  Json data = {{"engine", context.backend_index(row.backend)},
+               {"title", problem_title(row)},
+               {"configuration", context.study.configuration(row)},
+               {"verdict", verdict_title(row.verdict())},
+               {"decided", decided},
+               {"metrics", metrics},
+               {"settings", settings.index_of(row.settings)},
+               {"changed", changed},
+               {"command", context.study.command(row)},
+               {"hash", row.hash},
+               {"date", row.date},
+               {"reason", row.reason},
+               {"contended", row.contended.value_or("")},
+               {"band", row.ci95 ? Json::array({row.ci95->low, row.ci95->high}) : Json()},
+               {"machine", machines.index_of(row.machine)},
+               {"phases", phases},
+               {"times",
+                {number(row.median_ms), number(row.min_ms), number(row.max_ms), number(row.p99_ms),
+                 number(row.setup_ms), number(row.steps), number(row.window_first), number(row.window_last)}},
+               {"counts",
+                {number(row.bodies), number(row.contacts_max), number(row.dropped), number(row.nonfinite),
+                 number(row.peak_mb)}}};
+  if (row.restarted > 0) data["restarted"] = row.restarted;
+  return data;
 }
 
 }  // namespace

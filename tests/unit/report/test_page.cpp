@@ -86,6 +86,19 @@ TEST(Page, EveryFigureLinksToARowThatIsThere) {
   }
 }
 
+TEST(Page, ARunWhoseWorkerWasKilledSaysSo) {
+  if (!has_page_script()) GTEST_SKIP() << "built without node";
+  std::vector<Json> rows{testing::sample_row("S1", "a", 0.02, 1), testing::sample_row("S2", "a", 0.02, 1)};
+  rows[1]["restarted"] = 1;
+  Json runs;
+  for (const Json& section : testing::packed_data(rows))
+    for (const Json& block : section)
+      if (block.contains("runs")) runs = block["runs"]["rows"];
+  ASSERT_EQ(runs.size(), 2u);
+  EXPECT_FALSE(runs[0].contains("restarted"));
+  EXPECT_EQ(runs[1]["restarted"], 1);
+}
+
 TEST(Page, TimeIsToldByTheFastestRunThatPasses) {
   if (!has_page_script()) GTEST_SKIP() << "built without node";
   const std::vector<Json> rows{

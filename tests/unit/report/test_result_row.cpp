@@ -15,7 +15,7 @@ TEST(ResultRow, ReadsEveryFieldOfTheContract) {
     "gold":0.01,"pass":false},"a":{"value":2,"unit":"1","truth":null,"error":0.001,"threshold":0.1,"gold":0.01,
     "pass":true}},"time":{"ms_per_step":{"median":2,"min":1,"max":4,"p99":3},"window":[10,990],"steps":1000,
     "setup_ms":7,"phase_ms":{"broad":0.5,"solve":null}},"counts":{"bodies":51,"contacts_max":200,"dropped":3,
-    "nonfinite":1},"hash":"ab","peak_mb":12.5,"machine":{"cpu":"c"}})");
+    "nonfinite":1},"restarted":2,"hash":"ab","peak_mb":12.5,"machine":{"cpu":"c"}})");
   const ResultRow row = parse_row(line, 7);
   EXPECT_EQ(row.index, 7u);
   EXPECT_EQ(row.scene + row.group + row.backend + row.backend_version, "D1stackingb1.2");
@@ -50,6 +50,7 @@ TEST(ResultRow, ReadsEveryFieldOfTheContract) {
   EXPECT_EQ(row.dropped, 3);
   EXPECT_EQ(row.nonfinite, 1);
   EXPECT_EQ(row.peak_mb, 12.5);
+  EXPECT_EQ(row.restarted, 2);
   EXPECT_EQ(row.ms_per_simulated_second(), 200);
   EXPECT_EQ(row.verdict(), Verdict::failed);
   ASSERT_NE(row.worst(), nullptr);

@@ -113,6 +113,8 @@ export class Runs {
       panes = element('div', { class: 'panes' });
     panes.append(pane('Run it again', element('code', {}, run.command), 'whole'));
     if (run.contended) panes.append(pane('Contended: its times stand in no diagram', element('div', {}, run.contended), 'whole'));
+    if (run.restarted)
+      panes.append(pane('Begun again', element('div', {}, `${run.restarted} of its repetitions: somebody killed the worker, and it ran once more`), 'whole'));
     if (run.reason) panes.append(pane('Reason', element('div', {}, run.reason), 'whole'));
     const metrics = this.metricsOf(run);
     if (metrics.length)
