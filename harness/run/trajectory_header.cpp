@@ -57,8 +57,8 @@ Json replay_shape(const SceneShape& shape) {
 }
 
 Json replay_header(const Scene& scene, std::span<const PoseRow> poses) {
-  Json header{{"kind", "scene"},          {"scene", scene.id},       {"dt", scene.dt},
-              {"seconds", scene.seconds}, {"shapes", Json::array()}, {"bodies", Json::array()},
+  Json header{{"kind", "scene"},          {"scene", scene.id},         {"dt", scene.dt},
+              {"seconds", scene.seconds}, {"shapes", Json::array()},   {"bodies", Json::array()},
               {"moving", Json::array()},  {"joints", joints_of(scene)}};
   for (const SceneShape& shape : scene.shapes) header["shapes"].push_back(replay_shape(shape));
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {

@@ -15,8 +15,8 @@ namespace plumb::harness {
 [[nodiscard]] Json replay_shape(const SceneShape& shape);
 
 /// {"kind","scene","dt","seconds","shapes","bodies":[{"name","shape","motion","start":[7]}],"moving","joints"}:
-/// bodies start at `poses`; moving are those that are not static; joints as in run/joint_layer.hpp, missing in the files
-/// of older programs.
+/// bodies start at `poses`; moving are those that are not static; joints as in run/joint_layer.hpp, missing in the
+/// files of older programs.
 [[nodiscard]] Json replay_header(const Scene& scene, std::span<const PoseRow> poses);
 
 }  // namespace plumb::harness

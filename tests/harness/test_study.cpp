@@ -161,7 +161,7 @@ TEST(Studies, fixed_ones_have_the_cells_that_the_dry_run_names) {
     if (row["dt"] != 0.01) ++steps;
     if (row["needs"] == "scene+rotation") ++needs;
   }
-  EXPECT_EQ(rungs, 2 * 8u) << "five rungs of two knobs, two bases of them";
+  EXPECT_EQ(rungs, 2 * 12u) << "five rungs of a knob, one of them the base; two knobs and one, two bases of each";
   EXPECT_EQ(steps, 2 * 2 * 2u);
   EXPECT_EQ(needs, 2 * 2u);
   EXPECT_EQ(rows.size(), 2 * 2u + rungs + steps + needs);

@@ -19,8 +19,8 @@
 //
 // For the taking: backend/settings_table.hpp keeps settings in the members of a struct; backend/usual_capability.hpp
 // answers what most engines have, so that you name only what yours lacks; backend/small_math.hpp has quaternions and
-// poses; backend/mass_properties.hpp an inertia matrix from principal moments; backend/touch_tracker.hpp makes begin and
-// end events out of "who touches whom"; backend/convex_hull.hpp gives the faces of a hull.
+// poses; backend/mass_properties.hpp an inertia matrix from principal moments; backend/touch_tracker.hpp makes begin
+// and end events out of "who touches whom"; backend/convex_hull.hpp gives the faces of a hull.
 #pragma once
 
 #include "plumb/backend/tables.hpp"

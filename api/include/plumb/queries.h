@@ -21,8 +21,9 @@ enum {
   PLUMB_HIT_ALL = 1      /* hits has all rows, sorted by query, then fraction, then body slot: one a body */
 };
 
-/* Sees a body when the rule of PlumbFilter says that the two may touch. Sensors are not seen. Of a body in which the ray
- * starts engines tell different things: a hit at fraction 0, the far side, or nothing; see the note of PLUMB_CAP_QUERY. */
+/* Sees a body when the rule of PlumbFilter says that the two may touch. Sensors are not seen. Of a body in which the
+ * ray starts engines tell different things: a hit at fraction 0, the far side, or nothing; see the note of
+ * PLUMB_CAP_QUERY. */
 typedef struct PlumbRay {
   PlumbVec3 origin;      /* m */
   PlumbVec3 translation; /* m: direction and length in one, not 0 */

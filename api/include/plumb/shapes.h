@@ -49,8 +49,8 @@ typedef struct PlumbShapeDesc {
   uint32_t vertex_count;  /* hull: >= 4 and not all in one plane */
   uint32_t triangle_count;
   const uint32_t* indices; /* 3 a triangle, each < vertex_count */
-  /* rows * columns values, m, row by row: y of the point at x = column * spacing.x, z = row * spacing.z. Each cell is two
-   * triangles, cut along the diagonal from (column, row + 1) to (column + 1, row). */
+  /* rows * columns values, m, row by row: y of the point at x = column * spacing.x, z = row * spacing.z. Each cell is
+   * two triangles, cut along the diagonal from (column, row + 1) to (column + 1, row). */
   const double* heights;
   uint32_t rows;     /* >= 2, along z; the field is centred: the origin is the middle of the rectangle, at height 0 */
   uint32_t columns;  /* >= 2, along x */

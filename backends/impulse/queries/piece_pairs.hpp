@@ -140,6 +140,7 @@ class PiecePair {
       answer.manifold.normal = to_numbers<Real>(answer.normal);
       answer.manifold.count = 1;
       answer.manifold.points[0] = {to_numbers<Real>(answer.at), static_cast<Real>(answer.distance), 0};
+      answer.distance = static_cast<double>(answer.manifold.points[0].separation);
     }
   }
 

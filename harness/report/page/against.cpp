@@ -28,8 +28,8 @@ Table change_table(const PageContext& context, const Comparison& comparison, Sen
     if (change.sense != sense) continue;
     const ResultRow& row = *change.after;
     const std::string title = problem_title(row);
-    table.row({row_link(row, title), backend_label(context, row.backend),
-               escape_html(context.study.configuration(row)), changes_list(change)},
+    table.row({row_link(row, title), backend_label(context, row.backend), escape_html(context.study.configuration(row)),
+               changes_list(change)},
               lower(fmt::format("{} {} {} {}", title, row.group, row.backend, sense_word(sense))),
               context.backend_index(row.backend));
   }
@@ -59,10 +59,9 @@ PageSection against_section(const PageContext& context) {
   for (const Sense sense : {Sense::worse, Sense::better, Sense::changed}) {
     const std::size_t count = comparison.count(sense);
     if (count == 0) continue;
-    section.blocks.push_back(group_block(group_title(std::string(sense_word(sense))),
-                                         fmt::format("{} {}", count, count == 1 ? "cell" : "cells"),
-                                         sense != Sense::changed,
-                                         Json::array({change_table(context, comparison, sense).block()})));
+    section.blocks.push_back(group_block(
+        group_title(std::string(sense_word(sense))), fmt::format("{} {}", count, count == 1 ? "cell" : "cells"),
+        sense != Sense::changed, Json::array({change_table(context, comparison, sense).block()})));
   }
   section.words += only_list(comparison.only_before, "cells only in the baseline");
   section.words += only_list(comparison.only_after, "cells only in these results");

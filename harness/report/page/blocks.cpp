@@ -7,9 +7,7 @@
 
 namespace plumb::harness {
 
-Json drawn_number(double value) {
-  return std::isfinite(value) ? Json::parse(fmt::format("{:.5g}", value)) : Json();
-}
+Json drawn_number(double value) { return std::isfinite(value) ? Json::parse(fmt::format("{:.5g}", value)) : Json(); }
 
 Json cell(std::string html, std::optional<double> value, std::string style) {
   if (!value && style.empty()) return html;
@@ -17,7 +15,9 @@ Json cell(std::string html, std::optional<double> value, std::string style) {
 }
 
 Table::Table(std::string label, std::string style)
-    : data_{{"label", std::move(label)}, {"style", std::move(style)}, {"columns", Json::array()},
+    : data_{{"label", std::move(label)},
+            {"style", std::move(style)},
+            {"columns", Json::array()},
             {"rows", Json::array()}} {}
 
 void Table::column(const Column& column) {

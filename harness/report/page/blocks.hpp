@@ -41,12 +41,12 @@ class Table {
 };
 
 struct FigureData {
-  std::string title;                ///< plain text
-  std::string key = {};             ///< what the filter finds it by
-  std::vector<Plot> plots = {};     ///< beside or below each other
-  std::string notes = {};           ///< HTML below
-  bool legend = true;               ///< its series by name
-  Json beaten = Json::array();      ///< [row, row that beats it, how many times dearer]
+  std::string title;             ///< plain text
+  std::string key = {};          ///< what the filter finds it by
+  std::vector<Plot> plots = {};  ///< beside or below each other
+  std::string notes = {};        ///< HTML below
+  bool legend = true;            ///< its series by name
+  Json beaten = Json::array();   ///< [row, row that beats it, how many times dearer]
 };
 /// null when nothing in it can be drawn.
 [[nodiscard]] Json figure_data(const FigureData& figure);

@@ -19,9 +19,10 @@ Json distribution_cell(const DistributionLine& line, const std::optional<Distrib
   const std::string range =
       runs->median ? fmt::format("{} to {}", short_number(runs->least, 2), short_number(runs->most, 2)) : "";
   const std::string below = line.asked ? "" : line.scored ? fmt::format("{}; {}", middle, range) : range;
-  return cell(fmt::format(R"({}<span class="cfg">{}</span>)", row_link(*runs->row, line.scored ? share : middle), below),
-              line.scored ? static_cast<double>(runs->passed) / static_cast<double>(runs->runs) : runs->median.value_or(0),
-              line.scored && runs->passed == runs->runs ? "best" : "");
+  return cell(
+      fmt::format(R"({}<span class="cfg">{}</span>)", row_link(*runs->row, line.scored ? share : middle), below),
+      line.scored ? static_cast<double>(runs->passed) / static_cast<double>(runs->runs) : runs->median.value_or(0),
+      line.scored && runs->passed == runs->runs ? "best" : "");
 }
 
 }  // namespace

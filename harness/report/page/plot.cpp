@@ -54,8 +54,8 @@ Json axis_data(const PlotAxis& axis) {
 }  // namespace
 
 Json plot_data(const Plot& plot) {
-  Json out{{"description", plot.description}, {"x", axis_data(plot.x)}, {"y", axis_data(plot.y)},
-           {"series", Json::array()}};
+  Json out{
+      {"description", plot.description}, {"x", axis_data(plot.x)}, {"y", axis_data(plot.y)}, {"series", Json::array()}};
   bool any = false;
   for (const PlotSeries& series : plot.series) {
     Json data = series_data(series);

@@ -3,10 +3,10 @@
 
 #include "report/page/assets.hpp"
 #include "report/page/base64.hpp"
+#include "report/page/bundled_scripts.hpp"
 #include "report/page/looks.hpp"
 #include "report/page/markup.hpp"
 #include "report/page/sections.hpp"
-#include "report/page/bundled_scripts.hpp"
 
 namespace plumb::harness {
 namespace {
@@ -36,15 +36,17 @@ std::string replay_page(const std::vector<PageReplay>& replays) {
 
 std::string replays_place(const PageOptions& options) {
   if (options.replays.empty() && options.replays_note.empty()) return "";
-  std::string words = "What the engines made of the same scene, side by side. Curves, depths and the gaps of "
-                      "joints are the referee's; contact forces are the engine's own. ";
+  std::string words =
+      "What the engines made of the same scene, side by side. Curves, depths and the gaps of "
+      "joints are the referee's; contact forces are the engine's own. ";
   words += escape_html(options.replays_note);
   const std::string start = R"(<section id="replays" class="part replays"><h2>Replays</h2>)";
   if (options.replays.empty()) return start + about(words) + "</section>";
   if (!has_viewer()) {
     return start + about(words) +
-           about("This program was built without node and therefore shows no replays. Build it where node and npm are, "
-                 "and write the page again: what was recorded stays valid.") +
+           about(
+               "This program was built without node and therefore shows no replays. Build it where node and npm are, "
+               "and write the page again: what was recorded stays valid.") +
            "</section>";
   }
   return start + player(options.replays) + about(words) + "</section>";

@@ -1,8 +1,6 @@
 // What most engines answer, so that an author names only what his own lacks or does otherwise.
 #pragma once
 
-#include <algorithm>
-
 #include "plumb/backend/names.hpp"
 #include "plumb/plumb.h"
 
@@ -37,7 +35,7 @@ struct Capability {
       if (a == PLUMB_PLANE) return {PLUMB_NONE, "planes do not move"};
       return b == PLUMB_KINEMATIC ? yes : Capability{PLUMB_NONE, "a surface has no inside; use a hull or a compound"};
     case PLUMB_CAP_PAIR:
-      if (std::max(a, b) >= PLUMB_SHAPE_TYPE_COUNT) return no;
+      if (a >= PLUMB_SHAPE_TYPE_COUNT || b >= PLUMB_SHAPE_TYPE_COUNT) return no;
       return moves_alone(a) || moves_alone(b) ? yes : Capability{PLUMB_NONE, "neither of the two can be dynamic"};
     case PLUMB_CAP_JOINT: return in_range(a < PLUMB_JOINT_TYPE_COUNT);
     case PLUMB_CAP_JOINT_FEATURE:
