@@ -6,6 +6,7 @@
 
 #include "constraints/prepare_contacts.hpp"
 #include "geometry/proxy_bounds.hpp"
+#include "solver/choose_substeps.hpp"
 
 namespace plumb::impulse {
 
@@ -25,6 +26,7 @@ constexpr double kNear = 1000;  // m: floats from an origin so far still tell a 
 Simulation::Simulation(const PlumbHost* host, std::uint32_t threads, const SolverFeatures& features)
     : executor_(host, threads), state(executor_), features_(features), solver_(features) {
   parameters_.grow(1);
+  shorter_.grow(1);
   statics_parameters_.grow(1);
   counters_.grow(1);
   reserve_bodies(64);
@@ -206,6 +208,7 @@ void Simulation::upload_changes() {
   }
   parameters_[0].origin = origin_;
   executor_.to_device(parameters_, 1);
+  executor_.to_device(shorter_, 1);
   if (statics_dirty_) {
     if (!bound_again_) statics_parameters_[0] = parameters_[0];
     bound_again_ = false;
@@ -236,9 +239,11 @@ void Simulation::choose(BroadPhase::Method method) {
   reserve_pairs(pair_capacity_);
 }
 
-void Simulation::step(const StepParameters& parameters) {
+void Simulation::step(const StepParameters& parameters, const ShorterSubsteps& shorter) {
   if (parameters.solver != parameters_[0].solver) solver_.choose(parameters.solver);
   parameters_[0] = parameters;
+  shorter_[0] = shorter;
+  shorter_[0].work_of_joints = kWorkOfJoint * joints.count();
   parameters_[0].step = ++step_;
   repeated_ = grew_ = false;
   woken_.clear();
@@ -312,6 +317,7 @@ void Simulation::enqueue() {
     phases_.end(executor_, PLUMB_PHASE_ISLANDS);
   }
   if (features_.collision || joints.count() != 0) {
+    solver_.choose_substeps(executor_, now, all, shapes_on, shorter_.device(), parameters_.device(), counters, joints);
     solver_.begin(executor_, all, bodies_in_step());
     if (features_.collision && mechanisms.count != 0)
       solver_.find_mobility(executor_, now, all, shapes_on, parameters, counters, joints);

@@ -109,7 +109,7 @@ class Simulation {
   /// How the steps to come find pairs; changes no result.
   void choose(BroadPhase::Method method);
   /// Enqueues a step. parameters.step and .origin are filled in here.
-  void step(const StepParameters& parameters);
+  void step(const StepParameters& parameters, const ShorterSubsteps& shorter);
   /// Returns when the step is done; grows what was too small and repeats the step then.
   void wait();
 
@@ -198,6 +198,7 @@ class Simulation {
   bool continuous_ = false;                         // once there was a body that must not pass through others
   std::uint32_t shape_types_ = 0;                   // a bit for each ShapeType in the world
   Mirror<StepParameters> parameters_;
+  Mirror<ShorterSubsteps> shorter_;
   Mirror<StepParameters> statics_parameters_;  // with which the statics were bounded
   bool bound_again_ = false;                   // the statics, as they were: with the same parameters
   bool restored_ = false;                      // since the last step: what it found is not known

@@ -21,6 +21,7 @@ struct StepCounters {
   std::uint32_t first_slot[kColours + 2];       ///< solver rows of a colour begin here, a multiple of the lanes
   std::uint32_t colour_count;                   ///< colours up to the last one in use; the overflow apart
   std::uint32_t largest_loop;                   ///< threads that go over the contacts of a colour at once
+  std::uint32_t substeps, asked_substeps;       ///< of this step, and what its loads asked for (choose_substeps.hpp)
   std::uint32_t passes;  ///< over the constraints, of the solvers that make them until it is enough
   std::uint32_t
       touched_sleepers;     ///< manifolds with somebody awake: the step does nothing, they wake, and it is repeated

@@ -29,19 +29,34 @@ enum class SolverKind : std::uint32_t { kTgsSoft, kSequential, kJacobi, kPositio
 /// The solvers that have passes make no more of them in a step.
 constexpr std::uint32_t kMostPasses = 1000;
 
-struct StepParameters {
-  Vec gravity;     ///< m/s2
-  Real dt;         ///< s
-  Real h;          ///< s, one sub-step
-  Real inverse_h;  ///< 1/s
+/// What depends on the length of a sub-step.
+struct SubstepParameters {
   std::uint32_t substeps;
+  Real h;            ///< s, one sub-step
+  Real inverse_h;    ///< 1/s
+  Softness contact;  ///< between two bodies that move
+  Softness ground;   ///< against a body that does not
+  Softness joint;    ///< of joints that are solved one by one
+  Real joint_rate;   ///< errors of mechanisms that are solved as a whole are taken back at this rate, 1/s
+  Real chain_rate;   ///< those of long mechanisms no faster than at this one
+  Real warm_start;   ///< share of the last step's impulses that is kept: its sub-step to this one's, or 0
+  Real shortened;    ///< this sub-step over the last one, squared
+};
+
+/// In what sub-steps the step may be solved, of which its loads choose (solver/choose_substeps.hpp).
+struct ShorterSubsteps {
+  static constexpr std::uint32_t kMost = 9;
+  SubstepParameters of[kMost];   ///< those of the setting first, each half as long as the one before
+  std::uint32_t count;           ///< of those that may be chosen
+  Real asked_before;             ///< number of sub-steps that loads of earlier steps ask for
+  std::uint32_t work_of_joints;  ///< what a sub-step of all joints takes, in contacts
+  Real inverse_last_h;           ///< of the last step, 1/s; 0 in the first
+};
+
+struct StepParameters : SubstepParameters {
+  Vec gravity;             ///< m/s2
+  Real dt;                 ///< s
   std::uint32_t step;      ///< number of this step; steps count from 1
-  Softness contact;        ///< between two bodies that move
-  Softness ground;         ///< against a body that does not
-  Softness joint;          ///< of joints that are solved one by one
-  Real joint_rate;         ///< errors of mechanisms that are solved as a whole are taken back at this rate, 1/s
-  Real chain_rate;         ///< those of long mechanisms no faster than at this one
-  Real warm_start;         ///< share of the last step's impulses that is kept: its sub-step to this one's, or 0
   Real push_speed;         ///< overlap is taken back no faster than this, m/s
   bool relaxes_once;       ///< in a step, and not in each sub-step
   Real restitution_speed;  ///< slower impacts do not bounce, m/s

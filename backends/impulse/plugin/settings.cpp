@@ -14,6 +14,9 @@ constexpr double kChainHertz = 240, kChainDampingRatio = 10;
 /// x' + m l w^2 x = 0, time counted in sub-steps, and swings up where w^2 > 1 + m / l (Routh and Hurwitz), whatever the
 /// damping ratio: a quarter shakes pyramids of seven rows and more. Pyramids of 5 to 30 rows come to rest at this one.
 constexpr double kContactRate = 0.1875, kGroundStiffness = 1.5;
+/// The same in steps whose loads ask for more sub-steps. There m is small, for a light body passes on little of what a
+/// heavy one needs, and nothing but w^2 < 1 keeps a heavy box from rocking on a light one for ever.
+constexpr double kLoadedContactRate = 0.1;
 
 /// In the order of SolverKind.
 constexpr const char* kSolvers[] = {"tgs_soft", "si", "jacobi", "xpbd"};
@@ -35,6 +38,10 @@ const backend::SettingsTable<Settings>& settings_table() {
       setting<&S::substeps>(
           int_setting("substeps", "1", quality, 1, 256, 8,
                       "tgs_soft, xpbd: parts of a step in which velocities are solved and positions moved")),
+      setting<&S::most_substeps>(int_setting(
+          "most_substeps", "1", quality, 1, 256, 128,
+          "tgs_soft: sub-steps are doubled, up to so many, while loads ask for it: what is much heavier than what it "
+          "lies on, machines under load, joints in tension. No more than substeps: never. Large worlds get fewer")),
       setting<&S::relaxes_once>(choice_setting(
           "relaxation", behaviour, kRelaxations,
           "tgs_soft: when contacts lose the speed that taking back overlap gave them: in each sub-step, or once at "
@@ -77,26 +84,34 @@ const backend::SettingsTable<Settings>& settings_table() {
   return all;
 }
 
-double Settings::substep(double dt) const {
-  return solver == SolverKind::kSequential || solver == SolverKind::kJacobi ? dt : dt / substeps;
+double Settings::substep(double dt, std::uint32_t parts) const {
+  return solver == SolverKind::kSequential || solver == SolverKind::kJacobi ? dt : dt / parts;
+}
+
+SubstepParameters Settings::of_substep(double dt, std::uint32_t parts, double last_h) const {
+  const double h = substep(dt, parts), ratio = last_h == 0 ? 1 : h / last_h;
+  SubstepParameters of{};
+  of.substeps = parts;
+  of.h = static_cast<Real>(h);
+  of.inverse_h = static_cast<Real>(1 / h);
+  const double rate = parts > substeps ? kLoadedContactRate : kContactRate;
+  const double hertz = contact_hertz > 0 ? contact_hertz : rate / h;
+  of.contact = make_softness(hertz, contact_damping_ratio, h);
+  of.ground = make_softness(kGroundStiffness * hertz, contact_damping_ratio, h);
+  of.joint = make_softness(joint_hertz > 0 ? joint_hertz : 0.25 / h, joint_damping_ratio, h);
+  of.joint_rate = joint_hertz > 0 ? of.joint.bias_rate : of.inverse_h;
+  of.chain_rate = joint_hertz > 0 ? of.joint_rate : make_softness(kChainHertz, kChainDampingRatio, h).bias_rate;
+  of.warm_start = static_cast<Real>(warm_starting && last_h != 0 ? ratio : 0);
+  of.shortened = static_cast<Real>(ratio * ratio);
+  return of;
 }
 
 StepParameters Settings::parameters(double dt, double last_h, const PlumbVec3& gravity) const {
-  const double h = substep(dt);
   StepParameters step{};
+  static_cast<SubstepParameters&>(step) = of_substep(dt, substeps, last_h);
   step.gravity = {static_cast<Real>(gravity.x), static_cast<Real>(gravity.y), static_cast<Real>(gravity.z)};
   step.dt = static_cast<Real>(dt);
-  step.h = static_cast<Real>(h);
-  step.inverse_h = static_cast<Real>(1 / h);
-  step.substeps = substeps;
-  const double hertz = contact_hertz > 0 ? contact_hertz : kContactRate / h;
-  step.contact = make_softness(hertz, contact_damping_ratio, h);
-  step.ground = make_softness(kGroundStiffness * hertz, contact_damping_ratio, h);
-  step.joint = make_softness(joint_hertz > 0 ? joint_hertz : 0.25 / h, joint_damping_ratio, h);
-  step.warm_start = static_cast<Real>(!warm_starting || last_h == 0 ? 0 : h / last_h);
   step.push_speed = static_cast<Real>(push_speed);
-  step.joint_rate = joint_hertz > 0 ? step.joint.bias_rate : step.inverse_h;
-  step.chain_rate = joint_hertz > 0 ? step.joint_rate : make_softness(kChainHertz, kChainDampingRatio, h).bias_rate;
   step.relaxes_once = relaxes_once;
   step.sleep_speed = static_cast<Real>(sleep_speed);
   step.sleep_time = static_cast<Real>(sleep_time);
@@ -107,6 +122,17 @@ StepParameters Settings::parameters(double dt, double last_h, const PlumbVec3& g
   step.bias_rate = static_cast<Real>(bias / dt);
   step.slop = static_cast<Real>(slop);
   return step;
+}
+
+ShorterSubsteps Settings::shorter(double dt, double last_h) const {
+  ShorterSubsteps shorter{};
+  std::uint32_t parts = substeps;
+  do {
+    shorter.of[shorter.count++] = of_substep(dt, parts, last_h);
+    parts *= 2;
+  } while (shorter.count < ShorterSubsteps::kMost && parts <= most_substeps);
+  shorter.inverse_last_h = static_cast<Real>(last_h == 0 ? 0 : 1 / last_h);
+  return shorter;
 }
 
 }  // namespace plumb::impulse

@@ -11,7 +11,7 @@ struct Settings {
   SolverKind solver{};
   BroadPhase::Method broad_phase{};
   bool relaxes_once = false;
-  std::uint32_t substeps = 0;
+  std::uint32_t substeps = 0, most_substeps = 0;
   std::uint32_t iterations = 0;
   double stop_below = 0;
   double bias = 0;
@@ -26,10 +26,15 @@ struct Settings {
   double sleep_speed = 0;
   double sleep_time = 0;
 
-  /// Length of the parts that a step of dt is solved in.
-  [[nodiscard]] double substep(double dt) const;
-  /// What a step of dt works with. last_h: the sub-step before, 0 when there was none.
+  /// Length of the parts that a step of dt is solved in, when it is solved in so many if in any.
+  [[nodiscard]] double substep(double dt, std::uint32_t parts) const;
+  /// What a step of dt works with, in as many parts as are set. last_h: the sub-step before, 0 when there was none.
   [[nodiscard]] StepParameters parameters(double dt, double last_h, const PlumbVec3& gravity) const;
+  /// In what parts it may be solved.
+  [[nodiscard]] ShorterSubsteps shorter(double dt, double last_h) const;
+
+ private:
+  [[nodiscard]] SubstepParameters of_substep(double dt, std::uint32_t parts, double last_h) const;
 };
 
 [[nodiscard]] const backend::SettingsTable<Settings>& settings_table();

@@ -43,6 +43,7 @@ void World::exchange(Archive& archive) {
   simulation_.exchange(archive, saved.rows);
   archive.value(gravity_);
   archive.value(last_h_);
+  archive.value(load_rate_);
   archive.value(stopped_);
   steered_.exchange(archive);
   archive.list(pushed_);

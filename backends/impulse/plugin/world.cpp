@@ -18,6 +18,9 @@ SolverFeatures features_of(const WorldInit& init) {
           init.needs(PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION | PLUMB_NEED_SURFACE_VELOCITY)};
 }
 
+/// Loads that come and go would pump, s.
+constexpr double kLoadFades = 1;
+
 PlumbVec3 plumb_vec(const Position& p) { return {p.x, p.y, p.z}; }
 
 }  // namespace
@@ -43,8 +46,9 @@ PlumbResult World::step(double dt) {
   dt_ = dt;
   records_known_ = false;
   simulation_.choose(settings_.broad_phase);
-  simulation_.step(settings_.parameters(dt, last_h_, gravity_));
-  last_h_ = settings_.substep(dt);
+  ShorterSubsteps shorter = settings_.shorter(dt, last_h_);
+  shorter.asked_before = static_cast<Real>(load_rate_ * dt);
+  simulation_.step(settings_.parameters(dt, last_h_, gravity_), shorter);
   return PLUMB_OK;
 }
 
@@ -59,6 +63,8 @@ PlumbResult World::wait(PlumbStepReport& report) {
   break_joints();
   if (init_.needs(PLUMB_NEED_EVENTS) || init_.needs(PLUMB_NEED_SENSORS)) find_events();
   const StepCounters& counters = simulation_.counters();
+  last_h_ = settings_.substep(dt_, counters.substeps != 0 ? counters.substeps : settings_.substeps);
+  load_rate_ = std::max(counters.asked_substeps / dt_, std::max(0.0, 1 - dt_ / kLoadFades) * load_rate_);
   report.threads = simulation_.executor().threads();
   report.pairs = simulation_.candidate_count();
   report.contacts = counters.points;

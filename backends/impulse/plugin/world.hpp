@@ -134,6 +134,7 @@ class World final : public IPhysicsWorld,
   Settings settings_;
   PlumbVec3 gravity_;
   double last_h_ = 0, dt_ = 0;
+  double load_rate_ = 0;              // sub-steps that loads ask for, 1/s
   std::vector<BodyRecord> bodies_;    // by slot
   std::vector<Compound> compounds_;   // by shape slot, as far as there are any
   std::vector<ProxyRecord> proxies_;  // by proxy, as far as one is not as it comes

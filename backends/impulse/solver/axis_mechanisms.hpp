@@ -102,11 +102,10 @@ PLUMB_DEVICE inline void add_reactions(Team& team, const JointSet& joints) {
 }
 
 /// Rows where the bodies are now. loaded: as of refresh_mechanisms.
-PLUMB_DEVICE inline void refresh_axes(Team& team, const JointSet& joints, const StepParameters& step, bool loaded) {
+PLUMB_DEVICE inline void refresh_axes(Team& team, const JointSet& joints, Real h, Real shortened, bool loaded) {
   const AxisView view = axis_view(joints);
   const JointSystem system = joints.system;
-  const Real h = step.h;
-  team.each(system.body_count, [=](std::uint32_t place) { find_least_moment(system, place, h); });
+  team.each(system.body_count, [=](std::uint32_t place) { find_least_moment(system, place, h, shortened); });
   team.each(joints.count, [=](std::uint32_t j) {
     refresh_axis_joint(view, j);
     if (!loaded) choose_share(view, j, h);
@@ -119,12 +118,12 @@ PLUMB_DEVICE inline void warm_start_axes(Team& team, const JointSet& joints, boo
   if (joints.count == 0) return;
   const AxisView view = axis_view(joints);
   const JointSystem system = joints.system;
-  if (first) refresh_axes(team, joints, step, loaded);
   team.each(joints.count, [=](std::uint32_t j) {
     if (j == 0) system.changes[0] = 0;
     if (first) take_over_impulse(view, j, step);
     begin_reaction(view, j, first);
   });
+  if (first) refresh_axes(team, joints, step.h, step.shortened, loaded);
   for_single_joints(team, joints, [=](std::uint32_t j) { warm_start_joint(view, j, false, step); });
   team.each(system.body_count, [=](std::uint32_t i) { push_body(system, i, true); });
 }
@@ -160,7 +159,7 @@ PLUMB_DEVICE inline void solve_axes(Team& team, const JointSet& joints, const St
                                     bool loaded, std::uint32_t& turn) {
   if (joints.count == 0) return;
   const AxisView view = axis_view(joints);
-  if (pass == RowPass::kSpeeds) refresh_axes(team, joints, step, loaded);
+  if (pass == RowPass::kSpeeds) refresh_axes(team, joints, step.h, 1, loaded);
   if (loaded) pass_on_loads(team, joints);
   const RowTime time = {pass, step.h, step.inverse_h, step.joint.bias_rate,
                         pass == RowPass::kSpeeds ? Real(0) : step.joint.give};

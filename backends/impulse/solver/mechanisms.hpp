@@ -9,11 +9,11 @@ namespace plumb::impulse {
 
 /// The joints as they stand now. loaded: contacts push mechanisms as a whole (mechanism_mobility.hpp), and count on it
 /// that joints yield as they did there.
-PLUMB_DEVICE inline void refresh_mechanisms(Team& team, const JointSet& joints, Real h, bool loaded) {
+PLUMB_DEVICE inline void refresh_mechanisms(Team& team, const JointSet& joints, Real h, Real shortened, bool loaded) {
   const JointView view = joints.view;
   const JointSystem system = joints.system;
   const std::uint32_t base = system.base;
-  team.each(system.body_count, [=](std::uint32_t place) { find_least_moment(system, place, h); });
+  team.each(system.body_count, [=](std::uint32_t place) { find_least_moment(system, place, h, shortened); });
   team.each(joints.count, [=](std::uint32_t j) {
     make_joint_rows(view, j);
     if (j < base) factor_joint(view, j);
@@ -33,7 +33,7 @@ PLUMB_DEVICE inline void warm_start_mechanisms(Team& team, const JointSet& joint
       if (j == 0) system.changes[0] = 0;
       take_over_impulse(view, j, step);
     });
-    refresh_mechanisms(team, joints, step.h, loaded);
+    refresh_mechanisms(team, joints, step.h, step.shortened, loaded);
   }
   for_single_joints(team, joints, [=](std::uint32_t j) { warm_start_joint(view, j, false, step); });
   team.each(system.body_count, [=](std::uint32_t i) { push_body(system, i, true); });
@@ -59,7 +59,7 @@ PLUMB_DEVICE inline void solve_system(Team& team, const JointSystem& system, con
 PLUMB_DEVICE inline void solve_mechanisms(Team& team, const JointSet& joints, const StepParameters& step,
                                           bool take_back_error, bool loaded, std::uint32_t& turn) {
   if (joints.count == 0) return;
-  if (!take_back_error) refresh_mechanisms(team, joints, step.h, loaded);
+  if (!take_back_error) refresh_mechanisms(team, joints, step.h, 1, loaded);
   const JointView view = joints.view;
   const JointPass pass = {step.joint, step.chain_rate, step.h, step.inverse_h, take_back_error};
   for_single_joints(team, joints, [=](std::uint32_t j) { solve_joint(view, j, pass); });

@@ -1,6 +1,7 @@
 #include "solver/solver.hpp"
 
 #include "constraints/prepare_contacts.hpp"
+#include "solver/choose_substeps.hpp"
 #include "solver/enqueue_step.hpp"
 #include "solver/mechanism_mobility.hpp"
 #include "solver/motion.hpp"
@@ -41,6 +42,17 @@ void Solver::choose(SolverKind kind) {
 
 void Solver::begin(Executor& executor, const Bodies& all, std::uint32_t body_count) {
   executor.run(body_count, BeginBody{all, bodies(all)});
+}
+
+void Solver::choose_substeps(Executor& executor, const ContactCache& cache, const Bodies& all, const Proxies& proxies,
+                             const ShorterSubsteps* shorter, StepParameters* parameters, StepCounters* counters,
+                             JointStore& joints) {
+  if (kind_ != SolverKind::kTgsSoft) return;
+  const LoadWork work = {cache, all, proxies, mechanisms_, shorter, parameters, counters};
+  if (features_.collision) executor.run(Count{&counters->manifolds, slots_ - slots_for(0)}, AskForContact{work});
+  const JointSystem system = joints.set(all, bodies(all), features_.gyroscopic).system;
+  if (joints.count() != 0 && system.body_count != 0) executor.run(system.body_count, AskForTension{work, system});
+  executor.run(1U, ChooseSubsteps{work});
 }
 
 const Mechanisms& Solver::meet(JointStore& joints) {

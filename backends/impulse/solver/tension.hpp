@@ -66,12 +66,13 @@ PLUMB_HD inline void slow_down(const JointView& view, std::uint32_t body, Real f
   view.store(body, before, after);
 }
 
-/// In a sub-step of h seconds, for the body at a place of the system.
-PLUMB_HD inline void find_least_moment(const JointSystem& system, std::uint32_t place, Real h) {
+/// In a sub-step of h seconds, for the body at a place of the system. shortened: this sub-step over the one before,
+/// squared.
+PLUMB_HD inline void find_least_moment(const JointSystem& system, std::uint32_t place, Real h, Real shortened) {
   const std::uint32_t body = system.bodies[place];
   Real& kept = system.view.least_moment[body];
-  const Real before = kept;
-  kept = max(moment_by_tension(system, place, h, false), max(Real(0), Real(1) - h / kTensionFades) * before);
+  const Real before = kept, fading = shortened * max(Real(0), Real(1) - h / kTensionFades);
+  kept = max(moment_by_tension(system, place, h, false), fading * before);
   if (kept > before) slow_down(system.view, body, before, kept);
 }
 
