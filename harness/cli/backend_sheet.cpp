@@ -82,9 +82,10 @@ std::string spaced(std::string title) {
 std::string notes_of(const Json& notes, std::size_t width) {
   std::vector<std::pair<std::string, std::vector<std::string>>> by_text;
   for (const auto& [place, note] : notes.items()) {
-    const auto same = std::find_if(by_text.begin(), by_text.end(), [&](const auto& t) { return t.first == note; });
+    const auto said = note.get<std::string>();
+    const auto same = std::find_if(by_text.begin(), by_text.end(), [&](const auto& t) { return t.first == said; });
     if (same == by_text.end())
-      by_text.push_back({note.get<std::string>(), {place}});
+      by_text.push_back({said, {place}});
     else
       same->second.push_back(place);
   }

@@ -7,7 +7,7 @@
 namespace plumb::harness {
 namespace {
 
-const nlohmann::json& find(const Scene& scene, const std::string& name, bool right_kind(const nlohmann::json&),
+const nlohmann::json& find(const Scene& scene, std::string_view name, bool right_kind(const nlohmann::json&),
                            const char* kind) {
   const auto found = scene.measure_args.find(name);
   if (found == scene.measure_args.end())
@@ -24,27 +24,27 @@ void fail_at(const SceneFile& file, const JsonPath& path, const std::string& sen
   throw UsageError(fmt::format("{}:{}: {}", file.path.string(), line_of(file.text, path), sentence));
 }
 
-double arg_number(const Scene& scene, const std::string& name) {
+double arg_number(const Scene& scene, std::string_view name) {
   const auto is_number = [](const nlohmann::json& value) { return value.is_number(); };
   return find(scene, name, is_number, "a number (an expression starts with =)").get<double>();
 }
 
-const std::string& arg_text(const Scene& scene, const std::string& name) {
+const std::string& arg_text(const Scene& scene, std::string_view name) {
   const auto is_text = [](const nlohmann::json& value) { return value.is_string(); };
   return find(scene, name, is_text, "a string").get_ref<const std::string&>();
 }
 
-std::vector<double> arg_numbers(const Scene& scene, const std::string& name) {
+std::vector<double> arg_numbers(const Scene& scene, std::string_view name) {
   const auto is_list = [](const nlohmann::json& value) {
     return value.is_array() && std::all_of(value.begin(), value.end(), [](const auto& e) { return e.is_number(); });
   };
   return find(scene, name, is_list, "an array of numbers").get<std::vector<double>>();
 }
 
-std::size_t arg_body(const Scene& scene, const std::string& name) { return scene.body(arg_text(scene, name)); }
-std::size_t arg_joint(const Scene& scene, const std::string& name) { return scene.joint(arg_text(scene, name)); }
+std::size_t arg_body(const Scene& scene, std::string_view name) { return scene.body(arg_text(scene, name)); }
+std::size_t arg_joint(const Scene& scene, std::string_view name) { return scene.joint(arg_text(scene, name)); }
 
-std::vector<std::size_t> arg_bodies(const Scene& scene, const std::string& name) {
+std::vector<std::size_t> arg_bodies(const Scene& scene, std::string_view name) {
   const std::string& prefix = arg_text(scene, name);
   std::vector<std::size_t> indices;
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {

@@ -60,7 +60,7 @@ std::vector<Vec2> common_edge(const std::vector<Vec2>& a, const std::vector<Vec2
   const Vec2 along = (a[1] - a[0]).normalized(), other = (b[1] - b[0]).normalized();
   if (std::abs(cross(along, other)) > 1e-3 || std::abs(cross(along, b[0] - a[0])) > 1e-3 * size) return {};
   const auto at = [&](const Vec2& p) { return along.dot(p - a[0]); };
-  const auto [low, high] = std::minmax(at(b[0]), at(b[1]));
+  const auto [low, high] = std::minmax({at(b[0]), at(b[1])});
   const double from = std::max(0.0, low), to = std::min(at(a[1]), high);
   if (from > to) return {};
   return {a[0] + from * along, a[0] + to * along};

@@ -91,7 +91,7 @@ GeneralMetrics::GeneralMetrics(Simulation& simulation) : state_(std::make_unique
   for (const SceneJoint& joint : scene.joints) {
     if (!joint.body_a || joint.desc.collide_connected != 0) continue;
     const auto [low, high] =
-        std::minmax(static_cast<std::uint32_t>(*joint.body_a), static_cast<std::uint32_t>(joint.body_b));
+        std::minmax({static_cast<std::uint32_t>(*joint.body_a), static_cast<std::uint32_t>(joint.body_b)});
     s.joined.insert({low, high});
   }
   const auto steps = static_cast<std::uint64_t>(std::max(1.0, scene.seconds / scene.dt));

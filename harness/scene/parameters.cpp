@@ -70,7 +70,7 @@ void check_parameter(const ParameterSpec& spec, const ParameterValue& value) {
     throw UsageError(fmt::format("parameter {} = {} is above its maximum {}", spec.name, *number, *spec.maximum));
 }
 
-const ParameterSpec& find_parameter(const SceneFile& scene, const std::string& name) {
+const ParameterSpec& find_parameter(const SceneFile& scene, std::string_view name) {
   std::vector<std::string> known;
   for (const ParameterSpec& spec : scene.parameters) {
     if (spec.name == name) return spec;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "scene/scene.hpp"
 
@@ -15,6 +16,6 @@ namespace plumb::harness {
 void check_parameter(const ParameterSpec& spec, const ParameterValue& value);
 
 /// The specification by name; throws UsageError with the nearest parameter of the scene.
-[[nodiscard]] const ParameterSpec& find_parameter(const SceneFile& scene, const std::string& name);
+[[nodiscard]] const ParameterSpec& find_parameter(const SceneFile& scene, std::string_view name);
 
 }  // namespace plumb::harness

@@ -29,10 +29,10 @@ std::vector<Json> two_engines() {
   return rows;
 }
 
-const DistributionLine& line_of(const std::vector<DistributionLine>& lines, const std::string& metric) {
+const DistributionLine& line_of(const std::vector<DistributionLine>& lines, std::string_view metric) {
   for (const DistributionLine& line : lines)
     if (line.metric == metric) return line;
-  throw std::out_of_range(metric);
+  throw std::out_of_range(std::string(metric));
 }
 
 TEST(Distributions, SayHowManyPassAndHowFarTheyLieApart) {

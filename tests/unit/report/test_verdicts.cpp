@@ -31,10 +31,10 @@ namespace {
 const std::filesystem::path results = PLUMB_RESULTS_FOLDER;
 constexpr std::array folders{"xeon-2-cores", "h200"};
 
-const std::vector<Json>& committed(const std::string& folder) {
-  static std::map<std::string, std::vector<Json>> read;
-  if (!read.contains(folder)) read[folder] = read_results(results / folder).rows;
-  return read[folder];
+const std::vector<Json>& committed(std::string_view folder) {
+  static std::map<std::string, std::vector<Json>, std::less<>> read;
+  const auto known = read.find(folder);
+  return known != read.end() ? known->second : read.emplace(folder, read_results(results / folder).rows).first->second;
 }
 
 std::string text_of(const std::filesystem::path& file) {
