@@ -317,7 +317,7 @@ void Simulation::enqueue() {
     phases_.end(executor_, PLUMB_PHASE_ISLANDS);
   }
   if (features_.collision || joints.count() != 0) {
-    solver_.choose_substeps(executor_, now, all, shapes_on, shorter_.device(), parameters_.device(), counters, joints);
+    solver_.choose_substeps(executor_, now, all, shapes_on, shorter_.device(), parameters_.device(), counters);
     solver_.begin(executor_, all, bodies_in_step());
     if (features_.collision && mechanisms.count != 0)
       solver_.find_mobility(executor_, now, all, shapes_on, parameters, counters, joints);

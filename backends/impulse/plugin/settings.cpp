@@ -41,7 +41,7 @@ const backend::SettingsTable<Settings>& settings_table() {
       setting<&S::most_substeps>(int_setting(
           "most_substeps", "1", quality, 1, 256, 128,
           "tgs_soft: sub-steps are doubled, up to so many, while loads ask for it: what is much heavier than what it "
-          "lies on, machines under load, joints in tension. No more than substeps: never. Large worlds get fewer")),
+          "lies on, machines under load. No more than substeps: never. Large worlds get fewer")),
       setting<&S::relaxes_once>(choice_setting(
           "relaxation", behaviour, kRelaxations,
           "tgs_soft: when contacts lose the speed that taking back overlap gave them: in each sub-step, or once at "
@@ -106,9 +106,9 @@ SubstepParameters Settings::of_substep(double dt, std::uint32_t parts, double la
   return of;
 }
 
-StepParameters Settings::parameters(double dt, double last_h, const PlumbVec3& gravity) const {
+StepParameters Settings::parameters(double dt, const PlumbVec3& gravity, const ShorterSubsteps& shorter) const {
   StepParameters step{};
-  static_cast<SubstepParameters&>(step) = of_substep(dt, substeps, last_h);
+  static_cast<SubstepParameters&>(step) = shorter.of[0];
   step.gravity = {static_cast<Real>(gravity.x), static_cast<Real>(gravity.y), static_cast<Real>(gravity.z)};
   step.dt = static_cast<Real>(dt);
   step.push_speed = static_cast<Real>(push_speed);

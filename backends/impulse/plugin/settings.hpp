@@ -28,10 +28,11 @@ struct Settings {
 
   /// Length of the parts that a step of dt is solved in, when it is solved in so many if in any.
   [[nodiscard]] double substep(double dt, std::uint32_t parts) const;
-  /// What a step of dt works with, in as many parts as are set. last_h: the sub-step before, 0 when there was none.
-  [[nodiscard]] StepParameters parameters(double dt, double last_h, const PlumbVec3& gravity) const;
-  /// In what parts it may be solved.
+  /// In what parts a step of dt may be solved, those that are set first. last_h: the sub-step before, 0 when there was
+  /// none.
   [[nodiscard]] ShorterSubsteps shorter(double dt, double last_h) const;
+  /// What it works with, in parts of the first kind unless its loads choose others.
+  [[nodiscard]] StepParameters parameters(double dt, const PlumbVec3& gravity, const ShorterSubsteps& shorter) const;
 
  private:
   [[nodiscard]] SubstepParameters of_substep(double dt, std::uint32_t parts, double last_h) const;

@@ -48,7 +48,7 @@ PlumbResult World::step(double dt) {
   simulation_.choose(settings_.broad_phase);
   ShorterSubsteps shorter = settings_.shorter(dt, last_h_);
   shorter.asked_before = static_cast<Real>(load_rate_ * dt);
-  simulation_.step(settings_.parameters(dt, last_h_, gravity_), shorter);
+  simulation_.step(settings_.parameters(dt, gravity_, shorter), shorter);
   return PLUMB_OK;
 }
 

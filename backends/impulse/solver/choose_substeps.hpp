@@ -4,20 +4,22 @@
 // A contact that is solved once in a sub-step can be no stiffer than the lighter body lets it: its frequency is a share
 // of the sub-steps' own (plugin/settings.cpp). What presses on the lighter body with a force F and comes from beyond it
 // lowers it by F / (m w^2), and rocks it: seen from its size r such a load has the frequency sqrt(F / (m r)), and
-// sub-steps must be shorter in proportion. A joint that pulls with F at an arm r is a spring |F| |r| about its body,
-// for which tension.hpp makes moments larger that are too small for the sub-step; shorter ones leave them as they are.
+// sub-steps must be shorter in proportion. Tension in joints asks for nothing: tension.hpp deals with it, and what
+// swings gains where the number changes with each swing.
+//
+// Only what was asked lives on, and fades within a second (plugin/world.cpp): the number may change from step to step.
 #pragma once
 
+#include "constraints/mechanism.hpp"
 #include "exec/atomic.hpp"
 #include "narrowphase/contact_cache.hpp"
-#include "solver/tension.hpp"
 #include "step_counters.hpp"
 
 namespace plumb::impulse {
 
-/// Sub-steps in the time that a load's frequency takes for a radian: between bodies by themselves, of bodies that
-/// joints hold, and of tension.
-inline constexpr Real kSubstepsOfContact = 40, kSubstepsOfMechanism = 14, kSubstepsOfTension = 1;
+/// Sub-steps in the time that a load's frequency takes for a radian: between bodies by themselves, and of bodies that
+/// joints hold.
+inline constexpr Real kSubstepsOfContact = 40, kSubstepsOfMechanism = 14;
 /// What weighs no more than so many times as much as the body that bears it asks for nothing, nor does a load no larger
 /// than so many times a body's own weight: piles do well as it is.
 inline constexpr Real kAlikeMasses = 5;
@@ -90,22 +92,6 @@ struct AskForContact {
     const Real per_frequency = work.parameters->dt * (joined ? kSubstepsOfMechanism : kSubstepsOfContact);
     if (per_frequency * sqrt(max(load, weight) * squared) > kHopeless * work.most()) return;
     work.ask(per_frequency * sqrt(load * squared));
-  }
-};
-
-/// For the body at a place of the joints' system: by what tension asked of its moments in the last step.
-struct AskForTension {
-  LoadWork work;
-  JointSystem system;
-
-  PLUMB_HD void operator()(std::uint32_t place) const {
-    if (!work.asks()) return;
-    const std::uint32_t body = system.bodies[place];
-    const Vec& own = work.bodies.mass[body].inertia;
-    const Real largest = max(max(own.x, own.y), own.z);
-    if (!(largest > 0)) return;
-    const Real frequency = work.shorter->inverse_last_h * sqrt(system.view.least_moment[body] / largest);
-    work.ask(kSubstepsOfTension * work.parameters->dt * frequency);
   }
 };
 

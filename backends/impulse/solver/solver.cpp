@@ -45,13 +45,10 @@ void Solver::begin(Executor& executor, const Bodies& all, std::uint32_t body_cou
 }
 
 void Solver::choose_substeps(Executor& executor, const ContactCache& cache, const Bodies& all, const Proxies& proxies,
-                             const ShorterSubsteps* shorter, StepParameters* parameters, StepCounters* counters,
-                             JointStore& joints) {
-  if (kind_ != SolverKind::kTgsSoft) return;
+                             const ShorterSubsteps* shorter, StepParameters* parameters, StepCounters* counters) {
+  if (kind_ != SolverKind::kTgsSoft || !features_.collision) return;
   const LoadWork work = {cache, all, proxies, mechanisms_, shorter, parameters, counters};
-  if (features_.collision) executor.run(Count{&counters->manifolds, slots_ - slots_for(0)}, AskForContact{work});
-  const JointSystem system = joints.set(all, bodies(all), features_.gyroscopic).system;
-  if (joints.count() != 0 && system.body_count != 0) executor.run(system.body_count, AskForTension{work, system});
+  executor.run(Count{&counters->manifolds, slots_ - slots_for(0)}, AskForContact{work});
   executor.run(1U, ChooseSubsteps{work});
 }
 

@@ -34,10 +34,9 @@ class Solver {
   void move_freely(Executor& executor, const Bodies& bodies, std::uint32_t body_count, const StepParameters* parameters,
                    StepCounters* counters);
 
-  /// How many sub-steps the step has, by what its contacts and joints bear.
+  /// How many sub-steps the step has, by what its contacts bear.
   void choose_substeps(Executor& executor, const ContactCache& cache, const Bodies& bodies, const Proxies& proxies,
-                       const ShorterSubsteps* shorter, StepParameters* parameters, StepCounters* counters,
-                       JointStore& joints);
+                       const ShorterSubsteps* shorter, StepParameters* parameters, StepCounters* counters);
   /// World inertia of all bodies, no displacement.
   void begin(Executor& executor, const Bodies& bodies, std::uint32_t body_count);
   /// The mechanisms that contacts push as a whole, as far as this solver does that.
