@@ -17,6 +17,8 @@ struct StepCounters {
   std::uint32_t points;
   std::uint32_t uncoloured[3];                  ///< manifolds without a colour: this round, the next, the one after
   std::uint32_t rounds;                         ///< of the colouring
+  std::uint32_t about_to_strike[2];             ///< the last even and odd sub-steps, less one, that saw impacts come
+  std::uint32_t struck;                         ///< the last round of impacts in which anything was
   std::uint32_t first_in_colour[kColours + 2];  ///< place in the order by colour; the last is the number of manifolds
   std::uint32_t first_slot[kColours + 2];       ///< solver rows of a colour begin here, a multiple of the lanes
   std::uint32_t colour_count;                   ///< colours up to the last one in use; the overflow apart

@@ -44,6 +44,16 @@ PLUMB_HD Vec3<N> displacement_at(const SolverBody<N>& body, const Vec3<N>& arm) 
   return body.moved + change_by_turn(body.rotated, arm);
 }
 
+/// Moves a body by what its change of velocity since `before` makes in h seconds; one that tumbles about axes that
+/// swing with it (solver/swung_frame.hpp), which are the world's to first order.
+template <class N, class H>
+PLUMB_HD void displace(SolverBody<N>& body, const Vec3<N>& linear_before, const Vec3<N>& angular_before, const H& h) {
+  body.moved += N(h) * (body.linear - linear_before);
+  const Vec3<N> half = N(h / H(2)) * (body.angular - angular_before);
+  const Quat4<N> q = body.rotated, by = Quat4<N>{half.x, half.y, half.z, N(0)} * q;
+  body.rotated = normalized(Quat4<N>{q.x + by.x, q.y + by.y, q.z + by.z, q.w + by.w});
+}
+
 /// A manifold, or kLanes of them. Points beyond the last one have no mass and no impulse.
 template <int P, class N>
 struct Contact {

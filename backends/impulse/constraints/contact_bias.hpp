@@ -10,9 +10,8 @@ namespace plumb::impulse {
 /// overlap beyond the slop a share is taken back (J. Baumgarte, "Stabilization of constraints and integrals of motion
 /// in dynamical systems", 1972).
 template <int P, class N>
-PLUMB_HD void put_bias(Contact<P, N>& contact, const StepParameters& step) {
+PLUMB_HD void put_bias(Contact<P, N>& contact, const PerPoint<P, N>& separation, const StepParameters& step) {
   const N zero = N(0);
-  const PerPoint<P, N>& separation = contact.separation;
   const PerPoint<P, N> back = max(min(separation + N(step.slop), zero) * N(step.bias_rate), N(-step.push_speed));
   contact.open = select(separation > zero, separation * N(step.inverse_h), back);
 }

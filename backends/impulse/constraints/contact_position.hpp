@@ -18,27 +18,13 @@ PLUMB_HD void start_contact_position(Contact<P, N>& contact, const SolverBody<N>
       separations_now(contact, a, b) * N(step.inverse_h) - speed_at(motion_of(contact, a, b).normal, contact.place);
   contact.open = max(before, N(-step.push_speed));
   for (PerPoint<P, N>& impulse : contact.impulse) impulse = for_all_points<P>(N(0));
-  contact.impact_speed = for_all_points<P>(N(kWaits / 2));
 }
 
-/// Sets `open` for the pass at the level of velocities: what was pushed leaves with Newton's restitution, or not at
-/// all, so that what took back overlap does not stay as velocity; what was not pushed is let be.
+/// Sets `open` for the pass at the level of velocities: what was pushed does not leave, so that what took back overlap
+/// does not stay as velocity; what was not pushed is let be.
 template <int P, class N>
-PLUMB_HD void start_contact_velocity(Contact<P, N>& contact, Real slowest) {
-  const N zero = N(0);
-  const PerPoint<P, N>& impact = contact.impact_speed;
-  const PerPoint<P, N> leave = select(impact < N(-slowest), impact * contact.restitution, zero);
-  contact.open = select(contact.impulse[0] > zero, leave, N(kHuge));
-}
-
-/// Moves a body by what its change of velocity since `before` makes in h seconds; one that tumbles about axes that
-/// swing with it (solver/swung_frame.hpp), which are the world's to first order.
-template <class N>
-PLUMB_HD void displace(SolverBody<N>& body, const Vec3<N>& linear_before, const Vec3<N>& angular_before, Real h) {
-  body.moved += N(h) * (body.linear - linear_before);
-  const Vec3<N> half = N(h / 2) * (body.angular - angular_before);
-  const Quat4<N> q = body.rotated, by = Quat4<N>{half.x, half.y, half.z, N(0)} * q;
-  body.rotated = normalized(Quat4<N>{q.x + by.x, q.y + by.y, q.z + by.z, q.w + by.w});
+PLUMB_HD void start_contact_velocity(Contact<P, N>& contact) {
+  contact.open = select_by_point(contact.impulse[0] > N(0), N(0), N(kHuge));
 }
 
 }  // namespace plumb::impulse

@@ -8,6 +8,7 @@
 #pragma once
 
 #include "body.hpp"
+#include "math/angle.hpp"
 
 namespace plumb::impulse {
 
@@ -79,12 +80,29 @@ struct Mechanisms {
   }
   /// A wrench on a body moves its mechanism.
   PLUMB_HD void push(std::uint32_t body, const Vec& force, const Vec& torque, Velocity* velocities) const {
-    const std::uint32_t place = place_of[body] - 1;
-    const MechanismBody& source = bodies[place];
-    ContactLoad& load = loads[place];
+    ContactLoad& load = loads[place_of[body] - 1];
     load.force += force;
     load.torque += torque;
-    const Six wrench = six(force, torque);
+    for_moved(body, six(force, torque), [=](std::uint32_t other, const Vec& along, const Vec& about) {
+      velocities[other].linear += along;
+      velocities[other].angular += about;
+    });
+  }
+  /// Likewise where its bodies are: a wrench times seconds moves them by what it gives them in speed times those.
+  PLUMB_HD void displace(std::uint32_t body, const Vec& force, const Vec& torque, Displacement* displacements) const {
+    if (!(length_squared(force) + length_squared(torque) > 0)) return;  // to the last bit where they were
+    for_moved(body, six(force, torque), [=](std::uint32_t other, const Vec& along, const Vec& about) {
+      Displacement& of = displacements[other];
+      of.linear += along;
+      of.rotation = normalized(turn_by(about) * of.rotation);
+    });
+  }
+
+ private:
+  /// f(body, along, about) for each body of a mechanism, with the motion that a wrench on one of them gives it.
+  template <class F>
+  PLUMB_HD void for_moved(std::uint32_t body, const Six& wrench, const F& f) const {
+    const MechanismBody& source = bodies[place_of[body] - 1];
     const Real* row = mobility + source.mobility;
     for (std::uint32_t j = source.first; j < source.first + source.count; ++j) {
       Six moved;
@@ -93,9 +111,7 @@ struct Mechanisms {
         for (int c = 0; c < 6; ++c) sum = sum + row[c] * wrench.at[c];
         moved.at[r] = sum;
       }
-      Velocity& velocity = velocities[bodies[j].body];
-      velocity.linear += Vec{moved.at[0], moved.at[1], moved.at[2]};
-      velocity.angular += Vec{moved.at[3], moved.at[4], moved.at[5]};
+      f(bodies[j].body, Vec{moved.at[0], moved.at[1], moved.at[2]}, Vec{moved.at[3], moved.at[4], moved.at[5]});
     }
   }
 };

@@ -18,8 +18,9 @@ struct ContactSet {
   bool belts;  ///< surfaces may run on bodies that stand
 };
 
-/// What a pass reads and writes of a body.
-enum class BodyUse { kVelocity, kVelocityWhereMoved, kAll };
+/// What a pass reads and writes of a body. Of impacts all, and what they give it is not what holds it: it does not act
+/// again in the next sub-step.
+enum class BodyUse { kVelocity, kVelocityWhereMoved, kAll, kImpact };
 
 /// A contact, or kLanes of them from neighbouring slots, with what leads to its bodies.
 template <class N>
@@ -98,15 +99,16 @@ PLUMB_HD void work_on_surfaces([[maybe_unused]] bool belts, const RowAccess<N>& 
   }
 }
 
-/// Keeps the velocities that a contact has given its bodies, where these are of mechanisms. A thread that pushes a
-/// mechanism does so from both ends.
+/// Keeps what a contact has given its bodies, where these are of mechanisms. A thread that pushes a mechanism does so
+/// from both ends.
 template <class N>
-PLUMB_HD void store_mechanisms(const SolverBodies& bodies, const LoadedContact<N>& loaded,
+PLUMB_HD void store_mechanisms(const SolverBodies& bodies, const LoadedContact<N>& loaded, BodyUse use,
                                const SolverBody<N>& a_before, const SolverBody<N>& b_before, SolverBody<N>& a,
                                SolverBody<N>& b) {
   const bool both = kContactThreads > 1 && bodies.mechanisms.together(*loaded.a, *loaded.b);
-  if (stores_body(0)) push_mechanisms<N>(bodies, loaded.a, a, a_before);
-  if (both ? stores_body(0) : stores_body(1)) push_mechanisms<N>(bodies, loaded.b, b, b_before);
+  const bool impact = use == BodyUse::kImpact;
+  if (stores_body(0)) push_mechanisms<N>(bodies, loaded.a, a, a_before, impact);
+  if (both ? stores_body(0) : stores_body(1)) push_mechanisms<N>(bodies, loaded.b, b, b_before, impact);
   if (both) b.inverse_mass = N(0);
 }
 
@@ -118,18 +120,25 @@ PLUMB_HD void work_on(const ContactSet& contacts, const SolverBodies& bodies, st
   with_contact(rows, slot, loaded, [&](auto& contact) {
     const bool moved = use != BodyUse::kVelocity;
     SolverBody<N> a = load_body<N>(bodies, loaded.a, moved), b = load_body<N>(bodies, loaded.b, moved);
-    if (kMechanisms && bodies.mechanisms.count != 0) {
+    const bool whole = kMechanisms && bodies.mechanisms.count != 0;
+    if (whole) {
       stand_for_mechanisms<N>(bodies, loaded.a, a);
       stand_for_mechanisms<N>(bodies, loaded.b, b);
+    }
+    if (whole || use == BodyUse::kImpact) {
       const SolverBody<N> a_before = a, b_before = b;
       work_on_surfaces<kBelts>(contacts.belts, RowAccess<N>(rows, slot), contact, a, b, work);
-      store_mechanisms<N>(bodies, loaded, a_before, b_before, a, b);
+      if (whole) store_mechanisms<N>(bodies, loaded, use, a_before, b_before, a, b);
+      if (use == BodyUse::kImpact) {
+        if (stores_body(0)) store_free_velocity<N>(bodies, loaded.a, a, a_before);
+        if (stores_body(1)) store_free_velocity<N>(bodies, loaded.b, b, b_before);
+      }
     } else {
       work_on_surfaces<kBelts>(contacts.belts, RowAccess<N>(rows, slot), contact, a, b, work);
     }
     if (stores_body(0)) store_body<N>(bodies, loaded.a, a);
     if (stores_body(1)) store_body<N>(bodies, loaded.b, b);
-    if (use != BodyUse::kAll) return;
+    if (use != BodyUse::kAll && use != BodyUse::kImpact) return;
     if (stores_body(0)) store_displacement<N>(bodies, loaded.a, a);
     if (stores_body(1)) store_displacement<N>(bodies, loaded.b, b);
   });

@@ -47,24 +47,24 @@ struct ContactPass {
 /// One contact after the other, each seeing what those before it did.
 template <bool kBelts>
 struct InSequence : SolverStep {
-  static constexpr bool kBouncesOnce = true;
+  static constexpr bool kInSequence = true, kRuns = kBelts;
 
   template <class Work>
-  PLUMB_DEVICE void for_each_contact(Team& team, const Work& work) const {
-    for_contacts<kBelts>(team, contacts, solver, BodyUse::kVelocity, work);
+  PLUMB_DEVICE void for_each_contact(Team& team, const Work& work, BodyUse use = BodyUse::kVelocity) const {
+    for_contacts<kBelts>(team, contacts, solver, use, work);
   }
 };
 
 /// All contacts at once, on parts of bodies.
 template <bool kBelts>
 struct InParts : SolverStep {
-  static constexpr bool kBouncesOnce = false;
+  static constexpr bool kInSequence = false;
 
   BodyParts parts;
 
   /// work on every contact with parts of its own, then the parts put together.
   template <class Work>
-  PLUMB_DEVICE void for_each_contact(Team& team, const Work& work) const {
+  PLUMB_DEVICE void for_each_contact(Team& team, const Work& work, BodyUse /*use*/ = BodyUse::kVelocity) const {
     const InParts self = *this;
     const std::uint32_t n = counters->first_slot[kColours + 1] / kLanes;
     team.each(contact_loop(n),
@@ -130,16 +130,18 @@ struct PassContacts : Order {
 
 template <class Order>
 PLUMB_DEVICE void PassContacts<Order>::start_contacts(Team& team, const StepParameters& step) const {
-  this->for_each_contact(team, [=](const auto& row, auto& contact, auto& a, auto& b) {
-    put_bias(contact, step);
+  const bool moved = Order::kInSequence && this->features.restitution;  // by impacts
+  const auto start = [=](const auto& row, auto& contact, auto& a, auto& b) {
+    put_bias(contact, moved ? separations_now(contact, a, b) : contact.separation, step);
     store_impulses(row, contact);
     warm_start_contact(contact, a, b);
-  });
+  };
+  this->for_each_contact(team, start, moved ? BodyUse::kVelocityWhereMoved : BodyUse::kVelocity);
 }
 
 template <class Order>
 PLUMB_DEVICE void PassContacts<Order>::solve_contacts(Team& team, PassChange* noted) const {
-  const ContactPass pass = {this->features.friction, this->features.restitution, noted};
+  const ContactPass pass = {this->features.friction, !Order::kInSequence && this->features.restitution, noted};
   this->for_each_contact(team,
                          [pass](const auto& row, auto& contact, auto& a, auto& b) { pass.solve(row, contact, a, b); });
 }
@@ -147,8 +149,7 @@ PLUMB_DEVICE void PassContacts<Order>::solve_contacts(Team& team, PassChange* no
 template <class Order>
 PLUMB_DEVICE void PassContacts<Order>::bounce_contacts(Team& team, const StepParameters& step) const {
   const BounceContact bounce = {step.restitution_speed, this->features.friction};
-  const std::uint32_t passes = Order::kBouncesOnce ? 1 : step.passes;
-  for (std::uint32_t k = 0; k < passes; ++k) this->for_each_contact(team, bounce);
+  for (std::uint32_t k = 0; k < step.passes; ++k) this->for_each_contact(team, bounce);
 }
 
 template <class Order>

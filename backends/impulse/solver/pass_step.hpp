@@ -3,6 +3,7 @@
 
 #include "constraints/joint_bias.hpp"
 #include "solver/axis_mechanisms.hpp"
+#include "solver/impacts.hpp"
 #include "solver/pass_contacts.hpp"
 
 namespace plumb::impulse {
@@ -57,6 +58,10 @@ struct StepInPasses : PassContacts<Order> {
       if (i < self.body_count) integrate_velocity(self.bodies, self.solver, step, true, i);
       if (i < step.passes) self.changes[i] = {0, 0};
     });
+    if constexpr (Order::kInSequence) {
+      std::uint32_t round = 0;
+      if (features.collision && features.restitution) solve_impacts<Order::kRuns, false>(team, *this, step, round);
+    }
     start_joints(team, step);
     if (features.collision) this->start_contacts(team, step);
     std::uint32_t passes = 0;
@@ -72,7 +77,9 @@ struct StepInPasses : PassContacts<Order> {
     if constexpr (kJoints == JointCode::kAll) add_reactions(team, joints);
     if (features.collision && features.contact_impulses) this->add_up(team);
     this->move_bodies(team, step);
-    if (features.collision && features.restitution) this->bounce_contacts(team, step);
+    if constexpr (!Order::kInSequence) {
+      if (features.collision && features.restitution) this->bounce_contacts(team, step);
+    }
     this->finish(team);
   }
 

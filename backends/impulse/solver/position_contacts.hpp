@@ -11,16 +11,16 @@ namespace plumb::impulse {
 template <bool kBelts>
 struct PositionContacts : SolverStep {
   PLUMB_DEVICE void solve_positions(Team& team, const StepParameters& step) const;
-  PLUMB_DEVICE void solve_velocities(Team& team, const StepParameters& step) const;
+  PLUMB_DEVICE void solve_velocities(Team& team) const;
 };
 
 template <int P, class N>
 PLUMB_HD void solve_contact_once(const RowAccess<N>& row, Contact<P, N>& contact, SolverBody<N>& a, SolverBody<N>& b,
-                                 bool friction, bool note_impacts) {
+                                 bool friction) {
   const ManifoldAim<P, N> aim = aim_hard(contact);
   ContactMotion<N> motion = motion_of(contact, a, b);
   ContactWrench<N> wrench = no_wrench<N>();
-  solve_normals(contact, aim, motion, wrench, note_impacts);
+  solve_normals(contact, aim, motion, wrench, false);
   const auto held = N(1) < N(0);  // no normals follow that could
   if (friction) solve_friction(contact, motion, wrench, held);
   push(contact, wrench, a, b);
@@ -29,25 +29,23 @@ PLUMB_HD void solve_contact_once(const RowAccess<N>& row, Contact<P, N>& contact
 
 template <bool kBelts>
 PLUMB_DEVICE void PositionContacts<kBelts>::solve_positions(Team& team, const StepParameters& step) const {
-  const bool friction = features.friction, note_impacts = features.restitution;
+  const bool friction = features.friction;
   for_contacts<kBelts>(team, contacts, solver, BodyUse::kAll, [=](const auto& row, auto& contact, auto& a, auto& b) {
     start_contact_position(contact, a, b, step);
     const auto a_linear = a.linear, a_angular = a.angular, b_linear = b.linear, b_angular = b.angular;
-    solve_contact_once(row, contact, a, b, friction, note_impacts);
-    if (note_impacts) store_impact_speeds(row, contact);
+    solve_contact_once(row, contact, a, b, friction);
     displace(a, a_linear, a_angular, step.h);
     displace(b, b_linear, b_angular, step.h);
   });
 }
 
 template <bool kBelts>
-PLUMB_DEVICE void PositionContacts<kBelts>::solve_velocities(Team& team, const StepParameters& step) const {
-  const Real slowest = step.restitution_speed;
+PLUMB_DEVICE void PositionContacts<kBelts>::solve_velocities(Team& team) const {
   const bool friction = features.friction;
   for_contacts<kBelts>(team, contacts, solver, BodyUse::kVelocity,
                        [=](const auto& row, auto& contact, auto& a, auto& b) {
-                         start_contact_velocity(contact, slowest);
-                         solve_contact_once(row, contact, a, b, friction, false);
+                         start_contact_velocity(contact);
+                         solve_contact_once(row, contact, a, b, friction);
                          add_up_impulses(row, contact.impulse);
                        });
 }

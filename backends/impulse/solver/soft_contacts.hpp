@@ -1,32 +1,33 @@
 // What the solver "tgs_soft" does to all contacts.
 #pragma once
 
-#include "constraints/contact_bounce.hpp"
 #include "constraints/contact_friction.hpp"
-#include "solver/solver_step.hpp"
+#include "solver/impacts.hpp"
 
 namespace plumb::impulse {
 
 template <bool kBelts, bool kMechanisms>
 struct SoftContacts : SolverStep {
   PLUMB_DEVICE void warm_start_contacts(Team& team) const;
+  /// Throws back what strikes in a sub-step, where the one before has seen it come. round: counts those of a step.
+  PLUMB_DEVICE void bounce_contacts(Team& team, const StepParameters& step, std::uint32_t substep,
+                                    std::uint32_t& round) const;
   /// Takes overlap back, softly. final: no relaxing pass follows in this sub-step.
-  PLUMB_DEVICE void push_contacts(Team& team, const StepParameters& step, bool final) const;
+  PLUMB_DEVICE void push_contacts(Team& team, const StepParameters& step, std::uint32_t substep, bool final) const;
   /// After the positions have moved: nothing that touches approaches, and what was pushed does not stay as velocity.
   PLUMB_DEVICE void relax_contacts(Team& team) const;
-  PLUMB_DEVICE void bounce_contacts(Team& team, Real slowest) const;
 };
 
 /// Friction below the centre tilts a body: the normals have the first word and the last.
 template <int P, class N>
 PLUMB_HD void solve_contact_softly(Contact<P, N>& contact, const ManifoldAim<P, N>& aim, SolverBody<N>& a,
-                                   SolverBody<N>& b, bool friction, bool note_impacts) {
+                                   SolverBody<N>& b, bool friction) {
   ContactMotion<N> motion = motion_of(contact, a, b);
   ContactWrench<N> wrench = no_wrench<N>();
-  const auto held = solve_normals(contact, aim, motion, wrench, note_impacts);
+  const auto held = solve_normals(contact, aim, motion, wrench, false);
   if (friction) {
     solve_friction(contact, motion, wrench, held);
-    solve_normals(contact, aim, motion, wrench, note_impacts);
+    solve_normals(contact, aim, motion, wrench, false);
   }
   push(contact, wrench, a, b);
 }
@@ -43,17 +44,30 @@ PLUMB_DEVICE void SoftContacts<kBelts, kMechanisms>::warm_start_contacts(Team& t
 }
 
 template <bool kBelts, bool kMechanisms>
+PLUMB_DEVICE void SoftContacts<kBelts, kMechanisms>::bounce_contacts(Team& team, const StepParameters& step,
+                                                                     std::uint32_t substep,
+                                                                     std::uint32_t& round) const {
+  if (!features.restitution) return;
+  team.meet();
+  if (substep == 0 || counters->about_to_strike[(substep - 1) % 2] == substep)
+    solve_impacts<kBelts, kMechanisms>(team, *this, step, round);
+}
+
+template <bool kBelts, bool kMechanisms>
 PLUMB_DEVICE void SoftContacts<kBelts, kMechanisms>::push_contacts(Team& team, const StepParameters& step,
-                                                                   bool final) const {
+                                                                   std::uint32_t substep, bool final) const {
   const ContactSoftness softness = {step.contact, step.ground, step.inverse_h, step.push_speed};
-  const bool friction = features.friction, note_impacts = features.restitution;
+  const bool friction = features.friction, impacts = features.restitution;
+  const ImpactLaw law = impact_law(step, friction);
+  std::uint32_t* about_to_strike = &counters->about_to_strike[substep % 2];
   for_contacts<kBelts, kMechanisms>(team, contacts, solver, BodyUse::kVelocityWhereMoved,
                                     [=](const auto& row, auto& contact, auto& a, auto& b) {
+                                      if (impacts && in_any_contact(is_about_to_strike(contact, a, b, law)))
+                                        atomic_max(about_to_strike, substep + 1);
                                       const auto aim = aim_softly(contact, a, b, softness);
-                                      solve_contact_softly(contact, aim, a, b, friction, note_impacts);
+                                      solve_contact_softly(contact, aim, a, b, friction);
                                       close_pushed(contact);
                                       store_impulses(row, contact);
-                                      if (note_impacts) store_impact_speeds(row, contact);
                                       if (final) add_up_impulses(row, contact.impulse);
                                     });
 }
@@ -63,16 +77,10 @@ PLUMB_DEVICE void SoftContacts<kBelts, kMechanisms>::relax_contacts(Team& team) 
   const bool friction = features.friction;
   for_contacts<kBelts, kMechanisms>(team, contacts, solver, BodyUse::kVelocity,
                                     [=](const auto& row, auto& contact, auto& a, auto& b) {
-                                      solve_contact_softly(contact, aim_hard(contact), a, b, friction, false);
+                                      solve_contact_softly(contact, aim_hard(contact), a, b, friction);
                                       store_impulses(row, contact);
                                       add_up_impulses(row, contact.impulse);
                                     });
-}
-
-template <bool kBelts, bool kMechanisms>
-PLUMB_DEVICE void SoftContacts<kBelts, kMechanisms>::bounce_contacts(Team& team, Real slowest) const {
-  const BounceContact bounce = {slowest, features.friction};
-  for_contacts<kBelts, kMechanisms>(team, contacts, solver, BodyUse::kVelocity, bounce);
 }
 
 PLUMB_COMPILED_ONCE(struct SoftContacts<true, true>);

@@ -18,6 +18,7 @@ struct StepSoftly : SoftContacts<kBelts, !Executor::kWarps || kJoints != JointCo
     if (this->must_repeat()) return;
     const StepParameters step = *this->parameters;
     [[maybe_unused]] std::uint32_t turn = 0;
+    std::uint32_t round = 0;  // of impacts
     for (std::uint32_t k = 0; k < step.substeps; ++k) {
       const bool first = k == 0;
       team.each(body_count, [&](std::uint32_t i) { integrate_velocity(bodies, solver, step, first, i); });
@@ -33,7 +34,8 @@ struct StepSoftly : SoftContacts<kBelts, !Executor::kWarps || kJoints != JointCo
       const bool relaxes = !step.relaxes_once || k + 1 == step.substeps;
       if (features.collision) {
         begin_loads(team);
-        this->push_contacts(team, step, !relaxes);
+        this->bounce_contacts(team, step, k, round);
+        this->push_contacts(team, step, k, !relaxes);
         end_loads(team);
       }
       this->move_bodies(team, step);
@@ -45,13 +47,6 @@ struct StepSoftly : SoftContacts<kBelts, !Executor::kWarps || kJoints != JointCo
       if (k + 1 == step.substeps) continue;
       end_loads(team);
       hand_over_loads(team);
-    }
-    if (features.collision && features.restitution) {
-      begin_loads(team);
-      this->bounce_contacts(team, step.restitution_speed);
-      end_loads(team);
-      hand_over_loads(team);
-      hold_speeds(team, step, turn);  // what bounced takes along what it is joined to
     }
     this->finish(team);
   }

@@ -104,21 +104,52 @@ PLUMB_HD void stand_for_mechanisms(const SolverBodies& bodies, const std::uint32
     lane_of(inertia.xy, lane) = lane_of(inertia.xz, lane) = lane_of(inertia.yz, lane) = 0;
   }
 }
-/// What pushed the bodies that stood for mechanisms moves these. Nothing of their lanes is left for store_body.
+/// A lane of what a vector has gained.
+template <class N>
+PLUMB_HD Vec gained(const Vec3<N>& now, const Vec3<N>& before, std::uint32_t lane) {
+  return {lane_of(now.x, lane) - lane_of(before.x, lane), lane_of(now.y, lane) - lane_of(before.y, lane),
+          lane_of(now.z, lane) - lane_of(before.z, lane)};
+}
+/// Twice the turn from one small turn to another about the same body.
+template <class N>
+PLUMB_HD Vec gained(const Quat4<N>& now, const Quat4<N>& before, std::uint32_t lane) {
+  const auto of_lane = [lane](const Quat4<N>& q) {
+    return Quat{lane_of(q.x, lane), lane_of(q.y, lane), lane_of(q.z, lane), lane_of(q.w, lane)};
+  };
+  return Real(2) * vector_part(of_lane(now) * conjugate(of_lane(before)));
+}
+
+/// What pushed the bodies that stood for mechanisms moves these, and an impact takes them back on their way as well.
+/// Nothing of their lanes is left for store_body.
 template <class N>
 PLUMB_HD void push_mechanisms(const SolverBodies& bodies, const std::uint32_t* indices, SolverBody<N>& body,
-                              const SolverBody<N>& before) {
+                              const SolverBody<N>& before, bool impact) {
   for (std::uint32_t lane = 0; lane < sizeof(N) / sizeof(Real); ++lane) {
-    if (!bodies.mechanisms.hold(indices[lane])) continue;
-    const Pushed pushed(bodies, indices[lane]);
-    const auto gained = [lane](const Vec3<N>& now, const Vec3<N>& then) {
-      return Vec{lane_of(now.x, lane) - lane_of(then.x, lane), lane_of(now.y, lane) - lane_of(then.y, lane),
-                 lane_of(now.z, lane) - lane_of(then.z, lane)};
-    };
-    bodies.mechanisms.push(indices[lane], reciprocal_or_zero(pushed.per_force) * gained(body.linear, before.linear),
-                           reciprocal_or_zero(pushed.per_torque) * gained(body.angular, before.angular),
-                           bodies.velocity);
+    const std::uint32_t i = indices[lane];
+    if (!bodies.mechanisms.hold(i)) continue;
+    const Pushed pushed(bodies, i);
+    const Real mass = reciprocal_or_zero(pushed.per_force), moment = reciprocal_or_zero(pushed.per_torque);
+    const Vec force = mass * gained(body.linear, before.linear, lane);
+    const Vec torque = moment * gained(body.angular, before.angular, lane);
+    bodies.mechanisms.push(i, force, torque, bodies.velocity);
     lane_of(body.inverse_mass, lane) = 0;
+    if (!impact) continue;
+    bodies.free_velocity[i].linear += pushed.per_force * force;
+    bodies.free_velocity[i].angular += bodies.inertia[i].inverse * torque;
+    bodies.mechanisms.displace(i, mass * gained(body.moved, before.moved, lane),
+                               moment * gained(body.rotated, before.rotated, lane), bodies.displacement);
+  }
+}
+
+/// What an impact gave a body that can be pushed is part of how it moves freely.
+template <class N>
+PLUMB_HD void store_free_velocity(const SolverBodies& bodies, const std::uint32_t* indices, const SolverBody<N>& body,
+                                  const SolverBody<N>& before) {
+  for (std::uint32_t lane = 0; lane < sizeof(N) / sizeof(Real); ++lane) {
+    if (!(lane_of(body.inverse_mass, lane) > 0)) continue;
+    FreeVelocity& free = bodies.free_velocity[indices[lane]];
+    free.linear += gained(body.linear, before.linear, lane);
+    free.angular += gained(body.angular, before.angular, lane);
   }
 }
 

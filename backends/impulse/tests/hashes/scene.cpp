@@ -109,6 +109,15 @@ void Scene::ball_joint(PlumbBody a, const PlumbVec3& in_a, PlumbBody b, const Pl
   check(*world_, world_->joints()->create_joints({&desc, 1}, {&id, 1}));
 }
 
+void Scene::rod(const PlumbVec3& hook, PlumbBody bob, double length) {
+  PlumbJointDesc desc = joint_desc(PLUMB_JOINT_DISTANCE);
+  desc.body_b = bob;
+  desc.frame_a.position = hook;
+  desc.rest_length = length;
+  PlumbJoint id = 0;
+  check(*world_, world_->joints()->create_joints({&desc, 1}, {&id, 1}));
+}
+
 void Scene::target(PlumbBody kinematic, const PlumbVec3& position, const PlumbQuat& orientation) {
   const PlumbPose pose = {position, orientation};
   check(*world_, world_->write(PLUMB_FIELD_KINEMATIC_TARGET, {&kinematic, 1},

@@ -51,6 +51,8 @@ class Scene {
   void ground(double x = 0, double z = 0);
   /// Four walls about the square of that half width, and the ground.
   void container(double half_width, double height);
+  /// From a place in the world to the centre of a body.
+  void rod(const PlumbVec3& hook, PlumbBody bob, double length);
   void ball_joint(PlumbBody a, const PlumbVec3& in_a, PlumbBody b, const PlumbVec3& in_b);
 
   /// Called before each step with the number of steps done.
