@@ -74,10 +74,8 @@ void Simulation::reserve_pairs(std::uint32_t pairs) {
   const auto slots = static_cast<std::uint32_t>(state.size()), rows = static_cast<std::uint32_t>(proxies.size());
   broad_phase_.reserve(executor_, rows, rows, pairs);
   narrow_phase_.reserve(executor_, rows, pairs);
-  if (features_.continuous) {
-    impacts_.reserve(pairs);
-    guard_.reserve(slots);
-  }
+  if (features_.continuous || features_.restitution) impacts_.reserve(pairs);
+  if (features_.continuous) guard_.reserve(slots);
   if (in_pieces_) pieces_.reserve(rows, pairs);
   colouring_.reserve(executor_, slots, pairs);
   solver_.reserve(executor_, slots, pairs);
@@ -300,7 +298,7 @@ void Simulation::enqueue() {
     find_candidates(now);
     phases_.end(executor_, PLUMB_PHASE_BROAD);
     narrow_phase_.collide(executor_, now, all, shapes_on, margins_.data(), shape_types_, counters);
-    if (continuous_)
+    if (finds_impacts())
       impacts_.find(executor_, now, narrow_phase_.candidates(counters), all, shapes_on, margins_.data(), parameters,
                     in_pieces_);
     narrow_phase_.number(executor_, now, counters);
@@ -322,8 +320,8 @@ void Simulation::enqueue() {
     if (features_.collision && mechanisms.count != 0)
       solver_.find_mobility(executor_, now, all, shapes_on, parameters, counters, joints);
     if (features_.collision)
-      solver_.prepare(executor_, now, all, shapes_on, colouring_, continuous_ ? impacts_.times() : nullptr, parameters,
-                      counters);
+      solver_.prepare(executor_, now, all, shapes_on, colouring_, finds_impacts() ? impacts_.times() : nullptr,
+                      parameters, counters);
     if (features_.belts)
       put_drifts(executor_, now, pair_capacity_, all, shapes_on, belts.device(), colouring_.order(),
                  colouring_.colours(), solver_.rows(), counters);

@@ -147,6 +147,7 @@ class Simulation {
   }
 
  private:
+  [[nodiscard]] bool finds_impacts() const { return continuous_ || features_.restitution; }
   /// What a recorded step holds of the host's numbers and addresses.
   struct Recorded {
     std::array<const void*, 11> addresses{};

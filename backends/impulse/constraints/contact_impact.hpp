@@ -1,12 +1,12 @@
 // Impacts within a sub-step: who strikes somebody is thrown back at once, and may strike the next.
 //
-// Between two sub-steps a body is on its way along a parabola: the velocity with which it moves is that of their middle.
-// So when a gap closes, and how fast, is known exactly, e = 1 gives back all of the energy, and who is thrown back goes
-// on from there for the rest of the sub-step, as if it had come along its new way from the start. Of many bodies that
-// touch each pair is thrown back by its own speed of now, one after the other and again until nobody strikes: no such
-// impact makes energy, and so they don't together, where a law on the speeds before all impacts would ("Reflections on
-// Simultaneous Impact", Smith et al., SIGGRAPH 2012, sections 2 and 3: the sequential law, which keeps energy and spreads
-// it over who touches, and leaves open in which order).
+// Between two sub-steps a body is on its way along a parabola: the velocity with which it moves is that of their
+// middle. So when a gap closes, and how fast, is known exactly, e = 1 gives back all of the energy, and who is thrown
+// back goes on from there for the rest of the sub-step, as if it had come along its new way from the start. Of many
+// bodies that touch each pair is thrown back by its own speed of now, one after the other and again until nobody
+// strikes: no such impact makes energy, and so they don't together, where a law on the speeds before all impacts would
+// ("Reflections on Simultaneous Impact", Smith et al., SIGGRAPH 2012, sections 2 and 3: the sequential law, which keeps
+// energy and spreads it over who touches, and leaves open in which order).
 #pragma once
 
 #include "constraints/contact_bounce.hpp"

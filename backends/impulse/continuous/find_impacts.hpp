@@ -5,6 +5,12 @@
 
 namespace plumb::impulse {
 
+/// How far a round shape comes, in radii, before its contact is that of its impact.
+constexpr Real kGlanceShare = Real(0.02);
+PLUMB_HD inline Real radius_of_round(const Shape& shape) {
+  return shape.type == ShapeType::kSphere || shape.type == ShapeType::kCapsule ? shape.size.x : kHuge;
+}
+
 /// A pair of candidates, as a kernel looks at it.
 struct ImpactSearch {
   ContactCache cache;
@@ -35,6 +41,15 @@ struct ImpactSearch {
   [[nodiscard]] PLUMB_HD bool is_fast(const Pair& pair, const MovingShape& a, const MovingShape& b) const {
     return travel(a, parameters->dt) + travel(b, parameters->dt) > margins[pair.a] + margins[pair.b];
   }
+  /// Whether the narrow phase foresees that they touch, and they bounce where they do.
+  [[nodiscard]] PLUMB_HD bool bounces(std::uint32_t p, const Pair& pair) const {
+    return cache.touching[p] != 0 && max(proxies.rows[pair.a].restitution, proxies.rows[pair.b].restitution) > 0;
+  }
+  /// Whether one is round, and comes so far that the normal where they touch is not that of now.
+  [[nodiscard]] PLUMB_HD bool glances_off(const MovingShape& a, const MovingShape& b) const {
+    const Real radius = min(radius_of_round(*a.shape), radius_of_round(*b.shape));
+    return parameters->dt * length(a.way.linear - b.way.linear) > kGlanceShare * radius;
+  }
   [[nodiscard]] PLUMB_HD bool touches_within(std::uint32_t p, Real close) const {
     if (cache.touching[p] == 0) return false;
     const Manifold& manifold = cache.found[p];
@@ -45,7 +60,7 @@ struct ImpactSearch {
 };
 
 /// Of the smaller shape: what is nearer touches.
-constexpr Real kCloseShare = Real(0.005);
+constexpr Real kCloseShare = Real(0.0001);
 
 /// Of the pairs of which one is a plane or a surface.
 void find_piece_impacts(Executor& executor, Count candidates, const ImpactSearch& search);

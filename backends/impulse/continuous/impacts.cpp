@@ -15,9 +15,11 @@ struct FindImpacts {
     search.times[p] = 0;
     const ContactCache& cache = search.cache;
     const Pair pair = cache.pairs[p];
-    if (!search.is_flagged(pair) || !search.is_convex(pair.a) || !search.is_convex(pair.b)) return;
+    const bool flagged = search.is_flagged(pair), bounces = search.bounces(p, pair);
+    if (!(flagged || bounces) || !search.is_convex(pair.a) || !search.is_convex(pair.b)) return;
     const MovingShape a = search.moving(pair.a), b = search.moving(pair.b);
-    if (!search.is_fast(pair, a, b)) return;
+    const bool may_pass = flagged && search.is_fast(pair, a, b);
+    if (!may_pass && !(bounces && search.glances_off(a, b))) return;
     const Real close = kCloseShare * min(a.shape->reach, b.shape->reach);
     if (search.touches_within(p, close)) return;
     const Vec apart = search.apart(pair);
@@ -25,7 +27,7 @@ struct FindImpacts {
     Impact impact;
     const Course course = find_impact(a, b, apart, search.parameters->dt, close, hulls, impact);
     if (course == Course::kNear) return;
-    cache.touching[p] = 0;
+    if (may_pass) cache.touching[p] = 0;
     if (course == Course::kMiss) return;
     const ShapePose pose_a = a.pose(impact.time), pose_b = b.pose(impact.time);
     const Vec d = apart + impact.time * (b.way.linear - a.way.linear) + pose_b.offset - pose_a.offset;

@@ -1,9 +1,10 @@
-// Contacts of bodies that must not pass through others however fast they are.
+// Contacts of bodies that must not pass through others however fast they are, and of round ones that bounce.
 //
-// Where such a body goes further in a step than the narrow phase foresees contacts, the time of impact is found for its
-// pairs, and the manifold of the poses at that time stands for the pair: a constraint of the same solver, like any
-// contact that is not closed yet. So a bullet that is stopped gives up its momentum, rubs and bounces as others do, and
-// no time is lost.
+// What is round touches elsewhere, and with another normal, than where it was nearest when the step began. And where a
+// body that must not pass goes further in a step than the narrow phase foresees contacts, the time of impact is found
+// for its pairs, and the manifold of the poses at that time stands for the pair: a constraint of the same solver, like
+// any contact that is not closed yet. So a bullet that is stopped gives up its momentum, rubs and bounces as others do,
+// and no time is lost.
 #pragma once
 
 #include "body.hpp"

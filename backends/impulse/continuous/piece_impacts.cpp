@@ -12,9 +12,13 @@ struct FindPieceImpacts {
   PLUMB_HD void operator()(std::uint32_t p) const {
     const ContactCache& cache = search.cache;
     const Pair pair = cache.pairs[p];
-    if (!search.is_flagged(pair) || search.is_convex(pair.a) == search.is_convex(pair.b)) return;
+    const bool flagged = search.is_flagged(pair), bounces = search.bounces(p, pair);
+    if (!(flagged || bounces) || search.is_convex(pair.a) == search.is_convex(pair.b)) return;
     const bool swapped = search.is_convex(pair.b);
     const MovingShape own = search.moving(swapped ? pair.b : pair.a), on = search.moving(swapped ? pair.a : pair.b);
+    const bool may_pass = flagged && search.is_fast(pair, own, on);
+    const bool glances = bounces && search.glances_off(own, on);
+    if (!flagged && !glances) return;
     const Vec apart = swapped ? -search.apart(pair) : search.apart(pair);  // to the piece
     const std::uint32_t triangle = cache.parts[p];
     const Hulls& hulls = search.proxies.hulls;
@@ -25,12 +29,12 @@ struct FindPieceImpacts {
     const bool behind = is_behind(own, on, apart, search.proxies, triangle);
     // At first, where the narrow phase may have taken the side for the other, what touches at the start; then what
     // will.
-    for (int round = behind && cache.touching[p] != 0 ? 0 : 1; round < 2; ++round) {
+    for (int round = flagged && behind && cache.touching[p] != 0 ? 0 : 1; round < 2; ++round) {
       if (round == 1) {
-        if (!search.is_fast(pair, own, on) || search.touches_within(p, close)) return;
+        if ((!may_pass && !glances) || search.touches_within(p, close)) return;
         const Course course = find(own, on, apart, close, triangle, hulls, impact);
         if (course == Course::kNear) return;
-        cache.touching[p] = 0;
+        if (may_pass) cache.touching[p] = 0;
         if (course == Course::kMiss) return;
         margin = 2 * impact.gap + close;
       }
@@ -39,8 +43,11 @@ struct FindPieceImpacts {
       Manifold manifold;
       const bool touches = collide_with_side(*own.shape, pose_own.orientation, *on.shape, pose_on.orientation, d,
                                              margin, search.proxies, triangle, behind, manifold);
-      cache.touching[p] = touches ? 1 : 0;
-      if (!touches) continue;
+      if (!touches) {
+        if (flagged) cache.touching[p] = 0;
+        continue;
+      }
+      cache.touching[p] = 1;
       if (swapped) swap_sides(-d, manifold);
       cache.found[p] = manifold;
       search.times[p] = impact.time;

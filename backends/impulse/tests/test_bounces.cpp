@@ -179,6 +179,37 @@ TEST(Impacts, ThatRubTakeEnergyOff) {
   EXPECT_GT(made, -1);
 }
 
+/// The normal is that of the touch, wherever in a step that comes: e = 1, alike, by half of a diameter off centre.
+TEST(Impacts, OfBallsThatGlanceGoAlongTheLineOfTheirCentres) {
+  for (const double start : {-0.5, -0.51, -0.52, -0.53, -0.54, -0.55, -0.56, -0.57}) {
+    Scene scene(engine(), kNeeds, {0, 0, 0}, 1);
+    scene.body.material.friction = 0;
+    scene.body.material.restitution = 1;
+    const PlumbShape ball = scene.sphere(0.1);
+    const PlumbBody target = scene.add(ball, {0, 0, 0});
+    scene.body.linear_velocity = {5, 0, 0};
+    scene.add(ball, {start, 0.1, 0});
+    scene.run(30);
+    const PlumbVec3 v = speed(scene, target).linear;  // 5 cos 30, 30 degrees downward
+    EXPECT_NEAR(v.x, 3.75, 2e-3) << start;
+    EXPECT_NEAR(v.y, -3.75 / std::sqrt(3.0), 2e-3) << start;
+  }
+}
+TEST(Impacts, OfABallOnAnEdgeMirrorItAtTheLineFromTheEdge) {
+  for (const double start : {0.8, 0.82, 0.84, 0.86, 0.88}) {
+    Scene scene(engine(), kNeeds, {0, 0, 0}, 1);
+    scene.body.material.friction = 0;
+    scene.body.material.restitution = 1;
+    scene.add_static(scene.box({1, 1, 5}), {-1, -1, 0});
+    scene.body.linear_velocity = {0, -5, 0};
+    const PlumbBody ball = scene.add(scene.sphere(0.5), {0.3, start, 0});
+    scene.run(30);
+    const PlumbVec3 v = speed(scene, ball).linear;  // of the normal (3, 4) / 5
+    EXPECT_NEAR(v.x, 5 * 2 * 0.6 * 0.8, 2e-3) << start;
+    EXPECT_NEAR(v.y, 5 * (2 * 0.8 * 0.8 - 1), 2e-3) << start;
+  }
+}
+
 /// Five bobs on rods that just don't touch: the last rises as high as the first was, and so on for half a minute.
 TEST(Impacts, OfACradleOnRodsKeepItsEnergy) {
   Scene scene(engine(), kNeeds | PLUMB_NEED_JOINTS, {0, -9.81, 0}, 1);
