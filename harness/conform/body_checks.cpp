@@ -314,25 +314,26 @@ void continuous(Conformance& c) {
            passed, unasked);
 }
 
-constexpr Check kChecks[] = {
-    {"bodies.fall", "a free body falls by g and keeps its course", &free_fall},
-    {"bodies.gravity", "gravity scales, and gravity changed while running", &gravity},
-    {"bodies.damping", "damping c means dv/dt = -c v", &damping},
-    {"bodies.forces", "forces, torques and impulses, also at points", &forces},
-    {"bodies.centre_of_mass", "a centre of mass away from the body's origin", &centre_of_mass},
-    {"bodies.principal_axes", "inertia given in turned axes", &principal_axes},
-    {"bodies.particles", "bodies without shape and rotation", &particles},
-    {"bodies.state", "pose and velocity written and read back", &state_writes},
-    {"bodies.teleport", "a static body moved by writing its pose", &teleported_static},
-    {"bodies.kinematic", "kinematic targets are reached in one step and carry what stands on them", &kinematic},
-    {"bodies.axis_locks", "locked axes stay, free ones do not", &axis_locks},
-    {"bodies.sensors", "sensors see once and push nothing", &sensors},
-    {"bodies.filters", "category, mask and group by the rule of PlumbFilter", &filters},
-    {"bodies.ccd", "a fast ball does not pass a thin wall", &continuous},
-};
-
 }  // namespace
 
-std::span<const Check> body_checks() { return kChecks; }
+std::span<const Check> body_checks() {
+  static constexpr Check checks[] = {
+      {"bodies.fall", "a free body falls by g and keeps its course", &free_fall},
+      {"bodies.gravity", "gravity scales, and gravity changed while running", &gravity},
+      {"bodies.damping", "damping c means dv/dt = -c v", &damping},
+      {"bodies.forces", "forces, torques and impulses, also at points", &forces},
+      {"bodies.centre_of_mass", "a centre of mass away from the body's origin", &centre_of_mass},
+      {"bodies.principal_axes", "inertia given in turned axes", &principal_axes},
+      {"bodies.particles", "bodies without shape and rotation", &particles},
+      {"bodies.state", "pose and velocity written and read back", &state_writes},
+      {"bodies.teleport", "a static body moved by writing its pose", &teleported_static},
+      {"bodies.kinematic", "kinematic targets are reached in one step and carry what stands on them", &kinematic},
+      {"bodies.axis_locks", "locked axes stay, free ones do not", &axis_locks},
+      {"bodies.sensors", "sensors see once and push nothing", &sensors},
+      {"bodies.filters", "category, mask and group by the rule of PlumbFilter", &filters},
+      {"bodies.ccd", "a fast ball does not pass a thin wall", &continuous},
+  };
+  return checks;
+}
 
 }  // namespace plumb::harness::conform

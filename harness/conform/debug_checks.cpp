@@ -361,18 +361,19 @@ void silence(Conformance& c) {
            "after 90 steps a world that was asked differs from one that was not");
 }
 
-constexpr Check kChecks[] = {
-    {"debug.boxes", "boxes hold their bodies", &boxes},
-    {"debug.trees", "inner boxes hold what is below them", &trees},
-    {"debug.axes", "axes against the referee, one for each touch", &axes},
-    {"debug.bodies", "islands are who is bound, sleepers who sleeps", &bodies},
-    {"debug.constraints", "constraints of a colour share no body, and none is missing", &constraints},
-    {"debug.silence", "asking changes nothing", &silence},
-    {"debug.counts", "short arrays are filled, and told to be short", &counts},
-};
-
 }  // namespace
 
-std::span<const Check> debug_checks() { return kChecks; }
+std::span<const Check> debug_checks() {
+  static constexpr Check checks[] = {
+      {"debug.boxes", "boxes hold their bodies", &boxes},
+      {"debug.trees", "inner boxes hold what is below them", &trees},
+      {"debug.axes", "axes against the referee, one for each touch", &axes},
+      {"debug.bodies", "islands are who is bound, sleepers who sleeps", &bodies},
+      {"debug.constraints", "constraints of a colour share no body, and none is missing", &constraints},
+      {"debug.silence", "asking changes nothing", &silence},
+      {"debug.counts", "short arrays are filled, and told to be short", &counts},
+  };
+  return checks;
+}
 
 }  // namespace plumb::harness::conform

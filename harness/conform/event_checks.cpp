@@ -166,17 +166,18 @@ void absurd_speeds(Conformance& c) {
            "a neighbour 50 m away came to harm");
 }
 
-constexpr Check kChecks[] = {
-    {"events.contacts", "contact begin and end: complete, alternating, in order", &completeness},
-    {"events.sleep", "sleep and wake", &sleeping},
-    {"events.no_sleep", "nobody sleeps where sleeping was not declared", &no_sleep_undeclared},
-    {"contacts.rows", "contacts of a cube at rest", &contact_rows},
-    {"contacts.friction", "tangent impulses of a sliding cube", &tangent_impulses},
-    {"report.nonfinite", "bodies that are not finite are told", &absurd_speeds},
-};
-
 }  // namespace
 
-std::span<const Check> event_checks() { return kChecks; }
+std::span<const Check> event_checks() {
+  static constexpr Check checks[] = {
+      {"events.contacts", "contact begin and end: complete, alternating, in order", &completeness},
+      {"events.sleep", "sleep and wake", &sleeping},
+      {"events.no_sleep", "nobody sleeps where sleeping was not declared", &no_sleep_undeclared},
+      {"contacts.rows", "contacts of a cube at rest", &contact_rows},
+      {"contacts.friction", "tangent impulses of a sliding cube", &tangent_impulses},
+      {"report.nonfinite", "bodies that are not finite are told", &absurd_speeds},
+  };
+  return checks;
+}
 
 }  // namespace plumb::harness::conform

@@ -3,6 +3,7 @@
 #include "conform/probe.hpp"
 
 namespace plumb::harness::conform {
+namespace exact {
 namespace {
 
 constexpr double kG = 9.81, kDt = 1.0 / 60;
@@ -154,17 +155,19 @@ void tangent_impulses(Conformance& c) {
            change.norm());
 }
 
-constexpr Check kChecks[] = {
-    {"exact.friction", "sqrt(mu1 mu2) g within 1.5 %, whatever the heading", &friction},
-    {"exact.restitution", "max(e1, e2) within .015", &restitution},
-    {"exact.surface_velocity", "a belt runs in its own axes, within 1 %", &surface_velocity},
-    {"exact.contact", "a resting ball's contact: place, normal, and its weight within .5 %", &resting_ball},
-    {"exact.depth", "the depth of an overlap, with its sign", &depth},
-    {"exact.tangent_impulses", "a sliding cube's friction impulses within 1 %", &tangent_impulses},
-};
-
 }  // namespace
+}  // namespace exact
 
-std::span<const Check> exact_contact_checks() { return kChecks; }
+std::span<const Check> exact_contact_checks() {
+  static constexpr Check checks[] = {
+      {"exact.friction", "sqrt(mu1 mu2) g within 1.5 %, whatever the heading", &exact::friction},
+      {"exact.restitution", "max(e1, e2) within .015", &exact::restitution},
+      {"exact.surface_velocity", "a belt runs in its own axes, within 1 %", &exact::surface_velocity},
+      {"exact.contact", "a resting ball's contact: place, normal, and its weight within .5 %", &exact::resting_ball},
+      {"exact.depth", "the depth of an overlap, with its sign", &exact::depth},
+      {"exact.tangent_impulses", "a sliding cube's friction impulses within 1 %", &exact::tangent_impulses},
+  };
+  return checks;
+}
 
 }  // namespace plumb::harness::conform

@@ -4,6 +4,7 @@
 #include "plumb/backend/names.hpp"
 
 namespace plumb::harness::conform {
+namespace exact {
 namespace {
 
 using backend::joint_name;
@@ -24,7 +25,7 @@ void hinge_and_slider(Conformance& c, PlumbNeeds needs, PlumbJointFeature featur
 
 void motors(Conformance& c) {
   hinge_and_slider(c, kJointNeeds, PLUMB_JOINT_HAS_MOTORS, "motors", [&](PlumbJointType type, std::size_t axis) {
-    Pair fast(c, type, true, kJointNeeds);
+    JointPair fast(c, type, true, kJointNeeds);
     fast.desc.motors[axis] = {0.8, 1e5, 1, 0};
     fast.probe.joint(fast.desc);
     fast.probe.step(30);
@@ -33,7 +34,7 @@ void motors(Conformance& c) {
     const double speed = fast.coordinate(axis) - before;
     c.expect(std::abs(speed - 0.8) < 0.005, "a {} motor of .8 a second runs at {:.5f}", joint_name(type), speed);
 
-    Pair weak(c, type, true, kJointNeeds);
+    JointPair weak(c, type, true, kJointNeeds);
     const std::vector<double> mass = weak.probe.read(PLUMB_FIELD_MASS, weak.b);
     const double resistance =
         type == PLUMB_JOINT_HINGE ? mass[4] : mass[0];     // the axis goes through the centre of mass
@@ -54,7 +55,7 @@ void limits(Conformance& c) {
   hinge_and_slider(c, kJointNeeds | PLUMB_NEED_FORCES, PLUMB_JOINT_HAS_LIMITS, "limits",
                    [&](PlumbJointType type, std::size_t axis) {
                      for (const double sign : {1.0, -1.0}) {
-                       Pair pair(c, type, true, kJointNeeds | PLUMB_NEED_FORCES);
+                       JointPair pair(c, type, true, kJointNeeds | PLUMB_NEED_FORCES);
                        pair.desc.limits[axis] = {-0.25, 0.35, 1, 0};
                        pair.probe.joint(pair.desc);
                        for (int i = 0; i < 240; ++i) {
@@ -73,17 +74,17 @@ void limits(Conformance& c) {
 /// A spring of 1 Hz and a fifth of critical damping: the time between its passes, and how each swing shrinks.
 void springs(Conformance& c) {
   hinge_and_slider(c, kJointNeeds, PLUMB_JOINT_HAS_SPRINGS, "springs", [&](PlumbJointType type, std::size_t axis) {
-    constexpr double kRatio = 0.2, kRest = 0.3, kDt = 1.0 / 240;
-    Pair pair(c, type, true, kJointNeeds);
+    constexpr double kRatio = 0.2, kRest = 0.3, kShort = 1.0 / 240;
+    JointPair pair(c, type, true, kJointNeeds);
     pair.desc.springs[axis] = {kRest, 1, kRatio, 1, 0};
     pair.probe.joint(pair.desc);
     double before = pair.coordinate(axis) - kRest, low = before, high = before, first = 0, last = 0;
     int passes = 0;
     for (int i = 1; i <= 480; ++i) {
-      pair.probe.step(1, kDt);
+      pair.probe.step(1, kShort);
       const double now = pair.coordinate(axis) - kRest;
       if (before * now < 0) {
-        last = (i - 1 + before / (before - now)) * kDt;
+        last = (i - 1 + before / (before - now)) * kShort;
         if (passes++ == 0) first = last;
       }
       if (i <= 180) high = std::max(high, now);
@@ -110,7 +111,7 @@ void hanging(Conformance& c) {
   c.require_exact(PLUMB_CAP_JOINT_FEATURE, PLUMB_JOINT_BALL, PLUMB_JOINT_HAS_REACTION, "reactions");
   for (const PlumbJointType type : {PLUMB_JOINT_BALL, PLUMB_JOINT_HINGE}) {
     if (!c.is_exact(PLUMB_CAP_JOINT, type)) continue;
-    Pair pair(c, type, true, needs, {0, -9.81, 0});
+    JointPair pair(c, type, true, needs, {0, -9.81, 0});
     pair.desc.frame_a.position = {1, 0.5, 0};
     pair.desc.frame_b.position = {0, 0.5, 0};
     const PlumbJoint joint = pair.probe.joint(pair.desc);
@@ -129,7 +130,7 @@ void hanging(Conformance& c) {
 void distance(Conformance& c) {
   c.require_needs(kJointNeeds);
   c.require_exact(PLUMB_CAP_JOINT, PLUMB_JOINT_DISTANCE, 0, "distance joints");
-  Pair pair(c, PLUMB_JOINT_DISTANCE, true, kJointNeeds, {0, -9.81, 0});
+  JointPair pair(c, PLUMB_JOINT_DISTANCE, true, kJointNeeds, {0, -9.81, 0});
   pair.desc.frame_a.position = {1, 0.75, 0};
   pair.desc.rest_length = 0.75;
   pair.probe.joint(pair.desc);
@@ -145,7 +146,7 @@ void breaking(Conformance& c) {
   c.require_exact(PLUMB_CAP_JOINT, PLUMB_JOINT_BALL, 0, "ball joints");
   c.require_exact(PLUMB_CAP_JOINT_FEATURE, PLUMB_JOINT_BALL, PLUMB_JOINT_BREAKS, "break force");
   for (const double factor : {0.8, 1.25}) {
-    Pair pair(c, PLUMB_JOINT_BALL, true, needs, {0, -9.81, 0});
+    JointPair pair(c, PLUMB_JOINT_BALL, true, needs, {0, -9.81, 0});
     pair.desc.frame_a.position = {1, 0, 0};
     pair.desc.frame_b.position = {0, 0, 0};
     pair.desc.break_force = factor * 125 * 9.81;
@@ -156,17 +157,19 @@ void breaking(Conformance& c) {
   }
 }
 
-constexpr Check kChecks[] = {
-    {"exact.motors", "speed within .6 %, and the acceleration of a bounded force", &motors},
-    {"exact.limits", "pressed against a stop: within 4 mm or mrad", &limits},
-    {"exact.springs", "frequency within 1 %, damping within .025", &springs},
-    {"exact.reactions", "a hanging weight within .5 %, without a gap", &hanging},
-    {"exact.distance", "the length of a loaded rod", &distance},
-    {"exact.break", "holds at .8 of its break force, breaks at 1.25", &breaking},
-};
-
 }  // namespace
+}  // namespace exact
 
-std::span<const Check> exact_joint_checks() { return kChecks; }
+std::span<const Check> exact_joint_checks() {
+  static constexpr Check checks[] = {
+      {"exact.motors", "speed within .6 %, and the acceleration of a bounded force", &exact::motors},
+      {"exact.limits", "pressed against a stop: within 4 mm or mrad", &exact::limits},
+      {"exact.springs", "frequency within 1 %, damping within .025", &exact::springs},
+      {"exact.reactions", "a hanging weight within .5 %, without a gap", &exact::hanging},
+      {"exact.distance", "the length of a loaded rod", &exact::distance},
+      {"exact.break", "holds at .8 of its break force, breaks at 1.25", &exact::breaking},
+  };
+  return checks;
+}
 
 }  // namespace plumb::harness::conform

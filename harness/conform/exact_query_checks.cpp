@@ -3,10 +3,9 @@
 #include "conform/probe.hpp"
 
 namespace plumb::harness::conform {
+namespace exact {
 namespace {
 
-constexpr PlumbNeeds kQueryNeeds = PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_QUERIES;
-constexpr PlumbFilter kSeesAll = {1, ~0u, 0, 0};
 constexpr double kHair = 1e-3;  ///< metres that an engine's margin or iteration may cost
 
 void expect_hit(Conformance& c, const char* what, const PlumbHit& hit, double fraction, const Vec& point,
@@ -134,16 +133,18 @@ void pairs(Conformance& c) {
   }
 }
 
-constexpr Check kChecks[] = {
-    {"exact.rays", "rays at a sphere and a turned box: fraction, point and normal within 1 mm", &rays},
-    {"exact.casts", "casts of spheres, within 5 mm", &sphere_casts},
-    {"exact.box_casts", "a box on its edge and flat, within 5 mm", &box_casts},
-    {"exact.overlaps", "5 mm apart or 5 mm deep", &overlaps},
-    {"exact.pairs", "stepless depths and normals within 1 mm", &pairs},
-};
-
 }  // namespace
+}  // namespace exact
 
-std::span<const Check> exact_query_checks() { return kChecks; }
+std::span<const Check> exact_query_checks() {
+  static constexpr Check checks[] = {
+      {"exact.rays", "rays at a sphere and a turned box: fraction, point and normal within 1 mm", &exact::rays},
+      {"exact.casts", "casts of spheres, within 5 mm", &exact::sphere_casts},
+      {"exact.box_casts", "a box on its edge and flat, within 5 mm", &exact::box_casts},
+      {"exact.overlaps", "5 mm apart or 5 mm deep", &exact::overlaps},
+      {"exact.pairs", "stepless depths and normals within 1 mm", &exact::pairs},
+  };
+  return checks;
+}
 
 }  // namespace plumb::harness::conform

@@ -146,7 +146,7 @@ void slots(Conformance& c) {
   c.expect(listed(table.probe).empty(), "a body inherits an exception from its slot");
 }
 
-void sensors(Conformance& c) {
+void excepted_sensors(Conformance& c) {
   const PlumbNeeds needs = kPlainNeeds | PLUMB_NEED_SENSORS;
   c.require_needs(needs);
   Table table(c, needs | c.available(PLUMB_NEED_QUERIES));
@@ -250,20 +250,21 @@ void joined(Conformance& c) {
   table.expect_height(c, table.one, 1.5, "a cube", "when neither joint nor exception is left");
 }
 
-constexpr Check kChecks[] = {
-    {"exceptions.fall", "two that are excepted fall through each other, others do not", &falls_through},
-    {"exceptions.events", "their contact ends once, with the next step", &events},
-    {"exceptions.sleep", "a pair that sleeps wakes", &sleepers},
-    {"exceptions.list", "the list is what was set, and a failed call changes nothing", &list},
-    {"exceptions.slots", "a body does not inherit the exceptions of its slot", &slots},
-    {"exceptions.sensors", "sensors obey them, rays do not", &sensors},
-    {"exceptions.snapshot", "snapshots hold them", &snapshots},
-    {"exceptions.ccd", "a fast body passes what it is excepted from", &fast_bodies},
-    {"exceptions.joints", "joints and exceptions keep a pair apart independently", &joined},
-};
-
 }  // namespace
 
-std::span<const Check> exception_checks() { return kChecks; }
+std::span<const Check> exception_checks() {
+  static constexpr Check checks[] = {
+      {"exceptions.fall", "two that are excepted fall through each other, others do not", &falls_through},
+      {"exceptions.events", "their contact ends once, with the next step", &events},
+      {"exceptions.sleep", "a pair that sleeps wakes", &sleepers},
+      {"exceptions.list", "the list is what was set, and a failed call changes nothing", &list},
+      {"exceptions.slots", "a body does not inherit the exceptions of its slot", &slots},
+      {"exceptions.sensors", "sensors obey them, rays do not", &excepted_sensors},
+      {"exceptions.snapshot", "snapshots hold them", &snapshots},
+      {"exceptions.ccd", "a fast body passes what it is excepted from", &fast_bodies},
+      {"exceptions.joints", "joints and exceptions keep a pair apart independently", &joined},
+  };
+  return checks;
+}
 
 }  // namespace plumb::harness::conform

@@ -182,15 +182,16 @@ void world_life(Conformance& c) {
            "an empty world reports {} bodies, {} contacts, step {}", report.bodies, report.contacts, report.step);
 }
 
-constexpr Check kChecks[] = {
-    {"handles.stale", "handles of the dead are refused for ever", &stale_handles},
-    {"handles.churn", "bodies added and removed while running", &churn},
-    {"input.bad", "bad input is refused in words and harms nobody", &bad_input},
-    {"world.life", "worlds made and destroyed; an empty world steps", &world_life},
-};
-
 }  // namespace
 
-std::span<const Check> handle_checks() { return kChecks; }
+std::span<const Check> handle_checks() {
+  static constexpr Check checks[] = {
+      {"handles.stale", "handles of the dead are refused for ever", &stale_handles},
+      {"handles.churn", "bodies added and removed while running", &churn},
+      {"input.bad", "bad input is refused in words and harms nobody", &bad_input},
+      {"world.life", "worlds made and destroyed; an empty world steps", &world_life},
+  };
+  return checks;
+}
 
 }  // namespace plumb::harness::conform

@@ -10,7 +10,7 @@ namespace {
 
 using backend::joint_name;
 
-bool has(Conformance& c, PlumbJointType type, PlumbJointFeature feature) {
+bool claims(Conformance& c, PlumbJointType type, PlumbJointFeature feature) {
   return c.backend().capability(PLUMB_CAP_JOINT, type) != PLUMB_NONE &&
          c.backend().capability(PLUMB_CAP_JOINT_FEATURE, type, feature) != PLUMB_NONE;
 }
@@ -21,13 +21,13 @@ void all_limits(Conformance& c) {
   bool any = false;
   for (const PlumbJointType type :
        {PLUMB_JOINT_BALL, PLUMB_JOINT_DISTANCE, PLUMB_JOINT_UNIVERSAL, PLUMB_JOINT_GENERIC}) {
-    if (!has(c, type, PLUMB_JOINT_HAS_LIMITS)) continue;
+    if (!claims(c, type, PLUMB_JOINT_HAS_LIMITS)) continue;
     any = true;
     const bool generic = type == PLUMB_JOINT_GENERIC, distance = type == PLUMB_JOINT_DISTANCE;
     for (std::size_t axis = 0; axis < (distance ? 1 : 6); ++axis) {
       if (!generic && (free_axes(type) >> axis & 1) == 0) continue;
       for (const double sign : {1.0, -1.0}) {
-        Pair pair(c, type, true, kJointNeeds | PLUMB_NEED_FORCES);
+        JointPair pair(c, type, true, kJointNeeds | PLUMB_NEED_FORCES);
         const double start = distance ? 1 : 0, stop = start + (sign > 0 ? 0.4 : -0.3);
         pair.desc.axis_modes[axis] = PLUMB_AXIS_LIMITED;
         pair.desc.limits[axis] = {start - 0.3, start + 0.4, 1, 0};
@@ -52,9 +52,9 @@ void spring_period(Conformance& c) {
   c.require_needs(kJointNeeds);
   bool any = false;
   for (const PlumbJointType type : {PLUMB_JOINT_SLIDER, PLUMB_JOINT_DISTANCE, PLUMB_JOINT_GENERIC}) {
-    if (!has(c, type, PLUMB_JOINT_HAS_SPRINGS)) continue;
+    if (!claims(c, type, PLUMB_JOINT_HAS_SPRINGS)) continue;
     any = true;
-    Pair pair(c, type, false, kJointNeeds);
+    JointPair pair(c, type, false, kJointNeeds);
     const double rest = type == PLUMB_JOINT_DISTANCE ? 1.2 : 0.2, frequency = 1;
     pair.desc.axis_modes[0] = PLUMB_AXIS_FREE;
     pair.desc.springs[0] = {rest, frequency, 0, 1, 0};
@@ -84,7 +84,7 @@ void torques(Conformance& c) {
   c.require_needs(needs);
   c.require(PLUMB_CAP_JOINT, PLUMB_JOINT_FIXED, 0, "fixed joint");
   c.require(PLUMB_CAP_JOINT_FEATURE, PLUMB_JOINT_FIXED, PLUMB_JOINT_HAS_REACTION, "reactions");
-  Pair pair(c, PLUMB_JOINT_FIXED, true, needs, {0, -9.81, 0});
+  JointPair pair(c, PLUMB_JOINT_FIXED, true, needs, {0, -9.81, 0});
   const PlumbJoint joint = pair.probe.joint(pair.desc);
   pair.probe.seconds(2);
   const std::vector<double> row = pair.probe.read_joint(PLUMB_JOINT_REACTION, joint);
@@ -95,14 +95,15 @@ void torques(Conformance& c) {
            row[3], row[4], row[5], moment);
 }
 
-constexpr Check kChecks[] = {
-    {"joints.all_limits", "stops on each free axis of ball, distance, universal and generic joints", &all_limits},
-    {"joints.spring_period", "springs swing at their frequency", &spring_period},
-    {"joints.torques", "the reaction's torque carries a weight on an arm", &torques},
-};
-
 }  // namespace
 
-std::span<const Check> joint_axis_checks() { return kChecks; }
+std::span<const Check> joint_axis_checks() {
+  static constexpr Check checks[] = {
+      {"joints.all_limits", "stops on each free axis of ball, distance, universal and generic joints", &all_limits},
+      {"joints.spring_period", "springs swing at their frequency", &spring_period},
+      {"joints.torques", "the reaction's torque carries a weight on an arm", &torques},
+  };
+  return checks;
+}
 
 }  // namespace plumb::harness::conform

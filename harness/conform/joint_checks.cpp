@@ -18,7 +18,7 @@ void each_joint(Conformance& c, void (*check_one)(Conformance&, PlumbJointType, 
 /// Kicks in all directions must not open what is locked.
 void holds(Conformance& c) {
   each_joint(c, [](Conformance& conformance, PlumbJointType type, bool to_world) {
-    Pair pair(conformance, type, to_world, kJointNeeds);
+    JointPair pair(conformance, type, to_world, kJointNeeds);
     pair.probe.joint(pair.desc);
     pair.probe.write(PLUMB_FIELD_VELOCITY, pair.b, {0.3, 0.5, -0.4, 0.6, -0.3, 0.5});
     double position = 0, angle = 0;
@@ -40,7 +40,7 @@ void frees(Conformance& c) {
   each_joint(c, [](Conformance& conformance, PlumbJointType type, bool to_world) {
     for (std::size_t axis = 0; axis < 6; ++axis) {
       if (((free_axes(type) >> axis) & 1) == 0 || type == PLUMB_JOINT_DISTANCE) continue;
-      Pair pair(conformance, type, to_world, kJointNeeds);
+      JointPair pair(conformance, type, to_world, kJointNeeds);
       pair.probe.joint(pair.desc);
       // A turn about the joint's axis moves the body's centre along a circle of radius .5 m about it.
       const Vec direction = Vec::Unit(axis % 3);
@@ -85,7 +85,7 @@ void limits(Conformance& c) {
   hinge_and_slider(c, PLUMB_JOINT_HAS_LIMITS, "limits", [&](PlumbJointType type) {
     for (const double sign : {1.0, -1.0}) {
       const std::size_t axis = main_axis(type);
-      Pair pair(c, type, true, kJointNeeds | PLUMB_NEED_FORCES);
+      JointPair pair(c, type, true, kJointNeeds | PLUMB_NEED_FORCES);
       pair.desc.limits[axis] = {-0.4, 0.6, 1, 0};
       pair.probe.joint(pair.desc);
       for (int i = 0; i < 180; ++i) {
@@ -102,7 +102,7 @@ void limits(Conformance& c) {
 void motors(Conformance& c) {
   hinge_and_slider(c, PLUMB_JOINT_HAS_MOTORS, "motors", [&](PlumbJointType type) {
     const std::size_t axis = main_axis(type);
-    Pair pair(c, type, true, kJointNeeds);
+    JointPair pair(c, type, true, kJointNeeds);
     pair.desc.motors[axis] = {0.8, 1000, 1, 0};
     const PlumbJoint joint = pair.probe.joint(pair.desc);
     pair.probe.step(30);
@@ -128,7 +128,7 @@ void motors(Conformance& c) {
 void motor_force(Conformance& c) {
   hinge_and_slider(c, PLUMB_JOINT_HAS_MOTORS, "motors", [&](PlumbJointType type) {
     const std::size_t axis = main_axis(type);
-    Pair pair(c, type, true, kJointNeeds);
+    JointPair pair(c, type, true, kJointNeeds);
     const std::vector<double> mass = pair.probe.read(PLUMB_FIELD_MASS, pair.b);
     const double resistance = type == PLUMB_JOINT_HINGE ? mass[4] : mass[0];
     pair.desc.motors[axis] = {100, resistance, 1, 0};  // 1 per second squared
@@ -143,7 +143,7 @@ void motor_force(Conformance& c) {
 void springs(Conformance& c) {
   hinge_and_slider(c, PLUMB_JOINT_HAS_SPRINGS, "springs", [&](PlumbJointType type) {
     const std::size_t axis = main_axis(type);
-    Pair pair(c, type, true, kJointNeeds);
+    JointPair pair(c, type, true, kJointNeeds);
     pair.desc.springs[axis] = {0.3, 1, 1, 1, 0};
     pair.probe.joint(pair.desc);
     pair.probe.seconds(3);
@@ -160,7 +160,7 @@ void reactions(Conformance& c) {
     if (c.backend().capability(PLUMB_CAP_JOINT, type) == PLUMB_NONE ||
         c.backend().capability(PLUMB_CAP_JOINT_FEATURE, type, PLUMB_JOINT_HAS_REACTION) == PLUMB_NONE)
       continue;
-    Pair pair(c, type, true, needs, {0, -9.81, 0});
+    JointPair pair(c, type, true, needs, {0, -9.81, 0});
     pair.desc.frame_a.position = {1, 0.5, 0};
     pair.desc.frame_b.position = {0, 0.5, 0};
     const PlumbJoint joint = pair.probe.joint(pair.desc);
@@ -185,7 +185,7 @@ void breaking(Conformance& c) {
     any = true;
     const double weight = 125 * 9.81;
     for (const double factor : {0.5, 3.0}) {
-      Pair pair(c, type, true, needs, {0, -9.81, 0});
+      JointPair pair(c, type, true, needs, {0, -9.81, 0});
       pair.desc.frame_a.position = {1, 0, 0};
       pair.desc.frame_b.position = {0, 0, 0};
       pair.desc.break_force = factor * weight;
@@ -232,7 +232,7 @@ void collide_connected(Conformance& c) {
 void generic_axes(Conformance& c) {
   c.require(PLUMB_CAP_JOINT, PLUMB_JOINT_GENERIC, 0, "generic joint");
   for (std::size_t axis = 0; axis < 6; ++axis) {
-    Pair pair(c, PLUMB_JOINT_GENERIC, true, kJointNeeds);
+    JointPair pair(c, PLUMB_JOINT_GENERIC, true, kJointNeeds);
     pair.desc.axis_modes[axis] = PLUMB_AXIS_FREE;
     pair.probe.joint(pair.desc);
     const Vec direction = Vec::Unit(static_cast<Eigen::Index>(axis % 3));
@@ -253,7 +253,7 @@ void generic_axes(Conformance& c) {
 void removal(Conformance& c) {
   c.require_needs(kJointNeeds);
   c.require(PLUMB_CAP_JOINT, PLUMB_JOINT_BALL, 0, "ball joint");
-  Pair pair(c, PLUMB_JOINT_BALL, true, kJointNeeds, {0, -9.81, 0});
+  JointPair pair(c, PLUMB_JOINT_BALL, true, kJointNeeds, {0, -9.81, 0});
   const PlumbJoint joint = pair.probe.joint(pair.desc);
   pair.probe.step(30);
   check(pair.probe.world(), pair.probe.world().joints()->destroy_joints({&joint, 1}));
@@ -264,22 +264,23 @@ void removal(Conformance& c) {
            "a destroyed joint's handle is not stale");
 }
 
-constexpr Check kChecks[] = {
-    {"joints.hold", "locked axes stay closed under kicks", &holds},
-    {"joints.free", "free axes move freely", &frees},
-    {"joints.generic", "the generic joint, one free axis at a time", &generic_axes},
-    {"joints.limits", "stops of hinge and slider", &limits},
-    {"joints.motors", "motors reach their speed and can be changed", &motors},
-    {"joints.motor_force", "motors are no stronger than they may be", &motor_force},
-    {"joints.springs", "springs of hinge and slider come to rest where they should", &springs},
-    {"joints.reactions", "the reaction carries a hanging weight", &reactions},
-    {"joints.break", "joints break above their force, with an event", &breaking},
-    {"joints.collide_connected", "jointed bodies touch only by choice", &collide_connected},
-    {"joints.destroy", "a destroyed joint lets go", &removal},
-};
-
 }  // namespace
 
-std::span<const Check> joint_checks() { return kChecks; }
+std::span<const Check> joint_checks() {
+  static constexpr Check checks[] = {
+      {"joints.hold", "locked axes stay closed under kicks", &holds},
+      {"joints.free", "free axes move freely", &frees},
+      {"joints.generic", "the generic joint, one free axis at a time", &generic_axes},
+      {"joints.limits", "stops of hinge and slider", &limits},
+      {"joints.motors", "motors reach their speed and can be changed", &motors},
+      {"joints.motor_force", "motors are no stronger than they may be", &motor_force},
+      {"joints.springs", "springs of hinge and slider come to rest where they should", &springs},
+      {"joints.reactions", "the reaction carries a hanging weight", &reactions},
+      {"joints.break", "joints break above their force, with an event", &breaking},
+      {"joints.collide_connected", "jointed bodies touch only by choice", &collide_connected},
+      {"joints.destroy", "a destroyed joint lets go", &removal},
+  };
+  return checks;
+}
 
 }  // namespace plumb::harness::conform

@@ -9,12 +9,12 @@ namespace plumb::harness::conform {
 inline constexpr PlumbNeeds kJointNeeds = PLUMB_NEED_ROTATION | PLUMB_NEED_JOINTS;
 
 /// Two cubes side by side along x with the joint between them, or one cube and the world.
-struct Pair {
+struct JointPair {
   Probe probe;
   PlumbBody a = 0, b = 0;
   PlumbJointDesc desc;
 
-  Pair(Conformance& c, PlumbJointType type, bool to_world, PlumbNeeds needs, const Vec& gravity = Vec::Zero())
+  JointPair(Conformance& c, PlumbJointType type, bool to_world, PlumbNeeds needs, const Vec& gravity = Vec::Zero())
       : probe(c, needs, gravity), desc(joint_desc(type)) {
     PlumbBodyDesc cube = dynamic_desc(probe.box({0.25, 0.25, 0.25}), {0, 0, 0});
     cube.material.friction = 0;

@@ -106,16 +106,17 @@ void child_material(Conformance& c) {
            probe.velocity(body).x());
 }
 
-constexpr Check kChecks[] = {
-    {"materials.friction", "the pair's friction is sqrt(mu1 mu2)", &friction},
-    {"materials.restitution", "the pair's restitution is max(e1, e2)", &restitution},
-    {"materials.written", "a material changed while in contact", &written_material},
-    {"materials.surface_velocity", "a conveyor belt", &surface_velocity},
-    {"materials.children", "a compound's child with its own material", &child_material},
-};
-
 }  // namespace
 
-std::span<const Check> material_checks() { return kChecks; }
+std::span<const Check> material_checks() {
+  static constexpr Check checks[] = {
+      {"materials.friction", "the pair's friction is sqrt(mu1 mu2)", &friction},
+      {"materials.restitution", "the pair's restitution is max(e1, e2)", &restitution},
+      {"materials.written", "a material changed while in contact", &written_material},
+      {"materials.surface_velocity", "a conveyor belt", &surface_velocity},
+      {"materials.children", "a compound's child with its own material", &child_material},
+  };
+  return checks;
+}
 
 }  // namespace plumb::harness::conform

@@ -17,6 +17,9 @@ using Vec = Eigen::Vector3d;
 
 /// Needs of nearly every check: bodies that turn, collide and rub.
 inline constexpr PlumbNeeds kPlainNeeds = PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION;
+/// And of queries, which see whatever there is.
+inline constexpr PlumbNeeds kQueryNeeds = PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_QUERIES;
+inline constexpr PlumbFilter kSeesAll = {1, ~0u, 0, 0};
 
 class Probe {
  public:

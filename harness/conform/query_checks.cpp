@@ -10,9 +10,6 @@
 namespace plumb::harness::conform {
 namespace {
 
-constexpr PlumbNeeds kQueryNeeds = PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_QUERIES;
-constexpr PlumbFilter kSeesAll = {1, ~0u, 0, 0};
-
 /// A cloud of spheres and turned boxes, known to the referee too.
 struct Cloud {
   struct Item {
@@ -333,18 +330,19 @@ void candidates(Conformance& c) {
     }
 }
 
-constexpr Check kChecks[] = {
-    {"queries.rays", "closest and all hits of rays against brute force", &rays},
-    {"queries.filtered", "rays see by the filters' rule", &filtered_rays},
-    {"queries.moved", "rays see bodies where they are now", &rays_after_motion},
-    {"queries.casts", "casts end where they touch, or start", &casts},
-    {"queries.overlaps", "overlaps against the referee", &overlaps},
-    {"collide.pairs", "collision without a step against the referee", &stepless},
-    {"debug.pairs", "candidate pairs hold every overlap", &candidates},
-};
-
 }  // namespace
 
-std::span<const Check> query_checks() { return kChecks; }
+std::span<const Check> query_checks() {
+  static constexpr Check checks[] = {
+      {"queries.rays", "closest and all hits of rays against brute force", &rays},
+      {"queries.filtered", "rays see by the filters' rule", &filtered_rays},
+      {"queries.moved", "rays see bodies where they are now", &rays_after_motion},
+      {"queries.casts", "casts end where they touch, or start", &casts},
+      {"queries.overlaps", "overlaps against the referee", &overlaps},
+      {"collide.pairs", "collision without a step against the referee", &stepless},
+      {"debug.pairs", "candidate pairs hold every overlap", &candidates},
+  };
+  return checks;
+}
 
 }  // namespace plumb::harness::conform

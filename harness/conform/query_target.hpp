@@ -9,8 +9,6 @@
 
 namespace plumb::harness::conform {
 
-inline constexpr PlumbNeeds kQueryNeeds = PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_QUERIES;
-
 class Target {
  public:
   Target(Conformance& c, PlumbShapeType type)

@@ -9,7 +9,6 @@
 namespace plumb::harness::conform {
 namespace {
 
-constexpr PlumbFilter kSeesAll = {1, ~0u, 0, 0};
 constexpr PlumbShapeType kTargets[] = {PLUMB_SPHERE,   PLUMB_BOX,           PLUMB_CAPSULE,
                                        PLUMB_CYLINDER, PLUMB_CONVEX_HULL,   PLUMB_COMPOUND,
                                        PLUMB_PLANE,    PLUMB_TRIANGLE_MESH, PLUMB_HEIGHT_FIELD};
@@ -219,14 +218,14 @@ PlumbDegree claim_of(Conformance& c, PlumbQueryKind kind, PlumbShapeType type, P
   return query == PLUMB_APPROXIMATE || pair == PLUMB_APPROXIMATE ? PLUMB_APPROXIMATE : PLUMB_NATIVE;
 }
 
-void rays(Conformance& c) {
+void rays_at_shapes(Conformance& c) {
   c.require_needs(kQueryNeeds);
   c.require(PLUMB_CAP_QUERY, PLUMB_QUERY_RAY, 0, "rays");
   for (const PlumbShapeType type : kTargets)
     if (stands_still(c, type)) rays_at(c, type);
 }
 
-void casts(Conformance& c) {
+void casts_at_shapes(Conformance& c) {
   c.require_needs(kQueryNeeds);
   c.require(PLUMB_CAP_QUERY, PLUMB_QUERY_CAST, PLUMB_SPHERE, "sphere casts");
   for (const PlumbShapeType type : kMovers)
@@ -235,7 +234,7 @@ void casts(Conformance& c) {
         casts_at(c, type, at, claim == PLUMB_APPROXIMATE ? 8 : 1);
 }
 
-void overlaps(Conformance& c) {
+void overlaps_with_shapes(Conformance& c) {
   c.require_needs(kQueryNeeds);
   c.require(PLUMB_CAP_QUERY, PLUMB_QUERY_OVERLAP, PLUMB_SPHERE, "sphere overlaps");
   for (const PlumbShapeType type : kMovers)
@@ -246,7 +245,7 @@ void overlaps(Conformance& c) {
     }
 }
 
-void pairs(Conformance& c) {
+void collided_shapes(Conformance& c) {
   c.require_needs(kQueryNeeds);
   if (Probe(c, kQueryNeeds, Vec::Zero()).world().collide() == nullptr) throw Skipped{"no " PLUMB_EXT_COLLIDE};
   for (const PlumbShapeType type : kMovers)
@@ -256,15 +255,16 @@ void pairs(Conformance& c) {
     }
 }
 
-constexpr Check kChecks[] = {
-    {"queries.rays_at_shapes", "rays at every shape against the referee's distances", &rays},
-    {"queries.casts_at_shapes", "casts of every shape at every other", &casts},
-    {"queries.overlaps_with_shapes", "overlaps of every shape with every other", &overlaps},
-    {"collide.shapes", "collision without a step of every shape with every other", &pairs},
-};
-
 }  // namespace
 
-std::span<const Check> query_target_checks() { return kChecks; }
+std::span<const Check> query_target_checks() {
+  static constexpr Check checks[] = {
+      {"queries.rays_at_shapes", "rays at every shape against the referee's distances", &rays_at_shapes},
+      {"queries.casts_at_shapes", "casts of every shape at every other", &casts_at_shapes},
+      {"queries.overlaps_with_shapes", "overlaps of every shape with every other", &overlaps_with_shapes},
+      {"collide.shapes", "collision without a step of every shape with every other", &collided_shapes},
+  };
+  return checks;
+}
 
 }  // namespace plumb::harness::conform

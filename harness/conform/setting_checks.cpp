@@ -85,13 +85,14 @@ void in_force(Conformance& c) {
     }
 }
 
-constexpr Check kChecks[] = {
-    {"settings.described", "names, docs, units, ranges and defaults", &described},
-    {"settings.in_force", "every setting at its ends and choices", &in_force},
-};
-
 }  // namespace
 
-std::span<const Check> setting_checks() { return kChecks; }
+std::span<const Check> setting_checks() {
+  static constexpr Check checks[] = {
+      {"settings.described", "names, docs, units, ranges and defaults", &described},
+      {"settings.in_force", "every setting at its ends and choices", &in_force},
+  };
+  return checks;
+}
 
 }  // namespace plumb::harness::conform

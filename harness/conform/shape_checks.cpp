@@ -188,16 +188,17 @@ void mass_of_solids(Conformance& c) {
   }
 }
 
-constexpr Check kChecks[] = {
-    {"shapes.declared", "a shape can be made exactly where the matrix says so", &declared_shapes},
-    {"shapes.inertia", "angular impulses turn bodies by the inertia of their shape", &inertia},
-    {"shapes.mass", "mass, centre and inertia of hulls and closed meshes against the referee", &mass_of_solids},
-    {"pairs.static", "every dynamic shape dropped on every static one", &static_pairs},
-    {"pairs.dynamic", "every dynamic shape pushed into every other", &dynamic_pairs},
-};
-
 }  // namespace
 
-std::span<const Check> shape_checks() { return kChecks; }
+std::span<const Check> shape_checks() {
+  static constexpr Check checks[] = {
+      {"shapes.declared", "a shape can be made exactly where the matrix says so", &declared_shapes},
+      {"shapes.inertia", "angular impulses turn bodies by the inertia of their shape", &inertia},
+      {"shapes.mass", "mass, centre and inertia of hulls and closed meshes against the referee", &mass_of_solids},
+      {"pairs.static", "every dynamic shape dropped on every static one", &static_pairs},
+      {"pairs.dynamic", "every dynamic shape pushed into every other", &dynamic_pairs},
+  };
+  return checks;
+}
 
 }  // namespace plumb::harness::conform

@@ -60,14 +60,15 @@ void hash_is_sensitive(Conformance& c) {
   c.expect(probe.hash() != before, "a body moved by a millimetre does not change the hash");
 }
 
-constexpr Check kChecks[] = {
-    {"snapshot.restore", "save, step, restore, step", &save_and_restore},
-    {"determinism.run", "the same calls give the same bits", &repeatable},
-    {"state.hash", "the hash sees what changes", &hash_is_sensitive},
-};
-
 }  // namespace
 
-std::span<const Check> snapshot_checks() { return kChecks; }
+std::span<const Check> snapshot_checks() {
+  static constexpr Check checks[] = {
+      {"snapshot.restore", "save, step, restore, step", &save_and_restore},
+      {"determinism.run", "the same calls give the same bits", &repeatable},
+      {"state.hash", "the hash sees what changes", &hash_is_sensitive},
+  };
+  return checks;
+}
 
 }  // namespace plumb::harness::conform

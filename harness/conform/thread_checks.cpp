@@ -64,14 +64,15 @@ void queries_together(Conformance& c) {
   for (const bool all_right : right) c.expect(all_right, "queries from several threads at once go wrong");
 }
 
-constexpr Check kChecks[] = {
-    {"threads.worlds", "two worlds in two threads", &worlds_apart},
-    {"threads.more", "a world with more threads", &more_threads},
-    {"threads.queries", "queries from several threads at once", &queries_together},
-};
-
 }  // namespace
 
-std::span<const Check> thread_checks() { return kChecks; }
+std::span<const Check> thread_checks() {
+  static constexpr Check checks[] = {
+      {"threads.worlds", "two worlds in two threads", &worlds_apart},
+      {"threads.more", "a world with more threads", &more_threads},
+      {"threads.queries", "queries from several threads at once", &queries_together},
+  };
+  return checks;
+}
 
 }  // namespace plumb::harness::conform
