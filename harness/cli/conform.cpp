@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "cli/examples.hpp"
+#include "cli/numbers.hpp"
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
 #include "conform/conformance.hpp"
@@ -131,7 +132,7 @@ void add_conform(CLI::App& program, int& status) {
       ->type_name("CHECK");
   verb->add_option("--timeout", options->timeout, "Seconds that one check may take")
       ->type_name("SECONDS")
-      ->check(CLI::PositiveNumber);
+      ->check(number_above_0());
   verb->add_flag("--list", options->list, "List the checks");
   verb->add_flag("--json", options->json, "One object a check, one a line");
   add_examples(*verb, {{"plumb conform ode", "what a backend claims against what it does"},

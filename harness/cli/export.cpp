@@ -12,6 +12,7 @@
 
 #include "cli/draft_file.hpp"
 #include "cli/examples.hpp"
+#include "cli/numbers.hpp"
 #include "cli/page_replays.hpp"
 #include "cli/verbs.hpp"
 #include "replay/bundle.hpp"
@@ -106,12 +107,23 @@ void take_pictures(const ExportOptions& options, const std::string& page) {
   if (!options.frames.empty()) run({"--frames", options.frames, "--fps", fmt::format("{}", options.fps.value_or(30))});
 }
 
+/// node writes the pictures; whether it can is found out before anything is read.
+void check_places_of_pictures(const ExportOptions& options) {
+  if (!options.png.empty()) const DraftFile picture(options.png);
+  if (options.frames.empty()) return;
+  std::error_code failure;
+  std::filesystem::create_directories(options.frames, failure);
+  if (failure) throw UsageError("--frames " + options.frames + ": " + failure.message());
+  const DraftFile frame(options.frames + "/frame");
+}
+
 void export_files(const ExportOptions& options) {
   if (options.gltf.empty() && options.page.empty() && options.png.empty() && options.frames.empty())
     throw UsageError("say what to make: --gltf FILE.glb, --page FILE.html, --png FILE --at SECONDS, or --frames DIR");
   std::optional<DraftFile> gltf_file, page_file;
   if (!options.gltf.empty()) gltf_file.emplace(options.gltf);
   if (!options.page.empty()) page_file.emplace(options.page);
+  check_places_of_pictures(options);
   std::vector<Trajectory> trajectories;
   for (const std::string& file : options.files) trajectories.push_back(read_trajectory(file));
   if (gltf_file) {
@@ -139,12 +151,13 @@ void add_export(CLI::App& program, int& status) {
       verb->add_option("--png", options->png, "A picture, to this file; needs node and chromium")->type_name("FILE");
   verb->add_option("--at", options->at, "Seconds of the scene that --png shows; 0 when not given")
       ->type_name("SECONDS")
+      ->check(number_from_0())
       ->needs(png);
   CLI::Option* frames =
       verb->add_option("--frames", options->frames, "The pictures of a film, to this folder; needs node and chromium")
           ->type_name("DIR");
   verb->add_option("--fps", options->fps, "Frames a second of --frames; 30 when not given")
-      ->check(CLI::PositiveNumber)
+      ->check(number_above_0())
       ->needs(frames);
   verb->add_option("--size", options->size, "Of pictures, in pixels")->type_name("WIDTHxHEIGHT")->capture_default_str();
   verb->add_option("--show", options->layers, "Layers to switch on in pictures: contacts,boxes,axes,islands,...")

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "cli/examples.hpp"
+#include "cli/numbers.hpp"
 #include "cli/verbs.hpp"
 #include "plumb/nearest.hpp"
 #include "run/pair_tour.hpp"
@@ -93,7 +94,7 @@ void add_pairs(CLI::App& program, int& status) {
       ->allow_extra_args(false);
   verb->add_option("--timeout", options->timeout, "Seconds that one pair may take")
       ->type_name("SECONDS")
-      ->check(CLI::PositiveNumber);
+      ->check(number_above_0());
   add_examples(*verb, {{"plumb pairs --out pairs", "all backends; then plumb report pairs --html pairs.html"},
                        {"plumb pairs ode --pair box-capsule --out pairs", "one backend, one pair"}});
   verb->callback([options, &status] {

@@ -1,13 +1,14 @@
 // plumb problem: writes the contact problem of a scene's step for other solvers. plumb solve: solves such a file.
 #include <fmt/format.h>
 
-#include <charconv>
 #include <chrono>
 #include <iostream>
 #include <memory>
 #include <optional>
 
+#include "cli/draft_file.hpp"
 #include "cli/examples.hpp"
+#include "cli/numbers.hpp"
 #include "cli/verbs.hpp"
 #include "measure/step_contacts.hpp"
 #include "plumb/loader.hpp"
@@ -17,6 +18,7 @@
 #include "run/json.hpp"
 #include "run/simulation.hpp"
 #include "scene/catalogue.hpp"
+#include "scene/limits.hpp"
 #include "scene/parameters.hpp"
 
 namespace plumb::harness {
@@ -97,14 +99,6 @@ Json rows_of(const Eigen::VectorXd& values, int dimension) {
   return rows;
 }
 
-/// "" for what is one, else what is wrong with it.
-std::string whole_number(const std::string& text) {
-  std::uint64_t number = 0;
-  const char* end = text.data() + text.size();
-  const auto [stop, failure] = std::from_chars(text.data(), end, number);
-  return failure == std::errc{} && stop == end ? "" : text + " is no number of a step: they are 0, 1, 2 and so on";
-}
-
 std::string verdict(const reference::Solution& solution) {
   return fmt::format(
       "{}: residual {:.3g} (cone {:.3g}, dual cone {:.3g}, complementarity {:.3g}), {} sweeps, {} Newton "
@@ -115,6 +109,7 @@ std::string verdict(const reference::Solution& solution) {
 }
 
 int write_problem(const ProblemOptions& options) {
+  DraftFile out(options.out);
   const Scene scene = scene_of(options);
   const StepContacts contacts(scene);
   if (!contacts.obstacle().empty())
@@ -128,7 +123,8 @@ int write_problem(const ProblemOptions& options) {
   if (!options.backend.empty()) file.description += "; state by " + options.backend;
   file.math_info = fmt::format("dt {} s; W = H M^-1 H', q = H v_free + gap / dt", scene.dt);
   if (solution.converged) file.impulse = solution.impulse;
-  reference::write_fclib(options.out, file);
+  reference::write_fclib(out.draft(), file);
+  out.move_in();
   if (options.json) {
     Json json = json_of(solution);
     json["scene"] = scene.id;
@@ -186,7 +182,7 @@ void add_problem(CLI::App& program, int& status) {
   verb->add_option("--backend", options->backend, "Name or file of the backend that does the steps before")
       ->type_name("BACKEND");
   verb->add_option("--step", options->step, "Steps done before; 0: as the scene starts")
-      ->check(whole_number)
+      ->check(whole_number_within(0, static_cast<std::int64_t>(most_steps)))
       ->capture_default_str();
   verb->add_option("--param", options->parameters, "name=value of a scene's parameter, repeatable")
       ->type_name("NAME=VALUE")
@@ -205,7 +201,7 @@ void add_solve(CLI::App& program, int& status) {
   CLI::App* verb = program.add_subcommand("solve", "Solve a contact problem in FCLIB's HDF5 layout, in float64");
   verb->add_option("FILE", options->file, "A file with a local problem (/fclib_local)")->required();
   verb->add_option("--tolerance", options->tolerance, "Of the natural map, relative to |q|; exit with 1 above it")
-      ->check(CLI::PositiveNumber)
+      ->check(number_above_0())
       ->capture_default_str();
   verb->add_flag("--json", options->json, "Print one JSON object, with impulses and velocities");
   add_examples(*verb, {{"plumb solve d7.hdf5", "impulses, velocities and the residual"},

@@ -11,6 +11,7 @@
 
 #include "cli/draft_file.hpp"
 #include "cli/examples.hpp"
+#include "cli/numbers.hpp"
 #include "cli/output.hpp"
 #include "cli/page_replays.hpp"
 #include "cli/verbs.hpp"
@@ -144,7 +145,8 @@ void add_report(CLI::App& program, int& status) {
       ->required();
   verb->add_option("--html", options->html, "Write one self-contained page to this file")->type_name("FILE");
   verb->add_option("--replays", options->replays.scenes,
-                   "At most so many scenes as replays in the page, pairs of shapes apart");
+                   "At most so many scenes as replays in the page, pairs of shapes apart")
+      ->check(whole_number_within(0, 1000000));
   verb->add_flag("--no-replays", options->no_replays, "No replays in the page")->excludes("--replays");
   CLI::Option* markdown = verb->add_flag("--md", options->markdown, "Print Markdown");
   CLI::Option* csv = verb->add_flag("--csv", options->csv, "Print CSV, a line a metric");
@@ -158,12 +160,12 @@ void add_report(CLI::App& program, int& status) {
   verb->add_flag("--strict", options->strict, "Exit with 1 when something got worse")->needs(against);
   verb->add_option("--error-limit", options->limits.error, "Relative change of an error that counts")
       ->needs(against)
-      ->check(CLI::NonNegativeNumber)
+      ->check(number_from_0())
       ->capture_default_str();
   verb->add_option("--time-limit", options->limits.single_time,
                    "Relative change of a time that counts where it was measured once")
       ->needs(against)
-      ->check(CLI::NonNegativeNumber)
+      ->check(number_from_0())
       ->capture_default_str();
   markdown->excludes(csv)->excludes(json)->excludes(failures);
   csv->excludes(json)->excludes(against)->excludes(failures);

@@ -6,6 +6,7 @@
 
 #include "cli/examples.hpp"
 #include "cli/going_on.hpp"
+#include "cli/numbers.hpp"
 #include "cli/output.hpp"
 #include "cli/verbs.hpp"
 #include "plumb/nearest.hpp"
@@ -165,7 +166,7 @@ void add_study(CLI::App& program, int& status) {
       ->allow_extra_args(false);
   verb->add_option("--confidence", options->confidence,
                    "A cell is repeated until half of the 95 % interval of its time is below this share of it")
-      ->check(CLI::Range(0.0001, 0.99));
+      ->check(number_within(0.0001, 0.99));
   verb->add_flag("--fixed", options->fixed,
                  "Nothing adapts to what is measured: the same cells, equally often, on every start and number of "
                  "ranks; no budget but that of --budget");

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "cli/going_on.hpp"
+#include "cli/numbers.hpp"
 #include "report/csv.hpp"
 #include "run/study.hpp"
 #include "scene/expressions.hpp"
@@ -69,19 +70,23 @@ void add_study_options(CLI::App& verb, StudyOptions& options) {
       ->type_name("SECONDS")
       ->transform(evaluated);
   verb.add_option("--threads", request.threads, "Threads that a world may use")
-      ->check(CLI::Range(1u, 4096u))
+      ->check(whole_number_within(1, 4096))
       ->capture_default_str();
   verb.add_option("--repeat", request.repeat, "Repetitions, in turns between backends")
-      ->check(CLI::Range(1u, 100000u))
+      ->check(whole_number_within(1, 100000))
       ->capture_default_str();
   verb.add_option("--timeout", request.timeout, "Wall time in s that an engine may take for a cell")
+      ->type_name("SECONDS")
+      ->check(number_above_0())
       ->capture_default_str();
   verb.add_option("--judge-timeout", request.judge_timeout,
                   "Wall time in s that the referee may take for a cell; none: as --timeout, and at least 60")
-      ->type_name("SECONDS");
+      ->type_name("SECONDS")
+      ->check(number_above_0());
   verb.add_option("--memory-limit", request.memory_limit_mb,
                   "Resident memory in MB that a worker may take; 0: 3/4 of the machine's")
-      ->check(CLI::NonNegativeNumber)
+      ->type_name("MB")
+      ->check(number_from_0())
       ->capture_default_str();
   verb.add_option("--out", request.out, "Folder for results.jsonl; cells that are finished there are not run again")
       ->type_name("DIR")

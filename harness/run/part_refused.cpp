@@ -12,11 +12,12 @@ struct Element {
   std::string said;  ///< without the element: "mass is ..."
 };
 
-std::optional<Element> element_in(const std::string& text) {
+/// An engine calls what it is given descs, the guard before it by the list's own name.
+std::optional<Element> element_in(const std::string& text, const std::string& list) {
   const auto open = text.find('['), close = text.find(']');
   if (open == std::string::npos || close == std::string::npos || close < open) return std::nullopt;
   const std::string array = text.substr(0, open);
-  if (array != "descs" && array != "bodies") return std::nullopt;
+  if (array != "descs" && array != list) return std::nullopt;
   Element element{0, ""};
   const char* end = text.data() + close;
   const auto [stop, failure] = std::from_chars(text.data() + open + 1, end, element.index);
@@ -38,7 +39,7 @@ void naming_parts(const char* list, const std::function<std::string(std::size_t)
   try {
     make();
   } catch (const Error& error) {
-    const std::optional<Element> element = element_in(error.what());
+    const std::optional<Element> element = element_in(error.what(), list);
     if (!element) throw;
     throw PartRefused(error.code(), list, name_of(element->index), element->said);
   }

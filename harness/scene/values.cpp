@@ -17,7 +17,14 @@ constexpr plumb::backend::Where here{"it", 0};
   for (const char* group : {"material.", "pose."})
     if (sentence.starts_with(group)) sentence.erase(0, std::string(group).size());
   const std::string key = sentence.substr(0, sentence.find_first_of(".[ "));
-  (node.json().is_object() && node.find(key.c_str()) ? node.at(key.c_str()) : node).fail(sentence);
+  const auto member = node.json().is_object() ? node.find(key.c_str()) : std::nullopt;
+  // limits[3].lower is at limits.rx in a file.
+  if (member && member->json().is_object())
+    for_each_axis(*member, [&](std::size_t axis, const Node& values) {
+      const std::string element = fmt::format("{}[{}].", key, axis);
+      if (sentence.starts_with(element)) values.fail(sentence.substr(element.size()));
+    });
+  (member ? *member : node).fail(sentence);
 }
 
 template <class Check>

@@ -73,7 +73,7 @@ const PlumbSettingInfo setting_list[] = {
 };
 constexpr std::size_t setting_count = std::size(setting_list);
 
-class MisbehavingWorld final : public plumb::IPhysicsWorld, public plumb::ISettings {
+class MisbehavingWorld final : public plumb::IPhysicsWorld, public plumb::IJoints, public plumb::ISettings {
  public:
   explicit MisbehavingWorld(const plumb::WorldInit& init) : gravity_(init.desc.gravity) {
     for (std::size_t i = 0; i < setting_count; ++i) set_setting(setting_list[i].name, init.values[i]);
@@ -87,10 +87,13 @@ class MisbehavingWorld final : public plumb::IPhysicsWorld, public plumb::ISetti
                                            PLUMB_F64,       1};
     return value;
   }
-  static PlumbDegree capability(PlumbCapability kind, std::uint32_t a, std::uint32_t, const char*& note) {
+  static PlumbDegree capability(PlumbCapability kind, std::uint32_t a, std::uint32_t b, const char*& note) {
     note = "particles only";
     if (kind == PLUMB_CAP_SHAPE) return PLUMB_NATIVE;
-    if (kind == PLUMB_CAP_NEED) return a == 0 ? PLUMB_NATIVE : PLUMB_NONE;
+    constexpr PlumbNeeds met = PLUMB_NEED_ROTATION | PLUMB_NEED_JOINTS;
+    if (kind == PLUMB_CAP_NEED) return (met >> a & 1) != 0 ? PLUMB_NATIVE : PLUMB_NONE;
+    if (kind == PLUMB_CAP_JOINT) return PLUMB_NATIVE;
+    if (kind == PLUMB_CAP_JOINT_FEATURE) return b == PLUMB_JOINT_HAS_LIMITS ? PLUMB_NATIVE : PLUMB_NONE;
     if (kind == PLUMB_CAP_FIELD_READ || kind == PLUMB_CAP_FIELD_WRITE)
       return a <= PLUMB_FIELD_VELOCITY ? PLUMB_NATIVE : PLUMB_NONE;
     return PLUMB_NONE;
@@ -108,12 +111,15 @@ class MisbehavingWorld final : public plumb::IPhysicsWorld, public plumb::ISetti
     return PLUMB_OK;
   }
 
-  PlumbResult create_shapes(std::span<const PlumbShapeDesc>, std::span<PlumbShape>) override { return PLUMB_OK; }
+  PlumbResult create_shapes(std::span<const PlumbShapeDesc> descs, std::span<PlumbShape>) override {
+    for (std::size_t i = 0; i < descs.size(); ++i)
+      if (descs[i].radius > 1e6) refuse_element(i, ".radius is");
+    return PLUMB_OK;
+  }
   PlumbResult destroy_shapes(std::span<const PlumbShape>) override { return PLUMB_OK; }
   PlumbResult create_bodies(std::span<const PlumbBodyDesc> descs, std::span<PlumbBody> ids) override {
     for (std::size_t i = 0; i < descs.size(); ++i) {
-      if (descs[i].mass > 1e12)
-        throw plumb::Error(PLUMB_E_INVALID_ARGUMENT, "descs[" + std::to_string(i) + "].mass is beyond this engine");
+      if (descs[i].mass > 1e12) refuse_element(i, ".mass is");
       if (plumb::slot_of(ids[i]) >= bodies_.size()) bodies_.resize(plumb::slot_of(ids[i]) + 1);
       bodies_[plumb::slot_of(ids[i])] = descs[i];
     }
@@ -131,6 +137,22 @@ class MisbehavingWorld final : public plumb::IPhysicsWorld, public plumb::ISetti
     for (std::size_t i = 0; i < ids.size(); ++i) rows.get(i, row(field, ids[i]), plumb::columns_of(field));
     return PLUMB_OK;
   }
+
+  // Joints hold nothing: they are there to be refused.
+  plumb::IJoints* joints() override { return this; }
+  PlumbResult create_joints(std::span<const PlumbJointDesc> descs, std::span<PlumbJoint>) override {
+    for (std::size_t i = 0; i < descs.size(); ++i)
+      if (descs[i].limits[3].upper > 1e7) refuse_element(i, ".limits[3] are");
+    return PLUMB_OK;
+  }
+  PlumbResult destroy_joints(std::span<const PlumbJoint>) override { return PLUMB_OK; }
+  PlumbResult read_joints(PlumbJointField, std::span<const PlumbJoint>, plumb::Rows) override {
+    return PLUMB_E_UNSUPPORTED;
+  }
+  PlumbResult write_joints(PlumbJointField, std::span<const PlumbJoint>, plumb::ConstRows) override {
+    return PLUMB_E_UNSUPPORTED;
+  }
+
   PlumbResult set_gravity(const PlumbVec3& gravity) override { return gravity_ = gravity, PLUMB_OK; }
 
   PlumbResult step(double dt) override {
@@ -153,6 +175,10 @@ class MisbehavingWorld final : public plumb::IPhysicsWorld, public plumb::ISetti
   std::span<const PlumbEvent> events() override { return {}; }
 
  private:
+  [[noreturn]] static void refuse_element(std::size_t i, const std::string& member) {
+    throw plumb::Error(PLUMB_E_INVALID_ARGUMENT, "descs[" + std::to_string(i) + "]" + member + " beyond this engine");
+  }
+
   PlumbSettingValue* find(const char* name) {
     for (std::size_t i = 0; i < setting_count; ++i) {
       if (std::strcmp(name, setting_list[i].name) == 0) return &values_[i];

@@ -37,7 +37,7 @@ TEST(Problem, says_what_is_asked_wrongly) {
   expect({"problem", "stacking", "--out", out}, "names several scenes");
   expect({"problem", "D7", "--step", "3", "--out", out}, "--step 3 needs a --backend");
   expect({"problem", "D7", "--param", "mu", "--out", out}, "not name=value");
-  expect({"problem", "D7", "--out", "/nowhere/x.hdf5"}, "cannot be written");
+  expect({"problem", "D7", "--out", "/nowhere/x.hdf5"}, "cannot write /nowhere/x.hdf5: No such file");
   expect({"solve", out}, "there is no such file");
   std::ofstream(folder / "text.hdf5") << "no";
   expect({"solve", (folder / "text.hdf5").string()}, "this is no HDF5 file");

@@ -67,8 +67,8 @@ TEST(Questions, pairs_of_a_backend_that_is_not_there) {
   expect_refusal({"pairs", "nope"}, "there is no backend \"nope\"");
 }
 TEST(Questions, number_of_a_step_below_0) {
-  expect_refusal({"problem", "D7", "--step", "-1", "--out", "never.hdf5"}, "-1 is no number of a step");
-  expect_refusal({"problem", "D7", "--step", "1.5", "--out", "never.hdf5"}, "1.5 is no number of a step");
+  expect_refusal({"problem", "D7", "--step", "-1", "--out", "never.hdf5"}, "--step: must be a whole number from 0");
+  expect_refusal({"problem", "D7", "--step", "1.5", "--out", "never.hdf5"}, "not \"1.5\"");
 }
 TEST(Questions, long_ones_are_cut_short_in_the_answer) {
   const std::string chatter(40000, 'x');

@@ -101,6 +101,38 @@ TEST(Stops, a_page_that_cannot_be_written_is_told_before_any_row_is_read) {
       << finished.err;
 }
 
+TEST(Stops, a_problem_that_cannot_be_written_is_told_before_its_scene_is_looked_for) {
+  const Finished finished = plumb({"problem", "no_such_scene", "--out", "/no/such/folder/x.hdf5"});
+  EXPECT_EQ(finished.status, 2);
+  EXPECT_NE(finished.err.find("cannot write /no/such/folder/x.hdf5: No such file"), std::string::npos) << finished.err;
+}
+
+TEST(Stops, a_problem_is_there_whole_or_not_at_all) {
+  const std::filesystem::path folder = fresh_folder("problem_draft"), file = folder / "x.hdf5";
+  std::ofstream(file) << "as it was";
+  EXPECT_EQ(plumb({"problem", "A7", "--out", file.string()}).status, 2);
+  EXPECT_EQ(text_of(file), "as it was");
+  EXPECT_EQ(plumb({"problem", "D7", "--out", file.string()}).status, 0);
+  EXPECT_EQ(text_of(file).substr(1, 3), "HDF");
+  EXPECT_FALSE(std::filesystem::exists(file.string() + ".part"));
+}
+
+TEST(Stops, pictures_that_cannot_be_written_are_told_before_any_trajectory_is_read) {
+  const std::filesystem::path folder = fresh_folder("no_pictures");
+  const std::string none = (folder / "none.plt").string(), file = (folder / "file").string();
+  std::ofstream(file) << "no folder";
+  Finished finished = plumb({"export", none, "--png", "/no/such/folder/a.png"});
+  EXPECT_EQ(finished.status, 2);
+  EXPECT_NE(finished.err.find("cannot write /no/such/folder/a.png: No such file"), std::string::npos) << finished.err;
+  finished = plumb({"export", none, "--frames", file + "/frames"});
+  EXPECT_EQ(finished.status, 2);
+  EXPECT_NE(finished.err.find("--frames " + file + "/frames: Not a directory"), std::string::npos) << finished.err;
+  finished = plumb({"export", none, "--png", (folder / "a.png").string(), "--frames", (folder / "frames").string()});
+  EXPECT_NE(finished.err.find("none.plt"), std::string::npos) << finished.err;
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.png.part"));
+  EXPECT_TRUE(std::filesystem::is_empty(folder / "frames"));
+}
+
 TEST(Stops, a_full_standard_output_is_an_error) {
   const std::filesystem::path folder = fresh_folder("full_output");
   const std::string line = "'" PLUMB_PROGRAM "' measures --json >/dev/full 2>'" + (folder / "err").string() + "'";
