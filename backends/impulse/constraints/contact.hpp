@@ -65,7 +65,7 @@ struct Contact {
   ContactGive<N> give;
 
   PlanePoint<PerPoint<P, N>> place;
-  PerPoint<P, N> separation, impact_speed, open;
+  PerPoint<P, N> separation, noted, open;
   PerPoint<P, N> impulse[3];  ///< along normal, tangent and bitangent
   PerPoint<P, N> block_inverse[P];
 
@@ -99,7 +99,7 @@ PLUMB_HD Contact<P, N> load_contact(const RowAccess<N>& row) {
     contact.place.x.at[i] = quad[0];
     contact.place.y.at[i] = quad[1];
     contact.separation.at[i] = quad[2];
-    contact.impact_speed.at[i] = quad[3];
+    contact.noted.at[i] = quad[3];
     row.get_quad(point_field(p, kNormalImpulse), quad);
     for (int k = 0; k < 3; ++k) contact.impulse[k].at[i] = quad[k];
     contact.open.at[i] = quad[3];
@@ -136,9 +136,9 @@ PLUMB_HD void store_impulses(const RowAccess<N>& row, const Contact<P, N>& conta
                  contact.impulse[2].at[i], contact.open.at[i]);
 }
 template <int P, class N>
-PLUMB_HD void store_impact_speeds(const RowAccess<N>& row, const Contact<P, N>& contact) {
+PLUMB_HD void store_noted(const RowAccess<N>& row, const Contact<P, N>& contact) {
   PLUMB_UNROLL
-  for (int i = 0; i < kHeld<P>; ++i) row.put(point_field(point_of(i), kImpactSpeed), contact.impact_speed.at[i]);
+  for (int i = 0; i < kHeld<P>; ++i) row.put(point_field(point_of(i), kNoted), contact.noted.at[i]);
 }
 /// Adds impulses of a sub-step that is done to those of the step.
 template <int P, class N>

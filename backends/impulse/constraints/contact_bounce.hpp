@@ -18,8 +18,8 @@ template <int P, class N>
 PLUMB_HD void bounce_contact(const RowAccess<N>& row, Contact<P, N>& contact, SolverBody<N>& a, SolverBody<N>& b,
                              Real slowest, bool friction) {
   const N zero = N(0);
-  const PointMask<P, N> bounces = contact.impact_speed < N(-slowest) && contact.restitution > zero;
-  contact.open = select(bounces, contact.impact_speed * contact.restitution, N(kHuge));
+  const PointMask<P, N> bounces = contact.noted < N(-slowest) && contact.restitution > zero;
+  contact.open = select(bounces, contact.noted * contact.restitution, N(kHuge));
   const ManifoldAim<P, N> aim = {contact.open, select_by_point(bounces, N(1), zero), for_all_points<P>(zero),
                                  for_all_points<P>(zero)};
   PerPoint<P, N> more[3];

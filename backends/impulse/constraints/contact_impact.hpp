@@ -36,15 +36,19 @@ PLUMB_HD N smallest(const PerPoint<P, N>& x) {
 }
 
 /// Points that would touch up to a sub-step after the first are struck along with it, so that what falls flat, but for
-/// rounding, does not turn. What forces alone bring about in two sub-steps rests.
+/// rounding, does not turn. What forces alone bring about in two sub-steps rests. And what approaches because of what
+/// held the bodies in the last sub-step does not strike: who is squeezed would be thrown to and fro, and the more so
+/// the more often.
 template <int P, class N>
 PLUMB_HD Approach<P, N> approach_of(const Contact<P, N>& contact, const SolverBody<N>& a, const SolverBody<N>& b,
                                     const ImpactLaw& law) {
   const N zero = N(0), h = N(law.h);
   const PerPoint<P, N> closing = -speed_at(motion_of(contact, a, b).normal, contact.place);
   const PerPoint<P, N> gap = max(separations_now(contact, a, b), zero);
-  const N slowest = max(N(law.slowest), N(-2) * contact.pull);
-  const PointMask<P, N> fast = contact.there() && closing > slowest && contact.restitution > zero;
+  const N resting = max(N(law.slowest), N(-2) * contact.pull);
+  const PerPoint<P, N> slowest = max(N(Real(0.5)) * closing, for_all_points<P>(resting));
+  const PointMask<P, N> fast =
+      contact.there() && -contact.noted > slowest && closing > resting && contact.restitution > zero;
   const auto strikes = in_any_point(fast && closing * h > gap);
   const PerPoint<P, N> at_start = closing + N(Real(0.5)) * contact.pull;
   const N gain = N(-law.inverse_h) * contact.pull;  // of speed, m/s2
@@ -66,6 +70,10 @@ PLUMB_HD void go_back(SolverBody<N>& body, const SolverBody<N>& before, const M&
                   select(strikes, body.rotated.z, now.z), select(strikes, body.rotated.w, now.w)};
 }
 
+/// Impulses found short of what stops the points by more than this are none: bodies that joints hold against each other
+/// do not give way, whatever pushes them.
+constexpr Real kMostShare = 4;
+
 /// The normal impulses that stop the points which strike, times what gives back e of their speed: a reflection, whose
 /// energy is what Newton's law says for any direction of the impulses, however well they have converged (Smith et al.,
 /// section 5, "generalized reflections").
@@ -81,7 +89,9 @@ PLUMB_HD void reflect(const Approach<P, N>& approach, Contact<P, N>& contact, Co
   for (PerPoint<P, N>& impulse : contact.impulse) impulse = none;
   for (int round = 0; round < kBounceRounds; ++round) solve_normals(contact, aim, motion, wrench, false);
   const N gained = sum(contact.impulse[0] * (speed_at(motion.normal, contact.place) - speed));
-  const N scale = (N(1) + contact.restitution) * sum(contact.impulse[0] * approach.came) / max(gained, N(Real(1e-30)));
+  const N stopped = sum(contact.impulse[0] * approach.came);
+  const N share = stopped / max(gained, N(Real(1e-30)));
+  const N scale = select(share < N(kMostShare), (N(1) + contact.restitution) * share, zero);
   contact.impulse[0] = scale * contact.impulse[0];
   wrench = no_wrench<N>();
   add(wrench.normal, normal_wrench(contact.place, contact.impulse[0]));

@@ -121,7 +121,7 @@ template <int P, class N>
 PLUMB_HD void note_impact_speeds(Contact<P, N>& contact, const ManifoldAim<P, N>& aim, const PerPoint<P, N>& speed,
                                  const PerPoint<P, N>& total) {
   const N zero = N(0), waits = N(kWaits);
-  PerPoint<P, N>& noted = contact.impact_speed;
+  PerPoint<P, N>& noted = contact.noted;
   const auto pushed = in_any_point(total > zero && noted > zero);
   const PerPoint<P, N> came = speed_at_touch(contact.pull, aim.bias, speed);
   noted = select(noted > zero && noted < waits && pushed, waits - came, noted);

@@ -26,10 +26,11 @@ enum RowField : std::uint32_t {
   kRowFields = 16
 };
 enum PointField : std::uint32_t {
-  kPlace = 0,        ///< from the mean of the points, along tangent and bitangent, m
-  kSeparation = 2,   ///< at the start of the step, m
-  kImpactSpeed = 3,  ///< normal velocity with which a point came that was pushed in this step, m/s, 0 or less; above 0:
-                     ///< not pushed yet (kWaits)
+  kPlace = 0,       ///< from the mean of the points, along tangent and bitangent, m
+  kSeparation = 2,  ///< at the start of the step, m
+  kNoted = 3,  ///< of solvers that take the step whole: normal velocity with which a point came that was pushed in this
+               ///< step, m/s, 0 or less; above 0: not pushed yet (kWaits). Of tgs_soft on mechanisms: the normal
+               ///< impulse with which the sub-step began, N s
   kNormalImpulse = 4,
   kTangentImpulse = 5,  ///< along tangent and bitangent
   kOpen = 7,  ///< speed that a point may approach with in the relaxing pass: 0, or without bound where it is apart
@@ -37,7 +38,7 @@ enum PointField : std::uint32_t {
   kBlockInverse = 8,
   kPointFields = 12
 };
-/// kImpactSpeed of a point that has not been pushed: kWaits / 2, or kWaits less the speed with which it came.
+/// kNoted of a point that has not been pushed: kWaits / 2, or kWaits less the speed with which it came.
 constexpr Real kWaits = 2;
 /// How the bodies give way to a wrench at the mean of the points (contact_frame.hpp), and how many points there are.
 constexpr std::uint32_t kGive = kRowFields + kManifoldPoints * kPointFields;

@@ -138,8 +138,8 @@ PLUMB_HD inline Real speed_of_held(const AxisView& view, std::uint32_t j, int ro
   const Real rate = view.joints[j].in_chain ? min(time.rate, time.chain_rate) : time.rate;
   switch (time.pass) {
     case RowPass::kSpeeds: return 0;
-    case RowPass::kMoved: return view.parts.work[j].before[row] - rate * error;
-    default: return -(rate * error);
+    case RowPass::kMoved: return view.parts.work[j].before[row] - speed_of_error(rate, error);
+    default: return -speed_of_error(rate, error);
   }
 }
 

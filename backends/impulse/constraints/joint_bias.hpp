@@ -14,7 +14,7 @@ PLUMB_HD inline void solve_joint_with_bias(const JointView& view, std::uint32_t 
   const Velocity a = view.velocity(joint.body_a), b = view.velocity(joint.body_b);
   Real impulse[kJointRows];
   joint_residuals(view, j, JointPass{}, a, b, impulse);
-  for (int i = 0; i < n; ++i) impulse[i] = impulse[i] + bias_rate * work.error[i];
+  for (int i = 0; i < n; ++i) impulse[i] = impulse[i] + speed_of_error(bias_rate, work.error[i]);
   solve_factored(work.factor, n, impulse);
   for (int i = 0; i < n; ++i) {
     impulse[i] = -impulse[i];

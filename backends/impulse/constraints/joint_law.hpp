@@ -98,9 +98,10 @@ enum class RowPass : std::uint8_t {
 struct RowTime {
   RowPass pass;
   Real h, inverse_h;
-  Real rate;                ///< at which errors are taken back, 1/s
-  Real share;               ///< softness of rows that always hold, relative to their own
-  Real chain_rate = kHuge;  ///< the most at which those of chains are, 1/s
+  Real rate;                 ///< at which errors are taken back, 1/s
+  Real share;                ///< softness of rows that always hold, relative to their own
+  Real chain_rate = kHuge;   ///< the most at which those of chains are, 1/s
+  Real most_return = kHuge;  ///< what is beyond a limit comes back no faster than this, m/s or rad/s
 };
 
 /// e^x - 1 for small x; a little less for large ones.
@@ -134,8 +135,8 @@ PLUMB_HD inline RowLaw law_of_places(const JointAxes& axes, int row, Real x, con
     const Real middle = turns && has_lower && has_upper && upper - lower < 2 * kPi ? (lower + upper) / 2 : Real(0);
     const Real from_middle = turns ? wrapped(x - middle) : x;
     const Real to_lower = (lower - middle) - from_middle, to_upper = (upper - middle) - from_middle;
-    if (has_lower) law.lower = to_lower * (to_lower < 0 ? time.inverse_h : time.rate);
-    if (has_upper) law.upper = to_upper * (to_upper > 0 ? time.inverse_h : time.rate);
+    if (has_lower) law.lower = to_lower < 0 ? to_lower * time.inverse_h : min(to_lower * time.rate, time.most_return);
+    if (has_upper) law.upper = to_upper > 0 ? to_upper * time.inverse_h : max(to_upper * time.rate, -time.most_return);
   }
   const Real force = drive.max_force[spec.coordinate];
   if (force > 0) {

@@ -148,6 +148,13 @@ PLUMB_HD inline void speeds_now(const JointView& view, std::uint32_t j, const Ve
                dot(work.rows[i].on_b, b.angular);
 }
 
+/// Errors are taken back no faster than this, m/s or rad/s. Bodies that are joined where they are metres apart are
+/// drawn together; all at once they would be flung, and through what is between.
+constexpr Real kMostJointSpeed = 10;
+PLUMB_HD inline Real speed_of_error(Real rate, Real error) {
+  return clamp(rate * error, -kMostJointSpeed, kMostJointSpeed);
+}
+
 /// How far the velocities of the rows are from what they should be in this pass.
 PLUMB_HD inline void joint_residuals(const JointView& view, std::uint32_t j, const JointPass& pass, const Velocity& a,
                                      const Velocity& b, Real (&residual)[kJointRows]) {
@@ -157,13 +164,14 @@ PLUMB_HD inline void joint_residuals(const JointView& view, std::uint32_t j, con
   const Real rate = joint.in_chain ? min(pass.softness.bias_rate, pass.chain_rate) : pass.softness.bias_rate;
   if (!pass.take_back_error || turns_far(a, b, pass.h)) {
     speeds_now(view, j, a, b, residual);
-    for (int i = 0; i < n && pass.take_back_error; ++i) residual[i] = residual[i] + rate * work.error[i];
+    for (int i = 0; i < n && pass.take_back_error; ++i) residual[i] = residual[i] + speed_of_error(rate, work.error[i]);
     return;
   }
   const JointPlace place = place_joint(joint, view.base(joint), view.end_after(joint.body_a, a, pass.h),
                                        view.end_after(joint.body_b, b, pass.h));
   joint_errors(joint, place, residual);
-  for (int i = 0; i < n; ++i) residual[i] = (residual[i] - work.error[i]) * pass.inverse_h + rate * work.error[i];
+  for (int i = 0; i < n; ++i)
+    residual[i] = (residual[i] - work.error[i]) * pass.inverse_h + speed_of_error(rate, work.error[i]);
 }
 
 /// What the last step ended with is where this one begins.

@@ -371,7 +371,7 @@ PLUMB_HD void PrepareContacts<kImpacts, kMechanisms>::operator()(std::uint32_t j
     numbers.at[field(kNormalImpulse)] = warm_start * kept.normal_impulse[p];
     numbers.at[field(kTangentImpulse)] = warm_start * kept.tangent_impulse[0][p];
     numbers.at[field(kTangentImpulse) + 1] = warm_start * kept.tangent_impulse[1][p];
-    numbers.at[field(kImpactSpeed)] = kWaits / 2;
+    numbers.at[field(kNoted)] = kWaits / 2;
   }
   numbers.at[kTangentStep] = reciprocal_or_zero(largest_slip);
   if (Real* sums = rows.sums_at(slot); sums != nullptr)

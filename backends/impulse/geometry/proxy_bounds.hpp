@@ -8,6 +8,9 @@
 
 namespace plumb::impulse {
 
+/// How far who bounces looks ahead in any case, as a share of its reach.
+constexpr Real kStruckShare = Real(0.02);
+
 struct BoundProxies {
   Bodies bodies;
   Proxies proxies;
@@ -52,14 +55,16 @@ struct BoundProxies {
     box = {min(box.low, outward(low, 0)), max(box.high, outward(high, 0))};
   }
   /// How far a point of the shape may travel in the step: contacts nearer than that are foreseen. Not beyond the
-  /// shape's own size, or the plane of a contact would stand for a body that is elsewhere.
+  /// shape's own size, or the plane of a contact would stand for a body that is elsewhere. What bounces passes a blow
+  /// on within the step, even where it only just does not touch.
   PLUMB_HD Real look_ahead(const Proxy& proxy, const Shape& shape) const {
     const Velocity& velocity = bodies.velocity[proxy.body];
     const Real reach = shape.reach + length(proxy.frame.position);
     const Real dt = parameters->dt;
     const Real travel =
         dt * (length(velocity.linear) + reach * length(velocity.angular)) + dt * dt * length(parameters->gravity);
-    return min(travel, shape.reach);
+    const Real struck = proxy.restitution > 0 ? kStruckShare * shape.reach : Real(0);
+    return min(travel + struck, shape.reach);
   }
 
   /// Moved by `by`, and a few units in the last place more, away from zero margin: rounding must not lose a touch.

@@ -153,16 +153,22 @@ PLUMB_DEVICE inline void pass_on_loads(Team& team, const JointSet& joints) {
   push_changes(team, system);
 }
 
-/// One pass of the sub-stepped solver: over places, or over speeds after positions have moved.
-/// loaded: contacts have handed over what they did to mechanisms.
+/// Where contacts push mechanisms, what is beyond a limit comes back no faster than this, m/s or rad/s: where one holds
+/// against it, as the ground does under the foot of a leg that is folded as far as it goes, more would throw all of it
+/// up.
+constexpr Real kMostReturn = 1;
+
+/// One pass of the sub-stepped solver: over places, or over speeds after positions have moved. touched: contacts may
+/// push mechanisms. loaded: they have handed over what they did.
 PLUMB_DEVICE inline void solve_axes(Team& team, const JointSet& joints, const StepParameters& step, RowPass pass,
-                                    bool loaded, std::uint32_t& turn) {
+                                    bool touched, bool loaded, std::uint32_t& turn) {
   if (joints.count == 0) return;
   const AxisView view = axis_view(joints);
   if (pass == RowPass::kSpeeds) refresh_axes(team, joints, step.h, 1, loaded);
   if (loaded) pass_on_loads(team, joints);
-  const RowTime time = {pass, step.h, step.inverse_h, step.joint.bias_rate,
-                        pass == RowPass::kSpeeds ? Real(0) : step.joint.give};
+  RowTime time = {pass, step.h, step.inverse_h, step.joint.bias_rate,
+                  pass == RowPass::kSpeeds ? Real(0) : step.joint.give};
+  if (touched) time.most_return = kMostReturn;
   for_single_joints(team, joints, [=](std::uint32_t j) { solve_axis_joint(view, j, time); });
   RowTime exact = time;
   exact.rate = step.joint_rate;

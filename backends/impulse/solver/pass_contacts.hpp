@@ -28,7 +28,7 @@ struct ContactPass {
     if (friction) solve_friction(contact, motion, wrench, held);
     push(contact, wrench, a, b);
     store_impulses(row, contact);
-    if (note_impacts) store_impact_speeds(row, contact);
+    if (note_impacts) store_noted(row, contact);
     if (noted == nullptr) return;
     PLUMB_UNROLL
     for (int i = 0; i < kHeld<P>; ++i) {

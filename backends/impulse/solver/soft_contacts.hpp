@@ -60,22 +60,24 @@ PLUMB_DEVICE void SoftContacts<kBelts, kMechanisms>::push_contacts(Team& team, c
   const bool friction = features.friction, impacts = features.restitution;
   const ImpactLaw law = impact_law(step, friction);
   std::uint32_t* about_to_strike = &counters->about_to_strike[substep % 2];
-  for_contacts<kBelts, kMechanisms>(team, contacts, solver, BodyUse::kVelocityWhereMoved,
-                                    [=](const auto& row, auto& contact, auto& a, auto& b) {
-                                      if (impacts && in_any_contact(is_about_to_strike(contact, a, b, law)))
-                                        atomic_max(about_to_strike, substep + 1);
-                                      const auto aim = aim_softly(contact, a, b, softness);
-                                      solve_contact_softly(contact, aim, a, b, friction);
-                                      close_pushed(contact);
-                                      store_impulses(row, contact);
-                                      if (final) add_up_impulses(row, contact.impulse);
-                                    });
+  const bool mechanisms = kMechanisms && solver.mechanisms.count != 0;
+  const BodyUse use = final ? BodyUse::kLastVelocityWhereMoved : BodyUse::kVelocityWhereMoved;
+  for_contacts<kBelts, kMechanisms>(team, contacts, solver, use, [=](const auto& row, auto& contact, auto& a, auto& b) {
+    contact.noted = contact.impulse[0];
+    if (mechanisms) store_noted(row, contact);
+    if (impacts && in_any_contact(is_about_to_strike(contact, a, b, law))) atomic_max(about_to_strike, substep + 1);
+    const auto aim = aim_softly(contact, a, b, softness);
+    solve_contact_softly(contact, aim, a, b, friction);
+    close_pushed(contact);
+    store_impulses(row, contact);
+    if (final) add_up_impulses(row, contact.impulse);
+  });
 }
 
 template <bool kBelts, bool kMechanisms>
 PLUMB_DEVICE void SoftContacts<kBelts, kMechanisms>::relax_contacts(Team& team) const {
   const bool friction = features.friction;
-  for_contacts<kBelts, kMechanisms>(team, contacts, solver, BodyUse::kVelocity,
+  for_contacts<kBelts, kMechanisms>(team, contacts, solver, BodyUse::kLastVelocity,
                                     [=](const auto& row, auto& contact, auto& a, auto& b) {
                                       solve_contact_softly(contact, aim_hard(contact), a, b, friction);
                                       store_impulses(row, contact);

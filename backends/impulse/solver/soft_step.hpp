@@ -29,7 +29,7 @@ struct StepSoftly : SoftContacts<kBelts, !Executor::kWarps || kJoints != JointCo
       }
       if constexpr (kJoints == JointCode::kAll) {
         warm_start_axes(team, joints, first, loads(), step);
-        solve_axes(team, joints, step, RowPass::kPlaces, !first && loads(), turn);
+        solve_axes(team, joints, step, RowPass::kPlaces, features.collision, !first && loads(), turn);
       }
       const bool relaxes = !step.relaxes_once || k + 1 == step.substeps;
       if (features.collision) {
@@ -54,7 +54,8 @@ struct StepSoftly : SoftContacts<kBelts, !Executor::kWarps || kJoints != JointCo
  private:
   PLUMB_DEVICE void hold_speeds(Team& team, const StepParameters& step, [[maybe_unused]] std::uint32_t& turn) const {
     if constexpr (kJoints == JointCode::kPlain) solve_mechanisms(team, joints, step, false, loads(), turn);
-    if constexpr (kJoints == JointCode::kAll) solve_axes(team, joints, step, RowPass::kSpeeds, loads(), turn);
+    if constexpr (kJoints == JointCode::kAll)
+      solve_axes(team, joints, step, RowPass::kSpeeds, features.collision, loads(), turn);
   }
   PLUMB_DEVICE bool loads() const { return features.collision && solver.mechanisms.count != 0; }
   /// Contacts are about to push mechanisms as a whole.

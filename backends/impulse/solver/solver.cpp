@@ -88,7 +88,7 @@ void Solver::prepare(Executor& executor, const ContactCache& cache, const Bodies
 void Solver::solve(Executor& executor, const Bodies& all, std::uint32_t body_count, const StepParameters* parameters,
                    StepCounters* counters, std::uint32_t pair_capacity, JointStore& joints) {
   const Count load = {&counters->largest_loop, contact_loop(slots_)};
-  const SolverStep step = {all,        bodies(all),   {rows(), counters, features_.belts},
+  const SolverStep step = {all,        bodies(all),   {rows(), counters, features_.belts, parameters},
                            body_count, features_,     parameters,
                            counters,   pair_capacity, joints.set(all, bodies(all), features_.gyroscopic)};
   const StepWork work = {step, pass_changes_.data(), split_.parts(), kind_, load, body_count / 2};

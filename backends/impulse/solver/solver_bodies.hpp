@@ -60,6 +60,21 @@ PLUMB_HD SolverBody<N> load_body(const SolverBodies& bodies, const std::uint32_t
   }
 }
 
+/// Brings the velocities before constraints in, of bodies that can be pushed; others move as they do.
+template <class N>
+PLUMB_HD void load_free_velocity(const SolverBodies& bodies, const std::uint32_t* indices, SolverBody<N>& body) {
+  for (std::uint32_t lane = 0; lane < sizeof(N) / sizeof(Real); ++lane) {
+    if (!(lane_of(body.inverse_mass, lane) > 0)) continue;
+    const FreeVelocity& free = bodies.free_velocity[indices[lane]];
+    lane_of(body.linear.x, lane) = free.linear.x;
+    lane_of(body.linear.y, lane) = free.linear.y;
+    lane_of(body.linear.z, lane) = free.linear.z;
+    lane_of(body.angular.x, lane) = free.angular.x;
+    lane_of(body.angular.y, lane) = free.angular.y;
+    lane_of(body.angular.z, lane) = free.angular.z;
+  }
+}
+
 /// Writes velocities back, of bodies that can be pushed only.
 template <class N>
 PLUMB_HD void store_body(const SolverBodies& bodies, const std::uint32_t* indices, const SolverBody<N>& body) {

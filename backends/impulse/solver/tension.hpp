@@ -1,12 +1,13 @@
 // What tension in joints asks of a body's inertia, so that a light link under a heavy load does not fly apart.
 //
 // A joint that pulls with F at an arm r turns its body back towards the line of the force: a spring of stiffness up to
-// |F| |r|, the geometric stiffness of the mechanism. It is taken as it was in the sub-step before, and such a spring is
-// stable only while its stiffness is below 4 I / h^2. So no moment is less than h^2 |F| |r|: what swings faster than a
-// sub-step can follow swings more slowly instead (Andrews, Teichmann, Kry, "Geometric Stiffness for Real-time
-// Constrained Multibody Dynamics", Eurographics 2017, section 4, bounds its diagonal likewise; Tournier et al., "Stable
-// Constrained Dynamics", SIGGRAPH 2015, on why it is needed). What turns slowly keeps its own inertia. About the arm,
-// too, though nothing pulls there: moments that differ much make energy where a body tumbles.
+// k = (F r + |F| |r|) / 2, the largest eigenvalue of the geometric stiffness; what pushes inward asks for nothing. It
+// is taken as it was in the sub-step before, and such a spring is stable only while its stiffness is below 4 I / h^2.
+// So no moment is less than the sum of h^2 k over a body's joints: what swings faster than a sub-step can follow swings
+// more slowly instead (Andrews, Teichmann, Kry, "Geometric Stiffness for Real-time Constrained Multibody Dynamics",
+// Eurographics 2017, section 4, bounds its diagonal likewise; Tournier et al., "Stable Constrained Dynamics", SIGGRAPH
+// 2015, on why it is needed). What turns slowly keeps its own inertia. About the arm, too, though nothing pulls there:
+// moments that differ much make energy where a body tumbles.
 //
 // Tension that comes at once, as where a rope snaps taut, is found by the very solve that it upsets: what that finds is
 // thrown away, and found again with the moments that it asks for.
@@ -25,21 +26,24 @@ inline constexpr Real kTensionFades = 1;
 inline constexpr Real kTensionGrows = Real(1.2);
 inline constexpr std::uint32_t kMostStiffenings = 2;
 
-/// What the tension in its joints asks for, h^2 |F| |r| of each, for the body at a place of the system; kg m2. changed:
-/// when the changes found have acted.
+/// What the tension in its joints asks for, for the body at a place of the system; kg m2. changed: when the changes
+/// found have acted.
 PLUMB_HD inline Real moment_by_tension(const JointSystem& system, std::uint32_t place, Real h, bool changed) {
+  const Quat orientation = system.view.end(system.bodies[place]).orientation;
   Real moment = 0;
   for (std::uint32_t k = system.body_first[place]; k < system.body_first[place + 1]; ++k) {
     const JointOnBody on = system.on_body[k];
     const Joint& joint = system.view.joints[on.joint];
+    const JointWork& work = system.view.work[on.joint];
     const Real* total = system.view.impulses[joint.slot].along;
-    const Real* change = system.view.work[on.joint].change;
-    Real pull = 0;
+    Vec pull = {0, 0, 0};
     for (int i = 0; i < row_count(joint); ++i) {
-      const Real impulse = changed ? total[i] + change[i] : total[i];
-      if ((joint.pulls >> i & 1U) != 0) pull = pull + impulse * impulse;
+      const Real impulse = changed ? total[i] + work.change[i] : total[i];
+      if ((joint.pulls >> i & 1U) != 0) pull += impulse * work.rows[i].direction;
     }
-    moment = moment + h * sqrt(pull * length_squared((on.is_b ? joint.frame_b : joint.frame_a).position));
+    const Vec arm = rotate(orientation, (on.is_b ? joint.frame_b : joint.frame_a).position);
+    const Real outward = on.is_b ? dot(pull, arm) : -dot(pull, arm);
+    moment = moment + h * max(Real(0), outward + sqrt(length_squared(pull) * length_squared(arm))) / 2;
   }
   return moment;
 }

@@ -49,7 +49,7 @@ struct OneContact {
       row.at[point_field(p, kNormalImpulse)] = real(0, 1);
       row.at[point_field(p, kTangentImpulse)] = real(-0.3, 0.3);
       row.at[point_field(p, kTangentImpulse) + 1] = real(-0.3, 0.3);
-      row.at[point_field(p, kImpactSpeed)] = kWaits / 2;
+      row.at[point_field(p, kNoted)] = kWaits / 2;
     }
     row.at[kTangentStep] = Real(1) / largest_slip;
     const NormalBlock normals(row, count, give, places);

@@ -1,6 +1,7 @@
 // Sleeping: who falls asleep and who wakes, and that nobody who is awake can tell.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <deque>
 #include <numeric>
@@ -68,6 +69,36 @@ TEST_F(Asleep, ATowerFallsAsleepAsOneAndLiesStill) {
   }
   EXPECT_EQ(scene.hash(), still);
   EXPECT_EQ(scene.world().contacts().size(), points) << "sleepers still touch";
+}
+
+/// Contacts of a colour are solved at once, and so none of them may push what another pushes.
+void expect_colours_apart(Scene& scene, PlumbBody body) {
+  std::span<const PlumbDebugConstraint> constraints;
+  check(scene.world(), scene.world().debug()->solved_constraints(constraints));
+  std::vector<std::int32_t> colours;
+  for (const PlumbDebugConstraint& each : constraints)
+    if (each.body_a == body || each.body_b == body) colours.push_back(each.colour);
+  std::ranges::sort(colours);
+  EXPECT_TRUE(std::ranges::adjacent_find(colours) == colours.end()) << ::testing::PrintToString(colours);
+}
+
+TEST_F(Asleep, WhatComesToTouchASleeperHasAColourOfItsOwnWhenItWakes) {
+  scene.ground();
+  const PlumbBody crate = scene.add(scene.box({0.5, 0.5, 0.5}), {0, 0.5, 0});
+  let_sleep({crate});
+  const PlumbBody pusher = scene.add_kinematic(scene.box({0.5, 0.4, 0.5}), {-1, 0.5, 0});
+  int pushed = 0;
+  for (int step = 0; step < 60; ++step) {
+    if (step >= 10) scene.target(pusher, {-1 + 0.01 * (step - 9), 0.5, 0});
+    scene.run(1);
+    const bool awake = is_awake(scene, crate);
+    if (step < 10) {
+      EXPECT_FALSE(awake) << "what stands beside it lets it sleep";
+    }
+    if (pushed > 0) expect_colours_apart(scene, crate);
+    pushed += awake ? 1 : 0;
+  }
+  EXPECT_GT(pushed, 40);
 }
 
 TEST_F(Asleep, WakingKeepsTheImpulses) {
