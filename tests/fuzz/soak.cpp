@@ -11,6 +11,7 @@
 #include <fstream>
 #include <map>
 #include <random>
+#include <set>
 #include <vector>
 
 #include "plumb/loader.hpp"
@@ -67,6 +68,7 @@ class Soak {
     check(*world_, world_->wait(report));
     if (report.nonfinite != 0) broken("a body that is not finite", number);
     read_events(number);
+    look_at_colours(number);
     clear_away(number);
     slept_ += report.awake < bodies_.size();
   }
@@ -222,6 +224,33 @@ class Soak {
     }
     if (ended_ > begun_) broken("more touches ended than begun", number);
   }
+  /// Contacts of a colour are solved at once: no two of them may push the same body. Only who was awake before the step
+  /// as well as after it was pushed in it for certain.
+  void look_at_colours(std::uint64_t number) {
+    IDebug* const debug = world_->debug();
+    if (debug == nullptr || !tells_colours_) return;
+    std::span<const PlumbDebugBody> bodies;
+    std::span<const PlumbDebugConstraint> constraints;
+    try {
+      check(*world_, debug->body_states(bodies));
+      check(*world_, debug->solved_constraints(constraints));
+    } catch (const Error&) {
+      tells_colours_ = false;
+      return;
+    }
+    std::set<PlumbBody> awake;
+    for (const PlumbDebugBody& each : bodies)
+      if (each.asleep == 0 && (each.body == door_ || std::ranges::find(bodies_, each.body) != bodies_.end()))
+        awake.insert(each.body);
+    std::set<std::pair<std::int32_t, PlumbBody>> pushed;
+    for (const PlumbDebugConstraint& each : constraints) {
+      if (each.colour < 0 || each.joint != 0) continue;
+      for (const PlumbBody body : {each.body_a, each.body_b})
+        if (awake.contains(body) && awake_.contains(body) && !pushed.emplace(each.colour, body).second)
+          broken("two contacts of a colour that push the same body", number);
+    }
+    awake_ = std::move(awake);
+  }
   /// What has left the box is taken away.
   void clear_away(std::uint64_t number) {
     if (bodies_.empty()) return;
@@ -245,6 +274,8 @@ class Soak {
   PlumbBody pusher_ = 0, door_ = 0;
   PlumbJoint hinge_ = 0;
   double aim_ = 3;
+  bool tells_colours_ = true;
+  std::set<PlumbBody> awake_;
   std::vector<PlumbBody> bodies_;
   std::map<PlumbJoint, std::pair<PlumbBody, PlumbBody>> joined_;
   std::uint64_t came_ = 0, went_ = 0, broke_ = 0, slept_ = 0, begun_ = 0, ended_ = 0;

@@ -14,7 +14,8 @@ struct CachedManifold {
   Vec normal, tangent;
   std::uint32_t count;
   std::uint32_t colour;
-  std::uint32_t owner_a, owner_b;  ///< who stood for its bodies when it was coloured
+  /// Who stood for its bodies when it was coloured; kNone for one that was not pushed then, and may be when it wakes.
+  std::uint32_t owner_a, owner_b;
   std::uint32_t feature[kManifoldPoints];
   Real normal_impulse[kManifoldPoints];      ///< N s over the last sub-step
   Real tangent_impulse[2][kManifoldPoints];  ///< along tangent and along cross(normal, tangent)

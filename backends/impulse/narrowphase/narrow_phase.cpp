@@ -71,8 +71,8 @@ struct Match {
     kept.tangent = perpendicular(found.normal);
     kept.count = found.count;
     kept.colour = kNone;
-    kept.owner_a = mechanisms.owner(a.body);
-    kept.owner_b = mechanisms.owner(b.body);
+    kept.owner_a = pushed_owner(a.body);
+    kept.owner_b = pushed_owner(b.body);
     for (std::uint32_t i = 0; i < kManifoldPoints; ++i) {
       kept.feature[i] = i < found.count ? found.points[i].feature : 0;
       kept.normal_impulse[i] = kept.tangent_impulse[0][i] = kept.tangent_impulse[1][i] = 0;
@@ -87,11 +87,14 @@ struct Match {
     atomic_add(&counters->points, kept.count);
     if (kept.colour == kNone) return;
     const std::uint64_t bit = std::uint64_t{1} << kept.colour;
-    if (bodies.velocity[a.body].inverse_mass > 0) atomic_or(&masks[kept.owner_a], bit);
-    if (bodies.velocity[b.body].inverse_mass > 0) atomic_or(&masks[kept.owner_b], bit);
+    if (kept.owner_a != kNone) atomic_or(&masks[kept.owner_a], bit);
+    if (kept.owner_b != kNone) atomic_or(&masks[kept.owner_b], bit);
   }
 
  private:
+  PLUMB_HD std::uint32_t pushed_owner(std::uint32_t body) const {
+    return bodies.velocity[body].inverse_mass > 0 ? mechanisms.owner(body) : kNone;
+  }
   /// Impulses of points that are still there; those across the normal keep their direction in the world.
   PLUMB_HD static void remember(const CachedManifold& old, CachedManifold& kept) {
     if (old.colour < kOverflow && old.owner_a == kept.owner_a && old.owner_b == kept.owner_b) kept.colour = old.colour;
