@@ -242,29 +242,5 @@ TEST(Impacts, OfACradleOnRodsKeepItsEnergy) {
   EXPECT_NEAR(highest_of_last / drop, 1, 0.01);
 }
 
-/// What a fixed joint draws together strikes itself, and cannot be thrown back: nothing gives way between the two.
-TEST(Impacts, OfWhatIsFixedTogetherLeaveItWhole) {
-  for (const double apart : {0.3, 1.0, 3.0})
-    for (const double frames : {0.1, 0.2, 0.3, 0.5}) {
-      Scene scene(engine(), kNeeds | PLUMB_NEED_JOINTS, {0, -9.81, 0}, 1);
-      scene.ground();
-      scene.body.material.restitution = 0.8;
-      const PlumbShape box = scene.box({0.3, 0.2, 0.4});
-      PlumbJointDesc fixed = joint_desc(PLUMB_JOINT_FIXED);
-      fixed.body_a = scene.add(box, {0, 1, 0});
-      fixed.body_b = scene.add(box, {0.1, 1 + apart, 0.05});
-      fixed.frame_a.position = {0, frames, 0};
-      fixed.frame_b.position = {0, -frames, 0};
-      PlumbJoint id = 0;
-      check(scene.world(), scene.world().joints()->create_joints({&fixed, 1}, {&id, 1}));
-      for (int step = 0; step < 300; ++step) {
-        check(scene.world(), scene.world().step(1.0 / 60));
-        PlumbStepReport report{};
-        check(scene.world(), scene.world().wait(report));
-        ASSERT_EQ(report.nonfinite, 0U) << apart << ", " << frames << ", step " << step;
-      }
-    }
-}
-
 }  // namespace
 }  // namespace plumb::impulse::test
