@@ -33,10 +33,6 @@ void DraftFile::write(const std::string& bytes) {
     if (count < 0) fail(errno);
     written += static_cast<std::size_t>(count);
   }
-  move_in();
-}
-
-void DraftFile::move_in() {
   if (std::rename(draft_.c_str(), file_.c_str()) != 0) fail(errno);
   close(descriptor_);
   descriptor_ = -1;

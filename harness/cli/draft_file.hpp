@@ -17,10 +17,6 @@ class DraftFile {
   /// All of the file, once. Throws UsageError likewise.
   void write(const std::string& bytes);
 
-  /// Where others write the file, for move_in to move it into its place.
-  [[nodiscard]] const std::string& draft() const { return draft_; }
-  void move_in();
-
  private:
   [[noreturn]] void fail(int error) const;
 

@@ -123,8 +123,7 @@ int write_problem(const ProblemOptions& options) {
   if (!options.backend.empty()) file.description += "; state by " + options.backend;
   file.math_info = fmt::format("dt {} s; W = H M^-1 H', q = H v_free + gap / dt", scene.dt);
   if (solution.converged) file.impulse = solution.impulse;
-  reference::write_fclib(out.draft(), file);
-  out.move_in();
+  out.write(reference::fclib_bytes(file));
   if (options.json) {
     Json json = json_of(solution);
     json["scene"] = scene.id;

@@ -143,10 +143,10 @@ FclibProblem read_fclib(const std::filesystem::path& path) {
   return result;
 }
 
-void write_fclib(const std::filesystem::path& path, const FclibProblem& given) {
+std::string fclib_bytes(const FclibProblem& given) {
   const ContactProblem& problem = given.problem;
   const auto size = static_cast<int>(problem.q.size());
-  Hdf5File file = Hdf5File::create(path);
+  Hdf5File file = Hdf5File::in_memory();
   file.put("/fclib_local/spacedim", 3);
   std::vector<int> starts{0}, rows;
   std::vector<double> values;
@@ -174,6 +174,7 @@ void write_fclib(const std::filesystem::path& path, const FclibProblem& given) {
     file.put("/solution/u", numbers_of(problem.velocity(*given.impulse)));
     file.put("/solution/r", numbers_of(*given.impulse));
   }
+  return file.bytes();
 }
 
 }  // namespace plumb::reference

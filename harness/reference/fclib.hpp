@@ -30,8 +30,7 @@ struct FclibProblem {
 /// group or data set that is missing, sizes that do not fit, a singular R, more than 2000 contacts.
 [[nodiscard]] FclibProblem read_fclib(const std::filesystem::path& file);
 
-/// Writes a local problem, with its solution where there is one, over whatever the file held. Throws std::runtime_error
-/// when it cannot be written.
-void write_fclib(const std::filesystem::path& file, const FclibProblem& problem);
+/// All of the file of a local problem, with its solution where there is one.
+[[nodiscard]] std::string fclib_bytes(const FclibProblem& problem);
 
 }  // namespace plumb::reference

@@ -6,6 +6,7 @@ namespace plumb::reference {
 namespace {
 
 constexpr hsize_t most_numbers = 100'000'000;
+constexpr std::size_t memory_increment = 1 << 20;
 
 /// A handle of the library's, closed at the end.
 struct Handle {
@@ -39,11 +40,14 @@ Hdf5File Hdf5File::open(const std::filesystem::path& file) {
   return {id, file};
 }
 
-Hdf5File Hdf5File::create(const std::filesystem::path& file) {
+Hdf5File Hdf5File::in_memory() {
   keep_quiet();
-  const hid_t id = H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
-  if (id < 0) fail_of(file, "the file cannot be written: is its folder there, and yours?");
-  return {id, file};
+  const std::filesystem::path name = "an HDF5 file in memory";
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  H5Pset_fapl_core(access.id, memory_increment, false);
+  const hid_t id = H5Fcreate(name.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id);
+  if (id < 0) fail_of(name, "it cannot be made");
+  return {id, name};
 }
 
 Hdf5File::~Hdf5File() { H5Fclose(id_); }
@@ -116,6 +120,14 @@ void Hdf5File::put(const std::string& path, const std::string& text) {
   const Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
   H5Tset_size(type.id, text.size() + 1);
   write(path, type.id, text.c_str(), 1, true);
+}
+
+std::string Hdf5File::bytes() const {
+  const ssize_t size = H5Fflush(id_, H5F_SCOPE_GLOBAL) < 0 ? -1 : H5Fget_file_image(id_, nullptr, 0);
+  if (size < 0) fail("it cannot be completed");
+  std::string image(static_cast<std::size_t>(size), '\0');
+  if (H5Fget_file_image(id_, image.data(), image.size()) != size) fail("it cannot be read back");
+  return image;
 }
 
 }  // namespace plumb::reference

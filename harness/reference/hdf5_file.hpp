@@ -13,7 +13,8 @@ namespace plumb::reference {
 class Hdf5File {
  public:
   static Hdf5File open(const std::filesystem::path& file);
-  static Hdf5File create(const std::filesystem::path& file);
+  /// An empty one on no disk, to be filled: the library cannot close a file whose last bytes found no room.
+  static Hdf5File in_memory();
   ~Hdf5File();
   Hdf5File(const Hdf5File&) = delete;
   Hdf5File& operator=(const Hdf5File&) = delete;
@@ -29,6 +30,8 @@ class Hdf5File {
   void put(const std::string& path, const std::vector<double>& values);
   void put(const std::string& path, int value) { put(path, std::vector<int>{value}); }
   void put(const std::string& path, const std::string& text);
+
+  [[nodiscard]] std::string bytes() const;  ///< the file as it is now
 
   [[noreturn]] void fail(const std::string& what) const;
 

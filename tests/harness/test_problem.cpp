@@ -1,6 +1,8 @@
 // plumb problem writes what plumb solve reads, and both say what is asked wrongly.
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
+#include <csignal>
 #include <fstream>
 
 #include "program.hpp"
@@ -41,6 +43,41 @@ TEST(Problem, says_what_is_asked_wrongly) {
   expect({"solve", out}, "there is no such file");
   std::ofstream(folder / "text.hdf5") << "no";
   expect({"solve", (folder / "text.hdf5").string()}, "this is no HDF5 file");
+}
+
+/// Programs started meanwhile can write no more than this into a file, as on a disk without room.
+class LittleRoom {
+ public:
+  explicit LittleRoom(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    getrlimit(RLIMIT_FSIZE, &limit_);
+    const rlimit little = {bytes, limit_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &little);
+  }
+  ~LittleRoom() {
+    setrlimit(RLIMIT_FSIZE, &limit_);
+    std::signal(SIGXFSZ, handler_);
+  }
+  LittleRoom(const LittleRoom&) = delete;
+  LittleRoom& operator=(const LittleRoom&) = delete;
+
+ private:
+  void (*handler_)(int);
+  rlimit limit_{};
+};
+
+TEST(Problem, that_has_no_room_leaves_what_was_there_and_says_so) {
+  const std::filesystem::path folder = fresh_folder("problem-room");
+  const std::filesystem::path file = folder / "d7.hdf5";
+  std::ofstream(file) << "before";
+  Finished run;
+  {
+    const LittleRoom room(1024);
+    run = plumb({"problem", "D7", "--out", file.string()});
+  }
+  EXPECT_EQ(run.status, 2);
+  EXPECT_NE(run.err.find("cannot write " + file.string() + ": File too large"), std::string::npos) << run.err;
+  EXPECT_EQ(std::filesystem::file_size(file), 6u);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder), std::filesystem::directory_iterator()), 1);
 }
 
 }  // namespace

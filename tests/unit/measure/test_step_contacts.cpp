@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 
 #include "measure/reference_score.hpp"
 #include "measure/step_contacts.hpp"
@@ -72,7 +73,7 @@ TEST(StepContacts, FourSpheresThroughAFile) {
   reference::FclibProblem file;
   file.problem = step.problem.problem();
   file.impulse = step.solution.impulse;
-  reference::write_fclib(path, file);
+  std::ofstream(path, std::ios::binary) << reference::fclib_bytes(file);
   const reference::FclibProblem read = reference::read_fclib(path);
   const reference::Solution again = reference::solve(read.problem);
   ASSERT_TRUE(again.converged);
