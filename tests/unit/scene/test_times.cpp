@@ -2,6 +2,8 @@
 // and parameters holds at all that may be asked for.
 #include <gtest/gtest.h>
 
+#include <span>
+
 #include "scene/catalogue.hpp"
 
 namespace plumb::harness {
@@ -51,6 +53,33 @@ TEST(Times, GoldIsNoWorseThanAPassAtTheEndsOfEveryParameter) {
         }
       }
     }
+  }
+}
+
+std::vector<ParameterValue> ends_of(const ParameterSpec& spec) {
+  std::vector<ParameterValue> ends(spec.choices.begin(), spec.choices.end());
+  if (spec.minimum) ends.emplace_back(*spec.minimum);
+  if (spec.maximum) ends.emplace_back(*spec.maximum);
+  return ends;
+}
+
+void expect_loads_at_the_ends(const SceneFile& file, std::span<const ParameterSpec> specs, const Parameters& given) {
+  for (const ParameterSpec& spec : specs) {
+    for (const ParameterValue& end : ends_of(spec)) {
+      Parameters parameters = given;
+      parameters[spec.name] = end;
+      EXPECT_EQ(refusal(file, parameters, {}), "") << spec.name;
+    }
+  }
+}
+
+TEST(Times, EverySceneLoadsAtTheEndsOfEveryParameterAndOfEveryTwo) {
+  for (const SceneFile& file : all_scenes()) {
+    std::span<const ParameterSpec> specs = file.parameters;
+    for (const Parameters& variant : file.variants) expect_loads_at_the_ends(file, specs, variant);
+    for (; !specs.empty(); specs = specs.subspan(1))
+      for (const ParameterValue& end : ends_of(specs[0]))
+        expect_loads_at_the_ends(file, specs.subspan(1), {{specs[0].name, end}});
   }
 }
 
