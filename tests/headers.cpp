@@ -1,0 +1,1 @@
+// Nothing but a file to compile others' headers for: tests/CMakeLists.txt names them.
