@@ -108,6 +108,7 @@ class Simulation {
 
   /// How the steps to come find pairs; changes no result.
   void choose(BroadPhase::Method method);
+  [[nodiscard]] const BroadPhase& broad_phase() const { return broad_phase_; }
   /// Enqueues a step. parameters.step and .origin are filled in here.
   void step(const StepParameters& parameters, const ShorterSubsteps& shorter);
   /// Returns when the step is done; grows what was too small and repeats the step then.

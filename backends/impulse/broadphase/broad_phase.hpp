@@ -62,6 +62,14 @@ class BroadPhase {
     if (tree == Tree::kStatics) return statics_.nodes();
     return movers_ ? movers_->nodes() : std::vector<TreeNode>();
   }
+  /// Which of the parts that not every method uses are there; one that is not holds no memory.
+  struct Parts {
+    bool tree = false, sweep = false, grid = false, order = false;
+    bool operator==(const Parts&) const = default;
+  };
+  [[nodiscard]] Parts parts() const {
+    return {movers_.has_value(), sweep_.has_value(), grid_.has_value(), order_.has_value()};
+  }
 
  private:
   void list_of_tree(Executor& executor, const PairFilter& filter, Pair* pairs, PairRange* ranges_by_proxy,

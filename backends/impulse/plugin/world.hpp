@@ -51,6 +51,7 @@ class World final : public IPhysicsWorld,
 
   /// Of the last step.
   [[nodiscard]] const StepCounters& counters() const { return simulation_.counters(); }
+  [[nodiscard]] const BroadPhase& broad_phase() const { return simulation_.broad_phase(); }
   /// To where kernels run, since the world was made.
   [[nodiscard]] std::uint64_t uploaded_bytes() { return simulation_.executor().uploaded_bytes(); }
 

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "engine.hpp"
+#include "plugin/world.hpp"
 
 namespace plumb::impulse::test {
 namespace {
@@ -78,6 +79,59 @@ TEST_P(BroadPhases, GiveTheSameBits) {
     in_turns->run(5);
   }
   EXPECT_EQ(in_turns->hash(), hash) << "in turns";
+}
+
+/// 300 balls that touch their neighbours, in a world that is stepped.
+class Balls {
+ public:
+  Balls() : world_(world_init()) {
+    PlumbShapeDesc ball = shape_desc(PLUMB_SPHERE);
+    ball.radius = 0.6;
+    PlumbShape shape = 1;
+    (void)world_.create_shapes({&ball, 1}, {&shape, 1});
+    std::vector<PlumbBodyDesc> descs(300, body_desc());
+    std::vector<PlumbBody> ids(descs.size());
+    for (std::size_t i = 0; i < descs.size(); ++i) {
+      descs[i].shape = shape;
+      descs[i].mass_mode = PLUMB_MASS_EXPLICIT;
+      descs[i].mass = 1;
+      descs[i].inertia = {1, 1, 1};
+      descs[i].pose.position = {static_cast<double>(i % 20), static_cast<double>(i / 20), 0};
+      ids[i] = i;
+    }
+    (void)world_.create_bodies(descs, ids);
+  }
+  BroadPhase::Parts parts_after_steps_with(const char* method) {
+    (void)world_.settings()->set_setting("broad_phase", {PLUMB_SETTING_CHOICE, 0, 0, method});
+    for (int step = 0; step < 3; ++step) {
+      PlumbStepReport report{};
+      (void)world_.step(1.0 / 60);
+      (void)world_.wait(report);
+    }
+    EXPECT_GT(world_.counters().pairs, 300U) << method;
+    return world_.broad_phase().parts();
+  }
+
+ private:
+  static WorldInit world_init() {
+    static const std::vector<PlumbSettingInfo> infos(World::setting_infos().begin(), World::setting_infos().end());
+    WorldInit init{world_desc(PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION), nullptr, infos, {}};
+    for (const PlumbSettingInfo& info : infos) init.values.push_back(info.default_value);
+    return init;
+  }
+
+  World world_;
+};
+
+TEST(BroadPhaseSetting, OnlyWhatIsChosenHoldsMemory) {
+  const std::pair<const char*, BroadPhase::Parts> methods[] = {
+      {"lbvh", {.tree = true}}, {"sweep", {.sweep = true, .order = true}}, {"grid", {.grid = true, .order = true}}};
+  Balls in_turns;
+  for (const auto& [method, parts] : methods) {
+    if (!is_offered(method)) continue;
+    EXPECT_EQ(Balls().parts_after_steps_with(method), parts) << method;
+    EXPECT_EQ(in_turns.parts_after_steps_with(method), parts) << method << ", after others";
+  }
 }
 
 std::vector<NamedScene> scenes() {
