@@ -5,6 +5,7 @@
 
 #include <bit>
 #include <limits>
+#include <memory>
 
 #include "engine.hpp"
 #include "plugin/decorated_tables.hpp"
@@ -46,6 +47,7 @@ class Digest {
   void add(double number) {
     add(std::bit_cast<std::uint64_t>(number == number ? number : std::numeric_limits<double>::quiet_NaN()));
   }
+  void add(std::int32_t number) { add(static_cast<std::uint64_t>(number)); }
   void add(const PlumbVec3& v) {
     for (const double x : {v.x, v.y, v.z}) add(x);
   }
@@ -105,6 +107,69 @@ void ask_what_the_engine_sees(Scene& scene, Digest& digest) {
   }
 }
 
+void ask_how_it_solved(Scene& scene, Digest& digest) {
+  IDebug& debug = *scene.world().debug();
+  std::span<const PlumbDebugPair> pairs;
+  std::span<const PlumbDebugBody> bodies;
+  std::span<const PlumbDebugConstraint> constraints;
+  check(scene.world(), debug.candidate_pairs(pairs));
+  for (const PlumbDebugPair& pair : pairs) {
+    digest.add(pair.body_a);
+    digest.add(pair.body_b);
+  }
+  check(scene.world(), debug.body_states(bodies));
+  for (const PlumbDebugBody& body : bodies) {
+    digest.add(body.body);
+    digest.add(body.island);
+  }
+  digest.add(debug.solved_constraints(constraints));  // not every solver has colours
+  for (const PlumbDebugConstraint& constraint : constraints) {
+    digest.add(constraint.body_a);
+    digest.add(constraint.body_b);
+    digest.add(constraint.joint);
+    digest.add(constraint.colour);
+  }
+}
+
+template <class T>
+void add_numbers(const PlumbDLTensor& tensor, Digest& digest) {
+  const auto count = static_cast<std::size_t>(tensor.shape[0] * tensor.shape[1]);
+  for (const T x : std::span(static_cast<const T*>(tensor.data), count)) digest.add(static_cast<double>(x));
+}
+
+void borrow_rows(Scene& scene, Digest& digest) {
+  IState& state = *scene.world().state();
+  for (const PlumbField field : {PLUMB_FIELD_POSE, PLUMB_FIELD_VELOCITY}) {
+    PlumbDLManagedTensor* tensor = nullptr;
+    check(scene.world(), state.borrow({sizeof(PlumbStateRequest), field, 1, 1}, tensor, nullptr));
+    const std::unique_ptr<PlumbDLManagedTensor, void (*)(PlumbDLManagedTensor*)> lent(tensor, tensor->deleter);
+    if (lent->dl_tensor.dtype.bits == 64)
+      add_numbers<double>(lent->dl_tensor, digest);
+    else
+      add_numbers<float>(lent->dl_tensor, digest);
+  }
+  std::span<const PlumbBody> rows;
+  std::uint64_t generation = 0;
+  check(scene.world(), state.row_map(rows, generation));
+  for (const PlumbBody body : rows) digest.add(body);
+}
+
+/// The first body goes through all others for a while.
+void except_pairs(Scene& scene, Digest& digest) {
+  IExceptions& exceptions = *scene.world().exceptions();
+  const std::span<const PlumbBody> bodies = scene.world().bodies();
+  std::vector<PlumbBodyPair> pairs;
+  for (const PlumbBody body : bodies.subspan(1)) pairs.push_back({bodies[0], body});
+  for (const bool touch : {false, true}) {
+    check(scene.world(), exceptions.set_exceptions(pairs, touch));
+    std::span<const PlumbBodyPair> listed;
+    check(scene.world(), exceptions.list_exceptions(listed));
+    for (const PlumbBodyPair& pair : listed) digest.add(pair.body_b);
+    scene.run(3);
+    digest.add(scene.hash());
+  }
+}
+
 void read_rows(Scene& scene, Digest& digest) {
   for (const PlumbField field : {PLUMB_FIELD_MASS, PLUMB_FIELD_POSE, PLUMB_FIELD_VELOCITY}) {
     for (const PlumbBody body : scene.world().bodies()) {
@@ -140,9 +205,12 @@ std::uint64_t digest_of(const NamedScene& recorded, std::uint32_t mode) {
     ask_queries(*scene, digest);
     ask_what_the_engine_sees(*scene, digest);
   }
+  ask_how_it_solved(*scene, digest);
+  borrow_rows(*scene, digest);
   check(scene->world(), scene->world().set_gravity({0.1, -9.7, 0.3}));
   check(scene->world(), scene->world().snapshot()->restore(saved));
   digest.add(scene->hash());
+  except_pairs(*scene, digest);
   HostMode::mode = kNearest;
   return digest.value();
 }
