@@ -1,5 +1,6 @@
 // Whether a cost grows as its cause does: each of these is measured at four sizes, and what one item of it costs is
-// held against what it costs at the smallest. A ratio of 1 is flat; the table at the end marks what is above 2.
+// held against what it costs at the smallest. A ratio of 1 is flat; the table at the end marks what is above 2, and the
+// last line names it. With --strict it is exit status 1.
 //
 //   kinematic_targets   writing a target for each of n kinematic bodies, per body
 //   step_after_destroy  the step after one joint of n, in chains of ten, was destroyed, per joint
@@ -8,9 +9,11 @@
 //   mixed_sizes         a step of n kinematic balls of radii over three decades, which is little but its broad phase,
 //                       per ball
 //
-// usage: bench_scaling [BACKEND [KEY=CHOICE]...] [--benchmark_...]     BACKEND: a name or a file; by itself impulse
+// usage: bench_scaling [BACKEND [KEY=CHOICE]...] [--strict] [--benchmark_...]
+// BACKEND: a name or a file; by itself impulse
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -261,19 +264,41 @@ class Costs : public benchmark::ConsoleReporter {
     for (const auto& [family, costs] : costs_) {
       std::printf("%-20s", family->name);
       for (const double cost : costs) std::printf(" %11.1f", cost);
-      const double ratio = costs.back() / costs.front();
-      std::printf("  %6.2f%s\n", ratio, ratio > 2 ? "  above 2" : "");
+      const bool steep = growth(costs) > kFlat;
+      std::printf("  %6.2f%s\n", growth(costs), steep ? "  above 2" : "");
+      if (steep) steep_ += std::string(" ") + family->name;
     }
+    const bool compares =
+        std::any_of(costs_.begin(), costs_.end(), [](const auto& entry) { return entry.second.size() > 1; });
+    if (!is_flat())
+      std::printf("not within 2x of flat:%s\n", steep_.c_str());
+    else
+      std::printf(compares ? "all are within 2x of flat\n" : "nothing was measured at two sizes\n");
   }
+  [[nodiscard]] bool is_flat() const { return steep_.empty(); }
 
  private:
+  static constexpr double kFlat = 2;
+  static double growth(const std::vector<double>& costs) { return costs.back() / costs.front(); }
+
+  std::string steep_;  // names of those that are not flat
   std::map<const Family*, std::vector<double>> costs_;
 };
+
+/// Whether the word is among the arguments, of which it is none any more.
+bool take(const char* word, int& argc, char** argv) {
+  char** const end =
+      std::remove_if(argv + 1, argv + argc, [&](const char* argument) { return std::strcmp(argument, word) == 0; });
+  const bool found = end != argv + argc;
+  argc = static_cast<int>(end - argv);
+  return found;
+}
 
 }  // namespace
 
 int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
+  const bool strict = take("--strict", argc, argv);
   try {
     Engine engine{plumb::open_backend(argc > 1 ? argv[1] : IMPULSE_LIBRARY), {}};
     for (int i = 2; i < argc; ++i) {
@@ -297,6 +322,7 @@ int main(int argc, char** argv) {
     }
     Costs costs;
     benchmark::RunSpecifiedBenchmarks(&costs);
+    return strict && !costs.is_flat() ? 1 : 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "bench_scaling: %s\n", error.what());
     return 1;
