@@ -33,7 +33,7 @@ struct Lanes {
   Vector v;
 
   Lanes() = default;
-  constexpr explicit Lanes(Vector lanes) : v(lanes) {}
+  constexpr explicit Lanes(const Vector& lanes) : v(lanes) {}
   constexpr explicit Lanes(Real x) : v(Vector{} + x) {}
   constexpr explicit Lanes(int x) : Lanes(static_cast<Real>(x)) {}
 };
