@@ -28,7 +28,7 @@ Planes planes_of(const std::vector<std::int32_t>& numbers) {
   return planes;
 }
 
-int bits_of(std::int32_t number) { return std::bit_width(zigzag(number)); }
+int bits_of(std::int32_t number) { return static_cast<int>(std::bit_width(zigzag(number))); }
 
 std::int32_t rounded_float(float value, int mantissa_bits, float least) {
   if (std::abs(value) < least) return 0;

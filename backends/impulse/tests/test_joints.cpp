@@ -53,7 +53,7 @@ TEST(Joints, HingeKeepsItsPlaceAndItsAxisAtHighSpeed) {
   for (int i = 0; i < 300; ++i) {
     rig.step();
     const auto at = rig.coordinates(axle);
-    for (const std::size_t axis : {0, 1, 2, 4, 5}) EXPECT_NEAR(at[axis], 0, 2e-3) << axis;
+    for (const std::size_t axis : {0U, 1U, 2U, 4U, 5U}) EXPECT_NEAR(at[axis], 0, 2e-3) << axis;
   }
   EXPECT_GT(std::abs(rig.speed(wheel).angular.z), 25);
 }
