@@ -188,6 +188,62 @@ test('an engine has the same hue whatever is beside it', async () => {
   assert.equal(new Set(Object.values(many)).size, Object.keys(many).length, 'and none has another one\'s');
 });
 
+test('every tick of a diagram says its value', () =>
+  visit(one, async (page) => {
+    for (const id of ['precision', 'scaling']) {
+      await goTo(page, id);
+      await page.waitForSelector(`#${id} svg.plot`);
+      const plots = await page.evaluate((name) =>
+        [...document.querySelectorAll(`#${name} svg.plot`)].map((plot) => ({
+          title: plot.getAttribute('aria-label'),
+          ticks: plot.querySelectorAll('g[aria-label$="axis tick"] path').length,
+          labels: [...plot.querySelectorAll('g[aria-label$="axis tick label"] text')].filter((label) => label.textContent).length,
+        })), id);
+      assert.ok(plots.length > 2);
+      for (const { title, ticks, labels } of plots) assert.equal(labels, ticks, title);
+    }
+  }));
+
+test('text can be read, in light and dark', async () => {
+  for (const colorScheme of ['light', 'dark'])
+    await visit(
+      one,
+      async (page) => {
+        for (const id of ['answers', 'engines', 'cost', 'seeds', 'times', 'needs', 'runs']) {
+          if (id !== 'answers' && id !== 'engines') await goTo(page, id);
+          await settle(page);
+          const faint = await page.evaluate((name) => {
+            const pen = Object.assign(document.createElement('canvas'), { width: 1, height: 1 }).getContext('2d', { willReadFrequently: true });
+            const parts = (colour) => {
+              pen.clearRect(0, 0, 1, 1);
+              pen.fillStyle = colour;
+              pen.fillRect(0, 0, 1, 1);
+              const [r, g, b, a] = pen.getImageData(0, 0, 1, 1).data;
+              return [r, g, b, a / 255];
+            };
+            const over = (top, below) => below.map((c, i) => top[i] * top[3] + c * (1 - top[3]));
+            const light = (colour) => colour.reduce((sum, c, i) => sum + [0.2126, 0.7152, 0.0722][i] * (c <= 10 ? c / 255 / 12.92 : ((c / 255 + 0.055) / 1.055) ** 2.4), 0);
+            const found = new Set();
+            for (const e of document.getElementById(name).querySelectorAll('*')) {
+              if (e instanceof SVGElement || !e.offsetParent || ![...e.childNodes].some((n) => n.nodeType === 3 && n.data.trim())) continue;
+              const lineage = [];
+              for (let at = e; at; at = at.parentElement) lineage.push(getComputedStyle(at));
+              const ground = lineage.map((style) => parts(style.backgroundColor)).reduceRight((below, top) => over(top, below), [255, 255, 255]),
+                ink = parts(lineage[0].color);
+              ink[3] *= lineage.reduce((all, style) => all * Number(style.opacity), 1);
+              const [a, b] = [light(over(ink, ground)), light(ground)],
+                contrast = (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05);
+              if (contrast < 4.5) found.add(`${contrast.toFixed(1)}: ${e.tagName} ${e.className} "${e.textContent.trim().slice(0, 20)}"`);
+            }
+            return [...found];
+          }, id);
+          assert.deepEqual(faint, [], `${id}, ${colorScheme}`);
+        }
+      },
+      { colorScheme },
+    );
+});
+
 test('every section folds, by keyboard', () =>
   visit(one, async (page) => {
     for (const fold of await page.locator('main section > details.fold').all()) {

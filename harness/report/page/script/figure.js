@@ -4,7 +4,7 @@ import { looksOf } from './looks.js';
 import { drawPlot, seriesKey } from './plot.js';
 import { whileInSight } from './sight.js';
 
-const kWidest = 620,
+const kWidest = 720,
   kShown = 12; // series that a legend names unasked
 
 /** Series by name, once each, where there is more than one. */

@@ -7,6 +7,9 @@ import { short } from './numbers.js';
 const kRadius = 4.2,
   kReach = 36; // px from the pointer to the nearest point
 const kPaper = 'var(--paper)';
+const kMargin = { marginLeft: 54, marginRight: 14, marginTop: 26, marginBottom: 42 },
+  kAbove = 8, // px of the margin above the frame that a label may take
+  kBetween = 8; // places that a line takes between two of its points
 
 /** Points as they are drawn: px and py within the frame, beyond where they are not. */
 function placed(series, x, y) {
@@ -76,22 +79,40 @@ function slopeMarks(x, y) {
   });
 }
 
-/** The label stands at the end where fewer points are. */
-function levelMarks([value, label], points, x, y) {
-  if (y.beyond(value)) return [];
-  const middle = (x.turned(x.domain[0]) + x.turned(x.domain[1])) / 2,
-    near = points.filter((p) => Math.abs(y.turned(p.py) - y.turned(value)) < 0.06 * Math.abs(y.turned(y.domain[1]) - y.turned(y.domain[0]))),
-    right = near.filter((p) => x.turned(p.px) > middle).length < near.length / 2;
-  return [
-    Plot.ruleY([value], { stroke: 'var(--frame)', strokeDasharray: '4 3' }),
-    Plot.text([label], { y: [value], frameAnchor: right ? 'right' : 'left', dx: right ? -4 : 4, dy: -7, text: (d) => d, fill: 'var(--quiet)', stroke: kPaper, strokeWidth: 3 }),
-  ];
+/** Places within the frame, from 0 to 1 across and upwards, that points and the lines between them take. */
+function takenBy(drawn, x, y) {
+  const share = (axis, value) => (axis.turned(value) - axis.turned(axis.domain[0])) / (axis.turned(axis.domain[1]) - axis.turned(axis.domain[0]));
+  return drawn.flatMap(({ one, points }) => {
+    const at = points.map((p) => [share(x, p.px), share(y, p.py)]);
+    if (one.loose || one.quiet) return at;
+    return at.flatMap((to, i) => {
+      const from = at[Math.max(i - 1, 0)];
+      return Array.from({ length: i ? kBetween : 1 }, (_, k) => to.map((end, axis) => end + ((from[axis] - end) * k) / kBetween));
+    });
+  });
+}
+
+/** The label of a level stands where least lies below it: at either end, above or below its line. */
+function levelLabel([value, label], taken, y, width, height) {
+  const level = (y.turned(value) - y.turned(y.domain[0])) / (y.turned(y.domain[1]) - y.turned(y.domain[0])),
+    wide = (8 + 6.5 * label.length) / width,
+    high = 16 / height;
+  let best = null;
+  for (const right of [false, true])
+    for (const under of [false, true]) {
+      if (under ? level < high : level + high > 1 + kAbove / height) continue;
+      const covered = taken.filter(([px, py]) => (right ? px > 1 - wide : px < wide) && (under ? py < level && py > level - high : py > level && py < level + high)).length;
+      if (!best || covered < best.covered) best = { right, under, covered };
+    }
+  const { right, under } = best ?? { right: false, under: true };
+  return Plot.text([label], { y: [value], frameAnchor: right ? 'right' : 'left', dx: right ? -4 : 4, dy: under ? 8 : -7, text: (d) => d, fill: 'var(--quiet)', stroke: kPaper, strokeWidth: 3 });
 }
 
 function axisMarks(x, y) {
   const [tx, ty] = [x.ticks(), y.ticks()],
     grid = { stroke: 'var(--grid)', strokeOpacity: 1 },
-    label = { tickFormat: x.format, tickSize: 3, label: null, color: 'var(--quiet)', fill: 'var(--quiet)' };
+    // As text: what is given as a format goes through the scale's own, which leaves out labels of a logarithmic one.
+    label = { text: x.format, tickSize: 3, label: null, color: 'var(--quiet)', fill: 'var(--quiet)' };
   return [
     Plot.gridX(tx.grid, grid),
     Plot.gridY(ty.grid, grid),
@@ -141,14 +162,14 @@ export function drawPlot(plot, { engines, hidden, width, describe, follow }) {
     y = new Axis(plot.y, [...all.flatMap((p) => [p.y, ...(p.yb ?? [])]), ...(plot.levels ?? []).map(([value]) => value)]);
   const drawn = shown.map(({ one, look }) => ({ one, look, points: placed(one, x, y) })),
     pointed = drawn.flatMap(({ one, points }) => (one.stepped ? [] : points.map((p) => ({ ...p, said: said(one, p, [x, y], describe) }))));
+  const levels = (plot.levels ?? []).filter(([value]) => !y.beyond(value)),
+    taken = takenBy(drawn, x, y),
+    height = Math.round(Math.min(0.74 * width, 420));
   const scale = (axis) => ({ type: axis.log ? 'log' : 'linear', domain: axis.domain });
   const svg = Plot.plot({
     width,
-    height: Math.round(Math.min(0.74 * width, 420)),
-    marginLeft: 54,
-    marginRight: 14,
-    marginTop: 26,
-    marginBottom: 42,
+    height,
+    ...kMargin,
     ariaLabel: plot.description,
     className: 'plot',
     style: { fontFamily: 'inherit', fontSize: '11.5px', background: 'none' },
@@ -156,9 +177,10 @@ export function drawPlot(plot, { engines, hidden, width, describe, follow }) {
     y: { ...scale(y), label: null },
     marks: [
       ...axisMarks(x, y),
-      ...(plot.levels ?? []).flatMap((level) => levelMarks(level, pointed, x, y)),
+      ...levels.map(([value]) => Plot.ruleY([value], { stroke: 'var(--frame)', strokeDasharray: '4 3' })),
       ...(plot.slopes && x.log && y.log ? slopeMarks(x, y) : []),
       ...drawn.flatMap(({ one, look, points }) => seriesMarks(one, look, points, x, y)),
+      ...levels.map((level) => levelLabel(level, taken, y, width - kMargin.marginLeft - kMargin.marginRight, height - kMargin.marginTop - kMargin.marginBottom)),
       Plot.text([plot.y.title], { frameAnchor: 'top-left', dx: -46, dy: -22, text: (d) => d, textAnchor: 'start', fill: 'var(--quiet)' }),
       Plot.text([plot.x.title], { frameAnchor: 'bottom', dy: 36, text: (d) => d, fill: 'var(--quiet)' }),
       pointed.length ? Plot.tip(pointed, Plot.pointer({ x: 'px', y: 'py', title: 'said', maxRadius: kReach, fill: kPaper, stroke: 'var(--frame)', lineWidth: 24 })) : null,
