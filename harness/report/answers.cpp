@@ -182,8 +182,20 @@ AnsweredQuestion reach_answer(const std::vector<BackendOverview>& overviews) {
     if (line.good) first.push_back(line.backend);
     answer.lines.push_back(std::move(line));
   }
-  answer.verdict = first.empty() ? "Nobody does."
-                                 : fmt::format("{}: {}.", list_of(first), answer.lines.front().statements.front().text);
+  if (first.empty()) {
+    answer.verdict = "Nobody does.";
+    return answer;
+  }
+  answer.verdict = fmt::format("{}: {}.", list_of(first), answer.lines.front().statements.front().text);
+  const auto cheapest = std::max_element(
+      lines.begin(), lines.end(), [](const auto& a, const auto& b) { return a.first.cheapest < b.first.cheapest; });
+  if (const ReachCount& count = cheapest->first; count.cheapest > lines.front().first.cheapest) {
+    const ReachCount& front = lines.front().first;
+    answer.verdict = fmt::format(
+        "{} most often, in {} of {} metrics; the cheapest most often is {}, in {} of {}{}.", list_of(first),
+        front.reached, front.tests, answer.lines[static_cast<std::size_t>(cheapest - lines.begin())].backend,
+        count.cheapest, count.compared, count.compared == count.reached ? "" : " with known costs");
+  }
   return answer;
 }
 
@@ -218,6 +230,16 @@ AnsweredQuestion losing_answer(const std::vector<CostTest>& tests, const std::ve
     answer.lines.push_back({overview.backend, std::move(parts)});
   }
   if (answer.lines.size() < 2) answer.lines.clear();
+  std::vector<const BackendOverview*> order;
+  for (const BackendOverview& overview : overviews) order.push_back(&overview);
+  std::stable_sort(order.begin(), order.end(),
+                   [](const BackendOverview* a, const BackendOverview* b) { return a->lost.size() < b->lost.size(); });
+  std::vector<std::string> counts;
+  for (const BackendOverview* overview : order) {
+    if (overview->problems > 0)
+      counts.push_back(fmt::format("{} {} of {}", overview->backend, overview->lost.size(), overview->problems));
+  }
+  if (!counts.empty()) answer.verdict = fmt::format("Problems failed at the defaults: {}.", list_of(counts));
   return answer;
 }
 

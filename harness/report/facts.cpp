@@ -68,11 +68,15 @@ Statement energy_statement(const EnergyFacts& facts) {
   std::vector<std::string> parts;
   if (facts.drifts > 0) {
     parts.push_back(facts.worst_drift <= conserving
-                        ? fmt::format("keeps it within {} in all {} runs of scenes with a threshold for it",
-                                      percent_text(facts.worst_drift), facts.drifts)
-                        : fmt::format("{} up to {} ({}); half of {} runs stay within {}",
-                                      facts.gains ? "gains" : "loses", percent_text(facts.worst_drift),
-                                      row_title(*facts.drift_row), facts.drifts, percent_text(facts.median_drift)));
+                        ? fmt::format("keeps it within {} in {} with a threshold for it",
+                                      percent_text(facts.worst_drift),
+                                      facts.drifts == 1 ? "the one run of a scene"
+                                                        : fmt::format("all {} runs of scenes", facts.drifts))
+                        : fmt::format("{} up to {} ({}){}", facts.gains ? "gains" : "loses",
+                                      percent_text(facts.worst_drift), row_title(*facts.drift_row),
+                                      facts.drifts == 1 ? ""
+                                                        : fmt::format("; half of {} runs stay within {}", facts.drifts,
+                                                                      percent_text(facts.median_drift))));
   }
   if (facts.lost > 0)
     parts.push_back(

@@ -146,6 +146,29 @@ TEST(Answers, LosingIsFailingNeverReachingWhatAnotherReachesOrPayingMore) {
   EXPECT_EQ(losing->lines[0].statements.at(0).text, "fails 1 of 2 problems at its defaults: S1");
   EXPECT_NE(losing->lines[0].statements.at(1).text.find("S1 error_of_it"), std::string::npos);
   EXPECT_NE(losing->lines[1].statements.at(0).text.find("7.00\u00d7 what a does"), std::string::npos);
+  EXPECT_EQ(losing->verdict, "Problems failed at the defaults: b 0 of 2 and a 1 of 2.");
+}
+
+TEST(Answers, WhoGetsThereMostOftenNeedNotBeTheCheapest) {
+  std::vector<Json> rows;
+  for (const char* scene : {"S1", "S2", "S3"}) {
+    rows.push_back(testing::sample_row(scene, "exact", 0.001, 7));
+    rows.push_back(testing::sample_row(scene, "cheap", scene == std::string("S3") ? 0.5 : 0.001, 1));
+  }
+  const Study study(parse_rows(rows));
+  const std::vector<AnsweredQuestion> all = answers(study, cost_of_accuracy(study));
+  const AnsweredQuestion* reach = find(all, "most often");
+  ASSERT_NE(reach, nullptr);
+  EXPECT_EQ(reach->verdict, "exact most often, in 3 of 3 metrics; the cheapest most often is cheap, in 2 of 2.");
+}
+
+TEST(Answers, OneRunIsNotSeveral) {
+  const Study study(parse_rows({scene_row("A7", "pendulum", "a", 1, {{"energy_drift", metric(-0.9, 0.9, 0.05)}}),
+                                scene_row("A7", "pendulum", "b", 1, {{"energy_drift", metric(0.001, 0.002, 0.05)}})}));
+  EXPECT_EQ(energy_statement(energy_of(study, "a")).text.rfind("loses up to 90 % (A7)", 0), 0u);
+  EXPECT_EQ(energy_statement(energy_of(study, "a")).text.find("1 runs"), std::string::npos);
+  EXPECT_EQ(energy_statement(energy_of(study, "b")).text.rfind("keeps it within 0.20 % in the one run of a scene", 0),
+            0u);
 }
 
 TEST(Needs, PairsAreEqualButForTheNeeds) {
