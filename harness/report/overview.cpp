@@ -109,6 +109,11 @@ std::vector<BackendOverview> overviews(const Study& study, const std::vector<Cos
   return all;
 }
 
+std::string elsewhere_text(const BackendOverview& o) {
+  if (o.elsewhere == 0) return "";
+  return fmt::format("{} ran with other settings only.", plural(o.elsewhere, "more problem", "more problems"));
+}
+
 std::string describe_counts(const BackendOverview& o) {
   std::vector<std::string> counts;
   const auto count = [&](Verdict verdict, const char* words) {
@@ -127,8 +132,7 @@ std::string describe_counts(const BackendOverview& o) {
   std::string out = o.problems == 0 ? "Nothing was run at its defaults."
                                     : fmt::format("Of {} at its defaults: {}.",
                                                   plural(o.problems, "problem", "problems"), fmt::join(counts, ", "));
-  if (o.elsewhere > 0)
-    out += fmt::format(" {} ran with other settings only.", plural(o.elsewhere, "more problem", "more problems"));
+  if (o.elsewhere > 0) out += " " + elsewhere_text(o);
   return out;
 }
 

@@ -28,6 +28,9 @@ struct BackendOverview {
 
 [[nodiscard]] std::vector<BackendOverview> overviews(const Study& study, const std::vector<CostLine>& costs);
 
+/// "5 more problems ran with other settings only."; "" where none did.
+[[nodiscard]] std::string elsewhere_text(const BackendOverview& overview);
+
 /// "Of 209 problems: 119 gold, 71 passed, 19 failed."
 [[nodiscard]] std::string describe_counts(const BackendOverview& overview);
 /// One paragraph.

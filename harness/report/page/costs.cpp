@@ -25,7 +25,7 @@ Table reach_table(const PageContext& context) {
   table.column({"metrics", 4});
   for (const double target : target_errors) {
     table.column({fmt::format("reaches {} %", limit_text(100 * target)), 6});
-    table.column({"cheapest", 5});
+    table.column({fmt::format("cheapest at {} %", limit_text(100 * target)), 5});
   }
   for (const BackendOverview& overview : context.overviews) {
     Json cells = Json::array({backend_label(context, overview.backend), std::to_string(overview.reach.front().tests)});
@@ -37,9 +37,11 @@ Table reach_table(const PageContext& context) {
                            context.backend_index(overview.backend), share, count.reached, share),
                reached));
       cells.push_back(
-          cell(std::to_string(count.cheapest) +
-                   (count.compared < count.reached ? fmt::format(" <small>of {}</small>", count.compared) : ""),
-               static_cast<double>(count.cheapest)));
+          count.compared == 0 && count.reached > 0
+              ? cell(context.overviews.size() > 1 ? "not known" : std::string(no_value), {}, "quiet")
+              : cell(std::to_string(count.cheapest) +
+                         (count.compared < count.reached ? fmt::format(" <small>of {}</small>", count.compared) : ""),
+                     static_cast<double>(count.cheapest)));
     }
     table.row(std::move(cells), "", context.backend_index(overview.backend));
   }
@@ -71,6 +73,10 @@ std::string ms_cell(const Reached& reached) {
   return (reached.untimed > 0 ? "\u2264 " : "") + short_number(*reached.ms);
 }
 
+std::string price_text(const Reached& reached) {
+  return reached.ms ? fmt::format("at {} ms", ms_cell(reached)) : ms_cell(reached);
+}
+
 Json line_cells(const PageContext& context, const CostTest& test, const CostLine& line) {
   Json cells = Json::array({metric_label(line), backend_label(context, line.backend)});
   if (!line.floor) {
@@ -86,8 +92,8 @@ Json line_cells(const PageContext& context, const CostTest& test, const CostLine
                    at->ms, test.is_cheapest(line, t) ? "best" : ""));
   }
   cells.push_back(
-      cell(fmt::format("{}{} <small>at {} ms</small>{}", row_link(*line.floor->row, short_number(line.floor->error, 2)),
-                       failed_mark(*line.floor->row), ms_cell(*line.floor), configured(context, *line.floor)),
+      cell(fmt::format("{}{} <small>{}</small>{}", row_link(*line.floor->row, short_number(line.floor->error, 2)),
+                       failed_mark(*line.floor->row), price_text(*line.floor), configured(context, *line.floor)),
            line.floor->error));
   return cells;
 }
@@ -96,7 +102,7 @@ Table group_table(const PageContext& context, const std::string& group) {
   Table table("what accuracy costs: " + group_title(group));
   table.column({"scene, metric", 9, Column::Kind::name, {}, true});
   table.column({"backend", 6.5, Column::Kind::name});
-  for (const double target : target_errors) table.column({fmt::format("{} %", limit_text(100 * target)), 8});
+  for (const double target : target_errors) table.column({fmt::format("ms for {} %", limit_text(100 * target)), 8});
   table.column({"best error reached", 10});
   for (const CostTest& test : tests_of(context.costs)) {
     if (test.lines.front().problem->group != group) continue;
@@ -123,7 +129,8 @@ PageSection costs_section(const PageContext& context) {
   if (contended > 0) {
     words += fmt::format(
         R"( <b>{} of {} runs</b> were measured while the machine had more to do than cores: their )"
-        R"(errors count, and their times are left out here and in all diagrams. &#8804;: some of the runs that )"
+        R"(errors count, and their times are left out here and in all diagrams. <b>Not timed</b>: no run that reaches )"
+        R"(it has a time that counts. &#8804;: some of the runs that )"
         R"(reach it have no time that counts, and nobody is called the cheapest there.)",
         contended, context.study.rows.size());
   }

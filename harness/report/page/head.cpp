@@ -36,10 +36,12 @@ std::string statements(const char* title, const char* style, const std::vector<S
 
 std::string backend_card(const PageContext& context, const BackendOverview& overview) {
   const Summary summary = summary_of(context.study, context.costs, context.fronts, overview);
-  return fmt::format(R"(<article class="card of{0} e{0}"><h3>{1} <small>{2}</small></h3>{3}{4}{5}</article>)",
+  const std::string elsewhere = elsewhere_text(overview);
+  return fmt::format(R"(<article class="card of{0} e{0}"><h3>{1} <small>{2}</small></h3>{3}{4}{5}{6}</article>)",
                      context.backend_index(overview.backend), backend_label(context, overview.backend),
-                     escape_html(overview.version), verdict_bar(overview), statements("Best", "best-at", summary.best),
-                     statements("Breaks", "breaks-at", summary.breaks));
+                     escape_html(overview.version), verdict_bar(overview),
+                     elsewhere.empty() ? "" : fmt::format(R"(<p class="elsewhere">{}</p>)", elsewhere),
+                     statements("Best", "best-at", summary.best), statements("Breaks", "breaks-at", summary.breaks));
 }
 
 std::string join_words(const std::vector<std::string>& words) {

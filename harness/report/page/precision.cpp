@@ -159,7 +159,7 @@ void add_scene_figures(const PageContext& context, const Problem* first, const P
 
 PageSection precision_section(const PageContext& context) {
   PageSection section{"precision", "Work and precision", ""};
-  std::string words = "Every run as a point: what a simulated second cost, and the error. ";
+  std::string words = "Every run as a point: what a simulated second cost, and the error: a share, without a unit. ";
   if (!context.curves.problems.empty())
     words += R"(Runs with a knob turned are under <a href="#curves)" + context.suffix + R"(">Curves</a>. )";
   words +=

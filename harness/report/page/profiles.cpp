@@ -113,7 +113,7 @@ PageSection profiles_section(const PageContext& context) {
   if (all.empty()) return section;
   section.words = about(
       R"(After Dolan and Mor&eacute;. A test is a )"
-      R"(scene's metric that every engine of the diagram has a run of (one that ran less than half of them is left out); its cost for an engine is that of the cheapest )"
+      R"(scene's metric that every engine of the diagram has a run of (one that ran less than half of them is left out; what an engine refuses, it does not solve); its cost for an engine is that of the cheapest )"
       R"(configuration that reaches the error and passes its scene (the <a href="#cost)" +
       context.suffix +
       R"(">table above</a>). A curve says on which share of the )"

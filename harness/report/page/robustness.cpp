@@ -14,11 +14,13 @@ namespace {
 
 Json robustness_cell(const std::optional<RobustnessCell>& runs) {
   if (!runs) return cell(std::string(no_value), {}, "quiet");
-  return cell(fmt::format(R"({} <small>{}</small><span class="cfg">median {}; beyond in {} of {}{}</span>)",
-                          row_link(*runs->row, short_number(runs->worst, 2)), escape_html(problem_title(*runs->row)),
-                          short_number(runs->median, 2), runs->beyond, runs->runs,
-                          runs->lost > 0 ? fmt::format("; {} without a result", runs->lost) : ""),
-              runs->worst, runs->beyond == 0 && runs->lost == 0 ? "best" : "");
+  return cell(
+      fmt::format(
+          R"({} <small>{}</small><span class="cfg">median {}</span><span class="cfg">beyond in {} of {}{}</span>)",
+          row_link(*runs->row, short_number(runs->worst, 2)), escape_html(problem_title(*runs->row)),
+          short_number(runs->median, 2), runs->beyond, runs->runs,
+          runs->lost > 0 ? fmt::format("; {} without a result", runs->lost) : ""),
+      runs->worst, runs->beyond == 0 && runs->lost == 0 ? "best" : "");
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // Every run as data: the table of all, the details of each, and what a hover says of it where a figure leads to it.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 
 #include "report/format.hpp"
@@ -85,16 +86,24 @@ Json row_data(const PageContext& context, const ResultRow& row, Pool& settings, 
 
 PageSection rows_section(const PageContext& context) {
   PageSection section{"runs", "Every run", ""};
-  section.words = about(
+  std::string words =
       "Open a line for its metrics, the settings in force, the state hash, the machine, and the command that runs it "
-      "again.");
+      "again. Decided by: the metric that comes closest to its threshold or exceeds it most, and its error.";
+  if (std::any_of(context.study.rows.begin(), context.study.rows.end(),
+                  [](const ResultRow& row) { return row.contended.has_value(); }))
+    words += " A time in parentheses was measured while the machine had other work, and counts nowhere.";
+  section.words = about(words);
   Pool settings, machines, metrics;
   std::vector<Json> rows(context.study.rows.size());
   const std::size_t first = context.study.rows.empty() ? 0 : context.study.rows.front().index;
   Json order = Json::array();
   for (const Problem& problem : context.study.problems) {
     const std::string key = filter_key(context, problem);
-    for (const ResultRow* row : problem.rows) {
+    std::vector<const ResultRow*> ordered = problem.rows;
+    std::stable_sort(ordered.begin(), ordered.end(), [&](const ResultRow* a, const ResultRow* b) {
+      return context.backend_index(a->backend) < context.backend_index(b->backend);
+    });
+    for (const ResultRow* row : ordered) {
       Json data = row_data(context, *row, settings, machines, metrics);
       data["k"] = key;
       rows[row->index - first] = std::move(data);

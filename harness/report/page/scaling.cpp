@@ -38,20 +38,23 @@ std::vector<Sized> sizes_of(const PageContext& context, const Problem* first, co
   return varies && distinct ? sizes : std::vector<Sized>{};
 }
 
+std::string bodies_text(const char* where, double bodies) {
+  return fmt::format("{} {} {}", where, shortest_number(bodies), bodies == 1 ? "body" : "bodies");
+}
+
 /// "about 1200 bodies": at which a step takes a frame, between the two sizes around it as a power law.
 std::string bodies_at_frame(const std::vector<Sized>& sizes) {
-  if (*sizes.front().row->fair_ms() > frame_ms)
-    return fmt::format("below {} bodies", shortest_number(sizes.front().bodies));
+  if (*sizes.front().row->fair_ms() > frame_ms) return bodies_text("below", sizes.front().bodies);
   for (std::size_t i = 1; i < sizes.size(); ++i) {
     const double a = *sizes[i - 1].row->fair_ms(), b = *sizes[i].row->fair_ms();
     if (a <= frame_ms && b > frame_ms) {
       const double share = std::log(frame_ms / a) / std::log(b / a);
       const double bodies = sizes[i - 1].bodies * std::pow(sizes[i].bodies / sizes[i - 1].bodies, share);
       const double unit = std::max(1.0, std::pow(10.0, std::floor(std::log10(bodies)) - 1));  // two digits are known
-      return fmt::format("about {} bodies", shortest_number(std::round(bodies / unit) * unit));
+      return bodies_text("about", std::round(bodies / unit) * unit);
     }
   }
-  return fmt::format("above {} bodies", shortest_number(sizes.back().bodies));
+  return bodies_text("above", sizes.back().bodies);
 }
 
 /// The same over the sizes at which the engine passes: what fails its scene tells nothing of what an engine can carry.
@@ -118,12 +121,15 @@ PageSection scaling_section(const PageContext& context) {
     }
     i = end;
   }
-  section.words = about(std::string("Scenes that were run at several sizes, each engine at its defaults: time per "
-                                    "step, and below it the worst error "
-                                    "at that size. The line at 16.7 ms is one frame at 60 Hz.") +
-                        untimed_note(context));
+  section.words = about(
+      std::string("Scenes that were run at several sizes, each engine at its defaults: time per "
+                  "step, and below it the worst error "
+                  "at that size. The line at 16.7 ms is one frame at 60 Hz; the list says how many bodies an engine "
+                  "steps in that time, of the sizes at which it passes: above its largest "
+                  "one where none takes longer. A cross: the run missed a threshold.") +
+      untimed_note(context));
   if (figures.empty()) {
-    section.words += about("No scene here was run at several sizes.");
+    section.words += about("No engine here has times that count at several sizes of a scene.");
   } else {
     section.blocks.push_back(figures_block(std::move(figures)));
   }

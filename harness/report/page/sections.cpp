@@ -34,12 +34,15 @@ std::string failed_mark(const ResultRow& row) {
 }
 
 std::string statement_text(const Statement& statement) {
-  std::string out = statement.row ? row_link(*statement.row, statement.text) : escape_html(statement.text);
+  // What is only counted is what the fold is called: the text does not say it a second time.
+  const std::string rest = fmt::format("and {} more", statement.more.size());
+  std::string text = statement.text;
+  if (!statement.more.empty() && text.ends_with(rest)) text.resize(text.size() - rest.size());
+  std::string out = statement.row ? row_link(*statement.row, text) : escape_html(text);
   if (statement.more.empty()) return out;
   std::string items;
   for (const Statement& more : statement.more) items += fmt::format("<li>{}</li>", statement_text(more));
-  return fmt::format(R"({} <details class="how"><summary>all {} more</summary><ul>{}</ul></details>)", out,
-                     statement.more.size(), items);
+  return fmt::format(R"({} <details class="how"><summary>{}</summary><ul>{}</ul></details>)", out, rest, items);
 }
 
 std::string untimed_note(const PageContext& context) {

@@ -95,7 +95,7 @@ Json speed_figure(const PageContext& context) {
   figure.notes = fmt::format(
       R"(<p class="frame-note">Every engine as it ships, over the {} of {} scene variants that all of these ran to )"
       R"(the end and one passes: lower left is better, below the line is a pass. Large: the median, its bars the middle half; a )"
-      R"(speck is a scene.</p>)",
+      R"(speck is a scene variant, on the edge if it lies beyond.</p>)",
       runs.front().size(), context.study.problems.size());
   return figure_data(figure);
 }

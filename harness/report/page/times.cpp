@@ -49,7 +49,7 @@ Table ratio_table(const PageContext& context) {
     const std::size_t engine = context.backend_index(backend);
     table.column({backend_label(context, backend) + " <small>ms</small>", 6, Column::Kind::number, engine});
     table.column(
-        {"&times;", 4, Column::Kind::number, engine, false, backend + ", relative to the fastest that passes"});
+        {"&times; fastest", 4, Column::Kind::number, engine, false, backend + ", relative to the fastest that passes"});
   }
   for (const Problem& problem : context.study.problems) {
     const std::optional<double> best = fastest(context, problem);

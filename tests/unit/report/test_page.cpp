@@ -99,6 +99,62 @@ TEST(Page, ARunWhoseWorkerWasKilledSaysSo) {
   EXPECT_EQ(runs[1]["restarted"], 1);
 }
 
+/// Blocks that are data, and what stands in words.
+std::string all_of(const std::vector<Json>& rows) {
+  std::string out = page_of(rows);
+  for (const Json& section : testing::packed_data(rows)) out += section.dump();
+  return out;
+}
+
+TEST(Page, WhatHasNoTimeIsNotGivenOne) {
+  if (!has_page_script()) GTEST_SKIP() << "built without node";
+  std::vector<Json> rows;
+  for (const char* backend : {"a", "b"}) {
+    for (const int size : {10, 20}) {
+      rows.push_back(testing::sample_row("S1", backend, 0.001, 1));
+      rows.back()["params"]["N"] = size;
+      rows.back()["counts"]["bodies"] = size;
+      rows.back()["contended"] = {{"load", 3}, {"why", "load 3 on 2 cores"}};
+    }
+  }
+  const std::string page = all_of(rows);
+  EXPECT_EQ(count(page, "not timed ms"), 0u);
+  EXPECT_EQ(count(page, "<small>of 0</small>"), 0u) << "of how many it is the cheapest is not known";
+  EXPECT_GT(count(page, "not known"), 0u);
+  EXPECT_EQ(count(page, "No scene here was run at several sizes"), 0u) << "it was: without times that count";
+  EXPECT_EQ(count(page, "A time in parentheses"), 1u);
+}
+
+TEST(Page, WhatIsOnlyCountedIsCountedOnce) {
+  std::vector<Json> rows;
+  for (int i = 0; i < 9; ++i) {
+    const std::string scene = "S" + std::to_string(i);
+    rows.push_back(testing::sample_row(scene.c_str(), "a", 0.5, 1));
+    rows.push_back(testing::sample_row(scene.c_str(), "b", 0.001, 1));
+  }
+  const std::string page = page_of(rows);
+  EXPECT_GT(count(page, "<summary>and 6 more</summary>"), 0u);
+  EXPECT_EQ(count(page, "and 6 more"), count(page, "<summary>and 6 more</summary>"));
+}
+
+TEST(Page, ProblemsThatRanWithOtherSettingsOnlyAreCounted) {
+  std::vector<Json> rows{testing::sample_row("S1", "a", 0.001, 1), testing::sample_row("S2", "a", 0.001, 1)};
+  rows[1]["settings"] = {{"iterations", 99}};
+  rows[1]["profile"] = "tuned";
+  EXPECT_EQ(count(page_of(rows), "1 more problem ran with other settings only."), 1u);
+}
+
+TEST(Page, RunsOfAProblemStandInTheOrderOfTheEngines) {
+  if (!has_page_script()) GTEST_SKIP() << "built without node";
+  std::vector<Json> rows{testing::sample_row("S1", "c", 0.02, 1), testing::sample_row("S1", "a", 0.02, 1),
+                         testing::sample_row("S1", "b", 0.02, 1)};
+  Json order;
+  for (const Json& section : testing::packed_data(rows))
+    for (const Json& block : section)
+      if (block.contains("runs")) order = block["runs"]["order"];
+  EXPECT_EQ(order, Json::parse("[1, 2, 0]"));
+}
+
 TEST(Page, TimeIsToldByTheFastestRunThatPasses) {
   if (!has_page_script()) GTEST_SKIP() << "built without node";
   const std::vector<Json> rows{
