@@ -117,12 +117,12 @@ FrictionFacts friction_of(const Study& study, const std::string& backend) {
 
 std::vector<const CostLine*> never_reached(const std::vector<CostTest>& tests, const std::string& backend,
                                            std::size_t target) {
-  std::vector<const CostLine*> never;
+  std::vector<const CostLine*> lines;
   for (const CostTest& test : tests) {
     const CostLine* mine = test.line_of(backend);
-    if (mine && !mine->at[target] && test.reached(target)) never.push_back(mine);
+    if (mine && !mine->at[target] && test.reached(target)) lines.push_back(mine);
   }
-  return never;
+  return lines;
 }
 
 std::vector<Statement> names_of(const std::vector<const CostLine*>& lines) {
