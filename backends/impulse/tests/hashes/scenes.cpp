@@ -138,21 +138,24 @@ struct Meddler {
 
   void operator()(Scene& scene, int step) {
     Random random(static_cast<std::uint64_t>(step) + 77);
-    const auto any = [&] { return bodies[random.next() % bodies.size()]; };
     const auto number = [&] { return random.between(-2, 2); };
+    // The body is drawn after its row, here, as arguments have no order.
+    const auto write_any = [&](PlumbField field, const std::vector<double>& row) {
+      scene.write(field, bodies[random.next() % bodies.size()], row);
+    };
     if (step % 40 < 30) scene.target(pusher, {0.02 * (step % 40) - 3, 1, 0.3});
     if (step % 3 == 0) {
       const PlumbQuat q = random.turn();
-      scene.write(PLUMB_FIELD_POSE, any(), {number(), 6 + number(), number(), q.x, q.y, q.z, q.w});
+      write_any(PLUMB_FIELD_POSE, {number(), 6 + number(), number(), q.x, q.y, q.z, q.w});
     }
-    if (step % 4 == 0) scene.write(PLUMB_FIELD_VELOCITY, any(), {number(), 0, number(), number(), 0, number()});
-    if (step % 5 == 0) scene.write(PLUMB_FIELD_IMPULSE_AT_POINT, any(), {900, 900, 0, number(), 1, number()});
-    if (step % 5 == 1) scene.write(PLUMB_FIELD_ANGULAR_IMPULSE, any(), {number(), 100, number()});
-    if (step % 6 == 0) scene.write(PLUMB_FIELD_FORCE_AT_POINT, any(), {5e3, 1e4, 0, number(), 1, number()});
-    if (step % 7 == 0) scene.write(PLUMB_FIELD_MATERIAL, any(), {random.uniform(), random.uniform()});
-    if (step % 11 == 0) scene.write(PLUMB_FIELD_GRAVITY_SCALE, any(), {random.uniform()});
-    if (step % 13 == 0) scene.write(PLUMB_FIELD_DAMPING, any(), {random.uniform(), random.uniform()});
-    if (step % 17 == 0) scene.write(PLUMB_FIELD_FILTER, any(), {1, 4294967295.0, 1.0 + step % 2});
+    if (step % 4 == 0) write_any(PLUMB_FIELD_VELOCITY, {number(), 0, number(), number(), 0, number()});
+    if (step % 5 == 0) write_any(PLUMB_FIELD_IMPULSE_AT_POINT, {900, 900, 0, number(), 1, number()});
+    if (step % 5 == 1) write_any(PLUMB_FIELD_ANGULAR_IMPULSE, {number(), 100, number()});
+    if (step % 6 == 0) write_any(PLUMB_FIELD_FORCE_AT_POINT, {5e3, 1e4, 0, number(), 1, number()});
+    if (step % 7 == 0) write_any(PLUMB_FIELD_MATERIAL, {random.uniform(), random.uniform()});
+    if (step % 11 == 0) write_any(PLUMB_FIELD_GRAVITY_SCALE, {random.uniform()});
+    if (step % 13 == 0) write_any(PLUMB_FIELD_DAMPING, {random.uniform(), random.uniform()});
+    if (step % 17 == 0) write_any(PLUMB_FIELD_FILTER, {1, 4294967295.0, 1.0 + step % 2});
     if (step % 29 == 0) scene.write(PLUMB_FIELD_POSE, shelf, {3, 0.5 + 0.01 * step, 0, 0, 0, 0, 1});
     if (step % 19 == 18) {
       const auto gone = bodies.begin() + static_cast<std::ptrdiff_t>(random.next() % bodies.size());
