@@ -66,6 +66,16 @@ struct StopMass {
     multiply(at, motion.along_t1, motion.along_t2, motion.about_n, impulse);
     return {-impulse[0], -impulse[1], -impulse[2]};
   }
+  /// Slip of one place, which goes on turning about the normal: the matrix there, less what it takes to hold the turn
+  /// (Schur's complement).
+  PLUMB_HD FrictionPart<N> stop_at(const PlanePoint<N>& p, const FrictionPart<N>& motion) const {
+    const N lean1 = at[2] + (p.y * at[0] - p.x * at[1]), lean2 = at[4] + (p.y * at[1] - p.x * at[3]);
+    const N turn = at[5] + (p.y * (at[2] + lean1) - p.x * (at[4] + lean2)), least = N(Real(1e-30));
+    const N slip1 = slip1_at(motion, p), slip2 = slip2_at(motion, p);
+    const N lean = select(at[5] > N(0), (lean1 * slip1 + lean2 * slip2) / max(turn, least), N(0));
+    const N f1 = lean1 * lean - (at[0] * slip1 + at[1] * slip2), f2 = lean2 * lean - (at[1] * slip1 + at[3] * slip2);
+    return {f1, f2, p.x * f2 - p.y * f1};
+  }
   /// No more than what stops a slip along any tangent: Gershgorin's bound.
   PLUMB_HD N along_any_tangent() const { return min(at[0], at[3]) - max(at[1], -at[1]); }
   PLUMB_HD N about_normal() const { return at[5]; }
@@ -112,6 +122,12 @@ PLUMB_HD TangentImpulses<P, N> rub(const Contact<P, N>& contact, const PerPoint<
   const StopMass<N> mass(contact.give, held);
   const FrictionPart<N> before = friction_wrench(contact.place, old.t1, old.t2);
   FrictionPart<N> stopping = mass.stop(motion.friction);
+  const auto alone = patch.inverse_spread < N(Real(1e-30));  // one point bears all
+  if (in_any_contact(alone)) {
+    const FrictionPart<N> slip = mass.stop_at(patch.centre, motion.friction);
+    stopping = {select(alone, slip.along_t1, stopping.along_t1), select(alone, slip.along_t2, stopping.along_t2),
+                select(alone, slip.about_n, stopping.about_n)};
+  }
   add(stopping, before);
   TangentImpulses<P, N> found = patch.share_out(stopping);
   const PerPoint<P, N> most = loads * contact.friction;

@@ -148,6 +148,28 @@ TEST(ContactSolving, FrictionThatSticksStopsTheWholePatch) {
   }
 }
 
+/// Where one point of a patch bears all, it is its own slip that stops, whatever the patch does about it: a point resists
+/// no turn about the normal. What stopped slip and turn of the whole patch drove a cart's wheel on and on.
+TEST(ContactSolving, FrictionStopsTheSlipOfTheOnePointThatBearsAll) {
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    const OneContact start(seed, 4);
+    auto contact = start.load<kManifoldPoints>();
+    contact.friction = 1000;
+    for (PerPoint<kManifoldPoints, Real>& impulse : contact.impulse) impulse = for_all_points<kManifoldPoints>(Real(0));
+    const int bears = static_cast<int>(seed % kManifoldPoints);
+    contact.impulse[0].at[bears] = 1;
+    ContactMotion<Real> motion = motion_of(contact, start.a, start.b);
+    ContactWrench<Real> wrench = no_wrench<Real>();
+    solve_friction(contact, motion, wrench, false);
+    const PlanePoint<Real> place = {contact.place.x.at[bears], contact.place.y.at[bears]};
+    const Real tolerance = 2000 * kEpsilon;
+    EXPECT_NEAR(slip1_at(motion.friction, place), 0, tolerance) << "seed " << seed;
+    EXPECT_NEAR(slip2_at(motion.friction, place), 0, tolerance);
+    EXPECT_NEAR(wrench.friction.about_n, place.x * wrench.friction.along_t2 - place.y * wrench.friction.along_t1,
+                tolerance * std::hypot(wrench.friction.along_t1, wrench.friction.along_t2));
+  }
+}
+
 /// Wherever it ends, no point rubs beyond its circle; and a patch that slides for good rubs each point straight against
 /// its own slip, as hard as it can.
 TEST(ContactSolving, FrictionThatSlidesIsOnTheCircleAndAgainstTheSlip) {
