@@ -16,7 +16,7 @@ constexpr Real kClipSlack = Real(1e-3);
 /// Angle below which two faces are level: which of their points is the deepest does not matter.
 constexpr Real kLevel = Real(1e-4);
 /// Angle by which a body may have to tip onto a point for it to count half as much as one that touches already.
-constexpr Real kTip = Real(0.02);
+constexpr Real kTip = Real(0.003);
 /// Cosine of the angle to a face's normal below which an edge axis touches in a single point, above which the rest of
 /// the faces is so close that it belongs to the contact.
 constexpr Real kNearFace = Real(0.99);

@@ -35,6 +35,18 @@ TEST(Candidates, NarrowFaceKeepsItsCornersFromPointsThatHoverFarOut) {
   }
 }
 
+/// A hull of many corners stands on three of them, and another hovers 3 mm above the ground, two per cent farther out:
+/// without one of its three feet it would tip, then stand on others, and rock for ever.
+TEST(Candidates, WhatBearsIsKeptFromWhatHoversALittleFartherOut) {
+  const auto kept = chosen({{0, 0, 0, 0},
+                            {1, 0, 0, 1},
+                            {Real(0.5), 1, 0, 2},
+                            {Real(0.5), Real(1.02), Real(0.003), 3},
+                            {Real(0.2), Real(0.2), Real(0.01), 4}});
+  ASSERT_GE(kept.size(), 3u);
+  EXPECT_EQ(std::vector<std::uint32_t>(kept.begin(), kept.begin() + 3), (std::vector<std::uint32_t>{0, 1, 2}));
+}
+
 TEST(Candidates, OfALevelFaceTheWidestFourAreKept) {
   const auto kept = chosen(narrow_face(0, 0));
   ASSERT_EQ(kept.size(), 4u);
