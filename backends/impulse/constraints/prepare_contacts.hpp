@@ -36,6 +36,10 @@ struct ContactTime {
   }
 };
 
+/// Of what two bodies of one mechanism would move alone the share below which a contact between them pushes less and
+/// less, and the least that counts.
+constexpr Real kShareLeft = Real(0.01), kLeastLeft = Real(1e-6);
+
 /// The matrix of contact_frame.hpp. In its order: normal, turns about the tangents; tangents, turn about the normal.
 struct FrameGive {
   Real at[6][6];
@@ -61,6 +65,14 @@ struct FrameGive {
                     const Six (&at_to)[6], Real sign) {
     for (int j = 0; j < 6; ++j)
       for (int i = 0; i < 6; ++i) at[i][j] = at[i][j] + sign * mechanisms.work(from, at_from[j], to, at_to[i]);
+  }
+  /// Between two bodies of one mechanism: what they move against each other is a difference of large numbers, and next
+  /// to nothing where joints hold them against each other. The less of what they would move `alone` is left along the
+  /// normal, the less a contact may push: joints and contact would strive against each other, with ever more.
+  PLUMB_HD void yield_where_joints_hold(const FrameGive& alone) {
+    const Real over = kShareLeft / max(at[0][0] / alone.at[0][0], kLeastLeft), share = kShareLeft * over * over;
+    for (int j = 0; j < 6; ++j)
+      for (int i = 0; i < 6; ++i) at[i][j] = at[i][j] + share * alone.at[i][j];
   }
   /// The half below the diagonal is that above it.
   PLUMB_HD void mirror() {
@@ -140,6 +152,9 @@ struct PrepareContacts {
     if (mechanisms.together(a, b)) {
       give.add(mechanisms, a, on_a, b, on_b, -1);
       give.add(mechanisms, b, on_b, a, on_a, -1);
+      const FrameGive alone(n, t1, arm_a, arm_b, solver_bodies.inertia[a].inverse, solver_bodies.inertia[b].inverse,
+                            bodies.velocity[a].inverse_mass + bodies.velocity[b].inverse_mass);
+      give.yield_where_joints_hold(alone);
     }
     if (a_is_in || b_is_in) give.mirror();
   }

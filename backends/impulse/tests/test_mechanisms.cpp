@@ -253,6 +253,21 @@ TEST(Mechanisms, WhatIsJoinedMetresApartIsDrawnTogetherAndNotFlung) {
     }
 }
 
+/// Two boxes that a bar holds into each other: what would push them apart finds nothing that gives way, and pushed ever
+/// harder until the rounding of it all made them fly.
+TEST(Mechanisms, WhatJointsHoldIntoEachOtherLiesStill) {
+  for (const double overlap : {0.0, 0.001, 0.01, 0.05, 0.2}) {
+    Workshop shop;
+    shop.scene.ground();
+    const PlumbShape box = shop.scene.box({0.2, 0.2, 0.2});
+    const PlumbBody bar = shop.add(shop.scene.box({0.4, 0.05, 0.05}), 1, {0, 0.5, 0});
+    shop.join(PLUMB_JOINT_FIXED, bar, {-0.2, -0.1, 0}, shop.add(box, 5, {-0.2, 0.2, 0}), {0, 0.2, 0});
+    shop.join(PLUMB_JOINT_FIXED, bar, {0.2, -0.1, 0}, shop.add(box, 5, {0.2 - overlap, 0.2, 0}), {overlap, 0.2, 0});
+    EXPECT_LT(shop.run(300), 0.1) << overlap;
+    EXPECT_LT(shop.run(300), 0.02) << overlap;
+  }
+}
+
 /// A trunk on two legs whose knees and hips have stops, let fall so that the stops are reached while the feet press.
 class Faller {
  public:
