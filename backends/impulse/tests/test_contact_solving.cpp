@@ -148,8 +148,8 @@ TEST(ContactSolving, FrictionThatSticksStopsTheWholePatch) {
   }
 }
 
-/// Where one point of a patch bears all, it is its own slip that stops, whatever the patch does about it: a point resists
-/// no turn about the normal. What stopped slip and turn of the whole patch drove a cart's wheel on and on.
+/// Where one point of a patch bears all, it is its own slip that stops, whatever the patch does about it: a point
+/// resists no turn about the normal. What stopped slip and turn of the whole patch drove a cart's wheel on and on.
 TEST(ContactSolving, FrictionStopsTheSlipOfTheOnePointThatBearsAll) {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     const OneContact start(seed, 4);
