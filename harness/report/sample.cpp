@@ -73,8 +73,8 @@ std::vector<Sample> samples_of(const Problem& problem, const std::string& backen
   }
   // Whoever names a sample names its first row.
   for (Sample& sample : samples) {
-    if (sample.passes())
-      std::stable_partition(sample.rows.begin(), sample.rows.end(), [](const ResultRow* row) { return row->passes(); });
+    std::stable_partition(sample.rows.begin(), sample.rows.end(),
+                          [passes = sample.passes()](const ResultRow* row) { return row->passes() == passes; });
   }
   return samples;
 }

@@ -91,6 +91,18 @@ TEST(Sample, PassesWhereMostSeedsDoAndIsNamedByOneThatDoes) {
   EXPECT_TRUE(study.representative(study.problems[0], "b")->passes()) << "the one in the middle";
 }
 
+TEST(Sample, FailsWhereMostSeedsDoAndIsNamedByOneThatDoes) {
+  std::vector<Json> rows;
+  for (const double error : {0.001, 0.5, 0.4}) {
+    rows.push_back(testing::sample_row("S", "b", error, 1));
+    rows.back()["params"]["seed"] = error;
+  }
+  const Study study(parse_rows(rows));
+  const Sample sample = samples_of(study.problems[0], "b").at(0);
+  EXPECT_FALSE(sample.passes());
+  EXPECT_FALSE(sample.row().missed().empty()) << "what is said of it is what it missed";
+}
+
 TEST(Sample, ATowerThatFellHasReachedNothing) {
   std::vector<Json> rows{testing::sample_row("S", "b", 1e-5, 1), testing::sample_row("S", "b", 0.005, 4)};
   rows[0]["metrics"]["stands"] = {{"error", 1}, {"threshold", 0}, {"pass", false}};
