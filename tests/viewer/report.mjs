@@ -24,7 +24,7 @@ let browser, scratch, one, both;
 
 before(async () => {
   scratch = mkdtempSync(join(tmpdir(), 'plumb-report-'));
-  const results = ['xeon-2-cores', 'h200'].map((machine) => join(root, 'harness/results', machine));
+  const results = ['xeon-16-cores', 'h200'].map((machine) => join(root, 'harness/results', machine));
   const pageOf = (folders, name) => {
     const file = join(scratch, name);
     execFileSync(program, ['report', ...folders, '--html', file], { env: { ...process.env, PLUMB_SCENES: join(root, 'scenes') } });
