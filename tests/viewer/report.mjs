@@ -30,8 +30,15 @@ before(async () => {
     execFileSync(program, ['report', ...folders, '--html', file], { env: { ...process.env, PLUMB_SCENES: join(root, 'scenes') } });
     return pathToFileURL(file).href;
   };
+  /** The same rows as if measured on a machine of another kind. */
+  const elsewhere = (folder) => {
+    const rows = execFileSync(program, ['report', folder, '--json'], { encoding: 'utf8', maxBuffer: 1 << 30 });
+    const file = join(scratch, 'elsewhere.jsonl');
+    writeFileSync(file, rows.replaceAll('"cpu":"', '"cpu":"Another '));
+    return file;
+  };
   one = pageOf(results.slice(0, 1), 'one.html');
-  both = pageOf(results, 'both.html');
+  both = pageOf([results[0], elsewhere(results[1])], 'both.html');
   browser = await chromium.launch({ executablePath: kBrowser, args: kArguments });
 });
 
