@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <utility>
 
 #include "scene/scene.hpp"
 
@@ -25,6 +26,11 @@ DraftFile::~DraftFile() {
   unlink(draft_.c_str());
 }
 
+void DraftFile::give_up(int error) const {
+  unlink(draft_.c_str());
+  fail(error);
+}
+
 void DraftFile::write(const std::string& bytes) {
   std::size_t written = 0;
   while (written < bytes.size()) {
@@ -33,9 +39,9 @@ void DraftFile::write(const std::string& bytes) {
     if (count < 0) fail(errno);
     written += static_cast<std::size_t>(count);
   }
-  if (std::rename(draft_.c_str(), file_.c_str()) != 0) fail(errno);
-  close(descriptor_);
-  descriptor_ = -1;
+  // A file system of the net or with quotas may say only now that there is no room.
+  if (close(std::exchange(descriptor_, -1)) != 0) give_up(errno);
+  if (std::rename(draft_.c_str(), file_.c_str()) != 0) give_up(errno);
 }
 
 void DraftFile::fail(int error) const {

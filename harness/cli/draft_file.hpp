@@ -18,6 +18,7 @@ class DraftFile {
   void write(const std::string& bytes);
 
  private:
+  [[noreturn]] void give_up(int error) const;
   [[noreturn]] void fail(int error) const;
 
   std::string file_, draft_;

@@ -210,7 +210,7 @@ AnsweredQuestion losing_answer(const std::vector<CostTest>& tests, const std::ve
         for (const ResultRow* row : *rows) names.push_back({row_title(*row), row});
       }
       parts.push_back(
-          name_some(fmt::format("fails {} of {} problems at its defaults:", lost, overview.problems), names));
+          name_some(fmt::format("fails {} of {} scene variants at its defaults:", lost, overview.problems), names));
     }
     if (const std::vector<Statement> missed = names_of(never_reached(tests, overview.backend, one_percent));
         !missed.empty())

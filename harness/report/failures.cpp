@@ -24,7 +24,7 @@ void write_backend(std::ostream& out, const BackendOverview& overview) {
   out << "\n### " << markdown_text(overview.backend) << ' ' << markdown_text(overview.version) << "\n\n"
       << markdown_text(describe_counts(overview)) << "\n\n";
   if (overview.lost.empty() && overview.unsupported.empty() && overview.unjudged.empty()) return;
-  out << "| problem | result | misses |\n|---|---|---|\n";
+  out << "| scene variant | result | misses |\n|---|---|---|\n";
   for (const auto* rows : {&overview.lost, &overview.unsupported, &overview.unjudged}) write_rows(out, *rows);
 }
 
@@ -32,7 +32,7 @@ void write_backend(std::ostream& out, const BackendOverview& overview) {
 
 void write_failures(std::ostream& out, const std::vector<Json>& rows) {
   out << "# What fails at the defaults\n\n"
-         "Made by `plumb report DIR --failures` from the rows beside it: every scene variant (problem) that an engine "
+         "Made by `plumb report DIR --failures` from the rows beside it: every scene variant that an engine "
          "does not pass at its own defaults, and what it misses there (error > threshold; by most first).\n";
   for (const MachineRows& machine : rows_by_machine(rows)) {
     const Study study(machine.rows);

@@ -111,7 +111,7 @@ std::vector<BackendOverview> overviews(const Study& study, const std::vector<Cos
 
 std::string elsewhere_text(const BackendOverview& o) {
   if (o.elsewhere == 0) return "";
-  return fmt::format("{} ran with other settings only.", plural(o.elsewhere, "more problem", "more problems"));
+  return fmt::format("{} ran with other settings only.", plural(o.elsewhere, "more scene variant", "more scene variants"));
 }
 
 std::string describe_counts(const BackendOverview& o) {
@@ -131,7 +131,7 @@ std::string describe_counts(const BackendOverview& o) {
   count(Verdict::error, "ended in an error");
   std::string out = o.problems == 0 ? "Nothing was run at its defaults."
                                     : fmt::format("Of {} at its defaults: {}.",
-                                                  plural(o.problems, "problem", "problems"), fmt::join(counts, ", "));
+                                                  plural(o.problems, "scene variant", "scene variants"), fmt::join(counts, ", "));
   if (o.elsewhere > 0) out += " " + elsewhere_text(o);
   return out;
 }

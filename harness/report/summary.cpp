@@ -52,7 +52,7 @@ void add_groups(Summary& summary, const std::map<std::string, GroupCount>& group
       lost.push_back(fmt::format("{} ({} of {})", group, count.scored - count.passed, count.scored));
   }
   add_list(summary.best, "Mostly the cheapest way to 1 % in", won);
-  add_list(summary.best, "Passes every problem that it can run of", passed);
+  add_list(summary.best, "Passes every scene variant that it can run of", passed);
   add_list(summary.breaks, "Fails most of", lost);
 }
 
@@ -121,7 +121,7 @@ Summary summary_of(const Study& study, const std::vector<CostLine>& costs, const
   add_groups(summary, counts_by_group(study, tests, backend), alone);
   if (overview.count(Verdict::gold) > 0)
     summary.best.push_back(
-        {fmt::format("Gold in {} of {} problems", overview.count(Verdict::gold), overview.problems), nullptr});
+        {fmt::format("Gold in {} of {} scene variants", overview.count(Verdict::gold), overview.problems), nullptr});
   add_fronts(summary, fronts, backend, alone);
   const EnergyFacts energy = energy_of(study, backend);
   if (const Statement statement = energy_statement(energy); !statement.text.empty()) {
@@ -139,7 +139,7 @@ Summary summary_of(const Study& study, const std::vector<CostLine>& costs, const
   add_accuracy(summary, tests, backend);
   add_failures(summary, overview);
   if (const int refused = overview.count(Verdict::unsupported); refused > 0)
-    summary.breaks.push_back({fmt::format("Cannot run {} of {} problems", refused, overview.problems), nullptr});
+    summary.breaks.push_back({fmt::format("Cannot run {} of {} scene variants", refused, overview.problems), nullptr});
   return summary;
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <xmmintrin.h>
 
+#include <array>
 #include <bit>
 #include <limits>
 #include <memory>
@@ -186,6 +187,41 @@ void read_rows(Scene& scene, Digest& digest) {
   }
 }
 
+/// The first joint's rows; its motor gets other targets and the scene a few steps with them.
+void drive_first_joint(Scene& scene, Digest& digest) {
+  IJoints& joints = *scene.world().joints();
+  std::array<double, 6> coordinates{}, reaction{};
+  std::array<double, 12> motor{};
+  const auto row = [](auto& numbers) { return rows_over(std::span(&numbers, 1)); };
+  check(scene.world(), joints.read_joints(PLUMB_JOINT_COORDINATES, {}, row(coordinates)));
+  check(scene.world(), joints.read_joints(PLUMB_JOINT_REACTION, {}, row(reaction)));
+  check(scene.world(), joints.read_joints(PLUMB_JOINT_MOTOR, {}, row(motor)));
+  for (const double x : coordinates) digest.add(x);
+  for (const double x : reaction) digest.add(x);
+  for (double& x : motor) digest.add(x), x *= 0.7;
+  // a joint without one says so
+  digest.add(
+      joints.write_joints(PLUMB_JOINT_MOTOR, {}, const_rows_over(std::span<const std::array<double, 12>>(&motor, 1))));
+  scene.run(3);
+  digest.add(scene.hash());
+}
+
+void ask_settings(Scene& scene, Digest& digest) {
+  for (const char* name : {"substeps", "contact_hertz", "threads"}) {
+    PlumbSettingValue value{};
+    digest.add(scene.world().settings()->get_setting(name, value));
+    digest.add(value.number);
+  }
+}
+
+void read_events(Scene& scene, Digest& digest) {
+  for (const PlumbEvent& event : scene.world().events()) {
+    digest.add(static_cast<std::int32_t>(event.type));
+    digest.add(event.body_a);
+    digest.add(event.body_b);
+  }
+}
+
 /// Everything that a scene says of itself when the host is in this mode.
 std::uint64_t digest_of(const NamedScene& recorded, std::uint32_t mode) {
   HostMode::mode = mode;
@@ -193,6 +229,9 @@ std::uint64_t digest_of(const NamedScene& recorded, std::uint32_t mode) {
   NamedScene all = recorded;
   all.needs |= PLUMB_NEED_QUERIES | PLUMB_NEED_CONTACTS | PLUMB_NEED_CONTACT_IMPULSES | PLUMB_NEED_SNAPSHOT;
   if ((all.needs & PLUMB_NEED_COLLISION) == 0) all.needs = recorded.needs | PLUMB_NEED_SNAPSHOT;
+  all.needs |= PLUMB_NEED_EVENTS;
+  const bool jointed = (all.needs & PLUMB_NEED_JOINTS) != 0;
+  if (jointed) all.needs |= PLUMB_NEED_JOINT_REACTIONS;
   const std::unique_ptr<Scene> scene = build(backend, all, 1);
   scene->run(15);
   std::span<const std::byte> lent;
@@ -201,6 +240,8 @@ std::uint64_t digest_of(const NamedScene& recorded, std::uint32_t mode) {
   Digest digest;
   digest.add(scene->hash());
   read_rows(*scene, digest);
+  read_events(*scene, digest);
+  ask_settings(*scene, digest);
   if ((all.needs & PLUMB_NEED_QUERIES) != 0) {
     ask_queries(*scene, digest);
     ask_what_the_engine_sees(*scene, digest);
@@ -210,6 +251,7 @@ std::uint64_t digest_of(const NamedScene& recorded, std::uint32_t mode) {
   check(scene->world(), scene->world().set_gravity({0.1, -9.7, 0.3}));
   check(scene->world(), scene->world().snapshot()->restore(saved));
   digest.add(scene->hash());
+  if (jointed) drive_first_joint(*scene, digest);
   except_pairs(*scene, digest);
   HostMode::mode = kNearest;
   return digest.value();

@@ -20,6 +20,14 @@ struct Sized {
   const ResultRow* row;
 };
 
+/// What a row was run with that is no number: other structures, kinds, cases.
+Json kind_of(const ResultRow& row) {
+  Json kind = Json::object();
+  for (const auto& [name, value] : row.params.items())
+    if (!value.is_number()) kind[name] = value;
+  return kind;
+}
+
 /// A backend's default cells over the sizes of a scene, smallest first; none where the size does not vary.
 std::vector<Sized> sizes_of(const PageContext& context, const Problem* first, const Problem* last,
                             const std::string& backend) {
@@ -31,11 +39,14 @@ std::vector<Sized> sizes_of(const PageContext& context, const Problem* first, co
   }
   std::stable_sort(sizes.begin(), sizes.end(), [](const Sized& a, const Sized& b) { return a.bodies < b.bodies; });
   const bool varies = !sizes.empty() && sizes.front().bodies < sizes.back().bodies;
-  // Several variants of one size are a ladder of something else.
+  // Several variants of one size are a ladder of something else; so are several kinds.
   const bool distinct = std::adjacent_find(sizes.begin(), sizes.end(), [](const Sized& a, const Sized& b) {
                           return a.bodies == b.bodies;
                         }) == sizes.end();
-  return varies && distinct ? sizes : std::vector<Sized>{};
+  const bool alike = std::all_of(sizes.begin(), sizes.end(), [&](const Sized& sized) {
+    return kind_of(*sized.row) == kind_of(*sizes.front().row);
+  });
+  return varies && distinct && alike ? sizes : std::vector<Sized>{};
 }
 
 std::string bodies_text(const char* where, double bodies) {

@@ -125,6 +125,19 @@ TEST(Page, WhatHasNoTimeIsNotGivenOne) {
   EXPECT_EQ(count(page, "A time in parentheses"), 1u);
 }
 
+TEST(Page, StructuresOfManySizesAreNoScaling) {
+  if (!has_page_script()) GTEST_SKIP() << "built without node";
+  for (const bool numbers : {true, false}) {
+    std::vector<Json> rows;
+    for (const int bodies : {10, 20}) {
+      rows.push_back(testing::sample_row("S1", "a", 0.001, 1));
+      rows.back()["params"]["built"] = numbers ? Json(bodies) : Json(bodies == 10 ? "wall" : "dome");
+      rows.back()["counts"]["bodies"] = bodies;
+    }
+    EXPECT_EQ(count(all_of(rows), "time per step against the number of bodies") > 0, numbers);
+  }
+}
+
 TEST(Page, WhatIsOnlyCountedIsCountedOnce) {
   std::vector<Json> rows;
   for (int i = 0; i < 9; ++i) {
@@ -141,7 +154,7 @@ TEST(Page, ProblemsThatRanWithOtherSettingsOnlyAreCounted) {
   std::vector<Json> rows{testing::sample_row("S1", "a", 0.001, 1), testing::sample_row("S2", "a", 0.001, 1)};
   rows[1]["settings"] = {{"iterations", 99}};
   rows[1]["profile"] = "tuned";
-  EXPECT_EQ(count(page_of(rows), "1 more problem ran with other settings only."), 1u);
+  EXPECT_EQ(count(page_of(rows), "1 more scene variant ran with other settings only."), 1u);
 }
 
 TEST(Page, RunsOfAProblemStandInTheOrderOfTheEngines) {

@@ -82,7 +82,7 @@ TEST(Overview, WhatRanWithOtherSettingsOnlyIsNoWordOnTheDefaults) {
   EXPECT_EQ(overview.elsewhere, 1);
   EXPECT_TRUE(overview.lost.empty());
   EXPECT_EQ(describe_counts(overview),
-            "Of 1 problem at its defaults: 1 gold. 1 more problem ran with other settings only.");
+            "Of 1 scene variant at its defaults: 1 gold. 1 more scene variant ran with other settings only.");
 }
 
 TEST(Overview, TheWorstFailureIsNamedFirst) {
@@ -91,10 +91,10 @@ TEST(Overview, TheWorstFailureIsNamedFirst) {
   const Study study(parse_rows(rows));
   const auto all = overviews(study, cost_of_accuracy(study));
   ASSERT_EQ(all.size(), 1u);
-  EXPECT_EQ(
-      describe_backend(all[0], true),
-      "Of 3 problems at its defaults: 1 gold, 2 failed. It gets within 1 % in 1 of 3 metrics. It misses by most in A2 "
-      "(error_of_it at 500× its threshold), A1 (error_of_it at 2.00× its threshold).");
+  EXPECT_EQ(describe_backend(all[0], true),
+            "Of 3 scene variants at its defaults: 1 gold, 2 failed. It gets within 1 % in 1 of 3 metrics. It misses by "
+            "most in A2 "
+            "(error_of_it at 500× its threshold), A1 (error_of_it at 2.00× its threshold).");
 }
 
 }  // namespace
