@@ -5,6 +5,7 @@
 #include <unordered_set>
 
 #include "broadphase/pair_filter.hpp"
+#include "constraints/rigid_groups.hpp"
 
 namespace plumb::impulse {
 
@@ -180,9 +181,15 @@ void JointStore::list_mechanisms(std::size_t bodies) {
 
 std::vector<std::uint64_t> JointStore::excluded() const {
   std::vector<std::uint64_t> keys;
-  for (const Row& row : rows_)
-    if (row.used && !row.traits.lets_bodies_touch && row.joint.body_a != kWorld)
-      keys.push_back(body_pair_key(row.joint.body_a, row.joint.body_b));
+  RigidGroups groups;
+  for (const Row& row : rows_) {
+    if (!row.used || row.traits.lets_bodies_touch || row.joint.body_a == kWorld) continue;
+    keys.push_back(body_pair_key(row.joint.body_a, row.joint.body_b));
+    // What may break bears less where contacts bear some of it.
+    if (row.joint.type == JointType::kFixed && !row.traits.breaks) groups.weld(row.joint.body_a, row.joint.body_b);
+  }
+  const std::vector<std::uint64_t> within = groups.pairs();
+  keys.insert(keys.end(), within.begin(), within.end());
   return keys;
 }
 
