@@ -6,6 +6,7 @@
 
 #include "constraints/prepare_contacts.hpp"
 #include "geometry/proxy_bounds.hpp"
+#include "narrowphase/sweep_rims.hpp"
 #include "solver/choose_substeps.hpp"
 
 namespace plumb::impulse {
@@ -298,6 +299,8 @@ void Simulation::enqueue() {
     find_candidates(now);
     phases_.end(executor_, PLUMB_PHASE_BROAD);
     narrow_phase_.collide(executor_, now, all, shapes_on, margins_.data(), shape_types_, counters);
+    if (all.turn && (shape_types_ & bit_of(ShapeType::kCylinder)) != 0)
+      sweep_rims(executor_, narrow_phase_.candidates(counters), now, all, shapes_on, parameters);
     if (finds_impacts())
       impacts_.find(executor_, now, narrow_phase_.candidates(counters), all, shapes_on, margins_.data(), parameters,
                     in_pieces_);
