@@ -17,12 +17,12 @@ PLUMB_HD inline AxisView axis_view(const JointSet& joints) {
 }
 
 PLUMB_HD inline void choose_in_system(const AxisView& view, const JointSystem& system, std::uint32_t column,
-                                      const RowTime& time, bool first_round, std::uint32_t turn) {
+                                      const RowTime& time, std::uint32_t round, std::uint32_t turn) {
   const std::uint32_t j = system.base + column;
   const Joint& joint = view.joints[j];
   if (column == 0) system.changes[(turn + 1) % 3] = 0;
-  const bool changed = choose_pieces(view, j, time, view.velocity(joint.body_a), view.velocity(joint.body_b),
-                                     first_round, view.work[j].share, system.work(column).change);
+  const bool changed = choose_pieces(view, j, time, view.velocity(joint.body_a), view.velocity(joint.body_b), round,
+                                     view.work[j].share, system.work(column).change);
   if (changed) atomic_add(&system.changes[turn % 3], 1U);
 }
 
@@ -37,21 +37,16 @@ PLUMB_DEVICE inline void factor_axis_system(Team& team, const JointSystem& syste
   });
 }
 
-/// Joint after joint instead, where the rounds do not come to an end.
-constexpr std::uint32_t kSweeps = 10;
-PLUMB_DEVICE inline void sweep_system(Team& team, const JointSet& joints, const RowTime& time) {
-  const AxisView view = axis_view(joints);
-  for_system_joints(team, joints, [=](std::uint32_t j) { solve_axis_joint(view, j, time); });
-}
-
-/// The changes that solve the system with its rows on the pieces chosen. anew: as of row_speeds.
+/// The changes that solve the system with its rows on the pieces chosen. anew: as of row_speeds. What leaks while places
+/// are solved is taken back as they drift; what leaked while speeds are would stay: a bridge at rest would sink by a
+/// millimetre a second, it says, and never move.
 PLUMB_DEVICE inline void find_axis_changes(Team& team, const JointSystem& system, const AxisView& view,
                                            const RowTime& time, bool anew) {
   for_columns_up(team, system, [=](std::uint32_t column) {
     const std::uint32_t j = system.base + column;
     const Joint& joint = view.joints[j];
-    row_residuals(view, j, time, view.velocity(joint.body_a), view.velocity(joint.body_b), anew, view.work[j].leak,
-                  system.work(column).change);
+    row_residuals(view, j, time, view.velocity(joint.body_a), view.velocity(joint.body_b), anew,
+                  time.pass == RowPass::kSpeeds ? Real(0) : view.work[j].leak, system.work(column).change);
     take_earlier(system, column);
   });
   for_columns_down(team, system, [=](std::uint32_t column) { solve_backward(system, column); });
@@ -69,8 +64,8 @@ PLUMB_DEVICE inline void solve_axis_system(Team& team, const JointSet& joints, c
   std::uint32_t stiffened = 0;
   while (true) {
     const std::uint32_t now = turn++;
-    const bool first = rounds.is_first();
-    team.each(count, [=](std::uint32_t column) { choose_in_system(view, system, column, time, first, now); });
+    const std::uint32_t round = rounds.round();
+    team.each(count, [=](std::uint32_t column) { choose_in_system(view, system, column, time, round, now); });
     team.meet();
     const RoundKind kind = rounds.next(system.changes[now % 3] != 0);
     if (kind == RoundKind::kDone) break;
@@ -84,12 +79,6 @@ PLUMB_DEVICE inline void solve_axis_system(Team& team, const JointSet& joints, c
       find_axis_changes(team, system, view, time, has_new_tangent(kind));
     }
     push_changes(team, system);
-  }
-  if (rounds.ran_out()) {
-    team.each(count, [=](std::uint32_t column) { take_back(view, system.base + column, system.work(column).change); });
-    push_changes(team, system);
-    for (std::uint32_t sweep = 0; sweep < kSweeps; ++sweep) sweep_system(team, joints, time);
-    return;  // each joint has settled its pieces
   }
   team.each(count,
             [=](std::uint32_t column) { settle_pieces(view, system.base + column, time, system.work(column).change); });
@@ -145,8 +134,7 @@ PLUMB_DEVICE inline void pass_on_loads(Team& team, const JointSet& joints) {
     const AxisWork& own = view.parts.work[j];
     Real(&y)[kJointRows] = system.work(column).change;
     speeds_now(view, j, view.velocity(joint.body_a), view.velocity(joint.body_b), y);
-    for (int i = 0; i < row_count(joint); ++i)
-      y[i] = own.is_active(i) ? -(y[i] + view.work[j].leak * own.yield[i] * view.total(j)[i]) : Real(0);
+    for (int i = 0; i < row_count(joint); ++i) y[i] = own.is_active(i) ? -y[i] : Real(0);
     take_earlier(system, column);
   });
   for_columns_down(team, system, [=](std::uint32_t column) { solve_backward(system, column); });

@@ -63,14 +63,6 @@ PLUMB_DEVICE void for_single_joints(Team& team, const JointSet& joints, const F&
   for (std::uint32_t colour = 0; colour < joints.colours.count; ++colour)
     for_joints_of_colour(team, joints.colours, colour, joints.colours.first[colour], joints.colours.system[colour], f);
 }
-/// f(j) for every joint that is, colour after colour.
-template <class F>
-PLUMB_DEVICE void for_system_joints(Team& team, const JointSet& joints, const F& f) {
-  for (std::uint32_t colour = 0; colour < joints.colours.count; ++colour)
-    for_joints_of_colour(team, joints.colours, colour, joints.colours.system[colour], joints.colours.first[colour + 1],
-                         f);
-}
-
 PLUMB_DEVICE inline void refresh_joints(Team& team, const JointSet& joints) {
   const JointView view = joints.view;
   team.each(joints.count, [=](std::uint32_t j) { refresh_joint(view, j); });
