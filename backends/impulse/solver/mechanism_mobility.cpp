@@ -79,15 +79,16 @@ struct UnitWrench {
   }
 
   /// Of the body's own mobility the share that its mechanism may leave it before the step is over, beyond what it does
-  /// now: the square of the angle by which the arms of its joints, or those of its neighbours, turn.
+  /// now: half the angle by which the arms of its joints, or those of its neighbours, turn.
   PLUMB_HD Real turned_free(std::uint32_t place) const {
-    Real turned = 0;
+    Real square = 0;
     for (std::uint32_t k = system.body_first[place]; k < system.body_first[place + 1]; ++k) {
       const Joint& joint = system.view.joints[system.on_body[k].joint];
-      turned = max(turned, max(turn_of_arm(joint.body_a, joint.frame_a), turn_of_arm(joint.body_b, joint.frame_b)));
+      square = max(square, max(turn_of_arm(joint.body_a, joint.frame_a), turn_of_arm(joint.body_b, joint.frame_b)));
     }
-    return min(turned, Real(1));
+    return min(sqrt(square) / 2, Real(1));
   }
+  /// Squared.
   PLUMB_HD Real turn_of_arm(std::uint32_t body, const Frame& frame) const {
     if (body == kWorld) return 0;
     const Vec arm = rotate(system.view.end(body).orientation, frame.position);

@@ -55,6 +55,16 @@ PLUMB_DEVICE inline void solve_system(Team& team, const JointSystem& system, con
   push_changes(team, system);
 }
 
+/// What contacts did to single bodies is passed on before anybody looks where the bodies will be: a plank that bears what
+/// weighs a hundred times as much would be looked at where it is thrown alone, far off, and made energy of what took it
+/// back from there.
+PLUMB_DEVICE inline void pass_on_loads(Team& team, const JointSystem& system, JointPass pass) {
+  if (system.levels == 0) return;
+  pass.take_back_error = false;
+  find_changes(team, system, pass);
+  push_changes(team, system);
+}
+
 /// One pass: the first of a sub-step, which takes errors back, or the second, after positions have moved.
 PLUMB_DEVICE inline void solve_mechanisms(Team& team, const JointSet& joints, const StepParameters& step,
                                           bool take_back_error, bool loaded, std::uint32_t& turn) {
@@ -65,6 +75,7 @@ PLUMB_DEVICE inline void solve_mechanisms(Team& team, const JointSet& joints, co
   for_single_joints(team, joints, [=](std::uint32_t j) { solve_joint(view, j, pass); });
   JointPass exact = pass;
   exact.softness = {step.joint_rate, 1, 0};
+  if (take_back_error && loaded) pass_on_loads(team, joints.system, exact);
   solve_system(team, joints.system, exact, turn);
 }
 

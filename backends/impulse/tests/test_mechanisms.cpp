@@ -295,6 +295,55 @@ TEST(Mechanisms, HingesThatRubBringABridgeToRest) {
   }
 }
 
+/// A rope bridge of planks of 20 kg, each tied to the next by two ball joints, on which a capsule that keeps upright
+/// lands in the middle and draws it taut: some energy is made still, but nobody is thrown to the moon.
+TEST(Mechanisms, ARopeBridgeCatchesWhoIsManyTimesHeavierThanItsPlanks) {
+  constexpr int kPlanks = 30;
+  constexpr double kArc = 30 * std::numbers::pi / 180, kHalf = 0.25;
+  for (const double weight : {80, 400, 700, 1000, 2000}) {
+    Workshop shop(kNeeds | PLUMB_NEED_AXIS_LOCKS);
+    shop.scene.body.material.friction = 0.8;
+    const double part = 2 * kArc / kPlanks, radius = kHalf / std::sin(part / 2), apothem = kHalf / std::tan(part / 2);
+    const PlumbShape plank = shop.scene.box({kHalf, 0.03, 0.6});
+    PlumbBody before = 0;
+    for (int i = 0; i <= kPlanks; ++i) {
+      const double middle = -kArc + (i + 0.5) * part, end = middle - part / 2;
+      PlumbBody next = 0;
+      if (i < kPlanks)
+        next = shop.add(plank, 20, {apothem * std::sin(middle), -apothem * std::cos(middle), 0},
+                        {0, 0, std::sin(middle / 2), std::cos(middle / 2)});
+      for (const double side : {-0.5, 0.5}) {
+        const PlumbVec3 hook = {radius * std::sin(end), -radius * std::cos(end), side};
+        const PlumbVec3 first = {-kHalf, 0, side}, last = {kHalf, 0, side};
+        if (next == 0)
+          shop.join(PLUMB_JOINT_BALL, 0, hook, before, last);
+        else
+          shop.join(PLUMB_JOINT_BALL, before, before == 0 ? hook : last, next, first);
+      }
+      before = next;
+    }
+    shop.scene.body.locks = PLUMB_LOCK_ANGULAR_X | PLUMB_LOCK_ANGULAR_Y | PLUMB_LOCK_ANGULAR_Z;
+    shop.add(shop.scene.capsule(0.2, 0.65), weight, {0, 1.05 - apothem, 0});
+    const auto energy = [&] {
+      double sum = 0;
+      for (std::size_t i = 0; i < shop.bodies.size(); ++i) {
+        const std::vector<double> v = shop.scene.velocity(shop.bodies[i]);
+        sum +=
+            shop.masses[i] * ((v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) / 2 + 9.81 * shop.scene.poses()[i].position.y);
+      }
+      return sum;
+    };
+    double least = energy(), rise = 0;
+    for (int step = 0; step < 600; ++step) {
+      shop.scene.run(1);
+      const double now = energy();
+      rise = std::max(rise, now - least);
+      least = std::min(least, now);
+    }
+    EXPECT_LT(rise, 0.1 * 9.81 * (20 * kPlanks + weight)) << weight;
+  }
+}
+
 /// Two boxes that a bar holds into each other: what would push them apart finds nothing that gives way, and pushed ever
 /// harder until the rounding of it all made them fly.
 TEST(Mechanisms, WhatJointsHoldIntoEachOtherLiesStill) {
