@@ -216,6 +216,7 @@ void JointStore::upload(const Table<BodyMass>& masses) {
     ordered_.push_back(row.joint);
     const bool is_stiff = row.traits.locks_turns, is_long = found.length[j] >= kLongBeam;
     ordered_.back().in_chain = found.length[j] >= kLongChain;
+    ordered_.back().in_ring = found.in_loop[j];
     ordered_.back().in_loop = found.in_loop[j] || (is_stiff && (is_long || !both_turn(row.joint, masses)));
     mechanism_of_.push_back(found.mechanism[j]);
     if (found.is_closed[j] || has_limits(row.joint, row.axes)) no_chains.insert(found.mechanism[j]);

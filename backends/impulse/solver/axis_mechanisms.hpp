@@ -37,16 +37,23 @@ PLUMB_DEVICE inline void factor_axis_system(Team& team, const JointSystem& syste
   });
 }
 
-/// The changes that solve the system with its rows on the pieces chosen. anew: as of row_speeds. What leaks while places
-/// are solved is taken back as they drift; what leaked while speeds are would stay: a bridge at rest would sink by a
-/// millimetre a second, it says, and never move.
+/// What leaks while places are solved is taken back as they drift; what leaks while speeds are stays. It calms what
+/// sways, but a bridge at rest would seem to sink by a millimetre a second: joints with limits, motors or springs have
+/// none.
+PLUMB_HD inline Real leak_of_speeds(const AxisView& view, std::uint32_t j) {
+  const Joint& joint = view.joints[j];
+  return rows_of(joint.type) == row_count(joint) ? view.work[j].leak : Real(0);
+}
+
+/// The changes that solve the system with its rows on the pieces chosen. anew: as of row_speeds.
 PLUMB_DEVICE inline void find_axis_changes(Team& team, const JointSystem& system, const AxisView& view,
                                            const RowTime& time, bool anew) {
   for_columns_up(team, system, [=](std::uint32_t column) {
     const std::uint32_t j = system.base + column;
     const Joint& joint = view.joints[j];
-    row_residuals(view, j, time, view.velocity(joint.body_a), view.velocity(joint.body_b), anew,
-                  time.pass == RowPass::kSpeeds ? Real(0) : view.work[j].leak, system.work(column).change);
+    const Real leak = time.pass == RowPass::kSpeeds ? leak_of_speeds(view, j) : view.work[j].leak;
+    row_residuals(view, j, time, view.velocity(joint.body_a), view.velocity(joint.body_b), anew, leak,
+                  system.work(column).change);
     take_earlier(system, column);
   });
   for_columns_down(team, system, [=](std::uint32_t column) { solve_backward(system, column); });
@@ -134,7 +141,9 @@ PLUMB_DEVICE inline void pass_on_loads(Team& team, const JointSet& joints) {
     const AxisWork& own = view.parts.work[j];
     Real(&y)[kJointRows] = system.work(column).change;
     speeds_now(view, j, view.velocity(joint.body_a), view.velocity(joint.body_b), y);
-    for (int i = 0; i < row_count(joint); ++i) y[i] = own.is_active(i) ? -y[i] : Real(0);
+    const Real leak = leak_of_speeds(view, j);
+    for (int i = 0; i < row_count(joint); ++i)
+      y[i] = own.is_active(i) ? -(y[i] + leak * own.yield[i] * view.total(j)[i]) : Real(0);
     take_earlier(system, column);
   });
   for_columns_down(team, system, [=](std::uint32_t column) { solve_backward(system, column); });

@@ -79,14 +79,17 @@ struct UnitWrench {
   }
 
   /// Of the body's own mobility the share that its mechanism may leave it before the step is over, beyond what it does
-  /// now: half the angle by which the arms of its joints, or those of its neighbours, turn.
+  /// now, by the angle by which the arms of its joints, or those of its neighbours, turn: its square, or half of it in
+  /// a loop, such as a rope between two hooks, which holds most when it is straight.
   PLUMB_HD Real turned_free(std::uint32_t place) const {
     Real square = 0;
+    bool in_ring = false;
     for (std::uint32_t k = system.body_first[place]; k < system.body_first[place + 1]; ++k) {
       const Joint& joint = system.view.joints[system.on_body[k].joint];
       square = max(square, max(turn_of_arm(joint.body_a, joint.frame_a), turn_of_arm(joint.body_b, joint.frame_b)));
+      in_ring = in_ring || joint.in_ring;
     }
-    return min(sqrt(square) / 2, Real(1));
+    return min(in_ring ? max(square, sqrt(square) / 2) : square, Real(1));
   }
   /// Squared.
   PLUMB_HD Real turn_of_arm(std::uint32_t body, const Frame& frame) const {

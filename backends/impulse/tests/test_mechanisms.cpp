@@ -290,8 +290,8 @@ TEST(Mechanisms, HingesThatRubBringABridgeToRest) {
       before = next;
     }
     if (load > 0) shop.add(shop.scene.box({0.25, 0.25, 0.25}), load, {0.25, 0.31 - apothem, 0});
-    shop.run(600);
-    EXPECT_LT(shop.run(200), 5e-4) << load;
+    shop.run(900);
+    EXPECT_LT(shop.run(300), 5e-4) << load;
   }
 }
 
