@@ -111,7 +111,8 @@ std::vector<BackendOverview> overviews(const Study& study, const std::vector<Cos
 
 std::string elsewhere_text(const BackendOverview& o) {
   if (o.elsewhere == 0) return "";
-  return fmt::format("{} ran with other settings only.", plural(o.elsewhere, "more scene variant", "more scene variants"));
+  return fmt::format("{} ran with other settings only.",
+                     plural(o.elsewhere, "more scene variant", "more scene variants"));
 }
 
 std::string describe_counts(const BackendOverview& o) {
@@ -129,9 +130,10 @@ std::string describe_counts(const BackendOverview& o) {
   count(Verdict::timeout, "timed out");
   count(Verdict::out_of_memory, "out of memory");
   count(Verdict::error, "ended in an error");
-  std::string out = o.problems == 0 ? "Nothing was run at its defaults."
-                                    : fmt::format("Of {} at its defaults: {}.",
-                                                  plural(o.problems, "scene variant", "scene variants"), fmt::join(counts, ", "));
+  std::string out = o.problems == 0
+                        ? "Nothing was run at its defaults."
+                        : fmt::format("Of {} at its defaults: {}.",
+                                      plural(o.problems, "scene variant", "scene variants"), fmt::join(counts, ", "));
   if (o.elsewhere > 0) out += " " + elsewhere_text(o);
   return out;
 }

@@ -81,8 +81,8 @@ class JointStore {
     return {held_ == 0 ? nullptr : place_of_.data(), mechanism_bodies_.data(), loads_.data(), mobility_.data(), held_};
   }
   [[nodiscard]] MechanismColumns mechanism_columns() { return {columns_.data(), number_of_.data(), scratch_.data()}; }
-  /// body_pair_key of bodies that do not collide: those that are joined, and those of one rigid group; in any order, and
-  /// some more than once.
+  /// body_pair_key of bodies that do not collide: those that are joined, and those of one rigid group; in any order,
+  /// and some more than once.
   [[nodiscard]] std::vector<std::uint64_t> excluded() const;
 
  private:

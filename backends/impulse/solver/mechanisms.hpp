@@ -55,9 +55,9 @@ PLUMB_DEVICE inline void solve_system(Team& team, const JointSystem& system, con
   push_changes(team, system);
 }
 
-/// What contacts did to single bodies is passed on before anybody looks where the bodies will be: a plank that bears what
-/// weighs a hundred times as much would be looked at where it is thrown alone, far off, and made energy of what took it
-/// back from there.
+/// What contacts did to single bodies is passed on before anybody looks where the bodies will be: a plank that bears
+/// what weighs a hundred times as much would be looked at where it is thrown alone, far off, and made energy of what
+/// took it back from there.
 PLUMB_DEVICE inline void pass_on_loads(Team& team, const JointSystem& system, JointPass pass) {
   if (system.levels == 0) return;
   pass.take_back_error = false;
