@@ -239,7 +239,7 @@ AnsweredQuestion losing_answer(const std::vector<CostTest>& tests, const std::ve
     if (overview->problems > 0)
       counts.push_back(fmt::format("{} {} of {}", overview->backend, overview->lost.size(), overview->problems));
   }
-  if (!counts.empty()) answer.verdict = fmt::format("Problems failed at the defaults: {}.", list_of(counts));
+  if (!counts.empty()) answer.verdict = fmt::format("Scene variants failed at the defaults: {}.", list_of(counts));
   return answer;
 }
 

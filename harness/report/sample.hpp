@@ -20,8 +20,8 @@ struct Measured {
 };
 
 struct Sample {
-  std::vector<const ResultRow*>
-      rows;  ///< at least one, of one backend; first those that pass where most do, else the others
+  /// At least one, of one backend; first those that pass where most do, else the others.
+  std::vector<const ResultRow*> rows;
 
   [[nodiscard]] const ResultRow& row() const { return *rows.front(); }
   /// Most of its rows pass their scene.

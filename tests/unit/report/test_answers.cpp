@@ -146,7 +146,7 @@ TEST(Answers, LosingIsFailingNeverReachingWhatAnotherReachesOrPayingMore) {
   EXPECT_EQ(losing->lines[0].statements.at(0).text, "fails 1 of 2 scene variants at its defaults: S1");
   EXPECT_NE(losing->lines[0].statements.at(1).text.find("S1 error_of_it"), std::string::npos);
   EXPECT_NE(losing->lines[1].statements.at(0).text.find("7.00\u00d7 what a does"), std::string::npos);
-  EXPECT_EQ(losing->verdict, "Problems failed at the defaults: b 0 of 2 and a 1 of 2.");
+  EXPECT_EQ(losing->verdict, "Scene variants failed at the defaults: b 0 of 2 and a 1 of 2.");
 }
 
 TEST(Answers, WhoGetsThereMostOftenNeedNotBeTheCheapest) {
