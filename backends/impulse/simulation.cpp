@@ -200,6 +200,8 @@ void Simulation::upload_changes() {
     exclusions.set_joined(joints.excluded());
     forget_recordings();
   }
+  shorter_[0].work_of_joints = kWorkOfJoint * joints.count();
+  if (bounds_energy()) energy_bound_.reserve(state.size(), joints.count());
   exclusions.upload();
   if (features_.sleeping) {
     sleep_.upload(executor_);
@@ -242,7 +244,6 @@ void Simulation::step(const StepParameters& parameters, const ShorterSubsteps& s
   if (parameters.solver != parameters_[0].solver) solver_.choose(parameters.solver);
   parameters_[0] = parameters;
   shorter_[0] = shorter;
-  shorter_[0].work_of_joints = kWorkOfJoint * joints.count();
   parameters_[0].step = ++step_;
   repeated_ = grew_ = false;
   woken_.clear();
@@ -328,6 +329,8 @@ void Simulation::enqueue() {
     if (features_.belts)
       put_drifts(executor_, now, pair_capacity_, all, shapes_on, belts.device(), colouring_.order(),
                  colouring_.colours(), solver_.rows(), counters);
+    const EnergyWork energy = energy_work(now, all, shapes_on);
+    if (bounds_energy()) energy_bound_.keep(executor_, energy);
     solver_.solve(executor_, all, bodies_in_step(), parameters, counters, pair_capacity_, joints);
     if (continuous_)
       guard_.hold(
@@ -335,6 +338,7 @@ void Simulation::enqueue() {
           {now, narrow_phase_.candidates(counters), pair_capacity_, counters, parameters, shapes_on, boxes_.data(),
            movers_.device(), mover_room_, broad_phase_.statics(), planes_.device(), plane_count_},
           all, bodies_in_step(), solver_.displacements());
+    if (bounds_energy()) energy_bound_.judge(executor_, energy, {&counters->manifolds, pair_capacity_});
     if (features_.collision) solver_.keep_impulses(executor_, now, counters);
   } else {
     solver_.move_freely(executor_, all, bodies_in_step(), parameters, counters);
@@ -346,9 +350,21 @@ void Simulation::enqueue() {
   phases_.end(executor_, PLUMB_PHASE_OUTPUT);
 }
 
+EnergyWork Simulation::energy_work(const ContactCache& now, const Bodies& all, const Proxies& shapes_on) {
+  return {now,
+          shapes_on,
+          features_.belts ? belts.device() : nullptr,
+          solver_.joint_set(all, joints),
+          joints.code(),
+          bodies_in_step(),
+          pair_capacity_,
+          parameters_.device(),
+          counters_.device()};
+}
+
 void Simulation::wait() {
   executor_.wait();
-  while (is_undone(counters(), pair_capacity_)) {
+  while (is_undone(counters(), pair_capacity_) && !taken_back()) {
     if (counters().pairs > pair_capacity_) {
       reserve_pairs(counters().pairs + counters().pairs / 2);
       grew_ = true;
@@ -360,7 +376,8 @@ void Simulation::wait() {
     launch();
     executor_.wait();
   }
-  if (!features_.sleeping) return;
+  if (taken_back()) --step_;
+  if (taken_back() || !features_.sleeping) return;
   sleep_.stepped();
   if (step_ % Sleep::kPeriod == 0) let_islands_rest();
 }

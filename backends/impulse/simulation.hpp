@@ -27,6 +27,7 @@
 #include "narrowphase/pieces.hpp"
 #include "queries/query_trees.hpp"
 #include "solver/colouring.hpp"
+#include "solver/energy_bound.hpp"
 #include "solver/solver.hpp"
 #include "state_rows.hpp"
 #include "step_counters.hpp"
@@ -118,6 +119,8 @@ class Simulation {
   [[nodiscard]] std::uint32_t steps() const { return step_; }
   [[nodiscard]] bool repeated() const { return repeated_; }
   [[nodiscard]] bool grew() const { return grew_; }
+  /// Whether the step made energy (solver/energy_bound.hpp), and all is as it was before it.
+  [[nodiscard]] bool taken_back() const { return counters().taken_back != 0; }
   /// Of the last step, s; NaN where it was not measured, and for phases that this engine does not tell apart.
   [[nodiscard]] double phase_seconds(PlumbPhase phase) const;
   [[nodiscard]] Executor& executor() { return executor_; }
@@ -149,6 +152,10 @@ class Simulation {
 
  private:
   [[nodiscard]] bool finds_impacts() const { return continuous_ || features_.restitution; }
+  /// Others than the default solver take errors of joints back by speeds that stay.
+  [[nodiscard]] bool bounds_energy() const {
+    return joints.count() != 0 && parameters_[0].solver == SolverKind::kTgsSoft;
+  }
   /// What a recorded step holds of the host's numbers and addresses.
   struct Recorded {
     std::array<const void*, 11> addresses{};
@@ -169,6 +176,7 @@ class Simulation {
     return std::min<std::uint32_t>(room_for(body_count_), static_cast<std::uint32_t>(state.size()) - 1);
   }
   void find_candidates(const ContactCache& now);
+  [[nodiscard]] EnergyWork energy_work(const ContactCache& now, const Bodies& all, const Proxies& shapes_on);
   void reserve_rows();
   void enqueue();
   void enqueue_rows();
@@ -215,6 +223,7 @@ class Simulation {
   Guard guard_;
   Colouring colouring_;
   Solver solver_;
+  EnergyBound energy_bound_;  // where there are joints
   Sleep sleep_;
   Slots woken_, fallen_asleep_;
   Buffer<ContactRecord> records_;

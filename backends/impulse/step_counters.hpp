@@ -26,13 +26,16 @@ struct StepCounters {
   std::uint32_t substeps, asked_substeps;       ///< of this step, and what its loads asked for (choose_substeps.hpp)
   std::uint32_t passes;  ///< over the constraints, of the solvers that make them until it is enough
   std::uint32_t
-      touched_sleepers;     ///< manifolds with somebody awake: the step does nothing, they wake, and it is repeated
-  std::uint32_t nonfinite;  ///< bodies that came out not finite and were put back
+      touched_sleepers;      ///< manifolds with somebody awake: the step does nothing, they wake, and it is repeated
+  std::uint32_t gained;      ///< islands that gained more energy than they may (solver/energy_bound.hpp)
+  std::uint32_t taken_back;  ///< because of them all is as it was before the step
+  std::uint32_t nonfinite;   ///< bodies that came out not finite and were put back
 };
 
-/// The step did nothing and comes again: there was too little room for the pairs, or somebody must wake first.
+/// The step did nothing and comes again, because there was too little room for the pairs or somebody must wake first;
+/// or it was taken back.
 PLUMB_HD inline bool is_undone(const StepCounters& counters, std::uint32_t pair_capacity) {
-  return counters.pairs > pair_capacity || counters.touched_sleepers != 0;
+  return counters.pairs > pair_capacity || counters.touched_sleepers != 0 || counters.taken_back != 0;
 }
 
 }  // namespace plumb::impulse

@@ -162,6 +162,9 @@ std::vector<Metric> GeneralMetrics::finish(Simulation& simulation) {
   if (simulation.statistics().solver_fallbacks > 0)
     add("solver_fallbacks", static_cast<double>(simulation.statistics().solver_fallbacks),
         "steps that another solver finished");
+  if (simulation.statistics().energy_bounded > 0)
+    add("energy_bounded", static_cast<double>(simulation.statistics().energy_bounded),
+        "steps that would have made energy, and were solved again finer or had it taken out");
   return metrics;
 }
 
@@ -179,7 +182,8 @@ std::vector<MetricSpec> general_metric_specs() {
                                    {"joint_gap_slope", "m/s"},
                                    {"joint_angle_max", "rad"},
                                    {"joint_limit_max", "1"},
-                                   {"solver_fallbacks", "1"}})
+                                   {"solver_fallbacks", "1"},
+                                   {"energy_bounded", "1"}})
     specs.push_back({name, unit, "", std::nullopt, std::nullopt});
   for (const std::vector<MetricSpec>& more : {ContactLaws::specs(), ReferenceScore::specs()})
     specs.insert(specs.end(), more.begin(), more.end());

@@ -153,6 +153,7 @@ void Simulation::State::take_stock() {
   statistics.contacts_max = std::max(statistics.contacts_max, report.contacts);
   statistics.dropped += report.dropped;
   if ((report.remarks & PLUMB_REMARK_SOLVER_FELL_BACK) != 0) ++statistics.solver_fallbacks;
+  if ((report.remarks & PLUMB_REMARK_ENERGY_BOUNDED) != 0) ++statistics.energy_bounded;
   for (std::size_t phase = 0; phase < phases.size(); ++phase) {
     if (std::isfinite(report.phase_seconds[phase])) phases[phase].push_back(1e3 * report.phase_seconds[phase]);
   }

@@ -50,7 +50,8 @@ struct StepStatistics {
   std::uint64_t dropped = 0;
   std::uint32_t nonfinite = 0;
   std::uint64_t solver_fallbacks = 0;
-  std::vector<double> phase_ms;  ///< medians by PlumbPhase, NaN where not known
+  std::uint64_t energy_bounded = 0;  // steps
+  std::vector<double> phase_ms;      ///< medians by PlumbPhase, NaN where not known
 };
 
 class Simulation {

@@ -89,7 +89,8 @@ typedef struct PlumbStepReport {
 enum {
   PLUMB_REMARK_SOLVER_FELL_BACK = 1u << 0, /* the chosen solver gave up and another finished the step */
   PLUMB_REMARK_CAPACITY_GREW = 1u << 1,
-  PLUMB_REMARK_STEP_REPEATED = 1u << 2
+  PLUMB_REMARK_STEP_REPEATED = 1u << 2,
+  PLUMB_REMARK_ENERGY_BOUNDED = 1u << 3 /* it would have made energy: solved again finer, or the gain taken out */
 };
 
 /* One contact point as the last step solved it: geometry at detection, impulse summed over the step. */

@@ -39,7 +39,7 @@ PLUMB_HD inline void correct_joint(const JointView& view, std::uint32_t j, const
 PLUMB_HD inline void correct_axis_joint(const AxisView& view, std::uint32_t j, const StepParameters& step, bool first) {
   const Joint& joint = view.joints[j];
   refresh_axis_joint(view, j);
-  begin_reaction(view, j, first);
+  begin_reaction(view, j, first && !step.is_later_part);
   for (int i = 0; i < row_count(joint); ++i) view.total(j)[i] = 0;
   const Velocity a = view.velocity(joint.body_a), b = view.velocity(joint.body_b);
   Velocity new_a = a, new_b = b;

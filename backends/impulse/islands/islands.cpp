@@ -1,6 +1,6 @@
 #include "islands/islands.hpp"
 
-#include "exec/atomic.hpp"
+#include "islands/union_find.hpp"
 
 namespace plumb::impulse {
 
@@ -13,6 +13,11 @@ PLUMB_HD inline bool moves(const Velocity& velocity) {
   return length_squared(velocity.linear) > 0 || length_squared(velocity.angular) > 0;
 }
 
+struct Parents {
+  std::uint32_t* parent;
+  PLUMB_HD std::uint32_t* operator()(std::uint32_t i) const { return &parent[i]; }
+};
+
 struct Graph {
   Bodies bodies;
   std::uint32_t *parent, *restless;
@@ -20,24 +25,11 @@ struct Graph {
   /// Two bodies touch or are joined. What moves by itself lets nobody rest.
   PLUMB_HD void join(std::uint32_t a, std::uint32_t b) const {
     const bool push_a = is_pushed(bodies, a), push_b = is_pushed(bodies, b);
-    if (push_a && push_b) return unite(a, b);
+    if (push_a && push_b) return unite(Parents{parent}, a, b);
     if (push_a && moves(bodies.velocity[b])) keep_awake(a);
     if (push_b && moves(bodies.velocity[a])) keep_awake(b);
   }
   PLUMB_HD void keep_awake(std::uint32_t body) const { atomic_or(&restless[body], 1U); }
-
- private:
-  /// Hooks the larger below the smaller. Where the larger was hooked already, to another, the two are still to be
-  /// united.
-  PLUMB_HD void unite(std::uint32_t a, std::uint32_t b) const {
-    while (a != b) {
-      const std::uint32_t larger = max(a, b), smaller = min(a, b);
-      const std::uint32_t before = atomic_min(&parent[larger], smaller);
-      if (before == larger) return;
-      a = before;
-      b = smaller;
-    }
-  }
 };
 
 struct Alone {
@@ -74,13 +66,8 @@ struct JoinJointed {
 };
 
 struct FindRoot {
-  const std::uint32_t* parent;
-  std::uint32_t* root;
-  PLUMB_HD void operator()(std::uint32_t i) const {
-    std::uint32_t at = i;
-    while (parent[at] != at) at = parent[at];
-    root[i] = at;
-  }
+  std::uint32_t *parent, *root;
+  PLUMB_HD void operator()(std::uint32_t i) const { root[i] = find_root(Parents{parent}, i); }
 };
 
 struct KeepAwake {

@@ -1,8 +1,4 @@
-// Islands: what contacts and joints join, over bodies that can be pushed. Found where kernels run.
-//
-// Components of a graph by union-find without locks, an edge a thread: a root is hooked below a smaller one, so the
-// root of a component is its smallest body, whatever the order of the threads (Jayanti and Tarjan, "A randomized
-// concurrent algorithm for disjoint set union", PODC 2016, with indices for random numbers).
+// Islands: what contacts and joints join, over bodies that can be pushed. Found where kernels run (union_find.hpp).
 #pragma once
 
 #include "body.hpp"

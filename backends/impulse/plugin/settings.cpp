@@ -1,5 +1,7 @@
 #include "plugin/settings.hpp"
 
+#include <algorithm>
+
 namespace plumb::impulse {
 
 namespace {
@@ -88,7 +90,7 @@ double Settings::substep(double dt, std::uint32_t parts) const {
   return solver == SolverKind::kSequential || solver == SolverKind::kJacobi ? dt : dt / parts;
 }
 
-SubstepParameters Settings::of_substep(double dt, std::uint32_t parts, double last_h) const {
+SubstepParameters Settings::of_substep(double dt, std::uint32_t parts, double last_h, double most_rate) const {
   const double h = substep(dt, parts), ratio = last_h == 0 ? 1 : h / last_h;
   SubstepParameters of{};
   of.substeps = parts;
@@ -100,6 +102,7 @@ SubstepParameters Settings::of_substep(double dt, std::uint32_t parts, double la
   of.ground = make_softness(kGroundStiffness * hertz, contact_damping_ratio, h);
   of.joint = make_softness(joint_hertz > 0 ? joint_hertz : 0.25 / h, joint_damping_ratio, h);
   of.joint_rate = joint_hertz > 0 ? of.joint.bias_rate : of.inverse_h;
+  if (most_rate > 0) of.joint_rate = std::min(of.joint_rate, static_cast<Real>(most_rate));
   of.chain_rate = joint_hertz > 0 ? of.joint_rate : make_softness(kChainHertz, kChainDampingRatio, h).bias_rate;
   of.warm_start = static_cast<Real>(warm_starting && last_h != 0 ? ratio : 0);
   of.shortened = static_cast<Real>(ratio * ratio);
@@ -124,11 +127,11 @@ StepParameters Settings::parameters(double dt, const PlumbVec3& gravity, const S
   return step;
 }
 
-ShorterSubsteps Settings::shorter(double dt, double last_h) const {
+ShorterSubsteps Settings::shorter(double dt, double last_h, double most_rate) const {
   ShorterSubsteps shorter{};
   std::uint32_t parts = substeps;
   do {
-    shorter.of[shorter.count++] = of_substep(dt, parts, last_h);
+    shorter.of[shorter.count++] = of_substep(dt, parts, last_h, most_rate);
     parts *= 2;
   } while (shorter.count < ShorterSubsteps::kMost && parts <= most_substeps);
   shorter.inverse_last_h = static_cast<Real>(last_h == 0 ? 0 : 1 / last_h);

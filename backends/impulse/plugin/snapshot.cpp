@@ -6,8 +6,8 @@ namespace plumb::impulse {
 
 /// Bits mean the same to every library of this physics and this number type, wherever its kernels run.
 std::string_view World::format() const {
-  return sizeof(Real) == 8 ? "impulse 1, double, physics " PLUMB_IMPULSE_PHYSICS_REVISION_TEXT
-                           : "impulse 1, float, physics " PLUMB_IMPULSE_PHYSICS_REVISION_TEXT;
+  return sizeof(Real) == 8 ? "impulse 2, double, physics " PLUMB_IMPULSE_PHYSICS_REVISION_TEXT
+                           : "impulse 2, float, physics " PLUMB_IMPULSE_PHYSICS_REVISION_TEXT;
 }
 
 PlumbResult World::save(std::span<const std::byte>& data) {
@@ -44,6 +44,7 @@ void World::exchange(Archive& archive) {
   archive.value(gravity_);
   archive.value(last_h_);
   archive.value(load_rate_);
+  archive.value(divides_for_);
   archive.value(stopped_);
   steered_.exchange(archive);
   archive.list(pushed_);

@@ -18,9 +18,6 @@ SolverFeatures features_of(const WorldInit& init) {
           init.needs(PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION | PLUMB_NEED_SURFACE_VELOCITY)};
 }
 
-/// Loads that come and go would pump, s.
-constexpr double kLoadFades = 1;
-
 PlumbVec3 plumb_vec(const Position& p) { return {p.x, p.y, p.z}; }
 
 }  // namespace
@@ -45,38 +42,36 @@ PlumbResult World::step(double dt) {
   steer_kinematics(dt);
   dt_ = dt;
   records_known_ = false;
-  simulation_.choose(settings_.broad_phase);
-  ShorterSubsteps shorter = settings_.shorter(dt, last_h_);
-  shorter.asked_before = static_cast<Real>(load_rate_ * dt);
-  simulation_.step(settings_.parameters(dt, gravity_, shorter), shorter);
+  parts_ = {};
+  parts_.count = divides_for_ > 0 ? kParts : 1;
+  divides_for_ -= dt;
+  start(dt_ / parts_.count, parts_.count > 1 ? 1 : 0);
   return PLUMB_OK;
 }
 
 PlumbResult World::wait(PlumbStepReport& report) {
-  simulation_.wait();
-  settle_kinematics();
-  clear_forces();
   events_.swap(early_events_);
   early_events_.clear();
-  tell(PLUMB_EVENT_WAKE, simulation_.woken(), events_);
-  tell(PLUMB_EVENT_SLEEP, simulation_.fallen_asleep(), events_);
+  finish_steps();
+  settle_kinematics();
+  clear_forces();
   break_joints();
   if (init_.needs(PLUMB_NEED_EVENTS) || init_.needs(PLUMB_NEED_SENSORS)) find_events();
   const StepCounters& counters = simulation_.counters();
-  last_h_ = settings_.substep(dt_, counters.substeps != 0 ? counters.substeps : settings_.substeps);
-  load_rate_ = std::max(counters.asked_substeps / dt_, std::max(0.0, 1 - dt_ / kLoadFades) * load_rate_);
   report.threads = simulation_.executor().threads();
   report.pairs = simulation_.candidate_count();
   report.contacts = counters.points;
   report.dropped = 0;
   report.awake = dynamic_count_ - simulation_.sleeper_count();
-  report.nonfinite = counters.nonfinite + stopped_;
+  report.nonfinite = counters.nonfinite + stopped_ + parts_.nonfinite;
   for (PlumbPhase phase = 0; phase < PLUMB_PHASE_COUNT; ++phase)
     report.phase_seconds[phase] = simulation_.phase_seconds(phase);
   stopped_ = 0;
-  if (simulation_.repeated()) report.remarks |= PLUMB_REMARK_STEP_REPEATED;
-  if (simulation_.grew()) report.remarks |= PLUMB_REMARK_CAPACITY_GREW;
-  return simulation_.grew() ? PLUMB_GROWN : PLUMB_OK;
+  const bool grew = simulation_.grew() || parts_.grew;
+  if (parts_.gained) report.remarks |= PLUMB_REMARK_ENERGY_BOUNDED;
+  if (simulation_.repeated() || parts_.repeated) report.remarks |= PLUMB_REMARK_STEP_REPEATED;
+  if (grew) report.remarks |= PLUMB_REMARK_CAPACITY_GREW;
+  return grew ? PLUMB_GROWN : PLUMB_OK;
 }
 
 /// A kinematic body that is sent somewhere gets the velocity that leads there in one step; one that has arrived rests.
@@ -117,7 +112,10 @@ void World::clear_forces() {
 }
 
 const std::vector<ContactRecord>& World::records() {
-  if (!records_known_) records_ = simulation_.contacts();
+  if (!records_known_) {
+    records_ = simulation_.contacts();
+    records_.insert(records_.end(), parts_.contacts.begin(), parts_.contacts.end());
+  }
   records_known_ = true;
   return records_;
 }

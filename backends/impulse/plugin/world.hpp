@@ -111,6 +111,10 @@ class World final : public IPhysicsWorld,
   void stop_infinite(std::uint32_t slot);
   void push(std::uint32_t slot, const Vec& force, const Vec& torque);
   void kick(std::uint32_t slot, const Vec& impulse, const Vec& angular_impulse);
+  void start(double dt, int divided);
+  void finish_steps();
+  void finish(double dt, int divided);
+  void keep_part();
   void steer_kinematics(double dt);
   void settle_kinematics();
   void clear_forces();
@@ -135,7 +139,17 @@ class World final : public IPhysicsWorld,
   Settings settings_;
   PlumbVec3 gravity_;
   double last_h_ = 0, dt_ = 0;
-  double load_rate_ = 0;              // sub-steps that loads ask for, 1/s
+  double load_rate_ = 0;    // sub-steps that loads ask for, 1/s
+  double divides_for_ = 0;  // for so long steps go in parts from the start, s
+  static constexpr int kParts = 4;
+  /// Of the step that is under way, which may go in parts, what all but the last of them found.
+  struct Parts {
+    int count = 1;                        // from the start; each may be divided further
+    std::vector<ContactRecord> contacts;  // where impulses or events are needed
+    std::uint32_t nonfinite = 0;
+    bool any_done = false, repeated = false, grew = false;
+    bool gained = false;  // energy, one of them or the step as a whole
+  } parts_;
   std::vector<BodyRecord> bodies_;    // by slot
   std::vector<Compound> compounds_;   // by shape slot, as far as there are any
   std::vector<ProxyRecord> proxies_;  // by proxy, as far as one is not as it comes

@@ -117,7 +117,7 @@ PLUMB_DEVICE inline void warm_start_axes(Team& team, const JointSet& joints, boo
   team.each(joints.count, [=](std::uint32_t j) {
     if (j == 0) system.changes[0] = 0;
     if (first) take_over_impulse(view, j, step);
-    begin_reaction(view, j, first);
+    begin_reaction(view, j, first && !step.is_later_part);
   });
   if (first) refresh_axes(team, joints, step.h, step.shortened, loaded);
   for_single_joints(team, joints, [=](std::uint32_t j) { warm_start_joint(view, j, false, step); });

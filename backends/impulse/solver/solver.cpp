@@ -59,10 +59,10 @@ const Mechanisms& Solver::meet(JointStore& joints) {
 
 void Solver::find_mobility(Executor& executor, const ContactCache& cache, const Bodies& all, const Proxies& proxies,
                            const StepParameters* parameters, const StepCounters* counters, JointStore& joints) {
-  enqueue_mobility(executor, joints.code(),
-                   {joints.set(all, bodies(all), features_.gyroscopic), mechanisms_, joints.mechanism_columns(), cache,
-                    proxies.rows, parameters, counters},
-                   {&counters->manifolds, slots_});
+  enqueue_mobility(
+      executor, joints.code(),
+      {joint_set(all, joints), mechanisms_, joints.mechanism_columns(), cache, proxies.rows, parameters, counters},
+      {&counters->manifolds, slots_});
 }
 
 void Solver::prepare(Executor& executor, const ContactCache& cache, const Bodies& all, const Proxies& proxies,
@@ -90,7 +90,7 @@ void Solver::solve(Executor& executor, const Bodies& all, std::uint32_t body_cou
   const Count load = {&counters->largest_loop, contact_loop(slots_)};
   const SolverStep step = {all,        bodies(all),   {rows(), counters, features_.belts, parameters},
                            body_count, features_,     parameters,
-                           counters,   pair_capacity, joints.set(all, bodies(all), features_.gyroscopic)};
+                           counters,   pair_capacity, joint_set(all, joints)};
   const StepWork work = {step, pass_changes_.data(), split_.parts(), kind_, load, body_count / 2};
   if constexpr (Executor::kWarps) {
     if (features_.belts) return enqueue_step_with_belts(executor, work);

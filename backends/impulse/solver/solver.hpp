@@ -48,6 +48,10 @@ class Solver {
   void prepare(Executor& executor, const ContactCache& cache, const Bodies& bodies, const Proxies& proxies,
                const Colouring& colouring, const Real* impacts, const StepParameters* parameters,
                StepCounters* counters);
+  /// The joints with what their kernels work on.
+  [[nodiscard]] JointSet joint_set(const Bodies& all, JointStore& joints) {
+    return joints.set(all, bodies(all), features_.gyroscopic);
+  }
   /// Moves the bodies through the step.
   void solve(Executor& executor, const Bodies& bodies, std::uint32_t body_count, const StepParameters* parameters,
              StepCounters* counters, std::uint32_t pair_capacity, JointStore& joints);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "hashes/shape_scenes.hpp"
+#include "rope_bridge.hpp"
 
 namespace plumb::impulse::test {
 
@@ -74,6 +75,11 @@ void belts(Scene& scene) {
     all.target(carriage, {0.01 * step, 0.5, -3});
     if (step == 200) run(all, level, {-1.5, 0, 0});
   };
+}
+
+void heavy_bridge(Scene& scene) {
+  const RopeBridge bridge = rope_bridge(scene);
+  for (int i = 0; i < 8; ++i) person(scene, bridge, 2000, 1.4 * (i - 3.5));
 }
 
 void far_off(Scene& scene) {

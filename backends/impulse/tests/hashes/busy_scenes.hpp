@@ -11,6 +11,8 @@ void comers(Scene& scene);
 void machines(Scene& scene);
 /// Boxes, balls and capsules on belts that run level, uphill, round a corner and back, and on one that moves.
 void belts(Scene& scene);
+/// A rope bridge on which people land who are too heavy for whole steps (solver/energy_bound.hpp).
+void heavy_bridge(Scene& scene);
 /// A tower, a heap, a chain and a sensor, 100 km from the origin.
 void far_off(Scene& scene);
 

@@ -249,6 +249,7 @@ const std::vector<NamedScene>& named_scenes() {
       {"comers", {}, kAll | PLUMB_NEED_SLEEPING, kDown, &comers},
       {"machines", {}, kContactNeeds | PLUMB_NEED_KINEMATIC | PLUMB_NEED_SLEEPING, kDown, &machines},
       {"belts", {}, kAll | PLUMB_NEED_KINEMATIC | PLUMB_NEED_SURFACE_VELOCITY | PLUMB_NEED_SLEEPING, kDown, &belts},
+      {"heavy-bridge", {}, kAll | PLUMB_NEED_JOINTS | PLUMB_NEED_AXIS_LOCKS, kDown, &heavy_bridge},
       {"far-off", {}, kAll | PLUMB_NEED_JOINTS, kDown, &far_off},
       {"pyramid-20-once", {"relaxation", "step"}, kContactNeeds, kDown, &pyramid_20},
   };

@@ -1,0 +1,77 @@
+// A step as the simulation takes it: whole, or in parts where it made energy (solver/energy_bound.hpp).
+#include <algorithm>
+
+#include "plugin/world.hpp"
+
+namespace plumb::impulse {
+
+namespace {
+
+/// Loads that come and go would pump, s.
+constexpr double kLoadFades = 1;
+
+/// A part may be divided likewise, so many times over.
+constexpr int kMostDivisions = 2;
+/// Steps are divided from the start for so long after one that made energy: what moves so that whole steps do goes on
+/// to for a while. s
+constexpr double kStaysDivided = 0.5;
+
+}  // namespace
+
+/// Enqueues a step, or a part of one that was divided so many times. In parts errors of joints are taken back no faster
+/// than in the time of the whole step: what is taut lifts what lies on it by many times the error.
+void World::start(double dt, int divided) {
+  if (parts_.any_done) keep_part();
+  simulation_.choose(settings_.broad_phase);
+  const double most_rate = divided == 0 ? 0 : 1 / dt_;
+  ShorterSubsteps shorter = settings_.shorter(dt, last_h_, most_rate);
+  shorter.asked_before = static_cast<Real>(load_rate_ * dt);
+  StepParameters parameters = settings_.parameters(dt, gravity_, shorter);
+  parameters.may_be_taken_back = divided < kMostDivisions;
+  parameters.is_later_part = parts_.any_done;
+  simulation_.step(parameters, shorter);
+}
+
+/// Of the parts of the step the first is under way.
+void World::finish_steps() {
+  const int divided = parts_.count > 1 ? 1 : 0;
+  const double part = dt_ / parts_.count;
+  finish(part, divided);
+  for (int k = 1; k < parts_.count; ++k) {
+    start(part, divided);
+    finish(part, divided);
+  }
+  if (parts_.gained) divides_for_ = kStaysDivided;
+}
+
+/// When it is done: what is told and remembered of it. Goes over it in parts where it was taken back.
+void World::finish(double dt, int divided) {
+  simulation_.wait();
+  const StepCounters& counters = simulation_.counters();
+  tell(PLUMB_EVENT_WAKE, simulation_.woken(), events_);
+  parts_.gained = parts_.gained || counters.gained != 0;
+  if (simulation_.taken_back()) {
+    for (int k = 0; k < kParts; ++k) {
+      start(dt / kParts, divided + 1);
+      finish(dt / kParts, divided + 1);
+    }
+    return;
+  }
+  tell(PLUMB_EVENT_SLEEP, simulation_.fallen_asleep(), events_);
+  last_h_ = settings_.substep(dt, counters.substeps != 0 ? counters.substeps : settings_.substeps);
+  load_rate_ = std::max(counters.asked_substeps / dt, std::max(0.0, 1 - dt / kLoadFades) * load_rate_);
+  parts_.any_done = true;
+}
+
+/// The last part's contacts and counts, before there is another.
+void World::keep_part() {
+  if (simulation_.taken_back()) return;
+  parts_.nonfinite += simulation_.counters().nonfinite;
+  parts_.repeated = parts_.repeated || simulation_.repeated();
+  parts_.grew = parts_.grew || simulation_.grew();
+  if (!init_.needs(PLUMB_NEED_CONTACT_IMPULSES) && !init_.needs(PLUMB_NEED_EVENTS)) return;
+  const std::vector<ContactRecord> contacts = simulation_.contacts();
+  parts_.contacts.insert(parts_.contacts.end(), contacts.begin(), contacts.end());
+}
+
+}  // namespace plumb::impulse

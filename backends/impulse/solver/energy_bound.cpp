@@ -1,0 +1,291 @@
+#include "solver/energy_bound.hpp"
+
+#include "constraints/joint_axis_solve.hpp"
+#include "exec/atomic.hpp"
+#include "islands/union_find.hpp"
+
+namespace plumb::impulse {
+
+namespace {
+
+constexpr std::uint32_t kHasGained = 1U << 0, kIsHeld = 1U << 1;
+
+struct Keep {
+  EnergyWork work;
+  KeptBody* bodies;
+  KeptJoint* joints;
+
+  PLUMB_HD void operator()(std::uint32_t i) const {
+    const JointView& view = work.joints.view;
+    if (i < work.body_count)
+      bodies[i] = {view.bodies.position[i], view.bodies.orientation[i], view.bodies.velocity[i], view.least_moment[i]};
+    if (i >= work.joints.count) return;
+    const std::uint32_t slot = view.joints[i].slot;
+    joints[i].impulse = view.impulses[slot];
+    if (work.code != JointCode::kAll) return;
+    joints[i].force = work.joints.axes.reactions[slot].force;
+    joints[i].torque = work.joints.axes.reactions[slot].torque;
+  }
+};
+
+constexpr std::uint32_t kNotFinite = 0x7f800000U;  // bits of the infinite float
+/// Of a number that is not negative; such bits are in the order of the numbers. What is not finite comes last.
+PLUMB_HD inline std::uint32_t bits_of(Real x) {
+  return is_finite(x) ? __builtin_bit_cast(std::uint32_t, static_cast<float>(x)) : kNotFinite;
+}
+PLUMB_HD inline Real number_of(std::uint32_t bits) { return static_cast<Real>(__builtin_bit_cast(float, bits)); }
+PLUMB_HD inline bool is_finite_number(std::uint32_t bits) { return bits < kNotFinite; }
+
+/// Numbers as whole multiples of 2^-40 of a power of two near the peak, and no more than twice it.
+class Quanta {
+ public:
+  PLUMB_HD explicit Quanta(std::uint32_t peak) {
+    const int exponent = static_cast<int>(peak >> 23) - 127;
+    per_unit_ = __builtin_bit_cast(double, static_cast<std::uint64_t>(1023 + 40 - exponent) << 52);
+  }
+  PLUMB_HD std::int64_t of(Real x) const {
+    constexpr double kMost = 4398046511104.0;  // 2^42
+    return static_cast<std::int64_t>(max(-kMost, min(kMost, static_cast<double>(x) * per_unit_)));
+  }
+
+ private:
+  double per_unit_;
+};
+PLUMB_HD inline void add_whole(std::int64_t* to, std::int64_t number) {
+  atomic_add(reinterpret_cast<std::uint64_t*>(to), static_cast<std::uint64_t>(number));
+}
+
+PLUMB_HD inline Real kinetic_energy(const BodyMass& mass, const Velocity& velocity, const Quat& orientation) {
+  const Vec turn = rotate_back(orientation, velocity.angular);
+  const Real turning =
+      mass.inertia.x * turn.x * turn.x + mass.inertia.y * turn.y * turn.y + mass.inertia.z * turn.z * turn.z;
+  return (length_squared(velocity.linear) / velocity.inverse_mass + turning) / 2;
+}
+
+struct Parents {
+  IslandEnergy* islands;
+  PLUMB_HD std::uint32_t* operator()(std::uint32_t i) const { return &islands[i].parent; }
+};
+
+/// Energies of a body, J.
+struct BodyEnergy {
+  Real kinetic, may_have, work;
+};
+
+struct JudgeEnergy {
+  EnergyWork work;
+  const KeptBody* kept;
+  const KeptJoint* kept_joints;
+  IslandEnergy* islands;
+  Real* given;
+
+  PLUMB_DEVICE void operator()(Team& team) const {
+    if (is_undone(*work.counters, work.pair_capacity)) return;
+    const JudgeEnergy self = *this;
+    const std::uint32_t bodies = work.body_count, joints = work.joints.count;
+    team.each(bodies, [self](std::uint32_t i) { self.islands[i] = IslandEnergy{i, i, 0, 0, 0, 0, 0, 0, 0, 0}; });
+    team.each(work.counters->manifolds, [self](std::uint32_t row) { self.join_contact(row); });
+    team.each(joints, [self](std::uint32_t j) { self.join_joint(j); });
+    team.each(bodies, [self](std::uint32_t i) { self.find_root(i); });
+    team.each(joints, [self](std::uint32_t j) { self.find_given(j); });
+    team.each(bodies, [self](std::uint32_t i) { self.find_peak(i); });
+    team.each(bodies, [self](std::uint32_t i) { self.add_body(i); });
+    team.each(joints, [self](std::uint32_t j) { self.add_given(j); });
+    team.each(bodies, [self](std::uint32_t i) { self.judge(i); });
+    team.meet();
+    if (work.counters->gained == 0) return;
+    const bool all = work.parameters->may_be_taken_back;
+    team.each(bodies, [self, all](std::uint32_t i) { self.put_back(i, all); });
+    team.each(joints, [self, all](std::uint32_t j) { self.put_joint_back(j, all); });
+    if (all) team.single([self] { self.work.counters->taken_back = 1; });
+  }
+
+ private:
+  PLUMB_HD bool is_pushed(std::uint32_t body) const {
+    return body != kWorld && work.joints.view.bodies.velocity[body].inverse_mass > 0;
+  }
+  /// It came out not finite, and was left where it was (motion.hpp).
+  PLUMB_HD bool is_lost(std::uint32_t body) const {
+    const Displacement& moved = work.joints.view.solver.displacement[body];
+    return !is_finite(moved.linear) || !is_finite(moved.rotation.w);
+  }
+  PLUMB_HD std::uint32_t root_of(const Joint& joint) const {
+    return islands[is_pushed(joint.body_b) ? joint.body_b : joint.body_a].root;
+  }
+
+  PLUMB_HD void join(std::uint32_t a, std::uint32_t b) const {
+    if (is_pushed(a) && is_pushed(b))
+      unite(Parents{islands}, a, b);
+    else if (is_pushed(a))
+      note_mover(a, b);
+    else if (is_pushed(b))
+      note_mover(b, a);
+  }
+  PLUMB_HD void note_mover(std::uint32_t body, std::uint32_t by) const {
+    if (by == kWorld) return;
+    const Velocity& velocity = work.joints.view.bodies.velocity[by];
+    if (length_squared(velocity.linear) + length_squared(velocity.angular) == 0) return;
+    atomic_max(&islands[body].speed, bits_of(length(velocity.linear)));
+    atomic_max(&islands[body].spin, bits_of(length(velocity.angular)));
+    atomic_max(&islands[body].mover, by + 1);
+  }
+  PLUMB_HD void join_contact(std::uint32_t row) const {
+    const Pair pair = work.cache.pairs[work.cache.candidate[row]];
+    const std::uint32_t a = work.proxies.rows[pair.a].body, b = work.proxies.rows[pair.b].body;
+    join(a, b);
+    if (work.belts == nullptr) return;
+    const Real speed = length(work.belts[pair.a]) + length(work.belts[pair.b]);
+    if (is_pushed(a)) atomic_max(&islands[a].speed, bits_of(speed));
+    if (is_pushed(b)) atomic_max(&islands[b].speed, bits_of(speed));
+  }
+  PLUMB_HD void join_joint(std::uint32_t j) const {
+    const Joint& joint = work.joints.view.joints[j];
+    join(joint.body_a, joint.body_b);
+  }
+  /// What the host moves at a body moves its island.
+  PLUMB_HD void find_root(std::uint32_t i) const {
+    const std::uint32_t at = impulse::find_root(Parents{islands}, i);
+    IslandEnergy& own = islands[i];
+    own.root = at;
+    if (at == i) return;
+    if (own.speed != 0) atomic_max(&islands[at].speed, own.speed);
+    if (own.spin != 0) atomic_max(&islands[at].spin, own.spin);
+    if (own.mover != 0) atomic_max(&islands[at].mover, own.mover);
+  }
+
+  /// A motor gives no more than its force at the speed that it wants; a spring no more than it holds.
+  PLUMB_HD void find_given(std::uint32_t j) const {
+    const Joint& joint = work.joints.view.joints[j];
+    given[j] = 0;
+    const int first = rows_of(joint.type);
+    if (work.code != JointCode::kAll || first == row_count(joint)) return;
+    const JointAxes& axes = work.joints.axes.axes[j];
+    const JointReaction& reaction = work.joints.axes.reactions[joint.slot];
+    const JointDrive& drive = work.joints.axes.drives[joint.slot];
+    Real places[kJointRows];
+    all_errors(joint, axes, place_before(joint), places);
+    Real sum = 0;
+    for (int i = 0; i < row_count(joint) - first; ++i) {
+      const std::uint32_t k = axes.row[i].coordinate;
+      if (k == kLocked) continue;
+      const Real most = drive.max_force[k] * work.parameters->dt;
+      const Real pushed = k < 3 ? length(reaction.force) : length(reaction.torque);
+      sum = sum + min(most, pushed) * sqrt(drive.velocity[k] * drive.velocity[k]);
+      if (!(axes.omega[i] > 0)) continue;
+      const Real off = places[first + i] - axes.rest[i];
+      const Real bent = axes.row[i].kind == RowKind::kAngle ? wrapped(off) : off;
+      sum = sum + reaction.spring_mass[first + i] * axes.omega[i] * axes.omega[i] * bent * bent / 2;
+    }
+    given[j] = sum;
+    atomic_max(&islands[root_of(joint)].peak, bits_of(sum));
+  }
+  PLUMB_HD JointPlace place_before(const Joint& joint) const {
+    const auto end = [&](std::uint32_t body) -> JointEnd {
+      if (body == kWorld) return {{0, 0, 0}, {0, 0, 0, 1}};
+      return {{0, 0, 0}, kept[body].orientation};
+    };
+    const Position from = joint.body_a == kWorld ? joint.world_anchor : kept[joint.body_a].position;
+    return place_joint(joint, between(from, kept[joint.body_b].position), end(joint.body_a), end(joint.body_b));
+  }
+
+  PLUMB_HD BodyEnergy energy_of(std::uint32_t i) const {
+    const Bodies& all = work.joints.view.bodies;
+    const BodyMass& mass = all.mass[i];
+    const Velocity &before = kept[i].velocity, &after = all.velocity[i];
+    const Displacement& moved = work.joints.view.solver.displacement[i];
+    const IslandEnergy& island = islands[islands[i].root];
+    const Real inertia = Real(1) / before.inverse_mass, dt = work.parameters->dt;
+    const Vec weight = (inertia * mass.gravity_scale) * work.parameters->gravity;
+    BodyEnergy energy;
+    energy.kinetic = kinetic_energy(mass, after, all.orientation[i]);
+    energy.work = dot(weight + all.force[i].force, moved.linear);
+    Real driven = number_of(island.speed);
+    if (island.mover != 0)
+      driven = driven + number_of(island.spin) * length(between(all.position[island.mover - 1], kept[i].position));
+    energy.may_have = kinetic_energy(mass, before, kept[i].orientation) + kFreeWay * length(weight) +
+                      inertia * (kFreeSpeed * kFreeSpeed / 2 + 2 * driven * driven) +
+                      dt * sqrt(length_squared(all.force[i].torque) * length_squared(after.angular));
+    return energy;
+  }
+  PLUMB_HD void find_peak(std::uint32_t i) const {
+    if (!is_pushed(i)) return;
+    const BodyEnergy energy = energy_of(i);
+    const Real largest = max(max(energy.kinetic, energy.may_have), sqrt(energy.work * energy.work));
+    atomic_max(&islands[islands[i].root].peak, is_lost(i) ? kNotFinite : bits_of(largest));
+  }
+  PLUMB_HD void add_body(std::uint32_t i) const {
+    if (!is_pushed(i)) return;
+    IslandEnergy& island = islands[islands[i].root];
+    if (!is_finite_number(island.peak)) return;
+    const BodyEnergy energy = energy_of(i);
+    const Quanta quanta(island.peak);
+    add_whole(&island.kinetic, quanta.of(energy.kinetic));
+    add_whole(&island.may_have, quanta.of(energy.may_have));
+    add_whole(&island.work, quanta.of(energy.work));
+  }
+  PLUMB_HD void add_given(std::uint32_t j) const {
+    if (!(given[j] > 0)) return;
+    IslandEnergy& island = islands[root_of(work.joints.view.joints[j])];
+    if (is_finite_number(island.peak)) add_whole(&island.may_have, Quanta(island.peak).of(given[j]));
+  }
+
+  /// Of the root of an island.
+  PLUMB_HD void judge(std::uint32_t i) const {
+    IslandEnergy& island = islands[i];
+    if (!is_pushed(i) || island.root != i) return;
+    const Real gain = gain_of(island);
+    if (!(gain > kMostGain)) return;
+    island.verdict = gain > kMostGainAtLast ? kHasGained | kIsHeld : kHasGained;
+    atomic_add(&work.counters->gained, 1U);
+  }
+  /// What an island has over what it may have.
+  PLUMB_HD static Real gain_of(const IslandEnergy& island) {
+    if (!is_finite_number(island.peak)) return kHuge;
+    const double work = static_cast<double>(island.work > 0 ? island.work : 0);
+    const double may_have = static_cast<double>(island.may_have) + work;
+    return static_cast<Real>(static_cast<double>(island.kinetic) / max(may_have, 1.0));
+  }
+
+  /// Of a body, to where it was before the step. all_is: and so with all others.
+  PLUMB_HD void put_back(std::uint32_t i, bool all_is) const {
+    const Bodies& all = work.joints.view.bodies;
+    if ((all.mass[i].flags & kBodyMoves) == 0) return;
+    const IslandEnergy& island = islands[islands[i].root];
+    if (!all_is && !(is_pushed(i) && (island.verdict & kIsHeld) != 0)) return;
+    all.position[i] = kept[i].position;
+    all.orientation[i] = kept[i].orientation;
+    work.joints.view.least_moment[i] = kept[i].least_moment;
+    work.joints.view.solver.displacement[i] = {{0, 0, 0}, 0, {0, 0, 0, 1}};
+    all.velocity[i] = kept[i].velocity;
+    if (all_is || !is_pushed(i)) return;
+    const Real share = kHeldShare;  // device code has no constants to refer to
+    all.velocity[i].linear = share * kept[i].velocity.linear;
+    all.velocity[i].angular = share * kept[i].velocity.angular;
+  }
+  PLUMB_HD void put_joint_back(std::uint32_t j, bool all_is) const {
+    const Joint& joint = work.joints.view.joints[j];
+    JointImpulse& impulse = work.joints.view.impulses[joint.slot];
+    if (!all_is) {
+      if ((islands[root_of(joint)].verdict & kIsHeld) == 0) return;
+      for (int i = 0; i < kJointRows; ++i) impulse.along[i] = kHeldShare * kept_joints[j].impulse.along[i];
+      return;
+    }
+    impulse = kept_joints[j].impulse;
+    if (work.code != JointCode::kAll) return;
+    work.joints.axes.reactions[joint.slot].force = kept_joints[j].force;
+    work.joints.axes.reactions[joint.slot].torque = kept_joints[j].torque;
+  }
+};
+
+}  // namespace
+
+void EnergyBound::keep(Executor& executor, const EnergyWork& work) {
+  executor.run(max(work.body_count, work.joints.count), Keep{work, bodies_.data(), joints_.data()});
+}
+
+void EnergyBound::judge(Executor& executor, const EnergyWork& work, Count contacts) {
+  executor.team(contacts, work.body_count,
+                JudgeEnergy{work, bodies_.data(), joints_.data(), islands_.data(), given_.data()});
+}
+
+}  // namespace plumb::impulse

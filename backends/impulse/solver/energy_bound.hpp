@@ -1,0 +1,92 @@
+// The energy bound: what no step may do to an island in which there are joints.
+//
+// After a step the kinetic energy of an island can be no more than what it had, what gravity and the host's forces put
+// in, what motors and springs can give, and what bodies and surfaces that the host moves can hand on. Where it is, the
+// solver has made the energy, and the step is taken back, to be gone in parts: contacts are found anew in each, and
+// what contacts see of mechanisms is no older than that, which more sub-steps would not change. In the shortest parts
+// an island that gained many times what it had stays where it was instead, and goes on at half its speed, at which its
+// joints hold as they did: that is the last resort, and neither right nor smooth.
+//
+// The bound is generous (kMostGain): it tells what flies apart from what does not, and is no measure of drift. Worlds
+// without joints, and solvers other than the default, are not watched.
+#pragma once
+
+#include "constraints/joint_store.hpp"
+#include "exec/executor.hpp"
+#include "exec/memory.hpp"
+#include "narrowphase/contact_cache.hpp"
+#include "solver/joint_loops.hpp"
+#include "step_counters.hpp"
+#include "step_parameters.hpp"
+
+namespace plumb::impulse {
+
+/// A step in which an island's kinetic energy exceeds what it may have by this factor is taken back; in the shortest
+/// parts an island that does by the second is held.
+inline constexpr Real kMostGain = Real(1.1), kMostGainAtLast = 16;
+/// Of an island that is held, and of the impulses of its joints, what is left.
+inline constexpr Real kHeldShare = Real(0.5);
+/// What each island may gain from what is no source at all, such as overlap that is taken back: as much as its weight
+/// gives over this way, m, and as its mass has at this speed, m/s.
+inline constexpr Real kFreeWay = Real(1e-3), kFreeSpeed = Real(0.1);
+
+/// State of a body before the step.
+struct KeptBody {
+  Position position;
+  Quat orientation;
+  Velocity velocity;
+  Real least_moment;
+};
+
+/// Of a joint likewise.
+struct KeptJoint {
+  JointImpulse impulse;
+  Vec force, torque;  ///< of its reaction, where there are any
+};
+
+/// Of a body, and at the root of an island of the island.
+struct IslandEnergy {
+  std::uint32_t parent, root;
+  std::uint32_t speed, spin;  ///< the fastest that the host moves what touches it, m/s, rad/s: bits of floats
+  std::uint32_t mover;        ///< one of those that do, and 1; or 0
+  std::uint32_t peak;         ///< the largest term of the sums, J: bits of a float
+  std::uint32_t verdict;      ///< bits: kHasGained, kIsHeld
+  // Sums in whole numbers of a share of the peak, which do not depend on the order:
+  std::int64_t kinetic;   ///< after the step
+  std::int64_t may_have;  ///< before it, with what sources can give
+  std::int64_t work;      ///< of gravity and the host's forces over the way that was gone
+};
+
+/// What the bound works on, and with.
+struct EnergyWork {
+  ContactCache cache;
+  Proxies proxies;
+  const Vec* belts;  ///< by proxy, or null
+  JointSet joints;   ///< with the world's bodies
+  JointCode code;
+  std::uint32_t body_count, pair_capacity;
+  const StepParameters* parameters;
+  StepCounters* counters;
+};
+
+class EnergyBound {
+ public:
+  void reserve(std::size_t bodies, std::size_t joints) {
+    bodies_.grow(bodies);
+    islands_.grow(bodies);
+    joints_.grow(joints);
+    given_.grow(joints);
+  }
+  /// Before the step is solved.
+  void keep(Executor& executor, const EnergyWork& work);
+  /// After it: counts the islands that gained too much, and takes the step back or holds them.
+  void judge(Executor& executor, const EnergyWork& work, Count contacts);
+
+ private:
+  Buffer<KeptBody> bodies_;
+  Buffer<IslandEnergy> islands_;
+  Buffer<KeptJoint> joints_;  // as JointSet numbers them, and so
+  Buffer<Real> given_;        // what their motors and springs can have given, J
+};
+
+}  // namespace plumb::impulse
