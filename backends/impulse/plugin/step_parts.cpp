@@ -50,6 +50,8 @@ void World::finish(double dt, int divided) {
   const StepCounters& counters = simulation_.counters();
   tell(PLUMB_EVENT_WAKE, simulation_.woken(), events_);
   parts_.gained = parts_.gained || counters.gained != 0;
+  parts_.repeated = parts_.repeated || simulation_.repeated();
+  parts_.grew = parts_.grew || simulation_.grew();
   if (simulation_.taken_back()) {
     for (int k = 0; k < kParts; ++k) {
       start(dt / kParts, divided + 1);
@@ -63,12 +65,10 @@ void World::finish(double dt, int divided) {
   parts_.any_done = true;
 }
 
-/// The last part's contacts and counts, before there is another.
+/// The last part's contacts, and what it lost, before there is another.
 void World::keep_part() {
   if (simulation_.taken_back()) return;
   parts_.nonfinite += simulation_.counters().nonfinite;
-  parts_.repeated = parts_.repeated || simulation_.repeated();
-  parts_.grew = parts_.grew || simulation_.grew();
   if (!init_.needs(PLUMB_NEED_CONTACT_IMPULSES) && !init_.needs(PLUMB_NEED_EVENTS)) return;
   const std::vector<ContactRecord> contacts = simulation_.contacts();
   parts_.contacts.insert(parts_.contacts.end(), contacts.begin(), contacts.end());

@@ -67,11 +67,10 @@ PlumbResult World::wait(PlumbStepReport& report) {
   for (PlumbPhase phase = 0; phase < PLUMB_PHASE_COUNT; ++phase)
     report.phase_seconds[phase] = simulation_.phase_seconds(phase);
   stopped_ = 0;
-  const bool grew = simulation_.grew() || parts_.grew;
   if (parts_.gained) report.remarks |= PLUMB_REMARK_ENERGY_BOUNDED;
-  if (simulation_.repeated() || parts_.repeated) report.remarks |= PLUMB_REMARK_STEP_REPEATED;
-  if (grew) report.remarks |= PLUMB_REMARK_CAPACITY_GREW;
-  return grew ? PLUMB_GROWN : PLUMB_OK;
+  if (parts_.repeated) report.remarks |= PLUMB_REMARK_STEP_REPEATED;
+  if (parts_.grew) report.remarks |= PLUMB_REMARK_CAPACITY_GREW;
+  return parts_.grew ? PLUMB_GROWN : PLUMB_OK;
 }
 
 /// A kinematic body that is sent somewhere gets the velocity that leads there in one step; one that has arrived rests.

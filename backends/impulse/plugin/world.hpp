@@ -142,13 +142,13 @@ class World final : public IPhysicsWorld,
   double load_rate_ = 0;    // sub-steps that loads ask for, 1/s
   double divides_for_ = 0;  // for so long steps go in parts from the start, s
   static constexpr int kParts = 4;
-  /// Of the step that is under way, which may go in parts, what all but the last of them found.
+  /// Of the step that is under way, which may go in parts.
   struct Parts {
     int count = 1;                        // from the start; each may be divided further
-    std::vector<ContactRecord> contacts;  // where impulses or events are needed
-    std::uint32_t nonfinite = 0;
-    bool any_done = false, repeated = false, grew = false;
-    bool gained = false;  // energy, one of them or the step as a whole
+    std::vector<ContactRecord> contacts;  // of all but the last, where impulses or events are needed
+    std::uint32_t nonfinite = 0;          // likewise
+    bool any_done = false;
+    bool repeated = false, grew = false, gained = false;  // one of them, or what was taken back; gained: energy
   } parts_;
   std::vector<BodyRecord> bodies_;    // by slot
   std::vector<Compound> compounds_;   // by shape slot, as far as there are any

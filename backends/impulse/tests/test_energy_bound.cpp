@@ -112,9 +112,12 @@ Pair pair(Scene& scene, const PlumbVec3& at) {
   return {light, heavy};
 }
 
-PlumbJointDesc generic(PlumbJointType type, PlumbBody b) {
+/// A joint of the world and a box of that mass, kg.
+PlumbJointDesc held(Scene& scene, PlumbJointType type, double mass) {
+  scene.body.mass_mode = PLUMB_MASS_FROM_TOTAL;
+  scene.body.mass = mass;
   PlumbJointDesc desc = joint_desc(type);
-  desc.body_b = b;
+  desc.body_b = scene.add(scene.box({0.5, 0.5, 0.5}), {0, 0, 0});
   return desc;
 }
 void make(Scene& scene, const PlumbJointDesc& desc) {
@@ -132,25 +135,19 @@ const std::vector<Source>& sources() {
   static const std::vector<Source> list = {
       {"a motor without bounds on a flywheel", kNoGravity,
        [](Scene& scene) {
-         scene.body.mass_mode = PLUMB_MASS_FROM_TOTAL;
-         scene.body.mass = 100;
-         PlumbJointDesc desc = generic(PLUMB_JOINT_HINGE, scene.add(scene.box({0.5, 0.5, 0.5}), {0, 0, 0}));
+         PlumbJointDesc desc = held(scene, PLUMB_JOINT_HINGE, 100);
          desc.motors[3] = {100, 1e30, 1, 0};
          make(scene, desc);
        }},
       {"a weak motor", kNoGravity,
        [](Scene& scene) {
-         scene.body.mass_mode = PLUMB_MASS_FROM_TOTAL;
-         scene.body.mass = 1;
-         PlumbJointDesc desc = generic(PLUMB_JOINT_SLIDER, scene.add(scene.box({0.5, 0.5, 0.5}), {0, 0, 0}));
+         PlumbJointDesc desc = held(scene, PLUMB_JOINT_SLIDER, 1);
          desc.motors[0] = {50, 100, 1, 0};
          make(scene, desc);
        }},
       {"a spring let go", kNoGravity,
        [](Scene& scene) {
-         scene.body.mass_mode = PLUMB_MASS_FROM_TOTAL;
-         scene.body.mass = 1;
-         PlumbJointDesc desc = generic(PLUMB_JOINT_SLIDER, scene.add(scene.box({0.1, 0.1, 0.1}), {0, 0, 0}));
+         PlumbJointDesc desc = held(scene, PLUMB_JOINT_SLIDER, 1);
          desc.springs[0] = {0.5, 5, 0, 1, 0};
          make(scene, desc);
        }},
