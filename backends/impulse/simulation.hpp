@@ -119,7 +119,7 @@ class Simulation {
   [[nodiscard]] std::uint32_t steps() const { return step_; }
   [[nodiscard]] bool repeated() const { return repeated_; }
   [[nodiscard]] bool grew() const { return grew_; }
-  /// Whether the step made energy (solver/energy_bound.hpp), and all is as it was before it.
+  /// Whether all is as it was before the step: it made energy, or joints let go (solver/energy_bound.hpp).
   [[nodiscard]] bool taken_back() const { return counters().taken_back != 0; }
   /// Of the last step, s; NaN where it was not measured, and for phases that this engine does not tell apart.
   [[nodiscard]] double phase_seconds(PlumbPhase phase) const;

@@ -28,7 +28,8 @@ struct StepCounters {
   std::uint32_t
       touched_sleepers;      ///< manifolds with somebody awake: the step does nothing, they wake, and it is repeated
   std::uint32_t gained;      ///< islands that gained more energy than they may (solver/energy_bound.hpp)
-  std::uint32_t taken_back;  ///< because of them all is as it was before the step
+  std::uint32_t let_go;      ///< joints of which rows have not held as predicted (constraints/joint_axis_solve.hpp)
+  std::uint32_t taken_back;  ///< because of either all is as it was before the step
   std::uint32_t nonfinite;   ///< bodies that came out not finite and were put back
 };
 

@@ -58,6 +58,7 @@ struct StepParameters : SubstepParameters {
   Real dt;                 ///< s
   std::uint32_t step;      ///< number of this step; steps count from 1
   bool may_be_taken_back;  ///< where it makes energy, to be gone in parts
+  bool predicts_rows;      ///< of joints, that they will hold (constraints/joint_axis_solve.hpp)
   bool is_later_part;      ///< of a step that is gone in parts
   Real push_speed;         ///< overlap is taken back no faster than this, m/s
   bool relaxes_once;       ///< in a step, and not in each sub-step

@@ -32,6 +32,8 @@ struct AxisWork {
   Real yield[kJointRows];        ///< speed for a unit impulse by which a row yields; below 0: its impulse is its aim
   Real spring[kJointRows];       ///< impulse of the spring in this sub-step
   Real before[kJointRows];       ///< speeds when the pass began
+  std::uint32_t predicted;       ///< bits: rows that are taken to hold while contacts push
+  std::uint32_t let_go;          ///< bits: of these, those that have not
   Real bend[kJointRows];  ///< what the speeds over a sub-step have beyond those now, where that was last looked at
 
   PLUMB_HD bool is_active(int row) const { return yield[row] >= 0; }
@@ -42,6 +44,7 @@ struct JointReaction {
   Vec force, torque;             ///< N s, N m s
   Real counted[kJointRows];      ///< of the impulses in this sub-step
   Real spring_mass[kJointRows];  ///< against which the springs were made, kg or kg m2
+  Real held_for[kJointRows];     ///< for how long rows that need not hold have, with force to spare, s
   std::uint32_t born;            ///< of the joint for which that was
 };
 
@@ -64,6 +67,18 @@ PLUMB_HD inline bool is_held(const AxisView& view, std::uint32_t j, int row) {
   return row < first || view.parts.axes[j].row[row - first].coordinate == kLocked;
 }
 
+/// Whether a motor may be what holds a row.
+PLUMB_HD inline bool is_driven(const AxisView& view, std::uint32_t j, int row) {
+  const Joint& joint = view.joints[j];
+  return view.parts.drives[joint.slot].max_force[view.parts.axes[j].row[row - rows_of(joint.type)].coordinate] > 0;
+}
+
+/// A row that has held for so long is taken to hold on while contacts push: one with a motor, which a new one is, too,
+/// and one at a limit, s. What that costs where it is wrong: a step that is taken back.
+inline constexpr Real kMotorHolds = Real(0.25), kLimitHolds = Real(0.05);
+/// A row that was taken to hold, and moves at more than this, has let go, m/s or rad/s.
+inline constexpr Real kLetsGo = Real(0.05);
+
 /// Mass against which the spring of a row works: where no turn is free the arms do not count.
 PLUMB_HD inline Real spring_mass(const JointAxes& axes, Real mobility, Real inverse_mass) {
   return reciprocal_or_zero(axes.masses_alone != 0 ? inverse_mass : mobility);
@@ -84,8 +99,10 @@ PLUMB_HD inline void refresh_axis_joint(const AxisView& view, std::uint32_t j) {
   if (reaction.born == joint.born) return;
   reaction.born = joint.born;
   const Real inverse_mass = view.velocity(joint.body_a).inverse_mass + view.velocity(joint.body_b).inverse_mass;
-  for (int i = rows_of(joint.type); i < row_count(joint); ++i)
+  for (int i = rows_of(joint.type); i < row_count(joint); ++i) {
     reaction.spring_mass[i] = spring_mass(axes, own.whole(i, i), inverse_mass);
+    reaction.held_for[i] = is_driven(view, j, i) ? kMotorHolds : Real(0);
+  }
 }
 
 /// Over the sub-step, with velocities a and b.
@@ -143,7 +160,7 @@ PLUMB_HD inline RowLaw law_of_row(const AxisView& view, std::uint32_t j, int row
 /// The speed that a row which always holds should have.
 PLUMB_HD inline Real speed_of_held(const AxisView& view, std::uint32_t j, int row, const RowTime& time) {
   const Real error = view.work[j].error[row];
-  const Real rate = view.joints[j].in_chain ? min(time.rate, time.chain_rate) : time.rate;
+  const Real rate = rate_of_error(view, view.joints[j], time.rate, time.chain_rate);
   switch (time.pass) {
     case RowPass::kSpeeds: return 0;
     case RowPass::kMoved: return view.parts.work[j].before[row] - speed_of_error(rate, error);
@@ -198,12 +215,43 @@ PLUMB_HD inline void mask_matrix(const AxisWork& own, int n, Block& matrix) {
   }
 }
 
-/// Which rows hold while contacts push: those that always do. A limit may be left and a motor overcome, and what pushes
-/// as if they held would push too hard.
+/// Which rows may let go in a step and are nonetheless taken to hold while contacts push. predicts: some may be.
+PLUMB_HD inline void predict_rows(const AxisView& view, std::uint32_t j, bool predicts) {
+  AxisWork& own = view.parts.work[j];
+  own.predicted = own.let_go = 0;
+  if (!predicts) return;
+  for (int i = rows_of(view.joints[j].type); i < row_count(view.joints[j]); ++i) {
+    Real least = kLimitHolds;
+    if (is_driven(view, j, i)) least = kMotorHolds;
+    if (!is_held(view, j, i) && view.reaction(j).held_for[i] >= least) own.predicted |= 1U << i;
+  }
+}
+
+/// Which rows hold while contacts push: those that always do, and those of which that is predicted. Others may be left
+/// at a limit, or overcome, and what pushes as if they held would push too hard.
 PLUMB_HD inline void choose_rows_met(const AxisView& view, std::uint32_t j) {
   AxisWork& own = view.parts.work[j];
-  for (int i = 0; i < row_count(view.joints[j]); ++i)
-    own.yield[i] = is_held(view, j, i) ? view.work[j].share * own.whole(i, i) : Real(-1);
+  for (int i = 0; i < row_count(view.joints[j]); ++i) {
+    const bool holds = is_held(view, j, i) || (own.predicted >> i & 1U) != 0;
+    own.yield[i] = holds ? view.work[j].share * own.whole(i, i) : Real(-1);
+  }
+}
+
+/// After a pass over speeds: for how long rows have held now, and which have not as predicted.
+PLUMB_HD inline void follow_rows(const AxisView& view, std::uint32_t j, const RowTime& time) {
+  const Joint& joint = view.joints[j];
+  AxisWork& own = view.parts.work[j];
+  JointReaction& reaction = view.reaction(j);
+  Real speed[kJointRows];
+  if (own.predicted != 0) speeds_now(view, j, view.velocity(joint.body_a), view.velocity(joint.body_b), speed);
+  for (int i = rows_of(joint.type); i < row_count(joint); ++i) {
+    if (is_held(view, j, i)) continue;
+    const RowLaw law = law_of_row(view, j, i, time);
+    reaction.held_for[i] = law.holds(own.piece[i], view.total(j)[i]) ? reaction.held_for[i] + time.h : Real(0);
+    if ((own.predicted >> i & 1U) == 0 || is_hard(own.piece[i])) continue;
+    const Real off = speed[i] - (is_driven(view, j, i) ? law.steady : Real(0));
+    if (off * off > kLetsGo * kLetsGo) own.let_go |= 1U << i;
+  }
 }
 
 /// How far the rows are from their equations, with the other sign. leak: as JointWork's. A motor's row never counts

@@ -75,6 +75,15 @@ struct RowLaw {
     if (piece == RowPiece::kUpper) return min(total, range.most);
     return clamp(total, range.least, range.most);
   }
+  /// Whether a row on a piece holds with force to spare: a limit that bears, a motor that needs no more than half.
+  PLUMB_HD bool holds(RowPiece piece, Real total) const {
+    if (!is_hard(piece)) return false;
+    const Range range = range_of(piece);
+    if (piece == RowPiece::kLower) return total > range.least;
+    if (piece == RowPiece::kUpper) return total < range.most;
+    const Real spare = (range.most - range.least) / 4;
+    return total > range.least + spare && total < range.most - spare;
+  }
 
  private:
   struct Range {

@@ -155,13 +155,21 @@ PLUMB_HD inline Real speed_of_error(Real rate, Real error) {
   return clamp(rate * error, -kMostJointSpeed, kMostJointSpeed);
 }
 
+/// The rate at which a joint's errors are taken back: by degrees in a long chain, and where contacts press, which
+/// would take the speed for a blow. Not of a ring, such as a bridge between two hooks: what it bears would stretch it.
+PLUMB_HD inline Real rate_of_error(const JointView& view, const Joint& joint, Real rate, Real by_degrees) {
+  const Mechanisms& mechanisms = view.solver.mechanisms;
+  const bool pressed = (joint.body_a != kWorld && mechanisms.touch(joint.body_a)) || mechanisms.touch(joint.body_b);
+  return joint.in_chain || (pressed && !joint.in_ring) ? min(rate, by_degrees) : rate;
+}
+
 /// How far the velocities of the rows are from what they should be in this pass.
 PLUMB_HD inline void joint_residuals(const JointView& view, std::uint32_t j, const JointPass& pass, const Velocity& a,
                                      const Velocity& b, Real (&residual)[kJointRows]) {
   const Joint& joint = view.joints[j];
   const JointWork& work = view.work[j];
   const int n = row_count(joint);
-  const Real rate = joint.in_chain ? min(pass.softness.bias_rate, pass.chain_rate) : pass.softness.bias_rate;
+  const Real rate = rate_of_error(view, joint, pass.softness.bias_rate, pass.chain_rate);
   if (!pass.take_back_error || turns_far(a, b, pass.h)) {
     speeds_now(view, j, a, b, residual);
     for (int i = 0; i < n && pass.take_back_error; ++i) residual[i] = residual[i] + speed_of_error(rate, work.error[i]);

@@ -56,6 +56,8 @@ struct Mechanisms {
   std::uint32_t count;  ///< of places
 
   PLUMB_HD bool hold(std::uint32_t body) const { return place_of != nullptr && place_of[body] != 0; }
+  /// Whether the body has a contact in this step.
+  PLUMB_HD bool touch(std::uint32_t body) const { return hold(body) && loads[place_of[body] - 1].touched != 0; }
   PLUMB_HD const MechanismBody& of(std::uint32_t body) const { return bodies[place_of[body] - 1]; }
   PLUMB_HD bool together(std::uint32_t a, std::uint32_t b) const {
     return hold(a) && hold(b) && of(a).first == of(b).first;

@@ -18,9 +18,10 @@ constexpr double kStaysDivided = 0.5;
 
 }  // namespace
 
-/// Enqueues a step, or a part of one that was divided so many times. In parts errors of joints are taken back no faster
-/// than in the time of the whole step: what is taut lifts what lies on it by many times the error.
-void World::start(double dt, int divided) {
+/// Enqueues a step, or a part of one that was divided so many times. predicts: that rows of joints hold. In parts
+/// errors of joints are taken back no faster than in the time of the whole step: what is taut lifts what lies on it by
+/// many times the error.
+void World::start(double dt, int divided, bool predicts) {
   if (parts_.any_done) keep_part();
   simulation_.choose(settings_.broad_phase);
   const double most_rate = divided == 0 ? 0 : 1 / dt_;
@@ -28,6 +29,7 @@ void World::start(double dt, int divided) {
   shorter.asked_before = static_cast<Real>(load_rate_ * dt);
   StepParameters parameters = settings_.parameters(dt, gravity_, shorter);
   parameters.may_be_taken_back = divided < kMostDivisions;
+  parameters.predicts_rows = predicts;
   parameters.is_later_part = parts_.any_done;
   simulation_.step(parameters, shorter);
 }
@@ -44,7 +46,8 @@ void World::finish_steps() {
   if (parts_.gained) divides_for_ = kStaysDivided;
 }
 
-/// When it is done: what is told and remembered of it. Goes over it in parts where it was taken back.
+/// When it is done: what is told and remembered of it. Goes over it again where joints did not hold as predicted, and
+/// in parts where it made energy.
 void World::finish(double dt, int divided) {
   simulation_.wait();
   const StepCounters& counters = simulation_.counters();
@@ -52,6 +55,11 @@ void World::finish(double dt, int divided) {
   parts_.gained = parts_.gained || counters.gained != 0;
   parts_.repeated = parts_.repeated || simulation_.repeated();
   parts_.grew = parts_.grew || simulation_.grew();
+  if (counters.let_go != 0) {
+    parts_.repeated = true;
+    start(dt, divided, false);
+    return finish(dt, divided);
+  }
   if (simulation_.taken_back()) {
     for (int k = 0; k < kParts; ++k) {
       start(dt / kParts, divided + 1);

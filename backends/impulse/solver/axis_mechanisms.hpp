@@ -124,8 +124,14 @@ PLUMB_DEVICE inline void warm_start_axes(Team& team, const JointSet& joints, boo
   team.each(system.body_count, [=](std::uint32_t i) { push_body(system, i, true); });
 }
 
+/// The speed that contacts have left a row that holds while they push.
+PLUMB_HD inline Real speed_met(const AxisView& view, std::uint32_t j, int row) {
+  const AxisWork& own = view.parts.work[j];
+  return own.piece[row] == RowPiece::kSteady ? own.aim[row] : Real(0);
+}
+
 /// The rows that always hold pass on what contacts did to single bodies, so that all others start from where they
-/// nearly are: from speeds that no mechanism has they would not find their pieces.
+/// nearly are: from speeds that no mechanism has they would not find their pieces. So do those that are predicted to.
 PLUMB_DEVICE inline void pass_on_loads(Team& team, const JointSet& joints) {
   const JointSystem system = joints.system;
   if (system.levels == 0) return;
@@ -143,7 +149,7 @@ PLUMB_DEVICE inline void pass_on_loads(Team& team, const JointSet& joints) {
     speeds_now(view, j, view.velocity(joint.body_a), view.velocity(joint.body_b), y);
     const Real leak = leak_of_speeds(view, j);
     for (int i = 0; i < row_count(joint); ++i)
-      y[i] = own.is_active(i) ? -(y[i] + leak * own.yield[i] * view.total(j)[i]) : Real(0);
+      y[i] = own.is_active(i) ? -((y[i] - speed_met(view, j, i)) + leak * own.yield[i] * view.total(j)[i]) : Real(0);
     take_earlier(system, column);
   });
   for_columns_down(team, system, [=](std::uint32_t column) { solve_backward(system, column); });
@@ -171,6 +177,9 @@ PLUMB_DEVICE inline void solve_axes(Team& team, const JointSet& joints, const St
   exact.rate = step.joint_rate;
   exact.chain_rate = step.chain_rate;
   solve_axis_system(team, joints, exact, turn);
+  if (pass == RowPass::kSpeeds && view.solver.mechanisms.count != 0)
+    team.each(joints.count - joints.system.base,
+              [=](std::uint32_t i) { follow_rows(view, joints.system.base + i, exact); });
   add_reactions(team, joints);
 }
 

@@ -8,8 +8,6 @@ namespace plumb::impulse {
 
 namespace {
 
-constexpr std::uint32_t kHasGained = 1U << 0, kIsHeld = 1U << 1;
-
 struct Keep {
   EnergyWork work;
   KeptBody* bodies;
@@ -25,6 +23,7 @@ struct Keep {
     if (work.code != JointCode::kAll) return;
     joints[i].force = work.joints.axes.reactions[slot].force;
     joints[i].torque = work.joints.axes.reactions[slot].torque;
+    for (int k = 0; k < kJointRows; ++k) joints[i].held_for[k] = work.joints.axes.reactions[slot].held_for[k];
   }
 };
 
@@ -83,7 +82,12 @@ struct JudgeEnergy {
     if (is_undone(*work.counters, work.pair_capacity)) return;
     const JudgeEnergy self = *this;
     const std::uint32_t bodies = work.body_count, joints = work.joints.count;
-    team.each(bodies, [self](std::uint32_t i) { self.islands[i] = IslandEnergy{i, i, 0, 0, 0, 0, 0, 0, 0, 0}; });
+    if (predicts()) {
+      team.each(joints - work.joints.system.base, [self](std::uint32_t i) { self.count_let_go(i); });
+      team.meet();
+      if (work.counters->let_go != 0) return put_all_back(team);
+    }
+    team.each(bodies, [self](std::uint32_t i) { self.islands[i] = IslandEnergy{i, i, 0, 0, 0, 0, false, 0, 0, 0}; });
     team.each(work.counters->manifolds, [self](std::uint32_t row) { self.join_contact(row); });
     team.each(joints, [self](std::uint32_t j) { self.join_joint(j); });
     team.each(bodies, [self](std::uint32_t i) { self.find_root(i); });
@@ -94,13 +98,26 @@ struct JudgeEnergy {
     team.each(bodies, [self](std::uint32_t i) { self.judge(i); });
     team.meet();
     if (work.counters->gained == 0) return;
-    const bool all = work.parameters->may_be_taken_back;
-    team.each(bodies, [self, all](std::uint32_t i) { self.put_back(i, all); });
-    team.each(joints, [self, all](std::uint32_t j) { self.put_joint_back(j, all); });
-    if (all) team.single([self] { self.work.counters->taken_back = 1; });
+    if (work.parameters->may_be_taken_back) return put_all_back(team);
+    team.each(bodies, [self](std::uint32_t i) { self.put_back(i, false); });
+    team.each(joints, [self](std::uint32_t j) { self.put_joint_back(j, false); });
   }
 
  private:
+  PLUMB_DEVICE void put_all_back(Team& team) const {
+    const JudgeEnergy self = *this;
+    team.each(work.body_count, [self](std::uint32_t i) { self.put_back(i, true); });
+    team.each(work.joints.count, [self](std::uint32_t j) { self.put_joint_back(j, true); });
+    team.single([self] { self.work.counters->taken_back = 1; });
+  }
+  /// Whether contacts were told that rows of joints hold which need not.
+  PLUMB_HD bool predicts() const {
+    const bool can = work.code == JointCode::kAll && work.joints.view.solver.mechanisms.count != 0;
+    return can && work.parameters->predicts_rows;
+  }
+  PLUMB_HD void count_let_go(std::uint32_t column) const {
+    if (work.joints.axes.work[work.joints.system.base + column].let_go != 0) atomic_add(&work.counters->let_go, 1U);
+  }
   PLUMB_HD bool is_pushed(std::uint32_t body) const {
     return body != kWorld && work.joints.view.bodies.velocity[body].inverse_mass > 0;
   }
@@ -235,7 +252,7 @@ struct JudgeEnergy {
     if (!is_pushed(i) || island.root != i) return;
     const Real gain = gain_of(island);
     if (!(gain > kMostGain)) return;
-    island.verdict = gain > kMostGainAtLast ? kHasGained | kIsHeld : kHasGained;
+    island.is_held = gain > kMostGainAtLast;
     atomic_add(&work.counters->gained, 1U);
   }
   /// What an island has over what it may have.
@@ -251,7 +268,7 @@ struct JudgeEnergy {
     const Bodies& all = work.joints.view.bodies;
     if ((all.mass[i].flags & kBodyMoves) == 0) return;
     const IslandEnergy& island = islands[islands[i].root];
-    if (!all_is && !(is_pushed(i) && (island.verdict & kIsHeld) != 0)) return;
+    if (!all_is && !(is_pushed(i) && island.is_held)) return;
     all.position[i] = kept[i].position;
     all.orientation[i] = kept[i].orientation;
     work.joints.view.least_moment[i] = kept[i].least_moment;
@@ -266,7 +283,7 @@ struct JudgeEnergy {
     const Joint& joint = work.joints.view.joints[j];
     JointImpulse& impulse = work.joints.view.impulses[joint.slot];
     if (!all_is) {
-      if ((islands[root_of(joint)].verdict & kIsHeld) == 0) return;
+      if (!islands[root_of(joint)].is_held) return;
       for (int i = 0; i < kJointRows; ++i) impulse.along[i] = kHeldShare * kept_joints[j].impulse.along[i];
       return;
     }
@@ -274,6 +291,10 @@ struct JudgeEnergy {
     if (work.code != JointCode::kAll) return;
     work.joints.axes.reactions[joint.slot].force = kept_joints[j].force;
     work.joints.axes.reactions[joint.slot].torque = kept_joints[j].torque;
+    const std::uint32_t let_go = predicts() && j >= work.joints.system.base ? work.joints.axes.work[j].let_go : 0;
+    for (int i = 0; i < kJointRows; ++i)
+      work.joints.axes.reactions[joint.slot].held_for[i] =
+          (let_go >> i & 1U) != 0 ? Real(0) : kept_joints[j].held_for[i];
   }
 };
 

@@ -42,6 +42,7 @@ struct KeptBody {
 struct KeptJoint {
   JointImpulse impulse;
   Vec force, torque;  ///< of its reaction, where there are any
+  Real held_for[kJointRows];
 };
 
 /// Of a body, and at the root of an island of the island.
@@ -50,7 +51,7 @@ struct IslandEnergy {
   std::uint32_t speed, spin;  ///< the fastest that the host moves what touches it, m/s, rad/s: bits of floats
   std::uint32_t mover;        ///< one of those that do, and 1; or 0
   std::uint32_t peak;         ///< the largest term of the sums, J: bits of a float
-  std::uint32_t verdict;      ///< bits: kHasGained, kIsHeld
+  bool is_held;               ///< it stays where it was before the step
   // Sums in whole numbers of a share of the peak, which do not depend on the order:
   std::int64_t kinetic;   ///< after the step
   std::int64_t may_have;  ///< before it, with what sources can give
@@ -79,7 +80,8 @@ class EnergyBound {
   }
   /// Before the step is solved.
   void keep(Executor& executor, const EnergyWork& work);
-  /// After it: counts the islands that gained too much, and takes the step back or holds them.
+  /// After it: takes the step back where rows of joints have not held as predicted; else counts the islands that gained
+  /// too much, and takes the step back or holds them.
   void judge(Executor& executor, const EnergyWork& work, Count contacts);
 
  private:

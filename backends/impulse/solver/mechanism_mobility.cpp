@@ -159,6 +159,7 @@ struct FindMobility : MobilityWork {
   }
   PLUMB_DEVICE void factor(Team& team) const {
     const Real h = parameters->h;
+    [[maybe_unused]] const bool predicts = parameters->predicts_rows;
     if constexpr (kJoints == JointCode::kAll) {
       const AxisView view = axis_view(joints);
       const std::uint32_t base = joints.system.base;
@@ -166,6 +167,7 @@ struct FindMobility : MobilityWork {
         const std::uint32_t j = base + column;
         refresh_axis_joint(view, j);
         choose_share(view, j, h);
+        predict_rows(view, j, predicts);
         choose_rows_met(view, j);
       });
       factor_axis_system(team, joints.system, view);

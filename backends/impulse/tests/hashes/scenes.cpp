@@ -1,4 +1,5 @@
 // The scenes whose hashes are recorded.
+#include "drawers.hpp"
 #include "hashes/busy_scenes.hpp"
 #include "hashes/motion_scenes.hpp"
 #include "hashes/scene.hpp"
@@ -250,6 +251,7 @@ const std::vector<NamedScene>& named_scenes() {
       {"machines", {}, kContactNeeds | PLUMB_NEED_KINEMATIC | PLUMB_NEED_SLEEPING, kDown, &machines},
       {"belts", {}, kAll | PLUMB_NEED_KINEMATIC | PLUMB_NEED_SURFACE_VELOCITY | PLUMB_NEED_SLEEPING, kDown, &belts},
       {"heavy-bridge", {}, kAll | PLUMB_NEED_JOINTS | PLUMB_NEED_AXIS_LOCKS, kDown, &heavy_bridge},
+      {"drawers", {}, kContactNeeds | PLUMB_NEED_JOINTS, kDown, &drawers},
       {"far-off", {}, kAll | PLUMB_NEED_JOINTS, kDown, &far_off},
       {"pyramid-20-once", {"relaxation", "step"}, kContactNeeds, kDown, &pyramid_20},
   };
