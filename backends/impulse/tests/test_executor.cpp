@@ -2,8 +2,11 @@
 #include <gtest/gtest.h>
 #include <xmmintrin.h>
 
+#include <algorithm>
 #include <atomic>
 #include <numeric>
+#include <stdexcept>
+#include <vector>
 
 #include "exec/executor.hpp"
 #include "exec/floating_point.hpp"
@@ -30,6 +33,41 @@ TEST(Crews, VisitEverythingOnce) {
     EXPECT_GE(crew.threads(), 1U);
     visits_all_once(crew);
   }
+}
+
+/// Loops of all lengths follow each other faster than threads come and go; more threads than processors, too.
+TEST(Crews, VisitEverythingOnceWhileTheyStayTogether) {
+  for (const std::uint32_t threads : {1U, 2U, 3U, 8U}) {
+    Crew crew(nullptr, threads);
+    std::vector<std::uint32_t> visits(1000, 0);
+    std::uint64_t expected = 0, found = 0;
+    for (int step = 0; step < 20; ++step)
+      crew.together([&] {
+        for (std::uint32_t loop = 0; loop < 300; ++loop) {
+          const std::uint32_t n = loop * 7919 % 1001;
+          const LoopBody body = loop % 3 == 0 ? LoopBody::kSmall : LoopBody::kLarge;
+          crew.each(
+              n, [&](std::uint32_t i) { ++visits[i]; }, body);
+          expected += n;
+        }
+      });
+    for (const std::uint32_t count : visits) found += count;
+    EXPECT_EQ(found, expected) << threads;
+  }
+}
+
+TEST(Crews, ComeApartWhereAStepThrows) {
+  Crew crew(nullptr, 2);
+  std::vector<int> visits(1000, 0);
+  const auto visit = [&] { crew.each(1000, [&](std::uint32_t i) { ++visits[i]; }); };
+  EXPECT_THROW(crew.together([&] {
+    visit();
+    throw std::runtime_error("no more memory");
+  }),
+               std::runtime_error);
+  visit();
+  crew.together(visit);
+  EXPECT_EQ(std::count(visits.begin(), visits.end(), 3), 1000);
 }
 
 TEST(Crews, RunOnTheHostsJobs) {

@@ -2,10 +2,12 @@
 
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
+#include <tbb/task_group.h>
 
 #include <algorithm>
 #include <thread>
 
+#include "exec/cpu/hot_team.hpp"
 #include "exec/floating_point.hpp"
 
 namespace plumb::impulse {
@@ -28,6 +30,28 @@ struct Crew::Arena {
   tbb::task_arena arena;
 };
 
+/// The threads while they stay together. They are called when there is something to share.
+class Crew::Together {
+ public:
+  explicit Together(std::uint32_t helpers) : helpers_(helpers) {}
+  ~Together() {
+    team_.dismiss();
+    called_.wait();
+  }
+  Together(const Together&) = delete;
+  Together& operator=(const Together&) = delete;
+
+  void share(std::uint32_t count, void* context, PlumbTask task) {
+    for (; helpers_ > 0; --helpers_) called_.run([this] { team_.help(); });
+    team_.share(count, context, task);
+  }
+
+ private:
+  HotTeam team_;
+  tbb::task_group called_;
+  std::uint32_t helpers_;  // yet to be called
+};
+
 Crew::Crew(const PlumbHost* host, std::uint32_t threads) : host_(host), threads_(threads == 0 ? 1 : threads) {
   const bool lends = host_ != nullptr && host_->run != nullptr && host_->worker_count > 0;
   if (!lends) host_ = nullptr;
@@ -39,7 +63,21 @@ Crew::~Crew() { delete arena_; }
 
 std::uint32_t Crew::processors() { return std::max(1U, std::thread::hardware_concurrency()); }
 
-void Crew::run_chunks(std::uint32_t count, void* context, PlumbTask task) const {
+void Crew::run_together(void* context, void (*task)(void*)) {
+  arena_->arena.execute([&] {
+    const FloatingPointScope scope;
+    Together together(threads_ - 1);
+    together_ = &together;
+    struct Leave {
+      Crew& crew;
+      ~Leave() { crew.together_ = nullptr; }
+    } const leave{*this};
+    task(context);
+  });
+}
+
+void Crew::run_chunks(std::uint32_t count, void* context, PlumbTask task) {
+  if (together_ != nullptr) return together_->share(count, context, task);
   GuardedTask guarded{context, task};
   if (host_ != nullptr) {
     host_->run(

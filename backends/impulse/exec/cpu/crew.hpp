@@ -7,6 +7,9 @@
 
 namespace plumb::impulse {
 
+/// How long a loop's body takes: tens of nanoseconds, or a microsecond.
+enum class LoopBody : std::uint8_t { kSmall, kLarge };
+
 class Crew {
  public:
   /// host may be null. Where it lends a job system and more than one thread is asked for, that is used.
@@ -19,17 +22,18 @@ class Crew {
   static std::uint32_t processors();
   [[nodiscard]] std::uint32_t threads() const { return threads_; }
 
-  /// f(i) for every i < n. Small n, or one thread: a plain loop here.
+  /// f(i) for every i < n. Small n, or one thread: a plain loop here. body: how long f takes.
   template <class F>
-  void each(std::uint32_t n, const F& f) {
-    if (threads_ == 1 || n <= kSmall) {
+  void each(std::uint32_t n, const F& f, LoopBody body = LoopBody::kSmall) {
+    const std::uint32_t least = body == LoopBody::kSmall ? 16 : 2;  // f that are worth another thread
+    if (threads_ == 1 || n <= 4 * least) {
       for (std::uint32_t i = 0; i < n; ++i) f(i);
       return;
     }
     struct Job {
       const F& f;
       std::uint32_t n, chunk;
-    } job{f, n, chunk_of(n)};
+    } job{f, n, chunk_of(n, least)};
     run_chunks((n + job.chunk - 1) / job.chunk, &job, [](void* context, std::uint32_t c) {
       const Job& all = *static_cast<const Job*>(context);
       const std::uint32_t end = all.n - c * all.chunk < all.chunk ? all.n : (c + 1) * all.chunk;
@@ -39,20 +43,30 @@ class Crew {
 
   /// task(context, c) for every c < count, on all threads, each with the floating-point control word that results rely
   /// on (floating_point.hpp).
-  void run_chunks(std::uint32_t count, void* context, PlumbTask task) const;
+  void run_chunks(std::uint32_t count, void* context, PlumbTask task);
 
- private:
-  static constexpr std::uint32_t kSmall = 64;
-
-  [[nodiscard]] std::uint32_t chunk_of(std::uint32_t n) const {
-    const std::uint32_t chunk = n / (threads_ * 4);
-    return chunk < 16 ? 16 : chunk;
+  /// f(), whose loops follow each other closely: from the first that is worth it on the threads stay together. What
+  /// runs in them must not throw.
+  template <class F>
+  void together(const F& f) {
+    if (arena_ == nullptr) return f();
+    const F* task = &f;
+    run_together(&task, [](void* context) { (**static_cast<const F**>(context))(); });
   }
 
+ private:
+  [[nodiscard]] std::uint32_t chunk_of(std::uint32_t n, std::uint32_t least) const {
+    const std::uint32_t chunk = n / (threads_ * 4);
+    return chunk < least ? least : chunk;
+  }
+  void run_together(void* context, void (*task)(void*));
+
   struct Arena;
+  class Together;
   const PlumbHost* host_;
   std::uint32_t threads_;
   Arena* arena_ = nullptr;  // own; null with one thread or with the host's job system
+  Together* together_ = nullptr;
 };
 
 }  // namespace plumb::impulse

@@ -20,10 +20,13 @@ class Team {
   }
   template <class Load, class F>
   void each_ahead(std::uint32_t n, const Load& load, const F& f) {
-    crew_.each(n, [&](std::uint32_t i) {
-      auto loaded = load(i);
-      f(i, loaded);
-    });
+    crew_.each(
+        n,
+        [&](std::uint32_t i) {
+          auto loaded = load(i);
+          f(i, loaded);
+        },
+        LoopBody::kLarge);
   }
   template <class F>
   void single(const F& f) {
@@ -72,7 +75,7 @@ class Executor {
   }
   template <class F>
   void record(Recording& recording, const F& f) {
-    if (kOneMemory) return f();
+    if (kOneMemory) return crew_.together(f);
     recording.begin();
     recording_ = &recording;
     try {
