@@ -7,6 +7,9 @@
 // an island that gained many times what it had stays where it was instead, and goes on at half its speed, at which its
 // joints hold as they did: that is the last resort, and neither right nor smooth.
 //
+// A step in which a limit or a motor let go that contacts had counted on (constraints/joint_axis_solve.hpp) is taken
+// back by the same means, before energies are looked at, and solved again whole.
+//
 // The bound is generous (kMostGain): it tells what flies apart from what does not, and is no measure of drift. Worlds
 // without joints, and solvers other than the default, are not watched.
 #pragma once

@@ -56,8 +56,8 @@ class HotTeam {
     std::uint32_t looks_ = 0;
   };
 
-  /// Takes tasks until there are none. Whoever holds a ticket below the count holds up the loop, and so what it reads of
-  /// the loop stays: a ticket that was drawn late is one of the next loop, or none.
+  /// Takes tasks until there are none. Whoever holds a ticket below the count holds up the loop, and so what it reads
+  /// of the loop stays: a ticket that was drawn late is one of the next loop, or none.
   bool work() {
     bool did = false;
     while (has_task(tickets_.load(std::memory_order_acquire))) {
@@ -71,9 +71,9 @@ class HotTeam {
   }
   static bool has_task(std::uint64_t ticket) { return static_cast<std::uint32_t>(ticket) < ticket >> 32; }
 
-  static constexpr std::size_t kLine = 64;                      // of a cache, bytes
-  alignas(kLine) std::atomic<std::uint64_t> tickets_ = 0;       // how many tasks the loop has, and the next one
-  alignas(kLine) std::atomic<std::uint32_t> done_ = 0;          // of them
+  static constexpr std::size_t kLine = 64;                 // of a cache, bytes
+  alignas(kLine) std::atomic<std::uint64_t> tickets_ = 0;  // how many tasks the loop has, and the next one
+  alignas(kLine) std::atomic<std::uint32_t> done_ = 0;     // of them
   alignas(kLine) std::atomic<bool> dismissed_ = false;
   void* context_ = nullptr;
   PlumbTask task_ = nullptr;
