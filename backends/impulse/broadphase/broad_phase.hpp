@@ -16,17 +16,17 @@
 #include <vector>
 
 #include "broadphase/grid.hpp"
-#include "broadphase/lbvh.hpp"
 #include "broadphase/pair_filter.hpp"
 #include "broadphase/pair_order.hpp"
 #include "broadphase/pairs.hpp"
-#include "broadphase/scene_extent.hpp"
 #include "broadphase/sweep.hpp"
+#include "bvh/lbvh.hpp"
+#include "bvh/scene_extent.hpp"
 #include "exec/executor.hpp"
 #include "exec/memory.hpp"
 #include "exec/reduce.hpp"
 #include "exec/sort.hpp"
-#include "geometry/box.hpp"
+#include "math/box.hpp"
 
 namespace plumb::impulse {
 

@@ -7,7 +7,7 @@
 
 #include <cstdint>
 
-#include "broadphase/lbvh.hpp"
+#include "bvh/lbvh.hpp"
 #include "math/bits.hpp"
 
 namespace plumb::impulse {

@@ -29,6 +29,7 @@ struct PairFilter {
   const ProxyFilter* proxies;     ///< by proxy
   const std::uint64_t* excluded;  ///< body_pair_key of bodies that a joint keeps from colliding, ascending
   std::uint32_t excluded_count;
+  bool operator==(const PairFilter&) const = default;
 
   PLUMB_HD bool operator()(std::uint32_t a, std::uint32_t b) const { return (*this)(proxies[a], proxies[b]); }
   PLUMB_HD bool operator()(const ProxyFilter& a, const ProxyFilter& b) const {

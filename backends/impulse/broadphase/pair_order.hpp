@@ -6,8 +6,8 @@
 #include <bit>
 #include <cstdint>
 
-#include "broadphase/lbvh.hpp"
 #include "broadphase/pairs.hpp"
+#include "bvh/lbvh.hpp"
 #include "exec/executor.hpp"
 #include "exec/memory.hpp"
 #include "exec/sort.hpp"

@@ -5,7 +5,7 @@
 
 #include "broadphase/pair_filter.hpp"
 #include "broadphase/pairs.hpp"
-#include "broadphase/tree_view.hpp"
+#include "bvh/tree_view.hpp"
 
 namespace plumb::impulse {
 

@@ -3,11 +3,11 @@
 
 #include <cstdint>
 
-#include "broadphase/scene_extent.hpp"
+#include "bvh/scene_extent.hpp"
 #include "exec/executor.hpp"
 #include "exec/memory.hpp"
 #include "exec/sort.hpp"
-#include "geometry/box.hpp"
+#include "math/box.hpp"
 
 namespace plumb::impulse {
 

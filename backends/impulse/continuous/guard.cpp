@@ -103,7 +103,7 @@ struct FindSight {
     Unseen unseen{*this, index};
     in.statics.overlaps(Box{min(place, place + back) - ball, max(place, place + back) + ball}, in.statics.root(),
                         unseen);
-    for (std::uint32_t k = 0; k < in.plane_count && !unseen.found; ++k) {
+    for (std::uint32_t k = 0; k < in.planes.count && !unseen.found; ++k) {
       const Proxy& plane = in.proxies.rows[in.planes[k]];
       const ShapePose pose = shape_pose(plane, bodies.orientation[plane.body]);
       const Vec at = between(in.parameters->origin, bodies.position[plane.body]) + pose.offset;
@@ -271,7 +271,7 @@ void Guard::reserve(std::uint32_t bodies) {
 void Guard::hold(Executor& executor, const Input& input, const Bodies& bodies, std::uint32_t body_count,
                  Displacement* displacements) {
   executor.run(body_count, Forget{first_.data(), stays_.data()});
-  executor.run(input.mover_count, FindSight{input, bodies, displacements, stays_.data()});
+  executor.run(input.movers.count, FindSight{input, bodies, displacements, stays_.data()});
   executor.run(body_count, StayInSight{bodies.position, displacements, stays_.data()});
   executor.run(input.candidates, FindPassed{input, bodies, displacements, first_.data()});
   executor.run(body_count, PutBack{input, bodies, displacements, first_.data()});

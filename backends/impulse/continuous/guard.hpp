@@ -8,13 +8,13 @@
 // and no momentum.
 #pragma once
 
-#include "body.hpp"
-#include "broadphase/tree_view.hpp"
+#include "bodies/body.hpp"
+#include "bodies/step_counters.hpp"
+#include "bodies/step_parameters.hpp"
+#include "bvh/tree_view.hpp"
 #include "exec/executor.hpp"
 #include "exec/memory.hpp"
 #include "narrowphase/contact_cache.hpp"
-#include "step_counters.hpp"
-#include "step_parameters.hpp"
 
 namespace plumb::impulse {
 
@@ -31,11 +31,9 @@ class Guard {
     const StepParameters* parameters;
     Proxies proxies;
     const Box* boxes;  ///< by proxy, as of the broad phase
-    const std::uint32_t* movers;
-    std::uint32_t mover_count;
+    ProxyRows movers;
     TreeView statics;  ///< of the same boxes
-    const std::uint32_t* planes;
-    std::uint32_t plane_count;
+    ProxyRows planes;
   };
   /// After the bodies have moved by these displacements.
   void hold(Executor& executor, const Input& input, const Bodies& bodies, std::uint32_t body_count,

@@ -5,9 +5,9 @@
 // it goes on, until the gap is small or the step is over. Turning counts by the furthest point of a shape.
 #pragma once
 
-#include "continuous/way.hpp"
-#include "narrowphase/distance.hpp"
-#include "narrowphase/triangle_core.hpp"
+#include "bodies/way.hpp"
+#include "narrowphase/convex/distance.hpp"
+#include "narrowphase/triangle/triangle_core.hpp"
 
 namespace plumb::impulse {
 

@@ -7,7 +7,7 @@
 // and no time is lost.
 #pragma once
 
-#include "body.hpp"
+#include "bodies/body.hpp"
 #include "continuous/impact.hpp"
 #include "exec/executor.hpp"
 #include "narrowphase/contact_cache.hpp"

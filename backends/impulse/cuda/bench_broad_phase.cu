@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <exception>
 
-#include "tests/broad_phase_cases.hpp"
+#include "tests/rigs/broad_phase_cases.hpp"
 
 namespace plumb::impulse {
 namespace {

@@ -6,8 +6,8 @@
 #include <cstdio>
 #include <exception>
 
-#include "tests/broad_phase_cases.hpp"
-#include "tests/query_cases.hpp"
+#include "tests/rigs/broad_phase_cases.hpp"
+#include "tests/rigs/query_cases.hpp"
 
 namespace plumb::impulse {
 namespace {

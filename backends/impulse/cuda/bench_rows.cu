@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <exception>
 
-#include "put_rows.hpp"
+#include "plugin/rows/put_rows.hpp"
 
 namespace plumb::impulse {
 namespace {

@@ -1,5 +1,5 @@
 // Compiled to PTX alone: kernels of the simplest pairs, which check_pair_kernels.cmake looks at.
-#include "narrowphase/collide_by_kind.cuh"
+#include "narrowphase/cuda/collide_by_kind.cuh"
 
 namespace plumb::impulse {
 

@@ -2,8 +2,8 @@
 #include <cuda_runtime_api.h>
 #include <gtest/gtest.h>
 
-#include "engine.hpp"
 #include "exec/executor.hpp"
+#include "tests/rigs/engine.hpp"
 
 namespace plumb::impulse::test {
 namespace {

@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "geometry/key_order.hpp"
-#include "narrowphase/tolerance.hpp"
+#include "geometry/tolerance.hpp"
 
 namespace plumb::impulse {
 

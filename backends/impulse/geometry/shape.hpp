@@ -81,6 +81,7 @@ struct Hulls {
   const HullFace* faces;
   const std::uint32_t* loops;  ///< vertex indices, counted from the hull's first vertex
   const HullEdge* edges;
+  bool operator==(const Hulls&) const = default;
 };
 
 }  // namespace plumb::impulse

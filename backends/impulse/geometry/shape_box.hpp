@@ -1,8 +1,8 @@
 // The axis-aligned box of a shape at an orientation, relative to the shape's origin.
 #pragma once
 
-#include "geometry/box.hpp"
 #include "geometry/shape.hpp"
+#include "math/box.hpp"
 #include "math/mat33.hpp"
 
 namespace plumb::impulse {

@@ -11,8 +11,8 @@
 // Corners are relative to the middle of the surface's box.
 #pragma once
 
-#include "broadphase/tree_view.hpp"
-#include "geometry/box.hpp"
+#include "bvh/tree_view.hpp"
+#include "math/box.hpp"
 
 namespace plumb::impulse {
 
@@ -127,6 +127,7 @@ struct HeightView {
 struct Surfaces {
   const MeshView* meshes;
   const HeightView* fields;
+  bool operator==(const Surfaces&) const = default;
 };
 
 }  // namespace plumb::impulse

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "broadphase/lbvh.hpp"
+#include "bvh/lbvh.hpp"
 #include "exec/table.hpp"
 #include "geometry/surface.hpp"
 #include "plumb/shapes.h"

@@ -1,6 +1,6 @@
 #include "islands/islands.hpp"
 
-#include "islands/union_find.hpp"
+#include "exec/union_find.hpp"
 
 namespace plumb::impulse {
 
@@ -99,16 +99,16 @@ void Islands::reserve(std::uint32_t bodies) {
   count_.grow(1);
 }
 
-void Islands::find_resting(Executor& executor, const ContactCache& cache, std::uint32_t manifolds,
-                           const JointEdges& joints, const Bodies& bodies, const Proxies& proxies,
-                           std::uint32_t body_count, const Real* rest, Real time, const Vec* belts) {
-  executor.run(body_count, Alone{parent_.data(), restless_.data(), awake_.data(), count_.device()});
+void Islands::find_resting(Executor& executor, const Input& input) {
+  const Bodies& bodies = input.bodies;
+  const std::uint32_t count = input.body_count;
+  executor.run(count, Alone{parent_.data(), restless_.data(), awake_.data(), count_.device()});
   const Graph graph = {bodies, parent_.data(), restless_.data()};
-  executor.run(manifolds, JoinTouching{graph, cache, proxies, belts});
-  executor.run(joints.count, JoinJointed{graph, joints});
-  executor.run(body_count, FindRoot{parent_.data(), root_.data()});
-  executor.run(body_count, KeepAwake{bodies, rest, time, root_.data(), restless_.data(), awake_.data()});
-  executor.run(body_count, ListResting{bodies, root_.data(), awake_.data(), resting_.data(), count_.device()});
+  executor.run(input.manifolds, JoinTouching{graph, input.cache, input.proxies, input.belts});
+  executor.run(input.joints.count, JoinJointed{graph, input.joints});
+  executor.run(count, FindRoot{parent_.data(), root_.data()});
+  executor.run(count, KeepAwake{bodies, input.rest, input.time, root_.data(), restless_.data(), awake_.data()});
+  executor.run(count, ListResting{bodies, root_.data(), awake_.data(), resting_.data(), count_.device()});
   executor.to_host(count_, 1);
 }
 

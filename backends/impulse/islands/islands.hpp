@@ -1,11 +1,11 @@
 // Islands: what contacts and joints join, over bodies that can be pushed. Found where kernels run (union_find.hpp).
 #pragma once
 
-#include "body.hpp"
-#include "constraints/belts.hpp"
-#include "constraints/joint.hpp"
+#include "bodies/body.hpp"
+#include "contacts/belts.hpp"
 #include "exec/executor.hpp"
 #include "exec/memory.hpp"
+#include "joints/joint.hpp"
 #include "narrowphase/contact_cache.hpp"
 
 namespace plumb::impulse {
@@ -20,12 +20,21 @@ class Islands {
  public:
   void reserve(std::uint32_t bodies);
 
-  /// Enqueues the search for islands all of whose bodies have rested for at least `time` seconds, and which nothing
-  /// that moves by itself touches. rest: by body, s. belts: by proxy, or null; what touches a surface that runs does
-  /// not rest either. Only between steps.
-  void find_resting(Executor& executor, const ContactCache& cache, std::uint32_t manifolds, const JointEdges& joints,
-                    const Bodies& bodies, const Proxies& proxies, std::uint32_t body_count, const Real* rest, Real time,
-                    const Vec* belts = nullptr);
+  /// What joins bodies, and for how long they have rested.
+  struct Input {
+    ContactCache cache;
+    std::uint32_t manifolds;
+    JointEdges joints;
+    Bodies bodies;
+    std::uint32_t body_count;
+    Proxies proxies;
+    const Real* rest;            ///< by body, s
+    Real time;                   ///< for which an island is to have rested, s
+    const Vec* belts = nullptr;  ///< by proxy, or null: what touches a surface that runs does not rest
+  };
+  /// Enqueues the search for islands all of whose bodies have rested for that time at least, and which nothing that
+  /// moves by itself touches. Only between steps.
+  void find_resting(Executor& executor, const Input& input);
 
   /// Of the last search, when it is done: how many bodies such islands have.
   [[nodiscard]] std::uint32_t resting_count() const { return *count_.host(); }

@@ -13,13 +13,13 @@
 #include <span>
 #include <vector>
 
-#include "body_state.hpp"
-#include "contact_record.hpp"
+#include "bodies/body_state.hpp"
+#include "bodies/step_counters.hpp"
+#include "bodies/step_parameters.hpp"
+#include "contacts/contact_record.hpp"
 #include "exec/archive.hpp"
 #include "exec/table.hpp"
 #include "islands/islands.hpp"
-#include "step_counters.hpp"
-#include "step_parameters.hpp"
 
 namespace plumb::impulse {
 

@@ -6,7 +6,7 @@
 // origin.
 #pragma once
 
-#include "body.hpp"
+#include "bodies/body.hpp"
 #include "narrowphase/feature.hpp"
 #include "narrowphase/manifold.hpp"
 

@@ -2,14 +2,14 @@
 // be, and hits of queries at surfaces have been seen to end in other bits where a CPU called them from another file.
 #pragma once
 
-#include "narrowphase/box_box.hpp"
-#include "narrowphase/capsule.hpp"
 #include "narrowphase/collide.hpp"
 #include "narrowphase/collide_pieces.hpp"
-#include "narrowphase/cylinder_pairs.hpp"
-#include "narrowphase/polyhedra.hpp"
-#include "narrowphase/round.hpp"
-#include "narrowphase/round_polyhedron.hpp"
+#include "narrowphase/convex/box_box.hpp"
+#include "narrowphase/convex/capsule.hpp"
+#include "narrowphase/convex/cylinder_pairs.hpp"
+#include "narrowphase/convex/polyhedra.hpp"
+#include "narrowphase/convex/round.hpp"
+#include "narrowphase/convex/round_polyhedron.hpp"
 
 namespace plumb::impulse {
 

@@ -2,7 +2,7 @@
 // device a kernel for each pair of types, which has the code and registers of one pair function (collide_*_pairs.cu).
 #pragma once
 
-#include "body.hpp"
+#include "bodies/body.hpp"
 #include "exec/executor.hpp"
 #include "narrowphase/contact_cache.hpp"
 

@@ -2,12 +2,12 @@
 // in collide.hpp, the shape's row among the surfaces, and the triangle.
 #pragma once
 
-#include "body.hpp"
-#include "narrowphase/plane.hpp"
-#include "narrowphase/round_polyhedron.hpp"
-#include "narrowphase/triangle_cylinder.hpp"
-#include "narrowphase/triangle_polyhedron.hpp"
-#include "narrowphase/triangle_round.hpp"
+#include "bodies/body.hpp"
+#include "narrowphase/convex/plane.hpp"
+#include "narrowphase/convex/round_polyhedron.hpp"
+#include "narrowphase/triangle/triangle_cylinder.hpp"
+#include "narrowphase/triangle/triangle_polyhedron.hpp"
+#include "narrowphase/triangle/triangle_round.hpp"
 
 namespace plumb::impulse {
 

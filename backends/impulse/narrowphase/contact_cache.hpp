@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "body.hpp"
+#include "bodies/body.hpp"
 #include "broadphase/pairs.hpp"
 #include "narrowphase/manifold.hpp"
 

@@ -50,69 +50,6 @@ struct ForgetFound {
   PLUMB_HD void operator()(std::uint32_t i) const { ranges[statics[i]] = other_ranges[statics[i]] = {0, 0}; }
 };
 
-struct Match {
-  ContactCache cache, last;
-  const KeptPair* woken;
-  Bodies bodies;
-  Proxies proxies;
-  const StepParameters* parameters;
-  StepCounters* counters;
-  Mechanisms mechanisms;
-  std::uint64_t* masks;
-
-  PLUMB_HD void operator()(std::uint32_t row) const {
-    const std::uint32_t candidate = cache.candidate[row];
-    const Pair pair = cache.pairs[candidate];
-    const Manifold& found = cache.found[candidate];
-    const Proxy &a = proxies.rows[pair.a], &b = proxies.rows[pair.b];
-
-    CachedManifold kept;
-    kept.normal = found.normal;
-    kept.tangent = perpendicular(found.normal);
-    kept.count = found.count;
-    kept.colour = kNone;
-    kept.owner_a = pushed_owner(a.body);
-    kept.owner_b = pushed_owner(b.body);
-    for (std::uint32_t i = 0; i < kManifoldPoints; ++i) {
-      kept.feature[i] = i < found.count ? found.points[i].feature : 0;
-      kept.normal_impulse[i] = kept.tangent_impulse[0][i] = kept.tangent_impulse[1][i] = 0;
-    }
-    const std::uint32_t step = parameters->step;
-    const std::uint32_t part = cache.parts == nullptr ? 0U : cache.parts[candidate];
-    const std::uint32_t old_row = a.born == step || b.born == step ? kNone : find_row(last, pair, part);
-    const CachedManifold* old = old_row != kNone ? &last.kept[old_row] : nullptr;
-    if (old == nullptr && woken != nullptr) old = find_kept(woken, parameters->woken_contacts, pair, part);
-    if (old != nullptr) remember(*old, kept);
-    cache.kept[row] = kept;
-    atomic_add(&counters->points, kept.count);
-    if (kept.colour == kNone) return;
-    const std::uint64_t bit = std::uint64_t{1} << kept.colour;
-    if (kept.owner_a != kNone) atomic_or(&masks[kept.owner_a], bit);
-    if (kept.owner_b != kNone) atomic_or(&masks[kept.owner_b], bit);
-  }
-
- private:
-  PLUMB_HD std::uint32_t pushed_owner(std::uint32_t body) const {
-    return bodies.velocity[body].inverse_mass > 0 ? mechanisms.owner(body) : kNone;
-  }
-  /// Impulses of points that are still there; those across the normal keep their direction in the world.
-  PLUMB_HD static void remember(const CachedManifold& old, CachedManifold& kept) {
-    if (old.colour < kOverflow && old.owner_a == kept.owner_a && old.owner_b == kept.owner_b) kept.colour = old.colour;
-    const Vec old_bitangent = cross(old.normal, old.tangent), bitangent = cross(kept.normal, kept.tangent);
-    for (std::uint32_t i = 0; i < kept.count; ++i)
-      for (std::uint32_t j = 0; j < old.count; ++j) {
-        if (kept.feature[i] != old.feature[j]) continue;
-        const Vec friction = old.tangent_impulse[0][j] * old.tangent + old.tangent_impulse[1][j] * old_bitangent;
-        // Impulses of a body that came out not finite must not reach the next step.
-        const bool sane = is_finite(friction) && is_finite(old.normal_impulse[j]);
-        kept.normal_impulse[i] = sane ? old.normal_impulse[j] : 0;
-        kept.tangent_impulse[0][i] = sane ? dot(friction, kept.tangent) : 0;
-        kept.tangent_impulse[1][i] = sane ? dot(friction, bitangent) : 0;
-        break;
-      }
-  }
-};
-
 }  // namespace
 
 void NarrowPhase::reserve(Executor& /*executor*/, std::uint32_t proxies, std::uint32_t pairs) {
@@ -155,13 +92,6 @@ void NarrowPhase::bin(Executor& executor, const ContactCache& cache, const Proxi
   executor.run(pairs, SortKinds{cache, proxies, kinds_.data(), unordered_.data()});
   sort_.run(executor, pairs, kinds_.data(), unordered_.data(), sorted_kinds_.data(), order_.data(), 6);
   executor.run(kPairKinds + 1, FindKinds{sorted_kinds_.data(), pairs, first_.data()});
-}
-
-void NarrowPhase::match(Executor& executor, const ContactCache& cache, const ContactCache& last, const KeptPair* woken,
-                        const Bodies& bodies, const Proxies& proxies, const StepParameters* parameters,
-                        StepCounters* counters, const Mechanisms& mechanisms, std::uint64_t* masks) {
-  executor.run(Count{&counters->manifolds, capacity_},
-               Match{cache, last, woken, bodies, proxies, parameters, counters, mechanisms, masks});
 }
 
 void NarrowPhase::forget_found(Executor& executor, const std::uint32_t* statics, std::uint32_t n) {

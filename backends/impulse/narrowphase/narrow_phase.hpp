@@ -1,13 +1,12 @@
-// From candidate pairs to manifolds with their memory: collide, keep what touches, and find last step's impulses.
+// From candidate pairs to manifolds: collide, and keep what touches.
 #pragma once
 
-#include "body.hpp"
-#include "constraints/mechanism.hpp"
+#include "bodies/body.hpp"
+#include "bodies/step_counters.hpp"
+#include "bodies/step_parameters.hpp"
 #include "exec/archive.hpp"
 #include "exec/sort.hpp"
 #include "narrowphase/contact_cache.hpp"
-#include "step_counters.hpp"
-#include "step_parameters.hpp"
 
 namespace plumb::impulse {
 
@@ -47,12 +46,6 @@ class NarrowPhase {
 
   /// Numbers those that touch.
   void number(Executor& executor, const ContactCache& cache, StepCounters* counters);
-
-  /// Gives each manifold the impulses of the points with the same feature in the last step, and its colour. woken: the
-  /// manifolds of those who slept in the last step (StepParameters::woken_contacts, ascending); null where nobody does.
-  void match(Executor& executor, const ContactCache& cache, const ContactCache& last, const KeptPair* woken,
-             const Bodies& bodies, const Proxies& proxies, const StepParameters* parameters, StepCounters* counters,
-             const Mechanisms& mechanisms, std::uint64_t* masks);
 
  private:
   struct Storage {

@@ -1,6 +1,6 @@
 #include "narrowphase/pieces.hpp"
 
-#include "continuous/way.hpp"
+#include "bodies/way.hpp"
 #include "geometry/shape_box.hpp"
 
 namespace plumb::impulse {
@@ -36,7 +36,7 @@ struct Search {
       else
         sink(pair, 0);
     }
-    for (std::uint32_t k = 0; k < in.plane_count; ++k)
+    for (std::uint32_t k = 0; k < in.planes.count; ++k)
       if (in.filter(mover, in.planes[k]) && reaches(mover, in.planes[k])) sink({mover, in.planes[k]}, 0);
   }
 
@@ -160,9 +160,9 @@ void Pieces::find(Executor& executor, const Input& input, const ContactCache& ca
                   bool swept) {
   const auto find = [&]<bool kSwept>() {
     const Search<kSwept> search{input, pairs_.data(), ranges_.data()};
-    executor.run(input.mover_count, CountPieces<kSwept>{search, counts_.data()});
-    scan_.run(executor, input.mover_count, counts_.data(), offsets_.data(), &counters->pieces);
-    executor.run(input.mover_count, WritePieces<kSwept>{search, cache, counts_.data(), offsets_.data(), capacity_});
+    executor.run(input.movers.count, CountPieces<kSwept>{search, counts_.data()});
+    scan_.run(executor, input.movers.count, counts_.data(), offsets_.data(), &counters->pieces);
+    executor.run(input.movers.count, WritePieces<kSwept>{search, cache, counts_.data(), offsets_.data(), capacity_});
   };
   swept ? find.operator()<true>() : find.operator()<false>();
   executor.run(1U, CountAsPairs{counters, capacity_});

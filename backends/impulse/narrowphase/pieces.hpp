@@ -5,12 +5,12 @@
 // mover here.
 #pragma once
 
-#include "body.hpp"
+#include "bodies/body.hpp"
+#include "bodies/step_counters.hpp"
+#include "bodies/step_parameters.hpp"
 #include "broadphase/pair_filter.hpp"
 #include "exec/sort.hpp"
 #include "narrowphase/contact_cache.hpp"
-#include "step_counters.hpp"
-#include "step_parameters.hpp"
 
 namespace plumb::impulse {
 
@@ -30,10 +30,7 @@ class Pieces {
     PairFilter filter;
     const Box* boxes;
     const Real* margins;  ///< by proxy
-    const std::uint32_t* movers;
-    std::uint32_t mover_count;
-    const std::uint32_t* planes;
-    std::uint32_t plane_count;
+    ProxyRows movers, planes;
   };
   /// Writes cache.pairs, cache.parts, cache.ranges and counters->pieces. More pieces than there is room for count as so
   /// many pairs. swept: what some bodies must not pass through in the step is found, too.

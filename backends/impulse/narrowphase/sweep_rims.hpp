@@ -6,10 +6,10 @@
 // be lowest after a third, two thirds and all of the step.
 #pragma once
 
-#include "body.hpp"
+#include "bodies/body.hpp"
+#include "bodies/step_parameters.hpp"
 #include "exec/executor.hpp"
 #include "narrowphase/contact_cache.hpp"
-#include "step_parameters.hpp"
 
 namespace plumb::impulse {
 

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <string>
 
-#include "axis_locks.hpp"
+#include "bodies/axis_locks.hpp"
 #include "plugin/ranges.hpp"
+#include "plugin/rows/put_rows.hpp"
 #include "plugin/world.hpp"
-#include "put_rows.hpp"
 
 namespace plumb::impulse {
 
@@ -18,11 +18,11 @@ bool is_isotropic(const PlumbVec3& inertia) { return inertia.x == inertia.y && i
 
 PlumbResult World::create_bodies(std::span<const PlumbBodyDesc> descs, std::span<PlumbBody> ids) {
   for (std::size_t i = 0; i < descs.size(); ++i) require_range(descs[i], i);
-  std::uint32_t slots = simulation_.body_count();
+  std::uint32_t slots = simulation_.bodies.count;
   for (const PlumbBody id : ids) slots = std::max(slots, slot_of(id) + 1);
   simulation_.reserve_bodies(slots);
   if (bodies_.size() < slots) bodies_.resize(slots);
-  simulation_.set_body_count(slots);
+  simulation_.bodies.count = slots;
   row_ids_.resize(slots);
   Simulation::Slots sleepers;
   for (std::size_t i = 0; i < descs.size(); ++i) {
@@ -45,10 +45,10 @@ PlumbResult World::destroy_bodies(std::span<const PlumbBody> ids) {
     detach(slot);
     bodies_[slot] = {};
     row_ids_[slot] = 0;
-    simulation_.mass.edit(slot) = {};
-    simulation_.force.edit(slot) = {};
-    simulation_.state.velocity[slot] = {};
-    simulation_.state.touch(slot, kVelocityPart);
+    simulation_.bodies.mass.edit(slot) = {};
+    simulation_.bodies.force.edit(slot) = {};
+    simulation_.bodies.state.velocity[slot] = {};
+    simulation_.bodies.state.touch(slot, kVelocityPart);
   }
   sensors_.remove_if([&](std::uint32_t slot) { return bodies_[slot].id == 0; });
   std::erase_if(records_, [&](const ContactRecord& record) {  // their slots will be others'
@@ -104,16 +104,16 @@ void World::make_body(const PlumbBodyDesc& desc, PlumbBody id) {
       mass.flags &= ~static_cast<std::uint32_t>(kBodyTurns);
     }
   }
-  simulation_.mass.edit(slot) = mass;
-  simulation_.frames.edit(slot) = frame;
-  Velocity& velocity = simulation_.state.velocity[slot];
+  simulation_.bodies.mass.edit(slot) = mass;
+  simulation_.bodies.frames.edit(slot) = frame;
+  Velocity& velocity = simulation_.bodies.state.velocity[slot];
   velocity.inverse_mass = inverse_mass;
   velocity.linear = desc.motion == PLUMB_STATIC ? Vec{0, 0, 0} : to_vec(desc.linear_velocity);
   velocity.angular = (mass.flags & kBodyTurns) != 0 ? to_vec(desc.angular_velocity) : Vec{0, 0, 0};
   hold_locked(slot);
   stop_infinite(slot);
-  simulation_.state.touch(slot, kVelocityPart);
-  simulation_.force.edit(slot) = {};
+  simulation_.bodies.state.touch(slot, kVelocityPart);
+  simulation_.bodies.force.edit(slot) = {};
   place(slot, desc.pose);
 
   put_body_rows(slot);
@@ -130,13 +130,13 @@ void World::expect_continuous() {
   simulation_.expect_continuous();
   for (std::uint32_t slot = 0; slot < bodies_.size(); ++slot)
     if (bodies_[slot].id != 0 && bodies_[slot].motion == PLUMB_KINEMATIC)
-      simulation_.mass.edit(slot).flags |= kBodySweeps;
+      simulation_.bodies.mass.edit(slot).flags |= kBodySweeps;
 }
 
 /// What of a body's record is copied into rows that kernels read.
 void World::put_body_rows(std::uint32_t slot) {
   const BodyRecord& body = bodies_[slot];
-  BodyMass& mass = simulation_.mass.edit(slot);
+  BodyMass& mass = simulation_.bodies.mass.edit(slot);
   mass.gravity_scale = static_cast<Real>(body.gravity_scale);
   mass.linear_damping = static_cast<Real>(body.linear_damping);
   mass.angular_damping = static_cast<Real>(body.angular_damping);
@@ -145,18 +145,18 @@ void World::put_body_rows(std::uint32_t slot) {
 }
 
 void World::place(std::uint32_t slot, const PlumbPose& pose) {
-  const BodyFrame& frame = simulation_.frames[slot];
+  const BodyFrame& frame = simulation_.bodies.frames[slot];
   const QuatD q = to_double(pose.orientation);
-  simulation_.state.position[slot] = to_position(pose.position) + rotate(q, frame.centre_of_mass);
-  simulation_.state.orientation[slot] = to_quat(q * frame.principal);
-  simulation_.state.touch(slot, kPosePart);
+  simulation_.bodies.state.position[slot] = to_position(pose.position) + rotate(q, frame.centre_of_mass);
+  simulation_.bodies.state.orientation[slot] = to_quat(q * frame.principal);
+  simulation_.bodies.state.touch(slot, kPosePart);
   if (bodies_[slot].motion == PLUMB_STATIC) simulation_.statics_changed();
 }
 
 /// Where the host's row is right.
 PlumbPose World::pose(std::uint32_t slot) const {
-  const BodyState& state = simulation_.state;
-  const PoseRow row = pose_row(simulation_.frames[slot], state.position[slot], state.orientation[slot]);
+  const BodyState& state = simulation_.bodies.state;
+  const PoseRow row = pose_row(simulation_.bodies.frames[slot], state.position[slot], state.orientation[slot]);
   PlumbPose pose;
   static_assert(sizeof pose == sizeof row);
   std::memcpy(&pose, &row, sizeof pose);
@@ -165,12 +165,12 @@ PlumbPose World::pose(std::uint32_t slot) const {
 
 /// Where the host's rows are not right, all rows of the field are brought here at once: who reads reads many.
 void World::read_state(PlumbField field, std::span<const PlumbBody> ids, Rows rows) {
-  const BodyState& state = simulation_.state;
+  const BodyState& state = simulation_.bodies.state;
   Executor& executor = simulation_.executor();
   if (field == PLUMB_FIELD_POSE) {
     if (!state.on_host()) return copy_rows(executor, simulation_.pose_rows(true)->rows.host(), ids, rows);
     return put_rows(executor, ids, rows, [&](std::uint32_t slot) {
-      return pose_row(simulation_.frames[slot], state.position[slot], state.orientation[slot]);
+      return pose_row(simulation_.bodies.frames[slot], state.position[slot], state.orientation[slot]);
     });
   }
   if (!state.on_host()) return copy_rows(executor, simulation_.velocity_rows(true)->rows.host(), ids, rows);
@@ -232,27 +232,27 @@ void World::fetch_for_write(PlumbField field, std::span<const PlumbBody> ids) {
   if (field < PLUMB_FIELD_IMPULSE || field > PLUMB_FIELD_IMPULSE_AT_POINT) return;
   std::vector<std::uint32_t> slots(ids.size());
   std::transform(ids.begin(), ids.end(), slots.begin(), [](PlumbBody id) { return slot_of(id); });
-  simulation_.state.fetch(slots, kPosePart | kVelocityPart);
+  simulation_.bodies.state.fetch(slots, kPosePart | kVelocityPart);
 }
 
 /// The quarantine of what comes from outside: a velocity beyond the engine's numbers is 0 and reported, or it would
 /// spread to whatever the body touches.
 void World::stop_infinite(std::uint32_t slot) {
-  Velocity& velocity = simulation_.state.velocity[slot];
+  Velocity& velocity = simulation_.bodies.state.velocity[slot];
   if (is_finite(velocity.linear) && is_finite(velocity.angular)) return;
   velocity.linear = velocity.angular = {0, 0, 0};
   ++stopped_;
 }
 
 void World::hold_locked(std::uint32_t slot) {
-  const std::uint32_t flags = simulation_.mass[slot].flags;
-  Velocity& velocity = simulation_.state.velocity[slot];
+  const std::uint32_t flags = simulation_.bodies.mass[slot].flags;
+  Velocity& velocity = simulation_.bodies.state.velocity[slot];
   velocity.linear = unlocked(flags, kLockLinear, velocity.linear);
   velocity.angular = unlocked(flags, kLockAngular, velocity.angular);
 }
 
 void World::push(std::uint32_t slot, const Vec& force, const Vec& torque) {
-  BodyForce& all = simulation_.force.edit(slot);
+  BodyForce& all = simulation_.bodies.force.edit(slot);
   all.force += force;
   all.torque += torque;
   if (!is_finite(all.force) || !is_finite(all.torque)) {
@@ -263,24 +263,24 @@ void World::push(std::uint32_t slot, const Vec& force, const Vec& torque) {
 }
 
 void World::kick(std::uint32_t slot, const Vec& impulse, const Vec& angular_impulse) {
-  Velocity& velocity = simulation_.state.velocity[slot];
+  Velocity& velocity = simulation_.bodies.state.velocity[slot];
   velocity.linear += velocity.inverse_mass * impulse;
-  const BodyMass& mass = simulation_.mass[slot];
-  velocity.angular += world_inverse_inertia(simulation_.state.orientation[slot], mass) * angular_impulse;
+  const BodyMass& mass = simulation_.bodies.mass[slot];
+  velocity.angular += world_inverse_inertia(simulation_.bodies.state.orientation[slot], mass) * angular_impulse;
   hold_locked(slot);
   stop_infinite(slot);
-  simulation_.state.touch(slot, kVelocityPart);
+  simulation_.bodies.state.touch(slot, kVelocityPart);
 }
 
 void World::write_row(PlumbField field, std::uint32_t slot, const double* row) {
   BodyRecord& body = bodies_[slot];
   const Vec v = to_vec(row);
-  const auto arm = [&] { return between(simulation_.state.position[slot], {row[3], row[4], row[5]}); };
+  const auto arm = [&] { return between(simulation_.bodies.state.position[slot], {row[3], row[4], row[5]}); };
   switch (field) {
     case PLUMB_FIELD_POSE: {
       if (body.arrived) {  // the velocity was that of the way there
-        simulation_.state.velocity[slot].linear = simulation_.state.velocity[slot].angular = {0, 0, 0};
-        simulation_.state.touch(slot, kVelocityPart);
+        simulation_.bodies.state.velocity[slot].linear = simulation_.bodies.state.velocity[slot].angular = {0, 0, 0};
+        simulation_.bodies.state.touch(slot, kVelocityPart);
       }
       place(slot, {{row[0], row[1], row[2]}, {row[3], row[4], row[5], row[6]}});
       body.to_target = body.arrived = false;
@@ -288,12 +288,13 @@ void World::write_row(PlumbField field, std::uint32_t slot, const double* row) {
     }
     case PLUMB_FIELD_VELOCITY:
       if (body.motion == PLUMB_STATIC) return;
-      simulation_.state.velocity[slot].linear = v;
-      if ((simulation_.mass[slot].flags & kBodyTurns) != 0) simulation_.state.velocity[slot].angular = to_vec(row + 3);
+      simulation_.bodies.state.velocity[slot].linear = v;
+      if ((simulation_.bodies.mass[slot].flags & kBodyTurns) != 0)
+        simulation_.bodies.state.velocity[slot].angular = to_vec(row + 3);
       hold_locked(slot);
       stop_infinite(slot);
       body.to_target = body.arrived = false;
-      return simulation_.state.touch(slot, kVelocityPart);
+      return simulation_.bodies.state.touch(slot, kVelocityPart);
     case PLUMB_FIELD_FORCE: return push(slot, v, {0, 0, 0});
     case PLUMB_FIELD_TORQUE: return push(slot, {0, 0, 0}, v);
     case PLUMB_FIELD_FORCE_AT_POINT: return push(slot, v, cross(arm(), v));

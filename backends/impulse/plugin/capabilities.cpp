@@ -1,5 +1,5 @@
 // What impulse truly has.
-#include "physics_revision.hpp"
+#include "plugin/physics_revision.hpp"
 #include "plugin/world.hpp"
 #include "plumb/backend/usual_capability.hpp"
 

@@ -35,11 +35,11 @@ void World::pose_parts(PlumbShape id, const PlumbPose& pose, std::vector<PosedSh
   const QuatD turn = normalized(to_double(pose.orientation));
   parts.clear();
   if (row >= compounds_.size() || compounds_[row].empty()) {
-    parts.push_back({simulation_.shapes[row], at, turn});
+    parts.push_back({simulation_.colliders.shapes[row], at, turn});
     return;
   }
   for (const CompoundPart& part : compounds_[row])
-    parts.push_back({simulation_.shapes[part.shape], at + rotate(turn, to_position(part.pose.position)),
+    parts.push_back({simulation_.colliders.shapes[part.shape], at + rotate(turn, to_position(part.pose.position)),
                      normalized(turn * to_double(part.pose.orientation))});
 }
 

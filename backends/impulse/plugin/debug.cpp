@@ -9,7 +9,7 @@ namespace plumb::impulse {
 
 /// The body of a proxy that the last step knew; 0 where it is gone.
 PlumbBody World::body_of_last_step(std::uint32_t proxy) const {
-  const Proxy& row = simulation_.proxies[proxy];
+  const Proxy& row = simulation_.colliders.proxies[proxy];
   return row.shape == kNone || row.born > simulation_.steps() ? 0 : bodies_[row.body].id;
 }
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "plugin/joint_rows.hpp"
+#include "plugin/rows/joint_rows.hpp"
 #include "plugin/world.hpp"
 
 namespace plumb::impulse {
@@ -50,9 +50,9 @@ void World::put_joint(std::uint32_t slot) {
   joint.slot = slot;
   joint.born = simulation_.steps() + 1;
   joint.rest_length = static_cast<Real>(desc.rest_length);
-  joint.frame_b = principal_frame(simulation_.frames[joint.body_b], desc.frame_b);
+  joint.frame_b = principal_frame(simulation_.bodies.frames[joint.body_b], desc.frame_b);
   if (joint.body_a != kWorld) {
-    joint.frame_a = principal_frame(simulation_.frames[joint.body_a], desc.frame_a);
+    joint.frame_a = principal_frame(simulation_.bodies.frames[joint.body_a], desc.frame_a);
   } else {
     joint.frame_a = {{0, 0, 0}, to_quat(to_double(desc.frame_a.orientation))};
     joint.world_anchor = to_position(desc.frame_a.position);
@@ -117,7 +117,7 @@ PlumbResult World::read_joints(PlumbJointField field, std::span<const PlumbJoint
       if (joint.body_a != 0) bodies.push_back(slot_of(joint.body_a));
       bodies.push_back(slot_of(joint.body_b));
     }
-    simulation_.state.fetch(bodies, kPosePart);
+    simulation_.bodies.state.fetch(bodies, kPosePart);
   }
   for (std::size_t i = 0; i < ids.size(); ++i) {
     const std::uint32_t slot = slot_of(ids[i]);

@@ -5,13 +5,13 @@
 namespace plumb::impulse {
 
 void World::sense() {
-  simulation_.state.fetch(sensors_.all(), kPosePart);
+  simulation_.bodies.state.fetch(sensors_.all(), kPosePart);
   std::vector<PlumbOverlap> looks;
   std::vector<std::uint32_t> who;
   const auto look = [&](std::uint32_t slot, std::uint32_t row) {
-    const Proxy& proxy = simulation_.proxies[row];
-    const Quat& turn = simulation_.state.orientation[slot];
-    const Position at = moved(simulation_.state.position[slot], rotate(turn, proxy.frame.position));
+    const Proxy& proxy = simulation_.colliders.proxies[row];
+    const Quat& turn = simulation_.bodies.state.orientation[slot];
+    const Position at = moved(simulation_.bodies.state.position[slot], rotate(turn, proxy.frame.position));
     const QuatD q = to_double(turn * proxy.frame.orientation);
     looks.push_back({proxy.shape, {{at.x, at.y, at.z}, {q.x, q.y, q.z, q.w}}, bodies_[slot].filter});
     who.push_back(slot);

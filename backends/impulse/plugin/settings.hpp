@@ -1,9 +1,9 @@
 // The knobs of the engine, and what is set.
 #pragma once
 
+#include "bodies/step_parameters.hpp"
 #include "broadphase/broad_phase.hpp"
 #include "plumb/backend/settings_table.hpp"
-#include "step_parameters.hpp"
 
 namespace plumb::impulse {
 

@@ -44,18 +44,19 @@ Shape World::to_shape(const PlumbShapeDesc& desc, std::uint32_t row, Compound& p
       break;
     case PLUMB_CONVEX_HULL:
       shape.type = ShapeType::kHull;
-      shape.hull = simulation_.hulls.add({reinterpret_cast<const PlumbVec3*>(desc.vertices), desc.vertex_count});
-      shape.reach = simulation_.hulls.reach(shape.hull);
+      shape.hull =
+          simulation_.colliders.hulls.add({reinterpret_cast<const PlumbVec3*>(desc.vertices), desc.vertex_count});
+      shape.reach = simulation_.colliders.hulls.reach(shape.hull);
       break;
     case PLUMB_PLANE: shape.type = ShapeType::kPlane; break;
     case PLUMB_TRIANGLE_MESH: {
-      const AddedSurface added = simulation_.surfaces.add_mesh(simulation_.executor(), desc);
+      const AddedSurface added = simulation_.colliders.surfaces.add_mesh(simulation_.executor(), desc);
       shape = to_surface(ShapeType::kMesh, added);
       parts = {{row, {added.centre, {0, 0, 0, 1}}, false, {}}};
       break;
     }
     case PLUMB_HEIGHT_FIELD: {
-      const AddedSurface added = simulation_.surfaces.add_field(desc);
+      const AddedSurface added = simulation_.colliders.surfaces.add_field(desc);
       shape = to_surface(ShapeType::kHeightField, added);
       parts = {{row, {added.centre, {0, 0, 0, 1}}, false, {}}};
       break;
@@ -67,9 +68,9 @@ Shape World::to_shape(const PlumbShapeDesc& desc, std::uint32_t row, Compound& p
 }
 
 void World::dismantle(const Shape& shape) {
-  if (shape.type == ShapeType::kHull) simulation_.hulls.remove(shape.hull);
-  if (shape.type == ShapeType::kMesh) simulation_.surfaces.remove_mesh(shape.hull);
-  if (shape.type == ShapeType::kHeightField) simulation_.surfaces.remove_field(shape.hull);
+  if (shape.type == ShapeType::kHull) simulation_.colliders.hulls.remove(shape.hull);
+  if (shape.type == ShapeType::kMesh) simulation_.colliders.surfaces.remove_mesh(shape.hull);
+  if (shape.type == ShapeType::kHeightField) simulation_.colliders.surfaces.remove_field(shape.hull);
 }
 
 PlumbResult World::create_shapes(std::span<const PlumbShapeDesc> descs, std::span<PlumbShape> ids) {
@@ -86,7 +87,7 @@ PlumbResult World::create_shapes(std::span<const PlumbShapeDesc> descs, std::spa
   for (std::size_t i = 0; i < descs.size(); ++i) {
     const std::uint32_t row = slot_of(ids[i]);
     simulation_.reserve_shapes(row + 1);
-    simulation_.shapes.edit(row) = made[i];
+    simulation_.colliders.shapes.edit(row) = made[i];
     if (parts[i].empty()) continue;
     if (row >= compounds_.size()) compounds_.resize(row + 1);
     compounds_[row] = std::move(parts[i]);
@@ -96,8 +97,8 @@ PlumbResult World::create_shapes(std::span<const PlumbShapeDesc> descs, std::spa
 
 PlumbResult World::destroy_shapes(std::span<const PlumbShape> ids) {
   for (const PlumbShape id : ids) {
-    dismantle(simulation_.shapes[slot_of(id)]);
-    simulation_.shapes.edit(slot_of(id)) = {};
+    dismantle(simulation_.colliders.shapes[slot_of(id)]);
+    simulation_.colliders.shapes.edit(slot_of(id)) = {};
     if (slot_of(id) < compounds_.size()) compounds_[slot_of(id)].clear();
   }
   return PLUMB_OK;
@@ -109,9 +110,9 @@ void World::attach(std::uint32_t slot, std::uint32_t shape) {
   body.proxy = proxy_slots_.take(slot);
   const Compound* parts = shape < compounds_.size() && !compounds_[shape].empty() ? &compounds_[shape] : nullptr;
   for (std::size_t i = 1; parts != nullptr && i < parts->size(); ++i)
-    body.more_proxies.push_back(proxy_slots_.take_any(simulation_.body_count()));
+    body.more_proxies.push_back(proxy_slots_.take_any(simulation_.bodies.count));
   simulation_.reserve_proxies(proxy_slots_.end());
-  simulation_.set_proxy_count(proxy_slots_.end());
+  simulation_.colliders.count = proxy_slots_.end();
   if (parts == nullptr) {
     if (body.proxy < proxies_.size()) proxies_[body.proxy] = {};
     return attach_part(slot, body.proxy, shape, nullptr);
@@ -127,8 +128,8 @@ void World::attach(std::uint32_t slot, std::uint32_t shape) {
 
 /// pose: of the shape in the body's frame; null: the body's own.
 void World::attach_part(std::uint32_t slot, std::uint32_t row, std::uint32_t shape, const PlumbPose* pose) {
-  const BodyFrame& frame = simulation_.frames[slot];
-  Proxy& proxy = simulation_.proxies.edit(row);
+  const BodyFrame& frame = simulation_.bodies.frames[slot];
+  Proxy& proxy = simulation_.colliders.proxies.edit(row);
   proxy = {};
   proxy.body = slot;
   proxy.shape = shape;
@@ -145,7 +146,7 @@ void World::attach_part(std::uint32_t slot, std::uint32_t row, std::uint32_t sha
 void World::detach(std::uint32_t slot) {
   BodyRecord& body = bodies_[slot];
   const auto give_back = [this](std::uint32_t row) {
-    simulation_.proxies.edit(row).shape = kNone;
+    simulation_.colliders.proxies.edit(row).shape = kNone;
     proxy_slots_.give_back(row);
   };
   if (body.proxy != kNone) give_back(body.proxy);
@@ -158,21 +159,21 @@ void World::put_proxy_row(std::uint32_t slot, std::uint32_t row) {
   const BodyRecord& body = bodies_[slot];
   const bool own = row < proxies_.size() && proxies_[row].has_material;
   const PlumbMaterial& material = own ? proxies_[row].material : body.material;
-  Proxy& proxy = simulation_.proxies.edit(row);
+  Proxy& proxy = simulation_.colliders.proxies.edit(row);
   proxy.friction = static_cast<Real>(material.friction);
   proxy.restitution = static_cast<Real>(material.restitution);
   const std::uint32_t flags = (body.motion == PLUMB_DYNAMIC ? 0 : kProxyImmovable) | (body.senses ? kProxyUnseen : 0);
-  if (row < simulation_.belts.size()) {
+  if (row < simulation_.colliders.belts.size()) {
     const PlumbVec3& v = material.surface_velocity;
-    const Position principal = rotate(conjugate(simulation_.frames[slot].principal), Position{v.x, v.y, v.z});
-    simulation_.belts.edit(row) = to_vec(PlumbVec3{principal.x, principal.y, principal.z});
+    const Position principal = rotate(conjugate(simulation_.bodies.frames[slot].principal), Position{v.x, v.y, v.z});
+    simulation_.colliders.belts.edit(row) = to_vec(PlumbVec3{principal.x, principal.y, principal.z});
   }
-  simulation_.filters.edit(row) = {slot, body.filter.category, body.filter.mask, body.filter.group, flags};
+  simulation_.colliders.filters.edit(row) = {slot, body.filter.category, body.filter.mask, body.filter.group, flags};
 }
 
 /// What a contact tells of the proxy beside its body; part: the triangle where it is a surface.
 std::uint32_t World::child_of(std::uint32_t proxy, std::uint32_t part) const {
-  if (is_surface(simulation_.shapes[simulation_.proxies[proxy].shape].type)) return part;
+  if (is_surface(simulation_.colliders.shapes[simulation_.colliders.proxies[proxy].shape].type)) return part;
   return proxy < proxies_.size() ? proxies_[proxy].child : 0;
 }
 

@@ -1,5 +1,5 @@
 // plumb.snapshot/1: what moves, with the impulses that the next step starts from.
-#include "physics_revision.hpp"
+#include "plugin/physics_revision.hpp"
 #include "plugin/world.hpp"
 
 namespace plumb::impulse {
@@ -48,7 +48,7 @@ void World::exchange(Archive& archive) {
   archive.value(stopped_);
   steered_.exchange(archive);
   archive.list(pushed_);
-  for (const std::uint32_t slot : pushed_) archive.value(simulation_.force.edit(slot));
+  for (const std::uint32_t slot : pushed_) archive.value(simulation_.bodies.force.edit(slot));
   archive.list(early_events_);
   archive.list(touches_.touching());
   for (std::uint32_t slot = 0; slot < saved.rows.bodies; ++slot) {

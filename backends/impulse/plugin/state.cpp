@@ -1,7 +1,7 @@
 // plumb.state/1: the engine's rows of poses and velocities, lent where they lie.
 #include <string>
 
-#include "plugin/lent_rows.hpp"
+#include "plugin/rows/lent_rows.hpp"
 #include "plugin/world.hpp"
 
 namespace plumb::impulse {
@@ -30,7 +30,7 @@ PlumbResult World::borrow(const PlumbStateRequest& request, PlumbDLManagedTensor
     if (own) simulation_.executor().send(block->written);
     if (fence != nullptr && own) *fence = {simulation_.executor().stream_handle(), block->written.handle()};
     if (fence != nullptr && !own) *fence = {nullptr, nullptr};
-    tensor = LentRows<Row>::lend(block, simulation_.body_count(), own);
+    tensor = LentRows<Row>::lend(block, simulation_.bodies.count, own);
   };
   if (request.field == PLUMB_FIELD_POSE)
     lend(simulation_.pose_rows(!own));

@@ -51,10 +51,10 @@ void World::finish_steps() {
 void World::finish(double dt, int divided) {
   simulation_.wait();
   const StepCounters& counters = simulation_.counters();
-  tell(PLUMB_EVENT_WAKE, simulation_.woken(), events_);
+  tell(PLUMB_EVENT_WAKE, simulation_.outcome().woken, events_);
   parts_.gained = parts_.gained || counters.gained != 0;
-  parts_.repeated = parts_.repeated || simulation_.repeated();
-  parts_.grew = parts_.grew || simulation_.grew();
+  parts_.repeated = parts_.repeated || simulation_.outcome().repeated;
+  parts_.grew = parts_.grew || simulation_.outcome().grew;
   if (counters.let_go != 0) {
     parts_.repeated = true;
     start(dt, divided, false);
@@ -67,7 +67,7 @@ void World::finish(double dt, int divided) {
     }
     return;
   }
-  tell(PLUMB_EVENT_SLEEP, simulation_.fallen_asleep(), events_);
+  tell(PLUMB_EVENT_SLEEP, simulation_.outcome().fallen_asleep, events_);
   last_h_ = settings_.substep(dt, counters.substeps != 0 ? counters.substeps : settings_.substeps);
   load_rate_ = std::max(counters.asked_substeps / dt, std::max(0.0, 1 - dt / kLoadFades) * load_rate_);
   parts_.any_done = true;

@@ -76,10 +76,10 @@ PlumbResult World::wait(PlumbStepReport& report) {
 /// A kinematic body that is sent somewhere gets the velocity that leads there in one step; one that has arrived rests.
 void World::steer_kinematics(double dt) {
   steered_.remove_if([&](std::uint32_t slot) { return bodies_[slot].id == 0; });
-  simulation_.state.fetch(steered_.all(), kPosePart);
+  simulation_.bodies.state.fetch(steered_.all(), kPosePart);
   for (const std::uint32_t slot : steered_) {
     BodyRecord& body = bodies_[slot];
-    Velocity& velocity = simulation_.state.velocity[slot];
+    Velocity& velocity = simulation_.bodies.state.velocity[slot];
     if (body.to_target) {
       const PlumbPose from = pose(slot);
       const auto rate = [dt](double to, double at) { return static_cast<Real>((to - at) / dt); };
@@ -90,7 +90,7 @@ void World::steer_kinematics(double dt) {
       velocity.linear = velocity.angular = {0, 0, 0};
       body.arrived = false;
     }
-    simulation_.state.touch(slot, kVelocityPart);
+    simulation_.bodies.state.touch(slot, kVelocityPart);
   }
   steered_.remove_if([&](std::uint32_t slot) { return !bodies_[slot].to_target; });
 }
@@ -106,7 +106,7 @@ void World::settle_kinematics() {
 }
 
 void World::clear_forces() {
-  for (const std::uint32_t slot : pushed_) simulation_.force.edit(slot) = {};
+  for (const std::uint32_t slot : pushed_) simulation_.bodies.force.edit(slot) = {};
   pushed_.clear();
 }
 

@@ -5,18 +5,18 @@
 #include <span>
 #include <vector>
 
-#include "plugin/batch_pool.hpp"
-#include "plugin/body_record.hpp"
-#include "plugin/compound.hpp"
-#include "plugin/joint_record.hpp"
-#include "plugin/proxy_slots.hpp"
+#include "plugin/rows/batch_pool.hpp"
+#include "plugin/rows/body_record.hpp"
+#include "plugin/rows/compound.hpp"
+#include "plugin/rows/joint_record.hpp"
+#include "plugin/rows/proxy_slots.hpp"
+#include "plugin/rows/slot_list.hpp"
 #include "plugin/settings.hpp"
-#include "plugin/slot_list.hpp"
 #include "plumb/backend/touch_tracker.hpp"
 #include "plumb/backend/world_init.hpp"
 #include "plumb/physics_world.hpp"
 #include "queries/query_batch.hpp"
-#include "simulation.hpp"
+#include "world/simulation.hpp"
 
 namespace plumb::impulse {
 

@@ -2,7 +2,7 @@
 // away and be as long, and still meets a pebble where it is.
 #pragma once
 
-#include "narrowphase/core.hpp"
+#include "narrowphase/convex/core.hpp"
 
 // Rays spend their time here; a call costs a tenth of it.
 #if defined(__CUDACC__)

@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "narrowphase/collide.hpp"
-#include "narrowphase/distance.hpp"
+#include "narrowphase/convex/distance.hpp"
 #include "plumb/physics_world.hpp"
 #include "queries/piece_pairs.hpp"
 

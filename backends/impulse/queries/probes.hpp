@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "narrowphase/distance.hpp"
+#include "narrowphase/convex/distance.hpp"
 #include "plumb/queries.h"
 #include "queries/line_surface.hpp"
 #include "queries/query_scene.hpp"

@@ -29,7 +29,7 @@ PLUMB_HD SweptBox sweep_of(const QueryScene& scene, const Probe& probe) {
 /// What is in no tree, where there may be any.
 template <class Visit>
 PLUMB_HD void visit_planes(const QueryScene& scene, Visit& visit) {
-  for (std::uint32_t i = 0; i < scene.plane_count; ++i) visit(scene.planes[i]);
+  for (std::uint32_t i = 0; i < scene.planes.count; ++i) visit(scene.planes[i]);
 }
 
 /// Meets the proxies that a search finds, as far as the query's filter lets it see them.

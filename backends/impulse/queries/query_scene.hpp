@@ -2,9 +2,9 @@
 // reads in one row.
 #pragma once
 
-#include "body.hpp"
-#include "broadphase/lbvh.hpp"
+#include "bodies/body.hpp"
 #include "broadphase/pair_filter.hpp"
+#include "bvh/lbvh.hpp"
 #include "plumb/types.h"
 #include "queries/line_shapes.hpp"
 
@@ -45,8 +45,7 @@ struct QueryScene {
   Hulls hulls;
   bool several;  ///< whether a body may have more than one proxy
   Surfaces surfaces;
-  const std::uint32_t* planes;  ///< proxies that are in no tree
-  std::uint32_t plane_count;
+  ProxyRows planes;     ///< that are in no tree
   std::uint32_t types;  ///< a bit for each ShapeType there is to meet
 };
 

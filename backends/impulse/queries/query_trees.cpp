@@ -69,41 +69,31 @@ void QueryTrees::update(Executor& executor, const PlacedProxies& placed, const H
   const bool moved_origin = !(origin_ == placed.origin);
   origin_ = placed.origin;
   if (static_version_ != placed.static_version || moved_origin) {
-    build(executor, placed, placed.statics, placed.static_count, statics_);
-    place(executor, placed, placed.planes, placed.plane_count);
+    build(executor, placed, placed.statics, statics_);
+    place(executor, placed, placed.planes);
   }
   static_version_ = placed.static_version;
-  build(executor, placed, placed.movers, placed.mover_count, movers_);
+  build(executor, placed, placed.movers, movers_);
   version_ = placed.version;
 }
 
-void QueryTrees::place(Executor& executor, const PlacedProxies& placed, const std::uint32_t* list, std::uint32_t n) {
-  executor.run(n, PlaceTargets{placed.bodies, placed.proxies, list, placed.origin, children_.device(), child_count_,
-                               targets_.data(), boxes_.data()});
+void QueryTrees::place(Executor& executor, const PlacedProxies& placed, const ProxyRows& list) {
+  executor.run(list.count, PlaceTargets{placed.bodies, placed.proxies, list.rows, placed.origin, children_.device(),
+                                        child_count_, targets_.data(), boxes_.data()});
 }
 
-void QueryTrees::build(Executor& executor, const PlacedProxies& placed, const std::uint32_t* list, std::uint32_t n,
-                       Lbvh& tree) {
+void QueryTrees::build(Executor& executor, const PlacedProxies& placed, const ProxyRows& list, Lbvh& tree) {
   tree.reserve(placed.rows);
-  place(executor, placed, list, n);
-  reduce_.run(executor, n, LoadExtent{boxes_.data(), list}, extent_.data());
-  tree.build(executor, boxes_.data(), list, n, extent_.data());
+  place(executor, placed, list);
+  reduce_.run(executor, list.count, LoadExtent{boxes_.data(), list.rows}, extent_.data());
+  tree.build(executor, boxes_.data(), list.rows, list.count, extent_.data());
 }
 
 QueryScene QueryTrees::scene(const PlacedProxies& placed) {
-  return {movers_.view(),
-          statics_.view(),
-          origin_,
-          targets_.data(),
-          placed.filters,
-          ids_.device(),
-          placed.proxies.shapes,
-          placed.proxies.hulls,
-          placed.several,
-          placed.proxies.surfaces,
-          placed.planes,
-          placed.plane_count,
-          placed.types};
+  return {movers_.view(),          statics_.view(),      origin_,
+          targets_.data(),         placed.filters,       ids_.device(),
+          placed.proxies.shapes,   placed.proxies.hulls, placed.several,
+          placed.proxies.surfaces, placed.planes,        placed.types};
 }
 
 }  // namespace plumb::impulse

@@ -15,12 +15,10 @@ struct PlacedProxies {
   Proxies proxies;
   const ProxyFilter* filters;
   std::uint32_t rows;  ///< of proxies
-  const std::uint32_t *movers, *statics;
-  std::uint32_t mover_count, static_count;
-  bool several;                 ///< whether a body may have more than one proxy
-  Position origin;              ///< a place near most of them
-  const std::uint32_t* planes;  ///< they are in no tree
-  std::uint32_t plane_count;
+  ProxyRows movers, statics;
+  ProxyRows planes;                       ///< they are in no tree
+  bool several;                           ///< whether a body may have more than one proxy
+  Position origin;                        ///< a place near most of them
   std::uint32_t types;                    ///< a bit for each ShapeType among all of these
   std::uint64_t version, static_version;  ///< change when any body or any static may have
 };
@@ -42,8 +40,8 @@ class QueryTrees {
   [[nodiscard]] QueryScene scene(const PlacedProxies& placed);
 
  private:
-  void place(Executor& executor, const PlacedProxies& placed, const std::uint32_t* list, std::uint32_t n);
-  void build(Executor& executor, const PlacedProxies& placed, const std::uint32_t* list, std::uint32_t n, Lbvh& tree);
+  void place(Executor& executor, const PlacedProxies& placed, const ProxyRows& list);
+  void build(Executor& executor, const PlacedProxies& placed, const ProxyRows& list, Lbvh& tree);
 
   std::uint64_t version_ = 0, static_version_ = 0, names_version_ = 0;
   Position origin_{0, 0, 0};

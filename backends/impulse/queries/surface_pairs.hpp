@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "geometry/shape_box.hpp"
-#include "narrowphase/distance.hpp"
-#include "narrowphase/triangle_core.hpp"
+#include "narrowphase/convex/distance.hpp"
+#include "narrowphase/triangle/triangle_core.hpp"
 #include "queries/line_surface.hpp"
 #include "queries/query_scene.hpp"
 

@@ -5,7 +5,7 @@
 // the way along the line, which the test allows for (after Ize, "Robust BVH ray traversal", JCGT 2, 2013).
 #pragma once
 
-#include "broadphase/lbvh.hpp"
+#include "bvh/lbvh.hpp"
 #include "queries/line_shapes.hpp"
 
 namespace plumb::impulse {

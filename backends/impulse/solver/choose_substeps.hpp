@@ -10,10 +10,10 @@
 // Only what was asked lives on, and fades within a second (plugin/world.cpp): the number may change from step to step.
 #pragma once
 
-#include "constraints/mechanism.hpp"
+#include "bodies/mechanism.hpp"
+#include "bodies/step_counters.hpp"
 #include "exec/atomic.hpp"
 #include "narrowphase/contact_cache.hpp"
-#include "step_counters.hpp"
 
 namespace plumb::impulse {
 

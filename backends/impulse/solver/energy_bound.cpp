@@ -1,8 +1,8 @@
 #include "solver/energy_bound.hpp"
 
-#include "constraints/joint_axis_solve.hpp"
 #include "exec/atomic.hpp"
-#include "islands/union_find.hpp"
+#include "exec/union_find.hpp"
+#include "joints/joint_axis_solve.hpp"
 
 namespace plumb::impulse {
 

@@ -7,20 +7,20 @@
 // an island that gained many times what it had stays where it was instead, and goes on at half its speed, at which its
 // joints hold as they did: that is the last resort, and neither right nor smooth.
 //
-// A step in which a limit or a motor let go that contacts had counted on (constraints/joint_axis_solve.hpp) is taken
+// A step in which a limit or a motor let go that contacts had counted on (joints/joint_axis_solve.hpp) is taken
 // back by the same means, before energies are looked at, and solved again whole.
 //
 // The bound is generous (kMostGain): it tells what flies apart from what does not, and is no measure of drift. Worlds
 // without joints, and solvers other than the default, are not watched.
 #pragma once
 
-#include "constraints/joint_store.hpp"
+#include "bodies/step_counters.hpp"
+#include "bodies/step_parameters.hpp"
 #include "exec/executor.hpp"
 #include "exec/memory.hpp"
+#include "joints/joint_loops.hpp"
+#include "joints/joint_store.hpp"
 #include "narrowphase/contact_cache.hpp"
-#include "solver/joint_loops.hpp"
-#include "step_counters.hpp"
-#include "step_parameters.hpp"
 
 namespace plumb::impulse {
 

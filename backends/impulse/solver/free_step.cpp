@@ -1,6 +1,6 @@
 // Steps of bodies that meet nothing and are joined to nothing.
+#include "bodies/motion.hpp"
 #include "exec/atomic.hpp"
-#include "solver/motion.hpp"
 #include "solver/solver.hpp"
 
 namespace plumb::impulse {

@@ -1,7 +1,7 @@
 // The impacts of a step or sub-step, of the solvers that go through the contacts one after the other.
 #pragma once
 
-#include "constraints/contact_impact.hpp"
+#include "contacts/contact_impact.hpp"
 #include "exec/atomic.hpp"
 #include "solver/solver_step.hpp"
 

@@ -1,7 +1,7 @@
 #include "solver/mechanism_mobility.hpp"
 
-#include "solver/axis_mechanisms.hpp"
-#include "solver/mechanisms.hpp"
+#include "joints/axis_mechanisms.hpp"
+#include "joints/mechanisms.hpp"
 
 namespace plumb::impulse {
 

@@ -1,12 +1,12 @@
-// Finds the mobility of mechanisms that touch something (constraints/mechanism.hpp), at the start of a step: their
+// Finds the mobility of mechanisms that touch something (bodies/mechanism.hpp), at the start of a step: their
 // joints' matrix is factored where the bodies are, and solved for a unit wrench along and about each axis of each body
 // that has a contact.
 #pragma once
 
+#include "bodies/step_counters.hpp"
 #include "exec/executor.hpp"
+#include "joints/joint_loops.hpp"
 #include "narrowphase/contact_cache.hpp"
-#include "solver/joint_loops.hpp"
-#include "step_counters.hpp"
 
 namespace plumb::impulse {
 

@@ -1,11 +1,11 @@
 // What the solvers that take the step whole do to all contacts.
 #pragma once
 
-#include "constraints/contact_bias.hpp"
-#include "constraints/contact_bounce.hpp"
-#include "constraints/contact_friction.hpp"
-#include "constraints/contact_normals.hpp"
-#include "solver/body_parts.hpp"
+#include "contacts/body_parts.hpp"
+#include "contacts/contact_bias.hpp"
+#include "contacts/contact_bounce.hpp"
+#include "contacts/contact_friction.hpp"
+#include "contacts/contact_normals.hpp"
 #include "solver/pass_change.hpp"
 #include "solver/solver_step.hpp"
 

@@ -1,8 +1,8 @@
 // What the solvers that take the step whole have in common: passes over all constraints until these change no more.
 #pragma once
 
-#include "constraints/joint_bias.hpp"
-#include "solver/axis_mechanisms.hpp"
+#include "joints/axis_mechanisms.hpp"
+#include "joints/joint_bias.hpp"
 #include "solver/impacts.hpp"
 #include "solver/pass_contacts.hpp"
 

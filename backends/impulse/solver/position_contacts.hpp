@@ -1,9 +1,9 @@
 // What the solver "xpbd" does to all contacts.
 #pragma once
 
-#include "constraints/contact_friction.hpp"
-#include "constraints/contact_normals.hpp"
-#include "constraints/contact_position.hpp"
+#include "contacts/contact_friction.hpp"
+#include "contacts/contact_normals.hpp"
+#include "contacts/contact_position.hpp"
 #include "solver/solver_step.hpp"
 
 namespace plumb::impulse {

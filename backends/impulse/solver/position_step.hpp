@@ -1,8 +1,8 @@
 // The solver "xpbd": sub-steps of position-based dynamics.
 #pragma once
 
-#include "constraints/joint_position.hpp"
-#include "solver/axis_mechanisms.hpp"
+#include "joints/axis_mechanisms.hpp"
+#include "joints/joint_position.hpp"
 #include "solver/impacts.hpp"
 #include "solver/position_contacts.hpp"
 

@@ -1,7 +1,7 @@
 // What the solver "tgs_soft" does to all contacts.
 #pragma once
 
-#include "constraints/contact_friction.hpp"
+#include "contacts/contact_friction.hpp"
 #include "solver/impacts.hpp"
 
 namespace plumb::impulse {

@@ -1,8 +1,8 @@
 // The solver "tgs_soft": sub-steps with soft contacts and relaxation.
 #pragma once
 
-#include "solver/axis_mechanisms.hpp"
-#include "solver/mechanisms.hpp"
+#include "joints/axis_mechanisms.hpp"
+#include "joints/mechanisms.hpp"
 #include "solver/soft_contacts.hpp"
 
 namespace plumb::impulse {

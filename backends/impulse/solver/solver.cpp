@@ -1,10 +1,10 @@
 #include "solver/solver.hpp"
 
-#include "constraints/prepare_contacts.hpp"
+#include "bodies/motion.hpp"
+#include "contacts/prepare_contacts.hpp"
 #include "solver/choose_substeps.hpp"
 #include "solver/enqueue_step.hpp"
 #include "solver/mechanism_mobility.hpp"
-#include "solver/motion.hpp"
 
 namespace plumb::impulse {
 

@@ -1,18 +1,18 @@
 // The solver's memory, and its stages of a step.
 #pragma once
 
-#include "body.hpp"
-#include "constraints/contact_rows.hpp"
-#include "constraints/joint_store.hpp"
+#include "bodies/body.hpp"
+#include "bodies/solver_bodies.hpp"
+#include "bodies/step_counters.hpp"
+#include "bodies/step_parameters.hpp"
+#include "contacts/colouring.hpp"
+#include "contacts/contact_rows.hpp"
+#include "contacts/split_bodies.hpp"
 #include "exec/executor.hpp"
 #include "exec/memory.hpp"
+#include "joints/joint_store.hpp"
 #include "narrowphase/contact_cache.hpp"
-#include "solver/colouring.hpp"
 #include "solver/pass_change.hpp"
-#include "solver/solver_bodies.hpp"
-#include "solver/split_bodies.hpp"
-#include "step_counters.hpp"
-#include "step_parameters.hpp"
 
 namespace plumb::impulse {
 

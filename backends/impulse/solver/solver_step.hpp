@@ -1,10 +1,10 @@
 // What every solver's step works on, and the parts that are the same in all of them.
 #pragma once
 
+#include "bodies/motion.hpp"
+#include "contacts/contact_loops.hpp"
 #include "exec/atomic.hpp"
-#include "solver/contact_loops.hpp"
-#include "solver/joint_loops.hpp"
-#include "solver/motion.hpp"
+#include "joints/joint_loops.hpp"
 #include "solver/solver.hpp"
 
 namespace plumb::impulse {

@@ -1,9 +1,9 @@
-#include "hashes/busy_scenes.hpp"
+#include "tests/hashes/busy_scenes.hpp"
 
 #include <cmath>
 
-#include "hashes/shape_scenes.hpp"
-#include "rope_bridge.hpp"
+#include "tests/hashes/shape_scenes.hpp"
+#include "tests/rigs/rope_bridge.hpp"
 
 namespace plumb::impulse::test {
 

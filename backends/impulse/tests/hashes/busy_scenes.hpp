@@ -1,7 +1,7 @@
 // Scenes for hash tests in which bodies come, go, sleep, wake and are moved about.
 #pragma once
 
-#include "hashes/scene.hpp"
+#include "tests/hashes/scene.hpp"
 
 namespace plumb::impulse::test {
 

@@ -9,8 +9,8 @@
 #include <cstdio>
 #include <string_view>
 
-#include "hashes/scene.hpp"
-#include "physics_revision.hpp"
+#include "plugin/physics_revision.hpp"
+#include "tests/hashes/scene.hpp"
 
 namespace {
 
@@ -24,7 +24,7 @@ struct Recorded {
 };
 const std::vector<Recorded> kRecorded = {
 #define RECORDED(name, hash, revision, from) {name, hash, revision, from},
-#include "hashes/recorded.inc"
+#include "tests/hashes/recorded.inc"
 #undef RECORDED
 };
 

@@ -1,5 +1,5 @@
 // Scenes of bodies that are joined with limits, motors and springs, held along axes, or too fast for a step.
-#include "hashes/motion_scenes.hpp"
+#include "tests/hashes/motion_scenes.hpp"
 
 #include <cmath>
 

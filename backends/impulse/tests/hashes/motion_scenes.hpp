@@ -1,7 +1,7 @@
 // Scenes for hash tests of bodies whose motion is bound in other ways than by contact, or too fast for a step.
 #pragma once
 
-#include "hashes/scene.hpp"
+#include "tests/hashes/scene.hpp"
 
 namespace plumb::impulse::test {
 

@@ -1,4 +1,4 @@
-#include "hashes/scene.hpp"
+#include "tests/hashes/scene.hpp"
 
 #include <cmath>
 

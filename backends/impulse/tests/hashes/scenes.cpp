@@ -1,9 +1,9 @@
 // The scenes whose hashes are recorded.
-#include "drawers.hpp"
-#include "hashes/busy_scenes.hpp"
-#include "hashes/motion_scenes.hpp"
-#include "hashes/scene.hpp"
-#include "hashes/shape_scenes.hpp"
+#include "tests/hashes/busy_scenes.hpp"
+#include "tests/hashes/motion_scenes.hpp"
+#include "tests/hashes/scene.hpp"
+#include "tests/hashes/shape_scenes.hpp"
+#include "tests/rigs/drawers.hpp"
 
 namespace plumb::impulse::test {
 

@@ -1,4 +1,4 @@
-#include "hashes/shape_scenes.hpp"
+#include "tests/hashes/shape_scenes.hpp"
 
 namespace plumb::impulse::test {
 

@@ -1,7 +1,7 @@
 // Scenes for hash tests with the shapes that have parts, or a round side.
 #pragma once
 
-#include "hashes/scene.hpp"
+#include "tests/hashes/scene.hpp"
 
 namespace plumb::impulse::test {
 

@@ -1,0 +1,115 @@
+// How bodies move within a step: forces to velocities, velocities to displacements, and the free rotor.
+#pragma once
+
+#include "bodies/axis_locks.hpp"
+#include "bodies/body.hpp"
+#include "bodies/step_parameters.hpp"
+#include "bodies/swung_frame.hpp"
+#include "math/angle.hpp"
+
+namespace plumb::impulse {
+
+/// I^-1 in world axes, which is 0 from the start where nothing that is pushed turns, and no displacement yet.
+PLUMB_HD inline void begin_body(const Bodies& bodies, const SolverBodies& solver, std::uint32_t i) {
+  const BodyMass& mass = bodies.mass[i];
+  if (bodies.turn)
+    solver.inertia[i] = {world_inverse_inertia(bodies.orientation[i], mass.flags, inverse_moments(mass, solver.swings)),
+                         {0, 0}};
+  solver.displacement[i] = {{0, 0, 0}, 0, {0, 0, 0, 1}};
+}
+
+/// What forces do to the velocity of a body that they move, m/s2.
+PLUMB_HD inline Vec acceleration_by_forces(const Bodies& bodies, const StepParameters& step, std::uint32_t i) {
+  return bodies.mass[i].gravity_scale * step.gravity + bodies.velocity[i].inverse_mass * bodies.force[i].force;
+}
+
+/// Velocity after the forces of a sub-step and, from the second on, after the constraint impulses of the one before:
+/// these are what the velocity gained over its free value, so that no pass over the constraints is needed to apply
+/// them again.
+PLUMB_HD inline void integrate_velocity(const Bodies& bodies, const SolverBodies& solver, const StepParameters& step,
+                                        bool first, std::uint32_t i) {
+  const BodyMass& mass = bodies.mass[i];
+  if ((mass.flags & kBodyDynamic) == 0) return;
+  Velocity& velocity = solver.velocity[i];
+  FreeVelocity& free = solver.free_velocity[i];
+  const Vec carried = first ? Vec{0, 0, 0} : velocity.linear - free.linear;
+  const Real drag = Real(1) / (Real(1) + step.h * mass.linear_damping);
+  Vec linear = drag * (velocity.linear + step.h * acceleration_by_forces(bodies, step, i));
+  if ((mass.flags & kBodyLocked) != 0) linear = unlocked(mass.flags, kLockLinear, linear);
+  if (bodies.turn) {
+    const Vec carried_angular = first ? Vec{0, 0, 0} : velocity.angular - free.angular;
+    const Real angular_drag = Real(1) / (Real(1) + step.h * mass.angular_damping);
+    const Vec torque = to_solver(bodies, solver, i, bodies.force[i].torque);
+    free.angular = angular_drag * (velocity.angular + step.h * (solver.inertia[i].inverse * torque));
+    velocity.angular = free.angular + carried_angular;
+  }
+  free.linear = linear;
+  velocity.linear = linear + carried;
+}
+
+/// Where a body's turn since the start of the step goes in h seconds without torque, and its angular velocity then.
+struct Turned {
+  Quat rotation;
+  Vec angular_velocity;
+};
+
+/// Exact for a constant angular velocity; of a body whose principal moments differ a step of the free rotor, by which
+/// the angular velocity changes too.
+PLUMB_HD inline Turned turn_freely(const Bodies& bodies, const Quat& rotation, const Vec& angular_velocity, Real h,
+                                   bool gyroscopic, std::uint32_t i) {
+  const std::uint32_t flags = bodies.mass[i].flags;
+  if ((flags & kBodyTurns) == 0) return {rotation, angular_velocity};
+  if (!gyroscopic || (flags & kBodyGyroscopic) == 0)
+    return {normalized(turn_by(h * angular_velocity) * rotation), angular_velocity};
+  const Quat start = bodies.orientation[i];
+  const RotorState after = step_free_rotor({rotation * start, angular_velocity}, bodies.mass[i].inertia, h);
+  return {normalized(after.orientation * conjugate(start)), after.angular_velocity};
+}
+
+/// Moves a body for one sub-step: symplectic Euler for the centre of mass, and a free turn.
+PLUMB_HD inline void integrate_position(const Bodies& bodies, const SolverBodies& solver, const StepParameters& step,
+                                        bool gyroscopic, std::uint32_t i) {
+  const std::uint32_t flags = bodies.mass[i].flags;
+  if ((flags & kBodyMoves) == 0) return;
+  Velocity& velocity = solver.velocity[i];
+  Displacement& displacement = solver.displacement[i];
+  if ((flags & kBodyLocked) != 0) velocity.linear = unlocked(flags, kLockLinear, velocity.linear);
+  displacement.linear += step.h * velocity.linear;
+  if ((flags & kBodyTurns) == 0) return;
+  const Vec before = velocity.angular;
+  const Vec angular_velocity = to_world(bodies, solver, i, before);
+  const Turned turned = turn_freely(bodies, displacement.rotation, angular_velocity, step.h, gyroscopic, i);
+  displacement.rotation = turned.rotation;
+  if (!gyroscopic || (flags & kBodyGyroscopic) == 0) return;
+  velocity.angular = to_solver(bodies, solver, i, turned.angular_velocity);
+  solver.free_velocity[i].angular += velocity.angular - before;
+}
+
+/// Puts the displacement into the pose. A body that came out not finite stays where it was, at rest; returns false.
+PLUMB_HD inline bool finish_body(const Bodies& bodies, const SolverBodies& solver, std::uint32_t i) {
+  const std::uint32_t flags = bodies.mass[i].flags;
+  if ((flags & kBodyMoves) == 0) return true;
+  Displacement& displacement = solver.displacement[i];
+  Velocity& velocity = solver.velocity[i];
+  velocity.angular = to_world(bodies, solver, i, velocity.angular);
+  if ((flags & kBodyLocked) != 0) {
+    displacement.linear = unlocked(flags, kLockLinear, displacement.linear);
+    velocity.linear = unlocked(flags, kLockLinear, velocity.linear);
+  }
+  if (!is_finite(displacement.linear) || !is_finite(velocity.linear) || !is_finite(velocity.angular) ||
+      !is_finite(displacement.rotation.w)) {
+    if ((flags & kBodyDynamic) != 0) velocity.linear = velocity.angular = {0, 0, 0};
+    return false;
+  }
+  bodies.position[i] = moved(bodies.position[i], displacement.linear);
+  if ((flags & kBodyTurns) != 0) bodies.orientation[i] = normalized(displacement.rotation * bodies.orientation[i]);
+  // + 0 turns -0 into 0: lanes that stand for no point have added either, and hashes must not see which.
+  const Vec zero = {0, 0, 0};
+  if ((flags & kBodyDynamic) != 0) {
+    velocity.linear = velocity.linear + zero;
+    velocity.angular = velocity.angular + zero;
+  }
+  return true;
+}
+
+}  // namespace plumb::impulse

@@ -1,0 +1,80 @@
+// What one step works with: written by the host before the step, read by kernels.
+#pragma once
+
+#include <cstdint>
+
+#include "math/vec3.hpp"
+
+namespace plumb::impulse {
+
+/// A spring and damper as three numbers, so that it stays stable however stiff: Catto, "Soft Constraints", GDC 2011.
+struct Softness {
+  Real bias_rate;      ///< how fast an error is taken back, 1/s
+  Real mass_scale;     ///< of the effective mass
+  Real impulse_scale;  ///< of the accumulated impulse, taken off again
+  Real give = 0;       ///< impulse_scale over mass_scale
+};
+
+/// Softness of a damped spring of `hertz` and damping ratio `zeta` in steps of h seconds.
+inline Softness make_softness(double hertz, double zeta, double h) {
+  if (hertz <= 0) return {0, 1, 0, 0};
+  const double omega = 2 * 3.14159265358979323846 * hertz;
+  const double a1 = 2 * zeta + h * omega, a2 = h * omega * a1, a3 = 1 / (1 + a2);
+  return {static_cast<Real>(omega / a1), static_cast<Real>(a2 * a3), static_cast<Real>(a3), static_cast<Real>(1 / a2)};
+}
+
+/// How constraints are solved: the word of the setting "solver".
+enum class SolverKind : std::uint32_t { kTgsSoft, kSequential, kJacobi, kPosition };
+
+/// The solvers that have passes make no more of them in a step.
+constexpr std::uint32_t kMostPasses = 1000;
+
+/// What depends on the length of a sub-step.
+struct SubstepParameters {
+  std::uint32_t substeps;
+  Real h;            ///< s, one sub-step
+  Real inverse_h;    ///< 1/s
+  Softness contact;  ///< between two bodies that move
+  Softness ground;   ///< against a body that does not
+  Softness joint;    ///< of joints that are solved one by one
+  Real joint_rate;   ///< errors of mechanisms that are solved as a whole are taken back at this rate, 1/s
+  Real chain_rate;   ///< those of long mechanisms no faster than at this one
+  Real warm_start;   ///< share of the last step's impulses that is kept: its sub-step to this one's, or 0
+  Real shortened;    ///< this sub-step over the last one, squared
+};
+
+/// In what sub-steps the step may be solved, of which its loads choose (solver/choose_substeps.hpp).
+struct ShorterSubsteps {
+  static constexpr std::uint32_t kMost = 9;
+  SubstepParameters of[kMost];   ///< those of the setting first, each half as long as the one before
+  std::uint32_t count;           ///< of those that may be chosen
+  Real asked_before;             ///< number of sub-steps that loads of earlier steps ask for
+  std::uint32_t work_of_joints;  ///< what a sub-step of all joints takes, in contacts
+  Real inverse_last_h;           ///< of the last step, 1/s; 0 in the first
+};
+
+struct StepParameters : SubstepParameters {
+  Vec gravity;             ///< m/s2
+  Real dt;                 ///< s
+  std::uint32_t step;      ///< number of this step; steps count from 1
+  bool may_be_taken_back;  ///< where it makes energy, to be gone in parts
+  bool predicts_rows;      ///< of joints, that they will hold (joints/joint_axis_solve.hpp)
+  bool is_later_part;      ///< of a step that is gone in parts
+  Real push_speed;         ///< overlap is taken back no faster than this, m/s
+  bool relaxes_once;       ///< in a step, and not in each sub-step
+  Real restitution_speed;  ///< slower impacts do not bounce, m/s
+  Position origin;         ///< of the bounds
+
+  Real sleep_speed;              ///< a body that is slower rests, m/s
+  Real sleep_time;               ///< an island that has rested for so long falls asleep, s
+  std::uint32_t woken_contacts;  ///< how many were put aside in sleep and are to be matched in this step
+
+  SolverKind solver;
+  // Of the solvers that take the step whole:
+  std::uint32_t passes;  ///< over all constraints, at most
+  Real stop_below;       ///< largest change of an impulse in a pass, relative to the largest impulse; 0: never stop
+  Real bias_rate;        ///< share of the overlap beyond the slop that is taken back, 1/s
+  Real slop;             ///< overlap that is let be, m
+};
+
+}  // namespace plumb::impulse

@@ -1,0 +1,53 @@
+// Graph colouring: no two manifolds of a colour share a body that they push, so that a colour can be solved all at
+// once.
+//
+// Greedy colouring by rounds of random priorities (Jones and Plassmann, "A Parallel Graph Coloring Heuristic", SIAM J.
+// Sci. Comput. 14, 1993), on the edges: in a round a manifold that has the best priority at both its bodies takes the
+// lowest colour free at both. Colours are kept from step to step; only new manifolds go through rounds. The result
+// depends on the order of the manifolds alone, not on threads.
+#pragma once
+
+#include "bodies/body.hpp"
+#include "bodies/mechanism.hpp"
+#include "bodies/step_counters.hpp"
+#include "exec/sort.hpp"
+#include "math/wide.hpp"
+#include "narrowphase/contact_cache.hpp"
+
+namespace plumb::impulse {
+
+class Colouring {
+ public:
+  void reserve(Executor& executor, std::uint32_t bodies, std::uint32_t manifolds);
+
+  /// Per body, or owner of a mechanism: bit c is set where a manifold of colour c pushes it. Cleared by begin();
+  /// whoever keeps a manifold's old colour sets its bit.
+  [[nodiscard]] std::uint64_t* masks() { return masks_.data(); }
+
+  void begin(Executor& executor);
+  /// Colours what has none in cache.kept[row].colour, then orders the rows: order()[j] is the row in place j by colour
+  /// (and by row within it), slot(j) its solver row.
+  /// Of mechanisms that contacts move as a whole no two manifolds of a colour push the same one.
+  void colour(Executor& executor, const ContactCache& cache, const Velocity* velocities, const Proxy* proxies,
+              const Mechanisms& mechanisms, StepCounters* counters);
+
+  /// Instead of colour(): all rows in one colour, in their own order, for a solver that needs none. Colours that
+  /// manifolds have are kept for one that does.
+  void leave_out(Executor& executor, StepCounters* counters);
+
+  [[nodiscard]] const std::uint32_t* order() const { return sorted_rows_.data(); }
+  [[nodiscard]] const std::uint32_t* colours() const { return sorted_colours_.data(); }
+
+ private:
+  std::uint32_t bodies_ = 0, capacity_ = 0;
+  Buffer<std::uint64_t> masks_;   // by body
+  Buffer<std::uint64_t> claims_;  // by body: best priority of a round
+  Buffer<std::uint32_t> waiting_[2];
+  Buffer<std::uint32_t> colours_, rows_, sorted_colours_, sorted_rows_;
+  RadixSort<std::uint32_t> sort_;
+};
+
+/// Solver rows: places by colour, each colour rounded up to whole lanes.
+constexpr std::uint32_t slots_for(std::uint32_t manifolds) { return manifolds + (kColours + 1) * kLaneGroup; }
+
+}  // namespace plumb::impulse

@@ -1,0 +1,207 @@
+// Loops over all contacts by colour: what every solver is made of.
+#pragma once
+
+#include <type_traits>
+
+#include "bodies/step_counters.hpp"
+#include "contacts/blows.hpp"
+#include "contacts/body_lanes.hpp"
+#include "contacts/contact.hpp"
+#include "exec/executor.hpp"
+
+namespace plumb::impulse {
+
+/// The contacts of a step, ready to be solved. A contact's numbers are read before the loop before has ended: within a
+/// step nothing but work on that contact, by the same threads, may write them.
+struct ContactSet {
+  ContactRows rows;
+  const StepCounters* counters;
+  bool belts;  ///< surfaces may run on bodies that stand
+  const StepParameters* parameters;
+};
+
+/// What a pass reads and writes of a body. Of impacts all, and what they give it is not what holds it: it does not act
+/// again in the next sub-step. Last: nothing follows in the sub-step.
+enum class BodyUse { kVelocity, kVelocityWhereMoved, kLastVelocity, kLastVelocityWhereMoved, kAll, kImpact };
+PLUMB_HD constexpr bool reads_places(BodyUse use) { return use != BodyUse::kVelocity && use != BodyUse::kLastVelocity; }
+PLUMB_HD constexpr bool is_last(BodyUse use) {
+  return use == BodyUse::kLastVelocity || use == BodyUse::kLastVelocityWhereMoved;
+}
+/// Whether positions change, too.
+PLUMB_HD constexpr bool moves_bodies(BodyUse use) { return use == BodyUse::kAll || use == BodyUse::kImpact; }
+
+/// A contact, or kLanes of them from neighbouring slots, with what leads to its bodies.
+template <class N>
+struct LoadedContact {
+  static constexpr std::uint32_t kHere = sizeof(N) / sizeof(Real);
+  std::uint32_t a[kHere], b[kHere];
+  std::uint32_t points;  ///< the largest number among the lanes
+#if defined(PLUMB_IMPULSE_CUDA)
+  Contact<kManifoldPoints, N> contact;
+#endif
+};
+
+template <class N>
+PLUMB_HD LoadedContact<N> load_slot(const ContactRows& rows, std::uint32_t slot) {
+  LoadedContact<N> loaded;
+  loaded.points = 0;
+  for (std::uint32_t lane = 0; lane < LoadedContact<N>::kHere; ++lane) {
+    loaded.a[lane] = rows.body_a[slot + lane];
+    loaded.b[lane] = rows.body_b[slot + lane];
+    loaded.points = max(loaded.points, rows.count[slot + lane]);
+  }
+#if defined(PLUMB_IMPULSE_CUDA)
+  loaded.contact = load_contact<kManifoldPoints>(RowAccess<N>(rows, slot));
+#endif
+  return loaded;
+}
+
+/// Calls f with the contact. A CPU reads it now, and no more points than there are: 1, 2 or all that there may be. A
+/// GPU has read it whole already, because it would have had to wait for the number.
+template <class N, class F>
+PLUMB_HD void with_contact([[maybe_unused]] const ContactRows& rows, [[maybe_unused]] std::uint32_t slot,
+                           LoadedContact<N>& loaded, const F& f) {
+#if defined(PLUMB_IMPULSE_CUDA)
+  f(loaded.contact);  // even where there are no points, for the warp stays together
+#else
+  if (loaded.points == 0) return;
+  const RowAccess<N> row(rows, slot);
+  const auto call = [&](auto points) {
+    Contact<points(), N> contact = load_contact<points()>(row);
+    f(contact);
+  };
+  if (loaded.points == 1) return call(std::integral_constant<int, 1>{});
+  if (loaded.points == 2) return call(std::integral_constant<int, 2>{});
+  call(std::integral_constant<int, kManifoldPoints>{});
+#endif
+}
+
+/// The slot that the i-th thread of a loop over the slots first .. first + n * lanes works on (contact_loop).
+PLUMB_HD inline std::uint32_t slot_of(const ContactRows& rows, std::uint32_t first, std::uint32_t n, std::uint32_t i,
+                                      std::uint32_t lanes) {
+  const std::uint32_t k = i / kContactThreads;
+  return k < n ? first + k * lanes : rows.spare;
+}
+/// Whether this thread stores body a (0) or b (1) of its contact.
+PLUMB_HD inline bool stores_body(int which) { return holds_point(which); }
+
+/// Runs work(row, contact, a, b) with the velocities of the surfaces. kBelts says whether these may differ from the
+/// bodies' own. A GPU's kernels are for worlds with belts or without; a CPU asks each time, and so is compiled once.
+template <bool kBelts, class N, class C, class Work>
+PLUMB_HD void work_on_surfaces([[maybe_unused]] bool belts, const RowAccess<N>& row, C& contact, SolverBody<N>& a,
+                               SolverBody<N>& b, const Work& work) {
+  if constexpr (kBelts) {
+    const bool runs = Executor::kWarps || belts;
+    const Vec3<N> own = b.linear;
+    Vec3<N> before = own;
+    if (runs) {
+      N quad[4];
+      row.get_quad(kDrift, quad);
+      const Vec3<N> drift = quad[0] * contact.tangent + quad[1] * contact.bitangent();
+      before = b.linear = own + drift;
+    }
+    work(row, contact, a, b);
+    if (runs) b.linear = own + (b.linear - before);
+  } else {
+    work(row, contact, a, b);
+  }
+}
+
+/// Keeps what a contact has given its bodies, where these are of mechanisms. A thread that pushes a mechanism does so
+/// from both ends.
+template <class N>
+PLUMB_HD void store_mechanisms(const SolverBodies& bodies, const LoadedContact<N>& loaded, BodyUse use,
+                               const SolverBody<N>& a_before, const SolverBody<N>& b_before, SolverBody<N>& a,
+                               SolverBody<N>& b) {
+  const bool both = kContactThreads > 1 && bodies.mechanisms.together(*loaded.a, *loaded.b);
+  const bool impact = use == BodyUse::kImpact;
+  if (stores_body(0)) push_mechanisms<N>(bodies, loaded.a, a, a_before, impact);
+  if (both ? stores_body(0) : stores_body(1)) push_mechanisms<N>(bodies, loaded.b, b, b_before, impact);
+  if (both) b.inverse_mass = N(0);
+}
+
+/// Runs work(row, contact, a, b) on a contact and keeps what it did to the bodies.
+template <bool kBelts, bool kMechanisms, class N, class Work>
+PLUMB_HD void work_on(const ContactSet& contacts, const SolverBodies& bodies, std::uint32_t slot,
+                      LoadedContact<N>& loaded, BodyUse use, const Work& work) {
+  const ContactRows& rows = contacts.rows;
+  with_contact(rows, slot, loaded, [&](auto& contact) {
+    const bool moved = reads_places(use);
+    SolverBody<N> a = load_body<N>(bodies, loaded.a, moved), b = load_body<N>(bodies, loaded.b, moved);
+    const bool whole = kMechanisms && bodies.mechanisms.count != 0;
+    if (whole) {
+      stand_for_mechanisms<N>(bodies, loaded.a, a);
+      stand_for_mechanisms<N>(bodies, loaded.b, b);
+    }
+    if (whole || use == BodyUse::kImpact) {
+      const SolverBody<N> a_before = a, b_before = b;
+      if (use == BodyUse::kImpact) put_impact_speed(bodies, loaded.a, loaded.b, a, b, contact);
+      work_on_surfaces<kBelts>(contacts.belts, RowAccess<N>(rows, slot), contact, a, b, work);
+      if (whole) store_mechanisms<N>(bodies, loaded, use, a_before, b_before, a, b);
+      if (whole && is_last(use))
+        let_go_of_blow(bodies, loaded.a, loaded.b, RowAccess<N>(rows, slot), contact, *contacts.parameters);
+      if (use == BodyUse::kImpact) {
+        if (stores_body(0)) store_free_velocity<N>(bodies, loaded.a, a, a_before);
+        if (stores_body(1)) store_free_velocity<N>(bodies, loaded.b, b, b_before);
+      }
+    } else {
+      work_on_surfaces<kBelts>(contacts.belts, RowAccess<N>(rows, slot), contact, a, b, work);
+    }
+    if (stores_body(0)) store_body<N>(bodies, loaded.a, a);
+    if (stores_body(1)) store_body<N>(bodies, loaded.b, b);
+    if (!moves_bodies(use)) return;
+    if (stores_body(0)) store_displacement<N>(bodies, loaded.a, a);
+    if (stores_body(1)) store_displacement<N>(bodies, loaded.b, b);
+  });
+}
+
+/// Runs work on the contacts of slots first .. first + n * lanes, which share no body that they push.
+template <bool kBelts, bool kMechanisms, class N, class Work>
+PLUMB_DEVICE void for_slots(Team& team, const ContactSet& contacts, const SolverBodies& bodies, std::uint32_t first,
+                            std::uint32_t n, BodyUse use, const Work& work) {
+  const auto slot = [=, &contacts](std::uint32_t i) {
+    return slot_of(contacts.rows, first, n, i, LoadedContact<N>::kHere);
+  };
+  team.each_ahead(
+      contact_loop(n), [&](std::uint32_t i) { return load_slot<N>(contacts.rows, slot(i)); },
+      [&](std::uint32_t i, LoadedContact<N>& loaded) {
+        work_on<kBelts, kMechanisms, N>(contacts, bodies, slot(i), loaded, use, work);
+      });
+}
+
+/// Runs work on every contact, colour after colour, and on those without a colour one after the other. kMechanisms:
+/// what it pushes may be in mechanisms that move as a whole.
+template <bool kBelts = false, bool kMechanisms = false, class Work>
+PLUMB_DEVICE void for_contacts(Team& team, const ContactSet& contacts, const SolverBodies& bodies, BodyUse use,
+                               const Work& work) {
+  const StepCounters& counters = *contacts.counters;
+  const std::uint32_t colours = counters.colour_count;
+  const std::uint32_t lone = counters.first_slot[kOverflow];
+  const std::uint32_t loops = colours + (counters.first_slot[kOverflow + 1] - lone);
+  for (std::uint32_t k = 0; k < loops; ++k) {
+    const std::uint32_t first = k < colours ? counters.first_slot[k] : lone + (k - colours);
+    const std::uint32_t slots = k < colours ? counters.first_slot[k + 1] - first : 1;
+    if constexpr (kLanes == 1) {
+      for_slots<kBelts, kMechanisms, Real>(team, contacts, bodies, first, slots, use, work);
+    } else {
+      if (k < colours)
+        for_slots<kBelts, kMechanisms, Lanes>(team, contacts, bodies, first, slots / kLanes, use, work);
+      else
+        for_slots<kBelts, kMechanisms, Real>(team, contacts, bodies, first, 1, use, work);
+    }
+  }
+}
+
+/// Runs work(row, contact) on every contact, in any order.
+template <class Work>
+PLUMB_DEVICE void for_rows(Team& team, const ContactSet& contacts, const Work& work) {
+  const ContactRows& rows = contacts.rows;
+  const std::uint32_t n = contacts.counters->first_slot[kColours + 1] / kLanes;
+  team.each(contact_loop(n), [=](std::uint32_t i) {
+    const std::uint32_t slot = slot_of(rows, 0, n, i, kLanes);
+    LoadedContact<Lanes> loaded = load_slot<Lanes>(rows, slot);
+    with_contact(rows, slot, loaded, [&](auto& contact) { work(RowAccess<Lanes>(rows, slot), contact); });
+  });
+}
+
+}  // namespace plumb::impulse

@@ -1,0 +1,148 @@
+// Rows of joints beyond those that always hold (joint.hpp): one for each axis that a joint leaves free and that has
+// limits, a motor or a spring, and the locks of universal and generic joints.
+//
+// Turns are counted about a's x, then the turned y, then the turned z: R = Rx Ry Rz. Where one or two of the three are
+// locked, the free ones are measured and pushed along axes of the bodies that are square to each other, which knows no
+// singular place; of three free ones the first and the last lose their meaning where the second is a right angle.
+#pragma once
+
+#include "joints/joint.hpp"
+#include "math/angle.hpp"
+
+namespace plumb::impulse {
+
+enum class RowKind : std::uint8_t {
+  kPoint,     ///< the origins' gap along an axis of the world
+  kAlong,     ///< along an axis of frame a
+  kDistance,  ///< of the origins
+  kTurn,      ///< one of the three numbers of turn_error
+  kAlign,     ///< one of the two of hinge_errors about an axis
+  kSquare,    ///< an axis of a against one of b that should be square to it
+  kAngle      ///< a turn that is free
+};
+
+/// What a row holds or drives.
+struct RowSpec {
+  RowKind kind;
+  std::uint8_t axis;        ///< 0..2: x y z
+  std::uint8_t other;       ///< kAlign: which of the two; kSquare: b's axis; kAngle: bits of the turns that are free
+  std::uint8_t coordinate;  ///< 0..5: the joint's axis that the row drives, or kLocked
+};
+constexpr std::uint8_t kLocked = 6;
+
+/// The rows of a joint beyond rows_of(type), as the first of these. Numbers are of the row: m or rad.
+struct JointAxes {
+  RowSpec row[kJointRows];
+  Real lower[kJointRows], upper[kJointRows];  ///< beyond kHuge / 2: none
+  Real rest[kJointRows];
+  Real omega[kJointRows];  ///< of the spring without damping, rad/s; 0: there is none
+  Real damping_ratio[kJointRows];
+  std::uint32_t masses_alone;  ///< whether no turn is free: then springs along axes work against the masses
+};
+
+/// What the host may write between steps, by the joint's axis.
+struct JointDrive {
+  Real velocity[6];   ///< m/s, rad/s
+  Real max_force[6];  ///< N, N m; 0: no motor
+};
+
+/// Both frames as matrices: cosine(i, j) of axis i of a and axis j of b.
+struct JointAxesPlace {
+  Mat a, b;
+  PLUMB_HD Real cosine(int i, int j) const { return dot(a[i], b[j]); }
+};
+PLUMB_HD inline JointAxesPlace axes_of(const JointPlace& place) {
+  return {to_matrix(place.frame_a), to_matrix(place.frame_b)};
+}
+
+/// A free turn: its angle and the direction along which it turns, all others that are free kept.
+struct FreeTurn {
+  Real angle;
+  Vec direction;
+};
+PLUMB_HD inline FreeTurn free_turn(const JointAxesPlace& at, int axis, std::uint32_t free) {
+  const auto cosine = [&](int i, int j) { return at.cosine(i, j); };
+  switch (free) {
+    case 1:
+    case 2:
+    case 4: {
+      const int i = (axis + 1) % 3, j = (axis + 2) % 3;
+      return {angle_of(cosine(j, i) - cosine(i, j), cosine(i, i) + cosine(j, j)), at.a[axis]};
+    }
+    case 3:  // Rx Ry
+      if (axis == 0) return {angle_of(cosine(2, 1), cosine(1, 1)), at.a.x};
+      return {angle_of(cosine(0, 2), cosine(0, 0)), at.b.y};
+    case 5:  // Rx Rz
+      if (axis == 0) return {angle_of(-cosine(1, 2), cosine(2, 2)), at.a.x};
+      return {angle_of(-cosine(0, 1), cosine(0, 0)), at.b.z};
+    case 6:  // Ry Rz
+      if (axis == 1) return {angle_of(cosine(0, 2), cosine(2, 2)), at.a.y};
+      return {angle_of(cosine(1, 0), cosine(1, 1)), at.b.z};
+    default: break;
+  }
+  const Real sine = cosine(0, 2), level = max(Real(1) - sine * sine, Real(1e-4));  // the cosine's square
+  if (axis == 1) {
+    const Real across = sqrt(cosine(1, 2) * cosine(1, 2) + cosine(2, 2) * cosine(2, 2));
+    return {angle_of(sine, across), normalized_or(cross(at.b.z, at.a.x), at.a.y)};
+  }
+  const Real share = Real(1) / level;
+  if (axis == 0) return {angle_of(-cosine(1, 2), cosine(2, 2)), share * (at.a.x - sine * at.b.z)};
+  return {angle_of(-cosine(0, 1), cosine(0, 0)), share * (at.b.z - sine * at.a.x)};
+}
+
+/// Of a row that is locked what should be 0, else the coordinate.
+PLUMB_HD inline Real axis_error(const RowSpec& row, const JointPlace& place, const JointAxesPlace& at) {
+  const int k = row.axis;
+  switch (row.kind) {
+    case RowKind::kPoint: return place.gap[k];
+    case RowKind::kAlong: return dot(place.gap, at.a[k]);
+    case RowKind::kDistance: return length(place.gap);
+    case RowKind::kTurn: return turn_error(place)[k];
+    case RowKind::kAlign: {
+      Real both[2];
+      hinge_errors(at.a[k], at.b[k], at.b[(k + 1) % 3], at.b[(k + 2) % 3], both);
+      return row.other == 0 ? both[0] : both[1];
+    }
+    case RowKind::kSquare: return at.cosine(k, row.other);
+    case RowKind::kAngle: return free_turn(at, k, row.other).angle;
+  }
+  return 0;
+}
+
+PLUMB_HD inline JointRow axis_row(const RowSpec& row, const JointPlace& place, const JointAxesPlace& at) {
+  const int k = row.axis;
+  switch (row.kind) {
+    case RowKind::kPoint: {
+      Vec direction = {0, 0, 0};
+      direction[k] = 1;
+      return point_row(direction, place.arm_a, place.arm_b);
+    }
+    case RowKind::kAlong: return point_row(at.a[k], place.arm_a + place.gap, place.arm_b);
+    case RowKind::kDistance: return point_row(distance_direction(place), place.arm_a, place.arm_b);
+    case RowKind::kTurn: return turn_row(at.a[k]);
+    case RowKind::kAlign: return turn_row(cross(at.b[(k + 1 + row.other) % 3], at.a[k]));
+    case RowKind::kSquare: return turn_row(cross(at.b[row.other], at.a[k]));
+    case RowKind::kAngle: return turn_row(free_turn(at, k, row.other).direction);
+  }
+  return turn_row({0, 0, 0});
+}
+
+/// All rows of a joint: C, or the coordinate.
+PLUMB_HD inline void all_errors(const Joint& joint, const JointAxes& axes, const JointPlace& place,
+                                Real (&error)[kJointRows]) {
+  joint_errors(joint, place, error);
+  const int first = rows_of(joint.type);
+  if (first == row_count(joint)) return;
+  const JointAxesPlace at = axes_of(place);
+  for (int i = first; i < row_count(joint); ++i) error[i] = axis_error(axes.row[i - first], place, at);
+}
+PLUMB_HD inline void all_rows(const Joint& joint, const JointAxes& axes, const JointPlace& place,
+                              JointRow (&rows)[kJointRows]) {
+  joint_rows(joint, place, rows);
+  const int first = rows_of(joint.type);
+  if (first == row_count(joint)) return;
+  const JointAxesPlace at = axes_of(place);
+  for (int i = first; i < row_count(joint); ++i) rows[i] = axis_row(axes.row[i - first], place, at);
+}
+
+}  // namespace plumb::impulse

@@ -1,0 +1,380 @@
+// Joints with rows that do not always hold: which piece of its law each row is on, and the equations of that.
+#pragma once
+
+#include "joints/joint_law.hpp"
+#include "joints/joint_solve.hpp"
+
+namespace plumb::impulse {
+
+/// How much a row yields beside what the bodies do, relative to that: below what positions resolve.
+inline constexpr Real kGiveShare = sizeof(Real) == 8 ? Real(1e-10) : Real(1e-5);
+/// Rounds in a pass. Rows that would still change are few then, and are brought to what their laws allow.
+inline constexpr std::uint32_t kMostRounds = 40;
+/// In so many of them all rows change whose law asks for it. That is fast, but rows can undo each other for ever: then
+/// in so many half of them change, another half in each round, and at last a quarter. (Judice, Pires, "A block
+/// principal pivoting algorithm for large-scale strictly monotone linear complementarity problems", Computers Ops Res.
+/// 21, 1994, go on with one row alone, which would take all mechanisms in turn.)
+inline constexpr std::uint32_t kFreeRounds = 4, kHalfRounds = 12;
+PLUMB_HD inline bool may_change(std::uint32_t joint, int row, std::uint32_t round) {
+  std::uint32_t mixed = (joint * kJointRows + static_cast<std::uint32_t>(row)) * 0x9e3779b9U + round * 0x85ebca6bU;
+  mixed = (mixed ^ mixed >> 16) * 0x7feb352dU;
+  mixed = mixed ^ mixed >> 15;
+  if (round < kFreeRounds) return true;
+  return (mixed & (round < kFreeRounds + kHalfRounds ? 1U : 3U)) == 0;
+}
+
+/// Beside JointWork.
+struct AxisWork {
+  Block whole;  ///< K of all rows
+  RowPiece piece[kJointRows];
+  RowPiece reached[kJointRows];  ///< at the end of the pass over places
+  Real aim[kJointRows];          ///< the speed of hard rows, the impulse without speed of others
+  Real yield[kJointRows];        ///< speed for a unit impulse by which a row yields; below 0: its impulse is its aim
+  Real spring[kJointRows];       ///< impulse of the spring in this sub-step
+  Real before[kJointRows];       ///< speeds when the pass began
+  std::uint32_t predicted;       ///< bits: rows that are taken to hold while contacts push
+  std::uint32_t let_go;          ///< bits: of these, those that have not
+  Real bend[kJointRows];  ///< what the speeds over a sub-step have beyond those now, where that was last looked at
+
+  PLUMB_HD bool is_active(int row) const { return yield[row] >= 0; }
+};
+
+/// What the joint does to body b at frame b's origin, summed over a step. By slot.
+struct JointReaction {
+  Vec force, torque;             ///< N s, N m s
+  Real counted[kJointRows];      ///< of the impulses in this sub-step
+  Real spring_mass[kJointRows];  ///< against which the springs were made, kg or kg m2
+  Real held_for[kJointRows];     ///< for how long rows that need not hold have, with force to spare, s
+  std::uint32_t born;            ///< of the joint for which that was
+};
+
+struct AxisParts {
+  const JointAxes* axes;     ///< by joint
+  const JointDrive* drives;  ///< by slot
+  AxisWork* work;            ///< by joint
+  JointReaction* reactions;  ///< by slot
+};
+
+struct AxisView : JointView {
+  AxisParts parts;
+
+  PLUMB_HD JointReaction& reaction(std::uint32_t j) const { return parts.reactions[joints[j].slot]; }
+  PLUMB_HD Real* total(std::uint32_t j) const { return impulses[joints[j].slot].along; }
+};
+
+PLUMB_HD inline bool is_held(const AxisView& view, std::uint32_t j, int row) {
+  const int first = rows_of(view.joints[j].type);
+  return row < first || view.parts.axes[j].row[row - first].coordinate == kLocked;
+}
+
+/// Whether a motor may be what holds a row.
+PLUMB_HD inline bool is_driven(const AxisView& view, std::uint32_t j, int row) {
+  const Joint& joint = view.joints[j];
+  return view.parts.drives[joint.slot].max_force[view.parts.axes[j].row[row - rows_of(joint.type)].coordinate] > 0;
+}
+
+/// A row that has held for so long is taken to hold on while contacts push: one with a motor, which a new one is, too,
+/// and one at a limit, s. What that costs where it is wrong: a step that is taken back.
+inline constexpr Real kMotorHolds = Real(0.25), kLimitHolds = Real(0.05);
+/// A row that was taken to hold, and moves at more than this, has let go, m/s or rad/s.
+inline constexpr Real kLetsGo = Real(0.05);
+
+/// Mass against which the spring of a row works: where no turn is free the arms do not count.
+PLUMB_HD inline Real spring_mass(const JointAxes& axes, Real mobility, Real inverse_mass) {
+  return reciprocal_or_zero(axes.masses_alone != 0 ? inverse_mass : mobility);
+}
+
+/// Rows, errors and K where the bodies are now.
+PLUMB_HD inline void refresh_axis_joint(const AxisView& view, std::uint32_t j) {
+  const Joint& joint = view.joints[j];
+  const JointAxes& axes = view.parts.axes[j];
+  JointWork& work = view.work[j];
+  AxisWork& own = view.parts.work[j];
+  const JointEnd a = view.end(joint.body_a), b = view.end(joint.body_b);
+  const JointPlace place = place_joint(joint, view.base(joint), a, b);
+  all_errors(joint, axes, place, work.error);
+  all_rows(joint, axes, place, work.rows);
+  find_mobility(view, joint, a, b, work, own.whole);
+  JointReaction& reaction = view.reaction(j);
+  if (reaction.born == joint.born) return;
+  reaction.born = joint.born;
+  const Real inverse_mass = view.velocity(joint.body_a).inverse_mass + view.velocity(joint.body_b).inverse_mass;
+  for (int i = rows_of(joint.type); i < row_count(joint); ++i) {
+    reaction.spring_mass[i] = spring_mass(axes, own.whole(i, i), inverse_mass);
+    reaction.held_for[i] = is_driven(view, j, i) ? kMotorHolds : Real(0);
+  }
+}
+
+/// Over the sub-step, with velocities a and b.
+PLUMB_HD inline void speeds_over_places(const AxisView& view, std::uint32_t j, const RowTime& time, const Velocity& a,
+                                        const Velocity& b, Real (&speed)[kJointRows]) {
+  const Joint& joint = view.joints[j];
+  const JointWork& work = view.work[j];
+  const JointAxes& axes = view.parts.axes[j];
+  const JointPlace place = place_joint(joint, view.base(joint), view.end_after(joint.body_a, a, time.h),
+                                       view.end_after(joint.body_b, b, time.h));
+  all_errors(joint, axes, place, speed);
+  const int first = rows_of(joint.type);
+  for (int i = 0; i < row_count(joint); ++i) {
+    Real moved = speed[i] - work.error[i];
+    if (i >= first && axes.row[i - first].kind == RowKind::kAngle) moved = wrapped(moved);
+    speed[i] = moved * time.inverse_h;
+  }
+}
+
+/// What a pass sees of the speeds. Places are not linear in them: the rounds of a pass work on one tangent, so that
+/// what they try on the way does not matter. anew: at the speeds as they are.
+PLUMB_HD inline void row_speeds(const AxisView& view, std::uint32_t j, const RowTime& time, const Velocity& a,
+                                const Velocity& b, bool anew, Real (&speed)[kJointRows]) {
+  AxisWork& own = view.parts.work[j];
+  const int n = row_count(view.joints[j]);
+  if (time.pass != RowPass::kPlaces) return speeds_now(view, j, a, b, speed);
+  if (anew) {
+    Real now[kJointRows];
+    speeds_now(view, j, a, b, now);
+    if (turns_far(a, b, time.h))
+      speeds_now(view, j, a, b, speed);
+    else
+      speeds_over_places(view, j, time, a, b, speed);
+    for (int i = 0; i < n; ++i) own.bend[i] = speed[i] - now[i];
+    return;
+  }
+  speeds_now(view, j, a, b, speed);
+  for (int i = 0; i < n; ++i) speed[i] = speed[i] + own.bend[i];
+}
+
+PLUMB_HD inline RowLaw law_of_row(const AxisView& view, std::uint32_t j, int row, const RowTime& time) {
+  const Joint& joint = view.joints[j];
+  const AxisWork& own = view.parts.work[j];
+  const Real x = view.work[j].error[row] - (time.pass == RowPass::kMoved ? time.h * own.before[row] : Real(0));
+  RowLaw law = law_of_places(view.parts.axes[j], row - rows_of(joint.type), x, view.parts.drives[joint.slot],
+                             view.reaction(j).spring_mass[row], time);
+  if (time.pass != RowPass::kSpeeds) return law;
+  law.lower = own.reached[row] == RowPiece::kLower ? Real(0) : -kHuge;
+  law.upper = own.reached[row] == RowPiece::kUpper ? Real(0) : kHuge;
+  law.spring = own.spring[row];
+  law.drag = 0;
+  return law;
+}
+
+/// The speed that a row which always holds should have.
+PLUMB_HD inline Real speed_of_held(const AxisView& view, std::uint32_t j, int row, const RowTime& time) {
+  const Real error = view.work[j].error[row];
+  const Real rate = rate_of_error(view, view.joints[j], time.rate, time.chain_rate);
+  switch (time.pass) {
+    case RowPass::kSpeeds: return 0;
+    case RowPass::kMoved: return view.parts.work[j].before[row] - speed_of_error(rate, error);
+    default: return -speed_of_error(rate, error);
+  }
+}
+
+/// Finds the piece of each row, and its equation. jump: what brings impulses that do not depend on the speed to where
+/// they should be; 0 of others. Returns whether a piece is another than before, or ought to be.
+PLUMB_HD inline bool choose_pieces(const AxisView& view, std::uint32_t j, const RowTime& time, const Velocity& a,
+                                   const Velocity& b, std::uint32_t round, Real share, Real (&jump)[kJointRows]) {
+  const Joint& joint = view.joints[j];
+  AxisWork& own = view.parts.work[j];
+  const Real* total = view.total(j);
+  const bool all_held = rows_of(joint.type) == row_count(joint), first_round = round == 0;
+  for (int i = 0; i < row_count(joint); ++i) jump[i] = 0;
+  if (all_held && !first_round) return false;
+  Real speed[kJointRows]{};
+  if (!all_held || time.pass == RowPass::kMoved) row_speeds(view, j, time, a, b, first_round, speed);
+  bool changed = false;
+  for (int i = 0; i < row_count(joint); ++i) {
+    const Real mobility = own.whole(i, i);
+    if (first_round) own.before[i] = turns_far(a, b, time.h) ? Real(0) : speed[i];
+    if (is_held(view, j, i)) {
+      own.piece[i] = RowPiece::kHeld;
+      own.aim[i] = speed_of_held(view, j, i, time);
+      own.yield[i] = share * mobility;
+      continue;
+    }
+    const RowLaw law = law_of_row(view, j, i, time);
+    const RowPiece piece =
+        first_round ? law.piece(speed[i], total[i], mobility) : law.next(own.piece[i], speed[i], total[i]);
+    if (!first_round && piece != own.piece[i]) changed = true;
+    if (first_round || may_change(j, i, round)) own.piece[i] = piece;
+    if (is_hard(own.piece[i])) {
+      own.aim[i] = law.speed(own.piece[i]);
+      own.yield[i] = share * mobility;
+    } else {
+      own.aim[i] = law.sign_of(own.piece[i]) + law.spring;
+      own.yield[i] = law.drag > 0 ? Real(1) / law.drag : Real(-1);
+      if (!own.is_active(i)) jump[i] = own.aim[i] - total[i];
+    }
+  }
+  return changed;
+}
+
+/// The matrix of the rows that are active, others being 0.
+PLUMB_HD inline void mask_matrix(const AxisWork& own, int n, Block& matrix) {
+  for (int p = 0; p < n; ++p) {
+    for (int q = 0; q <= p; ++q) matrix(p, q) = own.is_active(p) && own.is_active(q) ? own.whole(p, q) : Real(0);
+    if (own.is_active(p)) matrix(p, p) = matrix(p, p) + own.yield[p];
+  }
+}
+
+/// Which rows may let go in a step and are nonetheless taken to hold while contacts push. predicts: some may be.
+PLUMB_HD inline void predict_rows(const AxisView& view, std::uint32_t j, bool predicts) {
+  AxisWork& own = view.parts.work[j];
+  own.predicted = own.let_go = 0;
+  if (!predicts) return;
+  for (int i = rows_of(view.joints[j].type); i < row_count(view.joints[j]); ++i) {
+    Real least = kLimitHolds;
+    if (is_driven(view, j, i)) least = kMotorHolds;
+    if (!is_held(view, j, i) && view.reaction(j).held_for[i] >= least) own.predicted |= 1U << i;
+  }
+}
+
+/// Which rows hold while contacts push: those that always do, and those of which that is predicted. Others may be left
+/// at a limit, or overcome, and what pushes as if they held would push too hard.
+PLUMB_HD inline void choose_rows_met(const AxisView& view, std::uint32_t j) {
+  AxisWork& own = view.parts.work[j];
+  for (int i = 0; i < row_count(view.joints[j]); ++i) {
+    const bool holds = is_held(view, j, i) || (own.predicted >> i & 1U) != 0;
+    own.yield[i] = holds ? view.work[j].share * own.whole(i, i) : Real(-1);
+  }
+}
+
+/// After a pass over speeds: for how long rows have held now, and which have not as predicted.
+PLUMB_HD inline void follow_rows(const AxisView& view, std::uint32_t j, const RowTime& time) {
+  const Joint& joint = view.joints[j];
+  AxisWork& own = view.parts.work[j];
+  JointReaction& reaction = view.reaction(j);
+  Real speed[kJointRows];
+  if (own.predicted != 0) speeds_now(view, j, view.velocity(joint.body_a), view.velocity(joint.body_b), speed);
+  for (int i = rows_of(joint.type); i < row_count(joint); ++i) {
+    if (is_held(view, j, i)) continue;
+    const RowLaw law = law_of_row(view, j, i, time);
+    reaction.held_for[i] = law.holds(own.piece[i], view.total(j)[i]) ? reaction.held_for[i] + time.h : Real(0);
+    if ((own.predicted >> i & 1U) == 0 || is_hard(own.piece[i])) continue;
+    const Real off = speed[i] - (is_driven(view, j, i) ? law.steady : Real(0));
+    if (off * off > kLetsGo * kLetsGo) own.let_go |= 1U << i;
+  }
+}
+
+/// How far the rows are from their equations, with the other sign. leak: as JointWork's. A motor's row never counts
+/// what it has gathered: nothing takes back how far its speed was off, and it would creep under load.
+PLUMB_HD inline void row_residuals(const AxisView& view, std::uint32_t j, const RowTime& time, const Velocity& a,
+                                   const Velocity& b, bool anew, Real leak, Real (&y)[kJointRows]) {
+  const AxisWork& own = view.parts.work[j];
+  const Real* total = view.total(j);
+  row_speeds(view, j, time, a, b, anew, y);
+  for (int i = 0; i < row_count(view.joints[j]); ++i) {
+    if (!own.is_active(i))
+      y[i] = 0;
+    else if (own.piece[i] == RowPiece::kSteady)
+      y[i] = -(y[i] - own.aim[i]);
+    else if (is_hard(own.piece[i]))
+      y[i] = -((y[i] - own.aim[i]) + leak * own.yield[i] * total[i]);
+    else
+      y[i] = -(y[i] + own.yield[i] * (total[i] - own.aim[i]));
+  }
+}
+
+/// At the end of a pass. change: what brings impulses to what the laws allow, of rows that might not change their minds
+/// any more.
+PLUMB_HD inline void settle_pieces(const AxisView& view, std::uint32_t j, const RowTime& time,
+                                   Real (&change)[kJointRows]) {
+  const Joint& joint = view.joints[j];
+  AxisWork& own = view.parts.work[j];
+  const Real* total = view.total(j);
+  for (int i = 0; i < row_count(joint); ++i) change[i] = 0;
+  for (int i = rows_of(joint.type); i < row_count(joint); ++i) {
+    if (own.piece[i] == RowPiece::kHeld) continue;
+    const RowLaw law = law_of_row(view, j, i, time);
+    change[i] = law.allowed(own.piece[i], total[i]) - total[i];
+    if (time.pass != RowPass::kPlaces) continue;
+    own.reached[i] = own.piece[i];
+    own.spring[i] =
+        is_hard(own.piece[i]) ? law.spring - law.drag * law.speed(own.piece[i]) : total[i] - law.sign_of(own.piece[i]);
+  }
+}
+
+/// What a round solves: nothing more; the first equations; those of other pieces; or of the same where they lead to.
+enum class RoundKind : std::uint8_t { kDone, kFirst, kNewPieces, kAnew };
+PLUMB_HD constexpr bool has_new_matrix(RoundKind kind) { return kind != RoundKind::kAnew; }
+PLUMB_HD constexpr bool has_new_tangent(RoundKind kind) { return kind != RoundKind::kNewPieces; }
+
+/// Goes through the rounds of a pass, until no piece changes. Where some did, another tangent is taken there.
+class RoundCount {
+ public:
+  PLUMB_HD std::uint32_t round() const { return round_; }
+  PLUMB_HD RoundKind next(bool changed) {
+    const std::uint32_t round = round_++;
+    if (round == 0) return RoundKind::kFirst;
+    if (changed && round < kMostRounds) return RoundKind::kNewPieces;
+    if (changed || anew_ || round == 1) return RoundKind::kDone;
+    anew_ = true;
+    return RoundKind::kAnew;
+  }
+
+ private:
+  std::uint32_t round_ = 0;
+  bool anew_ = false;
+};
+
+/// One joint by itself, exactly. Changes the velocities given, and the total.
+PLUMB_HD inline void solve_axis_rows(const AxisView& view, std::uint32_t j, const RowTime& time, Velocity& a,
+                                     Velocity& b) {
+  const Joint& joint = view.joints[j];
+  const AxisWork& own = view.parts.work[j];
+  JointWork& work = view.work[j];
+  Real* total = view.total(j);
+  Real change[kJointRows];
+  const auto push = [&] {
+    for (int i = 0; i < row_count(joint); ++i) total[i] = total[i] + change[i];
+    push_joint(work, row_count(joint), change, a, b);
+  };
+  RoundCount rounds;
+  for (bool go = true; go;) {
+    const bool changed = choose_pieces(view, j, time, a, b, rounds.round(), time.share, change);
+    const RoundKind kind = rounds.next(changed);
+    if (kind == RoundKind::kDone) break;
+    push();
+    if (has_new_matrix(kind)) {
+      mask_matrix(own, row_count(joint), work.factor);
+      factor(work.factor, row_count(joint));
+    }
+    row_residuals(view, j, time, a, b, has_new_tangent(kind), Real(1), change);
+    solve_factored(work.factor, row_count(joint), change);
+    push();
+    go = rows_of(joint.type) != row_count(joint);
+  }
+  settle_pieces(view, j, time, change);
+  push();
+}
+
+PLUMB_HD inline void solve_axis_joint(const AxisView& view, std::uint32_t j, const RowTime& time) {
+  const Joint& joint = view.joints[j];
+  const Velocity a = view.velocity(joint.body_a), b = view.velocity(joint.body_b);
+  Velocity new_a = a, new_b = b;
+  solve_axis_rows(view, j, time, new_a, new_b);
+  view.store(joint.body_a, a, new_a);
+  view.store(joint.body_b, b, new_b);
+}
+
+/// A sub-step begins, or a step.
+PLUMB_HD inline void begin_reaction(const AxisView& view, std::uint32_t j, bool step) {
+  JointReaction& reaction = view.reaction(j);
+  if (step) reaction.force = reaction.torque = {0, 0, 0};
+  for (int i = 0; i < kJointRows; ++i) reaction.counted[i] = 0;
+}
+
+/// Adds what the impulses have gained since this was called last, along the rows as they are.
+PLUMB_HD inline void add_reaction(const AxisView& view, std::uint32_t j) {
+  const Joint& joint = view.joints[j];
+  const JointWork& work = view.work[j];
+  JointReaction& reaction = view.reaction(j);
+  const Real* total = view.total(j);
+  const Vec arm = rotate(view.end(joint.body_b).orientation, joint.frame_b.position);
+  for (int i = 0; i < row_count(joint); ++i) {
+    const Real gained = total[i] - reaction.counted[i];
+    reaction.force += gained * work.rows[i].direction;
+    reaction.torque += gained * (work.rows[i].on_b - cross(arm, work.rows[i].direction));
+    reaction.counted[i] = total[i];
+  }
+}
+
+}  // namespace plumb::impulse

@@ -1,0 +1,164 @@
+// What one row of a joint may do: the impulse along it as a falling function of the speed u along it.
+//
+//            | lower limit: u cannot be less
+//            |
+//            '----.  the motor pushes with all its force, and the spring with its own
+//                  \ motor's speed: any force between
+//                   |
+//                   '----.  the motor brakes
+//                         |
+//                         | upper limit: u cannot be more
+//
+// A row that always holds has one u. Each piece is a line, so that a row on a known piece is an equation of the
+// mechanism's linear system; which piece it is on is found in rounds (a primal-dual active set: Hintermueller, Ito and
+// Kunisch, SIAM J. Optim. 13, 2003). The first guess is where the line of the row alone, the impulse over its own mass,
+// meets the law; after that a row goes on to the next piece where the solution has left the one that it is on.
+#pragma once
+
+#include "joints/joint_axes.hpp"
+
+namespace plumb::impulse {
+
+enum class RowPiece : std::uint8_t {
+  kHeld,   ///< always holds
+  kLower,  ///< at the lower limit
+  kPush,   ///< slower than the motor wants; where there is none, the spring alone or nothing
+  kSteady,
+  kBrake,
+  kUpper
+};
+/// Whether the speed is known there, and not the impulse by the speed.
+PLUMB_HD constexpr bool is_hard(RowPiece piece) { return piece != RowPiece::kPush && piece != RowPiece::kBrake; }
+
+struct RowLaw {
+  Real lower, upper;  ///< speeds that the limits allow in this sub-step
+  Real steady;        ///< that the motor wants
+  Real push;          ///< the most that it gives, N s
+  Real spring, drag;  ///< the spring's impulse: spring - drag u
+
+  PLUMB_HD Real sign_of(RowPiece piece) const { return piece == RowPiece::kBrake ? -push : push; }
+  /// Speed of a hard piece.
+  PLUMB_HD Real speed(RowPiece piece) const {
+    return piece == RowPiece::kUpper ? upper : piece == RowPiece::kSteady ? steady : lower;
+  }
+  /// The first guess: the piece on which the law meets u = now + mobility (impulse - total).
+  PLUMB_HD RowPiece piece(Real now, Real total, Real mobility) const {
+    const Real free = now - mobility * total, yielding = Real(1) + mobility * drag;
+    const Real pushed = (free + mobility * (push + spring)) / yielding;
+    const Real braked = (free + mobility * (spring - push)) / yielding;
+    const Real u = pushed < steady ? pushed : braked > steady ? braked : steady;
+    if (u < lower) return RowPiece::kLower;
+    if (u > upper) return RowPiece::kUpper;
+    return pushed < steady ? RowPiece::kPush : braked > steady ? RowPiece::kBrake : RowPiece::kSteady;
+  }
+  /// Where a row is next that was solved on a piece and came out with that speed and impulse.
+  PLUMB_HD RowPiece next(RowPiece piece, Real u, Real total) const {
+    if (is_hard(piece)) {
+      const Range range = range_of(piece);
+      if (piece != RowPiece::kUpper && total < range.least)
+        return speed(piece) < steady && piece == RowPiece::kLower ? RowPiece::kPush : RowPiece::kBrake;
+      if (piece != RowPiece::kLower && total > range.most)
+        return speed(piece) > steady && piece == RowPiece::kUpper ? RowPiece::kBrake : RowPiece::kPush;
+      return piece;
+    }
+    if (piece == RowPiece::kPush && u > steady && steady <= upper)
+      return steady < lower ? RowPiece::kBrake : RowPiece::kSteady;
+    if (piece == RowPiece::kBrake && u < steady && steady >= lower)
+      return steady > upper ? RowPiece::kPush : RowPiece::kSteady;
+    return u < lower ? RowPiece::kLower : u > upper ? RowPiece::kUpper : piece;
+  }
+  /// The impulse of a row on a piece, brought back to where it may be.
+  PLUMB_HD Real allowed(RowPiece piece, Real total) const {
+    if (!is_hard(piece)) return total;
+    const Range range = range_of(piece);
+    if (piece == RowPiece::kLower) return max(total, range.least);
+    if (piece == RowPiece::kUpper) return min(total, range.most);
+    return clamp(total, range.least, range.most);
+  }
+  /// Whether a row on a piece holds with force to spare: a limit that bears, a motor that needs no more than half.
+  PLUMB_HD bool holds(RowPiece piece, Real total) const {
+    if (!is_hard(piece)) return false;
+    const Range range = range_of(piece);
+    if (piece == RowPiece::kLower) return total > range.least;
+    if (piece == RowPiece::kUpper) return total < range.most;
+    const Real spare = (range.most - range.least) / 4;
+    return total > range.least + spare && total < range.most - spare;
+  }
+
+ private:
+  struct Range {
+    Real least, most;
+  };
+  /// What motor and spring can give at the speed of a hard piece.
+  PLUMB_HD Range range_of(RowPiece piece) const {
+    const Real u = speed(piece), soft = spring - drag * u;
+    return {soft + (u < steady ? push : -push), soft + (u > steady ? -push : push)};
+  }
+};
+
+/// Which equation a pass over the joints solves.
+enum class RowPass : std::uint8_t {
+  kPlaces,  ///< rows hold where the bodies arrive in h seconds: the first pass of a sub-step
+  kSpeeds,  ///< rows keep still: the second
+  kWhole,   ///< both at once, as the rows stand at the start of a step of h seconds
+  kMoved    ///< bodies have moved for h seconds and are put where they should have arrived
+};
+
+struct RowTime {
+  RowPass pass;
+  Real h, inverse_h;
+  Real rate;                 ///< at which errors are taken back, 1/s
+  Real share;                ///< softness of rows that always hold, relative to their own
+  Real chain_rate = kHuge;   ///< the most at which those of chains are, 1/s
+  Real most_return = kHuge;  ///< what is beyond a limit comes back no faster than this, m/s or rad/s
+};
+
+/// e^x - 1 for small x; a little less for large ones.
+PLUMB_HD inline Real growth(Real x) {
+  return x * (Real(1) + x / 2 * (Real(1) + x / 3 * (Real(1) + x / 4 * (Real(1) + x / 5))));
+}
+
+/// The spring's drag over its mass, and the rate at which it takes back what it is off. A slow spring has the decrement
+/// of the true one and keeps its energy without damping: its place enters as it is. A fast one, of more than a quarter
+/// of a radian a sub-step, becomes implicit in its place too, which is stable at any stiffness.
+struct SpringNumbers {
+  Real drag, pull;
+};
+PLUMB_HD inline SpringNumbers spring_numbers(Real omega, Real damping_ratio, Real h) {
+  const Real turn = h * omega, damping = 2 * damping_ratio * turn;
+  const Real fast = clamp(4 * turn - Real(1), Real(0), Real(1));
+  const Real drag = (Real(1) - fast) * growth(min(damping, Real(64))) + fast * (damping + turn * turn);
+  return {drag, turn * omega};
+}
+
+/// Of a row in a pass over places. x: its coordinate.
+PLUMB_HD inline RowLaw law_of_places(const JointAxes& axes, int row, Real x, const JointDrive& drive, Real spring_mass,
+                                     const RowTime& time) {
+  const RowSpec& spec = axes.row[row];
+  const bool turns = spec.kind == RowKind::kAngle;
+  RowLaw law = {-kHuge, kHuge, kHuge, 0, 0, 0};
+  const Real lower = axes.lower[row], upper = axes.upper[row];
+  const bool has_lower = lower > -kHuge / 2, has_upper = upper < kHuge / 2;
+  if (has_lower || has_upper) {
+    // Angles are counted from the middle between the limits, so that they jump where the joint never is.
+    const Real middle = turns && has_lower && has_upper && upper - lower < 2 * kPi ? (lower + upper) / 2 : Real(0);
+    const Real from_middle = turns ? wrapped(x - middle) : x;
+    const Real to_lower = (lower - middle) - from_middle, to_upper = (upper - middle) - from_middle;
+    if (has_lower) law.lower = to_lower < 0 ? to_lower * time.inverse_h : min(to_lower * time.rate, time.most_return);
+    if (has_upper) law.upper = to_upper > 0 ? to_upper * time.inverse_h : max(to_upper * time.rate, -time.most_return);
+  }
+  const Real force = drive.max_force[spec.coordinate];
+  if (force > 0) {
+    law.steady = drive.velocity[spec.coordinate];
+    law.push = force * time.h;
+  }
+  if (axes.omega[row] > 0) {
+    const SpringNumbers numbers = spring_numbers(axes.omega[row], axes.damping_ratio[row], time.h);
+    const Real off = turns ? wrapped(x - axes.rest[row]) : x - axes.rest[row];
+    law.drag = spring_mass * numbers.drag;
+    law.spring = -(spring_mass * numbers.pull * off);
+  }
+  return law;
+}
+
+}  // namespace plumb::impulse

@@ -1,0 +1,54 @@
+// Joints of bodies that have moved already: position-based dynamics over the rows of joint_solve.hpp.
+#pragma once
+
+#include "joints/joint_axis_solve.hpp"
+
+namespace plumb::impulse {
+
+/// Moves a body by what its change of velocity makes in h seconds.
+PLUMB_HD inline void displace(const JointView& view, std::uint32_t body, const Velocity& before, const Velocity& after,
+                              Real h) {
+  if (!(before.inverse_mass > 0)) return;
+  Displacement& displacement = view.solver.displacement[body];
+  displacement.linear += h * (after.linear - before.linear);
+  displacement.rotation = normalized(turn_by(h * (after.angular - before.angular)) * displacement.rotation);
+}
+
+/// Puts the two bodies where the joint holds (to first order), and gives them the velocity that this took. To those
+/// that turn too far for that it gives the velocity that would take them there.
+PLUMB_HD inline void correct_joint(const JointView& view, std::uint32_t j, const StepParameters& step) {
+  refresh_joint(view, j);
+  const Joint& joint = view.joints[j];
+  const JointWork& work = view.work[j];
+  const int n = row_count(joint);
+  const Velocity a = view.velocity(joint.body_a), b = view.velocity(joint.body_b);
+  Real impulse[kJointRows]{};
+  if (turns_far(a, b, step.h)) speeds_now(view, j, a, b, impulse);
+  for (int i = 0; i < n; ++i) impulse[i] = -(impulse[i] + step.inverse_h * work.error[i]);
+  solve_factored(work.factor, n, impulse);
+  for (int i = 0; i < n; ++i) view.impulses[joint.slot].along[i] = impulse[i];
+  Velocity new_a = a, new_b = b;
+  push_joint(work, n, impulse, new_a, new_b);
+  view.store(joint.body_a, a, new_a);
+  view.store(joint.body_b, b, new_b);
+  displace(view, joint.body_a, a, new_a, step.h);
+  displace(view, joint.body_b, b, new_b, step.h);
+}
+
+/// The same with rows that do not always hold. first: of a step.
+PLUMB_HD inline void correct_axis_joint(const AxisView& view, std::uint32_t j, const StepParameters& step, bool first) {
+  const Joint& joint = view.joints[j];
+  refresh_axis_joint(view, j);
+  begin_reaction(view, j, first && !step.is_later_part);
+  for (int i = 0; i < row_count(joint); ++i) view.total(j)[i] = 0;
+  const Velocity a = view.velocity(joint.body_a), b = view.velocity(joint.body_b);
+  Velocity new_a = a, new_b = b;
+  solve_axis_rows(view, j, {RowPass::kMoved, step.h, step.inverse_h, step.inverse_h, 0}, new_a, new_b);
+  view.store(joint.body_a, a, new_a);
+  view.store(joint.body_b, b, new_b);
+  add_reaction(view, j);
+  displace(view, joint.body_a, a, new_a, step.h);
+  displace(view, joint.body_b, b, new_b, step.h);
+}
+
+}  // namespace plumb::impulse

@@ -1,0 +1,230 @@
+// Joints while they are solved: rows of the sub-step, what impulses along them do to the two bodies, and the passes.
+#pragma once
+
+#include "bodies/axis_locks.hpp"
+#include "bodies/motion.hpp"
+#include "joints/joint.hpp"
+#include "math/block.hpp"
+
+namespace plumb::impulse {
+
+/// What joint_loops.hpp works out at the start of a sub-step and after positions have moved.
+struct JointWork {
+  JointRow rows[kJointRows];
+  Vec turn_a[kJointRows], turn_b[kJointRows];  ///< what a unit impulse along a row does to the angular velocities
+  Real error[kJointRows];                      ///< C where the rows were made
+  Block factor;                                ///< K, and then its factors
+  // While a mechanism is solved as a whole:
+  Real share;               ///< by which rows yield, relative to K
+  Real leak;                ///< the part of that which the impulses gathered so far count for
+  Real change[kJointRows];  ///< of the impulse
+  Real give[kJointRows];    ///< speed for a unit impulse by which a row yields beside what the bodies do
+};
+
+struct JointImpulse {
+  Real along[kJointRows];  ///< N s, N m s
+};
+
+/// Everything that a kernel over joints reads and writes.
+struct JointView {
+  Bodies bodies;
+  SolverBodies solver;
+  const Joint* joints;
+  JointWork* work;
+  JointImpulse* impulses;  ///< by slot
+  Real* least_moment;      ///< by body: what tension asks of its principal moments (joints/tension.hpp), kg m2
+  bool gyroscopic;
+
+  PLUMB_HD JointEnd end(std::uint32_t body) const {
+    if (body == kWorld) return {{0, 0, 0}, {0, 0, 0, 1}};
+    const Displacement& displacement = solver.displacement[body];
+    return {displacement.linear, displacement.rotation * bodies.orientation[body]};
+  }
+  /// Where a body will be after h seconds at its present velocity.
+  PLUMB_HD JointEnd end_after(std::uint32_t body, const Velocity& velocity, Real h) const {
+    if (body == kWorld) return {{0, 0, 0}, {0, 0, 0, 1}};
+    const Displacement& displacement = solver.displacement[body];
+    const Turned turned = turn_freely(bodies, displacement.rotation, velocity.angular, h, gyroscopic, body);
+    return {displacement.linear + h * velocity.linear, turned.rotation * bodies.orientation[body]};
+  }
+  PLUMB_HD Vec base(const Joint& joint) const {
+    const Position from = joint.body_a == kWorld ? joint.world_anchor : bodies.position[joint.body_a];
+    return between(from, bodies.position[joint.body_b]);
+  }
+  /// In world axes.
+  PLUMB_HD Velocity velocity(std::uint32_t body) const {
+    if (body == kWorld) return {{0, 0, 0}, 0, {0, 0, 0}, 0};
+    Velocity velocity = solver.velocity[body];
+    velocity.angular = to_world(bodies, solver, body, velocity.angular);
+    return velocity;
+  }
+  PLUMB_HD Sym inverse_inertia(std::uint32_t body, const Quat& orientation) const {
+    if (body == kWorld) return {0, 0, 0, 0, 0, 0};
+    const BodyMass& mass = bodies.mass[body];
+    const Real most = least_moment[body] > 0 ? Real(1) / least_moment[body] : kHuge;
+    const Vec inverse = inverse_moments(mass, solver.swings);
+    return world_inverse_inertia(orientation, mass.flags,
+                                 {min(inverse.x, most), min(inverse.y, most), min(inverse.z, most)});
+  }
+  /// Joint impulses go into the free velocity too: the next sub-step starts from them along its own rows, so they must
+  /// not be carried over as velocity (motion.hpp).
+  PLUMB_HD void store(std::uint32_t body, const Velocity& before, const Velocity& after) const {
+    if (!(before.inverse_mass > 0)) return;
+    Velocity& velocity = solver.velocity[body];
+    FreeVelocity& free = solver.free_velocity[body];
+    velocity.linear = after.linear;
+    free.linear += after.linear - before.linear;
+    const Vec change = to_solver(bodies, solver, body, after.angular - before.angular);
+    velocity.angular = swings(bodies, solver, body) ? velocity.angular + change : after.angular;
+    free.angular += change;
+  }
+};
+
+/// How the first pass takes back an error.
+struct JointPass {
+  Softness softness;
+  Real chain_rate;  ///< the most at which those of chains are, 1/s
+  Real h, inverse_h;
+  bool take_back_error;  ///< the first pass; else the second
+};
+
+PLUMB_HD inline void push_joint(const JointWork& work, int n, const Real* impulse, Velocity& a, Velocity& b) {
+  for (int i = 0; i < n; ++i) {
+    a.linear -= (a.inverse_mass * impulse[i]) * work.rows[i].direction;
+    b.linear += (b.inverse_mass * impulse[i]) * work.rows[i].direction;
+    a.angular += impulse[i] * work.turn_a[i];
+    b.angular += impulse[i] * work.turn_b[i];
+  }
+}
+
+/// K of the work's rows, with the bodies at those ends.
+PLUMB_HD inline void find_mobility(const JointView& view, const Joint& joint, const JointEnd& a, const JointEnd& b,
+                                   JointWork& work, Block& mobility) {
+  const Sym inertia_a = view.inverse_inertia(joint.body_a, a.orientation);
+  const Sym inertia_b = view.inverse_inertia(joint.body_b, b.orientation);
+  const Real inverse_mass = view.velocity(joint.body_a).inverse_mass + view.velocity(joint.body_b).inverse_mass;
+  const int n = row_count(joint);
+  for (int i = 0; i < n; ++i) {
+    work.turn_a[i] = inertia_a * work.rows[i].on_a;
+    work.turn_b[i] = inertia_b * work.rows[i].on_b;
+    for (int k = 0; k <= i; ++k)
+      mobility(i, k) = inverse_mass * dot(work.rows[i].direction, work.rows[k].direction) +
+                       dot(work.turn_a[i], work.rows[k].on_a) + dot(work.turn_b[i], work.rows[k].on_b);
+  }
+}
+
+/// Rows, errors and K where the bodies are now.
+PLUMB_HD inline void make_joint_rows(const JointView& view, std::uint32_t j) {
+  const Joint& joint = view.joints[j];
+  JointWork& work = view.work[j];
+  const JointEnd a = view.end(joint.body_a), b = view.end(joint.body_b);
+  const JointPlace place = place_joint(joint, view.base(joint), a, b);
+  joint_errors(joint, place, work.error);
+  joint_rows(joint, place, work.rows);
+  find_mobility(view, joint, a, b, work, work.factor);
+}
+
+PLUMB_HD inline void factor_joint(const JointView& view, std::uint32_t j) {
+  factor(view.work[j].factor, row_count(view.joints[j]));
+}
+/// Both, for a joint that is solved by itself.
+PLUMB_HD inline void refresh_joint(const JointView& view, std::uint32_t j) {
+  make_joint_rows(view, j);
+  factor_joint(view, j);
+}
+
+/// Whether a body turns so far in that time, a radian or more, that its rows as they stand say nothing of where they
+/// will be: such a joint is held by its speeds alone. Seen ahead, it would be flung about, ever faster.
+PLUMB_HD inline bool turns_far(const Velocity& a, const Velocity& b, Real h) {
+  return h * h * max(length_squared(a.angular), length_squared(b.angular)) > 1;
+}
+
+/// Speeds along the rows as they stand.
+PLUMB_HD inline void speeds_now(const JointView& view, std::uint32_t j, const Velocity& a, const Velocity& b,
+                                Real (&speed)[kJointRows]) {
+  const JointWork& work = view.work[j];
+  for (int i = 0; i < row_count(view.joints[j]); ++i)
+    speed[i] = dot(work.rows[i].direction, b.linear - a.linear) + dot(work.rows[i].on_a, a.angular) +
+               dot(work.rows[i].on_b, b.angular);
+}
+
+/// Errors are taken back no faster than this, m/s or rad/s. Bodies that are joined where they are metres apart are
+/// drawn together; all at once they would be flung, and through what is between.
+constexpr Real kMostJointSpeed = 10;
+PLUMB_HD inline Real speed_of_error(Real rate, Real error) {
+  return clamp(rate * error, -kMostJointSpeed, kMostJointSpeed);
+}
+
+/// The rate at which a joint's errors are taken back: by degrees in a long chain, and where contacts press, which
+/// would take the speed for a blow. Not of a ring, such as a bridge between two hooks: what it bears would stretch it.
+PLUMB_HD inline Real rate_of_error(const JointView& view, const Joint& joint, Real rate, Real by_degrees) {
+  const Mechanisms& mechanisms = view.solver.mechanisms;
+  const bool pressed = (joint.body_a != kWorld && mechanisms.touch(joint.body_a)) || mechanisms.touch(joint.body_b);
+  return joint.in_chain || (pressed && !joint.in_ring) ? min(rate, by_degrees) : rate;
+}
+
+/// How far the velocities of the rows are from what they should be in this pass.
+PLUMB_HD inline void joint_residuals(const JointView& view, std::uint32_t j, const JointPass& pass, const Velocity& a,
+                                     const Velocity& b, Real (&residual)[kJointRows]) {
+  const Joint& joint = view.joints[j];
+  const JointWork& work = view.work[j];
+  const int n = row_count(joint);
+  const Real rate = rate_of_error(view, joint, pass.softness.bias_rate, pass.chain_rate);
+  if (!pass.take_back_error || turns_far(a, b, pass.h)) {
+    speeds_now(view, j, a, b, residual);
+    for (int i = 0; i < n && pass.take_back_error; ++i) residual[i] = residual[i] + speed_of_error(rate, work.error[i]);
+    return;
+  }
+  const JointPlace place = place_joint(joint, view.base(joint), view.end_after(joint.body_a, a, pass.h),
+                                       view.end_after(joint.body_b, b, pass.h));
+  joint_errors(joint, place, residual);
+  for (int i = 0; i < n; ++i)
+    residual[i] = (residual[i] - work.error[i]) * pass.inverse_h + speed_of_error(rate, work.error[i]);
+}
+
+/// What the last step ended with is where this one begins.
+PLUMB_HD inline void take_over_impulse(const JointView& view, std::uint32_t j, const StepParameters& step) {
+  const Joint& joint = view.joints[j];
+  JointImpulse& impulse = view.impulses[joint.slot];
+  for (int i = 0; i < kJointRows; ++i)
+    impulse.along[i] = joint.born == step.step ? Real(0) : step.warm_start * impulse.along[i];
+}
+
+PLUMB_HD inline void keep_change(const JointView& view, std::uint32_t j) {
+  JointImpulse& impulse = view.impulses[view.joints[j].slot];
+  for (int i = 0; i < row_count(view.joints[j]); ++i) impulse.along[i] = impulse.along[i] + view.work[j].change[i];
+}
+
+/// The impulses that the joint had before act again, along its rows as they are now.
+PLUMB_HD inline void warm_start_joint(const JointView& view, std::uint32_t j, bool first, const StepParameters& step) {
+  const Joint& joint = view.joints[j];
+  if (first) take_over_impulse(view, j, step);
+  const Velocity a = view.velocity(joint.body_a), b = view.velocity(joint.body_b);
+  Velocity new_a = a, new_b = b;
+  push_joint(view.work[j], row_count(joint), view.impulses[joint.slot].along, new_a, new_b);
+  view.store(joint.body_a, a, new_a);
+  view.store(joint.body_b, b, new_b);
+}
+
+PLUMB_HD inline void solve_joint(const JointView& view, std::uint32_t j, const JointPass& pass) {
+  const Joint& joint = view.joints[j];
+  const JointWork& work = view.work[j];
+  JointImpulse& total = view.impulses[joint.slot];
+  const int n = row_count(joint);
+  const Velocity a = view.velocity(joint.body_a), b = view.velocity(joint.body_b);
+  Real impulse[kJointRows];
+  joint_residuals(view, j, pass, a, b, impulse);
+  solve_factored(work.factor, n, impulse);
+  for (int i = 0; i < n; ++i) {
+    impulse[i] = -impulse[i];
+    if (pass.take_back_error)
+      impulse[i] = pass.softness.mass_scale * impulse[i] - pass.softness.impulse_scale * total.along[i];
+    total.along[i] = total.along[i] + impulse[i];
+  }
+  Velocity new_a = a, new_b = b;
+  push_joint(work, n, impulse, new_a, new_b);
+  view.store(joint.body_a, a, new_a);
+  view.store(joint.body_b, b, new_b);
+}
+
+}  // namespace plumb::impulse

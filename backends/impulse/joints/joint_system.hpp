@@ -1,0 +1,228 @@
+// Mechanisms solved exactly: the L D L^T of all their joints at once (joints/joint_elimination.hpp), level by
+// level. Each thread gathers what earlier levels give to its own row, so that sums have one order.
+#pragma once
+
+#include "exec/executor.hpp"
+#include "joints/joint_axis_solve.hpp"
+#include "joints/joint_elimination.hpp"
+
+namespace plumb::impulse {
+
+/// In a mechanism with a loop rows may repeat others (those of four parallel hinges do), and would leave their impulses
+/// undetermined. Those grow where turns of the rows feed back on them: by the square of the angle turned in a sub-step,
+/// over the share.
+inline constexpr Real kGiveShareInLoops = Real(1e-4), kGiveShareByTurn = 16;
+/// Of what rows yield whatever the turn, the part that leaks: that counts for the impulse gathered so far, too. All of
+/// it (Tikhonov's regularisation), and every mechanism gives way under its load; none of it (a proximal step), and what
+/// rows leave undetermined never fades. (Parikh, Boyd, "Proximal Algorithms", 2014, section 4.1.)
+inline constexpr Real kLeak = Real(0.1);
+
+/// A dense block of L, rows of the later joint by columns of the earlier one.
+struct JointBlock {
+  Real at[kJointRows][kJointRows];
+};
+
+/// One end of a joint, as its body sees it.
+struct JointOnBody {
+  std::uint32_t joint;
+  bool is_b;
+};
+
+/// Joint `column` of the elimination is row base + column of the joints.
+struct JointSystem {
+  JointView view;
+  std::uint32_t base, levels;
+  const std::uint32_t* level_first;
+  const JointEntry* entries;
+  const std::uint32_t* column_first;
+  const std::uint32_t* row_entries;
+  const std::uint32_t* row_first;
+  const JointProduct* products;
+  const std::uint32_t* product_first;
+  JointBlock* scaled;  ///< L
+  JointBlock* whole;   ///< L D
+  std::uint32_t body_count;
+  const std::uint32_t* bodies;  ///< that these joints push, by place: mechanism after mechanism
+  const std::uint32_t* body_first;
+  const JointOnBody* on_body;
+  std::uint32_t* changes;  ///< three, in turn: how many changed in a round what the next one begins with
+
+  PLUMB_HD int rows(std::uint32_t column) const { return row_count(view.joints[base + column]); }
+  PLUMB_HD JointWork& work(std::uint32_t column) const { return view.work[base + column]; }
+};
+
+/// Speed of row p of joint i for a unit impulse along row q of joint j, through the bodies that they share.
+PLUMB_HD inline Real coupling(const JointSystem& system, std::uint32_t i, int p, std::uint32_t j, int q) {
+  const Joint &joint_i = system.view.joints[system.base + i], &joint_j = system.view.joints[system.base + j];
+  const JointRow& row = system.work(i).rows[p];
+  const JointWork& other = system.work(j);
+  Real sum = 0;
+  const auto add = [&](std::uint32_t body, bool b_of_i, bool b_of_j) {
+    const Real along = system.view.velocity(body).inverse_mass * dot(row.direction, other.rows[q].direction);
+    sum = sum + (b_of_i == b_of_j ? along : -along) +
+          dot(b_of_i ? row.on_b : row.on_a, b_of_j ? other.turn_b[q] : other.turn_a[q]);
+  };
+  if (joint_i.body_a == joint_j.body_a) add(joint_i.body_a, false, false);
+  if (joint_i.body_a == joint_j.body_b) add(joint_i.body_a, false, true);
+  if (joint_i.body_b == joint_j.body_a) add(joint_i.body_b, true, false);
+  if (joint_i.body_b == joint_j.body_b) add(joint_i.body_b, true, true);
+  return sum;
+}
+
+/// m -= left right^T, for `inner` columns.
+PLUMB_HD inline void take_product(JointBlock& m, int rows, int columns, const JointBlock& left, const JointBlock& right,
+                                  int inner) {
+  for (int p = 0; p < rows; ++p)
+    for (int q = 0; q < columns; ++q)
+      for (int r = 0; r < inner; ++r) m.at[p][q] = m.at[p][q] - left.at[p][r] * right.at[q][r];
+}
+
+/// By how much of their own mobility the rows of joint j yield. Where contacts push mechanisms as a whole it is chosen
+/// once a step: they push too hard, and more so each time, where joints then yield more than they counted on.
+PLUMB_HD inline void choose_share(const JointView& view, std::uint32_t j, Real h) {
+  const Joint& joint = view.joints[j];
+  const Real a = length_squared(h * view.velocity(joint.body_a).angular);
+  const Real b = length_squared(h * view.velocity(joint.body_b).angular);
+  const Real still = joint.in_loop ? kGiveShareInLoops : kGiveShare;
+  const Real turned = joint.in_loop ? kGiveShareByTurn * (a + b) : Real(0);
+  JointWork& work = view.work[j];
+  work.share = still + turned;
+  work.leak = (kLeak * still + turned) / work.share;
+}
+
+/// Takes the column's products off it and factors it. coupled(i, p, j, q): the speed of row p of joint i for a unit
+/// impulse along row q of joint j.
+template <class Coupled>
+PLUMB_HD void eliminate_column(const JointSystem& system, std::uint32_t j, const Coupled& coupled) {
+  Block& diagonal = system.work(j).factor;
+  const int n = system.rows(j);
+  for (std::uint32_t r = system.row_first[j]; r < system.row_first[j + 1]; ++r) {
+    const std::uint32_t e = system.row_entries[r];
+    const JointBlock &scaled = system.scaled[e], &whole = system.whole[e];
+    const int inner = system.rows(system.entries[e].column);
+    for (int p = 0; p < n; ++p)
+      for (int q = 0; q <= p; ++q)
+        for (int k = 0; k < inner; ++k) diagonal(p, q) = diagonal(p, q) - scaled.at[p][k] * whole.at[q][k];
+  }
+  factor(diagonal, n);
+  for (std::uint32_t e = system.column_first[j]; e < system.column_first[j + 1]; ++e) {
+    const std::uint32_t i = system.entries[e].row;
+    const int rows = system.rows(i);
+    JointBlock block;
+    for (int p = 0; p < rows; ++p)
+      for (int q = 0; q < n; ++q) block.at[p][q] = coupled(i, p, j, q);
+    for (std::uint32_t t = system.product_first[e]; t < system.product_first[e + 1]; ++t) {
+      const JointProduct product = system.products[t];
+      take_product(block, rows, n, system.scaled[product.left], system.whole[product.right],
+                   system.rows(system.entries[product.left].column));
+    }
+    system.whole[e] = block;
+    for (int p = 0; p < rows; ++p) solve_factored(diagonal, n, block.at[p]);
+    system.scaled[e] = block;
+  }
+}
+
+PLUMB_HD inline void factor_column(const JointSystem& system, std::uint32_t j) {
+  JointWork& work = system.work(j);
+  for (int p = 0; p < system.rows(j); ++p) {
+    work.give[p] = work.share * work.factor(p, p);
+    work.factor(p, p) = work.factor(p, p) + work.give[p];
+  }
+  eliminate_column(system, j,
+                   [&](std::uint32_t i, int p, std::uint32_t k, int q) { return coupling(system, i, p, k, q); });
+}
+
+/// Takes off a row's residuals in work.change what the joints before it give.
+PLUMB_HD inline void take_earlier(const JointSystem& system, std::uint32_t j) {
+  Real(&y)[kJointRows] = system.work(j).change;
+  const int n = system.rows(j);
+  for (std::uint32_t r = system.row_first[j]; r < system.row_first[j + 1]; ++r) {
+    const std::uint32_t e = system.row_entries[r];
+    const JointBlock& scaled = system.scaled[e];
+    const std::uint32_t k = system.entries[e].column;
+    const Real(&from)[kJointRows] = system.work(k).change;
+    for (int p = 0; p < n; ++p)
+      for (int q = 0; q < system.rows(k); ++q) y[p] = y[p] - scaled.at[p][q] * from[q];
+  }
+}
+
+PLUMB_HD inline void solve_forward(const JointSystem& system, std::uint32_t j, const JointPass& pass) {
+  const Joint& joint = system.view.joints[system.base + j];
+  Real(&y)[kJointRows] = system.work(j).change;
+  joint_residuals(system.view, system.base + j, pass, system.view.velocity(joint.body_a),
+                  system.view.velocity(joint.body_b), y);
+  const JointImpulse& total = system.view.impulses[joint.slot];
+  const JointWork& work = system.work(j);
+  for (int p = 0; p < system.rows(j); ++p) y[p] = -(y[p] + work.leak * work.give[p] * total.along[p]);
+  take_earlier(system, j);
+}
+
+PLUMB_HD inline void solve_backward(const JointSystem& system, std::uint32_t j) {
+  JointWork& work = system.work(j);
+  Real(&z)[kJointRows] = work.change;
+  const int n = system.rows(j);
+  solve_factored(work.factor, n, z);
+  for (std::uint32_t e = system.column_first[j]; e < system.column_first[j + 1]; ++e) {
+    const JointBlock& scaled = system.scaled[e];
+    const std::uint32_t i = system.entries[e].row;
+    const Real(&from)[kJointRows] = system.work(i).change;
+    for (int p = 0; p < system.rows(i); ++p)
+      for (int q = 0; q < n; ++q) z[q] = z[q] - scaled.at[p][q] * from[p];
+  }
+}
+
+/// All impulses on one body act. With `total` those that the joints have gathered, else the change just found.
+PLUMB_HD inline void push_body(const JointSystem& system, std::uint32_t place, bool total) {
+  const std::uint32_t body = system.bodies[place];
+  const Velocity before = system.view.velocity(body);
+  Velocity after = before;
+  for (std::uint32_t k = system.body_first[place]; k < system.body_first[place + 1]; ++k) {
+    const JointOnBody on = system.on_body[k];
+    const JointWork& work = system.view.work[on.joint];
+    const Joint& joint = system.view.joints[on.joint];
+    const Real* impulse = total ? system.view.impulses[joint.slot].along : work.change;
+    for (int i = 0; i < row_count(joint); ++i) {
+      const Real along = after.inverse_mass * impulse[i];
+      after.linear += (on.is_b ? along : -along) * work.rows[i].direction;
+      after.angular += impulse[i] * (on.is_b ? work.turn_b[i] : work.turn_a[i]);
+    }
+  }
+  system.view.store(body, before, after);
+}
+
+/// f(column) level after level, upward or downward.
+template <class F>
+PLUMB_DEVICE void for_columns_up(Team& team, const JointSystem& system, const F& f) {
+  for (std::uint32_t level = 0; level < system.levels; ++level) {
+    const std::uint32_t first = system.level_first[level];
+    team.each(system.level_first[level + 1] - first, [=](std::uint32_t i) { f(first + i); });
+  }
+}
+template <class F>
+PLUMB_DEVICE void for_columns_down(Team& team, const JointSystem& system, const F& f) {
+  for (std::uint32_t level = system.levels; level-- > 0;) {
+    const std::uint32_t first = system.level_first[level];
+    team.each(system.level_first[level + 1] - first, [=](std::uint32_t i) { f(first + i); });
+  }
+}
+
+/// The changes found act on all bodies.
+PLUMB_DEVICE inline void push_changes(Team& team, const JointSystem& system) {
+  const std::uint32_t joints = system.level_first[system.levels];
+  team.each(max(joints, system.body_count), [=](std::uint32_t i) {
+    if (i < joints) keep_change(system.view, system.base + i);
+    if (i < system.body_count) push_body(system, i, false);
+  });
+}
+
+PLUMB_DEVICE inline void factor_system(Team& team, const JointSystem& system) {
+  for_columns_up(team, system, [=](std::uint32_t j) { factor_column(system, j); });
+}
+
+/// The changes that solve the system, which do not act yet.
+PLUMB_DEVICE inline void find_changes(Team& team, const JointSystem& system, const JointPass& pass) {
+  for_columns_up(team, system, [=](std::uint32_t j) { solve_forward(system, j, pass); });
+  for_columns_down(team, system, [=](std::uint32_t j) { solve_backward(system, j); });
+}
+
+}  // namespace plumb::impulse

@@ -1,0 +1,50 @@
+// A DLPack tensor over rows that somebody else has too.
+#pragma once
+
+#include <memory>
+
+#include "bodies/state_rows.hpp"
+#include "plumb/plumb.h"
+
+namespace plumb::impulse {
+
+/// Keeps the block alive and dies with the tensor's deleter, whenever and in whichever thread that is.
+template <class Row>
+class LentRows {
+ public:
+  static PlumbDLManagedTensor* lend(std::shared_ptr<RowBlock<Row>> block, std::size_t rows, bool on_device) {
+    auto lent = std::unique_ptr<LentRows>(new LentRows(std::move(block), rows, on_device));
+    return &lent.release()->tensor_;
+  }
+
+ private:
+  using Number = std::remove_reference_t<decltype(Row{}.numbers[0])>;
+  static constexpr std::int64_t kColumns = sizeof(Row) / sizeof(Number);
+
+  LentRows(std::shared_ptr<RowBlock<Row>> block, std::size_t rows, bool on_device)
+      : block_(std::move(block)), shape_{static_cast<std::int64_t>(rows), kColumns} {
+    constexpr std::uint64_t kReadOnly = 1, kCopy = 2;
+    constexpr std::uint8_t kFloat = 2;
+    tensor_.version = {1, 0};
+    tensor_.manager_ctx = this;
+    tensor_.deleter = [](PlumbDLManagedTensor* self) { delete static_cast<LentRows*>(self->manager_ctx); };
+    tensor_.flags = on_device ? kReadOnly : kReadOnly | kCopy;
+    PlumbDLTensor& tensor = tensor_.dl_tensor;
+    tensor.data = on_device ? block_->rows.device() : block_->rows.host();
+    if (on_device)
+      tensor.device = {Executor::kDeviceType, Executor::device_id()};
+    else
+      tensor.device = {1, 0};
+    tensor.ndim = 2;
+    tensor.dtype = {kFloat, 8 * sizeof(Number), 1};
+    tensor.shape = shape_;
+    tensor.strides = strides_;
+  }
+
+  std::shared_ptr<RowBlock<Row>> block_;
+  std::int64_t shape_[2];
+  std::int64_t strides_[2] = {kColumns, 1};
+  PlumbDLManagedTensor tensor_{};
+};
+
+}  // namespace plumb::impulse

@@ -1,0 +1,41 @@
+// A million rays against a pile of 32,000 boxes, on one thread and on all. The label is the hash of the hits, which the
+// CUDA bench must print too.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <thread>
+
+#include "tests/rigs/broad_phase_cases.hpp"
+#include "tests/rigs/query_cases.hpp"
+
+namespace plumb::impulse {
+namespace {
+
+constexpr std::uint32_t kBoxes = 32000, kRays = 1000000;
+
+void closest_rays(benchmark::State& state, std::uint32_t rays, std::uint32_t threads) {
+  QueryBench bench(kBoxes, rays, threads);
+  for (auto _ : state) bench.ask();
+  state.counters["per_ray"] =
+      benchmark::Counter(rays, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  state.counters["hits"] = static_cast<double>(bench.found());
+  state.SetLabel(hexadecimal(bench.hash()));
+}
+
+}  // namespace
+}  // namespace plumb::impulse
+
+int main(int argc, char** argv) {
+  using namespace plumb::impulse;
+  const std::uint32_t all = std::max(1U, std::thread::hardware_concurrency());
+  for (const std::uint32_t rays : {kRays / 1000, kRays})
+    for (const std::uint32_t threads : {1U, all}) {
+      const std::string name = std::to_string(rays) + " rays/" + std::to_string(threads) + " threads";
+      benchmark::RegisterBenchmark(name.c_str(), closest_rays, rays, threads)
+          ->Unit(benchmark::kMillisecond)
+          ->UseRealTime();
+    }
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  benchmark::RunSpecifiedBenchmarks();
+}

@@ -1,0 +1,120 @@
+// Threads: each loop visits everything once, whoever runs it, under the same rounding.
+#include <gtest/gtest.h>
+#include <xmmintrin.h>
+
+#include <algorithm>
+#include <atomic>
+#include <numeric>
+#include <stdexcept>
+#include <vector>
+
+#include "exec/executor.hpp"
+#include "exec/floating_point.hpp"
+#include "tests/rigs/job_host.hpp"
+
+namespace plumb::impulse {
+namespace {
+
+using test::JobHost;
+
+constexpr std::uint32_t kFlushToZero = 0x8040;  // and denormals are zero
+
+void visits_all_once(Crew& crew) {
+  for (const std::uint32_t n : {0U, 1U, 7U, 64U, 65U, 100U, 1000U, 12345U}) {
+    std::vector<std::atomic<std::uint32_t>> visits(n);
+    crew.each(n, [&](std::uint32_t i) { ++visits[i]; });
+    for (std::uint32_t i = 0; i < n; ++i) ASSERT_EQ(visits[i], 1U) << i << " of " << n;
+  }
+}
+
+TEST(Crews, VisitEverythingOnce) {
+  for (const std::uint32_t threads : {0U, 1U, 2U, 5U}) {
+    Crew crew(nullptr, threads);
+    EXPECT_GE(crew.threads(), 1U);
+    visits_all_once(crew);
+  }
+}
+
+/// Loops of all lengths follow each other faster than threads come and go; more threads than processors, too.
+TEST(Crews, VisitEverythingOnceWhileTheyStayTogether) {
+  for (const std::uint32_t threads : {1U, 2U, 3U, 8U}) {
+    Crew crew(nullptr, threads);
+    std::vector<std::uint32_t> visits(1000, 0);
+    std::uint64_t expected = 0, found = 0;
+    for (int step = 0; step < 20; ++step)
+      crew.together([&] {
+        for (std::uint32_t loop = 0; loop < 300; ++loop) {
+          const std::uint32_t n = loop * 7919 % 1001;
+          const LoopBody body = loop % 3 == 0 ? LoopBody::kSmall : LoopBody::kLarge;
+          crew.each(
+              n, [&](std::uint32_t i) { ++visits[i]; }, body);
+          expected += n;
+        }
+      });
+    for (const std::uint32_t count : visits) found += count;
+    EXPECT_EQ(found, expected) << threads;
+  }
+}
+
+TEST(Crews, ComeApartWhereAStepThrows) {
+  Crew crew(nullptr, 2);
+  std::vector<int> visits(1000, 0);
+  const auto visit = [&] { crew.each(1000, [&](std::uint32_t i) { ++visits[i]; }); };
+  EXPECT_THROW(crew.together([&] {
+    visit();
+    throw std::runtime_error("no more memory");
+  }),
+               std::runtime_error);
+  visit();
+  crew.together(visit);
+  EXPECT_EQ(std::count(visits.begin(), visits.end(), 3), 1000);
+}
+
+TEST(Crews, RunOnTheHostsJobs) {
+  JobHost jobs(5);
+  Crew crew(&jobs.host, 5);
+  EXPECT_EQ(crew.threads(), 5U);
+  visits_all_once(crew);
+  EXPECT_GT(jobs.runs, 0U);
+  EXPECT_EQ(Crew(&jobs.host, 9).threads(), 5U) << "no more than the host has";
+}
+
+TEST(Crews, WorkWithoutTheHostsJobs) {
+  PlumbHost host{};
+  host.struct_size = sizeof host;
+  Crew crew(&host, 2);
+  visits_all_once(crew);
+}
+
+TEST(FloatingPoint, TheScopePutsTheCallersWordBack) {
+  const std::uint32_t before = _mm_getcsr();
+  _mm_setcsr(before | kFlushToZero);
+  {
+    const FloatingPointScope scope;
+    EXPECT_EQ(_mm_getcsr() & kFlushToZero, 0U);
+  }
+  EXPECT_EQ(_mm_getcsr() & kFlushToZero, kFlushToZero);
+  _mm_setcsr(before);
+}
+
+TEST(FloatingPoint, TasksOfTheHostRunUnderOurRounding) {
+  JobHost jobs(3);
+  jobs.control_word = _mm_getcsr() | kFlushToZero;
+  Crew crew(&jobs.host, 3);
+  std::atomic<std::uint32_t> wrong = 0;
+  crew.each(1000, [&](std::uint32_t) { wrong += (_mm_getcsr() & kFlushToZero) != 0; });
+  EXPECT_EQ(wrong, 0U);
+}
+
+TEST(Executors, StopAtTheCapacityOfACount) {
+  Executor executor(nullptr, 1);
+  std::uint32_t number = 10, visits = 0;
+  executor.run(Count{&number, 4}, [&](std::uint32_t) { ++visits; });
+  EXPECT_EQ(visits, 4U);
+  number = 3;
+  executor.run(Count{&number, 4}, [&](std::uint32_t) { ++visits; });
+  EXPECT_EQ(visits, 7U);
+}
+
+}  // namespace
+}  // namespace plumb::impulse

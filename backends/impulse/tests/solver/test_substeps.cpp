@@ -1,0 +1,146 @@
+// Sub-steps by load: more of them where something bears what it is too light for, and nowhere else.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/rigs/engine.hpp"
+
+namespace plumb::impulse::test {
+namespace {
+
+constexpr PlumbVec3 kDown = {0, -9.81, 0};
+
+/// Cubes of 1 m on the ground.
+struct Cubes {
+  explicit Cubes(PlumbNeeds more_needs = 0)
+      : scene(engine(), PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION | more_needs, kDown, 1),
+        cube(scene.box({0.5, 0.5, 0.5})) {
+    scene.ground();
+    scene.body.mass_mode = PLUMB_MASS_FROM_TOTAL;
+  }
+  PlumbBody add(double mass, const PlumbVec3& position) {
+    scene.body.mass = mass;
+    return scene.add(cube, position);
+  }
+  /// From now on there are no more than the setting "substeps" says.
+  void keep_to_the_setting() {
+    ASSERT_EQ(scene.world().settings()->set_setting("most_substeps", {PLUMB_SETTING_INT, 0, 1, nullptr}), PLUMB_OK);
+  }
+  double speed(PlumbBody body) {
+    const std::vector<double> v = scene.velocity(body);
+    return std::hypot(v[0], v[1], v[2]);
+  }
+
+  Scene scene;
+  PlumbShape cube;
+};
+
+/// A cube of 10 kg between two that are heavier by the ratio: how far the upper one sinks in 5 s, m.
+double sink_of_sandwich(Cubes& cubes, double ratio) {
+  cubes.add(10 * ratio, {0, 0.5, 0});
+  cubes.add(10, {0, 1.5, 0});
+  const PlumbBody top = cubes.add(10 * ratio, {0, 2.5, 0});
+  cubes.scene.run(300);
+  EXPECT_LT(cubes.speed(top), 1e-3);
+  return 2.5 - cubes.scene.poses().back().position.y;
+}
+
+TEST(SubstepsByLoad, HoldASandwichOfMassesThatDifferByAThousand) {
+  Cubes chooses, keeps;
+  keeps.keep_to_the_setting();
+  EXPECT_LT(sink_of_sandwich(chooses, 1000), 0.01);
+  EXPECT_GT(sink_of_sandwich(keeps, 1000), 0.05) << "it gives way by F / (m w^2) at two faces";
+}
+
+/// A heavy cube rocks on a light one for ever where contacts are as stiff as those of like masses.
+TEST(SubstepsByLoad, LetAHeavyCubeOnALightOneComeToRest) {
+  Cubes cubes(PLUMB_NEED_KINEMATIC);
+  const PlumbBody platform = cubes.scene.add_kinematic(cubes.scene.box({3, 0.2, 3}), {0, 0.2, 0});
+  cubes.add(100, {0, 0.9, 0});
+  const PlumbBody heavy = cubes.add(10000, {0, 1.9, 0});
+  cubes.scene.before_step = [&](Scene& scene, int done) {  // at 2 m/s2 for 1 s, and as hard to a halt
+    const double t = std::min((done + 1) / 60.0, 2.0);
+    scene.target(platform, {t < 1 ? t * t : 2 - (2 - t) * (2 - t), 0.2, 0});
+  };
+  cubes.scene.run(1200);
+  EXPECT_LT(cubes.speed(heavy), 1e-4);
+}
+
+TEST(SubstepsByLoad, AreThoseOfTheSettingInPilesOfLikeMasses) {
+  Cubes chooses, keeps;
+  keeps.keep_to_the_setting();
+  for (Cubes* cubes : {&chooses, &keeps}) {
+    for (int i = 0; i < 6; ++i)
+      for (int k = 0; k < 3; ++k) cubes->add(1 + 3 * ((i + k) % 2), {1.02 * k, i + 0.5, 0});
+    cubes->scene.run(120);
+  }
+  EXPECT_EQ(chooses.scene.hash(), keeps.scene.hash());
+}
+
+/// What is light and strikes something heavy bears no load.
+TEST(SubstepsByLoad, AreThoseOfTheSettingWhereLightBodiesRainOnAHeavyOne) {
+  Cubes chooses, keeps;
+  keeps.keep_to_the_setting();
+  for (Cubes* cubes : {&chooses, &keeps}) {
+    cubes->add(5000, {0, 0.5, 0});
+    for (int i = 0; i < 40; ++i) cubes->add(1, {0.3 * (i % 3 - 1), 2.5 + 1.5 * i, 0.2 * (i % 2)});
+    cubes->scene.run(300);
+  }
+  EXPECT_EQ(chooses.scene.hash(), keeps.scene.hash());
+}
+
+/// How far a heavy cube sinks into a light one beside so many cubes on the ground, m.
+double sink_among(Cubes& cubes, int others) {
+  for (int i = 0; i < others; ++i) cubes.add(10, {3.0 + 1.5 * (i % 20), 0.5, 1.5 * (i / 20) - 40});
+  cubes.add(10, {0, 0.5, 0});
+  cubes.add(1000, {0, 1.5, 0});
+  cubes.scene.run(120);
+  return 1.5 - cubes.scene.poses().back().position.y;
+}
+
+/// More of them are for all of a world: a large one would take too long.
+TEST(SubstepsByLoad, AreThoseOfTheSettingInCrowds) {
+  Cubes few, many, keeps;
+  keeps.keep_to_the_setting();
+  const double sink = sink_among(keeps, 0);
+  EXPECT_LT(sink_among(few, 20), 0.6 * sink);
+  EXPECT_GT(sink_among(many, 1100), 0.9 * sink);
+}
+
+/// What loads asked for in the last second is part of a snapshot.
+TEST(SubstepsByLoad, GoOnFromASnapshotAsTheyWere) {
+  Cubes saved(PLUMB_NEED_SNAPSHOT), other(PLUMB_NEED_SNAPSHOT);
+  PlumbBody heavy{};
+  for (Cubes* cubes : {&other, &saved}) {
+    cubes->add(10, {0, 0.5, 0});
+    heavy = cubes->add(3000, {0, 1.5, 0});
+  }
+  saved.scene.run(60);
+  saved.scene.write(PLUMB_FIELD_POSE, heavy, {3, 1, 0, 0, 0, 0, 1});
+  saved.scene.run(5);  // the light cube, alone, rises again
+  std::span<const std::byte> bytes;
+  ASSERT_EQ(saved.scene.world().snapshot()->save(bytes), PLUMB_OK);
+  const std::vector<std::byte> kept(bytes.begin(), bytes.end());
+  saved.scene.run(90);
+  ASSERT_EQ(other.scene.world().snapshot()->restore(kept), PLUMB_OK);
+  other.scene.run(90);
+  EXPECT_EQ(other.scene.hash(), saved.scene.hash());
+}
+
+/// A pebble bears nothing better with the most sub-steps than with the setting's, and gets none.
+TEST(SubstepsByLoad, AreNotSpentOnWhatIsPastHelp) {
+  Cubes chooses, keeps;
+  keeps.keep_to_the_setting();
+  for (Cubes* cubes : {&chooses, &keeps}) {
+    const PlumbShape pebble = cubes->scene.sphere(0.005);
+    cubes->add(1200, {0, 0.51, 0});
+    cubes->scene.body.mass = 0.001;
+    cubes->scene.add(pebble, {0.1, 0.005, 0});
+    cubes->scene.run(120);
+  }
+  EXPECT_EQ(chooses.scene.hash(), keeps.scene.hash());
+}
+
+}  // namespace
+}  // namespace plumb::impulse::test

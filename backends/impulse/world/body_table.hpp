@@ -1,0 +1,32 @@
+// Bodies in memory: what the host writes and the step reads or moves, rows by body slot.
+#pragma once
+
+#include "bodies/body_state.hpp"
+#include "exec/table.hpp"
+
+namespace plumb::impulse {
+
+struct BodyTable {
+  explicit BodyTable(Executor& executor) : state(executor) {}
+
+  BodyState state;  ///< say which rows were touched
+  Table<BodyForce> force;
+  Table<BodyMass> mass;
+  Table<BodyFrame> frames;
+  std::uint32_t count = 0;  ///< slots in use; rows behind are nobody's, and the last row is nobody
+
+  [[nodiscard]] std::size_t size() const { return state.size(); }
+  void grow(std::size_t rows) {
+    state.grow(rows);
+    force.grow(rows);
+    mass.grow(rows);
+    frames.grow(rows);
+  }
+  /// turn: whether dynamic bodies may.
+  [[nodiscard]] Bodies view(bool turn) {
+    return {state.position.device(), state.orientation.device(), state.velocity.device(), force.device(), mass.device(),
+            turn};
+  }
+};
+
+}  // namespace plumb::impulse

@@ -1,0 +1,32 @@
+// Recordings of steps, which a device replays as long as steps depend on the same (StepInput).
+#pragma once
+
+#include "exec/executor.hpp"
+#include "exec/phase_clock.hpp"
+#include "world/step_context.hpp"
+
+namespace plumb::impulse {
+
+class StepRecorder {
+ public:
+  /// Memory that steps work with is elsewhere now, or they do other things.
+  void forget() { ++generation_; }
+  [[nodiscard]] std::uint64_t generation() const { return generation_; }
+
+  /// Of the step of this number.
+  Recording& recording(std::uint32_t number, const StepInput& input) {
+    if (!(input == recorded_)) {
+      for (auto& of_parity : recordings_)
+        for (Recording& recording : of_parity) recording.forget();
+      recorded_ = input;
+    }
+    return recordings_[PhaseClock::measures(number) ? 1 : 0][number % 2];
+  }
+
+ private:
+  Recording recordings_[2][2];  // steps that are measured or not, of each parity
+  StepInput recorded_{};
+  std::uint64_t generation_ = 1;
+};
+
+}  // namespace plumb::impulse

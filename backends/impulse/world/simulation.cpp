@@ -1,0 +1,286 @@
+#include "world/simulation.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "bodies/proxy_bounds.hpp"
+#include "solver/choose_substeps.hpp"
+
+namespace plumb::impulse {
+
+namespace {
+
+constexpr std::uint32_t kLeastPairs = 1024;
+
+}  // namespace
+
+Simulation::Numbers::Numbers() {
+  parameters.grow(1);
+  shorter.grow(1);
+  of_statics.grow(1);
+  counters.grow(1);
+}
+
+Simulation::Simulation(const PlumbHost* host, std::uint32_t threads, const SolverFeatures& features)
+    : executor_(host, threads), bodies(executor_), stages_(features) {
+  reserve_bodies(64);
+  reserve_shapes(16);
+  reserve_pairs(kLeastPairs);
+}
+
+// --- room ---
+
+void Simulation::reserve_bodies(std::uint32_t slots) {
+  const std::size_t rows = std::size_t{slots} + 1;  // and nobody
+  if (rows <= bodies.size()) return;
+  const std::size_t size = rows + rows / 2;
+  bodies.grow(size);
+  joints.reserve_bodies(size);
+  lists_dirty_ = true;
+  reserve_proxies(static_cast<std::uint32_t>(size));
+  reserve_pairs(pair_capacity_);
+}
+
+void Simulation::reserve_proxies(std::uint32_t rows) {
+  const std::size_t before = colliders.proxies.size();
+  if (rows <= before) return;
+  const std::size_t size = std::max<std::size_t>(rows, before + before / 2);
+  colliders.grow(size, stages_.features.belts);
+  if (stages_.features.sleeping) sleep_.reserve(static_cast<std::uint32_t>(size));
+  lists_dirty_ = true;
+  reserve_pairs(pair_capacity_);
+}
+
+void Simulation::reserve_shapes(std::uint32_t rows) {
+  if (rows > colliders.shapes.size()) colliders.shapes.grow(rows + rows / 2);
+}
+
+void Simulation::reserve_pairs(std::uint32_t pairs) {
+  pair_capacity_ = pairs;
+  stages_.reserve(executor_, static_cast<std::uint32_t>(bodies.size()),
+                  static_cast<std::uint32_t>(colliders.proxies.size()), pairs, in_pieces_);
+  recorder_.forget();
+}
+
+/// So many of a thing that a recorded step has room for, when there are n now. While bodies come and go the numbers
+/// stay in coarse steps, and the recording serves on.
+std::uint32_t Simulation::room_for(std::uint32_t n) const {
+  if (!Executor::kRecords || step_ <= 1 || n == 0) return n;
+  std::uint32_t unit = 64;
+  while (unit * 32 <= n) unit *= 2;
+  return (n + unit - 1) / unit * unit;
+}
+
+void Simulation::choose(BroadPhase::Method method) {
+  if (stages_.broad_phase.method == method) return;
+  stages_.broad_phase.method = method;
+  reserve_pairs(pair_capacity_);
+}
+
+// --- what the host has changed, on its way to where kernels run ---
+
+void Simulation::list_proxies() {
+  const std::uint32_t statics_before = lists_.statics.view().count;
+  const bool other_statics = lists_.find(colliders, bodies.mass);
+  const auto nobody = static_cast<std::uint32_t>(colliders.proxies.size()) - 1;
+  for (ProxyList* list : {&lists_.movers, &lists_.statics}) {
+    const std::uint32_t count = list->count();
+    list->fill(colliders.count > nobody ? count : std::min<std::uint32_t>(room_for(count), nobody), nobody);
+  }
+  for (ProxyList* list : {&lists_.movers, &lists_.statics, &lists_.planes}) list->upload(executor_);
+  const ProxyRows statics = lists_.statics.view();
+  stages_.narrow_phase.forget_found(executor_, statics.rows, lists_.statics.count());
+  if (!in_pieces_ && (lists_.types & kTypesInPieces) != 0) {
+    in_pieces_ = true;
+    stages_.narrow_phase.take_pieces();
+    reserve_pairs(pair_capacity_);
+  }
+  if (origin_.find(lists_.movers, colliders, bodies.state) || other_statics || statics.count != statics_before)
+    statics_changed();
+  lists_dirty_ = false;
+}
+
+/// Where all are, and of what shape.
+void Simulation::upload_bodies() {
+  colliders.upload(executor_);
+  bodies.state.upload();
+}
+
+void Simulation::upload_changes() {
+  if (lists_dirty_) list_proxies();
+  upload_bodies();
+  bodies.force.upload(executor_);
+  bodies.mass.upload(executor_);
+  bodies.frames.upload(executor_);
+  colliders.belts.upload(executor_);
+  joints.drives.upload(executor_);
+  if (joints.changed()) {
+    joints.upload(bodies.mass);
+    exclusions.set_joined(joints.excluded());
+    recorder_.forget();
+  }
+  StepParameters& parameters = numbers_.parameters[0];
+  numbers_.shorter[0].work_of_joints = kWorkOfJoint * joints.count();
+  if (joints.count() != 0 && parameters.solver == SolverKind::kTgsSoft)
+    stages_.energy_bound.reserve(bodies.size(), joints.count());
+  exclusions.upload();
+  if (stages_.features.sleeping) {
+    sleep_.upload(executor_);
+    parameters.woken_contacts = sleep_.woken_count();
+  }
+  parameters.origin = origin_.place();
+  executor_.to_device(numbers_.parameters, 1);
+  executor_.to_device(numbers_.shorter, 1);
+  if (statics_dirty_) bound_statics();
+}
+
+void Simulation::bound_statics() {
+  if (!bound_again_) numbers_.of_statics[0] = numbers_.parameters[0];
+  bound_again_ = false;
+  executor_.to_device(numbers_.of_statics, 1);
+  const ProxyRows statics = lists_.statics.view();
+  for (const ProxyRows& list : {statics, lists_.planes.view()})
+    executor_.run(list.count, BoundProxies{body_view(), colliders.view(), numbers_.of_statics.device(), list.rows,
+                                           stages_.boxes.data(), stages_.margins.data()});
+  stages_.broad_phase.build_statics(executor_, stages_.boxes.data(), statics.rows, statics.count);
+  statics_dirty_ = false;
+}
+
+/// Room for the rows that steps bring, before a step is recorded.
+void Simulation::reserve_rows() {
+  const auto reserve = [&](auto& rows) { return rows.in_step() && rows.reserve(bodies.size(), false); };
+  const bool poses = reserve(output_.poses), velocities = reserve(output_.velocities);
+  if (poses || velocities) recorder_.forget();
+}
+
+// --- the step ---
+
+StepInput Simulation::input() {
+  return {body_view(),
+          colliders.view(),
+          bodies.frames.device(),
+          stages_.features.belts ? colliders.belts.device() : nullptr,
+          {colliders.filters.device(), exclusions.device(), exclusions.count()},
+          lists_.movers.view(),
+          lists_.statics.view(),
+          lists_.planes.view(),
+          std::min<std::uint32_t>(room_for(bodies.count), static_cast<std::uint32_t>(bodies.size()) - 1),
+          pair_capacity_,
+          lists_.types,
+          in_pieces_,
+          continuous_,
+          sleep_.count() != 0,
+          stages_.features.sleeping ? sleep_.woken_pairs() : nullptr,
+          numbers_.parameters[0].solver,
+          recorder_.generation()};
+}
+
+void Simulation::step(const StepParameters& parameters, const ShorterSubsteps& shorter) {
+  if (parameters.solver != numbers_.parameters[0].solver) stages_.solver.choose(parameters.solver);
+  numbers_.parameters[0] = parameters;
+  numbers_.shorter[0] = shorter;
+  numbers_.parameters[0].step = ++step_;
+  outcome_ = {};
+  launch();
+}
+
+void Simulation::launch() {
+  upload_changes();
+  reserve_rows();
+  NarrowPhase& narrow_phase = stages_.narrow_phase;
+  const StepInput known = input();
+  executor_.record(recorder_.recording(step_, known), [&] {
+    enqueue_step({known, executor_, stages_, joints, sleep_, output_, numbers_.parameters.device(),
+                  numbers_.shorter.device(), numbers_.counters, stages_.solver.meet(joints), narrow_phase.cache(step_),
+                  narrow_phase.cache(step_ + 1)});
+  });
+  bodies.state.stepped();
+  restored_ = false;
+  if (output_.poses.in_step()) output_.poses.written(bodies.state.version());
+  if (output_.velocities.in_step()) output_.velocities.written(bodies.state.version());
+}
+
+void Simulation::wait() {
+  executor_.wait();
+  while (is_undone(counters(), pair_capacity_) && !taken_back()) {
+    if (counters().pairs > pair_capacity_) {
+      reserve_pairs(counters().pairs + counters().pairs / 2);
+      outcome_.grew = true;
+    } else {
+      const Slots roused = wake(sleep_.touched());
+      outcome_.woken.insert(outcome_.woken.end(), roused.begin(), roused.end());
+    }
+    outcome_.repeated = true;
+    launch();
+    executor_.wait();
+  }
+  if (taken_back()) --step_;
+  if (taken_back() || !stages_.features.sleeping) return;
+  sleep_.stepped();
+  if (step_ % Sleep::kPeriod == 0) let_islands_rest();
+}
+
+// --- what is told of it ---
+
+double Simulation::phase_seconds(PlumbPhase phase) const {
+  const bool told = phase <= PLUMB_PHASE_SOLVE || phase == PLUMB_PHASE_OUTPUT;
+  return told && PhaseClock::measures(step_) ? stages_.phases.seconds(phase) : std::numeric_limits<double>::quiet_NaN();
+}
+
+std::vector<ContactRecord> Simulation::contacts() {
+  std::vector<ContactRecord> all = contacts_of_step();
+  sleep_.for_records(step_, [&](const ContactRecord& record) { all.push_back(record); });
+  return all;
+}
+
+std::vector<ContactRecord> Simulation::contacts_of_step() {
+  const std::uint32_t count = counters().manifolds;
+  if (count == 0 || restored_) return {};
+  records_.grow(count);
+  executor_.run(count,
+                DescribeContacts{stages_.narrow_phase.cache(step_), body_view(), colliders.view(),
+                                 stages_.solver.displacements(), stages_.solver.step_impulses(), records_.data()});
+  executor_.wait();
+  return records_.to_host(count);
+}
+
+std::vector<KeptPair> Simulation::solved_manifolds() const {
+  return restored_ || counters().manifolds == 0 ? std::vector<KeptPair>()
+                                                : stages_.narrow_phase.kept(step_, counters());
+}
+
+std::vector<Pair> Simulation::candidates() {
+  std::vector<Pair> found = stages_.narrow_phase.candidates(step_, candidate_count());
+  const auto same = [](const Pair& a, const Pair& b) { return a.a == b.a && a.b == b.b; };
+  found.erase(std::unique(found.begin(), found.end(), same), found.end());  // of a pair's pieces one
+  return found;
+}
+
+// --- snapshots ---
+
+Simulation::Extent Simulation::extent(bool to_restore) {
+  if (to_restore && lists_dirty_) list_proxies();
+  return {bodies.count, colliders.count, joints.slots(), in_pieces_ ? 1U : 0U};
+}
+
+void Simulation::exchange(Archive& archive, const Extent& extent) {
+  archive.value(step_);
+  origin_.exchange(archive);
+  archive.value(numbers_.of_statics[0]);
+  bool statics_dirty = statics_dirty_;
+  archive.value(statics_dirty);
+  StepCounters& counted = *numbers_.counters.host();
+  archive.value(counted);
+  if (in_pieces_ && extent.in_pieces == 0) counted.pieces = counted.pairs;
+  if (candidate_count() > pair_capacity_) reserve_pairs(candidate_count());
+  bodies.state.exchange(archive, extent.bodies);
+  stages_.narrow_phase.exchange(archive, step_, extent.proxies, counters(), extent.in_pieces != 0);
+  joints.exchange(archive, extent.joints);
+  if (stages_.features.sleeping) sleep_.exchange(archive, extent.bodies, bodies.mass);
+  if (!archive.reads()) return;
+  lists_dirty_ = restored_ = true;
+  bound_again_ = !statics_dirty && !origin_.dirty();
+  recorder_.forget();
+}
+
+}  // namespace plumb::impulse

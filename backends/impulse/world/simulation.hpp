@@ -1,0 +1,179 @@
+// The engine without its interface: bodies and shapes in memory, and the step.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "contacts/contact_record.hpp"
+#include "exec/executor.hpp"
+#include "exec/memory.hpp"
+#include "queries/query_trees.hpp"
+#include "world/bounds_origin.hpp"
+#include "world/recorder.hpp"
+#include "world/step_context.hpp"
+
+namespace plumb::impulse {
+
+class Simulation {
+  Executor executor_;  // before all that works with it
+
+ public:
+  using Slots = std::vector<std::uint32_t>;
+
+  Simulation(const PlumbHost* host, std::uint32_t threads, const SolverFeatures& features);
+
+  // --- what the host fills ---
+  BodyTable bodies;
+  ColliderTable colliders;
+  JointStore joints;
+  Exclusions exclusions;
+
+  /// Room for this many body slots, and the rows up to it.
+  void reserve_bodies(std::uint32_t slots);
+  void reserve_shapes(std::uint32_t rows);
+  /// Room for this many proxies, at least one a body slot. New rows have no shape.
+  void reserve_proxies(std::uint32_t rows);
+  /// From now on there may be bodies that must not pass through others; what they cost begins here.
+  void expect_continuous() { continuous_ = stages_.features.continuous; }
+
+  void bodies_changed() {  ///< made, gone, asleep, awake
+    lists_dirty_ = true;
+    origin_.bodies_changed();
+    ++list_version_;
+  }
+  void statics_changed() {  ///< bodies that do not move: placed elsewhere
+    statics_dirty_ = true;
+    ++list_version_;
+  }
+
+  /// How many rows a snapshot has of each kind. Those that came later and are gone again are not in it.
+  struct Extent {
+    std::uint32_t bodies, proxies, joints, in_pieces;
+  };
+  /// Of a snapshot taken now; to restore one, of what there is room for.
+  [[nodiscard]] Extent extent(bool to_restore);
+  /// All that the steps to come depend on and that steps change, to or from a snapshot of that extent. The same bodies,
+  /// joints and shapes must be there.
+  void exchange(Archive& archive, const Extent& extent);
+
+  // --- sleep, between steps; body slots. What wakes or falls asleep is told by its slots. (sleeping.cpp) ---
+  [[nodiscard]] bool sleeps(std::uint32_t body) const { return sleep_.sleeps(body); }
+  [[nodiscard]] std::uint32_t sleeper_count() const { return sleep_.count(); }
+  /// 1 + the smallest body of those with whom it fell asleep; 0 where it is awake.
+  [[nodiscard]] std::uint32_t island_asleep(std::uint32_t body) const { return sleep_.island(body); }
+  /// With their islands.
+  Slots wake(std::span<const std::uint32_t> slots);
+  /// Those who are joined to these, and where asked for those who touch them, with their islands.
+  Slots wake_neighbours(std::span<const std::uint32_t> slots, bool touching);
+  Slots wake_all();
+  /// With what is joined to them.
+  Slots put_to_sleep(std::span<const std::uint32_t> slots);
+  /// These are gone: nothing is remembered of them.
+  void forget(std::span<const std::uint32_t> slots) { sleep_.forget(slots); }
+
+  // --- steps ---
+  /// How the steps to come find pairs; changes no result.
+  void choose(BroadPhase::Method method);
+  [[nodiscard]] const BroadPhase& broad_phase() const { return stages_.broad_phase; }
+  /// Enqueues a step. parameters.step and .origin are filled in here.
+  void step(const StepParameters& parameters, const ShorterSubsteps& shorter);
+  /// Returns when the step is done; grows what was too small and repeats the step then.
+  void wait();
+
+  /// What a step did beside moving bodies.
+  struct Outcome {
+    bool repeated = false, grew = false;
+    Slots woken, fallen_asleep;
+  };
+  [[nodiscard]] const Outcome& outcome() const { return outcome_; }
+  [[nodiscard]] const StepCounters& counters() const { return *numbers_.counters.host(); }
+  [[nodiscard]] std::uint32_t steps() const { return step_; }
+  /// Whether all is as it was before the step: it made energy, or joints let go (solver/energy_bound.hpp).
+  [[nodiscard]] bool taken_back() const { return counters().taken_back != 0; }
+  /// Of the last step, s; NaN where it was not measured, and for phases that this engine does not tell apart.
+  [[nodiscard]] double phase_seconds(PlumbPhase phase) const;
+  [[nodiscard]] Executor& executor() { return executor_; }
+
+  /// Manifolds of the last step, copied to the host. Impulses are 0 where the scene did not ask for them.
+  [[nodiscard]] std::vector<ContactRecord> contacts();
+  /// Likewise with the colours in which they were solved, which mean something where the solver has any.
+  [[nodiscard]] std::vector<KeptPair> solved_manifolds() const;
+  [[nodiscard]] bool solves_in_colours() const { return stages_.solver.needs_colours(); }
+  /// What the broad phase of the last step found.
+  [[nodiscard]] std::vector<Pair> candidates();
+  [[nodiscard]] std::uint32_t candidate_count() const { return stages_.narrow_phase.candidate_count(counters()); }
+  /// Nodes of the trees of the last step's broad phase, copied to the host, and what their boxes are relative to.
+  [[nodiscard]] std::vector<TreeNode> tree_nodes(BroadPhase::Tree tree) const {
+    return stages_.broad_phase.nodes(tree);
+  }
+  [[nodiscard]] const Position& tree_origin() const { return numbers_.parameters[0].origin; }
+
+  // --- what is read between steps (queries.cpp) ---
+  /// What queries look at, brought up to date. Between steps; one caller at a time, but what it gave to an earlier one
+  /// stays as it is until bodies or shapes change.
+  [[nodiscard]] QueryScene query_scene(const HitNames& names);
+  /// The same without trees, for what asks of shapes alone.
+  [[nodiscard]] QueryScene shape_scene();
+  /// Rows of state by body slot, up to date. Steps bring them from now on. On the device they are there once what was
+  /// enqueued is done; on the host they are there.
+  [[nodiscard]] std::shared_ptr<RowBlock<PoseRow>> pose_rows(bool on_host) { return rows(output_.poses, on_host); }
+  [[nodiscard]] std::shared_ptr<RowBlock<VelocityRow>> velocity_rows(bool on_host) {
+    return rows(output_.velocities, on_host);
+  }
+
+ private:
+  /// What host and kernels tell each other of a step.
+  struct Numbers {
+    Numbers();
+    Mirror<StepParameters> parameters;
+    Mirror<ShorterSubsteps> shorter;
+    Mirror<StepParameters> of_statics;  // with which the statics were bounded
+    Mirror<StepCounters> counters;
+  };
+  /// What queries work with, made when the first comes: the step's own lists and trees are not touched.
+  struct ForQueries {
+    QueryTrees trees;
+    ProxyLists lists;
+    PlacedProxies placed{};
+  };
+
+  void reserve_pairs(std::uint32_t pairs);
+  [[nodiscard]] std::uint32_t room_for(std::uint32_t n) const;
+  void list_proxies();
+  void list_for_queries();
+  void upload_bodies();
+  void upload_changes();
+  void bound_statics();
+  void reserve_rows();
+  [[nodiscard]] StepInput input();
+  void launch();
+  void let_islands_rest();
+  void fall_asleep(const Slots& island);
+  void put_contacts_aside();
+  [[nodiscard]] Bodies body_view() { return bodies.view(stages_.features.rotation); }
+  [[nodiscard]] std::vector<ContactRecord> contacts_of_step();
+  template <class Row>
+  std::shared_ptr<RowBlock<Row>> rows(FieldRows<Row>& field, bool on_host);
+
+  Numbers numbers_;
+  Stages stages_;
+  ProxyLists lists_;
+  BoundsOrigin origin_;
+  Sleep sleep_;
+  StepRecorder recorder_;
+  Outcome outcome_;
+  OutputRows output_;
+  Buffer<ContactRecord> records_;
+  std::unique_ptr<ForQueries> for_queries_;
+  std::uint32_t step_ = 0, pair_capacity_ = 0;
+  std::uint64_t list_version_ = 1;  // changes when a body may have, but for those that the step moves
+  bool lists_dirty_ = true, statics_dirty_ = true;
+  bool bound_again_ = false;  // the statics, as they were: with the same parameters
+  bool restored_ = false;     // since the last step: what it found is not known
+  bool in_pieces_ = false;    // once there was a plane or a surface
+  bool continuous_ = false;   // once there was a body that must not pass through others
+};
+
+}  // namespace plumb::impulse

@@ -1,0 +1,159 @@
+#include "world/stages.hpp"
+
+#include "bodies/proxy_bounds.hpp"
+#include "contacts/belts.hpp"
+#include "contacts/match.hpp"
+#include "narrowphase/sweep_rims.hpp"
+
+namespace plumb::impulse {
+
+namespace {
+
+struct ClearCounters {
+  StepCounters* counters;
+  PLUMB_HD void operator()(std::uint32_t) const { *counters = StepCounters{}; }
+};
+
+}  // namespace
+
+void Stages::reserve(Executor& executor, std::uint32_t bodies, std::uint32_t proxies, std::uint32_t pairs,
+                     bool in_pieces) {
+  boxes.grow(proxies);
+  margins.grow(proxies);
+  broad_phase.reserve(executor, proxies, proxies, pairs);
+  narrow_phase.reserve(executor, proxies, pairs);
+  if (features.continuous || features.restitution) impacts.reserve(pairs);
+  if (features.continuous) guard.reserve(bodies);
+  if (in_pieces) pieces.reserve(proxies, pairs);
+  colouring.reserve(executor, bodies, pairs);
+  solver.reserve(executor, bodies, pairs);
+}
+
+void begin(const StepContext& step) {
+  step.stages.phases.start(step.executor);
+  step.executor.run(1U, ClearCounters{step.counters});
+}
+
+void end_phase(const StepContext& step, PlumbPhase phase) { step.stages.phases.end(step.executor, phase); }
+
+void bound(const StepContext& step) {
+  step.executor.run(step.movers.count, BoundProxies{step.bodies, step.proxies, step.parameters, step.movers.rows,
+                                                    step.stages.boxes.data(), step.stages.margins.data()});
+}
+
+void find_pairs(const StepContext& step) {
+  Stages& of = step.stages;
+  of.broad_phase.find_pairs(step.executor, of.boxes.data(), step.movers.rows, step.movers.count, step.filter,
+                            step.in_pieces ? of.pieces.pairs() : step.now.pairs,
+                            step.in_pieces ? of.pieces.ranges() : step.now.ranges, &step.counters->pairs);
+}
+
+void find_pieces(const StepContext& step) {
+  if (!step.in_pieces) return;
+  Stages& of = step.stages;
+  of.pieces.find(step.executor,
+                 {step.bodies, step.proxies, step.parameters, step.filter, of.boxes.data(), of.margins.data(),
+                  step.movers, step.planes},
+                 step.now, step.counters, step.continuous);
+}
+
+void collide(const StepContext& step) {
+  step.stages.narrow_phase.collide(step.executor, step.now, step.bodies, step.proxies, step.stages.margins.data(),
+                                   step.shape_types, step.counters);
+  if (step.bodies.turn && (step.shape_types & bit_of(ShapeType::kCylinder)) != 0)
+    sweep_rims(step.executor, step.candidates(), step.now, step.bodies, step.proxies, step.parameters);
+}
+
+void find_impacts(const StepContext& step) {
+  if (!step.finds_impacts()) return;
+  step.stages.impacts.find(step.executor, step.now, step.candidates(), step.bodies, step.proxies,
+                           step.stages.margins.data(), step.parameters, step.in_pieces);
+}
+
+void match(const StepContext& step) {
+  Stages& of = step.stages;
+  of.narrow_phase.number(step.executor, step.now, step.counters);
+  of.colouring.begin(step.executor);
+  match(step.executor,
+        {step.now, step.last, step.woken, step.bodies, step.proxies, step.parameters, step.counters, step.mechanisms,
+         of.colouring.masks()},
+        step.pair_capacity);
+  if (step.has_sleepers)
+    step.sleep.find_touched(step.executor, step.now, step.pair_capacity, step.bodies, step.proxies, step.counters);
+}
+
+void colour(const StepContext& step) {
+  Colouring& colouring = step.stages.colouring;
+  if (step.stages.solver.needs_colours())
+    colouring.colour(step.executor, step.now, step.bodies.velocity, step.proxies.rows, step.mechanisms, step.counters);
+  else
+    colouring.leave_out(step.executor, step.counters);
+}
+
+void choose_substeps(const StepContext& step) {
+  step.stages.solver.choose_substeps(step.executor, step.now, step.bodies, step.proxies, step.shorter, step.parameters,
+                                     step.counters);
+}
+
+void prepare(const StepContext& step) {
+  Stages& of = step.stages;
+  of.solver.begin(step.executor, step.bodies, step.body_rows);
+  if (!step.collides()) return;
+  if (step.mechanisms.count != 0)
+    of.solver.find_mobility(step.executor, step.now, step.bodies, step.proxies, step.parameters, step.counters,
+                            step.joints);
+  of.solver.prepare(step.executor, step.now, step.bodies, step.proxies, of.colouring,
+                    step.finds_impacts() ? of.impacts.times() : nullptr, step.parameters, step.counters);
+  if (step.belts != nullptr)
+    put_drifts(step.executor,
+               {step.now, step.bodies, step.proxies, step.belts, of.colouring.order(), of.colouring.colours(),
+                of.solver.rows(), step.counters},
+               step.pair_capacity);
+}
+
+void keep_state(const StepContext& step) {
+  if (step.bounds_energy()) step.stages.energy_bound.keep(step.executor, step.energy_work());
+}
+
+void solve(const StepContext& step) {
+  step.stages.solver.solve(step.executor, step.bodies, step.body_rows, step.parameters, step.counters,
+                           step.pair_capacity, step.joints);
+}
+
+void clamp(const StepContext& step) {
+  if (!step.continuous) return;
+  Stages& of = step.stages;
+  of.guard.hold(step.executor,
+                {step.now, step.candidates(), step.pair_capacity, step.counters, step.parameters, step.proxies,
+                 of.boxes.data(), step.movers, of.broad_phase.statics(), step.planes},
+                step.bodies, step.body_rows, of.solver.displacements());
+}
+
+void judge(const StepContext& step) {
+  if (!step.bounds_energy()) return;
+  step.stages.energy_bound.judge(step.executor, step.energy_work(), {&step.counters->manifolds, step.pair_capacity});
+}
+
+void keep_impulses(const StepContext& step) {
+  if (step.collides()) step.stages.solver.keep_impulses(step.executor, step.now, step.counters);
+}
+
+void move_freely(const StepContext& step) {
+  step.stages.solver.move_freely(step.executor, step.bodies, step.body_rows, step.parameters, step.counters);
+}
+
+void time_rest(const StepContext& step) {
+  if (!step.stages.features.sleeping) return;
+  step.sleep.time_rest(step.executor, step.bodies, step.body_rows, step.parameters, step.counters, step.pair_capacity);
+}
+
+void write_output(const StepContext& step) {
+  const auto write = [&](auto& rows) {
+    if (rows.in_step()) rows.write(step.executor, step.bodies, step.frames, step.body_rows);
+  };
+  write(step.output.poses);
+  write(step.output.velocities);
+  step.executor.to_host(step.counted, 1);
+}
+
+}  // namespace plumb::impulse

@@ -1,0 +1,40 @@
+// The step: what follows what.
+#include "world/stages.hpp"
+
+namespace plumb::impulse {
+
+void enqueue_step(const StepContext& step) {
+  begin(step);
+  if (step.collides()) {
+    bound(step);
+    find_pairs(step);
+    find_pieces(step);
+    end_phase(step, PLUMB_PHASE_BROAD);
+
+    collide(step);
+    find_impacts(step);
+    match(step);
+    end_phase(step, PLUMB_PHASE_NARROW);
+
+    colour(step);
+    end_phase(step, PLUMB_PHASE_ISLANDS);
+  }
+  if (step.collides() || step.has_joints()) {
+    choose_substeps(step);
+    prepare(step);
+    keep_state(step);
+    solve(step);
+    clamp(step);
+    judge(step);
+    keep_impulses(step);
+  } else {
+    move_freely(step);
+  }
+  time_rest(step);
+  end_phase(step, PLUMB_PHASE_SOLVE);
+
+  write_output(step);
+  end_phase(step, PLUMB_PHASE_OUTPUT);
+}
+
+}  // namespace plumb::impulse

@@ -1,0 +1,96 @@
+// What the stages of a step work with.
+#pragma once
+
+#include "bodies/state_rows.hpp"
+#include "broadphase/broad_phase.hpp"
+#include "broadphase/exclusions.hpp"
+#include "contacts/colouring.hpp"
+#include "continuous/guard.hpp"
+#include "continuous/impacts.hpp"
+#include "exec/phase_clock.hpp"
+#include "islands/sleep.hpp"
+#include "joints/joint_store.hpp"
+#include "narrowphase/narrow_phase.hpp"
+#include "narrowphase/pieces.hpp"
+#include "solver/energy_bound.hpp"
+#include "solver/solver.hpp"
+
+namespace plumb::impulse {
+
+/// The memory of the stages, which knows nothing of any one step.
+struct Stages {
+  explicit Stages(const SolverFeatures& wanted) : features(wanted), solver(wanted) {}
+  /// Room for so many rows of bodies and proxies, and so many pairs. Between steps.
+  void reserve(Executor& executor, std::uint32_t bodies, std::uint32_t proxies, std::uint32_t pairs, bool in_pieces);
+
+  SolverFeatures features;
+  Buffer<Box> boxes;     ///< by proxy
+  Buffer<Real> margins;  ///< by proxy: how far ahead it is looked, m
+  BroadPhase broad_phase;
+  Pieces pieces;
+  NarrowPhase narrow_phase;
+  Impacts impacts;  ///< these two where the scene asks for them
+  Guard guard;
+  Colouring colouring;
+  Solver solver;
+  EnergyBound energy_bound;  ///< where there are joints
+  PhaseClock phases;
+};
+
+/// What a step depends on of the host's numbers and addresses: two steps of the same are the same sequence of kernels,
+/// and a recording of the one serves for the other.
+struct StepInput {
+  Bodies bodies;
+  Proxies proxies;
+  const BodyFrame* frames;
+  const Vec* belts;  ///< by proxy; null in worlds without
+  PairFilter filter;
+  ProxyRows movers, statics, planes;
+  std::uint32_t body_rows;  ///< that kernels go through; those without a body are nobody's
+  std::uint32_t pair_capacity;
+  std::uint32_t shape_types;  ///< a bit for each ShapeType in the world
+  bool in_pieces;             ///< there is, or was, a plane or a surface
+  bool continuous;            ///< there is, or was, a body that must not pass through others
+  bool has_sleepers;
+  const KeptPair* woken;  ///< manifolds of those who woke; null in worlds where nobody sleeps
+  SolverKind solver;
+  std::uint64_t storage;  ///< generation of the stages' memory and of the joints
+  bool operator==(const StepInput&) const = default;
+};
+
+/// The rows that steps bring to whoever reads state, where somebody does.
+struct OutputRows {
+  FieldRows<PoseRow> poses;
+  FieldRows<VelocityRow> velocities;
+};
+
+struct StepContext : StepInput {
+  Executor& executor;
+  Stages& stages;
+  JointStore& joints;
+  Sleep& sleep;
+  OutputRows& output;
+  StepParameters* parameters;
+  const ShorterSubsteps* shorter;
+  Mirror<StepCounters>& counted;
+  Mechanisms mechanisms;    ///< that contacts push as a whole
+  ContactCache now, last;   ///< contacts of this step, and of the last one
+  StepCounters* counters = counted.device();
+
+  [[nodiscard]] bool collides() const { return stages.features.collision; }
+  [[nodiscard]] bool has_joints() const { return joints.count() != 0; }
+  [[nodiscard]] bool finds_impacts() const { return continuous || stages.features.restitution; }
+  /// Others than the default solver take errors of joints back by speeds that stay.
+  [[nodiscard]] bool bounds_energy() const { return has_joints() && solver == SolverKind::kTgsSoft; }
+  /// Of the narrow phase.
+  [[nodiscard]] Count candidates() const { return stages.narrow_phase.candidates(counters); }
+  [[nodiscard]] EnergyWork energy_work() const {
+    return {now,     proxies,   belts,         stages.solver.joint_set(bodies, joints), joints.code(), body_rows,
+            pair_capacity, parameters, counters};
+  }
+};
+
+/// Enqueues a step, from bounds to poses.
+void enqueue_step(const StepContext& step);
+
+}  // namespace plumb::impulse
