@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "broadphase/pairs.hpp"
 #include "geometry/shape.hpp"
 #include "geometry/surface.hpp"
 #include "math/box.hpp"
@@ -94,14 +95,6 @@ struct Proxies {
   Hulls hulls;
   Surfaces surfaces{};
   bool operator==(const Proxies&) const = default;
-};
-
-/// Some proxies, by their rows.
-struct ProxyRows {
-  const std::uint32_t* rows;
-  std::uint32_t count;
-  PLUMB_HD std::uint32_t operator[](std::uint32_t i) const { return rows[i]; }
-  bool operator==(const ProxyRows&) const = default;
 };
 
 /// A shape's placement: the turn in world axes, and where its origin is from the body's centre of mass.

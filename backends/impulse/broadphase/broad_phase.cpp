@@ -156,26 +156,25 @@ void BroadPhase::build_statics(Executor& executor, const Box* boxes, const std::
   statics_.build(executor, boxes, proxies, n, extent_.data(), morton_bits);
 }
 
-void BroadPhase::find_pairs(Executor& executor, const Box* boxes, const std::uint32_t* movers, std::uint32_t n,
-                            const PairFilter& filter, Pair* pairs, PairRange* ranges_by_proxy,
-                            std::uint32_t* pair_count) {
+void BroadPhase::find_pairs(Executor& executor, const Box* boxes, const ProxyRows& movers, const PairFilter& filter,
+                            const PairList& found) {
+  const std::uint32_t n = movers.count;
   require("movers", n, mover_capacity_);
-  reduce_.run(executor, n, LoadExtent{boxes, movers}, extent_.data());
+  reduce_.run(executor, n, LoadExtent{boxes, movers.rows}, extent_.data());
   const auto list = [&](auto& ordered) {
-    ordered.build(executor, boxes, movers, n, extent_.data());
-    list_in_order(executor, ordered.view(), boxes, movers, n, filter, pairs, ranges_by_proxy, pair_count);
+    ordered.build(executor, boxes, movers.rows, n, extent_.data());
+    list_in_order(executor, ordered.view(), boxes, movers, filter, found);
   };
   switch (method) {
     case Method::kLbvh:
-      movers_->build(executor, boxes, movers, n, extent_.data(), morton_bits);
-      return list_of_tree(executor, filter, pairs, ranges_by_proxy, pair_count);
+      movers_->build(executor, boxes, movers.rows, n, extent_.data(), morton_bits);
+      return list_of_tree(executor, filter, found);
     case Method::kSweep: return list(*sweep_);
     case Method::kGrid: return list(*grid_);
   }
 }
 
-void BroadPhase::list_of_tree(Executor& executor, const PairFilter& filter, Pair* pairs, PairRange* ranges_by_proxy,
-                              std::uint32_t* pair_count) {
+void BroadPhase::list_of_tree(Executor& executor, const PairFilter& filter, const PairList& found) {
   const Search<TreeMovers> search{{movers_->view()}, statics_.view(), filter};
   const std::uint32_t n = search.movers.tree.leaves;
   const LongSearches longs{long_movers_.data(), long_parts_.data(), long_counts_.data()};
@@ -195,24 +194,24 @@ void BroadPhase::list_of_tree(Executor& executor, const PairFilter& filter, Pair
     executor.run((n + BoxGroup::kMost - 1) / BoxGroup::kMost, CountPartnersOfGroup{count, n});
 #endif
   }
-  scan_.run(executor, n, counts_.data(), offsets_.data(), pair_count);
-  executor.run(n, ListPairs{search, noted_.data(), counts_.data(), offsets_.data(), pairs, pair_capacity_,
-                            ranges_by_proxy, deals_out});
-  if (deals_out) executor.run(parts, ListPart{{search, longs}, offsets_.data(), pairs, pair_capacity_});
+  scan_.run(executor, n, counts_.data(), offsets_.data(), found.count);
+  executor.run(n, ListPairs{search, noted_.data(), counts_.data(), offsets_.data(), found.pairs, pair_capacity_,
+                            found.ranges, deals_out});
+  if (deals_out) executor.run(parts, ListPart{{search, longs}, offsets_.data(), found.pairs, pair_capacity_});
 }
 
 /// Of a method that finds them in another order than the tree.
 template <class Movers>
-void BroadPhase::list_in_order(Executor& executor, const Movers& movers, const Box* boxes, const std::uint32_t* list,
-                               std::uint32_t n, const PairFilter& filter, Pair* pairs, PairRange* ranges_by_proxy,
-                               std::uint32_t* pair_count) {
+void BroadPhase::list_in_order(Executor& executor, const Movers& movers, const Box* boxes, const ProxyRows& list,
+                               const PairFilter& filter, const PairList& found) {
+  const std::uint32_t n = list.count;
   const Search<Movers> search{movers, statics_.view(), filter};
-  order_->number(executor, boxes, list, n, extent_.data(), morton_bits, search.statics);
+  order_->number(executor, boxes, list.rows, n, extent_.data(), morton_bits, search.statics);
   executor.run(n, CountPartners<Movers>{search, noted_.data(), counts_.data()});
-  scan_.run(executor, n, counts_.data(), offsets_.data(), pair_count);
+  scan_.run(executor, n, counts_.data(), offsets_.data(), found.count);
   executor.run(
       n, ListKeys<Movers>{search, noted_.data(), counts_.data(), offsets_.data(), order_->keys(), pair_capacity_});
-  order_->list(executor, pair_count, pairs, ranges_by_proxy);
+  order_->list(executor, found.count, found.pairs, found.ranges);
 }
 
 }  // namespace plumb::impulse

@@ -46,14 +46,12 @@ class BroadPhase {
   /// The statics are boxes[proxies[i]], i < n. Only between steps; enqueues. Boxes are copied into the tree.
   void build_statics(Executor& executor, const Box* boxes, const std::uint32_t* proxies, std::uint32_t n);
 
-  /// Enqueues only. The movers are boxes[movers[i]], i < n; more than was reserved is an Error. All pointers are the
-  /// executor's memory, and are read and written when the kernels run. A recording of this holds n, the number of
+  /// Enqueues only. The movers are boxes[movers[i]]; more than were reserved are an Error. All pointers are the
+  /// executor's memory, and are read and written when the kernels run. A recording of this holds their number, that of
   /// statics and the settings. A box that is not sound (scene_extent.hpp) touches nothing.
-  /// pairs: `pairs` of reserve() at most are written, and which of them where there are more is the method's.
-  /// ranges_by_proxy: of every mover the pairs that it found, as far as they were written. pair_count: how many there
-  /// are, even if that is more than fit; 2^32 - 1 is that or more.
-  void find_pairs(Executor& executor, const Box* boxes, const std::uint32_t* movers, std::uint32_t n,
-                  const PairFilter& filter, Pair* pairs, PairRange* ranges_by_proxy, std::uint32_t* pair_count);
+  /// `pairs` of reserve() at most are written, and which of them where there are more is the method's.
+  void find_pairs(Executor& executor, const Box* boxes, const ProxyRows& movers, const PairFilter& filter,
+                  const PairList& found);
 
   /// As it was built last, for kernels of the same step.
   [[nodiscard]] TreeView statics() const { return statics_.view(); }
@@ -72,12 +70,10 @@ class BroadPhase {
   }
 
  private:
-  void list_of_tree(Executor& executor, const PairFilter& filter, Pair* pairs, PairRange* ranges_by_proxy,
-                    std::uint32_t* pair_count);
+  void list_of_tree(Executor& executor, const PairFilter& filter, const PairList& found);
   template <class Movers>
-  void list_in_order(Executor& executor, const Movers& movers, const Box* boxes, const std::uint32_t* list,
-                     std::uint32_t n, const PairFilter& filter, Pair* pairs, PairRange* ranges_by_proxy,
-                     std::uint32_t* pair_count);
+  void list_in_order(Executor& executor, const Movers& movers, const Box* boxes, const ProxyRows& list,
+                     const PairFilter& filter, const PairList& found);
 
   Reduce<SceneExtent> reduce_;
   Buffer<SceneExtent> extent_;

@@ -3,11 +3,10 @@
 // because the order is that of the tree's leaves.
 #pragma once
 
-#include <emmintrin.h>
-
 #include <cstdint>
 
 #include "bvh/lbvh.hpp"
+#include "exec/simd.hpp"
 #include "math/bits.hpp"
 
 namespace plumb::impulse {
@@ -26,32 +25,21 @@ class BoxGroup {
   /// Bit k: box k touches. Bits of boxes that were not set mean nothing.
   [[nodiscard]] std::uint32_t touching(const Box& box) const {
     std::uint32_t bits = 0;
-    for (std::uint32_t k = 0; k < kMost; k += kLanes) bits |= touching_from(k, box) << k;
+    for (std::uint32_t k = 0; k < kMost; k += Numbers::kCount) bits |= touching_from(k, box) << k;
     return bits;
   }
 
  private:
-#if defined(PLUMB_IMPULSE_DOUBLE)
-  static constexpr std::uint32_t kLanes = 2;
+  using Numbers = simd::Packed<Real>;
+
   [[nodiscard]] std::uint32_t touching_from(std::uint32_t k, const Box& box) const {
-    __m128d all = _mm_cmpeq_pd(_mm_setzero_pd(), _mm_setzero_pd());
+    Numbers::Mask all = Numbers::Mask{} == 0;
     for (int axis = 0; axis < 3; ++axis) {
-      all = _mm_and_pd(all, _mm_cmple_pd(_mm_load_pd(&low_[axis][k]), _mm_set1_pd(box.high[axis])));
-      all = _mm_and_pd(all, _mm_cmpge_pd(_mm_load_pd(&high_[axis][k]), _mm_set1_pd(box.low[axis])));
+      all &= Numbers::load(&low_[axis][k]) <= Numbers::all(box.high[axis]);
+      all &= Numbers::load(&high_[axis][k]) >= Numbers::all(box.low[axis]);
     }
-    return static_cast<std::uint32_t>(_mm_movemask_pd(all));
+    return simd::bits_of(all);
   }
-#else
-  static constexpr std::uint32_t kLanes = 4;
-  [[nodiscard]] std::uint32_t touching_from(std::uint32_t k, const Box& box) const {
-    __m128 all = _mm_cmpeq_ps(_mm_setzero_ps(), _mm_setzero_ps());
-    for (int axis = 0; axis < 3; ++axis) {
-      all = _mm_and_ps(all, _mm_cmple_ps(_mm_load_ps(&low_[axis][k]), _mm_set1_ps(box.high[axis])));
-      all = _mm_and_ps(all, _mm_cmpge_ps(_mm_load_ps(&high_[axis][k]), _mm_set1_ps(box.low[axis])));
-    }
-    return static_cast<std::uint32_t>(_mm_movemask_ps(all));
-  }
-#endif
 
   alignas(16) Real low_[3][kMost] = {};
   alignas(16) Real high_[3][kMost] = {};

@@ -1,12 +1,9 @@
 // A tree of boxes as kernels search it: how it is laid out in memory, and the loop that finds what a box touches.
 #pragma once
 
-#if !defined(PLUMB_IMPULSE_CUDA)
-#include <xmmintrin.h>
-#endif
-
 #include <cstdint>
 
+#include "exec/simd.hpp"
 #include "math/box.hpp"
 
 namespace plumb::impulse {
@@ -30,16 +27,16 @@ class BoxQuery {
   Box box_;
 #else
   explicit BoxQuery(const Box& box)
-      : low_(_mm_setr_ps(box.low.x, box.low.y, box.low.z, 0)),
-        high_(_mm_setr_ps(box.high.x, box.high.y, box.high.z, 0)) {}
+      : low_{{box.low.x, box.low.y, box.low.z, 0}}, high_{{box.high.x, box.high.y, box.high.z, 0}} {}
   /// Without branches, which nobody could foresee. The fourth lane, of child and next, is left out.
   [[nodiscard]] bool touches(const TreeNode& node) const {
-    const __m128 low = _mm_load_ps(&node.low.x), high = _mm_load_ps(&node.high.x);
-    return (_mm_movemask_ps(_mm_and_ps(_mm_cmple_ps(low, high_), _mm_cmpge_ps(high, low_))) & 7) == 7;
+    const Numbers low = Numbers::load(&node.low.x), high = Numbers::load(&node.high.x);
+    return (simd::bits_of((low <= high_) & (high >= low_)) & 7U) == 7U;
   }
 
  private:
-  __m128 low_, high_;
+  using Numbers = simd::Packed<float>;
+  Numbers low_, high_;
 #endif
 };
 

@@ -32,7 +32,7 @@ struct FindImpacts {
     const ShapePose pose_a = a.pose(impact.time), pose_b = b.pose(impact.time);
     const Vec d = apart + impact.time * (b.way.linear - a.way.linear) + pose_b.offset - pose_a.offset;
     Manifold manifold;
-    if (!collide(*a.shape, pose_a.orientation, *b.shape, pose_b.orientation, d, 2 * impact.gap + close, hulls,
+    if (!collide({*a.shape, *b.shape, pose_a.orientation, pose_b.orientation, d, 2 * impact.gap + close}, hulls,
                  manifold))
       return;
     cache.found[p] = manifold;

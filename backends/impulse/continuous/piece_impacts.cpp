@@ -41,8 +41,9 @@ struct FindPieceImpacts {
       const ShapePose pose_own = own.pose(impact.time), pose_on = on.pose(impact.time);
       const Vec d = apart + impact.time * (on.way.linear - own.way.linear) + pose_on.offset - pose_own.offset;
       Manifold manifold;
-      const bool touches = collide_with_side(*own.shape, pose_own.orientation, *on.shape, pose_on.orientation, d,
-                                             margin, search.proxies, triangle, behind, manifold);
+      const bool touches =
+          collide_with_side({*own.shape, *on.shape, pose_own.orientation, pose_on.orientation, d, margin},
+                            search.proxies, triangle, behind, manifold);
       if (!touches) {
         if (flagged) cache.touching[p] = 0;
         continue;

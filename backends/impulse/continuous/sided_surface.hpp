@@ -48,20 +48,20 @@ PLUMB_HD inline bool is_behind(const MovingShape& own, const MovingShape& on, co
 }
 
 /// As collide_with_piece(), behind: from the other side of a sheet.
-PLUMB_HD inline bool collide_with_side(const Shape& a, const Quat& qa, const Shape& b, const Quat& qb, const Vec& d,
-                                       Real margin, const Proxies& proxies, std::uint32_t triangle, bool behind,
-                                       Manifold& out) {
-  const Quat turn = conjugate(qb) * qa;
-  const Vec shift = rotate_back(qb, -d);
-  const Real tie = kTie * (a.reach + length(shift));
+PLUMB_HD inline bool collide_with_side(const ShapePair& pair, const Proxies& proxies, std::uint32_t triangle,
+                                       bool behind, Manifold& out) {
+  const Quat turn = conjugate(pair.qb) * pair.qa;
+  const Vec shift = rotate_back(pair.qb, -pair.d);
+  const surface::ShapeOver over = {pair.a, turn, shift, pair.margin, kTie * (pair.a.reach + length(shift))};
   const auto touch_on = [&](const auto& on) {
     const SidedSurface<std::remove_cvref_t<decltype(on)>> sided{on, behind};
-    return surface::touch(sided, triangle, a, turn, shift, margin, tie, proxies.hulls, out);
+    return surface::touch(sided, triangle, over, proxies.hulls, out);
   };
-  const bool touches = b.type == ShapeType::kPlane  ? touch_plane(a, turn, shift, margin, proxies.hulls, out)
-                       : b.type == ShapeType::kMesh ? touch_on(proxies.surfaces.meshes[b.hull])
-                                                    : touch_on(proxies.surfaces.fields[b.hull]);
-  if (touches) round_polyhedron::put_second(qb, d, out);
+  const bool touches = pair.b.type == ShapeType::kPlane
+                           ? touch_plane(pair.a, turn, shift, pair.margin, proxies.hulls, out)
+                       : pair.b.type == ShapeType::kMesh ? touch_on(proxies.surfaces.meshes[pair.b.hull])
+                                                         : touch_on(proxies.surfaces.fields[pair.b.hull]);
+  if (touches) round_polyhedron::put_second(pair.qb, pair.d, out);
   return touches;
 }
 

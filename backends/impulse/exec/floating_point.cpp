@@ -1,16 +1,12 @@
 #include "exec/floating_point.hpp"
 
-#include <xmmintrin.h>
+#include "exec/simd.hpp"
 
 namespace plumb::impulse {
 
-namespace {
-
-constexpr std::uint32_t kRoundToNearestNoFlush = 0x1f80;  // all exceptions masked, as a thread starts
-
-}  // namespace
-
-FloatingPointScope::FloatingPointScope() : saved_(_mm_getcsr()) { _mm_setcsr(kRoundToNearestNoFlush); }
-FloatingPointScope::~FloatingPointScope() { _mm_setcsr(saved_); }
+FloatingPointScope::FloatingPointScope() : saved_(simd::control_word()) {
+  simd::set_control_word(simd::kDefaultControlWord);
+}
+FloatingPointScope::~FloatingPointScope() { simd::set_control_word(saved_); }
 
 }  // namespace plumb::impulse

@@ -14,7 +14,7 @@ class FloatingPointScope {
   FloatingPointScope& operator=(const FloatingPointScope&) = delete;
 
  private:
-  std::uint32_t saved_;
+  std::uint64_t saved_;
 };
 
 }  // namespace plumb::impulse

@@ -66,6 +66,7 @@ class Buffer {
     grow(count);
     if (count != 0) memory::upload(data_, host, count * sizeof(T));
   }
+  void assign(const std::vector<T>& host) { from_host(host.data(), host.size()); }
 
  private:
   T* data_ = nullptr;

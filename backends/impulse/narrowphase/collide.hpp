@@ -1,14 +1,14 @@
 // Pair functions: the contact manifold of two shapes.
 //
-// All have the same parameters: shapes A and B, each with its orientation; d from A's origin to B's; axes of the world.
-// `out` receives the points whose separation is at most `margin` (>= 0); touching counts. A return of false, with
-// out.count 0, means that the shapes are further apart. The normal points from A to B; positions are relative to A's
-// origin.
+// All are asked about a ShapePair (shape_pair.hpp). `out` receives the points whose separation is at most its
+// margin; touching counts. A return of false, with out.count 0, means that the shapes are further apart. The normal
+// points from A to B; positions are relative to A's origin.
 #pragma once
 
 #include "bodies/body.hpp"
 #include "narrowphase/feature.hpp"
 #include "narrowphase/manifold.hpp"
+#include "narrowphase/shape_pair.hpp"
 
 namespace plumb::impulse {
 
@@ -22,12 +22,10 @@ PLUMB_HD inline void swap_sides(const Vec& d, Manifold& m) {
 }
 
 /// Any two convex shapes.
-PLUMB_HD bool collide(const Shape& a, const Quat& qa, const Shape& b, const Quat& qb, const Vec& d, Real margin,
-                      const Hulls& hulls, Manifold& out);
+PLUMB_HD bool collide(const ShapePair& pair, const Hulls& hulls, Manifold& out);
 
 /// A convex shape A and a plane, or a triangle of a mesh or a height field, B.
-PLUMB_HD bool collide_with_piece(const Shape& a, const Quat& qa, const Shape& b, const Quat& qb, const Vec& d,
-                                 Real margin, const Proxies& proxies, std::uint32_t triangle, Manifold& out);
+PLUMB_HD bool collide_with_piece(const ShapePair& pair, const Proxies& proxies, std::uint32_t triangle, Manifold& out);
 
 }  // namespace plumb::impulse
 

@@ -9,22 +9,21 @@ namespace {
 
 /// Any two convex shapes without cylinders.
 struct AnyKind {
-  static bool collide(const Placed& p, const Proxies& proxies, std::uint32_t, Manifold& manifold) {
-    if (p.a.type <= p.b.type) return collide_ordered(p.a, p.qa, p.b, p.qb, p.apart, p.margin, proxies.hulls, manifold);
-    const bool touch = collide_ordered(p.b, p.qb, p.a, p.qa, -p.apart, p.margin, proxies.hulls, manifold);
-    if (touch) swap_sides(p.apart, manifold);
+  static bool collide(const ShapePair& pair, const Proxies& proxies, std::uint32_t, Manifold& manifold) {
+    if (pair.a.type <= pair.b.type) return collide_ordered(pair, proxies.hulls, manifold);
+    const bool touch = collide_ordered(pair.swapped(), proxies.hulls, manifold);
+    if (touch) swap_sides(pair.d, manifold);
     return touch;
   }
 };
 
 /// Any two shapes.
 struct AnyPiece {
-  static bool collide(const Placed& p, const Proxies& proxies, std::uint32_t part, Manifold& manifold) {
-    if (in_pieces(p.b.type))
-      return collide_with_piece(p.a, p.qa, p.b, p.qb, p.apart, p.margin, proxies, part, manifold);
-    if (!in_pieces(p.a.type)) return impulse::collide(p.a, p.qa, p.b, p.qb, p.apart, p.margin, proxies.hulls, manifold);
-    const bool touch = collide_with_piece(p.b, p.qb, p.a, p.qa, -p.apart, p.margin, proxies, part, manifold);
-    if (touch) swap_sides(p.apart, manifold);
+  static bool collide(const ShapePair& pair, const Proxies& proxies, std::uint32_t part, Manifold& manifold) {
+    if (in_pieces(pair.b.type)) return collide_with_piece(pair, proxies, part, manifold);
+    if (!in_pieces(pair.a.type)) return impulse::collide(pair, proxies.hulls, manifold);
+    const bool touch = collide_with_piece(pair.swapped(), proxies, part, manifold);
+    if (touch) swap_sides(pair.d, manifold);
     return touch;
   }
   static constexpr bool in_pieces(ShapeType type) { return static_cast<std::uint32_t>(type) >= kConvexTypes; }

@@ -5,6 +5,7 @@
 #include "bodies/body.hpp"
 #include "exec/executor.hpp"
 #include "narrowphase/contact_cache.hpp"
+#include "narrowphase/shape_pair.hpp"
 
 namespace plumb::impulse {
 
@@ -29,15 +30,7 @@ struct CollideInput {
 /// shape_types: a bit for each ShapeType in the scene.
 void collide_candidates(Executor& executor, Count candidates, const CollideInput& input, std::uint32_t shape_types);
 
-/// Two shapes as they lie.
-struct Placed {
-  const Shape &a, &b;
-  const Quat &qa, &qb;
-  Vec apart;
-  Real margin;
-};
-
-/// Runs Kind::collide(placed, proxies, part, manifold) on a candidate, and writes down what it found.
+/// Runs Kind::collide(shape_pair, proxies, part, manifold) on a candidate, and writes down what it found.
 template <class Kind>
 PLUMB_HD void collide_candidate(const CollideInput& in, std::uint32_t p) {
   const Pair pair = in.cache.pairs[p];

@@ -13,56 +13,64 @@ namespace plumb::impulse {
 
 namespace surface {
 
+/// A convex shape as it lies in a surface's frame.
+struct ShapeOver {
+  const Shape& shape;
+  Quat turn;
+  Vec shift;
+  Real margin, tie;
+};
+
 /// A convex shape of a type that is known when this is compiled.
 template <ShapeType kType, class Surface>
-PLUMB_HD bool touch_with(const Surface& on, std::uint32_t t, const Shape& shape, const Quat& turn, const Vec& shift,
-                         Real margin, [[maybe_unused]] Real tie, [[maybe_unused]] const Hulls& hulls, Manifold& out) {
+PLUMB_HD bool touch_with(const Surface& on, std::uint32_t t, const ShapeOver& over, [[maybe_unused]] const Hulls& hulls,
+                         Manifold& out) {
+  const Shape& shape = over.shape;
   if constexpr (kType == ShapeType::kSphere) {
-    return touch_round(on, t, shift, {0, 0, 0}, shape.size.x, margin, out);
+    return touch_round(on, t, over.shift, {0, 0, 0}, shape.size.x, over.margin, out);
   } else if constexpr (kType == ShapeType::kCapsule) {
-    const Vec half = rotate(turn, Vec{0, shape.size.y, 0});
-    return touch_round(on, t, shift - half, half + half, shape.size.x, margin, out);
+    const Vec half = rotate(over.turn, Vec{0, shape.size.y, 0});
+    return touch_round(on, t, over.shift - half, half + half, shape.size.x, over.margin, out);
   } else if constexpr (kType == ShapeType::kBox) {
-    return touch_polyhedron(on, t, BoxView{shape.size}, {to_matrix(turn), shift}, margin, tie, out);
+    return touch_polyhedron(on, t, BoxView{shape.size}, {to_matrix(over.turn), over.shift}, over.margin, over.tie, out);
   } else if constexpr (kType == ShapeType::kHull) {
-    return touch_polyhedron(on, t, HullView(hulls, shape.hull), {to_matrix(turn), shift}, margin, tie, out);
+    return touch_polyhedron(on, t, HullView(hulls, shape.hull), {to_matrix(over.turn), over.shift}, over.margin,
+                            over.tie, out);
   } else {
     static_assert(kType == ShapeType::kCylinder);
-    return touch_cylinder(on, t, {shape.size.x, shape.size.y}, {to_matrix(turn), shift}, margin, tie, out);
+    return touch_cylinder(on, t, {shape.size.x, shape.size.y}, {to_matrix(over.turn), over.shift}, over.margin,
+                          over.tie, out);
   }
 }
 
 template <class Surface>
-PLUMB_HD bool touch(const Surface& on, std::uint32_t t, const Shape& shape, const Quat& turn, const Vec& shift,
-                    Real margin, Real tie, const Hulls& hulls, Manifold& out) {
+PLUMB_HD bool touch(const Surface& on, std::uint32_t t, const ShapeOver& over, const Hulls& hulls, Manifold& out) {
   out.count = 0;
-  return with_convex_type(
-      shape.type, [&](auto type) { return touch_with<type()>(on, t, shape, turn, shift, margin, tie, hulls, out); });
+  return with_convex_type(over.shape.type, [&](auto type) { return touch_with<type()>(on, t, over, hulls, out); });
 }
 
 }  // namespace surface
 
 /// A of type kA, B of type kB.
 template <ShapeType kA, ShapeType kB>
-PLUMB_HD bool collide_with_piece_of(const Shape& a, const Quat& qa, const Shape& b, const Quat& qb, const Vec& d,
-                                    Real margin, const Proxies& proxies, [[maybe_unused]] std::uint32_t triangle,
-                                    Manifold& out) {
-  const Quat turn = conjugate(qb) * qa;
-  const Vec shift = rotate_back(qb, -d);
+PLUMB_HD bool collide_with_piece_of(const ShapePair& pair, const Proxies& proxies,
+                                    [[maybe_unused]] std::uint32_t triangle, Manifold& out) {
+  const Quat turn = conjugate(pair.qb) * pair.qa;
+  const Vec shift = rotate_back(pair.qb, -pair.d);
   bool touch = false;
   if constexpr (kB == ShapeType::kPlane) {
-    touch = touch_plane_with<kA>(a, turn, shift, margin, proxies.hulls, out);
+    touch = touch_plane_with<kA>(pair.a, turn, shift, pair.margin, proxies.hulls, out);
   } else {
     const auto touch_on = [&](const auto& surfaces) {
-      const Real tie = kTie * (a.reach + length(shift));
-      return surface::touch_with<kA>(surfaces[b.hull], triangle, a, turn, shift, margin, tie, proxies.hulls, out);
+      const surface::ShapeOver over = {pair.a, turn, shift, pair.margin, kTie * (pair.a.reach + length(shift))};
+      return surface::touch_with<kA>(surfaces[pair.b.hull], triangle, over, proxies.hulls, out);
     };
     if constexpr (kB == ShapeType::kMesh)
       touch = touch_on(proxies.surfaces.meshes);
     else
       touch = touch_on(proxies.surfaces.fields);
   }
-  if (touch) round_polyhedron::put_second(qb, d, out);
+  if (touch) round_polyhedron::put_second(pair.qb, pair.d, out);
   return touch;
 }
 

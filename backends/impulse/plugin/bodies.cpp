@@ -23,20 +23,20 @@ PlumbResult World::create_bodies(std::span<const PlumbBodyDesc> descs, std::span
   simulation_.reserve_bodies(slots);
   if (bodies_.size() < slots) bodies_.resize(slots);
   simulation_.bodies.count = slots;
-  row_ids_.resize(slots);
+  rows_.ids.resize(slots);
   Simulation::Slots sleepers;
   for (std::size_t i = 0; i < descs.size(); ++i) {
     make_body(descs[i], ids[i]);
     if ((descs[i].flags & PLUMB_BODY_ASLEEP) != 0) sleepers.push_back(slot_of(ids[i]));
   }
-  ++row_generation_;
+  ++rows_.generation;
   simulation_.bodies_changed();
   if (!sleepers.empty()) simulation_.put_to_sleep(sleepers);
   return PLUMB_OK;
 }
 
 PlumbResult World::destroy_bodies(std::span<const PlumbBody> ids) {
-  if (init_.needs(PLUMB_NEED_EVENTS) || init_.needs(PLUMB_NEED_SENSORS)) touches_.forget(ids, early_events_);
+  if (init_.needs(PLUMB_NEED_EVENTS) || init_.needs(PLUMB_NEED_SENSORS)) told_.touches.forget(ids, told_.early_events);
   if (init_.needs(PLUMB_NEED_CONTACTS)) records();  // while the bodies are where the step left them
   wake_for_write(PLUMB_FIELD_POSE, ids);
   for (const PlumbBody id : ids) {
@@ -44,20 +44,20 @@ PlumbResult World::destroy_bodies(std::span<const PlumbBody> ids) {
     if (bodies_[slot].motion == PLUMB_DYNAMIC) --dynamic_count_;
     detach(slot);
     bodies_[slot] = {};
-    row_ids_[slot] = 0;
+    rows_.ids[slot] = 0;
     simulation_.bodies.mass.edit(slot) = {};
     simulation_.bodies.force.edit(slot) = {};
     simulation_.bodies.state.velocity[slot] = {};
     simulation_.bodies.state.touch(slot, kVelocityPart);
   }
   sensors_.remove_if([&](std::uint32_t slot) { return bodies_[slot].id == 0; });
-  std::erase_if(records_, [&](const ContactRecord& record) {  // their slots will be others'
+  std::erase_if(told_.records, [&](const ContactRecord& record) {  // their slots will be others'
     return bodies_[record.bodies.a].id == 0 || bodies_[record.bodies.b].id == 0;
   });
   Simulation::Slots gone;
   for (const PlumbBody id : ids) gone.push_back(slot_of(id));
   simulation_.forget(gone);
-  ++row_generation_;
+  ++rows_.generation;
   simulation_.bodies_changed();
   return PLUMB_OK;
 }
@@ -66,7 +66,7 @@ void World::make_body(const PlumbBodyDesc& desc, PlumbBody id) {
   const std::uint32_t slot = slot_of(id);
   BodyRecord& body = bodies_[slot];
   body = {};
-  body.id = row_ids_[slot] = id;
+  body.id = rows_.ids[slot] = id;
   body.motion = desc.motion;
   body.material = desc.material;
   body.filter = desc.filter;

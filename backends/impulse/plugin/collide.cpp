@@ -60,9 +60,9 @@ PlumbResult World::collide_pairs(std::span<const PlumbPosedPair> pairs, std::spa
     first.push_back(static_cast<std::uint32_t>(posed.size()));
   }
 
-  std::unique_lock lock(query_mutex_);
+  std::unique_lock lock(queries_.mutex);
   const QueryScene scene = simulation_.shape_scene();
-  PairBatch& batch = pair_batches_.take();
+  PairBatch& batch = queries_.pair_batches.take();
   if (kOneMemory) lock.unlock();
 
   Executor& executor = simulation_.executor();

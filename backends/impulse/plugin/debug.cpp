@@ -22,15 +22,15 @@ std::vector<Pair> World::known_candidates() {
 }
 
 PlumbResult World::candidate_pairs(std::span<const PlumbDebugPair>& pairs) {
-  debug_pairs_.clear();
+  lent_.pairs.clear();
   for (const Pair& pair : known_candidates())
-    debug_pairs_.push_back({body_of_last_step(pair.a), body_of_last_step(pair.b)});
-  pairs = debug_pairs_;
+    lent_.pairs.push_back({body_of_last_step(pair.a), body_of_last_step(pair.b)});
+  pairs = lent_.pairs;
   return PLUMB_OK;
 }
 
 PlumbResult World::tree_boxes(std::span<const PlumbDebugBox>& boxes) {
-  debug_boxes_.clear();
+  lent_.boxes.clear();
   const Position& origin = simulation_.tree_origin();
   const auto corner = [&](const Vec& v) {
     const Position at = moved(origin, v);
@@ -46,13 +46,13 @@ PlumbResult World::tree_boxes(std::span<const PlumbDebugBox>& boxes) {
       const bool inner = TreeView::is_inner(id);
       const PlumbBody body = inner ? 0 : body_of_last_step(node.child);
       if (is_sound({node.low, node.high}) && (inner || body != 0))
-        debug_boxes_.push_back({corner(node.low), corner(node.high), body, static_cast<std::int32_t>(ends.size()),
-                                static_cast<std::uint32_t>(tree)});
+        lent_.boxes.push_back({corner(node.low), corner(node.high), body, static_cast<std::int32_t>(ends.size()),
+                               static_cast<std::uint32_t>(tree)});
       if (inner) ends.push_back(node.next);
       id = inner ? node.child : node.next;
     }
   }
-  boxes = debug_boxes_;
+  boxes = lent_.boxes;
   return PLUMB_OK;
 }
 
@@ -69,16 +69,16 @@ PlumbResult World::separating_axes(std::span<const PlumbDebugAxis>& axes) {
   answer_pairs(executor, batch.pairs.device(), n, scene, (scene.types & kTypesInPieces) != 0, batch.answers.device());
   executor.to_host(batch.answers, n);
   executor.wait();
-  debug_axes_.clear();
+  lent_.axes.clear();
   for (std::uint32_t i = 0; i < n; ++i) {
     const PairAnswer& answer = batch.answers[i];
     if (!std::isfinite(answer.distance)) continue;  // two surfaces: nothing is convex
-    debug_axes_.push_back({body_of_last_step(pairs[i].a),
-                           body_of_last_step(pairs[i].b),
-                           {answer.normal.x, answer.normal.y, answer.normal.z},
-                           answer.distance});
+    lent_.axes.push_back({body_of_last_step(pairs[i].a),
+                          body_of_last_step(pairs[i].b),
+                          {answer.normal.x, answer.normal.y, answer.normal.z},
+                          answer.distance});
   }
-  axes = debug_axes_;
+  axes = lent_.axes;
   return PLUMB_OK;
 }
 
@@ -102,7 +102,7 @@ std::vector<std::uint32_t> World::islands_of_bodies() {
   for (const ContactRecord& record : records())
     if (body_of_last_step(record.pair.a) != 0 && body_of_last_step(record.pair.b) != 0)
       join(record.bodies.a, record.bodies.b);
-  for (const JointRecord& joint : joints_)
+  for (const JointRecord& joint : joints_.records)
     if (joint.id != 0 && joint.desc.body_a != 0) join(slot_of(joint.desc.body_a), slot_of(joint.desc.body_b));
   std::vector<std::uint32_t> islands(bodies_.size());
   for (std::uint32_t slot = 0; slot < bodies_.size(); ++slot)
@@ -111,13 +111,13 @@ std::vector<std::uint32_t> World::islands_of_bodies() {
 }
 
 PlumbResult World::body_states(std::span<const PlumbDebugBody>& bodies) {
-  debug_bodies_.clear();
+  lent_.bodies.clear();
   const std::vector<std::uint32_t> islands = islands_of_bodies();
   for (std::uint32_t slot = 0; slot < bodies_.size(); ++slot)
     if (bodies_[slot].id != 0)
-      debug_bodies_.push_back(
+      lent_.bodies.push_back(
           {bodies_[slot].id, static_cast<std::int32_t>(islands[slot]) - 1, simulation_.sleeps(slot) ? 1U : 0U});
-  bodies = debug_bodies_;
+  bodies = lent_.bodies;
   return PLUMB_OK;
 }
 
@@ -125,22 +125,22 @@ PlumbResult World::body_states(std::span<const PlumbDebugBody>& bodies) {
 PlumbResult World::solved_constraints(std::span<const PlumbDebugConstraint>& constraints) {
   if (!simulation_.solves_in_colours())
     throw Error(PLUMB_E_UNSUPPORTED, "the solver jacobi takes all contacts at once, in no colours");
-  debug_constraints_.clear();
+  lent_.constraints.clear();
   for (const KeptPair& contact : simulation_.solved_manifolds()) {
     const PlumbBody a = body_of_last_step(contact.pair.a), b = body_of_last_step(contact.pair.b);
     if (a == 0 || b == 0) continue;
     if (bodies_[slot_of(a)].motion != PLUMB_DYNAMIC && bodies_[slot_of(b)].motion != PLUMB_DYNAMIC) continue;
     const std::uint32_t colour = contact.kept.colour;
-    debug_constraints_.push_back({a, b, 0, colour < kOverflow ? static_cast<std::int32_t>(colour) : -1, 0});
+    lent_.constraints.push_back({a, b, 0, colour < kOverflow ? static_cast<std::int32_t>(colour) : -1, 0});
   }
   const std::uint32_t first = simulation_.counters().colour_count;
   for (const SolvedJoint& solved : simulation_.joints.solved()) {
-    const JointRecord& joint = joints_[solved.slot];
+    const JointRecord& joint = joints_.records[solved.slot];
     if (joint.id == 0 || joint.made_after == simulation_.steps()) continue;
     const std::int32_t colour = solved.colour < kJointColours ? static_cast<std::int32_t>(first + solved.colour) : -1;
-    debug_constraints_.push_back({joint.desc.body_a, joint.desc.body_b, joint.id, colour, 0});
+    lent_.constraints.push_back({joint.desc.body_a, joint.desc.body_b, joint.id, colour, 0});
   }
-  constraints = debug_constraints_;
+  constraints = lent_.constraints;
   return PLUMB_OK;
 }
 

@@ -39,7 +39,7 @@ std::array<double, 6> coordinates(const Placed& a, const Placed& b) {
 
 /// Puts the joint's descriptor before the engine, at first or as it is after a change.
 void World::put_joint(std::uint32_t slot) {
-  const PlumbJointDesc& desc = joints_[slot].desc;
+  const PlumbJointDesc& desc = joints_.records[slot].desc;
   const JointRows rows = rows_of_joint(desc);
   Joint joint{};
   joint.type = rows.type;
@@ -57,7 +57,8 @@ void World::put_joint(std::uint32_t slot) {
     joint.frame_a = {{0, 0, 0}, to_quat(to_double(desc.frame_a.orientation))};
     joint.world_anchor = to_position(desc.frame_a.position);
   }
-  simulation_.joints.add(joint, rows.axes, {desc.collide_connected != 0, rows.locks_turns, joints_[slot].breaks()});
+  simulation_.joints.add(joint, rows.axes,
+                         {desc.collide_connected != 0, rows.locks_turns, joints_.records[slot].breaks()});
   simulation_.joints.drives.edit(slot) = rows.drive;
 }
 
@@ -65,10 +66,10 @@ PlumbResult World::create_joints(std::span<const PlumbJointDesc> descs, std::spa
   for (const PlumbJointDesc& desc : descs) (void)rows_of_joint(desc);
   for (std::size_t i = 0; i < descs.size(); ++i) {
     const std::uint32_t slot = slot_of(ids[i]);
-    if (slot >= joints_.size()) joints_.resize(slot + 1);
-    joints_[slot] = {ids[i], descs[i], simulation_.steps()};
+    if (slot >= joints_.records.size()) joints_.records.resize(slot + 1);
+    joints_.records[slot] = {ids[i], descs[i], simulation_.steps()};
     put_joint(slot);
-    if (joints_[slot].breaks()) ++breakable_joints_;
+    if (joints_.records[slot].breaks()) ++joints_.breakable;
     wake_for_joint(descs[i]);
   }
   return PLUMB_OK;
@@ -76,13 +77,13 @@ PlumbResult World::create_joints(std::span<const PlumbJointDesc> descs, std::spa
 
 void World::remove_joint(std::uint32_t slot) {
   simulation_.joints.remove(slot);
-  if (joints_[slot].breaks()) --breakable_joints_;
-  joints_[slot].id = 0;
+  if (joints_.records[slot].breaks()) --joints_.breakable;
+  joints_.records[slot].id = 0;
 }
 
 PlumbResult World::destroy_joints(std::span<const PlumbJoint> ids) {
   for (const PlumbJoint id : ids) {
-    wake_for_joint(joints_[slot_of(id)].desc);
+    wake_for_joint(joints_.records[slot_of(id)].desc);
     remove_joint(slot_of(id));
   }
   return PLUMB_OK;
@@ -90,18 +91,18 @@ PlumbResult World::destroy_joints(std::span<const PlumbJoint> ids) {
 
 /// Joints whose mean load over the step was above their strength.
 void World::break_joints() {
-  if (breakable_joints_ == 0) return;
+  if (joints_.breakable == 0) return;
   const std::vector<JointReaction> reactions = simulation_.joints.reactions();
-  for (std::uint32_t slot = 0; slot < joints_.size(); ++slot) {
-    const JointRecord& joint = joints_[slot];
+  for (std::uint32_t slot = 0; slot < joints_.records.size(); ++slot) {
+    const JointRecord& joint = joints_.records[slot];
     if (joint.id == 0 || !joint.breaks()) continue;
     const auto above = [&](const Vec& impulse, double strength) {
-      return strength > 0 && static_cast<double>(length(impulse)) > strength * dt_;
+      return strength > 0 && static_cast<double>(length(impulse)) > strength * pacing_.dt;
     };
     if (!above(reactions[slot].force, joint.desc.break_force) &&
         !above(reactions[slot].torque, joint.desc.break_torque))
       continue;
-    events_.push_back({PLUMB_EVENT_JOINT_BROKEN, 0, joint.desc.body_a, joint.desc.body_b, joint.id});
+    told_.events.push_back({PLUMB_EVENT_JOINT_BROKEN, 0, joint.desc.body_a, joint.desc.body_b, joint.id});
     wake_for_joint(joint.desc);
     remove_joint(slot);
   }
@@ -113,7 +114,7 @@ PlumbResult World::read_joints(PlumbJointField field, std::span<const PlumbJoint
   if (field == PLUMB_JOINT_COORDINATES) {
     std::vector<std::uint32_t> bodies;
     for (const PlumbJoint id : ids) {
-      const PlumbJointDesc& joint = joints_[slot_of(id)].desc;
+      const PlumbJointDesc& joint = joints_.records[slot_of(id)].desc;
       if (joint.body_a != 0) bodies.push_back(slot_of(joint.body_a));
       bodies.push_back(slot_of(joint.body_b));
     }
@@ -121,20 +122,20 @@ PlumbResult World::read_joints(PlumbJointField field, std::span<const PlumbJoint
   }
   for (std::size_t i = 0; i < ids.size(); ++i) {
     const std::uint32_t slot = slot_of(ids[i]);
-    const PlumbJointDesc& joint = joints_[slot].desc;
+    const PlumbJointDesc& joint = joints_.records[slot].desc;
     std::array<double, 12> row{};
     if (field == PLUMB_JOINT_COORDINATES) {
       const PlumbPose a = joint.body_a == 0 ? identity_pose() : pose(slot_of(joint.body_a));
       const auto six = coordinates(placed(a, joint.frame_a), placed(pose(slot_of(joint.body_b)), joint.frame_b));
       std::copy(six.begin(), six.end(), row.begin());
     } else if (field == PLUMB_JOINT_REACTION) {
-      if (joints_[slot].made_after == simulation_.steps()) {  // it has not been in a step yet
+      if (joints_.records[slot].made_after == simulation_.steps()) {  // it has not been in a step yet
         rows.put(i, row.data(), joint_columns_of(field));
         continue;
       }
       for (int axis = 0; axis < 3; ++axis) {
-        row[static_cast<std::size_t>(axis)] = static_cast<double>(reactions[slot].force[axis]) / dt_;
-        row[static_cast<std::size_t>(axis) + 3] = static_cast<double>(reactions[slot].torque[axis]) / dt_;
+        row[static_cast<std::size_t>(axis)] = static_cast<double>(reactions[slot].force[axis]) / pacing_.dt;
+        row[static_cast<std::size_t>(axis) + 3] = static_cast<double>(reactions[slot].torque[axis]) / pacing_.dt;
       }
     } else {
       for (std::size_t axis = 0; axis < 6; ++axis) {
@@ -152,7 +153,7 @@ PlumbResult World::write_joints(PlumbJointField /*field*/, std::span<const Plumb
   std::array<double, 12> row{};
   for (std::size_t i = 0; i < ids.size(); ++i) {
     rows.get(i, row.data(), row.size());
-    written.push_back(joints_[slot_of(ids[i])].desc);
+    written.push_back(joints_.records[slot_of(ids[i])].desc);
     for (std::size_t axis = 0; axis < 6; ++axis) {
       PlumbMotor& motor = written.back().motors[axis];
       motor.target_velocity = row[2 * axis];
@@ -164,10 +165,10 @@ PlumbResult World::write_joints(PlumbJointField /*field*/, std::span<const Plumb
   for (std::size_t i = 0; i < ids.size(); ++i) {
     const std::uint32_t slot = slot_of(ids[i]);
     const auto has_motor = [](const PlumbMotor& motor) { return motor.enabled != 0; };
-    const auto motors = std::span(joints_[slot].desc.motors), now = std::span(written[i].motors);
+    const auto motors = std::span(joints_.records[slot].desc.motors), now = std::span(written[i].motors);
     const bool same = std::equal(motors.begin(), motors.end(), now.begin(),
                                  [&](const auto& a, const auto& b) { return has_motor(a) == has_motor(b); });
-    joints_[slot].desc = written[i];
+    joints_.records[slot].desc = written[i];
     wake_for_joint(written[i]);
     if (same)
       simulation_.joints.drives.edit(slot) = rows_of_joint(written[i]).drive;

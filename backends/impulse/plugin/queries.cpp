@@ -4,19 +4,19 @@
 namespace plumb::impulse {
 
 HitNames World::hit_names() {
-  if (hit_children_generation_ != row_generation_) {
-    hit_children_.resize(proxies_.size());
-    for (std::size_t i = 0; i < proxies_.size(); ++i) hit_children_[i] = proxies_[i].child;
-    hit_children_generation_ = row_generation_;
+  if (queries_.hit_children_generation != rows_.generation) {
+    queries_.hit_children.resize(proxies_.size());
+    for (std::size_t i = 0; i < proxies_.size(); ++i) queries_.hit_children[i] = proxies_[i].child;
+    queries_.hit_children_generation = rows_.generation;
   }
-  return {row_ids_, hit_children_, row_generation_};
+  return {rows_.ids, queries_.hit_children, rows_.generation};
 }
 
 template <class Ask>
 Hits World::ask(const Ask& ask) {
-  std::unique_lock lock(query_mutex_);
+  std::unique_lock lock(queries_.mutex);
   const QueryScene scene = simulation_.query_scene(hit_names());
-  QueryBatch& batch = query_batches_.take();
+  QueryBatch& batch = queries_.batches.take();
   if (kOneMemory) lock.unlock();
   return {PLUMB_OK, ask(batch, simulation_.executor(), scene)};
 }

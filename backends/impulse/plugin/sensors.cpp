@@ -25,7 +25,7 @@ void World::sense() {
     if (simulation_.exclusions.excepts(who[hit.query], slot_of(hit.body))) continue;
     const BodyRecord& sensor = bodies_[who[hit.query]];
     const bool moves = sensor.motion != PLUMB_STATIC || bodies_[slot_of(hit.body)].motion != PLUMB_STATIC;
-    if (moves) touches_.touch_sensor(sensor.id, hit.body);
+    if (moves) told_.touches.touch_sensor(sensor.id, hit.body);
   }
 }
 

@@ -13,17 +13,17 @@ void World::wake_for_write(PlumbField field, std::span<const PlumbBody> ids) {
   if (simulation_.sleeper_count() == 0) return;
   Simulation::Slots slots;
   for (const PlumbBody id : ids) slots.push_back(slot_of(id));
-  tell(PLUMB_EVENT_WAKE, simulation_.wake(slots), early_events_);
+  tell(PLUMB_EVENT_WAKE, simulation_.wake(slots), told_.early_events);
   std::erase_if(slots, [&](std::uint32_t slot) { return bodies_[slot].motion == PLUMB_DYNAMIC; });
   // A kinematic body that moves wakes by its contacts whom it touches.
   const bool by_contact = field == PLUMB_FIELD_KINEMATIC_TARGET || field == PLUMB_FIELD_VELOCITY;
-  if (!slots.empty()) tell(PLUMB_EVENT_WAKE, simulation_.wake_neighbours(slots, !by_contact), early_events_);
+  if (!slots.empty()) tell(PLUMB_EVENT_WAKE, simulation_.wake_neighbours(slots, !by_contact), told_.early_events);
 }
 
 void World::wake_for_joint(const PlumbJointDesc& desc) {
   Simulation::Slots slots = {slot_of(desc.body_b)};
   if (desc.body_a != 0) slots.push_back(slot_of(desc.body_a));
-  tell(PLUMB_EVENT_WAKE, simulation_.wake(slots), early_events_);
+  tell(PLUMB_EVENT_WAKE, simulation_.wake(slots), told_.early_events);
 }
 
 PlumbResult World::set_exceptions(std::span<const PlumbBodyPair> pairs, bool touch) {
@@ -43,8 +43,8 @@ void World::write_awake(std::span<const PlumbBody> ids, ConstRows rows) {
     rows.get(i, &awake, 1);
     (awake == 0 ? sleepers : risers).push_back(slot_of(ids[i]));
   }
-  tell(PLUMB_EVENT_WAKE, simulation_.wake(risers), early_events_);
-  if (init_.needs(PLUMB_NEED_SLEEPING)) tell(PLUMB_EVENT_SLEEP, simulation_.put_to_sleep(sleepers), early_events_);
+  tell(PLUMB_EVENT_WAKE, simulation_.wake(risers), told_.early_events);
+  if (init_.needs(PLUMB_NEED_SLEEPING)) tell(PLUMB_EVENT_SLEEP, simulation_.put_to_sleep(sleepers), told_.early_events);
 }
 
 }  // namespace plumb::impulse

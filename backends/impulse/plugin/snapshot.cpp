@@ -13,16 +13,16 @@ std::string_view World::format() const {
 PlumbResult World::save(std::span<const std::byte>& data) {
   Archive archive;
   exchange(archive);
-  snapshot_ = archive.bytes();
-  data = snapshot_;
+  lent_.snapshot = archive.bytes();
+  data = lent_.snapshot;
   return PLUMB_OK;
 }
 
 PlumbResult World::restore(std::span<const std::byte> data) {
   Archive archive(data);
   exchange(archive);
-  records_.clear();  // contacts are told of by the steps to come
-  records_known_ = true;
+  told_.records.clear();  // contacts are told of by the steps to come
+  told_.records_known = true;
   return PLUMB_OK;
 }
 
@@ -42,15 +42,15 @@ void World::exchange(Archive& archive) {
   if (archive.reads()) clear_forces();
   simulation_.exchange(archive, saved.rows);
   archive.value(gravity_);
-  archive.value(last_h_);
-  archive.value(load_rate_);
-  archive.value(divides_for_);
+  archive.value(pacing_.last_h);
+  archive.value(pacing_.load_rate);
+  archive.value(pacing_.divides_for);
   archive.value(stopped_);
   steered_.exchange(archive);
   archive.list(pushed_);
   for (const std::uint32_t slot : pushed_) archive.value(simulation_.bodies.force.edit(slot));
-  archive.list(early_events_);
-  archive.list(touches_.touching());
+  archive.list(told_.early_events);
+  archive.list(told_.touches.touching());
   for (std::uint32_t slot = 0; slot < saved.rows.bodies; ++slot) {
     BodyRecord& body = bodies_[slot];
     archive.value(body.to_target);

@@ -40,8 +40,8 @@ PlumbResult World::borrow(const PlumbStateRequest& request, PlumbDLManagedTensor
 }
 
 PlumbResult World::row_map(std::span<const PlumbBody>& ids, std::uint64_t& generation) {
-  ids = row_ids_;
-  generation = row_generation_;
+  ids = rows_.ids;
+  generation = rows_.generation;
   return PLUMB_OK;
 }
 

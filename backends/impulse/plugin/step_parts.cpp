@@ -22,28 +22,28 @@ constexpr double kStaysDivided = 0.5;
 /// errors of joints are taken back no faster than in the time of the whole step: what is taut lifts what lies on it by
 /// many times the error.
 void World::start(double dt, int divided, bool predicts) {
-  if (parts_.any_done) keep_part();
+  if (pacing_.parts.any_done) keep_part();
   simulation_.choose(settings_.broad_phase);
-  const double most_rate = divided == 0 ? 0 : 1 / dt_;
-  ShorterSubsteps shorter = settings_.shorter(dt, last_h_, most_rate);
-  shorter.asked_before = static_cast<Real>(load_rate_ * dt);
+  const double most_rate = divided == 0 ? 0 : 1 / pacing_.dt;
+  ShorterSubsteps shorter = settings_.shorter(dt, pacing_.last_h, most_rate);
+  shorter.asked_before = static_cast<Real>(pacing_.load_rate * dt);
   StepParameters parameters = settings_.parameters(dt, gravity_, shorter);
   parameters.may_be_taken_back = divided < kMostDivisions;
   parameters.predicts_rows = predicts;
-  parameters.is_later_part = parts_.any_done;
+  parameters.is_later_part = pacing_.parts.any_done;
   simulation_.step(parameters, shorter);
 }
 
 /// Of the parts of the step the first is under way.
 void World::finish_steps() {
-  const int divided = parts_.count > 1 ? 1 : 0;
-  const double part = dt_ / parts_.count;
+  const int divided = pacing_.parts.count > 1 ? 1 : 0;
+  const double part = pacing_.dt / pacing_.parts.count;
   finish(part, divided);
-  for (int k = 1; k < parts_.count; ++k) {
+  for (int k = 1; k < pacing_.parts.count; ++k) {
     start(part, divided);
     finish(part, divided);
   }
-  if (parts_.gained) divides_for_ = kStaysDivided;
+  if (pacing_.parts.gained) pacing_.divides_for = kStaysDivided;
 }
 
 /// When it is done: what is told and remembered of it. Goes over it again where joints did not hold as predicted, and
@@ -51,12 +51,12 @@ void World::finish_steps() {
 void World::finish(double dt, int divided) {
   simulation_.wait();
   const StepCounters& counters = simulation_.counters();
-  tell(PLUMB_EVENT_WAKE, simulation_.outcome().woken, events_);
-  parts_.gained = parts_.gained || counters.gained != 0;
-  parts_.repeated = parts_.repeated || simulation_.outcome().repeated;
-  parts_.grew = parts_.grew || simulation_.outcome().grew;
+  tell(PLUMB_EVENT_WAKE, simulation_.outcome().woken, told_.events);
+  pacing_.parts.gained = pacing_.parts.gained || counters.gained != 0;
+  pacing_.parts.repeated = pacing_.parts.repeated || simulation_.outcome().repeated;
+  pacing_.parts.grew = pacing_.parts.grew || simulation_.outcome().grew;
   if (counters.let_go != 0) {
-    parts_.repeated = true;
+    pacing_.parts.repeated = true;
     start(dt, divided, false);
     return finish(dt, divided);
   }
@@ -67,19 +67,19 @@ void World::finish(double dt, int divided) {
     }
     return;
   }
-  tell(PLUMB_EVENT_SLEEP, simulation_.outcome().fallen_asleep, events_);
-  last_h_ = settings_.substep(dt, counters.substeps != 0 ? counters.substeps : settings_.substeps);
-  load_rate_ = std::max(counters.asked_substeps / dt, std::max(0.0, 1 - dt / kLoadFades) * load_rate_);
-  parts_.any_done = true;
+  tell(PLUMB_EVENT_SLEEP, simulation_.outcome().fallen_asleep, told_.events);
+  pacing_.last_h = settings_.substep(dt, counters.substeps != 0 ? counters.substeps : settings_.substeps);
+  pacing_.load_rate = std::max(counters.asked_substeps / dt, std::max(0.0, 1 - dt / kLoadFades) * pacing_.load_rate);
+  pacing_.parts.any_done = true;
 }
 
 /// The last part's contacts, and what it lost, before there is another.
 void World::keep_part() {
   if (simulation_.taken_back()) return;
-  parts_.nonfinite += simulation_.counters().nonfinite;
+  pacing_.parts.nonfinite += simulation_.counters().nonfinite;
   if (!init_.needs(PLUMB_NEED_CONTACT_IMPULSES) && !init_.needs(PLUMB_NEED_EVENTS)) return;
   const std::vector<ContactRecord> contacts = simulation_.contacts();
-  parts_.contacts.insert(parts_.contacts.end(), contacts.begin(), contacts.end());
+  pacing_.parts.contacts.insert(pacing_.parts.contacts.end(), contacts.begin(), contacts.end());
 }
 
 }  // namespace plumb::impulse

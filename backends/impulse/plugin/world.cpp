@@ -34,24 +34,24 @@ World::World(const WorldInit& init)
 
 PlumbResult World::set_gravity(const PlumbVec3& gravity) {
   gravity_ = gravity;
-  tell(PLUMB_EVENT_WAKE, simulation_.wake_all(), early_events_);
+  tell(PLUMB_EVENT_WAKE, simulation_.wake_all(), told_.early_events);
   return PLUMB_OK;
 }
 
 PlumbResult World::step(double dt) {
   steer_kinematics(dt);
-  dt_ = dt;
-  records_known_ = false;
-  parts_ = {};
-  parts_.count = divides_for_ > 0 ? kParts : 1;
-  divides_for_ -= dt;
-  start(dt_ / parts_.count, parts_.count > 1 ? 1 : 0);
+  pacing_.dt = dt;
+  told_.records_known = false;
+  pacing_.parts = {};
+  pacing_.parts.count = pacing_.divides_for > 0 ? kParts : 1;
+  pacing_.divides_for -= dt;
+  start(pacing_.dt / pacing_.parts.count, pacing_.parts.count > 1 ? 1 : 0);
   return PLUMB_OK;
 }
 
 PlumbResult World::wait(PlumbStepReport& report) {
-  events_.swap(early_events_);
-  early_events_.clear();
+  told_.events.swap(told_.early_events);
+  told_.early_events.clear();
   finish_steps();
   settle_kinematics();
   clear_forces();
@@ -63,14 +63,14 @@ PlumbResult World::wait(PlumbStepReport& report) {
   report.contacts = counters.points;
   report.dropped = 0;
   report.awake = dynamic_count_ - simulation_.sleeper_count();
-  report.nonfinite = counters.nonfinite + stopped_ + parts_.nonfinite;
+  report.nonfinite = counters.nonfinite + stopped_ + pacing_.parts.nonfinite;
   for (PlumbPhase phase = 0; phase < PLUMB_PHASE_COUNT; ++phase)
     report.phase_seconds[phase] = simulation_.phase_seconds(phase);
   stopped_ = 0;
-  if (parts_.gained) report.remarks |= PLUMB_REMARK_ENERGY_BOUNDED;
-  if (parts_.repeated) report.remarks |= PLUMB_REMARK_STEP_REPEATED;
-  if (parts_.grew) report.remarks |= PLUMB_REMARK_CAPACITY_GREW;
-  return parts_.grew ? PLUMB_GROWN : PLUMB_OK;
+  if (pacing_.parts.gained) report.remarks |= PLUMB_REMARK_ENERGY_BOUNDED;
+  if (pacing_.parts.repeated) report.remarks |= PLUMB_REMARK_STEP_REPEATED;
+  if (pacing_.parts.grew) report.remarks |= PLUMB_REMARK_CAPACITY_GREW;
+  return pacing_.parts.grew ? PLUMB_GROWN : PLUMB_OK;
 }
 
 /// A kinematic body that is sent somewhere gets the velocity that leads there in one step; one that has arrived rests.
@@ -111,32 +111,32 @@ void World::clear_forces() {
 }
 
 const std::vector<ContactRecord>& World::records() {
-  if (!records_known_) {
-    records_ = simulation_.contacts();
-    records_.insert(records_.end(), parts_.contacts.begin(), parts_.contacts.end());
+  if (!told_.records_known) {
+    told_.records = simulation_.contacts();
+    told_.records.insert(told_.records.end(), pacing_.parts.contacts.begin(), pacing_.parts.contacts.end());
   }
-  records_known_ = true;
-  return records_;
+  told_.records_known = true;
+  return told_.records;
 }
 
 void World::find_events() {
   if (init_.needs(PLUMB_NEED_EVENTS)) find_touches();
   if (!sensors_.empty()) sense();
-  touches_.finish_step(events_);
-  backend::sort_events(events_);
+  told_.touches.finish_step(told_.events);
+  backend::sort_events(told_.events);
 }
 
 void World::find_touches() {
   for (const ContactRecord& record : records())
     for (std::uint32_t p = 0; p < record.count; ++p)
       if (record.separation[p] <= 0 || record.normal_impulse[p] > 0) {
-        touches_.touch(bodies_[record.bodies.a].id, bodies_[record.bodies.b].id);
+        told_.touches.touch(bodies_[record.bodies.a].id, bodies_[record.bodies.b].id);
         break;
       }
 }
 
 std::span<const PlumbContact> World::contacts() {
-  contacts_.clear();
+  lent_.contacts.clear();
   const bool impulses = init_.needs(PLUMB_NEED_CONTACT_IMPULSES);
   const double unknown = std::numeric_limits<double>::quiet_NaN();
   for (const ContactRecord& record : records())
@@ -152,9 +152,9 @@ std::span<const PlumbContact> World::contacts() {
       contact.normal_impulse = impulses ? static_cast<double>(record.normal_impulse[p]) : unknown;
       contact.tangent_impulse = impulses ? to_plumb(record.tangent_impulse[p]) : PlumbVec3{unknown, unknown, unknown};
       contact.feature = record.feature[p] + std::uint64_t{1};
-      contacts_.push_back(contact);
+      lent_.contacts.push_back(contact);
     }
-  return contacts_;
+  return lent_.contacts;
 }
 
 PlumbResult World::get_setting(const char* name, PlumbSettingValue& value) {

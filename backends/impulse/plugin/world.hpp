@@ -47,7 +47,7 @@ class World final : public IPhysicsWorld,
   PlumbResult step(double dt) override;
   PlumbResult wait(PlumbStepReport& report) override;
   std::span<const PlumbContact> contacts() override;
-  std::span<const PlumbEvent> events() override { return events_; }
+  std::span<const PlumbEvent> events() override { return told_.events; }
 
   /// Of the last step.
   [[nodiscard]] const StepCounters& counters() const { return simulation_.counters(); }
@@ -134,13 +134,6 @@ class World final : public IPhysicsWorld,
   [[nodiscard]] std::vector<Pair> known_candidates();
   [[nodiscard]] std::vector<std::uint32_t> islands_of_bodies();
 
-  WorldInit init_;
-  Simulation simulation_;
-  Settings settings_;
-  PlumbVec3 gravity_;
-  double last_h_ = 0, dt_ = 0;
-  double load_rate_ = 0;    // sub-steps that loads ask for, 1/s
-  double divides_for_ = 0;  // for so long steps go in parts from the start, s
   static constexpr int kParts = 4;
   /// Of the step that is under way, which may go in parts.
   struct Parts {
@@ -149,37 +142,67 @@ class World final : public IPhysicsWorld,
     std::uint32_t nonfinite = 0;          // likewise
     bool any_done = false;
     bool repeated = false, grew = false, gained = false;  // one of them, or what was taken back; gained: energy
-  } parts_;
+  };
+  /// How long the steps are that the simulation takes.
+  struct Pacing {
+    double last_h = 0, dt = 0;
+    double load_rate = 0;    // sub-steps that loads ask for, 1/s
+    double divides_for = 0;  // for so long steps go in parts from the start, s
+    Parts parts;
+  };
+  struct JointTable {
+    std::vector<JointRecord> records;  // by slot
+    std::uint32_t breakable = 0;
+  };
+  /// What is told of the last step.
+  struct Told {
+    bool records_known = false;
+    std::vector<ContactRecord> records;
+    std::vector<PlumbEvent> events, early_events;  // early: of what the host did since
+    backend::TouchTracker touches;
+  };
+  /// What callers look at until they ask again.
+  struct Lent {
+    std::vector<PlumbContact> contacts;
+    std::vector<PlumbDebugPair> pairs;
+    std::vector<PlumbDebugBox> boxes;
+    std::vector<PlumbDebugAxis> axes;
+    std::vector<PlumbDebugBody> bodies;
+    std::vector<PlumbDebugConstraint> constraints;
+    std::vector<std::byte> snapshot;
+  };
+  struct Queries {
+    std::mutex mutex;  // of what queries build when they need it, and of the batches
+    BatchPool<QueryBatch> batches;
+    BatchPool<PairBatch> pair_batches;
+    std::vector<std::uint32_t> hit_children;  // by proxy; as of that generation of the rows
+    std::uint64_t hit_children_generation = 0;
+  };
+  struct RowIds {
+    std::vector<PlumbBody> ids;    // by slot; 0 where nobody is
+    std::uint64_t generation = 0;  // changes with them
+  };
+
+  WorldInit init_;
+  Simulation simulation_;
+  Settings settings_;
+  PlumbVec3 gravity_;
+  Pacing pacing_;
   std::vector<BodyRecord> bodies_;    // by slot
   std::vector<Compound> compounds_;   // by shape slot, as far as there are any
   std::vector<ProxyRecord> proxies_;  // by proxy, as far as one is not as it comes
   ProxySlots proxy_slots_;
-  std::vector<JointRecord> joints_;  // by slot
-  std::uint32_t breakable_joints_ = 0;
+  JointTable joints_;
   std::uint32_t dynamic_count_ = 0;
   bool continuous_ = false;
   std::uint32_t stopped_ = 0;  // bodies whose velocity a write made infinite, since the last step
   std::vector<std::uint32_t> pushed_;
   SlotList steered_;  // kinematic bodies with a target, or that have arrived at one
-  bool records_known_ = false;
-  std::vector<ContactRecord> records_;
-  std::vector<PlumbContact> contacts_;
   SlotList sensors_;
-  std::vector<PlumbEvent> events_, early_events_;
-  std::mutex query_mutex_;  // of what queries build when they need it, and of the batches
-  BatchPool<QueryBatch> query_batches_;
-  BatchPool<PairBatch> pair_batches_;
-  std::vector<std::uint32_t> hit_children_;  // by proxy; as of that generation of the rows
-  std::uint64_t hit_children_generation_ = 0;
-  std::vector<PlumbDebugPair> debug_pairs_;
-  std::vector<std::byte> snapshot_;
-  std::vector<PlumbDebugBox> debug_boxes_;
-  std::vector<PlumbDebugAxis> debug_axes_;
-  std::vector<PlumbDebugBody> debug_bodies_;
-  std::vector<PlumbDebugConstraint> debug_constraints_;
-  std::vector<PlumbBody> row_ids_;    // by slot; 0 where nobody is
-  std::uint64_t row_generation_ = 0;  // changes with them
-  backend::TouchTracker touches_;
+  Told told_;
+  Lent lent_;
+  Queries queries_;
+  RowIds rows_;
 };
 
 }  // namespace plumb::impulse

@@ -36,7 +36,7 @@ PLUMB_HD inline PairAnswer answer_convex(const PosedPair& pair, const Hulls& hul
   PairAnswer answer;
   answer.triangle = answer.touches = 0;
   const Vec apart = between(pair.place_a, pair.place_b);
-  if (collide(pair.a, to_numbers<Real>(pair.turn_a), pair.b, to_numbers<Real>(pair.turn_b), apart, 0, hulls,
+  if (collide({pair.a, pair.b, to_numbers<Real>(pair.turn_a), to_numbers<Real>(pair.turn_b), apart, 0}, hulls,
               answer.manifold)) {
     take_deepest(answer);
     return answer;
@@ -159,8 +159,9 @@ class PiecePair {
 
   PLUMB_HD PLUMB_OUT_OF_LINE void look_at(std::uint32_t triangle, TouchesOfPair& touches) const {
     Manifold manifold;
-    if (!collide_with_piece(convex_, to_numbers<Real>(turn_convex()), piece_, to_numbers<Real>(turn_piece()),
-                            swapped_ ? -apart_ : apart_, 0, {nullptr, nullptr, hulls_, surfaces_}, triangle, manifold))
+    if (!collide_with_piece({convex_, piece_, to_numbers<Real>(turn_convex()), to_numbers<Real>(turn_piece()),
+                             swapped_ ? -apart_ : apart_, 0},
+                            {nullptr, nullptr, hulls_, surfaces_}, triangle, manifold))
       return;
     if (swapped_) swap_sides(apart_, manifold);
     touches.add(triangle, manifold);

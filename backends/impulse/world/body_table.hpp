@@ -24,8 +24,9 @@ struct BodyTable {
   }
   /// turn: whether dynamic bodies may.
   [[nodiscard]] Bodies view(bool turn) {
-    return {state.position.device(), state.orientation.device(), state.velocity.device(), force.device(), mass.device(),
-            turn};
+    return {state.position.device(), state.orientation.device(),
+            state.velocity.device(), force.device(),
+            mass.device(),           turn};
   }
 };
 

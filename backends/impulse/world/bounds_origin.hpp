@@ -13,8 +13,8 @@ class BoundsOrigin {
   void bodies_changed() { dirty_ = true; }
   [[nodiscard]] bool dirty() const { return dirty_; }
 
-  /// Looks for it anew where bodies have changed. Returns whether it is another: all is to be bounded anew then. A place
-  /// that is near one that was good stays.
+  /// Looks for it anew where bodies have changed. Returns whether it is another: all is to be bounded anew then. A
+  /// place that is near one that was good stays.
   bool find(const ProxyList& movers, const ColliderTable& colliders, BodyState& state);
 
   void exchange(Archive& archive) {

@@ -36,9 +36,9 @@ void Simulation::reserve_bodies(std::uint32_t slots) {
   const std::size_t size = rows + rows / 2;
   bodies.grow(size);
   joints.reserve_bodies(size);
-  lists_dirty_ = true;
+  dirty_.lists = true;
   reserve_proxies(static_cast<std::uint32_t>(size));
-  reserve_pairs(pair_capacity_);
+  reserve_pairs(stages_.pair_capacity);
 }
 
 void Simulation::reserve_proxies(std::uint32_t rows) {
@@ -47,8 +47,8 @@ void Simulation::reserve_proxies(std::uint32_t rows) {
   const std::size_t size = std::max<std::size_t>(rows, before + before / 2);
   colliders.grow(size, stages_.features.belts);
   if (stages_.features.sleeping) sleep_.reserve(static_cast<std::uint32_t>(size));
-  lists_dirty_ = true;
-  reserve_pairs(pair_capacity_);
+  dirty_.lists = true;
+  reserve_pairs(stages_.pair_capacity);
 }
 
 void Simulation::reserve_shapes(std::uint32_t rows) {
@@ -56,9 +56,8 @@ void Simulation::reserve_shapes(std::uint32_t rows) {
 }
 
 void Simulation::reserve_pairs(std::uint32_t pairs) {
-  pair_capacity_ = pairs;
   stages_.reserve(executor_, static_cast<std::uint32_t>(bodies.size()),
-                  static_cast<std::uint32_t>(colliders.proxies.size()), pairs, in_pieces_);
+                  static_cast<std::uint32_t>(colliders.proxies.size()), pairs);
   recorder_.forget();
 }
 
@@ -74,7 +73,7 @@ std::uint32_t Simulation::room_for(std::uint32_t n) const {
 void Simulation::choose(BroadPhase::Method method) {
   if (stages_.broad_phase.method == method) return;
   stages_.broad_phase.method = method;
-  reserve_pairs(pair_capacity_);
+  reserve_pairs(stages_.pair_capacity);
 }
 
 // --- what the host has changed, on its way to where kernels run ---
@@ -90,14 +89,14 @@ void Simulation::list_proxies() {
   for (ProxyList* list : {&lists_.movers, &lists_.statics, &lists_.planes}) list->upload(executor_);
   const ProxyRows statics = lists_.statics.view();
   stages_.narrow_phase.forget_found(executor_, statics.rows, lists_.statics.count());
-  if (!in_pieces_ && (lists_.types & kTypesInPieces) != 0) {
-    in_pieces_ = true;
+  if (!stages_.in_pieces && (lists_.types & kTypesInPieces) != 0) {
+    stages_.in_pieces = true;
     stages_.narrow_phase.take_pieces();
-    reserve_pairs(pair_capacity_);
+    reserve_pairs(stages_.pair_capacity);
   }
   if (origin_.find(lists_.movers, colliders, bodies.state) || other_statics || statics.count != statics_before)
     statics_changed();
-  lists_dirty_ = false;
+  dirty_.lists = false;
 }
 
 /// Where all are, and of what shape.
@@ -107,7 +106,7 @@ void Simulation::upload_bodies() {
 }
 
 void Simulation::upload_changes() {
-  if (lists_dirty_) list_proxies();
+  if (dirty_.lists) list_proxies();
   upload_bodies();
   bodies.force.upload(executor_);
   bodies.mass.upload(executor_);
@@ -131,7 +130,7 @@ void Simulation::upload_changes() {
   parameters.origin = origin_.place();
   executor_.to_device(numbers_.parameters, 1);
   executor_.to_device(numbers_.shorter, 1);
-  if (statics_dirty_) bound_statics();
+  if (dirty_.statics) bound_statics();
 }
 
 void Simulation::bound_statics() {
@@ -143,7 +142,7 @@ void Simulation::bound_statics() {
     executor_.run(list.count, BoundProxies{body_view(), colliders.view(), numbers_.of_statics.device(), list.rows,
                                            stages_.boxes.data(), stages_.margins.data()});
   stages_.broad_phase.build_statics(executor_, stages_.boxes.data(), statics.rows, statics.count);
-  statics_dirty_ = false;
+  dirty_.statics = false;
 }
 
 /// Room for the rows that steps bring, before a step is recorded.
@@ -165,10 +164,10 @@ StepInput Simulation::input() {
           lists_.statics.view(),
           lists_.planes.view(),
           std::min<std::uint32_t>(room_for(bodies.count), static_cast<std::uint32_t>(bodies.size()) - 1),
-          pair_capacity_,
+          stages_.pair_capacity,
           lists_.types,
-          in_pieces_,
-          continuous_,
+          stages_.in_pieces,
+          stages_.continuous,
           sleep_.count() != 0,
           stages_.features.sleeping ? sleep_.woken_pairs() : nullptr,
           numbers_.parameters[0].solver,
@@ -202,8 +201,8 @@ void Simulation::launch() {
 
 void Simulation::wait() {
   executor_.wait();
-  while (is_undone(counters(), pair_capacity_) && !taken_back()) {
-    if (counters().pairs > pair_capacity_) {
+  while (is_undone(counters(), stages_.pair_capacity) && !taken_back()) {
+    if (counters().pairs > stages_.pair_capacity) {
       reserve_pairs(counters().pairs + counters().pairs / 2);
       outcome_.grew = true;
     } else {
@@ -259,26 +258,26 @@ std::vector<Pair> Simulation::candidates() {
 // --- snapshots ---
 
 Simulation::Extent Simulation::extent(bool to_restore) {
-  if (to_restore && lists_dirty_) list_proxies();
-  return {bodies.count, colliders.count, joints.slots(), in_pieces_ ? 1U : 0U};
+  if (to_restore && dirty_.lists) list_proxies();
+  return {bodies.count, colliders.count, joints.slots(), stages_.in_pieces ? 1U : 0U};
 }
 
 void Simulation::exchange(Archive& archive, const Extent& extent) {
   archive.value(step_);
   origin_.exchange(archive);
   archive.value(numbers_.of_statics[0]);
-  bool statics_dirty = statics_dirty_;
+  bool statics_dirty = dirty_.statics;
   archive.value(statics_dirty);
   StepCounters& counted = *numbers_.counters.host();
   archive.value(counted);
-  if (in_pieces_ && extent.in_pieces == 0) counted.pieces = counted.pairs;
-  if (candidate_count() > pair_capacity_) reserve_pairs(candidate_count());
+  if (stages_.in_pieces && extent.in_pieces == 0) counted.pieces = counted.pairs;
+  if (candidate_count() > stages_.pair_capacity) reserve_pairs(candidate_count());
   bodies.state.exchange(archive, extent.bodies);
   stages_.narrow_phase.exchange(archive, step_, extent.proxies, counters(), extent.in_pieces != 0);
   joints.exchange(archive, extent.joints);
   if (stages_.features.sleeping) sleep_.exchange(archive, extent.bodies, bodies.mass);
   if (!archive.reads()) return;
-  lists_dirty_ = restored_ = true;
+  dirty_.lists = restored_ = true;
   bound_again_ = !statics_dirty && !origin_.dirty();
   recorder_.forget();
 }

@@ -36,15 +36,15 @@ class Simulation {
   /// Room for this many proxies, at least one a body slot. New rows have no shape.
   void reserve_proxies(std::uint32_t rows);
   /// From now on there may be bodies that must not pass through others; what they cost begins here.
-  void expect_continuous() { continuous_ = stages_.features.continuous; }
+  void expect_continuous() { stages_.continuous = stages_.features.continuous; }
 
   void bodies_changed() {  ///< made, gone, asleep, awake
-    lists_dirty_ = true;
+    dirty_.lists = true;
     origin_.bodies_changed();
     ++list_version_;
   }
   void statics_changed() {  ///< bodies that do not move: placed elsewhere
-    statics_dirty_ = true;
+    dirty_.statics = true;
     ++list_version_;
   }
 
@@ -132,6 +132,9 @@ class Simulation {
     Mirror<StepParameters> of_statics;  // with which the statics were bounded
     Mirror<StepCounters> counters;
   };
+  struct Dirty {
+    bool lists = true, statics = true;
+  };
   /// What queries work with, made when the first comes: the step's own lists and trees are not touched.
   struct ForQueries {
     QueryTrees trees;
@@ -167,13 +170,11 @@ class Simulation {
   OutputRows output_;
   Buffer<ContactRecord> records_;
   std::unique_ptr<ForQueries> for_queries_;
-  std::uint32_t step_ = 0, pair_capacity_ = 0;
+  std::uint32_t step_ = 0;
   std::uint64_t list_version_ = 1;  // changes when a body may have, but for those that the step moves
-  bool lists_dirty_ = true, statics_dirty_ = true;
+  Dirty dirty_;
   bool bound_again_ = false;  // the statics, as they were: with the same parameters
   bool restored_ = false;     // since the last step: what it found is not known
-  bool in_pieces_ = false;    // once there was a plane or a surface
-  bool continuous_ = false;   // once there was a body that must not pass through others
 };
 
 }  // namespace plumb::impulse

@@ -16,8 +16,8 @@ struct ClearCounters {
 
 }  // namespace
 
-void Stages::reserve(Executor& executor, std::uint32_t bodies, std::uint32_t proxies, std::uint32_t pairs,
-                     bool in_pieces) {
+void Stages::reserve(Executor& executor, std::uint32_t bodies, std::uint32_t proxies, std::uint32_t pairs) {
+  pair_capacity = pairs;
   boxes.grow(proxies);
   margins.grow(proxies);
   broad_phase.reserve(executor, proxies, proxies, pairs);
@@ -43,9 +43,9 @@ void bound(const StepContext& step) {
 
 void find_pairs(const StepContext& step) {
   Stages& of = step.stages;
-  of.broad_phase.find_pairs(step.executor, of.boxes.data(), step.movers.rows, step.movers.count, step.filter,
-                            step.in_pieces ? of.pieces.pairs() : step.now.pairs,
-                            step.in_pieces ? of.pieces.ranges() : step.now.ranges, &step.counters->pairs);
+  const PairList found = {step.in_pieces ? of.pieces.pairs() : step.now.pairs,
+                          step.in_pieces ? of.pieces.ranges() : step.now.ranges, &step.counters->pairs};
+  of.broad_phase.find_pairs(step.executor, of.boxes.data(), step.movers, step.filter, found);
 }
 
 void find_pieces(const StepContext& step) {

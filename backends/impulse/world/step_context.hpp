@@ -21,11 +21,14 @@ namespace plumb::impulse {
 struct Stages {
   explicit Stages(const SolverFeatures& wanted) : features(wanted), solver(wanted) {}
   /// Room for so many rows of bodies and proxies, and so many pairs. Between steps.
-  void reserve(Executor& executor, std::uint32_t bodies, std::uint32_t proxies, std::uint32_t pairs, bool in_pieces);
+  void reserve(Executor& executor, std::uint32_t bodies, std::uint32_t proxies, std::uint32_t pairs);
 
   SolverFeatures features;
-  Buffer<Box> boxes;     ///< by proxy
-  Buffer<Real> margins;  ///< by proxy: how far ahead it is looked, m
+  std::uint32_t pair_capacity = 0;
+  bool in_pieces = false;   ///< once there was a plane or a surface
+  bool continuous = false;  ///< once there was a body that must not pass through others
+  Buffer<Box> boxes;        ///< by proxy
+  Buffer<Real> margins;     ///< by proxy: how far ahead it is looked, m
   BroadPhase broad_phase;
   Pieces pieces;
   NarrowPhase narrow_phase;
@@ -48,9 +51,8 @@ struct StepInput {
   ProxyRows movers, statics, planes;
   std::uint32_t body_rows;  ///< that kernels go through; those without a body are nobody's
   std::uint32_t pair_capacity;
-  std::uint32_t shape_types;  ///< a bit for each ShapeType in the world
-  bool in_pieces;             ///< there is, or was, a plane or a surface
-  bool continuous;            ///< there is, or was, a body that must not pass through others
+  std::uint32_t shape_types;   ///< a bit for each ShapeType in the world
+  bool in_pieces, continuous;  ///< of the stages
   bool has_sleepers;
   const KeptPair* woken;  ///< manifolds of those who woke; null in worlds where nobody sleeps
   SolverKind solver;
@@ -73,8 +75,8 @@ struct StepContext : StepInput {
   StepParameters* parameters;
   const ShorterSubsteps* shorter;
   Mirror<StepCounters>& counted;
-  Mechanisms mechanisms;    ///< that contacts push as a whole
-  ContactCache now, last;   ///< contacts of this step, and of the last one
+  Mechanisms mechanisms;   ///< that contacts push as a whole
+  ContactCache now, last;  ///< contacts of this step, and of the last one
   StepCounters* counters = counted.device();
 
   [[nodiscard]] bool collides() const { return stages.features.collision; }
@@ -85,7 +87,7 @@ struct StepContext : StepInput {
   /// Of the narrow phase.
   [[nodiscard]] Count candidates() const { return stages.narrow_phase.candidates(counters); }
   [[nodiscard]] EnergyWork energy_work() const {
-    return {now,     proxies,   belts,         stages.solver.joint_set(bodies, joints), joints.code(), body_rows,
+    return {now,           proxies,    belts,   stages.solver.joint_set(bodies, joints), joints.code(), body_rows,
             pair_capacity, parameters, counters};
   }
 };

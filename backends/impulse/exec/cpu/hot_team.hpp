@@ -6,11 +6,8 @@
 #include <cstdint>
 #include <thread>
 
-#if defined(__x86_64__)
-#include <immintrin.h>
-#endif
-
 #include "exec/floating_point.hpp"
+#include "exec/simd.hpp"
 #include "plumb/plumb.h"
 
 namespace plumb::impulse {
@@ -46,9 +43,7 @@ class HotTeam {
    public:
     void wait() {
       if (++looks_ > kLooks) return std::this_thread::yield();
-#if defined(__x86_64__)
-      _mm_pause();
-#endif
+      simd::pause();
     }
 
    private:

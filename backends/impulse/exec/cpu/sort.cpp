@@ -25,9 +25,22 @@ struct Digit {
   }
 };
 
+/// Keys and what goes with them.
 template <class K>
-void pass(Crew& crew, std::uint32_t n, std::uint32_t chunks, Digit digit, const K* keys, const std::uint32_t* values,
-          K* to_keys, std::uint32_t* to_values, std::uint32_t* histograms) {
+struct Keyed {
+  K* keys;
+  std::uint32_t* values;
+};
+
+template <class K>
+struct KeyedInput {
+  const K* keys;
+  const std::uint32_t* values;
+};
+
+template <class K>
+void pass(Crew& crew, std::uint32_t n, std::uint32_t chunks, Digit digit, KeyedInput<K> from, Keyed<K> to,
+          std::uint32_t* histograms) {
   const std::uint32_t chunk = (n + chunks - 1) / chunks;
   const auto in_chunks = [&](auto&& work) {
     struct Job {
@@ -38,7 +51,7 @@ void pass(Crew& crew, std::uint32_t n, std::uint32_t chunks, Digit digit, const 
   in_chunks([&](std::uint32_t c) {
     std::uint32_t* counts = histograms + std::size_t{c} * kDigits;
     std::memset(counts, 0, kDigits * sizeof *counts);
-    for (std::uint32_t i = c * chunk; i < std::min(n, (c + 1) * chunk); ++i) ++counts[digit.of(keys[i])];
+    for (std::uint32_t i = c * chunk; i < std::min(n, (c + 1) * chunk); ++i) ++counts[digit.of(from.keys[i])];
   });
   std::uint32_t sum = 0;
   for (std::uint32_t d = 0; d < kDigits; ++d)
@@ -49,9 +62,9 @@ void pass(Crew& crew, std::uint32_t n, std::uint32_t chunks, Digit digit, const 
   in_chunks([&](std::uint32_t c) {
     std::uint32_t* next = histograms + std::size_t{c} * kDigits;
     for (std::uint32_t i = c * chunk; i < std::min(n, (c + 1) * chunk); ++i) {
-      const std::uint32_t at = next[digit.of(keys[i])]++;
-      to_keys[at] = keys[i];
-      to_values[at] = values[i];
+      const std::uint32_t at = next[digit.of(from.keys[i])]++;
+      to.keys[at] = from.keys[i];
+      to.values[at] = from.values[i];
     }
   });
 }
@@ -78,20 +91,17 @@ void RadixSort<K>::run(Executor& executor, std::uint32_t n, const K* keys, const
   if (n == 0) return;
   auto* histograms = reinterpret_cast<std::uint32_t*>(scratch_.data());
   auto* other_keys = reinterpret_cast<K*>(histograms + std::size_t{kMostChunks} * kDigits);
-  auto* other_values = reinterpret_cast<std::uint32_t*>(other_keys + capacity_);
+  const Keyed<K> other = {other_keys, reinterpret_cast<std::uint32_t*>(other_keys + capacity_)};
+  const Keyed<K> sorted = {sorted_keys, sorted_values};
   const int passes = std::max(1, (bits + kDigitBits - 1) / kDigitBits);
   const std::uint32_t chunks = chunks_for(n, executor.threads());
 
-  const K* from_keys = keys;
-  const std::uint32_t* from_values = values;
+  KeyedInput<K> from = {keys, values};
   for (int p = 0; p < passes; ++p) {
-    const bool to_result = (passes - p) % 2 == 1;  // so that the last pass ends there
-    K* to_keys = to_result ? sorted_keys : other_keys;
-    std::uint32_t* to_values = to_result ? sorted_values : other_values;
-    pass(executor.crew(), n, chunks, Digit{kDigitBits * p, std::min(kDigitBits, bits - kDigitBits * p)}, from_keys,
-         from_values, to_keys, to_values, histograms);
-    from_keys = to_keys;
-    from_values = to_values;
+    const Keyed<K>& to = (passes - p) % 2 == 1 ? sorted : other;  // so that the last pass ends there
+    pass(executor.crew(), n, chunks, Digit{kDigitBits * p, std::min(kDigitBits, bits - kDigitBits * p)}, from, to,
+         histograms);
+    from = {to.keys, to.values};
   }
 }
 

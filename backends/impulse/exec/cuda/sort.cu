@@ -59,11 +59,19 @@ std::size_t scan(void* scratch, std::size_t bytes, Values values, std::uint32_t*
 }
 
 template <class K>
-std::size_t sort(void* scratch, std::size_t bytes, const K* keys, const std::uint32_t* values, K* sorted_keys,
-                 std::uint32_t* sorted_values, std::uint32_t n, int bits, cudaStream_t stream) {
-  check_cuda(
-      cub::DeviceRadixSort::SortPairs(scratch, bytes, keys, sorted_keys, values, sorted_values, n, 0, bits, stream),
-      "cannot sort");
+struct SortArrays {
+  const K* keys;
+  const std::uint32_t* values;
+  K* sorted_keys;
+  std::uint32_t* sorted_values;
+};
+
+template <class K>
+std::size_t sort(void* scratch, std::size_t bytes, const SortArrays<K>& of, std::uint32_t n, int bits,
+                 cudaStream_t stream) {
+  check_cuda(cub::DeviceRadixSort::SortPairs(scratch, bytes, of.keys, of.sorted_keys, of.values, of.sorted_values, n, 0,
+                                             bits, stream),
+             "cannot sort");
   return bytes;
 }
 
@@ -75,7 +83,7 @@ constexpr int kKeyBits = static_cast<int>(8 * sizeof(K));
 template <class K>
 void RadixSort<K>::reserve(std::uint32_t capacity) {
   if (capacity <= capacity_) return;
-  scratch_.grow(sort<K>(nullptr, 0, nullptr, nullptr, nullptr, nullptr, capacity, kKeyBits<K>, nullptr));
+  scratch_.grow(sort<K>(nullptr, 0, {}, capacity, kKeyBits<K>, nullptr));
   capacity_ = capacity;
 }
 
@@ -91,7 +99,7 @@ template <class K>
 void RadixSort<K>::run(Executor& executor, std::uint32_t n, const K* keys, const std::uint32_t* values, K* sorted_keys,
                        std::uint32_t* sorted_values, int bits) {
   if (n == 0) return;
-  sort(scratch_.data(), scratch_.size(), keys, values, sorted_keys, sorted_values, n, bits, executor.stream());
+  sort<K>(scratch_.data(), scratch_.size(), {keys, values, sorted_keys, sorted_values}, n, bits, executor.stream());
 }
 
 template class RadixSort<std::uint32_t>;

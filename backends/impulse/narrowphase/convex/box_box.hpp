@@ -285,23 +285,22 @@ PLUMB_HD inline void touch_faces(const BoxPair& p, const BoxAxis& axis, Real mar
 
 }  // namespace box_box
 
-PLUMB_HD inline bool collide_box_box(const Shape& a, const Quat& qa, const Shape& b, const Quat& qb, const Vec& d,
-                                     Real margin, const Hulls&, Manifold& out) {
+PLUMB_HD inline bool collide_box_box(const ShapePair& pair, const Hulls&, Manifold& out) {
   using namespace box_box;
   out.count = 0;
-  const BoxPair p = {a.size, b.size, to_matrix(conjugate(qa) * qb), rotate_back(qa, d)};
-  const Real tie = kTie * (a.reach + b.reach);
+  const BoxPair p = {pair.a.size, pair.b.size, to_matrix(conjugate(pair.qa) * pair.qb), rotate_back(pair.qa, pair.d)};
+  const Real tie = kTie * (pair.a.reach + pair.b.reach);
   BoxAxis axis;
-  if (!find_axis(p, margin, tie, axis)) return false;
+  if (!find_axis(p, pair.margin, tie, axis)) return false;
   const bool edges = axis.a >= 0 && axis.b >= 0;
   const Real near_a = abs(axis.normal[widest(axis.normal)]);
   const Vec along_b = multiply_transposed(p.r, axis.normal);
   if (edges && near_a < kNearFace && abs(along_b[widest(along_b)]) < kNearFace)
     touch_edges(p, axis, out);
   else
-    touch_faces(p, axis, margin, tie, out);
-  out.normal = rotate(qa, axis.normal);
-  for (std::uint32_t i = 0; i < out.count; ++i) out.points[i].position = rotate(qa, out.points[i].position);
+    touch_faces(p, axis, pair.margin, tie, out);
+  out.normal = rotate(pair.qa, axis.normal);
+  for (std::uint32_t i = 0; i < out.count; ++i) out.points[i].position = rotate(pair.qa, out.points[i].position);
   return out.count != 0;
 }
 

@@ -10,13 +10,12 @@ namespace plumb::impulse {
 /// Half of a capsule's segment, in the world's axes.
 PLUMB_HD inline Vec half_segment(const Shape& capsule, const Quat& q) { return rotate(q, Vec{0, capsule.size.y, 0}); }
 
-PLUMB_HD inline bool collide_sphere_capsule(const Shape& a, const Quat&, const Shape& b, const Quat& qb, const Vec& d,
-                                            Real margin, const Hulls&, Manifold& out) {
-  const Vec half = half_segment(b, qb);
-  const Vec from = d - half, along = half + half;
+PLUMB_HD inline bool collide_sphere_capsule(const ShapePair& pair, const Hulls&, Manifold& out) {
+  const Vec half = half_segment(pair.b, pair.qb);
+  const Vec from = pair.d - half, along = half + half;
   const Vec nearest = from + closest_on_segment(from, along, {0, 0, 0}) * along;
-  return touch_ball(a.size.x, normalized_or(nearest, perpendicular(normalized_or(half, {1, 0, 0}))),
-                    length(nearest) - b.size.x, margin, out);
+  return touch_ball(pair.a.size.x, normalized_or(nearest, perpendicular(normalized_or(half, {1, 0, 0}))),
+                    length(nearest) - pair.b.size.x, pair.margin, out);
 }
 
 /// Capsules that lie along each other touch along a line, given by its two ends: where the angle has at least this
@@ -24,26 +23,25 @@ PLUMB_HD inline bool collide_sphere_capsule(const Shape& a, const Quat&, const S
 /// radius.
 constexpr Real kAlong = Real(0.99), kSideways = Real(0.1);
 
-PLUMB_HD inline bool collide_capsule_capsule(const Shape& a, const Quat& qa, const Shape& b, const Quat& qb,
-                                             const Vec& d, Real margin, const Hulls&, Manifold& out) {
-  const Vec half_a = half_segment(a, qa), half_b = half_segment(b, qb);
-  const Vec along_a = half_a + half_a, along_b = half_b + half_b, from_a = -half_a, from_b = d - half_b;
-  const Real radii = a.size.x + b.size.x, thinner = min(a.size.x, b.size.x);
+PLUMB_HD inline bool collide_capsule_capsule(const ShapePair& pair, const Hulls&, Manifold& out) {
+  const Vec half_a = half_segment(pair.a, pair.qa), half_b = half_segment(pair.b, pair.qb);
+  const Vec along_a = half_a + half_a, along_b = half_b + half_b, from_a = -half_a, from_b = pair.d - half_b;
+  const Real radii = pair.a.size.x + pair.b.size.x, thinner = min(pair.a.size.x, pair.b.size.x);
   const ClosestPair closest = closest_between(from_a, along_a, from_b, along_b);
   const Vec apart = closest.on_b - closest.on_a;
   const Real distance = length(apart);
   out.count = 0;
-  if (distance - radii > margin) return false;
+  if (distance - radii > pair.margin) return false;
   // Where the segments cross, the shortest way out is across both; where they coincide, any across one.
   Vec normal = cross(half_a, half_b);
-  if (dot(normal, d) < 0) normal = -normal;
+  if (dot(normal, pair.d) < 0) normal = -normal;
   normal = normalized_or(normal, perpendicular(normalized_or(half_a, {1, 0, 0})));
   normal = normalized_or(apart, normal);
   out.normal = normal;
 
   const auto add = [&](const Vec& on_a, Real separation, std::uint32_t feature) {
-    if (separation <= margin)
-      out.points[out.count++] = {on_a + (a.size.x + Real(0.5) * separation) * normal, separation, feature};
+    if (separation <= pair.margin)
+      out.points[out.count++] = {on_a + (pair.a.size.x + Real(0.5) * separation) * normal, separation, feature};
   };
   const Real aa = length_squared(along_a), bb = length_squared(along_b), ab = dot(along_a, along_b);
   if (aa > 0 && bb > 0 && abs(ab) >= kAlong * sqrt(aa) * sqrt(bb)) {

@@ -342,45 +342,44 @@ PLUMB_HD inline bool touch_other(const Cylinder& c, const Other& b, Real margin,
 
 }  // namespace cylinder
 
-PLUMB_HD inline bool collide_sphere_cylinder(const Shape& a, const Quat&, const Shape& b, const Quat& qb, const Vec& d,
-                                             Real margin, const Hulls&, Manifold& out) {
-  const cylinder::Nearest near = cylinder::nearest(cylinder::of(b), rotate_back(qb, -d));
-  return touch_ball(a.size.x, rotate(qb, -near.normal), near.distance, margin, out);
+PLUMB_HD inline bool collide_sphere_cylinder(const ShapePair& pair, const Hulls&, Manifold& out) {
+  const cylinder::Nearest near = cylinder::nearest(cylinder::of(pair.b), rotate_back(pair.qb, -pair.d));
+  return touch_ball(pair.a.size.x, rotate(pair.qb, -near.normal), near.distance, pair.margin, out);
 }
 
-PLUMB_HD inline bool collide_box_cylinder(const Shape& a, const Quat& qa, const Shape& b, const Quat& qb, const Vec& d,
-                                          Real margin, const Hulls&, Manifold& out) {
-  const polyhedra::Placement at = {to_matrix(conjugate(qb) * qa), rotate_back(qb, -d)};
-  if (!cylinder::touch_polyhedron(cylinder::of(b), BoxView{a.size}, at, margin, kTie * (a.reach + b.reach), out))
+PLUMB_HD inline bool collide_box_cylinder(const ShapePair& pair, const Hulls&, Manifold& out) {
+  const polyhedra::Placement at = {to_matrix(conjugate(pair.qb) * pair.qa), rotate_back(pair.qb, -pair.d)};
+  if (!cylinder::touch_polyhedron(cylinder::of(pair.b), BoxView{pair.a.size}, at, pair.margin,
+                                  kTie * (pair.a.reach + pair.b.reach), out))
     return false;
-  round_polyhedron::put_second(qb, d, out);
+  round_polyhedron::put_second(pair.qb, pair.d, out);
   return true;
 }
 
-PLUMB_HD inline bool collide_hull_cylinder(const Shape& a, const Quat& qa, const Shape& b, const Quat& qb, const Vec& d,
-                                           Real margin, const Hulls& hulls, Manifold& out) {
-  const polyhedra::Placement at = {to_matrix(conjugate(qb) * qa), rotate_back(qb, -d)};
-  if (!cylinder::touch_polyhedron(cylinder::of(b), HullView(hulls, a.hull), at, margin, kTie * (a.reach + b.reach),
-                                  out))
+PLUMB_HD inline bool collide_hull_cylinder(const ShapePair& pair, const Hulls& hulls, Manifold& out) {
+  const polyhedra::Placement at = {to_matrix(conjugate(pair.qb) * pair.qa), rotate_back(pair.qb, -pair.d)};
+  if (!cylinder::touch_polyhedron(cylinder::of(pair.b), HullView(hulls, pair.a.hull), at, pair.margin,
+                                  kTie * (pair.a.reach + pair.b.reach), out))
     return false;
-  round_polyhedron::put_second(qb, d, out);
+  round_polyhedron::put_second(pair.qb, pair.d, out);
   return true;
 }
 
-PLUMB_HD inline bool collide_capsule_cylinder(const Shape& a, const Quat& qa, const Shape& b, const Quat& qb,
-                                              const Vec& d, Real margin, const Hulls&, Manifold& out) {
-  const Vec half = rotate_back(qb, half_segment(a, qa)), centre = rotate_back(qb, -d);
-  const Real tie = kTie * (a.reach + b.reach);
-  if (!cylinder::touch_segment(cylinder::of(b), centre - half, half + half, a.size.x, margin, tie, out)) return false;
-  round_polyhedron::put_second(qb, d, out);
+PLUMB_HD inline bool collide_capsule_cylinder(const ShapePair& pair, const Hulls&, Manifold& out) {
+  const Vec half = rotate_back(pair.qb, half_segment(pair.a, pair.qa)), centre = rotate_back(pair.qb, -pair.d);
+  const Real tie = kTie * (pair.a.reach + pair.b.reach);
+  if (!cylinder::touch_segment(cylinder::of(pair.b), centre - half, half + half, pair.a.size.x, pair.margin, tie, out))
+    return false;
+  round_polyhedron::put_second(pair.qb, pair.d, out);
   return true;
 }
 
-PLUMB_HD inline bool collide_cylinder_cylinder(const Shape& a, const Quat& qa, const Shape& b, const Quat& qb,
-                                               const Vec& d, Real margin, const Hulls&, Manifold& out) {
-  const cylinder::Other other = {cylinder::of(b), to_matrix(conjugate(qa) * qb), rotate_back(qa, d)};
-  if (!cylinder::touch_other(cylinder::of(a), other, margin, kTie * (a.reach + b.reach), out)) return false;
-  round_polyhedron::place(qa, {0, 0, 0}, out);
+PLUMB_HD inline bool collide_cylinder_cylinder(const ShapePair& pair, const Hulls&, Manifold& out) {
+  const cylinder::Other other = {cylinder::of(pair.b), to_matrix(conjugate(pair.qa) * pair.qb),
+                                 rotate_back(pair.qa, pair.d)};
+  if (!cylinder::touch_other(cylinder::of(pair.a), other, pair.margin, kTie * (pair.a.reach + pair.b.reach), out))
+    return false;
+  round_polyhedron::place(pair.qa, {0, 0, 0}, out);
   return true;
 }
 

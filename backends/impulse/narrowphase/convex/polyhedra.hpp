@@ -79,28 +79,34 @@ PLUMB_HD bool find_face_axes(const ViewA& a, const ViewB& b, const Placement& at
   return true;
 }
 
-/// The axis of edge i of A and an edge of B (from_b, e_b, between faces whose inward normals are left_b and right_b),
-/// if they make a face of the Minkowski difference and it separates more than the best axis so far.
+/// An edge of B in A's frame.
+struct EdgeOfB {
+  std::uint32_t number;
+  Vec from, along;
+  Vec left, right;  ///< inward normals of the faces between which it is
+};
+
+/// The axis of edge i of A and an edge of B, if they make a face of the Minkowski difference and it separates more than
+/// the best axis so far.
 template <class ViewA, class ViewB>
-PLUMB_HD void try_edges(const ViewA& a, const ViewB& b, const Placement& at, std::uint32_t i, std::uint32_t j,
-                        const Vec& from_b, const Vec& e_b, const Vec& left_b, const Vec& right_b, Real tie,
-                        ContactAxis& best) {
+PLUMB_HD void try_edges(const ViewA& a, const ViewB& b, const Placement& at, std::uint32_t i, const EdgeOfB& edge_b,
+                        Real tie, ContactAxis& best) {
   const HullEdge edge_a = a.edge(i);
   const Vec from_a = a.vertex(edge_a.from), e_a = a.vertex(edge_a.to) - from_a;
   // The arcs cross: the ends of each lie on different sides of the other, and in the same hemisphere.
-  const Real l = dot(left_b, e_a), r = dot(right_b, e_a);
+  const Real l = dot(edge_b.left, e_a), r = dot(edge_b.right, e_a);
   if (!(l * r < 0)) return;
   const Vec left_a = a.normal(edge_a.left), right_a = a.normal(edge_a.right);
-  const Real m = dot(left_a, e_b), k = dot(right_a, e_b);
+  const Real m = dot(left_a, edge_b.along), k = dot(right_a, edge_b.along);
   if (!(m * k < 0) || !(l * k > 0)) return;
 
-  Vec n = cross(e_a, e_b);
+  Vec n = cross(e_a, edge_b.along);
   const Real square = length_squared(n);
-  if (square <= kParallel * kParallel * length_squared(e_a) * length_squared(e_b)) return;
+  if (square <= kParallel * kParallel * length_squared(e_a) * length_squared(edge_b.along)) return;
   n = ((dot(n, left_a + right_a) < 0 ? Real(-1) : Real(1)) / sqrt(square)) * n;
-  if (dot(n, from_b - from_a) <= best.separation + tie) return;
+  if (dot(n, edge_b.from - from_a) <= best.separation + tie) return;
   const Real s = gap_along(a, b, at, n);  // of edges near parallel, n may not be quite at right angles to both
-  if (s > best.separation + tie) best = {n, s, i, j, ContactAxis::Kind::kEdges};
+  if (s > best.separation + tie) best = {n, s, i, edge_b.number, ContactAxis::Kind::kEdges};
 }
 
 template <class ViewA, class ViewB>
@@ -114,13 +120,12 @@ PLUMB_HD bool find_edge_axes(const ViewA& a, const ViewB& b, const Placement& at
     }
     for (std::uint32_t j = 0; j < b.edge_count() && of_a != 0; ++j) {
       const HullEdge edge = b.edge(j);
-      const Vec left_b = -(at.turn * b.normal(edge.left)), right_b = -(at.turn * b.normal(edge.right));
-      if (!balls.may_separate(left_b, right_b, best.separation)) continue;
-      const Vec from_b = at.turn * b.vertex(edge.from) + at.shift;
-      const Vec e_b = at.turn * b.vertex(edge.to) + at.shift - from_b;
-      for (std::uint64_t left = of_a; left != 0; left &= left - 1)
-        try_edges(a, b, at, first + static_cast<std::uint32_t>(trailing_zeros(left)), j, from_b, e_b, left_b, right_b,
-                  tie, best);
+      const Vec left = -(at.turn * b.normal(edge.left)), right = -(at.turn * b.normal(edge.right));
+      if (!balls.may_separate(left, right, best.separation)) continue;
+      const Vec from = at.turn * b.vertex(edge.from) + at.shift;
+      const EdgeOfB edge_b = {j, from, at.turn * b.vertex(edge.to) + at.shift - from, left, right};
+      for (std::uint64_t rest = of_a; rest != 0; rest &= rest - 1)
+        try_edges(a, b, at, first + static_cast<std::uint32_t>(trailing_zeros(rest)), edge_b, tie, best);
       if (best.separation > margin) return false;
     }
   }
@@ -212,25 +217,22 @@ PLUMB_HD bool touch(const ViewA& a, const ViewB& b, const Placement& at, Real ma
 }
 
 template <class ViewA, class ViewB>
-PLUMB_HD bool collide_views(const ViewA& view_a, const ViewB& view_b, const Shape& a, const Quat& qa, const Shape& b,
-                            const Quat& qb, const Vec& d, Real margin, Manifold& out) {
-  const Placement at = {to_matrix(conjugate(qa) * qb), rotate_back(qa, d)};
-  if (!touch(view_a, view_b, at, margin, kTie * (a.reach + b.reach), out)) return false;
-  out.normal = rotate(qa, out.normal);
-  for (std::uint32_t i = 0; i < out.count; ++i) out.points[i].position = rotate(qa, out.points[i].position);
+PLUMB_HD bool collide_views(const ViewA& view_a, const ViewB& view_b, const ShapePair& pair, Manifold& out) {
+  const Placement at = {to_matrix(conjugate(pair.qa) * pair.qb), rotate_back(pair.qa, pair.d)};
+  if (!touch(view_a, view_b, at, pair.margin, kTie * (pair.a.reach + pair.b.reach), out)) return false;
+  out.normal = rotate(pair.qa, out.normal);
+  for (std::uint32_t i = 0; i < out.count; ++i) out.points[i].position = rotate(pair.qa, out.points[i].position);
   return true;
 }
 
 }  // namespace polyhedra
 
-PLUMB_HD inline bool collide_box_hull(const Shape& a, const Quat& qa, const Shape& b, const Quat& qb, const Vec& d,
-                                      Real margin, const Hulls& hulls, Manifold& out) {
-  return polyhedra::collide_views(BoxView{a.size}, HullView(hulls, b.hull), a, qa, b, qb, d, margin, out);
+PLUMB_HD inline bool collide_box_hull(const ShapePair& pair, const Hulls& hulls, Manifold& out) {
+  return polyhedra::collide_views(BoxView{pair.a.size}, HullView(hulls, pair.b.hull), pair, out);
 }
 
-PLUMB_HD inline bool collide_hull_hull(const Shape& a, const Quat& qa, const Shape& b, const Quat& qb, const Vec& d,
-                                       Real margin, const Hulls& hulls, Manifold& out) {
-  return polyhedra::collide_views(HullView(hulls, a.hull), HullView(hulls, b.hull), a, qa, b, qb, d, margin, out);
+PLUMB_HD inline bool collide_hull_hull(const ShapePair& pair, const Hulls& hulls, Manifold& out) {
+  return polyhedra::collide_views(HullView(hulls, pair.a.hull), HullView(hulls, pair.b.hull), pair, out);
 }
 
 }  // namespace plumb::impulse

@@ -15,24 +15,23 @@ PLUMB_HD inline bool touch_ball(Real radius_a, const Vec& normal, Real distance,
   return out.count != 0;
 }
 
-PLUMB_HD inline bool collide_sphere_sphere(const Shape& a, const Quat&, const Shape& b, const Quat&, const Vec& d,
-                                           Real margin, const Hulls&, Manifold& out) {
-  return touch_ball(a.size.x, normalized_or(d, {0, 1, 0}), length(d) - b.size.x, margin, out);
+PLUMB_HD inline bool collide_sphere_sphere(const ShapePair& pair, const Hulls&, Manifold& out) {
+  return touch_ball(pair.a.size.x, normalized_or(pair.d, {0, 1, 0}), length(pair.d) - pair.b.size.x, pair.margin, out);
 }
 
-PLUMB_HD inline bool collide_sphere_box(const Shape& a, const Quat&, const Shape& b, const Quat& qb, const Vec& d,
-                                        Real margin, const Hulls&, Manifold& out) {
-  const Vec centre = rotate_back(qb, -d);  // in the box's frame
-  const Vec nearest = max(min(centre, b.size), -b.size);
+PLUMB_HD inline bool collide_sphere_box(const ShapePair& pair, const Hulls&, Manifold& out) {
+  const Vec centre = rotate_back(pair.qb, -pair.d);  // in the box's frame
+  const Vec nearest = max(min(centre, pair.b.size), -pair.b.size);
   const Vec away = centre - nearest;
   const Real distance = length(away);
-  if (distance > 0) return touch_ball(a.size.x, rotate(qb, (-1 / distance) * away), distance, margin, out);
+  if (distance > 0)
+    return touch_ball(pair.a.size.x, rotate(pair.qb, (-1 / distance) * away), distance, pair.margin, out);
   // The centre is inside: out through the nearest face.
-  const Vec depth = b.size - abs(centre);
+  const Vec depth = pair.b.size - abs(centre);
   const int axis = depth.x <= depth.y ? (depth.x <= depth.z ? 0 : 2) : (depth.y <= depth.z ? 1 : 2);
   Vec normal = {0, 0, 0};
   normal[axis] = centre[axis] < 0 ? Real(1) : Real(-1);
-  return touch_ball(a.size.x, rotate(qb, normal), -depth[axis], margin, out);
+  return touch_ball(pair.a.size.x, rotate(pair.qb, normal), -depth[axis], pair.margin, out);
 }
 
 }  // namespace plumb::impulse

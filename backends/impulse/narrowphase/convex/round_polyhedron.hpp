@@ -181,31 +181,30 @@ PLUMB_HD inline void put_second(const Quat& q, const Vec& d, Manifold& m) {
 
 }  // namespace round_polyhedron
 
-PLUMB_HD inline bool collide_sphere_hull(const Shape& a, const Quat&, const Shape& b, const Quat& qb, const Vec& d,
-                                         Real margin, const Hulls& hulls, Manifold& out) {
-  const HullView view(hulls, b.hull);
-  const Real tie = kTie * (a.reach + b.reach);
-  if (!round_polyhedron::touch(view, rotate_back(qb, -d), {0, 0, 0}, a.size.x, margin, tie, out)) return false;
-  round_polyhedron::put_second(qb, d, out);
+PLUMB_HD inline bool collide_sphere_hull(const ShapePair& pair, const Hulls& hulls, Manifold& out) {
+  const HullView view(hulls, pair.b.hull);
+  const Real tie = kTie * (pair.a.reach + pair.b.reach);
+  if (!round_polyhedron::touch(view, rotate_back(pair.qb, -pair.d), {0, 0, 0}, pair.a.size.x, pair.margin, tie, out))
+    return false;
+  round_polyhedron::put_second(pair.qb, pair.d, out);
   return true;
 }
 
-PLUMB_HD inline bool collide_box_capsule(const Shape& a, const Quat& qa, const Shape& b, const Quat& qb, const Vec& d,
-                                         Real margin, const Hulls&, Manifold& out) {
-  const Vec half = rotate_back(qa, half_segment(b, qb)), centre = rotate_back(qa, d);
-  const Real tie = kTie * (a.reach + b.reach);
-  if (!round_polyhedron::touch(BoxView{a.size}, centre - half, half + half, b.size.x, margin, tie, out)) return false;
-  round_polyhedron::place(qa, {0, 0, 0}, out);
+PLUMB_HD inline bool collide_box_capsule(const ShapePair& pair, const Hulls&, Manifold& out) {
+  const Vec half = rotate_back(pair.qa, half_segment(pair.b, pair.qb)), centre = rotate_back(pair.qa, pair.d);
+  const Real tie = kTie * (pair.a.reach + pair.b.reach);
+  if (!round_polyhedron::touch(BoxView{pair.a.size}, centre - half, half + half, pair.b.size.x, pair.margin, tie, out))
+    return false;
+  round_polyhedron::place(pair.qa, {0, 0, 0}, out);
   return true;
 }
 
-PLUMB_HD inline bool collide_capsule_hull(const Shape& a, const Quat& qa, const Shape& b, const Quat& qb, const Vec& d,
-                                          Real margin, const Hulls& hulls, Manifold& out) {
-  const Vec half = rotate_back(qb, half_segment(a, qa)), centre = rotate_back(qb, -d);
-  const HullView view(hulls, b.hull);
-  const Real tie = kTie * (a.reach + b.reach);
-  if (!round_polyhedron::touch(view, centre - half, half + half, a.size.x, margin, tie, out)) return false;
-  round_polyhedron::put_second(qb, d, out);
+PLUMB_HD inline bool collide_capsule_hull(const ShapePair& pair, const Hulls& hulls, Manifold& out) {
+  const Vec half = rotate_back(pair.qb, half_segment(pair.a, pair.qa)), centre = rotate_back(pair.qb, -pair.d);
+  const HullView view(hulls, pair.b.hull);
+  const Real tie = kTie * (pair.a.reach + pair.b.reach);
+  if (!round_polyhedron::touch(view, centre - half, half + half, pair.a.size.x, pair.margin, tie, out)) return false;
+  round_polyhedron::put_second(pair.qb, pair.d, out);
   return true;
 }
 

@@ -7,21 +7,25 @@
 namespace plumb::impulse {
 
 /// A function of collide.hpp.
-using PairFunction = bool (*)(const Shape& a, const Quat& qa, const Shape& b, const Quat& qb, const Vec& d, Real margin,
-                              const Hulls& hulls, Manifold& out);
+using PairFunction = bool (*)(const ShapePair& pair, const Hulls& hulls, Manifold& out);
+
+/// The pair with these shapes, which are its own in this order.
+__device__ inline ShapePair in_order(const ShapePair& pair, const Shape& first, const Shape& second, bool swapped) {
+  return {first,      second, swapped ? pair.qb : pair.qa, swapped ? pair.qa : pair.qb, swapped ? -pair.d : pair.d,
+          pair.margin};
+}
 
 /// Two convex shapes.
 template <ShapeType kA, ShapeType kB, PairFunction kCollide>
 struct OneKind {
   static constexpr std::uint32_t kTypes = bit_of(kA) | bit_of(kB), kNumber = pair_kind(kA, kB);
 
-  __device__ static bool collide(const Placed& p, const Proxies& proxies, std::uint32_t, Manifold& manifold) {
-    const bool swapped = kA != kB && p.a.type == kB;
-    const Shape first = swapped ? p.b : p.a;
-    const Shape second = swapped ? p.a : p.b;
-    const bool touch = kCollide(first, swapped ? p.qb : p.qa, second, swapped ? p.qa : p.qb,
-                                swapped ? -p.apart : p.apart, p.margin, proxies.hulls, manifold);
-    if (touch && swapped) swap_sides(p.apart, manifold);
+  __device__ static bool collide(const ShapePair& pair, const Proxies& proxies, std::uint32_t, Manifold& manifold) {
+    const bool swapped = kA != kB && pair.a.type == kB;
+    const Shape first = swapped ? pair.b : pair.a;
+    const Shape second = swapped ? pair.a : pair.b;
+    const bool touch = kCollide(in_order(pair, first, second, swapped), proxies.hulls, manifold);
+    if (touch && swapped) swap_sides(pair.d, manifold);
     return touch;
   }
 };
@@ -31,13 +35,13 @@ template <ShapeType kA, ShapeType kB>
 struct OnePiece {
   static constexpr std::uint32_t kTypes = bit_of(kA) | bit_of(kB), kNumber = pair_kind(kA, kB);
 
-  __device__ static bool collide(const Placed& p, const Proxies& proxies, std::uint32_t part, Manifold& manifold) {
-    const bool swapped = p.a.type == kB;
-    const Shape first = swapped ? p.b : p.a;
-    const Shape second = swapped ? p.a : p.b;
-    const bool touch = collide_with_piece_of<kA, kB>(first, swapped ? p.qb : p.qa, second, swapped ? p.qa : p.qb,
-                                                     swapped ? -p.apart : p.apart, p.margin, proxies, part, manifold);
-    if (touch && swapped) swap_sides(p.apart, manifold);
+  __device__ static bool collide(const ShapePair& pair, const Proxies& proxies, std::uint32_t part,
+                                 Manifold& manifold) {
+    const bool swapped = pair.a.type == kB;
+    const Shape first = swapped ? pair.b : pair.a;
+    const Shape second = swapped ? pair.a : pair.b;
+    const bool touch = collide_with_piece_of<kA, kB>(in_order(pair, first, second, swapped), proxies, part, manifold);
+    if (touch && swapped) swap_sides(pair.d, manifold);
     return touch;
   }
 };

@@ -43,7 +43,7 @@ std::vector<Case> make_cases(ShapeType a, ShapeType b, int situation, HullPool& 
     c.pair.d = {static_cast<Real>(d.x), static_cast<Real>(d.y), static_cast<Real>(d.z)};
     Manifold m{};
     const RandomPair& p = c.pair;
-    if (collide(p.a, p.qa, p.b, p.qb, p.d, c.margin, pool.host(), m) == (situation != 2)) cases.push_back(c);
+    if (collide({p.a, p.b, p.qa, p.qb, p.d, c.margin}, pool.host(), m) == (situation != 2)) cases.push_back(c);
   }
   return cases;
 }
@@ -64,7 +64,7 @@ void narrow_phase(benchmark::State& state, ShapeType a, ShapeType b, int situati
     for (const Case& c : cases) {
       Manifold m;
       const RandomPair& p = c.pair;
-      collide(p.a, p.qa, p.b, p.qb, p.d, c.margin, hulls, m);
+      collide({p.a, p.b, p.qa, p.qb, p.d, c.margin}, hulls, m);
       benchmark::DoNotOptimize(m);
       count += m.count;
     }

@@ -71,7 +71,7 @@ TEST_P(Bounds, NeverPartShapesThatTouch) {
     const V u = dice_.uniform(0, 2.5) * dice_.direction();
     const Vec d = {static_cast<Real>(u.x), static_cast<Real>(u.y), static_cast<Real>(u.z)};
     Manifold m{};
-    collide(a, qa, b, qb, d, 0, hulls, m);
+    collide({a, b, qa, qb, d, 0}, hulls, m);
     const Box box = shape_box(b, qb, hulls);
     const bool by_box = overlap(shape_box(a, qa, hulls), Box{box.low + d, box.high + d});
     Real least = 0;

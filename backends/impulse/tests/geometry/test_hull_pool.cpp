@@ -108,7 +108,7 @@ TEST(HullPool, FacesOfAnyNumberOfCornersRestOnFourPoints) {
   EXPECT_EQ(HullView(pool.host(), drum.hull).face_count(), 102U);
   for (const Shape& below : {drum, wide, make_box(2, 0.5, 2)}) {
     Manifold m{};
-    ASSERT_TRUE(collide(below, {0, 0, 0, 1}, drum, {0, 0, 0, 1}, {Real(0.1), Real(0.999), 0}, 0, pool.host(), m));
+    ASSERT_TRUE(collide({below, drum, {0, 0, 0, 1}, {0, 0, 0, 1}, {Real(0.1), Real(0.999), 0}, 0}, pool.host(), m));
     EXPECT_EQ(m.count, 4U);
     EXPECT_NEAR(std::abs(m.normal.y), 1, 1e-5);
     double low_x = 1e9, high_x = -1e9, low_z = 1e9, high_z = -1e9;
@@ -142,7 +142,7 @@ TEST(HullPool, RoundHullsOfManyFacesAgreeWithBruteForce) {
                           Dice::to_real(dice.orientation()),
                           {static_cast<Real>(u.x), static_cast<Real>(u.y), static_cast<Real>(u.z)}};
     Manifold m{};
-    collide(p.a, p.qa, p.b, p.qb, p.d, 0, pool.host(), m);
+    collide({p.a, p.b, p.qa, p.qb, p.d, 0}, pool.host(), m);
     const double best =
         greatest_gap(polyhedron(ball, pool.host(), p.qa, {0, 0, 0}), polyhedron(ball, pool.host(), p.qb, p.d));
     EXPECT_EQ(m.count > 0, best <= 0);

@@ -37,7 +37,7 @@ TEST(LargeHulls, KeepAllCornersAndAreApartByTheGreatestGap) {
     const Vec rd = {static_cast<Real>(d.x), static_cast<Real>(d.y), static_cast<Real>(d.z)};
     const Solid a = {ball, &hulls, unit(qa), {0, 0, 0}}, b = {other, &hulls, unit(qb), to_double(rd)};
     Manifold m{};
-    if (!collide(ball, qa, other, qb, rd, Real(0.05), hulls, m)) continue;
+    if (!collide({ball, other, qa, qb, rd, Real(0.05)}, hulls, m)) continue;
     const double best = greatest_over_directions([&](const V& n) { return gap(a, b, n); }, dice);
     EXPECT_GE(gap(a, b, to_double(m.normal)), best - 1e-4) << i;
   }

@@ -54,7 +54,7 @@ TEST(AgainstLibccd, OverlapAndDepthAgree) {
       const V d = dice.uniform(0.2, 2) * dice.direction();
       p.d = {static_cast<Real>(d.x), static_cast<Real>(d.y), static_cast<Real>(d.z)};
       Manifold m{};
-      const bool touch = collide(p.a, p.qa, p.b, p.qb, p.d, 0, pool.host(), m);
+      const bool touch = collide({p.a, p.b, p.qa, p.qb, p.d, 0}, pool.host(), m);
       const Polyhedron a = polyhedron(p.a, pool.host(), p.qa, {0, 0, 0}), b = polyhedron(p.b, pool.host(), p.qb, p.d);
       double depth = 0;
       for (std::uint32_t k = 0; k < m.count; ++k) depth = std::max(depth, -static_cast<double>(m.points[k].separation));

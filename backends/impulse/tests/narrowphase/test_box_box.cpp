@@ -20,15 +20,15 @@ Quat turned(double degrees, double x, double y, double z) {
   return {static_cast<Real>(x * s), static_cast<Real>(y * s), static_cast<Real>(z * s),
           static_cast<Real>(std::cos(half))};
 }
-Manifold touch(const Shape& a, const Quat& qa, const Shape& b, const Quat& qb, const Vec& d, Real margin) {
+Manifold touch(const ShapePair& pair) {
   Manifold m{};
-  collide(a, qa, b, qb, d, margin, kNoHulls, m);
+  collide(pair, kNoHulls, m);
   return m;
 }
 
 TEST(BoxBox, RestingCubesTouchAtFourCornersExactly) {
   const Shape cube = box(Real(0.5), Real(0.5), Real(0.5));
-  const Manifold m = touch(cube, kUpright, cube, kUpright, {0, 1, 0}, Real(0.01));
+  const Manifold m = touch({cube, cube, kUpright, kUpright, {0, 1, 0}, Real(0.01)});
   ASSERT_EQ(m.count, 4U);
   EXPECT_EQ(m.normal, (Vec{0, 1, 0}));
   std::set<std::pair<Real, Real>> corners;
@@ -44,7 +44,7 @@ TEST(BoxBox, RestingCubesTouchAtFourCornersExactly) {
 
 TEST(BoxBox, CrossingEdgesTouchAtOnePoint) {
   const Shape cube = box(Real(0.5), Real(0.5), Real(0.5));
-  const Manifold m = touch(cube, turned(45, 0, 0, 1), cube, turned(45, 1, 0, 0), {0, Real(1.4), 0}, 0);
+  const Manifold m = touch({cube, cube, turned(45, 0, 0, 1), turned(45, 1, 0, 0), {0, Real(1.4), 0}, 0});
   ASSERT_EQ(m.count, 1U);
   EXPECT_NEAR(m.normal.y, 1, 1e-6);
   EXPECT_NEAR(m.points[0].separation, -0.01421356, 1e-6);
@@ -63,7 +63,7 @@ TEST(BoxBox, EdgesThatAreAllButParallelTouchWithinBoth) {
     const Vec d = {static_cast<Real>(0.02 * unit(random)), static_cast<Real>(1.425 + 0.01 * unit(random)),
                    static_cast<Real>(0.9 * unit(random))};
     const Quat q = normalized(turned(tilt, unit(random), unit(random), 0) * turned(roll + unit(random), 0, 0, 1));
-    const Manifold m = touch(cube, turned(roll, 0, 0, 1), cube, q, d, Real(0.02));
+    const Manifold m = touch({cube, cube, turned(roll, 0, 0, 1), q, d, Real(0.02)});
     touching += m.count != 0;
     for (std::uint32_t p = 0; p < m.count; ++p) {
       const Vec& at = m.points[p].position;
@@ -78,7 +78,7 @@ TEST(BoxBox, CubeOnItsDiagonalTouchesWithOneCorner) {
   const Shape cube = box(Real(0.5), Real(0.5), Real(0.5)), ground = box(10, 1, 10);
   const double tilt = std::acos(1 / std::sqrt(3.0)) * 180 / 3.14159265358979323846;
   const Quat q = turned(tilt, 1, 0, -1);  // takes the diagonal (1, 1, 1) to y
-  const Manifold m = touch(ground, kUpright, cube, q, {0, Real(1.86602540), 0}, Real(1e-4));
+  const Manifold m = touch({ground, cube, kUpright, q, {0, Real(1.86602540), 0}, Real(1e-4)});
   ASSERT_EQ(m.count, 1U);
   EXPECT_NEAR(m.normal.y, 1, 1e-6);
   EXPECT_NEAR(m.points[0].separation, 0, 1e-6);
@@ -86,7 +86,7 @@ TEST(BoxBox, CubeOnItsDiagonalTouchesWithOneCorner) {
 
 TEST(BoxBox, EightCornersAreReducedToFourThatSpanTheOctagon) {
   const Shape cube = box(1, 1, 1);
-  const Manifold m = touch(cube, kUpright, cube, turned(45, 0, 1, 0), {0, Real(1.999), 0}, 0);
+  const Manifold m = touch({cube, cube, kUpright, turned(45, 0, 1, 0), {0, Real(1.999), 0}, 0});
   ASSERT_EQ(m.count, 4U);
   for (const ManifoldPoint& p : m.points) EXPECT_NEAR(p.position.y, 0.9995, 1e-6) << "midway between the surfaces";
   double area = 0;  // of the quadrangle by its diagonals: sort by angle first

@@ -65,7 +65,7 @@ TEST_P(Cylinders, AreApartByTheGreatestGap) {
     const double best = greatest_over_directions([&](const V& n) { return gap(solid_a, solid_b, n); }, dice);
     const Real margin = static_cast<Real>(0.3 * size);
     Manifold m{};
-    const bool touch = collide(a, ra, b, rb, rd, margin, hulls, m);
+    const bool touch = collide({a, b, ra, rb, rd, margin}, hulls, m);
     SCOPED_TRACE("trial " + std::to_string(i) + " gap " + std::to_string(best) + " size " + std::to_string(size));
     const double tolerance = 2e-4 * size;
     if (best > static_cast<double>(margin) + tolerance) {
@@ -90,13 +90,17 @@ TEST_P(Cylinders, AreApartByTheGreatestGap) {
       EXPECT_LE(-(dot(n, p) + 0.5 * s) - solid_b.high(-n), 10 * tolerance);
     }
     Manifold back{};
-    EXPECT_TRUE(collide(b, rb, a, ra, -rd, margin, hulls, back));
+    EXPECT_TRUE(collide({b, a, rb, ra, -rd, margin}, hulls, back));
     EXPECT_NEAR(least_separation(back), least, 10 * tolerance);
     const auto turn = dice.orientation();
     const V turned = rotate(turn, to_double(rd));
     Manifold whole{};
-    EXPECT_TRUE(collide(a, Dice::to_real(turn * qa), b, Dice::to_real(turn * qb),
-                        {static_cast<Real>(turned.x), static_cast<Real>(turned.y), static_cast<Real>(turned.z)}, margin,
+    EXPECT_TRUE(collide({a,
+                         b,
+                         Dice::to_real(turn * qa),
+                         Dice::to_real(turn * qb),
+                         {static_cast<Real>(turned.x), static_cast<Real>(turned.y), static_cast<Real>(turned.z)},
+                         margin},
                         hulls, whole));
     EXPECT_NEAR(least_separation(whole), least, 10 * tolerance);
   }
@@ -111,7 +115,7 @@ const Quat kLying = Dice::to_real(Dice::turn({0, 0, 1}, 1.5707963267948966));
 TEST(CylinderPoints, StandingOnABoxAreFourOfTheRim) {
   Manifold m{};
   ASSERT_TRUE(
-      collide(make_box(2, 1, 2), kUpright, make_cylinder(0.5, 0.7), kUpright, {0.1F, 1.7F, 0}, Real(0.01), {}, m));
+      collide({make_box(2, 1, 2), make_cylinder(0.5, 0.7), kUpright, kUpright, {0.1F, 1.7F, 0}, Real(0.01)}, {}, m));
   ASSERT_EQ(m.count, 4U);
   EXPECT_NEAR(m.normal.y, 1, 1e-6);
   for (const ManifoldPoint& p : m.points) {
@@ -122,15 +126,15 @@ TEST(CylinderPoints, StandingOnABoxAreFourOfTheRim) {
 }
 TEST(CylinderPoints, OverTheRimOfABoxStayOnIt) {
   Manifold m{};
-  ASSERT_TRUE(collide(make_box(1, 1, 1), kUpright, make_cylinder(0.5, 0.5), kUpright, {Real(0.8), Real(1.5), 0},
-                      Real(0.01), {}, m));
+  ASSERT_TRUE(collide(
+      {make_box(1, 1, 1), make_cylinder(0.5, 0.5), kUpright, kUpright, {Real(0.8), Real(1.5), 0}, Real(0.01)}, {}, m));
   ASSERT_GE(m.count, 3U);
   for (std::uint32_t i = 0; i < m.count; ++i) EXPECT_LE(m.points[i].position.x, 1.001);
 }
 TEST(CylinderPoints, LyingOnABoxAreTheEndsOfALine) {
   Manifold m{};
   ASSERT_TRUE(
-      collide(make_box(2, 1, 2), kUpright, make_cylinder(0.5, 0.7), kLying, {0, Real(1.5), 0}, Real(0.01), {}, m));
+      collide({make_box(2, 1, 2), make_cylinder(0.5, 0.7), kUpright, kLying, {0, Real(1.5), 0}, Real(0.01)}, {}, m));
   ASSERT_EQ(m.count, 2U);
   EXPECT_NEAR(std::abs(m.points[0].position.x), 0.7, 1e-5);
   EXPECT_NEAR(m.points[0].position.x, -m.points[1].position.x, 1e-5);
@@ -139,7 +143,7 @@ TEST(CylinderPoints, LyingOnABoxAreTheEndsOfALine) {
 TEST(CylinderPoints, OfTwoThatStandOnEachOtherAreOfTheSmallerRim) {
   Manifold m{};
   ASSERT_TRUE(
-      collide(make_cylinder(1, 0.5), kUpright, make_cylinder(0.5, 0.5), kUpright, {0, 1, 0}, Real(0.01), {}, m));
+      collide({make_cylinder(1, 0.5), make_cylinder(0.5, 0.5), kUpright, kUpright, {0, 1, 0}, Real(0.01)}, {}, m));
   ASSERT_EQ(m.count, 4U);
   for (const ManifoldPoint& p : m.points) EXPECT_NEAR(std::hypot(p.position.x, p.position.z), 0.5, 1e-5);
 }

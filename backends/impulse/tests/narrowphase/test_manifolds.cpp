@@ -49,7 +49,7 @@ class Shapes {
 
 Manifold touch(const Pair& p, Real margin, const Hulls& hulls) {
   Manifold m{};
-  collide(p.a, p.qa, p.b, p.qb, p.d, margin, hulls, m);
+  collide({p.a, p.b, p.qa, p.qb, p.d, margin}, hulls, m);
   return m;
 }
 Pair random_pair(Dice& dice, const Shapes& shapes, ShapeType a, ShapeType b) {

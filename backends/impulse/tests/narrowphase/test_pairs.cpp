@@ -158,7 +158,7 @@ class Rig {
   }
   Outcome expected(const Input& in) {
     Outcome o{};
-    o.touch = collide(in.a, in.qa, in.b, in.qb, in.d, in.margin, kit_.hulls.host(), o.manifold);
+    o.touch = collide({in.a, in.b, in.qa, in.qb, in.d, in.margin}, kit_.hulls.host(), o.manifold);
     return o;
   }
 

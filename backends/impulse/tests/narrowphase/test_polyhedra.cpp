@@ -21,7 +21,7 @@ constexpr double kRounding = 100 * static_cast<double>(kEpsilon);
 
 void expect_true_to_reference(const RandomPair& p, const Hulls& hulls, Real margin, std::uint32_t trial) {
   Manifold m{};
-  const bool touch = collide(p.a, p.qa, p.b, p.qb, p.d, margin, hulls, m);
+  const bool touch = collide({p.a, p.b, p.qa, p.qb, p.d, margin}, hulls, m);
   const Polyhedron a = polyhedron(p.a, hulls, p.qa, {0, 0, 0}), b = polyhedron(p.b, hulls, p.qb, p.d);
   const double size = a.size + b.size, tolerance = kRounding * size, best = greatest_gap(a, b);
   SCOPED_TRACE("pair " + std::to_string(trial) + ", gap " + std::to_string(best / size) + " of its size");

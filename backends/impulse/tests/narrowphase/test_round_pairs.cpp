@@ -86,7 +86,7 @@ constexpr double kRounding = 200 * static_cast<double>(kEpsilon);
 
 void expect_true(const RandomPair& p, const Hulls& hulls, Real margin, std::uint32_t trial) {
   Manifold m{};
-  const bool touch = collide(p.a, p.qa, p.b, p.qb, p.d, margin, hulls, m);
+  const bool touch = collide({p.a, p.b, p.qa, p.qb, p.d, margin}, hulls, m);
   const Rounded a = rounded(p.a, hulls, p.qa, {0, 0, 0}), b = rounded(p.b, hulls, p.qb, p.d);
   const double size = a.core.size + b.core.size, tolerance = kRounding * size, radii = a.radius + b.radius;
   const double apart = between_cores(a, b), gap_there = greatest_gap(a.core, b.core);
@@ -176,7 +176,7 @@ TEST(RoundPairs, CapsuleOnAFaceHasTwoPoints) {
   const Shape ground = make_box(10, 1, 10), capsule = {kCapsule, 0, {Real(0.5), 1, 0}, Real(1.5)};
   const Quat lying = Dice::to_real(Dice::turn({0, 0, 1}, 1.5707963267948966));
   Manifold m{};
-  ASSERT_TRUE(collide(ground, {0, 0, 0, 1}, capsule, lying, {0, Real(1.5), 0}, Real(0.01), {}, m));
+  ASSERT_TRUE(collide({ground, capsule, {0, 0, 0, 1}, lying, {0, Real(1.5), 0}, Real(0.01)}, {}, m));
   ASSERT_EQ(m.count, 2U);
   EXPECT_NE(m.points[0].feature, m.points[1].feature);
   EXPECT_NEAR(m.normal.y, 1, 1e-6);

@@ -44,7 +44,7 @@ Nearest over_all(const Mesh& mesh, const Shape& a, const Quat& qa, const Quat& q
   Nearest nearest;
   for (std::uint32_t t = 0; t < mesh.topology.triangles.size(); ++t) {
     Manifold m{};
-    if (!collide_with_piece(a, qa, mesh.shape(), qb, d, margin, proxies, t, m)) continue;
+    if (!collide_with_piece({a, mesh.shape(), qa, qb, d, margin}, proxies, t, m)) continue;
     EXPECT_GT(m.count, 0U);
     for (std::uint32_t i = 0; i < m.count; ++i) {
       const double s = static_cast<double>(m.points[i].separation);
@@ -90,7 +90,7 @@ TEST_P(Triangles, OfACubeAreTheCube) {
     cube.at = to_double(rd);
     const Real margin = Real(0.15);
     Manifold m{};
-    const bool as_box = collide(a, qa, box, qb, rd, margin, hulls, m);
+    const bool as_box = collide({a, box, qa, qb, rd, margin}, hulls, m);
     const Nearest nearest = over_all(mesh, a, qa, qb, rd, margin, hulls);
     if (!as_box) {
       EXPECT_GT(nearest.separation, 0.0) << "trial " << i;

@@ -51,8 +51,8 @@ struct BroadPhaseRig {
   }
   void enqueue() {
     const PairFilter filter{device_filters.data(), device_excluded.data(), static_cast<std::uint32_t>(excluded.size())};
-    broad_phase.find_pairs(executor, boxes.data(), movers.data(), mover_count, filter, pairs.data(), ranges.data(),
-                           count.data());
+    broad_phase.find_pairs(executor, boxes.data(), {movers.data(), mover_count}, filter,
+                           {pairs.data(), ranges.data(), count.data()});
   }
 
   Executor executor;

@@ -1,0 +1,45 @@
+// Memory of the system: of the mechanisms that are solved exactly (joint_system.hpp).
+#pragma once
+
+#include "exec/memory.hpp"
+#include "joints/joint_order.hpp"
+#include "joints/joint_system.hpp"
+
+namespace plumb::impulse {
+
+class JointSystemMemory {
+ public:
+  /// Returns the bodies that the system's joints push: mechanism after mechanism, and in each ascending.
+  std::vector<std::uint32_t> put(const OrderedJoints& ordered, const Table<BodyMass>& masses);
+
+  [[nodiscard]] JointSystem view(const JointView& joints) {
+    return {joints,
+            base_,
+            levels_,
+            level_first_.data(),
+            entries_.data(),
+            column_first_.data(),
+            row_entries_.data(),
+            row_first_.data(),
+            products_.data(),
+            product_first_.data(),
+            scaled_.data(),
+            whole_.data(),
+            body_count_,
+            bodies_.data(),
+            body_first_.data(),
+            on_body_.data(),
+            changes_.data()};
+  }
+
+ private:
+  std::uint32_t base_ = 0, levels_ = 0, body_count_ = 0;
+  Buffer<std::uint32_t> level_first_, column_first_, row_entries_, row_first_, product_first_, bodies_, body_first_;
+  Buffer<JointEntry> entries_;
+  Buffer<JointProduct> products_;
+  Buffer<JointOnBody> on_body_;
+  Buffer<JointBlock> scaled_, whole_;
+  Buffer<std::uint32_t> changes_;
+};
+
+}  // namespace plumb::impulse
