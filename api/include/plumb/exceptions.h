@@ -1,4 +1,4 @@
-/* plumb.exceptions/1: pairs of bodies that do not touch, whatever their filters say. */
+/* plumb.exceptions/1: excluded pairs: bodies that do not touch, whatever their filters say. */
 #ifndef PLUMB_EXCEPTIONS_H
 #define PLUMB_EXCEPTIONS_H
 

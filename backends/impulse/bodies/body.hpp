@@ -83,8 +83,8 @@ struct BodyFrame {
 /// A shape on a body.
 struct Proxy {
   std::uint32_t body;
-  std::uint32_t shape;  ///< row of the shapes
-  std::uint32_t born;   ///< the step before which it was made: older contacts of this row are somebody else's
+  std::uint32_t shape;       ///< row of the shapes
+  std::uint32_t first_step;  ///< the step before which it was made: older contacts of this row are somebody else's
   Real friction, restitution;
   Frame frame;  ///< of the shape in the body's principal frame
 };

@@ -71,7 +71,7 @@ void BodyState::touch(std::uint32_t slot, std::uint32_t parts) {
   touched_parts_[slot] |= static_cast<std::uint8_t>(parts);
 }
 
-void BodyState::put_aside(const std::vector<std::uint32_t>& slots) {
+void BodyState::gather_entries(const std::vector<std::uint32_t>& slots) {
   if (slots.size() > entries_.size()) entries_.grow(std::max(slots.size(), 2 * entries_.size()));
   for (std::size_t i = 0; i < slots.size(); ++i) {
     const std::uint32_t slot = slots[i];
@@ -87,7 +87,7 @@ bool BodyState::upload() {
     executor_.to_device(orientation, size());
     executor_.to_device(velocity, size());
   } else {
-    put_aside(touched_);
+    gather_entries(touched_);
     executor_.run(static_cast<std::uint32_t>(touched_.size()),
                   PutRows{{position.device(), orientation.device(), velocity.device()}, entries_.device()});
   }
@@ -104,7 +104,7 @@ void BodyState::fetch(std::span<const std::uint32_t> slots, std::uint32_t parts)
     if (!knows(slot, parts)) missing_.push_back(slot);
   if (missing_.empty()) return;
   if (upload()) executor_.wait();
-  put_aside(missing_);
+  gather_entries(missing_);
   executor_.run(static_cast<std::uint32_t>(missing_.size()),
                 TakeRows{{position.device(), orientation.device(), velocity.device()}, entries_.device()});
   executor_.to_host(entries_, missing_.size());

@@ -61,7 +61,7 @@ class BodyState {
   };
   [[nodiscard]] bool knows(std::uint32_t slot, std::uint32_t parts) const;
   void learn(std::uint32_t slot, std::uint32_t parts);
-  void put_aside(const std::vector<std::uint32_t>& slots);
+  void gather_entries(const std::vector<std::uint32_t>& slots);
 
   Executor& executor_;
   bool stale_ = false, whole_ = false;  // whole_: all rows are to be uploaded

@@ -11,9 +11,9 @@ constexpr std::uint32_t kColours = 64;         // bits of a body's mask
 constexpr std::uint32_t kOverflow = kColours;  // the "colour" of constraints that found none: solved one by one
 
 struct StepCounters {
-  std::uint32_t pairs;      ///< candidates found; more than there is room for: the step does nothing and is repeated
-  std::uint32_t pieces;     ///< of these, where there are planes, meshes or height fields (pieces.hpp)
-  std::uint32_t manifolds;  ///< of these, touching
+  std::uint32_t pairs;  ///< candidates found; more than there is room for: the step does nothing and is repeated
+  std::uint32_t midphase_pairs;  ///< of these, where there are planes, meshes or height fields (midphase.hpp)
+  std::uint32_t manifolds;       ///< of these, touching
   std::uint32_t points;
   std::uint32_t uncoloured[3];                  ///< manifolds without a colour: this round, the next, the one after
   std::uint32_t rounds;                         ///< of the colouring

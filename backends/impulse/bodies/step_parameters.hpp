@@ -12,7 +12,7 @@ struct Softness {
   Real bias_rate;      ///< how fast an error is taken back, 1/s
   Real mass_scale;     ///< of the effective mass
   Real impulse_scale;  ///< of the accumulated impulse, taken off again
-  Real give = 0;       ///< impulse_scale over mass_scale
+  Real gamma = 0;      ///< impulse_scale over mass_scale
 };
 
 /// Softness of a damped spring of `hertz` and damping ratio `zeta` in steps of h seconds.
@@ -54,16 +54,16 @@ struct ShorterSubsteps {
 };
 
 struct StepParameters : SubstepParameters {
-  Vec gravity;             ///< m/s2
-  Real dt;                 ///< s
-  std::uint32_t step;      ///< number of this step; steps count from 1
-  bool may_be_taken_back;  ///< where it makes energy, to be gone in parts
-  bool predicts_rows;      ///< of joints, that they will hold (joints/joint_axis_solve.hpp)
-  bool is_later_part;      ///< of a step that is gone in parts
-  Real push_speed;         ///< overlap is taken back no faster than this, m/s
-  bool relaxes_once;       ///< in a step, and not in each sub-step
-  Real restitution_speed;  ///< slower impacts do not bounce, m/s
-  Position origin;         ///< of the bounds
+  Vec gravity;                   ///< m/s2
+  Real dt;                       ///< s
+  std::uint32_t step;            ///< number of this step; steps count from 1
+  bool may_be_taken_back;        ///< where it makes energy, to be gone in parts
+  bool predicts_rows;            ///< of joints, that they will hold (joints/joint_axis_solve.hpp)
+  bool is_later_part;            ///< of a step that is gone in parts
+  Real max_depenetration_speed;  ///< overlap is taken back no faster than this, m/s
+  bool relaxes_once;             ///< in a step, and not in each sub-step
+  Real restitution_speed;        ///< slower impacts do not bounce, m/s
+  Position origin;               ///< of the bounds
 
   Real sleep_speed;              ///< a body that is slower rests, m/s
   Real sleep_time;               ///< an island that has rested for so long falls asleep, s

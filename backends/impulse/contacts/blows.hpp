@@ -30,7 +30,7 @@ PLUMB_HD void let_go_of_blow(const SolverBodies& bodies, const std::uint32_t* bo
   N joined = zero;
   for (std::uint32_t lane = 0; lane < sizeof(N) / sizeof(Real); ++lane)
     if (bodies.mechanisms.hold(body_a[lane]) || bodies.mechanisms.hold(body_b[lane])) lane_of(joined, lane) = 1;
-  const N weight = N(fall) / max(contact.give.normal[0], N(Real(1e-30)));
+  const N weight = N(fall) / max(contact.delassus.normal[0], N(Real(1e-30)));
   const PerPoint<P, N> pressed = contact.impulse[0], most = N(2) * contact.noted + for_all_points<P>(weight);
   const PointMask<P, N> struck = contact.there() && pressed > most && joined > zero;
   if (!in_any_contact(in_any_point(struck))) return;

@@ -90,7 +90,7 @@ struct ColourNew {
     team.each(counters->manifolds, [self](std::uint32_t row) { self.queue_if_new(row); });
     std::uint32_t round = 0;
     for (;; ++round) {
-      team.meet();
+      team.barrier();
       const std::uint32_t waiting = counters->uncoloured[round % 3];
       if (waiting == 0) break;
       const std::uint32_t* queue = view.waiting[round % 2];

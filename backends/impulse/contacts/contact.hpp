@@ -62,10 +62,10 @@ struct Contact {
   N friction, restitution, pull, tangent_step;
   N count;              ///< of points
   N rolling_radius[2];  ///< of a and b (rolling.hpp)
-  ContactGive<N> give;
+  ContactDelassus<N> delassus;
 
   PlanePoint<PerPoint<P, N>> place;
-  PerPoint<P, N> separation, noted, open;
+  PerPoint<P, N> separation, noted, allowed_approach;
   PerPoint<P, N> impulse[3];  ///< along normal, tangent and bitangent
   PerPoint<P, N> block_inverse[P];
 
@@ -102,14 +102,14 @@ PLUMB_HD Contact<P, N> load_contact(const RowAccess<N>& row) {
     contact.noted.at[i] = quad[3];
     row.get_quad(point_field(p, kNormalImpulse), quad);
     for (int k = 0; k < 3; ++k) contact.impulse[k].at[i] = quad[k];
-    contact.open.at[i] = quad[3];
+    contact.allowed_approach.at[i] = quad[3];
     row.get_quad(point_field(p, kBlockInverse), quad);
     for (int q = 0; q < P; ++q) contact.block_inverse[q].at[i] = quad[q];
   }
-  N numbers[kDrift - kGive];
+  N numbers[kSurfaceSpeed - kDelassus];
   PLUMB_UNROLL
-  for (std::uint32_t i = 0; i < kDrift - kGive; i += 4) {
-    row.get_quad(kGive + i, quad);
+  for (std::uint32_t i = 0; i < kSurfaceSpeed - kDelassus; i += 4) {
+    row.get_quad(kDelassus + i, quad);
     for (std::uint32_t k = 0; k < 4; ++k) numbers[i + k] = quad[k];
   }
   const N* next = numbers;
@@ -117,11 +117,11 @@ PLUMB_HD Contact<P, N> load_contact(const RowAccess<N>& row) {
     PLUMB_UNROLL
     for (N& number : array) number = *next++;
   };
-  take(contact.give.normal);
-  take(contact.give.across);
-  take(contact.give.friction);
-  take(contact.give.stop_free);
-  take(contact.give.stop_held);
+  take(contact.delassus.normal);
+  take(contact.delassus.across);
+  take(contact.delassus.friction);
+  take(contact.delassus.stop_free);
+  take(contact.delassus.stop_held);
   contact.count = *next++;
   take(contact.rolling_radius);
   return contact;
@@ -133,7 +133,7 @@ PLUMB_HD void store_impulses(const RowAccess<N>& row, const Contact<P, N>& conta
   PLUMB_UNROLL
   for (int i = 0; i < kHeld<P>; ++i)
     row.put_quad(point_field(point_of(i), kNormalImpulse), contact.impulse[0].at[i], contact.impulse[1].at[i],
-                 contact.impulse[2].at[i], contact.open.at[i]);
+                 contact.impulse[2].at[i], contact.allowed_approach.at[i]);
 }
 template <int P, class N>
 PLUMB_HD void store_noted(const RowAccess<N>& row, const Contact<P, N>& contact) {

@@ -19,19 +19,19 @@ PLUMB_HD void bounce_contact(const RowAccess<N>& row, Contact<P, N>& contact, So
                              Real slowest, bool friction) {
   const N zero = N(0);
   const PointMask<P, N> bounces = contact.noted < N(-slowest) && contact.restitution > zero;
-  contact.open = select(bounces, contact.noted * contact.restitution, N(kHuge));
-  const ManifoldAim<P, N> aim = {contact.open, select_by_point(bounces, N(1), zero), for_all_points<P>(zero),
-                                 for_all_points<P>(zero)};
+  contact.allowed_approach = select(bounces, contact.noted * contact.restitution, N(kHuge));
+  const NormalTarget<P, N> target = {contact.allowed_approach, select_by_point(bounces, N(1), zero),
+                                     for_all_points<P>(zero), for_all_points<P>(zero)};
   PerPoint<P, N> more[3];
   PLUMB_UNROLL
   for (int k = 0; k < 3; ++k) more[k] = -contact.impulse[k];
   ContactMotion<N> motion = motion_of(contact, a, b);
   ContactWrench<N> wrench = no_wrench<N>();
   for (int round = 0; round < kBounceRounds; ++round) {
-    const auto held = solve_normals(contact, aim, motion, wrench, false);
+    const auto held = solve_normals(contact, target, motion, wrench, false);
     if (friction) solve_friction_where(bounces, contact, motion, wrench, held);
   }
-  if (friction) solve_normals(contact, aim, motion, wrench, false);
+  if (friction) solve_normals(contact, target, motion, wrench, false);
   push(contact, wrench, a, b);
   PLUMB_UNROLL
   for (int k = 0; k < 3; ++k) more[k] = contact.impulse[k] + more[k];

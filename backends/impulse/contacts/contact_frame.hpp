@@ -73,7 +73,7 @@ PLUMB_HD FrictionPart<N> friction_wrench(const PlanePoint<PerPoint<P, N>>& place
 /// The matrix, in blocks of three by three, and inverses of the block of friction, without rows for what nothing gives
 /// way to: what stops slip where the normals let everything pass, and where they hold.
 template <class N>
-struct ContactGive {
+struct ContactDelassus {
   N normal[6];    ///< of the normal part for the normal part: 11 12 13 22 23 33
   N across[9];    ///< of the normal part (rows) for the part of friction (columns)
   N friction[6];  ///< of the part of friction for itself
@@ -90,19 +90,20 @@ PLUMB_HD void multiply(const N (&m)[6], const N& x, const N& y, const N& z, N (&
 
 /// What a normal impulse at a place, or at each point, does to the normal part of the motion.
 template <class N, class At>
-PLUMB_HD NormalPart<At> answer_at(const N (&normal)[6], const PlanePoint<At>& q) {
+PLUMB_HD NormalPart<At> apply_delassus_at(const N (&normal)[6], const PlanePoint<At>& q) {
   return {normal[0] + (q.y * normal[1] - q.x * normal[2]), normal[1] + (q.y * normal[3] - q.x * normal[4]),
           normal[2] + (q.y * normal[4] - q.x * normal[5])};
 }
 
 /// What an impulse of normals does to the motion.
 template <class N>
-PLUMB_HD void answer(const ContactGive<N>& give, const NormalPart<N>& impulse, ContactMotion<N>& motion) {
+PLUMB_HD void apply_delassus(const ContactDelassus<N>& delassus, const NormalPart<N>& impulse,
+                             ContactMotion<N>& motion) {
   const N f = impulse.along_n, t1 = impulse.about_t1, t2 = impulse.about_t2;
   N by[3];
-  multiply(give.normal, f, t1, t2, by);
+  multiply(delassus.normal, f, t1, t2, by);
   motion.normal = {motion.normal.along_n + by[0], motion.normal.about_t1 + by[1], motion.normal.about_t2 + by[2]};
-  const N* across = give.across;
+  const N* across = delassus.across;
   FrictionPart<N>& friction = motion.friction;
   friction = {friction.along_t1 + (across[0] * f + across[3] * t1 + across[6] * t2),
               friction.along_t2 + (across[1] * f + across[4] * t1 + across[7] * t2),
@@ -110,13 +111,14 @@ PLUMB_HD void answer(const ContactGive<N>& give, const NormalPart<N>& impulse, C
 }
 /// What an impulse of friction does to the motion.
 template <class N>
-PLUMB_HD void answer(const ContactGive<N>& give, const FrictionPart<N>& impulse, ContactMotion<N>& motion) {
+PLUMB_HD void apply_delassus(const ContactDelassus<N>& delassus, const FrictionPart<N>& impulse,
+                             ContactMotion<N>& motion) {
   const N f1 = impulse.along_t1, f2 = impulse.along_t2, t = impulse.about_n;
   N by[3];
-  multiply(give.friction, f1, f2, t, by);
+  multiply(delassus.friction, f1, f2, t, by);
   motion.friction = {motion.friction.along_t1 + by[0], motion.friction.along_t2 + by[1],
                      motion.friction.about_n + by[2]};
-  const N* across = give.across;
+  const N* across = delassus.across;
   NormalPart<N>& normal = motion.normal;
   normal = {normal.along_n + (across[0] * f1 + across[1] * f2 + across[2] * t),
             normal.about_t1 + (across[3] * f1 + across[4] * f2 + across[5] * t),

@@ -57,9 +57,9 @@ struct StopMass {
   N at[6];
 
   template <class M>
-  PLUMB_HD StopMass(const ContactGive<N>& give, const M& held) {
+  PLUMB_HD StopMass(const ContactDelassus<N>& delassus, const M& held) {
     PLUMB_UNROLL
-    for (int i = 0; i < 6; ++i) at[i] = select(held, give.stop_held[i], give.stop_free[i]);
+    for (int i = 0; i < 6; ++i) at[i] = select(held, delassus.stop_held[i], delassus.stop_free[i]);
   }
   PLUMB_HD FrictionPart<N> stop(const FrictionPart<N>& motion) const {
     N impulse[3];
@@ -119,7 +119,7 @@ PLUMB_HD TangentImpulses<P, N> rub(const Contact<P, N>& contact, const PerPoint<
                                    const TangentImpulses<P, N>& old, const M& held, ContactMotion<N>& motion,
                                    ContactWrench<N>& wrench) {
   const PressedPatch<P, N> patch(contact.place, loads);
-  const StopMass<N> mass(contact.give, held);
+  const StopMass<N> mass(contact.delassus, held);
   const FrictionPart<N> before = friction_wrench(contact.place, old.t1, old.t2);
   FrictionPart<N> stopping = mass.stop(motion.friction);
   const auto alone = patch.inverse_spread < N(Real(1e-30));  // one point bears all
@@ -138,7 +138,7 @@ PLUMB_HD TangentImpulses<P, N> rub(const Contact<P, N>& contact, const PerPoint<
     found = {select_all(slides, stepped.t1, found.t1), select_all(slides, stepped.t2, found.t2)};
   }
   const FrictionPart<N> push = friction_wrench(contact.place, found.t1 - old.t1, found.t2 - old.t2);
-  answer(contact.give, push, motion);
+  apply_delassus(contact.delassus, push, motion);
   add(wrench.friction, push);
   return found;
 }

@@ -84,10 +84,11 @@ PLUMB_HD void reflect(const Approach<P, N>& approach, Contact<P, N>& contact, Co
   const ContactMotion<N> before = motion;
   const PerPoint<P, N> speed = speed_at(before.normal, contact.place);
   const PerPoint<P, N> none = for_all_points<P>(zero);
-  contact.open = select(approach.bounces, -(speed + approach.came), N(kHuge));
-  const ManifoldAim<P, N> aim = {contact.open, select_by_point(approach.bounces, N(1), zero), none, none};
+  contact.allowed_approach = select(approach.bounces, -(speed + approach.came), N(kHuge));
+  const NormalTarget<P, N> target = {contact.allowed_approach, select_by_point(approach.bounces, N(1), zero), none,
+                                     none};
   for (PerPoint<P, N>& impulse : contact.impulse) impulse = none;
-  for (int round = 0; round < kBounceRounds; ++round) solve_normals(contact, aim, motion, wrench, false);
+  for (int round = 0; round < kBounceRounds; ++round) solve_normals(contact, target, motion, wrench, false);
   const N gained = sum(contact.impulse[0] * (speed_at(motion.normal, contact.place) - speed));
   const N stopped = sum(contact.impulse[0] * approach.came);
   const N share = stopped / max(gained, N(Real(1e-30)));
@@ -96,7 +97,7 @@ PLUMB_HD void reflect(const Approach<P, N>& approach, Contact<P, N>& contact, Co
   wrench = no_wrench<N>();
   add(wrench.normal, normal_wrench(contact.place, contact.impulse[0]));
   motion = before;
-  answer(contact.give, wrench.normal, motion);
+  apply_delassus(contact.delassus, wrench.normal, motion);
 }
 
 /// Throws back what strikes within this sub-step. Returns whether anything did. The contact's impulses are those of the

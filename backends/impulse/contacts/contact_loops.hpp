@@ -16,7 +16,7 @@ namespace plumb::impulse {
 struct ContactSet {
   ContactRows rows;
   const StepCounters* counters;
-  bool belts;  ///< surfaces may run on bodies that stand
+  bool surface_velocities;  ///< surfaces may run on bodies that stand
   const StepParameters* parameters;
 };
 
@@ -85,20 +85,21 @@ PLUMB_HD inline std::uint32_t slot_of(const ContactRows& rows, std::uint32_t fir
 /// Whether this thread stores body a (0) or b (1) of its contact.
 PLUMB_HD inline bool stores_body(int which) { return holds_point(which); }
 
-/// Runs work(row, contact, a, b) with the velocities of the surfaces. kBelts says whether these may differ from the
-/// bodies' own. A GPU's kernels are for worlds with belts or without; a CPU asks each time, and so is compiled once.
-template <bool kBelts, class N, class C, class Work>
-PLUMB_HD void work_on_surfaces([[maybe_unused]] bool belts, const RowAccess<N>& row, C& contact, SolverBody<N>& a,
-                               SolverBody<N>& b, const Work& work) {
-  if constexpr (kBelts) {
-    const bool runs = Executor::kWarps || belts;
+/// Runs work(row, contact, a, b) with the velocities of the surfaces. kSurfaceVelocity says whether these may differ
+/// from the bodies' own. A GPU's kernels are for worlds with surface velocities or without; a CPU asks each time, and
+/// so is compiled once.
+template <bool kSurfaceVelocity, class N, class C, class Work>
+PLUMB_HD void work_on_surfaces([[maybe_unused]] bool surface_velocities, const RowAccess<N>& row, C& contact,
+                               SolverBody<N>& a, SolverBody<N>& b, const Work& work) {
+  if constexpr (kSurfaceVelocity) {
+    const bool runs = Executor::kWarps || surface_velocities;
     const Vec3<N> own = b.linear;
     Vec3<N> before = own;
     if (runs) {
       N quad[4];
-      row.get_quad(kDrift, quad);
-      const Vec3<N> drift = quad[0] * contact.tangent + quad[1] * contact.bitangent();
-      before = b.linear = own + drift;
+      row.get_quad(kSurfaceSpeed, quad);
+      const Vec3<N> slip = quad[0] * contact.tangent + quad[1] * contact.bitangent();
+      before = b.linear = own + slip;
     }
     work(row, contact, a, b);
     if (runs) b.linear = own + (b.linear - before);
@@ -121,7 +122,7 @@ PLUMB_HD void store_mechanisms(const SolverBodies& bodies, const LoadedContact<N
 }
 
 /// Runs work(row, contact, a, b) on a contact and keeps what it did to the bodies.
-template <bool kBelts, bool kMechanisms, class N, class Work>
+template <bool kSurfaceVelocity, bool kMechanisms, class N, class Work>
 PLUMB_HD void work_on(const ContactSet& contacts, const SolverBodies& bodies, std::uint32_t slot,
                       LoadedContact<N>& loaded, BodyUse use, const Work& work) {
   const ContactRows& rows = contacts.rows;
@@ -136,7 +137,7 @@ PLUMB_HD void work_on(const ContactSet& contacts, const SolverBodies& bodies, st
     if (whole || use == BodyUse::kImpact) {
       const SolverBody<N> a_before = a, b_before = b;
       if (use == BodyUse::kImpact) put_impact_speed(bodies, loaded.a, loaded.b, a, b, contact);
-      work_on_surfaces<kBelts>(contacts.belts, RowAccess<N>(rows, slot), contact, a, b, work);
+      work_on_surfaces<kSurfaceVelocity>(contacts.surface_velocities, RowAccess<N>(rows, slot), contact, a, b, work);
       if (whole) store_mechanisms<N>(bodies, loaded, use, a_before, b_before, a, b);
       if (whole && is_last(use))
         let_go_of_blow(bodies, loaded.a, loaded.b, RowAccess<N>(rows, slot), contact, *contacts.parameters);
@@ -145,7 +146,7 @@ PLUMB_HD void work_on(const ContactSet& contacts, const SolverBodies& bodies, st
         if (stores_body(1)) store_free_velocity<N>(bodies, loaded.b, b, b_before);
       }
     } else {
-      work_on_surfaces<kBelts>(contacts.belts, RowAccess<N>(rows, slot), contact, a, b, work);
+      work_on_surfaces<kSurfaceVelocity>(contacts.surface_velocities, RowAccess<N>(rows, slot), contact, a, b, work);
     }
     if (stores_body(0)) store_body<N>(bodies, loaded.a, a);
     if (stores_body(1)) store_body<N>(bodies, loaded.b, b);
@@ -156,7 +157,7 @@ PLUMB_HD void work_on(const ContactSet& contacts, const SolverBodies& bodies, st
 }
 
 /// Runs work on the contacts of slots first .. first + n * lanes, which share no body that they push.
-template <bool kBelts, bool kMechanisms, class N, class Work>
+template <bool kSurfaceVelocity, bool kMechanisms, class N, class Work>
 PLUMB_DEVICE void for_slots(Team& team, const ContactSet& contacts, const SolverBodies& bodies, std::uint32_t first,
                             std::uint32_t n, BodyUse use, const Work& work) {
   const auto slot = [=, &contacts](std::uint32_t i) {
@@ -165,13 +166,13 @@ PLUMB_DEVICE void for_slots(Team& team, const ContactSet& contacts, const Solver
   team.each_ahead(
       contact_loop(n), [&](std::uint32_t i) { return load_slot<N>(contacts.rows, slot(i)); },
       [&](std::uint32_t i, LoadedContact<N>& loaded) {
-        work_on<kBelts, kMechanisms, N>(contacts, bodies, slot(i), loaded, use, work);
+        work_on<kSurfaceVelocity, kMechanisms, N>(contacts, bodies, slot(i), loaded, use, work);
       });
 }
 
 /// Runs work on every contact, colour after colour, and on those without a colour one after the other. kMechanisms:
 /// what it pushes may be in mechanisms that move as a whole.
-template <bool kBelts = false, bool kMechanisms = false, class Work>
+template <bool kSurfaceVelocity = false, bool kMechanisms = false, class Work>
 PLUMB_DEVICE void for_contacts(Team& team, const ContactSet& contacts, const SolverBodies& bodies, BodyUse use,
                                const Work& work) {
   const StepCounters& counters = *contacts.counters;
@@ -182,12 +183,12 @@ PLUMB_DEVICE void for_contacts(Team& team, const ContactSet& contacts, const Sol
     const std::uint32_t first = k < colours ? counters.first_slot[k] : lone + (k - colours);
     const std::uint32_t slots = k < colours ? counters.first_slot[k + 1] - first : 1;
     if constexpr (kLanes == 1) {
-      for_slots<kBelts, kMechanisms, Real>(team, contacts, bodies, first, slots, use, work);
+      for_slots<kSurfaceVelocity, kMechanisms, Real>(team, contacts, bodies, first, slots, use, work);
     } else {
       if (k < colours)
-        for_slots<kBelts, kMechanisms, Lanes>(team, contacts, bodies, first, slots / kLanes, use, work);
+        for_slots<kSurfaceVelocity, kMechanisms, Lanes>(team, contacts, bodies, first, slots / kLanes, use, work);
       else
-        for_slots<kBelts, kMechanisms, Real>(team, contacts, bodies, first, 1, use, work);
+        for_slots<kSurfaceVelocity, kMechanisms, Real>(team, contacts, bodies, first, 1, use, work);
     }
   }
 }

@@ -7,9 +7,9 @@
 namespace plumb::impulse {
 
 struct ContactRecord {
-  Pair pair;           ///< of proxies
-  Pair bodies;         ///< their bodies' slots
-  std::uint32_t part;  ///< triangle of a surface
+  Pair pair;               ///< of proxies
+  Pair bodies;             ///< their bodies' slots
+  std::uint32_t triangle;  ///< triangle of a surface
   Vec normal;
   std::uint32_t count;
   std::uint32_t feature[kManifoldPoints];
@@ -33,7 +33,7 @@ struct DescribeContacts {
     const CachedManifold& kept = cache.kept[row];
     ContactRecord& record = records[row];
     record.pair = cache.pairs[candidate];
-    record.part = cache.parts == nullptr ? 0 : cache.parts[candidate];
+    record.triangle = cache.triangles == nullptr ? 0 : cache.triangles[candidate];
     record.normal = found.normal;
     record.count = found.count;
     const Proxy& a = proxies.rows[record.pair.a];

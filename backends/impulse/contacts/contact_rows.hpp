@@ -29,28 +29,29 @@ enum PointField : std::uint32_t {
   kPlace = 0,       ///< from the mean of the points, along tangent and bitangent, m
   kSeparation = 2,  ///< at the start of the step, m
   kNoted = 3,  ///< of solvers that take the step whole: normal velocity with which a point came that was pushed in this
-               ///< step, m/s, 0 or less; above 0: not pushed yet (kWaits). Of tgs_soft on mechanisms: the normal
+               ///< step, m/s, 0 or less; above 0: not pushed yet (kNotPushedYet). Of tgs_soft on mechanisms: the normal
                ///< impulse with which the sub-step began, N s
   kNormalImpulse = 4,
   kTangentImpulse = 5,  ///< along tangent and bitangent
-  kOpen = 7,  ///< speed that a point may approach with in the relaxing pass: 0, or without bound where it is apart
+  kAllowedApproach =
+      7,  ///< speed that a point may approach with in the relaxing pass: 0, or without bound where it is apart
   /// Row of the inverse of the matrix that gives all points' normal speeds for all points' normal impulses, kg.
   kBlockInverse = 8,
   kPointFields = 12
 };
-/// kNoted of a point that has not been pushed: kWaits / 2, or kWaits less the speed with which it came.
-constexpr Real kWaits = 2;
+/// kNoted of a point that has not been pushed: kNotPushedYet / 2, or kNotPushedYet less the speed with which it came.
+constexpr Real kNotPushedYet = 2;
 /// How the bodies give way to a wrench at the mean of the points (contact_frame.hpp), and how many points there are.
-constexpr std::uint32_t kGive = kRowFields + kManifoldPoints * kPointFields;
-constexpr std::uint32_t kGiveFields = 33;
-constexpr std::uint32_t kPointCount = kGive + kGiveFields;
+constexpr std::uint32_t kDelassus = kRowFields + kManifoldPoints * kPointFields;
+constexpr std::uint32_t kDelassusFields = 33;
+constexpr std::uint32_t kPointCount = kDelassus + kDelassusFields;
 /// Radii of a and b where they are round there and roll (rolling.hpp), m.
 constexpr std::uint32_t kRollingRadius = kPointCount + 1;
 /// How fast the surface of b runs over that of a though neither body moves, along tangent and bitangent, m/s
-/// (belts.hpp).
-constexpr std::uint32_t kDrift = kRollingRadius + 2;
-constexpr std::uint32_t kAllFields = kDrift + 4;
-static_assert(kManifoldPoints == 4 && kAllFields % 4 == 0 && kDrift % 4 == 0);
+/// (surface_velocity.hpp).
+constexpr std::uint32_t kSurfaceSpeed = kRollingRadius + 2;
+constexpr std::uint32_t kAllFields = kSurfaceSpeed + 4;
+static_assert(kManifoldPoints == 4 && kAllFields % 4 == 0 && kSurfaceSpeed % 4 == 0);
 /// Impulses of a point summed over the sub-steps so far, N s: normal, tangent, bitangent.
 constexpr std::uint32_t kSumFields = 3 * kManifoldPoints;
 

@@ -28,10 +28,10 @@ struct Match {
       kept.normal_impulse[i] = kept.tangent_impulse[0][i] = kept.tangent_impulse[1][i] = 0;
     }
     const std::uint32_t step = parameters->step;
-    const std::uint32_t part = cache.parts == nullptr ? 0U : cache.parts[candidate];
-    const std::uint32_t old_row = a.born == step || b.born == step ? kNone : find_row(last, pair, part);
+    const std::uint32_t triangle = cache.triangles == nullptr ? 0U : cache.triangles[candidate];
+    const std::uint32_t old_row = a.first_step == step || b.first_step == step ? kNone : find_row(last, pair, triangle);
     const CachedManifold* old = old_row != kNone ? &last.kept[old_row] : nullptr;
-    if (old == nullptr && woken != nullptr) old = find_kept(woken, parameters->woken_contacts, pair, part);
+    if (old == nullptr && woken != nullptr) old = find_kept(woken, parameters->woken_contacts, pair, triangle);
     if (old != nullptr) remember(*old, kept);
     cache.kept[row] = kept;
     atomic_add(&counters->points, kept.count);

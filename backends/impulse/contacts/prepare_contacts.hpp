@@ -41,11 +41,11 @@ struct ContactTime {
 constexpr Real kShareLeft = Real(0.01), kLeastLeft = Real(1e-6);
 
 /// The matrix of contact_frame.hpp. In its order: normal, turns about the tangents; tangents, turn about the normal.
-struct FrameGive {
+struct FrameDelassus {
   Real at[6][6];
 
-  PLUMB_HD FrameGive(const Vec& n, const Vec& t1, const Vec& arm_a, const Vec& arm_b, const Sym& inertia_a,
-                     const Sym& inertia_b, Real inverse_mass) {
+  PLUMB_HD FrameDelassus(const Vec& n, const Vec& t1, const Vec& arm_a, const Vec& arm_b, const Sym& inertia_a,
+                         const Sym& inertia_b, Real inverse_mass) {
     const Vec t2 = cross(n, t1);
     const Vec turns_a[6] = {cross(arm_a, n), t1, t2, cross(arm_a, t1), cross(arm_a, t2), n};
     const Vec turns_b[6] = {cross(arm_b, n), t1, t2, cross(arm_b, t1), cross(arm_b, t2), n};
@@ -69,7 +69,7 @@ struct FrameGive {
   /// Between two bodies of one mechanism: what they move against each other is a difference of large numbers, and next
   /// to nothing where joints hold them against each other. The less of what they would move `alone` is left along the
   /// normal, the less a contact may push: joints and contact would strive against each other, with ever more.
-  PLUMB_HD void yield_where_joints_hold(const FrameGive& alone) {
+  PLUMB_HD void yield_where_joints_hold(const FrameDelassus& alone) {
     const Real over = kShareLeft / max(at[0][0] / alone.at[0][0], kLeastLeft), share = kShareLeft * over * over;
     for (int j = 0; j < 6; ++j)
       for (int i = 0; i < 6; ++i) at[i][j] = at[i][j] + share * alone.at[i][j];
@@ -122,7 +122,7 @@ struct PrepareContacts {
   const std::uint32_t* order;    ///< rows of the cache by colour
   const std::uint32_t* colours;  ///< of each place in the order
   const StepParameters* parameters;
-  std::uint32_t nobody;    ///< body slot that stands for none in unused lanes
+  std::uint32_t sentinel;  ///< body slot that stands for none in unused lanes
   const PartRange* parts;  ///< by body: how many it is split into; null: bodies are whole
   const Real* impacts;     ///< by candidate: when it closes, s; 0: it is as it is now. With kImpacts only
 
@@ -140,23 +140,23 @@ struct PrepareContacts {
   PLUMB_HD Sym inverse_inertia(std::uint32_t body) const {
     return is_alone(body) ? solver_bodies.inertia[body].inverse : Sym{0, 0, 0, 0, 0, 0};
   }
-  PLUMB_HD void add_mechanisms(FrameGive& give, const Vec& n, const Vec& t1, std::uint32_t a, const Vec& arm_a,
+  PLUMB_HD void add_mechanisms(FrameDelassus& delassus, const Vec& n, const Vec& t1, std::uint32_t a, const Vec& arm_a,
                                std::uint32_t b, const Vec& arm_b) const {
     const Mechanisms& mechanisms = solver_bodies.mechanisms;
     const bool a_is_in = mechanisms.hold(a), b_is_in = mechanisms.hold(b);
     Six on_a[6], on_b[6];
     frame_wrenches(n, t1, arm_a, on_a);
     frame_wrenches(n, t1, arm_b, on_b);
-    if (a_is_in) give.add(mechanisms, a, on_a, a, on_a, 1);
-    if (b_is_in) give.add(mechanisms, b, on_b, b, on_b, 1);
+    if (a_is_in) delassus.add(mechanisms, a, on_a, a, on_a, 1);
+    if (b_is_in) delassus.add(mechanisms, b, on_b, b, on_b, 1);
     if (mechanisms.together(a, b)) {
-      give.add(mechanisms, a, on_a, b, on_b, -1);
-      give.add(mechanisms, b, on_b, a, on_a, -1);
-      const FrameGive alone(n, t1, arm_a, arm_b, solver_bodies.inertia[a].inverse, solver_bodies.inertia[b].inverse,
-                            bodies.velocity[a].inverse_mass + bodies.velocity[b].inverse_mass);
-      give.yield_where_joints_hold(alone);
+      delassus.add(mechanisms, a, on_a, b, on_b, -1);
+      delassus.add(mechanisms, b, on_b, a, on_a, -1);
+      const FrameDelassus alone(n, t1, arm_a, arm_b, solver_bodies.inertia[a].inverse, solver_bodies.inertia[b].inverse,
+                                bodies.velocity[a].inverse_mass + bodies.velocity[b].inverse_mass);
+      delassus.yield_where_joints_hold(alone);
     }
-    if (a_is_in || b_is_in) give.mirror();
+    if (a_is_in || b_is_in) delassus.mirror();
   }
   /// By forces, m/s2.
   PLUMB_HD Vec acceleration(std::uint32_t body) const {
@@ -169,7 +169,7 @@ struct PrepareContacts {
 struct PadColours {
   ContactRows rows;
   const StepCounters* counters;
-  std::uint32_t nobody;
+  std::uint32_t sentinel;
   PLUMB_HD void operator()(std::uint32_t colour) const {
     const std::uint32_t used = counters->first_in_colour[colour + 1] - counters->first_in_colour[colour];
     for (std::uint32_t slot = counters->first_slot[colour] + used; slot < counters->first_slot[colour + 1]; ++slot)
@@ -179,7 +179,7 @@ struct PadColours {
 
  private:
   PLUMB_HD void clear(std::uint32_t slot) const {
-    rows.body_a[slot] = rows.body_b[slot] = nobody;
+    rows.body_a[slot] = rows.body_b[slot] = sentinel;
     rows.count[slot] = 0;
     rows.row[slot] = kNone;
     ContactNumbers{}.store(rows.at(slot));
@@ -210,25 +210,25 @@ PLUMB_HD void invert(Real (&m)[R][R]) {
 
 /// Inverse of the matrix that gives all normal speeds for all normal impulses. Four points of a plane have but three
 /// ways to move: a share of each point's own softness is added, without which there is no inverse. With much less of it
-/// the impulses of the fourth way wander, and towers tremble.
+/// impulses drift in the null space, and towers tremble.
 struct NormalBlock {
   Real inverse[kManifoldPoints][kManifoldPoints];
 
-  PLUMB_HD NormalBlock(ContactNumbers& numbers, int count, const FrameGive& give,
+  PLUMB_HD NormalBlock(ContactNumbers& numbers, int count, const FrameDelassus& delassus,
                        const PlanePoint<Real> (&places)[kManifoldPoints]) {
     const Real share = count > 1 ? Real(0.05) : Real(0);
-    const bool moves = give.at[0][0] > 0;
+    const bool moves = delassus.at[0][0] > 0;
     Real normal[6];
-    give.copy_normal(normal);
+    delassus.copy_normal(normal);
     PLUMB_UNROLL
     for (int p = 0; p < kManifoldPoints; ++p) {
       const bool there = moves && p < count;
-      const Real own = there ? speed_at(answer_at(normal, places[p]), places[p]) : Real(0);
+      const Real own = there ? speed_at(apply_delassus_at(normal, places[p]), places[p]) : Real(0);
       inverse[p][p] = there ? (1 + share) * own : Real(1);
       PLUMB_UNROLL
       for (int q = p + 1; q < kManifoldPoints; ++q)
         inverse[p][q] = inverse[q][p] =
-            moves && q < count ? speed_at(answer_at(normal, places[p]), places[q]) : Real(0);
+            moves && q < count ? speed_at(apply_delassus_at(normal, places[p]), places[q]) : Real(0);
     }
     invert(inverse);
     PLUMB_UNROLL
@@ -261,28 +261,29 @@ PLUMB_HD inline void put_stop_mass(ContactNumbers& numbers, std::uint32_t field,
 }
 
 /// The matrix of the frame, and what stops slip in it.
-PLUMB_HD inline void put_frame_matrix(ContactNumbers& numbers, int count, const FrameGive& give,
+PLUMB_HD inline void put_frame_matrix(ContactNumbers& numbers, int count, const FrameDelassus& delassus,
                                       const NormalBlock& normals, const PlanePoint<Real> (&places)[kManifoldPoints]) {
   Real normal[6];
-  give.copy_normal(normal);
-  std::uint32_t field = kGive;
+  delassus.copy_normal(normal);
+  std::uint32_t field = kDelassus;
   PLUMB_UNROLL
   for (int i = 0; i < 6; ++i) numbers.at[field++] = normal[i];
   Real across[kManifoldPoints][3];  // normal speed of each point for friction
   PLUMB_UNROLL
   for (int i = 0; i < 3; ++i) PLUMB_UNROLL
-  for (int j = 0; j < 3; ++j) numbers.at[field++] = give.at[i][3 + j];
+  for (int j = 0; j < 3; ++j) numbers.at[field++] = delassus.at[i][3 + j];
   Real free[3][3], held[3][3];
   PLUMB_UNROLL
   for (int j = 0; j < 3; ++j) {
     PLUMB_UNROLL
     for (int i = 0; i < 3; ++i) {
-      held[i][j] = free[i][j] = give.at[3 + i][3 + j];
+      held[i][j] = free[i][j] = delassus.at[3 + i][3 + j];
       if (j >= i) numbers.at[field + static_cast<std::uint32_t>(i * (5 - i) / 2 + j)] = free[i][j];
     }
     PLUMB_UNROLL
     for (int p = 0; p < kManifoldPoints; ++p)
-      across[p][j] = speed_at(NormalPart<Real>{give.at[0][3 + j], give.at[1][3 + j], give.at[2][3 + j]}, places[p]);
+      across[p][j] =
+          speed_at(NormalPart<Real>{delassus.at[0][3 + j], delassus.at[1][3 + j], delassus.at[2][3 + j]}, places[p]);
   }
   // What friction does along the normals is undone by them.
   PLUMB_UNROLL
@@ -366,8 +367,9 @@ PLUMB_HD void PrepareContacts<kImpacts, kMechanisms>::operator()(std::uint32_t j
   numbers.at[kFriction] = sqrt(proxy_a.friction * proxy_b.friction);
   numbers.at[kRestitution] = max(proxy_a.restitution, proxy_b.restitution);
   if (numbers.at[kRestitution] > 0) numbers.at[kPull] = parameters->h * dot(acceleration(b) - acceleration(a), n);
-  FrameGive give(n, t1, centre_a, centre_b, parts_a * inverse_inertia(a), parts_b * inverse_inertia(b), inverse_mass);
-  if constexpr (kMechanisms) add_mechanisms(give, n, t1, a, centre_a, b, centre_b);
+  FrameDelassus delassus(n, t1, centre_a, centre_b, parts_a * inverse_inertia(a), parts_b * inverse_inertia(b),
+                         inverse_mass);
+  if constexpr (kMechanisms) add_mechanisms(delassus, n, t1, a, centre_a, b, centre_b);
   PlanePoint<Real> places[kManifoldPoints] = {};
   Real largest_slip = 0;
   PLUMB_UNROLL
@@ -376,7 +378,7 @@ PLUMB_HD void PrepareContacts<kImpacts, kMechanisms>::operator()(std::uint32_t j
     if (p >= count) continue;
     const Vec arm = found.points[p].position - centre;
     if (count > 1) places[p] = {dot(arm, t1), dot(arm, t2)};
-    largest_slip = max(largest_slip, give.largest_slip(places[p]));
+    largest_slip = max(largest_slip, delassus.largest_slip(places[p]));
     numbers.at[field(kPlace)] = places[p].x;
     numbers.at[field(kPlace) + 1] = places[p].y;
     numbers.at[field(kSeparation)] = found.points[p].separation;
@@ -386,13 +388,13 @@ PLUMB_HD void PrepareContacts<kImpacts, kMechanisms>::operator()(std::uint32_t j
     numbers.at[field(kNormalImpulse)] = warm_start * kept.normal_impulse[p];
     numbers.at[field(kTangentImpulse)] = warm_start * kept.tangent_impulse[0][p];
     numbers.at[field(kTangentImpulse) + 1] = warm_start * kept.tangent_impulse[1][p];
-    numbers.at[field(kNoted)] = kWaits / 2;
+    numbers.at[field(kNoted)] = kNotPushedYet / 2;
   }
   numbers.at[kTangentStep] = reciprocal_or_zero(largest_slip);
   if (Real* sums = rows.sums_at(slot); sums != nullptr)
     for (std::uint32_t i = 0; i < kSumFields; ++i) sums[i * kRowBlock] = 0;
-  const NormalBlock normals(numbers, count, give, places);
-  put_frame_matrix(numbers, count, give, normals, places);
+  const NormalBlock normals(numbers, count, delassus, places);
+  put_frame_matrix(numbers, count, delassus, normals, places);
   numbers.at[kPointCount] = static_cast<Real>(count);
   numbers.store(rows.at(slot));
 }

@@ -17,7 +17,7 @@ struct ListEnds {
   ContactCache cache;
   const Velocity* velocities;
   const Proxy* proxies;
-  std::uint32_t nobody;
+  std::uint32_t sentinel;
   std::uint32_t *owners, *ends;
 
   PLUMB_HD void operator()(std::uint32_t row) const {
@@ -28,7 +28,7 @@ struct ListEnds {
 
  private:
   PLUMB_HD void put(std::uint32_t end, std::uint32_t body) const {
-    owners[end] = velocities[body].inverse_mass > 0 ? body : nobody;
+    owners[end] = velocities[body].inverse_mass > 0 ? body : sentinel;
     ends[end] = end;
   }
 };
@@ -41,11 +41,11 @@ struct ClearRange {
 struct FindRange {
   const std::uint32_t* owners;
   const std::uint32_t* count;
-  std::uint32_t nobody;
+  std::uint32_t sentinel;
   PartRange* ranges;
   PLUMB_HD void operator()(std::uint32_t i) const {
     const std::uint32_t owner = owners[i];
-    if (owner == nobody) return;
+    if (owner == sentinel) return;
     if (i == 0 || owners[i - 1] != owner) ranges[owner].first = i;
     if (i + 1 == *count || owners[i + 1] != owner) ranges[owner].end = i + 1;
   }
@@ -65,14 +65,14 @@ void SplitBodies::reserve(std::uint32_t bodies, std::uint32_t manifolds) {
 
 void SplitBodies::list(Executor& executor, const ContactCache& cache, const Velocity* velocities, const Proxy* proxies,
                        const StepCounters* counters) {
-  const std::uint32_t nobody = bodies_ - 1;
+  const std::uint32_t sentinel = bodies_ - 1;
   const Count manifolds = {&counters->manifolds, ends_capacity_ / 2}, ends = {end_count_.data(), ends_capacity_};
   executor.run(1U, CountEnds{counters, end_count_.data()});
-  executor.run(manifolds, ListEnds{cache, velocities, proxies, nobody, owners_.data(), ends_.data()});
+  executor.run(manifolds, ListEnds{cache, velocities, proxies, sentinel, owners_.data(), ends_.data()});
   sort_.run(executor, ends, owners_.data(), ends_.data(), sorted_owners_.data(), sorted_ends_.data(),
-            static_cast<int>(std::bit_width(nobody)));
+            static_cast<int>(std::bit_width(sentinel)));
   executor.run(bodies_, ClearRange{ranges_.data()});
-  executor.run(ends, FindRange{sorted_owners_.data(), end_count_.data(), nobody, ranges_.data()});
+  executor.run(ends, FindRange{sorted_owners_.data(), end_count_.data(), sentinel, ranges_.data()});
 }
 
 }  // namespace plumb::impulse

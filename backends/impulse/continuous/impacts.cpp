@@ -44,10 +44,10 @@ struct FindImpacts {
 }  // namespace
 
 void Impacts::find(Executor& executor, const ContactCache& cache, Count candidates, const Bodies& bodies,
-                   const Proxies& proxies, const Real* margins, const StepParameters* parameters, bool in_pieces) {
+                   const Proxies& proxies, const Real* margins, const StepParameters* parameters, bool uses_midphase) {
   const ImpactSearch search = {cache, bodies, proxies, margins, parameters, times_.data()};
   executor.run(candidates, FindImpacts{search});
-  if (in_pieces) find_piece_impacts(executor, candidates, search);
+  if (uses_midphase) find_piece_impacts(executor, candidates, search);
 }
 
 }  // namespace plumb::impulse

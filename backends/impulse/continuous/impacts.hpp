@@ -24,9 +24,9 @@ class Impacts {
   void reserve(std::uint32_t pairs) { times_.grow(pairs); }
 
   /// Between the narrow phase's look at the pairs and their numbering. margins: by proxy, what it looked ahead, m.
-  /// in_pieces: there may be planes and surfaces among the shapes.
+  /// uses_midphase: there may be planes and surfaces among the shapes.
   void find(Executor& executor, const ContactCache& cache, Count candidates, const Bodies& bodies,
-            const Proxies& proxies, const Real* margins, const StepParameters* parameters, bool in_pieces);
+            const Proxies& proxies, const Real* margins, const StepParameters* parameters, bool uses_midphase);
 
   /// By candidate: of those whose manifold is one of an impact its time in the step, s; else 0.
   [[nodiscard]] const Real* times() const { return times_.data(); }

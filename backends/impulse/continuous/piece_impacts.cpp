@@ -20,7 +20,7 @@ struct FindPieceImpacts {
     const bool glances = bounces && search.glances_off(own, on);
     if (!flagged && !glances) return;
     const Vec apart = swapped ? -search.apart(pair) : search.apart(pair);  // to the piece
-    const std::uint32_t triangle = cache.parts[p];
+    const std::uint32_t triangle = cache.triangles[p];
     const Hulls& hulls = search.proxies.hulls;
     const Real close = kCloseShare * (on.shape->reach > 0 ? min(own.shape->reach, on.shape->reach) : own.shape->reach);
 

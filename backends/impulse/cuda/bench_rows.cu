@@ -47,9 +47,9 @@ void print_size(std::uint32_t n) {
   std::printf("%8u poses  bus %.3f  row by row %.3f  as they are, by threads:", n, bus, by_row);
   for (const std::uint32_t threads : {1U, 2U, 4U, 8U, 16U}) {
     if (threads > Executor::max_threads()) break;
-    Executor crew(nullptr, threads);
+    Executor pool(nullptr, threads);
     std::fill(poses.begin(), poses.end(), PlumbPose{});
-    const double ms = median_ms([&] { copy_rows(crew, block.host(), ids, rows); });
+    const double ms = median_ms([&] { copy_rows(pool, block.host(), ids, rows); });
     const bool right = poses[n - 1].position.x == n - 1 && poses[n / 2].orientation.w == n / 2 + 0.75;
     std::printf("  %u: %.3f%s", threads, ms, right ? "" : " WRONG");
   }

@@ -10,7 +10,7 @@
 //     each(n, f)        f(i) for every i < n, when all that came before is done
 //     each_ahead(n, load, f)   f(i, load(i)); load may run early and so must read nothing that the loop before writes
 //     single(f)         f() once, as each
-//     meet()            returns when all is done: needed before reading, between loops, what a loop has written
+//     barrier()            returns when all is done: needed before reading, between loops, what a loop has written
 //   Buffer<T>, Mirror<T>   memory where kernels run; the same with a twin on the host (memory.hpp)
 //   to_device, to_host  copy rows of a Mirror, in order with the kernels; uploaded_bytes() counts the first kind
 //   RadixSort<K>, Scan  (sort.hpp)

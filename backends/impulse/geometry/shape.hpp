@@ -41,7 +41,7 @@ PLUMB_HD bool with_convex_type(ShapeType type, const F& f) {
   }
 }
 /// Those that are not collided as they are found: planes are in no tree, surfaces are taken triangle by triangle.
-constexpr std::uint32_t kTypesInPieces =
+constexpr std::uint32_t kMidphaseTypes =
     bit_of(ShapeType::kPlane) | bit_of(ShapeType::kMesh) | bit_of(ShapeType::kHeightField);
 
 /// One shape, in its own frame.

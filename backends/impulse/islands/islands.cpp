@@ -45,12 +45,12 @@ struct JoinTouching {
   Graph graph;
   ContactCache cache;
   Proxies proxies;
-  const Vec* belts;
+  const Vec* surface_velocities;
   PLUMB_HD void operator()(std::uint32_t row) const {
     const Pair pair = cache.pairs[cache.candidate[row]];
     const std::uint32_t a = proxies.rows[pair.a].body, b = proxies.rows[pair.b].body;
     graph.join(a, b);
-    if (belts == nullptr || !runs(belts, pair)) return;
+    if (surface_velocities == nullptr || !runs(surface_velocities, pair)) return;
     graph.keep_awake(a);
     graph.keep_awake(b);
   }
@@ -104,7 +104,7 @@ void Islands::find_resting(Executor& executor, const Input& input) {
   const std::uint32_t count = input.body_count;
   executor.run(count, Alone{parent_.data(), restless_.data(), awake_.data(), count_.device()});
   const Graph graph = {bodies, parent_.data(), restless_.data()};
-  executor.run(input.manifolds, JoinTouching{graph, input.cache, input.proxies, input.belts});
+  executor.run(input.manifolds, JoinTouching{graph, input.cache, input.proxies, input.surface_velocities});
   executor.run(input.joints.count, JoinJointed{graph, input.joints});
   executor.run(count, FindRoot{parent_.data(), root_.data()});
   executor.run(count, KeepAwake{bodies, input.rest, input.time, root_.data(), restless_.data(), awake_.data()});

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "bodies/body.hpp"
-#include "contacts/belts.hpp"
+#include "contacts/surface_velocity.hpp"
 #include "exec/executor.hpp"
 #include "exec/memory.hpp"
 #include "joints/joint.hpp"
@@ -28,9 +28,9 @@ class Islands {
     Bodies bodies;
     std::uint32_t body_count;
     Proxies proxies;
-    const Real* rest;            ///< by body, s
-    Real time;                   ///< for which an island is to have rested, s
-    const Vec* belts = nullptr;  ///< by proxy, or null: what touches a surface that runs does not rest
+    const Real* rest;                         ///< by body, s
+    Real time;                                ///< for which an island is to have rested, s
+    const Vec* surface_velocities = nullptr;  ///< by proxy, or null: what touches a surface that runs does not rest
   };
   /// Enqueues the search for islands all of whose bodies have rested for that time at least, and which nothing that
   /// moves by itself touches. Only between steps.

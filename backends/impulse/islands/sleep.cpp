@@ -124,12 +124,12 @@ std::vector<std::uint32_t> Sleep::wake(std::span<const std::uint32_t> bodies, Ta
   if (woken.empty()) return woken;
   count_ -= static_cast<std::uint32_t>(woken.size());
   islands_changed_ = true;
-  const auto still_asleep = [&](const ContactAside& contact) {
+  const auto still_asleep = [&](const StoredContact& contact) {
     return sleeps(contact.body_a) || sleeps(contact.body_b);
   };
-  const auto risen = std::stable_partition(aside_.begin(), aside_.end(), still_asleep);
-  std::move(risen, aside_.end(), std::back_inserter(woken_));
-  aside_.erase(risen, aside_.end());
+  const auto risen = std::stable_partition(stored_.begin(), stored_.end(), still_asleep);
+  std::move(risen, stored_.end(), std::back_inserter(woken_));
+  stored_.erase(risen, stored_.end());
   return woken;
 }
 
@@ -142,7 +142,7 @@ std::vector<bool> Sleep::marks_of(std::span<const std::uint32_t> bodies) const {
 std::vector<std::uint32_t> Sleep::neighbours(std::span<const std::uint32_t> bodies) const {
   const std::vector<bool> is_one = marks_of(bodies);
   std::vector<std::uint32_t> found;
-  for (const ContactAside& contact : aside_) {
+  for (const StoredContact& contact : stored_) {
     if (sleeps(contact.body_a) && is_one[contact.body_b]) found.push_back(contact.body_a);
     if (sleeps(contact.body_b) && is_one[contact.body_a]) found.push_back(contact.body_b);
   }
@@ -150,11 +150,11 @@ std::vector<std::uint32_t> Sleep::neighbours(std::span<const std::uint32_t> bodi
 }
 
 void Sleep::forget(std::span<const std::uint32_t> bodies) {
-  if (aside_.empty() && woken_.empty()) return;
+  if (stored_.empty() && woken_.empty()) return;
   const std::vector<bool> is_one = marks_of(bodies);
-  for (auto* contacts : {&aside_, &woken_})
+  for (auto* contacts : {&stored_, &woken_})
     std::erase_if(*contacts,
-                  [&](const ContactAside& contact) { return is_one[contact.body_a] || is_one[contact.body_b]; });
+                  [&](const StoredContact& contact) { return is_one[contact.body_a] || is_one[contact.body_b]; });
 }
 
 void Sleep::exchange(Archive& archive, std::uint32_t bodies, Table<BodyMass>& mass) {
@@ -163,7 +163,7 @@ void Sleep::exchange(Archive& archive, std::uint32_t bodies, Table<BodyMass>& ma
       if (sleeps(body)) mass.edit(body).flags = was_[body].flags;
   archive.items(was_.data(), bodies);
   archive.rows(rest_, bodies);
-  archive.list(aside_);
+  archive.list(stored_);
   archive.list(woken_);
   if (!archive.reads()) return;
   count_ = 0;

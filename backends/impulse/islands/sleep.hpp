@@ -24,7 +24,7 @@
 namespace plumb::impulse {
 
 /// A contact between bodies that do not move, one of which sleeps; or of one that was woken and has not stepped yet.
-struct ContactAside {
+struct StoredContact {
   std::uint32_t body_a, body_b;
   KeptPair kept;
   ContactRecord record;
@@ -62,7 +62,7 @@ class Sleep {
   /// All bodies of the islands of these, which move again; those that do not sleep are passed over.
   std::vector<std::uint32_t> wake(std::span<const std::uint32_t> bodies, Table<BodyMass>& mass, BodyState& state);
 
-  void put_aside(ContactAside contact) { aside_.push_back(std::move(contact)); }
+  void store(StoredContact contact) { stored_.push_back(std::move(contact)); }
   /// Those that sleep and touch one of these bodies.
   [[nodiscard]] std::vector<std::uint32_t> neighbours(std::span<const std::uint32_t> bodies) const;
   /// No contact with these is kept any more.
@@ -70,8 +70,8 @@ class Sleep {
   /// What contacts() tells of beyond the last step's own.
   template <class F>
   void for_records(std::uint32_t step, const F& f) const {
-    for (const auto* contacts : {&aside_, &woken_})
-      for (const ContactAside& contact : *contacts)
+    for (const auto* contacts : {&stored_, &woken_})
+      for (const StoredContact& contact : *contacts)
         if (contact.step < step) f(contact.record);
   }
 
@@ -95,7 +95,7 @@ class Sleep {
   std::uint32_t count_ = 0;
   std::vector<Was> was_;                                         // by body
   std::map<std::uint32_t, std::vector<std::uint32_t>> made_of_;  // by island
-  std::vector<ContactAside> aside_, woken_;
+  std::vector<StoredContact> stored_, woken_;
   bool islands_changed_ = true;
 
   Islands islands_;

@@ -37,12 +37,12 @@ PLUMB_DEVICE inline void factor_axis_system(Team& team, const JointSystem& syste
   });
 }
 
-/// What leaks while places are solved is taken back as they drift; what leaks while speeds are stays. It calms what
-/// sways, but a bridge at rest would seem to sink by a millimetre a second: joints with limits, motors or springs have
-/// none.
-PLUMB_HD inline Real leak_of_speeds(const AxisView& view, std::uint32_t j) {
+/// What Tikhonov's share leaks while places are solved is taken back as they drift; what leaks while speeds are stays.
+/// It calms what sways, but a bridge at rest would seem to sink by a millimetre a second: joints with limits, motors or
+/// springs have none.
+PLUMB_HD inline Real tikhonov_of_speeds(const AxisView& view, std::uint32_t j) {
   const Joint& joint = view.joints[j];
-  return rows_of(joint.type) == row_count(joint) ? view.work[j].leak : Real(0);
+  return rows_of(joint.type) == row_count(joint) ? view.work[j].tikhonov : Real(0);
 }
 
 /// The changes that solve the system with its rows on the pieces chosen. anew: as of row_speeds.
@@ -51,8 +51,8 @@ PLUMB_DEVICE inline void find_axis_changes(Team& team, const JointSystem& system
   for_columns_up(team, system, [=](std::uint32_t column) {
     const std::uint32_t j = system.base + column;
     const Joint& joint = view.joints[j];
-    const Real leak = time.pass == RowPass::kSpeeds ? leak_of_speeds(view, j) : view.work[j].leak;
-    row_residuals(view, j, time, view.velocity(joint.body_a), view.velocity(joint.body_b), anew, leak,
+    const Real tikhonov = time.pass == RowPass::kSpeeds ? tikhonov_of_speeds(view, j) : view.work[j].tikhonov;
+    row_residuals(view, j, time, view.velocity(joint.body_a), view.velocity(joint.body_b), anew, tikhonov,
                   system.work(column).change);
     take_earlier(system, column);
   });
@@ -73,7 +73,7 @@ PLUMB_DEVICE inline void solve_axis_system(Team& team, const JointSet& joints, c
     const std::uint32_t now = turn++;
     const std::uint32_t round = rounds.round();
     team.each(count, [=](std::uint32_t column) { choose_in_system(view, system, column, time, round, now); });
-    team.meet();
+    team.barrier();
     const RoundKind kind = rounds.next(system.changes[now % 3] != 0);
     if (kind == RoundKind::kDone) break;
     push_changes(team, system);
@@ -127,7 +127,7 @@ PLUMB_DEVICE inline void warm_start_axes(Team& team, const JointSet& joints, boo
 /// The speed that contacts have left a row that holds while they push.
 PLUMB_HD inline Real speed_met(const AxisView& view, std::uint32_t j, int row) {
   const AxisWork& own = view.parts.work[j];
-  return own.piece[row] == RowPiece::kSteady ? own.aim[row] : Real(0);
+  return own.piece[row] == RowPiece::kSteady ? own.target[row] : Real(0);
 }
 
 /// The rows that always hold pass on what contacts did to single bodies, so that all others start from where they
@@ -147,9 +147,9 @@ PLUMB_DEVICE inline void pass_on_loads(Team& team, const JointSet& joints) {
     const AxisWork& own = view.parts.work[j];
     Real(&y)[kJointRows] = system.work(column).change;
     speeds_now(view, j, view.velocity(joint.body_a), view.velocity(joint.body_b), y);
-    const Real leak = leak_of_speeds(view, j);
+    const Real tikhonov = tikhonov_of_speeds(view, j);
     for (int i = 0; i < row_count(joint); ++i)
-      y[i] = own.is_active(i) ? -((y[i] - speed_met(view, j, i)) + leak * own.yield[i] * view.total(j)[i]) : Real(0);
+      y[i] = own.is_active(i) ? -((y[i] - speed_met(view, j, i)) + tikhonov * own.cfm[i] * view.total(j)[i]) : Real(0);
     take_earlier(system, column);
   });
   for_columns_down(team, system, [=](std::uint32_t column) { solve_backward(system, column); });
@@ -170,7 +170,7 @@ PLUMB_DEVICE inline void solve_axes(Team& team, const JointSet& joints, const St
   if (pass == RowPass::kSpeeds) refresh_axes(team, joints, step.h, 1, loaded);
   if (loaded) pass_on_loads(team, joints);
   RowTime time = {pass, step.h, step.inverse_h, step.joint.bias_rate,
-                  pass == RowPass::kSpeeds ? Real(0) : step.joint.give};
+                  pass == RowPass::kSpeeds ? Real(0) : step.joint.gamma};
   if (touched) time.most_return = kMostReturn;
   for_single_joints(team, joints, [=](std::uint32_t j) { solve_axis_joint(view, j, time); });
   RowTime exact = time;

@@ -49,8 +49,8 @@ struct Joint {
   JointType type;
   std::uint32_t body_a;  ///< or kWorld
   std::uint32_t body_b;
-  std::uint32_t slot;  ///< of its impulses, which outlive the order of the joints
-  std::uint32_t born;  ///< the step before which it was made: older impulses of the slot are another's
+  std::uint32_t slot;        ///< of its impulses, which outlive the order of the joints
+  std::uint32_t first_step;  ///< the step before which it was made: older impulses of the slot are another's
   int rows;
   std::uint32_t pulls;  ///< a bit for each row whose impulse is one of force, not of torque
   Real rest_length;     ///< m

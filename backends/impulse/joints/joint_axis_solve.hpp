@@ -7,7 +7,7 @@
 namespace plumb::impulse {
 
 /// How much a row yields beside what the bodies do, relative to that: below what positions resolve.
-inline constexpr Real kGiveShare = sizeof(Real) == 8 ? Real(1e-10) : Real(1e-5);
+inline constexpr Real kCfmShare = sizeof(Real) == 8 ? Real(1e-10) : Real(1e-5);
 /// Rounds in a pass. Rows that would still change are few then, and are brought to what their laws allow.
 inline constexpr std::uint32_t kMostRounds = 40;
 /// In so many of them all rows change whose law asks for it. That is fast, but rows can undo each other for ever: then
@@ -28,15 +28,15 @@ struct AxisWork {
   Block whole;  ///< K of all rows
   RowPiece piece[kJointRows];
   RowPiece reached[kJointRows];  ///< at the end of the pass over places
-  Real aim[kJointRows];          ///< the speed of hard rows, the impulse without speed of others
-  Real yield[kJointRows];        ///< speed for a unit impulse by which a row yields; below 0: its impulse is its aim
+  Real target[kJointRows];       ///< the speed of hard rows, the impulse without speed of others
+  Real cfm[kJointRows];          ///< speed for a unit impulse by which a row yields; below 0: its impulse is its target
   Real spring[kJointRows];       ///< impulse of the spring in this sub-step
   Real before[kJointRows];       ///< speeds when the pass began
   std::uint32_t predicted;       ///< bits: rows that are taken to hold while contacts push
   std::uint32_t let_go;          ///< bits: of these, those that have not
   Real bend[kJointRows];  ///< what the speeds over a sub-step have beyond those now, where that was last looked at
 
-  PLUMB_HD bool is_active(int row) const { return yield[row] >= 0; }
+  PLUMB_HD bool is_active(int row) const { return cfm[row] >= 0; }
 };
 
 /// What the joint does to body b at frame b's origin, summed over a step. By slot.
@@ -45,7 +45,7 @@ struct JointReaction {
   Real counted[kJointRows];      ///< of the impulses in this sub-step
   Real spring_mass[kJointRows];  ///< against which the springs were made, kg or kg m2
   Real held_for[kJointRows];     ///< for how long rows that need not hold have, with force to spare, s
-  std::uint32_t born;            ///< of the joint for which that was
+  std::uint32_t first_step;      ///< of the joint for which that was
 };
 
 struct AxisParts {
@@ -96,8 +96,8 @@ PLUMB_HD inline void refresh_axis_joint(const AxisView& view, std::uint32_t j) {
   all_rows(joint, axes, place, work.rows);
   find_mobility(view, joint, a, b, work, own.whole);
   JointReaction& reaction = view.reaction(j);
-  if (reaction.born == joint.born) return;
-  reaction.born = joint.born;
+  if (reaction.first_step == joint.first_step) return;
+  reaction.first_step = joint.first_step;
   const Real inverse_mass = view.velocity(joint.body_a).inverse_mass + view.velocity(joint.body_b).inverse_mass;
   for (int i = rows_of(joint.type); i < row_count(joint); ++i) {
     reaction.spring_mass[i] = spring_mass(axes, own.whole(i, i), inverse_mass);
@@ -186,8 +186,8 @@ PLUMB_HD inline bool choose_pieces(const AxisView& view, std::uint32_t j, const 
     if (first_round) own.before[i] = turns_far(a, b, time.h) ? Real(0) : speed[i];
     if (is_held(view, j, i)) {
       own.piece[i] = RowPiece::kHeld;
-      own.aim[i] = speed_of_held(view, j, i, time);
-      own.yield[i] = share * mobility;
+      own.target[i] = speed_of_held(view, j, i, time);
+      own.cfm[i] = share * mobility;
       continue;
     }
     const RowLaw law = law_of_row(view, j, i, time);
@@ -196,12 +196,12 @@ PLUMB_HD inline bool choose_pieces(const AxisView& view, std::uint32_t j, const 
     if (!first_round && piece != own.piece[i]) changed = true;
     if (first_round || may_change(j, i, round)) own.piece[i] = piece;
     if (is_hard(own.piece[i])) {
-      own.aim[i] = law.speed(own.piece[i]);
-      own.yield[i] = share * mobility;
+      own.target[i] = law.speed(own.piece[i]);
+      own.cfm[i] = share * mobility;
     } else {
-      own.aim[i] = law.sign_of(own.piece[i]) + law.spring;
-      own.yield[i] = law.drag > 0 ? Real(1) / law.drag : Real(-1);
-      if (!own.is_active(i)) jump[i] = own.aim[i] - total[i];
+      own.target[i] = law.sign_of(own.piece[i]) + law.spring;
+      own.cfm[i] = law.drag > 0 ? Real(1) / law.drag : Real(-1);
+      if (!own.is_active(i)) jump[i] = own.target[i] - total[i];
     }
   }
   return changed;
@@ -211,7 +211,7 @@ PLUMB_HD inline bool choose_pieces(const AxisView& view, std::uint32_t j, const 
 PLUMB_HD inline void mask_matrix(const AxisWork& own, int n, Block& matrix) {
   for (int p = 0; p < n; ++p) {
     for (int q = 0; q <= p; ++q) matrix(p, q) = own.is_active(p) && own.is_active(q) ? own.whole(p, q) : Real(0);
-    if (own.is_active(p)) matrix(p, p) = matrix(p, p) + own.yield[p];
+    if (own.is_active(p)) matrix(p, p) = matrix(p, p) + own.cfm[p];
   }
 }
 
@@ -233,7 +233,7 @@ PLUMB_HD inline void choose_rows_met(const AxisView& view, std::uint32_t j) {
   AxisWork& own = view.parts.work[j];
   for (int i = 0; i < row_count(view.joints[j]); ++i) {
     const bool holds = is_held(view, j, i) || (own.predicted >> i & 1U) != 0;
-    own.yield[i] = holds ? view.work[j].share * own.whole(i, i) : Real(-1);
+    own.cfm[i] = holds ? view.work[j].share * own.whole(i, i) : Real(-1);
   }
 }
 
@@ -254,10 +254,10 @@ PLUMB_HD inline void follow_rows(const AxisView& view, std::uint32_t j, const Ro
   }
 }
 
-/// How far the rows are from their equations, with the other sign. leak: as JointWork's. A motor's row never counts
+/// How far the rows are from their equations, with the other sign. tikhonov: as JointWork's. A motor's row never counts
 /// what it has gathered: nothing takes back how far its speed was off, and it would creep under load.
 PLUMB_HD inline void row_residuals(const AxisView& view, std::uint32_t j, const RowTime& time, const Velocity& a,
-                                   const Velocity& b, bool anew, Real leak, Real (&y)[kJointRows]) {
+                                   const Velocity& b, bool anew, Real tikhonov, Real (&y)[kJointRows]) {
   const AxisWork& own = view.parts.work[j];
   const Real* total = view.total(j);
   row_speeds(view, j, time, a, b, anew, y);
@@ -265,16 +265,16 @@ PLUMB_HD inline void row_residuals(const AxisView& view, std::uint32_t j, const 
     if (!own.is_active(i))
       y[i] = 0;
     else if (own.piece[i] == RowPiece::kSteady)
-      y[i] = -(y[i] - own.aim[i]);
+      y[i] = -(y[i] - own.target[i]);
     else if (is_hard(own.piece[i]))
-      y[i] = -((y[i] - own.aim[i]) + leak * own.yield[i] * total[i]);
+      y[i] = -((y[i] - own.target[i]) + tikhonov * own.cfm[i] * total[i]);
     else
-      y[i] = -(y[i] + own.yield[i] * (total[i] - own.aim[i]));
+      y[i] = -(y[i] + own.cfm[i] * (total[i] - own.target[i]));
   }
 }
 
-/// At the end of a pass. change: what brings impulses to what the laws allow, of rows that might not change their minds
-/// any more.
+/// At the end of a pass, in which rows do not switch their piece of the law any more. change: what brings impulses to
+/// what the laws allow.
 PLUMB_HD inline void settle_pieces(const AxisView& view, std::uint32_t j, const RowTime& time,
                                    Real (&change)[kJointRows]) {
   const Joint& joint = view.joints[j];

@@ -16,9 +16,9 @@ struct JointWork {
   Block factor;                                ///< K, and then its factors
   // While a mechanism is solved as a whole:
   Real share;               ///< by which rows yield, relative to K
-  Real leak;                ///< the part of that which the impulses gathered so far count for
+  Real tikhonov;            ///< the part of that which the impulses gathered so far count for
   Real change[kJointRows];  ///< of the impulse
-  Real give[kJointRows];    ///< speed for a unit impulse by which a row yields beside what the bodies do
+  Real cfm[kJointRows];     ///< speed for a unit impulse by which a row yields beside what the bodies do
 };
 
 struct JointImpulse {
@@ -187,7 +187,7 @@ PLUMB_HD inline void take_over_impulse(const JointView& view, std::uint32_t j, c
   const Joint& joint = view.joints[j];
   JointImpulse& impulse = view.impulses[joint.slot];
   for (int i = 0; i < kJointRows; ++i)
-    impulse.along[i] = joint.born == step.step ? Real(0) : step.warm_start * impulse.along[i];
+    impulse.along[i] = joint.first_step == step.step ? Real(0) : step.warm_start * impulse.along[i];
 }
 
 PLUMB_HD inline void keep_change(const JointView& view, std::uint32_t j) {

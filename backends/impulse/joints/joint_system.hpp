@@ -11,11 +11,11 @@ namespace plumb::impulse {
 /// In a mechanism with a loop rows may repeat others (those of four parallel hinges do), and would leave their impulses
 /// undetermined. Those grow where turns of the rows feed back on them: by the square of the angle turned in a sub-step,
 /// over the share.
-inline constexpr Real kGiveShareInLoops = Real(1e-4), kGiveShareByTurn = 16;
+inline constexpr Real kCfmShareInLoops = Real(1e-4), kCfmShareByTurn = 16;
 /// Of what rows yield whatever the turn, the part that leaks: that counts for the impulse gathered so far, too. All of
 /// it (Tikhonov's regularisation), and every mechanism gives way under its load; none of it (a proximal step), and what
 /// rows leave undetermined never fades. (Parikh, Boyd, "Proximal Algorithms", 2014, section 4.1.)
-inline constexpr Real kLeak = Real(0.1);
+inline constexpr Real kTikhonovShare = Real(0.1);
 
 /// A dense block of L, rows of the later joint by columns of the earlier one.
 struct JointBlock {
@@ -83,11 +83,11 @@ PLUMB_HD inline void choose_share(const JointView& view, std::uint32_t j, Real h
   const Joint& joint = view.joints[j];
   const Real a = length_squared(h * view.velocity(joint.body_a).angular);
   const Real b = length_squared(h * view.velocity(joint.body_b).angular);
-  const Real still = joint.in_loop ? kGiveShareInLoops : kGiveShare;
-  const Real turned = joint.in_loop ? kGiveShareByTurn * (a + b) : Real(0);
+  const Real still = joint.in_loop ? kCfmShareInLoops : kCfmShare;
+  const Real turned = joint.in_loop ? kCfmShareByTurn * (a + b) : Real(0);
   JointWork& work = view.work[j];
   work.share = still + turned;
-  work.leak = (kLeak * still + turned) / work.share;
+  work.tikhonov = (kTikhonovShare * still + turned) / work.share;
 }
 
 /// Takes the column's products off it and factors it. coupled(i, p, j, q): the speed of row p of joint i for a unit
@@ -125,8 +125,8 @@ PLUMB_HD void eliminate_column(const JointSystem& system, std::uint32_t j, const
 PLUMB_HD inline void factor_column(const JointSystem& system, std::uint32_t j) {
   JointWork& work = system.work(j);
   for (int p = 0; p < system.rows(j); ++p) {
-    work.give[p] = work.share * work.factor(p, p);
-    work.factor(p, p) = work.factor(p, p) + work.give[p];
+    work.cfm[p] = work.share * work.factor(p, p);
+    work.factor(p, p) = work.factor(p, p) + work.cfm[p];
   }
   eliminate_column(system, j,
                    [&](std::uint32_t i, int p, std::uint32_t k, int q) { return coupling(system, i, p, k, q); });
@@ -153,7 +153,7 @@ PLUMB_HD inline void solve_forward(const JointSystem& system, std::uint32_t j, c
                   system.view.velocity(joint.body_b), y);
   const JointImpulse& total = system.view.impulses[joint.slot];
   const JointWork& work = system.work(j);
-  for (int p = 0; p < system.rows(j); ++p) y[p] = -(y[p] + work.leak * work.give[p] * total.along[p]);
+  for (int p = 0; p < system.rows(j); ++p) y[p] = -(y[p] + work.tikhonov * work.cfm[p] * total.along[p]);
   take_earlier(system, j);
 }
 

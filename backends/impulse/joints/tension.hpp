@@ -94,7 +94,7 @@ PLUMB_DEVICE inline bool tension_grows(Team& team, const JointSystem& system, Re
     slow_down(system.view, body, before, asked);
     atomic_add(&system.changes[now % 3], 1U);
   });
-  team.meet();
+  team.barrier();
   return system.changes[now % 3] != 0;
 }
 

@@ -15,7 +15,7 @@ struct Block {
   PLUMB_HD const Real& operator()(int row, int column) const { return at[row * (row + 1) / 2 + column]; }
 };
 
-/// Factors the first n rows. A row to which nothing gives way gets 0; so does one that repeats those before it.
+/// Factors the first n rows. A row with a zero pivot, which moves nothing or repeats those before it, gets 0.
 PLUMB_HD inline void factor(Block& m, int n) {
   for (int j = 0; j < n; ++j) {
     const Real whole = m(j, j);

@@ -19,14 +19,14 @@ struct AnyKind {
 
 /// Any two shapes.
 struct AnyPiece {
-  static bool collide(const ShapePair& pair, const Proxies& proxies, std::uint32_t part, Manifold& manifold) {
-    if (in_pieces(pair.b.type)) return collide_with_piece(pair, proxies, part, manifold);
-    if (!in_pieces(pair.a.type)) return impulse::collide(pair, proxies.hulls, manifold);
-    const bool touch = collide_with_piece(pair.swapped(), proxies, part, manifold);
+  static bool collide(const ShapePair& pair, const Proxies& proxies, std::uint32_t triangle, Manifold& manifold) {
+    if (uses_midphase(pair.b.type)) return collide_with_piece(pair, proxies, triangle, manifold);
+    if (!uses_midphase(pair.a.type)) return impulse::collide(pair, proxies.hulls, manifold);
+    const bool touch = collide_with_piece(pair.swapped(), proxies, triangle, manifold);
     if (touch) swap_sides(pair.d, manifold);
     return touch;
   }
-  static constexpr bool in_pieces(ShapeType type) { return static_cast<std::uint32_t>(type) >= kConvexTypes; }
+  static constexpr bool uses_midphase(ShapeType type) { return static_cast<std::uint32_t>(type) >= kConvexTypes; }
 };
 
 template <class Kind>
@@ -38,7 +38,7 @@ struct Collide {
 }  // namespace
 
 void collide_candidates(Executor& executor, Count candidates, const CollideInput& input, std::uint32_t shape_types) {
-  if (input.cache.parts != nullptr || (shape_types & bit_of(ShapeType::kCylinder)) != 0)
+  if (input.cache.triangles != nullptr || (shape_types & bit_of(ShapeType::kCylinder)) != 0)
     executor.run(candidates, Collide<AnyPiece>{input});
   else
     executor.run(candidates, Collide<AnyKind>{input});

@@ -30,7 +30,7 @@ struct CollideInput {
 /// shape_types: a bit for each ShapeType in the scene.
 void collide_candidates(Executor& executor, Count candidates, const CollideInput& input, std::uint32_t shape_types);
 
-/// Runs Kind::collide(shape_pair, proxies, part, manifold) on a candidate, and writes down what it found.
+/// Runs Kind::collide(shape_pair, proxies, triangle, manifold) on a candidate, and writes down what it found.
 template <class Kind>
 PLUMB_HD void collide_candidate(const CollideInput& in, std::uint32_t p) {
   const Pair pair = in.cache.pairs[p];
@@ -41,7 +41,7 @@ PLUMB_HD void collide_candidate(const CollideInput& in, std::uint32_t p) {
   Manifold manifold;
   const bool touch = Kind::collide({in.proxies.shapes[a.shape], in.proxies.shapes[b.shape], pose_a.orientation,
                                     pose_b.orientation, apart, in.margins[pair.a] + in.margins[pair.b]},
-                                   in.proxies, in.cache.parts == nullptr ? 0U : in.cache.parts[p], manifold);
+                                   in.proxies, in.cache.triangles == nullptr ? 0U : in.cache.triangles[p], manifold);
   in.cache.touching[p] = touch ? 1 : 0;
   if (touch) in.cache.found[p] = manifold;
 }

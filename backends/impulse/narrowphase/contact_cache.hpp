@@ -24,7 +24,7 @@ struct CachedManifold {
 /// A manifold that was kept apart from a step's.
 struct KeptPair {
   Pair pair;
-  std::uint32_t part;
+  std::uint32_t triangle;
   CachedManifold kept;
 };
 
@@ -43,18 +43,18 @@ struct ContactCache {
   std::uint32_t* row;        ///< by candidate: its manifold's row where touching
   std::uint32_t* candidate;  ///< by row
   CachedManifold* kept;      ///< by row
-  std::uint32_t* parts;      ///< by candidate: the triangle of a surface, or 0; null where nothing has pieces
+  std::uint32_t* triangles;  ///< by candidate: the triangle of a surface, or 0; null where nothing has pieces
 };
 
 /// The row of pair (a, b), or of that part of it, in a step's cache, or kNone. The pair is in the list of whichever of
 /// both found it.
-PLUMB_HD inline std::uint32_t find_row(const ContactCache& cache, Pair wanted, std::uint32_t part = 0) {
+PLUMB_HD inline std::uint32_t find_row(const ContactCache& cache, Pair wanted, std::uint32_t triangle = 0) {
   const std::uint32_t owners[2] = {wanted.a, wanted.b};
   for (const std::uint32_t owner : owners) {
     const PairRange range = cache.ranges[owner];
     for (std::uint32_t p = range.first; p < range.first + range.count; ++p)
       if (cache.pairs[p].a == wanted.a && cache.pairs[p].b == wanted.b &&
-          (cache.parts == nullptr || cache.parts[p] == part))
+          (cache.triangles == nullptr || cache.triangles[p] == triangle))
         return cache.touching[p] != 0 ? cache.row[p] : kNone;
   }
   return kNone;
@@ -62,12 +62,12 @@ PLUMB_HD inline std::uint32_t find_row(const ContactCache& cache, Pair wanted, s
 
 PLUMB_HD inline bool earlier(const KeptPair& x, const KeptPair& y) {
   if (x.pair.a != y.pair.a) return x.pair.a < y.pair.a;
-  return x.pair.b != y.pair.b ? x.pair.b < y.pair.b : x.part < y.part;
+  return x.pair.b != y.pair.b ? x.pair.b < y.pair.b : x.triangle < y.triangle;
 }
 /// Likewise among n pairs in ascending order; null where it is not.
 PLUMB_HD inline const CachedManifold* find_kept(const KeptPair* pairs, std::uint32_t n, Pair wanted,
-                                                std::uint32_t part) {
-  const KeptPair sought = {wanted, part, {}};
+                                                std::uint32_t triangle) {
+  const KeptPair sought = {wanted, triangle, {}};
   std::uint32_t low = 0, high = n;
   while (low < high) {
     const std::uint32_t middle = (low + high) / 2;

@@ -61,7 +61,7 @@ void NarrowPhase::reserve(Executor& /*executor*/, std::uint32_t proxies, std::ui
     cache.row.grow(pairs);
     cache.candidate.grow(pairs);
     cache.kept.grow(pairs);
-    if (in_pieces_) cache.parts.grow(pairs);
+    if (uses_midphase_) cache.triangles.grow(pairs);
   }
   scan_.reserve(pairs);
   if (Executor::kWarps) {
@@ -99,14 +99,14 @@ void NarrowPhase::forget_found(Executor& executor, const std::uint32_t* statics,
 }
 
 void NarrowPhase::exchange(Archive& archive, std::uint32_t parity, std::uint32_t proxies, const StepCounters& counters,
-                           bool with_parts) {
+                           bool with_triangles) {
   Storage& cache = caches_[parity % 2];
   const std::uint32_t candidates = candidate_count(counters);
   archive.rows(cache.pairs, candidates);
-  if (with_parts)
-    archive.rows(cache.parts, candidates);
-  else if (in_pieces_ && archive.reads())
-    cache.parts.from_host(std::vector<std::uint32_t>(candidates, 0U).data(), candidates);
+  if (with_triangles)
+    archive.rows(cache.triangles, candidates);
+  else if (uses_midphase_ && archive.reads())
+    cache.triangles.from_host(std::vector<std::uint32_t>(candidates, 0U).data(), candidates);
   archive.rows(cache.ranges, proxies);
   archive.rows(cache.touching, candidates);
   archive.rows(cache.row, candidates);
@@ -117,13 +117,13 @@ std::vector<KeptPair> NarrowPhase::kept(std::uint32_t parity, const StepCounters
   const Storage& cache = caches_[parity % 2];
   const std::uint32_t candidates = candidate_count(counters);
   const std::vector<Pair> pairs = cache.pairs.to_host(candidates);
-  const std::vector<std::uint32_t> parts = cache.parts.to_host(cache.parts.size() == 0 ? 0 : candidates);
+  const std::vector<std::uint32_t> triangles = cache.triangles.to_host(cache.triangles.size() == 0 ? 0 : candidates);
   const std::vector<std::uint32_t> candidate = cache.candidate.to_host(counters.manifolds);
   const std::vector<CachedManifold> manifolds = cache.kept.to_host(counters.manifolds);
   std::vector<KeptPair> rows(manifolds.size());
   for (std::size_t row = 0; row < rows.size(); ++row) {
     const std::uint32_t c = candidate[row];
-    rows[row] = {pairs[c], parts.empty() ? 0U : parts[c], manifolds[row]};
+    rows[row] = {pairs[c], triangles.empty() ? 0U : triangles[c], manifolds[row]};
   }
   return rows;
 }

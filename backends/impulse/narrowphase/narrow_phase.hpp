@@ -13,8 +13,9 @@ namespace plumb::impulse {
 class NarrowPhase {
  public:
   void reserve(Executor& executor, std::uint32_t proxies, std::uint32_t pairs);
-  /// From now on candidates have parts (pieces.hpp), and counters->pieces is how many there are. Reserve after this.
-  void take_pieces() { in_pieces_ = true; }
+  /// From now on candidates have parts (midphase.hpp), and counters->midphase_pairs is how many there are. Reserve
+  /// after this.
+  void use_midphase() { uses_midphase_ = true; }
   [[nodiscard]] std::uint32_t capacity() const { return capacity_; }
 
   /// This step's contacts and the last one's, for a step of the given parity.
@@ -25,13 +26,13 @@ class NarrowPhase {
 
   /// What the next step remembers of a step, to or from a snapshot, in which candidates may have parts or not.
   void exchange(Archive& archive, std::uint32_t parity, std::uint32_t proxies, const StepCounters& counters,
-                bool with_parts);
+                bool with_triangles);
   /// How many candidates a step has, pieces and all: where kernels run, and when it is done.
   [[nodiscard]] Count candidates(StepCounters* counters) const {
-    return {in_pieces_ ? &counters->pieces : &counters->pairs, capacity_};
+    return {uses_midphase_ ? &counters->midphase_pairs : &counters->pairs, capacity_};
   }
   [[nodiscard]] std::uint32_t candidate_count(const StepCounters& counters) const {
-    return in_pieces_ ? counters.pieces : counters.pairs;
+    return uses_midphase_ ? counters.midphase_pairs : counters.pairs;
   }
   /// Manifolds of a step, by row.
   [[nodiscard]] std::vector<KeptPair> kept(std::uint32_t parity, const StepCounters& counters) const;
@@ -54,16 +55,16 @@ class NarrowPhase {
     Buffer<Manifold> found;
     Buffer<std::uint32_t> touching, row, candidate;
     Buffer<CachedManifold> kept;
-    Buffer<std::uint32_t> parts;
+    Buffer<std::uint32_t> triangles;
     ContactCache view() {
       return {pairs.data(), ranges.data(),    found.data(), touching.data(),
-              row.data(),   candidate.data(), kept.data(),  parts.data()};
+              row.data(),   candidate.data(), kept.data(),  triangles.data()};
     }
   };
 
   void bin(Executor& executor, const ContactCache& cache, const Proxies& proxies, StepCounters* counters);
   std::uint32_t capacity_ = 0;
-  bool in_pieces_ = false;
+  bool uses_midphase_ = false;
   Storage caches_[2];
   Scan scan_;
   RadixSort<std::uint32_t> sort_;

@@ -55,7 +55,7 @@ PlumbResult World::collide_pairs(std::span<const PlumbPosedPair> pairs, std::spa
     for (const PosedShape& a : parts_a)
       for (const PosedShape& b : parts_b) {
         posed.push_back({a.shape, b.shape, a.place, b.place, a.turn, b.turn});
-        pieces = pieces || is_in_pieces(posed.back());
+        pieces = pieces || uses_midphase(posed.back());
       }
     first.push_back(static_cast<std::uint32_t>(posed.size()));
   }

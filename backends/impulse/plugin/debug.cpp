@@ -10,7 +10,7 @@ namespace plumb::impulse {
 /// The body of a proxy that the last step knew; 0 where it is gone.
 PlumbBody World::body_of_last_step(std::uint32_t proxy) const {
   const Proxy& row = simulation_.colliders.proxies[proxy];
-  return row.shape == kNone || row.born > simulation_.steps() ? 0 : bodies_[row.body].id;
+  return row.shape == kNone || row.first_step > simulation_.steps() ? 0 : bodies_[row.body].id;
 }
 
 /// Candidates of the last step whose bodies are still there.
@@ -66,7 +66,7 @@ PlumbResult World::separating_axes(std::span<const PlumbDebugAxis>& axes) {
   PairBatch batch;
   batch.reserve(n);
   pose_pairs(executor, scene, candidates.data(), n, batch.pairs.device());
-  answer_pairs(executor, batch.pairs.device(), n, scene, (scene.types & kTypesInPieces) != 0, batch.answers.device());
+  answer_pairs(executor, batch.pairs.device(), n, scene, (scene.types & kMidphaseTypes) != 0, batch.answers.device());
   executor.to_host(batch.answers, n);
   executor.wait();
   lent_.axes.clear();

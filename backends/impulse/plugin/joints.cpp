@@ -48,7 +48,7 @@ void World::put_joint(std::uint32_t slot) {
   joint.body_a = desc.body_a == 0 ? kWorld : slot_of(desc.body_a);
   joint.body_b = slot_of(desc.body_b);
   joint.slot = slot;
-  joint.born = simulation_.steps() + 1;
+  joint.first_step = simulation_.steps() + 1;
   joint.rest_length = static_cast<Real>(desc.rest_length);
   joint.frame_b = principal_frame(simulation_.bodies.frames[joint.body_b], desc.frame_b);
   if (joint.body_a != kWorld) {

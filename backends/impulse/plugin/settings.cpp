@@ -114,7 +114,7 @@ StepParameters Settings::parameters(double dt, const PlumbVec3& gravity, const S
   static_cast<SubstepParameters&>(step) = shorter.of[0];
   step.gravity = {static_cast<Real>(gravity.x), static_cast<Real>(gravity.y), static_cast<Real>(gravity.z)};
   step.dt = static_cast<Real>(dt);
-  step.push_speed = static_cast<Real>(push_speed);
+  step.max_depenetration_speed = static_cast<Real>(push_speed);
   step.relaxes_once = relaxes_once;
   step.sleep_speed = static_cast<Real>(sleep_speed);
   step.sleep_time = static_cast<Real>(sleep_time);

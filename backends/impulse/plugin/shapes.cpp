@@ -133,7 +133,7 @@ void World::attach_part(std::uint32_t slot, std::uint32_t row, std::uint32_t sha
   proxy = {};
   proxy.body = slot;
   proxy.shape = shape;
-  proxy.born = simulation_.steps() + 1;
+  proxy.first_step = simulation_.steps() + 1;
   const QuatD to_principal = conjugate(frame.principal);
   proxy.frame.orientation = to_quat(pose == nullptr ? to_principal : to_principal * to_double(pose->orientation));
   const Position from_centre =
@@ -163,17 +163,17 @@ void World::put_proxy_row(std::uint32_t slot, std::uint32_t row) {
   proxy.friction = static_cast<Real>(material.friction);
   proxy.restitution = static_cast<Real>(material.restitution);
   const std::uint32_t flags = (body.motion == PLUMB_DYNAMIC ? 0 : kProxyImmovable) | (body.senses ? kProxyUnseen : 0);
-  if (row < simulation_.colliders.belts.size()) {
+  if (row < simulation_.colliders.surface_velocities.size()) {
     const PlumbVec3& v = material.surface_velocity;
     const Position principal = rotate(conjugate(simulation_.bodies.frames[slot].principal), Position{v.x, v.y, v.z});
-    simulation_.colliders.belts.edit(row) = to_vec(PlumbVec3{principal.x, principal.y, principal.z});
+    simulation_.colliders.surface_velocities.edit(row) = to_vec(PlumbVec3{principal.x, principal.y, principal.z});
   }
   simulation_.colliders.filters.edit(row) = {slot, body.filter.category, body.filter.mask, body.filter.group, flags};
 }
 
-/// What a contact tells of the proxy beside its body; part: the triangle where it is a surface.
-std::uint32_t World::child_of(std::uint32_t proxy, std::uint32_t part) const {
-  if (is_surface(simulation_.colliders.shapes[simulation_.colliders.proxies[proxy].shape].type)) return part;
+/// What a contact tells of the proxy beside its body: the triangle where it is a surface.
+std::uint32_t World::child_of(std::uint32_t proxy, std::uint32_t triangle) const {
+  if (is_surface(simulation_.colliders.shapes[simulation_.colliders.proxies[proxy].shape].type)) return triangle;
   return proxy < proxies_.size() ? proxies_[proxy].child : 0;
 }
 

@@ -36,9 +36,9 @@ void World::exchange(Archive& archive) {
   archive.value(saved);
   if (saved.needs != here.needs) throw Error(PLUMB_E_CORRUPT, "the snapshot is of a world that declared other needs");
   if (saved.rows.bodies > here.rows.bodies || saved.rows.proxies > here.rows.proxies ||
-      saved.rows.joints > here.rows.joints || saved.rows.in_pieces > here.rows.in_pieces)
+      saved.rows.joints > here.rows.joints || saved.rows.uses_midphase > here.rows.uses_midphase)
     throw Error(PLUMB_E_CORRUPT, "the snapshot is of a world that has had more bodies, joints or shapes than this one");
-  const bool has_belts = init_.needs(PLUMB_NEED_SURFACE_VELOCITY);
+  const bool has_surface_velocity = init_.needs(PLUMB_NEED_SURFACE_VELOCITY);
   if (archive.reads()) clear_forces();
   simulation_.exchange(archive, saved.rows);
   archive.value(gravity_);
@@ -56,7 +56,7 @@ void World::exchange(Archive& archive) {
     archive.value(body.to_target);
     archive.value(body.arrived);
     archive.value(body.target);
-    if (!has_belts) continue;
+    if (!has_surface_velocity) continue;
     archive.value(body.material.surface_velocity);
     if (archive.reads() && body.id != 0) put_body_rows(slot);
   }

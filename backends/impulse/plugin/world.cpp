@@ -27,8 +27,8 @@ World::World(const WorldInit& init)
       simulation_(init.host, init.desc.threads, features_of(init)),
       settings_(settings_table().values(init)),
       gravity_(init.desc.gravity) {
-  // The step with belts has the code of all joints, which reactions ask for.
-  if (init.needs(PLUMB_NEED_JOINT_REACTIONS) || features_of(init).belts) simulation_.joints.want_reactions();
+  // The step with surface velocities has the code of all joints, which reactions ask for.
+  if (init.needs(PLUMB_NEED_JOINT_REACTIONS) || features_of(init).surface_velocity) simulation_.joints.want_reactions();
   if (init.desc.body_capacity != 0) simulation_.reserve_bodies(init.desc.body_capacity);
 }
 
@@ -144,8 +144,8 @@ std::span<const PlumbContact> World::contacts() {
       PlumbContact contact{};
       contact.body_a = bodies_[record.bodies.a].id;
       contact.body_b = bodies_[record.bodies.b].id;
-      contact.child_a = child_of(record.pair.a, record.part);
-      contact.child_b = child_of(record.pair.b, record.part);
+      contact.child_a = child_of(record.pair.a, record.triangle);
+      contact.child_b = child_of(record.pair.b, record.triangle);
       contact.position = plumb_vec(record.position[p]);
       contact.normal = to_plumb(record.normal);
       contact.depth = -static_cast<double>(record.separation[p]);

@@ -107,7 +107,7 @@ class World final : public IPhysicsWorld,
   void expect_continuous();
   void put_body_rows(std::uint32_t slot);
   void put_proxy_row(std::uint32_t slot, std::uint32_t row);
-  [[nodiscard]] std::uint32_t child_of(std::uint32_t proxy, std::uint32_t part) const;
+  [[nodiscard]] std::uint32_t child_of(std::uint32_t proxy, std::uint32_t triangle) const;
   void stop_infinite(std::uint32_t slot);
   void push(std::uint32_t slot, const Vec& force, const Vec& torque);
   void kick(std::uint32_t slot, const Vec& impulse, const Vec& angular_impulse);

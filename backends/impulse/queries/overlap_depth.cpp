@@ -63,7 +63,7 @@ void OverlapDepth::describe(Executor& executor, const QueryScene& scene, const P
   pairs_.grow(count);
   answers_.grow(count);
   executor.run(n, MakePairs{scene, casts, hits, marked_.data(), rows_.data(), pairs_.data()});
-  answer_pairs(executor, pairs_.data(), count, scene, (scene.types & kTypesInPieces) != 0, answers_.data());
+  answer_pairs(executor, pairs_.data(), count, scene, (scene.types & kMidphaseTypes) != 0, answers_.data());
   executor.run(n, Describe{scene, marked_.data(), rows_.data(), pairs_.data(), answers_.data(), hits});
 }
 

@@ -17,7 +17,7 @@ struct AnswerPairs {
   PairAnswer* answers;
 
   PLUMB_HD void operator()(std::uint32_t i) const {
-    if (!is_in_pieces(pairs[i])) answers[i] = answer_convex(pairs[i], hulls);
+    if (!uses_midphase(pairs[i])) answers[i] = answer_convex(pairs[i], hulls);
   }
 };
 
@@ -33,9 +33,9 @@ struct LookAtPieces {
 
   PLUMB_HD void operator()(std::uint32_t i) const {
     const PosedPair& pair = pairs[i];
-    if (!is_in_pieces(pair)) return;
+    if (!uses_midphase(pair)) return;
     TouchesOfPair touches{rows == nullptr ? nullptr : rows + offsets[i]};
-    const bool one = is_in_pieces(pair.a) != is_in_pieces(pair.b);
+    const bool one = uses_midphase(pair.a) != uses_midphase(pair.b);
     const PiecePair pieces(pair, hulls, surfaces);
     if (one) pieces.look(touches);
     if (rows != nullptr) return;

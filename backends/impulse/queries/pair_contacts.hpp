@@ -21,8 +21,8 @@ struct PosedPair {
 };
 
 /// Whether it is for touches in pieces (below): one is a plane or a surface.
-PLUMB_HD inline bool is_in_pieces(const Shape& shape) { return (bit_of(shape.type) & kTypesInPieces) != 0; }
-PLUMB_HD inline bool is_in_pieces(const PosedPair& pair) { return is_in_pieces(pair.a) || is_in_pieces(pair.b); }
+PLUMB_HD inline bool uses_midphase(const Shape& shape) { return (bit_of(shape.type) & kMidphaseTypes) != 0; }
+PLUMB_HD inline bool uses_midphase(const PosedPair& pair) { return uses_midphase(pair.a) || uses_midphase(pair.b); }
 
 struct PairAnswer {
   double distance;    ///< m; of shapes that touch: of the deepest point, negative in overlap; NaN: nothing is convex

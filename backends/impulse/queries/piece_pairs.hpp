@@ -85,7 +85,7 @@ class PiecePair {
       : pair_(pair),
         hulls_(hulls),
         surfaces_(surfaces),
-        swapped_(is_in_pieces(pair.a)),
+        swapped_(uses_midphase(pair.a)),
         piece_(swapped_ ? pair.a : pair.b),
         convex_(swapped_ ? pair.b : pair.a),
         apart_(between(pair.place_a, pair.place_b)) {}

@@ -84,7 +84,7 @@ struct JudgeEnergy {
     const std::uint32_t bodies = work.body_count, joints = work.joints.count;
     if (predicts()) {
       team.each(joints - work.joints.system.base, [self](std::uint32_t i) { self.count_let_go(i); });
-      team.meet();
+      team.barrier();
       if (work.counters->let_go != 0) return put_all_back(team);
     }
     team.each(bodies, [self](std::uint32_t i) { self.islands[i] = IslandEnergy{i, i, 0, 0, 0, 0, false, 0, 0, 0}; });
@@ -96,7 +96,7 @@ struct JudgeEnergy {
     team.each(bodies, [self](std::uint32_t i) { self.add_body(i); });
     team.each(joints, [self](std::uint32_t j) { self.add_given(j); });
     team.each(bodies, [self](std::uint32_t i) { self.judge(i); });
-    team.meet();
+    team.barrier();
     if (work.counters->gained == 0) return;
     if (work.parameters->may_be_taken_back) return put_all_back(team);
     team.each(bodies, [self](std::uint32_t i) { self.put_back(i, false); });
@@ -150,8 +150,8 @@ struct JudgeEnergy {
     const Pair pair = work.cache.pairs[work.cache.candidate[row]];
     const std::uint32_t a = work.proxies.rows[pair.a].body, b = work.proxies.rows[pair.b].body;
     join(a, b);
-    if (work.belts == nullptr) return;
-    const Real speed = length(work.belts[pair.a]) + length(work.belts[pair.b]);
+    if (work.surface_velocities == nullptr) return;
+    const Real speed = length(work.surface_velocities[pair.a]) + length(work.surface_velocities[pair.b]);
     if (is_pushed(a)) atomic_max(&islands[a].speed, bits_of(speed));
     if (is_pushed(b)) atomic_max(&islands[b].speed, bits_of(speed));
   }

@@ -65,8 +65,8 @@ struct IslandEnergy {
 struct EnergyWork {
   ContactCache cache;
   Proxies proxies;
-  const Vec* belts;  ///< by proxy, or null
-  JointSet joints;   ///< with the world's bodies
+  const Vec* surface_velocities;  ///< by proxy, or null
+  JointSet joints;                ///< with the world's bodies
   JointCode code;
   std::uint32_t body_count, pair_capacity;
   const StepParameters* parameters;

@@ -17,22 +17,23 @@ struct StepWork {
   std::uint32_t least;
 };
 
-/// Only the default solver has code of its own for a step without joints. kBelts: surfaces may run on bodies that
-/// stand.
-template <JointCode kJoints, bool kBelts = !Executor::kWarps>
+/// Only the default solver has code of its own for a step without joints. kSurfaceVelocity: surfaces may run on bodies
+/// that stand.
+template <JointCode kJoints, bool kSurfaceVelocity = !Executor::kWarps>
 void enqueue_step(Executor& executor, const StepWork& work) {
   constexpr JointCode kOthers = kJoints == JointCode::kContacts ? JointCode::kPlain : kJoints;
   const auto run = [&](const auto& solver) { executor.team(work.load, work.least, solver); };
   switch (work.kind) {
-    case SolverKind::kSequential: return run(StepSequentially<kOthers, kBelts>{{{work.step}, work.changes}});
-    case SolverKind::kJacobi: return run(StepInParts<kOthers, kBelts>{{{work.step, work.parts}, work.changes}});
-    case SolverKind::kPosition: return run(StepPositions<kOthers, kBelts>{{work.step}});
-    case SolverKind::kTgsSoft: return run(StepSoftly<kJoints, kBelts>{{work.step}});
+    case SolverKind::kSequential: return run(StepSequentially<kOthers, kSurfaceVelocity>{{{work.step}, work.changes}});
+    case SolverKind::kJacobi:
+      return run(StepInParts<kOthers, kSurfaceVelocity>{{{work.step, work.parts}, work.changes}});
+    case SolverKind::kPosition: return run(StepPositions<kOthers, kSurfaceVelocity>{{work.step}});
+    case SolverKind::kTgsSoft: return run(StepSoftly<kJoints, kSurfaceVelocity>{{work.step}});
   }
 }
 
-/// Of JointCode::kAll, compiled in files of their own. A device has kernels of their own for belts, too.
+/// Of JointCode::kAll, compiled in files of their own. A device has kernels of their own for surface velocities, too.
 void enqueue_step_with_axes(Executor& executor, const StepWork& work);
-void enqueue_step_with_belts(Executor& executor, const StepWork& work);
+void enqueue_step_with_surface_velocity(Executor& executor, const StepWork& work);
 
 }  // namespace plumb::impulse

@@ -15,20 +15,20 @@ PLUMB_HD inline ImpactLaw impact_law(const StepParameters& step, bool friction) 
 }
 
 /// Throws back what strikes within the sub-step that begins, until nothing does. round: counts those of a step.
-template <bool kBelts, bool kMechanisms>
+template <bool kSurfaceVelocity, bool kMechanisms>
 PLUMB_DEVICE void solve_impacts(Team& team, const SolverStep& on, const StepParameters& step, std::uint32_t& round) {
   const ImpactLaw law = impact_law(step, on.features.friction);
   std::uint32_t* struck = &on.counters->struck;
-  team.meet();  // all have read what the rounds before left
+  team.barrier();  // all have read what the rounds before left
   for (const std::uint32_t end = round + kMostImpactRounds; round < end;) {
     const std::uint32_t now = ++round;
-    for_contacts<kBelts, kMechanisms>(team, on.contacts, on.solver, BodyUse::kImpact,
-                                      [=](const auto& row, auto& contact, auto& a, auto& b) {
-                                        if (!solve_impact(contact, a, b, law)) return;
-                                        add_up_impulses(row, contact.impulse);
-                                        atomic_max(struck, now);
-                                      });
-    team.meet();
+    for_contacts<kSurfaceVelocity, kMechanisms>(team, on.contacts, on.solver, BodyUse::kImpact,
+                                                [=](const auto& row, auto& contact, auto& a, auto& b) {
+                                                  if (!solve_impact(contact, a, b, law)) return;
+                                                  add_up_impulses(row, contact.impulse);
+                                                  atomic_max(struck, now);
+                                                });
+    team.barrier();
     if (*struck < now) return;
   }
 }

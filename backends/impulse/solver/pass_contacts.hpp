@@ -21,10 +21,10 @@ struct ContactPass {
     PerPoint<P, N> before[3];
     PLUMB_UNROLL
     for (int k = 0; k < 3; ++k) before[k] = contact.impulse[k];
-    const ManifoldAim<P, N> aim = aim_hard(contact);
+    const NormalTarget<P, N> target = hard_target(contact);
     ContactMotion<N> motion = motion_of(contact, a, b);
     ContactWrench<N> wrench = no_wrench<N>();
-    const auto held = solve_normals(contact, aim, motion, wrench, note_impacts);
+    const auto held = solve_normals(contact, target, motion, wrench, note_impacts);
     if (friction) solve_friction(contact, motion, wrench, held);
     push(contact, wrench, a, b);
     store_impulses(row, contact);
@@ -45,18 +45,18 @@ struct ContactPass {
 };
 
 /// One contact after the other, each seeing what those before it did.
-template <bool kBelts>
+template <bool kSurfaceVelocity>
 struct InSequence : SolverStep {
-  static constexpr bool kInSequence = true, kRuns = kBelts;
+  static constexpr bool kInSequence = true, kRuns = kSurfaceVelocity;
 
   template <class Work>
   PLUMB_DEVICE void for_each_contact(Team& team, const Work& work, BodyUse use = BodyUse::kVelocity) const {
-    for_contacts<kBelts>(team, contacts, solver, use, work);
+    for_contacts<kSurfaceVelocity>(team, contacts, solver, use, work);
   }
 };
 
 /// All contacts at once, on parts of bodies.
-template <bool kBelts>
+template <bool kSurfaceVelocity>
 struct InParts : SolverStep {
   static constexpr bool kInSequence = false;
 
@@ -80,7 +80,8 @@ struct InParts : SolverStep {
     with_contact(rows, slot, loaded, [&](auto& contact) {
       SolverBody<Lanes> a = load_part(loaded.a), b = load_part(loaded.b);
       const Vec3<Lanes> a_linear = a.linear, a_angular = a.angular, b_linear = b.linear, b_angular = b.angular;
-      work_on_surfaces<kBelts>(contacts.belts, RowAccess<Lanes>(rows, slot), contact, a, b, work);
+      work_on_surfaces<kSurfaceVelocity>(contacts.surface_velocities, RowAccess<Lanes>(rows, slot), contact, a, b,
+                                         work);
       if (stores_body(0)) store_change(2 * slot, a.linear - a_linear, a.angular - a_angular);
       if (stores_body(1)) store_change(2 * slot + 1, b.linear - b_linear, b.angular - b_angular);
     });

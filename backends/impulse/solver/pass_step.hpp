@@ -70,7 +70,7 @@ struct StepInPasses : PassContacts<Order> {
       solve_joints_noted<kJoints>(team, joints, step, noted);
       if (features.collision) this->solve_contacts(team, noted);
       ++passes;
-      team.meet();
+      team.barrier();
       if (noted != nullptr && noted->is_below(step.stop_below)) break;
     }
     team.single([=] { self.counters->passes = passes; });

@@ -8,7 +8,7 @@
 
 namespace plumb::impulse {
 
-template <bool kBelts>
+template <bool kSurfaceVelocity>
 struct PositionContacts : SolverStep {
   PLUMB_DEVICE void solve_positions(Team& team, const StepParameters& step) const;
   PLUMB_DEVICE void solve_velocities(Team& team) const;
@@ -17,37 +17,38 @@ struct PositionContacts : SolverStep {
 template <int P, class N>
 PLUMB_HD void solve_contact_once(const RowAccess<N>& row, Contact<P, N>& contact, SolverBody<N>& a, SolverBody<N>& b,
                                  bool friction) {
-  const ManifoldAim<P, N> aim = aim_hard(contact);
+  const NormalTarget<P, N> target = hard_target(contact);
   ContactMotion<N> motion = motion_of(contact, a, b);
   ContactWrench<N> wrench = no_wrench<N>();
-  solve_normals(contact, aim, motion, wrench, false);
+  solve_normals(contact, target, motion, wrench, false);
   const auto held = N(1) < N(0);  // no normals follow that could
   if (friction) solve_friction(contact, motion, wrench, held);
   push(contact, wrench, a, b);
   store_impulses(row, contact);
 }
 
-template <bool kBelts>
-PLUMB_DEVICE void PositionContacts<kBelts>::solve_positions(Team& team, const StepParameters& step) const {
+template <bool kSurfaceVelocity>
+PLUMB_DEVICE void PositionContacts<kSurfaceVelocity>::solve_positions(Team& team, const StepParameters& step) const {
   const bool friction = features.friction;
-  for_contacts<kBelts>(team, contacts, solver, BodyUse::kAll, [=](const auto& row, auto& contact, auto& a, auto& b) {
-    start_contact_position(contact, a, b, step);
-    const auto a_linear = a.linear, a_angular = a.angular, b_linear = b.linear, b_angular = b.angular;
-    solve_contact_once(row, contact, a, b, friction);
-    displace(a, a_linear, a_angular, step.h);
-    displace(b, b_linear, b_angular, step.h);
-  });
+  for_contacts<kSurfaceVelocity>(
+      team, contacts, solver, BodyUse::kAll, [=](const auto& row, auto& contact, auto& a, auto& b) {
+        start_contact_position(contact, a, b, step);
+        const auto a_linear = a.linear, a_angular = a.angular, b_linear = b.linear, b_angular = b.angular;
+        solve_contact_once(row, contact, a, b, friction);
+        displace(a, a_linear, a_angular, step.h);
+        displace(b, b_linear, b_angular, step.h);
+      });
 }
 
-template <bool kBelts>
-PLUMB_DEVICE void PositionContacts<kBelts>::solve_velocities(Team& team) const {
+template <bool kSurfaceVelocity>
+PLUMB_DEVICE void PositionContacts<kSurfaceVelocity>::solve_velocities(Team& team) const {
   const bool friction = features.friction;
-  for_contacts<kBelts>(team, contacts, solver, BodyUse::kVelocity,
-                       [=](const auto& row, auto& contact, auto& a, auto& b) {
-                         start_contact_velocity(contact);
-                         solve_contact_once(row, contact, a, b, friction);
-                         add_up_impulses(row, contact.impulse);
-                       });
+  for_contacts<kSurfaceVelocity>(team, contacts, solver, BodyUse::kVelocity,
+                                 [=](const auto& row, auto& contact, auto& a, auto& b) {
+                                   start_contact_velocity(contact);
+                                   solve_contact_once(row, contact, a, b, friction);
+                                   add_up_impulses(row, contact.impulse);
+                                 });
 }
 
 PLUMB_COMPILED_ONCE(struct PositionContacts<true>);

@@ -14,8 +14,8 @@ namespace plumb::impulse {
 /// friction of what slides. Unlike there, what strikes is thrown back before it moves, and friction at the level of
 /// positions is cut to the cone and not refused beyond it: one point of a face would always be beyond, and a cube at
 /// rest on a slope would creep.
-template <JointCode kJoints, bool kBelts>
-struct StepPositions : PositionContacts<kBelts> {
+template <JointCode kJoints, bool kSurfaceVelocity>
+struct StepPositions : PositionContacts<kSurfaceVelocity> {
   PLUMB_DEVICE void operator()(Team& team) const {
     if (this->must_repeat()) return;
     const SolverStep self = *this;
@@ -23,7 +23,8 @@ struct StepPositions : PositionContacts<kBelts> {
     std::uint32_t round = 0;  // of impacts
     for (std::uint32_t k = 0; k < step.substeps; ++k) {
       team.each(self.body_count, [=](std::uint32_t i) { integrate_velocity(self.bodies, self.solver, step, true, i); });
-      if (self.features.collision && self.features.restitution) solve_impacts<kBelts, false>(team, self, step, round);
+      if (self.features.collision && self.features.restitution)
+        solve_impacts<kSurfaceVelocity, false>(team, self, step, round);
       this->move_bodies(team, step);
       correct_joints(team, step, k == 0);
       if (!self.features.collision) continue;

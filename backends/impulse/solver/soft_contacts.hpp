@@ -6,7 +6,7 @@
 
 namespace plumb::impulse {
 
-template <bool kBelts, bool kMechanisms>
+template <bool kSurfaceVelocity, bool kMechanisms>
 struct SoftContacts : SolverStep {
   PLUMB_DEVICE void warm_start_contacts(Team& team) const;
   /// Throws back what strikes in a sub-step, where the one before has seen it come. round: counts those of a step.
@@ -20,69 +20,71 @@ struct SoftContacts : SolverStep {
 
 /// Friction below the centre tilts a body: the normals have the first word and the last.
 template <int P, class N>
-PLUMB_HD void solve_contact_softly(Contact<P, N>& contact, const ManifoldAim<P, N>& aim, SolverBody<N>& a,
+PLUMB_HD void solve_contact_softly(Contact<P, N>& contact, const NormalTarget<P, N>& target, SolverBody<N>& a,
                                    SolverBody<N>& b, bool friction) {
   ContactMotion<N> motion = motion_of(contact, a, b);
   ContactWrench<N> wrench = no_wrench<N>();
-  const auto held = solve_normals(contact, aim, motion, wrench, false);
+  const auto held = solve_normals(contact, target, motion, wrench, false);
   if (friction) {
     solve_friction(contact, motion, wrench, held);
-    solve_normals(contact, aim, motion, wrench, false);
+    solve_normals(contact, target, motion, wrench, false);
   }
   push(contact, wrench, a, b);
 }
 /// A point that was apart and had to be pushed is no longer free to approach.
 template <int P, class N>
 PLUMB_HD void close_pushed(Contact<P, N>& contact) {
-  contact.open = select(contact.impulse[0] > N(0), N(0), contact.open);
+  contact.allowed_approach = select(contact.impulse[0] > N(0), N(0), contact.allowed_approach);
 }
 
-template <bool kBelts, bool kMechanisms>
-PLUMB_DEVICE void SoftContacts<kBelts, kMechanisms>::warm_start_contacts(Team& team) const {
+template <bool kSurfaceVelocity, bool kMechanisms>
+PLUMB_DEVICE void SoftContacts<kSurfaceVelocity, kMechanisms>::warm_start_contacts(Team& team) const {
   for_contacts(team, contacts, solver, BodyUse::kVelocity,
                [](const auto& /*row*/, const auto& contact, auto& a, auto& b) { warm_start_contact(contact, a, b); });
 }
 
-template <bool kBelts, bool kMechanisms>
-PLUMB_DEVICE void SoftContacts<kBelts, kMechanisms>::bounce_contacts(Team& team, const StepParameters& step,
-                                                                     std::uint32_t substep,
-                                                                     std::uint32_t& round) const {
+template <bool kSurfaceVelocity, bool kMechanisms>
+PLUMB_DEVICE void SoftContacts<kSurfaceVelocity, kMechanisms>::bounce_contacts(Team& team, const StepParameters& step,
+                                                                               std::uint32_t substep,
+                                                                               std::uint32_t& round) const {
   if (!features.restitution) return;
-  team.meet();
+  team.barrier();
   if (substep == 0 || counters->about_to_strike[(substep - 1) % 2] == substep)
-    solve_impacts<kBelts, kMechanisms>(team, *this, step, round);
+    solve_impacts<kSurfaceVelocity, kMechanisms>(team, *this, step, round);
 }
 
-template <bool kBelts, bool kMechanisms>
-PLUMB_DEVICE void SoftContacts<kBelts, kMechanisms>::push_contacts(Team& team, const StepParameters& step,
-                                                                   std::uint32_t substep, bool final) const {
-  const ContactSoftness softness = {step.contact, step.ground, step.inverse_h, step.push_speed};
+template <bool kSurfaceVelocity, bool kMechanisms>
+PLUMB_DEVICE void SoftContacts<kSurfaceVelocity, kMechanisms>::push_contacts(Team& team, const StepParameters& step,
+                                                                             std::uint32_t substep, bool final) const {
+  const ContactSoftness softness = {step.contact, step.ground, step.inverse_h, step.max_depenetration_speed};
   const bool friction = features.friction, impacts = features.restitution;
   const ImpactLaw law = impact_law(step, friction);
   std::uint32_t* about_to_strike = &counters->about_to_strike[substep % 2];
   const bool mechanisms = kMechanisms && solver.mechanisms.count != 0;
   const BodyUse use = final ? BodyUse::kLastVelocityWhereMoved : BodyUse::kVelocityWhereMoved;
-  for_contacts<kBelts, kMechanisms>(team, contacts, solver, use, [=](const auto& row, auto& contact, auto& a, auto& b) {
-    contact.noted = contact.impulse[0];
-    if (mechanisms) store_noted(row, contact);
-    if (impacts && in_any_contact(is_about_to_strike(contact, a, b, law))) atomic_max(about_to_strike, substep + 1);
-    const auto aim = aim_softly(contact, a, b, softness);
-    solve_contact_softly(contact, aim, a, b, friction);
-    close_pushed(contact);
-    store_impulses(row, contact);
-    if (final) add_up_impulses(row, contact.impulse);
-  });
+  for_contacts<kSurfaceVelocity, kMechanisms>(team, contacts, solver, use,
+                                              [=](const auto& row, auto& contact, auto& a, auto& b) {
+                                                contact.noted = contact.impulse[0];
+                                                if (mechanisms) store_noted(row, contact);
+                                                if (impacts && in_any_contact(is_about_to_strike(contact, a, b, law)))
+                                                  atomic_max(about_to_strike, substep + 1);
+                                                const auto target = soft_target(contact, a, b, softness);
+                                                solve_contact_softly(contact, target, a, b, friction);
+                                                close_pushed(contact);
+                                                store_impulses(row, contact);
+                                                if (final) add_up_impulses(row, contact.impulse);
+                                              });
 }
 
-template <bool kBelts, bool kMechanisms>
-PLUMB_DEVICE void SoftContacts<kBelts, kMechanisms>::relax_contacts(Team& team) const {
+template <bool kSurfaceVelocity, bool kMechanisms>
+PLUMB_DEVICE void SoftContacts<kSurfaceVelocity, kMechanisms>::relax_contacts(Team& team) const {
   const bool friction = features.friction;
-  for_contacts<kBelts, kMechanisms>(team, contacts, solver, BodyUse::kLastVelocity,
-                                    [=](const auto& row, auto& contact, auto& a, auto& b) {
-                                      solve_contact_softly(contact, aim_hard(contact), a, b, friction);
-                                      store_impulses(row, contact);
-                                      add_up_impulses(row, contact.impulse);
-                                    });
+  for_contacts<kSurfaceVelocity, kMechanisms>(team, contacts, solver, BodyUse::kLastVelocity,
+                                              [=](const auto& row, auto& contact, auto& a, auto& b) {
+                                                solve_contact_softly(contact, hard_target(contact), a, b, friction);
+                                                store_impulses(row, contact);
+                                                add_up_impulses(row, contact.impulse);
+                                              });
 }
 
 PLUMB_COMPILED_ONCE(struct SoftContacts<true, true>);

@@ -19,7 +19,7 @@ struct BeginBody {
 }  // namespace
 
 void Solver::reserve(Executor& /*executor*/, std::uint32_t bodies, std::uint32_t manifolds) {
-  nobody_ = bodies - 1;
+  sentinel_ = bodies - 1;
   slots_ = slots_for(manifolds);
   displacement_.grow(bodies);
   inertia_.grow(bodies);
@@ -37,7 +37,7 @@ void Solver::reserve(Executor& /*executor*/, std::uint32_t bodies, std::uint32_t
 void Solver::choose(SolverKind kind) {
   kind_ = kind;
   if (kind == SolverKind::kSequential || kind == SolverKind::kJacobi) pass_changes_.grow(kMostPasses);
-  if (kind == SolverKind::kJacobi) split_.reserve(nobody_ + 1, slots_ - slots_for(0));
+  if (kind == SolverKind::kJacobi) split_.reserve(sentinel_ + 1, slots_ - slots_for(0));
 }
 
 void Solver::begin(Executor& executor, const Bodies& all, std::uint32_t body_count) {
@@ -52,7 +52,7 @@ void Solver::choose_substeps(Executor& executor, const ContactCache& cache, cons
   executor.run(1U, ChooseSubsteps{work});
 }
 
-const Mechanisms& Solver::meet(JointStore& joints) {
+const Mechanisms& Solver::take_mechanisms(JointStore& joints) {
   mechanisms_ = kind_ == SolverKind::kTgsSoft && features_.collision ? joints.mechanisms() : Mechanisms{};
   return mechanisms_;
 }
@@ -74,7 +74,7 @@ void Solver::prepare(Executor& executor, const ContactCache& cache, const Bodies
   const auto prepare = [&]<bool kImpacts, bool kMechanisms>() {
     executor.run(manifolds,
                  PrepareContacts<kImpacts, kMechanisms>{cache, all, proxies, bodies(all), rows(), counters,
-                                                        colouring.order(), colouring.colours(), parameters, nobody_,
+                                                        colouring.order(), colouring.colours(), parameters, sentinel_,
                                                         split ? split_.parts().ranges : nullptr, impacts});
   };
   const bool whole = mechanisms_.count != 0;
@@ -82,20 +82,20 @@ void Solver::prepare(Executor& executor, const ContactCache& cache, const Bodies
     whole ? prepare.operator()<false, true>() : prepare.operator()<false, false>();
   else
     whole ? prepare.operator()<true, true>() : prepare.operator()<true, false>();
-  executor.run(kOverflow + 1, PadColours{rows(), counters, nobody_});
+  executor.run(kOverflow + 1, PadColours{rows(), counters, sentinel_});
 }
 
 void Solver::solve(Executor& executor, const Bodies& all, std::uint32_t body_count, const StepParameters* parameters,
                    StepCounters* counters, std::uint32_t pair_capacity, JointStore& joints) {
   const Count load = {&counters->largest_loop, contact_loop(slots_)};
-  const SolverStep step = {all,        bodies(all),   {rows(), counters, features_.belts, parameters},
+  const SolverStep step = {all,        bodies(all),   {rows(), counters, features_.surface_velocity, parameters},
                            body_count, features_,     parameters,
                            counters,   pair_capacity, joint_set(all, joints)};
   const StepWork work = {step, pass_changes_.data(), split_.parts(), kind_, load, body_count / 2};
   if constexpr (Executor::kWarps) {
-    if (features_.belts) return enqueue_step_with_belts(executor, work);
+    if (features_.surface_velocity) return enqueue_step_with_surface_velocity(executor, work);
   }
-  switch (features_.belts ? JointCode::kAll : joints.code()) {
+  switch (features_.surface_velocity ? JointCode::kAll : joints.code()) {
     case JointCode::kContacts: return enqueue_step<JointCode::kContacts>(executor, work);
     case JointCode::kPlain: return enqueue_step<JointCode::kPlain>(executor, work);
     case JointCode::kAll: return enqueue_step_with_axes(executor, work);

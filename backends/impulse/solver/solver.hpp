@@ -19,7 +19,7 @@ namespace plumb::impulse {
 /// What the scene asks for; the rest is left out.
 struct SolverFeatures {
   bool rotation, collision, friction, restitution, gyroscopic, contact_impulses, sleeping = false, continuous = false,
-                                                                                 belts = false;
+                                                                                 surface_velocity = false;
 };
 
 class Solver {
@@ -40,7 +40,7 @@ class Solver {
   /// World inertia of all bodies, no displacement.
   void begin(Executor& executor, const Bodies& bodies, std::uint32_t body_count);
   /// The mechanisms that contacts push as a whole, as far as this solver does that.
-  const Mechanisms& meet(JointStore& joints);
+  const Mechanisms& take_mechanisms(JointStore& joints);
   /// Of those that touch something.
   void find_mobility(Executor& executor, const ContactCache& cache, const Bodies& bodies, const Proxies& proxies,
                      const StepParameters* parameters, const StepCounters* counters, JointStore& joints);
@@ -75,7 +75,7 @@ class Solver {
   SolverFeatures features_;
   SolverKind kind_ = SolverKind::kTgsSoft;
   Mechanisms mechanisms_{};  // of the step that is being enqueued
-  std::uint32_t slots_ = 0, nobody_ = 0;
+  std::uint32_t slots_ = 0, sentinel_ = 0;
   Buffer<Displacement> displacement_;
   Buffer<WorldInertia> inertia_;
   Buffer<FreeVelocity> free_velocity_;

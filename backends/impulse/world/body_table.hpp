@@ -13,7 +13,7 @@ struct BodyTable {
   Table<BodyForce> force;
   Table<BodyMass> mass;
   Table<BodyFrame> frames;
-  std::uint32_t count = 0;  ///< slots in use; rows behind are nobody's, and the last row is nobody
+  std::uint32_t count = 0;  ///< slots in use; rows behind are nobody's, and the last row is a sentinel
 
   [[nodiscard]] std::size_t size() const { return state.size(); }
   void grow(std::size_t rows) {

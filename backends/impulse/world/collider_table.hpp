@@ -2,7 +2,7 @@
 #pragma once
 
 #include "broadphase/pair_filter.hpp"
-#include "contacts/belts.hpp"
+#include "contacts/surface_velocity.hpp"
 #include "exec/table.hpp"
 #include "geometry/hull_pool.hpp"
 #include "geometry/surface_pool.hpp"
@@ -11,20 +11,20 @@ namespace plumb::impulse {
 
 struct ColliderTable {
   Table<Proxy> proxies;
-  Table<ProxyFilter> filters;  ///< by proxy
-  BeltSpeeds belts;            ///< by proxy, in worlds that have them
+  Table<ProxyFilter> filters;            ///< by proxy
+  SurfaceVelocities surface_velocities;  ///< by proxy, in worlds that have them
   Table<Shape> shapes;
   HullPool hulls;
   SurfacePool surfaces;
   std::uint32_t count = 0;  ///< proxy rows in use; those among them without a shape are nobody's
 
   /// Room for that many proxies. New rows have no shape.
-  void grow(std::size_t rows, bool with_belts) {
+  void grow(std::size_t rows, bool with_surface_velocity) {
     const std::size_t before = proxies.size();
     proxies.grow(rows);
     for (std::size_t i = before; i < rows; ++i) proxies.edit(i).shape = kNone;
     filters.grow(rows);
-    if (with_belts) belts.grow(rows);
+    if (with_surface_velocity) surface_velocities.grow(rows);
   }
   /// Whether steps and queries see the proxy.
   [[nodiscard]] bool is_seen(std::uint32_t proxy) const {

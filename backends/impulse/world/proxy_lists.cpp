@@ -11,9 +11,9 @@ void ProxyList::add(std::uint32_t proxy) {
   room_ = count_;
 }
 
-void ProxyList::fill(std::uint32_t room, std::uint32_t nobody) {
+void ProxyList::fill(std::uint32_t room, std::uint32_t sentinel) {
   rows_.grow(room);
-  std::fill(rows_.host() + count_, rows_.host() + room, nobody);
+  std::fill(rows_.host() + count_, rows_.host() + room, sentinel);
   room_ = room;
 }
 

@@ -17,7 +17,7 @@ class ProxyList {
   void add(std::uint32_t proxy);
   /// Makes the list up to `room` with a row that is nobody's, so that a recorded step serves on while proxies come and
   /// go. room is at least count().
-  void fill(std::uint32_t room, std::uint32_t nobody);
+  void fill(std::uint32_t room, std::uint32_t sentinel);
   void upload(Executor& executor) {
     if (room_ != 0) executor.to_device(rows_, room_);
   }

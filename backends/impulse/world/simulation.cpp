@@ -45,7 +45,7 @@ void Simulation::reserve_proxies(std::uint32_t rows) {
   const std::size_t before = colliders.proxies.size();
   if (rows <= before) return;
   const std::size_t size = std::max<std::size_t>(rows, before + before / 2);
-  colliders.grow(size, stages_.features.belts);
+  colliders.grow(size, stages_.features.surface_velocity);
   if (stages_.features.sleeping) sleep_.reserve(static_cast<std::uint32_t>(size));
   dirty_.lists = true;
   reserve_pairs(stages_.pair_capacity);
@@ -81,17 +81,17 @@ void Simulation::choose(BroadPhase::Method method) {
 void Simulation::list_proxies() {
   const std::uint32_t statics_before = lists_.statics.view().count;
   const bool other_statics = lists_.find(colliders, bodies.mass);
-  const auto nobody = static_cast<std::uint32_t>(colliders.proxies.size()) - 1;
+  const auto sentinel = static_cast<std::uint32_t>(colliders.proxies.size()) - 1;
   for (ProxyList* list : {&lists_.movers, &lists_.statics}) {
     const std::uint32_t count = list->count();
-    list->fill(colliders.count > nobody ? count : std::min<std::uint32_t>(room_for(count), nobody), nobody);
+    list->fill(colliders.count > sentinel ? count : std::min<std::uint32_t>(room_for(count), sentinel), sentinel);
   }
   for (ProxyList* list : {&lists_.movers, &lists_.statics, &lists_.planes}) list->upload(executor_);
   const ProxyRows statics = lists_.statics.view();
   stages_.narrow_phase.forget_found(executor_, statics.rows, lists_.statics.count());
-  if (!stages_.in_pieces && (lists_.types & kTypesInPieces) != 0) {
-    stages_.in_pieces = true;
-    stages_.narrow_phase.take_pieces();
+  if (!stages_.uses_midphase && (lists_.types & kMidphaseTypes) != 0) {
+    stages_.uses_midphase = true;
+    stages_.narrow_phase.use_midphase();
     reserve_pairs(stages_.pair_capacity);
   }
   if (origin_.find(lists_.movers, colliders, bodies.state) || other_statics || statics.count != statics_before)
@@ -111,7 +111,7 @@ void Simulation::upload_changes() {
   bodies.force.upload(executor_);
   bodies.mass.upload(executor_);
   bodies.frames.upload(executor_);
-  colliders.belts.upload(executor_);
+  colliders.surface_velocities.upload(executor_);
   joints.drives.upload(executor_);
   if (joints.changed()) {
     joints.upload(bodies.mass);
@@ -158,7 +158,7 @@ StepInput Simulation::input() {
   return {body_view(),
           colliders.view(),
           bodies.frames.device(),
-          stages_.features.belts ? colliders.belts.device() : nullptr,
+          stages_.features.surface_velocity ? colliders.surface_velocities.device() : nullptr,
           {colliders.filters.device(), exclusions.device(), exclusions.count()},
           lists_.movers.view(),
           lists_.statics.view(),
@@ -166,7 +166,7 @@ StepInput Simulation::input() {
           std::min<std::uint32_t>(room_for(bodies.count), static_cast<std::uint32_t>(bodies.size()) - 1),
           stages_.pair_capacity,
           lists_.types,
-          stages_.in_pieces,
+          stages_.uses_midphase,
           stages_.continuous,
           sleep_.count() != 0,
           stages_.features.sleeping ? sleep_.woken_pairs() : nullptr,
@@ -190,8 +190,8 @@ void Simulation::launch() {
   const StepInput known = input();
   executor_.record(recorder_.recording(step_, known), [&] {
     enqueue_step({known, executor_, stages_, joints, sleep_, output_, numbers_.parameters.device(),
-                  numbers_.shorter.device(), numbers_.counters, stages_.solver.meet(joints), narrow_phase.cache(step_),
-                  narrow_phase.cache(step_ + 1)});
+                  numbers_.shorter.device(), numbers_.counters, stages_.solver.take_mechanisms(joints),
+                  narrow_phase.cache(step_), narrow_phase.cache(step_ + 1)});
   });
   bodies.state.stepped();
   restored_ = false;
@@ -259,7 +259,7 @@ std::vector<Pair> Simulation::candidates() {
 
 Simulation::Extent Simulation::extent(bool to_restore) {
   if (to_restore && dirty_.lists) list_proxies();
-  return {bodies.count, colliders.count, joints.slots(), stages_.in_pieces ? 1U : 0U};
+  return {bodies.count, colliders.count, joints.slots(), stages_.uses_midphase ? 1U : 0U};
 }
 
 void Simulation::exchange(Archive& archive, const Extent& extent) {
@@ -270,10 +270,10 @@ void Simulation::exchange(Archive& archive, const Extent& extent) {
   archive.value(statics_dirty);
   StepCounters& counted = *numbers_.counters.host();
   archive.value(counted);
-  if (stages_.in_pieces && extent.in_pieces == 0) counted.pieces = counted.pairs;
+  if (stages_.uses_midphase && extent.uses_midphase == 0) counted.midphase_pairs = counted.pairs;
   if (candidate_count() > stages_.pair_capacity) reserve_pairs(candidate_count());
   bodies.state.exchange(archive, extent.bodies);
-  stages_.narrow_phase.exchange(archive, step_, extent.proxies, counters(), extent.in_pieces != 0);
+  stages_.narrow_phase.exchange(archive, step_, extent.proxies, counters(), extent.uses_midphase != 0);
   joints.exchange(archive, extent.joints);
   if (stages_.features.sleeping) sleep_.exchange(archive, extent.bodies, bodies.mass);
   if (!archive.reads()) return;

@@ -50,7 +50,7 @@ class Simulation {
 
   /// How many rows a snapshot has of each kind. Those that came later and are gone again are not in it.
   struct Extent {
-    std::uint32_t bodies, proxies, joints, in_pieces;
+    std::uint32_t bodies, proxies, joints, uses_midphase;
   };
   /// Of a snapshot taken now; to restore one, of what there is room for.
   [[nodiscard]] Extent extent(bool to_restore);
@@ -154,7 +154,7 @@ class Simulation {
   void launch();
   void let_islands_rest();
   void fall_asleep(const Slots& island);
-  void put_contacts_aside();
+  void store_contacts();
   [[nodiscard]] Bodies body_view() { return bodies.view(stages_.features.rotation); }
   [[nodiscard]] std::vector<ContactRecord> contacts_of_step();
   template <class Row>

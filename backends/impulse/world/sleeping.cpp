@@ -70,20 +70,21 @@ Simulation::Slots Simulation::put_to_sleep(std::span<const std::uint32_t> slots)
     fall_asleep(island);
     fallen.insert(fallen.end(), island.begin(), island.end());
   }
-  if (!fallen.empty()) put_contacts_aside();
+  if (!fallen.empty()) store_contacts();
   return fallen;
 }
 
 void Simulation::let_islands_rest() {
-  sleep_.islands().find_resting(executor_, {stages_.narrow_phase.cache(step_),
-                                            counters().manifolds,
-                                            {joints.device(), joints.count()},
-                                            body_view(),
-                                            bodies.count,
-                                            colliders.view(),
-                                            sleep_.rest(),
-                                            numbers_.parameters[0].sleep_time,
-                                            stages_.features.belts ? colliders.belts.device() : nullptr});
+  sleep_.islands().find_resting(executor_,
+                                {stages_.narrow_phase.cache(step_),
+                                 counters().manifolds,
+                                 {joints.device(), joints.count()},
+                                 body_view(),
+                                 bodies.count,
+                                 colliders.view(),
+                                 sleep_.rest(),
+                                 numbers_.parameters[0].sleep_time,
+                                 stages_.features.surface_velocity ? colliders.surface_velocities.device() : nullptr});
   executor_.wait();
   if (sleep_.islands().resting_count() == 0) return;
   const Slots names = sleep_.islands().resting(bodies.count);
@@ -94,7 +95,7 @@ void Simulation::let_islands_rest() {
     fall_asleep(island);
     outcome_.fallen_asleep.insert(outcome_.fallen_asleep.end(), island.begin(), island.end());
   }
-  put_contacts_aside();
+  store_contacts();
 }
 
 void Simulation::fall_asleep(const Slots& island) {
@@ -105,19 +106,18 @@ void Simulation::fall_asleep(const Slots& island) {
 }
 
 /// Contacts of the last step of which neither body moves any more: no step will find them until somebody wakes.
-void Simulation::put_contacts_aside() {
+void Simulation::store_contacts() {
   if (restored_) return;
   const std::vector<KeptPair> kept = stages_.narrow_phase.kept(step_, counters());
   const std::vector<ContactRecord> records = contacts_of_step();
   const auto stays = [&](std::uint32_t index) {
     const Proxy& proxy = colliders.proxies[index];
-    return proxy.shape != kNone && proxy.born <= step_ && (bodies.mass[proxy.body].flags & kBodyMoves) == 0;
+    return proxy.shape != kNone && proxy.first_step <= step_ && (bodies.mass[proxy.body].flags & kBodyMoves) == 0;
   };
   for (std::size_t row = 0; row < kept.size(); ++row) {
     const Pair pair = kept[row].pair;
     if (stays(pair.a) && stays(pair.b))
-      sleep_.put_aside(
-          {colliders.proxies[pair.a].body, colliders.proxies[pair.b].body, kept[row], records[row], step_});
+      sleep_.store({colliders.proxies[pair.a].body, colliders.proxies[pair.b].body, kept[row], records[row], step_});
   }
 }
 

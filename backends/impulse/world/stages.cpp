@@ -1,8 +1,8 @@
 #include "world/stages.hpp"
 
 #include "bodies/proxy_bounds.hpp"
-#include "contacts/belts.hpp"
 #include "contacts/match.hpp"
+#include "contacts/surface_velocity.hpp"
 #include "narrowphase/sweep_rims.hpp"
 
 namespace plumb::impulse {
@@ -23,8 +23,8 @@ void Stages::reserve(Executor& executor, std::uint32_t bodies, std::uint32_t pro
   broad_phase.reserve(executor, proxies, proxies, pairs);
   narrow_phase.reserve(executor, proxies, pairs);
   if (features.continuous || features.restitution) impacts.reserve(pairs);
-  if (features.continuous) guard.reserve(bodies);
-  if (in_pieces) pieces.reserve(proxies, pairs);
+  if (features.continuous) clamp.reserve(bodies);
+  if (uses_midphase) midphase.reserve(proxies, pairs);
   colouring.reserve(executor, bodies, pairs);
   solver.reserve(executor, bodies, pairs);
 }
@@ -43,18 +43,18 @@ void bound(const StepContext& step) {
 
 void find_pairs(const StepContext& step) {
   Stages& of = step.stages;
-  const PairList found = {step.in_pieces ? of.pieces.pairs() : step.now.pairs,
-                          step.in_pieces ? of.pieces.ranges() : step.now.ranges, &step.counters->pairs};
+  const PairList found = {step.uses_midphase ? of.midphase.pairs() : step.now.pairs,
+                          step.uses_midphase ? of.midphase.ranges() : step.now.ranges, &step.counters->pairs};
   of.broad_phase.find_pairs(step.executor, of.boxes.data(), step.movers, step.filter, found);
 }
 
-void find_pieces(const StepContext& step) {
-  if (!step.in_pieces) return;
+void midphase(const StepContext& step) {
+  if (!step.uses_midphase) return;
   Stages& of = step.stages;
-  of.pieces.find(step.executor,
-                 {step.bodies, step.proxies, step.parameters, step.filter, of.boxes.data(), of.margins.data(),
-                  step.movers, step.planes},
-                 step.now, step.counters, step.continuous);
+  of.midphase.find(step.executor,
+                   {step.bodies, step.proxies, step.parameters, step.filter, of.boxes.data(), of.margins.data(),
+                    step.movers, step.planes},
+                   step.now, step.counters, step.continuous);
 }
 
 void collide(const StepContext& step) {
@@ -67,7 +67,7 @@ void collide(const StepContext& step) {
 void find_impacts(const StepContext& step) {
   if (!step.finds_impacts()) return;
   step.stages.impacts.find(step.executor, step.now, step.candidates(), step.bodies, step.proxies,
-                           step.stages.margins.data(), step.parameters, step.in_pieces);
+                           step.stages.margins.data(), step.parameters, step.uses_midphase);
 }
 
 void match(const StepContext& step) {
@@ -104,11 +104,11 @@ void prepare(const StepContext& step) {
                             step.joints);
   of.solver.prepare(step.executor, step.now, step.bodies, step.proxies, of.colouring,
                     step.finds_impacts() ? of.impacts.times() : nullptr, step.parameters, step.counters);
-  if (step.belts != nullptr)
-    put_drifts(step.executor,
-               {step.now, step.bodies, step.proxies, step.belts, of.colouring.order(), of.colouring.colours(),
-                of.solver.rows(), step.counters},
-               step.pair_capacity);
+  if (step.surface_velocities != nullptr)
+    put_surface_speeds(step.executor,
+                       {step.now, step.bodies, step.proxies, step.surface_velocities, of.colouring.order(),
+                        of.colouring.colours(), of.solver.rows(), step.counters},
+                       step.pair_capacity);
 }
 
 void keep_state(const StepContext& step) {
@@ -123,10 +123,10 @@ void solve(const StepContext& step) {
 void clamp(const StepContext& step) {
   if (!step.continuous) return;
   Stages& of = step.stages;
-  of.guard.hold(step.executor,
-                {step.now, step.candidates(), step.pair_capacity, step.counters, step.parameters, step.proxies,
-                 of.boxes.data(), step.movers, of.broad_phase.statics(), step.planes},
-                step.bodies, step.body_rows, of.solver.displacements());
+  of.clamp.clamp(step.executor,
+                 {step.now, step.candidates(), step.pair_capacity, step.counters, step.parameters, step.proxies,
+                  of.boxes.data(), step.movers, of.broad_phase.statics(), step.planes},
+                 step.bodies, step.body_rows, of.solver.displacements());
 }
 
 void judge(const StepContext& step) {

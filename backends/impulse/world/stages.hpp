@@ -16,7 +16,7 @@ void bound(const StepContext& step);
 /// Pairs whose boxes overlap and that may touch.
 void find_pairs(const StepContext& step);
 /// Of pairs with planes, meshes and height fields the triangles that are worth a look.
-void find_pieces(const StepContext& step);
+void midphase(const StepContext& step);
 
 /// Manifolds of the pairs.
 void collide(const StepContext& step);

@@ -8,7 +8,7 @@ void enqueue_step(const StepContext& step) {
   if (step.collides()) {
     bound(step);
     find_pairs(step);
-    find_pieces(step);
+    midphase(step);
     end_phase(step, PLUMB_PHASE_BROAD);
 
     collide(step);

@@ -5,13 +5,13 @@
 #include "broadphase/broad_phase.hpp"
 #include "broadphase/exclusions.hpp"
 #include "contacts/colouring.hpp"
-#include "continuous/guard.hpp"
+#include "continuous/impact_clamp.hpp"
 #include "continuous/impacts.hpp"
 #include "exec/phase_clock.hpp"
 #include "islands/sleep.hpp"
 #include "joints/joint_store.hpp"
+#include "narrowphase/midphase.hpp"
 #include "narrowphase/narrow_phase.hpp"
-#include "narrowphase/pieces.hpp"
 #include "solver/energy_bound.hpp"
 #include "solver/solver.hpp"
 
@@ -25,15 +25,15 @@ struct Stages {
 
   SolverFeatures features;
   std::uint32_t pair_capacity = 0;
-  bool in_pieces = false;   ///< once there was a plane or a surface
-  bool continuous = false;  ///< once there was a body that must not pass through others
-  Buffer<Box> boxes;        ///< by proxy
-  Buffer<Real> margins;     ///< by proxy: how far ahead it is looked, m
+  bool uses_midphase = false;  ///< once there was a plane or a surface
+  bool continuous = false;     ///< once there was a body that must not pass through others
+  Buffer<Box> boxes;           ///< by proxy
+  Buffer<Real> margins;        ///< by proxy: how far ahead it is looked, m
   BroadPhase broad_phase;
-  Pieces pieces;
+  Midphase midphase;
   NarrowPhase narrow_phase;
   Impacts impacts;  ///< these two where the scene asks for them
-  Guard guard;
+  ImpactClamp clamp;
   Colouring colouring;
   Solver solver;
   EnergyBound energy_bound;  ///< where there are joints
@@ -46,13 +46,13 @@ struct StepInput {
   Bodies bodies;
   Proxies proxies;
   const BodyFrame* frames;
-  const Vec* belts;  ///< by proxy; null in worlds without
+  const Vec* surface_velocities;  ///< by proxy; null in worlds without
   PairFilter filter;
   ProxyRows movers, statics, planes;
   std::uint32_t body_rows;  ///< that kernels go through; those without a body are nobody's
   std::uint32_t pair_capacity;
-  std::uint32_t shape_types;   ///< a bit for each ShapeType in the world
-  bool in_pieces, continuous;  ///< of the stages
+  std::uint32_t shape_types;       ///< a bit for each ShapeType in the world
+  bool uses_midphase, continuous;  ///< of the stages
   bool has_sleepers;
   const KeptPair* woken;  ///< manifolds of those who woke; null in worlds where nobody sleeps
   SolverKind solver;
@@ -87,8 +87,9 @@ struct StepContext : StepInput {
   /// Of the narrow phase.
   [[nodiscard]] Count candidates() const { return stages.narrow_phase.candidates(counters); }
   [[nodiscard]] EnergyWork energy_work() const {
-    return {now,           proxies,    belts,   stages.solver.joint_set(bodies, joints), joints.code(), body_rows,
-            pair_capacity, parameters, counters};
+    return {now,           proxies,   surface_velocities, stages.solver.joint_set(bodies, joints),
+            joints.code(), body_rows, pair_capacity,      parameters,
+            counters};
   }
 };
 

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "exec/cpu/crew.hpp"
 #include "exec/cpu/recording.hpp"
+#include "exec/cpu/thread_pool.hpp"
 #include "exec/executor.hpp"
 #include "exec/memory.hpp"
 
@@ -13,14 +13,14 @@ namespace plumb::impulse {
 /// Threads that go through several loops together.
 class Team {
  public:
-  explicit Team(Crew& crew) : crew_(crew) {}
+  explicit Team(ThreadPool& pool) : pool_(pool) {}
   template <class F>
   void each(std::uint32_t n, const F& f) {
-    crew_.each(n, f);
+    pool_.each(n, f);
   }
   template <class Load, class F>
   void each_ahead(std::uint32_t n, const Load& load, const F& f) {
-    crew_.each(
+    pool_.each(
         n,
         [&](std::uint32_t i) {
           auto loaded = load(i);
@@ -32,10 +32,10 @@ class Team {
   void single(const F& f) {
     f();
   }
-  void meet() {}
+  void barrier() {}
 
  private:
-  Crew& crew_;
+  ThreadPool& pool_;
 };
 
 /// Tells when rows may be read; on the CPU always.
@@ -49,33 +49,33 @@ class Executor {
   static constexpr bool kRecords = !kOneMemory;  // whether a step is recorded, with the numbers that it had
   static constexpr std::int32_t kDeviceType = kOneMemory ? 1 : 2;  // of DLPack
 
-  Executor(const PlumbHost* host, std::uint32_t threads) : crew_(host, threads) {}
+  Executor(const PlumbHost* host, std::uint32_t threads) : pool_(host, threads) {}
 
   static std::string unmet_requirement() { return {}; }
   static const char* device_name() { return "cpu"; }
-  static std::uint32_t max_threads() { return Crew::processors(); }
+  static std::uint32_t max_threads() { return ThreadPool::processors(); }
 
-  [[nodiscard]] std::uint32_t threads() const { return crew_.threads(); }
+  [[nodiscard]] std::uint32_t threads() const { return pool_.threads(); }
 
   template <class F>
   void run(std::uint32_t n, const F& f) {
     if (!kOneMemory && recording_ != nullptr) recording_->note(n, f);
-    crew_.each(n, f);
+    pool_.each(n, f);
   }
   template <class F>
   void run(Count n, const F& f) {
     if (!kOneMemory && recording_ != nullptr) recording_->note(n.capacity, f);
-    crew_.each(*n.value < n.capacity ? *n.value : n.capacity, f);
+    pool_.each(*n.value < n.capacity ? *n.value : n.capacity, f);
   }
   template <class F>
   void team(Count load, std::uint32_t least, const F& f) {
     if (!kOneMemory && recording_ != nullptr) recording_->note(load.capacity < least ? least : load.capacity, f);
-    Team team(crew_);
+    Team team(pool_);
     f(team);
   }
   template <class F>
   void record(Recording& recording, const F& f) {
-    if (kOneMemory) return crew_.together(f);
+    if (kOneMemory) return pool_.together(f);
     recording.begin();
     recording_ = &recording;
     try {
@@ -91,7 +91,7 @@ class Executor {
   template <class F>
   void on_host(std::uint32_t n, const F& f) {
     const F* task = &f;
-    crew_.run_chunks(n, &task, [](void* context, std::uint32_t i) { (**static_cast<const F**>(context))(i); });
+    pool_.run_chunks(n, &task, [](void* context, std::uint32_t i) { (**static_cast<const F**>(context))(i); });
   }
   template <class T>
   void to_device(Mirror<T>& mirror, std::size_t count, std::size_t first = 0) {
@@ -108,10 +108,10 @@ class Executor {
   void send(Signal& /*signal*/) {}
   [[nodiscard]] void* stream_handle() const { return nullptr; }
   [[nodiscard]] static std::int32_t device_id() { return 0; }
-  Crew& crew() { return crew_; }
+  ThreadPool& pool() { return pool_; }
 
  private:
-  Crew crew_;
+  ThreadPool pool_;
   std::uint64_t uploaded_bytes_ = 0;
   Recording* recording_ = nullptr;  // what is being recorded
 };

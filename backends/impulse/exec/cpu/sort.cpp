@@ -39,14 +39,14 @@ struct KeyedInput {
 };
 
 template <class K>
-void pass(Crew& crew, std::uint32_t n, std::uint32_t chunks, Digit digit, KeyedInput<K> from, Keyed<K> to,
+void pass(ThreadPool& pool, std::uint32_t n, std::uint32_t chunks, Digit digit, KeyedInput<K> from, Keyed<K> to,
           std::uint32_t* histograms) {
   const std::uint32_t chunk = (n + chunks - 1) / chunks;
   const auto in_chunks = [&](auto&& work) {
     struct Job {
       decltype(work)& f;
     } job{work};
-    crew.run_chunks(chunks, &job, [](void* context, std::uint32_t c) { static_cast<Job*>(context)->f(c); });
+    pool.run_chunks(chunks, &job, [](void* context, std::uint32_t c) { static_cast<Job*>(context)->f(c); });
   };
   in_chunks([&](std::uint32_t c) {
     std::uint32_t* counts = histograms + std::size_t{c} * kDigits;
@@ -99,7 +99,7 @@ void RadixSort<K>::run(Executor& executor, std::uint32_t n, const K* keys, const
   KeyedInput<K> from = {keys, values};
   for (int p = 0; p < passes; ++p) {
     const Keyed<K>& to = (passes - p) % 2 == 1 ? sorted : other;  // so that the last pass ends there
-    pass(executor.crew(), n, chunks, Digit{kDigitBits * p, std::min(kDigitBits, bits - kDigitBits * p)}, from, to,
+    pass(executor.pool(), n, chunks, Digit{kDigitBits * p, std::min(kDigitBits, bits - kDigitBits * p)}, from, to,
          histograms);
     from = {to.keys, to.values};
   }

@@ -27,7 +27,7 @@ class Team {
   void each_ahead(std::uint32_t /*n*/, const Load& /*load*/, const F& /*f*/) {}
   template <class F>
   void single(const F& /*f*/) {}
-  void meet() {}
+  void barrier() {}
 };
 #endif
 

@@ -43,7 +43,7 @@ class Team {
   __device__ void single(const F& f) {
     if (join(1) && index_ == 0) f();
   }
-  __device__ void meet() {
+  __device__ void barrier() {
     if (last_ == Work::kNothing) return;
     wait_for_all();
     last_ = Work::kNothing;

@@ -35,12 +35,13 @@ template <ShapeType kA, ShapeType kB>
 struct OnePiece {
   static constexpr std::uint32_t kTypes = bit_of(kA) | bit_of(kB), kNumber = pair_kind(kA, kB);
 
-  __device__ static bool collide(const ShapePair& pair, const Proxies& proxies, std::uint32_t part,
+  __device__ static bool collide(const ShapePair& pair, const Proxies& proxies, std::uint32_t triangle,
                                  Manifold& manifold) {
     const bool swapped = pair.a.type == kB;
     const Shape first = swapped ? pair.b : pair.a;
     const Shape second = swapped ? pair.a : pair.b;
-    const bool touch = collide_with_piece_of<kA, kB>(in_order(pair, first, second, swapped), proxies, part, manifold);
+    const bool touch =
+        collide_with_piece_of<kA, kB>(in_order(pair, first, second, swapped), proxies, triangle, manifold);
     if (touch && swapped) swap_sides(pair.d, manifold);
     return touch;
   }

@@ -37,23 +37,23 @@ struct OneContact {
       body->inverse_mass = real(0.2, 2);
       body->inverse_inertia = {real(1, 2), real(1, 2), real(1, 2), real(0, 0.3), real(0, 0.3), real(0, 0.3)};
     }
-    const FrameGive give(n, t1, centre_a, centre_b, a.inverse_inertia, b.inverse_inertia,
-                         a.inverse_mass + b.inverse_mass);
+    const FrameDelassus delassus(n, t1, centre_a, centre_b, a.inverse_inertia, b.inverse_inertia,
+                                 a.inverse_mass + b.inverse_mass);
     PlanePoint<Real> places[kManifoldPoints] = {};
     Real largest_slip = 0;
     for (int p = 0; p < count; ++p) {
       if (count > 1) places[p] = {real(-0.5, 0.5), real(-0.5, 0.5)};
-      largest_slip = max(largest_slip, give.largest_slip(places[p]));
+      largest_slip = max(largest_slip, delassus.largest_slip(places[p]));
       row.at[point_field(p, kPlace)] = places[p].x;
       row.at[point_field(p, kPlace) + 1] = places[p].y;
       row.at[point_field(p, kNormalImpulse)] = real(0, 1);
       row.at[point_field(p, kTangentImpulse)] = real(-0.3, 0.3);
       row.at[point_field(p, kTangentImpulse) + 1] = real(-0.3, 0.3);
-      row.at[point_field(p, kNoted)] = kWaits / 2;
+      row.at[point_field(p, kNoted)] = kNotPushedYet / 2;
     }
     row.at[kTangentStep] = Real(1) / largest_slip;
-    const NormalBlock normals(row, count, give, places);
-    put_frame_matrix(row, count, give, normals, places);
+    const NormalBlock normals(row, count, delassus, places);
+    put_frame_matrix(row, count, delassus, normals, places);
     row.at[kPointCount] = static_cast<Real>(count);
     row.store(numbers.data());
     rows.numbers = numbers.data();
@@ -106,8 +106,8 @@ TEST(ContactSolving, TheFrameAnswersAsTheBodiesDo) {
     const auto real = [&] { return static_cast<Real>(random.between(-1, 1)); };
     const ContactWrench<Real> wrench = {{real(), real(), real()}, {real(), real(), real()}};
     ContactMotion<Real> by_frame = motion_of(contact, start.a, start.b);
-    answer(contact.give, wrench.normal, by_frame);
-    answer(contact.give, wrench.friction, by_frame);
+    answer(contact.delassus, wrench.normal, by_frame);
+    answer(contact.delassus, wrench.friction, by_frame);
     SolverBody<Real> a = start.a, b = start.b;
     push(contact, wrench, a, b);
     const ContactMotion<Real> by_bodies = motion_of(contact, a, b);
@@ -132,10 +132,10 @@ TEST(ContactSolving, FrictionThatSticksStopsTheWholePatch) {
     contact.impulse[1] = contact.impulse[2] = for_all_points<kManifoldPoints>(Real(0));
     ContactMotion<Real> motion = motion_of(contact, start.a, start.b);
     const Eigen::Vector3d before(motion.friction.along_t1, motion.friction.along_t2, motion.friction.about_n);
-    const Real* f = contact.give.friction;
+    const Real* f = contact.delassus.friction;
     Eigen::Matrix3d give;
     give << f[0], f[1], f[2], f[1], f[3], f[4], f[2], f[4], f[5];
-    const Eigen::Vector3d expected = -give.inverse() * before;
+    const Eigen::Vector3d expected = -delassus.inverse() * before;
     ContactWrench<Real> wrench = no_wrench<Real>();
     solve_friction(contact, motion, wrench, false);
     const Real tolerance = 2000 * kEpsilon;

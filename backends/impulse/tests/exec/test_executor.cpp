@@ -19,34 +19,34 @@ using test::JobHost;
 
 constexpr std::uint32_t kFlushToZero = 0x8040;  // and denormals are zero
 
-void visits_all_once(Crew& crew) {
+void visits_all_once(ThreadPool& pool) {
   for (const std::uint32_t n : {0U, 1U, 7U, 64U, 65U, 100U, 1000U, 12345U}) {
     std::vector<std::atomic<std::uint32_t>> visits(n);
-    crew.each(n, [&](std::uint32_t i) { ++visits[i]; });
+    pool.each(n, [&](std::uint32_t i) { ++visits[i]; });
     for (std::uint32_t i = 0; i < n; ++i) ASSERT_EQ(visits[i], 1U) << i << " of " << n;
   }
 }
 
-TEST(Crews, VisitEverythingOnce) {
+TEST(ThreadPools, VisitEverythingOnce) {
   for (const std::uint32_t threads : {0U, 1U, 2U, 5U}) {
-    Crew crew(nullptr, threads);
-    EXPECT_GE(crew.threads(), 1U);
-    visits_all_once(crew);
+    ThreadPool pool(nullptr, threads);
+    EXPECT_GE(pool.threads(), 1U);
+    visits_all_once(pool);
   }
 }
 
 /// Loops of all lengths follow each other faster than threads come and go; more threads than processors, too.
-TEST(Crews, VisitEverythingOnceWhileTheyStayTogether) {
+TEST(ThreadPools, VisitEverythingOnceWhileTheyStayTogether) {
   for (const std::uint32_t threads : {1U, 2U, 3U, 8U}) {
-    Crew crew(nullptr, threads);
+    ThreadPool pool(nullptr, threads);
     std::vector<std::uint32_t> visits(1000, 0);
     std::uint64_t expected = 0, found = 0;
     for (int step = 0; step < 20; ++step)
-      crew.together([&] {
+      pool.together([&] {
         for (std::uint32_t loop = 0; loop < 300; ++loop) {
           const std::uint32_t n = loop * 7919 % 1001;
           const LoopBody body = loop % 3 == 0 ? LoopBody::kSmall : LoopBody::kLarge;
-          crew.each(
+          pool.each(
               n, [&](std::uint32_t i) { ++visits[i]; }, body);
           expected += n;
         }
@@ -56,34 +56,34 @@ TEST(Crews, VisitEverythingOnceWhileTheyStayTogether) {
   }
 }
 
-TEST(Crews, ComeApartWhereAStepThrows) {
-  Crew crew(nullptr, 2);
+TEST(ThreadPools, ComeApartWhereAStepThrows) {
+  ThreadPool pool(nullptr, 2);
   std::vector<int> visits(1000, 0);
-  const auto visit = [&] { crew.each(1000, [&](std::uint32_t i) { ++visits[i]; }); };
-  EXPECT_THROW(crew.together([&] {
+  const auto visit = [&] { pool.each(1000, [&](std::uint32_t i) { ++visits[i]; }); };
+  EXPECT_THROW(pool.together([&] {
     visit();
     throw std::runtime_error("no more memory");
   }),
                std::runtime_error);
   visit();
-  crew.together(visit);
+  pool.together(visit);
   EXPECT_EQ(std::count(visits.begin(), visits.end(), 3), 1000);
 }
 
-TEST(Crews, RunOnTheHostsJobs) {
+TEST(ThreadPools, RunOnTheHostsJobs) {
   JobHost jobs(5);
-  Crew crew(&jobs.host, 5);
-  EXPECT_EQ(crew.threads(), 5U);
-  visits_all_once(crew);
+  ThreadPool pool(&jobs.host, 5);
+  EXPECT_EQ(pool.threads(), 5U);
+  visits_all_once(pool);
   EXPECT_GT(jobs.runs, 0U);
-  EXPECT_EQ(Crew(&jobs.host, 9).threads(), 5U) << "no more than the host has";
+  EXPECT_EQ(ThreadPool(&jobs.host, 9).threads(), 5U) << "no more than the host has";
 }
 
-TEST(Crews, WorkWithoutTheHostsJobs) {
+TEST(ThreadPools, WorkWithoutTheHostsJobs) {
   PlumbHost host{};
   host.struct_size = sizeof host;
-  Crew crew(&host, 2);
-  visits_all_once(crew);
+  ThreadPool pool(&host, 2);
+  visits_all_once(pool);
 }
 
 TEST(FloatingPoint, TheScopePutsTheCallersWordBack) {
@@ -100,9 +100,9 @@ TEST(FloatingPoint, TheScopePutsTheCallersWordBack) {
 TEST(FloatingPoint, TasksOfTheHostRunUnderOurRounding) {
   JobHost jobs(3);
   jobs.control_word = _mm_getcsr() | kFlushToZero;
-  Crew crew(&jobs.host, 3);
+  ThreadPool pool(&jobs.host, 3);
   std::atomic<std::uint32_t> wrong = 0;
-  crew.each(1000, [&](std::uint32_t) { wrong += (_mm_getcsr() & kFlushToZero) != 0; });
+  pool.each(1000, [&](std::uint32_t) { wrong += (_mm_getcsr() & kFlushToZero) != 0; });
   EXPECT_EQ(wrong, 0U);
 }
 

@@ -1,8 +1,8 @@
-// Between broad and narrow phase, in scenes with planes, meshes or height fields: what is collided piece by piece.
+// The midphase, in scenes with planes, meshes or height fields: which triangles of a surface are worth a look.
 //
-// A pair of the broad phase that has a surface becomes one piece for each of its triangles whose box the other shape's
-// box touches, in the surface's own frame; any other pair is one piece. Planes have no box: each is held against every
-// mover here.
+// A pair of the broad phase that has a surface becomes one candidate for each of its triangles whose box the other
+// shape's box touches, in the surface's own frame; any other pair is one candidate. Planes have no box: each is held
+// against every mover here.
 #pragma once
 
 #include "bodies/body.hpp"
@@ -14,7 +14,7 @@
 
 namespace plumb::impulse {
 
-class Pieces {
+class Midphase {
  public:
   void reserve(std::uint32_t proxies, std::uint32_t pairs);
 
@@ -32,8 +32,8 @@ class Pieces {
     const Real* margins;  ///< by proxy
     ProxyRows movers, planes;
   };
-  /// Writes cache.pairs, cache.parts, cache.ranges and counters->pieces. More pieces than there is room for count as so
-  /// many pairs. swept: what some bodies must not pass through in the step is found, too.
+  /// Writes cache.pairs, cache.triangles, cache.ranges and counters->midphase_pairs. More candidates than there is room
+  /// for count as so many pairs. swept: what some bodies must not pass through in the step is found, too.
   void find(Executor& executor, const Input& input, const ContactCache& cache, StepCounters* counters, bool swept);
 
  private:

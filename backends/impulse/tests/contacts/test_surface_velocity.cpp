@@ -37,7 +37,7 @@ PlumbQuat turn_about(const PlumbVec3& axis, double angle) {
 void set_belt(Scene& scene, const PlumbVec3& speed) { scene.body.material.surface_velocity = speed; }
 
 /// With every solver: slips for v / (mu g), and is v^2 / (2 mu g) behind then.
-TEST(Belts, TakeABoxAlongAsCoulombSays) {
+TEST(SurfaceVelocity, TakeABoxAlongAsCoulombSays) {
   for (const char* const solver : kSolvers) {
     SCOPED_TRACE(solver);
     Scene scene(engine(), kNeeds, kDown, 1, {"solver", solver});
@@ -65,7 +65,7 @@ TEST(Belts, TakeABoxAlongAsCoulombSays) {
 }
 
 /// Uphill, against gravity: a = g (mu cos - sin), until it goes with the belt.
-TEST(Belts, CarryABoxUphill) {
+TEST(SurfaceVelocity, CarryABoxUphill) {
   constexpr double kSlope = 0.3, kSteep = 0.6;
   for (const char* const solver : kSolvers) {
     SCOPED_TRACE(solver);
@@ -89,7 +89,7 @@ TEST(Belts, CarryABoxUphill) {
 }
 
 /// The velocity is in the body's frame.
-TEST(Belts, TurnWithTheirBodies) {
+TEST(SurfaceVelocity, TurnWithTheirBodies) {
   constexpr double kYaw = 0.7;
   Scene scene(engine(), kNeeds, kDown, 1);
   set_belt(scene, {kSpeed, 0, 0});
@@ -103,7 +103,7 @@ TEST(Belts, TurnWithTheirBodies) {
 }
 
 /// A ball takes its spin from the belt, too: it rolls on the belt when 2/7 of its speed is the ball's.
-TEST(Belts, RollABall) {
+TEST(SurfaceVelocity, RollABall) {
   for (const char* const solver : kSolvers) {
     SCOPED_TRACE(solver);
     Scene scene(engine(), kNeeds, kDown, 1, {"solver", solver});
@@ -120,7 +120,7 @@ TEST(Belts, RollABall) {
   }
 }
 
-TEST(Belts, RunOnBodiesThatMove) {
+TEST(SurfaceVelocity, RunOnBodiesThatMove) {
   Scene scene(engine(), kNeeds | PLUMB_NEED_KINEMATIC, kDown, 1);
   set_belt(scene, {kSpeed, 0, 0});
   const PlumbBody carrier = scene.add_kinematic(scene.box({50, 0.5, 50}), {0, -0.5, 0});
@@ -133,7 +133,7 @@ TEST(Belts, RunOnBodiesThatMove) {
 }
 
 /// What a belt gives to one body it takes from its own.
-TEST(Belts, KeepMomentum) {
+TEST(SurfaceVelocity, KeepMomentum) {
   for (const char* const solver : kSolvers) {
     SCOPED_TRACE(solver);
     Scene scene(engine(), kNeeds, kDown, 1, {"solver", solver});
@@ -154,7 +154,7 @@ TEST(Belts, KeepMomentum) {
 }
 
 /// Whatever the axes of inertia are: a slab that lies askew in its body's frame runs along that.
-TEST(Belts, RunInTheirBodysFrame) {
+TEST(SurfaceVelocity, RunInTheirBodysFrame) {
   Scene scene(engine(), kNeeds, kDown, 1);
   scene.body.material.friction = 0;
   scene.ground();
@@ -173,7 +173,7 @@ TEST(Belts, RunInTheirBodysFrame) {
   EXPECT_NEAR(scene.velocity(body)[2] - scene.velocity(slab)[2], 0, 2e-2);
 }
 
-TEST(Belts, RunOnEveryGround) {
+TEST(SurfaceVelocity, RunOnEveryGround) {
   for (const PlumbShapeType type : {PLUMB_PLANE, PLUMB_TRIANGLE_MESH, PLUMB_HEIGHT_FIELD}) {
     SCOPED_TRACE(type);
     Scene scene(engine(), kNeeds, kDown, 1);
@@ -192,7 +192,7 @@ TEST(Belts, RunOnEveryGround) {
 }
 
 /// A child with a material of its own has a belt of its own; the others have their body's, which can be written.
-TEST(Belts, OfChildren) {
+TEST(SurfaceVelocity, OfChildren) {
   Scene scene(engine(), kNeeds, kDown, 1);
   const PlumbShape half = scene.box({5, 0.5, 5});
   PlumbMaterial running = scene.body.material;
@@ -216,7 +216,7 @@ TEST(Belts, OfChildren) {
 }
 
 /// Slow as it is, a belt lets nobody sleep; nor does it start without those who sleep on it.
-TEST(Belts, LetNobodySleep) {
+TEST(SurfaceVelocity, LetNobodySleep) {
   Scene scene(engine(), kNeeds | PLUMB_NEED_SLEEPING, kDown, 1);
   set_belt(scene, {0.01, 0, 0});
   const PlumbBody belt = scene.add_static(scene.box({50, 0.5, 50}), {0, -0.5, 0});
@@ -236,7 +236,7 @@ TEST(Belts, LetNobodySleep) {
   EXPECT_NEAR(scene.velocity(above)[0], 1, 1e-2);
 }
 
-TEST(Belts, AreInSnapshots) {
+TEST(SurfaceVelocity, AreInSnapshots) {
   Scene scene(engine(), kNeeds | PLUMB_NEED_SNAPSHOT, kDown, 1);
   set_belt(scene, {kSpeed, 0, 0});
   const PlumbBody belt = scene.add_static(scene.box({50, 0.5, 50}), {0, -0.5, 0}, turn_about({0, 1, 0}, 0.3));
@@ -257,7 +257,7 @@ TEST(Belts, AreInSnapshots) {
 }
 
 /// A world that declares belts and has none goes as one with reactions, which has the code of all joints, too.
-TEST(Belts, ThatStandChangeNothing) {
+TEST(SurfaceVelocity, ThatStandChangeNothing) {
   const auto hash = [](PlumbNeeds more, std::uint32_t threads, double speed) {
     Scene scene(engine(), (kNeeds & ~PLUMB_NEED_SURFACE_VELOCITY) | more, kDown, threads);
     set_belt(scene, {speed, 0, 0});
@@ -274,7 +274,7 @@ TEST(Belts, ThatStandChangeNothing) {
   EXPECT_NE(hash(PLUMB_NEED_SURFACE_VELOCITY, 1, 1), hash(0, 1, 0));
 }
 
-TEST(Belts, AreNoFasterThanNumbersGo) {
+TEST(SurfaceVelocity, AreNoFasterThanNumbersGo) {
   Scene scene(engine(), kNeeds, kDown, 1);
   set_belt(scene, {0, 1e300, 0});
   EXPECT_THROW(scene.ground(), Error);

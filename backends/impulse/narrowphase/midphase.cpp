@@ -1,4 +1,4 @@
-#include "narrowphase/pieces.hpp"
+#include "narrowphase/midphase.hpp"
 
 #include "bodies/way.hpp"
 #include "geometry/shape_box.hpp"
@@ -18,7 +18,7 @@ struct TrianglesOf {
 /// kSwept: some bodies must not pass through others however fast they are.
 template <bool kSwept>
 struct Search {
-  Pieces::Input in;
+  Midphase::Input in;
   const Pair* pairs;
   const PairRange* ranges;
 
@@ -103,7 +103,7 @@ struct CountSink {
   PLUMB_HD void operator()(const Pair&, std::uint32_t) { ++count; }
 };
 template <bool kSwept>
-struct CountPieces {
+struct CountTriangles {
   Search<kSwept> search;
   std::uint32_t* counts;
   PLUMB_HD void operator()(std::uint32_t i) const {
@@ -119,11 +119,11 @@ struct WriteSink {
   PLUMB_HD void operator()(const Pair& pair, std::uint32_t triangle) {
     if (at >= end) return;
     cache.pairs[at] = pair;
-    cache.parts[at++] = triangle;
+    cache.triangles[at++] = triangle;
   }
 };
 template <bool kSwept>
-struct WritePieces {
+struct WriteTriangles {
   Search<kSwept> search;
   ContactCache cache;
   const std::uint32_t *counts, *offsets;
@@ -141,13 +141,13 @@ struct CountAsPairs {
   StepCounters* counters;
   std::uint32_t capacity;
   PLUMB_HD void operator()(std::uint32_t) const {
-    if (counters->pieces > capacity) counters->pairs = max(counters->pairs, counters->pieces);
+    if (counters->midphase_pairs > capacity) counters->pairs = max(counters->pairs, counters->midphase_pairs);
   }
 };
 
 }  // namespace
 
-void Pieces::reserve(std::uint32_t proxies, std::uint32_t pairs) {
+void Midphase::reserve(std::uint32_t proxies, std::uint32_t pairs) {
   capacity_ = max(capacity_, pairs);
   pairs_.grow(capacity_);
   ranges_.grow(proxies);
@@ -156,13 +156,13 @@ void Pieces::reserve(std::uint32_t proxies, std::uint32_t pairs) {
   scan_.reserve(proxies);
 }
 
-void Pieces::find(Executor& executor, const Input& input, const ContactCache& cache, StepCounters* counters,
-                  bool swept) {
+void Midphase::find(Executor& executor, const Input& input, const ContactCache& cache, StepCounters* counters,
+                    bool swept) {
   const auto find = [&]<bool kSwept>() {
     const Search<kSwept> search{input, pairs_.data(), ranges_.data()};
-    executor.run(input.movers.count, CountPieces<kSwept>{search, counts_.data()});
-    scan_.run(executor, input.movers.count, counts_.data(), offsets_.data(), &counters->pieces);
-    executor.run(input.movers.count, WritePieces<kSwept>{search, cache, counts_.data(), offsets_.data(), capacity_});
+    executor.run(input.movers.count, CountTriangles<kSwept>{search, counts_.data()});
+    scan_.run(executor, input.movers.count, counts_.data(), offsets_.data(), &counters->midphase_pairs);
+    executor.run(input.movers.count, WriteTriangles<kSwept>{search, cache, counts_.data(), offsets_.data(), capacity_});
   };
   swept ? find.operator()<true>() : find.operator()<false>();
   executor.run(1U, CountAsPairs{counters, capacity_});

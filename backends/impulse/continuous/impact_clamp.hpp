@@ -18,7 +18,7 @@
 
 namespace plumb::impulse {
 
-class Guard {
+class ImpactClamp {
  public:
   void reserve(std::uint32_t bodies);
 
@@ -36,8 +36,8 @@ class Guard {
     ProxyRows planes;
   };
   /// After the bodies have moved by these displacements.
-  void hold(Executor& executor, const Input& input, const Bodies& bodies, std::uint32_t body_count,
-            Displacement* displacements);
+  void clamp(Executor& executor, const Input& input, const Bodies& bodies, std::uint32_t body_count,
+             Displacement* displacements);
 
  private:
   Buffer<std::uint32_t> stays_;  // by body: share of its way, as the bits of a float

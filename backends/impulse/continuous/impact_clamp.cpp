@@ -1,4 +1,4 @@
-#include "continuous/guard.hpp"
+#include "continuous/impact_clamp.hpp"
 
 #include "continuous/impact.hpp"
 #include "continuous/inner_points.hpp"
@@ -59,7 +59,7 @@ struct Forget {
 /// How much of its way a flagged body may go without leaving the box of a shape on it, where it comes to what was not
 /// seen from there.
 struct FindSight {
-  Guard::Input in;
+  ImpactClamp::Input in;
   Bodies bodies;
   const Displacement* displacements;
   std::uint32_t* stays;
@@ -157,7 +157,7 @@ struct Meeting {
 };
 
 struct FindPassed {
-  Guard::Input in;
+  ImpactClamp::Input in;
   Bodies bodies;
   const Displacement* displacements;
   std::uint64_t* first;
@@ -180,7 +180,7 @@ struct FindPassed {
     const InnerPoints points(in.proxies.shapes[own.shape], in.proxies.hulls);
     const Meeting meeting(bodies, displacements, own.body, wall.body);
     const Obstacle obstacle = {in.proxies.shapes[wall.shape], in.proxies,
-                               in.cache.parts == nullptr ? 0U : in.cache.parts[p]};
+                               in.cache.triangles == nullptr ? 0U : in.cache.triangles[p]};
     Real earliest = 1;
     for (int i = 0; i < points.count; ++i) {
       const Vec arm = own.frame.position + rotate(own.frame.orientation, points.at[i]);
@@ -232,7 +232,7 @@ struct FindPassed {
 };
 
 struct PutBack {
-  Guard::Input in;
+  ImpactClamp::Input in;
   Bodies bodies;
   Displacement* displacements;
   const std::uint64_t* first;
@@ -263,13 +263,13 @@ struct PutBack {
 
 }  // namespace
 
-void Guard::reserve(std::uint32_t bodies) {
+void ImpactClamp::reserve(std::uint32_t bodies) {
   stays_.grow(bodies);
   first_.grow(bodies);
 }
 
-void Guard::hold(Executor& executor, const Input& input, const Bodies& bodies, std::uint32_t body_count,
-                 Displacement* displacements) {
+void ImpactClamp::clamp(Executor& executor, const Input& input, const Bodies& bodies, std::uint32_t body_count,
+                        Displacement* displacements) {
   executor.run(body_count, Forget{first_.data(), stays_.data()});
   executor.run(input.movers.count, FindSight{input, bodies, displacements, stays_.data()});
   executor.run(body_count, StayInSight{bodies.position, displacements, stays_.data()});

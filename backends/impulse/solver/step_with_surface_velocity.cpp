@@ -1,9 +1,9 @@
-// Steps with belts, and with any joints, on a device.
+// Steps with surface_velocities, and with any joints, on a device.
 #include "solver/enqueue_step.hpp"
 
 namespace plumb::impulse {
 
-void enqueue_step_with_belts(Executor& executor, const StepWork& work) {
+void enqueue_step_with_surface_velocity(Executor& executor, const StepWork& work) {
   enqueue_step<JointCode::kAll, true>(executor, work);
 }
 

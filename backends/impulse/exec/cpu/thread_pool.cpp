@@ -1,4 +1,4 @@
-#include "exec/cpu/crew.hpp"
+#include "exec/cpu/thread_pool.hpp"
 
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -25,13 +25,13 @@ struct GuardedTask {
 
 }  // namespace
 
-struct Crew::Arena {
+struct ThreadPool::Arena {
   explicit Arena(int threads) : arena(threads) {}
   tbb::task_arena arena;
 };
 
 /// The threads while they stay together. They are called when there is something to share.
-class Crew::Together {
+class ThreadPool::Together {
  public:
   explicit Together(std::uint32_t helpers) : helpers_(helpers) {}
   ~Together() {
@@ -52,31 +52,32 @@ class Crew::Together {
   std::uint32_t helpers_;  // yet to be called
 };
 
-Crew::Crew(const PlumbHost* host, std::uint32_t threads) : host_(host), threads_(threads == 0 ? 1 : threads) {
+ThreadPool::ThreadPool(const PlumbHost* host, std::uint32_t threads)
+    : host_(host), threads_(threads == 0 ? 1 : threads) {
   const bool lends = host_ != nullptr && host_->run != nullptr && host_->worker_count > 0;
   if (!lends) host_ = nullptr;
   if (lends && threads_ > host_->worker_count) threads_ = host_->worker_count;
   if (!lends) threads_ = std::min(threads_, processors());
   if (!lends && threads_ > 1) arena_ = new Arena(static_cast<int>(threads_));
 }
-Crew::~Crew() { delete arena_; }
+ThreadPool::~ThreadPool() { delete arena_; }
 
-std::uint32_t Crew::processors() { return std::max(1U, std::thread::hardware_concurrency()); }
+std::uint32_t ThreadPool::processors() { return std::max(1U, std::thread::hardware_concurrency()); }
 
-void Crew::run_together(void* context, void (*task)(void*)) {
+void ThreadPool::run_together(void* context, void (*task)(void*)) {
   arena_->arena.execute([&] {
     const FloatingPointScope scope;
     Together together(threads_ - 1);
     together_ = &together;
     struct Leave {
-      Crew& crew;
-      ~Leave() { crew.together_ = nullptr; }
+      ThreadPool& pool;
+      ~Leave() { pool.together_ = nullptr; }
     } const leave{*this};
     task(context);
   });
 }
 
-void Crew::run_chunks(std::uint32_t count, void* context, PlumbTask task) {
+void ThreadPool::run_chunks(std::uint32_t count, void* context, PlumbTask task) {
   if (together_ != nullptr) return together_->share(count, context, task);
   GuardedTask guarded{context, task};
   if (host_ != nullptr) {

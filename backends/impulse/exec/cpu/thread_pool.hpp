@@ -10,13 +10,13 @@ namespace plumb::impulse {
 /// How long a loop's body takes: tens of nanoseconds, or a microsecond.
 enum class LoopBody : std::uint8_t { kSmall, kLarge };
 
-class Crew {
+class ThreadPool {
  public:
   /// host may be null. Where it lends a job system and more than one thread is asked for, that is used.
-  Crew(const PlumbHost* host, std::uint32_t threads);
-  Crew(const Crew&) = delete;
-  Crew& operator=(const Crew&) = delete;
-  ~Crew();
+  ThreadPool(const PlumbHost* host, std::uint32_t threads);
+  ThreadPool(const ThreadPool&) = delete;
+  ThreadPool& operator=(const ThreadPool&) = delete;
+  ~ThreadPool();
 
   /// Of this machine, at least one.
   static std::uint32_t processors();
