@@ -63,15 +63,29 @@ struct BodyForce {
   Vec force, torque;  ///< N, N m at the centre of mass, world axes
 };
 
-/// All rows of all bodies. position is of the centre of mass, orientation of the principal axes.
+/// All rows of all bodies, to be read. position is of the centre of mass, orientation of the principal axes.
 struct Bodies {
+  const Position* position;
+  const Quat* orientation;
+  const Velocity* velocity;
+  const BodyForce* force;
+  const BodyMass* mass;
+  bool turn;  ///< whether any dynamic one may; else the angular velocities of those are 0 and stay so
+};
+
+/// The same rows, to be moved: the access of the stages of a step that solve and clamp. All others get Bodies, and so
+/// cannot move anybody.
+struct MovableBodies {
   Position* position;
   Quat* orientation;
   Velocity* velocity;
   const BodyForce* force;
   const BodyMass* mass;
-  bool turn;  ///< whether any dynamic one may; else the angular velocities of those are 0 and stay so
-  bool operator==(const Bodies&) const = default;
+  bool turn;
+  bool operator==(const MovableBodies&) const = default;
+
+  // NOLINTNEXTLINE(google-explicit-constructor): who may move bodies may read them
+  PLUMB_HD operator Bodies() const { return {position, orientation, velocity, force, mass, turn}; }
 };
 
 /// From the frame in which the engine works to the body's own, which the interface speaks of.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "plumb/assert.hpp"
+
 namespace plumb::impulse {
 
 namespace {
@@ -64,6 +66,7 @@ void BodyState::learn(std::uint32_t slot, std::uint32_t parts) {
 }
 
 void BodyState::touch(std::uint32_t slot, std::uint32_t parts) {
+  PLUMB_ASSERT(slot < size());
   ++version_;
   if (kOneMemory) return;
   learn(slot, parts);
@@ -129,6 +132,7 @@ void BodyState::fetch_all() {
 }
 
 void BodyState::exchange(Archive& archive, std::size_t rows) {
+  PLUMB_ASSERT(rows <= size());
   fetch_all();
   archive.items(position.host(), rows);
   archive.items(orientation.host(), rows);

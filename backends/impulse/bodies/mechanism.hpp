@@ -9,6 +9,7 @@
 
 #include "bodies/body.hpp"
 #include "math/angle.hpp"
+#include "plumb/assert.hpp"
 
 namespace plumb::impulse {
 
@@ -58,7 +59,10 @@ struct Mechanisms {
   PLUMB_HD bool hold(std::uint32_t body) const { return place_of != nullptr && place_of[body] != 0; }
   /// Whether the body has a contact in this step.
   PLUMB_HD bool touch(std::uint32_t body) const { return hold(body) && loads[place_of[body] - 1].touched != 0; }
-  PLUMB_HD const MechanismBody& of(std::uint32_t body) const { return bodies[place_of[body] - 1]; }
+  PLUMB_HD const MechanismBody& of(std::uint32_t body) const {
+    PLUMB_ASSERT(hold(body) && place_of[body] <= count);
+    return bodies[place_of[body] - 1];
+  }
   PLUMB_HD bool together(std::uint32_t a, std::uint32_t b) const {
     return hold(a) && hold(b) && of(a).first == of(b).first;
   }
@@ -67,6 +71,7 @@ struct Mechanisms {
   /// Six rows of six: what a wrench on body `from` does to body `to` of the same mechanism.
   PLUMB_HD const Real* block(std::uint32_t from, std::uint32_t to) const {
     const MechanismBody& source = of(from);
+    PLUMB_ASSERT(together(from, to));
     return mobility + source.mobility + std::size_t{place_of[to] - 1 - source.first} * 36;
   }
   /// left^T W right, for a wrench `right` on body `from` and motion of `to`.

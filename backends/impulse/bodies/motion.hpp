@@ -6,6 +6,7 @@
 #include "bodies/step_parameters.hpp"
 #include "bodies/swung_frame.hpp"
 #include "math/angle.hpp"
+#include "plumb/assert.hpp"
 
 namespace plumb::impulse {
 
@@ -29,7 +30,9 @@ PLUMB_HD inline Vec acceleration_by_forces(const Bodies& bodies, const StepParam
 PLUMB_HD inline void integrate_velocity(const Bodies& bodies, const SolverBodies& solver, const StepParameters& step,
                                         bool first, std::uint32_t i) {
   const BodyMass& mass = bodies.mass[i];
+  PLUMB_ASSERT(step.h > 0);
   if ((mass.flags & kBodyDynamic) == 0) return;
+  PLUMB_ASSERT(bodies.velocity[i].inverse_mass > 0);
   Velocity& velocity = solver.velocity[i];
   FreeVelocity& free = solver.free_velocity[i];
   const Vec carried = first ? Vec{0, 0, 0} : velocity.linear - free.linear;
@@ -86,7 +89,7 @@ PLUMB_HD inline void integrate_position(const Bodies& bodies, const SolverBodies
 }
 
 /// Puts the displacement into the pose. A body that came out not finite stays where it was, at rest; returns false.
-PLUMB_HD inline bool finish_body(const Bodies& bodies, const SolverBodies& solver, std::uint32_t i) {
+PLUMB_HD inline bool finish_body(const MovableBodies& bodies, const SolverBodies& solver, std::uint32_t i) {
   const std::uint32_t flags = bodies.mass[i].flags;
   if ((flags & kBodyMoves) == 0) return true;
   Displacement& displacement = solver.displacement[i];

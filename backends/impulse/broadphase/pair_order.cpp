@@ -1,4 +1,5 @@
 #include "broadphase/pair_order.hpp"
+#include "plumb/assert.hpp"
 
 namespace plumb::impulse {
 
@@ -79,6 +80,7 @@ void PairOrder::reserve(std::uint32_t movers, std::uint32_t statics, std::uint32
 
 void PairOrder::number(Executor& executor, const Box* boxes, const std::uint32_t* movers, std::uint32_t n,
                        const SceneExtent* extent, MortonBits bits, const TreeView& statics) {
+  PLUMB_ASSERT(n + std::size_t{statics.leaves} <= place_.size());
   movers_ = n;
   statics_ = statics.leaves;
   place_bits_ = static_cast<int>(std::bit_width(n + statics_));
@@ -89,6 +91,7 @@ void PairOrder::number(Executor& executor, const Box* boxes, const std::uint32_t
 
 void PairOrder::list(Executor& executor, const std::uint32_t* count, Pair* pairs, PairRange* ranges_by_proxy) {
   const Count all = {count, pair_capacity_};
+  PLUMB_ASSERT(place_bits_ + static_cast<int>(std::bit_width(movers_)) <= 64);
   const int bits = place_bits_ + static_cast<int>(std::bit_width(movers_));
   sort_.run(executor, all, keys_.data(), unused_.data(), sorted_.data(), unused_sorted_.data(), bits);
   PairKeys sorted = keys();

@@ -1,4 +1,5 @@
 #include "broadphase/sorted_boxes.hpp"
+#include "plumb/assert.hpp"
 
 namespace plumb::impulse {
 
@@ -18,6 +19,7 @@ struct GatherBoxes {
 }  // namespace
 
 void SortedBoxes::sort(Executor& executor, const Box* boxes, const std::uint32_t* proxies, std::uint32_t n, int bits) {
+  PLUMB_ASSERT(n <= boxes_.size());
   sort_.run(executor, n, keys.data(), indices.data(), sorted_keys_.data(), order_.data(), bits);
   executor.run(n, GatherBoxes{boxes, proxies, order_.data(), sorted_keys_.data(), boxes_.data()});
 }

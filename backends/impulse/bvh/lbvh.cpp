@@ -2,6 +2,7 @@
 
 #include "bvh/radix_tree.hpp"
 #include "exec/atomic.hpp"
+#include "plumb/assert.hpp"
 
 namespace plumb::impulse {
 
@@ -134,6 +135,7 @@ void Lbvh::reserve(std::uint32_t capacity, MortonBits bits) {
 
 void Lbvh::build(Executor& executor, const Box* boxes, const std::uint32_t* proxies, std::uint32_t n,
                  const SceneExtent* extent, MortonBits bits) {
+  PLUMB_ASSERT(std::size_t{2} * n <= nodes_.size());
   leaves_ = n;
   if (n == 0) return;
   order_.sort(executor, boxes, proxies, n, extent, bits);

@@ -5,6 +5,7 @@
 
 #include "exec/simd.hpp"
 #include "math/box.hpp"
+#include "plumb/assert.hpp"
 
 namespace plumb::impulse {
 
@@ -48,7 +49,10 @@ struct TreeView {
 
   [[nodiscard]] PLUMB_HD std::uint32_t root() const { return leaves == 0 ? kEnd : leaves == 1 ? 0U : 1U; }
   [[nodiscard]] PLUMB_HD static constexpr bool is_inner(std::uint32_t id) { return (id & 1U) != 0; }
-  [[nodiscard]] PLUMB_HD const TreeNode& leaf(std::uint32_t i) const { return nodes[2 * i]; }
+  [[nodiscard]] PLUMB_HD const TreeNode& leaf(std::uint32_t i) const {
+    PLUMB_ASSERT(i < leaves);
+    return nodes[2 * i];
+  }
   [[nodiscard]] PLUMB_HD Box box(std::uint32_t i) const { return {leaf(i).low, leaf(i).high}; }
 
   /// found(proxy) for every leaf from node `from` on, in order, whose box touches `box`.

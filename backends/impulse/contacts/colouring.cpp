@@ -4,6 +4,7 @@
 #include "exec/atomic.hpp"
 #include "math/bits.hpp"
 #include "math/wide.hpp"
+#include "plumb/assert.hpp"
 
 namespace plumb::impulse {
 
@@ -78,6 +79,7 @@ struct ColourNew {
     }
     const std::uint64_t taken = (ends.pushes_a ? view.masks[ends.a] : 0) | (ends.pushes_b ? view.masks[ends.b] : 0);
     const std::uint32_t colour = lowest_zero_bit(taken);
+    PLUMB_ASSERT(colour <= kOverflow);
     view.cache.kept[row].colour = colour;
     if (colour == kOverflow) return;
     if (ends.pushes_a) view.masks[ends.a] |= std::uint64_t{1} << colour;
@@ -141,6 +143,7 @@ struct LayOutSlots {
       if (size != 0 && c < kOverflow) used = c + 1;
       if (c < kOverflow) largest = max(largest, size);
     }
+    PLUMB_ASSERT(slot <= slots_for(counters->manifolds));
     counters->first_slot[kColours + 1] = slot;
     counters->colour_count = used;
     counters->largest_loop = contact_loop(largest);

@@ -9,6 +9,7 @@
 
 #include "math/wide.hpp"
 #include "narrowphase/manifold.hpp"
+#include "plumb/assert.hpp"
 
 namespace plumb::impulse {
 
@@ -71,6 +72,7 @@ struct ContactRows {
 
   /// The first number of a slot.
   PLUMB_HD Real* at(std::uint32_t slot) const {
+    PLUMB_ASSERT(slot <= spare);
     const std::uint32_t in_block = slot % kRowBlock;
     return numbers + std::size_t{slot / kRowBlock} * (kAllFields * kRowBlock) + (kLanes == 1 ? 4 * in_block : in_block);
   }

@@ -1,6 +1,7 @@
 #include "contacts/match.hpp"
 
 #include "exec/atomic.hpp"
+#include "plumb/assert.hpp"
 
 namespace plumb::impulse {
 
@@ -33,6 +34,7 @@ struct Match {
     const CachedManifold* old = old_row != kNone ? &last.kept[old_row] : nullptr;
     if (old == nullptr && woken != nullptr) old = find_kept(woken, parameters->woken_contacts, pair, triangle);
     if (old != nullptr) remember(*old, kept);
+    PLUMB_ASSERT(kept.count >= 1);
     cache.kept[row] = kept;
     atomic_add(&counters->points, kept.count);
     if (kept.colour == kNone) return;

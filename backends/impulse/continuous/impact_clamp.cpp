@@ -233,7 +233,7 @@ struct FindPassed {
 
 struct PutBack {
   ImpactClamp::Input in;
-  Bodies bodies;
+  MovableBodies bodies;
   Displacement* displacements;
   const std::uint64_t* first;
 
@@ -268,7 +268,7 @@ void ImpactClamp::reserve(std::uint32_t bodies) {
   first_.grow(bodies);
 }
 
-void ImpactClamp::clamp(Executor& executor, const Input& input, const Bodies& bodies, std::uint32_t body_count,
+void ImpactClamp::clamp(Executor& executor, const Input& input, const MovableBodies& bodies, std::uint32_t body_count,
                         Displacement* displacements) {
   executor.run(body_count, Forget{first_.data(), stays_.data()});
   executor.run(input.movers.count, FindSight{input, bodies, displacements, stays_.data()});

@@ -36,7 +36,7 @@ class ImpactClamp {
     ProxyRows planes;
   };
   /// After the bodies have moved by these displacements.
-  void clamp(Executor& executor, const Input& input, const Bodies& bodies, std::uint32_t body_count,
+  void clamp(Executor& executor, const Input& input, const MovableBodies& bodies, std::uint32_t body_count,
              Displacement* displacements);
 
  private:

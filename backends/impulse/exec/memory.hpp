@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "plumb/assert.hpp"
+
 namespace plumb::impulse {
 
 /// Raw memory of the executor, 256-byte aligned. Throws plumb::Error PLUMB_E_OUT_OF_MEMORY. (cpu/memory.cpp,
@@ -58,6 +60,7 @@ class Buffer {
 
   /// The first `count` elements, copied to the host.
   [[nodiscard]] std::vector<T> to_host(std::size_t count) const {
+    PLUMB_ASSERT(count <= size_);
     std::vector<T> host(count);
     if (count != 0) memory::download(host.data(), data_, count * sizeof(T));
     return host;
@@ -94,8 +97,14 @@ class Mirror {
   [[nodiscard]] T* device() { return kOneMemory ? host_ : device_.data(); }
   [[nodiscard]] T* host() { return host_; }
   [[nodiscard]] const T* host() const { return host_; }
-  [[nodiscard]] T& operator[](std::size_t i) { return host_[i]; }
-  [[nodiscard]] const T& operator[](std::size_t i) const { return host_[i]; }
+  [[nodiscard]] T& operator[](std::size_t i) {
+    PLUMB_ASSERT(i < size_);
+    return host_[i];
+  }
+  [[nodiscard]] const T& operator[](std::size_t i) const {
+    PLUMB_ASSERT(i < size_);
+    return host_[i];
+  }
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] static constexpr std::size_t bytes(std::size_t count) { return count * sizeof(T); }
 

@@ -6,6 +6,7 @@
 #include "exec/executor.hpp"
 #include "exec/memory.hpp"
 #include "math/real.hpp"
+#include "plumb/assert.hpp"
 
 namespace plumb::impulse {
 
@@ -48,6 +49,7 @@ class Reduce {
   /// (A template also of the executor, for those who include this without a kernel compiler.)
   template <class AnyExecutor, class Load>
   void run(AnyExecutor& executor, std::uint32_t n, const Load& load, T* result) {
+    PLUMB_ASSERT(n <= capacity_);
     std::uint32_t count = threads_for(n);
     T* here = partials_.data();
     T* other = here + threads_for(capacity_);

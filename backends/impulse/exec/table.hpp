@@ -3,6 +3,7 @@
 
 #include "exec/executor.hpp"
 #include "exec/memory.hpp"
+#include "plumb/assert.hpp"
 
 namespace plumb::impulse {
 
@@ -31,6 +32,7 @@ class Table {
   static constexpr std::size_t kNothing = ~std::size_t{0};
 
   void touch(std::size_t i) {
+    PLUMB_ASSERT(i < rows_.size());
     if (kOneMemory) return;
     if (i < first_) first_ = i;
     if (i >= end_) end_ = i + 1;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "exec/atomic.hpp"
+#include "plumb/assert.hpp"
 
 namespace plumb::impulse {
 
@@ -13,6 +14,7 @@ template <class Parent>
 PLUMB_HD void unite(const Parent& parent, std::uint32_t a, std::uint32_t b) {
   while (a != b) {
     const std::uint32_t larger = max(a, b), smaller = min(a, b);
+    PLUMB_ASSERT(*parent(larger) <= larger);  // trees hang below smaller ones: no way goes round
     const std::uint32_t before = atomic_min(parent(larger), smaller);
     if (before == larger) return;
     a = before;

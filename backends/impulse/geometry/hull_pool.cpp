@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "plumb/assert.hpp"
 #include "plumb/backend/convex_hull.hpp"
 #include "plumb/backend/small_math.hpp"
 
@@ -99,6 +100,7 @@ std::uint32_t HullPool::add(std::span<const PlumbVec3> vertices) {
   }
   for (std::uint32_t e = 0; e < need.edges; ++e)
     edges_[range.first_edge + e] = {number[edges[e].from], number[edges[e].to], edges[e].left, edges[e].right};
+  PLUMB_ASSERT(at == need.loops);
   changed_ = true;
   return row;
 }
@@ -130,9 +132,14 @@ std::uint32_t HullPool::find_room(const Room& need) {
   return row;
 }
 
-void HullPool::remove(std::uint32_t row) { empty_.push_back(row); }
+void HullPool::remove(std::uint32_t row) {
+  PLUMB_ASSERT(row < row_count_);
+  PLUMB_ASSERT(std::find(empty_.begin(), empty_.end(), row) == empty_.end());
+  empty_.push_back(row);
+}
 
 Real HullPool::reach(std::uint32_t row) const {
+  PLUMB_ASSERT(row < row_count_);
   const HullRange& range = ranges_[row];
   Real most = 0;
   for (std::uint32_t v = 0; v < range.vertex_count; ++v) most = max(most, length(vertices_[range.first_vertex + v]));

@@ -10,11 +10,6 @@ namespace plumb::impulse {
 
 namespace {
 
-template <class T>
-void put(Buffer<T>& to, const std::vector<T>& from) {
-  to.from_host(from.data(), from.size());
-}
-
 /// The nodes of a tree over the boxes.
 Buffer<TreeNode> build_tree(Executor& executor, const std::vector<Box>& boxes) {
   const auto count = static_cast<std::uint32_t>(boxes.size());
@@ -22,8 +17,8 @@ Buffer<TreeNode> build_tree(Executor& executor, const std::vector<Box>& boxes) {
   std::iota(all.begin(), all.end(), 0U);
   Buffer<Box> leaves;
   Buffer<std::uint32_t> order;
-  put(leaves, boxes);
-  put(order, all);
+  leaves.assign(boxes);
+  order.assign(all);
   Buffer<SceneExtent> extent(1);
   Reduce<SceneExtent> reduce;
   reduce.reserve(count);
@@ -50,10 +45,10 @@ AddedSurface SurfacePool::add_mesh(Executor& executor, const PlumbShapeDesc& des
   const MeshTopology topology(executor, {reinterpret_cast<const PlumbVec3*>(desc.vertices), desc.vertex_count},
                               {desc.indices, std::size_t{3} * desc.triangle_count});
   auto mesh = std::make_unique<Mesh>();
-  put(mesh->corners, topology.corners);
-  put(mesh->triangles, topology.triangles);
-  put(mesh->first_neighbour, topology.first_neighbour);
-  put(mesh->neighbours, topology.neighbours);
+  mesh->corners.assign(topology.corners);
+  mesh->triangles.assign(topology.triangles);
+  mesh->first_neighbour.assign(topology.first_neighbour);
+  mesh->neighbours.assign(topology.neighbours);
   mesh->nodes = build_tree(executor, topology.boxes);
   const MeshView view = {mesh->corners.data(),
                          mesh->triangles.data(),
@@ -75,7 +70,7 @@ AddedSurface SurfacePool::add_field(const PlumbShapeDesc& desc) {
   std::vector<Real> heights(count);
   for (std::size_t i = 0; i < count; ++i) heights[i] = static_cast<Real>(desc.heights[i] - middle);
   auto field = std::make_unique<Field>();
-  put(*field, heights);
+  field->assign(heights);
   const HeightView view = {field->data(),
                            desc.rows,
                            desc.columns,

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "exec/atomic.hpp"
+#include "plumb/assert.hpp"
 
 namespace plumb::impulse {
 
@@ -86,15 +87,20 @@ std::vector<std::uint32_t> Sleep::touched() {
   const std::vector<std::uint32_t> marks = touched_.to_host(was_.size());
   memory::fill(touched_.data(), 0, touched_.size() * sizeof(std::uint32_t));
   std::vector<std::uint32_t> bodies;
-  for (const auto& [island, members] : made_of_)
+  for (const auto& [island, members] : made_of_) {
+    PLUMB_ASSERT(island != 0 && !members.empty());
     if (marks[island - 1] != 0) bodies.push_back(members.front());
+  }
   return bodies;
 }
 
 void Sleep::fall_asleep(std::span<const std::uint32_t> island, Table<BodyMass>& mass, BodyState& state) {
+  PLUMB_ASSERT(!island.empty());
   const std::uint32_t name = 1 + *std::min_element(island.begin(), island.end());
   for (const std::uint32_t body : island) {
+    PLUMB_ASSERT(!sleeps(body));
     BodyMass& row = mass.edit(body);
+    PLUMB_ASSERT((row.flags & kBodyDynamic) != 0);
     was_[body] = {name, row.flags, state.velocity[body].inverse_mass};
     row.flags &= ~static_cast<std::uint32_t>(kBodyDynamic | kBodyMoves);
     state.velocity[body] = {};
@@ -111,6 +117,7 @@ std::vector<std::uint32_t> Sleep::wake(std::span<const std::uint32_t> bodies, Ta
   for (const std::uint32_t body : bodies) {
     if (!sleeps(body)) continue;
     const auto island = made_of_.find(was_[body].island);
+    PLUMB_ASSERT(island != made_of_.end());
     for (const std::uint32_t member : island->second) {
       mass.edit(member).flags = was_[member].flags;
       state.velocity[member] = {};
@@ -122,6 +129,7 @@ std::vector<std::uint32_t> Sleep::wake(std::span<const std::uint32_t> bodies, Ta
     made_of_.erase(island);
   }
   if (woken.empty()) return woken;
+  PLUMB_ASSERT(count_ >= woken.size());
   count_ -= static_cast<std::uint32_t>(woken.size());
   islands_changed_ = true;
   const auto still_asleep = [&](const StoredContact& contact) {

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <span>
 
+#include "plumb/assert.hpp"
+
 namespace plumb::impulse {
 
 namespace {
@@ -21,6 +23,7 @@ std::uint32_t count_of(const auto& list) { return static_cast<std::uint32_t>(lis
 struct Lists {
   Numbers first, items;
   [[nodiscard]] std::span<const std::uint32_t> operator[](std::uint32_t i) const {
+    PLUMB_ASSERT(i + std::size_t{1} < first.size());
     return std::span(items).subspan(first[i], first[i + 1] - first[i]);
   }
 };

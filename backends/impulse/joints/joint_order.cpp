@@ -2,6 +2,8 @@
 
 #include <unordered_set>
 
+#include "plumb/assert.hpp"
+
 namespace plumb::impulse {
 
 namespace {
@@ -61,6 +63,7 @@ OrderedJoints order_joints(const std::vector<StoredJoint>& records, const Table<
   for (const std::uint32_t j : found.one_by_one) put(j);
   ordered.base = ordered.count();
   for (const std::uint32_t j : found.order) put(j);
+  PLUMB_ASSERT(ordered.count() == slots.size());  // each joint is solved, and once
   for (std::uint32_t j = 0; j < ordered.count(); ++j)
     if (no_chains.contains(ordered.mechanism[j])) ordered.joints[j].in_chain = false;
   return ordered;

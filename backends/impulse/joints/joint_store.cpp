@@ -2,6 +2,7 @@
 
 #include "broadphase/pair_filter.hpp"
 #include "joints/rigid_groups.hpp"
+#include "plumb/assert.hpp"
 
 namespace plumb::impulse {
 
@@ -10,11 +11,15 @@ void JointStore::add(const Joint& joint, const JointAxes& axes, const JointTrait
     records_.resize(joint.slot + 1);
     drives.grow(records_.size());
   }
+  PLUMB_ASSERT(!records_[joint.slot].used);
+  PLUMB_ASSERT(row_count(joint) >= 1 && row_count(joint) <= kJointRows);
+  PLUMB_ASSERT(joint.body_b != kWorld && joint.body_a != joint.body_b);
   records_[joint.slot] = {joint, axes, traits, true};
   changed_ = true;
 }
 
 void JointStore::remove(std::uint32_t slot) {
+  PLUMB_ASSERT(slot < records_.size() && records_[slot].used);
   records_[slot].used = false;
   changed_ = true;
 }
@@ -65,6 +70,7 @@ void JointStore::upload(const Table<BodyMass>& masses) {
   colours_.colour(ordered, masses);
   const std::vector<std::uint32_t> pushed = system_.put(ordered, masses);
   mechanisms_.put(ordered, pushed, masses.size());
+  PLUMB_ASSERT(ordered.base <= ordered.count());
   joints_.assign(ordered.joints);
   work_.grow(ordered.count());
   impulses_.grow(records_.size());

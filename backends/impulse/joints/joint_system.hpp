@@ -5,6 +5,7 @@
 #include "exec/executor.hpp"
 #include "joints/joint_axis_solve.hpp"
 #include "joints/joint_elimination.hpp"
+#include "plumb/assert.hpp"
 
 namespace plumb::impulse {
 
@@ -47,7 +48,11 @@ struct JointSystem {
   const JointOnBody* on_body;
   std::uint32_t* changes;  ///< three, in turn: how many changed in a round what the next one begins with
 
-  PLUMB_HD int rows(std::uint32_t column) const { return row_count(view.joints[base + column]); }
+  PLUMB_HD int rows(std::uint32_t column) const {
+    const int count = row_count(view.joints[base + column]);
+    PLUMB_ASSERT(count >= 0 && count <= kJointRows);
+    return count;
+  }
   PLUMB_HD JointWork& work(std::uint32_t column) const { return view.work[base + column]; }
 };
 
@@ -107,6 +112,7 @@ PLUMB_HD void eliminate_column(const JointSystem& system, std::uint32_t j, const
   factor(diagonal, n);
   for (std::uint32_t e = system.column_first[j]; e < system.column_first[j + 1]; ++e) {
     const std::uint32_t i = system.entries[e].row;
+    PLUMB_ASSERT(i > j && system.entries[e].column == j);
     const int rows = system.rows(i);
     JointBlock block;
     for (int p = 0; p < rows; ++p)

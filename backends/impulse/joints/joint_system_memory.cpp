@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "plumb/assert.hpp"
+
 namespace plumb::impulse {
 
 namespace {
@@ -53,6 +55,7 @@ std::vector<std::uint32_t> JointSystemMemory::put(const OrderedJoints& ordered, 
     list.push_back(end.on);
   }
   first.push_back(static_cast<std::uint32_t>(list.size()));
+  PLUMB_ASSERT(first.size() == bodies.size() + 1);
   body_count_ = static_cast<std::uint32_t>(bodies.size());
   bodies_.assign(bodies);
   body_first_.assign(first);

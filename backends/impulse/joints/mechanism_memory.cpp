@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "plumb/assert.hpp"
+
 namespace plumb::impulse {
 
 void MechanismMemory::put(const OrderedJoints& ordered, std::span<const std::uint32_t> pushed, std::size_t bodies) {
@@ -28,6 +30,7 @@ void MechanismMemory::put(const OrderedJoints& ordered, std::span<const std::uin
       number[by_mechanism[last_column]] = last_column - column;
       ++last_column;
     }
+    PLUMB_ASSERT(end > first);
     const bool whole = end - first <= kMostInMechanism;
     for (std::uint32_t place = first; place < end; ++place) {
       rows[place] = {pushed[place], first, whole ? end - first : 0, column, last_column - column, mobility, scratch};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "math/real.hpp"
+#include "plumb/assert.hpp"
 
 namespace plumb::impulse {
 
@@ -11,12 +12,19 @@ constexpr int kBlockSize = 6;
 struct Block {
   Real at[kBlockSize * (kBlockSize + 1) / 2];
 
-  PLUMB_HD Real& operator()(int row, int column) { return at[row * (row + 1) / 2 + column]; }
-  PLUMB_HD const Real& operator()(int row, int column) const { return at[row * (row + 1) / 2 + column]; }
+  PLUMB_HD Real& operator()(int row, int column) {
+    PLUMB_ASSERT(0 <= column && column <= row && row < kBlockSize);
+    return at[row * (row + 1) / 2 + column];
+  }
+  PLUMB_HD const Real& operator()(int row, int column) const {
+    PLUMB_ASSERT(0 <= column && column <= row && row < kBlockSize);
+    return at[row * (row + 1) / 2 + column];
+  }
 };
 
 /// Factors the first n rows. A row with a zero pivot, which moves nothing or repeats those before it, gets 0.
 PLUMB_HD inline void factor(Block& m, int n) {
+  PLUMB_ASSERT(n >= 0 && n <= kBlockSize);
   for (int j = 0; j < n; ++j) {
     const Real whole = m(j, j);
     Real left = whole;

@@ -6,6 +6,7 @@
 #include "exec/executor.hpp"
 #include "narrowphase/contact_cache.hpp"
 #include "narrowphase/shape_pair.hpp"
+#include "plumb/assert.hpp"
 
 namespace plumb::impulse {
 
@@ -35,6 +36,7 @@ template <class Kind>
 PLUMB_HD void collide_candidate(const CollideInput& in, std::uint32_t p) {
   const Pair pair = in.cache.pairs[p];
   const Proxy &a = in.proxies.rows[pair.a], &b = in.proxies.rows[pair.b];
+  PLUMB_ASSERT(a.shape != kNone && b.shape != kNone && a.body != b.body);
   const ShapePose pose_a = shape_pose(a, in.bodies.orientation[a.body]),
                   pose_b = shape_pose(b, in.bodies.orientation[b.body]);
   const Vec apart = between(in.bodies.position[a.body], in.bodies.position[b.body]) + pose_b.offset - pose_a.offset;
@@ -42,6 +44,8 @@ PLUMB_HD void collide_candidate(const CollideInput& in, std::uint32_t p) {
   const bool touch = Kind::collide({in.proxies.shapes[a.shape], in.proxies.shapes[b.shape], pose_a.orientation,
                                     pose_b.orientation, apart, in.margins[pair.a] + in.margins[pair.b]},
                                    in.proxies, in.cache.triangles == nullptr ? 0U : in.cache.triangles[p], manifold);
+  PLUMB_ASSERT(!touch || (manifold.count >= 1 && manifold.count <= static_cast<std::uint32_t>(kManifoldPoints)));
+  PLUMB_ASSERT(!touch || is_finite(manifold.normal));
   in.cache.touching[p] = touch ? 1 : 0;
   if (touch) in.cache.found[p] = manifold;
 }

@@ -2,6 +2,7 @@
 
 #include "exec/atomic.hpp"
 #include "narrowphase/collide_candidates.hpp"
+#include "plumb/assert.hpp"
 
 namespace plumb::impulse {
 
@@ -40,6 +41,7 @@ struct FindKinds {
 struct NumberRows {
   ContactCache cache;
   PLUMB_HD void operator()(std::uint32_t p) const {
+    PLUMB_ASSERT(cache.touching[p] <= 1);
     if (cache.touching[p] != 0) cache.candidate[cache.row[p]] = p;
   }
 };

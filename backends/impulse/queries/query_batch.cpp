@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "plumb/assert.hpp"
 #include "plumb/physics_world.hpp"
 #include "queries/hit_order.hpp"
 #include "queries/sweep_search.hpp"
@@ -184,6 +185,7 @@ template <class Probe>
 std::uint32_t QueryBatch::find_all(Executor& executor, const QueryScene& scene, const typename Probe::Row* rows,
                                    std::uint32_t n) {
   if (n == 0) return 0;
+  PLUMB_ASSERT(rows != nullptr);
   counts_.grow(n);
   executor.run(n, CountHits<Probe>{scene, rows, counts_.data()});
   const std::uint32_t met = scan_counts(executor, n, offsets_);

@@ -3,6 +3,7 @@
 #include "exec/atomic.hpp"
 #include "exec/union_find.hpp"
 #include "joints/joint_axis_solve.hpp"
+#include "plumb/assert.hpp"
 
 namespace plumb::impulse {
 
@@ -208,6 +209,7 @@ struct JudgeEnergy {
   PLUMB_HD BodyEnergy energy_of(std::uint32_t i) const {
     const Bodies& all = work.joints.view.bodies;
     const BodyMass& mass = all.mass[i];
+    PLUMB_ASSERT(kept[i].velocity.inverse_mass > 0);
     const Velocity &before = kept[i].velocity, &after = all.velocity[i];
     const Displacement& moved = work.joints.view.solver.displacement[i];
     const IslandEnergy& island = islands[islands[i].root];
@@ -265,7 +267,7 @@ struct JudgeEnergy {
 
   /// Of a body, to where it was before the step. all_is: and so with all others.
   PLUMB_HD void put_back(std::uint32_t i, bool all_is) const {
-    const Bodies& all = work.joints.view.bodies;
+    const MovableBodies& all = work.bodies;
     if ((all.mass[i].flags & kBodyMoves) == 0) return;
     const IslandEnergy& island = islands[islands[i].root];
     if (!all_is && !(is_pushed(i) && island.is_held)) return;

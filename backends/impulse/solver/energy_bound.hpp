@@ -66,7 +66,8 @@ struct EnergyWork {
   ContactCache cache;
   Proxies proxies;
   const Vec* surface_velocities;  ///< by proxy, or null
-  JointSet joints;                ///< with the world's bodies
+  MovableBodies bodies;
+  JointSet joints;  ///< with the world's bodies
   JointCode code;
   std::uint32_t body_count, pair_capacity;
   const StepParameters* parameters;

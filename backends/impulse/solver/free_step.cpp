@@ -14,7 +14,7 @@ struct StepFreely {
   /// one overlaps with those of the others.
   static constexpr std::uint32_t kTogether = Executor::kWarps ? 1 : 32;
 
-  Bodies bodies;
+  MovableBodies bodies;
   SolverBodies solver;
   std::uint32_t body_count;
   const StepParameters* parameters;
@@ -43,7 +43,7 @@ struct StepFreely {
 
 }  // namespace
 
-void Solver::move_freely(Executor& executor, const Bodies& all, std::uint32_t body_count,
+void Solver::move_freely(Executor& executor, const MovableBodies& all, std::uint32_t body_count,
                          const StepParameters* parameters, StepCounters* counters) {
   executor.run(StepFreely::groups(body_count),
                StepFreely{all, bodies(all), body_count, parameters, counters, features_.gyroscopic});

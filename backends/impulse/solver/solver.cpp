@@ -40,7 +40,7 @@ void Solver::choose(SolverKind kind) {
   if (kind == SolverKind::kJacobi) split_.reserve(sentinel_ + 1, slots_ - slots_for(0));
 }
 
-void Solver::begin(Executor& executor, const Bodies& all, std::uint32_t body_count) {
+void Solver::begin(Executor& executor, const MovableBodies& all, std::uint32_t body_count) {
   executor.run(body_count, BeginBody{all, bodies(all)});
 }
 
@@ -57,15 +57,16 @@ const Mechanisms& Solver::take_mechanisms(JointStore& joints) {
   return mechanisms_;
 }
 
-void Solver::find_mobility(Executor& executor, const ContactCache& cache, const Bodies& all, const Proxies& proxies,
-                           const StepParameters* parameters, const StepCounters* counters, JointStore& joints) {
+void Solver::find_mobility(Executor& executor, const ContactCache& cache, const MovableBodies& all,
+                           const Proxies& proxies, const StepParameters* parameters, const StepCounters* counters,
+                           JointStore& joints) {
   enqueue_mobility(
       executor, joints.code(),
       {joint_set(all, joints), mechanisms_, joints.mechanism_columns(), cache, proxies.rows, parameters, counters},
       {&counters->manifolds, slots_});
 }
 
-void Solver::prepare(Executor& executor, const ContactCache& cache, const Bodies& all, const Proxies& proxies,
+void Solver::prepare(Executor& executor, const ContactCache& cache, const MovableBodies& all, const Proxies& proxies,
                      const Colouring& colouring, const Real* impacts, const StepParameters* parameters,
                      StepCounters* counters) {
   const Count manifolds = {&counters->manifolds, slots_ - slots_for(0)};
@@ -85,8 +86,9 @@ void Solver::prepare(Executor& executor, const ContactCache& cache, const Bodies
   executor.run(kOverflow + 1, PadColours{rows(), counters, sentinel_});
 }
 
-void Solver::solve(Executor& executor, const Bodies& all, std::uint32_t body_count, const StepParameters* parameters,
-                   StepCounters* counters, std::uint32_t pair_capacity, JointStore& joints) {
+void Solver::solve(Executor& executor, const MovableBodies& all, std::uint32_t body_count,
+                   const StepParameters* parameters, StepCounters* counters, std::uint32_t pair_capacity,
+                   JointStore& joints) {
   const Count load = {&counters->largest_loop, contact_loop(slots_)};
   const SolverStep step = {all,        bodies(all),   {rows(), counters, features_.surface_velocity, parameters},
                            body_count, features_,     parameters,

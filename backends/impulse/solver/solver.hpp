@@ -31,30 +31,30 @@ class Solver {
   [[nodiscard]] bool needs_colours() const { return kind_ != SolverKind::kJacobi; }
 
   /// The whole step of bodies among which there are no constraints: without the stages below.
-  void move_freely(Executor& executor, const Bodies& bodies, std::uint32_t body_count, const StepParameters* parameters,
-                   StepCounters* counters);
+  void move_freely(Executor& executor, const MovableBodies& bodies, std::uint32_t body_count,
+                   const StepParameters* parameters, StepCounters* counters);
 
   /// How many sub-steps the step has, by what its contacts bear.
   void choose_substeps(Executor& executor, const ContactCache& cache, const Bodies& bodies, const Proxies& proxies,
                        const ShorterSubsteps* shorter, StepParameters* parameters, StepCounters* counters);
   /// World inertia of all bodies, no displacement.
-  void begin(Executor& executor, const Bodies& bodies, std::uint32_t body_count);
+  void begin(Executor& executor, const MovableBodies& bodies, std::uint32_t body_count);
   /// The mechanisms that contacts push as a whole, as far as this solver does that.
   const Mechanisms& take_mechanisms(JointStore& joints);
   /// Of those that touch something.
-  void find_mobility(Executor& executor, const ContactCache& cache, const Bodies& bodies, const Proxies& proxies,
+  void find_mobility(Executor& executor, const ContactCache& cache, const MovableBodies& bodies, const Proxies& proxies,
                      const StepParameters* parameters, const StepCounters* counters, JointStore& joints);
   /// Contacts into rows, in the order of their colours. impacts: Impacts::times(), or null.
-  void prepare(Executor& executor, const ContactCache& cache, const Bodies& bodies, const Proxies& proxies,
+  void prepare(Executor& executor, const ContactCache& cache, const MovableBodies& bodies, const Proxies& proxies,
                const Colouring& colouring, const Real* impacts, const StepParameters* parameters,
                StepCounters* counters);
   /// The joints with what their kernels work on.
-  [[nodiscard]] JointSet joint_set(const Bodies& all, JointStore& joints) {
+  [[nodiscard]] JointSet joint_set(const MovableBodies& all, JointStore& joints) {
     return joints.set(all, bodies(all), features_.gyroscopic);
   }
   /// Moves the bodies through the step.
-  void solve(Executor& executor, const Bodies& bodies, std::uint32_t body_count, const StepParameters* parameters,
-             StepCounters* counters, std::uint32_t pair_capacity, JointStore& joints);
+  void solve(Executor& executor, const MovableBodies& bodies, std::uint32_t body_count,
+             const StepParameters* parameters, StepCounters* counters, std::uint32_t pair_capacity, JointStore& joints);
   void keep_impulses(Executor& executor, const ContactCache& cache, StepCounters* counters);
 
   /// How far bodies moved in the last step, by body.
@@ -67,7 +67,7 @@ class Solver {
   }
 
  private:
-  SolverBodies bodies(const Bodies& bodies) {
+  SolverBodies bodies(const MovableBodies& bodies) {
     return {bodies.velocity,       displacement_.data(), inertia_.data(),
             free_velocity_.data(), features_.gyroscopic, mechanisms_};
   }

@@ -10,7 +10,7 @@
 namespace plumb::impulse {
 
 struct SolverStep {
-  Bodies bodies;
+  MovableBodies bodies;
   SolverBodies solver;
   ContactSet contacts;
   std::uint32_t body_count;

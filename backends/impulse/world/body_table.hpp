@@ -23,7 +23,7 @@ struct BodyTable {
     frames.grow(rows);
   }
   /// turn: whether dynamic bodies may.
-  [[nodiscard]] Bodies view(bool turn) {
+  [[nodiscard]] MovableBodies view(bool turn) {
     return {state.position.device(), state.orientation.device(),
             state.velocity.device(), force.device(),
             mass.device(),           turn};

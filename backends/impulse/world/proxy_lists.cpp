@@ -3,15 +3,19 @@
 #include <algorithm>
 #include <vector>
 
+#include "plumb/assert.hpp"
+
 namespace plumb::impulse {
 
 void ProxyList::add(std::uint32_t proxy) {
   if (count_ == rows_.size()) rows_.grow(std::max<std::size_t>(64, 2 * rows_.size()));
   rows_[count_++] = proxy;
+  PLUMB_ASSERT(count_ < 2 || rows_[count_ - 2] < proxy);
   room_ = count_;
 }
 
 void ProxyList::fill(std::uint32_t room, std::uint32_t sentinel) {
+  PLUMB_ASSERT(room >= count_);
   rows_.grow(room);
   std::fill(rows_.host() + count_, rows_.host() + room, sentinel);
   room_ = room;
@@ -40,6 +44,7 @@ bool ProxyLists::find(const ColliderTable& colliders, const Table<BodyMass>& mas
 
 Position middle_of(const ProxyList& list, const ColliderTable& colliders, BodyState& state) {
   constexpr std::uint32_t kSamples = 256;
+  PLUMB_ASSERT(list.count() != 0);
   std::vector<std::uint32_t> some;
   for (std::uint32_t i = 0; i < list.count(); i += list.count() / kSamples + 1)
     some.push_back(colliders.proxies[list[i]].body);

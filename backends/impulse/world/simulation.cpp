@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "bodies/proxy_bounds.hpp"
+#include "plumb/assert.hpp"
 #include "solver/choose_substeps.hpp"
 
 namespace plumb::impulse {
@@ -186,6 +187,8 @@ void Simulation::step(const StepParameters& parameters, const ShorterSubsteps& s
 void Simulation::launch() {
   upload_changes();
   reserve_rows();
+  PLUMB_ASSERT(numbers_.parameters[0].dt > 0);
+  PLUMB_ASSERT(bodies.count < bodies.size() && colliders.count <= colliders.proxies.size());
   NarrowPhase& narrow_phase = stages_.narrow_phase;
   const StepInput known = input();
   executor_.record(recorder_.recording(step_, known), [&] {
@@ -213,6 +216,8 @@ void Simulation::wait() {
     launch();
     executor_.wait();
   }
+  PLUMB_ASSERT(candidate_count() <= stages_.pair_capacity || taken_back());
+  PLUMB_ASSERT(counters().manifolds <= candidate_count());
   if (taken_back()) --step_;
   if (taken_back() || !stages_.features.sleeping) return;
   sleep_.stepped();

@@ -155,7 +155,7 @@ class Simulation {
   void let_islands_rest();
   void fall_asleep(const Slots& island);
   void store_contacts();
-  [[nodiscard]] Bodies body_view() { return bodies.view(stages_.features.rotation); }
+  [[nodiscard]] MovableBodies body_view() { return bodies.view(stages_.features.rotation); }
   [[nodiscard]] std::vector<ContactRecord> contacts_of_step();
   template <class Row>
   std::shared_ptr<RowBlock<Row>> rows(FieldRows<Row>& field, bool on_host);

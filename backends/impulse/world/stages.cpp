@@ -4,6 +4,7 @@
 #include "contacts/match.hpp"
 #include "contacts/surface_velocity.hpp"
 #include "narrowphase/sweep_rims.hpp"
+#include "plumb/assert.hpp"
 
 namespace plumb::impulse {
 
@@ -27,11 +28,13 @@ void Stages::reserve(Executor& executor, std::uint32_t bodies, std::uint32_t pro
   if (uses_midphase) midphase.reserve(proxies, pairs);
   colouring.reserve(executor, bodies, pairs);
   solver.reserve(executor, bodies, pairs);
+  if (kAsserts) validation.reserve(bodies);
 }
 
 void begin(const StepContext& step) {
   step.stages.phases.start(step.executor);
   step.executor.run(1U, ClearCounters{step.counters});
+  remember_still(step);
 }
 
 void end_phase(const StepContext& step, PlumbPhase phase) { step.stages.phases.end(step.executor, phase); }
@@ -97,12 +100,12 @@ void choose_substeps(const StepContext& step) {
 
 void prepare(const StepContext& step) {
   Stages& of = step.stages;
-  of.solver.begin(step.executor, step.bodies, step.body_rows);
+  of.solver.begin(step.executor, step.movable, step.body_rows);
   if (!step.collides()) return;
   if (step.mechanisms.count != 0)
-    of.solver.find_mobility(step.executor, step.now, step.bodies, step.proxies, step.parameters, step.counters,
+    of.solver.find_mobility(step.executor, step.now, step.movable, step.proxies, step.parameters, step.counters,
                             step.joints);
-  of.solver.prepare(step.executor, step.now, step.bodies, step.proxies, of.colouring,
+  of.solver.prepare(step.executor, step.now, step.movable, step.proxies, of.colouring,
                     step.finds_impacts() ? of.impacts.times() : nullptr, step.parameters, step.counters);
   if (step.surface_velocities != nullptr)
     put_surface_speeds(step.executor,
@@ -116,7 +119,7 @@ void keep_state(const StepContext& step) {
 }
 
 void solve(const StepContext& step) {
-  step.stages.solver.solve(step.executor, step.bodies, step.body_rows, step.parameters, step.counters,
+  step.stages.solver.solve(step.executor, step.movable, step.body_rows, step.parameters, step.counters,
                            step.pair_capacity, step.joints);
 }
 
@@ -126,7 +129,7 @@ void clamp(const StepContext& step) {
   of.clamp.clamp(step.executor,
                  {step.now, step.candidates(), step.pair_capacity, step.counters, step.parameters, step.proxies,
                   of.boxes.data(), step.movers, of.broad_phase.statics(), step.planes},
-                 step.bodies, step.body_rows, of.solver.displacements());
+                 step.movable, step.body_rows, of.solver.displacements());
 }
 
 void judge(const StepContext& step) {
@@ -139,7 +142,7 @@ void keep_impulses(const StepContext& step) {
 }
 
 void move_freely(const StepContext& step) {
-  step.stages.solver.move_freely(step.executor, step.bodies, step.body_rows, step.parameters, step.counters);
+  step.stages.solver.move_freely(step.executor, step.movable, step.body_rows, step.parameters, step.counters);
 }
 
 void time_rest(const StepContext& step) {

@@ -8,15 +8,18 @@ void enqueue_step(const StepContext& step) {
   if (step.collides()) {
     bound(step);
     find_pairs(step);
+    validate_pairs(step);
     midphase(step);
     end_phase(step, PLUMB_PHASE_BROAD);
 
     collide(step);
     find_impacts(step);
     match(step);
+    validate_manifolds(step);
     end_phase(step, PLUMB_PHASE_NARROW);
 
     colour(step);
+    validate_colours(step);
     end_phase(step, PLUMB_PHASE_ISLANDS);
   }
   if (step.collides() || step.has_joints()) {
@@ -27,9 +30,11 @@ void enqueue_step(const StepContext& step) {
     clamp(step);
     judge(step);
     keep_impulses(step);
+    validate_impulses(step);
   } else {
     move_freely(step);
   }
+  validate_bodies(step);
   time_rest(step);
   end_phase(step, PLUMB_PHASE_SOLVE);
 

@@ -14,6 +14,7 @@
 #include "narrowphase/narrow_phase.hpp"
 #include "solver/energy_bound.hpp"
 #include "solver/solver.hpp"
+#include "world/validate.hpp"
 
 namespace plumb::impulse {
 
@@ -38,12 +39,13 @@ struct Stages {
   Solver solver;
   EnergyBound energy_bound;  ///< where there are joints
   PhaseClock phases;
+  ValidationMemory validation;  ///< where there are asserts
 };
 
 /// What a step depends on of the host's numbers and addresses: two steps of the same are the same sequence of kernels,
 /// and a recording of the one serves for the other.
 struct StepInput {
-  Bodies bodies;
+  MovableBodies movable;
   Proxies proxies;
   const BodyFrame* frames;
   const Vec* surface_velocities;  ///< by proxy; null in worlds without
@@ -78,6 +80,7 @@ struct StepContext : StepInput {
   Mechanisms mechanisms;   ///< that contacts push as a whole
   ContactCache now, last;  ///< contacts of this step, and of the last one
   StepCounters* counters = counted.device();
+  Bodies bodies = movable;  ///< for the stages that only look at them
 
   [[nodiscard]] bool collides() const { return stages.features.collision; }
   [[nodiscard]] bool has_joints() const { return joints.count() != 0; }
@@ -87,9 +90,8 @@ struct StepContext : StepInput {
   /// Of the narrow phase.
   [[nodiscard]] Count candidates() const { return stages.narrow_phase.candidates(counters); }
   [[nodiscard]] EnergyWork energy_work() const {
-    return {now,           proxies,   surface_velocities, stages.solver.joint_set(bodies, joints),
-            joints.code(), body_rows, pair_capacity,      parameters,
-            counters};
+    return {now,           proxies,   surface_velocities, movable,    stages.solver.joint_set(movable, joints),
+            joints.code(), body_rows, pair_capacity,      parameters, counters};
   }
 };
 

@@ -7,6 +7,7 @@
 #include "exec/cpu/thread_pool.hpp"
 #include "exec/executor.hpp"
 #include "exec/memory.hpp"
+#include "plumb/assert.hpp"
 
 namespace plumb::impulse {
 
@@ -76,6 +77,7 @@ class Executor {
   template <class F>
   void record(Recording& recording, const F& f) {
     if (kOneMemory) return pool_.together(f);
+    PLUMB_ASSERT(recording_ == nullptr);  // recordings do not nest
     recording.begin();
     recording_ = &recording;
     try {
@@ -95,12 +97,14 @@ class Executor {
   }
   template <class T>
   void to_device(Mirror<T>& mirror, std::size_t count, std::size_t first = 0) {
+    PLUMB_ASSERT(first + count <= mirror.size());
     if (kOneMemory || count == 0) return;
     memory::upload(mirror.device() + first, mirror.host() + first, count * sizeof(T));
     uploaded_bytes_ += count * sizeof(T);
   }
   template <class T>
   void to_host(Mirror<T>& mirror, std::size_t count) {
+    PLUMB_ASSERT(count <= mirror.size());
     if (!kOneMemory && count != 0) memory::download(mirror.host(), mirror.device(), count * sizeof(T));
   }
   [[nodiscard]] std::uint64_t uploaded_bytes() const { return uploaded_bytes_; }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "plumb/assert.hpp"
+
 namespace plumb::impulse {
 
 namespace {
@@ -88,6 +90,8 @@ void RadixSort<K>::run(Executor& executor, Count n, K* keys, const std::uint32_t
 template <class K>
 void RadixSort<K>::run(Executor& executor, std::uint32_t n, const K* keys, const std::uint32_t* values, K* sorted_keys,
                        std::uint32_t* sorted_values, int bits) {
+  PLUMB_ASSERT(n <= capacity_);
+  PLUMB_ASSERT(bits >= 0 && bits <= static_cast<int>(8 * sizeof(K)));
   if (n == 0) return;
   auto* histograms = reinterpret_cast<std::uint32_t*>(scratch_.data());
   auto* other_keys = reinterpret_cast<K*>(histograms + std::size_t{kMostChunks} * kDigits);
@@ -116,6 +120,7 @@ void Scan::run(Executor& executor, Count n, const std::uint32_t* values, std::ui
 
 void Scan::run(Executor& /*executor*/, std::uint32_t n, const std::uint32_t* values, std::uint32_t* sums,
                std::uint32_t* total) {
+  PLUMB_ASSERT(n <= capacity_);
   std::uint64_t sum = 0;
   const auto saturated = [](std::uint64_t s) { return static_cast<std::uint32_t>(std::min<std::uint64_t>(s, ~0U)); };
   for (std::uint32_t i = 0; i < n; ++i) {

@@ -9,6 +9,7 @@
 
 #include "exec/cpu/hot_team.hpp"
 #include "exec/floating_point.hpp"
+#include "plumb/assert.hpp"
 
 namespace plumb::impulse {
 
@@ -67,6 +68,7 @@ std::uint32_t ThreadPool::processors() { return std::max(1U, std::thread::hardwa
 void ThreadPool::run_together(void* context, void (*task)(void*)) {
   arena_->arena.execute([&] {
     const FloatingPointScope scope;
+    PLUMB_ASSERT(together_ == nullptr);
     Together together(threads_ - 1);
     together_ = &together;
     struct Leave {

@@ -11,6 +11,7 @@
 #if defined(__CUDACC__)
 #include "exec/cuda/team.cuh"
 #endif
+#include "plumb/assert.hpp"
 #include "plumb/plumb.h"
 
 namespace plumb::impulse {
@@ -164,11 +165,13 @@ class Executor {
   /// Enqueued, in order with the kernels; done after wait().
   template <class T>
   void to_device(Mirror<T>& mirror, std::size_t count, std::size_t first = 0) {
+    PLUMB_ASSERT(first + count <= mirror.size());
     copy(mirror.device() + first, mirror.host() + first, count * sizeof(T), cudaMemcpyHostToDevice);
     uploaded_bytes_ += count * sizeof(T);
   }
   template <class T>
   void to_host(Mirror<T>& mirror, std::size_t count) {
+    PLUMB_ASSERT(count <= mirror.size());
     copy(mirror.host(), mirror.device(), count * sizeof(T), cudaMemcpyDeviceToHost);
   }
   [[nodiscard]] std::uint64_t uploaded_bytes() const { return uploaded_bytes_; }

@@ -6,6 +6,7 @@
 #include <cuda/std/limits>
 
 #include "exec/sort.hpp"
+#include "plumb/assert.hpp"
 
 namespace plumb::impulse {
 
@@ -98,6 +99,7 @@ void RadixSort<K>::run(Executor& executor, Count n, K* keys, const std::uint32_t
 template <class K>
 void RadixSort<K>::run(Executor& executor, std::uint32_t n, const K* keys, const std::uint32_t* values, K* sorted_keys,
                        std::uint32_t* sorted_values, int bits) {
+  PLUMB_ASSERT(n <= capacity_);
   if (n == 0) return;
   sort<K>(scratch_.data(), scratch_.size(), {keys, values, sorted_keys, sorted_values}, n, bits, executor.stream());
 }

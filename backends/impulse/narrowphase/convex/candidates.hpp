@@ -3,6 +3,7 @@
 
 #include "geometry/tolerance.hpp"
 #include "narrowphase/manifold.hpp"
+#include "plumb/assert.hpp"
 
 namespace plumb::impulse {
 
@@ -38,6 +39,7 @@ PLUMB_HD inline Real tip_weight(const Candidate& deepest, const Candidate& at) {
 /// tip_weight. Points that are equal within `tie` (a length) are taken in their order. Of more than four that are level
 /// the first takes the place of the deepest, so that a trembling body rests on the same four all the time.
 PLUMB_HD inline int choose_points(Candidate* at, int count, Real tie) {
+  PLUMB_ASSERT(count >= 0);
   const auto swap = [at](int i, int j) {
     const Candidate c = at[i];
     at[i] = at[j];

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "plumb/assert.hpp"
+
 namespace plumb::impulse {
 
 class ProxySlots {
@@ -26,6 +28,7 @@ class ProxySlots {
     return mark(end < least ? least : end);
   }
   void give_back(std::uint32_t row) {
+    PLUMB_ASSERT(is_taken(row));
     taken_[row] = false;
     if (listed_[row]) return;
     listed_[row] = true;
