@@ -1,8 +1,32 @@
 // Contact constraints as the solver reads them, in blocks of 32 slots: neighbouring threads of a GPU, and neighbouring
-// lanes of a CPU, read neighbouring numbers. 104 bytes a point in float, of four points.
+// lanes of a CPU, read neighbouring numbers. 104 numbers a contact, in float 104 bytes for each of its four points.
 //
-// The fields of a contact make whole quads. A GPU keeps a quad together and moves it at once; a CPU, whose lanes each
-// take one contact, keeps a field together.
+//   slots   | colour 0                         | colour 1          | ... | those without, one by one | spare |
+//           | c c c c c c c c  c c c - - - - - | c c c c c - - -   | ...
+//             '-- 8 lanes --'  '-- 8 lanes --'     -: no points, and nobody's body
+//
+//   a block, on a CPU: a field of 32 slots              on a GPU: a quad of 32 slots
+//     normal.x      s0 s1 s2 s3 ...... s31                normal, friction       s0 xyzf  s1 xyzf ...... s31 xyzf
+//     normal.y      s0 s1 s2 s3 ...... s31                tangent, restitution   s0 xyzr  s1 xyzr ...... s31 xyzr
+//     ...           '--- lanes ---'                       ...
+//
+//   quads    0- 3   the manifold: normal, tangent, where it touches a and b
+//            4-15   three for each point: place, separation; impulses; its row of the normals' inverse
+//           16-24   the matrix of the contact's frame (contact_frame.hpp), how many points there are, radii that roll
+//              25   speed of surfaces, read only in worlds that have some
+//
+// Why so. A pass over the contacts reads nearly all of these numbers and writes little more than a quad a point, and a
+// step has many passes: numbers lie as passes read them, and not as a struct would hold them. The fields of a contact
+// make whole quads. A GPU keeps a quad together and moves it at once: four neighbouring threads share a contact
+// (per_point.hpp), and the eight contacts of a warp are neighbours in their block. A CPU, whose lanes each take one
+// contact, keeps a field together, and so reads a field of eight contacts as one vector, without a gather; only their
+// bodies are gathered (body_lanes.hpp). Points that are not there are zeros: they are solved along and find nothing,
+// with the same bits as where there is no room for them. A block ends after 32 slots so that a field's distance from
+// its slot is a constant, however many slots there are.
+//
+// A slot is a place in the order by colour (colouring.hpp), and another one in each step; what outlives a step goes
+// back to the row of the contact cache that `row` names. Colours are filled up to whole lanes on every device, so that
+// slots are the same everywhere. Impulses summed over the step lie apart, for most worlds do not ask for them.
 #pragma once
 
 #include <cstdint>
