@@ -1,11 +1,30 @@
-// Friction impulses of a contact, all its points at once.
+// Friction impulses of a contact, all its points at once: one force of the whole patch, within Coulomb's circle at each
+// point.
 //
-// What would stop the slip of the whole patch, along the tangents and about the normal, is shared out over the points
-// by how hard each is pressed. It is taken as it is where every point's share lies within the circle of radius mu times
-// the current normal impulse of the same point. Where one does not, the patch slides, and each point takes a projected
-// step against its own slip: only then is the impulse opposite to the slip when it no longer changes (maximum
-// dissipation). The impulse that stops the slip, cut to the circle, is not: it leans by the ratio of the effective
-// masses, and a cube on a slope slides by itself at 94 % of its friction.
+//   t2 ^   p0 o-------------o p1    m: mean of the points, the origin of the frame    c: centre of pressure
+//      |      |      m      |       stick:  (F1, F2, T) = the wrench at m with which the slip of the patch stops
+//      |      |  c          |               point p has its share s_p of the load, and gets
+//      |   p3 o-------------o p2            f_p = s_p (F + w n x (p - c)),  w = T_c / sum of s_p |p - c|^2
+//      '--> t1                      taken where |f_p| <= mu N_p at every p, N_p being its normal impulse of now
+//
+// Sticking. What would stop the slip along both tangents and about the normal is found in one, for each of the three
+// makes slip of the others, and shared out over the points by how hard each is pressed: as a rigid patch would bear it.
+// A turn about the normal has no row and no radius of its own: the points' forces resist it by their arms, and a single
+// point does not at all. Where one point bears everything the slip of its own place is stopped, and the patch may turn.
+//
+// What stops a slip depends on the normals (StopMass). Where they hold (their block is exact, no point comes or goes)
+// what friction does along them is undone when they are solved next: the matrix is the Schur complement. Where they may
+// let go, or are not solved again, it is the block of friction alone. The default solver goes through normals, friction
+// and normals in turn, so that its friction may be of other normal impulses than the last; the others end with
+// friction, which so stays within the cone.
+//
+// Sliding. Where a point's share is beyond its circle, the patch slides, and each point takes a projected step against
+// its own slip, f = circle(f - r slip): only then is the impulse opposite to the slip when it no longer changes
+// (maximum dissipation; the projection of Alart and Curnier, "A mixed formulation for frictional contact problems prone
+// to Newton like solution methods", Comput. Methods Appl. Mech. Eng. 92, 1991). The impulse that stops the slip, cut to
+// the circle, is not: it leans by the ratio of the effective masses, and a cube on a slope slides by itself at 94 % of
+// its friction. Nor would a pyramid do, each tangent cut by itself: it rubs up to 1.41 times as hard along its
+// diagonals, and what a body feels would depend on its yaw.
 #pragma once
 
 #include "contacts/contact.hpp"
