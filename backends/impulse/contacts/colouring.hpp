@@ -5,6 +5,29 @@
 // Sci. Comput. 14, 1993), on the edges: in a round a manifold that has the best priority at both its bodies takes the
 // lowest colour free at both. Colours are kept from step to step; only new manifolds go through rounds. The result
 // depends on the order of the manifolds alone, not on threads.
+//
+//   C      round 0   all claim their bodies; A-B has the best priority at A and at B: colour 0; the others wait
+//   |      round 1   g-A is alone at A now, B-C at B and C: both take colour 1, the lowest that is free
+//   B
+//   |      masks     A 11   B 11   C 10      bit c of a body's mask: some manifold of colour c pushes it
+//   A
+//   |      slots     A-B - - - - - - - | g-A B-C - - - - - - |      colour 0, colour 1, filled up to eight lanes
+//   g      g is ground: it is not pushed, and any number of a colour may touch it
+//
+// Why colours, and not islands or batches by hand: what one colour holds can be worked on in any order, by lanes and
+// threads and the blocks of a GPU, and the result is that of one thread that goes through the colours in turn. A pile
+// is one island, but takes fewer colours than twice the contacts of its busiest body, as edges do that are coloured
+// greedily.
+//
+// Why the bits do not depend on threads: a claim is a minimum (atomic_min), priorities are distinct (a permutation of
+// the rows, and above it the round, so that claims of earlier rounds lose and nothing needs clearing), and who wins at
+// both bodies is alone in writing their masks. In which order waiting manifolds are queued decides nothing. At last
+// rows are sorted by colour, those of one colour in their own order. Of the waiting the best of all wins: rounds end.
+//
+// A manifold keeps its colour while it is there and pushes the same two (match.cpp puts it back, and its bits). A body
+// has 64 colours: what finds none is of the overflow colour, is solved one by one after the others, and asks again in
+// the next step. Bodies of a mechanism that contacts push as a whole are one here, by their owner
+// (bodies/mechanism.hpp).
 #pragma once
 
 #include "bodies/body.hpp"
