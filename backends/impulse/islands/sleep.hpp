@@ -4,9 +4,29 @@
 // with others that do not move, and no contact or joint of it is solved. What it was, and its contacts with their
 // impulses, are kept here.
 //
+//            all of its island slow for sleep_time; looked for after every eighth step
+//   awake  ------------------------------------------------------------------------------->  asleep
+//     ^    flags lose "dynamic" and "moves", velocity 0, inverse mass 0; contacts -> stored
+//     |
+//     |    the host writes to one of it, joins it, moves or takes what it touches, changes gravity
+//     '-----------------------------------------------------------------------------------------'
+//          a manifold with somebody awake: the step is undone, the island wakes, the step comes again
+//          stored -> woken: matched in the next step as if they were of the last one
+//
 // Somebody awake who comes near a sleeper (so near that there is a manifold) must find it awake: the step then does
 // nothing, the host wakes the island, and the step comes again. So no contact is ever solved against a sleeper as if it
-// were a wall, and a blow goes through a pile as if it had never slept.
+// were a wall, and a blow goes through a pile as if it had never slept. The step that is repeated may find the next
+// island, and is repeated again. The report says so (PLUMB_REMARK_STEP_REPEATED).
+//
+// Who is slow. A body's time of rest grows while its kinetic energy per mass is below that of sleep_speed, turning
+// counted, and nobody pushes it by a force; it starts anew otherwise. An island falls asleep as a whole or not at all:
+// one of it that is fast, must not sleep, or touches or is joined to what the host moves or a surface that runs, keeps
+// all awake. Islands are what contacts and joints connect over bodies that can be pushed (islands.hpp): ground joins
+// nobody. They are found anew each time, where kernels run, for between two looks nobody needs them; their name is
+// their smallest body, so that threads do not matter.
+//
+// But for its velocity a sleeper loses nothing: with its impulses, colours and features a tower wakes where it fell
+// asleep, and need not settle anew. Only worlds that declare the need of sleeping have any of this.
 #pragma once
 
 #include <map>
