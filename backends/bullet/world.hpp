@@ -7,7 +7,7 @@
 
 #include "body.hpp"
 #include "dynamics_world.hpp"
-#include "joint.hpp"
+#include "joints/joint.hpp"
 #include "materials.hpp"
 #include "plumb/backend/touch_tracker.hpp"
 #include "settings.hpp"

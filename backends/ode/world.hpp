@@ -12,7 +12,7 @@
 #include "contacts.hpp"
 #include "errors.hpp"
 #include "events.hpp"
-#include "joints.hpp"
+#include "joints/joints.hpp"
 #include "plumb/backend/world_init.hpp"
 #include "plumb/physics_world.hpp"
 #include "settings.hpp"

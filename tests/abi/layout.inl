@@ -1,4 +1,4 @@
-/* The layout of every struct of the wall on 64-bit machines, and the value of every constant, as recorded for 0.9.
+/* The layout of every struct of the wall on 64-bit machines, and the value of every constant, as recorded.
  * Members and constants may only be appended; what grows gets its new size here, and its members their own lines.
  *
  *   SIZE(type, bytes)   AT(type, member, offset)   IS(constant, value)

@@ -1,5 +1,7 @@
 #include "narrowphase/narrow_phase.hpp"
 
+#include <bit>
+
 #include "exec/atomic.hpp"
 #include "narrowphase/collide_candidates.hpp"
 #include "plumb/assert.hpp"
@@ -92,7 +94,8 @@ void NarrowPhase::number(Executor& executor, const ContactCache& cache, StepCoun
 void NarrowPhase::bin(Executor& executor, const ContactCache& cache, const Proxies& proxies, StepCounters* counters) {
   const Count pairs = candidates(counters);
   executor.run(pairs, SortKinds{cache, proxies, kinds_.data(), unordered_.data()});
-  sort_.run(executor, pairs, kinds_.data(), unordered_.data(), sorted_kinds_.data(), order_.data(), 6);
+  sort_.run(executor, pairs, kinds_.data(), unordered_.data(), sorted_kinds_.data(), order_.data(),
+            std::bit_width(kPairKinds - 1));
   executor.run(kPairKinds + 1, FindKinds{sorted_kinds_.data(), pairs, first_.data()});
 }
 

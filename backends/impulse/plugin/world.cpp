@@ -7,15 +7,15 @@ namespace plumb::impulse {
 namespace {
 
 SolverFeatures features_of(const WorldInit& init) {
-  return {init.needs(PLUMB_NEED_ROTATION),
-          init.needs(PLUMB_NEED_COLLISION),
-          init.needs(PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION),
-          init.needs(PLUMB_NEED_COLLISION | PLUMB_NEED_RESTITUTION),
-          init.needs(PLUMB_NEED_ROTATION | PLUMB_NEED_GYROSCOPIC),
-          init.needs(PLUMB_NEED_CONTACT_IMPULSES),
-          init.needs(PLUMB_NEED_SLEEPING),
-          init.needs(PLUMB_NEED_COLLISION | PLUMB_NEED_CCD),
-          init.needs(PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION | PLUMB_NEED_SURFACE_VELOCITY)};
+  return {.rotation = init.needs(PLUMB_NEED_ROTATION),
+          .collision = init.needs(PLUMB_NEED_COLLISION),
+          .friction = init.needs(PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION),
+          .restitution = init.needs(PLUMB_NEED_COLLISION | PLUMB_NEED_RESTITUTION),
+          .gyroscopic = init.needs(PLUMB_NEED_ROTATION | PLUMB_NEED_GYROSCOPIC),
+          .contact_impulses = init.needs(PLUMB_NEED_CONTACT_IMPULSES),
+          .sleeping = init.needs(PLUMB_NEED_SLEEPING),
+          .continuous = init.needs(PLUMB_NEED_COLLISION | PLUMB_NEED_CCD),
+          .surface_velocity = init.needs(PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION | PLUMB_NEED_SURFACE_VELOCITY)};
 }
 
 PlumbVec3 plumb_vec(const Position& p) { return {p.x, p.y, p.z}; }

@@ -18,8 +18,8 @@ namespace plumb::impulse {
 
 /// What the scene asks for; the rest is left out.
 struct SolverFeatures {
-  bool rotation, collision, friction, restitution, gyroscopic, contact_impulses, sleeping = false, continuous = false,
-                                                                                 surface_velocity = false;
+  bool rotation, collision, friction, restitution, gyroscopic, contact_impulses;
+  bool sleeping = false, continuous = false, surface_velocity = false;
 };
 
 class Solver {

@@ -1,7 +1,8 @@
 // A backend's settings as a list: what the host is told of each, and which member of a struct holds it.
 //
-//   struct Settings { int iterations; double erp; bool warm_starting; Solver solver; };  // a choice: number of its
-//   word const SettingsTable<Settings>& table() {
+//   // A choice is the number of its word.
+//   struct Settings { int iterations; double erp; bool warm_starting; Solver solver; };
+//   const SettingsTable<Settings>& table() {
 //     static const SettingsTable<Settings> all = {
 //         setting<&Settings::iterations>(int_setting("iterations", "1", PLUMB_ROLE_QUALITY, 1, 1000, 10, "passes")),
 //         ...};

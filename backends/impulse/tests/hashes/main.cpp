@@ -1,4 +1,4 @@
-// impulse_hashes: the state hashes of a dozen scenes after 300 steps, to be the same on every machine.
+// impulse_hashes: the state hashes of scenes after 300 steps, to be the same on every machine.
 //
 // usage: impulse_hashes BACKEND [--record | --check | --times] [--steps N] [--threads N] [SCENE]...
 // Without more it prints a name and a hash a line. --record prints them as recorded.inc has them; --check compares them

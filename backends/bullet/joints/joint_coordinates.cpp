@@ -1,5 +1,5 @@
 // Coordinates of a joint: b's frame seen from a's.
-#include "joint.hpp"
+#include "joints/joint.hpp"
 
 namespace plumb::bullet {
 

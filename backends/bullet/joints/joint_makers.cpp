@@ -1,7 +1,7 @@
 // From the interface's joints to Bullet's constraints.
 #include <BulletDynamics/ConstraintSolver/btFixedConstraint.h>
 
-#include "joint.hpp"
+#include "joints/joint.hpp"
 
 namespace plumb::bullet {
 namespace {

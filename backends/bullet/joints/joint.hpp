@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "axis_rows.hpp"
 #include "body.hpp"
+#include "joints/axis_rows.hpp"
 
 namespace plumb::bullet {
 

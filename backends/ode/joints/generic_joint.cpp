@@ -1,4 +1,4 @@
-#include "generic_joint.hpp"
+#include "joints/generic_joint.hpp"
 
 #include <algorithm>
 #include <cmath>

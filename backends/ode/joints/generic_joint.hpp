@@ -5,7 +5,7 @@
 // slip a spring. Limits are rows that push one way. Rotations are an angular motor in ODE's user mode.
 #pragma once
 
-#include "joints.hpp"
+#include "joints/joints.hpp"
 
 namespace plumb::ode {
 

@@ -1,4 +1,4 @@
-#include "axis_rows.hpp"
+#include "joints/axis_rows.hpp"
 
 #include <algorithm>
 #include <numbers>

@@ -1,5 +1,5 @@
 // One function a joint type where they differ; limits, motors and springs are the same rows for all.
-#include "joints.hpp"
+#include "joints/joints.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "generic_joint.hpp"
+#include "joints/generic_joint.hpp"
 #include "plumb/backend/names.hpp"
 #include "plumb/backend/usual_capability.hpp"
 
