@@ -9,11 +9,11 @@
 #include <cstdio>
 #include <iostream>
 
-#include "cli/verbs.hpp"
+#include "base/shown.hpp"
+#include "cli/verbs/verbs.hpp"
 #include "plumb/nearest.hpp"
-#include "run/worker_process.hpp"
 #include "scene/scene.hpp"
-#include "scene/shown.hpp"
+#include "worker/worker_process.hpp"
 
 namespace plumb::harness {
 namespace {

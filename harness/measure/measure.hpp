@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "run/simulation.hpp"
 #include "scene/scene.hpp"
+#include "simulation/simulation.hpp"
 
 namespace plumb::harness {
 
@@ -76,20 +76,7 @@ struct MeasureEntry {
   MeasureCheck check;  ///< null where there is nothing more to check
 };
 
-/// All measures; each file of measure/ has a list of its own that registry.cpp joins.
-[[nodiscard]] std::span<const MeasureEntry> all_measures();
-
 /// "number", "body" ...: what an argument of the type is called.
 [[nodiscard]] const char* word_of(ArgumentType type);
-
-/// The measure of a name; throws UsageError with the nearest one.
-[[nodiscard]] const MeasureEntry& find_measure(const std::string& name);
-
-/// The measure of a scene file. Throws UsageError with file, line and the nearest word when its kind or an argument is
-/// unknown, and likewise when an argument is missing or of another type.
-[[nodiscard]] const MeasureEntry& find_measure(const SceneFile& file);
-
-/// Throws likewise when an argument names what this scene of the file does not have, or asks what cannot be measured.
-void check_measure(const SceneFile& file, const Scene& scene);
 
 }  // namespace plumb::harness

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "report/format.hpp"
-#include "report/result_row.hpp"
+#include "base/format.hpp"
+#include "rows/result_row.hpp"
 
 namespace plumb::harness {
 

@@ -1,8 +1,8 @@
 // A trajectory as a replay bundle: what the page's viewer plays, small enough for a page.
 #pragma once
 
+#include "record/trajectory.hpp"
 #include "replay/container.hpp"
-#include "run/trajectory.hpp"
 
 namespace plumb::harness {
 

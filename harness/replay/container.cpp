@@ -4,8 +4,8 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "base/deflate.hpp"
 #include "plumb/physics_world.hpp"
-#include "rows/deflate.hpp"
 
 namespace plumb::harness {
 

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "run/json.hpp"
+#include "base/json.hpp"
 
 namespace plumb::harness {
 

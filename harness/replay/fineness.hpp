@@ -1,7 +1,7 @@
 // How finely a replay keeps positions: finer than a picture of it shows.
 #pragma once
 
-#include "run/trajectory.hpp"
+#include "record/trajectory.hpp"
 
 namespace plumb::harness {
 

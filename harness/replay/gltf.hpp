@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "run/trajectory.hpp"
+#include "record/trajectory.hpp"
 
 namespace plumb::harness {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "run/json.hpp"
+#include "base/json.hpp"
 
 namespace plumb::harness {
 
@@ -14,7 +14,7 @@ struct DrawnMesh {
   std::vector<std::uint32_t> indices;                    ///< three a triangle, counter-clockwise seen from outside
 };
 
-/// Of one shape of a replay's header (run/trajectory_header.hpp) that is no compound; null: a body without a shape,
+/// Of one shape of a replay's header (record/trajectory_header.hpp) that is no compound; null: a body without a shape,
 /// drawn as a small ball. Round shapes are cut into 24 segments; a plane is drawn as far as 50 m from its origin.
 [[nodiscard]] DrawnMesh drawn_mesh(const Json& shape);
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "replay/container.hpp"
-#include "run/simulation.hpp"
+#include "simulation/simulation.hpp"
 
 namespace plumb::harness {
 

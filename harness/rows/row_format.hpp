@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "run/json.hpp"
+#include "base/json.hpp"
 
 namespace plumb::harness {
 

@@ -6,10 +6,10 @@
 #include <cstdlib>
 #include <sstream>
 
+#include "base/locate.hpp"
+#include "base/shown.hpp"
 #include "plumb/nearest.hpp"
 #include "scene/json_file.hpp"
-#include "scene/locate.hpp"
-#include "scene/shown.hpp"
 
 namespace plumb::harness {
 namespace {

@@ -8,9 +8,9 @@
 #include <stdexcept>
 #include <vector>
 
+#include "base/shown.hpp"
 #include "plumb/nearest.hpp"
 #include "scene/generators.hpp"
-#include "scene/shown.hpp"
 
 namespace plumb::harness {
 namespace {

@@ -9,10 +9,10 @@
 #include <set>
 #include <vector>
 
+#include "base/locate.hpp"
+#include "base/shown.hpp"
 #include "scene/limits.hpp"
-#include "scene/locate.hpp"
 #include "scene/scene.hpp"
-#include "scene/shown.hpp"
 
 namespace plumb::harness {
 

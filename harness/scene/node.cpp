@@ -8,9 +8,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/locate.hpp"
+#include "base/shown.hpp"
 #include "plumb/nearest.hpp"
-#include "scene/locate.hpp"
-#include "scene/shown.hpp"
 
 namespace plumb::harness {
 namespace {

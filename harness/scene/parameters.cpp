@@ -6,9 +6,9 @@
 #include <charconv>
 #include <cmath>
 
+#include "base/units.hpp"
 #include "plumb/nearest.hpp"
 #include "scene/expressions.hpp"
-#include "scene/units.hpp"
 
 namespace plumb::harness {
 namespace {

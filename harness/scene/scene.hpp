@@ -7,20 +7,14 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "base/usage_error.hpp"
 #include "plumb/physics_world.hpp"
 
 namespace plumb::harness {
-
-/// What a user asks wrongly: the text names the thing, the value and the remedy. The program ends with status 2.
-class UsageError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 /// Values of a scene's parameters. Words are parameters that choose; numbers are all others.
 using ParameterValue = std::variant<double, std::string>;

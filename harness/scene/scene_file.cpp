@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <regex>
 
+#include "base/shown.hpp"
+#include "base/units.hpp"
 #include "plumb/nearest.hpp"
 #include "scene/build.hpp"
 #include "scene/json_file.hpp"
 #include "scene/limits.hpp"
 #include "scene/parameters.hpp"
-#include "scene/shown.hpp"
-#include "scene/units.hpp"
 
 namespace plumb::harness {
 namespace {

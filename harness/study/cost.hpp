@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "run/cell.hpp"
+#include "cell/cell.hpp"
 
 namespace plumb::harness {
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "run/json.hpp"
+#include "base/json.hpp"
 
 namespace plumb::harness {
 

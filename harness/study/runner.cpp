@@ -9,13 +9,13 @@
 #include <random>
 #include <set>
 
+#include "cell/machine.hpp"
 #include "rows/statistics.hpp"
-#include "run/cell_workers.hpp"
-#include "run/claims.hpp"
-#include "run/machine.hpp"
-#include "run/row.hpp"
+#include "study/claims.hpp"
 #include "study/cost.hpp"
 #include "study/refine.hpp"
+#include "study/row.hpp"
+#include "worker/cell_workers.hpp"
 
 namespace plumb::harness {
 

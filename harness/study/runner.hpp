@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "run/results.hpp"
-#include "run/study.hpp"
 #include "study/ranks.hpp"
+#include "study/results.hpp"
+#include "study/study.hpp"
 #include "study/study_plan.hpp"
 
 namespace plumb::harness {

@@ -6,12 +6,12 @@
 #include <charconv>
 #include <cmath>
 
+#include "cell/settings.hpp"
 #include "plumb/nearest.hpp"
-#include "run/names.hpp"
-#include "run/plan.hpp"
-#include "run/settings.hpp"
 #include "scene/json_file.hpp"
 #include "scene/node.hpp"
+#include "simulation/names.hpp"
+#include "study/plan.hpp"
 
 namespace plumb::harness {
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "run/json.hpp"
+#include "base/json.hpp"
 
 namespace plumb::harness {
 

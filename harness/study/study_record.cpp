@@ -2,7 +2,7 @@
 
 #include <fstream>
 
-#include "run/machine.hpp"
+#include "cell/machine.hpp"
 #include "scene/scene.hpp"
 
 namespace plumb::harness {

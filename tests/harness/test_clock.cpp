@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "program.hpp"
-#include "run/cell_clock.hpp"
+#include "simulation/cell_clock.hpp"
 
 namespace plumb::harness::testing {
 namespace {

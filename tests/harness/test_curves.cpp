@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <set>
 
+#include "cell/sweep.hpp"
 #include "program.hpp"
-#include "run/sweep.hpp"
 
 namespace plumb::harness::testing {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "program.hpp"
-#include "run/pair_tour.hpp"
-#include "run/trajectory.hpp"
+#include "record/pair_tour.hpp"
+#include "record/trajectory.hpp"
 
 namespace plumb::harness::testing {
 namespace {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <set>
 
+#include "cell/metric_rows.hpp"
 #include "program.hpp"
-#include "run/metric_rows.hpp"
-#include "run/row.hpp"
+#include "study/row.hpp"
 
 namespace plumb::harness::testing {
 namespace {

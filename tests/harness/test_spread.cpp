@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "rows/statistics.hpp"
-#include "run/contention.hpp"
 #include "study/cost.hpp"
 #include "study/refine.hpp"
+#include "worker/contention.hpp"
 
 namespace plumb::harness::testing {
 namespace {

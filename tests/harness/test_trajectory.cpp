@@ -8,7 +8,7 @@
 #include <random>
 
 #include "program.hpp"
-#include "run/trajectory.hpp"
+#include "record/trajectory.hpp"
 
 namespace plumb::harness::testing {
 namespace {

@@ -3,7 +3,7 @@
 #include <iostream>
 
 #include "replay/bundle.hpp"
-#include "report/page/base64.hpp"
+#include "report/page/parts/base64.hpp"
 
 namespace plumb::harness {
 namespace {

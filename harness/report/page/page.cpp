@@ -7,13 +7,13 @@
 #include <ostream>
 #include <set>
 
-#include "report/machine_rows.hpp"
-#include "report/page/assets.hpp"
-#include "report/page/bundled_scripts.hpp"
-#include "report/page/looks.hpp"
-#include "report/page/markup.hpp"
-#include "report/page/packed.hpp"
-#include "report/page/sections.hpp"
+#include "report/ordered/machine_rows.hpp"
+#include "report/page/parts/assets.hpp"
+#include "report/page/parts/bundled_scripts.hpp"
+#include "report/page/parts/looks.hpp"
+#include "report/page/parts/markup.hpp"
+#include "report/page/parts/packed.hpp"
+#include "report/page/sections/sections.hpp"
 
 namespace plumb::harness {
 namespace {
@@ -158,8 +158,6 @@ constexpr std::string_view without_script =
     "words stands here. plumb report prints tables in a terminal, and with --csv or --md elsewhere.";
 
 }  // namespace
-
-bool has_page_script() { return !page_script.empty(); }
 
 void write_page(std::ostream& out, const std::vector<Json>& rows, const PageOptions& options) {
   const std::vector<std::unique_ptr<MachinePart>> parts = split_by_machine(rows);

@@ -2,57 +2,12 @@
 #pragma once
 
 #include <iosfwd>
-#include <map>
-#include <optional>
-#include <string>
 #include <vector>
 
-#include "report/against.hpp"
-#include "run/json.hpp"
+#include "base/json.hpp"
+#include "report/page/parts/page_options.hpp"
 
 namespace plumb::harness {
-
-/// What a scene file says of itself.
-struct SceneText {
-  std::string title, doc;
-};
-
-/// One replay that the page plays.
-struct PageReplay {
-  std::string scene;    ///< with its parameters, "D1 H=10": replays of the same scene are shown side by side
-  std::string backend;  ///< by name
-  std::string bundle;   ///< packed (replay/container.hpp)
-};
-
-/// A baseline to hold the results against.
-struct AgainstPart {
-  std::string name;  ///< its folder
-  std::vector<Json> rows;
-  AgainstLimits limits;
-};
-
-/// What DIR/study.json says of a study that made rows.
-struct StudyText {
-  std::string name, command;
-};
-
-struct PageOptions {
-  std::string written;  ///< when, as it shall stand on the page
-  std::string source;   ///< where the results came from
-  std::map<std::string, SceneText>
-      scenes;  ///< by scene id as rows have it; scenes without an entry show their id alone
-  std::vector<StudyText> studies = {};
-  std::optional<AgainstPart> against = std::nullopt;
-  std::vector<PageReplay> replays = {};  ///< scenes in the order in which they shall stand
-  std::string replays_note = {};         ///< what was recorded and is not among them, in words; or ""
-};
-
-/// Whether the program was built with the viewer that plays them.
-[[nodiscard]] bool has_viewer();
-/// Whether it was built with the script that draws tables and diagrams: without, a page has words alone, and says so.
-[[nodiscard]] bool has_page_script();
-/// A page that does nothing but play.
-[[nodiscard]] std::string replay_page(const std::vector<PageReplay>& replays);
 
 void write_page(std::ostream& out, const std::vector<Json>& rows, const PageOptions& options);
 

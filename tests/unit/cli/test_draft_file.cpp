@@ -1,4 +1,4 @@
-#include "cli/draft_file.hpp"
+#include "cli/output/draft_file.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -6,8 +6,8 @@
 #include <set>
 #include <sstream>
 
-#include "cli/option_table.hpp"
-#include "cli/verbs.hpp"
+#include "cli/manual/option_table.hpp"
+#include "cli/verbs/verbs.hpp"
 #include "scene/catalogue.hpp"
 #include "scene/parameters.hpp"
 #include "shell.hpp"

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <sstream>
 
-#include "cli/layout.hpp"
-#include "cli/scene_sheet.hpp"
+#include "cli/output/layout.hpp"
+#include "cli/output/scene_sheet.hpp"
 #include "scene/catalogue.hpp"
 #include "shell.hpp"
 

@@ -8,9 +8,9 @@
 #include <fstream>
 #include <sstream>
 
-#include "cli/completion_script.hpp"
-#include "cli/man_page.hpp"
-#include "cli/verbs.hpp"
+#include "cli/manual/completion_script.hpp"
+#include "cli/manual/man_page.hpp"
+#include "cli/verbs/verbs.hpp"
 #include "scene/catalogue.hpp"
 #include "shell.hpp"
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <set>
 
-#include "cli/option_table.hpp"
-#include "cli/verbs.hpp"
+#include "cli/manual/option_table.hpp"
+#include "cli/verbs/verbs.hpp"
 #include "shell.hpp"
 
 namespace plumb::harness::testing {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
-#include "measure/contact_laws.hpp"
-#include "measure/drift.hpp"
-#include "measure/statistics.hpp"
+#include "measure/instruments/contact_laws.hpp"
+#include "measure/instruments/drift.hpp"
+#include "measure/instruments/statistics.hpp"
 
 namespace plumb::harness {
 namespace {

@@ -6,7 +6,8 @@
 #include <fstream>
 #include <set>
 
-#include "measure/quantities.hpp"
+#include "measure/quantities/quantities.hpp"
+#include "measure/registry/registry.hpp"
 
 namespace plumb::harness {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "measure/reduction.hpp"
+#include "measure/quantities/reduction.hpp"
 
 namespace plumb::harness {
 namespace {

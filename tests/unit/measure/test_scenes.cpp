@@ -7,10 +7,10 @@
 #include <functional>
 #include <limits>
 
-#include "measure/args.hpp"
-#include "measure/measure.hpp"
-#include "measure/referee_view.hpp"
-#include "measure/stacking.hpp"
+#include "measure/instruments/args.hpp"
+#include "measure/instruments/referee_view.hpp"
+#include "measure/registry/registry.hpp"
+#include "measure/stacking/stacking.hpp"
 #include "truth/limit_analysis.hpp"
 
 namespace plumb::harness {

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "measure/reference_score.hpp"
-#include "measure/step_contacts.hpp"
+#include "measure/instruments/reference_score.hpp"
+#include "measure/instruments/step_contacts.hpp"
 #include "reference/fclib.hpp"
 #include "reference/solver.hpp"
 

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "measure/transform.hpp"
+#include "measure/instruments/transform.hpp"
 
 namespace plumb::harness {
 namespace {

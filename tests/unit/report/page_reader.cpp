@@ -2,7 +2,7 @@
 
 #include <sstream>
 
-#include "rows/deflate.hpp"
+#include "base/deflate.hpp"
 
 namespace plumb::harness::testing {
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "run/json.hpp"
+#include "base/json.hpp"
 
 namespace plumb::harness::testing {
 

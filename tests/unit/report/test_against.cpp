@@ -1,8 +1,8 @@
-#include "report/against.hpp"
+#include "report/ordered/against.hpp"
 
 #include <gtest/gtest.h>
 
-#include "report/against_text.hpp"
+#include "report/text/against_text.hpp"
 #include "sample_rows.hpp"
 
 namespace plumb::harness {

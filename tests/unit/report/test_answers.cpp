@@ -1,11 +1,11 @@
-#include "report/answers.hpp"
+#include "report/findings/answers.hpp"
 
 #include <gtest/gtest.h>
 
-#include "report/needs.hpp"
-#include "report/order.hpp"
-#include "report/overview.hpp"
-#include "report/robustness.hpp"
+#include "report/findings/needs.hpp"
+#include "report/findings/overview.hpp"
+#include "report/findings/robustness.hpp"
+#include "report/ordered/order.hpp"
 #include "sample_rows.hpp"
 
 namespace plumb::harness {

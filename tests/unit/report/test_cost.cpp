@@ -1,4 +1,4 @@
-#include "report/cost.hpp"
+#include "report/ordered/cost.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "report/csv.hpp"
+#include "report/text/csv.hpp"
 
 #include <gtest/gtest.h>
 

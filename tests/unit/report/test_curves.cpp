@@ -1,4 +1,4 @@
-#include "report/curves.hpp"
+#include "report/findings/curves.hpp"
 
 #include <gtest/gtest.h>
 

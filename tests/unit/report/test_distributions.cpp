@@ -1,4 +1,4 @@
-#include "report/distributions.hpp"
+#include "report/findings/distributions.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "report/front.hpp"
+#include "report/findings/front.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,9 +7,9 @@
 #include <set>
 
 #include "page_reader.hpp"
-#include "report/page/base64.hpp"
-#include "report/page/bundled_scripts.hpp"
-#include "report/page/markup.hpp"
+#include "report/page/parts/base64.hpp"
+#include "report/page/parts/bundled_scripts.hpp"
+#include "report/page/parts/markup.hpp"
 #include "sample_rows.hpp"
 
 namespace plumb::harness {

@@ -1,4 +1,4 @@
-#include "report/page/plot.hpp"
+#include "report/page/parts/plot.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <limits>
 #include <set>
 
-#include "report/page/blocks.hpp"
-#include "report/page/looks.hpp"
+#include "report/page/parts/blocks.hpp"
+#include "report/page/parts/looks.hpp"
 
 namespace plumb::harness {
 namespace {

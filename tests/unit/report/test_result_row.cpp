@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "report/result_row.hpp"
+#include "rows/result_row.hpp"
 #include "sample_rows.hpp"
 
 namespace plumb::harness {

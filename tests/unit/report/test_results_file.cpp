@@ -1,4 +1,4 @@
-#include "report/results_file.hpp"
+#include "rows/results_file.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

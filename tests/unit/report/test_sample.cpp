@@ -1,8 +1,8 @@
-#include "report/sample.hpp"
+#include "report/ordered/sample.hpp"
 
 #include <gtest/gtest.h>
 
-#include "report/cost.hpp"
+#include "report/ordered/cost.hpp"
 #include "sample_rows.hpp"
 
 namespace plumb::harness {

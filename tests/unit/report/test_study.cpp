@@ -1,8 +1,8 @@
-#include "report/study.hpp"
+#include "report/ordered/study.hpp"
 
 #include <gtest/gtest.h>
 
-#include "report/overview.hpp"
+#include "report/findings/overview.hpp"
 #include "sample_rows.hpp"
 
 namespace plumb::harness {

@@ -1,10 +1,10 @@
-#include "report/terminal.hpp"
+#include "report/text/terminal.hpp"
 
 #include <gtest/gtest.h>
 
 #include <sstream>
 
-#include "report/format.hpp"
+#include "base/format.hpp"
 #include "sample_rows.hpp"
 
 namespace plumb::harness {

@@ -12,18 +12,18 @@
 #include <sstream>
 
 #include "page_reader.hpp"
-#include "report/answers.hpp"
-#include "report/distributions.hpp"
-#include "report/failures.hpp"
-#include "report/front.hpp"
-#include "report/machine_rows.hpp"
-#include "report/markdown.hpp"
-#include "report/needs.hpp"
-#include "report/overview.hpp"
-#include "report/profile.hpp"
-#include "report/results_file.hpp"
-#include "report/robustness.hpp"
-#include "report/summary.hpp"
+#include "report/findings/answers.hpp"
+#include "report/findings/distributions.hpp"
+#include "report/findings/front.hpp"
+#include "report/findings/needs.hpp"
+#include "report/findings/overview.hpp"
+#include "report/findings/profile.hpp"
+#include "report/findings/robustness.hpp"
+#include "report/findings/summary.hpp"
+#include "report/ordered/machine_rows.hpp"
+#include "report/text/failures.hpp"
+#include "report/text/markdown.hpp"
+#include "rows/results_file.hpp"
 
 namespace plumb::harness {
 namespace {

@@ -4,9 +4,9 @@
 #include <functional>
 #include <stdexcept>
 
+#include "base/units.hpp"
 #include "scene/expressions.hpp"
 #include "scene/generators.hpp"
-#include "scene/units.hpp"
 
 namespace plumb::harness {
 namespace {

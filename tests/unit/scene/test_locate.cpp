@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "scene/locate.hpp"
+#include "base/locate.hpp"
 
 namespace plumb::harness {
 namespace {

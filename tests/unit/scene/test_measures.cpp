@@ -5,7 +5,7 @@
 #include <fstream>
 #include <set>
 
-#include "measure/measure.hpp"
+#include "measure/registry/registry.hpp"
 #include "scene/catalogue.hpp"
 
 namespace plumb::harness {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "measure/series.hpp"
+#include "measure/instruments/series.hpp"
 
 namespace plumb::harness {
 namespace {

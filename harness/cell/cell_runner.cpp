@@ -1,0 +1,388 @@
+#include "cell/cell_runner.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <new>
+#include <optional>
+
+#include "base/locate.hpp"
+#include "cell/cell.hpp"
+#include "cell/description.hpp"
+#include "cell/general_metrics.hpp"
+#include "cell/machine.hpp"
+#include "cell/metric_rows.hpp"
+#include "measure/registry/registry.hpp"
+#include "plumb/layers.hpp"
+#include "record/recording.hpp"
+#include "scene/build.hpp"
+#include "simulation/names.hpp"
+#include "simulation/part_refused.hpp"
+#include "simulation/support.hpp"
+
+namespace plumb::harness {
+
+namespace {
+
+/// Keeps Progress up to date: `step` is the one that is about to be done, so that a crash in it is told by its number.
+class Tracker : public SimulationObserver {
+ public:
+  explicit Tracker(Progress& progress) : progress_(progress) {}
+  [[nodiscard]] CellClock& clock() { return progress_.clock; }
+  void started(Simulation& simulation) override {
+    progress_.total = static_cast<std::uint64_t>(std::llround(simulation.scene().seconds / simulation.scene().dt));
+    progress_.step = 1;
+  }
+  void stepped(Simulation& simulation) override { progress_.step = simulation.steps() + 1; }
+
+ private:
+  Progress& progress_;
+};
+
+/// What the cell's own simulation leaves behind when it ends.
+struct Record {
+  bool made = false;
+  std::optional<StepStatistics> statistics;
+  std::uint64_t hash = 0;
+  std::size_t bodies = 0;
+  Json settings = Json::object();
+  std::vector<Metric> metrics;
+  std::string trouble;  ///< why the end could not be read
+};
+
+Json settings_in_force(const Backend& backend, Simulation& simulation) {
+  Json settings = Json::object();
+  ISettings* extension = simulation.world().settings();
+  for (const PlumbSettingInfo* info : backend.settings()) {
+    PlumbSettingValue value = info->default_value;
+    if (extension != nullptr) check(simulation.world(), extension->get_setting(info->name, value));
+    settings[info->name] = json_of(value);
+  }
+  return settings;
+}
+
+class Recorder : public Tracker {
+ public:
+  Recorder(const Backend& backend, Progress& progress, Record& record, const RecordingRequest& recording,
+           PlumbNeeds declared)
+      : Tracker(progress), backend_(backend), record_(record), request_(recording), declared_(declared) {}
+
+  void started(Simulation& simulation) override {
+    Tracker::started(simulation);
+    record_.bodies = simulation.poses().size();
+    {
+      const EngineAtWork at_work(&clock());
+      record_.settings = settings_in_force(backend_, simulation);
+    }
+    general_.emplace(simulation);
+    if (!request_.file.empty()) recording_.emplace(request_, simulation, backend_, declared_);
+  }
+  void stepped(Simulation& simulation) override {
+    general_->stepped(simulation);
+    if (recording_) recording_->stepped(simulation);
+    Tracker::stepped(simulation);
+  }
+  void ended(Simulation& simulation) noexcept override {
+    try {
+      record_.statistics = simulation.statistics();
+      if (recording_) recording_->finish();
+      record_.metrics = general_->finish(simulation);
+      record_.hash = simulation.state_hash();
+    } catch (const std::exception& error) {
+      record_.trouble = error.what();
+    }
+  }
+
+ private:
+  const Backend& backend_;
+  Record& record_;
+  RecordingRequest request_;
+  PlumbNeeds declared_;
+  std::optional<GeneralMetrics> general_;
+  std::optional<Recording> recording_;
+};
+
+class CellContext : public MeasureContext {
+ public:
+  CellContext(Backend& backend, const Scene& scene, SimulationOptions options, Progress& progress,
+              RecordingRequest recording)
+      : backend_(backend),
+        scene_(scene),
+        options_(std::move(options)),
+        progress_(progress),
+        recording_(std::move(recording)) {}
+
+  [[nodiscard]] const Scene& scene() const override { return scene_; }
+  Simulation simulate(const Scene& scene) override { return simulate(scene, options_); }
+  Simulation simulate(const Scene& scene, const SimulationOptions& options) override {
+    SimulationOptions watched = options;
+    watched.clock = &progress_.clock;
+    if (record_.made) {
+      watched.observer = std::make_shared<Tracker>(progress_);
+      return {backend_, scene, watched};
+    }
+    record_.made = true;
+    Scene seen = scene;
+    if (!recording_.file.empty()) seen.needs |= needs_of_layers(backend_);
+    const PlumbNeeds declared = seen.needs | (watched.needs_all ? needs_of(backend_) : 0);
+    watched.observer = std::make_shared<Recorder>(backend_, progress_, record_, recording_, declared);
+    return {backend_, seen, watched};
+  }
+  [[nodiscard]] const SimulationOptions& options() const override { return options_; }
+  [[nodiscard]] Backend& backend() override { return backend_; }
+  void add(Metric metric) override { metrics_.push_back(std::move(metric)); }
+
+  [[nodiscard]] const Record& record() const { return record_; }
+  /// The measure's, then the referee's where the measure has none of the name.
+  [[nodiscard]] std::vector<Metric> metrics() const {
+    std::vector<Metric> all = metrics_;
+    for (const Metric& general : record_.metrics) {
+      const bool is_new = std::none_of(metrics_.begin(), metrics_.end(),
+                                       [&](const Metric& metric) { return metric.name == general.name; });
+      if (is_new) all.push_back(general);
+    }
+    return all;
+  }
+
+ private:
+  Backend& backend_;
+  const Scene& scene_;
+  SimulationOptions options_;
+  Progress& progress_;
+  RecordingRequest recording_;
+  Record record_;
+  std::vector<Metric> metrics_;
+};
+
+SceneFile scene_file_of(const Json& request) {
+  SceneFile file = SceneFile::load(request.at("scene").get<std::string>());
+  if (fmt::format("{:016x}", file.hash) != request.at("scene_hash").get<std::string>())
+    throw UsageError(file.path.string() + ":1: this scene file has changed since the program was started; start again");
+  return file;
+}
+
+Scene scene_of(const SceneFile& file, const Json& request) {
+  Parameters parameters;
+  for (const auto& [name, value] : request.at("parameters").items()) {
+    if (value.is_string()) {
+      parameters[name] = value.get<std::string>();
+    } else {
+      parameters[name] = value.get<double>();
+    }
+  }
+  return instantiate_with(file, parameters, request.at("dt").get<double>(), request.at("seconds").get<double>());
+}
+
+// "scene+sleeping+ccd": the scene's needs and these.
+PlumbNeeds needs_beside(const std::string& asked) {
+  PlumbNeeds needs = 0;
+  for (std::size_t at = asked.find('+'); at != std::string::npos;) {
+    const std::size_t next = asked.find('+', at + 1);
+    const std::string word = asked.substr(at + 1, next == std::string::npos ? next : next - at - 1);
+    const auto found = std::find(need_words().begin(), need_words().end(), word);
+    if (found == need_words().end()) throw Error(PLUMB_E_INVALID_ARGUMENT, "there is no need " + word);
+    needs |= PlumbNeeds{1} << (found - need_words().begin());
+    at = next;
+  }
+  return needs;
+}
+
+SimulationOptions options_of(const Backend& backend, const Json& request) {
+  SimulationOptions options;
+  options.threads = request.at("threads");
+  options.needs_all = request.at("needs") == "all";
+  for (const PlumbSettingInfo* info : backend.settings()) {
+    const auto asked = request.at("settings").find(info->name);
+    if (asked != request.at("settings").end()) options.settings.emplace_back(info->name, setting_value(*info, *asked));
+  }
+  return options;
+}
+
+RecordingRequest recording_of(const Json& request) {
+  return {request.value("trajectory", ""), request.value("layers", false), request.value("about", Json::object())};
+}
+
+struct Outcome {
+  std::string status = "ok", reason;
+};
+
+/// Whether an entry of a scene file, by its "name", is where the name comes from: "ball{i}" is where "ball7" does.
+bool gives_name(const std::string& entry, const std::string& name) {
+  const auto open = entry.find('{'), close = entry.rfind('}');
+  if (open == std::string::npos || close == std::string::npos) return entry == name;
+  return name.starts_with(entry.substr(0, open)) && name.ends_with(entry.substr(close + 1));
+}
+
+/// "FILE:LINE: " of a part of the scene, of its list where it was generated.
+std::string place_of(const SceneFile& file, const PartRefused& refused) {
+  JsonPath path{refused.list()};
+  const auto list = file.json.find(refused.list());
+  if (list != file.json.end() && list->is_object()) path.emplace_back(refused.name());
+  if (list != file.json.end() && list->is_array()) {
+    for (std::size_t i = 0; i < list->size(); ++i) {
+      if (!gives_name((*list)[i].value("name", ""), refused.name())) continue;
+      path.emplace_back(i);
+      break;
+    }
+  }
+  return fmt::format("{}:{}: ", file.path.string(), line_of(file.text, path));
+}
+
+Outcome outcome_of(const Error& error, const std::string& said) {
+  if (error.code() == PLUMB_E_UNSUPPORTED) return {"unsupported", said};
+  if (error.code() == PLUMB_E_OUT_OF_MEMORY) return {"out_of_memory", said};
+  return {"error", result_word(error.code()) + ": " + said};
+}
+
+// Runs the work and says how it ended: what an engine refuses or throws is a row, not the end of a worker.
+Outcome outcome_of(const std::optional<SceneFile>& file, const std::function<void()>& work) {
+  try {
+    work();
+    return {};
+  } catch (const UsageError& error) {
+    return {wrong_scene, error.what()};
+  } catch (const PartRefused& refused) {
+    return outcome_of(refused, place_of(*file, refused) + refused.what());
+  } catch (const Error& error) {
+    return outcome_of(error, error.what());
+  } catch (const std::bad_alloc&) {
+    return {"out_of_memory", "the process could not allocate memory"};
+  } catch (const std::exception& error) {
+    return {"error", error.what()};
+  }
+}
+
+// Steps before the window warm caches and warm starts up and let the scene settle.
+void add_times(Json& answer, const StepStatistics& statistics) {
+  const std::size_t steps = statistics.step_ms.size(), first = steps / 2;
+  answer["steps"] = steps;
+  answer["setup_ms"] = statistics.setup_ms;
+  answer["window"] = steps == 0 ? Json::array() : Json{first + 1, steps};
+  answer["step_ms"] =
+      std::vector<double>(statistics.step_ms.begin() + static_cast<std::ptrdiff_t>(first), statistics.step_ms.end());
+  for (std::size_t phase = 0; phase < phase_words().size() && phase < statistics.phase_ms.size(); ++phase) {
+    if (std::isfinite(statistics.phase_ms[phase]))
+      answer["phase_ms"][phase_words()[phase]] = statistics.phase_ms[phase];
+  }
+}
+
+Json empty_answer() {
+  return {{"status", "ok"},
+          {"reason", ""},
+          {"metrics", Json::object()},
+          {"settings", Json::object()},
+          {"step_ms", Json::array()},
+          {"window", Json::array()},
+          {"steps", 0},
+          {"setup_ms", nullptr},
+          {"phase_ms", Json::object()},
+          {"counts", Json::object()},
+          {"hash", ""},
+          {"peak_mb", nullptr}};
+}
+
+void add_record(Json& answer, const Record& record) {
+  answer["settings"] = record.settings;
+  const StepStatistics none;
+  const StepStatistics& statistics = record.statistics ? *record.statistics : none;
+  if (record.statistics) add_times(answer, statistics);
+  answer["counts"] = {{"bodies", record.bodies},
+                      {"contacts_max", statistics.contacts_max},
+                      {"dropped", statistics.dropped},
+                      {"nonfinite", statistics.nonfinite}};
+  if (record.statistics && record.trouble.empty()) answer["hash"] = fmt::format("{:016x}", record.hash);
+}
+
+/// The backend itself, or behind a layer that writes every call to a file. Outlives the worlds of the cell.
+class Trace {
+ public:
+  Trace(Backend& backend, const std::string& file)
+      : backend_(file.empty() ? backend : Backend(layers::trace(&backend.table(), file), backend.file())),
+        traces_(!file.empty()) {}
+  ~Trace() {
+    try {
+      if (traces_) layers::end_trace(&backend_.table());
+    } catch (const Error& error) {
+      fmt::print(stderr, "the trace is not complete: {}\n", error.what());
+    }
+  }
+  Trace(const Trace&) = delete;
+  Trace& operator=(const Trace&) = delete;
+  [[nodiscard]] Backend& backend() { return backend_; }
+
+ private:
+  Backend backend_;
+  bool traces_;
+};
+
+std::string joined(const std::vector<std::string>& sentences) {
+  std::string text;
+  for (const std::string& sentence : sentences) text += (text.empty() ? "" : "; ") + sentence;
+  return text;
+}
+
+/// What a run that came to its end is worth. Where less time was asked for than the scene takes, and something did not
+/// come about in it, there is no telling whether the engine would have missed it.
+Outcome verdict_on(const CellContext& context, const SceneFile& file) {
+  const Scene& scene = context.scene();
+  Judgement judgement = judge(context.metrics(), scene.metrics, general_metric_specs());
+  const auto& statistics = context.record().statistics;
+  if (statistics && statistics->nonfinite != 0) {
+    judgement.missed.push_back(fmt::format("{} bodies became NaN or infinite", statistics->nonfinite));
+  } else if (!judgement.silent.empty()) {
+    const double whole = file.outline(scene.parameters, {scene.dt, std::nullopt}).seconds;
+    if (scene.seconds < whole)
+      return {"unjudged", fmt::format("{:g} s are too short to measure {}: the scene takes {:g} s", scene.seconds,
+                                      fmt::join(judgement.silent, ", "), whole)};
+  }
+  return judgement.missed.empty() ? Outcome{} : Outcome{"failed", joined(judgement.missed)};
+}
+
+}  // namespace
+
+Json run_cell(Backend& backend, const Json& request, Progress& progress) {
+  Json answer = empty_answer();
+  reset_peak_memory();
+  std::optional<SceneFile> file;
+  std::optional<Scene> scene;
+  std::optional<Trace> trace;
+  std::optional<CellContext> context;
+  const RecordingRequest recording = recording_of(request);
+  if (!recording.file.empty()) std::filesystem::remove(recording.file);
+  Outcome outcome = outcome_of(file, [&] {
+    file.emplace(scene_file_of(request));
+    scene.emplace(scene_of(*file, request));
+    check_measure(*file, *scene);
+    if (!scene->lacks.empty()) throw Error(PLUMB_E_UNSUPPORTED, scene->lacks);
+    scene->needs |= needs_beside(request.at("needs").get<std::string>());
+    const SimulationOptions options = options_of(backend, request);
+    trace.emplace(backend, request.value("trace", ""));
+    context.emplace(trace->backend(), *scene, options, progress, recording);
+    find_measure(*file).run(*context);
+  });
+  if (outcome.status == "ok" && !context->record().trouble.empty()) outcome = {"error", context->record().trouble};
+  if (context) {
+    add_record(answer, context->record());
+    if (outcome.status == "ok") outcome = verdict_on(*context, *file);
+    const bool judged = outcome.status == "ok" || outcome.status == "failed";
+    answer["metrics"] =
+        judge(context->metrics(), judged ? scene->metrics : std::vector<MetricSpec>{}, general_metric_specs()).metrics;
+  }
+  answer["status"] = outcome.status;
+  answer["reason"] = outcome.reason;
+  answer["peak_mb"] = peak_memory_mb();
+  if (scene && !recording.file.empty() && !std::filesystem::exists(recording.file) && scene->lacks.empty())
+    record_start(recording, *scene);
+  if (context && !recording.file.empty())
+    end_trajectory(recording.file, {{"status", answer["status"]},
+                                    {"reason", answer["reason"]},
+                                    {"hash", answer["hash"]},
+                                    {"metrics", answer["metrics"]}});
+  return answer;
+}
+
+}  // namespace plumb::harness

@@ -1,0 +1,19 @@
+// One cell, run in a worker: the scene's measure on the opened backend, and everything that stands in its row.
+#pragma once
+
+#include "base/json.hpp"
+#include "cell/progress.hpp"
+#include "plumb/loader.hpp"
+
+namespace plumb::harness {
+
+/// The status of a cell whose scene turned out wrong only when it was made, which is no row but a wrong question.
+inline constexpr const char* wrong_scene = "wrong_scene";
+
+/// request: {"scene": path, "scene_hash", "parameters", "settings", "dt", "seconds", "threads", "needs",
+/// "trajectory" and "trace": path or ""}. The answer has "status", "reason", "metrics", "settings" (in force),
+/// "step_ms" (of the window), "window", "steps", "setup_ms", "phase_ms", "counts", "hash" and "peak_mb". Throws
+/// nothing.
+[[nodiscard]] Json run_cell(Backend& backend, const Json& request, Progress& progress);
+
+}  // namespace plumb::harness

@@ -1,0 +1,15 @@
+// The run of an engine as it ships, for whatever says "at the defaults".
+#pragma once
+
+#include "report/ordered/study.hpp"
+
+namespace plumb::harness {
+
+/// Null where the backend has run the problem with other settings only, whose cell is no word on its defaults.
+[[nodiscard]] inline const ResultRow* default_run(const Study& study, const Problem& problem,
+                                                  const std::string& backend) {
+  const ResultRow* row = study.representative(problem, backend);
+  return row && study.is_default(*row) ? row : nullptr;
+}
+
+}  // namespace plumb::harness

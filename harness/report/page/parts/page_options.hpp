@@ -1,0 +1,49 @@
+// What a page is to show beside its rows, and what stands on it in words.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/json.hpp"
+#include "report/ordered/against.hpp"
+
+namespace plumb::harness {
+
+/// What a scene file says of itself.
+struct SceneText {
+  std::string title, doc;
+};
+
+/// One replay that the page plays.
+struct PageReplay {
+  std::string scene;    ///< with its parameters, "D1 H=10": replays of the same scene are shown side by side
+  std::string backend;  ///< by name
+  std::string bundle;   ///< packed (replay/container.hpp)
+};
+
+/// A baseline to hold the results against.
+struct AgainstPart {
+  std::string name;  ///< its folder
+  std::vector<Json> rows;
+  AgainstLimits limits;
+};
+
+/// What DIR/study.json says of a study that made rows.
+struct StudyText {
+  std::string name, command;
+};
+
+struct PageOptions {
+  std::string written;  ///< when, as it shall stand on the page
+  std::string source;   ///< where the results came from
+  std::map<std::string, SceneText>
+      scenes;  ///< by scene id as rows have it; scenes without an entry show their id alone
+  std::vector<StudyText> studies = {};
+  std::optional<AgainstPart> against = std::nullopt;
+  std::vector<PageReplay> replays = {};  ///< scenes in the order in which they shall stand
+  std::string replays_note = {};         ///< what was recorded and is not among them, in words; or ""
+};
+
+}  // namespace plumb::harness

@@ -1,0 +1,53 @@
+// Replays: recorded scenes in three dimensions, all engines side by side. The viewer finds the bundles by their class.
+#include <fmt/format.h>
+
+#include "report/page/parts/assets.hpp"
+#include "report/page/parts/base64.hpp"
+#include "report/page/parts/bundled_scripts.hpp"
+#include "report/page/parts/looks.hpp"
+#include "report/page/parts/markup.hpp"
+#include "report/page/sections/sections.hpp"
+
+namespace plumb::harness {
+namespace {
+
+std::string player(const std::vector<PageReplay>& replays) {
+  std::string out = R"(<div id="plumb-viewer"></div>)";
+  for (const PageReplay& replay : replays) {
+    out += fmt::format(
+        R"(<script type="application/octet-stream" class="plumb-replay" data-scene="{}" data-backend="{}" data-hue="{}">)"
+        "{}</script>",
+        escape_html(replay.scene), escape_html(replay.backend), look_of(replay.backend).colour(),
+        base64(replay.bundle));
+  }
+  return fmt::format("{}<script>{}</script>", out, viewer_script);
+}
+
+}  // namespace
+
+std::string replay_page(const std::vector<PageReplay>& replays) {
+  const std::string title = replays.empty() ? "" : escape_html(replays.front().scene);
+  return fmt::format(R"(<!doctype html><html lang="en"><head><meta charset="utf-8"><title>{}</title><style>{}</style>)"
+                     "</head><body><main>{}</main></body></html>\n",
+                     title, page_style, player(replays));
+}
+
+std::string replays_place(const PageOptions& options) {
+  if (options.replays.empty() && options.replays_note.empty()) return "";
+  std::string words =
+      "What the engines made of the same scene, side by side. Curves, depths and the gaps of "
+      "joints are the referee's; contact forces are the engine's own. ";
+  words += escape_html(options.replays_note);
+  const std::string start = R"(<section id="replays" class="part replays"><h2>Replays</h2>)";
+  if (options.replays.empty()) return start + about(words) + "</section>";
+  if (!has_viewer()) {
+    return start + about(words) +
+           about(
+               "This program was built without node and therefore shows no replays. Build it where node and npm are, "
+               "and write the page again: what was recorded stays valid.") +
+           "</section>";
+  }
+  return start + player(options.replays) + about(words) + "</section>";
+}
+
+}  // namespace plumb::harness

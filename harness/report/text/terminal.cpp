@@ -1,0 +1,211 @@
+#include "report/text/terminal.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <ostream>
+
+#include "base/format.hpp"
+#include "report/ordered/machine_rows.hpp"
+#include "report/ordered/study.hpp"
+#include "report/text/text_table.hpp"
+
+namespace plumb::harness {
+namespace {
+
+constexpr const char* dim = "2";
+
+const char* colour_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::gold: return "33";
+    case Verdict::pass: return "32";
+    case Verdict::ran: return "";
+    case Verdict::failed: return "31";
+    case Verdict::unsupported:
+    case Verdict::unjudged: return dim;
+    default: return "35";
+  }
+}
+
+/// "out of memory": the word as prose has it.
+std::string prose(Verdict verdict) {
+  std::string word(verdict_word(verdict));
+  std::replace(word.begin(), word.end(), '_', ' ');
+  return word;
+}
+
+/// "drop 0.0084 > 0.001", with the sense in which the error stands to its limit.
+std::string worst_text(const ResultRow& row) {
+  const MetricResult* worst = row.worst();
+  if (!row.completed() || !worst) return "";
+  const std::string name = printable(worst->name);
+  const std::optional<double> limit = worst->threshold ? worst->threshold : worst->gold;
+  if (!limit) return name;
+  const std::string error = worst->error ? short_number(*worst->error) : "not finite";
+  const bool missed = !worst->error || *worst->error > *limit;
+  return fmt::format("{} {} {} {}", name, error, missed ? ">" : "\u2264", limit_text(*limit));
+}
+
+/// In brackets where it was measured on a contended machine.
+std::string ms_text(const ResultRow& row) {
+  if (!row.median_ms) return "";
+  const std::string ms = short_number(*row.median_ms);
+  return row.contended ? "(" + ms + ")" : ms;
+}
+
+void print_legend(std::ostream& out, const Study& study) {
+  const bool any = std::any_of(study.rows.begin(), study.rows.end(),
+                               [](const ResultRow& row) { return row.contended && row.median_ms; });
+  if (any) out << "(ms): the machine had other work;\nsuch a time counts nowhere.\n";
+}
+
+/// Whatever a backend ran, it ran at its defaults, too.
+bool runs_at_defaults(const Study& study) {
+  return std::all_of(study.problems.begin(), study.problems.end(), [&](const Problem& problem) {
+    return std::all_of(study.backends.begin(), study.backends.end(), [&](const std::string& backend) {
+      const ResultRow* row = study.representative(problem, backend);
+      return !row || study.is_default(*row);
+    });
+  });
+}
+
+/// Verdicts by backend, those columns only that occur.
+void print_counts(std::ostream& out, const Study& study, int terminal_width, bool colour) {
+  std::array<bool, verdict_count> occurs{};
+  for (const ResultRow& row : study.rows) occurs[static_cast<std::size_t>(row.verdict())] = true;
+  std::vector<TextColumn> columns{{"backend", false, true}, {"cells", true, false}};
+  for (std::size_t v = 0; v < verdict_count; ++v) {
+    if (occurs[v]) columns.push_back({prose(static_cast<Verdict>(v)), true, false});
+  }
+  TextTable table(columns);
+  for (const std::string& backend : study.backends) {
+    std::array<int, verdict_count> count{};
+    int cells = 0;
+    for (const ResultRow& row : study.rows) {
+      if (row.backend != backend) continue;
+      ++count[static_cast<std::size_t>(row.verdict())];
+      ++cells;
+    }
+    std::vector<TextCell> line{{printable(backend)}, {std::to_string(cells)}};
+    for (std::size_t v = 0; v < verdict_count; ++v) {
+      if (!occurs[v]) continue;
+      if (count[v] > 0) {
+        line.push_back({std::to_string(count[v]), colour_of(static_cast<Verdict>(v))});
+      } else {
+        line.push_back({std::string(no_value), dim});
+      }
+    }
+    table.add(std::move(line));
+  }
+  table.print(out, terminal_width, colour);
+}
+
+/// What a comparison's cell says of its error: of the worst metric, so that the number explains the verdict.
+std::string error_text(const ResultRow& row) {
+  const MetricResult* worst = row.worst();
+  if (!row.completed() || !worst) return "";
+  return worst->error ? short_number(*worst->error, 2) : "not finite";
+}
+
+void print_block_of_backends(std::ostream& out, const Study& study, const std::vector<std::string>& backends,
+                             int terminal_width, bool colour) {
+  std::vector<TextColumn> columns{{"scene", false, true}};
+  for (const std::string& backend : backends) {
+    columns.push_back({printable(backend), false, false});
+    columns.push_back({"error", true, false});
+    columns.push_back({"ms/step", true, false});
+  }
+  TextTable table(columns);
+  for (const Problem& problem : study.problems) {
+    std::vector<TextCell> line{{printable(problem.title())}};
+    for (const std::string& backend : backends) {
+      const ResultRow* row = study.representative(problem, backend);
+      if (!row) {
+        line.insert(line.end(), {{std::string(no_value), dim}, {}, {}});
+        continue;
+      }
+      line.push_back({prose(row->verdict()) + (study.is_default(*row) ? "" : "*"), colour_of(row->verdict())});
+      line.push_back({error_text(*row)});
+      line.push_back({ms_text(*row), dim});
+    }
+    table.add(std::move(line));
+  }
+  table.print(out, terminal_width, colour);
+}
+
+/// Why cells did not come through, a line each.
+void print_reasons(std::ostream& out, const Study& study, int terminal_width, bool colour) {
+  TextTable table({{"scene", false, false}, {"backend", false, false}, {"why not", false, true}});
+  bool any = false;
+  for (const Problem& problem : study.problems) {
+    for (const std::string& backend : study.backends) {
+      const ResultRow* row = study.representative(problem, backend);
+      if (!row || row->completed() || row->reason.empty()) continue;
+      table.add({{printable(problem.title())}, {printable(backend)}, {printable(row->reason)}});
+      any = true;
+    }
+  }
+  if (!any) return;
+  table.print(out, terminal_width, colour);
+  out << '\n';
+}
+
+/// Columns of a terminal; of none, as many as a text may have.
+std::size_t width_or_all(int terminal_width) {
+  return terminal_width <= 0 ? std::string::npos : static_cast<std::size_t>(terminal_width);
+}
+
+void print_machine(std::ostream& out, const Study& study, int terminal_width, bool colour) {
+  // A block of backends a table: name or verdict, error, time need about 30 columns each, the scene about 20.
+  constexpr int scene_width = 20, backend_width = 30;
+  const std::size_t at_once =
+      terminal_width <= 0 ? study.backends.size()
+                          : static_cast<std::size_t>(std::max(1, (terminal_width - scene_width) / backend_width));
+  for (std::size_t first = 0; first < study.backends.size(); first += at_once) {
+    const auto begin = study.backends.begin() + static_cast<std::ptrdiff_t>(first);
+    const auto end =
+        study.backends.begin() + static_cast<std::ptrdiff_t>(std::min(first + at_once, study.backends.size()));
+    print_block_of_backends(out, study, {begin, end}, terminal_width, colour);
+    out << '\n';
+  }
+  print_legend(out, study);
+  if (!runs_at_defaults(study)) out << "*: it ran with other settings than\nits own only.\n";
+  print_reasons(out, study, terminal_width, colour);
+  print_counts(out, study, terminal_width, colour);
+}
+
+}  // namespace
+
+void print_table(std::ostream& out, const std::vector<Json>& rows, int terminal_width, bool colour) {
+  const Study study(parse_rows(rows));
+  const bool with_configuration =
+      std::any_of(study.rows.begin(), study.rows.end(), [&](const ResultRow& row) { return !study.is_default(row); });
+  std::vector<TextColumn> columns{{"scene", false, false}, {"backend", false, false}};
+  if (with_configuration) columns.push_back({"settings", false, true});
+  columns.insert(columns.end(), {{"result", false, false}, {"ms/step", true, false}, {"worst metric", false, true}});
+  TextTable table(columns);
+  for (const Problem& problem : study.problems) {
+    for (const ResultRow* row : problem.rows) {
+      std::vector<TextCell> line{{printable(problem.title())}, {printable(row->backend)}};
+      if (with_configuration) line.push_back({printable(study.configuration(*row))});
+      line.push_back({prose(row->verdict()), colour_of(row->verdict())});
+      line.push_back({ms_text(*row)});
+      line.push_back(row->completed() ? TextCell{worst_text(*row)} : TextCell{printable(row->reason), dim});
+      table.add(std::move(line));
+    }
+  }
+  table.print(out, terminal_width, colour);
+  print_legend(out, study);
+}
+
+void print_comparison(std::ostream& out, const std::vector<Json>& rows, int terminal_width, bool colour) {
+  const std::vector<MachineRows> machines = rows_by_machine(rows);
+  for (const MachineRows& machine : machines) {
+    if (machines.size() > 1) out << printable(clipped(machine.name, width_or_all(terminal_width))) << '\n';
+    print_machine(out, Study(machine.rows), terminal_width, colour);
+    if (&machine != &machines.back()) out << '\n';
+  }
+}
+
+}  // namespace plumb::harness

@@ -1,0 +1,87 @@
+// From what a user asked to the cells of a study.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cell/cell.hpp"
+#include "cell/settings.hpp"
+#include "cell/sweep.hpp"
+#include "worker/worker_process.hpp"
+
+namespace plumb::harness {
+
+/// What a sweep is asked to turn, as typed; see Sweep.
+struct SweepRequest {
+  std::vector<std::string> over, along;
+};
+
+/// What `run`, `compare` and `curves` are asked.
+struct StudyRequest {
+  std::vector<std::string> scenes;
+  std::vector<std::string> backends;              ///< names or files; empty: all that load
+  std::vector<std::string> parameters, settings;  ///< as typed
+  bool own_variants = true;                       ///< false: one cell of the parameters, not the scene's variants
+  std::optional<SweepRequest> sweep;              ///< none: a cell a backend, with the settings above
+  std::string profile = "default", needs = "scene";
+  std::optional<double> dt, seconds;
+  std::uint32_t threads = 1;
+  std::uint32_t repeat = 1;
+  double timeout = 300;                 ///< of an engine
+  std::optional<double> judge_timeout;  ///< of the referee; none: that of the engine, and at least a minute
+  double memory_limit_mb = 0;           ///< 0: three quarters of the machine's memory
+  std::string out;                      ///< folder; empty: none
+  bool record = false;  ///< each cell once more than `repeat`, and that one to a file: no time or error comes from it
+  bool layers = false;  ///< what plumb.debug/1 shows, too
+  bool trace = false;   ///< times then include the writing of the trace
+
+  [[nodiscard]] WorkerLimits limits() const;
+};
+
+/// Needs as a user names them: "scene", "all", or "scene" and more needs, "scene+sleeping". Throws UsageError, with the
+/// nearest right word, after `option`.
+void check_needs(const std::string& option, const std::string& needs);
+
+/// Cells with the same scene and parameters, of all backends: what is repeated in turns.
+struct CellBlock {
+  std::vector<Cell> cells;
+  std::vector<Ladder> ladders;  ///< of a sweep, by places in `cells`
+};
+
+/// Asks a worker of its own what a backend is; whatever goes wrong stands in the description.
+[[nodiscard]] BackendDescription ask_description(const std::string& name, const std::string& file,
+                                                 const WorkerLimits& limits);
+
+/// The files of backends that were asked for by name or path, or all on the search path. Throws UsageError.
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> backend_files(const std::vector<std::string>& asked);
+
+struct Plan {
+  std::vector<CellBlock> blocks;
+  std::vector<BackendDescription> broken;  ///< not asked for by name, and they do not load
+};
+
+/// The backends of a request: those that load, and those that do not and were not asked for by name. Throws UsageError
+/// when there are none at all.
+struct OpenedBackends {
+  std::vector<BackendDescription> usable, broken;
+};
+[[nodiscard]] OpenedBackends open_backends(const StudyRequest& request);
+
+/// A backend's description and its build id: what all cells of it share.
+struct BuiltBackend {
+  std::shared_ptr<const BackendDescription> description;
+  std::string build;
+};
+[[nodiscard]] std::vector<BuiltBackend> build_ids(std::vector<BackendDescription> backends);
+
+/// The blocks of a request on these backends, whatever it says of backends itself. Throws UsageError for everything
+/// that is asked wrongly.
+[[nodiscard]] std::vector<CellBlock> plan_blocks(const StudyRequest& request,
+                                                 const std::vector<BuiltBackend>& backends);
+
+/// Throws UsageError for everything that is asked wrongly.
+[[nodiscard]] Plan make_plan(const StudyRequest& request);
+
+}  // namespace plumb::harness

@@ -1,0 +1,184 @@
+#include "study/study.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <list>
+#include <map>
+#include <random>
+#include <thread>
+
+#include "cell/machine.hpp"
+#include "study/claims.hpp"
+#include "study/row.hpp"
+#include "worker/cell_workers.hpp"
+
+namespace plumb::harness {
+
+namespace {
+
+constexpr unsigned shuffle_seed = 20240229;
+constexpr std::uint32_t recording = 0;  // in place of a repetition's number
+
+class Study {
+ public:
+  Study(const Plan& plan, const StudyRequest& request, ResultsFile* results, const StudyCallbacks& callbacks)
+      : plan_(plan), request_(request), results_(results), callbacks_(callbacks), machine_(describe_machine()) {
+    for (const CellBlock& block : plan.blocks) total_ += block.cells.size();
+    if (results != nullptr) claims_.emplace(results->folder(), true);
+  }
+
+  /// Blocks that another process is at come last, when it has finished them or is gone.
+  void run() {
+    std::list<const CellBlock*> left;
+    for (const CellBlock& block : plan_.blocks) left.push_back(&block);
+    while (true) {
+      left.remove_if([&](const CellBlock* block) { return run_if_free(*block); });
+      if (left.empty()) return;
+      wait_for_others();
+    }
+  }
+
+ private:
+  using Answers = std::map<const Cell*, std::vector<Answer>>;  ///< of all repetitions so far
+
+  /// False when another process has one of the cells: then none is run.
+  bool run_if_free(const CellBlock& block) {
+    std::vector<std::string> mine;
+    const auto give_back = [&] {
+      for (const std::string& id : mine) claims_->give_back(id);
+    };
+    for (const Cell& cell : block.cells) {
+      if (!claims_) break;
+      std::string id = cell_id(cell);
+      if (!claims_->take(id)) {
+        give_back();
+        return false;
+      }
+      mine.push_back(std::move(id));
+    }
+    if (results_ != nullptr) results_->refresh();  // whoever had a claim until a moment ago has written its row by now
+    run_block(block);
+    give_back();
+    return true;
+  }
+
+  void wait_for_others() const {
+    if (callbacks_.progress)
+      callbacks_.progress({done_, total_, "another plumb runs the rest in " + results_->folder().string(), 0, 0, {}});
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    throw_if_interrupted();
+  }
+
+  void run_block(const CellBlock& block) {
+    std::vector<const Cell*> open;
+    for (const Cell& cell : block.cells) {
+      const Json* row = known_row(cell);
+      if (row == nullptr) {
+        open.push_back(&cell);
+      } else {
+        record(cell, *row, false);
+        hand_on(*row, false);
+      }
+    }
+    Answers answers;
+    for (const Ladder& ladder : block.ladders) leave_out_idle(block, ladder, open, answers);
+    std::vector<const Cell*> order = open;
+    for (std::uint32_t round = 1; round <= request_.repeat; ++round) {
+      std::shuffle(order.begin(), order.end(), random_);
+      for (const Cell* cell : order) {
+        std::vector<Answer>& mine = answers[cell];
+        if (mine.size() >= round) continue;                         // a ladder's base or probe
+        if (!mine.empty() && mine.back().status != "ok") continue;  // it would only crash or hang once more
+        if (!mine.empty() && mine.back().json.value("status", "") == "unsupported") continue;
+        mine.push_back(ask(*cell, round));
+      }
+    }
+    for (const Cell* cell : open) finish(*cell, answers[cell]);
+  }
+
+  [[nodiscard]] const Json* known_row(const Cell& cell) const {
+    return results_ == nullptr ? nullptr : results_->find(cell_id(cell));
+  }
+
+  /// What came of a cell: its row of an earlier run, or its first repetition, which is run here when it was not yet.
+  Json first_result(const Cell& cell, Answers& answers) {
+    if (const Json* row = known_row(cell)) return *row;
+    std::vector<Answer>& mine = answers[&cell];
+    if (mine.empty()) mine.push_back(ask(cell, 1));
+    return mine.front().status == "ok" ? mine.front().json : Json::object();
+  }
+
+  void leave_out_idle(const CellBlock& block, const Ladder& ladder, std::vector<const Cell*>& open, Answers& answers) {
+    std::vector<std::size_t> idle = ladder.others;
+    const Json base = first_result(block.cells[ladder.base], answers);
+    if (base.value("status", "") == "unsupported") {
+      idle.push_back(ladder.probe);
+    } else {
+      const Json probe = first_result(block.cells[ladder.probe], answers);
+      const std::string hash = base.value("hash", "");
+      if (hash.empty() || hash != probe.value("hash", "")) return;
+    }
+    for (const std::size_t rung : idle) total_ -= std::erase(open, &block.cells[rung]);
+  }
+
+  Answer ask(const Cell& cell, std::uint32_t round) {
+    StudyProgress progress{done_, total_, label_of(cell), 0, 0, {}};
+    if (round == recording) {
+      progress.cell += " recording";
+    } else if (request_.repeat > 1) {
+      progress.cell += fmt::format(" {}/{}", round, request_.repeat);
+    }
+    const auto tick = [&](const Progress& now) {
+      if (!callbacks_.progress) return;
+      progress.step = now.step;
+      progress.steps = now.total;
+      callbacks_.progress(progress);
+    };
+    if (callbacks_.progress) callbacks_.progress(progress);
+    CellFiles files;
+    files.layers = request_.layers;
+    if (round == recording) files.trajectory = trajectory_of(results_->folder(), cell);
+    if (round == 1 && results_ != nullptr && request_.trace)
+      files.trace = cell_file(results_->folder(), cell, "traces", ".trace");
+    return workers_.ask(cell, files, request_.limits(), tick);
+  }
+
+  void record(const Cell& cell, const Json& row, bool is_new) {
+    if (request_.record && results_ != nullptr && wants_recording(results_->folder(), cell, row, is_new))
+      static_cast<void>(ask(cell, recording));
+  }
+
+  void finish(const Cell& cell, const std::vector<Answer>& answers) {
+    const Json row = make_row(cell, answers, machine_);
+    const bool killed =
+        std::any_of(answers.begin(), answers.end(), [](const Answer& a) { return a.killed_from_outside; });
+    if (!killed) record(cell, row, true);
+    if (results_ != nullptr && !killed) results_->append(row);  // a killed cell is run again by the next start
+    hand_on(row, true);
+  }
+
+  void hand_on(const Json& row, bool is_new) {
+    ++done_;
+    callbacks_.finished(row, is_new);
+  }
+
+  const Plan& plan_;
+  const StudyRequest& request_;
+  ResultsFile* results_;
+  std::optional<Claims> claims_;  ///< where there are results
+  const StudyCallbacks& callbacks_;
+  Json machine_;
+  std::size_t done_ = 0, total_ = 0;
+  CellWorkers workers_;
+  std::mt19937 random_{shuffle_seed};
+};
+
+}  // namespace
+
+void run_study(const Plan& plan, const StudyRequest& request, ResultsFile* results, const StudyCallbacks& callbacks) {
+  Study(plan, request, results, callbacks).run();
+}
+
+}  // namespace plumb::harness
