@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "base/json.hpp"
+
 namespace plumb::harness {
 
 inline constexpr std::string_view no_value = "\u2013";  ///< an en dash: nothing to show
@@ -20,6 +22,9 @@ inline constexpr std::string_view no_value = "\u2013";  ///< an en dash: nothing
 /// The fewest digits that read back as the same double.
 [[nodiscard]] std::string shortest_number(double value);
 
+/// A parameter's or setting's value as text: 50, 0.5, true, implicit.
+[[nodiscard]] std::string value_text(const Json& value);
+
 /// A time step as a fraction of a second where it is one: 1/60, 1/240, else 0.0123.
 [[nodiscard]] std::string dt_text(std::optional<double> dt);
 
@@ -33,5 +38,8 @@ inline constexpr std::string_view no_value = "\u2013";  ///< an en dash: nothing
 
 /// Control characters, which could move a cursor or tear a line, replaced by spaces; broken UTF-8 by U+FFFD.
 [[nodiscard]] std::string printable(std::string_view text);
+
+/// Order for people: A2 before A10, then by the rest of the text.
+[[nodiscard]] bool natural_less(std::string_view a, std::string_view b);
 
 }  // namespace plumb::harness

@@ -369,8 +369,8 @@ Json run_cell(Backend& backend, const Json& request, Progress& progress) {
     add_record(answer, context->record());
     if (outcome.status == "ok") outcome = verdict_on(*context, *file);
     const bool judged = outcome.status == "ok" || outcome.status == "failed";
-    answer["metrics"] =
-        judge(context->metrics(), judged ? scene->metrics : std::vector<MetricSpec>{}, general_metric_specs()).metrics;
+    answer["metrics"] = to_json(
+        judge(context->metrics(), judged ? scene->metrics : std::vector<MetricSpec>{}, general_metric_specs()).metrics);
   }
   answer["status"] = outcome.status;
   answer["reason"] = outcome.reason;

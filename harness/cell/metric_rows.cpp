@@ -9,7 +9,9 @@ namespace plumb::harness {
 
 namespace {
 
-Json number_or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+std::optional<double> if_finite(const std::optional<double>& value) {
+  return value && std::isfinite(*value) ? value : std::nullopt;
+}
 
 const MetricSpec* find_spec(const std::vector<MetricSpec>& specs, const std::string& name) {
   const auto found =
@@ -17,18 +19,37 @@ const MetricSpec* find_spec(const std::vector<MetricSpec>& specs, const std::str
   return found == specs.end() ? nullptr : &*found;
 }
 
-Json row_of(const Metric& metric, const MetricSpec* spec) {
-  Json row{{"value", metric.value},
-           {"unit", spec == nullptr ? "" : spec->unit},
-           {"truth", number_or_null(metric.truth)},
-           {"error", metric.error},
-           {"threshold", spec == nullptr ? Json(nullptr) : number_or_null(spec->threshold)},
-           {"gold", spec == nullptr ? Json(nullptr) : number_or_null(spec->gold)},
-           {"pass", nullptr}};
-  if (spec != nullptr && spec->threshold) row["pass"] = metric.error <= *spec->threshold;  // false for NaN
-  if (metric.unbiased_error) row["unbiased_error"] = *metric.unbiased_error;
-  if (!metric.note.empty()) row["note"] = metric.note;
-  return row;
+MetricResult result_of(const Metric& metric, const MetricSpec* spec) {
+  MetricResult result;
+  result.name = metric.name;
+  result.note = metric.note;
+  result.value = if_finite(metric.value);
+  result.truth = if_finite(metric.truth);
+  result.error = if_finite(metric.error);
+  result.unbiased_error = if_finite(metric.unbiased_error);
+  result.tells_unbiased_error = metric.unbiased_error.has_value();
+  if (spec == nullptr) return result;
+  result.unit = spec->unit;
+  result.threshold = spec->threshold;
+  result.gold = spec->gold;
+  if (spec->threshold) result.pass = metric.error <= *spec->threshold;  // false for NaN
+  if (spec->gold) result.is_gold = metric.error <= *spec->gold;
+  return result;
+}
+
+/// In place of an earlier one of the name.
+void put(std::vector<MetricResult>& results, MetricResult result) {
+  const auto same = std::find_if(results.begin(), results.end(),
+                                 [&](const MetricResult& other) { return other.name == result.name; });
+  if (same == results.end()) {
+    results.push_back(std::move(result));
+  } else {
+    *same = std::move(result);
+  }
+}
+
+bool has(const std::vector<MetricResult>& results, const std::string& name) {
+  return std::any_of(results.begin(), results.end(), [&](const MetricResult& result) { return result.name == name; });
 }
 
 void say_silent(Judgement& judgement, const std::string& metric) {
@@ -44,9 +65,10 @@ Judgement judge(const std::vector<Metric>& metrics, const std::vector<MetricSpec
   for (const Metric& metric : metrics) {
     const MetricSpec* spec = find_spec(specs, metric.name);
     if (spec == nullptr) spec = find_spec(general, metric.name);
-    const Json row = row_of(metric, spec);
-    judgement.metrics[metric.name] = row;
-    if (row["pass"] != false) continue;
+    MetricResult result = result_of(metric, spec);
+    const bool missed = result.pass == false;
+    put(judgement.metrics, std::move(result));
+    if (!missed) continue;
     if (std::isnan(metric.error)) {
       say_silent(judgement, metric.name);
     } else {
@@ -54,11 +76,11 @@ Judgement judge(const std::vector<Metric>& metrics, const std::vector<MetricSpec
     }
   }
   for (MetricSpec spec : specs) {
-    if (judgement.metrics.contains(spec.name)) continue;
+    if (has(judgement.metrics, spec.name)) continue;
     // What may be left out and was is not scored: no report is to take it for a miss.
     if (spec.optional) spec.threshold = spec.gold = std::nullopt;
     const Metric absent{spec.name, NAN, std::nullopt, NAN, std::nullopt, "not measured"};
-    judgement.metrics[spec.name] = row_of(absent, &spec);
+    put(judgement.metrics, result_of(absent, &spec));
     if (spec.threshold) say_silent(judgement, spec.name);
   }
   return judgement;

@@ -4,15 +4,15 @@
 #include <string>
 #include <vector>
 
-#include "base/json.hpp"
 #include "measure/measure.hpp"
+#include "rows/row.hpp"
 
 namespace plumb::harness {
 
 struct Judgement {
-  Json metrics = Json::object();    ///< by name
-  std::vector<std::string> missed;  ///< a sentence for each threshold that was missed
-  std::vector<std::string> silent;  ///< scored metrics without a number
+  std::vector<MetricResult> metrics;  ///< one a name
+  std::vector<std::string> missed;    ///< a sentence for each threshold that was missed
+  std::vector<std::string> silent;    ///< scored metrics without a number
 };
 
 /// A metric that the scene lists but that was not measured misses its threshold; one that it does not list has none,

@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include "base/format.hpp"
-#include "rows/result_row.hpp"
+#include "rows/row.hpp"
 
 namespace plumb::harness {
 
 namespace {
 
-std::string nearest_to_its_limit(const ResultRow& row, bool is_gold) {
+std::string nearest_to_its_limit(const Row& row, bool is_gold) {
   const MetricResult* nearest = nullptr;
   double share = -1;
   for (const MetricResult& metric : row.metrics) {
@@ -34,7 +34,7 @@ std::string nearest_to_its_limit(const ResultRow& row, bool is_gold) {
 
 Json badge_of(const Json& outcome) {
   if (!outcome.is_object()) return {{"verdict", "crashed"}, {"words", "the recording breaks off: its process ended"}};
-  const ResultRow row = parse_row(outcome, 0);
+  const Row row = parse_row(outcome, 0);
   const Verdict verdict = row.verdict();
   const bool went_well = verdict == Verdict::gold || verdict == Verdict::pass || verdict == Verdict::ran;
   if (went_well && !outcome.contains("metrics")) return nullptr;

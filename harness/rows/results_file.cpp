@@ -1,82 +1,65 @@
 #include "rows/results_file.hpp"
 
-#include <algorithm>
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
 #include <fstream>
-#include <istream>
-#include <sstream>
-#include <string>
-#include <unordered_map>
+#include <system_error>
 
 #include "base/usage_error.hpp"
 #include "rows/results_folder.hpp"
-#include "rows/row_format.hpp"
 
 namespace plumb::harness {
+
 namespace {
 
-/// What makes two rows the same cell: the runner's id of it, and the machine that answered, whenever that was.
-std::string cell_key(const Json& row) {
-  Json machine = row.value("machine", Json());
-  if (machine.is_object()) machine.erase("date");
-  return line_of({machine, row["cell"]});
-}
-
-using Cells = std::unordered_map<std::string, std::size_t>;  ///< places of rows, by their keys
-
-void read_into(std::istream& in, const std::filesystem::path& file, Results& results, Cells& cells) {
-  std::string line;
-  for (std::size_t number = 1; std::getline(in, line); ++number) {
-    const bool torn = in.eof();  // no newline ended it
-    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
-    Json row = read_row(line, file, number);
-    if (row.is_null()) {
-      if (!torn) results.unreadable_lines.push_back(number);
-      continue;
-    }
-    const auto [cell, is_new] = cells.try_emplace(cell_key(row), results.rows.size());
-    if (is_new) {
-      results.rows.push_back(std::move(row));
-    } else {
-      results.rows[cell->second] = std::move(row);
-    }
-  }
+// Of a row that did not go in whole nothing stays, unless another process has written behind it.
+void take_back(int descriptor, std::size_t written) {
+  const off_t end = lseek(descriptor, 0, SEEK_CUR), last = lseek(descriptor, 0, SEEK_END);
+  if (written > 0 && end == last) (void)!ftruncate(descriptor, end - static_cast<off_t>(written));
 }
 
 }  // namespace
 
-Results read_results(std::istream& in, const std::filesystem::path& file) {
-  Results results;
-  Cells cells;
-  read_into(in, file, results, cells);
-  return results;
+ResultsFile::ResultsFile(const std::filesystem::path& folder, const std::string& name)
+    : folder_(folder), file_(folder / name) {
+  std::error_code failure;
+  std::filesystem::create_directories(folder, failure);
+  if (failure) throw UsageError("--out " + folder.string() + ": " + failure.message());
+  refresh();
+  bool torn = false;
+  if (std::ifstream in(file_, std::ios::binary); in && in.seekg(-1, std::ios::end)) torn = in.get() != '\n';
+  descriptor_ = open(file_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
+  if (descriptor_ < 0) throw UsageError("--out " + folder.string() + ": " + std::strerror(errno));
+  if (torn) write_all("\n");  // the torn line stays as it is, and the next row gets a line of its own
 }
 
-Results read_results(const std::filesystem::path& where) {
-  Results results;
-  Cells cells;
-  std::vector<std::filesystem::path> files{where};
-  if (std::filesystem::is_directory(where)) files = results_files(where);
-  if (files.empty()) files.push_back(where / "results.jsonl");  // which the message names
-  for (const std::filesystem::path& file : files) {
-    std::ifstream in(file, std::ios::binary);
-    if (!in) {
-      throw UsageError("cannot read " + file.string() +
-                       "; name a folder that `plumb run --out`, `plumb compare` or `plumb study` wrote");
+ResultsFile::~ResultsFile() { close(descriptor_); }
+
+void ResultsFile::refresh() {
+  for (const std::filesystem::path& file : results_files(folder_)) reader_.read_on(file);
+}
+
+void ResultsFile::append(const Row& row) {
+  write_all(line_of(to_json(row)) + "\n");
+  if (fsync(descriptor_) != 0 && errno != EINVAL && errno != EROFS)
+    throw std::system_error(errno, std::generic_category(), "flushing " + file_.string());
+}
+
+void ResultsFile::write_all(const std::string& bytes) {
+  std::size_t written = 0;
+  while (written < bytes.size()) {
+    const ssize_t count = ::write(descriptor_, bytes.data() + written, bytes.size() - written);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) {
+      const int error = errno;
+      take_back(descriptor_, written);
+      throw std::system_error(error, std::generic_category(), "writing " + file_.string());
     }
-    if (is_packed(file)) {
-      std::istringstream text(unpacked_text(file));
-      read_into(text, file, results, cells);
-    } else {
-      read_into(in, file, results, cells);
-    }
+    written += static_cast<std::size_t>(count);
   }
-  return results;
-}
-
-Json read_study(const std::filesystem::path& where) {
-  std::ifstream in(where / "study.json", std::ios::binary);
-  Json study = in ? Json::parse(in, nullptr, false) : Json();
-  return study.is_object() ? study : Json();
 }
 
 }  // namespace plumb::harness

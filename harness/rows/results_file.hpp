@@ -1,28 +1,39 @@
-// Reading results.jsonl, which a run that is still going or was killed may be writing.
+// results*.jsonl of a study: finished cells are appended at once, so that whatever happens next loses none of them.
+// A folder may have several such files, one for each process that worked on it; all are read, one is written.
 #pragma once
 
 #include <filesystem>
-#include <iosfwd>
-#include <vector>
+#include <string>
 
-#include "base/json.hpp"
+#include "rows/results_reader.hpp"
+#include "rows/row.hpp"
 
 namespace plumb::harness {
 
-struct Results {
-  std::vector<Json> rows;                     ///< objects, one a cell, in the order of the file
-  std::vector<std::size_t> unreadable_lines;  ///< from 1; other than a torn last line, which a kill leaves behind
+class ResultsFile {
+ public:
+  /// Makes the folder and the file, or opens what is there and reads the finished cells of all files. A line that is
+  /// not an object (torn by a kill) counts for nothing. Throws UsageError when the folder cannot be used, and Error for
+  /// what is no row of this format.
+  explicit ResultsFile(const std::filesystem::path& folder, const std::string& name = "results.jsonl");
+  ~ResultsFile();
+  ResultsFile(const ResultsFile&) = delete;
+  ResultsFile& operator=(const ResultsFile&) = delete;
+
+  /// The finished row of a cell; null when there is none. Until the next refresh().
+  [[nodiscard]] const Row* find(const std::string& cell_id) const { return reader_.find(cell_id); }
+  /// One write a row, flushed to the disk. Throws std::system_error.
+  void append(const Row& row);
+  /// Reads what other processes have appended since.
+  void refresh();
+  [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
+
+ private:
+  void write_all(const std::string& bytes);
+
+  std::filesystem::path folder_, file_;
+  ResultsReader reader_;
+  int descriptor_ = -1;
 };
-
-/// One row a line; empty lines count for nothing. A cell that was run again replaces its earlier row in place. Throws
-/// Error naming `file` and the line for what is no row of this format.
-[[nodiscard]] Results read_results(std::istream& in, const std::filesystem::path& file);
-/// `where` is the file, or a folder: all results*.jsonl in it, of which each rank of a study may have written one, in
-/// the order of their names, and before them those packed by zstd. Unreadable lines are counted over all of them.
-/// Throws UsageError when nothing can be opened, and Error likewise.
-[[nodiscard]] Results read_results(const std::filesystem::path& where);
-
-/// DIR/study.json as it is; null where `where` is no folder, or has none that is an object.
-[[nodiscard]] Json read_study(const std::filesystem::path& where);
 
 }  // namespace plumb::harness

@@ -6,13 +6,14 @@
 #include <string>
 
 #include "cell/cell.hpp"
+#include "rows/row.hpp"
 
 namespace plumb::harness {
 
 class CostModel {
  public:
-  /// A finished row; rows without "time"."wall_s" teach nothing.
-  void learn(const Json& row);
+  /// A finished row; rows without wall time teach nothing.
+  void learn(const Row& row);
   /// Wall time of one repetition, s: by the cost of a step of the same scene and parameters on the same backend, else
   /// on all backends, times the steps, and times the whole-numbered quality settings above their defaults. None when
   /// nothing is known of the scene.

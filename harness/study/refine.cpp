@@ -23,16 +23,14 @@ std::optional<double> slope(const LadderPoint& a, const LadderPoint& b) {
 
 }  // namespace
 
-std::optional<LadderPoint> ladder_point(const Json& row, double value, std::string& metric) {
-  const std::string status = row.value("status", "error");
-  if ((status != "ok" && status != "failed") || !row.contains("metrics")) return std::nullopt;
-  for (const auto& [name, entry] : row["metrics"].items()) {
-    if (!metric.empty() && name != metric) continue;
-    const Json error = entry.value("error", Json());
-    if (metric.empty() && (!error.is_number() || entry.value("threshold", Json()).is_null())) continue;
-    if (!error.is_number()) return std::nullopt;
-    metric = name;
-    return LadderPoint{value, std::abs(error.get<double>())};
+std::optional<LadderPoint> ladder_point(const Row& row, double value, std::string& metric) {
+  if (!row.completed()) return std::nullopt;
+  for (const MetricResult& result : row.metrics) {
+    if (!metric.empty() && result.name != metric) continue;
+    if (metric.empty() && (!result.error || !result.threshold)) continue;
+    if (!result.error) return std::nullopt;
+    metric = result.name;
+    return LadderPoint{value, std::abs(*result.error)};
   }
   return std::nullopt;
 }

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "base/json.hpp"
+#include "rows/row.hpp"
 
 namespace plumb::harness {
 
@@ -17,7 +17,7 @@ struct LadderPoint {
 
 /// The point of a row; none when it did not end well enough to have an error. metric: which one, "" until the first row
 /// says it, being its first metric with a threshold and an error.
-[[nodiscard]] std::optional<LadderPoint> ladder_point(const Json& row, double value, std::string& metric);
+[[nodiscard]] std::optional<LadderPoint> ladder_point(const Row& row, double value, std::string& metric);
 
 /// Values (geometric middles) to add between neighbours: where 10 %, 1 % or 0.1 % lies between their errors, or where
 /// the slope of log error over log value changes by more than a half. None between neighbours closer than a factor

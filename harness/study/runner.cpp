@@ -14,7 +14,7 @@
 #include "study/claims.hpp"
 #include "study/cost.hpp"
 #include "study/refine.hpp"
-#include "study/row.hpp"
+#include "study/row_of_cell.hpp"
 #include "worker/cell_workers.hpp"
 
 namespace plumb::harness {
@@ -76,7 +76,7 @@ class StudyRunner {
   void take_stock() {
     results_.refresh();
     for (const PlannedCell& planned : plan_.cells) {
-      const Json* row = seen_.contains(planned.id) ? nullptr : results_.find(planned.id);
+      const Row* row = seen_.contains(planned.id) ? nullptr : results_.find(planned.id);
       if (row == nullptr) continue;
       seen_.insert(planned.id);
       costs_.learn(*row);
@@ -96,11 +96,10 @@ class StudyRunner {
   /// False while it cannot be told yet whether the cell is worth a run; what is not goes to idle_.
   bool is_due(const PlannedCell& planned) {
     if (!planned.unless_same) return true;
-    const Json *base = results_.find(planned.unless_same->first), *probe = results_.find(planned.unless_same->second);
+    const Row *base = results_.find(planned.unless_same->first), *probe = results_.find(planned.unless_same->second);
     if (base == nullptr || probe == nullptr) return false;
-    const std::string hash = base->value("hash", "");
-    const bool same = !hash.empty() && hash == probe->value("hash", "");
-    if (same || base->value("status", "") == "unsupported") idle_.insert(planned.id);
+    const bool same = !base->hash.empty() && base->hash == probe->hash;
+    if (same || base->status == "unsupported") idle_.insert(planned.id);
     return is_open(planned);
   }
 
@@ -187,8 +186,8 @@ class StudyRunner {
   }
 
   void finish(const PlannedCell& planned, const std::vector<Answer>& answers) {
-    Json row = make_row(planned.cell, answers, machine_);
-    row["study"] = study_.name;
+    Row row = make_row(planned.cell, answers, machine_);
+    row.origin.study = study_.name;
     const bool killed =
         std::any_of(answers.begin(), answers.end(), [](const Answer& a) { return a.killed_from_outside; });
     if (killed) {  // the next start runs it again
@@ -227,7 +226,7 @@ class StudyRunner {
       std::string metric;
       for (const std::size_t place : ladder.cells) {
         const PlannedCell& planned = plan_.cells[place];
-        const Json* row = results_.find(planned.id);
+        const Row* row = results_.find(planned.id);
         if (row == nullptr) continue;
         if (const auto point = ladder_point(*row, knob_value(planned.cell, ladder.knob), metric))
           points.push_back(*point);

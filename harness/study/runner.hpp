@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "rows/results_file.hpp"
 #include "study/ranks.hpp"
-#include "study/results.hpp"
 #include "study/study.hpp"
 #include "study/study_plan.hpp"
 

@@ -39,9 +39,8 @@ std::string trajectory_of(const std::filesystem::path& results, const Cell& cell
   return cell_file(results, cell, "trajectories", ".plt");
 }
 
-bool wants_recording(const std::filesystem::path& results, const Cell& cell, const Json& row, bool is_new) {
-  const std::string status = row.value("status", "");
-  if (status == "timeout" || status == "unjudged" || status == "out_of_memory") return false;
+bool wants_recording(const std::filesystem::path& results, const Cell& cell, const Row& row, bool is_new) {
+  if (row.status == "timeout" || row.status == "unjudged" || row.status == "out_of_memory") return false;
   return is_new || !std::filesystem::exists(trajectory_of(results, cell));
 }
 

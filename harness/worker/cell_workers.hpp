@@ -7,6 +7,7 @@
 #include <string>
 
 #include "cell/cell.hpp"
+#include "rows/row.hpp"
 #include "worker/contention.hpp"
 #include "worker/worker_process.hpp"
 
@@ -51,7 +52,6 @@ class CellWorkers {
 [[nodiscard]] std::string trajectory_of(const std::filesystem::path& results, const Cell& cell);
 /// Whether a cell that came out as `row` is to be run once more for it: not when it would only fail again, nor when the
 /// recording of a row of old is there.
-[[nodiscard]] bool wants_recording(const std::filesystem::path& results, const Cell& cell, const Json& row,
-                                   bool is_new);
+[[nodiscard]] bool wants_recording(const std::filesystem::path& results, const Cell& cell, const Row& row, bool is_new);
 
 }  // namespace plumb::harness

@@ -50,22 +50,20 @@ ProcessorTime processor_time() {
   return time;
 }
 
-Json contended(const Load& load, unsigned cores, unsigned threads, unsigned ranks) {
+std::optional<Contention> contended(const Load& load, unsigned cores, unsigned threads, unsigned ranks) {
   const unsigned asked = threads * std::max(1u, ranks);
   const double all = load.others + threads;
   if (asked > cores) {
     const std::string who =
         ranks > 1 ? fmt::format("{} processes of {} threads", ranks, threads) : fmt::format("{} threads", threads);
-    return {{"load", std::max<double>(asked, all)}, {"why", fmt::format("{} timed at once on {} cores", who, cores)}};
+    return Contention{std::max<double>(asked, all), fmt::format("{} timed at once on {} cores", who, cores)};
   }
   if (load.stolen > steal_allowed)
-    return {{"load", all},
-            {"why", fmt::format("the machine's host took {:.0f} % of its time away", 100 * load.stolen)}};
+    return Contention{all, fmt::format("the machine's host took {:.0f} % of its time away", 100 * load.stolen)};
   if (all > cores + spare_cores)
-    return {{"load", all},
-            {"why", fmt::format("other processes kept {:.1f} of {} cores busy beside {} of ours", load.others, cores,
-                                threads)}};
-  return nullptr;
+    return Contention{all, fmt::format("other processes kept {:.1f} of {} cores busy beside {} of ours", load.others,
+                                       cores, threads)};
+  return std::nullopt;
 }
 
 LoadWatch::LoadWatch() { moments_.push_back({Clock::now(), processor_time(), 0}); }

@@ -8,8 +8,9 @@
 #include <chrono>
 #include <cstdint>
 #include <deque>
+#include <optional>
 
-#include "base/json.hpp"
+#include "rows/row.hpp"
 
 namespace plumb::harness {
 
@@ -30,9 +31,9 @@ struct Load {
   double stolen = 0;   ///< share of the time of all cores
 };
 
-/// null, or {"load", "why"} (see the contract of rows): `threads` of ours beside `others` on `cores`, of which `ranks`
+/// None, or why: `threads` of ours beside `others` on `cores`, of which `ranks`
 /// processes like this one make use at the same time. Load is the number of cores that all together ask for.
-[[nodiscard]] Json contended(const Load& load, unsigned cores, unsigned threads, unsigned ranks);
+[[nodiscard]] std::optional<Contention> contended(const Load& load, unsigned cores, unsigned threads, unsigned ranks);
 
 /// Watches one worker. Processors count time in hundredths of a second, so a short answer is judged with the time
 /// before it.

@@ -16,6 +16,7 @@
 
 #include "base/json.hpp"
 #include "cell/progress.hpp"
+#include "rows/row.hpp"
 
 namespace plumb::harness {
 
@@ -41,10 +42,10 @@ struct Answer {
   std::string status = "ok";  ///< or crashed, timeout, unjudged, out_of_time, out_of_memory, error
   std::string reason;
   Json json;
-  bool killed_from_outside = false;  ///< by a signal that neither this program nor a fault sent
-  bool restarted = false;            ///< after it had been killed so once
-  double wall_seconds = 0;           ///< that it took
-  Json contended = nullptr;          ///< see contended(): whether the machine had more to do than cores
+  bool killed_from_outside = false;     ///< by a signal that neither this program nor a fault sent
+  bool restarted = false;               ///< after it had been killed so once
+  double wall_seconds = 0;              ///< that it took
+  std::optional<Contention> contended;  ///< whether the machine had more to do than cores
 };
 
 class WorkerProcess {

@@ -4,7 +4,7 @@
 #include <fstream>
 
 #include "program.hpp"
-#include "rows/row_format.hpp"
+#include "rows/row.hpp"
 
 namespace plumb::harness::testing {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "cell/metric_rows.hpp"
 #include "program.hpp"
-#include "study/row.hpp"
+#include "study/row_of_cell.hpp"
 
 namespace plumb::harness::testing {
 namespace {
@@ -79,7 +79,7 @@ TEST(Rows, of_repetitions_take_the_worst_and_note_other_hashes) {
   Answer first, second;
   first.json = {{"status", "ok"}, {"step_ms", {1, 2, 3}}, {"setup_ms", 1}, {"hash", "a"}};
   second.json = {{"status", "failed"}, {"reason", "x"}, {"step_ms", {4, 5}}, {"setup_ms", 2}, {"hash", "b"}};
-  const Json row = make_row(cell, {first, second}, Json::object());
+  const Json row = to_json(make_row(cell, {first, second}, Json::object()));
   EXPECT_EQ(row["status"], "failed");
   EXPECT_EQ(row["time"]["ms_per_step"]["median"], 3);
   EXPECT_EQ(row["time"]["ms_per_step"]["max"], 5);
@@ -94,7 +94,7 @@ TEST(Judgement, thresholds_are_missed_by_more_by_nan_and_by_silence) {
   const Judgement judgement =
       judge({metric("just", 0.1), metric("more", 0.11), metric("nan", NAN), metric("unlisted", 9)},
             {spec("just"), spec("more"), spec("nan"), spec("silent"), spec("may_be_silent", true)}, {});
-  const Json& rows = judgement.metrics;
+  const Json rows = to_json(judgement.metrics);
   EXPECT_EQ(rows["just"]["pass"], true);
   EXPECT_EQ(rows["more"]["pass"], false);
   EXPECT_EQ(rows["nan"]["pass"], false);

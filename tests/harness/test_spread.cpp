@@ -30,12 +30,12 @@ TEST(Spread, the_interval_is_about_the_geometric_mean) {
 }
 
 TEST(Contention, is_more_work_than_cores) {
-  EXPECT_TRUE(contended({1, 0.1, 0}, 2, 1, 1).is_null());
-  EXPECT_TRUE(contended({1, 1.0, 0}, 2, 1, 1).is_null()) << "the other core is theirs";
-  EXPECT_NEAR(contended({1, 1.8, 0}, 2, 1, 1)["load"].get<double>(), 2.8, 1e-9);
-  EXPECT_EQ(contended({1, 0, 0}, 2, 1, 4)["load"], 4.0) << "four processes at once";
-  EXPECT_EQ(contended({1, 0, 0}, 2, 3, 1)["load"], 3.0) << "three threads";
-  EXPECT_NE(contended({1, 0, 0.2}, 2, 1, 1)["why"].get<std::string>().find("20 %"), std::string::npos);
+  EXPECT_FALSE(contended({1, 0.1, 0}, 2, 1, 1));
+  EXPECT_FALSE(contended({1, 1.0, 0}, 2, 1, 1)) << "the other core is theirs";
+  EXPECT_NEAR(contended({1, 1.8, 0}, 2, 1, 1)->load.value(), 2.8, 1e-9);
+  EXPECT_EQ(contended({1, 0, 0}, 2, 1, 4)->load, 4.0) << "four processes at once";
+  EXPECT_EQ(contended({1, 0, 0}, 2, 3, 1)->load, 3.0) << "three threads";
+  EXPECT_NE(contended({1, 0, 0.2}, 2, 1, 1)->why.find("20 %"), std::string::npos);
   EXPECT_GT(processor_time().busy, 0);
 }
 
@@ -52,8 +52,9 @@ TEST(Refinement, puts_points_where_the_curve_bends) {
 }
 
 TEST(Refinement, judges_a_ladder_by_its_first_metric_with_a_threshold) {
-  const Json row = Json::parse(R"({"status": "ok", "metrics": {"note": {"error": 1, "threshold": null},
-    "angle": {"error": -0.5, "truth": 2, "unit": "rad", "threshold": 1}, "b": {"error": 3, "threshold": 1}}})");
+  const Row row = parse_row(Json::parse(R"({"status": "ok", "metrics": {"note": {"error": 1, "threshold": null},
+    "angle": {"error": -0.5, "truth": 2, "unit": "rad", "threshold": 1}, "b": {"error": 3, "threshold": 1}}})"),
+                            0);
   std::string metric;
   const auto point = ladder_point(row, 4, metric);
   ASSERT_TRUE(point.has_value());
@@ -61,14 +62,16 @@ TEST(Refinement, judges_a_ladder_by_its_first_metric_with_a_threshold) {
   EXPECT_EQ(point->error, 0.5);
   metric = "b";
   EXPECT_EQ(ladder_point(row, 4, metric)->error, 3);
-  EXPECT_FALSE(ladder_point(Json{{"status", "crashed"}, {"metrics", Json::object()}}, 4, metric).has_value());
+  EXPECT_FALSE(ladder_point(parse_row({{"status", "crashed"}, {"metrics", Json::object()}}, 0), 4, metric).has_value());
 }
 
 TEST(Costs, are_those_of_cells_alike) {
   CostModel costs;
   EXPECT_EQ(costs.typical_seconds(), 1);
-  costs.learn(Json::parse(R"({"scene": "X1", "params": {"H": 2.0, "seed": 3}, "backend": "a", "dt": 0.01, "seconds": 1,
-    "repeats": 2, "time": {"wall_s": 4}, "settings": {"k": 10}, "knobs": ["k"]})"));
+  costs.learn(parse_row(
+      Json::parse(R"({"scene": "X1", "params": {"H": 2.0, "seed": 3}, "backend": "a", "dt": 0.01, "seconds": 1,
+    "repeats": 2, "time": {"wall_s": 4}, "settings": {"k": 10}, "knobs": ["k"]})"),
+      0));
   EXPECT_EQ(costs.typical_seconds(), 2);
   SettingDescription knob;
   knob.name = "k";

@@ -6,8 +6,8 @@
 #include <map>
 #include <set>
 
+#include "base/format.hpp"
 #include "replay/bundle.hpp"
-#include "rows/result_row.hpp"
 
 namespace plumb::harness {
 

@@ -21,8 +21,8 @@
 #include "report/text/failures.hpp"
 #include "report/text/markdown.hpp"
 #include "report/text/terminal.hpp"
-#include "rows/results_file.hpp"
 #include "rows/results_folder.hpp"
+#include "rows/results_reader.hpp"
 #include "scene/catalogue.hpp"
 
 namespace plumb::harness {
@@ -49,7 +49,7 @@ std::map<std::string, SceneText> scene_texts() {
   return texts;
 }
 
-std::string page_text(const std::vector<Json>& rows, PageOptions page) {
+std::string page_text(const std::vector<Row>& rows, PageOptions page) {
   const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
   page.written = fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(now));
   page.scenes = scene_texts();
@@ -59,7 +59,7 @@ std::string page_text(const std::vector<Json>& rows, PageOptions page) {
 }
 
 /// The folder's rows; what is wrong with some is said, and none at all is an error.
-std::vector<Json> rows_of(const std::string& folder) {
+std::vector<Row> rows_of(const std::string& folder) {
   Results results = read_results(std::filesystem::path(folder));
   for (const std::size_t line : results.unreadable_lines) {
     fmt::print(stderr, "plumb: line {} of the results in {} is no JSON object and is left out\n", line, folder);
@@ -75,7 +75,7 @@ bool has_recordings_alone(const std::string& folder) {
   return results_files(folder).empty() && std::filesystem::is_directory(folder + "/trajectories", ignored);
 }
 
-PageOptions page_options(const ReportOptions& options, const std::vector<Json>& baseline) {
+PageOptions page_options(const ReportOptions& options, const std::vector<Row>& baseline) {
   PageOptions page{{}, fmt::format("{}", fmt::join(options.folders, ", ")), {}, {}, {}};
   for (const std::string& folder : options.folders) {
     const Json study = read_study(folder);
@@ -90,8 +90,8 @@ PageOptions page_options(const ReportOptions& options, const std::vector<Json>& 
 }
 
 /// Prints what changed, in the form that was asked for, and returns whether something got worse.
-bool report_against(const ReportOptions& options, const std::vector<Json>& rows, const std::vector<Json>& baseline) {
-  const Study before(parse_rows(baseline)), after(parse_rows(rows));
+bool report_against(const ReportOptions& options, const std::vector<Row>& rows, const std::vector<Row>& baseline) {
+  const Study before(baseline), after(rows);
   const Comparison comparison = compare_results(before.rows, after.rows, options.limits);
   if (options.markdown) {
     write_against_markdown(std::cout, comparison, before, after, options.against, options.limits);
@@ -107,12 +107,15 @@ bool report_against(const ReportOptions& options, const std::vector<Json>& rows,
 int report(const ReportOptions& options) {
   std::optional<DraftFile> file;
   if (!options.html.empty()) file.emplace(options.html);
-  std::vector<Json> rows;
+  std::vector<Row> rows;
   for (const std::string& folder : options.folders) {
     if (file && has_recordings_alone(folder)) continue;
-    for (Json& row : rows_of(folder)) rows.push_back(std::move(row));
+    for (Row& row : rows_of(folder)) {
+      row.origin.index = rows.size();
+      rows.push_back(std::move(row));
+    }
   }
-  const std::vector<Json> baseline = options.against.empty() ? std::vector<Json>() : rows_of(options.against);
+  const std::vector<Row> baseline = options.against.empty() ? std::vector<Row>() : rows_of(options.against);
   if (file) {
     PageOptions page = page_options(options, baseline);
     // Of several machines one was looked at, if any.
@@ -126,7 +129,7 @@ int report(const ReportOptions& options) {
   if (options.failures) write_failures(std::cout, rows);
   if (options.csv) write_csv(std::cout, rows);
   if (options.json) {
-    for (const Json& row : rows) std::cout << line_of(row) << '\n';
+    for (const Row& row : rows) std::cout << line_of(to_json(row)) << '\n';
   }
   if (options.html.empty() && !options.markdown && !options.csv && !options.json && !options.failures) {
     print_comparison(std::cout, rows, terminal_width(), wants_colour());

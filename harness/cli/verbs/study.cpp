@@ -118,14 +118,13 @@ int run_study_verb(const StudyVerbOptions& options) {
   {
     ProgressBar bar(true);
     StudyCallbacks callbacks;
-    callbacks.finished = [&](const Json& row, bool is_new) {
-      const std::string status = row.value("status", "error");
-      ++statuses[row.value("backend", "")][status];
+    callbacks.finished = [&](const Row& row, bool is_new) {
+      ++statuses[row.backend][row.status];
       ++finished;
-      missed = missed || (status != "ok" && status != "unsupported");
+      missed = missed || (row.status != "ok" && row.status != "unsupported");
       if (!options.json || (!is_new && !ranks.speaks())) return;
       bar.clear();
-      std::cout << line_of(row) << std::endl;  // whoever reads the pipe has it at once
+      std::cout << line_of(to_json(row)) << std::endl;  // whoever reads the pipe has it at once
     };
     if (ranks.speaks()) callbacks.progress = [&](const StudyProgress& progress) { bar.draw(progress); };
     try {

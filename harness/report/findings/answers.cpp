@@ -33,7 +33,7 @@ const Problem* problem_of(const Study& study, const std::string& slug, const std
   const Problem* nearest = nullptr;
   double least = never;
   for (const Problem& problem : study.problems) {
-    const ResultRow& row = *problem.rows.front();
+    const Row& row = *problem.rows.front();
     if (row.slug != slug) continue;
     const auto found = row.params.find(parameter);
     // Of equals the one with the fewest other parameters is the plain one.
@@ -76,7 +76,7 @@ AnswerLine cost_line(const Study& study, const CostLine& line, std::size_t targe
                  line.floor->row};
     if (!line.floor->row->passes()) statement.text += ", which misses " + line.floor->row->missed();
   } else {
-    const ResultRow& row = *line.representative;
+    const Row& row = *line.representative;
     statement = {row.completed() ? "never, in any configuration here" : "did not come through: " + row.missed(), &row};
   }
   return {line.backend, {statement}, false};
@@ -206,7 +206,7 @@ AnsweredQuestion losing_answer(const std::vector<CostTest>& tests, const std::ve
     if (const std::size_t lost = overview.lost.size(); lost > 0) {
       std::vector<Statement> names;
       for (const auto* rows : {&overview.broken, &overview.failures}) {
-        for (const ResultRow* row : *rows) names.push_back({row_title(*row), row});
+        for (const Row* row : *rows) names.push_back({row_title(*row), row});
       }
       parts.push_back(
           name_some(fmt::format("fails {} of {} scene variants at its defaults:", lost, overview.problems), names));

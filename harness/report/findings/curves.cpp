@@ -9,12 +9,12 @@
 namespace plumb::harness {
 namespace {
 
-bool is_knob(const ResultRow& row, const std::string& setting) {
-  return std::find(row.knobs.begin(), row.knobs.end(), setting) != row.knobs.end();
+bool is_knob(const Row& row, const std::string& setting) {
+  return std::find(row.engine.knobs.begin(), row.engine.knobs.end(), setting) != row.engine.knobs.end();
 }
 
 /// What two rows share when they are of one method.
-std::string method_key(const ResultRow& row) {
+std::string method_key(const Row& row) {
   Json fixed = Json::object();
   for (const auto& [name, value] : row.settings.items()) {
     if (!is_knob(row, name)) fixed[name] = value;
@@ -23,39 +23,39 @@ std::string method_key(const ResultRow& row) {
 }
 
 /// What they share when they are on one curve along the knob.
-std::string curve_key(const ResultRow& row, const std::string& knob) {
+std::string curve_key(const Row& row, const std::string& knob) {
   Json fixed = row.settings;
   fixed.erase(knob);
   return value_text(fixed);
 }
 
-double value_of(const ResultRow& row, const std::string& knob) { return row.settings.at(knob).get<double>(); }
+double value_of(const Row& row, const std::string& knob) { return row.settings.at(knob).get<double>(); }
 
-bool has_value(const ResultRow& row, const std::string& knob) {
+bool has_value(const Row& row, const std::string& knob) {
   return row.settings.contains(knob) && row.settings[knob].is_number();
 }
 
 /// Every state is known, and all are the same.
 bool ends_alike(const Curve& curve) {
   return std::all_of(curve.rows.begin(), curve.rows.end(),
-                     [&](const ResultRow* row) { return !row->hash.empty() && row->hash == curve.rows.front()->hash; });
+                     [&](const Row* row) { return !row->hash.empty() && row->hash == curve.rows.front()->hash; });
 }
 
-bool has_default_knobs(const ResultRow& row) {
-  return std::none_of(row.knobs.begin(), row.knobs.end(),
+bool has_default_knobs(const Row& row) {
+  return std::none_of(row.engine.knobs.begin(), row.engine.knobs.end(),
                       [&](const std::string& knob) { return !at_default(row, knob); });
 }
 
-std::vector<Curve> curves_along_knobs(const std::vector<const ResultRow*>& rows) {
+std::vector<Curve> curves_along_knobs(const std::vector<const Row*>& rows) {
   std::vector<Curve> curves;
-  for (const std::string& knob : rows.front()->knobs) {
+  for (const std::string& knob : rows.front()->engine.knobs) {
     std::map<std::string, Curve> by_key;
-    for (const ResultRow* row : rows) {
+    for (const Row* row : rows) {
       if (has_value(*row, knob)) by_key[curve_key(*row, knob)].rows.push_back(row);
     }
     for (auto& [key, curve] : by_key) {
       std::stable_sort(curve.rows.begin(), curve.rows.end(),
-                       [&](const ResultRow* a, const ResultRow* b) { return value_of(*a, knob) < value_of(*b, knob); });
+                       [&](const Row* a, const Row* b) { return value_of(*a, knob) < value_of(*b, knob); });
       if (value_of(*curve.rows.front(), knob) == value_of(*curve.rows.back(), knob)) continue;
       curve.knob = knob;
       curves.push_back(std::move(curve));
@@ -64,9 +64,9 @@ std::vector<Curve> curves_along_knobs(const std::vector<const ResultRow*>& rows)
   return curves;
 }
 
-MethodCurves curves_of(const std::vector<const ResultRow*>& rows) {
+MethodCurves curves_of(const std::vector<const Row*>& rows) {
   MethodCurves out{0, {}, {}, {}};
-  for (const ResultRow* row : rows) {
+  for (const Row* row : rows) {
     if (!row->completed()) out.broken.push_back(row);
   }
   for (Curve& curve : curves_along_knobs(rows)) {
@@ -77,20 +77,19 @@ MethodCurves curves_of(const std::vector<const ResultRow*>& rows) {
     }
   }
   if (out.curves.empty()) {
-    const auto usual =
-        std::find_if(rows.begin(), rows.end(), [](const ResultRow* row) { return has_default_knobs(*row); });
+    const auto usual = std::find_if(rows.begin(), rows.end(), [](const Row* row) { return has_default_knobs(*row); });
     out.curves.push_back({"", {usual == rows.end() ? rows.front() : *usual}});
   }
   return out;
 }
 
 /// The problem's rows by method, time step and duration.
-std::vector<std::vector<const ResultRow*>> rows_of_methods(const Problem& problem) {
-  std::vector<std::vector<const ResultRow*>> groups;
+std::vector<std::vector<const Row*>> rows_of_methods(const Problem& problem) {
+  std::vector<std::vector<const Row*>> groups;
   std::map<std::string, std::size_t> places;
   const bool has_own =
-      std::any_of(problem.rows.begin(), problem.rows.end(), [](const ResultRow* row) { return row->own_needs(); });
-  for (const ResultRow* row : problem.rows) {
+      std::any_of(problem.rows.begin(), problem.rows.end(), [](const Row* row) { return row->own_needs(); });
+  for (const Row* row : problem.rows) {
     if (has_own && !row->own_needs()) continue;  // it answers another question (needs.hpp)
     // Seeds have lines of their own: beside each other they show how far apart outcomes lie.
     const std::string times =
@@ -106,7 +105,7 @@ std::vector<std::vector<const ResultRow*>> rows_of_methods(const Problem& proble
 /// stands already, what it does by itself needs no words.
 class Labels {
  public:
-  void add(const ResultRow& row) {
+  void add(const Row& row) {
     note("backend", row.backend);
     note("profile", row.profile);
     note("threads", threads(row));
@@ -114,21 +113,21 @@ class Labels {
       if (!is_knob(row, name)) note(row.backend + ":" + name, value_text(value));
     }
   }
-  [[nodiscard]] std::string of(const ResultRow& row) const {
+  [[nodiscard]] std::string of(const Row& row) const {
     std::string out;
     const auto add = [&](const std::string& text) { out += (out.empty() ? "" : ", ") + text; };
     if (varies("backend")) add(row.backend);
     if (varies("profile") && row.profile != "default") add(row.profile);
     if (varies("threads")) add(threads(row));
     for (const auto& [name, value] : row.settings.items()) {
-      const bool is_own = varies("backend") && row.tells_defaults && at_default(row, name);
+      const bool is_own = varies("backend") && row.engine.tells_defaults && at_default(row, name);
       if (!is_knob(row, name) && !is_own && varies(row.backend + ":" + name)) add(name + " " + value_text(value));
     }
     return out.empty() ? row.backend : out;
   }
 
  private:
-  static std::string threads(const ResultRow& row) {
+  static std::string threads(const Row& row) {
     return row.threads ? shortest_number(*row.threads) + (*row.threads == 1 ? " thread" : " threads") : "";
   }
   void note(const std::string& what, const std::string& value) { values_[what].insert(value); }
@@ -147,26 +146,26 @@ bool turns_something(const MethodCurves& method) {
 
 /// Settings that make methods were turned, of a backend with knobs, and no cell of all came through: what would have
 /// been curves.
-bool lacks_methods(const std::vector<std::vector<const ResultRow*>>& groups) {
+bool lacks_methods(const std::vector<std::vector<const Row*>>& groups) {
   std::map<std::string, int> methods;
   for (const auto& rows : groups) {
-    if (std::any_of(rows.begin(), rows.end(), [](const ResultRow* row) { return row->completed(); })) return false;
-    const ResultRow& row = *rows.front();
-    if (!row.knobs.empty()) ++methods[value_text(Json::array({row.backend, row.profile}))];
+    if (std::any_of(rows.begin(), rows.end(), [](const Row* row) { return row->completed(); })) return false;
+    const Row& row = *rows.front();
+    if (!row.engine.knobs.empty()) ++methods[value_text(Json::array({row.backend, row.profile}))];
   }
   return std::any_of(methods.begin(), methods.end(), [](const auto& backend) { return backend.second > 1; });
 }
 
 }  // namespace
 
-bool at_default(const ResultRow& row, const std::string& knob) { return !row.defaults.contains(knob); }
+bool at_default(const Row& row, const std::string& knob) { return !row.engine.defaults.contains(knob); }
 
 CurveSet::CurveSet(const Study& study) {
-  std::vector<const ResultRow*> first_rows;  // of methods
+  std::vector<const Row*> first_rows;  // of methods
   std::map<std::string, std::size_t> places;
   for (const Problem& problem : study.problems) {
     ProblemCurves found{&problem, {}};
-    std::vector<std::vector<const ResultRow*>> groups = rows_of_methods(problem);
+    std::vector<std::vector<const Row*>> groups = rows_of_methods(problem);
     for (const auto& rows : groups) found.methods.push_back(curves_of(rows));
     if (std::none_of(found.methods.begin(), found.methods.end(), turns_something) && !lacks_methods(groups)) continue;
     for (std::size_t i = 0; i < groups.size(); ++i) {
@@ -175,15 +174,15 @@ CurveSet::CurveSet(const Study& study) {
       found.methods[i].method = place->second;
       if (!turns_something(found.methods[i])) continue;
       std::copy_if(groups[i].begin(), groups[i].end(), std::inserter(turned_, turned_.end()),
-                   [](const ResultRow* row) { return !has_default_knobs(*row); });
+                   [](const Row* row) { return !has_default_knobs(*row); });
     }
     std::stable_sort(found.methods.begin(), found.methods.end(),
                      [](const MethodCurves& a, const MethodCurves& b) { return a.method < b.method; });
     problems.push_back(std::move(found));
   }
   Labels labels;
-  for (const ResultRow* row : first_rows) labels.add(*row);
-  for (const ResultRow* row : first_rows) methods.push_back({row->backend, labels.of(*row)});
+  for (const Row* row : first_rows) labels.add(*row);
+  for (const Row* row : first_rows) methods.push_back({row->backend, labels.of(*row)});
 }
 
 }  // namespace plumb::harness

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "report/ordered/study.hpp"
+#include "rows/row.hpp"
 
 namespace plumb::harness {
 
@@ -18,16 +19,16 @@ struct Method {
 
 /// All that a method did on a problem along one knob.
 struct Curve {
-  std::string knob;                    ///< "" for a cell that is on no curve
-  std::vector<const ResultRow*> rows;  ///< at least one; by the knob's value, rising
+  std::string knob;              ///< "" for a cell that is on no curve
+  std::vector<const Row*> rows;  ///< at least one; by the knob's value, rising
 };
 
 /// A method on a problem, at one time step and duration.
 struct MethodCurves {
-  std::size_t method;             ///< place in CurveSet::methods
-  std::vector<Curve> curves;      ///< those whose knob does something; else the cell with the default knobs
-  std::vector<std::string> idle;  ///< knobs that were turned and changed nothing: every state ended with the same bits
-  std::vector<const ResultRow*> broken;  ///< cells that did not run to their end
+  std::size_t method;              ///< place in CurveSet::methods
+  std::vector<Curve> curves;       ///< those whose knob does something; else the cell with the default knobs
+  std::vector<std::string> idle;   ///< knobs that were turned and changed nothing: every state ended with the same bits
+  std::vector<const Row*> broken;  ///< cells that did not run to their end
 };
 
 struct ProblemCurves {
@@ -45,13 +46,13 @@ class CurveSet {
       problems;  ///< in the study's order; with a knob that was turned, or methods none of which ran
 
   /// The row is here because of a knob that is not at the engine's own value.
-  [[nodiscard]] bool is_turned(const ResultRow& row) const { return turned_.contains(&row); }
+  [[nodiscard]] bool is_turned(const Row& row) const { return turned_.contains(&row); }
 
  private:
-  std::set<const ResultRow*> turned_;
+  std::set<const Row*> turned_;
 };
 
 /// The knob's value stands at the engine's own.
-[[nodiscard]] bool at_default(const ResultRow& row, const std::string& knob);
+[[nodiscard]] bool at_default(const Row& row, const std::string& knob);
 
 }  // namespace plumb::harness

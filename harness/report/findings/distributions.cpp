@@ -11,9 +11,8 @@ namespace {
 constexpr std::size_t fewest_seeds = 3;
 
 /// The seeds that a backend ran with at its defaults; empty where it did not.
-std::vector<const ResultRow*> seeds_at_defaults(const Study& study, const Problem& problem,
-                                                const std::string& backend) {
-  const ResultRow* representative = default_run(study, problem, backend);
+std::vector<const Row*> seeds_at_defaults(const Study& study, const Problem& problem, const std::string& backend) {
+  const Row* representative = default_run(study, problem, backend);
   if (!representative) return {};
   for (Sample& sample : samples_of(problem, backend)) {
     if (std::find(sample.rows.begin(), sample.rows.end(), representative) != sample.rows.end())
@@ -23,10 +22,10 @@ std::vector<const ResultRow*> seeds_at_defaults(const Study& study, const Proble
 }
 
 /// Metrics by name, in order of appearance, of runs that came through.
-std::vector<const MetricResult*> metrics_of(const std::vector<std::vector<const ResultRow*>>& seeds) {
+std::vector<const MetricResult*> metrics_of(const std::vector<std::vector<const Row*>>& seeds) {
   std::vector<const MetricResult*> metrics;
   for (const auto& rows : seeds) {
-    for (const ResultRow* row : rows) {
+    for (const Row* row : rows) {
       if (!row->completed()) continue;
       for (const MetricResult& metric : row->metrics) {
         const bool known =
@@ -38,12 +37,12 @@ std::vector<const MetricResult*> metrics_of(const std::vector<std::vector<const 
   return metrics;
 }
 
-DistributionCell cell_of(const std::vector<const ResultRow*>& rows, const MetricResult& like) {
+DistributionCell cell_of(const std::vector<const Row*>& rows, const MetricResult& like) {
   DistributionCell cell;
   cell.runs = rows.size();
   std::vector<double> numbers;
-  const ResultRow *largest = nullptr, *without = nullptr;
-  for (const ResultRow* row : rows) {
+  const Row *largest = nullptr, *without = nullptr;
+  for (const Row* row : rows) {
     const MetricResult* metric = row->completed() ? row->metric(like.name) : nullptr;
     const std::optional<double> number = !metric ? std::nullopt : like.scored() ? metric->error : metric->value;
     cell.passed += metric && like.scored() && metric->pass.value_or(false);
@@ -66,7 +65,7 @@ DistributionCell cell_of(const std::vector<const ResultRow*>& rows, const Metric
 std::vector<DistributionLine> distributions(const Study& study) {
   std::vector<DistributionLine> lines;
   for (const Problem& problem : study.problems) {
-    std::vector<std::vector<const ResultRow*>> seeds;
+    std::vector<std::vector<const Row*>> seeds;
     bool any = false;
     for (const std::string& backend : study.backends) {
       seeds.push_back(seeds_at_defaults(study, problem, backend));
@@ -75,7 +74,7 @@ std::vector<DistributionLine> distributions(const Study& study) {
     }
     if (!any) continue;
     for (const MetricResult* metric : metrics_of(seeds)) {
-      std::vector<const ResultRow*> all;
+      std::vector<const Row*> all;
       for (const auto& rows : seeds) all.insert(all.end(), rows.begin(), rows.end());
       DistributionLine line{&problem, metric->name, metric->unit, metric->scored(), is_yes_or_no(all, metric->name),
                             {}};

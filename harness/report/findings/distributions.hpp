@@ -8,6 +8,7 @@
 
 #include "report/ordered/sample.hpp"
 #include "report/ordered/study.hpp"
+#include "rows/row.hpp"
 
 namespace plumb::harness {
 
@@ -15,7 +16,7 @@ struct DistributionCell {
   std::size_t runs = 0, passed = 0;  ///< passed: of those, within the metric's threshold; 0 where it has none
   /// Of the errors, or of the values where there is no truth; over the runs that have one.
   std::optional<double> least, median, most;
-  const ResultRow* row = nullptr;  ///< the run of the largest, or one that has none
+  const Row* row = nullptr;  ///< the run of the largest, or one that has none
 };
 
 struct DistributionLine {

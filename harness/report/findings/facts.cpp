@@ -14,7 +14,7 @@ namespace {
 
 /// Some run of the problem is held against a threshold of it.
 bool scores(const Problem& problem, std::string_view name) {
-  return std::any_of(problem.rows.begin(), problem.rows.end(), [&](const ResultRow* row) {
+  return std::any_of(problem.rows.begin(), problem.rows.end(), [&](const Row* row) {
     const MetricResult* metric = row->metric(name);
     return metric && metric->scored();
   });
@@ -26,7 +26,7 @@ constexpr std::size_t examples = 3;  ///< how many cells a statement names befor
 
 std::string percent_text(double share) { return short_number(100 * share, 2) + " %"; }
 
-std::string row_title(const ResultRow& row) {
+std::string row_title(const Row& row) {
   const std::string variant = row.variant();
   return variant.empty() ? row.scene : row.scene + " " + variant;
 }
@@ -39,7 +39,7 @@ EnergyFacts energy_of(const Study& study, const std::string& backend) {
   EnergyFacts facts;
   std::vector<double> drifts;
   for (const Problem& problem : study.problems) {
-    const ResultRow* row = default_run(study, problem, backend);
+    const Row* row = default_run(study, problem, backend);
     if (!row || says_nothing(row->verdict()) || !scores(problem, "energy_drift")) continue;
     const MetricResult* metric = row->completed() ? row->metric("energy_drift") : nullptr;
     if (!metric || !metric->error) {
@@ -87,7 +87,7 @@ Statement energy_statement(const EnergyFacts& facts) {
   };
   beyond(facts.all_drifts, facts.drifts, "of all runs that should keep it, beyond 1 %");
   beyond(facts.all_rises, 0, "its rises alone, which contacts give back in part, sum up to more than 1 %");
-  const ResultRow* row = facts.drift_row ? facts.drift_row : facts.lost_row;
+  const Row* row = facts.drift_row ? facts.drift_row : facts.lost_row;
   std::string text = fmt::format("{}", fmt::join(parts, "; "));
   if (facts.worst_drift <= conserving && row->missed() != "") text += "; that run misses " + row->missed();
   return {text, row};
@@ -95,17 +95,17 @@ Statement energy_statement(const EnergyFacts& facts) {
 
 FrictionFacts friction_of(const Study& study, const std::string& backend) {
   FrictionFacts facts;
-  const auto spread = [](const ResultRow* row) -> std::optional<double> {
+  const auto spread = [](const Row* row) -> std::optional<double> {
     const MetricResult* metric = row && row->completed() ? row->metric("spread") : nullptr;
     return metric && row->slug == "sliding-stop" ? metric->error : std::nullopt;
   };
   for (const Problem& problem : study.problems) {
-    const ResultRow* usual = default_run(study, problem, backend);
+    const Row* usual = default_run(study, problem, backend);
     if (const auto value = spread(usual); value && (!facts.row || *value > facts.spread)) {
       facts.row = usual;
       facts.spread = *value;
     }
-    for (const ResultRow* row : problem.rows) {
+    for (const Row* row : problem.rows) {
       const auto value = row->backend == backend && row->passes() ? spread(row) : std::nullopt;
       if (!value || (facts.best_row && *value >= facts.best_spread)) continue;
       facts.best_row = row;
@@ -159,7 +159,7 @@ std::vector<Beaten> beaten_at(const std::vector<CostTest>& tests, const std::str
   return out;
 }
 
-std::string failure_text(const ResultRow& row) {
+std::string failure_text(const Row& row) {
   if (!row.completed()) {
     std::string word(verdict_word(row.verdict()));
     std::replace(word.begin(), word.end(), '_', ' ');
@@ -174,9 +174,9 @@ std::string failure_text(const ResultRow& row) {
   return out;
 }
 
-std::vector<Statement> name_failures(const std::vector<const ResultRow*>& rows) {
+std::vector<Statement> name_failures(const std::vector<const Row*>& rows) {
   std::vector<Statement> out;
-  for (const ResultRow* row : rows) {
+  for (const Row* row : rows) {
     Statement statement{failure_text(*row), row};
     if (out.size() < examples) {
       out.push_back(std::move(statement));

@@ -9,13 +9,14 @@
 #include "report/findings/robustness.hpp"
 #include "report/ordered/cost.hpp"
 #include "report/ordered/study.hpp"
+#include "rows/row.hpp"
 
 namespace plumb::harness {
 
 /// A statement, and the run that shows it; null where many do.
 struct Statement {
   std::string text;
-  const ResultRow* row = nullptr;
+  const Row* row = nullptr;
   std::vector<Statement> more = {};  ///< those that the text only counts: "and 16 more"
 };
 
@@ -23,10 +24,10 @@ struct Statement {
 struct EnergyFacts {
   std::size_t drifts = 0;                    ///< runs of scenes that score it: metric energy_drift
   double worst_drift = 0, median_drift = 0;  ///< largest on the way, relative
-  const ResultRow* drift_row = nullptr;
+  const Row* drift_row = nullptr;
   bool gains = false;    ///< the worst one ended with more than it began with
   std::size_t lost = 0;  ///< runs of such scenes that did not come through, or whose energy is not finite
-  const ResultRow* lost_row = nullptr;
+  const Row* lost_row = nullptr;
   /// What robustness() tells of the same runs and of all others: of drifts, and of the sums of all rises. Here and
   /// there the numbers are the same, since they are those.
   std::optional<RobustnessCell> all_drifts, all_rises;
@@ -45,9 +46,9 @@ inline constexpr double cone_spread = 0.02;     ///< the scene's threshold
 
 /// How the stopping distance depends on the heading (metric `spread` of the scene with slug sliding-stop).
 struct FrictionFacts {
-  const ResultRow* row = nullptr;  ///< at the defaults; null where nothing was measured. Of variants the worst
+  const Row* row = nullptr;  ///< at the defaults; null where nothing was measured. Of variants the worst
   double spread = 0;
-  const ResultRow* best_row = nullptr;  ///< any configuration
+  const Row* best_row = nullptr;  ///< any configuration
   double best_spread = 0;
 
   [[nodiscard]] bool pyramid() const { return row && spread >= pyramid_spread; }
@@ -73,13 +74,13 @@ struct Beaten {
 
 /// "D1 H=20: sink 0.4 m (truth 0), threshold 0.01" for a run that failed, "crashed in D1 H=20: SIGSEGV" for one that
 /// did not come through.
-[[nodiscard]] std::string failure_text(const ResultRow& row);
+[[nodiscard]] std::string failure_text(const Row& row);
 /// The first few as statements of their own, the rest behind "and 16 more".
-[[nodiscard]] std::vector<Statement> name_failures(const std::vector<const ResultRow*>& rows);
+[[nodiscard]] std::vector<Statement> name_failures(const std::vector<const Row*>& rows);
 
 /// 0.35 as "35 %".
 [[nodiscard]] std::string percent_text(double share);
 /// "D1 H=50"
-[[nodiscard]] std::string row_title(const ResultRow& row);
+[[nodiscard]] std::string row_title(const Row& row);
 
 }  // namespace plumb::harness

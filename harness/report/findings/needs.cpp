@@ -8,25 +8,25 @@ namespace {
 
 constexpr std::string_view more = "scene+";
 
-std::string key_without_needs(const ResultRow& row) {
-  return value_text(Json::array({row.scene, row.params, row.backend, row.backend_version, row.profile,
+std::string key_without_needs(const Row& row) {
+  return value_text(Json::array({row.scene, row.params, row.backend, row.engine.version, row.profile,
                                  row.dt.value_or(0), row.seconds.value_or(0), row.threads.value_or(0), row.settings}));
 }
 
 /// The need was free to do nothing, and did nothing: both did the same work.
-bool same_end(const ResultRow& a, const ResultRow& b) { return !a.hash.empty() && a.hash == b.hash; }
+bool same_end(const Row& a, const Row& b) { return !a.hash.empty() && a.hash == b.hash; }
 
-bool is_timed(const ResultRow& row) { return row.completed() && row.fair_ms().value_or(0) > 0; }
+bool is_timed(const Row& row) { return row.completed() && row.fair_ms().value_or(0) > 0; }
 
 }  // namespace
 
 std::vector<NeedCost> costs_of_needs(const Study& study) {
-  std::map<std::string, const ResultRow*> plain;
-  for (const ResultRow& row : study.rows) {
+  std::map<std::string, const Row*> plain;
+  for (const Row& row : study.rows) {
     if (is_timed(row) && row.own_needs()) plain[key_without_needs(row)] = &row;
   }
   std::map<std::pair<std::string, std::string>, NeedCost> found;
-  for (const ResultRow& row : study.rows) {
+  for (const Row& row : study.rows) {
     if (!is_timed(row) || row.own_needs()) continue;
     const auto without = plain.find(key_without_needs(row));
     if (without == plain.end()) continue;

@@ -7,12 +7,13 @@
 #include <vector>
 
 #include "report/ordered/study.hpp"
+#include "rows/row.hpp"
 #include "rows/statistics.hpp"
 
 namespace plumb::harness {
 
 struct NeedPair {
-  const ResultRow *with, *without;
+  const Row *with, *without;
   double factor;  ///< time with it over time without
 };
 

@@ -23,13 +23,13 @@ std::string plural(int count, const char* one, const char* many) {
   return plural(static_cast<std::size_t>(count), one, many);
 }
 
-std::string title(const ResultRow& row) {
+std::string title(const Row& row) {
   const std::string variant = row.variant();
   return variant.empty() ? row.scene : row.scene + " " + variant;
 }
 
 /// "tower (12x its threshold)"
-std::string worst_miss(const ResultRow& row) {
+std::string worst_miss(const Row& row) {
   const MetricResult* worst = row.worst();
   if (!worst || !worst->badness()) return title(row);
   if (!worst->error) return fmt::format("{} ({} not finite)", title(row), worst->name);
@@ -67,9 +67,9 @@ BackendOverview overview_of(const Study& study, const std::string& backend) {
   overview.backend = backend;
   std::map<std::string, std::pair<int, int>> passed_of;
   for (const Problem& problem : study.problems) {
-    const ResultRow* any = study.representative(problem, backend);
-    if (any && overview.version.empty()) overview.version = any->backend_version;
-    const ResultRow* row = default_run(study, problem, backend);
+    const Row* any = study.representative(problem, backend);
+    if (any && overview.version.empty()) overview.version = any->engine.version;
+    const Row* row = default_run(study, problem, backend);
     overview.elsewhere += any && !row;
     if (!row) continue;
     const Verdict verdict = row->verdict();
@@ -87,12 +87,12 @@ BackendOverview overview_of(const Study& study, const std::string& backend) {
       ++all;
     }
   }
-  const auto badness = [](const ResultRow* row) {
+  const auto badness = [](const Row* row) {
     const MetricResult* worst = row->worst();
     return worst ? worst->badness().value_or(0) : 0;
   };
   std::stable_sort(overview.failures.begin(), overview.failures.end(),
-                   [&](const ResultRow* a, const ResultRow* b) { return badness(a) > badness(b); });
+                   [&](const Row* a, const Row* b) { return badness(a) > badness(b); });
   find_groups(overview, passed_of);
   return overview;
 }
@@ -144,7 +144,7 @@ std::string describe_backend(const BackendOverview& o, bool alone) {
   if (!o.best_groups.empty()) {
     out += fmt::format(" Best in {}; weakest in {}.", fmt::join(o.best_groups, ", "), fmt::join(o.worst_groups, ", "));
   }
-  const auto name_some = [&](const char* verb, const std::vector<const ResultRow*>& rows, const auto& text) {
+  const auto name_some = [&](const char* verb, const std::vector<const Row*>& rows, const auto& text) {
     if (rows.empty()) return;
     std::vector<std::string> names;
     for (std::size_t i = 0; i < std::min(most_named, rows.size()); ++i) names.push_back(text(*rows[i]));
@@ -153,7 +153,7 @@ std::string describe_backend(const BackendOverview& o, bool alone) {
     out += '.';
   };
   name_some("It misses by most in", o.failures, worst_miss);
-  name_some("It did not come through", o.broken, [](const ResultRow& row) {
+  name_some("It did not come through", o.broken, [](const Row& row) {
     std::string word(verdict_word(row.verdict()));
     std::replace(word.begin(), word.end(), '_', ' ');
     return fmt::format("{} ({})", title(row), word);
@@ -172,7 +172,7 @@ std::string reach_text(const ReachCount& count, bool alone) {
 std::string describe_study(const Study& study) {
   std::set<std::string> scenes, profiles;
   std::set<double> steps;
-  for (const ResultRow& row : study.rows) {
+  for (const Row& row : study.rows) {
     scenes.insert(row.scene);
     if (!row.profile.empty()) profiles.insert(row.profile);
     if (row.dt) steps.insert(*row.dt);
@@ -191,10 +191,10 @@ std::string describe_study(const Study& study) {
 std::vector<std::string> describe_machines(const Study& study) {
   std::vector<std::string> machines;
   std::set<std::string> seen;
-  for (const ResultRow& row : study.rows) {
-    if (row.machine.empty() || !seen.insert(value_text(row.machine)).second) continue;
+  for (const Row& row : study.rows) {
+    if (row.origin.machine.empty() || !seen.insert(value_text(row.origin.machine)).second) continue;
     std::vector<std::string> parts;
-    for (const auto& [name, value] : row.machine.items()) parts.push_back(name + ": " + value_text(value));
+    for (const auto& [name, value] : row.origin.machine.items()) parts.push_back(name + ": " + value_text(value));
     machines.push_back(fmt::format("{}", fmt::join(parts, ", ")));
   }
   return machines;

@@ -7,6 +7,7 @@
 
 #include "report/ordered/cost.hpp"
 #include "report/ordered/study.hpp"
+#include "rows/row.hpp"
 
 namespace plumb::harness {
 
@@ -18,10 +19,10 @@ struct BackendOverview {
   int elsewhere = 0;                                     ///< problems that it ran with other settings only
   std::array<ReachCount, target_errors.size()> reach{};  ///< by target
   std::vector<std::string> best_groups, worst_groups;    ///< by share of problems passed; empty when all are alike
-  std::vector<const ResultRow*> failures;                ///< failed, the farthest from its threshold first
-  std::vector<const ResultRow*> broken;                  ///< crashed, timed out, out of memory, errors
-  std::vector<const ResultRow*> lost;                    ///< both of them, in the order of problems
-  std::vector<const ResultRow*> unsupported, unjudged;
+  std::vector<const Row*> failures;                      ///< failed, the farthest from its threshold first
+  std::vector<const Row*> broken;                        ///< crashed, timed out, out of memory, errors
+  std::vector<const Row*> lost;                          ///< both of them, in the order of problems
+  std::vector<const Row*> unsupported, unjudged;
 
   [[nodiscard]] int count(Verdict verdict) const { return counts[static_cast<std::size_t>(verdict)]; }
 };

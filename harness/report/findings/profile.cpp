@@ -126,7 +126,7 @@ Profile error_profile(const Study& study, const std::vector<CostLine>& costs, co
                         [&](const CostLine* line) { return study.is_default(*line->representative); });
   });
   return profile_of(study, tests, [&](const CostLine& line, const Lines&) -> std::optional<double> {
-    const ResultRow& row = *line.representative;
+    const Row& row = *line.representative;
     const MetricResult* metric = row.metric(line.metric);
     if (!row.completed() || !metric || !questions.at(line.problem).missed_by(row).empty()) return std::nullopt;
     return metric->error;

@@ -27,7 +27,7 @@ namespace {
 /// Problems of those that the backend was run on, and can run.
 std::size_t runs_tried(const Study& study, const std::set<const Problem*>& problems, const std::string& backend) {
   return static_cast<std::size_t>(std::count_if(problems.begin(), problems.end(), [&](const Problem* problem) {
-    const ResultRow* row = default_run(study, *problem, backend);
+    const Row* row = default_run(study, *problem, backend);
     return row && !says_nothing(row->verdict());
   }));
 }
@@ -39,12 +39,12 @@ std::vector<RobustnessLine> robustness(const Study& study) {
     std::set<std::string> scenes;  // that do not score it
     std::string unit;
     std::set<const Problem*> problems;
-    std::map<std::string, std::vector<std::pair<double, const ResultRow*>>> errors;  // by backend
+    std::map<std::string, std::vector<std::pair<double, const Row*>>> errors;  // by backend
   };
   std::map<std::string, Found> by_name;
   for (const Problem& problem : study.problems) {
     for (const std::string& backend : study.backends) {
-      const ResultRow* row = default_run(study, problem, backend);
+      const Row* row = default_run(study, problem, backend);
       if (!row || !row->completed()) continue;
       for (const MetricResult& metric : row->metrics) {
         Found& found = by_name[metric.name];

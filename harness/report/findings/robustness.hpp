@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "report/ordered/study.hpp"
+#include "rows/row.hpp"
 
 namespace plumb::harness {
 
@@ -14,7 +15,7 @@ struct RobustnessCell {
   std::size_t runs = 0, beyond = 0;  ///< at the engine's defaults; of those, above the bound
   std::size_t lost = 0;  ///< that did not come through, or not to a finite measure, where another engine's did
   double worst = 0, median = 0;
-  const ResultRow* row = nullptr;  ///< the worst
+  const Row* row = nullptr;  ///< the worst
 };
 
 struct RobustnessLine {

@@ -27,7 +27,7 @@ std::map<std::string, GroupCount> counts_by_group(const Study& study, const std:
     group.won += mine && test.is_cheapest(*mine, one_percent);
   }
   for (const Problem& problem : study.problems) {
-    const ResultRow* row = default_run(study, problem, backend);
+    const Row* row = default_run(study, problem, backend);
     if (!row || says_nothing(row->verdict()) || row->verdict() == Verdict::ran) continue;
     ++groups[problem.group].scored;
     groups[problem.group].passed += row->verdict() <= Verdict::pass;
@@ -62,7 +62,7 @@ void add_fronts(Summary& summary, const std::vector<Front>& fronts, const std::s
 }
 
 void add_failures(Summary& summary, const BackendOverview& overview) {
-  const auto add = [&](const std::vector<const ResultRow*>& rows, const char* beginning) {
+  const auto add = [&](const std::vector<const Row*>& rows, const char* beginning) {
     for (Statement& statement : name_failures(rows)) {
       if (statement.row) statement.text = beginning + statement.text;
       summary.breaks.push_back(std::move(statement));
@@ -74,8 +74,8 @@ void add_failures(Summary& summary, const BackendOverview& overview) {
 
 void add_repeatability(Summary& summary, const Study& study, const std::string& backend) {
   std::size_t repeated = 0, differ = 0;
-  const ResultRow* shown = nullptr;
-  for (const ResultRow& row : study.rows) {
+  const Row* shown = nullptr;
+  for (const Row& row : study.rows) {
     const MetricResult* metric = row.backend == backend && row.completed() ? row.metric("determinism") : nullptr;
     if (!metric || !metric->error) continue;
     ++repeated;

@@ -14,11 +14,11 @@ namespace {
 constexpr double smallest_error = 1e-12;  ///< what is below is rounding of one engine or the other
 
 /// What was asked for, as text. Settings at the engine's own values were not; lines of older programs do not tell.
-std::string asked_for(const ResultRow& row) {
+std::string asked_for(const Row& row) {
   Json settings = row.settings;
-  if (row.tells_defaults) {
+  if (row.engine.tells_defaults) {
     settings = Json::object();
-    for (const auto& [name, usual] : row.defaults.items()) {
+    for (const auto& [name, usual] : row.engine.defaults.items()) {
       if (row.settings.contains(name)) settings[name] = row.settings[name];
     }
   }
@@ -28,7 +28,7 @@ std::string asked_for(const ResultRow& row) {
                                  row.seconds.value_or(0), row.threads.value_or(0), settings}));
 }
 
-bool repeats_itself(const ResultRow& row) {
+bool repeats_itself(const Row& row) {
   const MetricResult* metric = row.metric("determinism");
   return !metric || metric->error.value_or(1) == 0;
 }
@@ -40,7 +40,7 @@ bool moved(double a, double b, double share) {
 
 std::string arrow(const std::string& from, const std::string& to) { return from + " \u2192 " + to; }
 
-std::string plain_verdict(const ResultRow& row) {
+std::string plain_verdict(const Row& row) {
   std::string word(verdict_word(row.verdict()));
   std::replace(word.begin(), word.end(), '_', ' ');
   return word;
@@ -105,10 +105,10 @@ void compare_metrics(CellChange& cell, const AgainstLimits& limits, bool repeats
   }
 }
 
-std::optional<Interval> spread_of(const ResultRow& row) {
-  if (row.ci95) return row.ci95;
-  if (row.runs_ms.size() < 2) return std::nullopt;
-  const auto [low, high] = std::minmax_element(row.runs_ms.begin(), row.runs_ms.end());
+std::optional<Interval> spread_of(const Row& row) {
+  if (row.time.ci95) return row.time.ci95;
+  if (row.time.runs_ms.size() < 2) return std::nullopt;
+  const auto [low, high] = std::minmax_element(row.time.runs_ms.begin(), row.time.runs_ms.end());
   return Interval{*low, *high};
 }
 
@@ -133,9 +133,9 @@ void compare_states(CellChange& cell, bool repeats) {
 }
 
 /// Whether the times of the pair may be held against each other; counts why not.
-bool times_compare(Comparison& comparison, const ResultRow& before, const ResultRow& after) {
-  if (!before.completed() || !after.completed() || !before.median_ms || !after.median_ms) return false;
-  const std::string a = hardware_of(before.machine), b = hardware_of(after.machine);
+bool times_compare(Comparison& comparison, const Row& before, const Row& after) {
+  if (!before.completed() || !after.completed() || !before.time.median_ms || !after.time.median_ms) return false;
+  const std::string a = hardware_of(before.origin.machine), b = hardware_of(after.origin.machine);
   if (a != b) {
     if (comparison.other_machine++ == 0) {
       comparison.machine_before = a;
@@ -143,7 +143,7 @@ bool times_compare(Comparison& comparison, const ResultRow& before, const Result
     }
     return false;
   }
-  if (before.contended || after.contended) {
+  if (before.time.contended || after.time.contended) {
     ++comparison.contended;
     return false;
   }
@@ -173,13 +173,12 @@ std::size_t Comparison::count(Sense sense) const {
       std::count_if(cells.begin(), cells.end(), [&](const CellChange& cell) { return cell.sense == sense; }));
 }
 
-Comparison compare_results(const std::vector<ResultRow>& before, const std::vector<ResultRow>& after,
-                           const AgainstLimits& limits) {
+Comparison compare_results(const std::vector<Row>& before, const std::vector<Row>& after, const AgainstLimits& limits) {
   Comparison comparison;
-  std::map<std::string, const ResultRow*> earlier;
-  for (const ResultRow& row : before) earlier[asked_for(row)] = &row;
-  std::map<std::string, const ResultRow*> unmatched = earlier;
-  for (const ResultRow& row : after) {
+  std::map<std::string, const Row*> earlier;
+  for (const Row& row : before) earlier[asked_for(row)] = &row;
+  std::map<std::string, const Row*> unmatched = earlier;
+  for (const Row& row : after) {
     const std::string key = asked_for(row);
     const auto found = earlier.find(key);
     if (found == earlier.end()) {
@@ -202,7 +201,7 @@ Comparison compare_results(const std::vector<ResultRow>& before, const std::vect
     }
     if (!cell.changes.empty()) comparison.cells.push_back(std::move(cell));
   }
-  for (const ResultRow& row : before) {
+  for (const Row& row : before) {
     const auto found = unmatched.find(asked_for(row));
     if (found != unmatched.end() && found->second == &row) comparison.only_before.push_back(&row);
   }

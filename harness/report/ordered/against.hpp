@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "rows/result_row.hpp"
+#include "rows/row.hpp"
 
 namespace plumb::harness {
 
@@ -32,14 +32,14 @@ struct Change {
 
 /// A cell that both results have, and that is not as it was. The worst of its changes decides its sense.
 struct CellChange {
-  const ResultRow *before, *after;
+  const Row *before, *after;
   Sense sense;
   std::vector<Change> changes;
 };
 
 struct Comparison {
   std::vector<CellChange> cells;  ///< worse, better, changed; each in the order of the new results
-  std::vector<const ResultRow*> only_before, only_after;
+  std::vector<const Row*> only_before, only_after;
   std::size_t both = 0;                       ///< cells that both have
   std::size_t times = 0;                      ///< of those, whose times were held against each other
   std::size_t other_machine = 0;              ///< of those, whose times were not, because the machines differ
@@ -55,7 +55,7 @@ struct Comparison {
 /// itself is worse or better when it moves at all, since it has no noise, or when it crosses a threshold; of a metric
 /// without a threshold it has changed. A time is worse or better when the intervals (95 %, else from the fastest to the
 /// slowest repetition) do not overlap. Results point into the rows.
-[[nodiscard]] Comparison compare_results(const std::vector<ResultRow>& before, const std::vector<ResultRow>& after,
+[[nodiscard]] Comparison compare_results(const std::vector<Row>& before, const std::vector<Row>& after,
                                          const AgainstLimits& limits);
 
 /// What times may be compared on: processor, cores, device; the whole entry where it names none of them.

@@ -33,7 +33,7 @@ struct Runs {
 };
 
 CostLine find_costs(const Problem& problem, const std::string& metric, const std::string& backend,
-                    const std::vector<Sample>& samples, const Questions& questions, const ResultRow* representative) {
+                    const std::vector<Sample>& samples, const Questions& questions, const Row* representative) {
   Runs passing, failing;
   for (const Sample& sample : samples) {
     const std::optional<Measured> error = sample.error(metric), cost = sample.cost();
@@ -63,7 +63,7 @@ std::vector<CostLine> cost_of_accuracy(const Study& study) {
     for (Sample& sample : samples_of(problem, "")) samples[sample.row().backend].push_back(std::move(sample));
     for (const std::string& metric : metrics) {
       for (const std::string& backend : study.backends) {
-        const ResultRow* representative = study.representative(problem, backend);
+        const Row* representative = study.representative(problem, backend);
         if (!representative) continue;
         lines.push_back(find_costs(problem, metric, backend, samples[backend], questions, representative));
       }

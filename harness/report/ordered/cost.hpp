@@ -9,6 +9,7 @@
 
 #include "report/ordered/sample.hpp"
 #include "report/ordered/study.hpp"
+#include "rows/row.hpp"
 
 namespace plumb::harness {
 
@@ -17,7 +18,7 @@ inline constexpr std::size_t one_percent = 1, one_per_mille = 2;  ///< places in
 
 /// A configuration that reaches an error, and at which price.
 struct Reached {
-  const ResultRow* row;          ///< its first, where seeds make it several
+  const Row* row;                ///< its first, where seeds make it several
   double error;                  ///< median over the seeds
   std::optional<double> ms;      ///< wall time per simulated second; absent where only contended machines timed it
   std::optional<Interval> band;  ///< 95 % of ms, where known
@@ -35,7 +36,7 @@ struct CostLine {
   ByTarget failing;  ///< where `at` is empty: by runs that miss one
   /// Smallest error of the runs that pass, else of the others; the cheapest of equals.
   std::optional<Reached> floor;
-  const ResultRow* representative;  ///< the backend's cell that says why, where nothing is reached; never null
+  const Row* representative;  ///< the backend's cell that says why, where nothing is reached; never null
 };
 
 /// Lines by problem, then metric, then backend; only backends with a cell on the problem. A cell counts for a metric

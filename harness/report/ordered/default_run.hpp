@@ -2,13 +2,13 @@
 #pragma once
 
 #include "report/ordered/study.hpp"
+#include "rows/row.hpp"
 
 namespace plumb::harness {
 
 /// Null where the backend has run the problem with other settings only, whose cell is no word on its defaults.
-[[nodiscard]] inline const ResultRow* default_run(const Study& study, const Problem& problem,
-                                                  const std::string& backend) {
-  const ResultRow* row = study.representative(problem, backend);
+[[nodiscard]] inline const Row* default_run(const Study& study, const Problem& problem, const std::string& backend) {
+  const Row* row = study.representative(problem, backend);
   return row && study.is_default(*row) ? row : nullptr;
 }
 

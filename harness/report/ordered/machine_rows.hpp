@@ -4,16 +4,16 @@
 #include <string>
 #include <vector>
 
-#include "rows/result_row.hpp"
+#include "rows/row.hpp"
 
 namespace plumb::harness {
 
 struct MachineRows {
-  std::string name;             ///< processor, cores, device
-  std::vector<ResultRow> rows;  ///< their indices count on over all machines
+  std::string name;       ///< processor, cores, device
+  std::vector<Row> rows;  ///< their indices count on over all machines
 };
 
-/// In order of appearance; one without rows where there are no lines.
-[[nodiscard]] std::vector<MachineRows> rows_by_machine(const std::vector<Json>& lines);
+/// In order of appearance; one without rows where there are none at all.
+[[nodiscard]] std::vector<MachineRows> rows_by_machine(const std::vector<Row>& rows);
 
 }  // namespace plumb::harness

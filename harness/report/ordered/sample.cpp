@@ -13,28 +13,28 @@ namespace {
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// All that must be equal for rows to be one sample: what was asked for, without the seed.
-std::string configuration_key(const ResultRow& row) {
+std::string configuration_key(const Row& row) {
   return value_text(
-      Json::array({row.problem_variant(), row.backend, row.backend_version, row.profile, row.needs, row.dt.value_or(0),
-                   row.seconds.value_or(0), row.threads.value_or(0), row.settings, row.machine}));
+      Json::array({row.problem_variant(), row.backend, row.engine.version, row.profile, row.needs, row.dt.value_or(0),
+                   row.seconds.value_or(0), row.threads.value_or(0), row.settings, row.origin.machine}));
 }
 
 }  // namespace
 
 bool Sample::passes() const {
-  const auto passed = std::count_if(rows.begin(), rows.end(), [](const ResultRow* row) { return row->passes(); });
+  const auto passed = std::count_if(rows.begin(), rows.end(), [](const Row* row) { return row->passes(); });
   return 2 * static_cast<std::size_t>(passed) >= rows.size();
 }
 
 std::optional<Measured> Sample::cost() const {
   std::vector<double> all;
   std::optional<Interval> band;
-  for (const ResultRow* row : rows) {
-    if (row->contended) return std::nullopt;
+  for (const Row* row : rows) {
+    if (row->time.contended) return std::nullopt;
     const std::optional<double> ms = row->ms_per_simulated_second();
     if (!ms) continue;
     all.push_back(*ms);
-    if (row->ci95) band = Interval{row->ci95->low / *row->dt, row->ci95->high / *row->dt};
+    if (row->time.ci95) band = Interval{row->time.ci95->low / *row->dt, row->time.ci95->high / *row->dt};
   }
   if (all.empty()) return std::nullopt;
   if (all.size() == 1) return Measured{all.front(), band};
@@ -44,7 +44,7 @@ std::optional<Measured> Sample::cost() const {
 std::optional<Measured> Sample::error(const std::string& metric) const {
   std::vector<double> all;
   bool known = false;
-  for (const ResultRow* row : rows) {
+  for (const Row* row : rows) {
     const MetricResult* result = row->completed() ? row->metric(metric) : nullptr;
     known = known || (result && result->error);
     all.push_back(result && result->error ? *result->error : infinite);
@@ -60,7 +60,7 @@ std::optional<Measured> Sample::error(const std::string& metric) const {
 std::vector<Sample> samples_of(const Problem& problem, const std::string& backend) {
   std::vector<Sample> samples;
   std::unordered_map<std::string, std::size_t> places;
-  for (const ResultRow* row : problem.rows) {
+  for (const Row* row : problem.rows) {
     if (!row->own_needs() || (!backend.empty() && row->backend != backend)) continue;
     // Without a seed nothing is a distribution: rows that are equal in all else stay apart.
     if (!row->params.contains("seed")) {
@@ -74,14 +74,14 @@ std::vector<Sample> samples_of(const Problem& problem, const std::string& backen
   // Whoever names a sample names its first row.
   for (Sample& sample : samples) {
     std::stable_partition(sample.rows.begin(), sample.rows.end(),
-                          [passes = sample.passes()](const ResultRow* row) { return row->passes() == passes; });
+                          [passes = sample.passes()](const Row* row) { return row->passes() == passes; });
   }
   return samples;
 }
 
 Questions::Questions(const std::vector<std::string>& scored_metrics, const Problem& problem) {
   for (const std::string& metric : scored_metrics) {
-    const bool measured = std::any_of(problem.rows.begin(), problem.rows.end(), [&](const ResultRow* row) {
+    const bool measured = std::any_of(problem.rows.begin(), problem.rows.end(), [&](const Row* row) {
       return row->metric(metric) && row->metric(metric)->error;
     });
     if (!measured) continue;
@@ -89,7 +89,7 @@ Questions::Questions(const std::vector<std::string>& scored_metrics, const Probl
   }
 }
 
-std::string Questions::missed_by(const ResultRow& row) const {
+std::string Questions::missed_by(const Row& row) const {
   std::string out;
   for (const std::string& name : asked_) {
     const MetricResult* metric = row.metric(name);
@@ -99,8 +99,8 @@ std::string Questions::missed_by(const ResultRow& row) const {
 }
 
 bool Questions::missed_by(const Sample& sample) const {
-  const auto missed = std::count_if(sample.rows.begin(), sample.rows.end(),
-                                    [&](const ResultRow* row) { return !missed_by(*row).empty(); });
+  const auto missed =
+      std::count_if(sample.rows.begin(), sample.rows.end(), [&](const Row* row) { return !missed_by(*row).empty(); });
   return 2 * static_cast<std::size_t>(missed) > sample.rows.size();
 }
 
@@ -108,9 +108,9 @@ bool Questions::counts(const Sample& sample, const std::string& metric) const {
   return std::find(asked_.begin(), asked_.end(), metric) != asked_.end() || !missed_by(sample);
 }
 
-bool is_yes_or_no(const std::vector<const ResultRow*>& rows, const std::string& metric) {
+bool is_yes_or_no(const std::vector<const Row*>& rows, const std::string& metric) {
   bool answered = false;
-  for (const ResultRow* row : rows) {
+  for (const Row* row : rows) {
     const MetricResult* result = row->completed() ? row->metric(metric) : nullptr;
     if (!result || !result->error) continue;
     if (*result->error != 0 && *result->error != 1) return false;

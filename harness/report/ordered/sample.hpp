@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "rows/result_row.hpp"
+#include "rows/row.hpp"
 #include "rows/statistics.hpp"
 
 namespace plumb::harness {
@@ -21,9 +21,9 @@ struct Measured {
 
 struct Sample {
   /// At least one, of one backend; first those that pass where most do, else the others.
-  std::vector<const ResultRow*> rows;
+  std::vector<const Row*> rows;
 
-  [[nodiscard]] const ResultRow& row() const { return *rows.front(); }
+  [[nodiscard]] const Row& row() const { return *rows.front(); }
   /// Most of its rows pass their scene.
   [[nodiscard]] bool passes() const;
   /// Wall-clock ms per simulated second: of one row with its 95 % interval, of several their median with its 95 %
@@ -47,7 +47,7 @@ class Questions {
   [[nodiscard]] const std::vector<std::string>& graded() const { return graded_; }
   [[nodiscard]] const std::vector<std::string>& asked() const { return asked_; }
   /// "stands, survives": those that the row has missed.
-  [[nodiscard]] std::string missed_by(const ResultRow& row) const;
+  [[nodiscard]] std::string missed_by(const Row& row) const;
   /// Most of the sample's rows missed one.
   [[nodiscard]] bool missed_by(const Sample& sample) const;
   /// The metric is a question, or the sample missed none: its error of the metric may stand for accuracy.
@@ -59,6 +59,6 @@ class Questions {
 
 /// The errors of the metric over the rows are 0 and 1 only, and there are some: a yes/no question, of which no diagram
 /// can be drawn.
-[[nodiscard]] bool is_yes_or_no(const std::vector<const ResultRow*>& rows, const std::string& metric);
+[[nodiscard]] bool is_yes_or_no(const std::vector<const Row*>& rows, const std::string& metric);
 
 }  // namespace plumb::harness

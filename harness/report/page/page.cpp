@@ -27,7 +27,7 @@ struct MachinePart {
   CurveSet curves;
   std::vector<Front> fronts;
 
-  MachinePart(std::string machine, std::vector<ResultRow> rows)
+  MachinePart(std::string machine, std::vector<Row> rows)
       : name(std::move(machine)),
         study(std::move(rows)),
         costs(cost_of_accuracy(study)),
@@ -36,9 +36,9 @@ struct MachinePart {
         fronts(pareto_fronts(study)) {}
 };
 
-std::vector<std::unique_ptr<MachinePart>> split_by_machine(const std::vector<Json>& lines) {
+std::vector<std::unique_ptr<MachinePart>> split_by_machine(const std::vector<Row>& rows) {
   std::vector<std::unique_ptr<MachinePart>> parts;
-  for (MachineRows& machine : rows_by_machine(lines))
+  for (MachineRows& machine : rows_by_machine(rows))
     parts.push_back(std::make_unique<MachinePart>(std::move(machine.name), std::move(machine.rows)));
   return parts;
 }
@@ -159,7 +159,7 @@ constexpr std::string_view without_script =
 
 }  // namespace
 
-void write_page(std::ostream& out, const std::vector<Json>& rows, const PageOptions& options) {
+void write_page(std::ostream& out, const std::vector<Row>& rows, const PageOptions& options) {
   const std::vector<std::unique_ptr<MachinePart>> parts = split_by_machine(rows);
   const std::vector<std::string> backends = all_backends(parts);
   std::vector<PageContext> contexts;

@@ -4,11 +4,11 @@
 #include <iosfwd>
 #include <vector>
 
-#include "base/json.hpp"
 #include "report/page/parts/page_options.hpp"
+#include "rows/row.hpp"
 
 namespace plumb::harness {
 
-void write_page(std::ostream& out, const std::vector<Json>& rows, const PageOptions& options);
+void write_page(std::ostream& out, const std::vector<Row>& rows, const PageOptions& options);
 
 }  // namespace plumb::harness

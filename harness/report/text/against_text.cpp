@@ -13,7 +13,7 @@ namespace {
 
 constexpr Sense senses[]{Sense::worse, Sense::better, Sense::changed};
 
-std::string title_of(const ResultRow& row) {
+std::string title_of(const Row& row) {
   const std::string variant = row.variant();
   return variant.empty() ? row.scene : row.scene + " " + variant;
 }
@@ -33,17 +33,17 @@ std::string texts_of(const CellChange& cell) {
 
 const char* colour_of(Sense sense) { return sense == Sense::worse ? "31" : sense == Sense::better ? "32" : "33"; }
 
-void print_only(std::ostream& out, const char* heading, const std::vector<const ResultRow*>& rows, const Study& study,
+void print_only(std::ostream& out, const char* heading, const std::vector<const Row*>& rows, const Study& study,
                 int terminal_width, bool colour) {
   if (rows.empty()) return;
   TextTable table({{heading, false, false}, {"backend", false, false}, {"settings", false, true}});
-  for (const ResultRow* row : rows)
+  for (const Row* row : rows)
     table.add({{printable(title_of(*row))}, {printable(row->backend)}, {printable(study.configuration(*row))}});
   table.print(out, terminal_width, colour);
   out << '\n';
 }
 
-Json identity(const ResultRow& row) {
+Json identity(const Row& row) {
   return {{"scene", row.scene},
           {"params", row.params},
           {"backend", row.backend},
@@ -125,10 +125,10 @@ void write_against_markdown(std::ostream& out, const Comparison& comparison, con
           << markdown_text(after.configuration(*cell.after)) << " | " << markdown_text(texts_of(cell)) << " |\n";
     }
   }
-  const auto only = [&](const char* heading, const std::vector<const ResultRow*>& rows, const Study& study) {
+  const auto only = [&](const char* heading, const std::vector<const Row*>& rows, const Study& study) {
     if (rows.empty()) return;
     out << "\n## " << heading << "\n\n";
-    for (const ResultRow* row : rows)
+    for (const Row* row : rows)
       out << "- " << markdown_text(fmt::format("{}, {}, {}", title_of(*row), row->backend, study.configuration(*row)))
           << '\n';
   };
@@ -157,8 +157,8 @@ Json against_json(const Comparison& comparison, const std::string& baseline, con
     out[std::string(sense_word(cell.sense))].push_back(std::move(entry));
   }
   out["only_before"] = out["only_after"] = Json::array();
-  for (const ResultRow* row : comparison.only_before) out["only_before"].push_back(identity(*row));
-  for (const ResultRow* row : comparison.only_after) out["only_after"].push_back(identity(*row));
+  for (const Row* row : comparison.only_before) out["only_before"].push_back(identity(*row));
+  for (const Row* row : comparison.only_after) out["only_after"].push_back(identity(*row));
   return out;
 }
 

@@ -3,7 +3,7 @@
 #include <ostream>
 
 #include "base/format.hpp"
-#include "rows/result_row.hpp"
+#include "rows/row.hpp"
 
 namespace plumb::harness {
 namespace {
@@ -37,30 +37,31 @@ std::string csv_field(std::string_view text) {
   return quoted + '"';
 }
 
-void write_csv(std::ostream& out, const std::vector<Json>& rows) {
+void write_csv(std::ostream& out, const std::vector<Row>& rows) {
   out << header;
-  for (const ResultRow& row : parse_rows(rows)) {
+  for (const Row& row : rows) {
     std::string head, tail;
     const auto add = [](std::string& line, const std::string& field) { line += field + ","; };
     for (const std::string& text :
-         {row.scene, row.group, row.variant(), row.backend, row.backend_version, row.profile, row.needs}) {
+         {row.scene, row.group, row.variant(), row.backend, row.engine.version, row.profile, row.needs}) {
       add(head, csv_field(text));
     }
     for (const auto& value : {row.dt, row.seconds, row.threads}) add(head, number_field(value));
     for (const std::string& text : {row.status, std::string(verdict_word(row.verdict())), row.reason}) {
       add(head, csv_field(text));
     }
-    for (const auto& value :
-         {row.median_ms, row.min_ms, row.max_ms, row.p99_ms, row.ms_per_simulated_second(), row.steps, row.setup_ms}) {
+    for (const auto& value : {row.time.median_ms, row.time.min_ms, row.time.max_ms, row.time.p99_ms,
+                              row.ms_per_simulated_second(), row.time.steps, row.time.setup_ms}) {
       add(tail, number_field(value));
     }
-    add(tail, csv_field(row.contended.value_or("")));
-    for (const auto& value : {row.bodies, row.contacts_max, row.dropped, row.nonfinite, row.peak_mb})
+    add(tail, csv_field(row.time.why_contended()));
+    for (const auto& value :
+         {row.counts.bodies, row.counts.contacts_max, row.counts.dropped, row.counts.nonfinite, row.counts.peak_mb})
       add(tail, number_field(value));
     add(tail, csv_field(row.hash));
     add(tail, json_field(row.params));
     add(tail, json_field(row.settings));
-    tail += json_field(row.machine) + "\n";
+    tail += json_field(row.origin.machine) + "\n";
 
     for (const MetricResult& metric : row.metrics) {
       out << head << csv_field(metric.name) << ',' << number_field(metric.value) << ',' << csv_field(metric.unit) << ','

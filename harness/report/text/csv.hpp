@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/json.hpp"
+#include "rows/row.hpp"
 
 namespace plumb::harness {
 
@@ -14,7 +14,7 @@ namespace plumb::harness {
 /// digits; what was not finite or not there is empty. `contended` says why times of the cell do not count, and leaves
 /// ms_per_simulated_second empty; `needs` is "scene" unless more was declared than the scene needs. params, settings
 /// and machine are JSON in one field.
-void write_csv(std::ostream& out, const std::vector<Json>& rows);
+void write_csv(std::ostream& out, const std::vector<Row>& rows);
 
 /// A field, quoted where RFC 4180 asks for it. Text that a spreadsheet would run as a formula gets a leading
 /// apostrophe.

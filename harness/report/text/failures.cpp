@@ -12,8 +12,8 @@
 namespace plumb::harness {
 namespace {
 
-void write_rows(std::ostream& out, const std::vector<const ResultRow*>& rows) {
-  for (const ResultRow* row : rows) {
+void write_rows(std::ostream& out, const std::vector<const Row*>& rows) {
+  for (const Row* row : rows) {
     std::string word(verdict_word(row->verdict()));
     std::replace(word.begin(), word.end(), '_', ' ');
     out << "| " << markdown_text(row_title(*row)) << " | " << word << " | " << markdown_text(row->missed()) << " |\n";
@@ -30,7 +30,7 @@ void write_backend(std::ostream& out, const BackendOverview& overview) {
 
 }  // namespace
 
-void write_failures(std::ostream& out, const std::vector<Json>& rows) {
+void write_failures(std::ostream& out, const std::vector<Row>& rows) {
   out << "# What fails at the defaults\n\n"
          "Made by `plumb report DIR --failures` from the rows beside it: every scene variant that an engine "
          "does not pass at its own defaults, and what it misses there (error > threshold; by most first).\n";

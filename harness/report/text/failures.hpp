@@ -5,12 +5,12 @@
 #include <iosfwd>
 #include <vector>
 
-#include "base/json.hpp"
+#include "rows/row.hpp"
 
 namespace plumb::harness {
 
 /// For each machine and engine the counts of verdicts, then a line a problem with what it misses. The same text for the
 /// same rows.
-void write_failures(std::ostream& out, const std::vector<Json>& rows);
+void write_failures(std::ostream& out, const std::vector<Row>& rows);
 
 }  // namespace plumb::harness

@@ -25,7 +25,7 @@ void write_header(std::ostream& out, const std::vector<std::string>& names, cons
   out << '\n';
 }
 
-std::string matrix_cell(const ResultRow* row) {
+std::string matrix_cell(const Row* row) {
   if (!row) return std::string(no_value);
   std::string word(verdict_word(row->verdict()));
   if (!row->completed()) return row->reason.empty() ? word : word + ": " + row->reason;
@@ -59,7 +59,7 @@ void write_matrix(std::ostream& out, const Study& study) {
   for (const Problem& problem : study.problems) {
     out << "| " << markdown_text(problem.title()) << " |";
     for (const std::string& backend : study.backends) {
-      const ResultRow* row = study.representative(problem, backend);
+      const Row* row = study.representative(problem, backend);
       const bool other = row && !study.is_default(*row);
       out << ' ' << markdown_text(matrix_cell(row) + (other ? " (" + study.configuration(*row) + ")" : "")) << " |";
     }
@@ -107,12 +107,12 @@ void write_times(std::ostream& out, const Study& study) {
     std::string cells, bodies(no_value);
     bool any = false;
     for (const std::string& backend : study.backends) {
-      const ResultRow* row = default_run(study, problem, backend);
+      const Row* row = default_run(study, problem, backend);
       const bool timed = row && row->completed() && row->fair_ms();
       any = any || timed;
       cells += fmt::format(" {}{} |", timed ? short_number(row->fair_ms()) : std::string(no_value),
                            timed && !row->passes() ? dagger : "");
-      if (row && row->bodies) bodies = shortest_number(*row->bodies);
+      if (row && row->counts.bodies) bodies = shortest_number(*row->counts.bodies);
     }
     if (any) out << "| " << markdown_text(problem.title()) << " | " << bodies << " |" << cells << '\n';
   }
@@ -163,7 +163,7 @@ std::string markdown_text(std::string_view text) {
   return out;
 }
 
-void write_markdown(std::ostream& out, const std::vector<Json>& rows) {
+void write_markdown(std::ostream& out, const std::vector<Row>& rows) {
   const std::vector<MachineRows> machines = rows_by_machine(rows);
   out << "# Plumb report\n";
   for (const MachineRows& machine : machines) {

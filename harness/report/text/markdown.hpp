@@ -6,12 +6,12 @@
 #include <string_view>
 #include <vector>
 
-#include "base/json.hpp"
+#include "rows/row.hpp"
 
 namespace plumb::harness {
 
 /// What was compared, the pass matrix, the cost-of-accuracy table and the times.
-void write_markdown(std::ostream& out, const std::vector<Json>& rows);
+void write_markdown(std::ostream& out, const std::vector<Row>& rows);
 
 /// Text for a table's cell: nothing in it is taken as Markdown or HTML, and it stays on one line.
 [[nodiscard]] std::string markdown_text(std::string_view text);

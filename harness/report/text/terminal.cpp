@@ -36,7 +36,7 @@ std::string prose(Verdict verdict) {
 }
 
 /// "drop 0.0084 > 0.001", with the sense in which the error stands to its limit.
-std::string worst_text(const ResultRow& row) {
+std::string worst_text(const Row& row) {
   const MetricResult* worst = row.worst();
   if (!row.completed() || !worst) return "";
   const std::string name = printable(worst->name);
@@ -48,15 +48,15 @@ std::string worst_text(const ResultRow& row) {
 }
 
 /// In brackets where it was measured on a contended machine.
-std::string ms_text(const ResultRow& row) {
-  if (!row.median_ms) return "";
-  const std::string ms = short_number(*row.median_ms);
-  return row.contended ? "(" + ms + ")" : ms;
+std::string ms_text(const Row& row) {
+  if (!row.time.median_ms) return "";
+  const std::string ms = short_number(*row.time.median_ms);
+  return row.time.contended ? "(" + ms + ")" : ms;
 }
 
 void print_legend(std::ostream& out, const Study& study) {
   const bool any = std::any_of(study.rows.begin(), study.rows.end(),
-                               [](const ResultRow& row) { return row.contended && row.median_ms; });
+                               [](const Row& row) { return row.time.contended && row.time.median_ms; });
   if (any) out << "(ms): the machine had other work;\nsuch a time counts nowhere.\n";
 }
 
@@ -64,7 +64,7 @@ void print_legend(std::ostream& out, const Study& study) {
 bool runs_at_defaults(const Study& study) {
   return std::all_of(study.problems.begin(), study.problems.end(), [&](const Problem& problem) {
     return std::all_of(study.backends.begin(), study.backends.end(), [&](const std::string& backend) {
-      const ResultRow* row = study.representative(problem, backend);
+      const Row* row = study.representative(problem, backend);
       return !row || study.is_default(*row);
     });
   });
@@ -73,7 +73,7 @@ bool runs_at_defaults(const Study& study) {
 /// Verdicts by backend, those columns only that occur.
 void print_counts(std::ostream& out, const Study& study, int terminal_width, bool colour) {
   std::array<bool, verdict_count> occurs{};
-  for (const ResultRow& row : study.rows) occurs[static_cast<std::size_t>(row.verdict())] = true;
+  for (const Row& row : study.rows) occurs[static_cast<std::size_t>(row.verdict())] = true;
   std::vector<TextColumn> columns{{"backend", false, true}, {"cells", true, false}};
   for (std::size_t v = 0; v < verdict_count; ++v) {
     if (occurs[v]) columns.push_back({prose(static_cast<Verdict>(v)), true, false});
@@ -82,7 +82,7 @@ void print_counts(std::ostream& out, const Study& study, int terminal_width, boo
   for (const std::string& backend : study.backends) {
     std::array<int, verdict_count> count{};
     int cells = 0;
-    for (const ResultRow& row : study.rows) {
+    for (const Row& row : study.rows) {
       if (row.backend != backend) continue;
       ++count[static_cast<std::size_t>(row.verdict())];
       ++cells;
@@ -102,7 +102,7 @@ void print_counts(std::ostream& out, const Study& study, int terminal_width, boo
 }
 
 /// What a comparison's cell says of its error: of the worst metric, so that the number explains the verdict.
-std::string error_text(const ResultRow& row) {
+std::string error_text(const Row& row) {
   const MetricResult* worst = row.worst();
   if (!row.completed() || !worst) return "";
   return worst->error ? short_number(*worst->error, 2) : "not finite";
@@ -120,7 +120,7 @@ void print_block_of_backends(std::ostream& out, const Study& study, const std::v
   for (const Problem& problem : study.problems) {
     std::vector<TextCell> line{{printable(problem.title())}};
     for (const std::string& backend : backends) {
-      const ResultRow* row = study.representative(problem, backend);
+      const Row* row = study.representative(problem, backend);
       if (!row) {
         line.insert(line.end(), {{std::string(no_value), dim}, {}, {}});
         continue;
@@ -140,7 +140,7 @@ void print_reasons(std::ostream& out, const Study& study, int terminal_width, bo
   bool any = false;
   for (const Problem& problem : study.problems) {
     for (const std::string& backend : study.backends) {
-      const ResultRow* row = study.representative(problem, backend);
+      const Row* row = study.representative(problem, backend);
       if (!row || row->completed() || row->reason.empty()) continue;
       table.add({{printable(problem.title())}, {printable(backend)}, {printable(row->reason)}});
       any = true;
@@ -177,16 +177,16 @@ void print_machine(std::ostream& out, const Study& study, int terminal_width, bo
 
 }  // namespace
 
-void print_table(std::ostream& out, const std::vector<Json>& rows, int terminal_width, bool colour) {
-  const Study study(parse_rows(rows));
+void print_table(std::ostream& out, const std::vector<Row>& rows, int terminal_width, bool colour) {
+  const Study study(rows);
   const bool with_configuration =
-      std::any_of(study.rows.begin(), study.rows.end(), [&](const ResultRow& row) { return !study.is_default(row); });
+      std::any_of(study.rows.begin(), study.rows.end(), [&](const Row& row) { return !study.is_default(row); });
   std::vector<TextColumn> columns{{"scene", false, false}, {"backend", false, false}};
   if (with_configuration) columns.push_back({"settings", false, true});
   columns.insert(columns.end(), {{"result", false, false}, {"ms/step", true, false}, {"worst metric", false, true}});
   TextTable table(columns);
   for (const Problem& problem : study.problems) {
-    for (const ResultRow* row : problem.rows) {
+    for (const Row* row : problem.rows) {
       std::vector<TextCell> line{{printable(problem.title())}, {printable(row->backend)}};
       if (with_configuration) line.push_back({printable(study.configuration(*row))});
       line.push_back({prose(row->verdict()), colour_of(row->verdict())});
@@ -199,7 +199,7 @@ void print_table(std::ostream& out, const std::vector<Json>& rows, int terminal_
   print_legend(out, study);
 }
 
-void print_comparison(std::ostream& out, const std::vector<Json>& rows, int terminal_width, bool colour) {
+void print_comparison(std::ostream& out, const std::vector<Row>& rows, int terminal_width, bool colour) {
   const std::vector<MachineRows> machines = rows_by_machine(rows);
   for (const MachineRows& machine : machines) {
     if (machines.size() > 1) out << printable(clipped(machine.name, width_or_all(terminal_width))) << '\n';

@@ -30,7 +30,7 @@ std::string bytes_of_base64(std::string_view text) {
 
 }  // namespace
 
-std::string packed_page(const std::vector<Json>& rows, PageOptions options) {
+std::string packed_page(const std::vector<Row>& rows, PageOptions options) {
   options.written = "2026-01-01 00:00 UTC";
   options.source = "results";
   std::ostringstream out;
@@ -56,14 +56,14 @@ void read_page(const std::string& page, const Plain& plain, const Packed& packed
 
 }  // namespace
 
-std::string page_of(const std::vector<Json>& rows, PageOptions options) {
+std::string page_of(const std::vector<Row>& rows, PageOptions options) {
   std::string opened;
   const auto append = [&](const std::string& text) { opened += text; };
   read_page(packed_page(rows, std::move(options)), append, append);
   return opened;
 }
 
-std::vector<Json> packed_data(const std::vector<Json>& rows, PageOptions options) {
+std::vector<Json> packed_data(const std::vector<Row>& rows, PageOptions options) {
   std::vector<Json> all;
   read_page(
       packed_page(rows, std::move(options)), [](const std::string&) {},

@@ -5,15 +5,16 @@
 #include <vector>
 
 #include "report/page/page.hpp"
+#include "rows/row.hpp"
 
 namespace plumb::harness::testing {
 
 /// As it is written to a file.
-[[nodiscard]] std::string packed_page(const std::vector<Json>& rows, PageOptions options = {});
-[[nodiscard]] std::string page_of(const std::vector<Json>& rows, PageOptions options = {});
+[[nodiscard]] std::string packed_page(const std::vector<Row>& rows, PageOptions options = {});
+[[nodiscard]] std::string page_of(const std::vector<Row>& rows, PageOptions options = {});
 
 /// The blocks of each section that travels packed.
-[[nodiscard]] std::vector<Json> packed_data(const std::vector<Json>& rows, PageOptions options = {});
+[[nodiscard]] std::vector<Json> packed_data(const std::vector<Row>& rows, PageOptions options = {});
 
 /// How often `what` stands in the text.
 [[nodiscard]] std::size_t count(const std::string& text, const std::string& what);

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "rows/row_format.hpp"
+#include "rows/row.hpp"
 
 namespace plumb::harness::testing {
 namespace {
@@ -119,6 +119,9 @@ Json row_of(const SampleScene& scene, double value, const SampleEngine& engine, 
           {"metrics", metrics},
           {"time",
            {{"ms_per_step", {{"median", ms}, {"min", ms * 0.93}, {"max", ms * 1.8}, {"p99", ms * 1.3}}},
+            {"runs", Json::array()},
+            {"ci95", nullptr},
+            {"wall_s", nullptr},
             {"window", {60, 600}},
             {"steps", 600 * refinement},
             {"setup_ms", 0.4 + 0.01 * bodies},
@@ -127,6 +130,12 @@ Json row_of(const SampleScene& scene, double value, const SampleEngine& engine, 
           {"hash", "9f86d081884c7d65"},
           {"peak_mb", 40 + bodies * 0.01},
           {"machine", machine()},
+          {"contended", nullptr},
+          {"knobs", Json::array()},
+          {"slug", ""},
+          {"needs", ""},
+          {"repeats", nullptr},
+          {"backend_build", ""},
           {"cell", scene.id + params.dump() + engine.name + std::to_string(sweep)}};
 }
 
@@ -179,13 +188,23 @@ Json sample_row(const char* scene, const char* backend, double error, double ms_
           {"pass", error <= 0.01}}}}},
       {"time",
        {{"ms_per_step", {{"median", ms_per_step}, {"min", ms_per_step}, {"max", ms_per_step}, {"p99", ms_per_step}}},
+        {"runs", Json::array()},
+        {"ci95", nullptr},
+        {"wall_s", nullptr},
         {"window", {0, 99}},
         {"steps", 100},
-        {"setup_ms", 1}}},
+        {"setup_ms", 1},
+        {"phase_ms", Json::object()}}},
       {"counts", {{"bodies", 2}, {"contacts_max", 1}, {"dropped", 0}, {"nonfinite", 0}}},
       {"hash", "00"},
       {"peak_mb", 10},
       {"machine", Json::object()},
+      {"contended", nullptr},
+      {"knobs", Json::array()},
+      {"slug", ""},
+      {"needs", ""},
+      {"repeats", nullptr},
+      {"backend_build", ""},
       {"cell", std::string(scene) + " " + backend}};
 }
 

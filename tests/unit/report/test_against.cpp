@@ -18,7 +18,7 @@ Json row_of(double error, double ms, double spread = 0.01) {
 }
 
 struct Compared {
-  std::vector<ResultRow> before, after;
+  std::vector<Row> before, after;
   Comparison result;
 };
 

@@ -21,11 +21,11 @@ TEST(Cost, EqualsBruteForceOverAllRows) {
     std::array<double, 2> floor{none, none};  // of runs that pass, of runs that fail
     std::array<std::array<double, target_errors.size()>, 2> best{};
     for (auto& of_target : best) of_target.fill(none);
-    for (const ResultRow& row : study.rows) {
+    for (const Row& row : study.rows) {
       const MetricResult* metric = row.metric(line.metric);
       if (row.scene != line.problem->scene || row.variant() != line.problem->variant || row.backend != line.backend)
         continue;
-      if ((row.status != "ok" && row.status != "failed") || !metric || !metric->error || !row.median_ms) continue;
+      if ((row.status != "ok" && row.status != "failed") || !metric || !metric->error || !row.time.median_ms) continue;
       const bool fell = std::any_of(row.metrics.begin(), row.metrics.end(), [&](const MetricResult& other) {
         return (other.name == "stands" || other.name == "survival") && other.error != 0;
       });
@@ -34,7 +34,8 @@ TEST(Cost, EqualsBruteForceOverAllRows) {
       const std::size_t fails = row.status == "failed";
       floor[fails] = std::min(floor[fails], *metric->error);
       for (std::size_t t = 0; t < target_errors.size(); ++t) {
-        if (*metric->error <= target_errors[t]) best[fails][t] = std::min(best[fails][t], *row.median_ms / *row.dt);
+        if (*metric->error <= target_errors[t])
+          best[fails][t] = std::min(best[fails][t], *row.time.median_ms / *row.dt);
       }
     }
     for (std::size_t t = 0; t < target_errors.size(); ++t) {
@@ -79,8 +80,8 @@ TEST(Cost, OfEqualErrorsTheFloorIsTheCheapest) {
   const Study study(parse_rows(rows));
   const std::vector<CostLine> lines = cost_of_accuracy(study);
   ASSERT_EQ(lines.size(), 1u);
-  EXPECT_EQ(lines[0].floor->row->index, 1u);
-  EXPECT_EQ(lines[0].at[1]->row->index, 1u);
+  EXPECT_EQ(lines[0].floor->row->origin.index, 1u);
+  EXPECT_EQ(lines[0].at[1]->row->origin.index, 1u);
   EXPECT_FALSE(lines[0].at[2]);
 }
 

@@ -52,7 +52,7 @@ TEST(Csv, EveryLineHasTheHeadersFieldsAndHostileTextComesBack) {
   rows[0]["params"]["H,\""] = hostile;
   rows[1]["metrics"] = Json::object();
   std::ostringstream out;
-  write_csv(out, rows);
+  write_csv(out, parse_rows(rows));
   const auto lines = parse_csv(out.str());
   std::size_t expected = 1;
   for (const Json& row : rows) expected += std::max<std::size_t>(1, row["metrics"].size());
@@ -71,7 +71,7 @@ TEST(Csv, WhatIsNotFiniteIsEmpty) {
   std::vector<Json> rows{testing::sample_row("S", "b", 0.1, 1)};
   rows[0]["metrics"]["error_of_it"]["error"] = nullptr;
   std::ostringstream out;
-  write_csv(out, rows);
+  write_csv(out, parse_rows(rows));
   const auto lines = parse_csv(out.str());
   const auto at = static_cast<std::size_t>(std::find(lines[0].begin(), lines[0].end(), "error") - lines[0].begin());
   EXPECT_EQ(lines[1][at], "");
@@ -82,7 +82,7 @@ TEST(Csv, TellsWhichTimesCountAndWhatWasDeclared) {
   rows[1]["contended"] = {{"load", 9}, {"why", "load 9 on 2 cores"}};
   rows[1]["needs"] = "all";
   std::ostringstream out;
-  write_csv(out, rows);
+  write_csv(out, parse_rows(rows));
   const auto lines = parse_csv(out.str());
   const auto column = [&](const char* name) {
     return static_cast<std::size_t>(std::find(lines[0].begin(), lines[0].end(), name) - lines[0].begin());

@@ -52,7 +52,7 @@ TEST(Curves, RunAlongTheKnobsThatDoSomething) {
   ASSERT_EQ(hard.curves.size(), 1u);
   EXPECT_EQ(hard.curves[0].knob, "passes");
   std::vector<Json> passes;
-  for (const ResultRow* at : hard.curves[0].rows) passes.push_back(at->settings["passes"]);
+  for (const Row* at : hard.curves[0].rows) passes.push_back(at->settings["passes"]);
   EXPECT_EQ(passes, (std::vector<Json>{5, 10, 20})) << "by value";
   EXPECT_EQ(hard.idle, (std::vector<std::string>{"parts"}));
   const MethodCurves& soft = curves.problems[0].methods[1];
@@ -77,7 +77,7 @@ TEST(Curves, OtherTimesAndProfilesAreOtherCurves) {
   const CurveSet curves(study);
   for (const MethodCurves& method : curves.problems.at(0).methods) {
     for (const Curve& curve : method.curves) {
-      for (const ResultRow* at : curve.rows) {
+      for (const Row* at : curve.rows) {
         EXPECT_EQ(at->dt, curve.rows.front()->dt);
         EXPECT_EQ(at->profile, curve.rows.front()->profile);
       }
@@ -108,7 +108,7 @@ TEST(Curves, NeedAKnobThatWasTurned) {
   }
   const Study without(parse_rows(old));
   EXPECT_TRUE(CurveSet(without).problems.empty()) << "rows of programs that did not tell";
-  const std::string page = page_of(old);
+  const std::string page = page_of(parse_rows(old));
   EXPECT_EQ(section(page, "curves"), "");
   EXPECT_FALSE(has(page, "href=\"#curves\""));
 }
@@ -135,7 +135,7 @@ TEST(Curves, TheEnginesOwnSettingsAreKnownEvenWhereNoCellHasThem) {
 }
 
 TEST(CurvesPage, HasALineAMethodAndMarksWhatShips) {
-  const std::string text = section(page_of(turned_rows()), "curves");
+  const std::string text = section(page_of(parse_rows(turned_rows())), "curves");
   EXPECT_EQ(count(text, "\"series\":"), 1u) << "one graded metric";
   EXPECT_EQ(count(text, "\"line\":"), 2u);
   EXPECT_EQ(count(text, "\"marked\":true"), 1u) << "soft, 10, 4";
@@ -146,7 +146,7 @@ TEST(CurvesPage, HasALineAMethodAndMarksWhatShips) {
 }
 
 TEST(CurvesPage, TurnedRowsAreNotAmongThoseOfWorkAndPrecision) {
-  const std::string text = section(page_of(turned_rows()), "precision");
+  const std::string text = section(page_of(parse_rows(turned_rows())), "precision");
   EXPECT_EQ(count(text, "\"r\":"), 2u) << "way hard and way soft, knobs as they are" << text;
 }
 
@@ -158,7 +158,7 @@ TEST(CurvesPage, RunsThatMissAYesNoQuestionAreCrossedOut) {
                                     {"threshold", 0},     {"gold", nullptr}, {"pass", error == 0}};
     rows[i]["metrics"]["optional"] = {{"value", nullptr}, {"unit", "1"}, {"error", nullptr}, {"threshold", 1}};
   }
-  const std::string text = section(page_of(rows), "curves");
+  const std::string text = section(page_of(parse_rows(rows)), "curves");
   EXPECT_EQ(count(text, "\"series\":"), 1u) << "no diagram of yes and no, nor of what nobody measured";
   EXPECT_EQ(count(text, "\"failed\":\"stands\""), 1u) << text;
 }
@@ -167,9 +167,9 @@ TEST(CurvesPage, ErrorsThatAreNotFiniteLieBeyondTheFrame) {
   std::vector<Json> rows = turned_rows();
   rows[3]["metrics"]["error_of_it"]["error"] = nullptr;
   rows[3]["metrics"]["error_of_it"]["pass"] = false;
-  const std::string text = section(page_of(rows), "curves");
+  const std::string text = section(page_of(parse_rows(rows)), "curves");
   EXPECT_EQ(count(text, "\"y\":null"), 1u) << text;
-  EXPECT_EQ(count(section(page_of(turned_rows()), "curves"), "\"r\":"), count(text, "\"r\":"));
+  EXPECT_EQ(count(section(page_of(parse_rows(turned_rows())), "curves"), "\"r\":"), count(text, "\"r\":"));
 }
 
 TEST(CurvesPage, CellsThatDidNotComeThroughAreNamed) {
@@ -178,16 +178,17 @@ TEST(CurvesPage, CellsThatDidNotComeThroughAreNamed) {
   refused["status"] = "unsupported";
   refused["reason"] = "joints of <kind> ball";
   rows.push_back(refused);
-  const std::string text = section(page_of(rows), "curves");
+  const std::string text = section(page_of(parse_rows(rows)), "curves");
   EXPECT_TRUE(std::regex_search(
       text, std::regex("No point of way odd \\([^)]*way odd\\): <a href=..#r7..>unsupported</a>, joints of "
                        "&lt;kind&gt; ball\\.")))
       << text;
   rows.erase(rows.begin(), rows.end() - 1);
-  EXPECT_EQ(section(page_of(rows), "curves"), "") << "one method that did not come through is no lack of curves";
+  EXPECT_EQ(section(page_of(parse_rows(rows)), "curves"), "")
+      << "one method that did not come through is no lack of curves";
   rows.push_back(row("soft", 10, 4, 1, 1, ""));
   rows.back()["status"] = "unsupported";
-  EXPECT_EQ(count(section(page_of(rows), "curves"), "No point of"), 2u) << "none of two is";
+  EXPECT_EQ(count(section(page_of(parse_rows(rows)), "curves"), "No point of"), 2u) << "none of two is";
   EXPECT_EQ(count(text, "#r7\\\""), 1u) << "and have no point, whatever was measured before they ended";
 }
 

@@ -47,12 +47,12 @@ TEST(Distributions, SayHowManyPassAndHowFarTheyLieApart) {
   EXPECT_EQ(error.cells[0]->least, 0.001);
   EXPECT_DOUBLE_EQ(*error.cells[0]->median, 0.003);
   EXPECT_EQ(error.cells[0]->most, 0.03);
-  EXPECT_EQ(error.cells[0]->row->index, 0u);
+  EXPECT_EQ(error.cells[0]->row->origin.index, 0u);
   EXPECT_EQ(error.cells[1]->passed, 3u);
   const DistributionLine& stands = line_of(lines, "stands");
   EXPECT_TRUE(stands.asked);
   EXPECT_EQ(stands.cells[0]->passed, 3u);
-  EXPECT_EQ(stands.cells[0]->row->index, 3u);
+  EXPECT_EQ(stands.cells[0]->row->origin.index, 3u);
   const DistributionLine& height = line_of(lines, "height");
   EXPECT_FALSE(height.scored);
   EXPECT_DOUBLE_EQ(*height.cells[0]->median, 3.5);
@@ -67,7 +67,7 @@ TEST(Distributions, ARunThatDidNotComeThroughHasNotPassed) {
   const DistributionLine& error = line_of(lines, "error_of_it");
   EXPECT_EQ(error.cells[0]->runs, 3u);
   EXPECT_EQ(error.cells[0]->passed, 2u);
-  EXPECT_EQ(error.cells[0]->row->index, 1u);
+  EXPECT_EQ(error.cells[0]->row->origin.index, 1u);
 }
 
 TEST(Distributions, FewSeedsAndOtherSettingsAreNone) {
@@ -78,10 +78,10 @@ TEST(Distributions, FewSeedsAndOtherSettingsAreNone) {
 }
 
 TEST(Distributions, StandOnThePage) {
-  const std::string page = testing::page_of(two_engines());
+  const std::string page = testing::page_of(parse_rows(two_engines()));
   EXPECT_EQ(testing::count(page, "<section id=\"seeds\""), 1u);
   EXPECT_EQ(testing::count(page, ">3 of 4</a>"), 2u) << "error_of_it and stands";
-  EXPECT_EQ(testing::count(testing::page_of(testing::sample_rows(1)), "<section id=\"seeds\""), 0u);
+  EXPECT_EQ(testing::count(testing::page_of(parse_rows(testing::sample_rows(1))), "<section id=\"seeds\""), 0u);
 }
 
 }  // namespace

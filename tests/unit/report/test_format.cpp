@@ -62,5 +62,13 @@ TEST(Format, NothingUnprintableSurvives) {
   EXPECT_EQ(printable("µ≤𝛼"), "µ≤𝛼");
 }
 
+TEST(Format, NaturalOrder) {
+  EXPECT_TRUE(natural_less("A2", "A10"));
+  EXPECT_FALSE(natural_less("A10", "A2"));
+  EXPECT_TRUE(natural_less("A5", "A5b"));
+  EXPECT_TRUE(natural_less("A5b", "A6"));
+  EXPECT_FALSE(natural_less("A5b", "A5b"));
+}
+
 }  // namespace
 }  // namespace plumb::harness

@@ -18,7 +18,7 @@ Json passing_row(const char* scene, const char* backend, double error, double ms
 
 std::vector<std::size_t> indices(const std::vector<FrontPoint>& points) {
   std::vector<std::size_t> out;
-  for (const FrontPoint& point : points) out.push_back(point.sample.row().index);
+  for (const FrontPoint& point : points) out.push_back(point.sample.row().origin.index);
   return out;
 }
 
@@ -39,7 +39,7 @@ TEST(Front, WhatNoOtherBeatsStandsOnItAndTheRestKnowsByWhom) {
   EXPECT_EQ(indices(fronts[0].best), (std::vector<std::size_t>{0, 1, 3, 5}));
   std::map<std::size_t, std::size_t> beaten;
   for (const Dominated& other : fronts[0].others)
-    beaten[other.point.sample.row().index] = fronts[0].best[other.by].sample.row().index;
+    beaten[other.point.sample.row().origin.index] = fronts[0].best[other.by].sample.row().origin.index;
   EXPECT_EQ(beaten, (std::map<std::size_t, std::size_t>{{2, 1}, {4, 1}, {6, 0}, {7, 0}}));
 }
 

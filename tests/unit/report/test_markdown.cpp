@@ -25,7 +25,7 @@ TEST(Markdown, EveryTableLineHasAsManyCellsAsItsHeader) {
   rows[0]["status"] = "crashed";
   rows[3]["scene"] = "pipe|scene";
   std::ostringstream out;
-  write_markdown(out, rows);
+  write_markdown(out, parse_rows(rows));
   std::istringstream in(out.str());
   std::size_t cells = 0, tables = 0;
   for (std::string line; std::getline(in, line);) {
@@ -47,7 +47,7 @@ TEST(Markdown, NoTableHoldsTimesOfTwoMachines) {
   rows[0]["machine"] = {{"cpu", "one"}};
   rows[1]["machine"] = {{"cpu", "two"}};
   std::ostringstream out;
-  write_markdown(out, rows);
+  write_markdown(out, parse_rows(rows));
   const std::size_t one = out.str().find("# one"), two = out.str().find("# two");
   ASSERT_NE(one, std::string::npos);
   ASSERT_NE(two, std::string::npos);
@@ -57,7 +57,7 @@ TEST(Markdown, NoTableHoldsTimesOfTwoMachines) {
 TEST(Markdown, ARunThatFailsHasADagger) {
   const std::vector<Json> rows{testing::sample_row("S", "a", 0.5, 1), testing::sample_row("S", "b", 1e-6, 2)};
   std::ostringstream out;
-  write_markdown(out, rows);
+  write_markdown(out, parse_rows(rows));
   EXPECT_NE(out.str().find("| S | 2 | 1.00\u2020 | 2.00 |"), std::string::npos) << out.str();
 }
 

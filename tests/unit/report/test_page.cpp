@@ -38,11 +38,11 @@ TEST(Page, HostileTextStaysText) {
   }
   rows[0]["status"] = hostile;
   rows[1]["status"] = "crashed";
-  const std::string page = testing::packed_page(rows);
+  const std::string page = testing::packed_page(parse_rows(rows));
   EXPECT_EQ(page.find("<img"), std::string::npos);
   EXPECT_EQ(page.find("\"><script>alert"), std::string::npos);
   // What is drawn later is data: markup of cells is safe already, plain text is made so by the script.
-  for (const Json& section : testing::packed_data(rows)) {
+  for (const Json& section : testing::packed_data(parse_rows(rows))) {
     for (const Json& block : section) {
       for (const Json& row : block.value("table", Json::object()).value("rows", Json::array()))
         EXPECT_EQ(row["c"].dump().find("<img"), std::string::npos);
@@ -61,7 +61,7 @@ TEST(Page, NullsEverywhereBreakNothing) {
   for (Json& metric : rows[5]["metrics"]) {
     for (auto& [key, value] : metric.items()) value = nullptr;
   }
-  const std::string page = page_of(rows);
+  const std::string page = page_of(parse_rows(rows));
   EXPECT_EQ(count(page, "<div class=\"machine\""), 2u) << "one row has lost its machine";
   EXPECT_EQ(count(page, "id=\"cost\""), 1u);
   EXPECT_EQ(count(page, "id=\"cost-1\""), 1u);
@@ -72,13 +72,13 @@ TEST(Page, NullsEverywhereBreakNothing) {
 TEST(Page, EveryFigureLinksToARowThatIsThere) {
   if (!has_page_script()) GTEST_SKIP() << "built without node";
   const std::vector<Json> rows = testing::sample_rows(3);
-  const std::string page = page_of(rows);
+  const std::string page = page_of(parse_rows(rows));
   const std::regex link("href=.\"#r([0-9]+)");
   std::size_t links = 0;
   for (std::sregex_iterator at(page.begin(), page.end(), link), end; at != end; ++at, ++links)
     ASSERT_LT(std::stoul((*at)[1]), rows.size());
   EXPECT_GT(links, rows.size());
-  for (const Json& section : testing::packed_data(rows)) {
+  for (const Json& section : testing::packed_data(parse_rows(rows))) {
     for (const Json& block : section) {
       if (!block.contains("runs")) continue;
       EXPECT_EQ(block["runs"]["order"].size(), rows.size());
@@ -91,7 +91,7 @@ TEST(Page, ARunWhoseWorkerWasKilledSaysSo) {
   std::vector<Json> rows{testing::sample_row("S1", "a", 0.02, 1), testing::sample_row("S2", "a", 0.02, 1)};
   rows[1]["restarted"] = 1;
   Json runs;
-  for (const Json& section : testing::packed_data(rows))
+  for (const Json& section : testing::packed_data(parse_rows(rows)))
     for (const Json& block : section)
       if (block.contains("runs")) runs = block["runs"]["rows"];
   ASSERT_EQ(runs.size(), 2u);
@@ -101,8 +101,8 @@ TEST(Page, ARunWhoseWorkerWasKilledSaysSo) {
 
 /// Blocks that are data, and what stands in words.
 std::string all_of(const std::vector<Json>& rows) {
-  std::string out = page_of(rows);
-  for (const Json& section : testing::packed_data(rows)) out += section.dump();
+  std::string out = page_of(parse_rows(rows));
+  for (const Json& section : testing::packed_data(parse_rows(rows))) out += section.dump();
   return out;
 }
 
@@ -145,7 +145,7 @@ TEST(Page, WhatIsOnlyCountedIsCountedOnce) {
     rows.push_back(testing::sample_row(scene.c_str(), "a", 0.5, 1));
     rows.push_back(testing::sample_row(scene.c_str(), "b", 0.001, 1));
   }
-  const std::string page = page_of(rows);
+  const std::string page = page_of(parse_rows(rows));
   EXPECT_GT(count(page, "<summary>and 6 more</summary>"), 0u);
   EXPECT_EQ(count(page, "and 6 more"), count(page, "<summary>and 6 more</summary>"));
 }
@@ -154,7 +154,7 @@ TEST(Page, ProblemsThatRanWithOtherSettingsOnlyAreCounted) {
   std::vector<Json> rows{testing::sample_row("S1", "a", 0.001, 1), testing::sample_row("S2", "a", 0.001, 1)};
   rows[1]["settings"] = {{"iterations", 99}};
   rows[1]["profile"] = "tuned";
-  EXPECT_EQ(count(page_of(rows), "1 more scene variant ran with other settings only."), 1u);
+  EXPECT_EQ(count(page_of(parse_rows(rows)), "1 more scene variant ran with other settings only."), 1u);
 }
 
 TEST(Page, RunsOfAProblemStandInTheOrderOfTheEngines) {
@@ -162,7 +162,7 @@ TEST(Page, RunsOfAProblemStandInTheOrderOfTheEngines) {
   std::vector<Json> rows{testing::sample_row("S1", "c", 0.02, 1), testing::sample_row("S1", "a", 0.02, 1),
                          testing::sample_row("S1", "b", 0.02, 1)};
   Json order;
-  for (const Json& section : testing::packed_data(rows))
+  for (const Json& section : testing::packed_data(parse_rows(rows)))
     for (const Json& block : section)
       if (block.contains("runs")) order = block["runs"]["order"];
   EXPECT_EQ(order, Json::parse("[1, 2, 0]"));
@@ -174,7 +174,7 @@ TEST(Page, TimeIsToldByTheFastestRunThatPasses) {
       testing::sample_row("S1", "fails", 0.02, 1), testing::sample_row("S1", "passes", 0.005, 2),
       testing::sample_row("S2", "fails", 0.02, 1), testing::sample_row("S2", "passes", 0.02, 2)};
   Json plot;
-  for (const Json& section : testing::packed_data(rows)) {
+  for (const Json& section : testing::packed_data(parse_rows(rows))) {
     for (const Json& block : section) {
       for (const Json& figure : block.value("figures", Json::array())) {
         if (figure["plots"][0]["description"].get<std::string>().ends_with("every engine as it ships"))
@@ -189,7 +189,7 @@ TEST(Page, TimeIsToldByTheFastestRunThatPasses) {
 }
 
 TEST(Page, AsksForNothingFromOutside) {
-  std::string page = testing::packed_page(testing::sample_rows(1));
+  std::string page = testing::packed_page(parse_rows(testing::sample_rows(1)));
   EXPECT_EQ(count(page, "content=\"default-src 'none'; script-src 'unsafe-inline';"), 1u) << "the browser sees to it";
   page.erase(page.rfind("<script>"));  // libraries name the namespaces of SVG
   for (const char* reference : {"http:", "https:", "src=", "@import", "url(", "<link", "fetch("}) {
@@ -211,7 +211,7 @@ TEST(Page, ReplaysAreEmbeddedWhereThereIsAViewer) {
   PageOptions options;
   options.replays = {{"D1 H=10", "one", "foobar"}, {"D1 H=10", "\"two\"", "foo"}};
   options.replays_note = "G1 was left out.";
-  const std::string page = page_of(testing::sample_rows(1), options);
+  const std::string page = page_of(parse_rows(testing::sample_rows(1)), options);
   EXPECT_EQ(count(page, "<section id=\"replays\""), 1u);
   EXPECT_EQ(count(page, "G1 was left out."), 1u);
   const std::size_t expected = viewer_script.empty() ? 0 : 1;
@@ -219,12 +219,13 @@ TEST(Page, ReplaysAreEmbeddedWhereThereIsAViewer) {
   EXPECT_EQ(count(page, "class=\"plumb-replay\" data-scene=\"D1 H=10\" data-backend=\"one\" data-hue=\""), expected);
   EXPECT_EQ(count(page, ">Zm9v<"), expected);
   EXPECT_EQ(count(page, "without node"), 1 - expected) << "said in words";
-  EXPECT_EQ(page_of(testing::sample_rows(1)).find("id=\"replays\""), std::string::npos) << "nothing was recorded";
+  EXPECT_EQ(page_of(parse_rows(testing::sample_rows(1))).find("id=\"replays\""), std::string::npos)
+      << "nothing was recorded";
 }
 
 TEST(Page, TravelsPackedAndSaysInWordsWhatCanBeSaid) {
   const std::vector<Json> rows = testing::sample_rows(3);
-  const std::string packed = testing::packed_page(rows), page = page_of(rows);
+  const std::string packed = testing::packed_page(parse_rows(rows)), page = page_of(parse_rows(rows));
   for (const char* plain : {"<section id=\"answers\"", "<section id=\"engines\"", "<noscript>"})
     EXPECT_EQ(count(packed, plain), 1u) << plain;
   const std::size_t drawn = has_page_script() ? 1 : 0;
@@ -242,7 +243,7 @@ TEST(Page, FiveThousandRowsInSeconds) {
     }
   }
   const auto start = std::chrono::steady_clock::now();
-  const std::string page = testing::packed_page(rows);
+  const std::string page = testing::packed_page(parse_rows(rows));
   // Generous, for sanitizers and busy machines: what it guards against is quadratic work.
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(30));
   EXPECT_GT(page.size(), 100000u);

@@ -53,10 +53,10 @@ TEST(Sample, ContendedTimesDoNotCountAndErrorsDo) {
   rows[0]["contended"] = {{"load", 7.5}, {"why", "load 7.5 on 2 cores"}};
   rows[1]["time"]["ci95"] = {3.9, 4.2};
   const Study study(parse_rows(rows));
-  EXPECT_EQ(study.rows[0].contended, "load 7.5 on 2 cores");
+  EXPECT_EQ(study.rows[0].time.why_contended(), "load 7.5 on 2 cores");
   const std::vector<CostLine> costs = cost_of_accuracy(study);
   ASSERT_TRUE(costs.at(0).at[1]);
-  EXPECT_EQ(costs[0].at[1]->row->index, 1u);
+  EXPECT_EQ(costs[0].at[1]->row->origin.index, 1u);
   ASSERT_TRUE(costs[0].at[1]->band);
   EXPECT_DOUBLE_EQ(costs[0].at[1]->band->low, 390);
   const Study alone(parse_rows({rows[0]}));
@@ -110,7 +110,7 @@ TEST(Sample, ATowerThatFellHasReachedNothing) {
   const Study study(parse_rows(rows));
   for (const CostLine& line : cost_of_accuracy(study)) {
     ASSERT_TRUE(line.at[1]) << line.metric;
-    EXPECT_EQ(line.at[1]->row->index, 1u) << line.metric;
+    EXPECT_EQ(line.at[1]->row->origin.index, 1u) << line.metric;
   }
 }
 

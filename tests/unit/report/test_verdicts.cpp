@@ -23,7 +23,7 @@
 #include "report/ordered/machine_rows.hpp"
 #include "report/text/failures.hpp"
 #include "report/text/markdown.hpp"
-#include "rows/results_file.hpp"
+#include "rows/results_reader.hpp"
 
 namespace plumb::harness {
 namespace {
@@ -31,8 +31,8 @@ namespace {
 const std::filesystem::path results = PLUMB_RESULTS_FOLDER;
 constexpr std::array folders{"xeon-16-cores", "h200"};
 
-const std::vector<Json>& committed(std::string_view folder) {
-  static std::map<std::string, std::vector<Json>, std::less<>> read;
+const std::vector<Row>& committed(std::string_view folder) {
+  static std::map<std::string, std::vector<Row>, std::less<>> read;
   const auto known = read.find(folder);
   return known != read.end() ? known->second : read.emplace(folder, read_results(results / folder).rows).first->second;
 }
@@ -43,9 +43,8 @@ std::string text_of(const std::filesystem::path& file) {
 }
 
 /// Every row, or every third one, as a busy machine would have marked it.
-std::vector<Json> marked(std::vector<Json> rows, std::size_t every) {
-  for (std::size_t i = 0; i < rows.size(); i += every)
-    rows[i]["contended"] = {{"load", 3.1}, {"why", "load 3.1 on 2 cores"}};
+std::vector<Row> marked(std::vector<Row> rows, std::size_t every) {
+  for (std::size_t i = 0; i < rows.size(); i += every) rows[i].time.contended = Contention{3.1, "load 3.1 on 2 cores"};
   return rows;
 }
 
@@ -58,8 +57,8 @@ struct Told {
   std::vector<Front> fronts;
   std::vector<AnsweredQuestion> answers;
 
-  explicit Told(const std::vector<Json>& rows)
-      : study(parse_rows(rows)),
+  explicit Told(const std::vector<Row>& rows)
+      : study(rows),
         costs(cost_of_accuracy(study)),
         tests(tests_of(costs)),
         overviews(harness::overviews(study, costs)),
@@ -114,7 +113,7 @@ std::vector<std::string> verdicts(const Told& told) {
 class Verdicts : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(Verdicts, AreThoseOfAnIdleMachine) {
-  const std::vector<Json>& rows = committed(GetParam());
+  const std::vector<Row>& rows = committed(GetParam());
   const Told idle(rows);
   const std::vector<std::string> expected = verdicts(idle);
   ASSERT_GT(expected.size(), 500u);
@@ -198,8 +197,8 @@ void over_tables(const Json& blocks, const Look& look) {
 
 /// Cells that are set off as the best, by the run that they or the cell before them link to.
 TEST_P(Verdicts, ThePageSetsOffOnlyRunsThatPass) {
-  const std::vector<Json>& rows = committed(GetParam());
-  const std::vector<ResultRow> parsed = parse_rows(rows);
+  const std::vector<Row>& rows = committed(GetParam());
+  const std::vector<Row>& parsed = rows;
   const std::string link = "href=\"#r";
   std::size_t found = 0;
   for (const Json& section : testing::packed_data(rows)) {
@@ -228,8 +227,8 @@ TEST_P(Verdicts, OfDefaultsAreOfRunsAtTheDefaults) {
   std::size_t elsewhere = 0;
   for (const BackendOverview& overview : told.overviews) {
     for (const auto* rows : {&overview.failures, &overview.broken, &overview.unsupported}) {
-      for (const ResultRow* row : *rows)
-        EXPECT_TRUE(row->defaults.empty() && row->profile == "default" && row->own_needs())
+      for (const Row* row : *rows)
+        EXPECT_TRUE(row->engine.defaults.empty() && row->profile == "default" && row->own_needs())
             << row->backend << ' ' << row->scene << ' ' << told.study.configuration(*row);
     }
     EXPECT_EQ(static_cast<std::size_t>(overview.problems + overview.elsewhere),
@@ -268,7 +267,7 @@ TEST_P(Verdicts, SumsAddUp) {
 
 /// What is said twice is one number: card, table and answer.
 TEST_P(Verdicts, OneFigureHasOneSource) {
-  const std::vector<Json>& rows = committed(GetParam());
+  const std::vector<Row>& rows = committed(GetParam());
   const Told told(rows);
   const std::string page = testing::page_of(rows);
   std::size_t fronts = 0;
@@ -339,7 +338,7 @@ INSTANTIATE_TEST_SUITE_P(Committed, Verdicts, ::testing::ValuesIn(folders), [](c
 /// The lines of the README's table that the rows alone decide.
 TEST(Readme, SaysOfTheCommittedRowsWhatTheySay) {
   const std::string readme = text_of(results.parent_path().parent_path() / "README.md");
-  const std::vector<Json>& rows = committed("xeon-16-cores");
+  const std::vector<Row>& rows = committed("xeon-16-cores");
   const Told told(rows);
   std::string cells;
   for (const char* backend : {"impulse", "impulse-f64", "bullet", "ode"}) {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "base/json.hpp"
 #include "report/ordered/against.hpp"
+#include "rows/row.hpp"
 
 namespace plumb::harness {
 
@@ -26,7 +26,7 @@ struct PageReplay {
 /// A baseline to hold the results against.
 struct AgainstPart {
   std::string name;  ///< its folder
-  std::vector<Json> rows;
+  std::vector<Row> rows;
   AgainstLimits limits;
 };
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "report/page/parts/blocks.hpp"
-#include "rows/result_row.hpp"
+#include "rows/row.hpp"
 
 namespace plumb::harness {
 namespace {
@@ -14,7 +14,7 @@ Json band_data(const Interval& band) { return Json::array({drawn_number(band.low
 /// Flags and bands stand there only where they say something: there are tens of thousands of points.
 Json point_data(const PlotPoint& point) {
   Json out{{"x", drawn_number(point.x)}, {"y", drawn_number(point.y)}};
-  if (point.row) out["r"] = point.row->index;
+  if (point.row) out["r"] = point.row->origin.index;
   if (point.filled) out["filled"] = true;
   if (point.marked) out["marked"] = true;
   if (!point.failed.empty()) out["failed"] = point.failed;

@@ -12,16 +12,16 @@
 
 namespace plumb::harness {
 
-struct ResultRow;
+struct Row;
 
 /// Where axes of errors end: beyond, nothing is told apart, for all of it is wrong.
 constexpr double largest_error = 10;
 
 struct PlotPoint {
-  double x, y;                     ///< y infinite: not finite, drawn beyond the frame
-  const ResultRow* row = nullptr;  ///< where the point leads
-  bool filled = false;             ///< at the engine's own values
-  bool marked = false;             ///< a ring around it: as it ships
+  double x, y;               ///< y infinite: not finite, drawn beyond the frame
+  const Row* row = nullptr;  ///< where the point leads
+  bool filled = false;       ///< at the engine's own values
+  bool marked = false;       ///< a ring around it: as it ships
   std::optional<Interval> x_band = {}, y_band = {};
   std::string failed = {};  ///< what it missed: a cross instead of the marker; lines end before it and begin anew
 };

@@ -26,7 +26,7 @@ Table change_table(const PageContext& context, const Comparison& comparison, Sen
   table.column({"changes", 18, Column::Kind::text});
   for (const CellChange& change : comparison.cells) {
     if (change.sense != sense) continue;
-    const ResultRow& row = *change.after;
+    const Row& row = *change.after;
     const std::string title = problem_title(row);
     table.row({row_link(row, title), backend_label(context, row.backend), escape_html(context.study.configuration(row)),
                changes_list(change)},
@@ -36,10 +36,10 @@ Table change_table(const PageContext& context, const Comparison& comparison, Sen
   return table;
 }
 
-std::string only_list(const std::vector<const ResultRow*>& rows, const char* title) {
+std::string only_list(const std::vector<const Row*>& rows, const char* title) {
   if (rows.empty()) return "";
   std::string items;
-  for (const ResultRow* row : rows)
+  for (const Row* row : rows)
     items += fmt::format("<li>{}, {}, {} s</li>", escape_html(problem_title(*row)), escape_html(row->backend),
                          dt_text(row->dt));
   return fmt::format(R"(<details class="how"><summary>{} {}</summary><ul>{}</ul></details>)", rows.size(), title,
@@ -52,7 +52,7 @@ PageSection against_section(const PageContext& context) {
   PageSection section{"against", "Against the baseline", ""};
   if (!context.options.against) return section;
   const AgainstPart& part = *context.options.against;
-  const std::vector<ResultRow> before = parse_rows(part.rows);
+  const std::vector<Row>& before = part.rows;
   const Comparison comparison = compare_results(before, context.study.rows, part.limits);
   for (const std::string& sentence : describe_comparison(comparison, part.name, part.limits))
     section.words += about(escape_html(sentence));

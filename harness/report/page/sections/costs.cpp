@@ -55,7 +55,7 @@ std::string metric_label(const CostLine& line) {
 
 /// Why nothing was reached.
 std::string why_nothing(const PageContext& context, const CostLine& line) {
-  const ResultRow& row = *line.representative;
+  const Row& row = *line.representative;
   const std::string missed = Questions(context.study.scored_metrics(*line.problem), *line.problem).missed_by(row);
   const std::string why = !row.completed()  ? row.reason
                           : !missed.empty() ? "missed " + missed + ", so that its errors mean little"
@@ -125,7 +125,7 @@ PageSection costs_section(const PageContext& context) {
       R"(column is the smallest error reached, and what it costs. A run that missed one of its scene's yes/no )"
       R"(questions (a tower that fell) has reached nothing.)";
   const auto contended = std::count_if(context.study.rows.begin(), context.study.rows.end(),
-                                       [](const ResultRow& row) { return row.contended.has_value(); });
+                                       [](const Row& row) { return row.time.contended.has_value(); });
   if (contended > 0) {
     words += fmt::format(
         R"( <b>{} of {} runs</b> were measured while the machine had more to do than cores: their )"

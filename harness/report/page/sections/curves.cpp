@@ -65,7 +65,7 @@ class Figure {
     line.rank = ranks_[method.method];
     line.line = curve.knob;
     std::vector<OrderPoint> turned;
-    for (const ResultRow* row : curve.rows) {
+    for (const Row* row : curve.rows) {
       const MetricResult* metric = row->metric(metric_);
       if (!row->completed() || !metric || !row->ms_per_simulated_second()) continue;
       if (!metric->error && !metric->scored()) continue;
@@ -87,14 +87,14 @@ class Figure {
     plot_.series.push_back(std::move(line));
   }
 
-  [[nodiscard]] PlotPoint point_of(const std::string& knob, const ResultRow& row, const MetricResult& metric) const {
+  [[nodiscard]] PlotPoint point_of(const std::string& knob, const Row& row, const MetricResult& metric) const {
     // What is not finite is drawn as what lies beyond the frame, and not left out.
     PlotPoint point{*row.ms_per_simulated_second(), metric.error.value_or(std::numeric_limits<double>::infinity()),
                     &row};
     point.filled = knob.empty() || at_default(row, knob);
     point.marked = context_.study.is_default(row);
     point.failed = questions_.missed_by(row);
-    if (row.ci95) point.x_band = Interval{row.ci95->low / *row.dt, row.ci95->high / *row.dt};
+    if (row.time.ci95) point.x_band = Interval{row.time.ci95->low / *row.dt, row.time.ci95->high / *row.dt};
     return point;
   }
 
@@ -104,8 +104,8 @@ class Figure {
   const Questions& questions_;
   std::string metric_;
   Plot plot_;
-  std::vector<const ResultRow*> rows_;  ///< that have a point
-  std::string orders_;                  ///< list items
+  std::vector<const Row*> rows_;  ///< that have a point
+  std::string orders_;            ///< list items
 };
 
 /// What diagrams cannot show, said once for all variants of a scene that it holds for.
@@ -144,7 +144,7 @@ void add_notes(const PageContext& context, const ProblemCurves& curves, Notes& n
   for (const auto& [knob, methods] : idle)
     notes.add(fmt::format("{} changes nothing with {}.", escape_html(knob), escape_html(methods)), *curves.problem);
   for (const MethodCurves& method : curves.methods) {
-    for (const ResultRow* row : method.broken) {
+    for (const Row* row : method.broken) {
       notes.add(
           fmt::format("No point of {} ({}): {}{}.", escape_html(context.curves.methods[method.method].label),
                       escape_html(context.study.configuration(*row)), row_link(*row, verdict_title(row->verdict())),

@@ -24,7 +24,7 @@ Plot diagram(const PageContext& context, const Front& front) {
   plot.y = {front.metric + " error", true, std::nullopt, largest_error};
   std::map<std::size_t, PlotSeries> beaten, best;
   for (const Dominated& other : front.others) {
-    const ResultRow& row = other.point.sample.row();
+    const Row& row = other.point.sample.row();
     PlotSeries& series =
         beaten.try_emplace(context.backend_index(row.backend), loose_series(context, row.backend)).first->second;
     series.points.push_back({other.point.ms, other.point.error, &row});
@@ -33,7 +33,7 @@ Plot diagram(const PageContext& context, const Front& front) {
   stairs.stepped = true;
   stairs.quiet = true;
   for (const FrontPoint& point : front.best) {
-    const ResultRow& row = point.sample.row();
+    const Row& row = point.sample.row();
     stairs.points.push_back({point.ms, point.error});
     PlotSeries& series =
         best.try_emplace(context.backend_index(row.backend), loose_series(context, row.backend)).first->second;
@@ -53,7 +53,7 @@ Plot diagram(const PageContext& context, const Front& front) {
 std::string front_table(const PageContext& context, const Front& front) {
   std::string rows;
   for (const FrontPoint& point : front.best) {
-    const ResultRow& row = point.sample.row();
+    const Row& row = point.sample.row();
     rows += fmt::format(R"(<tr class="of{}"><td>{}</td><td class="quiet">{}</td><td class="number">{} ms</td>)"
                         R"(<td class="number">{}</td></tr>)",
                         context.backend_index(row.backend), backend_label(context, row.backend),
@@ -69,14 +69,14 @@ Json figure(const PageContext& context, const Front& front) {
   figure.key = filter_key(context, *front.problem, front.metric);
   figure.legend = false;
   figure.plots = {diagram(context, front)};
-  std::vector<const ResultRow*> rows;
+  std::vector<const Row*> rows;
   for (const FrontPoint& point : front.best)
     rows.insert(rows.end(), point.sample.rows.begin(), point.sample.rows.end());
   figure.notes = front_table(context, front) + figure_foot(context, rows, front.problem->title());
   for (const Dominated& other : front.others) {
     const FrontPoint& by = front.best[other.by];
     figure.beaten.push_back(
-        {other.point.sample.row().index, by.sample.row().index, ratio_text(other.point.ms / by.ms)});
+        {other.point.sample.row().origin.index, by.sample.row().origin.index, ratio_text(other.point.ms / by.ms)});
   }
   return figure_data(figure);
 }

@@ -53,9 +53,9 @@ std::string join_words(const std::vector<std::string>& words) {
 std::string machine_facts(const Study& study) {
   std::set<std::string> seen;
   std::vector<const Json*> machines;
-  for (const ResultRow& row : study.rows) {
-    if (row.machine.empty()) continue;
-    if (seen.insert(value_text(row.machine)).second) machines.push_back(&row.machine);
+  for (const Row& row : study.rows) {
+    if (row.origin.machine.empty()) continue;
+    if (seen.insert(value_text(row.origin.machine)).second) machines.push_back(&row.origin.machine);
   }
   std::string out;
   for (const Json* machine : machines) {
@@ -85,10 +85,10 @@ std::string head_section(const PageContext& context) {
   if (!context.options.written.empty())
     out += fmt::format("<div><dt>written</dt><dd>{}</dd></div>", escape_html(context.options.written));
   std::string first, last;
-  for (const ResultRow& row : context.study.rows) {
-    if (row.date.empty()) continue;
-    if (first.empty() || row.date < first) first = row.date;
-    last = std::max(last, row.date);
+  for (const Row& row : context.study.rows) {
+    if (row.origin.date.empty()) continue;
+    if (first.empty() || row.origin.date < first) first = row.origin.date;
+    last = std::max(last, row.origin.date);
   }
   if (!first.empty()) {
     out +=

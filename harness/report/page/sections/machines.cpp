@@ -13,18 +13,18 @@ namespace plumb::harness {
 namespace {
 
 /// Rows of one problem and backend, by machine; null where it did not run there.
-using Beside = std::vector<const ResultRow*>;
+using Beside = std::vector<const Row*>;
 
-void add_cells(const ResultRow* row, Json& cells) {
+void add_cells(const Row* row, Json& cells) {
   if (!row) {
     cells.push_back(cell(std::string(no_value), {}, "quiet"));
     cells.push_back("");
     return;
   }
   const MetricResult* worst = row->completed() ? row->worst() : nullptr;
-  const std::string time = row->completed() && row->fair_ms()   ? short_number(*row->fair_ms())
-                           : row->completed() && row->contended ? "contended"
-                                                                : verdict_title(row->verdict());
+  const std::string time = row->completed() && row->fair_ms()        ? short_number(*row->fair_ms())
+                           : row->completed() && row->time.contended ? "contended"
+                                                                     : verdict_title(row->verdict());
   cells.push_back(cell(row_link(*row, time) + (row->completed() ? failed_mark(*row) : ""),
                        row->completed() ? row->fair_ms() : std::nullopt));
   cells.push_back(cell(worst ? short_number(worst->error, 2) : "", worst ? worst->error : std::nullopt));
@@ -32,8 +32,8 @@ void add_cells(const ResultRow* row, Json& cells) {
 
 /// "yes" where all that ran have the same bits at the end.
 const char* same_bits(const Beside& rows) {
-  const ResultRow* first = nullptr;
-  for (const ResultRow* row : rows) {
+  const Row* first = nullptr;
+  for (const Row* row : rows) {
     if (!row) continue;
     if (row->hash.empty()) return "";
     if (!first) first = row;
@@ -52,7 +52,7 @@ PageSection machines_section(const std::vector<PageContext>& machines) {
   for (std::size_t i = 0; i < machines.size(); ++i) {
     for (const Problem& problem : machines[i].study.problems) {
       for (const std::string& backend : machines[i].study.backends) {
-        const ResultRow* row = default_run(machines[i].study, problem, backend);
+        const Row* row = default_run(machines[i].study, problem, backend);
         if (!row) continue;
         const auto [at, is_new] = beside.try_emplace({problem.title(), backend}, machines.size(), nullptr);
         if (is_new) order.push_back(at->first);
@@ -83,7 +83,7 @@ PageSection machines_section(const std::vector<PageContext>& machines) {
   for (const auto& key : order) {
     const Beside& rows = beside.at(key);
     Json cells = Json::array({escape_html(key.first), backend_label(machines.front(), key.second)});
-    for (const ResultRow* row : rows) add_cells(row, cells);
+    for (const Row* row : rows) add_cells(row, cells);
     cells.push_back(same_bits(rows));
     table.row(std::move(cells), lower(key.first + " " + key.second), machines.front().backend_index(key.second));
   }

@@ -8,19 +8,19 @@
 namespace plumb::harness {
 namespace {
 
-std::string cell_number(const ResultRow& row) {
+std::string cell_number(const Row& row) {
   const MetricResult* worst = row.worst();
   if (!row.completed() || !worst) return "";
   return worst->error ? short_number(*worst->error, 2) : "not finite";
 }
 
 Json matrix_cell(const PageContext& context, const Problem& problem, const std::string& backend) {
-  const ResultRow* row = context.study.representative(problem, backend);
+  const Row* row = context.study.representative(problem, backend);
   if (!row) return cell(std::string(no_value), {}, "quiet");
   const Verdict verdict = row->verdict();
   std::string below = row->completed() ? cell_number(*row) : row->reason;
   if (!context.study.is_default(*row)) below += " with " + context.study.configuration(*row);
-  return cell(fmt::format(R"(<a href="#r{}"><b>{}</b><span>{}</span></a>)", row->index,
+  return cell(fmt::format(R"(<a href="#r{}"><b>{}</b><span>{}</span></a>)", row->origin.index,
                           escape_html(verdict_title(verdict)), escape_html(below)),
               static_cast<double>(verdict), fmt::format("verdict {}", verdict_word(verdict)));
 }
@@ -39,7 +39,7 @@ PageSection matrix_section(const PageContext& context) {
     Json cells = Json::array({problem_label(context, problem)});
     std::string verdicts;
     for (const std::string& backend : context.study.backends) {
-      const ResultRow* row = context.study.representative(problem, backend);
+      const Row* row = context.study.representative(problem, backend);
       if (row) verdicts += " " + verdict_title(row->verdict());
       cells.push_back(matrix_cell(context, problem, backend));
     }

@@ -30,7 +30,7 @@ PageSection needs_section(const PageContext& context) {
   table.column({"pairs", 3});
   table.column({"dearest in", 11, Column::Kind::text});
   table.column({"did other work in", 11, Column::Kind::text});
-  std::vector<const ResultRow*> rows;
+  std::vector<const Row*> rows;
   for (const NeedCost& cost : costs) {
     Json cells = Json::array({escape_html(cost.need), backend_label(context, cost.backend)});
     if (cost.pairs.empty()) {

@@ -15,7 +15,7 @@ namespace plumb::harness {
 namespace {
 
 /// All that must be equal for points to be joined along dt; "" for default settings.
-std::string method_of(const Study& study, const ResultRow& row) {
+std::string method_of(const Study& study, const Row& row) {
   std::string out = row.profile == "default" ? "" : row.profile;
   for (const auto& [name, value] : study.changed_settings(row)) out += (out.empty() ? "" : ", ") + name + " " + value;
   if (row.threads && *row.threads != 1)
@@ -23,7 +23,7 @@ std::string method_of(const Study& study, const ResultRow& row) {
   return out;
 }
 
-PlotPoint point_of(const PageContext& context, const ResultRow& row, const Measured& cost, const Measured& error) {
+PlotPoint point_of(const PageContext& context, const Row& row, const Measured& cost, const Measured& error) {
   PlotPoint point{cost.value, error.value, &row, context.study.is_default(row)};
   point.x_band = cost.band;
   if (error.band && std::isfinite(error.band->high)) point.y_band = error.band;
@@ -61,7 +61,7 @@ class OrderFigure {
     const Questions questions(context.study.scored_metrics(problem), problem);
     std::map<std::pair<std::size_t, std::string>, DtLine> lines;  // backend, method
     for (const Sample& sample : samples_of(problem, "")) {
-      const ResultRow& row = sample.row();
+      const Row& row = sample.row();
       const std::optional<Measured> error = sample.error(metric), cost = sample.cost();
       if (!error || !cost || context.curves.is_turned(row)) continue;
       const std::size_t backend = context.backend_index(row.backend);
@@ -125,8 +125,8 @@ class OrderFigure {
   const Problem& problem_;
   std::string title_;
   Plot plot_;
-  std::vector<const ResultRow*> rows_;  ///< that have a point
-  std::string orders_;                  ///< list items
+  std::vector<const Row*> rows_;  ///< that have a point
+  std::string orders_;            ///< list items
 };
 
 /// Consecutive problems of one scene.
@@ -134,9 +134,8 @@ void add_scene_figures(const PageContext& context, const Problem* first, const P
   // With a sweep each variant has a diagram; without, a point each of all variants shares one.
   const bool swept = std::any_of(first, last, [&](const Problem& problem) {
     std::map<std::string, int> cells;
-    return std::any_of(problem.rows.begin(), problem.rows.end(), [&](const ResultRow* row) {
-      return !context.curves.is_turned(*row) && ++cells[row->backend] > 1;
-    });
+    return std::any_of(problem.rows.begin(), problem.rows.end(),
+                       [&](const Row* row) { return !context.curves.is_turned(*row) && ++cells[row->backend] > 1; });
   });
   const auto add = [&](const Problem& problem, const std::string& metric, const std::string& title) {
     const OrderFigure figure(context, problem, metric, title, swept || last - first == 1);

@@ -44,13 +44,13 @@ Json metric_data(const MetricResult& metric, Pool& metrics) {
       {shared, short_digits(metric.value), short_digits(metric.error), short_digits(metric.unbiased_error), verdict});
 }
 
-Json row_data(const PageContext& context, const ResultRow& row, Pool& settings, Pool& machines, Pool& shared_metrics) {
+Json row_data(const PageContext& context, const Row& row, Pool& settings, Pool& machines, Pool& shared_metrics) {
   Json metrics = Json::array();
   for (const MetricResult& metric : row.metrics) metrics.push_back(metric_data(metric, shared_metrics));
   Json changed = Json::array();
   for (const auto& [name, value] : context.study.changed_settings(row)) changed.push_back(name);
   Json phases = Json::array();
-  for (const auto& [name, ms] : row.phase_ms) phases.push_back({name, ms});
+  for (const auto& [name, ms] : row.time.phase_ms) phases.push_back({name, ms});
   const MetricResult* worst = row.completed() ? row.worst() : nullptr;
   const std::string decided =
       worst             ? fmt::format("{} {}", worst->name, worst->error ? short_number(*worst->error) : "not finite")
@@ -66,19 +66,20 @@ Json row_data(const PageContext& context, const ResultRow& row, Pool& settings, 
                {"changed", changed},
                {"command", context.study.command(row)},
                {"hash", row.hash},
-               {"date", row.date},
+               {"date", row.origin.date},
                {"reason", row.reason},
-               {"contended", row.contended.value_or("")},
-               {"band", row.ci95 ? Json::array({row.ci95->low, row.ci95->high}) : Json()},
-               {"machine", machines.index_of(row.machine)},
+               {"contended", row.time.why_contended()},
+               {"band", row.time.ci95 ? Json::array({row.time.ci95->low, row.time.ci95->high}) : Json()},
+               {"machine", machines.index_of(row.origin.machine)},
                {"phases", phases},
                {"times",
-                {number(row.median_ms), number(row.min_ms), number(row.max_ms), number(row.p99_ms),
-                 number(row.setup_ms), number(row.steps), number(row.window_first), number(row.window_last)}},
+                {number(row.time.median_ms), number(row.time.min_ms), number(row.time.max_ms), number(row.time.p99_ms),
+                 number(row.time.setup_ms), number(row.time.steps), number(row.time.window_first),
+                 number(row.time.window_last)}},
                {"counts",
-                {number(row.bodies), number(row.contacts_max), number(row.dropped), number(row.nonfinite),
-                 number(row.peak_mb)}}};
-  if (row.restarted > 0) data["restarted"] = row.restarted;
+                {number(row.counts.bodies), number(row.counts.contacts_max), number(row.counts.dropped),
+                 number(row.counts.nonfinite), number(row.counts.peak_mb)}}};
+  if (row.time.restarted.value_or(0) > 0) data["restarted"] = *row.time.restarted;
   return data;
 }
 
@@ -90,24 +91,24 @@ PageSection rows_section(const PageContext& context) {
       "Open a line for its metrics, the settings in force, the state hash, the machine, and the command that runs it "
       "again. Decided by: the metric that comes closest to its threshold or exceeds it most, and its error.";
   if (std::any_of(context.study.rows.begin(), context.study.rows.end(),
-                  [](const ResultRow& row) { return row.contended.has_value(); }))
+                  [](const Row& row) { return row.time.contended.has_value(); }))
     words += " A time in parentheses was measured while the machine had other work, and counts nowhere.";
   section.words = about(words);
   Pool settings, machines, metrics;
   std::vector<Json> rows(context.study.rows.size());
-  const std::size_t first = context.study.rows.empty() ? 0 : context.study.rows.front().index;
+  const std::size_t first = context.study.rows.empty() ? 0 : context.study.rows.front().origin.index;
   Json order = Json::array();
   for (const Problem& problem : context.study.problems) {
     const std::string key = filter_key(context, problem);
-    std::vector<const ResultRow*> ordered = problem.rows;
-    std::stable_sort(ordered.begin(), ordered.end(), [&](const ResultRow* a, const ResultRow* b) {
+    std::vector<const Row*> ordered = problem.rows;
+    std::stable_sort(ordered.begin(), ordered.end(), [&](const Row* a, const Row* b) {
       return context.backend_index(a->backend) < context.backend_index(b->backend);
     });
-    for (const ResultRow* row : ordered) {
+    for (const Row* row : ordered) {
       Json data = row_data(context, *row, settings, machines, metrics);
       data["k"] = key;
-      rows[row->index - first] = std::move(data);
-      order.push_back(row->index - first);
+      rows[row->origin.index - first] = std::move(data);
+      order.push_back(row->origin.index - first);
     }
   }
   section.blocks.push_back({{"runs",

@@ -17,11 +17,11 @@ constexpr double frame_ms = 1000.0 / 60;
 
 struct Sized {
   double bodies;
-  const ResultRow* row;
+  const Row* row;
 };
 
 /// What a row was run with that is no number: other structures, kinds, cases.
-Json kind_of(const ResultRow& row) {
+Json kind_of(const Row& row) {
   Json kind = Json::object();
   for (const auto& [name, value] : row.params.items())
     if (!value.is_number()) kind[name] = value;
@@ -33,9 +33,10 @@ std::vector<Sized> sizes_of(const PageContext& context, const Problem* first, co
                             const std::string& backend) {
   std::vector<Sized> sizes;
   for (const Problem* problem = first; problem != last; ++problem) {
-    const ResultRow* row = default_run(context.study, *problem, backend);
-    if (row && row->completed() && row->bodies && *row->bodies > 0 && row->fair_ms() && *row->fair_ms() > 0)
-      sizes.push_back({*row->bodies, row});
+    const Row* row = default_run(context.study, *problem, backend);
+    if (row && row->completed() && row->counts.bodies && *row->counts.bodies > 0 && row->fair_ms() &&
+        *row->fair_ms() > 0)
+      sizes.push_back({*row->counts.bodies, row});
   }
   std::stable_sort(sizes.begin(), sizes.end(), [](const Sized& a, const Sized& b) { return a.bodies < b.bodies; });
   const bool varies = !sizes.empty() && sizes.front().bodies < sizes.back().bodies;
@@ -88,13 +89,13 @@ Json scene_figure(const PageContext& context, const Problem* first, const Proble
   error.description = fmt::format("{}: error against the number of bodies", first->scene);
   error.y = {"error of the worst metric", true, std::nullopt, largest_error};
   std::string list;
-  std::vector<const ResultRow*> rows;
+  std::vector<const Row*> rows;
   for (const std::string& backend : context.study.backends) {
     const std::vector<Sized> sizes = sizes_of(context, first, last, backend);
     if (sizes.empty()) continue;
     PlotSeries times{backend, context.backend_index(backend)}, errors = times;
     for (const Sized& sized : sizes) {
-      times.points.push_back({sized.bodies, *sized.row->fair_ms(), sized.row, true, false, {}, sized.row->ci95});
+      times.points.push_back({sized.bodies, *sized.row->fair_ms(), sized.row, true, false, {}, sized.row->time.ci95});
       times.points.back().failed = sized.row->missed();
       rows.push_back(sized.row);
       const MetricResult* worst = sized.row->worst();

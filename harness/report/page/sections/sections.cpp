@@ -20,16 +20,16 @@ std::size_t PageContext::backend_index(const std::string& backend) const {
 
 std::string about(std::string_view html) { return fmt::format(R"(<p class="about">{}</p>)", html); }
 
-std::string row_link(const ResultRow& row, std::string_view text) {
-  return fmt::format(R"(<a href="#r{}">{}</a>)", row.index, escape_html(text));
+std::string row_link(const Row& row, std::string_view text) {
+  return fmt::format(R"(<a href="#r{}">{}</a>)", row.origin.index, escape_html(text));
 }
 
-std::string problem_title(const ResultRow& row) {
+std::string problem_title(const Row& row) {
   const std::string variant = row.variant();
   return variant.empty() ? row.scene : row.scene + " " + variant;
 }
 
-std::string failed_mark(const ResultRow& row) {
+std::string failed_mark(const Row& row) {
   return row.passes() ? "" : fmt::format(R"(<sup title="misses {}">&#8224;</sup>)", escape_html(row.missed()));
 }
 
@@ -47,7 +47,7 @@ std::string statement_text(const Statement& statement) {
 
 std::string untimed_note(const PageContext& context) {
   const auto contended = std::count_if(context.study.rows.begin(), context.study.rows.end(),
-                                       [](const ResultRow& row) { return row.contended.has_value(); });
+                                       [](const Row& row) { return row.time.contended.has_value(); });
   if (contended == 0) return "";
   return fmt::format(R"( <b>{} of {} runs</b> were measured while the machine had other work: they have no time that )"
                      R"(counts, and are not among these.)",
@@ -68,8 +68,7 @@ std::string filter_key(const PageContext& context, const Problem& problem, std::
                            text == context.options.scenes.end() ? std::string() : text->second.title, more));
 }
 
-std::string figure_foot(const PageContext& context, const std::vector<const ResultRow*>& rows,
-                        std::string_view filter) {
+std::string figure_foot(const PageContext& context, const std::vector<const Row*>& rows, std::string_view filter) {
   if (rows.empty()) return "";
   return fmt::format(R"(<details class="how"><summary><a href="#runs{}" data-show="{}">{} {}</a>, command</summary>)"
                      R"(<code>{}</code></details>)",

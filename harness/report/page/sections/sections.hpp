@@ -13,6 +13,7 @@
 #include "report/ordered/study.hpp"
 #include "report/page/parts/blocks.hpp"
 #include "report/page/parts/page_options.hpp"
+#include "rows/row.hpp"
 
 namespace plumb::harness {
 
@@ -74,9 +75,9 @@ struct PageContext {
 
 /// A figure as a link to the row that it comes from: <a href="#r12">text</a>. The text is escaped here; what a hover
 /// says of the row, the script knows.
-[[nodiscard]] std::string row_link(const ResultRow& row, std::string_view text);
+[[nodiscard]] std::string row_link(const Row& row, std::string_view text);
 /// A dagger behind a figure of a run that fails its scene; what it misses is its title. "" for one that passes.
-[[nodiscard]] std::string failed_mark(const ResultRow& row);
+[[nodiscard]] std::string failed_mark(const Row& row);
 /// A statement with a link to its run, and what it only counts as a list that opens.
 [[nodiscard]] std::string statement_text(const Statement& statement);
 /// A sentence for figures that need times: how many runs have none that counts; "" where all have.
@@ -86,7 +87,7 @@ struct PageContext {
 /// What the page's filter finds an element by: lower case.
 [[nodiscard]] std::string filter_key(const PageContext& context, const Problem& problem, std::string_view more = "");
 /// Below a figure: the runs that it shows, and what makes them again. `filter` finds them among all.
-[[nodiscard]] std::string figure_foot(const PageContext& context, const std::vector<const ResultRow*>& rows,
+[[nodiscard]] std::string figure_foot(const PageContext& context, const std::vector<const Row*>& rows,
                                       std::string_view filter);
 /// The name of a backend with its marker.
 [[nodiscard]] std::string backend_label(const PageContext& context, const std::string& backend);
@@ -98,6 +99,6 @@ void add_backend_columns(const PageContext& context, Table& table, double width)
 [[nodiscard]] std::string group_title(const std::string& group);
 [[nodiscard]] std::string verdict_title(Verdict verdict);  ///< "out of memory"
 [[nodiscard]] std::string lower(std::string text);         ///< ASCII letters
-[[nodiscard]] std::string problem_title(const ResultRow& row);
+[[nodiscard]] std::string problem_title(const Row& row);
 
 }  // namespace plumb::harness

@@ -13,12 +13,12 @@ namespace {
 constexpr double smallest = 1e-4, largest = 1e4;  ///< of error over threshold: beyond, nothing more is said
 
 struct Run {
-  const ResultRow* row;
+  const Row* row;
   double ms, error;  ///< per step; over the threshold
 };
 
 std::optional<Run> run_of(const PageContext& context, const Problem& problem, const std::string& backend) {
-  const ResultRow* row = default_run(context.study, problem, backend);
+  const Row* row = default_run(context.study, problem, backend);
   if (!row || !row->completed() || !row->fair_ms() || *row->fair_ms() <= 0) return std::nullopt;
   const MetricResult* worst = row->worst();
   const std::optional<double> badness = worst ? worst->badness() : std::nullopt;

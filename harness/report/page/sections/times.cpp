@@ -16,18 +16,18 @@ namespace {
 std::optional<double> fastest(const PageContext& context, const Problem& problem) {
   std::optional<double> best;
   for (const std::string& backend : context.study.backends) {
-    const ResultRow* row = default_run(context.study, problem, backend);
+    const Row* row = default_run(context.study, problem, backend);
     if (row && row->passes() && row->fair_ms() && (!best || *row->fair_ms() < *best)) best = row->fair_ms();
   }
   return best && *best > 0 ? best : std::nullopt;
 }
 
 /// Time and ratio of an engine on a problem.
-void add_time_cells(const ResultRow* row, const std::optional<double>& best, Json& cells) {
+void add_time_cells(const Row* row, const std::optional<double>& best, Json& cells) {
   if (!row || !row->completed() || !row->fair_ms()) {
-    const std::string why = !row                                 ? std::string(no_value)
-                            : row->completed() && row->contended ? "contended"
-                                                                 : verdict_title(row->verdict());
+    const std::string why = !row                                      ? std::string(no_value)
+                            : row->completed() && row->time.contended ? "contended"
+                                                                      : verdict_title(row->verdict());
     cells.push_back(cell(row ? row_link(*row, why) : why, {}, "quiet"));
     cells.push_back("");
     return;
@@ -57,8 +57,8 @@ Table ratio_table(const PageContext& context) {
     bool any = false;
     Json times = Json::array();
     for (const std::string& backend : context.study.backends) {
-      const ResultRow* row = default_run(context.study, problem, backend);
-      if (row && row->bodies) bodies = row->bodies;
+      const Row* row = default_run(context.study, problem, backend);
+      if (row && row->counts.bodies) bodies = row->counts.bodies;
       any = any || (row && row->completed() && row->fair_ms());
       add_time_cells(row, best, times);
     }
@@ -76,8 +76,8 @@ std::vector<std::string> phases_of(const Study& study) {
   std::vector<std::string> names{"broad", "narrow", "islands", "solve", "integrate", "continuous", "output"};
   const std::size_t known = names.size();
   std::vector<bool> seen(known, false);
-  for (const ResultRow& row : study.rows) {
-    for (const auto& [name, ms] : row.phase_ms) {
+  for (const Row& row : study.rows) {
+    for (const auto& [name, ms] : row.time.phase_ms) {
       const auto found = std::find(names.begin(), names.end(), name);
       if (found == names.end()) {
         names.push_back(name);
@@ -95,7 +95,7 @@ std::vector<std::string> phases_of(const Study& study) {
 }
 
 /// The step of a row as a bar, as long as its share of the slowest engine's.
-std::string phase_bar(const ResultRow& row, const std::vector<std::string>& phases, double sum, double total,
+std::string phase_bar(const Row& row, const std::vector<std::string>& phases, double sum, double total,
                       double longest) {
   std::string bar;
   const auto add = [&](const std::string& name, const std::string& style, double ms) {
@@ -104,7 +104,7 @@ std::string phase_bar(const ResultRow& row, const std::vector<std::string>& phas
                        share, escape_html(name), short_number(ms), share);
   };
   for (std::size_t i = 0; i < phases.size(); ++i) {
-    for (const auto& [name, ms] : row.phase_ms) {
+    for (const auto& [name, ms] : row.time.phase_ms) {
       if (name == phases[i] && ms > 0) add(name, fmt::format("p{}", i % 8), ms);
     }
   }
@@ -112,9 +112,9 @@ std::string phase_bar(const ResultRow& row, const std::vector<std::string>& phas
   return fmt::format(R"(<div class="bar" style="width:{:.1f}%">{}</div>)", 100 * std::max(0.02, total / longest), bar);
 }
 
-double phase_sum(const ResultRow& row) {
+double phase_sum(const Row& row) {
   double sum = 0;
-  for (const auto& [name, ms] : row.phase_ms) sum += std::max(ms, 0.0);
+  for (const auto& [name, ms] : row.time.phase_ms) sum += std::max(ms, 0.0);
   return sum;
 }
 
@@ -127,15 +127,15 @@ Table phase_table(const PageContext& context, const std::vector<std::string>& ph
   for (const Problem& problem : context.study.problems) {
     double longest = 0;
     for (const std::string& backend : context.study.backends) {
-      const ResultRow* row = default_run(context.study, problem, backend);
+      const Row* row = default_run(context.study, problem, backend);
       if (row && row->completed()) longest = std::max({longest, phase_sum(*row), row->fair_ms().value_or(0)});
     }
     for (const std::string& backend : context.study.backends) {
-      const ResultRow* row = default_run(context.study, problem, backend);
-      if (!row || !row->completed() || row->contended || row->phase_ms.empty()) continue;
-      const double sum = phase_sum(*row), total = std::max(sum, row->median_ms.value_or(sum));
+      const Row* row = default_run(context.study, problem, backend);
+      if (!row || !row->completed() || row->time.contended || row->time.phase_ms.empty()) continue;
+      const double sum = phase_sum(*row), total = std::max(sum, row->time.median_ms.value_or(sum));
       if (!(total > 0)) continue;
-      const double shown = row->median_ms.value_or(sum);
+      const double shown = row->time.median_ms.value_or(sum);
       table.row(
           {problem_label(context, problem), backend_label(context, row->backend),
            cell(row_link(*row, short_number(shown)), shown), cell(phase_bar(*row, phases, sum, total, longest), total)},

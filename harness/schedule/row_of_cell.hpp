@@ -1,9 +1,10 @@
-// A row of results: the object that the command line's contract describes, one a cell.
+// From what the repetitions of a cell answered to its row.
 #pragma once
 
 #include <vector>
 
 #include "cell/cell.hpp"
+#include "rows/row.hpp"
 #include "worker/worker_process.hpp"
 
 namespace plumb::harness {
@@ -13,7 +14,7 @@ namespace plumb::harness {
 /// Repetitions on a busy machine do not count for times where there are calm ones; where there are none the row is
 /// "contended". "restarted" counts those whose worker somebody killed and that were run once more. "knobs" names the
 /// settings of the role "quality", "defaults" has the engine's own values of settings off them.
-[[nodiscard]] Json make_row(const Cell& cell, const std::vector<Answer>& answers, const Json& machine);
+[[nodiscard]] Row make_row(const Cell& cell, const std::vector<Answer>& answers, const Json& machine);
 
 /// The median ms per step of each repetition that counts for times and ran to its end.
 [[nodiscard]] std::vector<double> medians_of_runs(const std::vector<Answer>& answers);

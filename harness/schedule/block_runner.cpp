@@ -11,7 +11,7 @@
 
 #include "cell/machine.hpp"
 #include "study/claims.hpp"
-#include "study/row.hpp"
+#include "study/row_of_cell.hpp"
 #include "worker/cell_workers.hpp"
 
 namespace plumb::harness {
@@ -41,6 +41,10 @@ class Study {
   }
 
  private:
+  /// What a ladder is judged by.
+  struct End {
+    std::string status, hash;
+  };
   using Answers = std::map<const Cell*, std::vector<Answer>>;  ///< of all repetitions so far
 
   /// False when another process has one of the cells: then none is run.
@@ -74,7 +78,7 @@ class Study {
   void run_block(const CellBlock& block) {
     std::vector<const Cell*> open;
     for (const Cell& cell : block.cells) {
-      const Json* row = known_row(cell);
+      const Row* row = known_row(cell);
       if (row == nullptr) {
         open.push_back(&cell);
       } else {
@@ -98,27 +102,27 @@ class Study {
     for (const Cell* cell : open) finish(*cell, answers[cell]);
   }
 
-  [[nodiscard]] const Json* known_row(const Cell& cell) const {
+  [[nodiscard]] const Row* known_row(const Cell& cell) const {
     return results_ == nullptr ? nullptr : results_->find(cell_id(cell));
   }
 
   /// What came of a cell: its row of an earlier run, or its first repetition, which is run here when it was not yet.
-  Json first_result(const Cell& cell, Answers& answers) {
-    if (const Json* row = known_row(cell)) return *row;
+  End first_end(const Cell& cell, Answers& answers) {
+    if (const Row* row = known_row(cell)) return {row->status, row->hash};
     std::vector<Answer>& mine = answers[&cell];
     if (mine.empty()) mine.push_back(ask(cell, 1));
-    return mine.front().status == "ok" ? mine.front().json : Json::object();
+    const Answer& first = mine.front();
+    return first.status == "ok" ? End{first.json.value("status", ""), first.json.value("hash", "")} : End{};
   }
 
   void leave_out_idle(const CellBlock& block, const Ladder& ladder, std::vector<const Cell*>& open, Answers& answers) {
     std::vector<std::size_t> idle = ladder.others;
-    const Json base = first_result(block.cells[ladder.base], answers);
-    if (base.value("status", "") == "unsupported") {
+    const End base = first_end(block.cells[ladder.base], answers);
+    if (base.status == "unsupported") {
       idle.push_back(ladder.probe);
     } else {
-      const Json probe = first_result(block.cells[ladder.probe], answers);
-      const std::string hash = base.value("hash", "");
-      if (hash.empty() || hash != probe.value("hash", "")) return;
+      const End probe = first_end(block.cells[ladder.probe], answers);
+      if (base.hash.empty() || base.hash != probe.hash) return;
     }
     for (const std::size_t rung : idle) total_ -= std::erase(open, &block.cells[rung]);
   }
@@ -145,13 +149,13 @@ class Study {
     return workers_.ask(cell, files, request_.limits(), tick);
   }
 
-  void record(const Cell& cell, const Json& row, bool is_new) {
+  void record(const Cell& cell, const Row& row, bool is_new) {
     if (request_.record && results_ != nullptr && wants_recording(results_->folder(), cell, row, is_new))
       static_cast<void>(ask(cell, recording));
   }
 
   void finish(const Cell& cell, const std::vector<Answer>& answers) {
-    const Json row = make_row(cell, answers, machine_);
+    const Row row = make_row(cell, answers, machine_);
     const bool killed =
         std::any_of(answers.begin(), answers.end(), [](const Answer& a) { return a.killed_from_outside; });
     if (!killed) record(cell, row, true);
@@ -159,7 +163,7 @@ class Study {
     hand_on(row, true);
   }
 
-  void hand_on(const Json& row, bool is_new) {
+  void hand_on(const Row& row, bool is_new) {
     ++done_;
     callbacks_.finished(row, is_new);
   }

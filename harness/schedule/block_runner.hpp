@@ -5,8 +5,9 @@
 #include <optional>
 #include <vector>
 
+#include "rows/results_file.hpp"
+#include "rows/row.hpp"
 #include "study/plan.hpp"
-#include "study/results.hpp"
 
 namespace plumb::harness {
 
@@ -19,8 +20,8 @@ struct StudyProgress {
 };
 
 struct StudyCallbacks {
-  std::function<void(const Json& row, bool is_new)> finished;  ///< in the order in which cells finish
-  std::function<void(const StudyProgress&)> progress;          ///< may be empty
+  std::function<void(const Row& row, bool is_new)> finished;  ///< in the order in which cells finish
+  std::function<void(const StudyProgress&)> progress;         ///< may be empty
 };
 
 /// Cells whose row `results` (may be null) has already are not run again, and those that another process is running in

@@ -2,13 +2,13 @@
 
 #include <cmath>
 
-#include "rows/result_row.hpp"
+#include "rows/row.hpp"
 #include "sample_rows.hpp"
 
 namespace plumb::harness {
 namespace {
 
-TEST(ResultRow, ReadsEveryFieldOfTheContract) {
+TEST(Row, ReadsEveryFieldOfTheContract) {
   const Json line = Json::parse(R"({"scene":"D1","group":"stacking","params":{"H":50,"kind":"wall"},"backend":"b",
     "backend_version":"1.2","settings":{"iterations":10},"profile":"matched","dt":0.01,"seconds":10,"threads":2,
     "status":"failed","reason":"r","metrics":{"z":{"value":1.5,"unit":"m","truth":1,"error":0.5,"threshold":0.1,
@@ -16,13 +16,13 @@ TEST(ResultRow, ReadsEveryFieldOfTheContract) {
     "pass":true}},"time":{"ms_per_step":{"median":2,"min":1,"max":4,"p99":3},"window":[10,990],"steps":1000,
     "setup_ms":7,"phase_ms":{"broad":0.5,"solve":null}},"counts":{"bodies":51,"contacts_max":200,"dropped":3,
     "nonfinite":1},"restarted":2,"hash":"ab","peak_mb":12.5,"machine":{"cpu":"c"}})");
-  const ResultRow row = parse_row(line, 7);
-  EXPECT_EQ(row.index, 7u);
-  EXPECT_EQ(row.scene + row.group + row.backend + row.backend_version, "D1stackingb1.2");
+  const Row row = parse_row(line, 7);
+  EXPECT_EQ(row.origin.index, 7u);
+  EXPECT_EQ(row.scene + row.group + row.backend + row.engine.version, "D1stackingb1.2");
   EXPECT_EQ(row.profile + row.status + row.reason + row.hash, "matchedfailedrab");
   EXPECT_EQ(row.variant(), "H=50 kind=wall");
   EXPECT_EQ(row.settings["iterations"], 10);
-  EXPECT_EQ(row.machine["cpu"], "c");
+  EXPECT_EQ(row.origin.machine["cpu"], "c");
   EXPECT_EQ(row.dt, 0.01);
   EXPECT_EQ(row.seconds, 10);
   EXPECT_EQ(row.threads, 2);
@@ -35,32 +35,32 @@ TEST(ResultRow, ReadsEveryFieldOfTheContract) {
   EXPECT_FALSE(row.metrics[0].is_gold);
   EXPECT_FALSE(row.metrics[1].truth);
   EXPECT_TRUE(row.metrics[1].is_gold);
-  EXPECT_EQ(row.median_ms, 2);
-  EXPECT_EQ(row.min_ms, 1);
-  EXPECT_EQ(row.max_ms, 4);
-  EXPECT_EQ(row.p99_ms, 3);
-  EXPECT_EQ(row.window_first, 10);
-  EXPECT_EQ(row.window_last, 990);
-  EXPECT_EQ(row.steps, 1000);
-  EXPECT_EQ(row.setup_ms, 7);
-  ASSERT_EQ(row.phase_ms.size(), 1u);
-  EXPECT_EQ(row.phase_ms[0].second, 0.5);
-  EXPECT_EQ(row.bodies, 51);
-  EXPECT_EQ(row.contacts_max, 200);
-  EXPECT_EQ(row.dropped, 3);
-  EXPECT_EQ(row.nonfinite, 1);
-  EXPECT_EQ(row.peak_mb, 12.5);
-  EXPECT_EQ(row.restarted, 2);
+  EXPECT_EQ(row.time.median_ms, 2);
+  EXPECT_EQ(row.time.min_ms, 1);
+  EXPECT_EQ(row.time.max_ms, 4);
+  EXPECT_EQ(row.time.p99_ms, 3);
+  EXPECT_EQ(row.time.window_first, 10);
+  EXPECT_EQ(row.time.window_last, 990);
+  EXPECT_EQ(row.time.steps, 1000);
+  EXPECT_EQ(row.time.setup_ms, 7);
+  ASSERT_EQ(row.time.phase_ms.size(), 1u);
+  EXPECT_EQ(row.time.phase_ms[0].second, 0.5);
+  EXPECT_EQ(row.counts.bodies, 51);
+  EXPECT_EQ(row.counts.contacts_max, 200);
+  EXPECT_EQ(row.counts.dropped, 3);
+  EXPECT_EQ(row.counts.nonfinite, 1);
+  EXPECT_EQ(row.counts.peak_mb, 12.5);
+  EXPECT_EQ(row.time.restarted, 2);
   EXPECT_EQ(row.ms_per_simulated_second(), 200);
   EXPECT_EQ(row.verdict(), Verdict::failed);
   ASSERT_NE(row.worst(), nullptr);
   EXPECT_EQ(row.worst()->name, "z");
 }
 
-TEST(ResultRow, WrongTypesAreAbsentNotFatal) {
+TEST(Row, WrongTypesAreAbsentNotFatal) {
   for (const char* text : {"{}", "[]", "null", "3", R"({"scene":3,"metrics":[1],"time":"x","dt":"fast","params":7})",
                            R"({"status":"ok","metrics":{"m":null},"time":{"window":[1],"ms_per_step":4}})"}) {
-    const ResultRow row = parse_row(Json::parse(text), 0);
+    const Row row = parse_row(Json::parse(text), 0);
     EXPECT_FALSE(row.dt) << text;
     EXPECT_FALSE(row.ms_per_simulated_second()) << text;
     EXPECT_TRUE(row.params.is_object()) << text;
@@ -68,7 +68,7 @@ TEST(ResultRow, WrongTypesAreAbsentNotFatal) {
   EXPECT_EQ(parse_row(Json::parse("{}"), 0).verdict(), Verdict::error);
 }
 
-TEST(ResultRow, VerdictsFollowStatusAndMetrics) {
+TEST(Row, VerdictsFollowStatusAndMetrics) {
   const auto verdict = [](double error) { return parse_row(testing::sample_row("S", "b", error, 1), 0).verdict(); };
   EXPECT_EQ(verdict(1e-5), Verdict::gold);
   EXPECT_EQ(verdict(1e-3), Verdict::pass);
@@ -83,21 +83,13 @@ TEST(ResultRow, VerdictsFollowStatusAndMetrics) {
   EXPECT_EQ(parse_row(unscored, 0).verdict(), Verdict::ran);
 }
 
-TEST(ResultRow, AnErrorThatIsNotFiniteMissesItsThreshold) {
+TEST(Row, AnErrorThatIsNotFiniteMissesItsThreshold) {
   Json line = testing::sample_row("S", "b", 1e-5, 1);
   line["metrics"]["error_of_it"]["error"] = nullptr;
   line["metrics"]["error_of_it"].erase("pass");
-  const ResultRow row = parse_row(line, 0);
+  const Row row = parse_row(line, 0);
   EXPECT_EQ(row.verdict(), Verdict::failed);
   EXPECT_TRUE(std::isinf(*row.worst()->badness()));
-}
-
-TEST(ResultRow, NaturalOrder) {
-  EXPECT_TRUE(natural_less("A2", "A10"));
-  EXPECT_FALSE(natural_less("A10", "A2"));
-  EXPECT_TRUE(natural_less("A5", "A5b"));
-  EXPECT_TRUE(natural_less("A5b", "A6"));
-  EXPECT_FALSE(natural_less("A5b", "A5b"));
 }
 
 }  // namespace

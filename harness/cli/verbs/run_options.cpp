@@ -15,9 +15,7 @@ namespace plumb::harness {
 
 namespace {
 
-bool misses_something(const Json& row) {
-  return row.value("status", "error") != "ok" && row.value("status", "") != "unsupported";
-}
+bool misses_something(const Row& row) { return row.status != "ok" && row.status != "unsupported"; }
 
 void say_what_is_left_out(const Plan& plan) {
   for (const BackendDescription& backend : plan.broken)
@@ -115,7 +113,7 @@ int run_and_print(const StudyOptions& options, PrintRows print) {
   std::optional<ResultsFile> results;
   if (!request.out.empty()) results.emplace(request.out);
 
-  std::vector<Json> rows;
+  std::vector<Row> rows;
   std::size_t known = 0, finished = 0;
   bool missed = false;
   const auto show = [&] {
@@ -132,15 +130,16 @@ int run_and_print(const StudyOptions& options, PrintRows print) {
   {
     ProgressBar bar;
     StudyCallbacks callbacks;
-    callbacks.finished = [&](const Json& row, bool is_new) {
+    callbacks.finished = [&](const Row& row, bool is_new) {
       ++finished;
       if (!is_new) ++known;
       missed = missed || misses_something(row);
       if (options.output.json) {
         bar.clear();
-        std::cout << line_of(row) << std::endl;  // whoever reads the pipe has it at once
+        std::cout << line_of(to_json(row)) << std::endl;  // whoever reads the pipe has it at once
       } else {
         rows.push_back(row);
+        rows.back().origin.index = rows.size() - 1;
       }
     };
     callbacks.progress = [&](const StudyProgress& progress) { bar.draw(progress); };

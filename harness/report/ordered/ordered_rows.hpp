@@ -5,14 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "rows/result_row.hpp"
+#include "rows/row.hpp"
 
 namespace plumb::harness {
 
 /// One scene with one set of parameters: what engines and settings are compared on.
 struct Problem {
   std::string scene, group, variant;
-  std::vector<const ResultRow*> rows;  ///< in the order of the file
+  std::vector<const Row*> rows;  ///< in the order of the file
 
   /// "D1 H=50"
   [[nodiscard]] std::string title() const { return variant.empty() ? scene : scene + " " + variant; }
@@ -30,35 +30,35 @@ struct Baseline {
 /// All rows of a report and the order in which it shows them. Problems point into `rows`, hence no copies.
 class Study {
  public:
-  explicit Study(std::vector<ResultRow> rows);
+  explicit Study(std::vector<Row> rows);
   Study(const Study&) = delete;
   Study& operator=(const Study&) = delete;
 
-  std::vector<ResultRow> rows;
+  std::vector<Row> rows;
   std::vector<std::string> backends;  ///< by name
   std::vector<std::string> groups;    ///< in order of their first scene
   std::vector<Problem> problems;      ///< by scene id, then variant, both in natural order
 
   /// The cell, one of `rows`, was run as the backend ships: profile, dt, settings and threads are the baseline's.
-  [[nodiscard]] bool is_default(const ResultRow& row) const;
+  [[nodiscard]] bool is_default(const Row& row) const;
   /// What tells the cell from the backend's baseline: "1/240 s, iterations 20"; dt always stands first.
-  [[nodiscard]] std::string configuration(const ResultRow& row) const;
+  [[nodiscard]] std::string configuration(const Row& row) const;
   /// Settings of the cell that are not the baseline's.
-  [[nodiscard]] std::vector<std::pair<std::string, std::string>> changed_settings(const ResultRow& row) const;
+  [[nodiscard]] std::vector<std::pair<std::string, std::string>> changed_settings(const Row& row) const;
   /// The command that runs the cell again.
-  [[nodiscard]] std::string command(const ResultRow& row) const;
+  [[nodiscard]] std::string command(const Row& row) const;
   /// Commands that run the cells again, those that differ in the backend only in one; the first few, and how many more.
-  [[nodiscard]] std::string commands(const std::vector<const ResultRow*>& rows) const;
+  [[nodiscard]] std::string commands(const std::vector<const Row*>& rows) const;
   /// The cell that stands for the backend on the problem: the default one, of several seeds the one in the middle of
   /// their verdicts; else the first; null when there is none.
-  [[nodiscard]] const ResultRow* representative(const Problem& problem, const std::string& backend) const;
+  [[nodiscard]] const Row* representative(const Problem& problem, const std::string& backend) const;
   /// Metrics of the problem that are scored somewhere (all with an error when none is), in order of appearance.
   [[nodiscard]] std::vector<std::string> scored_metrics(const Problem& problem) const;
 
  private:
-  [[nodiscard]] std::string command_for(const ResultRow& row, const std::vector<std::string>& backends_of_it) const;
+  [[nodiscard]] std::string command_for(const Row& row, const std::vector<std::string>& backends_of_it) const;
 
-  [[nodiscard]] bool find_default(const ResultRow& row) const;
+  [[nodiscard]] bool find_default(const Row& row) const;
 
   std::map<std::string, Baseline> baselines_;
   std::vector<bool> is_default_;  ///< by place in rows: asked for again and again

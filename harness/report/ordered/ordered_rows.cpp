@@ -43,13 +43,13 @@ bool same(const std::optional<double>& a, const std::optional<double>& b) {
   return *a == *b || std::abs(*a - *b) <= 1e-12 * std::abs(*b);
 }
 
-bool default_profile(const ResultRow& row) { return row.profile.empty() || row.profile == "default"; }
+bool default_profile(const Row& row) { return row.profile.empty() || row.profile == "default"; }
 
-Baseline find_baseline(const std::vector<const ResultRow*>& rows) {
+Baseline find_baseline(const std::vector<const Row*>& rows) {
   Mode<Json> settings;
   Mode<std::optional<double>> dt, threads;
   std::map<std::string, Mode<std::optional<double>>> scene_dt;
-  for (const ResultRow* row : rows) {
+  for (const Row* row : rows) {
     if (!row->settings.empty()) settings.add(value_text(row->settings), row->settings);
     if (row->dt) dt.add(key_of(row->dt), row->dt);
     if (row->dt) scene_dt[row->scene].add(key_of(row->dt), row->dt);
@@ -57,12 +57,12 @@ Baseline find_baseline(const std::vector<const ResultRow*>& rows) {
   }
   Baseline baseline;
   baseline.settings = settings.best().is_object() ? settings.best() : Json::object();
-  const auto telling = std::find_if(rows.begin(), rows.end(), [](const ResultRow* row) {
-    return row->tells_defaults && !row->settings.empty() && default_profile(*row);
+  const auto telling = std::find_if(rows.begin(), rows.end(), [](const Row* row) {
+    return row->engine.tells_defaults && !row->settings.empty() && default_profile(*row);
   });
   if (telling != rows.end()) {
     baseline.settings = (*telling)->settings;
-    baseline.settings.update((*telling)->defaults);
+    baseline.settings.update((*telling)->engine.defaults);
   }
   const std::string usual_dt = key_of(dt.best());
   for (const auto& [scene, steps] : scene_dt) baseline.dt[scene] = steps.best(usual_dt);
@@ -71,7 +71,7 @@ Baseline find_baseline(const std::vector<const ResultRow*>& rows) {
 }
 
 /// Variants in the order of their numbers, which their text does not have: 0.25 before 0.5.
-bool variant_less(const ResultRow& a, const ResultRow& b) {
+bool variant_less(const Row& a, const Row& b) {
   for (auto x = a.params.begin(), y = b.params.begin(); x != a.params.end() && y != b.params.end(); ++x, ++y) {
     if (x.key() != y.key()) return natural_less(x.key(), y.key());
     if (*x == *y) continue;
@@ -83,10 +83,10 @@ bool variant_less(const ResultRow& a, const ResultRow& b) {
 
 }  // namespace
 
-Study::Study(std::vector<ResultRow> given) : rows(std::move(given)) {
-  std::map<std::string, std::vector<const ResultRow*>> by_backend, default_by_backend;
+Study::Study(std::vector<Row> given) : rows(std::move(given)) {
+  std::map<std::string, std::vector<const Row*>> by_backend, default_by_backend;
   std::map<std::tuple<std::string, std::string, std::string>, std::size_t> by_problem;
-  for (const ResultRow& row : rows) {
+  for (const Row& row : rows) {
     by_backend[row.backend].push_back(&row);
     if (default_profile(row)) default_by_backend[row.backend].push_back(&row);
     const auto [at, is_new] = by_problem.try_emplace({row.scene, row.group, row.problem_variant()}, problems.size());
@@ -106,19 +106,19 @@ Study::Study(std::vector<ResultRow> given) : rows(std::move(given)) {
     if (std::find(groups.begin(), groups.end(), problem.group) == groups.end()) groups.push_back(problem.group);
   }
   is_default_.reserve(rows.size());
-  for (const ResultRow& row : rows) is_default_.push_back(find_default(row));
+  for (const Row& row : rows) is_default_.push_back(find_default(row));
 }
 
-bool Study::is_default(const ResultRow& row) const { return is_default_[static_cast<std::size_t>(&row - rows.data())]; }
+bool Study::is_default(const Row& row) const { return is_default_[static_cast<std::size_t>(&row - rows.data())]; }
 
-bool Study::find_default(const ResultRow& row) const {
+bool Study::find_default(const Row& row) const {
   const Baseline& baseline = baselines_.at(row.backend);
   const auto dt = baseline.dt.find(row.scene);
   return default_profile(row) && same(row.dt, dt == baseline.dt.end() ? std::nullopt : dt->second) &&
          same(row.threads, baseline.threads) && row.own_needs() && changed_settings(row).empty();
 }
 
-std::vector<std::pair<std::string, std::string>> Study::changed_settings(const ResultRow& row) const {
+std::vector<std::pair<std::string, std::string>> Study::changed_settings(const Row& row) const {
   const Json& usual = baselines_.at(row.backend).settings;
   std::vector<std::pair<std::string, std::string>> changed;
   for (const auto& [name, value] : row.settings.items()) {
@@ -128,7 +128,7 @@ std::vector<std::pair<std::string, std::string>> Study::changed_settings(const R
   return changed;
 }
 
-std::string Study::configuration(const ResultRow& row) const {
+std::string Study::configuration(const Row& row) const {
   std::string out = row.dt ? dt_text(row.dt) + " s" : std::string();
   const auto add = [&](const std::string& part) { out += (out.empty() ? "" : ", ") + part; };
   if (!default_profile(row)) add(row.profile);
@@ -140,7 +140,7 @@ std::string Study::configuration(const ResultRow& row) const {
   return out;
 }
 
-std::string Study::command_for(const ResultRow& row, const std::vector<std::string>& backends_of_it) const {
+std::string Study::command_for(const Row& row, const std::vector<std::string>& backends_of_it) const {
   std::string out = "plumb run " + shell_word(row.scene);
   for (const std::string& backend : backends_of_it) out += " --backend " + shell_word(backend);
   for (const auto& [name, value] : row.params.items()) out += " --param " + shell_word(name + "=" + value_text(value));
@@ -149,18 +149,18 @@ std::string Study::command_for(const ResultRow& row, const std::vector<std::stri
   if (row.dt) out += " --dt " + shortest_number(*row.dt);
   if (row.seconds) out += " --seconds " + shortest_number(*row.seconds);
   if (row.threads) out += " --threads " + shortest_number(*row.threads);
-  if (row.repeats && *row.repeats > 1) out += " --repeat " + shortest_number(*row.repeats);
+  if (row.time.repeats && *row.time.repeats > 1) out += " --repeat " + shortest_number(*row.time.repeats);
   if (!row.own_needs()) out += " --needs " + shell_word(row.needs);
   return out;
 }
 
-std::string Study::command(const ResultRow& row) const { return command_for(row, {row.backend}); }
+std::string Study::command(const Row& row) const { return command_for(row, {row.backend}); }
 
-std::string Study::commands(const std::vector<const ResultRow*>& of) const {
+std::string Study::commands(const std::vector<const Row*>& of) const {
   constexpr std::size_t most = 3;
-  std::vector<std::pair<const ResultRow*, std::vector<std::string>>> alike;
+  std::vector<std::pair<const Row*, std::vector<std::string>>> alike;
   std::map<std::string, std::size_t> places;
-  for (const ResultRow* row : of) {
+  for (const Row* row : of) {
     const auto [place, is_new] = places.try_emplace(command_for(*row, {}), alike.size());
     if (is_new) alike.push_back({row, {}});
     std::vector<std::string>& names = alike[place->second].second;
@@ -176,15 +176,15 @@ std::string Study::commands(const std::vector<const ResultRow*>& of) const {
   return out;
 }
 
-const ResultRow* Study::representative(const Problem& problem, const std::string& backend) const {
-  std::vector<const ResultRow*> defaults, others;
-  for (const ResultRow* row : problem.rows) {
+const Row* Study::representative(const Problem& problem, const std::string& backend) const {
+  std::vector<const Row*> defaults, others;
+  for (const Row* row : problem.rows) {
     if (row->backend == backend && row->own_needs()) (is_default(*row) ? defaults : others).push_back(row);
   }
   if (defaults.empty()) return others.empty() ? nullptr : others.front();
   if (!defaults.front()->params.contains("seed")) return defaults.front();
   std::stable_sort(defaults.begin(), defaults.end(),
-                   [](const ResultRow* a, const ResultRow* b) { return a->verdict() < b->verdict(); });
+                   [](const Row* a, const Row* b) { return a->verdict() < b->verdict(); });
   return defaults[defaults.size() / 2];
 }
 
@@ -193,7 +193,7 @@ std::vector<std::string> Study::scored_metrics(const Problem& problem) const {
   const auto add = [](std::vector<std::string>& list, const std::string& name) {
     if (std::find(list.begin(), list.end(), name) == list.end()) list.push_back(name);
   };
-  for (const ResultRow* row : problem.rows) {
+  for (const Row* row : problem.rows) {
     for (const MetricResult& metric : row->metrics) {
       if (metric.scored()) add(scored, metric.name);
       if (metric.error) add(with_error, metric.name);

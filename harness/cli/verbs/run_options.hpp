@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cli/output/output.hpp"
+#include "rows/row.hpp"
 #include "study/plan.hpp"
 
 namespace plumb::harness {
@@ -18,7 +19,7 @@ struct StudyOptions {
 /// Adds them to a verb; the defaults are those that stand in `options`, which must outlive the parsing.
 void add_study_options(CLI::App& verb, StudyOptions& options);
 
-using PrintRows = void (*)(std::ostream& out, const std::vector<Json>& rows, int terminal_width, bool colour);
+using PrintRows = void (*)(std::ostream& out, const std::vector<Row>& rows, int terminal_width, bool colour);
 
 /// Runs the study and prints its rows: --json each as it finishes, else all at the end by --csv or `print`. Returns the
 /// exit status.

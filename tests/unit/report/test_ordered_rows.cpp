@@ -23,7 +23,7 @@ TEST(Study, DefaultsAreTheUsualCellsOfTheDefaultProfile) {
   const Study study(parse_rows(testing::sample_rows(6)));
   for (const Problem& problem : study.problems) {
     for (const std::string& backend : study.backends) {
-      const ResultRow* row = study.representative(problem, backend);
+      const Row* row = study.representative(problem, backend);
       ASSERT_NE(row, nullptr);
       EXPECT_DOUBLE_EQ(*row->dt, 1.0 / 60);
       EXPECT_EQ(row->settings["iterations"], 10);
