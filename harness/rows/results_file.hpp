@@ -1,4 +1,4 @@
-// results*.jsonl of a study: finished cells are appended at once, so that whatever happens next loses none of them.
+// results*.jsonl of a folder: finished cells are appended at once, so that whatever happens next loses none of them.
 // A folder may have several such files, one for each process that worked on it; all are read, one is written.
 #pragma once
 

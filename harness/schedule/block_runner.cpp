@@ -1,6 +1,4 @@
-#include "study/study.hpp"
-
-#include <fmt/format.h>
+#include "schedule/block_runner.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -9,24 +7,17 @@
 #include <random>
 #include <thread>
 
-#include "cell/machine.hpp"
-#include "study/claims.hpp"
-#include "study/row_of_cell.hpp"
-#include "worker/cell_workers.hpp"
-
 namespace plumb::harness {
 
 namespace {
 
 constexpr unsigned shuffle_seed = 20240229;
-constexpr std::uint32_t recording = 0;  // in place of a repetition's number
 
-class Study {
+class BlockRunner {
  public:
-  Study(const Plan& plan, const StudyRequest& request, ResultsFile* results, const StudyCallbacks& callbacks)
-      : plan_(plan), request_(request), results_(results), callbacks_(callbacks), machine_(describe_machine()) {
+  BlockRunner(const Plan& plan, const RunRequest& request, ResultsFile* results, const RunCallbacks& callbacks)
+      : plan_(plan), request_(request), results_(results), callbacks_(callbacks), bench_(results, {}, callbacks) {
     for (const CellBlock& block : plan.blocks) total_ += block.cells.size();
-    if (results != nullptr) claims_.emplace(results->folder(), true);
   }
 
   /// Blocks that another process is at come last, when it has finished them or is gone.
@@ -51,12 +42,11 @@ class Study {
   bool run_if_free(const CellBlock& block) {
     std::vector<std::string> mine;
     const auto give_back = [&] {
-      for (const std::string& id : mine) claims_->give_back(id);
+      for (const std::string& id : mine) bench_.give_back(id);
     };
     for (const Cell& cell : block.cells) {
-      if (!claims_) break;
       std::string id = cell_id(cell);
-      if (!claims_->take(id)) {
+      if (!bench_.take(id)) {
         give_back();
         return false;
       }
@@ -70,7 +60,7 @@ class Study {
 
   void wait_for_others() const {
     if (callbacks_.progress)
-      callbacks_.progress({done_, total_, "another plumb runs the rest in " + results_->folder().string(), 0, 0, {}});
+      callbacks_.progress(progress_at("another plumb runs the rest in " + results_->folder().string()));
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
     throw_if_interrupted();
   }
@@ -127,37 +117,28 @@ class Study {
     for (const std::size_t rung : idle) total_ -= std::erase(open, &block.cells[rung]);
   }
 
+  [[nodiscard]] RunProgress progress_at(std::string what) const { return {done_, total_, std::move(what), 0, 0, {}}; }
+
   Answer ask(const Cell& cell, std::uint32_t round) {
-    StudyProgress progress{done_, total_, label_of(cell), 0, 0, {}};
-    if (round == recording) {
-      progress.cell += " recording";
-    } else if (request_.repeat > 1) {
-      progress.cell += fmt::format(" {}/{}", round, request_.repeat);
-    }
-    const auto tick = [&](const Progress& now) {
-      if (!callbacks_.progress) return;
-      progress.step = now.step;
-      progress.steps = now.total;
-      callbacks_.progress(progress);
-    };
-    if (callbacks_.progress) callbacks_.progress(progress);
     CellFiles files;
     files.layers = request_.layers;
-    if (round == recording) files.trajectory = trajectory_of(results_->folder(), cell);
     if (round == 1 && results_ != nullptr && request_.trace)
       files.trace = cell_file(results_->folder(), cell, "traces", ".trace");
-    return workers_.ask(cell, files, request_.limits(), tick);
+    return bench_.repeat(cell, files, request_.limits(),
+                         progress_at(label_of_repetition(cell, round, request_.repeat)));
   }
 
   void record(const Cell& cell, const Row& row, bool is_new) {
-    if (request_.record && results_ != nullptr && wants_recording(results_->folder(), cell, row, is_new))
-      static_cast<void>(ask(cell, recording));
+    if (!request_.record || results_ == nullptr || !wants_recording(results_->folder(), cell, row, is_new)) return;
+    CellFiles files;
+    files.trajectory = trajectory_of(results_->folder(), cell);
+    files.layers = request_.layers;
+    static_cast<void>(bench_.repeat(cell, files, request_.limits(), progress_at(label_of(cell) + " recording")));
   }
 
   void finish(const Cell& cell, const std::vector<Answer>& answers) {
-    const Row row = make_row(cell, answers, machine_);
-    const bool killed =
-        std::any_of(answers.begin(), answers.end(), [](const Answer& a) { return a.killed_from_outside; });
+    const Row row = bench_.row_of(cell, answers);
+    const bool killed = was_killed(answers);
     if (!killed) record(cell, row, true);
     if (results_ != nullptr && !killed) results_->append(row);  // a killed cell is run again by the next start
     hand_on(row, true);
@@ -169,20 +150,18 @@ class Study {
   }
 
   const Plan& plan_;
-  const StudyRequest& request_;
+  const RunRequest& request_;
   ResultsFile* results_;
-  std::optional<Claims> claims_;  ///< where there are results
-  const StudyCallbacks& callbacks_;
-  Json machine_;
+  const RunCallbacks& callbacks_;
+  Bench bench_;
   std::size_t done_ = 0, total_ = 0;
-  CellWorkers workers_;
   std::mt19937 random_{shuffle_seed};
 };
 
 }  // namespace
 
-void run_study(const Plan& plan, const StudyRequest& request, ResultsFile* results, const StudyCallbacks& callbacks) {
-  Study(plan, request, results, callbacks).run();
+void run_blocks(const Plan& plan, const RunRequest& request, ResultsFile* results, const RunCallbacks& callbacks) {
+  BlockRunner(plan, request, results, callbacks).run();
 }
 
 }  // namespace plumb::harness

@@ -1,4 +1,4 @@
-#include "study/claims.hpp"
+#include "schedule/claims.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-#include "study/plan.hpp"
+#include "schedule/plan.hpp"
 
 #include <fmt/format.h>
 
@@ -117,7 +117,7 @@ void add_swept(CellBlock& block, const Cell& cell, const Sweep& sweep, const std
   }
 }
 
-void check_words(const StudyRequest& request) {
+void check_words(const RunRequest& request) {
   const auto check_word = [](const char* option, const std::string& word, const std::vector<std::string>& known) {
     if (std::find(known.begin(), known.end(), word) == known.end())
       throw UsageError(fmt::format("{} {}: there is no such choice{}", option, word, suggestion(word, known)));
@@ -132,7 +132,7 @@ void check_words(const StudyRequest& request) {
 
 }  // namespace
 
-WorkerLimits StudyRequest::limits() const {
+WorkerLimits RunRequest::limits() const {
   WorkerLimits limits;
   constexpr double a_minute = 60;
   limits.engine_seconds = timeout;
@@ -140,47 +140,6 @@ WorkerLimits StudyRequest::limits() const {
   limits.memory_bytes =
       memory_limit_mb > 0 ? static_cast<std::uint64_t>(memory_limit_mb * 1e6) : machine_memory_bytes() / 4 * 3;
   return limits;
-}
-
-BackendDescription ask_description(const std::string& name, const std::string& file, const WorkerLimits& limits) {
-  WorkerProcess worker(file);
-  const Answer answer = worker.ask({{"request", "describe"}}, limits);
-  if (answer.status != "ok") return broken_backend(name, file, answer.status, answer.reason);
-  try {
-    if (answer.json.at("status") != "ok")
-      return broken_backend(name, file, answer.json.at("status"), answer.json.at("reason"));
-    return read_description(answer.json);
-  } catch (const Json::exception& error) {
-    return broken_backend(name, file, "error", std::string("its description is malformed: ") + error.what());
-  }
-}
-
-std::vector<std::pair<std::string, std::string>> backend_files(const std::vector<std::string>& asked) {
-  const std::vector<FoundBackend> found = find_backends();
-  std::vector<std::pair<std::string, std::string>> files;
-  std::vector<std::string> names;
-  for (const FoundBackend& backend : found) names.push_back(backend.name);
-  if (asked.empty()) {
-    for (const FoundBackend& backend : found) files.emplace_back(backend.name, backend.file);
-    return files;
-  }
-  for (const std::string& what : asked) {
-    const bool is_file = what.find('/') != std::string::npos || what.ends_with(".so");
-    if (is_file) {
-      const std::filesystem::path path(what);
-      if (!std::filesystem::exists(path)) throw UsageError("--backend " + what + ": there is no such file");
-      std::string name = path.stem().string();
-      if (name.starts_with("plumb-")) name.erase(0, 6);
-      files.emplace_back(name, std::filesystem::absolute(path).string());
-      continue;
-    }
-    const auto at = std::find(names.begin(), names.end(), what);
-    if (at == names.end()) throw UsageError(fmt::format("there is no backend \"{}\"{}", what, suggestion(what, names)));
-    files.emplace_back(what, found[static_cast<std::size_t>(at - names.begin())].file);
-  }
-  std::sort(files.begin(), files.end());
-  files.erase(std::unique(files.begin(), files.end()), files.end());
-  return files;
 }
 
 void check_needs(const std::string& option, const std::string& needs) {
@@ -200,32 +159,7 @@ void check_needs(const std::string& option, const std::string& needs) {
   }
 }
 
-OpenedBackends open_backends(const StudyRequest& request) {
-  OpenedBackends opened;
-  for (const auto& [name, file] : backend_files(request.backends)) {
-    BackendDescription backend = ask_description(name, file, request.limits());
-    const bool unasked = request.backends.empty() && !backend.error.empty();
-    (unasked ? opened.broken : opened.usable).push_back(std::move(backend));
-  }
-  if (opened.usable.empty()) {
-    std::string folders;
-    for (const auto& folder : backend_path()) folders += (folders.empty() ? "" : ", ") + folder;
-    throw UsageError("no backend loads; looked in " + (folders.empty() ? "no folder" : folders) +
-                     "; name one by --backend FILE or set PLUMB_BACKEND_PATH");
-  }
-  return opened;
-}
-
-std::vector<BuiltBackend> build_ids(std::vector<BackendDescription> backends) {
-  std::vector<BuiltBackend> built;
-  for (BackendDescription& backend : backends) {
-    std::string build = build_id(backend);
-    built.push_back({std::make_shared<const BackendDescription>(std::move(backend)), std::move(build)});
-  }
-  return built;
-}
-
-std::vector<CellBlock> plan_blocks(const StudyRequest& request, const std::vector<BuiltBackend>& backends) {
+std::vector<CellBlock> plan_blocks(const RunRequest& request, const std::vector<BuiltBackend>& backends) {
   check_words(request);
   const std::vector<std::shared_ptr<const SceneFile>> scenes = scenes_for(request.scenes);
   const std::vector<ParameterRequest> parameters = parse_parameters(request.parameters);
@@ -262,11 +196,11 @@ std::vector<CellBlock> plan_blocks(const StudyRequest& request, const std::vecto
   return blocks;
 }
 
-Plan make_plan(const StudyRequest& request) {
+Plan make_plan(const RunRequest& request) {
   check_words(request);
   (void)scenes_for(request.scenes);  // a misspelt scene is told before a backend is asked anything
   Plan plan;
-  OpenedBackends opened = open_backends(request);
+  OpenedBackends opened = open_backends(request.backends, request.limits());
   plan.broken = std::move(opened.broken);
   plan.blocks = plan_blocks(request, build_ids(std::move(opened.usable)));
   return plan;

@@ -1,4 +1,4 @@
-// From what a user asked to the cells of a study.
+// From what a user asked of `run`, `compare` or `curves` to cells.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,7 @@
 #include "cell/cell.hpp"
 #include "cell/settings.hpp"
 #include "cell/sweep.hpp"
-#include "worker/worker_process.hpp"
+#include "worker/backends.hpp"
 
 namespace plumb::harness {
 
@@ -19,7 +19,7 @@ struct SweepRequest {
 };
 
 /// What `run`, `compare` and `curves` are asked.
-struct StudyRequest {
+struct RunRequest {
   std::vector<std::string> scenes;
   std::vector<std::string> backends;              ///< names or files; empty: all that load
   std::vector<std::string> parameters, settings;  ///< as typed
@@ -50,38 +50,16 @@ struct CellBlock {
   std::vector<Ladder> ladders;  ///< of a sweep, by places in `cells`
 };
 
-/// Asks a worker of its own what a backend is; whatever goes wrong stands in the description.
-[[nodiscard]] BackendDescription ask_description(const std::string& name, const std::string& file,
-                                                 const WorkerLimits& limits);
-
-/// The files of backends that were asked for by name or path, or all on the search path. Throws UsageError.
-[[nodiscard]] std::vector<std::pair<std::string, std::string>> backend_files(const std::vector<std::string>& asked);
-
 struct Plan {
   std::vector<CellBlock> blocks;
   std::vector<BackendDescription> broken;  ///< not asked for by name, and they do not load
 };
 
-/// The backends of a request: those that load, and those that do not and were not asked for by name. Throws UsageError
-/// when there are none at all.
-struct OpenedBackends {
-  std::vector<BackendDescription> usable, broken;
-};
-[[nodiscard]] OpenedBackends open_backends(const StudyRequest& request);
-
-/// A backend's description and its build id: what all cells of it share.
-struct BuiltBackend {
-  std::shared_ptr<const BackendDescription> description;
-  std::string build;
-};
-[[nodiscard]] std::vector<BuiltBackend> build_ids(std::vector<BackendDescription> backends);
-
 /// The blocks of a request on these backends, whatever it says of backends itself. Throws UsageError for everything
 /// that is asked wrongly.
-[[nodiscard]] std::vector<CellBlock> plan_blocks(const StudyRequest& request,
-                                                 const std::vector<BuiltBackend>& backends);
+[[nodiscard]] std::vector<CellBlock> plan_blocks(const RunRequest& request, const std::vector<BuiltBackend>& backends);
 
 /// Throws UsageError for everything that is asked wrongly.
-[[nodiscard]] Plan make_plan(const StudyRequest& request);
+[[nodiscard]] Plan make_plan(const RunRequest& request);
 
 }  // namespace plumb::harness

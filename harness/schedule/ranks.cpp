@@ -1,4 +1,4 @@
-#include "study/ranks.hpp"
+#include "schedule/ranks.hpp"
 
 #include <algorithm>
 #include <array>

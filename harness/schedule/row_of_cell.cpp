@@ -1,4 +1,4 @@
-#include "study/row_of_cell.hpp"
+#include "schedule/row_of_cell.hpp"
 
 #include <algorithm>
 #include <numeric>

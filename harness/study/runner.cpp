@@ -9,13 +9,11 @@
 #include <random>
 #include <set>
 
-#include "cell/machine.hpp"
 #include "rows/statistics.hpp"
-#include "study/claims.hpp"
+#include "schedule/plan.hpp"
+#include "schedule/row_of_cell.hpp"
 #include "study/cost.hpp"
 #include "study/refine.hpp"
-#include "study/row_of_cell.hpp"
-#include "worker/cell_workers.hpp"
 
 namespace plumb::harness {
 
@@ -28,16 +26,14 @@ constexpr std::size_t most_added = 4;  // points of one ladder
 class StudyRunner {
  public:
   StudyRunner(StudyPlan& plan, const StudyFile& study, bool fixed, const Ranks& ranks, ResultsFile& results,
-              const StudyCallbacks& callbacks)
+              const RunCallbacks& callbacks)
       : plan_(plan),
         study_(study),
         fixed_(fixed),
         ranks_(ranks),
         results_(results),
         callbacks_(callbacks),
-        machine_(describe_machine()),
-        claims_(results.folder(), ranks.alone()),
-        workers_(ranks.here),
+        bench_(&results, ranks, callbacks),
         start_(Clock::now()) {}
 
   StudyOutcome run() {
@@ -47,7 +43,7 @@ class StudyRunner {
       const std::vector<std::size_t> batch = next_batch();
       if (!batch.empty()) {
         run_batch(batch);
-        for (const std::size_t cell : batch) claims_.give_back(plan_.cells[cell].id);
+        for (const std::size_t cell : batch) bench_.give_back(plan_.cells[cell].id);
       } else if (fixed_ || !refine()) {
         break;
       }
@@ -111,14 +107,14 @@ class StudyRunner {
         const PlannedCell& planned = plan_.cells[place];
         if (!is_open(planned) || given_up_.contains(planned.id) || !is_due(planned)) continue;
         if (expected_seconds(planned) > time_left()) continue;
-        if (claims_.take(planned.id)) mine.push_back(place);
+        if (bench_.take(planned.id)) mine.push_back(place);
       }
       if (mine.empty()) continue;
       // Whoever had the claim until a moment ago has written the row by now.
       results_.refresh();
       std::erase_if(mine, [&](std::size_t place) {
         if (results_.find(plan_.cells[place].id) == nullptr) return false;
-        claims_.give_back(plan_.cells[place].id);
+        bench_.give_back(plan_.cells[place].id);
         return true;
       });
       if (!mine.empty()) return mine;
@@ -146,26 +142,26 @@ class StudyRunner {
     }
   }
 
+  [[nodiscard]] WorkerLimits limits() const {
+    RunRequest request;
+    request.timeout = study_.timeout;
+    return request.limits();
+  }
+
+  [[nodiscard]] RunProgress progress_at(std::string what) const {
+    return {seen_.size(), total(), std::move(what), 0, 0, {}};
+  }
+
   /// One more repetition; false when the budget ended before it did.
   bool repeat(Open& cell, std::uint32_t round) {
     const PlannedCell& planned = plan_.cells[cell.cell];
     const double left = time_left();
     if (left <= 0) return false;
-    StudyRequest request;
-    request.timeout = study_.timeout;
-    WorkerLimits limits = request.limits();
+    WorkerLimits limits = this->limits();
     limits.all_seconds = left;
-    StudyProgress progress{seen_.size(), total(), label_of(planned.cell), 0, 0, seconds_left()};
-    if (planned.repetitions.at_most > 1) progress.cell += fmt::format(" {}/{}", round, planned.repetitions.at_most);
-    const auto tick = [&](const Progress& now) {
-      if (!callbacks_.progress) return;
-      progress.step = now.step;
-      progress.steps = now.total;
-      progress.seconds_left = seconds_left();
-      callbacks_.progress(progress);
-    };
-    if (callbacks_.progress) callbacks_.progress(progress);
-    Answer answer = workers_.ask(planned.cell, {}, limits, tick);
+    Answer answer = bench_.repeat(planned.cell, {}, limits,
+                                  progress_at(label_of_repetition(planned.cell, round, planned.repetitions.at_most)),
+                                  [this] { return std::optional(seconds_left()); });
     if (answer.status == "out_of_time") return false;
     cell.answers.push_back(std::move(answer));
     return true;
@@ -186,11 +182,9 @@ class StudyRunner {
   }
 
   void finish(const PlannedCell& planned, const std::vector<Answer>& answers) {
-    Row row = make_row(planned.cell, answers, machine_);
+    Row row = bench_.row_of(planned.cell, answers);
     row.origin.study = study_.name;
-    const bool killed =
-        std::any_of(answers.begin(), answers.end(), [](const Answer& a) { return a.killed_from_outside; });
-    if (killed) {  // the next start runs it again
+    if (was_killed(answers)) {  // the next start runs it again
       given_up_.insert(planned.id);
       return;
     }
@@ -203,12 +197,10 @@ class StudyRunner {
   }
 
   void record(const Cell& cell) {
-    StudyRequest request;
-    request.timeout = study_.timeout;
     CellFiles files;
     files.trajectory = trajectory_of(results_.folder(), cell);
     files.layers = true;
-    static_cast<void>(workers_.ask(cell, files, request.limits(), {}));
+    static_cast<void>(bench_.repeat_quietly(cell, files, limits()));
   }
 
   // What was repeated once has its errors, and an adaptive study takes its times for as good as they are.
@@ -279,8 +271,8 @@ class StudyRunner {
     outcome_.elsewhere = seen_.size() - outcome_.known - outcome_.run;
     for (const PlannedCell& planned : plan_.cells) {
       if (!is_open(planned) || given_up_.contains(planned.id)) continue;
-      if (study_.budget && claims_.take(planned.id)) {
-        claims_.give_back(planned.id);
+      if (study_.budget && bench_.take(planned.id)) {
+        bench_.give_back(planned.id);
         outcome_.out_of_time.push_back(fmt::format("{} dt={:.4g}", label_of(planned.cell), planned.cell.dt));
       } else {
         ++outcome_.elsewhere;
@@ -293,10 +285,8 @@ class StudyRunner {
   bool fixed_;
   Ranks ranks_;
   ResultsFile& results_;
-  const StudyCallbacks& callbacks_;
-  Json machine_;
-  Claims claims_;
-  CellWorkers workers_;
+  const RunCallbacks& callbacks_;
+  Bench bench_;
   CostModel costs_;
   Clock::time_point start_;
   std::set<std::string> seen_;      ///< cells whose rows were handed on
@@ -309,7 +299,7 @@ class StudyRunner {
 }  // namespace
 
 StudyOutcome run_study_plan(StudyPlan& plan, const StudyFile& study, bool fixed, const Ranks& ranks,
-                            ResultsFile& results, const StudyCallbacks& callbacks) {
+                            ResultsFile& results, const RunCallbacks& callbacks) {
   return StudyRunner(plan, study, fixed, ranks, results, callbacks).run();
 }
 

@@ -6,9 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "rows/results_file.hpp"
-#include "study/ranks.hpp"
-#include "study/study.hpp"
+#include "schedule/bench.hpp"
 #include "study/study_plan.hpp"
 
 namespace plumb::harness {
@@ -25,6 +23,6 @@ struct StudyOutcome {
 /// Refined cells are added to the plan. fixed: nothing depends on what was measured, so that every number of ranks and
 /// every restart runs the same cells equally often. Throws Interrupted, with all finished cells written.
 [[nodiscard]] StudyOutcome run_study_plan(StudyPlan& plan, const StudyFile& study, bool fixed, const Ranks& ranks,
-                                          ResultsFile& results, const StudyCallbacks& callbacks);
+                                          ResultsFile& results, const RunCallbacks& callbacks);
 
 }  // namespace plumb::harness

@@ -10,8 +10,8 @@
 #include "plumb/nearest.hpp"
 #include "scene/json_file.hpp"
 #include "scene/node.hpp"
+#include "schedule/plan.hpp"
 #include "simulation/names.hpp"
-#include "study/plan.hpp"
 
 namespace plumb::harness {
 

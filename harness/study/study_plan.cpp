@@ -37,10 +37,9 @@ class Planner {
   Planner(const StudyFile& study, bool fixed) : study_(study), fixed_(fixed) {}
 
   StudyPlan plan() {
-    StudyRequest request;
-    request.backends = study_.backends;
+    RunRequest request;
     request.timeout = study_.timeout;
-    OpenedBackends opened = open_backends(request);
+    OpenedBackends opened = open_backends(study_.backends, request.limits());
     plan_.broken = std::move(opened.broken);
     backends_ = build_ids(std::move(opened.usable));
     for (std::size_t i = 0; i < study_.sets.size(); ++i) {
@@ -118,7 +117,7 @@ class Planner {
 
   void add_variant(const StudySet& set, const std::vector<BuiltBackend>& backends, const SceneFile& scene,
                    const std::vector<std::string>& variant) {
-    StudyRequest request;
+    RunRequest request;
     request.scenes = {scene.path.string()};
     request.settings = set.settings;
     request.seconds = set.seconds;
@@ -130,7 +129,7 @@ class Planner {
     const std::vector<double> one_seed{0};
     const bool seeded = !set.seeds.empty() && has_parameter(scene, "seed");
     for (const double seed : seeded ? set.seeds : one_seed) {
-      StudyRequest with_seed = request;
+      RunRequest with_seed = request;
       if (seeded) with_seed.parameters.push_back(fmt::format("seed={}", seed));
       const bool first_seed = !seeded || seed == set.seeds.front();
       for (const std::string& profile : set.profiles) {

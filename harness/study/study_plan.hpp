@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "study/plan.hpp"
+#include "schedule/plan.hpp"
 #include "study/study_file.hpp"
 
 namespace plumb::harness {

@@ -1,4 +1,4 @@
-// The live workers of a study, one a backend, and what a cell's repetition costs and meets on this machine.
+// The live workers of a run, one a backend, and what a cell's repetition costs and meets on this machine.
 #pragma once
 
 #include <functional>

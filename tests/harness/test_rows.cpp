@@ -7,7 +7,7 @@
 
 #include "cell/metric_rows.hpp"
 #include "program.hpp"
-#include "study/row_of_cell.hpp"
+#include "schedule/row_of_cell.hpp"
 
 namespace plumb::harness::testing {
 namespace {

@@ -47,7 +47,7 @@ ProgressBar::ProgressBar(bool logs)
 
 ProgressBar::~ProgressBar() { clear(); }
 
-void ProgressBar::draw(const StudyProgress& progress) {
+void ProgressBar::draw(const RunProgress& progress) {
   if (width_ == 0) {
     if (logs_) log(progress);
     return;
@@ -69,7 +69,7 @@ void ProgressBar::draw(const StudyProgress& progress) {
   drawn_ = true;
 }
 
-void ProgressBar::log(const StudyProgress& progress) {
+void ProgressBar::log(const RunProgress& progress) {
   constexpr std::chrono::seconds pause{30};
   const auto now = std::chrono::steady_clock::now();
   if (now - logged_ < pause) return;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/json.hpp"
-#include "study/study.hpp"
+#include "schedule/bench.hpp"
 
 namespace plumb::harness {
 
@@ -30,11 +30,11 @@ class ProgressBar {
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
-  void draw(const StudyProgress& progress);
+  void draw(const RunProgress& progress);
   void clear();
 
  private:
-  void log(const StudyProgress& progress);
+  void log(const RunProgress& progress);
 
   int width_ = 0;
   bool logs_ = false, drawn_ = false;

@@ -9,7 +9,7 @@
 #include "cli/output/layout.hpp"
 #include "cli/output/output.hpp"
 #include "cli/verbs/verbs.hpp"
-#include "study/plan.hpp"
+#include "schedule/plan.hpp"
 
 namespace plumb::harness {
 
@@ -47,7 +47,7 @@ void add_backends(CLI::App& program, int& status) {
     if (files.empty()) print_nothing_found();
     bool first = true;
     for (const auto& [name, file] : files) {
-      StudyRequest defaults;
+      RunRequest defaults;
       WorkerLimits limits = defaults.limits();
       limits.engine_seconds = 60;
       const BackendDescription backend = ask_description(name, file, limits);

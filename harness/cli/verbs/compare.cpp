@@ -1,18 +1,18 @@
 #include <memory>
 
 #include "cli/manual/examples.hpp"
-#include "cli/verbs/study_options.hpp"
+#include "cli/verbs/run_options.hpp"
 #include "cli/verbs/verbs.hpp"
 #include "report/text/terminal.hpp"
 
 namespace plumb::harness {
 
 void add_compare(CLI::App& program, int& status) {
-  const auto options = std::make_shared<StudyOptions>();
+  const auto options = std::make_shared<RunOptions>();
   options->request.repeat = 3;
   options->request.out = "plumb-results";
   CLI::App* verb = program.add_subcommand("compare", "Run scenes on all backends in turns, and hold them side by side");
-  add_study_options(*verb, *options);
+  add_run_options(*verb, *options);
   add_examples(
       *verb, {{"plumb compare core --out results", "the whole table; stop it at any time and start it again"},
               {"plumb compare A7 E8 --backend ode --backend bullet --csv", "two scenes, two engines, a line a metric"},

@@ -14,7 +14,7 @@
 #include "cli/verbs/verbs.hpp"
 #include "conform/conformance.hpp"
 #include "plumb/nearest.hpp"
-#include "study/plan.hpp"
+#include "schedule/plan.hpp"
 
 namespace plumb::harness {
 
@@ -96,7 +96,7 @@ void show_progress(const std::string& backend, const std::string& check) {
 
 /// Runs the checks on one backend; a worker that ends uncleanly is a failed check, and the next check gets a new one.
 std::vector<Json> conform_backend(const std::string& name, const std::string& file, const ConformOptions& options) {
-  WorkerLimits limits = StudyRequest().limits();
+  WorkerLimits limits = RunRequest().limits();
   limits.engine_seconds = options.timeout;
   std::unique_ptr<WorkerProcess> worker;
   std::vector<Json> rows;

@@ -1,20 +1,20 @@
 #include <memory>
 
 #include "cli/manual/examples.hpp"
-#include "cli/verbs/study_options.hpp"
+#include "cli/verbs/run_options.hpp"
 #include "cli/verbs/verbs.hpp"
 #include "report/text/terminal.hpp"
 
 namespace plumb::harness {
 
 void add_curves(CLI::App& program, int& status) {
-  const auto options = std::make_shared<StudyOptions>();
+  const auto options = std::make_shared<RunOptions>();
   options->request.repeat = 3;
   options->request.out = "plumb-results";
   SweepRequest& sweep = options->request.sweep.emplace();
   CLI::App* verb =
       program.add_subcommand("curves", "Run scenes with a backend's settings turned: error against cost, as curves");
-  add_study_options(*verb, *options);
+  add_run_options(*verb, *options);
   const auto add_axis = [&](const char* option, std::vector<std::string>& axes, const char* doc) {
     verb->add_option(option, axes, doc)->type_name("NAME=VALUES")->take_all()->expected(1)->allow_extra_args(false);
   };

@@ -10,7 +10,7 @@
 #include "cli/verbs/verbs.hpp"
 #include "plumb/nearest.hpp"
 #include "record/pair_tour.hpp"
-#include "study/plan.hpp"
+#include "worker/backends.hpp"
 
 namespace plumb::harness {
 

@@ -91,7 +91,7 @@ PageOptions page_options(const ReportOptions& options, const std::vector<Row>& b
 
 /// Prints what changed, in the form that was asked for, and returns whether something got worse.
 bool report_against(const ReportOptions& options, const std::vector<Row>& rows, const std::vector<Row>& baseline) {
-  const Study before(baseline), after(rows);
+  const OrderedRows before(baseline), after(rows);
   const Comparison comparison = compare_results(before.rows, after.rows, options.limits);
   if (options.markdown) {
     write_against_markdown(std::cout, comparison, before, after, options.against, options.limits);

@@ -1,16 +1,16 @@
 #include <memory>
 
 #include "cli/manual/examples.hpp"
-#include "cli/verbs/study_options.hpp"
+#include "cli/verbs/run_options.hpp"
 #include "cli/verbs/verbs.hpp"
 #include "report/text/terminal.hpp"
 
 namespace plumb::harness {
 
 void add_run(CLI::App& program, int& status) {
-  const auto options = std::make_shared<StudyOptions>();
+  const auto options = std::make_shared<RunOptions>();
   CLI::App* verb = program.add_subcommand("run", "Run scenes on backends and measure them");
-  add_study_options(*verb, *options);
+  add_run_options(*verb, *options);
   add_examples(
       *verb,
       {{"plumb run tower --param H=10", "one scene on every backend"},

@@ -1,4 +1,4 @@
-#include "cli/verbs/study_options.hpp"
+#include "cli/verbs/run_options.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include "cli/verbs/numbers.hpp"
 #include "report/text/csv.hpp"
 #include "scene/expressions.hpp"
-#include "study/study.hpp"
+#include "schedule/block_runner.hpp"
 
 namespace plumb::harness {
 
@@ -33,8 +33,8 @@ std::string evaluated(const std::string& text) {
 
 }  // namespace
 
-void add_study_options(CLI::App& verb, StudyOptions& options) {
-  StudyRequest& request = options.request;
+void add_run_options(CLI::App& verb, RunOptions& options) {
+  RunRequest& request = options.request;
   verb.add_option("SCENE", request.scenes, "Scenes: ids (D1), slugs (tower), groups (stacking, core, all) or files")
       ->required();
   verb.add_option("--backend", request.backends, "Backend by name or file, repeatable; none: all that load")
@@ -101,8 +101,8 @@ void add_study_options(CLI::App& verb, StudyOptions& options) {
   verb.add_flag("--strict", options.strict, "Exit with 1 when a threshold is missed");
 }
 
-int run_and_print(const StudyOptions& options, PrintRows print) {
-  const StudyRequest& request = options.request;
+int run_and_print(const RunOptions& options, PrintRows print) {
+  const RunRequest& request = options.request;
   if (request.record && request.out.empty())
     throw UsageError("--record writes trajectories to a folder: name it with --out DIR");
   if (request.trace && request.out.empty())
@@ -129,7 +129,7 @@ int run_and_print(const StudyOptions& options, PrintRows print) {
   };
   {
     ProgressBar bar;
-    StudyCallbacks callbacks;
+    RunCallbacks callbacks;
     callbacks.finished = [&](const Row& row, bool is_new) {
       ++finished;
       if (!is_new) ++known;
@@ -142,9 +142,9 @@ int run_and_print(const StudyOptions& options, PrintRows print) {
         rows.back().origin.index = rows.size() - 1;
       }
     };
-    callbacks.progress = [&](const StudyProgress& progress) { bar.draw(progress); };
+    callbacks.progress = [&](const RunProgress& progress) { bar.draw(progress); };
     try {
-      run_study(plan, request, results ? &*results : nullptr, callbacks);
+      run_blocks(plan, request, results ? &*results : nullptr, callbacks);
     } catch (const Interrupted&) {
       bar.clear();
       if (!rows.empty()) show();

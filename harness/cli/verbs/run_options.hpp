@@ -1,4 +1,4 @@
-// The options that run and compare share, and what both do with them.
+// The options that run, compare and curves share, and what all do with them.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -6,23 +6,23 @@
 
 #include "cli/output/output.hpp"
 #include "rows/row.hpp"
-#include "study/plan.hpp"
+#include "schedule/plan.hpp"
 
 namespace plumb::harness {
 
-struct StudyOptions {
-  StudyRequest request;
+struct RunOptions {
+  RunRequest request;
   OutputOptions output;
   bool strict = false;
 };
 
 /// Adds them to a verb; the defaults are those that stand in `options`, which must outlive the parsing.
-void add_study_options(CLI::App& verb, StudyOptions& options);
+void add_run_options(CLI::App& verb, RunOptions& options);
 
 using PrintRows = void (*)(std::ostream& out, const std::vector<Row>& rows, int terminal_width, bool colour);
 
-/// Runs the study and prints its rows: --json each as it finishes, else all at the end by --csv or `print`. Returns the
-/// exit status.
-[[nodiscard]] int run_and_print(const StudyOptions& options, PrintRows print);
+/// Runs what was asked and prints its rows: --json each as it finishes, else all at the end by --csv or `print`.
+/// Returns the exit status.
+[[nodiscard]] int run_and_print(const RunOptions& options, PrintRows print);
 
 }  // namespace plumb::harness

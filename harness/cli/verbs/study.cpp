@@ -117,7 +117,7 @@ int run_study_verb(const StudyVerbOptions& options) {
   StudyOutcome outcome;
   {
     ProgressBar bar(true);
-    StudyCallbacks callbacks;
+    RunCallbacks callbacks;
     callbacks.finished = [&](const Row& row, bool is_new) {
       ++statuses[row.backend][row.status];
       ++finished;
@@ -126,7 +126,7 @@ int run_study_verb(const StudyVerbOptions& options) {
       bar.clear();
       std::cout << line_of(to_json(row)) << std::endl;  // whoever reads the pipe has it at once
     };
-    if (ranks.speaks()) callbacks.progress = [&](const StudyProgress& progress) { bar.draw(progress); };
+    if (ranks.speaks()) callbacks.progress = [&](const RunProgress& progress) { bar.draw(progress); };
     try {
       outcome = run_study_plan(plan, study, options.fixed, ranks, results, callbacks);
     } catch (const Interrupted&) {

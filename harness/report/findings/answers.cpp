@@ -29,10 +29,11 @@ std::vector<std::string> good_ones(const std::vector<AnswerLine>& lines) {
 }
 
 /// The scene's problem whose parameter is nearest to the value, else its first; null without the scene.
-const Problem* problem_of(const Study& study, const std::string& slug, const std::string& parameter, double value) {
+const Problem* problem_of(const OrderedRows& ordered, const std::string& slug, const std::string& parameter,
+                          double value) {
   const Problem* nearest = nullptr;
   double least = never;
-  for (const Problem& problem : study.problems) {
+  for (const Problem& problem : ordered.problems) {
     const Row& row = *problem.rows.front();
     if (row.slug != slug) continue;
     const auto found = row.params.find(parameter);
@@ -49,8 +50,8 @@ const Problem* problem_of(const Study& study, const std::string& slug, const std
 }
 
 /// What a line's configuration costs, and which it is.
-std::string price(const Study& study, const Reached& reached) {
-  const std::string with = " with " + study.configuration(*reached.row);
+std::string price(const OrderedRows& ordered, const Reached& reached) {
+  const std::string with = " with " + ordered.configuration(*reached.row);
   if (!reached.ms) return "at a cost that is not known, the machine having had other work," + with;
   std::string out =
       fmt::format("{}{} ms per simulated second", reached.untimed > 0 ? "at most " : "", short_number(*reached.ms));
@@ -63,16 +64,16 @@ std::string price(const Study& study, const Reached& reached) {
 }
 
 /// What a backend's line says of a target, and whether it is reached by a run that passes.
-AnswerLine cost_line(const Study& study, const CostLine& line, std::size_t target) {
-  if (line.at[target]) return {line.backend, {{price(study, *line.at[target]), line.at[target]->row}}, true};
+AnswerLine cost_line(const OrderedRows& ordered, const CostLine& line, std::size_t target) {
+  if (line.at[target]) return {line.backend, {{price(ordered, *line.at[target]), line.at[target]->row}}, true};
   Statement statement;
   if (const auto& failing = line.failing[target]) {
-    statement = {fmt::format("not in a run that passes; with {} it misses {}", study.configuration(*failing->row),
+    statement = {fmt::format("not in a run that passes; with {} it misses {}", ordered.configuration(*failing->row),
                              failing->row->missed()),
                  failing->row};
   } else if (line.floor && line.floor->error < 1) {
     statement = {fmt::format("never; its best is {} with {}", percent_text(line.floor->error),
-                             study.configuration(*line.floor->row)),
+                             ordered.configuration(*line.floor->row)),
                  line.floor->row};
     if (!line.floor->row->passes()) statement.text += ", which misses " + line.floor->row->missed();
   } else {
@@ -84,7 +85,7 @@ AnswerLine cost_line(const Study& study, const CostLine& line, std::size_t targe
 
 /// What reaching the target on the problem's metric costs, the cheapest first, then those whose cost is not known, then
 /// who never does.
-AnsweredQuestion cost_answer(const Study& study, const std::vector<CostTest>& tests, const Problem& problem,
+AnsweredQuestion cost_answer(const OrderedRows& ordered, const std::vector<CostTest>& tests, const Problem& problem,
                              const std::string& metric, std::size_t target, const std::string& question,
                              const std::string& verb) {
   AnsweredQuestion answer{question, "", {}, "cost"};
@@ -99,12 +100,12 @@ AnsweredQuestion cost_answer(const Study& study, const std::vector<CostTest>& te
   std::vector<const CostLine*> lines;
   for (const CostLine& line : test->lines) lines.push_back(&line);
   std::stable_sort(lines.begin(), lines.end(), [&](const CostLine* a, const CostLine* b) { return cost(a) < cost(b); });
-  for (const CostLine* line : lines) answer.lines.push_back(cost_line(study, *line, target));
+  for (const CostLine* line : lines) answer.lines.push_back(cost_line(ordered, *line, target));
   std::vector<std::string> good = good_ones(answer.lines);
   if (good.empty()) {
     answer.verdict = fmt::format("Nobody {} here in a run that passes the scene.", verb);
   } else if (test->cheapest(target)) {
-    answer.verdict = fmt::format("{}, at {}.", good.front(), price(study, *lines.front()->at[target]));
+    answer.verdict = fmt::format("{}, at {}.", good.front(), price(ordered, *lines.front()->at[target]));
   } else {
     std::sort(good.begin(), good.end(), natural_less);
     answer.verdict = fmt::format(
@@ -115,11 +116,11 @@ AnsweredQuestion cost_answer(const Study& study, const std::vector<CostTest>& te
   return answer;
 }
 
-AnsweredQuestion energy_answer(const Study& study) {
+AnsweredQuestion energy_answer(const OrderedRows& ordered) {
   AnsweredQuestion answer{"Who conserves energy?", "", {}, "robust"};
   std::vector<std::pair<double, AnswerLine>> lines;
-  for (const std::string& backend : study.backends) {
-    const EnergyFacts facts = energy_of(study, backend);
+  for (const std::string& backend : ordered.backends) {
+    const EnergyFacts facts = energy_of(ordered, backend);
     const Statement statement = energy_statement(facts);
     if (statement.text.empty()) continue;
     lines.push_back({facts.lost > 0 ? never : facts.worst_drift, {backend, {statement}, facts.conserves()}});
@@ -136,12 +137,12 @@ AnsweredQuestion energy_answer(const Study& study) {
   return answer;
 }
 
-AnsweredQuestion friction_answer(const Study& study) {
+AnsweredQuestion friction_answer(const OrderedRows& ordered) {
   AnsweredQuestion answer{"Whose friction is a pyramid instead of a cone?", "", {}, "matrix"};
   std::vector<std::pair<double, AnswerLine>> lines;
   std::vector<std::string> pyramids;
-  for (const std::string& backend : study.backends) {
-    const FrictionFacts facts = friction_of(study, backend);
+  for (const std::string& backend : ordered.backends) {
+    const FrictionFacts facts = friction_of(ordered, backend);
     if (!facts.row) continue;
     std::string text = fmt::format("{}: stopping distances differ by {} with the heading ({})",
                                    facts.pyramid()               ? "a pyramid"
@@ -149,7 +150,7 @@ AnsweredQuestion friction_answer(const Study& study) {
                                                                  : "nearly a cone",
                                    percent_text(facts.spread), row_title(*facts.row));
     if (facts.spread > cone_spread && facts.best_row && facts.best_spread <= cone_spread) {
-      text += fmt::format("; {} with {}", percent_text(facts.best_spread), study.configuration(*facts.best_row));
+      text += fmt::format("; {} with {}", percent_text(facts.best_spread), ordered.configuration(*facts.best_row));
     }
     if (!facts.row->passes()) text += "; that run misses " + facts.row->missed();
     if (facts.pyramid()) pyramids.push_back(backend);
@@ -244,23 +245,23 @@ AnsweredQuestion losing_answer(const std::vector<CostTest>& tests, const std::ve
 
 }  // namespace
 
-std::vector<AnsweredQuestion> answers(const Study& study, const std::vector<CostLine>& costs) {
+std::vector<AnsweredQuestion> answers(const OrderedRows& ordered, const std::vector<CostLine>& costs) {
   std::vector<AnsweredQuestion> all;
   const auto add = [&](AnsweredQuestion answer) {
     if (!answer.lines.empty()) all.push_back(std::move(answer));
   };
   const std::vector<CostTest> tests = tests_of(costs);
-  const std::vector<BackendOverview> backends = overviews(study, costs);
-  if (const Problem* tower = problem_of(study, "tower", "H", 50)) {
-    add(cost_answer(study, tests, *tower, "stands", one_per_mille,
+  const std::vector<BackendOverview> backends = overviews(ordered, costs);
+  if (const Problem* tower = problem_of(ordered, "tower", "H", 50)) {
+    add(cost_answer(ordered, tests, *tower, "stands", one_per_mille,
                     fmt::format("Which engine stands the tower of {} cubes cheapest?",
                                 value_text(tower->rows.front()->params.value("H", Json(10)))),
                     "makes it stand"));
   }
-  add(energy_answer(study));
-  add(friction_answer(study));
-  if (const Problem* pendulum = problem_of(study, "pendulum", "amplitude", 90)) {
-    add(cost_answer(study, tests, *pendulum, "period", one_per_mille,
+  add(energy_answer(ordered));
+  add(friction_answer(ordered));
+  if (const Problem* pendulum = problem_of(ordered, "pendulum", "amplitude", 90)) {
+    add(cost_answer(ordered, tests, *pendulum, "period", one_per_mille,
                     fmt::format("What does 0.1 % on the pendulum's period cost ({})?",
                                 pendulum->variant.empty() ? "from 90 degrees" : pendulum->variant),
                     "gets there"));

@@ -22,6 +22,6 @@ struct AnsweredQuestion {
 };
 
 /// Those that the results can answer.
-[[nodiscard]] std::vector<AnsweredQuestion> answers(const Study& study, const std::vector<CostLine>& costs);
+[[nodiscard]] std::vector<AnsweredQuestion> answers(const OrderedRows& ordered, const std::vector<CostLine>& costs);
 
 }  // namespace plumb::harness

@@ -101,7 +101,7 @@ std::vector<std::vector<const Row*>> rows_of_methods(const Problem& problem) {
   return groups;
 }
 
-/// Labels by what differs between the methods of a study: backends, profiles, threads, settings. Where a backend's name
+/// Labels by what differs between the methods of a problem: backends, profiles, threads, settings. Where a backend's name
 /// stands already, what it does by itself needs no words.
 class Labels {
  public:
@@ -160,10 +160,10 @@ bool lacks_methods(const std::vector<std::vector<const Row*>>& groups) {
 
 bool at_default(const Row& row, const std::string& knob) { return !row.engine.defaults.contains(knob); }
 
-CurveSet::CurveSet(const Study& study) {
+CurveSet::CurveSet(const OrderedRows& ordered) {
   std::vector<const Row*> first_rows;  // of methods
   std::map<std::string, std::size_t> places;
-  for (const Problem& problem : study.problems) {
+  for (const Problem& problem : ordered.problems) {
     ProblemCurves found{&problem, {}};
     std::vector<std::vector<const Row*>> groups = rows_of_methods(problem);
     for (const auto& rows : groups) found.methods.push_back(curves_of(rows));

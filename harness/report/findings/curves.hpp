@@ -1,12 +1,12 @@
 // Curves: what turning a knob buys. Rows of one backend that are equal in everything but the value of one setting of
-// the role "quality" are a curve; the rows themselves say which settings are knobs, so any study may hold curves.
+// the role "quality" are a curve; the rows themselves say which settings are knobs, so any results may hold curves.
 #pragma once
 
 #include <set>
 #include <string>
 #include <vector>
 
-#include "report/ordered/study.hpp"
+#include "report/ordered/ordered_rows.hpp"
 #include "rows/row.hpp"
 
 namespace plumb::harness {
@@ -14,7 +14,7 @@ namespace plumb::harness {
 /// A backend with one choice of everything but knobs, time step and duration.
 struct Method {
   std::string backend;
-  std::string label;  ///< what tells it from the study's other methods: "solver si"; never empty
+  std::string label;  ///< what tells it from the other methods: "solver si"; never empty
 };
 
 /// All that a method did on a problem along one knob.
@@ -36,14 +36,14 @@ struct ProblemCurves {
   std::vector<MethodCurves> methods;  ///< in the order of CurveSet::methods
 };
 
-/// Holds pointers into the study, which must outlive it.
+/// Holds pointers into the rows, which must outlive it.
 class CurveSet {
  public:
-  explicit CurveSet(const Study& study);
+  explicit CurveSet(const OrderedRows& ordered);
 
   std::vector<Method> methods;  ///< those on `problems`, in order of appearance
   std::vector<ProblemCurves>
-      problems;  ///< in the study's order; with a knob that was turned, or methods none of which ran
+      problems;  ///< in the order of the rows; with a knob that was turned, or methods none of which ran
 
   /// The row is here because of a knob that is not at the engine's own value.
   [[nodiscard]] bool is_turned(const Row& row) const { return turned_.contains(&row); }

@@ -11,8 +11,9 @@ namespace {
 constexpr std::size_t fewest_seeds = 3;
 
 /// The seeds that a backend ran with at its defaults; empty where it did not.
-std::vector<const Row*> seeds_at_defaults(const Study& study, const Problem& problem, const std::string& backend) {
-  const Row* representative = default_run(study, problem, backend);
+std::vector<const Row*> seeds_at_defaults(const OrderedRows& ordered, const Problem& problem,
+                                          const std::string& backend) {
+  const Row* representative = default_run(ordered, problem, backend);
   if (!representative) return {};
   for (Sample& sample : samples_of(problem, backend)) {
     if (std::find(sample.rows.begin(), sample.rows.end(), representative) != sample.rows.end())
@@ -62,13 +63,13 @@ DistributionCell cell_of(const std::vector<const Row*>& rows, const MetricResult
 
 }  // namespace
 
-std::vector<DistributionLine> distributions(const Study& study) {
+std::vector<DistributionLine> distributions(const OrderedRows& ordered) {
   std::vector<DistributionLine> lines;
-  for (const Problem& problem : study.problems) {
+  for (const Problem& problem : ordered.problems) {
     std::vector<std::vector<const Row*>> seeds;
     bool any = false;
-    for (const std::string& backend : study.backends) {
-      seeds.push_back(seeds_at_defaults(study, problem, backend));
+    for (const std::string& backend : ordered.backends) {
+      seeds.push_back(seeds_at_defaults(ordered, problem, backend));
       if (seeds.back().size() < fewest_seeds) seeds.back().clear();
       any = any || !seeds.back().empty();
     }

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "report/ordered/ordered_rows.hpp"
 #include "report/ordered/sample.hpp"
-#include "report/ordered/study.hpp"
 #include "rows/row.hpp"
 
 namespace plumb::harness {
@@ -23,10 +23,10 @@ struct DistributionLine {
   const Problem* problem;
   std::string metric, unit;
   bool scored, asked;                                  ///< it has a threshold; its errors are 0 and 1 only: a question
-  std::vector<std::optional<DistributionCell>> cells;  ///< by backend, in the study's order
+  std::vector<std::optional<DistributionCell>> cells;  ///< by backend, in their order
 };
 
 /// Of every problem that some backend ran with at least three seeds, its scored metrics and those without a truth.
-[[nodiscard]] std::vector<DistributionLine> distributions(const Study& study);
+[[nodiscard]] std::vector<DistributionLine> distributions(const OrderedRows& ordered);
 
 }  // namespace plumb::harness

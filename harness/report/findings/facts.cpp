@@ -35,11 +35,11 @@ bool EnergyFacts::conserves() const {
   return drifts > 0 && lost == 0 && worst_drift <= conserving && drift_row->passes();
 }
 
-EnergyFacts energy_of(const Study& study, const std::string& backend) {
+EnergyFacts energy_of(const OrderedRows& ordered, const std::string& backend) {
   EnergyFacts facts;
   std::vector<double> drifts;
-  for (const Problem& problem : study.problems) {
-    const Row* row = default_run(study, problem, backend);
+  for (const Problem& problem : ordered.problems) {
+    const Row* row = default_run(ordered, problem, backend);
     if (!row || says_nothing(row->verdict()) || !scores(problem, "energy_drift")) continue;
     const MetricResult* metric = row->completed() ? row->metric("energy_drift") : nullptr;
     if (!metric || !metric->error) {
@@ -55,9 +55,9 @@ EnergyFacts energy_of(const Study& study, const std::string& backend) {
   }
   facts.drifts = drifts.size();
   facts.median_drift = median(drifts).value_or(0);
-  const auto place = static_cast<std::size_t>(std::find(study.backends.begin(), study.backends.end(), backend) -
-                                              study.backends.begin());
-  for (const RobustnessLine& line : robustness(study)) {
+  const auto place = static_cast<std::size_t>(std::find(ordered.backends.begin(), ordered.backends.end(), backend) -
+                                              ordered.backends.begin());
+  for (const RobustnessLine& line : robustness(ordered)) {
     if (line.metric == "energy_drift") facts.all_drifts = line.cells.at(place);
     if (line.metric == "energy_injected") facts.all_rises = line.cells.at(place);
   }
@@ -93,14 +93,14 @@ Statement energy_statement(const EnergyFacts& facts) {
   return {text, row};
 }
 
-FrictionFacts friction_of(const Study& study, const std::string& backend) {
+FrictionFacts friction_of(const OrderedRows& ordered, const std::string& backend) {
   FrictionFacts facts;
   const auto spread = [](const Row* row) -> std::optional<double> {
     const MetricResult* metric = row && row->completed() ? row->metric("spread") : nullptr;
     return metric && row->slug == "sliding-stop" ? metric->error : std::nullopt;
   };
-  for (const Problem& problem : study.problems) {
-    const Row* usual = default_run(study, problem, backend);
+  for (const Problem& problem : ordered.problems) {
+    const Row* usual = default_run(ordered, problem, backend);
     if (const auto value = spread(usual); value && (!facts.row || *value > facts.spread)) {
       facts.row = usual;
       facts.spread = *value;

@@ -8,7 +8,7 @@
 
 #include "report/findings/robustness.hpp"
 #include "report/ordered/cost.hpp"
-#include "report/ordered/study.hpp"
+#include "report/ordered/ordered_rows.hpp"
 #include "rows/row.hpp"
 
 namespace plumb::harness {
@@ -35,7 +35,7 @@ struct EnergyFacts {
   /// Wherever a scene has a threshold for it, it is kept, by runs that pass.
   [[nodiscard]] bool conserves() const;
 };
-[[nodiscard]] EnergyFacts energy_of(const Study& study, const std::string& backend);
+[[nodiscard]] EnergyFacts energy_of(const OrderedRows& ordered, const std::string& backend);
 /// "loses up to 98 % (A7 joint=ball), half of 8 runs stay within 0.3 %"; "" where nothing was measured.
 [[nodiscard]] Statement energy_statement(const EnergyFacts& facts);
 
@@ -53,7 +53,7 @@ struct FrictionFacts {
 
   [[nodiscard]] bool pyramid() const { return row && spread >= pyramid_spread; }
 };
-[[nodiscard]] FrictionFacts friction_of(const Study& study, const std::string& backend);
+[[nodiscard]] FrictionFacts friction_of(const OrderedRows& ordered, const std::string& backend);
 
 /// Lines of the backend on which no configuration reaches target_errors[target], while another engine's does.
 [[nodiscard]] std::vector<const CostLine*> never_reached(const std::vector<CostTest>& tests, const std::string& backend,

@@ -24,10 +24,10 @@ Front pareto_front(const Problem& problem, const std::string& metric, std::vecto
   return front;
 }
 
-std::vector<Front> pareto_fronts(const Study& study) {
+std::vector<Front> pareto_fronts(const OrderedRows& ordered) {
   std::vector<Front> fronts;
-  for (const Problem& problem : study.problems) {
-    const Questions questions(study.scored_metrics(problem), problem);
+  for (const Problem& problem : ordered.problems) {
+    const Questions questions(ordered.scored_metrics(problem), problem);
     const std::vector<Sample> samples = samples_of(problem, "");
     for (const std::string& metric : questions.graded()) {
       std::vector<FrontPoint> points;

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "report/ordered/ordered_rows.hpp"
 #include "report/ordered/sample.hpp"
-#include "report/ordered/study.hpp"
 
 namespace plumb::harness {
 
@@ -30,7 +30,7 @@ struct Front {
 
 /// For every problem and graded metric with a configuration that counts: its runs pass all thresholds of the scene, and
 /// have a fair time. One that equals another in cost and error is on the front with it.
-[[nodiscard]] std::vector<Front> pareto_fronts(const Study& study);
+[[nodiscard]] std::vector<Front> pareto_fronts(const OrderedRows& ordered);
 
 /// Where an engine stands among all fronts that say something: of three configurations or more, all of them timed.
 struct FrontCount {

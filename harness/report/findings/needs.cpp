@@ -20,13 +20,13 @@ bool is_timed(const Row& row) { return row.completed() && row.fair_ms().value_or
 
 }  // namespace
 
-std::vector<NeedCost> costs_of_needs(const Study& study) {
+std::vector<NeedCost> costs_of_needs(const OrderedRows& ordered) {
   std::map<std::string, const Row*> plain;
-  for (const Row& row : study.rows) {
+  for (const Row& row : ordered.rows) {
     if (is_timed(row) && row.own_needs()) plain[key_without_needs(row)] = &row;
   }
   std::map<std::pair<std::string, std::string>, NeedCost> found;
-  for (const Row& row : study.rows) {
+  for (const Row& row : ordered.rows) {
     if (!is_timed(row) || row.own_needs()) continue;
     const auto without = plain.find(key_without_needs(row));
     if (without == plain.end()) continue;

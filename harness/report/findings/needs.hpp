@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "report/ordered/study.hpp"
+#include "report/ordered/ordered_rows.hpp"
 #include "rows/row.hpp"
 #include "rows/statistics.hpp"
 
@@ -26,6 +26,6 @@ struct NeedCost {
 };
 
 /// By need, then backend. Only cells that ran to their end on a machine that was not contended.
-[[nodiscard]] std::vector<NeedCost> costs_of_needs(const Study& study);
+[[nodiscard]] std::vector<NeedCost> costs_of_needs(const OrderedRows& ordered);
 
 }  // namespace plumb::harness

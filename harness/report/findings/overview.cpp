@@ -62,14 +62,14 @@ void find_groups(BackendOverview& overview, const std::map<std::string, std::pai
   }
 }
 
-BackendOverview overview_of(const Study& study, const std::string& backend) {
+BackendOverview overview_of(const OrderedRows& ordered, const std::string& backend) {
   BackendOverview overview;
   overview.backend = backend;
   std::map<std::string, std::pair<int, int>> passed_of;
-  for (const Problem& problem : study.problems) {
-    const Row* any = study.representative(problem, backend);
+  for (const Problem& problem : ordered.problems) {
+    const Row* any = ordered.representative(problem, backend);
     if (any && overview.version.empty()) overview.version = any->engine.version;
-    const Row* row = default_run(study, problem, backend);
+    const Row* row = default_run(ordered, problem, backend);
     overview.elsewhere += any && !row;
     if (!row) continue;
     const Verdict verdict = row->verdict();
@@ -99,11 +99,11 @@ BackendOverview overview_of(const Study& study, const std::string& backend) {
 
 }  // namespace
 
-std::vector<BackendOverview> overviews(const Study& study, const std::vector<CostLine>& costs) {
+std::vector<BackendOverview> overviews(const OrderedRows& ordered, const std::vector<CostLine>& costs) {
   std::vector<BackendOverview> all;
   const std::vector<CostTest> tests = tests_of(costs);
-  for (const std::string& backend : study.backends) {
-    all.push_back(overview_of(study, backend));
+  for (const std::string& backend : ordered.backends) {
+    all.push_back(overview_of(ordered, backend));
     for (std::size_t t = 0; t < target_errors.size(); ++t) all.back().reach[t] = count_reached(tests, backend, t);
   }
   return all;
@@ -169,17 +169,17 @@ std::string reach_text(const ReachCount& count, bool alone) {
   return out + (count.compared == count.reached ? "them" : fmt::format("the {} whose costs are known", count.compared));
 }
 
-std::string describe_study(const Study& study) {
+std::string describe_study(const OrderedRows& ordered) {
   std::set<std::string> scenes, profiles;
   std::set<double> steps;
-  for (const Row& row : study.rows) {
+  for (const Row& row : ordered.rows) {
     scenes.insert(row.scene);
     if (!row.profile.empty()) profiles.insert(row.profile);
     if (row.dt) steps.insert(*row.dt);
   }
   std::string out = fmt::format(
-      "{} on {} ({} with their variants), {}.", plural(study.backends.size(), "backend", "backends"),
-      plural(scenes.size(), "scene", "scenes"), study.problems.size(), plural(study.rows.size(), "cell", "cells"));
+      "{} on {} ({} with their variants), {}.", plural(ordered.backends.size(), "backend", "backends"),
+      plural(scenes.size(), "scene", "scenes"), ordered.problems.size(), plural(ordered.rows.size(), "cell", "cells"));
   if (!profiles.empty()) out += fmt::format(" Profile {}.", fmt::join(profiles, ", "));
   if (steps.size() == 1) out += fmt::format(" Time step {} s.", dt_text(*steps.begin()));
   if (steps.size() > 1)
@@ -188,10 +188,10 @@ std::string describe_study(const Study& study) {
   return out;
 }
 
-std::vector<std::string> describe_machines(const Study& study) {
+std::vector<std::string> describe_machines(const OrderedRows& ordered) {
   std::vector<std::string> machines;
   std::set<std::string> seen;
-  for (const Row& row : study.rows) {
+  for (const Row& row : ordered.rows) {
     if (row.origin.machine.empty() || !seen.insert(value_text(row.origin.machine)).second) continue;
     std::vector<std::string> parts;
     for (const auto& [name, value] : row.origin.machine.items()) parts.push_back(name + ": " + value_text(value));

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "report/ordered/cost.hpp"
-#include "report/ordered/study.hpp"
+#include "report/ordered/ordered_rows.hpp"
 #include "rows/row.hpp"
 
 namespace plumb::harness {
@@ -27,7 +27,7 @@ struct BackendOverview {
   [[nodiscard]] int count(Verdict verdict) const { return counts[static_cast<std::size_t>(verdict)]; }
 };
 
-[[nodiscard]] std::vector<BackendOverview> overviews(const Study& study, const std::vector<CostLine>& costs);
+[[nodiscard]] std::vector<BackendOverview> overviews(const OrderedRows& ordered, const std::vector<CostLine>& costs);
 
 /// "5 more problems ran with other settings only."; "" where none did.
 [[nodiscard]] std::string elsewhere_text(const BackendOverview& overview);
@@ -39,8 +39,8 @@ struct BackendOverview {
 /// "within 1 % in 12 of 40 metrics, the cheapest in 3 of them"
 [[nodiscard]] std::string reach_text(const ReachCount& count, bool alone);
 /// What was compared, in sentences: backends, scenes, cells, dt and profiles.
-[[nodiscard]] std::string describe_study(const Study& study);
+[[nodiscard]] std::string describe_study(const OrderedRows& ordered);
 /// "cpu: AMD EPYC, cores: 2" for each machine that answered.
-[[nodiscard]] std::vector<std::string> describe_machines(const Study& study);
+[[nodiscard]] std::vector<std::string> describe_machines(const OrderedRows& ordered);
 
 }  // namespace plumb::harness

@@ -12,26 +12,27 @@ namespace {
 using Lines = std::vector<const CostLine*>;
 
 /// Those that have a cell of at least half of the tests: one that ran a few scenes only would leave no common ones.
-std::vector<std::string> engines_of(const Study& study, const std::vector<Lines>& tests) {
+std::vector<std::string> engines_of(const OrderedRows& ordered, const std::vector<Lines>& tests) {
   std::map<std::string, std::size_t> count;
   for (const Lines& test : tests) {
     for (const CostLine* line : test) ++count[line->backend];
   }
-  std::vector<std::string> engines = study.backends;
+  std::vector<std::string> engines = ordered.backends;
   std::erase_if(engines,
                 [&](const std::string& backend) { return 2 * count[backend] < tests.size() || tests.empty(); });
   return engines;
 }
 
 /// Lines of each problem and metric of the group on which all engines have a cell.
-std::vector<Lines> common_tests(const Study& study, const std::vector<CostLine>& costs, const std::string& group) {
+std::vector<Lines> common_tests(const OrderedRows& ordered, const std::vector<CostLine>& costs,
+                                const std::string& group) {
   std::vector<Lines> tests;
   for (const CostTest& test : tests_of(costs)) {
     if (!group.empty() && test.lines.front().problem->group != group) continue;
     tests.emplace_back();
     for (const CostLine& line : test.lines) tests.back().push_back(&line);
   }
-  const std::vector<std::string> engines = engines_of(study, tests);
+  const std::vector<std::string> engines = engines_of(ordered, tests);
   for (Lines& test : tests) {
     std::erase_if(test, [&](const CostLine* line) {
       return std::find(engines.begin(), engines.end(), line->backend) == engines.end();
@@ -44,7 +45,7 @@ std::vector<Lines> common_tests(const Study& study, const std::vector<CostLine>&
 /// x of a line, absent where it is not solved; within the lines of its test.
 using Score = std::function<std::optional<double>(const CostLine&, const Lines&)>;
 
-Profile profile_of(const Study& study, const std::vector<Lines>& tests, const Score& score) {
+Profile profile_of(const OrderedRows& ordered, const std::vector<Lines>& tests, const Score& score) {
   Profile profile;
   profile.tests = tests.size();
   std::map<std::string, std::vector<std::pair<double, const CostLine*>>> solved;
@@ -58,7 +59,7 @@ Profile profile_of(const Study& study, const std::vector<Lines>& tests, const Sc
     }
     profile.unsolved += !any;
   }
-  for (const std::string& backend : study.backends) {
+  for (const std::string& backend : ordered.backends) {
     const bool takes_part = std::any_of(tests.begin(), tests.end(), [&](const Lines& test) {
       return std::any_of(test.begin(), test.end(), [&](const CostLine* line) { return line->backend == backend; });
     });
@@ -91,14 +92,14 @@ double ProfileCurve::at(double x) const {
   return share;
 }
 
-Profile cost_profile(const Study& study, const std::vector<CostLine>& costs, const std::string& group,
+Profile cost_profile(const OrderedRows& ordered, const std::vector<CostLine>& costs, const std::string& group,
                      std::size_t target) {
-  const std::vector<Lines> tests = common_tests(study, costs, group);
+  const std::vector<Lines> tests = common_tests(ordered, costs, group);
   const auto unpriced = [&](const Lines& test) {
     return std::any_of(test.begin(), test.end(),
                        [&](const CostLine* line) { return line->at[target] && !line->at[target]->priced(); });
   };
-  Profile profile = profile_of(study, tests, [&](const CostLine& line, const Lines& test) -> std::optional<double> {
+  Profile profile = profile_of(ordered, tests, [&](const CostLine& line, const Lines& test) -> std::optional<double> {
     if (!line.at[target]) return std::nullopt;
     double cheapest = std::numeric_limits<double>::infinity();
     // With one price unknown nobody's ratio to the cheapest is known; that it is solved is.
@@ -112,20 +113,20 @@ Profile cost_profile(const Study& study, const std::vector<CostLine>& costs, con
   return profile;
 }
 
-Profile error_profile(const Study& study, const std::vector<CostLine>& costs, const std::string& group) {
-  std::vector<Lines> tests = common_tests(study, costs, group);
+Profile error_profile(const OrderedRows& ordered, const std::vector<CostLine>& costs, const std::string& group) {
+  std::vector<Lines> tests = common_tests(ordered, costs, group);
   std::map<const Problem*, Questions> questions;
   for (const Lines& test : tests) {
     const Problem& problem = *test.front()->problem;
-    questions.try_emplace(&problem, study.scored_metrics(problem), problem);
+    questions.try_emplace(&problem, ordered.scored_metrics(problem), problem);
   }
   std::erase_if(tests, [&](const Lines& test) {
     const std::vector<std::string>& graded = questions.at(test.front()->problem).graded();
     return std::find(graded.begin(), graded.end(), test.front()->metric) == graded.end() ||
            !std::all_of(test.begin(), test.end(),
-                        [&](const CostLine* line) { return study.is_default(*line->representative); });
+                        [&](const CostLine* line) { return ordered.is_default(*line->representative); });
   });
-  return profile_of(study, tests, [&](const CostLine& line, const Lines&) -> std::optional<double> {
+  return profile_of(ordered, tests, [&](const CostLine& line, const Lines&) -> std::optional<double> {
     const Row& row = *line.representative;
     const MetricResult* metric = row.metric(line.metric);
     if (!row.completed() || !metric || !questions.at(line.problem).missed_by(row).empty()) return std::nullopt;

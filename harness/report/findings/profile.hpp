@@ -30,16 +30,17 @@ struct Profile {
   std::size_t unsolved = 0;  ///< of those, nobody reaches the error; they count as not solved for all
   std::size_t unpriced = 0;  ///< somebody reaches it at a price that no fair time tells: solved, at x = infinity
   std::vector<ProfileCurve>
-      curves;  ///< by backend, in the study's order; without engines that ran less than half of the tests
+      curves;  ///< by backend, in their order; without engines that ran less than half of the tests
 };
 
 /// Cost to reach target_errors[target], over the tests of a group; "" for all groups.
-[[nodiscard]] Profile cost_profile(const Study& study, const std::vector<CostLine>& costs, const std::string& group,
-                                   std::size_t target);
+[[nodiscard]] Profile cost_profile(const OrderedRows& ordered, const std::vector<CostLine>& costs,
+                                   const std::string& group, std::size_t target);
 
 /// Not relative to a best, for which errors of zero leave no room: the share of graded tests whose error at the
 /// engine's defaults is at most x. A cell that did not come through, or missed a yes/no question, is not solved at any
 /// x.
-[[nodiscard]] Profile error_profile(const Study& study, const std::vector<CostLine>& costs, const std::string& group);
+[[nodiscard]] Profile error_profile(const OrderedRows& ordered, const std::vector<CostLine>& costs,
+                                    const std::string& group);
 
 }  // namespace plumb::harness

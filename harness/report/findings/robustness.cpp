@@ -25,16 +25,17 @@ double robustness_bound(std::string_view metric) {
 namespace {
 
 /// Problems of those that the backend was run on, and can run.
-std::size_t runs_tried(const Study& study, const std::set<const Problem*>& problems, const std::string& backend) {
+std::size_t runs_tried(const OrderedRows& ordered, const std::set<const Problem*>& problems,
+                       const std::string& backend) {
   return static_cast<std::size_t>(std::count_if(problems.begin(), problems.end(), [&](const Problem* problem) {
-    const Row* row = default_run(study, *problem, backend);
+    const Row* row = default_run(ordered, *problem, backend);
     return row && !says_nothing(row->verdict());
   }));
 }
 
 }  // namespace
 
-std::vector<RobustnessLine> robustness(const Study& study) {
+std::vector<RobustnessLine> robustness(const OrderedRows& ordered) {
   struct Found {
     std::set<std::string> scenes;  // that do not score it
     std::string unit;
@@ -42,9 +43,9 @@ std::vector<RobustnessLine> robustness(const Study& study) {
     std::map<std::string, std::vector<std::pair<double, const Row*>>> errors;  // by backend
   };
   std::map<std::string, Found> by_name;
-  for (const Problem& problem : study.problems) {
-    for (const std::string& backend : study.backends) {
-      const Row* row = default_run(study, problem, backend);
+  for (const Problem& problem : ordered.problems) {
+    for (const std::string& backend : ordered.backends) {
+      const Row* row = default_run(ordered, problem, backend);
       if (!row || !row->completed()) continue;
       for (const MetricResult& metric : row->metrics) {
         Found& found = by_name[metric.name];
@@ -60,7 +61,7 @@ std::vector<RobustnessLine> robustness(const Study& study) {
   for (const auto& [name, found] : by_name) {
     if (found.scenes.size() < 2) continue;
     RobustnessLine line{name, found.unit, robustness_bound(name), {}};
-    for (const std::string& backend : study.backends) {
+    for (const std::string& backend : ordered.backends) {
       const auto of = found.errors.find(backend);
       if (of == found.errors.end()) {
         line.cells.emplace_back();
@@ -77,7 +78,7 @@ std::vector<RobustnessLine> robustness(const Study& study) {
         }
       }
       cell.runs = errors.size();
-      cell.lost = runs_tried(study, found.problems, backend) - cell.runs;
+      cell.lost = runs_tried(ordered, found.problems, backend) - cell.runs;
       cell.median = *median(errors);
       line.cells.emplace_back(cell);
     }

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "report/ordered/study.hpp"
+#include "report/ordered/ordered_rows.hpp"
 #include "rows/row.hpp"
 
 namespace plumb::harness {
@@ -21,12 +21,12 @@ struct RobustnessCell {
 struct RobustnessLine {
   std::string metric, unit;
   double bound;
-  std::vector<std::optional<RobustnessCell>> cells;  ///< by backend, in the study's order; empty: never measured
+  std::vector<std::optional<RobustnessCell>> cells;  ///< by backend, in their order; empty: never measured
 };
 
 /// Metrics of a truth of zero or one that at least two scenes have without scoring them, by name; at the defaults, and
 /// with those scenes that do score them.
-[[nodiscard]] std::vector<RobustnessLine> robustness(const Study& study);
+[[nodiscard]] std::vector<RobustnessLine> robustness(const OrderedRows& ordered);
 
 /// What the report calls beyond bound: none of it is a threshold of a scene.
 [[nodiscard]] double robustness_bound(std::string_view metric);

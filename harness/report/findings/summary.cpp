@@ -17,7 +17,7 @@ struct GroupCount {
   int passed = 0, scored = 0;         ///< problems at the defaults that it can run
 };
 
-std::map<std::string, GroupCount> counts_by_group(const Study& study, const std::vector<CostTest>& tests,
+std::map<std::string, GroupCount> counts_by_group(const OrderedRows& ordered, const std::vector<CostTest>& tests,
                                                   const std::string& backend) {
   std::map<std::string, GroupCount> groups;
   for (const CostTest& test : tests) {
@@ -26,8 +26,8 @@ std::map<std::string, GroupCount> counts_by_group(const Study& study, const std:
     group.compared += test.cheapest(one_percent).has_value();
     group.won += mine && test.is_cheapest(*mine, one_percent);
   }
-  for (const Problem& problem : study.problems) {
-    const Row* row = default_run(study, problem, backend);
+  for (const Problem& problem : ordered.problems) {
+    const Row* row = default_run(ordered, problem, backend);
     if (!row || says_nothing(row->verdict()) || row->verdict() == Verdict::ran) continue;
     ++groups[problem.group].scored;
     groups[problem.group].passed += row->verdict() <= Verdict::pass;
@@ -72,10 +72,10 @@ void add_failures(Summary& summary, const BackendOverview& overview) {
   add(overview.failures, "Misses ");
 }
 
-void add_repeatability(Summary& summary, const Study& study, const std::string& backend) {
+void add_repeatability(Summary& summary, const OrderedRows& ordered, const std::string& backend) {
   std::size_t repeated = 0, differ = 0;
   const Row* shown = nullptr;
-  for (const Row& row : study.rows) {
+  for (const Row& row : ordered.rows) {
     const MetricResult* metric = row.backend == backend && row.completed() ? row.metric("determinism") : nullptr;
     if (!metric || !metric->error) continue;
     ++repeated;
@@ -111,22 +111,22 @@ void add_accuracy(Summary& summary, const std::vector<CostTest>& tests, const st
 
 }  // namespace
 
-Summary summary_of(const Study& study, const std::vector<CostLine>& costs, const std::vector<Front>& fronts,
+Summary summary_of(const OrderedRows& ordered, const std::vector<CostLine>& costs, const std::vector<Front>& fronts,
                    const BackendOverview& overview) {
   const std::string& backend = overview.backend;
-  const bool alone = study.backends.size() == 1;
+  const bool alone = ordered.backends.size() == 1;
   Summary summary;
   const std::vector<CostTest> tests = tests_of(costs);
-  add_groups(summary, counts_by_group(study, tests, backend), alone);
+  add_groups(summary, counts_by_group(ordered, tests, backend), alone);
   if (overview.count(Verdict::gold) > 0)
     summary.best.push_back(
         {fmt::format("Gold in {} of {} scene variants", overview.count(Verdict::gold), overview.problems), nullptr});
   add_fronts(summary, fronts, backend, alone);
-  const EnergyFacts energy = energy_of(study, backend);
+  const EnergyFacts energy = energy_of(ordered, backend);
   if (const Statement statement = energy_statement(energy); !statement.text.empty()) {
     (energy.conserves() ? summary.best : summary.breaks).push_back({"Energy: " + statement.text, statement.row});
   }
-  if (const FrictionFacts friction = friction_of(study, backend); friction.pyramid()) {
+  if (const FrictionFacts friction = friction_of(ordered, backend); friction.pyramid()) {
     summary.breaks.push_back({fmt::format("Its friction is a pyramid: stopping distances differ by {} with the heading",
                                           percent_text(friction.spread)),
                               friction.row});
@@ -134,7 +134,7 @@ Summary summary_of(const Study& study, const std::vector<CostLine>& costs, const
     summary.best.push_back(
         {fmt::format("Friction the same in all directions, within {}", percent_text(friction.spread)), friction.row});
   }
-  add_repeatability(summary, study, backend);
+  add_repeatability(summary, ordered, backend);
   add_accuracy(summary, tests, backend);
   add_failures(summary, overview);
   if (const int refused = overview.count(Verdict::unsupported); refused > 0)

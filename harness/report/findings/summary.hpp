@@ -13,7 +13,7 @@ struct Summary {
   std::vector<Statement> best, breaks;
 };
 
-[[nodiscard]] Summary summary_of(const Study& study, const std::vector<CostLine>& costs,
+[[nodiscard]] Summary summary_of(const OrderedRows& ordered, const std::vector<CostLine>& costs,
                                  const std::vector<Front>& fronts, const BackendOverview& overview);
 
 }  // namespace plumb::harness

@@ -54,16 +54,16 @@ CostLine find_costs(const Problem& problem, const std::string& metric, const std
 
 }  // namespace
 
-std::vector<CostLine> cost_of_accuracy(const Study& study) {
+std::vector<CostLine> cost_of_accuracy(const OrderedRows& ordered) {
   std::vector<CostLine> lines;
-  for (const Problem& problem : study.problems) {
-    const std::vector<std::string> metrics = study.scored_metrics(problem);
+  for (const Problem& problem : ordered.problems) {
+    const std::vector<std::string> metrics = ordered.scored_metrics(problem);
     const Questions questions(metrics, problem);
     std::map<std::string, std::vector<Sample>> samples;
     for (Sample& sample : samples_of(problem, "")) samples[sample.row().backend].push_back(std::move(sample));
     for (const std::string& metric : metrics) {
-      for (const std::string& backend : study.backends) {
-        const Row* representative = study.representative(problem, backend);
+      for (const std::string& backend : ordered.backends) {
+        const Row* representative = ordered.representative(problem, backend);
         if (!representative) continue;
         lines.push_back(find_costs(problem, metric, backend, samples[backend], questions, representative));
       }

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "report/ordered/ordered_rows.hpp"
 #include "report/ordered/sample.hpp"
-#include "report/ordered/study.hpp"
 #include "rows/row.hpp"
 
 namespace plumb::harness {
@@ -42,7 +42,7 @@ struct CostLine {
 /// Lines by problem, then metric, then backend; only backends with a cell on the problem. A cell counts for a metric
 /// when it ran to its end with a finite error and missed none of the scene's yes/no questions: a tower that fell has
 /// little overlap left, and no accuracy. Errors count whatever else the machine did; times of a contended one do not.
-[[nodiscard]] std::vector<CostLine> cost_of_accuracy(const Study& study);
+[[nodiscard]] std::vector<CostLine> cost_of_accuracy(const OrderedRows& ordered);
 
 /// All lines of one problem and metric: what engines are held against each other on.
 struct CostTest {

@@ -1,4 +1,4 @@
-#include "report/ordered/study.hpp"
+#include "report/ordered/ordered_rows.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -83,7 +83,7 @@ bool variant_less(const Row& a, const Row& b) {
 
 }  // namespace
 
-Study::Study(std::vector<Row> given) : rows(std::move(given)) {
+OrderedRows::OrderedRows(std::vector<Row> given) : rows(std::move(given)) {
   std::map<std::string, std::vector<const Row*>> by_backend, default_by_backend;
   std::map<std::tuple<std::string, std::string, std::string>, std::size_t> by_problem;
   for (const Row& row : rows) {
@@ -109,16 +109,16 @@ Study::Study(std::vector<Row> given) : rows(std::move(given)) {
   for (const Row& row : rows) is_default_.push_back(find_default(row));
 }
 
-bool Study::is_default(const Row& row) const { return is_default_[static_cast<std::size_t>(&row - rows.data())]; }
+bool OrderedRows::is_default(const Row& row) const { return is_default_[static_cast<std::size_t>(&row - rows.data())]; }
 
-bool Study::find_default(const Row& row) const {
+bool OrderedRows::find_default(const Row& row) const {
   const Baseline& baseline = baselines_.at(row.backend);
   const auto dt = baseline.dt.find(row.scene);
   return default_profile(row) && same(row.dt, dt == baseline.dt.end() ? std::nullopt : dt->second) &&
          same(row.threads, baseline.threads) && row.own_needs() && changed_settings(row).empty();
 }
 
-std::vector<std::pair<std::string, std::string>> Study::changed_settings(const Row& row) const {
+std::vector<std::pair<std::string, std::string>> OrderedRows::changed_settings(const Row& row) const {
   const Json& usual = baselines_.at(row.backend).settings;
   std::vector<std::pair<std::string, std::string>> changed;
   for (const auto& [name, value] : row.settings.items()) {
@@ -128,7 +128,7 @@ std::vector<std::pair<std::string, std::string>> Study::changed_settings(const R
   return changed;
 }
 
-std::string Study::configuration(const Row& row) const {
+std::string OrderedRows::configuration(const Row& row) const {
   std::string out = row.dt ? dt_text(row.dt) + " s" : std::string();
   const auto add = [&](const std::string& part) { out += (out.empty() ? "" : ", ") + part; };
   if (!default_profile(row)) add(row.profile);
@@ -140,7 +140,7 @@ std::string Study::configuration(const Row& row) const {
   return out;
 }
 
-std::string Study::command_for(const Row& row, const std::vector<std::string>& backends_of_it) const {
+std::string OrderedRows::command_for(const Row& row, const std::vector<std::string>& backends_of_it) const {
   std::string out = "plumb run " + shell_word(row.scene);
   for (const std::string& backend : backends_of_it) out += " --backend " + shell_word(backend);
   for (const auto& [name, value] : row.params.items()) out += " --param " + shell_word(name + "=" + value_text(value));
@@ -154,9 +154,9 @@ std::string Study::command_for(const Row& row, const std::vector<std::string>& b
   return out;
 }
 
-std::string Study::command(const Row& row) const { return command_for(row, {row.backend}); }
+std::string OrderedRows::command(const Row& row) const { return command_for(row, {row.backend}); }
 
-std::string Study::commands(const std::vector<const Row*>& of) const {
+std::string OrderedRows::commands(const std::vector<const Row*>& of) const {
   constexpr std::size_t most = 3;
   std::vector<std::pair<const Row*, std::vector<std::string>>> alike;
   std::map<std::string, std::size_t> places;
@@ -176,7 +176,7 @@ std::string Study::commands(const std::vector<const Row*>& of) const {
   return out;
 }
 
-const Row* Study::representative(const Problem& problem, const std::string& backend) const {
+const Row* OrderedRows::representative(const Problem& problem, const std::string& backend) const {
   std::vector<const Row*> defaults, others;
   for (const Row* row : problem.rows) {
     if (row->backend == backend && row->own_needs()) (is_default(*row) ? defaults : others).push_back(row);
@@ -188,7 +188,7 @@ const Row* Study::representative(const Problem& problem, const std::string& back
   return defaults[defaults.size() / 2];
 }
 
-std::vector<std::string> Study::scored_metrics(const Problem& problem) const {
+std::vector<std::string> OrderedRows::scored_metrics(const Problem& problem) const {
   std::vector<std::string> scored, with_error;
   const auto add = [](std::vector<std::string>& list, const std::string& name) {
     if (std::find(list.begin(), list.end(), name) == list.end()) list.push_back(name);

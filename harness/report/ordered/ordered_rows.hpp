@@ -28,11 +28,11 @@ struct Baseline {
 };
 
 /// All rows of a report and the order in which it shows them. Problems point into `rows`, hence no copies.
-class Study {
+class OrderedRows {
  public:
-  explicit Study(std::vector<Row> rows);
-  Study(const Study&) = delete;
-  Study& operator=(const Study&) = delete;
+  explicit OrderedRows(std::vector<Row> rows);
+  OrderedRows(const OrderedRows&) = delete;
+  OrderedRows& operator=(const OrderedRows&) = delete;
 
   std::vector<Row> rows;
   std::vector<std::string> backends;  ///< by name

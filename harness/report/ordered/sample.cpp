@@ -5,7 +5,7 @@
 #include <limits>
 #include <unordered_map>
 
-#include "report/ordered/study.hpp"
+#include "report/ordered/ordered_rows.hpp"
 
 namespace plumb::harness {
 namespace {

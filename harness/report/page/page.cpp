@@ -21,7 +21,7 @@ namespace {
 /// All that is told of one machine's rows. Sections point into it.
 struct MachinePart {
   std::string name;
-  Study study;
+  OrderedRows ordered;
   std::vector<CostLine> costs;
   std::vector<BackendOverview> overviews;
   CurveSet curves;
@@ -29,11 +29,11 @@ struct MachinePart {
 
   MachinePart(std::string machine, std::vector<Row> rows)
       : name(std::move(machine)),
-        study(std::move(rows)),
-        costs(cost_of_accuracy(study)),
-        overviews(harness::overviews(study, costs)),
-        curves(study),
-        fronts(pareto_fronts(study)) {}
+        ordered(std::move(rows)),
+        costs(cost_of_accuracy(ordered)),
+        overviews(harness::overviews(ordered, costs)),
+        curves(ordered),
+        fronts(pareto_fronts(ordered)) {}
 };
 
 std::vector<std::unique_ptr<MachinePart>> split_by_machine(const std::vector<Row>& rows) {
@@ -45,7 +45,8 @@ std::vector<std::unique_ptr<MachinePart>> split_by_machine(const std::vector<Row
 
 std::vector<std::string> all_backends(const std::vector<std::unique_ptr<MachinePart>>& parts) {
   std::vector<std::string> names;
-  for (const auto& part : parts) names.insert(names.end(), part->study.backends.begin(), part->study.backends.end());
+  for (const auto& part : parts)
+    names.insert(names.end(), part->ordered.backends.begin(), part->ordered.backends.end());
   std::sort(names.begin(), names.end(), natural_less);
   names.erase(std::unique(names.begin(), names.end()), names.end());
   return names;
@@ -68,7 +69,7 @@ std::string group_options(const std::vector<PageContext>& contexts) {
   std::string out = R"(<option value="">all groups</option>)";
   std::set<std::string> groups;
   for (const PageContext& context : contexts) {
-    for (const std::string& group : context.study.groups) {
+    for (const std::string& group : context.ordered.groups) {
       if (!group.empty() && groups.insert(group).second) out += fmt::format("<option>{}</option>", escape_html(group));
     }
   }
@@ -164,7 +165,7 @@ void write_page(std::ostream& out, const std::vector<Row>& rows, const PageOptio
   const std::vector<std::string> backends = all_backends(parts);
   std::vector<PageContext> contexts;
   for (const auto& part : parts) {
-    PageContext context{part->study, part->costs, part->overviews, part->curves, part->fronts, options, backends};
+    PageContext context{part->ordered, part->costs, part->overviews, part->curves, part->fronts, options, backends};
     if (parts.size() > 1) context.machine = part->name;
     if (!contexts.empty()) context.suffix = fmt::format("-{}", contexts.size());
     contexts.push_back(std::move(context));

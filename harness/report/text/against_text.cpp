@@ -33,12 +33,12 @@ std::string texts_of(const CellChange& cell) {
 
 const char* colour_of(Sense sense) { return sense == Sense::worse ? "31" : sense == Sense::better ? "32" : "33"; }
 
-void print_only(std::ostream& out, const char* heading, const std::vector<const Row*>& rows, const Study& study,
+void print_only(std::ostream& out, const char* heading, const std::vector<const Row*>& rows, const OrderedRows& ordered,
                 int terminal_width, bool colour) {
   if (rows.empty()) return;
   TextTable table({{heading, false, false}, {"backend", false, false}, {"settings", false, true}});
   for (const Row* row : rows)
-    table.add({{printable(title_of(*row))}, {printable(row->backend)}, {printable(study.configuration(*row))}});
+    table.add({{printable(title_of(*row))}, {printable(row->backend)}, {printable(ordered.configuration(*row))}});
   table.print(out, terminal_width, colour);
   out << '\n';
 }
@@ -86,7 +86,7 @@ std::vector<std::string> describe_comparison(const Comparison& comparison, const
   return out;
 }
 
-void print_against(std::ostream& out, const Comparison& comparison, const Study& before, const Study& after,
+void print_against(std::ostream& out, const Comparison& comparison, const OrderedRows& before, const OrderedRows& after,
                    const std::string& baseline, const AgainstLimits& limits, int terminal_width, bool colour) {
   for (const Sense sense : senses) {
     if (comparison.count(sense) == 0) continue;
@@ -110,8 +110,8 @@ void print_against(std::ostream& out, const Comparison& comparison, const Study&
     out << printable(sentence) << '\n';
 }
 
-void write_against_markdown(std::ostream& out, const Comparison& comparison, const Study& before, const Study& after,
-                            const std::string& baseline, const AgainstLimits& limits) {
+void write_against_markdown(std::ostream& out, const Comparison& comparison, const OrderedRows& before,
+                            const OrderedRows& after, const std::string& baseline, const AgainstLimits& limits) {
   out << "# Plumb against a baseline\n\n";
   for (const std::string& sentence : describe_comparison(comparison, baseline, limits))
     out << markdown_text(sentence) << '\n';
@@ -125,11 +125,11 @@ void write_against_markdown(std::ostream& out, const Comparison& comparison, con
           << markdown_text(after.configuration(*cell.after)) << " | " << markdown_text(texts_of(cell)) << " |\n";
     }
   }
-  const auto only = [&](const char* heading, const std::vector<const Row*>& rows, const Study& study) {
+  const auto only = [&](const char* heading, const std::vector<const Row*>& rows, const OrderedRows& ordered) {
     if (rows.empty()) return;
     out << "\n## " << heading << "\n\n";
     for (const Row* row : rows)
-      out << "- " << markdown_text(fmt::format("{}, {}, {}", title_of(*row), row->backend, study.configuration(*row)))
+      out << "- " << markdown_text(fmt::format("{}, {}, {}", title_of(*row), row->backend, ordered.configuration(*row)))
           << '\n';
   };
   only("Only there", comparison.only_before, before);

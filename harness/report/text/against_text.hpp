@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "report/ordered/against.hpp"
-#include "report/ordered/study.hpp"
+#include "report/ordered/ordered_rows.hpp"
 
 namespace plumb::harness {
 
@@ -14,11 +14,11 @@ namespace plumb::harness {
 [[nodiscard]] std::vector<std::string> describe_comparison(const Comparison& comparison, const std::string& baseline,
                                                            const AgainstLimits& limits);
 
-/// `before` and `after` are the studies of the rows that were compared: they name configurations.
-void print_against(std::ostream& out, const Comparison& comparison, const Study& before, const Study& after,
+/// `before` and `after` are the rows that were compared: they name configurations.
+void print_against(std::ostream& out, const Comparison& comparison, const OrderedRows& before, const OrderedRows& after,
                    const std::string& baseline, const AgainstLimits& limits, int terminal_width, bool colour);
-void write_against_markdown(std::ostream& out, const Comparison& comparison, const Study& before, const Study& after,
-                            const std::string& baseline, const AgainstLimits& limits);
+void write_against_markdown(std::ostream& out, const Comparison& comparison, const OrderedRows& before,
+                            const OrderedRows& after, const std::string& baseline, const AgainstLimits& limits);
 /// One object: counts, limits, and the lists worse, better, changed, only_before, only_after.
 [[nodiscard]] Json against_json(const Comparison& comparison, const std::string& baseline, const AgainstLimits& limits);
 

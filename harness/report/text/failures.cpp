@@ -35,9 +35,9 @@ void write_failures(std::ostream& out, const std::vector<Row>& rows) {
          "Made by `plumb report DIR --failures` from the rows beside it: every scene variant that an engine "
          "does not pass at its own defaults, and what it misses there (error > threshold; by most first).\n";
   for (const MachineRows& machine : rows_by_machine(rows)) {
-    const Study study(machine.rows);
+    const OrderedRows ordered(machine.rows);
     out << "\n## " << markdown_text(machine.name) << '\n';
-    for (const BackendOverview& overview : overviews(study, {})) write_backend(out, overview);
+    for (const BackendOverview& overview : overviews(ordered, {})) write_backend(out, overview);
   }
 }
 

@@ -10,7 +10,7 @@
 #include "report/ordered/cost.hpp"
 #include "report/ordered/default_run.hpp"
 #include "report/ordered/machine_rows.hpp"
-#include "report/ordered/study.hpp"
+#include "report/ordered/ordered_rows.hpp"
 
 namespace plumb::harness {
 namespace {
@@ -34,8 +34,8 @@ std::string matrix_cell(const Row* row) {
   return word + ", " + worst->name + " " + (worst->error ? short_number(*worst->error) : "not finite");
 }
 
-void write_answers(std::ostream& out, const Study& study, const std::vector<CostLine>& costs) {
-  const std::vector<AnsweredQuestion> all = answers(study, costs);
+void write_answers(std::ostream& out, const OrderedRows& ordered, const std::vector<CostLine>& costs) {
+  const std::vector<AnsweredQuestion> all = answers(ordered, costs);
   if (all.empty()) return;
   out << "## Answers\n\n";
   for (const AnsweredQuestion& answer : all) {
@@ -50,18 +50,18 @@ void write_answers(std::ostream& out, const Study& study, const std::vector<Cost
   }
 }
 
-void write_matrix(std::ostream& out, const Study& study) {
+void write_matrix(std::ostream& out, const OrderedRows& ordered) {
   out << "## Scenes\n\nEach cell: verdict and error of the worst metric, at the backend's defaults, or "
          "with the settings in brackets where it ran with others only.\n\n";
   std::vector<std::string> names{"scene"};
-  names.insert(names.end(), study.backends.begin(), study.backends.end());
+  names.insert(names.end(), ordered.backends.begin(), ordered.backends.end());
   write_header(out, names, std::string(names.size(), 'l'));
-  for (const Problem& problem : study.problems) {
+  for (const Problem& problem : ordered.problems) {
     out << "| " << markdown_text(problem.title()) << " |";
-    for (const std::string& backend : study.backends) {
-      const Row* row = study.representative(problem, backend);
-      const bool other = row && !study.is_default(*row);
-      out << ' ' << markdown_text(matrix_cell(row) + (other ? " (" + study.configuration(*row) + ")" : "")) << " |";
+    for (const std::string& backend : ordered.backends) {
+      const Row* row = ordered.representative(problem, backend);
+      const bool other = row && !ordered.is_default(*row);
+      out << ' ' << markdown_text(matrix_cell(row) + (other ? " (" + ordered.configuration(*row) + ")" : "")) << " |";
     }
     out << '\n';
   }
@@ -72,7 +72,7 @@ std::string ms_text(const Reached& reached) {
   return ms + (reached.row->passes() ? "" : dagger);
 }
 
-void write_costs(std::ostream& out, const Study& study, const std::vector<CostLine>& costs) {
+void write_costs(std::ostream& out, const OrderedRows& ordered, const std::vector<CostLine>& costs) {
   out << "\n## What accuracy costs\n\nMilliseconds per simulated second of the cheapest cell that reaches the error "
          "and "
          "passes its scene; "
@@ -88,26 +88,26 @@ void write_costs(std::ostream& out, const Study& study, const std::vector<CostLi
     }
     if (line.floor) {
       out << ' ' << short_number(line.floor->error) << " @ " << ms_text(*line.floor) << " | "
-          << markdown_text(study.configuration(*line.floor->row)) << " |\n";
+          << markdown_text(ordered.configuration(*line.floor->row)) << " |\n";
     } else {
       out << ' ' << markdown_text(std::string(verdict_word(line.representative->verdict()))) << " | |\n";
     }
   }
 }
 
-void write_times(std::ostream& out, const Study& study) {
+void write_times(std::ostream& out, const OrderedRows& ordered) {
   out << "\n## Times\n\nMilliseconds per step (median), at the backend's defaults; " << dagger
       << " where the run misses a threshold.\n\n";
   std::vector<std::string> names{"scene", "bodies"};
-  names.insert(names.end(), study.backends.begin(), study.backends.end());
+  names.insert(names.end(), ordered.backends.begin(), ordered.backends.end());
   std::string alignment(names.size(), 'r');
   alignment.front() = 'l';
   write_header(out, names, alignment);
-  for (const Problem& problem : study.problems) {
+  for (const Problem& problem : ordered.problems) {
     std::string cells, bodies(no_value);
     bool any = false;
-    for (const std::string& backend : study.backends) {
-      const Row* row = default_run(study, problem, backend);
+    for (const std::string& backend : ordered.backends) {
+      const Row* row = default_run(ordered, problem, backend);
       const bool timed = row && row->completed() && row->fair_ms();
       any = any || timed;
       cells += fmt::format(" {}{} |", timed ? short_number(row->fair_ms()) : std::string(no_value),
@@ -118,19 +118,19 @@ void write_times(std::ostream& out, const Study& study) {
   }
 }
 
-void write_machine(std::ostream& out, const Study& study) {
-  out << markdown_text(describe_study(study)) << "\n\n";
-  for (const std::string& machine : describe_machines(study)) out << markdown_text(machine) << "\n\n";
-  const std::vector<CostLine> costs = cost_of_accuracy(study);
-  for (const BackendOverview& overview : overviews(study, costs)) {
+void write_machine(std::ostream& out, const OrderedRows& ordered) {
+  out << markdown_text(describe_study(ordered)) << "\n\n";
+  for (const std::string& machine : describe_machines(ordered)) out << markdown_text(machine) << "\n\n";
+  const std::vector<CostLine> costs = cost_of_accuracy(ordered);
+  for (const BackendOverview& overview : overviews(ordered, costs)) {
     out << "- **" << markdown_text(overview.backend) << "** " << markdown_text(overview.version) << ": "
-        << markdown_text(describe_backend(overview, study.backends.size() == 1)) << '\n';
+        << markdown_text(describe_backend(overview, ordered.backends.size() == 1)) << '\n';
   }
   out << '\n';
-  write_answers(out, study, costs);
-  write_matrix(out, study);
-  write_costs(out, study, costs);
-  write_times(out, study);
+  write_answers(out, ordered, costs);
+  write_matrix(out, ordered);
+  write_costs(out, ordered, costs);
+  write_times(out, ordered);
 }
 
 }  // namespace
@@ -169,7 +169,7 @@ void write_markdown(std::ostream& out, const std::vector<Row>& rows) {
   for (const MachineRows& machine : machines) {
     out << '\n';
     if (machines.size() > 1) out << "# " << markdown_text(machine.name) << "\n\n";
-    write_machine(out, Study(machine.rows));
+    write_machine(out, OrderedRows(machine.rows));
   }
 }
 

@@ -8,7 +8,7 @@
 
 #include "base/format.hpp"
 #include "report/ordered/machine_rows.hpp"
-#include "report/ordered/study.hpp"
+#include "report/ordered/ordered_rows.hpp"
 #include "report/text/text_table.hpp"
 
 namespace plumb::harness {
@@ -54,35 +54,35 @@ std::string ms_text(const Row& row) {
   return row.time.contended ? "(" + ms + ")" : ms;
 }
 
-void print_legend(std::ostream& out, const Study& study) {
-  const bool any = std::any_of(study.rows.begin(), study.rows.end(),
+void print_legend(std::ostream& out, const OrderedRows& ordered) {
+  const bool any = std::any_of(ordered.rows.begin(), ordered.rows.end(),
                                [](const Row& row) { return row.time.contended && row.time.median_ms; });
   if (any) out << "(ms): the machine had other work;\nsuch a time counts nowhere.\n";
 }
 
 /// Whatever a backend ran, it ran at its defaults, too.
-bool runs_at_defaults(const Study& study) {
-  return std::all_of(study.problems.begin(), study.problems.end(), [&](const Problem& problem) {
-    return std::all_of(study.backends.begin(), study.backends.end(), [&](const std::string& backend) {
-      const Row* row = study.representative(problem, backend);
-      return !row || study.is_default(*row);
+bool runs_at_defaults(const OrderedRows& ordered) {
+  return std::all_of(ordered.problems.begin(), ordered.problems.end(), [&](const Problem& problem) {
+    return std::all_of(ordered.backends.begin(), ordered.backends.end(), [&](const std::string& backend) {
+      const Row* row = ordered.representative(problem, backend);
+      return !row || ordered.is_default(*row);
     });
   });
 }
 
 /// Verdicts by backend, those columns only that occur.
-void print_counts(std::ostream& out, const Study& study, int terminal_width, bool colour) {
+void print_counts(std::ostream& out, const OrderedRows& ordered, int terminal_width, bool colour) {
   std::array<bool, verdict_count> occurs{};
-  for (const Row& row : study.rows) occurs[static_cast<std::size_t>(row.verdict())] = true;
+  for (const Row& row : ordered.rows) occurs[static_cast<std::size_t>(row.verdict())] = true;
   std::vector<TextColumn> columns{{"backend", false, true}, {"cells", true, false}};
   for (std::size_t v = 0; v < verdict_count; ++v) {
     if (occurs[v]) columns.push_back({prose(static_cast<Verdict>(v)), true, false});
   }
   TextTable table(columns);
-  for (const std::string& backend : study.backends) {
+  for (const std::string& backend : ordered.backends) {
     std::array<int, verdict_count> count{};
     int cells = 0;
-    for (const Row& row : study.rows) {
+    for (const Row& row : ordered.rows) {
       if (row.backend != backend) continue;
       ++count[static_cast<std::size_t>(row.verdict())];
       ++cells;
@@ -108,7 +108,7 @@ std::string error_text(const Row& row) {
   return worst->error ? short_number(*worst->error, 2) : "not finite";
 }
 
-void print_block_of_backends(std::ostream& out, const Study& study, const std::vector<std::string>& backends,
+void print_block_of_backends(std::ostream& out, const OrderedRows& ordered, const std::vector<std::string>& backends,
                              int terminal_width, bool colour) {
   std::vector<TextColumn> columns{{"scene", false, true}};
   for (const std::string& backend : backends) {
@@ -117,15 +117,15 @@ void print_block_of_backends(std::ostream& out, const Study& study, const std::v
     columns.push_back({"ms/step", true, false});
   }
   TextTable table(columns);
-  for (const Problem& problem : study.problems) {
+  for (const Problem& problem : ordered.problems) {
     std::vector<TextCell> line{{printable(problem.title())}};
     for (const std::string& backend : backends) {
-      const Row* row = study.representative(problem, backend);
+      const Row* row = ordered.representative(problem, backend);
       if (!row) {
         line.insert(line.end(), {{std::string(no_value), dim}, {}, {}});
         continue;
       }
-      line.push_back({prose(row->verdict()) + (study.is_default(*row) ? "" : "*"), colour_of(row->verdict())});
+      line.push_back({prose(row->verdict()) + (ordered.is_default(*row) ? "" : "*"), colour_of(row->verdict())});
       line.push_back({error_text(*row)});
       line.push_back({ms_text(*row), dim});
     }
@@ -135,12 +135,12 @@ void print_block_of_backends(std::ostream& out, const Study& study, const std::v
 }
 
 /// Why cells did not come through, a line each.
-void print_reasons(std::ostream& out, const Study& study, int terminal_width, bool colour) {
+void print_reasons(std::ostream& out, const OrderedRows& ordered, int terminal_width, bool colour) {
   TextTable table({{"scene", false, false}, {"backend", false, false}, {"why not", false, true}});
   bool any = false;
-  for (const Problem& problem : study.problems) {
-    for (const std::string& backend : study.backends) {
-      const Row* row = study.representative(problem, backend);
+  for (const Problem& problem : ordered.problems) {
+    for (const std::string& backend : ordered.backends) {
+      const Row* row = ordered.representative(problem, backend);
       if (!row || row->completed() || row->reason.empty()) continue;
       table.add({{printable(problem.title())}, {printable(backend)}, {printable(row->reason)}});
       any = true;
@@ -156,39 +156,39 @@ std::size_t width_or_all(int terminal_width) {
   return terminal_width <= 0 ? std::string::npos : static_cast<std::size_t>(terminal_width);
 }
 
-void print_machine(std::ostream& out, const Study& study, int terminal_width, bool colour) {
+void print_machine(std::ostream& out, const OrderedRows& ordered, int terminal_width, bool colour) {
   // A block of backends a table: name or verdict, error, time need about 30 columns each, the scene about 20.
   constexpr int scene_width = 20, backend_width = 30;
   const std::size_t at_once =
-      terminal_width <= 0 ? study.backends.size()
+      terminal_width <= 0 ? ordered.backends.size()
                           : static_cast<std::size_t>(std::max(1, (terminal_width - scene_width) / backend_width));
-  for (std::size_t first = 0; first < study.backends.size(); first += at_once) {
-    const auto begin = study.backends.begin() + static_cast<std::ptrdiff_t>(first);
+  for (std::size_t first = 0; first < ordered.backends.size(); first += at_once) {
+    const auto begin = ordered.backends.begin() + static_cast<std::ptrdiff_t>(first);
     const auto end =
-        study.backends.begin() + static_cast<std::ptrdiff_t>(std::min(first + at_once, study.backends.size()));
-    print_block_of_backends(out, study, {begin, end}, terminal_width, colour);
+        ordered.backends.begin() + static_cast<std::ptrdiff_t>(std::min(first + at_once, ordered.backends.size()));
+    print_block_of_backends(out, ordered, {begin, end}, terminal_width, colour);
     out << '\n';
   }
-  print_legend(out, study);
-  if (!runs_at_defaults(study)) out << "*: it ran with other settings than\nits own only.\n";
-  print_reasons(out, study, terminal_width, colour);
-  print_counts(out, study, terminal_width, colour);
+  print_legend(out, ordered);
+  if (!runs_at_defaults(ordered)) out << "*: it ran with other settings than\nits own only.\n";
+  print_reasons(out, ordered, terminal_width, colour);
+  print_counts(out, ordered, terminal_width, colour);
 }
 
 }  // namespace
 
 void print_table(std::ostream& out, const std::vector<Row>& rows, int terminal_width, bool colour) {
-  const Study study(rows);
+  const OrderedRows ordered(rows);
   const bool with_configuration =
-      std::any_of(study.rows.begin(), study.rows.end(), [&](const Row& row) { return !study.is_default(row); });
+      std::any_of(ordered.rows.begin(), ordered.rows.end(), [&](const Row& row) { return !ordered.is_default(row); });
   std::vector<TextColumn> columns{{"scene", false, false}, {"backend", false, false}};
   if (with_configuration) columns.push_back({"settings", false, true});
   columns.insert(columns.end(), {{"result", false, false}, {"ms/step", true, false}, {"worst metric", false, true}});
   TextTable table(columns);
-  for (const Problem& problem : study.problems) {
+  for (const Problem& problem : ordered.problems) {
     for (const Row* row : problem.rows) {
       std::vector<TextCell> line{{printable(problem.title())}, {printable(row->backend)}};
-      if (with_configuration) line.push_back({printable(study.configuration(*row))});
+      if (with_configuration) line.push_back({printable(ordered.configuration(*row))});
       line.push_back({prose(row->verdict()), colour_of(row->verdict())});
       line.push_back({ms_text(*row)});
       line.push_back(row->completed() ? TextCell{worst_text(*row)} : TextCell{printable(row->reason), dim});
@@ -196,14 +196,14 @@ void print_table(std::ostream& out, const std::vector<Row>& rows, int terminal_w
     }
   }
   table.print(out, terminal_width, colour);
-  print_legend(out, study);
+  print_legend(out, ordered);
 }
 
 void print_comparison(std::ostream& out, const std::vector<Row>& rows, int terminal_width, bool colour) {
   const std::vector<MachineRows> machines = rows_by_machine(rows);
   for (const MachineRows& machine : machines) {
     if (machines.size() > 1) out << printable(clipped(machine.name, width_or_all(terminal_width))) << '\n';
-    print_machine(out, Study(machine.rows), terminal_width, colour);
+    print_machine(out, OrderedRows(machine.rows), terminal_width, colour);
     if (&machine != &machines.back()) out << '\n';
   }
 }

@@ -39,8 +39,8 @@ TEST(Answers, TheTowerOfFiftyIsStoodByTheCheapestThatStandsIt) {
     rows.push_back(scene_row("D1", "tower", backend, 0.1, {{"stands", metric(1, 0, 0)}}));
     rows.back()["params"]["H"] = 10;
   }
-  const Study study(parse_rows(rows));
-  const std::vector<AnsweredQuestion> all = answers(study, cost_of_accuracy(study));
+  const OrderedRows ordered(parse_rows(rows));
+  const std::vector<AnsweredQuestion> all = answers(ordered, cost_of_accuracy(ordered));
   const AnsweredQuestion* tower = find(all, "tower of 50");
   ASSERT_NE(tower, nullptr);
   ASSERT_EQ(tower->lines.size(), 3u);
@@ -58,8 +58,8 @@ TEST(Answers, ATowerOnItsWayDownDoesNotStand) {
                              {{"stands", metric(1, 0, 0)}, {"kinetic_energy", metric(moving, moving, 1e-6)}}));
     rows.back()["params"]["H"] = 50;
   }
-  const Study study(parse_rows(rows));
-  const std::vector<AnsweredQuestion> all = answers(study, cost_of_accuracy(study));
+  const OrderedRows ordered(parse_rows(rows));
+  const std::vector<AnsweredQuestion> all = answers(ordered, cost_of_accuracy(ordered));
   const AnsweredQuestion* tower = find(all, "tower of 50");
   ASSERT_NE(tower, nullptr);
   EXPECT_EQ(tower->verdict.rfind("a, at 900 ms", 0), 0u) << tower->verdict;
@@ -67,10 +67,11 @@ TEST(Answers, ATowerOnItsWayDownDoesNotStand) {
 }
 
 TEST(Answers, EnergyIsConservedByWhomNoRunLosesOrGainsIt) {
-  const Study study(parse_rows({scene_row("A7", "pendulum", "a", 1, {{"energy_drift", metric(-0.9, 0.9, 0.05)}}),
-                                scene_row("A9", "double", "a", 1, {{"energy_drift", metric(0, 0.001, 0.05)}}),
-                                scene_row("A7", "pendulum", "b", 1, {{"energy_drift", metric(0.001, 0.002, 0.05)}})}));
-  const std::vector<AnsweredQuestion> all = answers(study, cost_of_accuracy(study));
+  const OrderedRows ordered(
+      parse_rows({scene_row("A7", "pendulum", "a", 1, {{"energy_drift", metric(-0.9, 0.9, 0.05)}}),
+                  scene_row("A9", "double", "a", 1, {{"energy_drift", metric(0, 0.001, 0.05)}}),
+                  scene_row("A7", "pendulum", "b", 1, {{"energy_drift", metric(0.001, 0.002, 0.05)}})}));
+  const std::vector<AnsweredQuestion> all = answers(ordered, cost_of_accuracy(ordered));
   const AnsweredQuestion* energy = find(all, "energy");
   ASSERT_NE(energy, nullptr);
   EXPECT_EQ(energy->verdict.rfind("b, within", 0), 0u) << energy->verdict;
@@ -79,12 +80,13 @@ TEST(Answers, EnergyIsConservedByWhomNoRunLosesOrGainsIt) {
 }
 
 TEST(Answers, APyramidIsToldByTheSpreadOfHeadings) {
-  const Study study(parse_rows({scene_row("C2", "sliding-stop", "a", 1, {{"spread", metric(0.35, 0.35, 0.02)}}),
-                                scene_row("C2", "sliding-stop", "b", 1, {{"spread", metric(0.01, 0.01, 0.02)}}),
-                                scene_row("C2", "sliding-stop", "c", 1, {{"spread", metric(0.04, 0.04, 0.02)}})}));
-  EXPECT_TRUE(friction_of(study, "a").pyramid());
-  EXPECT_FALSE(friction_of(study, "c").pyramid());
-  const std::vector<AnsweredQuestion> all = answers(study, cost_of_accuracy(study));
+  const OrderedRows ordered(
+      parse_rows({scene_row("C2", "sliding-stop", "a", 1, {{"spread", metric(0.35, 0.35, 0.02)}}),
+                  scene_row("C2", "sliding-stop", "b", 1, {{"spread", metric(0.01, 0.01, 0.02)}}),
+                  scene_row("C2", "sliding-stop", "c", 1, {{"spread", metric(0.04, 0.04, 0.02)}})}));
+  EXPECT_TRUE(friction_of(ordered, "a").pyramid());
+  EXPECT_FALSE(friction_of(ordered, "c").pyramid());
+  const std::vector<AnsweredQuestion> all = answers(ordered, cost_of_accuracy(ordered));
   const AnsweredQuestion* friction = find(all, "pyramid");
   ASSERT_NE(friction, nullptr);
   EXPECT_EQ(friction->verdict.rfind("That of a at", 0), 0u) << friction->verdict;
@@ -99,8 +101,8 @@ TEST(Answers, AWinnerPassesItsSceneAndWhatTheOthersMissIsSaid) {
     rows.back()["params"]["H"] = 50;
     rows.back()["status"] = drift > 0.01 ? "failed" : "ok";
   }
-  const Study study(parse_rows(rows));
-  const std::vector<AnsweredQuestion> all = answers(study, cost_of_accuracy(study));
+  const OrderedRows ordered(parse_rows(rows));
+  const std::vector<AnsweredQuestion> all = answers(ordered, cost_of_accuracy(ordered));
   const AnsweredQuestion* tower = find(all, "tower of 50");
   ASSERT_NE(tower, nullptr);
   EXPECT_EQ(tower->verdict.rfind("a, at 900 ms", 0), 0u) << tower->verdict;
@@ -118,29 +120,30 @@ TEST(Answers, ABusyMachineLeavesWhoDoesItAndTakesAtWhatCost) {
     rows.back()["status"] = fell ? "failed" : "ok";
     if (backend != std::string("a")) rows.back()["contended"] = {{"load", 3}, {"why", "load 3 on 2 cores"}};
   }
-  const Study study(parse_rows(rows));
-  const std::vector<CostLine> costs = cost_of_accuracy(study);
-  const std::vector<AnsweredQuestion> all = answers(study, costs);
+  const OrderedRows ordered(parse_rows(rows));
+  const std::vector<CostLine> costs = cost_of_accuracy(ordered);
+  const std::vector<AnsweredQuestion> all = answers(ordered, costs);
   const AnsweredQuestion* tower = find(all, "tower of 50");
   ASSERT_NE(tower, nullptr);
   EXPECT_EQ(tower->verdict.rfind("a and b can. Who is cheapest is not known", 0), 0u) << tower->verdict;
   EXPECT_TRUE(tower->lines[0].good && tower->lines[1].good);
   EXPECT_FALSE(tower->lines[2].good);
-  EXPECT_EQ(overviews(study, costs)[1].reach[1].reached, 1u);
-  EXPECT_EQ(overviews(study, costs)[0].reach[1].cheapest, 0u) << "b may be cheaper";
+  EXPECT_EQ(overviews(ordered, costs)[1].reach[1].reached, 1u);
+  EXPECT_EQ(overviews(ordered, costs)[0].reach[1].cheapest, 0u) << "b may be cheaper";
 }
 
 TEST(Answers, LosingIsFailingNeverReachingWhatAnotherReachesOrPayingMore) {
-  const Study study(parse_rows({testing::sample_row("S1", "a", 0.5, 1), testing::sample_row("S1", "b", 0.001, 1),
-                                testing::sample_row("S2", "a", 0.001, 1), testing::sample_row("S2", "b", 0.001, 7)}));
-  const std::vector<CostLine> costs = cost_of_accuracy(study);
+  const OrderedRows ordered(
+      parse_rows({testing::sample_row("S1", "a", 0.5, 1), testing::sample_row("S1", "b", 0.001, 1),
+                  testing::sample_row("S2", "a", 0.001, 1), testing::sample_row("S2", "b", 0.001, 7)}));
+  const std::vector<CostLine> costs = cost_of_accuracy(ordered);
   const std::vector<CostTest> tests = tests_of(costs);
   ASSERT_EQ(never_reached(tests, "a", 1).size(), 1u);
   EXPECT_EQ(never_reached(tests, "a", 1)[0]->problem->scene, "S1");
   EXPECT_TRUE(never_reached(tests, "b", 1).empty());
   ASSERT_EQ(beaten_at(tests, "b", 1).size(), 1u);
   EXPECT_DOUBLE_EQ(beaten_at(tests, "b", 1)[0].factor, 7);
-  const std::vector<AnsweredQuestion> all = answers(study, costs);
+  const std::vector<AnsweredQuestion> all = answers(ordered, costs);
   const AnsweredQuestion* losing = find(all, "lose");
   ASSERT_NE(losing, nullptr);
   EXPECT_EQ(losing->lines[0].statements.at(0).text, "fails 1 of 2 scene variants at its defaults: S1");
@@ -155,19 +158,20 @@ TEST(Answers, WhoGetsThereMostOftenNeedNotBeTheCheapest) {
     rows.push_back(testing::sample_row(scene, "exact", 0.001, 7));
     rows.push_back(testing::sample_row(scene, "cheap", scene == std::string("S3") ? 0.5 : 0.001, 1));
   }
-  const Study study(parse_rows(rows));
-  const std::vector<AnsweredQuestion> all = answers(study, cost_of_accuracy(study));
+  const OrderedRows ordered(parse_rows(rows));
+  const std::vector<AnsweredQuestion> all = answers(ordered, cost_of_accuracy(ordered));
   const AnsweredQuestion* reach = find(all, "most often");
   ASSERT_NE(reach, nullptr);
   EXPECT_EQ(reach->verdict, "exact most often, in 3 of 3 metrics; the cheapest most often is cheap, in 2 of 2.");
 }
 
 TEST(Answers, OneRunIsNotSeveral) {
-  const Study study(parse_rows({scene_row("A7", "pendulum", "a", 1, {{"energy_drift", metric(-0.9, 0.9, 0.05)}}),
-                                scene_row("A7", "pendulum", "b", 1, {{"energy_drift", metric(0.001, 0.002, 0.05)}})}));
-  EXPECT_EQ(energy_statement(energy_of(study, "a")).text.rfind("loses up to 90 % (A7)", 0), 0u);
-  EXPECT_EQ(energy_statement(energy_of(study, "a")).text.find("1 runs"), std::string::npos);
-  EXPECT_EQ(energy_statement(energy_of(study, "b")).text.rfind("keeps it within 0.20 % in the one run of a scene", 0),
+  const OrderedRows ordered(
+      parse_rows({scene_row("A7", "pendulum", "a", 1, {{"energy_drift", metric(-0.9, 0.9, 0.05)}}),
+                  scene_row("A7", "pendulum", "b", 1, {{"energy_drift", metric(0.001, 0.002, 0.05)}})}));
+  EXPECT_EQ(energy_statement(energy_of(ordered, "a")).text.rfind("loses up to 90 % (A7)", 0), 0u);
+  EXPECT_EQ(energy_statement(energy_of(ordered, "a")).text.find("1 runs"), std::string::npos);
+  EXPECT_EQ(energy_statement(energy_of(ordered, "b")).text.rfind("keeps it within 0.20 % in the one run of a scene", 0),
             0u);
 }
 
@@ -177,8 +181,8 @@ TEST(Needs, PairsAreEqualButForTheNeeds) {
                          testing::sample_row("U", "b", 0.1, 9)};
   rows[1]["needs"] = rows[3]["needs"] = rows[4]["needs"] = "scene+sleeping";
   rows[0]["needs"] = "scene";
-  const Study study(parse_rows(rows));
-  const std::vector<NeedCost> costs = costs_of_needs(study);
+  const OrderedRows ordered(parse_rows(rows));
+  const std::vector<NeedCost> costs = costs_of_needs(ordered);
   ASSERT_EQ(costs.size(), 1u);
   EXPECT_EQ(costs[0].need, "sleeping");
   ASSERT_EQ(costs[0].pairs.size(), 2u) << "U has no run without";
@@ -191,8 +195,8 @@ TEST(Needs, WhatChangesTheRunIsNotItsPrice) {
                          testing::sample_row("T", "b", 0.1, 1), testing::sample_row("T", "b", 0.1, 0.04)};
   rows[1]["needs"] = rows[3]["needs"] = "all";
   rows[3]["hash"] = "asleep";
-  const Study study(parse_rows(rows));
-  const std::vector<NeedCost> costs = costs_of_needs(study);
+  const OrderedRows ordered(parse_rows(rows));
+  const std::vector<NeedCost> costs = costs_of_needs(ordered);
   ASSERT_EQ(costs.size(), 1u);
   ASSERT_EQ(costs[0].pairs.size(), 1u);
   EXPECT_DOUBLE_EQ(costs[0].median.value(), 1.5);
@@ -206,8 +210,8 @@ TEST(Robustness, WorstMedianAndCountOverScenes) {
     rows.push_back(scene_row(scene, "s", "b", 1, {{"energy_injected", metric(value, value, nullptr)}}));
   rows.push_back(scene_row("S1", "s", "b", 1, {{"energy_injected", metric(9, 9, nullptr)}}));
   rows.back()["dt"] = 0.001;
-  const Study study(parse_rows(rows));
-  const std::vector<RobustnessLine> lines = robustness(study);
+  const OrderedRows ordered(parse_rows(rows));
+  const std::vector<RobustnessLine> lines = robustness(ordered);
   ASSERT_EQ(lines.size(), 1u);
   const RobustnessCell& cell = lines[0].cells.at(0).value();
   EXPECT_EQ(cell.worst, 0.2) << "at the defaults";

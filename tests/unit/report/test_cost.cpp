@@ -12,8 +12,8 @@ namespace plumb::harness {
 namespace {
 
 TEST(Cost, EqualsBruteForceOverAllRows) {
-  const Study study(parse_rows(testing::sample_rows(7)));
-  const std::vector<CostLine> lines = cost_of_accuracy(study);
+  const OrderedRows ordered(parse_rows(testing::sample_rows(7)));
+  const std::vector<CostLine> lines = cost_of_accuracy(ordered);
   ASSERT_GT(lines.size(), 100u);
   constexpr double none = std::numeric_limits<double>::infinity();
   std::size_t never = 0, reached = 0, only_failing = 0;
@@ -21,7 +21,7 @@ TEST(Cost, EqualsBruteForceOverAllRows) {
     std::array<double, 2> floor{none, none};  // of runs that pass, of runs that fail
     std::array<std::array<double, target_errors.size()>, 2> best{};
     for (auto& of_target : best) of_target.fill(none);
-    for (const Row& row : study.rows) {
+    for (const Row& row : ordered.rows) {
       const MetricResult* metric = row.metric(line.metric);
       if (row.scene != line.problem->scene || row.variant() != line.problem->variant || row.backend != line.backend)
         continue;
@@ -59,8 +59,8 @@ TEST(Cost, WhatABusyMachineTimedIsReachedAtAnUnknownPrice) {
   std::vector<Json> rows{testing::sample_row("S", "a", 0.005, 5), testing::sample_row("S", "a", 0.005, 2),
                          testing::sample_row("S", "b", 0.005, 3)};
   rows[1]["contended"] = {{"load", 9}, {"why", "load 9 on 2 cores"}};
-  const Study study(parse_rows(rows));
-  const std::vector<CostLine> lines = cost_of_accuracy(study);
+  const OrderedRows ordered(parse_rows(rows));
+  const std::vector<CostLine> lines = cost_of_accuracy(ordered);
   ASSERT_EQ(lines.size(), 2u);
   ASSERT_TRUE(lines[0].at[1]);
   EXPECT_EQ(lines[0].at[1]->ms.value(), 500) << "an upper bound";
@@ -77,8 +77,8 @@ TEST(Cost, WhatABusyMachineTimedIsReachedAtAnUnknownPrice) {
 TEST(Cost, OfEqualErrorsTheFloorIsTheCheapest) {
   std::vector<Json> rows{testing::sample_row("S", "b", 0.003, 5), testing::sample_row("S", "b", 0.003, 2),
                          testing::sample_row("S", "b", 0.003, 9)};
-  const Study study(parse_rows(rows));
-  const std::vector<CostLine> lines = cost_of_accuracy(study);
+  const OrderedRows ordered(parse_rows(rows));
+  const std::vector<CostLine> lines = cost_of_accuracy(ordered);
   ASSERT_EQ(lines.size(), 1u);
   EXPECT_EQ(lines[0].floor->row->origin.index, 1u);
   EXPECT_EQ(lines[0].at[1]->row->origin.index, 1u);
@@ -88,20 +88,20 @@ TEST(Cost, OfEqualErrorsTheFloorIsTheCheapest) {
 TEST(Cost, ARunThatDidNotEndReachesNothing) {
   std::vector<Json> rows{testing::sample_row("S", "b", 1e-6, 1)};
   rows[0]["status"] = "crashed";
-  const Study study(parse_rows(rows));
-  const std::vector<CostLine> lines = cost_of_accuracy(study);
+  const OrderedRows ordered(parse_rows(rows));
+  const std::vector<CostLine> lines = cost_of_accuracy(ordered);
   ASSERT_EQ(lines.size(), 1u);
   EXPECT_FALSE(lines[0].floor);
   EXPECT_FALSE(lines[0].at[0]);
-  EXPECT_EQ(lines[0].representative, &study.rows[0]);
+  EXPECT_EQ(lines[0].representative, &ordered.rows[0]);
 }
 
 TEST(Cost, VariantsAreNotMixed) {
   std::vector<Json> rows{testing::sample_row("S", "b", 0.5, 9), testing::sample_row("S", "b", 0.001, 1)};
   rows[0]["params"]["H"] = 100;
   rows[1]["params"]["H"] = 10;
-  const Study study(parse_rows(rows));
-  const std::vector<CostLine> lines = cost_of_accuracy(study);
+  const OrderedRows ordered(parse_rows(rows));
+  const std::vector<CostLine> lines = cost_of_accuracy(ordered);
   ASSERT_EQ(lines.size(), 2u);
   EXPECT_EQ(lines[0].problem->variant, "H=10");
   EXPECT_TRUE(lines[0].at[1]);

@@ -42,8 +42,8 @@ std::string section(const std::string& page, const std::string& id) {
 bool has(const std::string& text, const std::string& what) { return text.find(what) != std::string::npos; }
 
 TEST(Curves, RunAlongTheKnobsThatDoSomething) {
-  const Study study(parse_rows(turned_rows()));
-  const CurveSet curves(study);
+  const OrderedRows ordered(parse_rows(turned_rows()));
+  const CurveSet curves(ordered);
   ASSERT_EQ(curves.problems.size(), 1u);
   ASSERT_EQ(curves.methods.size(), 2u);
   EXPECT_EQ(curves.methods[0].label, "way hard");
@@ -64,8 +64,8 @@ TEST(Curves, RunAlongTheKnobsThatDoSomething) {
 TEST(Curves, AKnobWithoutAStateIsNotCalledIdle) {
   std::vector<Json> rows = turned_rows();
   for (Json& at : rows) at["hash"] = "";
-  const Study study(parse_rows(rows));
-  const CurveSet curves(study);
+  const OrderedRows ordered(parse_rows(rows));
+  const CurveSet curves(ordered);
   for (const MethodCurves& method : curves.problems.at(0).methods) EXPECT_TRUE(method.idle.empty());
 }
 
@@ -73,8 +73,8 @@ TEST(Curves, OtherTimesAndProfilesAreOtherCurves) {
   std::vector<Json> rows = turned_rows();
   rows[0]["dt"] = 0.005;
   rows[6]["profile"] = "matched";
-  const Study study(parse_rows(rows));
-  const CurveSet curves(study);
+  const OrderedRows ordered(parse_rows(rows));
+  const CurveSet curves(ordered);
   for (const MethodCurves& method : curves.problems.at(0).methods) {
     for (const Curve& curve : method.curves) {
       for (const Row* at : curve.rows) {
@@ -91,22 +91,22 @@ TEST(Curves, LeaveOutWhatDeclaredMoreThanItsScene) {
   std::vector<Json> rows = turned_rows();
   rows.push_back(rows.front());
   rows.back()["needs"] = "all";
-  const Study both(parse_rows(rows));
+  const OrderedRows both(parse_rows(rows));
   EXPECT_EQ(CurveSet(both).methods.size(), 2u);
   for (Json& at : rows) at["needs"] = "all";
-  const Study all(parse_rows(rows));
+  const OrderedRows all(parse_rows(rows));
   EXPECT_EQ(CurveSet(all).methods.size(), 2u) << "where nothing else was run, that is the question";
 }
 
 TEST(Curves, NeedAKnobThatWasTurned) {
-  const Study one(parse_rows({row("soft", 10, 4, 0.1, 1, "a"), row("hard", 10, 4, 0.1, 1, "b")}));
+  const OrderedRows one(parse_rows({row("soft", 10, 4, 0.1, 1, "a"), row("hard", 10, 4, 0.1, 1, "b")}));
   EXPECT_TRUE(CurveSet(one).problems.empty()) << "methods alone are none";
   std::vector<Json> old = turned_rows();
   for (Json& at : old) {
     at.erase("knobs");
     at.erase("defaults");
   }
-  const Study without(parse_rows(old));
+  const OrderedRows without(parse_rows(old));
   EXPECT_TRUE(CurveSet(without).problems.empty()) << "rows of programs that did not tell";
   const std::string page = page_of(parse_rows(old));
   EXPECT_EQ(section(page, "curves"), "");
@@ -116,8 +116,8 @@ TEST(Curves, NeedAKnobThatWasTurned) {
 TEST(Curves, EnginesWithoutKnobsStandBesideThemAsPoints) {
   std::vector<Json> rows = turned_rows();
   rows.push_back(testing::sample_row("S", "other", 0.05, 2));
-  const Study study(parse_rows(rows));
-  const CurveSet curves(study);
+  const OrderedRows ordered(parse_rows(rows));
+  const CurveSet curves(ordered);
   ASSERT_EQ(curves.methods.size(), 3u);
   EXPECT_EQ(curves.methods.back().label, "other");
   EXPECT_EQ(curves.methods.front().label, "b, way hard");
@@ -129,9 +129,9 @@ TEST(Curves, EnginesWithoutKnobsStandBesideThemAsPoints) {
 
 TEST(Curves, TheEnginesOwnSettingsAreKnownEvenWhereNoCellHasThem) {
   const std::vector<Json> rows{row("hard", 5, 4, 0.3, 1, "a"), row("hard", 20, 4, 0.1, 2, "b")};
-  const Study study(parse_rows(rows));
-  EXPECT_FALSE(study.is_default(study.rows[0]));
-  EXPECT_EQ(study.configuration(study.rows[0]), "1/100 s, way hard, passes 5");
+  const OrderedRows ordered(parse_rows(rows));
+  EXPECT_FALSE(ordered.is_default(ordered.rows[0]));
+  EXPECT_EQ(ordered.configuration(ordered.rows[0]), "1/100 s, way hard, passes 5");
 }
 
 TEST(CurvesPage, HasALineAMethodAndMarksWhatShips) {

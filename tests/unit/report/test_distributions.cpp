@@ -36,8 +36,8 @@ const DistributionLine& line_of(const std::vector<DistributionLine>& lines, std:
 }
 
 TEST(Distributions, SayHowManyPassAndHowFarTheyLieApart) {
-  const Study study(parse_rows(two_engines()));
-  const std::vector<DistributionLine> lines = distributions(study);
+  const OrderedRows ordered(parse_rows(two_engines()));
+  const std::vector<DistributionLine> lines = distributions(ordered);
   ASSERT_EQ(lines.size(), 3u);
   const DistributionLine& error = line_of(lines, "error_of_it");
   ASSERT_EQ(error.cells.size(), 2u);
@@ -62,8 +62,8 @@ TEST(Distributions, SayHowManyPassAndHowFarTheyLieApart) {
 TEST(Distributions, ARunThatDidNotComeThroughHasNotPassed) {
   std::vector<Json> rows = seeds("b", {0.001, 0.002, 0.003}, false);
   rows[1]["status"] = "crashed";
-  const Study study(parse_rows(rows));
-  const std::vector<DistributionLine> lines = distributions(study);
+  const OrderedRows ordered(parse_rows(rows));
+  const std::vector<DistributionLine> lines = distributions(ordered);
   const DistributionLine& error = line_of(lines, "error_of_it");
   EXPECT_EQ(error.cells[0]->runs, 3u);
   EXPECT_EQ(error.cells[0]->passed, 2u);
@@ -71,10 +71,10 @@ TEST(Distributions, ARunThatDidNotComeThroughHasNotPassed) {
 }
 
 TEST(Distributions, FewSeedsAndOtherSettingsAreNone) {
-  EXPECT_TRUE(distributions(Study(parse_rows(seeds("b", {0.1, 0.2}, false)))).empty());
+  EXPECT_TRUE(distributions(OrderedRows(parse_rows(seeds("b", {0.1, 0.2}, false)))).empty());
   std::vector<Json> rows = seeds("b", {0.1, 0.2, 0.3}, false);
   rows[2]["settings"]["iterations"] = 40;
-  EXPECT_TRUE(distributions(Study(parse_rows(rows))).empty());
+  EXPECT_TRUE(distributions(OrderedRows(parse_rows(rows))).empty());
 }
 
 TEST(Distributions, StandOnThePage) {

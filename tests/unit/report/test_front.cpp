@@ -33,8 +33,8 @@ TEST(Front, WhatNoOtherBeatsStandsOnItAndTheRestKnowsByWhom) {
       passing_row("S", "a", 0.7, 1),      // 6: as cheap as 0, less exact
       passing_row("S", "a", 0.6, 30),     // 7: by 0, which is the cheapest that is as exact
   };
-  const Study study(parse_rows(rows));
-  const std::vector<Front> fronts = pareto_fronts(study);
+  const OrderedRows ordered(parse_rows(rows));
+  const std::vector<Front> fronts = pareto_fronts(ordered);
   ASSERT_EQ(fronts.size(), 1u);
   EXPECT_EQ(indices(fronts[0].best), (std::vector<std::size_t>{0, 1, 3, 5}));
   std::map<std::size_t, std::size_t> beaten;
@@ -44,8 +44,8 @@ TEST(Front, WhatNoOtherBeatsStandsOnItAndTheRestKnowsByWhom) {
 }
 
 TEST(Front, EqualsBruteForce) {
-  const Study study(parse_rows(testing::sample_rows(7)));
-  const std::vector<Front> fronts = pareto_fronts(study);
+  const OrderedRows ordered(parse_rows(testing::sample_rows(7)));
+  const std::vector<Front> fronts = pareto_fronts(ordered);
   ASSERT_GT(fronts.size(), 20u);
   for (const Front& front : fronts) {
     std::vector<FrontPoint> all = front.best;
@@ -67,8 +67,8 @@ TEST(Front, WhatFailsOrWasMeasuredInACrowdIsNotInTheRace) {
   rows[1]["metrics"]["stands"] = {{"error", 1}, {"threshold", 0}, {"pass", false}};
   rows[2]["contended"] = {{"load", 9}, {"why", "load 9 on 2 cores"}};
   rows[3]["metrics"]["error_of_it"]["pass"] = false;
-  const Study study(parse_rows(rows));
-  const std::vector<Front> fronts = pareto_fronts(study);
+  const OrderedRows ordered(parse_rows(rows));
+  const std::vector<Front> fronts = pareto_fronts(ordered);
   ASSERT_EQ(fronts.size(), 1u) << "and the question has no front";
   EXPECT_EQ(indices(fronts[0].best), (std::vector<std::size_t>{0}));
   EXPECT_TRUE(fronts[0].others.empty());
@@ -84,8 +84,8 @@ TEST(Front, IsCountedWhereItSaysSomething) {
   }
   rows.pop_back();                                                     // S3 has two points
   rows[3]["contended"] = {{"load", 9}, {"why", "load 9 on 2 cores"}};  // and of S2 one is not known
-  const Study study(parse_rows(rows));
-  const std::vector<Front> fronts = pareto_fronts(study);
+  const OrderedRows ordered(parse_rows(rows));
+  const std::vector<Front> fronts = pareto_fronts(ordered);
   ASSERT_EQ(fronts.size(), 3u);
   const FrontCount a = count_fronts(fronts, "a"), b = count_fronts(fronts, "b");
   EXPECT_EQ(a.ran, 1u);

@@ -16,9 +16,9 @@ std::vector<Json> four_scenes() {
 }
 
 TEST(Profile, SharesAreThoseCountedByHand) {
-  const Study study(parse_rows(four_scenes()));
-  const std::vector<CostLine> costs = cost_of_accuracy(study);
-  const Profile profile = cost_profile(study, costs, "", 1);
+  const OrderedRows ordered(parse_rows(four_scenes()));
+  const std::vector<CostLine> costs = cost_of_accuracy(ordered);
+  const Profile profile = cost_profile(ordered, costs, "", 1);
   EXPECT_EQ(profile.tests, 4u);
   EXPECT_EQ(profile.unsolved, 1u);
   ASSERT_EQ(profile.curves.size(), 2u);
@@ -35,8 +35,8 @@ TEST(Profile, SharesAreThoseCountedByHand) {
 TEST(Profile, ATestThatNotAllRanCountsForNobody) {
   std::vector<Json> rows = four_scenes();
   rows.pop_back();
-  const Study study(parse_rows(rows));
-  const Profile profile = cost_profile(study, cost_of_accuracy(study), "", 1);
+  const OrderedRows ordered(parse_rows(rows));
+  const Profile profile = cost_profile(ordered, cost_of_accuracy(ordered), "", 1);
   EXPECT_EQ(profile.tests, 3u);
   EXPECT_EQ(profile.unsolved, 0u);
 }
@@ -44,8 +44,8 @@ TEST(Profile, ATestThatNotAllRanCountsForNobody) {
 TEST(Profile, AnEngineThatRanLittleIsLeftOutAndSpoilsNothing) {
   std::vector<Json> rows = four_scenes();
   rows.push_back(testing::sample_row("S1", "c", 0.005, 0.1));
-  const Study study(parse_rows(rows));
-  const Profile profile = cost_profile(study, cost_of_accuracy(study), "", 1);
+  const OrderedRows ordered(parse_rows(rows));
+  const Profile profile = cost_profile(ordered, cost_of_accuracy(ordered), "", 1);
   EXPECT_EQ(profile.tests, 4u);
   ASSERT_EQ(profile.curves.size(), 2u);
   EXPECT_EQ(profile.curves[0].at(1), 0.5) << "relative to the engines that take part";
@@ -55,8 +55,8 @@ TEST(Profile, ACrashIsNotSolvedAndWhatContentionHidesIsSolvedAtAnUnknownCost) {
   std::vector<Json> rows = four_scenes();
   rows[0]["status"] = "crashed";
   rows[3]["contended"] = {{"load", 9}, {"why", "load 9 on 2 cores"}};
-  const Study study(parse_rows(rows));
-  const Profile profile = cost_profile(study, cost_of_accuracy(study), "", 1);
+  const OrderedRows ordered(parse_rows(rows));
+  const Profile profile = cost_profile(ordered, cost_of_accuracy(ordered), "", 1);
   EXPECT_EQ(profile.tests, 4u);
   EXPECT_EQ(profile.unpriced, 1u) << "S2 has no fair time of b";
   EXPECT_EQ(profile.curves[0].reliability(), 0.5) << "S2 and S3";
@@ -66,13 +66,13 @@ TEST(Profile, ACrashIsNotSolvedAndWhatContentionHidesIsSolvedAtAnUnknownCost) {
 }
 
 TEST(Profile, ErrorsAtDefaultsAreSharesOfGradedTests) {
-  const Study study(parse_rows(four_scenes()));
-  const Profile profile = error_profile(study, cost_of_accuracy(study), "");
+  const OrderedRows ordered(parse_rows(four_scenes()));
+  const Profile profile = error_profile(ordered, cost_of_accuracy(ordered), "");
   EXPECT_EQ(profile.tests, 4u);
   EXPECT_EQ(profile.curves[0].at(0.01), 0.75);
   EXPECT_EQ(profile.curves[1].at(0.01), 0.5);
   EXPECT_EQ(profile.curves[1].at(1), 1);
-  EXPECT_EQ(cost_profile(study, cost_of_accuracy(study), "no such group", 1).tests, 0u);
+  EXPECT_EQ(cost_profile(ordered, cost_of_accuracy(ordered), "no such group", 1).tests, 0u);
 }
 
 }  // namespace

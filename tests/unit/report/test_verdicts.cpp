@@ -50,7 +50,7 @@ std::vector<Row> marked(std::vector<Row> rows, std::size_t every) {
 
 /// Everything that a machine's rows are made into.
 struct Told {
-  Study study;
+  OrderedRows ordered;
   std::vector<CostLine> costs;
   std::vector<CostTest> tests;
   std::vector<BackendOverview> overviews;
@@ -58,12 +58,12 @@ struct Told {
   std::vector<AnsweredQuestion> answers;
 
   explicit Told(const std::vector<Row>& rows)
-      : study(rows),
-        costs(cost_of_accuracy(study)),
+      : ordered(rows),
+        costs(cost_of_accuracy(ordered)),
         tests(tests_of(costs)),
-        overviews(harness::overviews(study, costs)),
-        fronts(pareto_fronts(study)),
-        answers(harness::answers(study, costs)) {}
+        overviews(harness::overviews(ordered, costs)),
+        fronts(pareto_fronts(ordered)),
+        answers(harness::answers(ordered, costs)) {}
 };
 
 /// All that is said of errors: nothing here may hang on a time.
@@ -77,11 +77,11 @@ std::vector<std::string> verdicts(const Told& told) {
       for (const CostLine* line : never_reached(told.tests, overview.backend, t))
         out.push_back(fmt::format("{} never {}: {} {}", overview.backend, target_errors[t], line->problem->title(),
                                   line->metric));
-      for (const ProfileCurve& curve : cost_profile(told.study, told.costs, "", t).curves)
+      for (const ProfileCurve& curve : cost_profile(told.ordered, told.costs, "", t).curves)
         out.push_back(fmt::format("{} solves {}", curve.backend, curve.reliability()));
     }
-    out.push_back(energy_statement(energy_of(told.study, overview.backend)).text);
-    const FrictionFacts friction = friction_of(told.study, overview.backend);
+    out.push_back(energy_statement(energy_of(told.ordered, overview.backend)).text);
+    const FrictionFacts friction = friction_of(told.ordered, overview.backend);
     out.push_back(fmt::format("{} {} {}", friction.spread, friction.best_spread, friction.pyramid()));
   }
   for (const CostLine& line : told.costs)
@@ -95,14 +95,14 @@ std::vector<std::string> verdicts(const Told& told) {
     std::sort(good.begin(), good.end());
     out.push_back(fmt::format("{} {}", answer.question, fmt::join(good, ",")));
   }
-  for (const ProfileCurve& curve : error_profile(told.study, told.costs, "").curves)
+  for (const ProfileCurve& curve : error_profile(told.ordered, told.costs, "").curves)
     out.push_back(fmt::format("{} {} {}", curve.backend, curve.at(0.01), curve.reliability()));
-  for (const RobustnessLine& line : robustness(told.study)) {
+  for (const RobustnessLine& line : robustness(told.ordered)) {
     for (const auto& cell : line.cells) {
       if (cell) out.push_back(fmt::format("{} {} {} {}", line.metric, cell->runs, cell->beyond, cell->worst));
     }
   }
-  for (const DistributionLine& line : distributions(told.study)) {
+  for (const DistributionLine& line : distributions(told.ordered)) {
     for (const auto& cell : line.cells) {
       if (cell) out.push_back(fmt::format("{} {} {}", line.metric, cell->runs, cell->passed));
     }
@@ -139,7 +139,7 @@ TEST_P(Verdicts, WithoutATimeNobodyIsCheapestAndThatIsSaid) {
     for (const auto& reached : line.at) EXPECT_FALSE(reached && reached->ms);
   }
   EXPECT_TRUE(busy.fronts.empty());
-  EXPECT_TRUE(costs_of_needs(busy.study).empty());
+  EXPECT_TRUE(costs_of_needs(busy.ordered).empty());
   for (const BackendOverview& overview : busy.overviews) {
     for (const ReachCount& count : overview.reach) EXPECT_EQ(count.compared + count.cheapest, 0u);
     EXPECT_TRUE(beaten_at(busy.tests, overview.backend, 1).empty());
@@ -181,7 +181,7 @@ TEST_P(Verdicts, NameAsWinnersOnlyRunsThatPass) {
   for (const BackendOverview& overview : told.overviews) {
     for (const Beaten& beaten : beaten_at(told.tests, overview.backend, 1))
       EXPECT_TRUE(beaten.by->at[1]->row->passes() && beaten.line->at[1]->row->passes());
-    const FrictionFacts friction = friction_of(told.study, overview.backend);
+    const FrictionFacts friction = friction_of(told.ordered, overview.backend);
     EXPECT_TRUE(!friction.best_row || friction.best_row->passes());
   }
 }
@@ -229,12 +229,12 @@ TEST_P(Verdicts, OfDefaultsAreOfRunsAtTheDefaults) {
     for (const auto* rows : {&overview.failures, &overview.broken, &overview.unsupported}) {
       for (const Row* row : *rows)
         EXPECT_TRUE(row->engine.defaults.empty() && row->profile == "default" && row->own_needs())
-            << row->backend << ' ' << row->scene << ' ' << told.study.configuration(*row);
+            << row->backend << ' ' << row->scene << ' ' << told.ordered.configuration(*row);
     }
     EXPECT_EQ(static_cast<std::size_t>(overview.problems + overview.elsewhere),
-              static_cast<std::size_t>(
-                  std::count_if(told.study.problems.begin(), told.study.problems.end(), [&](const Problem& problem) {
-                    return told.study.representative(problem, overview.backend) != nullptr;
+              static_cast<std::size_t>(std::count_if(
+                  told.ordered.problems.begin(), told.ordered.problems.end(), [&](const Problem& problem) {
+                    return told.ordered.representative(problem, overview.backend) != nullptr;
                   })));
     elsewhere += static_cast<std::size_t>(overview.elsewhere);
   }
@@ -275,7 +275,7 @@ TEST_P(Verdicts, OneFigureHasOneSource) {
     const FrontCount count = count_fronts(told.fronts, overview.backend);
     fronts += count.cheapest;
     std::string card;
-    const Summary summary = summary_of(told.study, told.costs, told.fronts, overview);
+    const Summary summary = summary_of(told.ordered, told.costs, told.fronts, overview);
     for (const auto* list : {&summary.best, &summary.breaks}) {
       for (const Statement& statement : *list) card += statement.text + "\n";
     }
@@ -286,7 +286,7 @@ TEST_P(Verdicts, OneFigureHasOneSource) {
     const std::string reach = reach_text(overview.reach[1], false);
     EXPECT_EQ(testing::count(page, reach) >= 1, true) << reach;
     EXPECT_NE(describe_backend(overview, false).find(reach), std::string::npos);
-    for (const RobustnessLine& line : robustness(told.study)) {
+    for (const RobustnessLine& line : robustness(told.ordered)) {
       if (line.metric != "energy_injected") continue;
       const auto place = static_cast<std::size_t>(&overview - told.overviews.data());
       const RobustnessCell& cell = line.cells.at(place).value();
@@ -315,7 +315,7 @@ TEST_P(Verdicts, WhatIsOnlyCountedCanBeOpened) {
     for (const AnswerLine& line : answer.lines) std::for_each(line.statements.begin(), line.statements.end(), check);
   }
   for (const BackendOverview& overview : told.overviews) {
-    const Summary summary = summary_of(told.study, told.costs, told.fronts, overview);
+    const Summary summary = summary_of(told.ordered, told.costs, told.fronts, overview);
     for (const auto* list : {&summary.best, &summary.breaks}) std::for_each(list->begin(), list->end(), check);
   }
   EXPECT_GT(found, 3u);

@@ -28,8 +28,8 @@ Table change_table(const PageContext& context, const Comparison& comparison, Sen
     if (change.sense != sense) continue;
     const Row& row = *change.after;
     const std::string title = problem_title(row);
-    table.row({row_link(row, title), backend_label(context, row.backend), escape_html(context.study.configuration(row)),
-               changes_list(change)},
+    table.row({row_link(row, title), backend_label(context, row.backend),
+               escape_html(context.ordered.configuration(row)), changes_list(change)},
               lower(fmt::format("{} {} {} {}", title, row.group, row.backend, sense_word(sense))),
               context.backend_index(row.backend));
   }
@@ -53,7 +53,7 @@ PageSection against_section(const PageContext& context) {
   if (!context.options.against) return section;
   const AgainstPart& part = *context.options.against;
   const std::vector<Row>& before = part.rows;
-  const Comparison comparison = compare_results(before, context.study.rows, part.limits);
+  const Comparison comparison = compare_results(before, context.ordered.rows, part.limits);
   for (const std::string& sentence : describe_comparison(comparison, part.name, part.limits))
     section.words += about(escape_html(sentence));
   for (const Sense sense : {Sense::worse, Sense::better, Sense::changed}) {

@@ -56,7 +56,7 @@ std::string metric_label(const CostLine& line) {
 /// Why nothing was reached.
 std::string why_nothing(const PageContext& context, const CostLine& line) {
   const Row& row = *line.representative;
-  const std::string missed = Questions(context.study.scored_metrics(*line.problem), *line.problem).missed_by(row);
+  const std::string missed = Questions(context.ordered.scored_metrics(*line.problem), *line.problem).missed_by(row);
   const std::string why = !row.completed()  ? row.reason
                           : !missed.empty() ? "missed " + missed + ", so that its errors mean little"
                                             : "not finite or not measured";
@@ -65,7 +65,7 @@ std::string why_nothing(const PageContext& context, const CostLine& line) {
 }
 
 std::string configured(const PageContext& context, const Reached& reached) {
-  return fmt::format(R"(<span class="cfg">{}</span>)", escape_html(context.study.configuration(*reached.row)));
+  return fmt::format(R"(<span class="cfg">{}</span>)", escape_html(context.ordered.configuration(*reached.row)));
 }
 
 std::string ms_cell(const Reached& reached) {
@@ -124,7 +124,7 @@ PageSection costs_section(const PageContext& context) {
       R"(which counts nowhere. <b>Never</b>: none does. The cheapest engine of a metric is set off; the last )"
       R"(column is the smallest error reached, and what it costs. A run that missed one of its scene's yes/no )"
       R"(questions (a tower that fell) has reached nothing.)";
-  const auto contended = std::count_if(context.study.rows.begin(), context.study.rows.end(),
+  const auto contended = std::count_if(context.ordered.rows.begin(), context.ordered.rows.end(),
                                        [](const Row& row) { return row.time.contended.has_value(); });
   if (contended > 0) {
     words += fmt::format(
@@ -132,17 +132,17 @@ PageSection costs_section(const PageContext& context) {
         R"(errors count, and their times are left out here and in all diagrams. <b>Not timed</b>: no run that reaches )"
         R"(it has a time that counts. &#8804;: some of the runs that )"
         R"(reach it have no time that counts, and nobody is called the cheapest there.)",
-        contended, context.study.rows.size());
+        contended, context.ordered.rows.size());
   }
   section.words = about(words);
   section.blocks.push_back(reach_table(context).block());
   const bool few = context.costs.size() <= 60;
-  for (const std::string& group : context.study.groups) {
+  for (const std::string& group : context.ordered.groups) {
     const auto lines = std::count_if(context.costs.begin(), context.costs.end(),
                                      [&](const CostLine& line) { return line.problem->group == group; });
     if (lines == 0) continue;
     section.blocks.push_back(group_block(group_title(group), fmt::format("{} lines", lines),
-                                         few || group == context.study.groups.front(),
+                                         few || group == context.ordered.groups.front(),
                                          Json::array({group_table(context, group).block()})));
   }
   return section;

@@ -92,7 +92,7 @@ class Figure {
     PlotPoint point{*row.ms_per_simulated_second(), metric.error.value_or(std::numeric_limits<double>::infinity()),
                     &row};
     point.filled = knob.empty() || at_default(row, knob);
-    point.marked = context_.study.is_default(row);
+    point.marked = context_.ordered.is_default(row);
     point.failed = questions_.missed_by(row);
     if (row.time.ci95) point.x_band = Interval{row.time.ci95->low / *row.dt, row.time.ci95->high / *row.dt};
     return point;
@@ -147,7 +147,7 @@ void add_notes(const PageContext& context, const ProblemCurves& curves, Notes& n
     for (const Row* row : method.broken) {
       notes.add(
           fmt::format("No point of {} ({}): {}{}.", escape_html(context.curves.methods[method.method].label),
-                      escape_html(context.study.configuration(*row)), row_link(*row, verdict_title(row->verdict())),
+                      escape_html(context.ordered.configuration(*row)), row_link(*row, verdict_title(row->verdict())),
                       row->reason.empty() ? "" : ", " + escape_html(row->reason)),
           *curves.problem);
     }
@@ -162,7 +162,7 @@ Json scene_block(const PageContext& context, const std::vector<std::size_t>& ran
   Json figures = Json::array();
   Notes notes;
   for (auto curves = first; curves != last; ++curves) {
-    const Questions questions(context.study.scored_metrics(*curves->problem), *curves->problem);
+    const Questions questions(context.ordered.scored_metrics(*curves->problem), *curves->problem);
     for (const std::string& metric : questions.graded()) {
       if (Json figure = Figure(context, ranks, *curves, questions, metric).data(); !figure.is_null())
         figures.push_back(std::move(figure));

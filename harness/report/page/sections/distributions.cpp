@@ -29,7 +29,7 @@ Json distribution_cell(const DistributionLine& line, const std::optional<Distrib
 
 PageSection distributions_section(const PageContext& context) {
   PageSection section{"seeds", "Distributions over seeds", ""};
-  const std::vector<DistributionLine> lines = distributions(context.study);
+  const std::vector<DistributionLine> lines = distributions(context.ordered);
   if (lines.empty()) return section;
   section.words = about(
       R"(Scenes that were begun in several ways, at each engine's defaults: how many runs met the )"

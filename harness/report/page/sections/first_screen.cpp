@@ -27,7 +27,7 @@ std::string answer_item(const PageContext& context, const AnsweredQuestion& answ
 }
 
 std::string answers_part(const PageContext& context) {
-  const std::vector<AnsweredQuestion> all = answers(context.study, context.costs);
+  const std::vector<AnsweredQuestion> all = answers(context.ordered, context.costs);
   if (all.empty()) return "";
   std::string items;
   for (const AnsweredQuestion& answer : all) items += answer_item(context, answer);

@@ -37,7 +37,7 @@ Plot diagram(const PageContext& context, const Front& front) {
     stairs.points.push_back({point.ms, point.error});
     PlotSeries& series =
         best.try_emplace(context.backend_index(row.backend), loose_series(context, row.backend)).first->second;
-    series.points.push_back({point.ms, point.error, &row, true, context.study.is_default(row)});
+    series.points.push_back({point.ms, point.error, &row, true, context.ordered.is_default(row)});
   }
   for (auto& [backend, series] : beaten) {
     series.quiet = true;
@@ -57,7 +57,7 @@ std::string front_table(const PageContext& context, const Front& front) {
     rows += fmt::format(R"(<tr class="of{}"><td>{}</td><td class="quiet">{}</td><td class="number">{} ms</td>)"
                         R"(<td class="number">{}</td></tr>)",
                         context.backend_index(row.backend), backend_label(context, row.backend),
-                        escape_html(context.study.configuration(row)), row_link(row, short_number(point.ms)),
+                        escape_html(context.ordered.configuration(row)), row_link(row, short_number(point.ms)),
                         short_number(point.error, 2));
   }
   return fmt::format(R"(<table class="inner"><tbody>{}</tbody></table>)", rows);
@@ -88,7 +88,7 @@ Table counts_table(const PageContext& context) {
   for (const char* title : {"fronts it has a passing run for", "is on", "holds alone", "has the cheapest point of",
                             "has the most exact point of"})
     table.column({title, 6});
-  for (const std::string& backend : context.study.backends) {
+  for (const std::string& backend : context.ordered.backends) {
     const FrontCount count = count_fronts(context.fronts, backend);
     Json cells = Json::array({backend_label(context, backend)});
     for (const std::size_t number : {count.ran, count.on, count.alone, count.cheapest, count.most_exact})
@@ -120,7 +120,7 @@ PageSection fronts_section(const PageContext& context) {
                                   "other work, and have no time that counts.",
                                   untimed)));
   section.blocks.push_back(counts_table(context).block());
-  for (const std::string& group : context.study.groups) {
+  for (const std::string& group : context.ordered.groups) {
     Json figures = Json::array();
     for (const Front* front : fronts) {
       if (front->problem->group != group) continue;

@@ -35,7 +35,7 @@ std::string statements(const char* title, const char* style, const std::vector<S
 }
 
 std::string backend_card(const PageContext& context, const BackendOverview& overview) {
-  const Summary summary = summary_of(context.study, context.costs, context.fronts, overview);
+  const Summary summary = summary_of(context.ordered, context.costs, context.fronts, overview);
   const std::string elsewhere = elsewhere_text(overview);
   return fmt::format(R"(<article class="card of{0} e{0}"><h3>{1} <small>{2}</small></h3>{3}{4}{5}{6}</article>)",
                      context.backend_index(overview.backend), backend_label(context, overview.backend),
@@ -50,10 +50,10 @@ std::string join_words(const std::vector<std::string>& words) {
 }
 
 /// Machines by their facts; several machines get a list each.
-std::string machine_facts(const Study& study) {
+std::string machine_facts(const OrderedRows& ordered) {
   std::set<std::string> seen;
   std::vector<const Json*> machines;
-  for (const Row& row : study.rows) {
+  for (const Row& row : ordered.rows) {
     if (row.origin.machine.empty()) continue;
     if (seen.insert(value_text(row.origin.machine)).second) machines.push_back(&row.origin.machine);
   }
@@ -74,18 +74,19 @@ std::string head_section(const PageContext& context) {
   std::string out = R"(<header class="head"><p class="kicker">Plumb report)";
   if (!context.machine.empty()) out += " &#183; " + escape_html(context.machine);
   out += "</p><h1>";
-  out += escape_html(context.study.backends.empty() ? std::string("No results") : join_words(context.study.backends));
+  out +=
+      escape_html(context.ordered.backends.empty() ? std::string("No results") : join_words(context.ordered.backends));
   out += "</h1>";
   out += fmt::format(
       R"(<p class="lede">{} Error and time in every figure come from the same run with the same settings; errors )"
       R"(are measured )"
       R"(by the harness's own float64 geometry against exact truths.</p>)",
-      escape_html(describe_study(context.study)));
+      escape_html(describe_study(context.ordered)));
   out += R"(<details class="how"><summary>machine, dates and command</summary><dl class="facts">)";
   if (!context.options.written.empty())
     out += fmt::format("<div><dt>written</dt><dd>{}</dd></div>", escape_html(context.options.written));
   std::string first, last;
-  for (const Row& row : context.study.rows) {
+  for (const Row& row : context.ordered.rows) {
     if (row.origin.date.empty()) continue;
     if (first.empty() || row.origin.date < first) first = row.origin.date;
     last = std::max(last, row.origin.date);
@@ -100,7 +101,7 @@ std::string head_section(const PageContext& context) {
   }
   if (!context.options.source.empty())
     out += fmt::format("<div><dt>results</dt><dd>{}</dd></div>", escape_html(context.options.source));
-  return out + machine_facts(context.study) + "</dl></details></header>";
+  return out + machine_facts(context.ordered) + "</dl></details></header>";
 }
 
 PageSection engines_section(const PageContext& context) {

@@ -50,9 +50,9 @@ PageSection machines_section(const std::vector<PageContext>& machines) {
   std::map<std::pair<std::string, std::string>, Beside> beside;  // by problem and backend
   std::vector<std::pair<std::string, std::string>> order;
   for (std::size_t i = 0; i < machines.size(); ++i) {
-    for (const Problem& problem : machines[i].study.problems) {
-      for (const std::string& backend : machines[i].study.backends) {
-        const Row* row = default_run(machines[i].study, problem, backend);
+    for (const Problem& problem : machines[i].ordered.problems) {
+      for (const std::string& backend : machines[i].ordered.backends) {
+        const Row* row = default_run(machines[i].ordered, problem, backend);
         if (!row) continue;
         const auto [at, is_new] = beside.try_emplace({problem.title(), backend}, machines.size(), nullptr);
         if (is_new) order.push_back(at->first);

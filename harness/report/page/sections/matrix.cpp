@@ -15,11 +15,11 @@ std::string cell_number(const Row& row) {
 }
 
 Json matrix_cell(const PageContext& context, const Problem& problem, const std::string& backend) {
-  const Row* row = context.study.representative(problem, backend);
+  const Row* row = context.ordered.representative(problem, backend);
   if (!row) return cell(std::string(no_value), {}, "quiet");
   const Verdict verdict = row->verdict();
   std::string below = row->completed() ? cell_number(*row) : row->reason;
-  if (!context.study.is_default(*row)) below += " with " + context.study.configuration(*row);
+  if (!context.ordered.is_default(*row)) below += " with " + context.ordered.configuration(*row);
   return cell(fmt::format(R"(<a href="#r{}"><b>{}</b><span>{}</span></a>)", row->origin.index,
                           escape_html(verdict_title(verdict)), escape_html(below)),
               static_cast<double>(verdict), fmt::format("verdict {}", verdict_word(verdict)));
@@ -35,11 +35,11 @@ PageSection matrix_section(const PageContext& context) {
   Table table("the pass matrix", "matrix");
   table.column({"scene", 11, Column::Kind::name});
   add_backend_columns(context, table, 7);
-  for (const Problem& problem : context.study.problems) {
+  for (const Problem& problem : context.ordered.problems) {
     Json cells = Json::array({problem_label(context, problem)});
     std::string verdicts;
-    for (const std::string& backend : context.study.backends) {
-      const Row* row = context.study.representative(problem, backend);
+    for (const std::string& backend : context.ordered.backends) {
+      const Row* row = context.ordered.representative(problem, backend);
       if (row) verdicts += " " + verdict_title(row->verdict());
       cells.push_back(matrix_cell(context, problem, backend));
     }

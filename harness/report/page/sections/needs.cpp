@@ -13,7 +13,7 @@ namespace plumb::harness {
 
 PageSection needs_section(const PageContext& context) {
   PageSection section{"needs", "What each need costs", ""};
-  const std::vector<NeedCost> costs = costs_of_needs(context.study);
+  const std::vector<NeedCost> costs = costs_of_needs(context.ordered);
   if (costs.empty()) return section;
   section.words = about(
       R"(The time of a step where one thing more was declared than the scene needs, over that of the )"

@@ -15,16 +15,16 @@ namespace plumb::harness {
 namespace {
 
 /// All that must be equal for points to be joined along dt; "" for default settings.
-std::string method_of(const Study& study, const Row& row) {
+std::string method_of(const OrderedRows& ordered, const Row& row) {
   std::string out = row.profile == "default" ? "" : row.profile;
-  for (const auto& [name, value] : study.changed_settings(row)) out += (out.empty() ? "" : ", ") + name + " " + value;
+  for (const auto& [name, value] : ordered.changed_settings(row)) out += (out.empty() ? "" : ", ") + name + " " + value;
   if (row.threads && *row.threads != 1)
     out += fmt::format("{}{} threads", out.empty() ? "" : ", ", shortest_number(*row.threads));
   return out;
 }
 
 PlotPoint point_of(const PageContext& context, const Row& row, const Measured& cost, const Measured& error) {
-  PlotPoint point{cost.value, error.value, &row, context.study.is_default(row)};
+  PlotPoint point{cost.value, error.value, &row, context.ordered.is_default(row)};
   point.x_band = cost.band;
   if (error.band && std::isfinite(error.band->high)) point.y_band = error.band;
   return point;
@@ -58,14 +58,14 @@ class OrderFigure {
     plot_.description = fmt::format("{}: error against cost of each backend", title_);
     plot_.x.title = "ms per simulated second";
     plot_.y = {metric + " error", true, std::nullopt, largest_error};
-    const Questions questions(context.study.scored_metrics(problem), problem);
+    const Questions questions(context.ordered.scored_metrics(problem), problem);
     std::map<std::pair<std::size_t, std::string>, DtLine> lines;  // backend, method
     for (const Sample& sample : samples_of(problem, "")) {
       const Row& row = sample.row();
       const std::optional<Measured> error = sample.error(metric), cost = sample.cost();
       if (!error || !cost || context.curves.is_turned(row)) continue;
       const std::size_t backend = context.backend_index(row.backend);
-      const std::string method = method_of(context.study, row);
+      const std::string method = method_of(context.ordered, row);
       DtLine& line = lines[{backend, method}];
       line.series.name = method.empty() ? row.backend : fmt::format("{}, {}", row.backend, method);
       line.series.engine = backend;
@@ -144,7 +144,7 @@ void add_scene_figures(const PageContext& context, const Problem* first, const P
   };
   if (swept) {
     for (const Problem* problem = first; problem != last; ++problem) {
-      for (const std::string& metric : context.study.scored_metrics(*problem))
+      for (const std::string& metric : context.ordered.scored_metrics(*problem))
         add(*problem, metric, problem->title() + ", " + metric);
     }
     return;
@@ -152,7 +152,7 @@ void add_scene_figures(const PageContext& context, const Problem* first, const P
   Problem all{first->scene, first->group, "", {}};
   for (const Problem* problem = first; problem != last; ++problem)
     all.rows.insert(all.rows.end(), problem->rows.begin(), problem->rows.end());
-  for (const std::string& metric : context.study.scored_metrics(all)) add(all, metric, first->scene + ", " + metric);
+  for (const std::string& metric : context.ordered.scored_metrics(all)) add(all, metric, first->scene + ", " + metric);
 }
 
 }  // namespace
@@ -171,8 +171,8 @@ PageSection precision_section(const PageContext& context) {
                         " A cross: the run missed one of the scene's yes/no questions, so that its error means "
                         "little." +
                         untimed_note(context));
-  const std::vector<Problem>& problems = context.study.problems;
-  for (const std::string& group : context.study.groups) {
+  const std::vector<Problem>& problems = context.ordered.problems;
+  for (const std::string& group : context.ordered.groups) {
     Json figures = Json::array();
     for (std::size_t i = 0; i < problems.size();) {
       std::size_t end = i;

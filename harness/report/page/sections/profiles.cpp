@@ -69,7 +69,7 @@ Json profile_figure(const PageContext& context, const Profile& profile, const st
 }
 
 Json cost_figure(const PageContext& context, const std::string& group, std::size_t target) {
-  const Profile profile = cost_profile(context.study, context.costs, group, target);
+  const Profile profile = cost_profile(context.ordered, context.costs, group, target);
   const std::string name = fmt::format("cost to reach {} %", limit_text(100 * target_errors[target]));
   Plot plot;
   plot.description = fmt::format("{}: performance profile, {}", group.empty() ? "all groups" : group, name);
@@ -87,7 +87,7 @@ Json error_figure(const PageContext& context, const std::string& group) {
   plot.description = fmt::format("{}: share of tests by error at defaults", group.empty() ? "all groups" : group);
   plot.x.title = "error at the engine's defaults";
   plot.y = {"share of tests with no more error", false, 0.0, 1.0};
-  return profile_figure(context, error_profile(context.study, context.costs, group), "error at defaults",
+  return profile_figure(context, error_profile(context.ordered, context.costs, group), "error at defaults",
                         std::move(plot), smallest_error, largest_error, [](const ProfileCurve& curve) {
                           return fmt::format("within 1 % on {}, within 0.1 % on {}", percent(curve.at(0.01)),
                                              percent(curve.at(0.001)));
@@ -108,7 +108,7 @@ Json group_figures(const PageContext& context, const std::string& group) {
 
 PageSection profiles_section(const PageContext& context) {
   PageSection section{"profiles", "Performance profiles", ""};
-  if (context.study.backends.size() < 2) return section;
+  if (context.ordered.backends.size() < 2) return section;
   Json all = group_figures(context, "");
   if (all.empty()) return section;
   section.words = about(
@@ -122,8 +122,8 @@ PageSection profiles_section(const PageContext& context) {
       R"(all. Higher is better everywhere; between, a curve that rises early loses by little. The fourth diagram is of )"
       R"(errors at the engines' own settings, whatever they cost.)");
   section.blocks.push_back(group_block("All groups", "", true, Json::array({figures_block(std::move(all))})));
-  for (const std::string& group : context.study.groups) {
-    Json figures = context.study.groups.size() > 1 ? group_figures(context, group) : Json::array();
+  for (const std::string& group : context.ordered.groups) {
+    Json figures = context.ordered.groups.size() > 1 ? group_figures(context, group) : Json::array();
     if (!figures.empty())
       section.blocks.push_back(
           group_block(group_title(group), "", false, Json::array({figures_block(std::move(figures))})));

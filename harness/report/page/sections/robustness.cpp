@@ -27,7 +27,7 @@ Json robustness_cell(const std::optional<RobustnessCell>& runs) {
 
 PageSection robustness_section(const PageContext& context) {
   PageSection section{"robust", "Robustness", ""};
-  const std::vector<RobustnessLine> lines = robustness(context.study);
+  const std::vector<RobustnessLine> lines = robustness(context.ordered);
   if (lines.empty()) return section;
   section.words =
       about(R"(Measures that need no truth of their own and hold in every scene, at each engine's defaults: )"

@@ -48,7 +48,7 @@ Json row_data(const PageContext& context, const Row& row, Pool& settings, Pool& 
   Json metrics = Json::array();
   for (const MetricResult& metric : row.metrics) metrics.push_back(metric_data(metric, shared_metrics));
   Json changed = Json::array();
-  for (const auto& [name, value] : context.study.changed_settings(row)) changed.push_back(name);
+  for (const auto& [name, value] : context.ordered.changed_settings(row)) changed.push_back(name);
   Json phases = Json::array();
   for (const auto& [name, ms] : row.time.phase_ms) phases.push_back({name, ms});
   const MetricResult* worst = row.completed() ? row.worst() : nullptr;
@@ -58,13 +58,13 @@ Json row_data(const PageContext& context, const Row& row, Pool& settings, Pool& 
                         : row.reason;
   Json data = {{"engine", context.backend_index(row.backend)},
                {"title", problem_title(row)},
-               {"configuration", context.study.configuration(row)},
+               {"configuration", context.ordered.configuration(row)},
                {"verdict", verdict_title(row.verdict())},
                {"decided", decided},
                {"metrics", metrics},
                {"settings", settings.index_of(row.settings)},
                {"changed", changed},
-               {"command", context.study.command(row)},
+               {"command", context.ordered.command(row)},
                {"hash", row.hash},
                {"date", row.origin.date},
                {"reason", row.reason},
@@ -90,15 +90,15 @@ PageSection rows_section(const PageContext& context) {
   std::string words =
       "Open a line for its metrics, the settings in force, the state hash, the machine, and the command that runs it "
       "again. Decided by: the metric that comes closest to its threshold or exceeds it most, and its error.";
-  if (std::any_of(context.study.rows.begin(), context.study.rows.end(),
+  if (std::any_of(context.ordered.rows.begin(), context.ordered.rows.end(),
                   [](const Row& row) { return row.time.contended.has_value(); }))
     words += " A time in parentheses was measured while the machine had other work, and counts nowhere.";
   section.words = about(words);
   Pool settings, machines, metrics;
-  std::vector<Json> rows(context.study.rows.size());
-  const std::size_t first = context.study.rows.empty() ? 0 : context.study.rows.front().origin.index;
+  std::vector<Json> rows(context.ordered.rows.size());
+  const std::size_t first = context.ordered.rows.empty() ? 0 : context.ordered.rows.front().origin.index;
   Json order = Json::array();
-  for (const Problem& problem : context.study.problems) {
+  for (const Problem& problem : context.ordered.problems) {
     const std::string key = filter_key(context, problem);
     std::vector<const Row*> ordered = problem.rows;
     std::stable_sort(ordered.begin(), ordered.end(), [&](const Row* a, const Row* b) {

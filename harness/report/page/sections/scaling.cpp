@@ -33,7 +33,7 @@ std::vector<Sized> sizes_of(const PageContext& context, const Problem* first, co
                             const std::string& backend) {
   std::vector<Sized> sizes;
   for (const Problem* problem = first; problem != last; ++problem) {
-    const Row* row = default_run(context.study, *problem, backend);
+    const Row* row = default_run(context.ordered, *problem, backend);
     if (row && row->completed() && row->counts.bodies && *row->counts.bodies > 0 && row->fair_ms() &&
         *row->fair_ms() > 0)
       sizes.push_back({*row->counts.bodies, row});
@@ -90,7 +90,7 @@ Json scene_figure(const PageContext& context, const Problem* first, const Proble
   error.y = {"error of the worst metric", true, std::nullopt, largest_error};
   std::string list;
   std::vector<const Row*> rows;
-  for (const std::string& backend : context.study.backends) {
+  for (const std::string& backend : context.ordered.backends) {
     const std::vector<Sized> sizes = sizes_of(context, first, last, backend);
     if (sizes.empty()) continue;
     PlotSeries times{backend, context.backend_index(backend)}, errors = times;
@@ -121,7 +121,7 @@ Json scene_figure(const PageContext& context, const Problem* first, const Proble
 PageSection scaling_section(const PageContext& context) {
   PageSection section{"scaling", "Scaling", ""};
   Json figures = Json::array();
-  const std::vector<Problem>& problems = context.study.problems;
+  const std::vector<Problem>& problems = context.ordered.problems;
   for (std::size_t i = 0; i < problems.size();) {
     std::size_t end = i;
     while (end < problems.size() && problems[end].scene == problems[i].scene &&

@@ -46,12 +46,12 @@ std::string statement_text(const Statement& statement) {
 }
 
 std::string untimed_note(const PageContext& context) {
-  const auto contended = std::count_if(context.study.rows.begin(), context.study.rows.end(),
+  const auto contended = std::count_if(context.ordered.rows.begin(), context.ordered.rows.end(),
                                        [](const Row& row) { return row.time.contended.has_value(); });
   if (contended == 0) return "";
   return fmt::format(R"( <b>{} of {} runs</b> were measured while the machine had other work: they have no time that )"
                      R"(counts, and are not among these.)",
-                     contended, context.study.rows.size());
+                     contended, context.ordered.rows.size());
 }
 
 std::string problem_label(const PageContext& context, const Problem& problem) {
@@ -73,7 +73,7 @@ std::string figure_foot(const PageContext& context, const std::vector<const Row*
   return fmt::format(R"(<details class="how"><summary><a href="#runs{}" data-show="{}">{} {}</a>, command</summary>)"
                      R"(<code>{}</code></details>)",
                      context.suffix, escape_html(lower(std::string(filter))), rows.size(),
-                     rows.size() == 1 ? "run" : "runs", escape_html(context.study.commands(rows)));
+                     rows.size() == 1 ? "run" : "runs", escape_html(context.ordered.commands(rows)));
 }
 
 std::string backend_label(const PageContext& context, const std::string& backend) {
@@ -81,7 +81,7 @@ std::string backend_label(const PageContext& context, const std::string& backend
 }
 
 void add_backend_columns(const PageContext& context, Table& table, double width) {
-  for (const std::string& backend : context.study.backends)
+  for (const std::string& backend : context.ordered.backends)
     table.column({backend_label(context, backend), width, Column::Kind::number, context.backend_index(backend)});
 }
 

@@ -9,8 +9,8 @@
 #include "report/findings/front.hpp"
 #include "report/findings/overview.hpp"
 #include "report/ordered/cost.hpp"
+#include "report/ordered/ordered_rows.hpp"
 #include "report/ordered/sample.hpp"
-#include "report/ordered/study.hpp"
 #include "report/page/parts/blocks.hpp"
 #include "report/page/parts/page_options.hpp"
 #include "rows/row.hpp"
@@ -28,13 +28,13 @@ struct PageSection {
 
 /// What all sections draw on; lives as long as a page is written.
 struct PageContext {
-  const Study& study;
+  const OrderedRows& ordered;
   const std::vector<CostLine>& costs;
   const std::vector<BackendOverview>& overviews;
   const CurveSet& curves;
   const std::vector<Front>& fronts;
   const PageOptions& options;
-  const std::vector<std::string>& backends;  ///< of all machines: those of `study` among them
+  const std::vector<std::string>& backends;  ///< of all machines: those of `ordered` among them
   std::string machine = {};  ///< its name, where the page has several: no figure shows runs of two of them
   std::string suffix = {};   ///< of the sections' ids; "" for the first machine
 
@@ -91,7 +91,7 @@ struct PageContext {
                                       std::string_view filter);
 /// The name of a backend with its marker.
 [[nodiscard]] std::string backend_label(const PageContext& context, const std::string& backend);
-/// A column for each backend of the study.
+/// A column for each backend of the rows.
 void add_backend_columns(const PageContext& context, Table& table, double width);
 /// <p class="about">...</p>
 [[nodiscard]] std::string about(std::string_view html);

@@ -18,7 +18,7 @@ struct Run {
 };
 
 std::optional<Run> run_of(const PageContext& context, const Problem& problem, const std::string& backend) {
-  const Row* row = default_run(context.study, problem, backend);
+  const Row* row = default_run(context.ordered, problem, backend);
   if (!row || !row->completed() || !row->fair_ms() || *row->fair_ms() <= 0) return std::nullopt;
   const MetricResult* worst = row->worst();
   const std::optional<double> badness = worst ? worst->badness() : std::nullopt;
@@ -28,11 +28,11 @@ std::optional<Run> run_of(const PageContext& context, const Problem& problem, co
 /// Engines that a comparison is about: those that ran at least half of the scenes.
 std::vector<std::string> engines_of(const PageContext& context) {
   std::vector<std::string> engines;
-  for (const std::string& backend : context.study.backends) {
-    const auto ran = std::count_if(context.study.problems.begin(), context.study.problems.end(), [&](const Problem& p) {
-      return context.study.representative(p, backend) != nullptr;
-    });
-    if (2 * static_cast<std::size_t>(ran) >= context.study.problems.size()) engines.push_back(backend);
+  for (const std::string& backend : context.ordered.backends) {
+    const auto ran =
+        std::count_if(context.ordered.problems.begin(), context.ordered.problems.end(),
+                      [&](const Problem& p) { return context.ordered.representative(p, backend) != nullptr; });
+    if (2 * static_cast<std::size_t>(ran) >= context.ordered.problems.size()) engines.push_back(backend);
   }
   return engines;
 }
@@ -48,7 +48,7 @@ Json speed_figure(const PageContext& context) {
   std::vector<std::vector<Run>> runs(engines.size());
   // Only what all of them ran to the end: a median over what one engine can do says nothing beside another's. Time is
   // told by the fastest that passes: one that fails faster still sets no mark.
-  for (const Problem& problem : context.study.problems) {
+  for (const Problem& problem : context.ordered.problems) {
     std::vector<Run> beside;
     for (const std::string& engine : engines) {
       if (const std::optional<Run> run = run_of(context, problem, engine)) beside.push_back(*run);
@@ -96,7 +96,7 @@ Json speed_figure(const PageContext& context) {
       R"(<p class="frame-note">Every engine as it ships, over the {} of {} scene variants that all of these ran to )"
       R"(the end and one passes: lower left is better, below the line is a pass. Large: the median, its bars the middle half; a )"
       R"(speck is a scene variant, on the edge if it lies beyond.</p>)",
-      runs.front().size(), context.study.problems.size());
+      runs.front().size(), context.ordered.problems.size());
   return figure_data(figure);
 }
 

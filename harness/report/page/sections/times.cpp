@@ -15,8 +15,8 @@ namespace {
 /// Of those that pass: a wrong answer is no faster way to the right one.
 std::optional<double> fastest(const PageContext& context, const Problem& problem) {
   std::optional<double> best;
-  for (const std::string& backend : context.study.backends) {
-    const Row* row = default_run(context.study, problem, backend);
+  for (const std::string& backend : context.ordered.backends) {
+    const Row* row = default_run(context.ordered, problem, backend);
     if (row && row->passes() && row->fair_ms() && (!best || *row->fair_ms() < *best)) best = row->fair_ms();
   }
   return best && *best > 0 ? best : std::nullopt;
@@ -45,19 +45,19 @@ Table ratio_table(const PageContext& context) {
   Table table("times side by side");
   table.column({"scene", 9, Column::Kind::name});
   table.column({"bodies", 4});
-  for (const std::string& backend : context.study.backends) {
+  for (const std::string& backend : context.ordered.backends) {
     const std::size_t engine = context.backend_index(backend);
     table.column({backend_label(context, backend) + " <small>ms</small>", 6, Column::Kind::number, engine});
     table.column(
         {"&times; fastest", 4, Column::Kind::number, engine, false, backend + ", relative to the fastest that passes"});
   }
-  for (const Problem& problem : context.study.problems) {
+  for (const Problem& problem : context.ordered.problems) {
     const std::optional<double> best = fastest(context, problem);
     std::optional<double> bodies;
     bool any = false;
     Json times = Json::array();
-    for (const std::string& backend : context.study.backends) {
-      const Row* row = default_run(context.study, problem, backend);
+    for (const std::string& backend : context.ordered.backends) {
+      const Row* row = default_run(context.ordered, problem, backend);
       if (row && row->counts.bodies) bodies = row->counts.bodies;
       any = any || (row && row->completed() && row->fair_ms());
       add_time_cells(row, best, times);
@@ -72,11 +72,11 @@ Table ratio_table(const PageContext& context) {
 }
 
 /// Phases that any row has, in the order of a step.
-std::vector<std::string> phases_of(const Study& study) {
+std::vector<std::string> phases_of(const OrderedRows& ordered) {
   std::vector<std::string> names{"broad", "narrow", "islands", "solve", "integrate", "continuous", "output"};
   const std::size_t known = names.size();
   std::vector<bool> seen(known, false);
-  for (const Row& row : study.rows) {
+  for (const Row& row : ordered.rows) {
     for (const auto& [name, ms] : row.time.phase_ms) {
       const auto found = std::find(names.begin(), names.end(), name);
       if (found == names.end()) {
@@ -124,14 +124,14 @@ Table phase_table(const PageContext& context, const std::vector<std::string>& ph
   table.column({"backend", 7, Column::Kind::name});
   table.column({"ms per step", 5});
   table.column({"share of the slowest engine's step", 16, Column::Kind::text});
-  for (const Problem& problem : context.study.problems) {
+  for (const Problem& problem : context.ordered.problems) {
     double longest = 0;
-    for (const std::string& backend : context.study.backends) {
-      const Row* row = default_run(context.study, problem, backend);
+    for (const std::string& backend : context.ordered.backends) {
+      const Row* row = default_run(context.ordered, problem, backend);
       if (row && row->completed()) longest = std::max({longest, phase_sum(*row), row->fair_ms().value_or(0)});
     }
-    for (const std::string& backend : context.study.backends) {
-      const Row* row = default_run(context.study, problem, backend);
+    for (const std::string& backend : context.ordered.backends) {
+      const Row* row = default_run(context.ordered, problem, backend);
       if (!row || !row->completed() || row->time.contended || row->time.phase_ms.empty()) continue;
       const double sum = phase_sum(*row), total = std::max(sum, row->time.median_ms.value_or(sum));
       if (!(total > 0)) continue;
@@ -155,7 +155,7 @@ PageSection times_section(const PageContext& context) {
       R"(fastest of nothing.)" +
       untimed_note(context));
   section.blocks.push_back(ratio_table(context).block());
-  const std::vector<std::string> phases = phases_of(context.study);
+  const std::vector<std::string> phases = phases_of(context.ordered);
   if (phases.empty()) return section;
   std::string legend;
   for (std::size_t i = 0; i < phases.size(); ++i)
