@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "plumb/backend/convex_hull.hpp"
+#include "referee/hull.hpp"
 
 namespace plumb::referee {
 
@@ -122,16 +122,19 @@ void Shape::make_box_core() {
 }
 
 void Shape::make_hull_core(const PlumbShapeDesc& desc) {
-  const backend::ConvexHull hull = backend::convex_hull(desc);
-  for (const PlumbVec3& v : hull.vertices) core_.corners.push_back(vec(v));
+  std::vector<Vec3> points;
+  for (std::size_t i = 0; i < desc.vertex_count; ++i)
+    points.emplace_back(desc.vertices[3 * i], desc.vertices[3 * i + 1], desc.vertices[3 * i + 2]);
+  const Hull hull = convex_hull(points);
+  core_.corners = hull.corners;
   for (const auto& t : hull.triangles)
     triangles_.push_back({core_.corners[t[0]], core_.corners[t[1]], core_.corners[t[2]]});
 
   std::vector<std::vector<std::uint32_t>> loops;
   std::vector<Vec3> normals;
-  for (const backend::HullFace& face : hull.faces) {
+  for (const Hull::Face& face : hull.faces) {
     loops.push_back(face.loop);
-    normals.push_back(vec(face.normal));
+    normals.push_back(face.normal);
   }
   if (!add_loops(core_, loops,
                  normals)) {  // merged faces of a nearly flat patch may disagree on a corner: triangles cannot

@@ -101,8 +101,8 @@ std::vector<std::vector<const Row*>> rows_of_methods(const Problem& problem) {
   return groups;
 }
 
-/// Labels by what differs between the methods of a problem: backends, profiles, threads, settings. Where a backend's name
-/// stands already, what it does by itself needs no words.
+/// Labels by what differs between the methods of a problem: backends, profiles, threads, settings. Where a backend's
+/// name stands already, what it does by itself needs no words.
 class Labels {
  public:
   void add(const Row& row) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <map>
 
+#include "base/format.hpp"
+
 namespace plumb::harness {
 namespace {
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <unordered_map>
 
+#include "base/format.hpp"
 #include "report/ordered/ordered_rows.hpp"
 
 namespace plumb::harness {

@@ -7,6 +7,7 @@
 #include <ostream>
 #include <set>
 
+#include "base/format.hpp"
 #include "report/ordered/machine_rows.hpp"
 #include "report/page/parts/assets.hpp"
 #include "report/page/parts/bundled_scripts.hpp"
