@@ -59,7 +59,7 @@ struct Quaternion {
   }
 };
 
-/// Follows one body's orientation; the viewer (harness/viewer/src/motion.js) does the same in whole numbers.
+/// Follows one body's orientation; the viewer (harness/viewer/src/data/motion.js) does the same in whole numbers.
 class Turning {
  public:
   explicit Turning(int order) : order_(order) {}

@@ -2,8 +2,8 @@
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import test from 'node:test';
-import { decodeBundle } from '../../harness/viewer/src/bundle.js';
-import { kPose, Replay } from '../../harness/viewer/src/replay.js';
+import { decodeBundle } from '../../harness/viewer/src/data/bundle.js';
+import { kPose, Replay } from '../../harness/viewer/src/data/replay.js';
 
 const kFrames = 300,
   kBroken = 100; // frame from which the first joint is gone

@@ -1,8 +1,8 @@
 // Opening bundles: bytes, quantisation, orientations, ragged lists.
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import { decodeBundle, parseBundle } from '../../harness/viewer/src/bundle.js';
-import { kPose, Replay } from '../../harness/viewer/src/replay.js';
+import { decodeBundle, parseBundle } from '../../harness/viewer/src/data/bundle.js';
+import { kPose, Replay } from '../../harness/viewer/src/data/replay.js';
 import { base64, encode, quaternion, ragged, replay, tower } from './synthetic.mjs';
 
 const rotate = ([x, y, z, w], [a, b, c]) => {

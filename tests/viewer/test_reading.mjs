@@ -2,12 +2,12 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 import { Clock } from '../../harness/viewer/src/clock.js';
-import { forceMap, penetrationMap } from '../../harness/viewer/src/colour.js';
+import { forceMap, penetrationMap } from '../../harness/viewer/src/basics/colour.js';
 import { curvePath, valueRange } from '../../harness/viewer/src/curves.js';
-import { kLayers, missingEverywhere } from '../../harness/viewer/src/layers.js';
+import { kLayers, missingEverywhere } from '../../harness/viewer/src/layers/layers.js';
 import { kLevels, Pace } from '../../harness/viewer/src/pace.js';
 import { kindsOf, pairOf } from '../../harness/viewer/src/pairs.js';
-import { quantity } from '../../harness/viewer/src/quantity.js';
+import { quantity } from '../../harness/viewer/src/data/quantity.js';
 import { upperRange } from '../../harness/viewer/src/ranges.js';
 
 test('equal steps of a colour map look equal, and its lightness only grows', () => {

@@ -1,9 +1,9 @@
 // Shapes as triangles: closed, outward, of the right volume and place.
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import { kNoShape, shapeGeometry, shapeRadius } from '../../harness/viewer/src/shapes.js';
+import { kNoShape, shapeGeometry, shapeRadius } from '../../harness/viewer/src/basics/shapes.js';
 import { writeMatrix } from '../../harness/viewer/src/bodies.js';
-import { writeAlong } from '../../harness/viewer/src/marks.js';
+import { writeAlong } from '../../harness/viewer/src/layers/marks.js';
 import { kTetrahedron, quaternion, ringMesh } from './synthetic.mjs';
 
 /** Volume within the triangles, by the divergence theorem: negative when they face inwards. */

@@ -1,5 +1,5 @@
 // What the page, tests and the command line's stills may ask of the viewer: window.plumbViewer.
-import { kLayers } from './layers.js';
+import { kLayers } from './layers/layers.js';
 import { badgeOf } from './view.js';
 
 export function apiOf(viewer) {

@@ -9,9 +9,9 @@ import {
   LineSegments,
   StaticDrawUsage,
 } from 'three';
-import { writeBodyColour } from './colour.js';
-import { kPose } from './replay.js';
-import { detailFor, kNoShape, shapeGeometry } from './shapes.js';
+import { writeBodyColour } from './basics/colour.js';
+import { kPose } from './data/replay.js';
+import { detailFor, kNoShape, shapeGeometry } from './basics/shapes.js';
 
 const kRound = new Set(['sphere', 'capsule', 'plane', 'height_field']);
 const kGround = new Set(['plane', 'mesh', 'height_field']);

@@ -1,11 +1,11 @@
 // What the reader handles: scene, engines, layers and curves above the views; play, time, speed and camera below.
 import { kSpeeds } from './clock.js';
 import { kSeries, seriesName } from './curves.js';
-import { element, icon } from './dom.js';
+import { element, icon } from './basics/dom.js';
 import { kKeys } from './keys.js';
 import { pairOf } from './pairs.js';
-import { kLayers, missing, missingEverywhere } from './layers.js';
-import { legends } from './legends.js';
+import { kLayers, missing, missingEverywhere } from './layers/layers.js';
+import { legends } from './layers/legends.js';
 
 const kPlay = 'M4 2.5v11l9-5.5z',
   kPause = 'M4 2.5h3v11H4zM9 2.5h3v11H9z',

@@ -1,6 +1,6 @@
 // Curves under a view, running along with the replay: a strip a series, a cursor at the time, its value in words.
-import { element, svg } from './dom.js';
-import { digits, quantity } from './quantity.js';
+import { element, svg } from './basics/dom.js';
+import { digits, quantity } from './data/quantity.js';
 
 export const kSeries = {
   energy: 'energy',

@@ -1,8 +1,8 @@
 // The camera that goes with a body: in each view with its own engine's, all seen from the same side.
 import { Vector3 } from 'three';
-import { element } from './dom.js';
+import { element } from './basics/dom.js';
 import { Names } from './names.js';
-import { kPose } from './replay.js';
+import { kPose } from './data/replay.js';
 
 const kMostListed = 2000; // names offered while one types; any body is found by its name or number
 

@@ -1,6 +1,6 @@
 // Where the camera begins: all moving bodies of all engines in the picture, but not one that has flown off.
 import { Vector3 } from 'three';
-import { shapeRadius } from './shapes.js';
+import { shapeRadius } from './basics/shapes.js';
 
 const kFrames = 24; // looked at, of each replay
 const kTail = 0.04; // of the positions at either end, left out

@@ -1,6 +1,6 @@
 // The keyboard: every key that the viewer listens to while something in it has the focus.
 import { kSpeeds } from './clock.js';
-import { kLayers } from './layers.js';
+import { kLayers } from './layers/layers.js';
 
 const kDigits = 10; // 1 to 9, then 0
 

@@ -1,6 +1,6 @@
 // Words beside places of a scene: a fixed store of elements in a view's port, put where the camera sees their places.
 import { Vector3 } from 'three';
-import { element } from './dom.js';
+import { element } from './basics/dom.js';
 
 const kRow = 15; // px: labels of one such row do not overlap
 const kCharacter = 6.5; // px

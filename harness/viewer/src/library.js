@@ -1,6 +1,6 @@
 // The replays in the page: scenes by name, each with its engines; a bundle is opened when its scene is first shown.
-import { decodeBundle } from './bundle.js';
-import { Replay } from './replay.js';
+import { decodeBundle } from './data/bundle.js';
+import { Replay } from './data/replay.js';
 
 const kNamed = 12; // scenes that an error lists
 const kHues = 24; // --hue0 to --hue23 in the page's style: eight hues in three shades

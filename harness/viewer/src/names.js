@@ -1,6 +1,6 @@
 // Names of bodies beside them, of those nearest to the reader: as many as can be told apart.
 import { Labels } from './labels.js';
-import { kPose } from './replay.js';
+import { kPose } from './data/replay.js';
 
 const kMost = 40;
 

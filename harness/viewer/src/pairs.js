@@ -1,5 +1,5 @@
 // Pairs of shapes: choose two kinds from a matrix and see what each engine's narrow phase makes of them.
-import { element } from './dom.js';
+import { element } from './basics/dom.js';
 
 const kName = /^pair (.+)-(.+)$/;
 

@@ -1,6 +1,6 @@
 // Lines for scale under a scene that has no ground: no surface, no shadow, nothing that a body could lie on.
 import { BufferAttribute, BufferGeometry, LineBasicMaterial, LineSegments } from 'three';
-import { shapeRadius } from './shapes.js';
+import { shapeRadius } from './basics/shapes.js';
 
 const kReach = 4; // radii of what happens
 const kMostLines = 41; // either way

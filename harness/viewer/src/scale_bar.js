@@ -1,7 +1,7 @@
 // A bar of a round length, as long as that length looks at the point that the camera turns about.
-import { element } from './dom.js';
-import { roundStep } from './materials.js';
-import { quantity } from './quantity.js';
+import { element } from './basics/dom.js';
+import { roundStep } from './basics/materials.js';
+import { quantity } from './data/quantity.js';
 
 const kWanted = 90; // pixels, about
 

@@ -1,7 +1,7 @@
 // The 3D scene of one replay: bodies, light, ground and whatever layers are switched on.
 import { DirectionalLight, HemisphereLight, Raycaster, Scene, Vector3 } from 'three';
 import { Bodies } from './bodies.js';
-import { makeMaterials } from './materials.js';
+import { makeMaterials } from './basics/materials.js';
 import { hasGround, ReferenceGrid } from './reference_grid.js';
 import { Selection } from './selection.js';
 

@@ -11,7 +11,7 @@ import {
   MeshBasicMaterial,
   BackSide,
 } from 'three';
-import { kPose } from './replay.js';
+import { kPose } from './data/replay.js';
 import { writeMatrix } from './bodies.js';
 
 const kGrow = 1.06; // of the halo against the body

@@ -1,6 +1,6 @@
 // The canvas behind all views: one renderer, a window of it for each view.
 import { PCFShadowMap, WebGLRenderer } from 'three';
-import { element } from './dom.js';
+import { element } from './basics/dom.js';
 
 const kShadowBodies = 3000; // in all views together: beyond, the shadows cost more than they show
 const kMostPixels = 2; // of the canvas to one of the page

@@ -1,12 +1,12 @@
 // One engine's place in the viewer: its name and verdict, the window onto its scene, its curves.
 import { Vector2 } from 'three';
 import { Curves } from './curves.js';
-import { element } from './dom.js';
+import { element } from './basics/dom.js';
 import { Labels } from './labels.js';
-import { missing } from './layers.js';
+import { missing } from './layers/layers.js';
 import { Names } from './names.js';
-import { kPose } from './replay.js';
-import { quantity } from './quantity.js';
+import { kPose } from './data/replay.js';
+import { quantity } from './data/quantity.js';
 import { metresOfPixel, ScaleBar } from './scale_bar.js';
 import { SceneView } from './scene_view.js';
 

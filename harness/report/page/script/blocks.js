@@ -1,5 +1,5 @@
 // What a section is made of: words, tables, figures, every run, and groups of them that fold.
-import { element } from '../../../viewer/src/dom.js';
+import { element } from '../../../viewer/src/basics/dom.js';
 import { figureElement } from './figure.js';
 import { onceInSight } from './sight.js';
 import { TableView } from './table.js';

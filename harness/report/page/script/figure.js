@@ -1,5 +1,5 @@
 // A figure: title, diagrams, legend and what stands below; there while it is in sight.
-import { element } from '../../../viewer/src/dom.js';
+import { element } from '../../../viewer/src/basics/dom.js';
 import { looksOf } from './looks.js';
 import { drawPlot, seriesKey } from './plot.js';
 import { whileInSight } from './sight.js';

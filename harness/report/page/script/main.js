@@ -1,6 +1,6 @@
 // The report's page: opens what is packed when it comes into sight, keeps filter, folds and place in the address, and
 // leads from every figure to its run.
-import { element } from '../../../viewer/src/dom.js';
+import { element } from '../../../viewer/src/basics/dom.js';
 import { changeAddress, readAddress } from './address.js';
 import { blockElement } from './blocks.js';
 import { Filter } from './filter.js';

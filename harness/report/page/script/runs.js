@@ -1,5 +1,5 @@
 // Every run: what a hover says of it, its line in the table of all, and its details.
-import { element } from '../../../viewer/src/dom.js';
+import { element } from '../../../viewer/src/basics/dom.js';
 import { limit, short } from './numbers.js';
 
 const kMetricColumns = ['metric', 'value', 'unit', 'truth', 'error', 'without known bias', 'threshold', 'gold', ''];

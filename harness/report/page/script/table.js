@@ -1,7 +1,7 @@
 // A table of any length, of which only the lines in sight are there (TanStack Virtual). Headers sort, by mouse and
 // keyboard; where the columns do not fit beside each other, every line becomes a card.
 import { elementScroll, observeElementOffset, observeElementRect, Virtualizer } from '@tanstack/virtual-core';
-import { element } from '../../../viewer/src/dom.js';
+import { element } from '../../../viewer/src/basics/dom.js';
 
 const kLine = 33, // px, before it is measured
   kPadding = 20; // px, of a cell

@@ -1,5 +1,5 @@
 // What the page carries as data: JSON, deflated, as base64 in a script element. Opened once, when it is first wanted.
-import { bytesOfBase64, inflate } from '../../../viewer/src/bundle.js';
+import { bytesOfBase64, inflate } from '../../../viewer/src/data/bundle.js';
 
 const kOpened = new WeakMap();
 

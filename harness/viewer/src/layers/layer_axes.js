@@ -1,6 +1,6 @@
 // Separating axes: for each pair the axis on which the narrow phase decided, and a pane across it where the two meet.
 import { BoxGeometry, CylinderGeometry, MeshBasicMaterial } from 'three';
-import { oklch } from './colour.js';
+import { oklch } from '../basics/colour.js';
 import { Marks, writeAlong } from './marks.js';
 import { Partners } from './partners.js';
 

@@ -1,8 +1,8 @@
 // Contact forces as chains: from centre to contact to centre, as wide and as bright as the force along the normal.
 import { CylinderGeometry, MeshBasicMaterial } from 'three';
-import { forceMap } from './colour.js';
+import { forceMap } from '../basics/colour.js';
 import { Marks, writeToPlace } from './marks.js';
-import { kPose } from './replay.js';
+import { kPose } from '../data/replay.js';
 
 const kLeast = 0.004; // of the range: what is less is not drawn
 

@@ -1,6 +1,6 @@
 // Where a pair of bodies meets: their contact of this frame where there is one, else between their centres.
-import { kPose } from './replay.js';
-import { shapeRadius } from './shapes.js';
+import { kPose } from '../data/replay.js';
+import { shapeRadius } from '../basics/shapes.js';
 
 const kWide = 4; // as many times the other's radius: the centre of such a body is nowhere near the place
 

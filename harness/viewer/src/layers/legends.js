@@ -1,9 +1,9 @@
 // What the colours of the layers that are on mean, in words and units.
-import { ColourMap, cssColour, forceMap, gapMap, penetrationMap } from './colour.js';
-import { element } from './dom.js';
+import { ColourMap, cssColour, forceMap, gapMap, penetrationMap } from '../basics/colour.js';
+import { element } from '../basics/dom.js';
 import { kApart, kOverlap } from './layer_axes.js';
 import { kSpring } from './layer_joints.js';
-import { quantity } from './quantity.js';
+import { quantity } from '../data/quantity.js';
 
 const depthMap = new ColourMap([
   [0.62, 0.2, 20],

@@ -1,6 +1,6 @@
 // Contact points with their normals; a point keeps its colour as long as it keeps its id.
 import { ConeGeometry, CylinderGeometry, MeshBasicMaterial, SphereGeometry } from 'three';
-import { kindColour } from './colour.js';
+import { kindColour } from '../basics/colour.js';
 import { Marks, writeAlong, writeScaled } from './marks.js';
 
 const overlay = () => new MeshBasicMaterial({ depthTest: false, transparent: true, opacity: 0.95 });

@@ -1,9 +1,9 @@
 // The constraint graph: an edge for each constraint, in the colour whose constraints are solved at the same time.
 import { CylinderGeometry, MeshBasicMaterial } from 'three';
-import { kindColour, oklch } from './colour.js';
+import { kindColour, oklch } from '../basics/colour.js';
 import { Marks, writeToPlace } from './marks.js';
 import { Partners } from './partners.js';
-import { kPose } from './replay.js';
+import { kPose } from '../data/replay.js';
 
 const kSerial = oklch(0.6, 0, 0);
 export const graphColour = (colour) => (colour < 0 ? kSerial : kindColour(colour, 0.72, 0.16));

@@ -1,5 +1,5 @@
 // What can be switched on over a scene: its name, what it needs of a replay, how it draws or colours.
-import { kindColour, oklch, penetrationMap } from './colour.js';
+import { kindColour, oklch, penetrationMap } from '../basics/colour.js';
 import { AxisLayer } from './layer_axes.js';
 import { BoxLayer } from './layer_boxes.js';
 import { ConstraintLayer } from './layer_constraints.js';

@@ -1,9 +1,9 @@
 // Joints: a stick from each body to its anchor, the anchors, the axes along or about which a joint lets go, and between
 // the anchors what parts them; the colour is the gap that the referee measured, not the distance that is drawn.
 import { CylinderGeometry, MeshBasicMaterial, Quaternion, SphereGeometry, Vector3 } from 'three';
-import { gapMap, oklch } from './colour.js';
+import { gapMap, oklch } from '../basics/colour.js';
 import { Marks, writeAlong, writeScaled } from './marks.js';
-import { kPose } from './replay.js';
+import { kPose } from '../data/replay.js';
 
 /** Of a spring, which holds no distance and so has no gap. */
 export const kSpring = oklch(0.62, 0.03, 250);
