@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "plumb/assert.hpp"
+
 namespace plumb::referee {
 
 namespace {
@@ -35,6 +37,7 @@ class Expansion {
     start();
     for (int i = 0; i < 1000; ++i) {
       const std::size_t nearest = nearest_facet();
+      PLUMB_ASSERT(nearest != none && facets_[nearest].alive);
       const Facet& facet = facets_[nearest];
       const Difference next = support(facet.normal);
       if (next.point.dot(facet.normal) - facet.offset <= converged * size_ || !insert(next, nearest)) break;

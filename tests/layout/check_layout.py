@@ -2,6 +2,7 @@
 
 Arrows go harness -> api <- backends, and within a part down its floors: a room, which is a folder, includes files of
 its own and of rooms on lower floors, as floors.json lists them from the top. Rooms on one floor do not see each other.
+A folder within a room belongs to it, unless it is a room of its own.
 No folder holds more files than a reader takes in. Prints what is wrong, a line each; exits with 1 then.
 """
 import json
@@ -23,24 +24,33 @@ def includes(path):
         yield text.count("\n", 0, found.start()) + 1, found.group(1)
 
 
+def room_of(path, rooms):
+    """The innermost room of a path within a part; "." for what lies in none of its folders, None where no room is."""
+    if "/" not in path:
+        return "." if "." in rooms else None
+    inside = [room for room in rooms if path.startswith(f"{room}/")]
+    return max(inside, key=len, default=None)
+
+
 def check_floors(part, floors, files, root):
     """An include points to the own room or down."""
     floor_of = {room: number for number, rooms in enumerate(floors) for room in rooms}
     for file in files:
-        inside = file.relative_to(part).parts
-        room = inside[0] if len(inside) > 1 else None
-        if room in ("tests", "cuda"):
+        path = str(file.relative_to(part))
+        if path.startswith(("tests/", "cuda/")):
             continue  # stand on all floors
-        if room not in floor_of:
-            yield f"{file}: {'lies in no room' if room is None else f'room {room} is on no floor'} of {part}: see floors.json"
+        room = room_of(path, floor_of)
+        if room is None:
+            folder = f"room {path.split('/')[0]} is on no floor" if "/" in path else "lies in no room"
+            yield f"{file}: {folder} of {part}: see floors.json"
             continue
         for line, target in includes(root / file):
-            other = target.split("/")[0] if "/" in target else None
-            if other == room or other == "plumb":
+            if target.startswith("plumb/"):
                 continue
-            if other not in floor_of:
+            other = room_of(target, floor_of)
+            if other is None or other == ".":
                 yield f'{file}:{line}: "{target}" is in no room of {part}: say the room in which it is'
-            elif floor_of[other] <= floor_of[room]:
+            elif other != room and floor_of[other] <= floor_of[room]:
                 where = "on the same floor as" if floor_of[other] == floor_of[room] else "above"
                 yield f'{file}:{line}: "{target}": room {other} is {where} {room}, and includes only point down'
 

@@ -7,7 +7,7 @@ import tempfile
 import unittest
 
 CHECK = pathlib.Path(__file__).parent / "check_layout.py"
-FLOORS = {"backends/engine": [["plugin"], ["left", "right"], ["math"]]}
+FLOORS = {"backends/engine": [["."], ["plugin"], ["left", "right"], ["left/below"], ["math"]]}
 
 
 class CheckLayout(unittest.TestCase):
@@ -46,7 +46,16 @@ class CheckLayout(unittest.TestCase):
 
     def test_rooms_that_no_floor_has(self):
         self.check_one("backends/engine/attic/a.hpp", "", "room attic is on no floor")
-        self.check_one("backends/engine/a.hpp", "", "lies in no room")
+        self.check_one("backends/engine/attic/below/a.hpp", "", "room attic is on no floor")
+
+    def test_rooms_within_rooms(self):
+        self.check_one("backends/engine/left/below/a.hpp", '#include "left/b.hpp"\n', "room left is above left/below")
+        status, printed = self.run_on({
+            "backends/engine/main.cpp": '#include "plugin/world.hpp"\n',
+            "backends/engine/left/b.hpp": '#include "left/below/a.hpp"\n',
+            "backends/engine/left/beside/c.hpp": '#include "left/b.hpp"\n',
+        })
+        self.assertEqual(status, 0, printed)
 
     def test_includes_that_name_no_room(self):
         self.check_one("backends/engine/left/a.hpp", '#include "b.hpp"\n', "is in no room")

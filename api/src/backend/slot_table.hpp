@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "plumb/assert.hpp"
 #include "plumb/physics_world.hpp"
 
 namespace plumb::backend {
@@ -22,6 +23,7 @@ class SlotTable {
     } else {
       slot = free_.back();
       free_.pop_back();
+      PLUMB_ASSERT(!entries_[slot].live && entries_[slot].generation != 0);
       entries_[slot].record = std::move(record);
       entries_[slot].live = true;
     }
@@ -36,12 +38,19 @@ class SlotTable {
   }
 
   /// Only for live handles.
-  [[nodiscard]] Record& operator[](std::uint64_t handle) { return entries_[slot_of(handle)].record; }
-  [[nodiscard]] const Record& operator[](std::uint64_t handle) const { return entries_[slot_of(handle)].record; }
+  [[nodiscard]] Record& operator[](std::uint64_t handle) {
+    PLUMB_ASSERT(alive(handle));
+    return entries_[slot_of(handle)].record;
+  }
+  [[nodiscard]] const Record& operator[](std::uint64_t handle) const {
+    PLUMB_ASSERT(alive(handle));
+    return entries_[slot_of(handle)].record;
+  }
 
   /// Frees live handles, each named once. A slot whose generations are used up is never given out again.
   void remove(std::span<const std::uint64_t> handles) {
     for (const std::uint64_t handle : handles) {
+      PLUMB_ASSERT(alive(handle));
       Entry& entry = entries_[slot_of(handle)];
       entry.live = false;
       entry.record = Record{};
