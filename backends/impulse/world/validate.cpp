@@ -62,7 +62,7 @@ struct CheckManifold {
     PLUMB_ASSERT(proxies.rows[pair.a].shape != kNone);
     PLUMB_ASSERT(proxies.rows[pair.b].shape != kNone);
     const Manifold& found = cache.found[candidate];
-    const CachedManifold& kept = cache.kept[row];
+    [[maybe_unused]] const CachedManifold& kept = cache.kept[row];
     PLUMB_ASSERT(found.count >= 1 && found.count <= static_cast<std::uint32_t>(kManifoldPoints));
     PLUMB_ASSERT(kept.count == found.count);
     PLUMB_ASSERT(abs(length_squared(found.normal) - 1) < Real(1e-3));
@@ -108,10 +108,10 @@ struct CheckBody {
   const Quat* orientation;
 
   PLUMB_HD void operator()(std::uint32_t body) const {
-    const Velocity& velocity = bodies.velocity[body];
+    [[maybe_unused]] const Velocity& velocity = bodies.velocity[body];
     if ((bodies.mass[body].flags & kBodyDynamic) != 0) {
       PLUMB_ASSERT(is_finite(velocity.linear) && is_finite(velocity.angular));
-      const Quat& turn = bodies.orientation[body];
+      [[maybe_unused]] const Quat& turn = bodies.orientation[body];
       PLUMB_ASSERT(abs(turn.x * turn.x + turn.y * turn.y + turn.z * turn.z + turn.w * turn.w - 1) < Real(1e-3));
     }
     if ((bodies.mass[body].flags & kBodyMoves) != 0) return;
