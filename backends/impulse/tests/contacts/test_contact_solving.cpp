@@ -77,7 +77,7 @@ std::vector<Real> solved(const OneContact& start) {
   for (int pass = 0; pass < 3; ++pass) {
     ContactMotion<Real> motion = motion_of(contact, a, b);
     ContactWrench<Real> wrench = no_wrench<Real>();
-    const auto held = solve_normals(contact, aim_hard(contact), motion, wrench, true);
+    const auto held = solve_normals(contact, hard_target(contact), motion, wrench, true);
     solve_friction(contact, motion, wrench, held);
     push(contact, wrench, a, b);
   }
@@ -106,8 +106,8 @@ TEST(ContactSolving, TheFrameAnswersAsTheBodiesDo) {
     const auto real = [&] { return static_cast<Real>(random.between(-1, 1)); };
     const ContactWrench<Real> wrench = {{real(), real(), real()}, {real(), real(), real()}};
     ContactMotion<Real> by_frame = motion_of(contact, start.a, start.b);
-    answer(contact.delassus, wrench.normal, by_frame);
-    answer(contact.delassus, wrench.friction, by_frame);
+    apply_delassus(contact.delassus, wrench.normal, by_frame);
+    apply_delassus(contact.delassus, wrench.friction, by_frame);
     SolverBody<Real> a = start.a, b = start.b;
     push(contact, wrench, a, b);
     const ContactMotion<Real> by_bodies = motion_of(contact, a, b);
@@ -133,8 +133,8 @@ TEST(ContactSolving, FrictionThatSticksStopsTheWholePatch) {
     ContactMotion<Real> motion = motion_of(contact, start.a, start.b);
     const Eigen::Vector3d before(motion.friction.along_t1, motion.friction.along_t2, motion.friction.about_n);
     const Real* f = contact.delassus.friction;
-    Eigen::Matrix3d give;
-    give << f[0], f[1], f[2], f[1], f[3], f[4], f[2], f[4], f[5];
+    Eigen::Matrix3d delassus;
+    delassus << f[0], f[1], f[2], f[1], f[3], f[4], f[2], f[4], f[5];
     const Eigen::Vector3d expected = -delassus.inverse() * before;
     ContactWrench<Real> wrench = no_wrench<Real>();
     solve_friction(contact, motion, wrench, false);
