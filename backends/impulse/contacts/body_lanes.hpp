@@ -32,7 +32,7 @@ PLUMB_HD SolverBody<N> load_body(const SolverBodies& bodies, const std::uint32_t
     body.inverse_mass = numbers[3];
     body.angular = {numbers[4], numbers[5], numbers[6]};
     gather(bodies.inertia, indices, numbers);
-    __builtin_memcpy(&body.inverse_inertia, numbers, sizeof body.inverse_inertia);
+    body.inverse_inertia = {numbers[0], numbers[1], numbers[2], numbers[3], numbers[4], numbers[5]};
     if (moved) {
       gather(bodies.displacement, indices, numbers);
       body.moved = {numbers[0], numbers[1], numbers[2]};

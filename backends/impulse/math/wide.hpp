@@ -67,8 +67,9 @@ inline Lanes sqrt(const Lanes& a) {
   return root;
 }
 
-/// Turns kLanes vectors of kLanes numbers into those of the first numbers, of the second and so on.
-inline void transpose(const Lanes (&rows)[kLanes], Lanes (&columns)[kLanes]) {
+/// Turns kLanes vectors of kLanes numbers into those of the first numbers, of the second and so on. In registers, where
+/// it is called: sixteen vectors that go through memory take longer than all that is done with them.
+[[gnu::always_inline]] inline void transpose(const Lanes (&rows)[kLanes], Lanes (&columns)[kLanes]) {
   static_assert(kLanes == 8);
   const auto& r = rows;
   Lanes::Vector t[8], s[8];
@@ -88,11 +89,26 @@ inline void transpose(const Lanes (&rows)[kLanes], Lanes (&columns)[kLanes]) {
   }
 }
 
+/// Lanes as they lie in memory, which may be that of a row of kLanes numbers. A row is read and written as one vector:
+/// in pieces, it would be slow to read again at once.
+typedef Real LanesInMemory __attribute__((vector_size(kLanes * sizeof(Real)), aligned(alignof(Real)), may_alias));
+
+template <class Row>
+Lanes load_row(const Row& row) {
+  static_assert(sizeof(Row) == sizeof(Lanes));
+  return Lanes(Lanes::Vector(reinterpret_cast<const LanesInMemory&>(row)));
+}
+template <class Row>
+void store_row(Row& row, const Lanes& lanes) {
+  static_assert(sizeof(Row) == sizeof(Lanes));
+  reinterpret_cast<LanesInMemory&>(row) = lanes.v;
+}
+
 /// Reads kLanes rows of kLanes numbers: the first numbers of all of them, the second and so on.
 template <class Row>
 void gather(const Row* rows, const std::uint32_t* indices, Lanes (&numbers)[kLanes]) {
   Lanes found[kLanes];
-  for (std::uint32_t lane = 0; lane < kLanes; ++lane) __builtin_memcpy(&found[lane], rows + indices[lane], sizeof(Row));
+  for (std::uint32_t lane = 0; lane < kLanes; ++lane) found[lane] = load_row(rows[indices[lane]]);
   transpose(found, numbers);
 }
 /// Writes kLanes rows, in the lanes where `where` is above 0.
@@ -101,7 +117,7 @@ void scatter(const Lanes (&numbers)[kLanes], const Lanes& where, Row* rows, cons
   Lanes found[kLanes];
   transpose(numbers, found);
   for (std::uint32_t lane = 0; lane < kLanes; ++lane)
-    if (where.v[lane] > 0) __builtin_memcpy(static_cast<void*>(rows + indices[lane]), &found[lane], sizeof(Row));
+    if (where.v[lane] > 0) store_row(rows[indices[lane]], found[lane]);
 }
 
 #endif
