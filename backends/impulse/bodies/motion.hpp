@@ -10,18 +10,29 @@
 
 namespace plumb::impulse {
 
-/// I^-1 in world axes, which is 0 from the start where nothing that is pushed turns, and no displacement yet.
-PLUMB_HD inline void begin_body(const Bodies& bodies, const SolverBodies& solver, std::uint32_t i) {
+/// What forces do to the velocity of a body that they move, m/s2.
+PLUMB_HD inline Vec acceleration_by_forces(const Bodies& bodies, const StepParameters& step, std::uint32_t i) {
+  return bodies.mass[i].gravity_scale * step.gravity + bodies.velocity[i].inverse_mass * bodies.force[i].force;
+}
+
+/// I^-1 in world axes, which is 0 from the start where nothing that is pushed turns, no displacement yet, and what
+/// forces do in each sub-step.
+PLUMB_HD inline void begin_body(const Bodies& bodies, const SolverBodies& solver, const StepParameters& step,
+                                std::uint32_t i) {
   const BodyMass& mass = bodies.mass[i];
   if (bodies.turn)
     solver.inertia[i] = {world_inverse_inertia(bodies.orientation[i], mass.flags, inverse_moments(mass, solver.swings)),
                          {0, 0}};
   solver.displacement[i] = {{0, 0, 0}, 0, {0, 0, 0, 1}};
-}
-
-/// What forces do to the velocity of a body that they move, m/s2.
-PLUMB_HD inline Vec acceleration_by_forces(const Bodies& bodies, const StepParameters& step, std::uint32_t i) {
-  return bodies.mass[i].gravity_scale * step.gravity + bodies.velocity[i].inverse_mass * bodies.force[i].force;
+  if ((mass.flags & kBodyDynamic) == 0) return;
+  PLUMB_ASSERT(step.h > 0);
+  PLUMB_ASSERT(bodies.velocity[i].inverse_mass > 0);
+  SubstepForces& forces = solver.forces[i];
+  forces.linear = step.h * acceleration_by_forces(bodies, step, i);
+  forces.linear_drag = Real(1) / (Real(1) + step.h * mass.linear_damping);
+  if (!bodies.turn) return;
+  forces.angular = step.h * (solver.inertia[i].inverse * bodies.force[i].torque);
+  forces.angular_drag = Real(1) / (Real(1) + step.h * mass.angular_damping);
 }
 
 /// Velocity after the forces of a sub-step and, from the second on, after the constraint impulses of the one before:
@@ -29,21 +40,20 @@ PLUMB_HD inline Vec acceleration_by_forces(const Bodies& bodies, const StepParam
 /// them again.
 PLUMB_HD inline void integrate_velocity(const Bodies& bodies, const SolverBodies& solver, const StepParameters& step,
                                         bool first, std::uint32_t i) {
-  const BodyMass& mass = bodies.mass[i];
-  PLUMB_ASSERT(step.h > 0);
-  if ((mass.flags & kBodyDynamic) == 0) return;
-  PLUMB_ASSERT(bodies.velocity[i].inverse_mass > 0);
+  const std::uint32_t flags = bodies.mass[i].flags;
+  if ((flags & kBodyDynamic) == 0) return;
+  const SubstepForces& forces = solver.forces[i];
   Velocity& velocity = solver.velocity[i];
   FreeVelocity& free = solver.free_velocity[i];
   const Vec carried = first ? Vec{0, 0, 0} : velocity.linear - free.linear;
-  const Real drag = Real(1) / (Real(1) + step.h * mass.linear_damping);
-  Vec linear = drag * (velocity.linear + step.h * acceleration_by_forces(bodies, step, i));
-  if ((mass.flags & kBodyLocked) != 0) linear = unlocked(mass.flags, kLockLinear, linear);
+  Vec linear = forces.linear_drag * (velocity.linear + forces.linear);
+  if ((flags & kBodyLocked) != 0) linear = unlocked(flags, kLockLinear, linear);
   if (bodies.turn) {
     const Vec carried_angular = first ? Vec{0, 0, 0} : velocity.angular - free.angular;
-    const Real angular_drag = Real(1) / (Real(1) + step.h * mass.angular_damping);
-    const Vec torque = to_solver(bodies, solver, i, bodies.force[i].torque);
-    free.angular = angular_drag * (velocity.angular + step.h * (solver.inertia[i].inverse * torque));
+    Vec angular = forces.angular;
+    if (swings(bodies, solver, i))
+      angular = step.h * (solver.inertia[i].inverse * to_solver(bodies, solver, i, bodies.force[i].torque));
+    free.angular = forces.angular_drag * (velocity.angular + angular);
     velocity.angular = free.angular + carried_angular;
   }
   free.linear = linear;

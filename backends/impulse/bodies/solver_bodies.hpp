@@ -14,11 +14,20 @@ struct alignas(4 * sizeof(Real)) FreeVelocity {
   Real unused1;
 };
 
+/// What forces and damping do to a body's velocity in each sub-step of a step.
+struct alignas(4 * sizeof(Real)) SubstepForces {
+  Vec linear;        ///< added first, m/s
+  Real linear_drag;  ///< share that is left then
+  Vec angular;       ///< likewise, rad/s
+  Real angular_drag;
+};
+
 struct SolverBodies {
   Velocity* velocity;
   Displacement* displacement;
   WorldInertia* inertia;
   FreeVelocity* free_velocity;
+  SubstepForces* forces;  ///< of dynamic bodies
   bool swings;  ///< angular velocities of bodies that tumble are those of swung_frame.hpp
   Mechanisms mechanisms;
 };

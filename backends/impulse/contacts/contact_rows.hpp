@@ -31,6 +31,7 @@
 
 #include <cstdint>
 
+#include "math/vec3.hpp"
 #include "math/wide.hpp"
 #include "narrowphase/manifold.hpp"
 #include "plumb/assert.hpp"
@@ -114,11 +115,12 @@ struct alignas(4 * sizeof(Real)) Quad {
   Real at[4];
 };
 
-/// All fields of one contact.
+/// All fields of one contact, or of kLanes of them from neighbouring slots.
+template <class N>
 struct ContactNumbers {
-  Real at[kAllFields];
+  N at[kAllFields];
 
-  PLUMB_HD void put(std::uint32_t field, const Vec& v) {
+  PLUMB_HD void put(std::uint32_t field, const Vec3<N>& v) {
     at[field] = v.x;
     at[field + 1] = v.y;
     at[field + 2] = v.z;
@@ -129,7 +131,7 @@ struct ContactNumbers {
       if constexpr (kLanes == 1)
         *reinterpret_cast<Quad*>(slot + place_of(f)) = {at[f], at[f + 1], at[f + 2], at[f + 3]};
       else
-        for (std::uint32_t i = f; i < f + 4; ++i) slot[place_of(i)] = at[i];
+        for (std::uint32_t i = f; i < f + 4; ++i) __builtin_memcpy(slot + place_of(i), &at[i], sizeof(N));
     }
   }
 };
@@ -162,6 +164,11 @@ struct RowAccess {
     }
   }
   PLUMB_HD void put(std::uint32_t field, const N& value) const { write(base + place_of(field), value); }
+  /// No impulses of the step yet.
+  PLUMB_HD void clear_sums() const {
+    if (sums == nullptr) return;
+    for (std::uint32_t f = 0; f < kSumFields; ++f) write(sums + f * kRowBlock, N(0));
+  }
   /// Adds to the impulses of the step.
   PLUMB_HD void add_to_sum(int point, std::uint32_t direction, const N& impulse) const {
     if (sums == nullptr) return;

@@ -10,13 +10,14 @@
 
 namespace plumb::impulse {
 
-/// Radius of a shape where it touches something along the normal, m: of a ball, of a capsule, of a cylinder that lies
-/// on its side; 0 where corners, edges or faces touch.
-PLUMB_HD inline Real rolling_radius(const Shape& shape, const ShapePose& pose, const Vec& normal) {
+/// Radius of a proxy's shape where it touches something along the normal, m: of a ball, of a capsule, of a cylinder
+/// that lies on its side; 0 where corners, edges or faces touch. body: the orientation of the proxy's body.
+PLUMB_HD inline Real rolling_radius(const Proxies& proxies, const Proxy& proxy, const Quat& body, const Vec& normal) {
   constexpr Real kLies = Real(0.3);  // of the axis along the normal
+  const Shape& shape = proxies.shapes[proxy.shape];
   if (shape.type == ShapeType::kSphere || shape.type == ShapeType::kCapsule) return shape.size.x;
   if (shape.type != ShapeType::kCylinder) return 0;
-  const Vec axis = rotate(pose.orientation, Vec{0, 1, 0});
+  const Vec axis = rotate(body * proxy.frame.orientation, Vec{0, 1, 0});
   return abs(dot(axis, normal)) < kLies ? shape.size.x : Real(0);
 }
 

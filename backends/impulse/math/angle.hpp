@@ -5,36 +5,24 @@
 
 namespace plumb::impulse {
 
-struct SinCos {
-  Real sine, cosine;
+template <class N>
+struct SinCosOf {
+  N sine, cosine;
 };
+using SinCos = SinCosOf<Real>;
 
 /// Of |x| <= pi/4, by Taylor's series to the precision of Real.
-PLUMB_HD inline SinCos small_sin_cos(Real x) {
-  const Real y = x * x;
+template <class N>
+PLUMB_HD SinCosOf<N> small_sin_cos(const N& x) {
+  const N y = x * x, one = N(1);
 #if defined(PLUMB_IMPULSE_DOUBLE)
-  const Real s =
-      Real(1) -
-      y / 6 *
-          (Real(1) -
-           y / 20 *
-               (Real(1) -
-                y / 42 *
-                    (Real(1) -
-                     y / 72 * (Real(1) - y / 110 * (Real(1) - y / 156 * (Real(1) - y / 210 * (Real(1) - y / 272)))))));
-  const Real c =
-      Real(1) -
-      y / 2 *
-          (Real(1) -
-           y / 12 *
-               (Real(1) -
-                y / 30 *
-                    (Real(1) -
-                     y / 56 * (Real(1) - y / 90 * (Real(1) - y / 132 * (Real(1) - y / 182 * (Real(1) - y / 240)))))));
+  const auto term = [&](int divisor, const N& rest) { return one - y / N(divisor) * rest; };
+  const N s = term(6, term(20, term(42, term(72, term(110, term(156, term(210, one - y / N(272))))))));
+  const N c = term(2, term(12, term(30, term(56, term(90, term(132, term(182, one - y / N(240))))))));
 #else
-  const Real s =
-      Real(1) + y * (Real(-1.0 / 6) + y * (Real(1.0 / 120) + y * (Real(-1.0 / 5040) + y * Real(1.0 / 362880))));
-  const Real c = Real(1) + y * (Real(-0.5) + y * (Real(1.0 / 24) + y * (Real(-1.0 / 720) + y * Real(1.0 / 40320))));
+  const auto by = [](double factor) { return N(static_cast<Real>(factor)); };
+  const N s = one + y * (by(-1.0 / 6) + y * (by(1.0 / 120) + y * (by(-1.0 / 5040) + y * by(1.0 / 362880))));
+  const N c = one + y * (by(-0.5) + y * (by(1.0 / 24) + y * (by(-1.0 / 720) + y * by(1.0 / 40320))));
 #endif
   return {x * s, c};
 }

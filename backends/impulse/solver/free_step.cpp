@@ -1,5 +1,5 @@
 // Steps of bodies that meet nothing and are joined to nothing.
-#include "bodies/motion.hpp"
+#include "bodies/motion_lanes.hpp"
 #include "exec/atomic.hpp"
 #include "solver/solver.hpp"
 
@@ -12,7 +12,7 @@ namespace {
 struct StepFreely {
   /// Bodies that one thread takes through the step: on a CPU as many as stay in the nearest cache, for a sub-step of
   /// one overlaps with those of the others.
-  static constexpr std::uint32_t kTogether = Executor::kWarps ? 1 : 32;
+  static constexpr std::uint32_t kTogether = Executor::kWarps ? 1 : 4 * kLaneGroup;
 
   MovableBodies bodies;
   SolverBodies solver;
@@ -31,10 +31,13 @@ struct StepFreely {
     const bool carries = step.solver == SolverKind::kTgsSoft;
     const std::uint32_t substeps = whole ? 1 : step.substeps;
     const std::uint32_t first = group * kTogether, end = min(body_count, first + kTogether);
-    for (std::uint32_t i = first; i < end; ++i) begin_body(bodies, solver, i);
+    const std::uint32_t first_group = first / kLanes, groups = body_groups(end);
+    for (std::uint32_t i = first; i < end; ++i) begin_body(bodies, solver, step, i);
     for (std::uint32_t k = 0; k < substeps; ++k) {
-      for (std::uint32_t i = first; i < end; ++i) integrate_velocity(bodies, solver, step, !carries || k == 0, i);
-      for (std::uint32_t i = first; i < end; ++i) integrate_position(bodies, solver, step, gyroscopic, i);
+      for (std::uint32_t g = first_group; g < groups; ++g)
+        integrate_velocities(bodies, solver, step, !carries || k == 0, g, body_count);
+      for (std::uint32_t g = first_group; g < groups; ++g)
+        integrate_positions(bodies, solver, step, gyroscopic, g, body_count);
     }
     for (std::uint32_t i = first; i < end; ++i)
       if (!finish_body(bodies, solver, i)) atomic_add(&counters->nonfinite, 1U);

@@ -22,7 +22,7 @@ struct StepPositions : PositionContacts<kSurfaceVelocity> {
     const StepParameters step = *this->parameters;
     std::uint32_t round = 0;  // of impacts
     for (std::uint32_t k = 0; k < step.substeps; ++k) {
-      team.each(self.body_count, [=](std::uint32_t i) { integrate_velocity(self.bodies, self.solver, step, true, i); });
+      this->accelerate_bodies(team, step, true);
       if (self.features.collision && self.features.restitution)
         solve_impacts<kSurfaceVelocity, false>(team, self, step, round);
       this->move_bodies(team, step);

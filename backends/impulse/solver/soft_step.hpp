@@ -12,7 +12,7 @@ namespace plumb::impulse {
 /// overlap, positions moved, and velocities solved again without the bias, so that what it pushed does not stay.
 template <JointCode kJoints, bool kSurfaceVelocity>
 struct StepSoftly : SoftContacts<kSurfaceVelocity, !Executor::kWarps || kJoints != JointCode::kContacts> {
-  using SolverStep::bodies, SolverStep::solver, SolverStep::body_count, SolverStep::features, SolverStep::joints;
+  using SolverStep::solver, SolverStep::features, SolverStep::joints;
 
   PLUMB_DEVICE void operator()(Team& team) const {
     if (this->must_repeat()) return;
@@ -21,7 +21,7 @@ struct StepSoftly : SoftContacts<kSurfaceVelocity, !Executor::kWarps || kJoints 
     std::uint32_t round = 0;  // of impacts
     for (std::uint32_t k = 0; k < step.substeps; ++k) {
       const bool first = k == 0;
-      team.each(body_count, [&](std::uint32_t i) { integrate_velocity(bodies, solver, step, first, i); });
+      this->accelerate_bodies(team, step, first);
       if (first && features.collision) this->warm_start_contacts(team);
       if constexpr (kJoints == JointCode::kPlain) {
         warm_start_mechanisms(team, joints, first, loads(), step);

@@ -13,7 +13,8 @@ namespace {
 struct BeginBody {
   Bodies bodies;
   SolverBodies solver;
-  PLUMB_HD void operator()(std::uint32_t i) const { begin_body(bodies, solver, i); }
+  const StepParameters* parameters;
+  PLUMB_HD void operator()(std::uint32_t i) const { begin_body(bodies, solver, *parameters, i); }
 };
 
 }  // namespace
@@ -24,6 +25,7 @@ void Solver::reserve(Executor& /*executor*/, std::uint32_t bodies, std::uint32_t
   displacement_.grow(bodies);
   inertia_.grow(bodies);
   free_velocity_.grow(bodies);
+  forces_.grow(bodies);
   for (Buffer<std::uint32_t>* buffer : {&body_a_, &body_b_, &count_, &row_}) buffer->grow(slots_ + 1);
   const std::size_t padded = std::size_t{slots_ / kRowBlock + 1} * kRowBlock;
   numbers_.grow(padded * kAllFields);
@@ -40,8 +42,9 @@ void Solver::choose(SolverKind kind) {
   if (kind == SolverKind::kJacobi) split_.reserve(sentinel_ + 1, slots_ - slots_for(0));
 }
 
-void Solver::begin(Executor& executor, const MovableBodies& all, std::uint32_t body_count) {
-  executor.run(body_count, BeginBody{all, bodies(all)});
+void Solver::begin(Executor& executor, const MovableBodies& all, std::uint32_t body_count,
+                   const StepParameters* parameters) {
+  executor.run(body_count, BeginBody{all, bodies(all), parameters});
 }
 
 void Solver::choose_substeps(Executor& executor, const ContactCache& cache, const Bodies& all, const Proxies& proxies,
@@ -69,21 +72,19 @@ void Solver::find_mobility(Executor& executor, const ContactCache& cache, const 
 void Solver::prepare(Executor& executor, const ContactCache& cache, const MovableBodies& all, const Proxies& proxies,
                      const Colouring& colouring, const Real* impacts, const StepParameters* parameters,
                      StepCounters* counters) {
-  const Count manifolds = {&counters->manifolds, slots_ - slots_for(0)};
+  const Count slots = {&counters->first_slot[kColours + 1], slots_};
   const bool split = kind_ == SolverKind::kJacobi;
   if (split) split_.list(executor, cache, all.velocity, proxies.rows, counters);
   const auto prepare = [&]<bool kImpacts, bool kMechanisms>() {
-    executor.run(manifolds,
-                 PrepareContacts<kImpacts, kMechanisms>{cache, all, proxies, bodies(all), rows(), counters,
-                                                        colouring.order(), colouring.colours(), parameters, sentinel_,
-                                                        split ? split_.parts().ranges : nullptr, impacts});
+    executor.run(slots, PrepareContacts<kImpacts, kMechanisms>{cache, all, proxies, bodies(all), rows(), counters,
+                                                               colouring.order(), parameters, sentinel_,
+                                                               split ? split_.parts().ranges : nullptr, impacts});
   };
   const bool whole = mechanisms_.count != 0;
   if (impacts == nullptr)
     whole ? prepare.operator()<false, true>() : prepare.operator()<false, false>();
   else
     whole ? prepare.operator()<true, true>() : prepare.operator()<true, false>();
-  executor.run(kOverflow + 1, PadColours{rows(), counters, sentinel_});
 }
 
 void Solver::solve(Executor& executor, const MovableBodies& all, std::uint32_t body_count,

@@ -37,8 +37,9 @@ class Solver {
   /// How many sub-steps the step has, by what its contacts bear.
   void choose_substeps(Executor& executor, const ContactCache& cache, const Bodies& bodies, const Proxies& proxies,
                        const ShorterSubsteps* shorter, StepParameters* parameters, StepCounters* counters);
-  /// World inertia of all bodies, no displacement.
-  void begin(Executor& executor, const MovableBodies& bodies, std::uint32_t body_count);
+  /// World inertia of all bodies, what forces do to them in a sub-step, no displacement.
+  void begin(Executor& executor, const MovableBodies& bodies, std::uint32_t body_count,
+             const StepParameters* parameters);
   /// The mechanisms that contacts push as a whole, as far as this solver does that.
   const Mechanisms& take_mechanisms(JointStore& joints);
   /// Of those that touch something.
@@ -68,8 +69,8 @@ class Solver {
 
  private:
   SolverBodies bodies(const MovableBodies& bodies) {
-    return {bodies.velocity,       displacement_.data(), inertia_.data(),
-            free_velocity_.data(), features_.gyroscopic, mechanisms_};
+    return {bodies.velocity, displacement_.data(), inertia_.data(), free_velocity_.data(),
+            forces_.data(),  features_.gyroscopic, mechanisms_};
   }
 
   SolverFeatures features_;
@@ -79,6 +80,7 @@ class Solver {
   Buffer<Displacement> displacement_;
   Buffer<WorldInertia> inertia_;
   Buffer<FreeVelocity> free_velocity_;
+  Buffer<SubstepForces> forces_;
   Buffer<std::uint32_t> body_a_, body_b_, count_, row_;
   Buffer<Real> numbers_;
   Buffer<Real> sums_;  // of the step's impulses, where somebody asks

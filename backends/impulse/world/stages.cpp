@@ -100,7 +100,7 @@ void choose_substeps(const StepContext& step) {
 
 void prepare(const StepContext& step) {
   Stages& of = step.stages;
-  of.solver.begin(step.executor, step.movable, step.body_rows);
+  of.solver.begin(step.executor, step.movable, step.body_rows, step.parameters);
   if (!step.collides()) return;
   if (step.mechanisms.count != 0)
     of.solver.find_mobility(step.executor, step.now, step.movable, step.proxies, step.parameters, step.counters,

@@ -23,7 +23,7 @@ struct OneContact {
     Random random(seed);
     const auto real = [&](double low, double high) { return static_cast<Real>(random.between(low, high)); };
     const auto vec = [&](double most) -> Vec { return {real(-most, most), real(-most, most), real(-most, most)}; };
-    ContactNumbers row{};
+    ContactNumbers<Real> row{};
     const Vec towards = vec(1), n = (Real(1) / length(towards)) * towards, t1 = perpendicular(n);
     row.put(kNormal, n);
     row.put(kTangent, t1);
@@ -37,8 +37,8 @@ struct OneContact {
       body->inverse_mass = real(0.2, 2);
       body->inverse_inertia = {real(1, 2), real(1, 2), real(1, 2), real(0, 0.3), real(0, 0.3), real(0, 0.3)};
     }
-    const FrameDelassus delassus(n, t1, centre_a, centre_b, a.inverse_inertia, b.inverse_inertia,
-                                 a.inverse_mass + b.inverse_mass);
+    const FrameDelassus<Real> delassus(n, t1, centre_a, centre_b, a.inverse_inertia, b.inverse_inertia,
+                                       a.inverse_mass + b.inverse_mass);
     PlanePoint<Real> places[kManifoldPoints] = {};
     Real largest_slip = 0;
     for (int p = 0; p < count; ++p) {
@@ -52,9 +52,10 @@ struct OneContact {
       row.at[point_field(p, kNoted)] = kNotPushedYet / 2;
     }
     row.at[kTangentStep] = Real(1) / largest_slip;
-    const NormalBlock normals(row, count, delassus, places);
-    put_frame_matrix(row, count, delassus, normals, places);
-    row.at[kPointCount] = static_cast<Real>(count);
+    const auto points = static_cast<Real>(count);
+    const NormalBlock<Real> normals(row, points, delassus, places);
+    put_frame_matrix(row, points, delassus, normals, places);
+    row.at[kPointCount] = points;
     row.store(numbers.data());
     rows.numbers = numbers.data();
   }
