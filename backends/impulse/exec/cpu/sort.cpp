@@ -14,6 +14,7 @@ namespace {
 constexpr int kDigitBits = 8;
 constexpr std::uint32_t kDigits = 1U << kDigitBits;
 constexpr std::uint32_t kMostChunks = 64;
+constexpr std::uint32_t kFew = 32;  // are sorted before a histogram has been cleared
 
 std::uint32_t chunks_for(std::uint32_t n, std::uint32_t threads) {
   return threads == 1 ? 1 : std::clamp(n / 4096, 1U, std::min(kMostChunks, threads * 2));
@@ -71,6 +72,22 @@ void pass(ThreadPool& pool, std::uint32_t n, std::uint32_t chunks, Digit digit, 
   });
 }
 
+/// By insertion, by the low bits of the keys. Stable.
+template <class K>
+void sort_few(std::uint32_t n, int bits, KeyedInput<K> from, Keyed<K> to) {
+  const K mask = bits < static_cast<int>(8 * sizeof(K)) ? (K{1} << bits) - 1 : ~K{0};
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const K key = from.keys[i];
+    std::uint32_t at = i;
+    for (; at > 0 && (to.keys[at - 1] & mask) > (key & mask); --at) {
+      to.keys[at] = to.keys[at - 1];
+      to.values[at] = to.values[at - 1];
+    }
+    to.keys[at] = key;
+    to.values[at] = from.values[i];
+  }
+}
+
 }  // namespace
 
 template <class K>
@@ -92,7 +109,7 @@ void RadixSort<K>::run(Executor& executor, std::uint32_t n, const K* keys, const
                        std::uint32_t* sorted_values, int bits) {
   PLUMB_ASSERT(n <= capacity_);
   PLUMB_ASSERT(bits >= 0 && bits <= static_cast<int>(8 * sizeof(K)));
-  if (n == 0) return;
+  if (n <= kFew) return sort_few<K>(n, bits, {keys, values}, {sorted_keys, sorted_values});
   auto* histograms = reinterpret_cast<std::uint32_t*>(scratch_.data());
   auto* other_keys = reinterpret_cast<K*>(histograms + std::size_t{kMostChunks} * kDigits);
   const Keyed<K> other = {other_keys, reinterpret_cast<std::uint32_t*>(other_keys + capacity_)};
