@@ -30,10 +30,7 @@ PLUMB_DEVICE inline void factor_axis_system(Team& team, const JointSystem& syste
   for_columns_up(team, system, [=](std::uint32_t column) {
     const AxisWork& own = view.parts.work[system.base + column];
     mask_matrix(own, system.rows(column), system.work(column).factor);
-    eliminate_column(system, column, [&](std::uint32_t i, int p, std::uint32_t k, int q) {
-      const bool both = view.parts.work[system.base + i].is_active(p) && own.is_active(q);
-      return both ? coupling(system, i, p, k, q) : Real(0);
-    });
+    eliminate_column(system, column, [&](std::uint32_t i) { return view.parts.work[system.base + i].active(); });
   });
 }
 

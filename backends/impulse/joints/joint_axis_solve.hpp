@@ -37,6 +37,12 @@ struct AxisWork {
   Real bend[kJointRows];  ///< what the speeds over a sub-step have beyond those now, where that was last looked at
 
   PLUMB_HD bool is_active(int row) const { return cfm[row] >= 0; }
+  /// Bits: rows that are.
+  [[nodiscard]] PLUMB_HD std::uint32_t active() const {
+    std::uint32_t rows = 0;
+    for (int i = 0; i < kJointRows; ++i) rows |= static_cast<std::uint32_t>(is_active(i)) << i;
+    return rows;
+  }
 };
 
 /// What the joint does to body b at frame b's origin, summed over a step. By slot.
@@ -98,7 +104,7 @@ PLUMB_HD inline void refresh_axis_joint(const AxisView& view, std::uint32_t j) {
   JointReaction& reaction = view.reaction(j);
   if (reaction.first_step == joint.first_step) return;
   reaction.first_step = joint.first_step;
-  const Real inverse_mass = view.velocity(joint.body_a).inverse_mass + view.velocity(joint.body_b).inverse_mass;
+  const Real inverse_mass = view.inverse_mass(joint.body_a) + view.inverse_mass(joint.body_b);
   for (int i = rows_of(joint.type); i < row_count(joint); ++i) {
     reaction.spring_mass[i] = spring_mass(axes, own.whole(i, i), inverse_mass);
     reaction.held_for[i] = is_driven(view, j, i) ? kMotorHolds : Real(0);

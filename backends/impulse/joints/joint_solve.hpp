@@ -51,6 +51,9 @@ struct JointView {
     const Position from = joint.body_a == kWorld ? joint.world_anchor : bodies.position[joint.body_a];
     return between(from, bodies.position[joint.body_b]);
   }
+  PLUMB_HD Real inverse_mass(std::uint32_t body) const {
+    return body == kWorld ? Real(0) : solver.velocity[body].inverse_mass;
+  }
   /// In world axes.
   PLUMB_HD Velocity velocity(std::uint32_t body) const {
     if (body == kWorld) return {{0, 0, 0}, 0, {0, 0, 0}, 0};
@@ -102,7 +105,7 @@ PLUMB_HD inline void find_mobility(const JointView& view, const Joint& joint, co
                                    JointWork& work, Block& mobility) {
   const Sym inertia_a = view.inverse_inertia(joint.body_a, a.orientation);
   const Sym inertia_b = view.inverse_inertia(joint.body_b, b.orientation);
-  const Real inverse_mass = view.velocity(joint.body_a).inverse_mass + view.velocity(joint.body_b).inverse_mass;
+  const Real inverse_mass = view.inverse_mass(joint.body_a) + view.inverse_mass(joint.body_b);
   const int n = row_count(joint);
   for (int i = 0; i < n; ++i) {
     work.turn_a[i] = inertia_a * work.rows[i].on_a;

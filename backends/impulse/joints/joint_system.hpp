@@ -3,9 +3,7 @@
 #pragma once
 
 #include "exec/executor.hpp"
-#include "joints/joint_axis_solve.hpp"
-#include "joints/joint_elimination.hpp"
-#include "plumb/assert.hpp"
+#include "joints/joint_factors.hpp"
 
 namespace plumb::impulse {
 
@@ -17,70 +15,6 @@ inline constexpr Real kCfmShareInLoops = Real(1e-4), kCfmShareByTurn = 16;
 /// it (Tikhonov's regularisation), and every mechanism gives way under its load; none of it (a proximal step), and what
 /// rows leave undetermined never fades. (Parikh, Boyd, "Proximal Algorithms", 2014, section 4.1.)
 inline constexpr Real kTikhonovShare = Real(0.1);
-
-/// A dense block of L, rows of the later joint by columns of the earlier one.
-struct JointBlock {
-  Real at[kJointRows][kJointRows];
-};
-
-/// One end of a joint, as its body sees it.
-struct JointOnBody {
-  std::uint32_t joint;
-  bool is_b;
-};
-
-/// Joint `column` of the elimination is row base + column of the joints.
-struct JointSystem {
-  JointView view;
-  std::uint32_t base, levels;
-  const std::uint32_t* level_first;
-  const JointEntry* entries;
-  const std::uint32_t* column_first;
-  const std::uint32_t* row_entries;
-  const std::uint32_t* row_first;
-  const JointProduct* products;
-  const std::uint32_t* product_first;
-  JointBlock* scaled;  ///< L
-  JointBlock* whole;   ///< L D
-  std::uint32_t body_count;
-  const std::uint32_t* bodies;  ///< that these joints push, by place: mechanism after mechanism
-  const std::uint32_t* body_first;
-  const JointOnBody* on_body;
-  std::uint32_t* changes;  ///< three, in turn: how many changed in a round what the next one begins with
-
-  PLUMB_HD int rows(std::uint32_t column) const {
-    const int count = row_count(view.joints[base + column]);
-    PLUMB_ASSERT(count >= 0 && count <= kJointRows);
-    return count;
-  }
-  PLUMB_HD JointWork& work(std::uint32_t column) const { return view.work[base + column]; }
-};
-
-/// Speed of row p of joint i for a unit impulse along row q of joint j, through the bodies that they share.
-PLUMB_HD inline Real coupling(const JointSystem& system, std::uint32_t i, int p, std::uint32_t j, int q) {
-  const Joint &joint_i = system.view.joints[system.base + i], &joint_j = system.view.joints[system.base + j];
-  const JointRow& row = system.work(i).rows[p];
-  const JointWork& other = system.work(j);
-  Real sum = 0;
-  const auto add = [&](std::uint32_t body, bool b_of_i, bool b_of_j) {
-    const Real along = system.view.velocity(body).inverse_mass * dot(row.direction, other.rows[q].direction);
-    sum = sum + (b_of_i == b_of_j ? along : -along) +
-          dot(b_of_i ? row.on_b : row.on_a, b_of_j ? other.turn_b[q] : other.turn_a[q]);
-  };
-  if (joint_i.body_a == joint_j.body_a) add(joint_i.body_a, false, false);
-  if (joint_i.body_a == joint_j.body_b) add(joint_i.body_a, false, true);
-  if (joint_i.body_b == joint_j.body_a) add(joint_i.body_b, true, false);
-  if (joint_i.body_b == joint_j.body_b) add(joint_i.body_b, true, true);
-  return sum;
-}
-
-/// m -= left right^T, for `inner` columns.
-PLUMB_HD inline void take_product(JointBlock& m, int rows, int columns, const JointBlock& left, const JointBlock& right,
-                                  int inner) {
-  for (int p = 0; p < rows; ++p)
-    for (int q = 0; q < columns; ++q)
-      for (int r = 0; r < inner; ++r) m.at[p][q] = m.at[p][q] - left.at[p][r] * right.at[q][r];
-}
 
 /// By how much of their own mobility the rows of joint j yield. Where contacts push mechanisms as a whole it is chosen
 /// once a step: they push too hard, and more so each time, where joints then yield more than they counted on.
@@ -95,47 +29,13 @@ PLUMB_HD inline void choose_share(const JointView& view, std::uint32_t j, Real h
   work.tikhonov = (kTikhonovShare * still + turned) / work.share;
 }
 
-/// Takes the column's products off it and factors it. coupled(i, p, j, q): the speed of row p of joint i for a unit
-/// impulse along row q of joint j.
-template <class Coupled>
-PLUMB_HD void eliminate_column(const JointSystem& system, std::uint32_t j, const Coupled& coupled) {
-  Block& diagonal = system.work(j).factor;
-  const int n = system.rows(j);
-  for (std::uint32_t r = system.row_first[j]; r < system.row_first[j + 1]; ++r) {
-    const std::uint32_t e = system.row_entries[r];
-    const JointBlock &scaled = system.scaled[e], &whole = system.whole[e];
-    const int inner = system.rows(system.entries[e].column);
-    for (int p = 0; p < n; ++p)
-      for (int q = 0; q <= p; ++q)
-        for (int k = 0; k < inner; ++k) diagonal(p, q) = diagonal(p, q) - scaled.at[p][k] * whole.at[q][k];
-  }
-  factor(diagonal, n);
-  for (std::uint32_t e = system.column_first[j]; e < system.column_first[j + 1]; ++e) {
-    const std::uint32_t i = system.entries[e].row;
-    PLUMB_ASSERT(i > j && system.entries[e].column == j);
-    const int rows = system.rows(i);
-    JointBlock block;
-    for (int p = 0; p < rows; ++p)
-      for (int q = 0; q < n; ++q) block.at[p][q] = coupled(i, p, j, q);
-    for (std::uint32_t t = system.product_first[e]; t < system.product_first[e + 1]; ++t) {
-      const JointProduct product = system.products[t];
-      take_product(block, rows, n, system.scaled[product.left], system.whole[product.right],
-                   system.rows(system.entries[product.left].column));
-    }
-    system.whole[e] = block;
-    for (int p = 0; p < rows; ++p) solve_factored(diagonal, n, block.at[p]);
-    system.scaled[e] = block;
-  }
-}
-
 PLUMB_HD inline void factor_column(const JointSystem& system, std::uint32_t j) {
   JointWork& work = system.work(j);
   for (int p = 0; p < system.rows(j); ++p) {
     work.cfm[p] = work.share * work.factor(p, p);
     work.factor(p, p) = work.factor(p, p) + work.cfm[p];
   }
-  eliminate_column(system, j,
-                   [&](std::uint32_t i, int p, std::uint32_t k, int q) { return coupling(system, i, p, k, q); });
+  eliminate_column(system, j, [](std::uint32_t) { return kAllRows; });
 }
 
 /// Takes off a row's residuals in work.change what the joints before it give.
@@ -144,11 +44,8 @@ PLUMB_HD inline void take_earlier(const JointSystem& system, std::uint32_t j) {
   const int n = system.rows(j);
   for (std::uint32_t r = system.row_first[j]; r < system.row_first[j + 1]; ++r) {
     const std::uint32_t e = system.row_entries[r];
-    const JointBlock& scaled = system.scaled[e];
     const std::uint32_t k = system.entries[e].column;
-    const Real(&from)[kJointRows] = system.work(k).change;
-    for (int p = 0; p < n; ++p)
-      for (int q = 0; q < system.rows(k); ++q) y[p] = y[p] - scaled.at[p][q] * from[q];
+    take_product(y, n, system.scaled[e], system.work(k).change, system.rows(k));
   }
 }
 
@@ -173,7 +70,7 @@ PLUMB_HD inline void solve_backward(const JointSystem& system, std::uint32_t j) 
     const std::uint32_t i = system.entries[e].row;
     const Real(&from)[kJointRows] = system.work(i).change;
     for (int p = 0; p < system.rows(i); ++p)
-      for (int q = 0; q < n; ++q) z[q] = z[q] - scaled.at[p][q] * from[p];
+      for (int q = 0; q < n; ++q) z[q] = z[q] - scaled(p, q) * from[p];
   }
 }
 

@@ -41,13 +41,14 @@ PLUMB_HD inline void factor(Block& m, int n) {
   }
 }
 
-/// x becomes the solution of (L D L^T) y = x.
-PLUMB_HD inline void solve_factored(const Block& m, int n, Real* x) {
+/// x becomes the solution of (L D L^T) y = x, or of several at once, as lanes.
+template <class N>
+PLUMB_HD void solve_factored(const Block& m, int n, N* x) {
   for (int i = 0; i < n; ++i)
-    for (int k = 0; k < i; ++k) x[i] = x[i] - m(i, k) * x[k];
-  for (int i = 0; i < n; ++i) x[i] = m(i, i) * x[i];
+    for (int k = 0; k < i; ++k) x[i] = x[i] - N(m(i, k)) * x[k];
+  for (int i = 0; i < n; ++i) x[i] = N(m(i, i)) * x[i];
   for (int i = n - 1; i >= 0; --i)
-    for (int k = i + 1; k < n; ++k) x[i] = x[i] - m(k, i) * x[k];
+    for (int k = i + 1; k < n; ++k) x[i] = x[i] - N(m(k, i)) * x[k];
 }
 
 }  // namespace plumb::impulse

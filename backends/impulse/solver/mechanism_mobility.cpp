@@ -2,38 +2,51 @@
 
 #include "joints/axis_mechanisms.hpp"
 #include "joints/mechanisms.hpp"
+#include "math/lane_vectors.hpp"
 
 namespace plumb::impulse {
 
 namespace {
 
-/// The response of one mechanism to a unit wrench on one body: along an axis for axis < 3, else about one.
+/// Axes along which and about which a thread finds responses at once: a CPU's all six, as lanes.
+constexpr std::uint32_t kAxesAtOnce = kLanes == 1 ? 1 : 6;
+
+/// The response of one mechanism to unit wrenches on one body: along an axis for axis < 3, else about one.
 struct UnitWrench {
+  static constexpr std::uint32_t kThreads = 6 / kAxesAtOnce;  // a body
+
   JointSystem system;
   Mechanisms mechanisms;
   MechanismColumns columns;
   const StepParameters* parameters;
 
   PLUMB_HD void operator()(std::uint32_t i) const {
-    const std::uint32_t place = i / 6;
+    const std::uint32_t place = i / kThreads;
     const MechanismBody& body = mechanisms.bodies[place];
     if (body.count == 0 || mechanisms.loads[place].touched == 0) return;
-    find(body, place, i % 6);
+    find(body, place, i % kThreads);
   }
 
  private:
-  /// The impulses of a joint, y, while they are found.
-  PLUMB_HD Real* impulses(const MechanismBody& body, std::uint32_t axis, std::uint32_t column) const {
-    const std::uint64_t row = std::uint64_t{axis} * body.column_count + columns.number[column];
-    return columns.scratch + body.scratch + row * kJointRows;
+  /// The impulse of row p of a joint, y, while it is found. By row, and the axes within.
+  PLUMB_HD Real* impulse(const MechanismBody& body, std::uint32_t axis, std::uint32_t column, int p) const {
+    const std::uint64_t row = std::uint64_t{columns.number[column]} * kJointRows + static_cast<std::uint32_t>(p);
+    return columns.scratch + body.scratch + row * kLaneGroup + axis;
+  }
+  PLUMB_HD Lanes get(const MechanismBody& body, std::uint32_t axis, std::uint32_t column, int p) const {
+    Lanes y;
+    __builtin_memcpy(&y, impulse(body, axis, column, p), sizeof y);
+    return y;
+  }
+  PLUMB_HD void put(const MechanismBody& body, std::uint32_t axis, std::uint32_t column, int p, const Lanes& y) const {
+    __builtin_memcpy(impulse(body, axis, column, p), &y, sizeof y);
   }
 
+  /// axis: the first of those that are found at once.
   PLUMB_HD void find(const MechanismBody& body, std::uint32_t place, std::uint32_t axis) const {
     const std::uint32_t* list = columns.columns + body.first_column;
-    for (std::uint32_t c = 0; c < body.column_count; ++c) {
-      Real* y = impulses(body, axis, list[c]);
-      for (int p = 0; p < kJointRows; ++p) y[p] = 0;
-    }
+    for (std::uint32_t c = 0; c < body.column_count; ++c)
+      for (int p = 0; p < kJointRows; ++p) put(body, axis, list[c], p, Lanes(0));
     start(body, place, axis);
     for (std::uint32_t c = 0; c < body.column_count; ++c) forward(body, axis, list[c]);
     for (std::uint32_t c = body.column_count; c-- > 0;) backward(body, axis, list[c]);
@@ -42,40 +55,50 @@ struct UnitWrench {
 
   /// What the wrench alone would do to the joints of its body, with the other sign.
   PLUMB_HD void start(const MechanismBody& body, std::uint32_t place, std::uint32_t axis) const {
-    const Real inverse_mass = system.view.velocity(body.body).inverse_mass;
+    const Real inverse_mass = system.view.inverse_mass(body.body);
     for (std::uint32_t k = system.body_first[place]; k < system.body_first[place + 1]; ++k) {
       const JointOnBody on = system.on_body[k];
       const JointWork& work = system.view.work[on.joint];
       const std::uint32_t column = on.joint - system.base;
-      Real* y = impulses(body, axis, column);
       for (int p = 0; p < system.rows(column); ++p) {
-        const Real along = inverse_mass * work.rows[p].direction[static_cast<int>(axis % 3)];
-        const Vec& turn = on.is_b ? work.turn_b[p] : work.turn_a[p];
-        y[p] = y[p] - (axis < 3 ? (on.is_b ? along : -along) : turn[static_cast<int>(axis % 3)]);
+        Lanes given(0);
+        for (std::uint32_t lane = 0; lane < kAxesAtOnce; ++lane) {
+          const int of = static_cast<int>((axis + lane) % 3);
+          const Real along = inverse_mass * work.rows[p].direction[of];
+          const Vec& turn = on.is_b ? work.turn_b[p] : work.turn_a[p];
+          lane_of(given, lane) = axis + lane < 3 ? (on.is_b ? along : -along) : turn[of];
+        }
+        put(body, axis, column, p, get(body, axis, column, p) - given);
       }
     }
   }
 
   PLUMB_HD void forward(const MechanismBody& body, std::uint32_t axis, std::uint32_t column) const {
-    Real* y = impulses(body, axis, column);
     for (std::uint32_t r = system.row_first[column]; r < system.row_first[column + 1]; ++r) {
       const std::uint32_t e = system.row_entries[r];
       const std::uint32_t earlier = system.entries[e].column;
-      const Real* from = impulses(body, axis, earlier);
-      for (int p = 0; p < system.rows(column); ++p)
-        for (int q = 0; q < system.rows(earlier); ++q) y[p] = y[p] - system.scaled[e].at[p][q] * from[q];
+      for (int p = 0; p < system.rows(column); ++p) {
+        Lanes y = get(body, axis, column, p);
+        for (int q = 0; q < system.rows(earlier); ++q)
+          y = y - Lanes(system.scaled[e](p, q)) * get(body, axis, earlier, q);
+        put(body, axis, column, p, y);
+      }
     }
   }
 
   PLUMB_HD void backward(const MechanismBody& body, std::uint32_t axis, std::uint32_t column) const {
-    Real* z = impulses(body, axis, column);
-    solve_factored(system.work(column).factor, system.rows(column), z);
+    const int n = system.rows(column);
+    Lanes z[kJointRows];
+    for (int q = 0; q < n; ++q) z[q] = get(body, axis, column, q);
+    solve_factored(system.work(column).factor, n, z);
     for (std::uint32_t e = system.column_first[column]; e < system.column_first[column + 1]; ++e) {
       const std::uint32_t later = system.entries[e].row;
-      const Real* from = impulses(body, axis, later);
-      for (int p = 0; p < system.rows(later); ++p)
-        for (int q = 0; q < system.rows(column); ++q) z[q] = z[q] - system.scaled[e].at[p][q] * from[p];
+      for (int p = 0; p < system.rows(later); ++p) {
+        const Lanes from = get(body, axis, later, p);
+        for (int q = 0; q < n; ++q) z[q] = z[q] - Lanes(system.scaled[e](p, q)) * from;
+      }
     }
+    for (int q = 0; q < n; ++q) put(body, axis, column, q, z[q]);
   }
 
   /// Of the body's own mobility the share that its mechanism may leave it before the step is over, beyond what it does
@@ -100,33 +123,39 @@ struct UnitWrench {
     return length2 > 0 ? step * step * way2 / length2 : Real(0);
   }
 
+  /// What the wrench alone does to its body.
+  PLUMB_HD void move_own(std::uint32_t place, std::uint32_t axis, Vec3<Lanes>& linear, Vec3<Lanes>& angular) const {
+    const std::uint32_t moves = mechanisms.bodies[place].body;
+    const Real own = Real(1) + turned_free(place);
+    for (std::uint32_t lane = 0; lane < kAxesAtOnce; ++lane) {
+      Vec unit = {0, 0, 0};
+      unit[static_cast<int>((axis + lane) % 3)] = own;
+      if (axis + lane < 3)
+        put_lane(linear, lane, system.view.inverse_mass(moves) * unit);
+      else
+        put_lane(angular, lane, system.view.solver.inertia[moves].inverse * unit);
+    }
+  }
+
   /// What wrench and impulses do to the body at place j.
   PLUMB_HD void move(const MechanismBody& body, std::uint32_t place, std::uint32_t axis, std::uint32_t j) const {
-    const std::uint32_t moves = mechanisms.bodies[j].body;
-    const Real inverse_mass = system.view.velocity(moves).inverse_mass;
-    Vec linear = {0, 0, 0}, angular = {0, 0, 0};
-    const Real own = j == place ? Real(1) + turned_free(place) : Real(0);
-    if (j == place && axis < 3) linear[static_cast<int>(axis)] = own * inverse_mass;
-    if (j == place && axis >= 3) {
-      Vec unit = {0, 0, 0};
-      unit[static_cast<int>(axis - 3)] = own;
-      angular = system.view.solver.inertia[moves].inverse * unit;
-    }
+    const Real inverse_mass = system.view.inverse_mass(mechanisms.bodies[j].body);
+    Vec3<Lanes> linear = in_all_lanes({0, 0, 0}), angular = linear;
+    if (j == place) move_own(place, axis, linear, angular);
     for (std::uint32_t k = system.body_first[j]; k < system.body_first[j + 1]; ++k) {
       const JointOnBody on = system.on_body[k];
       const JointWork& work = system.view.work[on.joint];
       const std::uint32_t column = on.joint - system.base;
-      const Real* z = impulses(body, axis, column);
       for (int p = 0; p < system.rows(column); ++p) {
-        const Real along = inverse_mass * z[p];
-        linear += (on.is_b ? along : -along) * work.rows[p].direction;
-        angular += z[p] * (on.is_b ? work.turn_b[p] : work.turn_a[p]);
+        const Lanes z = get(body, axis, column, p), along = Lanes(inverse_mass) * z;
+        linear += (on.is_b ? along : -along) * in_all_lanes(work.rows[p].direction);
+        angular += z * in_all_lanes(on.is_b ? work.turn_b[p] : work.turn_a[p]);
       }
     }
     Real* to = mechanisms.mobility + body.mobility + std::uint64_t{j - body.first} * 36 + axis;
     for (int r = 0; r < 3; ++r) {
-      to[6 * r] = linear[r];
-      to[6 * (r + 3)] = angular[r];
+      __builtin_memcpy(to + 6 * r, &linear[r], kAxesAtOnce * sizeof(Real));
+      __builtin_memcpy(to + 6 * (r + 3), &angular[r], kAxesAtOnce * sizeof(Real));
     }
   }
 };
@@ -144,7 +173,7 @@ struct FindMobility : MobilityWork {
     });
     team.each(mechanisms.count, [self](std::uint32_t place) { self.stiffen(place); });
     factor(team);
-    team.each(6 * mechanisms.count, UnitWrench{joints.system, mechanisms, columns, parameters});
+    team.each(UnitWrench::kThreads * mechanisms.count, UnitWrench{joints.system, mechanisms, columns, parameters});
   }
 
  private:
@@ -186,7 +215,7 @@ struct FindMobility : MobilityWork {
 }  // namespace
 
 void enqueue_mobility(Executor& executor, JointCode joints, const MobilityWork& work, Count contacts) {
-  const std::uint32_t least = 6 * work.mechanisms.count;
+  const std::uint32_t least = UnitWrench::kThreads * work.mechanisms.count;
   if (joints == JointCode::kAll)
     executor.team(contacts, least, FindMobility<JointCode::kAll>{work});
   else
