@@ -22,7 +22,7 @@ struct StepCounters {
   std::uint32_t first_in_colour[kColours + 2];  ///< place in the order by colour; the last is the number of manifolds
   std::uint32_t first_slot[kColours + 2];       ///< solver rows of a colour begin here, a multiple of the lanes
   std::uint32_t colour_count;                   ///< colours up to the last one in use; the overflow apart
-  std::uint32_t largest_loop;                   ///< threads that go over the contacts of a colour at once
+  std::uint32_t longest_loop;                   ///< threads of the longest loop over contacts
   std::uint32_t substeps, asked_substeps;       ///< of this step, and what its loads asked for (choose_substeps.hpp)
   std::uint32_t passes;  ///< over the constraints, of the solvers that make them until it is enough
   std::uint32_t

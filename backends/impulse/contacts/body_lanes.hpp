@@ -6,6 +6,15 @@
 
 namespace plumb::impulse {
 
+/// Brings in what a body has beside its velocity.
+PLUMB_HD inline void load_place(const SolverBodies& bodies, std::uint32_t i, bool moved, SolverBody<Real>& body) {
+  body.inverse_inertia = bodies.inertia[i].inverse;
+  if (!moved) return;
+  const Displacement displacement = bodies.displacement[i];
+  body.moved = displacement.linear;
+  body.rotated = displacement.rotation;
+}
+
 /// Brings bodies in. Without `moved` their displacement is not read (it is not needed).
 template <class N>
 PLUMB_HD SolverBody<N> load_body(const SolverBodies& bodies, const std::uint32_t* indices, bool moved) {
@@ -15,12 +24,7 @@ PLUMB_HD SolverBody<N> load_body(const SolverBodies& bodies, const std::uint32_t
     body.linear = velocity.linear;
     body.angular = velocity.angular;
     body.inverse_mass = velocity.inverse_mass;
-    body.inverse_inertia = bodies.inertia[*indices].inverse;
-    if (moved) {
-      const Displacement displacement = bodies.displacement[*indices];
-      body.moved = displacement.linear;
-      body.rotated = displacement.rotation;
-    }
+    load_place(bodies, *indices, moved, body);
     return body;
   } else {
     static_assert(sizeof(Velocity) == sizeof(N) && sizeof(WorldInertia) == sizeof(N) &&

@@ -1,6 +1,6 @@
 #include "contacts/colouring.hpp"
 
-#include "contacts/per_point.hpp"
+#include "contacts/hand_over.hpp"
 #include "exec/atomic.hpp"
 #include "math/bits.hpp"
 #include "math/wide.hpp"
@@ -134,6 +134,7 @@ struct FindColours {
 
 struct LayOutSlots {
   StepCounters* counters;
+  bool together;  ///< contacts of all colours may be in one loop
   PLUMB_HD void operator()(std::uint32_t) const {
     std::uint32_t slot = 0, used = 0, largest = 0;
     for (std::uint32_t c = 0; c <= kOverflow; ++c) {
@@ -146,7 +147,7 @@ struct LayOutSlots {
     PLUMB_ASSERT(slot <= slots_for(counters->manifolds));
     counters->first_slot[kColours + 1] = slot;
     counters->colour_count = used;
-    counters->largest_loop = contact_loop(largest);
+    counters->longest_loop = longest_loop(largest, counters->first_slot[kOverflow], together);
   }
 };
 
@@ -188,13 +189,13 @@ void Colouring::colour(Executor& executor, const ContactCache& cache, const Velo
   executor.run(manifolds, ListColours{view, colours_.data(), rows_.data()});
   sort_.run(executor, manifolds, colours_.data(), rows_.data(), sorted_colours_.data(), sorted_rows_.data(), 7);
   executor.run(kColours + 2, FindColours{sorted_colours_.data(), counters});
-  executor.run(1U, LayOutSlots{counters});
+  executor.run(1U, LayOutSlots{counters, mechanisms.count == 0});
 }
 
 void Colouring::leave_out(Executor& executor, StepCounters* counters) {
   executor.run(Count{&counters->manifolds, capacity_}, ListUncoloured{sorted_colours_.data(), sorted_rows_.data()});
   executor.run(kColours + 2, PutAllInFirst{counters});
-  executor.run(1U, LayOutSlots{counters});
+  executor.run(1U, LayOutSlots{counters, false});
 }
 
 }  // namespace plumb::impulse

@@ -46,6 +46,7 @@ class Colouring {
   /// Per body, or owner of a mechanism: bit c is set where a manifold of colour c pushes it. Cleared by begin();
   /// whoever keeps a manifold's old colour sets its bit.
   [[nodiscard]] std::uint64_t* masks() { return masks_.data(); }
+  [[nodiscard]] const std::uint64_t* masks() const { return masks_.data(); }
 
   void begin(Executor& executor);
   /// Colours what has none in cache.kept[row].colour, then orders the rows: order()[j] is the row in place j by colour

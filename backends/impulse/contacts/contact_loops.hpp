@@ -7,6 +7,7 @@
 #include "contacts/blows.hpp"
 #include "contacts/body_lanes.hpp"
 #include "contacts/contact.hpp"
+#include "contacts/hand_over.hpp"
 #include "exec/executor.hpp"
 
 namespace plumb::impulse {
@@ -37,6 +38,7 @@ struct LoadedContact {
   std::uint32_t a[kHere], b[kHere];
   std::uint32_t points;  ///< the largest number among the lanes
 #if defined(PLUMB_IMPULSE_CUDA)
+  ContactTurns turns;
   Contact<kManifoldPoints, N> contact;
 #endif
 };
@@ -51,6 +53,7 @@ PLUMB_HD LoadedContact<N> load_slot(const ContactRows& rows, std::uint32_t slot)
     loaded.points = max(loaded.points, rows.count[slot + lane]);
   }
 #if defined(PLUMB_IMPULSE_CUDA)
+  if constexpr (kHandsOver) loaded.turns = rows.turns[slot];
   loaded.contact = load_contact<kManifoldPoints>(RowAccess<N>(rows, slot));
 #endif
   return loaded;
@@ -108,6 +111,41 @@ PLUMB_HD void work_on_surfaces([[maybe_unused]] bool surface_velocities, const R
   }
 }
 
+/// Body a (0) or b (1) of a contact comes in. by_turns: but for its velocity.
+template <class N>
+PLUMB_HD SolverBody<N> load_end(const SolverBodies& bodies, const LoadedContact<N>& loaded, int which, bool moved,
+                                [[maybe_unused]] bool by_turns) {
+  const std::uint32_t* indices = which == 0 ? loaded.a : loaded.b;
+#if defined(__CUDA_ARCH__)
+  if (by_turns) {
+    SolverBody<N> body;
+    load_place(bodies, *indices, moved, body);
+    body.inverse_mass = loaded.turns.inverse_mass[which];
+    return body;
+  }
+#endif
+  return load_body<N>(bodies, indices, moved);
+}
+/// by_turns: the velocities come in when the contact has its turn on both bodies.
+template <class N>
+PLUMB_HD void await_turns([[maybe_unused]] const SolverBodies& bodies, [[maybe_unused]] const LoadedContact<N>& loaded,
+                          [[maybe_unused]] bool by_turns, [[maybe_unused]] SolverBody<N>& a,
+                          [[maybe_unused]] SolverBody<N>& b) {
+#if defined(__CUDA_ARCH__)
+  if (by_turns) HandOver(bodies.velocity, *loaded.a, *loaded.b, loaded.turns).take(a, b);
+#endif
+}
+/// They go back.
+template <class N>
+PLUMB_HD void store_bodies(const SolverBodies& bodies, const LoadedContact<N>& loaded, [[maybe_unused]] bool by_turns,
+                           const SolverBody<N>& a, const SolverBody<N>& b) {
+#if defined(__CUDA_ARCH__)
+  if (by_turns) return HandOver(bodies.velocity, *loaded.a, *loaded.b, loaded.turns).leave(a, b);
+#endif
+  if (stores_body(0)) store_body<N>(bodies, loaded.a, a);
+  if (stores_body(1)) store_body<N>(bodies, loaded.b, b);
+}
+
 /// Keeps what a contact has given its bodies, where these are of mechanisms. A thread that pushes a mechanism does so
 /// from both ends.
 template <class N>
@@ -124,11 +162,12 @@ PLUMB_HD void store_mechanisms(const SolverBodies& bodies, const LoadedContact<N
 /// Runs work(row, contact, a, b) on a contact and keeps what it did to the bodies.
 template <bool kSurfaceVelocity, bool kMechanisms, class N, class Work>
 PLUMB_HD void work_on(const ContactSet& contacts, const SolverBodies& bodies, std::uint32_t slot,
-                      LoadedContact<N>& loaded, BodyUse use, const Work& work) {
+                      LoadedContact<N>& loaded, BodyUse use, bool by_turns, const Work& work) {
   const ContactRows& rows = contacts.rows;
   with_contact(rows, slot, loaded, [&](auto& contact) {
     const bool moved = reads_places(use);
-    SolverBody<N> a = load_body<N>(bodies, loaded.a, moved), b = load_body<N>(bodies, loaded.b, moved);
+    SolverBody<N> a = load_end(bodies, loaded, 0, moved, by_turns), b = load_end(bodies, loaded, 1, moved, by_turns);
+    await_turns(bodies, loaded, by_turns, a, b);
     const bool whole = kMechanisms && bodies.mechanisms.count != 0;
     if (whole) {
       stand_for_mechanisms<N>(bodies, loaded.a, a);
@@ -148,25 +187,24 @@ PLUMB_HD void work_on(const ContactSet& contacts, const SolverBodies& bodies, st
     } else {
       work_on_surfaces<kSurfaceVelocity>(contacts.surface_velocities, RowAccess<N>(rows, slot), contact, a, b, work);
     }
-    if (stores_body(0)) store_body<N>(bodies, loaded.a, a);
-    if (stores_body(1)) store_body<N>(bodies, loaded.b, b);
+    store_bodies(bodies, loaded, by_turns, a, b);
     if (!moves_bodies(use)) return;
     if (stores_body(0)) store_displacement<N>(bodies, loaded.a, a);
     if (stores_body(1)) store_displacement<N>(bodies, loaded.b, b);
   });
 }
 
-/// Runs work on the contacts of slots first .. first + n * lanes, which share no body that they push.
+/// Runs work on the contacts of slots first .. first + n * lanes, which share no body that they push or take turns.
 template <bool kSurfaceVelocity, bool kMechanisms, class N, class Work>
 PLUMB_DEVICE void for_slots(Team& team, const ContactSet& contacts, const SolverBodies& bodies, std::uint32_t first,
-                            std::uint32_t n, BodyUse use, const Work& work) {
+                            std::uint32_t n, BodyUse use, bool by_turns, const Work& work) {
   const auto slot = [=, &contacts](std::uint32_t i) {
     return slot_of(contacts.rows, first, n, i, LoadedContact<N>::kHere);
   };
   team.each_ahead(
       contact_loop(n), [&](std::uint32_t i) { return load_slot<N>(contacts.rows, slot(i)); },
       [&](std::uint32_t i, LoadedContact<N>& loaded) {
-        work_on<kSurfaceVelocity, kMechanisms, N>(contacts, bodies, slot(i), loaded, use, work);
+        work_on<kSurfaceVelocity, kMechanisms, N>(contacts, bodies, slot(i), loaded, use, by_turns, work);
       });
 }
 
@@ -179,18 +217,25 @@ PLUMB_DEVICE void for_contacts(Team& team, const ContactSet& contacts, const Sol
   const std::uint32_t colours = counters.colour_count;
   const std::uint32_t lone = counters.first_slot[kOverflow];
   const std::uint32_t loops = colours + (counters.first_slot[kOverflow + 1] - lone);
-  for (std::uint32_t k = 0; k < loops; ++k) {
-    const std::uint32_t first = k < colours ? counters.first_slot[k] : lone + (k - colours);
-    const std::uint32_t slots = k < colours ? counters.first_slot[k + 1] - first : 1;
+  // Passes that keep their barriers among others that are one loop: other threads have a contact's numbers there.
+  const bool one_loop = is_one_loop(counters, bodies.mechanisms), by_turns = one_loop && !moves_bodies(use);
+  if (one_loop && !by_turns) team.barrier();
+  for (std::uint32_t k = by_turns && colours != 0 ? colours - 1 : 0; k < loops; ++k) {
+    const bool lonely = k >= colours;
+    const std::uint32_t first = lonely ? lone + (k - colours) : by_turns ? 0 : counters.first_slot[k];
+    const std::uint32_t slots = lonely ? 1 : counters.first_slot[k + 1] - first;
     if constexpr (kLanes == 1) {
-      for_slots<kSurfaceVelocity, kMechanisms, Real>(team, contacts, bodies, first, slots, use, work);
+      for_slots<kSurfaceVelocity, kMechanisms, Real>(team, contacts, bodies, first, slots, use, by_turns && !lonely,
+                                                     work);
     } else {
-      if (k < colours)
-        for_slots<kSurfaceVelocity, kMechanisms, Lanes>(team, contacts, bodies, first, slots / kLanes, use, work);
+      if (lonely)
+        for_slots<kSurfaceVelocity, kMechanisms, Real>(team, contacts, bodies, first, 1, use, false, work);
       else
-        for_slots<kSurfaceVelocity, kMechanisms, Real>(team, contacts, bodies, first, 1, use, work);
+        for_slots<kSurfaceVelocity, kMechanisms, Lanes>(team, contacts, bodies, first, slots / kLanes, use, false,
+                                                        work);
     }
   }
+  if (one_loop && !by_turns) team.barrier();
 }
 
 /// Runs work(row, contact) on every contact, in any order.

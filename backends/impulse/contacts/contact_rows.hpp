@@ -86,6 +86,8 @@ PLUMB_HD constexpr std::uint32_t place_of(std::uint32_t field) {
   return kLanes == 1 ? field / 4 * (4 * kRowBlock) + field % 4 : field * kRowBlock;
 }
 
+struct ContactTurns;
+
 struct ContactRows {
   std::uint32_t* body_a;
   std::uint32_t* body_b;
@@ -93,6 +95,7 @@ struct ContactRows {
   std::uint32_t* row;    ///< of the contact cache
   Real* numbers;
   Real* sums;           ///< null where nobody asks for them
+  ContactTurns* turns;  ///< null on a CPU (hand_over.hpp)
   std::uint32_t spare;  ///< slot of no contact, for threads that have none to work on
 
   /// The first number of a slot.

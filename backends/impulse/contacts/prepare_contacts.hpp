@@ -11,6 +11,7 @@
 #include "contacts/contact.hpp"
 #include "contacts/contact_matrix.hpp"
 #include "contacts/contact_rows.hpp"
+#include "contacts/hand_over.hpp"
 #include "contacts/rolling.hpp"
 #include "exec/executor.hpp"
 #include "math/lane_vectors.hpp"
@@ -105,6 +106,7 @@ struct PrepareContacts {
   ContactRows rows;
   const StepCounters* counters;
   const std::uint32_t* order;  ///< rows of the cache by colour
+  const std::uint64_t* masks;  ///< by body: colours of the contacts that push it
   const StepParameters* parameters;
   std::uint32_t sentinel;  ///< body slot that stands for none in unused lanes
   const PartRange* parts;  ///< by body: how many it is split into; null: bodies are whole
@@ -116,20 +118,29 @@ struct PrepareContacts {
  private:
   using Source = ContactSource<Lanes>;
 
-  /// The row of the cache that belongs into a slot, or kNone.
-  [[nodiscard]] PLUMB_HD std::uint32_t row_of(std::uint32_t slot) const {
-    std::uint32_t low = 0, high = kColours + 1;  // the colour is the last one that begins here or before
+  /// The colour of a slot: the last one that begins there or before.
+  [[nodiscard]] PLUMB_HD std::uint32_t colour_of(std::uint32_t slot) const {
+    std::uint32_t low = 0, high = kColours + 1;
     while (high - low > 1) {
       const std::uint32_t middle = (low + high) / 2;
       (counters->first_slot[middle] <= slot ? low : high) = middle;
     }
-    const std::uint32_t place = counters->first_in_colour[low] + (slot - counters->first_slot[low]);
-    return place < counters->first_in_colour[low + 1] ? order[place] : kNone;
+    return low;
+  }
+  /// The row of the cache that belongs into a slot, or kNone.
+  [[nodiscard]] PLUMB_HD std::uint32_t row_of(std::uint32_t slot, std::uint32_t colour) const {
+    const std::uint32_t place = counters->first_in_colour[colour] + (slot - counters->first_slot[colour]);
+    return place < counters->first_in_colour[colour + 1] ? order[place] : kNone;
+  }
+  PLUMB_HD void put_turns(std::uint32_t slot, std::uint32_t colour, std::uint32_t a, std::uint32_t b) const {
+    rows.turns[slot] = {{bodies.velocity[a].inverse_mass, bodies.velocity[b].inverse_mass},
+                        {turn_of(masks[a], colour), turn_of(masks[b], colour)}};
   }
   PLUMB_HD void leave_empty(std::uint32_t slot) const {
     rows.body_a[slot] = rows.body_b[slot] = sentinel;
     rows.count[slot] = 0;
     rows.row[slot] = kNone;
+    if constexpr (kHandsOver) rows.turns[slot] = {};
   }
   PLUMB_HD void read(std::uint32_t row, std::uint32_t lane, Source& source, ContactEnds& ends) const;
   PLUMB_HD void move_to_impacts(const ContactEnds& ends, ContactPlace<Lanes>& place) const;
@@ -255,8 +266,9 @@ PLUMB_HD void PrepareContacts<kImpacts, kMechanisms>::operator()(std::uint32_t s
   if (slot == 0) leave_empty(rows.spare);
   Source source{};
   ContactEnds ends;
+  const std::uint32_t colour = colour_of(slot);
   for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
-    const std::uint32_t row = row_of(slot + lane);
+    const std::uint32_t row = row_of(slot + lane, colour);
     leave_empty(slot + lane);
     ends.a[lane] = ends.b[lane] = sentinel;
     ends.closes_at[lane] = 0;
@@ -266,6 +278,7 @@ PLUMB_HD void PrepareContacts<kImpacts, kMechanisms>::operator()(std::uint32_t s
     rows.body_b[slot + lane] = ends.b[lane];
     rows.count[slot + lane] = static_cast<std::uint32_t>(lane_of(source.count, lane));
     rows.row[slot + lane] = row;
+    if constexpr (kHandsOver) put_turns(slot + lane, colour, ends.a[lane], ends.b[lane]);
   }
 
   const Vec3<Lanes>&n = source.normal, &t1 = source.tangent;

@@ -29,6 +29,7 @@ void Solver::reserve(Executor& /*executor*/, std::uint32_t bodies, std::uint32_t
   for (Buffer<std::uint32_t>* buffer : {&body_a_, &body_b_, &count_, &row_}) buffer->grow(slots_ + 1);
   const std::size_t padded = std::size_t{slots_ / kRowBlock + 1} * kRowBlock;
   numbers_.grow(padded * kAllFields);
+  if constexpr (kHandsOver) turns_.grow(slots_ + 1);
   if (features_.contact_impulses) {
     sums_.grow(padded * kSumFields);
     step_impulses_.grow(manifolds);
@@ -76,9 +77,9 @@ void Solver::prepare(Executor& executor, const ContactCache& cache, const Movabl
   const bool split = kind_ == SolverKind::kJacobi;
   if (split) split_.list(executor, cache, all.velocity, proxies.rows, counters);
   const auto prepare = [&]<bool kImpacts, bool kMechanisms>() {
-    executor.run(slots, PrepareContacts<kImpacts, kMechanisms>{cache, all, proxies, bodies(all), rows(), counters,
-                                                               colouring.order(), parameters, sentinel_,
-                                                               split ? split_.parts().ranges : nullptr, impacts});
+    executor.run(slots, PrepareContacts<kImpacts, kMechanisms>{
+                            cache, all, proxies, bodies(all), rows(), counters, colouring.order(), colouring.masks(),
+                            parameters, sentinel_, split ? split_.parts().ranges : nullptr, impacts});
   };
   const bool whole = mechanisms_.count != 0;
   if (impacts == nullptr)
@@ -90,7 +91,7 @@ void Solver::prepare(Executor& executor, const ContactCache& cache, const Movabl
 void Solver::solve(Executor& executor, const MovableBodies& all, std::uint32_t body_count,
                    const StepParameters* parameters, StepCounters* counters, std::uint32_t pair_capacity,
                    JointStore& joints) {
-  const Count load = {&counters->largest_loop, contact_loop(slots_)};
+  const Count load = {&counters->longest_loop, contact_loop(slots_)};
   const SolverStep step = {all,        bodies(all),   {rows(), counters, features_.surface_velocity, parameters},
                            body_count, features_,     parameters,
                            counters,   pair_capacity, joint_set(all, joints)};

@@ -7,6 +7,7 @@
 #include "bodies/step_parameters.hpp"
 #include "contacts/colouring.hpp"
 #include "contacts/contact_rows.hpp"
+#include "contacts/hand_over.hpp"
 #include "contacts/split_bodies.hpp"
 #include "exec/executor.hpp"
 #include "exec/memory.hpp"
@@ -64,7 +65,8 @@ class Solver {
   [[nodiscard]] StepImpulses* step_impulses() { return step_impulses_.data(); }
 
   [[nodiscard]] ContactRows rows() {
-    return {body_a_.data(), body_b_.data(), count_.data(), row_.data(), numbers_.data(), sums_.data(), slots_};
+    return {body_a_.data(),  body_b_.data(), count_.data(), row_.data(),
+            numbers_.data(), sums_.data(),   turns_.data(), slots_};
   }
 
  private:
@@ -83,7 +85,8 @@ class Solver {
   Buffer<SubstepForces> forces_;
   Buffer<std::uint32_t> body_a_, body_b_, count_, row_;
   Buffer<Real> numbers_;
-  Buffer<Real> sums_;  // of the step's impulses, where somebody asks
+  Buffer<ContactTurns> turns_;  // on a GPU
+  Buffer<Real> sums_;           // of the step's impulses, where somebody asks
   Buffer<StepImpulses> step_impulses_;
   Buffer<PassChange> pass_changes_;  // of si and jacobi
   SplitBodies split_;                // of jacobi

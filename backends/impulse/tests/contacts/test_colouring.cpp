@@ -62,6 +62,9 @@ struct ColouringRig {
         }
     }
     EXPECT_EQ(std::count(seen.begin(), seen.end(), 1U), static_cast<std::ptrdiff_t>(seen.size()));
+    for (std::uint32_t body = 0; body < velocities.size(); ++body)  // whoever waits for a colour must not do so in vain
+      for (std::uint32_t colour = 0; colour < kColours; ++colour)
+        EXPECT_EQ(colouring.masks()[body] >> colour & 1U, pushed.count({colour, body}));
     for (std::uint32_t colour = 0; colour <= kOverflow; ++colour) {
       const std::uint32_t size = counters[0].first_in_colour[colour + 1] - counters[0].first_in_colour[colour];
       EXPECT_EQ(counters[0].first_slot[colour] % kLaneGroup, 0U);

@@ -14,7 +14,7 @@ namespace plumb::impulse {
 namespace {
 
 struct Counted {
-  int leading, leading_of_low, trailing;
+  int leading, leading_of_low, trailing, set;
 };
 
 struct CountBits {
@@ -22,7 +22,7 @@ struct CountBits {
   Counted* counted;
   PLUMB_HD void operator()(std::uint32_t i) const {
     const auto low = static_cast<std::uint32_t>(words[i]) | 1U;
-    counted[i] = {leading_zeros(words[i]), leading_zeros(low), trailing_zeros(words[i])};
+    counted[i] = {leading_zeros(words[i]), leading_zeros(low), trailing_zeros(words[i]), bit_count(words[i])};
   }
 };
 
@@ -46,6 +46,7 @@ TEST(Bits, AreCountedByKernelsAsByTheStandardLibrary) {
     EXPECT_EQ(counted[i].leading, std::countl_zero(words[i])) << words[i];
     EXPECT_EQ(counted[i].leading_of_low, std::countl_zero(static_cast<std::uint32_t>(words[i]) | 1U)) << words[i];
     EXPECT_EQ(counted[i].trailing, std::countr_zero(words[i])) << words[i];
+    EXPECT_EQ(counted[i].set, std::popcount(words[i])) << words[i];
   }
 }
 
