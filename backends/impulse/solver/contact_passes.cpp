@@ -5,7 +5,7 @@
 
 namespace plumb::impulse {
 
-template struct SoftContacts<true, true>;
+template struct SoftContacts<true, true, true>;
 template struct PositionContacts<true>;
 template struct PassContacts<InSequence<true>>;
 template struct PassContacts<InParts<true>>;

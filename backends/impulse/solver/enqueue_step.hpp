@@ -28,8 +28,13 @@ void enqueue_step(Executor& executor, const StepWork& work) {
     case SolverKind::kJacobi:
       return run(StepInParts<kOthers, kSurfaceVelocity>{{{work.step, work.parts}, work.changes}});
     case SolverKind::kPosition: return run(StepPositions<kOthers, kSurfaceVelocity>{{work.step}});
-    case SolverKind::kTgsSoft: return run(StepSoftly<kJoints, kSurfaceVelocity>{{work.step}});
+    case SolverKind::kTgsSoft: break;
   }
+  // The code of impacts takes registers of a GPU from the passes beside it.
+  if constexpr (Executor::kWarps && kJoints == JointCode::kContacts) {
+    if (!work.step.features.restitution) return run(StepSoftly<kJoints, kSurfaceVelocity, false>{{work.step}});
+  }
+  run(StepSoftly<kJoints, kSurfaceVelocity, true>{{work.step}});
 }
 
 /// Of JointCode::kAll, compiled in files of their own. A device has kernels of their own for surface velocities, too.

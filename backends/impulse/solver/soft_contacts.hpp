@@ -6,7 +6,8 @@
 
 namespace plumb::impulse {
 
-template <bool kSurfaceVelocity, bool kMechanisms>
+/// kImpacts: something may bounce.
+template <bool kSurfaceVelocity, bool kMechanisms, bool kImpacts>
 struct SoftContacts : SolverStep {
   PLUMB_DEVICE void warm_start_contacts(Team& team) const;
   /// Throws back what strikes in a sub-step, where the one before has seen it come. round: counts those of a step.
@@ -37,27 +38,32 @@ PLUMB_HD void close_pushed(Contact<P, N>& contact) {
   contact.allowed_approach = select(contact.impulse[0] > N(0), N(0), contact.allowed_approach);
 }
 
-template <bool kSurfaceVelocity, bool kMechanisms>
-PLUMB_DEVICE void SoftContacts<kSurfaceVelocity, kMechanisms>::warm_start_contacts(Team& team) const {
+template <bool kSurfaceVelocity, bool kMechanisms, bool kImpacts>
+PLUMB_DEVICE void SoftContacts<kSurfaceVelocity, kMechanisms, kImpacts>::warm_start_contacts(Team& team) const {
   for_contacts(team, contacts, solver, BodyUse::kVelocity,
                [](const auto& /*row*/, const auto& contact, auto& a, auto& b) { warm_start_contact(contact, a, b); });
 }
 
-template <bool kSurfaceVelocity, bool kMechanisms>
-PLUMB_DEVICE void SoftContacts<kSurfaceVelocity, kMechanisms>::bounce_contacts(Team& team, const StepParameters& step,
-                                                                               std::uint32_t substep,
-                                                                               std::uint32_t& round) const {
-  if (!features.restitution) return;
-  team.barrier();
-  if (substep == 0 || counters->about_to_strike[(substep - 1) % 2] == substep)
-    solve_impacts<kSurfaceVelocity, kMechanisms>(team, *this, step, round);
+template <bool kSurfaceVelocity, bool kMechanisms, bool kImpacts>
+PLUMB_DEVICE void SoftContacts<kSurfaceVelocity, kMechanisms, kImpacts>::bounce_contacts(Team& team,
+                                                                                         const StepParameters& step,
+                                                                                         std::uint32_t substep,
+                                                                                         std::uint32_t& round) const {
+  if constexpr (kImpacts) {
+    if (!features.restitution) return;
+    team.barrier();
+    if (substep == 0 || counters->about_to_strike[(substep - 1) % 2] == substep)
+      solve_impacts<kSurfaceVelocity, kMechanisms>(team, *this, step, round);
+  }
 }
 
-template <bool kSurfaceVelocity, bool kMechanisms>
-PLUMB_DEVICE void SoftContacts<kSurfaceVelocity, kMechanisms>::push_contacts(Team& team, const StepParameters& step,
-                                                                             std::uint32_t substep, bool final) const {
+template <bool kSurfaceVelocity, bool kMechanisms, bool kImpacts>
+PLUMB_DEVICE void SoftContacts<kSurfaceVelocity, kMechanisms, kImpacts>::push_contacts(Team& team,
+                                                                                       const StepParameters& step,
+                                                                                       std::uint32_t substep,
+                                                                                       bool final) const {
   const ContactSoftness softness = {step.contact, step.ground, step.inverse_h, step.max_depenetration_speed};
-  const bool friction = features.friction, impacts = features.restitution;
+  const bool friction = features.friction, impacts = kImpacts && features.restitution;
   const ImpactLaw law = impact_law(step, friction);
   std::uint32_t* about_to_strike = &counters->about_to_strike[substep % 2];
   const bool mechanisms = kMechanisms && solver.mechanisms.count != 0;
@@ -76,8 +82,8 @@ PLUMB_DEVICE void SoftContacts<kSurfaceVelocity, kMechanisms>::push_contacts(Tea
                                               });
 }
 
-template <bool kSurfaceVelocity, bool kMechanisms>
-PLUMB_DEVICE void SoftContacts<kSurfaceVelocity, kMechanisms>::relax_contacts(Team& team) const {
+template <bool kSurfaceVelocity, bool kMechanisms, bool kImpacts>
+PLUMB_DEVICE void SoftContacts<kSurfaceVelocity, kMechanisms, kImpacts>::relax_contacts(Team& team) const {
   const bool friction = features.friction;
   for_contacts<kSurfaceVelocity, kMechanisms>(team, contacts, solver, BodyUse::kLastVelocity,
                                               [=](const auto& row, auto& contact, auto& a, auto& b) {
@@ -87,6 +93,6 @@ PLUMB_DEVICE void SoftContacts<kSurfaceVelocity, kMechanisms>::relax_contacts(Te
                                               });
 }
 
-PLUMB_COMPILED_ONCE(struct SoftContacts<true, true>);
+PLUMB_COMPILED_ONCE(struct SoftContacts<true, true, true>);
 
 }  // namespace plumb::impulse
