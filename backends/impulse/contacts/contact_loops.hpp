@@ -59,6 +59,20 @@ PLUMB_HD LoadedContact<N> load_slot(const ContactRows& rows, std::uint32_t slot)
   return loaded;
 }
 
+/// Has what load_slot will read brought nearer, as a GPU needs for whose threads have contacts left when they have done
+/// their first: each thread of a warp asks for a line that its contacts share.
+PLUMB_HD inline void fetch_slot([[maybe_unused]] const ContactRows& rows, [[maybe_unused]] std::uint32_t slot) {
+#if defined(__CUDA_ARCH__)
+  constexpr std::uint32_t kLines = kAllFields / 4;
+  const std::uint32_t line = threadIdx.x % kWarp, first = slot - slot % kLaneGroup;
+  const void* at = line < kLines ? rows.at(first) + line * place_of(4) : nullptr;
+  if (line == kLines) at = rows.body_a + first;
+  if (line == kLines + 1) at = rows.body_b + first;
+  if (line == kLines + 2 && kHandsOver) at = rows.turns + first;
+  if (at != nullptr) asm volatile("prefetch.global.L1 [%0];" ::"l"(at));
+#endif
+}
+
 /// Calls f with the contact. A CPU reads it now, and no more points than there are: 1, 2 or all that there may be. A
 /// GPU has read it whole already, because it would have had to wait for the number.
 template <class N, class F>
@@ -203,6 +217,7 @@ PLUMB_DEVICE void for_slots(Team& team, const ContactSet& contacts, const Solver
   };
   team.each_ahead(
       contact_loop(n), [&](std::uint32_t i) { return load_slot<N>(contacts.rows, slot(i)); },
+      [&](std::uint32_t i) { fetch_slot(contacts.rows, slot(i)); },
       [&](std::uint32_t i, LoadedContact<N>& loaded) {
         work_on<kSurfaceVelocity, kMechanisms, N>(contacts, bodies, slot(i), loaded, use, by_turns, work);
       });

@@ -8,7 +8,8 @@
 //   team(load, least, f)   f(team) with a team of threads that goes through several loops. load is the length of the
 //                       longest loop, which may be unknown to the host; it is at least `least`. Members of team:
 //     each(n, f)        f(i) for every i < n, when all that came before is done
-//     each_ahead(n, load, f)   f(i, load(i)); load may run early and so must read nothing that the loop before writes
+//     each_ahead(n, load, fetch, f)   f(i, load(i)); load may run early and so must read nothing that the loop before
+//                       writes. A device calls fetch(i) before that, to have what load(i) will read brought nearer
 //     single(f)         f() once, as each
 //     barrier()            returns when all is done: needed before reading, between loops, what a loop has written
 //   Buffer<T>, Mirror<T>   memory where kernels run; the same with a twin on the host (memory.hpp)

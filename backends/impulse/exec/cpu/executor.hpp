@@ -19,8 +19,8 @@ class Team {
   void each(std::uint32_t n, const F& f) {
     pool_.each(n, f);
   }
-  template <class Load, class F>
-  void each_ahead(std::uint32_t n, const Load& load, const F& f) {
+  template <class Load, class Fetch, class F>
+  void each_ahead(std::uint32_t n, const Load& load, const Fetch& /*fetch*/, const F& f) {
     pool_.each(
         n,
         [&](std::uint32_t i) {

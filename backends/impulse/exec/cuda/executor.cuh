@@ -24,8 +24,8 @@ class Team {
   Team() = delete;
   template <class F>
   void each(std::uint32_t /*n*/, const F& /*f*/) {}
-  template <class Load, class F>
-  void each_ahead(std::uint32_t /*n*/, const Load& /*load*/, const F& /*f*/) {}
+  template <class Load, class Fetch, class F>
+  void each_ahead(std::uint32_t /*n*/, const Load& /*load*/, const Fetch& /*fetch*/, const F& /*f*/) {}
   template <class F>
   void single(const F& /*f*/) {}
   void barrier() {}

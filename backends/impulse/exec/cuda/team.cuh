@@ -27,15 +27,17 @@ class Team {
     if (!join(n)) return;
     for (std::uint32_t i = index_; i < n; i += stride_of(n)) f(i);
   }
-  template <class Load, class F>
-  __device__ void each_ahead(std::uint32_t n, const Load& load, const F& f) {
+  template <class Load, class Fetch, class F>
+  __device__ void each_ahead(std::uint32_t n, const Load& load, const Fetch& fetch, const F& f) {
     if (n == 0) return;
     decltype(load(0U)) loaded;
     if (index_ < n) loaded = load(index_);
     if (!join(n)) return;
     for (std::uint32_t i = index_; i < n;) {
+      const std::uint32_t next = i + stride_of(n);
+      if (next < n) fetch(next);
       f(i, loaded);
-      i += stride_of(n);
+      i = next;
       if (i < n) loaded = load(i);
     }
   }
