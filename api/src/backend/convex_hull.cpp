@@ -230,7 +230,7 @@ class FaceMerger {
         for (const std::uint32_t v : hull_.faces.back().loop) ++faces_at[v];
       }
     for (HullFace& face : hull_.faces)  // where only two faces meet there is an edge that runs on, not a corner
-      if (std::ranges::count_if(face.loop, [&](std::uint32_t v) { return faces_at[v] >= 3; }) >= 3)
+      if (std::count_if(face.loop.begin(), face.loop.end(), [&](std::uint32_t v) { return faces_at[v] >= 3; }) >= 3)
         std::erase_if(face.loop, [&](std::uint32_t v) { return faces_at[v] < 3; });
   }
 
@@ -260,7 +260,7 @@ class FaceMerger {
         for (std::size_t e = 0; e < 3; ++e) {
           const auto& corners = hull_.triangles[members[i]];
           const std::uint32_t t = triangle_of_.at(key(corners[(e + 1) % 3], corners[e]));
-          if (face_of_[t] != none || !std::ranges::all_of(hull_.triangles[t], in_plane) ||
+          if (face_of_[t] != none || !std::all_of(hull_.triangles[t].begin(), hull_.triangles[t].end(), in_plane) ||
               !keeps_disc(t, face, corner_used))
             continue;
           face_of_[t] = face;

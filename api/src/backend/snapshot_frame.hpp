@@ -48,7 +48,7 @@ inline SnapshotHeader snapshot_header(std::span<const std::byte> contents, std::
   SnapshotHeader header{{'P', 'L', 'U', 'M', 'B', 'S', 'N', 'P'}, 2, 0, 0, 0, 0, hash_bytes(contents)};
   header.exceptions = static_cast<std::uint32_t>(exceptions);
   header.payload_size = contents.size() - exceptions * sizeof(PlumbBodyPair);
-  header.format = hash_bytes(std::as_bytes(std::span(format)));
+  header.format = hash_bytes(std::as_bytes(std::span(format.data(), format.size())));
   StateHash objects;
   for (const std::uint64_t handle : bodies) objects.add_word(handle);
   objects.add_word(bodies.size());

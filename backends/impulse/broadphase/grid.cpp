@@ -14,7 +14,7 @@ struct LoadCommonSide {
   const SceneExtent* extent;
   PLUMB_HD CommonSide operator()(std::uint32_t i) const {
     const Box& box = boxes[proxies[i]];
-    return {is_common(box, *extent) ? std::bit_cast<std::uint32_t>(longest_side(box)) : 0U};
+    return {is_common(box, *extent) ? __builtin_bit_cast(std::uint32_t, longest_side(box)) : 0U};
   }
 };
 
@@ -31,7 +31,7 @@ struct KeyByCell {
     const SceneExtent scene = *extent;
     const SceneFrame frame = scene.frame(GridCells::kAxisBits / 2);
     const float width =
-        max(margin * std::bit_cast<float>(side->bits), frame.side / static_cast<float>(GridCells::kAcross - 1));
+        max(margin * __builtin_bit_cast(float, side->bits), frame.side / static_cast<float>(GridCells::kAcross - 1));
     const float scale = width > 0 ? 1.0F / width : 0.0F;
     std::uint32_t cell[3];
     for (int k = 0; k < 3; ++k) {

@@ -2,7 +2,6 @@
 // keys that order numbers as whole numbers.
 #pragma once
 
-#include <bit>
 #include <cstdint>
 
 #include "math/real.hpp"
@@ -53,11 +52,11 @@ PLUMB_HD constexpr std::uint32_t cell_of(float x, std::uint32_t cells) {
 
 /// a < b exactly when order_key(a) < order_key(b), except that -0 < +0.
 PLUMB_HD constexpr std::uint32_t order_key(float x) {
-  const auto bits = std::bit_cast<std::uint32_t>(x);
+  const auto bits = __builtin_bit_cast(std::uint32_t, x);
   return (bits & 0x80000000U) != 0 ? ~bits : bits | 0x80000000U;
 }
 PLUMB_HD constexpr float from_order_key(std::uint32_t key) {
-  return std::bit_cast<float>((key & 0x80000000U) != 0 ? key & 0x7FFFFFFFU : ~key);
+  return __builtin_bit_cast(float, (key & 0x80000000U) != 0 ? key & 0x7FFFFFFFU : ~key);
 }
 
 }  // namespace plumb::impulse

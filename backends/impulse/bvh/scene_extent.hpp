@@ -3,7 +3,6 @@
 // Whole numbers only (order keys, binary exponents), so that it does not matter in which order they are merged.
 #pragma once
 
-#include <bit>
 #include <cstdint>
 
 #include "bvh/morton.hpp"
@@ -25,7 +24,9 @@ PLUMB_HD constexpr float longest_side(const Box& box) {
   return static_cast<float>(max(side.x, max(side.y, side.z)));
 }
 /// Binary exponent of a number that is not negative, from 0 for 0 to 255.
-PLUMB_HD constexpr int exponent_of(float x) { return static_cast<int>(std::bit_cast<std::uint32_t>(x) >> 23 & 255U); }
+PLUMB_HD constexpr int exponent_of(float x) {
+  return static_cast<int>(__builtin_bit_cast(std::uint32_t, x) >> 23 & 255U);
+}
 
 /// Farthest coordinate from the origin of the boxes.
 PLUMB_HD constexpr float reach(const Box& box) {
@@ -79,7 +80,7 @@ struct SceneExtent {
   /// of the boxes' reaches, and what lies beyond counts as being at its edge.
   [[nodiscard]] PLUMB_HD SceneFrame frame(int bits) const {
     const std::uint32_t exponent = (placed == 0 ? 0 : reach_exponents / placed) + 1U + static_cast<std::uint32_t>(bits);
-    const auto edge = std::bit_cast<float>(min(exponent, 254U) << 23);
+    const auto edge = __builtin_bit_cast(float, min(exponent, 254U) << 23);
     SceneFrame cube{{0, 0, 0}, 0};
     for (int k = 0; k < 3 && !empty(); ++k) {
       cube.corner[k] = max(from_order_key(low[k]), -edge);

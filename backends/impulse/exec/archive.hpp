@@ -28,8 +28,8 @@ class Archive {
   void list(std::vector<T>& it) {
     std::uint64_t size = it.size();
     value(size);
-    it.resize(size);
-    items(it.data(), size);
+    it.resize(static_cast<std::size_t>(size));
+    items(it.data(), it.size());
   }
   /// The first n of them, which there must be.
   template <class T>

@@ -3,7 +3,6 @@
 // result.
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 
 #include "math/real.hpp"
@@ -28,7 +27,7 @@ PLUMB_HD inline U atomic_add(U* at, U value) {
 #if defined(__CUDA_ARCH__)
   return atomicAdd(atomic_word(at), value);
 #else
-  return std::atomic_ref<U>(*at).fetch_add(value, std::memory_order_relaxed);
+  return __atomic_fetch_add(at, value, __ATOMIC_RELAXED);
 #endif
 }
 template <class U>
@@ -36,7 +35,7 @@ PLUMB_HD inline U atomic_or(U* at, U value) {
 #if defined(__CUDA_ARCH__)
   return atomicOr(atomic_word(at), value);
 #else
-  return std::atomic_ref<U>(*at).fetch_or(value, std::memory_order_relaxed);
+  return __atomic_fetch_or(at, value, __ATOMIC_RELAXED);
 #endif
 }
 template <class U>
@@ -44,9 +43,8 @@ PLUMB_HD inline U atomic_min(U* at, U value) {
 #if defined(__CUDA_ARCH__)
   return atomicMin(atomic_word(at), value);
 #else
-  std::atomic_ref<U> target(*at);
-  U old = target.load(std::memory_order_relaxed);
-  while (value < old && !target.compare_exchange_weak(old, value, std::memory_order_relaxed)) {
+  U old = __atomic_load_n(at, __ATOMIC_RELAXED);
+  while (value < old && !__atomic_compare_exchange_n(at, &old, value, true, __ATOMIC_RELAXED, __ATOMIC_RELAXED)) {
   }
   return old;
 #endif
@@ -56,9 +54,8 @@ PLUMB_HD inline U atomic_max(U* at, U value) {
 #if defined(__CUDA_ARCH__)
   return atomicMax(atomic_word(at), value);
 #else
-  std::atomic_ref<U> target(*at);
-  U old = target.load(std::memory_order_relaxed);
-  while (old < value && !target.compare_exchange_weak(old, value, std::memory_order_relaxed)) {
+  U old = __atomic_load_n(at, __ATOMIC_RELAXED);
+  while (old < value && !__atomic_compare_exchange_n(at, &old, value, true, __ATOMIC_RELAXED, __ATOMIC_RELAXED)) {
   }
   return old;
 #endif
@@ -72,7 +69,7 @@ PLUMB_HD inline std::uint32_t atomic_arrive(std::uint32_t* at) {
   __threadfence();
   return before;
 #else
-  return std::atomic_ref<std::uint32_t>(*at).fetch_add(1U, std::memory_order_acq_rel);
+  return __atomic_fetch_add(at, 1U, __ATOMIC_ACQ_REL);
 #endif
 }
 

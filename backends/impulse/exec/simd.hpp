@@ -8,6 +8,10 @@
 #include <immintrin.h>
 #endif
 
+#if defined(__wasm__) && __clang_major__ < 19
+#error "results would differ: LLVM 14 makes +0 of -0 in vectors (x < 0 ? 0 : x as f32x4.max); clang 19 has the right bits"
+#endif
+
 #if !defined(__CUDACC__)
 
 namespace plumb::impulse::simd {
@@ -71,14 +75,14 @@ inline std::uint32_t bits_of(const Packed<float>::Mask& mask) {
 #if defined(__x86_64__)
   return static_cast<std::uint32_t>(_mm_movemask_ps(reinterpret_cast<__m128>(mask)));
 #else
-  return (mask[0] & 1U) | (mask[1] & 2U) | (mask[2] & 4U) | (mask[3] & 8U);
+  return static_cast<std::uint32_t>((mask[0] & 1) | (mask[1] & 2) | (mask[2] & 4) | (mask[3] & 8));
 #endif
 }
 inline std::uint32_t bits_of(const Packed<double>::Mask& mask) {
 #if defined(__x86_64__)
   return static_cast<std::uint32_t>(_mm_movemask_pd(reinterpret_cast<__m128d>(mask)));
 #else
-  return static_cast<std::uint32_t>((mask[0] & 1U) | (mask[1] & 2U));
+  return static_cast<std::uint32_t>((mask[0] & 1) | (mask[1] & 2));
 #endif
 }
 

@@ -132,7 +132,7 @@ void list_entries(MechanismElimination& found, const std::vector<Numbers>& below
   found.column_first.push_back(count_of(found.entries));
 
   const auto number_of = [&](std::uint32_t row, std::uint32_t column) {
-    const auto begin = found.entries.begin();
+    const JointEntry* const begin = found.entries.data();
     const auto at = std::lower_bound(begin + found.column_first[column], begin + found.column_first[column + 1], row,
                                      [](const JointEntry& entry, std::uint32_t r) { return entry.row < r; });
     return static_cast<std::uint32_t>(at - begin);
@@ -264,7 +264,7 @@ void put_together(const std::vector<Part>& parts, JointElimination& whole) {
 std::size_t JointEliminator::Hash::operator()(const Shape& shape) const {
   std::uint64_t hash = 0xCBF29CE484222325U;
   for (const std::uint32_t number : shape) hash = (hash ^ number) * 0x100000001B3U;
-  return hash;
+  return static_cast<std::size_t>(hash);
 }
 
 JointElimination JointEliminator::eliminate(const std::vector<Join>& joins, std::uint32_t none) {

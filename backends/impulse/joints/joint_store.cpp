@@ -29,10 +29,10 @@ void JointStore::exchange(Archive& archive, std::size_t slots) {
   archive.rows(impulses_, slots);
   std::uint64_t borne = reactions_.size();  // which only some scenes have
   archive.value(borne);
-  archive.rows(reactions_, borne);
+  archive.rows(reactions_, static_cast<std::size_t>(borne));
   std::uint64_t bodies = records_.empty() ? 0 : least_moment_.size();
   archive.value(bodies);
-  archive.rows(least_moment_, bodies);
+  archive.rows(least_moment_, static_cast<std::size_t>(bodies));
   changed_ = changed_ || archive.reads();
 }
 

@@ -48,8 +48,8 @@ void MechanismMemory::put(const OrderedJoints& ordered, std::span<const std::uin
   number_of_.assign(number);
   bodies_.assign(rows);
   loads_.grow(rows.size());
-  mobility_.grow(mobility);
-  scratch_.grow(scratch);
+  mobility_.grow(static_cast<std::size_t>(mobility));
+  scratch_.grow(static_cast<std::size_t>(scratch));
 }
 
 }  // namespace plumb::impulse

@@ -23,7 +23,7 @@ class RigidGroups {
     if (const std::size_t needed = std::size_t{max(a, b)} + 1; parents_.size() < needed) {
       const auto first = static_cast<std::uint32_t>(parents_.size());
       parents_.resize(needed);
-      std::iota(parents_.begin() + first, parents_.end(), first);
+      std::iota(parents_.data() + first, parents_.data() + needed, first);
     }
     const std::uint32_t root_a = root(a), root_b = root(b);
     parents_[max(root_a, root_b)] = min(root_a, root_b);

@@ -8,8 +8,12 @@ namespace plumb::impulse {
 
 namespace {
 
-PLUMB_HD inline bool same(const Position& x, const Position& y) { return x.x == y.x && x.y == y.y && x.z == y.z; }
-PLUMB_HD inline bool same(const Quat& x, const Quat& y) { return x.x == y.x && x.y == y.y && x.z == y.z && x.w == y.w; }
+[[maybe_unused]] PLUMB_HD inline bool same(const Position& x, const Position& y) {
+  return x.x == y.x && x.y == y.y && x.z == y.z;
+}
+[[maybe_unused]] PLUMB_HD inline bool same(const Quat& x, const Quat& y) {
+  return x.x == y.x && x.y == y.y && x.z == y.z && x.w == y.w;
+}
 
 struct RememberStill {
   Bodies bodies;

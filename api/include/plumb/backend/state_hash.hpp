@@ -4,8 +4,8 @@
 // sides of the wall use this class, so that a backend's hash and one that the host takes of the rows it read are equal.
 #pragma once
 
-#include <bit>
 #include <cstdint>
+#include <cstring>
 
 namespace plumb::backend {
 
@@ -17,7 +17,9 @@ class StateHash {
  public:
   void add(double number) {
     constexpr std::uint64_t canonical_nan = 0x7ff8000000000000u;
-    add_word(number != number ? canonical_nan : std::bit_cast<std::uint64_t>(number));
+    std::uint64_t bits;
+    std::memcpy(&bits, &number, sizeof bits);
+    add_word(number != number ? canonical_nan : bits);
   }
   void add_word(std::uint64_t word) {
     state_ = (state_ ^ word) * 0x9e3779b97f4a7c15u;  // 2^64 / golden ratio, odd

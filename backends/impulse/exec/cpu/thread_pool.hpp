@@ -1,11 +1,14 @@
-// The threads of a world: one, oneTBB's, or the host's job system.
+// The threads of a world: one, those of its own (arena.hpp), or the host's job system.
 #pragma once
 
 #include <cstdint>
+#include <memory>
 
 #include "plumb/plumb.h"
 
 namespace plumb::impulse {
+
+class Arena;
 
 /// How long a loop's body takes: tens of nanoseconds, or a microsecond.
 enum class LoopBody : std::uint8_t { kSmall, kLarge };
@@ -61,11 +64,10 @@ class ThreadPool {
   }
   void run_together(void* context, void (*task)(void*));
 
-  struct Arena;
   class Together;
   const PlumbHost* host_;
   std::uint32_t threads_;
-  Arena* arena_ = nullptr;  // own; null with one thread or with the host's job system
+  std::unique_ptr<Arena> arena_;  // own; null with one thread or with the host's job system
   Together* together_ = nullptr;
 };
 

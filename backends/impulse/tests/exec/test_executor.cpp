@@ -1,6 +1,5 @@
 // Threads: each loop visits everything once, whoever runs it, under the same rounding.
 #include <gtest/gtest.h>
-#include <xmmintrin.h>
 
 #include <algorithm>
 #include <atomic>
@@ -10,6 +9,7 @@
 
 #include "exec/executor.hpp"
 #include "exec/floating_point.hpp"
+#include "tests/rigs/host_modes.hpp"
 #include "tests/rigs/job_host.hpp"
 
 namespace plumb::impulse {
@@ -17,7 +17,7 @@ namespace {
 
 using test::JobHost;
 
-constexpr std::uint32_t kFlushToZero = 0x8040;  // and denormals are zero
+using test::modes::kFlush;
 
 void visits_all_once(ThreadPool& pool) {
   for (const std::uint32_t n : {0U, 1U, 7U, 64U, 65U, 100U, 1000U, 12345U}) {
@@ -87,22 +87,22 @@ TEST(ThreadPools, WorkWithoutTheHostsJobs) {
 }
 
 TEST(FloatingPoint, TheScopePutsTheCallersWordBack) {
-  const std::uint32_t before = _mm_getcsr();
-  _mm_setcsr(before | kFlushToZero);
+  const std::uint64_t before = simd::control_word();
+  simd::set_control_word(before | kFlush);
   {
     const FloatingPointScope scope;
-    EXPECT_EQ(_mm_getcsr() & kFlushToZero, 0U);
+    EXPECT_EQ(simd::control_word() & kFlush, 0U);
   }
-  EXPECT_EQ(_mm_getcsr() & kFlushToZero, kFlushToZero);
-  _mm_setcsr(before);
+  EXPECT_EQ(simd::control_word() & kFlush, kFlush);
+  simd::set_control_word(before);
 }
 
 TEST(FloatingPoint, TasksOfTheHostRunUnderOurRounding) {
   JobHost jobs(3);
-  jobs.control_word = _mm_getcsr() | kFlushToZero;
+  jobs.control_word = simd::control_word() | kFlush;
   ThreadPool pool(&jobs.host, 3);
   std::atomic<std::uint32_t> wrong = 0;
-  pool.each(1000, [&](std::uint32_t) { wrong += (_mm_getcsr() & kFlushToZero) != 0; });
+  pool.each(1000, [&](std::uint32_t) { wrong += (simd::control_word() & kFlush) != 0; });
   EXPECT_EQ(wrong, 0U);
 }
 

@@ -1,7 +1,6 @@
 // A host may call in any rounding and with flushing to zero: every entry of every table gives the same bits, and the
 // host finds its mode as it left it.
 #include <gtest/gtest.h>
-#include <xmmintrin.h>
 
 #include <array>
 #include <bit>
@@ -11,25 +10,25 @@
 #include "plugin/decorated_tables.hpp"
 #include "plugin/open.hpp"
 #include "tests/rigs/engine.hpp"
+#include "tests/rigs/host_modes.hpp"
 
 namespace plumb::impulse::test {
 namespace {
 
-constexpr std::uint32_t kModeBits = 0xe040;  // flush to zero, rounding, denormals are zero
-constexpr std::uint32_t kNearest = 0, kDown = 0x2000, kUp = 0x4000, kToZero = 0x6000, kFlush = 0x8040;
+using modes::kModeBits, modes::kNearest;
 
 /// The host's thread is in this mode while it calls, and in its own while the test computes.
 struct HostMode {
-  HostMode() : own(_mm_getcsr()) {
-    _mm_setcsr((own & ~kModeBits) | mode);
+  HostMode() : own(simd::control_word()) {
+    simd::set_control_word((own & ~kModeBits) | mode);
     ++calls;
   }
   ~HostMode() {
-    if ((_mm_getcsr() & kModeBits) != mode) ++lost;
-    _mm_setcsr(own);
+    if ((simd::control_word() & kModeBits) != mode) ++lost;
+    simd::set_control_word(own);
   }
-  std::uint32_t own;
-  static inline std::uint32_t mode = kNearest;
+  std::uint64_t own;
+  static inline std::uint64_t mode = kNearest;
   static inline int calls = 0, lost = 0;
 };
 
@@ -223,7 +222,7 @@ void read_events(Scene& scene, Digest& digest) {
 }
 
 /// Everything that a scene says of itself when the host is in this mode.
-std::uint64_t digest_of(const NamedScene& recorded, std::uint32_t mode) {
+std::uint64_t digest_of(const NamedScene& recorded, std::uint64_t mode) {
   HostMode::mode = mode;
   const Backend backend(negotiate(&open_from_any_mode, "impulse"));
   NamedScene all = recorded;
@@ -263,7 +262,7 @@ TEST_P(Rounding, OfTheHostChangesNoBit) {
   HostMode::calls = HostMode::lost = 0;
   const std::uint64_t nearest = digest_of(GetParam(), kNearest);
   EXPECT_GT(HostMode::calls, 20);
-  for (const std::uint32_t mode : {kDown, kUp, kToZero, kFlush}) {
+  for (const std::uint64_t mode : {modes::kDown, modes::kUp, modes::kToZero, modes::kFlush}) {
     EXPECT_EQ(digest_of(GetParam(), mode), nearest) << "control word " << std::hex << mode;
     EXPECT_EQ(HostMode::lost, 0) << "the host's mode was not put back, control word " << std::hex << mode;
   }

@@ -1,12 +1,11 @@
 // A host with a job system of its own: plain threads, made anew for each run.
 #pragma once
 
-#include <xmmintrin.h>
-
 #include <atomic>
 #include <thread>
 #include <vector>
 
+#include "exec/simd.hpp"
 #include "plumb/plumb.h"
 
 namespace plumb::impulse::test {
@@ -22,7 +21,7 @@ struct JobHost {
   }
 
   PlumbHost host{};
-  std::uint32_t control_word = _mm_getcsr();  ///< of the floating-point unit in the workers
+  std::uint64_t control_word = simd::control_word();  ///< of the floating-point unit in the workers
   std::atomic<std::uint32_t> runs = 0;
 
  private:
@@ -32,7 +31,7 @@ struct JobHost {
     std::vector<std::thread> threads;
     for (std::uint32_t worker = 0; worker < host.worker_count; ++worker)
       threads.emplace_back([&] {
-        _mm_setcsr(control_word);
+        simd::set_control_word(control_word);
         for (std::uint32_t i = next++; i < count; i = next++) task(context, i);
       });
     for (std::thread& thread : threads) thread.join();

@@ -1,11 +1,11 @@
 // The whole step: the same bits however it is run, losses told and mended, and nobody harmed by a neighbour.
 #include <gtest/gtest.h>
-#include <xmmintrin.h>
 
 #include <cmath>
 
 #include "math/real.hpp"
 #include "tests/rigs/engine.hpp"
+#include "tests/rigs/host_modes.hpp"
 #include "tests/rigs/job_host.hpp"
 
 namespace plumb::impulse::test {
@@ -44,12 +44,12 @@ TEST(Step, HasTheSameBitsHoweverManyThreads) {
 TEST(Step, HasTheSameBitsUnderAnyRoundingOfTheHost) {
   Scene scene(engine(), kNeeds, kDown, 1);
   fill(scene, 300);
-  const std::uint32_t before = _mm_getcsr();
-  _mm_setcsr(before | 0x8040 | 0x2000);  // flush to zero, round down
+  const std::uint64_t before = simd::control_word();
+  simd::set_control_word(before | modes::kFlush | modes::kDown);
   scene.run(90);
-  const std::uint32_t after = _mm_getcsr();
-  _mm_setcsr(before);
-  EXPECT_EQ(after & 0xe040U, 0xa040U) << "the caller's word was not put back";
+  const std::uint64_t after = simd::control_word();
+  simd::set_control_word(before);
+  EXPECT_EQ(after & modes::kModeBits, modes::kFlush | modes::kDown) << "the caller's word was not put back";
   EXPECT_EQ(scene.hash(), pile_hash(1));
 }
 
