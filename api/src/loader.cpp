@@ -1,7 +1,5 @@
 #include "plumb/loader.hpp"
 
-#include <dlfcn.h>
-
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
@@ -9,6 +7,7 @@
 #include <mutex>
 
 #include "host_world.hpp"
+#include "library.hpp"
 #include "plumb/nearest.hpp"
 
 namespace plumb {
@@ -17,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kPrefix = "plumb-";
-constexpr std::string_view kSuffix = ".so";
+using library::kSuffix;
 
 /// Libraries are never unloaded, so what is open stays open; one entry a file.
 struct OpenBackends {
@@ -34,13 +33,7 @@ std::string version_text(std::uint32_t version) {
   return std::to_string(PLUMB_VERSION_MAJOR(version)) + "." + std::to_string(PLUMB_VERSION_MINOR(version));
 }
 
-fs::path program_folder() {
-  std::error_code ignored;
-  const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
-  return program.parent_path();
-}
-
-bool is_file_name(const std::string& name) { return name.find('/') != std::string::npos || name.ends_with(kSuffix); }
+bool is_file_name(const std::string& name) { return fs::path(name).has_parent_path() || name.ends_with(kSuffix); }
 
 std::string file_of(const std::string& name_or_file) {
   if (is_file_name(name_or_file)) {
@@ -56,7 +49,8 @@ std::string file_of(const std::string& name_or_file) {
   std::string text = "no backend is called \"" + name_or_file + "\"";
   std::vector<std::string> names;
   for (const FoundBackend& backend : found) names.push_back(backend.name);
-  text += names.empty() ? "; none was found at all: set PLUMB_BACKEND_PATH to the folder that holds plumb-*.so"
+  text += names.empty() ? "; none was found at all: set PLUMB_BACKEND_PATH to the folder that holds plumb-*" +
+                              std::string(kSuffix)
                         : suggestion(name_or_file, names);
   throw Error(PLUMB_E_INVALID_ARGUMENT, text);
 }
@@ -114,12 +108,12 @@ std::vector<std::string> backend_path() {
   if (const char* given = std::getenv("PLUMB_BACKEND_PATH"); given != nullptr) {
     std::string_view rest = given;
     while (!rest.empty()) {
-      const std::size_t colon = std::min(rest.find(':'), rest.size());
+      const std::size_t colon = std::min(rest.find(library::kBetweenFolders), rest.size());
       if (colon != 0) wanted.emplace_back(rest.substr(0, colon));
       rest.remove_prefix(std::min(colon + 1, rest.size()));
     }
   }
-  wanted.push_back(program_folder() / ".." / "lib" / "plumb");
+  wanted.push_back(library::program_folder() / ".." / "lib" / "plumb");
   wanted.emplace_back(PLUMB_INSTALLED_BACKENDS);
   std::vector<std::string> folders;
   for (const fs::path& folder : wanted) {
@@ -180,10 +174,7 @@ Backend open_backend(const std::string& name_or_file, const PlumbHost* host) {
   if (const auto known = backends.by_file.find(file); known != backends.by_file.end())
     return Backend(known->second, file);
 
-  // Local binding keeps the engines' symbols apart; exclusion groups are for those that clash all the same.
-  void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (library == nullptr) throw Error(PLUMB_E_INVALID_ARGUMENT, std::string("backend cannot be loaded: ") + dlerror());
-  const auto open = reinterpret_cast<PlumbOpenFunction>(dlsym(library, PLUMB_OPEN_SYMBOL));
+  const auto open = reinterpret_cast<PlumbOpenFunction>(library::symbol(library::open(file), PLUMB_OPEN_SYMBOL));
   if (open == nullptr)
     throw Error(PLUMB_E_INVALID_ARGUMENT, file + " is no Plumb backend: it does not export " PLUMB_OPEN_SYMBOL);
   const PlumbBackendTable* table = negotiate(open, file, host);

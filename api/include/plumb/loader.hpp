@@ -33,20 +33,21 @@ class Backend {
 };
 
 struct FoundBackend {
-  std::string name;  ///< "bullet" for plumb-bullet.so
+  std::string name;  ///< "bullet" for plumb-bullet.so or .dll
   std::string file;
 };
 
-/// The folders that are searched, in order: each of $PLUMB_BACKEND_PATH (colons between), ../lib/plumb beside the
-/// program's folder, the install prefix's lib/plumb. Folders that do not exist are left out.
+/// The folders that are searched, in order: each of $PLUMB_BACKEND_PATH (colons between, on Windows semicolons),
+/// ../lib/plumb beside the program's folder, the install prefix's lib/plumb. Folders that do not exist are left out.
 [[nodiscard]] std::vector<std::string> backend_path();
 
 /// Backends on the path, by name; the first of a name wins. Nothing is opened.
 [[nodiscard]] std::vector<FoundBackend> find_backends();
 
-/// Opens a backend by name or by file (anything with a slash or ending in .so). host may be null and must live as long
-/// as the process. Throws Error: PLUMB_E_INVALID_ARGUMENT (not found; names the nearest), PLUMB_E_VERSION (which side
-/// is too old), PLUMB_E_EXCLUDED (which backend stands in the way), or what the backend answered.
+/// Opens a backend by name or by file (anything with a slash or ending in .so, on Windows .dll). host may be null and
+/// must live as long as the process. Throws Error: PLUMB_E_INVALID_ARGUMENT (not found; names the nearest),
+/// PLUMB_E_VERSION (which side is too old), PLUMB_E_EXCLUDED (which backend stands in the way), or what the backend
+/// answered.
 [[nodiscard]] Backend open_backend(const std::string& name_or_file, const PlumbHost* host = nullptr);
 
 /// Negotiates with an open function that is already at hand, for backends linked into the program and for tests.
