@@ -104,8 +104,16 @@ std::string origin(const plumb::Backend& backend) {
   return device == "cpu" ? device : "gpu: " + device;
 }
 
+plumb::Backend open(const std::string& backend) {
+#if defined(__wasm__)  // which loads nothing at run time: the engine is linked in
+  return plumb::Backend(plumb::negotiate(&plumb_backend_open, backend));
+#else
+  return plumb::open_backend(backend);
+#endif
+}
+
 int run(const Question& question) {
-  const plumb::Backend backend = plumb::open_backend(question.backend);
+  const plumb::Backend backend = open(question.backend);
   int left_out = 0, wrong = 0;
   for (const NamedScene& scene : named_scenes()) {
     if (!wanted(question, scene.name)) continue;
