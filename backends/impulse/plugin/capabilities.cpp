@@ -43,8 +43,10 @@ PlumbDegree World::capability(PlumbCapability kind, std::uint32_t a, std::uint32
 }
 
 const PlumbBackendInfo& World::info() {
+  // In double there is no device that it is held against.
+  constexpr auto kDeterminism = sizeof(Real) == 8 ? PLUMB_DETERMINISM_THREADS : PLUMB_DETERMINISM_DEVICE;
   static const PlumbBackendInfo info = {sizeof info,
-                                        PLUMB_DETERMINISM_THREADS,
+                                        kDeterminism,
                                         PLUMB_IMPULSE_NAME,
                                         "0.1",
                                         PLUMB_IMPULSE_BUILD " physics " PLUMB_IMPULSE_PHYSICS_REVISION_TEXT,
