@@ -42,6 +42,8 @@ void upload(void* to, const void* from_host, std::size_t bytes) {
   const std::scoped_lock no_recording(recording_mutex());
   check_cuda(cudaDeviceSynchronize(), "a kernel failed");
   check_cuda(cudaMemcpy(to, from_host, bytes, cudaMemcpyHostToDevice), "cannot copy to the device");
+  // From memory that is not page-locked the call returns when the bytes are on their way, and not when they are there.
+  check_cuda(cudaDeviceSynchronize(), "cannot copy to the device");
 }
 void download(void* to_host, const void* from, std::size_t bytes) {
   const std::scoped_lock no_recording(recording_mutex());
