@@ -125,29 +125,27 @@ PLUMB_HD void work_on_surfaces([[maybe_unused]] bool surface_velocities, const R
   }
 }
 
-/// Body a (0) or b (1) of a contact comes in. by_turns: but for its velocity.
+/// The bodies of a contact, or of kLanes of them.
 template <class N>
-PLUMB_HD SolverBody<N> load_end(const SolverBodies& bodies, const LoadedContact<N>& loaded, int which, bool moved,
-                                [[maybe_unused]] bool by_turns) {
-  const std::uint32_t* indices = which == 0 ? loaded.a : loaded.b;
+struct ContactBodies {
+  SolverBody<N> a, b;
+};
+/// They come in. by_turns: when the contact has its turn on both of them.
+template <class N>
+PLUMB_HD ContactBodies<N> load_bodies(const SolverBodies& bodies, const LoadedContact<N>& loaded, bool moved,
+                                      [[maybe_unused]] bool by_turns) {
 #if defined(__CUDA_ARCH__)
   if (by_turns) {
-    SolverBody<N> body;
-    load_place(bodies, *indices, moved, body);
-    body.inverse_mass = loaded.turns.inverse_mass[which];
-    return body;
+    ContactBodies<N> both;
+    load_place(bodies, *loaded.a, moved, both.a);
+    load_place(bodies, *loaded.b, moved, both.b);
+    both.a.inverse_mass = loaded.turns.inverse_mass[0];
+    both.b.inverse_mass = loaded.turns.inverse_mass[1];
+    HandOver(bodies.velocity, *loaded.a, *loaded.b, loaded.turns).take(both.a, both.b);
+    return both;
   }
 #endif
-  return load_body<N>(bodies, indices, moved);
-}
-/// by_turns: the velocities come in when the contact has its turn on both bodies.
-template <class N>
-PLUMB_HD void await_turns([[maybe_unused]] const SolverBodies& bodies, [[maybe_unused]] const LoadedContact<N>& loaded,
-                          [[maybe_unused]] bool by_turns, [[maybe_unused]] SolverBody<N>& a,
-                          [[maybe_unused]] SolverBody<N>& b) {
-#if defined(__CUDA_ARCH__)
-  if (by_turns) HandOver(bodies.velocity, *loaded.a, *loaded.b, loaded.turns).take(a, b);
-#endif
+  return {load_body<N>(bodies, loaded.a, moved), load_body<N>(bodies, loaded.b, moved)};
 }
 /// They go back.
 template <class N>
@@ -179,9 +177,8 @@ PLUMB_HD void work_on(const ContactSet& contacts, const SolverBodies& bodies, st
                       LoadedContact<N>& loaded, BodyUse use, bool by_turns, const Work& work) {
   const ContactRows& rows = contacts.rows;
   with_contact(rows, slot, loaded, [&](auto& contact) {
-    const bool moved = reads_places(use);
-    SolverBody<N> a = load_end(bodies, loaded, 0, moved, by_turns), b = load_end(bodies, loaded, 1, moved, by_turns);
-    await_turns(bodies, loaded, by_turns, a, b);
+    ContactBodies<N> both = load_bodies(bodies, loaded, reads_places(use), by_turns);
+    SolverBody<N>&a = both.a, &b = both.b;
     const bool whole = kMechanisms && bodies.mechanisms.count != 0;
     if (whole) {
       stand_for_mechanisms<N>(bodies, loaded.a, a);
