@@ -9,7 +9,8 @@
 #endif
 
 #if defined(__wasm__) && __clang_major__ < 19
-#error "results would differ: LLVM 14 makes +0 of -0 in vectors (x < 0 ? 0 : x as f32x4.max); clang 19 has the right bits"
+#error \
+    "results would differ: LLVM 14 makes +0 of -0 in vectors (x < 0 ? 0 : x as f32x4.max); clang 19 has the right bits"
 #endif
 
 #if !defined(__CUDACC__)
