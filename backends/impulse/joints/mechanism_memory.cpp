@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "math/wide.hpp"
 #include "plumb/assert.hpp"
 
 namespace plumb::impulse {
