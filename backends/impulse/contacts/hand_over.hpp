@@ -32,6 +32,7 @@
 // mechanisms, whose bodies are pushed from afar, keep their barriers.
 #pragma once
 
+#include "bodies/mechanism.hpp"
 #include "bodies/step_counters.hpp"
 #include "contacts/contact.hpp"
 #include "exec/executor.hpp"
