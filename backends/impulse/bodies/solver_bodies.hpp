@@ -28,7 +28,7 @@ struct SolverBodies {
   WorldInertia* inertia;
   FreeVelocity* free_velocity;
   SubstepForces* forces;  ///< of dynamic bodies
-  bool swings;  ///< angular velocities of bodies that tumble are those of swung_frame.hpp
+  bool swings;            ///< angular velocities of bodies that tumble are those of swung_frame.hpp
   Mechanisms mechanisms;
 };
 
