@@ -37,7 +37,8 @@ class HostWorld final : public IPhysicsWorld,
                         private ISettings,
                         private ISnapshot,
                         private IState,
-                        private IExceptions {
+                        private IExceptions,
+                        private IModify {
  public:
   HostWorld(const PlumbBackendTable& table, PlumbWorld* world)
       : table_(table),
@@ -49,7 +50,8 @@ class HostWorld final : public IPhysicsWorld,
         settings_(find<PlumbSettingsTable>(PLUMB_EXT_SETTINGS)),
         snapshot_(find<PlumbSnapshotTable>(PLUMB_EXT_SNAPSHOT)),
         state_(find<PlumbStateTable>(PLUMB_EXT_STATE)),
-        exceptions_(find<PlumbExceptionsTable>(PLUMB_EXT_EXCEPTIONS)) {}
+        exceptions_(find<PlumbExceptionsTable>(PLUMB_EXT_EXCEPTIONS)),
+        modify_(find<PlumbModifyTable>(PLUMB_EXT_MODIFY)) {}
   ~HostWorld() override { table_.destroy_world(world_); }
 
   // --- core ----------------------------------------------------------------------------------------------------------
@@ -114,6 +116,7 @@ class HostWorld final : public IPhysicsWorld,
   ISnapshot* snapshot() override { return snapshot_ == nullptr ? nullptr : this; }
   IState* state() override { return state_ == nullptr ? nullptr : this; }
   IExceptions* exceptions() override { return exceptions_ == nullptr ? nullptr : this; }
+  IModify* modify() override { return modify_ == nullptr ? nullptr : this; }
 
  private:
   // --- extensions ----------------------------------------------------------------------------------------------------
@@ -214,6 +217,12 @@ class HostWorld final : public IPhysicsWorld,
   PlumbResult set_exceptions(std::span<const PlumbBodyPair> pairs, bool touch) override {
     return exceptions_->set(world_, pairs.data(), sizeof(PlumbBodyPair), count_of(pairs), touch ? 1 : 0);
   }
+  PlumbResult modify_bodies(std::span<const PlumbBodyChange> changes) override {
+    return modify_->bodies(world_, changes.data(), sizeof(PlumbBodyChange), count_of(changes));
+  }
+  PlumbResult modify_joints(std::span<const PlumbJointChange> changes) override {
+    return modify_->joints(world_, changes.data(), sizeof(PlumbJointChange), count_of(changes));
+  }
   PlumbResult list_exceptions(std::span<const PlumbBodyPair>& pairs) override {
     return look(exceptions_->list, exception_pairs_, pairs);
   }
@@ -253,6 +262,7 @@ class HostWorld final : public IPhysicsWorld,
   const PlumbSnapshotTable* snapshot_;
   const PlumbStateTable* state_;
   const PlumbExceptionsTable* exceptions_;
+  const PlumbModifyTable* modify_;
   std::vector<PlumbContact> contact_rows_;
   std::vector<PlumbEvent> event_rows_;
   std::vector<PlumbBody> body_ids_, row_ids_;

@@ -93,6 +93,23 @@ SIZE(PlumbJointsTable, 40)
   AT(PlumbJointsTable, struct_size, 0) AT(PlumbJointsTable, reserved, 4) AT(PlumbJointsTable, create, 8)
   AT(PlumbJointsTable, destroy, 16) AT(PlumbJointsTable, read, 24) AT(PlumbJointsTable, write, 32)
 
+/* modify.h */
+SIZE(PlumbBodyChange, 136)
+  AT(PlumbBodyChange, body, 0) AT(PlumbBodyChange, what, 8) AT(PlumbBodyChange, motion, 12)
+  AT(PlumbBodyChange, flags, 16) AT(PlumbBodyChange, locks, 20) AT(PlumbBodyChange, shape, 24)
+  AT(PlumbBodyChange, mass_mode, 32) AT(PlumbBodyChange, reserved, 36) AT(PlumbBodyChange, density, 40)
+  AT(PlumbBodyChange, mass, 48) AT(PlumbBodyChange, centre_of_mass, 56) AT(PlumbBodyChange, inertia, 80)
+  AT(PlumbBodyChange, inertia_orientation, 104)
+SIZE(PlumbJointChange, 664)
+  AT(PlumbJointChange, joint, 0) AT(PlumbJointChange, what, 8) AT(PlumbJointChange, enabled, 12)
+  AT(PlumbJointChange, collide_connected, 16) AT(PlumbJointChange, reserved, 20) AT(PlumbJointChange, frame_a, 24)
+  AT(PlumbJointChange, frame_b, 80) AT(PlumbJointChange, axis_modes, 136) AT(PlumbJointChange, limits, 160)
+  AT(PlumbJointChange, motors, 304) AT(PlumbJointChange, springs, 448) AT(PlumbJointChange, rest_length, 640)
+  AT(PlumbJointChange, break_force, 648) AT(PlumbJointChange, break_torque, 656)
+SIZE(PlumbModifyTable, 24)
+  AT(PlumbModifyTable, struct_size, 0) AT(PlumbModifyTable, reserved, 4) AT(PlumbModifyTable, bodies, 8)
+  AT(PlumbModifyTable, joints, 16)
+
 /* queries.h */
 SIZE(PlumbRay, 64)
   AT(PlumbRay, origin, 0) AT(PlumbRay, translation, 24) AT(PlumbRay, filter, 48)
@@ -247,6 +264,12 @@ IS(PLUMB_JOINT_REACTION, 1) IS(PLUMB_JOINT_MOTOR, 2) IS(PLUMB_JOINT_FIELD_COUNT,
 IS(PLUMB_JOINT_HAS_MOTORS, 1) IS(PLUMB_JOINT_HAS_SPRINGS, 2) IS(PLUMB_JOINT_BREAKS, 3) IS(PLUMB_JOINT_HAS_REACTION, 4)
 IS(PLUMB_JOINT_FEATURE_COUNT, 5)
 
+/* modify.h */
+IS(PLUMB_MODIFY_MOTION, 1) IS(PLUMB_MODIFY_SHAPE, 2) IS(PLUMB_MODIFY_MASS, 4) IS(PLUMB_MODIFY_FLAGS, 8)
+IS(PLUMB_MODIFY_LOCKS, 16) IS(PLUMB_MODIFY_BODY_COUNT, 5) IS(PLUMB_MODIFY_FRAMES, 1) IS(PLUMB_MODIFY_LIMITS, 2)
+IS(PLUMB_MODIFY_MOTORS, 4) IS(PLUMB_MODIFY_SPRINGS, 8) IS(PLUMB_MODIFY_STRENGTH, 16)
+IS(PLUMB_MODIFY_COLLIDE_CONNECTED, 32) IS(PLUMB_MODIFY_ENABLED, 64) IS(PLUMB_MODIFY_JOINT_COUNT, 7)
+
 /* queries.h */
 IS(PLUMB_QUERY_RAY, 0) IS(PLUMB_QUERY_CAST, 1) IS(PLUMB_QUERY_OVERLAP, 2) IS(PLUMB_QUERY_KIND_COUNT, 3)
 IS(PLUMB_HIT_CLOSEST, 0) IS(PLUMB_HIT_ALL, 1)
@@ -257,4 +280,5 @@ IS(PLUMB_DETERMINISM_NONE, 0) IS(PLUMB_DETERMINISM_RUN, 1) IS(PLUMB_DETERMINISM_
 IS(PLUMB_DETERMINISM_DEVICE, 3) IS(PLUMB_CAP_SHAPE, 0) IS(PLUMB_CAP_PAIR, 1) IS(PLUMB_CAP_JOINT, 2)
 IS(PLUMB_CAP_JOINT_FEATURE, 3) IS(PLUMB_CAP_QUERY, 4) IS(PLUMB_CAP_FIELD_READ, 5) IS(PLUMB_CAP_FIELD_WRITE, 6)
 IS(PLUMB_CAP_NEED, 7) IS(PLUMB_CAP_EVENT, 8) IS(PLUMB_CAP_PHASE_TIME, 9) IS(PLUMB_CAP_RESIDUAL, 10)
-IS(PLUMB_CAP_SNAPSHOT, 11) IS(PLUMB_CAP_HOST_JOBS, 12) IS(PLUMB_CAP_CHILD_MATERIAL, 13) IS(PLUMB_CAP_COUNT, 14)
+IS(PLUMB_CAP_SNAPSHOT, 11) IS(PLUMB_CAP_HOST_JOBS, 12) IS(PLUMB_CAP_CHILD_MATERIAL, 13) IS(PLUMB_CAP_MODIFY, 14)
+IS(PLUMB_CAP_COUNT, 15)

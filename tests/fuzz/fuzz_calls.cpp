@@ -24,6 +24,7 @@ class Fuzzer {
     collide_ = static_cast<const PlumbCollideTable*>(table_.extension(PLUMB_EXT_COLLIDE));
     debug_ = static_cast<const PlumbDebugTable*>(table_.extension(PLUMB_EXT_DEBUG));
     exceptions_ = static_cast<const PlumbExceptionsTable*>(table_.extension(PLUMB_EXT_EXCEPTIONS));
+    modify_ = static_cast<const PlumbModifyTable*>(table_.extension(PLUMB_EXT_MODIFY));
     state_ = static_cast<const PlumbStateTable*>(table_.extension(PLUMB_EXT_STATE));
     fresh_world();
   }
@@ -274,6 +275,46 @@ class Fuzzer {
     if (count > bodies_.size() * bodies_.size()) broken_ = "more pair exceptions than pairs";
   }
 
+  void modify_bodies() {
+    if (modify_ == nullptr) return;
+    PlumbBodyChange changes[2];
+    for (PlumbBodyChange& change : changes) {
+      change = plumb::body_change(handle(bodies_));
+      change.what = chance(30) ? below(200) : 1u << below(PLUMB_MODIFY_BODY_COUNT);
+      if (chance(2)) change.what |= PLUMB_MODIFY_MASS;
+      change.motion = below(PLUMB_MOTION_COUNT + (chance(40) ? 1 : 0));
+      change.flags = chance(2) ? below(40) : 0;
+      change.locks = below(64);
+      change.shape = chance(6) ? 0 : handle(shapes_);
+      change.mass_mode = below(3);
+      change.density = 100 * positive();
+      change.mass = positive();
+      change.centre_of_mass = chance(3) ? vector() : PlumbVec3{0, 0, 0};
+      change.inertia = {positive(), positive(), positive()};
+      change.inertia_orientation = unit();
+    }
+    judge(modify_->bodies(world_, chance(60) ? nullptr : changes, chance(60) ? 8 : sizeof changes[0], 1 + below(2)));
+  }
+
+  void modify_joint() {
+    if (modify_ == nullptr) return;
+    PlumbJointChange change = plumb::joint_change(handle(joint_ids_));
+    change.what = chance(30) ? below(600) : 1u << below(PLUMB_MODIFY_JOINT_COUNT);
+    change.enabled = below(2);
+    change.collide_connected = below(2);
+    change.frame_a = {vector(), unit()};
+    change.frame_b = {vector(), unit()};
+    for (std::size_t axis = 0; axis < 6; ++axis) {
+      change.axis_modes[axis] = below(3);
+      change.limits[axis] = {-positive(), positive(), chance(4) ? 1u : 0u, 0};
+      change.motors[axis] = {number(), positive(), chance(6) ? 1u : 0u, 0};
+      change.springs[axis] = {0, positive(), positive(), chance(8) ? 1u : 0u, 0};
+    }
+    change.rest_length = positive();
+    change.break_force = chance(4) ? 1000 * positive() : 0;
+    judge(modify_->joints(world_, &change, sizeof change, 1));
+  }
+
   void destroy_some() {
     const PlumbBody body = handle(bodies_);
     const PlumbShape shape = handle(shapes_);
@@ -298,7 +339,7 @@ class Fuzzer {
 
   void one_call() {
     const bool full = bodies_.size() > 40;
-    switch (below(17)) {
+    switch (below(19)) {
       case 0: return shapes_.size() < 30 ? create_shape() : destroy_some();
       case 1:
       case 2: return full ? destroy_some() : create_bodies();
@@ -313,6 +354,8 @@ class Fuzzer {
       case 11: return borrow();
       case 12: return destroy_some();
       case 13: return except();
+      case 14:
+      case 15: return chance(2) ? modify_bodies() : modify_joint();
       default: return step();
     }
   }
@@ -329,6 +372,7 @@ class Fuzzer {
   const PlumbDebugTable* debug_ = nullptr;
   const PlumbStateTable* state_ = nullptr;
   const PlumbExceptionsTable* exceptions_ = nullptr;
+  const PlumbModifyTable* modify_ = nullptr;
   std::vector<std::uint64_t> shapes_, bodies_, joint_ids_;
   std::uint64_t refused_ = 0, done_ = 0, worlds_lost_ = 0;
   const char* broken_ = nullptr;

@@ -206,6 +206,16 @@ class IExceptions {
   virtual PlumbResult list_exceptions(std::span<const PlumbBodyPair>& /*pairs*/) { return PLUMB_E_UNSUPPORTED; }
 };
 
+/// plumb.modify/1. A backend gets living bodies and joints, each once. Of bodies all members are what they will be,
+/// with the mass explicit; what says which of them differ. Of joints the members named by what are checked; modify.hpp
+/// puts them into a descriptor.
+class IModify {
+ public:
+  virtual ~IModify() = default;
+  virtual PlumbResult modify_bodies(std::span<const PlumbBodyChange> changes) = 0;
+  virtual PlumbResult modify_joints(std::span<const PlumbJointChange> changes) = 0;
+};
+
 // --- the world -------------------------------------------------------------------------------------------------------
 
 class IPhysicsWorld {
@@ -246,6 +256,7 @@ class IPhysicsWorld {
   virtual ISnapshot* snapshot() { return nullptr; }
   virtual IState* state() { return nullptr; }
   virtual IExceptions* exceptions() { return nullptr; }
+  virtual IModify* modify() { return nullptr; }
 
   // Only the host calls what follows; backend.hpp answers it for every backend.
 
@@ -294,6 +305,20 @@ inline PlumbResult check(const IPhysicsWorld& world, PlumbResult result) {
   desc.type = type;
   desc.frame_a = desc.frame_b = identity_pose();
   return desc;
+}
+
+/// A change of nothing yet: set its bits and members.
+[[nodiscard]] inline PlumbBodyChange body_change(PlumbBody body) {
+  PlumbBodyChange change{};
+  change.body = body;
+  change.inertia_orientation = {0, 0, 0, 1};
+  return change;
+}
+[[nodiscard]] inline PlumbJointChange joint_change(PlumbJoint joint) {
+  PlumbJointChange change{};
+  change.joint = joint;
+  change.frame_a = change.frame_b = identity_pose();
+  return change;
 }
 
 [[nodiscard]] inline PlumbWorldDesc world_desc(PlumbNeeds needs) {

@@ -15,6 +15,7 @@
 #include "plumb/debug.h"
 #include "plumb/exceptions.h"
 #include "plumb/joints.h"
+#include "plumb/modify.h"
 #include "plumb/queries.h"
 #include "plumb/settings.h"
 #include "plumb/shapes.h"
@@ -86,7 +87,8 @@ enum {
   PLUMB_CAP_SNAPSHOT = 11,
   PLUMB_CAP_HOST_JOBS = 12,      /* runs its tasks on PlumbHost.run */
   PLUMB_CAP_CHILD_MATERIAL = 13, /* materials of compound children */
-  PLUMB_CAP_COUNT = 14
+  PLUMB_CAP_MODIFY = 14,         /* 0: bodies, 1: joints; index of a PLUMB_MODIFY_ bit. Since 1.2 */
+  PLUMB_CAP_COUNT = 15
 };
 
 typedef struct PlumbBackendTable {

@@ -17,7 +17,7 @@ extern "C" {
 #define PLUMB_MAKE_VERSION(major, minor) (((uint32_t)(major) << 16) | (uint32_t)(minor))
 #define PLUMB_VERSION_MAJOR(version) ((uint32_t)(version) >> 16)
 #define PLUMB_VERSION_MINOR(version) ((uint32_t)(version)&0xffffu)
-#define PLUMB_VERSION PLUMB_MAKE_VERSION(1, 1)
+#define PLUMB_VERSION PLUMB_MAKE_VERSION(1, 2)
 
 #if defined(_WIN32)
 #define PLUMB_EXPORT __declspec(dllexport)

@@ -235,12 +235,28 @@ class GuardedExtensions : public GuardedWorld {
     std::span<const std::byte> payload;
     const PlumbResult result = extension.save(payload);
     const std::vector<std::byte> framed =
-        frame_snapshot(payload, format_of(extension), bodies_.in_order(), joints_.in_order(), exceptions_.list());
+        frame_snapshot(payload, format_of(extension), hash_of_objects(), exceptions_.list());
     *size = framed.size();
     if (capacity < framed.size()) return PLUMB_TRUNCATED;
     require_pointer(data, capacity, "data");
     std::memcpy(data, framed.data(), framed.size());
     return result;
+  }
+
+  /// Who lives, and what a body is made of: what a snapshot of moving things must find as it was.
+  [[nodiscard]] std::uint64_t hash_of_objects() {
+    StateHash hash;
+    for (const PlumbBody handle : bodies_.in_order()) {
+      const BodyRecord& body = bodies_[handle];
+      hash.add_word(handle);
+      hash.add_word(body.shape);
+      hash.add_word(std::uint64_t{body.flags} << 32 | body.locks << 8 | body.motion);
+      if (body.motion == PLUMB_DYNAMIC)
+        for (const double number : body.mass_row) hash.add(number);
+    }
+    hash.add_word(bodies_.size());
+    for (const PlumbJoint handle : joints_.in_order()) hash.add_word(handle);
+    return hash.value();
   }
 
   [[nodiscard]] std::string_view format_of(const ISnapshot& extension) const {
@@ -252,7 +268,7 @@ class GuardedExtensions : public GuardedWorld {
     ISnapshot& extension = require_snapshot();
     require_pointer(data, size, "data");
     const std::span<const std::byte> framed(static_cast<const std::byte*>(data), size);
-    SnapshotContents saved = unframe_snapshot(framed, format_of(extension), bodies_.in_order(), joints_.in_order());
+    SnapshotContents saved = unframe_snapshot(framed, format_of(extension), hash_of_objects());
     check_saved_exceptions(saved.exceptions);
     const PairExceptions::Pairs rejoined = PairExceptions::difference(exceptions_.list(), saved.exceptions);
     const PairExceptions::Pairs parted = PairExceptions::difference(saved.exceptions, exceptions_.list());
@@ -306,13 +322,35 @@ class GuardedExtensions : public GuardedWorld {
     return hand_out(map, ids, sizeof(PlumbBody), capacity, count);
   }
 
- private:
+ protected:
   template <class Extension>
   Extension& require_extension(Extension* extension, const char* name) const {
     if (extension == nullptr) refuse(PLUMB_E_UNSUPPORTED, std::string(facts_.info->name) + " has no " + name);
     return *extension;
   }
 
+  [[nodiscard]] static bool breaks(const PlumbJointDesc& desc) { return desc.break_force > 0 || desc.break_torque > 0; }
+
+  void require_joint_features(const Where& where, const PlumbJointDesc& desc) const {
+    const auto feature = [&](bool used, PlumbJointFeature which, const char* what) {
+      if (used)
+        require_capability(PLUMB_CAP_JOINT_FEATURE, desc.type, which,
+                           std::string(joint_name(desc.type)) + " joint with " + what);
+    };
+    bool limits = false, motors = false, springs = false;
+    for (std::size_t axis = 0; axis < 6; ++axis) {
+      limits = limits || desc.limits[axis].enabled != 0;
+      motors = motors || desc.motors[axis].enabled != 0;
+      springs = springs || desc.springs[axis].enabled != 0;
+    }
+    feature(limits, PLUMB_JOINT_HAS_LIMITS, "limits");
+    feature(motors, PLUMB_JOINT_HAS_MOTORS, "motors");
+    feature(springs, PLUMB_JOINT_HAS_SPRINGS, "springs");
+    feature(breaks(desc), PLUMB_JOINT_BREAKS, "a break force");
+    require_need(init_.desc.needs, PLUMB_NEED_EVENTS, breaks(desc), where.member("break_force"));
+  }
+
+ private:
   IQueries& require_queries() const {
     IQueries& extension = require_extension(world_->queries(), PLUMB_EXT_QUERIES);
     require_need(init_.desc.needs, PLUMB_NEED_QUERIES, true, "a query");
@@ -339,24 +377,8 @@ class GuardedExtensions : public GuardedWorld {
       refuse(PLUMB_E_INVALID_ARGUMENT,
              where.member("") + " joins two bodies that nothing can move; one must be dynamic");
     require_capability(PLUMB_CAP_JOINT, desc.type, 0, std::string(joint_name(desc.type)) + " joint");
-    const auto feature = [&](bool used, PlumbJointFeature which, const char* what) {
-      if (used)
-        require_capability(PLUMB_CAP_JOINT_FEATURE, desc.type, which,
-                           std::string(joint_name(desc.type)) + " joint with " + what);
-    };
-    bool limits = false, motors = false, springs = false;
-    for (std::size_t axis = 0; axis < 6; ++axis) {
-      limits = limits || desc.limits[axis].enabled != 0;
-      motors = motors || desc.motors[axis].enabled != 0;
-      springs = springs || desc.springs[axis].enabled != 0;
-    }
-    feature(limits, PLUMB_JOINT_HAS_LIMITS, "limits");
-    feature(motors, PLUMB_JOINT_HAS_MOTORS, "motors");
-    feature(springs, PLUMB_JOINT_HAS_SPRINGS, "springs");
-    JointRecord record{desc.body_a, desc.body_b, desc.break_force > 0 || desc.break_torque > 0};
-    feature(record.breakable, PLUMB_JOINT_BREAKS, "a break force");
-    require_need(init_.desc.needs, PLUMB_NEED_EVENTS, record.breakable, where.member("break_force"));
-    return record;
+    require_joint_features(where, desc);
+    return {desc.body_a, desc.body_b, desc.type, breaks(desc)};
   }
 
   void check_joint_field(PlumbJointField field, PlumbDataType type, std::uint32_t count, const void* rows,

@@ -126,7 +126,11 @@ class GuardedWorld {
     check_field(field, type, count, rows, stride, PLUMB_CAP_FIELD_READ);
     const Rows out(static_cast<std::byte*>(rows), count, stride, type);
     if (field != PLUMB_FIELD_MASS) return world_->read(field, spelled_out, out);
-    for (std::uint32_t i = 0; i < count; ++i) out.put(i, bodies_[spelled_out[i]].mass_row, columns_of(field));
+    constexpr double none[11] = {};
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const BodyRecord& body = bodies_[spelled_out[i]];
+      out.put(i, body.motion == PLUMB_DYNAMIC ? body.mass_row : none, columns_of(field));
+    }
     return PLUMB_OK;
   }
 
@@ -205,11 +209,13 @@ class GuardedWorld {
     PlumbShape shape = 0;
     std::uint64_t user_data = 0;
     PlumbMotion motion = PLUMB_STATIC;
+    std::uint32_t flags = 0, locks = 0;
     std::uint32_t joints = 0;
-    double mass_row[11] = {};
+    double mass_row[11] = {};  ///< of when it was dynamic last
   };
   struct JointRecord {
     PlumbBody body_a = 0, body_b = 0;
+    PlumbJointType type = 0;
     bool breakable = false;
   };
 
@@ -320,42 +326,6 @@ class GuardedWorld {
     return code;
   }
 
- private:
-  ShapeRecord examine_shape(const Where& where, const PlumbShapeDesc& desc) const {
-    check_shape(where, desc);
-    const char* note = "";
-    bool any = false;
-    for (PlumbMotion motion = 0; motion < PLUMB_MOTION_COUNT; ++motion)
-      any = any || degree(PLUMB_CAP_SHAPE, desc.type, motion, note) != PLUMB_NONE;
-    if (!any) require_capability(PLUMB_CAP_SHAPE, desc.type, PLUMB_STATIC, shape_name(desc.type));
-    ShapeRecord record;
-    record.type = desc.type;
-    std::vector<MassProperties> children;
-    for (std::uint32_t i = 0; desc.type == PLUMB_COMPOUND && i < desc.child_count; ++i) {
-      const PlumbCompoundChild& child = desc.children[i];
-      const std::string name = "children[" + std::to_string(i) + "].shape";
-      if (!shapes_.alive(child.shape))
-        refuse(PLUMB_E_STALE_HANDLE, where.member(name.c_str()) + " names no living shape");
-      const ShapeRecord& child_record = shapes_[child.shape];
-      if (!is_convex(child_record.type))
-        refuse(PLUMB_E_INVALID_ARGUMENT, where.member(name.c_str()) + " is a " + shape_name(child_record.type) +
-                                             "; only convex shapes can be children");
-      if (child.has_material != 0) {
-        require_capability(PLUMB_CAP_CHILD_MATERIAL, 0, 0, "materials of compound children");
-        check_material_needs(init_.desc.needs, where.member("children.material"), child.material);
-      }
-      record.children.push_back(child.shape);
-      children.push_back(*child_record.unit_mass);
-    }
-    try {
-      record.unit_mass = unit_mass_properties(desc, children);
-    } catch (const Error& error) {
-      if (desc.type == PLUMB_CONVEX_HULL) refuse(error.code(), where.member("vertices") + ": " + error.what());
-      record.no_mass_because = error.what();
-    }
-    return record;
-  }
-
   /// Checks a body and turns its mass into explicit numbers.
   BodyRecord examine_body(const Where& where, PlumbBodyDesc& desc) const {
     check_body(where, desc);
@@ -364,6 +334,8 @@ class GuardedWorld {
     record.shape = desc.shape;
     record.user_data = desc.user_data;
     record.motion = desc.motion;
+    record.flags = desc.flags & ~static_cast<std::uint32_t>(PLUMB_BODY_ASLEEP);  // which it is at first only
+    record.locks = desc.locks;
     if (desc.shape != 0) {
       if (!shapes_.alive(desc.shape)) refuse(PLUMB_E_STALE_HANDLE, where.member("shape") + " names no living shape");
       const PlumbShapeType type = shapes_[desc.shape].type;
@@ -408,6 +380,42 @@ class GuardedWorld {
       desc.mass_mode = PLUMB_MASS_EXPLICIT;
     }
     if ((desc.flags & PLUMB_BODY_NO_ROTATION) != 0) desc.inertia = {0, 0, 0};
+  }
+
+ private:
+  ShapeRecord examine_shape(const Where& where, const PlumbShapeDesc& desc) const {
+    check_shape(where, desc);
+    const char* note = "";
+    bool any = false;
+    for (PlumbMotion motion = 0; motion < PLUMB_MOTION_COUNT; ++motion)
+      any = any || degree(PLUMB_CAP_SHAPE, desc.type, motion, note) != PLUMB_NONE;
+    if (!any) require_capability(PLUMB_CAP_SHAPE, desc.type, PLUMB_STATIC, shape_name(desc.type));
+    ShapeRecord record;
+    record.type = desc.type;
+    std::vector<MassProperties> children;
+    for (std::uint32_t i = 0; desc.type == PLUMB_COMPOUND && i < desc.child_count; ++i) {
+      const PlumbCompoundChild& child = desc.children[i];
+      const std::string name = "children[" + std::to_string(i) + "].shape";
+      if (!shapes_.alive(child.shape))
+        refuse(PLUMB_E_STALE_HANDLE, where.member(name.c_str()) + " names no living shape");
+      const ShapeRecord& child_record = shapes_[child.shape];
+      if (!is_convex(child_record.type))
+        refuse(PLUMB_E_INVALID_ARGUMENT, where.member(name.c_str()) + " is a " + shape_name(child_record.type) +
+                                             "; only convex shapes can be children");
+      if (child.has_material != 0) {
+        require_capability(PLUMB_CAP_CHILD_MATERIAL, 0, 0, "materials of compound children");
+        check_material_needs(init_.desc.needs, where.member("children.material"), child.material);
+      }
+      record.children.push_back(child.shape);
+      children.push_back(*child_record.unit_mass);
+    }
+    try {
+      record.unit_mass = unit_mass_properties(desc, children);
+    } catch (const Error& error) {
+      if (desc.type == PLUMB_CONVEX_HULL) refuse(error.code(), where.member("vertices") + ": " + error.what());
+      record.no_mass_because = error.what();
+    }
+    return record;
   }
 
   void check_field(PlumbField field, PlumbDataType type, std::uint32_t count, const void* rows, std::size_t stride,

@@ -23,6 +23,7 @@ using settings = PlumbSettingsTable;
 using snapshot = PlumbSnapshotTable;
 using state = PlumbStateTable;
 using exceptions = PlumbExceptionsTable;
+using modify = PlumbModifyTable;
 }  // namespace tables
 
 enum class Call : std::uint8_t {
@@ -78,6 +79,7 @@ void for_each_extension(Visit&& visit) {
   visit.template operator()<PlumbSnapshotTable>(PLUMB_EXT_SNAPSHOT);
   visit.template operator()<PlumbStateTable>(PLUMB_EXT_STATE);
   visit.template operator()<PlumbExceptionsTable>(PLUMB_EXT_EXCEPTIONS);
+  visit.template operator()<PlumbModifyTable>(PLUMB_EXT_MODIFY);
 }
 
 }  // namespace plumb::layers

@@ -52,7 +52,8 @@ class LayerBase {
  private:
   const PlumbBackendTable* core_;
   std::tuple<const PlumbJointsTable*, const PlumbQueriesTable*, const PlumbCollideTable*, const PlumbDebugTable*,
-             const PlumbSettingsTable*, const PlumbSnapshotTable*, const PlumbStateTable*, const PlumbExceptionsTable*>
+             const PlumbSettingsTable*, const PlumbSnapshotTable*, const PlumbStateTable*, const PlumbExceptionsTable*,
+             const PlumbModifyTable*>
       extensions_{};
 };
 
@@ -100,7 +101,7 @@ class LayerSlots {
   struct Slot {
     std::unique_ptr<Layer> layer;
     std::tuple<PlumbBackendTable, PlumbJointsTable, PlumbQueriesTable, PlumbCollideTable, PlumbDebugTable,
-               PlumbSettingsTable, PlumbSnapshotTable, PlumbStateTable, PlumbExceptionsTable>
+               PlumbSettingsTable, PlumbSnapshotTable, PlumbStateTable, PlumbExceptionsTable, PlumbModifyTable>
         tables;
   };
 

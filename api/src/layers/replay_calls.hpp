@@ -311,6 +311,12 @@ inline PlumbResult again(CallTag<Call::state_rows>, Decoding& d, decltype(PlumbS
   if (result >= 0) d.output(count, {});
   return result;
 }
+template <Call call, class Change>
+PlumbResult again(CallTag<call>, Decoding& d,
+                  PlumbResult (*next)(PlumbWorld*, const Change*, std::size_t, std::uint32_t)) {
+  auto changes = d.rows<Change>();
+  return next(d.to.world, changes.data(), changes.stride, changes.count);
+}
 inline PlumbResult again(CallTag<Call::exceptions_set>, Decoding& d, decltype(PlumbExceptionsTable::set) next) {
   auto pairs = d.rows<PlumbBodyPair>();
   const auto touch = d.in.get<std::uint32_t>();

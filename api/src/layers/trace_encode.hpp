@@ -251,6 +251,11 @@ inline void encode(CallTag<Call::state_rows>, Encoding e, PlumbBody* ids, std::u
   e.room(ids, capacity);
   if (e.done()) e.output(*count, {});
 }
+// modify.*
+template <Call call, class Change>
+void encode(CallTag<call>, Encoding e, const Change* changes, std::size_t stride, std::uint32_t count) {
+  e.rows(changes, stride, count);
+}
 inline void encode(CallTag<Call::exceptions_set>, Encoding e, const PlumbBodyPair* pairs, std::size_t stride,
                    std::uint32_t count, std::uint32_t touch) {
   e.rows(pairs, stride, count);

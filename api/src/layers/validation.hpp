@@ -70,6 +70,9 @@ class ValidationLayer : public LayerBase {
                   std::uint32_t capacity, std::uint32_t* point_count);
   PlumbResult run(CallTag<Call::exceptions_set>, ValidatedWorld&, PlumbWorld*, const PlumbBodyPair* pairs,
                   std::size_t stride, std::uint32_t count, std::uint32_t touch);
+  template <Call call, class Change>
+  PlumbResult run(CallTag<call>, ValidatedWorld&, PlumbWorld*, const Change* changes, std::size_t stride,
+                  std::uint32_t count);
   PlumbResult run(CallTag<Call::core_user_data>, ValidatedWorld&, PlumbWorld*, PlumbBody id, std::uint64_t* user_data);
   PlumbResult run(CallTag<Call::core_set_gravity>, ValidatedWorld&, PlumbWorld*, const PlumbVec3* gravity);
   PlumbResult run(CallTag<Call::core_step>, ValidatedWorld&, PlumbWorld*, const PlumbStepDesc* desc);

@@ -44,6 +44,14 @@ inline PlumbResult ValidationLayer::run(CallTag<Call::exceptions_set>, Validated
   return next<Call::exceptions_set>()(world, pairs, stride, count, touch);
 }
 
+template <Call call, class Change>
+PlumbResult ValidationLayer::run(CallTag<call>, ValidatedWorld&, PlumbWorld* world, const Change* changes,
+                                 std::size_t stride, std::uint32_t count) {
+  require_memory(changes, count, "changes");
+  require_stride<Change>(stride, count, "changes");
+  return next<call>()(world, changes, stride, count);
+}
+
 inline PlumbResult ValidationLayer::run(CallTag<Call::core_user_data>, ValidatedWorld&, PlumbWorld* world, PlumbBody id,
                                         std::uint64_t* user_data) {
   require_memory(user_data, 1, "user_data");

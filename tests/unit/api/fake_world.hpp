@@ -14,7 +14,8 @@ class FakeWorld final : public IPhysicsWorld,
                         public IQueries,
                         public ISettings,
                         public ISnapshot,
-                        public IExceptions {
+                        public IExceptions,
+                        public IModify {
  public:
   explicit FakeWorld(const WorldInit& init) : iterations_(init.setting("iterations").number) { last = this; }
 
@@ -113,6 +114,7 @@ class FakeWorld final : public IPhysicsWorld,
   ISettings* settings() override { return this; }
   ISnapshot* snapshot() override { return this; }
   IExceptions* exceptions() override { return this; }
+  IModify* modify() override { return this; }
 
   PlumbResult create_joints(std::span<const PlumbJointDesc>, std::span<PlumbJoint>) override { return called(); }
   PlumbResult destroy_joints(std::span<const PlumbJoint>) override { return called(); }
@@ -149,6 +151,17 @@ class FakeWorld final : public IPhysicsWorld,
     return PLUMB_OK;
   }
 
+  PlumbResult modify_bodies(std::span<const PlumbBodyChange> changes) override {
+    body_changes.assign(changes.begin(), changes.end());
+    return called();
+  }
+  PlumbResult modify_joints(std::span<const PlumbJointChange> changes) override {
+    joint_changes.assign(changes.begin(), changes.end());
+    return called();
+  }
+
+  std::vector<PlumbBodyChange> body_changes;
+  std::vector<PlumbJointChange> joint_changes;
   struct ExceptionCall {
     PlumbBody a, b;
     bool touch;

@@ -18,6 +18,7 @@ struct IllTables {
   PlumbCollideTable collide;
   PlumbStateTable state;
   PlumbExceptionsTable exceptions;
+  PlumbModifyTable modify;
 };
 
 template <class Table>
@@ -32,7 +33,8 @@ inline const IllTables& good() {
                                    table_named<PlumbSnapshotTable>(PLUMB_EXT_SNAPSHOT),
                                    table_named<PlumbCollideTable>(PLUMB_EXT_COLLIDE),
                                    table_named<PlumbStateTable>(PLUMB_EXT_STATE),
-                                   table_named<PlumbExceptionsTable>(PLUMB_EXT_EXCEPTIONS)};
+                                   table_named<PlumbExceptionsTable>(PLUMB_EXT_EXCEPTIONS),
+                                   table_named<PlumbModifyTable>(PLUMB_EXT_MODIFY)};
   return tables;
 }
 
@@ -59,6 +61,7 @@ class Validated : public ::testing::Test {
       if (wanted == PLUMB_EXT_COLLIDE) return &ill().collide;
       if (wanted == PLUMB_EXT_STATE) return &ill().state;
       if (wanted == PLUMB_EXT_EXCEPTIONS) return &ill().exceptions;
+      if (wanted == PLUMB_EXT_MODIFY) return &ill().modify;
       if (wanted == "test.unknown/1") return &unknown_table;
       return nullptr;
     };

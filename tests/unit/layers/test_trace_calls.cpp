@@ -132,6 +132,15 @@ class Everything {
     ok(exceptions.set(world_, &apart, sizeof apart, 1, 1));
     ok(exceptions.list(world_, nullptr, 0, &count));
     EXPECT_EQ(count, 0u);
+    const auto& modify = extension<PlumbModifyTable>(PLUMB_EXT_MODIFY);
+    PlumbBodyChange body_changed = body_change(bodies_[0]);
+    body_changed.what = PLUMB_MODIFY_SHAPE;
+    body_changed.shape = shape_;
+    ok(modify.bodies(world_, &body_changed, sizeof body_changed, 1));
+    PlumbJointChange joint_changed = joint_change(joint_);
+    joint_changed.what = PLUMB_MODIFY_ENABLED;
+    joint_changed.enabled = 1;
+    ok(modify.joints(world_, &joint_changed, sizeof joint_changed, 1));
     const auto& state = extension<PlumbStateTable>(PLUMB_EXT_STATE);
     const PlumbStateRequest request = {sizeof request, PLUMB_FIELD_POSE, 1, 1};
     PlumbDLManagedTensor* tensor = nullptr;

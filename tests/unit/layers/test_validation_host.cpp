@@ -227,6 +227,15 @@ TEST_F(ValidatedHost, SizesAndPointersOfExtensions) {
   refused(PLUMB_E_INVALID_ARGUMENT, "touch is 2", [&] { return exceptions.set(world, &apart, sizeof apart, 1, 2); });
   refused(PLUMB_E_INVALID_ARGUMENT, "out is null", [&] { return exceptions.list(world, nullptr, 1, &count); });
   refused(PLUMB_E_INVALID_ARGUMENT, "count is null", [&] { return exceptions.list(world, nullptr, 0, nullptr); });
+  const auto& modify = extension<PlumbModifyTable>(PLUMB_EXT_MODIFY);
+  const PlumbBodyChange body_changed = body_change(bodies[0]);
+  const PlumbJointChange joint_changed = joint_change(1);
+  refused(PLUMB_E_INVALID_ARGUMENT, "changes is null", [&] { return modify.bodies(world, nullptr, 136, 1); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "stride of changes is 8",
+          [&] { return modify.bodies(world, &body_changed, 8, 1); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "changes is null", [&] { return modify.joints(world, nullptr, 664, 1); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "stride of changes is 8",
+          [&] { return modify.joints(world, &joint_changed, 8, 1); });
   const auto& settings = extension<PlumbSettingsTable>(PLUMB_EXT_SETTINGS);
   const PlumbSettingValue value{PLUMB_SETTING_INT, 0, 5, nullptr};
   refused(PLUMB_E_INVALID_ARGUMENT, "value is null", [&] { return settings.get(world, "iterations", nullptr); });
