@@ -63,31 +63,50 @@ PlumbResult World::destroy_shapes(std::span<const PlumbShape> ids) {
   return PLUMB_OK;
 }
 
-std::unique_ptr<Body> World::make_body(const PlumbBodyDesc& desc, PlumbBody handle) {
-  const std::shared_ptr<const Shape> shared = desc.shape == 0 ? nullptr : shape(desc.shape);
+MadeOf World::made_of(const PlumbBodyDesc& desc) const {
+  MadeOf made;
+  made.shape = desc.shape == 0 ? nullptr : shape(desc.shape);
   const bool dynamic = desc.motion == PLUMB_DYNAMIC;
-  const MassFrame frame = dynamic ? mass_frame(desc) : MassFrame{btVector3(0, 0, 0), btTransform::getIdentity(), true};
-  std::unique_ptr<btCollisionShape> own;
-  if (dynamic && shared && shared->type == PLUMB_TRIANGLE_MESH)
-    own = make_moving_mesh(*shared, frame.body_to_mass.inverse());
-  else if (shared && !frame.identity)
-    own = make_offset_shape(*shared, frame.body_to_mass.inverse());
+  MassFrame frame{btVector3(0, 0, 0), btTransform::getIdentity(), true};
+  if (dynamic) frame = mass_frame(desc);
+  made.mass = dynamic ? positive_scalar(desc.mass, "mass") : btScalar(0);
+  made.inertia = frame.inertia;
+  made.body_to_mass = frame.body_to_mass;
+  made.offset_frame = !frame.identity;
+  if (dynamic && made.shape && made.shape->type == PLUMB_TRIANGLE_MESH)
+    made.own_shape = make_moving_mesh(*made.shape, frame.body_to_mass.inverse());
+  else if (made.shape && made.offset_frame)
+    made.own_shape = make_offset_shape(*made.shape, frame.body_to_mass.inverse());
+  return made;
+}
+
+btRigidBody::btRigidBodyConstructionInfo World::construction(const MadeOf& made, const btTransform& pose) {
   // Bullet only reads a shape that is in use.
-  btCollisionShape* bullet_shape = own ? own.get() : shared ? shared->bullet.get() : &no_shape_;
-  const btScalar mass = dynamic ? positive_scalar(desc.mass, "mass") : btScalar(0);
-  btRigidBody::btRigidBodyConstructionInfo info(mass, nullptr, bullet_shape, frame.inertia);
-  info.m_friction = scalar(desc.material.friction, "friction");
-  info.m_restitution = static_cast<btScalar>(desc.material.restitution);
+  btCollisionShape* bullet_shape = made.own_shape ? made.own_shape.get()
+                                   : made.shape   ? made.shape->bullet.get()
+                                                  : &no_shape_;
+  btRigidBody::btRigidBodyConstructionInfo info(made.mass, nullptr, bullet_shape, made.inertia);
   info.m_linearSleepingThreshold = static_cast<btScalar>(settings_.number("sleep_linear_threshold"));
   info.m_angularSleepingThreshold = static_cast<btScalar>(settings_.number("sleep_angular_threshold"));
-  const btTransform pose = transform(desc.pose, "pose");
-  info.m_startWorldTransform = frame.identity ? pose : pose * frame.body_to_mass;
+  info.m_startWorldTransform = made.offset_frame ? pose * made.body_to_mass : pose;
+  return info;
+}
+
+void Body::take(MadeOf made) {
+  shape = std::move(made.shape);
+  own_shape = std::move(made.own_shape);
+  offset_frame = made.offset_frame;
+  body_to_mass = made.body_to_mass;
+  mass_to_body = made.body_to_mass.inverse();
+}
+
+std::unique_ptr<Body> World::make_body(const PlumbBodyDesc& desc, PlumbBody handle) {
+  MadeOf made = made_of(desc);
+  btRigidBody::btRigidBodyConstructionInfo info = construction(made, transform(desc.pose, "pose"));
+  info.m_friction = scalar(desc.material.friction, "friction");
+  info.m_restitution = static_cast<btScalar>(desc.material.restitution);
   auto body = std::make_unique<Body>(info, handle, desc);
-  body->shape = shared;
-  body->own_shape = std::move(own);
-  body->offset_frame = !frame.identity;
-  body->body_to_mass = frame.body_to_mass;
-  body->mass_to_body = frame.body_to_mass.inverse();
+  body->take(std::move(made));
   body->conveys = !(desc.material.surface_velocity.x == 0 && desc.material.surface_velocity.y == 0 &&
                     desc.material.surface_velocity.z == 0);
   (void)vector(desc.material.surface_velocity, "surface_velocity");
@@ -130,6 +149,12 @@ void World::add_to_bullet(Body& body) {
     body.was_asleep = (body.flags & PLUMB_BODY_ASLEEP) != 0 && body.is(PLUMB_DYNAMIC);
     if (body.was_asleep) body.forceActivationState(ISLAND_SLEEPING);
   }
+}
+
+void World::take_from_bullet(Body& body) {
+  world_.removeRigidBody(&body);
+  world_.forget_predictions(body);
+  for (auto* list : {&kinematic_, &damped_, &locked_}) std::erase(*list, &body);
 }
 
 void World::prepare_motion(Body& body) {
@@ -183,9 +208,7 @@ PlumbResult World::destroy_bodies(std::span<const PlumbBody> ids) {
   for (const PlumbBody id : ids) {
     Body& gone = body(id);
     wake_neighbours(gone);
-    world_.removeRigidBody(&gone);
-    world_.forget_predictions(gone);
-    for (auto* list : {&kinematic_, &damped_, &locked_}) std::erase(*list, &gone);
+    take_from_bullet(gone);
   }
   for (const PlumbBody id : ids) bodies_[slot_of(id)].reset();
   touches_.forget(ids, pending_events_);

@@ -10,6 +10,16 @@ namespace plumb::bullet {
 /// Marks our bodies among all that live in the process: the callbacks of materials.hpp are Bullet's globals.
 inline constexpr int kOurMark = 0x506c6d62;
 
+/// What a body weighs and where it is hit: what of its descriptor is worked out before there is a body.
+struct MadeOf {
+  std::shared_ptr<const Shape> shape;           ///< null: none
+  std::unique_ptr<btCollisionShape> own_shape;  ///< of this body alone; null where the shared one will do
+  btScalar mass = 0;
+  btVector3 inertia = btVector3(0, 0, 0);
+  btTransform body_to_mass = btTransform::getIdentity();
+  bool offset_frame = false;
+};
+
 class Body final : public btRigidBody {
  public:
   Body(const btRigidBodyConstructionInfo& info, PlumbBody id, const PlumbBodyDesc& desc)
@@ -24,6 +34,17 @@ class Body final : public btRigidBody {
         angular_damping(desc.angular_damping),
         filter(desc.filter) {
     setUserIndex3(kOurMark);
+  }
+
+  void take(MadeOf made);
+
+  /// As if it were made of that: at rest, awake, out of Bullet's world. Whoever points to it need not notice.
+  void remake(const btRigidBodyConstructionInfo& info) {
+    setCollisionFlags(0);
+    setCcdMotionThreshold(0);
+    setupRigidBody(info);
+    forceActivationState(ACTIVE_TAG);
+    setDeactivationTime(0);
   }
 
   [[nodiscard]] bool is(PlumbMotion which) const { return motion == which; }

@@ -121,6 +121,12 @@ PlumbDegree need_degree(std::uint32_t index, const char*& note) {
   }
 }
 
+PlumbDegree modify_degree(std::uint32_t is_joint, std::uint32_t index, const char*& note) {
+  if (is_joint == 0 && index < PLUMB_MODIFY_BODY_COUNT) return PLUMB_NATIVE;
+  if (is_joint != 1 || index >= PLUMB_MODIFY_JOINT_COUNT) return PLUMB_NONE;
+  return answer(PLUMB_EMULATED, note, "by another constraint in its place, which starts without impulses");
+}
+
 PlumbDegree phase_degree(std::uint32_t phase) { return phase <= PLUMB_PHASE_CONTINUOUS ? PLUMB_NATIVE : PLUMB_NONE; }
 
 }  // namespace
@@ -142,6 +148,7 @@ PlumbDegree World::capability(PlumbCapability kind, std::uint32_t a, std::uint32
                     "largest squared change of an impulse in the last iteration; not with mlcp solvers");
     case PLUMB_CAP_SNAPSHOT: return answer(PLUMB_APPROXIMATE, note, "warm-start data are lost");
     case PLUMB_CAP_CHILD_MATERIAL: return PLUMB_NATIVE;
+    case PLUMB_CAP_MODIFY: return modify_degree(a, b, note);
     default: return PLUMB_NONE;
   }
 }

@@ -22,6 +22,7 @@ class World final : public IPhysicsWorld,
                     public ISettings,
                     public ISnapshot,
                     public IExceptions,
+                    public IModify,
                     private btOverlapFilterCallback,
                     private StepHooks {
  public:
@@ -59,19 +60,24 @@ class World final : public IPhysicsWorld,
   ISettings* settings() override { return this; }
   ISnapshot* snapshot() override { return this; }
   IExceptions* exceptions() override { return this; }
+  IModify* modify() override { return this; }
 
-  // joints.cpp
+  // joints/joints.cpp
   PlumbResult create_joints(std::span<const PlumbJointDesc> descs, std::span<PlumbJoint> ids) override;
   PlumbResult destroy_joints(std::span<const PlumbJoint> ids) override;
   PlumbResult read_joints(PlumbJointField field, std::span<const PlumbJoint> ids, Rows rows) override;
   PlumbResult write_joints(PlumbJointField field, std::span<const PlumbJoint> ids, ConstRows rows) override;
 
-  // queries.cpp
+  // modify.cpp
+  PlumbResult modify_bodies(std::span<const PlumbBodyChange> changes) override;
+  PlumbResult modify_joints(std::span<const PlumbJointChange> changes) override;
+
+  // queries/queries.cpp
   Hits cast_rays(PlumbHitMode mode, std::span<const PlumbRay> rays) override;
   Hits cast_shapes(PlumbHitMode mode, std::span<const PlumbCast> casts) override;
   Hits overlap_shapes(std::span<const PlumbOverlap> overlaps) override;
 
-  // collide.cpp
+  // queries/collide.cpp
   PlumbResult collide_pairs(std::span<const PlumbPosedPair> pairs, std::span<PlumbPairResult> results,
                             std::span<const PlumbPairPoint>& points) override;
 
@@ -94,11 +100,14 @@ class World final : public IPhysicsWorld,
   [[nodiscard]] bool needs(PlumbNeeds bits) const { return (needs_ & bits) != 0; }
   [[nodiscard]] Body& body(PlumbBody handle) { return *bodies_[slot_of(handle)]; }
   [[nodiscard]] Joint& joint(PlumbJoint handle) { return *joints_[slot_of(handle)]; }
-  [[nodiscard]] const std::shared_ptr<const Shape>& shape(PlumbShape handle) { return shapes_[slot_of(handle)]; }
+  [[nodiscard]] const std::shared_ptr<const Shape>& shape(PlumbShape handle) const { return shapes_[slot_of(handle)]; }
 
   // bodies.cpp
+  [[nodiscard]] MadeOf made_of(const PlumbBodyDesc& desc) const;
+  [[nodiscard]] btRigidBody::btRigidBodyConstructionInfo construction(const MadeOf& made, const btTransform& pose);
   [[nodiscard]] std::unique_ptr<Body> make_body(const PlumbBodyDesc& desc, PlumbBody handle);
   void add_to_bullet(Body& body);
+  void take_from_bullet(Body& body);
   void prepare_motion(Body& body);
   void prepare_ccd(Body& body) const;
   void set_anchor(Body& body) const;
@@ -138,10 +147,17 @@ class World final : public IPhysicsWorld,
   void add_sub_step_impulses();
   void track_touches();
 
-  // joints.cpp
+  // joints/joints.cpp
   void prepare_joints(btScalar h);
   void break_joints();
+  [[nodiscard]] std::unique_ptr<Joint> make_joint(const PlumbJointDesc& desc, PlumbJoint handle);
+  void add_to_bullet(Joint& joint);
+  void take_from_bullet(Joint& joint);
   void remove_joint(Joint& joint);
+  // modify.cpp
+  void remake_body(const PlumbBodyChange& change, MadeOf made);
+  void remake_joints_of(std::span<const PlumbBodyChange> changes);
+  void replace_joint(std::unique_ptr<Joint> joint);
 
   PlumbNeeds needs_;
   Settings settings_;

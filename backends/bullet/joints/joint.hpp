@@ -26,6 +26,8 @@ struct Joint {
   DistanceConstraint* distance = nullptr;
   std::vector<std::unique_ptr<AxisSpring>> springs;
 
+  bool enabled = true;
+  bool solved = false;  ///< it is in Bullet's world: enabled, and one of its bodies can be moved
   bool wants_reaction = false;
   std::unique_ptr<btJointFeedback[]> feedback;  ///< of the constraint and of each spring
   btVector3 arm_b = btVector3(0, 0, 0);         ///< from b's centre of mass to frame b when last solved, world axes

@@ -5,38 +5,33 @@
 
 namespace plumb::bullet {
 
+std::unique_ptr<Joint> World::make_joint(const PlumbJointDesc& desc, PlumbJoint handle) {
+  auto joint = std::make_unique<Joint>(handle, desc);
+  joint->body_b = &body(desc.body_b);
+  joint->body_a = desc.body_a == 0 ? nullptr : &body(desc.body_a);
+  joint->a = joint->body_a == nullptr ? &ground_ : static_cast<btRigidBody*>(joint->body_a);
+  const btTransform frame_a = transform(desc.frame_a, "frame_a"), frame_b = transform(desc.frame_b, "frame_b");
+  joint->frame_a = joint->body_a == nullptr ? frame_a : joint->body_a->mass_to_body * frame_a;
+  joint->frame_b = joint->body_b->mass_to_body * frame_b;
+  if (joint->body_a == nullptr || !joint->body_a->offset_frame) joint->frame_a = frame_a;
+  if (!joint->body_b->offset_frame) joint->frame_b = frame_b;
+  make_constraint(*joint);
+  joint->wants_reaction = needs(PLUMB_NEED_JOINT_REACTIONS) || joint->breaks();
+  if (joint->wants_reaction) {
+    joint->feedback = std::make_unique<btJointFeedback[]>(1 + joint->springs.size());
+    for (std::size_t k = 0; k <= joint->springs.size(); ++k) joint->feedback[k] = {};
+    joint->constraint->setJointFeedback(&joint->feedback[0]);
+    for (std::size_t k = 0; k < joint->springs.size(); ++k)
+      joint->springs[k]->setJointFeedback(&joint->feedback[1 + k]);
+  }
+  return joint;
+}
+
 PlumbResult World::create_joints(std::span<const PlumbJointDesc> descs, std::span<PlumbJoint> ids) {
   std::vector<std::unique_ptr<Joint>> made;
-  for (std::size_t i = 0; i < descs.size(); ++i) {
-    const PlumbJointDesc& desc = descs[i];
-    auto joint = std::make_unique<Joint>(ids[i], desc);
-    joint->body_b = &body(desc.body_b);
-    joint->body_a = desc.body_a == 0 ? nullptr : &body(desc.body_a);
-    joint->a = joint->body_a == nullptr ? &ground_ : static_cast<btRigidBody*>(joint->body_a);
-    const btTransform frame_a = transform(desc.frame_a, "frame_a"), frame_b = transform(desc.frame_b, "frame_b");
-    joint->frame_a = joint->body_a == nullptr ? frame_a : joint->body_a->mass_to_body * frame_a;
-    joint->frame_b = joint->body_b->mass_to_body * frame_b;
-    if (joint->body_a == nullptr || !joint->body_a->offset_frame) joint->frame_a = frame_a;
-    if (!joint->body_b->offset_frame) joint->frame_b = frame_b;
-    make_constraint(*joint);
-    joint->wants_reaction = needs(PLUMB_NEED_JOINT_REACTIONS) || joint->breaks();
-    if (joint->wants_reaction) {
-      joint->feedback = std::make_unique<btJointFeedback[]>(1 + joint->springs.size());
-      for (std::size_t k = 0; k <= joint->springs.size(); ++k) joint->feedback[k] = {};
-      joint->constraint->setJointFeedback(&joint->feedback[0]);
-      for (std::size_t k = 0; k < joint->springs.size(); ++k)
-        joint->springs[k]->setJointFeedback(&joint->feedback[1 + k]);
-    }
-    made.push_back(std::move(joint));
-  }
+  for (std::size_t i = 0; i < descs.size(); ++i) made.push_back(make_joint(descs[i], ids[i]));
   for (auto& joint : made) {
-    const bool apart = joint->desc.collide_connected == 0 && joint->body_a != nullptr;
-    world_.addConstraint(joint->constraint.get(), apart);
-    for (auto& spring : joint->springs) world_.addConstraint(spring.get(), false);
-    if (apart) forget_contacts(*joint->body_a, *joint->body_b);
-    if (joint->body_a != nullptr) wake(*joint->body_a);
-    wake(*joint->body_b);
-    ++joint_count_;
+    add_to_bullet(*joint);
     const std::size_t slot = slot_of(joint->handle);
     if (joints_.size() <= slot) joints_.resize(slot + 1);
     joints_[slot] = std::move(joint);
@@ -44,12 +39,32 @@ PlumbResult World::create_joints(std::span<const PlumbJointDesc> descs, std::spa
   return PLUMB_OK;
 }
 
-void World::remove_joint(Joint& joint) {
+/// Where it can do something: Bullet would divide by the mass of two bodies that nothing moves.
+void World::add_to_bullet(Joint& joint) {
   if (joint.body_a != nullptr) wake(*joint.body_a);
   wake(*joint.body_b);
+  const bool moves = joint.body_b->is(PLUMB_DYNAMIC) || (joint.body_a != nullptr && joint.body_a->is(PLUMB_DYNAMIC));
+  joint.solved = joint.enabled && moves;
+  if (!joint.solved) return;
+  const bool apart = joint.desc.collide_connected == 0 && joint.body_a != nullptr;
+  world_.addConstraint(joint.constraint.get(), apart);
+  for (auto& spring : joint.springs) world_.addConstraint(spring.get(), false);
+  if (apart) forget_contacts(*joint.body_a, *joint.body_b);
+  ++joint_count_;
+}
+
+void World::take_from_bullet(Joint& joint) {
+  if (joint.body_a != nullptr) wake(*joint.body_a);
+  wake(*joint.body_b);
+  if (!joint.solved) return;
   for (auto& spring : joint.springs) world_.removeConstraint(spring.get());
   world_.removeConstraint(joint.constraint.get());
+  joint.solved = false;
   --joint_count_;
+}
+
+void World::remove_joint(Joint& joint) {
+  take_from_bullet(joint);
   joints_[slot_of(joint.handle)].reset();
 }
 
@@ -106,7 +121,7 @@ PlumbResult World::write_joints(PlumbJointField /*field*/, std::span<const Plumb
 
 void World::prepare_joints(btScalar h) {
   for (auto& joint : joints_) {
-    if (!joint) continue;
+    if (!joint || !joint->solved) continue;
     set_motors(*joint, h);
     if (joint->wants_reaction)
       joint->arm_b = joint->body_b->getWorldTransform().getBasis() * joint->frame_b.getOrigin();
@@ -115,7 +130,7 @@ void World::prepare_joints(btScalar h) {
 
 void World::break_joints() {
   for (auto& at : joints_) {
-    if (!at || !at->wants_reaction) continue;
+    if (!at || !at->solved || !at->wants_reaction) continue;
     btVector3 force(0, 0, 0), torque(0, 0, 0);
     for (std::size_t k = 0; k <= at->springs.size(); ++k) {
       force += at->feedback[k].m_appliedForceBodyB;

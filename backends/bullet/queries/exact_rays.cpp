@@ -1,4 +1,4 @@
-#include "exact_rays.hpp"
+#include "queries/exact_rays.hpp"
 
 #include <algorithm>
 #include <cmath>

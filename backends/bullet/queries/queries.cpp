@@ -6,8 +6,8 @@
 #include <mutex>
 #include <optional>
 
-#include "exact_rays.hpp"
 #include "plumb/backend/small_math.hpp"
+#include "queries/exact_rays.hpp"
 #include "world.hpp"
 
 namespace plumb::bullet {

@@ -1,0 +1,80 @@
+// Bodies and joints of a world that become others while they live.
+#include "plumb/backend/modify.hpp"
+
+#include "world.hpp"
+
+namespace plumb::bullet {
+
+PlumbResult World::modify_bodies(std::span<const PlumbBodyChange> changes) {
+  std::vector<MadeOf> made;
+  for (const PlumbBodyChange& change : changes) made.push_back(made_of(backend::described(change)));
+  if (needs(PLUMB_NEED_CONTACTS)) (void)contacts();  // while those of the last step are there
+  for (std::size_t i = 0; i < changes.size(); ++i) remake_body(changes[i], std::move(made[i]));
+  remake_joints_of(changes);
+  return PLUMB_OK;
+}
+
+void World::remake_body(const PlumbBodyChange& change, MadeOf made) {
+  Body& at = body(change.body);
+  const btTransform pose = at.frame_pose();
+  const btVector3 shift = pose.getBasis() * (made.body_to_mass.getOrigin() - at.body_to_mass.getOrigin());
+  const btVector3 spin = at.getAngularVelocity(), velocity = at.getLinearVelocity() + spin.cross(shift);
+  const btVector3 force = at.getTotalForce(), torque = at.getTotalTorque();
+  const bool pushed = at.is(PLUMB_DYNAMIC) && change.motion == PLUMB_DYNAMIC, was_asleep = at.was_asleep;
+
+  wake_neighbours(at);
+  take_from_bullet(at);
+  at.motion = change.motion;
+  at.flags = change.flags;
+  at.locks = change.locks;
+  at.coasts = at.has_target = false;
+  btRigidBody::btRigidBodyConstructionInfo info = construction(made, pose);
+  info.m_friction = at.getFriction();
+  info.m_restitution = at.getRestitution();
+  at.remake(info);
+  at.take(std::move(made));
+  add_to_bullet(at);
+  if (change.motion == PLUMB_DYNAMIC) {
+    at.setLinearVelocity(velocity * at.getLinearFactor());
+    at.setAngularVelocity(spin * at.getAngularFactor());
+    at.was_asleep = was_asleep;
+  }
+  if (!pushed) return;
+  at.applyCentralForce(force);
+  at.applyTorque(torque);
+}
+
+/// Their constraints hold frames on the old centres of mass, and may have come to join what nothing moves.
+void World::remake_joints_of(std::span<const PlumbBodyChange> changes) {
+  for (const auto& at : joints_) {
+    const auto joins = [&](const PlumbBodyChange& change) {
+      return at && (at->desc.body_a == change.body || at->desc.body_b == change.body);
+    };
+    if (!std::any_of(changes.begin(), changes.end(), joins)) continue;
+    auto fresh = make_joint(at->desc, at->handle);
+    fresh->enabled = at->enabled;
+    replace_joint(std::move(fresh));
+  }
+}
+
+PlumbResult World::modify_joints(std::span<const PlumbJointChange> changes) {
+  std::vector<std::unique_ptr<Joint>> made;
+  for (const PlumbJointChange& change : changes) {
+    const Joint& at = joint(change.joint);
+    PlumbJointDesc desc = at.desc;
+    backend::apply(change, desc);
+    made.push_back(make_joint(desc, change.joint));
+    made.back()->enabled = (change.what & PLUMB_MODIFY_ENABLED) != 0 ? change.enabled != 0 : at.enabled;
+  }
+  for (auto& joint : made) replace_joint(std::move(joint));
+  return PLUMB_OK;
+}
+
+void World::replace_joint(std::unique_ptr<Joint> joint) {
+  std::unique_ptr<Joint>& place = joints_[slot_of(joint->handle)];
+  take_from_bullet(*place);
+  place = std::move(joint);
+  add_to_bullet(*place);
+}
+
+}  // namespace plumb::bullet
