@@ -111,6 +111,14 @@ Fact event_fact(std::uint32_t type) {
   return {PLUMB_EMULATED, "found by comparing with the step before"};
 }
 
+Fact modify_fact(std::uint32_t is_joint, std::uint32_t index) {
+  if (is_joint == 0 && index < PLUMB_MODIFY_BODY_COUNT)
+    return {PLUMB_EMULATED, "another body of ODE's in the place of the one there was"};
+  if (is_joint == 1 && index < PLUMB_MODIFY_JOINT_COUNT)
+    return {PLUMB_EMULATED, "another joint of ODE's in the place of the one there was"};
+  return {PLUMB_NONE};
+}
+
 Fact phase_fact(std::uint32_t phase) {
   if (phase == PLUMB_PHASE_BROAD) return {PLUMB_APPROXIMATE, "with the narrow phase, which ODE calls from within"};
   if (phase == PLUMB_PHASE_SOLVE) return {PLUMB_APPROXIMATE, "with islands and integration: one call of ODE"};
@@ -135,6 +143,7 @@ Fact fact(PlumbCapability kind, std::uint32_t a, std::uint32_t b) {
       return {PLUMB_NATIVE, "not with the spaces sap and quadtree, which keep their order to themselves"};
     case PLUMB_CAP_HOST_JOBS: return {PLUMB_NONE, "ODE runs threads of its own"};
     case PLUMB_CAP_CHILD_MATERIAL: return {PLUMB_NATIVE};
+    case PLUMB_CAP_MODIFY: return modify_fact(a, b);
     default: return {PLUMB_NONE};
   }
 }

@@ -63,7 +63,8 @@ PlumbResult World::body_states(std::span<const PlumbDebugBody>& bodies) {
     };
     if (space_ != nullptr)
       for (const ContactPass::Touch& touch : contacts_.look(space_)) join(touch.a, touch.b);
-    for (const Joint* joint : joint_order_) join(joint->a, joint->b);
+    for (const Joint* joint : joint_order_)
+      if (joint->solved()) join(joint->a, joint->b);
     debug_bodies_.clear();
     for (const Body* body : order_) {
       const std::int32_t island = body->dynamic() ? static_cast<std::int32_t>(slot_of(root(body)->handle)) : -1;

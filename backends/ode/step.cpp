@@ -97,7 +97,8 @@ void World::set_substep(double h) {
   if (h == substep_) return;
   substep_ = h;
   for (Body* body : damped_) set_damping(*body, h);
-  for (Joint* joint : joint_order_) set_parameters(*joint, settings_, h);
+  for (Joint* joint : joint_order_)
+    if (joint->solved()) set_parameters(*joint, settings_, h);
 }
 
 void World::forget_reactions() {

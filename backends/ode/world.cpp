@@ -110,7 +110,7 @@ PlumbResult World::set_setting(const char* name, const PlumbSettingValue& value)
     contacts_.configure(settings_);
     for (Body* body : dynamic_) apply_body_settings(*body);
     for (Joint* joint : joint_order_)
-      if (substep_ != 0) set_parameters(*joint, settings_, substep_);
+      if (joint->solved() && substep_ != 0) set_parameters(*joint, settings_, substep_);
     return PLUMB_OK;
   });
 }

@@ -28,7 +28,8 @@ class World final : public IPhysicsWorld,
                     public IDebug,
                     public ISettings,
                     public ISnapshot,
-                    public IExceptions {
+                    public IExceptions,
+                    public IModify {
  public:
   explicit World(const WorldInit& init);
   ~World() override;
@@ -56,6 +57,7 @@ class World final : public IPhysicsWorld,
   ISettings* settings() override { return this; }
   ISnapshot* snapshot() override { return this; }
   IExceptions* exceptions() override { return this; }
+  IModify* modify() override { return this; }
 
  private:
   PlumbResult create_joints(std::span<const PlumbJointDesc> descs, std::span<PlumbJoint> ids) override;
@@ -77,6 +79,8 @@ class World final : public IPhysicsWorld,
   PlumbResult save(std::span<const std::byte>& data) override;
   PlumbResult restore(std::span<const std::byte> data) override;
   PlumbResult set_exceptions(std::span<const PlumbBodyPair> pairs, bool touch) override;
+  PlumbResult modify_bodies(std::span<const PlumbBodyChange> changes) override;
+  PlumbResult modify_joints(std::span<const PlumbJointChange> changes) override;
 
   // Step phases (step.cpp).
   void set_substep(double h);
@@ -110,9 +114,12 @@ class World final : public IPhysicsWorld,
   [[nodiscard]] Body& body(PlumbBody id) { return *bodies_[slot_of(id)]; }
   [[nodiscard]] Joint& joint(PlumbJoint id) { return *joints_[slot_of(id)]; }
   std::unique_ptr<Body> make_body(const PlumbBodyDesc& desc, PlumbBody handle);
+  void embody(Body& body, const PlumbBodyDesc& desc);
   void make_body_geoms(Body& body);
   void dismantle(Body& body);
+  void remake(Body& body, const PlumbBodyChange& change);
   void enlist(Body& body);
+  void list(Body& body);
   void strike_off(const Body& body);
   void wake_neighbours(const Body& body);
   void set_gravity_scale(Body& body, double scale);
@@ -120,6 +127,9 @@ class World final : public IPhysicsWorld,
   PlumbResult read_poses(std::span<const PlumbBody> ids, const Rows& rows);
   PlumbResult read_velocities(std::span<const PlumbBody> ids, const Rows& rows);
   void write_row(PlumbField field, Body& body, const double* row);
+  /// Makes what ODE solves of a joint, where there is something to solve, and takes it away.
+  void bind(Joint& joint);
+  void unbind(Joint& joint);
   void remove_joint(Joint& joint);
 
   WorldInit init_;

@@ -1,4 +1,7 @@
 // Bodies of a world: made, listed, taken apart.
+#include <algorithm>
+
+#include "plumb/backend/modify.hpp"
 #include "slots.hpp"
 #include "world.hpp"
 
@@ -23,6 +26,7 @@ PlumbResult World::create_bodies(std::span<const PlumbBodyDesc> descs, std::span
 PlumbResult World::destroy_bodies(std::span<const PlumbBody> ids) {
   return inside_ode([&] {
     for (const PlumbBody id : ids) {
+      std::erase(order_, &body(id));
       strike_off(body(id));
       dismantle(body(id));
       bodies_[slot_of(id)].reset();
@@ -39,37 +43,91 @@ PlumbResult World::set_exceptions(std::span<const PlumbBodyPair> pairs, bool tou
 std::unique_ptr<Body> World::make_body(const PlumbBodyDesc& desc, PlumbBody handle) {
   auto body = body_stock_.take();
   body->handle = handle;
-  body->motion = desc.motion;
-  body->sensor = (desc.flags & PLUMB_BODY_SENSOR) != 0;
-  body->shape = desc.shape == 0 ? nullptr : shapes_[slot_of(desc.shape)].get();
   body->material = desc.material;
   body->filter = desc.filter;
   body->gravity_scale = desc.gravity_scale;
-  if (desc.motion != PLUMB_STATIC) body->body = dBodyCreate(world_);
-  if (desc.motion == PLUMB_KINEMATIC) {
-    dBodySetKinematic(body->body);
-    dBodySetGravityMode(body->body, 0);
-    dBodySetFiniteRotationMode(body->body, 1);
-  }
-  if (desc.motion == PLUMB_DYNAMIC) {
-    set_mass(*body, desc);
-    body->linear_damping = desc.linear_damping;
-    body->angular_damping = desc.angular_damping;
-    body->locks = desc.locks;
-  }
-  make_body_geoms(*body);
-  body->set_frame(desc.pose);
-  body->set_velocity(desc.linear_velocity, desc.angular_velocity);
-  if (desc.motion != PLUMB_DYNAMIC) return body;
-  apply_body_settings(*body);
-  body->wake();
-  if (substep_ != 0 && (body->linear_damping != 0 || body->angular_damping != 0)) set_damping(*body, substep_);
-  if (body->locks != 0) make_locks(*body, world_);
-  const bool sleeps = init_.needs(PLUMB_NEED_SLEEPING) && (desc.flags & PLUMB_BODY_NEVER_SLEEPS) == 0;
-  dBodySetAutoDisableFlag(body->body, sleeps ? 1 : 0);
-  if ((desc.flags & PLUMB_BODY_ASLEEP) != 0) dBodyDisable(body->body);
+  body->linear_damping = desc.linear_damping;
+  body->angular_damping = desc.angular_damping;
+  embody(*body, desc);
+  if ((desc.flags & PLUMB_BODY_ASLEEP) != 0 && body->dynamic()) dBodyDisable(body->body);
   body->was_awake = !body->asleep();
   return body;
+}
+
+/// What ODE has of a body, of the motion, shape, mass, flags, locks, pose and velocities of a descriptor.
+void World::embody(Body& body, const PlumbBodyDesc& desc) {
+  body.motion = desc.motion;
+  body.sensor = (desc.flags & PLUMB_BODY_SENSOR) != 0;
+  body.shape = desc.shape == 0 ? nullptr : shapes_[slot_of(desc.shape)].get();
+  if (desc.motion != PLUMB_STATIC) body.body = dBodyCreate(world_);
+  if (desc.motion == PLUMB_KINEMATIC) {
+    dBodySetKinematic(body.body);
+    dBodySetGravityMode(body.body, 0);
+    dBodySetFiniteRotationMode(body.body, 1);
+  }
+  if (desc.motion == PLUMB_DYNAMIC) {
+    set_mass(body, desc);
+    body.locks = desc.locks;
+  }
+  make_body_geoms(body);
+  body.set_frame(desc.pose);
+  body.set_velocity(desc.linear_velocity, desc.angular_velocity);
+  if (desc.motion != PLUMB_DYNAMIC) return;
+  apply_body_settings(body);
+  body.wake();
+  if (substep_ != 0 && (body.linear_damping != 0 || body.angular_damping != 0)) set_damping(body, substep_);
+  if (body.locks != 0) make_locks(body, world_);
+  const bool sleeps = init_.needs(PLUMB_NEED_SLEEPING) && (desc.flags & PLUMB_BODY_NEVER_SLEEPS) == 0;
+  dBodySetAutoDisableFlag(body.body, sleeps ? 1 : 0);
+}
+
+/// Another body of ODE's in the place of the one there is, moving as that did.
+void World::remake(Body& at, const PlumbBodyChange& change) {
+  PlumbBodyDesc desc = backend::described(change);
+  desc.pose = at.frame();
+  if (change.motion == PLUMB_DYNAMIC) {
+    const PlumbVec3 shift = rotate(desc.pose.orientation, sub(desc.centre_of_mass, at.centre_of_mass));
+    desc.angular_velocity = at.angular_velocity();
+    desc.linear_velocity = backend::velocity_of_moved_centre(at.linear_velocity(), desc.angular_velocity, shift);
+    if ((change.flags & PLUMB_BODY_NO_ROTATION) != 0) desc.angular_velocity = {};
+  }
+  const bool pushed = at.pushed && at.dynamic() && change.motion == PLUMB_DYNAMIC;
+  const PlumbVec3 force = at.force, torque = at.torque;
+  strike_off(at);
+  dismantle(at);
+  at.geoms.clear();
+  at.body = nullptr;
+  at.linear_lock = at.angular_lock = nullptr;
+  at.centre_of_mass = at.idle_spin = at.force = at.torque = {};
+  at.inverse_mass = 0;
+  at.inverse_inertia = {};
+  at.turns = at.pushed = false;
+  at.locks = 0;
+  at.moving = Body::Moving::as_told;
+  embody(at, desc);
+  list(at);
+  if (change.motion != PLUMB_DYNAMIC) at.was_awake = true;
+  if (!pushed) return;
+  at.force = force;
+  at.torque = torque;
+  at.pushed = true;
+  pushed_.push_back(&at);
+}
+
+PlumbResult World::modify_bodies(std::span<const PlumbBodyChange> changes) {
+  return inside_ode([&] {
+    std::vector<Joint*> joints;
+    for (Joint* joint : joint_order_) {
+      const auto joins = [&](const PlumbBodyChange& change) {
+        return joint->desc.body_a == change.body || joint->desc.body_b == change.body;
+      };
+      if (std::any_of(changes.begin(), changes.end(), joins)) joints.push_back(joint);
+    }
+    for (Joint* joint : joints) unbind(*joint);
+    for (const PlumbBodyChange& change : changes) remake(body(change.body), change);
+    for (Joint* joint : joints) bind(*joint);
+    return PLUMB_OK;
+  });
 }
 
 void World::make_body_geoms(Body& body) {
@@ -105,6 +163,11 @@ void World::apply_body_settings(Body& body) {
 void World::enlist(Body& body) {
   order_.push_back(&body);
   plain_.resize(bodies_.size());
+  list(body);
+}
+
+/// Into the lists of those that a step must look at.
+void World::list(Body& body) {
   const bool plain = is_zero(body.centre_of_mass) && (body.turns || body.motion == PLUMB_KINEMATIC);
   plain_[slot_of(body.handle)] = plain ? body.body : nullptr;
   if (body.motion == PLUMB_KINEMATIC) kinematic_.push_back(&body);
@@ -117,8 +180,7 @@ void World::enlist(Body& body) {
 }
 
 void World::strike_off(const Body& body) {
-  for (auto* list : {&order_, &dynamic_, &kinematic_, &damped_, &locked_, &weighed_, &pushed_})
-    std::erase(*list, &body);
+  for (auto* list : {&dynamic_, &kinematic_, &damped_, &locked_, &weighed_, &pushed_}) std::erase(*list, &body);
   std::erase(dynamic_ids_, body.body);
 }
 

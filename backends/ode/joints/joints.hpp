@@ -16,7 +16,8 @@ namespace plumb::ode {
 struct Joint {
   PlumbJoint handle = 0;
   PlumbJointDesc desc{};
-  dJointID id = nullptr;
+  dJointID id = nullptr;  ///< null: nothing is solved, as it is not enabled, or neither body can be moved
+  bool enabled = true;
   Body* a = nullptr;  ///< null: the world
   Body* b = nullptr;
   double spring_mass[6]{};  ///< kg or kg m2: the pair's effective mass on each axis with a spring
@@ -27,6 +28,7 @@ struct Joint {
   PlumbVec3 arm{};              ///< from the first body's centre of mass to frame b, world axes, before the solver ran
   PlumbVec3 force{}, torque{};  ///< on b at frame b's origin, mean over the last step
 
+  [[nodiscard]] bool solved() const { return id != nullptr; }
   [[nodiscard]] bool swapped() const { return b->body == nullptr; }
   [[nodiscard]] Body& first() const { return swapped() ? *a : *b; }
   [[nodiscard]] PlumbPose first_frame() const { return swapped() ? frame_a() : frame_b(); }

@@ -1,6 +1,7 @@
 // Joints of a world: made, broken, their rows.
 #include <algorithm>
 
+#include "plumb/backend/modify.hpp"
 #include "slots.hpp"
 #include "world.hpp"
 
@@ -16,12 +17,8 @@ PlumbResult World::create_joints(std::span<const PlumbJointDesc> descs, std::spa
       joint->desc = desc;
       joint->a = desc.body_a == 0 ? nullptr : &body(desc.body_a);
       joint->b = &body(desc.body_b);
-      joint->watched = init_.needs(PLUMB_NEED_JOINT_REACTIONS) || desc.break_force > 0 || desc.break_torque > 0;
-      attach(*joint, world_);
-      if (substep_ != 0) set_parameters(*joint, settings_, substep_);
-      if (joint->a != nullptr && desc.collide_connected == 0) keep_apart(*joint->a, *joint->b);
+      bind(*joint);
       joint_order_.push_back(joint.get());
-      if (joint->watched || joint->made_of_rows()) busy_joints_.push_back(joint.get());
       put(joints_, ids[i], std::move(joint));
     }
     return PLUMB_OK;
@@ -35,14 +32,50 @@ PlumbResult World::destroy_joints(std::span<const PlumbJoint> ids) {
   });
 }
 
-void World::remove_joint(Joint& joint) {
-  if (joint.a != nullptr && joint.desc.collide_connected == 0) let_touch(*joint.a, *joint.b);
+void World::bind(Joint& joint) {
+  joint.force = joint.torque = {};
+  if (!joint.enabled || !(joint.b->dynamic() || (joint.a != nullptr && joint.a->dynamic()))) return;
+  const PlumbJointDesc& desc = joint.desc;
+  joint.watched = init_.needs(PLUMB_NEED_JOINT_REACTIONS) || desc.break_force > 0 || desc.break_torque > 0;
+  attach(joint, world_);
+  if (substep_ != 0) set_parameters(joint, settings_, substep_);
+  if (joint.a != nullptr && desc.collide_connected == 0) keep_apart(*joint.a, *joint.b);
+  if (joint.watched || joint.made_of_rows()) busy_joints_.push_back(&joint);
+}
+
+void World::unbind(Joint& joint) {
   for (Body* body : {joint.a, joint.b})
     if (body != nullptr) body->wake();
+  if (!joint.solved()) return;
+  if (joint.a != nullptr && joint.desc.collide_connected == 0) let_touch(*joint.a, *joint.b);
   dJointDestroy(joint.id);
-  std::erase(joint_order_, &joint);
+  joint.id = nullptr;
   std::erase(busy_joints_, &joint);
+}
+
+void World::remove_joint(Joint& joint) {
+  unbind(joint);
+  std::erase(joint_order_, &joint);
   joints_[slot_of(joint.handle)].reset();
+}
+
+PlumbResult World::modify_joints(std::span<const PlumbJointChange> changes) {
+  std::vector<PlumbJointDesc> changed;
+  for (const PlumbJointChange& change : changes) {
+    changed.push_back(joint(change.joint).desc);
+    backend::apply(change, changed.back());
+    check_joint(changed.back());
+  }
+  return inside_ode([&] {
+    for (std::size_t i = 0; i < changes.size(); ++i) {
+      Joint& at = joint(changes[i].joint);
+      unbind(at);
+      at.desc = changed[i];
+      if ((changes[i].what & PLUMB_MODIFY_ENABLED) != 0) at.enabled = changes[i].enabled != 0;
+      bind(at);
+    }
+    return PLUMB_OK;
+  });
 }
 
 PlumbResult World::read_joints(PlumbJointField field, std::span<const PlumbJoint> ids, Rows rows) {
@@ -81,7 +114,7 @@ PlumbResult World::write_joints(PlumbJointField, std::span<const PlumbJoint> ids
     for (std::size_t i = 0; i < ids.size(); ++i) {
       Joint& written = joint(ids[i]);
       written.desc = changed[i];
-      if (substep_ != 0) set_parameters(written, settings_, substep_);
+      if (written.solved() && substep_ != 0) set_parameters(written, settings_, substep_);
       for (Body* body : {written.a, written.b})
         if (body != nullptr) body->wake();
     }
