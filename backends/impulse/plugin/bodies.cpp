@@ -67,13 +67,19 @@ void World::make_body(const PlumbBodyDesc& desc, PlumbBody id) {
   BodyRecord& body = bodies_[slot];
   body = {};
   body.id = rows_.ids[slot] = id;
-  body.motion = desc.motion;
   body.material = desc.material;
   body.filter = desc.filter;
   body.gravity_scale = desc.gravity_scale;
   body.linear_damping = desc.linear_damping;
   body.angular_damping = desc.angular_damping;
+  simulation_.bodies.force.edit(slot) = {};
+  embody(slot, desc);
+}
 
+/// What the engine has of a body, of the motion, shape, mass, flags, locks, pose and velocities of a descriptor.
+void World::embody(std::uint32_t slot, const PlumbBodyDesc& desc) {
+  BodyRecord& body = bodies_[slot];
+  body.motion = desc.motion;
   BodyFrame frame{{0, 0, 0}, {0, 0, 0, 1}};
   BodyMass mass{};
   Real inverse_mass = 0;
@@ -113,7 +119,6 @@ void World::make_body(const PlumbBodyDesc& desc, PlumbBody id) {
   hold_locked(slot);
   stop_infinite(slot);
   simulation_.bodies.state.touch(slot, kVelocityPart);
-  simulation_.bodies.force.edit(slot) = {};
   place(slot, desc.pose);
 
   put_body_rows(slot);

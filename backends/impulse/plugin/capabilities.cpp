@@ -27,6 +27,8 @@ Capability known(PlumbCapability kind, std::uint32_t a, std::uint32_t b) {
       break;
     case PLUMB_CAP_PHASE_TIME: return phase_time(a);
     case PLUMB_CAP_RESIDUAL: return {PLUMB_NONE, "not in impulse yet"};
+    case PLUMB_CAP_MODIFY:
+      return {a < 2 && b < (a == 0 ? PLUMB_MODIFY_BODY_COUNT : PLUMB_MODIFY_JOINT_COUNT) ? PLUMB_NATIVE : PLUMB_NONE};
     case PLUMB_CAP_SNAPSHOT:
     case PLUMB_CAP_HOST_JOBS: return {PLUMB_NATIVE};
     default: break;

@@ -39,6 +39,7 @@ std::array<double, 6> coordinates(const Placed& a, const Placed& b) {
 
 /// Puts the joint's descriptor before the engine, at first or as it is after a change.
 void World::put_joint(std::uint32_t slot) {
+  if (!joints_.records[slot].enabled) return;
   const PlumbJointDesc& desc = joints_.records[slot].desc;
   const JointRows rows = rows_of_joint(desc);
   Joint joint{};
@@ -67,7 +68,7 @@ PlumbResult World::create_joints(std::span<const PlumbJointDesc> descs, std::spa
   for (std::size_t i = 0; i < descs.size(); ++i) {
     const std::uint32_t slot = slot_of(ids[i]);
     if (slot >= joints_.records.size()) joints_.records.resize(slot + 1);
-    joints_.records[slot] = {ids[i], descs[i], simulation_.steps()};
+    joints_.records[slot] = {ids[i], descs[i], true, simulation_.steps()};
     put_joint(slot);
     if (joints_.records[slot].breaks()) ++joints_.breakable;
     wake_for_joint(descs[i]);
@@ -76,7 +77,7 @@ PlumbResult World::create_joints(std::span<const PlumbJointDesc> descs, std::spa
 }
 
 void World::remove_joint(std::uint32_t slot) {
-  simulation_.joints.remove(slot);
+  if (joints_.records[slot].enabled) simulation_.joints.remove(slot);
   if (joints_.records[slot].breaks()) --joints_.breakable;
   joints_.records[slot].id = 0;
 }
@@ -95,7 +96,7 @@ void World::break_joints() {
   const std::vector<JointReaction> reactions = simulation_.joints.reactions();
   for (std::uint32_t slot = 0; slot < joints_.records.size(); ++slot) {
     const JointRecord& joint = joints_.records[slot];
-    if (joint.id == 0 || !joint.breaks()) continue;
+    if (joint.id == 0 || !joint.enabled || !joint.breaks()) continue;
     const auto above = [&](const Vec& impulse, double strength) {
       return strength > 0 && static_cast<double>(length(impulse)) > strength * pacing_.dt;
     };
@@ -129,7 +130,8 @@ PlumbResult World::read_joints(PlumbJointField field, std::span<const PlumbJoint
       const auto six = coordinates(placed(a, joint.frame_a), placed(pose(slot_of(joint.body_b)), joint.frame_b));
       std::copy(six.begin(), six.end(), row.begin());
     } else if (field == PLUMB_JOINT_REACTION) {
-      if (joints_.records[slot].made_after == simulation_.steps()) {  // it has not been in a step yet
+      const JointRecord& record = joints_.records[slot];
+      if (!record.enabled || record.made_after == simulation_.steps()) {  // it was in no step yet
         rows.put(i, row.data(), joint_columns_of(field));
         continue;
       }
@@ -162,19 +164,8 @@ PlumbResult World::write_joints(PlumbJointField /*field*/, std::span<const Plumb
     }
     (void)rows_of_joint(written.back());
   }
-  for (std::size_t i = 0; i < ids.size(); ++i) {
-    const std::uint32_t slot = slot_of(ids[i]);
-    const auto has_motor = [](const PlumbMotor& motor) { return motor.enabled != 0; };
-    const auto motors = std::span(joints_.records[slot].desc.motors), now = std::span(written[i].motors);
-    const bool same = std::equal(motors.begin(), motors.end(), now.begin(),
-                                 [&](const auto& a, const auto& b) { return has_motor(a) == has_motor(b); });
-    joints_.records[slot].desc = written[i];
-    wake_for_joint(written[i]);
-    if (same)
-      simulation_.joints.drives.edit(slot) = rows_of_joint(written[i]).drive;
-    else
-      put_joint(slot);  // a motor where there was none is a row more
-  }
+  for (std::size_t i = 0; i < ids.size(); ++i)
+    change_joint(slot_of(ids[i]), written[i], joints_.records[slot_of(ids[i])].enabled);
   return PLUMB_OK;
 }
 

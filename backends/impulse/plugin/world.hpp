@@ -28,7 +28,8 @@ class World final : public IPhysicsWorld,
                     public ISettings,
                     public ISnapshot,
                     public IState,
-                    public IExceptions {
+                    public IExceptions,
+                    public IModify {
  public:
   explicit World(const WorldInit& init);
 
@@ -63,6 +64,7 @@ class World final : public IPhysicsWorld,
   ISnapshot* snapshot() override { return this; }
   IState* state() override { return this; }
   IExceptions* exceptions() override { return this; }
+  IModify* modify() override { return this; }
 
  private:
   PlumbResult create_joints(std::span<const PlumbJointDesc> descs, std::span<PlumbJoint> ids) override;
@@ -90,9 +92,15 @@ class World final : public IPhysicsWorld,
   PlumbResult borrow(const PlumbStateRequest& request, PlumbDLManagedTensor*& tensor, PlumbFence* fence) override;
   PlumbResult row_map(std::span<const PlumbBody>& ids, std::uint64_t& generation) override;
   PlumbResult set_exceptions(std::span<const PlumbBodyPair> pairs, bool touch) override;
+  PlumbResult modify_bodies(std::span<const PlumbBodyChange> changes) override;
+  PlumbResult modify_joints(std::span<const PlumbJointChange> changes) override;
 
   void exchange(Archive& archive);
   void make_body(const PlumbBodyDesc& desc, PlumbBody id);
+  void embody(std::uint32_t slot, const PlumbBodyDesc& desc);
+  void remake_body(const PlumbBodyChange& change);
+  void put_joints_of(std::span<const PlumbBodyChange> changes);
+  void change_joint(std::uint32_t slot, const PlumbJointDesc& desc, bool enabled);
   void place(std::uint32_t slot, const PlumbPose& pose);
   [[nodiscard]] PlumbPose pose(std::uint32_t slot) const;
   void read_state(PlumbField field, std::span<const PlumbBody> ids, Rows rows);
