@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "plumb/backend/modify.hpp"
 #include "scene/build.hpp"
 #include "simulation/names.hpp"
 
@@ -23,6 +24,17 @@ class Capabilities {
     for (std::uint32_t a = 0; a < rows.size(); ++a) {
       for (std::uint32_t b = 0; b < columns.size(); ++b)
         json_[title][rows[a]][columns[b]] = degree(kind, a, b, title + "." + rows[a] + "." + columns[b]);
+    }
+  }
+  /// Of bodies, then of joints, which can change in different things.
+  void changes(const std::string& title) {
+    for (std::uint32_t a = 0; a < 2; ++a) {
+      const std::string whose = a == 0 ? "bodies" : "joints";
+      const std::uint32_t count = a == 0 ? PLUMB_MODIFY_BODY_COUNT : PLUMB_MODIFY_JOINT_COUNT;
+      for (std::uint32_t b = 0; b < count; ++b) {
+        const std::string what = backend::modified_name(a, b);
+        json_[title][whose][what] = degree(PLUMB_CAP_MODIFY, a, b, title + "." + whose + "." + what);
+      }
     }
   }
   void single(const std::string& title, PlumbCapability kind) { json_[title] = degree(kind, 0, 0, title); }
@@ -59,13 +71,14 @@ Json capabilities_of(const Backend& backend) {
   all.single("snapshot", PLUMB_CAP_SNAPSHOT);
   all.single("host_jobs", PLUMB_CAP_HOST_JOBS);
   all.single("child_materials", PLUMB_CAP_CHILD_MATERIAL);
+  all.changes("changes");
   return all.take();
 }
 
 Json extensions_of(const Backend& backend) {
   Json names = Json::array();
   for (const char* name : {PLUMB_EXT_JOINTS, PLUMB_EXT_QUERIES, PLUMB_EXT_COLLIDE, PLUMB_EXT_DEBUG, PLUMB_EXT_SETTINGS,
-                           PLUMB_EXT_SNAPSHOT, PLUMB_EXT_STATE, PLUMB_EXT_EXCEPTIONS}) {
+                           PLUMB_EXT_SNAPSHOT, PLUMB_EXT_STATE, PLUMB_EXT_EXCEPTIONS, PLUMB_EXT_MODIFY}) {
     if (backend.table().extension(name) != nullptr) names.push_back(name);
   }
   return names;

@@ -82,6 +82,8 @@ struct Check {
 [[nodiscard]] std::span<const Check> handle_checks();
 [[nodiscard]] std::span<const Check> event_checks();
 [[nodiscard]] std::span<const Check> exception_checks();
+[[nodiscard]] std::span<const Check> modify_checks();
+[[nodiscard]] std::span<const Check> modify_joint_checks();
 [[nodiscard]] std::span<const Check> joint_checks();
 [[nodiscard]] std::span<const Check> joint_axis_checks();
 [[nodiscard]] std::span<const Check> query_checks();

@@ -19,6 +19,7 @@ struct Tables {
   PlumbCollideTable collide;
   PlumbDebugTable debug;
   PlumbExceptionsTable exceptions;
+  PlumbModifyTable modify;
 };
 
 inline Tables honest{}, liar{};

@@ -30,6 +30,7 @@ const void* extension(const char* name) {
   if (wanted == PLUMB_EXT_COLLIDE) return &liar.collide;
   if (wanted == PLUMB_EXT_DEBUG) return &liar.debug;
   if (wanted == PLUMB_EXT_EXCEPTIONS) return &liar.exceptions;
+  if (wanted == PLUMB_EXT_MODIFY) return &liar.modify;
   return truth;
 }
 
@@ -48,6 +49,7 @@ void take_tables(const PlumbBackendTable& table) {
   take(honest.collide, PLUMB_EXT_COLLIDE);
   take(honest.debug, PLUMB_EXT_DEBUG);
   take(honest.exceptions, PLUMB_EXT_EXCEPTIONS);
+  take(honest.modify, PLUMB_EXT_MODIFY);
   liar = honest;
   liar.core.extension = &extension;
   liar.core.info = []() -> const PlumbBackendInfo* { return &liar.info; };
