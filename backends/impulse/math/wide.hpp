@@ -34,7 +34,7 @@ struct Lanes {
 
   Lanes() = default;
   constexpr explicit Lanes(const Vector& lanes) : v(lanes) {}
-  constexpr explicit Lanes(Real x) : v(Vector{} + x) {}
+  constexpr explicit Lanes(Real x) : v{x, x, x, x, x, x, x, x} {}
   constexpr explicit Lanes(int x) : Lanes(static_cast<Real>(x)) {}
 };
 
