@@ -142,7 +142,7 @@ PLUMB_DEVICE inline void pass_on_loads(Team& team, const JointSet& joints) {
     const std::uint32_t j = system.base + column;
     const Joint& joint = view.joints[j];
     const AxisWork& own = view.parts.work[j];
-    Real(&y)[kJointRows] = system.work(column).change;
+    RowNumbers& y = system.work(column).change;
     speeds_now(view, j, view.velocity(joint.body_a), view.velocity(joint.body_b), y);
     const Real tikhonov = tikhonov_of_speeds(view, j);
     for (int i = 0; i < row_count(joint); ++i)

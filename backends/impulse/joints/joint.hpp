@@ -10,10 +10,14 @@
 
 #include "bodies/body.hpp"
 #include "math/mat33.hpp"
+#include "math/wide.hpp"
 
 namespace plumb::impulse {
 
 constexpr int kJointRows = 6;
+/// A number of each row. A CPU has room for a whole vector: what is in lanes beyond the rows does not count.
+constexpr int kRowRoom = kLanes == 1 ? kJointRows : static_cast<int>(kLaneGroup);
+using RowNumbers = Real[kRowRoom];
 constexpr std::uint32_t kWorld = 0xffffffffu;  // stands for a body that is not there: the world
 
 /// kOther: what only joint_axes.hpp can describe, as it can all others.
@@ -60,6 +64,9 @@ struct Joint {
   Frame frame_a, frame_b;
   Position world_anchor;  ///< of frame a where body_a is kWorld
 };
+
+/// How many numbers of n rows a loop goes through: a CPU does a whole vector at once.
+PLUMB_HD constexpr int whole_rows(int n) { return kLanes == 1 ? n : kRowRoom; }
 
 /// Of a joint, in words that let a compiler see how few there are.
 PLUMB_HD inline int row_count(const Joint& joint) {
@@ -114,7 +121,7 @@ PLUMB_HD inline Vec turn_error(const JointPlace& place) {
 }
 
 /// C of each row.
-PLUMB_HD inline void joint_errors(const Joint& joint, const JointPlace& place, Real (&error)[kJointRows]) {
+PLUMB_HD inline void joint_errors(const Joint& joint, const JointPlace& place, RowNumbers& error) {
   const auto put = [&error](int row, const Vec& v) {
     error[row] = v.x;
     error[row + 1] = v.y;

@@ -25,16 +25,16 @@ PLUMB_HD inline bool may_change(std::uint32_t joint, int row, std::uint32_t roun
 
 /// Beside JointWork.
 struct AxisWork {
-  Block whole;  ///< K of all rows
+  JointMatrix whole;  ///< K of all rows
   RowPiece piece[kJointRows];
   RowPiece reached[kJointRows];  ///< at the end of the pass over places
-  Real target[kJointRows];       ///< the speed of hard rows, the impulse without speed of others
-  Real cfm[kJointRows];          ///< speed for a unit impulse by which a row yields; below 0: its impulse is its target
-  Real spring[kJointRows];       ///< impulse of the spring in this sub-step
-  Real before[kJointRows];       ///< speeds when the pass began
+  RowNumbers target;             ///< the speed of hard rows, the impulse without speed of others
+  RowNumbers cfm;                ///< speed for a unit impulse by which a row yields; below 0: its impulse is its target
+  RowNumbers spring;             ///< impulse of the spring in this sub-step
+  RowNumbers before;             ///< speeds when the pass began
   std::uint32_t predicted;       ///< bits: rows that are taken to hold while contacts push
   std::uint32_t let_go;          ///< bits: of these, those that have not
-  Real bend[kJointRows];  ///< what the speeds over a sub-step have beyond those now, where that was last looked at
+  RowNumbers bend;         ///< what the speeds over a sub-step have beyond those now, where that was last looked at
 
   PLUMB_HD bool is_active(int row) const { return cfm[row] >= 0; }
   /// Bits: rows that are.
@@ -99,8 +99,8 @@ PLUMB_HD inline void refresh_axis_joint(const AxisView& view, std::uint32_t j) {
   const JointEnd a = view.end(joint.body_a), b = view.end(joint.body_b);
   const JointPlace place = place_joint(joint, view.base(joint), a, b);
   all_errors(joint, axes, place, work.error);
-  all_rows(joint, axes, place, work.rows);
-  find_mobility(view, joint, a, b, work, own.whole);
+  put_rows(work.rows, row_count(joint), joint_mass(view, joint, a, b), own.whole,
+           [&](JointRow(&rows)[kJointRows]) { all_rows(joint, axes, place, rows); });
   JointReaction& reaction = view.reaction(j);
   if (reaction.first_step == joint.first_step) return;
   reaction.first_step = joint.first_step;
@@ -113,7 +113,7 @@ PLUMB_HD inline void refresh_axis_joint(const AxisView& view, std::uint32_t j) {
 
 /// Over the sub-step, with velocities a and b.
 PLUMB_HD inline void speeds_over_places(const AxisView& view, std::uint32_t j, const RowTime& time, const Velocity& a,
-                                        const Velocity& b, Real (&speed)[kJointRows]) {
+                                        const Velocity& b, RowNumbers& speed) {
   const Joint& joint = view.joints[j];
   const JointWork& work = view.work[j];
   const JointAxes& axes = view.parts.axes[j];
@@ -131,12 +131,12 @@ PLUMB_HD inline void speeds_over_places(const AxisView& view, std::uint32_t j, c
 /// What a pass sees of the speeds. Places are not linear in them: the rounds of a pass work on one tangent, so that
 /// what they try on the way does not matter. anew: at the speeds as they are.
 PLUMB_HD inline void row_speeds(const AxisView& view, std::uint32_t j, const RowTime& time, const Velocity& a,
-                                const Velocity& b, bool anew, Real (&speed)[kJointRows]) {
+                                const Velocity& b, bool anew, RowNumbers& speed) {
   AxisWork& own = view.parts.work[j];
-  const int n = row_count(view.joints[j]);
+  const int n = whole_rows(row_count(view.joints[j]));
   if (time.pass != RowPass::kPlaces) return speeds_now(view, j, a, b, speed);
   if (anew) {
-    Real now[kJointRows];
+    RowNumbers now;
     speeds_now(view, j, a, b, now);
     if (turns_far(a, b, time.h))
       speeds_now(view, j, a, b, speed);
@@ -177,14 +177,14 @@ PLUMB_HD inline Real speed_of_held(const AxisView& view, std::uint32_t j, int ro
 /// Finds the piece of each row, and its equation. jump: what brings impulses that do not depend on the speed to where
 /// they should be; 0 of others. Returns whether a piece is another than before, or ought to be.
 PLUMB_HD inline bool choose_pieces(const AxisView& view, std::uint32_t j, const RowTime& time, const Velocity& a,
-                                   const Velocity& b, std::uint32_t round, Real share, Real (&jump)[kJointRows]) {
+                                   const Velocity& b, std::uint32_t round, Real share, RowNumbers& jump) {
   const Joint& joint = view.joints[j];
   AxisWork& own = view.parts.work[j];
   const Real* total = view.total(j);
   const bool all_held = rows_of(joint.type) == row_count(joint), first_round = round == 0;
   for (int i = 0; i < row_count(joint); ++i) jump[i] = 0;
   if (all_held && !first_round) return false;
-  Real speed[kJointRows]{};
+  RowNumbers speed{};
   if (!all_held || time.pass == RowPass::kMoved) row_speeds(view, j, time, a, b, first_round, speed);
   bool changed = false;
   for (int i = 0; i < row_count(joint); ++i) {
@@ -214,7 +214,7 @@ PLUMB_HD inline bool choose_pieces(const AxisView& view, std::uint32_t j, const 
 }
 
 /// The matrix of the rows that are active, others being 0.
-PLUMB_HD inline void mask_matrix(const AxisWork& own, int n, Block& matrix) {
+PLUMB_HD inline void mask_matrix(const AxisWork& own, int n, JointMatrix& matrix) {
   for (int p = 0; p < n; ++p) {
     for (int q = 0; q <= p; ++q) matrix(p, q) = own.is_active(p) && own.is_active(q) ? own.whole(p, q) : Real(0);
     if (own.is_active(p)) matrix(p, p) = matrix(p, p) + own.cfm[p];
@@ -248,7 +248,7 @@ PLUMB_HD inline void follow_rows(const AxisView& view, std::uint32_t j, const Ro
   const Joint& joint = view.joints[j];
   AxisWork& own = view.parts.work[j];
   JointReaction& reaction = view.reaction(j);
-  Real speed[kJointRows];
+  RowNumbers speed;
   if (own.predicted != 0) speeds_now(view, j, view.velocity(joint.body_a), view.velocity(joint.body_b), speed);
   for (int i = rows_of(joint.type); i < row_count(joint); ++i) {
     if (is_held(view, j, i)) continue;
@@ -263,7 +263,7 @@ PLUMB_HD inline void follow_rows(const AxisView& view, std::uint32_t j, const Ro
 /// How far the rows are from their equations, with the other sign. tikhonov: as JointWork's. A motor's row never counts
 /// what it has gathered: nothing takes back how far its speed was off, and it would creep under load.
 PLUMB_HD inline void row_residuals(const AxisView& view, std::uint32_t j, const RowTime& time, const Velocity& a,
-                                   const Velocity& b, bool anew, Real tikhonov, Real (&y)[kJointRows]) {
+                                   const Velocity& b, bool anew, Real tikhonov, RowNumbers& y) {
   const AxisWork& own = view.parts.work[j];
   const Real* total = view.total(j);
   row_speeds(view, j, time, a, b, anew, y);
@@ -282,7 +282,7 @@ PLUMB_HD inline void row_residuals(const AxisView& view, std::uint32_t j, const 
 /// At the end of a pass, in which rows do not switch their piece of the law any more. change: what brings impulses to
 /// what the laws allow.
 PLUMB_HD inline void settle_pieces(const AxisView& view, std::uint32_t j, const RowTime& time,
-                                   Real (&change)[kJointRows]) {
+                                   RowNumbers& change) {
   const Joint& joint = view.joints[j];
   AxisWork& own = view.parts.work[j];
   const Real* total = view.total(j);
@@ -328,7 +328,7 @@ PLUMB_HD inline void solve_axis_rows(const AxisView& view, std::uint32_t j, cons
   const AxisWork& own = view.parts.work[j];
   JointWork& work = view.work[j];
   Real* total = view.total(j);
-  Real change[kJointRows];
+  RowNumbers change;
   const auto push = [&] {
     for (int i = 0; i < row_count(joint); ++i) total[i] = total[i] + change[i];
     push_joint(work, row_count(joint), change, a, b);
@@ -377,8 +377,8 @@ PLUMB_HD inline void add_reaction(const AxisView& view, std::uint32_t j) {
   const Vec arm = rotate(view.end(joint.body_b).orientation, joint.frame_b.position);
   for (int i = 0; i < row_count(joint); ++i) {
     const Real gained = total[i] - reaction.counted[i];
-    reaction.force += gained * work.rows[i].direction;
-    reaction.torque += gained * (work.rows[i].on_b - cross(arm, work.rows[i].direction));
+    reaction.force += gained * work.rows.direction(i);
+    reaction.torque += gained * (work.rows.on_b(i) - cross(arm, work.rows.direction(i)));
     reaction.counted[i] = total[i];
   }
 }

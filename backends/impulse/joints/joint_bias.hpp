@@ -12,7 +12,7 @@ PLUMB_HD inline void solve_joint_with_bias(const JointView& view, std::uint32_t 
   JointImpulse& total = view.impulses[joint.slot];
   const int n = row_count(joint);
   const Velocity a = view.velocity(joint.body_a), b = view.velocity(joint.body_b);
-  Real impulse[kJointRows];
+  RowNumbers impulse;
   joint_residuals(view, j, JointPass{}, a, b, impulse);
   for (int i = 0; i < n; ++i) impulse[i] = impulse[i] + speed_of_error(bias_rate, work.error[i]);
   solve_factored(work.factor, n, impulse);

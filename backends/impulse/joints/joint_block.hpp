@@ -2,13 +2,13 @@
 // number of rows it has; a thread of a GPU goes through those that there are. Sums go in the same order on both.
 #pragma once
 
-#include "joints/joint_solve.hpp"
+#include "joints/joint.hpp"
 #include "math/block.hpp"
-#include "math/wide.hpp"
 
 namespace plumb::impulse {
 
-/// A dense block of L, rows of the later joint by columns of the earlier one.
+/// A dense block of L, rows of the later joint by columns of the earlier one. Of one on the diagonal only the lower half
+/// counts.
 struct JointBlock {
   Real at[kJointRows][kLaneGroup];  ///< by column: its rows, and room up to a whole vector
 
@@ -36,6 +36,95 @@ void with_rows(int n, const F& f) {
 }
 inline Lanes column_of(const JointBlock& block, int column) { return load_row(block.at[column]); }
 
+/// K of a joint, and then its factors.
+using JointMatrix = JointBlock;
+
+/// A matrix as a block while products are taken off it.
+struct WholeMatrix {
+  JointBlock& at;
+
+  WholeMatrix(JointMatrix& m, int /*n*/) : at(m) {}
+  void put(JointMatrix& /*m*/, int /*n*/) const {}
+};
+
+/// Bits as lanes.
+inline Mask lanes_of(std::uint32_t bits) {
+  constexpr Mask::Vector kBits = {1, 2, 4, 8, 16, 32, 64, 128};
+  const auto all = static_cast<Mask::Bits>(bits);
+  return {(Mask::Vector{all, all, all, all, all, all, all, all} & kBits) != 0};
+}
+
+/// Adds a number to each of the first n on the diagonal.
+inline void add_to_diagonal(JointBlock& m, int n, const RowNumbers& numbers) {
+  for (int j = 0; j < n; ++j) {
+    const Lanes column = column_of(m, j);
+    store_row(m.at[j], select(lanes_of(1U << j), column + load_row(numbers), column));
+  }
+}
+
+/// As of Block.
+inline void factor(JointBlock& m, int n) {
+  PLUMB_ASSERT(n >= 0 && n <= kJointRows);
+  with_rows(n, [&](auto count) {
+    constexpr int kCount = count;
+    Lanes whole[kCount];  // columns of L D, and m those of L
+    PLUMB_UNROLL
+    for (int j = 0; j < kCount; ++j) {
+      const Real own = m(j, j);
+      whole[j] = column_of(m, j);
+      PLUMB_UNROLL
+      for (int k = 0; k < j; ++k) whole[j] = whole[j] - whole[k] * Lanes(m(j, k));
+      const Real left = whole[j].v[j];
+      const Real inverse = left > 64 * kEpsilon * own ? Real(1) / left : Real(0);
+      store_row(m.at[j], select(lanes_of(1U << j), Lanes(inverse), whole[j] * Lanes(inverse)));
+    }
+  });
+}
+
+/// As of Block.
+template <class N>
+void solve_factored(const JointBlock& m, int n, N* x) {
+  with_rows(n, [&](auto count) {
+    constexpr int kCount = count;
+    N y[kCount];
+    PLUMB_UNROLL
+    for (int i = 0; i < kCount; ++i) y[i] = x[i];
+    PLUMB_UNROLL
+    for (int i = 0; i < kCount; ++i) PLUMB_UNROLL
+    for (int k = 0; k < i; ++k) y[i] = y[i] - N(m(i, k)) * y[k];
+    PLUMB_UNROLL
+    for (int i = 0; i < kCount; ++i) y[i] = N(m(i, i)) * y[i];
+    PLUMB_UNROLL
+    for (int i = kCount - 1; i >= 0; --i) PLUMB_UNROLL
+    for (int k = i + 1; k < kCount; ++k) y[i] = y[i] - N(m(k, i)) * y[k];
+    PLUMB_UNROLL
+    for (int i = 0; i < kCount; ++i) x[i] = y[i];
+  });
+}
+
+#else
+
+/// K of a joint, and then its factors.
+using JointMatrix = Block;
+
+/// A matrix as a block while products are taken off it.
+struct WholeMatrix {
+  JointBlock at{};
+
+  PLUMB_HD WholeMatrix(const JointMatrix& m, int n) {
+    for (int p = 0; p < n; ++p)
+      for (int q = 0; q <= p; ++q) at(p, q) = m(p, q);
+  }
+  PLUMB_HD void put(JointMatrix& m, int n) const {
+    for (int p = 0; p < n; ++p)
+      for (int q = 0; q <= p; ++q) m(p, q) = at(p, q);
+  }
+};
+
+PLUMB_HD inline void add_to_diagonal(Block& m, int n, const RowNumbers& numbers) {
+  for (int i = 0; i < n; ++i) m(i, i) = m(i, i) + numbers[i];
+}
+
 #endif
 
 /// m -= left right^T, for `inner` columns.
@@ -62,46 +151,40 @@ PLUMB_HD inline void take_product(JointBlock& m, [[maybe_unused]] int rows, int 
 }
 
 /// y -= m x, for the first `columns` numbers of x.
-PLUMB_HD inline void take_product(Real (&y)[kJointRows], int rows, const JointBlock& m, const Real (&x)[kJointRows],
+PLUMB_HD inline void take_product(RowNumbers& y, [[maybe_unused]] int rows, const JointBlock& m, const RowNumbers& x,
                                   int columns) {
 #if defined(PLUMB_IMPULSE_CUDA)
   for (int p = 0; p < rows; ++p)
     for (int q = 0; q < columns; ++q) y[p] = y[p] - m(p, q) * x[q];
 #else
-  Lanes sum(0);
-  for (int p = 0; p < rows; ++p) lane_of(sum, static_cast<std::uint32_t>(p)) = y[p];
+  Lanes sum = load_row(y);
   for (int q = 0; q < columns; ++q) sum = sum - column_of(m, q) * Lanes(x[q]);
-  for (int p = 0; p < rows; ++p) y[p] = lane_of(sum, static_cast<std::uint32_t>(p));
+  store_row(y, sum);
 #endif
 }
 
-/// Each row of m becomes the solution of (L D L^T) y = row, of n columns.
-PLUMB_HD inline void solve_rows(const Block& factors, int n, JointBlock& m, [[maybe_unused]] int rows) {
 #if defined(PLUMB_IMPULSE_CUDA)
+
+/// Each row of m becomes the solution of (L D L^T) y = row, of n columns.
+PLUMB_HD inline void solve_rows(const Block& factors, int n, JointBlock& m, int rows) {
   for (int p = 0; p < rows; ++p) {
     Real row[kJointRows];
     for (int q = 0; q < n; ++q) row[q] = m(p, q);
     solve_factored(factors, n, row);
     for (int q = 0; q < n; ++q) m(p, q) = row[q];
   }
-#else
-  with_rows(n, [&](auto count) {
-    constexpr int kCount = count;
-    Lanes x[kCount];
-    PLUMB_UNROLL
-    for (int i = 0; i < kCount; ++i) x[i] = column_of(m, i);
-    PLUMB_UNROLL
-    for (int i = 0; i < kCount; ++i) PLUMB_UNROLL
-    for (int k = 0; k < i; ++k) x[i] = x[i] - Lanes(factors(i, k)) * x[k];
-    PLUMB_UNROLL
-    for (int i = 0; i < kCount; ++i) x[i] = Lanes(factors(i, i)) * x[i];
-    PLUMB_UNROLL
-    for (int i = kCount - 1; i >= 0; --i) PLUMB_UNROLL
-    for (int k = i + 1; k < kCount; ++k) x[i] = x[i] - Lanes(factors(k, i)) * x[k];
-    PLUMB_UNROLL
-    for (int i = 0; i < kCount; ++i) store_row(m.at[i], x[i]);
-  });
-#endif
 }
+
+#else
+
+/// Each row of m becomes the solution of (L D L^T) y = row, of n columns.
+inline void solve_rows(const JointBlock& factors, int n, JointBlock& m, int /*rows*/) {
+  Lanes x[kJointRows];
+  for (int q = 0; q < kJointRows; ++q) x[q] = column_of(m, q);
+  solve_factored(factors, n, x);
+  for (int q = 0; q < kJointRows; ++q) store_row(m.at[q], x[q]);
+}
+
+#endif
 
 }  // namespace plumb::impulse

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "joints/joint_matrix.hpp"
-#include "math/lane_vectors.hpp"
 
 namespace plumb::impulse {
 
@@ -23,10 +22,11 @@ PLUMB_HD void for_shared_bodies(const Joint& i, const Joint& j, const F& f) {
 
 /// The rows of a joint as those of others see them.
 struct CouplingRows {
-  const JointWork& work;
+  const Jacobian& rows;
   std::uint32_t active;  ///< bits
 
-  PLUMB_HD CouplingRows(const JointWork& of, int /*rows*/, std::uint32_t active_rows) : work(of), active(active_rows) {}
+  PLUMB_HD CouplingRows(const JointWork& of, int /*rows*/, std::uint32_t active_rows)
+      : rows(of.rows), active(active_rows) {}
 };
 
 /// Speeds of the rows of joint i for unit impulses along those of joint j; 0 where either is not active.
@@ -35,13 +35,13 @@ PLUMB_HD inline void couple(const JointSystem& system, std::uint32_t i, std::uin
   const Joint &joint_i = system.view.joints[system.base + i], &joint_j = system.view.joints[system.base + j];
   for (int p = 0; p < system.rows(i); ++p)
     for (int q = 0; q < system.rows(j); ++q) {
-      const JointRow& row = system.work(i).rows[p];
+      const JointRow& row = system.work(i).rows.row[p];
       Real sum = 0;
       if ((active >> p & 1U) != 0 && (of_j.active >> q & 1U) != 0)
         for_shared_bodies(joint_i, joint_j, [&](std::uint32_t body, bool b_of_i, bool b_of_j) {
-          const Real along = system.view.inverse_mass(body) * dot(row.direction, of_j.work.rows[q].direction);
+          const Real along = system.view.inverse_mass(body) * dot(row.direction, of_j.rows.direction(q));
           sum = sum + (b_of_i == b_of_j ? along : -along) +
-                dot(b_of_i ? row.on_b : row.on_a, b_of_j ? of_j.work.turn_b[q] : of_j.work.turn_a[q]);
+                dot(b_of_i ? row.on_b : row.on_a, b_of_j ? of_j.rows.turn_b(q) : of_j.rows.turn_a(q));
         });
       block(p, q) = sum;
     }
@@ -49,65 +49,58 @@ PLUMB_HD inline void couple(const JointSystem& system, std::uint32_t i, std::uin
 
 #else
 
-/// The rows of a joint as those of others see them, one a lane.
+/// The rows of a joint as those of others see them.
 struct CouplingRows {
-  Vec3<Lanes> direction = {Lanes(0), Lanes(0), Lanes(0)}, turn_a = direction, turn_b = direction;
-  Lanes active = Lanes(0);  ///< 1 or 0
+  const Jacobian& rows;
+  std::uint32_t active;  ///< bits
 
-  CouplingRows(const JointWork& of, int rows, std::uint32_t active_rows) {
-    for (std::uint32_t q = 0; q < static_cast<std::uint32_t>(rows); ++q) {
-      put_lane(direction, q, of.rows[q].direction);
-      put_lane(turn_a, q, of.turn_a[q]);
-      put_lane(turn_b, q, of.turn_b[q]);
-      lane_of(active, q) = static_cast<Real>(active_rows >> q & 1U);
-    }
-  }
+  CouplingRows(const JointWork& of, int /*rows*/, std::uint32_t active_rows) : rows(of.rows), active(active_rows) {}
 };
 
 /// Speeds of the rows of joint i for unit impulses along those of joint j; 0 where either is not active.
 inline void couple(const JointSystem& system, std::uint32_t i, std::uint32_t active, std::uint32_t j,
                    const CouplingRows& of_j, JointBlock& block) {
-  const Joint &joint_i = system.view.joints[system.base + i], &joint_j = system.view.joints[system.base + j];
-  const Mask is_active = of_j.active > Lanes(0);
-  Lanes rows[kLanes], columns[kLanes];
-  for (Lanes& row : rows) row = Lanes(0);
-  for (int p = 0; p < system.rows(i); ++p) {
-    if ((active >> p & 1U) == 0) continue;
-    const JointRow& row = system.work(i).rows[p];
-    Lanes sum(0);
-    for_shared_bodies(joint_i, joint_j, [&](std::uint32_t body, bool b_of_i, bool b_of_j) {
-      const Lanes along = Lanes(system.view.inverse_mass(body)) * dot(in_all_lanes(row.direction), of_j.direction);
-      sum = sum + (b_of_i == b_of_j ? along : -along) +
-            dot(in_all_lanes(b_of_i ? row.on_b : row.on_a), b_of_j ? of_j.turn_b : of_j.turn_a);
-    });
-    rows[p] = select(is_active, sum, Lanes(0));
-  }
-  transpose(rows, columns);
-  for (int q = 0; q < kJointRows; ++q) store_row(block.at[q], columns[q]);
+  const Jacobian& of_i = system.work(i).rows;
+  const Vec3<Lanes> direction = of_i.direction_of.lanes();
+  const int n = system.rows(j);
+  for (Real(&column)[kLaneGroup] : block.at) store_row(column, Lanes(0));
+  for_shared_bodies(system.view.joints[system.base + i], system.view.joints[system.base + j],
+                    [&](std::uint32_t body, bool b_of_i, bool b_of_j) {
+                      const Real inverse_mass = system.view.inverse_mass(body);
+                      const Vec3<Lanes> on = (b_of_i ? of_i.on_b_of : of_i.on_a_of).lanes();
+                      const RowPush* pushes = b_of_j ? of_j.rows.push_b : of_j.rows.push_a;
+                      for (int q = 0; q < n; ++q) {
+                        const Lanes along = Lanes(inverse_mass) * dot(direction, in_all_lanes(pushes[q].direction));
+                        store_row(block.at[q], column_of(block, q) + (b_of_i == b_of_j ? along : -along) +
+                                                   dot(on, in_all_lanes(pushes[q].turn)));
+                      }
+                    });
+  if (active == kAllRows && of_j.active == kAllRows) return;
+  const Mask is_active = lanes_of(active);
+  for (int q = 0; q < n; ++q)
+    store_row(block.at[q],
+              (of_j.active >> q & 1U) != 0 ? select(is_active, column_of(block, q), Lanes(0)) : Lanes(0));
 }
 
 #endif
 
 /// Takes off the diagonal block of column j what earlier columns give.
-PLUMB_HD inline void take_earlier_columns(const JointSystem& system, std::uint32_t j, Block& diagonal) {
+PLUMB_HD inline void take_earlier_columns(const JointSystem& system, std::uint32_t j, JointMatrix& diagonal) {
   const int n = system.rows(j);
   const std::uint32_t first = system.row_first[j], end = system.row_first[j + 1];
   if (first == end) return;
-  JointBlock block{};  // by the diagonal's columns, of which only the lower half counts
-  for (int p = 0; p < n; ++p)
-    for (int q = 0; q <= p; ++q) block(p, q) = diagonal(p, q);
+  WholeMatrix block(diagonal, n);
   for (std::uint32_t r = first; r < end; ++r) {
     const std::uint32_t e = system.row_entries[r];
-    take_product(block, n, n, system.scaled[e], system.whole[e], system.rows(system.entries[e].column));
+    take_product(block.at, n, n, system.scaled[e], system.whole[e], system.rows(system.entries[e].column));
   }
-  for (int p = 0; p < n; ++p)
-    for (int q = 0; q <= p; ++q) diagonal(p, q) = block(p, q);
+  block.put(diagonal, n);
 }
 
 /// Takes the column's products off it and factors it. active(i): bits of the rows of joint i that are.
 template <class Active>
 PLUMB_HD void eliminate_column(const JointSystem& system, std::uint32_t j, const Active& active) {
-  Block& diagonal = system.work(j).factor;
+  JointMatrix& diagonal = system.work(j).factor;
   const int n = system.rows(j);
   take_earlier_columns(system, j, diagonal);
   factor(diagonal, n);

@@ -3,22 +3,20 @@
 
 #include "bodies/axis_locks.hpp"
 #include "bodies/motion.hpp"
-#include "joints/joint.hpp"
-#include "math/block.hpp"
+#include "joints/jacobian.hpp"
 
 namespace plumb::impulse {
 
 /// What joint_loops.hpp works out at the start of a sub-step and after positions have moved.
 struct JointWork {
-  JointRow rows[kJointRows];
-  Vec turn_a[kJointRows], turn_b[kJointRows];  ///< what a unit impulse along a row does to the angular velocities
-  Real error[kJointRows];                      ///< C where the rows were made
-  Block factor;                                ///< K, and then its factors
+  Jacobian rows;
+  RowNumbers error;    ///< C where the rows were made
+  JointMatrix factor;  ///< K, and then its factors
   // While a mechanism is solved as a whole:
-  Real share;               ///< by which rows yield, relative to K
-  Real tikhonov;            ///< the part of that which the impulses gathered so far count for
-  Real change[kJointRows];  ///< of the impulse
-  Real cfm[kJointRows];     ///< speed for a unit impulse by which a row yields beside what the bodies do
+  Real share;         ///< by which rows yield, relative to K
+  Real tikhonov;      ///< the part of that which the impulses gathered so far count for
+  RowNumbers change;  ///< of the impulse
+  RowNumbers cfm;     ///< speed for a unit impulse by which a row yields beside what the bodies do
 };
 
 struct JointImpulse {
@@ -92,28 +90,14 @@ struct JointPass {
 };
 
 PLUMB_HD inline void push_joint(const JointWork& work, int n, const Real* impulse, Velocity& a, Velocity& b) {
-  for (int i = 0; i < n; ++i) {
-    a.linear -= (a.inverse_mass * impulse[i]) * work.rows[i].direction;
-    b.linear += (b.inverse_mass * impulse[i]) * work.rows[i].direction;
-    a.angular += impulse[i] * work.turn_a[i];
-    b.angular += impulse[i] * work.turn_b[i];
-  }
+  push_along(work.rows, n, false, impulse, a);
+  push_along(work.rows, n, true, impulse, b);
 }
 
-/// K of the work's rows, with the bodies at those ends.
-PLUMB_HD inline void find_mobility(const JointView& view, const Joint& joint, const JointEnd& a, const JointEnd& b,
-                                   JointWork& work, Block& mobility) {
-  const Sym inertia_a = view.inverse_inertia(joint.body_a, a.orientation);
-  const Sym inertia_b = view.inverse_inertia(joint.body_b, b.orientation);
-  const Real inverse_mass = view.inverse_mass(joint.body_a) + view.inverse_mass(joint.body_b);
-  const int n = row_count(joint);
-  for (int i = 0; i < n; ++i) {
-    work.turn_a[i] = inertia_a * work.rows[i].on_a;
-    work.turn_b[i] = inertia_b * work.rows[i].on_b;
-    for (int k = 0; k <= i; ++k)
-      mobility(i, k) = inverse_mass * dot(work.rows[i].direction, work.rows[k].direction) +
-                       dot(work.turn_a[i], work.rows[k].on_a) + dot(work.turn_b[i], work.rows[k].on_b);
-  }
+/// What a joint moves, with the bodies at those ends.
+PLUMB_HD inline JointMass joint_mass(const JointView& view, const Joint& joint, const JointEnd& a, const JointEnd& b) {
+  return {view.inverse_inertia(joint.body_a, a.orientation), view.inverse_inertia(joint.body_b, b.orientation),
+          view.inverse_mass(joint.body_a) + view.inverse_mass(joint.body_b)};
 }
 
 /// Rows, errors and K where the bodies are now.
@@ -123,8 +107,8 @@ PLUMB_HD inline void make_joint_rows(const JointView& view, std::uint32_t j) {
   const JointEnd a = view.end(joint.body_a), b = view.end(joint.body_b);
   const JointPlace place = place_joint(joint, view.base(joint), a, b);
   joint_errors(joint, place, work.error);
-  joint_rows(joint, place, work.rows);
-  find_mobility(view, joint, a, b, work, work.factor);
+  put_rows(work.rows, row_count(joint), joint_mass(view, joint, a, b), work.factor,
+           [&](JointRow(&rows)[kJointRows]) { joint_rows(joint, place, rows); });
 }
 
 PLUMB_HD inline void factor_joint(const JointView& view, std::uint32_t j) {
@@ -144,11 +128,8 @@ PLUMB_HD inline bool turns_far(const Velocity& a, const Velocity& b, Real h) {
 
 /// Speeds along the rows as they stand.
 PLUMB_HD inline void speeds_now(const JointView& view, std::uint32_t j, const Velocity& a, const Velocity& b,
-                                Real (&speed)[kJointRows]) {
-  const JointWork& work = view.work[j];
-  for (int i = 0; i < row_count(view.joints[j]); ++i)
-    speed[i] = dot(work.rows[i].direction, b.linear - a.linear) + dot(work.rows[i].on_a, a.angular) +
-               dot(work.rows[i].on_b, b.angular);
+                                RowNumbers& speed) {
+  speeds_along(view.work[j].rows, row_count(view.joints[j]), a, b, speed);
 }
 
 /// Errors are taken back no faster than this, m/s or rad/s. Bodies that are joined where they are metres apart are
@@ -168,10 +149,10 @@ PLUMB_HD inline Real rate_of_error(const JointView& view, const Joint& joint, Re
 
 /// How far the velocities of the rows are from what they should be in this pass.
 PLUMB_HD inline void joint_residuals(const JointView& view, std::uint32_t j, const JointPass& pass, const Velocity& a,
-                                     const Velocity& b, Real (&residual)[kJointRows]) {
+                                     const Velocity& b, RowNumbers& residual) {
   const Joint& joint = view.joints[j];
   const JointWork& work = view.work[j];
-  const int n = row_count(joint);
+  const int n = whole_rows(row_count(joint));
   const Real rate = rate_of_error(view, joint, pass.softness.bias_rate, pass.chain_rate);
   if (!pass.take_back_error || turns_far(a, b, pass.h)) {
     speeds_now(view, j, a, b, residual);
@@ -215,7 +196,7 @@ PLUMB_HD inline void solve_joint(const JointView& view, std::uint32_t j, const J
   JointImpulse& total = view.impulses[joint.slot];
   const int n = row_count(joint);
   const Velocity a = view.velocity(joint.body_a), b = view.velocity(joint.body_b);
-  Real impulse[kJointRows];
+  RowNumbers impulse;
   joint_residuals(view, j, pass, a, b, impulse);
   solve_factored(work.factor, n, impulse);
   for (int i = 0; i < n; ++i) {

@@ -31,16 +31,14 @@ PLUMB_HD inline void choose_share(const JointView& view, std::uint32_t j, Real h
 
 PLUMB_HD inline void factor_column(const JointSystem& system, std::uint32_t j) {
   JointWork& work = system.work(j);
-  for (int p = 0; p < system.rows(j); ++p) {
-    work.cfm[p] = work.share * work.factor(p, p);
-    work.factor(p, p) = work.factor(p, p) + work.cfm[p];
-  }
+  for (int p = 0; p < system.rows(j); ++p) work.cfm[p] = work.share * work.factor(p, p);
+  add_to_diagonal(work.factor, system.rows(j), work.cfm);
   eliminate_column(system, j, [](std::uint32_t) { return kAllRows; });
 }
 
 /// Takes off a row's residuals in work.change what the joints before it give.
 PLUMB_HD inline void take_earlier(const JointSystem& system, std::uint32_t j) {
-  Real(&y)[kJointRows] = system.work(j).change;
+  RowNumbers& y = system.work(j).change;
   const int n = system.rows(j);
   for (std::uint32_t r = system.row_first[j]; r < system.row_first[j + 1]; ++r) {
     const std::uint32_t e = system.row_entries[r];
@@ -51,7 +49,7 @@ PLUMB_HD inline void take_earlier(const JointSystem& system, std::uint32_t j) {
 
 PLUMB_HD inline void solve_forward(const JointSystem& system, std::uint32_t j, const JointPass& pass) {
   const Joint& joint = system.view.joints[system.base + j];
-  Real(&y)[kJointRows] = system.work(j).change;
+  RowNumbers& y = system.work(j).change;
   joint_residuals(system.view, system.base + j, pass, system.view.velocity(joint.body_a),
                   system.view.velocity(joint.body_b), y);
   const JointImpulse& total = system.view.impulses[joint.slot];
@@ -62,13 +60,13 @@ PLUMB_HD inline void solve_forward(const JointSystem& system, std::uint32_t j, c
 
 PLUMB_HD inline void solve_backward(const JointSystem& system, std::uint32_t j) {
   JointWork& work = system.work(j);
-  Real(&z)[kJointRows] = work.change;
+  RowNumbers& z = work.change;
   const int n = system.rows(j);
   solve_factored(work.factor, n, z);
   for (std::uint32_t e = system.column_first[j]; e < system.column_first[j + 1]; ++e) {
     const JointBlock& scaled = system.scaled[e];
     const std::uint32_t i = system.entries[e].row;
-    const Real(&from)[kJointRows] = system.work(i).change;
+    const RowNumbers& from = system.work(i).change;
     for (int p = 0; p < system.rows(i); ++p)
       for (int q = 0; q < n; ++q) z[q] = z[q] - scaled(p, q) * from[p];
   }
@@ -84,11 +82,7 @@ PLUMB_HD inline void push_body(const JointSystem& system, std::uint32_t place, b
     const JointWork& work = system.view.work[on.joint];
     const Joint& joint = system.view.joints[on.joint];
     const Real* impulse = total ? system.view.impulses[joint.slot].along : work.change;
-    for (int i = 0; i < row_count(joint); ++i) {
-      const Real along = after.inverse_mass * impulse[i];
-      after.linear += (on.is_b ? along : -along) * work.rows[i].direction;
-      after.angular += impulse[i] * (on.is_b ? work.turn_b[i] : work.turn_a[i]);
-    }
+    push_along(work.rows, row_count(joint), on.is_b, impulse, after);
   }
   system.view.store(body, before, after);
 }

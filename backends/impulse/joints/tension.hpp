@@ -39,7 +39,7 @@ PLUMB_HD inline Real moment_by_tension(const JointSystem& system, std::uint32_t 
     Vec pull = {0, 0, 0};
     for (int i = 0; i < row_count(joint); ++i) {
       const Real impulse = changed ? total[i] + work.change[i] : total[i];
-      if ((joint.pulls >> i & 1U) != 0) pull += impulse * work.rows[i].direction;
+      if ((joint.pulls >> i & 1U) != 0) pull += impulse * work.rows.direction(i);
     }
     const Vec arm = rotate(orientation, (on.is_b ? joint.frame_b : joint.frame_a).position);
     const Real outward = on.is_b ? dot(pull, arm) : -dot(pull, arm);

@@ -180,7 +180,7 @@ struct JudgeEnergy {
     const JointAxes& axes = work.joints.axes.axes[j];
     const JointReaction& reaction = work.joints.axes.reactions[joint.slot];
     const JointDrive& drive = work.joints.axes.drives[joint.slot];
-    Real places[kJointRows];
+    RowNumbers places;
     all_errors(joint, axes, place_before(joint), places);
     Real sum = 0;
     for (int i = 0; i < row_count(joint) - first; ++i) {

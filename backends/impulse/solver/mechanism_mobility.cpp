@@ -64,8 +64,8 @@ struct UnitWrench {
         Lanes given(0);
         for (std::uint32_t lane = 0; lane < kAxesAtOnce; ++lane) {
           const int of = static_cast<int>((axis + lane) % 3);
-          const Real along = inverse_mass * work.rows[p].direction[of];
-          const Vec& turn = on.is_b ? work.turn_b[p] : work.turn_a[p];
+          const Real along = inverse_mass * work.rows.direction(p)[of];
+          const Vec& turn = on.is_b ? work.rows.turn_b(p) : work.rows.turn_a(p);
           lane_of(given, lane) = axis + lane < 3 ? (on.is_b ? along : -along) : turn[of];
         }
         put(body, axis, column, p, get(body, axis, column, p) - given);
@@ -140,7 +140,7 @@ struct UnitWrench {
   /// What wrench and impulses do to the body at place j.
   PLUMB_HD void move(const MechanismBody& body, std::uint32_t place, std::uint32_t axis, std::uint32_t j) const {
     const Real inverse_mass = system.view.inverse_mass(mechanisms.bodies[j].body);
-    Vec3<Lanes> linear = in_all_lanes({0, 0, 0}), angular = linear;
+    Vec3<Lanes> linear = in_all_lanes(Vec{0, 0, 0}), angular = linear;
     if (j == place) move_own(place, axis, linear, angular);
     for (std::uint32_t k = system.body_first[j]; k < system.body_first[j + 1]; ++k) {
       const JointOnBody on = system.on_body[k];
@@ -148,8 +148,8 @@ struct UnitWrench {
       const std::uint32_t column = on.joint - system.base;
       for (int p = 0; p < system.rows(column); ++p) {
         const Lanes z = get(body, axis, column, p), along = Lanes(inverse_mass) * z;
-        linear += (on.is_b ? along : -along) * in_all_lanes(work.rows[p].direction);
-        angular += z * in_all_lanes(on.is_b ? work.turn_b[p] : work.turn_a[p]);
+        linear += (on.is_b ? along : -along) * in_all_lanes(work.rows.direction(p));
+        angular += z * in_all_lanes(on.is_b ? work.rows.turn_b(p) : work.rows.turn_a(p));
       }
     }
     Real* to = mechanisms.mobility + body.mobility + std::uint64_t{j - body.first} * 36 + axis;
