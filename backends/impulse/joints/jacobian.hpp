@@ -65,10 +65,10 @@ struct VectorOfRows {
   RowNumbers x, y, z;
 
   [[nodiscard]] Vec3<Lanes> lanes() const { return {load_row(x), load_row(y), load_row(z)}; }
-  void put(int i, const Vec& v) {
-    x[i] = v.x;
-    y[i] = v.y;
-    z[i] = v.z;
+  void put(const Vec3<Lanes>& v) {
+    store_row(x, v.x);
+    store_row(y, v.y);
+    store_row(z, v.z);
   }
   [[nodiscard]] Vec operator[](int i) const { return {x[i], y[i], z[i]}; }
 };
@@ -103,19 +103,30 @@ inline void put_pushes(const Vec3<Lanes>& direction, const Vec3<Lanes>& turn, Ro
   for (int i = 0; i < kJointRows; ++i) store_row(pushes[i], rows[i]);
 }
 
+/// of(i) of each row in a lane: in registers, for numbers that go to memory one by one are slow to read at once.
+template <class Of>
+[[gnu::always_inline]] inline Lanes lanes_of_rows(const Of& of) {
+  static_assert(kLanes == 8 && kJointRows == 6);
+  return Lanes(Lanes::Vector{of(0), of(1), of(2), of(3), of(4), of(5), 0, 0});
+}
+template <class Of>
+[[gnu::always_inline]] inline Vec3<Lanes> vectors_of_rows(const Of& of) {
+  return {lanes_of_rows([&](int i) { return of(i).x; }), lanes_of_rows([&](int i) { return of(i).y; }),
+          lanes_of_rows([&](int i) { return of(i).z; })};
+}
+
 /// The n rows that make(rows) makes, and K.
 template <class Make>
 void put_rows(Jacobian& rows, int n, const JointMass& mass, JointMatrix& mobility, const Make& make) {
   JointRow made[kJointRows] = {};
   make(made);
-  for (int i = 0; i < kJointRows; ++i) {
-    rows.direction_of.put(i, made[i].direction);
-    rows.on_a_of.put(i, made[i].on_a);
-    rows.on_b_of.put(i, made[i].on_b);
-  }
-  const Vec3<Lanes> direction = rows.direction_of.lanes();
-  const Vec3<Lanes> turn_a = in_all_lanes(mass.inertia_a) * rows.on_a_of.lanes();
-  const Vec3<Lanes> turn_b = in_all_lanes(mass.inertia_b) * rows.on_b_of.lanes();
+  const Vec3<Lanes> direction = vectors_of_rows([&](int i) -> const Vec& { return made[i].direction; });
+  const Vec3<Lanes> on_a = vectors_of_rows([&](int i) -> const Vec& { return made[i].on_a; });
+  const Vec3<Lanes> on_b = vectors_of_rows([&](int i) -> const Vec& { return made[i].on_b; });
+  rows.direction_of.put(direction);
+  rows.on_a_of.put(on_a);
+  rows.on_b_of.put(on_b);
+  const Vec3<Lanes> turn_a = in_all_lanes(mass.inertia_a) * on_a, turn_b = in_all_lanes(mass.inertia_b) * on_b;
   put_pushes(direction, turn_a, rows.push_a);
   put_pushes(direction, turn_b, rows.push_b);
   for (int k = 0; k < n; ++k)

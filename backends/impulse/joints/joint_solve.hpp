@@ -23,6 +23,20 @@ struct JointImpulse {
   Real along[kJointRows];  ///< N s, N m s
 };
 
+/// What joints did to a body whose angular velocity is kept in world axes.
+PLUMB_HD inline void store_plainly(const Velocity& before, const Velocity& after, Velocity& velocity,
+                                   FreeVelocity& free) {
+#if defined(PLUMB_IMPULSE_CUDA)
+  velocity.linear = after.linear;
+  velocity.angular = after.angular;
+  free.linear += after.linear - before.linear;
+  free.angular += after.angular - before.angular;
+#else
+  velocity = after;
+  store_row(free, load_row(free) + (load_row(after) - load_row(before)));
+#endif
+}
+
 /// Everything that a kernel over joints reads and writes.
 struct JointView {
   Bodies bodies;
@@ -56,7 +70,7 @@ struct JointView {
   PLUMB_HD Velocity velocity(std::uint32_t body) const {
     if (body == kWorld) return {{0, 0, 0}, 0, {0, 0, 0}, 0};
     Velocity velocity = solver.velocity[body];
-    velocity.angular = to_world(bodies, solver, body, velocity.angular);
+    if (swings(bodies, solver, body)) velocity.angular = rotate(swing_now(bodies, solver, body), velocity.angular);
     return velocity;
   }
   PLUMB_HD Sym inverse_inertia(std::uint32_t body, const Quat& orientation) const {
@@ -73,10 +87,11 @@ struct JointView {
     if (!(before.inverse_mass > 0)) return;
     Velocity& velocity = solver.velocity[body];
     FreeVelocity& free = solver.free_velocity[body];
+    if (!swings(bodies, solver, body)) return store_plainly(before, after, velocity, free);
     velocity.linear = after.linear;
     free.linear += after.linear - before.linear;
-    const Vec change = to_solver(bodies, solver, body, after.angular - before.angular);
-    velocity.angular = swings(bodies, solver, body) ? velocity.angular + change : after.angular;
+    const Vec change = rotate_back(swing_now(bodies, solver, body), after.angular - before.angular);
+    velocity.angular += change;
     free.angular += change;
   }
 };

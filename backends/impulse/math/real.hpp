@@ -27,6 +27,14 @@
 #define PLUMB_DEVICE
 #endif
 
+// Small functions that take longer to call than to do: what they give goes through memory then. A GPU's are part of
+// their caller anyhow.
+#if defined(__CUDACC__)
+#define PLUMB_INLINE __host__ __device__
+#else
+#define PLUMB_INLINE [[gnu::always_inline]]
+#endif
+
 // Templates that a CPU's library has in one of its files. A kernel is compiled with all that it calls.
 #if defined(__CUDACC__)
 #define PLUMB_COMPILED_ONCE(...) static_assert(true)
