@@ -9,6 +9,7 @@
 
 #include "bodies/body.hpp"
 #include "math/angle.hpp"
+#include "math/wide.hpp"
 #include "plumb/assert.hpp"
 
 namespace plumb::impulse {
@@ -21,7 +22,7 @@ struct MechanismBody {
   std::uint32_t body;
   std::uint32_t first, count;                ///< places of its mechanism; count is 0 of one that is met body by body
   std::uint32_t first_column, column_count;  ///< of its mechanism, in the list of columns
-  std::uint64_t mobility;  ///< first number of what a wrench on this body does: of each body in turn six rows of six
+  std::uint64_t mobility;  ///< first number of what a wrench on this body does: of each body in turn kMobilityNumbers
   std::uint64_t scratch;   ///< first number of what is worked with to find that
 };
 
@@ -41,6 +42,57 @@ struct Six {
 PLUMB_HD inline Six six(const Vec& along, const Vec& about) {
   return {{along.x, along.y, along.z, about.x, about.y, about.z}};
 }
+
+PLUMB_HD inline Vec along_of(const Six& six) { return {six.at[0], six.at[1], six.at[2]}; }
+PLUMB_HD inline Vec about_of(const Six& six) { return {six.at[3], six.at[4], six.at[5]}; }
+PLUMB_HD inline Real dot(const Six& a, const Six& b) {
+  Real sum = 0;
+  for (int i = 0; i < 6; ++i) sum = sum + a.at[i] * b.at[i];
+  return sum;
+}
+
+// What a wrench on one body does to another, six by six numbers of the mobility: on a GPU row after row. On a CPU a
+// column is a row of velocities, and the whole of it is added at once.
+#if defined(PLUMB_IMPULSE_CUDA)
+
+constexpr std::uint32_t kMobilityNumbers = 36;
+
+PLUMB_HD inline Six motion_by(const Real* response, const Six& wrench) {
+  Six moved;
+  for (int r = 0; r < 6; ++r, response += 6) {
+    Real sum = 0;
+    for (int c = 0; c < 6; ++c) sum = sum + response[c] * wrench.at[c];
+    moved.at[r] = sum;
+  }
+  return moved;
+}
+PLUMB_HD inline void move_by(const Real* response, const Six& wrench, Velocity& velocity) {
+  const Six moved = motion_by(response, wrench);
+  velocity.linear += along_of(moved);
+  velocity.angular += about_of(moved);
+}
+
+#else
+
+constexpr std::uint32_t kMobilityNumbers = 6 * kLaneGroup;
+
+inline Lanes motion_in_lanes(const Real* response, const Six& wrench) {
+  Lanes sum(0);
+  for (int c = 0; c < 6; ++c)
+    sum = sum + load_row(reinterpret_cast<const Real(&)[kLanes]>(response[c * static_cast<int>(kLanes)])) *
+                    Lanes(wrench.at[c]);
+  return sum;
+}
+inline Six motion_by(const Real* response, const Six& wrench) {
+  const Lanes moved = motion_in_lanes(response, wrench);
+  return {{moved.v[0], moved.v[1], moved.v[2], moved.v[4], moved.v[5], moved.v[6]}};
+}
+inline void move_by(const Real* response, const Six& wrench, Velocity& velocity) {
+  const Lanes before = load_row(velocity), moved = before + motion_in_lanes(response, wrench);
+  store_row(velocity, Lanes(__builtin_shufflevector(moved.v, before.v, 0, 1, 2, 11, 4, 5, 6, 15)));
+}
+
+#endif
 
 /// The columns of the joints' matrix by mechanism.
 struct MechanismColumns {
@@ -68,58 +120,43 @@ struct Mechanisms {
   }
   /// Of all bodies that a contact moves at once through this one the first: what stands for them in colouring.
   PLUMB_HD std::uint32_t owner(std::uint32_t body) const { return hold(body) ? bodies[of(body).first].body : body; }
-  /// Six rows of six: what a wrench on body `from` does to body `to` of the same mechanism.
-  PLUMB_HD const Real* block(std::uint32_t from, std::uint32_t to) const {
+  /// The motion that a wrench on body `from` gives body `to` of the same mechanism.
+  PLUMB_HD Six moved(std::uint32_t from, const Six& wrench, std::uint32_t to) const {
     const MechanismBody& source = of(from);
     PLUMB_ASSERT(together(from, to));
-    return mobility + source.mobility + std::size_t{place_of[to] - 1 - source.first} * 36;
-  }
-  /// left^T W right, for a wrench `right` on body `from` and motion of `to`.
-  PLUMB_HD Real work(std::uint32_t from, const Six& right, std::uint32_t to, const Six& left) const {
-    const Real* row = block(from, to);
-    Real sum = 0;
-    for (int r = 0; r < 6; ++r, row += 6) {
-      Real moved = 0;
-      for (int c = 0; c < 6; ++c) moved = moved + row[c] * right.at[c];
-      sum = sum + left.at[r] * moved;
-    }
-    return sum;
+    return motion_by(mobility + source.mobility + std::size_t{place_of[to] - 1 - source.first} * kMobilityNumbers,
+                     wrench);
   }
   /// A wrench on a body moves its mechanism.
   PLUMB_HD void push(std::uint32_t body, const Vec& force, const Vec& torque, Velocity* velocities) const {
     ContactLoad& load = loads[place_of[body] - 1];
     load.force += force;
     load.torque += torque;
-    for_moved(body, six(force, torque), [=](std::uint32_t other, const Vec& along, const Vec& about) {
-      velocities[other].linear += along;
-      velocities[other].angular += about;
+    const Six wrench = six(force, torque);
+    for_moved(body, [=](std::uint32_t other, const Real* response) {
+      move_by(response, wrench, velocities[other]);
     });
   }
   /// Likewise where its bodies are: a wrench times seconds moves them by what it gives them in speed times those.
   PLUMB_HD void displace(std::uint32_t body, const Vec& force, const Vec& torque, Displacement* displacements) const {
     if (!(length_squared(force) + length_squared(torque) > 0)) return;  // to the last bit where they were
-    for_moved(body, six(force, torque), [=](std::uint32_t other, const Vec& along, const Vec& about) {
+    const Six wrench = six(force, torque);
+    for_moved(body, [=](std::uint32_t other, const Real* response) {
+      const Six moved = motion_by(response, wrench);
       Displacement& of = displacements[other];
-      of.linear += along;
-      of.rotation = normalized(turn_by(about) * of.rotation);
+      of.linear += along_of(moved);
+      of.rotation = normalized(turn_by(about_of(moved)) * of.rotation);
     });
   }
 
  private:
-  /// f(body, along, about) for each body of a mechanism, with the motion that a wrench on one of them gives it.
+  /// f(body, what a wrench on one body of a mechanism does to this one) for each of its bodies.
   template <class F>
-  PLUMB_HD void for_moved(std::uint32_t body, const Six& wrench, const F& f) const {
+  PLUMB_HD void for_moved(std::uint32_t body, const F& f) const {
     const MechanismBody& source = bodies[place_of[body] - 1];
-    const Real* row = mobility + source.mobility;
-    for (std::uint32_t j = source.first; j < source.first + source.count; ++j) {
-      Six moved;
-      for (int r = 0; r < 6; ++r, row += 6) {
-        Real sum = 0;
-        for (int c = 0; c < 6; ++c) sum = sum + row[c] * wrench.at[c];
-        moved.at[r] = sum;
-      }
-      f(bodies[j].body, Vec{moved.at[0], moved.at[1], moved.at[2]}, Vec{moved.at[3], moved.at[4], moved.at[5]});
-    }
+    const Real* response = mobility + source.mobility;
+    for (std::uint32_t j = source.first; j < source.first + source.count; ++j, response += kMobilityNumbers)
+      f(bodies[j].body, response);
   }
 };
 

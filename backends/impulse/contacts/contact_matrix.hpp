@@ -45,8 +45,10 @@ struct FrameDelassus {
   /// and the other b.
   PLUMB_HD void add(const Mechanisms& mechanisms, std::uint32_t from, const Six (&at_from)[6], std::uint32_t to,
                     const Six (&at_to)[6], Real sign) {
-    for (int j = 0; j < 6; ++j)
-      for (int i = 0; i < 6; ++i) at[i][j] = at[i][j] + sign * mechanisms.work(from, at_from[j], to, at_to[i]);
+    for (int j = 0; j < 6; ++j) {
+      const Six moved = mechanisms.moved(from, at_from[j], to);
+      for (int i = 0; i < 6; ++i) at[i][j] = at[i][j] + sign * dot(at_to[i], moved);
+    }
   }
   /// Between two bodies of one mechanism: what they move against each other is a difference of large numbers, and next
   /// to nothing where joints hold them against each other. The less of what they would move `alone` is left along the

@@ -51,7 +51,7 @@ PLUMB_DEVICE inline void find_axis_changes(Team& team, const JointSystem& system
     const Real tikhonov = time.pass == RowPass::kSpeeds ? tikhonov_of_speeds(view, j) : view.work[j].tikhonov;
     row_residuals(view, j, time, view.velocity(joint.body_a), view.velocity(joint.body_b), anew, tikhonov,
                   system.work(column).change);
-    take_earlier(system, column);
+    take_earlier(system, column, system.work(column).change);
   });
   for_columns_down(team, system, [=](std::uint32_t column) { solve_backward(system, column); });
 }
@@ -147,7 +147,7 @@ PLUMB_DEVICE inline void pass_on_loads(Team& team, const JointSet& joints) {
     const Real tikhonov = tikhonov_of_speeds(view, j);
     for (int i = 0; i < row_count(joint); ++i)
       y[i] = own.is_active(i) ? -((y[i] - speed_met(view, j, i)) + tikhonov * own.cfm[i] * view.total(j)[i]) : Real(0);
-    take_earlier(system, column);
+    take_earlier(system, column, y);
   });
   for_columns_down(team, system, [=](std::uint32_t column) { solve_backward(system, column); });
   push_changes(team, system);

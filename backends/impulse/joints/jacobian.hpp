@@ -103,12 +103,7 @@ inline void put_pushes(const Vec3<Lanes>& direction, const Vec3<Lanes>& turn, Ro
   for (int i = 0; i < kJointRows; ++i) store_row(pushes[i], rows[i]);
 }
 
-/// of(i) of each row in a lane: in registers, for numbers that go to memory one by one are slow to read at once.
-template <class Of>
-[[gnu::always_inline]] inline Lanes lanes_of_rows(const Of& of) {
-  static_assert(kLanes == 8 && kJointRows == 6);
-  return Lanes(Lanes::Vector{of(0), of(1), of(2), of(3), of(4), of(5), 0, 0});
-}
+/// Likewise vectors.
 template <class Of>
 [[gnu::always_inline]] inline Vec3<Lanes> vectors_of_rows(const Of& of) {
   return {lanes_of_rows([&](int i) { return of(i).x; }), lanes_of_rows([&](int i) { return of(i).y; }),
@@ -135,10 +130,12 @@ void put_rows(Jacobian& rows, int n, const JointMass& mass, JointMatrix& mobilit
 }
 
 /// Speeds along the rows.
+inline Lanes speeds_along(const Jacobian& rows, const Velocity& a, const Velocity& b) {
+  return dot(rows.direction_of.lanes(), in_all_lanes(b.linear - a.linear)) +
+         dot(rows.on_a_of.lanes(), in_all_lanes(a.angular)) + dot(rows.on_b_of.lanes(), in_all_lanes(b.angular));
+}
 inline void speeds_along(const Jacobian& rows, int /*n*/, const Velocity& a, const Velocity& b, RowNumbers& speed) {
-  store_row(speed, dot(rows.direction_of.lanes(), in_all_lanes(b.linear - a.linear)) +
-                       dot(rows.on_a_of.lanes(), in_all_lanes(a.angular)) +
-                       dot(rows.on_b_of.lanes(), in_all_lanes(b.angular)));
+  store_row(speed, speeds_along(rows, a, b));
 }
 
 /// Impulses along n rows push one of the bodies. Nothing else of its row changes, whatever they are.

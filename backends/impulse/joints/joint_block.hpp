@@ -34,6 +34,16 @@ void with_rows(int n, const F& f) {
   }
   static_assert(kJointRows == 6);
 }
+/// of(i) of each row in a lane: in registers, for numbers that go to memory one by one are slow to read at once.
+template <class Of>
+[[gnu::always_inline]] inline Lanes lanes_of_rows(const Of& of) {
+  static_assert(kLanes == 8 && kJointRows == 6);
+  return Lanes(Lanes::Vector{of(0), of(1), of(2), of(3), of(4), of(5), 0, 0});
+}
+/// Numbers that have just been put to memory one by one.
+inline Lanes lanes_of_numbers(const Real* numbers) {
+  return lanes_of_rows([numbers](int i) { return numbers[i]; });
+}
 inline Lanes column_of(const JointBlock& block, int column) { return load_row(block.at[column]); }
 
 /// K of a joint, and then its factors.
@@ -81,6 +91,18 @@ inline void factor(JointBlock& m, int n) {
   });
 }
 
+/// x, of n numbers or vectors of those in registers, becomes the solution of (L D L^T) y = x.
+template <int n, class N>
+[[gnu::always_inline]] inline void solve_factored_now(const JointBlock& m, N* x) {
+  PLUMB_UNROLL
+  for (int i = 0; i < n; ++i) PLUMB_UNROLL
+  for (int k = 0; k < i; ++k) x[i] = x[i] - N(m(i, k)) * x[k];
+  PLUMB_UNROLL
+  for (int i = 0; i < n; ++i) x[i] = N(m(i, i)) * x[i];
+  PLUMB_UNROLL
+  for (int i = n - 1; i >= 0; --i) PLUMB_UNROLL
+  for (int k = i + 1; k < n; ++k) x[i] = x[i] - N(m(k, i)) * x[k];
+}
 /// As of Block.
 template <class N>
 void solve_factored(const JointBlock& m, int n, N* x) {
@@ -89,20 +111,54 @@ void solve_factored(const JointBlock& m, int n, N* x) {
     N y[kCount];
     PLUMB_UNROLL
     for (int i = 0; i < kCount; ++i) y[i] = x[i];
-    PLUMB_UNROLL
-    for (int i = 0; i < kCount; ++i) PLUMB_UNROLL
-    for (int k = 0; k < i; ++k) y[i] = y[i] - N(m(i, k)) * y[k];
-    PLUMB_UNROLL
-    for (int i = 0; i < kCount; ++i) y[i] = N(m(i, i)) * y[i];
-    PLUMB_UNROLL
-    for (int i = kCount - 1; i >= 0; --i) PLUMB_UNROLL
-    for (int k = i + 1; k < kCount; ++k) y[i] = y[i] - N(m(k, i)) * y[k];
+    solve_factored_now<kCount>(m, y);
     PLUMB_UNROLL
     for (int i = 0; i < kCount; ++i) x[i] = y[i];
   });
 }
+/// Its solution as lanes.
+inline Lanes solved_lanes(const JointBlock& m, int n, const RowNumbers& x) {
+  Lanes solved(0);
+  with_rows(n, [&](auto count) {
+    constexpr int kCount = count;
+    Real y[kJointRows] = {};
+    PLUMB_UNROLL
+    for (int i = 0; i < kCount; ++i) y[i] = x[i];
+    solve_factored_now<kCount>(m, y);
+    solved = lanes_of_rows([&y](int i) { return y[i]; });
+  });
+  return solved;
+}
+
+/// Each row of m becomes the solution of (L D L^T) y = row, of n columns. turned: the same by rows.
+inline void solve_rows(const JointBlock& factors, int n, JointBlock& m, JointBlock& turned) {
+  with_rows(n, [&](auto count) {
+    constexpr int kCount = count;
+    Lanes x[kLanes], y[kLanes];
+    PLUMB_UNROLL
+    for (int q = 0; q < kCount; ++q) x[q] = column_of(m, q);
+    PLUMB_UNROLL
+    for (int q = kCount; q < static_cast<int>(kLanes); ++q) x[q] = Lanes(0);
+    solve_factored_now<kCount>(factors, x);
+    PLUMB_UNROLL
+    for (int q = 0; q < kCount; ++q) store_row(m.at[q], x[q]);
+    transpose(x, y);
+    PLUMB_UNROLL
+    for (int p = 0; p < kJointRows; ++p) store_row(turned.at[p], y[p]);
+  });
+}
 
 #else
+
+/// Each row of m becomes the solution of (L D L^T) y = row, of n columns.
+PLUMB_HD inline void solve_rows(const Block& factors, int n, JointBlock& m, int rows) {
+  for (int p = 0; p < rows; ++p) {
+    Real row[kJointRows];
+    for (int q = 0; q < n; ++q) row[q] = m(p, q);
+    solve_factored(factors, n, row);
+    for (int q = 0; q < n; ++q) m(p, q) = row[q];
+  }
+}
 
 /// K of a joint, and then its factors.
 using JointMatrix = Block;
@@ -150,41 +206,18 @@ PLUMB_HD inline void take_product(JointBlock& m, [[maybe_unused]] int rows, int 
 #endif
 }
 
-/// y -= m x, for the first `columns` numbers of x.
-PLUMB_HD inline void take_product(RowNumbers& y, [[maybe_unused]] int rows, const JointBlock& m, const RowNumbers& x,
-                                  int columns) {
 #if defined(PLUMB_IMPULSE_CUDA)
+/// y -= m x, for the first `columns` numbers of x.
+PLUMB_HD inline void take_product(RowNumbers& y, int rows, const JointBlock& m, const RowNumbers& x, int columns) {
   for (int p = 0; p < rows; ++p)
     for (int q = 0; q < columns; ++q) y[p] = y[p] - m(p, q) * x[q];
+}
 #else
-  Lanes sum = load_row(y);
-  for (int q = 0; q < columns; ++q) sum = sum - column_of(m, q) * Lanes(x[q]);
-  store_row(y, sum);
-#endif
+/// y - m x, for the first `columns` numbers of x.
+inline Lanes without_product(Lanes y, const JointBlock& m, const RowNumbers& x, int columns) {
+  for (int q = 0; q < columns; ++q) y = y - column_of(m, q) * Lanes(x[q]);
+  return y;
 }
-
-#if defined(PLUMB_IMPULSE_CUDA)
-
-/// Each row of m becomes the solution of (L D L^T) y = row, of n columns.
-PLUMB_HD inline void solve_rows(const Block& factors, int n, JointBlock& m, int rows) {
-  for (int p = 0; p < rows; ++p) {
-    Real row[kJointRows];
-    for (int q = 0; q < n; ++q) row[q] = m(p, q);
-    solve_factored(factors, n, row);
-    for (int q = 0; q < n; ++q) m(p, q) = row[q];
-  }
-}
-
-#else
-
-/// Each row of m becomes the solution of (L D L^T) y = row, of n columns.
-inline void solve_rows(const JointBlock& factors, int n, JointBlock& m, int /*rows*/) {
-  Lanes x[kJointRows];
-  for (int q = 0; q < kJointRows; ++q) x[q] = column_of(m, q);
-  solve_factored(factors, n, x);
-  for (int q = 0; q < kJointRows; ++q) store_row(m.at[q], x[q]);
-}
-
 #endif
 
 }  // namespace plumb::impulse

@@ -117,7 +117,11 @@ PLUMB_HD void eliminate_column(const JointSystem& system, std::uint32_t j, const
                    system.rows(system.entries[product.left].column));
     }
     system.whole[e] = block;
+#if defined(PLUMB_IMPULSE_CUDA)
     solve_rows(diagonal, n, block, rows);
+#else
+    solve_rows(diagonal, n, block, system.turned[e]);
+#endif
     system.scaled[e] = block;
   }
 }

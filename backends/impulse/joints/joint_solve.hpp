@@ -150,8 +150,9 @@ PLUMB_HD inline void speeds_now(const JointView& view, std::uint32_t j, const Ve
 /// Errors are taken back no faster than this, m/s or rad/s. Bodies that are joined where they are metres apart are
 /// drawn together; all at once they would be flung, and through what is between.
 constexpr Real kMostJointSpeed = 10;
-PLUMB_HD inline Real speed_of_error(Real rate, Real error) {
-  return clamp(rate * error, -kMostJointSpeed, kMostJointSpeed);
+template <class N>
+PLUMB_HD N speed_of_error(Real rate, const N& error) {
+  return clamp(N(rate) * error, N(-kMostJointSpeed), N(kMostJointSpeed));
 }
 
 /// The rate at which a joint's errors are taken back: by degrees in a long chain, and where contacts press, which
@@ -162,12 +163,14 @@ PLUMB_HD inline Real rate_of_error(const JointView& view, const Joint& joint, Re
   return joint.in_chain || (pressed && !joint.in_ring) ? min(rate, by_degrees) : rate;
 }
 
+#if defined(PLUMB_IMPULSE_CUDA)
+
 /// How far the velocities of the rows are from what they should be in this pass.
 PLUMB_HD inline void joint_residuals(const JointView& view, std::uint32_t j, const JointPass& pass, const Velocity& a,
                                      const Velocity& b, RowNumbers& residual) {
   const Joint& joint = view.joints[j];
   const JointWork& work = view.work[j];
-  const int n = whole_rows(row_count(joint));
+  const int n = row_count(joint);
   const Real rate = rate_of_error(view, joint, pass.softness.bias_rate, pass.chain_rate);
   if (!pass.take_back_error || turns_far(a, b, pass.h)) {
     speeds_now(view, j, a, b, residual);
@@ -180,6 +183,30 @@ PLUMB_HD inline void joint_residuals(const JointView& view, std::uint32_t j, con
   for (int i = 0; i < n; ++i)
     residual[i] = (residual[i] - work.error[i]) * pass.inverse_h + speed_of_error(rate, work.error[i]);
 }
+
+#else
+
+/// How far the velocities of the rows are from what they should be in this pass.
+inline Lanes joint_residuals(const JointView& view, std::uint32_t j, const JointPass& pass, const Velocity& a,
+                             const Velocity& b) {
+  const Joint& joint = view.joints[j];
+  const JointWork& work = view.work[j];
+  if (!pass.take_back_error) return speeds_along(work.rows, a, b);
+  const Lanes error = load_row(work.error);
+  const Lanes back = speed_of_error(rate_of_error(view, joint, pass.softness.bias_rate, pass.chain_rate), error);
+  if (turns_far(a, b, pass.h)) return speeds_along(work.rows, a, b) + back;
+  const JointPlace place = place_joint(joint, view.base(joint), view.end_after(joint.body_a, a, pass.h),
+                                       view.end_after(joint.body_b, b, pass.h));
+  RowNumbers then{};
+  joint_errors(joint, place, then);
+  return (lanes_of_numbers(then) - error) * Lanes(pass.inverse_h) + back;
+}
+inline void joint_residuals(const JointView& view, std::uint32_t j, const JointPass& pass, const Velocity& a,
+                            const Velocity& b, RowNumbers& residual) {
+  store_row(residual, joint_residuals(view, j, pass, a, b));
+}
+
+#endif
 
 /// What the last step ended with is where this one begins.
 PLUMB_HD inline void take_over_impulse(const JointView& view, std::uint32_t j, const StepParameters& step) {

@@ -36,9 +36,10 @@ PLUMB_HD inline void factor_column(const JointSystem& system, std::uint32_t j) {
   eliminate_column(system, j, [](std::uint32_t) { return kAllRows; });
 }
 
-/// Takes off a row's residuals in work.change what the joints before it give.
-PLUMB_HD inline void take_earlier(const JointSystem& system, std::uint32_t j) {
-  RowNumbers& y = system.work(j).change;
+#if defined(PLUMB_IMPULSE_CUDA)
+
+/// What the joints before it give, taken off a row's residuals y.
+PLUMB_HD inline void take_earlier(const JointSystem& system, std::uint32_t j, RowNumbers& y) {
   const int n = system.rows(j);
   for (std::uint32_t r = system.row_first[j]; r < system.row_first[j + 1]; ++r) {
     const std::uint32_t e = system.row_entries[r];
@@ -55,7 +56,7 @@ PLUMB_HD inline void solve_forward(const JointSystem& system, std::uint32_t j, c
   const JointImpulse& total = system.view.impulses[joint.slot];
   const JointWork& work = system.work(j);
   for (int p = 0; p < system.rows(j); ++p) y[p] = -(y[p] + work.tikhonov * work.cfm[p] * total.along[p]);
-  take_earlier(system, j);
+  take_earlier(system, j, y);
 }
 
 PLUMB_HD inline void solve_backward(const JointSystem& system, std::uint32_t j) {
@@ -71,6 +72,43 @@ PLUMB_HD inline void solve_backward(const JointSystem& system, std::uint32_t j) 
       for (int q = 0; q < n; ++q) z[q] = z[q] - scaled(p, q) * from[p];
   }
 }
+
+#else
+
+/// What the joints before it give, taken off a row's residuals y.
+inline Lanes without_earlier(const JointSystem& system, std::uint32_t j, Lanes y) {
+  for (std::uint32_t r = system.row_first[j]; r < system.row_first[j + 1]; ++r) {
+    const std::uint32_t e = system.row_entries[r];
+    const std::uint32_t k = system.entries[e].column;
+    y = without_product(y, system.scaled[e], system.work(k).change, system.rows(k));
+  }
+  return y;
+}
+inline void take_earlier(const JointSystem& system, std::uint32_t j, RowNumbers& y) {
+  store_row(y, without_earlier(system, j, lanes_of_numbers(y)));
+}
+
+inline void solve_forward(const JointSystem& system, std::uint32_t j, const JointPass& pass) {
+  const Joint& joint = system.view.joints[system.base + j];
+  JointWork& work = system.work(j);
+  const Lanes residual = joint_residuals(system.view, system.base + j, pass, system.view.velocity(joint.body_a),
+                                         system.view.velocity(joint.body_b));
+  const Lanes total = lanes_of_numbers(system.view.impulses[joint.slot].along);
+  const Lanes y = -(residual + Lanes(work.tikhonov) * load_row(work.cfm) * total);
+  store_row(work.change, without_earlier(system, j, y));
+}
+
+inline void solve_backward(const JointSystem& system, std::uint32_t j) {
+  JointWork& work = system.work(j);
+  Lanes z = solved_lanes(work.factor, system.rows(j), work.change);
+  for (std::uint32_t e = system.column_first[j]; e < system.column_first[j + 1]; ++e) {
+    const std::uint32_t i = system.entries[e].row;
+    z = without_product(z, system.turned[e], system.work(i).change, system.rows(i));
+  }
+  store_row(work.change, z);
+}
+
+#endif
 
 /// All impulses on one body act. With `total` those that the joints have gathered, else the change just found.
 PLUMB_HD inline void push_body(const JointSystem& system, std::uint32_t place, bool total) {

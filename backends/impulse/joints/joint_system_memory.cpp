@@ -43,6 +43,7 @@ std::vector<std::uint32_t> JointSystemMemory::put(const OrderedJoints& ordered, 
   product_first_.assign(found.product_first);
   scaled_.grow(found.entries.size());
   whole_.grow(found.entries.size());
+  if constexpr (!Executor::kWarps) turned_.grow(found.entries.size());
   changes_.grow(3);
 
   std::vector<std::uint32_t> bodies, first;

@@ -25,6 +25,7 @@ class JointSystemMemory {
             product_first_.data(),
             scaled_.data(),
             whole_.data(),
+            turned_.data(),
             body_count_,
             bodies_.data(),
             body_first_.data(),
@@ -38,7 +39,7 @@ class JointSystemMemory {
   Buffer<JointEntry> entries_;
   Buffer<JointProduct> products_;
   Buffer<JointOnBody> on_body_;
-  Buffer<JointBlock> scaled_, whole_;
+  Buffer<JointBlock> scaled_, whole_, turned_;
   Buffer<std::uint32_t> changes_;
 };
 

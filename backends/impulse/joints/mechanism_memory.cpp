@@ -37,7 +37,7 @@ void MechanismMemory::put(const OrderedJoints& ordered, std::span<const std::uin
       rows[place] = {pushed[place], first, whole ? end - first : 0, column, last_column - column, mobility, scratch};
       if (!whole) continue;
       place_of[pushed[place]] = place + 1;
-      mobility += std::uint64_t{end - first} * 36;
+      mobility += std::uint64_t{end - first} * kMobilityNumbers;
       scratch += std::uint64_t{last_column - column} * (kJointRows * kLaneGroup);
       held_ = static_cast<std::uint32_t>(pushed.size());
     }

@@ -152,12 +152,27 @@ struct UnitWrench {
         angular += z * in_all_lanes(on.is_b ? work.rows.turn_b(p) : work.rows.turn_a(p));
       }
     }
-    Real* to = mechanisms.mobility + body.mobility + std::uint64_t{j - body.first} * 36 + axis;
-    for (int r = 0; r < 3; ++r) {
-      __builtin_memcpy(to + 6 * r, &linear[r], kAxesAtOnce * sizeof(Real));
-      __builtin_memcpy(to + 6 * (r + 3), &angular[r], kAxesAtOnce * sizeof(Real));
+    put_response(linear, angular, axis,
+                 mechanisms.mobility + body.mobility + std::uint64_t{j - body.first} * kMobilityNumbers);
+  }
+#if defined(PLUMB_IMPULSE_CUDA)
+  PLUMB_HD static void put_response(const Vec& linear, const Vec& angular, std::uint32_t axis, Real* response) {
+    for (std::uint32_t r = 0; r < 3; ++r) {
+      response[6 * r + axis] = linear[static_cast<int>(r)];
+      response[6 * (r + 3) + axis] = angular[static_cast<int>(r)];
     }
   }
+#else
+  static void put_response(const Vec3<Lanes>& linear, const Vec3<Lanes>& angular, std::uint32_t /*axis*/,
+                           Real* response) {
+    const Lanes rows[kLanes] = {linear.x,  linear.y,  linear.z,  Lanes(0),
+                                angular.x, angular.y, angular.z, Lanes(0)};
+    Lanes columns[kLanes];
+    transpose(rows, columns);
+    for (std::uint32_t c = 0; c < kAxesAtOnce; ++c)
+      store_row(reinterpret_cast<Real(&)[kLanes]>(response[c * kLanes]), columns[c]);
+  }
+#endif
 };
 
 /// All of it, for a team. kJoints: some rows may not always hold, and do not count.
