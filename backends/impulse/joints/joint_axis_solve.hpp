@@ -36,6 +36,12 @@ struct AxisWork {
   std::uint32_t let_go;          ///< bits: of these, those that have not
   RowNumbers bend;         ///< what the speeds over a sub-step have beyond those now, where that was last looked at
 
+  // On a CPU, of the factors in the mechanism's matrix (axis_mechanisms.hpp):
+  RowNumbers factored;  ///< cfm when they were found
+  bool is_refreshed;    ///< rows are newer
+  bool is_other;        ///< rows or what is active are others
+  bool is_factored;     ///< they have been found anew
+
   PLUMB_HD bool is_active(int row) const { return cfm[row] >= 0; }
   /// Bits: rows that are.
   [[nodiscard]] PLUMB_HD std::uint32_t active() const {
@@ -101,6 +107,7 @@ PLUMB_HD inline void refresh_axis_joint(const AxisView& view, std::uint32_t j) {
   all_errors(joint, axes, place, work.error);
   put_rows(work.rows, row_count(joint), joint_mass(view, joint, a, b), own.whole,
            [&](JointRow(&rows)[kJointRows]) { all_rows(joint, axes, place, rows); });
+  own.is_refreshed = true;
   JointReaction& reaction = view.reaction(j);
   if (reaction.first_step == joint.first_step) return;
   reaction.first_step = joint.first_step;
