@@ -16,11 +16,17 @@ PLUMB_HD inline AxisView axis_view(const JointSet& joints) {
   return view;
 }
 
+/// Of a joint whose rows always hold: on the pieces where they were.
+PLUMB_HD inline void keep_all_rows(JointWork& work) {
+  for (Real& change : work.change) change = 0;
+}
+
 PLUMB_HD inline void choose_in_system(const AxisView& view, const JointSystem& system, std::uint32_t column,
                                       const RowTime& time, std::uint32_t round, std::uint32_t turn) {
   const std::uint32_t j = system.base + column;
   const Joint& joint = view.joints[j];
   if (column == 0) system.changes[(turn + 1) % 3] = 0;
+  if (round != 0 && rows_of(joint.type) == row_count(joint)) return keep_all_rows(system.work(column));
   const bool changed = choose_pieces(view, j, time, view.velocity(joint.body_a), view.velocity(joint.body_b), round,
                                      view.work[j].share, system.work(column).change);
   if (changed) atomic_add(&system.changes[turn % 3], 1U);

@@ -170,10 +170,9 @@ PLUMB_HD inline RowLaw law_of_row(const AxisView& view, std::uint32_t j, int row
   return law;
 }
 
-/// The speed that a row which always holds should have.
-PLUMB_HD inline Real speed_of_held(const AxisView& view, std::uint32_t j, int row, const RowTime& time) {
+/// The speed that a row which always holds should have. rate: at which its error is taken back.
+PLUMB_HD inline Real speed_of_held(const AxisView& view, std::uint32_t j, int row, const RowTime& time, Real rate) {
   const Real error = view.work[j].error[row];
-  const Real rate = rate_of_error(view, view.joints[j], time.rate, time.chain_rate);
   switch (time.pass) {
     case RowPass::kSpeeds: return 0;
     case RowPass::kMoved: return view.parts.work[j].before[row] - speed_of_error(rate, error);
@@ -189,8 +188,9 @@ PLUMB_HD inline bool choose_pieces(const AxisView& view, std::uint32_t j, const 
   AxisWork& own = view.parts.work[j];
   const Real* total = view.total(j);
   const bool all_held = rows_of(joint.type) == row_count(joint), first_round = round == 0;
-  for (int i = 0; i < row_count(joint); ++i) jump[i] = 0;
+  for (int i = 0; i < whole_rows(row_count(joint)); ++i) jump[i] = 0;
   if (all_held && !first_round) return false;
+  const Real rate = time.pass == RowPass::kSpeeds ? Real(0) : rate_of_error(view, joint, time.rate, time.chain_rate);
   RowNumbers speed{};
   if (!all_held || time.pass == RowPass::kMoved) row_speeds(view, j, time, a, b, first_round, speed);
   bool changed = false;
@@ -199,7 +199,7 @@ PLUMB_HD inline bool choose_pieces(const AxisView& view, std::uint32_t j, const 
     if (first_round) own.before[i] = turns_far(a, b, time.h) ? Real(0) : speed[i];
     if (is_held(view, j, i)) {
       own.piece[i] = RowPiece::kHeld;
-      own.target[i] = speed_of_held(view, j, i, time);
+      own.target[i] = speed_of_held(view, j, i, time, rate);
       own.cfm[i] = share * mobility;
       continue;
     }
@@ -293,7 +293,7 @@ PLUMB_HD inline void settle_pieces(const AxisView& view, std::uint32_t j, const 
   const Joint& joint = view.joints[j];
   AxisWork& own = view.parts.work[j];
   const Real* total = view.total(j);
-  for (int i = 0; i < row_count(joint); ++i) change[i] = 0;
+  for (int i = 0; i < whole_rows(row_count(joint)); ++i) change[i] = 0;
   for (int i = rows_of(joint.type); i < row_count(joint); ++i) {
     if (own.piece[i] == RowPiece::kHeld) continue;
     const RowLaw law = law_of_row(view, j, i, time);

@@ -67,10 +67,14 @@ struct JointView {
     return body == kWorld ? Real(0) : solver.velocity[body].inverse_mass;
   }
   /// In world axes.
-  PLUMB_HD Velocity velocity(std::uint32_t body) const {
+  PLUMB_INLINE Velocity velocity(std::uint32_t body) const {
     if (body == kWorld) return {{0, 0, 0}, 0, {0, 0, 0}, 0};
+    if (swings(bodies, solver, body)) return swung_velocity(body);
+    return solver.velocity[body];
+  }
+  PLUMB_HD Velocity swung_velocity(std::uint32_t body) const {
     Velocity velocity = solver.velocity[body];
-    if (swings(bodies, solver, body)) velocity.angular = rotate(swing_now(bodies, solver, body), velocity.angular);
+    velocity.angular = rotate(swing_now(bodies, solver, body), velocity.angular);
     return velocity;
   }
   PLUMB_HD Sym inverse_inertia(std::uint32_t body, const Quat& orientation) const {

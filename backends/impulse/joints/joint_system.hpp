@@ -110,6 +110,24 @@ inline void solve_backward(const JointSystem& system, std::uint32_t j) {
 
 #endif
 
+#if !defined(PLUMB_IMPULSE_CUDA)
+/// Whether no number of a row is 0: then it stays what it is, to the sign of its zeros, when 0 is added.
+inline bool has_no_zero(const Lanes& row, std::uint32_t numbers) {
+  return !any(lanes_of(numbers) && !(row < Lanes(0)) && !(row > Lanes(0)));
+}
+/// Whether the changes on a body are 0, and leave all its numbers as they are.
+inline bool stays(const JointSystem& system, std::uint32_t place) {
+  for (std::uint32_t k = system.body_first[place]; k < system.body_first[place + 1]; ++k) {
+    const Lanes change = load_row(system.view.work[system.on_body[k].joint].change);
+    if (any(Mask{change.v != Lanes::Vector{}})) return false;
+  }
+  constexpr std::uint32_t kVelocity = 0b01110111;
+  const std::uint32_t body = system.bodies[place];
+  return has_no_zero(load_row(system.view.solver.velocity[body]), kVelocity) &&
+         has_no_zero(load_row(system.view.solver.free_velocity[body]), kVelocity);
+}
+#endif
+
 /// All impulses on one body act. With `total` those that the joints have gathered, else the change just found.
 PLUMB_HD inline void push_body(const JointSystem& system, std::uint32_t place, bool total) {
   const std::uint32_t body = system.bodies[place];
@@ -146,6 +164,9 @@ PLUMB_DEVICE inline void push_changes(Team& team, const JointSystem& system) {
   const std::uint32_t joints = system.level_first[system.levels];
   team.each(max(joints, system.body_count), [=](std::uint32_t i) {
     if (i < joints) keep_change(system.view, system.base + i);
+#if !defined(PLUMB_IMPULSE_CUDA)
+    if (i < system.body_count && stays(system, i)) return;
+#endif
     if (i < system.body_count) push_body(system, i, false);
   });
 }

@@ -49,9 +49,10 @@ inline Mask operator&&(const Mask& a, const Mask& b) { return {a.v & b.v}; }
 inline Mask operator||(const Mask& a, const Mask& b) { return {a.v | b.v}; }
 inline Mask operator!(const Mask& m) { return {~m.v}; }
 inline bool any(const Mask& m) {
-  Mask::Bits bits = 0;
-  for (std::uint32_t i = 0; i < kLanes; ++i) bits |= m.v[i];
-  return bits != 0;
+  static_assert(kLanes == 8);
+  const Mask::Vector fours = m.v | __builtin_shufflevector(m.v, m.v, 4, 5, 6, 7, 0, 1, 2, 3);
+  const Mask::Vector pairs = fours | __builtin_shufflevector(fours, fours, 2, 3, 0, 1, 6, 7, 4, 5);
+  return (pairs[0] | pairs[1]) != 0;
 }
 inline Lanes select(const Mask& m, const Lanes& a, const Lanes& b) { return Lanes(m.v ? a.v : b.v); }
 inline Lanes min(const Lanes& a, const Lanes& b) { return select(b < a, b, a); }
