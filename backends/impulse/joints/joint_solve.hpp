@@ -46,6 +46,7 @@ struct JointView {
   JointImpulse* impulses;  ///< by slot
   Real* least_moment;      ///< by body: what tension asks of its principal moments (joints/tension.hpp), kg m2
   bool gyroscopic;
+  JointEnd* arrivals;  ///< by body: where those of the system will be after a sub-step; on a CPU, each for all its joints
 
   PLUMB_HD JointEnd end(std::uint32_t body) const {
     if (body == kWorld) return {{0, 0, 0}, {0, 0, 0, 1}};
@@ -190,24 +191,27 @@ PLUMB_HD inline void joint_residuals(const JointView& view, std::uint32_t j, con
 
 #else
 
-/// How far the velocities of the rows are from what they should be in this pass.
-inline Lanes joint_residuals(const JointView& view, std::uint32_t j, const JointPass& pass, const Velocity& a,
-                             const Velocity& b) {
+/// How far the velocities of the rows are from what they should be in this pass. end_after: as the view's.
+template <class EndAfter>
+Lanes joint_residuals(const JointView& view, std::uint32_t j, const JointPass& pass, const Velocity& a,
+                      const Velocity& b, const EndAfter& end_after) {
   const Joint& joint = view.joints[j];
   const JointWork& work = view.work[j];
   if (!pass.take_back_error) return speeds_along(work.rows, a, b);
   const Lanes error = load_row(work.error);
   const Lanes back = speed_of_error(rate_of_error(view, joint, pass.softness.bias_rate, pass.chain_rate), error);
   if (turns_far(a, b, pass.h)) return speeds_along(work.rows, a, b) + back;
-  const JointPlace place = place_joint(joint, view.base(joint), view.end_after(joint.body_a, a, pass.h),
-                                       view.end_after(joint.body_b, b, pass.h));
+  const JointPlace place =
+      place_joint(joint, view.base(joint), end_after(joint.body_a, a), end_after(joint.body_b, b));
   RowNumbers then{};
   joint_errors(joint, place, then);
   return (lanes_of_numbers(then) - error) * Lanes(pass.inverse_h) + back;
 }
 inline void joint_residuals(const JointView& view, std::uint32_t j, const JointPass& pass, const Velocity& a,
                             const Velocity& b, RowNumbers& residual) {
-  store_row(residual, joint_residuals(view, j, pass, a, b));
+  store_row(residual, joint_residuals(view, j, pass, a, b, [&](std::uint32_t body, const Velocity& velocity) {
+              return view.end_after(body, velocity, pass.h);
+            }));
 }
 
 #endif

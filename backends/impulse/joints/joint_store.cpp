@@ -93,7 +93,7 @@ std::vector<SolvedJoint> JointStore::solved() const {
 
 JointSet JointStore::set(const Bodies& bodies, const SolverBodies& solver, bool gyroscopic) {
   const JointView view = {bodies,    solver, joints_.data(), work_.data(), impulses_.data(), least_moment_.data(),
-                          gyroscopic};
+                          gyroscopic, arrivals_.data()};
   const AxisParts axes = {axes_.data(), drives.device(), axis_work_.data(), reactions_.data()};
   return {view, count(), colours_.view(), system_.view(view), axes};
 }

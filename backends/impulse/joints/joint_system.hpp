@@ -48,7 +48,13 @@ PLUMB_HD inline void take_earlier(const JointSystem& system, std::uint32_t j, Ro
   }
 }
 
-PLUMB_HD inline void solve_forward(const JointSystem& system, std::uint32_t j, const JointPass& pass) {
+PLUMB_HD /// Where the body at a place will be, for solve_forward.
+inline void find_arrival(const JointSystem& system, std::uint32_t place, Real h) {
+  const std::uint32_t body = system.bodies[place];
+  system.view.arrivals[body] = system.view.end_after(body, system.view.velocity(body), h);
+}
+
+inline void solve_forward(const JointSystem& system, std::uint32_t j, const JointPass& pass) {
   const Joint& joint = system.view.joints[system.base + j];
   RowNumbers& y = system.work(j).change;
   joint_residuals(system.view, system.base + j, pass, system.view.velocity(joint.body_a),
@@ -88,11 +94,22 @@ inline void take_earlier(const JointSystem& system, std::uint32_t j, RowNumbers&
   store_row(y, without_earlier(system, j, lanes_of_numbers(y)));
 }
 
+/// Where the body at a place will be, for solve_forward.
+inline void find_arrival(const JointSystem& system, std::uint32_t place, Real h) {
+  const std::uint32_t body = system.bodies[place];
+  system.view.arrivals[body] = system.view.end_after(body, system.view.velocity(body), h);
+}
+
 inline void solve_forward(const JointSystem& system, std::uint32_t j, const JointPass& pass) {
   const Joint& joint = system.view.joints[system.base + j];
   JointWork& work = system.work(j);
-  const Lanes residual = joint_residuals(system.view, system.base + j, pass, system.view.velocity(joint.body_a),
-                                         system.view.velocity(joint.body_b));
+  const JointView& view = system.view;
+  const Lanes residual =
+      joint_residuals(view, system.base + j, pass, view.velocity(joint.body_a), view.velocity(joint.body_b),
+                      [&](std::uint32_t body, const Velocity& velocity) {
+                        const bool is_of_system = velocity.inverse_mass > 0;
+                        return is_of_system ? view.arrivals[body] : view.end_after(body, velocity, pass.h);
+                      });
   const Lanes total = lanes_of_numbers(system.view.impulses[joint.slot].along);
   const Lanes y = -(residual + Lanes(work.tikhonov) * load_row(work.cfm) * total);
   store_row(work.change, without_earlier(system, j, y));
@@ -177,6 +194,10 @@ PLUMB_DEVICE inline void factor_system(Team& team, const JointSystem& system) {
 
 /// The changes that solve the system, which do not act yet.
 PLUMB_DEVICE inline void find_changes(Team& team, const JointSystem& system, const JointPass& pass) {
+#if !defined(PLUMB_IMPULSE_CUDA)
+  if (pass.take_back_error)
+    team.each(system.body_count, [=](std::uint32_t place) { find_arrival(system, place, pass.h); });
+#endif
   for_columns_up(team, system, [=](std::uint32_t j) { solve_forward(system, j, pass); });
   for_columns_down(team, system, [=](std::uint32_t j) { solve_backward(system, j); });
 }
