@@ -32,42 +32,33 @@ PLUMB_HD inline void choose_in_system(const AxisView& view, const JointSystem& s
   if (changed) atomic_add(&system.changes[turn % 3], 1U);
 }
 
-/// Compares what a column's factors are made of with what they were made of. Most sets of pieces come again: those that
-/// hold while contacts push are mostly those that hold then, and in the next sub-step.
-PLUMB_HD inline void compare_column(const JointSystem& system, const AxisView& view, std::uint32_t column) {
-  AxisWork& own = view.parts.work[system.base + column];
-  own.is_factored = own.is_other = own.is_refreshed;
-  own.is_refreshed = false;
-  for (int i = 0; i < system.rows(column); ++i) {
-    if (own.cfm[i] == own.factored[i]) continue;
-    own.is_factored = true;
-    own.is_other = own.is_other || own.is_active(i) != (own.factored[i] >= 0);
-    own.factored[i] = own.cfm[i];
-  }
-}
-/// Whether a column's factors are to be found anew, those of earlier columns being known: its own rows, which of those
-/// of later joints that it meets are active, and what earlier columns take off it.
-PLUMB_HD inline bool needs_factors(const JointSystem& system, const AxisView& view, std::uint32_t column) {
+#if !defined(PLUMB_IMPULSE_CUDA)
+/// Whether a column's factors are to be found anew, those of earlier columns being known: for its own rows, for those of
+/// later joints that it meets, and for what earlier columns take off it.
+inline bool needs_factors(const JointSystem& system, const AxisView& view, std::uint32_t column) {
   const AxisWork* work = view.parts.work + system.base;
-  bool needs = work[column].is_factored;
+  bool needs = work[column].is_factored();
   for (std::uint32_t e = system.column_first[column]; !needs && e < system.column_first[column + 1]; ++e)
-    needs = work[system.entries[e].row].is_other;
+    needs = work[system.entries[e].row].is_other();
   for (std::uint32_t r = system.row_first[column]; !needs && r < system.row_first[column + 1]; ++r)
-    needs = work[system.entries[system.row_entries[r]].column].is_factored;
+    needs = work[system.entries[system.row_entries[r]].column].is_factored();
   return needs;
 }
+#endif
 
 PLUMB_DEVICE inline void factor_axis_system(Team& team, const JointSystem& system, const AxisView& view) {
-  // On a GPU the columns of a level take as long as the longest of them.
-  if constexpr (!Executor::kWarps)
-    team.each(system.level_first[system.levels],
-              [=](std::uint32_t column) { compare_column(system, view, column); });
+#if !defined(PLUMB_IMPULSE_CUDA)
+  team.each(system.level_first[system.levels], [=](std::uint32_t column) {
+    AxisWork& own = view.parts.work[system.base + column];
+    own.compare_factors(own.cfm, system.rows(column));
+  });
+#endif
   for_columns_up(team, system, [=](std::uint32_t column) {
     AxisWork& own = view.parts.work[system.base + column];
-    if constexpr (!Executor::kWarps) {
-      own.is_factored = needs_factors(system, view, column);
-      if (!own.is_factored) return;
-    }
+#if !defined(PLUMB_IMPULSE_CUDA)
+    own.set_factored(needs_factors(system, view, column));
+    if (!own.is_factored()) return;
+#endif
     mask_matrix(own, system.rows(column), system.work(column).factor);
     eliminate_column(system, column, [&](std::uint32_t i) { return view.parts.work[system.base + i].active(); });
   });

@@ -1,6 +1,7 @@
 // Joints with rows that do not always hold: which piece of its law each row is on, and the equations of that.
 #pragma once
 
+#include "joints/axis_memory.hpp"
 #include "joints/joint_law.hpp"
 #include "joints/joint_solve.hpp"
 
@@ -24,7 +25,7 @@ PLUMB_HD inline bool may_change(std::uint32_t joint, int row, std::uint32_t roun
 }
 
 /// Beside JointWork.
-struct AxisWork {
+struct AxisWork : AxisMemory {
   JointMatrix whole;  ///< K of all rows
   RowPiece piece[kJointRows];
   RowPiece reached[kJointRows];  ///< at the end of the pass over places
@@ -35,16 +36,6 @@ struct AxisWork {
   std::uint32_t predicted;       ///< bits: rows that are taken to hold while contacts push
   std::uint32_t let_go;          ///< bits: of these, those that have not
   RowNumbers bend;         ///< what the speeds over a sub-step have beyond those now, where that was last looked at
-
-  // On a CPU, what speeds over a sub-step were looked at last, and with which velocities since the rows were made:
-  RowNumbers seen;
-  Velocity seen_a, seen_b;
-  bool has_seen;
-  // On a CPU, of the factors in the mechanism's matrix (axis_mechanisms.hpp):
-  RowNumbers factored;  ///< cfm when they were found
-  bool is_refreshed;    ///< rows are newer
-  bool is_other;        ///< rows or what is active are others
-  bool is_factored;     ///< they have been found anew
 
   PLUMB_HD bool is_active(int row) const { return cfm[row] >= 0; }
   /// Bits: rows that are.
@@ -111,8 +102,7 @@ PLUMB_HD inline void refresh_axis_joint(const AxisView& view, std::uint32_t j) {
   all_errors(joint, axes, place, work.error);
   put_rows(work.rows, row_count(joint), joint_mass(view, joint, a, b), own.whole,
            [&](JointRow(&rows)[kJointRows]) { all_rows(joint, axes, place, rows); });
-  own.is_refreshed = true;
-  own.has_seen = false;
+  own.forget();
   JointReaction& reaction = view.reaction(j);
   if (reaction.first_step == joint.first_step) return;
   reaction.first_step = joint.first_step;
@@ -140,32 +130,6 @@ PLUMB_HD inline void speeds_over_places(const AxisView& view, std::uint32_t j, c
   }
 }
 
-#if defined(PLUMB_IMPULSE_CUDA)
-PLUMB_HD inline bool has_seen(const AxisWork& /*own*/, const Velocity& /*a*/, const Velocity& /*b*/,
-                              RowNumbers& /*speed*/) {
-  return false;
-}
-PLUMB_HD inline void keep_seen(AxisWork& /*own*/, const Velocity& /*a*/, const Velocity& /*b*/,
-                               const RowNumbers& /*speed*/) {}
-#else
-/// Gives the speeds where they were last looked at with the same velocities: the pieces of rows are chosen by them, and
-/// then solved with them, mostly without a jump between.
-inline bool has_seen(const AxisWork& own, const Velocity& a, const Velocity& b, RowNumbers& speed) {
-  const auto differ = [](const Velocity& x, const Velocity& y) {
-    return Mask{__builtin_bit_cast(Mask::Vector, load_row(x).v) != __builtin_bit_cast(Mask::Vector, load_row(y).v)};
-  };
-  if (!own.has_seen || any(differ(a, own.seen_a) || differ(b, own.seen_b))) return false;
-  store_row(speed, load_row(own.seen));
-  return true;
-}
-inline void keep_seen(AxisWork& own, const Velocity& a, const Velocity& b, const RowNumbers& speed) {
-  own.seen_a = a;
-  own.seen_b = b;
-  store_row(own.seen, load_row(speed));
-  own.has_seen = true;
-}
-#endif
-
 /// What a pass sees of the speeds. Places are not linear in them: the rounds of a pass work on one tangent, so that
 /// what they try on the way does not matter. anew: at the speeds as they are.
 PLUMB_HD inline void row_speeds(const AxisView& view, std::uint32_t j, const RowTime& time, const Velocity& a,
@@ -174,7 +138,7 @@ PLUMB_HD inline void row_speeds(const AxisView& view, std::uint32_t j, const Row
   const int n = whole_rows(row_count(view.joints[j]));
   if (time.pass != RowPass::kPlaces) return speeds_now(view, j, a, b, speed);
   if (anew) {
-    if (has_seen(own, a, b, speed)) return;
+    if (own.recall_speeds(a, b, speed)) return;
     RowNumbers now;
     speeds_now(view, j, a, b, now);
     if (turns_far(a, b, time.h))
@@ -182,7 +146,7 @@ PLUMB_HD inline void row_speeds(const AxisView& view, std::uint32_t j, const Row
     else
       speeds_over_places(view, j, time, a, b, speed);
     for (int i = 0; i < n; ++i) own.bend[i] = speed[i] - now[i];
-    keep_seen(own, a, b, speed);
+    own.keep_speeds(a, b, speed);
     return;
   }
   speeds_now(view, j, a, b, speed);

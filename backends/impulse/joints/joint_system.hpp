@@ -48,13 +48,7 @@ PLUMB_HD inline void take_earlier(const JointSystem& system, std::uint32_t j, Ro
   }
 }
 
-PLUMB_HD /// Where the body at a place will be, for solve_forward.
-inline void find_arrival(const JointSystem& system, std::uint32_t place, Real h) {
-  const std::uint32_t body = system.bodies[place];
-  system.view.arrivals[body] = system.view.end_after(body, system.view.velocity(body), h);
-}
-
-inline void solve_forward(const JointSystem& system, std::uint32_t j, const JointPass& pass) {
+PLUMB_HD inline void solve_forward(const JointSystem& system, std::uint32_t j, const JointPass& pass) {
   const Joint& joint = system.view.joints[system.base + j];
   RowNumbers& y = system.work(j).change;
   joint_residuals(system.view, system.base + j, pass, system.view.velocity(joint.body_a),
