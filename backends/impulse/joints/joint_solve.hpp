@@ -37,6 +37,13 @@ PLUMB_HD inline void store_plainly(const Velocity& before, const Velocity& after
 #endif
 }
 
+/// The swing of a body that tumbles, and of what: on a CPU it is found once for all reads between two moves.
+struct KeptSwing {
+  Quat rotation, orientation;
+  Vec inertia;
+  Quat swing;
+};
+
 /// Everything that a kernel over joints reads and writes.
 struct JointView {
   Bodies bodies;
@@ -46,7 +53,9 @@ struct JointView {
   JointImpulse* impulses;  ///< by slot
   Real* least_moment;      ///< by body: what tension asks of its principal moments (joints/tension.hpp), kg m2
   bool gyroscopic;
-  JointEnd* arrivals;  ///< by body: where those of the system will be after a sub-step; on a CPU, each for all its joints
+  // On a CPU, of bodies of the system, each for all its joints, by body:
+  JointEnd* arrivals;  ///< where they will be after a sub-step
+  KeptSwing* kept_swings;
 
   PLUMB_HD JointEnd end(std::uint32_t body) const {
     if (body == kWorld) return {{0, 0, 0}, {0, 0, 0, 1}};
@@ -75,8 +84,26 @@ struct JointView {
   }
   PLUMB_HD Velocity swung_velocity(std::uint32_t body) const {
     Velocity velocity = solver.velocity[body];
-    velocity.angular = rotate(swing_now(bodies, solver, body), velocity.angular);
+    velocity.angular = rotate(swing(body), velocity.angular);
     return velocity;
+  }
+  PLUMB_HD Quat swing(std::uint32_t body) const {
+#if !defined(PLUMB_IMPULSE_CUDA)
+    const KeptSwing& kept = kept_swings[body];
+    const auto is_kept = [](const auto& x, const auto& y) { return __builtin_memcmp(&x, &y, sizeof x) == 0; };
+    if (is_kept(kept.rotation, solver.displacement[body].rotation) &&
+        is_kept(kept.orientation, bodies.orientation[body]) && is_kept(kept.inertia, bodies.mass[body].inertia))
+      return kept.swing;
+#endif
+    return swing_now(bodies, solver, body);
+  }
+  /// Bodies have moved: of each body by one thread.
+  PLUMB_HD void keep_swing([[maybe_unused]] std::uint32_t body) const {
+#if !defined(PLUMB_IMPULSE_CUDA)
+    if (swings(bodies, solver, body))
+      kept_swings[body] = {solver.displacement[body].rotation, bodies.orientation[body], bodies.mass[body].inertia,
+                           swing_now(bodies, solver, body)};
+#endif
   }
   PLUMB_HD Sym inverse_inertia(std::uint32_t body, const Quat& orientation) const {
     if (body == kWorld) return {0, 0, 0, 0, 0, 0};
@@ -95,7 +122,7 @@ struct JointView {
     if (!swings(bodies, solver, body)) return store_plainly(before, after, velocity, free);
     velocity.linear = after.linear;
     free.linear += after.linear - before.linear;
-    const Vec change = rotate_back(swing_now(bodies, solver, body), after.angular - before.angular);
+    const Vec change = rotate_back(swing(body), after.angular - before.angular);
     velocity.angular += change;
     free.angular += change;
   }

@@ -29,7 +29,10 @@ class JointStore {
   void reserve_bodies(std::size_t bodies) {
     mechanisms_.reserve_bodies(bodies);
     least_moment_.grow(bodies);
-    if constexpr (!Executor::kWarps) arrivals_.grow(bodies);
+    if constexpr (!Executor::kWarps) {
+      arrivals_.grow(bodies);
+      kept_swings_.grow(bodies);
+    }
   }
   /// Bodies can be pushed, or cannot any more, who may have joints.
   void bodies_changed() { changed_ = changed_ || !records_.empty(); }
@@ -79,6 +82,7 @@ class JointStore {
   Buffer<JointImpulse> impulses_;  // by slot
   Buffer<Real> least_moment_;      // by body
   Buffer<JointEnd> arrivals_;      // by body
+  Buffer<KeptSwing> kept_swings_;  // by body
   JointColouring colours_;
   JointSystemMemory system_;
   MechanismMemory mechanisms_;

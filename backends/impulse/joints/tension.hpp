@@ -74,6 +74,7 @@ PLUMB_HD inline void slow_down(const JointView& view, std::uint32_t body, Real f
 /// squared.
 PLUMB_HD inline void find_least_moment(const JointSystem& system, std::uint32_t place, Real h, Real shortened) {
   const std::uint32_t body = system.bodies[place];
+  system.view.keep_swing(body);
   Real& kept = system.view.least_moment[body];
   const Real before = kept, fading = shortened * max(Real(0), Real(1) - h / kTensionFades);
   kept = max(moment_by_tension(system, place, h, false), fading * before);

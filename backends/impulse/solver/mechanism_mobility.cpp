@@ -199,6 +199,7 @@ struct FindMobility : MobilityWork {
   PLUMB_HD void stiffen(std::uint32_t place) const {
     const JointView& view = joints.view;
     const std::uint32_t body = joints.system.bodies[place];
+    view.keep_swing(body);
     view.solver.inertia[body].inverse = view.inverse_inertia(body, view.bodies.orientation[body]);
   }
   PLUMB_DEVICE void factor(Team& team) const {
