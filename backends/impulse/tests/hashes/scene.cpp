@@ -105,9 +105,20 @@ void Scene::ball_joint(PlumbBody a, const PlumbVec3& in_a, PlumbBody b, const Pl
   desc.body_b = b;
   desc.frame_a.position = in_a;
   desc.frame_b.position = in_b;
+  join(desc);
+}
+
+PlumbJoint Scene::join(const PlumbJointDesc& desc) {
   PlumbJoint id = 0;
   check(*world_, world_->joints()->create_joints({&desc, 1}, {&id, 1}));
+  return id;
 }
+
+void Scene::modify(const PlumbBodyChange& change) {
+  if (const PlumbResult result = world_->modify()->modify_bodies({&change, 1}); result != PLUMB_E_INVALID_ARGUMENT)
+    check(*world_, result);
+}
+void Scene::modify(const PlumbJointChange& change) { check(*world_, world_->modify()->modify_joints({&change, 1})); }
 
 void Scene::rod(const PlumbVec3& hook, PlumbBody bob, double length) {
   PlumbJointDesc desc = joint_desc(PLUMB_JOINT_DISTANCE);

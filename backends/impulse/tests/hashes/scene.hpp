@@ -61,6 +61,10 @@ class Scene {
   /// A row of the field, of as many numbers as it has.
   void write(PlumbField field, PlumbBody body, const std::vector<double>& row);
   void remove(PlumbBody body);
+  PlumbJoint join(const PlumbJointDesc& desc);
+  /// What cannot be, as for a body that never had a mass, is passed over.
+  void modify(const PlumbBodyChange& change);
+  void modify(const PlumbJointChange& change);
 
   /// Steps of 1/60 s.
   void run(int steps);

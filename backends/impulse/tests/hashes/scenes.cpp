@@ -1,5 +1,6 @@
 // The scenes whose hashes are recorded.
 #include "tests/hashes/busy_scenes.hpp"
+#include "tests/hashes/change_scenes.hpp"
 #include "tests/hashes/motion_scenes.hpp"
 #include "tests/hashes/scene.hpp"
 #include "tests/hashes/shape_scenes.hpp"
@@ -252,6 +253,11 @@ const std::vector<NamedScene>& named_scenes() {
       {"belts", {}, kAll | PLUMB_NEED_KINEMATIC | PLUMB_NEED_SURFACE_VELOCITY | PLUMB_NEED_SLEEPING, kDown, &belts},
       {"heavy-bridge", {}, kAll | PLUMB_NEED_JOINTS | PLUMB_NEED_AXIS_LOCKS, kDown, &heavy_bridge},
       {"drawers", {}, kContactNeeds | PLUMB_NEED_JOINTS, kDown, &drawers},
+      {"changers",
+       {},
+       kContactNeeds | PLUMB_NEED_JOINTS | PLUMB_NEED_KINEMATIC | PLUMB_NEED_AXIS_LOCKS | PLUMB_NEED_EVENTS,
+       kDown,
+       &changers},
       {"far-off", {}, kAll | PLUMB_NEED_JOINTS, kDown, &far_off},
       {"pyramid-20-once", {"relaxation", "step"}, kContactNeeds, kDown, &pyramid_20},
   };

@@ -1,0 +1,169 @@
+// Changes of what lives: a world that was changed into another before its first step goes on with that one's bits.
+#include <gtest/gtest.h>
+
+#include "plumb/backend/modify.hpp"
+#include "tests/hashes/shape_scenes.hpp"
+#include "tests/rigs/engine.hpp"
+
+namespace plumb::impulse::test {
+namespace {
+
+constexpr PlumbNeeds kNeeds = PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION | PLUMB_NEED_JOINTS |
+                              PLUMB_NEED_KINEMATIC | PLUMB_NEED_AXIS_LOCKS | PLUMB_NEED_GYROSCOPIC | PLUMB_NEED_EVENTS;
+
+constexpr std::uint32_t kAllOfABody = (1U << PLUMB_MODIFY_BODY_COUNT) - 1,
+                        kAllOfAJoint = (1U << PLUMB_MODIFY_JOINT_COUNT) - 1;
+
+struct Heap {
+  Heap() : scene(engine(), kNeeds, {0, -9.81, 0}, 1) {
+    scene.ground();
+    shapes = convex_shapes(scene);
+  }
+  [[nodiscard]] PlumbVec3 place(int i) const { return {0.5 * (i % 3), 0.5 + 0.55 * i, 0.1 * (i % 2)}; }
+  /// The heap that all of these tests compare with: the last hangs on the one before by a hinge with a limit.
+  void make() {
+    for (int i = 0; i < 20; ++i) {
+      scene.body.flags = i % 7 == 3 ? PLUMB_BODY_NO_ROTATION : 0U;
+      scene.body.locks = i % 5 == 2 ? PLUMB_LOCK_ANGULAR_Z : 0U;
+      bodies.push_back(scene.add(shapes[static_cast<std::size_t>(i) % shapes.size()], place(i)));
+    }
+    scene.body.flags = scene.body.locks = 0;
+  }
+  [[nodiscard]] PlumbJointDesc hinge() const {
+    PlumbJointDesc desc = joint_desc(PLUMB_JOINT_HINGE);
+    desc.body_a = bodies[18];
+    desc.body_b = bodies[19];
+    desc.frame_b.position = {0.1, -0.55, 0};
+    desc.limits[3] = {-0.3, 0.4, 1, 0};
+    desc.motors[3] = {1, 20, 1, 0};
+    return desc;
+  }
+  std::uint64_t hash_after(int steps) {
+    scene.run(steps);
+    return scene.hash();
+  }
+
+  Scene scene;
+  std::vector<PlumbShape> shapes;
+  std::vector<PlumbBody> bodies;
+};
+
+/// Statics, particles and balls become the heap.
+TEST(Modify, BodiesAreAsIfTheyHadBeenMadeSo) {
+  Heap made, changed;
+  made.make();
+  for (int i = 0; i < 20; ++i) {
+    const PlumbShape other = changed.shapes[static_cast<std::size_t>(i + 2) % changed.shapes.size()];
+    changed.bodies.push_back(i % 3 == 0   ? changed.scene.add_static(other, changed.place(i))
+                             : i % 3 == 1 ? changed.scene.add_kinematic(other, changed.place(i))
+                                          : changed.scene.add(other, changed.place(i)));
+    PlumbBodyChange change = body_change(changed.bodies.back());
+    change.what = kAllOfABody;
+    change.motion = PLUMB_DYNAMIC;
+    change.shape = changed.shapes[static_cast<std::size_t>(i) % changed.shapes.size()];
+    change.mass_mode = PLUMB_MASS_FROM_DENSITY;
+    change.density = 1000;
+    change.flags = i % 7 == 3 ? PLUMB_BODY_NO_ROTATION : 0U;
+    change.locks = i % 5 == 2 ? PLUMB_LOCK_ANGULAR_Z : 0U;
+    changed.scene.modify(change);
+  }
+  EXPECT_EQ(changed.hash_after(90), made.hash_after(90));
+}
+
+/// A joint of other frames, limits and drives becomes the hinge, as does one that was let go and taken again.
+TEST(Modify, JointsAreAsIfTheyHadBeenMadeSo) {
+  Heap made, changed, paused;
+  for (Heap* heap : {&made, &changed, &paused}) heap->make();
+  made.scene.join(made.hinge());
+  PlumbJointDesc other = changed.hinge();
+  other.frame_a.position = {0, 1, 0};
+  other.limits[3] = {};
+  other.motors[3] = {};
+  other.springs[3] = {0, 2, 0.1, 1, 0};
+  other.collide_connected = 1;
+  PlumbJointChange change = joint_change(changed.scene.join(other));
+  change.what = kAllOfAJoint;
+  change.enabled = 1;
+  change.frame_b = changed.hinge().frame_b;
+  change.limits[3] = changed.hinge().limits[3];
+  change.motors[3] = changed.hinge().motors[3];
+  changed.scene.modify(change);
+  change = joint_change(paused.scene.join(paused.hinge()));
+  change.what = PLUMB_MODIFY_ENABLED;
+  for (const std::uint32_t enabled : {0U, 1U}) {
+    change.enabled = enabled;
+    paused.scene.modify(change);
+  }
+  const std::uint64_t expected = made.hash_after(90);
+  EXPECT_EQ(changed.hash_after(90), expected);
+  EXPECT_EQ(paused.hash_after(90), expected);
+}
+
+/// A motor's numbers by rows and by a change are the same numbers.
+TEST(Modify, MotorsAreThoseOfRows) {
+  Heap by_rows, by_change;
+  std::uint64_t hashes[2];
+  for (Heap* heap : {&by_rows, &by_change}) {
+    heap->make();
+    const PlumbJoint joint = heap->scene.join(heap->hinge());
+    heap->scene.run(20);
+    if (heap == &by_rows) {
+      std::array<double, 12> row{};
+      row[6] = -2;
+      row[7] = 30;
+      check(heap->scene.world(),
+            heap->scene.world().joints()->write_joints(
+                PLUMB_JOINT_MOTOR, {&joint, 1}, const_rows_over(std::span<const std::array<double, 12>>(&row, 1))));
+    } else {
+      PlumbJointChange change = joint_change(joint);
+      change.what = PLUMB_MODIFY_MOTORS;
+      change.motors[3] = {-2, 30, 1, 0};
+      heap->scene.modify(change);
+    }
+    hashes[heap == &by_rows ? 0 : 1] = heap->hash_after(40);
+  }
+  EXPECT_EQ(hashes[0], hashes[1]);
+}
+
+/// What is not named keeps its bits, also in the velocity of a body whose pose is far from the origin.
+TEST(Modify, WhatIsNotNamedStays) {
+  Heap heap;
+  heap.make();
+  heap.scene.run(10);
+  const std::uint64_t before = heap.scene.hash();
+  for (const PlumbBody body : heap.bodies) {
+    PlumbBodyChange change = body_change(body);
+    change.what = PLUMB_MODIFY_SHAPE;
+    change.shape = heap.shapes[0];
+    heap.scene.modify(change);
+  }
+  EXPECT_EQ(heap.scene.hash(), before);
+}
+
+/// A frame of a joint lies where it did, though the body's principal axes and centre of mass are others.
+TEST(Modify, JointsHoldWhereTheyDidWhenMassesChange) {
+  Scene scene(engine(), kNeeds, {0, -9.81, 0}, 1);
+  const PlumbBody bob = scene.add(scene.box({0.3, 0.2, 0.1}), {1, 0, 0});
+  PlumbJointDesc desc = joint_desc(PLUMB_JOINT_BALL);
+  desc.body_b = bob;
+  desc.frame_b.position = {-1, 0, 0};
+  scene.join(desc);
+  scene.run(30);
+  PlumbBodyChange change = body_change(bob);
+  change.what = PLUMB_MODIFY_MASS;
+  change.mass_mode = PLUMB_MASS_EXPLICIT;
+  change.mass = 3;
+  change.inertia = {0.3, 0.2, 0.4};
+  change.inertia_orientation = {0.5, 0.5, 0.5, 0.5};
+  change.centre_of_mass = {0.2, 0.1, -0.1};
+  scene.modify(change);
+  for (int step = 0; step < 120; ++step) {
+    scene.run(1);
+    const PlumbPose pose = scene.poses().front();
+    const PlumbVec3 end = backend::add(pose.position, backend::rotate(pose.orientation, {-1, 0, 0}));
+    ASSERT_LT(backend::length(end), 1e-3) << "step " << step;
+  }
+}
+
+}  // namespace
+}  // namespace plumb::impulse::test
