@@ -84,8 +84,9 @@ CharacterController::Sweep CharacterController::sweep(const PlumbVec3& from, con
   const PlumbCast cast{capsule_, {from, {0, 0, 0, 1}}, scale(reach, way), settings_.filter};
   const Hits hits = queries_.cast_shapes(PLUMB_HIT_CLOSEST, {&cast, 1});
   check(world_, hits.result);
-  const PlumbHit& hit = hits.hits[0];
+  PlumbHit hit = hits.hits[0];
   if (hit.body == 0) return {size, {}};
+  hit.normal = direction(hit.normal, up_);  // engines that reckon in floats tell it to seven digits
   const double against = -dot(way, hit.normal);
   if (!(against > 1e-6)) return {size, {}};  // it leaves, or the engine does not tell
   const double room = hit.fraction * reach - settings_.skin / std::max(against, 0.25);
@@ -165,7 +166,7 @@ void CharacterController::part() {
 void CharacterController::slide(PlumbVec3 by, double dt, bool walking) {
   std::array<PlumbVec3, most_slides> planes;
   std::size_t count = 0;
-  while (count < most_slides && length(by) > nothing) {
+  for (int i = 0; i < most_slides && length(by) > nothing; ++i) {
     const Sweep free = sweep(position_, by);
     const PlumbVec3 way = normalized(by);
     position_ = add(position_, scale(free.distance, way));
@@ -178,7 +179,11 @@ void CharacterController::slide(PlumbVec3 by, double dt, bool walking) {
       // A slope that is too steep is a wall to who walks into it.
       normal = direction(without(normal, up_), normal);
     }
-    planes[count++] = normal;
+    // The same plane again, met with the engine's noise in its normal, makes no crease.
+    const auto known = std::find_if(planes.begin(), planes.begin() + static_cast<std::ptrdiff_t>(count),
+                                    [&](const PlumbVec3& plane) { return dot(plane, normal) > 0.99; });
+    *known = normal;
+    if (known == planes.begin() + static_cast<std::ptrdiff_t>(count)) ++count;
     by = clip(by, std::span(planes.data(), count));
     if (!walking || !walkable(normal)) velocity_ = clip(velocity_, std::span(planes.data(), count));
   }
@@ -204,7 +209,8 @@ bool CharacterController::climb(const PlumbVec3& by) {
 }
 
 bool CharacterController::stands_on_edge(const PlumbHit& hit, const PlumbVec3& heading) {
-  const PlumbRay ray{add(add(hit.position, scale(0.05, up_)), scale(0.02, heading)), scale(-0.1, up_), settings_.filter};
+  const PlumbRay ray{add(add(hit.position, scale(0.05, up_)), scale(0.02, heading)), scale(-0.1, up_),
+                     settings_.filter};
   const Hits below = queries_.cast_rays(PLUMB_HIT_CLOSEST, {&ray, 1});
   check(world_, below.result);
   return below.hits[0].body != 0 && walkable(below.hits[0].normal);
@@ -218,8 +224,8 @@ void CharacterController::find_ground(double reach) {
   const Sweep below = sweep(position_, scale(-reach, up_));
   if (below.hit.body == 0) return;
   const PlumbVec3 inward = direction(without(sub(below.hit.position, position_), up_), {});
-  const bool stands = walkable(below.hit.normal) || stands_on_edge(below.hit, inward) ||
-                      stands_on_edge(below.hit, scale(-1, inward));
+  const bool stands =
+      walkable(below.hit.normal) || stands_on_edge(below.hit, inward) || stands_on_edge(below.hit, scale(-1, inward));
   if (!stands && below.distance > 2 * settings_.skin) return;
   ground_ = stands ? CharacterGround::on_ground : CharacterGround::steep;
   ground_body_ = below.hit.body;

@@ -10,15 +10,15 @@
 namespace plumb::helpers {
 
 struct CharacterSettings {
-  double radius = 0.3;       ///< m
-  double half_height = 0.6;  ///< m, of the capsule's segment
-  double max_slope = 0.87;   ///< rad: steeper is no ground
-  double step_up = 0.35;     ///< m
-  double stick_down = 0.35;  ///< m: ground so far below is followed while walking
-  double skin = 0.02;        ///< m
-  double air_acceleration = 20;  ///< m/s2 sideways towards `walk` while in the air
-  double max_push = 500;     ///< N on what it walks into
-  double mass = 80;          ///< kg: its weight on dynamic ground
+  double radius = 0.3;                       ///< m
+  double half_height = 0.6;                  ///< m, of the capsule's segment
+  double max_slope = 0.87;                   ///< rad: steeper is no ground
+  double step_up = 0.35;                     ///< m
+  double stick_down = 0.35;                  ///< m: ground so far below is followed while walking
+  double skin = 0.02;                        ///< m
+  double air_acceleration = 20;              ///< m/s2 sideways towards `walk` while in the air
+  double max_push = 500;                     ///< N on what it walks into
+  double mass = 80;                          ///< kg: its weight on dynamic ground
   PlumbVec3 gravity{0, -9.81, 0};            ///< m/s2; up is against it
   PlumbFilter filter{1, 0xffffffffu, 0, 0};  ///< what the capsule sees
 };
