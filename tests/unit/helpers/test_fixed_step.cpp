@@ -22,6 +22,14 @@ TEST(FixedStep, CountsStepsAndTellsWhereTheFrameLies) {
   EXPECT_NEAR(clock.velocities()[0], 6, 1e-5);
 }
 
+TEST(FixedStep, TurnsAtAConstantRateBetweenSteps) {
+  const double right = std::acos(-1.0) / 2, half = right / 2;
+  const PlumbPose turned{{4, 0, 0}, {0, -std::sin(half), 0, -std::cos(half)}};  // the same turn, of the other sign
+  const PlumbPose between = interpolate(identity_pose(), turned, 0.25);
+  EXPECT_NEAR(2 * std::asin(between.orientation.y), right / 4, 1e-12);
+  EXPECT_NEAR(between.position.x, 1, 1e-12);
+}
+
 TEST(FixedStep, FramesOfAStepAreOneStepEach) {
   TestWorld t;
   FixedStep clock(*t.world, {}, {1.0 / 60, 4});

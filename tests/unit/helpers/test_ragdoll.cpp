@@ -53,7 +53,7 @@ TEST(Ragdoll, MotorsBringItToAPoseAndHoldIt) {
   }
   doll.read_angles(angles);
   for (std::size_t i = 1; i < bones.size(); ++i)
-    for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(angles[i][k], pose[i][k], 0.08) << i << ' ' << k;
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(angles[i][k], pose[i][k], 0.04) << i << ' ' << k;
 }
 
 TEST(Ragdoll, FallsLimpWithinItsLimitsAndComesToRest) {
