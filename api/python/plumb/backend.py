@@ -1,0 +1,186 @@
+"""Backends: which there are, what each is and can, and worlds of them.
+
+>>> import plumb
+>>> impulse = plumb.open("impulse")
+>>> impulse.info.precision
+'f32'
+>>> impulse.capability("joint", "hinge").degree.name
+'NATIVE'
+>>> impulse.capability("pair", "triangle_mesh", "triangle_mesh").degree.name
+'NONE'
+>>> plumb.open("impuls")
+Traceback (most recent call last):
+plumb._errors.Error: no backend is called "impuls"; did you mean "impulse"?
+"""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from enum import IntEnum
+from pathlib import Path
+from typing import Dict, Iterable, List, Mapping, NamedTuple, Optional, Tuple, Type, Union
+
+from . import _core
+from ._arrays import numbers, unsigned
+from ._errors import Error, Result
+from ._words import pick, pick_bits
+from .enums import (CapabilityKind, Degree, Determinism, EventType, Field, JointFeature, JointType, Motion, Need, Phase,
+                    QueryKind, ShapeType)
+from .settings import KnownSettings, Value
+from .shapes import Vec3
+from .world import World
+
+EXTENSIONS = ("plumb.joints/1", "plumb.queries/1", "plumb.collide/1", "plumb.debug/1", "plumb.settings/1",
+              "plumb.snapshot/1", "plumb.state/1", "plumb.exceptions/1")
+
+NEEDS = IntEnum("NEEDS", [name for name in Need.__members__], start=0)  # type: ignore[misc]
+
+_ARGUMENTS: Dict[CapabilityKind, Tuple[Type[IntEnum], ...]] = {
+    CapabilityKind.SHAPE: (ShapeType, Motion),
+    CapabilityKind.PAIR: (ShapeType, ShapeType),
+    CapabilityKind.JOINT: (JointType,),
+    CapabilityKind.JOINT_FEATURE: (JointType, JointFeature),
+    CapabilityKind.QUERY: (QueryKind, ShapeType),
+    CapabilityKind.FIELD_READ: (Field,),
+    CapabilityKind.FIELD_WRITE: (Field,),
+    CapabilityKind.NEED: (NEEDS,),
+    CapabilityKind.EVENT: (EventType,),
+    CapabilityKind.PHASE_TIME: (Phase,),
+}
+
+
+class FoundBackend(NamedTuple):
+    """A backend on the search path, not opened."""
+
+    name: str
+    file: str
+
+
+class Capability(NamedTuple):
+    """How truly a backend has a thing, and a sentence on it, or ""."""
+
+    degree: Degree
+    note: str
+
+
+@dataclass(frozen=True)
+class BackendInfo:
+    """What a backend is."""
+
+    name: str
+    version: str
+    """Of the engine."""
+    build: str
+    """Changes whenever the results or times of this library may."""
+    description: str
+    device: str
+    """"cpu" or the device's name."""
+    exclusion_group: str
+    """Two backends of one group cannot be open in one process; "" for none."""
+    precision: str
+    """"f32" or "f64"."""
+    determinism: Determinism
+    max_threads: int
+
+
+class Backend:
+    """An opened engine, which stays loaded until the process ends."""
+
+    def __init__(self, core: _core.Backend) -> None:
+        self._core = core
+        facts = core.info()
+        facts["determinism"] = Determinism(facts["determinism"])
+        self.info = BackendInfo(**facts)
+        self.file: str = core.file
+        self.settings = KnownSettings(self.info.name, core.settings())
+        """SettingInfo by name."""
+
+    @property
+    def extensions(self) -> Tuple[str, ...]:
+        """Which of the interface's extensions it has: "plumb.joints/1"."""
+        return tuple(name for name in EXTENSIONS if self._core.has_extension(name))
+
+    def capability(self, kind: Union[CapabilityKind, str], *arguments: Union[IntEnum, str]) -> Capability:
+        """How truly the engine has a thing: shape (type, motion), pair (type, type), joint (type), joint_feature (type,
+        feature), query (kind, type of what is cast), field_read, field_write (field), need, event, phase_time (word),
+        residual, snapshot, host_jobs, child_material ()."""
+        which = pick(CapabilityKind, kind, "capability")
+        takes = _ARGUMENTS.get(which, ())
+        if which == CapabilityKind.QUERY and len(arguments) == 1:  # of a ray
+            takes = takes[:1]
+        if len(arguments) != len(takes):
+            words = ", ".join(kind.__name__ for kind in takes) or "nothing"
+            raise TypeError(f"the capability {which.name.lower()} is asked with {words}, not with {arguments!r}")
+        asked = [int(pick(kind, value, kind.__name__)) for kind, value in zip(takes, arguments)]
+        degree, note = self._core.capability(which, *(asked + [0, 0])[:2])
+        return Capability(Degree(degree), note)
+
+    def capabilities(self) -> Dict[Tuple[str, ...], Capability]:
+        """All answers, by kind and arguments in words: {("joint", "hinge"): Capability(...)}."""
+        answers: Dict[Tuple[str, ...], Capability] = {}
+        for kind in CapabilityKind:
+            for words in _combinations(_ARGUMENTS.get(kind, ())):
+                if kind == CapabilityKind.QUERY and words[0] == "ray":
+                    words = words[:1]
+                answers[(kind.name.lower(), *words)] = self.capability(kind, *words)
+        return answers
+
+    def world(self, needs: Union[Need, str, Iterable[Union[Need, str]]], gravity: Vec3 = (0.0, -9.81, 0.0),
+              threads: int = 1, settings: Optional[Mapping[str, Value]] = None, body_capacity: int = 0,
+              contact_capacity: int = 0, joint_capacity: int = 0) -> World:
+        """A world of this engine. needs: what the scene needs; using anything else is an Error of NOT_DECLARED, and a need
+        that the engine lacks one of UNSUPPORTED. gravity: m/s2. settings: in force from the start. Capacities are hints; 0
+        is unknown."""
+        given = [(name, *self.settings.encoded(name, value)) for name, value in (settings or {}).items()]
+        capacities = [unsigned(body_capacity, "body_capacity", 32), unsigned(contact_capacity, "contact_capacity", 32),
+                      unsigned(joint_capacity, "joint_capacity", 32)]
+        core = self._core.world(int(pick_bits(Need, needs, "need")), numbers(gravity, (3,), "gravity").tolist(),
+                                unsigned(threads, "threads", 32), given, capacities)
+        return World(self, core)
+
+    def __repr__(self) -> str:
+        return f"<Backend {self.info.name} {self.info.version}>"
+
+
+def _combinations(kinds: Tuple[Type[IntEnum], ...]) -> List[Tuple[str, ...]]:
+    together: List[Tuple[str, ...]] = [()]
+    for kind in kinds:
+        together = [(*before, word.lower()) for before in together for word in kind.__members__]
+    return together
+
+
+def search_path() -> List[str]:
+    """Folders in which backends are looked for: $PLUMB_BACKEND_PATH, lib/plumb beside this package's lib/python, and that
+    of the Plumb that this package was installed for."""
+    wanted = [folder for folder in os.environ.get("PLUMB_BACKEND_PATH", "").split(os.pathsep) if folder]
+    wanted.append(str(Path(__file__).resolve().parents[2] / "plumb"))
+    if _core.installed_prefix:
+        wanted.append(str(Path(_core.installed_prefix, "lib", "plumb")))
+    wanted += _core.backend_path()
+    folders = [os.path.realpath(folder) for folder in wanted if os.path.isdir(folder)]
+    return list(dict.fromkeys(folders))
+
+
+def backends() -> List[FoundBackend]:
+    """The backends on the search path, by name; the first of a name wins. None is opened."""
+    found: Dict[str, FoundBackend] = {}
+    for folder in search_path():
+        for file in sorted(Path(folder).glob("plumb-*.so")):
+            name = file.name[len("plumb-"):-len(".so")]
+            found.setdefault(name, FoundBackend(name, str(file)))
+    return sorted(found.values())
+
+
+def open(name_or_file: Union[str, os.PathLike[str]]) -> Backend:
+    """Opens a backend by name, or by file (anything with a slash, or ending in .so). Raises Error: INVALID_ARGUMENT (not
+    found; names the nearest), VERSION (which side is too old), EXCLUDED (which open backend stands in the way)."""
+    name = os.fspath(name_or_file)
+    if os.sep in name or name.endswith(".so"):
+        return Backend(_core.open_backend(os.path.abspath(name)))
+    found = {one.name: one.file for one in backends()}
+    if name not in found:
+        hint = _core.suggestion(name, list(found)) if found else (
+            "; none was found at all: set PLUMB_BACKEND_PATH to the folder that holds plumb-*.so")
+        raise Error(Result.INVALID_ARGUMENT, f'no backend is called "{name}"{hint}')
+    return Backend(_core.open_backend(found[name]))

@@ -1,0 +1,133 @@
+// Calls of the extensions that change or save a world: joints, settings, snapshots, excluded pairs.
+#include "numbers.hpp"
+#include "world.hpp"
+
+namespace plumb::python {
+namespace {
+
+std::uint32_t count_of(std::size_t size) { return static_cast<std::uint32_t>(size); }
+
+// --- joints ----------------------------------------------------------------------------------------------------------
+
+py::array_t<std::uint64_t> create_joints(World& world, const py::array& rows) {
+  const auto& joints = world.extension<PlumbJointsTable>(PLUMB_EXT_JOINTS);
+  const auto descs = rows_of<PlumbJointDesc>(rows, "joints");
+  std::vector<PlumbJoint> ids(descs.size());
+  world.call(Tag::world, "joints.create", [&](const PlumbBackendTable&, PlumbWorld* self) {
+    return joints.create(self, descs.data(), sizeof(PlumbJointDesc), count_of(descs.size()), ids.data());
+  });
+  return py::array_t<std::uint64_t>(static_cast<py::ssize_t>(ids.size()), ids.data());
+}
+
+void destroy_joints(World& world, const Handles& ids) {
+  const auto& joints = world.extension<PlumbJointsTable>(PLUMB_EXT_JOINTS);
+  world.call(Tag::world, "joints.destroy", [&](const PlumbBackendTable&, PlumbWorld* self) {
+    return joints.destroy(self, ids.data(), count_of(static_cast<std::size_t>(ids.size())));
+  });
+}
+
+void read_joints(World& world, PlumbJointField field, const std::optional<Handles>& ids, py::array rows) {
+  const auto& joints = world.extension<PlumbJointsTable>(PLUMB_EXT_JOINTS);
+  const RowsOfNumbers numbers = numbers_in(rows, joint_columns_of(field), ids);
+  void* data = rows.mutable_data();
+  world.call(Tag::world, "joints.read", [&](const PlumbBackendTable&, PlumbWorld* self) {
+    return joints.read(self, field, numbers.type, numbers.ids, numbers.count, data, numbers.stride);
+  });
+}
+
+void write_joints(World& world, PlumbJointField field, const std::optional<Handles>& ids, const py::array& rows) {
+  const auto& joints = world.extension<PlumbJointsTable>(PLUMB_EXT_JOINTS);
+  const RowsOfNumbers numbers = numbers_in(rows, joint_columns_of(field), ids);
+  world.call(Tag::world, "joints.write", [&](const PlumbBackendTable&, PlumbWorld* self) {
+    return joints.write(self, field, numbers.type, numbers.ids, numbers.count, rows.data(), numbers.stride);
+  });
+}
+
+// --- settings --------------------------------------------------------------------------------------------------------
+
+std::pair<double, std::string> get_setting(World& world, const std::string& name) {
+  const auto& settings = world.extension<PlumbSettingsTable>(PLUMB_EXT_SETTINGS);
+  PlumbSettingValue value{};
+  world.call(Tag::world, "settings", [&](const PlumbBackendTable&, PlumbWorld* self) {
+    return settings.get(self, name.c_str(), &value);
+  });
+  return {value.number, value.choice == nullptr ? "" : value.choice};
+}
+
+void set_setting(World& world, const std::string& name, PlumbSettingType type, double number, const std::string& word) {
+  const auto& settings = world.extension<PlumbSettingsTable>(PLUMB_EXT_SETTINGS);
+  const PlumbSettingValue value = {type, 0, number, type == PLUMB_SETTING_CHOICE ? word.c_str() : nullptr};
+  world.call(Tag::world, "settings", [&](const PlumbBackendTable&, PlumbWorld* self) {
+    return settings.set(self, name.c_str(), &value);
+  });
+}
+
+// --- snapshots -------------------------------------------------------------------------------------------------------
+
+py::bytes save(World& world) {
+  const auto& snapshot = world.extension<PlumbSnapshotTable>(PLUMB_EXT_SNAPSHOT);
+  std::string bytes;
+  world.call_unlocked(Tag::world, "snapshot.save", [&](const PlumbBackendTable&, PlumbWorld* self) {
+    std::size_t size = 0;
+    const PlumbResult result = snapshot.save(self, nullptr, 0, &size);
+    if (result != PLUMB_TRUNCATED) return result;
+    bytes.resize(size);
+    return snapshot.save(self, bytes.data(), size, &size);
+  });
+  return bytes;
+}
+
+void restore(World& world, const py::bytes& saved) {
+  const auto& snapshot = world.extension<PlumbSnapshotTable>(PLUMB_EXT_SNAPSHOT);
+  const std::string_view bytes = saved;
+  world.call_unlocked(Tag::world, "snapshot.restore", [&](const PlumbBackendTable&, PlumbWorld* self) {
+    return snapshot.restore(self, bytes.data(), bytes.size());
+  });
+}
+
+std::uint64_t hash(World& world) {
+  const auto& snapshot = world.extension<PlumbSnapshotTable>(PLUMB_EXT_SNAPSHOT);
+  std::uint64_t value = 0;
+  world.call(Tag::world, "snapshot.hash",
+             [&](const PlumbBackendTable&, PlumbWorld* self) { return snapshot.hash(self, &value); });
+  return value;
+}
+
+// --- excluded pairs --------------------------------------------------------------------------------------------------
+
+void set_exceptions(World& world, const py::array& rows, bool touch) {
+  const auto& exceptions = world.extension<PlumbExceptionsTable>(PLUMB_EXT_EXCEPTIONS);
+  const auto pairs = rows_of<PlumbBodyPair>(rows, "pairs");
+  world.call(Tag::world, "exceptions.set", [&](const PlumbBackendTable&, PlumbWorld* self) {
+    return exceptions.set(self, pairs.data(), sizeof(PlumbBodyPair), count_of(pairs.size()), touch ? 1 : 0);
+  });
+}
+
+py::array list_exceptions(World& world) {
+  const auto& exceptions = world.extension<PlumbExceptionsTable>(PLUMB_EXT_EXCEPTIONS);
+  std::vector<PlumbBodyPair> pairs;
+  world.call(Tag::world, "exceptions.list", [&](const PlumbBackendTable&, PlumbWorld* self) {
+    return fill_all(pairs, [&](PlumbBodyPair* out, std::uint32_t capacity, std::uint32_t* count) {
+      return exceptions.list(self, out, capacity, count);
+    });
+  });
+  return array_of(pairs);
+}
+
+}  // namespace
+
+void bind_extensions(WorldClass& world) {
+  world.def("create_joints", &create_joints)
+      .def("destroy_joints", &destroy_joints)
+      .def("read_joints", &read_joints)
+      .def("write_joints", &write_joints)
+      .def("get_setting", &get_setting)
+      .def("set_setting", &set_setting)
+      .def("save", &save)
+      .def("restore", &restore)
+      .def("hash", &hash)
+      .def("set_exceptions", &set_exceptions)
+      .def("list_exceptions", &list_exceptions);
+}
+
+}  // namespace plumb::python
