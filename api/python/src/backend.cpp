@@ -89,10 +89,8 @@ void bind_backend(py::module_& module) {
            [](const Backend& backend, PlumbCapability kind, std::uint32_t a, std::uint32_t b) {
              return std::pair(backend.capability(kind, a, b), backend.capability_note(kind, a, b));
            })
-      .def("has_extension",
-           [](const Backend& backend, const std::string& name) {
-             return backend.table().extension(name.c_str()) != nullptr;
-           })
+      .def("has_extension", [](const Backend& backend,
+                               const std::string& name) { return backend.table().extension(name.c_str()) != nullptr; })
       .def("world", &make_world);
 }
 

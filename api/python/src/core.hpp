@@ -1,7 +1,7 @@
 // The extension module plumb._core: what of the interface Python calls, over plumb.h's tables.
 //
-// Here is only what needs C: descriptors as bytes, the lock, the GIL, lent memory. What a call means in Python, and what
-// it says of wrong arguments, is in the package's own files.
+// Here is only what needs C: descriptors as bytes, the lock, the GIL, lent memory. What a call means in Python, and
+// what it says of wrong arguments, is in the package's own files.
 #pragma once
 
 #include <pybind11/numpy.h>

@@ -6,13 +6,6 @@
 namespace plumb::python {
 namespace {
 
-std::uint32_t count_of(std::size_t size) { return static_cast<std::uint32_t>(size); }
-
-template <class Ids>
-py::array_t<std::uint64_t> handles(const Ids& ids) {
-  return py::array_t<std::uint64_t>(static_cast<py::ssize_t>(ids.size()), ids.data());
-}
-
 py::array_t<std::uint64_t> create_shapes(World& world, const std::vector<const Shape*>& shapes) {
   std::vector<PlumbShapeDesc> descs;
   for (const Shape* shape : shapes) descs.push_back(shape->pointing());
@@ -34,13 +27,13 @@ py::array_t<std::uint64_t> create_bodies(World& world, const py::array& rows) {
 
 void destroy_shapes(World& world, const Handles& ids) {
   world.call(Tag::world, "destroy_shapes", [&](const PlumbBackendTable& table, PlumbWorld* self) {
-    return table.destroy_shapes(self, ids.data(), count_of(static_cast<std::size_t>(ids.size())));
+    return table.destroy_shapes(self, ids.data(), count_of(ids));
   });
 }
 
 void destroy_bodies(World& world, const Handles& ids) {
   world.call(Tag::world, "destroy_bodies", [&](const PlumbBackendTable& table, PlumbWorld* self) {
-    return table.destroy_bodies(self, ids.data(), count_of(static_cast<std::size_t>(ids.size())));
+    return table.destroy_bodies(self, ids.data(), count_of(ids));
   });
 }
 
@@ -56,17 +49,15 @@ py::array_t<std::uint64_t> list_bodies(World& world) {
 
 std::uint64_t user_data(World& world, PlumbBody id) {
   std::uint64_t value = 0;
-  world.call(Tag::world, "user_data", [&](const PlumbBackendTable& table, PlumbWorld* self) {
-    return table.user_data(self, id, &value);
-  });
+  world.call(Tag::world, "user_data",
+             [&](const PlumbBackendTable& table, PlumbWorld* self) { return table.user_data(self, id, &value); });
   return value;
 }
 
 void set_gravity(World& world, std::array<double, 3> gravity) {
   const PlumbVec3 value = {gravity[0], gravity[1], gravity[2]};
-  world.call(Tag::world, "set_gravity", [&](const PlumbBackendTable& table, PlumbWorld* self) {
-    return table.set_gravity(self, &value);
-  });
+  world.call(Tag::world, "set_gravity",
+             [&](const PlumbBackendTable& table, PlumbWorld* self) { return table.set_gravity(self, &value); });
 }
 
 py::array contacts(World& world) {

@@ -18,7 +18,8 @@ struct Driver {
   bool load() {
     void* library = dlopen("libcuda.so.1", RTLD_NOW);
     const auto find = [library](auto& function, const char* name) {
-      function = library == nullptr ? nullptr : reinterpret_cast<std::decay_t<decltype(function)>>(dlsym(library, name));
+      function =
+          library == nullptr ? nullptr : reinterpret_cast<std::decay_t<decltype(function)>>(dlsym(library, name));
       return function != nullptr;
     };
     return find(device_get, "cuDeviceGet") && find(retain_context, "cuDevicePrimaryCtxRetain") &&
@@ -47,7 +48,8 @@ struct Driver {
 
 void order_behind(void* event, std::int32_t device_id, std::intptr_t stream) {
   Driver driver;
-  if (!driver.load()) throw py::buffer_error("the rows are on a GPU, and libcuda.so.1 cannot be loaded to wait for them");
+  if (!driver.load())
+    throw py::buffer_error("the rows are on a GPU, and libcuda.so.1 cannot be loaded to wait for them");
   if (const int error = driver.wait(reinterpret_cast<void*>(stream), event, device_id); error != 0)
     throw py::buffer_error("waiting for the rows on stream " + std::to_string(stream) + " failed: CUDA error " +
                            std::to_string(error));

@@ -30,36 +30,35 @@ py::object six_of(const py::dtype& type) { return py::make_tuple(type, py::make_
 // A column of a struct; a pose is two.
 #define PLUMB_COLUMN(Row, member, format) \
   { #member, format, offsetof(Row, member) }
-#define PLUMB_POSE(Row, member, suffix)                                                                   \
-  {"position" suffix, text("(3,)f8"), offsetof(Row, member)}, {                                           \
-    "orientation" suffix, text("(4,)f8"), offsetof(Row, member) + offsetof(PlumbPose, orientation)        \
+#define PLUMB_POSE(Row, member, suffix)                                                            \
+  {"position" suffix, text("(3,)f8"), offsetof(Row, member)}, {                                    \
+    "orientation" suffix, text("(4,)f8"), offsetof(Row, member) + offsetof(PlumbPose, orientation) \
   }
 
 py::dtype material() {
-  return make(sizeof(PlumbMaterial), {PLUMB_COLUMN(PlumbMaterial, friction, text("f8")),
-                                      PLUMB_COLUMN(PlumbMaterial, restitution, text("f8")),
-                                      PLUMB_COLUMN(PlumbMaterial, surface_velocity, text("(3,)f8"))});
+  return make(sizeof(PlumbMaterial),
+              {PLUMB_COLUMN(PlumbMaterial, friction, text("f8")), PLUMB_COLUMN(PlumbMaterial, restitution, text("f8")),
+               PLUMB_COLUMN(PlumbMaterial, surface_velocity, text("(3,)f8"))});
 }
 py::dtype filter() {
-  return make(sizeof(PlumbFilter), {PLUMB_COLUMN(PlumbFilter, category, text("u4")),
-                                    PLUMB_COLUMN(PlumbFilter, mask, text("u4")),
-                                    PLUMB_COLUMN(PlumbFilter, group, text("i4"))});
+  return make(sizeof(PlumbFilter),
+              {PLUMB_COLUMN(PlumbFilter, category, text("u4")), PLUMB_COLUMN(PlumbFilter, mask, text("u4")),
+               PLUMB_COLUMN(PlumbFilter, group, text("i4"))});
 }
 py::dtype limit() {
-  return make(sizeof(PlumbLimit), {PLUMB_COLUMN(PlumbLimit, lower, text("f8")),
-                                   PLUMB_COLUMN(PlumbLimit, upper, text("f8")),
-                                   PLUMB_COLUMN(PlumbLimit, enabled, text("u4"))});
+  return make(sizeof(PlumbLimit),
+              {PLUMB_COLUMN(PlumbLimit, lower, text("f8")), PLUMB_COLUMN(PlumbLimit, upper, text("f8")),
+               PLUMB_COLUMN(PlumbLimit, enabled, text("u4"))});
 }
 py::dtype motor() {
-  return make(sizeof(PlumbMotor), {PLUMB_COLUMN(PlumbMotor, target_velocity, text("f8")),
-                                   PLUMB_COLUMN(PlumbMotor, max_force, text("f8")),
-                                   PLUMB_COLUMN(PlumbMotor, enabled, text("u4"))});
+  return make(sizeof(PlumbMotor),
+              {PLUMB_COLUMN(PlumbMotor, target_velocity, text("f8")), PLUMB_COLUMN(PlumbMotor, max_force, text("f8")),
+               PLUMB_COLUMN(PlumbMotor, enabled, text("u4"))});
 }
 py::dtype spring() {
-  return make(sizeof(PlumbSpring), {PLUMB_COLUMN(PlumbSpring, rest, text("f8")),
-                                    PLUMB_COLUMN(PlumbSpring, frequency, text("f8")),
-                                    PLUMB_COLUMN(PlumbSpring, damping_ratio, text("f8")),
-                                    PLUMB_COLUMN(PlumbSpring, enabled, text("u4"))});
+  return make(sizeof(PlumbSpring),
+              {PLUMB_COLUMN(PlumbSpring, rest, text("f8")), PLUMB_COLUMN(PlumbSpring, frequency, text("f8")),
+               PLUMB_COLUMN(PlumbSpring, damping_ratio, text("f8")), PLUMB_COLUMN(PlumbSpring, enabled, text("u4"))});
 }
 
 template <class Row>
@@ -68,43 +67,27 @@ py::dtype build();
 template <>
 py::dtype build<PlumbBodyDesc>() {
   using Row = PlumbBodyDesc;
-  return make(sizeof(Row), {PLUMB_COLUMN(Row, motion, text("u4")),
-                            PLUMB_COLUMN(Row, flags, text("u4")),
-                            PLUMB_COLUMN(Row, locks, text("u4")),
-                            PLUMB_COLUMN(Row, shape, text("u8")),
-                            PLUMB_POSE(Row, pose, ""),
-                            PLUMB_COLUMN(Row, linear_velocity, text("(3,)f8")),
-                            PLUMB_COLUMN(Row, angular_velocity, text("(3,)f8")),
-                            PLUMB_COLUMN(Row, mass_mode, text("u4")),
-                            PLUMB_COLUMN(Row, density, text("f8")),
-                            PLUMB_COLUMN(Row, mass, text("f8")),
-                            PLUMB_COLUMN(Row, centre_of_mass, text("(3,)f8")),
-                            PLUMB_COLUMN(Row, inertia, text("(3,)f8")),
-                            PLUMB_COLUMN(Row, inertia_orientation, text("(4,)f8")),
-                            PLUMB_COLUMN(Row, material, material()),
-                            PLUMB_COLUMN(Row, gravity_scale, text("f8")),
-                            PLUMB_COLUMN(Row, linear_damping, text("f8")),
-                            PLUMB_COLUMN(Row, angular_damping, text("f8")),
-                            PLUMB_COLUMN(Row, filter, filter()),
-                            PLUMB_COLUMN(Row, user_data, text("u8"))});
+  return make(sizeof(Row),
+              {PLUMB_COLUMN(Row, motion, text("u4")), PLUMB_COLUMN(Row, flags, text("u4")),
+               PLUMB_COLUMN(Row, locks, text("u4")), PLUMB_COLUMN(Row, shape, text("u8")), PLUMB_POSE(Row, pose, ""),
+               PLUMB_COLUMN(Row, linear_velocity, text("(3,)f8")), PLUMB_COLUMN(Row, angular_velocity, text("(3,)f8")),
+               PLUMB_COLUMN(Row, mass_mode, text("u4")), PLUMB_COLUMN(Row, density, text("f8")),
+               PLUMB_COLUMN(Row, mass, text("f8")), PLUMB_COLUMN(Row, centre_of_mass, text("(3,)f8")),
+               PLUMB_COLUMN(Row, inertia, text("(3,)f8")), PLUMB_COLUMN(Row, inertia_orientation, text("(4,)f8")),
+               PLUMB_COLUMN(Row, material, material()), PLUMB_COLUMN(Row, gravity_scale, text("f8")),
+               PLUMB_COLUMN(Row, linear_damping, text("f8")), PLUMB_COLUMN(Row, angular_damping, text("f8")),
+               PLUMB_COLUMN(Row, filter, filter()), PLUMB_COLUMN(Row, user_data, text("u8"))});
 }
 template <>
 py::dtype build<PlumbJointDesc>() {
   using Row = PlumbJointDesc;
-  return make(sizeof(Row), {PLUMB_COLUMN(Row, type, text("u4")),
-                            PLUMB_COLUMN(Row, body_a, text("u8")),
-                            PLUMB_COLUMN(Row, body_b, text("u8")),
-                            PLUMB_POSE(Row, frame_a, "_a"),
-                            PLUMB_POSE(Row, frame_b, "_b"),
-                            PLUMB_COLUMN(Row, collide_connected, text("u4")),
-                            PLUMB_COLUMN(Row, axis_modes, text("(6,)u4")),
-                            PLUMB_COLUMN(Row, limits, six_of(limit())),
-                            PLUMB_COLUMN(Row, motors, six_of(motor())),
-                            PLUMB_COLUMN(Row, springs, six_of(spring())),
-                            PLUMB_COLUMN(Row, rest_length, text("f8")),
-                            PLUMB_COLUMN(Row, break_force, text("f8")),
-                            PLUMB_COLUMN(Row, break_torque, text("f8")),
-                            PLUMB_COLUMN(Row, user_data, text("u8"))});
+  return make(sizeof(Row), {PLUMB_COLUMN(Row, type, text("u4")), PLUMB_COLUMN(Row, body_a, text("u8")),
+                            PLUMB_COLUMN(Row, body_b, text("u8")), PLUMB_POSE(Row, frame_a, "_a"),
+                            PLUMB_POSE(Row, frame_b, "_b"), PLUMB_COLUMN(Row, collide_connected, text("u4")),
+                            PLUMB_COLUMN(Row, axis_modes, text("(6,)u4")), PLUMB_COLUMN(Row, limits, six_of(limit())),
+                            PLUMB_COLUMN(Row, motors, six_of(motor())), PLUMB_COLUMN(Row, springs, six_of(spring())),
+                            PLUMB_COLUMN(Row, rest_length, text("f8")), PLUMB_COLUMN(Row, break_force, text("f8")),
+                            PLUMB_COLUMN(Row, break_torque, text("f8")), PLUMB_COLUMN(Row, user_data, text("u8"))});
 }
 template <>
 py::dtype build<PlumbCompoundChild>() {
@@ -115,16 +98,12 @@ py::dtype build<PlumbCompoundChild>() {
 template <>
 py::dtype build<PlumbContact>() {
   using Row = PlumbContact;
-  return make(sizeof(Row), {PLUMB_COLUMN(Row, body_a, text("u8")),
-                            PLUMB_COLUMN(Row, body_b, text("u8")),
-                            PLUMB_COLUMN(Row, child_a, text("u4")),
-                            PLUMB_COLUMN(Row, child_b, text("u4")),
-                            PLUMB_COLUMN(Row, position, text("(3,)f8")),
-                            PLUMB_COLUMN(Row, normal, text("(3,)f8")),
-                            PLUMB_COLUMN(Row, depth, text("f8")),
-                            PLUMB_COLUMN(Row, normal_impulse, text("f8")),
-                            PLUMB_COLUMN(Row, tangent_impulse, text("(3,)f8")),
-                            PLUMB_COLUMN(Row, feature, text("u8"))});
+  return make(sizeof(Row),
+              {PLUMB_COLUMN(Row, body_a, text("u8")), PLUMB_COLUMN(Row, body_b, text("u8")),
+               PLUMB_COLUMN(Row, child_a, text("u4")), PLUMB_COLUMN(Row, child_b, text("u4")),
+               PLUMB_COLUMN(Row, position, text("(3,)f8")), PLUMB_COLUMN(Row, normal, text("(3,)f8")),
+               PLUMB_COLUMN(Row, depth, text("f8")), PLUMB_COLUMN(Row, normal_impulse, text("f8")),
+               PLUMB_COLUMN(Row, tangent_impulse, text("(3,)f8")), PLUMB_COLUMN(Row, feature, text("u8"))});
 }
 template <>
 py::dtype build<PlumbEvent>() {
@@ -147,8 +126,8 @@ py::dtype build<PlumbCast>() {
 template <>
 py::dtype build<PlumbOverlap>() {
   using Row = PlumbOverlap;
-  return make(sizeof(Row), {PLUMB_COLUMN(Row, shape, text("u8")), PLUMB_POSE(Row, pose, ""),
-                            PLUMB_COLUMN(Row, filter, filter())});
+  return make(sizeof(Row),
+              {PLUMB_COLUMN(Row, shape, text("u8")), PLUMB_POSE(Row, pose, ""), PLUMB_COLUMN(Row, filter, filter())});
 }
 template <>
 py::dtype build<PlumbHit>() {
@@ -223,24 +202,24 @@ void require_rows(const py::array& rows, const py::dtype& dtype, const char* wha
     throw py::type_error(std::string(what) + " must be one row after another of the dtype that plumb gives for them");
 }
 
-#define PLUMB_ROWS(ROW)                                                                                              \
-  ROW(PlumbBodyDesc, body_desc)                                                                                       \
-  ROW(PlumbJointDesc, joint_desc)                                                                                     \
-  ROW(PlumbCompoundChild, compound_child)                                                                             \
-  ROW(PlumbContact, contact)                                                                                          \
-  ROW(PlumbEvent, event)                                                                                              \
-  ROW(PlumbRay, ray)                                                                                                  \
-  ROW(PlumbCast, cast)                                                                                                \
-  ROW(PlumbOverlap, overlap)                                                                                          \
-  ROW(PlumbHit, hit)                                                                                                  \
-  ROW(PlumbPosedPair, posed_pair)                                                                                     \
-  ROW(PlumbPairResult, pair_result)                                                                                   \
-  ROW(PlumbPairPoint, pair_point)                                                                                     \
-  ROW(PlumbBodyPair, body_pair)                                                                                       \
-  ROW(PlumbDebugPair, debug_pair)                                                                                     \
-  ROW(PlumbDebugBox, debug_box)                                                                                       \
-  ROW(PlumbDebugAxis, debug_axis)                                                                                     \
-  ROW(PlumbDebugBody, debug_body)                                                                                     \
+#define PLUMB_ROWS(ROW)                   \
+  ROW(PlumbBodyDesc, body_desc)           \
+  ROW(PlumbJointDesc, joint_desc)         \
+  ROW(PlumbCompoundChild, compound_child) \
+  ROW(PlumbContact, contact)              \
+  ROW(PlumbEvent, event)                  \
+  ROW(PlumbRay, ray)                      \
+  ROW(PlumbCast, cast)                    \
+  ROW(PlumbOverlap, overlap)              \
+  ROW(PlumbHit, hit)                      \
+  ROW(PlumbPosedPair, posed_pair)         \
+  ROW(PlumbPairResult, pair_result)       \
+  ROW(PlumbPairPoint, pair_point)         \
+  ROW(PlumbBodyPair, body_pair)           \
+  ROW(PlumbDebugPair, debug_pair)         \
+  ROW(PlumbDebugBox, debug_box)           \
+  ROW(PlumbDebugAxis, debug_axis)         \
+  ROW(PlumbDebugBody, debug_body)         \
   ROW(PlumbDebugConstraint, debug_constraint)
 
 #define PLUMB_INSTANTIATE(Row, name) template const py::dtype& dtype_of<Row>();

@@ -33,6 +33,11 @@ py::array array_of(const std::vector<Row>& rows) {
 
 using Handles = py::array_t<std::uint64_t, py::array::c_style>;
 
-inline std::vector<std::uint64_t> handles_of(const Handles& ids) { return {ids.data(), ids.data() + ids.size()}; }
+inline py::array_t<std::uint64_t> handles(const std::vector<std::uint64_t>& ids) {
+  return py::array_t<std::uint64_t>(static_cast<py::ssize_t>(ids.size()), ids.data());
+}
+
+inline std::uint32_t count_of(std::size_t size) { return static_cast<std::uint32_t>(size); }
+inline std::uint32_t count_of(const Handles& ids) { return static_cast<std::uint32_t>(ids.size()); }
 
 }  // namespace plumb::python

@@ -15,9 +15,8 @@ void bind_errors(py::module_& module) {
       PyErr_SetObject(type.ptr(), value.ptr());
     }
   });
-  module.def("suggestion", [](const std::string& word, const std::vector<std::string>& known) {
-    return suggestion(word, known);
-  });
+  module.def("suggestion",
+             [](const std::string& word, const std::vector<std::string>& known) { return suggestion(word, known); });
 }
 
 }  // namespace plumb::python

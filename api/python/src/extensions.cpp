@@ -5,8 +5,6 @@
 namespace plumb::python {
 namespace {
 
-std::uint32_t count_of(std::size_t size) { return static_cast<std::uint32_t>(size); }
-
 // --- joints ----------------------------------------------------------------------------------------------------------
 
 py::array_t<std::uint64_t> create_joints(World& world, const py::array& rows) {
@@ -16,13 +14,13 @@ py::array_t<std::uint64_t> create_joints(World& world, const py::array& rows) {
   world.call(Tag::world, "joints.create", [&](const PlumbBackendTable&, PlumbWorld* self) {
     return joints.create(self, descs.data(), sizeof(PlumbJointDesc), count_of(descs.size()), ids.data());
   });
-  return py::array_t<std::uint64_t>(static_cast<py::ssize_t>(ids.size()), ids.data());
+  return handles(ids);
 }
 
 void destroy_joints(World& world, const Handles& ids) {
   const auto& joints = world.extension<PlumbJointsTable>(PLUMB_EXT_JOINTS);
   world.call(Tag::world, "joints.destroy", [&](const PlumbBackendTable&, PlumbWorld* self) {
-    return joints.destroy(self, ids.data(), count_of(static_cast<std::size_t>(ids.size())));
+    return joints.destroy(self, ids.data(), count_of(ids));
   });
 }
 
@@ -48,18 +46,16 @@ void write_joints(World& world, PlumbJointField field, const std::optional<Handl
 std::pair<double, std::string> get_setting(World& world, const std::string& name) {
   const auto& settings = world.extension<PlumbSettingsTable>(PLUMB_EXT_SETTINGS);
   PlumbSettingValue value{};
-  world.call(Tag::world, "settings", [&](const PlumbBackendTable&, PlumbWorld* self) {
-    return settings.get(self, name.c_str(), &value);
-  });
+  world.call(Tag::world, "settings",
+             [&](const PlumbBackendTable&, PlumbWorld* self) { return settings.get(self, name.c_str(), &value); });
   return {value.number, value.choice == nullptr ? "" : value.choice};
 }
 
 void set_setting(World& world, const std::string& name, PlumbSettingType type, double number, const std::string& word) {
   const auto& settings = world.extension<PlumbSettingsTable>(PLUMB_EXT_SETTINGS);
   const PlumbSettingValue value = {type, 0, number, type == PLUMB_SETTING_CHOICE ? word.c_str() : nullptr};
-  world.call(Tag::world, "settings", [&](const PlumbBackendTable&, PlumbWorld* self) {
-    return settings.set(self, name.c_str(), &value);
-  });
+  world.call(Tag::world, "settings",
+             [&](const PlumbBackendTable&, PlumbWorld* self) { return settings.set(self, name.c_str(), &value); });
 }
 
 // --- snapshots -------------------------------------------------------------------------------------------------------

@@ -1,7 +1,7 @@
 // Who may call a world now: one caller at a time, or any number of queries (the thread tags of plumb.h).
 //
-// Python's own lock does not see to it, for it is let go while a step runs. Nobody waits here: two callers at a time are
-// a mistake of the host, which is told so.
+// Python's own lock does not see to it, for it is let go while a step runs. Nobody waits here: two callers at a time
+// are a mistake of the host, which is told so.
 #pragma once
 
 #include <atomic>

@@ -13,8 +13,9 @@ RowsOfNumbers numbers_in(const py::array& rows, std::uint32_t columns, const std
                           std::string(py::str(rows.attr("shape"))));
   const bool dense = columns == 1 || rows.strides(1) == size;
   if (rows.shape(0) > 0 && (!dense || (rows.shape(0) > 1 && rows.strides(0) < columns * size)))
-    throw py::value_error("the numbers of a row must lie side by side, and the rows one after another: "
-                          "numpy.ascontiguousarray makes such an array");
+    throw py::value_error(
+        "the numbers of a row must lie side by side, and the rows one after another: "
+        "numpy.ascontiguousarray makes such an array");
   const py::ssize_t stride = rows.shape(0) > 1 ? rows.strides(0) : static_cast<py::ssize_t>(columns) * size;
   return {wide ? PLUMB_F64 : PLUMB_F32, ids ? ids->data() : nullptr, static_cast<std::uint32_t>(rows.shape(0)),
           static_cast<std::size_t>(stride)};

@@ -4,8 +4,6 @@
 namespace plumb::python {
 namespace {
 
-std::uint32_t count_of(std::size_t size) { return static_cast<std::uint32_t>(size); }
-
 py::array cast_rays(World& world, PlumbHitMode mode, const py::array& rows) {
   const auto& queries = world.extension<PlumbQueriesTable>(PLUMB_EXT_QUERIES);
   const auto rays = rows_of<PlumbRay>(rows, "rays");
@@ -83,9 +81,8 @@ void bind_queries(WorldClass& world) {
       .def("debug_boxes", [](World& self) { return look<&Debug::boxes, PlumbDebugBox>(self, "debug.boxes"); })
       .def("debug_axes", [](World& self) { return look<&Debug::axes, PlumbDebugAxis>(self, "debug.axes"); })
       .def("debug_bodies", [](World& self) { return look<&Debug::bodies, PlumbDebugBody>(self, "debug.bodies"); })
-      .def("debug_constraints", [](World& self) {
-        return look<&Debug::constraints, PlumbDebugConstraint>(self, "debug.constraints");
-      });
+      .def("debug_constraints",
+           [](World& self) { return look<&Debug::constraints, PlumbDebugConstraint>(self, "debug.constraints"); });
 }
 
 }  // namespace plumb::python

@@ -26,16 +26,16 @@ PlumbVec3 vector(const Three& xyz) { return {xyz[0], xyz[1], xyz[2]}; }
 void bind_shapes(py::module_& module) {
   // The functions trust their callers, plumb/shapes.py, with the arrays' dimensions.
   py::class_<Shape>(module, "Shape")
-      .def(py::init([](PlumbShapeType type, double radius, double half_height, Three half_extents,
-                       std::uint64_t user_data) {
-             Shape shape;
-             shape.desc.type = type;
-             shape.desc.radius = radius;
-             shape.desc.half_height = half_height;
-             shape.desc.half_extents = vector(half_extents);
-             shape.desc.user_data = user_data;
-             return shape;
-           }),
+      .def(py::init(
+               [](PlumbShapeType type, double radius, double half_height, Three half_extents, std::uint64_t user_data) {
+                 Shape shape;
+                 shape.desc.type = type;
+                 shape.desc.radius = radius;
+                 shape.desc.half_height = half_height;
+                 shape.desc.half_extents = vector(half_extents);
+                 shape.desc.user_data = user_data;
+                 return shape;
+               }),
            py::kw_only(), py::arg("type"), py::arg("radius") = 0.0, py::arg("half_height") = 0.0,
            py::arg("half_extents") = Three{}, py::arg("user_data") = std::uint64_t{0})
       .def("set_vertices", [](Shape& shape, py::array_t<double, py::array::c_style> xyz) { shape.vertices = xyz; })

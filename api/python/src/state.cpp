@@ -31,7 +31,7 @@ std::pair<py::array_t<std::uint64_t>, std::uint64_t> row_map(World& world) {
       return state.rows(self, out, capacity, count, &generation);
     });
   });
-  return {py::array_t<std::uint64_t>(static_cast<py::ssize_t>(ids.size()), ids.data()), generation};
+  return {handles(ids), generation};
 }
 
 py::capsule dlpack(const LentRows& rows, const std::optional<std::intptr_t>& stream,

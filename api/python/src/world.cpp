@@ -32,8 +32,7 @@ void World::require_open(const char* name) const {
 
 void World::require_ready(const char* name) const {
   require_open(name);
-  if (stepping_)
-    throw Error(PLUMB_E_WRONG_PHASE, std::string(name) + ": a step is under way; call wait() first");
+  if (stepping_) throw Error(PLUMB_E_WRONG_PHASE, std::string(name) + ": a step is under way; call wait() first");
 }
 
 PlumbResult World::checked(PlumbResult result) const {
@@ -43,8 +42,7 @@ PlumbResult World::checked(PlumbResult result) const {
 
 const void* World::find_extension(const char* name) const {
   const void* table = table_.extension(name);
-  if (table == nullptr)
-    throw Error(PLUMB_E_UNSUPPORTED, std::string(table_.info()->name) + " has no " + name);
+  if (table == nullptr) throw Error(PLUMB_E_UNSUPPORTED, std::string(table_.info()->name) + " has no " + name);
   return table;
 }
 

@@ -29,8 +29,8 @@ class World {
   Report wait();
 
   /// Calls act(table, world), which answers with a PlumbResult, as plumb.h's tag says. Throws Error with the backend's
-  /// sentence when that is below 0, WRONG_THREAD or WRONG_PHASE when it may not be called now, ValueError when the world
-  /// is closed.
+  /// sentence when that is below 0, WRONG_THREAD or WRONG_PHASE when it may not be called now, ValueError when the
+  /// world is closed.
   template <class Act>
   PlumbResult call(Tag tag, const char* name, Act&& act) {
     const Passage passage(gate_, tag, name);
