@@ -1,6 +1,7 @@
 """What the tests share: every engine that this process can open, and worlds with a floor."""
 
 import functools
+import unittest
 
 import numpy as np
 
@@ -20,10 +21,17 @@ def engines():
 
 
 def able(*needs, asked=()):
-    """Engines that have all needs, and all capabilities, natively or emulated."""
-    asks = [("need", need) for need in needs] + list(asked)
+    """Engines that have all needs, and what is asked natively or emulated."""
     return [engine for engine in engines()
-            if all(engine.capability(*ask).degree >= plumb.Degree.EMULATED for ask in asks)]
+            if all(engine.capability("need", need).degree for need in needs)
+            and all(engine.capability(*ask).degree >= plumb.Degree.EMULATED for ask in asked)]
+
+
+def first(*needs, asked=()):
+    """The first such engine; the test is skipped where there is none."""
+    for engine in able(*needs, asked=asked):
+        return engine
+    raise unittest.SkipTest(f"no engine has {', '.join(needs)}")
 
 
 def on_each(*needs, asked=()):
@@ -31,10 +39,8 @@ def on_each(*needs, asked=()):
     def decorate(test):
         @functools.wraps(test)
         def run(self):
-            found = able(*needs, asked=asked)
-            if not found:
-                self.skipTest(f"no engine has {', '.join(needs)}")
-            for engine in found:
+            first(*needs, asked=asked)
+            for engine in able(*needs, asked=asked):
                 with self.subTest(engine=engine.info.name):
                     test(self, engine)
         return run
@@ -61,4 +67,4 @@ def steps(world, count, dt=1 / 60):
     return report
 
 
-__all__ = ["able", "engines", "floor", "np", "on_each", "particle", "plumb", "steps", "SLIPPERY"]
+__all__ = ["able", "engines", "first", "floor", "np", "on_each", "particle", "plumb", "steps", "SLIPPERY"]

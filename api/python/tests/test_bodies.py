@@ -2,7 +2,7 @@
 
 import unittest
 
-from support import SLIPPERY, able, np, on_each, particle, plumb, steps
+from support import SLIPPERY, first, np, on_each, particle, plumb, steps
 
 
 class Bodies(unittest.TestCase):
@@ -54,7 +54,7 @@ class Bodies(unittest.TestCase):
             np.testing.assert_array_equal(world.read("pose")[:100], world.read("pose")[100:])
 
     def test_what_is_no_descriptor_is_refused_in_words(self):
-        with able("collision")[0].world(["collision", "friction"]) as world:
+        with first("collision").world(["collision", "friction"]) as world:
             wrong = [
                 (lambda: world.create_body(particle((1, 2))), ValueError, r"bodies\[0\].position must be 3 numbers"),
                 (lambda: world.create_bodies([particle(), 7]), TypeError, r"bodies\[1\] must be a BodyDesc, not 7"),

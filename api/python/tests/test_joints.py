@@ -2,7 +2,7 @@
 
 import unittest
 
-from support import able, np, on_each, plumb, steps
+from support import first, np, on_each, plumb, steps
 
 NEEDS = ("rotation", "collision", "friction", "joints")
 
@@ -83,7 +83,7 @@ class Joints(unittest.TestCase):
             np.testing.assert_allclose([x, z], [0.5, 0], atol=1e-3)
 
     def test_what_is_refused(self):
-        engine = able(*NEEDS, asked=having("ball"))[0]
+        engine = first(*NEEDS, asked=having("ball"))
         with engine.world(NEEDS) as world:
             bar = self.bar(world)
             for desc, text in [(plumb.JointDesc("bal", bar), 'did you mean "ball"'),

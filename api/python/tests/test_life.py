@@ -7,12 +7,12 @@ import time
 import unittest
 import weakref
 
-from support import able, engines, floor, np, on_each, particle, plumb, steps
+from support import first, floor, np, on_each, particle, plumb, steps
 
 
 class Life(unittest.TestCase):
     def test_a_closed_world_refuses_everything(self):
-        world = engines()[0].world([])
+        world = first().world([])
         body = world.create_body(particle())
         world.close()
         world.close()
@@ -28,12 +28,12 @@ class Life(unittest.TestCase):
                 call()
 
     def test_with_closes_also_after_an_error(self):
-        with self.assertRaises(ZeroDivisionError), engines()[0].world([]) as world:
+        with self.assertRaises(ZeroDivisionError), first().world([]) as world:
             1 / 0
         self.assertTrue(world.closed)
 
     def test_nobody_else_keeps_a_world(self):
-        world = engines()[0].world([])
+        world = first().world([])
         gone = weakref.ref(world)
         gc.disable()
         try:
@@ -43,12 +43,12 @@ class Life(unittest.TestCase):
             gc.enable()
 
     def test_parts_of_a_world_keep_it(self):
-        settings = able("snapshot")[0].world(["snapshot"]).snapshot
+        settings = first("snapshot").world(["snapshot"]).snapshot
         gc.collect()
         self.assertIsInstance(settings.hash(), int)
 
     def test_closing_between_begin_and_wait(self):
-        world = engines()[0].world([])
+        world = first().world([])
         world.create_body(particle())
         world.begin_step(0.01)
         world.close()
@@ -81,7 +81,7 @@ class Threads(unittest.TestCase):
 
     def test_others_run_while_a_world_steps(self):
         """Nobody is made to let go of Python's lock here, so another thread counts within a step only if the step does."""
-        world = self.heap(able("rotation", "collision", "friction")[0])
+        world = self.heap(first("rotation", "collision", "friction"))
         counted, stop = [0], threading.Event()
 
         def count():
@@ -107,7 +107,7 @@ class Threads(unittest.TestCase):
         self.assertGreater(during, 0)
 
     def test_a_second_caller_is_refused_and_nothing_breaks(self):
-        world = self.heap(able("rotation", "collision", "friction")[0])
+        world = self.heap(first("rotation", "collision", "friction"))
         refused, wrong, stop = [0], [], threading.Event()
 
         def intrude():
@@ -134,7 +134,7 @@ class Threads(unittest.TestCase):
         self.assertEqual(wrong, [])
 
     def test_queries_run_side_by_side(self):
-        engine = able("queries", "collision", "friction", asked=[("query", "ray")])[0]
+        engine = first("queries", "collision", "friction", asked=[("query", "ray")])
         with engine.world(["queries", "collision", "friction"]) as world:
             floor(world)
             steps(world, 1)

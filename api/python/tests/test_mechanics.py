@@ -18,12 +18,12 @@ class Mechanics(unittest.TestCase):
 
     @on_each("rotation", "collision", "friction", "joints", asked=[("joint", "ball")])
     def test_pendulum(self, engine):
-        """A small ball on a metre swings in 2 pi sqrt(l / g (1 + theta^2 / 16))."""
+        """A ball of radius r whose centre is l below a joint: 2 pi sqrt((l^2 + 2/5 r^2) / (l g)) (1 + theta^2 / 16)."""
         with engine.world(["rotation", "collision", "friction", "joints"]) as world:
-            ball = world.create_shape(plumb.Sphere(0.01))
+            ball = world.create_shape(plumb.Sphere(0.4))
             bob = world.create_body(plumb.BodyDesc(ball, position=(0.1, -1, 0)))
             world.joints.create(plumb.JointDesc("ball", body_b=bob, position_b=(-0.1, 1, 0)))
-            length = np.hypot(1, 0.1)
+            length, angle = np.hypot(1, 0.1), np.arctan(0.1)
             row, x = np.empty((1, 7)), []
             for _ in range(960):
                 world.step(1 / 240)
@@ -33,7 +33,7 @@ class Mechanics(unittest.TestCase):
             crossings = np.flatnonzero(np.diff(np.sign(x)))
             at = crossings + x[crossings] / (x[crossings] - x[crossings + 1])
             period = 2 * np.mean(np.diff(at)) / 240
-            truth = 2 * np.pi * np.sqrt(length / 9.81) * (1 + np.arctan(0.1) ** 2 / 16)
+            truth = 2 * np.pi * np.sqrt((length ** 2 + 0.4 * 0.4 ** 2) / (length * 9.81)) * (1 + angle ** 2 / 16)
             self.assertAlmostEqual(period / truth, 1, delta=0.005)
 
     @on_each("rotation", "collision", "friction", "contacts", "contact_impulses")

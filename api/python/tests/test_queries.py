@@ -2,7 +2,7 @@
 
 import unittest
 
-from support import able, floor, np, on_each, plumb
+from support import first, floor, np, on_each, plumb
 
 NEEDS = ("rotation", "collision", "friction", "queries", "filters")
 
@@ -77,7 +77,7 @@ class Queries(unittest.TestCase):
             self.assertTrue(shown)
 
     def test_what_is_refused(self):
-        engine = able(*NEEDS, asked=[("query", "ray")])[0]
+        engine = first(*NEEDS, asked=[("query", "ray")])
         world, ball, _ = self.scene(engine)
         for call, text in [(lambda: world.queries.rays((0, 0), (1, 0, 0)), "origin must be 3 numbers"),
                            (lambda: world.queries.rays(np.zeros((3, 3)), np.ones((2, 3))), "translation has 2 rows, where origin has 3"),

@@ -2,7 +2,7 @@
 
 import unittest
 
-from support import able, np, on_each, particle, plumb
+from support import first, np, on_each, particle, plumb
 
 
 class Rows(unittest.TestCase):
@@ -59,7 +59,7 @@ class Rows(unittest.TestCase):
         world.close()
 
     def test_what_cannot_be_rows_is_refused_in_words(self):
-        engine = able("forces")[0]
+        engine = first("forces")
         world, bodies = self.make(engine)
         wrong = [
             (lambda: world.read("speed"), ValueError, 'field "speed" is unknown'),
@@ -91,7 +91,7 @@ class Rows(unittest.TestCase):
             world.read("pose", out=read_only)
 
     def test_what_the_backend_refuses_has_its_sentence_and_code(self):
-        world, bodies = self.make(able("forces")[0])
+        world, bodies = self.make(first("forces"))
         world.destroy_bodies(bodies[0])
         for call, code in [(lambda: world.read("pose", bodies[0]), plumb.Result.STALE_HANDLE),
                            (lambda: world.write("velocity", [np.nan] * 6), plumb.Result.INVALID_ARGUMENT),

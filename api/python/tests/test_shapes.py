@@ -2,7 +2,7 @@
 
 import unittest
 
-from support import able, np, on_each, plumb
+from support import first, np, on_each, plumb
 
 QUERIES = ("rotation", "collision", "friction", "queries")
 
@@ -56,7 +56,7 @@ class Shapes(unittest.TestCase):
             self.assertEqual(raised.exception.code, plumb.Result.IN_USE)
 
     def test_arrays_may_die_after_the_call(self):
-        with able("rotation", "collision", "friction")[0].world(["rotation", "collision", "friction"]) as world:
+        with first("rotation", "collision", "friction").world(["rotation", "collision", "friction"]) as world:
             vertices = np.random.default_rng(1).normal(size=(50, 3)).astype(np.float32)[::2]  # to be converted
             shape = world.create_shape(plumb.ConvexHull(vertices))
             vertices[:] = 0

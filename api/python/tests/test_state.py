@@ -4,7 +4,7 @@ import ctypes
 import gc
 import unittest
 
-from support import able, engines, np, on_each, particle, plumb
+from support import engines, first, np, on_each, particle, plumb
 
 
 def lenders():
@@ -116,7 +116,7 @@ class LentRows(unittest.TestCase):
             self.assertIn("cpu", repr(rows))
 
     def test_what_is_refused(self):
-        with able()[0].world([]) as world:
+        with first().world([]) as world:
             with self.assertRaisesRegex(ValueError, 'device "gpu" is unknown; use "cpu" or "cuda"'):
                 world.state.borrow("pose", device="gpu")
             with self.assertRaises(plumb.Error):

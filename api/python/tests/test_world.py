@@ -3,7 +3,7 @@
 import os
 import unittest
 
-from support import able, engines, floor, np, on_each, particle, plumb, steps
+from support import first, floor, np, on_each, particle, plumb, steps
 
 
 class Backends(unittest.TestCase):
@@ -26,7 +26,7 @@ class Backends(unittest.TestCase):
             plumb.open("nonesuch")
         with self.assertRaisesRegex(plumb.Error, "cannot be found; check the path"):
             plumb.open("./nonesuch.so")
-        engine = engines()[0]
+        engine = first()
         with self.assertRaisesRegex(ValueError, 'need "friktion" is unknown; did you mean "friction"'):
             engine.world(["friktion"])
         with self.assertRaisesRegex(TypeError, "the capability joint is asked with JointType"):
