@@ -17,24 +17,36 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass
-from enum import IntEnum
+from enum import IntEnum, IntFlag
 from pathlib import Path
-from typing import Dict, Iterable, List, Mapping, NamedTuple, Optional, Tuple, Type, Union
+from typing import Any, Dict, Iterable, Iterator, List, Mapping, NamedTuple, Optional, Tuple, Type, Union, cast
 
 from . import _core
 from ._arrays import numbers, unsigned
 from ._errors import Error, Result
 from ._words import pick, pick_bits
-from .enums import (CapabilityKind, Degree, Determinism, EventType, Field, JointFeature, JointType, Motion, Need, Phase,
-                    QueryKind, ShapeType)
+from .enums import (BodyMember, CapabilityKind, Degree, Determinism, EventType, Field, JointFeature, JointMember, JointType,
+                    Motion, Need, Phase, QueryKind, ShapeType)
 from .settings import KnownSettings, Value
 from .shapes import Vec3
 from .world import World
 
 EXTENSIONS = ("plumb.joints/1", "plumb.queries/1", "plumb.collide/1", "plumb.debug/1", "plumb.settings/1",
-              "plumb.snapshot/1", "plumb.state/1", "plumb.exceptions/1")
+              "plumb.snapshot/1", "plumb.state/1", "plumb.exceptions/1", "plumb.modify/1")
 
-NEEDS = IntEnum("NEEDS", [name for name in Need.__members__], start=0)  # type: ignore[misc]
+
+class Modifiable(IntEnum):
+    """What plumb.modify/1 changes."""
+
+    BODIES = 0
+    JOINTS = 1
+
+
+def _by_index(bits: Type[IntFlag]) -> Type[IntEnum]:
+    """The words of bits, numbered from 0: so capabilities are asked for them."""
+    numbered: Any = IntEnum(bits.__name__, {name: number for number, name in enumerate(bits.__members__)})
+    return cast(Type[IntEnum], numbered)
+
 
 _ARGUMENTS: Dict[CapabilityKind, Tuple[Type[IntEnum], ...]] = {
     CapabilityKind.SHAPE: (ShapeType, Motion),
@@ -44,10 +56,35 @@ _ARGUMENTS: Dict[CapabilityKind, Tuple[Type[IntEnum], ...]] = {
     CapabilityKind.QUERY: (QueryKind, ShapeType),
     CapabilityKind.FIELD_READ: (Field,),
     CapabilityKind.FIELD_WRITE: (Field,),
-    CapabilityKind.NEED: (NEEDS,),
+    CapabilityKind.NEED: (_by_index(Need),),
     CapabilityKind.EVENT: (EventType,),
     CapabilityKind.PHASE_TIME: (Phase,),
+    CapabilityKind.MODIFY: (Modifiable, _by_index(BodyMember)),
 }
+_JOINT_MEMBERS = _by_index(JointMember)
+
+
+def _takes(kind: CapabilityKind, first: Union[IntEnum, str, None]) -> Tuple[Type[IntEnum], ...]:
+    """The enumerations of a question's arguments, of which the first may decide about the second."""
+    takes = _ARGUMENTS.get(kind, ())
+    if kind == CapabilityKind.QUERY and first in (QueryKind.RAY, "ray"):
+        return takes[:1]
+    if kind == CapabilityKind.MODIFY and first in (Modifiable.JOINTS, "joints"):
+        return (Modifiable, _JOINT_MEMBERS)
+    return takes
+
+
+def _questions(kind: CapabilityKind) -> Iterator[Tuple[str, ...]]:
+    """All arguments that a kind can be asked with, in words."""
+    kinds = _ARGUMENTS.get(kind, ())
+    if not kinds:
+        yield ()
+    for first in kinds[0].__members__ if kinds else ():
+        second = _takes(kind, first.lower())[1:]
+        if not second:
+            yield (first.lower(),)
+        for word in second[0].__members__ if second else ():
+            yield (first.lower(), word.lower())
 
 
 class FoundBackend(NamedTuple):
@@ -104,11 +141,9 @@ class Backend:
     def capability(self, kind: Union[CapabilityKind, str], *arguments: Union[IntEnum, str]) -> Capability:
         """How truly the engine has a thing: shape (type, motion), pair (type, type), joint (type), joint_feature (type,
         feature), query (kind, type of what is cast), field_read, field_write (field), need, event, phase_time (word),
-        residual, snapshot, host_jobs, child_material ()."""
+        residual, snapshot, host_jobs, child_material (), modify ("bodies", BodyMember or "joints", JointMember)."""
         which = pick(CapabilityKind, kind, "capability")
-        takes = _ARGUMENTS.get(which, ())
-        if which == CapabilityKind.QUERY and len(arguments) == 1:  # of a ray
-            takes = takes[:1]
+        takes = _takes(which, arguments[0] if arguments else None)
         if len(arguments) != len(takes):
             words = ", ".join(kind.__name__ for kind in takes) or "nothing"
             raise TypeError(f"the capability {which.name.lower()} is asked with {words}, not with {arguments!r}")
@@ -120,9 +155,7 @@ class Backend:
         """All answers, by kind and arguments in words: {("joint", "hinge"): Capability(...)}."""
         answers: Dict[Tuple[str, ...], Capability] = {}
         for kind in CapabilityKind:
-            for words in _combinations(_ARGUMENTS.get(kind, ())):
-                if kind == CapabilityKind.QUERY and words[0] == "ray":
-                    words = words[:1]
+            for words in _questions(kind):
                 answers[(kind.name.lower(), *words)] = self.capability(kind, *words)
         return answers
 
@@ -141,13 +174,6 @@ class Backend:
 
     def __repr__(self) -> str:
         return f"<Backend {self.info.name} {self.info.version}>"
-
-
-def _combinations(kinds: Tuple[Type[IntEnum], ...]) -> List[Tuple[str, ...]]:
-    together: List[Tuple[str, ...]] = [()]
-    for kind in kinds:
-        together = [(*before, word.lower()) for before in together for word in kind.__members__]
-    return together
 
 
 def search_path() -> List[str]:

@@ -175,6 +175,28 @@ class HitMode(IntEnum):
     ALL = 1
 
 
+class BodyMember(IntFlag):
+    """What a BodyChange changes, as capabilities name it."""
+
+    MOTION = 1 << 0
+    SHAPE = 1 << 1
+    MASS = 1 << 2
+    FLAGS = 1 << 3
+    LOCKS = 1 << 4
+
+
+class JointMember(IntFlag):
+    """What a JointChange changes, as capabilities name it."""
+
+    FRAMES = 1 << 0
+    LIMITS = 1 << 1
+    MOTORS = 1 << 2
+    SPRINGS = 1 << 3
+    STRENGTH = 1 << 4
+    COLLIDE_CONNECTED = 1 << 5
+    ENABLED = 1 << 6
+
+
 class EventType(IntEnum):
     """What happened in the last step."""
 
@@ -225,6 +247,7 @@ class CapabilityKind(IntEnum):
     SNAPSHOT = 11
     HOST_JOBS = 12
     CHILD_MATERIAL = 13
+    MODIFY = 14
 
 
 class Degree(IntEnum):

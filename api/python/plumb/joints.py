@@ -15,13 +15,13 @@ A pendulum of a metre and its period, about 2 s:
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Mapping, Optional, Sequence, Union
+from typing import Any, Dict, Mapping, Optional, Sequence, Type, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
-from ._arrays import Floats, Handle, Handles, fill, handle, handles, is_single, one_row, rows, rows_for_output, unsigned
+from ._arrays import Floats, Handle, Handles, fill, handle, handles, is_single, number, one_row, rows, rows_for_output, unsigned
 from ._words import pick
 from .enums import AxisMode, JointField, JointType
 from .shapes import Vec3
@@ -97,21 +97,29 @@ class JointDesc:
         row["body_a"] = handle(self.body_a, f"{name}.body_a")
         row["body_b"] = handle(self.body_b, f"{name}.body_b")
         row["collide_connected"] = bool(self.collide_connected)
-        for axis, mode in self.axis_modes.items():
-            row["axis_modes"][0][_axis(axis, f"{name}.axis_modes")] = pick(AxisMode, mode, f"{name}.axis_modes[{axis}]")
+        fill_axes(row, "axis_modes", self.axis_modes, name)
         for column in ("limits", "motors", "springs"):
-            for axis, part in getattr(self, column).items():
-                at = _axis(axis, f"{name}.{column}")
-                row[column][0][at] = part._row()
+            fill_axes(row, column, getattr(self, column), name)
         for column in ("position_a", "orientation_a", "position_b", "orientation_b", "rest_length", "break_force",
                        "break_torque"):
             fill(row, column, getattr(self, column), f"{name}.{column}")
 
 
-def _axis(axis: int, what: str) -> int:
-    if axis not in range(6):
-        raise ValueError(f"{what} names the axis {axis!r}; axes are 0 to 5")
-    return axis
+def fill_axes(row: NDArray[np.void], column: str, by_axis: Mapping[int, Any], name: str) -> None:
+    """Of modes, limits, motors or springs those that are named, by axis."""
+    for axis, part in by_axis.items():
+        if axis not in range(6):
+            raise ValueError(f"{name}.{column} names the axis {axis!r}; axes are 0 to 5")
+        what = f"{name}.{column}[{axis}]"
+        row[column][0][axis] = pick(AxisMode, part, what) if column == "axis_modes" else _checked(part, column, what)
+
+
+def _checked(part: Any, column: str, what: str) -> Any:
+    kinds: Dict[str, Type[Union[Limit, Motor, Spring]]] = {"limits": Limit, "motors": Motor, "springs": Spring}
+    kind = kinds[column]
+    if not isinstance(part, kind):
+        raise TypeError(f"{what} must be a {kind.__name__}, not {part!r}")
+    return tuple(number(one, what) for one in part._row())
 
 
 class Joints:

@@ -15,6 +15,7 @@ from .bodies import BodyDesc, described_bodies
 from .enums import Field
 from .joints import Joints
 from .queries import Collide, Debug, Queries
+from .modify import Modify
 from .report import StepReport
 from .settings import Settings
 from .shapes import ShapeDesc, Vec3
@@ -42,6 +43,7 @@ class World:
         self.queries = Queries(core)
         self.collide = Collide(core)
         self.debug = Debug(core)
+        self.modify = Modify(core)
         self.settings = Settings(core, backend.settings)
         self.snapshot = Snapshot(core)
         self.exceptions = Exceptions(core)

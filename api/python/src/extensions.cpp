@@ -1,4 +1,4 @@
-// Calls of the extensions that change or save a world: joints, settings, snapshots, excluded pairs.
+// Calls of the extensions that change or save a world: joints, changes, settings, snapshots, excluded pairs.
 #include "numbers.hpp"
 #include "world.hpp"
 
@@ -38,6 +38,24 @@ void write_joints(World& world, PlumbJointField field, const std::optional<Handl
   const RowsOfNumbers numbers = numbers_in(rows, joint_columns_of(field), ids);
   world.call(Tag::world, "joints.write", [&](const PlumbBackendTable&, PlumbWorld* self) {
     return joints.write(self, field, numbers.type, numbers.ids, numbers.count, rows.data(), numbers.stride);
+  });
+}
+
+// --- changes ---------------------------------------------------------------------------------------------------------
+
+void modify_bodies(World& world, const py::array& rows) {
+  const auto& modify = world.extension<PlumbModifyTable>(PLUMB_EXT_MODIFY);
+  const auto changes = rows_of<PlumbBodyChange>(rows, "changes");
+  world.call(Tag::world, "modify.bodies", [&](const PlumbBackendTable&, PlumbWorld* self) {
+    return modify.bodies(self, changes.data(), sizeof(PlumbBodyChange), count_of(changes.size()));
+  });
+}
+
+void modify_joints(World& world, const py::array& rows) {
+  const auto& modify = world.extension<PlumbModifyTable>(PLUMB_EXT_MODIFY);
+  const auto changes = rows_of<PlumbJointChange>(rows, "changes");
+  world.call(Tag::world, "modify.joints", [&](const PlumbBackendTable&, PlumbWorld* self) {
+    return modify.joints(self, changes.data(), sizeof(PlumbJointChange), count_of(changes.size()));
   });
 }
 
@@ -117,6 +135,8 @@ void bind_extensions(WorldClass& world) {
       .def("destroy_joints", &destroy_joints)
       .def("read_joints", &read_joints)
       .def("write_joints", &write_joints)
+      .def("modify_bodies", &modify_bodies)
+      .def("modify_joints", &modify_joints)
       .def("get_setting", &get_setting)
       .def("set_setting", &set_setting)
       .def("save", &save)

@@ -9,6 +9,7 @@ from support import plumb
 
 INCLUDE = pathlib.Path(__file__).resolve().parents[2] / "include" / "plumb"
 MEMBER = re.compile(r"PLUMB_(\w+) = (-?\w+(?: << \d+)?)")
+COUNT = re.compile(r"#define PLUMB_(\w+_COUNT) (\d+)")
 NEED = re.compile(r"#define PLUMB_(NEED_\w+) \(\(PlumbNeeds\)1 << (\d+)\)")
 
 # What each enumeration's members begin with in C.
@@ -18,6 +19,7 @@ PREFIXES = {
     plumb.JointField: "JOINT_", plumb.JointFeature: "JOINT_", plumb.QueryKind: "QUERY_", plumb.HitMode: "HIT_",
     plumb.EventType: "EVENT_", plumb.Phase: "PHASE_", plumb.Remark: "REMARK_", plumb.CapabilityKind: "CAP_",
     plumb.Degree: "", plumb.Determinism: "DETERMINISM_", plumb.SettingType: "SETTING_", plumb.SettingRole: "ROLE_",
+    plumb.BodyMember: "MODIFY_", plumb.JointMember: "MODIFY_",
     plumb.Result: "",
 }
 
@@ -31,7 +33,7 @@ def number(text):
 def defined():
     """All of the headers' numbers: {"JOINT_BALL": 0}."""
     text = "".join(header.read_text() for header in INCLUDE.glob("*.h"))
-    numbers = {name: number(value) for name, value in MEMBER.findall(text)}
+    numbers = {name: number(value) for name, value in MEMBER.findall(text) + COUNT.findall(text)}
     return numbers | {name: 1 << int(bit) for name, bit in NEED.findall(text)}
 
 
@@ -62,6 +64,8 @@ class Words(unittest.TestCase):
                      plumb.Determinism, plumb.SettingRole):
             of_c = {name for name in numbers if name.startswith(PREFIXES[kind])} - {PREFIXES[kind] + "COUNT"}
             self.assertEqual({PREFIXES[kind] + name for name in kind.__members__}, of_c, kind.__name__)
+        self.assertEqual((len(plumb.BodyMember), len(plumb.JointMember)),
+                         (numbers["MODIFY_BODY_COUNT"], numbers["MODIFY_JOINT_COUNT"]))
         self.assertEqual(sum(name.startswith("E_") for name in numbers), sum(code < 0 for code in plumb.Result))
 
     def test_all_enumerations_are_asked_for_here(self):
