@@ -16,8 +16,11 @@ class ByCMake(build_ext):
         build = pathlib.Path(self.build_temp).resolve()
         module = pathlib.Path(self.get_ext_fullpath(extension.name)).resolve()
         module.parent.mkdir(parents=True, exist_ok=True)
-        run = [f"-DPython_EXECUTABLE={sys.executable}", "-DCMAKE_BUILD_TYPE=Release",
-               f"-DCMAKE_LIBRARY_OUTPUT_DIRECTORY={module.parent}"]
+        run = [
+            f"-DPython_EXECUTABLE={sys.executable}",
+            "-DCMAKE_BUILD_TYPE=Release",
+            f"-DCMAKE_LIBRARY_OUTPUT_DIRECTORY={module.parent}",
+        ]
         subprocess.run(["cmake", "-S", HERE, "-B", build, *run], check=True)
         subprocess.run(["cmake", "--build", build, "--parallel"], check=True)
 

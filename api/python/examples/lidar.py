@@ -24,8 +24,17 @@ def yard(world):
     things["orientation"][:, 1], things["orientation"][:, 3] = np.sin(turn / 2), np.cos(turn / 2)
     world.create_bodies(things)
     half = np.sqrt(0.5)
-    world.create_bodies([plumb.BodyDesc(wall, "static", position=at, orientation=turned) for at, turned in [
-        ((15, 0, 0), (0, 0, 0, 1)), ((-15, 0, 0), (0, 0, 0, 1)), ((0, 0, 15), (0, half, 0, half)), ((0, 0, -15), (0, half, 0, half))]])
+    world.create_bodies(
+        [
+            plumb.BodyDesc(wall, "static", position=at, orientation=turned)
+            for at, turned in [
+                ((15, 0, 0), (0, 0, 0, 1)),
+                ((-15, 0, 0), (0, 0, 0, 1)),
+                ((0, 0, 15), (0, half, 0, half)),
+                ((0, 0, -15), (0, half, 0, half)),
+            ]
+        ]
+    )
 
 
 def scan(world, rays):
@@ -48,7 +57,9 @@ def picture(points, width=64, height=32):
 
 def main():
     options = argparse.ArgumentParser(description=__doc__)
-    options.add_argument("--engine", default="impulse", help="one of " + ", ".join(name for name, _ in plumb.backends()))
+    options.add_argument(
+        "--engine", default="impulse", help="one of " + ", ".join(name for name, _ in plumb.backends())
+    )
     options.add_argument("--rays", type=int, default=720)
     options.add_argument("--quick", action="store_true", help="fewer rays")
     asked = options.parse_args()

@@ -31,7 +31,9 @@ def heights_of(world, bodies):
 
 def main():
     options = argparse.ArgumentParser(description=__doc__)
-    options.add_argument("--engine", default="impulse", help="one of " + ", ".join(name for name, _ in plumb.backends()))
+    options.add_argument(
+        "--engine", default="impulse", help="one of " + ", ".join(name for name, _ in plumb.backends())
+    )
     options.add_argument("--cubes", type=int, default=10)
     options.add_argument("--quick", action="store_true", help="half a second instead of four")
     asked = options.parse_args()
@@ -40,7 +42,10 @@ def main():
         for step in range(30 if asked.quick else 240):
             if step % 15 == 0:
                 now = heights()
-                print(f"{step / 60:5.2f} s  highest {now.max():6.2f} m  mean {now.mean():5.2f} m  " + "#" * int(4 * now.mean()))
+                print(
+                    f"{step / 60:5.2f} s  highest {now.max():6.2f} m  mean {now.mean():5.2f} m  "
+                    + "#" * int(4 * now.mean())
+                )
             world.step(1 / 60)
 
 

@@ -6,18 +6,18 @@ A cube that falls on the ground:
 >>> engine = plumb.open("impulse")  # a name that plumb.backends() lists, or a file
 >>> with engine.world(needs=["rotation", "collision", "friction"]) as world:
 ...     ground, cube = world.create_shapes([plumb.Box((50, 0.5, 50)), plumb.Box((0.5, 0.5, 0.5))])  # half extents, m
-...     world.create_body(plumb.BodyDesc(ground, "static", position=(0, -0.5, 0))) != 0
-...     body = world.create_body(plumb.BodyDesc(cube, position=(0, 3, 0)))
+...     _, body = world.create_bodies([plumb.BodyDesc(ground, "static", position=(0, -0.5, 0)),
+...                                    plumb.BodyDesc(cube, position=(0, 3, 0))])
 ...     for _ in range(120):
 ...         report = world.step(1 / 60)
 ...     print(f"the cube rests at {world.read('pose', body)[1]:.2f} m")
-True
 the cube rests at 0.50 m
 
-Units are SI, axes right-handed, orientations quaternions x y z w. A world declares what it needs; the engine leaves out the
-rest. Handles are whole numbers, batches of them arrays of uint64; rows of poses and velocities, contacts, events and hits
-are NumPy arrays. `world.joints`, `.queries`, `.collide`, `.settings`, `.snapshot`, `.state`, `.exceptions`, `.modify` and `.debug` are
-the interface's extensions. Where enumerations are taken, words are: "dynamic" for plumb.Motion.DYNAMIC.
+Units are SI, axes right-handed, orientations quaternions x y z w. A world declares what it needs; the engine leaves
+out the rest. Handles are whole numbers, batches of them arrays of uint64; rows of poses and velocities, contacts,
+events and hits are NumPy arrays. `world.joints`, `.queries`, `.collide`, `.settings`, `.snapshot`, `.state`,
+`.exceptions`, `.modify` and `.debug` are the interface's extensions. Where enumerations are taken, words are:
+"dynamic" for plumb.Motion.DYNAMIC.
 
 `plumb.harness` runs scenes, studies and reports by the program plumb.
 """
@@ -35,8 +35,8 @@ from .modify import BodyChange, JointChange, Modify
 from .queries import Collide, Collided, Debug, Queries
 from .report import StepReport
 from .settings import SettingInfo, Settings
-from .shapes import (Box, Capsule, Child, Compound, ConvexHull, Cylinder, HeightField, Material, Plane, ShapeDesc, Sphere,
-                     TriangleMesh)
+from .shapes import (Box, Capsule, Child, Compound, ConvexHull, Cylinder, HeightField, Material, Plane, ShapeDesc,
+                     Sphere, TriangleMesh)
 from .snapshot import Exceptions, Snapshot
 from .state import LentRows, RowMap, State
 from .world import World

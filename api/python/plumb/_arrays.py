@@ -48,8 +48,10 @@ def handles(value: Union[Handle, Handles], what: str) -> NDArray[np.uint64]:
     """Handles as one row; of a single one, a row of length 1."""
     if isinstance(value, np.ndarray):
         if value.dtype != np.uint64 or value.ndim > 1:
-            raise TypeError(f"{what} must be a row of uint64 handles, not {value.dtype} of shape {value.shape}; "
-                            "use the arrays that the world gave")
+            raise TypeError(
+                f"{what} must be a row of uint64 handles, not {value.dtype} of shape {value.shape}; "
+                "use the arrays that the world gave"
+            )
         return np.ascontiguousarray(value).reshape(-1)
     if isinstance(value, SupportsIndex):
         return np.array([handle(value, what)], np.uint64)
@@ -122,4 +124,6 @@ def fill(table: NDArray[np.void], column: str, values: Any, what: str) -> None:
     except (TypeError, ValueError, OverflowError) as error:
         takes = table.dtype[column].shape
         wanted = f"{takes[0]} numbers" if takes else "one number"
-        raise ValueError(f"{what} must be {wanted}, or as many for each of {len(table)}, not {values!r}: {error}") from None
+        raise ValueError(
+            f"{what} must be {wanted}, or as many for each of {len(table)}, not {values!r}: {error}"
+        ) from None

@@ -25,14 +25,37 @@ from . import _core
 from ._arrays import numbers, unsigned
 from ._errors import Error, Result
 from ._words import pick, pick_bits
-from .enums import (BodyMember, CapabilityKind, Degree, Determinism, EventType, Field, JointFeature, JointMember, JointType,
-                    Motion, Need, Phase, QueryKind, ShapeType)
+from .enums import (
+    BodyMember,
+    CapabilityKind,
+    Degree,
+    Determinism,
+    EventType,
+    Field,
+    JointFeature,
+    JointMember,
+    JointType,
+    Motion,
+    Need,
+    Phase,
+    QueryKind,
+    ShapeType,
+)
 from .settings import KnownSettings, Value
 from .shapes import Vec3
 from .world import World
 
-EXTENSIONS = ("plumb.joints/1", "plumb.queries/1", "plumb.collide/1", "plumb.debug/1", "plumb.settings/1",
-              "plumb.snapshot/1", "plumb.state/1", "plumb.exceptions/1", "plumb.modify/1")
+EXTENSIONS = (
+    "plumb.joints/1",
+    "plumb.queries/1",
+    "plumb.collide/1",
+    "plumb.debug/1",
+    "plumb.settings/1",
+    "plumb.snapshot/1",
+    "plumb.state/1",
+    "plumb.exceptions/1",
+    "plumb.modify/1",
+)
 
 
 class Modifiable(IntEnum):
@@ -44,8 +67,8 @@ class Modifiable(IntEnum):
 
 def _by_index(bits: Type[IntFlag]) -> Type[IntEnum]:
     """The words of bits, numbered from 0: so capabilities are asked for them."""
-    numbered: Any = IntEnum(bits.__name__, {name: number for number, name in enumerate(bits.__members__)})
-    return cast(Type[IntEnum], numbered)
+    enumeration: Any = IntEnum
+    return cast(Type[IntEnum], enumeration(bits.__name__, list(bits.__members__), start=0))
 
 
 _ARGUMENTS: Dict[CapabilityKind, Tuple[Type[IntEnum], ...]] = {
@@ -159,17 +182,32 @@ class Backend:
                 answers[(kind.name.lower(), *words)] = self.capability(kind, *words)
         return answers
 
-    def world(self, needs: Union[Need, str, Iterable[Union[Need, str]]], gravity: Vec3 = (0.0, -9.81, 0.0),
-              threads: int = 1, settings: Optional[Mapping[str, Value]] = None, body_capacity: int = 0,
-              contact_capacity: int = 0, joint_capacity: int = 0) -> World:
-        """A world of this engine. needs: what the scene needs; using anything else is an Error of NOT_DECLARED, and a need
-        that the engine lacks one of UNSUPPORTED. gravity: m/s2. settings: in force from the start. Capacities are hints; 0
-        is unknown."""
+    def world(
+        self,
+        needs: Union[Need, str, Iterable[Union[Need, str]]],
+        gravity: Vec3 = (0.0, -9.81, 0.0),
+        threads: int = 1,
+        settings: Optional[Mapping[str, Value]] = None,
+        body_capacity: int = 0,
+        contact_capacity: int = 0,
+        joint_capacity: int = 0,
+    ) -> World:
+        """A world of this engine. needs: what the scene needs; using anything else is an Error of NOT_DECLARED, and a
+        need that the engine lacks one of UNSUPPORTED. gravity: m/s2. settings: in force from the start. Capacities are
+        hints; 0 is unknown."""
         given = [(name, *self.settings.encoded(name, value)) for name, value in (settings or {}).items()]
-        capacities = [unsigned(body_capacity, "body_capacity", 32), unsigned(contact_capacity, "contact_capacity", 32),
-                      unsigned(joint_capacity, "joint_capacity", 32)]
-        core = self._core.world(int(pick_bits(Need, needs, "need")), numbers(gravity, (3,), "gravity").tolist(),
-                                unsigned(threads, "threads", 32), given, capacities)
+        capacities = [
+            unsigned(body_capacity, "body_capacity", 32),
+            unsigned(contact_capacity, "contact_capacity", 32),
+            unsigned(joint_capacity, "joint_capacity", 32),
+        ]
+        core = self._core.world(
+            int(pick_bits(Need, needs, "need")),
+            numbers(gravity, (3,), "gravity").tolist(),
+            unsigned(threads, "threads", 32),
+            given,
+            capacities,
+        )
         return World(self, core)
 
     def __repr__(self) -> str:
@@ -177,8 +215,8 @@ class Backend:
 
 
 def search_path() -> List[str]:
-    """Folders in which backends are looked for: $PLUMB_BACKEND_PATH, lib/plumb beside this package's lib/python, and that
-    of the Plumb that this package was installed for."""
+    """Folders in which backends are looked for: $PLUMB_BACKEND_PATH, lib/plumb beside this package's lib/python, and
+    that of the Plumb that this package was installed for."""
     wanted = [folder for folder in os.environ.get("PLUMB_BACKEND_PATH", "").split(os.pathsep) if folder]
     wanted.append(str(Path(__file__).resolve().parents[2] / "plumb"))
     if _core.installed_prefix:
@@ -193,20 +231,24 @@ def backends() -> List[FoundBackend]:
     found: Dict[str, FoundBackend] = {}
     for folder in search_path():
         for file in sorted(Path(folder).glob("plumb-*.so")):
-            name = file.name[len("plumb-"):-len(".so")]
+            name = file.name[len("plumb-") : -len(".so")]
             found.setdefault(name, FoundBackend(name, str(file)))
     return sorted(found.values())
 
 
 def open(name_or_file: Union[str, os.PathLike[str]]) -> Backend:
-    """Opens a backend by name, or by file (anything with a slash, or ending in .so). Raises Error: INVALID_ARGUMENT (not
-    found; names the nearest), VERSION (which side is too old), EXCLUDED (which open backend stands in the way)."""
+    """Opens a backend by name, or by file (anything with a slash, or ending in .so). Raises Error: INVALID_ARGUMENT
+    (not found; names the nearest), VERSION (which side is too old), EXCLUDED (which open backend stands in the
+    way)."""
     name = os.fspath(name_or_file)
     if os.sep in name or name.endswith(".so"):
         return Backend(_core.open_backend(os.path.abspath(name)))
     found = {one.name: one.file for one in backends()}
     if name not in found:
-        hint = _core.suggestion(name, list(found)) if found else (
-            "; none was found at all: set PLUMB_BACKEND_PATH to the folder that holds plumb-*.so")
+        hint = (
+            _core.suggestion(name, list(found))
+            if found
+            else ("; none was found at all: set PLUMB_BACKEND_PATH to the folder that holds plumb-*.so")
+        )
         raise Error(Result.INVALID_ARGUMENT, f'no backend is called "{name}"{hint}')
     return Backend(_core.open_backend(found[name]))

@@ -93,9 +93,20 @@ class BodyDesc:
         row["locks"] = int(pick_bits(Lock, self.locks, f"{name}.locks"))
         fill(row, "material", self.material._row(), f"{name}.material")
         fill(row, "filter", self.filter._row(), f"{name}.filter")
-        for column in ("position", "orientation", "linear_velocity", "angular_velocity", "density", "mass",
-                       "centre_of_mass", "inertia", "inertia_orientation", "gravity_scale", "linear_damping",
-                       "angular_damping"):
+        for column in (
+            "position",
+            "orientation",
+            "linear_velocity",
+            "angular_velocity",
+            "density",
+            "mass",
+            "centre_of_mass",
+            "inertia",
+            "inertia_orientation",
+            "gravity_scale",
+            "linear_damping",
+            "angular_damping",
+        ):
             fill(row, column, getattr(self, column), f"{name}.{column}")
 
 
@@ -111,12 +122,14 @@ def described_bodies(descs: Union[NDArray[np.void], Sequence[BodyDesc]]) -> NDAr
     """What World.create_bodies hands to the backend."""
     if isinstance(descs, np.ndarray):
         if descs.dtype != _core.body_desc or descs.ndim != 1:
-            raise TypeError(f"bodies must be rows that plumb.body_rows made, or BodyDescs, not {descs.dtype} of shape "
-                            f"{descs.shape}")
+            raise TypeError(
+                f"bodies must be rows that plumb.body_rows made, or BodyDescs, not {descs.dtype} of shape "
+                f"{descs.shape}"
+            )
         return np.ascontiguousarray(descs)
     rows = np.zeros(len(descs), _core.body_desc)
     for i, desc in enumerate(descs):
         if not isinstance(desc, BodyDesc):
             raise TypeError(f"bodies[{i}] must be a BodyDesc, not {desc!r}")
-        desc._fill(rows[i:i + 1], f"bodies[{i}]")
+        desc._fill(rows[i : i + 1], f"bodies[{i}]")
     return rows

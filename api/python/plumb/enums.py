@@ -1,4 +1,5 @@
-"""The enumerations of plumb.h. Wherever one is taken, its word in lower case is taken too: "dynamic" for Motion.DYNAMIC."""
+"""The enumerations of plumb.h. Wherever one is taken, its word in lower case is taken too: "dynamic" for
+Motion.DYNAMIC."""
 
 from __future__ import annotations
 

@@ -57,7 +57,9 @@ def program() -> str:
             return str(candidate)
     found = shutil.which("plumb")
     if found is None:
-        raise FileNotFoundError("the program plumb is not found; set PLUMB_PROGRAM to where it is, or put it on the PATH")
+        raise FileNotFoundError(
+            "the program plumb is not found; set PLUMB_PROGRAM to where it is, or put it on the PATH"
+        )
     return found
 
 
@@ -71,8 +73,9 @@ def compare(*scenes: PathLike, out: Optional[PathLike] = None, on_row: OnRow = N
     return _kept("compare", scenes, out, on_row, options)
 
 
-def study(study: Union[PathLike, Mapping[str, Any]], out: Optional[PathLike] = None, on_row: OnRow = None,
-          **options: Any) -> List[Row]:
+def study(
+    study: Union[PathLike, Mapping[str, Any]], out: Optional[PathLike] = None, on_row: OnRow = None, **options: Any
+) -> List[Row]:
     """A whole study: a preset (quick, standard, full), a study file, or what such a file holds as a dictionary."""
     if not isinstance(study, Mapping):
         return _kept("study", (study,), out, on_row, options)
@@ -102,8 +105,9 @@ def backends(*names: PathLike) -> List[Row]:
     return list(_rows("backends", names, {}))
 
 
-def _kept(verb: str, names: tuple[PathLike, ...], out: Optional[PathLike], on_row: OnRow,
-          options: Dict[str, Any]) -> List[Row]:
+def _kept(
+    verb: str, names: tuple[PathLike, ...], out: Optional[PathLike], on_row: OnRow, options: Dict[str, Any]
+) -> List[Row]:
     if out is not None:
         return _listed(_rows(verb, names, {**options, "out": out}), on_row)
     with tempfile.TemporaryDirectory() as folder:
@@ -140,11 +144,14 @@ def _text(value: Any) -> str:
     return str(value).lower() if isinstance(value, bool) else str(value)
 
 
-def _rows(verb: str, names: tuple[PathLike, ...], options: Mapping[str, Any], fine: tuple[int, ...] = (0,)) -> Iterator[Row]:
+def _rows(
+    verb: str, names: tuple[PathLike, ...], options: Mapping[str, Any], fine: tuple[int, ...] = (0,)
+) -> Iterator[Row]:
     """The lines of --json, one after another as the program writes them. Ends the program when nobody reads on."""
     command = [program(), verb, *[os.fspath(name) for name in names], "--json", *_words(options)]
     with tempfile.TemporaryFile("w+") as complaints, subprocess.Popen(
-            command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=complaints, text=True) as child:
+        command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=complaints, text=True
+    ) as child:
         assert child.stdout is not None
         try:
             for line in child.stdout:
@@ -156,5 +163,7 @@ def _rows(verb: str, names: tuple[PathLike, ...], options: Mapping[str, Any], fi
         complaints.seek(0)
         said = complaints.read().strip()
     if status not in fine:
-        sentence = said.splitlines()[-1].removeprefix("plumb: ") if said else f"plumb ended with {status} and said nothing"
+        sentence = (
+            said.splitlines()[-1].removeprefix("plumb: ") if said else f"plumb ended with {status} and said nothing"
+        )
         raise Failed(sentence, status, command)

@@ -21,7 +21,20 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
-from ._arrays import Floats, Handle, Handles, fill, handle, handles, is_single, number, one_row, rows, rows_for_output, unsigned
+from ._arrays import (
+    Floats,
+    Handle,
+    Handles,
+    fill,
+    handle,
+    handles,
+    is_single,
+    number,
+    one_row,
+    rows,
+    rows_for_output,
+    unsigned,
+)
 from ._words import pick
 from .enums import AxisMode, JointField, JointType
 from .shapes import Vec3
@@ -64,8 +77,8 @@ class Spring:
 
 @dataclass
 class JointDesc:
-    """Joins a frame fixed in body a to a frame fixed in body b. Axes 0 1 2 are translations along x y z of frame a, axes
-    3 4 5 rotations about them; a hinge turns on axis 3, a slider slides on axis 0."""
+    """Joins a frame fixed in body a to a frame fixed in body b. Axes 0 1 2 are translations along x y z of frame a,
+    axes 3 4 5 rotations about them; a hinge turns on axis 3, a slider slides on axis 0."""
 
     type: Union[JointType, str]
     body_b: Handle
@@ -100,8 +113,15 @@ class JointDesc:
         fill_axes(row, "axis_modes", self.axis_modes, name)
         for column in ("limits", "motors", "springs"):
             fill_axes(row, column, getattr(self, column), name)
-        for column in ("position_a", "orientation_a", "position_b", "orientation_b", "rest_length", "break_force",
-                       "break_torque"):
+        for column in (
+            "position_a",
+            "orientation_a",
+            "position_b",
+            "orientation_b",
+            "rest_length",
+            "break_force",
+            "break_torque",
+        ):
             fill(row, column, getattr(self, column), f"{name}.{column}")
 
 
@@ -136,15 +156,16 @@ class Joints:
         """All or none. Gives their handles."""
         table = np.zeros(len(descs), _core.joint_desc)
         for i, desc in enumerate(descs):
-            desc._fill(table[i:i + 1], f"joints[{i}]")
+            desc._fill(table[i : i + 1], f"joints[{i}]")
         return self._core.create_joints(table)
 
     def destroy(self, joints: Union[Handle, Handles]) -> None:
         """One or many; all or none."""
         self._core.destroy_joints(handles(joints, "joints"))
 
-    def read(self, field: Union[JointField, str], joints: Union[Handle, Handles],
-             out: Optional[Floats] = None) -> Floats:
+    def read(
+        self, field: Union[JointField, str], joints: Union[Handle, Handles], out: Optional[Floats] = None
+    ) -> Floats:
         """A row for each joint; of a single handle its row. out: n x columns, float64 or float32, that is filled and
         given back."""
         kind = pick(JointField, field, "field")
@@ -155,7 +176,8 @@ class Joints:
         return one_row(into) if out is None and is_single(joints) else into
 
     def write(self, field: Union[JointField, str], values: ArrayLike, joints: Union[Handle, Handles]) -> None:
-        """Motors alone are written: target velocity and max force of the six axes, 12 numbers a joint, or a row for all."""
+        """Motors alone are written: target velocity and max force of the six axes, 12 numbers a joint, or a row for
+        all."""
         kind = pick(JointField, field, "field")
         ids = handles(joints, "joints")
         self._core.write_joints(kind, ids, rows(values, len(ids), _core.joint_columns_of(kind), "values"))

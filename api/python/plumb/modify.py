@@ -30,8 +30,8 @@ from .shapes import Vec3
 
 @dataclass
 class BodyChange:
-    """What of a body becomes another; None stays. Members of the mass are changed together: what of them is None is as in
-    a new BodyDesc. A body that becomes dynamic and never was needs them."""
+    """What of a body becomes another; None stays. Members of the mass are changed together: what of them is None is as
+    in a new BodyDesc. A body that becomes dynamic and never was needs them."""
 
     body: Handle
     motion: Union[Motion, str, None] = None
@@ -62,8 +62,13 @@ class BodyChange:
         mass = _given(self, "mass_mode", "density", "mass", "centre_of_mass", "inertia", "inertia_orientation")
         if mass:
             what |= BodyMember.MASS
-            _fill_from(row, BodyDesc(**mass), _core.body_desc, name,
-                       ("mass_mode", "density", "mass", "centre_of_mass", "inertia", "inertia_orientation"))
+            _fill_from(
+                row,
+                BodyDesc(**mass),
+                _core.body_desc,
+                name,
+                ("mass_mode", "density", "mass", "centre_of_mass", "inertia", "inertia_orientation"),
+            )
         if self.flags is not None:
             what |= BodyMember.FLAGS
             row["flags"] = int(pick_bits(BodyFlag, self.flags, f"{name}.flags"))
@@ -132,8 +137,13 @@ def _given(change: Union[BodyChange, JointChange], *names: str) -> Dict[str, Any
     return {name: getattr(change, name) for name in names if getattr(change, name) is not None}
 
 
-def _fill_from(row: NDArray[np.void], desc: Union[BodyDesc, JointDesc], dtype: np.dtype[np.void], name: str,
-               columns: Tuple[str, ...]) -> None:
+def _fill_from(
+    row: NDArray[np.void],
+    desc: Union[BodyDesc, JointDesc],
+    dtype: np.dtype[np.void],
+    name: str,
+    columns: Tuple[str, ...],
+) -> None:
     """Columns as a descriptor would have them."""
     whole = np.zeros(1, dtype)
     desc._fill(whole, name)
@@ -142,8 +152,8 @@ def _fill_from(row: NDArray[np.void], desc: Union[BodyDesc, JointDesc], dtype: n
 
 
 class Modify:
-    """`world.modify`. Backend.capability("modify", "bodies", "shape") says what an engine can change. What sleeps and is
-    changed, or rested on what is changed, wakes."""
+    """`world.modify`. Backend.capability("modify", "bodies", "shape") says what an engine can change. What sleeps and
+    is changed, or rested on what is changed, wakes."""
 
     def __init__(self, core: _core.World) -> None:
         self._core = core
@@ -152,12 +162,12 @@ class Modify:
         """All or none; each body once."""
         rows = np.zeros(len(changes), _core.body_change)
         for i, change in enumerate(changes):
-            change._fill(rows[i:i + 1], f"changes[{i}]")
+            change._fill(rows[i : i + 1], f"changes[{i}]")
         self._core.modify_bodies(rows)
 
     def joints(self, changes: Sequence[JointChange]) -> None:
         """All or none; each joint once."""
         rows = np.zeros(len(changes), _core.joint_change)
         for i, change in enumerate(changes):
-            change._fill(rows[i:i + 1], f"changes[{i}]")
+            change._fill(rows[i : i + 1], f"changes[{i}]")
         self._core.modify_joints(rows)

@@ -33,7 +33,9 @@ def _table(dtype: np.dtype[np.void], **columns: Any) -> NDArray[np.void]:
     count = max(lengths.values(), default=1)
     for name, length in lengths.items():
         if length not in (1, count):
-            raise ValueError(f"{name} has {length} rows, where {max(lengths, key=lambda one: lengths[one])} has {count}")
+            raise ValueError(
+                f"{name} has {length} rows, where {max(lengths, key=lambda one: lengths[one])} has {count}"
+            )
     table = np.zeros(count, dtype)
     for name, array in arrays.items():
         fill(table, name, array, name)
@@ -53,22 +55,40 @@ class Queries:
     def __init__(self, core: _core.World) -> None:
         self._core = core
 
-    def rays(self, origins: ArrayLike, translations: ArrayLike, mode: Union[HitMode, str] = HitMode.CLOSEST,
-             filter: Optional[Filter] = None) -> NDArray[np.void]:
+    def rays(
+        self,
+        origins: ArrayLike,
+        translations: ArrayLike,
+        mode: Union[HitMode, str] = HitMode.CLOSEST,
+        filter: Optional[Filter] = None,
+    ) -> NDArray[np.void]:
         """origins, translations: n x 3, m; a single row stands for all. mode closest: one row a ray; all: all hits, by
         ray, then fraction."""
         table = _filtered(_table(_core.ray, origin=origins, translation=translations), filter)
         return self._core.cast_rays(pick(HitMode, mode, "mode"), table)
 
-    def casts(self, shapes: Shapes, positions: ArrayLike, translations: ArrayLike, orientations: ArrayLike = IDENTITY,
-              mode: Union[HitMode, str] = HitMode.CLOSEST, filter: Optional[Filter] = None) -> NDArray[np.void]:
+    def casts(
+        self,
+        shapes: Shapes,
+        positions: ArrayLike,
+        translations: ArrayLike,
+        orientations: ArrayLike = IDENTITY,
+        mode: Union[HitMode, str] = HitMode.CLOSEST,
+        filter: Optional[Filter] = None,
+    ) -> NDArray[np.void]:
         """Convex shapes moved without turning. One that overlaps at its start hits at fraction 0."""
-        table = _table(_core.cast, shape=handles(shapes, "shapes"), position=positions, orientation=orientations,
-                       translation=translations)
+        table = _table(
+            _core.cast,
+            shape=handles(shapes, "shapes"),
+            position=positions,
+            orientation=orientations,
+            translation=translations,
+        )
         return self._core.cast_shapes(pick(HitMode, mode, "mode"), _filtered(table, filter))
 
-    def overlaps(self, shapes: Shapes, positions: ArrayLike, orientations: ArrayLike = IDENTITY,
-                 filter: Optional[Filter] = None) -> NDArray[np.void]:
+    def overlaps(
+        self, shapes: Shapes, positions: ArrayLike, orientations: ArrayLike = IDENTITY, filter: Optional[Filter] = None
+    ) -> NDArray[np.void]:
         """All bodies that each shape overlaps."""
         table = _table(_core.overlap, shape=handles(shapes, "shapes"), position=positions, orientation=orientations)
         return self._core.overlap_shapes(_filtered(table, filter))
@@ -88,18 +108,31 @@ class Collide:
     def __init__(self, core: _core.World) -> None:
         self._core = core
 
-    def pairs(self, shapes_a: Shapes, shapes_b: Shapes, positions_a: ArrayLike, positions_b: ArrayLike,
-              orientations_a: ArrayLike = IDENTITY, orientations_b: ArrayLike = IDENTITY) -> Collided:
+    def pairs(
+        self,
+        shapes_a: Shapes,
+        shapes_b: Shapes,
+        positions_a: ArrayLike,
+        positions_b: ArrayLike,
+        orientations_a: ArrayLike = IDENTITY,
+        orientations_b: ArrayLike = IDENTITY,
+    ) -> Collided:
         """Contacts and distances of posed shapes, pair by pair; a single row stands for all."""
-        table = _table(_core.posed_pair, shape_a=handles(shapes_a, "shapes_a"), shape_b=handles(shapes_b, "shapes_b"),
-                       position_a=positions_a, position_b=positions_b, orientation_a=orientations_a,
-                       orientation_b=orientations_b)
+        table = _table(
+            _core.posed_pair,
+            shape_a=handles(shapes_a, "shapes_a"),
+            shape_b=handles(shapes_b, "shapes_b"),
+            position_a=positions_a,
+            position_b=positions_b,
+            orientation_a=orientations_a,
+            orientation_b=orientations_b,
+        )
         return Collided(*self._core.collide_pairs(table))
 
 
 class Debug:
-    """plumb.debug/1, what the engine saw in the last step: `world.debug`. Structured arrays; an Error of UNSUPPORTED where
-    the engine cannot show it."""
+    """plumb.debug/1, what the engine saw in the last step: `world.debug`. Structured arrays; an Error of UNSUPPORTED
+    where the engine cannot show it."""
 
     def __init__(self, core: _core.World) -> None:
         self._core = core

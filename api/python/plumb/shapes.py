@@ -19,11 +19,16 @@ from . import _core
 from ._arrays import Handle, fill, handle, number, numbers, unsigned
 from .enums import ShapeType
 
+
 def _shape(kind: ShapeType, desc: ShapeDesc, half_extents: Sequence[float] = (0.0, 0.0, 0.0)) -> _core.Shape:
     name = type(desc).__name__
-    return _core.Shape(type=kind, radius=number(getattr(desc, "radius", 0.0), f"{name}.radius"),
-                       half_height=number(getattr(desc, "half_height", 0.0), f"{name}.half_height"),
-                       half_extents=half_extents, user_data=unsigned(desc.user_data, f"{name}.user_data"))
+    return _core.Shape(
+        type=kind,
+        radius=number(getattr(desc, "radius", 0.0), f"{name}.radius"),
+        half_height=number(getattr(desc, "half_height", 0.0), f"{name}.half_height"),
+        half_extents=half_extents,
+        user_data=unsigned(desc.user_data, f"{name}.user_data"),
+    )
 
 
 Vec3 = Union[Sequence[float], ArrayLike]
@@ -100,11 +105,14 @@ class TriangleMesh:
     def _described(self) -> _core.Shape:
         corners = np.asarray(self.triangles)
         if corners.dtype.kind not in "iu" or corners.ndim != 2 or corners.shape[1] != 3:
-            raise ValueError("TriangleMesh.triangles must be n x 3 whole numbers, not "
-                             f"{corners.dtype} of shape {corners.shape}")
+            raise ValueError(
+                "TriangleMesh.triangles must be n x 3 whole numbers, not " f"{corners.dtype} of shape {corners.shape}"
+            )
         if corners.size and (corners.min() < 0 or corners.max() >= 1 << 32):
-            raise ValueError(f"TriangleMesh.triangles has the index {corners.min() if corners.min() < 0 else corners.max()}; "
-                             "indices are 0 to the number of vertices less 1")
+            raise ValueError(
+                f"TriangleMesh.triangles has the index {corners.min() if corners.min() < 0 else corners.max()}; "
+                "indices are 0 to the number of vertices less 1"
+            )
         shape = _shape(ShapeType.TRIANGLE_MESH, self)
         shape.set_vertices(numbers(self.vertices, (-1, 3), "TriangleMesh.vertices"))
         shape.set_triangles(np.ascontiguousarray(corners, np.uint32))
@@ -147,8 +155,11 @@ class Material:
     surface_velocity: Vec3 = (0.0, 0.0, 0.0)
 
     def _row(self) -> Tuple[float, float, Tuple[float, ...]]:
-        return (self.friction, self.restitution,
-                tuple(numbers(self.surface_velocity, (3,), "Material.surface_velocity").tolist()))
+        return (
+            self.friction,
+            self.restitution,
+            tuple(numbers(self.surface_velocity, (3,), "Material.surface_velocity").tolist()),
+        )
 
 
 @dataclass
@@ -172,7 +183,7 @@ class Compound:
     def _described(self) -> _core.Shape:
         rows = np.zeros(len(self.children), _core.compound_child)
         for i, child in enumerate(self.children):
-            one = rows[i:i + 1]
+            one = rows[i : i + 1]
             one["shape"] = handle(child.shape, f"Compound.children[{i}].shape")
             fill(one, "position", child.position, f"Compound.children[{i}].position")
             fill(one, "orientation", child.orientation, f"Compound.children[{i}].orientation")

@@ -31,7 +31,8 @@ class Snapshot:
         self._core = core
 
     def save(self) -> bytes:
-        """Poses, velocities, sleep, warm-start data and excluded pairs, for the world that saved them. Needs snapshot."""
+        """Poses, velocities, sleep, warm-start data and excluded pairs, for the world that saved them. Needs
+        snapshot."""
         return self._core.save()
 
     def restore(self, data: bytes) -> None:

@@ -40,8 +40,8 @@ class LentRows:
 
     On the host they are NumPy's (numpy()); on a GPU whoever speaks DLPack takes them: torch.from_dlpack(rows),
     cupy.from_dlpack(rows). Work that the consumer enqueues on its stream happens after the engine has written them; it
-    must be done (synchronised) before the next step. Do not write to rows: consumers of DLPack before 1.0 cannot be told
-    that they are read only."""
+    must be done (synchronised) before the next step. Do not write to rows: consumers of DLPack before 1.0 cannot be
+    told that they are read only."""
 
     def __init__(self, core: _core.LentRows) -> None:
         self._core = core
@@ -79,8 +79,10 @@ class LentRows:
     def numpy(self) -> Floats:
         """A view of the same memory. BufferError for rows on a GPU."""
         if self._core.device[0] != _core.host_device:
-            raise BufferError("the rows are on a GPU; take them by DLPack (torch.from_dlpack, cupy.from_dlpack), or "
-                              "borrow with device=\"cpu\", copy=True")
+            raise BufferError(
+                "the rows are on a GPU; take them by DLPack (torch.from_dlpack, cupy.from_dlpack), or "
+                'borrow with device="cpu", copy=True'
+            )
         return self._core.view()
 
     def __array__(self, dtype: Any = None, copy: Optional[bool] = None) -> NDArray[Any]:
@@ -91,8 +93,14 @@ class LentRows:
             return view.astype(dtype)
         return view.copy() if copy else view
 
-    def __dlpack__(self, *, stream: Optional[int] = None, max_version: Optional[Tuple[int, int]] = None,
-                   dl_device: Optional[Tuple[int, int]] = None, copy: Optional[bool] = None) -> object:
+    def __dlpack__(
+        self,
+        *,
+        stream: Optional[int] = None,
+        max_version: Optional[Tuple[int, int]] = None,
+        dl_device: Optional[Tuple[int, int]] = None,
+        copy: Optional[bool] = None,
+    ) -> object:
         if dl_device is not None and tuple(dl_device) != self._core.device:
             raise BufferError(f"the rows are on device {self._core.device} and are not moved to {tuple(dl_device)}")
         if copy:
@@ -105,7 +113,9 @@ class LentRows:
     def __repr__(self) -> str:
         kind, number = self._core.device
         where = "cpu" if kind == _core.host_device else f"cuda:{number}"
-        return f"<LentRows {self.shape[0]} x {self.shape[1]} {self.dtype} on {where}{', a copy' if self.is_copy else ''}>"
+        return (
+            f"<LentRows {self.shape[0]} x {self.shape[1]} {self.dtype} on {where}{', a copy' if self.is_copy else ''}>"
+        )
 
 
 class State:
@@ -115,8 +125,8 @@ class State:
         self._core = core
 
     def borrow(self, field: Union[Field, str], device: str = "cpu", copy: bool = False) -> LentRows:
-        """Rows of the field pose (7 columns) or velocity (6). device: "cpu" or "cuda". copy: where the engine cannot lend
-        them as they lie there, a copy instead of an Error of UNSUPPORTED."""
+        """Rows of the field pose (7 columns) or velocity (6). device: "cpu" or "cuda". copy: where the engine cannot
+        lend them as they lie there, a copy instead of an Error of UNSUPPORTED."""
         devices = {"cpu": _core.host_device, "cuda": _core.cuda_device}
         if device not in devices:
             raise ValueError(f'device "{device}" is unknown; use "cpu" or "cuda"')

@@ -9,7 +9,19 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
-from ._arrays import Floats, Handle, Handles, handle, handles, is_single, number, numbers, one_row, rows, rows_for_output
+from ._arrays import (
+    Floats,
+    Handle,
+    Handles,
+    handle,
+    handles,
+    is_single,
+    number,
+    numbers,
+    one_row,
+    rows,
+    rows_for_output,
+)
 from ._words import pick
 from .bodies import BodyDesc, described_bodies
 from .enums import Field
@@ -27,8 +39,9 @@ if TYPE_CHECKING:
 
 
 class World:
-    """A world of a backend, which Backend.world makes. Close it, or use it in a `with`; it is also closed when nobody has
-    it any more. Its handles are numbers, of shapes, bodies and joints; those of destroyed objects are stale for ever.
+    """A world of a backend, which Backend.world makes. Close it, or use it in a `with`; it is also closed when nobody
+    has it any more. Its handles are numbers, of shapes, bodies and joints; those of destroyed objects are stale for
+    ever.
 
     Calls raise Error with the backend's sentence and change nothing then; ValueError or TypeError when an argument is
     none that the call could take, and ValueError once the world is closed. One thread at a time may call (queries: any
@@ -63,8 +76,9 @@ class World:
     def __enter__(self) -> World:
         return self
 
-    def __exit__(self, kind: Optional[Type[BaseException]], error: Optional[BaseException],
-                 trace: Optional[TracebackType]) -> None:
+    def __exit__(
+        self, kind: Optional[Type[BaseException]], error: Optional[BaseException], trace: Optional[TracebackType]
+    ) -> None:
         self.close()
 
     def __repr__(self) -> str:
@@ -112,11 +126,12 @@ class World:
 
     # --- rows ---------------------------------------------------------------------------------------------------------
 
-    def read(self, field: Union[Field, str], bodies: Union[Handle, Handles, None] = None,
-             out: Optional[Floats] = None) -> Floats:
-        """Rows of a field, one for each body: n x columns. bodies: None is all, in order of creation (with out, the first
-        n); of a single handle its row comes back. out: an array of float64 or float32 that is filled and given back, its
-        rows any distance apart: nothing is allocated then."""
+    def read(
+        self, field: Union[Field, str], bodies: Union[Handle, Handles, None] = None, out: Optional[Floats] = None
+    ) -> Floats:
+        """Rows of a field, one for each body: n x columns. bodies: None is all, in order of creation (with out, the
+        first n); of a single handle its row comes back. out: an array of float64 or float32 that is filled and given
+        back, its rows any distance apart: nothing is allocated then."""
         kind = pick(Field, field, "field")
         columns = _core.columns_of(kind)
         if bodies is None:
@@ -129,8 +144,9 @@ class World:
         return one_row(into) if out is None and is_single(bodies) else into
 
     def write(self, field: Union[Field, str], values: ArrayLike, bodies: Union[Handle, Handles, None] = None) -> None:
-        """values: a row for each body, or one row for all of them. bodies: None is the first so many in order of creation,
-        or all for one row. Poses and velocities are set; forces, torques and impulses add to what acts on the body."""
+        """values: a row for each body, or one row for all of them. bodies: None is the first so many in order of
+        creation, or all for one row. Poses and velocities are set; forces, torques and impulses add to what acts on
+        the body."""
         kind = pick(Field, field, "field")
         columns = _core.columns_of(kind)
         if bodies is None:
@@ -159,8 +175,8 @@ class World:
         return StepReport(self._core.wait())
 
     def contacts(self) -> NDArray[np.void]:
-        """Contact points as the last step solved them: columns body_a, body_b, child_a, child_b, position, normal (from a
-        to b), depth, normal_impulse, tangent_impulse, feature. Needs contacts."""
+        """Contact points as the last step solved them: columns body_a, body_b, child_a, child_b, position, normal
+        (from a to b), depth, normal_impulse, tangent_impulse, feature. Needs contacts."""
         return self._core.contacts()
 
     def events(self) -> NDArray[np.void]:

@@ -22,9 +22,12 @@ def engines():
 
 def able(*needs, asked=()):
     """Engines that have all needs, and what is asked natively or emulated."""
-    return [engine for engine in engines()
-            if all(engine.capability("need", need).degree for need in needs)
-            and all(engine.capability(*ask).degree >= plumb.Degree.EMULATED for ask in asked)]
+    return [
+        engine
+        for engine in engines()
+        if all(engine.capability("need", need).degree for need in needs)
+        and all(engine.capability(*ask).degree >= plumb.Degree.EMULATED for ask in asked)
+    ]
 
 
 def first(*needs, asked=()):
@@ -36,6 +39,7 @@ def first(*needs, asked=()):
 
 def on_each(*needs, asked=()):
     """The test runs for each such engine, and gets it; it is skipped where there is none."""
+
     def decorate(test):
         @functools.wraps(test)
         def run(self):
@@ -43,7 +47,9 @@ def on_each(*needs, asked=()):
             for engine in able(*needs, asked=asked):
                 with self.subTest(engine=engine.info.name):
                     test(self, engine)
+
         return run
+
     return decorate
 
 

@@ -14,13 +14,16 @@ import unittest
 from support import np, plumb
 
 PACKAGE = pathlib.Path(plumb.__file__).parent
+README = pathlib.Path(__file__).resolve().parents[3] / "README.md"
 EXAMPLES = pathlib.Path(__file__).resolve().parents[1] / "examples"
 SHOWN = "impulse"  # the engine of the examples in docstrings
 missing = SHOWN not in [name for name, _ in plumb.backends()]
 
 
 def documented():
-    names = ["plumb"] + [f"plumb.{found.name}" for found in pkgutil.iter_modules([str(PACKAGE)]) if found.name != "_core"]
+    names = ["plumb"] + [
+        f"plumb.{found.name}" for found in pkgutil.iter_modules([str(PACKAGE)]) if found.name != "_core"
+    ]
     return [importlib.import_module(name) for name in names]
 
 
@@ -51,21 +54,40 @@ class Documentation(unittest.TestCase):
 
     @unittest.skipUnless(shutil.which("mypy"), "mypy is not installed")
     def test_hints(self):
-        script = "import plumb\nworld = plumb.open('x').world(['rotation'])\nworld.read('pose').shape\nworld.create_body(3)\n"
-        checked = subprocess.run(["mypy", "--strict", "--cache-dir", os.devnull, "-p", "plumb"], capture_output=True, text=True,
-                                 cwd=PACKAGE.parent)
+        script = "import plumb\nworld = plumb.open('x').world(['rotation'])\nworld.read('pose').shape\n"
+        script += "world.create_body(3)\n"
+        checked = subprocess.run(
+            ["mypy", "--strict", "--cache-dir", os.devnull, "-p", "plumb"],
+            capture_output=True,
+            text=True,
+            cwd=PACKAGE.parent,
+        )
         self.assertEqual(checked.returncode, 0, checked.stdout + checked.stderr)
-        wrong = subprocess.run(["mypy", "--strict", "--cache-dir", os.devnull, "-c", script], capture_output=True, text=True,
-                               env={**os.environ, "MYPYPATH": str(PACKAGE.parent)})
+        wrong = subprocess.run(
+            ["mypy", "--strict", "--cache-dir", os.devnull, "-c", script],
+            capture_output=True,
+            text=True,
+            env={**os.environ, "MYPYPATH": str(PACKAGE.parent)},
+        )
         self.assertIn('<string>:4: error: Argument 1 to "create_body"', wrong.stdout)
         self.assertEqual(wrong.stdout.count("error:"), 1, wrong.stdout)
+
+    @unittest.skipUnless(README.is_file(), "the README is not beside the tests")
+    def test_the_readme_shows_the_first_host_as_it_is(self):
+        shown, host = README.read_text(), (EXAMPLES / "drop.py").read_text()
+        if "```python" in shown:
+            self.assertIn(host, shown)
 
     @unittest.skipIf(missing, f"the examples use {SHOWN}, which is not there")
     def test_examples(self):
         for script in sorted(EXAMPLES.glob("*.py")):
             with self.subTest(script.name):
-                ran = subprocess.run([sys.executable, script, "--quick"], capture_output=True, text=True,
-                                     env={**os.environ, "PYTHONPATH": str(PACKAGE.parent)})
+                ran = subprocess.run(
+                    [sys.executable, script, "--quick"],
+                    capture_output=True,
+                    text=True,
+                    env={**os.environ, "PYTHONPATH": str(PACKAGE.parent)},
+                )
                 self.assertEqual(ran.returncode, 0, ran.stderr)
                 self.assertTrue(ran.stdout.strip())
 

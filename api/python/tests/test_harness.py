@@ -1,4 +1,5 @@
-"""Scenes, studies and reports by the program: a stand-in shows how it is called and heard, the real one what comes back."""
+"""Scenes, studies and reports by the program: a stand-in shows how it is called and heard, the real one what comes
+back."""
 
 import os
 import pathlib
@@ -28,15 +29,40 @@ class StandIn(unittest.TestCase):
 
     def test_options(self):
         self.be("print(json.dumps({'line': sys.argv[1:]}))")
-        row, = harness.run("D1", pathlib.Path("x.json"), backend=["ode", "bullet"], param={"H": 10, "on": True}, dt=1 / 240,
-                           judge_timeout=9, record=True, layers=False, profile=None)
-        self.assertEqual(row["line"], ["run", "D1", "x.json", "--json", "--backend=ode", "--backend=bullet", "--param=H=10",
-                                       "--param=on=true", f"--dt={1 / 240}", "--judge-timeout=9", "--record"])
+        (row,) = harness.run(
+            "D1",
+            pathlib.Path("x.json"),
+            backend=["ode", "bullet"],
+            param={"H": 10, "on": True},
+            dt=1 / 240,
+            judge_timeout=9,
+            record=True,
+            layers=False,
+            profile=None,
+        )
+        self.assertEqual(
+            row["line"],
+            [
+                "run",
+                "D1",
+                "x.json",
+                "--json",
+                "--backend=ode",
+                "--backend=bullet",
+                "--param=H=10",
+                "--param=on=true",
+                f"--dt={1 / 240}",
+                "--judge-timeout=9",
+                "--record",
+            ],
+        )
 
     def test_rows_come_as_they_are_written(self):
-        self.be(f"""print('{{"n": 1}}', flush=True)
+        self.be(
+            f"""print('{{"n": 1}}', flush=True)
 while not os.path.exists({self.folder + "/go"!r}): time.sleep(0.01)
-print('{{"n": 2}}')""")
+print('{{"n": 2}}')"""
+        )
         seen = []
 
         def on_row(row):
@@ -56,8 +82,10 @@ print('{{"n": 2}}')""")
             harness.run("D")
 
     def test_much_on_both_sides_does_not_block(self):
-        self.be("""for i in range(3000):
-    sys.stderr.write('x' * 100 + '\\n'); print(json.dumps({'i': i}))""")
+        self.be(
+            """for i in range(3000):
+    sys.stderr.write('x' * 100 + '\\n'); print(json.dumps({'i': i}))"""
+        )
         self.assertEqual(len(harness.run("D1")), 3000)
 
     def test_who_stops_listening_ends_the_program(self):
@@ -77,7 +105,7 @@ print('{{"n": 2}}')""")
 
     def test_studies_as_dictionaries(self):
         self.be("print(json.dumps({'study': json.load(open(sys.argv[2])), 'out': sys.argv[-1]}))")
-        row, = harness.study({"scenes": ["D1"]}, budget="9s")
+        (row,) = harness.study({"scenes": ["D1"]}, budget="9s")
         self.assertEqual(row["study"], {"scenes": ["D1"]})
         self.assertTrue(row["out"].startswith("--out="))
 
@@ -107,7 +135,7 @@ class Program(unittest.TestCase):
             self.assertGreater(pathlib.Path(out, "page.html").stat().st_size, 10_000)
 
     def test_scenes_and_claims(self):
-        scene, = harness.scenes("D1")
+        (scene,) = harness.scenes("D1")
         self.assertEqual((scene["slug"], [one["name"] for one in scene["parameters"]]), ("tower", ["H"]))
         name = next(row["name"] for row in harness.backends() if row["status"] == "ok")
         checks = harness.conform(name, check="settings")

@@ -23,9 +23,16 @@ class Joints(unittest.TestCase):
         turned = (0, -np.sqrt(0.5), 0, np.sqrt(0.5))
         with engine.world(NEEDS) as world:
             bar = self.bar(world)
-            joint = world.joints.create(plumb.JointDesc(
-                "hinge", bar, orientation_a=turned, position_b=(-0.5, 0, 0), orientation_b=turned,
-                limits={3: plumb.Limit(-0.3, 0.3)}))
+            joint = world.joints.create(
+                plumb.JointDesc(
+                    "hinge",
+                    bar,
+                    orientation_a=turned,
+                    position_b=(-0.5, 0, 0),
+                    orientation_b=turned,
+                    limits={3: plumb.Limit(-0.3, 0.3)},
+                )
+            )
             steps(world, 180)
             angle = world.joints.read("coordinates", joint)
             self.assertEqual(angle.shape, (6,))
@@ -36,8 +43,9 @@ class Joints(unittest.TestCase):
     def test_motors_are_read_and_written(self, engine):
         with engine.world(NEEDS, gravity=(0, 0, 0)) as world:
             bar = self.bar(world)
-            joint = world.joints.create(plumb.JointDesc("slider", bar, position_a=(0.5, 0, 0),
-                                                        motors={0: plumb.Motor(2, 1000)}))
+            joint = world.joints.create(
+                plumb.JointDesc("slider", bar, position_a=(0.5, 0, 0), motors={0: plumb.Motor(2, 1000)})
+            )
             steps(world, 30)
             self.assertAlmostEqual(world.read("velocity", bar)[0], 2, delta=0.02)
             motors = world.joints.read("motor", [joint])
@@ -50,8 +58,9 @@ class Joints(unittest.TestCase):
     def test_a_spring_swings_at_its_frequency(self, engine):
         with engine.world(NEEDS, gravity=(0, 0, 0)) as world:
             bar = self.bar(world, linear_velocity=(1, 0, 0))
-            world.joints.create(plumb.JointDesc("slider", bar, position_a=(0.5, 0, 0),
-                                                springs={0: plumb.Spring(1, damping_ratio=0)}))
+            world.joints.create(
+                plumb.JointDesc("slider", bar, position_a=(0.5, 0, 0), springs={0: plumb.Spring(1, damping_ratio=0)})
+            )
             x = []
             for _ in range(240):
                 world.step(1 / 240)
@@ -64,8 +73,13 @@ class Joints(unittest.TestCase):
         with engine.world([*NEEDS, "events"]) as world:
             bar = self.bar(world)
             joint = world.joints.create(plumb.JointDesc("fixed", bar, position_a=(0.5, 0, 0), break_force=5))
-            broken = [event["joint"] for _ in range(10) if world.step(1 / 60)
-                      for event in world.events() if event["type"] == plumb.EventType.JOINT_BROKEN]
+            broken = [
+                event["joint"]
+                for _ in range(10)
+                if world.step(1 / 60)
+                for event in world.events()
+                if event["type"] == plumb.EventType.JOINT_BROKEN
+            ]
             self.assertEqual(broken, [joint])
             with self.assertRaises(plumb.Error) as raised:
                 world.joints.destroy(joint)
@@ -75,8 +89,14 @@ class Joints(unittest.TestCase):
     def test_a_generic_joint_has_modes(self, engine):
         with engine.world(NEEDS) as world:
             bar = self.bar(world)
-            world.joints.create(plumb.JointDesc("generic", bar, position_a=(0.5, 0, 0), axis_modes={
-                0: "locked", 2: plumb.AxisMode.LOCKED, 3: "locked", 4: "locked", 5: "locked"}))
+            world.joints.create(
+                plumb.JointDesc(
+                    "generic",
+                    bar,
+                    position_a=(0.5, 0, 0),
+                    axis_modes={0: "locked", 2: plumb.AxisMode.LOCKED, 3: "locked", 4: "locked", 5: "locked"},
+                )
+            )
             steps(world, 30)
             x, y, z = world.read("pose", bar)[:3]
             self.assertLess(y, -1)
@@ -86,9 +106,11 @@ class Joints(unittest.TestCase):
         engine = first(*NEEDS, asked=having("ball"))
         with engine.world(NEEDS) as world:
             bar = self.bar(world)
-            for desc, text in [(plumb.JointDesc("bal", bar), 'did you mean "ball"'),
-                               (plumb.JointDesc("hinge", bar, limits={6: plumb.Limit(0, 1)}), "limits names the axis 6"),
-                               (plumb.JointDesc("ball", bar, position_a=(1,) * 4), r"joints\[0\].position_a must be 3 numbers")]:
+            for desc, text in [
+                (plumb.JointDesc("bal", bar), 'did you mean "ball"'),
+                (plumb.JointDesc("hinge", bar, limits={6: plumb.Limit(0, 1)}), "limits names the axis 6"),
+                (plumb.JointDesc("ball", bar, position_a=(1,) * 4), r"joints\[0\].position_a must be 3 numbers"),
+            ]:
                 with self.subTest(text), self.assertRaisesRegex(ValueError, text):
                     world.joints.create(desc)
             joint = world.joints.create(plumb.JointDesc("ball", bar))

@@ -18,11 +18,24 @@ class Life(unittest.TestCase):
         world.close()
         self.assertTrue(world.closed)
         self.assertIn("closed", repr(world))
-        calls = [lambda: world.step(1), lambda: world.wait(), lambda: world.begin_step(1), lambda: world.bodies,
-                 lambda: world.read("pose", body), lambda: world.write("pose", np.zeros(7), body), world.contacts,
-                 world.events, lambda: world.create_body(particle()), lambda: world.create_shape(plumb.Plane()),
-                 lambda: world.destroy_bodies(body), lambda: world.set_gravity((0, 0, 0)), lambda: world.user_data(body),
-                 world.snapshot.hash, lambda: world.state.borrow("pose", copy=True), world.state.rows]
+        calls = [
+            lambda: world.step(1),
+            lambda: world.wait(),
+            lambda: world.begin_step(1),
+            lambda: world.bodies,
+            lambda: world.read("pose", body),
+            lambda: world.write("pose", np.zeros(7), body),
+            world.contacts,
+            world.events,
+            lambda: world.create_body(particle()),
+            lambda: world.create_shape(plumb.Plane()),
+            lambda: world.destroy_bodies(body),
+            lambda: world.set_gravity((0, 0, 0)),
+            lambda: world.user_data(body),
+            world.snapshot.hash,
+            lambda: world.state.borrow("pose", copy=True),
+            world.state.rows,
+        ]
         for call in calls:
             with self.assertRaisesRegex(ValueError, "the world is closed"):
                 call()
@@ -62,7 +75,12 @@ class Life(unittest.TestCase):
                 world.wait()
             self.assertEqual(raised.exception.code, plumb.Result.WRONG_PHASE)
             world.begin_step(0.01)
-            for call in (world.contacts, lambda: world.read("pose"), lambda: world.begin_step(0.01), world.snapshot.hash):
+            for call in (
+                world.contacts,
+                lambda: world.read("pose"),
+                lambda: world.begin_step(0.01),
+                world.snapshot.hash,
+            ):
                 with self.assertRaises(plumb.Error) as raised:
                     call()
                 self.assertEqual(raised.exception.code, plumb.Result.WRONG_PHASE)
@@ -80,7 +98,8 @@ class Threads(unittest.TestCase):
         return world
 
     def test_others_run_while_a_world_steps(self):
-        """Nobody is made to let go of Python's lock here, so another thread counts within a step only if the step does."""
+        """Nobody is made to let go of Python's lock here, so another thread counts within a step only if the step
+        does."""
         world = self.heap(first("rotation", "collision", "friction"))
         counted, stop = [0], threading.Event()
 

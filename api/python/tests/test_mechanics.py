@@ -33,19 +33,23 @@ class Mechanics(unittest.TestCase):
             crossings = np.flatnonzero(np.diff(np.sign(x)))
             at = crossings + x[crossings] / (x[crossings] - x[crossings + 1])
             period = 2 * np.mean(np.diff(at)) / 240
-            truth = 2 * np.pi * np.sqrt((length ** 2 + 0.4 * 0.4 ** 2) / (length * 9.81)) * (1 + angle ** 2 / 16)
+            truth = 2 * np.pi * np.sqrt((length**2 + 0.4 * 0.4**2) / (length * 9.81)) * (1 + angle**2 / 16)
             self.assertAlmostEqual(period / truth, 1, delta=0.005)
 
     @on_each("rotation", "collision", "friction", "contacts", "contact_impulses")
     def test_a_cube_rests_and_its_contacts_bear_it(self, engine):
         with engine.world(["rotation", "collision", "friction", "contacts", "contact_impulses"]) as world:
             ground = floor(world)
-            cube = world.create_body(plumb.BodyDesc(world.create_shape(plumb.Box((0.5, 0.5, 0.5))), position=(0, 0.5, 0)))
+            cube = world.create_body(
+                plumb.BodyDesc(world.create_shape(plumb.Box((0.5, 0.5, 0.5))), position=(0, 0.5, 0))
+            )
             steps(world, 60)
             self.assertAlmostEqual(world.read("pose", cube)[1], 0.5, delta=0.02)
             contacts = world.contacts()
             self.assertTrue(len(contacts))
-            self.assertEqual(set(map(frozenset, zip(contacts["body_a"], contacts["body_b"]))), {frozenset({ground, cube})})
+            self.assertEqual(
+                set(map(frozenset, zip(contacts["body_a"], contacts["body_b"]))), {frozenset({ground, cube})}
+            )
             up = np.where(contacts["body_b"] == cube, 1, -1) * contacts["normal"][:, 1]
             np.testing.assert_allclose(up, 1, atol=1e-3)
             self.assertAlmostEqual(contacts["normal_impulse"].sum() * 60 / (1000 * 9.81), 1, delta=0.02)

@@ -18,7 +18,9 @@ class Modify(unittest.TestCase):
             steps(world, 30)
             self.assertEqual(world.read("pose", stays)[1], 10)
             self.assertLess(world.read("pose", falls)[1], 9)
-            world.modify.bodies([plumb.BodyChange(falls, motion=plumb.Motion.STATIC), plumb.BodyChange(stays, motion="dynamic")])
+            world.modify.bodies(
+                [plumb.BodyChange(falls, motion=plumb.Motion.STATIC), plumb.BodyChange(stays, motion="dynamic")]
+            )
             there = world.read("pose", falls)[1]
             steps(world, 30)
             self.assertEqual(world.read("pose", falls)[1], there)
@@ -34,9 +36,9 @@ class Modify(unittest.TestCase):
             self.assertAlmostEqual(world.read("mass", body)[0], 1)
             world.modify.bodies([plumb.BodyChange(body, mass=3)])
             self.assertAlmostEqual(world.read("mass", body)[0], 3)
-            np.testing.assert_allclose(world.read("mass", body)[4:7], 0.4 * 3 * 0.5 ** 2)
+            np.testing.assert_allclose(world.read("mass", body)[4:7], 0.4 * 3 * 0.5**2)
             world.modify.bodies([plumb.BodyChange(body, density=10)])
-            self.assertAlmostEqual(world.read("mass", body)[0], 10 * 4 / 3 * np.pi * 0.5 ** 3)
+            self.assertAlmostEqual(world.read("mass", body)[0], 10 * 4 / 3 * np.pi * 0.5**3)
             world.modify.bodies([plumb.BodyChange(body, mass=2, inertia=(1, 2, 3), centre_of_mass=(0.1, 0, 0))])
             np.testing.assert_allclose(world.read("mass", body)[:7], [2, 0.1, 0, 0, 1, 2, 3])
             steps(world, 60)
@@ -53,13 +55,17 @@ class Modify(unittest.TestCase):
             steps(world, 30)
             self.assertLess(world.read("pose", body)[1], -0.5)
 
-    @on_each("rotation", "collision", "friction", "joints", asked=able_to("joints", "limits", "motors", "frames", "enabled"))
+    @on_each(
+        "rotation", "collision", "friction", "joints", asked=able_to("joints", "limits", "motors", "frames", "enabled")
+    )
     def test_joints(self, engine):
         with engine.world(["rotation", "collision", "friction", "joints"], gravity=(0, 0, 0)) as world:
             box = world.create_shape(plumb.Box((0.5, 0.1, 0.1)))
             body = world.create_body(plumb.BodyDesc(box, mass=1, material=SLIPPERY))
             joint = world.joints.create(plumb.JointDesc("slider", body))
-            world.modify.joints([plumb.JointChange(joint, motors={0: plumb.Motor(1, 100)}, limits={0: plumb.Limit(-1, 0.5)})])
+            world.modify.joints(
+                [plumb.JointChange(joint, motors={0: plumb.Motor(1, 100)}, limits={0: plumb.Limit(-1, 0.5)})]
+            )
             steps(world, 120)
             self.assertAlmostEqual(world.joints.read("coordinates", joint)[0], 0.5, delta=0.02)
             world.modify.joints([plumb.JointChange(joint, motors={}, limits={}, position_a=(0, 2, 0))])
@@ -74,9 +80,11 @@ class Modify(unittest.TestCase):
         engine = first(asked=able_to("bodies", "motion"))
         with engine.world([]) as world:
             body = world.create_body(particle())
-            for change, text in [(plumb.BodyChange(body, motion="statik"), r'changes\[0\].motion "statik" is unknown'),
-                                 (plumb.BodyChange(body, inertia=(1, 2)), r"changes\[0\].inertia must be 3 numbers"),
-                                 (plumb.BodyChange(body, locks="x"), "locks")]:
+            for change, text in [
+                (plumb.BodyChange(body, motion="statik"), r'changes\[0\].motion "statik" is unknown'),
+                (plumb.BodyChange(body, inertia=(1, 2)), r"changes\[0\].inertia must be 3 numbers"),
+                (plumb.BodyChange(body, locks="x"), "locks"),
+            ]:
                 with self.subTest(text), self.assertRaisesRegex(ValueError, text):
                     world.modify.bodies([change])
             with self.assertRaises(plumb.Error) as raised:

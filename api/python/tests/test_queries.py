@@ -12,8 +12,12 @@ class Queries(unittest.TestCase):
         """Spheres of radius 1 at x = 5, 10, 15, of categories 1, 2, 4."""
         world = engine.world(NEEDS)
         ball = world.create_shape(plumb.Sphere(1))
-        bodies = world.create_bodies([plumb.BodyDesc(ball, "static", position=(5 * i, 0, 0), filter=plumb.Filter(2 ** (i - 1)))
-                                      for i in (1, 2, 3)])
+        bodies = world.create_bodies(
+            [
+                plumb.BodyDesc(ball, "static", position=(5 * i, 0, 0), filter=plumb.Filter(2 ** (i - 1)))
+                for i in (1, 2, 3)
+            ]
+        )
         world.step(1 / 60)
         return world, ball, bodies
 
@@ -62,10 +66,19 @@ class Queries(unittest.TestCase):
         if "plumb.debug/1" not in engine.extensions:
             return
         with engine.world(["collision", "friction", "rotation"]) as world:
-            pair = {floor(world), world.create_body(plumb.BodyDesc(world.create_shape(plumb.Sphere(1)), position=(0, 0.99, 0)))}
+            pair = {
+                floor(world),
+                world.create_body(plumb.BodyDesc(world.create_shape(plumb.Sphere(1)), position=(0, 0.99, 0))),
+            }
             world.step(1 / 60)
             shown = 0
-            for look in (world.debug.pairs, world.debug.axes, world.debug.constraints, world.debug.bodies, world.debug.boxes):
+            for look in (
+                world.debug.pairs,
+                world.debug.axes,
+                world.debug.constraints,
+                world.debug.bodies,
+                world.debug.boxes,
+            ):
                 try:
                     rows = look()
                 except plumb.Error as error:
@@ -79,9 +92,14 @@ class Queries(unittest.TestCase):
     def test_what_is_refused(self):
         engine = first(*NEEDS, asked=[("query", "ray")])
         world, ball, _ = self.scene(engine)
-        for call, text in [(lambda: world.queries.rays((0, 0), (1, 0, 0)), "origin must be 3 numbers"),
-                           (lambda: world.queries.rays(np.zeros((3, 3)), np.ones((2, 3))), "translation has 2 rows, where origin has 3"),
-                           (lambda: world.queries.rays((0, 0, 0), (1, 0, 0), mode="nearest"), 'mode "nearest" is unknown')]:
+        for call, text in [
+            (lambda: world.queries.rays((0, 0), (1, 0, 0)), "origin must be 3 numbers"),
+            (
+                lambda: world.queries.rays(np.zeros((3, 3)), np.ones((2, 3))),
+                "translation has 2 rows, where origin has 3",
+            ),
+            (lambda: world.queries.rays((0, 0, 0), (1, 0, 0), mode="nearest"), 'mode "nearest" is unknown'),
+        ]:
             with self.subTest(text), self.assertRaisesRegex(ValueError, text):
                 call()
         with self.assertRaises(plumb.Error):

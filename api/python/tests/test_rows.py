@@ -65,7 +65,11 @@ class Rows(unittest.TestCase):
             (lambda: world.read("speed"), ValueError, 'field "speed" is unknown'),
             (lambda: world.read("pos"), ValueError, 'did you mean "pose"'),
             (lambda: world.read(99), ValueError, "field 99 is unknown"),
-            (lambda: world.read("pose", out=np.empty((5, 6))), ValueError, r"out must be of shape \(n, 7\), not \(5, 6\)"),
+            (
+                lambda: world.read("pose", out=np.empty((5, 6))),
+                ValueError,
+                r"out must be of shape \(n, 7\), not \(5, 6\)",
+            ),
             (lambda: world.read("pose", out=np.empty((5, 7), int)), TypeError, "out must be a NumPy array of float64"),
             (lambda: world.read("pose", out=[[0] * 7] * 5), TypeError, "out must be a NumPy array"),
             (lambda: world.read("pose", bodies, out=np.empty((4, 7))), ValueError, r"shape \(5, 7\)"),
@@ -93,11 +97,13 @@ class Rows(unittest.TestCase):
     def test_what_the_backend_refuses_has_its_sentence_and_code(self):
         world, bodies = self.make(first("forces"))
         world.destroy_bodies(bodies[0])
-        for call, code in [(lambda: world.read("pose", bodies[0]), plumb.Result.STALE_HANDLE),
-                           (lambda: world.write("velocity", [np.nan] * 6), plumb.Result.INVALID_ARGUMENT),
-                           (lambda: world.read("force"), plumb.Result.UNSUPPORTED),
-                           (lambda: world.step(-1), plumb.Result.INVALID_ARGUMENT),
-                           (lambda: world.read("pose", out=np.empty((9, 7))), plumb.Result.INVALID_ARGUMENT)]:
+        for call, code in [
+            (lambda: world.read("pose", bodies[0]), plumb.Result.STALE_HANDLE),
+            (lambda: world.write("velocity", [np.nan] * 6), plumb.Result.INVALID_ARGUMENT),
+            (lambda: world.read("force"), plumb.Result.UNSUPPORTED),
+            (lambda: world.step(-1), plumb.Result.INVALID_ARGUMENT),
+            (lambda: world.read("pose", out=np.empty((9, 7))), plumb.Result.INVALID_ARGUMENT),
+        ]:
             with self.subTest(code=code), self.assertRaises(plumb.Error) as raised:
                 call()
             self.assertEqual(raised.exception.code, code)

@@ -17,12 +17,29 @@ class Shapes(unittest.TestCase):
     @on_each(*QUERIES, asked=[("query", "ray")])
     def test_simple_ones(self, engine):
         corners = np.array([(x, y, z) for x in (-1, 1) for y in (-2, 2) for z in (-1, 1)])
-        quads = [(0, 1, 3), (0, 3, 2), (4, 6, 7), (4, 7, 5), (0, 4, 5), (0, 5, 1), (2, 3, 7), (2, 7, 6), (0, 2, 6), (0, 6, 4),
-                 (1, 5, 7), (1, 7, 3)]
-        tops = {"sphere": (plumb.Sphere(2), np.sqrt(4 - 0.01)), "box": (plumb.Box((1, 2, 1)), 2),
-                "capsule": (plumb.Capsule(0.5, 1), 1 + np.sqrt(0.25 - 0.01)), "cylinder": (plumb.Cylinder(1, 2), 2),
-                "convex_hull": (plumb.ConvexHull(corners), 2), "triangle_mesh": (plumb.TriangleMesh(corners, quads), 2),
-                "plane": (plumb.Plane(), 0)}
+        quads = [
+            (0, 1, 3),
+            (0, 3, 2),
+            (4, 6, 7),
+            (4, 7, 5),
+            (0, 4, 5),
+            (0, 5, 1),
+            (2, 3, 7),
+            (2, 7, 6),
+            (0, 2, 6),
+            (0, 6, 4),
+            (1, 5, 7),
+            (1, 7, 3),
+        ]
+        tops = {
+            "sphere": (plumb.Sphere(2), np.sqrt(4 - 0.01)),
+            "box": (plumb.Box((1, 2, 1)), 2),
+            "capsule": (plumb.Capsule(0.5, 1), 1 + np.sqrt(0.25 - 0.01)),
+            "cylinder": (plumb.Cylinder(1, 2), 2),
+            "convex_hull": (plumb.ConvexHull(corners), 2),
+            "triangle_mesh": (plumb.TriangleMesh(corners, quads), 2),
+            "plane": (plumb.Plane(), 0),
+        }
         for name, (shape, top) in tops.items():
             if not engine.capability("shape", name, "static").degree:
                 continue
@@ -39,18 +56,23 @@ class Shapes(unittest.TestCase):
             heights = np.repeat(np.arange(5.0)[np.newaxis], 3, axis=0)  # rising along x, by 1 every 2 m
             world.create_body(plumb.BodyDesc(world.create_shape(plumb.HeightField(heights, (2, 3))), "static"))
             world.step(1 / 60)
-            np.testing.assert_allclose(heights_along_x(world, [-4 + 0.1, -1, 0.5, 3]), [0.05, 1.5, 2.25, 3.5], atol=0.02)
+            np.testing.assert_allclose(
+                heights_along_x(world, [-4 + 0.1, -1, 0.5, 3]), [0.05, 1.5, 2.25, 3.5], atol=0.02
+            )
             self.assertTrue(np.isnan(heights_along_x(world, [4.5])[0]), "the field is 8 m long")
 
     @on_each("rotation", "collision", "friction", asked=[("shape", "compound", "dynamic")])
     def test_compounds(self, engine):
         with engine.world(["rotation", "collision", "friction"]) as world:
             cube = world.create_shape(plumb.Box((0.5, 0.5, 0.5)))
-            pair = world.create_shape(plumb.Compound([
-                plumb.Child(cube, (-1, 0, 0)), plumb.Child(cube, (3, 0, 0), (0, 0, 1, 0), plumb.Material(1, 0))]))
+            pair = world.create_shape(
+                plumb.Compound(
+                    [plumb.Child(cube, (-1, 0, 0)), plumb.Child(cube, (3, 0, 0), (0, 0, 1, 0), plumb.Material(1, 0))]
+                )
+            )
             mass = world.read("mass", world.create_body(plumb.BodyDesc(pair, density=2)))
             np.testing.assert_allclose(mass[:4], [4, 1, 0, 0], atol=1e-9)
-            np.testing.assert_allclose(sorted(mass[4:7]), [4 / 6, 4 / 6 + 4 * 2 ** 2, 4 / 6 + 4 * 2 ** 2])
+            np.testing.assert_allclose(sorted(mass[4:7]), [4 / 6, 4 / 6 + 4 * 2**2, 4 / 6 + 4 * 2**2])
             with self.assertRaises(plumb.Error) as raised:
                 world.destroy_shapes(cube)
             self.assertEqual(raised.exception.code, plumb.Result.IN_USE)

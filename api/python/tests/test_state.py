@@ -104,7 +104,10 @@ class LentRows(unittest.TestCase):
             self.assertEqual(name(capsule), b"dltensor_versioned")
             tensor = pointer(capsule, b"dltensor_versioned")
             major, minor = (ctypes.c_uint32 * 2).from_address(tensor)
-            flags, data = ctypes.c_uint64.from_address(tensor + 24).value, ctypes.c_void_p.from_address(tensor + 32).value
+            flags, data = (
+                ctypes.c_uint64.from_address(tensor + 24).value,
+                ctypes.c_void_p.from_address(tensor + 32).value,
+            )
             self.assertEqual((major, flags & 1, data), (1, rows.read_only, rows.address))
 
     @on_each()

@@ -14,12 +14,29 @@ NEED = re.compile(r"#define PLUMB_(NEED_\w+) \(\(PlumbNeeds\)1 << (\d+)\)")
 
 # What each enumeration's members begin with in C.
 PREFIXES = {
-    plumb.Need: "NEED_", plumb.ShapeType: "", plumb.Motion: "", plumb.BodyFlag: "BODY_", plumb.Lock: "LOCK_",
-    plumb.MassMode: "MASS_", plumb.Field: "FIELD_", plumb.JointType: "JOINT_", plumb.AxisMode: "AXIS_",
-    plumb.JointField: "JOINT_", plumb.JointFeature: "JOINT_", plumb.QueryKind: "QUERY_", plumb.HitMode: "HIT_",
-    plumb.EventType: "EVENT_", plumb.Phase: "PHASE_", plumb.Remark: "REMARK_", plumb.CapabilityKind: "CAP_",
-    plumb.Degree: "", plumb.Determinism: "DETERMINISM_", plumb.SettingType: "SETTING_", plumb.SettingRole: "ROLE_",
-    plumb.BodyMember: "MODIFY_", plumb.JointMember: "MODIFY_",
+    plumb.Need: "NEED_",
+    plumb.ShapeType: "",
+    plumb.Motion: "",
+    plumb.BodyFlag: "BODY_",
+    plumb.Lock: "LOCK_",
+    plumb.MassMode: "MASS_",
+    plumb.Field: "FIELD_",
+    plumb.JointType: "JOINT_",
+    plumb.AxisMode: "AXIS_",
+    plumb.JointField: "JOINT_",
+    plumb.JointFeature: "JOINT_",
+    plumb.QueryKind: "QUERY_",
+    plumb.HitMode: "HIT_",
+    plumb.EventType: "EVENT_",
+    plumb.Phase: "PHASE_",
+    plumb.Remark: "REMARK_",
+    plumb.CapabilityKind: "CAP_",
+    plumb.Degree: "",
+    plumb.Determinism: "DETERMINISM_",
+    plumb.SettingType: "SETTING_",
+    plumb.SettingRole: "ROLE_",
+    plumb.BodyMember: "MODIFY_",
+    plumb.JointMember: "MODIFY_",
     plumb.Result: "",
 }
 
@@ -54,22 +71,44 @@ class Words(unittest.TestCase):
 
     def test_none_is_missing(self):
         numbers = defined()
-        counts = {plumb.ShapeType: "SHAPE_TYPE_COUNT", plumb.Motion: "MOTION_COUNT", plumb.Field: "FIELD_COUNT",
-                  plumb.JointType: "JOINT_TYPE_COUNT", plumb.JointField: "JOINT_FIELD_COUNT",
-                  plumb.JointFeature: "JOINT_FEATURE_COUNT", plumb.QueryKind: "QUERY_KIND_COUNT",
-                  plumb.EventType: "EVENT_COUNT", plumb.CapabilityKind: "CAP_COUNT"}
+        counts = {
+            plumb.ShapeType: "SHAPE_TYPE_COUNT",
+            plumb.Motion: "MOTION_COUNT",
+            plumb.Field: "FIELD_COUNT",
+            plumb.JointType: "JOINT_TYPE_COUNT",
+            plumb.JointField: "JOINT_FIELD_COUNT",
+            plumb.JointFeature: "JOINT_FEATURE_COUNT",
+            plumb.QueryKind: "QUERY_KIND_COUNT",
+            plumb.EventType: "EVENT_COUNT",
+            plumb.CapabilityKind: "CAP_COUNT",
+        }
         for kind, count in counts.items():
             self.assertEqual(len(kind), numbers[count], kind.__name__)
-        for kind in (plumb.Need, plumb.BodyFlag, plumb.Lock, plumb.MassMode, plumb.AxisMode, plumb.Phase, plumb.Remark,
-                     plumb.Determinism, plumb.SettingRole):
+        for kind in (
+            plumb.Need,
+            plumb.BodyFlag,
+            plumb.Lock,
+            plumb.MassMode,
+            plumb.AxisMode,
+            plumb.Phase,
+            plumb.Remark,
+            plumb.Determinism,
+            plumb.SettingRole,
+        ):
             of_c = {name for name in numbers if name.startswith(PREFIXES[kind])} - {PREFIXES[kind] + "COUNT"}
             self.assertEqual({PREFIXES[kind] + name for name in kind.__members__}, of_c, kind.__name__)
-        self.assertEqual((len(plumb.BodyMember), len(plumb.JointMember)),
-                         (numbers["MODIFY_BODY_COUNT"], numbers["MODIFY_JOINT_COUNT"]))
+        self.assertEqual(
+            (len(plumb.BodyMember), len(plumb.JointMember)),
+            (numbers["MODIFY_BODY_COUNT"], numbers["MODIFY_JOINT_COUNT"]),
+        )
         self.assertEqual(sum(name.startswith("E_") for name in numbers), sum(code < 0 for code in plumb.Result))
 
     def test_all_enumerations_are_asked_for_here(self):
-        public = {thing for thing in vars(plumb).values() if isinstance(thing, type) and issubclass(thing, (IntEnum, IntFlag))}
+        public = {
+            thing
+            for thing in vars(plumb).values()
+            if isinstance(thing, type) and issubclass(thing, (IntEnum, IntFlag))
+        }
         self.assertEqual(public, set(PREFIXES))
 
 

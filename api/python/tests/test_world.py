@@ -11,7 +11,9 @@ class Backends(unittest.TestCase):
     def test_says_what_it_is(self, engine):
         self.assertEqual(plumb.open(engine.file).info, engine.info)
         self.assertIn(engine.info.precision, ("f32", "f64"))
-        self.assertIn((engine.info.name, engine.file), [(name, os.path.realpath(file)) for name, file in plumb.backends()])
+        self.assertIn(
+            (engine.info.name, engine.file), [(name, os.path.realpath(file)) for name, file in plumb.backends()]
+        )
         self.assertIn("plumb.settings/1", engine.extensions)
         answers = engine.capabilities()
         self.assertEqual(answers["shape", "sphere", "dynamic"].degree, plumb.Degree.NATIVE)
@@ -41,8 +43,11 @@ class Backends(unittest.TestCase):
 class Worlds(unittest.TestCase):
     @on_each()
     def test_settings(self, engine):
-        whole = [info for info in engine.settings.values()
-                 if info.type == plumb.SettingType.INT and info.default > info.minimum and not info.creation_only]
+        whole = [
+            info
+            for info in engine.settings.values()
+            if info.type == plumb.SettingType.INT and info.default > info.minimum and not info.creation_only
+        ]
         if not whole:
             return
         name, less = whole[0].name, whole[0].default - 1
@@ -108,7 +113,10 @@ class Worlds(unittest.TestCase):
             seen = []
             for _ in range(90):
                 world.step(1 / 60)
-                seen += [(plumb.EventType(event["type"]).name, {event["body_a"], event["body_b"]}) for event in world.events()]
+                seen += [
+                    (plumb.EventType(event["type"]).name, {event["body_a"], event["body_b"]})
+                    for event in world.events()
+                ]
             self.assertIn(("SENSOR_ENTER", {sensor, body}), seen)
             self.assertIn(("SENSOR_LEAVE", {sensor, body}), seen)
             self.assertIn(("CONTACT_BEGIN", {ground, body}), seen)
@@ -120,7 +128,9 @@ class Worlds(unittest.TestCase):
             ball = world.create_shape(plumb.Sphere(0.5))
             world.create_bodies([plumb.BodyDesc(ball, position=(2 * i, 0.499, 0)) for i in range(3)])
             report = steps(world, 3)
-            self.assertEqual((report.step, report.bodies, report.awake, report.joints, report.nonfinite), (3, 4, 3, 0, 0))
+            self.assertEqual(
+                (report.step, report.bodies, report.awake, report.joints, report.nonfinite), (3, 4, 3, 0, 0)
+            )
             self.assertGreaterEqual(report.contacts, 3)
             self.assertEqual(report.remarks & ~sum(plumb.Remark), 0)
             self.assertTrue(all(seconds >= 0 for seconds in report.phase_seconds.values()))
