@@ -77,10 +77,7 @@ void bind_backend(py::module_& module) {
       py::make_tuple(PLUMB_VERSION_MAJOR(PLUMB_VERSION), PLUMB_VERSION_MINOR(PLUMB_VERSION));
   module.attr("installed_prefix") = PLUMB_PYTHON_PREFIX;
   module.def("backend_path", &backend_path);
-  module.def("open_backend", [](const std::string& file) {
-    const py::gil_scoped_release release;  // its own initialisation may take long
-    return open_backend(file);
-  });
+  module.def("open_backend", [](const std::string& file) { return open_backend(file); });
   py::class_<Backend>(module, "Backend")
       .def_property_readonly("file", &Backend::file)
       .def("info", &info_of)

@@ -98,34 +98,23 @@ py::dtype build<PlumbCompoundChild>() {
 template <>
 py::dtype build<PlumbBodyChange>() {
   using Row = PlumbBodyChange;
-  return make(sizeof(Row), {PLUMB_COLUMN(Row, body, text("u8")),
-                            PLUMB_COLUMN(Row, what, text("u4")),
-                            PLUMB_COLUMN(Row, motion, text("u4")),
-                            PLUMB_COLUMN(Row, flags, text("u4")),
-                            PLUMB_COLUMN(Row, locks, text("u4")),
-                            PLUMB_COLUMN(Row, shape, text("u8")),
-                            PLUMB_COLUMN(Row, mass_mode, text("u4")),
-                            PLUMB_COLUMN(Row, density, text("f8")),
-                            PLUMB_COLUMN(Row, mass, text("f8")),
-                            PLUMB_COLUMN(Row, centre_of_mass, text("(3,)f8")),
-                            PLUMB_COLUMN(Row, inertia, text("(3,)f8")),
-                            PLUMB_COLUMN(Row, inertia_orientation, text("(4,)f8"))});
+  return make(
+      sizeof(Row),
+      {PLUMB_COLUMN(Row, body, text("u8")), PLUMB_COLUMN(Row, what, text("u4")), PLUMB_COLUMN(Row, motion, text("u4")),
+       PLUMB_COLUMN(Row, flags, text("u4")), PLUMB_COLUMN(Row, locks, text("u4")), PLUMB_COLUMN(Row, shape, text("u8")),
+       PLUMB_COLUMN(Row, mass_mode, text("u4")), PLUMB_COLUMN(Row, density, text("f8")),
+       PLUMB_COLUMN(Row, mass, text("f8")), PLUMB_COLUMN(Row, centre_of_mass, text("(3,)f8")),
+       PLUMB_COLUMN(Row, inertia, text("(3,)f8")), PLUMB_COLUMN(Row, inertia_orientation, text("(4,)f8"))});
 }
 template <>
 py::dtype build<PlumbJointChange>() {
   using Row = PlumbJointChange;
-  return make(sizeof(Row), {PLUMB_COLUMN(Row, joint, text("u8")),
-                            PLUMB_COLUMN(Row, what, text("u4")),
-                            PLUMB_COLUMN(Row, enabled, text("u4")),
-                            PLUMB_COLUMN(Row, collide_connected, text("u4")),
-                            PLUMB_POSE(Row, frame_a, "_a"),
-                            PLUMB_POSE(Row, frame_b, "_b"),
-                            PLUMB_COLUMN(Row, axis_modes, text("(6,)u4")),
-                            PLUMB_COLUMN(Row, limits, six_of(limit())),
-                            PLUMB_COLUMN(Row, motors, six_of(motor())),
-                            PLUMB_COLUMN(Row, springs, six_of(spring())),
-                            PLUMB_COLUMN(Row, rest_length, text("f8")),
-                            PLUMB_COLUMN(Row, break_force, text("f8")),
+  return make(sizeof(Row), {PLUMB_COLUMN(Row, joint, text("u8")), PLUMB_COLUMN(Row, what, text("u4")),
+                            PLUMB_COLUMN(Row, enabled, text("u4")), PLUMB_COLUMN(Row, collide_connected, text("u4")),
+                            PLUMB_POSE(Row, frame_a, "_a"), PLUMB_POSE(Row, frame_b, "_b"),
+                            PLUMB_COLUMN(Row, axis_modes, text("(6,)u4")), PLUMB_COLUMN(Row, limits, six_of(limit())),
+                            PLUMB_COLUMN(Row, motors, six_of(motor())), PLUMB_COLUMN(Row, springs, six_of(spring())),
+                            PLUMB_COLUMN(Row, rest_length, text("f8")), PLUMB_COLUMN(Row, break_force, text("f8")),
                             PLUMB_COLUMN(Row, break_torque, text("f8"))});
 }
 template <>

@@ -3,14 +3,8 @@
 namespace plumb::python {
 
 World::World(const PlumbBackendTable& table, const PlumbWorldDesc& desc) : table_(table) {
-  PlumbResult result = PLUMB_OK;
-  std::string text;
-  {
-    const py::gil_scoped_release release;
-    result = table.create_world(&desc, &world_);
-    if (result < 0) text = table.error_text(nullptr);
-  }
-  if (result < 0) throw Error(result, text);
+  const PlumbResult result = unlocked([&] { return table.create_world(&desc, &world_); });
+  if (result < 0) throw Error(result, table.error_text(nullptr));
 }
 
 void World::destroy() {
@@ -22,8 +16,10 @@ void World::destroy() {
 
 void World::close() {
   const Passage passage(gate_, Tag::world, "close");
-  const py::gil_scoped_release release;
-  destroy();
+  unlocked([&] {
+    destroy();
+    return true;
+  });
 }
 
 void World::require_open(const char* name) const {
@@ -77,12 +73,7 @@ Report World::wait() {
   require_open("wait");
   if (!stepping_) throw Error(PLUMB_E_WRONG_PHASE, "wait: no step is under way; call begin_step() first");
   Report report{};
-  PlumbResult result = PLUMB_OK;
-  {
-    const py::gil_scoped_release release;
-    result = finish(report);
-  }
-  checked(result);
+  checked(unlocked([&] { return finish(report); }));
   return report;
 }
 

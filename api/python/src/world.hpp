@@ -7,6 +7,7 @@
 #include "core.hpp"
 #include "dtypes.hpp"
 #include "gate.hpp"
+#include "unlocked.hpp"
 
 namespace plumb::python {
 
@@ -42,11 +43,7 @@ class World {
   PlumbResult call_unlocked(Tag tag, const char* name, Act&& act) {
     const Passage passage(gate_, tag, name);
     require_ready(name);
-    const PlumbResult result = [&] {
-      const py::gil_scoped_release release;
-      return act(table_, world_);
-    }();
-    return checked(result);
+    return checked(unlocked([&] { return act(table_, world_); }));
   }
 
   /// The table of an extension. Throws Error (PLUMB_E_UNSUPPORTED) where the backend has none.

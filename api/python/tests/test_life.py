@@ -1,6 +1,7 @@
 """Worlds and what they lend: who keeps whom alive, what is refused after the end, and threads."""
 
 import gc
+import subprocess
 import sys
 import threading
 import time
@@ -86,6 +87,25 @@ class Life(unittest.TestCase):
                 self.assertEqual(raised.exception.code, plumb.Result.WRONG_PHASE)
             self.assertEqual(world.wait().step, 1)
             self.assertEqual(world.step(0.01).step, 2)
+
+
+class Endings(unittest.TestCase):
+    def test_a_program_may_end_at_any_time(self):
+        """With a step under way, rows that are lent, and a thread that steps on."""
+        program = """
+import sys, threading, time
+from support import first, particle, plumb
+worlds = [first().world([]) for _ in range(2)]
+for world in worlds:
+    world.create_body(particle())
+lent = worlds[0].state.borrow("pose", copy=True)
+view, capsule = lent.numpy(), lent.__dlpack__()
+worlds[0].begin_step(0.01)
+threading.Thread(target=lambda: [worlds[1].step(0.01) for _ in range(10**9)], daemon=True).start()
+time.sleep(0.05)
+"""
+        ended = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60)
+        self.assertEqual((ended.returncode, ended.stderr), (0, ""))
 
 
 class Threads(unittest.TestCase):
