@@ -20,7 +20,10 @@ export type Need =
  * awake and gravityScale 1, the others 3. */
 export type Field =
   | 'pose' | 'velocity' | 'force' | 'torque' | 'impulse' | 'angularImpulse' | 'forceAtPoint' | 'impulseAtPoint'
-  | 'awake' | 'kinematicTarget' | 'mass' | 'material' | 'gravityScale' | 'damping';
+  | 'awake' | 'kinematicTarget' | 'mass' | 'material' | 'gravityScale' | 'damping' | 'surfaceVelocity' | 'filter';
+
+/** Columns: coordinates 6, reaction 6, motor 12 (target velocity, max force, of each of the six axes in turn). */
+export type JointField = 'coordinates' | 'reaction' | 'motor';
 
 /** A failed call. code: PlumbResult, below 0. */
 export class PlumbError extends Error {
@@ -34,77 +37,259 @@ export interface WorldOptions {
   /** m/s2; 0 -9.81 0. */
   gravity?: Vec3;
   /** By name: numbers, or words of a choice. */
-  settings?: Readonly<Record<string, number | string>>;
+  settings?: Readonly<Record<string, number | string | boolean>>;
+  threads?: number;
 }
 
+export interface Material {
+  /** Coulomb; 0.5. A pair's is the geometric mean. */
+  friction?: number;
+  /** 0..1; 0. A pair's is the larger. */
+  restitution?: number;
+  /** m/s in the body's frame, for conveyors; needs surfaceVelocity. */
+  surfaceVelocity?: Vec3;
+}
+
+/** A sphere, box, capsule, cylinder or hull, placed in a compound. */
+export interface Child extends Frame {
+  shape: Shape;
+  /** Left out: the body's. */
+  material?: Material;
+}
+
+/** Metres. Capsules and cylinders stand along y. */
 export type ShapeOptions =
   | { type: 'sphere'; radius: number }
   | { type: 'box'; halfExtents: Vec3 }
   | { type: 'capsule' | 'cylinder'; radius: number; halfHeight: number }
   | { type: 'hull'; vertices: ArrayLike<number> }
   | { type: 'mesh'; vertices: ArrayLike<number>; indices: ArrayLike<number> }
-  | { type: 'plane' };
+  /** rows (along z) times columns (along x) heights; spacing along x and z. The origin is the middle. */
+  | { type: 'heightField'; rows: number; columns: number; heights: ArrayLike<number>; spacing: readonly [number, number] }
+  | { type: 'plane' }
+  | { type: 'compound'; children: readonly Child[] };
 
-export interface BodyOptions extends Frame {
-  shape?: Shape;
-  motion?: 'static' | 'kinematic' | 'dynamic';
-  linearVelocity?: Vec3;
-  angularVelocity?: Vec3;
+export type Motion = 'static' | 'kinematic' | 'dynamic';
+export type Flag = 'sensor' | 'ccd' | 'noRotation' | 'asleep' | 'neverSleeps';
+export type Lock = 'linearX' | 'linearY' | 'linearZ' | 'angularX' | 'angularY' | 'angularZ';
+
+/** Two may touch if equal groups other than 0 say so (above 0), or each one's category is in the other's mask. */
+export interface Filter {
+  category?: number;
+  mask?: number;
+  group?: number;
+}
+
+export interface MassOptions {
   /** kg/m3; 1000. */
   density?: number;
   /** kg, instead of the density. */
   mass?: number;
-  friction?: number;
-  restitution?: number;
-  gravityScale?: number;
-  linearDamping?: number;
-  angularDamping?: number;
-  flags?: readonly ('sensor' | 'ccd' | 'noRotation' | 'asleep' | 'neverSleeps')[];
+  /** Principal moments, kg m2: then the mass, the centre and the orientation of the moments are as given, too. */
+  inertia?: Vec3;
+  centreOfMass?: Vec3;
+  inertiaOrientation?: Quat;
 }
 
-export interface JointOptions {
-  type: 'ball' | 'hinge' | 'slider' | 'distance' | 'fixed' | 'universal';
+export interface BodyOptions extends Frame, MassOptions, Material {
+  shape?: Shape;
+  motion?: Motion;
+  linearVelocity?: Vec3;
+  angularVelocity?: Vec3;
+  gravityScale?: number;
+  /** 1/s */
+  linearDamping?: number;
+  angularDamping?: number;
+  flags?: readonly Flag[];
+  locks?: readonly Lock[];
+  filter?: Filter;
+  /** Any value: World.userData gives it back. */
+  userData?: unknown;
+}
+
+/** What is given changes; velocities, poses and materials are fields. */
+export interface BodyChange extends MassOptions {
+  motion?: Motion;
+  shape?: Shape;
+  flags?: readonly Flag[];
+  locks?: readonly Lock[];
+}
+
+export type Axis = 'x' | 'y' | 'z' | 'angularX' | 'angularY' | 'angularZ';
+type OfAxes<Value> = Partial<Record<Axis, Value>>;
+
+export interface JointRow {
+  frameA?: Frame;
+  frameB?: Frame;
+  /** Of a generic joint; axes that are not named are free. */
+  axes?: OfAxes<'free' | 'locked' | 'limited'>;
+  /** Lower and upper, m or rad. */
+  limits?: OfAxes<readonly [lower: number, upper: number]>;
+  /** m/s or rad/s; N or N m. */
+  motors?: OfAxes<{ targetVelocity?: number; maxForce: number }>;
+  /** m or rad; Hz; 1 is critical damping. */
+  springs?: OfAxes<{ rest?: number; frequency: number; dampingRatio?: number }>;
+  restLength?: number;
+  /** N and N m; 0: never breaks. */
+  breakForce?: number;
+  breakTorque?: number;
+  collideConnected?: boolean;
+}
+
+export interface JointOptions extends JointRow {
+  type: 'ball' | 'hinge' | 'slider' | 'distance' | 'fixed' | 'universal' | 'generic';
   /** Left out: the world. */
   a?: Body;
   b: Body;
-  frameA?: Frame;
-  frameB?: Frame;
-  restLength?: number;
+  userData?: unknown;
+}
+
+/** What is given changes, together with what is beside it: both frames; limits, axes and rest length; both strengths. */
+export interface JointChange extends JointRow {
+  enabled?: boolean;
 }
 
 export interface Hit {
   body: Body;
+  /** Of a compound, or triangle of a mesh. */
+  child: number;
   fraction: number;
   position: number[];
   normal: number[];
 }
 
+export interface Contact {
+  a: Body;
+  b: Body;
+  childA: number;
+  childB: number;
+  position: number[];
+  /** From a to b. */
+  normal: number[];
+  /** m; below 0: a gap. */
+  depth: number;
+  /** N s on b; NaN where the engine does not tell. */
+  normalImpulse: number;
+  tangentImpulse: number[];
+  feature: bigint;
+}
+
+export interface Event {
+  type: 'contactBegin' | 'contactEnd' | 'sensorEnter' | 'sensorLeave' | 'wake' | 'sleep' | 'jointBroken';
+  /** The sensor, or who sleeps or wakes. */
+  a: Body;
+  b: Body;
+  joint: Joint;
+}
+
+export interface StepReport {
+  threads: number;
+  step: bigint;
+  bodies: number;
+  awake: number;
+  pairs: number;
+  contacts: number;
+  joints: number;
+  dropped: number;
+  nonfinite: number;
+  remarks: number;
+  residual: number;
+  phaseSeconds: number[];
+}
+
+export interface Ray {
+  origin: Vec3;
+  translation: Vec3;
+  filter?: Filter;
+}
+export interface Cast extends Frame {
+  shape: Shape;
+  translation: Vec3;
+  filter?: Filter;
+}
+
 /** Calls throw PlumbError and change nothing then. */
 export interface World {
   createShape(options: ShapeOptions): Shape;
-  destroyShape(shape: Shape): void;
+  createShapes(list: readonly ShapeOptions[]): Shape[];
+  destroyShape(...shapes: Shape[]): void;
   createBody(options: BodyOptions): Body;
-  destroyBody(body: Body): void;
+  createBodies(list: readonly BodyOptions[]): Body[];
+  destroyBody(...bodies: Body[]): void;
   createJoint(options: JointOptions): Joint;
-  destroyJoint(joint: Joint): void;
+  createJoints(list: readonly JointOptions[]): Joint[];
+  destroyJoint(...joints: Joint[]): void;
+  userData(body: Body): unknown;
+  jointUserData(joint: Joint): unknown;
+  modifyBody(body: Body, change: BodyChange): void;
+  modifyJoint(joint: Joint, change: JointChange): void;
+  /** false: the two never touch; true: their filters decide again. */
+  setPairTouches(a: Body, b: Body, touch: boolean): void;
+
   setGravity(gravity: Vec3): void;
   /** s */
-  step(dt: number): void;
+  step(dt: number): StepReport;
+  /** Of the last step; needs contacts, and contactImpulses for impulses. */
+  contacts(): Contact[];
+  /** Of the last step; needs events or sensors. */
+  events(): Event[];
+
   readonly bodyCount: number;
+  /** In order of creation. */
+  readonly bodies: Body[];
   /** Rows one after another: of those bodies, or of all in order of creation. */
   read(field: Field, bodies?: readonly Body[] | null): Float64Array;
-  write(field: Field, body: Body, row: ArrayLike<number>): void;
-  castRay(origin: Vec3, translation: Vec3): Hit | null;
+  /** Of one body, or of a list with as many rows. */
+  write(field: Field, bodies: Body | readonly Body[], rows: ArrayLike<number>): void;
+  readJoints(field: JointField, joints: readonly Joint[]): Float64Array;
+  writeJoints(field: 'motor', joints: Joint | readonly Joint[], rows: ArrayLike<number>): void;
+
+  castRay(origin: Vec3, translation: Vec3, filter?: Filter): Hit | null;
+  castRays(rays: readonly Ray[], options?: { all?: false }): (Hit | null)[];
+  castRays(rays: readonly Ray[], options: { all: true }): Hit[][];
+  castShape(shape: Shape, frame: Frame, translation: Vec3, filter?: Filter): Hit | null;
+  castShapes(casts: readonly Cast[], options?: { all?: false }): (Hit | null)[];
+  castShapes(casts: readonly Cast[], options: { all: true }): Hit[][];
+  overlap(shape: Shape, frame: Frame, filter?: Filter): { body: Body; child: number }[];
+  /** How far apart (below 0: depth; NaN: the engine does not tell), and where they touch; normals from A to B. */
+  collide(pair: { shapeA: Shape; frameA?: Frame; shapeB: Shape; frameB?: Frame }): {
+    distance: number;
+    points: { position: number[]; normal: number[]; depth: number; feature: bigint }[];
+  };
+
+  getSetting(name: string): number | string | boolean;
+  setSetting(name: string, value: number | string | boolean): void;
+  /** What moves, as bytes; needs snapshot. */
+  save(): Uint8Array;
+  /** Into the world that saved it, with the same bodies and joints. */
+  restore(bytes: Uint8Array): void;
   /** 64 bits over all poses and velocities: the same on every machine. */
   hash(): bigint;
   /** Its shapes, bodies and joints go with it. */
   destroy(): void;
 }
 
-export interface Engine {
-  readonly info: Readonly<{ name: string; version: string; build: string }>;
-  createWorld(options?: WorldOptions): World;
+export interface Setting {
+  readonly name: string;
+  readonly unit: string;
+  readonly doc: string;
+  readonly type: 'bool' | 'int' | 'float' | 'choice';
+  readonly role: 'quality' | 'speed' | 'behaviour';
+  readonly creationOnly: boolean;
+  readonly choices: readonly string[];
+  readonly minimum: number;
+  readonly maximum: number;
+  readonly default: number | string | boolean;
 }
 
-/** source: where the .wasm is, its bytes, or what was compiled of it. */
-export function load(source: string | URL | BufferSource | WebAssembly.Module): Promise<Engine>;
+export interface Engine {
+  readonly info: Readonly<{ name: string; version: string; build: string }>;
+  readonly settings: readonly Setting[];
+  createWorld(options?: WorldOptions): World;
+  /** How truly it has a thing: capability('shape', 'mesh'), capability('joint', 'generic'). */
+  capability(kind: 'shape' | 'pair' | 'joint' | 'jointFeature' | 'query' | 'fieldRead' | 'fieldWrite' | 'need' | 'event',
+    of?: string | number, with_?: string | number): 'none' | 'approximate' | 'emulated' | 'native';
+}
+
+/** source: where the .wasm is, its bytes, or what was compiled of it; left out: beside the module. */
+export function load(source?: string | URL | BufferSource | WebAssembly.Module): Promise<Engine>;

@@ -1,15 +1,11 @@
-// The ES module and the .wasm as a page loads them, in Node: PLUMB_WEB=FOLDER node --test test_web.mjs
+// The bits of the .wasm, and what it says of mistakes: PLUMB_WEB=FOLDER node --test test_bits.mjs
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { test } from 'node:test';
-import { pathToFileURL } from 'node:url';
-
-const folder = pathToFileURL(`${process.env.PLUMB_WEB}/`);
-const { load, PlumbError } = await import(new URL('plumb.mjs', folder));
-const engine = await load(new URL('plumb-impulse.wasm', folder));
+import { engine, PlumbError } from './worlds.mjs';
 
 function recorded(scene) {
-  const rows = readFileSync(new URL('recorded.inc', import.meta.url), 'utf8');
+  const rows = readFileSync(new URL('../hashes/recorded.inc', import.meta.url), 'utf8');
   return BigInt(rows.match(`RECORDED\\("${scene}", (0x[0-9a-f]+)`)[1]);
 }
 

@@ -1,0 +1,73 @@
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { engine, grounded, positionOf, steps } from './worlds.mjs';
+
+const near = (value, wanted, by) => assert.ok(Math.abs(value - wanted) < by, `${value} is not ${wanted}`);
+
+test('a compound has the mass of its children, and lies on the lowest', () => {
+  const { world } = grounded();
+  const half = world.createShape({ type: 'box', halfExtents: [0.5, 0.25, 0.5] });
+  const shape = world.createShape({ type: 'compound',
+    children: [{ shape: half, position: [-1, 0, 0] }, { shape: half, position: [1, 0, 0] }] });
+  const body = world.createBody({ shape, position: [0, 0.3, 0], density: 100 });
+  near(world.read('mass', [body])[0], 2 * 100 * 0.5, 1e-4);
+  steps(world, 120);
+  near(positionOf(world, body)[1], 0.25, 5e-3);
+  world.destroy();
+});
+
+test('a ball comes to rest in the valley of a height field', () => {
+  const world = engine.createWorld({ needs: ['rotation', 'collision', 'friction'] });
+  const heights = Array.from({ length: 9 * 5 }, (_, i) => 0.25 * Math.abs((i % 9) - 4));
+  const field = world.createShape({ type: 'heightField', rows: 5, columns: 9, heights, spacing: [1, 2] });
+  world.createBody({ shape: field, motion: 'static' });
+  const ball = world.createBody({ shape: world.createShape({ type: 'sphere', radius: 0.5 }), position: [1.5, 1, 0.2],
+    friction: 0.5 });
+  steps(world, 600);
+  const [x, y, z] = positionOf(world, ball);
+  near(x, 0, 0.25);
+  near(y, 0.5 * Math.sqrt(1 + 0.25 ** 2), 0.02);
+  near(z, 0.2, 0.2);
+  world.destroy();
+});
+
+test('filters and excluded pairs let bodies through', () => {
+  const { world, ground, cube } = grounded(['filters']);
+  const [lies, falls, excluded] = world.createBodies([
+    { shape: cube, position: [0, 0.5, 0], filter: { category: 2 } },
+    { shape: cube, position: [3, 0.5, 0], filter: { category: 2, mask: 2 } },
+    { shape: cube, position: [6, 0.5, 0] }]);
+  world.setPairTouches(ground, excluded, false);
+  steps(world, 30);
+  near(positionOf(world, lies)[1], 0.5, 1e-2);
+  assert.ok(positionOf(world, falls)[1] < 0 && positionOf(world, excluded)[1] < 0);
+  assert.deepEqual([...world.read('filter', [falls])], [2, 2, 0]);
+  world.destroy();
+});
+
+test('a belt carries what lies on it', () => {
+  const { world, ground, cube } = grounded(['surfaceVelocity']);
+  const body = world.createBody({ shape: cube, position: [0, 0.5, 0] });
+  world.write('surfaceVelocity', ground, [2, 0, 0]);
+  steps(world, 120);
+  near(world.read('velocity', [body])[0], 2, 0.02);
+  world.destroy();
+});
+
+test('bodies are listed, keep what the page gave them, and become others', () => {
+  const { world, ground, cube } = grounded();
+  const body = world.createBody({ shape: cube, position: [0, 3, 0], userData: { name: 'crate' } });
+  assert.deepEqual(world.bodies, [ground, body]);
+  assert.equal(world.userData(body).name, 'crate');
+  world.modifyBody(body, { motion: 'static' });
+  steps(world, 30);
+  near(positionOf(world, body)[1], 3, 1e-9);
+  world.modifyBody(body, { motion: 'dynamic', mass: 7 });
+  assert.equal(world.read('mass', [body])[0], 7);
+  steps(world, 120);
+  near(positionOf(world, body)[1], 0.5, 1e-2);
+  assert.throws(() => world.modifyBody(body, { colour: 3 }), /nothing that can change is among colour/);
+  world.destroyBody(body);
+  assert.equal(world.userData(body), undefined);
+  world.destroy();
+});
