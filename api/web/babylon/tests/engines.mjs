@@ -24,14 +24,14 @@ const havok = await HavokPhysics({ wasmBinary });
 
 export const kStep = 1 / 60;
 export const STATIC = 0, ANIMATED = 1, DYNAMIC = 2;
-export const plugins = { plumb: () => new PlumbPlugin(engine), havok: () => new HavokPlugin(true, havok) };
+export const plugins = { plumb: (options) => new PlumbPlugin(engine, options), havok: () => new HavokPlugin(true, havok) };
 
 export class Stage {
-  constructor(name, gravity = -9.81) {
+  constructor(name, gravity = -9.81, options = {}) {
     const picture = new NullEngine();
     picture.getCaps().instancedArrays = true; // thin instances are refused without
     this.scene = new Scene(picture);
-    this.scene.enablePhysics(new Vector3(0, gravity, 0), plugins[name]());
+    this.scene.enablePhysics(new Vector3(0, gravity, 0), plugins[name](options));
     this.physics = this.scene.getPhysicsEngine();
     this.plugin = this.physics.getPhysicsPlugin();
   }
