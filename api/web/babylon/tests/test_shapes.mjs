@@ -61,6 +61,22 @@ test('a ground has its own heights', () => {
   stage.end();
 });
 
+test('a ball lies on a mesh, also on a mirrored one', () => {
+  const stage = new Stage('plumb');
+  const balls = [1, -1].map((mirror, i) => {
+    const ground = MeshBuilder.CreateGround('', { width: 4, height: 4 }, stage.scene);
+    ground.scaling.x = mirror;
+    const body = stage.body(new PhysicsShapeMesh(ground, stage.scene), [10 * i, 0, 0], STATIC);
+    const { positions, indices } = body.getGeometry();
+    const [a, b, c] = [...indices.slice(0, 3)].map((index) => Vector3.FromArray(positions, 3 * index));
+    assert.ok(Vector3.Cross(b.subtract(a), c.subtract(a)).y > 0, 'counter-clockwise seen from outside');
+    return stage.body(stage.ball(), [10 * i + 0.3, 1, 0.2]);
+  });
+  stage.run(1.5);
+  for (const ball of balls) near(ball.transformNode.position.y, 0.5, 0.01);
+  stage.end();
+});
+
 test('a container changes with its children', () => {
   const stage = new Stage('plumb');
   const container = new PhysicsShapeContainer(stage.scene);

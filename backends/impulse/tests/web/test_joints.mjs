@@ -20,6 +20,14 @@ test('a generic joint is free, limited and locked where it says so', () => {
   world.destroy();
 });
 
+test('a hinge stops at its limit', () => {
+  const { world, body, joint } = held({ type: 'hinge', limits: { angularX: [-0.5, 0.5] } }, { gravity: [0, 0, 0] });
+  world.write('velocity', body, [0, 0, 0, 2, 0, 0]);
+  steps(world, 60);
+  near(world.readJoints('coordinates', [joint])[3], 0.5, 0.02);
+  world.destroy();
+});
+
 test('a motor reaches its speed, is rewritten, and is taken out', () => {
   const { world, body, joint } = held(
     { type: 'hinge', motors: { angularX: { targetVelocity: 3, maxForce: 1e5 } } }, { gravity: [0, 0, 0] });

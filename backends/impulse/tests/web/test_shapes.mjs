@@ -17,7 +17,7 @@ test('a compound has the mass of its children, and lies on the lowest', () => {
 });
 
 test('a ball comes to rest in the valley of a height field', () => {
-  const world = engine.createWorld({ needs: ['rotation', 'collision', 'friction'] });
+  const world = engine.createWorld({ needs: ['rotation', 'collision', 'friction', 'queries'] });
   const heights = Array.from({ length: 9 * 5 }, (_, i) => 0.25 * Math.abs((i % 9) - 4));
   const field = world.createShape({ type: 'heightField', rows: 5, columns: 9, heights, spacing: [1, 2] });
   world.createBody({ shape: field, motion: 'static' });
@@ -28,6 +28,10 @@ test('a ball comes to rest in the valley of a height field', () => {
   near(x, 0, 0.25);
   near(y, 0.5 * Math.sqrt(1 + 0.25 ** 2), 0.02);
   near(z, 0.2, 0.2);
+  const heightAt = (atX, atZ) => world.castRay([atX, 3, atZ], [0, -6, 0])?.position[1];
+  near(heightAt(3, 3.9), 0.75, 1e-4);
+  assert.equal(heightAt(4.1, 0), undefined);
+  assert.equal(heightAt(3, 4.1), undefined);
   world.destroy();
 });
 
