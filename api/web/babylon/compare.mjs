@@ -1,10 +1,13 @@
-// Time and error of both engines in the same scenes, one core, nothing asleep: PLUMB_WEB=FOLDER node compare.mjs [SECONDS]
+// Time and error of both engines in the same scenes, one core, nothing asleep: PLUMB_WEB=FOLDER
+// node compare.mjs [SECONDS [SETTING=VALUE]...], settings of Plumb's engine
 import { BallAndSocketConstraint } from '@babylonjs/core/Physics/v2/physicsConstraint.js';
 import { Vector3 } from '@babylonjs/core/Maths/math.vector.js';
 import { kStep, Stage, STATIC } from './tests/engines.mjs';
 
 const kAlwaysActive = 1;
 const seconds = Number(process.argv[2] ?? 5);
+const settings = Object.fromEntries(process.argv.slice(3).map((word) => word.split('='))
+  .map(([name, value]) => [name, Number.isNaN(Number(value)) ? value : Number(value)]));
 const positionOf = ({ transformNode: { position } }) => position;
 
 /** Each builds its bodies, and gives them and a measure of what is wrong in metres. */
@@ -62,7 +65,7 @@ function overlapOf(list) {
 const medianOf = (times) => times.sort((a, b) => a - b)[Math.floor(times.length / 2)];
 
 function measured(name, build) {
-  const stage = new Stage(name, -9.81, { sleeping: false });
+  const stage = new Stage(name, -9.81, { sleeping: false, settings });
   const { list, error } = build(stage), times = [];
   for (const body of list) stage.plugin.setActivationControl(body, kAlwaysActive);
   for (let i = 0; i < seconds / kStep; ++i) {

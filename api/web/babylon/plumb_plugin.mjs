@@ -46,11 +46,13 @@ export class PlumbPlugin {
   isSupported() {
     return true;
   }
+  /** What a page still holds of it can be disposed of later. */
   dispose() {
     this.world.destroy();
+    for (const data of this._owners.values()) data.handle = 0n;
+    for (const { _pluginData } of this._constraints) for (const link of _pluginData.links) link.joints = [];
+    for (const shape of this._shapes) Object.assign(shape, { handle: 0n, parts: [] });
     this._owners.clear();
-    this._constraints.clear();
-    for (const shape of this._shapes) shape.handle = 0n;
   }
   /** What the engine cannot do as asked, once a sentence. */
   _warn(sentence) {

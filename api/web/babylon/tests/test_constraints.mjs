@@ -100,3 +100,16 @@ test('constraints are read, disabled, and end with their bodies', () => {
   stage.run(1 / 60);
   stage.end();
 });
+
+test('what outlives the engine can be disposed of', () => {
+  const stage = new Stage('plumb'), shape = stage.box();
+  const post = stage.body(shape, [0, 0, 0], STATIC), body = stage.body(stage.box(), [1, 0, 0]);
+  const constraint = new LockConstraint(Vector3.Zero(), pivot, undefined, undefined, stage.scene);
+  post.addConstraint(body, constraint);
+  stage.run(1 / 60);
+  stage.scene.disablePhysicsEngine();
+  body.dispose();
+  constraint.dispose();
+  shape.dispose();
+  stage.end();
+});

@@ -5,6 +5,7 @@ import { MeshBuilder } from '@babylonjs/core/Meshes/meshBuilder.js';
 import { PhysicsRaycastResult } from '@babylonjs/core/Physics/physicsRaycastResult.js';
 import { ProximityCastResult } from '@babylonjs/core/Physics/proximityCastResult.js';
 import { ShapeCastResult } from '@babylonjs/core/Physics/shapeCastResult.js';
+import { PhysicsBody } from '@babylonjs/core/Physics/v2/physicsBody.js';
 import { PhysicsShapeCapsule, PhysicsShapeContainer, PhysicsShapeConvexHull, PhysicsShapeCylinder,
   PhysicsShapeGroundMesh, PhysicsShapeHeightField, PhysicsShapeMesh } from '@babylonjs/core/Physics/v2/physicsShape.js';
 import { both, Stage, STATIC } from './engines.mjs';
@@ -66,9 +67,12 @@ test('a ball lies on a mesh, also on a mirrored one', () => {
   const balls = [1, -1].map((mirror, i) => {
     const ground = MeshBuilder.CreateGround('', { width: 4, height: 4 }, stage.scene);
     ground.scaling.x = mirror;
-    const body = stage.body(new PhysicsShapeMesh(ground, stage.scene), [10 * i, 0, 0], STATIC);
+    ground.position.x = 10 * i;
+    const body = new PhysicsBody(ground, STATIC, false, stage.scene);
+    body.shape = new PhysicsShapeMesh(ground, stage.scene);
     const { positions, indices } = body.getGeometry();
-    const [a, b, c] = [...indices.slice(0, 3)].map((index) => Vector3.FromArray(positions, 3 * index));
+    const [a, b, c] = [...indices.slice(0, 3)].map((index) =>
+      Vector3.FromArray(positions, 3 * index).applyRotationQuaternion(ground.absoluteRotationQuaternion));
     assert.ok(Vector3.Cross(b.subtract(a), c.subtract(a)).y > 0, 'counter-clockwise seen from outside');
     return stage.body(stage.ball(), [10 * i + 0.3, 1, 0.2]);
   });
