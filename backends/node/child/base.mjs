@@ -1,0 +1,83 @@
+// What adapters share: descriptors by slot, who may touch whom, and helpers for manifests.
+import { mayTouch, pairKey } from './algebra.mjs';
+import { Failure } from './failure.mjs';
+import { COMPOUND, SENSOR, STATIC } from './rows.mjs';
+
+export class WorldBase {
+  constructor({ needs, settings }) {
+    this.needs = needs;
+    this.settings = settings;
+    this.shapes = new Map();  // slot to { desc, ... }
+    this.bodies = new Map();
+    this.joints = new Map();
+    this.exceptions = new Set();
+    this.jointed = new Map();  // pairs that joints keep apart, and how many do
+  }
+
+  /** Convex parts of a shape, each { desc, pose, material }; material null where it is the body's. */
+  parts(slot) {
+    const whole = { position: [0, 0, 0], orientation: [0, 0, 0, 1] };
+    const { desc } = this.shapes.get(slot);
+    if (desc.type !== COMPOUND) return [{ slot, desc, pose: whole, material: null }];
+    return desc.children.map((child) => ({
+      slot: child.shape, desc: this.shapes.get(child.shape).desc, pose: child.pose, material: child.material }));
+  }
+
+  createShape(desc) { this.shapes.set(desc.slot, { desc }); }
+  destroyShape(slot) { this.shapes.delete(slot); }
+
+  /** Whether two bodies are to be looked at at all. */
+  collides(a, b) {
+    const one = this.bodies.get(a).desc, two = this.bodies.get(b).desc;
+    if (one.motion === STATIC && two.motion === STATIC) return false;
+    const key = pairKey(a, b);
+    return !this.exceptions.has(key) && !this.jointed.has(key) && mayTouch(one.filter, two.filter);
+  }
+
+  setException(a, b, touch) {
+    if (touch) this.exceptions.delete(pairKey(a, b));
+    else this.exceptions.add(pairKey(a, b));
+  }
+
+  /** Of a joint that keeps its bodies apart: by +1 when it comes, by -1 when it goes. */
+  part(joint, by) {
+    if (joint.collideConnected || joint.a < 0) return;
+    const key = pairKey(joint.a, joint.b), count = (this.jointed.get(key) ?? 0) + by;
+    if (count === 0) this.jointed.delete(key);
+    else this.jointed.set(key, count);
+  }
+
+  /** Queries see no sensors, and who passes their filter. */
+  sees(filter, slot) {
+    const { desc } = this.bodies.get(slot);
+    return (desc.flags & SENSOR) === 0 && mayTouch(filter, desc.filter);
+  }
+
+  get tellsTouches() { return this.needs.has('events') || this.needs.has('sensors'); }
+  applySettings(changed) { Object.assign(this.settings, changed); }
+}
+
+export function refuse(text) { throw new Failure(-3, text); }
+
+// --- manifests -------------------------------------------------------------------------------------------------------
+
+const setting = (type) => (name, role, [minimum, maximum], standard, doc, more = {}) =>
+  ({ name, type, role, minimum, maximum, default: standard, doc, ...more });
+/** (name, role, [least, most], standard, doc, { unit, creation_only }?) */
+export const intSetting = setting('int');
+export const floatSetting = setting('float');
+export const boolSetting = (name, role, standard, doc, more = {}) => ({ name, type: 'bool', role, default: standard, doc, ...more });
+export const choiceSetting = (name, role, choices, doc, more = {}) => ({ name, type: 'choice', role, choices, default: choices[0], doc, ...more });
+
+export const SUBSTEPS = intSetting('substeps', 'quality', [1, 1000], 1, 'parts in which a step is done, each with collision detection', { unit: '1' });
+
+/** What every adapter here has: three motions of the usual shapes, poses and velocities, forces. */
+export const USUAL = [
+  ['shape', 'sphere|box|capsule|cylinder|hull|compound', '*', 'native'],
+  ['shape', 'mesh', 'static', 'native'],
+  ['shape', 'height_field', 'static', 'emulated', 'as a mesh of triangles'],
+  ['pair', '*', '*', 'native'],
+  ['read', '*', '*', 'native'],
+  ['write', 'pose|velocity|material|gravity_scale', '*', 'native'],
+  ['need', 'rotation|collision|friction|restitution|kinematic|forces', '*', 'native'],
+];
