@@ -39,25 +39,3 @@ export function mayTouch(a, b) {
 
 /** A key for an unordered pair of slots. */
 export const pairKey = (a, b) => (a < b ? a * 4294967296 + b : b * 4294967296 + a);
-
-/**
- * Inverse effective mass of a joint's axis, for springs given by frequency: of translation along `axis` (world) at
- * `point`, or of rotation about it. Bodies: { inverseMass, centre (world), applyInverseInertia(v) } or null for the world.
- */
-export function inverseEffectiveMass(bodies, axis, points, turns) {
-  let sum = 0;
-  bodies.forEach((body, i) => {
-    if (body === null) return;
-    if (turns) { sum += dot(axis, body.applyInverseInertia(axis)); return; }
-    const arm = cross(sub(points[i], body.centre), axis);
-    sum += body.inverseMass + dot(arm, body.applyInverseInertia(arm));
-  });
-  return sum;
-}
-
-/** I^-1 v in world axes, of a body's descriptor in an orientation. */
-export function applyInverseInertia(desc, orientation, v) {
-  if (desc.motion !== 2 || desc.inertia[0] <= 0) return [0, 0, 0];
-  const axes = multiply(orientation, desc.inertiaOrientation), local = unrotate(axes, v);
-  return rotate(axes, [local[0] / desc.inertia[0], local[1] / desc.inertia[1], local[2] / desc.inertia[2]]);
-}

@@ -1,14 +1,12 @@
 // Havok Physics as Babylon.js ships it: package @babylonjs/havok.
 import { readFileSync } from 'node:fs';
-import { BALL, CAPSULE, CYLINDER, BOX, DISTANCE, DYNAMIC, FIXED, GENERIC, HEIGHT_FIELD, HINGE, HULL, LIMITED, LOCKED, MESH,
-  NO_ROTATION, SLIDER, SPHERE, STATIC, SENSOR, ASLEEP, NEVER_SLEEPS, COMPOUND, meshOfHeightField } from '../rows.mjs';
-import { add, applyInverseInertia, compose, inverseEffectiveMass, rotate, scale, sub } from '../algebra.mjs';
+import { BALL, CAPSULE, CYLINDER, BOX, DYNAMIC, FIXED, GENERIC, HEIGHT_FIELD, HINGE, HULL, LIMITED, LOCKED, MESH,
+  NO_ROTATION, SLIDER, SPHERE, STATIC, ASLEEP, NEVER_SLEEPS, COMPOUND, meshOfHeightField } from '../rows.mjs';
+import { add, rotate, scale } from '../algebra.mjs';
 import { USUAL, WorldBase, SUBSTEPS, boolSetting, refuse } from '../base.mjs';
 import { fileOf, load, missing, versionOf } from '../packages.mjs';
 
 const PACKAGE = '@babylonjs/havok';
-const LINEAR_DISTANCE = 6;  // Havok's axis of a distance
-const EVENTS = 1 | 2 | 4;  // collisions that start, go on, finish
 
 export function manifest() {
   return {
@@ -19,10 +17,12 @@ export function manifest() {
     ],
     capabilities: [
       ...USUAL,
-      ['joint', 'ball|hinge|slider|fixed|distance|generic', '*', 'native'],
-      ['joint_feature', 'hinge|slider|generic|distance', 'limits', 'native'],
+      ['joint', 'ball|hinge|slider|fixed|generic', '*', 'native'],
+      ['joint', 'distance', '*', 'none', 'limits of translations, set through this package, hold bodies where they are'],
+      ['joint_feature', 'hinge', 'limits', 'native'],
       ['joint_feature', 'hinge|slider|generic', 'motors', 'native'],
-      ['query', 'ray', '*', 'native'],
+      ['query', 'ray', '*', 'approximate', 'Havok rounds cylinders; it tells no triangle of a mesh in our order'],
+      ['need', 'restitution', '*', 'approximate', 'a bounce keeps about .88 of the speed that restitution asks for'],
       ['write', 'damping', '*', 'native'],
       ['need', 'joints|sleeping|damping|queries', '*', 'native'],
       ['write', 'awake', '*', 'native'],
@@ -214,22 +214,17 @@ class HavokWorld extends WorldBase {
       ok(hp.HP_Constraint_SetAxisMinLimit(joint, this.axis(axis), lower));
       ok(hp.HP_Constraint_SetAxisMaxLimit(joint, this.axis(axis), upper));
     };
-    if (desc.type === DISTANCE) {
-      const { limit: range } = desc.axes[0];
-      limit(LINEAR_DISTANCE, range.enabled ? range.lower : desc.restLength, range.enabled ? range.upper : desc.restLength);
-    } else {
-      axisModes(desc).forEach((how, axis) => {
-        if (how === LOCKED) ok(hp.HP_Constraint_SetAxisMode(joint, this.axis(axis), mode.LOCKED));
-        if (how === LIMITED) limit(axis, desc.axes[axis].limit.lower, desc.axes[axis].limit.upper);
-      });
-    }
+    axisModes(desc).forEach((how, axis) => {
+      if (how === LOCKED) ok(hp.HP_Constraint_SetAxisMode(joint, this.axis(axis), mode.LOCKED));
+      if (how === LIMITED) limit(axis, desc.axes[axis].limit.lower, desc.axes[axis].limit.upper);
+    });
     this.joints.set(desc.slot, { desc, joint });
     this.drive(desc, joint);
     ok(hp.HP_Constraint_SetEnabled(joint, 1));
   }
   axis(number) {
     const a = this.hp.ConstraintAxis;
-    return [a.LINEAR_X, a.LINEAR_Y, a.LINEAR_Z, a.ANGULAR_X, a.ANGULAR_Y, a.ANGULAR_Z, a.LINEAR_DISTANCE][number];
+    return [a.LINEAR_X, a.LINEAR_Y, a.LINEAR_Z, a.ANGULAR_X, a.ANGULAR_Y, a.ANGULAR_Z][number];
   }
   drive(desc, joint) {
     const hp = this.hp, { NONE, VELOCITY } = hp.ConstraintMotorType;
@@ -256,7 +251,7 @@ class HavokWorld extends WorldBase {
   }
 
   castRay({ origin, translation, filter }) {
-    const hp = this.hp, most = Math.max(16, 4 * this.bodies.size);
+    const hp = this.hp;
     this.collector ??= ok(hp.HP_QueryCollector_Create(1024));
     ok(hp.HP_World_CastRayWithCollector(this.world, this.collector, [origin, add(origin, translation), [0xffffffff, 0xffffffff], false, [0n]]));
     const hits = [], count = ok(hp.HP_QueryCollector_GetNumHits(this.collector));

@@ -6,11 +6,12 @@ import { USUAL, WorldBase, boolSetting, floatSetting, intSetting, refuse } from 
 import { load, missing, versionOf } from '../packages.mjs';
 
 const PACKAGE = 'jolt-physics';
+const MOST_CONTACTS = 10240;  // pairs in contact: what the package's temporary memory holds; Jolt ignores more
 const array = (v) => [v.GetX(), v.GetY(), v.GetZ()];
 
 export function manifest() {
   return {
-    version: versionOf(PACKAGE), unmet: missing(PACKAGE), description: 'Jolt Physics, WebAssembly', precision: 'f32', deterministic: true,
+    version: versionOf(PACKAGE), unmet: missing(PACKAGE), description: 'Jolt Physics, WebAssembly; at most 10240 pairs in contact', precision: 'f32', deterministic: true,
     settings: [
       intSetting('velocity_steps', 'quality', [2, 255], 10, 'iterations of the velocity solver', { unit: '1' }),
       intSetting('position_steps', 'quality', [0, 255], 2, 'iterations of the position solver', { unit: '1' }),
@@ -34,12 +35,12 @@ export function manifest() {
       ['joint_feature', 'generic', 'limits', 'emulated'],
       ['joint_feature', 'hinge|slider', 'motors', 'native'],
       ['joint_feature', 'hinge|slider|distance', 'springs', 'native'],
-      ['joint_feature', 'ball|fixed', 'reaction|breaks', 'emulated', 'of the velocity solver'],
+      ['joint_feature', 'ball', 'reaction|breaks', 'emulated', 'of the velocity solver'],
       ['query', 'ray|overlap', '*', 'native'],
       ['write', 'damping|filter|awake', '*', 'native'],
       ['need', 'joints|ccd|sleeping|gyroscopic|damping|axis_locks|filters|queries', '*', 'native'],
       ['need', 'events|contacts|sensors', '*', 'emulated', 'by the contact listener, which calls JavaScript'],
-      ['need', 'joint_reactions', '*', 'emulated', 'of ball and fixed joints'],
+      ['need', 'joint_reactions', '*', 'emulated', 'of ball joints'],
       ['event', '*', '*', 'emulated', 'by comparing one step with the next'],
     ],
   };
@@ -64,8 +65,8 @@ class JoltWorld extends WorldBase {
     settings.mBroadPhaseLayerInterface = broad;
     settings.mObjectVsBroadPhaseLayerFilter = new J.ObjectVsBroadPhaseLayerFilterTable(broad, 2, layers, 2);
     settings.mMaxBodies = 65536;
-    settings.mMaxBodyPairs = 262144;
-    settings.mMaxContactConstraints = 131072;
+    settings.mMaxBodyPairs = 65536;
+    settings.mMaxContactConstraints = MOST_CONTACTS;
     this.jolt = new J.JoltInterface(settings);
     J.destroy(settings);
     this.system = this.jolt.GetPhysicsSystem();
@@ -359,7 +360,7 @@ class JoltWorld extends WorldBase {
   // --- joints --------------------------------------------------------------------------------------------------------
 
   createJoint(desc) {
-    const J = this.J, a = desc.a < 0 ? J.Body.prototype.sFixedToWorld?.() ?? this.world() : this.bodies.get(desc.a).body;
+    const J = this.J, a = desc.a < 0 ? this.world() : this.bodies.get(desc.a).body;
     const joint = this.makeJoint(desc, a, this.bodies.get(desc.b).body);
     joint.AddRef();
     this.joints.set(desc.slot, { desc, joint });
@@ -414,7 +415,7 @@ class JoltWorld extends WorldBase {
       case FIXED: {
         const s = set(new J.FixedConstraintSettings(), { mPoint1: a.point, mPoint2: b.point, mAxisX1: a.x, mAxisX2: b.x, mAxisY1: a.y, mAxisY2: b.y });
         s.mAutoDetectPoint = false;
-        return J.castObject(made(s), J.FixedConstraint);
+        return made(s);
       }
       default: return this.makeSixAxes(desc, a, b, bodyA, bodyB);
     }
@@ -471,9 +472,8 @@ class JoltWorld extends WorldBase {
   }
   reaction(slot) {
     const { desc, joint } = this.joints.get(slot);
-    if (desc.type !== BALL && desc.type !== FIXED) refuse('reactions of other joints than ball and fixed');
-    const s = this.dt > 0 ? 1 / this.dt : 0, force = scale(s, array(joint.GetTotalLambdaPosition()));
-    return [...force, ...(desc.type === FIXED ? scale(s, array(joint.GetTotalLambdaRotation())) : [0, 0, 0])];
+    if (desc.type !== BALL) refuse('reactions of other joints than ball joints');
+    return [...scale(this.dt > 0 ? 1 / this.dt : 0, array(joint.GetTotalLambdaPosition())), 0, 0, 0];
   }
 
   // --- queries -------------------------------------------------------------------------------------------------------
