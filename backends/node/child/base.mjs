@@ -1,7 +1,7 @@
 // What adapters share: descriptors by slot, who may touch whom, and helpers for manifests.
-import { mayTouch, pairKey } from './algebra.mjs';
+import { cross, dot, length, mayTouch, pairKey, sub, unrotate } from './algebra.mjs';
 import { Failure } from './failure.mjs';
-import { COMPOUND, SENSOR, STATIC } from './rows.mjs';
+import { COMPOUND, MESH, SENSOR, STATIC } from './rows.mjs';
 
 export class WorldBase {
   constructor({ needs, settings }) {
@@ -53,8 +53,32 @@ export class WorldBase {
     return (desc.flags & SENSOR) === 0 && mayTouch(filter, desc.filter);
   }
 
+  /** The triangle of a mesh that is nearest to a point of its surface; 0 for other shapes. Engines number their own. */
+  triangleAt(slot, position) {
+    const { desc } = this.bodies.get(slot), shape = this.shapes.get(desc.shape)?.desc;
+    if (shape?.type !== MESH) return 0;
+    const pose = this.pose(slot), point = unrotate(pose.slice(3), sub(position, pose.slice(0, 3)));
+    let best = 0, least = Infinity;
+    for (let i = 0; i < shape.indices.length; i += 3) {
+      const away = distanceToTriangle(point, [0, 1, 2].map((k) => Array.from(shape.vertices.subarray(3 * shape.indices[i + k], 3 * shape.indices[i + k] + 3))));
+      if (away < least) [best, least] = [i / 3, away];
+    }
+    return best;
+  }
+
   get tellsTouches() { return this.needs.has('events') || this.needs.has('sensors'); }
   applySettings(changed) { Object.assign(this.settings, changed); }
+}
+
+/** From the plane of the triangle, and from its edges where the point lies beyond them. */
+function distanceToTriangle(point, corners) {
+  const n = cross(sub(corners[1], corners[0]), sub(corners[2], corners[0])), area = length(n);
+  let beyond = Math.abs(dot(n, sub(point, corners[0]))) / area;
+  for (let k = 0; k < 3; ++k) {
+    const edge = sub(corners[(k + 1) % 3], corners[k]), inward = cross(n, edge);
+    beyond = Math.max(beyond, -dot(inward, sub(point, corners[k])) / length(inward));
+  }
+  return beyond;
 }
 
 export function refuse(text) { throw new Failure(-3, text); }

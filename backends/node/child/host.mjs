@@ -58,7 +58,7 @@ function queries(row, columns, read, ask) {
   const hits = [];
   for (let query = 0; row.left >= columns; ++query)
     for (const hit of world[ask](read(row)))
-      hits.push(query, hit.body, hit.child ?? 0, hit.fraction ?? 0, ...(hit.position ?? [NaN, NaN, NaN]), ...(hit.normal ?? [NaN, NaN, NaN]));
+      hits.push(query, hit.body, hit.child || (hit.position ? world.triangleAt(hit.body, hit.position) : 0), hit.fraction ?? 0, ...(hit.position ?? [NaN, NaN, NaN]), ...(hit.normal ?? [NaN, NaN, NaN]));
   return hits;
 }
 

@@ -21,7 +21,7 @@ export function manifest() {
       ['joint', 'distance', '*', 'none', 'limits of translations, set through this package, hold bodies where they are'],
       ['joint_feature', 'hinge', 'limits', 'native'],
       ['joint_feature', 'hinge|slider|generic', 'motors', 'native'],
-      ['query', 'ray', '*', 'approximate', 'Havok rounds cylinders; it tells no triangle of a mesh in our order'],
+      ['query', 'ray', '*', 'approximate', 'Havok rounds cylinders'],
       ['need', 'restitution', '*', 'approximate', 'a bounce keeps about .88 of the speed that restitution asks for'],
       ['write', 'damping', '*', 'native'],
       ['need', 'joints|sleeping|damping|queries', '*', 'native'],

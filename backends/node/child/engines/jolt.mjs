@@ -35,12 +35,11 @@ export function manifest() {
       ['joint_feature', 'generic', 'limits', 'emulated'],
       ['joint_feature', 'hinge|slider', 'motors', 'native'],
       ['joint_feature', 'hinge|slider|distance', 'springs', 'native'],
-      ['joint_feature', 'ball', 'reaction|breaks', 'emulated', 'of the velocity solver'],
+      ['joint_feature', 'ball', 'breaks', 'emulated', 'the impulse of the velocity solver is compared after each step'],
       ['query', 'ray|overlap', '*', 'native'],
       ['write', 'damping|filter|awake', '*', 'native'],
       ['need', 'joints|ccd|sleeping|gyroscopic|damping|axis_locks|filters|queries', '*', 'native'],
       ['need', 'events|contacts|sensors', '*', 'emulated', 'by the contact listener, which calls JavaScript'],
-      ['need', 'joint_reactions', '*', 'emulated', 'of ball joints'],
       ['event', '*', '*', 'emulated', 'by comparing one step with the next'],
     ],
   };
@@ -120,7 +119,6 @@ class JoltWorld extends WorldBase {
   grouped(slot) {
     const { body } = this.bodies.get(slot), group = body.GetCollisionGroup();
     group.SetGroupFilter(this.groupFilter);
-    group.SetGroupID(slot);
     this.interface.InvalidateContactCache(body.GetID());
   }
 
@@ -215,10 +213,12 @@ class JoltWorld extends WorldBase {
       settings.mMassPropertiesOverride.mInertia = this.inertia(desc, still);
     }
     const body = this.interface.CreateBody(settings);
+    if (J.getPointer(body) === 0) refuse('more than 65536 bodies');
     J.destroy(settings);
     this.bodies.set(desc.slot, { desc, body });
     this.slotOfId.set(body.GetID().GetIndexAndSequenceNumber(), desc.slot);
     this.interface.AddBody(body.GetID(), (desc.flags & ASLEEP) !== 0 ? J.EActivation_DontActivate : J.EActivation_Activate);
+    body.GetCollisionGroup().SetGroupID(desc.slot);
     if (this.needs.has('filters')) this.grouped(desc.slot);
     this.sweep();
   }

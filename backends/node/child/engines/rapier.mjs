@@ -38,7 +38,7 @@ export function manifest() {
       ['joint', 'universal', '*', 'none', 'Rapier does not hold two axes square while both turn'],
       ['joint', 'generic', '*', 'approximate', GENERIC_NOTE],
       ['joint_feature', 'hinge|slider|generic', 'limits|motors|springs', 'native'],
-      ['query', '*', '*', 'native', 'no triangle of a mesh is told'],
+      ['query', '*', '*', 'native', 'over all colliders'],
       ['need', 'rotation', '*', 'approximate', 'the spin of a free ball drifts by about 4e-5 of itself a second'],
       ['write', 'damping|filter|awake', '*', 'native'],
       ['need', 'joints|ccd|sleeping|events|contacts|sensors|damping|axis_locks|filters|queries', '*', 'native'],
