@@ -1,7 +1,7 @@
 // What adapters share: descriptors by slot, who may touch whom, and helpers for manifests.
-import { cross, dot, length, mayTouch, pairKey, sub, unrotate } from './algebra.mjs';
+import { compose, cross, dot, inverse, length, mayTouch, pairKey, sub, unrotate } from './algebra.mjs';
 import { Failure } from './failure.mjs';
-import { COMPOUND, MESH, SENSOR, STATIC } from './rows.mjs';
+import { COMPOUND, DYNAMIC, MESH, SENSOR, STATIC } from './rows.mjs';
 
 export class WorldBase {
   constructor({ needs, settings }) {
@@ -80,6 +80,14 @@ function distanceToTriangle(point, corners) {
   }
   return beyond;
 }
+
+/** For engines whose bodies' frame is that of the principal axes at the centre of mass: that frame in the body's. */
+export function principalFrame(desc) {
+  if (desc.motion !== DYNAMIC) return { position: [0, 0, 0], orientation: [0, 0, 0, 1] };
+  return { position: desc.centre, orientation: desc.inertiaOrientation };
+}
+/** What is placed in the body's frame, placed in that one. */
+export const inFrame = (frame, pose) => compose(inverse(frame), pose);
 
 export function refuse(text) { throw new Failure(-3, text); }
 
