@@ -2,6 +2,7 @@
 import { readFileSync, existsSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { fileURLToPath, pathToFileURL } from 'node:url';
+import { Failure } from './failure.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
 
@@ -30,10 +31,12 @@ export function versionOf(name) {
   return folder === null ? '' : JSON.parse(readFileSync(join(folder, 'package.json'), 'utf8')).version;
 }
 
-/** Imports a module of a package by its path inside, "dist/index.js". */
-export function load(name, path) {
-  return import(pathToFileURL(join(find(name), path)).href);
+/** The path of a file of a package. */
+export function fileOf(name, path) {
+  const folder = find(name);
+  if (folder === null) throw new Failure(-3, missing(name));
+  return join(folder, path);
 }
 
-/** The path of a file of a package. */
-export const fileOf = (name, path) => join(find(name), path);
+/** Imports a module of a package by its path inside, "dist/index.js". */
+export const load = (name, path) => import(pathToFileURL(fileOf(name, path)).href);

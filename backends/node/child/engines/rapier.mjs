@@ -1,20 +1,18 @@
-// Rapier (dimforge): package @dimforge/rapier3d-compat.
+// Rapier (dimforge): package @dimforge/rapier3d-compat. rapier-simd.mjs beside it is the same of another package.
 import { FIXED, BALL, HINGE, SLIDER, DISTANCE, UNIVERSAL, GENERIC, LOCKED, LIMITED,
   SPHERE, BOX, CAPSULE, CYLINDER, HULL, MESH, HEIGHT_FIELD, PLANE,
-  STATIC, KINEMATIC, DYNAMIC, SENSOR, CCD, NO_ROTATION, ASLEEP, NEVER_SLEEPS, meshOfHeightField } from '../rows.mjs';
+  STATIC, DYNAMIC, SENSOR, CCD, NO_ROTATION, ASLEEP, NEVER_SLEEPS, meshOfHeightField } from '../rows.mjs';
 import { add, rotate, scale } from '../algebra.mjs';
 import { USUAL, WorldBase, boolSetting, floatSetting, intSetting, refuse } from '../base.mjs';
 import { load, missing, versionOf } from '../packages.mjs';
 
-const PACKAGE = '@dimforge/rapier3d-compat';
-const IDENTITY = { x: 0, y: 0, z: 0, w: 1 };
 const TOUCH = 1e-4;  // m: contacts are told before they touch
 
 const vector = ([x, y, z]) => ({ x, y, z });
 const quaternion = ([x, y, z, w]) => ({ x, y, z, w });
 const array = ({ x, y, z }) => [x, y, z];
 
-export const settings = [
+const settings = [
   intSetting('iterations', 'quality', [1, 1000], 4, 'sub-steps of the solver', { unit: '1' }),
   intSetting('pgs_iterations', 'quality', [1, 100], 1, 'sweeps over the contacts in each', { unit: '1' }),
   intSetting('ccd_substeps', 'quality', [0, 100], 1, 'impacts of fast bodies that one step resolves', { unit: '1' }),
@@ -26,9 +24,9 @@ export const settings = [
 
 const GENERIC_NOTE = 'angles as the imaginary parts of the relative quaternion: right near zero';
 
-export function manifest() {
+function manifestOf(name) {
   return {
-    version: versionOf(PACKAGE), unmet: missing(PACKAGE), description: 'Rapier by Dimforge, WebAssembly', precision: 'f32', deterministic: true,
+    version: versionOf(name), unmet: missing(name), description: 'Rapier by Dimforge, WebAssembly', precision: 'f32', deterministic: true,
     settings,
     capabilities: [
       ...USUAL,
@@ -48,12 +46,16 @@ export function manifest() {
   };
 }
 
-export async function createWorld(init) {
-  const { default: module, ...names } = await load(PACKAGE, 'dist/rapier.mjs');
+async function createWorldOf(name, init) {
+  const { default: module, ...names } = await load(name, 'dist/rapier.mjs');
   const R = module?.init ? module : names;
   await R.init();
   return new RapierWorld(R, init);
 }
+
+/** What host.mjs asks of an engine, for a package of Rapier's. */
+export const adapter = (name) => ({ manifest: () => manifestOf(name), createWorld: (init) => createWorldOf(name, init) });
+export const { manifest, createWorld } = adapter('@dimforge/rapier3d-compat');
 
 class RapierWorld extends WorldBase {
   constructor(R, init) {
