@@ -1,8 +1,8 @@
 // The child's side of plumb.wire/1 for engines in JavaScript and WebAssembly: node host.mjs ENGINE
 //
 // engines/ENGINE.mjs exports `manifest()`, and `createWorld({needs, gravity, settings})` (may be async), whose result has
-// those of the methods below that the manifest claims. A method that throws has changed nothing; engines/README.md lists
-// them.
+// those of the methods called below that the manifest claims. A method that throws has changed nothing. base.mjs has what
+// adapters share.
 import { performance } from 'node:perf_hooks';
 import { Failure } from './failure.mjs';
 import { readFrame, reply } from './frames.mjs';
