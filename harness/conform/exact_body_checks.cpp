@@ -31,6 +31,7 @@ void fall(Conformance& c) {
 
 /// Equal moments of inertia: the body turns about an axis that stays, from any orientation.
 void spin(Conformance& c) {
+  c.require_exact(PLUMB_CAP_NEED, need_index(PLUMB_NEED_ROTATION), 0, "rotation");
   Probe probe(c, PLUMB_NEED_ROTATION, Vec::Zero());
   const Eigen::Quaterniond before(Eigen::AngleAxisd(1.1, Vec(1, -2, 0.5).normalized()));
   const Vec omega(0.6, -1.1, 0.8);

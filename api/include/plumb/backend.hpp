@@ -20,7 +20,8 @@
 // For the taking: backend/settings_table.hpp keeps settings in the members of a struct; backend/usual_capability.hpp
 // answers what most engines have, so that you name only what yours lacks; backend/small_math.hpp has quaternions and
 // poses; backend/mass_properties.hpp an inertia matrix from principal moments; backend/touch_tracker.hpp makes begin
-// and end events out of "who touches whom"; backend/convex_hull.hpp gives the faces of a hull.
+// and end events out of "who touches whom"; backend/hit_collector.hpp sorts what queries find; backend/convex_hull.hpp
+// gives the faces of a hull; backend/joint_coordinates.hpp the coordinates of a joint.
 #pragma once
 
 #include "plumb/backend/tables.hpp"

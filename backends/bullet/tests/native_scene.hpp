@@ -10,6 +10,9 @@
 
 namespace scenes {
 
+/// Bullet multiplies: bodies of .5 make pairs of .25.
+inline constexpr double kNativeFriction = 0.5;
+
 struct NativeScene {
   explicit NativeScene(const Scene& scene) {
     world.setGravity(btVector3(0, btScalar(-9.81), 0));

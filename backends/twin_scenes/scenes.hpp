@@ -1,5 +1,5 @@
-// Scenes as lists of boxes, spheres and joints, from which the test makes a world of Plumb and a program in plain
-// Bullet.
+// Scenes as lists of boxes, spheres and joints, from which the tests of an engine make a world of Plumb and a program
+// that is written straight against the engine.
 #pragma once
 
 #include <cmath>
@@ -42,9 +42,8 @@ struct Scene {
 /// For the name of a test.
 inline void PrintTo(const Scene& scene, std::ostream* out) { *out << scene.name; }
 
-/// Friction of every pair. Ours is sqrt(mu mu), Bullet's mu mu: bodies of .25 here are bodies of .5 there, exactly.
+/// Of every body, and so of every pair. Its root is exact, for engines that multiply.
 inline constexpr double kPlumbFriction = 0.25;
-inline constexpr double kNativeFriction = 0.5;
 
 inline PlumbVec3 box_inertia(const Item& item) {
   const PlumbVec3 h = item.half;

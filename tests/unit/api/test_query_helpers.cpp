@@ -1,0 +1,73 @@
+// What adapters take for queries and joints: one hit a body in the interface's order, and the coordinates of a joint.
+#include <gtest/gtest.h>
+
+#include "plumb/backend/hit_collector.hpp"
+#include "plumb/backend/joint_coordinates.hpp"
+
+namespace plumb::backend {
+namespace {
+
+constexpr PlumbBody first = (PlumbBody{1} << 32) | 4, second = (PlumbBody{1} << 32) | 7;
+
+TEST(HitCollector, KeepsTheNearestOfAllAndTheLowerSlotOfTwo) {
+  std::vector<PlumbHit> hits;
+  HitCollector collector(hits, 3, PLUMB_HIT_CLOSEST);
+  EXPECT_EQ(collector.nearest(), 1);
+  collector.add(second, 0, 0.5, {}, {});
+  EXPECT_EQ(collector.nearest(), 0.5);
+  collector.add(first, 9, 0.5, {}, {});
+  collector.add(second, 0, 0.75, {}, {});
+  collector.finish();
+  ASSERT_EQ(hits.size(), 1u);
+  EXPECT_EQ(hits[0].body, first);
+  EXPECT_EQ(hits[0].child, 9u);
+  EXPECT_EQ(hits[0].query, 3u);
+}
+
+TEST(HitCollector, KeepsOneHitABodyAndSortsThem) {
+  std::vector<PlumbHit> hits;
+  HitCollector collector(hits, 0, PLUMB_HIT_ALL);
+  collector.add(first, 0, 0.75, {}, {});
+  collector.add(second, 1, 0.5, {}, {});
+  collector.add(first, 2, 0.25, {}, {});
+  EXPECT_EQ(collector.nearest(), 1) << "all are wanted, however far";
+  collector.finish();
+  ASSERT_EQ(hits.size(), 2u);
+  EXPECT_EQ(hits[0].body, first);
+  EXPECT_EQ(hits[0].child, 2u);
+  EXPECT_EQ(hits[1].body, second);
+}
+
+TEST(HitCollector, SaysWhereNothingWasFoundAndLeavesOtherQueriesAlone) {
+  std::vector<PlumbHit> hits;
+  HitCollector one(hits, 0, PLUMB_HIT_CLOSEST);
+  one.add(second, 0, 0.9, {}, {});
+  one.finish();
+  HitCollector other(hits, 1, PLUMB_HIT_CLOSEST);
+  EXPECT_FALSE(other.any());
+  other.finish();
+  HitCollector all(hits, 2, PLUMB_HIT_ALL);
+  all.finish();
+  ASSERT_EQ(hits.size(), 2u);
+  EXPECT_EQ(hits[0].body, second);
+  EXPECT_EQ(hits[1].body, 0u);
+  EXPECT_EQ(hits[1].query, 1u);
+}
+
+PlumbQuat about(const PlumbVec3& axis, double angle) {
+  const PlumbVec3 u = scale(std::sin(angle / 2), axis);
+  return {u.x, u.y, u.z, std::cos(angle / 2)};
+}
+
+TEST(JointCoordinates, AreTheTurnsAboutXThenYThenZ) {
+  const PlumbPose a{{1, 2, 3}, normalized({0.3, -0.2, 0.5, 0.7})};
+  const PlumbQuat turn = multiply(multiply(about({1, 0, 0}, 0.4), about({0, 1, 0}, -0.7)), about({0, 0, 1}, 1.1));
+  const PlumbPose b = compose(a, {{0.5, -0.25, 2}, turn});
+  double row[6];
+  joint_coordinates(a, b, row);
+  const double expected[6] = {0.5, -0.25, 2, 0.4, -0.7, 1.1};
+  for (int axis = 0; axis < 6; ++axis) EXPECT_NEAR(row[axis], expected[axis], 1e-12) << axis;
+}
+
+}  // namespace
+}  // namespace plumb::backend
