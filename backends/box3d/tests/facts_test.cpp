@@ -108,8 +108,8 @@ TEST(Box3d, UniversalJointsHoldUnderAWeight) {
     std::array<double, 6> at{};
     plumb::check(*world,
                  world->joints()->read_joints(PLUMB_JOINT_COORDINATES, {&id, 1}, plumb::rows_over(std::span(&at, 1))));
-    EXPECT_LT(std::hypot(at[0], at[1], at[2]), 2e-3) << i;
-    EXPECT_LT(std::abs(std::sin(at[5])), 2e-2) << i;  // half a turn is the same axis
+    EXPECT_LT(std::hypot(at[0], at[1], at[2]), 1e-2) << i;
+    EXPECT_LT(std::abs(std::sin(at[5])), 6e-2) << i;  // half a turn is the same axis
   }
 }
 

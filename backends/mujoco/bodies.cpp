@@ -1,0 +1,75 @@
+// Shapes and bodies of a world: made and taken away, and which pairs of bodies are kept apart.
+#include "world.hpp"
+
+namespace plumb::mujoco {
+namespace {
+
+/// MuJoCo refuses moments that no body can have, when it makes the model: too late for who made the body.
+void require_possible_inertia(const PlumbBodyDesc& desc) {
+  if (desc.motion != PLUMB_DYNAMIC || (desc.flags & PLUMB_BODY_NO_ROTATION) != 0) return;
+  const PlumbVec3& i = desc.inertia;
+  const double slack = 1e-6 * std::max({i.x, i.y, i.z});
+  if (i.x + i.y + slack < i.z || i.x + i.z + slack < i.y || i.y + i.z + slack < i.x)
+    throw Error(PLUMB_E_UNSUPPORTED, "inertia has a moment larger than the sum of the other two, which MuJoCo refuses");
+}
+
+}  // namespace
+
+PlumbResult World::create_shapes(std::span<const PlumbShapeDesc> descs, std::span<PlumbShape> ids) {
+  std::vector<std::unique_ptr<Shape>> made;
+  for (std::size_t i = 0; i < descs.size(); ++i) {
+    std::vector<const Shape*> children;
+    for (std::uint32_t k = 0; descs[i].type == PLUMB_COMPOUND && k < descs[i].child_count; ++k)
+      children.push_back(&shape(descs[i].children[k].shape));
+    made.push_back(make_shape(descs[i], ids[i], std::move(children)));
+  }
+  for (std::size_t i = 0; i < made.size(); ++i) put_in(shapes_, ids[i], std::move(made[i]));
+  return PLUMB_OK;
+}
+
+PlumbResult World::destroy_shapes(std::span<const PlumbShape> ids) {
+  for (const PlumbShape id : ids) shapes_[slot_of(id)].reset();
+  return PLUMB_OK;
+}
+
+PlumbResult World::create_bodies(std::span<const PlumbBodyDesc> descs, std::span<PlumbBody> ids) {
+  for (const PlumbBodyDesc& desc : descs) require_possible_inertia(desc);
+  for (std::size_t i = 0; i < descs.size(); ++i) {
+    auto body = std::make_unique<Body>();
+    body->handle = ids[i];
+    body->desc = descs[i];
+    body->shape = descs[i].shape == 0 ? nullptr : &shape(descs[i].shape);
+    body->pose = {descs[i].pose.position, normalized(descs[i].pose.orientation)};
+    if (descs[i].motion != PLUMB_STATIC) {
+      body->velocity = descs[i].linear_velocity;
+      body->spin = descs[i].angular_velocity;
+    }
+    put_in(bodies_, ids[i], std::move(body));
+  }
+  stale_ = true;
+  return PLUMB_OK;
+}
+
+PlumbResult World::destroy_bodies(std::span<const PlumbBody> ids) {
+  touches_.forget(ids, pending_events_);
+  for (const PlumbBody id : ids) bodies_[slot_of(id)].reset();
+  model_ = {};  // it points to them
+  impulses_.clear();
+  contacts_.clear();
+  stale_ = true;
+  return PLUMB_OK;
+}
+
+PlumbResult World::set_exceptions(std::span<const PlumbBodyPair> pairs, bool touch) {
+  for (const PlumbBodyPair& pair : pairs) {
+    const std::pair slots(slot_of(pair.body_a), slot_of(pair.body_b));
+    if (touch) {
+      excepted_.erase(slots);
+    } else {
+      excepted_.insert(slots);
+    }
+  }
+  return PLUMB_OK;
+}
+
+}  // namespace plumb::mujoco

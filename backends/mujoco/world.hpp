@@ -1,0 +1,150 @@
+// One world. MuJoCo compiles a model of all of it: what comes or goes makes it anew when it is next needed, and what moves
+// is carried over.
+#pragma once
+
+#include <map>
+#include <mutex>
+#include <set>
+#include <span>
+#include <utility>
+
+#include "model.hpp"
+#include "plumb/backend/hit_collector.hpp"
+#include "plumb/backend/touch_tracker.hpp"
+
+namespace plumb::mujoco {
+
+class World final : public IPhysicsWorld,
+                    public IJoints,
+                    public IQueries,
+                    public ISettings,
+                    public ISnapshot,
+                    public IExceptions {
+ public:
+  explicit World(const WorldInit& init);
+
+  static const PlumbBackendInfo& info();
+  static PlumbDegree capability(PlumbCapability kind, std::uint32_t a, std::uint32_t b, const char*& note);
+  static std::span<const PlumbSettingInfo> setting_infos() { return settings_table().infos(); }
+
+  // bodies.cpp
+  PlumbResult create_shapes(std::span<const PlumbShapeDesc> descs, std::span<PlumbShape> ids) override;
+  PlumbResult destroy_shapes(std::span<const PlumbShape> ids) override;
+  PlumbResult create_bodies(std::span<const PlumbBodyDesc> descs, std::span<PlumbBody> ids) override;
+  PlumbResult destroy_bodies(std::span<const PlumbBody> ids) override;
+  PlumbResult set_exceptions(std::span<const PlumbBodyPair> pairs, bool touch) override;
+
+  // fields.cpp
+  PlumbResult read(PlumbField field, std::span<const PlumbBody> ids, Rows rows) override;
+  PlumbResult write(PlumbField field, std::span<const PlumbBody> ids, ConstRows rows) override;
+
+  // step.cpp
+  PlumbResult set_gravity(const PlumbVec3& gravity) override;
+  PlumbResult step(double dt) override;
+  PlumbResult wait(PlumbStepReport& report) override;
+  PlumbResult get_setting(const char* name, PlumbSettingValue& value) override;
+  PlumbResult set_setting(const char* name, const PlumbSettingValue& value) override;
+
+  std::span<const PlumbContact> contacts() override { return contacts_; }
+  std::span<const PlumbEvent> events() override { return events_; }
+
+  IJoints* joints() override { return this; }
+  IQueries* queries() override { return this; }
+  ISettings* settings() override { return this; }
+  ISnapshot* snapshot() override { return this; }
+  IExceptions* exceptions() override { return this; }
+
+  // joints/world_joints.cpp
+  PlumbResult create_joints(std::span<const PlumbJointDesc> descs, std::span<PlumbJoint> ids) override;
+  PlumbResult destroy_joints(std::span<const PlumbJoint> ids) override;
+  PlumbResult read_joints(PlumbJointField field, std::span<const PlumbJoint> ids, Rows rows) override;
+  PlumbResult write_joints(PlumbJointField field, std::span<const PlumbJoint> ids, ConstRows rows) override;
+
+  // rays.cpp
+  Hits cast_rays(PlumbHitMode mode, std::span<const PlumbRay> rays) override;
+  Hits cast_shapes(PlumbHitMode mode, std::span<const PlumbCast> casts) override;
+  Hits overlap_shapes(std::span<const PlumbOverlap> overlaps) override;
+
+  // snapshot.cpp
+  PlumbResult save(std::span<const std::byte>& data) override;
+  PlumbResult restore(std::span<const std::byte> data) override;
+
+ private:
+  /// What one geom has with another in the step in hand.
+  struct Impulses {
+    std::vector<PlumbContact> points;  ///< of the last sub-step in which they touched
+    PlumbVec3 sum{};                   ///< N s on the second, over all of the step
+    int sub_step = -1;                 ///< the last in which they touched
+  };
+
+  [[nodiscard]] bool needs(PlumbNeeds bits) const { return (needs_ & bits) != 0; }
+  [[nodiscard]] Body& body(PlumbBody handle) { return *bodies_[slot_of(handle)]; }
+  [[nodiscard]] Joint& joint(PlumbJoint handle) { return *joints_[slot_of(handle)]; }
+  [[nodiscard]] const Shape& shape(PlumbShape handle) const { return *shapes_[slot_of(handle)]; }
+
+  // state.cpp
+  void prepare();                 ///< the model is that of the world, and what was written is in its data
+  void write_state();             ///< of bodies to MuJoCo
+  void write_free(const Body& body);
+  void write_coordinates(const Body& body);
+  void write_rates(const Body& body);
+  void read_state();              ///< of MuJoCo to bodies
+  void push_tree(const Body& body, const PlumbVec3& impulse, const PlumbVec3& twist);
+
+  // fields.cpp
+  void write_row(PlumbField field, Body& body, const double* row);
+  void push(Body& body, const PlumbVec3& impulse, const PlumbVec3& twist);
+
+  // step.cpp
+  void steer_kinematics(double dt);
+  void move_kinematics(double h);
+  void settle_kinematics();
+  void apply_forces(double h);
+  void sub_step(double h);
+  void solve_sub_step();
+  void hold_locks(double h);
+  void drive_motors();
+  void forget_forces();
+  void gather_reactions(double share);
+  void break_joints();
+  void finish_events();
+
+  // contacts.cpp
+  void judge_contacts(double h);
+  [[nodiscard]] bool may_push(const Body& a, const Body& b) const;
+  void drive_surfaces();
+  void gather_impulses(double h);
+  void finish_contacts();
+
+  PlumbNeeds needs_;
+  Settings settings_;
+  PlumbVec3 gravity_;
+  std::vector<std::unique_ptr<Shape>> shapes_;  ///< by slot, null where none lives
+  std::vector<std::unique_ptr<Body>> bodies_;
+  std::vector<std::unique_ptr<Joint>> joints_;
+  std::set<std::pair<std::uint32_t, std::uint32_t>> excepted_;  ///< by slot, the lower first
+  std::set<std::pair<std::uint32_t, std::uint32_t>> apart_;     ///< by joints, likewise; made with the model
+
+  Model model_;
+  bool stale_ = true;  ///< what lives has changed since the model was made
+  std::mutex query_mutex_;
+
+  std::map<std::pair<int, int>, Impulses> impulses_;  ///< by geoms
+  std::vector<PlumbContact> contacts_;
+  std::uint32_t contact_count_ = 0;
+  int sub_step_ = 0;  ///< in hand
+  bool grew_ = false;
+  backend::TouchTracker touches_;
+  std::vector<PlumbEvent> events_, pending_events_;
+  std::vector<std::byte> snapshot_;
+};
+
+/// Makes room for a handle's slot and puts the object there.
+template <class Object>
+void put_in(std::vector<std::unique_ptr<Object>>& slots, std::uint64_t handle, std::unique_ptr<Object>&& object) {
+  const std::uint32_t slot = slot_of(handle);
+  if (slot >= slots.size()) slots.resize(slot + 1);
+  slots[slot] = std::move(object);
+}
+
+}  // namespace plumb::mujoco
