@@ -2,19 +2,6 @@
 #include "world.hpp"
 
 namespace plumb::mujoco {
-namespace {
-
-/// MuJoCo refuses moments that no body can have, when it makes the model: too late for who made the body.
-void require_possible_inertia(const PlumbBodyDesc& desc) {
-  if (desc.motion != PLUMB_DYNAMIC || (desc.flags & PLUMB_BODY_NO_ROTATION) != 0) return;
-  const PlumbVec3& i = desc.inertia;
-  const double slack = 1e-6 * std::max({i.x, i.y, i.z});
-  if (i.x + i.y + slack < i.z || i.x + i.z + slack < i.y || i.y + i.z + slack < i.x)
-    throw Error(PLUMB_E_UNSUPPORTED, "inertia has a moment larger than the sum of the other two, which MuJoCo refuses");
-}
-
-}  // namespace
-
 PlumbResult World::create_shapes(std::span<const PlumbShapeDesc> descs, std::span<PlumbShape> ids) {
   std::vector<std::unique_ptr<Shape>> made;
   for (std::size_t i = 0; i < descs.size(); ++i) {
@@ -33,7 +20,6 @@ PlumbResult World::destroy_shapes(std::span<const PlumbShape> ids) {
 }
 
 PlumbResult World::create_bodies(std::span<const PlumbBodyDesc> descs, std::span<PlumbBody> ids) {
-  for (const PlumbBodyDesc& desc : descs) require_possible_inertia(desc);
   for (std::size_t i = 0; i < descs.size(); ++i) {
     auto body = std::make_unique<Body>();
     body->handle = ids[i];

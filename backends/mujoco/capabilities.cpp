@@ -18,8 +18,7 @@ Capability shape_fact(std::uint32_t type, std::uint32_t motion) {
   if (usual.degree == PLUMB_NONE) return usual;
   if (type == PLUMB_TRIANGLE_MESH) return kNoMesh;
   if (type == PLUMB_HEIGHT_FIELD)
-    return motion == PLUMB_STATIC ? Capability{PLUMB_NATIVE, "cells are cut along the other diagonal"}
-                                  : Capability{PLUMB_NONE, "height fields stand still"};
+    return motion == PLUMB_STATIC ? usual : Capability{PLUMB_NONE, "height fields stand still"};
   if (type == PLUMB_COMPOUND) return {PLUMB_NATIVE, "several geoms of one body"};
   return usual;
 }
@@ -40,7 +39,8 @@ Capability joint_fact(std::uint32_t type) {
   const Capability usual = backend::usual_capability(PLUMB_CAP_JOINT, type, 0);
   if (type == PLUMB_JOINT_DISTANCE) return {PLUMB_NATIVE, "a tendon between two points, a soft constraint"};
   if (type == PLUMB_JOINT_BALL || type == PLUMB_JOINT_HINGE || type == PLUMB_JOINT_FIXED)
-    return {usual.degree, "of a tree, without error; those that close a loop are soft, without limits, motors and springs"};
+    return {usual.degree,
+            "of a tree, without error; those that close a loop are soft, without limits, motors and springs"};
   if (usual.degree != PLUMB_NONE) return {usual.degree, "of a tree, without error; it cannot close a loop"};
   return usual;
 }
@@ -69,19 +69,22 @@ Capability need_fact(std::uint32_t index) {
   switch (PlumbNeeds{1} << std::min<std::uint32_t>(index, 63)) {
     case PLUMB_NEED_CCD: return {PLUMB_NONE, "MuJoCo looks at where bodies are alone"};
     case PLUMB_NEED_SLEEPING: return kNoSleep;
-    case PLUMB_NEED_FRICTION: return {PLUMB_APPROXIMATE, "soft: what should stick creeps, less with impratio or noslip"};
+    case PLUMB_NEED_FRICTION:
+      return {PLUMB_APPROXIMATE, "soft: what should stick creeps, less with impratio or noslip"};
     case PLUMB_NEED_RESTITUTION:
-      return {PLUMB_APPROXIMATE, "a spring for bounce_substeps sub-steps, in which bodies overlap"};
+      return {PLUMB_APPROXIMATE,
+              "a spring for bounce_substeps sub-steps, in which bodies overlap; a rebound of a twentieth where there "
+              "should be none"};
     case PLUMB_NEED_SURFACE_VELOCITY: return {PLUMB_EMULATED, "as the sliding speed that a contact's friction wants"};
     case PLUMB_NEED_DAMPING: return {PLUMB_EMULATED, "a force of the adapter in each sub-step"};
     case PLUMB_NEED_AXIS_LOCKS:
-      return {PLUMB_EMULATED, "bodies weigh 1e10 kg along locked axes; where one or two turns are locked, they are taken out "
-                              "after each sub-step"};
+      return {PLUMB_EMULATED,
+              "bodies weigh 1e10 kg along locked axes; where one or two turns are locked, they are taken out "
+              "after each sub-step"};
     case PLUMB_NEED_KINEMATIC: return {PLUMB_EMULATED, "bodies of 1e10 kg that are put where they should be"};
     case PLUMB_NEED_FILTERS: return {PLUMB_EMULATED, "by the adapter, after contacts were found"};
     case PLUMB_NEED_EVENTS:
-    case PLUMB_NEED_SENSORS:
-      return {PLUMB_EMULATED, "by comparing who touches in one step with who does in the next"};
+    case PLUMB_NEED_SENSORS: return {PLUMB_EMULATED, "by comparing who touches in one step with who does in the next"};
     case PLUMB_NEED_SNAPSHOT: return {PLUMB_NATIVE, ""};
     default: return backend::usual_capability(PLUMB_CAP_NEED, index, 0);
   }

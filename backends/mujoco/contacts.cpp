@@ -1,5 +1,5 @@
-// Contacts: who may push whom, with which material, and what came of it. MuJoCo takes the larger friction of two and knows
-// no restitution, so every contact gets the pair's own between its detection and its solution.
+// Contacts: who may push whom, with which material, and what came of it. MuJoCo takes the larger friction of two and
+// knows no restitution, so every contact gets the pair's own between its detection and its solution.
 #include <cmath>
 #include <numbers>
 
@@ -23,13 +23,16 @@ void make_bouncy(mjContact& contact, double restitution, double time) {
   std::copy(hard, hard + mjNIMP, contact.solimp);
 }
 
+/// Of critical damping: with less what should not bounce does, at 1 with e^-2 of its speed, as nothing holds it back.
+constexpr double kNoRebound = 3;
+
 constexpr int kNotSolved = 1;  ///< as MuJoCo marks contacts in a gap
 
 }  // namespace
 
 bool World::may_push(const Body& a, const Body& b) const {
   if (!may_touch(a.desc.filter, b.desc.filter)) return false;
-  const auto pair = std::minmax(slot_of(a.handle), slot_of(b.handle));
+  const std::pair pair = in_order(a, b);
   return !excepted_.contains(pair) && !apart_.contains(pair);
 }
 
@@ -56,6 +59,7 @@ void World::judge_contacts(double h) {
     contact.friction[0] = contact.friction[1] = std::max(friction, mjMINMU);
     contact.solref[0] = settings_.contact_time;
     contact.solref[1] = settings_.contact_damping;
+    if (needs(PLUMB_NEED_RESTITUTION)) contact.solref[1] = std::max(contact.solref[1], kNoRebound);
     put_impedance(settings_, contact.solimp);
     if (restitution > 0) make_bouncy(contact, restitution, settings_.bounce_substeps * h);
   }
@@ -97,8 +101,7 @@ void World::gather_impulses(double h) {
     mjtNum force[6];
     mj_contactForce(model_.model.get(), d, i, force);
     Impulses& pair = impulses_[{at.geom1, at.geom2}];
-    if (pair.sub_step != sub_step_) pair.points.clear();
-    pair.sub_step = sub_step_;
+    if (pair.sub_step < 0) pair.sub_step = sub_step_;
     PlumbContact contact{};
     contact.body_a = one.body->handle;
     contact.body_b = two.body->handle;
@@ -109,19 +112,17 @@ void World::gather_impulses(double h) {
     contact.depth = -at.dist;
     contact.normal_impulse = h * force[0];
     for (int k = 0; k < 3; ++k) pair.sum = add(pair.sum, scale(h * force[k], vec(at.frame + 3 * k)));
-    pair.points.push_back(contact);
+    if (pair.sub_step == sub_step_) pair.points.push_back(contact);
     if (at.dist <= 0 || force[0] > 0) touches_.touch(contact.body_a, contact.body_b);
   }
 }
 
-/// What a pair has pushed with over the step is shared out among its last points by what each pushed with at last.
+/// What a pair has pushed with over the step is shared out among its first points by what each pushed with at first.
 void World::finish_contacts() {
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   contacts_.clear();
-  contact_count_ = 0;
+  if (!needs(PLUMB_NEED_CONTACTS)) return;
   for (auto& [geoms, pair] : impulses_) {
-    contact_count_ += static_cast<std::uint32_t>(pair.points.size());
-    if (!needs(PLUMB_NEED_CONTACTS)) continue;
     double all = 0;
     for (const PlumbContact& point : pair.points) all += point.normal_impulse;
     for (PlumbContact point : pair.points) {

@@ -1,5 +1,6 @@
 // State of bodies, read and written by field. Bodies hold it; what is written goes to MuJoCo before it is next used.
-#include "plumb/backend/mass_properties.hpp"
+#include <tuple>
+
 #include "world.hpp"
 
 namespace plumb::mujoco {
@@ -13,9 +14,7 @@ void read_row(PlumbField field, const Body& body, double* row) {
       put(PlumbVec3{body.pose.orientation.x, body.pose.orientation.y, body.pose.orientation.z}, row + 3);
       row[6] = body.pose.orientation.w;
       return;
-    case PLUMB_FIELD_VELOCITY:
-      put(body.velocity, row);
-      return put(body.spin, row + 3);
+    case PLUMB_FIELD_VELOCITY: put(body.velocity, row); return put(body.spin, row + 3);
     case PLUMB_FIELD_AWAKE: row[0] = 1; return;
     case PLUMB_FIELD_MATERIAL:
       row[0] = desc.material.friction;
@@ -45,10 +44,6 @@ PlumbVec3 turned_by(const Body& body, const PlumbVec3& twist) {
   return rotate(axes, {u.x / i.x, u.y / i.y, u.z / i.z});
 }
 
-PlumbVec3 free_part(const PlumbVec3& v, std::uint32_t locks, std::uint32_t first) {
-  return {(locks & first) != 0 ? 0 : v.x, (locks & first << 1) != 0 ? 0 : v.y, (locks & first << 2) != 0 ? 0 : v.z};
-}
-
 }  // namespace
 
 PlumbResult World::read(PlumbField field, std::span<const PlumbBody> ids, Rows rows) {
@@ -73,10 +68,12 @@ PlumbResult World::write(PlumbField field, std::span<const PlumbBody> ids, Const
 void World::push(Body& at, const PlumbVec3& impulse, const PlumbVec3& twist) {
   if (!at.is(PLUMB_DYNAMIC)) return;
   prepare();
-  if (at.link != nullptr || model_.model->body_dofnum[at.id] == 0 || model_.model->body_subtreemass[at.id] > 1.0000001 * at.desc.mass)
+  if (at.link != nullptr || model_.model->body_dofnum[at.id] == 0 ||
+      model_.model->body_subtreemass[at.id] > 1.0000001 * at.desc.mass)
     return push_tree(at, impulse, twist);
-  at.velocity = add(at.velocity, free_part(scale(1 / at.desc.mass, impulse), at.desc.locks, PLUMB_LOCK_LINEAR_X));
-  at.spin = add(at.spin, free_part(turned_by(at, twist), at.desc.locks, PLUMB_LOCK_ANGULAR_X));
+  at.velocity = add(at.velocity, scale(1 / at.desc.mass, impulse));
+  at.spin = add(at.spin, turned_by(at, twist));
+  std::tie(at.velocity, at.spin) = at.free_velocity();
   at.written = true;
 }
 

@@ -69,8 +69,11 @@ void name_axes(const Body& body) {
   }
 }
 
-/// Where two bodies are held together, in the frame of each.
-void put_anchors(mjtNum* data, const PlumbVec3& in_a, const PlumbVec3& in_b, bool weld) {
+/// Where two bodies are held together, in the frame of each. at: in the joint's frames, which coincide.
+void put_anchors(mjtNum* data, const Joint& joint, const PlumbVec3& at, bool weld) {
+  const PlumbVec3 shift = joint.a == nullptr ? PlumbVec3{} : joint.a->shift;
+  const PlumbVec3 in_a = sub(point_of(joint.desc.frame_a, at), shift);
+  const PlumbVec3 in_b = sub(point_of(joint.desc.frame_b, at), joint.b->shift);
   put(weld ? in_b : in_a, data);
   put(weld ? in_a : in_b, data + 3);
 }
@@ -90,12 +93,9 @@ void fill_equalities(Model& made, const std::vector<std::unique_ptr<Joint>>& joi
       continue;
     }
     const bool weld = open_axes(desc) == 0;
-    put_anchors(data, desc.frame_a.position, desc.frame_b.position, weld);
-    if (weld)
-      put(multiply(desc.frame_a.orientation, backend::conjugate(desc.frame_b.orientation)), data + 6);
-    if (open_axes(desc) == 0b001000)
-      put_anchors(made.model->eq_data + mjNEQDATA * next++, point_of(desc.frame_a, {1, 0, 0}),
-                  point_of(desc.frame_b, {1, 0, 0}), false);
+    put_anchors(data, *joint, {0, 0, 0}, weld);
+    if (weld) put(multiply(desc.frame_a.orientation, backend::conjugate(desc.frame_b.orientation)), data + 6);
+    if (open_axes(desc) == 0b001000) put_anchors(made.model->eq_data + mjNEQDATA * next++, *joint, {1, 0, 0}, false);
   }
 }
 
@@ -103,8 +103,14 @@ void fill_heights(const Model& made) {
   for (int i = 0; i < made.model->ngeom; ++i) {
     if (made.model->geom_type[i] != mjGEOM_HFIELD) continue;
     const std::vector<float>& heights = made.geoms[static_cast<std::size_t>(i)].shape->field.heights;
-    std::copy(heights.begin(), heights.end(), made.model->hfield_data + made.model->hfield_adr[made.model->geom_dataid[i]]);
+    std::copy(heights.begin(), heights.end(),
+              made.model->hfield_data + made.model->hfield_adr[made.model->geom_dataid[i]]);
   }
+}
+
+void fill_inertia(const Model& made, const Body& body) {
+  if (body.is(PLUMB_DYNAMIC) && (body.desc.flags & PLUMB_BODY_NO_ROTATION) == 0)
+    put(body.desc.inertia, made.model->body_inertia + 3 * body.id);
 }
 
 /// Locked axes of free bodies weigh as much as what nothing moves. The turns are about the body's own axes, and only as
@@ -158,7 +164,10 @@ Model make_model(const Tree& tree, const std::vector<std::unique_ptr<Joint>>& jo
     if (body->link != nullptr) name_axes(*body);
   fill_equalities(made, joints);
   fill_heights(made);
-  for (const Body* body : tree.order) add_armature(made, *body);
+  for (const Body* body : tree.order) {
+    fill_inertia(made, *body);
+    add_armature(made, *body);
+  }
   apply_to_model(settings, m);
   for (const auto& joint : joints)
     if (joint && joint->is_link) apply_motors(made, *joint);

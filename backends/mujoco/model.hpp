@@ -21,7 +21,7 @@ struct Geom {
   Body* body;
   const Shape* shape;
   std::uint32_t child;
-  PlumbPose at;                    ///< of the shape in the body's frame
+  PlumbPose at;  ///< of the shape in the body's frame
   const PlumbMaterial* material;
 };
 
@@ -37,6 +37,9 @@ struct Model {
 /// Throws Error (PLUMB_E_UNSUPPORTED) with MuJoCo's words for what it will not have.
 [[nodiscard]] Model make_model(const Tree& tree, const std::vector<std::unique_ptr<Joint>>& joints,
                                const Settings& settings, bool collides);
+
+/// Of a body's frame, as MuJoCo's kinematics were last worked out.
+[[nodiscard]] PlumbPose pose_in(const mjData& data, const Body& body);
 
 /// Motors of links, at any time.
 void apply_motors(Model& model, const Joint& joint);

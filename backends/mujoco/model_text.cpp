@@ -80,6 +80,7 @@ void write_geom(Writer& out, const Shape& shape, const PlumbPose& at) {
 
 // --- bodies ----------------------------------------------------------------------------------------------------------
 
+/// The moments are put into the model afterwards: in a text MuJoCo refuses those that no solid body has.
 void write_inertial(Writer& out, const Body& body) {
   if (body.is(PLUMB_STATIC)) return;
   if (body.is(PLUMB_KINEMATIC)) {
@@ -87,9 +88,8 @@ void write_inertial(Writer& out, const Body& body) {
     return;
   }
   const PlumbBodyDesc& desc = body.desc;
-  const bool turns = (desc.flags & PLUMB_BODY_NO_ROTATION) == 0;
-  out << "<inertial" << PlumbPose{desc.centre_of_mass, desc.inertia_orientation} << " mass=\"" << desc.mass
-      << "\" diaginertia=\"" << (turns ? desc.inertia : PlumbVec3{desc.mass, desc.mass, desc.mass}) << "\"/>\n";
+  out << "<inertial" << body.shifted({desc.centre_of_mass, desc.inertia_orientation}) << " mass=\"" << desc.mass
+      << "\" diaginertia=\"" << desc.mass << desc.mass << desc.mass << "\"/>\n";
 }
 
 void write_scalar_joint(Writer& out, const Body& body, std::size_t axis, const PlumbPose& frame) {
@@ -131,18 +131,23 @@ void write_joints(Writer& out, const Body& body) {
 
 /// Where a child is when all of its joint's coordinates are 0.
 PlumbPose place(const Body& body) {
-  if (body.link == nullptr) return body.pose;
+  if (body.link == nullptr) return compose(body.pose, {body.shift, {0, 0, 0, 1}});
   const PlumbJointDesc& desc = body.link->desc;
-  return body.reversed ? compose(desc.frame_b, inverse(desc.frame_a)) : compose(desc.frame_a, inverse(desc.frame_b));
+  const PlumbPose at =
+      body.reversed ? compose(desc.frame_b, inverse(desc.frame_a)) : compose(desc.frame_a, inverse(desc.frame_b));
+  return body.parent == nullptr ? at : body.parent->shifted(at);
+}
+
+void write_site(Writer& out, const std::string& name, const Body* body, const PlumbPose& frame) {
+  const PlumbPose at = body == nullptr ? frame : body->shifted(frame);
+  out << "<site name=\"" << name << "\" pos=\"" << at.position << "\"/>\n";
 }
 
 void write_sites(Writer& out, const Body* body, const std::vector<std::unique_ptr<Joint>>& joints) {
   for (const auto& joint : joints) {
     if (!joint || joint->desc.type != PLUMB_JOINT_DISTANCE) continue;
-    if (joint->a == body)
-      out << "<site name=\"" << name('p', joint->handle) << "\" pos=\"" << joint->desc.frame_a.position << "\"/>\n";
-    if (joint->b == body)
-      out << "<site name=\"" << name('q', joint->handle) << "\" pos=\"" << joint->desc.frame_b.position << "\"/>\n";
+    if (joint->a == body) write_site(out, name('p', joint->handle), body, joint->desc.frame_a);
+    if (joint->b == body) write_site(out, name('q', joint->handle), body, joint->desc.frame_b);
   }
 }
 
@@ -150,9 +155,10 @@ void write_body(Writer& out, const Body& body, const Tree& tree, const std::vect
   out << "<body name=\"" << body_name(&body) << "\"" << place(body) << ">\n";
   write_inertial(out, body);
   write_joints(out, body);
-  if (body.shape != nullptr && body.shape->type != PLUMB_COMPOUND) write_geom(out, *body.shape, identity_pose());
+  if (body.shape != nullptr && body.shape->type != PLUMB_COMPOUND)
+    write_geom(out, *body.shape, body.shifted(identity_pose()));
   if (body.shape != nullptr)
-    for (const Shape::Child& child : body.shape->children) write_geom(out, *child.shape, child.pose);
+    for (const Shape::Child& child : body.shape->children) write_geom(out, *child.shape, body.shifted(child.pose));
   write_sites(out, &body, joints);
   for (const Body* child : tree.children[slot_of(body.handle)]) write_body(out, *child, tree, joints);
   out << "</body>\n";

@@ -17,6 +17,21 @@ double way_to(const Model& model, int geom, const mjtNum* from, const mjtNum* al
   }
 }
 
+/// Goes on behind what is none of ours: a wall and the floor of a height field, at most.
+template <class IsOurs>
+double way_to_surface(const Model& model, int geom, const mjtNum* from, const mjtNum* along, IsOurs&& is_ours) {
+  constexpr double behind = 1e-6;
+  double gone = 0;
+  for (int i = 0; i < 3; ++i) {
+    const mjtNum start[3] = {from[0] + gone * along[0], from[1] + gone * along[1], from[2] + gone * along[2]};
+    const double way = way_to(model, geom, start, along);
+    if (way < 0) return way;
+    if (is_ours(gone + way)) return gone + way;
+    gone += way + behind;
+  }
+  return -1;
+}
+
 }  // namespace
 
 /// MuJoCo's geoms are where its last sub-step began until they are asked again.
@@ -37,13 +52,18 @@ Hits World::cast_rays(PlumbHitMode mode, std::span<const PlumbRay> rays) {
     for (int g = 0; g < model_.model->ngeom; ++g) {
       const Geom& geom = model_.geoms[static_cast<std::size_t>(g)];
       if (geom.body->is_sensor() || !may_touch(rays[i].filter, geom.body->desc.filter)) continue;
-      const double way = way_to(model_, g, from, along);
-      if (way < 0 || way > all) continue;
-      const PlumbVec3 position = add(rays[i].origin, scale(way / all, rays[i].translation));
       const PlumbPose frame = compose(geom.body->pose, geom.at);
-      const PlumbVec3 local = unrotate(frame.orientation, sub(position, frame.position));
-      found.add(geom.body->handle, geom.child, way / all, position,
-                rotate(frame.orientation, normal_at(*geom.shape, local)));
+      const auto local = [&](double way) {
+        const PlumbVec3 point = add(rays[i].origin, scale(way / all, rays[i].translation));
+        return unrotate(frame.orientation, sub(point, frame.position));
+      };
+      const double way =
+          way_to_surface(model_, g, from, along, [&](double at) { return is_on_surface(*geom.shape, local(at)); });
+      if (way < 0 || way > all) continue;
+      PlumbVec3 normal = rotate(frame.orientation, normal_at(*geom.shape, local(way)));
+      if (geom.shape->type == PLUMB_HEIGHT_FIELD && dot(normal, rays[i].translation) > 0) normal = scale(-1, normal);
+      found.add(geom.body->handle, geom.child, way / all, add(rays[i].origin, scale(way / all, rays[i].translation)),
+                normal);
     }
     found.finish();
   }

@@ -22,7 +22,8 @@ const backend::SettingsTable<Settings>& settings_table() {
   using namespace backend;
   constexpr auto quality = PLUMB_ROLE_QUALITY, behaviour = PLUMB_ROLE_BEHAVIOUR;
   static const SettingsTable<Settings> all = {
-      setting<&S::substeps>(int_setting("substeps", "1", quality, 1, 1024, 8, "MuJoCo steps of dt / substeps in a step")),
+      setting<&S::substeps>(
+          int_setting("substeps", "1", quality, 1, 1024, 8, "MuJoCo steps of dt / substeps in a step")),
       setting<&S::solver>(choice_setting("solver", behaviour, solver_words,
                                          "projected Gauss-Seidel, conjugate gradients, or Newton's method", 0, 2)),
       setting<&S::iterations>(int_setting("iterations", "1", quality, 1, 10000, 100, "at most, of the solver")),
@@ -39,8 +40,8 @@ const backend::SettingsTable<Settings>& settings_table() {
       setting<&S::joint_time>(float_setting("joint_time", "s", behaviour, 1e-5, 10, 0.02,
                                             "in which limits, rods and joints that close a loop are mended")),
       setting<&S::joint_damping>(float_setting("joint_damping_ratio", "1", behaviour, 1e-3, 1e3, 1, "likewise")),
-      setting<&S::impedance_least>(
-          float_setting("impedance_least", "1", behaviour, 1e-4, 0.9999, 0.9, "hardness of a constraint where it begins")),
+      setting<&S::impedance_least>(float_setting("impedance_least", "1", behaviour, 1e-4, 0.9999, 0.9,
+                                                 "hardness of a constraint where it begins")),
       setting<&S::impedance_most>(
           float_setting("impedance_most", "1", behaviour, 1e-4, 0.9999, 0.95, "hardness of one that is far violated")),
       setting<&S::impedance_width>(float_setting("impedance_width", "m", behaviour, 0, 10, 0.001,
@@ -49,8 +50,8 @@ const backend::SettingsTable<Settings>& settings_table() {
                                                "sub-steps that an impact with restitution lasts; fewer are harder")),
       setting<&S::warm_starting>(
           bool_setting("warm_starting", quality, true, "the accelerations of the step before are the first guess")),
-      setting<&S::multiccd>(bool_setting("multiccd", quality, false,
-                                         "several points of contact for pairs of hulls and cylinders, by turning them"))};
+      setting<&S::multiccd>(bool_setting(
+          "multiccd", quality, false, "several points of contact for pairs of hulls and cylinders, by turning them"))};
   return all;
 }
 

@@ -5,12 +5,17 @@
 namespace plumb::mujoco {
 namespace {
 
-/// MuJoCo's rows go the other way: its y is our -z.
+/// MuJoCo's rows go the other way, its y being our -z; so both cut their cells along the same diagonal.
 Shape::Field field_of(const PlumbShapeDesc& desc) {
   const std::size_t count = std::size_t{desc.rows} * desc.columns;
   const auto [low, high] = std::minmax_element(desc.heights, desc.heights + count);
-  Shape::Field field{desc.rows, desc.columns, (desc.columns - 1) * desc.spacing.x / 2,
-                     (desc.rows - 1) * desc.spacing.z / 2, *low, std::max(*high - *low, 1e-3), {}};
+  Shape::Field field{desc.rows,
+                     desc.columns,
+                     (desc.columns - 1) * desc.spacing.x / 2,
+                     (desc.rows - 1) * desc.spacing.z / 2,
+                     *low,
+                     std::max(*high - *low, 1e-3),
+                     {}};
   for (std::uint32_t r = desc.rows; r-- > 0;)
     for (std::uint32_t c = 0; c < desc.columns; ++c)
       field.heights.push_back(static_cast<float>((desc.heights[r * desc.columns + c] - field.lowest) / field.span));
@@ -38,21 +43,32 @@ PlumbVec3 normal_of_hull(const backend::ConvexHull& hull, const PlumbVec3& p) {
   return best->normal;
 }
 
-/// Of the triangle of the cell, which MuJoCo cuts from its low corner to its high one.
+/// The triangle of a height field above or below a point: height there, and its slopes.
+struct Slope {
+  double height, along_x, along_z;
+};
+Slope slope_at(const Shape::Field& field, const PlumbVec3& p) {
+  const double step_x = 2 * field.half_x / (field.columns - 1), step_z = 2 * field.half_z / (field.rows - 1);
+  const auto cell = [](double at, std::uint32_t count) { return std::clamp(std::floor(at), 0.0, count - 2.0); };
+  const double x = (p.x + field.half_x) / step_x, z = (p.z + field.half_z) / step_z;
+  const double c = cell(x, field.columns), r = cell(z, field.rows), u = x - c, v = z - r;
+  const auto height = [&](double row, double column) {
+    const double mirrored = field.rows - 1 - row;
+    return field.lowest +
+           field.span * static_cast<double>(field.heights[static_cast<std::size_t>(mirrored * field.columns + column)]);
+  };
+  const double h01 = height(r, c + 1), h10 = height(r + 1, c);
+  if (u + v <= 1) {
+    const double h = height(r, c);
+    return {h + u * (h01 - h) + v * (h10 - h), (h01 - h) / step_x, (h10 - h) / step_z};
+  }
+  const double h = height(r + 1, c + 1);
+  return {h + (1 - u) * (h10 - h) + (1 - v) * (h01 - h), (h - h10) / step_x, (h - h01) / step_z};
+}
+
 PlumbVec3 normal_of_field(const Shape::Field& field, const PlumbVec3& p) {
-  const double step_x = 2 * field.half_x / (field.columns - 1), step_y = 2 * field.half_z / (field.rows - 1);
-  const double x = (p.x + field.half_x) / step_x, y = (field.half_z - p.z) / step_y;
-  const auto cell = [](double at, std::uint32_t count) {
-    return static_cast<std::size_t>(std::clamp(std::floor(at), 0.0, count - 2.0));
-  };
-  const std::size_t c = cell(x, field.columns), r = cell(y, field.rows);
-  const auto height = [&](std::size_t row, std::size_t column) {
-    return field.span * static_cast<double>(field.heights[row * field.columns + column]);
-  };
-  const bool upper = y - static_cast<double>(r) > x - static_cast<double>(c);
-  const double along_x = upper ? height(r + 1, c + 1) - height(r + 1, c) : height(r, c + 1) - height(r, c);
-  const double along_y = upper ? height(r + 1, c) - height(r, c) : height(r + 1, c + 1) - height(r, c + 1);
-  return normalized(PlumbVec3{-along_x / step_x, 1, along_y / step_y});
+  const Slope slope = slope_at(field, p);
+  return normalized(PlumbVec3{-slope.along_x, 1, -slope.along_z});
 }
 
 }  // namespace
@@ -96,6 +112,10 @@ PlumbVec3 normal_at(const Shape& shape, const PlumbVec3& p) {
     case PLUMB_HEIGHT_FIELD: return normal_of_field(shape.field, p);
     default: return {0, 1, 0};
   }
+}
+
+bool is_on_surface(const Shape& shape, const PlumbVec3& point) {
+  return shape.type != PLUMB_HEIGHT_FIELD || std::abs(slope_at(shape.field, point).height - point.y) < 1e-4;
 }
 
 }  // namespace plumb::mujoco

@@ -17,7 +17,7 @@ struct Shape {
     bool has_material;
     PlumbMaterial material;
   };
-  /// Of a height field: as MuJoCo holds it, rows from far to near, 0 the lowest and 1 the highest.
+  /// Of a height field: as MuJoCo holds it, the last row first, 0 the lowest and 1 the highest.
   struct Field {
     std::uint32_t rows, columns;
     double half_x, half_z, lowest, span;
@@ -45,5 +45,8 @@ struct Shape {
 
 /// Of the surface at a point of it, in the shape's frame; not of compounds.
 [[nodiscard]] PlumbVec3 normal_at(const Shape& shape, const PlumbVec3& point);
+
+/// MuJoCo's height fields are solid, with walls and a floor, which ours have not.
+[[nodiscard]] bool is_on_surface(const Shape& shape, const PlumbVec3& point);
 
 }  // namespace plumb::mujoco

@@ -49,8 +49,13 @@ PlumbResult World::save(std::span<const std::byte>& data) {
   append(snapshot_, d.qacc_warmstart, static_cast<std::size_t>(m.nv));
   for (const auto& body : bodies_) {
     if (!body) continue;
-    const BodyState state{body->pose,  body->target, body->velocity, body->spin,
-                          body->force, body->torque, static_cast<std::uint64_t>(body->moving)};
+    const BodyState state{body->pose,
+                          body->target,
+                          body->velocity,
+                          body->spin,
+                          body->force,
+                          body->torque,
+                          static_cast<std::uint64_t>(body->moving)};
     append(snapshot_, &state, 1);
   }
   for (const Touching& pair : touches_.touching()) {

@@ -1,5 +1,5 @@
-// What moves, between bodies and MuJoCo's coordinates: of free bodies as they are, of those in trees along the free axes
-// of their joints.
+// What moves, between bodies and MuJoCo's coordinates: of free bodies as they are, of those in trees along the free
+// axes of their joints.
 #include <cmath>
 
 #include "plumb/backend/joint_coordinates.hpp"
@@ -8,8 +8,8 @@
 namespace plumb::mujoco {
 namespace {
 
-/// x that brings J x nearest to r; columns of J: 6 numbers each. By the normal equations, of which the diagonal is raised
-/// a little where columns coincide.
+/// x that brings J x nearest to r; columns of J: 6 numbers each. By the normal equations, of which the diagonal is
+/// raised a little where columns coincide.
 std::vector<double> least_squares(const std::vector<std::array<double, 6>>& columns, const std::array<double, 6>& r) {
   const std::size_t n = columns.size();
   const auto product = [](const std::array<double, 6>& a, const std::array<double, 6>& b) {
@@ -36,6 +36,11 @@ std::vector<double> least_squares(const std::vector<std::array<double, 6>>& colu
 
 }  // namespace
 
+PlumbPose pose_in(const mjData& data, const Body& body) {
+  const PlumbQuat turn = quat(data.xquat + 4 * body.id);
+  return {sub(vec(data.xpos + 3 * body.id), rotate(turn, body.shift)), turn};
+}
+
 void World::prepare() {
   if (stale_) {
     const Tree tree = grow_tree(bodies_, joints_);
@@ -45,7 +50,7 @@ void World::prepare() {
     apart_.clear();
     for (const auto& joint : joints_)
       if (joint && joint->a != nullptr && joint->desc.collide_connected == 0)
-        apart_.insert(std::minmax(slot_of(joint->a->handle), slot_of(joint->b->handle)));
+        apart_.insert(in_order(*joint->a, *joint->b));
     stale_ = false;
   }
   write_state();
@@ -84,11 +89,11 @@ void World::write_free(const Body& body) {
   mjData* d = model_.data.get();
   mjtNum* qpos = d->qpos + model_.model->jnt_qposadr[body.first_joint];
   mjtNum* qvel = d->qvel + model_.first_dof(body);
-  put(body.pose.position, qpos);
+  const auto [velocity, spin] = body.free_velocity();
+  put(point_of(body.pose, body.shift), qpos);
   put(body.pose.orientation, qpos + 3);
-  const PlumbVec3 arm = rotate(body.pose.orientation, body.centre_of_mass());
-  put(sub(body.velocity, cross(body.spin, arm)), qvel);
-  put(unrotate(body.pose.orientation, body.spin), qvel + 3);
+  put(velocity, qvel);
+  put(unrotate(body.pose.orientation, spin), qvel + 3);
 }
 
 void World::write_coordinates(const Body& body) {
@@ -119,7 +124,8 @@ void World::write_rates(const Body& body) {
   std::vector<mjtNum> jacobian(6 * dofs);
   mj_jacBodyCom(m, d, jacobian.data(), jacobian.data() + 3 * dofs, body.id);
   for (int i = 0; i < count; ++i) d->qvel[first + i] = 0;
-  std::array<double, 6> left = {body.velocity.x, body.velocity.y, body.velocity.z, body.spin.x, body.spin.y, body.spin.z};
+  std::array<double, 6> left = {body.velocity.x, body.velocity.y, body.velocity.z,
+                                body.spin.x,     body.spin.y,     body.spin.z};
   std::vector<std::array<double, 6>> columns(static_cast<std::size_t>(count));
   for (std::size_t k = 0; k < 6; ++k) {
     left[k] -= mju_dot(jacobian.data() + k * dofs, d->qvel, m->nv);
@@ -138,7 +144,7 @@ void World::read_state() {
   mj_comVel(m, d);
   for (Body* body : model_.bodies) {
     if (body == nullptr || !body->is(PLUMB_DYNAMIC)) continue;
-    body->pose = {vec(d->xpos + 3 * body->id), quat(d->xquat + 4 * body->id)};
+    body->pose = pose_in(*d, *body);
     mjtNum velocity[6];
     mj_objectVelocity(m, d, mjOBJ_BODY, body->id, velocity, 0);
     body->spin = vec(velocity);

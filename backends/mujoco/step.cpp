@@ -133,7 +133,10 @@ void World::sub_step(double h) {
     grow_data(model_);
     grew_ = true;
   }
-  if (needs(PLUMB_NEED_CONTACTS | PLUMB_NEED_EVENTS | PLUMB_NEED_SENSORS)) gather_impulses(h);
+  const std::span<const mjContact> found(model_.data->contact, static_cast<std::size_t>(model_.data->ncon));
+  contact_count_ = static_cast<std::uint32_t>(
+      std::count_if(found.begin(), found.end(), [](const mjContact& contact) { return contact.efc_address >= 0; }));
+  if (needs(PLUMB_NEED_CONTACTS | PLUMB_NEED_EVENTS)) gather_impulses(h);
   gather_reactions(1.0 / settings_.substeps);
   mj_Euler(m, model_.data.get());
   hold_locks(h);

@@ -1,5 +1,5 @@
-// One world. MuJoCo compiles a model of all of it: what comes or goes makes it anew when it is next needed, and what moves
-// is carried over.
+// One world. MuJoCo compiles a model of all of it: what comes or goes makes it anew when it is next needed, and what
+// moves is carried over.
 #pragma once
 
 #include <map>
@@ -72,9 +72,9 @@ class World final : public IPhysicsWorld,
  private:
   /// What one geom has with another in the step in hand.
   struct Impulses {
-    std::vector<PlumbContact> points;  ///< of the last sub-step in which they touched
+    std::vector<PlumbContact> points;  ///< of the first sub-step in which they touched
     PlumbVec3 sum{};                   ///< N s on the second, over all of the step
-    int sub_step = -1;                 ///< the last in which they touched
+    int sub_step = -1;                 ///< which that was
   };
 
   [[nodiscard]] bool needs(PlumbNeeds bits) const { return (needs_ & bits) != 0; }
@@ -83,12 +83,12 @@ class World final : public IPhysicsWorld,
   [[nodiscard]] const Shape& shape(PlumbShape handle) const { return *shapes_[slot_of(handle)]; }
 
   // state.cpp
-  void prepare();                 ///< the model is that of the world, and what was written is in its data
-  void write_state();             ///< of bodies to MuJoCo
+  void prepare();      ///< the model is that of the world, and what was written is in its data
+  void write_state();  ///< of bodies to MuJoCo
   void write_free(const Body& body);
   void write_coordinates(const Body& body);
   void write_rates(const Body& body);
-  void read_state();              ///< of MuJoCo to bodies
+  void read_state();  ///< of MuJoCo to bodies
   void push_tree(const Body& body, const PlumbVec3& impulse, const PlumbVec3& twist);
 
   // fields.cpp

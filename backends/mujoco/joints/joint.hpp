@@ -1,5 +1,5 @@
-// A joint. Most are links of MuJoCo's trees: a body is the child of the other and moves along the joint's free axes. What
-// would close a loop, and rods, are constraints between bodies that both move by themselves.
+// A joint. Most are links of MuJoCo's trees: a body is the child of the other and moves along the joint's free axes.
+// What would close a loop, and rods, are constraints between bodies that both move by themselves.
 #pragma once
 
 #include <array>

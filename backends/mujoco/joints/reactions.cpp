@@ -1,4 +1,5 @@
-// What joints push with in a sub-step: links by MuJoCo's inverse dynamics, the others by the forces of their constraints.
+// What joints push with in a sub-step: links by MuJoCo's inverse dynamics, the others by the forces of their
+// constraints.
 #include "world.hpp"
 
 namespace plumb::mujoco {
@@ -14,8 +15,7 @@ Wrench of_link(const Model& model, const Body& child) {
   const PlumbVec3 force = vec(told + 3), torque = vec(told);
   const Joint& link = *child.link;
   const Body& b = *link.b;
-  const PlumbPose now{vec(d->xpos + 3 * b.id), quat(d->xquat + 4 * b.id)};
-  const PlumbVec3 at = point_of(now, link.desc.frame_b.position);
+  const PlumbVec3 at = point_of(pose_in(*d, b), link.desc.frame_b.position);
   const double sign = child.reversed ? -1 : 1;
   const PlumbVec3 arm = sub(vec(d->subtree_com + 3 * child.root), at);
   return {scale(sign, force), scale(sign, add(torque, cross(arm, force)))};
@@ -75,8 +75,10 @@ void World::gather_reactions(double share) {
     if (body != nullptr && body->link != nullptr) take(*body->link, of_link(model_, *body));
   for (const auto& joint : joints_) {
     if (!joint || joint->is_link) continue;
-    if (joint->tendon >= 0) take(*joint, of_rod(model_, *joint));
-    else if (joint->equality >= 0) take(*joint, of_loop(model_, *joint));
+    if (joint->tendon >= 0)
+      take(*joint, of_rod(model_, *joint));
+    else if (joint->equality >= 0)
+      take(*joint, of_loop(model_, *joint));
   }
 }
 

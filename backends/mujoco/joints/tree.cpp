@@ -112,6 +112,7 @@ Tree grow_tree(const std::vector<std::unique_ptr<Body>>& bodies, const std::vect
     body->parent = nullptr;
     body->link = nullptr;
     body->reversed = false;
+    body->shift = {};
   }
   const auto plant = [&](Body* root) {
     seen[slot_of(root->handle)] = true;
@@ -128,7 +129,10 @@ Tree grow_tree(const std::vector<std::unique_ptr<Body>>& bodies, const std::vect
   }
   for (const auto& body : bodies)
     if (body && !seen[slot_of(body->handle)]) plant(body.get());
-  for (Body* root : tree.roots) add_subtree(tree, root);
+  for (Body* root : tree.roots) {
+    if (root->link == nullptr) root->shift = root->centre_of_mass();
+    add_subtree(tree, root);
+  }
   return tree;
 }
 
