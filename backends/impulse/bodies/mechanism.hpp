@@ -133,9 +133,7 @@ struct Mechanisms {
     load.force += force;
     load.torque += torque;
     const Six wrench = six(force, torque);
-    for_moved(body, [=](std::uint32_t other, const Real* response) {
-      move_by(response, wrench, velocities[other]);
-    });
+    for_moved(body, [=](std::uint32_t other, const Real* response) { move_by(response, wrench, velocities[other]); });
   }
   /// Likewise where its bodies are: a wrench times seconds moves them by what it gives them in speed times those.
   PLUMB_HD void displace(std::uint32_t body, const Vec& force, const Vec& torque, Displacement* displacements) const {

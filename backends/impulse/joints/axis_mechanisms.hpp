@@ -33,8 +33,8 @@ PLUMB_HD inline void choose_in_system(const AxisView& view, const JointSystem& s
 }
 
 #if !defined(PLUMB_IMPULSE_CUDA)
-/// Whether a column's factors are to be found anew, those of earlier columns being known: for its own rows, for those of
-/// later joints that it meets, and for what earlier columns take off it.
+/// Whether a column's factors are to be found anew, those of earlier columns being known: for its own rows, for those
+/// of later joints that it meets, and for what earlier columns take off it.
 inline bool needs_factors(const JointSystem& system, const AxisView& view, std::uint32_t column) {
   const AxisWork* work = view.parts.work + system.base;
   bool needs = work[column].is_factored();

@@ -45,8 +45,8 @@ PLUMB_HD void put_rows(Jacobian& rows, int n, const JointMass& mass, JointMatrix
 PLUMB_HD inline void speeds_along(const Jacobian& rows, int n, const Velocity& a, const Velocity& b,
                                   RowNumbers& speed) {
   for (int i = 0; i < n; ++i)
-    speed[i] = dot(rows.direction(i), b.linear - a.linear) + dot(rows.on_a(i), a.angular) +
-               dot(rows.on_b(i), b.angular);
+    speed[i] =
+        dot(rows.direction(i), b.linear - a.linear) + dot(rows.on_a(i), a.angular) + dot(rows.on_b(i), b.angular);
 }
 
 /// Impulses along n rows push one of the bodies.

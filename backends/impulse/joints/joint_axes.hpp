@@ -128,8 +128,7 @@ PLUMB_HD inline JointRow axis_row(const RowSpec& row, const JointPlace& place, c
 }
 
 /// All rows of a joint: C, or the coordinate.
-PLUMB_HD inline void all_errors(const Joint& joint, const JointAxes& axes, const JointPlace& place,
-                                RowNumbers& error) {
+PLUMB_HD inline void all_errors(const Joint& joint, const JointAxes& axes, const JointPlace& place, RowNumbers& error) {
   joint_errors(joint, place, error);
   const int first = rows_of(joint.type);
   if (first == row_count(joint)) return;

@@ -35,7 +35,7 @@ struct AxisWork : AxisMemory {
   RowNumbers before;             ///< speeds when the pass began
   std::uint32_t predicted;       ///< bits: rows that are taken to hold while contacts push
   std::uint32_t let_go;          ///< bits: of these, those that have not
-  RowNumbers bend;         ///< what the speeds over a sub-step have beyond those now, where that was last looked at
+  RowNumbers bend;  ///< what the speeds over a sub-step have beyond those now, where that was last looked at
 
   PLUMB_HD bool is_active(int row) const { return cfm[row] >= 0; }
   /// Bits: rows that are.
@@ -285,8 +285,7 @@ PLUMB_HD inline void row_residuals(const AxisView& view, std::uint32_t j, const 
 
 /// At the end of a pass, in which rows do not switch their piece of the law any more. change: what brings impulses to
 /// what the laws allow.
-PLUMB_HD inline void settle_pieces(const AxisView& view, std::uint32_t j, const RowTime& time,
-                                   RowNumbers& change) {
+PLUMB_HD inline void settle_pieces(const AxisView& view, std::uint32_t j, const RowTime& time, RowNumbers& change) {
   const Joint& joint = view.joints[j];
   AxisWork& own = view.parts.work[j];
   const Real* total = view.total(j);

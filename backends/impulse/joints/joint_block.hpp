@@ -7,8 +7,8 @@
 
 namespace plumb::impulse {
 
-/// A dense block of L, rows of the later joint by columns of the earlier one. Of one on the diagonal only the lower half
-/// counts.
+/// A dense block of L, rows of the later joint by columns of the earlier one. Of one on the diagonal only the lower
+/// half counts.
 struct JointBlock {
   Real at[kJointRows][kLaneGroup];  ///< by column: its rows, and room up to a whole vector
 

@@ -78,8 +78,7 @@ inline void couple(const JointSystem& system, std::uint32_t i, std::uint32_t act
   if (active == kAllRows && of_j.active == kAllRows) return;
   const Mask is_active = lanes_of(active);
   for (int q = 0; q < n; ++q)
-    store_row(block.at[q],
-              (of_j.active >> q & 1U) != 0 ? select(is_active, column_of(block, q), Lanes(0)) : Lanes(0));
+    store_row(block.at[q], (of_j.active >> q & 1U) != 0 ? select(is_active, column_of(block, q), Lanes(0)) : Lanes(0));
 }
 
 #endif

@@ -228,8 +228,7 @@ Lanes joint_residuals(const JointView& view, std::uint32_t j, const JointPass& p
   const Lanes error = load_row(work.error);
   const Lanes back = speed_of_error(rate_of_error(view, joint, pass.softness.bias_rate, pass.chain_rate), error);
   if (turns_far(a, b, pass.h)) return speeds_along(work.rows, a, b) + back;
-  const JointPlace place =
-      place_joint(joint, view.base(joint), end_after(joint.body_a, a), end_after(joint.body_b, b));
+  const JointPlace place = place_joint(joint, view.base(joint), end_after(joint.body_a, a), end_after(joint.body_b, b));
   RowNumbers then{};
   joint_errors(joint, place, then);
   return (lanes_of_numbers(then) - error) * Lanes(pass.inverse_h) + back;

@@ -92,15 +92,9 @@ std::vector<SolvedJoint> JointStore::solved() const {
 }
 
 JointSet JointStore::set(const Bodies& bodies, const SolverBodies& solver, bool gyroscopic) {
-  const JointView view = {bodies,
-                          solver,
-                          joints_.data(),
-                          work_.data(),
-                          impulses_.data(),
-                          least_moment_.data(),
-                          gyroscopic,
-                          arrivals_.data(),
-                          kept_swings_.data()};
+  const JointView view = {bodies,       solver,           joints_.data(),
+                          work_.data(), impulses_.data(), least_moment_.data(),
+                          gyroscopic,   arrivals_.data(), kept_swings_.data()};
   const AxisParts axes = {axes_.data(), drives.device(), axis_work_.data(), reactions_.data()};
   return {view, count(), colours_.view(), system_.view(view), axes};
 }

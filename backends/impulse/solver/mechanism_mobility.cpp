@@ -165,8 +165,7 @@ struct UnitWrench {
 #else
   static void put_response(const Vec3<Lanes>& linear, const Vec3<Lanes>& angular, std::uint32_t /*axis*/,
                            Real* response) {
-    const Lanes rows[kLanes] = {linear.x,  linear.y,  linear.z,  Lanes(0),
-                                angular.x, angular.y, angular.z, Lanes(0)};
+    const Lanes rows[kLanes] = {linear.x, linear.y, linear.z, Lanes(0), angular.x, angular.y, angular.z, Lanes(0)};
     Lanes columns[kLanes];
     transpose(rows, columns);
     for (std::uint32_t c = 0; c < kAxesAtOnce; ++c)

@@ -80,7 +80,8 @@ void changers(Scene& scene) {
     for (std::size_t i = 0; i < 3; ++i)
       changes.push_back(changed_body(random, bodies[(first + 7 * i) % bodies.size()], shapes));
     for (const PlumbBodyChange& change : changes) all.modify(change);
-    if (step % 5 == 0) all.modify(changed_joint(random, joints[static_cast<std::size_t>(random.next() % joints.size())]));
+    if (step % 5 == 0)
+      all.modify(changed_joint(random, joints[static_cast<std::size_t>(random.next() % joints.size())]));
   };
 }
 
