@@ -14,6 +14,8 @@ constexpr PlumbNeeds kNeeds = PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB
 constexpr std::uint32_t kAllOfABody = (1U << PLUMB_MODIFY_BODY_COUNT) - 1,
                         kAllOfAJoint = (1U << PLUMB_MODIFY_JOINT_COUNT) - 1;
 
+constexpr std::uint32_t kParticle = PLUMB_BODY_NO_ROTATION, kHeld = PLUMB_LOCK_ANGULAR_Z;
+
 struct Heap {
   Heap() : scene(engine(), kNeeds, {0, -9.81, 0}, 1) {
     scene.ground();
@@ -23,8 +25,8 @@ struct Heap {
   /// The heap that all of these tests compare with: the last hangs on the one before by a hinge with a limit.
   void make() {
     for (int i = 0; i < 20; ++i) {
-      scene.body.flags = i % 7 == 3 ? PLUMB_BODY_NO_ROTATION : 0U;
-      scene.body.locks = i % 5 == 2 ? PLUMB_LOCK_ANGULAR_Z : 0U;
+      scene.body.flags = i % 7 == 3 ? kParticle : 0U;
+      scene.body.locks = i % 5 == 2 ? kHeld : 0U;
       bodies.push_back(scene.add(shapes[static_cast<std::size_t>(i) % shapes.size()], place(i)));
     }
     scene.body.flags = scene.body.locks = 0;
@@ -63,8 +65,8 @@ TEST(Modify, BodiesAreAsIfTheyHadBeenMadeSo) {
     change.shape = changed.shapes[static_cast<std::size_t>(i) % changed.shapes.size()];
     change.mass_mode = PLUMB_MASS_FROM_DENSITY;
     change.density = 1000;
-    change.flags = i % 7 == 3 ? PLUMB_BODY_NO_ROTATION : 0U;
-    change.locks = i % 5 == 2 ? PLUMB_LOCK_ANGULAR_Z : 0U;
+    change.flags = i % 7 == 3 ? kParticle : 0U;
+    change.locks = i % 5 == 2 ? kHeld : 0U;
     changed.scene.modify(change);
   }
   EXPECT_EQ(changed.hash_after(90), made.hash_after(90));
