@@ -46,11 +46,9 @@ void World::remake_body(const PlumbBodyChange& change, MadeOf made) {
 
 /// Their constraints hold frames on the old centres of mass, and may have come to join what nothing moves.
 void World::remake_joints_of(std::span<const PlumbBodyChange> changes) {
+  const backend::ChangedBodies changed(changes);
   for (const auto& at : joints_) {
-    const auto joins = [&](const PlumbBodyChange& change) {
-      return at && (at->desc.body_a == change.body || at->desc.body_b == change.body);
-    };
-    if (!std::any_of(changes.begin(), changes.end(), joins)) continue;
+    if (!at || !changed.joined_by(at->desc)) continue;
     auto fresh = make_joint(at->desc, at->handle);
     fresh->enabled = at->enabled;
     replace_joint(std::move(fresh));

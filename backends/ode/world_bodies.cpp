@@ -116,13 +116,10 @@ void World::remake(Body& at, const PlumbBodyChange& change) {
 
 PlumbResult World::modify_bodies(std::span<const PlumbBodyChange> changes) {
   return inside_ode([&] {
+    const backend::ChangedBodies changed(changes);
     std::vector<Joint*> joints;
-    for (Joint* joint : joint_order_) {
-      const auto joins = [&](const PlumbBodyChange& change) {
-        return joint->desc.body_a == change.body || joint->desc.body_b == change.body;
-      };
-      if (std::any_of(changes.begin(), changes.end(), joins)) joints.push_back(joint);
-    }
+    for (Joint* joint : joint_order_)
+      if (changed.joined_by(joint->desc)) joints.push_back(joint);
     for (Joint* joint : joints) unbind(*joint);
     for (const PlumbBodyChange& change : changes) remake(body(change.body), change);
     for (Joint* joint : joints) bind(*joint);

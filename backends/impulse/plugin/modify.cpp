@@ -54,12 +54,10 @@ void World::remake_body(const PlumbBodyChange& change) {
 
 /// Their frames lie on the bodies' principal axes about the centres of mass.
 void World::put_joints_of(std::span<const PlumbBodyChange> changes) {
+  const backend::ChangedBodies changed(changes);
   for (std::uint32_t slot = 0; slot < joints_.records.size(); ++slot) {
     const JointRecord& joint = joints_.records[slot];
-    const auto joins = [&](const PlumbBodyChange& change) {
-      return joint.desc.body_a == change.body || joint.desc.body_b == change.body;
-    };
-    if (joint.id == 0 || !joint.enabled || !std::any_of(changes.begin(), changes.end(), joins)) continue;
+    if (joint.id == 0 || !joint.enabled || !changed.joined_by(joint.desc)) continue;
     simulation_.joints.remove(slot);
     put_joint(slot);
     wake_for_joint(joint.desc);
@@ -100,6 +98,7 @@ void World::change_joint(std::uint32_t slot, const PlumbJointDesc& desc, bool en
   if (joint.enabled) simulation_.joints.remove(slot);
   if (joint.breaks()) --joints_.breakable;
   joint.desc = desc;
+  if (enabled && !joint.enabled) joint.made_after = simulation_.steps();  // what it bore before is no reaction of now
   joint.enabled = enabled;
   if (joint.breaks()) ++joints_.breakable;
   put_joint(slot);

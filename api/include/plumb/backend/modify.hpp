@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <vector>
 
 #include "plumb/backend/small_math.hpp"
 #include "plumb/physics_world.hpp"
@@ -53,6 +54,22 @@ inline void apply(const PlumbJointChange& change, PlumbJointDesc& desc) {
   }
   if (changes(PLUMB_MODIFY_COLLIDE_CONNECTED)) desc.collide_connected = change.collide_connected;
 }
+
+/// Which joints have a body that changes; in a batch of many bodies and many joints, too.
+class ChangedBodies {
+ public:
+  explicit ChangedBodies(std::span<const PlumbBodyChange> changes) : handles_(changes.size()) {
+    std::transform(changes.begin(), changes.end(), handles_.begin(), [](const auto& change) { return change.body; });
+    std::sort(handles_.begin(), handles_.end());
+  }
+  [[nodiscard]] bool joined_by(const PlumbJointDesc& joint) const {
+    return std::binary_search(handles_.begin(), handles_.end(), joint.body_a) ||
+           std::binary_search(handles_.begin(), handles_.end(), joint.body_b);
+  }
+
+ private:
+  std::vector<PlumbBody> handles_;
+};
 
 /// A body's velocity after its centre of mass moved within it by shift (m, world axes): it goes on as it did.
 [[nodiscard]] inline PlumbVec3 velocity_of_moved_centre(const PlumbVec3& linear, const PlumbVec3& angular,

@@ -102,6 +102,31 @@ TEST(Modify, JointsAreAsIfTheyHadBeenMadeSo) {
   EXPECT_EQ(paused.hash_after(90), expected);
 }
 
+/// A joint that was let go and taken again has borne nothing yet.
+TEST(Modify, ReactionsAreNotThoseOfBefore) {
+  Scene scene(engine(), kNeeds | PLUMB_NEED_JOINT_REACTIONS, {0, -9.81, 0}, 1);
+  PlumbJointDesc desc = joint_desc(PLUMB_JOINT_FIXED);
+  desc.body_b = scene.add(scene.sphere(0.5), {0, 0, 0});
+  const PlumbJoint joint = scene.join(desc);
+  const auto borne = [&] {
+    std::array<double, 6> row{};
+    check(scene.world(), scene.world().joints()->read_joints(PLUMB_JOINT_REACTION, {&joint, 1},
+                                                             rows_over(std::span<std::array<double, 6>>(&row, 1))));
+    return row[1];
+  };
+  scene.run(10);
+  EXPECT_GT(borne(), 1000);
+  PlumbJointChange change = joint_change(joint);
+  change.what = PLUMB_MODIFY_ENABLED;
+  scene.modify(change);
+  EXPECT_EQ(borne(), 0);
+  change.enabled = 1;
+  scene.modify(change);
+  EXPECT_EQ(borne(), 0);
+  scene.run(1);
+  EXPECT_GT(borne(), 1000);
+}
+
 /// A motor's numbers by rows and by a change are the same numbers.
 TEST(Modify, MotorsAreThoseOfRows) {
   Heap by_rows, by_change;
