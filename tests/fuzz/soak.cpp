@@ -2,6 +2,7 @@
 // bullet flies, a host looks around and takes snapshots. Nothing may go wrong, and memory may not grow.
 //
 // usage: soak BACKEND STEPS [SEED]
+#include <malloc.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -26,7 +27,9 @@ constexpr std::size_t kMostBodies = 24, kFewestBodies = 8, kMostJoints = 6;
 constexpr std::uint64_t kRound = 600;
 constexpr double kAllowedGrowth = 16;  // MB; what allocators take is not even
 
+/// What the allocator keeps of memory given back to it is no growth.
 double resident_megabytes() {
+  malloc_trim(0);
   std::ifstream file("/proc/self/statm");
   double size = 0, resident = 0;
   file >> size >> resident;
