@@ -11,6 +11,9 @@ namespace plumb::impulse {
 /// Of what two bodies of one mechanism would move alone the share below which a contact between them pushes less and
 /// less, and the least that counts.
 constexpr Real kShareLeft = Real(0.01), kLeastLeft = Real(1e-6);
+/// Of what a body would move alone the share below which joints hold it, by themselves and not by the mass of what is
+/// joined to it: it is about what they yield (kCfmShareInLoops). And how soft a contact is between two that are held.
+constexpr Real kShareHeld = Real(2e-4), kSoftWhereHeld = 1000;
 
 /// The matrix of contact_frame.hpp. In its order: normal, turns about the tangents; tangents, turn about the normal.
 template <class N>
@@ -54,7 +57,17 @@ struct FrameDelassus {
   /// to nothing where joints hold them against each other. The less of what they would move `alone` is left along the
   /// normal, the less a contact may push: joints and contact would strive against each other, with ever more.
   PLUMB_HD void yield_where_joints_hold(const FrameDelassus& alone) {
-    const Real over = kShareLeft / max(at[0][0] / alone.at[0][0], kLeastLeft), share = kShareLeft * over * over;
+    const Real over = kShareLeft / max(at[0][0] / alone.at[0][0], kLeastLeft);
+    soften(kShareLeft * over * over, alone);
+  }
+  /// Between a body of a mechanism and one of none, or of another. left: of what each would move alone along the normal
+  /// the share that joints leave it, the greater of the two. Where they leave both as good as nothing, as of a door and
+  /// its threshold, joints and contact would strive likewise.
+  PLUMB_HD void yield_where_held(Real left, const FrameDelassus& alone) {
+    const Real less = Real(1) - left / kShareHeld;
+    if (less > 0) soften(kSoftWhereHeld * min(less * less, Real(1)), alone);
+  }
+  PLUMB_HD void soften(Real share, const FrameDelassus& alone) {
     for (int j = 0; j < 6; ++j)
       for (int i = 0; i < 6; ++i) at[i][j] = at[i][j] + share * alone.at[i][j];
   }

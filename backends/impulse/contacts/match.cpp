@@ -33,7 +33,7 @@ struct Match {
     const std::uint32_t old_row = a.first_step == step || b.first_step == step ? kNone : find_row(last, pair, triangle);
     const CachedManifold* old = old_row != kNone ? &last.kept[old_row] : nullptr;
     if (old == nullptr && woken != nullptr) old = find_kept(woken, parameters->woken_contacts, pair, triangle);
-    if (old != nullptr) remember(*old, kept);
+    if (old != nullptr) remember(*old, found, kept);
     PLUMB_ASSERT(kept.count >= 1);
     cache.kept[row] = kept;
     atomic_add(&counters->points, kept.count);
@@ -47,13 +47,19 @@ struct Match {
   PLUMB_HD std::uint32_t pushed_owner(std::uint32_t body) const {
     return work.bodies.velocity[body].inverse_mass > 0 ? work.mechanisms.owner(body) : kNone;
   }
+  /// Whether a point was so deep that it pushed as fast as any may. What squeezes a body from two sides pushes with ever
+  /// more, up to thousands of its weights, and if one side goes, the other would shoot the body away.
+  PLUMB_HD bool is_let_go(const ManifoldPoint& point) const {
+    const StepParameters& step = *work.parameters;
+    return step.lets_go && point.separation * step.contact.bias_rate < -step.max_depenetration_speed;
+  }
   /// Impulses of points that are still there; those across the normal keep their direction in the world.
-  PLUMB_HD static void remember(const CachedManifold& old, CachedManifold& kept) {
+  PLUMB_HD void remember(const CachedManifold& old, const Manifold& found, CachedManifold& kept) const {
     if (old.colour < kOverflow && old.owner_a == kept.owner_a && old.owner_b == kept.owner_b) kept.colour = old.colour;
     const Vec old_bitangent = cross(old.normal, old.tangent), bitangent = cross(kept.normal, kept.tangent);
     for (std::uint32_t i = 0; i < kept.count; ++i)
       for (std::uint32_t j = 0; j < old.count; ++j) {
-        if (kept.feature[i] != old.feature[j]) continue;
+        if (kept.feature[i] != old.feature[j] || is_let_go(found.points[i])) continue;
         const Vec friction = old.tangent_impulse[0][j] * old.tangent + old.tangent_impulse[1][j] * old_bitangent;
         // Impulses of a body that came out not finite must not reach the next step.
         const bool sane = is_finite(friction) && is_finite(old.normal_impulse[j]);

@@ -144,6 +144,9 @@ struct PrepareContacts {
   }
   PLUMB_HD void read(std::uint32_t row, std::uint32_t lane, Source& source, ContactEnds& ends) const;
   PLUMB_HD void move_to_impacts(const ContactEnds& ends, ContactPlace<Lanes>& place) const;
+  /// Of what a push (a wrench) would move along itself if its body were alone the share that it does move: all where
+  /// nothing is joined, nothing where the body cannot be pushed. mobility: what it moves in its mechanism, 1/kg.
+  [[nodiscard]] PLUMB_HD Real share_left(std::uint32_t body, bool is_in, const Six& push, Real mobility) const;
   PLUMB_HD void add_mechanisms(const Source& source, const ContactEnds& ends, const ContactPlace<Lanes>& place,
                                FrameDelassus<Lanes>& delassus) const;
 
@@ -231,6 +234,15 @@ PLUMB_HD void PrepareContacts<kImpacts, kMechanisms>::move_to_impacts(const Cont
 }
 
 template <bool kImpacts, bool kMechanisms>
+PLUMB_HD Real PrepareContacts<kImpacts, kMechanisms>::share_left(std::uint32_t body, bool is_in, const Six& push,
+                                                                 Real mobility) const {
+  const Real inverse_mass = bodies.velocity[body].inverse_mass;
+  if (!is_in) return inverse_mass > 0 ? Real(1) : Real(0);
+  const Vec turn = about_of(push);
+  return mobility / (inverse_mass + dot(turn, solver_bodies.inertia[body].inverse * turn));
+}
+
+template <bool kImpacts, bool kMechanisms>
 PLUMB_HD void PrepareContacts<kImpacts, kMechanisms>::add_mechanisms(const Source& source, const ContactEnds& ends,
                                                                      const ContactPlace<Lanes>& place,
                                                                      FrameDelassus<Lanes>& delassus) const {
@@ -245,15 +257,21 @@ PLUMB_HD void PrepareContacts<kImpacts, kMechanisms>::add_mechanisms(const Sourc
     Six on_a[6], on_b[6];
     frame_wrenches(n, t1, arm_a, on_a);
     frame_wrenches(n, t1, arm_b, on_b);
+    const Real before_a = of_lane.at[0][0];
     if (a_is_in) of_lane.add(mechanisms, a, on_a, a, on_a, 1);
+    const Real before_b = of_lane.at[0][0];
     if (b_is_in) of_lane.add(mechanisms, b, on_b, b, on_b, 1);
+    const FrameDelassus<Real> alone(n, t1, arm_a, arm_b, solver_bodies.inertia[a].inverse,
+                                    solver_bodies.inertia[b].inverse,
+                                    bodies.velocity[a].inverse_mass + bodies.velocity[b].inverse_mass);
     if (mechanisms.together(a, b)) {
       of_lane.add(mechanisms, a, on_a, b, on_b, -1);
       of_lane.add(mechanisms, b, on_b, a, on_a, -1);
-      const FrameDelassus<Real> alone(n, t1, arm_a, arm_b, solver_bodies.inertia[a].inverse,
-                                      solver_bodies.inertia[b].inverse,
-                                      bodies.velocity[a].inverse_mass + bodies.velocity[b].inverse_mass);
       of_lane.yield_where_joints_hold(alone);
+    } else {
+      const Real left_a = share_left(a, a_is_in, on_a[0], before_b - before_a);
+      const Real left_b = share_left(b, b_is_in, on_b[0], of_lane.at[0][0] - before_b);
+      of_lane.yield_where_held(max(left_a, left_b), alone);
     }
     of_lane.mirror();
     delassus.put(lane, of_lane);

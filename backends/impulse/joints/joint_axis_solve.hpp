@@ -86,9 +86,17 @@ inline constexpr Real kMotorHolds = Real(0.25), kLimitHolds = Real(0.05);
 /// A row that was taken to hold, and moves at more than this, has let go, m/s or rad/s.
 inline constexpr Real kLetsGo = Real(0.05);
 
-/// Mass against which the spring of a row works: where no turn is free the arms do not count.
-PLUMB_HD inline Real spring_mass(const JointAxes& axes, Real mobility, Real inverse_mass) {
-  return reciprocal_or_zero(axes.masses_alone != 0 ? inverse_mass : mobility);
+/// Mass against which the spring of a row works, of the two bodies as they are by themselves: tension, which may be
+/// great just then and soon be gone, is no mass. Where no turn is free the arms do not count.
+PLUMB_HD inline Real spring_mass(const AxisView& view, std::uint32_t j, int row, const JointEnd& a, const JointEnd& b) {
+  const Joint& joint = view.joints[j];
+  const Real inverse_mass = view.inverse_mass(joint.body_a) + view.inverse_mass(joint.body_b);
+  if (view.parts.axes[j].masses_alone != 0) return reciprocal_or_zero(inverse_mass);
+  const Jacobian& rows = view.work[j].rows;
+  const Vec &along = rows.direction(row), on_a = rows.on_a(row), on_b = rows.on_b(row);
+  return reciprocal_or_zero(inverse_mass * dot(along, along) +
+                            dot(view.own_inverse_inertia(joint.body_a, a.orientation) * on_a, on_a) +
+                            dot(view.own_inverse_inertia(joint.body_b, b.orientation) * on_b, on_b));
 }
 
 /// Rows, errors and K where the bodies are now.
@@ -106,9 +114,8 @@ PLUMB_HD inline void refresh_axis_joint(const AxisView& view, std::uint32_t j) {
   JointReaction& reaction = view.reaction(j);
   if (reaction.first_step == joint.first_step) return;
   reaction.first_step = joint.first_step;
-  const Real inverse_mass = view.inverse_mass(joint.body_a) + view.inverse_mass(joint.body_b);
   for (int i = rows_of(joint.type); i < row_count(joint); ++i) {
-    reaction.spring_mass[i] = spring_mass(axes, own.whole(i, i), inverse_mass);
+    reaction.spring_mass[i] = spring_mass(view, j, i, a, b);
     reaction.held_for[i] = is_driven(view, j, i) ? kMotorHolds : Real(0);
   }
 }

@@ -105,6 +105,12 @@ struct JointView {
                            swing_now(bodies, solver, body)};
 #endif
   }
+  /// Without what tension asks.
+  PLUMB_HD Sym own_inverse_inertia(std::uint32_t body, const Quat& orientation) const {
+    if (body == kWorld) return {0, 0, 0, 0, 0, 0};
+    const BodyMass& mass = bodies.mass[body];
+    return world_inverse_inertia(orientation, mass.flags, inverse_moments(mass, solver.swings));
+  }
   PLUMB_HD Sym inverse_inertia(std::uint32_t body, const Quat& orientation) const {
     if (body == kWorld) return {0, 0, 0, 0, 0, 0};
     const BodyMass& mass = bodies.mass[body];

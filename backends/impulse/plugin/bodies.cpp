@@ -59,6 +59,7 @@ PlumbResult World::destroy_bodies(std::span<const PlumbBody> ids) {
   simulation_.forget(gone);
   ++rows_.generation;
   simulation_.bodies_changed();
+  pacing_.lets_go = true;
   return PLUMB_OK;
 }
 
@@ -224,6 +225,7 @@ PlumbResult World::write(PlumbField field, std::span<const PlumbBody> ids, Const
     require_speed("rows[" + std::to_string(i) + "]", {row[0], row[1], row[2]});
   }
   wake_for_write(field, ids);
+  pacing_.lets_go = pacing_.lets_go || field == PLUMB_FIELD_POSE || field == PLUMB_FIELD_FILTER;
   fetch_for_write(field, ids);
   for (std::size_t i = 0; i < ids.size(); ++i) {
     rows.get(i, row, columns_of(field));

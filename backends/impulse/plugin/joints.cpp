@@ -80,6 +80,7 @@ void World::remove_joint(std::uint32_t slot) {
   if (joints_.records[slot].enabled) simulation_.joints.remove(slot);
   if (joints_.records[slot].breaks()) --joints_.breakable;
   joints_.records[slot].id = 0;
+  pacing_.lets_go = true;
 }
 
 PlumbResult World::destroy_joints(std::span<const PlumbJoint> ids) {

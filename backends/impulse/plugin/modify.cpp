@@ -25,6 +25,7 @@ PlumbResult World::modify_bodies(std::span<const PlumbBodyChange> changes) {
   put_joints_of(changes);
   simulation_.joints.bodies_changed();
   simulation_.bodies_changed();
+  pacing_.lets_go = true;
   return PLUMB_OK;
 }
 
@@ -96,6 +97,7 @@ void World::change_joint(std::uint32_t slot, const PlumbJointDesc& desc, bool en
     return wake_for_joint(desc);
   }
   if (joint.enabled) simulation_.joints.remove(slot);
+  pacing_.lets_go = true;
   if (joint.breaks()) --joints_.breakable;
   joint.desc = desc;
   if (enabled && !joint.enabled) joint.made_after = simulation_.steps();  // what it bore before is no reaction of now

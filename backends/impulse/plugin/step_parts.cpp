@@ -31,6 +31,7 @@ void World::start(double dt, int divided, bool predicts) {
   parameters.may_be_taken_back = divided < kMostDivisions;
   parameters.predicts_rows = predicts;
   parameters.is_later_part = pacing_.parts.any_done;
+  parameters.lets_go = pacing_.lets_go && !pacing_.parts.any_done;
   simulation_.step(parameters, shorter);
 }
 
@@ -44,6 +45,7 @@ void World::finish_steps() {
     finish(part, divided);
   }
   if (pacing_.parts.gained) pacing_.divides_for = kStaysDivided;
+  pacing_.lets_go = false;
 }
 
 /// When it is done: what is told and remembered of it. Goes over it again where joints did not hold as predicted, and

@@ -88,7 +88,7 @@ struct JudgeEnergy {
       team.barrier();
       if (work.counters->let_go != 0) return put_all_back(team);
     }
-    team.each(bodies, [self](std::uint32_t i) { self.islands[i] = IslandEnergy{i, i, 0, 0, 0, 0, false, 0, 0, 0}; });
+    team.each(bodies, [self](std::uint32_t i) { self.islands[i] = IslandEnergy{i, i, 0, 0, 0, 0, 0, false, 1, 0, 0, 0}; });
     team.each(work.counters->manifolds, [self](std::uint32_t row) { self.join_contact(row); });
     team.each(joints, [self](std::uint32_t j) { self.join_joint(j); });
     team.each(bodies, [self](std::uint32_t i) { self.find_root(i); });
@@ -100,14 +100,14 @@ struct JudgeEnergy {
     team.barrier();
     if (work.counters->gained == 0) return;
     if (work.parameters->may_be_taken_back) return put_all_back(team);
-    team.each(bodies, [self](std::uint32_t i) { self.put_back(i, false); });
+    team.each(bodies, [self](std::uint32_t i) { self.take_gain_out(i); });
     team.each(joints, [self](std::uint32_t j) { self.put_joint_back(j, false); });
   }
 
  private:
   PLUMB_DEVICE void put_all_back(Team& team) const {
     const JudgeEnergy self = *this;
-    team.each(work.body_count, [self](std::uint32_t i) { self.put_back(i, true); });
+    team.each(work.body_count, [self](std::uint32_t i) { self.put_back(i); });
     team.each(work.joints.count, [self](std::uint32_t j) { self.put_joint_back(j, true); });
     team.single([self] { self.work.counters->taken_back = 1; });
   }
@@ -174,6 +174,7 @@ struct JudgeEnergy {
   /// A motor gives no more than its force at the speed that it wants; a spring no more than it holds.
   PLUMB_HD void find_given(std::uint32_t j) const {
     const Joint& joint = work.joints.view.joints[j];
+    if (is_pushed(joint.body_a) || is_pushed(joint.body_b)) atomic_max(&islands[root_of(joint)].joined, 1U);
     given[j] = 0;
     const int first = rows_of(joint.type);
     if (work.code != JointCode::kAll || first == row_count(joint)) return;
@@ -251,10 +252,11 @@ struct JudgeEnergy {
   /// Of the root of an island.
   PLUMB_HD void judge(std::uint32_t i) const {
     IslandEnergy& island = islands[i];
-    if (!is_pushed(i) || island.root != i) return;
+    if (!is_pushed(i) || island.root != i || island.joined == 0) return;
     const Real gain = gain_of(island);
     if (!(gain > kMostGain)) return;
     island.is_held = gain > kMostGainAtLast;
+    island.keeps = island.is_held ? kHeldShare : sqrt(Real(1) / gain);
     atomic_add(&work.counters->gained, 1U);
   }
   /// What an island has over what it may have.
@@ -265,21 +267,24 @@ struct JudgeEnergy {
     return static_cast<Real>(static_cast<double>(island.kinetic) / max(may_have, 1.0));
   }
 
-  /// Of a body, to where it was before the step. all_is: and so with all others.
-  PLUMB_HD void put_back(std::uint32_t i, bool all_is) const {
+  /// Of a body, to where it was before the step.
+  PLUMB_HD void put_back(std::uint32_t i) const {
     const MovableBodies& all = work.bodies;
     if ((all.mass[i].flags & kBodyMoves) == 0) return;
-    const IslandEnergy& island = islands[islands[i].root];
-    if (!all_is && !(is_pushed(i) && island.is_held)) return;
     all.position[i] = kept[i].position;
     all.orientation[i] = kept[i].orientation;
     work.joints.view.least_moment[i] = kept[i].least_moment;
     work.joints.view.solver.displacement[i] = {{0, 0, 0}, 0, {0, 0, 0, 1}};
     all.velocity[i] = kept[i].velocity;
-    if (all_is || !is_pushed(i)) return;
-    const Real share = kHeldShare;  // device code has no constants to refer to
-    all.velocity[i].linear = share * kept[i].velocity.linear;
-    all.velocity[i].angular = share * kept[i].velocity.angular;
+  }
+  /// Of a body whose island gained.
+  PLUMB_HD void take_gain_out(std::uint32_t i) const {
+    const IslandEnergy& island = islands[islands[i].root];
+    if (!is_pushed(i) || !(island.keeps < 1)) return;
+    if (island.is_held) put_back(i);
+    Velocity& velocity = work.bodies.velocity[i];
+    velocity.linear = island.keeps * velocity.linear;
+    velocity.angular = island.keeps * velocity.angular;
   }
   PLUMB_HD void put_joint_back(std::uint32_t j, bool all_is) const {
     const Joint& joint = work.joints.view.joints[j];

@@ -4,8 +4,9 @@
 // in, what motors and springs can give, and what bodies and surfaces that the host moves can hand on. Where it is, the
 // solver has made the energy, and the step is taken back, to be gone in parts: contacts are found anew in each, and
 // what contacts see of mechanisms is no older than that, which more sub-steps would not change. In the shortest parts
-// an island that gained many times what it had stays where it was instead, and goes on at half its speed, at which its
-// joints hold as they did: that is the last resort, and neither right nor smooth.
+// the gain is taken out: all bodies of the island are slowed by the same share, at which joints hold as well as before.
+// An island that gained many times what it had stays where it was instead, and goes on at half the speed that it had:
+// that is the last resort, and neither right nor smooth.
 //
 // A step in which a limit or a motor let go that contacts had counted on (joints/joint_axis_solve.hpp) is taken
 // back by the same means, before energies are looked at, and solved again whole.
@@ -54,7 +55,9 @@ struct IslandEnergy {
   std::uint32_t speed, spin;  ///< the fastest that the host moves what touches it, m/s, rad/s: bits of floats
   std::uint32_t mover;        ///< one of those that do, and 1; or 0
   std::uint32_t peak;         ///< the largest term of the sums, J: bits of a float
+  std::uint32_t joined;       ///< at the root: a joint holds one of its bodies
   bool is_held;               ///< it stays where it was before the step
+  Real keeps;                 ///< of its velocities the share that is left
   // Sums in whole numbers of a share of the peak, which do not depend on the order:
   std::int64_t kinetic;   ///< after the step
   std::int64_t may_have;  ///< before it, with what sources can give
