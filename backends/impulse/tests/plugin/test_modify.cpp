@@ -127,6 +127,58 @@ TEST(Modify, ReactionsAreNotThoseOfBefore) {
   EXPECT_GT(borne(), 1000);
 }
 
+/// Links that hang on balls, a heavy one last, and the hinge in their middle.
+struct HeavyChain {
+  HeavyChain() : scene(engine(), kNeeds, {0, -9.81, 0}, 1) {
+    const PlumbShape link = scene.capsule(0.05, 0.2);
+    PlumbBody above = 0;
+    for (int i = 0; i < 6; ++i) {
+      if (i == 5) {
+        scene.body.mass_mode = PLUMB_MASS_FROM_TOTAL;
+        scene.body.mass = 2000;
+      }
+      PlumbJointDesc desc = joint_desc(i == 3 ? PLUMB_JOINT_HINGE : PLUMB_JOINT_BALL);
+      desc.body_a = above;
+      desc.body_b = above = scene.add(link, {0, -0.5 * i, 0});
+      desc.frame_a.position = {0, i == 0 ? 0.25 : -0.25, 0};
+      desc.frame_b.position = {0, 0.25, 0};
+      if (i == 3) hinge = desc;
+      if (i != 3) scene.join(desc);
+      links.push_back(above);
+    }
+  }
+  Scene scene;
+  std::vector<PlumbBody> links;
+  PlumbJointDesc hinge{};
+};
+
+/// A spring is as stiff in a joint that was taut when it came as in one that had it before there was tension.
+TEST(Modify, ASpringIsNoStifferUnderTension) {
+  HeavyChain before, after;
+  for (HeavyChain* chain : {&before, &after}) {
+    PlumbJointDesc desc = chain->hinge;
+    const PlumbSpring spring = {0, 20, 0.1, 1, 0};
+    if (chain == &before) desc.springs[3] = spring;
+    PlumbJointChange change = joint_change(chain->scene.join(desc));
+    chain->scene.run(30);
+    if (chain == &after) {
+      change.what = PLUMB_MODIFY_SPRINGS;
+      change.springs[3] = spring;
+      chain->scene.modify(change);
+    }
+    chain->scene.write(PLUMB_FIELD_IMPULSE, chain->links[3], {0, 0, 20});
+  }
+  for (int step = 0; step < 30; ++step) {
+    before.scene.run(1);
+    after.scene.run(1);
+    for (std::size_t i = 0; i < before.links.size(); ++i) {
+      const double difference = backend::length(
+          backend::sub(before.scene.poses()[i].position, after.scene.poses()[i].position));
+      ASSERT_LT(difference, 1e-4) << "link " << i << ", step " << step;
+    }
+  }
+}
+
 /// A motor's numbers by rows and by a change are the same numbers.
 TEST(Modify, MotorsAreThoseOfRows) {
   Heap by_rows, by_change;

@@ -1,0 +1,94 @@
+// What cannot be held apart: bodies that joints or a host have put into what does not move. They push no harder than
+// the push speed needs, and what is let go of does not shoot away.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "tests/rigs/engine.hpp"
+
+namespace plumb::impulse::test {
+namespace {
+
+constexpr PlumbNeeds kNeeds = PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION;
+constexpr PlumbVec3 kDown = {0, -9.81, 0};
+
+double speed(Scene& scene, PlumbBody body) {
+  const std::vector<double> v = scene.velocity(body);
+  return std::hypot(v[0], v[1], v[2]);
+}
+
+/// A chain of capsules, each hinged into the one above, the first into a ball that stands still: all overlap, and
+/// their contacts are not left out.
+struct Overlapping {
+  Overlapping(int links, double overlap)
+      : scene(engine(), kNeeds | PLUMB_NEED_JOINTS | PLUMB_NEED_JOINT_REACTIONS, kDown, 1) {
+    constexpr double kBall = 0.25, kRadius = 0.15, kHalf = 0.2, kHook = 0.3;
+    const double apart = 2 * (kRadius + kHalf) - overlap, over = kBall + kRadius + kHalf - overlap;
+    const PlumbShape capsule = scene.capsule(kRadius, kHalf);
+    PlumbBody above = scene.add_static(scene.sphere(kBall), {0, over, 0});
+    for (int i = 0; i < links; ++i) {
+      PlumbJointDesc hinge = joint_desc(PLUMB_JOINT_HINGE);
+      hinge.body_a = above;
+      hinge.body_b = above = scene.add(capsule, {0, -apart * i, 0});
+      hinge.collide_connected = 1;
+      hinge.frame_a.position = {0, i == 0 ? -kHook : -apart / 2, 0};
+      hinge.frame_b.position = {0, i == 0 ? over - kHook : apart / 2, 0};
+      const PlumbJoint joint = scene.join(hinge);
+      if (i == 0) first = joint;
+      bodies.push_back(above);
+    }
+  }
+  [[nodiscard]] double borne() {
+    std::array<double, 6> row{};
+    check(scene.world(), scene.world().joints()->read_joints(PLUMB_JOINT_REACTION, {&first, 1},
+                                                             rows_over(std::span<std::array<double, 6>>(&row, 1))));
+    return std::hypot(row[0], row[1], row[2]);
+  }
+  Scene scene;
+  std::vector<PlumbBody> bodies;
+  PlumbJoint first = 0;
+};
+
+/// A joint that holds a body in a static one, and the contact that pushes it out, do not strive with ever more.
+TEST(Squeezed, JointsAndContactsDoNotOutdoEachOther) {
+  constexpr double kLink = 42.4 * 9.81;  // N
+  for (const int links : {1, 2, 6})
+    for (const double overlap : {0.02, 0.1}) {
+      Overlapping chain(links, overlap);
+      chain.scene.run(60);
+      EXPECT_LT(chain.borne(), 20 * kLink * links) << links << ", " << overlap;
+      chain.scene.run(1740);
+      EXPECT_LT(chain.borne(), 20 * kLink * links) << links << ", " << overlap;
+      for (const PlumbBody body : chain.bodies) EXPECT_LT(speed(chain.scene, body), 1) << links << ", " << overlap;
+    }
+}
+
+/// A box between two plates that both reach into it: when one is taken away, or let through, the other pushes it out
+/// at the push speed, and not with what it had braced itself with.
+TEST(Squeezed, WhatIsLetGoDoesNotShootAway) {
+  enum { kRemoved, kMoved, kFiltered, kWays };
+  for (int way = 0; way < kWays; ++way)
+    for (const double deep : {0.05, 0.2, 0.4}) {
+      Scene scene(engine(), kNeeds | PLUMB_NEED_FILTERS, {0, 0, 0}, 1);
+      const PlumbShape unit = scene.box({0.5, 0.5, 0.5});
+      const PlumbBody left = scene.add_static(unit, {-1 + deep, 0, 0}), box = scene.add(unit, {0, 0, 0});
+      scene.add_static(unit, {1 - deep, 0, 0});
+      scene.run(120);
+      EXPECT_LT(speed(scene, box), 0.1) << way << ", " << deep;
+      if (way == kRemoved) scene.remove(left);
+      if (way == kMoved) scene.write(PLUMB_FIELD_POSE, left, {-10, 0, 0, 0, 0, 0, 1});
+      if (way == kFiltered) scene.write(PLUMB_FIELD_FILTER, left, {1, 0, 0});
+      double fastest = 0;
+      for (int i = 0; i < 120; ++i) {
+        scene.run(1);
+        fastest = std::max(fastest, speed(scene, box));
+      }
+      EXPECT_LT(fastest, 6) << way << ", " << deep;
+      EXPECT_GT(fastest, 0.1) << way << ", " << deep;
+    }
+}
+
+}  // namespace
+}  // namespace plumb::impulse::test
