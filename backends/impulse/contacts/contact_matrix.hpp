@@ -15,6 +15,13 @@ constexpr Real kShareLeft = Real(0.01), kLeastLeft = Real(1e-6);
 /// joined to it: it is about what they yield (kCfmShareInLoops). And how soft a contact is between two that are held.
 constexpr Real kShareHeld = Real(2e-4), kSoftWhereHeld = 1000;
 
+/// Of what the most mobile of a manifold's points, or directions of slip, moves, the share below which another does not
+/// move at all; and the least that counts of a turn about the normal, 1/(kg m2).
+constexpr Real kLeastMobility = Real(1e-6), kLeastSpin = Real(1e-20);
+/// Of the product of a friction block's diagonal the share of its determinant below which its directions depend on each
+/// other, and what is added to the diagonal then.
+constexpr Real kLeastVolume = Real(1e-4), kShareWhereFlat = Real(0.01);
+
 /// The matrix of contact_frame.hpp. In its order: normal, turns about the tangents; tangents, turn about the normal.
 template <class N>
 struct FrameDelassus {
@@ -139,43 +146,55 @@ struct NormalBlock {
                        const PlanePoint<N> (&places)[kManifoldPoints]) {
     const N zero = N(0), one = N(1);
     const N share = select(count > one, N(Real(0.05)), zero);
-    const auto moves = delassus.at[0][0] > zero;
-    N normal[6];
+    N normal[6], own[kManifoldPoints], most = zero;
     delassus.copy_normal(normal);
     PLUMB_UNROLL
     for (int p = 0; p < kManifoldPoints; ++p) {
-      const auto there = moves && N(p) < count;
-      const N own = speed_at(apply_delassus_at(normal, places[p]), places[p]);
-      inverse[p][p] = select(there, (one + share) * own, one);
+      own[p] = select(N(p) < count, speed_at(apply_delassus_at(normal, places[p]), places[p]), zero);
+      most = max(most, own[p]);
+    }
+    const N least = N(kLeastMobility) * most;
+    PLUMB_UNROLL
+    for (int p = 0; p < kManifoldPoints; ++p) {
+      inverse[p][p] = select(own[p] > least, (one + share) * own[p], one);
       PLUMB_UNROLL
       for (int q = p + 1; q < kManifoldPoints; ++q)
         inverse[p][q] = inverse[q][p] =
-            select(moves && N(q) < count, speed_at(apply_delassus_at(normal, places[p]), places[q]), zero);
+            select(own[p] > least && own[q] > least, speed_at(apply_delassus_at(normal, places[p]), places[q]), zero);
     }
     invert(inverse);
     PLUMB_UNROLL
     for (int p = 0; p < kManifoldPoints; ++p) PLUMB_UNROLL
     for (int q = 0; q < kManifoldPoints; ++q) {
-      inverse[p][q] = select(moves && N(max(p, q)) < count, inverse[p][q], zero);
+      inverse[p][q] = select(own[p] > least && own[q] > least, inverse[p][q], zero);
       numbers.at[point_field(p, kBlockInverse) + static_cast<std::uint32_t>(q)] = inverse[p][q];
     }
   }
 };
 
 /// What stops slip: the inverse of a block of friction. One point does not rub against a turn about the normal; nor
-/// does a patch whose bodies cannot turn.
+/// does a patch whose bodies cannot turn. Where what may move is less than the directions of slip, as of a body that
+/// only turns about one axis, they depend on each other: a share of each direction's own softness is added then.
 template <class N>
 PLUMB_HD void put_stop_mass(ContactNumbers<N>& numbers, std::uint32_t field, const N& count, const N (&block)[3][3]) {
   const N zero = N(0), one = N(1);
-  const auto moves = block[0][0] > zero, turns = moves && count > one && block[2][2] > zero;
+  const N most = max(block[0][0], block[1][1]), least = N(kLeastMobility) * most;
+  const auto turns = most > zero && count > one && block[2][2] > N(kLeastSpin);
+  const decltype(block[0][0] > zero) moves[3] = {block[0][0] > least, block[1][1] > least, turns};
   N m[3][3];
   PLUMB_UNROLL
   for (int i = 0; i < 3; ++i) PLUMB_UNROLL
-  for (int j = 0; j < 3; ++j) m[i][j] = select(i < 2 && j < 2 ? moves : turns, block[i][j], i == j ? one : zero);
+  for (int j = 0; j < 3; ++j) m[i][j] = select(moves[i] && moves[j], block[i][j], i == j ? one : zero);
+  const N volume = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[1][2]) -
+                   m[0][1] * (m[0][1] * m[2][2] - m[1][2] * m[0][2]) +
+                   m[0][2] * (m[0][1] * m[1][2] - m[1][1] * m[0][2]);
+  const N share = select(volume > N(kLeastVolume) * (m[0][0] * m[1][1] * m[2][2]), zero, N(kShareWhereFlat));
+  PLUMB_UNROLL
+  for (int i = 0; i < 3; ++i) m[i][i] = m[i][i] + share * m[i][i];
   invert(m);
   PLUMB_UNROLL
   for (int i = 0; i < 3; ++i) PLUMB_UNROLL
-  for (int j = i; j < 3; ++j) numbers.at[field++] = select(j < 2 ? moves : turns, m[i][j], zero);
+  for (int j = i; j < 3; ++j) numbers.at[field++] = select(moves[i] && moves[j], m[i][j], zero);
 }
 
 /// The matrix of the frame, and what stops slip in it.

