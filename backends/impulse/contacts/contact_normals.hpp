@@ -10,7 +10,7 @@ namespace plumb::impulse {
 /// twice that depth as soft as this: impulse_scale, and gamma in shares of the effective mass. A body that is squeezed
 /// from two sides, by what a host has put there, would be pushed by either with ever more, up to thousands of its
 /// weights, and a sweep over contacts whose normals turn leaves a part of that as velocity.
-constexpr Real kDeepSpeed = Real(0.75), kImpulseScaleDeep = Real(0.5), kGammaDeep = 1;
+constexpr Real kDeepSpeed = Real(0.75), kImpulseScaleDeep = Real(0.5), kGammaDeep = Real(0.3);
 
 /// How a pass over the contacts takes overlap back.
 struct ContactSoftness {
@@ -53,9 +53,8 @@ PLUMB_HD NormalTarget<P, N> soft_target(Contact<P, N>& contact, const SolverBody
   contact.allowed_approach = select_by_point(apart, N(kHuge), zero);
   NormalTarget<P, N> target;
   target.bias = select(apart, separation * N(softness.inverse_h), max(back, N(-softness.max_depenetration_speed)));
-  const PerPoint<P, N> softer = deep * (N(kImpulseScaleDeep) - impulse_scale);
-  target.mass_scale = select(apart, one, mass_scale - softer);
-  target.impulse_scale = select(apart, zero, impulse_scale + softer);
+  target.mass_scale = select_by_point(apart, one, mass_scale);
+  target.impulse_scale = select(apart, zero, impulse_scale + deep * (N(kImpulseScaleDeep) - impulse_scale));
   target.gamma = select(apart, zero, own_delassus(contact) * (gamma + deep * (N(kGammaDeep) - gamma)));
   return target;
 }

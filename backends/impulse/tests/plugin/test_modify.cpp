@@ -1,6 +1,8 @@
 // Changes of what lives: a world that was changed into another before its first step goes on with that one's bits.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "plumb/backend/modify.hpp"
 #include "tests/hashes/shape_scenes.hpp"
 #include "tests/rigs/engine.hpp"
@@ -127,56 +129,40 @@ TEST(Modify, ReactionsAreNotThoseOfBefore) {
   EXPECT_GT(borne(), 1000);
 }
 
-/// Links that hang on balls, a heavy one last, and the hinge in their middle.
-struct HeavyChain {
-  HeavyChain() : scene(engine(), kNeeds | PLUMB_NEED_FORCES, {0, -9.81, 0}, 1) {
-    const PlumbShape link = scene.capsule(0.05, 0.2);
-    PlumbBody above = 0;
-    for (int i = 0; i < 6; ++i) {
-      if (i == 5) {
-        scene.body.mass_mode = PLUMB_MASS_FROM_TOTAL;
-        scene.body.mass = 2000;
-      }
-      PlumbJointDesc desc = joint_desc(i == 3 ? PLUMB_JOINT_HINGE : PLUMB_JOINT_BALL);
-      desc.body_a = above;
-      desc.body_b = above = scene.add(link, {0, -0.5 * i, 0});
-      desc.frame_a.position = {0, i == 0 ? 0.25 : -0.25, 0};
-      desc.frame_b.position = {0, 0.25, 0};
-      if (i == 3) hinge = desc;
-      if (i != 3) scene.join(desc);
-      links.push_back(above);
-    }
-  }
-  Scene scene;
-  std::vector<PlumbBody> links;
-  PlumbJointDesc hinge{};
-};
-
-/// A spring is as stiff in a joint that was taut when it came as in one that had it before there was tension.
+/// A spring that comes to a joint in a taut chain is as stiff as the links' own inertia and its frequency say: tension
+/// is no mass. When the load is gone it bends the chain no faster than that.
 TEST(Modify, ASpringIsNoStifferUnderTension) {
-  HeavyChain before, after;
-  for (HeavyChain* chain : {&before, &after}) {
-    PlumbJointDesc desc = chain->hinge;
-    const PlumbSpring spring = {0, 20, 0.1, 1, 0};
-    if (chain == &before) desc.springs[3] = spring;
-    PlumbJointChange change = joint_change(chain->scene.join(desc));
-    chain->scene.run(30);
-    if (chain == &after) {
-      change.what = PLUMB_MODIFY_SPRINGS;
-      change.springs[3] = spring;
-      chain->scene.modify(change);
-    }
-    chain->scene.write(PLUMB_FIELD_IMPULSE, chain->links[3], {0, 0, 20});
+  Scene scene(engine(), kNeeds, {0, -9.81, 0}, 1);
+  const PlumbShape link = scene.capsule(0.05, 0.2);
+  std::vector<PlumbBody> links;
+  PlumbJoint hinge = 0, last = 0;
+  for (int i = 0; i < 6; ++i) {
+    scene.body.mass_mode = PLUMB_MASS_FROM_TOTAL;
+    scene.body.mass = i < 5 ? 4 : 1e6;
+    PlumbJointDesc desc = joint_desc(i == 3 ? PLUMB_JOINT_HINGE : PLUMB_JOINT_BALL);
+    desc.body_a = i == 0 ? 0 : links.back();
+    links.push_back(desc.body_b = scene.add(link, {0, -0.5 * i, 0}));
+    desc.frame_a.position = {0, i == 0 ? 0.25 : -0.25, 0};
+    desc.frame_b.position = {0, 0.25, 0};
+    last = scene.join(desc);
+    if (i == 3) hinge = last;
   }
-  double moved = 0, apart = 0;
+  scene.run(30);
+  PlumbJointChange change = joint_change(hinge);
+  change.what = PLUMB_MODIFY_SPRINGS;
+  change.springs[3] = {0.5, 3, 0.1, 1, 0};
+  scene.modify(change);
+  scene.run(1);
+  check(scene.world(), scene.world().joints()->destroy_joints({&last, 1}));
+  scene.remove(links.back());
+  links.pop_back();
   for (int step = 0; step < 60; ++step) {
-    before.scene.run(1);
-    after.scene.run(1);
-    const PlumbVec3 one = before.scene.poses()[3].position, two = after.scene.poses()[3].position;
-    moved = std::max(moved, std::abs(one.z));
-    apart = std::max(apart, backend::length(backend::sub(one, two)));
+    scene.run(1);
+    for (const PlumbBody body : links) {
+      const std::vector<double> v = scene.velocity(body);
+      ASSERT_LT(std::hypot(v[0], v[1], v[2]), 0.2) << step;
+    }
   }
-  EXPECT_LT(apart, 0.1 * moved);
 }
 
 /// A motor's numbers by rows and by a change are the same numbers.
