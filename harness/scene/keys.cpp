@@ -20,7 +20,7 @@ const std::map<std::string, std::vector<std::string>>& scene_keys() {
        {"type", "radius", "half_height", "half_extents", "vertices", "indices", "grid", "height", "model", "heights",
         "spacing", "children", "user_data"}},
       {"model", {"file", "package", "licence", "size", "orientation", "corners"}},
-      {"child", {"shape", "position", "orientation", "friction", "restitution", "surface_velocity"}},
+      {"child", {"repeat", "when", "shape", "position", "orientation", "friction", "restitution", "surface_velocity"}},
       {"filter", {"category", "mask", "group"}},
       {"body",
        {"name",

@@ -174,7 +174,8 @@ SceneShape read_shape(const Node& node, const std::string& name, SceneBuilder& b
     if (key == "heights") read_heights(value, shape, builder);
     if (key == "spacing") shape.desc.spacing = value.vector();
     if (key == "children")
-      for (const Node& child : value.elements()) shape.children.push_back(read_child(child, builder));
+      for (const Node& child : value.elements())
+        for_each_repeat(child, [&] { shape.children.push_back(read_child(child, builder)); });
   }
   if (const auto data = node.find("user_data"))
     shape.desc.user_data = static_cast<std::uint64_t>(data->integer(0, std::int64_t{1} << 53));

@@ -75,6 +75,20 @@ class SceneFiles : public testing::Test {
   fs::path folder_;
 };
 
+TEST_F(SceneFiles, ChildrenOfACompoundRepeat) {
+  std::string text = good;
+  const std::string from = R"({ "shape": "ball", "position": [0, 1, 0] })";
+  text.replace(
+      text.find(from), from.size(),
+      R"({ "shape": "ball", "repeat": { "i": 3, "j": "i + 1" }, "when": "i != 1", "position": ["i", "j", 0] })");
+  const Scene scene = load(text).instantiate({{"kind", std::string("box")}});
+  const SceneShape& compound = scene.shapes[*scene.bodies[scene.body("extra")].shape];
+  ASSERT_EQ(compound.children.size(), 1u + 3 + 1);
+  EXPECT_EQ(compound.children[3].pose.position.x, 2);
+  EXPECT_EQ(compound.children[3].pose.position.y, 2);
+  EXPECT_NE(refusal(from, R"({ "shape": "ball", "repeat": { "n": 2 } })").find("something else"), std::string::npos);
+}
+
 TEST_F(SceneFiles, BecomeScenes) {
   const SceneFile file = load(good);
   EXPECT_EQ(file.group, "group");
