@@ -18,7 +18,7 @@
 namespace {
 
 const char* const choices[] = {"none",  "segfault", "abort", "hang",   "eat_memory", "nan",
-                               "throw", "exit",     "print", "refuse", "garble"};
+                               "throw", "exit",     "print", "refuse", "garble",     "jostle"};
 
 std::string from_environment() {
   const char* word = std::getenv("PLUMB_MISBEHAVE");
@@ -203,6 +203,9 @@ class MisbehavingWorld final : public plumb::IPhysicsWorld, public plumb::IJoint
     }
     if (word == "nan") {
       for (PlumbBodyDesc& body : bodies_) body.pose.position.y = std::numeric_limits<double>::quiet_NaN();
+    }
+    if (word == "jostle") {  // the more bodies there are, the farther each is moved
+      for (PlumbBodyDesc& body : bodies_) body.pose.position.x += 0.01 * static_cast<double>(bodies_.size());
     }
     if (word == "print") {
       std::puts("{\"status\": \"ok\", \"this\": \"is no answer\"}");

@@ -80,6 +80,7 @@ std::span<const MeasureEntry> robustness_measures() {
   static constexpr MeasureArgument reversal_args[] = {{"size", number}, {"pendulum", number}};
   static constexpr MeasureArgument size_args[] = {{"size", number}};
   static constexpr MeasureArgument nudge_args[] = {{"size", number}, {"nudge", number}, {"seeds", number}};
+  static constexpr MeasureArgument bystanders_args[] = {{"bystanders", bodies}, {"size", number}};
   static constexpr MeasureEntry entries[] = {
       {"bullet", "bodies that passed through a thin wall", bullet_args, bullet},
       {"spinning_rod", "rods that spin through a thin wall, and how deep they get", rod_args, measure_spinning_rod},
@@ -97,6 +98,7 @@ std::span<const MeasureEntry> robustness_measures() {
       {"mirror", "a scene against itself in a mirror", size_args, measure_mirror},
       {"self_convergence", "order in which a scene converges with shorter steps", size_args, measure_self_convergence},
       {"predictability", "how far ends spread that begin a hair apart", nudge_args, measure_predictability},
+      {"bystanders", "a scene against itself without bodies that nothing touches", bystanders_args, measure_bystanders},
       {"inner_edges", "bodies that slide or roll over the edges within a plane", edges_args, measure_inner_edges},
       {"bad_input", "whether bad arguments of every kind are refused by name and harm nothing", {}, measure_bad_input},
   };

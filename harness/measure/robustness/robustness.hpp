@@ -34,6 +34,9 @@ void measure_mirror(MeasureContext& context);
 void measure_self_convergence(MeasureContext& context);
 void measure_predictability(MeasureContext& context);
 
+// bystanders.cpp
+void measure_bystanders(MeasureContext& context);
+
 // robustness_bad_input.cpp
 void measure_bad_input(MeasureContext& context);
 
