@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <fstream>
 #include <functional>
+#include <set>
 
 #include "program.hpp"
 
@@ -33,8 +34,8 @@ TEST(Readme, SaysHowManyScenesAndVariantsThereAre) {
   expect_said("There are " + std::to_string(scenes.size()) + " scenes");
   expect_said(std::to_string(machines) + " machines in which joints and contacts work together");
   expect_said("of their " + variants([](const std::string& group) { return group == "machines"; }) + " variants");
-  expect_said("Of the " + variants([](const std::string& group) { return group != "machines" && group != "scale"; }) +
-              " ");
+  const std::set<std::string> apart{"machines", "published", "scale"};
+  expect_said("Of the " + variants([&](const std::string& group) { return !apart.contains(group); }) + " ");
 }
 
 TEST(Readme, SaysHowManyChecksTheSamplePasses) {

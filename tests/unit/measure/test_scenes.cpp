@@ -45,16 +45,18 @@ TEST_P(SceneGroup, EveryCellHasItsMeasure) {
 
 TEST_P(SceneGroup, JointsFitAtTheStart) {
   for (const SceneFile& file : scenes_of(GetParam())) {
-    if (file.id == "E3") continue;  // its measure places the planks
+    if (file.id == "E3" || file.id == "P7") continue;  // a measure places the planks; published hips start apart
     for (const Parameters& variant : file.variants) {
       if (variant.contains("case") && variant.at("case") == ParameterValue("stretched")) continue;
       const Scene scene = file.instantiate(variant);
-      EXPECT_LT(RefereeView(scene).joint_gap(start_of(scene)), 1e-12) << file.path;
+      const double digits = file.group == "published" ? 1e-9 : 1e-12;  // those of the numbers in the file
+      EXPECT_LT(RefereeView(scene).joint_gap(start_of(scene)), digits) << file.path;
     }
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Groups, SceneGroup, testing::Values("stacking", "joints", "machines", "robustness", "scale"),
+INSTANTIATE_TEST_SUITE_P(Groups, SceneGroup,
+                         testing::Values("stacking", "joints", "machines", "robustness", "scale", "published"),
                          [](const auto& group) { return std::string(group.param); });
 
 TEST(StackingScenes, NothingOverlapsAtTheStart) {
