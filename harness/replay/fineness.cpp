@@ -36,20 +36,6 @@ double radius_of(const Json& shapes, const Json& shape) {
   return far;
 }
 
-std::vector<double> radii_of(const Trajectory& trajectory) {
-  std::vector<double> radii;
-  std::map<std::size_t, double> known;
-  const Json shapes = trajectory.header.value("shapes", Json::array()),
-             bodies = trajectory.header.value("bodies", Json::array());
-  for (const std::size_t body : trajectory.moving) {
-    if (body >= bodies.size() || !bodies[body].contains("shape") || bodies[body]["shape"].is_null()) continue;
-    const auto shape = bodies[body]["shape"].get<std::size_t>();
-    if (!known.contains(shape)) known[shape] = radius_of(shapes, shapes.at(shape));
-    radii.push_back(known[shape]);
-  }
-  return radii;
-}
-
 /// Half the diagonal of the box round nearly all positions of bodies that move.
 double reach_of(const Trajectory& trajectory) {
   std::array<std::vector<double>, 3> values;
@@ -74,8 +60,24 @@ double reach_of(const Trajectory& trajectory) {
 
 }  // namespace
 
+std::vector<double> radii_of_moving(const Trajectory& trajectory) {
+  std::vector<double> radii;
+  std::map<std::size_t, double> known;
+  const Json shapes = trajectory.header.value("shapes", Json::array()),
+             bodies = trajectory.header.value("bodies", Json::array());
+  for (const std::size_t body : trajectory.moving) {
+    radii.push_back(0);
+    if (body >= bodies.size() || !bodies[body].contains("shape") || bodies[body]["shape"].is_null()) continue;
+    const auto shape = bodies[body]["shape"].get<std::size_t>();
+    if (!known.contains(shape)) known[shape] = radius_of(shapes, shapes.at(shape));
+    radii.back() = known[shape];
+  }
+  return radii;
+}
+
 double radius_of_small_bodies(const Trajectory& trajectory) {
-  std::vector<double> radii = radii_of(trajectory);
+  std::vector<double> radii = radii_of_moving(trajectory);
+  std::erase(radii, 0);
   return radii.empty() ? 0 : quantile(radii, small_body);
 }
 

@@ -410,6 +410,27 @@ test('a page may have a replay elsewhere, which begins when the reader comes nea
   );
 });
 
+test('a replay elsewhere may stand at a moment of its own instead of playing', () =>
+  visit(
+    async (page) => {
+      const shown = await page.evaluate(async () => {
+        const place = document.createElement('div');
+        document.querySelector('main').prepend(place);
+        scrollTo(0, 0);
+        const api = window.plumbReplays.mount(place, { scene: 'tower H=10', at: '0.5', compact: true });
+        await api.ready;
+        await new Promise((resolve) => {
+          setTimeout(resolve, 300);
+        });
+        return api.describe();
+      });
+      assert.equal(shown.time, 0.5);
+      assert.equal(shown.playing, false);
+      assert.deepEqual(shown.backends, ['alpha', 'beta']);
+    },
+    { context: { reducedMotion: 'no-preference' } },
+  ));
+
 test('pairs of shapes are chosen from a matrix and shown side by side', () =>
   visit(async (page) => {
     await page.locator('.pv-scene select').selectOption({ label: 'pairs of shapes' });

@@ -29,7 +29,7 @@ Completion completion_of(const OptionEntry& option) {
   using Files = Completion::Files;
   const std::string& value = option.value;
   if (value == "SCENE") return {"scenes", Files::any};
-  if (value == "BACKEND") return {"backends", Files::any};
+  if (value == "BACKEND" || value == "A" || value == "B") return {"backends", Files::any};
   if (value == "STUDY") return {"studies", Files::any};
   if (value == "KIND") return {"measures", Files::none};
   if (value == "CHECK") return {"checks", Files::none};

@@ -1,8 +1,6 @@
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <chrono>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -12,6 +10,7 @@
 #include "cli/manual/examples.hpp"
 #include "cli/output/draft_file.hpp"
 #include "cli/output/output.hpp"
+#include "cli/verbs/earlier_rows.hpp"
 #include "cli/verbs/numbers.hpp"
 #include "cli/verbs/page_replays.hpp"
 #include "cli/verbs/verbs.hpp"
@@ -23,7 +22,6 @@
 #include "report/text/terminal.hpp"
 #include "rows/results_folder.hpp"
 #include "rows/results_reader.hpp"
-#include "scene/catalogue.hpp"
 
 namespace plumb::harness {
 
@@ -38,35 +36,12 @@ struct ReportOptions {
   ReplayLimits replays;
 };
 
-/// Titles of the scenes that are at hand: without them (results from elsewhere, a broken file) a page shows ids alone.
-std::map<std::string, SceneText> scene_texts() {
-  std::map<std::string, SceneText> texts;
-  try {
-    for (const SceneFile& file : all_scenes()) texts[file.id] = {file.title, file.doc};
-  } catch (const UsageError& error) {
-    fmt::print(stderr, "plumb: the page goes without the titles of scenes: {}\n", error.what());
-  }
-  return texts;
-}
-
 std::string page_text(const std::vector<Row>& rows, PageOptions page) {
-  const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-  page.written = fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(now));
+  page.written = date_of_page();
   page.scenes = scene_texts();
   std::ostringstream out;
   write_page(out, rows, page);
   return out.str();
-}
-
-/// The folder's rows; what is wrong with some is said, and none at all is an error.
-std::vector<Row> rows_of(const std::string& folder) {
-  Results results = read_results(std::filesystem::path(folder));
-  for (const std::size_t line : results.unreadable_lines) {
-    fmt::print(stderr, "plumb: line {} of the results in {} is no JSON object and is left out\n", line, folder);
-  }
-  if (results.rows.empty())
-    throw UsageError("there are no results in " + folder + "; make some with plumb run --out " + folder);
-  return std::move(results.rows);
 }
 
 /// What `plumb pairs` makes by itself: recordings, which a page shows, and no rows.
@@ -110,12 +85,12 @@ int report(const ReportOptions& options) {
   std::vector<Row> rows;
   for (const std::string& folder : options.folders) {
     if (file && has_recordings_alone(folder)) continue;
-    for (Row& row : rows_of(folder)) {
+    for (Row& row : earlier_rows(folder)) {
       row.origin.index = rows.size();
       rows.push_back(std::move(row));
     }
   }
-  const std::vector<Row> baseline = options.against.empty() ? std::vector<Row>() : rows_of(options.against);
+  const std::vector<Row> baseline = options.against.empty() ? std::vector<Row>() : earlier_rows(options.against);
   if (file) {
     PageOptions page = page_options(options, baseline);
     // Of several machines one was looked at, if any.

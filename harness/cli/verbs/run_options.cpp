@@ -33,30 +33,13 @@ std::string evaluated(const std::string& text) {
 
 }  // namespace
 
-void add_run_options(CLI::App& verb, RunOptions& options) {
-  RunRequest& request = options.request;
-  verb.add_option("SCENE", request.scenes, "Scenes: ids (D1), slugs (tower), groups (stacking, core, all) or files")
-      ->required();
-  verb.add_option("--backend", request.backends, "Backend by name or file, repeatable; none: all that load")
-      ->type_name("BACKEND")
-      ->take_all()
-      ->expected(1)
-      ->allow_extra_args(false);
+void add_cell_options(CLI::App& verb, RunRequest& request) {
   verb.add_option("--param", request.parameters,
                   "name=value of a scene's parameter, repeatable; \"50 cm\" and 1/60 are values")
       ->type_name("NAME=VALUE")
       ->take_all()
       ->expected(1)
       ->allow_extra_args(false);
-  verb.add_option("--set", request.settings, "[backend:]name=value of a backend's setting, repeatable")
-      ->type_name("NAME=VALUE")
-      ->take_all()
-      ->expected(1)
-      ->allow_extra_args(false);
-  verb.add_option("--profile", request.profile,
-                  "default: as the engine ships; matched: its own damping and sleeping off; tuned: its author's file")
-      ->type_name("WORD:{default,matched,tuned}")
-      ->capture_default_str();
   verb.add_option("--needs", request.needs,
                   "scene: declare what the scene needs; scene+sleeping: one more; all: whatever the engine has")
       ->type_name("NEEDS")
@@ -86,6 +69,27 @@ void add_run_options(CLI::App& verb, RunOptions& options) {
       ->type_name("MB")
       ->check(number_from_0())
       ->capture_default_str();
+}
+
+void add_run_options(CLI::App& verb, RunOptions& options) {
+  RunRequest& request = options.request;
+  verb.add_option("SCENE", request.scenes, "Scenes: ids (D1), slugs (tower), groups (stacking, core, all) or files")
+      ->required();
+  verb.add_option("--backend", request.backends, "Backend by name or file, repeatable; none: all that load")
+      ->type_name("BACKEND")
+      ->take_all()
+      ->expected(1)
+      ->allow_extra_args(false);
+  verb.add_option("--set", request.settings, "[backend:]name=value of a backend's setting, repeatable")
+      ->type_name("NAME=VALUE")
+      ->take_all()
+      ->expected(1)
+      ->allow_extra_args(false);
+  verb.add_option("--profile", request.profile,
+                  "default: as the engine ships; matched: its own damping and sleeping off; tuned: its author's file")
+      ->type_name("WORD:{default,matched,tuned}")
+      ->capture_default_str();
+  add_cell_options(verb, request);
   verb.add_option("--out", request.out, "Folder for results.jsonl; cells that are finished there are not run again")
       ->type_name("DIR")
       ->capture_default_str();

@@ -1,4 +1,4 @@
-// The options that run, compare and curves share, and what all do with them.
+// The options that run, compare and curves share, some of them with duel, and what the three do with them.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -15,6 +15,10 @@ struct RunOptions {
   OutputOptions output;
   bool strict = false;
 };
+
+/// Adds those of every cell alike, whatever runs it: parameters, step, times, repetitions, limits. The defaults are
+/// those that stand in `request`, which must outlive the parsing.
+void add_cell_options(CLI::App& verb, RunRequest& request);
 
 /// Adds them to a verb; the defaults are those that stand in `options`, which must outlive the parsing.
 void add_run_options(CLI::App& verb, RunOptions& options);

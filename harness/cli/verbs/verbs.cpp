@@ -12,6 +12,7 @@ void add_verbs(CLI::App& program, int& status) {
   add_measures(program, status);
   add_run(program, status);
   add_compare(program, status);
+  add_duel(program, status);
   add_curves(program, status);
   add_conform(program, status);
   add_study(program, status);

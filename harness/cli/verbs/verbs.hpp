@@ -11,6 +11,7 @@ void add_scenes(CLI::App& program, int& status);
 void add_measures(CLI::App& program, int& status);
 void add_run(CLI::App& program, int& status);
 void add_compare(CLI::App& program, int& status);
+void add_duel(CLI::App& program, int& status);
 void add_curves(CLI::App& program, int& status);
 void add_conform(CLI::App& program, int& status);
 void add_study(CLI::App& program, int& status);

@@ -9,31 +9,11 @@
 #include "base/format.hpp"
 #include "report/ordered/machine_rows.hpp"
 #include "report/ordered/ordered_rows.hpp"
+#include "report/text/row_text.hpp"
 #include "report/text/text_table.hpp"
 
 namespace plumb::harness {
 namespace {
-
-constexpr const char* dim = "2";
-
-const char* colour_of(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::gold: return "33";
-    case Verdict::pass: return "32";
-    case Verdict::ran: return "";
-    case Verdict::failed: return "31";
-    case Verdict::unsupported:
-    case Verdict::unjudged: return dim;
-    default: return "35";
-  }
-}
-
-/// "out of memory": the word as prose has it.
-std::string prose(Verdict verdict) {
-  std::string word(verdict_word(verdict));
-  std::replace(word.begin(), word.end(), '_', ' ');
-  return word;
-}
 
 /// "drop 0.0084 > 0.001", with the sense in which the error stands to its limit.
 std::string worst_text(const Row& row) {
@@ -45,13 +25,6 @@ std::string worst_text(const Row& row) {
   const std::string error = worst->error ? short_number(*worst->error) : "not finite";
   const bool missed = !worst->error || *worst->error > *limit;
   return fmt::format("{} {} {} {}", name, error, missed ? ">" : "\u2264", limit_text(*limit));
-}
-
-/// In brackets where it was measured on a contended machine.
-std::string ms_text(const Row& row) {
-  if (!row.time.median_ms) return "";
-  const std::string ms = short_number(*row.time.median_ms);
-  return row.time.contended ? "(" + ms + ")" : ms;
 }
 
 void print_legend(std::ostream& out, const OrderedRows& ordered) {
@@ -76,7 +49,7 @@ void print_counts(std::ostream& out, const OrderedRows& ordered, int terminal_wi
   for (const Row& row : ordered.rows) occurs[static_cast<std::size_t>(row.verdict())] = true;
   std::vector<TextColumn> columns{{"backend", false, true}, {"cells", true, false}};
   for (std::size_t v = 0; v < verdict_count; ++v) {
-    if (occurs[v]) columns.push_back({prose(static_cast<Verdict>(v)), true, false});
+    if (occurs[v]) columns.push_back({verdict_prose(static_cast<Verdict>(v)), true, false});
   }
   TextTable table(columns);
   for (const std::string& backend : ordered.backends) {
@@ -125,7 +98,8 @@ void print_block_of_backends(std::ostream& out, const OrderedRows& ordered, cons
         line.insert(line.end(), {{std::string(no_value), dim}, {}, {}});
         continue;
       }
-      line.push_back({prose(row->verdict()) + (ordered.is_default(*row) ? "" : "*"), colour_of(row->verdict())});
+      line.push_back(
+          {verdict_prose(row->verdict()) + (ordered.is_default(*row) ? "" : "*"), colour_of(row->verdict())});
       line.push_back({error_text(*row)});
       line.push_back({ms_text(*row), dim});
     }
@@ -189,7 +163,7 @@ void print_table(std::ostream& out, const std::vector<Row>& rows, int terminal_w
     for (const Row* row : problem.rows) {
       std::vector<TextCell> line{{printable(problem.title())}, {printable(row->backend)}};
       if (with_configuration) line.push_back({printable(ordered.configuration(*row))});
-      line.push_back({prose(row->verdict()), colour_of(row->verdict())});
+      line.push_back({verdict_prose(row->verdict()), colour_of(row->verdict())});
       line.push_back({ms_text(*row)});
       line.push_back(row->completed() ? TextCell{worst_text(*row)} : TextCell{printable(row->reason), dim});
       table.add(std::move(line));

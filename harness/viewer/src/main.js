@@ -2,9 +2,10 @@
 // places a page has for one.
 //
 // A place is any element: <div data-plumb-replay="E1 L=10"></div> shows that scene (or, where it is empty or was not
-// recorded, the first one) without the rows of layers, bodies and curves. A script makes one by
-// window.plumbReplays.mount(element, {scene, compact}), which returns what api.js has. Nothing is unpacked and no
-// graphics begin before a place is near the window, or somebody asks for its `ready`.
+// recorded, the first one) without the rows of layers, bodies and curves; with data-at="2.5" it stands at that second
+// instead of playing. A script makes one by window.plumbReplays.mount(element, {scene, at, compact}), which returns what
+// api.js has. Nothing is unpacked and no graphics begin before a place is near the window, or somebody asks for its
+// `ready`.
 import { apiOf } from './api.js';
 import { Library } from './library.js';
 import css from './viewer.css';
@@ -28,7 +29,7 @@ function start() {
   if (window.plumbReplays) return;
   window.plumbReplays = { mount };
   for (const place of document.querySelectorAll('[data-plumb-replay]'))
-    mount(place, { scene: place.dataset.plumbReplay, compact: true });
+    mount(place, { scene: place.dataset.plumbReplay, at: place.dataset.at, compact: true });
   const place = document.getElementById('plumb-viewer');
   if (place) window.plumbViewer = mount(place);
 }

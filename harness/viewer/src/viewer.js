@@ -23,11 +23,13 @@ const kFewPaths = 4; // bodies that move: of so few one sees the paths without a
 const kLongestTick = 0.1; // s: slower machines play slower rather than by leaps
 
 export class Viewer {
-  /** options: scene (the first of the page where there is none of that name), compact (views and time alone). */
-  constructor(place, library, { scene, compact = false } = {}) {
+  /** options: scene (the first of the page where there is none of that name), at (the second to stand at, else it
+   *  plays when it is seen), compact (views and time alone). */
+  constructor(place, library, { scene, at, compact = false } = {}) {
     this.place = place;
     this.library = library;
     this.firstScene = library.names.includes(scene) ? scene : library.names[0];
+    this.firstTime = at;
     this.compact = compact;
     this.views = [];
     this.on = new Set();
@@ -105,6 +107,7 @@ export class Viewer {
     });
     this.fresh = !calm;
     await this.select(this.firstScene);
+    if (this.firstTime !== undefined) this.seek(Number(this.firstTime));
     this.greet();
   }
 

@@ -21,6 +21,7 @@ struct PageReplay {
   std::string scene;    ///< with its parameters, "D1 H=10": replays of the same scene are shown side by side
   std::string backend;  ///< by name
   std::string bundle;   ///< packed (replay/container.hpp)
+  std::optional<std::size_t> colour = {};  ///< of the style; none: that of the engine's name
 };
 
 /// A baseline to hold the results against.

@@ -17,8 +17,8 @@ std::string player(const std::vector<PageReplay>& replays) {
     out += fmt::format(
         R"(<script type="application/octet-stream" class="plumb-replay" data-scene="{}" data-backend="{}" data-hue="{}">)"
         "{}</script>",
-        escape_html(replay.scene), escape_html(replay.backend), look_of(replay.backend).colour(),
-        base64(replay.bundle));
+        escape_html(replay.scene), escape_html(replay.backend),
+        replay.colour.value_or(look_of(replay.backend).colour()), base64(replay.bundle));
   }
   return fmt::format("{}<script>{}</script>", out, viewer_script);
 }
