@@ -19,6 +19,7 @@
 #include "report/text/csv.hpp"
 #include "report/text/failures.hpp"
 #include "report/text/markdown.hpp"
+#include "report/text/scorecard_text.hpp"
 #include "report/text/terminal.hpp"
 #include "rows/results_folder.hpp"
 #include "rows/results_reader.hpp"
@@ -70,11 +71,13 @@ bool report_against(const ReportOptions& options, const std::vector<Row>& rows, 
   const Comparison comparison = compare_results(before.rows, after.rows, options.limits);
   if (options.markdown) {
     write_against_markdown(std::cout, comparison, before, after, options.against, options.limits);
+    write_scorecard_markdown(std::cout, rows, &baseline, options.limits);
   } else if (options.json) {
     std::cout << line_of(against_json(comparison, options.against, options.limits)) << '\n';
   } else {
     print_against(std::cout, comparison, before, after, options.against, options.limits, terminal_width(),
                   wants_colour());
+    print_scorecard(std::cout, rows, &baseline, options.limits, terminal_width(), wants_colour());
   }
   return comparison.count(Sense::worse) > 0;
 }
@@ -108,6 +111,7 @@ int report(const ReportOptions& options) {
   }
   if (options.html.empty() && !options.markdown && !options.csv && !options.json && !options.failures) {
     print_comparison(std::cout, rows, terminal_width(), wants_colour());
+    print_scorecard(std::cout, rows, nullptr, options.limits, terminal_width(), wants_colour());
   }
   return 0;
 }

@@ -139,6 +139,7 @@ std::string machine_body(const PageContext& context, Links& links) {
     body += section_html(context, section);
   };
   add("Against", against_section(context));
+  add("Scorecard", scorecard_section(context));
   add("Engines", engines_section(context));
   add("Cost", costs_section(context));
   add("Precision", precision_section(context));

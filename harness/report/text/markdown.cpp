@@ -11,6 +11,7 @@
 #include "report/ordered/default_run.hpp"
 #include "report/ordered/machine_rows.hpp"
 #include "report/ordered/ordered_rows.hpp"
+#include "report/text/scorecard_text.hpp"
 
 namespace plumb::harness {
 namespace {
@@ -166,6 +167,7 @@ std::string markdown_text(std::string_view text) {
 void write_markdown(std::ostream& out, const std::vector<Row>& rows) {
   const std::vector<MachineRows> machines = rows_by_machine(rows);
   out << "# Plumb report\n";
+  write_scorecard_markdown(out, rows, nullptr, {});
   for (const MachineRows& machine : machines) {
     out << '\n';
     if (machines.size() > 1) out << "# " << markdown_text(machine.name) << "\n\n";

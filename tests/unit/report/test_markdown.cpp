@@ -39,7 +39,7 @@ TEST(Markdown, EveryTableLineHasAsManyCellsAsItsHeader) {
     if (cells == 0) cells = bars;
     ASSERT_EQ(bars, cells) << line;
   }
-  EXPECT_EQ(tables, 3u);
+  EXPECT_EQ(tables, 4u);
 }
 
 TEST(Markdown, NoTableHoldsTimesOfTwoMachines) {

@@ -52,6 +52,8 @@ struct PageContext {
 [[nodiscard]] Json speed_figure(const PageContext& context);
 /// Sections are empty where there is nothing to show.
 [[nodiscard]] PageSection against_section(const PageContext& context);
+/// Engines by group of scenes relative to the best, with what changed since the baseline where there is one.
+[[nodiscard]] PageSection scorecard_section(const PageContext& context);
 [[nodiscard]] PageSection costs_section(const PageContext& context);
 /// Which configurations no other one beats, and which are beaten by whom.
 [[nodiscard]] PageSection fronts_section(const PageContext& context);
