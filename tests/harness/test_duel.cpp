@@ -97,7 +97,7 @@ TEST(Duels, refuse_what_cannot_be_meant) {
   refused(sample, ":tuned", {"A1"}, "names no engine");
   refused(sample, verlet, {"A1x"}, "unknown scene \"A1x\"");
   refused(sample, verlet, {"A1", "--html", out + "/none/page.html"}, "none/page.html");
-  refused(sample, misbehaving, {"A1"}, "cannot be loaded", {{"PLUMB_MISBEHAVE", "segfault"}});
+  refused(sample, misbehaving, {"A1"}, "cannot be loaded", {{"PLUMB_MISBEHAVE", "segfault_on_open"}});
   EXPECT_EQ(fs::exists(out + "/results.jsonl") ? lines_of(out + "/results.jsonl") : 0u, 0u) << "nothing was run";
 }
 
