@@ -6,12 +6,14 @@ set -euo pipefail
 usage() {
   cat <<'TEXT'
 usage: study.sh --out DIR [--baseline DIR] [--study STUDY] [--backend NAME|FILE]... [--budget TIME]
+                [--times]
 
   --out DIR        results, and in it comment.md and report.html; what is finished there is not run again
   --baseline DIR   earlier results; without any rows in it, or not given, there is nothing to compare with
   --study STUDY    a preset (quick) or a study file
   --backend B      the engines, repeatable; none: all that load
   --budget TIME    90s, 20min: what is left then is left out
+  --times          times count, too: for a machine that nobody else uses
 
 PLUMB names the program (plumb). The exit status is that of the report: 1 where something got worse, 2 where the question
 was wrong.
@@ -25,11 +27,12 @@ refuse() {
 
 plumb="${PLUMB:-plumb}"
 most_bytes=60000 # of a comment: GitHub takes 65,536 characters
-out="" baseline="" study=quick
+out="" baseline="" study=quick times=(--ignore-times)
 asked=()
 while [ $# -gt 0 ]; do
   case "$1" in
     --help) usage; exit 0 ;;
+    --times) times=(); shift; continue ;;
     --out | --baseline | --study | --backend | --budget) [ $# -gt 1 ] || refuse "$1 needs a value" ;;
     *) refuse "there is no option \"$1\"; --help lists them" ;;
   esac
@@ -49,7 +52,7 @@ command -v "$plumb" >/dev/null || refuse "there is no program \"$plumb\"; name i
 
 against=()
 if [ -n "$baseline" ] && compgen -G "$baseline/results*.jsonl*" >/dev/null; then
-  against=(--against "$baseline" --strict)
+  against=(--against "$baseline" --strict "${times[@]}")
 fi
 status=0
 "$plumb" report "$out" "${against[@]}" --html "$out/report.html" --md >"$out/table.md" || status=$?

@@ -37,9 +37,11 @@ class Study(unittest.TestCase):
     def test_with_a_baseline_it_says_what_got_worse_and_fails(self):
         self.assertEqual(self.run_study("old").returncode, 0)
         same = self.run_study("same", "--baseline", self.folder / "old")
+        self.assertEqual(same.returncode, 0, self.comment("same"))
         self.assertIn("# Plumb against a baseline", self.comment("same"))
-        # The machine may be busy, so that a time got worse; an error did not.
-        self.assertNotIn("drop", self.comment("same"), same.stderr)
+        self.assertIn("times do not count", self.comment("same"))
+        timed = self.run_study("same", "--times", "--baseline", self.folder / "old")
+        self.assertIn("intervals do not overlap", self.comment("same"), timed.stderr)
         # A change of the engine, as a baseline sees it: the same cells with larger errors.
         rows = [json.loads(line) for line in (self.folder / "old" / "results.jsonl").read_text().splitlines()]
         for row in rows:

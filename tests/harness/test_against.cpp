@@ -54,6 +54,18 @@ TEST(Against, strict_fails_where_something_got_worse_and_only_there) {
   EXPECT_TRUE(fs::exists(page)) << "the page is written all the same";
 }
 
+TEST(Against, times_may_count_for_nothing) {
+  Json slow = row_with(0.004, "X");
+  slow["time"]["ms_per_step"]["median"] = 5.0;
+  const std::string before = folder_with("against_fast", {{"results.jsonl", row_with(0.004, "X")}});
+  const std::string after = folder_with("against_slow", {{"results.jsonl", slow}});
+  EXPECT_EQ(plumb({"report", after, "--against", before, "--strict"}).status, 1);
+  const Finished ignored = plumb({"report", after, "--against", before, "--strict", "--ignore-times"});
+  EXPECT_EQ(ignored.status, 0) << ignored.out;
+  EXPECT_NE(ignored.out.find("times do not count"), std::string::npos) << ignored.out;
+  EXPECT_EQ(plumb({"report", after, "--ignore-times"}).status, 2) << "against what?";
+}
+
 TEST(Against, a_baseline_without_rows_is_the_users_mistake) {
   const std::string results = folder_with("against_results", {{"results.jsonl", row_with(0.004, "X")}});
   const std::string empty = folder_with("against_empty", {});

@@ -144,11 +144,16 @@ void add_report(CLI::App& program, int& status) {
       ->needs(against)
       ->check(number_from_0())
       ->capture_default_str();
-  verb->add_option("--time-limit", options->limits.single_time,
-                   "Relative change of a time that counts where it was measured once")
+  CLI::Option* time_limit = verb->add_option("--time-limit", options->limits.single_time,
+                                             "Relative change of a time that counts where it was measured once")
+                                ->needs(against)
+                                ->check(number_from_0())
+                                ->capture_default_str();
+  verb->add_flag_callback(
+          "--ignore-times", [options] { options->limits.ignore_times(); },
+          "No time counts: for machines that others use, too")
       ->needs(against)
-      ->check(number_from_0())
-      ->capture_default_str();
+      ->excludes(time_limit);
   markdown->excludes(csv)->excludes(json)->excludes(failures);
   csv->excludes(json)->excludes(against)->excludes(failures);
   failures->excludes(json)->excludes(against);

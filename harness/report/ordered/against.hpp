@@ -1,6 +1,8 @@
 // Baselines: what got better or worse since other results, beyond the noise.
 #pragma once
 
+#include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,6 +22,10 @@ struct AgainstLimits {
   double single_time = 0.1;
   /// Least relative change of a time whose intervals do not overlap.
   double time = 0.02;
+
+  /// On machines that others use, too, no time tells anything.
+  void ignore_times() { single_time = time = std::numeric_limits<double>::infinity(); }
+  [[nodiscard]] bool times_count() const { return std::isfinite(time); }
 };
 
 /// One thing about a cell.

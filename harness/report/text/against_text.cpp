@@ -66,10 +66,20 @@ std::vector<std::string> describe_comparison(const Comparison& comparison, const
                   "only here.",
                   baseline, comparison.both, comparison.count(Sense::worse), comparison.count(Sense::better),
                   comparison.count(Sense::changed), same, comparison.only_before.size(), comparison.only_after.size()));
-  out.push_back(
-      fmt::format("Errors of runs that repeat themselves count beyond {} relative; times where intervals do not "
-                  "overlap by {:.0f} % or more, or beyond {:.0f} % where one side ran once.",
-                  limit_text(limits.error), 100 * limits.time, 100 * limits.single_time));
+  std::string counts =
+      fmt::format("Errors of runs that repeat themselves count beyond {} relative; ", limit_text(limits.error));
+  counts += limits.times_count()
+                ? fmt::format(
+                      "times where intervals do not overlap by {:.0f} % or more, or beyond {:.0f} % where one "
+                      "side ran once.",
+                      100 * limits.time, 100 * limits.single_time)
+                : "times do not count.";
+  out.push_back(std::move(counts));
+  if (comparison.noisy > 0) {
+    out.push_back(fmt::format("{} cells do not repeat themselves: of their errors only crossed thresholds count.",
+                              comparison.noisy));
+  }
+  if (!limits.times_count()) return out;
   if (comparison.other_machine > 0) {
     out.push_back(fmt::format("Times of {} cells are not compared: other machines ({}; here {}).",
                               comparison.other_machine, comparison.machine_before, comparison.machine_after));
@@ -78,10 +88,6 @@ std::vector<std::string> describe_comparison(const Comparison& comparison, const
     out.push_back(
         fmt::format("Times of {} cells are not compared: measured while the machine had more to do than cores.",
                     comparison.contended));
-  }
-  if (comparison.noisy > 0) {
-    out.push_back(fmt::format("{} cells do not repeat themselves: of their errors only crossed thresholds count.",
-                              comparison.noisy));
   }
   return out;
 }
