@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cstdint>
 #include <filesystem>
 #include <iostream>
 #include <map>
@@ -25,6 +26,8 @@
 
 namespace plumb::harness {
 namespace {
+
+constexpr std::int64_t most_replays = 12;  ///< browsers take the oldest pictures away from a page with more than 16
 
 struct DuelOptions {
   std::string first, second;
@@ -235,7 +238,7 @@ void add_duel(CLI::App& program, int& status) {
       ->type_name("FILE");
   verb->add_option("--replays", options->replays.scenes,
                    "At most so many scenes as replays, each engine's once recorded")
-      ->check(whole_number_within(0, 1000))
+      ->check(whole_number_within(0, most_replays))
       ->capture_default_str();
   add_examples(*verb,
                {{"plumb duel impulse bullet stacking", "two engines on a group of scenes"},
