@@ -37,7 +37,25 @@ PLUMB_HD inline int widest(const Vec& v) {
   return m.x >= m.y ? (m.x >= m.z ? 0 : 2) : (m.y >= m.z ? 1 : 2);
 }
 
-/// The axis of greatest separation. False as soon as one separates by more than margin.
+/// Of the smallest half extent, the overlap or gap within which boxes are level with each other.
+constexpr Real kLevel = Real(0.01);
+
+/// Whether boxes are level along a face axis across the normal, and so overlap by next to nothing along the normal,
+/// too, or are apart there: an edge grazes an edge, as where a box slides from one tile of a floor onto the next. The
+/// tile's side, which lies below the floor by no more than what a resting box sinks in, would stop it. by_a, by_b:
+/// separations along the axes of either.
+PLUMB_HD inline bool edges_graze(const BoxPair& p, const Vec& by_a, const Vec& by_b, const Vec& normal) {
+  const Vec along_a = abs(normal), along_b = abs(multiply_transposed(p.r, normal));
+  const Real level = kLevel * min(min(min(p.a.x, p.a.y), p.a.z), min(min(p.b.x, p.b.y), p.b.z));
+  for (int k = 0; k < 3; ++k) {
+    if (along_a[k] < Real(0.5) && abs(by_a[k]) < level) return true;
+    if (along_b[k] < Real(0.5) && abs(by_b[k]) < level) return true;
+  }
+  return false;
+}
+
+/// The axis of greatest separation. False as soon as one separates by more than margin, and where edges graze, unless
+/// margin is 0: who asks for no points ahead of time, as queries do, asks for overlap however small.
 PLUMB_HD inline bool find_axis(const BoxPair& p, Real margin, Real tie, BoxAxis& out) {
   const Mat m = {abs(p.r.x), abs(p.r.y), abs(p.r.z)};
   const Vec by_a = abs(p.t) - p.a - m * p.b;
@@ -92,7 +110,7 @@ PLUMB_HD inline bool find_axis(const BoxPair& p, Real margin, Real tie, BoxAxis&
     n[i2] = u[i1];
     const Real scale_to_unit = (dot(n, p.t) < 0 ? Real(-1) : Real(1)) / length(n);
     out = {scale_to_unit * n, best_edge, i, j};
-    return true;
+    return !(margin > 0 && edges_graze(p, by_a, by_b, out.normal));
   }
   if (axis < 3) {
     Vec n = {0, 0, 0};
@@ -101,7 +119,7 @@ PLUMB_HD inline bool find_axis(const BoxPair& p, Real margin, Real tie, BoxAxis&
   } else {
     out = {sign_of(along_b[axis - 3]) * p.r[axis - 3], best, -1, axis - 3};
   }
-  return true;
+  return !(margin > 0 && edges_graze(p, by_a, by_b, out.normal));
 }
 
 /// Where the two edges of an edge axis come closest: one point; none where they pass each other by.

@@ -197,5 +197,30 @@ TEST(Contacts, OutliveTheDeathOfOthers) {
   a_body_dies(true);
 }
 
+/// Over boxes side by side cubes slide as over one: v^2 / (2 mu g) far, straight, whatever their heading and yaw.
+TEST(Contacts, LevelTilesAreOneFloor) {
+  constexpr double kSpeed = 5, kFriction = 0.5, kFar = kSpeed * kSpeed / (2 * kFriction * 9.81);
+  Scene scene(engine(), kNeeds, {0, -9.81, 0}, 1);
+  scene.body.material.friction = kFriction;
+  const PlumbShape cube = scene.box({0.5, 0.5, 0.5});
+  for (int i = -12; i <= 12; ++i)
+    for (int j = -12; j <= 12; ++j) scene.add_static(cube, {i + 0.137, -0.5, j + 0.291});
+  std::vector<PlumbBody> cubes;
+  const auto start = [](int k) { return Vector(8 * (k % 3 - 1), 0.5, 8 * (k / 3 - 1)); };
+  const auto heading = [](int k) { return Vector(std::cos(0.7 * k), 0, std::sin(0.7 * k)); };
+  for (int k = 0; k < 9; ++k) {
+    const Vector v = kSpeed * heading(k), at = start(k);
+    scene.body.linear_velocity = {v.x(), v.y(), v.z()};
+    cubes.push_back(scene.add(cube, {at.x(), at.y(), at.z()}, {0, std::sin(0.2 * k), 0, std::cos(0.2 * k)}));
+    scene.body.linear_velocity = {};
+  }
+  scene.run(90);
+  const std::vector<PlumbPose> poses = scene.poses();
+  for (int k = 0; k < 9; ++k) {
+    const Vector way = vector(poses[poses.size() - 9 + static_cast<std::size_t>(k)].position) - start(k);
+    EXPECT_LT((way - kFar * heading(k)).norm(), 0.02 * kFar) << k;
+  }
+}
+
 }  // namespace
 }  // namespace plumb::impulse::test

@@ -42,6 +42,27 @@ TEST(BoxBox, RestingCubesTouchAtFourCornersExactly) {
   EXPECT_EQ(corners.size(), 4U);
 }
 
+/// A cube that has sunk by .3 mm into the tile that it slides on, and comes to the next: the floor holds it up, and the
+/// next one's side is no wall. Queries, which ask with no margin, are told of any overlap.
+TEST(BoxBox, SidesOfLevelTilesAreNoWalls) {
+  const Shape cube = box(Real(0.5), Real(0.5), Real(0.5));
+  const auto at = [&](double x, double y, Real margin) {
+    return touch({cube, cube, kUpright, turned(30, 0, 1, 0), {static_cast<Real>(x), static_cast<Real>(y), 0}, margin});
+  };
+  const double reach = 0.5 + 0.5 * (std::cos(30 * 3.14159265358979323846 / 180) + 0.5);  // along x
+  for (const double sunk : {0.0003, 0.004, -0.004})
+    for (const double gap : {0.03, 0.001, -0.0001}) {
+      EXPECT_EQ(at(-reach - gap, 1 - sunk, Real(0.05)).count, 0U) << sunk << ", " << gap;
+      EXPECT_EQ(at(-reach - gap, 1 - sunk, 0).count != 0, sunk > 0 && gap < 0) << sunk << ", " << gap;
+    }
+  const Manifold on = at(-reach + 0.02, 1 - 0.0003, Real(0.05));
+  EXPECT_GT(on.count, 0U);
+  EXPECT_EQ(std::abs(on.normal.y), 1);
+  const Manifold wall = at(-reach - 0.03, 0.9, Real(0.05));
+  EXPECT_GT(wall.count, 0U);
+  EXPECT_LT(std::abs(wall.normal.y), 0.1);
+}
+
 TEST(BoxBox, CrossingEdgesTouchAtOnePoint) {
   const Shape cube = box(Real(0.5), Real(0.5), Real(0.5));
   const Manifold m = touch({cube, cube, turned(45, 0, 0, 1), turned(45, 1, 0, 0), {0, Real(1.4), 0}, 0});
