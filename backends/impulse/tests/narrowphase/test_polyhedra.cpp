@@ -19,6 +19,12 @@ std::uint32_t pair_count(std::uint32_t normal) {
 /// What rounding may do to a separation, of the sizes involved.
 constexpr double kRounding = 100 * static_cast<double>(kEpsilon);
 
+/// How deep edges of two boxes may graze without a touch, where points ahead of time are asked for (box_box.hpp).
+double most_grazing(const RandomPair& p) {
+  const Vec a = p.a.size, b = p.b.size;
+  return 0.01 * static_cast<double>(std::min({a.x, a.y, a.z, b.x, b.y, b.z}));
+}
+
 void expect_true_to_reference(const RandomPair& p, const Hulls& hulls, Real margin, std::uint32_t trial) {
   Manifold m{};
   const bool touch = collide({p.a, p.b, p.qa, p.qb, p.d, margin}, hulls, m);
@@ -33,7 +39,7 @@ void expect_true_to_reference(const RandomPair& p, const Hulls& hulls, Real marg
     if (all_axes) return;
   }
   EXPECT_EQ(touch, m.count > 0);
-  EXPECT_TRUE(touch || best >= -tolerance);
+  EXPECT_TRUE(touch || best >= -tolerance - (all_axes && margin > 0 ? most_grazing(p) : 0));
   if (!touch) return;
 
   const V n = to_double(m.normal);
