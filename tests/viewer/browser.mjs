@@ -7,6 +7,7 @@ import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { pathToFileURL } from 'node:url';
 import { kArguments, kBrowser as executablePath } from '../../harness/viewer/chromium.mjs';
+import { complaints } from './complaints.mjs';
 import { page as makePage } from './page.mjs';
 import { crowd, linkage, pairScripts, room, script, specks, tower, zoo } from './synthetic.mjs';
 
@@ -55,17 +56,13 @@ after(async () => {
   if (scratch) rmSync(scratch, { recursive: true });
 });
 
-/** Runs use(page) on a fresh page and fails on anything that its console says. */
+/** Runs use(page) on a fresh page, and fails on anything that its console says or that it asks of a network. */
 async function visit(
   use,
   { size = { width: 900, height: 700 }, url = pathToFileURL(file).href, context = {}, browserUsed = browser } = {},
 ) {
   const page = await browserUsed.newPage({ viewport: size, reducedMotion: 'reduce', ...context }),
-    said = [];
-  page.on('console', (message) => {
-    if (['error', 'warning'].includes(message.type())) said.push(message.text());
-  });
-  page.on('pageerror', (error) => said.push(error.stack));
+    said = complaints(page);
   await page.goto(url);
   await page.evaluate(() => window.plumbViewer.ready);
   await use(page);

@@ -9,6 +9,7 @@ import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { pathToFileURL } from 'node:url';
 import { kArguments, kBrowser } from '../../harness/viewer/chromium.mjs';
+import { complaints } from './complaints.mjs';
 
 const { PLUMB_VIEWER_FOLDER: folder, PLUMB_SOURCE: root, PLUMB_PROGRAM: program, SAMPLE_BACKEND: sample } = process.env;
 if (!existsSync(kBrowser)) {
@@ -39,14 +40,7 @@ const plumb = (...given) =>
 /** Runs use(page) and fails on anything that its console says or that it asks of a network. */
 async function visit(file, use, width = 1300) {
   const page = await browser.newPage({ viewport: { width, height: 900 } }),
-    said = [];
-  page.on('console', (message) => {
-    if (['error', 'warning'].includes(message.type())) said.push(message.text());
-  });
-  page.on('pageerror', (error) => said.push(error.stack));
-  page.on('request', (request) => {
-    if (!/^(file|data|blob):/.test(request.url())) said.push(request.url());
-  });
+    said = complaints(page);
   await page.goto(pathToFileURL(file).href);
   await use(page);
   await page.close();

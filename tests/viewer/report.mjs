@@ -9,6 +9,7 @@ import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { fileURLToPath, pathToFileURL } from 'node:url';
 import { kArguments, kBrowser } from '../../harness/viewer/chromium.mjs';
+import { complaints } from './complaints.mjs';
 import { script, tower } from './synthetic.mjs';
 
 const kMostElements = 30000; // of a page of five thousand rows, wherever one reads
@@ -50,14 +51,7 @@ after(async () => {
 /** Runs use(page) on a fresh page, and fails on anything that its console says or that it asks of a network. */
 async function visit(url, use, { width = 1400, ignore = null, ...context } = {}) {
   const page = await browser.newPage({ viewport: { width, height: 900 }, reducedMotion: 'reduce', ...context }),
-    said = [];
-  page.on('console', (message) => {
-    if (['error', 'warning'].includes(message.type())) said.push(message.text());
-  });
-  page.on('pageerror', (error) => said.push(error.stack));
-  page.on('request', (request) => {
-    if (!/^(file|data|blob):/.test(request.url())) said.push(request.url());
-  });
+    said = complaints(page);
   await page.goto(url);
   await page.waitForFunction(() => 'ready' in document.documentElement.dataset, null, { timeout: 60000 });
   await use(page);
