@@ -21,7 +21,7 @@ constexpr std::uint32_t kMostInMechanism = 64;
 struct MechanismBody {
   std::uint32_t body;
   std::uint32_t first, count;                ///< places of its mechanism; count is 0 of one that is met body by body
-  std::uint32_t first_column, column_count;  ///< of its mechanism, in the list of columns
+  std::uint32_t first_column, column_count;  ///< of its mechanism, in the joints' matrix
   std::uint64_t mobility;  ///< first number of what a wrench on this body does: of each body in turn kMobilityNumbers
   std::uint64_t scratch;   ///< first number of what is worked with to find that
 };
@@ -31,8 +31,8 @@ struct ContactLoad {
   Vec linear;             ///< its velocity before
   std::uint32_t touched;  ///< in this step
   Vec angular;
-  Real unused;
-  Vec force, torque;  ///< N s and N m s at the centre of mass
+  std::uint32_t mechanism_touched;  ///< of the first of a mechanism: any of its bodies is
+  Vec force, torque;                ///< N s and N m s at the centre of mass
 };
 
 /// Motion or wrench of a body: along the axes, then about them.
@@ -94,13 +94,6 @@ inline void move_by(const Real* response, const Six& wrench, Velocity& velocity)
 
 #endif
 
-/// The columns of the joints' matrix by mechanism.
-struct MechanismColumns {
-  const std::uint32_t* columns;  ///< of one mechanism after the other, ascending
-  const std::uint32_t* number;   ///< by column: its number in its mechanism
-  Real* scratch;
-};
-
 struct Mechanisms {
   const std::uint32_t* place_of;  ///< by body: its place and one, or 0 where contacts see it alone. Null: all of them
   const MechanismBody* bodies;    ///< by place
@@ -111,6 +104,15 @@ struct Mechanisms {
   PLUMB_HD bool hold(std::uint32_t body) const { return place_of != nullptr && place_of[body] != 0; }
   /// Whether the body has a contact in this step.
   PLUMB_HD bool touch(std::uint32_t body) const { return hold(body) && loads[place_of[body] - 1].touched != 0; }
+  /// Whether any body of its mechanism has.
+  PLUMB_HD bool touch_mechanism(std::uint32_t body) const {
+    return hold(body) && loads[of(body).first].mechanism_touched != 0;
+  }
+  PLUMB_HD void begin_step(std::uint32_t place) const { loads[place].touched = loads[place].mechanism_touched = 0; }
+  /// A contact of this step may push the body.
+  PLUMB_HD void note_contact(std::uint32_t body) const {
+    if (hold(body)) loads[place_of[body] - 1].touched = loads[of(body).first].mechanism_touched = 1;
+  }
   PLUMB_HD const MechanismBody& of(std::uint32_t body) const {
     PLUMB_ASSERT(hold(body) && place_of[body] <= count);
     return bodies[place_of[body] - 1];

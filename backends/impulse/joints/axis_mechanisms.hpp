@@ -1,6 +1,6 @@
 // What solvers do with joints of which some have rows that do not always hold, and with reactions. As in
-// mechanisms.hpp mechanisms are solved as a whole where their matrix stays sparse: in rounds, until each row is on the
-// piece of its law that the solution asks for.
+// mechanisms.hpp mechanisms are solved each as a whole where their matrix stays sparse: in rounds, until each row is on
+// the piece of its law that the solution asks for.
 #pragma once
 
 #include "exec/atomic.hpp"
@@ -21,15 +21,17 @@ PLUMB_HD inline void keep_all_rows(JointWork& work) {
   for (Real& change : work.change) change = 0;
 }
 
-PLUMB_HD inline void choose_in_system(const AxisView& view, const JointSystem& system, std::uint32_t column,
-                                      const RowTime& time, std::uint32_t round, std::uint32_t turn) {
+/// Returns whether a row is on another piece than before, or ought to be.
+PLUMB_HD inline bool choose_in_system(const AxisView& view, const JointSystem& system, std::uint32_t column,
+                                      const RowTime& time, std::uint32_t round) {
   const std::uint32_t j = system.base + column;
   const Joint& joint = view.joints[j];
-  if (column == 0) system.changes[(turn + 1) % 3] = 0;
-  if (round != 0 && rows_of(joint.type) == row_count(joint)) return keep_all_rows(system.work(column));
-  const bool changed = choose_pieces(view, j, time, view.velocity(joint.body_a), view.velocity(joint.body_b), round,
-                                     view.work[j].share, system.work(column).change);
-  if (changed) atomic_add(&system.changes[turn % 3], 1U);
+  if (round != 0 && rows_of(joint.type) == row_count(joint)) {
+    keep_all_rows(system.work(column));
+    return false;
+  }
+  return choose_pieces(view, j, time, view.velocity(joint.body_a), view.velocity(joint.body_b), round,
+                       view.work[j].share, system.work(column).change);
 }
 
 #if !defined(PLUMB_IMPULSE_CUDA)
@@ -46,14 +48,15 @@ inline bool needs_factors(const JointSystem& system, const AxisView& view, std::
 }
 #endif
 
-PLUMB_DEVICE inline void factor_axis_system(Team& team, const JointSystem& system, const AxisView& view) {
+PLUMB_DEVICE inline void factor_axis_system(Team& team, const JointSystem& system, const SystemMechanism& mechanism,
+                                            const AxisView& view) {
 #if !defined(PLUMB_IMPULSE_CUDA)
-  team.each(system.level_first[system.levels], [=](std::uint32_t column) {
+  for_columns(team, mechanism, [&](std::uint32_t column) {
     AxisWork& own = view.parts.work[system.base + column];
     own.compare_factors(own.cfm, system.rows(column));
   });
 #endif
-  for_columns_up(team, system, [=](std::uint32_t column) {
+  for_columns_up(team, system, mechanism, [&](std::uint32_t column) {
     AxisWork& own = view.parts.work[system.base + column];
 #if !defined(PLUMB_IMPULSE_CUDA)
     own.set_factored(needs_factors(system, view, column));
@@ -73,9 +76,9 @@ PLUMB_HD inline Real tikhonov_of_speeds(const AxisView& view, std::uint32_t j) {
 }
 
 /// The changes that solve the system with its rows on the pieces chosen. anew: as of row_speeds.
-PLUMB_DEVICE inline void find_axis_changes(Team& team, const JointSystem& system, const AxisView& view,
-                                           const RowTime& time, bool anew) {
-  for_columns_up(team, system, [=](std::uint32_t column) {
+PLUMB_DEVICE inline void find_axis_changes(Team& team, const JointSystem& system, const SystemMechanism& mechanism,
+                                           const AxisView& view, const RowTime& time, bool anew) {
+  for_columns_up(team, system, mechanism, [&](std::uint32_t column) {
     const std::uint32_t j = system.base + column;
     const Joint& joint = view.joints[j];
     const Real tikhonov = time.pass == RowPass::kSpeeds ? tikhonov_of_speeds(view, j) : view.work[j].tikhonov;
@@ -83,72 +86,86 @@ PLUMB_DEVICE inline void find_axis_changes(Team& team, const JointSystem& system
                   system.work(column).change);
     take_earlier(system, column, system.work(column).change);
   });
-  for_columns_down(team, system, [=](std::uint32_t column) { solve_backward(system, column); });
+  for_columns_down(team, system, mechanism, [&](std::uint32_t column) { solve_backward(system, column); });
 }
 
-/// The system's joints in one pass. turn: counts the rounds of a step; the count of one is cleared while the one before
-/// is counted, when everybody has long read what it was.
-PLUMB_DEVICE inline void solve_axis_system(Team& team, const JointSet& joints, const RowTime& time,
-                                           std::uint32_t& turn) {
-  const JointSystem system = joints.system;
-  if (system.levels == 0) return;
-  const AxisView view = axis_view(joints);
-  const std::uint32_t count = joints.count - system.base;
+/// A mechanism's joints in one pass.
+PLUMB_DEVICE inline void solve_in_rounds(Team& team, const JointSystem& system, const SystemMechanism& mechanism,
+                                         const AxisView& view, const RowTime& time) {
+  ChangeCount count(team, system, mechanism);
   RoundCount rounds;
   std::uint32_t stiffened = 0;
   while (true) {
-    const std::uint32_t now = turn++;
+    const ChangeCount::Round now = count.next();
     const std::uint32_t round = rounds.round();
-    team.each(count, [=](std::uint32_t column) { choose_in_system(view, system, column, time, round, now); });
+    for_columns(team, mechanism, [&](std::uint32_t column) {
+      if (column == mechanism.first_column) now.clear_next();
+      if (choose_in_system(view, system, column, time, round)) now.note_change();
+    });
     team.barrier();
-    const RoundKind kind = rounds.next(system.changes[now % 3] != 0);
+    const RoundKind kind = rounds.next(*now.now != 0);
     if (kind == RoundKind::kDone) break;
-    push_changes(team, system);
-    if (has_new_matrix(kind)) factor_axis_system(team, system, view);
-    find_axis_changes(team, system, view, time, has_new_tangent(kind));
-    while (time.pass == RowPass::kPlaces && stiffened < kMostStiffenings && tension_grows(team, system, time.h, turn)) {
+    push_changes(team, system, mechanism);
+    if (has_new_matrix(kind)) factor_axis_system(team, system, mechanism, view);
+    find_axis_changes(team, system, mechanism, view, time, has_new_tangent(kind));
+    while (time.pass == RowPass::kPlaces && stiffened < kMostStiffenings &&
+           tension_grows(team, system, mechanism, time.h, count)) {
       ++stiffened;
-      team.each(count, [=](std::uint32_t column) { refresh_axis_joint(view, system.base + column); });
-      factor_axis_system(team, system, view);
-      find_axis_changes(team, system, view, time, has_new_tangent(kind));
+      for_columns(team, mechanism, [&](std::uint32_t column) { refresh_axis_joint(view, system.base + column); });
+      factor_axis_system(team, system, mechanism, view);
+      find_axis_changes(team, system, mechanism, view, time, has_new_tangent(kind));
     }
-    push_changes(team, system);
+    push_changes(team, system, mechanism);
   }
-  team.each(count,
-            [=](std::uint32_t column) { settle_pieces(view, system.base + column, time, system.work(column).change); });
-  push_changes(team, system);
+  for_columns(team, mechanism, [&](std::uint32_t column) {
+    settle_pieces(view, system.base + column, time, system.work(column).change);
+  });
+  push_changes(team, system, mechanism);
 }
 
+/// Of joints that are solved one by one, and of all.
+PLUMB_DEVICE inline void add_single_reactions(Team& team, const JointSet& joints) {
+  const AxisView view = axis_view(joints);
+  team.each(joints.system.base, [=](std::uint32_t j) { add_reaction(view, j); });
+}
 PLUMB_DEVICE inline void add_reactions(Team& team, const JointSet& joints) {
   const AxisView view = axis_view(joints);
   team.each(joints.count, [=](std::uint32_t j) { add_reaction(view, j); });
 }
 
-/// Rows where the bodies are now. loaded: as of refresh_mechanisms.
-PLUMB_DEVICE inline void refresh_axes(Team& team, const JointSet& joints, Real h, Real shortened, bool loaded) {
-  const AxisView view = axis_view(joints);
-  const JointSystem system = joints.system;
-  team.each(system.body_count, [=](std::uint32_t place) { find_least_moment(system, place, h, shortened); });
-  team.each(joints.count, [=](std::uint32_t j) {
-    refresh_axis_joint(view, j);
-    if (!loaded) choose_share(view, j, h);
+/// A mechanism's rows where its bodies are now. As of refresh_mechanism.
+PLUMB_DEVICE inline void refresh_axes(Team& team, const JointSystem& system, const SystemMechanism& mechanism,
+                                      const AxisView& view, Real h, Real shortened) {
+  const bool touched = system.is_touched(mechanism);
+  for_places(team, mechanism, [&](std::uint32_t place) { find_least_moment(system, place, h, shortened); });
+  for_columns(team, mechanism, [&](std::uint32_t column) {
+    refresh_axis_joint(view, system.base + column);
+    if (!touched) choose_share(view, system.base + column, h);
   });
 }
 
+/// A sub-step begins, or a step: impulses of joint j are those of the last one.
+PLUMB_HD inline void begin_axis_joint(const AxisView& view, std::uint32_t j, bool first, const StepParameters& step) {
+  if (first) take_over_impulse(view, j, step);
+  begin_reaction(view, j, first && !step.is_later_part);
+}
+
 /// The impulses of the last sub-step, or step, act again.
-PLUMB_DEVICE inline void warm_start_axes(Team& team, const JointSet& joints, bool first, bool loaded,
-                                         const StepParameters& step) {
+PLUMB_DEVICE inline void warm_start_axes(Team& team, const JointSet& joints, bool first, const StepParameters& step) {
   if (joints.count == 0) return;
   const AxisView view = axis_view(joints);
-  const JointSystem system = joints.system;
-  team.each(joints.count, [=](std::uint32_t j) {
-    if (j == 0) system.changes[0] = 0;
-    if (first) take_over_impulse(view, j, step);
-    begin_reaction(view, j, first && !step.is_later_part);
+  const JointSystem& system = joints.system;
+  team.each(system.base, [&](std::uint32_t j) {
+    begin_axis_joint(view, j, first, step);
+    if (first) refresh_axis_joint(view, j);
   });
-  if (first) refresh_axes(team, joints, step.h, step.shortened, loaded);
   for_single_joints(team, joints, [=](std::uint32_t j) { warm_start_joint(view, j, false, step); });
-  team.each(system.body_count, [=](std::uint32_t i) { push_body(system, i, true); });
+  for_mechanisms(team, system, [&](Team& own, const SystemMechanism& mechanism) {
+    for_columns(own, mechanism,
+                [&](std::uint32_t column) { begin_axis_joint(view, system.base + column, first, step); });
+    if (first) refresh_axes(own, system, mechanism, view, step.h, step.shortened);
+    for_places(own, mechanism, [&](std::uint32_t place) { push_body(system, place, true); });
+  });
 }
 
 /// The speed that contacts have left a row that holds while they push.
@@ -159,16 +176,11 @@ PLUMB_HD inline Real speed_met(const AxisView& view, std::uint32_t j, int row) {
 
 /// The rows that always hold pass on what contacts did to single bodies, so that all others start from where they
 /// nearly are: from speeds that no mechanism has they would not find their pieces. So do those that are predicted to.
-PLUMB_DEVICE inline void pass_on_loads(Team& team, const JointSet& joints) {
-  const JointSystem system = joints.system;
-  if (system.levels == 0) return;
-  const AxisView view = axis_view(joints);
-  team.each(joints.count - system.base, [=](std::uint32_t column) {
-    const std::uint32_t j = system.base + column;
-    choose_rows_met(view, j);
-  });
-  factor_axis_system(team, system, view);
-  for_columns_up(team, system, [=](std::uint32_t column) {
+PLUMB_DEVICE inline void pass_on_loads(Team& team, const JointSystem& system, const SystemMechanism& mechanism,
+                                       const AxisView& view) {
+  for_columns(team, mechanism, [&](std::uint32_t column) { choose_rows_met(view, system.base + column); });
+  factor_axis_system(team, system, mechanism, view);
+  for_columns_up(team, system, mechanism, [&](std::uint32_t column) {
     const std::uint32_t j = system.base + column;
     const Joint& joint = view.joints[j];
     const AxisWork& own = view.parts.work[j];
@@ -179,8 +191,8 @@ PLUMB_DEVICE inline void pass_on_loads(Team& team, const JointSet& joints) {
       y[i] = own.is_active(i) ? -((y[i] - speed_met(view, j, i)) + tikhonov * own.cfm[i] * view.total(j)[i]) : Real(0);
     take_earlier(system, column, y);
   });
-  for_columns_down(team, system, [=](std::uint32_t column) { solve_backward(system, column); });
-  push_changes(team, system);
+  for_columns_down(team, system, mechanism, [&](std::uint32_t column) { solve_backward(system, column); });
+  push_changes(team, system, mechanism);
 }
 
 /// Where contacts push mechanisms, what is beyond a limit comes back no faster than this, m/s or rad/s: where one holds
@@ -189,25 +201,31 @@ PLUMB_DEVICE inline void pass_on_loads(Team& team, const JointSet& joints) {
 constexpr Real kMostReturn = 1;
 
 /// One pass of the sub-stepped solver: over places, or over speeds after positions have moved. touched: contacts may
-/// push mechanisms. loaded: they have handed over what they did.
+/// push mechanisms. loaded: those that they do push have yet to pass on what contacts did.
 PLUMB_DEVICE inline void solve_axes(Team& team, const JointSet& joints, const StepParameters& step, RowPass pass,
-                                    bool touched, bool loaded, std::uint32_t& turn) {
+                                    bool touched, bool loaded) {
   if (joints.count == 0) return;
   const AxisView view = axis_view(joints);
-  if (pass == RowPass::kSpeeds) refresh_axes(team, joints, step.h, 1, loaded);
-  if (loaded) pass_on_loads(team, joints);
+  const JointSystem& system = joints.system;
   RowTime time = {pass, step.h, step.inverse_h, step.joint.bias_rate,
                   pass == RowPass::kSpeeds ? Real(0) : step.joint.gamma};
   if (touched) time.most_return = kMostReturn;
+  if (pass == RowPass::kSpeeds) team.each(system.base, [=](std::uint32_t j) { refresh_axis_joint(view, j); });
   for_single_joints(team, joints, [=](std::uint32_t j) { solve_axis_joint(view, j, time); });
+  add_single_reactions(team, joints);
   RowTime exact = time;
   exact.rate = step.joint_rate;
   exact.chain_rate = step.chain_rate;
-  solve_axis_system(team, joints, exact, turn);
-  if (pass == RowPass::kSpeeds && view.solver.mechanisms.count != 0)
-    team.each(joints.count - joints.system.base,
-              [=](std::uint32_t i) { follow_rows(view, joints.system.base + i, exact); });
-  add_reactions(team, joints);
+  for_mechanisms(team, system, [&](Team& own, const SystemMechanism& mechanism) {
+    if (pass == RowPass::kSpeeds) refresh_axes(own, system, mechanism, view, step.h, 1);
+    if (loaded && system.is_touched(mechanism)) pass_on_loads(own, system, mechanism, view);
+    solve_in_rounds(own, system, mechanism, view, exact);
+    const bool follows = pass == RowPass::kSpeeds && view.solver.mechanisms.count != 0;
+    for_columns(own, mechanism, [&](std::uint32_t column) {
+      if (follows) follow_rows(view, system.base + column, exact);
+      add_reaction(view, system.base + column);
+    });
+  });
 }
 
 }  // namespace plumb::impulse

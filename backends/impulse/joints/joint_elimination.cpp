@@ -198,64 +198,32 @@ Lists mechanisms_of(const std::vector<Join>& joins, std::uint32_t none, std::uin
   return sorted_into(count, joints, [&](std::uint32_t j) { return number[j]; });
 }
 
-/// A mechanism and its place in the whole.
-struct Part {
-  const MechanismElimination* of;
-  std::span<const std::uint32_t> joints;
-  std::uint32_t first_column, first_entry;  ///< of all parts', one after the other
-};
-
-/// Interleaves the parts round by round.
-void put_together(const std::vector<Part>& parts, JointElimination& whole) {
-  struct Column {
-    std::uint32_t part, column;
+/// Puts a mechanism behind those that are there. joints: its numbers in the world.
+void append(const MechanismElimination& mechanism, std::span<const std::uint32_t> joints, JointElimination& whole) {
+  const std::uint32_t column = count_of(whole.order), entry = count_of(whole.entries),
+                      level = count_of(whole.level_first), product = count_of(whole.products);
+  for (const std::uint32_t j : mechanism.order) whole.order.push_back(joints[j]);
+  // Of each list of beginnings the last one is the end, and so where the next mechanism begins.
+  const auto append_firsts = [](const Numbers& of, std::uint32_t before, Numbers& to) {
+    for (std::size_t i = 0; i + 1 < of.size(); ++i) to.push_back(before + of[i]);
   };
-  std::size_t levels = 0, columns = 0, entries = 0;
-  for (const Part& part : parts) {
-    levels = std::max(levels, part.of->level_first.size() - 1);
-    columns += part.of->order.size();
-    entries += part.of->entries.size();
-  }
-  std::vector<Column> at;
-  Numbers place(columns), number(entries);  // by part and its column or entry
-  for (std::uint32_t level = 0; level < levels; ++level) {
-    whole.level_first.push_back(count_of(at));
-    for (std::uint32_t p = 0; p < parts.size(); ++p) {
-      const MechanismElimination& part = *parts[p].of;
-      if (level + 1 >= part.level_first.size()) continue;
-      for (std::uint32_t c = part.level_first[level]; c < part.level_first[level + 1]; ++c) {
-        place[parts[p].first_column + c] = count_of(at);
-        at.push_back({p, c});
-      }
-    }
-  }
-  whole.level_first.push_back(count_of(at));
+  append_firsts(mechanism.level_first, column, whole.level_first);
+  append_firsts(mechanism.column_first, entry, whole.column_first);
+  append_firsts(mechanism.product_first, product, whole.product_first);
+  for (const JointEntry& of : mechanism.entries) whole.entries.push_back({column + of.row, column + of.column});
+  for (const JointProduct& of : mechanism.products) whole.products.push_back({entry + of.left, entry + of.right});
+  whole.columns.push_back({level, count_of(whole.level_first), column, count_of(whole.order)});
+}
 
-  std::uint32_t entry = 0;
-  for (const Column& column : at) {
-    const Part& part = parts[column.part];
-    whole.order.push_back(part.joints[part.of->order[column.column]]);
-    whole.column_first.push_back(entry);
-    for (std::uint32_t e = part.of->column_first[column.column]; e < part.of->column_first[column.column + 1]; ++e) {
-      number[part.first_entry + e] = entry++;
-      whole.entries.push_back(
-          {place[part.first_column + part.of->entries[e].row], place[part.first_column + column.column]});
-    }
-  }
-  whole.column_first.push_back(entry);
-  for (const Column& column : at) {
-    const Part& part = parts[column.part];
-    for (std::uint32_t e = part.of->column_first[column.column]; e < part.of->column_first[column.column + 1]; ++e) {
-      whole.product_first.push_back(count_of(whole.products));
-      for (std::uint32_t p = part.of->product_first[e]; p < part.of->product_first[e + 1]; ++p)
-        whole.products.push_back({number[part.first_entry + part.of->products[p].left],
-                                  number[part.first_entry + part.of->products[p].right]});
-    }
-  }
+void finish(JointElimination& whole) {
+  whole.level_first.push_back(count_of(whole.order));
+  whole.column_first.push_back(count_of(whole.entries));
   whole.product_first.push_back(count_of(whole.products));
-  Lists by_row = sorted_into(count_of(at), entry, [&](std::uint32_t e) { return whole.entries[e].row; });
+  Lists by_row = sorted_into(count_of(whole.order), count_of(whole.entries),
+                             [&](std::uint32_t e) { return whole.entries[e].row; });
   whole.row_entries = std::move(by_row.items);
   whole.row_first = std::move(by_row.first);
+  std::sort(whole.one_by_one.begin(), whole.one_by_one.end());
 }
 
 }  // namespace
@@ -279,8 +247,6 @@ JointElimination JointEliminator::eliminate(const std::vector<Join>& joins, std:
   whole.is_closed.resize(joins.size());
   whole.mechanism.resize(joins.size());
   const Lists mechanisms = mechanisms_of(joins, none, bodies);
-  std::vector<Part> parts;
-  std::uint32_t columns = 0, entries = 0;
   Numbers local(bodies, kNoBody);  // no body is in two mechanisms
   Shape shape;
   for (std::uint32_t m = 0; m + 1 < mechanisms.first.size(); ++m) {
@@ -302,13 +268,9 @@ JointElimination JointEliminator::eliminate(const std::vector<Join>& joins, std:
       whole.mechanism[j] = m;
       if (found.too_full) whole.one_by_one.push_back(j);
     }
-    if (found.too_full) continue;
-    parts.push_back({&found, mechanisms[m], columns, entries});
-    columns += count_of(found.order);
-    entries += count_of(found.entries);
+    if (!found.too_full) append(found, mechanisms[m], whole);
   }
-  std::sort(whole.one_by_one.begin(), whole.one_by_one.end());
-  put_together(parts, whole);
+  finish(whole);
   std::erase_if(known_, [this](const auto& known) { return known.second.used != calls_; });
   return whole;
 }

@@ -39,8 +39,13 @@ struct MechanismElimination {
   std::vector<std::uint32_t> product_first;
 };
 
-/// All of a world. A round takes the joints of a mechanism after those of the one before; mechanisms go by their first
-/// joint.
+/// What of the whole is a mechanism's: its columns, level by level.
+struct MechanismColumns {
+  std::uint32_t first_level, level_end;
+  std::uint32_t first_column, column_end;
+};
+
+/// All of a world, one mechanism after the other, by their first joints.
 struct JointElimination {
   std::vector<std::uint32_t> order;       ///< the joints that are eliminated; rows and columns count in this order
   std::vector<std::uint32_t> one_by_one;  ///< joints of mechanisms that would fill too much, in order of their numbers
@@ -48,6 +53,7 @@ struct JointElimination {
   std::vector<bool> is_closed;            ///< by joint: MechanismElimination::is_closed
   std::vector<std::uint32_t> length;      ///< by joint: MechanismElimination::length
   std::vector<std::uint32_t> mechanism;   ///< by joint: the number of its mechanism
+  std::vector<MechanismColumns> columns;  ///< of mechanisms that are eliminated
   std::vector<std::uint32_t> level_first;  ///< columns of each round, and the end
   std::vector<JointEntry> entries;         ///< by column
   std::vector<std::uint32_t> column_first;

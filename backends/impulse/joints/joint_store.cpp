@@ -68,8 +68,8 @@ void JointStore::upload(const Table<BodyMass>& masses) {
   slot_of_.clear();
   for (const Joint& joint : ordered.joints) slot_of_.push_back(joint.slot);
   colours_.colour(ordered, masses);
-  const std::vector<std::uint32_t> pushed = system_.put(ordered, masses);
-  mechanisms_.put(ordered, pushed, masses.size());
+  const auto [mechanisms, pushed] = system_.put(ordered, masses);
+  mechanisms_.put(mechanisms, pushed, masses.size());
   PLUMB_ASSERT(ordered.base <= ordered.count());
   joints_.assign(ordered.joints);
   work_.grow(ordered.count());

@@ -64,7 +64,7 @@ class JointStore {
   [[nodiscard]] JointSet set(const Bodies& bodies, const SolverBodies& solver, bool gyroscopic);
   /// That contacts move as a whole.
   [[nodiscard]] Mechanisms mechanisms() { return mechanisms_.view(); }
-  [[nodiscard]] MechanismColumns mechanism_columns() { return mechanisms_.columns(); }
+  [[nodiscard]] Real* mobility_scratch() { return mechanisms_.scratch(); }
   /// body_pair_key of bodies that do not collide: those that are joined, and those of one rigid group; in any order,
   /// and some more than once.
   [[nodiscard]] std::vector<std::uint64_t> excluded() const;

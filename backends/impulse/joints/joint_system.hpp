@@ -1,5 +1,6 @@
-// Mechanisms solved exactly: the L D L^T of all their joints at once (joints/joint_elimination.hpp), level by
-// level. Each thread gathers what earlier levels give to its own row, so that sums have one order.
+// Mechanisms solved exactly: the L D L^T of all joints of one at once (joints/joint_elimination.hpp), level by
+// level. Each thread gathers what earlier levels give to its own row, so that sums have one order. Mechanisms do not
+// depend on each other, whatever else is in the world.
 #pragma once
 
 #include "exec/executor.hpp"
@@ -154,46 +155,71 @@ PLUMB_HD inline void push_body(const JointSystem& system, std::uint32_t place, b
   system.view.store(body, before, after);
 }
 
-/// f(column) level after level, upward or downward.
+/// f(team, mechanism) for every mechanism: of small ones each by its own team.
 template <class F>
-PLUMB_DEVICE void for_columns_up(Team& team, const JointSystem& system, const F& f) {
-  for (std::uint32_t level = 0; level < system.levels; ++level) {
-    const std::uint32_t first = system.level_first[level];
-    team.each(system.level_first[level + 1] - first, [=](std::uint32_t i) { f(first + i); });
-  }
-}
-template <class F>
-PLUMB_DEVICE void for_columns_down(Team& team, const JointSystem& system, const F& f) {
-  for (std::uint32_t level = system.levels; level-- > 0;) {
-    const std::uint32_t first = system.level_first[level];
-    team.each(system.level_first[level + 1] - first, [=](std::uint32_t i) { f(first + i); });
-  }
-}
-
-/// The changes found act on all bodies.
-PLUMB_DEVICE inline void push_changes(Team& team, const JointSystem& system) {
-  const std::uint32_t joints = system.level_first[system.levels];
-  team.each(max(joints, system.body_count), [=](std::uint32_t i) {
-    if (i < joints) keep_change(system.view, system.base + i);
-#if !defined(PLUMB_IMPULSE_CUDA)
-    if (i < system.body_count && stays(system, i)) return;
-#endif
-    if (i < system.body_count) push_body(system, i, false);
+PLUMB_DEVICE void for_mechanisms(Team& team, const JointSystem& system, const F& f) {
+  team.each_group(system.small_count, system.mechanism_count, [&](Team& own, std::uint32_t m) {
+    const SystemMechanism mechanism = system.mechanisms[m];
+    f(own, mechanism);
   });
 }
 
-PLUMB_DEVICE inline void factor_system(Team& team, const JointSystem& system) {
-  for_columns_up(team, system, [=](std::uint32_t j) { factor_column(system, j); });
+/// f(column) for every column of a mechanism.
+template <class F>
+PLUMB_DEVICE void for_columns(Team& team, const SystemMechanism& mechanism, const F& f) {
+  const std::uint32_t first = mechanism.first_column;
+  team.each(mechanism.column_count(), [=](std::uint32_t i) { f(first + i); });
+}
+/// Level after level, upward or downward.
+template <class F>
+PLUMB_DEVICE void for_columns_of_level(Team& team, const JointSystem& system, std::uint32_t level, const F& f) {
+  const std::uint32_t first = system.level_first[level];
+  team.each(system.level_first[level + 1] - first, [=](std::uint32_t i) { f(first + i); });
+}
+template <class F>
+PLUMB_DEVICE void for_columns_up(Team& team, const JointSystem& system, const SystemMechanism& mechanism, const F& f) {
+  for (std::uint32_t level = mechanism.first_level; level < mechanism.level_end; ++level)
+    for_columns_of_level(team, system, level, f);
+}
+template <class F>
+PLUMB_DEVICE void for_columns_down(Team& team, const JointSystem& system, const SystemMechanism& mechanism,
+                                   const F& f) {
+  for (std::uint32_t level = mechanism.level_end; level-- > mechanism.first_level;)
+    for_columns_of_level(team, system, level, f);
+}
+/// f(place) for every body of a mechanism.
+template <class F>
+PLUMB_DEVICE void for_places(Team& team, const SystemMechanism& mechanism, const F& f) {
+  const std::uint32_t first = mechanism.first_place;
+  team.each(mechanism.place_count(), [=](std::uint32_t i) { f(first + i); });
+}
+
+/// The changes found act on all bodies.
+PLUMB_DEVICE inline void push_changes(Team& team, const JointSystem& system, const SystemMechanism& mechanism) {
+  team.each(max(mechanism.column_count(), mechanism.place_count()), [=](std::uint32_t i) {
+    if (i < mechanism.column_count()) keep_change(system.view, system.base + mechanism.first_column + i);
+    if (i >= mechanism.place_count()) return;
+    const std::uint32_t place = mechanism.first_place + i;
+#if !defined(PLUMB_IMPULSE_CUDA)
+    if (stays(system, place)) return;
+#endif
+    push_body(system, place, false);
+  });
+}
+
+PLUMB_DEVICE inline void factor_system(Team& team, const JointSystem& system, const SystemMechanism& mechanism) {
+  for_columns_up(team, system, mechanism, [&](std::uint32_t j) { factor_column(system, j); });
 }
 
 /// The changes that solve the system, which do not act yet.
-PLUMB_DEVICE inline void find_changes(Team& team, const JointSystem& system, const JointPass& pass) {
+PLUMB_DEVICE inline void find_changes(Team& team, const JointSystem& system, const SystemMechanism& mechanism,
+                                      const JointPass& pass) {
 #if !defined(PLUMB_IMPULSE_CUDA)
   if (pass.take_back_error)
-    team.each(system.body_count, [=](std::uint32_t place) { find_arrival(system, place, pass.h); });
+    for_places(team, mechanism, [&](std::uint32_t place) { find_arrival(system, place, pass.h); });
 #endif
-  for_columns_up(team, system, [=](std::uint32_t j) { solve_forward(system, j, pass); });
-  for_columns_down(team, system, [=](std::uint32_t j) { solve_backward(system, j); });
+  for_columns_up(team, system, mechanism, [&](std::uint32_t j) { solve_forward(system, j, pass); });
+  for_columns_down(team, system, mechanism, [&](std::uint32_t j) { solve_backward(system, j); });
 }
 
 }  // namespace plumb::impulse

@@ -8,32 +8,28 @@ namespace plumb::impulse {
 
 namespace {
 
-/// A joint of the system as one of its bodies sees it.
-struct End {
-  std::uint32_t mechanism, body;
+/// What a mechanism's bodies have of its joints: bodies ascending.
+struct Ends {
+  std::uint32_t body;
   JointOnBody on;
 };
-
-/// By mechanism, and in each by body.
-std::vector<End> ends_of(const OrderedJoints& ordered, const Table<BodyMass>& masses) {
-  std::vector<End> ends;
-  for (std::uint32_t j = ordered.base; j < ordered.count(); ++j) {
+std::vector<Ends> ends_of(const OrderedJoints& ordered, const MechanismColumns& columns,
+                          const Table<BodyMass>& masses) {
+  std::vector<Ends> ends;
+  for (std::uint32_t j = ordered.base + columns.first_column; j < ordered.base + columns.column_end; ++j) {
     const Joint& joint = ordered.joints[j];
-    if (is_pushed(joint.body_a, masses)) ends.push_back({ordered.mechanism[j], joint.body_a, {j, false}});
-    if (is_pushed(joint.body_b, masses)) ends.push_back({ordered.mechanism[j], joint.body_b, {j, true}});
+    if (is_pushed(joint.body_a, masses)) ends.push_back({joint.body_a, {j, false}});
+    if (is_pushed(joint.body_b, masses)) ends.push_back({joint.body_b, {j, true}});
   }
-  std::stable_sort(ends.begin(), ends.end(), [](const End& x, const End& y) {
-    return x.mechanism != y.mechanism ? x.mechanism < y.mechanism : x.body < y.body;
-  });
+  std::stable_sort(ends.begin(), ends.end(), [](const Ends& x, const Ends& y) { return x.body < y.body; });
   return ends;
 }
 
 }  // namespace
 
-std::vector<std::uint32_t> JointSystemMemory::put(const OrderedJoints& ordered, const Table<BodyMass>& masses) {
+JointSystemMemory::Content JointSystemMemory::put(const OrderedJoints& ordered, const Table<BodyMass>& masses) {
   const JointElimination& found = ordered.elimination;
   base_ = ordered.base;
-  levels_ = static_cast<std::uint32_t>(found.level_first.size() - 1);
   level_first_.assign(found.level_first);
   entries_.assign(found.entries);
   column_first_.assign(found.column_first);
@@ -44,24 +40,39 @@ std::vector<std::uint32_t> JointSystemMemory::put(const OrderedJoints& ordered, 
   scaled_.grow(found.entries.size());
   whole_.grow(found.entries.size());
   if constexpr (!Executor::kWarps) turned_.grow(found.entries.size());
-  changes_.grow(3);
+  changes_.grow(std::size_t{3} * found.columns.size());
 
-  std::vector<std::uint32_t> bodies, first;
+  Content content;
+  std::vector<std::uint32_t> first;
   std::vector<JointOnBody> list;
-  for (const End& end : ends_of(ordered, masses)) {
-    if (bodies.empty() || bodies.back() != end.body) {
-      bodies.push_back(end.body);
-      first.push_back(static_cast<std::uint32_t>(list.size()));
+  for (const MechanismColumns& columns : found.columns) {
+    const auto place = static_cast<std::uint32_t>(content.pushed.size());
+    std::uint32_t last = kWorld;
+    for (const Ends& end : ends_of(ordered, columns, masses)) {
+      if (end.body != last) {
+        content.pushed.push_back(last = end.body);
+        first.push_back(static_cast<std::uint32_t>(list.size()));
+      }
+      list.push_back(end.on);
     }
-    list.push_back(end.on);
+    content.mechanisms.push_back({static_cast<std::uint32_t>(content.mechanisms.size()), columns.first_level,
+                                  columns.level_end, columns.first_column, columns.column_end, place,
+                                  static_cast<std::uint32_t>(content.pushed.size())});
   }
   first.push_back(static_cast<std::uint32_t>(list.size()));
-  PLUMB_ASSERT(first.size() == bodies.size() + 1);
-  body_count_ = static_cast<std::uint32_t>(bodies.size());
-  bodies_.assign(bodies);
+  PLUMB_ASSERT(first.size() == content.pushed.size() + 1);
+  body_count_ = static_cast<std::uint32_t>(content.pushed.size());
+  bodies_.assign(content.pushed);
   body_first_.assign(first);
   on_body_.assign(list);
-  return bodies;
+  std::vector<SystemMechanism> small_first = content.mechanisms;
+  const auto large = std::stable_partition(
+      small_first.begin(), small_first.end(),
+      [](const SystemMechanism& mechanism) { return mechanism.column_count() <= kMostSolvedAlone; });
+  small_count_ = static_cast<std::uint32_t>(large - small_first.begin());
+  mechanism_count_ = static_cast<std::uint32_t>(small_first.size());
+  mechanisms_.assign(small_first);
+  return content;
 }
 
 }  // namespace plumb::impulse

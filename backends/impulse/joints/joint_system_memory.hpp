@@ -9,13 +9,18 @@ namespace plumb::impulse {
 
 class JointSystemMemory {
  public:
-  /// Returns the bodies that the system's joints push: mechanism after mechanism, and in each ascending.
-  std::vector<std::uint32_t> put(const OrderedJoints& ordered, const Table<BodyMass>& masses);
+  struct Content {
+    std::vector<SystemMechanism> mechanisms;  ///< in order of their columns
+    std::vector<std::uint32_t> pushed;        ///< bodies, by place: mechanism after mechanism, and in each ascending
+  };
+  Content put(const OrderedJoints& ordered, const Table<BodyMass>& masses);
 
   [[nodiscard]] JointSystem view(const JointView& joints) {
     return {joints,
             base_,
-            levels_,
+            small_count_,
+            mechanism_count_,
+            mechanisms_.data(),
             level_first_.data(),
             entries_.data(),
             column_first_.data(),
@@ -34,7 +39,8 @@ class JointSystemMemory {
   }
 
  private:
-  std::uint32_t base_ = 0, levels_ = 0, body_count_ = 0;
+  std::uint32_t base_ = 0, small_count_ = 0, mechanism_count_ = 0, body_count_ = 0;
+  Buffer<SystemMechanism> mechanisms_;
   Buffer<std::uint32_t> level_first_, column_first_, row_entries_, row_first_, product_first_, bodies_, body_first_;
   Buffer<JointEntry> entries_;
   Buffer<JointProduct> products_;

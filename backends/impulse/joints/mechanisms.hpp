@@ -1,5 +1,5 @@
-// What the sub-stepped solver does with the joints: mechanisms are solved as a whole where their matrix stays sparse,
-// the joints of others one by one.
+// What the sub-stepped solver does with the joints: mechanisms are solved each as a whole where their matrix stays
+// sparse, the joints of others one by one.
 #pragma once
 
 #include "joints/joint_loops.hpp"
@@ -7,76 +7,82 @@
 
 namespace plumb::impulse {
 
-/// The joints as they stand now. loaded: contacts push mechanisms as a whole (mechanism_mobility.hpp), and count on it
-/// that joints yield as they did there.
-PLUMB_DEVICE inline void refresh_mechanisms(Team& team, const JointSet& joints, Real h, Real shortened, bool loaded) {
-  const JointView view = joints.view;
-  const JointSystem system = joints.system;
-  const std::uint32_t base = system.base;
-  team.each(system.body_count, [=](std::uint32_t place) { find_least_moment(system, place, h, shortened); });
-  team.each(joints.count, [=](std::uint32_t j) {
-    make_joint_rows(view, j);
-    if (j < base) factor_joint(view, j);
-    if (j >= base && !loaded) choose_share(view, j, h);
+/// A mechanism's joints as they stand now. Where contacts push it as a whole they count on it that joints yield as they
+/// did when its mobility was found (mechanism_mobility.hpp).
+PLUMB_DEVICE inline void refresh_mechanism(Team& team, const JointSystem& system, const SystemMechanism& mechanism,
+                                           Real h, Real shortened) {
+  const bool touched = system.is_touched(mechanism);
+  for_places(team, mechanism, [&](std::uint32_t place) { find_least_moment(system, place, h, shortened); });
+  for_columns(team, mechanism, [&](std::uint32_t column) {
+    make_joint_rows(system.view, system.base + column);
+    if (!touched) choose_share(system.view, system.base + column, h);
   });
-  factor_system(team, joints.system);
+  factor_system(team, system, mechanism);
 }
 
 /// The impulses of the last sub-step, or step, act again.
-PLUMB_DEVICE inline void warm_start_mechanisms(Team& team, const JointSet& joints, bool first, bool loaded,
+PLUMB_DEVICE inline void warm_start_mechanisms(Team& team, const JointSet& joints, bool first,
                                                const StepParameters& step) {
   if (joints.count == 0) return;
   const JointView view = joints.view;
-  const JointSystem system = joints.system;
-  if (first) {
-    team.each(joints.count, [=](std::uint32_t j) {
-      if (j == 0) system.changes[0] = 0;
+  const JointSystem& system = joints.system;
+  if (first)
+    team.each(system.base, [=](std::uint32_t j) {
       take_over_impulse(view, j, step);
+      refresh_joint(view, j);
     });
-    refresh_mechanisms(team, joints, step.h, step.shortened, loaded);
-  }
   for_single_joints(team, joints, [=](std::uint32_t j) { warm_start_joint(view, j, false, step); });
-  team.each(system.body_count, [=](std::uint32_t i) { push_body(system, i, true); });
+  for_mechanisms(team, system, [&](Team& own, const SystemMechanism& mechanism) {
+    if (first) {
+      for_columns(own, mechanism, [&](std::uint32_t column) { take_over_impulse(view, system.base + column, step); });
+      refresh_mechanism(own, system, mechanism, step.h, step.shortened);
+    }
+    for_places(own, mechanism, [&](std::uint32_t place) { push_body(system, place, true); });
+  });
 }
 
-/// The system's joints in one pass. The first of a sub-step finds tension, and reckons with it. turn: counts the rounds
-/// of a step.
-PLUMB_DEVICE inline void solve_system(Team& team, const JointSystem& system, const JointPass& pass,
-                                      std::uint32_t& turn) {
-  if (system.levels == 0) return;
-  find_changes(team, system, pass);
-  for (std::uint32_t stiffened = 0; pass.take_back_error && stiffened < kMostStiffenings; ++stiffened) {
-    if (!tension_grows(team, system, pass.h, turn)) break;
-    team.each(system.level_first[system.levels],
-              [=](std::uint32_t i) { make_joint_rows(system.view, system.base + i); });
-    factor_system(team, system);
-    find_changes(team, system, pass);
+/// A mechanism's joints in one pass. The first of a sub-step finds tension, and reckons with it.
+PLUMB_DEVICE inline void solve_mechanism(Team& team, const JointSystem& system, const SystemMechanism& mechanism,
+                                         const JointPass& pass) {
+  find_changes(team, system, mechanism, pass);
+  if (pass.take_back_error) {
+    ChangeCount count(team, system, mechanism);
+    for (std::uint32_t stiffened = 0; stiffened < kMostStiffenings; ++stiffened) {
+      if (!tension_grows(team, system, mechanism, pass.h, count)) break;
+      for_columns(team, mechanism, [&](std::uint32_t column) { make_joint_rows(system.view, system.base + column); });
+      factor_system(team, system, mechanism);
+      find_changes(team, system, mechanism, pass);
+    }
   }
-  push_changes(team, system);
+  push_changes(team, system, mechanism);
 }
 
 /// What contacts did to single bodies is passed on before anybody looks where the bodies will be: a plank that bears
 /// what weighs a hundred times as much would be looked at where it is thrown alone, far off, and made energy of what
 /// took it back from there.
-PLUMB_DEVICE inline void pass_on_loads(Team& team, const JointSystem& system, JointPass pass) {
-  if (system.levels == 0) return;
+PLUMB_DEVICE inline void pass_on_loads(Team& team, const JointSystem& system, const SystemMechanism& mechanism,
+                                       JointPass pass) {
   pass.take_back_error = false;
-  find_changes(team, system, pass);
-  push_changes(team, system);
+  find_changes(team, system, mechanism, pass);
+  push_changes(team, system, mechanism);
 }
 
 /// One pass: the first of a sub-step, which takes errors back, or the second, after positions have moved.
 PLUMB_DEVICE inline void solve_mechanisms(Team& team, const JointSet& joints, const StepParameters& step,
-                                          bool take_back_error, bool loaded, std::uint32_t& turn) {
+                                          bool take_back_error) {
   if (joints.count == 0) return;
-  if (!take_back_error) refresh_mechanisms(team, joints, step.h, 1, loaded);
   const JointView view = joints.view;
+  const JointSystem& system = joints.system;
   const JointPass pass = {step.joint, step.chain_rate, step.h, step.inverse_h, take_back_error};
+  if (!take_back_error) team.each(system.base, [=](std::uint32_t j) { refresh_joint(view, j); });
   for_single_joints(team, joints, [=](std::uint32_t j) { solve_joint(view, j, pass); });
   JointPass exact = pass;
   exact.softness = {step.joint_rate, 1, 0};
-  if (take_back_error && loaded) pass_on_loads(team, joints.system, exact);
-  solve_system(team, joints.system, exact, turn);
+  for_mechanisms(team, system, [&](Team& own, const SystemMechanism& mechanism) {
+    if (!take_back_error) refresh_mechanism(own, system, mechanism, step.h, 1);
+    if (take_back_error && system.is_touched(mechanism)) pass_on_loads(own, system, mechanism, exact);
+    solve_mechanism(own, system, mechanism, exact);
+  });
 }
 
 }  // namespace plumb::impulse

@@ -81,22 +81,49 @@ PLUMB_HD inline void find_least_moment(const JointSystem& system, std::uint32_t 
   if (kept > before) slow_down(system.view, body, before, kept);
 }
 
+/// Counts, in a mechanism's rounds, what changes in each. What a round counts is cleared while the one before is
+/// counted, when everybody has long read what it was.
+class ChangeCount {
+ public:
+  PLUMB_DEVICE ChangeCount(Team& team, const JointSystem& system, const SystemMechanism& mechanism)
+      : counts_(system.changes + std::size_t{3} * mechanism.number) {
+    std::uint32_t* const counts = counts_;
+    team.single([=] { counts[0] = 0; });
+  }
+  /// The next round, as its loop has it.
+  struct Round {
+    std::uint32_t *now, *next;
+    /// Once in a round.
+    PLUMB_HD void clear_next() const { *next = 0; }
+    PLUMB_DEVICE void note_change() const { atomic_add(now, 1U); }
+  };
+  PLUMB_HD Round next() {
+    const std::uint32_t turn = turn_++;
+    return {counts_ + turn % 3, counts_ + (turn + 1) % 3};
+  }
+
+ private:
+  std::uint32_t* counts_;
+  std::uint32_t turn_ = 0;
+};
+
 /// Whether the changes found, which have not acted yet, bring tension that asks for larger moments, which bodies have
-/// from then on: the changes must be found again. turn: counts the rounds of a step.
-PLUMB_DEVICE inline bool tension_grows(Team& team, const JointSystem& system, Real h, std::uint32_t& turn) {
-  const std::uint32_t now = turn++;
-  team.each(system.body_count, [=](std::uint32_t place) {
-    if (place == 0) system.changes[(now + 1) % 3] = 0;
+/// from then on: the changes must be found again.
+PLUMB_DEVICE inline bool tension_grows(Team& team, const JointSystem& system, const SystemMechanism& mechanism, Real h,
+                                       ChangeCount& count) {
+  const ChangeCount::Round round = count.next();
+  for_places(team, mechanism, [&](std::uint32_t place) {
+    if (place == mechanism.first_place) round.clear_next();
     const std::uint32_t body = system.bodies[place];
     Real& kept = system.view.least_moment[body];
     const Real before = kept, asked = moment_by_tension(system, place, h, true);
     if (!(asked > kTensionGrows * before && asked * largest_inverse(system.view, body) > kTensionGrows)) return;
     kept = asked;
     slow_down(system.view, body, before, asked);
-    atomic_add(&system.changes[now % 3], 1U);
+    round.note_change();
   });
   team.barrier();
-  return system.changes[now % 3] != 0;
+  return *round.now != 0;
 }
 
 }  // namespace plumb::impulse

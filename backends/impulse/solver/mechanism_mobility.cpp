@@ -17,7 +17,7 @@ struct UnitWrench {
 
   JointSystem system;
   Mechanisms mechanisms;
-  MechanismColumns columns;
+  Real* scratch;
   const StepParameters* parameters;
 
   PLUMB_HD void operator()(std::uint32_t i) const {
@@ -30,8 +30,8 @@ struct UnitWrench {
  private:
   /// The impulse of row p of a joint, y, while it is found. By row, and the axes within.
   PLUMB_HD Real* impulse(const MechanismBody& body, std::uint32_t axis, std::uint32_t column, int p) const {
-    const std::uint64_t row = std::uint64_t{columns.number[column]} * kJointRows + static_cast<std::uint32_t>(p);
-    return columns.scratch + body.scratch + row * kLaneGroup + axis;
+    const std::uint64_t row = std::uint64_t{column - body.first_column} * kJointRows + static_cast<std::uint32_t>(p);
+    return scratch + body.scratch + row * kLaneGroup + axis;
   }
   PLUMB_HD Lanes get(const MechanismBody& body, std::uint32_t axis, std::uint32_t column, int p) const {
     Lanes y;
@@ -44,12 +44,12 @@ struct UnitWrench {
 
   /// axis: the first of those that are found at once.
   PLUMB_HD void find(const MechanismBody& body, std::uint32_t place, std::uint32_t axis) const {
-    const std::uint32_t* list = columns.columns + body.first_column;
-    for (std::uint32_t c = 0; c < body.column_count; ++c)
-      for (int p = 0; p < kJointRows; ++p) put(body, axis, list[c], p, Lanes(0));
+    const std::uint32_t first = body.first_column, end = first + body.column_count;
+    for (std::uint32_t c = first; c < end; ++c)
+      for (int p = 0; p < kJointRows; ++p) put(body, axis, c, p, Lanes(0));
     start(body, place, axis);
-    for (std::uint32_t c = 0; c < body.column_count; ++c) forward(body, axis, list[c]);
-    for (std::uint32_t c = body.column_count; c-- > 0;) backward(body, axis, list[c]);
+    for (std::uint32_t c = first; c < end; ++c) forward(body, axis, c);
+    for (std::uint32_t c = end; c-- > first;) backward(body, axis, c);
     for (std::uint32_t j = body.first; j < body.first + body.count; ++j) move(body, place, axis, j);
   }
 
@@ -179,21 +179,23 @@ template <JointCode kJoints>
 struct FindMobility : MobilityWork {
   PLUMB_DEVICE void operator()(Team& team) const {
     const FindMobility self = *this;
-    team.each(mechanisms.count, [self](std::uint32_t place) { self.mechanisms.loads[place].touched = 0; });
+    team.each(mechanisms.count, [self](std::uint32_t place) { self.mechanisms.begin_step(place); });
     team.each(counters->manifolds, [self](std::uint32_t row) {
       const Pair pair = self.cache.pairs[self.cache.candidate[row]];
-      self.touch(self.proxies[pair.a].body);
-      self.touch(self.proxies[pair.b].body);
+      self.mechanisms.note_contact(self.proxies[pair.a].body);
+      self.mechanisms.note_contact(self.proxies[pair.b].body);
     });
     team.each(mechanisms.count, [self](std::uint32_t place) { self.stiffen(place); });
-    factor(team);
-    team.each(UnitWrench::kThreads * mechanisms.count, UnitWrench{joints.system, mechanisms, columns, parameters});
+    for_mechanisms(team, joints.system, [this](Team& own, const SystemMechanism& mechanism) {
+      if (joints.system.is_touched(mechanism))
+        factor(own, mechanism);
+      else
+        make_rows(own, mechanism);
+    });
+    team.each(UnitWrench::kThreads * mechanisms.count, UnitWrench{joints.system, mechanisms, scratch, parameters});
   }
 
  private:
-  PLUMB_HD void touch(std::uint32_t body) const {
-    if (mechanisms.hold(body)) mechanisms.loads[mechanisms.place_of[body] - 1].touched = 1;
-  }
   /// What tension asks of a body holds for contacts, too.
   PLUMB_HD void stiffen(std::uint32_t place) const {
     const JointView& view = joints.view;
@@ -201,28 +203,39 @@ struct FindMobility : MobilityWork {
     view.keep_swing(body);
     view.solver.inertia[body].inverse = view.inverse_inertia(body, view.bodies.orientation[body]);
   }
-  PLUMB_DEVICE void factor(Team& team) const {
+  /// What touches nothing needs no more than rows where its bodies are: tension is looked for along them.
+  PLUMB_DEVICE void make_rows(Team& team, const SystemMechanism& mechanism) const {
+    const JointSystem& system = joints.system;
+    if constexpr (kJoints == JointCode::kAll) {
+      const AxisView view = axis_view(joints);
+      for_columns(team, mechanism, [&](std::uint32_t column) {
+        refresh_axis_joint(view, system.base + column);
+        predict_rows(view, system.base + column, false);
+      });
+    } else {
+      for_columns(team, mechanism, [&](std::uint32_t column) { make_joint_rows(system.view, system.base + column); });
+    }
+  }
+  PLUMB_DEVICE void factor(Team& team, const SystemMechanism& mechanism) const {
+    const JointSystem& system = joints.system;
     const Real h = parameters->h;
     [[maybe_unused]] const bool predicts = parameters->predicts_rows;
     if constexpr (kJoints == JointCode::kAll) {
       const AxisView view = axis_view(joints);
-      const std::uint32_t base = joints.system.base;
-      team.each(joints.count - base, [=](std::uint32_t column) {
-        const std::uint32_t j = base + column;
+      for_columns(team, mechanism, [&](std::uint32_t column) {
+        const std::uint32_t j = system.base + column;
         refresh_axis_joint(view, j);
         choose_share(view, j, h);
         predict_rows(view, j, predicts);
         choose_rows_met(view, j);
       });
-      factor_axis_system(team, joints.system, view);
+      factor_axis_system(team, system, mechanism, view);
     } else {
-      const JointView view = joints.view;
-      const std::uint32_t base = joints.system.base;
-      team.each(joints.count - base, [=](std::uint32_t column) {
-        make_joint_rows(view, base + column);
-        choose_share(view, base + column, h);
+      for_columns(team, mechanism, [&](std::uint32_t column) {
+        make_joint_rows(system.view, system.base + column);
+        choose_share(system.view, system.base + column, h);
       });
-      factor_system(team, joints.system);
+      factor_system(team, system, mechanism);
     }
   }
 };

@@ -14,7 +14,7 @@ namespace plumb::impulse {
 struct MobilityWork {
   JointSet joints;
   Mechanisms mechanisms;
-  MechanismColumns columns;
+  Real* scratch;
   ContactCache cache;
   const Proxy* proxies;
   const StepParameters* parameters;

@@ -90,7 +90,7 @@ struct StepInPasses : PassContacts<Order> {
     StepParameters leaking = step;
     leaking.warm_start = step.warm_start * max(Real(0), Real(1) - Real(1.5) * (step.bias_rate * step.dt));
     if constexpr (kJoints == JointCode::kAll)
-      warm_start_axes(team, joints, true, false, leaking);
+      warm_start_axes(team, joints, true, leaking);
     else
       warm_start_joints(team, joints, leaking);
   }

@@ -17,19 +17,18 @@ struct StepSoftly : SoftContacts<kSurfaceVelocity, !Executor::kWarps || kJoints 
   PLUMB_DEVICE void operator()(Team& team) const {
     if (this->must_repeat()) return;
     const StepParameters step = *this->parameters;
-    [[maybe_unused]] std::uint32_t turn = 0;
     std::uint32_t round = 0;  // of impacts
     for (std::uint32_t k = 0; k < step.substeps; ++k) {
       const bool first = k == 0;
       this->accelerate_bodies(team, step, first);
       if (first && features.collision) this->warm_start_contacts(team);
       if constexpr (kJoints == JointCode::kPlain) {
-        warm_start_mechanisms(team, joints, first, loads(), step);
-        solve_mechanisms(team, joints, step, true, loads(), turn);
+        warm_start_mechanisms(team, joints, first, step);
+        solve_mechanisms(team, joints, step, true);
       }
       if constexpr (kJoints == JointCode::kAll) {
-        warm_start_axes(team, joints, first, loads(), step);
-        solve_axes(team, joints, step, RowPass::kPlaces, features.collision, !first && loads(), turn);
+        warm_start_axes(team, joints, first, step);
+        solve_axes(team, joints, step, RowPass::kPlaces, features.collision, !first);
       }
       const bool relaxes = !step.relaxes_once || k + 1 == step.substeps;
       if (features.collision) {
@@ -40,7 +39,7 @@ struct StepSoftly : SoftContacts<kSurfaceVelocity, !Executor::kWarps || kJoints 
       }
       this->move_bodies(team, step);
       if (features.collision) hand_over_loads(team);
-      hold_speeds(team, step, turn);
+      hold_speeds(team, step);
       if (!relaxes || !features.collision) continue;
       begin_loads(team);
       this->relax_contacts(team);
@@ -52,12 +51,11 @@ struct StepSoftly : SoftContacts<kSurfaceVelocity, !Executor::kWarps || kJoints 
   }
 
  private:
-  PLUMB_DEVICE void hold_speeds(Team& team, const StepParameters& step, [[maybe_unused]] std::uint32_t& turn) const {
-    if constexpr (kJoints == JointCode::kPlain) solve_mechanisms(team, joints, step, false, loads(), turn);
+  PLUMB_DEVICE void hold_speeds(Team& team, const StepParameters& step) const {
+    if constexpr (kJoints == JointCode::kPlain) solve_mechanisms(team, joints, step, false);
     if constexpr (kJoints == JointCode::kAll)
-      solve_axes(team, joints, step, RowPass::kSpeeds, features.collision, loads(), turn);
+      solve_axes(team, joints, step, RowPass::kSpeeds, features.collision, true);
   }
-  PLUMB_DEVICE bool loads() const { return features.collision && solver.mechanisms.count != 0; }
   /// Contacts are about to push mechanisms as a whole.
   PLUMB_DEVICE void begin_loads(Team& team) const {
     if constexpr (kJoints != JointCode::kContacts)

@@ -10,6 +10,9 @@ namespace plumb::impulse {
 
 namespace {
 
+/// That solve one which goes by itself: a block of a device.
+constexpr std::uint32_t kThreadsOfMechanism = Executor::kWarps ? 128 : 1;
+
 struct BeginBody {
   Bodies bodies;
   SolverBodies solver;
@@ -66,7 +69,7 @@ void Solver::find_mobility(Executor& executor, const ContactCache& cache, const 
                            JointStore& joints) {
   enqueue_mobility(
       executor, joints.code(),
-      {joint_set(all, joints), mechanisms_, joints.mechanism_columns(), cache, proxies.rows, parameters, counters},
+      {joint_set(all, joints), mechanisms_, joints.mobility_scratch(), cache, proxies.rows, parameters, counters},
       {&counters->manifolds, slots_});
 }
 
@@ -95,7 +98,8 @@ void Solver::solve(Executor& executor, const MovableBodies& all, std::uint32_t b
   const SolverStep step = {all,        bodies(all),   {rows(), counters, features_.surface_velocity, parameters},
                            body_count, features_,     parameters,
                            counters,   pair_capacity, joint_set(all, joints)};
-  const StepWork work = {step, pass_changes_.data(), split_.parts(), kind_, load, body_count / 2};
+  const std::uint32_t least = max(body_count / 2, step.joints.system.small_count * kThreadsOfMechanism);
+  const StepWork work = {step, pass_changes_.data(), split_.parts(), kind_, load, least};
   if constexpr (Executor::kWarps) {
     if (features_.surface_velocity) return enqueue_step_with_surface_velocity(executor, work);
   }

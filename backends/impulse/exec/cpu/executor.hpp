@@ -30,6 +30,17 @@ class Team {
         LoopBody::kLarge);
   }
   template <class F>
+  void each_group(std::uint32_t small, std::uint32_t n, const F& f) {
+    pool_.each(
+        small,
+        [&](std::uint32_t g) {
+          Team own(ThreadPool::one_thread());
+          f(own, g);
+        },
+        LoopBody::kTask);
+    for (std::uint32_t g = small; g < n; ++g) f(*this, g);
+  }
+  template <class F>
   void single(const F& f) {
     f();
   }

@@ -57,6 +57,11 @@ ThreadPool::~ThreadPool() = default;
 
 std::uint32_t ThreadPool::processors() { return std::max(1U, std::thread::hardware_concurrency()); }
 
+ThreadPool& ThreadPool::one_thread() {
+  static ThreadPool pool(nullptr, 1);
+  return pool;
+}
+
 void ThreadPool::run_together(void* context, void (*task)(void*)) {
   struct Job {
     ThreadPool& pool;

@@ -10,8 +10,8 @@ namespace plumb::impulse {
 
 class Arena;
 
-/// How long a loop's body takes: tens of nanoseconds, or a microsecond.
-enum class LoopBody : std::uint8_t { kSmall, kLarge };
+/// How long a loop's body takes: tens of nanoseconds, a microsecond, or several.
+enum class LoopBody : std::uint8_t { kSmall, kLarge, kTask };
 
 class ThreadPool {
  public:
@@ -23,13 +23,15 @@ class ThreadPool {
 
   /// Of this machine, at least one.
   static std::uint32_t processors();
+  /// One that is the thread which calls it.
+  static ThreadPool& one_thread();
   [[nodiscard]] std::uint32_t threads() const { return threads_; }
 
   /// f(i) for every i < n. Small n, or one thread: a plain loop here. body: how long f takes.
   template <class F>
   void each(std::uint32_t n, const F& f, LoopBody body = LoopBody::kSmall) {
-    const std::uint32_t least = body == LoopBody::kSmall ? 16 : 2;  // f that are worth another thread
-    if (threads_ == 1 || n <= 4 * least) {
+    const std::uint32_t least = least_chunk(body);
+    if (threads_ == 1 || n <= (body == LoopBody::kTask ? 1 : 4 * least)) {
       for (std::uint32_t i = 0; i < n; ++i) f(i);
       return;
     }
@@ -58,6 +60,10 @@ class ThreadPool {
   }
 
  private:
+  /// Calls that are worth another thread.
+  static constexpr std::uint32_t least_chunk(LoopBody body) {
+    return body == LoopBody::kSmall ? 16 : body == LoopBody::kLarge ? 2 : 1;
+  }
   [[nodiscard]] std::uint32_t chunk_of(std::uint32_t n, std::uint32_t least) const {
     const std::uint32_t chunk = n / (threads_ * 4);
     return chunk < least ? least : chunk;

@@ -27,6 +27,8 @@ class Team {
   template <class Load, class Fetch, class F>
   void each_ahead(std::uint32_t /*n*/, const Load& /*load*/, const Fetch& /*fetch*/, const F& /*f*/) {}
   template <class F>
+  void each_group(std::uint32_t /*small*/, std::uint32_t /*n*/, const F& /*f*/) {}
+  template <class F>
   void single(const F& /*f*/) {}
   void barrier() {}
 };

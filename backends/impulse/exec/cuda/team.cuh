@@ -1,7 +1,7 @@
 // A team: the threads of one cooperative launch, which go through several loops together. Fewer blocks than were
 // launched take part when there is little to do. Threads meet before a loop, not behind it, so that what a loop needs
 // and nobody changes can be on its way while they wait; and loops that one block can do alone are left to the first
-// one, whose threads need no barrier in memory.
+// one, whose threads need no barrier in memory. A block can also be a team by itself.
 #pragma once
 
 #include <cuda/atomic>
@@ -18,8 +18,7 @@ constexpr std::uint32_t kTeamThreads = 128;  // a block; few, so that a loop sti
 
 class Team {
  public:
-  __device__ Team(std::uint32_t blocks, TeamBarrier* barrier)
-      : blocks_(blocks), barrier_(barrier), index_(blockIdx.x * blockDim.x + threadIdx.x) {}
+  __device__ Team(std::uint32_t blocks, TeamBarrier* barrier) : Team(blocks, blockIdx.x, barrier) {}
 
   template <class F>
   __device__ void each(std::uint32_t n, const F& f) {
@@ -41,6 +40,19 @@ class Team {
       if (i < n) loaded = load(i);
     }
   }
+  /// One call of f in the code: what it does is long.
+  template <class F>
+  __device__ void each_group(std::uint32_t small, std::uint32_t n, const F& f) {
+    std::uint32_t g = 0;
+    if (small != 0) g = join(small == 1 ? 1 : ~0U) ? min(block_, small) : small;
+    while (g < n) {
+      const bool is_small = g < small;
+      Team team = is_small ? Team(1, 0, nullptr) : *this;
+      f(team, g);
+      if (!is_small) *this = team;
+      g = is_small ? min(g + blocks_, small) : g + 1;
+    }
+  }
   template <class F>
   __device__ void single(const F& f) {
     if (join(1) && index_ == 0) f();
@@ -52,6 +64,9 @@ class Team {
   }
 
  private:
+  __device__ Team(std::uint32_t blocks, std::uint32_t block, TeamBarrier* barrier)
+      : blocks_(blocks), block_(block), barrier_(barrier), index_(block * blockDim.x + threadIdx.x) {}
+
   enum class Work { kNothing, kFirstBlock, kAll };  // that was done since threads met
 
   __device__ std::uint32_t stride_of(std::uint32_t n) const {
@@ -63,12 +78,12 @@ class Team {
   __device__ bool join(std::uint32_t n) {
     const bool small = is_small(n);
     if (small && last_ == Work::kFirstBlock) {
-      if (blockIdx.x == 0) __syncthreads();
+      if (block_ == 0) __syncthreads();
     } else if (last_ != Work::kNothing) {
       wait_for_all();
     }
     last_ = small ? Work::kFirstBlock : Work::kAll;
-    return !small || blockIdx.x == 0;
+    return !small || block_ == 0;
   }
 
   __device__ void wait_for_all() {
@@ -79,14 +94,14 @@ class Team {
       constexpr std::uint32_t kTurn = 1U << 31;
       cuda::atomic_ref<std::uint32_t, cuda::thread_scope_device> arrived(barrier_->arrived);
       const std::uint32_t before =
-          arrived.fetch_add(blockIdx.x == 0 ? kTurn - (blocks_ - 1) : 1U, cuda::memory_order_release);
+          arrived.fetch_add(block_ == 0 ? kTurn - (blocks_ - 1) : 1U, cuda::memory_order_release);
       while (((arrived.load(cuda::memory_order_acquire) ^ before) & kTurn) == 0) {
       }
     }
     __syncthreads();
   }
 
-  std::uint32_t blocks_;
+  std::uint32_t blocks_, block_;
   TeamBarrier* barrier_;
   std::uint32_t index_;
   Work last_ = Work::kNothing;

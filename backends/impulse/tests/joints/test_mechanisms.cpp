@@ -208,6 +208,48 @@ TEST(Mechanisms, AreTheSameWithAnyNumberOfThreads) {
   EXPECT_EQ(hashes[0], hashes[1]);
 }
 
+/// A chain let go level, its hinges with limits and friction, or all balls.
+void put_chain(Workshop& shop, const PlumbVec3& at, bool limited) {
+  const PlumbShape link = shop.scene.box({0.15, 0.05, 0.05});
+  PlumbBody above = 0;
+  PlumbVec3 from = at;
+  for (int i = 0; i < 6; ++i) {
+    const PlumbBody body = shop.add(link, 1 + 0.5 * i, {at.x + 0.2 + 0.4 * i, at.y, at.z});
+    PlumbJointDesc desc = joint_desc(limited ? PLUMB_JOINT_HINGE : PLUMB_JOINT_BALL);
+    desc.body_a = above;
+    desc.body_b = body;
+    desc.frame_a = {from, kAboutZ};
+    desc.frame_b = {{-0.2, 0, 0}, kAboutZ};
+    if (limited) desc.limits[3] = {-0.3 - 0.1 * i, 0.4, 1, 0};
+    if (limited) desc.motors[3] = {0, 0.5, 1, 0};
+    shop.scene.join(desc);
+    above = body;
+    from = {0.2, 0, 0};
+  }
+}
+
+/// To the last bit: neither what others touch, nor how many rounds they take, nor how they are pulled is anything to a
+/// mechanism that they do not meet.
+TEST(Mechanisms, DoNotDependOnOthers) {
+  for (const bool limited : {false, true}) {
+    Workshop alone, among;
+    for (Workshop* shop : {&alone, &among}) put_chain(*shop, {50, 20, 0}, limited);
+    put_chain(among, {0, 1, 0}, limited);
+    put_chain(among, {0.1, 1.3, 0.1}, limited);
+    among.scene.ground();
+    for (int i = 0; i < 120; ++i) {
+      alone.run(1);
+      among.run(1);
+      const std::vector<PlumbPose> one = alone.scene.poses(), other = among.scene.poses();
+      for (std::size_t k = 0; k < alone.bodies.size(); ++k) {
+        EXPECT_EQ(one[k].position.x, other[k].position.x) << "limited " << limited << ", link " << k << ", step " << i;
+        EXPECT_EQ(one[k].position.y, other[k].position.y) << "limited " << limited << ", link " << k << ", step " << i;
+      }
+      if (HasFailure()) return;
+    }
+  }
+}
+
 /// A joint more or less joins and parts mechanisms whose contacts were coloured apart.
 TEST(Mechanisms, ComeTogetherAndPartWhileTheyTouch) {
   Workshop shop;
