@@ -10,10 +10,9 @@
 //     each(n, f)        f(i) for every i < n, when all that came before is done
 //     each_ahead(n, load, fetch, f)   f(i, load(i)); load may run early and so must read nothing that the loop before
 //                       writes. A device calls fetch(i) before that, to have what load(i) will read brought nearer
-//     each_group(small, n, f)   f(team, g) for every g < n, which do not depend on each other: the first `small` each
-//     by
-//                       a team of its own, a thread of a CPU or a block of a device; those that are left one after the
-//                       other by all threads
+//     each_group(small, n, f)   f(team, g) for every g < n, which do not depend on each other: the first `small`
+//                       each by a team of its own, of kGroupThreads (a thread of a CPU or a block of a device); those
+//                       that are left one after the other by all threads
 //     single(f)         f() once, as each
 //     barrier()            returns when all is done: needed before reading, between loops, what a loop has written
 //   Buffer<T>, Mirror<T>   memory where kernels run; the same with a twin on the host (memory.hpp)

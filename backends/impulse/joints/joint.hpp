@@ -103,21 +103,59 @@ PLUMB_HD inline Vec distance_direction(const JointPlace& place) {
   return normalized_or(place.gap, rotate(place.frame_a, {1, 0, 0}));
 }
 
-/// Two numbers that are 0 where an axis of frame a coincides with b's of the same name, and grow up to a right angle;
-/// beyond it they stay. b_next and b_last are the other axes of frame b.
-PLUMB_HD inline void hinge_errors(const Vec& axis, const Vec& b_axis, const Vec& b_next, const Vec& b_last,
-                                  Real* error) {
-  const Real y = dot(b_next, axis), z = dot(b_last, axis);
-  const bool beyond = dot(b_axis, axis) < 0;
-  const Real size = sqrt(y * y + z * z);
-  error[0] = beyond ? (size > 0 ? y / size : Real(1)) : y;
-  error[1] = beyond && size > 0 ? z / size : z;
-}
+/// How far an axis of frame a is from b's of the same name, as two numbers along the next axes of frame b, and their
+/// rows: b's axis seen from a's by stereographic projection, twice the tangent of half the angle. Seen so it goes
+/// equally fast whichever way it turns, where its sine, the usual measure, has two rows that are one at a right angle.
+/// Beyond that numbers and rows are no longer than there (is_far_off).
+class Alignment {
+ public:
+  PLUMB_HD Alignment(const Vec& axis, const Mat& b, int which)
+      : axis_(axis), b_axis_(b[which]), other_{b[(which + 1) % 3], b[(which + 2) % 3]}, cosine_(dot(b_axis_, axis)) {}
+
+  PLUMB_HD Real error(int i) const { return is_beyond() ? 2 * way_there(i) : scale() * dot(other_[i], axis_); }
+  /// On b.
+  PLUMB_HD Vec row(int i) const {
+    if (!is_beyond())
+      return scale() * cross(other_[i] - (dot(other_[i], axis_) / (Real(1) + cosine_)) * b_axis_, axis_);
+    const Vec about = normalized_or(cross(b_axis_, axis_), other_[1]);
+    return Real(2) * (cross(other_[i], axis_) - (way_there(i) * (Real(1) - cosine_)) * about);
+  }
+
+ private:
+  PLUMB_HD bool is_beyond() const { return cosine_ < 0; }
+  PLUMB_HD Real scale() const { return 2 / (Real(1) + cosine_); }
+  /// Which way a's axis leans, of length one. Where it is opposite to b's each would do.
+  PLUMB_HD Real way_there(int i) const {
+    const Real y = dot(other_[0], axis_), z = dot(other_[1], axis_), size = sqrt(y * y + z * z);
+    if (size > 0) return (i == 0 ? y : z) / size;
+    return i == 0 ? Real(1) : Real(0);
+  }
+
+  Vec axis_, b_axis_, other_[2];
+  Real cosine_;
+};
 
 /// The turn of frame b seen from frame a, as a vector in frame a: its direction times twice the sine of half the angle.
 PLUMB_HD inline Vec turn_error(const JointPlace& place) {
   const Quat turn = conjugate(place.frame_a) * place.frame_b;
   return (turn.w < 0 ? Real(-2) : Real(2)) * vector_part(turn);
+}
+
+/// Whether the frames are turned more than a right angle from where turn_error is 0.
+PLUMB_HD inline bool is_turned_far(const JointPlace& place) {
+  const Quat turn = conjugate(place.frame_a) * place.frame_b;
+  return turn.w * turn.w < Real(0.5);
+}
+
+/// Whether turns that a joint holds are so far off that their numbers, a little further on, say nothing of the way
+/// there: beyond half a turn the way back is another. As for a joint that was made or changed with bodies elsewhere.
+PLUMB_HD inline bool is_far_off(const Joint& joint, const JointPlace& place) {
+  switch (joint.type) {
+    case JointType::kHinge: return dot(rotate(place.frame_a, {1, 0, 0}), rotate(place.frame_b, {1, 0, 0})) < 0;
+    case JointType::kSlider:
+    case JointType::kFixed: return is_turned_far(place);
+    default: return false;
+  }
 }
 
 /// C of each row.
@@ -139,8 +177,9 @@ PLUMB_HD inline void joint_errors(const Joint& joint, const JointPlace& place, R
     case JointType::kBall: put(0, place.gap); return;
     case JointType::kHinge: {
       put(0, place.gap);
-      const Mat b = to_matrix(place.frame_b);
-      hinge_errors(rotate(place.frame_a, {1, 0, 0}), b.x, b.y, b.z, error + 3);
+      const Alignment alignment(rotate(place.frame_a, {1, 0, 0}), to_matrix(place.frame_b), 0);
+      error[3] = alignment.error(0);
+      error[4] = alignment.error(1);
       return;
     }
     case JointType::kFixed:
@@ -184,10 +223,9 @@ PLUMB_HD inline void joint_rows(const Joint& joint, const JointPlace& place, Joi
     case JointType::kBall: put_point(); return;
     case JointType::kHinge: {
       put_point();
-      const Vec axis = rotate(place.frame_a, {1, 0, 0});
-      const Mat b = to_matrix(place.frame_b);
-      rows[3] = turn_row(cross(b.y, axis));
-      rows[4] = turn_row(cross(b.z, axis));
+      const Alignment alignment(rotate(place.frame_a, {1, 0, 0}), to_matrix(place.frame_b), 0);
+      rows[3] = turn_row(alignment.row(0));
+      rows[4] = turn_row(alignment.row(1));
       return;
     }
     case JointType::kFixed:

@@ -16,7 +16,7 @@ enum class RowKind : std::uint8_t {
   kAlong,     ///< along an axis of frame a
   kDistance,  ///< of the origins
   kTurn,      ///< one of the three numbers of turn_error
-  kAlign,     ///< one of the two of hinge_errors about an axis
+  kAlign,     ///< one of the two of an Alignment of an axis
   kSquare,    ///< an axis of a against one of b that should be square to it
   kAngle      ///< a turn that is free
 };
@@ -90,6 +90,18 @@ PLUMB_HD inline FreeTurn free_turn(const JointAxesPlace& at, int axis, std::uint
   return {angle_of(-cosine(0, 1), cosine(0, 0)), share * (at.b.z - sine * at.a.x)};
 }
 
+/// How far two axes are from square, twice the tangent of half that angle, and its row on b: where they are parallel,
+/// which their cosine as the measure would not come back from, it turns about another axis of a.
+struct OffSquare {
+  Real error;
+  Vec row;
+};
+PLUMB_HD inline OffSquare off_square(const JointAxesPlace& at, int of_a, int of_b) {
+  const Vec across = cross(at.b[of_b], at.a[of_a]);
+  const Real scale = 2 / (Real(1) + length(across));
+  return {scale * at.cosine(of_a, of_b), scale * normalized_or(across, at.a[(of_a + 1) % 3])};
+}
+
 /// Of a row that is locked what should be 0, else the coordinate.
 PLUMB_HD inline Real axis_error(const RowSpec& row, const JointPlace& place, const JointAxesPlace& at) {
   const int k = row.axis;
@@ -98,12 +110,8 @@ PLUMB_HD inline Real axis_error(const RowSpec& row, const JointPlace& place, con
     case RowKind::kAlong: return dot(place.gap, at.a[k]);
     case RowKind::kDistance: return length(place.gap);
     case RowKind::kTurn: return turn_error(place)[k];
-    case RowKind::kAlign: {
-      Real both[2];
-      hinge_errors(at.a[k], at.b[k], at.b[(k + 1) % 3], at.b[(k + 2) % 3], both);
-      return row.other == 0 ? both[0] : both[1];
-    }
-    case RowKind::kSquare: return at.cosine(k, row.other);
+    case RowKind::kAlign: return Alignment(at.a[k], at.b, k).error(row.other);
+    case RowKind::kSquare: return off_square(at, k, row.other).error;
     case RowKind::kAngle: return free_turn(at, k, row.other).angle;
   }
   return 0;
@@ -120,11 +128,21 @@ PLUMB_HD inline JointRow axis_row(const RowSpec& row, const JointPlace& place, c
     case RowKind::kAlong: return point_row(at.a[k], place.arm_a + place.gap, place.arm_b);
     case RowKind::kDistance: return point_row(distance_direction(place), place.arm_a, place.arm_b);
     case RowKind::kTurn: return turn_row(at.a[k]);
-    case RowKind::kAlign: return turn_row(cross(at.b[(k + 1 + row.other) % 3], at.a[k]));
-    case RowKind::kSquare: return turn_row(cross(at.b[row.other], at.a[k]));
+    case RowKind::kAlign: return turn_row(Alignment(at.a[k], at.b, k).row(row.other));
+    case RowKind::kSquare: return turn_row(off_square(at, k, row.other).row);
     case RowKind::kAngle: return turn_row(free_turn(at, k, row.other).direction);
   }
   return turn_row({0, 0, 0});
+}
+
+/// As is_far_off, of a row.
+PLUMB_HD inline bool is_far_off(const RowSpec& row, const JointPlace& place, const JointAxesPlace& at) {
+  switch (row.kind) {
+    case RowKind::kTurn: return is_turned_far(place);
+    case RowKind::kAlign: return at.cosine(row.axis, row.axis) < 0;
+    case RowKind::kSquare: return abs(at.cosine(row.axis, row.other)) > Real(0.7);
+    default: return false;
+  }
 }
 
 /// All rows of a joint: C, or the coordinate.
@@ -134,6 +152,14 @@ PLUMB_HD inline void all_errors(const Joint& joint, const JointAxes& axes, const
   if (first == row_count(joint)) return;
   const JointAxesPlace at = axes_of(place);
   for (int i = first; i < row_count(joint); ++i) error[i] = axis_error(axes.row[i - first], place, at);
+}
+PLUMB_HD inline bool is_any_far_off(const Joint& joint, const JointAxes& axes, const JointPlace& place) {
+  const int first = rows_of(joint.type);
+  if (first == row_count(joint)) return is_far_off(joint, place);
+  const JointAxesPlace at = axes_of(place);
+  bool far = is_far_off(joint, place);
+  for (int i = first; i < row_count(joint); ++i) far = far || is_far_off(axes.row[i - first], place, at);
+  return far;
 }
 PLUMB_HD inline void all_rows(const Joint& joint, const JointAxes& axes, const JointPlace& place,
                               JointRow (&rows)[kJointRows]) {

@@ -11,6 +11,7 @@ namespace plumb::impulse {
 struct JointWork {
   Jacobian rows;
   RowNumbers error;    ///< C where the rows were made
+  bool is_far_off;     ///< there
   JointMatrix factor;  ///< K, and then its factors
   // While a mechanism is solved as a whole:
   Real share;         ///< by which rows yield, relative to K
@@ -160,6 +161,7 @@ PLUMB_HD inline void make_joint_rows(const JointView& view, std::uint32_t j) {
   const JointEnd a = view.end(joint.body_a), b = view.end(joint.body_b);
   const JointPlace place = place_joint(joint, view.base(joint), a, b);
   joint_errors(joint, place, work.error);
+  work.is_far_off = is_far_off(joint, place);
   put_rows(work.rows, row_count(joint), joint_mass(view, joint, a, b), work.factor,
            [&](JointRow(&rows)[kJointRows]) { joint_rows(joint, place, rows); });
 }
@@ -173,10 +175,11 @@ PLUMB_HD inline void refresh_joint(const JointView& view, std::uint32_t j) {
   factor_joint(view, j);
 }
 
-/// Whether a body turns so far in that time, a radian or more, that its rows as they stand say nothing of where they
-/// will be: such a joint is held by its speeds alone. Seen ahead, it would be flung about, ever faster.
-PLUMB_HD inline bool turns_far(const Velocity& a, const Velocity& b, Real h) {
-  return h * h * max(length_squared(a.angular), length_squared(b.angular)) > 1;
+/// Whether a joint's rows as they stand say nothing of where they will be: a body turns by a radian or more in that
+/// time, or they are far off. Such a joint is held by its speeds alone. Seen ahead, it would be flung about, ever
+/// faster.
+PLUMB_HD inline bool turns_far(const JointWork& work, const Velocity& a, const Velocity& b, Real h) {
+  return work.is_far_off || h * h * max(length_squared(a.angular), length_squared(b.angular)) > 1;
 }
 
 /// Speeds along the rows as they stand.
@@ -210,7 +213,7 @@ PLUMB_HD inline void joint_residuals(const JointView& view, std::uint32_t j, con
   const JointWork& work = view.work[j];
   const int n = row_count(joint);
   const Real rate = rate_of_error(view, joint, pass.softness.bias_rate, pass.chain_rate);
-  if (!pass.take_back_error || turns_far(a, b, pass.h)) {
+  if (!pass.take_back_error || turns_far(work, a, b, pass.h)) {
     speeds_now(view, j, a, b, residual);
     for (int i = 0; i < n && pass.take_back_error; ++i) residual[i] = residual[i] + speed_of_error(rate, work.error[i]);
     return;
@@ -233,7 +236,7 @@ Lanes joint_residuals(const JointView& view, std::uint32_t j, const JointPass& p
   if (!pass.take_back_error) return speeds_along(work.rows, a, b);
   const Lanes error = load_row(work.error);
   const Lanes back = speed_of_error(rate_of_error(view, joint, pass.softness.bias_rate, pass.chain_rate), error);
-  if (turns_far(a, b, pass.h)) return speeds_along(work.rows, a, b) + back;
+  if (turns_far(work, a, b, pass.h)) return speeds_along(work.rows, a, b) + back;
   const JointPlace place = place_joint(joint, view.base(joint), end_after(joint.body_a, a), end_after(joint.body_b, b));
   RowNumbers then{};
   joint_errors(joint, place, then);

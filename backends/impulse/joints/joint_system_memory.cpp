@@ -8,20 +8,21 @@ namespace plumb::impulse {
 
 namespace {
 
-/// What a mechanism's bodies have of its joints: bodies ascending.
-struct Ends {
+/// A joint of a mechanism, as one of its bodies sees it.
+struct End {
   std::uint32_t body;
   JointOnBody on;
 };
-std::vector<Ends> ends_of(const OrderedJoints& ordered, const MechanismColumns& columns,
+/// All of them, bodies ascending.
+std::vector<End> ends_of(const OrderedJoints& ordered, const MechanismColumns& columns,
                           const Table<BodyMass>& masses) {
-  std::vector<Ends> ends;
+  std::vector<End> ends;
   for (std::uint32_t j = ordered.base + columns.first_column; j < ordered.base + columns.column_end; ++j) {
     const Joint& joint = ordered.joints[j];
     if (is_pushed(joint.body_a, masses)) ends.push_back({joint.body_a, {j, false}});
     if (is_pushed(joint.body_b, masses)) ends.push_back({joint.body_b, {j, true}});
   }
-  std::stable_sort(ends.begin(), ends.end(), [](const Ends& x, const Ends& y) { return x.body < y.body; });
+  std::stable_sort(ends.begin(), ends.end(), [](const End& x, const End& y) { return x.body < y.body; });
   return ends;
 }
 
@@ -48,7 +49,7 @@ JointSystemMemory::Content JointSystemMemory::put(const OrderedJoints& ordered, 
   for (const MechanismColumns& columns : found.columns) {
     const auto place = static_cast<std::uint32_t>(content.pushed.size());
     std::uint32_t last = kWorld;
-    for (const Ends& end : ends_of(ordered, columns, masses)) {
+    for (const End& end : ends_of(ordered, columns, masses)) {
       if (end.body != last) {
         content.pushed.push_back(last = end.body);
         first.push_back(static_cast<std::uint32_t>(list.size()));

@@ -10,9 +10,6 @@ namespace plumb::impulse {
 
 namespace {
 
-/// That solve one which goes by itself: a block of a device.
-constexpr std::uint32_t kThreadsOfMechanism = Executor::kWarps ? 128 : 1;
-
 struct BeginBody {
   Bodies bodies;
   SolverBodies solver;
@@ -98,7 +95,7 @@ void Solver::solve(Executor& executor, const MovableBodies& all, std::uint32_t b
   const SolverStep step = {all,        bodies(all),   {rows(), counters, features_.surface_velocity, parameters},
                            body_count, features_,     parameters,
                            counters,   pair_capacity, joint_set(all, joints)};
-  const std::uint32_t least = max(body_count / 2, step.joints.system.small_count * kThreadsOfMechanism);
+  const std::uint32_t least = max(body_count / 2, step.joints.system.small_count * Executor::kGroupThreads);
   const StepWork work = {step, pass_changes_.data(), split_.parts(), kind_, load, least};
   if constexpr (Executor::kWarps) {
     if (features_.surface_velocity) return enqueue_step_with_surface_velocity(executor, work);

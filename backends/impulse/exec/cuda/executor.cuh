@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "exec/cuda/check.hpp"
+#include "exec/cuda/team_threads.hpp"
 #include "exec/executor.hpp"
 #include "exec/memory.hpp"
 #if defined(__CUDACC__)
@@ -90,7 +91,8 @@ __global__ void __launch_bounds__(kTeamThreads)
 
 class Executor {
  public:
-  static constexpr bool kWarps = true;            // whether neighbouring threads must do the same to be fast
+  static constexpr bool kWarps = true;  // whether neighbouring threads must do the same to be fast
+  static constexpr std::uint32_t kGroupThreads = kTeamThreads;
   static constexpr bool kRecords = true;          // whether a step is recorded, with the numbers that it had
   static constexpr std::int32_t kDeviceType = 2;  // of DLPack
 

@@ -8,13 +8,13 @@
 
 #include <cstdint>
 
+#include "exec/cuda/team_threads.hpp"
+
 namespace plumb::impulse {
 
 struct TeamBarrier {
   std::uint32_t arrived;
 };
-
-constexpr std::uint32_t kTeamThreads = 128;  // a block; few, so that a loop still spreads over the device
 
 class Team {
  public:

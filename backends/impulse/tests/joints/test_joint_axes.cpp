@@ -59,6 +59,43 @@ TEST(JointLimits, NothingIsFeltBetweenThem) {
   EXPECT_NEAR(rig.speed(sled).linear.x, 0, 1e-6);
 }
 
+/// Where bodies of a joint are turned, however far, they turn back no faster than errors are taken back, 10 rad/s for
+/// each of two rows. At a right angle for a hinge, at half a turn for a weld and where axes of a universal joint are
+/// parallel, rows made of sines are one and the same, or nothing.
+TEST(Joints, FramesThatAreTurnedComeTogetherWithoutAFling) {
+  struct Case {
+    PlumbJointType type;
+    std::uint32_t held;  // bits of coordinates
+  };
+  for (const Case& of : {Case{PLUMB_JOINT_HINGE, 0b110111}, Case{PLUMB_JOINT_SLIDER, 0b111110},
+                         Case{PLUMB_JOINT_FIXED, 0b111111}, Case{PLUMB_JOINT_UNIVERSAL, 0b100111}})
+    for (const double degrees : {45.0, 85.0, 90.0, 95.0, 135.0, 179.0, 180.0})
+      for (const double dt : {1.0 / 30, 1.0 / 240, 1.0 / 3840}) {
+        JointRig rig(kNeeds, kNoGravity);
+        const PlumbBody a = rig.body({0, 0, 0}, 1, {0.1, 0.15, 0.2}), b = rig.body({1, 0, 0}, 2, {0.2, 0.15, 0.1});
+        PlumbJointDesc desc = joint_desc(of.type);
+        desc.body_a = a;
+        desc.body_b = b;
+        desc.frame_a.position = {0.5, 0, 0};
+        desc.frame_b = {{-0.5, 0, 0}, about({0, 0, 1}, degrees * kPi_ / 180)};
+        const PlumbJoint joint = rig.join(desc);
+        double fastest = 0;
+        for (double t = 0; t < 2; t += dt) {
+          const PlumbVec3 before = rig.pose(b).position;
+          rig.step(dt);
+          const PlumbVec3 now = rig.pose(b).position;
+          fastest = std::max(fastest, std::hypot(now.x - before.x, now.y - before.y, now.z - before.z) / dt);
+        }
+        EXPECT_LT(fastest, 10) << of.type << " turned by " << degrees << " at " << dt;
+        auto at = rig.coordinates(joint);
+        if (of.type == PLUMB_JOINT_UNIVERSAL) at[5] = std::sin(at[5]);  // square either way round
+        for (std::size_t i = 0; i < 6; ++i) {
+          const bool held = (of.held >> i & 1U) != 0;
+          EXPECT_NEAR(held ? at[i] : 0, 0, 2e-3) << of.type << " turned by " << degrees << " at " << dt << ": " << i;
+        }
+      }
+}
+
 TEST(JointLimits, NeverPull) {
   JointRig rig(kNeeds, kNoGravity);
   const PlumbBody sled = rig.body({0, 0, 0}, 2);
