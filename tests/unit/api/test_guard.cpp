@@ -219,6 +219,15 @@ TEST_F(Guard, RefusesBadJointsByName) {
   joint_refused(PLUMB_E_STALE_HANDLE, "body_b", [](auto& d) { d.body_b = 0; });
   joint_refused(PLUMB_E_INVALID_ARGUMENT, "body_b is body_a", [&](auto& d) { d.body_b = a; });
   joint_refused(PLUMB_E_INVALID_ARGUMENT, "limits[3].lower", [](auto& d) { d.limits[3] = {1, -1, 1, 0}; });
+  const auto limited = [&](std::size_t axis, const PlumbLimit& limit) {
+    return [=](PlumbJointDesc& d) {
+      d.type = PLUMB_JOINT_GENERIC;
+      d.axis_modes[axis] = PLUMB_AXIS_LIMITED;
+      d.limits[axis] = limit;
+    };
+  };
+  joint_refused(PLUMB_E_INVALID_ARGUMENT, "limits[1].lower", limited(1, {1, -1, 0, 0}));
+  joint_refused(PLUMB_E_INVALID_ARGUMENT, "limits[4].upper", limited(4, {0, kNan, 0, 0}));
   joint_refused(PLUMB_E_INVALID_ARGUMENT, "motors[3].max_force", [](auto& d) { d.motors[3] = {1, -1, 1, 0}; });
   joint_refused(PLUMB_E_INVALID_ARGUMENT, "springs[0].frequency", [](auto& d) { d.springs[0] = {0, 0, 1, 1, 0}; });
   joint_refused(PLUMB_E_INVALID_ARGUMENT, "frame_a.position.x", [](auto& d) { d.frame_a.position.x = kNan; });

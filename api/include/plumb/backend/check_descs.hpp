@@ -139,7 +139,8 @@ inline void check_joint(const Where& where, const PlumbJointDesc& desc) {
     if (desc.type == PLUMB_JOINT_GENERIC && desc.axis_modes[axis] > PLUMB_AXIS_LIMITED)
       refuse_value(where, ("axis_modes" + suffix).c_str(), desc.axis_modes[axis], "a PlumbAxisMode");
     const PlumbLimit& limit = desc.limits[axis];
-    if (limit.enabled != 0) {
+    const bool limited = desc.type == PLUMB_JOINT_GENERIC && desc.axis_modes[axis] == PLUMB_AXIS_LIMITED;
+    if (limited || limit.enabled != 0) {
       require_finite(where, ("limits" + suffix + ".lower").c_str(), limit.lower);
       require_finite(where, ("limits" + suffix + ".upper").c_str(), limit.upper);
       if (limit.lower > limit.upper)
