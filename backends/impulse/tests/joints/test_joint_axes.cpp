@@ -59,10 +59,10 @@ TEST(JointLimits, NothingIsFeltBetweenThem) {
   EXPECT_NEAR(rig.speed(sled).linear.x, 0, 1e-6);
 }
 
-/// Where bodies of a joint are turned, however far, they turn back no faster than errors are taken back, 10 rad/s for
-/// each of two rows. At a right angle for a hinge, at half a turn for a weld and where axes of a universal joint are
-/// parallel, rows made of sines are one and the same, or nothing.
-TEST(Joints, FramesThatAreTurnedComeTogetherWithoutAFling) {
+/// Bodies of a joint that are turned, however far, come together, and no faster than errors are taken back. At a right
+/// angle for a hinge, at half a turn for a weld and where axes of a universal joint are parallel, rows made of sines
+/// are one and the same, or nothing; beyond, they lead the other way.
+TEST(Joints, FramesThatAreTurnedComeTogether) {
   struct Case {
     PlumbJointType type;
     std::uint32_t held;  // bits of coordinates
