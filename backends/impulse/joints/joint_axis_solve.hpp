@@ -149,7 +149,7 @@ PLUMB_HD inline void row_speeds(const AxisView& view, std::uint32_t j, const Row
     if (own.recall_speeds(a, b, speed)) return;
     RowNumbers now;
     speeds_now(view, j, a, b, now);
-    if (turns_far(view.work[j], a, b, time.h))
+    if (cannot_see_ahead(view.work[j], a, b, time.h))
       speeds_now(view, j, a, b, speed);
     else
       speeds_over_places(view, j, time, a, b, speed);
@@ -201,7 +201,7 @@ PLUMB_HD inline bool choose_pieces(const AxisView& view, std::uint32_t j, const 
   bool changed = false;
   for (int i = 0; i < row_count(joint); ++i) {
     const Real mobility = own.whole(i, i);
-    if (first_round) own.before[i] = turns_far(view.work[j], a, b, time.h) ? Real(0) : speed[i];
+    if (first_round) own.before[i] = turns_far(a, b, time.h) ? Real(0) : speed[i];
     if (is_held(view, j, i)) {
       own.piece[i] = RowPiece::kHeld;
       own.target[i] = speed_of_held(view, j, i, time, rate);

@@ -23,7 +23,7 @@ PLUMB_HD inline void correct_joint(const JointView& view, std::uint32_t j, const
   const int n = row_count(joint);
   const Velocity a = view.velocity(joint.body_a), b = view.velocity(joint.body_b);
   RowNumbers impulse{};
-  if (turns_far(work, a, b, step.h)) speeds_now(view, j, a, b, impulse);
+  if (turns_far(a, b, step.h)) speeds_now(view, j, a, b, impulse);
   for (int i = 0; i < n; ++i) impulse[i] = -(impulse[i] + step.inverse_h * work.error[i]);
   solve_factored(work.factor, n, impulse);
   for (int i = 0; i < n; ++i) view.impulses[joint.slot].along[i] = impulse[i];

@@ -175,11 +175,14 @@ PLUMB_HD inline void refresh_joint(const JointView& view, std::uint32_t j) {
   factor_joint(view, j);
 }
 
-/// Whether a joint's rows as they stand say nothing of where they will be: a body turns by a radian or more in that
-/// time, or they are far off. Such a joint is held by its speeds alone. Seen ahead, it would be flung about, ever
-/// faster.
-PLUMB_HD inline bool turns_far(const JointWork& work, const Velocity& a, const Velocity& b, Real h) {
-  return work.is_far_off || h * h * max(length_squared(a.angular), length_squared(b.angular)) > 1;
+/// Whether a body turns by a radian or more in that time.
+PLUMB_HD inline bool turns_far(const Velocity& a, const Velocity& b, Real h) {
+  return h * h * max(length_squared(a.angular), length_squared(b.angular)) > 1;
+}
+/// Whether a joint's rows as they stand say nothing of where they will be. Such a joint is held by its speeds alone:
+/// seen ahead, it would be flung about, ever faster.
+PLUMB_HD inline bool cannot_see_ahead(const JointWork& work, const Velocity& a, const Velocity& b, Real h) {
+  return work.is_far_off || turns_far(a, b, h);
 }
 
 /// Speeds along the rows as they stand.
@@ -213,7 +216,7 @@ PLUMB_HD inline void joint_residuals(const JointView& view, std::uint32_t j, con
   const JointWork& work = view.work[j];
   const int n = row_count(joint);
   const Real rate = rate_of_error(view, joint, pass.softness.bias_rate, pass.chain_rate);
-  if (!pass.take_back_error || turns_far(work, a, b, pass.h)) {
+  if (!pass.take_back_error || cannot_see_ahead(work, a, b, pass.h)) {
     speeds_now(view, j, a, b, residual);
     for (int i = 0; i < n && pass.take_back_error; ++i) residual[i] = residual[i] + speed_of_error(rate, work.error[i]);
     return;
@@ -236,7 +239,7 @@ Lanes joint_residuals(const JointView& view, std::uint32_t j, const JointPass& p
   if (!pass.take_back_error) return speeds_along(work.rows, a, b);
   const Lanes error = load_row(work.error);
   const Lanes back = speed_of_error(rate_of_error(view, joint, pass.softness.bias_rate, pass.chain_rate), error);
-  if (turns_far(work, a, b, pass.h)) return speeds_along(work.rows, a, b) + back;
+  if (cannot_see_ahead(work, a, b, pass.h)) return speeds_along(work.rows, a, b) + back;
   const JointPlace place = place_joint(joint, view.base(joint), end_after(joint.body_a, a), end_after(joint.body_b, b));
   RowNumbers then{};
   joint_errors(joint, place, then);
