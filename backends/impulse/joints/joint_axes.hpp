@@ -135,7 +135,7 @@ PLUMB_HD inline JointRow axis_row(const RowSpec& row, const JointPlace& place, c
   return turn_row({0, 0, 0});
 }
 
-/// As is_far_off, of a row.
+/// As is_far_off, of a row; of axes that should be square beyond half a right angle.
 PLUMB_HD inline bool is_far_off(const RowSpec& row, const JointPlace& place, const JointAxesPlace& at) {
   switch (row.kind) {
     case RowKind::kTurn: return is_turned_far(place);

@@ -14,8 +14,7 @@ struct End {
   JointOnBody on;
 };
 /// All of them, bodies ascending.
-std::vector<End> ends_of(const OrderedJoints& ordered, const MechanismColumns& columns,
-                          const Table<BodyMass>& masses) {
+std::vector<End> ends_of(const OrderedJoints& ordered, const MechanismColumns& columns, const Table<BodyMass>& masses) {
   std::vector<End> ends;
   for (std::uint32_t j = ordered.base + columns.first_column; j < ordered.base + columns.column_end; ++j) {
     const Joint& joint = ordered.joints[j];

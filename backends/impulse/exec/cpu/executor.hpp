@@ -57,9 +57,9 @@ struct Signal {
 
 class Executor {
  public:
-  static constexpr bool kWarps = false;  // whether neighbouring threads must do the same to be fast
-  static constexpr std::uint32_t kGroupThreads = 1;
-  static constexpr bool kRecords = !kOneMemory;  // whether a step is recorded, with the numbers that it had
+  static constexpr bool kWarps = false;              // whether neighbouring threads must do the same to be fast
+  static constexpr std::uint32_t kGroupThreads = 1;  // of the team of a small group
+  static constexpr bool kRecords = !kOneMemory;      // whether a step is recorded, with the numbers that it had
   static constexpr std::int32_t kDeviceType = kOneMemory ? 1 : 2;  // of DLPack
 
   Executor(const PlumbHost* host, std::uint32_t threads) : pool_(host, threads) {}

@@ -92,7 +92,7 @@ __global__ void __launch_bounds__(kTeamThreads)
 class Executor {
  public:
   static constexpr bool kWarps = true;  // whether neighbouring threads must do the same to be fast
-  static constexpr std::uint32_t kGroupThreads = kTeamThreads;
+  static constexpr std::uint32_t kGroupThreads = kTeamThreads;  // of the team of a small group
   static constexpr bool kRecords = true;          // whether a step is recorded, with the numbers that it had
   static constexpr std::int32_t kDeviceType = 2;  // of DLPack
 

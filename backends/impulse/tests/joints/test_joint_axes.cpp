@@ -60,7 +60,7 @@ TEST(JointLimits, NothingIsFeltBetweenThem) {
 }
 
 /// Bodies of a joint that are turned, however far, come together, and no faster than errors are taken back. At a right
-/// angle for a hinge, at half a turn for a weld and where axes of a universal joint are parallel, rows made of sines
+/// angle for a hinge, and where axes of a universal joint are parallel, rows made of sines
 /// are one and the same, or nothing; beyond, they lead the other way.
 TEST(Joints, FramesThatAreTurnedComeTogether) {
   struct Case {
