@@ -131,6 +131,7 @@ struct Mechanisms {
   }
   /// A wrench on a body moves its mechanism.
   PLUMB_HD void push(std::uint32_t body, const Vec& force, const Vec& torque, Velocity* velocities) const {
+    if (!(length_squared(force) + length_squared(torque) > 0)) return;  // most contacts of what falls or lies still
     ContactLoad& load = loads[place_of[body] - 1];
     load.force += force;
     load.torque += torque;
