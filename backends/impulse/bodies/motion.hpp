@@ -16,8 +16,8 @@ PLUMB_HD inline Vec acceleration_by_forces(const Bodies& bodies, const StepParam
 }
 
 /// I^-1 in world axes, which is 0 from the start where nothing that is pushed turns, no displacement yet, and what
-/// forces do in each sub-step.
-PLUMB_HD inline void begin_body(const Bodies& bodies, const SolverBodies& solver, const StepParameters& step,
+/// forces do in each sub-step, which is h long.
+PLUMB_HD inline void begin_body(const Bodies& bodies, const SolverBodies& solver, const StepParameters& step, Real h,
                                 std::uint32_t i) {
   const BodyMass& mass = bodies.mass[i];
   if (bodies.turn)
@@ -25,14 +25,14 @@ PLUMB_HD inline void begin_body(const Bodies& bodies, const SolverBodies& solver
                          {0, 0}};
   solver.displacement[i] = {{0, 0, 0}, 0, {0, 0, 0, 1}};
   if ((mass.flags & kBodyDynamic) == 0) return;
-  PLUMB_ASSERT(step.h > 0);
+  PLUMB_ASSERT(h > 0);
   PLUMB_ASSERT(bodies.velocity[i].inverse_mass > 0);
   SubstepForces& forces = solver.forces[i];
-  forces.linear = step.h * acceleration_by_forces(bodies, step, i);
-  forces.linear_drag = Real(1) / (Real(1) + step.h * mass.linear_damping);
+  forces.linear = h * acceleration_by_forces(bodies, step, i);
+  forces.linear_drag = Real(1) / (Real(1) + h * mass.linear_damping);
   if (!bodies.turn) return;
-  forces.angular = step.h * (solver.inertia[i].inverse * bodies.force[i].torque);
-  forces.angular_drag = Real(1) / (Real(1) + step.h * mass.angular_damping);
+  forces.angular = h * (solver.inertia[i].inverse * bodies.force[i].torque);
+  forces.angular_drag = Real(1) / (Real(1) + h * mass.angular_damping);
 }
 
 /// Velocity after the forces of a sub-step and, from the second on, after the constraint impulses of the one before:

@@ -100,28 +100,49 @@ inline bool integrate_plain_positions(const SolverBodies& solver, Real h, bool t
 /// How many groups of bodies that are moved together there are among n.
 PLUMB_HD constexpr std::uint32_t body_groups(std::uint32_t n) { return (n + kLanes - 1) / kLanes; }
 
-/// integrate_velocity() of the bodies of a group among n.
+/// A group among n bodies, or those of it that have sub-steps of a level.
+class BodyGroup {
+ public:
+  std::uint32_t begin, end;
+
+  PLUMB_HD BodyGroup(std::uint32_t group, std::uint32_t n) : begin(group * kLanes), end(min(n, begin + kLanes)) {}
+  PLUMB_HD BodyGroup(std::uint32_t group, std::uint32_t n, const BodyLevels& levels, std::uint32_t level)
+      : begin(group * kLanes), end(min(n, begin + kLanes)), levels_(levels), level_(level) {}
+  PLUMB_HD bool has(std::uint32_t i) const { return levels_(i) == level_; }
+  /// Whether it is of as many bodies as there are lanes.
+  [[nodiscard]] PLUMB_HD bool is_full() const {
+    for (std::uint32_t i = begin; i < end; ++i)
+      if (!has(i)) return false;
+    return end - begin == kLanes;
+  }
+
+ private:
+  BodyLevels levels_;
+  std::uint32_t level_ = 0;
+};
+
+/// integrate_velocity() of the bodies of a group.
 PLUMB_HD inline void integrate_velocities(const Bodies& bodies, const SolverBodies& solver, const StepParameters& step,
-                                          bool first, std::uint32_t group, std::uint32_t n) {
-  const std::uint32_t begin = group * kLanes, end = min(n, begin + kLanes);
+                                          bool first, const BodyGroup& group) {
 #if !defined(PLUMB_IMPULSE_CUDA)
-  if (end - begin == kLanes && PlainBodies(bodies, solver.swings, begin).plain)
-    return integrate_plain_velocities(bodies, solver, first, begin);
+  if (group.is_full() && PlainBodies(bodies, solver.swings, group.begin).plain)
+    return integrate_plain_velocities(bodies, solver, first, group.begin);
 #endif
-  for (std::uint32_t i = begin; i < end; ++i) integrate_velocity(bodies, solver, step, first, i);
+  for (std::uint32_t i = group.begin; i < group.end; ++i)
+    if (group.has(i)) integrate_velocity(bodies, solver, step, first, i);
 }
 
 /// integrate_position() likewise.
 PLUMB_HD inline void integrate_positions(const Bodies& bodies, const SolverBodies& solver, const StepParameters& step,
-                                         bool gyroscopic, std::uint32_t group, std::uint32_t n) {
-  const std::uint32_t begin = group * kLanes, end = min(n, begin + kLanes);
+                                         bool gyroscopic, const BodyGroup& group) {
 #if !defined(PLUMB_IMPULSE_CUDA)
-  if (end - begin == kLanes) {
-    const PlainBodies all(bodies, gyroscopic, begin);
-    if (all.plain && integrate_plain_positions(solver, step.h, all.turn, begin)) return;
+  if (group.is_full()) {
+    const PlainBodies all(bodies, gyroscopic, group.begin);
+    if (all.plain && integrate_plain_positions(solver, step.h, all.turn, group.begin)) return;
   }
 #endif
-  for (std::uint32_t i = begin; i < end; ++i) integrate_position(bodies, solver, step, gyroscopic, i);
+  for (std::uint32_t i = group.begin; i < group.end; ++i)
+    if (group.has(i)) integrate_position(bodies, solver, step, gyroscopic, i);
 }
 
 }  // namespace plumb::impulse

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bodies/body.hpp"
+#include "bodies/body_level.hpp"
 #include "bodies/mechanism.hpp"
 
 namespace plumb::impulse {
@@ -30,6 +31,7 @@ struct SolverBodies {
   SubstepForces* forces;  ///< of dynamic bodies
   bool swings;            ///< angular velocities of bodies that tumble are those of swung_frame.hpp
   Mechanisms mechanisms;
+  BodyLevels levels;
 };
 
 }  // namespace plumb::impulse

@@ -3,27 +3,40 @@
 
 #include <cstdint>
 
-#include "math/real.hpp"
+#include "bodies/step_parameters.hpp"
 
 namespace plumb::impulse {
 
-constexpr std::uint32_t kColours = 64;         // bits of a body's mask
+constexpr std::uint32_t kColours = 50;         // bits of a body's mask
 constexpr std::uint32_t kOverflow = kColours;  // the "colour" of constraints that found none: solved one by one
+/// Contacts of a colour and of islands that have the same sub-steps are next to each other: what they are sorted by.
+constexpr std::uint32_t kColourKeys = kSubstepLevels * (kColours + 1);
+static_assert(kColourKeys < 256);  // a byte, which a sort takes in one pass
+PLUMB_HD constexpr std::uint32_t colour_key(std::uint32_t level, std::uint32_t colour) {
+  return level * (kColours + 1) + colour;
+}
 
 struct StepCounters {
   std::uint32_t pairs;  ///< candidates found; more than there is room for: the step does nothing and is repeated
   std::uint32_t midphase_pairs;  ///< of these, where there are planes, meshes or height fields (midphase.hpp)
   std::uint32_t manifolds;       ///< of these, touching
   std::uint32_t points;
-  std::uint32_t uncoloured[3];                  ///< manifolds without a colour: this round, the next, the one after
-  std::uint32_t rounds;                         ///< of the colouring
-  std::uint32_t about_to_strike[2];             ///< the last even and odd sub-steps, less one, that saw impacts come
-  std::uint32_t struck;                         ///< the last round of impacts in which anything was
-  std::uint32_t first_in_colour[kColours + 2];  ///< place in the order by colour; the last is the number of manifolds
-  std::uint32_t first_slot[kColours + 2];       ///< solver rows of a colour begin here, a multiple of the lanes
-  std::uint32_t colour_count;                   ///< colours up to the last one in use; the overflow apart
-  std::uint32_t longest_loop;                   ///< threads of the longest loop over contacts
-  std::uint32_t substeps, asked_substeps;       ///< of this step, and what its loads asked for (choose_substeps.hpp)
+  std::uint32_t uncoloured[3];                ///< manifolds without a colour: this round, the next, the one after
+  std::uint32_t rounds;                       ///< of the colouring
+  std::uint32_t about_to_strike[2];           ///< the last even and odd sub-steps, less one, that saw impacts come
+  std::uint32_t struck;                       ///< the last round of impacts in which anything was
+  std::uint32_t wanted_work[kSubstepLevels];  ///< of islands that want a level: contacts (choose_substeps.hpp)
+  std::uint32_t loaded;                       ///< not 0: something may ask for more sub-steps (choose_substeps.hpp)
+  std::uint32_t other_substeps;               ///< not 0: some have others than in their last step, or had none
+  std::uint32_t levels;                       ///< of sub-steps, up to the last one in use
+  std::uint32_t substeps;                     ///< of that one
+  std::uint32_t body_groups[kSubstepLevels];  ///< with bodies of a level, where there are several
+  std::uint32_t first_in_colour[kColourKeys + 1];  ///< by key: place in the order; the last is the number of manifolds
+  std::uint32_t first_slot[kColourKeys + 1];       ///< by key: solver rows begin here, a multiple of the lanes
+  std::uint32_t slots;                             ///< solver rows of all
+  std::uint32_t colour_count[kSubstepLevels];  ///< of a level: colours up to the last one in use; the overflow apart
+  std::uint32_t level_loop[kSubstepLevels];    ///< of a level: threads of the longest loop over contacts
+  std::uint32_t longest_loop;                  ///< of all levels
   std::uint32_t passes;  ///< over the constraints, of the solvers that make them until it is enough
   std::uint32_t
       touched_sleepers;      ///< manifolds with somebody awake: the step does nothing, they wake, and it is repeated

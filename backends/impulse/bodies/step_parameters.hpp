@@ -31,6 +31,7 @@ constexpr std::uint32_t kMostPasses = 1000;
 
 /// What depends on the length of a sub-step.
 struct SubstepParameters {
+  std::uint32_t level;  ///< its number among SubstepLevels
   std::uint32_t substeps;
   Real h;            ///< s, one sub-step
   Real inverse_h;    ///< 1/s
@@ -39,18 +40,19 @@ struct SubstepParameters {
   Softness joint;    ///< of joints that are solved one by one
   Real joint_rate;   ///< errors of mechanisms that are solved as a whole are taken back at this rate, 1/s
   Real chain_rate;   ///< those of long mechanisms no faster than at this one
-  Real warm_start;   ///< share of the last step's impulses that is kept: its sub-step to this one's, or 0
-  Real shortened;    ///< this sub-step over the last one, squared
+  // Where all bodies have the same sub-steps; else each body knows (SolverBodies):
+  Real warm_start;  ///< share of the last step's impulses that is kept: its sub-step to this one's, or 0
+  Real shortened;   ///< this sub-step over the last one, squared
 };
 
-/// In what sub-steps the step may be solved, of which its loads choose (solver/choose_substeps.hpp).
-struct ShorterSubsteps {
-  static constexpr std::uint32_t kMost = 9;
-  SubstepParameters of[kMost];   ///< those of the setting first, each half as long as the one before
-  std::uint32_t count;           ///< of those that may be chosen
-  Real asked_before;             ///< number of sub-steps that loads of earlier steps ask for
-  std::uint32_t work_of_joints;  ///< what a sub-step of all joints takes, in contacts
-  Real inverse_last_h;           ///< of the last step, 1/s; 0 in the first
+/// Kinds of sub-steps that islands of one step may have.
+constexpr std::uint32_t kSubstepLevels = 5;
+
+/// In what sub-steps an island may be solved: its loads choose (solver/choose_substeps.hpp). Hierarchical time-step
+/// levels: McMillan, "The Vectorization of Small-N Integrators", 1986.
+struct SubstepLevels {
+  SubstepParameters of[kSubstepLevels];  ///< those of the setting first, each shorter than the one before
+  std::uint32_t count;                   ///< of those that may be chosen
 };
 
 struct StepParameters : SubstepParameters {
@@ -63,6 +65,7 @@ struct StepParameters : SubstepParameters {
   bool lets_go;                  ///< what may have squeezed bodies is gone or another (contacts/match.cpp)
   Real max_depenetration_speed;  ///< overlap is taken back no faster than this, m/s
   bool relaxes_once;             ///< in a step, and not in each sub-step
+  bool warm_starting;            ///< from the impulses of the last step
   Real restitution_speed;        ///< slower impacts do not bounce, m/s
   Position origin;               ///< of the bounds
 

@@ -24,15 +24,18 @@ constexpr Real kWeightsOfBlow = 8, kLeastFall = 10;
 /// don't count) what they leave of it makes energy.
 template <int P, class N>
 PLUMB_HD void let_go_of_blow(const SolverBodies& bodies, const std::uint32_t* body_a, const std::uint32_t* body_b,
-                             const RowAccess<N>& row, Contact<P, N>& contact, const StepParameters& step) {
+                             const RowAccess<N>& row, Contact<P, N>& contact, const StepParameters& step,
+                             const SubstepLevels& levels) {
   const N zero = N(0);
-  const Real fall = kWeightsOfBlow * step.h * max(length(step.gravity), kLeastFall);
-  N joined = zero;
-  for (std::uint32_t lane = 0; lane < sizeof(N) / sizeof(Real); ++lane)
-    if (bodies.mechanisms.hold(body_a[lane]) || bodies.mechanisms.hold(body_b[lane])) lane_of(joined, lane) = 1;
-  const N weight = N(fall) / max(contact.delassus.normal[0], N(Real(1e-30)));
+  const Real falls = kWeightsOfBlow * max(length(step.gravity), kLeastFall);
+  N fall = zero;  // in a sub-step, of what is joined
+  for (std::uint32_t lane = 0; lane < sizeof(N) / sizeof(Real); ++lane) {
+    const std::uint32_t body = bodies.mechanisms.hold(body_a[lane]) ? body_a[lane] : body_b[lane];
+    if (bodies.mechanisms.hold(body)) lane_of(fall, lane) = levels.of[bodies.levels(body)].h * falls;
+  }
+  const N weight = fall / max(contact.delassus.normal[0], N(Real(1e-30)));
   const PerPoint<P, N> pressed = contact.impulse[0], most = N(2) * contact.noted + for_all_points<P>(weight);
-  const PointMask<P, N> struck = contact.there() && pressed > most && joined > zero;
+  const PointMask<P, N> struck = contact.there() && pressed > most && fall > zero;
   if (!in_any_contact(in_any_point(struck))) return;
   const PerPoint<P, N> share = select(struck, most / max(pressed, N(Real(1e-30))), N(1));
   PerPoint<P, N> let_go[3];

@@ -19,8 +19,10 @@ PLUMB_HD constexpr std::uint32_t scramble(std::uint32_t x) {
   return x ^ (x >> 16);
 }
 
-PLUMB_HD inline std::uint32_t lowest_zero_bit(std::uint64_t mask) {
-  return mask == ~std::uint64_t{0} ? kOverflow : static_cast<std::uint32_t>(trailing_zeros(~mask));
+/// kOverflow where all are taken.
+PLUMB_HD inline std::uint32_t lowest_free_colour(std::uint64_t taken) {
+  static_assert(kColours < 64);
+  return min(kOverflow, static_cast<std::uint32_t>(trailing_zeros(~taken)));
 }
 
 /// The two bodies of a manifold, or the owners of their mechanisms, and whether it pushes them.
@@ -34,6 +36,7 @@ struct View {
   const Velocity* velocities;
   const Proxy* proxies;
   Mechanisms mechanisms;
+  BodyLevels levels;
   StepCounters* counters;
   std::uint64_t* masks;
   std::uint64_t* claims;
@@ -78,7 +81,7 @@ struct ColourNew {
       return;
     }
     const std::uint64_t taken = (ends.pushes_a ? view.masks[ends.a] : 0) | (ends.pushes_b ? view.masks[ends.b] : 0);
-    const std::uint32_t colour = lowest_zero_bit(taken);
+    const std::uint32_t colour = lowest_free_colour(taken);
     PLUMB_ASSERT(colour <= kOverflow);
     view.cache.kept[row].colour = colour;
     if (colour == kOverflow) return;
@@ -106,29 +109,32 @@ struct ColourNew {
   }
 };
 
-struct ListColours {
+struct ListKeys {
   View view;
-  std::uint32_t *colours, *rows;
+  std::uint32_t *keys, *rows;
   PLUMB_HD void operator()(std::uint32_t row) const {
-    colours[row] = view.cache.kept[row].colour;
+    const Pair pair = view.cache.pairs[view.cache.candidate[row]];
+    const std::uint32_t level =
+        view.levels.of_pair(view.velocities, view.proxies[pair.a].body, view.proxies[pair.b].body);
+    keys[row] = colour_key(level, view.cache.kept[row].colour);
     rows[row] = row;
   }
 };
 
-/// Where a colour begins in the order: the first place whose colour is not smaller.
-struct FindColours {
-  const std::uint32_t* colours;
+/// Where a key begins in the order: the first place whose key is not smaller.
+struct FindKeys {
+  const std::uint32_t* keys;
   StepCounters* counters;
-  PLUMB_HD void operator()(std::uint32_t colour) const {
+  PLUMB_HD void operator()(std::uint32_t key) const {
     std::uint32_t low = 0, high = counters->manifolds;
     while (low < high) {
       const std::uint32_t middle = (low + high) / 2;
-      if (colours[middle] < colour)
+      if (keys[middle] < key)
         low = middle + 1;
       else
         high = middle;
     }
-    counters->first_in_colour[colour] = low;
+    counters->first_in_colour[key] = low;
   }
 };
 
@@ -136,33 +142,46 @@ struct LayOutSlots {
   StepCounters* counters;
   bool together;  ///< contacts of all colours may be in one loop
   PLUMB_HD void operator()(std::uint32_t) const {
-    std::uint32_t slot = 0, used = 0, largest = 0;
+    counters->levels = max(counters->levels, 1U);
+    std::uint32_t slot = 0;
+    for (std::uint32_t level = 0; level < counters->levels; ++level) slot = lay_out(level, slot);
+    PLUMB_ASSERT(slot <= slots_for(counters->manifolds));
+    counters->slots = counters->first_slot[colour_key(counters->levels, 0)] = slot;
+  }
+
+ private:
+  /// From a slot on; returns the next one.
+  PLUMB_HD std::uint32_t lay_out(std::uint32_t level, std::uint32_t slot) const {
+    const std::uint32_t first = slot;
+    std::uint32_t used = 0, largest = 0, coloured = 0;
     for (std::uint32_t c = 0; c <= kOverflow; ++c) {
-      const std::uint32_t size = counters->first_in_colour[c + 1] - counters->first_in_colour[c];
-      counters->first_slot[c] = slot;
+      const std::uint32_t key = colour_key(level, c);
+      const std::uint32_t size = counters->first_in_colour[key + 1] - counters->first_in_colour[key];
+      counters->first_slot[key] = slot;
+      if (c == kOverflow) coloured = slot - first;
       slot += (size + kLaneGroup - 1) / kLaneGroup * kLaneGroup;
       if (size != 0 && c < kOverflow) used = c + 1;
       if (c < kOverflow) largest = max(largest, size);
     }
-    PLUMB_ASSERT(slot <= slots_for(counters->manifolds));
-    counters->first_slot[kColours + 1] = slot;
-    counters->colour_count = used;
-    counters->longest_loop = longest_loop(largest, counters->first_slot[kOverflow], together);
+    counters->colour_count[level] = used;
+    counters->level_loop[level] = longest_loop(largest, coloured, together);
+    counters->longest_loop = max(counters->longest_loop, counters->level_loop[level]);
+    return slot;
   }
 };
 
 struct ListUncoloured {
-  std::uint32_t *colours, *rows;
+  std::uint32_t *keys, *rows;
   PLUMB_HD void operator()(std::uint32_t row) const {
-    colours[row] = 0;
+    keys[row] = 0;
     rows[row] = row;
   }
 };
 
 struct PutAllInFirst {
   StepCounters* counters;
-  PLUMB_HD void operator()(std::uint32_t colour) const {
-    counters->first_in_colour[colour] = colour == 0 ? 0 : counters->manifolds;
+  PLUMB_HD void operator()(std::uint32_t key) const {
+    counters->first_in_colour[key] = key == 0 ? 0 : counters->manifolds;
   }
 };
 
@@ -173,7 +192,7 @@ void Colouring::reserve(Executor& /*executor*/, std::uint32_t bodies, std::uint3
   capacity_ = manifolds;
   masks_.grow(bodies);
   claims_.grow(bodies);
-  for (Buffer<std::uint32_t>* buffer : {&waiting_[0], &waiting_[1], &colours_, &rows_, &sorted_colours_, &sorted_rows_})
+  for (Buffer<std::uint32_t>* buffer : {&waiting_[0], &waiting_[1], &keys_, &rows_, &sorted_keys_, &sorted_rows_})
     buffer->grow(manifolds);
   sort_.reserve(manifolds);
 }
@@ -181,20 +200,21 @@ void Colouring::reserve(Executor& /*executor*/, std::uint32_t bodies, std::uint3
 void Colouring::begin(Executor& executor) { executor.run(bodies_, ClearBody{masks_.data(), claims_.data()}); }
 
 void Colouring::colour(Executor& executor, const ContactCache& cache, const Velocity* velocities, const Proxy* proxies,
-                       const Mechanisms& mechanisms, StepCounters* counters) {
-  const View view = {cache,    velocities,    proxies,        mechanisms,
-                     counters, masks_.data(), claims_.data(), {waiting_[0].data(), waiting_[1].data()}};
+                       const Mechanisms& mechanisms, const BodyLevels& levels, StepCounters* counters) {
+  const View view = {cache,         velocities,     proxies,
+                     mechanisms,    levels,         counters,
+                     masks_.data(), claims_.data(), {waiting_[0].data(), waiting_[1].data()}};
   const Count manifolds = {&counters->manifolds, capacity_};
   executor.team(manifolds, 0, ColourNew{view});
-  executor.run(manifolds, ListColours{view, colours_.data(), rows_.data()});
-  sort_.run(executor, manifolds, colours_.data(), rows_.data(), sorted_colours_.data(), sorted_rows_.data(), 7);
-  executor.run(kColours + 2, FindColours{sorted_colours_.data(), counters});
+  executor.run(manifolds, ListKeys{view, keys_.data(), rows_.data()});
+  sort_.run(executor, manifolds, keys_.data(), rows_.data(), sorted_keys_.data(), sorted_rows_.data(), 8);
+  executor.run(kColourKeys + 1, FindKeys{sorted_keys_.data(), counters});
   executor.run(1U, LayOutSlots{counters, mechanisms.count == 0});
 }
 
 void Colouring::leave_out(Executor& executor, StepCounters* counters) {
-  executor.run(Count{&counters->manifolds, capacity_}, ListUncoloured{sorted_colours_.data(), sorted_rows_.data()});
-  executor.run(kColours + 2, PutAllInFirst{counters});
+  executor.run(Count{&counters->manifolds, capacity_}, ListUncoloured{sorted_keys_.data(), sorted_rows_.data()});
+  executor.run(kColourKeys + 1, PutAllInFirst{counters});
   executor.run(1U, LayOutSlots{counters, false});
 }
 

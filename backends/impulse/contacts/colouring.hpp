@@ -22,15 +22,17 @@
 // Why the bits do not depend on threads: a claim is a minimum (atomic_min), priorities are distinct (a permutation of
 // the rows, and above it the round, so that claims of earlier rounds lose and nothing needs clearing), and who wins at
 // both bodies is alone in writing their masks. In which order waiting manifolds are queued decides nothing. At last
-// rows are sorted by colour, those of one colour in their own order. Of the waiting the best of all wins: rounds end.
+// rows are sorted by colour, those of one colour in their own order; before that by the level of sub-steps of their
+// islands, which have loops of their own. Of the waiting the best of all wins: rounds end.
 //
 // A manifold keeps its colour while it is there and pushes the same two (match.cpp puts it back, and its bits). A body
-// has 64 colours: what finds none is of the overflow colour, is solved one by one after the others, and asks again in
+// has 50 colours: what finds none is of the overflow colour, is solved one by one after the others, and asks again in
 // the next step. Bodies of a mechanism that contacts push as a whole are one here, by their owner
 // (bodies/mechanism.hpp).
 #pragma once
 
 #include "bodies/body.hpp"
+#include "bodies/body_level.hpp"
 #include "bodies/mechanism.hpp"
 #include "bodies/step_counters.hpp"
 #include "exec/sort.hpp"
@@ -49,29 +51,29 @@ class Colouring {
   [[nodiscard]] const std::uint64_t* masks() const { return masks_.data(); }
 
   void begin(Executor& executor);
-  /// Colours what has none in cache.kept[row].colour, then orders the rows: order()[j] is the row in place j by colour
-  /// (and by row within it), slot(j) its solver row.
+  /// Colours what has none in cache.kept[row].colour, then orders the rows: order()[j] is the row in place j by level
+  /// and colour (and by row within them), keys()[j] its colour_key.
   /// Of mechanisms that contacts move as a whole no two manifolds of a colour push the same one.
   void colour(Executor& executor, const ContactCache& cache, const Velocity* velocities, const Proxy* proxies,
-              const Mechanisms& mechanisms, StepCounters* counters);
+              const Mechanisms& mechanisms, const BodyLevels& levels, StepCounters* counters);
 
   /// Instead of colour(): all rows in one colour, in their own order, for a solver that needs none. Colours that
   /// manifolds have are kept for one that does.
   void leave_out(Executor& executor, StepCounters* counters);
 
   [[nodiscard]] const std::uint32_t* order() const { return sorted_rows_.data(); }
-  [[nodiscard]] const std::uint32_t* colours() const { return sorted_colours_.data(); }
+  [[nodiscard]] const std::uint32_t* keys() const { return sorted_keys_.data(); }
 
  private:
   std::uint32_t bodies_ = 0, capacity_ = 0;
   Buffer<std::uint64_t> masks_;   // by body
   Buffer<std::uint64_t> claims_;  // by body: best priority of a round
   Buffer<std::uint32_t> waiting_[2];
-  Buffer<std::uint32_t> colours_, rows_, sorted_colours_, sorted_rows_;
+  Buffer<std::uint32_t> keys_, rows_, sorted_keys_, sorted_rows_;
   RadixSort<std::uint32_t> sort_;
 };
 
-/// Solver rows: places by colour, each colour rounded up to whole lanes.
-constexpr std::uint32_t slots_for(std::uint32_t manifolds) { return manifolds + (kColours + 1) * kLaneGroup; }
+/// Solver rows: places by level and colour, each colour rounded up to whole lanes.
+constexpr std::uint32_t slots_for(std::uint32_t manifolds) { return manifolds + kColourKeys * kLaneGroup; }
 
 }  // namespace plumb::impulse

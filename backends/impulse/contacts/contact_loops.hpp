@@ -19,6 +19,7 @@ struct ContactSet {
   const StepCounters* counters;
   bool surface_velocities;  ///< surfaces may run on bodies that stand
   const StepParameters* parameters;
+  const SubstepLevels* levels;
 };
 
 /// What a pass reads and writes of a body. Of impacts all, and what they give it is not what holds it: it does not act
@@ -190,7 +191,8 @@ PLUMB_HD void work_on(const ContactSet& contacts, const SolverBodies& bodies, st
       work_on_surfaces<kSurfaceVelocity>(contacts.surface_velocities, RowAccess<N>(rows, slot), contact, a, b, work);
       if (whole) store_mechanisms<N>(bodies, loaded, use, a_before, b_before, a, b);
       if (whole && is_last(use))
-        let_go_of_blow(bodies, loaded.a, loaded.b, RowAccess<N>(rows, slot), contact, *contacts.parameters);
+        let_go_of_blow(bodies, loaded.a, loaded.b, RowAccess<N>(rows, slot), contact, *contacts.parameters,
+                       *contacts.levels);
       if (use == BodyUse::kImpact) {
         if (stores_body(0)) store_free_velocity<N>(bodies, loaded.a, a, a_before);
         if (stores_body(1)) store_free_velocity<N>(bodies, loaded.b, b, b_before);
@@ -220,22 +222,23 @@ PLUMB_DEVICE void for_slots(Team& team, const ContactSet& contacts, const Solver
       });
 }
 
-/// Runs work on every contact, colour after colour, and on those without a colour one after the other. kMechanisms:
-/// what it pushes may be in mechanisms that move as a whole.
+/// Runs work on every contact of a level, colour after colour, and on those without a colour one after the other.
+/// kMechanisms: what it pushes may be in mechanisms that move as a whole.
 template <bool kSurfaceVelocity = false, bool kMechanisms = false, class Work>
-PLUMB_DEVICE void for_contacts(Team& team, const ContactSet& contacts, const SolverBodies& bodies, BodyUse use,
-                               const Work& work) {
+PLUMB_DEVICE void for_contacts(Team& team, const ContactSet& contacts, std::uint32_t level, const SolverBodies& bodies,
+                               BodyUse use, const Work& work) {
   const StepCounters& counters = *contacts.counters;
-  const std::uint32_t colours = counters.colour_count;
-  const std::uint32_t lone = counters.first_slot[kOverflow];
-  const std::uint32_t loops = colours + (counters.first_slot[kOverflow + 1] - lone);
+  const std::uint32_t* const first_slot = counters.first_slot + colour_key(level, 0);
+  const std::uint32_t colours = counters.colour_count[level];
+  const std::uint32_t lone = first_slot[kOverflow];
+  const std::uint32_t loops = colours + (first_slot[kOverflow + 1] - lone);
   // Passes that keep their barriers among others that are one loop: other threads have a contact's numbers there.
-  const bool one_loop = is_one_loop(counters, bodies.mechanisms), by_turns = one_loop && !moves_bodies(use);
+  const bool one_loop = is_one_loop(counters, level, bodies.mechanisms), by_turns = one_loop && !moves_bodies(use);
   if (one_loop && !by_turns) team.barrier();
   for (std::uint32_t k = by_turns && colours != 0 ? colours - 1 : 0; k < loops; ++k) {
     const bool lonely = k >= colours;
-    const std::uint32_t first = lonely ? lone + (k - colours) : by_turns ? 0 : counters.first_slot[k];
-    const std::uint32_t slots = lonely ? 1 : counters.first_slot[k + 1] - first;
+    const std::uint32_t first = lonely ? lone + (k - colours) : first_slot[by_turns ? 0 : k];
+    const std::uint32_t slots = lonely ? 1 : first_slot[k + 1] - first;
     if constexpr (kLanes == 1) {
       for_slots<kSurfaceVelocity, kMechanisms, Real>(team, contacts, bodies, first, slots, use, by_turns && !lonely,
                                                      work);
@@ -254,7 +257,7 @@ PLUMB_DEVICE void for_contacts(Team& team, const ContactSet& contacts, const Sol
 template <class Work>
 PLUMB_DEVICE void for_rows(Team& team, const ContactSet& contacts, const Work& work) {
   const ContactRows& rows = contacts.rows;
-  const std::uint32_t n = contacts.counters->first_slot[kColours + 1] / kLanes;
+  const std::uint32_t n = contacts.counters->slots / kLanes;
   team.each(contact_loop(n), [=](std::uint32_t i) {
     const std::uint32_t slot = slot_of(rows, 0, n, i, kLanes);
     LoadedContact<Lanes> loaded = load_slot<Lanes>(rows, slot);

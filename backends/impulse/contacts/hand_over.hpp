@@ -52,8 +52,8 @@ PLUMB_HD constexpr std::uint32_t longest_loop(std::uint32_t largest, std::uint32
   return contact_loop(kHandsOver && together && largest > kFewContacts ? all : largest);
 }
 /// Whether a pass over contacts that moves no bodies is one loop.
-PLUMB_HD inline bool is_one_loop(const StepCounters& counters, const Mechanisms& mechanisms) {
-  return kHandsOver && mechanisms.count == 0 && counters.longest_loop > contact_loop(kFewContacts);
+PLUMB_HD inline bool is_one_loop(const StepCounters& counters, std::uint32_t level, const Mechanisms& mechanisms) {
+  return kHandsOver && mechanisms.count == 0 && counters.level_loop[level] > contact_loop(kFewContacts);
 }
 
 /// When a contact has its turn on a body: after the contact that leaves the tag which it awaits. 0: none.

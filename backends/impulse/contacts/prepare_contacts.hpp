@@ -108,6 +108,7 @@ struct PrepareContacts {
   const std::uint32_t* order;  ///< rows of the cache by colour
   const std::uint64_t* masks;  ///< by body: colours of the contacts that push it
   const StepParameters* parameters;
+  const SubstepLevels* levels;
   std::uint32_t sentinel;  ///< body slot that stands for none in unused lanes
   const PartRange* parts;  ///< by body: how many it is split into; null: bodies are whole
   const Real* impacts;     ///< by candidate: when it closes, s; 0: it is as it is now. With kImpacts only
@@ -118,9 +119,9 @@ struct PrepareContacts {
  private:
   using Source = ContactSource<Lanes>;
 
-  /// The colour of a slot: the last one that begins there or before.
-  [[nodiscard]] PLUMB_HD std::uint32_t colour_of(std::uint32_t slot) const {
-    std::uint32_t low = 0, high = kColours + 1;
+  /// The colour_key of a slot: the last one that begins there or before.
+  [[nodiscard]] PLUMB_HD std::uint32_t key_of(std::uint32_t slot) const {
+    std::uint32_t low = 0, high = colour_key(counters->levels, 0);
     while (high - low > 1) {
       const std::uint32_t middle = (low + high) / 2;
       (counters->first_slot[middle] <= slot ? low : high) = middle;
@@ -128,9 +129,9 @@ struct PrepareContacts {
     return low;
   }
   /// The row of the cache that belongs into a slot, or kNone.
-  [[nodiscard]] PLUMB_HD std::uint32_t row_of(std::uint32_t slot, std::uint32_t colour) const {
-    const std::uint32_t place = counters->first_in_colour[colour] + (slot - counters->first_slot[colour]);
-    return place < counters->first_in_colour[colour + 1] ? order[place] : kNone;
+  [[nodiscard]] PLUMB_HD std::uint32_t row_of(std::uint32_t slot, std::uint32_t key) const {
+    const std::uint32_t place = counters->first_in_colour[key] + (slot - counters->first_slot[key]);
+    return place < counters->first_in_colour[key + 1] ? order[place] : kNone;
   }
   PLUMB_HD void put_turns(std::uint32_t slot, std::uint32_t colour, std::uint32_t a, std::uint32_t b) const {
     rows.turns[slot] = {{bodies.velocity[a].inverse_mass, bodies.velocity[b].inverse_mass},
@@ -194,7 +195,7 @@ PLUMB_HD void PrepareContacts<kImpacts, kMechanisms>::read(std::uint32_t row, st
   put_lane(source.offset_a, lane, offset_a);
   put_lane(source.from_a_to_b, lane, from_a_to_b);
 
-  const Real warm_start = parameters->warm_start;
+  const Real warm_start = solver_bodies.levels.warm_start(*parameters, bodies.velocity, a, b);
   const Vec n = kept.normal;
   put_lane(source.normal, lane, n);
   put_lane(source.tangent, lane, kept.tangent);
@@ -211,7 +212,10 @@ PLUMB_HD void PrepareContacts<kImpacts, kMechanisms>::read(std::uint32_t row, st
   lane_of(source.friction, lane) = sqrt(proxy_a.friction * proxy_b.friction);
   const Real restitution = max(proxy_a.restitution, proxy_b.restitution);
   lane_of(source.restitution, lane) = restitution;
-  if (restitution > 0) lane_of(source.pull, lane) = parameters->h * dot(acceleration(b) - acceleration(a), n);
+  if (restitution > 0) {
+    const Real h = levels->of[solver_bodies.levels.of_pair(bodies.velocity, a, b)].h;
+    lane_of(source.pull, lane) = h * dot(acceleration(b) - acceleration(a), n);
+  }
   lane_of(source.rolling_radius[0], lane) = rolling_radius(proxies, proxy_a, bodies.orientation[a], n);
   lane_of(source.rolling_radius[1], lane) = rolling_radius(proxies, proxy_b, bodies.orientation[b], n);
 
@@ -284,9 +288,9 @@ PLUMB_HD void PrepareContacts<kImpacts, kMechanisms>::operator()(std::uint32_t s
   if (slot == 0) leave_empty(rows.spare);
   Source source{};
   ContactEnds ends;
-  const std::uint32_t colour = colour_of(slot);
+  const std::uint32_t key = key_of(slot);
   for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
-    const std::uint32_t row = row_of(slot + lane, colour);
+    const std::uint32_t row = row_of(slot + lane, key);
     leave_empty(slot + lane);
     ends.a[lane] = ends.b[lane] = sentinel;
     ends.closes_at[lane] = 0;
@@ -296,7 +300,7 @@ PLUMB_HD void PrepareContacts<kImpacts, kMechanisms>::operator()(std::uint32_t s
     rows.body_b[slot + lane] = ends.b[lane];
     rows.count[slot + lane] = static_cast<std::uint32_t>(lane_of(source.count, lane));
     rows.row[slot + lane] = row;
-    if constexpr (kHandsOver) put_turns(slot + lane, colour, ends.a[lane], ends.b[lane]);
+    if constexpr (kHandsOver) put_turns(slot + lane, key % (kColours + 1), ends.a[lane], ends.b[lane]);
   }
 
   const Vec3<Lanes>&n = source.normal, &t1 = source.tangent;

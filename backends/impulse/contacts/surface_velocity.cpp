@@ -9,9 +9,9 @@ struct PutSurfaceSpeeds {
 
   /// Place j in the order by colour.
   PLUMB_HD void operator()(std::uint32_t j) const {
-    const auto& [cache, bodies, proxies, surface_velocities, order, colours, rows, counters] = work;
-    const std::uint32_t row = order[j], colour = colours[j];
-    const std::uint32_t slot = counters->first_slot[colour] + (j - counters->first_in_colour[colour]);
+    const auto& [cache, bodies, proxies, surface_velocities, order, keys, rows, counters] = work;
+    const std::uint32_t row = order[j], key = keys[j];
+    const std::uint32_t slot = counters->first_slot[key] + (j - counters->first_in_colour[key]);
     const Pair pair = cache.pairs[cache.candidate[row]];
     const CachedManifold& kept = cache.kept[row];
     const Vec slip = speed(pair.b) - speed(pair.a);

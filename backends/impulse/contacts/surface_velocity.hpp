@@ -27,8 +27,8 @@ struct SurfaceSpeedWork {
   ContactCache cache;
   Bodies bodies;
   Proxies proxies;
-  const Vec* surface_velocities;         ///< by proxy
-  const std::uint32_t *order, *colours;  ///< as of Colouring
+  const Vec* surface_velocities;      ///< by proxy
+  const std::uint32_t *order, *keys;  ///< as of Colouring
   ContactRows rows;
   const StepCounters* counters;
 };

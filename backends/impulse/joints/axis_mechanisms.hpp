@@ -123,11 +123,6 @@ PLUMB_DEVICE inline void solve_in_rounds(Team& team, const JointSystem& system, 
   push_changes(team, system, mechanism);
 }
 
-/// Of joints that are solved one by one, and of all.
-PLUMB_DEVICE inline void add_single_reactions(Team& team, const JointSet& joints) {
-  const AxisView view = axis_view(joints);
-  team.each(joints.system.base, [=](std::uint32_t j) { add_reaction(view, j); });
-}
 PLUMB_DEVICE inline void add_reactions(Team& team, const JointSet& joints) {
   const AxisView view = axis_view(joints);
   team.each(joints.count, [=](std::uint32_t j) { add_reaction(view, j); });
@@ -135,12 +130,12 @@ PLUMB_DEVICE inline void add_reactions(Team& team, const JointSet& joints) {
 
 /// A mechanism's rows where its bodies are now. As of refresh_mechanism.
 PLUMB_DEVICE inline void refresh_axes(Team& team, const JointSystem& system, const SystemMechanism& mechanism,
-                                      const AxisView& view, Real h, Real shortened) {
+                                      const AxisView& view, const StepParameters& step, bool first) {
   const bool touched = system.is_touched(mechanism);
-  for_places(team, mechanism, [&](std::uint32_t place) { find_least_moment(system, place, h, shortened); });
+  for_places(team, mechanism, [&](std::uint32_t place) { find_least_moment(system, place, step, first); });
   for_columns(team, mechanism, [&](std::uint32_t column) {
     refresh_axis_joint(view, system.base + column);
-    if (!touched) choose_share(view, system.base + column, h);
+    if (!touched) choose_share(view, system.base + column, step.h);
   });
 }
 
@@ -155,15 +150,15 @@ PLUMB_DEVICE inline void warm_start_axes(Team& team, const JointSet& joints, boo
   if (joints.count == 0) return;
   const AxisView view = axis_view(joints);
   const JointSystem& system = joints.system;
-  team.each(system.base, [&](std::uint32_t j) {
+  each_single_joint(team, joints, step.level, [=](std::uint32_t j) {
     begin_axis_joint(view, j, first, step);
     if (first) refresh_axis_joint(view, j);
   });
-  for_single_joints(team, joints, [=](std::uint32_t j) { warm_start_joint(view, j, false, step); });
-  for_mechanisms(team, system, [&](Team& own, const SystemMechanism& mechanism) {
+  for_single_joints(team, joints, step.level, [=](std::uint32_t j) { warm_start_joint(view, j, false, step); });
+  for_mechanisms_of_level(team, system, step.level, [&](Team& own, const SystemMechanism& mechanism) {
     for_columns(own, mechanism,
                 [&](std::uint32_t column) { begin_axis_joint(view, system.base + column, first, step); });
-    if (first) refresh_axes(own, system, mechanism, view, step.h, step.shortened);
+    if (first) refresh_axes(own, system, mechanism, view, step, true);
     for_places(own, mechanism, [&](std::uint32_t place) { push_body(system, place, true); });
   });
 }
@@ -210,14 +205,15 @@ PLUMB_DEVICE inline void solve_axes(Team& team, const JointSet& joints, const St
   RowTime time = {pass, step.h, step.inverse_h, step.joint.bias_rate,
                   pass == RowPass::kSpeeds ? Real(0) : step.joint.gamma};
   if (touched) time.most_return = kMostReturn;
-  if (pass == RowPass::kSpeeds) team.each(system.base, [=](std::uint32_t j) { refresh_axis_joint(view, j); });
-  for_single_joints(team, joints, [=](std::uint32_t j) { solve_axis_joint(view, j, time); });
-  add_single_reactions(team, joints);
+  if (pass == RowPass::kSpeeds)
+    each_single_joint(team, joints, step.level, [=](std::uint32_t j) { refresh_axis_joint(view, j); });
+  for_single_joints(team, joints, step.level, [=](std::uint32_t j) { solve_axis_joint(view, j, time); });
+  each_single_joint(team, joints, step.level, [=](std::uint32_t j) { add_reaction(view, j); });
   RowTime exact = time;
   exact.rate = step.joint_rate;
   exact.chain_rate = step.chain_rate;
-  for_mechanisms(team, system, [&](Team& own, const SystemMechanism& mechanism) {
-    if (pass == RowPass::kSpeeds) refresh_axes(own, system, mechanism, view, step.h, 1);
+  for_mechanisms_of_level(team, system, step.level, [&](Team& own, const SystemMechanism& mechanism) {
+    if (pass == RowPass::kSpeeds) refresh_axes(own, system, mechanism, view, step, false);
     if (loaded && system.is_touched(mechanism)) pass_on_loads(own, system, mechanism, view);
     solve_in_rounds(own, system, mechanism, view, exact);
     const bool follows = pass == RowPass::kSpeeds && view.solver.mechanisms.count != 0;

@@ -56,12 +56,24 @@ PLUMB_DEVICE void for_joints(Team& team, const JointSet& joints, const F& f) {
     for_joints_of_colour(team, joints.colours, colour, joints.colours.first[colour], joints.colours.first[colour + 1],
                          f);
 }
-/// f(j) for every joint that is not in the system.
+/// f(j) for every joint that is not in the system and has sub-steps of that level.
 template <class F>
-PLUMB_DEVICE void for_single_joints(Team& team, const JointSet& joints, const F& f) {
+PLUMB_DEVICE void for_single_joints(Team& team, const JointSet& joints, std::uint32_t level, const F& f) {
   if (joints.system.base == 0) return;
+  const JointView view = joints.view;
   for (std::uint32_t colour = 0; colour < joints.colours.count; ++colour)
-    for_joints_of_colour(team, joints.colours, colour, joints.colours.first[colour], joints.colours.system[colour], f);
+    for_joints_of_colour(team, joints.colours, colour, joints.colours.first[colour], joints.colours.system[colour],
+                         [=](std::uint32_t j) {
+                           if (view.level(view.joints[j]) == level) f(j);
+                         });
+}
+/// Likewise, in any order.
+template <class F>
+PLUMB_DEVICE void each_single_joint(Team& team, const JointSet& joints, std::uint32_t level, const F& f) {
+  const JointView view = joints.view;
+  team.each(joints.system.base, [=](std::uint32_t j) {
+    if (view.level(view.joints[j]) == level) f(j);
+  });
 }
 PLUMB_DEVICE inline void refresh_joints(Team& team, const JointSet& joints) {
   const JointView view = joints.view;

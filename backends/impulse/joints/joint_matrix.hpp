@@ -60,6 +60,10 @@ struct JointSystem {
   [[nodiscard]] PLUMB_HD bool is_touched(const SystemMechanism& mechanism) const {
     return view.solver.mechanisms.touch_mechanism(bodies[mechanism.first_place]);
   }
+  /// Of sub-steps.
+  [[nodiscard]] PLUMB_HD std::uint32_t level(const SystemMechanism& mechanism) const {
+    return view.solver.levels(bodies[mechanism.first_place]);
+  }
 };
 
 }  // namespace plumb::impulse

@@ -74,6 +74,10 @@ struct JointView {
     const Position from = joint.body_a == kWorld ? joint.world_anchor : bodies.position[joint.body_a];
     return between(from, bodies.position[joint.body_b]);
   }
+  /// Of sub-steps.
+  PLUMB_HD std::uint32_t level(const Joint& joint) const {
+    return solver.levels.of_pair(solver.velocity, joint.body_a, joint.body_b);
+  }
   PLUMB_HD Real inverse_mass(std::uint32_t body) const {
     return body == kWorld ? Real(0) : solver.velocity[body].inverse_mass;
   }
@@ -258,8 +262,9 @@ inline void joint_residuals(const JointView& view, std::uint32_t j, const JointP
 PLUMB_HD inline void take_over_impulse(const JointView& view, std::uint32_t j, const StepParameters& step) {
   const Joint& joint = view.joints[j];
   JointImpulse& impulse = view.impulses[joint.slot];
+  const Real kept = view.solver.levels.warm_start(step, view.solver.velocity, joint.body_a, joint.body_b);
   for (int i = 0; i < kJointRows; ++i)
-    impulse.along[i] = joint.first_step == step.step ? Real(0) : step.warm_start * impulse.along[i];
+    impulse.along[i] = joint.first_step == step.step ? Real(0) : kept * impulse.along[i];
 }
 
 PLUMB_HD inline void keep_change(const JointView& view, std::uint32_t j) {

@@ -163,6 +163,13 @@ PLUMB_DEVICE void for_mechanisms(Team& team, const JointSystem& system, const F&
     f(own, mechanism);
   });
 }
+/// Likewise of those that have sub-steps of that level.
+template <class F>
+PLUMB_DEVICE void for_mechanisms_of_level(Team& team, const JointSystem& system, std::uint32_t level, const F& f) {
+  for_mechanisms(team, system, [&](Team& own, const SystemMechanism& mechanism) {
+    if (system.level(mechanism) == level) f(own, mechanism);
+  });
+}
 
 /// f(column) for every column of a mechanism.
 template <class F>

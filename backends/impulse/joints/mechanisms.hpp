@@ -7,15 +7,15 @@
 
 namespace plumb::impulse {
 
-/// A mechanism's joints as they stand now. Where contacts push it as a whole they count on it that joints yield as they
-/// did when its mobility was found (mechanism_mobility.hpp).
+/// A mechanism's joints as they stand now. first: in the step. Where contacts push it as a whole they count on it that
+/// joints yield as they did when its mobility was found (mechanism_mobility.hpp).
 PLUMB_DEVICE inline void refresh_mechanism(Team& team, const JointSystem& system, const SystemMechanism& mechanism,
-                                           Real h, Real shortened) {
+                                           const StepParameters& step, bool first) {
   const bool touched = system.is_touched(mechanism);
-  for_places(team, mechanism, [&](std::uint32_t place) { find_least_moment(system, place, h, shortened); });
+  for_places(team, mechanism, [&](std::uint32_t place) { find_least_moment(system, place, step, first); });
   for_columns(team, mechanism, [&](std::uint32_t column) {
     make_joint_rows(system.view, system.base + column);
-    if (!touched) choose_share(system.view, system.base + column, h);
+    if (!touched) choose_share(system.view, system.base + column, step.h);
   });
   factor_system(team, system, mechanism);
 }
@@ -27,15 +27,15 @@ PLUMB_DEVICE inline void warm_start_mechanisms(Team& team, const JointSet& joint
   const JointView view = joints.view;
   const JointSystem& system = joints.system;
   if (first)
-    team.each(system.base, [=](std::uint32_t j) {
+    each_single_joint(team, joints, step.level, [=](std::uint32_t j) {
       take_over_impulse(view, j, step);
       refresh_joint(view, j);
     });
-  for_single_joints(team, joints, [=](std::uint32_t j) { warm_start_joint(view, j, false, step); });
-  for_mechanisms(team, system, [&](Team& own, const SystemMechanism& mechanism) {
+  for_single_joints(team, joints, step.level, [=](std::uint32_t j) { warm_start_joint(view, j, false, step); });
+  for_mechanisms_of_level(team, system, step.level, [&](Team& own, const SystemMechanism& mechanism) {
     if (first) {
       for_columns(own, mechanism, [&](std::uint32_t column) { take_over_impulse(view, system.base + column, step); });
-      refresh_mechanism(own, system, mechanism, step.h, step.shortened);
+      refresh_mechanism(own, system, mechanism, step, true);
     }
     for_places(own, mechanism, [&](std::uint32_t place) { push_body(system, place, true); });
   });
@@ -74,12 +74,12 @@ PLUMB_DEVICE inline void solve_mechanisms(Team& team, const JointSet& joints, co
   const JointView view = joints.view;
   const JointSystem& system = joints.system;
   const JointPass pass = {step.joint, step.chain_rate, step.h, step.inverse_h, take_back_error};
-  if (!take_back_error) team.each(system.base, [=](std::uint32_t j) { refresh_joint(view, j); });
-  for_single_joints(team, joints, [=](std::uint32_t j) { solve_joint(view, j, pass); });
+  if (!take_back_error) each_single_joint(team, joints, step.level, [=](std::uint32_t j) { refresh_joint(view, j); });
+  for_single_joints(team, joints, step.level, [=](std::uint32_t j) { solve_joint(view, j, pass); });
   JointPass exact = pass;
   exact.softness = {step.joint_rate, 1, 0};
-  for_mechanisms(team, system, [&](Team& own, const SystemMechanism& mechanism) {
-    if (!take_back_error) refresh_mechanism(own, system, mechanism, step.h, 1);
+  for_mechanisms_of_level(team, system, step.level, [&](Team& own, const SystemMechanism& mechanism) {
+    if (!take_back_error) refresh_mechanism(own, system, mechanism, step, false);
     if (take_back_error && system.is_touched(mechanism)) pass_on_loads(own, system, mechanism, exact);
     solve_mechanism(own, system, mechanism, exact);
   });

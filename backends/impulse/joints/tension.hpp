@@ -70,10 +70,11 @@ PLUMB_HD inline void slow_down(const JointView& view, std::uint32_t body, Real f
   view.store(body, before, after);
 }
 
-/// In a sub-step of h seconds, for the body at a place of the system. shortened: this sub-step over the one before,
-/// squared.
-PLUMB_HD inline void find_least_moment(const JointSystem& system, std::uint32_t place, Real h, Real shortened) {
+/// In a sub-step, for the body at a place of the system. first: of the step.
+PLUMB_HD inline void find_least_moment(const JointSystem& system, std::uint32_t place, const StepParameters& step,
+                                       bool first) {
   const std::uint32_t body = system.bodies[place];
+  const Real h = step.h, shortened = first ? system.view.solver.levels.shortened(step, body) : Real(1);
   system.view.keep_swing(body);
   Real& kept = system.view.least_moment[body];
   const Real before = kept, fading = shortened * max(Real(0), Real(1) - h / kTensionFades);

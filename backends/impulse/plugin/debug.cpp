@@ -1,6 +1,8 @@
 // plumb.debug/1: candidates and trees of the last step's broad phase, the axes along which candidates are apart, and
 // how the solver took what binds the bodies. All is worked out or copied when it is asked for; no step pays.
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 
 #include "plugin/world.hpp"
@@ -133,7 +135,8 @@ PlumbResult World::solved_constraints(std::span<const PlumbDebugConstraint>& con
     const std::uint32_t colour = contact.kept.colour;
     lent_.constraints.push_back({a, b, 0, colour < kOverflow ? static_cast<std::int32_t>(colour) : -1, 0});
   }
-  const std::uint32_t first = simulation_.counters().colour_count;
+  const StepCounters& counters = simulation_.counters();
+  const std::uint32_t first = *std::max_element(std::begin(counters.colour_count), std::end(counters.colour_count));
   for (const SolvedJoint& solved : simulation_.joints.solved()) {
     const JointRecord& joint = joints_.records[solved.slot];
     if (joint.id == 0 || joint.made_after == simulation_.steps()) continue;

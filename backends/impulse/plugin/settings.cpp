@@ -43,7 +43,8 @@ const backend::SettingsTable<Settings>& settings_table() {
       setting<&S::most_substeps>(int_setting(
           "most_substeps", "1", quality, 1, 256, 128,
           "tgs_soft: sub-steps are doubled, up to so many, while loads ask for it: what is much heavier than what it "
-          "lies on, machines under load. No more than substeps: never. Large worlds get fewer")),
+          "lies on, machines under load. Only where it is asked, body by body and what they touch; islands of "
+          "hundreds of contacts and more get fewer. No more than substeps: never")),
       setting<&S::relaxes_once>(choice_setting(
           "relaxation", behaviour, kRelaxations,
           "tgs_soft: when contacts lose the speed that taking back overlap gave them: in each sub-step, or once at "
@@ -109,13 +110,14 @@ SubstepParameters Settings::of_substep(double dt, std::uint32_t parts, double la
   return of;
 }
 
-StepParameters Settings::parameters(double dt, const PlumbVec3& gravity, const ShorterSubsteps& shorter) const {
+StepParameters Settings::parameters(double dt, const PlumbVec3& gravity, const SubstepLevels& levels) const {
   StepParameters step{};
-  static_cast<SubstepParameters&>(step) = shorter.of[0];
+  static_cast<SubstepParameters&>(step) = levels.of[0];
   step.gravity = {static_cast<Real>(gravity.x), static_cast<Real>(gravity.y), static_cast<Real>(gravity.z)};
   step.dt = static_cast<Real>(dt);
   step.max_depenetration_speed = static_cast<Real>(push_speed);
   step.relaxes_once = relaxes_once;
+  step.warm_starting = warm_starting;
   step.sleep_speed = static_cast<Real>(sleep_speed);
   step.sleep_time = static_cast<Real>(sleep_time);
   step.restitution_speed = static_cast<Real>(restitution_speed);
@@ -127,15 +129,19 @@ StepParameters Settings::parameters(double dt, const PlumbVec3& gravity, const S
   return step;
 }
 
-ShorterSubsteps Settings::shorter(double dt, double last_h, double most_rate) const {
-  ShorterSubsteps shorter{};
+SubstepLevels Settings::levels(double dt, double last_h, double most_rate) const {
+  SubstepLevels levels{};
+  std::uint32_t factor = 2;  // larger where few levels would end far below the most
+  while (substeps * factor * factor * factor * factor * 4 <= most_substeps) factor *= 2;
+  static_assert(kSubstepLevels == 5);
   std::uint32_t parts = substeps;
   do {
-    shorter.of[shorter.count++] = of_substep(dt, parts, last_h, most_rate);
-    parts *= 2;
-  } while (shorter.count < ShorterSubsteps::kMost && parts <= most_substeps);
-  shorter.inverse_last_h = static_cast<Real>(last_h == 0 ? 0 : 1 / last_h);
-  return shorter;
+    SubstepParameters& level = levels.of[levels.count];
+    level = of_substep(dt, parts, last_h, most_rate);
+    level.level = levels.count++;
+    parts *= factor;
+  } while (levels.count < kSubstepLevels && parts <= most_substeps);
+  return levels;
 }
 
 }  // namespace plumb::impulse

@@ -30,9 +30,9 @@ struct Settings {
   [[nodiscard]] double substep(double dt, std::uint32_t parts) const;
   /// In what parts a step of dt may be solved, those that are set first. last_h: the sub-step before, 0 when there was
   /// none. most_rate: errors of joints are taken back no faster, 1/s; 0: as fast as is set.
-  [[nodiscard]] ShorterSubsteps shorter(double dt, double last_h, double most_rate = 0) const;
+  [[nodiscard]] SubstepLevels levels(double dt, double last_h, double most_rate = 0) const;
   /// What it works with, in parts of the first kind unless its loads choose others.
-  [[nodiscard]] StepParameters parameters(double dt, const PlumbVec3& gravity, const ShorterSubsteps& shorter) const;
+  [[nodiscard]] StepParameters parameters(double dt, const PlumbVec3& gravity, const SubstepLevels& levels) const;
 
  private:
   [[nodiscard]] SubstepParameters of_substep(double dt, std::uint32_t parts, double last_h, double most_rate) const;

@@ -6,8 +6,8 @@ namespace plumb::impulse {
 
 /// Bits mean the same to every library of this physics and this number type, wherever its kernels run.
 std::string_view World::format() const {
-  return sizeof(Real) == 8 ? "impulse 4, double, physics " PLUMB_IMPULSE_PHYSICS_REVISION_TEXT
-                           : "impulse 4, float, physics " PLUMB_IMPULSE_PHYSICS_REVISION_TEXT;
+  return sizeof(Real) == 8 ? "impulse 5, double, physics " PLUMB_IMPULSE_PHYSICS_REVISION_TEXT
+                           : "impulse 5, float, physics " PLUMB_IMPULSE_PHYSICS_REVISION_TEXT;
 }
 
 PlumbResult World::save(std::span<const std::byte>& data) {
@@ -43,7 +43,6 @@ void World::exchange(Archive& archive) {
   simulation_.exchange(archive, saved.rows);
   archive.value(gravity_);
   archive.value(pacing_.last_h);
-  archive.value(pacing_.load_rate);
   archive.value(pacing_.divides_for);
   archive.value(pacing_.lets_go);
   archive.value(stopped_);

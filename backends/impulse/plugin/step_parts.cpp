@@ -7,9 +7,6 @@ namespace plumb::impulse {
 
 namespace {
 
-/// Loads that come and go would pump, s.
-constexpr double kLoadFades = 1;
-
 /// A part may be divided likewise, so many times over.
 constexpr int kMostDivisions = 2;
 /// Steps are divided from the start for so long after one that made energy: what moves so that whole steps do goes on
@@ -25,14 +22,13 @@ void World::start(double dt, int divided, bool predicts) {
   if (pacing_.parts.any_done) keep_part();
   simulation_.choose(settings_.broad_phase);
   const double most_rate = divided == 0 ? 0 : 1 / pacing_.dt;
-  ShorterSubsteps shorter = settings_.shorter(dt, pacing_.last_h, most_rate);
-  shorter.asked_before = static_cast<Real>(pacing_.load_rate * dt);
-  StepParameters parameters = settings_.parameters(dt, gravity_, shorter);
+  const SubstepLevels levels = settings_.levels(dt, pacing_.last_h, most_rate);
+  StepParameters parameters = settings_.parameters(dt, gravity_, levels);
   parameters.may_be_taken_back = divided < kMostDivisions;
   parameters.predicts_rows = predicts;
   parameters.is_later_part = pacing_.parts.any_done;
   parameters.lets_go = pacing_.lets_go && !pacing_.parts.any_done;
-  simulation_.step(parameters, shorter);
+  simulation_.step(parameters, levels);
 }
 
 /// Of the parts of the step the first is under way.
@@ -71,7 +67,6 @@ void World::finish(double dt, int divided) {
   }
   tell(PLUMB_EVENT_SLEEP, simulation_.outcome().fallen_asleep, told_.events);
   pacing_.last_h = settings_.substep(dt, counters.substeps != 0 ? counters.substeps : settings_.substeps);
-  pacing_.load_rate = std::max(counters.asked_substeps / dt, std::max(0.0, 1 - dt / kLoadFades) * pacing_.load_rate);
   pacing_.parts.any_done = true;
 }
 

@@ -154,7 +154,6 @@ class World final : public IPhysicsWorld,
   /// How long the steps are that the simulation takes.
   struct Pacing {
     double last_h = 0, dt = 0;
-    double load_rate = 0;    // sub-steps that loads ask for, 1/s
     double divides_for = 0;  // for so long steps go in parts from the start, s
     bool lets_go = false;    // since the last step the host took away or changed what others may be squeezed by
     Parts parts;

@@ -88,7 +88,8 @@ struct JudgeEnergy {
       team.barrier();
       if (work.counters->let_go != 0) return put_all_back(team);
     }
-    team.each(bodies, [self](std::uint32_t i) { self.islands[i] = IslandEnergy{i, i, 0, 0, 0, 0, 0, false, 1, 0, 0, 0}; });
+    team.each(bodies,
+              [self](std::uint32_t i) { self.islands[i] = IslandEnergy{i, i, 0, 0, 0, 0, 0, false, 1, 0, 0, 0}; });
     team.each(work.counters->manifolds, [self](std::uint32_t row) { self.join_contact(row); });
     team.each(joints, [self](std::uint32_t j) { self.join_joint(j); });
     team.each(bodies, [self](std::uint32_t i) { self.find_root(i); });
@@ -107,7 +108,10 @@ struct JudgeEnergy {
  private:
   PLUMB_DEVICE void put_all_back(Team& team) const {
     const JudgeEnergy self = *this;
-    team.each(work.body_count, [self](std::uint32_t i) { self.put_back(i); });
+    team.each(work.body_count, [self](std::uint32_t i) {
+      self.put_back(i);
+      if (self.work.levels != nullptr) self.work.paces[i] = self.work.levels[i].before;
+    });
     team.each(work.joints.count, [self](std::uint32_t j) { self.put_joint_back(j, true); });
     team.single([self] { self.work.counters->taken_back = 1; });
   }

@@ -75,6 +75,8 @@ struct EnergyWork {
   std::uint32_t body_count, pair_capacity;
   const StepParameters* parameters;
   StepCounters* counters;
+  BodyPace* paces;
+  const BodyLevel* levels;  ///< null: paces are nobody's
 };
 
 class EnergyBound {

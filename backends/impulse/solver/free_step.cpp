@@ -32,12 +32,12 @@ struct StepFreely {
     const std::uint32_t substeps = whole ? 1 : step.substeps;
     const std::uint32_t first = group * kTogether, end = min(body_count, first + kTogether);
     const std::uint32_t first_group = first / kLanes, groups = body_groups(end);
-    for (std::uint32_t i = first; i < end; ++i) begin_body(bodies, solver, step, i);
+    for (std::uint32_t i = first; i < end; ++i) begin_body(bodies, solver, step, step.h, i);
     for (std::uint32_t k = 0; k < substeps; ++k) {
       for (std::uint32_t g = first_group; g < groups; ++g)
-        integrate_velocities(bodies, solver, step, !carries || k == 0, g, body_count);
+        integrate_velocities(bodies, solver, step, !carries || k == 0, {g, body_count});
       for (std::uint32_t g = first_group; g < groups; ++g)
-        integrate_positions(bodies, solver, step, gyroscopic, g, body_count);
+        integrate_positions(bodies, solver, step, gyroscopic, {g, body_count});
     }
     for (std::uint32_t i = first; i < end; ++i)
       if (!finish_body(bodies, solver, i)) atomic_add(&counters->nonfinite, 1U);
@@ -49,7 +49,7 @@ struct StepFreely {
 void Solver::move_freely(Executor& executor, const MovableBodies& all, std::uint32_t body_count,
                          const StepParameters* parameters, StepCounters* counters) {
   executor.run(StepFreely::groups(body_count),
-               StepFreely{all, bodies(all), body_count, parameters, counters, features_.gyroscopic});
+               StepFreely{all, bodies(all, counters), body_count, parameters, counters, features_.gyroscopic});
 }
 
 }  // namespace plumb::impulse

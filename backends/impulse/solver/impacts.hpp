@@ -22,7 +22,7 @@ PLUMB_DEVICE void solve_impacts(Team& team, const SolverStep& on, const StepPara
   team.barrier();  // all have read what the rounds before left
   for (const std::uint32_t end = round + kMostImpactRounds; round < end;) {
     const std::uint32_t now = ++round;
-    for_contacts<kSurfaceVelocity, kMechanisms>(team, on.contacts, on.solver, BodyUse::kImpact,
+    for_contacts<kSurfaceVelocity, kMechanisms>(team, on.contacts, step.level, on.solver, BodyUse::kImpact,
                                                 [=](const auto& row, auto& contact, auto& a, auto& b) {
                                                   if (!solve_impact(contact, a, b, law)) return;
                                                   add_up_impulses(row, contact.impulse);

@@ -218,7 +218,7 @@ struct FindMobility : MobilityWork {
   }
   PLUMB_DEVICE void factor(Team& team, const SystemMechanism& mechanism) const {
     const JointSystem& system = joints.system;
-    const Real h = parameters->h;
+    const Real h = levels->of[joints.system.level(mechanism)].h;
     [[maybe_unused]] const bool predicts = parameters->predicts_rows;
     if constexpr (kJoints == JointCode::kAll) {
       const AxisView view = axis_view(joints);

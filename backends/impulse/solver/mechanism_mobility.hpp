@@ -18,6 +18,7 @@ struct MobilityWork {
   ContactCache cache;
   const Proxy* proxies;
   const StepParameters* parameters;
+  const SubstepLevels* levels;
   const StepCounters* counters;
 };
 

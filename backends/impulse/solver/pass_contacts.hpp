@@ -51,7 +51,7 @@ struct InSequence : SolverStep {
 
   template <class Work>
   PLUMB_DEVICE void for_each_contact(Team& team, const Work& work, BodyUse use = BodyUse::kVelocity) const {
-    for_contacts<kSurfaceVelocity>(team, contacts, solver, use, work);
+    for_contacts<kSurfaceVelocity>(team, contacts, 0, solver, use, work);
   }
 };
 
@@ -66,7 +66,7 @@ struct InParts : SolverStep {
   template <class Work>
   PLUMB_DEVICE void for_each_contact(Team& team, const Work& work, BodyUse /*use*/ = BodyUse::kVelocity) const {
     const InParts self = *this;
-    const std::uint32_t n = counters->first_slot[kColours + 1] / kLanes;
+    const std::uint32_t n = counters->slots / kLanes;
     team.each(contact_loop(n),
               [=](std::uint32_t i) { self.work_on_parts(slot_of(self.contacts.rows, 0, n, i, kLanes), work); });
     team.each(body_count, [=](std::uint32_t i) { self.put_together(i); });

@@ -31,7 +31,7 @@ template <bool kSurfaceVelocity>
 PLUMB_DEVICE void PositionContacts<kSurfaceVelocity>::solve_positions(Team& team, const StepParameters& step) const {
   const bool friction = features.friction;
   for_contacts<kSurfaceVelocity>(
-      team, contacts, solver, BodyUse::kAll, [=](const auto& row, auto& contact, auto& a, auto& b) {
+      team, contacts, 0, solver, BodyUse::kAll, [=](const auto& row, auto& contact, auto& a, auto& b) {
         start_contact_position(contact, a, b, step);
         const auto a_linear = a.linear, a_angular = a.angular, b_linear = b.linear, b_angular = b.angular;
         solve_contact_once(row, contact, a, b, friction);
@@ -43,7 +43,7 @@ PLUMB_DEVICE void PositionContacts<kSurfaceVelocity>::solve_positions(Team& team
 template <bool kSurfaceVelocity>
 PLUMB_DEVICE void PositionContacts<kSurfaceVelocity>::solve_velocities(Team& team) const {
   const bool friction = features.friction;
-  for_contacts<kSurfaceVelocity>(team, contacts, solver, BodyUse::kVelocity,
+  for_contacts<kSurfaceVelocity>(team, contacts, 0, solver, BodyUse::kVelocity,
                                  [=](const auto& row, auto& contact, auto& a, auto& b) {
                                    start_contact_velocity(contact);
                                    solve_contact_once(row, contact, a, b, friction);

@@ -9,14 +9,16 @@ namespace plumb::impulse {
 /// kImpacts: something may bounce.
 template <bool kSurfaceVelocity, bool kMechanisms, bool kImpacts>
 struct SoftContacts : SolverStep {
-  PLUMB_DEVICE void warm_start_contacts(Team& team) const;
+  /// What other levels have seen come is no matter.
+  PLUMB_DEVICE void forget_strikes(Team& team) const;
+  PLUMB_DEVICE void warm_start_contacts(Team& team, const StepParameters& step) const;
   /// Throws back what strikes in a sub-step, where the one before has seen it come. round: counts those of a step.
   PLUMB_DEVICE void bounce_contacts(Team& team, const StepParameters& step, std::uint32_t substep,
                                     std::uint32_t& round) const;
   /// Takes overlap back, softly. final: no relaxing pass follows in this sub-step.
   PLUMB_DEVICE void push_contacts(Team& team, const StepParameters& step, std::uint32_t substep, bool final) const;
   /// After the positions have moved: nothing that touches approaches, and what was pushed does not stay as velocity.
-  PLUMB_DEVICE void relax_contacts(Team& team) const;
+  PLUMB_DEVICE void relax_contacts(Team& team, const StepParameters& step) const;
 };
 
 /// Friction below the centre tilts a body: the normals have the first word and the last.
@@ -39,8 +41,17 @@ PLUMB_HD void close_pushed(Contact<P, N>& contact) {
 }
 
 template <bool kSurfaceVelocity, bool kMechanisms, bool kImpacts>
-PLUMB_DEVICE void SoftContacts<kSurfaceVelocity, kMechanisms, kImpacts>::warm_start_contacts(Team& team) const {
-  for_contacts(team, contacts, solver, BodyUse::kVelocity,
+PLUMB_DEVICE void SoftContacts<kSurfaceVelocity, kMechanisms, kImpacts>::forget_strikes(Team& team) const {
+  if constexpr (kImpacts) {
+    std::uint32_t* const about_to_strike = counters->about_to_strike;
+    team.single([=] { about_to_strike[0] = about_to_strike[1] = 0; });
+  }
+}
+
+template <bool kSurfaceVelocity, bool kMechanisms, bool kImpacts>
+PLUMB_DEVICE void SoftContacts<kSurfaceVelocity, kMechanisms, kImpacts>::warm_start_contacts(
+    Team& team, const StepParameters& step) const {
+  for_contacts(team, contacts, step.level, solver, BodyUse::kVelocity,
                [](const auto& /*row*/, const auto& contact, auto& a, auto& b) { warm_start_contact(contact, a, b); });
 }
 
@@ -68,7 +79,7 @@ PLUMB_DEVICE void SoftContacts<kSurfaceVelocity, kMechanisms, kImpacts>::push_co
   std::uint32_t* about_to_strike = &counters->about_to_strike[substep % 2];
   const bool mechanisms = kMechanisms && solver.mechanisms.count != 0;
   const BodyUse use = final ? BodyUse::kLastVelocityWhereMoved : BodyUse::kVelocityWhereMoved;
-  for_contacts<kSurfaceVelocity, kMechanisms>(team, contacts, solver, use,
+  for_contacts<kSurfaceVelocity, kMechanisms>(team, contacts, step.level, solver, use,
                                               [=](const auto& row, auto& contact, auto& a, auto& b) {
                                                 contact.noted = contact.impulse[0];
                                                 if (mechanisms) store_noted(row, contact);
@@ -83,9 +94,10 @@ PLUMB_DEVICE void SoftContacts<kSurfaceVelocity, kMechanisms, kImpacts>::push_co
 }
 
 template <bool kSurfaceVelocity, bool kMechanisms, bool kImpacts>
-PLUMB_DEVICE void SoftContacts<kSurfaceVelocity, kMechanisms, kImpacts>::relax_contacts(Team& team) const {
+PLUMB_DEVICE void SoftContacts<kSurfaceVelocity, kMechanisms, kImpacts>::relax_contacts(
+    Team& team, const StepParameters& step) const {
   const bool friction = features.friction;
-  for_contacts<kSurfaceVelocity, kMechanisms>(team, contacts, solver, BodyUse::kLastVelocity,
+  for_contacts<kSurfaceVelocity, kMechanisms>(team, contacts, step.level, solver, BodyUse::kLastVelocity,
                                               [=](const auto& row, auto& contact, auto& a, auto& b) {
                                                 solve_contact_softly(contact, hard_target(contact), a, b, friction);
                                                 store_impulses(row, contact);

@@ -16,12 +16,24 @@ struct StepSoftly : SoftContacts<kSurfaceVelocity, !Executor::kWarps || kJoints 
 
   PLUMB_DEVICE void operator()(Team& team) const {
     if (this->must_repeat()) return;
-    const StepParameters step = *this->parameters;
+    StepParameters step = *this->parameters;
     std::uint32_t round = 0;  // of impacts
+    for (std::uint32_t level = 0; level == 0 || level < this->counters->levels; ++level) {
+      if (this->is_empty(level)) continue;
+      static_cast<SubstepParameters&>(step) = this->levels->of[level];
+      step_level(team, step, round);
+    }
+    this->finish(team);
+  }
+
+ private:
+  /// The islands that have sub-steps of one length.
+  PLUMB_DEVICE void step_level(Team& team, const StepParameters& step, std::uint32_t& round) const {
+    if (step.level != 0) this->forget_strikes(team);
     for (std::uint32_t k = 0; k < step.substeps; ++k) {
       const bool first = k == 0;
       this->accelerate_bodies(team, step, first);
-      if (first && features.collision) this->warm_start_contacts(team);
+      if (first && features.collision) this->warm_start_contacts(team, step);
       if constexpr (kJoints == JointCode::kPlain) {
         warm_start_mechanisms(team, joints, first, step);
         solve_mechanisms(team, joints, step, true);
@@ -32,43 +44,45 @@ struct StepSoftly : SoftContacts<kSurfaceVelocity, !Executor::kWarps || kJoints 
       }
       const bool relaxes = !step.relaxes_once || k + 1 == step.substeps;
       if (features.collision) {
-        begin_loads(team);
+        begin_loads(team, step);
         this->bounce_contacts(team, step, k, round);
         this->push_contacts(team, step, k, !relaxes);
-        end_loads(team);
+        end_loads(team, step);
       }
       this->move_bodies(team, step);
-      if (features.collision) hand_over_loads(team);
+      if (features.collision) hand_over_loads(team, step);
       hold_speeds(team, step);
       if (!relaxes || !features.collision) continue;
-      begin_loads(team);
-      this->relax_contacts(team);
+      begin_loads(team, step);
+      this->relax_contacts(team, step);
       if (k + 1 == step.substeps) continue;
-      end_loads(team);
-      hand_over_loads(team);
+      end_loads(team, step);
+      hand_over_loads(team, step);
     }
-    this->finish(team);
   }
-
- private:
   PLUMB_DEVICE void hold_speeds(Team& team, const StepParameters& step) const {
     if constexpr (kJoints == JointCode::kPlain) solve_mechanisms(team, joints, step, false);
     if constexpr (kJoints == JointCode::kAll)
       solve_axes(team, joints, step, RowPass::kSpeeds, features.collision, true);
   }
   /// Contacts are about to push mechanisms as a whole.
-  PLUMB_DEVICE void begin_loads(Team& team) const {
-    if constexpr (kJoints != JointCode::kContacts)
-      team.each(solver.mechanisms.count, [&](std::uint32_t place) { begin_load(solver, place); });
+  PLUMB_DEVICE void begin_loads(Team& team, const StepParameters& step) const {
+    each_place(team, step, [&](std::uint32_t place) { begin_load(solver, place); });
   }
-  PLUMB_DEVICE void end_loads(Team& team) const {
-    if constexpr (kJoints != JointCode::kContacts)
-      team.each(solver.mechanisms.count, [&](std::uint32_t place) { end_load(solver, place); });
+  PLUMB_DEVICE void end_loads(Team& team, const StepParameters& step) const {
+    each_place(team, step, [&](std::uint32_t place) { end_load(solver, place); });
   }
   /// The joints have yet to pass on what contacts did.
-  PLUMB_DEVICE void hand_over_loads(Team& team) const {
+  PLUMB_DEVICE void hand_over_loads(Team& team, const StepParameters& step) const {
+    each_place(team, step, [&](std::uint32_t place) { hand_over_load(solver, place); });
+  }
+  /// f(place) for the bodies of mechanisms.
+  template <class F>
+  PLUMB_DEVICE void each_place(Team& team, const StepParameters& step, const F& f) const {
     if constexpr (kJoints != JointCode::kContacts)
-      team.each(solver.mechanisms.count, [&](std::uint32_t place) { hand_over_load(solver, place); });
+      team.each(solver.mechanisms.count, [&](std::uint32_t place) {
+        if (solver.levels(solver.mechanisms.bodies[place].body) == step.level) f(place);
+      });
   }
 };
 

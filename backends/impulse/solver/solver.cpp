@@ -1,8 +1,7 @@
 #include "solver/solver.hpp"
 
-#include "bodies/motion.hpp"
+#include "bodies/motion_lanes.hpp"
 #include "contacts/prepare_contacts.hpp"
-#include "solver/choose_substeps.hpp"
 #include "solver/enqueue_step.hpp"
 #include "solver/mechanism_mobility.hpp"
 
@@ -14,7 +13,10 @@ struct BeginBody {
   Bodies bodies;
   SolverBodies solver;
   const StepParameters* parameters;
-  PLUMB_HD void operator()(std::uint32_t i) const { begin_body(bodies, solver, *parameters, i); }
+  const SubstepLevels* levels;
+  PLUMB_HD void operator()(std::uint32_t i) const {
+    begin_body(bodies, solver, *parameters, levels->of[solver.levels(i)].h, i);
+  }
 };
 
 }  // namespace
@@ -26,6 +28,11 @@ void Solver::reserve(Executor& /*executor*/, std::uint32_t bodies, std::uint32_t
   inertia_.grow(bodies);
   free_velocity_.grow(bodies);
   forces_.grow(bodies);
+  paces_.grow(bodies);
+  body_levels_.grow(bodies);
+  loads_.grow(bodies);
+  most_groups_ = body_groups(bodies);
+  body_groups_.grow(std::size_t{kSubstepLevels} * most_groups_);
   for (Buffer<std::uint32_t>* buffer : {&body_a_, &body_b_, &count_, &row_}) buffer->grow(slots_ + 1);
   const std::size_t padded = std::size_t{slots_ / kRowBlock + 1} * kRowBlock;
   numbers_.grow(padded * kAllFields);
@@ -44,16 +51,20 @@ void Solver::choose(SolverKind kind) {
 }
 
 void Solver::begin(Executor& executor, const MovableBodies& all, std::uint32_t body_count,
-                   const StepParameters* parameters) {
-  executor.run(body_count, BeginBody{all, bodies(all), parameters});
+                   const StepParameters* parameters, const SubstepLevels* levels, const StepCounters* counters) {
+  executor.run(body_count, BeginBody{all, bodies(all, counters), parameters, levels});
 }
 
-void Solver::choose_substeps(Executor& executor, const ContactCache& cache, const Bodies& all, const Proxies& proxies,
-                             const ShorterSubsteps* shorter, StepParameters* parameters, StepCounters* counters) {
-  if (kind_ != SolverKind::kTgsSoft || !features_.collision) return;
-  const LoadWork work = {cache, all, proxies, mechanisms_, shorter, parameters, counters};
-  executor.run(Count{&counters->manifolds, slots_ - slots_for(0)}, AskForContact{work});
-  executor.run(1U, ChooseSubsteps{work});
+void Solver::choose_substeps(Executor& executor, const ContactCache& cache, const MovableBodies& all,
+                             std::uint32_t body_count, const Proxies& proxies, JointStore& joints,
+                             const SubstepLevels* levels, const StepParameters* parameters, StepCounters* counters,
+                             std::uint32_t pair_capacity) {
+  if (!has_levels()) return;
+  enqueue_levels(
+      executor,
+      {cache, all, proxies, mechanisms_, joints.device(), joints.count(), body_count, pair_capacity, levels, parameters,
+       counters, paces_.data(), body_levels_.data(), loads_.data(), body_groups_.data(), most_groups_},
+      {&counters->manifolds, pair_capacity});
 }
 
 const Mechanisms& Solver::take_mechanisms(JointStore& joints) {
@@ -62,24 +73,25 @@ const Mechanisms& Solver::take_mechanisms(JointStore& joints) {
 }
 
 void Solver::find_mobility(Executor& executor, const ContactCache& cache, const MovableBodies& all,
-                           const Proxies& proxies, const StepParameters* parameters, const StepCounters* counters,
-                           JointStore& joints) {
-  enqueue_mobility(
-      executor, joints.code(),
-      {joint_set(all, joints), mechanisms_, joints.mobility_scratch(), cache, proxies.rows, parameters, counters},
-      {&counters->manifolds, slots_});
+                           const Proxies& proxies, const StepParameters* parameters, const SubstepLevels* levels,
+                           const StepCounters* counters, JointStore& joints) {
+  enqueue_mobility(executor, joints.code(),
+                   {joint_set(all, counters, joints), mechanisms_, joints.mobility_scratch(), cache, proxies.rows,
+                    parameters, levels, counters},
+                   {&counters->manifolds, slots_});
 }
 
 void Solver::prepare(Executor& executor, const ContactCache& cache, const MovableBodies& all, const Proxies& proxies,
                      const Colouring& colouring, const Real* impacts, const StepParameters* parameters,
-                     StepCounters* counters) {
-  const Count slots = {&counters->first_slot[kColours + 1], slots_};
+                     const SubstepLevels* levels, StepCounters* counters) {
+  const Count slots = {&counters->slots, slots_};
   const bool split = kind_ == SolverKind::kJacobi;
   if (split) split_.list(executor, cache, all.velocity, proxies.rows, counters);
   const auto prepare = [&]<bool kImpacts, bool kMechanisms>() {
-    executor.run(slots, PrepareContacts<kImpacts, kMechanisms>{
-                            cache, all, proxies, bodies(all), rows(), counters, colouring.order(), colouring.masks(),
-                            parameters, sentinel_, split ? split_.parts().ranges : nullptr, impacts});
+    executor.run(slots,
+                 PrepareContacts<kImpacts, kMechanisms>{cache, all, proxies, bodies(all, counters), rows(), counters,
+                                                        colouring.order(), colouring.masks(), parameters, levels,
+                                                        sentinel_, split ? split_.parts().ranges : nullptr, impacts});
   };
   const bool whole = mechanisms_.count != 0;
   if (impacts == nullptr)
@@ -89,12 +101,21 @@ void Solver::prepare(Executor& executor, const ContactCache& cache, const Movabl
 }
 
 void Solver::solve(Executor& executor, const MovableBodies& all, std::uint32_t body_count,
-                   const StepParameters* parameters, StepCounters* counters, std::uint32_t pair_capacity,
-                   JointStore& joints) {
+                   const StepParameters* parameters, const SubstepLevels* levels, StepCounters* counters,
+                   std::uint32_t pair_capacity, JointStore& joints) {
   const Count load = {&counters->longest_loop, contact_loop(slots_)};
-  const SolverStep step = {all,        bodies(all),   {rows(), counters, features_.surface_velocity, parameters},
-                           body_count, features_,     parameters,
-                           counters,   pair_capacity, joint_set(all, joints)};
+  const SolverStep step = {all,
+                           bodies(all, counters),
+                           {rows(), counters, features_.surface_velocity, parameters, levels},
+                           body_count,
+                           features_,
+                           parameters,
+                           counters,
+                           pair_capacity,
+                           joint_set(all, counters, joints),
+                           levels,
+                           body_groups_.data(),
+                           most_groups_};
   const std::uint32_t least = max(body_count / 2, step.joints.system.small_count * Executor::kGroupThreads);
   const StepWork work = {step, pass_changes_.data(), split_.parts(), kind_, load, least};
   if constexpr (Executor::kWarps) {
@@ -108,7 +129,7 @@ void Solver::solve(Executor& executor, const MovableBodies& all, std::uint32_t b
 }
 
 void Solver::keep_impulses(Executor& executor, const ContactCache& cache, StepCounters* counters) {
-  executor.run(Count{&counters->first_slot[kColours + 1], slots_}, KeepImpulses{cache, rows(), step_impulses()});
+  executor.run(Count{&counters->slots, slots_}, KeepImpulses{cache, rows(), step_impulses()});
 }
 
 }  // namespace plumb::impulse

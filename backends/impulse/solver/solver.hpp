@@ -13,6 +13,7 @@
 #include "exec/memory.hpp"
 #include "joints/joint_store.hpp"
 #include "narrowphase/contact_cache.hpp"
+#include "solver/choose_substeps.hpp"
 #include "solver/pass_change.hpp"
 
 namespace plumb::impulse {
@@ -35,28 +36,40 @@ class Solver {
   void move_freely(Executor& executor, const MovableBodies& bodies, std::uint32_t body_count,
                    const StepParameters* parameters, StepCounters* counters);
 
-  /// How many sub-steps the step has, by what its contacts bear.
-  void choose_substeps(Executor& executor, const ContactCache& cache, const Bodies& bodies, const Proxies& proxies,
-                       const ShorterSubsteps* shorter, StepParameters* parameters, StepCounters* counters);
+  /// How many sub-steps each island has, by what its contacts bear.
+  void choose_substeps(Executor& executor, const ContactCache& cache, const MovableBodies& bodies,
+                       std::uint32_t body_count, const Proxies& proxies, JointStore& joints,
+                       const SubstepLevels* levels, const StepParameters* parameters, StepCounters* counters,
+                       std::uint32_t pair_capacity);
+  /// What a body has, if bodies have their own.
+  [[nodiscard]] BodyLevels levels(const StepCounters* counters) const {
+    return has_levels() ? BodyLevels(body_levels_.data(), counters) : BodyLevels();
+  }
+  /// From step to step.
+  [[nodiscard]] BodyPace* paces() { return paces_.data(); }
+  [[nodiscard]] const BodyLevel* body_levels() const { return has_levels() ? body_levels_.data() : nullptr; }
+  void exchange(Archive& archive, std::size_t bodies) { archive.rows(paces_, bodies); }
   /// World inertia of all bodies, what forces do to them in a sub-step, no displacement.
   void begin(Executor& executor, const MovableBodies& bodies, std::uint32_t body_count,
-             const StepParameters* parameters);
+             const StepParameters* parameters, const SubstepLevels* levels, const StepCounters* counters);
   /// The mechanisms that contacts push as a whole, as far as this solver does that.
   const Mechanisms& take_mechanisms(JointStore& joints);
   /// Of those that touch something.
   void find_mobility(Executor& executor, const ContactCache& cache, const MovableBodies& bodies, const Proxies& proxies,
-                     const StepParameters* parameters, const StepCounters* counters, JointStore& joints);
+                     const StepParameters* parameters, const SubstepLevels* levels, const StepCounters* counters,
+                     JointStore& joints);
   /// Contacts into rows, in the order of their colours. impacts: Impacts::times(), or null.
   void prepare(Executor& executor, const ContactCache& cache, const MovableBodies& bodies, const Proxies& proxies,
                const Colouring& colouring, const Real* impacts, const StepParameters* parameters,
-               StepCounters* counters);
+               const SubstepLevels* levels, StepCounters* counters);
   /// The joints with what their kernels work on.
-  [[nodiscard]] JointSet joint_set(const MovableBodies& all, JointStore& joints) {
-    return joints.set(all, bodies(all), features_.gyroscopic);
+  [[nodiscard]] JointSet joint_set(const MovableBodies& all, const StepCounters* counters, JointStore& joints) {
+    return joints.set(all, bodies(all, counters), features_.gyroscopic);
   }
   /// Moves the bodies through the step.
   void solve(Executor& executor, const MovableBodies& bodies, std::uint32_t body_count,
-             const StepParameters* parameters, StepCounters* counters, std::uint32_t pair_capacity, JointStore& joints);
+             const StepParameters* parameters, const SubstepLevels* levels, StepCounters* counters,
+             std::uint32_t pair_capacity, JointStore& joints);
   void keep_impulses(Executor& executor, const ContactCache& cache, StepCounters* counters);
 
   /// How far bodies moved in the last step, by body.
@@ -70,19 +83,25 @@ class Solver {
   }
 
  private:
-  SolverBodies bodies(const MovableBodies& bodies) {
+  SolverBodies bodies(const MovableBodies& bodies, const StepCounters* counters) {
     return {bodies.velocity, displacement_.data(), inertia_.data(), free_velocity_.data(),
-            forces_.data(),  features_.gyroscopic, mechanisms_};
+            forces_.data(),  features_.gyroscopic, mechanisms_,     levels(counters)};
   }
+  /// Others than this one have the same sub-steps for all.
+  [[nodiscard]] bool has_levels() const { return kind_ == SolverKind::kTgsSoft && features_.collision; }
 
   SolverFeatures features_;
   SolverKind kind_ = SolverKind::kTgsSoft;
   Mechanisms mechanisms_{};  // of the step that is being enqueued
-  std::uint32_t slots_ = 0, sentinel_ = 0;
+  std::uint32_t slots_ = 0, sentinel_ = 0, most_groups_ = 0;
   Buffer<Displacement> displacement_;
   Buffer<WorldInertia> inertia_;
   Buffer<FreeVelocity> free_velocity_;
   Buffer<SubstepForces> forces_;
+  Buffer<BodyPace> paces_;
+  Buffer<BodyLevel> body_levels_;
+  Buffer<IslandLoad> loads_;
+  Buffer<std::uint32_t> body_groups_;  // as of LoadWork
   Buffer<std::uint32_t> body_a_, body_b_, count_, row_;
   Buffer<Real> numbers_;
   Buffer<ContactTurns> turns_;  // on a GPU

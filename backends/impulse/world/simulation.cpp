@@ -5,7 +5,6 @@
 
 #include "bodies/proxy_bounds.hpp"
 #include "plumb/assert.hpp"
-#include "solver/choose_substeps.hpp"
 
 namespace plumb::impulse {
 
@@ -17,7 +16,7 @@ constexpr std::uint32_t kLeastPairs = 1024;
 
 Simulation::Numbers::Numbers() {
   parameters.grow(1);
-  shorter.grow(1);
+  levels.grow(1);
   of_statics.grow(1);
   counters.grow(1);
 }
@@ -120,7 +119,6 @@ void Simulation::upload_changes() {
     recorder_.forget();
   }
   StepParameters& parameters = numbers_.parameters[0];
-  numbers_.shorter[0].work_of_joints = kWorkOfJoint * joints.count();
   if (joints.count() != 0 && parameters.solver == SolverKind::kTgsSoft)
     stages_.energy_bound.reserve(bodies.size(), joints.count());
   exclusions.upload();
@@ -130,7 +128,7 @@ void Simulation::upload_changes() {
   }
   parameters.origin = origin_.place();
   executor_.to_device(numbers_.parameters, 1);
-  executor_.to_device(numbers_.shorter, 1);
+  executor_.to_device(numbers_.levels, 1);
   if (dirty_.statics) bound_statics();
 }
 
@@ -175,10 +173,10 @@ StepInput Simulation::input() {
           recorder_.generation()};
 }
 
-void Simulation::step(const StepParameters& parameters, const ShorterSubsteps& shorter) {
+void Simulation::step(const StepParameters& parameters, const SubstepLevels& levels) {
   if (parameters.solver != numbers_.parameters[0].solver) stages_.solver.choose(parameters.solver);
   numbers_.parameters[0] = parameters;
-  numbers_.shorter[0] = shorter;
+  numbers_.levels[0] = levels;
   numbers_.parameters[0].step = ++step_;
   outcome_ = {};
   launch();
@@ -193,7 +191,7 @@ void Simulation::launch() {
   const StepInput known = input();
   executor_.record(recorder_.recording(step_, known), [&] {
     enqueue_step({known, executor_, stages_, joints, sleep_, output_, numbers_.parameters.device(),
-                  numbers_.shorter.device(), numbers_.counters, stages_.solver.take_mechanisms(joints),
+                  numbers_.levels.device(), numbers_.counters, stages_.solver.take_mechanisms(joints),
                   narrow_phase.cache(step_), narrow_phase.cache(step_ + 1)});
   });
   bodies.state.stepped();
@@ -280,6 +278,7 @@ void Simulation::exchange(Archive& archive, const Extent& extent) {
   bodies.state.exchange(archive, extent.bodies);
   stages_.narrow_phase.exchange(archive, step_, extent.proxies, counters(), extent.uses_midphase != 0);
   joints.exchange(archive, extent.joints);
+  stages_.solver.exchange(archive, extent.bodies);
   if (stages_.features.sleeping) sleep_.exchange(archive, extent.bodies, bodies.mass);
   if (!archive.reads()) return;
   dirty_.lists = restored_ = true;

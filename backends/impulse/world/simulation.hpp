@@ -78,7 +78,7 @@ class Simulation {
   void choose(BroadPhase::Method method);
   [[nodiscard]] const BroadPhase& broad_phase() const { return stages_.broad_phase; }
   /// Enqueues a step. parameters.step and .origin are filled in here.
-  void step(const StepParameters& parameters, const ShorterSubsteps& shorter);
+  void step(const StepParameters& parameters, const SubstepLevels& levels);
   /// Returns when the step is done; grows what was too small and repeats the step then.
   void wait();
 
@@ -128,7 +128,7 @@ class Simulation {
   struct Numbers {
     Numbers();
     Mirror<StepParameters> parameters;
-    Mirror<ShorterSubsteps> shorter;
+    Mirror<SubstepLevels> levels;
     Mirror<StepParameters> of_statics;  // with which the statics were bounded
     Mirror<StepCounters> counters;
   };

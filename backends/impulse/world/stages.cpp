@@ -85,32 +85,33 @@ void match(const StepContext& step) {
     step.sleep.find_touched(step.executor, step.now, step.pair_capacity, step.bodies, step.proxies, step.counters);
 }
 
+void choose_substeps(const StepContext& step) {
+  step.stages.solver.choose_substeps(step.executor, step.now, step.movable, step.body_rows, step.proxies, step.joints,
+                                     step.levels, step.parameters, step.counters, step.pair_capacity);
+}
+
 void colour(const StepContext& step) {
   Colouring& colouring = step.stages.colouring;
   if (step.stages.solver.needs_colours())
-    colouring.colour(step.executor, step.now, step.bodies.velocity, step.proxies.rows, step.mechanisms, step.counters);
+    colouring.colour(step.executor, step.now, step.bodies.velocity, step.proxies.rows, step.mechanisms,
+                     step.stages.solver.levels(step.counters), step.counters);
   else
     colouring.leave_out(step.executor, step.counters);
 }
 
-void choose_substeps(const StepContext& step) {
-  step.stages.solver.choose_substeps(step.executor, step.now, step.bodies, step.proxies, step.shorter, step.parameters,
-                                     step.counters);
-}
-
 void prepare(const StepContext& step) {
   Stages& of = step.stages;
-  of.solver.begin(step.executor, step.movable, step.body_rows, step.parameters);
+  of.solver.begin(step.executor, step.movable, step.body_rows, step.parameters, step.levels, step.counters);
   if (!step.collides()) return;
   if (step.mechanisms.count != 0)
-    of.solver.find_mobility(step.executor, step.now, step.movable, step.proxies, step.parameters, step.counters,
-                            step.joints);
+    of.solver.find_mobility(step.executor, step.now, step.movable, step.proxies, step.parameters, step.levels,
+                            step.counters, step.joints);
   of.solver.prepare(step.executor, step.now, step.movable, step.proxies, of.colouring,
-                    step.finds_impacts() ? of.impacts.times() : nullptr, step.parameters, step.counters);
+                    step.finds_impacts() ? of.impacts.times() : nullptr, step.parameters, step.levels, step.counters);
   if (step.surface_velocities != nullptr)
     put_surface_speeds(step.executor,
                        {step.now, step.bodies, step.proxies, step.surface_velocities, of.colouring.order(),
-                        of.colouring.colours(), of.solver.rows(), step.counters},
+                        of.colouring.keys(), of.solver.rows(), step.counters},
                        step.pair_capacity);
 }
 
@@ -119,7 +120,7 @@ void keep_state(const StepContext& step) {
 }
 
 void solve(const StepContext& step) {
-  step.stages.solver.solve(step.executor, step.movable, step.body_rows, step.parameters, step.counters,
+  step.stages.solver.solve(step.executor, step.movable, step.body_rows, step.parameters, step.levels, step.counters,
                            step.pair_capacity, step.joints);
 }
 

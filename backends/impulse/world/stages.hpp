@@ -24,11 +24,11 @@ void collide(const StepContext& step);
 void find_impacts(const StepContext& step);
 /// Numbers the manifolds, and gives each the impulses of the last step. Sleepers that are touched are found.
 void match(const StepContext& step);
+/// How many sub-steps each island has, by what its contacts bear.
+void choose_substeps(const StepContext& step);
 /// No two manifolds of a colour push the same body.
 void colour(const StepContext& step);
 
-/// How many sub-steps the step has, by what its contacts and joints bear.
-void choose_substeps(const StepContext& step);
 /// Rows for the solver.
 void prepare(const StepContext& step);
 /// The state to which a step that makes energy is taken back.

@@ -18,12 +18,12 @@ void enqueue_step(const StepContext& step) {
     validate_manifolds(step);
     end_phase(step, PLUMB_PHASE_NARROW);
 
+    choose_substeps(step);
     colour(step);
     validate_colours(step);
     end_phase(step, PLUMB_PHASE_ISLANDS);
   }
   if (step.collides() || step.has_joints()) {
-    choose_substeps(step);
     prepare(step);
     keep_state(step);
     solve(step);

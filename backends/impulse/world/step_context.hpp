@@ -75,7 +75,7 @@ struct StepContext : StepInput {
   Sleep& sleep;
   OutputRows& output;
   StepParameters* parameters;
-  const ShorterSubsteps* shorter;
+  const SubstepLevels* levels;
   Mirror<StepCounters>& counted;
   Mechanisms mechanisms;   ///< that contacts push as a whole
   ContactCache now, last;  ///< contacts of this step, and of the last one
@@ -90,8 +90,18 @@ struct StepContext : StepInput {
   /// Of the narrow phase.
   [[nodiscard]] Count candidates() const { return stages.narrow_phase.candidates(counters); }
   [[nodiscard]] EnergyWork energy_work() const {
-    return {now,           proxies,   surface_velocities, movable,    stages.solver.joint_set(movable, joints),
-            joints.code(), body_rows, pair_capacity,      parameters, counters};
+    return {now,
+            proxies,
+            surface_velocities,
+            movable,
+            stages.solver.joint_set(movable, counters, joints),
+            joints.code(),
+            body_rows,
+            pair_capacity,
+            parameters,
+            counters,
+            stages.solver.paces(),
+            stages.solver.body_levels()};
   }
 };
 

@@ -40,7 +40,11 @@ struct ColouringRig {
       for (const std::uint32_t body : {pairs[i].a, pairs[i].b})
         if (velocities[body].inverse_mass > 0) colouring.masks()[body] |= std::uint64_t{1} << kept[i].colour;
     }
-    colouring.colour(executor, cache, velocities.data(), proxies.data(), Mechanisms{}, counters.data());
+    std::uint32_t used = 0;
+    for (const BodyLevel& level : levels) used = std::max(used, level.level + 1);
+    counters[0].levels = used;
+    colouring.colour(executor, cache, velocities.data(), proxies.data(), Mechanisms{},
+                     levels.empty() ? BodyLevels() : BodyLevels(levels.data(), counters.data()), counters.data());
   }
 
   /// No body twice in a colour, every manifold once in the order, colours one after the other, whole groups of slots.
@@ -52,9 +56,10 @@ struct ColouringRig {
       ASSERT_LT(row, kept.size());
       ++seen[row];
       ASSERT_LE(colour, kOverflow);
-      ASSERT_EQ(colouring.colours()[j], colour);
-      ASSERT_GE(j, counters[0].first_in_colour[colour]);
-      ASSERT_LT(j, counters[0].first_in_colour[colour + 1]);
+      const std::uint32_t key = colour_key(level_of(row), colour);
+      ASSERT_EQ(colouring.keys()[j], key);
+      ASSERT_GE(j, counters[0].first_in_colour[key]);
+      ASSERT_LT(j, counters[0].first_in_colour[key + 1]);
       if (colour == kOverflow) continue;
       for (const std::uint32_t body : {pairs[row].a, pairs[row].b})
         if (velocities[body].inverse_mass > 0) {
@@ -65,11 +70,17 @@ struct ColouringRig {
     for (std::uint32_t body = 0; body < velocities.size(); ++body)  // whoever waits for a colour must not do so in vain
       for (std::uint32_t colour = 0; colour < kColours; ++colour)
         EXPECT_EQ(colouring.masks()[body] >> colour & 1U, pushed.count({colour, body}));
-    for (std::uint32_t colour = 0; colour <= kOverflow; ++colour) {
-      const std::uint32_t size = counters[0].first_in_colour[colour + 1] - counters[0].first_in_colour[colour];
-      EXPECT_EQ(counters[0].first_slot[colour] % kLaneGroup, 0U);
-      EXPECT_GE(counters[0].first_slot[colour + 1] - counters[0].first_slot[colour], size);
+    for (std::uint32_t key = 0; key < colour_key(counters[0].levels, 0); ++key) {
+      const std::uint32_t size = counters[0].first_in_colour[key + 1] - counters[0].first_in_colour[key];
+      EXPECT_EQ(counters[0].first_slot[key] % kLaneGroup, 0U);
+      EXPECT_GE(counters[0].first_slot[key + 1] - counters[0].first_slot[key], size);
     }
+    EXPECT_EQ(counters[0].slots, counters[0].first_slot[colour_key(counters[0].levels, 0)]);
+  }
+  /// Of sub-steps, of a manifold.
+  [[nodiscard]] std::uint32_t level_of(std::uint32_t row) const {
+    const auto [a, b] = pairs[row];
+    return levels.empty() ? 0 : levels[velocities[a].inverse_mass > 0 ? a : b].level;
   }
   [[nodiscard]] std::vector<std::uint32_t> colours() const {
     std::vector<std::uint32_t> all;
@@ -84,6 +95,7 @@ struct ColouringRig {
   std::vector<Proxy> proxies;
   std::vector<std::uint32_t> candidates;
   std::vector<CachedManifold> kept;
+  std::vector<BodyLevel> levels;  // where bodies have their own
   std::vector<StepCounters> counters;
 };
 
@@ -140,7 +152,23 @@ TEST(Colouring, WhatCannotBePushedIsSharedByAll) {
   ColouringRig rig(201, 1, on_the_ground);
   rig.colour();
   rig.check();
-  EXPECT_EQ(rig.counters[0].colour_count, 1U);
+  EXPECT_EQ(rig.counters[0].colour_count[0], 1U);
+}
+
+/// Contacts of islands that have other sub-steps are apart, each colour of each level by itself.
+TEST(Colouring, LevelsOfSubstepsAreApart) {
+  constexpr std::uint32_t kBodies = 300, kFixed = 5;
+  std::vector<Pair> pairs;
+  for (const Pair& pair : random_pairs(kBodies, kFixed, 3000))
+    if (pair.a < kFixed || pair.a % 3 == pair.b % 3) pairs.push_back(pair);
+  ColouringRig rig(kBodies, kFixed, pairs);
+  for (std::uint32_t body = 0; body < kBodies; ++body)
+    rig.levels.push_back({body < kFixed ? 0 : 2 * (body % 3), 1, {0, body < kFixed ? Real(0) : Real(1)}});
+  rig.colour();
+  rig.check();
+  EXPECT_EQ(rig.counters[0].levels, 5U);
+  EXPECT_EQ(rig.counters[0].colour_count[1], 0U) << "nobody's";
+  EXPECT_GT(rig.counters[0].colour_count[2], 1U);
 }
 
 }  // namespace

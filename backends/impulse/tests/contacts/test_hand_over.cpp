@@ -11,7 +11,7 @@ namespace {
 TEST(HandOver, EachContactAwaitsWhatTheOneBeforeLeaves) {
   std::mt19937_64 random(7);
   for (int round = 0; round < 1000; ++round) {
-    const std::uint64_t colours = round == 0 ? ~std::uint64_t{0} : random() & random();
+    const std::uint64_t colours = (round == 0 ? ~std::uint64_t{0} : random() & random()) >> (64 - kColours);
     int left = 0;
     for (std::uint32_t colour = 0; colour < kColours; ++colour) {
       if ((colours >> colour & 1U) == 0) continue;

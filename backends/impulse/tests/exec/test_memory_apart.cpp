@@ -75,7 +75,7 @@ class Travel : public ::testing::Test {
   }
 
   static constexpr std::uint64_t kBodies = 2000;
-  static constexpr std::uint64_t kIdle = sizeof(StepParameters) + sizeof(ShorterSubsteps);
+  static constexpr std::uint64_t kIdle = sizeof(StepParameters) + sizeof(SubstepLevels);
   World world_;
 };
 

@@ -50,6 +50,27 @@ void machines(Scene& scene) {
   };
 }
 
+void islands(Scene& scene) {
+  scene.container(8, 10);
+  const PlumbShape cube = scene.box({0.5, 0.5, 0.5});
+  Random random(48);
+  for (int i = 0; i < 300; ++i) {
+    const PlumbQuat turn = random.turn();
+    scene.add(cube, {1.3 * (i % 6) - 7, 1.0 + 1.3 * (i / 36), 1.3 * (i / 6 % 6) - 4}, turn);
+  }
+  scene.body.mass_mode = PLUMB_MASS_FROM_TOTAL;
+  for (int i = 0; i < 5; ++i) {
+    constexpr double kRatios[] = {6, 20, 100, 1000, 10000};
+    scene.body.mass = 10;
+    scene.add(cube, {5, 0.5, 2.5 * i - 5});
+    scene.body.mass = 10 * kRatios[i];
+    scene.add(cube, {5.1, 1.5, 2.5 * i - 5});
+  }
+  scene.body.material.restitution = 0.7;
+  scene.body.mass = 5;
+  scene.add(scene.sphere(0.4), {6.9, 4, 0});
+}
+
 void belts(Scene& scene) {
   scene.ground();
   const PlumbShape belt = scene.box({2, 0.2, 0.8});

@@ -13,6 +13,9 @@ void machines(Scene& scene);
 void belts(Scene& scene);
 /// A rope bridge on which people land who are too heavy for whole steps (solver/energy_bound.hpp).
 void heavy_bridge(Scene& scene);
+/// A heap, heavy cubes on light ones, which have sub-steps of their own (solver/choose_substeps.hpp), one of which the
+/// heap meets, and a bouncing ball.
+void islands(Scene& scene);
 /// A tower, a heap, a chain and a sensor, 100 km from the origin.
 void far_off(Scene& scene);
 

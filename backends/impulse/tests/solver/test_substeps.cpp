@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "tests/rigs/engine.hpp"
 
@@ -90,22 +91,78 @@ TEST(SubstepsByLoad, AreThoseOfTheSettingWhereLightBodiesRainOnAHeavyOne) {
   EXPECT_EQ(chooses.scene.hash(), keeps.scene.hash());
 }
 
-/// How far a heavy cube sinks into a light one beside so many cubes on the ground, m.
-double sink_among(Cubes& cubes, int others) {
-  for (int i = 0; i < others; ++i) cubes.add(10, {3.0 + 1.5 * (i % 20), 0.5, 1.5 * (i / 20) - 40});
-  cubes.add(10, {0, 0.5, 0});
-  cubes.add(1000, {0, 1.5, 0});
+/// Cubes in rows of twenty at that height of their centres, from x = 3 on.
+void add_crowd(Cubes& cubes, int count, double height) {
+  for (int i = 0; i < count; ++i) cubes.add(10, {3.0 + 1.5 * (i % 20), height, 1.5 * (i / 20) - 40});
+}
+/// How far a heavy cube sinks into a light one, whose centre is at that height, m.
+double sink_of_heavy(Cubes& cubes, double height) {
+  cubes.add(10, {0, height, 0});
+  cubes.add(1000, {0, height + 1, 0});
   cubes.scene.run(120);
-  return 1.5 - cubes.scene.poses().back().position.y;
+  return height + 1 - cubes.scene.poses().back().position.y;
 }
 
-/// More of them are for all of a world: a large one would take too long.
+/// They are those of an island: a machine does as well in a large world as in a small one.
+TEST(SubstepsByLoad, AreNoMatterOfTheWorldsSize) {
+  Cubes alone, among, keeps;
+  keeps.keep_to_the_setting();
+  const double sink = sink_of_heavy(alone, 0.5);
+  add_crowd(among, 1100, 0.5);
+  EXPECT_NEAR(sink_of_heavy(among, 0.5), sink, 0.01 * sink);
+  EXPECT_LT(sink, 0.6 * sink_of_heavy(keeps, 0.5));
+}
+
+/// What does not touch the loaded goes through the step as if nobody were.
+TEST(SubstepsByLoad, LeaveOtherIslandsTheirs) {
+  Cubes chooses, keeps;
+  keeps.keep_to_the_setting();
+  std::vector<PlumbPose> poses[2];
+  for (Cubes* cubes : {&chooses, &keeps}) {
+    for (int i = 0; i < 6; ++i)
+      for (int k = 0; k < 3; ++k) cubes->add(1 + 3 * ((i + k) % 2), {1.02 * k + 0.1 * i, i + 0.52, 10});
+    sink_of_heavy(*cubes, 0.5);
+    poses[cubes == &keeps] = cubes->scene.poses();
+  }
+  constexpr std::size_t kGroundAndPile = 19;
+  for (std::size_t i = 0; i < poses[0].size(); ++i) {
+    const bool same = std::memcmp(&poses[0][i], &poses[1][i], sizeof(PlumbPose)) == 0;
+    EXPECT_EQ(same, i < kGroundAndPile) << i;
+  }
+}
+
+/// Of islands that differ in what they ask each has its own.
+TEST(SubstepsByLoad, AreEachIslandsOwn) {
+  const double ratios[] = {7, 30, 100, 1000, 10000};
+  Cubes together;
+  for (int k = 0; k < 5; ++k) {
+    together.add(10, {3.0 * k, 0.5, 0});
+    together.add(10 * ratios[k], {3.0 * k, 1.5, 0});
+  }
+  together.scene.run(120);
+  for (int k = 0; k < 5; ++k) {
+    Cubes alone;
+    alone.add(10, {3.0 * k, 0.5, 0});
+    alone.add(10 * ratios[k], {3.0 * k, 1.5, 0});
+    alone.scene.run(120);
+    const double height = alone.scene.poses().back().position.y;
+    EXPECT_NEAR(together.scene.poses()[2 + 2 * k].position.y, height, 1e-5) << ratios[k];
+  }
+}
+
+/// An island of more than a thousand contacts would take too long.
 TEST(SubstepsByLoad, AreThoseOfTheSettingInCrowds) {
   Cubes few, many, keeps;
   keeps.keep_to_the_setting();
-  const double sink = sink_among(keeps, 0);
-  EXPECT_LT(sink_among(few, 20), 0.6 * sink);
-  EXPECT_GT(sink_among(many, 1100), 0.9 * sink);
+  const auto on_a_plate = [](Cubes& cubes, int others) {
+    cubes.scene.body.mass = 1e6;
+    cubes.scene.add(cubes.scene.box({45, 0.5, 45}), {0, 0.5, 0});
+    add_crowd(cubes, others, 1.5);
+    return sink_of_heavy(cubes, 1.5);
+  };
+  const double sink = on_a_plate(keeps, 0);
+  EXPECT_LT(on_a_plate(few, 20), 0.6 * sink);
+  EXPECT_GT(on_a_plate(many, 1100), 0.9 * sink);
 }
 
 /// What loads asked for in the last second is part of a snapshot.

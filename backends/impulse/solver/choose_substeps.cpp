@@ -1,0 +1,213 @@
+#include "solver/choose_substeps.hpp"
+
+#include "bodies/motion_lanes.hpp"
+#include "exec/atomic.hpp"
+#include "exec/union_find.hpp"
+
+namespace plumb::impulse {
+
+namespace {
+
+/// Sub-steps in the time that a load's frequency takes for a radian: between bodies by themselves, and of bodies that
+/// joints hold.
+inline constexpr Real kSubstepsOfContact = 40, kSubstepsOfMechanism = 14;
+/// What weighs no more than so many times as much as the body that bears it asks for nothing, nor does a load no larger
+/// than so many times a body's own weight: piles do well as it is.
+inline constexpr Real kAlikeMasses = 5;
+/// A body presses on another by itself with no more than so many times its weight, with what lies on it: more is a
+/// blow.
+inline constexpr Real kMostWeights = 8;
+/// A contact that asks for so many times the most that there can be would do no better with those, and gets none: the
+/// pebble under the wheel of a truck.
+inline constexpr Real kHopeless = 4;
+/// Sub-steps times contacts of an island beyond which it has no more sub-steps: they are for machines, and not for a
+/// pile of thousands; and of all islands that want so many or more: a crowd of figures does without, and one crane
+/// beside them does not have to. A joint takes as long as so many contacts.
+inline constexpr std::uint32_t kMostWork = 16384, kMostWorkOfAll = 65536, kWorkOfJoint = 8;
+/// What was asked is forgotten within that time, s.
+inline constexpr Real kLoadFades = 1;
+/// What asks for so much more than there is, relative to that, has it.
+inline constexpr Real kAsksEnough = Real(1e-5);
+
+PLUMB_HD inline std::uint32_t bits_of(Real rate) { return __builtin_bit_cast(std::uint32_t, static_cast<float>(rate)); }
+PLUMB_HD inline Real number_of(std::uint32_t bits) { return static_cast<Real>(__builtin_bit_cast(float, bits)); }
+
+struct Parents {
+  IslandLoad* loads;
+  PLUMB_HD std::uint32_t* operator()(std::uint32_t i) const { return &loads[i].parent; }
+};
+
+struct ChooseLevels {
+  LoadWork work;
+
+  PLUMB_DEVICE void operator()(Team& team) const {
+    StepCounters* const counters = work.counters;
+    if (is_undone(*counters, work.pair_capacity)) return;
+    const ChooseLevels self = *this;
+    const std::uint32_t bodies = work.body_count;
+    team.each(bodies, [self](std::uint32_t i) { self.begin(i); });
+    team.each(counters->manifolds, [self](std::uint32_t row) { self.ask_for_contact(row); });
+    team.barrier();
+    if (counters->loaded == 0) {
+      team.single([self] { self.note_levels(0); });
+      return;
+    }
+    team.each(counters->manifolds, [self](std::uint32_t row) { self.join_contact(row); });
+    team.each(work.joint_count, [self](std::uint32_t j) { self.join_joint(j); });
+    team.each(bodies, [self](std::uint32_t i) { self.find_root(i); });
+    team.each(counters->manifolds, [self](std::uint32_t row) { self.add_contact(row); });
+    team.each(work.joint_count, [self](std::uint32_t j) { self.add_joint(j); });
+    team.each(bodies, [self](std::uint32_t i) { self.want(i); });
+    team.each(bodies, [self](std::uint32_t i) { self.choose(i); });
+    team.each(body_groups(bodies), [self](std::uint32_t group) { self.list(group); });
+  }
+
+ private:
+  PLUMB_HD Real substeps(std::uint32_t level) const { return static_cast<Real>(work.levels->of[level].substeps); }
+  PLUMB_HD bool is_pushed(std::uint32_t body) const {
+    return body != kWorld && work.bodies.velocity[body].inverse_mass > 0;
+  }
+
+  PLUMB_HD void begin(std::uint32_t i) const {
+    const BodyPace before = work.paces[i];
+    const bool pushed = is_pushed(i);
+    const Real rate = pushed ? before.load_rate : Real(0);
+    work.loads[i] = {i, i, 0, bits_of(rate), 0, 0};
+    note_asked(rate * work.parameters->dt);
+    if (pushed && before.last_h != work.levels->of[0].h) note(work.counters->other_substeps);
+    put_level(i, 0, before, 0);
+  }
+  PLUMB_HD void note_asked(Real asked) const {
+    if (asked > substeps(0) && work.levels->count > 1) note(work.counters->loaded);
+  }
+  PLUMB_HD static void note(std::uint32_t& flag) {
+    if (flag == 0) atomic_max(&flag, 1U);
+  }
+
+  /// For the contact in a row of the cache: by the force of the last step, or where it is new by the weight that may
+  /// come to rest there.
+  PLUMB_HD void ask_for_contact(std::uint32_t row) const {
+    if (work.levels->count <= 1) return;
+    const Pair pair = work.cache.pairs[work.cache.candidate[row]];
+    const Proxy &a = work.proxies.rows[pair.a], &b = work.proxies.rows[pair.b];
+    const CachedManifold& kept = work.cache.kept[row];
+    const Real downward = dot(work.parameters->gravity, kept.normal);
+    ask(kept, downward, b, a);
+    ask(kept, -downward, a, b);
+  }
+  /// By which two bodies pressed on each other in the last step.
+  PLUMB_HD Real force_of(const CachedManifold& kept, std::uint32_t a, std::uint32_t b) const {
+    Real impulse = 0;
+    for (std::uint32_t p = 0; p < kept.count; ++p) impulse = impulse + kept.normal_impulse[p];
+    const auto last_h = [&](std::uint32_t i) { return is_pushed(i) ? work.body_levels[i].before.last_h : Real(0); };
+    const Real h = max(last_h(a), last_h(b));
+    return h > 0 ? impulse / h : Real(0);
+  }
+  /// Of the force by which one body presses on another. downward: gravity along that way, m/s2.
+  PLUMB_HD void ask(const CachedManifold& kept, Real downward, const Proxy& on, const Proxy& by) const {
+    const Mechanisms& mechanisms = work.mechanisms;
+    const Real own = work.bodies.velocity[on.body].inverse_mass, others = work.bodies.velocity[by.body].inverse_mass;
+    const bool joined = mechanisms.hold(on.body), in_one = joined || mechanisms.hold(by.body);
+    if (!in_one && !(others > 0)) return;  // what lies on the ground is asked where it is loaded
+    const Real lighter = in_one ? own : own - kAlikeMasses * others;
+    if (!(lighter > 0)) return;
+    const Real weight = others > 0 ? max(downward, Real(0)) / others : Real(0);
+    const Real force = force_of(kept, on.body, by.body);
+    Real load = force > 0 ? force : weight;
+    if (!in_one) load = min(load, kMostWeights * weight);
+    load = load - kAlikeMasses * length(work.parameters->gravity) / own;
+    if (!(load > 0)) return;
+    const Real squared = lighter / work.proxies.shapes[on.shape].reach;
+    const Real per_frequency = work.parameters->dt * (joined ? kSubstepsOfMechanism : kSubstepsOfContact);
+    const Real most = substeps(work.levels->count - 1);
+    if (per_frequency * sqrt(max(load, weight) * squared) > kHopeless * most) return;
+    const auto asked = static_cast<std::uint32_t>(min(per_frequency * sqrt(load * squared), most));
+    if (!(static_cast<Real>(asked) > substeps(0))) return;
+    atomic_max(&work.loads[on.body].asked, asked);
+    note_asked(static_cast<Real>(asked));
+  }
+
+  PLUMB_HD void join(std::uint32_t a, std::uint32_t b) const {
+    if (is_pushed(a) && is_pushed(b)) unite(Parents{work.loads}, a, b);
+  }
+  PLUMB_HD void join_contact(std::uint32_t row) const {
+    const Pair pair = work.cache.pairs[work.cache.candidate[row]];
+    join(work.proxies.rows[pair.a].body, work.proxies.rows[pair.b].body);
+  }
+  PLUMB_HD void join_joint(std::uint32_t j) const { join(work.joints[j].body_a, work.joints[j].body_b); }
+  /// What a body asks for its island does.
+  PLUMB_HD void find_root(std::uint32_t i) const {
+    const std::uint32_t at = impulse::find_root(Parents{work.loads}, i);
+    IslandLoad &own = work.loads[i], &island = work.loads[at];
+    own.root = at;
+    if (at == i) return;
+    if (own.asked != 0) atomic_max(&island.asked, own.asked);
+    if (own.rate != 0) atomic_max(&island.rate, own.rate);
+  }
+  PLUMB_HD void add_work(std::uint32_t a, std::uint32_t b, std::uint32_t amount) const {
+    const std::uint32_t body = is_pushed(b) ? b : a;
+    if (is_pushed(body)) atomic_add(&work.loads[work.loads[body].root].work, amount);
+  }
+  PLUMB_HD void add_contact(std::uint32_t row) const {
+    const Pair pair = work.cache.pairs[work.cache.candidate[row]];
+    add_work(work.proxies.rows[pair.a].body, work.proxies.rows[pair.b].body, 1);
+  }
+  PLUMB_HD void add_joint(std::uint32_t j) const {
+    add_work(work.joints[j].body_a, work.joints[j].body_b, kWorkOfJoint);
+  }
+
+  /// Of the root of an island: the level for it, were it alone.
+  PLUMB_HD void want(std::uint32_t i) const {
+    IslandLoad& island = work.loads[i];
+    if (island.root != i) return;
+    const SubstepLevels& levels = *work.levels;
+    const Real asked = max(number_of(island.rate) * work.parameters->dt, static_cast<Real>(island.asked));
+    while (island.wants + 1 < levels.count && substeps(island.wants) * (1 + kAsksEnough) < asked &&
+           island.work <= kMostWork / levels.of[island.wants + 1].substeps)
+      ++island.wants;
+    if (island.wants != 0) atomic_add(&work.counters->wanted_work[island.wants], island.work);
+  }
+  /// Whether there is time for all who want a level, or one beyond.
+  PLUMB_HD bool has_time_for(std::uint32_t level) const {
+    std::uint32_t wanted = 0;
+    for (std::uint32_t k = level; k < kSubstepLevels; ++k) wanted += work.counters->wanted_work[k];
+    return wanted <= kMostWorkOfAll / work.levels->of[level].substeps;
+  }
+  PLUMB_HD void choose(std::uint32_t i) const {
+    std::uint32_t level = work.loads[work.loads[i].root].wants;
+    while (level != 0 && !has_time_for(level)) --level;
+    if (level != 0 || work.loads[work.loads[i].root].asked != 0)
+      put_level(i, level, work.body_levels[i].before, work.loads[work.loads[i].root].asked);
+    note_levels(level);
+  }
+  /// before: its pace; asked: what the loads of its island do.
+  PLUMB_HD void put_level(std::uint32_t i, std::uint32_t level, const BodyPace& before, std::uint32_t asked) const {
+    const Real dt = work.parameters->dt, h = work.levels->of[level].h;
+    const Real rate = max(static_cast<Real>(asked) / dt, max(Real(0), 1 - dt / kLoadFades) * before.load_rate);
+    // Who sleeps keeps impulses of his last step.
+    work.paces[i] = {rate, is_pushed(i) ? h : before.last_h};
+    work.body_levels[i] = {level, before.last_h > 0 ? h / before.last_h : Real(1), before};
+  }
+  PLUMB_HD void note_levels(std::uint32_t level) const {
+    if (work.counters->levels <= level) atomic_max(&work.counters->levels, level + 1);
+    if (work.counters->substeps < work.levels->of[level].substeps)
+      atomic_max(&work.counters->substeps, work.levels->of[level].substeps);
+  }
+  /// Among the groups of the levels that its bodies have.
+  PLUMB_HD void list(std::uint32_t group) const {
+    std::uint32_t found = 0;  // bits
+    for (std::uint32_t i = group * kLanes; i < min(work.body_count, (group + 1) * kLanes); ++i)
+      found |= 1U << work.body_levels[i].level;
+    for (std::uint32_t level = 0; level < kSubstepLevels; ++level)
+      if ((found >> level & 1U) != 0)
+        work.body_groups[level * work.most_groups + atomic_add(&work.counters->body_groups[level], 1U)] = group;
+  }
+};
+
+}  // namespace
+
+void enqueue_levels(Executor& executor, const LoadWork& work, Count contacts) {
+  executor.team(contacts, work.body_count, ChooseLevels{work});
+}
+
+}  // namespace plumb::impulse
