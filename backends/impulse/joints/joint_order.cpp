@@ -33,7 +33,7 @@ bool both_turn(const Joint& joint, const Table<BodyMass>& masses) {
 }  // namespace
 
 OrderedJoints order_joints(const std::vector<StoredJoint>& records, const Table<BodyMass>& masses,
-                           JointEliminator& eliminator) {
+                           JointEliminator& eliminator, bool one_by_one) {
   std::vector<std::uint32_t> slots;
   std::vector<Join> joins;
   const auto moving = [&](std::uint32_t body) { return is_pushed(body, masses) ? body : kWorld; };
@@ -66,6 +66,10 @@ OrderedJoints order_joints(const std::vector<StoredJoint>& records, const Table<
   PLUMB_ASSERT(ordered.count() == slots.size());  // each joint is solved, and once
   for (std::uint32_t j = 0; j < ordered.count(); ++j)
     if (no_chains.contains(ordered.mechanism[j])) ordered.joints[j].in_chain = false;
+  if (one_by_one) {
+    ordered.base = ordered.count();
+    ordered.elimination = JointEliminator().eliminate({}, kWorld);
+  }
   return ordered;
 }
 

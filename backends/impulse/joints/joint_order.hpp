@@ -43,7 +43,8 @@ struct OrderedJoints {
 };
 
 /// records: by slot. masses tell which bodies are pushed. What the eliminator knows of mechanisms serves again.
+/// one_by_one: all are solved so.
 [[nodiscard]] OrderedJoints order_joints(const std::vector<StoredJoint>& records, const Table<BodyMass>& masses,
-                                         JointEliminator& eliminator);
+                                         JointEliminator& eliminator, bool one_by_one);
 
 }  // namespace plumb::impulse

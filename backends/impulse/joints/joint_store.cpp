@@ -64,7 +64,7 @@ std::vector<std::uint64_t> JointStore::excluded() const {
 
 void JointStore::upload(const Table<BodyMass>& masses) {
   code_ = needed_code();
-  const OrderedJoints ordered = order_joints(records_, masses, eliminator_);
+  const OrderedJoints ordered = order_joints(records_, masses, eliminator_, one_by_one_);
   slot_of_.clear();
   for (const Joint& joint : ordered.joints) slot_of_.push_back(joint.slot);
   colours_.colour(ordered, masses);

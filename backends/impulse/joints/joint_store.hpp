@@ -44,6 +44,11 @@ class JointStore {
   }
   /// What motors do, by slot; may be edited between steps.
   Table<JointDrive> drives;
+  /// Whether all are solved one by one; else mechanisms are solved each as a whole where their matrix stays sparse.
+  void solve_one_by_one(bool all) {
+    changed_ = changed_ || (all != one_by_one_ && !records_.empty());
+    one_by_one_ = all;
+  }
   /// Reactions are summed up for all joints from the next step on.
   void want_reactions() { wants_reactions_ = true; }
   /// Of the last step, by slot; of joints that it had, and where reactions are wanted or a joint breaks.
@@ -72,7 +77,7 @@ class JointStore {
  private:
   [[nodiscard]] JointCode needed_code() const;
 
-  bool changed_ = false, wants_reactions_ = false;
+  bool changed_ = false, wants_reactions_ = false, one_by_one_ = false;
   JointCode code_ = JointCode::kContacts;
   std::vector<StoredJoint> records_;  // by slot
   JointEliminator eliminator_;

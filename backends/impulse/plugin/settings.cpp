@@ -25,6 +25,7 @@ constexpr const char* kSolvers[] = {"tgs_soft", "si", "jacobi", "xpbd"};
 /// In the order of BroadPhase::Method.
 constexpr const char* kBroadPhases[] = {"lbvh", "sweep", "grid"};
 constexpr const char* kRelaxations[] = {"substep", "step"};
+constexpr const char* kJointSolvers[] = {"auto", "iterative"};
 
 }  // namespace
 
@@ -49,6 +50,11 @@ const backend::SettingsTable<Settings>& settings_table() {
           "relaxation", behaviour, kRelaxations,
           "tgs_soft: when contacts lose the speed that taking back overlap gave them: in each sub-step, or once at "
           "the end of a step, which leaves time for more sub-steps: high stacks of stiffer contacts")),
+      setting<&S::joints_one_by_one>(choice_setting(
+          "joint_solver", behaviour, kJointSolvers,
+          "tgs_soft: auto: the joints of a mechanism all at once, exactly, and contacts that know of them, but of nets "
+          "whose matrix would fill one by one; iterative: all one by one, once in a sub-step: a fraction of the time, "
+          "gaps of centimetres, and only light loads")),
       setting<&S::iterations>(int_setting("iterations", "1", quality, 1, kMostPasses, 10,
                                           "si, jacobi: passes over all constraints in a step, at most")),
       setting<&S::stop_below>(float_setting(

@@ -11,6 +11,7 @@ struct Settings {
   SolverKind solver{};
   BroadPhase::Method broad_phase{};
   bool relaxes_once = false;
+  bool joints_one_by_one = false;
   std::uint32_t substeps = 0, most_substeps = 0;
   std::uint32_t iterations = 0;
   double stop_below = 0;

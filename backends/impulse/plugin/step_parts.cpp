@@ -21,6 +21,7 @@ constexpr double kStaysDivided = 0.5;
 void World::start(double dt, int divided, bool predicts) {
   if (pacing_.parts.any_done) keep_part();
   simulation_.choose(settings_.broad_phase);
+  simulation_.joints.solve_one_by_one(settings_.joints_one_by_one);
   const double most_rate = divided == 0 ? 0 : 1 / pacing_.dt;
   const SubstepLevels levels = settings_.levels(dt, pacing_.last_h, most_rate);
   StepParameters parameters = settings_.parameters(dt, gravity_, levels);

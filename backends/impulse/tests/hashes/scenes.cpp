@@ -260,6 +260,11 @@ const std::vector<NamedScene>& named_scenes() {
        &changers},
       {"far-off", {}, kAll | PLUMB_NEED_JOINTS, kDown, &far_off},
       {"pyramid-20-once", {"relaxation", "step"}, kContactNeeds, kDown, &pyramid_20},
+      {"puppets-iterative",
+       {"joint_solver", "iterative"},
+       kAll | PLUMB_NEED_JOINTS | PLUMB_NEED_EVENTS,
+       kDown,
+       &puppets},
       {"islands", {}, kContactNeeds | PLUMB_NEED_RESTITUTION, kDown, &islands},
   };
   return scenes;

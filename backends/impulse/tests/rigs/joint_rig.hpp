@@ -117,10 +117,13 @@ class JointRig {
   /// By number, in the order of the setting's words.
   void choose_solver(double number) {
     constexpr const char* words[] = {"tgs_soft", "si", "jacobi", "xpbd"};
+    choose("solver", words[static_cast<int>(number)]);
+  }
+  void choose(const char* name, const char* word) {
     PlumbSettingValue setting{};
     setting.type = PLUMB_SETTING_CHOICE;
-    setting.choice = words[static_cast<int>(number)];
-    world_.settings()->set_setting("solver", setting);
+    setting.choice = word;
+    EXPECT_EQ(world_.settings()->set_setting(name, setting), PLUMB_OK);
   }
   void set(const char* name, double value) {
     PlumbSettingValue setting{};
