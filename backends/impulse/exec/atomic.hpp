@@ -60,6 +60,14 @@ PLUMB_HD inline U atomic_max(U* at, U value) {
   return old;
 #endif
 }
+/// As atomic_max where most calls change nothing.
+template <class U>
+PLUMB_HD inline void atomic_raise(U* at, U value) {
+#if defined(__CUDA_ARCH__)
+  if (*static_cast<volatile U*>(at) >= value) return;
+#endif
+  (void)atomic_max(at, value);
+}
 /// Adds 1, and makes all that this thread wrote before visible to whoever sees the 1, and the other way round: the
 /// fence between two threads that meet in a node of a tree.
 PLUMB_HD inline std::uint32_t atomic_arrive(std::uint32_t* at) {

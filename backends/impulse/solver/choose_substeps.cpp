@@ -74,14 +74,11 @@ struct ChooseLevels {
     const Real rate = pushed ? before.load_rate : Real(0);
     work.loads[i] = {i, i, 0, bits_of(rate), 0, 0};
     note_asked(rate * work.parameters->dt);
-    if (pushed && before.last_h != work.levels->of[0].h) note(work.counters->other_substeps);
+    if (pushed && before.last_h != work.levels->of[0].h) atomic_raise(&work.counters->other_substeps, 1U);
     put_level(i, 0, before, 0);
   }
   PLUMB_HD void note_asked(Real asked) const {
-    if (asked > substeps(0) && work.levels->count > 1) note(work.counters->loaded);
-  }
-  PLUMB_HD static void note(std::uint32_t& flag) {
-    if (flag == 0) atomic_max(&flag, 1U);
+    if (asked > substeps(0) && work.levels->count > 1) atomic_raise(&work.counters->loaded, 1U);
   }
 
   /// For the contact in a row of the cache: by the force of the last step, or where it is new by the weight that may
@@ -189,9 +186,8 @@ struct ChooseLevels {
     work.body_levels[i] = {level, before.last_h > 0 ? h / before.last_h : Real(1), before};
   }
   PLUMB_HD void note_levels(std::uint32_t level) const {
-    if (work.counters->levels <= level) atomic_max(&work.counters->levels, level + 1);
-    if (work.counters->substeps < work.levels->of[level].substeps)
-      atomic_max(&work.counters->substeps, work.levels->of[level].substeps);
+    atomic_raise(&work.counters->levels, level + 1);
+    atomic_raise(&work.counters->substeps, work.levels->of[level].substeps);
   }
   /// Among the groups of the levels that its bodies have.
   PLUMB_HD void list(std::uint32_t group) const {
