@@ -338,7 +338,10 @@ test('a link leads to its run through sections that are folded, and none unfolds
   visit(`${one}#cost`, async (page) => {
     const isOpen = (id) => page.evaluate((name) => document.querySelector(`#${name} > details.fold`).open, id);
     await goTo(page, 'runs');
-    for (const id of ['runs', 'fronts']) await page.locator(`#${id} > details.fold > summary`).click();
+    for (const id of ['runs', 'fronts']) {
+      await page.locator(`#${id} > details.fold > summary`).click();
+      await page.waitForFunction((name) => new RegExp(`folded=[^&]*${name}`).test(location.hash), id);
+    }
     await page.locator('.links a[href="#cost"]').click();
     await page.evaluate(() => document.documentElement.style.setProperty('overflow-anchor', 'none'));
     const link = page.locator('#cost tbody a[href^="#r"]').first();
