@@ -3,6 +3,7 @@
 #include "continuous/impact.hpp"
 #include "continuous/inner_points.hpp"
 #include "exec/atomic.hpp"
+#include "math/ordered_bits.hpp"
 
 namespace plumb::impulse {
 
@@ -34,25 +35,12 @@ struct Obstacle {
   }
 };
 
-/// Shares of a way are not negative, and ordered as their bits.
-PLUMB_HD inline std::uint32_t bits_of(Real share) {
-  const auto number = static_cast<float>(share);
-  std::uint32_t bits;
-  __builtin_memcpy(&bits, &number, sizeof bits);
-  return bits;
-}
-PLUMB_HD inline Real share_of(std::uint32_t bits) {
-  float number;
-  __builtin_memcpy(&number, &bits, sizeof number);
-  return static_cast<Real>(number);
-}
-
 struct Forget {
   std::uint64_t* first;
   std::uint32_t* stays;
   PLUMB_HD void operator()(std::uint32_t body) const {
     first[body] = kNever;
-    stays[body] = bits_of(1);
+    stays[body] = ordered_bits(1);
   }
 };
 
@@ -81,7 +69,7 @@ struct FindSight {
       if (beyond > 0) share = min(share, max(Real(1) - beyond / abs(way[k]), Real(0)));
     }
     if (!(share < 1) || !is_barred(index, now, (share - 1) * way)) return;
-    atomic_min(&stays[proxy.body], bits_of(share));
+    atomic_min(&stays[proxy.body], ordered_bits(share));
   }
 
  private:
@@ -118,9 +106,9 @@ struct StayInSight {
   Displacement* displacements;
   const std::uint32_t* stays;
   PLUMB_HD void operator()(std::uint32_t body) const {
-    if (stays[body] == bits_of(1)) return;
+    if (stays[body] == ordered_bits(1)) return;
     Vec& way = displacements[body].linear;
-    const Vec back = (share_of(stays[body]) - 1) * way;
+    const Vec back = (number_of(stays[body]) - 1) * way;
     if (!is_finite(back)) return;
     position[body] = moved(position[body], back);
     way += back;
@@ -186,7 +174,7 @@ struct FindPassed {
       const Vec arm = own.frame.position + rotate(own.frame.orientation, points.at[i]);
       earliest = min(earliest, time_of_passing({meeting, wall.frame, arm}, obstacle, points.depth));
     }
-    if (earliest < 1) atomic_min(&first[own.body], std::uint64_t{bits_of(earliest)} << 32 | p);
+    if (earliest < 1) atomic_min(&first[own.body], std::uint64_t{ordered_bits(earliest)} << 32 | p);
   }
 
   /// A point of a body, as a shape on another sees it.
@@ -239,7 +227,7 @@ struct PutBack {
 
   PLUMB_HD void operator()(std::uint32_t body) const {
     if (first[body] == kNever) return;
-    const Real share = share_of(static_cast<std::uint32_t>(first[body] >> 32));
+    const Real share = number_of(static_cast<std::uint32_t>(first[body] >> 32));
     const Pair pair = in.cache.pairs[static_cast<std::uint32_t>(first[body])];
     const std::uint32_t a = in.proxies.rows[pair.a].body, b = in.proxies.rows[pair.b].body, on = a == body ? b : a;
     const Passage own(bodies, displacements, body);

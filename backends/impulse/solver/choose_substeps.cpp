@@ -3,6 +3,7 @@
 #include "bodies/motion_lanes.hpp"
 #include "exec/atomic.hpp"
 #include "exec/union_find.hpp"
+#include "math/ordered_bits.hpp"
 
 namespace plumb::impulse {
 
@@ -10,27 +11,24 @@ namespace {
 
 /// Sub-steps in the time that a load's frequency takes for a radian: between bodies by themselves, and of bodies that
 /// joints hold.
-inline constexpr Real kSubstepsOfContact = 40, kSubstepsOfMechanism = 14;
+constexpr Real kSubstepsOfContact = 40, kSubstepsOfMechanism = 14;
 /// What weighs no more than so many times as much as the body that bears it asks for nothing, nor does a load no larger
 /// than so many times a body's own weight: piles do well as it is.
-inline constexpr Real kAlikeMasses = 5;
+constexpr Real kAlikeMasses = 5;
 /// A body presses on another by itself with no more than so many times its weight, with what lies on it: more is a
 /// blow.
-inline constexpr Real kMostWeights = 8;
+constexpr Real kMostWeights = 8;
 /// A contact that asks for so many times the most that there can be would do no better with those, and gets none: the
 /// pebble under the wheel of a truck.
-inline constexpr Real kHopeless = 4;
+constexpr Real kHopeless = 4;
 /// Sub-steps times contacts of an island beyond which it has no more sub-steps: they are for machines, and not for a
 /// pile of thousands; and of all islands that want so many or more: a crowd of figures does without, and one crane
 /// beside them does not have to. A joint takes as long as so many contacts.
-inline constexpr std::uint32_t kMostWork = 16384, kMostWorkOfAll = 65536, kWorkOfJoint = 8;
+constexpr std::uint32_t kMostWork = 16384, kMostWorkOfAll = 65536, kWorkOfJoint = 8;
 /// What was asked is forgotten within that time, s.
-inline constexpr Real kLoadFades = 1;
+constexpr Real kLoadFades = 1;
 /// What asks for so much more than there is, relative to that, has it.
-inline constexpr Real kAsksEnough = Real(1e-5);
-
-PLUMB_HD inline std::uint32_t bits_of(Real rate) { return __builtin_bit_cast(std::uint32_t, static_cast<float>(rate)); }
-PLUMB_HD inline Real number_of(std::uint32_t bits) { return static_cast<Real>(__builtin_bit_cast(float, bits)); }
+constexpr Real kAsksEnough = Real(1e-5);
 
 struct Parents {
   IslandLoad* loads;
@@ -72,7 +70,7 @@ struct ChooseLevels {
     const BodyPace before = work.paces[i];
     const bool pushed = is_pushed(i);
     const Real rate = pushed ? before.load_rate : Real(0);
-    work.loads[i] = {i, i, 0, bits_of(rate), 0, 0};
+    work.loads[i] = {i, i, 0, ordered_bits(rate), 0, 0};
     note_asked(rate * work.parameters->dt);
     if (pushed && before.last_h != work.levels->of[0].h) atomic_raise(&work.counters->other_substeps, 1U);
     put_level(i, 0, before, 0);
@@ -171,10 +169,10 @@ struct ChooseLevels {
     return wanted <= kMostWorkOfAll / work.levels->of[level].substeps;
   }
   PLUMB_HD void choose(std::uint32_t i) const {
-    std::uint32_t level = work.loads[work.loads[i].root].wants;
+    const IslandLoad& island = work.loads[work.loads[i].root];
+    std::uint32_t level = island.wants;
     while (level != 0 && !has_time_for(level)) --level;
-    if (level != 0 || work.loads[work.loads[i].root].asked != 0)
-      put_level(i, level, work.body_levels[i].before, work.loads[work.loads[i].root].asked);
+    if (level != 0 || island.asked != 0) put_level(i, level, work.body_levels[i].before, island.asked);
     note_levels(level);
   }
   /// before: its pace; asked: what the loads of its island do.

@@ -3,6 +3,7 @@
 #include "exec/atomic.hpp"
 #include "exec/union_find.hpp"
 #include "joints/joint_axis_solve.hpp"
+#include "math/ordered_bits.hpp"
 #include "plumb/assert.hpp"
 
 namespace plumb::impulse {
@@ -27,14 +28,6 @@ struct Keep {
     for (int k = 0; k < kJointRows; ++k) joints[i].held_for[k] = work.joints.axes.reactions[slot].held_for[k];
   }
 };
-
-constexpr std::uint32_t kNotFinite = 0x7f800000U;  // bits of the infinite float
-/// Of a number that is not negative; such bits are in the order of the numbers. What is not finite comes last.
-PLUMB_HD inline std::uint32_t bits_of(Real x) {
-  return is_finite(x) ? __builtin_bit_cast(std::uint32_t, static_cast<float>(x)) : kNotFinite;
-}
-PLUMB_HD inline Real number_of(std::uint32_t bits) { return static_cast<Real>(__builtin_bit_cast(float, bits)); }
-PLUMB_HD inline bool is_finite_number(std::uint32_t bits) { return bits < kNotFinite; }
 
 /// Numbers as whole multiples of 2^-40 of a power of two near the peak, and no more than twice it.
 class Quanta {
@@ -147,8 +140,8 @@ struct JudgeEnergy {
     if (by == kWorld) return;
     const Velocity& velocity = work.joints.view.bodies.velocity[by];
     if (length_squared(velocity.linear) + length_squared(velocity.angular) == 0) return;
-    atomic_max(&islands[body].speed, bits_of(length(velocity.linear)));
-    atomic_max(&islands[body].spin, bits_of(length(velocity.angular)));
+    atomic_max(&islands[body].speed, ordered_bits(length(velocity.linear)));
+    atomic_max(&islands[body].spin, ordered_bits(length(velocity.angular)));
     atomic_max(&islands[body].mover, by + 1);
   }
   PLUMB_HD void join_contact(std::uint32_t row) const {
@@ -157,8 +150,8 @@ struct JudgeEnergy {
     join(a, b);
     if (work.surface_velocities == nullptr) return;
     const Real speed = length(work.surface_velocities[pair.a]) + length(work.surface_velocities[pair.b]);
-    if (is_pushed(a)) atomic_max(&islands[a].speed, bits_of(speed));
-    if (is_pushed(b)) atomic_max(&islands[b].speed, bits_of(speed));
+    if (is_pushed(a)) atomic_max(&islands[a].speed, ordered_bits(speed));
+    if (is_pushed(b)) atomic_max(&islands[b].speed, ordered_bits(speed));
   }
   PLUMB_HD void join_joint(std::uint32_t j) const {
     const Joint& joint = work.joints.view.joints[j];
@@ -200,7 +193,7 @@ struct JudgeEnergy {
       sum = sum + reaction.spring_mass[first + i] * axes.omega[i] * axes.omega[i] * bent * bent / 2;
     }
     given[j] = sum;
-    atomic_max(&islands[root_of(joint)].peak, bits_of(sum));
+    atomic_max(&islands[root_of(joint)].peak, ordered_bits(sum));
   }
   PLUMB_HD JointPlace place_before(const Joint& joint) const {
     const auto end = [&](std::uint32_t body) -> JointEnd {
@@ -235,7 +228,7 @@ struct JudgeEnergy {
     if (!is_pushed(i)) return;
     const BodyEnergy energy = energy_of(i);
     const Real largest = max(max(energy.kinetic, energy.may_have), sqrt(energy.work * energy.work));
-    atomic_max(&islands[islands[i].root].peak, is_lost(i) ? kNotFinite : bits_of(largest));
+    atomic_max(&islands[islands[i].root].peak, is_lost(i) ? kNotFinite : ordered_bits(largest));
   }
   PLUMB_HD void add_body(std::uint32_t i) const {
     if (!is_pushed(i)) return;
