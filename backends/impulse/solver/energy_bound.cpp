@@ -214,7 +214,8 @@ struct JudgeEnergy {
     const Real inertia = Real(1) / before.inverse_mass, dt = work.parameters->dt;
     const Vec weight = (inertia * mass.gravity_scale) * work.parameters->gravity;
     BodyEnergy energy;
-    energy.kinetic = kinetic_energy(mass, after, all.orientation[i]);
+    const Real beyond = max(length(moved.linear) / dt - kFreeSpeedOfWay, Real(0));
+    energy.kinetic = max(kinetic_energy(mass, after, all.orientation[i]), inertia * beyond * beyond / 2);
     energy.work = dot(weight + all.force[i].force, moved.linear);
     Real driven = number_of(island.speed);
     if (island.mover != 0)

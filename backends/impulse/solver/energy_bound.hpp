@@ -33,6 +33,9 @@ inline constexpr Real kHeldShare = Real(0.5);
 /// What each island may gain from what is no source at all, such as overlap that is taken back: as much as its weight
 /// gives over this way, m, and as its mass has at this speed, m/s.
 inline constexpr Real kFreeWay = Real(1e-3), kFreeSpeed = Real(0.1);
+/// What went its way in the step by so much faster than it may have gone, m/s, made energy, too, however slow it is in
+/// the end. Errors of joints and overlap are taken back without speed that stays, but not as fast.
+inline constexpr Real kFreeSpeedOfWay = 20;
 
 /// State of a body before the step.
 struct KeptBody {
