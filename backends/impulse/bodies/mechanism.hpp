@@ -94,6 +94,11 @@ inline void move_by(const Real* response, const Six& wrench, Velocity& velocity)
 
 #endif
 
+/// Of a mechanism's bodies those that one of several threads moves: every step-th. The first of them leads.
+struct ShareOfBodies {
+  std::uint32_t first = 0, step = 1;
+};
+
 struct Mechanisms {
   const std::uint32_t* place_of;  ///< by body: its place and one, or 0 where contacts see it alone. Null: all of them
   const MechanismBody* bodies;    ///< by place
@@ -130,19 +135,24 @@ struct Mechanisms {
                      wrench);
   }
   /// A wrench on a body moves its mechanism.
-  PLUMB_HD void push(std::uint32_t body, const Vec& force, const Vec& torque, Velocity* velocities) const {
+  PLUMB_HD void push(std::uint32_t body, const Vec& force, const Vec& torque, Velocity* velocities,
+                     ShareOfBodies share) const {
     if (!(length_squared(force) + length_squared(torque) > 0)) return;  // most contacts of what falls or lies still
-    ContactLoad& load = loads[place_of[body] - 1];
-    load.force += force;
-    load.torque += torque;
+    if (share.first == 0) {
+      ContactLoad& load = loads[place_of[body] - 1];
+      load.force += force;
+      load.torque += torque;
+    }
     const Six wrench = six(force, torque);
-    for_moved(body, [=](std::uint32_t other, const Real* response) { move_by(response, wrench, velocities[other]); });
+    for_moved(body, share,
+              [=](std::uint32_t other, const Real* response) { move_by(response, wrench, velocities[other]); });
   }
   /// Likewise where its bodies are: a wrench times seconds moves them by what it gives them in speed times those.
-  PLUMB_HD void displace(std::uint32_t body, const Vec& force, const Vec& torque, Displacement* displacements) const {
+  PLUMB_HD void displace(std::uint32_t body, const Vec& force, const Vec& torque, Displacement* displacements,
+                         ShareOfBodies share) const {
     if (!(length_squared(force) + length_squared(torque) > 0)) return;  // to the last bit where they were
     const Six wrench = six(force, torque);
-    for_moved(body, [=](std::uint32_t other, const Real* response) {
+    for_moved(body, share, [=](std::uint32_t other, const Real* response) {
       const Six moved = motion_by(response, wrench);
       Displacement& of = displacements[other];
       of.linear += along_of(moved);
@@ -153,11 +163,10 @@ struct Mechanisms {
  private:
   /// f(body, what a wrench on one body of a mechanism does to this one) for each of its bodies.
   template <class F>
-  PLUMB_HD void for_moved(std::uint32_t body, const F& f) const {
+  PLUMB_HD void for_moved(std::uint32_t body, ShareOfBodies share, const F& f) const {
     const MechanismBody& source = bodies[place_of[body] - 1];
-    const Real* response = mobility + source.mobility;
-    for (std::uint32_t j = source.first; j < source.first + source.count; ++j, response += kMobilityNumbers)
-      f(bodies[j].body, response);
+    for (std::uint32_t k = share.first; k < source.count; k += share.step)
+      f(bodies[source.first + k].body, mobility + source.mobility + std::size_t{k} * kMobilityNumbers);
   }
 };
 

@@ -120,11 +120,12 @@ PLUMB_HD Vec gained(const Quat4<N>& now, const Quat4<N>& before, std::uint32_t l
   return Real(2) * vector_part(of_lane(now) * conjugate(of_lane(before)));
 }
 
-/// What pushed the bodies that stood for mechanisms moves these, and an impact takes them back on their way as well.
-/// Nothing of their lanes is left for store_body.
+/// What pushed the bodies that stood for mechanisms moves these, and an impact takes them back on their way as well: a
+/// contact's threads share the bodies. Nothing of their lanes is left for store_body.
 template <class N>
 PLUMB_HD void push_mechanisms(const SolverBodies& bodies, const std::uint32_t* indices, SolverBody<N>& body,
                               const SolverBody<N>& before, bool impact) {
+  const ShareOfBodies share = {static_cast<std::uint32_t>(point_of(0)), kContactThreads};
   for (std::uint32_t lane = 0; lane < sizeof(N) / sizeof(Real); ++lane) {
     const std::uint32_t i = indices[lane];
     if (!bodies.mechanisms.hold(i)) continue;
@@ -132,13 +133,15 @@ PLUMB_HD void push_mechanisms(const SolverBodies& bodies, const std::uint32_t* i
     const Real mass = reciprocal_or_zero(pushed.per_force), moment = reciprocal_or_zero(pushed.per_torque);
     const Vec force = mass * gained(body.linear, before.linear, lane);
     const Vec torque = moment * gained(body.angular, before.angular, lane);
-    bodies.mechanisms.push(i, force, torque, bodies.velocity);
+    bodies.mechanisms.push(i, force, torque, bodies.velocity, share);
     lane_of(body.inverse_mass, lane) = 0;
     if (!impact) continue;
-    bodies.free_velocity[i].linear += pushed.per_force * force;
-    bodies.free_velocity[i].angular += bodies.inertia[i].inverse * torque;
+    if (share.first == 0) {
+      bodies.free_velocity[i].linear += pushed.per_force * force;
+      bodies.free_velocity[i].angular += bodies.inertia[i].inverse * torque;
+    }
     bodies.mechanisms.displace(i, mass * gained(body.moved, before.moved, lane),
-                               moment * gained(body.rotated, before.rotated, lane), bodies.displacement);
+                               moment * gained(body.rotated, before.rotated, lane), bodies.displacement, share);
   }
 }
 

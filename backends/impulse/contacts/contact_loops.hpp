@@ -159,19 +159,6 @@ PLUMB_HD void store_bodies(const SolverBodies& bodies, const LoadedContact<N>& l
   if (stores_body(1)) store_body<N>(bodies, loaded.b, b);
 }
 
-/// Keeps what a contact has given its bodies, where these are of mechanisms. A thread that pushes a mechanism does so
-/// from both ends.
-template <class N>
-PLUMB_HD void store_mechanisms(const SolverBodies& bodies, const LoadedContact<N>& loaded, BodyUse use,
-                               const SolverBody<N>& a_before, const SolverBody<N>& b_before, SolverBody<N>& a,
-                               SolverBody<N>& b) {
-  const bool both = kContactThreads > 1 && bodies.mechanisms.together(*loaded.a, *loaded.b);
-  const bool impact = use == BodyUse::kImpact;
-  if (stores_body(0)) push_mechanisms<N>(bodies, loaded.a, a, a_before, impact);
-  if (both ? stores_body(0) : stores_body(1)) push_mechanisms<N>(bodies, loaded.b, b, b_before, impact);
-  if (both) b.inverse_mass = N(0);
-}
-
 /// Runs work(row, contact, a, b) on a contact and keeps what it did to the bodies.
 template <bool kSurfaceVelocity, bool kMechanisms, class N, class Work>
 PLUMB_HD void work_on(const ContactSet& contacts, const SolverBodies& bodies, std::uint32_t slot,
@@ -189,7 +176,10 @@ PLUMB_HD void work_on(const ContactSet& contacts, const SolverBodies& bodies, st
       const SolverBody<N> a_before = a, b_before = b;
       if (use == BodyUse::kImpact) put_impact_speed(bodies, loaded.a, loaded.b, a, b, contact);
       work_on_surfaces<kSurfaceVelocity>(contacts.surface_velocities, RowAccess<N>(rows, slot), contact, a, b, work);
-      if (whole) store_mechanisms<N>(bodies, loaded, use, a_before, b_before, a, b);
+      if (whole) {
+        push_mechanisms<N>(bodies, loaded.a, a, a_before, use == BodyUse::kImpact);
+        push_mechanisms<N>(bodies, loaded.b, b, b_before, use == BodyUse::kImpact);
+      }
       if (whole && is_last(use))
         let_go_of_blow(bodies, loaded.a, loaded.b, RowAccess<N>(rows, slot), contact, *contacts.parameters,
                        *contacts.levels);

@@ -16,28 +16,23 @@ PLUMB_HD inline AxisView axis_view(const JointSet& joints) {
   return view;
 }
 
-/// Of a joint whose rows always hold: on the pieces where they were.
-PLUMB_HD inline void keep_all_rows(JointWork& work) {
-  for (Real& change : work.change) change = 0;
-}
-
 /// Returns whether a row is on another piece than before, or ought to be.
 PLUMB_HD inline bool choose_in_system(const AxisView& view, const JointSystem& system, std::uint32_t column,
                                       const RowTime& time, std::uint32_t round) {
   const std::uint32_t j = system.base + column;
   const Joint& joint = view.joints[j];
-  if (round != 0 && rows_of(joint.type) == row_count(joint)) {
-    keep_all_rows(system.work(column));
-    return false;
-  }
-  return choose_pieces(view, j, time, view.velocity(joint.body_a), view.velocity(joint.body_b), round,
-                       view.work[j].share, system.work(column).change);
+  JointWork& work = system.work(column);
+  Lanes jump(0);
+  const bool keeps = round != 0 && rows_of(joint.type) == row_count(joint);  // all rows are on pieces where they were
+  const bool changed = !keeps && choose_pieces(view, j, time, view.velocity(joint.body_a), view.velocity(joint.body_b),
+                                               round, work.share, jump);
+  store_row(work.change, jump);
+  return changed;
 }
 
-#if !defined(PLUMB_IMPULSE_CUDA)
 /// Whether a column's factors are to be found anew, those of earlier columns being known: for its own rows, for those
 /// of later joints that it meets, and for what earlier columns take off it.
-inline bool needs_factors(const JointSystem& system, const AxisView& view, std::uint32_t column) {
+PLUMB_HD inline bool needs_factors(const JointSystem& system, const AxisView& view, std::uint32_t column) {
   const AxisWork* work = view.parts.work + system.base;
   bool needs = work[column].is_factored();
   for (std::uint32_t e = system.column_first[column]; !needs && e < system.column_first[column + 1]; ++e)
@@ -46,24 +41,22 @@ inline bool needs_factors(const JointSystem& system, const AxisView& view, std::
     needs = work[system.entries[system.row_entries[r]].column].is_factored();
   return needs;
 }
-#endif
 
-PLUMB_DEVICE inline void factor_axis_system(Team& team, const JointSystem& system, const SystemMechanism& mechanism,
-                                            const AxisView& view) {
-#if !defined(PLUMB_IMPULSE_CUDA)
+PLUMB_SHARED_DEVICE_CODE inline void factor_axis_system(Team& team, const JointSystem& system,
+                                                        const SystemMechanism& mechanism, const AxisView& view) {
   for_columns(team, mechanism, [&](std::uint32_t column) {
     AxisWork& own = view.parts.work[system.base + column];
     own.compare_factors(own.cfm, system.rows(column));
   });
-#endif
   for_columns_up(team, system, mechanism, [&](std::uint32_t column) {
     AxisWork& own = view.parts.work[system.base + column];
-#if !defined(PLUMB_IMPULSE_CUDA)
-    own.set_factored(needs_factors(system, view, column));
-    if (!own.is_factored()) return;
-#endif
-    mask_matrix(own, system.rows(column), system.work(column).factor);
-    eliminate_column(system, column, [&](std::uint32_t i) { return view.parts.work[system.base + i].active(); });
+    const bool needs = needs_factors(system, view, column);
+    lanes_meet();
+    own.set_factored(needs);
+    if (!needs) return;
+    BlockAtWork diagonal = masked_matrix(own, system.rows(column));
+    eliminate_column(system, column, diagonal,
+                     [&](std::uint32_t i) { return view.parts.work[system.base + i].active(); });
   });
 }
 
@@ -76,22 +69,24 @@ PLUMB_HD inline Real tikhonov_of_speeds(const AxisView& view, std::uint32_t j) {
 }
 
 /// The changes that solve the system with its rows on the pieces chosen. anew: as of row_speeds.
-PLUMB_DEVICE inline void find_axis_changes(Team& team, const JointSystem& system, const SystemMechanism& mechanism,
-                                           const AxisView& view, const RowTime& time, bool anew) {
+PLUMB_SHARED_DEVICE_CODE inline void find_axis_changes(Team& team, const JointSystem& system,
+                                                       const SystemMechanism& mechanism, const AxisView& view,
+                                                       const RowTime& time, bool anew) {
   for_columns_up(team, system, mechanism, [&](std::uint32_t column) {
     const std::uint32_t j = system.base + column;
     const Joint& joint = view.joints[j];
     const Real tikhonov = time.pass == RowPass::kSpeeds ? tikhonov_of_speeds(view, j) : view.work[j].tikhonov;
-    row_residuals(view, j, time, view.velocity(joint.body_a), view.velocity(joint.body_b), anew, tikhonov,
-                  system.work(column).change);
-    take_earlier(system, column, system.work(column).change);
+    const Lanes y =
+        row_residuals(view, j, time, view.velocity(joint.body_a), view.velocity(joint.body_b), anew, tikhonov);
+    store_row(system.work(column).change, without_earlier(system, column, y));
   });
   for_columns_down(team, system, mechanism, [&](std::uint32_t column) { solve_backward(system, column); });
 }
 
 /// A mechanism's joints in one pass.
-PLUMB_DEVICE inline void solve_in_rounds(Team& team, const JointSystem& system, const SystemMechanism& mechanism,
-                                         const AxisView& view, const RowTime& time) {
+PLUMB_SHARED_DEVICE_CODE inline void solve_in_rounds(Team& team, const JointSystem& system,
+                                                     const SystemMechanism& mechanism, const AxisView& view,
+                                                     const RowTime& time) {
   ChangeCount count(team, system, mechanism);
   RoundCount rounds;
   std::uint32_t stiffened = 0;
@@ -100,7 +95,7 @@ PLUMB_DEVICE inline void solve_in_rounds(Team& team, const JointSystem& system, 
     const std::uint32_t round = rounds.round();
     for_columns(team, mechanism, [&](std::uint32_t column) {
       if (column == mechanism.first_column) now.clear_next();
-      if (choose_in_system(view, system, column, time, round)) now.note_change();
+      if (choose_in_system(view, system, column, time, round) && leads_lanes()) now.note_change();
     });
     team.barrier();
     const RoundKind kind = rounds.next(*now.now != 0);
@@ -118,14 +113,14 @@ PLUMB_DEVICE inline void solve_in_rounds(Team& team, const JointSystem& system, 
     push_changes(team, system, mechanism);
   }
   for_columns(team, mechanism, [&](std::uint32_t column) {
-    settle_pieces(view, system.base + column, time, system.work(column).change);
+    store_row(system.work(column).change, settle_pieces(view, system.base + column, time));
   });
   push_changes(team, system, mechanism);
 }
 
 PLUMB_DEVICE inline void add_reactions(Team& team, const JointSet& joints) {
   const AxisView view = axis_view(joints);
-  team.each(joints.count, [=](std::uint32_t j) { add_reaction(view, j); });
+  each_by_rows(team, joints.count, [=](std::uint32_t j) { add_reaction(view, j); });
 }
 
 /// A mechanism's rows where its bodies are now. As of refresh_mechanism.
@@ -146,7 +141,8 @@ PLUMB_HD inline void begin_axis_joint(const AxisView& view, std::uint32_t j, boo
 }
 
 /// The impulses of the last sub-step, or step, act again.
-PLUMB_DEVICE inline void warm_start_axes(Team& team, const JointSet& joints, bool first, const StepParameters& step) {
+PLUMB_SHARED_DEVICE_CODE inline void warm_start_axes(Team& team, const JointSet& joints, bool first,
+                                                     const StepParameters& step) {
   if (joints.count == 0) return;
   const AxisView view = axis_view(joints);
   const JointSystem& system = joints.system;
@@ -159,7 +155,7 @@ PLUMB_DEVICE inline void warm_start_axes(Team& team, const JointSet& joints, boo
     for_columns(own, mechanism,
                 [&](std::uint32_t column) { begin_axis_joint(view, system.base + column, first, step); });
     if (first) refresh_axes(own, system, mechanism, view, step, true);
-    for_places(own, mechanism, [&](std::uint32_t place) { push_body(system, place, true); });
+    push_totals(own, system, mechanism);
   });
 }
 
@@ -179,12 +175,13 @@ PLUMB_DEVICE inline void pass_on_loads(Team& team, const JointSystem& system, co
     const std::uint32_t j = system.base + column;
     const Joint& joint = view.joints[j];
     const AxisWork& own = view.parts.work[j];
-    RowNumbers& y = system.work(column).change;
-    speeds_now(view, j, view.velocity(joint.body_a), view.velocity(joint.body_b), y);
+    const Lanes speeds = speeds_now(view, j, view.velocity(joint.body_a), view.velocity(joint.body_b));
     const Real tikhonov = tikhonov_of_speeds(view, j);
-    for (int i = 0; i < row_count(joint); ++i)
-      y[i] = own.is_active(i) ? -((y[i] - speed_met(view, j, i)) + tikhonov * own.cfm[i] * view.total(j)[i]) : Real(0);
-    take_earlier(system, column, y);
+    const Lanes y = by_row(row_count(joint), [&](int i) {
+      if (!own.is_active(i)) return Real(0);
+      return -((of_row(speeds, i) - speed_met(view, j, i)) + tikhonov * own.cfm[i] * view.total(j)[i]);
+    });
+    store_row(system.work(column).change, without_earlier(system, column, y));
   });
   for_columns_down(team, system, mechanism, [&](std::uint32_t column) { solve_backward(system, column); });
   push_changes(team, system, mechanism);
@@ -197,8 +194,8 @@ constexpr Real kMostReturn = 1;
 
 /// One pass of the sub-stepped solver: over places, or over speeds after positions have moved. touched: contacts may
 /// push mechanisms. loaded: those that they do push have yet to pass on what contacts did.
-PLUMB_DEVICE inline void solve_axes(Team& team, const JointSet& joints, const StepParameters& step, RowPass pass,
-                                    bool touched, bool loaded) {
+PLUMB_SHARED_DEVICE_CODE inline void solve_axes(Team& team, const JointSet& joints, const StepParameters& step,
+                                                RowPass pass, bool touched, bool loaded) {
   if (joints.count == 0) return;
   const AxisView view = axis_view(joints);
   const JointSystem& system = joints.system;

@@ -15,9 +15,8 @@
 namespace plumb::impulse {
 
 constexpr int kJointRows = 6;
-/// A number of each row. A CPU has room for a whole vector: what is in lanes beyond the rows does not count.
-constexpr int kRowRoom = kLanes == 1 ? kJointRows : static_cast<int>(kLaneGroup);
-using RowNumbers = Real[kRowRoom];
+/// A number of each row, with room for a whole vector: what is in lanes beyond the rows does not count.
+using RowNumbers = Real[kLaneGroup];
 constexpr std::uint32_t kWorld = 0xffffffffu;  // stands for a body that is not there: the world
 
 /// kOther: what only joint_axes.hpp can describe, as it can all others.
@@ -64,9 +63,6 @@ struct Joint {
   Frame frame_a, frame_b;
   Position world_anchor;  ///< of frame a where body_a is kWorld
 };
-
-/// How many numbers of n rows a loop goes through: a CPU does a whole vector at once.
-PLUMB_HD constexpr int whole_rows(int n) { return kLanes == 1 ? n : kRowRoom; }
 
 /// Of a joint, in words that let a compiler see how few there are.
 PLUMB_HD inline int row_count(const Joint& joint) {

@@ -41,6 +41,7 @@ struct AxisWork : AxisMemory {
   /// Bits: rows that are.
   [[nodiscard]] PLUMB_HD std::uint32_t active() const {
     std::uint32_t rows = 0;
+    PLUMB_UNROLL
     for (int i = 0; i < kJointRows; ++i) rows |= static_cast<std::uint32_t>(is_active(i)) << i;
     return rows;
   }
@@ -100,7 +101,7 @@ PLUMB_HD inline Real spring_mass(const AxisView& view, std::uint32_t j, int row,
 }
 
 /// Rows, errors and K where the bodies are now.
-PLUMB_HD inline void refresh_axis_joint(const AxisView& view, std::uint32_t j) {
+PLUMB_SHARED_CODE inline void refresh_axis_joint(const AxisView& view, std::uint32_t j) {
   const Joint& joint = view.joints[j];
   const JointAxes& axes = view.parts.axes[j];
   JointWork& work = view.work[j];
@@ -113,52 +114,48 @@ PLUMB_HD inline void refresh_axis_joint(const AxisView& view, std::uint32_t j) {
            [&](JointRow(&rows)[kJointRows]) { all_rows(joint, axes, place, rows); });
   own.forget();
   JointReaction& reaction = view.reaction(j);
-  if (reaction.first_step == joint.first_step) return;
+  const bool is_new = reaction.first_step != joint.first_step;
+  lanes_meet();
+  if (!is_new) return;
   reaction.first_step = joint.first_step;
-  for (int i = rows_of(joint.type); i < row_count(joint); ++i) {
+  each_row(rows_of(joint.type), row_count(joint), [&](int i) {
     reaction.spring_mass[i] = spring_mass(view, j, i, a, b);
     reaction.held_for[i] = is_driven(view, j, i) ? kMotorHolds : Real(0);
-  }
+  });
 }
 
 /// Over the sub-step, with velocities a and b.
-PLUMB_HD inline void speeds_over_places(const AxisView& view, std::uint32_t j, const RowTime& time, const Velocity& a,
-                                        const Velocity& b, RowNumbers& speed) {
+PLUMB_HD inline Lanes speeds_over_places(const AxisView& view, std::uint32_t j, const RowTime& time, const Velocity& a,
+                                         const Velocity& b) {
   const Joint& joint = view.joints[j];
   const JointWork& work = view.work[j];
   const JointAxes& axes = view.parts.axes[j];
   const JointPlace place = place_joint(joint, view.base(joint), view.end_after(joint.body_a, a, time.h),
                                        view.end_after(joint.body_b, b, time.h));
-  all_errors(joint, axes, place, speed);
+  RowNumbers then;
+  all_errors(joint, axes, place, then);
   const int first = rows_of(joint.type);
-  for (int i = 0; i < row_count(joint); ++i) {
-    Real moved = speed[i] - work.error[i];
+  return by_row(row_count(joint), [&](int i) {
+    Real moved = then[i] - work.error[i];
     if (i >= first && axes.row[i - first].kind == RowKind::kAngle) moved = wrapped(moved);
-    speed[i] = moved * time.inverse_h;
-  }
+    return moved * time.inverse_h;
+  });
 }
 
 /// What a pass sees of the speeds. Places are not linear in them: the rounds of a pass work on one tangent, so that
 /// what they try on the way does not matter. anew: at the speeds as they are.
-PLUMB_HD inline void row_speeds(const AxisView& view, std::uint32_t j, const RowTime& time, const Velocity& a,
-                                const Velocity& b, bool anew, RowNumbers& speed) {
+PLUMB_HD inline Lanes row_speeds(const AxisView& view, std::uint32_t j, const RowTime& time, const Velocity& a,
+                                 const Velocity& b, bool anew) {
   AxisWork& own = view.parts.work[j];
-  const int n = whole_rows(row_count(view.joints[j]));
-  if (time.pass != RowPass::kPlaces) return speeds_now(view, j, a, b, speed);
-  if (anew) {
-    if (own.recall_speeds(a, b, speed)) return;
-    RowNumbers now;
-    speeds_now(view, j, a, b, now);
-    if (cannot_see_ahead(view.work[j], a, b, time.h))
-      speeds_now(view, j, a, b, speed);
-    else
-      speeds_over_places(view, j, time, a, b, speed);
-    for (int i = 0; i < n; ++i) own.bend[i] = speed[i] - now[i];
-    own.keep_speeds(a, b, speed);
-    return;
-  }
-  speeds_now(view, j, a, b, speed);
-  for (int i = 0; i < n; ++i) speed[i] = speed[i] + own.bend[i];
+  if (time.pass != RowPass::kPlaces) return speeds_now(view, j, a, b);
+  if (!anew) return speeds_now(view, j, a, b) + load_row(own.bend);
+  Lanes speed;
+  if (own.recall_speeds(a, b, speed)) return speed;
+  const Lanes now = speeds_now(view, j, a, b);
+  speed = cannot_see_ahead(view.work[j], a, b, time.h) ? now : speeds_over_places(view, j, time, a, b);
+  store_row(own.bend, speed - now);
+  own.keep_speeds(a, b, speed);
+  return speed;
 }
 
 PLUMB_HD inline RowLaw law_of_row(const AxisView& view, std::uint32_t j, int row, const RowTime& time) {
@@ -187,50 +184,55 @@ PLUMB_HD inline Real speed_of_held(const AxisView& view, std::uint32_t j, int ro
 
 /// Finds the piece of each row, and its equation. jump: what brings impulses that do not depend on the speed to where
 /// they should be; 0 of others. Returns whether a piece is another than before, or ought to be.
-PLUMB_HD inline bool choose_pieces(const AxisView& view, std::uint32_t j, const RowTime& time, const Velocity& a,
-                                   const Velocity& b, std::uint32_t round, Real share, RowNumbers& jump) {
+PLUMB_SHARED_CODE inline bool choose_pieces(const AxisView& view, std::uint32_t j, const RowTime& time,
+                                            const Velocity& a, const Velocity& b, std::uint32_t round, Real share,
+                                            Lanes& jump) {
   const Joint& joint = view.joints[j];
   AxisWork& own = view.parts.work[j];
   const Real* total = view.total(j);
   const bool all_held = rows_of(joint.type) == row_count(joint), first_round = round == 0;
-  for (int i = 0; i < whole_rows(row_count(joint)); ++i) jump[i] = 0;
+  jump = Lanes(0);
   if (all_held && !first_round) return false;
   const Real rate = time.pass == RowPass::kSpeeds ? Real(0) : rate_of_error(view, joint, time.rate, time.chain_rate);
-  RowNumbers speed{};
-  if (!all_held || time.pass == RowPass::kMoved) row_speeds(view, j, time, a, b, first_round, speed);
+  Lanes speeds(0);
+  if (!all_held || time.pass == RowPass::kMoved) speeds = row_speeds(view, j, time, a, b, first_round);
+  const bool turns = turns_far(a, b, time.h);
   bool changed = false;
-  for (int i = 0; i < row_count(joint); ++i) {
-    const Real mobility = own.whole(i, i);
-    if (first_round) own.before[i] = turns_far(a, b, time.h) ? Real(0) : speed[i];
+  jump = by_row(row_count(joint), [&](int i) {
+    const Real mobility = own.whole(i, i), speed = of_row(speeds, i);
+    if (first_round) own.before[i] = turns ? Real(0) : speed;
     if (is_held(view, j, i)) {
       own.piece[i] = RowPiece::kHeld;
       own.target[i] = speed_of_held(view, j, i, time, rate);
       own.cfm[i] = share * mobility;
-      continue;
+      return Real(0);
     }
     const RowLaw law = law_of_row(view, j, i, time);
-    const RowPiece piece =
-        first_round ? law.piece(speed[i], total[i], mobility) : law.next(own.piece[i], speed[i], total[i]);
+    const RowPiece piece = first_round ? law.piece(speed, total[i], mobility) : law.next(own.piece[i], speed, total[i]);
     if (!first_round && piece != own.piece[i]) changed = true;
     if (first_round || may_change(j, i, round)) own.piece[i] = piece;
     if (is_hard(own.piece[i])) {
       own.target[i] = law.speed(own.piece[i]);
       own.cfm[i] = share * mobility;
-    } else {
-      own.target[i] = law.sign_of(own.piece[i]) + law.spring;
-      own.cfm[i] = law.drag > 0 ? Real(1) / law.drag : Real(-1);
-      if (!own.is_active(i)) jump[i] = own.target[i] - total[i];
+      return Real(0);
     }
-  }
-  return changed;
+    own.target[i] = law.sign_of(own.piece[i]) + law.spring;
+    own.cfm[i] = law.drag > 0 ? Real(1) / law.drag : Real(-1);
+    return own.is_active(i) ? Real(0) : own.target[i] - total[i];
+  });
+  return any_row(changed);
 }
 
 /// The matrix of the rows that are active, others being 0.
-PLUMB_HD inline void mask_matrix(const AxisWork& own, int n, JointMatrix& matrix) {
-  for (int p = 0; p < n; ++p) {
-    for (int q = 0; q <= p; ++q) matrix(p, q) = own.is_active(p) && own.is_active(q) ? own.whole(p, q) : Real(0);
-    if (own.is_active(p)) matrix(p, p) = matrix(p, p) + own.cfm[p];
-  }
+PLUMB_HD inline BlockAtWork masked_matrix(const AxisWork& own, int n) {
+  BlockAtWork matrix;
+  const Lanes cfm = load_row(own.cfm);
+  const Mask is_active = !(cfm < Lanes(0));
+  count_rows(n, [&](int q) {
+    const Lanes column = select(is_active, column_of(own.whole, q), Lanes(0));
+    put_column(matrix, q, own.is_active(q) ? select(lanes_of(1U << q), column + cfm, column) : Lanes(0));
+  });
+  return matrix;
 }
 
 /// Which rows may let go in a step and are nonetheless taken to hold while contacts push. predicts: some may be.
@@ -238,21 +240,21 @@ PLUMB_HD inline void predict_rows(const AxisView& view, std::uint32_t j, bool pr
   AxisWork& own = view.parts.work[j];
   own.predicted = own.let_go = 0;
   if (!predicts) return;
-  for (int i = rows_of(view.joints[j].type); i < row_count(view.joints[j]); ++i) {
-    Real least = kLimitHolds;
-    if (is_driven(view, j, i)) least = kMotorHolds;
-    if (!is_held(view, j, i) && view.reaction(j).held_for[i] >= least) own.predicted |= 1U << i;
-  }
+  own.predicted = rows_where(rows_of(view.joints[j].type), row_count(view.joints[j]), [&](int i) {
+    const Real least = is_driven(view, j, i) ? kMotorHolds : kLimitHolds;
+    return !is_held(view, j, i) && view.reaction(j).held_for[i] >= least;
+  });
 }
 
 /// Which rows hold while contacts push: those that always do, and those of which that is predicted. Others may be left
 /// at a limit, or overcome, and what pushes as if they held would push too hard.
 PLUMB_HD inline void choose_rows_met(const AxisView& view, std::uint32_t j) {
   AxisWork& own = view.parts.work[j];
-  for (int i = 0; i < row_count(view.joints[j]); ++i) {
-    const bool holds = is_held(view, j, i) || (own.predicted >> i & 1U) != 0;
+  const std::uint32_t predicted = own.predicted;
+  each_row(0, row_count(view.joints[j]), [&](int i) {
+    const bool holds = is_held(view, j, i) || (predicted >> i & 1U) != 0;
     own.cfm[i] = holds ? view.work[j].share * own.whole(i, i) : Real(-1);
-  }
+  });
 }
 
 /// After a pass over speeds: for how long rows have held now, and which have not as predicted.
@@ -260,53 +262,52 @@ PLUMB_HD inline void follow_rows(const AxisView& view, std::uint32_t j, const Ro
   const Joint& joint = view.joints[j];
   AxisWork& own = view.parts.work[j];
   JointReaction& reaction = view.reaction(j);
-  RowNumbers speed;
-  if (own.predicted != 0) speeds_now(view, j, view.velocity(joint.body_a), view.velocity(joint.body_b), speed);
-  for (int i = rows_of(joint.type); i < row_count(joint); ++i) {
-    if (is_held(view, j, i)) continue;
+  Lanes speed(0);
+  if (own.predicted != 0) speed = speeds_now(view, j, view.velocity(joint.body_a), view.velocity(joint.body_b));
+  const std::uint32_t gone = rows_where(rows_of(joint.type), row_count(joint), [&](int i) {
+    if (is_held(view, j, i)) return false;
     const RowLaw law = law_of_row(view, j, i, time);
     reaction.held_for[i] = law.holds(own.piece[i], view.total(j)[i]) ? reaction.held_for[i] + time.h : Real(0);
-    if ((own.predicted >> i & 1U) == 0 || is_hard(own.piece[i])) continue;
-    const Real off = speed[i] - (is_driven(view, j, i) ? law.steady : Real(0));
-    if (off * off > kLetsGo * kLetsGo) own.let_go |= 1U << i;
-  }
+    if ((own.predicted >> i & 1U) == 0 || is_hard(own.piece[i])) return false;
+    const Real off = of_row(speed, i) - (is_driven(view, j, i) ? law.steady : Real(0));
+    return off * off > kLetsGo * kLetsGo;
+  });
+  if (leads_lanes()) own.let_go |= gone;
 }
 
 /// How far the rows are from their equations, with the other sign. tikhonov: as JointWork's. A motor's row never counts
 /// what it has gathered: nothing takes back how far its speed was off, and it would creep under load.
-PLUMB_HD inline void row_residuals(const AxisView& view, std::uint32_t j, const RowTime& time, const Velocity& a,
-                                   const Velocity& b, bool anew, Real tikhonov, RowNumbers& y) {
+PLUMB_SHARED_CODE inline Lanes row_residuals(const AxisView& view, std::uint32_t j, const RowTime& time,
+                                             const Velocity& a, const Velocity& b, bool anew, Real tikhonov) {
   const AxisWork& own = view.parts.work[j];
   const Real* total = view.total(j);
-  row_speeds(view, j, time, a, b, anew, y);
-  for (int i = 0; i < row_count(view.joints[j]); ++i) {
-    if (!own.is_active(i))
-      y[i] = 0;
-    else if (own.piece[i] == RowPiece::kSteady)
-      y[i] = -(y[i] - own.target[i]);
-    else if (is_hard(own.piece[i]))
-      y[i] = -((y[i] - own.target[i]) + tikhonov * own.cfm[i] * total[i]);
-    else
-      y[i] = -(y[i] + own.cfm[i] * (total[i] - own.target[i]));
-  }
+  const Lanes speeds = row_speeds(view, j, time, a, b, anew);
+  return by_row(row_count(view.joints[j]), [&](int i) {
+    const Real speed = of_row(speeds, i);
+    if (!own.is_active(i)) return Real(0);
+    if (own.piece[i] == RowPiece::kSteady) return -(speed - own.target[i]);
+    if (is_hard(own.piece[i])) return -((speed - own.target[i]) + tikhonov * own.cfm[i] * total[i]);
+    return -(speed + own.cfm[i] * (total[i] - own.target[i]));
+  });
 }
 
-/// At the end of a pass, in which rows do not switch their piece of the law any more. change: what brings impulses to
-/// what the laws allow.
-PLUMB_HD inline void settle_pieces(const AxisView& view, std::uint32_t j, const RowTime& time, RowNumbers& change) {
+/// At the end of a pass, in which rows do not switch their piece of the law any more: what brings impulses to what the
+/// laws allow.
+PLUMB_HD inline Lanes settle_pieces(const AxisView& view, std::uint32_t j, const RowTime& time) {
   const Joint& joint = view.joints[j];
   AxisWork& own = view.parts.work[j];
   const Real* total = view.total(j);
-  for (int i = 0; i < whole_rows(row_count(joint)); ++i) change[i] = 0;
-  for (int i = rows_of(joint.type); i < row_count(joint); ++i) {
-    if (own.piece[i] == RowPiece::kHeld) continue;
+  const int first = rows_of(joint.type);
+  return by_row(row_count(joint), [&](int i) {
+    if (i < first || own.piece[i] == RowPiece::kHeld) return Real(0);
     const RowLaw law = law_of_row(view, j, i, time);
-    change[i] = law.allowed(own.piece[i], total[i]) - total[i];
-    if (time.pass != RowPass::kPlaces) continue;
-    own.reached[i] = own.piece[i];
-    own.spring[i] =
-        is_hard(own.piece[i]) ? law.spring - law.drag * law.speed(own.piece[i]) : total[i] - law.sign_of(own.piece[i]);
-  }
+    if (time.pass == RowPass::kPlaces) {
+      own.reached[i] = own.piece[i];
+      own.spring[i] = is_hard(own.piece[i]) ? law.spring - law.drag * law.speed(own.piece[i])
+                                            : total[i] - law.sign_of(own.piece[i]);
+    }
+    return law.allowed(own.piece[i], total[i]) - total[i];
+  });
 }
 
 /// What a round solves: nothing more; the first equations; those of other pieces; or of the same where they lead to.
@@ -339,28 +340,31 @@ PLUMB_HD inline void solve_axis_rows(const AxisView& view, std::uint32_t j, cons
   const AxisWork& own = view.parts.work[j];
   JointWork& work = view.work[j];
   Real* total = view.total(j);
-  RowNumbers change;
-  const auto push = [&] {
-    for (int i = 0; i < row_count(joint); ++i) total[i] = total[i] + change[i];
-    push_joint(work, row_count(joint), change, a, b);
+  const int n = row_count(joint);
+  const auto push = [&](const Lanes& change) {
+    each_row(0, n, [&](int i) { total[i] = total[i] + of_row(change, i); });
+    RowNumbers all;
+    spread(change, all);
+    push_joint(work, n, all, a, b);
   };
   RoundCount rounds;
   for (bool go = true; go;) {
-    const bool changed = choose_pieces(view, j, time, a, b, rounds.round(), time.share, change);
+    Lanes jump;
+    const bool changed = choose_pieces(view, j, time, a, b, rounds.round(), time.share, jump);
     const RoundKind kind = rounds.next(changed);
     if (kind == RoundKind::kDone) break;
-    push();
+    push(jump);
     if (has_new_matrix(kind)) {
-      mask_matrix(own, row_count(joint), work.factor);
-      factor(work.factor, row_count(joint));
+      lanes_meet();
+      BlockAtWork matrix = masked_matrix(own, n);
+      factor(matrix, n);
+      copy_columns(matrix, n, work.factor);
+      lanes_meet();
     }
-    row_residuals(view, j, time, a, b, has_new_tangent(kind), Real(1), change);
-    solve_factored(work.factor, row_count(joint), change);
-    push();
-    go = rows_of(joint.type) != row_count(joint);
+    push(solved_lanes(work.factor, n, row_residuals(view, j, time, a, b, has_new_tangent(kind), Real(1))));
+    go = rows_of(joint.type) != n;
   }
-  settle_pieces(view, j, time, change);
-  push();
+  push(settle_pieces(view, j, time));
 }
 
 PLUMB_HD inline void solve_axis_joint(const AxisView& view, std::uint32_t j, const RowTime& time) {
@@ -368,15 +372,14 @@ PLUMB_HD inline void solve_axis_joint(const AxisView& view, std::uint32_t j, con
   const Velocity a = view.velocity(joint.body_a), b = view.velocity(joint.body_b);
   Velocity new_a = a, new_b = b;
   solve_axis_rows(view, j, time, new_a, new_b);
-  view.store(joint.body_a, a, new_a);
-  view.store(joint.body_b, b, new_b);
+  store_bodies(view, j, a, b, new_a, new_b);
 }
 
 /// A sub-step begins, or a step.
 PLUMB_HD inline void begin_reaction(const AxisView& view, std::uint32_t j, bool step) {
   JointReaction& reaction = view.reaction(j);
   if (step) reaction.force = reaction.torque = {0, 0, 0};
-  for (int i = 0; i < kJointRows; ++i) reaction.counted[i] = 0;
+  each_row(0, kJointRows, [&](int i) { reaction.counted[i] = 0; });
 }
 
 /// Adds what the impulses have gained since this was called last, along the rows as they are.
@@ -385,12 +388,19 @@ PLUMB_HD inline void add_reaction(const AxisView& view, std::uint32_t j) {
   const JointWork& work = view.work[j];
   JointReaction& reaction = view.reaction(j);
   const Real* total = view.total(j);
+  RowNumbers gained;
+  spread(by_row(row_count(joint),
+                [&](int i) {
+                  const Real before = reaction.counted[i];
+                  reaction.counted[i] = total[i];
+                  return total[i] - before;
+                }),
+         gained);
+  if (!leads_lanes()) return;
   const Vec arm = rotate(view.end(joint.body_b).orientation, joint.frame_b.position);
   for (int i = 0; i < row_count(joint); ++i) {
-    const Real gained = total[i] - reaction.counted[i];
-    reaction.force += gained * work.rows.direction(i);
-    reaction.torque += gained * (work.rows.on_b(i) - cross(arm, work.rows.direction(i)));
-    reaction.counted[i] = total[i];
+    reaction.force += gained[i] * work.rows.direction(i);
+    reaction.torque += gained[i] * (work.rows.on_b(i) - cross(arm, work.rows.direction(i)));
   }
 }
 

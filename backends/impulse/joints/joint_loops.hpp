@@ -42,11 +42,14 @@ PLUMB_DEVICE void for_joints_of_colour(Team& team, const JointColours& colours, 
   const std::uint32_t* list = colours.joints;
   if (first == end) return;
   if (colours.last_is_overflow && colour + 1 == colours.count)
-    team.single([=] {
-      for (std::uint32_t i = first; i < end; ++i) f(list[i]);
+    each_by_rows(team, 1, [=](std::uint32_t) {
+      for (std::uint32_t i = first; i < end; ++i) {
+        f(list[i]);
+        lanes_meet();
+      }
     });
   else
-    team.each(end - first, [=](std::uint32_t i) { f(list[first + i]); });
+    each_by_rows(team, end - first, [=](std::uint32_t i) { f(list[first + i]); });
 }
 
 /// f(j) for every joint, colour after colour.
@@ -71,13 +74,13 @@ PLUMB_DEVICE void for_single_joints(Team& team, const JointSet& joints, std::uin
 template <class F>
 PLUMB_DEVICE void each_single_joint(Team& team, const JointSet& joints, std::uint32_t level, const F& f) {
   const JointView view = joints.view;
-  team.each(joints.system.base, [=](std::uint32_t j) {
+  each_by_rows(team, joints.system.base, [=](std::uint32_t j) {
     if (view.level(view.joints[j]) == level) f(j);
   });
 }
 PLUMB_DEVICE inline void refresh_joints(Team& team, const JointSet& joints) {
   const JointView view = joints.view;
-  team.each(joints.count, [=](std::uint32_t j) { refresh_joint(view, j); });
+  each_by_rows(team, joints.count, [=](std::uint32_t j) { refresh_joint(view, j); });
 }
 
 PLUMB_DEVICE inline void warm_start_joints(Team& team, const JointSet& joints, const StepParameters& step) {

@@ -43,7 +43,7 @@ struct JointSystem {
   const std::uint32_t* product_first;
   JointBlock* scaled;  ///< L
   JointBlock* whole;   ///< L D
-  JointBlock* turned;  ///< L by rows, on a CPU
+  JointBlock* turned;  ///< L by rows
   std::uint32_t body_count;
   const std::uint32_t* bodies;  ///< that these joints push, by place: mechanism after mechanism
   const std::uint32_t* body_first;

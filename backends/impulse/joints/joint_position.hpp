@@ -14,6 +14,15 @@ PLUMB_HD inline void displace(const JointView& view, std::uint32_t body, const V
   displacement.rotation = normalized(turn_by(h * (after.angular - before.angular)) * displacement.rotation);
 }
 
+/// What was done to a joint's bodies moves them, too.
+PLUMB_HD inline void displace_bodies(const JointView& view, std::uint32_t j, const Velocity& a, const Velocity& b,
+                                     const Velocity& new_a, const Velocity& new_b, Real h) {
+  store_bodies(view, j, a, b, new_a, new_b);
+  if (!leads_lanes()) return;
+  displace(view, view.joints[j].body_a, a, new_a, h);
+  displace(view, view.joints[j].body_b, b, new_b, h);
+}
+
 /// Puts the two bodies where the joint holds (to first order), and gives them the velocity that this took. To those
 /// that turn too far for that it gives the velocity that would take them there.
 PLUMB_HD inline void correct_joint(const JointView& view, std::uint32_t j, const StepParameters& step) {
@@ -22,17 +31,15 @@ PLUMB_HD inline void correct_joint(const JointView& view, std::uint32_t j, const
   const JointWork& work = view.work[j];
   const int n = row_count(joint);
   const Velocity a = view.velocity(joint.body_a), b = view.velocity(joint.body_b);
-  RowNumbers impulse{};
-  if (turns_far(a, b, step.h)) speeds_now(view, j, a, b, impulse);
-  for (int i = 0; i < n; ++i) impulse[i] = -(impulse[i] + step.inverse_h * work.error[i]);
-  solve_factored(work.factor, n, impulse);
-  for (int i = 0; i < n; ++i) view.impulses[joint.slot].along[i] = impulse[i];
+  Lanes speed(0);
+  if (turns_far(a, b, step.h)) speed = speeds_now(view, j, a, b);
+  const Lanes impulse = solved_lanes(work.factor, n, -(speed + Lanes(step.inverse_h) * load_row(work.error)));
+  each_row(0, n, [&](int i) { view.impulses[joint.slot].along[i] = of_row(impulse, i); });
+  RowNumbers all;
+  spread(impulse, all);
   Velocity new_a = a, new_b = b;
-  push_joint(work, n, impulse, new_a, new_b);
-  view.store(joint.body_a, a, new_a);
-  view.store(joint.body_b, b, new_b);
-  displace(view, joint.body_a, a, new_a, step.h);
-  displace(view, joint.body_b, b, new_b, step.h);
+  push_joint(work, n, all, new_a, new_b);
+  displace_bodies(view, j, a, b, new_a, new_b, step.h);
 }
 
 /// The same with rows that do not always hold. first: of a step.
@@ -40,15 +47,12 @@ PLUMB_HD inline void correct_axis_joint(const AxisView& view, std::uint32_t j, c
   const Joint& joint = view.joints[j];
   refresh_axis_joint(view, j);
   begin_reaction(view, j, first && !step.is_later_part);
-  for (int i = 0; i < row_count(joint); ++i) view.total(j)[i] = 0;
+  each_row(0, row_count(joint), [&](int i) { view.total(j)[i] = 0; });
   const Velocity a = view.velocity(joint.body_a), b = view.velocity(joint.body_b);
   Velocity new_a = a, new_b = b;
   solve_axis_rows(view, j, {RowPass::kMoved, step.h, step.inverse_h, step.inverse_h, 0}, new_a, new_b);
-  view.store(joint.body_a, a, new_a);
-  view.store(joint.body_b, b, new_b);
   add_reaction(view, j);
-  displace(view, joint.body_a, a, new_a, step.h);
-  displace(view, joint.body_b, b, new_b, step.h);
+  displace_bodies(view, j, a, b, new_a, new_b, step.h);
 }
 
 }  // namespace plumb::impulse

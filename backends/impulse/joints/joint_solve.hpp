@@ -24,7 +24,7 @@ struct JointImpulse {
   Real along[kJointRows];  ///< N s, N m s
 };
 
-/// What joints did to a body whose angular velocity is kept in world axes.
+/// What joints did to a body whose angular velocity is kept in world axes, by one thread.
 PLUMB_HD inline void store_plainly(const Velocity& before, const Velocity& after, Velocity& velocity,
                                    FreeVelocity& free) {
 #if defined(PLUMB_IMPULSE_CUDA)
@@ -54,9 +54,9 @@ struct JointView {
   JointImpulse* impulses;  ///< by slot
   Real* least_moment;      ///< by body: what tension asks of its principal moments (joints/tension.hpp), kg m2
   bool gyroscopic;
-  // On a CPU, of bodies of the system, each for all its joints, by body:
-  JointEnd* arrivals;  ///< where they will be after a sub-step
-  KeptSwing* kept_swings;
+  // Of bodies of the system, each for all its joints, by body:
+  JointEnd* arrivals;      ///< where they will be after a sub-step
+  KeptSwing* kept_swings;  ///< on a CPU
 
   PLUMB_HD JointEnd end(std::uint32_t body) const {
     if (body == kWorld) return {{0, 0, 0}, {0, 0, 0, 1}};
@@ -125,7 +125,7 @@ struct JointView {
                                  {min(inverse.x, most), min(inverse.y, most), min(inverse.z, most)});
   }
   /// Joint impulses go into the free velocity too: the next sub-step starts from them along its own rows, so they must
-  /// not be carried over as velocity (motion.hpp).
+  /// not be carried over as velocity (motion.hpp). By one thread.
   PLUMB_HD void store(std::uint32_t body, const Velocity& before, const Velocity& after) const {
     if (!(before.inverse_mass > 0)) return;
     Velocity& velocity = solver.velocity[body];
@@ -137,7 +137,27 @@ struct JointView {
     velocity.angular += change;
     free.angular += change;
   }
+  /// Likewise by the threads of a joint's rows. was: before, as all of them have it.
+  PLUMB_HD void store(std::uint32_t body, const Velocity& was, const Lanes& before, const Lanes& after) const {
+    if (!(was.inverse_mass > 0)) return;
+    if (swings(bodies, solver, body)) {
+      const Velocity now = velocity_of(after);
+      if (leads_lanes()) store(body, was, now);
+      return;
+    }
+    store_row(solver.velocity[body], after);
+    FreeVelocity& free = solver.free_velocity[body];
+    store_row(free, load_row(free) + (after - before));
+  }
 };
+
+/// What was done to a joint's bodies, of which one of its threads stores it.
+PLUMB_HD inline void store_bodies(const JointView& view, std::uint32_t j, const Velocity& a, const Velocity& b,
+                                  const Velocity& new_a, const Velocity& new_b) {
+  if (!leads_lanes()) return;
+  view.store(view.joints[j].body_a, a, new_a);
+  view.store(view.joints[j].body_b, b, new_b);
+}
 
 /// How the first pass takes back an error.
 struct JointPass {
@@ -159,7 +179,7 @@ PLUMB_HD inline JointMass joint_mass(const JointView& view, const Joint& joint, 
 }
 
 /// Rows, errors and K where the bodies are now.
-PLUMB_HD inline void make_joint_rows(const JointView& view, std::uint32_t j) {
+PLUMB_SHARED_CODE inline void make_joint_rows(const JointView& view, std::uint32_t j) {
   const Joint& joint = view.joints[j];
   JointWork& work = view.work[j];
   const JointEnd a = view.end(joint.body_a), b = view.end(joint.body_b);
@@ -172,6 +192,7 @@ PLUMB_HD inline void make_joint_rows(const JointView& view, std::uint32_t j) {
 
 PLUMB_HD inline void factor_joint(const JointView& view, std::uint32_t j) {
   factor(view.work[j].factor, row_count(view.joints[j]));
+  lanes_meet();
 }
 /// Both, for a joint that is solved by itself.
 PLUMB_HD inline void refresh_joint(const JointView& view, std::uint32_t j) {
@@ -190,9 +211,8 @@ PLUMB_HD inline bool cannot_see_ahead(const JointWork& work, const Velocity& a, 
 }
 
 /// Speeds along the rows as they stand.
-PLUMB_HD inline void speeds_now(const JointView& view, std::uint32_t j, const Velocity& a, const Velocity& b,
-                                RowNumbers& speed) {
-  speeds_along(view.work[j].rows, row_count(view.joints[j]), a, b, speed);
+PLUMB_HD inline Lanes speeds_now(const JointView& view, std::uint32_t j, const Velocity& a, const Velocity& b) {
+  return speeds_along(view.work[j].rows, a, b);
 }
 
 /// Errors are taken back no faster than this, m/s or rad/s. Bodies that are joined where they are metres apart are
@@ -211,33 +231,10 @@ PLUMB_HD inline Real rate_of_error(const JointView& view, const Joint& joint, Re
   return joint.in_chain || (pressed && !joint.in_ring) ? min(rate, by_degrees) : rate;
 }
 
-#if defined(PLUMB_IMPULSE_CUDA)
-
-/// How far the velocities of the rows are from what they should be in this pass.
-PLUMB_HD inline void joint_residuals(const JointView& view, std::uint32_t j, const JointPass& pass, const Velocity& a,
-                                     const Velocity& b, RowNumbers& residual) {
-  const Joint& joint = view.joints[j];
-  const JointWork& work = view.work[j];
-  const int n = row_count(joint);
-  const Real rate = rate_of_error(view, joint, pass.softness.bias_rate, pass.chain_rate);
-  if (!pass.take_back_error || cannot_see_ahead(work, a, b, pass.h)) {
-    speeds_now(view, j, a, b, residual);
-    for (int i = 0; i < n && pass.take_back_error; ++i) residual[i] = residual[i] + speed_of_error(rate, work.error[i]);
-    return;
-  }
-  const JointPlace place = place_joint(joint, view.base(joint), view.end_after(joint.body_a, a, pass.h),
-                                       view.end_after(joint.body_b, b, pass.h));
-  joint_errors(joint, place, residual);
-  for (int i = 0; i < n; ++i)
-    residual[i] = (residual[i] - work.error[i]) * pass.inverse_h + speed_of_error(rate, work.error[i]);
-}
-
-#else
-
 /// How far the velocities of the rows are from what they should be in this pass. end_after: as the view's.
 template <class EndAfter>
-Lanes joint_residuals(const JointView& view, std::uint32_t j, const JointPass& pass, const Velocity& a,
-                      const Velocity& b, const EndAfter& end_after) {
+PLUMB_HD Lanes joint_residuals(const JointView& view, std::uint32_t j, const JointPass& pass, const Velocity& a,
+                               const Velocity& b, const EndAfter& end_after) {
   const Joint& joint = view.joints[j];
   const JointWork& work = view.work[j];
   if (!pass.take_back_error) return speeds_along(work.rows, a, b);
@@ -249,59 +246,66 @@ Lanes joint_residuals(const JointView& view, std::uint32_t j, const JointPass& p
   joint_errors(joint, place, then);
   return (lanes_of_numbers(then) - error) * Lanes(pass.inverse_h) + back;
 }
-inline void joint_residuals(const JointView& view, std::uint32_t j, const JointPass& pass, const Velocity& a,
-                            const Velocity& b, RowNumbers& residual) {
-  store_row(residual, joint_residuals(view, j, pass, a, b, [&](std::uint32_t body, const Velocity& velocity) {
-              return view.end_after(body, velocity, pass.h);
-            }));
+PLUMB_HD inline Lanes joint_residuals(const JointView& view, std::uint32_t j, const JointPass& pass, const Velocity& a,
+                                      const Velocity& b) {
+  return joint_residuals(view, j, pass, a, b, [&](std::uint32_t body, const Velocity& velocity) {
+    return view.end_after(body, velocity, pass.h);
+  });
 }
-
-#endif
 
 /// What the last step ended with is where this one begins.
 PLUMB_HD inline void take_over_impulse(const JointView& view, std::uint32_t j, const StepParameters& step) {
   const Joint& joint = view.joints[j];
   JointImpulse& impulse = view.impulses[joint.slot];
   const Real kept = view.solver.levels.warm_start(step, view.solver.velocity, joint.body_a, joint.body_b);
-  for (int i = 0; i < kJointRows; ++i)
-    impulse.along[i] = joint.first_step == step.step ? Real(0) : kept * impulse.along[i];
+  each_row(0, kJointRows,
+           [&](int i) { impulse.along[i] = joint.first_step == step.step ? Real(0) : kept * impulse.along[i]; });
 }
 
 PLUMB_HD inline void keep_change(const JointView& view, std::uint32_t j) {
   JointImpulse& impulse = view.impulses[view.joints[j].slot];
-  for (int i = 0; i < row_count(view.joints[j]); ++i) impulse.along[i] = impulse.along[i] + view.work[j].change[i];
+  each_row(0, row_count(view.joints[j]), [&](int i) { impulse.along[i] = impulse.along[i] + view.work[j].change[i]; });
+}
+
+/// Impulses along a joint's rows push its two bodies.
+PLUMB_HD inline void push_bodies(const JointView& view, std::uint32_t j, const Velocity& a, const Velocity& b,
+                                 const Real* impulse) {
+  const Joint& joint = view.joints[j];
+  Velocity new_a = a, new_b = b;
+  push_joint(view.work[j], row_count(joint), impulse, new_a, new_b);
+  store_bodies(view, j, a, b, new_a, new_b);
 }
 
 /// The impulses that the joint had before act again, along its rows as they are now.
 PLUMB_HD inline void warm_start_joint(const JointView& view, std::uint32_t j, bool first, const StepParameters& step) {
   const Joint& joint = view.joints[j];
-  if (first) take_over_impulse(view, j, step);
-  const Velocity a = view.velocity(joint.body_a), b = view.velocity(joint.body_b);
-  Velocity new_a = a, new_b = b;
-  push_joint(view.work[j], row_count(joint), view.impulses[joint.slot].along, new_a, new_b);
-  view.store(joint.body_a, a, new_a);
-  view.store(joint.body_b, b, new_b);
+  if (first) {
+    take_over_impulse(view, j, step);
+    lanes_meet();
+  }
+  push_bodies(view, j, view.velocity(joint.body_a), view.velocity(joint.body_b), view.impulses[joint.slot].along);
+}
+
+/// Impulses along a joint's rows act, and are added to what it has.
+PLUMB_HD inline void apply_impulse(const JointView& view, std::uint32_t j, const Velocity& a, const Velocity& b,
+                                   const Lanes& impulse) {
+  const Joint& joint = view.joints[j];
+  JointImpulse& total = view.impulses[joint.slot];
+  each_row(0, row_count(joint), [&](int i) { total.along[i] = total.along[i] + of_row(impulse, i); });
+  RowNumbers all;
+  spread(impulse, all);
+  push_bodies(view, j, a, b, all);
 }
 
 PLUMB_HD inline void solve_joint(const JointView& view, std::uint32_t j, const JointPass& pass) {
   const Joint& joint = view.joints[j];
-  const JointWork& work = view.work[j];
-  JointImpulse& total = view.impulses[joint.slot];
-  const int n = row_count(joint);
   const Velocity a = view.velocity(joint.body_a), b = view.velocity(joint.body_b);
-  RowNumbers impulse;
-  joint_residuals(view, j, pass, a, b, impulse);
-  solve_factored(work.factor, n, impulse);
-  for (int i = 0; i < n; ++i) {
-    impulse[i] = -impulse[i];
-    if (pass.take_back_error)
-      impulse[i] = pass.softness.mass_scale * impulse[i] - pass.softness.impulse_scale * total.along[i];
-    total.along[i] = total.along[i] + impulse[i];
+  Lanes impulse = -solved_lanes(view.work[j].factor, row_count(joint), joint_residuals(view, j, pass, a, b));
+  if (pass.take_back_error) {
+    const Lanes total = lanes_of_numbers(view.impulses[joint.slot].along);
+    impulse = Lanes(pass.softness.mass_scale) * impulse - Lanes(pass.softness.impulse_scale) * total;
   }
-  Velocity new_a = a, new_b = b;
-  push_joint(work, n, impulse, new_a, new_b);
-  view.store(joint.body_a, a, new_a);
-  view.store(joint.body_b, b, new_b);
+  apply_impulse(view, j, a, b, impulse);
 }
 
 }  // namespace plumb::impulse

@@ -29,10 +29,8 @@ class JointStore {
   void reserve_bodies(std::size_t bodies) {
     mechanisms_.reserve_bodies(bodies);
     least_moment_.grow(bodies);
-    if constexpr (!Executor::kWarps) {
-      arrivals_.grow(bodies);
-      kept_swings_.grow(bodies);
-    }
+    arrivals_.grow(bodies);
+    if constexpr (!Executor::kWarps) kept_swings_.grow(bodies);
   }
   /// Bodies can be pushed, or cannot any more, who may have joints.
   void bodies_changed() { changed_ = changed_ || !records_.empty(); }

@@ -32,52 +32,17 @@ PLUMB_HD inline void choose_share(const JointView& view, std::uint32_t j, Real h
 
 PLUMB_HD inline void factor_column(const JointSystem& system, std::uint32_t j) {
   JointWork& work = system.work(j);
-  for (int p = 0; p < system.rows(j); ++p) work.cfm[p] = work.share * work.factor(p, p);
-  add_to_diagonal(work.factor, system.rows(j), work.cfm);
-  eliminate_column(system, j, [](std::uint32_t) { return kAllRows; });
+  const int n = system.rows(j);
+  const Lanes cfm = by_row(n, [&](int p) { return work.share * work.factor(p, p); });
+  store_row(work.cfm, cfm);
+  BlockAtWork diagonal;
+  copy_columns(work.factor, n, diagonal);
+  add_to_diagonal(diagonal, n, cfm);
+  eliminate_column(system, j, diagonal, [](std::uint32_t) { return kAllRows; });
 }
-
-#if defined(PLUMB_IMPULSE_CUDA)
 
 /// What the joints before it give, taken off a row's residuals y.
-PLUMB_HD inline void take_earlier(const JointSystem& system, std::uint32_t j, RowNumbers& y) {
-  const int n = system.rows(j);
-  for (std::uint32_t r = system.row_first[j]; r < system.row_first[j + 1]; ++r) {
-    const std::uint32_t e = system.row_entries[r];
-    const std::uint32_t k = system.entries[e].column;
-    take_product(y, n, system.scaled[e], system.work(k).change, system.rows(k));
-  }
-}
-
-PLUMB_HD inline void solve_forward(const JointSystem& system, std::uint32_t j, const JointPass& pass) {
-  const Joint& joint = system.view.joints[system.base + j];
-  RowNumbers& y = system.work(j).change;
-  joint_residuals(system.view, system.base + j, pass, system.view.velocity(joint.body_a),
-                  system.view.velocity(joint.body_b), y);
-  const JointImpulse& total = system.view.impulses[joint.slot];
-  const JointWork& work = system.work(j);
-  for (int p = 0; p < system.rows(j); ++p) y[p] = -(y[p] + work.tikhonov * work.cfm[p] * total.along[p]);
-  take_earlier(system, j, y);
-}
-
-PLUMB_HD inline void solve_backward(const JointSystem& system, std::uint32_t j) {
-  JointWork& work = system.work(j);
-  RowNumbers& z = work.change;
-  const int n = system.rows(j);
-  solve_factored(work.factor, n, z);
-  for (std::uint32_t e = system.column_first[j]; e < system.column_first[j + 1]; ++e) {
-    const JointBlock& scaled = system.scaled[e];
-    const std::uint32_t i = system.entries[e].row;
-    const RowNumbers& from = system.work(i).change;
-    for (int p = 0; p < system.rows(i); ++p)
-      for (int q = 0; q < n; ++q) z[q] = z[q] - scaled(p, q) * from[p];
-  }
-}
-
-#else
-
-/// What the joints before it give, taken off a row's residuals y.
-inline Lanes without_earlier(const JointSystem& system, std::uint32_t j, Lanes y) {
+PLUMB_HD inline Lanes without_earlier(const JointSystem& system, std::uint32_t j, Lanes y) {
   for (std::uint32_t r = system.row_first[j]; r < system.row_first[j + 1]; ++r) {
     const std::uint32_t e = system.row_entries[r];
     const std::uint32_t k = system.entries[e].column;
@@ -85,17 +50,14 @@ inline Lanes without_earlier(const JointSystem& system, std::uint32_t j, Lanes y
   }
   return y;
 }
-inline void take_earlier(const JointSystem& system, std::uint32_t j, RowNumbers& y) {
-  store_row(y, without_earlier(system, j, lanes_of_numbers(y)));
-}
 
 /// Where the body at a place will be, for solve_forward.
-inline void find_arrival(const JointSystem& system, std::uint32_t place, Real h) {
+PLUMB_HD inline void find_arrival(const JointSystem& system, std::uint32_t place, Real h) {
   const std::uint32_t body = system.bodies[place];
   system.view.arrivals[body] = system.view.end_after(body, system.view.velocity(body), h);
 }
 
-inline void solve_forward(const JointSystem& system, std::uint32_t j, const JointPass& pass) {
+PLUMB_HD inline void solve_forward(const JointSystem& system, std::uint32_t j, const JointPass& pass) {
   const Joint& joint = system.view.joints[system.base + j];
   JointWork& work = system.work(j);
   const JointView& view = system.view;
@@ -110,17 +72,15 @@ inline void solve_forward(const JointSystem& system, std::uint32_t j, const Join
   store_row(work.change, without_earlier(system, j, y));
 }
 
-inline void solve_backward(const JointSystem& system, std::uint32_t j) {
+PLUMB_HD inline void solve_backward(const JointSystem& system, std::uint32_t j) {
   JointWork& work = system.work(j);
-  Lanes z = solved_lanes(work.factor, system.rows(j), work.change);
+  Lanes z = solved_lanes(work.factor, system.rows(j), load_row(work.change));
   for (std::uint32_t e = system.column_first[j]; e < system.column_first[j + 1]; ++e) {
     const std::uint32_t i = system.entries[e].row;
     z = without_product(z, system.turned[e], system.work(i).change, system.rows(i));
   }
   store_row(work.change, z);
 }
-
-#endif
 
 #if !defined(PLUMB_IMPULSE_CUDA)
 /// Whether no number of a row is 0: then it stays what it is, to the sign of its zeros, when 0 is added.
@@ -142,17 +102,19 @@ inline bool stays(const JointSystem& system, std::uint32_t place) {
 
 /// All impulses on one body act. With `total` those that the joints have gathered, else the change just found.
 PLUMB_HD inline void push_body(const JointSystem& system, std::uint32_t place, bool total) {
+  const JointView& view = system.view;
   const std::uint32_t body = system.bodies[place];
-  const Velocity before = system.view.velocity(body);
-  Velocity after = before;
+  const Velocity velocity = view.velocity(body);
+  const Lanes before = lanes_of_velocity(velocity);
+  Lanes after = before;
   for (std::uint32_t k = system.body_first[place]; k < system.body_first[place + 1]; ++k) {
     const JointOnBody on = system.on_body[k];
-    const JointWork& work = system.view.work[on.joint];
-    const Joint& joint = system.view.joints[on.joint];
-    const Real* impulse = total ? system.view.impulses[joint.slot].along : work.change;
-    push_along(work.rows, row_count(joint), on.is_b, impulse, after);
+    const JointWork& work = view.work[on.joint];
+    const Joint& joint = view.joints[on.joint];
+    const Real* impulse = total ? view.impulses[joint.slot].along : work.change;
+    after = pushed_along(work.rows, row_count(joint), on.is_b, velocity.inverse_mass, impulse, after);
   }
-  system.view.store(body, before, after);
+  view.store(body, velocity, before, only_velocity(after, before));
 }
 
 /// f(team, mechanism) for every mechanism: of small ones each by its own team.
@@ -171,17 +133,23 @@ PLUMB_DEVICE void for_mechanisms_of_level(Team& team, const JointSystem& system,
   });
 }
 
-/// f(column) for every column of a mechanism.
+/// f(i) for every i < n, by the threads that work on the rows of one joint.
+template <class F>
+PLUMB_DEVICE void each_by_rows(Team& team, std::uint32_t n, const F& f) {
+  team.each(n * kRowThreads, [=](std::uint32_t i) { f(i / kRowThreads); });
+}
+
+/// f(column) for every column of a mechanism, by the threads of its rows.
 template <class F>
 PLUMB_DEVICE void for_columns(Team& team, const SystemMechanism& mechanism, const F& f) {
   const std::uint32_t first = mechanism.first_column;
-  team.each(mechanism.column_count(), [=](std::uint32_t i) { f(first + i); });
+  each_by_rows(team, mechanism.column_count(), [=](std::uint32_t i) { f(first + i); });
 }
 /// Level after level, upward or downward.
 template <class F>
 PLUMB_DEVICE void for_columns_of_level(Team& team, const JointSystem& system, std::uint32_t level, const F& f) {
   const std::uint32_t first = system.level_first[level];
-  team.each(system.level_first[level + 1] - first, [=](std::uint32_t i) { f(first + i); });
+  each_by_rows(team, system.level_first[level + 1] - first, [=](std::uint32_t i) { f(first + i); });
 }
 template <class F>
 PLUMB_DEVICE void for_columns_up(Team& team, const JointSystem& system, const SystemMechanism& mechanism, const F& f) {
@@ -194,16 +162,23 @@ PLUMB_DEVICE void for_columns_down(Team& team, const JointSystem& system, const 
   for (std::uint32_t level = mechanism.level_end; level-- > mechanism.first_level;)
     for_columns_of_level(team, system, level, f);
 }
-/// f(place) for every body of a mechanism.
+/// f(place) for every body of a mechanism, by one thread.
 template <class F>
 PLUMB_DEVICE void for_places(Team& team, const SystemMechanism& mechanism, const F& f) {
   const std::uint32_t first = mechanism.first_place;
   team.each(mechanism.place_count(), [=](std::uint32_t i) { f(first + i); });
 }
 
+/// The impulses gathered act on all bodies.
+PLUMB_DEVICE inline void push_totals(Team& team, const JointSystem& system, const SystemMechanism& mechanism) {
+  each_by_rows(team, mechanism.place_count(),
+               [=](std::uint32_t i) { push_body(system, mechanism.first_place + i, true); });
+}
+
 /// The changes found act on all bodies.
-PLUMB_DEVICE inline void push_changes(Team& team, const JointSystem& system, const SystemMechanism& mechanism) {
-  team.each(max(mechanism.column_count(), mechanism.place_count()), [=](std::uint32_t i) {
+PLUMB_SHARED_DEVICE_CODE inline void push_changes(Team& team, const JointSystem& system,
+                                                  const SystemMechanism& mechanism) {
+  each_by_rows(team, max(mechanism.column_count(), mechanism.place_count()), [=](std::uint32_t i) {
     if (i < mechanism.column_count()) keep_change(system.view, system.base + mechanism.first_column + i);
     if (i >= mechanism.place_count()) return;
     const std::uint32_t place = mechanism.first_place + i;
@@ -214,17 +189,16 @@ PLUMB_DEVICE inline void push_changes(Team& team, const JointSystem& system, con
   });
 }
 
-PLUMB_DEVICE inline void factor_system(Team& team, const JointSystem& system, const SystemMechanism& mechanism) {
+PLUMB_SHARED_DEVICE_CODE inline void factor_system(Team& team, const JointSystem& system,
+                                                   const SystemMechanism& mechanism) {
   for_columns_up(team, system, mechanism, [&](std::uint32_t j) { factor_column(system, j); });
 }
 
 /// The changes that solve the system, which do not act yet.
-PLUMB_DEVICE inline void find_changes(Team& team, const JointSystem& system, const SystemMechanism& mechanism,
-                                      const JointPass& pass) {
-#if !defined(PLUMB_IMPULSE_CUDA)
+PLUMB_SHARED_DEVICE_CODE inline void find_changes(Team& team, const JointSystem& system,
+                                                  const SystemMechanism& mechanism, const JointPass& pass) {
   if (pass.take_back_error)
     for_places(team, mechanism, [&](std::uint32_t place) { find_arrival(system, place, pass.h); });
-#endif
   for_columns_up(team, system, mechanism, [&](std::uint32_t j) { solve_forward(system, j, pass); });
   for_columns_down(team, system, mechanism, [&](std::uint32_t j) { solve_backward(system, j); });
 }

@@ -39,7 +39,7 @@ JointSystemMemory::Content JointSystemMemory::put(const OrderedJoints& ordered, 
   product_first_.assign(found.product_first);
   scaled_.grow(found.entries.size());
   whole_.grow(found.entries.size());
-  if constexpr (!Executor::kWarps) turned_.grow(found.entries.size());
+  turned_.grow(found.entries.size());
   changes_.grow(std::size_t{3} * found.columns.size());
 
   Content content;

@@ -9,8 +9,9 @@ namespace plumb::impulse {
 
 /// A mechanism's joints as they stand now. first: in the step. Where contacts push it as a whole they count on it that
 /// joints yield as they did when its mobility was found (mechanism_mobility.hpp).
-PLUMB_DEVICE inline void refresh_mechanism(Team& team, const JointSystem& system, const SystemMechanism& mechanism,
-                                           const StepParameters& step, bool first) {
+PLUMB_SHARED_DEVICE_CODE inline void refresh_mechanism(Team& team, const JointSystem& system,
+                                                       const SystemMechanism& mechanism, const StepParameters& step,
+                                                       bool first) {
   const bool touched = system.is_touched(mechanism);
   for_places(team, mechanism, [&](std::uint32_t place) { find_least_moment(system, place, step, first); });
   for_columns(team, mechanism, [&](std::uint32_t column) {
@@ -21,8 +22,8 @@ PLUMB_DEVICE inline void refresh_mechanism(Team& team, const JointSystem& system
 }
 
 /// The impulses of the last sub-step, or step, act again.
-PLUMB_DEVICE inline void warm_start_mechanisms(Team& team, const JointSet& joints, bool first,
-                                               const StepParameters& step) {
+PLUMB_SHARED_DEVICE_CODE inline void warm_start_mechanisms(Team& team, const JointSet& joints, bool first,
+                                                           const StepParameters& step) {
   if (joints.count == 0) return;
   const JointView view = joints.view;
   const JointSystem& system = joints.system;
@@ -37,13 +38,13 @@ PLUMB_DEVICE inline void warm_start_mechanisms(Team& team, const JointSet& joint
       for_columns(own, mechanism, [&](std::uint32_t column) { take_over_impulse(view, system.base + column, step); });
       refresh_mechanism(own, system, mechanism, step, true);
     }
-    for_places(own, mechanism, [&](std::uint32_t place) { push_body(system, place, true); });
+    push_totals(own, system, mechanism);
   });
 }
 
 /// A mechanism's joints in one pass. The first of a sub-step finds tension, and reckons with it.
-PLUMB_DEVICE inline void solve_mechanism(Team& team, const JointSystem& system, const SystemMechanism& mechanism,
-                                         const JointPass& pass) {
+PLUMB_SHARED_DEVICE_CODE inline void solve_mechanism(Team& team, const JointSystem& system,
+                                                     const SystemMechanism& mechanism, const JointPass& pass) {
   find_changes(team, system, mechanism, pass);
   if (pass.take_back_error) {
     ChangeCount count(team, system, mechanism);
@@ -68,8 +69,8 @@ PLUMB_DEVICE inline void pass_on_loads(Team& team, const JointSystem& system, co
 }
 
 /// One pass: the first of a sub-step, which takes errors back, or the second, after positions have moved.
-PLUMB_DEVICE inline void solve_mechanisms(Team& team, const JointSet& joints, const StepParameters& step,
-                                          bool take_back_error) {
+PLUMB_SHARED_DEVICE_CODE inline void solve_mechanisms(Team& team, const JointSet& joints, const StepParameters& step,
+                                                      bool take_back_error) {
   if (joints.count == 0) return;
   const JointView view = joints.view;
   const JointSystem& system = joints.system;

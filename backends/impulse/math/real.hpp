@@ -35,6 +35,16 @@
 #define PLUMB_INLINE [[gnu::always_inline]]
 #endif
 
+// Long functions that a kernel needs in several places: as copies in all of them they would not fit a GPU's cache of
+// instructions.
+#if defined(__CUDACC__)
+#define PLUMB_SHARED_CODE __noinline__ __host__ __device__
+#define PLUMB_SHARED_DEVICE_CODE __noinline__ __device__
+#else
+#define PLUMB_SHARED_CODE
+#define PLUMB_SHARED_DEVICE_CODE
+#endif
+
 // Templates that a CPU's library has in one of its files. A kernel is compiled with all that it calls.
 #if defined(__CUDACC__)
 #define PLUMB_COMPILED_ONCE(...) static_assert(true)

@@ -2,18 +2,29 @@
 #pragma once
 
 #include "joints/axis_mechanisms.hpp"
-#include "joints/joint_bias.hpp"
 #include "solver/impacts.hpp"
 #include "solver/pass_contacts.hpp"
 
 namespace plumb::impulse {
 
+/// Impulses that make J V = -bias_rate C, with J and C from the start of the step (Baumgarte).
+PLUMB_HD inline void solve_joint_with_bias(const JointView& view, std::uint32_t j, Real bias_rate) {
+  const Joint& joint = view.joints[j];
+  const JointWork& work = view.work[j];
+  const Velocity a = view.velocity(joint.body_a), b = view.velocity(joint.body_b);
+  const Lanes back = speed_of_error(bias_rate, load_row(work.error));
+  const Lanes residual = joint_residuals(view, j, JointPass{}, a, b) + back;
+  apply_impulse(view, j, a, b, -solved_lanes(work.factor, row_count(joint), residual));
+}
+
 /// f(j) on a joint, and how much it changed the impulses.
 template <class F>
 PLUMB_HD void note_joint(const JointView& view, std::uint32_t j, PassChange* noted, const F& f) {
   const JointImpulse before = view.impulses[view.joints[j].slot];
+  lanes_meet();
   f(j);
-  if (noted == nullptr) return;
+  lanes_meet();
+  if (noted == nullptr || !leads_lanes()) return;
   const JointImpulse& now = view.impulses[view.joints[j].slot];
   Real changed = 0, reached = 0;
   for (int i = 0; i < row_count(view.joints[j]); ++i) {
