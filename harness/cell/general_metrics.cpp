@@ -111,6 +111,9 @@ std::vector<Metric> GeneralMetrics::finish(Simulation& simulation) {
   if (simulation.statistics().energy_bounded > 0)
     add("energy_bounded", static_cast<double>(simulation.statistics().energy_bounded),
         "steps that would have made energy, and were solved again finer or had it taken out");
+  if (simulation.statistics().steps_repeated > 0)
+    add("steps_repeated", static_cast<double>(simulation.statistics().steps_repeated),
+        "steps that the engine took back and went over again");
   return metrics;
 }
 
@@ -129,7 +132,8 @@ std::vector<MetricSpec> general_metric_specs() {
                                    {"joint_angle_max", "rad"},
                                    {"joint_limit_max", "1"},
                                    {"solver_fallbacks", "1"},
-                                   {"energy_bounded", "1"}})
+                                   {"energy_bounded", "1"},
+                                   {"steps_repeated", "1"}})
     specs.push_back({name, unit, "", std::nullopt, std::nullopt});
   for (const std::vector<MetricSpec>& more : {ContactLaws::specs(), ReferenceScore::specs()})
     specs.insert(specs.end(), more.begin(), more.end());

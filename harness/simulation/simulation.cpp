@@ -154,6 +154,7 @@ void Simulation::State::take_stock() {
   statistics.dropped += report.dropped;
   if ((report.remarks & PLUMB_REMARK_SOLVER_FELL_BACK) != 0) ++statistics.solver_fallbacks;
   if ((report.remarks & PLUMB_REMARK_ENERGY_BOUNDED) != 0) ++statistics.energy_bounded;
+  if ((report.remarks & PLUMB_REMARK_STEP_REPEATED) != 0) ++statistics.steps_repeated;
   for (std::size_t phase = 0; phase < phases.size(); ++phase) {
     if (std::isfinite(report.phase_seconds[phase])) phases[phase].push_back(1e3 * report.phase_seconds[phase]);
   }

@@ -17,8 +17,8 @@
 
 namespace {
 
-const char* const choices[] = {"none",  "segfault", "abort", "hang",   "eat_memory", "nan",
-                               "throw", "exit",     "print", "refuse", "garble",     "jostle"};
+const char* const choices[] = {"none", "segfault", "abort",  "hang",   "eat_memory", "nan",   "throw",
+                               "exit", "print",    "refuse", "garble", "jostle",     "remark"};
 
 std::string from_environment() {
   const char* word = std::getenv("PLUMB_MISBEHAVE");
@@ -170,7 +170,11 @@ class MisbehavingWorld final : public plumb::IPhysicsWorld, public plumb::IJoint
       x = {x.x + dt * v.x, x.y + dt * v.y, x.z + dt * v.z};
     }
   }
-  PlumbResult wait(PlumbStepReport&) override { return PLUMB_OK; }
+  PlumbResult wait(PlumbStepReport& report) override {
+    if (steps_ == 10 && std::strcmp(values_[0].choice, "remark") == 0)
+      report.remarks = PLUMB_REMARK_SOLVER_FELL_BACK | PLUMB_REMARK_STEP_REPEATED | PLUMB_REMARK_ENERGY_BOUNDED;
+    return PLUMB_OK;
+  }
   std::span<const PlumbContact> contacts() override { return {}; }
   std::span<const PlumbEvent> events() override { return {}; }
 

@@ -58,6 +58,14 @@ TEST(Misbehaviour, nan_is_counted_and_written_as_null) {
   EXPECT_NE(row.value("status", ""), "ok") << row.dump();
 }
 
+TEST(Misbehaviour, remarks_of_steps_are_counted) {
+  const Json row = row_of("remark"), quiet = row_of("none");
+  for (const char* metric : {"solver_fallbacks", "energy_bounded", "steps_repeated"}) {
+    EXPECT_EQ(row["metrics"][metric].value("value", 0.0), 1) << metric << row.dump();
+    EXPECT_FALSE(quiet["metrics"].contains(metric)) << metric;
+  }
+}
+
 TEST(Misbehaviour, study_goes_on_with_a_fresh_worker) {
   const Finished finished = plumb({"run", particle_scene(fresh_folder("fresh_worker")), "--backend",
                                    MISBEHAVING_BACKEND, "--json", "--set", "misbehaviour=segfault"});
