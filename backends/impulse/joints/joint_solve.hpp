@@ -145,6 +145,7 @@ struct JointView {
       if (leads_lanes()) store(body, was, now);
       return;
     }
+    lanes_meet();  // all have read what the others now write
     store_row(solver.velocity[body], after);
     FreeVelocity& free = solver.free_velocity[body];
     store_row(free, load_row(free) + (after - before));
