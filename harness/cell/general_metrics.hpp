@@ -17,8 +17,8 @@ class GeneralMetrics {
   ~GeneralMetrics();
   void stepped(Simulation& simulation);
   /// At the end: penetration_max, penetration_p50, _p95 and _p99, energy_drift, energy_injected, momentum_drift,
-  /// joint_gap_max, _rms and _slope, joint_angle_max, joint_limit_max, solver_fallbacks, energy_bounded, steps_repeated,
-  /// and those of ContactLaws and ReferenceScore, as far as they mean something in the scene.
+  /// joint_gap_max, _rms and _slope, joint_angle_max, joint_limit_max, solver_fallbacks, energy_bounded,
+  /// steps_repeated, and those of ContactLaws and ReferenceScore, as far as they mean something in the scene.
   [[nodiscard]] std::vector<Metric> finish(Simulation& simulation);
 
  private:

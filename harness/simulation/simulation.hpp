@@ -52,7 +52,7 @@ struct StepStatistics {
   std::uint64_t solver_fallbacks = 0;
   std::uint64_t energy_bounded = 0;  // steps
   std::uint64_t steps_repeated = 0;
-  std::vector<double> phase_ms;      ///< medians by PlumbPhase, NaN where not known
+  std::vector<double> phase_ms;  ///< medians by PlumbPhase, NaN where not known
 };
 
 class Simulation {
