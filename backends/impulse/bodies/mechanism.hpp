@@ -96,7 +96,7 @@ inline void move_by(const Real* response, const Six& wrench, Velocity& velocity)
 
 /// Of a mechanism's bodies those that one of several threads moves: every step-th. The first of them leads.
 struct ShareOfBodies {
-  std::uint32_t first = 0, step = 1;
+  std::uint32_t first, step;
 };
 
 struct Mechanisms {

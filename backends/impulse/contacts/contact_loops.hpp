@@ -176,10 +176,9 @@ PLUMB_HD void work_on(const ContactSet& contacts, const SolverBodies& bodies, st
       const SolverBody<N> a_before = a, b_before = b;
       if (use == BodyUse::kImpact) put_impact_speed(bodies, loaded.a, loaded.b, a, b, contact);
       work_on_surfaces<kSurfaceVelocity>(contacts.surface_velocities, RowAccess<N>(rows, slot), contact, a, b, work);
-      if (whole) {
-        push_mechanisms<N>(bodies, loaded.a, a, a_before, use == BodyUse::kImpact);
-        push_mechanisms<N>(bodies, loaded.b, b, b_before, use == BodyUse::kImpact);
-      }
+      const bool impact = use == BodyUse::kImpact;
+      if (whole) push_mechanisms<N>(bodies, loaded.a, a, a_before, impact);
+      if (whole) push_mechanisms<N>(bodies, loaded.b, b, b_before, impact);
       if (whole && is_last(use))
         let_go_of_blow(bodies, loaded.a, loaded.b, RowAccess<N>(rows, slot), contact, *contacts.parameters,
                        *contacts.levels);

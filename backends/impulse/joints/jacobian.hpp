@@ -96,10 +96,11 @@ PLUMB_HD inline Lanes pushed_along(const Jacobian& rows, int n, bool is_b, Real 
   for (int i = 0; i < n; ++i) velocity = velocity + (share * Lanes(impulse[i])) * load_row(push[i]);
   return velocity;
 }
+/// Bits: the lanes of a velocity that are its own.
+constexpr std::uint32_t kVelocityLanes = 0b01110111;
 /// Those that are no velocity as they were.
 PLUMB_HD inline Lanes only_velocity(const Lanes& now, const Lanes& before) {
-  constexpr std::uint32_t kVelocity = 0b01110111;
-  return select(lanes_of(kVelocity), now, before);
+  return select(lanes_of(kVelocityLanes), now, before);
 }
 
 /// Impulses along n rows push one of the bodies. Nothing else of its row changes, whatever they are.

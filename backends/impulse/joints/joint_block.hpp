@@ -133,8 +133,9 @@ PLUMB_HD inline void solve_rows(const JointBlock& factors, int n, BlockAtWork& m
     constexpr int kCount = count;
     Lanes x[kLaneGroup];
     PLUMB_UNROLL
-    for (int q = 0; q < static_cast<int>(kLaneGroup); ++q)
-      x[q] = q < kCount && is_row(q, n) ? column_of(m, q < kCount ? q : 0) : Lanes(0);
+    for (int q = 0; q < kCount; ++q) x[q] = is_row(q, n) ? column_of(m, q) : Lanes(0);
+    PLUMB_UNROLL
+    for (int q = kCount; q < static_cast<int>(kLaneGroup); ++q) x[q] = Lanes(0);
     solve_factored_now<kCount>(factors, n, x);
     PLUMB_UNROLL
     for (int q = 0; q < kCount; ++q)

@@ -93,10 +93,9 @@ inline bool stays(const JointSystem& system, std::uint32_t place) {
     const Lanes change = load_row(system.view.work[system.on_body[k].joint].change);
     if (any(Mask{change.v != Lanes::Vector{}})) return false;
   }
-  constexpr std::uint32_t kVelocity = 0b01110111;
   const std::uint32_t body = system.bodies[place];
-  return has_no_zero(load_row(system.view.solver.velocity[body]), kVelocity) &&
-         has_no_zero(load_row(system.view.solver.free_velocity[body]), kVelocity);
+  return has_no_zero(load_row(system.view.solver.velocity[body]), kVelocityLanes) &&
+         has_no_zero(load_row(system.view.solver.free_velocity[body]), kVelocityLanes);
 }
 #endif
 

@@ -126,6 +126,36 @@ PLUMB_HD void count_rows(int n, const F& f) {
   for (int i = 0; i < kJointRows; ++i)
     if (i < n) f(i);
 }
+/// f(n) with a number of rows that the compiler knows, so that columns stay in registers: of a GPU it is the largest,
+/// and is_row tells those that there are.
+template <class F>
+PLUMB_HD void with_rows(int /*n*/, const F& f) {
+  f(std::integral_constant<int, kJointRows>{});
+}
+PLUMB_HD inline bool is_row(int i, int n) { return i < n; }
+/// Numbers of all rows that have just been found one by one.
+PLUMB_HD inline Lanes lanes_of_numbers(const Real* numbers) {
+  return by_row(kJointRows, [numbers](int i) { return numbers[i]; });
+}
+/// The numbers of a velocity that every thread has, as lanes, and back.
+PLUMB_HD inline Lanes lanes_of_velocity(const Velocity& velocity) {
+  const Real numbers[kLaneGroup] = {velocity.linear.x,  velocity.linear.y,  velocity.linear.z,  velocity.inverse_mass,
+                                    velocity.angular.x, velocity.angular.y, velocity.angular.z, 0};
+  Real own = 0;
+  PLUMB_UNROLL
+  for (int i = 0; i < static_cast<int>(kLaneGroup); ++i) own = own_lane() == i ? numbers[i] : own;
+  return own;
+}
+PLUMB_HD inline Velocity velocity_of(const Lanes& lanes) {
+  return {{in_lane(lanes, 0), in_lane(lanes, 1), in_lane(lanes, 2)},
+          in_lane(lanes, 3),
+          {in_lane(lanes, 4), in_lane(lanes, 5), in_lane(lanes, 6)},
+          0};
+}
+/// Whether any lane of x differs from y's, to the last bit.
+PLUMB_HD inline bool differ(const Lanes& x, const Lanes& y) {
+  return any_row(__builtin_bit_cast(std::uint32_t, x) != __builtin_bit_cast(std::uint32_t, y));
+}
 
 #else
 
@@ -178,64 +208,6 @@ template <class F>
   for (int i = 0; i < n; ++i) f(i);
 }
 
-#endif
-
-/// The numbers of a velocity that every thread has, as lanes, and back.
-PLUMB_HD inline Lanes lanes_of_velocity(const Velocity& velocity) {
-#if defined(PLUMB_IMPULSE_CUDA)
-  const Real numbers[kLaneGroup] = {velocity.linear.x,  velocity.linear.y,  velocity.linear.z,  velocity.inverse_mass,
-                                    velocity.angular.x, velocity.angular.y, velocity.angular.z, 0};
-  Real own = 0;
-  PLUMB_UNROLL
-  for (int i = 0; i < static_cast<int>(kLaneGroup); ++i) own = own_lane() == i ? numbers[i] : own;
-  return own;
-#else
-  return load_row(velocity);
-#endif
-}
-PLUMB_HD inline Velocity velocity_of(const Lanes& lanes) {
-#if defined(PLUMB_IMPULSE_CUDA)
-  return {{in_lane(lanes, 0), in_lane(lanes, 1), in_lane(lanes, 2)},
-          in_lane(lanes, 3),
-          {in_lane(lanes, 4), in_lane(lanes, 5), in_lane(lanes, 6)},
-          0};
-#else
-  Velocity velocity;
-  store_row(velocity, lanes);
-  return velocity;
-#endif
-}
-
-/// Whether any lane of x differs from y's, to the last bit.
-PLUMB_HD inline bool differ(const Lanes& x, const Lanes& y) {
-#if defined(PLUMB_IMPULSE_CUDA)
-  return any_row(__builtin_bit_cast(std::uint32_t, x) != __builtin_bit_cast(std::uint32_t, y));
-#else
-  return any(Mask{__builtin_bit_cast(Mask::Vector, x.v) != __builtin_bit_cast(Mask::Vector, y.v)});
-#endif
-}
-
-/// Numbers of all rows that have just been found one by one.
-PLUMB_INLINE inline Lanes lanes_of_numbers(const Real* numbers) {
-#if defined(PLUMB_IMPULSE_CUDA)
-  return by_row(kJointRows, [numbers](int i) { return numbers[i]; });
-#else
-  return lanes_of_rows([numbers](int i) { return numbers[i]; });
-#endif
-}
-
-#if defined(PLUMB_IMPULSE_CUDA)
-
-/// f(n) with a number of rows that the compiler knows, so that columns stay in registers: of a GPU it is the largest,
-/// and is_row tells those that there are.
-template <class F>
-PLUMB_HD void with_rows(int /*n*/, const F& f) {
-  f(std::integral_constant<int, kJointRows>{});
-}
-PLUMB_HD inline bool is_row(int i, int n) { return i < n; }
-
-#else
-
 template <class F>
 void with_rows(int n, const F& f) {
   switch (n) {
@@ -250,6 +222,18 @@ void with_rows(int n, const F& f) {
   static_assert(kJointRows == 6);
 }
 constexpr bool is_row(int /*i*/, int /*n*/) { return true; }
+[[gnu::always_inline]] inline Lanes lanes_of_numbers(const Real* numbers) {
+  return lanes_of_rows([numbers](int i) { return numbers[i]; });
+}
+inline Lanes lanes_of_velocity(const Velocity& velocity) { return load_row(velocity); }
+inline Velocity velocity_of(const Lanes& lanes) {
+  Velocity velocity;
+  store_row(velocity, lanes);
+  return velocity;
+}
+inline bool differ(const Lanes& x, const Lanes& y) {
+  return any(Mask{__builtin_bit_cast(Mask::Vector, x.v) != __builtin_bit_cast(Mask::Vector, y.v)});
+}
 
 #endif
 
