@@ -7,6 +7,9 @@
 
 namespace plumb::impulse {
 
+/// Of what a solver leaves out, since it is known how it comes out of the step (solver/settled_islands.hpp).
+constexpr std::uint32_t kSettledLevel = kSubstepLevels;
+
 /// Of a body that can be pushed, from step to step.
 struct BodyPace {
   Real load_rate;  ///< sub-steps that its loads ask for, 1/s
@@ -15,7 +18,7 @@ struct BodyPace {
 
 /// Of a body in this step.
 struct BodyLevel {
-  std::uint32_t level;  ///< among SubstepLevels
+  std::uint32_t level;  ///< among SubstepLevels; or kSettledLevel
   Real ratio;           ///< its sub-step to its last one; 1 in its first step
   BodyPace before;      ///< to be put back when the step is
 };

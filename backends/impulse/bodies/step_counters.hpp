@@ -11,7 +11,9 @@ constexpr std::uint32_t kColours = 50;         // bits of a body's mask
 constexpr std::uint32_t kOverflow = kColours;  // the "colour" of constraints that found none: solved one by one
 /// Contacts of a colour and of islands that have the same sub-steps are next to each other: what they are sorted by.
 constexpr std::uint32_t kColourKeys = kSubstepLevels * (kColours + 1);
-static_assert(kColourKeys < 256);  // a byte, which a sort takes in one pass
+/// Behind them all: of contacts that are not solved.
+constexpr std::uint32_t kSettledKey = kColourKeys;
+static_assert(kSettledKey < 256);  // a byte, which a sort takes in one pass
 PLUMB_HD constexpr std::uint32_t colour_key(std::uint32_t level, std::uint32_t colour) {
   return level * (kColours + 1) + colour;
 }
@@ -31,7 +33,7 @@ struct StepCounters {
   std::uint32_t levels;                       ///< of sub-steps, up to the last one in use
   std::uint32_t substeps;                     ///< of that one
   std::uint32_t body_groups[kSubstepLevels];  ///< with bodies of a level, where there are several
-  std::uint32_t first_in_colour[kColourKeys + 1];  ///< by key: place in the order; the last is the number of manifolds
+  std::uint32_t first_in_colour[kColourKeys + 1];  ///< by key: place in the order; the last is the number of those that are solved
   std::uint32_t first_slot[kColourKeys + 1];       ///< by key: solver rows begin here, a multiple of the lanes
   std::uint32_t slots;                             ///< solver rows of all
   std::uint32_t colour_count[kSubstepLevels];  ///< of a level: colours up to the last one in use; the overflow apart

@@ -116,7 +116,7 @@ struct ListKeys {
     const Pair pair = view.cache.pairs[view.cache.candidate[row]];
     const std::uint32_t level =
         view.levels.of_pair(view.velocities, view.proxies[pair.a].body, view.proxies[pair.b].body);
-    keys[row] = colour_key(level, view.cache.kept[row].colour);
+    keys[row] = level == kSettledLevel ? kSettledKey : colour_key(level, view.cache.kept[row].colour);
     rows[row] = row;
   }
 };

@@ -11,6 +11,7 @@ struct PutSurfaceSpeeds {
   PLUMB_HD void operator()(std::uint32_t j) const {
     const auto& [cache, bodies, proxies, surface_velocities, order, keys, rows, counters] = work;
     const std::uint32_t row = order[j], key = keys[j];
+    if (key == kSettledKey) return;
     const std::uint32_t slot = counters->first_slot[key] + (j - counters->first_in_colour[key]);
     const Pair pair = cache.pairs[cache.candidate[row]];
     const CachedManifold& kept = cache.kept[row];

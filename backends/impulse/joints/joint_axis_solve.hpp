@@ -35,6 +35,7 @@ struct AxisWork : AxisMemory {
   RowNumbers before;             ///< speeds when the pass began
   std::uint32_t predicted;       ///< bits: rows that are taken to hold while contacts push
   std::uint32_t let_go;          ///< bits: of these, those that have not
+  bool is_trusted;               ///< none of its island has let go in this step
   RowNumbers bend;  ///< what the speeds over a sub-step have beyond those now, where that was last looked at
 
   PLUMB_HD bool is_active(int row) const { return cfm[row] >= 0; }
@@ -235,11 +236,13 @@ PLUMB_HD inline BlockAtWork masked_matrix(const AxisWork& own, int n) {
   return matrix;
 }
 
-/// Which rows may let go in a step and are nonetheless taken to hold while contacts push. predicts: some may be.
-PLUMB_HD inline void predict_rows(const AxisView& view, std::uint32_t j, bool predicts) {
+/// Which rows may let go in a step and are nonetheless taken to hold while contacts push: none of an island of which
+/// one has, where the step is gone over again. is_pushed: by contacts.
+PLUMB_HD inline void predict_rows(const AxisView& view, std::uint32_t j, bool is_pushed, bool is_repeat) {
   AxisWork& own = view.parts.work[j];
   own.predicted = own.let_go = 0;
-  if (!predicts) return;
+  if (!is_repeat) own.is_trusted = true;
+  if (!is_pushed || !own.is_trusted) return;
   own.predicted = rows_where(rows_of(view.joints[j].type), row_count(view.joints[j]), [&](int i) {
     const Real least = is_driven(view, j, i) ? kMotorHolds : kLimitHolds;
     return !is_held(view, j, i) && view.reaction(j).held_for[i] >= least;

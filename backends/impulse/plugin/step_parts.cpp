@@ -15,10 +15,9 @@ constexpr double kStaysDivided = 0.5;
 
 }  // namespace
 
-/// Enqueues a step, or a part of one that was divided so many times. predicts: that rows of joints hold. In parts
-/// errors of joints are taken back no faster than in the time of the whole step: what is taut lifts what lies on it by
-/// many times the error.
-void World::start(double dt, int divided, bool predicts) {
+/// Enqueues a step, or a part of one that was divided so many times. In parts errors of joints are taken back no faster
+/// than in the time of the whole step: what is taut lifts what lies on it by many times the error.
+void World::start(double dt, int divided, bool is_repeat) {
   if (pacing_.parts.any_done) keep_part();
   simulation_.choose(settings_.broad_phase);
   simulation_.joints.solve_one_by_one(settings_.joints_one_by_one);
@@ -26,7 +25,7 @@ void World::start(double dt, int divided, bool predicts) {
   const SubstepLevels levels = settings_.levels(dt, pacing_.last_h, most_rate);
   StepParameters parameters = settings_.parameters(dt, gravity_, levels);
   parameters.may_be_taken_back = divided < kMostDivisions;
-  parameters.predicts_rows = predicts;
+  parameters.is_repeat = is_repeat;
   parameters.is_later_part = pacing_.parts.any_done;
   parameters.lets_go = pacing_.lets_go && !pacing_.parts.any_done;
   simulation_.step(parameters, levels);
@@ -56,7 +55,7 @@ void World::finish(double dt, int divided) {
   pacing_.parts.grew = pacing_.parts.grew || simulation_.outcome().grew;
   if (counters.let_go != 0) {
     pacing_.parts.repeated = true;
-    start(dt, divided, false);
+    start(dt, divided, true);
     return finish(dt, divided);
   }
   if (simulation_.taken_back()) {

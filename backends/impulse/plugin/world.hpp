@@ -119,7 +119,7 @@ class World final : public IPhysicsWorld,
   void stop_infinite(std::uint32_t slot);
   void push(std::uint32_t slot, const Vec& force, const Vec& torque);
   void kick(std::uint32_t slot, const Vec& impulse, const Vec& angular_impulse);
-  void start(double dt, int divided, bool predicts = true);
+  void start(double dt, int divided, bool is_repeat = false);
   void finish_steps();
   void finish(double dt, int divided);
   void keep_part();

@@ -46,10 +46,20 @@ struct ChooseLevels {
     team.each(bodies, [self](std::uint32_t i) { self.begin(i); });
     team.each(counters->manifolds, [self](std::uint32_t row) { self.ask_for_contact(row); });
     team.barrier();
-    if (counters->loaded == 0) {
+    const bool any_asks = counters->loaded != 0, any_settled = work.settled != nullptr && work.parameters->is_repeat;
+    if (any_asks)
+      choose_for_islands(team);
+    else
       team.single([self] { self.note_levels(0); });
-      return;
-    }
+    if (any_settled) team.each(bodies, [self](std::uint32_t i) { self.leave_settled_out(i); });
+    if (any_asks || any_settled) team.each(body_groups(bodies), [self](std::uint32_t group) { self.list(group); });
+  }
+
+ private:
+  PLUMB_DEVICE void choose_for_islands(Team& team) const {
+    const StepCounters* const counters = work.counters;
+    const ChooseLevels self = *this;
+    const std::uint32_t bodies = work.body_count;
     team.each(counters->manifolds, [self](std::uint32_t row) { self.join_contact(row); });
     team.each(work.joint_count, [self](std::uint32_t j) { self.join_joint(j); });
     team.each(bodies, [self](std::uint32_t i) { self.find_root(i); });
@@ -57,10 +67,7 @@ struct ChooseLevels {
     team.each(work.joint_count, [self](std::uint32_t j) { self.add_joint(j); });
     team.each(bodies, [self](std::uint32_t i) { self.want(i); });
     team.each(bodies, [self](std::uint32_t i) { self.choose(i); });
-    team.each(body_groups(bodies), [self](std::uint32_t group) { self.list(group); });
   }
-
- private:
   PLUMB_HD Real substeps(std::uint32_t level) const { return static_cast<Real>(work.levels->of[level].substeps); }
   PLUMB_HD bool is_pushed(std::uint32_t body) const {
     return body != kWorld && work.bodies.velocity[body].inverse_mass > 0;
@@ -186,6 +193,12 @@ struct ChooseLevels {
   PLUMB_HD void note_levels(std::uint32_t level) const {
     atomic_raise(&work.counters->levels, level + 1);
     atomic_raise(&work.counters->substeps, work.levels->of[level].substeps);
+  }
+  /// With a second level, if it be empty, each body is asked for its own.
+  PLUMB_HD void leave_settled_out(std::uint32_t i) const {
+    if (!work.settled[i].is_settled) return;
+    work.body_levels[i].level = kSettledLevel;
+    atomic_raise(&work.counters->levels, 2U);
   }
   /// Among the groups of the levels that its bodies have.
   PLUMB_HD void list(std::uint32_t group) const {

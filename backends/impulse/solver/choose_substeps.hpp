@@ -19,6 +19,7 @@
 #include "exec/executor.hpp"
 #include "joints/joint.hpp"
 #include "narrowphase/contact_cache.hpp"
+#include "solver/settled_islands.hpp"
 
 namespace plumb::impulse {
 
@@ -46,6 +47,7 @@ struct LoadWork {
   IslandLoad* loads;           ///< by body
   std::uint32_t* body_groups;  ///< of each level room for `most_groups`, of motion_lanes.hpp: those with bodies of it
   std::uint32_t most_groups;
+  const SettledBody* settled;  ///< by body, in a step that is gone over again; null: none is
 };
 
 /// contacts: how many manifolds there are.

@@ -17,8 +17,7 @@ struct Keep {
 
   PLUMB_HD void operator()(std::uint32_t i) const {
     const JointView& view = work.joints.view;
-    if (i < work.body_count)
-      bodies[i] = {view.bodies.position[i], view.bodies.orientation[i], view.bodies.velocity[i], view.least_moment[i]};
+    if (i < work.body_count) bodies[i] = state_of(view, i);
     if (i >= work.joints.count) return;
     const std::uint32_t slot = view.joints[i].slot;
     joints[i].impulse = view.impulses[slot];
@@ -71,21 +70,28 @@ struct JudgeEnergy {
   const KeptJoint* kept_joints;
   IslandEnergy* islands;
   Real* given;
+  SettledIslands settled;
 
   PLUMB_DEVICE void operator()(Team& team) const {
     if (is_undone(*work.counters, work.pair_capacity)) return;
     const JudgeEnergy self = *this;
     const std::uint32_t bodies = work.body_count, joints = work.joints.count;
-    if (predicts()) {
-      team.each(joints - work.joints.system.base, [self](std::uint32_t i) { self.count_let_go(i); });
-      team.barrier();
-      if (work.counters->let_go != 0) return put_all_back(team);
-    }
+    if (work.settles && work.parameters->is_repeat) put_settled(team);
     team.each(bodies,
-              [self](std::uint32_t i) { self.islands[i] = IslandEnergy{i, i, 0, 0, 0, 0, 0, false, 1, 0, 0, 0}; });
+              [self](std::uint32_t i) { self.islands[i] = IslandEnergy{i, i, 0, 0, 0, 0, 0, 0, false, 1, 0, 0, 0}; });
     team.each(work.counters->manifolds, [self](std::uint32_t row) { self.join_contact(row); });
     team.each(joints, [self](std::uint32_t j) { self.join_joint(j); });
     team.each(bodies, [self](std::uint32_t i) { self.find_root(i); });
+    if (predicts()) {
+      const std::uint32_t base = work.joints.system.base;
+      team.each(joints - base, [self, base](std::uint32_t i) { self.find_let_go(base + i); });
+      team.barrier();
+      if (work.counters->let_go != 0) {
+        team.each(joints - base, [self, base](std::uint32_t i) { self.distrust(base + i); });
+        if (work.settles) set_settled_aside(team);
+        return put_all_back(team);
+      }
+    }
     team.each(joints, [self](std::uint32_t j) { self.find_given(j); });
     team.each(bodies, [self](std::uint32_t i) { self.find_peak(i); });
     team.each(bodies, [self](std::uint32_t i) { self.add_body(i); });
@@ -99,6 +105,29 @@ struct JudgeEnergy {
   }
 
  private:
+  PLUMB_DEVICE void set_settled_aside(Team& team) const {
+    const JudgeEnergy self = *this;
+    const JointView view = work.joints.view;
+    team.each(work.body_count, [self, view](std::uint32_t i) {
+      self.settled.set_body_aside(view, i, self.is_pushed(i) && self.islands[self.islands[i].root].let_go == 0);
+    });
+    team.each(work.joints.count, [self](std::uint32_t j) { self.settled.set_joint_aside(self.work.joints, j); });
+    team.each(work.counters->manifolds, [self, view](std::uint32_t row) {
+      self.settled.set_contact_aside(view, self.work.cache, self.work.proxies.rows, row);
+    });
+  }
+  PLUMB_DEVICE void put_settled(Team& team) const {
+    const JudgeEnergy self = *this;
+    const JointView view = work.joints.view;
+    team.each(work.body_count, [self, view](std::uint32_t i) {
+      self.settled.put_body(self.work.bodies, view, i);
+      if (self.settled.bodies[i].is_settled && self.is_lost(i)) atomic_add(&self.work.counters->nonfinite, 1U);
+    });
+    team.each(work.joints.count, [self](std::uint32_t j) { self.settled.put_joint(self.work.joints, j); });
+    team.each(work.counters->manifolds, [self, view](std::uint32_t row) {
+      self.settled.put_contact(view, self.work.cache, self.work.proxies.rows, row);
+    });
+  }
   PLUMB_DEVICE void put_all_back(Team& team) const {
     const JudgeEnergy self = *this;
     team.each(work.body_count, [self](std::uint32_t i) {
@@ -110,11 +139,15 @@ struct JudgeEnergy {
   }
   /// Whether contacts were told that rows of joints hold which need not.
   PLUMB_HD bool predicts() const {
-    const bool can = work.code == JointCode::kAll && work.joints.view.solver.mechanisms.count != 0;
-    return can && work.parameters->predicts_rows;
+    return work.code == JointCode::kAll && work.joints.view.solver.mechanisms.count != 0;
   }
-  PLUMB_HD void count_let_go(std::uint32_t column) const {
-    if (work.joints.axes.work[work.joints.system.base + column].let_go != 0) atomic_add(&work.counters->let_go, 1U);
+  PLUMB_HD void find_let_go(std::uint32_t j) const {
+    if (work.joints.axes.work[j].let_go == 0) return;
+    atomic_add(&work.counters->let_go, 1U);
+    atomic_max(&islands[root_of(work.joints.view.joints[j])].let_go, 1U);
+  }
+  PLUMB_HD void distrust(std::uint32_t j) const {
+    if (islands[root_of(work.joints.view.joints[j])].let_go != 0) work.joints.axes.work[j].is_trusted = false;
   }
   PLUMB_HD bool is_pushed(std::uint32_t body) const {
     return body != kWorld && work.joints.view.bodies.velocity[body].inverse_mass > 0;
@@ -267,13 +300,8 @@ struct JudgeEnergy {
 
   /// Of a body, to where it was before the step.
   PLUMB_HD void put_back(std::uint32_t i) const {
-    const MovableBodies& all = work.bodies;
-    if ((all.mass[i].flags & kBodyMoves) == 0) return;
-    all.position[i] = kept[i].position;
-    all.orientation[i] = kept[i].orientation;
-    work.joints.view.least_moment[i] = kept[i].least_moment;
-    work.joints.view.solver.displacement[i] = {{0, 0, 0}, 0, {0, 0, 0, 1}};
-    all.velocity[i] = kept[i].velocity;
+    if ((work.bodies.mass[i].flags & kBodyMoves) != 0)
+      put_state(work.bodies, work.joints.view, i, kept[i], {{0, 0, 0}, 0, {0, 0, 0, 1}});
   }
   /// Of a body whose island gained.
   PLUMB_HD void take_gain_out(std::uint32_t i) const {
@@ -311,7 +339,12 @@ void EnergyBound::keep(Executor& executor, const EnergyWork& work) {
 
 void EnergyBound::judge(Executor& executor, const EnergyWork& work, Count contacts) {
   executor.team(contacts, work.body_count,
-                JudgeEnergy{work, bodies_.data(), joints_.data(), islands_.data(), given_.data()});
+                JudgeEnergy{work,
+                            bodies_.data(),
+                            joints_.data(),
+                            islands_.data(),
+                            given_.data(),
+                            {settled_bodies_.data(), settled_joints_.data(), settled_contacts_.data()}});
 }
 
 }  // namespace plumb::impulse

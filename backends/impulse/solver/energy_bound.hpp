@@ -9,7 +9,8 @@
 // that is the last resort, and neither right nor smooth.
 //
 // A step in which a limit or a motor let go that contacts had counted on (joints/joint_axis_solve.hpp) is taken
-// back by the same means, before energies are looked at, and solved again whole.
+// back by the same means, before energies are looked at, and solved again whole: in islands of which a joint let go
+// nothing is counted on then, and others are settled (settled_islands.hpp). So none depends on what happens in another.
 //
 // The bound is generous (kMostGain): it tells what flies apart from what does not, and is no measure of drift. Worlds
 // without joints, and solvers other than the default, are not watched.
@@ -22,6 +23,7 @@
 #include "joints/joint_loops.hpp"
 #include "joints/joint_store.hpp"
 #include "narrowphase/contact_cache.hpp"
+#include "solver/settled_islands.hpp"
 
 namespace plumb::impulse {
 
@@ -37,15 +39,7 @@ inline constexpr Real kFreeWay = Real(1e-3), kFreeSpeed = Real(0.1);
 /// the end. Errors of joints and overlap are taken back without speed that stays, but not as fast.
 inline constexpr Real kFreeSpeedOfWay = 20;
 
-/// State of a body before the step.
-struct KeptBody {
-  Position position;
-  Quat orientation;
-  Velocity velocity;
-  Real least_moment;
-};
-
-/// Of a joint likewise.
+/// State of a joint before the step.
 struct KeptJoint {
   JointImpulse impulse;
   Vec force, torque;  ///< of its reaction, where there are any
@@ -59,6 +53,7 @@ struct IslandEnergy {
   std::uint32_t mover;        ///< one of those that do, and 1; or 0
   std::uint32_t peak;         ///< the largest term of the sums, J: bits of a float
   std::uint32_t joined;       ///< at the root: a joint holds one of its bodies
+  std::uint32_t let_go;       ///< likewise: one of which rows have not held as predicted does
   bool is_held;               ///< it stays where it was before the step
   Real keeps;                 ///< of its velocities the share that is left
   // Sums in whole numbers of a share of the peak, which do not depend on the order:
@@ -80,27 +75,38 @@ struct EnergyWork {
   StepCounters* counters;
   BodyPace* paces;
   const BodyLevel* levels;  ///< null: paces are nobody's
+  bool settles;             ///< islands may be settled
 };
 
 class EnergyBound {
  public:
-  void reserve(std::size_t bodies, std::size_t joints) {
+  /// predicts: rows of joints may be counted on, and be found to have let go.
+  void reserve(std::size_t bodies, std::size_t joints, std::size_t contacts, bool predicts) {
     bodies_.grow(bodies);
     islands_.grow(bodies);
     joints_.grow(joints);
     given_.grow(joints);
+    if (!predicts) return;
+    settled_bodies_.grow(bodies);
+    settled_joints_.grow(joints);
+    settled_contacts_.grow(contacts);
   }
   /// Before the step is solved.
   void keep(Executor& executor, const EnergyWork& work);
   /// After it: takes the step back where rows of joints have not held as predicted; else counts the islands that gained
   /// too much, and takes the step back or holds them.
   void judge(Executor& executor, const EnergyWork& work, Count contacts);
+  /// By body: those of which islands are settled, in a step that is gone over again.
+  [[nodiscard]] const SettledBody* settled_bodies() const { return settled_bodies_.data(); }
 
  private:
   Buffer<KeptBody> bodies_;
   Buffer<IslandEnergy> islands_;
-  Buffer<KeptJoint> joints_;  // as JointSet numbers them, and so
-  Buffer<Real> given_;        // what their motors and springs can have given, J
+  Buffer<KeptJoint> joints_;            // as JointSet numbers them, and so
+  Buffer<Real> given_;                  // what their motors and springs can have given, J
+  Buffer<SettledBody> settled_bodies_;  // these as SettledIslands
+  Buffer<SettledJoint> settled_joints_;
+  Buffer<CachedManifold> settled_contacts_;
 };
 
 }  // namespace plumb::impulse

@@ -182,11 +182,12 @@ struct FindMobility : MobilityWork {
     team.each(mechanisms.count, [self](std::uint32_t place) { self.mechanisms.begin_step(place); });
     team.each(counters->manifolds, [self](std::uint32_t row) {
       const Pair pair = self.cache.pairs[self.cache.candidate[row]];
-      self.mechanisms.note_contact(self.proxies[pair.a].body);
-      self.mechanisms.note_contact(self.proxies[pair.b].body);
+      self.note_contact(self.proxies[pair.a].body);
+      self.note_contact(self.proxies[pair.b].body);
     });
     team.each(mechanisms.count, [self](std::uint32_t place) { self.stiffen(place); });
     for_mechanisms(team, joints.system, [this](Team& own, const SystemMechanism& mechanism) {
+      if (joints.system.level(mechanism) == kSettledLevel) return;
       if (joints.system.is_touched(mechanism))
         factor(own, mechanism);
       else
@@ -196,6 +197,9 @@ struct FindMobility : MobilityWork {
   }
 
  private:
+  PLUMB_HD void note_contact(std::uint32_t body) const {
+    if (joints.view.solver.levels(body) != kSettledLevel) mechanisms.note_contact(body);
+  }
   /// What tension asks of a body holds for contacts, too.
   PLUMB_HD void stiffen(std::uint32_t place) const {
     const JointView& view = joints.view;
@@ -210,7 +214,7 @@ struct FindMobility : MobilityWork {
       const AxisView view = axis_view(joints);
       for_columns(team, mechanism, [&](std::uint32_t column) {
         refresh_axis_joint(view, system.base + column);
-        predict_rows(view, system.base + column, false);
+        predict_rows(view, system.base + column, false, parameters->is_repeat);
       });
     } else {
       for_columns(team, mechanism, [&](std::uint32_t column) { make_joint_rows(system.view, system.base + column); });
@@ -219,14 +223,13 @@ struct FindMobility : MobilityWork {
   PLUMB_DEVICE void factor(Team& team, const SystemMechanism& mechanism) const {
     const JointSystem& system = joints.system;
     const Real h = levels->of[joints.system.level(mechanism)].h;
-    [[maybe_unused]] const bool predicts = parameters->predicts_rows;
     if constexpr (kJoints == JointCode::kAll) {
       const AxisView view = axis_view(joints);
       for_columns(team, mechanism, [&](std::uint32_t column) {
         const std::uint32_t j = system.base + column;
         refresh_axis_joint(view, j);
         choose_share(view, j, h);
-        predict_rows(view, j, predicts);
+        predict_rows(view, j, true, parameters->is_repeat);
         choose_rows_met(view, j);
       });
       factor_axis_system(team, system, mechanism, view);

@@ -15,7 +15,8 @@ struct BeginBody {
   const StepParameters* parameters;
   const SubstepLevels* levels;
   PLUMB_HD void operator()(std::uint32_t i) const {
-    begin_body(bodies, solver, *parameters, levels->of[solver.levels(i)].h, i);
+    const std::uint32_t level = solver.levels(i);
+    begin_body(bodies, solver, *parameters, levels->of[level == kSettledLevel ? 0 : level].h, i);
   }
 };
 
@@ -58,12 +59,12 @@ void Solver::begin(Executor& executor, const MovableBodies& all, std::uint32_t b
 void Solver::choose_substeps(Executor& executor, const ContactCache& cache, const MovableBodies& all,
                              std::uint32_t body_count, const Proxies& proxies, JointStore& joints,
                              const SubstepLevels* levels, const StepParameters* parameters, StepCounters* counters,
-                             std::uint32_t pair_capacity) {
+                             std::uint32_t pair_capacity, const SettledBody* settled) {
   if (!has_levels()) return;
   enqueue_levels(
       executor,
       {cache, all, proxies, mechanisms_, joints.device(), joints.count(), body_count, pair_capacity, levels, parameters,
-       counters, paces_.data(), body_levels_.data(), loads_.data(), body_groups_.data(), most_groups_},
+       counters, paces_.data(), body_levels_.data(), loads_.data(), body_groups_.data(), most_groups_, settled},
       {&counters->manifolds, pair_capacity});
 }
 

@@ -120,7 +120,8 @@ void Simulation::upload_changes() {
   }
   StepParameters& parameters = numbers_.parameters[0];
   if (joints.count() != 0 && parameters.solver == SolverKind::kTgsSoft)
-    stages_.energy_bound.reserve(bodies.size(), joints.count());
+    stages_.energy_bound.reserve(bodies.size(), joints.count(), stages_.pair_capacity,
+                                 joints.code() == JointCode::kAll);
   exclusions.upload();
   if (stages_.features.sleeping) {
     sleep_.upload(executor_);

@@ -37,10 +37,10 @@ void keep_state(const StepContext& step);
 void solve(const StepContext& step);
 /// What has passed through others in spite of its contacts is put back in front of them.
 void clamp(const StepContext& step);
-/// Takes the step back where it made energy.
-void judge(const StepContext& step);
 /// Impulses of the contacts for the next step.
 void keep_impulses(const StepContext& step);
+/// Takes the step back where rows of joints have let go that were counted on, or where it made energy.
+void judge(const StepContext& step);
 
 /// Instead of all of these where there is neither a contact nor a joint.
 void move_freely(const StepContext& step);

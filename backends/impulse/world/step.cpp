@@ -28,8 +28,8 @@ void enqueue_step(const StepContext& step) {
     keep_state(step);
     solve(step);
     clamp(step);
-    judge(step);
     keep_impulses(step);
+    judge(step);
     validate_impulses(step);
   } else {
     move_freely(step);

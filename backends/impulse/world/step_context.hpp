@@ -87,6 +87,10 @@ struct StepContext : StepInput {
   [[nodiscard]] bool finds_impacts() const { return continuous || stages.features.restitution; }
   /// Others than the default solver take errors of joints back by speeds that stay.
   [[nodiscard]] bool bounds_energy() const { return has_joints() && solver == SolverKind::kTgsSoft; }
+  /// What is put in front of what it has passed through depends on how that has moved.
+  [[nodiscard]] bool settles() const {
+    return bounds_energy() && collides() && !continuous && joints.code() == JointCode::kAll;
+  }
   /// Of the narrow phase.
   [[nodiscard]] Count candidates() const { return stages.narrow_phase.candidates(counters); }
   [[nodiscard]] EnergyWork energy_work() const {
@@ -101,7 +105,8 @@ struct StepContext : StepInput {
             parameters,
             counters,
             stages.solver.paces(),
-            stages.solver.body_levels()};
+            stages.solver.body_levels(),
+            settles()};
   }
 };
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 #include <vector>
@@ -27,31 +28,46 @@ bool step(Scene& scene, double dt = 1.0 / 60) {
   return (report.remarks & PLUMB_REMARK_STEP_REPEATED) != 0;
 }
 
-/// A platform of 10 kg on an upright slider, and on it a box of that mass.
+/// A platform of 10 kg on an upright slider, and on it a box, both x to the side.
 struct Lift {
-  Lift(double load, double height, double speed, double max_force) : scene(engine(), kNeeds, kDown, 1) {
+  Lift(Scene& in, double x, double load, double height, double speed, double max_force) : scene(in) {
     scene.body.mass_mode = PLUMB_MASS_FROM_TOTAL;
     scene.body.mass = 10;
-    platform = scene.add(scene.box({1, 0.1, 1}), {0, -0.1, 0});
+    platform = scene.add(scene.box({1, 0.1, 1}), {x, -0.1, 0});
     scene.body.mass = load;
-    box = scene.add(scene.box({0.5, 0.5, 0.5}), {0, 0.5 + height, 0});
+    box = scene.add(scene.box({0.5, 0.5, 0.5}), {x, 0.5 + height, 0});
     PlumbJointDesc desc = slider(kUp, platform);
-    desc.frame_a.position = {0, -0.1, 0};
+    desc.frame_a.position = {x, -0.1, 0};
     desc.motors[0] = {speed, max_force, 1, 0};
-    make(scene, desc);
+    slide = scene.join(desc);
   }
   double speed(PlumbBody body) { return scene.velocity(body)[1]; }
+  /// Of the step at the contacts of the box, N s.
+  std::vector<double> impulses() {
+    std::vector<double> found;
+    for (const PlumbContact& contact : scene.world().contacts())
+      if (contact.body_a == box || contact.body_b == box) found.push_back(contact.normal_impulse);
+    return found;
+  }
+  std::array<double, 6> reaction() {
+    std::array<double, 6> six{};
+    check(scene.world(),
+          scene.world().joints()->read_joints(PLUMB_JOINT_REACTION, {&slide, 1}, rows_over(std::span(&six, 1))));
+    return six;
+  }
 
-  Scene scene;
+  Scene& scene;
   PlumbBody platform, box;
+  PlumbJoint slide;
 };
 
 TEST(PredictedRows, AMotorKeepsItsSpeedUnderAThousandTimesItsPlatform) {
   for (const double dt : {1.0 / 30, 1.0 / 60, 1.0 / 240})
     for (const double speed : {0.0, 0.5}) {
-      Lift lift(10000, 0, speed, 4e5);
+      Scene scene(engine(), kNeeds, kDown, 1);
+      Lift lift(scene, 0, 10000, 0, speed, 4e5);
       for (int i = 0; i < 2 / dt; ++i) {
-        step(lift.scene, dt);
+        step(scene, dt);
         if (i * dt > (speed == 0 ? 0.05 : 1)) {
           EXPECT_NEAR(lift.speed(lift.platform), speed, 2e-3) << "dt " << dt << ", step " << i;
         }
@@ -62,10 +78,11 @@ TEST(PredictedRows, AMotorKeepsItsSpeedUnderAThousandTimesItsPlatform) {
 
 /// What a motor cannot hold it lets down, no faster than that falls.
 TEST(PredictedRows, AMotorThatIsOvercomeGivesNoEnergy) {
-  Lift lift(1000, 1, 0, 300);
+  Scene scene(engine(), kNeeds, kDown, 1);
+  Lift lift(scene, 0, 1000, 1, 0, 300);
   int repeated = 0;
   for (int i = 0; i < 120; ++i) {
-    repeated += step(lift.scene) ? 1 : 0;
+    repeated += step(scene) ? 1 : 0;
     const double falls = 9.81 / 60 * (i + 1) + 0.01;
     EXPECT_GT(lift.speed(lift.platform), -falls) << i;
     EXPECT_LT(lift.speed(lift.platform), 0.05) << i;
@@ -97,6 +114,36 @@ TEST(PredictedRows, ALimitThatIsLeftGivesNoEnergy) {
   EXPECT_LT(most, 4);  // as fast as the ram set out
   EXPECT_GT(repeated, 0);
   EXPECT_LT(repeated, 10);
+}
+
+/// A block that rests at the lower end of its way up, x to the side, and a ram that comes from so far below.
+void block_and_ram(Scene& scene, double x, double below) {
+  const PlumbShape cube = scene.box({0.2, 0.2, 0.2});
+  scene.body.mass = 1;
+  PlumbJointDesc desc = slider(kUp, scene.add(cube, {x, 0, 0}));
+  desc.frame_a.position = {x, 0, 0};
+  desc.limits[0] = {0, 10, 1, 0};
+  make(scene, desc);
+  scene.body.mass = 100;
+  scene.write(PLUMB_FIELD_VELOCITY, scene.add(cube, {x, -0.4 - below, 0}), {0, 12, 0, 0, 0, 0});
+}
+
+/// What holds is counted on in a step that others' rows make the world go over again.
+TEST(PredictedRows, AnIslandDoesNotDependOnWhereOthersLetGo) {
+  constexpr PlumbNeeds kTold = kNeeds | PLUMB_NEED_CONTACT_IMPULSES | PLUMB_NEED_JOINT_REACTIONS;
+  Scene alone(engine(), kTold, kDown, 1), among(engine(), kTold, kDown, 1);
+  Lift one(alone, 20, 10000, 0, 0.5, 4e7), two(among, 20, 10000, 0, 0.5, 4e7);
+  for (int i = 0; i < 30; ++i) block_and_ram(among, -i, 1 + 0.17 * i);
+  int repeated = 0;  // for others
+  for (int i = 0; i < 120; ++i) {
+    const bool own = step(alone), any = step(among);
+    if (any && !own) ++repeated;
+    ASSERT_EQ(alone.velocity(one.platform), among.velocity(two.platform)) << i;
+    ASSERT_EQ(alone.velocity(one.box), among.velocity(two.box)) << i;
+    ASSERT_EQ(one.impulses(), two.impulses()) << i;
+    ASSERT_EQ(one.reaction(), two.reaction()) << i;
+  }
+  EXPECT_GT(repeated, 20);
 }
 
 /// What a snapshot goes on with is what the world itself would have: for how long rows have held is part of it.
