@@ -23,6 +23,9 @@ inline Softness make_softness(double hertz, double zeta, double h) {
   return {static_cast<Real>(omega / a1), static_cast<Real>(a2 * a3), static_cast<Real>(a3), static_cast<Real>(1 / a2)};
 }
 
+/// Masses are alike where none is so many times another.
+constexpr Real kAlikeMasses = 5;
+
 /// How constraints are solved: the word of the setting "solver".
 enum class SolverKind : std::uint32_t { kTgsSoft, kSequential, kJacobi, kPosition };
 
@@ -35,7 +38,8 @@ struct SubstepParameters {
   std::uint32_t substeps;
   Real h;            ///< s, one sub-step
   Real inverse_h;    ///< 1/s
-  Softness contact;  ///< between two bodies that move
+  Softness contact;  ///< between two bodies that move, of like masses
+  Softness loaded;   ///< of unlike ones
   Softness ground;   ///< against a body that does not
   Softness joint;    ///< of joints that are solved one by one
   Real joint_rate;   ///< errors of mechanisms that are solved as a whole are taken back at this rate, 1/s

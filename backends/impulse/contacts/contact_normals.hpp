@@ -14,7 +14,7 @@ constexpr Real kDeepSpeed = Real(0.75), kImpulseScaleDeep = Real(0.5), kGammaDee
 
 /// How a pass over the contacts takes overlap back.
 struct ContactSoftness {
-  Softness between_movers, against_fixed;
+  Softness between_alike, between_unlike, against_fixed;
   Real inverse_h;                ///< 1/s
   Real max_depenetration_speed;  ///< m/s
 };
@@ -40,12 +40,14 @@ template <int P, class N>
 PLUMB_HD NormalTarget<P, N> soft_target(Contact<P, N>& contact, const SolverBody<N>& a, const SolverBody<N>& b,
                                         const ContactSoftness& softness) {
   const N zero = N(0), one = N(1);
-  const auto movers = min(a.inverse_mass, b.inverse_mass) > zero;
-  const Softness &between = softness.between_movers, &fixed = softness.against_fixed;
-  const N rate = select(movers, N(between.bias_rate), N(fixed.bias_rate));
-  const N mass_scale = select(movers, N(between.mass_scale), N(fixed.mass_scale));
-  const N impulse_scale = select(movers, N(between.impulse_scale), N(fixed.impulse_scale));
-  const N gamma = select(movers, N(between.gamma), N(fixed.gamma));
+  const N heavier = min(a.inverse_mass, b.inverse_mass), lighter = max(a.inverse_mass, b.inverse_mass);
+  const auto alike = N(kAlikeMasses) * heavier > lighter, movers = heavier > zero;
+  const auto choose = [&](Real Softness::* member) {
+    const N of_movers = select(alike, N(softness.between_alike.*member), N(softness.between_unlike.*member));
+    return select(movers, of_movers, N(softness.against_fixed.*member));
+  };
+  const N rate = choose(&Softness::bias_rate), mass_scale = choose(&Softness::mass_scale);
+  const N impulse_scale = choose(&Softness::impulse_scale), gamma = choose(&Softness::gamma);
   const PerPoint<P, N> separation = separations_now(contact, a, b);
   const PointMask<P, N> apart = separation > zero;
   const PerPoint<P, N> back = separation * rate;

@@ -16,8 +16,9 @@ constexpr double kChainHertz = 240, kChainDampingRatio = 10;
 /// x' + m l w^2 x = 0, time counted in sub-steps, and swings up where w^2 > 1 + m / l (Routh and Hurwitz), whatever the
 /// damping ratio: a quarter shakes pyramids of seven rows and more. Pyramids of 5 to 30 rows come to rest at this one.
 constexpr double kContactRate = 0.1875, kGroundStiffness = 1.5;
-/// The same in steps whose loads ask for more sub-steps. There m is small, for a light body passes on little of what a
-/// heavy one needs, and nothing but w^2 < 1 keeps a heavy box from rocking on a light one for ever.
+/// The same between unlike masses, and where one body does not move, in steps whose loads ask for more sub-steps. There m
+/// is small, for a light body passes on little of what a heavy one needs, and nothing but w^2 < 1 keeps a heavy box from
+/// rocking on a light one for ever.
 constexpr double kLoadedContactRate = 0.1;
 
 /// In the order of SolverKind.
@@ -105,7 +106,8 @@ SubstepParameters Settings::of_substep(double dt, std::uint32_t parts, double la
   of.inverse_h = static_cast<Real>(1 / h);
   const double rate = parts > substeps ? kLoadedContactRate : kContactRate;
   const double hertz = contact_hertz > 0 ? contact_hertz : rate / h;
-  of.contact = make_softness(hertz, contact_damping_ratio, h);
+  of.contact = make_softness(contact_hertz > 0 ? contact_hertz : kContactRate / h, contact_damping_ratio, h);
+  of.loaded = make_softness(hertz, contact_damping_ratio, h);
   of.ground = make_softness(kGroundStiffness * hertz, contact_damping_ratio, h);
   of.joint = make_softness(joint_hertz > 0 ? joint_hertz : 0.25 / h, joint_damping_ratio, h);
   of.joint_rate = joint_hertz > 0 ? of.joint.bias_rate : of.inverse_h;

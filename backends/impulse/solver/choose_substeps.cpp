@@ -3,7 +3,9 @@
 #include "bodies/motion_lanes.hpp"
 #include "exec/atomic.hpp"
 #include "exec/union_find.hpp"
+#include "math/bits.hpp"
 #include "math/ordered_bits.hpp"
+#include "solver/columns.hpp"
 
 namespace plumb::impulse {
 
@@ -12,15 +14,19 @@ namespace {
 /// Sub-steps in the time that a load's frequency takes for a radian: between bodies by themselves, and of bodies that
 /// joints hold.
 constexpr Real kSubstepsOfContact = 40, kSubstepsOfMechanism = 14;
-/// What weighs no more than so many times as much as the body that bears it asks for nothing, nor does a load no larger
-/// than so many times a body's own weight: piles do well as it is.
-constexpr Real kAlikeMasses = 5;
+// What is alike asks for nothing but as a column, nor does a load no larger than kAlikeMasses times a body's own
+// weight: piles do well as it is.
 /// A body presses on another by itself with no more than so many times its weight, with what lies on it: more is a
 /// blow.
 constexpr Real kMostWeights = 8;
 /// A contact that asks for so many times the most that there can be would do no better with those, and gets none: the
 /// pebble under the wheel of a truck.
 constexpr Real kHopeless = 4;
+/// A column that had more sub-steps keeps them until it wants so much less than that: it would be shaken by each
+/// change.
+constexpr Real kColumnStays = Real(0.85);
+/// What columns ask for grows e-fold in no less than this, s: it sways as they take up their load.
+constexpr Real kColumnGrows = 1;
 /// Sub-steps times contacts of an island beyond which it has no more sub-steps: they are for machines, and not for a
 /// pile of thousands; and of all islands that want so many or more: a crowd of figures does without, and one crane
 /// beside them does not have to. A joint takes as long as so many contacts.
@@ -77,7 +83,7 @@ struct ChooseLevels {
     const BodyPace before = work.paces[i];
     const bool pushed = is_pushed(i);
     const Real rate = pushed ? before.load_rate : Real(0);
-    work.loads[i] = {i, i, 0, ordered_bits(rate), 0, 0};
+    work.loads[i] = {i, i, 0, 0, ordered_bits(rate), 0, 0, 0};
     note_asked(rate * work.parameters->dt);
     if (pushed && before.last_h != work.levels->of[0].h) atomic_raise(&work.counters->other_substeps, 1U);
     put_level(i, 0, before, 0);
@@ -96,6 +102,40 @@ struct ChooseLevels {
     const Real downward = dot(work.parameters->gravity, kept.normal);
     ask(kept, downward, b, a);
     ask(kept, -downward, a, b);
+    if (is_column(a.body) && is_column(b.body)) {
+      const Manifold& found = work.cache.found[work.cache.candidate[row]];
+      ask_for_column(kept, found, downward > 0 ? b.body : a.body, downward > 0 ? a.body : b.body);
+    }
+  }
+  /// Whether a body has no contact but one above and one below. Others are held by those beside them.
+  PLUMB_HD bool is_column(std::uint32_t body) const {
+    return is_pushed(body) && !work.mechanisms.hold(body) && bit_count(work.masks[body]) <= 2;
+  }
+  PLUMB_HD void ask_for_column(const CachedManifold& kept, const Manifold& found, std::uint32_t on,
+                               std::uint32_t by) const {
+    const Real gravity = length(work.parameters->gravity), own = work.bodies.velocity[on].inverse_mass;
+    const Real n = gravity > 0 ? force_of(kept, on, by) * own / gravity : Real(0);
+    if (!(n > kLeastColumn) || found.count < 3) return;
+    const Real apart = dot(between(work.bodies.position[by], work.bodies.position[on]), kept.normal);
+    const ContactPatch patch = patch_of(found, kept);
+    if (!(patch.gyration2 > 0)) return;
+    const Real most = substeps(work.levels->count - 1);
+    const Real wanted = work.parameters->dt * column_rate(n, max(apart, -apart), gravity, patch);
+    if (!(wanted > kColumnStays * substeps(0)) || wanted > kHopeless * most) return;
+    atomic_max(&work.loads[on].asked_by_columns, ordered_bits(min(as_before(on, wanted), most)));
+    atomic_raise(&work.counters->loaded, 1U);
+  }
+  /// Sub-steps wanted for a column: what was enough for the next lower level by a little is what it had; and no load is
+  /// one that has just come.
+  PLUMB_HD Real as_before(std::uint32_t body, Real wanted) const {
+    const BodyPace& before = work.body_levels[body].before;
+    const Real dt = work.parameters->dt, last = max(dt * before.load_rate, substeps(0) / 2);
+    for (std::uint32_t level = 1; level < work.levels->count; ++level) {
+      const Real below = substeps(level - 1);
+      if (before.last_h < (1 + kAsksEnough) * work.levels->of[level].h && wanted > kColumnStays * below)
+        wanted = max(wanted, (1 + 2 * kAsksEnough) * below);
+    }
+    return min(wanted, (1 + dt / kColumnGrows) * last);
   }
   /// By which two bodies pressed on each other in the last step.
   PLUMB_HD Real force_of(const CachedManifold& kept, std::uint32_t a, std::uint32_t b) const {
@@ -125,7 +165,7 @@ struct ChooseLevels {
     if (per_frequency * sqrt(max(load, weight) * squared) > kHopeless * most) return;
     const auto asked = static_cast<std::uint32_t>(min(per_frequency * sqrt(load * squared), most));
     if (!(static_cast<Real>(asked) > substeps(0))) return;
-    atomic_max(&work.loads[on.body].asked, asked);
+    atomic_max(&work.loads[on.body].asked, ordered_bits(static_cast<Real>(asked)));
     note_asked(static_cast<Real>(asked));
   }
 
@@ -142,8 +182,10 @@ struct ChooseLevels {
     const std::uint32_t at = impulse::find_root(Parents{work.loads}, i);
     IslandLoad &own = work.loads[i], &island = work.loads[at];
     own.root = at;
+    if (is_pushed(i)) atomic_add(&island.bodies, 1U);
     if (at == i) return;
     if (own.asked != 0) atomic_max(&island.asked, own.asked);
+    if (own.asked_by_columns != 0) atomic_max(&island.asked_by_columns, own.asked_by_columns);
     if (own.rate != 0) atomic_max(&island.rate, own.rate);
   }
   PLUMB_HD void add_work(std::uint32_t a, std::uint32_t b, std::uint32_t amount) const {
@@ -163,11 +205,15 @@ struct ChooseLevels {
     IslandLoad& island = work.loads[i];
     if (island.root != i) return;
     const SubstepLevels& levels = *work.levels;
-    const Real asked = max(number_of(island.rate) * work.parameters->dt, static_cast<Real>(island.asked));
+    const Real asked = max(number_of(island.rate) * work.parameters->dt, asked_by_loads(island));
     while (island.wants + 1 < levels.count && substeps(island.wants) * (1 + kAsksEnough) < asked &&
            island.work <= kMostWork / levels.of[island.wants + 1].substeps)
       ++island.wants;
     if (island.wants != 0) atomic_add(&work.counters->wanted_work[island.wants], island.work);
+  }
+  /// Sub-steps. What has more contacts than bodies is held together, and does not buckle.
+  PLUMB_HD static Real asked_by_loads(const IslandLoad& island) {
+    return number_of(island.work > island.bodies ? island.asked : max(island.asked, island.asked_by_columns));
   }
   /// Whether there is time for all who want a level, or one beyond.
   PLUMB_HD bool has_time_for(std::uint32_t level) const {
@@ -179,13 +225,14 @@ struct ChooseLevels {
     const IslandLoad& island = work.loads[work.loads[i].root];
     std::uint32_t level = island.wants;
     while (level != 0 && !has_time_for(level)) --level;
-    if (level != 0 || island.asked != 0) put_level(i, level, work.body_levels[i].before, island.asked);
+    const Real asked = asked_by_loads(island);
+    if (level != 0 || asked > 0) put_level(i, level, work.body_levels[i].before, asked);
     note_levels(level);
   }
   /// before: its pace; asked: what the loads of its island do.
-  PLUMB_HD void put_level(std::uint32_t i, std::uint32_t level, const BodyPace& before, std::uint32_t asked) const {
+  PLUMB_HD void put_level(std::uint32_t i, std::uint32_t level, const BodyPace& before, Real asked) const {
     const Real dt = work.parameters->dt, h = work.levels->of[level].h;
-    const Real rate = max(static_cast<Real>(asked) / dt, max(Real(0), 1 - dt / kLoadFades) * before.load_rate);
+    const Real rate = max(asked / dt, max(Real(0), 1 - dt / kLoadFades) * before.load_rate);
     // Who sleeps keeps impulses of his last step.
     work.paces[i] = {rate, is_pushed(i) ? h : before.last_h};
     work.body_levels[i] = {level, before.last_h > 0 ? h / before.last_h : Real(1), before};

@@ -26,10 +26,12 @@ namespace plumb::impulse {
 /// Of a body, and at the root of an island of the island.
 struct IslandLoad {
   std::uint32_t parent, root;
-  std::uint32_t asked;  ///< number of sub-steps
-  std::uint32_t rate;   ///< the largest of its bodies' load_rate: bits of a float
-  std::uint32_t work;   ///< what a sub-step takes, in contacts
-  std::uint32_t wants;  ///< level
+  std::uint32_t asked;             ///< sub-steps: bits of a float
+  std::uint32_t asked_by_columns;  ///< likewise
+  std::uint32_t rate;              ///< the largest of its bodies' load_rate: likewise
+  std::uint32_t bodies;            ///< that can be pushed
+  std::uint32_t work;              ///< what a sub-step takes, in contacts
+  std::uint32_t wants;             ///< level
 };
 
 struct LoadWork {
@@ -47,6 +49,7 @@ struct LoadWork {
   IslandLoad* loads;           ///< by body
   std::uint32_t* body_groups;  ///< of each level room for `most_groups`, of motion_lanes.hpp: those with bodies of it
   std::uint32_t most_groups;
+  const std::uint64_t* masks;  ///< by body: Colouring::masks() of the contacts that were there before
   const SettledBody* settled;  ///< by body, in a step that is gone over again; null: none is
 };
 

@@ -73,7 +73,8 @@ PLUMB_DEVICE void SoftContacts<kSurfaceVelocity, kMechanisms, kImpacts>::push_co
                                                                                        const StepParameters& step,
                                                                                        std::uint32_t substep,
                                                                                        bool final) const {
-  const ContactSoftness softness = {step.contact, step.ground, step.inverse_h, step.max_depenetration_speed};
+  const ContactSoftness softness = {step.contact, step.loaded, step.ground, step.inverse_h,
+                                    step.max_depenetration_speed};
   const bool friction = features.friction, impacts = kImpacts && features.restitution;
   const ImpactLaw law = impact_law(step, friction);
   std::uint32_t* about_to_strike = &counters->about_to_strike[substep % 2];

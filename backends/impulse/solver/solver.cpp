@@ -59,12 +59,12 @@ void Solver::begin(Executor& executor, const MovableBodies& all, std::uint32_t b
 void Solver::choose_substeps(Executor& executor, const ContactCache& cache, const MovableBodies& all,
                              std::uint32_t body_count, const Proxies& proxies, JointStore& joints,
                              const SubstepLevels* levels, const StepParameters* parameters, StepCounters* counters,
-                             std::uint32_t pair_capacity, const SettledBody* settled) {
+                             std::uint32_t pair_capacity, const std::uint64_t* masks, const SettledBody* settled) {
   if (!has_levels()) return;
   enqueue_levels(
       executor,
       {cache, all, proxies, mechanisms_, joints.device(), joints.count(), body_count, pair_capacity, levels, parameters,
-       counters, paces_.data(), body_levels_.data(), loads_.data(), body_groups_.data(), most_groups_, settled},
+       counters, paces_.data(), body_levels_.data(), loads_.data(), body_groups_.data(), most_groups_, masks, settled},
       {&counters->manifolds, pair_capacity});
 }
 

@@ -36,11 +36,11 @@ class Solver {
   void move_freely(Executor& executor, const MovableBodies& bodies, std::uint32_t body_count,
                    const StepParameters* parameters, StepCounters* counters);
 
-  /// How many sub-steps each island has, by what its contacts bear. settled: as of LoadWork.
+  /// How many sub-steps each island has, by what its contacts bear. masks, settled: as of LoadWork.
   void choose_substeps(Executor& executor, const ContactCache& cache, const MovableBodies& bodies,
                        std::uint32_t body_count, const Proxies& proxies, JointStore& joints,
                        const SubstepLevels* levels, const StepParameters* parameters, StepCounters* counters,
-                       std::uint32_t pair_capacity, const SettledBody* settled);
+                       std::uint32_t pair_capacity, const std::uint64_t* masks, const SettledBody* settled);
   /// What a body has, if bodies have their own.
   [[nodiscard]] BodyLevels levels(const StepCounters* counters) const {
     return has_levels() ? BodyLevels(body_levels_.data(), counters) : BodyLevels();

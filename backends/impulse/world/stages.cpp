@@ -88,6 +88,7 @@ void match(const StepContext& step) {
 void choose_substeps(const StepContext& step) {
   step.stages.solver.choose_substeps(step.executor, step.now, step.movable, step.body_rows, step.proxies, step.joints,
                                      step.levels, step.parameters, step.counters, step.pair_capacity,
+                                     step.stages.colouring.masks(),
                                      step.settles() ? step.stages.energy_bound.settled_bodies() : nullptr);
 }
 

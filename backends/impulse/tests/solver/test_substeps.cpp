@@ -103,6 +103,51 @@ double sink_of_heavy(Cubes& cubes, double height) {
   return height + 1 - cubes.scene.poses().back().position.y;
 }
 
+/// A cube in the middle of so many, one upon the other, wanders from its place by so far in 60 s, m.
+double drift_of_column(Cubes& cubes, int count) {
+  for (int i = 0; i < count; ++i) cubes.add(1000, {0, i + 0.5, 0});
+  cubes.scene.run(3600);
+  const PlumbPose pose = cubes.scene.poses()[static_cast<std::size_t>(1 + count / 2)];
+  return std::hypot(pose.position.x, pose.position.z);
+}
+
+TEST(SubstepsByLoad, HoldAColumnThatWouldBuckle) {
+  Cubes chooses, keeps;
+  keeps.keep_to_the_setting();
+  EXPECT_LT(drift_of_column(chooses, 50), 1e-4);
+  EXPECT_GT(drift_of_column(keeps, 50), 1) << "it falls after 38 s";
+}
+
+/// Of columns half as large, on half the gravity, twice as heavy: what matters is how many stand on one.
+TEST(SubstepsByLoad, AreNoMatterOfAColumnsSize) {
+  Cubes chooses;
+  Scene& scene = chooses.scene;
+  scene.body.mass = 2000;
+  const PlumbShape small = scene.box({0.25, 0.25, 0.25});
+  for (int i = 0; i < 50; ++i) scene.add(small, {0, 0.25 + 0.5 * i, 0});
+  check(scene.world(), scene.world().set_gravity({0, -9.81 / 2, 0}));
+  scene.run(3600);
+  EXPECT_LT(std::hypot(scene.poses()[25].position.x, scene.poses()[25].position.z), 1e-4);
+}
+
+TEST(SubstepsByLoad, AreThoseOfTheSettingInColumnsThatStandAsItIs) {
+  Cubes chooses, keeps;
+  keeps.keep_to_the_setting();
+  for (Cubes* cubes : {&chooses, &keeps}) drift_of_column(*cubes, 20);
+  EXPECT_EQ(chooses.scene.hash(), keeps.scene.hash());
+}
+
+/// Columns side by side that touch have more contacts than bodies, and hold each other.
+TEST(SubstepsByLoad, AreThoseOfTheSettingInWalls) {
+  Cubes chooses, keeps;
+  keeps.keep_to_the_setting();
+  for (Cubes* cubes : {&chooses, &keeps}) {
+    for (int i = 0; i < 120; ++i) cubes->add(1000, {1.0 * (i % 3), i / 3 + 0.5, 0});
+    cubes->scene.run(240);
+  }
+  EXPECT_EQ(chooses.scene.hash(), keeps.scene.hash());
+}
+
 /// They are those of an island: a machine does as well in a large world as in a small one.
 TEST(SubstepsByLoad, AreNoMatterOfTheWorldsSize) {
   Cubes alone, among, keeps;
