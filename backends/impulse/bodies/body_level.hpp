@@ -12,8 +12,9 @@ constexpr std::uint32_t kSettledLevel = kSubstepLevels;
 
 /// Of a body that can be pushed, from step to step.
 struct BodyPace {
-  Real load_rate;  ///< sub-steps that its loads ask for, 1/s
-  Real last_h;     ///< the last sub-step in which it was, s; 0 before its first
+  Real load_rate;        ///< sub-steps that its loads ask for, 1/s
+  Real last_h;           ///< the last sub-step in which it was, s; 0 before its first
+  std::uint32_t column;  ///< mass of the bodies that stand on it one on the other, as far as known, kg: bits of a float
 };
 
 /// Of a body in this step.

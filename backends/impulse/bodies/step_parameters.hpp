@@ -25,6 +25,10 @@ inline Softness make_softness(double hertz, double zeta, double h) {
 
 /// Masses are alike where none is so many times another.
 constexpr Real kAlikeMasses = 5;
+template <class N>
+PLUMB_HD auto alike_masses(const N& a, const N& b) {
+  return N(kAlikeMasses) * min(a, b) > max(a, b);
+}
 
 /// How constraints are solved: the word of the setting "solver".
 enum class SolverKind : std::uint32_t { kTgsSoft, kSequential, kJacobi, kPosition };

@@ -40,8 +40,7 @@ template <int P, class N>
 PLUMB_HD NormalTarget<P, N> soft_target(Contact<P, N>& contact, const SolverBody<N>& a, const SolverBody<N>& b,
                                         const ContactSoftness& softness) {
   const N zero = N(0), one = N(1);
-  const N heavier = min(a.inverse_mass, b.inverse_mass), lighter = max(a.inverse_mass, b.inverse_mass);
-  const auto alike = N(kAlikeMasses) * heavier > lighter, movers = heavier > zero;
+  const auto movers = min(a.inverse_mass, b.inverse_mass) > zero, alike = alike_masses(a.inverse_mass, b.inverse_mass);
   const auto choose = [&](Real Softness::* member) {
     const N of_movers = select(alike, N(softness.between_alike.*member), N(softness.between_unlike.*member));
     return select(movers, of_movers, N(softness.against_fixed.*member));

@@ -86,7 +86,7 @@ struct ChooseLevels {
     work.loads[i] = {i, i, 0, 0, ordered_bits(rate), 0, 0, 0};
     note_asked(rate * work.parameters->dt);
     if (pushed && before.last_h != work.levels->of[0].h) atomic_raise(&work.counters->other_substeps, 1U);
-    put_level(i, 0, before, 0);
+    put_level(i, 0, before, 0, 0);
   }
   PLUMB_HD void note_asked(Real asked) const {
     if (asked > substeps(0) && work.levels->count > 1) atomic_raise(&work.counters->loaded, 1U);
@@ -102,19 +102,27 @@ struct ChooseLevels {
     const Real downward = dot(work.parameters->gravity, kept.normal);
     ask(kept, downward, b, a);
     ask(kept, -downward, a, b);
-    if (is_column(a.body) && is_column(b.body)) {
-      const Manifold& found = work.cache.found[work.cache.candidate[row]];
-      ask_for_column(kept, found, downward > 0 ? b.body : a.body, downward > 0 ? a.body : b.body);
-    }
+    if (is_column(a.body) && is_column(b.body) && are_alike(a.body, b.body))
+      ask_for_column(row, downward, downward > 0 ? b.body : a.body, downward > 0 ? a.body : b.body);
   }
   /// Whether a body has no contact but one above and one below. Others are held by those beside them.
   PLUMB_HD bool is_column(std::uint32_t body) const {
     return is_pushed(body) && !work.mechanisms.hold(body) && bit_count(work.masks[body]) <= 2;
   }
-  PLUMB_HD void ask_for_column(const CachedManifold& kept, const Manifold& found, std::uint32_t on,
-                               std::uint32_t by) const {
-    const Real gravity = length(work.parameters->gravity), own = work.bodies.velocity[on].inverse_mass;
-    const Real n = gravity > 0 ? force_of(kept, on, by) * own / gravity : Real(0);
+  PLUMB_HD bool are_alike(std::uint32_t a, std::uint32_t b) const {
+    const Velocity* const all = work.bodies.velocity;
+    return alike_masses(all[a].inverse_mass, all[b].inverse_mass);
+  }
+  /// What is known of the column above in one step is known one body further down in the next.
+  PLUMB_HD void ask_for_column(std::uint32_t row, Real downward, std::uint32_t on, std::uint32_t by) const {
+    const Real gravity = length(work.parameters->gravity);
+    if (!(max(downward, -downward) > kColumnUpright * gravity)) return;
+    const Velocity* const all = work.bodies.velocity;
+    const Real above = number_of(work.body_levels[by].before.column) + Real(1) / all[by].inverse_mass;
+    atomic_max(&work.paces[on].column, ordered_bits(above));
+    const CachedManifold& kept = work.cache.kept[row];
+    const Manifold& found = work.cache.found[work.cache.candidate[row]];
+    const Real n = above * all[on].inverse_mass;
     if (!(n > kLeastColumn) || found.count < 3) return;
     const Real apart = dot(between(work.bodies.position[by], work.bodies.position[on]), kept.normal);
     const ContactPatch patch = patch_of(found, kept);
@@ -226,15 +234,16 @@ struct ChooseLevels {
     std::uint32_t level = island.wants;
     while (level != 0 && !has_time_for(level)) --level;
     const Real asked = asked_by_loads(island);
-    if (level != 0 || asked > 0) put_level(i, level, work.body_levels[i].before, asked);
+    if (level != 0 || asked > 0) put_level(i, level, work.body_levels[i].before, asked, work.paces[i].column);
     note_levels(level);
   }
-  /// before: its pace; asked: what the loads of its island do.
-  PLUMB_HD void put_level(std::uint32_t i, std::uint32_t level, const BodyPace& before, Real asked) const {
+  /// before: its pace; asked: what the loads of its island do; column: as of BodyPace.
+  PLUMB_HD void put_level(std::uint32_t i, std::uint32_t level, const BodyPace& before, Real asked,
+                          std::uint32_t column) const {
     const Real dt = work.parameters->dt, h = work.levels->of[level].h;
     const Real rate = max(asked / dt, max(Real(0), 1 - dt / kLoadFades) * before.load_rate);
     // Who sleeps keeps impulses of his last step.
-    work.paces[i] = {rate, is_pushed(i) ? h : before.last_h};
+    work.paces[i] = {rate, is_pushed(i) ? h : before.last_h, column};
     work.body_levels[i] = {level, before.last_h > 0 ? h / before.last_h : Real(1), before};
   }
   PLUMB_HD void note_levels(std::uint32_t level) const {

@@ -16,6 +16,8 @@ namespace plumb::impulse {
 constexpr Real kColumnSubsteps = Real(0.5);
 /// Columns that bear no more than so many of their bodies' weights stand as it is.
 constexpr Real kLeastColumn = 8;
+/// What stands on another presses along gravity, within so much: the cosine of an angle.
+constexpr Real kColumnUpright = Real(0.9);
 /// However far beside the centre, a patch counts for that share of itself.
 constexpr Real kLeastPatch = Real(0.1);
 
@@ -25,7 +27,7 @@ struct ContactPatch {
   Real closed;     ///< 1: all points bear alike; 0: one side of it bears nothing
 };
 
-/// found has three points or more, and kept bears something.
+/// found has three points or more. Nothing where they are on a line, or bear nothing.
 PLUMB_HD inline ContactPatch patch_of(const Manifold& found, const CachedManifold& kept) {
   const Vec bitangent = cross(kept.normal, kept.tangent);
   Real x = 0, y = 0, xx = 0, xy = 0, yy = 0, pressed = 0, pressed_x = 0, pressed_y = 0;
@@ -48,7 +50,7 @@ PLUMB_HD inline ContactPatch patch_of(const Manifold& found, const CachedManifol
   xy = share * xy - x * y;
   yy = share * yy - y * y;
   const Real half = (xx - yy) / 2, gyration2 = (xx + yy) / 2 - sqrt(half * half + xy * xy);
-  if (!(gyration2 > 0)) return {0, 0};
+  if (!(gyration2 > 0 && pressed > 0)) return {0, 0};
   const Real off_x = pressed_x / pressed - x, off_y = pressed_y / pressed - y;
   // Of a rectangle, what presses within the rhombus of the middles of its sides leaves every corner pressed.
   return {gyration2, max(Real(1) - sqrt(off_x * off_x / xx) - sqrt(off_y * off_y / yy), kLeastPatch)};
