@@ -163,7 +163,7 @@ TEST(Colouring, LevelsOfSubstepsAreApart) {
     if (pair.a < kFixed || pair.a % 3 == pair.b % 3) pairs.push_back(pair);
   ColouringRig rig(kBodies, kFixed, pairs);
   for (std::uint32_t body = 0; body < kBodies; ++body)
-    rig.levels.push_back({body < kFixed ? 0 : 2 * (body % 3), 1, {0, body < kFixed ? Real(0) : Real(1)}});
+    rig.levels.push_back({body < kFixed ? 0 : 2 * (body % 3), 1, {0, body < kFixed ? Real(0) : Real(1), 0}});
   rig.colour();
   rig.check();
   EXPECT_EQ(rig.counters[0].levels, 5U);
