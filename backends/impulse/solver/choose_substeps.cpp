@@ -83,7 +83,7 @@ struct ChooseLevels {
     const BodyPace before = work.paces[i];
     const bool pushed = is_pushed(i);
     const Real rate = pushed ? before.load_rate : Real(0);
-    work.loads[i] = {i, i, 0, 0, ordered_bits(rate), 0, 0, 0};
+    work.loads[i] = {i, i, 0, ordered_bits(rate), 0, 0};
     note_asked(rate * work.parameters->dt);
     if (pushed && before.last_h != work.levels->of[0].h) atomic_raise(&work.counters->other_substeps, 1U);
     put_level(i, 0, before, 0, 0);
@@ -130,7 +130,7 @@ struct ChooseLevels {
     const Real most = substeps(work.levels->count - 1);
     const Real wanted = work.parameters->dt * column_rate(n, max(apart, -apart), gravity, patch);
     if (!(wanted > kColumnStays * substeps(0)) || wanted > kHopeless * most) return;
-    atomic_max(&work.loads[on].asked_by_columns, ordered_bits(min(as_before(on, wanted), most)));
+    atomic_max(&work.loads[on].asked, ordered_bits(min(as_before(on, wanted), most)));
     atomic_raise(&work.counters->loaded, 1U);
   }
   /// Sub-steps wanted for a column: what was enough for the next lower level by a little is what it had; and no load is
@@ -190,10 +190,8 @@ struct ChooseLevels {
     const std::uint32_t at = impulse::find_root(Parents{work.loads}, i);
     IslandLoad &own = work.loads[i], &island = work.loads[at];
     own.root = at;
-    if (is_pushed(i)) atomic_add(&island.bodies, 1U);
     if (at == i) return;
     if (own.asked != 0) atomic_max(&island.asked, own.asked);
-    if (own.asked_by_columns != 0) atomic_max(&island.asked_by_columns, own.asked_by_columns);
     if (own.rate != 0) atomic_max(&island.rate, own.rate);
   }
   PLUMB_HD void add_work(std::uint32_t a, std::uint32_t b, std::uint32_t amount) const {
@@ -213,15 +211,11 @@ struct ChooseLevels {
     IslandLoad& island = work.loads[i];
     if (island.root != i) return;
     const SubstepLevels& levels = *work.levels;
-    const Real asked = max(number_of(island.rate) * work.parameters->dt, asked_by_loads(island));
+    const Real asked = max(number_of(island.rate) * work.parameters->dt, number_of(island.asked));
     while (island.wants + 1 < levels.count && substeps(island.wants) * (1 + kAsksEnough) < asked &&
            island.work <= kMostWork / levels.of[island.wants + 1].substeps)
       ++island.wants;
     if (island.wants != 0) atomic_add(&work.counters->wanted_work[island.wants], island.work);
-  }
-  /// Sub-steps. What has more contacts than bodies is held together, and does not buckle.
-  PLUMB_HD static Real asked_by_loads(const IslandLoad& island) {
-    return number_of(island.work > island.bodies ? island.asked : max(island.asked, island.asked_by_columns));
   }
   /// Whether there is time for all who want a level, or one beyond.
   PLUMB_HD bool has_time_for(std::uint32_t level) const {
@@ -233,8 +227,8 @@ struct ChooseLevels {
     const IslandLoad& island = work.loads[work.loads[i].root];
     std::uint32_t level = island.wants;
     while (level != 0 && !has_time_for(level)) --level;
-    const Real asked = asked_by_loads(island);
-    if (level != 0 || asked > 0) put_level(i, level, work.body_levels[i].before, asked, work.paces[i].column);
+    if (level != 0 || island.asked != 0)
+      put_level(i, level, work.body_levels[i].before, number_of(island.asked), work.paces[i].column);
     note_levels(level);
   }
   /// before: its pace; asked: what the loads of its island do; column: as of BodyPace.

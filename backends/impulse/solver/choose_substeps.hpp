@@ -26,12 +26,10 @@ namespace plumb::impulse {
 /// Of a body, and at the root of an island of the island.
 struct IslandLoad {
   std::uint32_t parent, root;
-  std::uint32_t asked;             ///< sub-steps: bits of a float
-  std::uint32_t asked_by_columns;  ///< likewise
-  std::uint32_t rate;              ///< the largest of its bodies' load_rate: likewise
-  std::uint32_t bodies;            ///< that can be pushed
-  std::uint32_t work;              ///< what a sub-step takes, in contacts
-  std::uint32_t wants;             ///< level
+  std::uint32_t asked;  ///< sub-steps: bits of a float
+  std::uint32_t rate;   ///< the largest of its bodies' load_rate: likewise
+  std::uint32_t work;   ///< what a sub-step takes, in contacts
+  std::uint32_t wants;  ///< level
 };
 
 struct LoadWork {

@@ -137,7 +137,7 @@ TEST(SubstepsByLoad, AreThoseOfTheSettingInColumnsThatStandAsItIs) {
   EXPECT_EQ(chooses.scene.hash(), keeps.scene.hash());
 }
 
-/// Columns side by side that touch have more contacts than bodies, and hold each other.
+/// Columns side by side that touch hold each other.
 TEST(SubstepsByLoad, AreThoseOfTheSettingInWalls) {
   Cubes chooses, keeps;
   keeps.keep_to_the_setting();
