@@ -103,9 +103,9 @@ double sink_of_heavy(Cubes& cubes, double height) {
   return height + 1 - cubes.scene.poses().back().position.y;
 }
 
-/// A cube in the middle of so many, one upon the other, wanders from its place by so far in 60 s, m.
+/// A cube in the middle of so many, one upon the other and a little beside it, is so far from the axis after 60 s, m.
 double drift_of_column(Cubes& cubes, int count) {
-  for (int i = 0; i < count; ++i) cubes.add(1000, {0, i + 0.5, 0});
+  for (int i = 0; i < count; ++i) cubes.add(1000, {i % 2 * 1e-4, i + 0.5, 0});
   cubes.scene.run(3600);
   const PlumbPose pose = cubes.scene.poses()[static_cast<std::size_t>(1 + count / 2)];
   return std::hypot(pose.position.x, pose.position.z);
@@ -114,8 +114,8 @@ double drift_of_column(Cubes& cubes, int count) {
 TEST(SubstepsByLoad, HoldAColumnThatWouldBuckle) {
   Cubes chooses, keeps;
   keeps.keep_to_the_setting();
-  EXPECT_LT(drift_of_column(chooses, 50), 1e-4);
-  EXPECT_GT(drift_of_column(keeps, 50), 1) << "it falls after 38 s";
+  EXPECT_LT(drift_of_column(chooses, 50), 1e-3);
+  EXPECT_GT(drift_of_column(keeps, 50), 1) << "it falls";
 }
 
 /// Of columns half as large, on half the gravity, twice as heavy: what matters is how many stand on one.
