@@ -14,8 +14,6 @@ namespace {
 /// Sub-steps in the time that a load's frequency takes for a radian: between bodies by themselves, and of bodies that
 /// joints hold.
 constexpr Real kSubstepsOfContact = 40, kSubstepsOfMechanism = 14;
-// What is alike asks for nothing but as a column, nor does a load no larger than kAlikeMasses times a body's own
-// weight: piles do well as it is.
 /// A body presses on another by itself with no more than so many times its weight, with what lies on it: more is a
 /// blow.
 constexpr Real kMostWeights = 8;

@@ -5,8 +5,10 @@
 // A contact that is solved once in a sub-step can be no stiffer than the lighter body lets it: its frequency is a share
 // of the sub-steps' own (plugin/settings.cpp). What presses on the lighter body with a force F and comes from beyond it
 // lowers it by F / (m w^2), and rocks it: seen from its size r such a load has the frequency sqrt(F / (m r)), and
-// sub-steps must be shorter in proportion. Tension in joints asks for nothing: tension.hpp deals with it, and what
-// swings gains where the number changes with each swing.
+// sub-steps must be shorter in proportion. What is no heavier than kAlikeMasses times what bears it asks for nothing,
+// nor does a load of no more than so many times a body's own weight: piles do well as it is. But a column of like
+// bodies buckles where it is high (columns.hpp). Tension in joints asks for nothing: tension.hpp deals with it, and
+// what swings gains where the number changes with each swing.
 //
 // Bodies that touch or are joined are of one island and go through its sub-steps together; no contact and no joint is
 // between two islands, so that one may be solved after the other. What was asked lives on in the bodies, and fades
