@@ -33,10 +33,9 @@ struct StepCounters {
   std::uint32_t levels;                       ///< of sub-steps, up to the last one in use
   std::uint32_t substeps;                     ///< of that one
   std::uint32_t body_groups[kSubstepLevels];  ///< with bodies of a level, where there are several
-  std::uint32_t first_in_colour[kColourKeys +
-                                1];  ///< by key: place in the order; the last is the number of those that are solved
-  std::uint32_t first_slot[kColourKeys + 1];   ///< by key: solver rows begin here, a multiple of the lanes
-  std::uint32_t slots;                         ///< solver rows of all
+  std::uint32_t first_in_colour[kColourKeys + 1];  ///< by key: place in the order; the last: how many are solved
+  std::uint32_t first_slot[kColourKeys + 1];       ///< by key: solver rows begin here, a multiple of the lanes
+  std::uint32_t slots;                             ///< solver rows of all
   std::uint32_t colour_count[kSubstepLevels];  ///< of a level: colours up to the last one in use; the overflow apart
   std::uint32_t level_loop[kSubstepLevels];    ///< of a level: threads of the longest loop over contacts
   std::uint32_t longest_loop;                  ///< of all levels
