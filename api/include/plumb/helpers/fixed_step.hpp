@@ -30,17 +30,22 @@ class FixedStep {
   /// world outlives this. bodies: those whose poses are shown. Throws Error on a setting out of range or a stale body.
   FixedStep(IPhysicsWorld& world, std::span<const PlumbBody> bodies, const FixedStepSettings& settings = {});
 
-  /// Steps as often as frame_time (s, >= 0) asks for; before_step(dt) is called before each step, to drive the world.
-  /// Throws Error when a step fails.
-  template <class BeforeStep>
-  FixedFrame advance(double frame_time, BeforeStep&& before_step) {
+  /// Steps as often as frame_time (s, >= 0) asks for; before_step(dt) is called before each step, to drive the world,
+  /// after_step() after each, to hear what happened in it. Throws Error when a step fails.
+  template <class BeforeStep, class AfterStep>
+  FixedFrame advance(double frame_time, BeforeStep&& before_step, AfterStep&& after_step) {
     FixedFrame frame = begin(frame_time);
     for (int i = 0; i < frame.steps; ++i) {
       before_step(settings_.dt);
       step();
+      after_step();
     }
     blend(frame.alpha);
     return frame;
+  }
+  template <class BeforeStep>
+  FixedFrame advance(double frame_time, BeforeStep&& before_step) {
+    return advance(frame_time, before_step, [] {});
   }
   FixedFrame advance(double frame_time) {
     return advance(frame_time, [](double) {});
