@@ -1,6 +1,7 @@
 #include "narrowphase/sweep_rims.hpp"
 
 #include "math/angle.hpp"
+#include "narrowphase/convex/cylinder.hpp"
 #include "narrowphase/feature.hpp"
 
 namespace plumb::impulse {
@@ -46,6 +47,8 @@ struct SweepRims {
     const Shape& shape = proxies.shapes[proxy.shape];
     const Quat orientation = shape_pose(proxy, bodies.orientation[proxy.body]).orientation;
     const Rim rim = {rotate(orientation, Vec{0, 1, 0}), shape.size.x, shape.size.y};
+    // One that lies on its side rolls along with the point, where an edge cuts its line short.
+    if (abs(dot(rim.axis, towards)) < cylinder::kNearSide) return;
     const ManifoldPoint first = manifold.points[0];
     const Vec from = rim.foremost(towards);
     for (std::uint32_t k = kManifoldPoints - 1; k > 0; --k) {

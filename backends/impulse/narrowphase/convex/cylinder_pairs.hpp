@@ -37,6 +37,31 @@ PLUMB_HD void foremost_edge(const View& view, const polyhedra::Placement& at, co
   if (best != 0xffffffffU) place(best);
 }
 
+/// Of a face that lies across the normal, and no part of the cylinder over it: the side that is nearest to what of the
+/// cylinder is foremost. All sides are as far along the normal.
+template <class View>
+PLUMB_HD void nearest_side(const Cylinder& c, const View& view, std::uint32_t face, const polyhedra::Placement& at,
+                           const Vec& n, Vec& p, Vec& d) {
+  const Part3 part = part_along(n);
+  const Vec u = c.radius * radial(n);
+  const Vec from = part == Part3::kSide  ? Vec{u.x, -c.half, u.z}
+                   : part == Part3::kCap ? Vec{0, cap_height(c, n), 0}
+                                         : rim_point(c, n);
+  const Vec along = {0, part == Part3::kSide ? 2 * c.half : Real(0), 0};
+  Real least = kHuge;
+  const std::uint32_t size = view.loop_size(face);
+  for (std::uint32_t k = 0; k < size; ++k) {
+    const Vec corner = at.turn * view.vertex(view.loop(face, k)) + at.shift;
+    const Vec side = at.turn * view.vertex(view.loop(face, k + 1 == size ? 0 : k + 1)) + at.shift - corner;
+    const ClosestPair near = closest_between(from, along, corner, side);
+    if (const Real distance = length_squared(near.on_b - near.on_a); distance < least) {
+      least = distance;
+      p = corner;
+      d = side;
+    }
+  }
+}
+
 template <class View>
 PLUMB_HD bool touch_polyhedron(const Cylinder& c, const View& view, const polyhedra::Placement& at, Real margin,
                                Real tie, Manifold& out) {
@@ -53,7 +78,10 @@ PLUMB_HD bool touch_polyhedron(const Cylinder& c, const View& view, const polyhe
     if (out.count != 0) return true;
   }
   Vec p, d;
-  foremost_edge(view, at, axis, p, d);
+  if (axis.kind == Axis::Kind::kFace)
+    nearest_side(c, view, face, at, axis.normal, p, d);
+  else
+    foremost_edge(view, at, axis, p, d);
   touch_edge(c, axis.normal, p, d, 0, axis.separation, margin, out);
   return out.count != 0;
 }

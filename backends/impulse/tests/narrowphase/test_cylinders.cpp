@@ -140,6 +140,29 @@ TEST(CylinderPoints, LyingOnABoxAreTheEndsOfALine) {
   EXPECT_NEAR(m.points[0].position.x, -m.points[1].position.x, 1e-5);
   EXPECT_NE(m.points[0].feature, m.points[1].feature);
 }
+/// Its line ends beside the face, by so little that across the face's normal the two overlap as much as anywhere.
+TEST(CylinderPoints, LyingBesideAFaceMeetsTheNearestSide) {
+  for (double angle = 0.1; angle < 3.1; angle += 0.1)
+    for (const double beside : {1e-5, 1e-4, 1e-3}) {
+      const auto turn = Dice::turn({0, 1, 0}, angle) * Dice::turn({0, 0, 1}, 1.5707963267948966);
+      const double end = 0.1 * std::sin(angle);  // of the line, along z from its middle
+      Manifold m{};
+      if (!collide({make_box(0.5, 0.5, 0.5),
+                    make_cylinder(0.3, 0.1),
+                    kUpright,
+                    Dice::to_real(turn),
+                    {Real(0.1), Real(0.79999), static_cast<Real>(-0.5 - end - beside)},
+                    Real(0.01)},
+                   {}, m))
+        continue;
+      for (std::uint32_t i = 0; i < m.count; ++i) {
+        const Vec& p = m.points[i].position;
+        EXPECT_LT(std::abs(p.x - Real(0.1)), 0.15) << angle << " " << beside;
+        EXPECT_NEAR(p.y, 0.5, 0.01);
+        EXPECT_NEAR(p.z, -0.5, 0.01);
+      }
+    }
+}
 TEST(CylinderPoints, OfTwoThatStandOnEachOtherAreOfTheSmallerRim) {
   Manifold m{};
   ASSERT_TRUE(
