@@ -3,6 +3,7 @@
 #include "bodies/proxy_bounds.hpp"
 #include "contacts/match.hpp"
 #include "contacts/surface_velocity.hpp"
+#include "narrowphase/inner_edges.hpp"
 #include "narrowphase/sweep_rims.hpp"
 #include "plumb/assert.hpp"
 
@@ -63,6 +64,9 @@ void midphase(const StepContext& step) {
 void collide(const StepContext& step) {
   step.stages.narrow_phase.collide(step.executor, step.now, step.bodies, step.proxies, step.stages.margins.data(),
                                    step.shape_types, step.counters);
+  if (may_have_inner_edges(step.statics.count, step.shape_types))
+    drop_inner_edges(step.executor, step.candidates(), step.now, step.bodies, step.proxies, step.filter,
+                     step.stages.broad_phase.statics(), step.parameters);
   if (step.bodies.turn && (step.shape_types & bit_of(ShapeType::kCylinder)) != 0)
     sweep_rims(step.executor, step.candidates(), step.now, step.bodies, step.proxies, step.parameters);
 }
