@@ -99,7 +99,7 @@ struct WriteKeys {
 };
 
 template <class Movers>
-struct ListKeys {
+struct ListPairKeys {
   Search<Movers> search;
   const std::uint32_t *notes, *counts, *offsets;
   PairKeys to;
@@ -210,7 +210,7 @@ void BroadPhase::list_in_order(Executor& executor, const Movers& movers, const B
   executor.run(n, CountPartners<Movers>{search, noted_.data(), counts_.data()});
   scan_.run(executor, n, counts_.data(), offsets_.data(), found.count);
   executor.run(
-      n, ListKeys<Movers>{search, noted_.data(), counts_.data(), offsets_.data(), order_->keys(), pair_capacity_});
+      n, ListPairKeys<Movers>{search, noted_.data(), counts_.data(), offsets_.data(), order_->keys(), pair_capacity_});
   order_->list(executor, found.count, found.pairs, found.ranges);
 }
 

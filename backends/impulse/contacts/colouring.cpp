@@ -109,7 +109,7 @@ struct ColourNew {
   }
 };
 
-struct ListKeys {
+struct ListColourKeys {
   View view;
   std::uint32_t *keys, *rows;
   PLUMB_HD void operator()(std::uint32_t row) const {
@@ -206,7 +206,7 @@ void Colouring::colour(Executor& executor, const ContactCache& cache, const Velo
                      masks_.data(), claims_.data(), {waiting_[0].data(), waiting_[1].data()}};
   const Count manifolds = {&counters->manifolds, capacity_};
   executor.team(manifolds, 0, ColourNew{view});
-  executor.run(manifolds, ListKeys{view, keys_.data(), rows_.data()});
+  executor.run(manifolds, ListColourKeys{view, keys_.data(), rows_.data()});
   sort_.run(executor, manifolds, keys_.data(), rows_.data(), sorted_keys_.data(), sorted_rows_.data(), 8);
   executor.run(kColourKeys + 1, FindKeys{sorted_keys_.data(), counters});
   executor.run(1U, LayOutSlots{counters, mechanisms.count == 0});

@@ -13,7 +13,7 @@ PLUMB_HD inline bool moves(const Velocity& velocity) {
   return length_squared(velocity.linear) > 0 || length_squared(velocity.angular) > 0;
 }
 
-struct Parents {
+struct IslandParents {
   std::uint32_t* parent;
   PLUMB_HD std::uint32_t* operator()(std::uint32_t i) const { return &parent[i]; }
 };
@@ -25,7 +25,7 @@ struct Graph {
   /// Two bodies touch or are joined. What moves by itself lets nobody rest.
   PLUMB_HD void join(std::uint32_t a, std::uint32_t b) const {
     const bool push_a = is_pushed(bodies, a), push_b = is_pushed(bodies, b);
-    if (push_a && push_b) return unite(Parents{parent}, a, b);
+    if (push_a && push_b) return unite(IslandParents{parent}, a, b);
     if (push_a && moves(bodies.velocity[b])) keep_awake(a);
     if (push_b && moves(bodies.velocity[a])) keep_awake(b);
   }
@@ -67,7 +67,7 @@ struct JoinJointed {
 
 struct FindRoot {
   std::uint32_t *parent, *root;
-  PLUMB_HD void operator()(std::uint32_t i) const { root[i] = find_root(Parents{parent}, i); }
+  PLUMB_HD void operator()(std::uint32_t i) const { root[i] = find_root(IslandParents{parent}, i); }
 };
 
 struct KeepAwake {

@@ -34,7 +34,7 @@ constexpr Real kLoadFades = 1;
 /// What asks for so much more than there is, relative to that, has it.
 constexpr Real kAsksEnough = Real(1e-5);
 
-struct Parents {
+struct LoadParents {
   IslandLoad* loads;
   PLUMB_HD std::uint32_t* operator()(std::uint32_t i) const { return &loads[i].parent; }
 };
@@ -176,7 +176,7 @@ struct ChooseLevels {
   }
 
   PLUMB_HD void join(std::uint32_t a, std::uint32_t b) const {
-    if (is_pushed(a) && is_pushed(b)) unite(Parents{work.loads}, a, b);
+    if (is_pushed(a) && is_pushed(b)) unite(LoadParents{work.loads}, a, b);
   }
   PLUMB_HD void join_contact(std::uint32_t row) const {
     const Pair pair = work.cache.pairs[work.cache.candidate[row]];
@@ -185,7 +185,7 @@ struct ChooseLevels {
   PLUMB_HD void join_joint(std::uint32_t j) const { join(work.joints[j].body_a, work.joints[j].body_b); }
   /// What a body asks for its island does.
   PLUMB_HD void find_root(std::uint32_t i) const {
-    const std::uint32_t at = impulse::find_root(Parents{work.loads}, i);
+    const std::uint32_t at = impulse::find_root(LoadParents{work.loads}, i);
     IslandLoad &own = work.loads[i], &island = work.loads[at];
     own.root = at;
     if (at == i) return;

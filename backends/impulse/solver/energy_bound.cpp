@@ -54,7 +54,7 @@ PLUMB_HD inline Real kinetic_energy(const BodyMass& mass, const Velocity& veloci
   return (length_squared(velocity.linear) / velocity.inverse_mass + turning) / 2;
 }
 
-struct Parents {
+struct EnergyParents {
   IslandEnergy* islands;
   PLUMB_HD std::uint32_t* operator()(std::uint32_t i) const { return &islands[i].parent; }
 };
@@ -163,7 +163,7 @@ struct JudgeEnergy {
 
   PLUMB_HD void join(std::uint32_t a, std::uint32_t b) const {
     if (is_pushed(a) && is_pushed(b))
-      unite(Parents{islands}, a, b);
+      unite(EnergyParents{islands}, a, b);
     else if (is_pushed(a))
       note_mover(a, b);
     else if (is_pushed(b))
@@ -192,7 +192,7 @@ struct JudgeEnergy {
   }
   /// What the host moves at a body moves its island.
   PLUMB_HD void find_root(std::uint32_t i) const {
-    const std::uint32_t at = impulse::find_root(Parents{islands}, i);
+    const std::uint32_t at = impulse::find_root(EnergyParents{islands}, i);
     IslandEnergy& own = islands[i];
     own.root = at;
     if (at == i) return;
