@@ -83,6 +83,13 @@ PlumbDegree Backend::capability(PlumbCapability kind, std::uint32_t a, std::uint
   return table_->capability(kind, a, b, nullptr);
 }
 
+PlumbNeeds Backend::offered(PlumbNeeds wanted) const {
+  PlumbNeeds offers = 0;
+  for (std::uint32_t i = 0; i < PLUMB_NEED_COUNT; ++i)
+    if ((wanted >> i & 1U) != 0 && capability(PLUMB_CAP_NEED, i) != PLUMB_NONE) offers |= PlumbNeeds{1} << i;
+  return offers;
+}
+
 std::string Backend::capability_note(PlumbCapability kind, std::uint32_t a, std::uint32_t b) const {
   const char* note = "";
   table_->capability(kind, a, b, &note);

@@ -21,6 +21,9 @@ class Backend {
   [[nodiscard]] PlumbDegree capability(PlumbCapability kind, std::uint32_t a = 0, std::uint32_t b = 0) const;
   /// A sentence on the capability, or "".
   [[nodiscard]] std::string capability_note(PlumbCapability kind, std::uint32_t a = 0, std::uint32_t b = 0) const;
+  /// Those of the needs that the backend has, if only approximately. What a host would like and can do without joins
+  /// what it cannot: `world_desc(required | backend.offered(wanted))`.
+  [[nodiscard]] PlumbNeeds offered(PlumbNeeds wanted) const;
   /// The backend's settings; empty without plumb.settings/1.
   [[nodiscard]] std::vector<const PlumbSettingInfo*> settings() const;
 

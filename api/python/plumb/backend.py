@@ -174,6 +174,12 @@ class Backend:
         degree, note = self._core.capability(which, *(asked + [0, 0])[:2])
         return Capability(Degree(degree), note)
 
+    def offered(self, wanted: Union[Need, str, Iterable[Union[Need, str]]]) -> Need:
+        """Those of the needs that the engine has, if only approximately."""
+        every = pick_bits(Need, wanted, "need")
+        words = [word for word, bit in Need.__members__.items() if bit & every]
+        return pick_bits(Need, [word for word in words if self.capability("need", word).degree != Degree.NONE], "need")
+
     def capabilities(self) -> Dict[Tuple[str, ...], Capability]:
         """All answers, by kind and arguments in words: {("joint", "hinge"): Capability(...)}."""
         answers: Dict[Tuple[str, ...], Capability] = {}
@@ -191,10 +197,11 @@ class Backend:
         body_capacity: int = 0,
         contact_capacity: int = 0,
         joint_capacity: int = 0,
+        wanted: Union[Need, str, Iterable[Union[Need, str]]] = (),
     ) -> World:
         """A world of this engine. needs: what the scene needs; using anything else is an Error of NOT_DECLARED, and a
         need that the engine lacks one of UNSUPPORTED. gravity: m/s2. settings: in force from the start. Capacities are
-        hints; 0 is unknown."""
+        hints; 0 is unknown. wanted: needs, too, but for those that the engine lacks."""
         given = [(name, *self.settings.encoded(name, value)) for name, value in (settings or {}).items()]
         capacities = [
             unsigned(body_capacity, "body_capacity", 32),
@@ -202,7 +209,7 @@ class Backend:
             unsigned(joint_capacity, "joint_capacity", 32),
         ]
         core = self._core.world(
-            int(pick_bits(Need, needs, "need")),
+            int(pick_bits(Need, needs, "need") | self.offered(wanted)),
             numbers(gravity, (3,), "gravity").tolist(),
             unsigned(threads, "threads", 32),
             given,

@@ -12,6 +12,20 @@ from support import first, floor, np, on_each, particle, plumb, steps
 
 
 class Life(unittest.TestCase):
+    @on_each()
+    def test_what_is_wanted_and_not_there_is_left_out(self, engine):
+        every = plumb.Need(sum(plumb.Need))
+        offered = engine.offered(every)
+        self.assertEqual(engine.offered(offered), offered)
+        with engine.world([], wanted=every) as world:
+            world.step(1 / 60)
+        for word, bit in plumb.Need.__members__.items():
+            if bit & offered:
+                engine.world([word]).close()
+            else:
+                with self.assertRaises(plumb.Error):
+                    engine.world([word])
+
     def test_a_closed_world_refuses_everything(self):
         world = first().world([])
         body = world.create_body(particle())

@@ -77,6 +77,13 @@ TEST(Loader, OneBackendOfAnExclusionGroupAtATime) {
   EXPECT_STREQ(open_backend(EXCLUSIVE_ONE).info().name, "one") << "the one that is open stays";
 }
 
+TEST(Loader, AWishForWhatIsNotThereIsNoNeed) {
+  const Backend sample = open_backend(SAMPLE_FOLDER "/plumb-sample.so");
+  EXPECT_THROW((void)sample.create_world(world_desc(PLUMB_NEED_JOINTS)), Error);
+  EXPECT_EQ(sample.offered(PLUMB_NEED_JOINTS | PLUMB_NEED_CCD), 0U);
+  EXPECT_NE(sample.create_world(world_desc(sample.offered(PLUMB_NEED_ALL))), nullptr);
+}
+
 TEST(Loader, TheSampleFalls) {
   const Backend backend = open_backend(SAMPLE_FOLDER "/plumb-sample.so");
   const auto world = backend.create_world(world_desc(0));

@@ -15,11 +15,7 @@ namespace plumb::helpers::test {
 const Backend& backend_under_test();
 
 /// Whether the backend has every need; skips by capability and never by name.
-[[nodiscard]] inline bool offers(PlumbNeeds needs) {
-  for (std::uint32_t i = 0; i < PLUMB_NEED_COUNT; ++i)
-    if ((needs >> i & 1) != 0 && backend_under_test().capability(PLUMB_CAP_NEED, i) == PLUMB_NONE) return false;
-  return true;
-}
+[[nodiscard]] inline bool offers(PlumbNeeds needs) { return backend_under_test().offered(needs) == needs; }
 
 struct TestWorld {
   static constexpr PlumbNeeds usual = PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION |

@@ -13,8 +13,7 @@ constexpr double kDt = 1.0 / 60;
 
 /// What a helper of events needs and what the tests' scenes do; with impulses, where they are told.
 PlumbNeeds all_needs() {
-  const PlumbNeeds without = TestWorld::usual | ContactEvents::needs;
-  return offers(PLUMB_NEED_CONTACT_IMPULSES) ? without | PLUMB_NEED_CONTACT_IMPULSES : without;
+  return TestWorld::usual | ContactEvents::needs | backend_under_test().offered(PLUMB_NEED_CONTACT_IMPULSES);
 }
 bool tells_impulses() { return offers(PLUMB_NEED_CONTACT_IMPULSES); }
 
