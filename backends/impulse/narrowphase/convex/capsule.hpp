@@ -21,7 +21,7 @@ PLUMB_HD inline bool collide_sphere_capsule(const ShapePair& pair, const Hulls&,
 /// Capsules that lie along each other touch along a line, given by its two ends: where the angle has at least this
 /// cosine, and the segments' points at the ends miss each other sideways by at most this part of the thinner one's
 /// radius.
-constexpr Real kAlong = Real(0.99), kSideways = Real(0.1);
+constexpr Real kNearlyAlong = Real(0.99), kNearlySideways = Real(0.1);
 
 PLUMB_HD inline bool collide_capsule_capsule(const ShapePair& pair, const Hulls&, Manifold& out) {
   const Vec half_a = half_segment(pair.a, pair.qa), half_b = half_segment(pair.b, pair.qb);
@@ -44,7 +44,7 @@ PLUMB_HD inline bool collide_capsule_capsule(const ShapePair& pair, const Hulls&
       out.points[out.count++] = {on_a + (pair.a.size.x + Real(0.5) * separation) * normal, separation, feature};
   };
   const Real aa = length_squared(along_a), bb = length_squared(along_b), ab = dot(along_a, along_b);
-  if (aa > 0 && bb > 0 && abs(ab) >= kAlong * sqrt(aa) * sqrt(bb)) {
+  if (aa > 0 && bb > 0 && abs(ab) >= kNearlyAlong * sqrt(aa) * sqrt(bb)) {
     // B's segment over A's, as parameters on A.
     const Real begin = dot(from_b - from_a, along_a) / aa, end = begin + ab / aa;
     const Real low = max(min(begin, end), Real(0)), high = min(max(begin, end), Real(1));
@@ -56,7 +56,7 @@ PLUMB_HD inline bool collide_capsule_capsule(const ShapePair& pair, const Hulls&
       const Vec gap_low = gap_at(low), gap_high = gap_at(high);
       const Real at_low = dot(gap_low, normal), at_high = dot(gap_high, normal);
       const Real sideways = max(length_squared(gap_low - at_low * normal), length_squared(gap_high - at_high * normal));
-      if (sideways <= kSideways * kSideways * thinner * thinner) {
+      if (sideways <= kNearlySideways * kSideways * thinner * thinner) {
         add(from_a + low * along_a, (at_low < at_high ? distance : max(at_low, distance)) - radii, 1);
         add(from_a + high * along_a, (at_low < at_high ? max(at_high, distance) : distance) - radii, 2);
         return true;
