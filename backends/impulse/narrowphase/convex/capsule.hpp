@@ -56,7 +56,7 @@ PLUMB_HD inline bool collide_capsule_capsule(const ShapePair& pair, const Hulls&
       const Vec gap_low = gap_at(low), gap_high = gap_at(high);
       const Real at_low = dot(gap_low, normal), at_high = dot(gap_high, normal);
       const Real sideways = max(length_squared(gap_low - at_low * normal), length_squared(gap_high - at_high * normal));
-      if (sideways <= kNearlySideways * kSideways * thinner * thinner) {
+      if (sideways <= kNearlySideways * kNearlySideways * thinner * thinner) {
         add(from_a + low * along_a, (at_low < at_high ? distance : max(at_low, distance)) - radii, 1);
         add(from_a + high * along_a, (at_low < at_high ? max(at_high, distance) : distance) - radii, 2);
         return true;
