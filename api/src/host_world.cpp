@@ -86,21 +86,21 @@ class HostWorld final : public IPhysicsWorld,
     return table_.wait(world_, &report);
   }
   std::span<const PlumbContact> contacts() override {
-    fill_all(contact_rows_, [this](PlumbContact* out, std::uint32_t capacity, std::uint32_t* count) {
+    check(*this, fill_all(contact_rows_, [this](PlumbContact* out, std::uint32_t capacity, std::uint32_t* count) {
       return table_.contacts(world_, out, sizeof *out, capacity, count);
-    });
+    }));
     return contact_rows_;
   }
   std::span<const PlumbEvent> events() override {
-    fill_all(event_rows_, [this](PlumbEvent* out, std::uint32_t capacity, std::uint32_t* count) {
+    check(*this, fill_all(event_rows_, [this](PlumbEvent* out, std::uint32_t capacity, std::uint32_t* count) {
       return table_.events(world_, out, sizeof *out, capacity, count);
-    });
+    }));
     return event_rows_;
   }
   std::span<const PlumbBody> bodies() override {
-    fill_all(body_ids_, [this](PlumbBody* out, std::uint32_t capacity, std::uint32_t* count) {
+    check(*this, fill_all(body_ids_, [this](PlumbBody* out, std::uint32_t capacity, std::uint32_t* count) {
       return table_.list_bodies(world_, out, capacity, count);
-    });
+    }));
     return body_ids_;
   }
   PlumbResult hash(std::uint64_t& value) override {

@@ -243,7 +243,8 @@ class IPhysicsWorld {
   /// A backend finds the report's counts of bodies, joints, steps and threads filled in and the rest "not known".
   virtual PlumbResult wait(PlumbStepReport& report) = 0;
 
-  /// Of the last step; they live until the next call on the world. The host asks result of a failure by error_text.
+  /// Of the last step; they live until the next call on the world. What has no result throws Error on the host's side,
+  /// as where the need was not declared; so does bodies().
   virtual std::span<const PlumbContact> contacts() = 0;
   virtual std::span<const PlumbEvent> events() = 0;
 

@@ -240,7 +240,7 @@ export class World {
   }
   #lent(name, read) {
     return this.#memory.scope(() => {
-      const at = this.#memory.take(4), count = this.#wasm[name](this.#world(), at);
+      const at = this.#memory.take(4), count = this.#engine.check(this.#wasm[name](this.#world(), at));
       return read(this.#memory.word(at), count);
     });
   }

@@ -46,6 +46,19 @@ PlumbResult with(const IPhysicsWorld& world, Extension* extension, const char* w
   });
 }
 
+/// How many rows get() hands out, and where; or the result of its failure.
+template <class Row, class Get>
+std::int32_t lent(const Row** rows, const Get& get) {
+  std::size_t count = 0;
+  const PlumbResult result = guarded([&] {
+    const std::span<const Row> all = get();
+    *rows = all.data();
+    count = all.size();
+    return PLUMB_OK;
+  });
+  return result < 0 ? result : static_cast<std::int32_t>(count);
+}
+
 template <class Byte>
 BasicRows<Byte> rows_at(Byte* numbers, std::uint32_t count, std::uint32_t columns) {
   return {numbers, count, columns * sizeof(double), PLUMB_F64};

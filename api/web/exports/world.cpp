@@ -2,6 +2,7 @@
 #include "shared.hpp"
 
 using plumb::IPhysicsWorld;
+using plumb::web::lent;
 using plumb::web::told;
 
 PLUMB_WEB(PlumbResult, plumb_create_world)(const PlumbWorldDesc* desc, IPhysicsWorld** world) {
@@ -27,10 +28,8 @@ PLUMB_WEB(PlumbResult, plumb_destroy_bodies)(IPhysicsWorld* world, const PlumbBo
   return told(*world, world->destroy_bodies({ids, count}));
 }
 /// How many live; ids: in order of creation, until the next call on the world.
-PLUMB_WEB(std::uint32_t, plumb_bodies)(IPhysicsWorld* world, const PlumbBody** ids) {
-  const auto all = world->bodies();
-  *ids = all.data();
-  return static_cast<std::uint32_t>(all.size());
+PLUMB_WEB(std::int32_t, plumb_bodies)(IPhysicsWorld* world, const PlumbBody** ids) {
+  return lent(ids, [&] { return world->bodies(); });
 }
 
 PLUMB_WEB(std::uint32_t, plumb_columns)(PlumbField field) { return plumb::columns_of(field); }
@@ -53,16 +52,12 @@ PLUMB_WEB(PlumbResult, plumb_step)(IPhysicsWorld* world, double dt, PlumbStepRep
   const PlumbResult started = world->step(dt);
   return told(*world, started < 0 ? started : world->wait(*report));
 }
-/// How many there are of the last step; they live until the next call on the world.
-PLUMB_WEB(std::uint32_t, plumb_contacts)(IPhysicsWorld* world, const PlumbContact** rows) {
-  const auto all = world->contacts();
-  *rows = all.data();
-  return static_cast<std::uint32_t>(all.size());
+/// How many there are of the last step, or a result below 0; they live until the next call on the world.
+PLUMB_WEB(std::int32_t, plumb_contacts)(IPhysicsWorld* world, const PlumbContact** rows) {
+  return lent(rows, [&] { return world->contacts(); });
 }
-PLUMB_WEB(std::uint32_t, plumb_events)(IPhysicsWorld* world, const PlumbEvent** rows) {
-  const auto all = world->events();
-  *rows = all.data();
-  return static_cast<std::uint32_t>(all.size());
+PLUMB_WEB(std::int32_t, plumb_events)(IPhysicsWorld* world, const PlumbEvent** rows) {
+  return lent(rows, [&] { return world->events(); });
 }
 
 PLUMB_WEB(PlumbResult, plumb_hash)(IPhysicsWorld* world, std::uint64_t* value) {

@@ -84,6 +84,22 @@ TEST(Loader, AWishForWhatIsNotThereIsNoNeed) {
   EXPECT_NE(sample.create_world(world_desc(sample.offered(PLUMB_NEED_ALL))), nullptr);
 }
 
+TEST(Loader, WhatHasNoResultThrows) {
+  const auto world = open_backend(SAMPLE_FOLDER "/plumb-sample.so").create_world(world_desc(0));
+  const auto text_of = [](const auto& call) {
+    try {
+      (void)call();
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), PLUMB_E_NOT_DECLARED);
+      return std::string(error.what());
+    }
+    return std::string("no error");
+  };
+  EXPECT_NE(text_of([&] { return world->contacts(); }).find("reading contacts"), std::string::npos);
+  EXPECT_NE(text_of([&] { return world->events(); }).find("reading events"), std::string::npos);
+  EXPECT_TRUE(world->bodies().empty());
+}
+
 TEST(Loader, TheSampleFalls) {
   const Backend backend = open_backend(SAMPLE_FOLDER "/plumb-sample.so");
   const auto world = backend.create_world(world_desc(0));

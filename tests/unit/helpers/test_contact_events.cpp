@@ -220,6 +220,21 @@ TEST(ContactEvents, WhoCameAfterTheReadIsNamed) {
   EXPECT_TRUE(s.events.began().empty());
 }
 
+TEST(ContactEvents, AWorldThatTellsNothingIsNamed) {
+  NEEDS_EVENTS();
+  TestWorld t({0, 0, 0}, TestWorld::usual);
+  ContactEvents events(*t.world);
+  events.before_step();
+  t.step(kDt);
+  try {
+    events.after_step();
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), PLUMB_E_NOT_DECLARED);
+    EXPECT_NE(std::string(error.what()).find("reading events"), std::string::npos) << error.what();
+  }
+}
+
 TEST(ContactEvents, SettingsOutOfRangeAreNamed) {
   NEEDS_EVENTS();
   TestWorld t({0, 0, 0}, all_needs());

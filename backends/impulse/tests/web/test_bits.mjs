@@ -61,6 +61,8 @@ test('what is wrong is said in a sentence, and the engine goes on', () => {
   const fails = (call, code, text) =>
     assert.throws(call, (error) => error instanceof PlumbError && error.code === code && text.test(error.message));
   fails(() => world.createShape({ type: 'sphere', radius: -1 }), -1, /radius/);
+  fails(() => world.contacts(), -4, /reading contacts/);
+  fails(() => world.events(), -4, /reading events/);
   fails(() => world.createShape({ type: 'ball', radius: 1 }), -1, /no shape "ball"; there are sphere, box/);
   fails(() => world.createBody({ shape: cube, flags: ['sensor'] }), -4, /./);
   fails(() => world.write('pose', 77n, [0, 0, 0, 0, 0, 0, 1]), -2, /./);
