@@ -3,8 +3,6 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <cmath>
-#include <cstring>
 
 #include "tests/rigs/engine.hpp"
 
@@ -45,39 +43,6 @@ Eigen::Matrix3d cross_matrix(const Vector& r) {
   Eigen::Matrix3d m;
   m << 0, -r.z(), r.y(), r.z(), 0, -r.x(), -r.y(), r.x(), 0;
   return m;
-}
-
-/// A heap of all kinds of shapes that falls onto blocks, and a chain that swings into it.
-void busy_place(Scene& scene, double x, std::uint64_t seed) {
-  Random random(seed);
-  const PlumbShape shapes[] = {scene.box({0.3, 0.2, 0.25}), scene.sphere(0.25), scene.capsule(0.15, 0.25),
-                               scene.hull({{0.3, 0, 0}, {-0.2, 0.3, 0}, {-0.2, -0.2, 0.3}, {-0.2, -0.2, -0.3}})};
-  for (int i = 0; i < 60; ++i)
-    scene.add(shapes[i % 4], {x + random.between(-0.6, 0.6), 0.5 + 0.35 * i, random.between(-0.6, 0.6)}, random.turn());
-  PlumbBody last = 0;
-  for (int i = 0; i < 6; ++i) {
-    const PlumbBody link = scene.add(shapes[2], {x + 4 - 0.4 * i, 6, 0}, {0, 0, std::sqrt(0.5), std::sqrt(0.5)});
-    if (i == 0) scene.rod({x + 4, 9, 0}, link, 3);
-    if (i != 0) scene.ball_joint(last, {0, 0.2, 0}, link, {0, -0.2, 0});
-    last = link;
-  }
-}
-
-TEST(Contacts, WhatIsElsewhereChangesNoBit) {
-  Scene alone(engine(), kNeeds | PLUMB_NEED_JOINTS, {0, -9.81, 0}, 1),
-      both(engine(), kNeeds | PLUMB_NEED_JOINTS, {0, -9.81, 0}, 1);
-  for (Scene* scene : {&alone, &both}) {
-    scene->ground();
-    busy_place(*scene, 0, 1);
-  }
-  busy_place(both, 30, 2);
-  for (int k = 0; k < 24; ++k) {
-    alone.run(10);
-    both.run(10);
-    const std::vector<PlumbPose> expected = alone.poses(), poses = both.poses();
-    for (std::size_t i = 0; i < expected.size(); ++i)
-      ASSERT_EQ(std::memcmp(&poses[i], &expected[i], sizeof(PlumbPose)), 0) << "body " << i << ", step " << 10 * k + 10;
-  }
 }
 
 /// A ball flies into a brick that is turned at random: one contact point, whose impulse follows from the matrix of the
