@@ -10,26 +10,13 @@ namespace plumb::impulse {
 
 namespace {
 
-/// What a claim is made of: the round above, and below a number that tells manifolds apart.
-constexpr int kKeyBits = 50, kProxyBits = kKeyBits / 2;
-constexpr std::uint32_t kMostRounds = 1U << (64 - kKeyBits);
-
-/// A reordering of the numbers of so many bits that looks random: after the finaliser of MurmurHash3 (Appleby), of
-/// which each step can be undone.
-PLUMB_HD constexpr std::uint64_t scramble(std::uint64_t x) {
-  constexpr std::uint64_t kAll = (std::uint64_t{1} << kKeyBits) - 1;
-  x ^= x >> 25;
-  x = x * 0xff51afd7ed558ccdU & kAll;
-  x ^= x >> 27;
-  x = x * 0xc4ceb9fe1a85ec53U & kAll;
-  return x ^ x >> 25;
-}
-/// By the two proxies and the piece, and so the same whatever else is in the world. None of 2^25 proxies has it twice;
-/// of pieces two that push the same body may, one time in 2^50.
-PLUMB_HD constexpr std::uint64_t key_of(const Pair& pair, std::uint32_t piece) {
-  constexpr std::uint64_t kAll = (std::uint64_t{1} << kKeyBits) - 1;
-  const std::uint64_t both = std::uint64_t{pair.a} << kProxyBits | pair.b;
-  return scramble((both + piece * std::uint64_t{0x9e3779b97f4a7c15U}) & kAll);
+/// A reordering of the 32-bit numbers that looks random: the finaliser of MurmurHash3 (Appleby).
+PLUMB_HD constexpr std::uint32_t scramble(std::uint32_t x) {
+  x ^= x >> 16;
+  x *= 0x85ebca6bU;
+  x ^= x >> 13;
+  x *= 0xc2b2ae35U;
+  return x ^ (x >> 16);
 }
 
 /// kOverflow where all are taken.
@@ -38,11 +25,10 @@ PLUMB_HD inline std::uint32_t lowest_free_colour(std::uint64_t taken) {
   return min(kOverflow, static_cast<std::uint32_t>(trailing_zeros(~taken)));
 }
 
-/// The two bodies of a manifold, or the owners of their mechanisms, whether it pushes them, and its key.
+/// The two bodies of a manifold, or the owners of their mechanisms, and whether it pushes them.
 struct Ends {
   std::uint32_t a, b;
   bool pushes_a, pushes_b;
-  std::uint64_t key;
 };
 
 struct View {
@@ -57,17 +43,15 @@ struct View {
   std::uint32_t* waiting[2];
 
   PLUMB_HD Ends ends(std::uint32_t row) const {
-    const std::uint32_t candidate = cache.candidate[row];
-    const Pair pair = cache.pairs[candidate];
+    const Pair pair = cache.pairs[cache.candidate[row]];
     const std::uint32_t a = proxies[pair.a].body, b = proxies[pair.b].body;
-    return {mechanisms.owner(a), mechanisms.owner(b), velocities[a].inverse_mass > 0, velocities[b].inverse_mass > 0,
-            key_of(pair, cache.triangles != nullptr ? cache.triangles[candidate] : 0)};
+    return {mechanisms.owner(a), mechanisms.owner(b), velocities[a].inverse_mass > 0, velocities[b].inverse_mass > 0};
   }
 };
 
 /// Earlier rounds have larger priorities, so that claims need no clearing: the smallest wins.
-PLUMB_HD constexpr std::uint64_t priority(std::uint32_t round, std::uint64_t key) {
-  return std::uint64_t{kMostRounds - 1 - round} << kKeyBits | key;
+PLUMB_HD constexpr std::uint64_t priority(std::uint32_t round, std::uint32_t row) {
+  return (std::uint64_t{0x7fffffffU - round} << 32) | scramble(row);
 }
 
 struct ClearBody {
@@ -86,12 +70,12 @@ struct ColourNew {
   }
   PLUMB_HD void claim(std::uint32_t round, std::uint32_t row) const {
     const Ends ends = view.ends(row);
-    if (ends.pushes_a) atomic_min(&view.claims[ends.a], priority(round, ends.key));
-    if (ends.pushes_b) atomic_min(&view.claims[ends.b], priority(round, ends.key));
+    if (ends.pushes_a) atomic_min(&view.claims[ends.a], priority(round, row));
+    if (ends.pushes_b) atomic_min(&view.claims[ends.b], priority(round, row));
   }
   PLUMB_HD void colour_or_wait(std::uint32_t round, std::uint32_t row) const {
     const Ends ends = view.ends(row);
-    const std::uint64_t mine = priority(round, ends.key);
+    const std::uint64_t mine = priority(round, row);
     if ((ends.pushes_a && view.claims[ends.a] != mine) || (ends.pushes_b && view.claims[ends.b] != mine)) {
       view.waiting[(round + 1) % 2][atomic_add(&view.counters->uncoloured[(round + 1) % 3], 1U)] = row;
       return;
@@ -115,10 +99,6 @@ struct ColourNew {
       const std::uint32_t waiting = counters->uncoloured[round % 3];
       if (waiting == 0) break;
       const std::uint32_t* queue = view.waiting[round % 2];
-      if (round == kMostRounds) {
-        team.each(waiting, [self, queue](std::uint32_t i) { self.view.cache.kept[queue[i]].colour = kOverflow; });
-        break;
-      }
       team.each(waiting, [self, round, queue](std::uint32_t i) {
         if (i == 0) self.view.counters->uncoloured[(round + 2) % 3] = 0;
         self.claim(round, queue[i]);

@@ -4,7 +4,7 @@
 // Greedy colouring by rounds of random priorities (Jones and Plassmann, "A Parallel Graph Coloring Heuristic", SIAM J.
 // Sci. Comput. 14, 1993), on the edges: in a round a manifold that has the best priority at both its bodies takes the
 // lowest colour free at both. Colours are kept from step to step; only new manifolds go through rounds. The result
-// depends on the pairs of proxies alone, not on threads, and not on what is elsewhere in the world.
+// depends on the order of the manifolds alone, not on threads.
 //
 //   C      round 0   all claim their bodies; A-B has the best priority at A and at B: colour 0; the others wait
 //   |      round 1   g-A is alone at A now, B-C at B and C: both take colour 1, the lowest that is free
@@ -20,9 +20,8 @@
 // greedily.
 //
 // Why the bits do not depend on threads: a claim is a minimum (atomic_min), priorities are distinct (a permutation of
-// the pairs' numbers, and above it the round, so that claims of earlier rounds lose and nothing needs clearing), and who
-// wins at both bodies is alone in writing their masks. Nor on others: pairs that share no body with any of an island
-// change neither its rounds nor its colours. In which order waiting manifolds are queued decides nothing. At last
+// the rows, and above it the round, so that claims of earlier rounds lose and nothing needs clearing), and who wins at
+// both bodies is alone in writing their masks. In which order waiting manifolds are queued decides nothing. At last
 // rows are sorted by colour, those of one colour in their own order; before that by the level of sub-steps of their
 // islands, which have loops of their own. Of the waiting the best of all wins: rounds end.
 //
