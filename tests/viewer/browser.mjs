@@ -63,6 +63,7 @@ async function visit(
 ) {
   const page = await browserUsed.newPage({ viewport: size, reducedMotion: 'reduce', ...context }),
     said = complaints(page);
+  page.setDefaultTimeout(180000); // on a machine that has other work
   await page.goto(url);
   await page.evaluate(() => window.plumbViewer.ready);
   await use(page);

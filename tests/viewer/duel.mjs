@@ -41,6 +41,7 @@ const plumb = (...given) =>
 async function visit(file, use, width = 1300) {
   const page = await browser.newPage({ viewport: { width, height: 900 } }),
     said = complaints(page);
+  page.setDefaultTimeout(180000); // on a machine that has other work
   await page.goto(pathToFileURL(file).href);
   await use(page);
   await page.close();

@@ -13,6 +13,7 @@ import { complaints } from './complaints.mjs';
 import { script, tower } from './synthetic.mjs';
 
 const kMostElements = 30000; // of a page of five thousand rows, wherever one reads
+const kPatience = 180000; // ms that anything may take, on a machine that has other work
 
 const { PLUMB_VIEWER_FOLDER: folder, PLUMB_SOURCE: root, PLUMB_PROGRAM: program } = process.env;
 if (!existsSync(kBrowser)) {
@@ -52,6 +53,7 @@ after(async () => {
 async function visit(url, use, { width = 1400, ignore = null, ...context } = {}) {
   const page = await browser.newPage({ viewport: { width, height: 900 }, reducedMotion: 'reduce', ...context }),
     said = complaints(page);
+  page.setDefaultTimeout(kPatience);
   await page.goto(url);
   await page.waitForFunction(() => 'ready' in document.documentElement.dataset, null, { timeout: 60000 });
   await use(page);

@@ -180,6 +180,9 @@ void read_rows(Scene& scene, Digest& digest) {
       for (const double x : row) digest.add(x);
     }
   }
+}
+
+void read_contacts(Scene& scene, Digest& digest) {
   for (const PlumbContact& contact : scene.world().contacts()) {
     digest.add(contact.position);
     digest.add(contact.normal_impulse);
@@ -239,6 +242,7 @@ std::uint64_t digest_of(const NamedScene& recorded, std::uint64_t mode) {
   Digest digest;
   digest.add(scene->hash());
   read_rows(*scene, digest);
+  if ((all.needs & PLUMB_NEED_CONTACTS) != 0) read_contacts(*scene, digest);
   read_events(*scene, digest);
   ask_settings(*scene, digest);
   if ((all.needs & PLUMB_NEED_QUERIES) != 0) {

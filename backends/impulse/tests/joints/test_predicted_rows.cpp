@@ -130,7 +130,7 @@ void block_and_ram(Scene& scene, double x, double below) {
 
 /// What holds is counted on in a step that others' rows make the world go over again.
 TEST(PredictedRows, AnIslandDoesNotDependOnWhereOthersLetGo) {
-  constexpr PlumbNeeds kTold = kNeeds | PLUMB_NEED_CONTACT_IMPULSES | PLUMB_NEED_JOINT_REACTIONS;
+  constexpr PlumbNeeds kTold = kNeeds | PLUMB_NEED_CONTACTS | PLUMB_NEED_CONTACT_IMPULSES | PLUMB_NEED_JOINT_REACTIONS;
   Scene alone(engine(), kTold, kDown, 1), among(engine(), kTold, kDown, 1);
   Lift one(alone, 20, 10000, 0, 0.5, 4e7), two(among, 20, 10000, 0, 0.5, 4e7);
   for (int i = 0; i < 30; ++i) block_and_ram(among, -i, 1 + 0.17 * i);
