@@ -85,7 +85,7 @@ class ContactEvents {
 
   IPhysicsWorld& world_;
   ContactEventSettings settings_;
-  std::vector<PlumbBody> watched_;  // by slot
+  std::vector<PlumbBody> watched_;  // sorted
   std::vector<PlumbBody> bodies_;   // before the step
   std::vector<PlumbPose> poses_;    // theirs
   std::vector<double> velocities_;  // rows of PLUMB_FIELD_VELOCITY, theirs

@@ -189,14 +189,16 @@ TEST(InnerEdges, WhereABlockGoesThereAreEdges) {
 
 TEST(InnerEdges, WhatARiderDoesNotTouchCoversNothing) {
   std::vector<PlumbVec3> ends;
-  for (const int beside : {0, 1, 2}) {  // nobody, who is not touched, who is
-    Scene scene(engine(), kNeeds, {0, -9.81, 0}, 1);
+  for (const int beside : {0, 1, 2, 3}) {  // nobody, who is not touched, who is, a sensor
+    Scene scene(engine(), kNeeds | PLUMB_NEED_SENSORS, {0, -9.81, 0}, 1);
     const PlumbShape block = scene.box({0.5, 0.5, 0.5});
     scene.add_static(block, {0, -0.5, 0});
     if (beside == 1) scene.body.filter.category = 4;
+    if (beside == 3) scene.body.flags = PLUMB_BODY_SENSOR;
     if (beside != 0) scene.add_static(block, {1, -0.5, 0});
     scene.body.filter.category = 1;
     scene.body.filter.mask = 1;
+    scene.body.flags = 0;
     const PlumbBody ball = scene.add(scene.sphere(0.3), {0, 0.3, 0});
     scene.write(PLUMB_FIELD_VELOCITY, ball, {0.5, 0, 0, 0, 0, -0.5 / 0.3});
     scene.run(90);
@@ -204,6 +206,8 @@ TEST(InnerEdges, WhatARiderDoesNotTouchCoversNothing) {
   }
   EXPECT_EQ(ends[0].x, ends[1].x);
   EXPECT_EQ(ends[0].y, ends[1].y);
+  EXPECT_EQ(ends[0].x, ends[3].x);
+  EXPECT_EQ(ends[0].y, ends[3].y);
   EXPECT_LT(ends[0].y, 0.25) << "it rolls off";
   EXPECT_NEAR(ends[2].y, 0.3, 1e-3);
 }
