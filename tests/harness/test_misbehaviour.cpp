@@ -6,7 +6,7 @@
 namespace plumb::harness::testing {
 namespace {
 
-Json row_of(const std::string& misbehaviour, std::vector<std::string> more = {}) {
+Json row_of_misbehaviour(const std::string& misbehaviour, std::vector<std::string> more = {}) {
   std::vector<std::string> arguments{"run",
                                      particle_scene(fresh_folder("misbehaviour")),
                                      "--backend",
@@ -29,37 +29,43 @@ void expect_row(const Json& row, const std::string& status, const std::string& i
   EXPECT_NE(row.value("reason", "").find(in_reason), std::string::npos) << row.value("reason", "");
 }
 
-TEST(Misbehaviour, none_is_ok) { expect_row(row_of("none"), "ok", ""); }
+TEST(Misbehaviour, none_is_ok) { expect_row(row_of_misbehaviour("none"), "ok", ""); }
 TEST(Misbehaviour, segmentation_fault_names_signal_and_step) {
-  const Json row = row_of("segfault");
+  const Json row = row_of_misbehaviour("segfault");
   expect_row(row, "crashed", "SIGSEGV");
   expect_row(row, "crashed", "step 10 of 50");
 }
-TEST(Misbehaviour, abort_names_its_signal) { expect_row(row_of("abort"), "crashed", "SIGABRT"); }
-TEST(Misbehaviour, exit_is_a_crash_with_its_status) { expect_row(row_of("exit"), "crashed", "status 3"); }
-TEST(Misbehaviour, hang_is_a_timeout) { expect_row(row_of("hang", {"--timeout", "2"}), "timeout", "step 10"); }
+TEST(Misbehaviour, abort_names_its_signal) { expect_row(row_of_misbehaviour("abort"), "crashed", "SIGABRT"); }
+TEST(Misbehaviour, exit_is_a_crash_with_its_status) { expect_row(row_of_misbehaviour("exit"), "crashed", "status 3"); }
+TEST(Misbehaviour, hang_is_a_timeout) {
+  expect_row(row_of_misbehaviour("hang", {"--timeout", "2"}), "timeout", "step 10");
+}
 TEST(Misbehaviour, eaten_memory_is_out_of_memory) {
-  expect_row(row_of("eat_memory", {"--memory-limit", "400"}), "out_of_memory", "limit");
+  expect_row(row_of_misbehaviour("eat_memory", {"--memory-limit", "400"}), "out_of_memory", "limit");
 }
 TEST(Misbehaviour, memory_is_told_in_units_that_say_something) {
-  const Json row = row_of("none", {"--memory-limit", "1", "--set", "pause=0.01"});
+  const Json row = row_of_misbehaviour("none", {"--memory-limit", "1", "--set", "pause=0.01"});
   expect_row(row, "out_of_memory", " is above the limit of 1 MB");
   EXPECT_EQ(row.value("reason", "").find("0.00"), std::string::npos) << row["reason"];
 }
-TEST(Misbehaviour, exception_is_an_error_with_its_text) { expect_row(row_of("throw"), "error", "the engine threw"); }
-TEST(Misbehaviour, refusal_for_memory_is_out_of_memory) {
-  expect_row(row_of("refuse"), "out_of_memory", "no room for contacts");
+TEST(Misbehaviour, exception_is_an_error_with_its_text) {
+  expect_row(row_of_misbehaviour("throw"), "error", "the engine threw");
 }
-TEST(Misbehaviour, garbage_on_standard_output_harms_nothing) { expect_row(row_of("print"), "ok", ""); }
-TEST(Misbehaviour, garbage_among_the_answers_is_an_error) { expect_row(row_of("garble"), "error", "not JSON"); }
+TEST(Misbehaviour, refusal_for_memory_is_out_of_memory) {
+  expect_row(row_of_misbehaviour("refuse"), "out_of_memory", "no room for contacts");
+}
+TEST(Misbehaviour, garbage_on_standard_output_harms_nothing) { expect_row(row_of_misbehaviour("print"), "ok", ""); }
+TEST(Misbehaviour, garbage_among_the_answers_is_an_error) {
+  expect_row(row_of_misbehaviour("garble"), "error", "not JSON");
+}
 TEST(Misbehaviour, nan_is_counted_and_written_as_null) {
-  const Json row = row_of("nan");
+  const Json row = row_of_misbehaviour("nan");
   EXPECT_GE(row["counts"]["nonfinite"].get<int>(), 1) << row.dump();
   EXPECT_NE(row.value("status", ""), "ok") << row.dump();
 }
 
 TEST(Misbehaviour, remarks_of_steps_are_counted) {
-  const Json row = row_of("remark"), quiet = row_of("none");
+  const Json row = row_of_misbehaviour("remark"), quiet = row_of_misbehaviour("none");
   for (const char* metric : {"solver_fallbacks", "energy_bounded", "steps_repeated"}) {
     EXPECT_EQ(row["metrics"][metric].value("value", 0.0), 1) << metric << row.dump();
     EXPECT_FALSE(quiet["metrics"].contains(metric)) << metric;

@@ -14,8 +14,6 @@
 namespace plumb::impulse::test {
 namespace {
 
-constexpr PlumbVec3 kDown = {0, -9.81, 0};
-
 PlumbNeeds all_needs(const Backend& backend) {
   PlumbNeeds needs = 0;
   for (std::uint32_t bit = 0; bit < PLUMB_NEED_COUNT; ++bit)

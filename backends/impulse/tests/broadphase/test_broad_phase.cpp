@@ -30,17 +30,17 @@ class BroadPhaseFields : public testing::TestWithParam<Field> {};
 std::string field_name(const testing::TestParamInfo<Field>& info) { return name_of(info.param); }
 INSTANTIATE_TEST_SUITE_P(All, BroadPhaseFields, testing::ValuesIn(kFields), field_name);
 
-struct Way {
+struct Choice {
   BroadPhase::Method method;
   MortonBits bits;
   bool deals_out = false;
 };
-constexpr Way kWays[] = {{BroadPhase::Method::kLbvh, MortonBits::k30},
-                         {BroadPhase::Method::kLbvh, MortonBits::k63},
-                         {BroadPhase::Method::kLbvh, MortonBits::k63, true},
-                         {BroadPhase::Method::kSweep, MortonBits::k63},
-                         {BroadPhase::Method::kGrid, MortonBits::k63}};
-void choose(BroadPhaseRig& rig, const Way& way) {
+constexpr Choice kWays[] = {{BroadPhase::Method::kLbvh, MortonBits::k30},
+                            {BroadPhase::Method::kLbvh, MortonBits::k63},
+                            {BroadPhase::Method::kLbvh, MortonBits::k63, true},
+                            {BroadPhase::Method::kSweep, MortonBits::k63},
+                            {BroadPhase::Method::kGrid, MortonBits::k63}};
+void choose_way(BroadPhaseRig& rig, const Choice& way) {
   rig.broad_phase.method = way.method;
   rig.broad_phase.morton_bits = way.bits;
   rig.broad_phase.deals_out_long_searches = way.deals_out;
@@ -51,9 +51,9 @@ TEST_P(BroadPhaseFields, FindsWhatAllPairsFind) {
     const std::vector<Box> boxes = make_boxes(GetParam(), n, n);
     for (const std::uint32_t movers : {n, n - n / 5, n / 5, 0U}) {
       const std::vector<Pair> truth = all_pairs(boxes, movers);
-      for (const Way& way : kWays) {
+      for (const Choice& way : kWays) {
         BroadPhaseRig rig;
-        choose(rig, way);
+        choose_way(rig, way);
         rig.set(boxes, movers);
         EXPECT_EQ(sorted(rig.find(size(truth))), truth)
             << n << " boxes, " << movers << " movers, method " << static_cast<int>(way.method);
@@ -65,11 +65,11 @@ TEST_P(BroadPhaseFields, FindsWhatAllPairsFind) {
 
 TEST_P(BroadPhaseFields, IsTheSameOrderForAnyNumberOfThreads) {
   const std::vector<Box> boxes = make_boxes(GetParam(), 12000, 3);
-  for (const Way& way : kWays) {
+  for (const Choice& way : kWays) {
     std::vector<Pair> first;
     for (const std::uint32_t threads : {1U, 2U, 5U}) {
       BroadPhaseRig rig(threads);
-      choose(rig, way);
+      choose_way(rig, way);
       rig.set(boxes, 10000);
       const std::vector<Pair> pairs = rig.find(800000);
       ASSERT_EQ(rig.found, size(pairs));
@@ -85,10 +85,10 @@ TEST_P(BroadPhaseFields, IsTheSameOrderByEveryMethod) {
     const std::vector<Box> boxes = make_boxes(GetParam(), 6000, 8, 20);
     std::vector<Pair> tree;
     std::vector<PairRange> ranges;
-    for (const Way& way : kWays) {
+    for (const Choice& way : kWays) {
       if (way.bits != MortonBits::k63) continue;
       BroadPhaseRig rig(2);
-      choose(rig, way);
+      choose_way(rig, way);
       rig.set(boxes, movers);
       const std::vector<Pair> pairs = rig.find(6000 * 400);
       ASSERT_EQ(rig.found, size(pairs));
@@ -112,7 +112,7 @@ TEST(BroadPhase, DealsOutWhatWouldTakeLong) {
     for (std::uint32_t i = 0; i < giants; ++i) boxes[i * 3] = box_at({0, 0, 0}, {half, half / 3, Real(.3)});
     for (const std::uint32_t movers : {12000U, giants * 3}) {
       BroadPhaseRig alone(3), dealt(3);
-      choose(dealt, {BroadPhase::Method::kLbvh, MortonBits::k63, true});
+      choose_way(dealt, {BroadPhase::Method::kLbvh, MortonBits::k63, true});
       for (BroadPhaseRig* rig : {&alone, &dealt}) rig->set(boxes, movers);
       const std::vector<Pair> truth = alone.find(16U << 20);
       ASSERT_LE(alone.found, 16U << 20);
@@ -137,9 +137,9 @@ void expect_whole_ranges(BroadPhaseRig& rig, const std::vector<Pair>& pairs) {
 }
 
 TEST(BroadPhase, GivesEveryPairToTheMoverThatFoundIt) {
-  for (const Way& way : kWays) {
+  for (const Choice& way : kWays) {
     BroadPhaseRig rig;
-    choose(rig, way);
+    choose_way(rig, way);
     rig.set(make_boxes(Field::kMixed, 3000, 1), 2500);
     expect_whole_ranges(rig, rig.find(200000));
   }
@@ -147,10 +147,10 @@ TEST(BroadPhase, GivesEveryPairToTheMoverThatFoundIt) {
 
 TEST(BroadPhase, SaysTheTrueNumberWhereTheRoomIsTooSmall) {
   const std::vector<Box> boxes = make_boxes(Field::kUniform, 2000, 5);
-  for (const Way& way : kWays) {
+  for (const Choice& way : kWays) {
     BroadPhaseRig roomy, tight;
-    choose(roomy, way);
-    choose(tight, way);
+    choose_way(roomy, way);
+    choose_way(tight, way);
     roomy.set(boxes, 1500);
     tight.set(boxes, 1500);
     const std::vector<Pair> all = roomy.find(100000);
@@ -175,9 +175,9 @@ TEST(BroadPhase, SaysTheTrueNumberWhereTheRoomIsTooSmall) {
 
 TEST(BroadPhase, AsksTheFilter) {
   const std::vector<Box> boxes(8, Box{{0, 0, 0}, {1, 1, 1}});
-  for (const Way& way : kWays) {
+  for (const Choice& way : kWays) {
     BroadPhaseRig rig;
-    choose(rig, way);
+    choose_way(rig, way);
     rig.set(boxes, 6);
     rig.filters[1].body = 0;                           // two shapes of one body
     rig.filters[2].mask = 0;                           // touches nothing
@@ -217,9 +217,9 @@ TEST(BroadPhase, WhatIsNotABoxTouchesNothingAndSpoilsNothing) {
     const auto spoilt = [](std::uint32_t i) { return i == 10 || i == 20 || i == 30 || i == 40 || i == 900; };
     return spoilt(pair.a) || spoilt(pair.b);
   });
-  for (const Way& way : kWays) {
+  for (const Choice& way : kWays) {
     BroadPhaseRig rig;
-    choose(rig, way);
+    choose_way(rig, way);
     rig.set(boxes, 800);
     EXPECT_EQ(sorted(rig.find(size(truth))), truth) << static_cast<int>(way.method);
   }
@@ -233,10 +233,10 @@ TEST(BroadPhase, WhoGetsARowOfNobodyIsFoundLikeAnyOther) {
   boxes[kNobody] = empty_box();
   const std::vector<Pair> truth = all_pairs(all, kMovers);
   std::vector<Pair> tree;
-  for (const Way& way : kWays) {
+  for (const Choice& way : kWays) {
     if (way.bits != MortonBits::k63) continue;
     BroadPhaseRig rig;
-    choose(rig, way);
+    choose_way(rig, way);
     rig.set(boxes, kMovers);
     std::vector<std::uint32_t> statics = {kNobody};
     for (std::uint32_t i = kMovers; i < 1000; ++i) statics.push_back(i);
@@ -289,8 +289,8 @@ TEST(BroadPhase, MethodsAgreeOnAMillion) {
     BroadPhaseRig rig(std::thread::hardware_concurrency());
     rig.set(make_boxes(field, 1U << 20, 4, 10), 1U << 20);
     std::vector<Pair> first;
-    for (const Way& way : kWays) {
-      choose(rig, way);
+    for (const Choice& way : kWays) {
+      choose_way(rig, way);
       const std::vector<Pair> pairs = sorted(rig.find(16U << 20));
       ASSERT_EQ(rig.found, size(pairs));
       if (first.empty()) first = pairs;

@@ -11,7 +11,8 @@
 namespace plumb::impulse::test {
 namespace {
 
-constexpr PlumbNeeds kNeeds = PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION | PLUMB_NEED_RESTITUTION;
+constexpr PlumbNeeds kBounceNeeds =
+    PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION | PLUMB_NEED_RESTITUTION;
 
 struct Speed {
   PlumbVec3 linear, angular;
@@ -24,7 +25,7 @@ Speed speed(Scene& scene, PlumbBody body) {
 /// With e = 1 a ball comes back to where it fell from, wherever in a sub-step it touches.
 TEST(Bounces, ABallComesBackToItsHeight) {
   for (const double fall : {4.9, 5.0, 5.05, 5.1}) {
-    Scene scene(engine(), kNeeds, {0, -9.81, 0}, 1);
+    Scene scene(engine(), kBounceNeeds, {0, -9.81, 0}, 1);
     scene.body.material.friction = 0;
     scene.body.material.restitution = 1;
     scene.ground();
@@ -49,7 +50,7 @@ TEST(Bounces, ABallComesBackToItsHeight) {
 /// A ball that strikes at 45 degrees slips where mu (1 + e) < 2 / 7 of the normal speed, and rolls off where not.
 TEST(Bounces, ABallThatIsThrownBackRubsAsMuchMore) {
   for (const double mu : {0.1, 0.5}) {
-    Scene scene(engine(), kNeeds, {0, 0, 0}, 1);
+    Scene scene(engine(), kBounceNeeds, {0, 0, 0}, 1);
     scene.body.material.friction = mu;
     scene.body.material.restitution = 0.5;
     scene.ground();
@@ -65,7 +66,7 @@ TEST(Bounces, ABallThatIsThrownBackRubsAsMuchMore) {
 }
 
 TEST(Bounces, ABoxThatFallsFlatDoesNotTurn) {
-  Scene scene(engine(), kNeeds, {0, -9.81, 0}, 1);
+  Scene scene(engine(), kBounceNeeds, {0, -9.81, 0}, 1);
   scene.body.material.restitution = 1;
   scene.ground();
   const PlumbBody box = scene.add(scene.box({0.5, 0.5, 0.5}), {0, 10.5, 0});
@@ -82,7 +83,7 @@ TEST(Bounces, ABoxThatFallsFlatDoesNotTurn) {
 
 /// Balls in a row, in free space, the first with 5 m/s: the speeds of all in the end.
 std::vector<double> cradle(double gap, const std::vector<double>& masses, double restitution) {
-  Scene scene(engine(), kNeeds, {0, 0, 0}, 1);
+  Scene scene(engine(), kBounceNeeds, {0, 0, 0}, 1);
   scene.body.mass_mode = PLUMB_MASS_FROM_TOTAL;
   scene.body.material.friction = 0;
   scene.body.material.restitution = restitution;
@@ -136,7 +137,7 @@ double energy_of(Scene& scene, PlumbBody body, const PlumbQuat& orientation, con
 
 /// A room full of what flies about and bounces: how its energy has grown after 20 s, as a share.
 double energy_made_by_gas(const PlumbVec3& half_extents, double friction, const char* solver = "tgs_soft") {
-  Scene scene(engine(), kNeeds | PLUMB_NEED_GYROSCOPIC, {0, 0, 0}, 1, {"solver", solver});
+  Scene scene(engine(), kBounceNeeds | PLUMB_NEED_GYROSCOPIC, {0, 0, 0}, 1, {"solver", solver});
   scene.body.mass_mode = PLUMB_MASS_FROM_TOTAL;
   scene.body.mass = 1;
   scene.body.material.friction = friction;
@@ -182,7 +183,7 @@ TEST(Impacts, ThatRubTakeEnergyOff) {
 /// The normal is that of the touch, wherever in a step that comes: e = 1, alike, by half of a diameter off centre.
 TEST(Impacts, OfBallsThatGlanceGoAlongTheLineOfTheirCentres) {
   for (const double start : {-0.5, -0.51, -0.52, -0.53, -0.54, -0.55, -0.56, -0.57}) {
-    Scene scene(engine(), kNeeds, {0, 0, 0}, 1);
+    Scene scene(engine(), kBounceNeeds, {0, 0, 0}, 1);
     scene.body.material.friction = 0;
     scene.body.material.restitution = 1;
     const PlumbShape ball = scene.sphere(0.1);
@@ -197,7 +198,7 @@ TEST(Impacts, OfBallsThatGlanceGoAlongTheLineOfTheirCentres) {
 }
 TEST(Impacts, OfABallOnAnEdgeMirrorItAtTheLineFromTheEdge) {
   for (const double start : {0.8, 0.82, 0.84, 0.86, 0.88}) {
-    Scene scene(engine(), kNeeds, {0, 0, 0}, 1);
+    Scene scene(engine(), kBounceNeeds, {0, 0, 0}, 1);
     scene.body.material.friction = 0;
     scene.body.material.restitution = 1;
     scene.add_static(scene.box({1, 1, 5}), {-1, -1, 0});
@@ -212,7 +213,7 @@ TEST(Impacts, OfABallOnAnEdgeMirrorItAtTheLineFromTheEdge) {
 
 /// Five bobs on rods that just don't touch: the last rises as high as the first was, and so on for half a minute.
 TEST(Impacts, OfACradleOnRodsKeepItsEnergy) {
-  Scene scene(engine(), kNeeds | PLUMB_NEED_JOINTS, {0, -9.81, 0}, 1);
+  Scene scene(engine(), kBounceNeeds | PLUMB_NEED_JOINTS, {0, -9.81, 0}, 1);
   scene.body.mass_mode = PLUMB_MASS_FROM_TOTAL;
   scene.body.mass = 1;
   scene.body.material.friction = 0;

@@ -9,8 +9,8 @@
 namespace plumb::impulse::test {
 namespace {
 
-constexpr PlumbNeeds kNeeds = PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION | PLUMB_NEED_CONTACTS |
-                              PLUMB_NEED_CONTACT_IMPULSES;
+constexpr PlumbNeeds kContactNeeds = PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION |
+                                     PLUMB_NEED_CONTACTS | PLUMB_NEED_CONTACT_IMPULSES;
 constexpr double kDt = 1.0 / 60;
 using Vector = Eigen::Vector3d;
 
@@ -49,7 +49,7 @@ Eigen::Matrix3d cross_matrix(const Vector& r) {
 /// point, K = 1/m + [r]^T I^-1 [r] of both.
 void hit_a_brick(std::uint64_t seed, double friction) {
   Random random(seed);
-  Scene scene(engine(), kNeeds, {0, 0, 0}, 1);
+  Scene scene(engine(), kContactNeeds, {0, 0, 0}, 1);
   scene.body.material.friction = friction;
   const PlumbQuat turn = random.turn();
   const PlumbBody brick = scene.add(scene.box({0.3, 0.5, 0.8}), {0, 0, 0}, turn);
@@ -109,7 +109,7 @@ TEST(Contacts, AnImpulseThatSticksIsThatOfTheWholeMatrix) {
 TEST(Contacts, ASlidingCubeFeelsMuTimesItsLoadAtAnyYaw) {
   constexpr double kG = 9.81, kFriction = 0.3, kSine = 0.5, kCosine = 0.8660254037844386;
   for (int yaw = 0; yaw < 12; ++yaw) {
-    Scene scene(engine(), kNeeds, {kG * kSine, -kG * kCosine, 0}, 1);
+    Scene scene(engine(), kContactNeeds, {kG * kSine, -kG * kCosine, 0}, 1);
     scene.body.material.friction = kFriction;
     scene.ground();
     scene.body.linear_velocity = {1, 0, 0};
@@ -129,7 +129,7 @@ TEST(Contacts, ASlidingCubeFeelsMuTimesItsLoadAtAnyYaw) {
 /// Points are known again from step to step, and carry what they carried: a tower whose impulses begin at 0 in each
 /// step sags twenty times as much.
 TEST(Contacts, AreRememberedFromStepToStep) {
-  Scene scene(engine(), kNeeds, {0, -9.81, 0}, 1);
+  Scene scene(engine(), kContactNeeds, {0, -9.81, 0}, 1);
   scene.ground();
   const PlumbShape cube = scene.box({0.5, 0.5, 0.5});
   constexpr unsigned kCubes = 10;
@@ -156,7 +156,7 @@ TEST(Contacts, AreRememberedFromStepToStep) {
 /// A light body in the slot and place of a heavy one does not get its impulses. Bodies lie on it, or the one contact
 /// would be solved exactly whatever it began with.
 TEST(Contacts, OfTheDeadAreForgotten) {
-  Scene scene(engine(), kNeeds, {0, -9.81, 0}, 1);
+  Scene scene(engine(), kContactNeeds, {0, -9.81, 0}, 1);
   scene.ground();
   const PlumbShape cube = scene.box({0.5, 0.5, 0.5});
   scene.body.density = 1e5;
@@ -175,7 +175,7 @@ TEST(Contacts, OfTheDeadAreForgotten) {
 
 /// The contacts of a step stay readable, and true, when a body of others dies or is moved after it.
 void a_body_dies(bool another_is_moved) {
-  Scene scene(engine(), kNeeds, {0, -9.81, 0}, 1);
+  Scene scene(engine(), kContactNeeds, {0, -9.81, 0}, 1);
   scene.ground();
   const PlumbShape cube = scene.box({0.5, 0.5, 0.5});
   const PlumbBody stays = scene.add(cube, {0, 0.5, 0}), dies = scene.add(cube, {5, 0.5, 0});
@@ -200,7 +200,7 @@ TEST(Contacts, OutliveTheDeathOfOthers) {
 /// Over boxes side by side cubes slide as over one: v^2 / (2 mu g) far, straight, whatever their heading and yaw.
 TEST(Contacts, LevelTilesAreOneFloor) {
   constexpr double kSpeed = 5, kFriction = 0.5, kFar = kSpeed * kSpeed / (2 * kFriction * 9.81);
-  Scene scene(engine(), kNeeds, {0, -9.81, 0}, 1);
+  Scene scene(engine(), kContactNeeds, {0, -9.81, 0}, 1);
   scene.body.material.friction = kFriction;
   const PlumbShape cube = scene.box({0.5, 0.5, 0.5});
   for (int i = -12; i <= 12; ++i)

@@ -12,8 +12,7 @@
 namespace plumb::impulse::test {
 namespace {
 
-constexpr PlumbNeeds kNeeds = PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION;
-constexpr PlumbVec3 kDown = {0, -9.81, 0};
+constexpr PlumbNeeds kSqueezeNeeds = PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION;
 
 double speed(Scene& scene, PlumbBody body) {
   const std::vector<double> v = scene.velocity(body);
@@ -24,7 +23,7 @@ double speed(Scene& scene, PlumbBody body) {
 /// their contacts are not left out.
 struct Overlapping {
   Overlapping(int links, double overlap)
-      : scene(engine(), kNeeds | PLUMB_NEED_JOINTS | PLUMB_NEED_JOINT_REACTIONS, kDown, 1) {
+      : scene(engine(), kSqueezeNeeds | PLUMB_NEED_JOINTS | PLUMB_NEED_JOINT_REACTIONS, kDown, 1) {
     constexpr double kBall = 0.25, kRadius = 0.15, kHalf = 0.2, kHook = 0.3;
     const double apart = 2 * (kRadius + kHalf) - overlap, over = kBall + kRadius + kHalf - overlap;
     const PlumbShape capsule = scene.capsule(kRadius, kHalf);
@@ -99,7 +98,7 @@ struct Wedged {
 TEST(Squeezed, WhatIsLetGoDoesNotShootAway) {
   for (int way = 0; way < 3; ++way)
     for (std::uint64_t seed = 0; seed < 100; ++seed) {
-      Wedged wedged(seed, kNeeds | PLUMB_NEED_FILTERS);
+      Wedged wedged(seed, kSqueezeNeeds | PLUMB_NEED_FILTERS);
       double fastest = wedged.fastest_of();
       for (const PlumbBody one : wedged.around) {
         if (way == 0) wedged.scene.remove(one);

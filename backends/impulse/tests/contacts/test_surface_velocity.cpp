@@ -9,10 +9,9 @@
 namespace plumb::impulse::test {
 namespace {
 
-constexpr PlumbNeeds kNeeds =
+constexpr PlumbNeeds kRunningNeeds =
     PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION | PLUMB_NEED_SURFACE_VELOCITY;
 constexpr double kGravity = 9.81, kSpeed = 2, kFriction = 0.3;
-constexpr PlumbVec3 kDown = {0, -kGravity, 0};
 constexpr const char* kSolvers[] = {"tgs_soft", "si", "jacobi", "xpbd"};
 
 std::vector<double> read(Scene& scene, PlumbField field, PlumbBody body, std::size_t columns) {
@@ -40,7 +39,7 @@ void set_belt(Scene& scene, const PlumbVec3& speed) { scene.body.material.surfac
 TEST(SurfaceVelocity, TakeABoxAlongAsCoulombSays) {
   for (const char* const solver : kSolvers) {
     SCOPED_TRACE(solver);
-    Scene scene(engine(), kNeeds, kDown, 1, {"solver", solver});
+    Scene scene(engine(), kRunningNeeds, kDown, 1, {"solver", solver});
     scene.body.material.friction = kFriction;
     set_belt(scene, {kSpeed, 0, 0});
     scene.ground();
@@ -69,7 +68,7 @@ TEST(SurfaceVelocity, CarryABoxUphill) {
   constexpr double kSlope = 0.3, kSteep = 0.6;
   for (const char* const solver : kSolvers) {
     SCOPED_TRACE(solver);
-    Scene scene(engine(), kNeeds, kDown, 1, {"solver", solver});
+    Scene scene(engine(), kRunningNeeds, kDown, 1, {"solver", solver});
     const PlumbQuat tilt = turn_about({0, 0, 1}, kSlope);
     scene.body.material.friction = kSteep;
     set_belt(scene, {kSpeed, 0, 0});
@@ -91,7 +90,7 @@ TEST(SurfaceVelocity, CarryABoxUphill) {
 /// The velocity is in the body's frame.
 TEST(SurfaceVelocity, TurnWithTheirBodies) {
   constexpr double kYaw = 0.7;
-  Scene scene(engine(), kNeeds, kDown, 1);
+  Scene scene(engine(), kRunningNeeds, kDown, 1);
   set_belt(scene, {kSpeed, 0, 0});
   scene.add_static(scene.box({50, 0.5, 50}), {0, -0.5, 0}, turn_about({0, 1, 0}, kYaw));
   set_belt(scene, {0, 0, 0});
@@ -106,7 +105,7 @@ TEST(SurfaceVelocity, TurnWithTheirBodies) {
 TEST(SurfaceVelocity, RollABall) {
   for (const char* const solver : kSolvers) {
     SCOPED_TRACE(solver);
-    Scene scene(engine(), kNeeds, kDown, 1, {"solver", solver});
+    Scene scene(engine(), kRunningNeeds, kDown, 1, {"solver", solver});
     scene.body.material.friction = kFriction;
     set_belt(scene, {kSpeed, 0, 0});
     scene.ground();
@@ -121,7 +120,7 @@ TEST(SurfaceVelocity, RollABall) {
 }
 
 TEST(SurfaceVelocity, RunOnBodiesThatMove) {
-  Scene scene(engine(), kNeeds | PLUMB_NEED_KINEMATIC, kDown, 1);
+  Scene scene(engine(), kRunningNeeds | PLUMB_NEED_KINEMATIC, kDown, 1);
   set_belt(scene, {kSpeed, 0, 0});
   const PlumbBody carrier = scene.add_kinematic(scene.box({50, 0.5, 50}), {0, -0.5, 0});
   set_belt(scene, {0, 0, 0});
@@ -136,7 +135,7 @@ TEST(SurfaceVelocity, RunOnBodiesThatMove) {
 TEST(SurfaceVelocity, KeepMomentum) {
   for (const char* const solver : kSolvers) {
     SCOPED_TRACE(solver);
-    Scene scene(engine(), kNeeds, kDown, 1, {"solver", solver});
+    Scene scene(engine(), kRunningNeeds, kDown, 1, {"solver", solver});
     scene.body.material.friction = 0;
     scene.ground();
     scene.body.material.friction = 0.8;
@@ -155,7 +154,7 @@ TEST(SurfaceVelocity, KeepMomentum) {
 
 /// Whatever the axes of inertia are: a slab that lies askew in its body's frame runs along that.
 TEST(SurfaceVelocity, RunInTheirBodysFrame) {
-  Scene scene(engine(), kNeeds, kDown, 1);
+  Scene scene(engine(), kRunningNeeds, kDown, 1);
   scene.body.material.friction = 0;
   scene.ground();
   scene.body.material.friction = 0.8;
@@ -176,7 +175,7 @@ TEST(SurfaceVelocity, RunInTheirBodysFrame) {
 TEST(SurfaceVelocity, RunOnEveryGround) {
   for (const PlumbShapeType type : {PLUMB_PLANE, PLUMB_TRIANGLE_MESH, PLUMB_HEIGHT_FIELD}) {
     SCOPED_TRACE(type);
-    Scene scene(engine(), kNeeds, kDown, 1);
+    Scene scene(engine(), kRunningNeeds, kDown, 1);
     set_belt(scene, {0, 0, kSpeed});
     const TriangleSet grid = flat_grid(16, 2);
     scene.add_static(scene.make(type == PLUMB_PLANE           ? shape_desc(PLUMB_PLANE)
@@ -193,7 +192,7 @@ TEST(SurfaceVelocity, RunOnEveryGround) {
 
 /// A child with a material of its own has a belt of its own; the others have their body's, which can be written.
 TEST(SurfaceVelocity, OfChildren) {
-  Scene scene(engine(), kNeeds, kDown, 1);
+  Scene scene(engine(), kRunningNeeds, kDown, 1);
   const PlumbShape half = scene.box({5, 0.5, 5});
   PlumbMaterial running = scene.body.material;
   running.surface_velocity = {0, 0, kSpeed};
@@ -217,7 +216,7 @@ TEST(SurfaceVelocity, OfChildren) {
 
 /// Slow as it is, a belt lets nobody sleep; nor does it start without those who sleep on it.
 TEST(SurfaceVelocity, LetNobodySleep) {
-  Scene scene(engine(), kNeeds | PLUMB_NEED_SLEEPING, kDown, 1);
+  Scene scene(engine(), kRunningNeeds | PLUMB_NEED_SLEEPING, kDown, 1);
   set_belt(scene, {0.01, 0, 0});
   const PlumbBody belt = scene.add_static(scene.box({50, 0.5, 50}), {0, -0.5, 0});
   set_belt(scene, {0, 0, 0});
@@ -237,7 +236,7 @@ TEST(SurfaceVelocity, LetNobodySleep) {
 }
 
 TEST(SurfaceVelocity, AreInSnapshots) {
-  Scene scene(engine(), kNeeds | PLUMB_NEED_SNAPSHOT, kDown, 1);
+  Scene scene(engine(), kRunningNeeds | PLUMB_NEED_SNAPSHOT, kDown, 1);
   set_belt(scene, {kSpeed, 0, 0});
   const PlumbBody belt = scene.add_static(scene.box({50, 0.5, 50}), {0, -0.5, 0}, turn_about({0, 1, 0}, 0.3));
   set_belt(scene, {0, 0, 0});
@@ -259,7 +258,7 @@ TEST(SurfaceVelocity, AreInSnapshots) {
 /// A world that declares belts and has none goes as one with reactions, which has the code of all joints, too.
 TEST(SurfaceVelocity, ThatStandChangeNothing) {
   const auto hash = [](PlumbNeeds more, std::uint32_t threads, double speed) {
-    Scene scene(engine(), (kNeeds & ~PLUMB_NEED_SURFACE_VELOCITY) | more, kDown, threads);
+    Scene scene(engine(), (kRunningNeeds & ~PLUMB_NEED_SURFACE_VELOCITY) | more, kDown, threads);
     set_belt(scene, {speed, 0, 0});
     scene.container(3, 20);
     set_belt(scene, {0, 0, 0});
@@ -275,7 +274,7 @@ TEST(SurfaceVelocity, ThatStandChangeNothing) {
 }
 
 TEST(SurfaceVelocity, AreNoFasterThanNumbersGo) {
-  Scene scene(engine(), kNeeds, kDown, 1);
+  Scene scene(engine(), kRunningNeeds, kDown, 1);
   set_belt(scene, {0, 1e300, 0});
   EXPECT_THROW(scene.ground(), Error);
   set_belt(scene, {1, 0, 0});

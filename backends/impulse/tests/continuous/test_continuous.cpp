@@ -10,8 +10,8 @@
 namespace plumb::impulse::test {
 namespace {
 
-constexpr PlumbNeeds kNeeds = PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION | PLUMB_NEED_CCD |
-                              PLUMB_NEED_RESTITUTION | PLUMB_NEED_KINEMATIC;
+constexpr PlumbNeeds kContinuousNeeds = PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION |
+                                        PLUMB_NEED_CCD | PLUMB_NEED_RESTITUTION | PLUMB_NEED_KINEMATIC;
 
 Shape box_of(Real x, Real y, Real z) {
   Shape shape{};
@@ -103,7 +103,7 @@ TEST(Continuous, TimeOfImpactOfTurningBoxes) {
 
 /// Where the bullet is when it has flown 8 m, with a wall of 0.1 m at 5 m.
 double end_of_bullet(double speed, std::uint32_t flags, double offset) {
-  Scene scene(engine(), kNeeds, {0, 0, 0}, 1);
+  Scene scene(engine(), kContinuousNeeds, {0, 0, 0}, 1);
   scene.add_static(scene.box({0.05, 5, 5}), {5, 0, 0});
   scene.body.flags = flags;
   scene.body.linear_velocity = {speed, 0, 0};
@@ -123,7 +123,7 @@ TEST(Continuous, NoBulletPasses) {
 /// What a bullet hits takes its momentum; a perfect bounce gives its speed to a ball of the same mass.
 TEST(Continuous, ABulletGivesItsMomentum) {
   for (const double e : {0.0, 1.0}) {
-    Scene scene(engine(), kNeeds, {0, 0, 0}, 1);
+    Scene scene(engine(), kContinuousNeeds, {0, 0, 0}, 1);
     scene.body.material.restitution = e;
     scene.body.mass_mode = PLUMB_MASS_FROM_TOTAL;
     scene.body.mass = 2;
@@ -140,7 +140,7 @@ TEST(Continuous, ABulletGivesItsMomentum) {
 
 /// Two-metre rod, 48 degrees a step, beside a wall that only its turning end reaches.
 TEST(Continuous, ATurningRodSeesTheWall) {
-  Scene scene(engine(), kNeeds, {0, 0, 0}, 1);
+  Scene scene(engine(), kContinuousNeeds, {0, 0, 0}, 1);
   scene.add_static(scene.box({0.02, 5, 5}), {0.8, 0, 0});
   scene.body.flags = PLUMB_BODY_CCD;
   scene.body.angular_velocity = {0, 0, 50};
@@ -158,7 +158,7 @@ TEST(Continuous, ATurningRodSeesTheWall) {
 }
 
 TEST(Continuous, ABulletAndAPaddleMeet) {
-  Scene scene(engine(), kNeeds, {0, 0, 0}, 1);
+  Scene scene(engine(), kContinuousNeeds, {0, 0, 0}, 1);
   const PlumbBody paddle = scene.add_kinematic(scene.box({0.05, 1, 1}), {5, 0, 0});
   scene.write(PLUMB_FIELD_VELOCITY, paddle, {-30, 0, 0, 0, 0, 0});
   scene.body.flags = PLUMB_BODY_CCD;
@@ -173,7 +173,7 @@ TEST(Continuous, ABulletAndAPaddleMeet) {
 TEST(Continuous, CostsOthersNothing) {
   std::uint64_t hashes[2];
   for (const bool asked : {false, true}) {
-    Scene scene(engine(), asked ? kNeeds : kNeeds & ~PLUMB_NEED_CCD, {0, -9.81, 0}, 1);
+    Scene scene(engine(), asked ? kContinuousNeeds : kContinuousNeeds & ~PLUMB_NEED_CCD, {0, -9.81, 0}, 1);
     scene.container(3, 20);
     const PlumbShape cube = scene.box({0.4, 0.4, 0.4});
     for (int i = 0; i < 60; ++i)

@@ -9,7 +9,7 @@
 namespace plumb::impulse::test {
 namespace {
 
-constexpr PlumbNeeds kNeeds =
+constexpr PlumbNeeds kSurfaceNeeds =
     PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION | PLUMB_NEED_CCD | PLUMB_NEED_KINEMATIC;
 
 constexpr const char* kSolvers[] = {"tgs_soft", "si", "jacobi", "xpbd"};
@@ -78,7 +78,7 @@ TEST(ContinuousSurfaces, NoBulletPasses) {
     for (const Bullet bullet : kBullets) {
       Random random(static_cast<std::uint64_t>(floor) * 100 + static_cast<std::uint64_t>(bullet));
       for (int shot = 0; shot < 24; ++shot) {
-        Scene scene(engine(), kNeeds, {0, 0, 0}, 1, {"solver", kSolvers[shot % 4]});
+        Scene scene(engine(), kSurfaceNeeds, {0, 0, 0}, 1, {"solver", kSolvers[shot % 4]});
         add_floor(scene, floor);
         const double speed = 15 * std::pow(10.0, random.between(0, 2.5));
         const double side = floor != Floor::kPlane && shot % 3 == 2 ? -1 : 1;
@@ -122,7 +122,7 @@ struct Rod {
   double door = 0;  ///< speed of the wall, m/s
 };
 void throw_rod(const Rod& rod) {
-  Scene scene(engine(), kNeeds, {0, 0, 0}, 1);
+  Scene scene(engine(), kSurfaceNeeds, {0, 0, 0}, 1);
   const PlumbShape shape = rod.sheet ? scene.make(upright_sheet(24).desc()) : scene.box({0.125, 6, 6});
   const double face = rod.sheet ? 0 : 0.125;
   const PlumbBody wall = scene.add_kinematic(shape, {rod.distance + face, 0, 0});
@@ -156,7 +156,7 @@ TEST(ContinuousSurfaces, NobodyLeavesTheRoom) {
   for (const bool sheets : {false, true})
     for (const Bullet bullet : kBullets) {
       Random random(7 + static_cast<std::uint64_t>(bullet));
-      Scene scene(engine(), kNeeds | PLUMB_NEED_RESTITUTION, {0, 0, 0}, 1);
+      Scene scene(engine(), kSurfaceNeeds | PLUMB_NEED_RESTITUTION, {0, 0, 0}, 1);
       scene.body.material.friction = 0.3;
       scene.body.material.restitution = 0.7;
       for (int axis = 0; axis < 3; ++axis)
@@ -190,7 +190,7 @@ TEST(ContinuousSurfaces, NobodyLeavesTheRoom) {
 /// A ball of 500 m/s into ten boxes: they share its momentum, and it stays behind them.
 TEST(ContinuousSurfaces, AStackTakesTheMomentumOfABullet) {
   for (const bool row : {false, true}) {
-    Scene scene(engine(), kNeeds, {0, 0, 0}, 1);
+    Scene scene(engine(), kSurfaceNeeds, {0, 0, 0}, 1);
     scene.body.mass_mode = PLUMB_MASS_FROM_TOTAL;
     scene.body.mass = 10;
     std::vector<PlumbBody> boxes;
@@ -223,7 +223,7 @@ TEST(ContinuousSurfaces, NoPaddlePasses) {
   for (const bool sheet : {false, true})
     for (const double speed : {20.0, 100.0, 700.0})
       for (const double offset : {0.0, 0.37}) {
-        Scene scene(engine(), kNeeds, {0, 0, 0}, 1);
+        Scene scene(engine(), kSurfaceNeeds, {0, 0, 0}, 1);
         const PlumbBody paddle = scene.add_kinematic(
             sheet ? scene.make(upright_sheet(6).desc()) : scene.box({0.05, 1.5, 1.5}), {4 + offset, 0, 0});
         scene.write(PLUMB_FIELD_VELOCITY, paddle, {-speed, 0, 0, 0, 0, 0});
@@ -235,7 +235,7 @@ TEST(ContinuousSurfaces, NoPaddlePasses) {
       }
   for (const bool sheet : {false, true})
     for (const double turn : {10.0, 40.0, 70.0}) {
-      Scene scene(engine(), kNeeds, {0, 0, 0}, 1);
+      Scene scene(engine(), kSurfaceNeeds, {0, 0, 0}, 1);
       const PlumbBody paddle =
           scene.add_kinematic(sheet ? scene.make(upright_sheet(6).desc()) : scene.box({0.02, 1.5, 1.5}), {0, 0, 0});
       scene.write(PLUMB_FIELD_VELOCITY, paddle, {0, 0, 0, 0, 0, turn});
@@ -251,7 +251,7 @@ TEST(ContinuousSurfaces, NoPaddlePasses) {
 /// Who sleeps is woken by a bullet, flagged or not, and takes its momentum.
 TEST(ContinuousSurfaces, ASleeperIsHit) {
   for (const std::uint32_t flag : {0U, static_cast<std::uint32_t>(PLUMB_BODY_CCD)}) {
-    Scene scene(engine(), kNeeds | PLUMB_NEED_SLEEPING, {0, 0, 0}, 1);
+    Scene scene(engine(), kSurfaceNeeds | PLUMB_NEED_SLEEPING, {0, 0, 0}, 1);
     scene.body.mass_mode = PLUMB_MASS_FROM_TOTAL;
     scene.body.mass = 3;
     scene.body.flags = PLUMB_BODY_ASLEEP | flag;
@@ -271,7 +271,7 @@ TEST(ContinuousSurfaces, ASleeperIsHit) {
 TEST(ContinuousSurfaces, CostNothingWithoutFlags) {
   std::uint64_t hashes[2];
   for (const bool asked : {false, true}) {
-    Scene scene(engine(), asked ? kNeeds : kNeeds & ~PLUMB_NEED_CCD, {0, -9.81, 0}, 1);
+    Scene scene(engine(), asked ? kSurfaceNeeds : kSurfaceNeeds & ~PLUMB_NEED_CCD, {0, -9.81, 0}, 1);
     scene.add_static(scene.make(grid(20, 0.61, hills).desc()), {0, 0, 0});
     const PlumbBody sweeper = scene.add_kinematic(scene.box({0.3, 0.3, 3}), {-4, 0.4, 0});
     scene.write(PLUMB_FIELD_VELOCITY, sweeper, {6, 0, 0, 0, 2, 0});
@@ -287,7 +287,7 @@ TEST(ContinuousSurfaces, CostNothingWithoutFlags) {
 /// The same bits on any number of threads: who is put back first does not matter.
 TEST(ContinuousSurfaces, HaveTheSameBitsOnThreads) {
   const auto hash = [](std::uint32_t threads) {
-    Scene scene(engine(), kNeeds, {0, -9.81, 0}, threads);
+    Scene scene(engine(), kSurfaceNeeds, {0, -9.81, 0}, threads);
     scene.add_static(scene.make(grid(40, 0.61, hills).desc()), {0, 0, 0});
     scene.body.flags = PLUMB_BODY_CCD;
     Random random(3);

@@ -28,7 +28,7 @@ struct CountBits {
 
 TEST(Bits, AreCountedByKernelsAsByTheStandardLibrary) {
   Executor executor(nullptr, 1);
-  Dice dice(5);
+  FieldDice dice(5);
   std::vector<std::uint64_t> words;
   for (int highest = 0; highest < 64; ++highest)
     for (int lowest = 0; lowest <= highest; ++lowest) {

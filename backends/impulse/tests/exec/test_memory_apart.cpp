@@ -10,8 +10,9 @@
 namespace plumb::impulse::test {
 namespace {
 
-constexpr PlumbNeeds kNeeds = PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION |
-                              PLUMB_NEED_RESTITUTION | PLUMB_NEED_KINEMATIC | PLUMB_NEED_FORCES | PLUMB_NEED_DAMPING;
+constexpr PlumbNeeds kApartNeeds = PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION |
+                                   PLUMB_NEED_RESTITUTION | PLUMB_NEED_KINEMATIC | PLUMB_NEED_FORCES |
+                                   PLUMB_NEED_DAMPING;
 
 class SameBits : public ::testing::TestWithParam<const char*> {};
 TEST_P(SameBits, AsWhereTheMemoryIsOne) {
@@ -58,7 +59,7 @@ class Travel : public ::testing::Test {
 
   static WorldInit world_init() {
     static const std::vector<PlumbSettingInfo> infos(World::setting_infos().begin(), World::setting_infos().end());
-    WorldInit init{world_desc(kNeeds), nullptr, infos, {}};
+    WorldInit init{world_desc(kApartNeeds), nullptr, infos, {}};
     for (const PlumbSettingInfo& info : infos) init.values.push_back(info.default_value);
     return init;
   }

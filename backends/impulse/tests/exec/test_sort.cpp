@@ -26,7 +26,7 @@ TYPED_TEST_SUITE(Sorting, Keys, );
 /// Keys below 2^bits; few different ones where `few`, so that stability shows.
 template <class K>
 std::vector<K> keys_below(std::uint32_t n, int bits, bool few) {
-  Dice dice(n + static_cast<std::uint32_t>(bits));
+  FieldDice dice(n + static_cast<std::uint32_t>(bits));
   std::vector<K> keys(n);
   for (K& key : keys) {
     const auto all = static_cast<K>(dice.bits());
@@ -77,7 +77,7 @@ TYPED_TEST(Sorting, IsStableForAllCountsAndThreads) {
 TEST(Scan, IsTheSumOfAllBefore) {
   for (const std::uint32_t n : kCounts)
     for (const std::uint32_t threads : kThreads) {
-      Dice dice(n);
+      FieldDice dice(n);
       std::vector<std::uint32_t> values(n), sums(n);
       for (std::uint32_t& value : values) value = static_cast<std::uint32_t>(dice.bits() % 100);
       std::exclusive_scan(values.begin(), values.end(), sums.begin(), 0U);

@@ -11,6 +11,9 @@
 
 namespace plumb::impulse::test {
 
+/// Gravity in most tests, m/s2.
+inline constexpr PlumbVec3 kDown = {0, -9.81, 0};
+
 /// SplitMix64 (Steele, Lea and Flood 2014).
 class Random {
  public:

@@ -11,7 +11,6 @@ namespace plumb::impulse::test {
 namespace {
 
 constexpr PlumbNeeds kContactNeeds = PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION;
-constexpr PlumbVec3 kDown = {0, -9.81, 0};
 
 void tower(Scene& scene) {
   scene.ground();

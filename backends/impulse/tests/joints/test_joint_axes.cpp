@@ -8,10 +8,9 @@
 namespace plumb::impulse {
 namespace {
 
-constexpr double kPi_ = std::numbers::pi;
 constexpr bool kDouble = sizeof(Real) == 8;
 constexpr PlumbVec3 kNoGravity = {0, 0, 0};
-constexpr PlumbNeeds kNeeds = PLUMB_NEED_ROTATION | PLUMB_NEED_GYROSCOPIC | PLUMB_NEED_JOINTS;
+constexpr PlumbNeeds kAxisNeeds = PLUMB_NEED_ROTATION | PLUMB_NEED_GYROSCOPIC | PLUMB_NEED_JOINTS;
 
 /// A hinge to the world about z.
 PlumbJointDesc axle(PlumbBody body, const PlumbVec3& at = {0, 0, 0}) {
@@ -45,7 +44,7 @@ TEST(JointLimits, RodComesToRestOnItsStop) {
 }
 
 TEST(JointLimits, NothingIsFeltBetweenThem) {
-  JointRig rig(kNeeds, kNoGravity);
+  JointRig rig(kAxisNeeds, kNoGravity);
   const PlumbBody sled = rig.body({0, 0, 0}, 2, {0.1, 0.1, 0.1}, {0, 0, 0, 1}, {0.5, 0, 0});
   PlumbJointDesc desc = joint_desc(PLUMB_JOINT_SLIDER);
   desc.body_b = sled;
@@ -71,7 +70,7 @@ TEST(Joints, FramesThatAreTurnedComeTogether) {
                          Case{PLUMB_JOINT_FIXED, 0b111111}, Case{PLUMB_JOINT_UNIVERSAL, 0b100111}})
     for (const double degrees : {45.0, 85.0, 90.0, 95.0, 135.0, 179.0, 180.0})
       for (const double dt : {1.0 / 30, 1.0 / 240, 1.0 / 3840}) {
-        JointRig rig(kNeeds, kNoGravity);
+        JointRig rig(kAxisNeeds, kNoGravity);
         const PlumbBody a = rig.body({0, 0, 0}, 1, {0.1, 0.15, 0.2}), b = rig.body({1, 0, 0}, 2, {0.2, 0.15, 0.1});
         PlumbJointDesc desc = joint_desc(of.type);
         desc.body_a = a;
@@ -97,7 +96,7 @@ TEST(Joints, FramesThatAreTurnedComeTogether) {
 }
 
 TEST(JointLimits, NeverPull) {
-  JointRig rig(kNeeds, kNoGravity);
+  JointRig rig(kAxisNeeds, kNoGravity);
   const PlumbBody sled = rig.body({0, 0, 0}, 2);
   PlumbJointDesc desc = joint_desc(PLUMB_JOINT_SLIDER);
   desc.body_b = sled;
@@ -112,7 +111,7 @@ TEST(JointLimits, NeverPull) {
 }
 
 TEST(JointLimits, OfAngleBeyondHalfATurn) {
-  JointRig rig(kNeeds, kNoGravity);
+  JointRig rig(kAxisNeeds, kNoGravity);
   const PlumbBody wheel = rig.body({0, 0, 0}, 1, {1, 1, 1}, {0, 0, 0, 1}, {0, 0, 0}, {0, 0, 2});
   PlumbJointDesc desc = axle(wheel);
   desc.limits[3] = {-0.5, 4, 1, 0};
@@ -157,7 +156,7 @@ TEST(JointLimits, ChainFoldsOntoItsStops) {
 TEST(JointLimits, ThreadsGiveTheSameBits) {
   std::vector<PlumbPose> ends;
   for (const std::uint32_t threads : {1U, 2U}) {
-    JointRig rig(kNeeds, {0, -kGravity, 0}, threads);
+    JointRig rig(kAxisNeeds, {0, -kGravity, 0}, threads);
     PlumbBody before = 0;
     for (std::size_t i = 0; i < 150; ++i) {
       const double x = static_cast<double>(i);
@@ -181,7 +180,7 @@ TEST(JointLimits, ThreadsGiveTheSameBits) {
 
 TEST(JointMotors, GiveNoMoreThanTheyMay) {
   for (const double solver : {0, 1, 2, 3}) {
-    JointRig rig(kNeeds, kNoGravity);
+    JointRig rig(kAxisNeeds, kNoGravity);
     rig.choose_solver(solver);
     const PlumbBody disc = rig.body({0, 0, 0}, 2, {0.1, 0.1, 0.25});
     PlumbJointDesc desc = axle(disc);
@@ -214,7 +213,7 @@ TEST(JointMotors, HoldTheirSpeedUnderLoad) {
 /// Motors that hold do not give way under what they bear, however heavy against their arms.
 TEST(JointMotors, HoldAnArmStill) {
   for (const double load : {10.0, 1000.0}) {
-    JointRig rig(kNeeds);
+    JointRig rig(kAxisNeeds);
     PlumbBody before = 0;
     for (int i = 0; i < 3; ++i) {
       const PlumbBody arm = rig.body({0.25 + 0.5 * i, 0, 0}, 10, {0.02, 0.22, 0.22});
@@ -234,7 +233,7 @@ TEST(JointMotors, HoldAnArmStill) {
 }
 
 TEST(JointMotors, AreSwitchedOnByWriting) {
-  JointRig rig(kNeeds, kNoGravity);
+  JointRig rig(kAxisNeeds, kNoGravity);
   const PlumbBody disc = rig.body({0, 0, 0}, 2, {0.1, 0.1, 0.25});
   const PlumbJoint hinge = rig.join(axle(disc));
   rig.run(0.5);
@@ -248,7 +247,7 @@ TEST(JointMotors, AreSwitchedOnByWriting) {
 }
 
 TEST(JointMotors, WakeWhomTheyDrive) {
-  JointRig rig(kNeeds | PLUMB_NEED_SLEEPING, kNoGravity);
+  JointRig rig(kAxisNeeds | PLUMB_NEED_SLEEPING, kNoGravity);
   const PlumbBody disc = rig.body({0, 0, 0}, 2, {0.1, 0.1, 0.25});
   PlumbJointDesc desc = axle(disc);
   desc.motors[3] = {0, 1e4, 1, 0};
@@ -263,7 +262,7 @@ TEST(JointMotors, WakeWhomTheyDrive) {
 
 /// Angles or places of a body on a spring, at each step.
 std::vector<double> swings(double frequency, double damping_ratio, PlumbJointType type, double seconds) {
-  JointRig rig(kNeeds, kNoGravity);
+  JointRig rig(kAxisNeeds, kNoGravity);
   const std::size_t axis = type == PLUMB_JOINT_HINGE ? 3 : 0;
   const PlumbBody body = rig.body({0, 0, 0}, 2, {0.1, 0.2, 0.3});
   PlumbJointDesc desc = type == PLUMB_JOINT_HINGE ? axle(body) : joint_desc(type);
@@ -355,7 +354,7 @@ TEST(JointAxes, DistanceStaysWithinItsLimits) {
 /// Two shafts at an angle: the second turns by atan(tan(first) cos(angle)).
 TEST(JointAxes, UniversalJointTurnsAsItsLawSays) {
   const double bend = kPi_ / 6, speed = 3;
-  JointRig rig(kNeeds, kNoGravity);
+  JointRig rig(kAxisNeeds, kNoGravity);
   const PlumbVec3 along = {std::cos(bend), std::sin(bend), 0};
   const PlumbBody first = rig.body({-1, 0, 0}, 1, {0.05, 0.1, 0.1});
   const PlumbBody second = rig.body(along, 1, {0.05, 0.1, 0.1}, about({0, 0, 1}, bend));
@@ -419,7 +418,7 @@ TEST(JointAxes, GenericJointStandsForTheOthers) {
 /// Each pair of free turns, driven by its motors: coordinates go as fast as the motors say.
 TEST(JointAxes, TwoOrThreeFreeTurnsAreDrivenApart) {
   for (const std::uint32_t free : {3U, 5U, 6U, 7U}) {
-    JointRig rig(kNeeds, kNoGravity);
+    JointRig rig(kAxisNeeds, kNoGravity);
     const PlumbBody body = rig.body({0, 0, 0}, 1, {0.3, 0.2, 0.1});
     PlumbJointDesc desc = joint_desc(PLUMB_JOINT_GENERIC);
     desc.body_b = body;
@@ -442,7 +441,7 @@ TEST(JointAxes, TwoOrThreeFreeTurnsAreDrivenApart) {
 TEST(JointAxes, SidesCanBeSwapped) {
   std::array<double, 2> angles{};
   for (const bool swapped : {false, true}) {
-    JointRig rig(kNeeds, kNoGravity);
+    JointRig rig(kAxisNeeds, kNoGravity);
     const PlumbBody a = rig.body({0, 0, 0}, 1, {0.1, 0.1, 0.1}), b = rig.body({1, 0, 0}, 4, {0.2, 0.2, 0.2});
     PlumbJointDesc desc = axle(b);
     desc.body_a = swapped ? b : a;
@@ -462,7 +461,7 @@ TEST(JointAxes, SidesCanBeSwapped) {
 }
 
 TEST(JointAxes, InternalMotorsKeepMomentum) {
-  JointRig rig(kNeeds, kNoGravity);
+  JointRig rig(kAxisNeeds, kNoGravity);
   const PlumbVec3 inertia = {0.2, 0.3, 0.4};
   std::vector<PlumbBody> bodies;
   for (int i = 0; i < 4; ++i) bodies.push_back(rig.body({1.0 * i, 0, 0}, 2, inertia));

@@ -6,14 +6,14 @@
 namespace plumb::impulse {
 namespace {
 
-constexpr PlumbNeeds kNeeds =
+constexpr PlumbNeeds kLoadNeeds =
     PLUMB_NEED_ROTATION | PLUMB_NEED_GYROSCOPIC | PLUMB_NEED_JOINTS | PLUMB_NEED_JOINT_REACTIONS | PLUMB_NEED_EVENTS;
 
 TEST(JointReactions, CarryWhatHangsOnThem) {
   for (const double solver : {0, 1, 2, 3})
     for (const PlumbJointType type : {PLUMB_JOINT_BALL, PLUMB_JOINT_HINGE, PLUMB_JOINT_FIXED, PLUMB_JOINT_DISTANCE,
                                       PLUMB_JOINT_UNIVERSAL, PLUMB_JOINT_GENERIC}) {
-      JointRig rig(kNeeds);
+      JointRig rig(kLoadNeeds);
       rig.choose_solver(solver);
       const PlumbBody bob = rig.body({0, -1, 0}, 3);
       PlumbJointDesc desc = joint_desc(type);
@@ -31,7 +31,7 @@ TEST(JointReactions, CarryWhatHangsOnThem) {
 }
 
 TEST(JointReactions, AreForceAndTorqueAtFrameB) {
-  JointRig rig(kNeeds);
+  JointRig rig(kLoadNeeds);
   const PlumbBody beam = rig.body({1.5, 0, 0}, 2);
   PlumbJointDesc desc = joint_desc(PLUMB_JOINT_FIXED);
   desc.body_b = beam;
@@ -45,7 +45,7 @@ TEST(JointReactions, AreForceAndTorqueAtFrameB) {
 }
 
 TEST(JointReactions, OfASwingAtItsLowestAreThreeWeights) {
-  JointRig rig(kNeeds & ~PLUMB_NEED_ROTATION & ~PLUMB_NEED_GYROSCOPIC);
+  JointRig rig(kLoadNeeds & ~PLUMB_NEED_ROTATION & ~PLUMB_NEED_GYROSCOPIC);
   const PlumbBody bob = rig.body({1, 0, 0}, 2);
   PlumbJointDesc desc = joint_desc(PLUMB_JOINT_DISTANCE);
   desc.body_b = bob;
@@ -63,7 +63,7 @@ TEST(JointReactions, OfASwingAtItsLowestAreThreeWeights) {
 TEST(JointReactions, DoNotChangeTheMotion) {
   std::vector<PlumbPose> ends;
   for (const bool read : {false, true}) {
-    JointRig rig(read ? kNeeds : kNeeds & ~PLUMB_NEED_JOINT_REACTIONS);
+    JointRig rig(read ? kLoadNeeds : kLoadNeeds & ~PLUMB_NEED_JOINT_REACTIONS);
     PlumbBody before = 0;
     for (int i = 0; i < 6; ++i) {
       const PlumbBody link = rig.body({i + 0.5, 0, 0}, 1 + i, {0.01, 0.1, 0.2});
@@ -80,7 +80,7 @@ TEST(JointReactions, DoNotChangeTheMotion) {
 
 TEST(JointBreaks, AboveItsStrengthAndNotBelow) {
   for (const double factor : {0.99, 1.01}) {
-    JointRig rig(kNeeds & ~PLUMB_NEED_JOINT_REACTIONS);
+    JointRig rig(kLoadNeeds & ~PLUMB_NEED_JOINT_REACTIONS);
     const PlumbBody bob = rig.body({0, -1, 0}, 3);
     PlumbJointDesc desc = joint_desc(PLUMB_JOINT_FIXED);
     desc.body_b = bob;
@@ -104,7 +104,7 @@ TEST(JointBreaks, AboveItsStrengthAndNotBelow) {
 
 TEST(JointBreaks, ByTorque) {
   for (const double factor : {0.99, 1.01}) {
-    JointRig rig(kNeeds);
+    JointRig rig(kLoadNeeds);
     const PlumbBody beam = rig.body({1, 0, 0}, 2);
     PlumbJointDesc desc = joint_desc(PLUMB_JOINT_FIXED);
     desc.body_b = beam;

@@ -7,7 +7,6 @@
 namespace plumb::impulse {
 namespace {
 
-constexpr double kPi_ = std::numbers::pi;
 constexpr double kRound = sizeof(Real) == 8 ? 1e-9 : 1e-5;  // what rounding may leave of errors of order one
 
 /// Time of a whole swing: from rest on one side until it is at rest there again, from the sign of the speed.

@@ -14,15 +14,15 @@
 namespace plumb::impulse::test {
 namespace {
 
-constexpr PlumbNeeds kNeeds =
+constexpr PlumbNeeds kMechanismNeeds =
     PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION | PLUMB_NEED_JOINTS | PLUMB_NEED_SNAPSHOT;
-constexpr PlumbVec3 kDown = {0, -9.81, 0};
 constexpr PlumbQuat kAboutZ = {0, -0.70710678118654752, 0, 0.70710678118654752};  // an x axis along z
 
 /// Bodies of given masses, and their joints.
 class Workshop {
  public:
-  explicit Workshop(PlumbNeeds needs = kNeeds, std::uint32_t threads = 1) : scene(engine(), needs, kDown, threads) {
+  explicit Workshop(PlumbNeeds needs = kMechanismNeeds, std::uint32_t threads = 1)
+      : scene(engine(), needs, kDown, threads) {
     scene.body.mass_mode = PLUMB_MASS_FROM_TOTAL;
   }
 
@@ -149,7 +149,7 @@ TEST(Mechanisms, AShelfComesToRestUnderItsLoad) {
 }
 
 TEST(Mechanisms, JointsBearWhatContactsPress) {
-  Workshop shop(kNeeds | PLUMB_NEED_JOINT_REACTIONS);
+  Workshop shop(kMechanismNeeds | PLUMB_NEED_JOINT_REACTIONS);
   const std::vector<PlumbJoint> legs = put_table(shop, 300);
   shop.run(240);
   std::vector<double> rows(6 * legs.size());
@@ -199,7 +199,7 @@ TEST(Mechanisms, HeavyLoadsSwingOnLightLinks) {
 TEST(Mechanisms, AreTheSameWithAnyNumberOfThreads) {
   std::vector<std::uint64_t> hashes;
   for (const std::uint32_t threads : {1U, 4U}) {
-    Workshop shop(kNeeds, threads);
+    Workshop shop(kMechanismNeeds, threads);
     put_cart(shop, 1000);
     put_rope(shop, 12, 100);
     shop.run(120);
@@ -279,7 +279,7 @@ TEST(Mechanisms, ComeTogetherAndPartWhileTheyTouch) {
 TEST(Mechanisms, WhatIsJoinedMetresApartIsDrawnTogetherAndNotFlung) {
   for (const char* solver : {"tgs_soft", "si", "jacobi", "xpbd"})
     for (const PlumbJointType type : {PLUMB_JOINT_BALL, PLUMB_JOINT_HINGE, PLUMB_JOINT_FIXED}) {
-      Scene scene(engine(), kNeeds, {0, 0, 0}, 1, {"solver", solver});
+      Scene scene(engine(), kMechanismNeeds, {0, 0, 0}, 1, {"solver", solver});
       const PlumbShape ball = scene.sphere(0.25);
       PlumbJointDesc desc = joint_desc(type);
       desc.body_a = scene.add(ball, {0, 0, 0});
@@ -354,7 +354,7 @@ TEST(Mechanisms, ARopeBridgeCatchesWhoIsManyTimesHeavierThanItsPlanks) {
                                              {1000, 8, 2},
                                              {2000, 8, 2},
                                              {4000, 4, 2}}) {
-    Workshop shop(kNeeds | PLUMB_NEED_AXIS_LOCKS);
+    Workshop shop(kMechanismNeeds | PLUMB_NEED_AXIS_LOCKS);
     const RopeBridge bridge = rope_bridge(shop.scene);
     shop.bodies = bridge.planks;
     shop.masses.assign(bridge.planks.size(), 20);

@@ -14,9 +14,8 @@
 namespace plumb::impulse::test {
 namespace {
 
-constexpr PlumbNeeds kNeeds = PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION | PLUMB_NEED_JOINTS |
-                              PLUMB_NEED_KINEMATIC | PLUMB_NEED_SNAPSHOT;
-constexpr PlumbVec3 kDown = {0, -9.81, 0};
+constexpr PlumbNeeds kRowNeeds = PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION | PLUMB_NEED_JOINTS |
+                                 PLUMB_NEED_KINEMATIC | PLUMB_NEED_SNAPSHOT;
 
 /// Whether the step was taken back.
 bool step(Scene& scene, double dt = 1.0 / 60) {
@@ -64,7 +63,7 @@ struct Lift {
 TEST(PredictedRows, AMotorKeepsItsSpeedUnderAThousandTimesItsPlatform) {
   for (const double dt : {1.0 / 30, 1.0 / 60, 1.0 / 240})
     for (const double speed : {0.0, 0.5}) {
-      Scene scene(engine(), kNeeds, kDown, 1);
+      Scene scene(engine(), kRowNeeds, kDown, 1);
       Lift lift(scene, 0, 10000, 0, speed, 4e5);
       for (int i = 0; i < 2 / dt; ++i) {
         step(scene, dt);
@@ -78,7 +77,7 @@ TEST(PredictedRows, AMotorKeepsItsSpeedUnderAThousandTimesItsPlatform) {
 
 /// What a motor cannot hold it lets down, no faster than that falls.
 TEST(PredictedRows, AMotorThatIsOvercomeGivesNoEnergy) {
-  Scene scene(engine(), kNeeds, kDown, 1);
+  Scene scene(engine(), kRowNeeds, kDown, 1);
   Lift lift(scene, 0, 1000, 1, 0, 300);
   int repeated = 0;
   for (int i = 0; i < 120; ++i) {
@@ -94,7 +93,7 @@ TEST(PredictedRows, AMotorThatIsOvercomeGivesNoEnergy) {
 
 /// A drawer rests at the end of its way, and is struck from there.
 TEST(PredictedRows, ALimitThatIsLeftGivesNoEnergy) {
-  Scene scene(engine(), kNeeds, {-2, 0, 0}, 1);
+  Scene scene(engine(), kRowNeeds, {-2, 0, 0}, 1);
   scene.body.mass_mode = PLUMB_MASS_FROM_TOTAL;
   scene.body.mass = 1;
   const PlumbBody drawer = scene.add(scene.box({0.2, 0.2, 0.2}), {0, 0, 0});
@@ -130,7 +129,8 @@ void block_and_ram(Scene& scene, double x, double below) {
 
 /// What holds is counted on in a step that others' rows make the world go over again.
 TEST(PredictedRows, AnIslandDoesNotDependOnWhereOthersLetGo) {
-  constexpr PlumbNeeds kTold = kNeeds | PLUMB_NEED_CONTACTS | PLUMB_NEED_CONTACT_IMPULSES | PLUMB_NEED_JOINT_REACTIONS;
+  constexpr PlumbNeeds kTold =
+      kRowNeeds | PLUMB_NEED_CONTACTS | PLUMB_NEED_CONTACT_IMPULSES | PLUMB_NEED_JOINT_REACTIONS;
   Scene alone(engine(), kTold, kDown, 1), among(engine(), kTold, kDown, 1);
   Lift one(alone, 20, 10000, 0, 0.5, 4e7), two(among, 20, 10000, 0, 0.5, 4e7);
   for (int i = 0; i < 30; ++i) block_and_ram(among, -i, 1 + 0.17 * i);
@@ -148,7 +148,7 @@ TEST(PredictedRows, AnIslandDoesNotDependOnWhereOthersLetGo) {
 
 /// What a snapshot goes on with is what the world itself would have: for how long rows have held is part of it.
 TEST(PredictedRows, ASnapshotKnowsWhatHasHeld) {
-  Scene one(engine(), kNeeds, kDown, 1), two(engine(), kNeeds, kDown, 1);
+  Scene one(engine(), kRowNeeds, kDown, 1), two(engine(), kRowNeeds, kDown, 1);
   drawers(one);
   drawers(two);
   one.run(60);
@@ -161,7 +161,7 @@ TEST(PredictedRows, ASnapshotKnowsWhatHasHeld) {
 }
 
 TEST(PredictedRows, ThreadsDoNotMatter) {
-  Scene one(engine(), kNeeds, kDown, 1), three(engine(), kNeeds, kDown, 3);
+  Scene one(engine(), kRowNeeds, kDown, 1), three(engine(), kRowNeeds, kDown, 3);
   drawers(one);
   drawers(three);
   one.run(240);

@@ -11,7 +11,7 @@
 namespace plumb::impulse {
 namespace {
 
-constexpr Quat kUpright = {0, 0, 0, 1};
+constexpr Quat kUnturned = {0, 0, 0, 1};
 constexpr Hulls kNoHulls = {};
 
 Shape box(Real x, Real y, Real z) { return {ShapeType::kBox, 0, {x, y, z}, std::sqrt(x * x + y * y + z * z)}; }
@@ -28,7 +28,7 @@ Manifold touch(const ShapePair& pair) {
 
 TEST(BoxBox, RestingCubesTouchAtFourCornersExactly) {
   const Shape cube = box(Real(0.5), Real(0.5), Real(0.5));
-  const Manifold m = touch({cube, cube, kUpright, kUpright, {0, 1, 0}, Real(0.01)});
+  const Manifold m = touch({cube, cube, kUnturned, kUnturned, {0, 1, 0}, Real(0.01)});
   ASSERT_EQ(m.count, 4U);
   EXPECT_EQ(m.normal, (Vec{0, 1, 0}));
   std::set<std::pair<Real, Real>> corners;
@@ -47,7 +47,7 @@ TEST(BoxBox, RestingCubesTouchAtFourCornersExactly) {
 TEST(BoxBox, SidesOfLevelTilesAreNoWalls) {
   const Shape cube = box(Real(0.5), Real(0.5), Real(0.5));
   const auto at = [&](double x, double y, Real margin) {
-    return touch({cube, cube, kUpright, turned(30, 0, 1, 0), {static_cast<Real>(x), static_cast<Real>(y), 0}, margin});
+    return touch({cube, cube, kUnturned, turned(30, 0, 1, 0), {static_cast<Real>(x), static_cast<Real>(y), 0}, margin});
   };
   const double reach = 0.5 + 0.5 * (std::cos(30 * 3.14159265358979323846 / 180) + 0.5);  // along x
   for (const double sunk : {0.0003, 0.004, -0.004})
@@ -99,7 +99,7 @@ TEST(BoxBox, CubeOnItsDiagonalTouchesWithOneCorner) {
   const Shape cube = box(Real(0.5), Real(0.5), Real(0.5)), ground = box(10, 1, 10);
   const double tilt = std::acos(1 / std::sqrt(3.0)) * 180 / 3.14159265358979323846;
   const Quat q = turned(tilt, 1, 0, -1);  // takes the diagonal (1, 1, 1) to y
-  const Manifold m = touch({ground, cube, kUpright, q, {0, Real(1.86602540), 0}, Real(1e-4)});
+  const Manifold m = touch({ground, cube, kUnturned, q, {0, Real(1.86602540), 0}, Real(1e-4)});
   ASSERT_EQ(m.count, 1U);
   EXPECT_NEAR(m.normal.y, 1, 1e-6);
   EXPECT_NEAR(m.points[0].separation, 0, 1e-6);
@@ -107,7 +107,7 @@ TEST(BoxBox, CubeOnItsDiagonalTouchesWithOneCorner) {
 
 TEST(BoxBox, EightCornersAreReducedToFourThatSpanTheOctagon) {
   const Shape cube = box(1, 1, 1);
-  const Manifold m = touch({cube, cube, kUpright, turned(45, 0, 1, 0), {0, Real(1.999), 0}, 0});
+  const Manifold m = touch({cube, cube, kUnturned, turned(45, 0, 1, 0), {0, Real(1.999), 0}, 0});
   ASSERT_EQ(m.count, 4U);
   for (const ManifoldPoint& p : m.points) EXPECT_NEAR(p.position.y, 0.9995, 1e-6) << "midway between the surfaces";
   double area = 0;  // of the quadrangle by its diagonals: sort by angle first

@@ -10,7 +10,7 @@
 namespace plumb::impulse::test {
 namespace {
 
-constexpr PlumbNeeds kNeeds = PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION | PLUMB_NEED_FILTERS;
+constexpr PlumbNeeds kEdgeNeeds = PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION | PLUMB_NEED_FILTERS;
 constexpr double kDegrees = std::numbers::pi / 180;
 
 PlumbQuat about_y(double angle) { return {0, std::sin(angle / 2), 0, std::cos(angle / 2)}; }
@@ -63,7 +63,7 @@ TEST_P(Pavings, WhatRollsRollsAsOverASlab) {
                           {0.3, 0.01, wheel}};
   for (const Rider& rider : riders)
     for (const double speed : {0.5, 3.0}) {
-      Scene scene(engine(), kNeeds, {0, -9.81, 0}, 1);
+      Scene scene(engine(), kEdgeNeeds, {0, -9.81, 0}, 1);
       GetParam()(scene);
       scene.body.filter.category = 2;  // riders pass through each other
       scene.body.filter.mask = 1;
@@ -117,7 +117,7 @@ TEST(InnerEdges, ASlopeOfBlocksIsASlope) {
   };
   std::vector<PlumbPose> ends;
   for (const bool whole : {true, false}) {
-    Scene scene(engine(), kNeeds, {0, -9.81, 0}, 1);
+    Scene scene(engine(), kEdgeNeeds, {0, -9.81, 0}, 1);
     if (whole)
       scene.add_static(scene.box({10, 0.5, 1}), turned({0, -0.5, 0}), turn);
     else
@@ -135,7 +135,7 @@ TEST(InnerEdges, ASlopeOfBlocksIsASlope) {
 TEST(InnerEdges, TheLastBlockEndsAsASlabDoes) {
   std::vector<PlumbVec3> ends;
   for (const bool whole : {true, false}) {
-    Scene scene(engine(), kNeeds, {0, -9.81, 0}, 1);
+    Scene scene(engine(), kEdgeNeeds, {0, -9.81, 0}, 1);
     if (whole)
       scene.add_static(scene.box({2, 0.5, 1}), {0, -0.5, 0});
     else
@@ -152,7 +152,7 @@ TEST(InnerEdges, TheLastBlockEndsAsASlabDoes) {
 
 TEST(InnerEdges, AStepStopsABallAndTheUnevennessOfABuilderDoesNot) {
   for (const double height : {0.1, 0.0005}) {
-    Scene scene(engine(), kNeeds, {0, -9.81, 0}, 1);
+    Scene scene(engine(), kEdgeNeeds, {0, -9.81, 0}, 1);
     scene.add_static(scene.box({2, 0.5, 1}), {-2, -0.5, 0});
     scene.add_static(scene.box({2, 0.5, 1}), {2, -0.5 + height, 0});
     const PlumbBody ball = scene.add(scene.sphere(0.5), {-1, 0.5, 0});
@@ -168,7 +168,7 @@ TEST(InnerEdges, AStepStopsABallAndTheUnevennessOfABuilderDoesNot) {
 
 /// A ball that is wider than the hole lies on its four edges.
 TEST(InnerEdges, WhereABlockGoesThereAreEdges) {
-  Scene scene(engine(), kNeeds, {0, -9.81, 0}, 1);
+  Scene scene(engine(), kEdgeNeeds, {0, -9.81, 0}, 1);
   const PlumbShape block = scene.box({0.5, 0.5, 0.5});
   PlumbBody middle = 0;
   for (int i = -1; i < 2; ++i)
@@ -190,7 +190,7 @@ TEST(InnerEdges, WhereABlockGoesThereAreEdges) {
 TEST(InnerEdges, WhatARiderDoesNotTouchCoversNothing) {
   std::vector<PlumbVec3> ends;
   for (const int beside : {0, 1, 2, 3}) {  // nobody, who is not touched, who is, a sensor
-    Scene scene(engine(), kNeeds | PLUMB_NEED_SENSORS, {0, -9.81, 0}, 1);
+    Scene scene(engine(), kEdgeNeeds | PLUMB_NEED_SENSORS, {0, -9.81, 0}, 1);
     const PlumbShape block = scene.box({0.5, 0.5, 0.5});
     scene.add_static(block, {0, -0.5, 0});
     if (beside == 1) scene.body.filter.category = 4;
@@ -223,7 +223,7 @@ TEST(InnerEdges, AHullSlidesOverBlocksAsOverASlab) {
     v[(axis + 2) % 3] = c != 0 ? 0.3 : -0.3;
     points.push_back({v[0], v[1], v[2]});
   }
-  Scene scene(engine(), kNeeds, {0, -9.81, 0}, 1);
+  Scene scene(engine(), kEdgeNeeds, {0, -9.81, 0}, 1);
   squares(scene);
   const PlumbBody rider = scene.add(scene.hull(points), {-3.1, 0.4, 0.2}, about_y(0.3));
   scene.write(PLUMB_FIELD_VELOCITY, rider, {6, 0, 0.4, 0, 0, 0});

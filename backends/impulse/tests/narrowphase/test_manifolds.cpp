@@ -15,7 +15,7 @@ using enum ShapeType;
 
 constexpr ShapeType kTypes[] = {kSphere, kBox, kCapsule, kHull};
 
-struct Pair {
+struct PosedPair {
   Shape a, b;
   Quat qa, qb;
   Vec d;
@@ -47,12 +47,12 @@ class Shapes {
   HullPool pool_;
 };
 
-Manifold touch(const Pair& p, Real margin, const Hulls& hulls) {
+Manifold manifold_of(const PosedPair& p, Real margin, const Hulls& hulls) {
   Manifold m{};
   collide({p.a, p.b, p.qa, p.qb, p.d, margin}, hulls, m);
   return m;
 }
-Pair random_pair(Dice& dice, const Shapes& shapes, ShapeType a, ShapeType b) {
+PosedPair random_pair(Dice& dice, const Shapes& shapes, ShapeType a, ShapeType b) {
   const V d = dice.uniform(0.3, 2) * dice.direction();
   return {shapes.of(a),
           shapes.of(b),
@@ -77,10 +77,11 @@ TEST(Manifolds, ScalingByAPowerOfTwoScalesEveryBit) {
   for (const ShapeType a : kTypes)
     for (const ShapeType b : kTypes)
       for (int i = 0; i < 200; ++i) {
-        const Pair p = random_pair(dice, at_one, a, b);
-        const Manifold m = touch(p, Real(0.125), at_one.hulls());
+        const PosedPair p = random_pair(dice, at_one, a, b);
+        const Manifold m = manifold_of(p, Real(0.125), at_one.hulls());
         for (const auto& [shapes, scale] : {std::pair{&tiny, Real(0x1p-10)}, std::pair{&huge, Real(0x1p10)}}) {
-          const Manifold s = touch({shapes->of(a), shapes->of(b), p.qa, p.qb, scale * p.d}, scale / 8, shapes->hulls());
+          const Manifold s =
+              manifold_of({shapes->of(a), shapes->of(b), p.qa, p.qb, scale * p.d}, scale / 8, shapes->hulls());
           ASSERT_EQ(s.count, m.count);
           for (std::uint32_t k = 0; k < m.count; ++k) {
             ASSERT_EQ(s.normal, m.normal);
@@ -99,9 +100,9 @@ TEST(Manifolds, OfSwappedShapesMirrorEachOther) {
   for (const ShapeType a : kTypes)
     for (const ShapeType b : kTypes)
       for (int i = 0; i < 300; ++i) {
-        const Pair p = random_pair(dice, shapes, a, b);
-        const Manifold m = touch(p, 0, shapes.hulls());
-        const Manifold s = touch({p.b, p.a, p.qb, p.qa, -p.d}, 0, shapes.hulls());
+        const PosedPair p = random_pair(dice, shapes, a, b);
+        const Manifold m = manifold_of(p, 0, shapes.hulls());
+        const Manifold s = manifold_of({p.b, p.a, p.qb, p.qa, -p.d}, 0, shapes.hulls());
         ASSERT_EQ(m.count > 0, s.count > 0);
         if (m.count == 0) continue;
         ++touching;
@@ -121,10 +122,10 @@ TEST(Manifolds, TurnWithTheWorld) {
   for (const ShapeType a : kTypes)
     for (const ShapeType b : kTypes)
       for (int i = 0; i < 300; ++i) {
-        const Pair p = random_pair(dice, shapes, a, b);
+        const PosedPair p = random_pair(dice, shapes, a, b);
         const Quat q = Dice::to_real(dice.orientation());
-        const Manifold m = touch(p, 0, shapes.hulls());
-        const Manifold t = touch({p.a, p.b, q * p.qa, q * p.qb, rotate(q, p.d)}, 0, shapes.hulls());
+        const Manifold m = manifold_of(p, 0, shapes.hulls());
+        const Manifold t = manifold_of({p.a, p.b, q * p.qa, q * p.qb, rotate(q, p.d)}, 0, shapes.hulls());
         if (m.count == 0 || t.count == 0) {
           ASSERT_GT(std::max(m.count == 0 ? Real(0) : least(m), t.count == 0 ? Real(0) : least(t)), -200 * kEpsilon);
           continue;
@@ -162,7 +163,7 @@ TEST(Manifolds, KeepTheirIdsWhileARestingBoxTrembles) {
         const V jitter = 1e-6 * dice.direction();
         const Quat q = Dice::to_real(turn * Dice::turn(dice.direction(), 1e-6));
         const Vec d = {static_cast<Real>(jitter.x), static_cast<Real>(1 + jitter.y), static_cast<Real>(jitter.z)};
-        const Manifold m = touch({below, above, {0, 0, 0, 1}, q, d}, Real(0.01), pool.host());
+        const Manifold m = manifold_of({below, above, {0, 0, 0, 1}, q, d}, Real(0.01), pool.host());
         ASSERT_EQ(m.count, 4U);
         ASSERT_EQ(features(m).count(m.points[0].feature), 1U) << "ids of one manifold differ";
         if (step == 0) first = features(m);

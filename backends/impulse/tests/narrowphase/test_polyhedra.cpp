@@ -17,7 +17,7 @@ std::uint32_t pair_count(std::uint32_t normal) {
 }
 
 /// What rounding may do to a separation, of the sizes involved.
-constexpr double kRounding = 100 * static_cast<double>(kEpsilon);
+constexpr double kHullError = 100 * static_cast<double>(kEpsilon);
 
 /// How deep edges of two boxes may graze without a touch, where points ahead of time are asked for (box_box.hpp).
 double most_grazing(const RandomPair& p) {
@@ -29,7 +29,7 @@ void expect_true_to_reference(const RandomPair& p, const Hulls& hulls, Real marg
   Manifold m{};
   const bool touch = collide({p.a, p.b, p.qa, p.qb, p.d, margin}, hulls, m);
   const Polyhedron a = polyhedron(p.a, hulls, p.qa, {0, 0, 0}), b = polyhedron(p.b, hulls, p.qb, p.d);
-  const double size = a.size + b.size, tolerance = kRounding * size, best = greatest_gap(a, b);
+  const double size = a.size + b.size, tolerance = kHullError * size, best = greatest_gap(a, b);
   SCOPED_TRACE("pair " + std::to_string(trial) + ", gap " + std::to_string(best / size) + " of its size");
   const bool all_axes = p.a.type == ShapeType::kBox && p.b.type == ShapeType::kBox;
   if (best > tolerance + (all_axes ? static_cast<double>(margin) : 0)) {
@@ -43,7 +43,7 @@ void expect_true_to_reference(const RandomPair& p, const Hulls& hulls, Real marg
   if (!touch) return;
 
   const V n = to_double(m.normal);
-  EXPECT_NEAR(length(n), 1, 10 * kRounding);
+  EXPECT_NEAR(length(n), 1, 10 * kHullError);
   const double along = gap(a, b, n);
   if (all_axes || best < 0) {
     EXPECT_GE(along, best - 2 * tolerance) << "along the normal";

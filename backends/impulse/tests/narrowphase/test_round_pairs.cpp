@@ -82,13 +82,13 @@ double from_surface(const V& p, const Rounded& r) {
   return r.core.outside(p) < 0 ? r.core.outside(p) : to_core(p, r);
 }
 
-constexpr double kRounding = 200 * static_cast<double>(kEpsilon);
+constexpr double kRoundError = 200 * static_cast<double>(kEpsilon);
 
 void expect_true(const RandomPair& p, const Hulls& hulls, Real margin, std::uint32_t trial) {
   Manifold m{};
   const bool touch = collide({p.a, p.b, p.qa, p.qb, p.d, margin}, hulls, m);
   const Rounded a = rounded(p.a, hulls, p.qa, {0, 0, 0}), b = rounded(p.b, hulls, p.qb, p.d);
-  const double size = a.core.size + b.core.size, tolerance = kRounding * size, radii = a.radius + b.radius;
+  const double size = a.core.size + b.core.size, tolerance = kRoundError * size, radii = a.radius + b.radius;
   const double apart = between_cores(a, b), gap_there = greatest_gap(a.core, b.core);
   const bool deep = apart < tolerance;
   const double core = deep ? std::min(gap_there, 0.0) : apart;

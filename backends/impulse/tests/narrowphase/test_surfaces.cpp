@@ -9,9 +9,8 @@
 namespace plumb::impulse::test {
 namespace {
 
-constexpr PlumbNeeds kNeeds =
+constexpr PlumbNeeds kSurfaceNeeds =
     PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION | PLUMB_NEED_CONTACTS | PLUMB_NEED_KINEMATIC;
-constexpr PlumbVec3 kDown = {0, -9.81, 0};
 
 enum class Ground { kBox, kPlane, kMesh, kBackOfMesh, kField };
 constexpr Ground kGrounds[] = {Ground::kPlane, Ground::kMesh, Ground::kBackOfMesh, Ground::kField};
@@ -39,7 +38,7 @@ constexpr Rider kRiders[] = {Rider::kBox, Rider::kSphere, Rider::kCapsule, Rider
 
 /// Sends a body over the ground, askew to its edges.
 Ride ride(Ground ground, Rider rider) {
-  Scene scene(engine(), kNeeds, kDown, 1);
+  Scene scene(engine(), kSurfaceNeeds, kDown, 1);
   add_ground(scene, ground);
   const double speed = rider == Rider::kSphere || rider == Rider::kCapsule ? 3 : 5;
   const double heading = 0.3;
@@ -91,7 +90,7 @@ TEST(Surfaces, AMeshCubeHoldsAsABox) {
       for (const Rider rider : kRiders) {
         SCOPED_TRACE(std::to_string(cells) + " cells, " + std::to_string(aside) + " aside, rider " +
                      std::to_string(static_cast<int>(rider)));
-        Scene scene(engine(), kNeeds, kDown, 1);
+        Scene scene(engine(), kSurfaceNeeds, kDown, 1);
         scene.add_static(scene.make(cube(1, cells).desc()), {0, -1, 0});
         const double half = std::sqrt(0.5);
         const PlumbShape shape =
@@ -113,7 +112,7 @@ TEST(Surfaces, AMeshCubeHoldsAsABox) {
 /// A box slides off a cube of triangles as it does off a box, with no wall to hold it at the rim.
 TEST(Surfaces, NothingHoldsABoxAtTheRim) {
   const auto end = [](bool mesh) {
-    Scene scene(engine(), kNeeds, kDown, 1);
+    Scene scene(engine(), kSurfaceNeeds, kDown, 1);
     scene.add_static(mesh ? scene.make(cube(1, 4).desc()) : scene.box({1, 1, 1}), {0, -1, 0});
     scene.body.material.friction = 0.1;
     scene.body.linear_velocity = {4, 0, 0};
@@ -127,7 +126,7 @@ TEST(Surfaces, NothingHoldsABoxAtTheRim) {
 }
 
 TEST(Surfaces, AStepStopsABox) {
-  Scene scene(engine(), kNeeds, kDown, 1);
+  Scene scene(engine(), kSurfaceNeeds, kDown, 1);
   const TriangleSet steps =
       grid(40, 0.25, [](double x, double) { return x > 1.05 ? 0.3 : 0.0; });  // a steep ramp from 1 to 1.25
   scene.add_static(scene.make(steps.desc()), {0, 0, 0});
@@ -142,7 +141,7 @@ TEST(Surfaces, AStepStopsABox) {
 }
 
 TEST(Surfaces, AMovingMeshCarriesWhatStandsOnIt) {
-  Scene scene(engine(), kNeeds, kDown, 1);
+  Scene scene(engine(), kSurfaceNeeds, kDown, 1);
   scene.body.material.friction = 1;
   const PlumbBody table = scene.add_kinematic(scene.make(flat_grid(20, 0.4).desc()), {0, 0, 0});
   scene.add(scene.box({0.5, 0.5, 0.5}), {0, 0.5, 0});
@@ -155,7 +154,7 @@ TEST(Surfaces, AMovingMeshCarriesWhatStandsOnIt) {
 
 TEST(Surfaces, ContactsNameTheTriangle) {
   for (const bool field : {false, true}) {
-    Scene scene(engine(), kNeeds, kDown, 1);
+    Scene scene(engine(), kSurfaceNeeds, kDown, 1);
     const std::vector<double> heights(25, 0.0);
     scene.add_static(field ? scene.make(field_desc(heights, 5, 5, 1)) : scene.make(flat_grid(4, 1).desc()), {0, 0, 0});
     scene.add(scene.sphere(0.1), {0.8, 0.1, -1.4});  // the cell of column 2, row 0; behind its diagonal
@@ -168,7 +167,7 @@ TEST(Surfaces, ContactsNameTheTriangle) {
 
 /// More triangles under one body than there was room for, and than there are colours.
 TEST(Surfaces, ALargeBoxRestsOnManySmallTriangles) {
-  Scene scene(engine(), kNeeds, kDown, 1);
+  Scene scene(engine(), kSurfaceNeeds, kDown, 1);
   scene.add_static(scene.make(flat_grid(60, 0.06).desc()), {0, 0, 0});
   scene.add(scene.box({0.9, 0.2, 0.9}), {0, 0.21, 0});
   scene.run(60);
@@ -178,7 +177,7 @@ TEST(Surfaces, ALargeBoxRestsOnManySmallTriangles) {
 }
 
 TEST(Surfaces, FlatTrianglesOfNoAreaAreLeftOut) {
-  Scene scene(engine(), kNeeds, kDown, 1);
+  Scene scene(engine(), kSurfaceNeeds, kDown, 1);
   TriangleSet set = flat_grid(4, 1);
   set.triangle(0, 0, 1);
   set.triangle(2, 12, 22);
@@ -197,7 +196,7 @@ PlumbShape make_cylinder(Scene& scene, double radius, double half) {
 
 TEST(RoundBodies, CylindersStandAndStackOnEveryGround) {
   for (const Ground ground : {Ground::kBox, Ground::kPlane, Ground::kMesh, Ground::kField}) {
-    Scene scene(engine(), kNeeds, kDown, 1);
+    Scene scene(engine(), kSurfaceNeeds, kDown, 1);
     add_ground(scene, ground);
     const PlumbShape thick = make_cylinder(scene, 0.5, 0.5), thin = make_cylinder(scene, 0.3, 0.4);
     scene.add(thick, {0.2, 0.51, 0.1});
@@ -220,7 +219,7 @@ TEST(RoundBodies, CylindersStandAndStackOnEveryGround) {
 TEST(RoundBodies, CylindersRollTrueOnEveryGround) {
   for (const Ground ground : {Ground::kBox, Ground::kPlane, Ground::kMesh, Ground::kField}) {
     SCOPED_TRACE("ground " + std::to_string(static_cast<int>(ground)));
-    Scene scene(engine(), kNeeds, kDown, 1);
+    Scene scene(engine(), kSurfaceNeeds, kDown, 1);
     add_ground(scene, ground);
     const double half = std::sqrt(0.5);
     scene.body.linear_velocity = {2, 0, 0};

@@ -9,8 +9,8 @@
 namespace plumb::impulse::test {
 namespace {
 
-constexpr PlumbNeeds kNeeds = PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION | PLUMB_NEED_KINEMATIC;
-constexpr PlumbVec3 kDown = {0, -9.81, 0};
+constexpr PlumbNeeds kCarrierNeeds =
+    PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION | PLUMB_NEED_KINEMATIC;
 constexpr const char* kSolvers[] = {"tgs_soft", "si", "jacobi", "xpbd"};
 
 std::vector<double> read(Scene& scene, PlumbField field, PlumbBody body, std::size_t columns) {
@@ -37,7 +37,7 @@ TEST(Carriers, AMovingPlatformTakesABoxAlong) {
   for (const char* const solver : kSolvers)
     for (const bool mesh : {false, true}) {
       SCOPED_TRACE(std::string(solver) + (mesh ? " mesh" : " box"));
-      Scene scene(engine(), kNeeds, kDown, 1, {"solver", solver});
+      Scene scene(engine(), kCarrierNeeds, kDown, 1, {"solver", solver});
       const double below = mesh ? 0 : -0.5;
       const PlumbBody platform = scene.add_kinematic(make_platform(scene, mesh), {0, below, 0});
       const PlumbBody body = scene.add(scene.box({0.3, 0.3, 0.3}), {0.5, 0.3, 0.2});
@@ -64,7 +64,7 @@ TEST(Carriers, ATurningPlatformTakesABoxAround) {
   for (const char* const solver : kSolvers)
     for (const bool mesh : {false, true}) {
       SCOPED_TRACE(std::string(solver) + (mesh ? " mesh" : " box"));
-      Scene scene(engine(), kNeeds, kDown, 1, {"solver", solver});
+      Scene scene(engine(), kCarrierNeeds, kDown, 1, {"solver", solver});
       const PlumbBody platform = scene.add_kinematic(make_platform(scene, mesh), {0, mesh ? 0 : -0.5, 0});
       scene.write(PLUMB_FIELD_VELOCITY, platform, {0, 0, 0, 0, 1, 0});
       scene.body.linear_velocity = {0, 0, -1};
@@ -84,7 +84,7 @@ TEST(Carriers, APressLetsGoGently) {
   for (const char* const solver : kSolvers)
     for (const bool upright : {false, true}) {
       SCOPED_TRACE(std::string(solver) + (upright ? " from above" : " from the sides"));
-      Scene scene(engine(), kNeeds, kDown, 1, {"solver", solver});
+      Scene scene(engine(), kCarrierNeeds, kDown, 1, {"solver", solver});
       if (!upright) scene.ground();
       const auto at = [&](double side, double gap) {
         const double off = side * (gap / 2 + 0.5);
@@ -115,7 +115,7 @@ TEST(Carriers, APressLetsGoGently) {
 TEST(Carriers, ATeleportKicksNobody) {
   for (const char* const solver : kSolvers) {
     SCOPED_TRACE(solver);
-    Scene scene(engine(), kNeeds, kDown, 1, {"solver", solver});
+    Scene scene(engine(), kCarrierNeeds, kDown, 1, {"solver", solver});
     const PlumbBody platform = scene.add_kinematic(scene.box({4, 0.5, 4}), {0, -0.5, 0});
     const PlumbShape cube = scene.box({0.3, 0.3, 0.3});
     const PlumbBody body = scene.add(cube, {0, 0.3, 0}), other = scene.add(cube, {2, 0.3, 0});
@@ -141,7 +141,7 @@ TEST(Carriers, ATeleportKicksNobody) {
 TEST(Carriers, ATeleportFromBelowThrowsNobody) {
   for (const char* const solver : kSolvers) {
     SCOPED_TRACE(solver);
-    Scene scene(engine(), kNeeds, kDown, 1, {"solver", solver});
+    Scene scene(engine(), kCarrierNeeds, kDown, 1, {"solver", solver});
     const PlumbBody platform = scene.add_kinematic(scene.box({4, 0.5, 4}), {0, -0.5, 0});
     const PlumbBody body = scene.add(scene.box({0.5, 0.5, 0.5}), {0, 0.5, 0});
     scene.run(20);

@@ -11,12 +11,12 @@
 namespace plumb::impulse::test {
 namespace {
 
-constexpr PlumbNeeds kNeeds = PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION | PLUMB_NEED_EVENTS |
-                              PLUMB_NEED_CONTACTS | PLUMB_NEED_CONTACT_IMPULSES | PLUMB_NEED_RESTITUTION;
-constexpr PlumbVec3 kDown = {0, -9.81, 0};
+constexpr PlumbNeeds kCompoundNeeds = PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION |
+                                      PLUMB_NEED_EVENTS | PLUMB_NEED_CONTACTS | PLUMB_NEED_CONTACT_IMPULSES |
+                                      PLUMB_NEED_RESTITUTION;
 
 std::uint64_t pile(bool as_compounds) {
-  Scene scene(engine(), kNeeds, kDown, 1);
+  Scene scene(engine(), kCompoundNeeds, kDown, 1);
   scene.ground();
   Random random(3);
   scene.body.mass_mode = PLUMB_MASS_EXPLICIT;  // or the sum over the children rounds otherwise
@@ -36,7 +36,7 @@ TEST(Compounds, OfOneChildAreThatChildBitForBit) { EXPECT_EQ(pile(true), pile(fa
 
 TEST(Compounds, OfTwoHalvesMoveAsTheWhole) {
   const auto fall = [](bool halves) {
-    Scene scene(engine(), kNeeds, kDown, 1);
+    Scene scene(engine(), kCompoundNeeds, kDown, 1);
     scene.ground();
     const PlumbShape half = scene.box({0.25, 0.5, 0.5});
     scene.add(halves ? make_compound(scene, {child(half, {-0.25, 0, 0}), child(half, {0.25, 0, 0})})
@@ -51,7 +51,7 @@ TEST(Compounds, OfTwoHalvesMoveAsTheWhole) {
 }
 
 TEST(Compounds, NeverTouchThemselves) {
-  Scene scene(engine(), kNeeds, {0, 0, 0}, 1);
+  Scene scene(engine(), kCompoundNeeds, {0, 0, 0}, 1);
   const PlumbShape ball = scene.sphere(1);
   scene.add(make_compound(scene, {child(ball), child(ball, {0.5, 0, 0}), child(ball, {0, 0.3, 0})}), {0, 0, 0});
   scene.run(5);
@@ -59,7 +59,7 @@ TEST(Compounds, NeverTouchThemselves) {
 }
 
 TEST(Compounds, ContactsNameTheChildAndEventsTheBody) {
-  Scene scene(engine(), kNeeds, kDown, 1);
+  Scene scene(engine(), kCompoundNeeds, kDown, 1);
   scene.ground();
   const PlumbShape ball = scene.sphere(0.5);
   const PlumbBody dumbbell = scene.add(
@@ -80,7 +80,7 @@ TEST(Compounds, ContactsNameTheChildAndEventsTheBody) {
 }
 
 TEST(Compounds, ChildrenHaveTheirOwnMaterials) {
-  Scene scene(engine(), kNeeds, kDown, 1);
+  Scene scene(engine(), kCompoundNeeds, kDown, 1);
   scene.ground();
   const PlumbShape box = scene.box({0.5, 0.5, 0.5});
   std::vector<PlumbCompoundChild> ice = {child(box)};
@@ -98,7 +98,7 @@ TEST(Compounds, ChildrenHaveTheirOwnMaterials) {
 
 /// Rows of proxies and slots of bodies go apart, and come back.
 TEST(Compounds, ComeAndGoBesideBodiesOfOneShape) {
-  Scene scene(engine(), kNeeds, kDown, 1);
+  Scene scene(engine(), kCompoundNeeds, kDown, 1);
   scene.ground();
   const PlumbShape ball = scene.sphere(0.3);
   const PlumbShape pair = make_compound(scene, {child(ball, {-0.3, 0, 0}), child(ball, {0.3, 0, 0})});

@@ -11,8 +11,7 @@
 namespace plumb::impulse::test {
 namespace {
 
-constexpr PlumbVec3 kDown = {0, -9.81, 0};
-constexpr PlumbNeeds kNeeds =
+constexpr PlumbNeeds kDebugNeeds =
     PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION | PLUMB_NEED_SLEEPING | PLUMB_NEED_JOINTS;
 
 std::vector<PlumbDebugConstraint> constraints_of(Scene& scene) {
@@ -50,7 +49,7 @@ struct Tray {
 };
 
 TEST(DebugConstraints, ThatFindNoColourGoOneByOne) {
-  Scene scene{engine(), kNeeds, kDown, 1};
+  Scene scene{engine(), kDebugNeeds, kDown, 1};
   const int side = 9, joints = static_cast<int>(kJointColours) + 8;  // more balls than colours, too
   const Tray tray(scene, side, joints);
   scene.run(2);
@@ -75,7 +74,7 @@ TEST(DebugConstraints, ThatFindNoColourGoOneByOne) {
 }
 
 TEST(DebugConstraints, OfASolverWithoutColoursAreNotShown) {
-  Scene scene{engine(), kNeeds, kDown, 1, {"solver", "jacobi"}};
+  Scene scene{engine(), kDebugNeeds, kDown, 1, {"solver", "jacobi"}};
   const Tray tray(scene, 2, 0);
   scene.run(2);
   std::span<const PlumbDebugConstraint> rows;
@@ -84,7 +83,7 @@ TEST(DebugConstraints, OfASolverWithoutColoursAreNotShown) {
 }
 
 TEST(DebugConstraints, OfTheDeadAreLeftOut) {
-  Scene scene{engine(), kNeeds, kDown, 1};
+  Scene scene{engine(), kDebugNeeds, kDown, 1};
   const Tray tray(scene, 2, 0);
   scene.run(2);
   EXPECT_EQ(constraints_of(scene).size(), 5U);
@@ -94,7 +93,7 @@ TEST(DebugConstraints, OfTheDeadAreLeftOut) {
 }
 
 TEST(DebugBodies, IslandsOutlastSleep) {
-  Scene scene{engine(), kNeeds, kDown, 1};
+  Scene scene{engine(), kDebugNeeds, kDown, 1};
   const Tray tray(scene, 3, 0);
   const PlumbBody alone = scene.add(scene.box({0.5, 0.5, 0.5}), {20, 0.5, 0});
   scene.run(20);
@@ -112,7 +111,7 @@ TEST(DebugBodies, IslandsOutlastSleep) {
 }
 
 TEST(DebugStep, AskingChangesNothing) {
-  Scene asked{engine(), kNeeds, kDown, 1}, left{engine(), kNeeds, kDown, 1};
+  Scene asked{engine(), kDebugNeeds, kDown, 1}, left{engine(), kDebugNeeds, kDown, 1};
   const Tray one(asked, 4, 3), other(left, 4, 3);
   for (int step = 0; step < 60; ++step) {
     asked.run(1);

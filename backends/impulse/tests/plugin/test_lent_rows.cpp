@@ -11,7 +11,7 @@
 namespace plumb::impulse::test {
 namespace {
 
-constexpr PlumbNeeds kNeeds = PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION;
+constexpr PlumbNeeds kRowNeeds = PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION;
 constexpr std::int32_t kHost = 1, kDevice = 2, kOwn = Executor::kDeviceType;
 constexpr bool kOnHost = kOwn == kHost;
 
@@ -22,7 +22,7 @@ class LentRows : public ::testing::Test {
  protected:
   LentRows() {
     if (const std::string unmet = Executor::unmet_requirement(); !unmet.empty()) return;
-    scene_ = std::make_unique<Scene>(engine(), kNeeds, PlumbVec3{0, -9.81, 0}, 1);
+    scene_ = std::make_unique<Scene>(engine(), kRowNeeds, PlumbVec3{0, -9.81, 0}, 1);
     scene_->ground();
     box_ = scene_->box({0.5, 0.3, 0.2});
     for (int i = 0; i < 20; ++i) {

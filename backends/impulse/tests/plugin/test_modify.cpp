@@ -10,8 +10,9 @@
 namespace plumb::impulse::test {
 namespace {
 
-constexpr PlumbNeeds kNeeds = PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION | PLUMB_NEED_JOINTS |
-                              PLUMB_NEED_KINEMATIC | PLUMB_NEED_AXIS_LOCKS | PLUMB_NEED_GYROSCOPIC | PLUMB_NEED_EVENTS;
+constexpr PlumbNeeds kModifyNeeds = PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION |
+                                    PLUMB_NEED_JOINTS | PLUMB_NEED_KINEMATIC | PLUMB_NEED_AXIS_LOCKS |
+                                    PLUMB_NEED_GYROSCOPIC | PLUMB_NEED_EVENTS;
 
 constexpr std::uint32_t kAllOfABody = (1U << PLUMB_MODIFY_BODY_COUNT) - 1,
                         kAllOfAJoint = (1U << PLUMB_MODIFY_JOINT_COUNT) - 1;
@@ -19,7 +20,7 @@ constexpr std::uint32_t kAllOfABody = (1U << PLUMB_MODIFY_BODY_COUNT) - 1,
 constexpr std::uint32_t kParticle = PLUMB_BODY_NO_ROTATION, kHeld = PLUMB_LOCK_ANGULAR_Z;
 
 struct Heap {
-  Heap() : scene(engine(), kNeeds, {0, -9.81, 0}, 1) {
+  Heap() : scene(engine(), kModifyNeeds, {0, -9.81, 0}, 1) {
     scene.ground();
     shapes = convex_shapes(scene);
   }
@@ -106,7 +107,7 @@ TEST(Modify, JointsAreAsIfTheyHadBeenMadeSo) {
 
 /// A joint that was let go and taken again has borne nothing yet.
 TEST(Modify, ReactionsAreNotThoseOfBefore) {
-  Scene scene(engine(), kNeeds | PLUMB_NEED_JOINT_REACTIONS, {0, -9.81, 0}, 1);
+  Scene scene(engine(), kModifyNeeds | PLUMB_NEED_JOINT_REACTIONS, {0, -9.81, 0}, 1);
   PlumbJointDesc desc = joint_desc(PLUMB_JOINT_FIXED);
   desc.body_b = scene.add(scene.sphere(0.5), {0, 0, 0});
   const PlumbJoint joint = scene.join(desc);
@@ -132,7 +133,7 @@ TEST(Modify, ReactionsAreNotThoseOfBefore) {
 /// A spring that comes to a joint in a taut chain is as stiff as the links' own inertia and its frequency say: tension
 /// is no mass. When the load is gone it bends the chain no faster than that.
 TEST(Modify, ASpringIsNoStifferUnderTension) {
-  Scene scene(engine(), kNeeds, {0, -9.81, 0}, 1);
+  Scene scene(engine(), kModifyNeeds, {0, -9.81, 0}, 1);
   const PlumbShape link = scene.capsule(0.05, 0.2);
   std::vector<PlumbBody> links;
   PlumbJoint hinge = 0, last = 0;
@@ -215,7 +216,7 @@ TEST(Modify, WhatIsNotNamedStays) {
 
 /// A frame of a joint lies where it did, though the body's principal axes and centre of mass are others.
 TEST(Modify, JointsHoldWhereTheyDidWhenMassesChange) {
-  Scene scene(engine(), kNeeds, {0, -9.81, 0}, 1);
+  Scene scene(engine(), kModifyNeeds, {0, -9.81, 0}, 1);
   const PlumbBody bob = scene.add(scene.box({0.3, 0.2, 0.1}), {1, 0, 0});
   PlumbJointDesc desc = joint_desc(PLUMB_JOINT_BALL);
   desc.body_b = bob;

@@ -10,8 +10,6 @@
 namespace plumb::impulse::test {
 namespace {
 
-constexpr PlumbVec3 kDown = {0, -9.81, 0};
-
 bool is_told(PlumbPhase phase) { return phase <= PLUMB_PHASE_SOLVE || phase == PLUMB_PHASE_OUTPUT; }
 
 struct TimedStep {

@@ -8,15 +8,15 @@
 namespace plumb::impulse::test {
 namespace {
 
-constexpr PlumbNeeds kNeeds = PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION | PLUMB_NEED_SENSORS |
-                              PLUMB_NEED_KINEMATIC | PLUMB_NEED_FILTERS;
+constexpr PlumbNeeds kSensorNeeds = PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION |
+                                    PLUMB_NEED_SENSORS | PLUMB_NEED_KINEMATIC | PLUMB_NEED_FILTERS;
 
 struct Seen {
   int entered = 0, left = 0;
 };
 
 struct Sensors : ::testing::Test {
-  Scene scene{engine(), kNeeds, {0, 0, 0}, 1};
+  Scene scene{engine(), kSensorNeeds, {0, 0, 0}, 1};
   std::map<std::pair<PlumbBody, PlumbBody>, Seen> seen;
 
   PlumbBody sensor(PlumbMotion motion, const PlumbVec3& position) {

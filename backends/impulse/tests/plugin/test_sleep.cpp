@@ -12,10 +12,10 @@
 namespace plumb::impulse::test {
 namespace {
 
-constexpr PlumbVec3 kDown = {0, -9.81, 0};
-constexpr PlumbNeeds kNeeds = PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION | PLUMB_NEED_SLEEPING |
-                              PLUMB_NEED_EVENTS | PLUMB_NEED_CONTACTS | PLUMB_NEED_CONTACT_IMPULSES |
-                              PLUMB_NEED_JOINTS | PLUMB_NEED_KINEMATIC | PLUMB_NEED_FORCES | PLUMB_NEED_RESTITUTION;
+constexpr PlumbNeeds kSleepNeeds = PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION |
+                                   PLUMB_NEED_SLEEPING | PLUMB_NEED_EVENTS | PLUMB_NEED_CONTACTS |
+                                   PLUMB_NEED_CONTACT_IMPULSES | PLUMB_NEED_JOINTS | PLUMB_NEED_KINEMATIC |
+                                   PLUMB_NEED_FORCES | PLUMB_NEED_RESTITUTION;
 
 double read_one(Scene& scene, PlumbField field, PlumbBody body, std::size_t column, std::size_t columns) {
   std::vector<double> row(columns);
@@ -41,7 +41,7 @@ struct Tower {
 };
 
 struct Asleep : ::testing::Test {
-  Scene scene{engine(), kNeeds, kDown, 1};
+  Scene scene{engine(), kSleepNeeds, kDown, 1};
   /// Until all of them sleep; fails after ten seconds.
   void let_sleep(const std::vector<PlumbBody>& bodies) {
     for (int step = 0; step < 600; ++step) {
@@ -131,7 +131,7 @@ TEST_F(Asleep, WakingKeepsTheImpulses) {
 
 /// Against a wall the ball would come back. Two equal balls, e = 1: the sleeper goes on with the speed of the other.
 TEST(Sleep, ABlowFindsTheSleeperAwake) {
-  Scene scene(engine(), kNeeds, {0, 0, 0}, 1);
+  Scene scene(engine(), kSleepNeeds, {0, 0, 0}, 1);
   const PlumbShape ball = scene.sphere(0.5);
   scene.body.material.restitution = 1;
   scene.body.flags = PLUMB_BODY_ASLEEP;
@@ -150,7 +150,7 @@ TEST(Sleep, ABlowFindsTheSleeperAwake) {
 
 /// A row of touching sleepers, each an island of its own: who is struck wakes them all in that step.
 TEST(Sleep, ABlowGoesThroughMany) {
-  Scene scene(engine(), kNeeds, {0, 0, 0}, 1);
+  Scene scene(engine(), kSleepNeeds, {0, 0, 0}, 1);
   const PlumbShape cube = scene.box({0.5, 0.5, 0.5});
   std::vector<PlumbBody> cubes;
   scene.body.flags = PLUMB_BODY_ASLEEP;
@@ -281,7 +281,7 @@ TEST_F(Asleep, ASlotIsTakenOverAwake) {
 /// A pile, part of which comes to rest and is hit again and again: the same bits on any number of threads.
 TEST(Sleep, HasTheSameBitsOnThreads) {
   const auto hash = [](std::uint32_t threads) {
-    Scene scene(engine(), kNeeds, kDown, threads);
+    Scene scene(engine(), kSleepNeeds, kDown, threads);
     scene.ground();
     const PlumbShape cube = scene.box({0.5, 0.5, 0.5});
     for (int i = 0; i < 100; ++i) scene.add(cube, {2.0 * (i % 10), 0.5 + i / 50, 2.0 * (i / 10 % 5)});

@@ -55,11 +55,11 @@ INSTANTIATE_TEST_SUITE_P(Of, Snapshots, ::testing::ValuesIn(scenes()), [](const 
   return name;
 });
 
-constexpr PlumbNeeds kNeeds = PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION | PLUMB_NEED_SNAPSHOT;
-constexpr PlumbVec3 kDown = {0, -9.81, 0};
+constexpr PlumbNeeds kSnapshotNeeds =
+    PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION | PLUMB_NEED_SNAPSHOT;
 
 struct Heap {
-  explicit Heap(PlumbNeeds more = 0) : scene(engine(), kNeeds | more, kDown, 1) {
+  explicit Heap(PlumbNeeds more = 0) : scene(engine(), kSnapshotNeeds | more, kDown, 1) {
     scene.ground();
     const PlumbShape cube = scene.box({0.5, 0.5, 0.5});
     for (int i = 0; i < 12; ++i) bodies.push_back(scene.add(cube, {0.3 * (i % 3), 0.6 + 1.1 * i, 0.1 * (i % 2)}));

@@ -15,14 +15,15 @@ namespace {
 
 using namespace reference;
 
-constexpr PlumbNeeds kNeeds = PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION | PLUMB_NEED_QUERIES;
+constexpr PlumbNeeds kCollideNeeds =
+    PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION | PLUMB_NEED_QUERIES;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 class Collide : public ::testing::Test {
  protected:
   void SetUp() override {
     if (const std::string unmet = Executor::unmet_requirement(); !unmet.empty()) GTEST_SKIP() << unmet;
-    scene_ = std::make_unique<Scene>(engine(), kNeeds, PlumbVec3{0, -9.81, 0}, 1);
+    scene_ = std::make_unique<Scene>(engine(), kCollideNeeds, PlumbVec3{0, -9.81, 0}, 1);
   }
   IPhysicsWorld& world() { return scene_->world(); }
 

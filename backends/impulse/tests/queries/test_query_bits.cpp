@@ -9,7 +9,7 @@
 namespace plumb::impulse::test {
 namespace {
 
-constexpr PlumbNeeds kNeeds = PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION | PLUMB_NEED_QUERIES;
+constexpr PlumbNeeds kBitNeeds = PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION | PLUMB_NEED_QUERIES;
 constexpr PlumbFilter kSeesAll = {1, ~0u, 0, 0};
 constexpr bool kDouble = sizeof(Real) == sizeof(double);
 
@@ -28,7 +28,7 @@ class QueryBits : public ::testing::Test {
  protected:
   void SetUp() override {
     if (const std::string unmet = Executor::unmet_requirement(); !unmet.empty()) GTEST_SKIP() << unmet;
-    scene_ = std::make_unique<Scene>(engine(), kNeeds, PlumbVec3{0, -9.81, 0}, 1);
+    scene_ = std::make_unique<Scene>(engine(), kBitNeeds, PlumbVec3{0, -9.81, 0}, 1);
     scene_->container(4, 30);
     std::vector<PlumbVec3> points;
     for (int i = 0; i < 14; ++i)

@@ -21,9 +21,9 @@ inline std::string name_of(Field field) {
 }
 
 /// splitmix64
-class Dice {
+class FieldDice {
  public:
-  explicit Dice(std::uint64_t seed) : state_(seed) {}
+  explicit FieldDice(std::uint64_t seed) : state_(seed) {}
   std::uint64_t bits() {
     std::uint64_t z = state_ += 0x9E3779B97F4A7C15U;
     z = (z ^ z >> 30) * 0xBF58476D1CE4E5B9U;
@@ -49,7 +49,7 @@ inline Box box_at(const Vec& centre, const Vec& half) { return {centre - half, c
 
 /// n boxes. uniform: sides of .5 to 1.5 m, about `neighbours` others overlap each.
 inline std::vector<Box> make_boxes(Field field, std::uint32_t n, std::uint64_t seed, Real neighbours = 10) {
-  Dice dice(seed + static_cast<std::uint64_t>(field) * 1000);
+  FieldDice dice(seed + static_cast<std::uint64_t>(field) * 1000);
   // Two boxes of mean side 1 overlap where their centres are within 1 of each other on each axis: a volume of 8.
   const Real half_scene = Real(.5) * static_cast<Real>(cube_root(8.0 * n / static_cast<double>(neighbours)));
   const auto half_size = [&] { return Vec{dice.between(.25, .75), dice.between(.25, .75), dice.between(.25, .75)}; };
@@ -59,7 +59,7 @@ inline std::vector<Box> make_boxes(Field field, std::uint32_t n, std::uint64_t s
     switch (field) {
       case Field::kUniform: box = box_at(dice.in_cube(half_scene), half_size()); break;
       case Field::kClustered: {  // dense balls far from each other, and a stray far out
-        Dice of_cluster(seed + i % 16);
+        FieldDice of_cluster(seed + i % 16);
         const Vec middle = of_cluster.in_cube(1000 * half_scene);
         box = box_at(middle + dice.in_cube(half_scene / 2), Real(.5) * half_size());
         if (i == n / 2) box = box_at({Real(1e8), 0, 0}, {1, 1, 1});

@@ -22,7 +22,7 @@ inline void make(Scene& scene, const PlumbJointDesc& desc) {
 /// Four drawers of 2 kg, one beside the other, with loads of 1 to 1,000 kg, and a ball of 50 kg that comes for each.
 inline void drawers(Scene& scene) {
   constexpr double kSine = 0.09950371902099892, kCosine = 0.99503719020998915;  // of half the slope, 11.4 degrees
-  constexpr double kDown = -2 * kSine * kCosine, kAlong = kCosine * kCosine - kSine * kSine;  // of the whole slope
+  constexpr double kDownhill = -2 * kSine * kCosine, kAlong = kCosine * kCosine - kSine * kSine;  // of the whole slope
   const PlumbQuat slope = {0, 0, -kSine, kCosine};
   const PlumbShape board = scene.box({0.5, 0.02, 0.3}), load = scene.box({0.1, 0.1, 0.1}), ball = scene.sphere(0.15);
   scene.body.mass_mode = PLUMB_MASS_FROM_TOTAL;
@@ -36,9 +36,9 @@ inline void drawers(Scene& scene) {
     desc.limits[0] = {-1, 0, 1, 0};
     make(scene, desc);
     scene.body.mass = heavy;
-    scene.add(load, {-kDown * 0.12, kAlong * 0.12, at.z}, slope);
+    scene.add(load, {-kDownhill * 0.12, kAlong * 0.12, at.z}, slope);
     scene.body.mass = 50;
-    const PlumbBody comes = scene.add(ball, {3, kDown * 0.6 - 0.35, at.z});
+    const PlumbBody comes = scene.add(ball, {3, kDownhill * 0.6 - 0.35, at.z});
     scene.write(PLUMB_FIELD_VELOCITY, comes, {-5.0, 3.0, 0, 0, 0, 0});
   }
 }

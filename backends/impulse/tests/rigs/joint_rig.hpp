@@ -12,6 +12,7 @@
 
 namespace plumb::impulse {
 
+constexpr double kPi_ = std::numbers::pi;
 constexpr double kGravity = 9.81;
 
 class JointRig {

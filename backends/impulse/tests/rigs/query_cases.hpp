@@ -18,7 +18,7 @@ namespace plumb::impulse {
 class QueryBench {
  public:
   QueryBench(std::uint32_t boxes, std::uint32_t rays, std::uint32_t threads) : rig(threads) {
-    Dice dice(11);
+    FieldDice dice(11);
     const std::uint32_t cube = rig.add_shape(make({Real(.5), Real(.5), Real(.5)}));
     const auto across = static_cast<std::uint32_t>(std::lround(cube_root(boxes)));
     const double pitch = 1.145, half = .5 * pitch * across;  // 1.5 m3 a cube
@@ -63,7 +63,7 @@ class QueryBench {
 
  private:
   static Shape make(const Vec& half) { return {ShapeType::kBox, 0, half, length(half)}; }
-  static Quat turn(Dice& dice) {
+  static Quat turn(FieldDice& dice) {
     for (;;) {  // a point of the ball, drawn from the cube, put on the sphere
       const Quat q = {dice.between(-1, 1), dice.between(-1, 1), dice.between(-1, 1), dice.between(-1, 1)};
       const Real square = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
@@ -71,7 +71,7 @@ class QueryBench {
     }
   }
   /// From anywhere above and within the container to anywhere within: what looks, listens and shoots there.
-  static std::vector<PlumbRay> rays_into(Dice& dice, std::uint32_t count, double half) {
+  static std::vector<PlumbRay> rays_into(FieldDice& dice, std::uint32_t count, double half) {
     std::vector<PlumbRay> rays(count);
     const auto within = [&](double height) {
       const Vec v = dice.in_cube(1);

@@ -13,9 +13,9 @@
 namespace plumb::impulse::test {
 namespace {
 
-constexpr PlumbVec3 kDown = {0, -9.81, 0}, kNoGravity = {0, 0, 0};
-constexpr PlumbNeeds kNeeds = PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION | PLUMB_NEED_JOINTS |
-                              PLUMB_NEED_AXIS_LOCKS | PLUMB_NEED_SNAPSHOT;
+constexpr PlumbVec3 kNoGravity = {0, 0, 0};
+constexpr PlumbNeeds kBoundNeeds = PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION |
+                                   PLUMB_NEED_JOINTS | PLUMB_NEED_AXIS_LOCKS | PLUMB_NEED_SNAPSHOT;
 constexpr double kPerson = 2000;
 
 /// Whether the step made energy.
@@ -28,7 +28,7 @@ bool step(Scene& scene, double dt = 1.0 / 60) {
 }
 
 struct Crowd {
-  explicit Crowd(PlumbNeeds needs = kNeeds, std::uint32_t threads = 1, double mass = kPerson)
+  explicit Crowd(PlumbNeeds needs = kBoundNeeds, std::uint32_t threads = 1, double mass = kPerson)
       : scene(engine(), needs, kDown, threads) {
     bridge = rope_bridge(scene);
     for (int i = 0; i < 8; ++i) people.push_back(person(scene, bridge, mass, 1.4 * (i - 3.5)));
@@ -57,7 +57,7 @@ TEST(EnergyBound, StepsThatMakeEnergyAreGoneInParts) {
 TEST(EnergyBound, AStepInPartsTellsAllItsContacts) {
   constexpr double kDt = 1.0 / 60;
   constexpr double kLight = 500;  // light enough that parts suffice, and nothing is taken out
-  Crowd crowd(kNeeds | PLUMB_NEED_CONTACTS | PLUMB_NEED_CONTACT_IMPULSES, 1, kLight);
+  Crowd crowd(kBoundNeeds | PLUMB_NEED_CONTACTS | PLUMB_NEED_CONTACT_IMPULSES, 1, kLight);
   int bounded = 0;
   std::vector<double> before(crowd.people.size());
   for (int i = 0; i < 120; ++i) {
@@ -120,7 +120,7 @@ TEST(EnergyBound, ASnapshotGoesOnInParts) {
 }
 
 TEST(EnergyBound, ThreadsDoNotMatter) {
-  Crowd one(kNeeds, 1), three(kNeeds, 3);
+  Crowd one(kBoundNeeds, 1), three(kBoundNeeds, 3);
   one.scene.run(120);
   three.scene.run(120);
   EXPECT_EQ(one.scene.hash(), three.scene.hash());
@@ -233,7 +233,7 @@ const std::vector<Source>& sources() {
 TEST(EnergyBound, SourcesAreNoGain) {
   for (const Source& source : sources())
     for (const double dt : {1.0 / 30, 1.0 / 60, 1.0 / 240}) {
-      Scene scene(engine(), kNeeds | PLUMB_NEED_KINEMATIC | PLUMB_NEED_FORCES, source.gravity, 1);
+      Scene scene(engine(), kBoundNeeds | PLUMB_NEED_KINEMATIC | PLUMB_NEED_FORCES, source.gravity, 1);
       source.build(scene);
       for (int i = 0; i < 120; ++i) {
         if (scene.before_step) scene.before_step(scene, i);

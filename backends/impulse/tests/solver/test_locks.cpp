@@ -9,15 +9,14 @@
 namespace plumb::impulse::test {
 namespace {
 
-constexpr PlumbVec3 kDown = {0, -9.81, 0};
-constexpr PlumbNeeds kNeeds = PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION | PLUMB_NEED_AXIS_LOCKS |
-                              PLUMB_NEED_FORCES | PLUMB_NEED_GYROSCOPIC;
+constexpr PlumbNeeds kLockNeeds = PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION |
+                                  PLUMB_NEED_AXIS_LOCKS | PLUMB_NEED_FORCES | PLUMB_NEED_GYROSCOPIC;
 constexpr const char* kSolvers[] = {"tgs_soft", "si", "jacobi", "xpbd"};
 
 /// A heap of boxes that move in the plane z = 0 only: not a bit of z, and no turn out of the plane.
 TEST(Locks, HoldExactly) {
   for (const char* solver : kSolvers) {
-    Scene scene(engine(), kNeeds, kDown, 1, {"solver", solver});
+    Scene scene(engine(), kLockNeeds, kDown, 1, {"solver", solver});
     scene.ground();
     scene.body.locks = PLUMB_LOCK_LINEAR_Z | PLUMB_LOCK_ANGULAR_X | PLUMB_LOCK_ANGULAR_Y;
     const PlumbShape brick = scene.box({0.5, 0.3, 0.4});
@@ -39,7 +38,7 @@ TEST(Locks, HoldExactly) {
 
 /// Held along x, a ball on a slope stays where it is: the slope can only push it up and along x.
 TEST(Locks, CarryWhatTheyHold) {
-  Scene scene(engine(), kNeeds, kDown, 1);
+  Scene scene(engine(), kLockNeeds, kDown, 1);
   constexpr double kHalf = 0.38268343236508977;  // of 45 degrees
   scene.body.material.friction = 0;
   scene.add_static(scene.box({5, 0.5, 5}), {0, -0.70710678118654752, 0}, {0, 0, kHalf, std::sqrt(1 - kHalf * kHalf)});
@@ -52,7 +51,7 @@ TEST(Locks, CarryWhatTheyHold) {
 
 /// Free about z alone: it turns by the moment about z, however it lies; and not when it is pushed about others.
 TEST(Locks, LeaveTheMomentAboutWhatIsFree) {
-  Scene scene(engine(), kNeeds & ~PLUMB_NEED_COLLISION, {0, 0, 0}, 1);
+  Scene scene(engine(), kLockNeeds & ~PLUMB_NEED_COLLISION, {0, 0, 0}, 1);
   scene.body.mass_mode = PLUMB_MASS_EXPLICIT;
   scene.body.mass = 2;
   scene.body.inertia = {1, 3, 3.5};

@@ -6,7 +6,6 @@
 namespace plumb::impulse::test {
 namespace {
 
-constexpr PlumbVec3 kDown = {0, -9.81, 0};
 constexpr const char* kSolvers[] = {"tgs_soft", "si", "jacobi", "xpbd"};
 
 /// Pushed and braked, all of them, and far enough apart to meet nobody.

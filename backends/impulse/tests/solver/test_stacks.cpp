@@ -10,11 +10,11 @@
 namespace plumb::impulse::test {
 namespace {
 
-constexpr PlumbNeeds kNeeds = PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION;
+constexpr PlumbNeeds kStackNeeds = PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION;
 
 /// The largest way sideways of a cube of a tower, after so many steps, m.
 double drift_of_tower(int cubes, int steps) {
-  Scene scene(engine(), kNeeds, {0, -9.81, 0}, 1);
+  Scene scene(engine(), kStackNeeds, {0, -9.81, 0}, 1);
   scene.ground();
   const PlumbShape cube = scene.box({0.5, 0.5, 0.5});
   for (int i = 0; i < cubes; ++i) scene.add(cube, {0, i + 0.5, 0});
@@ -29,7 +29,7 @@ TEST(Stacks, OfBoxesAreNotLeantByRounding) { EXPECT_LT(drift_of_tower(20, 300), 
 
 /// A motion of all of its cubes at once swings up where contacts are stiffer than one sweep a sub-step bears.
 TEST(Stacks, OfManyRowsComeToRest) {
-  Scene scene(engine(), kNeeds, {0, -9.81, 0}, 1);
+  Scene scene(engine(), kStackNeeds, {0, -9.81, 0}, 1);
   scene.ground();
   const PlumbShape cube = scene.box({0.5, 0.5, 0.5});
   constexpr int base = 10;

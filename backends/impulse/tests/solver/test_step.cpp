@@ -11,8 +11,7 @@
 namespace plumb::impulse::test {
 namespace {
 
-constexpr PlumbNeeds kNeeds = PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION;
-constexpr PlumbVec3 kDown = {0, -9.81, 0};
+constexpr PlumbNeeds kStepNeeds = PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION;
 
 void fill(Scene& scene, int bodies) {
   scene.container(4, 40);
@@ -25,7 +24,7 @@ void fill(Scene& scene, int bodies) {
 }
 
 std::uint64_t pile_hash(std::uint32_t threads, const PlumbHost* host = nullptr) {
-  Scene scene(engine(host), kNeeds, kDown, threads);
+  Scene scene(engine(host), kStepNeeds, kDown, threads);
   fill(scene, 300);
   scene.run(90);
   return scene.hash();
@@ -42,7 +41,7 @@ TEST(Step, HasTheSameBitsHoweverManyThreads) {
 }
 
 TEST(Step, HasTheSameBitsUnderAnyRoundingOfTheHost) {
-  Scene scene(engine(), kNeeds, kDown, 1);
+  Scene scene(engine(), kStepNeeds, kDown, 1);
   fill(scene, 300);
   const std::uint64_t before = simd::control_word();
   simd::set_control_word(before | modes::kFlush | modes::kDown);
@@ -74,7 +73,7 @@ enum class Stopped { kNot, kAtTheWrite, kInTheStep };
 
 /// A body goes wild below another one; afterwards that one and one far away still fall as they should.
 void harms_nobody(const std::vector<double>& velocity_row, Stopped stopped) {
-  Scene scene(engine(), kNeeds, kDown, 1);
+  Scene scene(engine(), kStepNeeds, kDown, 1);
   scene.ground();
   const PlumbShape cube = scene.box({0.5, 0.5, 0.5});
   const PlumbBody wild = scene.add(cube, {0, 0.5, 0});
@@ -123,7 +122,7 @@ TEST(Step, WhatTheEnginesNumbersCannotHoldIsStoppedAndReported) {
 }
 
 TEST(Step, SizesBeyondTheEnginesNumbersAreRefused) {
-  Scene scene(engine(), kNeeds, kDown, 1);
+  Scene scene(engine(), kStepNeeds, kDown, 1);
   EXPECT_THROW(scene.sphere(1e300), Error);
   EXPECT_THROW(scene.box({1, 1e-200, 1}), Error);
   scene.body.mass_mode = PLUMB_MASS_FROM_TOTAL;
@@ -134,7 +133,7 @@ TEST(Step, SizesBeyondTheEnginesNumbersAreRefused) {
 
 /// More pairs in the first step than there is room for.
 TEST(Step, IsRepeatedWithMoreRoomAndLosesNothing) {
-  Scene scene(engine(), kNeeds, kDown, 1);
+  Scene scene(engine(), kStepNeeds, kDown, 1);
   const PlumbShape ball = scene.sphere(0.5);
   constexpr int kSide = 30;
   for (int i = 0; i < kSide * kSide; ++i) scene.add(ball, {1.0 * (i % kSide), 0, 1.0 * (i / kSide)});
@@ -150,7 +149,7 @@ TEST(Step, IsRepeatedWithMoreRoomAndLosesNothing) {
 
 /// A body with hundreds of neighbours: more contacts than there are colours.
 TEST(Step, ABodyWithHundredsOfContactsIsSolved) {
-  Scene scene(engine(), kNeeds, kDown, 1);
+  Scene scene(engine(), kStepNeeds, kDown, 1);
   scene.ground();
   scene.body.density = 1000;
   const PlumbBody plate = scene.add(scene.box({5, 0.5, 5}), {0, 0.5, 0});

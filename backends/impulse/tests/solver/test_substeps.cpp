@@ -10,8 +10,6 @@
 namespace plumb::impulse::test {
 namespace {
 
-constexpr PlumbVec3 kDown = {0, -9.81, 0};
-
 /// Cubes of 1 m on the ground.
 struct Cubes {
   explicit Cubes(PlumbNeeds more_needs = 0)
