@@ -7,7 +7,7 @@
 
 namespace plumb::impulse {
 
-constexpr std::uint32_t kColours = 50;         // bits of a body's mask
+constexpr std::uint32_t kColours = 35;         // bits of a body's mask
 constexpr std::uint32_t kOverflow = kColours;  // the "colour" of constraints that found none: solved one by one
 /// Contacts of a colour and of islands that have the same sub-steps are next to each other: what they are sorted by.
 constexpr std::uint32_t kColourKeys = kSubstepLevels * (kColours + 1);

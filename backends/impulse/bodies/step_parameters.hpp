@@ -40,27 +40,30 @@ constexpr std::uint32_t kMostPasses = 1000;
 struct SubstepParameters {
   std::uint32_t level;  ///< its number among SubstepLevels
   std::uint32_t substeps;
-  Real h;            ///< s, one sub-step
-  Real inverse_h;    ///< 1/s
-  Softness contact;  ///< between two bodies that move, of like masses
-  Softness loaded;   ///< of unlike ones
-  Softness ground;   ///< against a body that does not
-  Softness joint;    ///< of joints that are solved one by one
-  Real joint_rate;   ///< errors of mechanisms that are solved as a whole are taken back at this rate, 1/s
-  Real chain_rate;   ///< those of long mechanisms no faster than at this one
+  std::uint32_t relaxations;  ///< passes over the contacts after the positions have moved
+  Real h;                     ///< s, one sub-step
+  Real inverse_h;             ///< 1/s
+  Softness contact;           ///< between two bodies that move, of like masses
+  Softness loaded;            ///< of unlike ones
+  Softness ground;            ///< against a body that does not
+  Softness joint;             ///< of joints that are solved one by one
+  Real joint_rate;            ///< errors of mechanisms that are solved as a whole are taken back at this rate, 1/s
+  Real chain_rate;            ///< those of long mechanisms no faster than at this one
   // Where all bodies have the same sub-steps; else each body knows (SolverBodies):
   Real warm_start;  ///< share of the last step's impulses that is kept: its sub-step to this one's, or 0
   Real shortened;   ///< this sub-step over the last one, squared
 };
 
-/// Kinds of sub-steps that islands of one step may have.
-constexpr std::uint32_t kSubstepLevels = 5;
+/// Kinds of sub-steps that islands of one step may have: so many lengths, and those of small and of large stars.
+constexpr std::uint32_t kSubstepLengths = 5, kStarLevel = kSubstepLengths, kSubstepLevels = kStarLevel + 2;
 
 /// In what sub-steps an island may be solved: its loads choose (solver/choose_substeps.hpp). Hierarchical time-step
 /// levels: McMillan, "The Vectorization of Small-N Integrators", 1986.
 struct SubstepLevels {
-  SubstepParameters of[kSubstepLevels];  ///< those of the setting first, each shorter than the one before
-  std::uint32_t count;                   ///< of those that may be chosen
+  /// Those of the setting first, each shorter than the one before; at last those of stars (solver/stars.hpp): as long
+  /// as the first, with more relaxations.
+  SubstepParameters of[kSubstepLevels];
+  std::uint32_t count;  ///< of lengths that may be chosen; with one of them stars are solved as all others are
 };
 
 struct StepParameters : SubstepParameters {

@@ -26,7 +26,7 @@
 // islands, which have loops of their own. Of the waiting the best of all wins: rounds end.
 //
 // A manifold keeps its colour while it is there and pushes the same two (match.cpp puts it back, and its bits). A body
-// has 50 colours: what finds none is of the overflow colour, is solved one by one after the others, and asks again in
+// has 35 colours: what finds none is of the overflow colour, is solved one by one after the others, and asks again in
 // the next step. Bodies of a mechanism that contacts push as a whole are one here, by their owner
 // (bodies/mechanism.hpp).
 #pragma once

@@ -16,10 +16,13 @@ constexpr double kChainHertz = 240, kChainDampingRatio = 10;
 /// x' + m l w^2 x = 0, time counted in sub-steps, and swings up where w^2 > 1 + m / l (Routh and Hurwitz), whatever the
 /// damping ratio: a quarter shakes pyramids of seven rows and more. Pyramids of 5 to 30 rows come to rest at this one.
 constexpr double kContactRate = 0.1875, kGroundStiffness = 1.5;
-/// The same between unlike masses, and where one body does not move, in steps whose loads ask for more sub-steps. There m
-/// is small, for a light body passes on little of what a heavy one needs, and nothing but w^2 < 1 keeps a heavy box from
-/// rocking on a light one for ever.
+/// The same between unlike masses, and where one body does not move, in steps whose loads ask for more sub-steps. There
+/// m is small, for a light body passes on little of what a heavy one needs, and nothing but w^2 < 1 keeps a heavy box
+/// from rocking on a light one for ever.
 constexpr double kLoadedContactRate = 0.1;
+/// Relaxing passes of a sub-step where many heavy bodies lie on a light one: a small star, and a large one
+/// (solver/stars.hpp).
+constexpr std::uint32_t kRelaxationsOfStars[] = {8, 24};
 
 /// In the order of SolverKind.
 constexpr const char* kSolvers[] = {"tgs_soft", "si", "jacobi", "xpbd"};
@@ -102,6 +105,7 @@ SubstepParameters Settings::of_substep(double dt, std::uint32_t parts, double la
   const double h = substep(dt, parts), ratio = last_h == 0 ? 1 : h / last_h;
   SubstepParameters of{};
   of.substeps = parts;
+  of.relaxations = 1;
   of.h = static_cast<Real>(h);
   of.inverse_h = static_cast<Real>(1 / h);
   const double rate = parts > substeps ? kLoadedContactRate : kContactRate;
@@ -141,14 +145,21 @@ SubstepLevels Settings::levels(double dt, double last_h, double most_rate) const
   SubstepLevels levels{};
   std::uint32_t factor = 2;  // larger where few levels would end far below the most
   while (substeps * factor * factor * factor * factor * 4 <= most_substeps) factor *= 2;
-  static_assert(kSubstepLevels == 5);
+  static_assert(kSubstepLengths == 5);
   std::uint32_t parts = substeps;
   do {
     SubstepParameters& level = levels.of[levels.count];
     level = of_substep(dt, parts, last_h, most_rate);
     level.level = levels.count++;
     parts *= factor;
-  } while (levels.count < kSubstepLevels && parts <= most_substeps);
+  } while (levels.count < kSubstepLengths && parts <= most_substeps);
+  std::uint32_t star = kStarLevel;
+  for (const std::uint32_t relaxations : kRelaxationsOfStars) {
+    levels.of[star] = levels.of[0];
+    levels.of[star].level = star;
+    levels.of[star].relaxations = relaxations;
+    ++star;
+  }
   return levels;
 }
 

@@ -29,6 +29,8 @@ constexpr Real kColumnGrows = 1;
 /// pile of thousands; and of all islands that want so many or more: a crowd of figures does without, and one crane
 /// beside them does not have to. A joint takes as long as so many contacts.
 constexpr std::uint32_t kMostWork = 16384, kMostWorkOfAll = 65536, kWorkOfJoint = 8;
+/// A star that is shaken asks for sub-steps, up to this level; it rests where it has relaxations instead.
+constexpr std::uint32_t kShakenLevel = 1;
 /// What was asked is forgotten within that time, s.
 constexpr Real kLoadFades = 1;
 /// What asks for so much more than there is, relative to that, has it.
@@ -81,7 +83,7 @@ struct ChooseLevels {
     const BodyPace before = work.paces[i];
     const bool pushed = is_pushed(i);
     const Real rate = pushed ? before.load_rate : Real(0);
-    work.loads[i] = {i, i, 0, ordered_bits(rate), 0, 0};
+    work.loads[i] = {i, i, 0, ordered_bits(rate), 0, 0, {}, 0};
     note_asked(rate * work.parameters->dt);
     if (pushed && before.last_h != work.levels->of[0].h) atomic_raise(&work.counters->other_substeps, 1U);
     put_level(i, 0, before, 0, 0);
@@ -100,6 +102,8 @@ struct ChooseLevels {
     const Real downward = dot(work.parameters->gravity, kept.normal);
     ask(kept, downward, b, a);
     ask(kept, -downward, a, b);
+    add_spoke(downward, b.body, a.body);
+    add_spoke(-downward, a.body, b.body);
     if (is_column(a.body) && is_column(b.body) && are_alike(a.body, b.body))
       ask_for_column(row, downward, downward > 0 ? b.body : a.body, downward > 0 ? a.body : b.body);
   }
@@ -142,6 +146,14 @@ struct ChooseLevels {
         wanted = max(wanted, (1 + 2 * kAsksEnough) * below);
     }
     return min(wanted, (1 + dt / kColumnGrows) * last);
+  }
+  /// downward: gravity along the way from one body to the other, m/s2.
+  PLUMB_HD void add_spoke(Real downward, std::uint32_t on, std::uint32_t by) const {
+    const Velocity* const all = work.bodies.velocity;
+    const Real own = all[on].inverse_mass, others = all[by].inverse_mass;
+    if (!(others > 0 && own > kLeastSpoke * others && downward > kSpokeUpright * length(work.parameters->gravity)))
+      return;
+    if (work.loads[on].star.add(own / others)) atomic_raise(&work.counters->loaded, 1U);
   }
   /// By which two bodies pressed on each other in the last step.
   PLUMB_HD Real force_of(const CachedManifold& kept, std::uint32_t a, std::uint32_t b) const {
@@ -188,6 +200,7 @@ struct ChooseLevels {
     const std::uint32_t at = impulse::find_root(LoadParents{work.loads}, i);
     IslandLoad &own = work.loads[i], &island = work.loads[at];
     own.root = at;
+    if (own.star.size() != 0) atomic_raise(&island.star_size, own.star.size());
     if (at == i) return;
     if (own.asked != 0) atomic_max(&island.asked, own.asked);
     if (own.rate != 0) atomic_max(&island.rate, own.rate);
@@ -213,18 +226,35 @@ struct ChooseLevels {
     while (island.wants + 1 < levels.count && substeps(island.wants) * (1 + kAsksEnough) < asked &&
            island.work <= kMostWork / levels.of[island.wants + 1].substeps)
       ++island.wants;
+    if (island.star_size != 0 && island.wants <= kShakenLevel) {
+      std::uint32_t star = kStarLevel + island.star_size - 1;
+      if (island.work > kMostWork / passes_of(star)) star = kStarLevel;
+      if (island.work <= kMostWork / passes_of(star)) island.wants = star;
+    }
     if (island.wants != 0) atomic_add(&work.counters->wanted_work[island.wants], island.work);
   }
   /// Whether there is time for all who want a level, or one beyond.
   PLUMB_HD bool has_time_for(std::uint32_t level) const {
     std::uint32_t wanted = 0;
-    for (std::uint32_t k = level; k < kSubstepLevels; ++k) wanted += work.counters->wanted_work[k];
+    for (std::uint32_t k = level; k < kSubstepLengths; ++k) wanted += work.counters->wanted_work[k];
     return wanted <= kMostWorkOfAll / work.levels->of[level].substeps;
+  }
+  PLUMB_HD bool has_time_for_stars() const {
+    std::uint32_t wanted = 0;
+    for (std::uint32_t k = kStarLevel; k < kSubstepLevels; ++k)
+      wanted += min(work.counters->wanted_work[k], kMostWorkOfAll) * passes_of(k);
+    return wanted <= kMostWorkOfAll;
+  }
+  /// Over the contacts in a step; elsewhere a sub-step has two, which count as one.
+  PLUMB_HD std::uint32_t passes_of(std::uint32_t star) const {
+    const SubstepParameters& level = work.levels->of[star];
+    return level.substeps * (1 + level.relaxations) / 2;
   }
   PLUMB_HD void choose(std::uint32_t i) const {
     const IslandLoad& island = work.loads[work.loads[i].root];
     std::uint32_t level = island.wants;
-    while (level != 0 && !has_time_for(level)) --level;
+    if (level >= kStarLevel && !has_time_for_stars()) level = 0;
+    while (level != 0 && level < kStarLevel && !has_time_for(level)) --level;
     if (level != 0 || island.asked != 0)
       put_level(i, level, work.body_levels[i].before, number_of(island.asked), work.paces[i].column);
     note_levels(level);

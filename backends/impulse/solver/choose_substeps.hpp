@@ -7,8 +7,9 @@
 // lowers it by F / (m w^2), and rocks it: seen from its size r such a load has the frequency sqrt(F / (m r)), and
 // sub-steps must be shorter in proportion. What is no heavier than kAlikeMasses times what bears it asks for nothing,
 // nor does a load of no more than so many times a body's own weight: piles do well as it is. But a column of like
-// bodies buckles where it is high (columns.hpp). Tension in joints asks for nothing: tension.hpp deals with it, and
-// what swings gains where the number changes with each swing.
+// bodies buckles where it is high (columns.hpp), and many on a light one take more relaxing passes (stars.hpp). Tension
+// in joints asks for nothing: tension.hpp deals with it, and what swings gains where the number changes with each
+// swing.
 //
 // Bodies that touch or are joined are of one island and go through its sub-steps together; no contact and no joint is
 // between two islands, so that one may be solved after the other. What was asked lives on in the bodies, and fades
@@ -22,16 +23,19 @@
 #include "joints/joint.hpp"
 #include "narrowphase/contact_cache.hpp"
 #include "solver/settled_islands.hpp"
+#include "solver/stars.hpp"
 
 namespace plumb::impulse {
 
 /// Of a body, and at the root of an island of the island.
 struct IslandLoad {
   std::uint32_t parent, root;
-  std::uint32_t asked;  ///< sub-steps: bits of a float
-  std::uint32_t rate;   ///< the largest of its bodies' load_rate: likewise
-  std::uint32_t work;   ///< what a sub-step takes, in contacts
-  std::uint32_t wants;  ///< level
+  std::uint32_t asked;      ///< sub-steps: bits of a float
+  std::uint32_t rate;       ///< the largest of its bodies' load_rate: likewise
+  std::uint32_t work;       ///< what a sub-step takes, in contacts
+  std::uint32_t wants;      ///< level
+  Star star;                ///< with the body as its hub
+  std::uint32_t star_size;  ///< of the largest
 };
 
 struct LoadWork {

@@ -18,7 +18,8 @@ struct SoftContacts : SolverStep {
   /// Takes overlap back, softly. final: no relaxing pass follows in this sub-step.
   PLUMB_DEVICE void push_contacts(Team& team, const StepParameters& step, std::uint32_t substep, bool final) const;
   /// After the positions have moved: nothing that touches approaches, and what was pushed does not stay as velocity.
-  PLUMB_DEVICE void relax_contacts(Team& team, const StepParameters& step) const;
+  /// final: no other pass follows in this sub-step.
+  PLUMB_DEVICE void relax_contacts(Team& team, const StepParameters& step, bool final) const;
 };
 
 /// Friction below the centre tilts a body: the normals have the first word and the last.
@@ -95,14 +96,16 @@ PLUMB_DEVICE void SoftContacts<kSurfaceVelocity, kMechanisms, kImpacts>::push_co
 }
 
 template <bool kSurfaceVelocity, bool kMechanisms, bool kImpacts>
-PLUMB_DEVICE void SoftContacts<kSurfaceVelocity, kMechanisms, kImpacts>::relax_contacts(
-    Team& team, const StepParameters& step) const {
+PLUMB_DEVICE void SoftContacts<kSurfaceVelocity, kMechanisms, kImpacts>::relax_contacts(Team& team,
+                                                                                        const StepParameters& step,
+                                                                                        bool final) const {
   const bool friction = features.friction;
-  for_contacts<kSurfaceVelocity, kMechanisms>(team, contacts, step.level, solver, BodyUse::kLastVelocity,
+  const BodyUse use = final ? BodyUse::kLastVelocity : BodyUse::kVelocity;
+  for_contacts<kSurfaceVelocity, kMechanisms>(team, contacts, step.level, solver, use,
                                               [=](const auto& row, auto& contact, auto& a, auto& b) {
                                                 solve_contact_softly(contact, hard_target(contact), a, b, friction);
                                                 store_impulses(row, contact);
-                                                add_up_impulses(row, contact.impulse);
+                                                if (final) add_up_impulses(row, contact.impulse);
                                               });
 }
 

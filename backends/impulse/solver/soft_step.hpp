@@ -54,7 +54,7 @@ struct StepSoftly : SoftContacts<kSurfaceVelocity, !Executor::kWarps || kJoints 
       hold_speeds(team, step);
       if (!relaxes || !features.collision) continue;
       begin_loads(team, step);
-      this->relax_contacts(team, step);
+      for (std::uint32_t n = 1; n <= step.relaxations; ++n) this->relax_contacts(team, step, n == step.relaxations);
       if (k + 1 == step.substeps) continue;
       end_loads(team, step);
       hand_over_loads(team, step);

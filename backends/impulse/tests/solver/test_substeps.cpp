@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include "tests/rigs/engine.hpp"
 
@@ -206,6 +207,45 @@ TEST(SubstepsByLoad, AreThoseOfTheSettingInCrowds) {
   const double sink = on_a_plate(keeps, 0);
   EXPECT_LT(on_a_plate(few, 20), 0.6 * sink);
   EXPECT_GT(on_a_plate(many, 1100), 0.9 * sink);
+}
+
+/// So many boxes of that mass on a plate of 56 kg, fallen by a millimetre, after 10 s: speed of the fastest, m/s.
+double fastest_on_a_plate(Cubes& cubes, int a_side, double mass) {
+  cubes.scene.body.mass = 56;
+  cubes.scene.add(cubes.scene.box({0.3 * a_side, 0.05, 0.3 * a_side}), {0, 0.05, 0});
+  const PlumbShape shape = cubes.scene.box({0.2, 0.2, 0.2});
+  cubes.scene.body.mass = mass;
+  std::vector<PlumbBody> boxes;
+  for (int i = 0; i < a_side; ++i)
+    for (int j = 0; j < a_side; ++j)
+      boxes.push_back(cubes.scene.add(shape, {0.6 * i - 0.3 * (a_side - 1), 0.301, 0.6 * j - 0.3 * (a_side - 1)}));
+  cubes.scene.run(600);
+  double fastest = 0;
+  for (const PlumbBody& box : boxes) fastest = std::max(fastest, cubes.speed(box));
+  return fastest;
+}
+
+/// None is much heavier than the plate; all together are.
+TEST(Stars, OfManyHeavyBoxesOnALightPlateComeToRest) {
+  Cubes keeps;
+  keeps.keep_to_the_setting();
+  EXPECT_GT(fastest_on_a_plate(keeps, 4, 200), 1e-2) << "a sweep stops too little of what all do together";
+  for (const double mass : {100.0, 800.0}) {
+    Cubes chooses;
+    EXPECT_LT(fastest_on_a_plate(chooses, 4, mass), 1e-3) << mass;
+  }
+  Cubes many;
+  EXPECT_LT(fastest_on_a_plate(many, 8, 40), 1e-3);
+}
+
+/// Two heavy boxes, or sixteen light ones.
+TEST(Stars, AreNoneOfAFewOrOfLightOnes) {
+  for (const auto& [a_side, mass] : {std::pair{1, 250.0}, std::pair{4, 10.0}}) {
+    Cubes chooses, keeps;
+    keeps.keep_to_the_setting();
+    EXPECT_EQ(fastest_on_a_plate(chooses, a_side, mass), fastest_on_a_plate(keeps, a_side, mass));
+    EXPECT_EQ(chooses.scene.hash(), keeps.scene.hash());
+  }
 }
 
 /// What loads asked for in the last second is part of a snapshot.
