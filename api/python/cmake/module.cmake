@@ -2,7 +2,7 @@
 pybind11_add_module(plumb_python MODULE NO_EXTRAS
   src/module.cpp src/errors.cpp src/dtypes.cpp src/backend.cpp src/world.cpp src/shapes.cpp src/numbers.cpp
   src/core_calls.cpp src/extensions.cpp src/queries.cpp src/state.cpp src/lent_rows.cpp src/cuda_order.cpp)
-set_target_properties(plumb_python PROPERTIES OUTPUT_NAME _core CXX_VISIBILITY_PRESET hidden UNITY_BUILD OFF)
+set_target_properties(plumb_python PROPERTIES OUTPUT_NAME _core CXX_VISIBILITY_PRESET hidden)
 target_compile_features(plumb_python PRIVATE cxx_std_20)
 target_compile_options(plumb_python PRIVATE $<$<CONFIG:Release>:-O1>)  # it hands on: what takes time is in the engines
 target_link_libraries(plumb_python PRIVATE plumb::loader ${CMAKE_DL_LIBS})
@@ -20,6 +20,7 @@ endif()
 target_compile_definitions(plumb_python PRIVATE PLUMB_PYTHON_PREFIX="")
 target_link_libraries(plumb_python PRIVATE plumb_private)
 plumb_precompile(plumb_python ${CMAKE_CURRENT_SOURCE_DIR}/src/core.hpp)
+plumb_compile_together(plumb_python 7)
 set(package ${CMAKE_BINARY_DIR}/lib/python/plumb)
 set_target_properties(plumb_python PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${package})
 file(GLOB files CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR}/plumb plumb/*.py plumb/*.pyi plumb/py.typed)
