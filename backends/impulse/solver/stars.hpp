@@ -14,9 +14,10 @@ namespace plumb::impulse {
 /// A spoke has at least that share of the hub's mass, and presses on it along gravity within so much: the cosine of an
 /// angle.
 constexpr Real kLeastSpoke = Real(0.25), kSpokeUpright = Real(0.5);
-/// A star has so many spokes, of so many times the hub's mass: 16 boxes on a plate were seen to swing from 24 times on.
-/// Of so many it is a large one.
-constexpr std::uint32_t kLeastSpokes = 3, kLeastStar = 16, kLargeStar = 48;
+/// A star has so many spokes, of so many times the hub's mass: boxes on a plate on the ground were seen to swing from
+/// 24 times on, crates on a cart, which rolls, from 12 on. Less is a body in a heap of its like. Of so many it is a
+/// large one.
+constexpr std::uint32_t kLeastSpokes = 3, kLeastStar = 10, kLargeStar = 24;
 
 /// What presses on a body. A sum of whole numbers, which does not depend on the order.
 struct Star {
