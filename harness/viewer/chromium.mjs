@@ -9,4 +9,5 @@ export const kArguments = [
   '--use-gl=angle',
   '--use-angle=swiftshader',
   '--enable-unsafe-swiftshader',
+  '--disable-gpu-compositing', // what is no canvas is painted without the detour by software that plays a graphics card
 ];

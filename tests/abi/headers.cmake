@@ -1,4 +1,5 @@
-# Compiles every public header by itself: those in C as COMPILER's STANDARD, those in C++ where it is C++20 or later.
+# Compiles the public headers as COMPILER's STANDARD: those in C everywhere, those in C++ where it is C++20 or later. All
+# in one file, from the first to the last and in another from the last to the first; if ALONE each by itself, too.
 set(warnings -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror)
 set(language c)
 set(pattern ${HEADERS}/plumb/*.h)
@@ -13,11 +14,21 @@ list(LENGTH files count)
 if(count EQUAL 0)
   message(FATAL_ERROR "no header in ${HEADERS}/plumb")
 endif()
-foreach(file ${files})
+
+function(compile what)  # what: for the message, then headers
+  list(TRANSFORM ARGN PREPEND "-include;" OUTPUT_VARIABLE included)
   execute_process(COMMAND ${COMPILER} -x ${language} -std=${STANDARD} ${warnings} -fsyntax-only -I${HEADERS}
-                          -include ${file} /dev/null RESULT_VARIABLE result ERROR_VARIABLE errors)
+                          ${included} /dev/null RESULT_VARIABLE result ERROR_VARIABLE errors)
   if(NOT result EQUAL 0)
-    message(SEND_ERROR "${file} does not compile as ${STANDARD}:\n${errors}")
+    message(SEND_ERROR "${what} does not compile as ${STANDARD}:\n${errors}")
   endif()
-endforeach()
+endfunction()
+if(ALONE)
+  foreach(file ${files})
+    compile(${file} ${file})
+  endforeach()
+endif()
+compile("all in one file" ${files})
+list(REVERSE files)
+compile("all in one file, from the last to the first," ${files})
 message(STATUS "${count} headers compile as ${STANDARD}")

@@ -7,9 +7,9 @@ import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { pathToFileURL } from 'node:url';
 import { kArguments, kBrowser as executablePath } from '../../harness/viewer/chromium.mjs';
-import { complaints } from './complaints.mjs';
 import { page as makePage } from './page.mjs';
 import { crowd, linkage, pairScripts, room, script, specks, tower, zoo } from './synthetic.mjs';
+import { visitor } from './visitor.mjs';
 
 const folder = process.env.PLUMB_VIEWER_FOLDER,
   root = process.env.PLUMB_SOURCE;
@@ -21,7 +21,7 @@ if (!existsSync(executablePath)) {
 }
 const { chromium } = createRequire(join(folder, 'package.json'))('playwright-core');
 
-let browser, scratch, file;
+let browser, visitPage, scratch, file;
 
 before(async () => {
   scratch = mkdtempSync(join(tmpdir(), 'plumb-viewer-'));
@@ -49,6 +49,7 @@ before(async () => {
     ]),
   );
   browser = await chromium.launch({ executablePath, args: kArguments });
+  visitPage = await visitor(browser, isReady);
 });
 
 after(async () => {
@@ -56,24 +57,9 @@ after(async () => {
   if (scratch) rmSync(scratch, { recursive: true });
 });
 
-/** Runs use(page) on a fresh page, and fails on anything that its console says or that it asks of a network. */
-async function visit(
-  use,
-  { size = { width: 900, height: 700 }, url = pathToFileURL(file).href, context = {}, browserUsed = browser } = {},
-) {
-  const page = await browserUsed.newPage({ viewport: size, reducedMotion: 'reduce', ...context }),
-    said = complaints(page);
-  page.setDefaultTimeout(180000); // on a machine that has other work
-  await page.goto(url);
-  await page.evaluate(() => window.plumbViewer.ready);
-  await use(page);
-  await page.close();
-  // What the browser says of a software renderer's speed is none of the viewer's doing.
-  assert.deepEqual(
-    said.filter((line) => !/GPU stall|GL Driver Message/.test(line)),
-    [],
-  );
-}
+const isReady = (page) => page.evaluate(() => window.plumbViewer.ready);
+const address = () => pathToFileURL(file).href;
+const visit = (use, settings) => visitPage(address(), use, { width: 900, height: 700, ...settings });
 
 /** A sum over the pixels of the canvas that tells pictures apart, taken from a fresh frame. */
 const picture = (page) =>
@@ -130,7 +116,7 @@ test('it plays, and pauses', () =>
 
 test('the first sight of a replay moves by itself, unless the reader wants calm', async () => {
   await visit((page) => page.waitForFunction(() => window.plumbViewer.frame() > 2), {
-    context: { reducedMotion: 'no-preference' },
+    reducedMotion: 'no-preference',
   });
   await visit(async (page) => {
     await page.waitForTimeout(500);
@@ -193,7 +179,7 @@ test('picking a body shows its name and its numbers in every view', () =>
       assert.equal(cards.length, 2);
       for (const card of cards) assert.match(card, /^box \d+dynamicposition/);
     },
-    { size: { width: 900, height: 900 } },
+    { height: 900 },
   ));
 
 test('the keyboard plays, steps and turns', () =>
@@ -211,8 +197,10 @@ test('the keyboard plays, steps and turns', () =>
   }));
 
 test('all shapes, five thousand bodies, both themes and a telephone', async () => {
+  const visitByTelephone = await visitor(browser, isReady, { hasTouch: true, isMobile: true });
   for (const colorScheme of ['light', 'dark']) {
-    await visit(
+    await visitByTelephone(
+      address(),
       async (page) => {
         for (const scene of ['shapes', 'crowd 5000']) {
           await page.evaluate((name) => window.plumbViewer.select(name), scene);
@@ -224,7 +212,7 @@ test('all shapes, five thousand bodies, both themes and a telephone', async () =
           'the page is wider than the window',
         );
       },
-      { size: { width: 390, height: 780 }, context: { colorScheme, hasTouch: true, isMobile: true } },
+      { width: 390, height: 780, colorScheme },
     );
   }
 });
@@ -394,7 +382,8 @@ test('a page may have a replay elsewhere, which begins when the reader comes nea
       script('shapes', 'alpha', zoo('alpha')),
     ]),
   );
-  await visit(
+  await visitPage(
+    pathToFileURL(other).href,
     async (page) => {
       await page.waitForSelector('#near .pv-view');
       assert.equal(await page.locator('#near .pv-title').textContent(), 'every kind of shape');
@@ -404,7 +393,7 @@ test('a page may have a replay elsewhere, which begins when the reader comes nea
       await page.waitForSelector('#far .pv-view');
       assert.equal(await page.locator('#far .pv-title').textContent(), 'a tower of boxes');
     },
-    { url: pathToFileURL(other).href },
+    { width: 900, height: 700 },
   );
 });
 
@@ -426,7 +415,7 @@ test('a replay elsewhere may stand at a moment of its own instead of playing', (
       assert.equal(shown.playing, false);
       assert.deepEqual(shown.backends, ['alpha', 'beta']);
     },
-    { context: { reducedMotion: 'no-preference' } },
+    { reducedMotion: 'no-preference' },
   ));
 
 test('pairs of shapes are chosen from a matrix and shown side by side', () =>
@@ -464,9 +453,8 @@ test('without WebGL it says so in words', async () => {
     args: [...kArguments.filter((argument) => !/gl|swiftshader/.test(argument)), '--disable-gpu', '--disable-3d-apis'],
   });
   try {
-    await visit(async (page) => assert.match(await page.locator('.pv-failure').textContent(), /WebGL 2/), {
-      browserUsed: blind,
-    });
+    const visitBlind = await visitor(blind, isReady);
+    await visitBlind(address(), async (page) => assert.match(await page.locator('.pv-failure').textContent(), /WebGL 2/));
   } finally {
     await blind.close();
   }

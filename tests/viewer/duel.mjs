@@ -9,7 +9,7 @@ import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { pathToFileURL } from 'node:url';
 import { kArguments, kBrowser } from '../../harness/viewer/chromium.mjs';
-import { complaints } from './complaints.mjs';
+import { visitor } from './visitor.mjs';
 
 const { PLUMB_VIEWER_FOLDER: folder, PLUMB_SOURCE: root, PLUMB_PROGRAM: program, SAMPLE_BACKEND: sample } = process.env;
 if (!existsSync(kBrowser)) {
@@ -18,11 +18,12 @@ if (!existsSync(kBrowser)) {
 }
 const { chromium } = createRequire(join(folder, 'package.json'))('playwright-core');
 
-let browser, scratch;
+let browser, visit, scratch;
 
 before(async () => {
   scratch = mkdtempSync(join(tmpdir(), 'plumb-duel-'));
   browser = await chromium.launch({ executablePath: kBrowser, args: kArguments });
+  visit = await visitor(browser);
 });
 
 after(async () => {
@@ -37,20 +38,6 @@ const plumb = (...given) =>
     env: { ...process.env, PLUMB_SCENES: join(root, 'scenes') },
   });
 
-/** Runs use(page) and fails on anything that its console says or that it asks of a network. */
-async function visit(file, use, width = 1300) {
-  const page = await browser.newPage({ viewport: { width, height: 900 } }),
-    said = complaints(page);
-  page.setDefaultTimeout(180000); // on a machine that has other work
-  await page.goto(pathToFileURL(file).href);
-  await use(page);
-  await page.close();
-  assert.deepEqual(
-    said.filter((line) => !/GPU stall|GL Driver Message/.test(line)),
-    [],
-  );
-}
-
 const overflow = (page) =>
   page.evaluate(() => [
     document.documentElement.scrollWidth - innerWidth,
@@ -60,7 +47,7 @@ const overflow = (page) =>
 test('replays of both stand side by side at the moment where they part', async () => {
   const file = join(scratch, 'run.html');
   plumb('duel', sample, `${sample}:integrator=verlet`, 'A1', '--repeat', '1', '--out', join(scratch, 'run'), '--html', file);
-  await visit(file, async (page) => {
+  const use = async (page) => {
     await page.waitForSelector('#scene1 .pv-view');
     assert.equal(await page.locator('#scene1 .pv-view').count(), 2);
     await page.waitForTimeout(300); // it would play by now
@@ -72,7 +59,8 @@ test('replays of both stand side by side at the moment where they part', async (
     });
     assert.ok(at > 0);
     assert.ok(Math.abs(shown - at) < 0.01, `${shown} s, and they part at ${at} s`);
-  });
+  };
+  await visit(pathToFileURL(file).href, use, { width: 1300, reducedMotion: 'no-preference' });
 });
 
 test('of earlier results every ranked scene leads to its card, and nothing is cut', async () => {
@@ -83,7 +71,7 @@ test('of earlier results every ranked scene leads to its card, and nothing is cu
   plumb('duel', first, second, '--from', results, '--html', file);
   for (const width of [1300, 420])
     await visit(
-      file,
+      pathToFileURL(file).href,
       async (page) => {
         const { links, cards } = await page.evaluate(() => ({
           links: [...document.querySelectorAll('#ranked tbody a')].map((link) => link.getAttribute('href').slice(1)),
@@ -97,6 +85,6 @@ test('of earlier results every ranked scene leads to its card, and nothing is cu
           `cut at ${width}`,
         );
       },
-      width,
+      { width },
     );
 });

@@ -38,12 +38,11 @@ function beatenList(beaten, runs) {
 
 export function figureElement(figure, page) {
   const place = element('figure', { class: 'pending' });
-  const width = () => Math.max(240, Math.min(kWidest, place.clientWidth - 26));
-  const draw = () => {
+  const draw = (inner) => {
     const options = {
       engines: page.engines,
       hidden: page.filter.hidden,
-      width: width(),
+      width: Math.max(240, Math.min(kWidest, inner - 26)),
       describe: (run) => page.runs.describe(run),
       follow: (run) => page.follow(`r${run}`),
     };

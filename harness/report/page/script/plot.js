@@ -153,6 +153,13 @@ function listen(drawn, points, follow) {
   });
 }
 
+/** Plot.plot(), whose rules page.css has once for all: a browser styles the whole page anew for each <style> that comes or goes. */
+function bare(options) {
+  const svg = Plot.plot(options);
+  svg.querySelector('style').remove();
+  return svg;
+}
+
 /** An <svg> as wide as asked for. describe(run): what a run is, in words; follow(run): goes there. */
 export function drawPlot(plot, { engines, hidden, width, describe, follow }) {
   const looks = looksOf(plot.series, engines),
@@ -166,7 +173,7 @@ export function drawPlot(plot, { engines, hidden, width, describe, follow }) {
     taken = takenBy(drawn, x, y),
     height = Math.round(Math.min(0.74 * width, 420));
   const scale = (axis) => ({ type: axis.log ? 'log' : 'linear', domain: axis.domain });
-  const svg = Plot.plot({
+  const svg = bare({
     width,
     height,
     ...kMargin,
@@ -195,7 +202,7 @@ export function drawPlot(plot, { engines, hidden, width, describe, follow }) {
 /** The key of a series: a piece of its line with its marker. */
 export function seriesKey(one, look) {
   const joined = !one.loose && !one.quiet;
-  return Plot.plot({
+  return bare({
     width: 30,
     height: 12,
     margin: 0,
