@@ -38,7 +38,8 @@ class HostWorld final : public IPhysicsWorld,
                         private ISnapshot,
                         private IState,
                         private IExceptions,
-                        private IModify {
+                        private IModify,
+                        private IManifolds {
  public:
   HostWorld(const PlumbBackendTable& table, PlumbWorld* world)
       : table_(table),
@@ -51,7 +52,8 @@ class HostWorld final : public IPhysicsWorld,
         snapshot_(find<PlumbSnapshotTable>(PLUMB_EXT_SNAPSHOT)),
         state_(find<PlumbStateTable>(PLUMB_EXT_STATE)),
         exceptions_(find<PlumbExceptionsTable>(PLUMB_EXT_EXCEPTIONS)),
-        modify_(find<PlumbModifyTable>(PLUMB_EXT_MODIFY)) {}
+        modify_(find<PlumbModifyTable>(PLUMB_EXT_MODIFY)),
+        manifolds_(find<PlumbManifoldsTable>(PLUMB_EXT_MANIFOLDS)) {}
   ~HostWorld() override { table_.destroy_world(world_); }
 
   // --- core ----------------------------------------------------------------------------------------------------------
@@ -117,6 +119,7 @@ class HostWorld final : public IPhysicsWorld,
   IState* state() override { return state_ == nullptr ? nullptr : this; }
   IExceptions* exceptions() override { return exceptions_ == nullptr ? nullptr : this; }
   IModify* modify() override { return modify_ == nullptr ? nullptr : this; }
+  IManifolds* manifolds() override { return manifolds_ == nullptr ? nullptr : this; }
 
  private:
   // --- extensions ----------------------------------------------------------------------------------------------------
@@ -223,6 +226,17 @@ class HostWorld final : public IPhysicsWorld,
   PlumbResult modify_joints(std::span<const PlumbJointChange> changes) override {
     return modify_->joints(world_, changes.data(), sizeof(PlumbJointChange), count_of(changes));
   }
+  PlumbResult read_manifolds(std::span<const PlumbManifold>& manifolds) override {
+    const PlumbResult result =
+        fill_all(manifold_rows_, [this](PlumbManifold* out, std::uint32_t capacity, std::uint32_t* count) {
+          return manifolds_->read(world_, out, sizeof *out, capacity, count);
+        });
+    manifolds = manifold_rows_;
+    return result;
+  }
+  PlumbResult modify_manifolds(std::span<const PlumbManifoldChange> changes) override {
+    return manifolds_->modify(world_, changes.data(), sizeof(PlumbManifoldChange), count_of(changes));
+  }
   PlumbResult list_exceptions(std::span<const PlumbBodyPair>& pairs) override {
     return look(exceptions_->list, exception_pairs_, pairs);
   }
@@ -263,8 +277,10 @@ class HostWorld final : public IPhysicsWorld,
   const PlumbStateTable* state_;
   const PlumbExceptionsTable* exceptions_;
   const PlumbModifyTable* modify_;
+  const PlumbManifoldsTable* manifolds_;
   std::vector<PlumbContact> contact_rows_;
   std::vector<PlumbEvent> event_rows_;
+  std::vector<PlumbManifold> manifold_rows_;
   std::vector<PlumbBody> body_ids_, row_ids_;
   std::vector<PlumbDebugPair> debug_pairs_;
   std::vector<PlumbDebugBox> debug_boxes_;

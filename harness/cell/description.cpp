@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "plumb/backend/modify.hpp"
+#include "plumb/backend/names.hpp"
 #include "scene/build.hpp"
 #include "simulation/names.hpp"
 
@@ -35,6 +36,12 @@ class Capabilities {
         const std::string what = backend::modified_name(a, b);
         json_[title][whose][what] = degree(PLUMB_CAP_MODIFY, a, b, title + "." + whose + "." + what);
       }
+    }
+  }
+  void contact_changes(const std::string& title) {
+    for (std::uint32_t a = 0; a < PLUMB_MANIFOLD_CHANGE_COUNT; ++a) {
+      const std::string what = backend::manifold_change_name(a);
+      json_[title][what] = degree(PLUMB_CAP_MANIFOLD, a, 0, title + "." + what);
     }
   }
   void single(const std::string& title, PlumbCapability kind) { json_[title] = degree(kind, 0, 0, title); }
@@ -72,13 +79,15 @@ Json capabilities_of(const Backend& backend) {
   all.single("host_jobs", PLUMB_CAP_HOST_JOBS);
   all.single("child_materials", PLUMB_CAP_CHILD_MATERIAL);
   all.changes("changes");
+  all.contact_changes("contact_changes");
   return all.take();
 }
 
 Json extensions_of(const Backend& backend) {
   Json names = Json::array();
-  for (const char* name : {PLUMB_EXT_JOINTS, PLUMB_EXT_QUERIES, PLUMB_EXT_COLLIDE, PLUMB_EXT_DEBUG, PLUMB_EXT_SETTINGS,
-                           PLUMB_EXT_SNAPSHOT, PLUMB_EXT_STATE, PLUMB_EXT_EXCEPTIONS, PLUMB_EXT_MODIFY}) {
+  for (const char* name :
+       {PLUMB_EXT_JOINTS, PLUMB_EXT_QUERIES, PLUMB_EXT_COLLIDE, PLUMB_EXT_DEBUG, PLUMB_EXT_SETTINGS, PLUMB_EXT_SNAPSHOT,
+        PLUMB_EXT_STATE, PLUMB_EXT_EXCEPTIONS, PLUMB_EXT_MODIFY, PLUMB_EXT_MANIFOLDS}) {
     if (backend.table().extension(name) != nullptr) names.push_back(name);
   }
   return names;

@@ -84,11 +84,11 @@ const std::map<std::string, std::vector<std::string>>& scene_keys() {
 
 const std::vector<std::string>& need_words() {
   static const std::vector<std::string> words{
-      "rotation",         "collision",       "friction", "restitution",      "joints",  "ccd",
-      "sleeping",         "events",          "contacts", "contact_impulses", "sensors", "kinematic",
-      "gyroscopic",       "damping",         "forces",   "axis_locks",       "filters", "queries",
-      "surface_velocity", "joint_reactions", "snapshot"};
-  static_assert(PLUMB_NEED_COUNT == 21);
+      "rotation",         "collision",       "friction", "restitution",         "joints",  "ccd",
+      "sleeping",         "events",          "contacts", "contact_impulses",    "sensors", "kinematic",
+      "gyroscopic",       "damping",         "forces",   "axis_locks",          "filters", "queries",
+      "surface_velocity", "joint_reactions", "snapshot", "contact_modification"};
+  static_assert(PLUMB_NEED_COUNT == 22);
   return words;
 }
 

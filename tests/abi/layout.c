@@ -15,6 +15,7 @@ static_assert(sizeof(void*) == 8, "the recorded layout is that of 64-bit machine
 static_assert(sizeof(PLUMB_EXT_COLLIDE) == sizeof("plumb.collide/1"), "PLUMB_EXT_COLLIDE has changed");
 static_assert(sizeof(PLUMB_EXT_DEBUG) == sizeof("plumb.debug/1"), "PLUMB_EXT_DEBUG has changed");
 static_assert(sizeof(PLUMB_EXT_JOINTS) == sizeof("plumb.joints/1"), "PLUMB_EXT_JOINTS has changed");
+static_assert(sizeof(PLUMB_EXT_MANIFOLDS) == sizeof("plumb.manifolds/1"), "PLUMB_EXT_MANIFOLDS has changed");
 static_assert(sizeof(PLUMB_EXT_MODIFY) == sizeof("plumb.modify/1"), "PLUMB_EXT_MODIFY has changed");
 static_assert(sizeof(PLUMB_EXT_QUERIES) == sizeof("plumb.queries/1"), "PLUMB_EXT_QUERIES has changed");
 static_assert(sizeof(PLUMB_EXT_SETTINGS) == sizeof("plumb.settings/1"), "PLUMB_EXT_SETTINGS has changed");

@@ -24,7 +24,9 @@ enum {
   PLUMB_BODY_CCD = 1u << 1,         /* must not pass through others however fast it is; needs PLUMB_NEED_CCD */
   PLUMB_BODY_NO_ROTATION = 1u << 2, /* a particle: orientation and angular velocity stay as they are */
   PLUMB_BODY_ASLEEP = 1u << 3,      /* starts asleep; needs PLUMB_NEED_SLEEPING */
-  PLUMB_BODY_NEVER_SLEEPS = 1u << 4
+  PLUMB_BODY_NEVER_SLEEPS = 1u << 4,
+  PLUMB_BODY_MODIFY_CONTACTS = 1u << 5 /* its manifolds are shown to the host before they are solved (manifolds.h);
+                                          needs PLUMB_NEED_CONTACT_MODIFICATION. Since 1.2 */
 };
 
 /* PlumbBodyDesc.locks: motion along or about the world's axes that is taken away; needs PLUMB_NEED_AXIS_LOCKS. */

@@ -216,6 +216,16 @@ class IModify {
   virtual PlumbResult modify_joints(std::span<const PlumbJointChange> changes) = 0;
 };
 
+/// plumb.manifolds/1. A backend gets changes of what was read last, each manifold once, with numbers that are checked.
+class IManifolds {
+ public:
+  virtual ~IManifolds() = default;
+  /// Asked after step, and after each change until there are none; they live until the next call on the world. Asked
+  /// again without a change they are the same.
+  virtual PlumbResult read_manifolds(std::span<const PlumbManifold>& manifolds) = 0;
+  virtual PlumbResult modify_manifolds(std::span<const PlumbManifoldChange> changes) = 0;
+};
+
 // --- the world -------------------------------------------------------------------------------------------------------
 
 class IPhysicsWorld {
@@ -258,6 +268,7 @@ class IPhysicsWorld {
   virtual IState* state() { return nullptr; }
   virtual IExceptions* exceptions() { return nullptr; }
   virtual IModify* modify() { return nullptr; }
+  virtual IManifolds* manifolds() { return nullptr; }
 
   // Only the host calls what follows; backend.hpp answers it for every backend.
 
@@ -319,6 +330,13 @@ inline PlumbResult check(const IPhysicsWorld& world, PlumbResult result) {
   PlumbJointChange change{};
   change.joint = joint;
   change.frame_a = change.frame_b = identity_pose();
+  return change;
+}
+
+/// A change of nothing yet of the row-th manifold.
+[[nodiscard]] inline PlumbManifoldChange manifold_change(std::uint32_t row) {
+  PlumbManifoldChange change{};
+  change.manifold = row;
   return change;
 }
 

@@ -15,6 +15,7 @@
 #include "plumb/debug.h"
 #include "plumb/exceptions.h"
 #include "plumb/joints.h"
+#include "plumb/manifolds.h"
 #include "plumb/modify.h"
 #include "plumb/queries.h"
 #include "plumb/settings.h"
@@ -88,7 +89,8 @@ enum {
   PLUMB_CAP_HOST_JOBS = 12,      /* runs its tasks on PlumbHost.run */
   PLUMB_CAP_CHILD_MATERIAL = 13, /* materials of compound children */
   PLUMB_CAP_MODIFY = 14,         /* 0: bodies, 1: joints; index of a PLUMB_MODIFY_ bit. Since 1.2 */
-  PLUMB_CAP_COUNT = 15
+  PLUMB_CAP_MANIFOLD = 15,       /* index of a PLUMB_MANIFOLD_ bit. Since 1.2 */
+  PLUMB_CAP_COUNT = 16
 };
 
 typedef struct PlumbBackendTable {
@@ -132,7 +134,8 @@ typedef struct PlumbBackendTable {
   /* [world] m/s2 */
   PlumbResult (*set_gravity)(PlumbWorld* world, const PlumbVec3* gravity);
 
-  /* [world] step begins a step and may return before it is done; until wait returns, nothing else may be called.
+  /* [world] step begins a step and may return before it is done; until wait returns, nothing else may be called
+   * (but what manifolds.h has).
    * wait fills the report (may be null). */
   PlumbResult (*step)(PlumbWorld* world, const PlumbStepDesc* desc);
   PlumbResult (*wait)(PlumbWorld* world, PlumbStepReport* report);

@@ -38,6 +38,7 @@ inline void check_body_needs(PlumbNeeds declared, const Where& where, const Plum
   need(PLUMB_NEED_SENSORS, flag(PLUMB_BODY_SENSOR), "flags");
   need(PLUMB_NEED_CCD, flag(PLUMB_BODY_CCD), "flags");
   need(PLUMB_NEED_SLEEPING, flag(PLUMB_BODY_ASLEEP), "flags");
+  need(PLUMB_NEED_CONTACT_MODIFICATION, flag(PLUMB_BODY_MODIFY_CONTACTS), "flags");
   need(PLUMB_NEED_AXIS_LOCKS, desc.locks != 0, "locks");
   need(PLUMB_NEED_DAMPING, desc.linear_damping != 0, "linear_damping");
   need(PLUMB_NEED_DAMPING, desc.angular_damping != 0, "angular_damping");

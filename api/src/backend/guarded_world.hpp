@@ -167,6 +167,7 @@ class GuardedWorld {
     if (stepping_) refuse(PLUMB_E_WRONG_PHASE, "step was called twice; wait for the first");
     const PlumbResult result = done(world_->step(desc->dt));
     stepping_ = true;
+    manifolds_read_.reset();
     return result;
   }
 
@@ -313,6 +314,8 @@ class GuardedWorld {
   PairExceptions exceptions_;
   std::uint32_t breakable_joints_ = 0;
   std::uint64_t row_generation_ = 1;
+  bool stepping_ = false;                        ///< between step and wait
+  std::optional<std::uint32_t> manifolds_read_;  ///< how many, since the step began or they were modified
 
   /// Also from queries, which may run side by side.
   PlumbResult fail(PlumbResult code, const std::string& text) noexcept {
@@ -473,7 +476,6 @@ class GuardedWorld {
   std::mutex error_mutex_;
   std::string error_text_;
   PlumbResult lost_ = PLUMB_OK;
-  bool stepping_ = false;
   std::uint64_t steps_ = 0;
 };
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <string_view>
 
-#include "guarded_modify.hpp"
+#include "guarded_manifolds.hpp"
 
 namespace plumb::backend {
 
@@ -18,7 +18,7 @@ template <class Guard, class... Arguments, PlumbResult (Guard::*Member)(Argument
 struct Entry<Member> {
   static PlumbResult call(PlumbWorld* world, Arguments... arguments) noexcept {
     if (world == nullptr) return PLUMB_E_INVALID_ARGUMENT;
-    auto& guarded = *reinterpret_cast<GuardedModify*>(world);
+    auto& guarded = *reinterpret_cast<GuardedManifolds*>(world);
     return guarded.guard([&] { return (guarded.*Member)(arguments...); });
   }
 };
@@ -49,6 +49,9 @@ const PlumbExceptionsTable kExceptionsTable = {sizeof(PlumbExceptionsTable), 0,
                                                &Entry<&GuardedExtensions::list_exceptions>::call};
 const PlumbModifyTable kModifyTable = {sizeof(PlumbModifyTable), 0, &Entry<&GuardedModify::modify_bodies>::call,
                                        &Entry<&GuardedModify::modify_joints>::call};
+const PlumbManifoldsTable kManifoldsTable = {sizeof(PlumbManifoldsTable), 0,
+                                             &Entry<&GuardedManifolds::read_manifolds>::call,
+                                             &Entry<&GuardedManifolds::modify_manifolds>::call};
 const PlumbStateTable kStateTable = {sizeof(PlumbStateTable), 0, &Entry<&GuardedExtensions::borrow>::call,
                                      &Entry<&GuardedExtensions::state_rows>::call};
 
@@ -58,12 +61,12 @@ std::string& creation_error() {
 }
 
 const char* error_text(PlumbWorld* world) {
-  return world == nullptr ? creation_error().c_str() : reinterpret_cast<GuardedModify*>(world)->error_text();
+  return world == nullptr ? creation_error().c_str() : reinterpret_cast<GuardedManifolds*>(world)->error_text();
 }
 
 void destroy_world(PlumbWorld* world) {
   try {
-    delete reinterpret_cast<GuardedModify*>(world);
+    delete reinterpret_cast<GuardedManifolds*>(world);
   } catch (...) {  // a destructor that throws has nowhere to report to
   }
 }
@@ -133,6 +136,7 @@ const void* extension_table(const BackendFacts& facts, const PlumbSettingsTable&
   if (wanted == PLUMB_EXT_DEBUG && facts.has_debug) return &kDebugTable;
   if (wanted == PLUMB_EXT_EXCEPTIONS && facts.has_exceptions) return &kExceptionsTable;
   if (wanted == PLUMB_EXT_MODIFY && facts.has_modify) return &kModifyTable;
+  if (wanted == PLUMB_EXT_MANIFOLDS && facts.has_manifolds) return &kManifoldsTable;
   if (wanted == PLUMB_EXT_SETTINGS && facts.has_settings) return &settings;
   return nullptr;
 }
@@ -140,9 +144,9 @@ const void* extension_table(const BackendFacts& facts, const PlumbSettingsTable&
 PlumbDegree answer_capability(const BackendFacts& facts, PlumbCapability kind, std::uint32_t a, std::uint32_t b,
                               const char** note) {
   const char* text = "";
-  const PlumbDegree degree = kind < PLUMB_CAP_COUNT && (kind != PLUMB_CAP_MODIFY || facts.has_modify)
-                                 ? facts.capability(kind, a, b, text)
-                                 : PLUMB_NONE;
+  const bool lacks = (kind == PLUMB_CAP_MODIFY && !facts.has_modify) ||
+                     (kind == PLUMB_CAP_MANIFOLD && !facts.has_manifolds) || kind >= PLUMB_CAP_COUNT;
+  const PlumbDegree degree = lacks ? PLUMB_NONE : facts.capability(kind, a, b, text);
   if (note != nullptr) *note = text;
   return degree;
 }
@@ -157,7 +161,7 @@ PlumbResult create_guarded_world(const BackendFacts& facts, const PlumbHost* hos
     require_pointer(world, 1, "world");
     const WorldInit init = checked_init(facts, host, desc);
     std::unique_ptr<IPhysicsWorld> made(facts.make(init));
-    *world = reinterpret_cast<PlumbWorld*>(new GuardedModify(facts, init, std::move(made)));
+    *world = reinterpret_cast<PlumbWorld*>(new GuardedManifolds(facts, init, std::move(made)));
     return PLUMB_OK;
   } catch (const Error& error) {
     return failed(error.code(), error.what());

@@ -24,6 +24,7 @@ using snapshot = PlumbSnapshotTable;
 using state = PlumbStateTable;
 using exceptions = PlumbExceptionsTable;
 using modify = PlumbModifyTable;
+using manifolds = PlumbManifoldsTable;
 }  // namespace tables
 
 enum class Call : std::uint8_t {
@@ -80,6 +81,7 @@ void for_each_extension(Visit&& visit) {
   visit.template operator()<PlumbStateTable>(PLUMB_EXT_STATE);
   visit.template operator()<PlumbExceptionsTable>(PLUMB_EXT_EXCEPTIONS);
   visit.template operator()<PlumbModifyTable>(PLUMB_EXT_MODIFY);
+  visit.template operator()<PlumbManifoldsTable>(PLUMB_EXT_MANIFOLDS);
 }
 
 }  // namespace plumb::layers

@@ -53,7 +53,7 @@ class LayerBase {
   const PlumbBackendTable* core_;
   std::tuple<const PlumbJointsTable*, const PlumbQueriesTable*, const PlumbCollideTable*, const PlumbDebugTable*,
              const PlumbSettingsTable*, const PlumbSnapshotTable*, const PlumbStateTable*, const PlumbExceptionsTable*,
-             const PlumbModifyTable*>
+             const PlumbModifyTable*, const PlumbManifoldsTable*>
       extensions_{};
 };
 
@@ -101,7 +101,8 @@ class LayerSlots {
   struct Slot {
     std::unique_ptr<Layer> layer;
     std::tuple<PlumbBackendTable, PlumbJointsTable, PlumbQueriesTable, PlumbCollideTable, PlumbDebugTable,
-               PlumbSettingsTable, PlumbSnapshotTable, PlumbStateTable, PlumbExceptionsTable, PlumbModifyTable>
+               PlumbSettingsTable, PlumbSnapshotTable, PlumbStateTable, PlumbExceptionsTable, PlumbModifyTable,
+               PlumbManifoldsTable>
         tables;
   };
 

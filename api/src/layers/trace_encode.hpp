@@ -132,7 +132,7 @@ void encode(CallTag<call>, Encoding e, Row* out, std::uint32_t capacity, std::ui
     e.output_rows(out, sizeof(Row), capacity, *count);
   }
 }
-// contacts, events
+// contacts, events, manifolds.read
 template <Call call, class Row>
 void encode(CallTag<call>, Encoding e, Row* out, std::size_t stride, std::uint32_t capacity, std::uint32_t* count) {
   e.out.put<std::uint64_t>(stride);
@@ -251,7 +251,7 @@ inline void encode(CallTag<Call::state_rows>, Encoding e, PlumbBody* ids, std::u
   e.room(ids, capacity);
   if (e.done()) e.output(*count, {});
 }
-// modify.*
+// modify.*, manifolds.modify
 template <Call call, class Change>
 void encode(CallTag<call>, Encoding e, const Change* changes, std::size_t stride, std::uint32_t count) {
   e.rows(changes, stride, count);

@@ -65,8 +65,11 @@ void ValidationLayer::enter(Call call, ValidatedWorld& world, const Visit& visit
   if (!visit.entered())
     throw HostError{PLUMB_E_WRONG_THREAD, "another thread is in this world; one caller at a time, please"};
   if (is_loss(world.lost)) throw HostError{world.lost, "the world is lost; only destroy_world and error_text are left"};
-  if (world.stepping && call != Call::core_wait)
+  const bool of_manifolds = call == Call::manifolds_read || call == Call::manifolds_modify;
+  if (world.stepping && call != Call::core_wait && !of_manifolds)
     throw HostError{PLUMB_E_WRONG_PHASE, "called between step and wait; call wait first"};
+  if (!world.stepping && of_manifolds)
+    throw HostError{PLUMB_E_WRONG_PHASE, "called outside of a step; call step first"};
   if (!world.stepping && call == Call::core_wait)
     throw HostError{PLUMB_E_WRONG_PHASE, "called without a step to wait for; call step first"};
 }

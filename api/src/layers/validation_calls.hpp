@@ -68,6 +68,12 @@ PlumbResult ValidationLayer::run(CallTag<call>, ValidatedWorld& state, PlumbWorl
 inline void check_row(const PlumbContact& contact, std::size_t index, const PlumbContact*) {
   if (contact.body_a == 0 || contact.body_b == 0) throw BackendError{"row " + std::to_string(index) + " names no body"};
 }
+inline void check_row(const PlumbManifold& manifold, std::size_t index, const PlumbManifold*) {
+  if (manifold.body_a == 0 || manifold.body_b == 0)
+    throw BackendError{"row " + std::to_string(index) + " names no body"};
+  if (manifold.point_count == 0 || manifold.point_count > PLUMB_MANIFOLD_POINTS)
+    throw BackendError{"row " + std::to_string(index) + " has " + std::to_string(manifold.point_count) + " points"};
+}
 inline void check_row(const PlumbEvent& event, std::size_t index, const PlumbEvent* before) {
   if (event.type >= PLUMB_EVENT_COUNT)
     throw BackendError{"row " + std::to_string(index) + " is of type " + std::to_string(event.type) +

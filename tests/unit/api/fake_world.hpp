@@ -15,7 +15,8 @@ class FakeWorld final : public IPhysicsWorld,
                         public ISettings,
                         public ISnapshot,
                         public IExceptions,
-                        public IModify {
+                        public IModify,
+                        public IManifolds {
  public:
   explicit FakeWorld(const WorldInit& init) : iterations_(init.setting("iterations").number) { last = this; }
 
@@ -115,6 +116,7 @@ class FakeWorld final : public IPhysicsWorld,
   ISnapshot* snapshot() override { return this; }
   IExceptions* exceptions() override { return this; }
   IModify* modify() override { return this; }
+  IManifolds* manifolds() override { return this; }
 
   PlumbResult create_joints(std::span<const PlumbJointDesc>, std::span<PlumbJoint>) override { return called(); }
   PlumbResult destroy_joints(std::span<const PlumbJoint>) override { return called(); }
@@ -160,6 +162,17 @@ class FakeWorld final : public IPhysicsWorld,
     return called();
   }
 
+  PlumbResult read_manifolds(std::span<const PlumbManifold>& rows) override {
+    rows = shown;
+    return called();
+  }
+  PlumbResult modify_manifolds(std::span<const PlumbManifoldChange> changes) override {
+    manifold_changes.assign(changes.begin(), changes.end());
+    return called();
+  }
+
+  std::vector<PlumbManifold> shown;
+  std::vector<PlumbManifoldChange> manifold_changes;
   std::vector<PlumbBodyChange> body_changes;
   std::vector<PlumbJointChange> joint_changes;
   struct ExceptionCall {

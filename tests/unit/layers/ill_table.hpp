@@ -19,6 +19,7 @@ struct IllTables {
   PlumbStateTable state;
   PlumbExceptionsTable exceptions;
   PlumbModifyTable modify;
+  PlumbManifoldsTable manifolds;
 };
 
 template <class Table>
@@ -34,7 +35,8 @@ inline const IllTables& good() {
                                    table_named<PlumbCollideTable>(PLUMB_EXT_COLLIDE),
                                    table_named<PlumbStateTable>(PLUMB_EXT_STATE),
                                    table_named<PlumbExceptionsTable>(PLUMB_EXT_EXCEPTIONS),
-                                   table_named<PlumbModifyTable>(PLUMB_EXT_MODIFY)};
+                                   table_named<PlumbModifyTable>(PLUMB_EXT_MODIFY),
+                                   table_named<PlumbManifoldsTable>(PLUMB_EXT_MANIFOLDS)};
   return tables;
 }
 
@@ -62,6 +64,7 @@ class Validated : public ::testing::Test {
       if (wanted == PLUMB_EXT_STATE) return &ill().state;
       if (wanted == PLUMB_EXT_EXCEPTIONS) return &ill().exceptions;
       if (wanted == PLUMB_EXT_MODIFY) return &ill().modify;
+      if (wanted == PLUMB_EXT_MANIFOLDS) return &ill().manifolds;
       if (wanted == "test.unknown/1") return &unknown_table;
       return nullptr;
     };

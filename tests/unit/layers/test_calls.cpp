@@ -18,7 +18,7 @@ constexpr std::size_t functions = (sizeof(Table) - 8) / sizeof(void (*)());
 
 TEST(Calls, ListHoldsEveryFunctionOfEveryTable) {
   std::size_t core = 0, joints = 0, queries = 0, collide = 0, debug = 0, settings = 0, snapshot = 0, state = 0,
-              exceptions = 0, modify = 0;
+              exceptions = 0, modify = 0, manifolds = 0;
   for_each_call([&]<Call call>() {
     using Table = CallTraits<call>::Table;
     core += std::is_same_v<Table, PlumbBackendTable>;
@@ -31,6 +31,7 @@ TEST(Calls, ListHoldsEveryFunctionOfEveryTable) {
     state += std::is_same_v<Table, PlumbStateTable>;
     exceptions += std::is_same_v<Table, PlumbExceptionsTable>;
     modify += std::is_same_v<Table, PlumbModifyTable>;
+    manifolds += std::is_same_v<Table, PlumbManifoldsTable>;
   });
   EXPECT_EQ(core + 4, functions<PlumbBackendTable>) << "beside info, capability, extension and error_text";
   EXPECT_EQ(joints, functions<PlumbJointsTable>);
@@ -42,6 +43,7 @@ TEST(Calls, ListHoldsEveryFunctionOfEveryTable) {
   EXPECT_EQ(state, functions<PlumbStateTable>);
   EXPECT_EQ(exceptions, functions<PlumbExceptionsTable>);
   EXPECT_EQ(modify, functions<PlumbModifyTable>);
+  EXPECT_EQ(manifolds, functions<PlumbManifoldsTable>);
 }
 
 TEST(Calls, NumbersAndNamesAreDistinct) {

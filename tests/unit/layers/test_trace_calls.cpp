@@ -141,6 +141,13 @@ class Everything {
     joint_changed.what = PLUMB_MODIFY_ENABLED;
     joint_changed.enabled = 1;
     ok(modify.joints(world_, &joint_changed, sizeof joint_changed, 1));
+    const auto& manifolds = extension<PlumbManifoldsTable>(PLUMB_EXT_MANIFOLDS);
+    PlumbManifold manifold;
+    const PlumbStepDesc step = {sizeof step, 0, 0.01};
+    ok(table_.step(world_, &step));
+    ok(manifolds.read(world_, &manifold, sizeof manifold, 1, &count));
+    ok(manifolds.modify(world_, nullptr, sizeof(PlumbManifoldChange), 0));
+    ok(table_.wait(world_, nullptr));
     const auto& state = extension<PlumbStateTable>(PLUMB_EXT_STATE);
     const PlumbStateRequest request = {sizeof request, PLUMB_FIELD_POSE, 1, 1};
     PlumbDLManagedTensor* tensor = nullptr;
@@ -183,7 +190,7 @@ TEST(TraceCalls, EveryCallOfTheListIsRecordedAndReplaysTheSame) {
   const layers::ReplayReport report = layers::replay(file, &complete());
   EXPECT_TRUE(report.same()) << (report.result ? report.result->name + ": " + report.result->text
                                                : report.first_output.value_or("state"));
-  EXPECT_EQ(report.steps, 1u);
+  EXPECT_EQ(report.steps, 2u);
   std::filesystem::remove(file);
 }
 

@@ -307,6 +307,28 @@ TEST_F(ValidatedBackend, ExceptionsOutOfOrder) {
   expect(PLUMB_E_INTERNAL, list(), "row 0 breaks the order");
 }
 
+TEST_F(ValidatedBackend, ManifoldsWithoutBodiesOrWithTooManyPoints) {
+  static PlumbManifold answer;
+  ill().manifolds.read = [](PlumbWorld*, PlumbManifold* out, std::size_t, std::uint32_t, std::uint32_t* found) {
+    *out = answer;
+    return *found = 1, PlumbResult{PLUMB_OK};
+  };
+  PlumbManifold row;
+  std::uint32_t count = 0;
+  const PlumbStepDesc step = {sizeof step, 0, 0.01};
+  ASSERT_EQ(table->step(world, &step), PLUMB_OK);
+  const auto read = [&] {
+    return extension<PlumbManifoldsTable>(PLUMB_EXT_MANIFOLDS).read(world, &row, sizeof row, 1, &count);
+  };
+  answer.body_a = 1, answer.body_b = 2, answer.point_count = 4;
+  EXPECT_EQ(read(), PLUMB_OK);
+  answer.point_count = 5;
+  expect(PLUMB_E_INTERNAL, read(), "row 0 has 5 points");
+  answer.point_count = 1, answer.body_b = 0;
+  expect(PLUMB_E_INTERNAL, read(), "row 0 names no body");
+  ASSERT_EQ(table->wait(world, nullptr), PLUMB_OK);
+}
+
 TEST_F(ValidatedBackend, MoreIdsThanWereAskedFor) {
   ill().core.create_shapes = [](PlumbWorld*, const PlumbShapeDesc*, std::size_t, std::uint32_t,
                                 PlumbShape* ids) -> PlumbResult {

@@ -236,6 +236,16 @@ TEST_F(ValidatedHost, SizesAndPointersOfExtensions) {
   refused(PLUMB_E_INVALID_ARGUMENT, "changes is null", [&] { return modify.joints(world, nullptr, 664, 1); });
   refused(PLUMB_E_INVALID_ARGUMENT, "stride of changes is 8",
           [&] { return modify.joints(world, &joint_changed, 8, 1); });
+  const auto& manifolds = extension<PlumbManifoldsTable>(PLUMB_EXT_MANIFOLDS);
+  const PlumbManifoldChange manifold_changed = manifold_change(0);
+  refused(PLUMB_E_WRONG_PHASE, "outside of a step", [&] { return manifolds.modify(world, nullptr, 48, 1); });
+  const PlumbStepDesc step = {sizeof step, 0, 0.01};
+  ASSERT_EQ(table->step(world, &step), PLUMB_OK);
+  refused(PLUMB_E_INVALID_ARGUMENT, "changes is null", [&] { return manifolds.modify(world, nullptr, 48, 1); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "stride of changes is 8",
+          [&] { return manifolds.modify(world, &manifold_changed, 8, 1); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "out is null", [&] { return manifolds.read(world, nullptr, 248, 1, &count); });
+  ASSERT_EQ(table->wait(world, nullptr), PLUMB_OK);
   const auto& settings = extension<PlumbSettingsTable>(PLUMB_EXT_SETTINGS);
   const PlumbSettingValue value{PLUMB_SETTING_INT, 0, 5, nullptr};
   refused(PLUMB_E_INVALID_ARGUMENT, "value is null", [&] { return settings.get(world, "iterations", nullptr); });

@@ -115,7 +115,7 @@ inline void check_mass(const Where& where, const PlumbBodyDesc& desc) {
 
 inline void check_body(const Where& where, const PlumbBodyDesc& desc) {
   if (desc.motion >= PLUMB_MOTION_COUNT) refuse_value(where, "motion", desc.motion, "a PlumbMotion");
-  require_known_bits(where, "flags", desc.flags, (PLUMB_BODY_NEVER_SLEEPS << 1) - 1);
+  require_known_bits(where, "flags", desc.flags, (PLUMB_BODY_MODIFY_CONTACTS << 1) - 1);
   require_known_bits(where, "locks", desc.locks, (PLUMB_LOCK_ANGULAR_Z << 1) - 1);
   require_pose(where, "pose", desc.pose);
   require_finite(where, "linear_velocity", desc.linear_velocity);

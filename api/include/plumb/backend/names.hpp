@@ -46,15 +46,25 @@ namespace plumb::backend {
 
 /// "PLUMB_NEED_FRICTION" of its bit's index.
 [[nodiscard]] constexpr const char* need_name(std::uint32_t index) {
-  constexpr const char* names[PLUMB_NEED_COUNT] = {
-      "PLUMB_NEED_ROTATION",         "PLUMB_NEED_COLLISION",       "PLUMB_NEED_FRICTION",
-      "PLUMB_NEED_RESTITUTION",      "PLUMB_NEED_JOINTS",          "PLUMB_NEED_CCD",
-      "PLUMB_NEED_SLEEPING",         "PLUMB_NEED_EVENTS",          "PLUMB_NEED_CONTACTS",
-      "PLUMB_NEED_CONTACT_IMPULSES", "PLUMB_NEED_SENSORS",         "PLUMB_NEED_KINEMATIC",
-      "PLUMB_NEED_GYROSCOPIC",       "PLUMB_NEED_DAMPING",         "PLUMB_NEED_FORCES",
-      "PLUMB_NEED_AXIS_LOCKS",       "PLUMB_NEED_FILTERS",         "PLUMB_NEED_QUERIES",
-      "PLUMB_NEED_SURFACE_VELOCITY", "PLUMB_NEED_JOINT_REACTIONS", "PLUMB_NEED_SNAPSHOT"};
+  constexpr const char* names[PLUMB_NEED_COUNT] = {"PLUMB_NEED_ROTATION",         "PLUMB_NEED_COLLISION",
+                                                   "PLUMB_NEED_FRICTION",         "PLUMB_NEED_RESTITUTION",
+                                                   "PLUMB_NEED_JOINTS",           "PLUMB_NEED_CCD",
+                                                   "PLUMB_NEED_SLEEPING",         "PLUMB_NEED_EVENTS",
+                                                   "PLUMB_NEED_CONTACTS",         "PLUMB_NEED_CONTACT_IMPULSES",
+                                                   "PLUMB_NEED_SENSORS",          "PLUMB_NEED_KINEMATIC",
+                                                   "PLUMB_NEED_GYROSCOPIC",       "PLUMB_NEED_DAMPING",
+                                                   "PLUMB_NEED_FORCES",           "PLUMB_NEED_AXIS_LOCKS",
+                                                   "PLUMB_NEED_FILTERS",          "PLUMB_NEED_QUERIES",
+                                                   "PLUMB_NEED_SURFACE_VELOCITY", "PLUMB_NEED_JOINT_REACTIONS",
+                                                   "PLUMB_NEED_SNAPSHOT",         "PLUMB_NEED_CONTACT_MODIFICATION"};
   return index < PLUMB_NEED_COUNT ? names[index] : "an unknown need";
+}
+
+/// "friction" of PLUMB_MANIFOLD_FRICTION's index.
+[[nodiscard]] constexpr const char* manifold_change_name(std::uint32_t index) {
+  constexpr const char* names[PLUMB_MANIFOLD_CHANGE_COUNT] = {"disabled", "friction", "restitution",
+                                                              "surface velocity"};
+  return index < PLUMB_MANIFOLD_CHANGE_COUNT ? names[index] : "unknown member";
 }
 
 [[nodiscard]] constexpr bool is_convex(PlumbShapeType type) {

@@ -55,7 +55,7 @@ struct Capability {
       return reads && acts ? Capability{PLUMB_NONE, "it acts and is spent"} : yes;
     }
     case PLUMB_CAP_NEED: {
-      constexpr PlumbNeeds own_work = PLUMB_NEED_CCD | PLUMB_NEED_SNAPSHOT;
+      constexpr PlumbNeeds own_work = PLUMB_NEED_CCD | PLUMB_NEED_SNAPSHOT | PLUMB_NEED_CONTACT_MODIFICATION;
       return in_range(a < PLUMB_NEED_COUNT && (PlumbNeeds{1} << a & own_work) == 0);
     }
     case PLUMB_CAP_EVENT: return in_range(a < PLUMB_EVENT_COUNT);
