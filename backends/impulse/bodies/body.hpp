@@ -41,11 +41,12 @@ enum BodyFlag : std::uint32_t {
   kBodyGyroscopic = 1u << 2,  ///< turns, and its principal moments differ: a free one tumbles
   kBodyMoves = 1u << 3,       ///< dynamic or kinematic
   kBodyNeverSleeps = 1u << 4,
-  kBodyLocked = 1u << 5,       ///< some of the locks are set
-  kLockLinear = 1u << 6,       ///< along x; y and z follow
-  kLockAngular = 1u << 9,      ///< about x; y and z follow
-  kBodyContinuous = 1u << 12,  ///< must not pass through others however fast it is
-  kBodySweeps = 1u << 13       ///< kinematic, and must find those in time who must not pass through it
+  kBodyLocked = 1u << 5,         ///< some of the locks are set
+  kLockLinear = 1u << 6,         ///< along x; y and z follow
+  kLockAngular = 1u << 9,        ///< about x; y and z follow
+  kBodyContinuous = 1u << 12,    ///< must not pass through others however fast it is
+  kBodySweeps = 1u << 13,        ///< kinematic, and must find those in time who must not pass through it
+  kBodyShowsContacts = 1u << 14  ///< its manifolds are shown to the host before they are solved
 };
 
 /// What is given once for a body.
@@ -102,6 +103,10 @@ struct Proxy {
   Real friction, restitution;
   Frame frame;  ///< of the shape in the body's principal frame
 };
+
+/// What the materials of two are together, as the interface has it.
+PLUMB_HD inline Real pair_friction(const Proxy& a, const Proxy& b) { return sqrt(a.friction * b.friction); }
+PLUMB_HD inline Real pair_restitution(const Proxy& a, const Proxy& b) { return max(a.restitution, b.restitution); }
 
 struct Proxies {
   const Proxy* rows;

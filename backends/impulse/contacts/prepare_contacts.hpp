@@ -16,6 +16,7 @@
 #include "exec/executor.hpp"
 #include "math/lane_vectors.hpp"
 #include "narrowphase/contact_cache.hpp"
+#include "narrowphase/manifold_change.hpp"
 
 namespace plumb::impulse {
 
@@ -112,6 +113,7 @@ struct PrepareContacts {
   std::uint32_t sentinel;  ///< body slot that stands for none in unused lanes
   const PartRange* parts;  ///< by body: how many it is split into; null: bodies are whole
   const Real* impacts;     ///< by candidate: when it closes, s; 0: it is as it is now. With kImpacts only
+  ManifoldChanges changes;
 
   /// kLanes slots from the first of them on.
   PLUMB_HD void operator()(std::uint32_t slot) const;
@@ -209,8 +211,10 @@ PLUMB_HD void PrepareContacts<kImpacts, kMechanisms>::read(std::uint32_t row, st
     lane_of(source.impulse[1][p], lane) = warm_start * kept.tangent_impulse[0][p];
     lane_of(source.impulse[2][p], lane) = warm_start * kept.tangent_impulse[1][p];
   }
-  lane_of(source.friction, lane) = sqrt(proxy_a.friction * proxy_b.friction);
-  const Real restitution = max(proxy_a.restitution, proxy_b.restitution);
+  const ManifoldChange* rubs = changes.find(candidate, PLUMB_MANIFOLD_FRICTION);
+  lane_of(source.friction, lane) = rubs != nullptr ? rubs->friction : pair_friction(proxy_a, proxy_b);
+  const ManifoldChange* bounces = changes.find(candidate, PLUMB_MANIFOLD_RESTITUTION);
+  const Real restitution = bounces != nullptr ? bounces->restitution : pair_restitution(proxy_a, proxy_b);
   lane_of(source.restitution, lane) = restitution;
   if (restitution > 0) {
     const Real h = levels->of[solver_bodies.levels.of_pair(bodies.velocity, a, b)].h;

@@ -9,13 +9,15 @@ struct PutSurfaceSpeeds {
 
   /// Place j in the order by colour.
   PLUMB_HD void operator()(std::uint32_t j) const {
-    const auto& [cache, bodies, proxies, surface_velocities, order, keys, rows, counters] = work;
+    const auto& [cache, bodies, proxies, surface_velocities, order, keys, rows, counters, changes] = work;
     const std::uint32_t row = order[j], key = keys[j];
     if (key == kSettledKey) return;
     const std::uint32_t slot = counters->first_slot[key] + (j - counters->first_in_colour[key]);
-    const Pair pair = cache.pairs[cache.candidate[row]];
+    const std::uint32_t candidate = cache.candidate[row];
+    const Pair pair = cache.pairs[candidate];
     const CachedManifold& kept = cache.kept[row];
-    const Vec slip = speed(pair.b) - speed(pair.a);
+    const ManifoldChange* change = changes.find(candidate, PLUMB_MANIFOLD_SURFACE_VELOCITY);
+    const Vec slip = change != nullptr ? change->surface_velocity : speed(pair.b) - speed(pair.a);
     Real* const numbers = rows.at(slot);
     numbers[place_of(kSurfaceSpeed)] = dot(slip, kept.tangent);
     numbers[place_of(kSurfaceSpeed + 1)] = dot(slip, cross(kept.normal, kept.tangent));

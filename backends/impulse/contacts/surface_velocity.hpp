@@ -11,6 +11,7 @@
 #include "exec/executor.hpp"
 #include "exec/table.hpp"
 #include "narrowphase/contact_cache.hpp"
+#include "narrowphase/manifold_change.hpp"
 
 namespace plumb::impulse {
 
@@ -31,6 +32,7 @@ struct SurfaceSpeedWork {
   const std::uint32_t *order, *keys;  ///< as of Colouring
   ContactRows rows;
   const StepCounters* counters;
+  ManifoldChanges changes;
 };
 /// Puts kSurfaceSpeed into the rows of all contacts, which are prepared and of which there are no more than `capacity`.
 void put_surface_speeds(Executor& executor, const SurfaceSpeedWork& work, std::uint32_t capacity);

@@ -43,7 +43,7 @@ struct ImpactSearch {
   }
   /// Whether the narrow phase foresees that they touch, and they bounce where they do.
   [[nodiscard]] PLUMB_HD bool bounces(std::uint32_t p, const Pair& pair) const {
-    return cache.touching[p] != 0 && max(proxies.rows[pair.a].restitution, proxies.rows[pair.b].restitution) > 0;
+    return cache.touching[p] != 0 && pair_restitution(proxies.rows[pair.a], proxies.rows[pair.b]) > 0;
   }
   /// Whether one is round, and comes so far that the normal where they touch is not that of now.
   [[nodiscard]] PLUMB_HD bool glances_off(const MovingShape& a, const MovingShape& b) const {

@@ -151,7 +151,7 @@ struct FindPassed {
   std::uint64_t* first;
 
   PLUMB_HD void operator()(std::uint32_t p) const {
-    if (is_undone(*in.counters, in.pair_capacity)) return;
+    if (is_undone(*in.counters, in.pair_capacity) || in.changes.disables(p)) return;
     const Pair pair = in.cache.pairs[p];
     const auto is_guarded = [this](std::uint32_t proxy) {  // not asleep
       constexpr std::uint32_t kBoth = kBodyContinuous | kBodyDynamic;

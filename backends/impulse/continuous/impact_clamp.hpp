@@ -15,6 +15,7 @@
 #include "exec/executor.hpp"
 #include "exec/memory.hpp"
 #include "narrowphase/contact_cache.hpp"
+#include "narrowphase/manifold_change.hpp"
 
 namespace plumb::impulse {
 
@@ -34,6 +35,7 @@ class ImpactClamp {
     ProxyRows movers;
     TreeView statics;  ///< of the same boxes
     ProxyRows planes;
+    ManifoldChanges changes;
   };
   /// After the bodies have moved by these displacements.
   void clamp(Executor& executor, const Input& input, const MovableBodies& bodies, std::uint32_t body_count,

@@ -46,13 +46,21 @@ struct JoinTouching {
   ContactCache cache;
   Proxies proxies;
   const Vec* surface_velocities;
+  ManifoldChanges changes;
   PLUMB_HD void operator()(std::uint32_t row) const {
-    const Pair pair = cache.pairs[cache.candidate[row]];
+    const std::uint32_t candidate = cache.candidate[row];
+    const Pair pair = cache.pairs[candidate];
     const std::uint32_t a = proxies.rows[pair.a].body, b = proxies.rows[pair.b].body;
     graph.join(a, b);
-    if (surface_velocities == nullptr || !runs(surface_velocities, pair)) return;
+    if (surface_velocities == nullptr || !surface_runs(candidate, pair)) return;
     graph.keep_awake(a);
     graph.keep_awake(b);
+  }
+
+ private:
+  [[nodiscard]] PLUMB_HD bool surface_runs(std::uint32_t candidate, const Pair& pair) const {
+    const ManifoldChange* change = changes.find(candidate, PLUMB_MANIFOLD_SURFACE_VELOCITY);
+    return change != nullptr ? length_squared(change->surface_velocity) > 0 : runs(surface_velocities, pair);
   }
 };
 
@@ -104,7 +112,8 @@ void Islands::find_resting(Executor& executor, const Input& input) {
   const std::uint32_t count = input.body_count;
   executor.run(count, Alone{parent_.data(), restless_.data(), awake_.data(), count_.device()});
   const Graph graph = {bodies, parent_.data(), restless_.data()};
-  executor.run(input.manifolds, JoinTouching{graph, input.cache, input.proxies, input.surface_velocities});
+  executor.run(input.manifolds,
+               JoinTouching{graph, input.cache, input.proxies, input.surface_velocities, input.changes});
   executor.run(input.joints.count, JoinJointed{graph, input.joints});
   executor.run(count, FindRoot{parent_.data(), root_.data()});
   executor.run(count, KeepAwake{bodies, input.rest, input.time, root_.data(), restless_.data(), awake_.data()});

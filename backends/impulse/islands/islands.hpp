@@ -7,6 +7,7 @@
 #include "exec/memory.hpp"
 #include "joints/joint.hpp"
 #include "narrowphase/contact_cache.hpp"
+#include "narrowphase/manifold_change.hpp"
 
 namespace plumb::impulse {
 
@@ -31,6 +32,7 @@ class Islands {
     const Real* rest;                         ///< by body, s
     Real time;                                ///< for which an island is to have rested, s
     const Vec* surface_velocities = nullptr;  ///< by proxy, or null: what touches a surface that runs does not rest
+    ManifoldChanges changes = {};
   };
   /// Enqueues the search for islands all of whose bodies have rested for that time at least, and which nothing that
   /// moves by itself touches. Only between steps.

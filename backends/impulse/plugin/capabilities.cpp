@@ -1,4 +1,6 @@
 // What impulse truly has.
+#include <algorithm>
+
 #include "plugin/physics_revision.hpp"
 #include "plugin/world.hpp"
 #include "plumb/backend/usual_capability.hpp"
@@ -29,6 +31,10 @@ Capability known(PlumbCapability kind, std::uint32_t a, std::uint32_t b) {
     case PLUMB_CAP_RESIDUAL: return {PLUMB_NONE, "not in impulse yet"};
     case PLUMB_CAP_MODIFY:
       return {a < 2 && b < (a == 0 ? PLUMB_MODIFY_BODY_COUNT : PLUMB_MODIFY_JOINT_COUNT) ? PLUMB_NATIVE : PLUMB_NONE};
+    case PLUMB_CAP_MANIFOLD:
+      if (1U << std::min(a, 31U) == PLUMB_MANIFOLD_RESTITUTION)
+        return {PLUMB_NATIVE, "the point is where two are nearest as the step begins, not where they will touch"};
+      return {a < PLUMB_MANIFOLD_CHANGE_COUNT ? PLUMB_NATIVE : PLUMB_NONE};
     case PLUMB_CAP_SNAPSHOT:
     case PLUMB_CAP_HOST_JOBS: return {PLUMB_NATIVE};
     default: break;

@@ -13,6 +13,7 @@ inline Vec to_vec(const PlumbVec3& v) {
   return {static_cast<Real>(v.x), static_cast<Real>(v.y), static_cast<Real>(v.z)};
 }
 inline Vec to_vec(const double* v) { return to_vec(PlumbVec3{v[0], v[1], v[2]}); }
+inline PlumbVec3 plumb_vec(const Position& p) { return {p.x, p.y, p.z}; }
 inline PlumbVec3 to_plumb(const Vec& v) {
   return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
 }

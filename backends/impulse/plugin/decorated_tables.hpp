@@ -67,6 +67,7 @@ class DecoratedTables {
     using Debug = PlumbDebugTable;
     using Exceptions = PlumbExceptionsTable;
     using Joints = PlumbJointsTable;
+    using Manifolds = PlumbManifoldsTable;
     using Modify = PlumbModifyTable;
     using Queries = PlumbQueriesTable;
     using SettingsTable = PlumbSettingsTable;
@@ -79,6 +80,7 @@ class DecoratedTables {
     if (wanted == PLUMB_EXT_EXCEPTIONS) return served<Exceptions, &Exceptions::set, &Exceptions::list>(name);
     if (wanted == PLUMB_EXT_JOINTS)
       return served<Joints, &Joints::create, &Joints::destroy, &Joints::read, &Joints::write>(name);
+    if (wanted == PLUMB_EXT_MANIFOLDS) return served<Manifolds, &Manifolds::read, &Manifolds::modify>(name);
     if (wanted == PLUMB_EXT_MODIFY) return served<Modify, &Modify::bodies, &Modify::joints>(name);
     if (wanted == PLUMB_EXT_QUERIES) return served<Queries, &Queries::rays, &Queries::casts, &Queries::overlaps>(name);
     if (wanted == PLUMB_EXT_SETTINGS)

@@ -15,10 +15,13 @@ SolverFeatures features_of(const WorldInit& init) {
           .contact_impulses = init.needs(PLUMB_NEED_CONTACT_IMPULSES),
           .sleeping = init.needs(PLUMB_NEED_SLEEPING),
           .continuous = init.needs(PLUMB_NEED_COLLISION | PLUMB_NEED_CCD),
-          .surface_velocity = init.needs(PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION | PLUMB_NEED_SURFACE_VELOCITY)};
+          .surface_velocity = init.needs(PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION | PLUMB_NEED_SURFACE_VELOCITY),
+          .contact_modification = init.needs(PLUMB_NEED_COLLISION | PLUMB_NEED_CONTACT_MODIFICATION)};
 }
 
-PlumbVec3 plumb_vec(const Position& p) { return {p.x, p.y, p.z}; }
+/// Steps are divided from the start for so long after one that made energy: what moves so that whole steps do goes on
+/// to for a while. s
+constexpr double kStaysDivided = 0.5;
 
 }  // namespace
 
@@ -43,16 +46,21 @@ PlumbResult World::step(double dt) {
   pacing_.dt = dt;
   told_.records_known = false;
   pacing_.parts = {};
-  pacing_.parts.count = pacing_.divides_for > 0 ? kParts : 1;
+  told_.events.swap(told_.early_events);
+  told_.early_events.clear();
+  if (pacing_.divides_for > 0)
+    divide({dt, 0});
+  else
+    pacing_.parts.to_do.push_back({dt, 0});
   pacing_.divides_for -= dt;
-  start(pacing_.dt / pacing_.parts.count, pacing_.parts.count > 1 ? 1 : 0);
+  start(pacing_.parts.to_do.back());
   return PLUMB_OK;
 }
 
 PlumbResult World::wait(PlumbStepReport& report) {
-  told_.events.swap(told_.early_events);
-  told_.early_events.clear();
-  finish_steps();
+  while (!advance()) simulation_.respond(std::vector<ManifoldChange>(simulation_.shown_count()));
+  if (pacing_.parts.gained) pacing_.divides_for = kStaysDivided;
+  pacing_.lets_go = false;
   settle_kinematics();
   clear_forces();
   break_joints();

@@ -29,7 +29,8 @@ class World final : public IPhysicsWorld,
                     public ISnapshot,
                     public IState,
                     public IExceptions,
-                    public IModify {
+                    public IModify,
+                    public IManifolds {
  public:
   explicit World(const WorldInit& init);
 
@@ -65,6 +66,7 @@ class World final : public IPhysicsWorld,
   IState* state() override { return this; }
   IExceptions* exceptions() override { return this; }
   IModify* modify() override { return this; }
+  IManifolds* manifolds() override { return this; }
 
  private:
   PlumbResult create_joints(std::span<const PlumbJointDesc> descs, std::span<PlumbJoint> ids) override;
@@ -94,6 +96,14 @@ class World final : public IPhysicsWorld,
   PlumbResult set_exceptions(std::span<const PlumbBodyPair> pairs, bool touch) override;
   PlumbResult modify_bodies(std::span<const PlumbBodyChange> changes) override;
   PlumbResult modify_joints(std::span<const PlumbJointChange> changes) override;
+  PlumbResult read_manifolds(std::span<const PlumbManifold>& manifolds) override;
+  PlumbResult modify_manifolds(std::span<const PlumbManifoldChange> changes) override;
+
+  /// A share of a step that the simulation takes as a whole.
+  struct StepPart {
+    double dt;    ///< s
+    int divided;  ///< how many times over
+  };
 
   void exchange(Archive& archive);
   void make_body(const PlumbBodyDesc& desc, PlumbBody id);
@@ -119,9 +129,10 @@ class World final : public IPhysicsWorld,
   void stop_infinite(std::uint32_t slot);
   void push(std::uint32_t slot, const Vec& force, const Vec& torque);
   void kick(std::uint32_t slot, const Vec& impulse, const Vec& angular_impulse);
-  void start(double dt, int divided, bool is_repeat = false);
-  void finish_steps();
-  void finish(double dt, int divided);
+  void start(const StepPart& part, bool is_repeat = false);
+  void divide(const StepPart& whole);
+  bool advance();
+  void finish_part();
   void keep_part();
   void steer_kinematics(double dt);
   void settle_kinematics();
@@ -145,7 +156,7 @@ class World final : public IPhysicsWorld,
   static constexpr int kParts = 4;
   /// Of the step that is under way, which may go in parts.
   struct Parts {
-    int count = 1;                        // from the start; each may be divided further
+    std::vector<StepPart> to_do;          // the last one is under way
     std::vector<ContactRecord> contacts;  // of all but the last, where impulses or events are needed
     std::uint32_t nonfinite = 0;          // likewise
     bool any_done = false;
@@ -172,6 +183,7 @@ class World final : public IPhysicsWorld,
   /// What callers look at until they ask again.
   struct Lent {
     std::vector<PlumbContact> contacts;
+    std::vector<PlumbManifold> manifolds;
     std::vector<PlumbDebugPair> pairs;
     std::vector<PlumbDebugBox> boxes;
     std::vector<PlumbDebugAxis> axes;

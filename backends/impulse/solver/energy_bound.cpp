@@ -178,11 +178,15 @@ struct JudgeEnergy {
     atomic_max(&islands[body].mover, by + 1);
   }
   PLUMB_HD void join_contact(std::uint32_t row) const {
-    const Pair pair = work.cache.pairs[work.cache.candidate[row]];
+    const std::uint32_t candidate = work.cache.candidate[row];
+    const Pair pair = work.cache.pairs[candidate];
     const std::uint32_t a = work.proxies.rows[pair.a].body, b = work.proxies.rows[pair.b].body;
     join(a, b);
     if (work.surface_velocities == nullptr) return;
-    const Real speed = length(work.surface_velocities[pair.a]) + length(work.surface_velocities[pair.b]);
+    const ManifoldChange* change = work.changes.find(candidate, PLUMB_MANIFOLD_SURFACE_VELOCITY);
+    const Real speed = change != nullptr
+                           ? length(change->surface_velocity)
+                           : length(work.surface_velocities[pair.a]) + length(work.surface_velocities[pair.b]);
     if (is_pushed(a)) atomic_max(&islands[a].speed, ordered_bits(speed));
     if (is_pushed(b)) atomic_max(&islands[b].speed, ordered_bits(speed));
   }

@@ -23,6 +23,7 @@
 #include "joints/joint_loops.hpp"
 #include "joints/joint_store.hpp"
 #include "narrowphase/contact_cache.hpp"
+#include "narrowphase/manifold_change.hpp"
 #include "solver/settled_islands.hpp"
 
 namespace plumb::impulse {
@@ -67,6 +68,7 @@ struct EnergyWork {
   ContactCache cache;
   Proxies proxies;
   const Vec* surface_velocities;  ///< by proxy, or null
+  ManifoldChanges changes;
   MovableBodies bodies;
   JointSet joints;  ///< with the world's bodies
   JointCode code;

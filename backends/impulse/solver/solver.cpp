@@ -83,16 +83,16 @@ void Solver::find_mobility(Executor& executor, const ContactCache& cache, const 
 }
 
 void Solver::prepare(Executor& executor, const ContactCache& cache, const MovableBodies& all, const Proxies& proxies,
-                     const Colouring& colouring, const Real* impacts, const StepParameters* parameters,
-                     const SubstepLevels* levels, StepCounters* counters) {
+                     const Colouring& colouring, const Real* impacts, const ManifoldChanges& changes,
+                     const StepParameters* parameters, const SubstepLevels* levels, StepCounters* counters) {
   const Count slots = {&counters->slots, slots_};
   const bool split = kind_ == SolverKind::kJacobi;
   if (split) split_.list(executor, cache, all.velocity, proxies.rows, counters);
   const auto prepare = [&]<bool kImpacts, bool kMechanisms>() {
     executor.run(slots,
-                 PrepareContacts<kImpacts, kMechanisms>{cache, all, proxies, bodies(all, counters), rows(), counters,
-                                                        colouring.order(), colouring.masks(), parameters, levels,
-                                                        sentinel_, split ? split_.parts().ranges : nullptr, impacts});
+                 PrepareContacts<kImpacts, kMechanisms>{
+                     cache, all, proxies, bodies(all, counters), rows(), counters, colouring.order(), colouring.masks(),
+                     parameters, levels, sentinel_, split ? split_.parts().ranges : nullptr, impacts, changes});
   };
   const bool whole = mechanisms_.count != 0;
   if (impacts == nullptr)

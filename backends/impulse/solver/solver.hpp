@@ -13,6 +13,7 @@
 #include "exec/memory.hpp"
 #include "joints/joint_store.hpp"
 #include "narrowphase/contact_cache.hpp"
+#include "narrowphase/manifold_change.hpp"
 #include "solver/choose_substeps.hpp"
 #include "solver/pass_change.hpp"
 
@@ -21,7 +22,7 @@ namespace plumb::impulse {
 /// What the scene asks for; the rest is left out.
 struct SolverFeatures {
   bool rotation, collision, friction, restitution, gyroscopic, contact_impulses;
-  bool sleeping = false, continuous = false, surface_velocity = false;
+  bool sleeping = false, continuous = false, surface_velocity = false, contact_modification = false;
 };
 
 class Solver {
@@ -60,8 +61,8 @@ class Solver {
                      JointStore& joints);
   /// Contacts into rows, in the order of their colours. impacts: Impacts::times(), or null.
   void prepare(Executor& executor, const ContactCache& cache, const MovableBodies& bodies, const Proxies& proxies,
-               const Colouring& colouring, const Real* impacts, const StepParameters* parameters,
-               const SubstepLevels* levels, StepCounters* counters);
+               const Colouring& colouring, const Real* impacts, const ManifoldChanges& changes,
+               const StepParameters* parameters, const SubstepLevels* levels, StepCounters* counters);
   /// The joints with what their kernels work on.
   [[nodiscard]] JointSet joint_set(const MovableBodies& all, const StepCounters* counters, JointStore& joints) {
     return joints.set(all, bodies(all, counters), features_.gyroscopic);

@@ -13,18 +13,19 @@ class StepRecorder {
   void forget() { ++generation_; }
   [[nodiscard]] std::uint64_t generation() const { return generation_; }
 
-  /// Of the step of this number.
-  Recording& recording(std::uint32_t number, const StepInput& input) {
+  /// Of the step of this number, or of its second half.
+  Recording& recording(std::uint32_t number, const StepInput& input, bool second_half = false) {
     if (!(input == recorded_)) {
-      for (auto& of_parity : recordings_)
-        for (Recording& recording : of_parity) recording.forget();
+      for (auto& of_half : recordings_)
+        for (auto& of_parity : of_half)
+          for (Recording& recording : of_parity) recording.forget();
       recorded_ = input;
     }
-    return recordings_[PhaseClock::measures(number) ? 1 : 0][number % 2];
+    return recordings_[second_half ? 1 : 0][PhaseClock::measures(number) ? 1 : 0][number % 2];
   }
 
  private:
-  Recording recordings_[2][2];  // steps that are measured or not, of each parity
+  Recording recordings_[2][2][2];  // halves of steps that are measured or not, of each parity
   StepInput recorded_{};
   std::uint64_t generation_ = 1;
 };

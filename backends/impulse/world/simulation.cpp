@@ -188,20 +188,47 @@ void Simulation::launch() {
   reserve_rows();
   PLUMB_ASSERT(numbers_.parameters[0].dt > 0);
   PLUMB_ASSERT(bodies.count < bodies.size() && colliders.count <= colliders.proxies.size());
+  shows_ = stages_.features.contact_modification;
+  enqueue(shows_ ? Half::kDetection : Half::kBoth);
+}
+
+void Simulation::respond(std::span<const ManifoldChange> changes) {
+  PLUMB_ASSERT(shows_);
+  shows_ = false;
+  stages_.modification.change(executor_, changes);
+  enqueue(Half::kResponse);
+}
+
+void Simulation::enqueue(Half half) {
   NarrowPhase& narrow_phase = stages_.narrow_phase;
   const StepInput known = input();
-  executor_.record(recorder_.recording(step_, known), [&] {
-    enqueue_step({known, executor_, stages_, joints, sleep_, output_, numbers_.parameters.device(),
-                  numbers_.levels.device(), numbers_.counters, stages_.solver.take_mechanisms(joints),
-                  narrow_phase.cache(step_), narrow_phase.cache(step_ + 1)});
+  executor_.record(recorder_.recording(step_, known, half == Half::kResponse), [&] {
+    const StepContext step = {known,
+                              executor_,
+                              stages_,
+                              joints,
+                              sleep_,
+                              output_,
+                              numbers_.parameters.device(),
+                              numbers_.levels.device(),
+                              numbers_.counters,
+                              stages_.solver.take_mechanisms(joints),
+                              narrow_phase.cache(step_),
+                              narrow_phase.cache(step_ + 1)};
+    switch (half) {
+      case Half::kBoth: return enqueue_step(step);
+      case Half::kDetection: return enqueue_detection(step);
+      case Half::kResponse: return enqueue_response(step);
+    }
   });
+  if (half == Half::kDetection) return;
   bodies.state.stepped();
   restored_ = false;
   if (output_.poses.in_step()) output_.poses.written(bodies.state.version());
   if (output_.velocities.in_step()) output_.velocities.written(bodies.state.version());
 }
 
-void Simulation::wait() {
+bool Simulation::wait() {
   executor_.wait();
   while (is_undone(counters(), stages_.pair_capacity) && !taken_back()) {
     if (counters().pairs > stages_.pair_capacity) {
@@ -216,17 +243,21 @@ void Simulation::wait() {
     executor_.wait();
   }
   PLUMB_ASSERT(candidate_count() <= stages_.pair_capacity || taken_back());
+  if (shows_) return false;
   PLUMB_ASSERT(counters().manifolds <= candidate_count());
   if (taken_back()) --step_;
-  if (taken_back() || !stages_.features.sleeping) return;
+  if (taken_back() || !stages_.features.sleeping) return true;
   sleep_.stepped();
   if (step_ % Sleep::kPeriod == 0) let_islands_rest();
+  return true;
 }
 
 // --- what is told of it ---
 
 double Simulation::phase_seconds(PlumbPhase phase) const {
   const bool told = phase <= PLUMB_PHASE_SOLVE || phase == PLUMB_PHASE_OUTPUT;
+  if (stages_.features.contact_modification)
+    return std::numeric_limits<double>::quiet_NaN();  // the host's time is in it
   return told && PhaseClock::measures(step_) ? stages_.phases.seconds(phase) : std::numeric_limits<double>::quiet_NaN();
 }
 

@@ -79,8 +79,14 @@ class Simulation {
   [[nodiscard]] const BroadPhase& broad_phase() const { return stages_.broad_phase; }
   /// Enqueues a step. parameters.step and .origin are filled in here.
   void step(const StepParameters& parameters, const SubstepLevels& levels);
-  /// Returns when the step is done; grows what was too small and repeats the step then.
-  void wait();
+  /// Returns when the step is done, and true; grows what was too small and repeats the step then. False: contacts are
+  /// found and shown, and respond() makes the step go on.
+  bool wait();
+  /// What was found, where the world modifies contacts and wait() was false.
+  [[nodiscard]] std::span<const ShownManifold> shown() { return stages_.modification.shown(executor_); }
+  [[nodiscard]] std::uint32_t shown_count() const { return stages_.modification.shown_count(); }
+  /// Solves what was shown, with a change for each.
+  void respond(std::span<const ManifoldChange> changes);
 
   /// What a step did beside moving bodies.
   struct Outcome {
@@ -152,6 +158,8 @@ class Simulation {
   void reserve_rows();
   [[nodiscard]] StepInput input();
   void launch();
+  enum class Half : std::uint8_t { kBoth, kDetection, kResponse };
+  void enqueue(Half half);
   void let_islands_rest();
   void fall_asleep(const Slots& island);
   void store_contacts();
@@ -175,6 +183,7 @@ class Simulation {
   Dirty dirty_;
   bool bound_again_ = false;  // the statics, as they were: with the same parameters
   bool restored_ = false;     // since the last step: what it found is not known
+  bool shows_ = false;        // what the step has found waits for respond()
 };
 
 }  // namespace plumb::impulse

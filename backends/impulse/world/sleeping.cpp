@@ -84,7 +84,8 @@ void Simulation::let_islands_rest() {
                                  colliders.view(),
                                  sleep_.rest(),
                                  numbers_.parameters[0].sleep_time,
-                                 stages_.features.surface_velocity ? colliders.surface_velocities.device() : nullptr});
+                                 stages_.features.surface_velocity ? colliders.surface_velocities.device() : nullptr,
+                                 stages_.changes()});
   executor_.wait();
   if (sleep_.islands().resting_count() == 0) return;
   const Slots names = sleep_.islands().resting(bodies.count);

@@ -27,6 +27,7 @@ void Stages::reserve(Executor& executor, std::uint32_t bodies, std::uint32_t pro
   if (features.continuous || features.restitution) impacts.reserve(pairs);
   if (features.continuous) clamp.reserve(bodies);
   if (uses_midphase) midphase.reserve(proxies, pairs);
+  if (features.contact_modification) modification.reserve(pairs);
   colouring.reserve(executor, bodies, pairs);
   solver.reserve(executor, bodies, pairs);
   if (kAsserts) validation.reserve(bodies);
@@ -77,6 +78,18 @@ void find_impacts(const StepContext& step) {
                            step.stages.margins.data(), step.parameters, step.uses_midphase);
 }
 
+void show_manifolds(const StepContext& step) {
+  if (!step.stages.features.contact_modification) return;
+  step.stages.modification.show(step.executor,
+                                {step.now, step.candidates(), step.bodies, step.proxies, step.surface_velocities});
+  step.executor.to_host(step.counted, 1);
+}
+
+void modify_manifolds(const StepContext& step) {
+  if (!step.stages.features.contact_modification) return;
+  step.stages.modification.disable(step.executor, step.now, step.candidates());
+}
+
 void match(const StepContext& step) {
   Stages& of = step.stages;
   of.narrow_phase.number(step.executor, step.now, step.counters);
@@ -113,11 +126,12 @@ void prepare(const StepContext& step) {
     of.solver.find_mobility(step.executor, step.now, step.movable, step.proxies, step.parameters, step.levels,
                             step.counters, step.joints);
   of.solver.prepare(step.executor, step.now, step.movable, step.proxies, of.colouring,
-                    step.finds_impacts() ? of.impacts.times() : nullptr, step.parameters, step.levels, step.counters);
+                    step.finds_impacts() ? of.impacts.times() : nullptr, of.changes(), step.parameters, step.levels,
+                    step.counters);
   if (step.surface_velocities != nullptr)
     put_surface_speeds(step.executor,
                        {step.now, step.bodies, step.proxies, step.surface_velocities, of.colouring.order(),
-                        of.colouring.keys(), of.solver.rows(), step.counters},
+                        of.colouring.keys(), of.solver.rows(), step.counters, of.changes()},
                        step.pair_capacity);
 }
 
@@ -135,7 +149,7 @@ void clamp(const StepContext& step) {
   Stages& of = step.stages;
   of.clamp.clamp(step.executor,
                  {step.now, step.candidates(), step.pair_capacity, step.counters, step.parameters, step.proxies,
-                  of.boxes.data(), step.movers, of.broad_phase.statics(), step.planes},
+                  of.boxes.data(), step.movers, of.broad_phase.statics(), step.planes, of.changes()},
                  step.movable, step.body_rows, of.solver.displacements());
 }
 

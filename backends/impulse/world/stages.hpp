@@ -22,6 +22,10 @@ void midphase(const StepContext& step);
 void collide(const StepContext& step);
 /// Manifolds of what comes to touch in the course of the step, where the scene asks for it.
 void find_impacts(const StepContext& step);
+/// What touches, for the host: where it asks for it.
+void show_manifolds(const StepContext& step);
+/// What the host does not want to touch is gone.
+void modify_manifolds(const StepContext& step);
 /// Numbers the manifolds, and gives each the impulses of the last step. Sleepers that are touched are found.
 void match(const StepContext& step);
 /// How many sub-steps each island has, by what its contacts bear.

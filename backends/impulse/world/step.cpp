@@ -4,16 +4,27 @@
 namespace plumb::impulse {
 
 void enqueue_step(const StepContext& step) {
-  begin(step);
-  if (step.collides()) {
-    bound(step);
-    find_pairs(step);
-    validate_pairs(step);
-    midphase(step);
-    end_phase(step, PLUMB_PHASE_BROAD);
+  enqueue_detection(step);
+  enqueue_response(step);
+}
 
-    collide(step);
-    find_impacts(step);
+void enqueue_detection(const StepContext& step) {
+  begin(step);
+  if (!step.collides()) return;
+  bound(step);
+  find_pairs(step);
+  validate_pairs(step);
+  midphase(step);
+  end_phase(step, PLUMB_PHASE_BROAD);
+
+  collide(step);
+  find_impacts(step);
+  show_manifolds(step);
+}
+
+void enqueue_response(const StepContext& step) {
+  if (step.collides()) {
+    modify_manifolds(step);
     match(step);
     validate_manifolds(step);
     end_phase(step, PLUMB_PHASE_NARROW);

@@ -5,6 +5,7 @@
 #include "broadphase/broad_phase.hpp"
 #include "broadphase/exclusions.hpp"
 #include "contacts/colouring.hpp"
+#include "contacts/contact_modification.hpp"
 #include "continuous/impact_clamp.hpp"
 #include "continuous/impacts.hpp"
 #include "exec/phase_clock.hpp"
@@ -35,11 +36,17 @@ struct Stages {
   NarrowPhase narrow_phase;
   Impacts impacts;  ///< these two where the scene asks for them
   ImpactClamp clamp;
+  ContactModification modification;  ///< likewise
   Colouring colouring;
   Solver solver;
   EnergyBound energy_bound;  ///< where there are joints
   PhaseClock phases;
   ValidationMemory validation;  ///< where there are asserts
+
+  /// What the host has changed in the step's manifolds.
+  [[nodiscard]] ManifoldChanges changes() {
+    return features.contact_modification ? modification.changes() : ManifoldChanges{};
+  }
 };
 
 /// What a step depends on of the host's numbers and addresses: two steps of the same are the same sequence of kernels,
@@ -97,6 +104,7 @@ struct StepContext : StepInput {
     return {now,
             proxies,
             surface_velocities,
+            stages.changes(),
             movable,
             stages.solver.joint_set(movable, counters, joints),
             joints.code(),
@@ -112,5 +120,8 @@ struct StepContext : StepInput {
 
 /// Enqueues a step, from bounds to poses.
 void enqueue_step(const StepContext& step);
+/// Its two halves, where the host is shown what touches: between them it says what becomes of that.
+void enqueue_detection(const StepContext& step);
+void enqueue_response(const StepContext& step);
 
 }  // namespace plumb::impulse

@@ -1,5 +1,7 @@
 #include "tests/hashes/change_scenes.hpp"
 
+#include <memory>
+
 #include "tests/hashes/shape_scenes.hpp"
 
 namespace plumb::impulse::test {
@@ -82,6 +84,44 @@ void changers(Scene& scene) {
     for (const PlumbBodyChange& change : changes) all.modify(change);
     if (step % 5 == 0)
       all.modify(changed_joint(random, joints[static_cast<std::size_t>(random.next() % joints.size())]));
+  };
+}
+
+void sieves(Scene& scene) {
+  scene.container(3, 20);
+  const std::vector<PlumbShape> shapes = convex_shapes(scene);
+  scene.body.flags = PLUMB_BODY_MODIFY_CONTACTS;
+  const PlumbBody shelf = scene.add_static(scene.box({2, 0.1, 2}), {0, 1.5, 0});
+  for (int i = 0; i < 60; ++i) {
+    Random random(static_cast<std::uint64_t>(i) + 300);
+    const PlumbQuat turn = random.turn();
+    scene.body.flags = i % 4 == 3 ? 0U : static_cast<std::uint32_t>(PLUMB_BODY_MODIFY_CONTACTS);
+    if (i % 10 == 4) scene.body.flags |= PLUMB_BODY_CCD;
+    scene.body.material.restitution = i % 3 == 0 ? 0.5 : 0;
+    const PlumbVec3 at = {1.2 * (i % 4) - 1.8, 0.6 + 1.1 * (i / 16), 1.2 * (i / 4 % 4) - 1.8};
+    const PlumbBody thrown = scene.add(shapes[static_cast<std::size_t>(i) % shapes.size()], at, turn);
+    if (i % 2 == 0) scene.write(PLUMB_FIELD_VELOCITY, thrown, {0, 12, 0, 1, 2, 3});
+  }
+  const auto now = std::make_shared<int>(0);
+  scene.before_step = [now](Scene& /*all*/, int step) { *now = step; };
+  scene.modify_contacts = [shelf, now](std::span<const PlumbManifold> rows, std::vector<PlumbManifoldChange>& changes) {
+    for (std::uint32_t row = 0; row < rows.size(); ++row) {
+      const PlumbManifold& found = rows[row];
+      PlumbManifoldChange change = manifold_change(row);
+      const bool of_shelf = found.body_a == shelf || found.body_b == shelf;
+      const double up = found.body_a == shelf ? 1 : -1;
+      if (of_shelf && (up * found.normal.y < 0.5 || up * found.velocity.y > 0.5)) change.what = PLUMB_MANIFOLD_DISABLED;
+      if (!of_shelf) {
+        const auto patch = static_cast<std::uint32_t>(found.position[0].x + found.position[0].z + 100 + *now / 60);
+        constexpr std::uint32_t kWhat[] = {0, PLUMB_MANIFOLD_FRICTION, PLUMB_MANIFOLD_SURFACE_VELOCITY,
+                                           PLUMB_MANIFOLD_RESTITUTION | PLUMB_MANIFOLD_FRICTION};
+        change.what = kWhat[patch % 4];
+        change.friction = patch % 3 == 0 ? 1.5 : 0;
+        change.restitution = 0.25 * (patch % 5);
+        change.surface_velocity = {0.5, 0, -0.25 * (patch % 3)};
+      }
+      if (change.what != 0) changes.push_back(change);
+    }
   };
 }
 

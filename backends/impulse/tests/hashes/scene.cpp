@@ -154,8 +154,19 @@ void Scene::run(int steps) {
   for (int i = 0; i < steps; ++i, ++steps_) {
     if (before_step) before_step(*this, steps_);
     check(*world_, world_->step(1.0 / 60));
+    if (modify_contacts) solve_as_modified();
     check(*world_, world_->wait(report));
     if (report.nonfinite != 0) throw Error(PLUMB_E_INTERNAL, "a body came out not finite");
+  }
+}
+
+void Scene::solve_as_modified() {
+  IManifolds& manifolds = *world_->manifolds();
+  std::span<const PlumbManifold> rows;
+  while (check(*world_, manifolds.read_manifolds(rows)), !rows.empty()) {
+    std::vector<PlumbManifoldChange> changes;
+    modify_contacts(rows, changes);
+    check(*world_, manifolds.modify_manifolds(changes));
   }
 }
 

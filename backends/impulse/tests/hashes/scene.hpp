@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -58,6 +59,8 @@ class Scene {
   void rod(const PlumbVec3& hook, PlumbBody bob, double length);
   void ball_joint(PlumbBody a, const PlumbVec3& in_a, PlumbBody b, const PlumbVec3& in_b);
 
+  /// Says what becomes of what a step has found, where the world modifies contacts.
+  std::function<void(std::span<const PlumbManifold>, std::vector<PlumbManifoldChange>&)> modify_contacts;
   /// Called before each step with the number of steps done.
   std::function<void(Scene&, int)> before_step;
   void target(PlumbBody body, const PlumbVec3& position, const PlumbQuat& orientation = {0, 0, 0, 1});
@@ -78,6 +81,7 @@ class Scene {
   [[nodiscard]] IPhysicsWorld& world() { return *world_; }
 
  private:
+  void solve_as_modified();
   PlumbBody put(PlumbMotion motion, PlumbShape shape, const PlumbVec3& position, const PlumbQuat& orientation);
 
   std::unique_ptr<IPhysicsWorld> world_;

@@ -252,6 +252,12 @@ const std::vector<NamedScene>& named_scenes() {
       {"belts", {}, kAll | PLUMB_NEED_KINEMATIC | PLUMB_NEED_SURFACE_VELOCITY | PLUMB_NEED_SLEEPING, kDown, &belts},
       {"heavy-bridge", {}, kAll | PLUMB_NEED_JOINTS | PLUMB_NEED_AXIS_LOCKS, kDown, &heavy_bridge},
       {"drawers", {}, kContactNeeds | PLUMB_NEED_JOINTS, kDown, &drawers},
+      {"sieves",
+       {},
+       kAll | PLUMB_NEED_RESTITUTION | PLUMB_NEED_SURFACE_VELOCITY | PLUMB_NEED_SLEEPING | PLUMB_NEED_CCD |
+           PLUMB_NEED_CONTACT_MODIFICATION,
+       kDown,
+       &sieves},
       {"changers",
        {},
        kContactNeeds | PLUMB_NEED_JOINTS | PLUMB_NEED_KINEMATIC | PLUMB_NEED_AXIS_LOCKS | PLUMB_NEED_EVENTS,

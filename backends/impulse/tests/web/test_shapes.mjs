@@ -58,6 +58,29 @@ test('a belt carries what lies on it', () => {
   world.destroy();
 });
 
+test('contacts are seen before they are solved, and changed', () => {
+  const { world, ground, cube } = grounded(['contactModification']);
+  const [through, slides] = world.createBodies([
+    { shape: cube, position: [0, 0.5, 0], flags: ['modifyContacts'] },
+    { shape: cube, position: [5, 0.5, 0], flags: ['modifyContacts'], linearVelocity: [2, 0, 0] }]);
+  let seen = 0;
+  for (let i = 0; i < 15; ++i)
+    world.step(1 / 60, (manifolds) => manifolds.map(({ a, b, normal, points }, manifold) => {
+      ++seen;
+      assert.ok(a === ground || b === ground);
+      near(Math.abs(normal[1]), 1, 1e-3);
+      assert.ok(points.length > 0 && points.length <= 4 && points.every(({ position }) => Math.abs(position[1]) < 0.1));
+      return a === through || b === through ? { manifold, disabled: true } : { manifold, friction: 0 };
+    }));
+  assert.ok(seen > 15);
+  assert.ok(positionOf(world, through)[1] < 0.3);
+  near(world.read('velocity', [slides])[0], 2, 1e-3);
+  assert.throws(() => world.step(1 / 60, () => [{ manifold: 99, disabled: true }]), /manifold is 99/);
+  assert.throws(() => world.step(1 / 60, () => [{ manifold: 0 }]), /nothing that can change is among manifold/);
+  world.step(1 / 60);
+  world.destroy();
+});
+
 test('bodies are listed, keep what the page gave them, and become others', () => {
   const { world, ground, cube } = grounded();
   const body = world.createBody({ shape: cube, position: [0, 3, 0], userData: { name: 'crate' } });
