@@ -127,6 +127,17 @@ PlumbDegree modify_degree(std::uint32_t is_joint, std::uint32_t index, const cha
   return answer(PLUMB_EMULATED, note, "by another constraint in its place, which starts without impulses");
 }
 
+PlumbDegree manifold_degree(std::uint32_t index, const char*& note) {
+  if (index >= PLUMB_MANIFOLD_CHANGE_COUNT) return PLUMB_NONE;
+  switch (1U << index) {
+    case PLUMB_MANIFOLD_DISABLED:
+      return answer(PLUMB_APPROXIMATE, note, "a body with PLUMB_BODY_CCD is swept against the other all the same");
+    case PLUMB_MANIFOLD_SURFACE_VELOCITY:
+      return answer(PLUMB_APPROXIMATE, note, "as that of bodies: friction is up to 3 % off");
+    default: return PLUMB_NATIVE;
+  }
+}
+
 PlumbDegree phase_degree(std::uint32_t phase) { return phase <= PLUMB_PHASE_CONTINUOUS ? PLUMB_NATIVE : PLUMB_NONE; }
 
 }  // namespace
@@ -149,6 +160,7 @@ PlumbDegree World::capability(PlumbCapability kind, std::uint32_t a, std::uint32
     case PLUMB_CAP_SNAPSHOT: return answer(PLUMB_APPROXIMATE, note, "warm-start data are lost");
     case PLUMB_CAP_CHILD_MATERIAL: return PLUMB_NATIVE;
     case PLUMB_CAP_MODIFY: return modify_degree(a, b, note);
+    case PLUMB_CAP_MANIFOLD: return manifold_degree(a, note);
     default: return PLUMB_NONE;
   }
 }

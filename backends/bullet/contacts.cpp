@@ -1,4 +1,6 @@
 // What comes out of a step: contact points with their impulses, and who touches whom.
+#include "contacts.hpp"
+
 #include <algorithm>
 
 #include "world.hpp"
@@ -12,6 +14,17 @@ std::uint32_t child_index(const Body& body, int index) {
   const bool indexed = body.shape->type == PLUMB_COMPOUND || body.shape->type == PLUMB_TRIANGLE_MESH;
   return indexed ? static_cast<std::uint32_t>(index) : 0;
 }
+
+/// Bullet keeps points across a small gap; they touch when they overlap or push.
+bool touches(const btPersistentManifold& manifold) {
+  for (int k = 0; k < manifold.getNumContacts(); ++k) {
+    const btManifoldPoint& point = manifold.getContactPoint(k);
+    if (point.m_distance1 <= 0 || point.m_appliedImpulse > 0) return true;
+  }
+  return false;
+}
+
+}  // namespace
 
 PlumbContact contact_of(const btManifoldPoint& point, const Body& a, const Body& b, bool with_impulses) {
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
@@ -33,17 +46,6 @@ PlumbContact contact_of(const btManifoldPoint& point, const Body& a, const Body&
   contact.feature = reinterpret_cast<std::uintptr_t>(point.m_userPersistentData);
   return contact;
 }
-
-/// Bullet keeps points across a small gap; they touch when they overlap or push.
-bool touches(const btPersistentManifold& manifold) {
-  for (int k = 0; k < manifold.getNumContacts(); ++k) {
-    const btManifoldPoint& point = manifold.getContactPoint(k);
-    if (point.m_distance1 <= 0 || point.m_appliedImpulse > 0) return true;
-  }
-  return false;
-}
-
-}  // namespace
 
 bool World::is_solved(const btPersistentManifold& manifold) const {
   const Body &a = *our_body(manifold.getBody0()), &b = *our_body(manifold.getBody1());

@@ -45,9 +45,26 @@ void DynamicsWorld::begin_step() {
   applyGravity();
 }
 
-void DynamicsWorld::sub_step(btScalar h) {
+/// These two are internalSingleStepSimulation, which calls nobody in between.
+void DynamicsWorld::find_contacts(btScalar h) {
   saveKinematicState(h);
-  internalSingleStepSimulation(h);
+  predictUnconstraintMotion(h);
+  btDispatcherInfo& info = getDispatchInfo();
+  info.m_timeStep = h;
+  info.m_stepCount = 0;
+  info.m_debugDraw = getDebugDrawer();
+  createPredictiveContacts(h);
+  performDiscreteCollisionDetection();
+}
+
+void DynamicsWorld::respond(btScalar h) {
+  mark_ = Clock::now();  // the host may have been at work
+  calculateSimulationIslands();
+  getSolverInfo().m_timeStep = h;
+  solveConstraints(getSolverInfo());
+  integrateTransforms(h);
+  updateActions(h);
+  updateActivationState(h);
   charge(PLUMB_PHASE_ISLANDS);
 }
 

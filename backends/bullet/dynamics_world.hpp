@@ -47,10 +47,11 @@ class DynamicsWorld final : public btDiscreteDynamicsWorld {
   DynamicsWorld(WorldParts& parts, btConstraintSolver& solver, StepHooks& hooks)
       : btDiscreteDynamicsWorld(&parts.dispatcher, &parts.broadphase, &solver, &parts.configuration), hooks_(hooks) {}
 
-  /// The three parts of stepSimulation: begin, one sub-step or more, end. With one sub-step of h this does what
-  /// stepSimulation(h, 0) does to bodies without motion states.
+  /// The parts of stepSimulation: begin, one sub-step or more, end; a sub-step is two halves, between which contacts
+  /// are known. With one sub-step of h this does what stepSimulation(h, 0) does to bodies without motion states.
   void begin_step();
-  void sub_step(btScalar h);
+  void find_contacts(btScalar h);
+  void respond(btScalar h);
   void end_step() { clearForces(); }
 
   /// Bullet keeps the contacts that it foresees for CCD bodies until the next step, outside of its pairs, so that

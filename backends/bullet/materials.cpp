@@ -98,11 +98,29 @@ bool needs_contact_material(const Body& body) { return body.shape && body.shape-
 void refresh_materials(btDispatcher& dispatcher, const Body& body) {
   for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
     btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(i);
-    if (manifold.getBody0() != &body && manifold.getBody1() != &body) continue;
-    for (int k = 0; k < manifold.getNumContacts(); ++k) {
-      btManifoldPoint& point = manifold.getContactPoint(k);
-      combine(point, manifold.getBody0(), point.m_index0, manifold.getBody1(), point.m_index1);
-    }
+    if (manifold.getBody0() == &body || manifold.getBody1() == &body) refresh_materials(manifold);
+  }
+}
+
+void refresh_materials(btPersistentManifold& manifold) {
+  for (int k = 0; k < manifold.getNumContacts(); ++k) {
+    btManifoldPoint& point = manifold.getContactPoint(k);
+    combine(point, manifold.getBody0(), point.m_index0, manifold.getBody1(), point.m_index1);
+  }
+}
+
+btVector3 surface_velocity_between(const Body& a, const Body& b) { return surface_velocity(b) - surface_velocity(a); }
+
+void run_surface(btPersistentManifold& manifold, const btVector3& b_over_a) {
+  const Body &a = *our_body(manifold.getBody0()), &b = *our_body(manifold.getBody1());
+  for (int k = 0; k < manifold.getNumContacts(); ++k) direct_friction(manifold.getContactPoint(k), a, b, -b_over_a);
+}
+
+void stop_surface(btPersistentManifold& manifold) {
+  for (int k = 0; k < manifold.getNumContacts(); ++k) {
+    btManifoldPoint& point = manifold.getContactPoint(k);
+    point.m_contactMotion1 = point.m_contactMotion2 = 0;
+    point.m_contactPointFlags &= ~static_cast<int>(BT_CONTACT_FLAG_LATERAL_FRICTION_INITIALIZED);
   }
 }
 
@@ -110,10 +128,7 @@ void apply_surface_velocities(btDispatcher& dispatcher) {
   for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
     btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(i);
     const Body &a = *our_body(manifold.getBody0()), &b = *our_body(manifold.getBody1());
-    if (!a.conveys && !b.conveys) continue;
-    const btVector3 surface_slip = surface_velocity(a) - surface_velocity(b);
-    for (int k = 0; k < manifold.getNumContacts(); ++k)
-      direct_friction(manifold.getContactPoint(k), a, b, surface_slip);
+    if (a.conveys || b.conveys) run_surface(manifold, surface_velocity_between(a, b));
   }
 }
 

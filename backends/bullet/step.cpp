@@ -29,19 +29,36 @@ World::~World() {
 PlumbResult World::step(double dt) {
   const int sub_steps = static_cast<int>(settings_.number("substeps"));
   h_ = dt / sub_steps;
-  const btScalar h = positive_scalar(h_, "dt / substeps");
+  static_cast<void>(positive_scalar(h_, "dt / substeps"));
   begin_events();
   solver_->begin_step();
   world_.begin_step();
-  for (int left = sub_steps; left > 0; --left) {
-    move_kinematic(left, h);
-    world_.sub_step(h);
-    if (left > 1) keep_sub_step_contacts();
-  }
+  sub_steps_left_ = sub_steps;
+  find_contacts();
+  if (!needs(PLUMB_NEED_CONTACT_MODIFICATION)) finish_step();
+  return PLUMB_OK;
+}
+
+/// The first half of a sub-step.
+void World::find_contacts() {
+  const auto h = static_cast<btScalar>(h_);
+  move_kinematic(sub_steps_left_, h);
+  world_.find_contacts(h);
+}
+
+/// The second half, and the first of the next.
+void World::respond() {
+  world_.respond(static_cast<btScalar>(h_));
+  if (--sub_steps_left_ == 0) return;
+  keep_sub_step_contacts();
+  find_contacts();
+}
+
+void World::finish_step() {
+  while (sub_steps_left_ > 0) respond();
   world_.end_step();
   forget_targets();
   if (needs(PLUMB_NEED_EVENTS | PLUMB_NEED_SENSORS)) finish_events();
-  return PLUMB_OK;
 }
 
 void World::before_motion(btScalar h) {
@@ -52,10 +69,12 @@ void World::before_motion(btScalar h) {
 void World::before_solve() {
   solver_->begin_sub_step();
   if (needs(PLUMB_NEED_SURFACE_VELOCITY)) apply_surface_velocities(parts_.dispatcher);
+  apply_manifold_changes();
   if (joint_count_ != 0) prepare_joints(static_cast<btScalar>(h_));
 }
 
 void World::after_solve() {
+  take_back_manifold_changes();
   hold_locks();
   if (joint_count_ != 0) break_joints();
 }
@@ -98,6 +117,7 @@ void World::track_sleep() {
 }
 
 PlumbResult World::wait(PlumbStepReport& report) {
+  if (needs(PLUMB_NEED_CONTACT_MODIFICATION)) finish_step();
   report.pairs = static_cast<std::uint32_t>(parts_.broadphase.getOverlappingPairCache()->getNumOverlappingPairs());
   report.contacts = solver_->contacts();
   report.residual = solver_->residual();

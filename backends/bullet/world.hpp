@@ -23,6 +23,7 @@ class World final : public IPhysicsWorld,
                     public ISnapshot,
                     public IExceptions,
                     public IModify,
+                    public IManifolds,
                     private btOverlapFilterCallback,
                     private StepHooks {
  public:
@@ -61,6 +62,7 @@ class World final : public IPhysicsWorld,
   ISnapshot* snapshot() override { return this; }
   IExceptions* exceptions() override { return this; }
   IModify* modify() override { return this; }
+  IManifolds* manifolds() override { return this; }
 
   // joints/joints.cpp
   PlumbResult create_joints(std::span<const PlumbJointDesc> descs, std::span<PlumbJoint> ids) override;
@@ -71,6 +73,10 @@ class World final : public IPhysicsWorld,
   // modify.cpp
   PlumbResult modify_bodies(std::span<const PlumbBodyChange> changes) override;
   PlumbResult modify_joints(std::span<const PlumbJointChange> changes) override;
+
+  // manifolds.cpp
+  PlumbResult read_manifolds(std::span<const PlumbManifold>& manifolds) override;
+  PlumbResult modify_manifolds(std::span<const PlumbManifoldChange> changes) override;
 
   // queries/queries.cpp
   Hits cast_rays(PlumbHitMode mode, std::span<const PlumbRay> rays) override;
@@ -131,6 +137,9 @@ class World final : public IPhysicsWorld,
 
   // step.cpp
   void apply_settings();
+  void find_contacts();
+  void respond();
+  void finish_step();
   void before_motion(btScalar h) override;
   void before_solve() override;
   void after_solve() override;
@@ -146,6 +155,10 @@ class World final : public IPhysicsWorld,
   void gather_contacts();
   void add_sub_step_impulses();
   void track_touches();
+
+  // manifolds.cpp
+  void apply_manifold_changes();
+  void take_back_manifold_changes();
 
   // joints/joints.cpp
   void prepare_joints(btScalar h);
@@ -181,6 +194,9 @@ class World final : public IPhysicsWorld,
   std::uintptr_t last_point_id_ = 0;
   backend::TouchTracker touches_;
   std::vector<PlumbEvent> events_, pending_events_;
+  std::vector<PlumbManifold> manifolds_;
+  std::vector<btPersistentManifold*> shown_;  ///< Bullet's own of manifolds_, and as long as these
+  std::vector<std::pair<btPersistentManifold*, PlumbManifoldChange>> changed_;  ///< in the sub-step in hand
   std::vector<std::byte> snapshot_;
   std::vector<PlumbDebugPair> debug_pairs_;
   std::vector<PlumbDebugBox> debug_boxes_;
@@ -188,6 +204,7 @@ class World final : public IPhysicsWorld,
   std::vector<PlumbDebugBody> debug_bodies_;
   std::vector<PlumbDebugConstraint> debug_constraints_;
   double h_ = 0;            ///< of the sub-step in hand, s
+  int sub_steps_left_ = 0;  ///< with that one
   std::mutex query_mutex_;  ///< Bullet's tree keeps one stack for all of its rays
 };
 

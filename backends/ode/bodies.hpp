@@ -37,9 +37,10 @@ struct Body {
   PlumbMotion motion = PLUMB_STATIC;
   bool turns = false;  ///< dynamic and not a particle
   bool sensor = false;
-  bool was_awake = true;       ///< after the last step, for events
-  bool pushed = false;         ///< force or torque were written
-  PlumbVec3 centre_of_mass{};  ///< body frame
+  bool shows_contacts = false;  ///< to the host, before they are solved
+  bool was_awake = true;        ///< after the last step, for events
+  bool pushed = false;          ///< force or torque were written
+  PlumbVec3 centre_of_mass{};   ///< body frame
   PlumbBody handle = 0;
   std::uint32_t locks = 0;
   PlumbFilter filter{};

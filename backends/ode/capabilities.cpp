@@ -144,6 +144,7 @@ Fact fact(PlumbCapability kind, std::uint32_t a, std::uint32_t b) {
     case PLUMB_CAP_HOST_JOBS: return {PLUMB_NONE, "ODE runs threads of its own"};
     case PLUMB_CAP_CHILD_MATERIAL: return {PLUMB_NATIVE};
     case PLUMB_CAP_MODIFY: return modify_fact(a, b);
+    case PLUMB_CAP_MANIFOLD: return {a < PLUMB_MANIFOLD_CHANGE_COUNT ? PLUMB_NATIVE : PLUMB_NONE};
     default: return {PLUMB_NONE};
   }
 }

@@ -24,8 +24,6 @@ PlumbVec3 velocity_at(const Body& body, const PlumbVec3& point) {
   return add(body.linear_velocity(), cross(vec(dBodyGetAngularVel(body.body)), sub(point, body.centre())));
 }
 
-bool has_belt(const GeomTag& tag) { return !is_zero(tag.surface_velocity); }
-
 bool knows(const Body& body, const Body& other) {
   return std::find(body.untouchable.begin(), body.untouchable.end(), &other) != body.untouchable.end();
 }
@@ -39,6 +37,10 @@ struct ContactPass::Pair {
   bool awake;
 };
 
+bool ContactPass::shows(const Pair& pair) {
+  return pair.awake && (pair.first.body->shows_contacts || pair.second.body->shows_contacts);
+}
+
 ContactPass::ContactPass(const WorldInit& init, dWorldID world)
     : world_(world),
       group_(dJointGroupCreate(0)),
@@ -47,6 +49,7 @@ ContactPass::ContactPass(const WorldInit& init, dWorldID world)
       sensing_(init.needs(PLUMB_NEED_SENSORS)),
       sleeping_(init.needs(PLUMB_NEED_SLEEPING)),
       conveyors_(init.needs(PLUMB_NEED_SURFACE_VELOCITY)),
+      holds_back_(init.needs(PLUMB_NEED_CONTACT_MODIFICATION)),
       keeps_contacts_(init.needs(PLUMB_NEED_CONTACTS)),
       keeps_impulses_(init.needs(PLUMB_NEED_CONTACTS | PLUMB_NEED_CONTACT_IMPULSES)),
       keeps_pairs_(init.needs(PLUMB_NEED_EVENTS)) {}
@@ -68,6 +71,9 @@ void ContactPass::begin_step() {
   contacts_.clear();
   sources_.clear();
   substep_starts_.clear();
+  held_.clear();
+  held_points_.clear();
+  shown_.clear();
 }
 
 void ContactPass::begin_substep() {
@@ -125,41 +131,52 @@ void ContactPass::meet(dGeomID first, dGeomID second) {
   if (sensor) {
     const PlumbBody a = one.body->handle, b = two.body->handle;
     sensed_.push_back(one.sensor ? BodyPair{a, b} : BodyPair{b, a});
+  } else if (holds_back_) {
+    hold_back(pair, count);
   } else {
-    respond(pair, count);
+    respond(pair, std::span(scratch_).first(static_cast<std::size_t>(count)), nullptr);
   }
 }
 
-/// Friction sqrt(mu1 mu2), restitution max(e1, e2).
+/// Friction sqrt(mu1 mu2), restitution max(e1, e2), unless the host wants others.
 struct ContactPass::Surface {
-  Surface(const Pair& pair, int base_mode)
+  Surface(const Pair& pair, int base_mode, const PlumbManifoldChange* change)
       : mode(base_mode),
         mu(pair.first.friction == pair.second.friction ? pair.first.friction
                                                        : std::sqrt(pair.first.friction * pair.second.friction)),
         bounce(std::max(pair.first.restitution, pair.second.restitution)) {
+    if (change != nullptr && (change->what & PLUMB_MANIFOLD_FRICTION) != 0) mu = change->friction;
+    if (change != nullptr && (change->what & PLUMB_MANIFOLD_RESTITUTION) != 0) bounce = change->restitution;
     if (bounce > 0) mode |= dContactBounce;
   }
   int mode;
   double mu, bounce;
 };
 
-void ContactPass::respond(const Pair& pair, int count) {
+/// By how much the second's surface runs over the first's, which may be other than their bodies say.
+PlumbVec3 ContactPass::belts_of(const Pair& pair, const PlumbManifoldChange* change) const {
+  if (change == nullptr || (change->what & PLUMB_MANIFOLD_SURFACE_VELOCITY) == 0)
+    return conveyors_ ? sub(belt_velocity(pair.second), belt_velocity(pair.first)) : PlumbVec3{};
+  return is_swapped(pair) ? scale(-1, change->surface_velocity) : change->surface_velocity;
+}
+
+void ContactPass::respond(const Pair& pair, std::span<dContact> points, const PlumbManifoldChange* change) {
   const GeomTag &one = pair.first, &two = pair.second;
-  points_ += static_cast<std::uint32_t>(count);
+  points_ += static_cast<std::uint32_t>(points.size());
   if (keeps_pairs_) {
     const PlumbBody a = one.body->handle, b = two.body->handle;
     touching_.push_back(slot_of(a) < slot_of(b) ? BodyPair{a, b} : BodyPair{b, a});
   }
-  const Surface surface(pair, mode_);
-  const bool aimed = surface.mu > 0 && (sliding_directions_ || (conveyors_ && (has_belt(one) || has_belt(two))));
-  for (int i = 0; i < count; ++i) {
-    dContact& contact = scratch_[static_cast<std::size_t>(i)];
+  const Surface surface(pair, mode_, change);
+  const PlumbVec3 belts = belts_of(pair, change);
+  const bool aimed = surface.mu > 0 && (sliding_directions_ || !is_zero(belts));
+  for (dContact& contact : points) {
     dJointID joint = nullptr;
     if (pair.awake) {
       contact.surface.mode = surface.mode;
       contact.surface.mu = surface.mu;
       contact.surface.bounce = surface.bounce;
-      if (aimed) aim_friction(pair, contact, one.id == nullptr);
+      if (aimed) aim_friction(pair, contact, belts);
       joint = dJointCreateContact(world_, group_, &contact);
       dJointAttach(joint, one.id, two.id);
     }
@@ -169,9 +186,9 @@ void ContactPass::respond(const Pair& pair, int count) {
 
 // The joint's rows ask for t.(v1 - v2) = motion of the bodies at the point; surfaces that move by s1 and s2 themselves
 // stick when v1 + s1 = v2 + s2. Where ODE has swapped the bodies, because the first is static, signs and normal turn.
-void ContactPass::aim_friction(const Pair& pair, dContact& contact, bool reversed) const {
+void ContactPass::aim_friction(const Pair& pair, dContact& contact, const PlumbVec3& belts) const {
+  const bool reversed = pair.first.id == nullptr;
   const PlumbVec3 normal = scale(reversed ? -1 : 1, vec(contact.geom.normal));
-  const PlumbVec3 belts = sub(belt_velocity(pair.second), belt_velocity(pair.first));
   const auto tangential = [&](const PlumbVec3& v) { return sub(v, scale(dot(v, normal), normal)); };
   PlumbVec3 along = tangential(belts);
   if (sliding_directions_) {
@@ -190,20 +207,25 @@ void ContactPass::aim_friction(const Pair& pair, dContact& contact, bool reverse
   contact.surface.motion2 = (reversed ? -1 : 1) * dot(t2, belts);
 }
 
+bool ContactPass::is_swapped(const Pair& pair) {
+  return slot_of(pair.second.body->handle) < slot_of(pair.first.body->handle);
+}
+
+std::uint32_t ContactPass::child_of(const GeomTag& tag, const dContactGeom& point) {
+  if (tag.body->shape->type != PLUMB_TRIANGLE_MESH) return tag.placed.child;
+  const int side = point.g1 == tag.placed.geom ? point.side1 : point.side2;
+  return side < 0 ? 0 : static_cast<std::uint32_t>(side);
+}
+
 void ContactPass::record(const Pair& pair, const dContactGeom& point, dJointID joint) {
-  const bool swapped = slot_of(pair.second.body->handle) < slot_of(pair.first.body->handle);
+  const bool swapped = is_swapped(pair);
   const GeomTag& a = swapped ? pair.second : pair.first;
   const GeomTag& b = swapped ? pair.first : pair.second;
-  const auto child = [&](const GeomTag& tag) {
-    if (tag.body->shape->type != PLUMB_TRIANGLE_MESH) return tag.placed.child;
-    const int side = point.g1 == tag.placed.geom ? point.side1 : point.side2;
-    return side < 0 ? 0 : static_cast<std::uint32_t>(side);
-  };
   PlumbContact contact{};
   contact.body_a = a.body->handle;
   contact.body_b = b.body->handle;
-  contact.child_a = child(a);
-  contact.child_b = child(b);
+  contact.child_a = child_of(a, point);
+  contact.child_b = child_of(b, point);
   contact.position = vec(point.pos);
   contact.normal = scale(swapped ? 1 : -1, vec(point.normal));
   contact.depth = point.depth;
@@ -237,6 +259,59 @@ void ContactPass::end_substep(double h) {
   }
   feedbacks_used_ = 0;
   dJointGroupEmpty(group_);
+}
+
+void ContactPass::hold_back(const Pair& pair, int count) {
+  const std::span<dContact> points = std::span(scratch_).first(static_cast<std::size_t>(count));
+  const bool shown = shows(pair);
+  held_.push_back({&pair.first, &pair.second, pair.awake, held_points_.size(), points.size(), shown, shown_.size()});
+  held_points_.insert(held_points_.end(), points.begin(), points.end());
+  if (shown) shown_.push_back(show(pair, points));
+}
+
+/// Of more points than a manifold has room for the deepest.
+PlumbManifold ContactPass::show(const Pair& pair, std::span<const dContact> points) const {
+  std::vector<dContactGeom> deepest;
+  for (const dContact& point : points) deepest.push_back(point.geom);
+  std::stable_sort(deepest.begin(), deepest.end(),
+                   [](const dContactGeom& p, const dContactGeom& q) { return p.depth > q.depth; });
+  deepest.resize(std::min<std::size_t>(deepest.size(), PLUMB_MANIFOLD_POINTS));
+  const bool swapped = is_swapped(pair);
+  const GeomTag& a = swapped ? pair.second : pair.first;
+  const GeomTag& b = swapped ? pair.first : pair.second;
+  PlumbManifold row{};
+  row.body_a = a.body->handle;
+  row.body_b = b.body->handle;
+  row.child_a = child_of(a, deepest[0]);
+  row.child_b = child_of(b, deepest[0]);
+  row.point_count = static_cast<std::uint32_t>(deepest.size());
+  row.normal = scale(swapped ? 1 : -1, vec(deepest[0].normal));
+  PlumbVec3 middle{};
+  for (std::size_t i = 0; i < deepest.size(); ++i) {
+    row.position[i] = vec(deepest[i].pos);
+    row.depth[i] = deepest[i].depth;
+    middle = add(middle, scale(1.0 / static_cast<double>(deepest.size()), row.position[i]));
+  }
+  row.velocity = sub(velocity_at(*b.body, middle), velocity_at(*a.body, middle));
+  const Surface surface(pair, mode_, nullptr);
+  row.friction = surface.mu;
+  row.restitution = surface.bounce;
+  row.surface_velocity = scale(swapped ? -1 : 1, belts_of(pair, nullptr));
+  return row;
+}
+
+void ContactPass::respond(std::span<const PlumbManifoldChange> changes) {
+  std::vector<const PlumbManifoldChange*> of_shown(shown_.size(), nullptr);
+  for (const PlumbManifoldChange& change : changes) of_shown[change.manifold] = &change;
+  for (const Held& held : held_) {
+    const PlumbManifoldChange* change = held.is_shown ? of_shown[held.shown] : nullptr;
+    if (change != nullptr && (change->what & PLUMB_MANIFOLD_DISABLED) != 0) continue;
+    respond({*held.first, *held.second, held.awake},
+            std::span(held_points_).subspan(held.first_point, held.point_count), change);
+  }
+  held_.clear();
+  held_points_.clear();
+  shown_.clear();
 }
 
 // The k-th point of a pair of geoms in one sub-step is taken for the k-th in the next: geometry of the last, impulses

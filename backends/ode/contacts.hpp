@@ -25,8 +25,13 @@ class ContactPass {
   /// Forgets the step before.
   void begin_step();
   void begin_substep();
-  /// One sub-step's detection: a contact joint for every point, in the group that end_substep empties.
+  /// One sub-step's detection: a contact joint for every point, in the group that end_substep empties. Where contacts
+  /// are modified they are held back for respond().
   void detect(dSpaceID space);
+  /// What is held back and the host is to see.
+  [[nodiscard]] std::span<const PlumbManifold> shown() const { return shown_; }
+  /// The contact joints of what is held back. changes: of rows of shown().
+  void respond(std::span<const PlumbManifoldChange> changes);
   /// Two geoms that touch where they are, at their deepest point.
   struct Touch {
     Body *a, *b;
@@ -52,11 +57,18 @@ class ContactPass {
   struct Surface;
   static void near(void* self, dGeomID first, dGeomID second);
   void meet(dGeomID first, dGeomID second);
+  [[nodiscard]] static bool shows(const Pair& pair);
+  /// Whether the second is the interface's body_a.
+  [[nodiscard]] static bool is_swapped(const Pair& pair);
+  [[nodiscard]] static std::uint32_t child_of(const GeomTag& tag, const dContactGeom& point);
+  [[nodiscard]] PlumbVec3 belts_of(const Pair& pair, const PlumbManifoldChange* change) const;
   [[nodiscard]] bool may_meet(const GeomTag& one, const GeomTag& two) const;
-  void respond(const Pair& pair, int count);
+  void respond(const Pair& pair, std::span<dContact> points, const PlumbManifoldChange* change);
+  void hold_back(const Pair& pair, int count);
+  [[nodiscard]] PlumbManifold show(const Pair& pair, std::span<const dContact> points) const;
   void record(const Pair& pair, const dContactGeom& point, dJointID joint);
   void merge_substeps();
-  void aim_friction(const Pair& pair, dContact& contact, bool reversed) const;
+  void aim_friction(const Pair& pair, dContact& contact, const PlumbVec3& belts) const;
 
   /// Where the impulse of a recorded contact comes from.
   struct Source {
@@ -66,7 +78,7 @@ class ContactPass {
 
   dWorldID world_;
   dJointGroupID group_;
-  bool physical_, filtered_, sensing_, sleeping_, conveyors_;
+  bool physical_, filtered_, sensing_, sleeping_, conveyors_, holds_back_;
   bool keeps_contacts_, keeps_impulses_, keeps_pairs_;
   int mode_ = 0;
   bool sliding_directions_ = false;
@@ -79,6 +91,18 @@ class ContactPass {
   std::deque<dJointFeedback> feedbacks_;
   std::size_t feedbacks_used_ = 0;
   std::vector<BodyPair> touching_, sensed_;
+
+  /// A pair that waits for the host.
+  struct Held {
+    const GeomTag *first, *second;
+    bool awake;
+    std::size_t first_point, point_count;  ///< of held_points_
+    bool is_shown;
+    std::size_t shown;  ///< row of shown_
+  };
+  std::vector<Held> held_;
+  std::vector<dContact> held_points_;
+  std::vector<PlumbManifold> shown_;
 };
 
 }  // namespace plumb::ode

@@ -53,34 +53,67 @@ PlumbResult World::step(double dt) {
                 std::to_string(nonfinite_) +
                     " bodies have become NaN or infinite, with which ODE cannot "
                     "go on; destroy the world and take a smaller dt, more substeps or another stepper");
-  const int substeps = settings_.substeps;
-  const double h = dt / substeps;
   return inside_ode([&] {
     broad_narrow_seconds_ = solve_seconds_ = output_seconds_ = 0;
     contacts_.begin_step();
     events_.begin_step();
-    set_substep(h);
+    substeps_left_ = settings_.substeps;
+    set_substep(dt / substeps_left_);
     forget_reactions();
     steer_kinematics(dt);
-    for (int i = 0; i < substeps; ++i) {
-      push_bodies();
-      find_contacts();
-      prepare_joints(h);
-      count_idling(h);
-      solve(h);
-      gather(h, 1.0 / substeps);
-    }
-    settle_kinematics();
-    break_joints();
-    look_for_nonfinite();
-    note_sleep();
-    contacts_.end_step(events_);
-    events_.end_step();
+    detect();
+    if (!init_.needs(PLUMB_NEED_CONTACT_MODIFICATION)) finish_step();
+    return PLUMB_OK;
+  });
+}
+
+/// The first half of a sub-step.
+void World::detect() {
+  push_bodies();
+  find_contacts();
+}
+
+/// The second half, and the first of the next.
+void World::respond(std::span<const PlumbManifoldChange> changes) {
+  contacts_.respond(changes);
+  prepare_joints(substep_);
+  count_idling(substep_);
+  solve(substep_);
+  gather(substep_, 1.0 / settings_.substeps);
+  if (--substeps_left_ > 0) detect();
+}
+
+void World::finish_step() {
+  while (substeps_left_ > 0) respond({});
+  settle_kinematics();
+  break_joints();
+  look_for_nonfinite();
+  note_sleep();
+  contacts_.end_step(events_);
+  events_.end_step();
+}
+
+PlumbResult World::read_manifolds(std::span<const PlumbManifold>& manifolds) {
+  return inside_ode([&] {
+    while (substeps_left_ > 0 && contacts_.shown().empty()) respond({});
+    manifolds = substeps_left_ > 0 ? contacts_.shown() : std::span<const PlumbManifold>{};
+    return PLUMB_OK;
+  });
+}
+
+PlumbResult World::modify_manifolds(std::span<const PlumbManifoldChange> changes) {
+  return inside_ode([&] {
+    respond(changes);
     return PLUMB_OK;
   });
 }
 
 PlumbResult World::wait(PlumbStepReport& report) {
+  if (init_.needs(PLUMB_NEED_CONTACT_MODIFICATION))
+    inside_ode([&] {
+      finish_step();
+      return PLUMB_OK;
+    });
   report.threads = static_cast<std::uint32_t>(settings_.threads);
   report.awake = awake_;
   report.pairs = contacts_.pair_count();

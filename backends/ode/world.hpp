@@ -29,7 +29,8 @@ class World final : public IPhysicsWorld,
                     public ISettings,
                     public ISnapshot,
                     public IExceptions,
-                    public IModify {
+                    public IModify,
+                    public IManifolds {
  public:
   explicit World(const WorldInit& init);
   ~World() override;
@@ -58,6 +59,7 @@ class World final : public IPhysicsWorld,
   ISnapshot* snapshot() override { return this; }
   IExceptions* exceptions() override { return this; }
   IModify* modify() override { return this; }
+  IManifolds* manifolds() override { return this; }
 
  private:
   PlumbResult create_joints(std::span<const PlumbJointDesc> descs, std::span<PlumbJoint> ids) override;
@@ -81,8 +83,13 @@ class World final : public IPhysicsWorld,
   PlumbResult set_exceptions(std::span<const PlumbBodyPair> pairs, bool touch) override;
   PlumbResult modify_bodies(std::span<const PlumbBodyChange> changes) override;
   PlumbResult modify_joints(std::span<const PlumbJointChange> changes) override;
+  PlumbResult read_manifolds(std::span<const PlumbManifold>& manifolds) override;
+  PlumbResult modify_manifolds(std::span<const PlumbManifoldChange> changes) override;
 
   // Step phases (step.cpp).
+  void detect();
+  void respond(std::span<const PlumbManifoldChange> changes);
+  void finish_step();
   void set_substep(double h);
   void forget_reactions();
   void steer_kinematics(double dt);
@@ -157,7 +164,8 @@ class World final : public IPhysicsWorld,
   std::vector<Body*> dynamic_, kinematic_, damped_, locked_, weighed_, pushed_;
   std::vector<Joint*> joint_order_, busy_joints_;  // busy: with work in each sub-step
 
-  double substep_ = 0;  ///< for which damping and springs were set
+  double substep_ = 0;     ///< for which damping and springs were set, s
+  int substeps_left_ = 0;  ///< with the one in hand
   std::uint32_t nonfinite_ = 0, awake_ = 0;
   double broad_narrow_seconds_ = 0, solve_seconds_ = 0, output_seconds_ = 0;
 

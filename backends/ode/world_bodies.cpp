@@ -58,6 +58,7 @@ std::unique_ptr<Body> World::make_body(const PlumbBodyDesc& desc, PlumbBody hand
 void World::embody(Body& body, const PlumbBodyDesc& desc) {
   body.motion = desc.motion;
   body.sensor = (desc.flags & PLUMB_BODY_SENSOR) != 0;
+  body.shows_contacts = (desc.flags & PLUMB_BODY_MODIFY_CONTACTS) != 0;
   body.shape = desc.shape == 0 ? nullptr : shapes_[slot_of(desc.shape)].get();
   if (desc.motion != PLUMB_STATIC) body.body = dBodyCreate(world_);
   if (desc.motion == PLUMB_KINEMATIC) {

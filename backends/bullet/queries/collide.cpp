@@ -11,7 +11,7 @@
 namespace plumb::bullet {
 namespace {
 
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double kUnknownDistance = std::numeric_limits<double>::quiet_NaN();
 
 thread_local std::vector<PlumbPairPoint> pair_points;
 
@@ -40,7 +40,7 @@ struct DistanceCallback final : btCollisionWorld::ContactResultCallback {
     if (!(distance <= at)) distance = at;
     return 0;
   }
-  double distance = kUnknown;
+  double distance = kUnknownDistance;
 };
 
 void collide_objects(btDispatcher& dispatcher, const btDispatcherInfo& info, btCollisionObject& a,
@@ -80,7 +80,7 @@ PlumbResult World::collide_pairs(std::span<const PlumbPosedPair> pairs, std::spa
     b.setWorldTransform(transform(pairs[i].pose_b, "pose_b"));
     const std::size_t first = pair_points.size();
     collide_objects(parts_.dispatcher, world_.getDispatchInfo(), a, b);
-    double distance = kUnknown;
+    double distance = kUnknownDistance;
     for (std::size_t k = first; k < pair_points.size(); ++k)
       if (!(distance <= -pair_points[k].depth)) distance = -pair_points[k].depth;
     if (pair_points.size() == first && a.getCollisionShape()->isConvex() && b.getCollisionShape()->isConvex()) {
