@@ -20,6 +20,7 @@ struct Tables {
   PlumbDebugTable debug;
   PlumbExceptionsTable exceptions;
   PlumbModifyTable modify;
+  PlumbManifoldsTable manifolds;
 };
 
 inline Tables honest{}, liar{};

@@ -31,6 +31,7 @@ const void* extension(const char* name) {
   if (wanted == PLUMB_EXT_DEBUG) return &liar.debug;
   if (wanted == PLUMB_EXT_EXCEPTIONS) return &liar.exceptions;
   if (wanted == PLUMB_EXT_MODIFY) return &liar.modify;
+  if (wanted == PLUMB_EXT_MANIFOLDS) return &liar.manifolds;
   return truth;
 }
 
@@ -50,6 +51,7 @@ void take_tables(const PlumbBackendTable& table) {
   take(honest.debug, PLUMB_EXT_DEBUG);
   take(honest.exceptions, PLUMB_EXT_EXCEPTIONS);
   take(honest.modify, PLUMB_EXT_MODIFY);
+  take(honest.manifolds, PLUMB_EXT_MANIFOLDS);
   liar = honest;
   liar.core.extension = &extension;
   liar.core.info = []() -> const PlumbBackendInfo* { return &liar.info; };

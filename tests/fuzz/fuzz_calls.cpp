@@ -25,6 +25,7 @@ class Fuzzer {
     debug_ = static_cast<const PlumbDebugTable*>(table_.extension(PLUMB_EXT_DEBUG));
     exceptions_ = static_cast<const PlumbExceptionsTable*>(table_.extension(PLUMB_EXT_EXCEPTIONS));
     modify_ = static_cast<const PlumbModifyTable*>(table_.extension(PLUMB_EXT_MODIFY));
+    manifolds_ = static_cast<const PlumbManifoldsTable*>(table_.extension(PLUMB_EXT_MANIFOLDS));
     state_ = static_cast<const PlumbStateTable*>(table_.extension(PLUMB_EXT_STATE));
     fresh_world();
   }
@@ -133,7 +134,7 @@ class Fuzzer {
       desc.shape = chance(6) ? 0 : handle(shapes_);
       desc.pose = pose();
       if (desc.motion != PLUMB_STATIC && chance(2)) desc.linear_velocity = vector();
-      desc.flags = chance(4) ? below(40) : 0;
+      desc.flags = chance(4) ? below(70) : 0;
       desc.locks = chance(8) ? below(64) : 0;
       desc.mass_mode = below(3 + (chance(40) ? 1 : 0));
       desc.mass = positive();
@@ -283,7 +284,7 @@ class Fuzzer {
       change.what = chance(30) ? below(200) : 1u << below(PLUMB_MODIFY_BODY_COUNT);
       if (chance(2)) change.what |= PLUMB_MODIFY_MASS;
       change.motion = below(PLUMB_MOTION_COUNT + (chance(40) ? 1 : 0));
-      change.flags = chance(2) ? below(40) : 0;
+      change.flags = chance(2) ? below(70) : 0;
       change.locks = below(64);
       change.shape = chance(6) ? 0 : handle(shapes_);
       change.mass_mode = below(3);
@@ -332,9 +333,34 @@ class Fuzzer {
     report.struct_size = chance(20) ? below(sizeof report) : sizeof report;
     if (judge(table_.step(world_, chance(200) ? nullptr : &desc))) {
       if (chance(100)) judge(table_.step(world_, &desc));  // one is under way
+      if (chance(2)) modify_manifolds();
       judge(table_.wait(world_, &report));
     }
     if (chance(100)) judge(table_.wait(world_, &report));  // none is
+  }
+
+  void modify_manifolds() {
+    if (manifolds_ == nullptr) return;
+    std::uint32_t count = 0;
+    for (std::uint32_t round = below(6); round != 0; --round) {
+      PlumbManifold rows[8];
+      const std::uint32_t capacity = below(9);
+      const bool whole = !chance(60);
+      if (!judge(manifolds_->read(world_, chance(60) ? nullptr : rows, whole ? sizeof rows[0] : 8, capacity, &count)))
+        continue;
+      for (std::uint32_t row = 0; whole && row < std::min(capacity, count); ++row)
+        if (rows[row].point_count == 0 || rows[row].point_count > PLUMB_MANIFOLD_POINTS)
+          broken_ = "a manifold without points";
+      PlumbManifoldChange changes[3];
+      for (PlumbManifoldChange& change : changes) {
+        change = plumb::manifold_change(below(count + 1));
+        change.what = chance(30) ? below(40) : 1u << below(PLUMB_MANIFOLD_CHANGE_COUNT);
+        change.friction = chance(20) ? number() : positive();
+        change.restitution = chance(20) ? number() : 0.5;
+        change.surface_velocity = vector();
+      }
+      judge(manifolds_->modify(world_, chance(60) ? nullptr : changes, chance(60) ? 8 : sizeof changes[0], below(3)));
+    }
   }
 
   void one_call() {
@@ -373,6 +399,7 @@ class Fuzzer {
   const PlumbStateTable* state_ = nullptr;
   const PlumbExceptionsTable* exceptions_ = nullptr;
   const PlumbModifyTable* modify_ = nullptr;
+  const PlumbManifoldsTable* manifolds_ = nullptr;
   std::vector<std::uint64_t> shapes_, bodies_, joint_ids_;
   std::uint64_t refused_ = 0, done_ = 0, worlds_lost_ = 0;
   const char* broken_ = nullptr;

@@ -44,10 +44,10 @@ double resident_megabytes() {
 class Soak {
  public:
   Soak(const Backend& backend, std::uint64_t seed) : backend_(backend), random_(seed) {
-    constexpr PlumbNeeds kWanted = PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION |
-                                   PLUMB_NEED_RESTITUTION | PLUMB_NEED_JOINTS | PLUMB_NEED_CCD | PLUMB_NEED_SLEEPING |
-                                   PLUMB_NEED_EVENTS | PLUMB_NEED_SENSORS | PLUMB_NEED_KINEMATIC |
-                                   PLUMB_NEED_GYROSCOPIC | PLUMB_NEED_QUERIES | PLUMB_NEED_SNAPSHOT;
+    constexpr PlumbNeeds kWanted =
+        PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION | PLUMB_NEED_RESTITUTION | PLUMB_NEED_JOINTS |
+        PLUMB_NEED_CCD | PLUMB_NEED_SLEEPING | PLUMB_NEED_EVENTS | PLUMB_NEED_SENSORS | PLUMB_NEED_KINEMATIC |
+        PLUMB_NEED_GYROSCOPIC | PLUMB_NEED_QUERIES | PLUMB_NEED_SNAPSHOT | PLUMB_NEED_CONTACT_MODIFICATION;
     PlumbNeeds needs = 0;
     for (std::uint32_t bit = 0; bit < PLUMB_NEED_COUNT; ++bit)
       if ((kWanted >> bit & 1) != 0 && backend.capability(PLUMB_CAP_NEED, bit) != PLUMB_NONE)
@@ -68,6 +68,7 @@ class Soak {
     if (number % 5000 == 4999) go_back();
     PlumbStepReport report{};
     check(*world_, world_->step(kStep));
+    if (can(PLUMB_NEED_CONTACT_MODIFICATION)) modify_contacts(number);
     check(*world_, world_->wait(report));
     if (report.nonfinite != 0) broken("a body that is not finite", number);
     read_events(number);
@@ -152,6 +153,7 @@ class Soak {
     desc.linear_velocity = {between(-3, 3), between(-3, 3), between(-3, 3)};
     desc.angular_velocity = {between(-5, 5), between(-5, 5), between(-5, 5)};
     desc.material.restitution = can(PLUMB_NEED_RESTITUTION) ? between(0, 0.8) : 0;
+    if (can(PLUMB_NEED_CONTACT_MODIFICATION) && below(2) == 0) desc.flags |= PLUMB_BODY_MODIFY_CONTACTS;
     const bool is_bullet = can(PLUMB_NEED_CCD) && below(4) == 0;
     if (is_bullet) {
       desc.flags |= PLUMB_BODY_CCD;
@@ -204,6 +206,23 @@ class Soak {
     const double row[6] = {0, 0, 0, aim_, 0, 0};
     check(*world_, world_->write(PLUMB_FIELD_VELOCITY, {&door_, 1},
                                  ConstRows(reinterpret_cast<const std::byte*>(row), 1, sizeof row, PLUMB_F64)));
+  }
+  /// Bodies pass through each other now and then, and slide; the box holds.
+  void modify_contacts(std::uint64_t number) {
+    std::span<const PlumbManifold> rows;
+    while (check(*world_, world_->manifolds()->read_manifolds(rows)), !rows.empty()) {
+      std::vector<PlumbManifoldChange> changes;
+      for (std::uint32_t row = 0; row < rows.size(); ++row) {
+        const auto is_in = [this](PlumbBody body) { return std::ranges::find(bodies_, body) != bodies_.end(); };
+        if (!is_in(rows[row].body_a) && !is_in(rows[row].body_b)) broken("contacts of others are shown", number);
+        if (below(8) != 0) continue;
+        changes.push_back(manifold_change(row));
+        const bool passes = is_in(rows[row].body_a) && is_in(rows[row].body_b);
+        changes.back().what = passes ? PLUMB_MANIFOLD_DISABLED : PLUMB_MANIFOLD_FRICTION;
+        changes.back().friction = between(0, 2);
+      }
+      check(*world_, world_->manifolds()->modify_manifolds(changes));
+    }
   }
   void look() {
     if (!can(PLUMB_NEED_QUERIES)) return;
