@@ -44,8 +44,12 @@ FixedFrame FixedStep::begin(double frame_time) {
 }
 
 void FixedStep::step() {
-  check(world_, world_.step(settings_.dt));
-  check(world_, world_.wait(report_));
+  if (modify_) {
+    report_ = step_with(world_, settings_.dt, modify_);
+  } else {
+    check(world_, world_.step(settings_.dt));
+    check(world_, world_.wait(report_));
+  }
   std::swap(before_, after_);
   read(after_);
 }

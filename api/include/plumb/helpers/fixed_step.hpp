@@ -3,8 +3,10 @@
 #pragma once
 
 #include <span>
+#include <utility>
 #include <vector>
 
+#include "plumb/helpers/contact_modification.hpp"
 #include "plumb/physics_world.hpp"
 
 namespace plumb::helpers {
@@ -51,6 +53,9 @@ class FixedStep {
     return advance(frame_time, [](double) {});
   }
 
+  /// From now on contacts are changed so in each step; empty: no more.
+  void modify_contacts(ModifyContacts modify) { modify_ = std::move(modify); }
+
   /// Of the bodies, in their order, at the frame's time: one step behind the world at alpha 0.
   [[nodiscard]] std::span<const PlumbPose> poses() const { return blended_; }
   /// Linear and angular velocity at the frame's time, six numbers a body.
@@ -75,6 +80,7 @@ class FixedStep {
   std::vector<PlumbBody> bodies_;
   FixedStepSettings settings_;
   double time_ = 0;  // that frames gave and steps did not take
+  ModifyContacts modify_;
   PlumbStepReport report_{};
   State before_, after_;
   std::vector<PlumbPose> blended_;
