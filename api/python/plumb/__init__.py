@@ -16,7 +16,7 @@ the cube rests at 0.50 m
 Units are SI, axes right-handed, orientations quaternions x y z w. A world declares what it needs; the engine leaves
 out the rest. Handles are whole numbers, batches of them arrays of uint64; rows of poses and velocities, contacts,
 events and hits are NumPy arrays. `world.joints`, `.queries`, `.collide`, `.settings`, `.snapshot`, `.state`,
-`.exceptions`, `.modify` and `.debug` are the interface's extensions. Where enumerations are taken, words are:
+`.exceptions`, `.modify` and `.debug` are the interface's extensions, and so is what step() takes. Where enumerations are taken, words are:
 "dynamic" for plumb.Motion.DYNAMIC.
 
 `plumb.harness` runs scenes, studies and reports by the program plumb.
@@ -27,8 +27,8 @@ from ._core import interface_version
 from ._errors import Error, Result
 from .backend import Backend, BackendInfo, Capability, FoundBackend, backends, open, search_path
 from .bodies import BodyDesc, Filter, body_rows
-from .enums import (AxisMode, BodyFlag, BodyMember, CapabilityKind, Degree, Determinism, EventType, Field, HitMode,
-                    JointFeature, JointField, JointMember, JointType, Lock, MassMode, Motion, Need, Phase, QueryKind,
+from .enums import (AxisMode, BodyFlag, BodyMember, CapabilityKind, ContactChange, Degree, Determinism, EventType, Field,
+                    HitMode, JointFeature, JointField, JointMember, JointType, Lock, MassMode, Motion, Need, Phase, QueryKind,
                     Remark, SettingRole, SettingType, ShapeType)
 from .joints import JointDesc, Joints, Limit, Motor, Spring
 from .modify import BodyChange, JointChange, Modify
@@ -43,8 +43,8 @@ from .world import World
 
 __all__ = [
     "AxisMode", "Backend", "BackendInfo", "BodyChange", "BodyDesc", "BodyFlag", "BodyMember", "Box", "Capability",
-    "CapabilityKind", "Capsule", "Child", "Collide", "Collided", "Compound", "ConvexHull", "Cylinder", "Debug",
-    "Degree", "Determinism", "Error", "EventType", "Exceptions", "Field", "Filter", "FoundBackend", "HeightField",
+    "CapabilityKind", "Capsule", "Child", "Collide", "Collided", "Compound", "ContactChange", "ConvexHull", "Cylinder",
+    "Debug", "Degree", "Determinism", "Error", "EventType", "Exceptions", "Field", "Filter", "FoundBackend", "HeightField",
     "HitMode", "JointChange", "JointDesc", "JointFeature", "JointField", "JointMember", "JointType", "Joints",
     "LentRows", "Limit", "Lock", "MassMode", "Material", "Modify", "Motion", "Motor", "Need", "Phase", "Plane",
     "Queries", "QueryKind", "Remark", "Result", "RowMap", "SettingInfo", "SettingRole", "SettingType", "Settings",

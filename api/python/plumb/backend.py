@@ -28,6 +28,7 @@ from ._words import pick, pick_bits
 from .enums import (
     BodyMember,
     CapabilityKind,
+    ContactChange,
     Degree,
     Determinism,
     EventType,
@@ -55,6 +56,7 @@ EXTENSIONS = (
     "plumb.state/1",
     "plumb.exceptions/1",
     "plumb.modify/1",
+    "plumb.manifolds/1",
 )
 
 
@@ -83,6 +85,7 @@ _ARGUMENTS: Dict[CapabilityKind, Tuple[Type[IntEnum], ...]] = {
     CapabilityKind.EVENT: (EventType,),
     CapabilityKind.PHASE_TIME: (Phase,),
     CapabilityKind.MODIFY: (Modifiable, _by_index(BodyMember)),
+    CapabilityKind.MANIFOLD: (_by_index(ContactChange),),
 }
 _JOINT_MEMBERS = _by_index(JointMember)
 
@@ -164,7 +167,8 @@ class Backend:
     def capability(self, kind: Union[CapabilityKind, str], *arguments: Union[IntEnum, str]) -> Capability:
         """How truly the engine has a thing: shape (type, motion), pair (type, type), joint (type), joint_feature (type,
         feature), query (kind, type of what is cast), field_read, field_write (field), need, event, phase_time (word),
-        residual, snapshot, host_jobs, child_material (), modify ("bodies", BodyMember or "joints", JointMember)."""
+        residual, snapshot, host_jobs, child_material (), modify ("bodies", BodyMember or "joints", JointMember),
+        manifold (ContactChange)."""
         which = pick(CapabilityKind, kind, "capability")
         takes = _takes(which, arguments[0] if arguments else None)
         if len(arguments) != len(takes):

@@ -30,6 +30,7 @@ class Need(IntFlag):
     SURFACE_VELOCITY = 1 << 18
     JOINT_REACTIONS = 1 << 19
     SNAPSHOT = 1 << 20
+    CONTACT_MODIFICATION = 1 << 21
 
 
 class ShapeType(IntEnum):
@@ -62,6 +63,7 @@ class BodyFlag(IntFlag):
     NO_ROTATION = 1 << 2
     ASLEEP = 1 << 3
     NEVER_SLEEPS = 1 << 4
+    MODIFY_CONTACTS = 1 << 5
 
 
 class Lock(IntFlag):
@@ -198,6 +200,15 @@ class JointMember(IntFlag):
     ENABLED = 1 << 6
 
 
+class ContactChange(IntFlag):
+    """What of a contact a host changes before it is solved (World.step), as capabilities name it."""
+
+    DISABLED = 1 << 0
+    FRICTION = 1 << 1
+    RESTITUTION = 1 << 2
+    SURFACE_VELOCITY = 1 << 3
+
+
 class EventType(IntEnum):
     """What happened in the last step."""
 
@@ -249,6 +260,7 @@ class CapabilityKind(IntEnum):
     HOST_JOBS = 12
     CHILD_MATERIAL = 13
     MODIFY = 14
+    MANIFOLD = 15
 
 
 class Degree(IntEnum):

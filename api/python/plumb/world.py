@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from types import TracebackType
-from typing import TYPE_CHECKING, List, Optional, Sequence, Type, Union
+from typing import TYPE_CHECKING, Callable, List, Optional, Sequence, Type, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -36,6 +36,9 @@ from .state import State
 
 if TYPE_CHECKING:
     from .backend import Backend
+
+
+ModifyContacts = Callable[["NDArray[np.void]", "NDArray[np.void]"], object]
 
 
 class World:
@@ -162,9 +165,39 @@ class World:
 
     # --- steps --------------------------------------------------------------------------------------------------------
 
-    def step(self, dt: float) -> StepReport:
-        """A step of dt seconds, from begin to end."""
-        return StepReport(self._core.step(number(dt, "dt")))
+    def step(self, dt: float, modify: Optional[ModifyContacts] = None) -> StepReport:
+        """A step of dt seconds, from begin to end.
+
+        modify(manifolds, changes) is called with what was found between bodies that have the flag modify_contacts,
+        before it is solved; once for each part of a step that finds something. Columns of manifolds: body_a, body_b,
+        child_a, child_b, point_count, normal (from a to b), velocity (of b against a), position (4 x 3), depth (4),
+        friction, restitution, surface_velocity. changes is as long, for modify to write into: what (ContactChange; 0:
+        nothing), friction, restitution, surface_velocity. Needs contact_modification.
+
+        >>> import plumb
+        >>> with plumb.open("impulse").world(["rotation", "collision", "friction", "contact_modification"]) as world:
+        ...     ledge, box = world.create_shapes([plumb.Box((2, 0.1, 2)), plumb.Box((0.2, 0.2, 0.2))])
+        ...     _ = world.create_body(plumb.BodyDesc(ledge, "static", flags="modify_contacts"))
+        ...     body = world.create_body(plumb.BodyDesc(box, position=(0, -1, 0), linear_velocity=(0, 7, 0)))
+        ...     def from_above(manifolds, changes):  # bodies rise through the ledge, and stand on it
+        ...         falls = np.where(manifolds["body_b"] == body, 1, -1) * manifolds["velocity"][:, 1] < 0.01
+        ...         changes["what"][~falls] = plumb.ContactChange.DISABLED
+        ...     _ = [world.step(1 / 60, from_above) for _ in range(120)]
+        ...     print(f"it stands at {world.read('pose', body)[1]:.2f} m")
+        it stands at 0.30 m
+        """
+        if modify is None:
+            return StepReport(self._core.step(number(dt, "dt")))
+        self.begin_step(dt)
+        try:
+            while len(found := self._core.read_manifolds()) != 0:
+                changes = np.zeros(len(found), _core.manifold_change)
+                changes["manifold"] = np.arange(len(found))
+                modify(found, changes)
+                self._core.modify_manifolds(changes[changes["what"] != 0])
+        finally:
+            report = self.wait()
+        return report
 
     def begin_step(self, dt: float) -> None:
         """Begins a step, which may go on by itself until wait(). Nothing else may be called before that."""

@@ -128,6 +128,24 @@ py::dtype build<PlumbContact>() {
                PLUMB_COLUMN(Row, tangent_impulse, text("(3,)f8")), PLUMB_COLUMN(Row, feature, text("u8"))});
 }
 template <>
+py::dtype build<PlumbManifold>() {
+  using Row = PlumbManifold;
+  return make(sizeof(Row),
+              {PLUMB_COLUMN(Row, body_a, text("u8")), PLUMB_COLUMN(Row, body_b, text("u8")),
+               PLUMB_COLUMN(Row, child_a, text("u4")), PLUMB_COLUMN(Row, child_b, text("u4")),
+               PLUMB_COLUMN(Row, point_count, text("u4")), PLUMB_COLUMN(Row, normal, text("(3,)f8")),
+               PLUMB_COLUMN(Row, velocity, text("(3,)f8")), PLUMB_COLUMN(Row, position, text("(4,3)f8")),
+               PLUMB_COLUMN(Row, depth, text("(4,)f8")), PLUMB_COLUMN(Row, friction, text("f8")),
+               PLUMB_COLUMN(Row, restitution, text("f8")), PLUMB_COLUMN(Row, surface_velocity, text("(3,)f8"))});
+}
+template <>
+py::dtype build<PlumbManifoldChange>() {
+  using Row = PlumbManifoldChange;
+  return make(sizeof(Row), {PLUMB_COLUMN(Row, manifold, text("u4")), PLUMB_COLUMN(Row, what, text("u4")),
+                            PLUMB_COLUMN(Row, friction, text("f8")), PLUMB_COLUMN(Row, restitution, text("f8")),
+                            PLUMB_COLUMN(Row, surface_velocity, text("(3,)f8"))});
+}
+template <>
 py::dtype build<PlumbEvent>() {
   using Row = PlumbEvent;
   return make(sizeof(Row), {PLUMB_COLUMN(Row, type, text("u4")), PLUMB_COLUMN(Row, body_a, text("u8")),
@@ -224,26 +242,28 @@ void require_rows(const py::array& rows, const py::dtype& dtype, const char* wha
     throw py::type_error(std::string(what) + " must be one row after another of the dtype that plumb gives for them");
 }
 
-#define PLUMB_ROWS(ROW)                   \
-  ROW(PlumbBodyDesc, body_desc)           \
-  ROW(PlumbJointDesc, joint_desc)         \
-  ROW(PlumbCompoundChild, compound_child) \
-  ROW(PlumbBodyChange, body_change)       \
-  ROW(PlumbJointChange, joint_change)     \
-  ROW(PlumbContact, contact)              \
-  ROW(PlumbEvent, event)                  \
-  ROW(PlumbRay, ray)                      \
-  ROW(PlumbCast, cast)                    \
-  ROW(PlumbOverlap, overlap)              \
-  ROW(PlumbHit, hit)                      \
-  ROW(PlumbPosedPair, posed_pair)         \
-  ROW(PlumbPairResult, pair_result)       \
-  ROW(PlumbPairPoint, pair_point)         \
-  ROW(PlumbBodyPair, body_pair)           \
-  ROW(PlumbDebugPair, debug_pair)         \
-  ROW(PlumbDebugBox, debug_box)           \
-  ROW(PlumbDebugAxis, debug_axis)         \
-  ROW(PlumbDebugBody, debug_body)         \
+#define PLUMB_ROWS(ROW)                     \
+  ROW(PlumbBodyDesc, body_desc)             \
+  ROW(PlumbJointDesc, joint_desc)           \
+  ROW(PlumbCompoundChild, compound_child)   \
+  ROW(PlumbBodyChange, body_change)         \
+  ROW(PlumbJointChange, joint_change)       \
+  ROW(PlumbContact, contact)                \
+  ROW(PlumbManifold, manifold)              \
+  ROW(PlumbManifoldChange, manifold_change) \
+  ROW(PlumbEvent, event)                    \
+  ROW(PlumbRay, ray)                        \
+  ROW(PlumbCast, cast)                      \
+  ROW(PlumbOverlap, overlap)                \
+  ROW(PlumbHit, hit)                        \
+  ROW(PlumbPosedPair, posed_pair)           \
+  ROW(PlumbPairResult, pair_result)         \
+  ROW(PlumbPairPoint, pair_point)           \
+  ROW(PlumbBodyPair, body_pair)             \
+  ROW(PlumbDebugPair, debug_pair)           \
+  ROW(PlumbDebugBox, debug_box)             \
+  ROW(PlumbDebugAxis, debug_axis)           \
+  ROW(PlumbDebugBody, debug_body)           \
   ROW(PlumbDebugConstraint, debug_constraint)
 
 #define PLUMB_INSTANTIATE(Row, name) template const py::dtype& dtype_of<Row>();

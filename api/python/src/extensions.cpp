@@ -59,6 +59,27 @@ void modify_joints(World& world, const py::array& rows) {
   });
 }
 
+// --- contacts of a step that is under way ----------------------------------------------------------------------------
+
+py::array read_manifolds(World& world) {
+  const auto& manifolds = world.extension<PlumbManifoldsTable>(PLUMB_EXT_MANIFOLDS);
+  std::vector<PlumbManifold> rows;
+  world.call_in_step(Tag::world, "manifolds.read", [&](const PlumbBackendTable&, PlumbWorld* self) {
+    return fill_all(rows, [&](PlumbManifold* out, std::uint32_t capacity, std::uint32_t* count) {
+      return manifolds.read(self, out, sizeof *out, capacity, count);
+    });
+  });
+  return array_of(rows);
+}
+
+void modify_manifolds(World& world, const py::array& rows) {
+  const auto& manifolds = world.extension<PlumbManifoldsTable>(PLUMB_EXT_MANIFOLDS);
+  const auto changes = rows_of<PlumbManifoldChange>(rows, "changes");
+  world.call_in_step(Tag::world, "manifolds.modify", [&](const PlumbBackendTable&, PlumbWorld* self) {
+    return manifolds.modify(self, changes.data(), sizeof(PlumbManifoldChange), count_of(changes.size()));
+  });
+}
+
 // --- settings --------------------------------------------------------------------------------------------------------
 
 std::pair<double, std::string> get_setting(World& world, const std::string& name) {
@@ -137,6 +158,8 @@ void bind_extensions(WorldClass& world) {
       .def("write_joints", &write_joints)
       .def("modify_bodies", &modify_bodies)
       .def("modify_joints", &modify_joints)
+      .def("read_manifolds", &read_manifolds)
+      .def("modify_manifolds", &modify_manifolds)
       .def("get_setting", &get_setting)
       .def("set_setting", &set_setting)
       .def("save", &save)

@@ -31,6 +31,12 @@ void World::require_ready(const char* name) const {
   if (stepping_) throw Error(PLUMB_E_WRONG_PHASE, std::string(name) + ": a step is under way; call wait() first");
 }
 
+void World::require_stepping(const char* name) const {
+  require_open(name);
+  if (!stepping_)
+    throw Error(PLUMB_E_WRONG_PHASE, std::string(name) + ": no step is under way; call begin_step() first");
+}
+
 PlumbResult World::checked(PlumbResult result) const {
   if (result < 0) throw Error(result, table_.error_text(world_));
   return result;
@@ -70,8 +76,7 @@ void World::begin_step(double dt) {
 
 Report World::wait() {
   const Passage passage(gate_, Tag::world, "wait");
-  require_open("wait");
-  if (!stepping_) throw Error(PLUMB_E_WRONG_PHASE, "wait: no step is under way; call begin_step() first");
+  require_stepping("wait");
   Report report{};
   checked(unlocked([&] { return finish(report); }));
   return report;

@@ -46,6 +46,14 @@ class World {
     return checked(unlocked([&] { return act(table_, world_); }));
   }
 
+  /// The same, of what is asked between begin_step and wait.
+  template <class Act>
+  PlumbResult call_in_step(Tag tag, const char* name, Act&& act) {
+    const Passage passage(gate_, tag, name);
+    require_stepping(name);
+    return checked(unlocked([&] { return act(table_, world_); }));
+  }
+
   /// The table of an extension. Throws Error (PLUMB_E_UNSUPPORTED) where the backend has none.
   template <class Table>
   const Table& extension(const char* name) const {
@@ -58,6 +66,7 @@ class World {
   PlumbResult finish(Report& report);
   void require_open(const char* name) const;
   void require_ready(const char* name) const;
+  void require_stepping(const char* name) const;
   PlumbResult checked(PlumbResult result) const;
   const void* find_extension(const char* name) const;
 

@@ -37,6 +37,7 @@ PREFIXES = {
     plumb.SettingRole: "ROLE_",
     plumb.BodyMember: "MODIFY_",
     plumb.JointMember: "MODIFY_",
+    plumb.ContactChange: "MANIFOLD_",
     plumb.Result: "",
 }
 
@@ -98,8 +99,8 @@ class Words(unittest.TestCase):
             of_c = {name for name in numbers if name.startswith(PREFIXES[kind])} - {PREFIXES[kind] + "COUNT"}
             self.assertEqual({PREFIXES[kind] + name for name in kind.__members__}, of_c, kind.__name__)
         self.assertEqual(
-            (len(plumb.BodyMember), len(plumb.JointMember)),
-            (numbers["MODIFY_BODY_COUNT"], numbers["MODIFY_JOINT_COUNT"]),
+            (len(plumb.BodyMember), len(plumb.JointMember), len(plumb.ContactChange)),
+            (numbers["MODIFY_BODY_COUNT"], numbers["MODIFY_JOINT_COUNT"], numbers["MANIFOLD_CHANGE_COUNT"]),
         )
         self.assertEqual(sum(name.startswith("E_") for name in numbers), sum(code < 0 for code in plumb.Result))
 
