@@ -14,7 +14,7 @@ export type Joint = bigint;
 export type Need =
   | 'rotation' | 'collision' | 'friction' | 'restitution' | 'joints' | 'ccd' | 'sleeping' | 'events' | 'contacts'
   | 'contactImpulses' | 'sensors' | 'kinematic' | 'gyroscopic' | 'damping' | 'forces' | 'axisLocks' | 'filters'
-  | 'queries' | 'surfaceVelocity' | 'jointReactions' | 'snapshot';
+  | 'queries' | 'surfaceVelocity' | 'jointReactions' | 'snapshot' | 'contactModification';
 
 /** Columns: pose 7, velocity 6, forceAtPoint and impulseAtPoint 6, kinematicTarget 7, mass 11, material and damping 2,
  * awake and gravityScale 1, the others 3. */
@@ -70,7 +70,7 @@ export type ShapeOptions =
   | { type: 'compound'; children: readonly Child[] };
 
 export type Motion = 'static' | 'kinematic' | 'dynamic';
-export type Flag = 'sensor' | 'ccd' | 'noRotation' | 'asleep' | 'neverSleeps';
+export type Flag = 'sensor' | 'ccd' | 'noRotation' | 'asleep' | 'neverSleeps' | 'modifyContacts';
 export type Lock = 'linearX' | 'linearY' | 'linearZ' | 'angularX' | 'angularY' | 'angularZ';
 
 /** Two may touch if equal groups other than 0 say so (above 0), or each one's category is in the other's mask. */
@@ -208,6 +208,33 @@ export interface Cast extends Frame {
   filter?: Filter;
 }
 
+/** Where two shapes touch or are about to, before the solver sees it. */
+export interface Manifold {
+  a: Body;
+  b: Body;
+  childA: number;
+  childB: number;
+  /** Unit, from a to b. */
+  normal: number[];
+  /** Of b against a where they touch, m/s. */
+  velocity: number[];
+  /** Up to four; depth above 0: overlap, m. */
+  points: { position: number[]; depth: number }[];
+  friction: number;
+  restitution: number;
+  surfaceVelocity: number[];
+}
+/** Of manifolds[manifold]; what is left out stays. */
+export interface ContactChange {
+  manifold: number;
+  /** true: in this step the two do not touch there. */
+  disabled?: boolean;
+  friction?: number;
+  restitution?: number;
+  /** Of b's surface over a's, m/s. */
+  surfaceVelocity?: Vec3;
+}
+
 /** Calls throw PlumbError and change nothing then. */
 export interface World {
   createShape(options: ShapeOptions): Shape;
@@ -227,8 +254,11 @@ export interface World {
   setPairTouches(a: Body, b: Body, touch: boolean): void;
 
   setGravity(gravity: Vec3): void;
-  /** s */
-  step(dt: number): StepReport;
+  /**
+   * s. modify: sees contacts of bodies with the flag modifyContacts before they are solved, and gives back what is to be
+   * otherwise in this step; once for each part of a step that finds some. Needs contactModification.
+   */
+  step(dt: number, modify?: ((manifolds: Manifold[]) => readonly ContactChange[] | void) | null): StepReport;
   /** Of the last step; needs contacts, and contactImpulses for impulses. */
   contacts(): Contact[];
   /** Of the last step; needs events or sensors. */

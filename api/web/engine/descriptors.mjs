@@ -1,5 +1,5 @@
 // Options, as a page writes them, become descriptors, as plumb.h has them.
-import { AXIS, bitsOf, CHANGE_OF_BODY, CHANGE_OF_JOINT, FLAG, JOINT, LOCK, MASS, MOTION, numberOf, SHAPE }
+import { AXIS, bitsOf, CHANGE_OF_BODY, CHANGE_OF_CONTACT, CHANGE_OF_JOINT, FLAG, JOINT, LOCK, MASS, MOTION, numberOf, SHAPE }
   from './words.mjs';
 import { LAYOUT } from './layouts.mjs';
 import { INVALID, PlumbError } from './error.mjs';
@@ -74,6 +74,20 @@ export function jointChangeOf(joint, options) {
     collideConnected: has('collideConnected'), enabled: has('enabled') };
   return { ...jointOf({ ...options, type: 'ball', b: 0n }), joint, what: whatOf(CHANGE_OF_JOINT, given, options),
     enabled: options.enabled ?? true };
+}
+
+/** As a page sees it: its points, each with its own numbers. */
+export function manifoldOf({ pointCount, positions, depths, ...found }) {
+  const points = Array.from({ length: pointCount }, (_, i) => ({ position: positions.slice(3 * i, 3 * i + 3), depth: depths[i] }));
+  return { ...found, points };
+}
+
+export function contactChangeOf(options) {
+  const { manifold, disabled = false, friction, restitution, surfaceVelocity } = options;
+  const given = { disabled, friction: friction !== undefined, restitution: restitution !== undefined,
+    surfaceVelocity: surfaceVelocity !== undefined };
+  return { manifold, what: whatOf(CHANGE_OF_CONTACT, given, options), friction: friction ?? 0,
+    restitution: restitution ?? 0, surfaceVelocity: surfaceVelocity ?? [0, 0, 0] };
 }
 
 function whatOf(bits, given, options) {

@@ -63,6 +63,10 @@ export const LAYOUT = {
   posedPair: laidOut({ shapeA: 'u64', shapeB: 'u64', poseA: pose, poseB: pose }),
   pairResult: laidOut({ distance: 'f64', firstPoint: 'u32', pointCount: 'u32' }),
   point: laidOut({ position: vec3, normal: vec3, depth: 'f64', feature: 'u64' }),
+  manifold: laidOut({ a: 'u64', b: 'u64', childA: 'u32', childB: 'u32', pointCount: 'u32', reserved: 'u32', normal: vec3,
+    velocity: vec3, positions: ['f64', 12], depths: ['f64', 4], friction: 'f64', restitution: 'f64',
+    surfaceVelocity: vec3 }),
+  manifoldChange: laidOut({ manifold: 'u32', what: 'u32', friction: 'f64', restitution: 'f64', surfaceVelocity: vec3 }),
 };
 
 const kSet = { u32: 'setUint32', i32: 'setInt32', pointer: 'setUint32', u64: 'setBigUint64', f64: 'setFloat64' };

@@ -6,9 +6,9 @@ const asBits = (...words) => Object.fromEntries(words.map((word, bit) => [word, 
 
 export const NEED = asBits('rotation', 'collision', 'friction', 'restitution', 'joints', 'ccd', 'sleeping', 'events',
   'contacts', 'contactImpulses', 'sensors', 'kinematic', 'gyroscopic', 'damping', 'forces', 'axisLocks', 'filters',
-  'queries', 'surfaceVelocity', 'jointReactions', 'snapshot');
+  'queries', 'surfaceVelocity', 'jointReactions', 'snapshot', 'contactModification');
 export const MOTION = inOrder('static', 'kinematic', 'dynamic');
-export const FLAG = asBits('sensor', 'ccd', 'noRotation', 'asleep', 'neverSleeps');
+export const FLAG = asBits('sensor', 'ccd', 'noRotation', 'asleep', 'neverSleeps', 'modifyContacts');
 export const LOCK = asBits('linearX', 'linearY', 'linearZ', 'angularX', 'angularY', 'angularZ');
 export const SHAPE =
   inOrder('sphere', 'box', 'capsule', 'cylinder', 'hull', 'mesh', 'heightField', 'plane', 'compound');
@@ -23,6 +23,7 @@ export const EVENT = ['contactBegin', 'contactEnd', 'sensorEnter', 'sensorLeave'
 export const CHANGE_OF_BODY = asBits('motion', 'shape', 'mass', 'flags', 'locks');
 export const CHANGE_OF_JOINT =
   asBits('frames', 'limits', 'motors', 'springs', 'strength', 'collideConnected', 'enabled');
+export const CHANGE_OF_CONTACT = asBits('disabled', 'friction', 'restitution', 'surfaceVelocity');
 export const CAPABILITY = inOrder('shape', 'pair', 'joint', 'jointFeature', 'query', 'fieldRead', 'fieldWrite', 'need',
   'event');
 export const DEGREE = ['none', 'approximate', 'emulated', 'native'];

@@ -1,5 +1,5 @@
 // A world: shapes, bodies, joints, and steps. Handles are bigints; 0n is none.
-import { bodyChangeOf, bodyOf, filterOf, jointChangeOf, jointOf, poseOf, shapeOf } from './descriptors.mjs';
+import { bodyChangeOf, bodyOf, contactChangeOf, filterOf, jointChangeOf, jointOf, manifoldOf, poseOf, shapeOf } from './descriptors.mjs';
 import { INVALID, PlumbError } from './error.mjs';
 import { LAYOUT } from './layouts.mjs';
 import { bitsOf, EVENT, FIELD, JOINT_FIELD, NEED, numberOf } from './words.mjs';
@@ -94,13 +94,31 @@ export class World {
   setGravity(gravity) {
     this.#call('plumb_set_gravity', () => this.#memory.putArray(Float64Array, gravity));
   }
-  /** What the step did. */
-  step(dt) {
+  /**
+   * What the step did. modify(manifolds): contacts of bodies with the flag modifyContacts before they are solved; gives
+   * back a list of what is to be otherwise in this step, or nothing.
+   */
+  step(dt, modify = null) {
     return this.#memory.scope(() => {
       const report = this.#memory.putStructs(LAYOUT.report, [{}]);
-      this.#call('plumb_step', dt, report);
+      if (modify === null) this.#call('plumb_step', dt, report);
+      else this.#stepModified(dt, modify, report);
       return this.#memory.structs(LAYOUT.report, report, 1)[0];
     });
+  }
+  /** Whatever fails, the step comes to its end. */
+  #stepModified(dt, modify, report) {
+    this.#call('plumb_begin_step', dt);
+    try {
+      for (;;) {
+        const found = this.#lent('plumb_read_manifolds', (at, count) => this.#memory.structs(LAYOUT.manifold, at, count));
+        if (found.length === 0) break;
+        const changes = (modify(found.map(manifoldOf)) ?? []).map(contactChangeOf);
+        this.#call('plumb_modify_manifolds', () => this.#memory.putStructs(LAYOUT.manifoldChange, changes), changes.length);
+      }
+    } finally {
+      this.#call('plumb_wait', report);
+    }
   }
   /** Of the last step. */
   contacts() {

@@ -112,3 +112,18 @@ PLUMB_WEB(PlumbResult, plumb_modify_joints)
     return modify.modify_joints({changes, count});
   });
 }
+
+/// How many there are, or a result below 0; they live until the next call on the world.
+PLUMB_WEB(std::int32_t, plumb_read_manifolds)(IPhysicsWorld* world, const PlumbManifold** rows) {
+  std::span<const PlumbManifold> found;
+  const PlumbResult result = with(*world, world->manifolds(), "contact modification",
+                                  [&](auto& manifolds) { return manifolds.read_manifolds(found); });
+  *rows = found.data();
+  return result < 0 ? result : static_cast<std::int32_t>(found.size());
+}
+PLUMB_WEB(PlumbResult, plumb_modify_manifolds)
+(IPhysicsWorld* world, const PlumbManifoldChange* changes, std::uint32_t count) {
+  return with(*world, world->manifolds(), "contact modification", [&](auto& manifolds) {
+    return manifolds.modify_manifolds({changes, count});
+  });
+}

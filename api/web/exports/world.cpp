@@ -52,6 +52,11 @@ PLUMB_WEB(PlumbResult, plumb_step)(IPhysicsWorld* world, double dt, PlumbStepRep
   const PlumbResult started = world->step(dt);
   return told(*world, started < 0 ? started : world->wait(*report));
 }
+/// The same in halves: what was found between the two is read and modified (extensions.cpp).
+PLUMB_WEB(PlumbResult, plumb_begin_step)(IPhysicsWorld* world, double dt) { return told(*world, world->step(dt)); }
+PLUMB_WEB(PlumbResult, plumb_wait)(IPhysicsWorld* world, PlumbStepReport* report) {
+  return told(*world, world->wait(*report));
+}
 /// How many there are of the last step, or a result below 0; they live until the next call on the world.
 PLUMB_WEB(std::int32_t, plumb_contacts)(IPhysicsWorld* world, const PlumbContact** rows) {
   return lent(rows, [&] { return world->contacts(); });
