@@ -120,7 +120,7 @@ void nothing_changed(Conformance& c) {
   c.expect(hash(half) == plain, "a host that reads manifolds and does not go on gets another state");
 }
 
-void falls_through(Conformance& c) {
+void falls_when_disabled(Conformance& c) {
   const PlumbNeeds events = c.available(PLUMB_NEED_EVENTS | PLUMB_NEED_CONTACTS);
   require(c, PLUMB_MANIFOLD_DISABLED);
   Probe probe(c, kNeeds | events);
@@ -148,7 +148,7 @@ void falls_through(Conformance& c) {
   c.expect(probe.velocity(one).y() > -1.95, "a contact that was disabled in the steps before still does not hold");
 }
 
-void friction(Conformance& c) {
+void friction_is_changed(Conformance& c) {
   require(c, PLUMB_MANIFOLD_FRICTION);
   const auto slide = [&](const Modify& modify) {
     Probe probe(c, kNeeds);
@@ -171,7 +171,7 @@ void friction(Conformance& c) {
   expect(slide(kNothing), 3 - 0.5 * 9.81 * 0.2, "what has its own");
 }
 
-void restitution(Conformance& c) {
+void restitution_is_changed(Conformance& c) {
   const PlumbNeeds needs = kNeeds | PLUMB_NEED_RESTITUTION;
   require(c, PLUMB_MANIFOLD_RESTITUTION, PLUMB_NEED_RESTITUTION);
   const auto bounce = [&](double own, const Modify& modify) {
@@ -198,7 +198,7 @@ void restitution(Conformance& c) {
            bounce(0.8, all(change)));
 }
 
-void surfaces(Conformance& c) {
+void surfaces_run(Conformance& c) {
   require(c, PLUMB_MANIFOLD_SURFACE_VELOCITY, PLUMB_NEED_SURFACE_VELOCITY);
   Probe probe(c, kNeeds | PLUMB_NEED_SURFACE_VELOCITY);
   const PlumbBody ground = probe.ground();
@@ -224,7 +224,7 @@ void surfaces(Conformance& c) {
            "a second after the surface has stopped a body goes at {:.3f} m/s", probe.velocity(body).x());
 }
 
-void refusals(Conformance& c) {
+void wrong_changes(Conformance& c) {
   require(c, 0);
   Probe probe(c, kNeeds);
   probe.ground();
@@ -278,7 +278,7 @@ void refusals(Conformance& c) {
           "a body whose contacts are modified in a world that declares nothing of it");
 }
 
-void sleepers(Conformance& c) {
+void sleepers_are_not_shown(Conformance& c) {
   require(c, PLUMB_MANIFOLD_DISABLED, PLUMB_NEED_SLEEPING);
   Probe probe(c, kNeeds | PLUMB_NEED_SLEEPING);
   probe.ground();
@@ -301,12 +301,12 @@ std::span<const Check> manifold_checks() {
   static constexpr Check checks[] = {
       {"manifolds.shown", "contacts of bodies that ask for it are shown before they are solved", &are_shown},
       {"manifolds.nothing", "reading them without a change changes no bit", &nothing_changed},
-      {"manifolds.disabled", "what is disabled does not touch in that step", &falls_through},
-      {"manifolds.friction", "friction is what the host says, in that step", &friction},
-      {"manifolds.restitution", "and so is restitution", &restitution},
-      {"manifolds.surfaces", "a surface runs where the host says", &surfaces},
-      {"manifolds.refusals", "what is wrong is refused, and nothing is half done", &refusals},
-      {"manifolds.sleep", "sleepers are not shown", &sleepers},
+      {"manifolds.disabled", "what is disabled does not touch in that step", &falls_when_disabled},
+      {"manifolds.friction", "friction is what the host says, in that step", &friction_is_changed},
+      {"manifolds.restitution", "and so is restitution", &restitution_is_changed},
+      {"manifolds.surfaces", "a surface runs where the host says", &surfaces_run},
+      {"manifolds.refusals", "what is wrong is refused, and nothing is half done", &wrong_changes},
+      {"manifolds.sleep", "sleepers are not shown", &sleepers_are_not_shown},
   };
   return checks;
 }
