@@ -25,7 +25,8 @@ PlumbStepReport step_with(IPhysicsWorld& world, double dt, const ModifyContacts&
 
 /// Platforms on which bodies stand from one side, and through which they come from all others: jumped through from
 /// below, walked through from aside. Whether a platform holds a body is settled when the two begin to touch, and stays
-/// so until they part: who comes to rest in the middle of one falls back out of it.
+/// so until they part: who comes to rest in the middle of one falls back out of it. Queries see a platform from all
+/// sides.
 class OneWayPlatforms {
  public:
   static constexpr PlumbNeeds needs = PLUMB_NEED_COLLISION | PLUMB_NEED_CONTACT_MODIFICATION;

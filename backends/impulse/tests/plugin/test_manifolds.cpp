@@ -1,6 +1,7 @@
 // Contact modification: what the engine shows, and that a step in halves is the step that it is otherwise.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/hashes/shape_scenes.hpp"
@@ -145,6 +146,38 @@ TEST(ModifiedContacts, AreAllShownWhereThereIsNoRoomYet) {
   for (const double velocity :
        {scene.velocity(scene.world().bodies()[1])[1], scene.velocity(scene.world().bodies()[3000])[1]})
     EXPECT_NEAR(velocity, -9.81 / 60, 1e-6);
+}
+
+/// A step that meets a sleeper is gone over again with it awake, and the host is shown what there is then.
+TEST(ModifiedContacts, AreShownAgainWhereASleeperWakes) {
+  const auto batches_of = [](bool disabled) {
+    Scene scene(engine(), kManifoldNeeds | PLUMB_NEED_CONTACT_MODIFICATION | PLUMB_NEED_SLEEPING, kDown, 1);
+    scene.ground();
+    const PlumbShape cube = scene.box({0.5, 0.5, 0.5});
+    const PlumbBody sleeper = scene.add(cube, {0, 0.5, 0});
+    scene.run(300);
+    const auto sleeps = [&] {
+      double awake = 1;
+      check(scene.world(), scene.world().read(PLUMB_FIELD_AWAKE, {&sleeper, 1}, rows_over(std::span(&awake, 1))));
+      return awake == 0;
+    };
+    EXPECT_TRUE(sleeps());
+    scene.body.flags = kModified;
+    scene.add(cube, {0, 1.6, 0});
+    int most = 0, batches = 0;
+    scene.modify_contacts = [&](ShownRows rows, ChangedRows& changes) {
+      ++batches;
+      if (disabled) disable_all(rows, changes);
+    };
+    for (int i = 0; i < 20; ++i, batches = 0) {
+      scene.run(1);
+      most = std::max(most, batches);
+    }
+    EXPECT_EQ(sleeps(), disabled) << "who is passed through sleeps on";
+    return most;
+  };
+  EXPECT_EQ(batches_of(false), 2);
+  EXPECT_EQ(batches_of(true), 1);
 }
 
 /// Where joints let go and where energy would be made the engine takes a step again, or in parts: each time with what
