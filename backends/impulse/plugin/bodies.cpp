@@ -87,7 +87,10 @@ void World::embody(std::uint32_t slot, const PlumbBodyDesc& desc) {
   const bool dynamic = desc.motion == PLUMB_DYNAMIC;
   if (desc.motion != PLUMB_STATIC) mass.flags |= kBodyMoves | kBodyTurns;
   if (desc.motion == PLUMB_KINEMATIC && continuous_) mass.flags |= kBodySweeps;
-  if ((desc.flags & PLUMB_BODY_MODIFY_CONTACTS) != 0) mass.flags |= kBodyShowsContacts;
+  if ((desc.flags & PLUMB_BODY_MODIFY_CONTACTS) != 0) {
+    mass.flags |= kBodyShowsContacts;
+    simulation_.expect_modification();
+  }
   if (dynamic) {
     mass.flags |= kBodyDynamic;
     if ((desc.flags & PLUMB_BODY_NEVER_SLEEPS) != 0) mass.flags |= kBodyNeverSleeps;

@@ -70,6 +70,12 @@ std::uint32_t Simulation::room_for(std::uint32_t n) const {
   return (n + unit - 1) / unit * unit;
 }
 
+void Simulation::expect_modification() {
+  if (stages_.modifies_contacts || !stages_.features.contact_modification) return;
+  stages_.modifies_contacts = true;
+  reserve_pairs(stages_.pair_capacity);
+}
+
 void Simulation::choose(BroadPhase::Method method) {
   if (stages_.broad_phase.method == method) return;
   stages_.broad_phase.method = method;
@@ -188,7 +194,7 @@ void Simulation::launch() {
   reserve_rows();
   PLUMB_ASSERT(numbers_.parameters[0].dt > 0);
   PLUMB_ASSERT(bodies.count < bodies.size() && colliders.count <= colliders.proxies.size());
-  shows_ = stages_.features.contact_modification;
+  shows_ = stages_.modifies_contacts;
   enqueue(shows_ ? Half::kDetection : Half::kBoth);
 }
 
@@ -256,8 +262,7 @@ bool Simulation::wait() {
 
 double Simulation::phase_seconds(PlumbPhase phase) const {
   const bool told = phase <= PLUMB_PHASE_SOLVE || phase == PLUMB_PHASE_OUTPUT;
-  if (stages_.features.contact_modification)
-    return std::numeric_limits<double>::quiet_NaN();  // the host's time is in it
+  if (stages_.modifies_contacts) return std::numeric_limits<double>::quiet_NaN();  // the host's time is in it
   return told && PhaseClock::measures(step_) ? stages_.phases.seconds(phase) : std::numeric_limits<double>::quiet_NaN();
 }
 

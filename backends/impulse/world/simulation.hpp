@@ -38,6 +38,9 @@ class Simulation {
   /// From now on there may be bodies that must not pass through others; what they cost begins here.
   void expect_continuous() { stages_.continuous = stages_.features.continuous; }
 
+  /// Likewise of bodies whose contacts the host is shown: from now on a step is two halves.
+  void expect_modification();
+
   void bodies_changed() {  ///< made, gone, asleep, awake
     dirty_.lists = true;
     origin_.bodies_changed();

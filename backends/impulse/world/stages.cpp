@@ -27,7 +27,7 @@ void Stages::reserve(Executor& executor, std::uint32_t bodies, std::uint32_t pro
   if (features.continuous || features.restitution) impacts.reserve(pairs);
   if (features.continuous) clamp.reserve(bodies);
   if (uses_midphase) midphase.reserve(proxies, pairs);
-  if (features.contact_modification) modification.reserve(pairs);
+  if (modifies_contacts) modification.reserve(pairs);
   colouring.reserve(executor, bodies, pairs);
   solver.reserve(executor, bodies, pairs);
   if (kAsserts) validation.reserve(bodies);
@@ -79,14 +79,14 @@ void find_impacts(const StepContext& step) {
 }
 
 void show_manifolds(const StepContext& step) {
-  if (!step.stages.features.contact_modification) return;
+  if (!step.stages.modifies_contacts) return;
   step.stages.modification.show(step.executor,
                                 {step.now, step.candidates(), step.bodies, step.proxies, step.surface_velocities});
   step.executor.to_host(step.counted, 1);
 }
 
 void modify_manifolds(const StepContext& step) {
-  if (!step.stages.features.contact_modification) return;
+  if (!step.stages.modifies_contacts) return;
   step.stages.modification.disable(step.executor, step.now, step.candidates());
 }
 

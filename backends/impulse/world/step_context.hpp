@@ -27,10 +27,11 @@ struct Stages {
 
   SolverFeatures features;
   std::uint32_t pair_capacity = 0;
-  bool uses_midphase = false;  ///< once there was a plane or a surface
-  bool continuous = false;     ///< once there was a body that must not pass through others
-  Buffer<Box> boxes;           ///< by proxy
-  Buffer<Real> margins;        ///< by proxy: how far ahead it is looked, m
+  bool uses_midphase = false;      ///< once there was a plane or a surface
+  bool continuous = false;         ///< once there was a body that must not pass through others
+  bool modifies_contacts = false;  ///< once there was a body whose contacts the host is to see
+  Buffer<Box> boxes;               ///< by proxy
+  Buffer<Real> margins;            ///< by proxy: how far ahead it is looked, m
   BroadPhase broad_phase;
   Midphase midphase;
   NarrowPhase narrow_phase;
@@ -44,9 +45,7 @@ struct Stages {
   ValidationMemory validation;  ///< where there are asserts
 
   /// What the host has changed in the step's manifolds.
-  [[nodiscard]] ManifoldChanges changes() {
-    return features.contact_modification ? modification.changes() : ManifoldChanges{};
-  }
+  [[nodiscard]] ManifoldChanges changes() { return modifies_contacts ? modification.changes() : ManifoldChanges{}; }
 };
 
 /// What a step depends on of the host's numbers and addresses: two steps of the same are the same sequence of kernels,
