@@ -217,7 +217,8 @@ std::uint32_t ContactPass::child_of(const GeomTag& tag, const dContactGeom& poin
   return side < 0 ? 0 : static_cast<std::uint32_t>(side);
 }
 
-void ContactPass::record(const Pair& pair, const dContactGeom& point, dJointID joint) {
+/// Without its impulses.
+PlumbContact ContactPass::contact_of(const Pair& pair, const dContactGeom& point) {
   const bool swapped = is_swapped(pair);
   const GeomTag& a = swapped ? pair.second : pair.first;
   const GeomTag& b = swapped ? pair.first : pair.second;
@@ -231,7 +232,11 @@ void ContactPass::record(const Pair& pair, const dContactGeom& point, dJointID j
   contact.depth = point.depth;
   contact.normal_impulse = unknown;
   contact.tangent_impulse = {unknown, unknown, unknown};
-  contacts_.push_back(contact);
+  return contact;
+}
+
+void ContactPass::record(const Pair& pair, const dContactGeom& point, dJointID joint) {
+  contacts_.push_back(contact_of(pair, point));
   if (!keeps_impulses_) return;
   Source source{nullptr, false};
   if (joint != nullptr) {
@@ -241,7 +246,7 @@ void ContactPass::record(const Pair& pair, const dContactGeom& point, dJointID j
     dJointSetFeedback(joint, &feedback);
     // A body that is not there is never ODE's first.
     const dBodyID ode_first = pair.first.id != nullptr ? pair.first.id : pair.second.id;
-    source = {&feedback, ode_first == b.id};
+    source = {&feedback, ode_first == (is_swapped(pair) ? pair.first : pair.second).id};
   }
   sources_.push_back(source);
 }
@@ -277,22 +282,22 @@ PlumbManifold ContactPass::show(const Pair& pair, std::span<const dContact> poin
                    [](const dContactGeom& p, const dContactGeom& q) { return p.depth > q.depth; });
   deepest.resize(std::min<std::size_t>(deepest.size(), PLUMB_MANIFOLD_POINTS));
   const bool swapped = is_swapped(pair);
-  const GeomTag& a = swapped ? pair.second : pair.first;
-  const GeomTag& b = swapped ? pair.first : pair.second;
+  const PlumbContact first = contact_of(pair, deepest[0]);
   PlumbManifold row{};
-  row.body_a = a.body->handle;
-  row.body_b = b.body->handle;
-  row.child_a = child_of(a, deepest[0]);
-  row.child_b = child_of(b, deepest[0]);
+  row.body_a = first.body_a;
+  row.body_b = first.body_b;
+  row.child_a = first.child_a;
+  row.child_b = first.child_b;
   row.point_count = static_cast<std::uint32_t>(deepest.size());
-  row.normal = scale(swapped ? 1 : -1, vec(deepest[0].normal));
+  row.normal = first.normal;
   PlumbVec3 middle{};
   for (std::size_t i = 0; i < deepest.size(); ++i) {
     row.position[i] = vec(deepest[i].pos);
     row.depth[i] = deepest[i].depth;
     middle = add(middle, scale(1.0 / static_cast<double>(deepest.size()), row.position[i]));
   }
-  row.velocity = sub(velocity_at(*b.body, middle), velocity_at(*a.body, middle));
+  const PlumbVec3 of_first = velocity_at(*pair.first.body, middle), of_second = velocity_at(*pair.second.body, middle);
+  row.velocity = swapped ? sub(of_first, of_second) : sub(of_second, of_first);
   const Surface surface(pair, mode_, nullptr);
   row.friction = surface.mu;
   row.restitution = surface.bounce;

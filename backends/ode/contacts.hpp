@@ -66,6 +66,7 @@ class ContactPass {
   void respond(const Pair& pair, std::span<dContact> points, const PlumbManifoldChange* change);
   void hold_back(const Pair& pair, int count);
   [[nodiscard]] PlumbManifold show(const Pair& pair, std::span<const dContact> points) const;
+  [[nodiscard]] static PlumbContact contact_of(const Pair& pair, const dContactGeom& point);
   void record(const Pair& pair, const dContactGeom& point, dJointID joint);
   void merge_substeps();
   void aim_friction(const Pair& pair, dContact& contact, const PlumbVec3& belts) const;

@@ -52,6 +52,11 @@ void OneWayPlatforms::add(PlumbBody platform, const PlumbVec3& side) {
   sides_[platform] = scale(1 / size, side);
 }
 
+void OneWayPlatforms::remove(PlumbBody platform) {
+  sides_.erase(platform);
+  std::erase_if(pairs_, [platform](const auto& pair) { return pair.first.first == platform; });
+}
+
 bool OneWayPlatforms::lets_through(PlumbBody platform, PlumbBody body) const {
   const auto found = pairs_.find({platform, body});
   return found != pairs_.end() && found->second.passes;

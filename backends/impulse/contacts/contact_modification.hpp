@@ -1,5 +1,5 @@
 // Contact modification (plumb.manifolds/1): what touches is shown to the host before it is solved, and changed as the
-// host says. A step is two halves where it is asked for; a world that does not declare it has none of this memory.
+// host says. A step is two halves, and there is this memory, from the first body on that asks for it.
 #pragma once
 
 #include <span>

@@ -35,7 +35,7 @@ class OneWayPlatforms {
   /// another. Throws Error for one that has no length.
   void add(PlumbBody platform, const PlumbVec3& side = {0, 1, 0});
   /// It is a body like others again.
-  void remove(PlumbBody platform) { sides_.erase(platform); }
+  void remove(PlumbBody platform);
   /// Lets a body through that stands on the platform now, until the two have parted: a character that climbs down.
   void let_through(PlumbBody platform, PlumbBody body) { pairs_[{platform, body}] = {true, true, false}; }
   [[nodiscard]] bool lets_through(PlumbBody platform, PlumbBody body) const;
