@@ -10,12 +10,10 @@ namespace plumb::helpers {
 namespace {
 
 constexpr double kLeastCosine = 0.5;  // of a slope on which one stands
-constexpr double kRising = 0.05;      // m/s away from the side: it came through from beyond
 
 /// Whether a body that begins to touch a platform so is one that comes from beyond it.
 bool comes_through(const PlumbManifold& row, bool platform_is_a, const PlumbVec3& side) {
-  const double sign = platform_is_a ? 1 : -1;  // normal and velocity are those of b against a
-  return sign * dot(row.normal, side) < kLeastCosine || sign * dot(row.velocity, side) > kRising;
+  return (platform_is_a ? 1 : -1) * dot(row.normal, side) < kLeastCosine;
 }
 
 }  // namespace
