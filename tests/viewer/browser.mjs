@@ -9,7 +9,7 @@ import { pathToFileURL } from 'node:url';
 import { kArguments, kBrowser as executablePath } from '../../harness/viewer/chromium.mjs';
 import { page as makePage } from './page.mjs';
 import { crowd, linkage, pairScripts, room, script, specks, tower, zoo } from './synthetic.mjs';
-import { visitor } from './visitor.mjs';
+import { kPatience, visitor } from './visitor.mjs';
 
 const folder = process.env.PLUMB_VIEWER_FOLDER,
   root = process.env.PLUMB_SOURCE;
@@ -48,7 +48,7 @@ before(async () => {
       ...pairScripts(['alpha', 'beta']),
     ]),
   );
-  browser = await chromium.launch({ executablePath, args: kArguments });
+  browser = await chromium.launch({ executablePath, args: kArguments, timeout: kPatience });
   visitPage = await visitor(browser, isReady);
 });
 

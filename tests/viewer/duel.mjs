@@ -9,7 +9,7 @@ import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { pathToFileURL } from 'node:url';
 import { kArguments, kBrowser } from '../../harness/viewer/chromium.mjs';
-import { visitor } from './visitor.mjs';
+import { kPatience, visitor } from './visitor.mjs';
 
 const { PLUMB_VIEWER_FOLDER: folder, PLUMB_SOURCE: root, PLUMB_PROGRAM: program, SAMPLE_BACKEND: sample } = process.env;
 if (!existsSync(kBrowser)) {
@@ -22,7 +22,7 @@ let browser, visit, scratch;
 
 before(async () => {
   scratch = mkdtempSync(join(tmpdir(), 'plumb-duel-'));
-  browser = await chromium.launch({ executablePath: kBrowser, args: kArguments });
+  browser = await chromium.launch({ executablePath: kBrowser, args: kArguments, timeout: kPatience });
   visit = await visitor(browser);
 });
 

@@ -10,7 +10,7 @@ import { after, before, test } from 'node:test';
 import { fileURLToPath, pathToFileURL } from 'node:url';
 import { kArguments, kBrowser } from '../../harness/viewer/chromium.mjs';
 import { script, tower } from './synthetic.mjs';
-import { visitor } from './visitor.mjs';
+import { kPatience, visitor } from './visitor.mjs';
 
 const kMostElements = 30000; // of a page of five thousand rows, wherever one reads
 
@@ -40,7 +40,7 @@ before(async () => {
   };
   one = pageOf(results.slice(0, 1), 'one.html');
   both = pageOf([results[0], elsewhere(results[1])], 'both.html');
-  browser = await chromium.launch({ executablePath: kBrowser, args: kArguments });
+  browser = await chromium.launch({ executablePath: kBrowser, args: kArguments, timeout: kPatience });
   visit = await visitor(browser, (page) => page.waitForFunction(() => 'ready' in document.documentElement.dataset));
 });
 

@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { complaints } from './complaints.mjs';
 
-const kPatience = 180000; // ms that anything may take, on a machine that has other work
+export const kPatience = 180000; // ms that anything may take, on a machine that has other work
 
 /**
  * A function visit(url, use, settings) that runs use(page) on the page when isReady(page) has come to pass, leaves it with
