@@ -70,7 +70,7 @@ PlumbResult World::save(std::span<const std::byte>& data) {
   for (const Touching& pair : touches_.touching()) {
     append(snapshot_, pair.a);
     append(snapshot_, pair.b);
-    append(snapshot_, std::uint64_t{pair.sensor});
+    append(snapshot_, pair.sensor);
   }
   data = snapshot_;
   return PLUMB_OK;
@@ -84,7 +84,7 @@ PlumbResult World::restore(std::span<const std::byte> data) {
   std::vector<Touching> touching;
   while (!data.empty()) {
     const auto a = take<PlumbBody>(data), b = take<PlumbBody>(data);
-    touching.push_back({a, b, take<std::uint64_t>(data) != 0});
+    touching.push_back({a, b, take<std::uint64_t>(data)});
   }
   set_gravity(gravity);
   auto state = states.begin();

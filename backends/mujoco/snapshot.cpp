@@ -59,7 +59,7 @@ PlumbResult World::save(std::span<const std::byte>& data) {
     append(snapshot_, &state, 1);
   }
   for (const Touching& pair : touches_.touching()) {
-    const std::uint64_t row[3] = {pair.a, pair.b, pair.sensor ? 1u : 0u};
+    const std::uint64_t row[3] = {pair.a, pair.b, pair.sensor};
     append(snapshot_, row, 3);
   }
   data = snapshot_;
@@ -82,7 +82,7 @@ PlumbResult World::restore(std::span<const std::byte> data) {
   while (!data.empty()) {
     std::uint64_t row[3];
     take(data, row, 3);
-    touching.push_back({row[0], row[1], row[2] != 0});
+    touching.push_back({row[0], row[1], row[2]});
   }
   set_gravity(gravity);
   auto state = states.begin();

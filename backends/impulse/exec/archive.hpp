@@ -18,7 +18,7 @@ class Archive {
   explicit Archive(std::span<const std::byte> bytes) : reads_(true), unread_(bytes) {}  ///< is read
 
   [[nodiscard]] bool reads() const { return reads_; }
-  [[nodiscard]] const std::vector<std::byte>& bytes() const { return written_; }
+  [[nodiscard]] std::vector<std::byte> take_bytes() { return std::move(written_); }
 
   template <class T>
   void value(T& it) {
@@ -45,11 +45,18 @@ class Archive {
     std::memcpy(static_cast<void*>(first), unread_.data(), n * sizeof(T));
     unread_ = unread_.subspan(n * sizeof(T));
   }
+  /// The first n of them, wherever they lie.
   template <class T>
   void rows(Buffer<T>& buffer, std::size_t n) {
     std::vector<T> host = reads_ ? std::vector<T>(n) : buffer.to_host(n);
     items(host.data(), n);
     if (reads_) buffer.from_host(host.data(), n);
+  }
+  /// Likewise; all others are as at first, when nobody had had them.
+  template <class T>
+  void rows_of_all(Buffer<T>& buffer, std::size_t n) {
+    rows(buffer, n);
+    if (reads_) buffer.clear_from(n);
   }
 
  private:

@@ -70,6 +70,10 @@ class Buffer {
     if (count != 0) memory::upload(data_, host, count * sizeof(T));
   }
   void assign(const std::vector<T>& host) { from_host(host.data(), host.size()); }
+  /// The elements from `first` on are 0 again, as they were when there was room for them.
+  void clear_from(std::size_t first) {
+    if (first < size_) memory::fill(data_ + first, 0, (size_ - first) * sizeof(T));
+  }
 
  private:
   T* data_ = nullptr;

@@ -170,12 +170,14 @@ void Sleep::exchange(Archive& archive, std::uint32_t bodies, Table<BodyMass>& ma
     for (std::uint32_t body = 0; body < was_.size(); ++body)
       if (sleeps(body)) mass.edit(body).flags = was_[body].flags;
   archive.items(was_.data(), bodies);
-  archive.rows(rest_, bodies);
+  archive.rows_of_all(rest_, bodies);
   archive.list(stored_);
   archive.list(woken_);
   if (!archive.reads()) return;
   count_ = 0;
   made_of_.clear();
+  std::fill(was_.begin() + bodies, was_.end(), Was{});
+  std::fill(island_of_.host() + bodies, island_of_.host() + island_of_.size(), 0U);
   for (std::uint32_t body = 0; body < bodies; ++body) {
     island_of_[body] = was_[body].island;
     if (!sleeps(body)) continue;

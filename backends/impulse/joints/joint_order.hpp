@@ -27,7 +27,7 @@ struct StoredJoint {
   Joint joint;
   JointAxes axes;  ///< of the rows beyond those of its type
   JointTraits traits;
-  bool used;  ///< false: it is gone
+  bool used = false;  ///< false: it is gone
 };
 
 /// Those of which a body is pushed. From `base` on they are the system, in the order of its elimination; before it

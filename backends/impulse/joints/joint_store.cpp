@@ -1,5 +1,7 @@
 #include "joints/joint_store.hpp"
 
+#include <algorithm>
+
 #include "broadphase/pair_filter.hpp"
 #include "joints/rigid_groups.hpp"
 #include "plumb/assert.hpp"
@@ -7,10 +9,7 @@
 namespace plumb::impulse {
 
 void JointStore::add(const Joint& joint, const JointAxes& axes, const JointTraits& traits) {
-  if (joint.slot >= records_.size()) {
-    records_.resize(joint.slot + 1);
-    drives.grow(records_.size());
-  }
+  if (joint.slot >= records_.size()) resize(joint.slot + std::size_t{1});
   PLUMB_ASSERT(!records_[joint.slot].used);
   PLUMB_ASSERT(row_count(joint) >= 1 && row_count(joint) <= kJointRows);
   PLUMB_ASSERT(joint.body_b != kWorld && joint.body_a != joint.body_b);
@@ -24,15 +23,15 @@ void JointStore::remove(std::uint32_t slot) {
   changed_ = true;
 }
 
-void JointStore::exchange(Archive& archive, std::size_t slots) {
-  if (changed_) impulses_.grow(records_.size());
-  archive.rows(impulses_, slots);
-  std::uint64_t borne = reactions_.size();  // which only some scenes have
+void JointStore::exchange(Archive& archive, std::size_t bodies) {
+  const std::size_t slots = records_.size();
+  if (changed_) impulses_.grow(slots);
+  for (StoredJoint& record : records_) archive.value(record.joint.first_step);
+  archive.rows_of_all(impulses_, slots);
+  std::uint64_t borne = std::min(reactions_.size(), slots);  // which only some scenes have
   archive.value(borne);
-  archive.rows(reactions_, static_cast<std::size_t>(borne));
-  std::uint64_t bodies = records_.empty() ? 0 : least_moment_.size();
-  archive.value(bodies);
-  archive.rows(least_moment_, static_cast<std::size_t>(bodies));
+  archive.rows_of_all(reactions_, static_cast<std::size_t>(borne));
+  archive.rows_of_all(least_moment_, slots == 0 ? 0 : bodies);
   changed_ = changed_ || archive.reads();
 }
 

@@ -23,8 +23,14 @@ class JointStore {
   void add(const Joint& joint, const JointAxes& axes, const JointTraits& traits);
   void remove(std::uint32_t slot);
   [[nodiscard]] std::uint32_t slots() const { return static_cast<std::uint32_t>(records_.size()); }
-  /// What the next step remembers of the last one, of the first slots, to or from a snapshot.
-  void exchange(Archive& archive, std::size_t slots);
+  /// Slots as many as these; those behind are nobody's.
+  void resize(std::size_t slots) {
+    changed_ = changed_ || slots != records_.size();
+    records_.resize(slots);
+    drives.grow(slots);
+  }
+  /// What the next step remembers of the last one, to or from a snapshot of so many bodies.
+  void exchange(Archive& archive, std::size_t bodies);
   /// Room for so many bodies.
   void reserve_bodies(std::size_t bodies) {
     mechanisms_.reserve_bodies(bodies);

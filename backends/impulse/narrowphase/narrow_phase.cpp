@@ -103,15 +103,12 @@ void NarrowPhase::forget_found(Executor& executor, const std::uint32_t* statics,
   executor.run(n, ForgetFound{caches_[0].ranges.data(), caches_[1].ranges.data(), statics});
 }
 
-void NarrowPhase::exchange(Archive& archive, std::uint32_t parity, std::uint32_t proxies, const StepCounters& counters,
-                           bool with_triangles) {
+void NarrowPhase::exchange(Archive& archive, std::uint32_t parity, std::uint32_t proxies,
+                           const StepCounters& counters) {
   Storage& cache = caches_[parity % 2];
   const std::uint32_t candidates = candidate_count(counters);
   archive.rows(cache.pairs, candidates);
-  if (with_triangles)
-    archive.rows(cache.triangles, candidates);
-  else if (uses_midphase_ && archive.reads())
-    cache.triangles.from_host(std::vector<std::uint32_t>(candidates, 0U).data(), candidates);
+  if (uses_midphase_) archive.rows(cache.triangles, candidates);
   archive.rows(cache.ranges, proxies);
   archive.rows(cache.touching, candidates);
   archive.rows(cache.row, candidates);

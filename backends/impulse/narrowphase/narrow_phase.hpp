@@ -15,7 +15,7 @@ class NarrowPhase {
   void reserve(Executor& executor, std::uint32_t proxies, std::uint32_t pairs);
   /// From now on candidates have parts (midphase.hpp), and counters->midphase_pairs is how many there are. Reserve
   /// after this.
-  void use_midphase() { uses_midphase_ = true; }
+  void use_midphase(bool uses) { uses_midphase_ = uses; }
   [[nodiscard]] std::uint32_t capacity() const { return capacity_; }
 
   /// This step's contacts and the last one's, for a step of the given parity.
@@ -24,9 +24,8 @@ class NarrowPhase {
   /// These proxies found no pairs: they are statics now. What they found when they were not must not be looked at.
   void forget_found(Executor& executor, const std::uint32_t* statics, std::uint32_t n);
 
-  /// What the next step remembers of a step, to or from a snapshot, in which candidates may have parts or not.
-  void exchange(Archive& archive, std::uint32_t parity, std::uint32_t proxies, const StepCounters& counters,
-                bool with_triangles);
+  /// What the next step remembers of a step, to or from a snapshot.
+  void exchange(Archive& archive, std::uint32_t parity, std::uint32_t proxies, const StepCounters& counters);
   /// How many candidates a step has, pieces and all: where kernels run, and when it is done.
   [[nodiscard]] Count candidates(StepCounters* counters) const {
     return {uses_midphase_ ? &counters->midphase_pairs : &counters->pairs, capacity_};

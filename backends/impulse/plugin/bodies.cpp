@@ -96,7 +96,7 @@ void World::embody(std::uint32_t slot, const PlumbBodyDesc& desc) {
     if ((desc.flags & PLUMB_BODY_NEVER_SLEEPS) != 0) mass.flags |= kBodyNeverSleeps;
     if ((desc.flags & PLUMB_BODY_CCD) != 0) {
       mass.flags |= kBodyContinuous;
-      expect_continuous();
+      make_continuous(true);
     }
     ++dynamic_count_;
     inverse_mass = static_cast<Real>(1 / desc.mass);
@@ -134,13 +134,15 @@ void World::embody(std::uint32_t slot, const PlumbBodyDesc& desc) {
 }
 
 /// From the first flagged body on: where there is none kinematic bodies go as they would without.
-void World::expect_continuous() {
-  if (continuous_) return;
-  continuous_ = true;
-  simulation_.expect_continuous();
-  for (std::uint32_t slot = 0; slot < bodies_.size(); ++slot)
-    if (bodies_[slot].id != 0 && bodies_[slot].motion == PLUMB_KINEMATIC)
-      simulation_.bodies.mass.edit(slot).flags |= kBodySweeps;
+void World::make_continuous(bool continuous) {
+  if (continuous_ == continuous) return;
+  continuous_ = continuous;
+  simulation_.make_continuous(continuous);
+  for (std::uint32_t slot = 0; slot < bodies_.size(); ++slot) {
+    if (bodies_[slot].id == 0 || bodies_[slot].motion != PLUMB_KINEMATIC) continue;
+    std::uint32_t& flags = simulation_.bodies.mass.edit(slot).flags;
+    flags = continuous ? flags | kBodySweeps : flags & ~static_cast<std::uint32_t>(kBodySweeps);
+  }
 }
 
 /// What of a body's record is copied into rows that kernels read.

@@ -104,18 +104,31 @@ PlumbResult World::destroy_shapes(std::span<const PlumbShape> ids) {
   return PLUMB_OK;
 }
 
+/// The parts of a compound or surface; null for all other shapes.
+const Compound* World::parts_of(std::uint32_t shape) const {
+  return shape < compounds_.size() && !compounds_[shape].empty() ? &compounds_[shape] : nullptr;
+}
+
 /// Gives the body the proxies of a shape.
 void World::attach(std::uint32_t slot, std::uint32_t shape) {
   BodyRecord& body = bodies_[slot];
+  body.shape = shape;
   body.proxy = proxy_slots_.take(slot);
-  const Compound* parts = shape < compounds_.size() && !compounds_[shape].empty() ? &compounds_[shape] : nullptr;
+  const Compound* parts = parts_of(shape);
   for (std::size_t i = 1; parts != nullptr && i < parts->size(); ++i)
     body.more_proxies.push_back(proxy_slots_.take_any(simulation_.bodies.count));
   simulation_.reserve_proxies(proxy_slots_.end());
   simulation_.colliders.count = proxy_slots_.end();
+  fill_proxies(slot);
+}
+
+/// Puts the body's shape into the rows that its proxies have.
+void World::fill_proxies(std::uint32_t slot) {
+  const BodyRecord& body = bodies_[slot];
+  const Compound* parts = parts_of(body.shape);
   if (parts == nullptr) {
     if (body.proxy < proxies_.size()) proxies_[body.proxy] = {};
-    return attach_part(slot, body.proxy, shape, nullptr);
+    return attach_part(slot, body.proxy, body.shape, nullptr);
   }
   if (proxies_.size() < proxy_slots_.end()) proxies_.resize(proxy_slots_.end());
   for (std::size_t i = 0; i < parts->size(); ++i) {
@@ -151,7 +164,7 @@ void World::detach(std::uint32_t slot) {
   };
   if (body.proxy != kNone) give_back(body.proxy);
   for (const std::uint32_t row : body.more_proxies) give_back(row);
-  body.proxy = kNone;
+  body.shape = body.proxy = kNone;
   body.more_proxies.clear();
 }
 

@@ -1,4 +1,7 @@
-// plumb.snapshot/1: what moves, with the impulses that the next step starts from.
+// plumb.snapshot/1: what moves, with the impulses that the next step starts from, and what the engine's rows are:
+// bodies and joints may have been made anew under their handles, and then have other proxies than they had.
+#include <algorithm>
+
 #include "plugin/physics_revision.hpp"
 #include "plugin/world.hpp"
 
@@ -6,14 +9,14 @@ namespace plumb::impulse {
 
 /// Bits mean the same to every library of this physics and this number type, wherever its kernels run.
 std::string_view World::format() const {
-  return sizeof(Real) == 8 ? "impulse 6, double, physics " PLUMB_IMPULSE_PHYSICS_REVISION_TEXT
-                           : "impulse 6, float, physics " PLUMB_IMPULSE_PHYSICS_REVISION_TEXT;
+  return sizeof(Real) == 8 ? "impulse 7, double, physics " PLUMB_IMPULSE_PHYSICS_REVISION_TEXT
+                           : "impulse 7, float, physics " PLUMB_IMPULSE_PHYSICS_REVISION_TEXT;
 }
 
 PlumbResult World::save(std::span<const std::byte>& data) {
   Archive archive;
   exchange(archive);
-  lent_.snapshot = archive.bytes();
+  lent_.snapshot = archive.take_bytes();
   data = lent_.snapshot;
   return PLUMB_OK;
 }
@@ -31,14 +34,16 @@ void World::exchange(Archive& archive) {
     PlumbNeeds needs;
     Simulation::Extent rows;
   };
-  const Header here = {init_.desc.needs, simulation_.extent(archive.reads())};
-  Header saved = here;
+  Header saved = {init_.desc.needs, simulation_.extent()};
   archive.value(saved);
-  if (saved.needs != here.needs) throw Error(PLUMB_E_CORRUPT, "the snapshot is of a world that declared other needs");
-  if (saved.rows.bodies > here.rows.bodies || saved.rows.proxies > here.rows.proxies ||
-      saved.rows.joints > here.rows.joints || saved.rows.uses_midphase > here.rows.uses_midphase)
-    throw Error(PLUMB_E_CORRUPT, "the snapshot is of a world that has had more bodies, joints or shapes than this one");
-  const bool has_surface_velocity = init_.needs(PLUMB_NEED_SURFACE_VELOCITY);
+  if (saved.needs != init_.desc.needs)
+    throw Error(PLUMB_E_CORRUPT, "the snapshot is of a world that declared other needs");
+  if (archive.reads()) make_room(saved.rows);
+  bool continuous = continuous_;
+  archive.value(continuous);
+  if (archive.reads()) make_continuous(continuous);
+  exchange_proxies(archive);
+  for (JointRecord& joint : joints_.records) archive.value(joint.made_after);
   if (archive.reads()) clear_forces();
   simulation_.exchange(archive, saved.rows);
   archive.value(gravity_);
@@ -46,19 +51,78 @@ void World::exchange(Archive& archive) {
   archive.value(pacing_.divides_for);
   archive.value(pacing_.lets_go);
   archive.value(stopped_);
-  steered_.exchange(archive);
+  sensors_.exchange(archive);
+  exchange_targets(archive);
   archive.list(pushed_);
   for (const std::uint32_t slot : pushed_) archive.value(simulation_.bodies.force.edit(slot));
   archive.list(told_.early_events);
   archive.list(told_.touches.touching());
+  if (!init_.needs(PLUMB_NEED_SURFACE_VELOCITY)) return;
   for (std::uint32_t slot = 0; slot < saved.rows.bodies; ++slot) {
+    archive.value(bodies_[slot].material.surface_velocity);
+    if (archive.reads() && bodies_[slot].id != 0) put_body_rows(slot);
+  }
+}
+
+/// The rows that there were, no more and no fewer: whoever comes next gets those that came next then.
+void World::make_room(const Simulation::Extent& rows) {
+  PLUMB_ASSERT(std::none_of(bodies_.begin() + std::min<std::ptrdiff_t>(rows.bodies, std::ssize(bodies_)), bodies_.end(),
+                            [](const BodyRecord& body) { return body.id != 0; }));
+  simulation_.reserve_bodies(rows.bodies);
+  if (bodies_.size() < rows.bodies) bodies_.resize(rows.bodies);
+  rows_.ids.resize(rows.bodies);
+  ++rows_.generation;
+  simulation_.bodies.count = rows.bodies;
+  simulation_.joints.resize(rows.joints);
+  joints_.records.resize(rows.joints);
+  simulation_.use_midphase(rows.uses_midphase != 0);
+}
+
+/// Which proxies the bodies have, and since when: contacts are remembered by them.
+void World::exchange_proxies(Archive& archive) {
+  ColliderTable& colliders = simulation_.colliders;
+  proxy_slots_.exchange(archive);
+  std::vector<std::uint32_t> others;  // bodies that have other proxies than they had
+  for (std::uint32_t slot = 0; slot < simulation_.bodies.count; ++slot) {
+    BodyRecord& body = bodies_[slot];
+    std::uint32_t proxy = body.proxy, more = static_cast<std::uint32_t>(body.more_proxies.size());
+    archive.value(proxy);
+    archive.value(more);
+    std::vector<std::uint32_t> more_proxies = body.more_proxies;
+    more_proxies.resize(more);
+    archive.items(more_proxies.data(), more);
+    if (!archive.reads() || (proxy == body.proxy && more_proxies == body.more_proxies)) continue;
+    if (body.shape == kNone || (parts_of(body.shape) == nullptr ? 1 : parts_of(body.shape)->size()) != more + 1)
+      throw Error(PLUMB_E_CORRUPT, "the snapshot is of bodies of other shapes");
+    colliders.proxies.edit(body.proxy).shape = kNone;
+    for (const std::uint32_t row : body.more_proxies) colliders.proxies.edit(row).shape = kNone;
+    body.proxy = proxy;
+    body.more_proxies = std::move(more_proxies);
+    others.push_back(slot);
+  }
+  if (archive.reads()) {
+    simulation_.reserve_proxies(proxy_slots_.end());
+    colliders.count = proxy_slots_.end();
+    for (const std::uint32_t slot : others) fill_proxies(slot);
+    if (!others.empty()) simulation_.bodies_changed();
+  }
+  for (std::uint32_t row = 0; row < colliders.count; ++row) {
+    std::uint32_t first_step = colliders.proxies[row].first_step;
+    archive.value(first_step);
+    if (archive.reads() && first_step != colliders.proxies[row].first_step)
+      colliders.proxies.edit(row).first_step = first_step;
+  }
+}
+
+void World::exchange_targets(Archive& archive) {
+  if (archive.reads())
+    for (BodyRecord& body : bodies_) body.to_target = body.arrived = false;
+  steered_.exchange(archive);
+  for (const std::uint32_t slot : steered_) {
     BodyRecord& body = bodies_[slot];
     archive.value(body.to_target);
     archive.value(body.arrived);
     archive.value(body.target);
-    if (!has_surface_velocity) continue;
-    archive.value(body.material.surface_velocity);
-    if (archive.reads() && body.id != 0) put_body_rows(slot);
   }
 }
 

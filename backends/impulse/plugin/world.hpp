@@ -106,6 +106,9 @@ class World final : public IPhysicsWorld,
   };
 
   void exchange(Archive& archive);
+  void make_room(const Simulation::Extent& rows);
+  void exchange_proxies(Archive& archive);
+  void exchange_targets(Archive& archive);
   void make_body(const PlumbBodyDesc& desc, PlumbBody id);
   void embody(std::uint32_t slot, const PlumbBodyDesc& desc);
   void remake_body(const PlumbBodyChange& change);
@@ -119,10 +122,12 @@ class World final : public IPhysicsWorld,
   void hold_locked(std::uint32_t slot);
   Shape to_shape(const PlumbShapeDesc& desc, std::uint32_t row, Compound& parts);
   void dismantle(const Shape& shape);
+  [[nodiscard]] const Compound* parts_of(std::uint32_t shape) const;
   void attach(std::uint32_t slot, std::uint32_t shape);
+  void fill_proxies(std::uint32_t slot);
   void attach_part(std::uint32_t slot, std::uint32_t row, std::uint32_t shape, const PlumbPose* pose);
   void detach(std::uint32_t slot);
-  void expect_continuous();
+  void make_continuous(bool continuous);
   void put_body_rows(std::uint32_t slot);
   void put_proxy_row(std::uint32_t slot, std::uint32_t row);
   [[nodiscard]] std::uint32_t child_of(std::uint32_t proxy, std::uint32_t triangle) const;

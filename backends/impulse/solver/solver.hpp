@@ -49,7 +49,7 @@ class Solver {
   /// From step to step.
   [[nodiscard]] BodyPace* paces() { return paces_.data(); }
   [[nodiscard]] const BodyLevel* body_levels() const { return has_levels() ? body_levels_.data() : nullptr; }
-  void exchange(Archive& archive, std::size_t bodies) { archive.rows(paces_, bodies); }
+  void exchange(Archive& archive, std::size_t bodies) { archive.rows_of_all(paces_, bodies); }
   /// World inertia of all bodies, what forces do to them in a sub-step, no displacement.
   void begin(Executor& executor, const MovableBodies& bodies, std::uint32_t body_count,
              const StepParameters* parameters, const SubstepLevels* levels, const StepCounters* counters);

@@ -11,7 +11,6 @@ class BoundsOrigin {
   [[nodiscard]] const Position& place() const { return place_; }
   /// Bodies were made, or are gone: it may be better elsewhere.
   void bodies_changed() { dirty_ = true; }
-  [[nodiscard]] bool dirty() const { return dirty_; }
 
   /// Looks for it anew where bodies have changed. Returns whether it is another: all is to be bounded anew then. A
   /// place that is near one that was good stays.

@@ -76,6 +76,13 @@ void Simulation::expect_modification() {
   reserve_pairs(stages_.pair_capacity);
 }
 
+void Simulation::use_midphase(bool uses) {
+  if (stages_.uses_midphase == uses) return;
+  stages_.uses_midphase = uses;
+  stages_.narrow_phase.use_midphase(uses);
+  reserve_pairs(stages_.pair_capacity);
+}
+
 void Simulation::choose(BroadPhase::Method method) {
   if (stages_.broad_phase.method == method) return;
   stages_.broad_phase.method = method;
@@ -84,24 +91,26 @@ void Simulation::choose(BroadPhase::Method method) {
 
 // --- what the host has changed, on its way to where kernels run ---
 
-void Simulation::list_proxies() {
-  const std::uint32_t statics_before = lists_.statics.view().count;
+/// Returns whether the statics are others than before.
+bool Simulation::find_proxies() {
   const bool other_statics = lists_.find(colliders, bodies.mass);
   const auto sentinel = static_cast<std::uint32_t>(colliders.proxies.size()) - 1;
   for (ProxyList* list : {&lists_.movers, &lists_.statics}) {
     const std::uint32_t count = list->count();
     list->fill(colliders.count > sentinel ? count : std::min<std::uint32_t>(room_for(count), sentinel), sentinel);
   }
+  return other_statics;
+}
+
+void Simulation::list_proxies() {
+  const std::uint32_t statics_before = lists_.statics.view().count;
+  const bool other_statics = find_proxies();
   for (ProxyList* list : {&lists_.movers, &lists_.statics, &lists_.planes}) list->upload(executor_);
   const ProxyRows statics = lists_.statics.view();
   stages_.narrow_phase.forget_found(executor_, statics.rows, lists_.statics.count());
-  if (!stages_.uses_midphase && (lists_.types & kMidphaseTypes) != 0) {
-    stages_.uses_midphase = true;
-    stages_.narrow_phase.use_midphase();
-    reserve_pairs(stages_.pair_capacity);
-  }
-  if (origin_.find(lists_.movers, colliders, bodies.state) || other_statics || statics.count != statics_before)
-    statics_changed();
+  if ((lists_.types & kMidphaseTypes) != 0) use_midphase(true);
+  if (origin_.find(lists_.movers, colliders, bodies.state) || other_statics) statics_changed();
+  dirty_.statics = dirty_.statics || statics.count != statics_before;
   dirty_.lists = false;
 }
 
@@ -297,29 +306,24 @@ std::vector<Pair> Simulation::candidates() {
 
 // --- snapshots ---
 
-Simulation::Extent Simulation::extent(bool to_restore) {
-  if (to_restore && dirty_.lists) list_proxies();
-  return {bodies.count, colliders.count, joints.slots(), stages_.uses_midphase ? 1U : 0U};
-}
-
 void Simulation::exchange(Archive& archive, const Extent& extent) {
   archive.value(step_);
   origin_.exchange(archive);
   archive.value(numbers_.of_statics[0]);
-  bool statics_dirty = dirty_.statics;
+  bool statics_dirty = dirty_.statics && !bound_again_;
   archive.value(statics_dirty);
   StepCounters& counted = *numbers_.counters.host();
   archive.value(counted);
-  if (stages_.uses_midphase && extent.uses_midphase == 0) counted.midphase_pairs = counted.pairs;
   if (candidate_count() > stages_.pair_capacity) reserve_pairs(candidate_count());
   bodies.state.exchange(archive, extent.bodies);
-  stages_.narrow_phase.exchange(archive, step_, extent.proxies, counters(), extent.uses_midphase != 0);
-  joints.exchange(archive, extent.joints);
+  stages_.narrow_phase.exchange(archive, step_, extent.proxies, counters());
+  joints.exchange(archive, extent.bodies);
   stages_.solver.exchange(archive, extent.bodies);
   if (stages_.features.sleeping) sleep_.exchange(archive, extent.bodies, bodies.mass);
   if (!archive.reads()) return;
-  dirty_.lists = restored_ = true;
-  bound_again_ = !statics_dirty && !origin_.dirty();
+  (void)find_proxies();  // so that what comes next tells whether the host has changed the statics since
+  dirty_.lists = dirty_.statics = restored_ = true;
+  bound_again_ = !statics_dirty;
   recorder_.forget();
 }
 

@@ -35,8 +35,10 @@ class Simulation {
   void reserve_shapes(std::uint32_t rows);
   /// Room for this many proxies, at least one a body slot. New rows have no shape.
   void reserve_proxies(std::uint32_t rows);
-  /// From now on there may be bodies that must not pass through others; what they cost begins here.
-  void expect_continuous() { stages_.continuous = stages_.features.continuous; }
+  /// Whether there may be bodies that must not pass through others; what they cost begins here.
+  void make_continuous(bool continuous) { stages_.continuous = continuous && stages_.features.continuous; }
+  /// Whether there may be shapes of many pieces; likewise.
+  void use_midphase(bool uses);
 
   /// Likewise of bodies whose contacts the host is shown: from now on a step is two halves.
   void expect_modification();
@@ -48,6 +50,7 @@ class Simulation {
   }
   void statics_changed() {  ///< bodies that do not move: placed elsewhere
     dirty_.statics = true;
+    bound_again_ = false;
     ++list_version_;
   }
 
@@ -55,8 +58,9 @@ class Simulation {
   struct Extent {
     std::uint32_t bodies, proxies, joints, uses_midphase;
   };
-  /// Of a snapshot taken now; to restore one, of what there is room for.
-  [[nodiscard]] Extent extent(bool to_restore);
+  [[nodiscard]] Extent extent() const {
+    return {bodies.count, colliders.count, joints.slots(), stages_.uses_midphase ? 1U : 0U};
+  }
   /// All that the steps to come depend on and that steps change, to or from a snapshot of that extent. The same bodies,
   /// joints and shapes must be there.
   void exchange(Archive& archive, const Extent& extent);
@@ -153,6 +157,7 @@ class Simulation {
 
   void reserve_pairs(std::uint32_t pairs);
   [[nodiscard]] std::uint32_t room_for(std::uint32_t n) const;
+  bool find_proxies();
   void list_proxies();
   void list_for_queries();
   void upload_bodies();

@@ -23,10 +23,10 @@ inline void sort_events(std::vector<PlumbEvent>& events) {
 class TouchTracker {
  public:
   /// A pair in which a sensor is: the sensor first.
-  void touch_sensor(PlumbBody sensor, PlumbBody other) { now_.push_back({sensor, other, true}); }
+  void touch_sensor(PlumbBody sensor, PlumbBody other) { now_.push_back({sensor, other, 1}); }
   void touch(PlumbBody a, PlumbBody b) {
     if (slot_of(b) < slot_of(a)) std::swap(a, b);
-    now_.push_back({a, b, false});
+    now_.push_back({a, b, 0});
   }
 
   /// Appends begin and end events since the step before.
@@ -62,7 +62,7 @@ class TouchTracker {
 
   struct Pair {
     PlumbBody a, b;
-    bool sensor;
+    std::uint64_t sensor;  ///< 0 or 1; no padding, so that equal states are equal bytes
     friend bool operator==(const Pair&, const Pair&) = default;
     friend auto operator<=>(const Pair&, const Pair&) = default;
   };
@@ -71,8 +71,8 @@ class TouchTracker {
 
  private:
   static PlumbEvent event(const Pair& pair, bool begins) {
-    const PlumbEventType type = pair.sensor ? (begins ? PLUMB_EVENT_SENSOR_ENTER : PLUMB_EVENT_SENSOR_LEAVE)
-                                            : (begins ? PLUMB_EVENT_CONTACT_BEGIN : PLUMB_EVENT_CONTACT_END);
+    const PlumbEventType type = pair.sensor != 0 ? (begins ? PLUMB_EVENT_SENSOR_ENTER : PLUMB_EVENT_SENSOR_LEAVE)
+                                                 : (begins ? PLUMB_EVENT_CONTACT_BEGIN : PLUMB_EVENT_CONTACT_END);
     return {type, 0, pair.a, pair.b, 0};
   }
 

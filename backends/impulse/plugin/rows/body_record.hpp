@@ -19,6 +19,7 @@ struct BodyRecord {
   /// A kinematic body under way to where the host wants it at the end of the step.
   bool to_target = false, arrived = false;
   PlumbPose target{};
+  std::uint32_t shape = kNone;              ///< slot of what it collides as
   std::uint32_t proxy = kNone;              ///< its first
   std::vector<std::uint32_t> more_proxies;  ///< of a compound: the other children's, in their order
 };

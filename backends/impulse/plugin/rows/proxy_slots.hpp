@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "exec/archive.hpp"
 #include "plumb/assert.hpp"
 
 namespace plumb::impulse {
@@ -36,6 +37,21 @@ class ProxySlots {
   }
   /// One beyond the last row that was ever in use.
   [[nodiscard]] std::uint32_t end() const { return static_cast<std::uint32_t>(taken_.size()); }
+  /// To or from a snapshot.
+  void exchange(Archive& archive) {
+    std::vector<std::uint8_t> rows;  // bit 0: taken, bit 1: listed
+    for (std::size_t row = 0; row < taken_.size(); ++row)
+      rows.push_back(static_cast<std::uint8_t>((taken_[row] ? 1 : 0) + (listed_[row] ? 2 : 0)));
+    archive.list(rows);
+    archive.list(free_);
+    if (!archive.reads()) return;
+    taken_.resize(rows.size());
+    listed_.resize(rows.size());
+    for (std::size_t row = 0; row < rows.size(); ++row) {
+      taken_[row] = (rows[row] & 1) != 0;
+      listed_[row] = (rows[row] & 2) != 0;
+    }
+  }
   /// Never more than end(), however many rows come and go.
   [[nodiscard]] std::size_t listed() const { return free_.size(); }
 

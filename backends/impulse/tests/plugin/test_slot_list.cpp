@@ -35,7 +35,8 @@ TEST(SlotList, ComesOutOfASnapshotAsItWentIn) {
   other.add(5);
   Archive out;
   list.exchange(out);
-  Archive in(out.bytes());
+  const std::vector<std::byte> bytes = out.take_bytes();
+  Archive in(bytes);
   other.exchange(in);
   EXPECT_TRUE(std::equal(other.begin(), other.end(), list.begin(), list.end()));
   other.add(2);  // is known to be there
