@@ -192,15 +192,10 @@ class HostWorld final : public IPhysicsWorld,
     return settings_->set(world_, name, &value);
   }
 
-  PlumbResult save(std::span<const std::byte>& data) override {
-    std::size_t size = 0;
-    PlumbResult result = snapshot_->save(world_, nullptr, 0, &size);
-    if (result == PLUMB_TRUNCATED) {
-      snapshot_bytes_.resize(size);
-      result = snapshot_->save(world_, snapshot_bytes_.data(), size, &size);
-    }
-    data = snapshot_bytes_;
-    return result;
+  PlumbResult save(std::span<const std::byte>& data) override { return save_by(snapshot_->save, data); }
+  PlumbResult save_world(std::span<const std::byte>& data) override {
+    if (!has(*snapshot_, &PlumbSnapshotTable::save_world)) return PLUMB_E_UNSUPPORTED;
+    return save_by(snapshot_->save_world, data);
   }
   PlumbResult restore(std::span<const std::byte> data) override {
     return snapshot_->restore(world_, data.data(), data.size());
@@ -254,6 +249,20 @@ class HostWorld final : public IPhysicsWorld,
     thread_local std::vector<PlumbHit> found;
     const PlumbResult result = fill_all(found, fill);
     return {result, found};
+  }
+
+  /// At first with the room that earlier ones took: whoever saves each frame pays for one save.
+  PlumbResult save_by(decltype(PlumbSnapshotTable::save) function, std::span<const std::byte>& data) {
+    std::size_t size = 0;
+    snapshot_bytes_.resize(snapshot_bytes_.capacity());
+    PlumbResult result = function(world_, snapshot_bytes_.data(), snapshot_bytes_.size(), &size);
+    if (result == PLUMB_TRUNCATED) {
+      snapshot_bytes_.resize(size);
+      result = function(world_, snapshot_bytes_.data(), size, &size);
+    }
+    snapshot_bytes_.resize(result < 0 ? 0 : size);
+    data = snapshot_bytes_;
+    return result;
   }
 
   template <class Row>

@@ -289,9 +289,11 @@ export interface World {
 
   getSetting(name: string): number | string | boolean;
   setSetting(name: string, value: number | string | boolean): void;
-  /** What moves, as bytes; needs snapshot. */
+  /** What moves, as bytes; needs snapshot. Restored while the same bodies and joints live. */
   save(): Uint8Array;
-  /** Into the world that saved it, with the same bodies and joints. */
+  /** The whole world, as bytes: who came is gone again after restore, who is gone lives, under the same handles; but userData. */
+  saveWorld(): Uint8Array;
+  /** What save or saveWorld gave. */
   restore(bytes: Uint8Array): void;
   /** 64 bits over all poses and velocities: the same on every machine. */
   hash(): bigint;

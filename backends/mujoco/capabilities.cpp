@@ -111,7 +111,9 @@ Capability fact(PlumbCapability kind, std::uint32_t a, std::uint32_t b) {
       if (a == PLUMB_EVENT_WAKE || a == PLUMB_EVENT_SLEEP) return kNoSleep;
       return {a < PLUMB_EVENT_COUNT ? PLUMB_EMULATED : PLUMB_NONE};
     case PLUMB_CAP_PHASE_TIME: return {};
-    case PLUMB_CAP_SNAPSHOT: return {PLUMB_NATIVE};
+    case PLUMB_CAP_SNAPSHOT:
+      if (a == 1) return {PLUMB_APPROXIMATE, "where bodies or joints came or went its warm start is made anew"};
+      return {PLUMB_NATIVE};
     default: return backend::usual_capability(kind, a, b);
   }
 }

@@ -140,6 +140,7 @@ Fact fact(PlumbCapability kind, std::uint32_t a, std::uint32_t b) {
     case PLUMB_CAP_PHASE_TIME: return phase_fact(a);
     case PLUMB_CAP_RESIDUAL: return {PLUMB_NONE, "ODE does not tell its residual"};
     case PLUMB_CAP_SNAPSHOT:
+      if (a == 1) return {PLUMB_APPROXIMATE, "who was made anew comes first in ODE's own list, which no one can order"};
       return {PLUMB_NATIVE, "not with the spaces sap and quadtree, which keep their order to themselves"};
     case PLUMB_CAP_HOST_JOBS: return {PLUMB_NONE, "ODE runs threads of its own"};
     case PLUMB_CAP_CHILD_MATERIAL: return {PLUMB_NATIVE};

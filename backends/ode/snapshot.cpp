@@ -3,7 +3,9 @@
 // quickstep keeps no impulses from step to step. What decides the bits, beside the rows, is the order in which the
 // space lists its geoms (the pairs, and so the constraint rows, follow it), the random seed, and how long a body has
 // been idle.
+#include <algorithm>
 #include <cstring>
+#include <unordered_map>
 
 #include "world.hpp"
 
@@ -120,6 +122,24 @@ void take_state(Body& body, const BodyState& state) {
   if (state.asleep) dBodyDisable(body.body);
 }
 
+template <class Object>
+std::vector<std::uint64_t> ids_of(const std::vector<Object*>& order) {
+  std::vector<std::uint64_t> ids;
+  for (const Object* object : order) ids.push_back(object->handle);
+  return ids;
+}
+
+/// As they were created: some may have been made anew since, under the handles that they had.
+template <class Object>
+void put_in_order(std::vector<Object*>& order, const std::vector<std::uint64_t>& ids) {
+  std::unordered_map<std::uint64_t, Object*> living;
+  for (Object* object : order) living[object->handle] = object;
+  if (ids.size() != order.size() ||
+      !std::all_of(ids.begin(), ids.end(), [&](std::uint64_t id) { return living.contains(id); }))
+    throw Error(PLUMB_E_CORRUPT, "the snapshot is of other bodies or joints");
+  std::transform(ids.begin(), ids.end(), order.begin(), [&](std::uint64_t id) { return living[id]; });
+}
+
 }  // namespace
 
 PlumbResult World::save(std::span<const std::byte>& data) {
@@ -131,6 +151,8 @@ PlumbResult World::save(std::span<const std::byte>& data) {
     Writer out(snapshot_);
     out.put(seed_);
     out.put(gravity_);
+    out.put_all(ids_of(order_));
+    out.put_all(ids_of(joint_order_));
     for (const Body* body : order_) out.put(state_of(*body));
     std::vector<GeomName> names;
     if (space_ != nullptr) {
@@ -156,6 +178,8 @@ PlumbResult World::restore(std::span<const std::byte> data) {
     Reader in(data);
     const auto seed = in.take<unsigned long>();
     const auto gravity = in.take<PlumbVec3>();
+    put_in_order(order_, in.take_all<PlumbBody>());
+    put_in_order(joint_order_, in.take_all<PlumbJoint>());
     std::vector<BodyState> states;
     for (std::size_t i = 0; i < order_.size(); ++i) states.push_back(in.take<BodyState>());
     const auto names = in.take_all<GeomName>();

@@ -44,7 +44,9 @@ class Capabilities {
       json_[title][what] = degree(PLUMB_CAP_MANIFOLD, a, 0, title + "." + what);
     }
   }
-  void single(const std::string& title, PlumbCapability kind) { json_[title] = degree(kind, 0, 0, title); }
+  void single(const std::string& title, PlumbCapability kind, std::uint32_t a = 0) {
+    json_[title] = degree(kind, a, 0, title);
+  }
 
   [[nodiscard]] Json take() {
     json_["notes"] = std::move(notes_);
@@ -76,6 +78,7 @@ Json capabilities_of(const Backend& backend) {
   all.list("phase_times", PLUMB_CAP_PHASE_TIME, phase_words());
   all.single("residual", PLUMB_CAP_RESIDUAL);
   all.single("snapshot", PLUMB_CAP_SNAPSHOT);
+  all.single("world_snapshot", PLUMB_CAP_SNAPSHOT, 1);
   all.single("host_jobs", PLUMB_CAP_HOST_JOBS);
   all.single("child_materials", PLUMB_CAP_CHILD_MATERIAL);
   all.changes("changes");

@@ -177,9 +177,9 @@ SIZE(PlumbExceptionsTable, 24)
   AT(PlumbExceptionsTable, list, 16)
 
 /* snapshot.h */
-SIZE(PlumbSnapshotTable, 32)
+SIZE(PlumbSnapshotTable, 40)
   AT(PlumbSnapshotTable, struct_size, 0) AT(PlumbSnapshotTable, reserved, 4) AT(PlumbSnapshotTable, save, 8)
-  AT(PlumbSnapshotTable, restore, 16) AT(PlumbSnapshotTable, hash, 24)
+  AT(PlumbSnapshotTable, restore, 16) AT(PlumbSnapshotTable, hash, 24) AT(PlumbSnapshotTable, save_world, 32)
 
 /* state.h */
 SIZE(PlumbDLDevice, 8)

@@ -184,6 +184,21 @@ void nothing_restored() {
   liar.snapshot.restore = [](PlumbWorld*, const void*, std::size_t) -> PlumbResult { return PLUMB_OK; };
 }
 
+void who_is_gone_stays_gone() {
+  liar.snapshot.save_world = honest.snapshot.save;
+  liar.snapshot.restore = [](PlumbWorld* world, const void* data, std::size_t size) -> PlumbResult {
+    (void)honest.snapshot.restore(world, data, size);
+    return PLUMB_OK;
+  };
+}
+
+void any_world_is_restored() {
+  liar.snapshot.restore = [](PlumbWorld* world, const void* data, std::size_t size) {
+    const PlumbResult result = honest.snapshot.restore(world, data, size);
+    return result == PLUMB_E_CORRUPT ? PLUMB_OK : result;
+  };
+}
+
 void hash_is_constant() {
   change_hashes<[](std::uint64_t& hash) { hash = 7; }>();
 }

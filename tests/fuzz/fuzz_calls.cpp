@@ -248,10 +248,11 @@ class Fuzzer {
     if (snapshot_ == nullptr) return;
     std::vector<std::byte> data(4096);
     std::size_t size = 0;
-    PlumbResult result = snapshot_->save(world_, data.data(), data.size(), &size);
+    const auto save = chance(50) ? snapshot_->save_world : snapshot_->save;
+    PlumbResult result = save(world_, data.data(), data.size(), &size);
     if (result == PLUMB_TRUNCATED) {
       data.resize(size);
-      result = snapshot_->save(world_, data.data(), data.size(), &size);
+      result = save(world_, data.data(), data.size(), &size);
     }
     if (!judge(result)) return;
     if (chance(2)) data[below(static_cast<std::uint32_t>(size))] ^= std::byte{0x40};

@@ -66,6 +66,8 @@ class Soak {
     if (pusher_ != 0) push(number);
     if (number % 50 == 0) look();
     if (number % 5000 == 4999) go_back();
+    if (number % 500 == 0) remember();
+    if (number % 500 == 40) take_back();
     PlumbStepReport report{};
     check(*world_, world_->step(kStep));
     if (can(PLUMB_NEED_CONTACT_MODIFICATION)) modify_contacts(number);
@@ -238,6 +240,22 @@ class Soak {
     const std::vector<std::byte> kept(data.begin(), data.end());
     check(*world_, snapshot->restore(kept));
   }
+  /// To how the world was forty steps ago, whoever came, went or broke since: as a game does it over a network.
+  void remember() {
+    if (!can(PLUMB_NEED_SNAPSHOT) || backend_.capability(PLUMB_CAP_SNAPSHOT, 1) == PLUMB_NONE) return;
+    std::span<const std::byte> data;
+    check(*world_, world_->snapshot()->save_world(data));
+    remembered_ = {{data.begin(), data.end()}, bodies_, joined_, begun_, ended_};
+  }
+  void take_back() {
+    if (remembered_.world.empty()) return;
+    check(*world_, world_->snapshot()->restore(remembered_.world));
+    bodies_ = remembered_.bodies;
+    joined_ = remembered_.joined;
+    begun_ = remembered_.begun;
+    ended_ = remembered_.ended;
+    awake_.clear();
+  }
   void read_events(std::uint64_t number) {
     for (const PlumbEvent& event : world_->events()) {
       if (event.type == PLUMB_EVENT_JOINT_BROKEN) broke_ += joined_.erase(event.joint);
@@ -300,6 +318,12 @@ class Soak {
   std::set<PlumbBody> awake_;
   std::vector<PlumbBody> bodies_;
   std::map<PlumbJoint, std::pair<PlumbBody, PlumbBody>> joined_;
+  struct {
+    std::vector<std::byte> world;
+    std::vector<PlumbBody> bodies;
+    std::map<PlumbJoint, std::pair<PlumbBody, PlumbBody>> joined;
+    std::uint64_t begun, ended;
+  } remembered_{};
   std::uint64_t came_ = 0, went_ = 0, broke_ = 0, slept_ = 0, begun_ = 0, ended_ = 0;
 };
 

@@ -175,13 +175,16 @@ class ISettings {
   virtual PlumbResult set_setting(const char* name, const PlumbSettingValue& value) = 0;
 };
 
-/// plumb.snapshot/1
+/// plumb.snapshot/1. A backend saves what moves and restores it while the same bodies and joints live under the same
+/// handles: who came and who went between is undone before, by backend.hpp, with calls that create and destroy.
 class ISnapshot {
  public:
   virtual ~ISnapshot() = default;
   /// The bytes live until the next call on the world.
   virtual PlumbResult save(std::span<const std::byte>& data) = 0;
   virtual PlumbResult restore(std::span<const std::byte> data) = 0;
+  /// For hosts alone.
+  virtual PlumbResult save_world(std::span<const std::byte>& /*data*/) { return PLUMB_E_UNSUPPORTED; }
   /// Backends with the same name of a format read each other's snapshots; "" is the format of this build alone.
   [[nodiscard]] virtual std::string_view format() const { return {}; }
 };

@@ -85,7 +85,7 @@ enum {
   PLUMB_CAP_EVENT = 8,         /* event type */
   PLUMB_CAP_PHASE_TIME = 9,    /* PlumbPhase */
   PLUMB_CAP_RESIDUAL = 10,
-  PLUMB_CAP_SNAPSHOT = 11,
+  PLUMB_CAP_SNAPSHOT = 11,       /* 0: of what moves, 1: of the whole world */
   PLUMB_CAP_HOST_JOBS = 12,      /* runs its tasks on PlumbHost.run */
   PLUMB_CAP_CHILD_MATERIAL = 13, /* materials of compound children */
   PLUMB_CAP_MODIFY = 14,         /* 0: bodies, 1: joints; index of a PLUMB_MODIFY_ bit. Since 1.2 */

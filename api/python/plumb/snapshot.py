@@ -10,6 +10,15 @@ False
 >>> world.snapshot.restore(saved)
 >>> world.snapshot.hash() == before
 True
+
+Of the whole world, bodies and joints that come and go:
+
+>>> whole = world.snapshot.save_world()
+>>> world.destroy_bodies(body)
+>>> other = world.create_body(plumb.BodyDesc(mass=2, flags="no_rotation", material=plumb.Material(friction=0)))
+>>> world.snapshot.restore(whole)
+>>> world.bodies.tolist() == [body], world.snapshot.hash() == before
+(True, True)
 >>> world.close()
 """
 
@@ -25,7 +34,7 @@ from ._arrays import Handle, handles
 
 
 class Snapshot:
-    """What moves, saved and restored: `world.snapshot`."""
+    """What moves, or the whole world, saved and restored: `world.snapshot`."""
 
     def __init__(self, core: _core.World) -> None:
         self._core = core
@@ -33,10 +42,15 @@ class Snapshot:
     def save(self) -> bytes:
         """Poses, velocities, sleep, warm-start data and excluded pairs, for the world that saved them. Needs
         snapshot."""
-        return self._core.save()
+        return self._core.save(whole=False)
+
+    def save_world(self) -> bytes:
+        """Also who lives, and of what: bodies and joints that come, go or become others later are undone by restore,
+        which also takes these bytes into another world of the same needs and the same shapes. Needs snapshot."""
+        return self._core.save(whole=True)
 
     def restore(self, data: bytes) -> None:
-        """Of a world of the same bodies and joints; an Error of CORRUPT for other bytes."""
+        """Of either kind; an Error of CORRUPT for other bytes, and for what save gave when other bodies lived."""
         if not isinstance(data, bytes):
             raise TypeError(f"restore takes the bytes that save gave, not {type(data).__name__}")
         self._core.restore(data)

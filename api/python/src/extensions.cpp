@@ -99,15 +99,17 @@ void set_setting(World& world, const std::string& name, PlumbSettingType type, d
 
 // --- snapshots -------------------------------------------------------------------------------------------------------
 
-py::bytes save(World& world) {
+py::bytes save(World& world, bool whole) {
   const auto& snapshot = world.extension<PlumbSnapshotTable>(PLUMB_EXT_SNAPSHOT);
   std::string bytes;
   world.call_unlocked(Tag::world, "snapshot.save", [&](const PlumbBackendTable&, PlumbWorld* self) {
+    if (whole && !has(snapshot, &PlumbSnapshotTable::save_world)) return PlumbResult{PLUMB_E_UNSUPPORTED};
+    const auto function = whole ? snapshot.save_world : snapshot.save;
     std::size_t size = 0;
-    const PlumbResult result = snapshot.save(self, nullptr, 0, &size);
+    const PlumbResult result = function(self, nullptr, 0, &size);
     if (result != PLUMB_TRUNCATED) return result;
     bytes.resize(size);
-    return snapshot.save(self, bytes.data(), size, &size);
+    return function(self, bytes.data(), size, &size);
   });
   return bytes;
 }
@@ -162,7 +164,7 @@ void bind_extensions(WorldClass& world) {
       .def("modify_manifolds", &modify_manifolds)
       .def("get_setting", &get_setting)
       .def("set_setting", &set_setting)
-      .def("save", &save)
+      .def("save", &save, py::arg("whole"))
       .def("restore", &restore)
       .def("hash", &hash)
       .def("set_exceptions", &set_exceptions)

@@ -85,6 +85,22 @@ class Worlds(unittest.TestCase):
             with self.assertRaisesRegex(TypeError, "bytes that save gave, not str"):
                 world.snapshot.restore("state")
 
+    @on_each("snapshot")
+    def test_snapshots_of_the_whole_world(self, engine):
+        with engine.world(["snapshot"]) as world:
+            stays, goes = (world.create_body(particle((x, 9, 0), user_data=x)) for x in (1, 2))
+            steps(world, 10)
+            saved, known = world.snapshot.save_world(), world.snapshot.hash()
+            world.destroy_bodies(goes)
+            world.create_body(particle((5, 5, 5)))
+            steps(world, 10)
+            with self.assertRaises(plumb.Error):
+                world.snapshot.restore(world.snapshot.save()[:-1])
+            world.snapshot.restore(saved)
+            self.assertEqual(world.bodies.tolist(), [stays, goes])
+            self.assertEqual(world.user_data(goes), 2)
+            self.assertEqual(world.snapshot.hash(), known)
+
     @on_each("rotation", "collision", "friction")
     def test_excluded_pairs(self, engine):
         if "plumb.exceptions/1" not in engine.extensions:

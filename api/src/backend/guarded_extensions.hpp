@@ -3,7 +3,6 @@
 
 #include "guarded_world.hpp"
 #include "plumb/nearest.hpp"
-#include "snapshot_frame.hpp"
 #include "state_copy.hpp"
 
 namespace plumb::backend {
@@ -68,7 +67,20 @@ class GuardedExtensions : public GuardedWorld {
         require_not_negative({"rows", i}, "max force", row[2 * axis + 1]);
       }
     }
-    return extension.write_joints(field, spelled_out, in);
+    const PlumbResult result = done(extension.write_joints(field, spelled_out, in));
+    for (std::uint32_t i = 0; i < count; ++i) {
+      JointKind* kind = joints_[spelled_out[i]].kind.get();
+      if (kind == nullptr) continue;
+      double row[12];
+      in.get(i, row, 12);
+      for (std::size_t axis = 0; axis < 6; ++axis) {
+        PlumbMotor& motor = kind->desc.motors[axis];
+        motor.target_velocity = row[2 * axis];
+        motor.max_force = row[2 * axis + 1];
+        if (motor.max_force > 0) motor.enabled = 1;
+      }
+    }
+    return result;
   }
 
   // --- exceptions ----------------------------------------------------------------------------------------------------
@@ -227,58 +239,7 @@ class GuardedExtensions : public GuardedWorld {
     return {info.type, 0, value.number, nullptr};
   }
 
-  // --- snapshot and state --------------------------------------------------------------------------------------------
-
-  PlumbResult save(void* data, std::size_t capacity, std::size_t* size) {
-    ISnapshot& extension = require_snapshot();
-    require_pointer(size, 1, "size");
-    std::span<const std::byte> payload;
-    const PlumbResult result = extension.save(payload);
-    const std::vector<std::byte> framed =
-        frame_snapshot(payload, format_of(extension), hash_of_objects(), exceptions_.list());
-    *size = framed.size();
-    if (capacity < framed.size()) return PLUMB_TRUNCATED;
-    require_pointer(data, capacity, "data");
-    std::memcpy(data, framed.data(), framed.size());
-    return result;
-  }
-
-  /// Who lives, and what a body is made of: what a snapshot of moving things must find as it was.
-  [[nodiscard]] std::uint64_t hash_of_objects() {
-    StateHash hash;
-    for (const PlumbBody handle : bodies_.in_order()) {
-      const BodyRecord& body = bodies_[handle];
-      hash.add_word(handle);
-      hash.add_word(body.shape);
-      hash.add_word(std::uint64_t{body.flags} << 32 | body.locks << 8 | body.motion);
-      if (body.motion == PLUMB_DYNAMIC)
-        for (const double number : body.mass_row) hash.add(number);
-    }
-    hash.add_word(bodies_.size());
-    for (const PlumbJoint handle : joints_.in_order()) hash.add_word(handle);
-    return hash.value();
-  }
-
-  [[nodiscard]] std::string_view format_of(const ISnapshot& extension) const {
-    const std::string_view format = extension.format();
-    return format.empty() ? facts_.info->build : format;
-  }
-
-  PlumbResult restore(const void* data, std::size_t size) {
-    ISnapshot& extension = require_snapshot();
-    require_pointer(data, size, "data");
-    const std::span<const std::byte> framed(static_cast<const std::byte*>(data), size);
-    SnapshotContents saved = unframe_snapshot(framed, format_of(extension), hash_of_objects());
-    check_saved_exceptions(saved.exceptions);
-    const PairExceptions::Pairs rejoined = PairExceptions::difference(exceptions_.list(), saved.exceptions);
-    const PairExceptions::Pairs parted = PairExceptions::difference(saved.exceptions, exceptions_.list());
-    // Before the rest: who sleeps and who touches stands there.
-    const PlumbResult result = with_exceptions_set(rejoined, true, [&] {
-      return with_exceptions_set(parted, false, [&] { return extension.restore(saved.payload); });
-    });
-    exceptions_.become(std::move(saved.exceptions));
-    return result;
-  }
+  // --- state ---------------------------------------------------------------------------------------------------------
 
   PlumbResult hash(std::uint64_t* value) {
     require_pointer(value, 1, "hash");
@@ -357,12 +318,6 @@ class GuardedExtensions : public GuardedWorld {
     return extension;
   }
 
-  ISnapshot& require_snapshot() const {
-    ISnapshot& extension = require_extension(world_->snapshot(), PLUMB_EXT_SNAPSHOT);
-    require_need(init_.desc.needs, PLUMB_NEED_SNAPSHOT, true, "a snapshot");
-    return extension;
-  }
-
   JointRecord examine_joint(const Where& where, const PlumbJointDesc& desc) const {
     check_joint(where, desc);
     const auto require_body = [&](PlumbBody body, const char* member) {
@@ -378,7 +333,12 @@ class GuardedExtensions : public GuardedWorld {
              where.member("") + " joins two bodies that nothing can move; one must be dynamic");
     require_capability(PLUMB_CAP_JOINT, desc.type, 0, std::string(joint_name(desc.type)) + " joint");
     require_joint_features(where, desc);
-    return {desc.body_a, desc.body_b, desc.type, breaks(desc)};
+    JointRecord record{desc.body_a, desc.body_b, desc.type, breaks(desc), nullptr, desc.user_data};
+    if (init_.needs(PLUMB_NEED_SNAPSHOT)) {
+      record.kind = std::make_unique<JointKind>(JointKind{desc, 1, 0});
+      record.kind->desc.body_a = record.kind->desc.body_b = record.kind->desc.user_data = 0;
+    }
+    return record;
   }
 
   void check_joint_field(PlumbJointField field, PlumbDataType type, std::uint32_t count, const void* rows,
@@ -411,15 +371,6 @@ class GuardedExtensions : public GuardedWorld {
     awake.assign(sleepers, 1);
     done(world_->write(PLUMB_FIELD_AWAKE, bodies, const_rows_over(std::span<const double>(awake))));
     return PLUMB_OK;
-  }
-
-  void check_saved_exceptions(const PairExceptions::Pairs& saved) const {
-    const bool known = std::all_of(saved.begin(), saved.end(), [this](const PlumbBodyPair& pair) {
-      return bodies_.alive(pair.body_a) && bodies_.alive(pair.body_b) && slot_of(pair.body_a) < slot_of(pair.body_b);
-    });
-    if (!known || !std::is_sorted(saved.begin(), saved.end(), PairExceptions::before) ||
-        (!saved.empty() && world_->exceptions() == nullptr))
-      refuse(PLUMB_E_CORRUPT, "the snapshot has pair exceptions that cannot be of this world");
   }
 
   static void check_hit_mode(PlumbHitMode mode) {

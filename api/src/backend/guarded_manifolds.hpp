@@ -1,13 +1,13 @@
 // The guard of plumb.manifolds/1: only within a step, only what was read, and only numbers that a material could have.
 #pragma once
 
-#include "guarded_modify.hpp"
+#include "guarded_snapshot.hpp"
 
 namespace plumb::backend {
 
-class GuardedManifolds : public GuardedModify {
+class GuardedManifolds : public GuardedSnapshot {
  public:
-  using GuardedModify::GuardedModify;
+  using GuardedSnapshot::GuardedSnapshot;
 
   PlumbResult read_manifolds(PlumbManifold* out, std::size_t stride, std::uint32_t capacity, std::uint32_t* count) {
     IManifolds& extension = require_manifolds("read");

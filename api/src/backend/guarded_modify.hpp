@@ -32,9 +32,14 @@ class GuardedModify : public GuardedExtensions {
     require_each_once<JointRecord, PlumbJointChange>(joints_, adopted, &PlumbJointChange::joint, "joint");
     for (std::uint32_t i = 0; i < count; ++i) examine_joint_change({"changes", i}, adopted[i]);
     const PlumbResult result = done(extension.modify_joints(adopted));
-    for (const PlumbJointChange& change : adopted)
+    for (const PlumbJointChange& change : adopted) {
+      JointRecord& record = joints_[change.joint];
       if ((change.what & PLUMB_MODIFY_STRENGTH) != 0)
-        set_breakable(joints_[change.joint], change.break_force > 0 || change.break_torque > 0);
+        set_breakable(record, change.break_force > 0 || change.break_torque > 0);
+      if (record.kind == nullptr) continue;
+      apply(change, record.kind->desc);
+      if ((change.what & PLUMB_MODIFY_ENABLED) != 0) record.kind->enabled = change.enabled;
+    }
     return result;
   }
 

@@ -14,6 +14,8 @@
 #include "plumb/backend/mass_properties.hpp"
 #include "plumb/backend/state_hash.hpp"
 #include "plumb/backend/tables.hpp"
+#include "saved_world.hpp"
+#include "shape_content.hpp"
 #include "slot_table.hpp"
 
 namespace plumb::backend {
@@ -205,6 +207,7 @@ class GuardedWorld {
     std::vector<PlumbShape> children;
     std::optional<MassProperties> unit_mass;  ///< at density 1; none for shapes without a volume
     std::string no_mass_because;
+    std::uint64_t content = 0;  ///< shape_content(), in worlds with snapshots
   };
   struct BodyRecord {
     PlumbShape shape = 0;
@@ -218,6 +221,8 @@ class GuardedWorld {
     PlumbBody body_a = 0, body_b = 0;
     PlumbJointType type = 0;
     bool breakable = false;
+    std::unique_ptr<JointKind> kind = nullptr;  ///< as it is by now, in worlds with snapshots
+    std::uint64_t user_data = 0;
   };
 
   [[nodiscard]] PlumbDegree degree(PlumbCapability kind, std::uint32_t a, std::uint32_t b, const char*& note) const {
@@ -314,6 +319,7 @@ class GuardedWorld {
   PairExceptions exceptions_;
   std::uint32_t breakable_joints_ = 0;
   std::uint64_t row_generation_ = 1;
+  std::uint64_t steps_ = 0;
   bool stepping_ = false;                        ///< between step and wait
   std::optional<std::uint32_t> manifolds_read_;  ///< how many, since the step began or they were modified
 
@@ -396,6 +402,7 @@ class GuardedWorld {
     ShapeRecord record;
     record.type = desc.type;
     std::vector<MassProperties> children;
+    std::vector<std::uint64_t> contents;
     for (std::uint32_t i = 0; desc.type == PLUMB_COMPOUND && i < desc.child_count; ++i) {
       const PlumbCompoundChild& child = desc.children[i];
       const std::string name = "children[" + std::to_string(i) + "].shape";
@@ -411,7 +418,9 @@ class GuardedWorld {
       }
       record.children.push_back(child.shape);
       children.push_back(*child_record.unit_mass);
+      contents.push_back(child_record.content);
     }
+    if (init_.needs(PLUMB_NEED_SNAPSHOT)) record.content = shape_content(desc, contents);
     try {
       record.unit_mass = unit_mass_properties(desc, children);
     } catch (const Error& error) {
@@ -476,7 +485,6 @@ class GuardedWorld {
   std::mutex error_mutex_;
   std::string error_text_;
   PlumbResult lost_ = PLUMB_OK;
-  std::uint64_t steps_ = 0;
 };
 
 }  // namespace plumb::backend

@@ -1,6 +1,7 @@
 // Slots with generations: what turns handles into indices, and stale handles into answers.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -10,10 +11,48 @@
 
 namespace plumb::backend {
 
+/// Whose handles live, in order of creation, and those that come next, the last first.
+struct Slots {
+  std::vector<std::uint64_t> order, free;
+
+  [[nodiscard]] bool are_distinct() const {
+    std::vector<std::uint32_t> all;
+    for (const std::vector<std::uint64_t>* handles : {&order, &free})
+      for (const std::uint64_t handle : *handles) {
+        if (generation_of(handle) == 0) return false;
+        all.push_back(slot_of(handle));
+      }
+    std::sort(all.begin(), all.end());
+    return std::adjacent_find(all.begin(), all.end()) == all.end();
+  }
+};
+
 /// Live objects of one kind, with a Record each and their order of creation.
 template <class Record>
 class SlotTable {
  public:
+  SlotTable() = default;
+  /// As it stood when slots() gave these. records: in order of creation. Of the slots that are named nowhere the
+  /// generations are used up.
+  SlotTable(const Slots& slots, std::vector<Record> records) : order_(slots.order) {
+    const auto entry = [this](std::uint64_t handle) -> Entry& {
+      if (slot_of(handle) >= entries_.size()) entries_.resize(slot_of(handle) + std::size_t{1});
+      return entries_[slot_of(handle)];
+    };
+    for (std::size_t i = 0; i < order_.size(); ++i)
+      entry(order_[i]) = {std::move(records[i]), generation_of(order_[i]), true};
+    for (const std::uint64_t handle : slots.free) {
+      entry(handle) = {Record{}, generation_of(handle), false};
+      free_.push_back(slot_of(handle));
+    }
+  }
+  [[nodiscard]] Slots slots() const {
+    Slots slots{order_, {}};
+    for (const std::uint32_t slot : free_)
+      slots.free.push_back((std::uint64_t{entries_[slot].generation} << 32) | slot);
+    return slots;
+  }
+
   /// Allots a handle; the record starts as given.
   std::uint64_t add(Record record) {
     std::uint32_t slot = 0;
@@ -64,9 +103,9 @@ class SlotTable {
 
  private:
   struct Entry {
-    Record record;
-    std::uint32_t generation;
-    bool live;
+    Record record{};
+    std::uint32_t generation = 0;
+    bool live = false;
   };
   std::vector<Entry> entries_;
   std::vector<std::uint32_t> free_;

@@ -41,9 +41,12 @@ const PlumbDebugTable kDebugTable = {sizeof(PlumbDebugTable),
                                      &Entry<&GuardedExtensions::debug_axes>::call,
                                      &Entry<&GuardedExtensions::debug_bodies>::call,
                                      &Entry<&GuardedExtensions::debug_constraints>::call};
-const PlumbSnapshotTable kSnapshotTable = {sizeof(PlumbSnapshotTable), 0, &Entry<&GuardedExtensions::save>::call,
-                                           &Entry<&GuardedExtensions::restore>::call,
-                                           &Entry<&GuardedExtensions::hash>::call};
+const PlumbSnapshotTable kSnapshotTable = {sizeof(PlumbSnapshotTable),
+                                           0,
+                                           &Entry<&GuardedSnapshot::save>::call,
+                                           &Entry<&GuardedSnapshot::restore>::call,
+                                           &Entry<&GuardedExtensions::hash>::call,
+                                           &Entry<&GuardedSnapshot::save_world>::call};
 const PlumbExceptionsTable kExceptionsTable = {sizeof(PlumbExceptionsTable), 0,
                                                &Entry<&GuardedExtensions::set_exceptions>::call,
                                                &Entry<&GuardedExtensions::list_exceptions>::call};

@@ -270,7 +270,7 @@ inline PlumbResult again(CallTag<Call::settings_set>, Decoding& d, decltype(Plum
   auto value = d.array<PlumbSettingValue>(1, [&d] { return d.value(); });
   return next(d.to.world, name, value.data());
 }
-inline PlumbResult again(CallTag<Call::snapshot_save>, Decoding& d, decltype(PlumbSnapshotTable::save) next) {
+inline PlumbResult save_again(Decoding& d, decltype(PlumbSnapshotTable::save) next) {
   const bool saved = d.in.get<std::uint8_t>() != 0;
   const auto capacity = d.in.get<std::uint64_t>();
   std::size_t size = 0;
@@ -280,6 +280,13 @@ inline PlumbResult again(CallTag<Call::snapshot_save>, Decoding& d, decltype(Plu
   if (result >= 0 && (saved || capacity != 0)) result = next(d.to.world, data.data(), data.size(), &size);
   if (saved) d.to.saves.push_back(std::move(data));
   return result;
+}
+inline PlumbResult again(CallTag<Call::snapshot_save>, Decoding& d, decltype(PlumbSnapshotTable::save) next) {
+  return save_again(d, next);
+}
+inline PlumbResult again(CallTag<Call::snapshot_save_world>, Decoding& d,
+                         decltype(PlumbSnapshotTable::save_world) next) {
+  return save_again(d, next);
 }
 inline PlumbResult again(CallTag<Call::snapshot_restore>, Decoding& d, decltype(PlumbSnapshotTable::restore) next) {
   const auto save = d.in.get<std::uint64_t>();

@@ -226,11 +226,18 @@ inline void encode(CallTag<Call::settings_set>, Encoding e, const char* name, co
   if (e.array(value, 1, 0)) e.value(*value);
 }
 // Snapshots are the engine's own bytes: a restore is recorded by which save of the world it goes back to.
-inline void encode(CallTag<Call::snapshot_save>, Encoding e, void* data, std::size_t capacity, std::size_t* size) {
+inline void encode_save(Encoding e, const void* data, std::size_t capacity, const std::size_t* size) {
   const bool saved = e.result == PLUMB_OK;
   e.out.put<std::uint8_t>(saved);
   e.out.put<std::uint64_t>(capacity);
   if (saved) e.saves.by_hash[hash_bytes({static_cast<const std::byte*>(data), *size})] = ++e.saves.count;
+}
+inline void encode(CallTag<Call::snapshot_save>, Encoding e, void* data, std::size_t capacity, std::size_t* size) {
+  encode_save(e, data, capacity, size);
+}
+inline void encode(CallTag<Call::snapshot_save_world>, Encoding e, void* data, std::size_t capacity,
+                   std::size_t* size) {
+  encode_save(e, data, capacity, size);
 }
 inline void encode(CallTag<Call::snapshot_restore>, Encoding e, const void* data, std::size_t size) {
   const std::span<const std::byte> bytes(static_cast<const std::byte*>(data), data == nullptr ? 0 : size);

@@ -81,7 +81,11 @@ class ValidationLayer : public LayerBase {
                   PlumbSettingValue* value);
   PlumbResult run(CallTag<Call::settings_set>, ValidatedWorld&, PlumbWorld*, const char* name,
                   const PlumbSettingValue* value);
+  template <Call call>
+  PlumbResult run_save(PlumbWorld* world, void* data, std::size_t capacity, std::size_t* size);
   PlumbResult run(CallTag<Call::snapshot_save>, ValidatedWorld&, PlumbWorld*, void* data, std::size_t capacity,
+                  std::size_t* size);
+  PlumbResult run(CallTag<Call::snapshot_save_world>, ValidatedWorld&, PlumbWorld*, void* data, std::size_t capacity,
                   std::size_t* size);
   PlumbResult run(CallTag<Call::snapshot_restore>, ValidatedWorld&, PlumbWorld*, const void* data, std::size_t size);
   PlumbResult run(CallTag<Call::snapshot_hash>, ValidatedWorld&, PlumbWorld*, std::uint64_t* hash);

@@ -115,13 +115,13 @@ inline PlumbResult ValidationLayer::run(CallTag<Call::settings_set>, ValidatedWo
   return next<Call::settings_set>()(world, name, value);
 }
 
-inline PlumbResult ValidationLayer::run(CallTag<Call::snapshot_save>, ValidatedWorld&, PlumbWorld* world, void* data,
-                                        std::size_t capacity, std::size_t* size) {
+template <Call call>
+PlumbResult ValidationLayer::run_save(PlumbWorld* world, void* data, std::size_t capacity, std::size_t* size) {
   require_memory(data, capacity, "data");
   require_memory(size, 1, "size");
   Canary canary(1, 1, capacity);
   std::size_t needed = 0;
-  const PlumbResult result = next<Call::snapshot_save>()(world, canary.data(), capacity, &needed);
+  const PlumbResult result = next<call>()(world, canary.data(), capacity, &needed);
   if (!canary.end_intact()) throw BackendError{"wrote more than " + std::to_string(capacity) + " bytes"};
   if (result < 0) return result;
   require_count(result, capacity, needed);
@@ -132,10 +132,22 @@ inline PlumbResult ValidationLayer::run(CallTag<Call::snapshot_save>, ValidatedW
   return result;
 }
 
-inline PlumbResult ValidationLayer::run(CallTag<Call::snapshot_restore>, ValidatedWorld&, PlumbWorld* world,
+inline PlumbResult ValidationLayer::run(CallTag<Call::snapshot_save>, ValidatedWorld&, PlumbWorld* world, void* data,
+                                        std::size_t capacity, std::size_t* size) {
+  return run_save<Call::snapshot_save>(world, data, capacity, size);
+}
+inline PlumbResult ValidationLayer::run(CallTag<Call::snapshot_save_world>, ValidatedWorld&, PlumbWorld* world,
+                                        void* data, std::size_t capacity, std::size_t* size) {
+  return run_save<Call::snapshot_save_world>(world, data, capacity, size);
+}
+
+inline PlumbResult ValidationLayer::run(CallTag<Call::snapshot_restore>, ValidatedWorld& state, PlumbWorld* world,
                                         const void* data, std::size_t size) {
   require_memory(data, size, "data");
-  return next<Call::snapshot_restore>()(world, data, size);
+  const PlumbResult result = next<Call::snapshot_restore>()(world, data, size);
+  // Others may live now.
+  if (result >= 0) (void)next<Call::core_list_bodies>()(world, nullptr, 0, &state.bodies);
+  return result;
 }
 
 inline PlumbResult ValidationLayer::run(CallTag<Call::snapshot_hash>, ValidatedWorld&, PlumbWorld* world,

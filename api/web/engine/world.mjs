@@ -214,15 +214,22 @@ export class World {
     this.#call('plumb_set_setting', () => this.#memory.putStructs(LAYOUT.setting, [this.#engine.settingOf(name, value)]));
   }
 
-  /** What moves, as bytes; needs 'snapshot'. */
+  /** What moves, as bytes; needs 'snapshot'. Restored while the same bodies and joints live. */
   save() {
+    return this.#save(0);
+  }
+  /** The whole world, as bytes: who came is gone again after restore, who is gone lives, under the same handles; but userData. */
+  saveWorld() {
+    return this.#save(1);
+  }
+  #save(whole) {
     return this.#memory.scope(() => {
       const data = this.#memory.take(4), size = this.#memory.take(4);
-      this.#call('plumb_save', data, size);
+      this.#call('plumb_save', whole, data, size);
       return this.#memory.array(Uint8Array, this.#memory.word(data), this.#memory.word(size));
     });
   }
-  /** Into the world that saved it, with the same bodies and joints. */
+  /** What save or saveWorld gave. */
   restore(bytes) {
     this.#call('plumb_restore', () => this.#memory.putArray(Uint8Array, bytes), bytes.length);
   }

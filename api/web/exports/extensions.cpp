@@ -70,11 +70,12 @@ PLUMB_WEB(PlumbResult, plumb_collide_pairs)
   });
 }
 
-/// The bytes live until the next call on the world.
-PLUMB_WEB(PlumbResult, plumb_save)(IPhysicsWorld* world, const std::byte** data, std::uint32_t* size) {
+/// whole: 0, what moves, or 1, the whole world. The bytes live until the next call on the world.
+PLUMB_WEB(PlumbResult, plumb_save)
+(IPhysicsWorld* world, std::uint32_t whole, const std::byte** data, std::uint32_t* size) {
   return with(*world, world->snapshot(), "snapshots", [&](auto& snapshot) {
     std::span<const std::byte> bytes;
-    const PlumbResult result = snapshot.save(bytes);
+    const PlumbResult result = whole != 0 ? snapshot.save_world(bytes) : snapshot.save(bytes);
     *data = bytes.data();
     *size = static_cast<std::uint32_t>(bytes.size());
     return result;

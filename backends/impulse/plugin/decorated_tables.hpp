@@ -86,7 +86,7 @@ class DecoratedTables {
     if (wanted == PLUMB_EXT_SETTINGS)
       return served<SettingsTable, &SettingsTable::describe, &SettingsTable::get, &SettingsTable::set>(name);
     if (wanted == PLUMB_EXT_SNAPSHOT)
-      return served<Snapshot, &Snapshot::save, &Snapshot::restore, &Snapshot::hash>(name);
+      return served<Snapshot, &Snapshot::save, &Snapshot::restore, &Snapshot::hash, &Snapshot::save_world>(name);
     if (wanted == PLUMB_EXT_STATE) return served<State, &State::borrow, &State::rows>(name);
     return nullptr;
   }

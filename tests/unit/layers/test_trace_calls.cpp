@@ -121,6 +121,7 @@ class Everything {
     std::vector<std::byte> data(size);
     ok(snapshot.save(world_, data.data(), data.size(), &size));
     ok(snapshot.restore(world_, data.data(), data.size()));
+    ok(snapshot.save_world(world_, nullptr, 0, &size));
     std::uint64_t hash = 0;
     ok(snapshot.hash(world_, &hash));
     const auto& exceptions = extension<PlumbExceptionsTable>(PLUMB_EXT_EXCEPTIONS);

@@ -43,6 +43,22 @@ TEST_F(ValidatedHost, WellBehavedCallsPass) {
   EXPECT_TRUE(layers::findings(table).empty());
 }
 
+/// Who lives after a restore is none of the host's making, and no mistake of the backend's.
+TEST_F(ValidatedHost, RestoredWorldsHaveTheBodiesThatTheyHad) {
+  const auto& snapshot = extension<PlumbSnapshotTable>(PLUMB_EXT_SNAPSHOT);
+  std::size_t size = 0;
+  ASSERT_EQ(snapshot.save_world(world, nullptr, 0, &size), PLUMB_TRUNCATED);
+  std::vector<std::byte> saved(size);
+  ASSERT_EQ(snapshot.save_world(world, saved.data(), size, &size), PLUMB_OK) << table->error_text(world);
+  EXPECT_EQ(table->destroy_bodies(world, bodies.data(), 1), PLUMB_OK) << table->error_text(world);
+  EXPECT_EQ(snapshot.restore(world, saved.data(), size), PLUMB_OK) << table->error_text(world);
+  std::uint32_t count = 0;
+  EXPECT_EQ(table->list_bodies(world, nullptr, 0, &count), PLUMB_TRUNCATED);
+  EXPECT_EQ(count, 2U);
+  EXPECT_EQ(table->destroy_bodies(world, bodies.data(), 1), PLUMB_OK) << table->error_text(world);
+  EXPECT_TRUE(layers::findings(table).empty());
+}
+
 TEST_F(ValidatedHost, PhasesOfAStep) {
   refused(PLUMB_E_WRONG_PHASE, "without a step", [&] { return table->wait(world, nullptr); });
   ASSERT_EQ(step(), PLUMB_OK);

@@ -70,6 +70,25 @@ test('a snapshot brings the same bits back', () => {
   world.destroy();
 });
 
+test('a snapshot of the world brings back who is gone', () => {
+  const { world, cube } = grounded(['snapshot']);
+  const bodies = [0, 1, 2, 3].map((i) => world.createBody({ shape: cube, position: [0.3 * i, 0.7 + 1.2 * i, 0] }));
+  steps(world, 20);
+  const bytes = world.saveWorld(), lived = world.bodies;
+  steps(world, 40);
+  const hash = world.hash();
+  world.destroyBody(bodies[1], bodies[2]);
+  const comer = world.createBody({ shape: cube, position: [5, 5, 5] });
+  steps(world, 10);
+  assert.throws(() => world.restore(world.save().slice(0, 20)), (error) => error instanceof PlumbError && error.code === -11);
+  world.restore(bytes);
+  assert.deepEqual(world.bodies, lived);
+  assert.throws(() => world.destroyBody(comer), (error) => error instanceof PlumbError);
+  steps(world, 40);
+  assert.equal(world.hash(), hash);
+  world.destroy();
+});
+
 test('settings are listed, read and set', () => {
   const solver = engine.settings.find(({ name }) => name === 'solver');
   assert.ok(solver.type === 'choice' && solver.choices.includes(solver.default));
