@@ -96,6 +96,7 @@ PlumbResult World::restore(std::span<const std::byte> data) {
   for (const auto& body : bodies_)
     if (body && (state++)->awake == 0 && !body->is(PLUMB_STATIC)) b3Body_SetAwake(body->id, false);
   touches_.touching() = std::move(touching);
+  pending_events_.clear();
   contacts_.clear();
   contacts_fresh_ = true;
   return PLUMB_OK;

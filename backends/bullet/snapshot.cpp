@@ -78,16 +78,37 @@ void set_state(Body& body, const BodyState& state) {
   body.coasts = state.coasts != 0;
 }
 
+template <class Row>
+void append(std::vector<std::byte>& bytes, const std::vector<Row>& rows) {
+  static_assert(std::is_trivially_copyable_v<Row>);
+  const std::uint64_t count = rows.size();
+  for (const auto part : {std::as_bytes(std::span(&count, 1)), std::as_bytes(std::span(rows))})
+    bytes.insert(bytes.end(), part.begin(), part.end());
+}
+
+template <class Row>
+std::vector<Row> take(std::span<const std::byte>& data) {
+  std::uint64_t count = 0;
+  if (data.size() >= sizeof count) std::memcpy(&count, data.data(), sizeof count);
+  if (data.size() < sizeof count || (data.size() - sizeof count) / sizeof(Row) < count)
+    throw Error(PLUMB_E_CORRUPT, "the snapshot ends too early");
+  std::vector<Row> rows(static_cast<std::size_t>(count));
+  if (count != 0) std::memcpy(static_cast<void*>(rows.data()), data.data() + sizeof count, rows.size() * sizeof(Row));
+  data = data.subspan(sizeof count + rows.size() * sizeof(Row));
+  return rows;
+}
+
 }  // namespace
 
 PlumbResult World::save(std::span<const std::byte>& data) {
   snapshot_.clear();
-  for (const auto& body : bodies_) {
-    if (!body) continue;
-    const BodyState state = state_of(*body);
-    const auto* bytes = reinterpret_cast<const std::byte*>(&state);
-    snapshot_.insert(snapshot_.end(), bytes, bytes + sizeof state);
-  }
+  std::vector<BodyState> states;
+  for (const auto& body : bodies_)
+    if (body) states.push_back(state_of(*body));
+  append(snapshot_, std::vector{gravity_});
+  append(snapshot_, states);
+  append(snapshot_, pending_events_);
+  append(snapshot_, touches_.touching());
   data = snapshot_;
   return PLUMB_OK;
 }
@@ -95,16 +116,18 @@ PlumbResult World::save(std::span<const std::byte>& data) {
 PlumbResult World::restore(std::span<const std::byte> data) {
   std::size_t live = 0;
   for (const auto& body : bodies_) live += body ? 1 : 0;
-  if (data.size() != live * sizeof(BodyState))
+  const auto gravity = take<PlumbVec3>(data);
+  const auto states = take<BodyState>(data);
+  auto pending_events = take<PlumbEvent>(data);
+  auto touching = take<backend::TouchTracker::Pair>(data);
+  if (gravity.size() != 1 || states.size() != live)
     throw Error(PLUMB_E_CORRUPT, "the snapshot does not have a state for every body");
-  const std::byte* at = data.data();
-  for (const auto& body : bodies_) {
-    if (!body) continue;
-    BodyState state;
-    std::memcpy(&state, at, sizeof state);
-    at += sizeof state;
-    set_state(*body, state);
-  }
+  set_gravity(gravity[0]);
+  auto state = states.begin();
+  for (const auto& body : bodies_)
+    if (body) set_state(*body, *state++);
+  pending_events_ = std::move(pending_events);
+  touches_.touching() = std::move(touching);
   // Contacts of where the bodies have been since are none of theirs.
   btOverlappingPairCache& pairs = *parts_.broadphase.getOverlappingPairCache();
   btBroadphasePairArray& array = pairs.getOverlappingPairArray();

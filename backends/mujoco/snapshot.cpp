@@ -100,6 +100,7 @@ PlumbResult World::restore(std::span<const std::byte> data) {
   std::copy(saved.rate.begin(), saved.rate.end(), d.qvel);
   std::copy(saved.warm.begin(), saved.warm.end(), d.qacc_warmstart);
   touches_.touching() = std::move(touching);
+  pending_events_.clear();
   contacts_.clear();
   return PLUMB_OK;
 }
