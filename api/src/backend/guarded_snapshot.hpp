@@ -253,64 +253,64 @@ class GuardedSnapshot : public GuardedModify {
     return records;
   }
 
-  [[nodiscard]] Changes changes_to(const SavedWorld& then, const PairExceptions::Pairs& exceptions) {
-    Changes changes;
-    const SavedWorld now = living();
-    std::unordered_map<std::uint64_t, std::size_t> was;  // place in the saved order, by handle
-    for (std::size_t i = 0; i < then.bodies.size(); ++i) was.emplace(then.body_slots.order[i], i);
-    std::unordered_set<std::uint64_t> stays;
-    for (std::size_t i = 0; i < now.bodies.size(); ++i) {
-      const PlumbBody handle = now.body_slots.order[i];
-      const auto known = was.find(handle);
-      if (known != was.end() && Kinds<BodyKind>::same(now.kind_of_body(i), then.kind_of_body(known->second)))
-        stays.insert(handle);
+  /// What lives now beside what lived then. come: places in the order of then.
+  struct Difference {
+    std::unordered_set<std::uint64_t> stay;
+    std::vector<std::uint64_t> gone;
+    std::vector<std::size_t> come;
+  };
+  /// is_same(its place now, its place then) of a handle that is in both.
+  template <class IsSame>
+  [[nodiscard]] static Difference difference(const Slots& now, const Slots& then, const IsSame& is_same) {
+    std::unordered_map<std::uint64_t, std::size_t> was;
+    for (std::size_t i = 0; i < then.order.size(); ++i) was.emplace(then.order[i], i);
+    Difference found;
+    for (std::size_t i = 0; i < now.order.size(); ++i) {
+      const auto known = was.find(now.order[i]);
+      if (known != was.end() && is_same(i, known->second))
+        found.stay.insert(now.order[i]);
       else
-        changes.bodies_to_destroy.push_back(handle);
+        found.gone.push_back(now.order[i]);
     }
-    for (std::size_t i = 0; i < then.bodies.size(); ++i) {
-      const PlumbBody handle = then.body_slots.order[i];
-      if (stays.contains(handle)) continue;
-      changes.bodies_to_create.push_back(handle);
+    for (std::size_t i = 0; i < then.order.size(); ++i)
+      if (!found.stay.contains(then.order[i])) found.come.push_back(i);
+    return found;
+  }
+
+  [[nodiscard]] Changes changes_to(const SavedWorld& then, const PairExceptions::Pairs& exceptions) {
+    const SavedWorld now = living();
+    const Difference bodies = difference(now.body_slots, then.body_slots, [&](std::size_t here, std::size_t there) {
+      return Kinds<BodyKind>::same(now.kind_of_body(here), then.kind_of_body(there));
+    });
+    const Difference joints = difference(now.joint_slots, then.joint_slots, [&](std::size_t here, std::size_t there) {
+      const SavedJoint &one = now.joints[here], &other = then.joints[there];
+      const auto stays = [&](PlumbBody body) { return body == 0 || bodies.stay.contains(body); };
+      return one.body_a == other.body_a && one.body_b == other.body_b && stays(one.body_a) && stays(one.body_b) &&
+             Kinds<JointKind>::same(now.kind_of_joint(here), then.kind_of_joint(there));
+    });
+    Changes changes;
+    changes.bodies_to_destroy = bodies.gone;
+    changes.joints_to_destroy = joints.gone;
+    for (const std::size_t i : bodies.come) {
+      changes.bodies_to_create.push_back(then.body_slots.order[i]);
       changes.bodies.push_back(described(then.kind_of_body(i), then.bodies[i].user_data));
     }
-
-    was.clear();
-    for (std::size_t i = 0; i < then.joints.size(); ++i) was.emplace(then.joint_slots.order[i], i);
-    const auto both_stay = [&](const SavedJoint& joint) {
-      return stays.contains(joint.body_b) && (joint.body_a == 0 || stays.contains(joint.body_a));
-    };
-    std::unordered_set<std::uint64_t> joint_stays;
-    for (std::size_t i = 0; i < now.joints.size(); ++i) {
-      const PlumbJoint handle = now.joint_slots.order[i];
-      const auto known = was.find(handle);
-      const bool same = known != was.end() && both_stay(now.joints[i]) &&
-                        now.joints[i].body_a == then.joints[known->second].body_a &&
-                        now.joints[i].body_b == then.joints[known->second].body_b &&
-                        Kinds<JointKind>::same(now.kind_of_joint(i), then.kind_of_joint(known->second));
-      if (same)
-        joint_stays.insert(handle);
-      else
-        changes.joints_to_destroy.push_back(handle);
-    }
-    for (std::size_t i = 0; i < then.joints.size(); ++i) {
-      const PlumbJoint handle = then.joint_slots.order[i];
-      if (joint_stays.contains(handle)) continue;
+    for (const std::size_t i : joints.come) {
       const JointKind& kind = then.kind_of_joint(i);
-      changes.joints_to_create.push_back(handle);
-      changes.joints.push_back(kind.desc);
-      changes.joints.back().body_a = then.joints[i].body_a;
-      changes.joints.back().body_b = then.joints[i].body_b;
-      changes.joints.back().user_data = then.joints[i].user_data;
-      if (kind.enabled == 0) changes.joints_to_disable.push_back(handle);
+      PlumbJointDesc desc = kind.desc;
+      desc.body_a = then.joints[i].body_a;
+      desc.body_b = then.joints[i].body_b;
+      desc.user_data = then.joints[i].user_data;
+      changes.joints_to_create.push_back(then.joint_slots.order[i]);
+      changes.joints.push_back(desc);
+      if (kind.enabled == 0) changes.joints_to_disable.push_back(then.joint_slots.order[i]);
     }
-
     // Slots name the bodies of a pair: those of a body that goes are taken back before.
     const PairExceptions::Pairs going = exceptions_.of(changes.bodies_to_destroy);
     const PairExceptions::Pairs staying = PairExceptions::difference(exceptions_.list(), going);
-    changes.rejoined = going;
-    const PairExceptions::Pairs more = PairExceptions::difference(staying, exceptions);
-    changes.rejoined.insert(changes.rejoined.end(), more.begin(), more.end());
-    std::sort(changes.rejoined.begin(), changes.rejoined.end(), PairExceptions::before);
+    const PairExceptions::Pairs ended = PairExceptions::difference(staying, exceptions);
+    std::merge(going.begin(), going.end(), ended.begin(), ended.end(), std::back_inserter(changes.rejoined),
+               PairExceptions::before);
     changes.parted = PairExceptions::difference(exceptions, staying);
     return changes;
   }
