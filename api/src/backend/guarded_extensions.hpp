@@ -2,6 +2,7 @@
 #pragma once
 
 #include "guarded_world.hpp"
+#include "plumb/backend/modify.hpp"
 #include "plumb/nearest.hpp"
 #include "state_copy.hpp"
 
@@ -73,12 +74,7 @@ class GuardedExtensions : public GuardedWorld {
       if (kind == nullptr) continue;
       double row[12];
       in.get(i, row, 12);
-      for (std::size_t axis = 0; axis < 6; ++axis) {
-        PlumbMotor& motor = kind->desc.motors[axis];
-        motor.target_velocity = row[2 * axis];
-        motor.max_force = row[2 * axis + 1];
-        if (motor.max_force > 0) motor.enabled = 1;
-      }
+      apply_motor_row(row, kind->desc);
     }
     return result;
   }

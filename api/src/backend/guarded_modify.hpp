@@ -2,7 +2,6 @@
 #pragma once
 
 #include "guarded_extensions.hpp"
-#include "plumb/backend/modify.hpp"
 
 namespace plumb::backend {
 
@@ -98,12 +97,7 @@ class GuardedModify : public GuardedExtensions {
     desc.shape = changes(PLUMB_MODIFY_SHAPE) ? change.shape : record.shape;
     desc.flags = changes(PLUMB_MODIFY_FLAGS) ? change.flags : record.flags;
     desc.locks = changes(PLUMB_MODIFY_LOCKS) ? change.locks : record.locks;
-    const double* kept = record.mass_row;
-    desc.mass_mode = PLUMB_MASS_EXPLICIT;
-    desc.mass = kept[0];
-    desc.centre_of_mass = {kept[1], kept[2], kept[3]};
-    desc.inertia = {kept[4], kept[5], kept[6]};
-    desc.inertia_orientation = {kept[7], kept[8], kept[9], kept[10]};
+    set_mass(record.mass_row, desc);
     if (!changes(PLUMB_MODIFY_MASS)) return desc;
     desc.mass_mode = change.mass_mode;
     desc.density = change.density;

@@ -321,12 +321,7 @@ class GuardedSnapshot : public GuardedModify {
     desc.shape = kind.shape;
     desc.flags = kind.flags;
     desc.locks = kind.locks;
-    desc.mass_mode = PLUMB_MASS_EXPLICIT;
-    const double* mass = kind.mass_row;
-    desc.mass = mass[0];
-    desc.centre_of_mass = {mass[1], mass[2], mass[3]};
-    desc.inertia = {mass[4], mass[5], mass[6]};
-    desc.inertia_orientation = {mass[7], mass[8], mass[9], mass[10]};
+    set_mass(kind.mass_row, desc);
     if (kind.motion == PLUMB_STATIC)
       desc.pose = {{kind.pose[0], kind.pose[1], kind.pose[2]},
                    {kind.pose[3], kind.pose[4], kind.pose[5], kind.pose[6]}};

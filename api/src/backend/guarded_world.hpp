@@ -367,6 +367,15 @@ class GuardedWorld {
     return record;
   }
 
+  /// The mass of a BodyRecord.
+  static void set_mass(const double (&row)[11], PlumbBodyDesc& desc) {
+    desc.mass_mode = PLUMB_MASS_EXPLICIT;
+    desc.mass = row[0];
+    desc.centre_of_mass = {row[1], row[2], row[3]};
+    desc.inertia = {row[4], row[5], row[6]};
+    desc.inertia_orientation = {row[7], row[8], row[9], row[10]};
+  }
+
   void resolve_mass(const Where& where, PlumbBodyDesc& desc) const {
     if (desc.mass_mode != PLUMB_MASS_EXPLICIT) {
       if (desc.shape == 0) {

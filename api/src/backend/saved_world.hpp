@@ -2,6 +2,7 @@
 // made alike, and so are the joints of many machines: what they are made of is written once a kind.
 #pragma once
 
+#include <algorithm>
 #include <cstring>
 #include <span>
 #include <string>

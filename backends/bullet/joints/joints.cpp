@@ -1,6 +1,7 @@
 // Joints of a world: create, destroy, read, write, react and break.
 #include <algorithm>
 
+#include "plumb/backend/modify.hpp"
 #include "world.hpp"
 
 namespace plumb::bullet {
@@ -108,11 +109,7 @@ PlumbResult World::write_joints(PlumbJointField /*field*/, std::span<const Plumb
     double row[12];
     rows.get(i, row, 12);
     Joint& at = joint(ids[i]);
-    for (std::size_t axis = 0; axis < 6; ++axis) {
-      at.desc.motors[axis].target_velocity = row[2 * axis];
-      at.desc.motors[axis].max_force = row[2 * axis + 1];
-      if (row[2 * axis + 1] > 0) at.desc.motors[axis].enabled = 1;
-    }
+    backend::apply_motor_row(row, at.desc);
     if (at.body_a != nullptr) wake(*at.body_a);
     wake(*at.body_b);
   }

@@ -6,6 +6,7 @@
 
 #include "plugin/rows/joint_rows.hpp"
 #include "plugin/world.hpp"
+#include "plumb/backend/modify.hpp"
 
 namespace plumb::impulse {
 
@@ -157,12 +158,7 @@ PlumbResult World::write_joints(PlumbJointField /*field*/, std::span<const Plumb
   for (std::size_t i = 0; i < ids.size(); ++i) {
     rows.get(i, row.data(), row.size());
     written.push_back(joints_.records[slot_of(ids[i])].desc);
-    for (std::size_t axis = 0; axis < 6; ++axis) {
-      PlumbMotor& motor = written.back().motors[axis];
-      motor.target_velocity = row[2 * axis];
-      motor.max_force = row[2 * axis + 1];
-      if (motor.max_force > 0) motor.enabled = 1;
-    }
+    backend::apply_motor_row(row.data(), written.back());
     (void)rows_of_joint(written.back());
   }
   for (std::size_t i = 0; i < ids.size(); ++i)

@@ -53,7 +53,7 @@ struct GuardedWorldSnapshots : ::testing::Test {
   PlumbShape ball = add_ball(*world, 0.5);
   PlumbBody bodies[3] = {add_body(*world, ball, 1), add_body(*world, ball, 2), add_body(*world, ball, 3)};
   const PlumbBody gone[2] = {add_body(*world, ball, 4), add_body(*world, ball, 5)};
-  const PlumbResult they_went = world->destroy_bodies(gone);  // so that their slots are there to be taken
+  const PlumbResult slots_are_free = world->destroy_bodies(gone);
   PlumbJoint hinge = add_hinge(*world, bodies[0], bodies[1]);
   std::vector<std::byte> saved = save(*world);
 
@@ -92,6 +92,7 @@ TEST_F(GuardedWorldSnapshots, WhoIsGoneLivesAgainUnderItsHandle) {
 
 /// Whatever comes after it gets the handles that it got the first time.
 TEST_F(GuardedWorldSnapshots, HandlesComeAgain) {
+  ASSERT_EQ(slots_are_free, PLUMB_OK);
   const auto come_and_go = [&] {
     std::vector<PlumbBody> given;
     for (int i = 0; i < 5; ++i) {

@@ -55,6 +55,16 @@ inline void apply(const PlumbJointChange& change, PlumbJointDesc& desc) {
   if (changes(PLUMB_MODIFY_COLLIDE_CONNECTED)) desc.collide_connected = change.collide_connected;
 }
 
+/// Puts a PLUMB_JOINT_MOTOR row that is written into the joint's descriptor: a force switches a motor on, none leaves
+/// it.
+inline void apply_motor_row(const double* row, PlumbJointDesc& desc) {
+  for (PlumbMotor& motor : desc.motors) {
+    motor.target_velocity = *row++;
+    motor.max_force = *row++;
+    if (motor.max_force > 0) motor.enabled = 1;
+  }
+}
+
 /// Which joints have a body that changes; in a batch of many bodies and many joints, too.
 class ChangedBodies {
  public:
