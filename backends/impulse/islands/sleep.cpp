@@ -176,7 +176,8 @@ void Sleep::exchange(Archive& archive, std::uint32_t bodies, Table<BodyMass>& ma
   if (!archive.reads()) return;
   count_ = 0;
   made_of_.clear();
-  std::fill(was_.begin() + bodies, was_.end(), Was{});
+  const auto behind = std::span(was_).subspan(bodies);
+  std::fill(behind.begin(), behind.end(), Was{});
   std::fill(island_of_.host() + bodies, island_of_.host() + island_of_.size(), 0U);
   for (std::uint32_t body = 0; body < bodies; ++body) {
     island_of_[body] = was_[body].island;
