@@ -1,5 +1,6 @@
 #include "scene/model.hpp"
 
+#include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
@@ -11,6 +12,8 @@
 #include <numbers>
 #include <set>
 #include <stdexcept>
+
+#include "base/usage_error.hpp"
 
 namespace plumb::harness {
 namespace {
@@ -52,6 +55,7 @@ class SurfaceBuilder {
 
 Surface read_surface(const std::filesystem::path& file) {
   Assimp::Importer importer;
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);  // what refers to it means its own axes
   const aiScene* scene = importer.ReadFile(file.string(), aiProcess_Triangulate | aiProcess_PreTransformVertices);
   if (scene == nullptr) throw std::runtime_error(importer.GetErrorString());
   SurfaceBuilder builder;
@@ -86,6 +90,19 @@ std::optional<Model> load_model(const ModelRequest& request) {
     model.vertices.insert(model.vertices.end(), {v.x(), v.y(), v.z()});
   }
   return model;
+}
+
+Model load_surface(const std::filesystem::path& file, const PlumbVec3& scale) try {
+  const Surface& surface = known_surface(file);
+  Model model;
+  model.indices = surface.corners;
+  if (scale.x * scale.y * scale.z < 0)
+    for (std::size_t i = 0; i < model.indices.size(); i += 3) std::swap(model.indices[i + 1], model.indices[i + 2]);
+  for (const Point& p : surface.points)
+    model.vertices.insert(model.vertices.end(), {scale.x * p[0], scale.y * p[1], scale.z * p[2]});
+  return model;
+} catch (const std::runtime_error& error) {
+  throw UsageError(file.string() + ": " + error.what());
 }
 
 std::vector<double> extreme_points(const Model& model, std::size_t count) {

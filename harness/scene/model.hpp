@@ -27,6 +27,10 @@ struct Model {
 /// such file; throws std::runtime_error with assimp's words for one that holds no triangles.
 [[nodiscard]] std::optional<Model> load_model(const ModelRequest& request);
 
+/// All meshes of a file as they lie in it, each coordinate times its scale (of a mirrored one the triangles are turned
+/// round). Throws UsageError for a file that holds no triangles.
+[[nodiscard]] Model load_surface(const std::filesystem::path& file, const PlumbVec3& scale);
+
 /// The model's furthest points along `count` directions spread evenly over the sphere (Gonzalez 2010, "Measurement of
 /// areas on a sphere using Fibonacci and latitude-longitude lattices"), each once: corners of a hull as fine as that.
 [[nodiscard]] std::vector<double> extreme_points(const Model& model, std::size_t count);

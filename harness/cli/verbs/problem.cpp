@@ -10,15 +10,14 @@
 #include "cli/manual/examples.hpp"
 #include "cli/output/draft_file.hpp"
 #include "cli/verbs/numbers.hpp"
+#include "cli/verbs/one_scene.hpp"
 #include "cli/verbs/verbs.hpp"
 #include "measure/instruments/step_contacts.hpp"
 #include "plumb/loader.hpp"
 #include "plumb/nearest.hpp"
 #include "reference/fclib.hpp"
 #include "reference/solver.hpp"
-#include "scene/catalogue.hpp"
 #include "scene/limits.hpp"
-#include "scene/parameters.hpp"
 #include "simulation/simulation.hpp"
 
 namespace plumb::harness {
@@ -36,20 +35,6 @@ struct SolveOptions {
   double tolerance = reference::SolverOptions{}.tolerance;
   bool json = false;
 };
-
-Scene scene_of(const ProblemOptions& options) {
-  const std::vector<SceneFile> files = find_scenes(options.scene);
-  if (files.size() != 1) throw UsageError("\"" + options.scene + "\" names several scenes: name one, as in D7");
-  const SceneFile& file = files.front();
-  Parameters parameters = file.variants.front();
-  for (const std::string& given : options.parameters) {
-    const std::size_t equals = given.find('=');
-    if (equals == std::string::npos) throw UsageError("--param \"" + given + "\" is not name=value");
-    const ParameterSpec& spec = find_parameter(file, given.substr(0, equals));
-    parameters[spec.name] = parse_parameter(spec, given.substr(equals + 1));
-  }
-  return file.instantiate(parameters);
-}
 
 std::vector<referee::BodyState> start_of(const Scene& scene, const std::vector<referee::Mass>& masses) {
   std::vector<referee::BodyState> states;
@@ -110,7 +95,7 @@ std::string verdict(const reference::Solution& solution) {
 
 int write_problem(const ProblemOptions& options) {
   DraftFile out(options.out);
-  const Scene scene = scene_of(options);
+  const Scene scene = one_scene(options.scene, options.parameters);
   const StepContacts contacts(scene);
   if (!contacts.obstacle().empty())
     throw UsageError("the contact problem of scene " + scene.id + " is not worked out: " + contacts.obstacle());

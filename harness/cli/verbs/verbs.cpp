@@ -16,6 +16,7 @@ void add_verbs(CLI::App& program, int& status) {
   add_curves(program, status);
   add_conform(program, status);
   add_study(program, status);
+  add_convert(program, status);
   add_export(program, status);
   add_pairs(program, status);
   add_report(program, status);

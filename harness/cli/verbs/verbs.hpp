@@ -15,6 +15,7 @@ void add_duel(CLI::App& program, int& status);
 void add_curves(CLI::App& program, int& status);
 void add_conform(CLI::App& program, int& status);
 void add_study(CLI::App& program, int& status);
+void add_convert(CLI::App& program, int& status);
 void add_export(CLI::App& program, int& status);
 void add_pairs(CLI::App& program, int& status);
 void add_report(CLI::App& program, int& status);

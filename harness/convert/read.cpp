@@ -1,0 +1,51 @@
+#include "convert/read.hpp"
+
+#include <fmt/format.h>
+
+#include <cctype>
+#include <fstream>
+
+#include "base/shown.hpp"
+#include "convert/mjcf/read_mjcf.hpp"
+#include "convert/sdf/read_sdf.hpp"
+
+namespace plumb::harness {
+namespace {
+
+/// The name of the outermost XML element; "" where there is none.
+std::string outermost_element(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw UsageError(file.string() + ": there is no such file, or it cannot be read");
+  std::string begin(std::size_t{1} << 16, '\0');
+  stream.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  begin.resize(static_cast<std::size_t>(stream.gcount()));
+  for (std::size_t at = 0; (at = begin.find('<', at)) != std::string::npos; ++at) {
+    if (begin.compare(at, 4, "<!--") == 0) {
+      at = begin.find("-->", at);
+      if (at == std::string::npos) return "";
+      continue;
+    }
+    const auto is_letter = [&](std::size_t i) {
+      return i < begin.size() && std::isalpha(static_cast<unsigned char>(begin[i])) != 0;
+    };
+    std::size_t end = at + 1;
+    while (is_letter(end)) ++end;
+    if (end > at + 1) return begin.substr(at + 1, end - at - 1);
+  }
+  return "";
+}
+
+}  // namespace
+
+Imported read_machine(const ModelFolders& folders) {
+  const std::string element = outermost_element(folders.file);
+  if (element == "sdf" || element == "robot") return read_sdf(folders);
+  if (element == "mujoco") return read_mjcf(folders);
+  throw UsageError(fmt::format(
+      "{}: {}; an SDF file begins with <sdf>, a URDF file with <robot>, an MJCF file with <mujoco>",
+      folders.file.string(),
+      element.empty() ? "this is no XML"
+                      : fmt::format("it begins with <{}>, which is none that is known", shortened(element))));
+}
+
+}  // namespace plumb::harness
