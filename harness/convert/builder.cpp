@@ -88,6 +88,15 @@ void set_mass(PlumbBodyDesc& desc, const LinkMass& mass) {
   desc.inertia_orientation = plain(Pose{axes, Vec3::Zero()}).orientation;
 }
 
+/// In a scene no two bodies have the same name, nor two joints; "world" is what joints call the world.
+template <class Things>
+std::string unused_name(const Things& things, const std::string& name) {
+  std::string unused = name == "world" ? "world_" : name;
+  const auto is_it = [&](const auto& thing) { return thing.name == unused; };
+  for (int i = 2; std::any_of(things.begin(), things.end(), is_it); ++i) unused = fmt::format("{}.{}", name, i);
+  return unused;
+}
+
 SceneBody body_of(const Link& link, const std::string& name, const Pose& pose, const PlumbMaterial& material) {
   SceneBody body;
   body.name = name;
@@ -175,20 +184,21 @@ std::size_t add_link(Imported& imported, const Link& link) {
     throw UsageError(
         fmt::format("link \"{}\" moves, and a plane or a surface cannot: make its model static", link.name));
   const PlumbMaterial material = link.shapes.empty() ? body_desc(PLUMB_STATIC).material : link.shapes.front().material;
-  SceneBody body = body_of(link, link.name, link.pose, material);
+  const std::string name = unused_name(scene.bodies, link.name);
+  SceneBody body = body_of(link, name, link.pose, material);
   if (parts.empty() && alone.size() == 1) {
     body.desc.pose = plain(link.pose * alone.front().pose);
     parts.swap(alone);
     parts.front().pose = {};
   }
-  body.shape = add_parts(scene, parts, link.name);
+  body.shape = add_parts(scene, parts, name);
   if (link.moves && (link.mass.mass > 0 || !body.shape)) set_mass(body.desc, link.mass);
   scene.bodies.push_back(std::move(body));
   const std::size_t index = scene.bodies.size() - 1;
   for (std::size_t i = 0; i < alone.size(); ++i) {
-    const std::string name = fmt::format("{}/surface{}", link.name, i);
-    SceneBody surface = body_of(link, name, link.pose * alone[i].pose, alone[i].material);
-    surface.shape = add_shape(scene, alone[i].shape, name);
+    const std::string part = fmt::format("{}/surface{}", name, i);
+    SceneBody surface = body_of(link, part, link.pose * alone[i].pose, alone[i].material);
+    surface.shape = add_shape(scene, alone[i].shape, part);
     scene.bodies.push_back(std::move(surface));
   }
   return index;
@@ -212,7 +222,7 @@ void add_joint(Imported& imported, const std::string& name, const JointPlace& pl
     return plain(place.world.seen_from(referee::pose(bodies[body].desc.pose)));
   };
   SceneJoint joint;
-  joint.name = name;
+  joint.name = unused_name(imported.scene.joints, name);
   joint.body_a = place.body_a;
   joint.body_b = place.body_b;
   joint.desc = joint_desc(place.type);

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "base/shown.hpp"
+#include "convert/gltf/read_gltf.hpp"
 #include "convert/mjcf/read_mjcf.hpp"
 #include "convert/sdf/read_sdf.hpp"
 
@@ -38,6 +39,7 @@ std::string outermost_element(const std::filesystem::path& file) {
 }  // namespace
 
 Imported read_machine(const ModelFolders& folders) {
+  if (folders.file.extension() == ".gltf" || folders.file.extension() == ".glb") return read_gltf(folders);
   const std::string element = outermost_element(folders.file);
   if (element == "sdf" || element == "robot") return read_sdf(folders);
   if (element == "mujoco") return read_mjcf(folders);

@@ -5,8 +5,8 @@
 
 namespace plumb::harness {
 
-/// SDFormat, URDF or MJCF, told by the file's outermost element. Throws UsageError for any other, and whatever the
-/// reader of its kind finds wrong.
+/// SDFormat, URDF or MJCF, told by the file's outermost element; glTF, told by .gltf or .glb. Throws UsageError for any
+/// other, and whatever the reader of its kind finds wrong.
 [[nodiscard]] Imported read_machine(const ModelFolders& folders);
 
 }  // namespace plumb::harness

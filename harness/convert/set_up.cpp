@@ -110,6 +110,7 @@ PlumbNeeds needs_of(const Scene& scene) {
   if (!scene.joints.empty()) needs |= PLUMB_NEED_JOINTS;
   const PlumbFilter open = body_desc(PLUMB_DYNAMIC).filter;
   for (const SceneBody& body : scene.bodies) {
+    if (body.desc.motion == PLUMB_KINEMATIC) needs |= PLUMB_NEED_KINEMATIC;
     if (!body.shape) continue;
     needs |= PLUMB_NEED_COLLISION;
     if (body.desc.material.friction > 0) needs |= PLUMB_NEED_FRICTION;

@@ -108,9 +108,10 @@ int convert(const ConvertOptions& options) {
 
 void add_convert(CLI::App& program, int& status) {
   const auto options = std::make_shared<ConvertOptions>();
-  CLI::App* verb =
-      program.add_subcommand("convert", "Make a scene of a machine in URDF, SDF or MJCF, or an SDF world of a scene");
-  verb->add_option("FROM", options->from, "File to read, its kind told by its outermost element; or a scene")
+  CLI::App* verb = program.add_subcommand(
+      "convert", "Make a scene of a machine in URDF, SDF, MJCF or glTF, or an SDF world of a scene");
+  verb->add_option("FROM", options->from,
+                   "File to read, its kind told by its outermost element, of glTF by its name; or a scene")
       ->required();
   verb->add_option("TO", options->to, "File to write: a scene, as in arm.json, or a world, as in arm.sdf")->required();
   verb->add_option("--folder", options->folders,
@@ -139,6 +140,7 @@ void add_convert(CLI::App& program, int& status) {
   verb->add_option("--id", options->id, "The scene's id, a letter and digits; left out: made of TO's name")
       ->type_name("ID");
   add_examples(*verb, {{"plumb convert arm.urdf arm.json --fix-base", "an arm that hangs from its base"},
+                       {"plumb convert level.glb level.json", "what an artist exported with KHR_physics_rigid_bodies"},
                        {"plumb convert robot.sdf robot.json --ground --hold", "a robot that stands still"},
                        {"plumb run robot.json --backend impulse", "and runs"},
                        {"plumb convert D1 tower.sdf --param H=20", "a tower for Gazebo"}});

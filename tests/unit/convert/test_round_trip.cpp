@@ -122,8 +122,9 @@ TEST(WriteSdf, LimitsCountFromTheStart) {
   joint.limits[3] = {-0.5, 1, 1, 0};
   Remarks remarks;
   const Imported back = there_and_back(scene, remarks);
-  const auto same = std::find_if(back.scene.joints.begin(), back.scene.joints.end(),
-                                 [&](const SceneJoint& other) { return other.name.ends_with("::" + scene.joints[1].name); });
+  const auto same = std::find_if(back.scene.joints.begin(), back.scene.joints.end(), [&](const SceneJoint& other) {
+    return other.name.ends_with("::" + scene.joints[1].name);
+  });
   ASSERT_NE(same, back.scene.joints.end());
   EXPECT_NEAR(same->desc.limits[3].lower, -0.8, 1e-9);
   EXPECT_NEAR(same->desc.limits[3].upper, 0.7, 1e-9);
