@@ -148,7 +148,7 @@ TEST_P(Joints, RubAsTheirFileSays) {
 }
 
 TEST_P(Joints, ThatAreFixedHold) {
-  const std::string two = link(kBob, "a") + link(kBob, "b", "0.5 0 0 0 0.4 0") + joint("fixed", "a", "b", "");
+  const std::string two = link(kBob, "a") + link(kBob, "b", "0.5 0 0.3 0 0.4 0") + joint("fixed", "a", "b", "");
   ASSERT_TRUE(host->load(world(ground() + model("m", "0 0 1 0.3 0 0", two))));
   const Pose between = host->pose("m::a").Inverse() * host->pose("m::b");
   host->step(kDt, 2000);
