@@ -29,6 +29,7 @@
 #include <ignition/plugin/Loader.hh>
 #include <sdf/Collision.hh>
 #include <sdf/Joint.hh>
+#include <sdf/JointAxis.hh>
 #include <sdf/Link.hh>
 #include <sdf/Model.hh>
 #include <sdf/Root.hh>
@@ -144,7 +145,11 @@ bool Host::load_in_pieces(const std::string& text) {
       joint.SetParentLinkName(part.ParentLinkName());
       joint.SetChildLinkName(part.ChildLinkName());
       joint.SetRawPose(part.RawPose());
-      for (unsigned axis = 0; axis < 2 && part.Axis(axis) != nullptr; ++axis) joint.SetAxis(axis, *part.Axis(axis));
+      for (unsigned i = 0; i < 2 && part.Axis(i) != nullptr; ++i) {
+        sdf::JointAxis axis;  // no copy, which would remember its file's frames
+        if (!axis.SetXyz(part.Axis(i)->Xyz()).empty()) return false;
+        joint.SetAxis(i, axis);
+      }
       model->ConstructJoint(joint);
     }
   }
