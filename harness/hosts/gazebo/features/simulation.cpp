@@ -68,13 +68,17 @@ std::vector<SimulationFeatures::ContactInternal> SimulationFeatures::GetContacts
   std::vector<ContactInternal> contacts;
   World* world = world_of(id);
   if (world == nullptr) return contacts;
-  for (const Touch& touch : world->touches()) {
-    physics::CompositeData more;
-    auto& extra = more.Get<ExtraContactData>();
-    extra.force = to_eigen(touch.force);
-    extra.normal = to_eigen(touch.normal);
-    extra.depth = touch.depth;
-    contacts.push_back({identity_of(touch.first), identity_of(touch.second), to_eigen(touch.point), more});
+  try {
+    for (const Touch& touch : world->touches()) {
+      physics::CompositeData more;
+      auto& extra = more.Get<ExtraContactData>();
+      extra.force = to_eigen(touch.force);
+      extra.normal = to_eigen(touch.normal);
+      extra.depth = touch.depth;
+      contacts.push_back({identity_of(touch.first), identity_of(touch.second), to_eigen(touch.point), more});
+    }
+  } catch (const Error& error) {
+    complain("world [" + world->name() + "] tells no contacts: " + error.what());
   }
   return contacts;
 }

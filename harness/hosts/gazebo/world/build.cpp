@@ -133,8 +133,8 @@ void World::build_link(Link& link) {
 void World::remove_parts(Link& link) {
   for (const Part& part : link.parts) {
     owners_.erase(part.body);
-    check(*physics_, physics_->destroy_bodies({&part.body, 1}));
-    for (const PlumbShape shape : part.owned) check(*physics_, physics_->destroy_shapes({&shape, 1}));
+    report(physics_->destroy_bodies({&part.body, 1}));
+    for (const PlumbShape shape : part.owned) report(physics_->destroy_shapes({&shape, 1}));
   }
   link.parts.clear();
 }
@@ -144,7 +144,7 @@ void World::remove_joint(Joint& joint) {
   if (joint.joint == 0) return;
   // One that broke in the engine is gone there already.
   const PlumbResult result = physics_->joints()->destroy_joints({&joint.joint, 1});
-  if (result != PLUMB_E_STALE_HANDLE) check(*physics_, result);
+  if (result != PLUMB_E_STALE_HANDLE) report(result);
   joint.joint = 0;
 }
 

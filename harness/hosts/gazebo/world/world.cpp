@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "hosts/gazebo/world/console.hpp"
 #include "hosts/gazebo/world/joint_frames.hpp"
 
 namespace plumb::gazebo {
@@ -54,8 +55,17 @@ void World::use_engine(const std::string& engine) {
 }
 
 void World::set_gravity(const Vector& gravity) {
-  check(*physics_, physics_->set_gravity(to_plumb(gravity)));
-  gravity_ = gravity;
+  if (report(physics_->set_gravity(to_plumb(gravity)))) gravity_ = gravity;
+}
+
+bool World::report(PlumbResult result) {
+  try {
+    check(*physics_, result);
+    return true;
+  } catch (const Error& error) {
+    complain("world [" + name_ + "]: " + error.what());
+    return false;
+  }
 }
 
 void World::rebuild(Link& link) {

@@ -39,7 +39,7 @@ class World {
   [[nodiscard]] const Backend& backend() const { return backend_; }
 
   [[nodiscard]] const Vector& gravity() const { return gravity_; }
-  void set_gravity(const Vector& gravity);
+  void set_gravity(const Vector& gravity);  ///< stays, with a sentence, where the engine fails
 
   /// The record changed in a way of which the engine knows nothing yet: shapes, mass, motion of a link; frames, limits
   /// of a joint.
@@ -51,7 +51,7 @@ class World {
 
   /// Throws Error when the engine fails.
   void step(double dt);
-  [[nodiscard]] std::vector<Touch> touches();
+  [[nodiscard]] std::vector<Touch> touches();  ///< Throws Error likewise.
   /// Force and torque of the parent on the child at its frame, world axes; false where the engine does not tell.
   bool reaction(Joint& joint, Vector& force, Vector& torque);
 
@@ -76,6 +76,8 @@ class World {
   }
 
  private:
+  /// Whether a call of the engine was answered; else says why not, for Gazebo knows no failure there.
+  bool report(PlumbResult result);
   void build();
   void build_link(Link& link);
   void build_joint(Joint& joint);
