@@ -139,11 +139,11 @@ void add_convert(CLI::App& program, int& status) {
       ->check(number_above_0());
   verb->add_option("--id", options->id, "The scene's id, a letter and digits; left out: made of TO's name")
       ->type_name("ID");
-  add_examples(*verb, {{"plumb convert arm.urdf arm.json --fix-base", "an arm that hangs from its base"},
-                       {"plumb convert level.glb level.json", "what an artist exported with KHR_physics_rigid_bodies"},
-                       {"plumb convert robot.sdf robot.json --ground --hold", "a robot that stands still"},
-                       {"plumb run robot.json --backend impulse", "and runs"},
-                       {"plumb convert D1 tower.sdf --param H=20", "a tower for Gazebo"}});
+  add_examples(
+      *verb, {{"plumb convert arm.urdf arm.json --fix-base", "an arm that hangs from its base"},
+              {"plumb convert level.glb level.json", "what an artist exported with KHR_physics_rigid_bodies"},
+              {"plumb convert robot.sdf robot.json --ground --hold", "a robot that stands still: plumb run robot.json"},
+              {"plumb convert D1 tower.sdf --param H=20", "a tower for Gazebo"}});
   verb->callback([options, &status] { status = convert(*options); });
 }
 
