@@ -30,8 +30,7 @@ void fix_base(Imported& imported) {
 
 struct Extent {
   double mass = 0;  ///< kg, of what moves
-  referee::Vec3 centre = referee::Vec3::Zero();
-  referee::Aabb bounds;  ///< of what moves
+  referee::Aabb bounds;  ///< of it
 };
 
 Extent extent_of(const Scene& scene) {
@@ -40,13 +39,10 @@ Extent extent_of(const Scene& scene) {
     if (!moves(scene.bodies[i])) continue;
     const referee::Pose pose = referee::pose(scene.bodies[i].desc.pose);
     const referee::Mass mass = mass_of_body(scene, i);
-    const referee::Vec3 centre = pose * mass.centre;
     all.mass += mass.mass;
-    all.centre += mass.mass * centre;
-    all.bounds.include(centre);
+    all.bounds.include(pose * mass.centre);
     if (scene.bodies[i].shape) all.bounds.include(shape_of(scene, *scene.bodies[i].shape)->bounds(pose));
   }
-  if (all.mass > 0) all.centre /= all.mass;
   return all;
 }
 
