@@ -4,8 +4,6 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 
 #include "convert/upright.hpp"
 #include "referee/hull.hpp"
@@ -138,13 +136,9 @@ SceneShape cylinder_shape(double radius, double half_height) {
 SceneShape plane_shape() { return shape_of(PLUMB_PLANE); }
 
 SceneShape ellipsoid_shape(const Vec3& radii) {
-  constexpr int corners = 64;
   SceneShape shape = shape_of(PLUMB_CONVEX_HULL);
-  const double golden = std::numbers::pi * (3 - std::sqrt(5.0));
-  for (int i = 0; i < corners; ++i) {
-    const double y = 1 - (2 * i + 1.0) / corners, across = std::sqrt(1 - y * y);
-    const Vec3 on_sphere(across * std::cos(golden * i), y, across * std::sin(golden * i));
-    const Vec3 corner = radii.cwiseProduct(on_sphere);
+  for (const PlumbVec3& direction : even_directions(64)) {
+    const Vec3 corner = radii.cwiseProduct(referee::vec(direction));
     shape.vertices.insert(shape.vertices.end(), corner.begin(), corner.end());
   }
   return shape;

@@ -29,7 +29,7 @@ void fix_base(Imported& imported) {
 }
 
 struct Extent {
-  double mass = 0;  ///< kg, of what moves
+  double mass = 0;       ///< kg, of what moves
   referee::Aabb bounds;  ///< of it
 };
 

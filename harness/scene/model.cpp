@@ -105,16 +105,24 @@ Model load_surface(const std::filesystem::path& file, const PlumbVec3& scale) tr
   throw UsageError(file.string() + ": " + error.what());
 }
 
-std::vector<double> extreme_points(const Model& model, std::size_t count) {
-  const auto points = Eigen::Map<const Eigen::Matrix3Xd>(model.vertices.data(), 3,
-                                                         static_cast<Eigen::Index>(model.vertices.size() / 3));
+std::vector<PlumbVec3> even_directions(std::size_t count) {
   const double golden = std::numbers::pi * (3 - std::sqrt(5.0));
-  std::set<Eigen::Index> chosen;
+  std::vector<PlumbVec3> directions;
   for (std::size_t i = 0; i < count; ++i) {
     const double y = 1 - (2 * static_cast<double>(i) + 1) / static_cast<double>(count);
     const double across = std::sqrt(1 - y * y), angle = golden * static_cast<double>(i);
+    directions.push_back({across * std::cos(angle), y, across * std::sin(angle)});
+  }
+  return directions;
+}
+
+std::vector<double> extreme_points(const Model& model, std::size_t count) {
+  const auto points = Eigen::Map<const Eigen::Matrix3Xd>(model.vertices.data(), 3,
+                                                         static_cast<Eigen::Index>(model.vertices.size() / 3));
+  std::set<Eigen::Index> chosen;
+  for (const PlumbVec3& direction : even_directions(count)) {
     Eigen::Index furthest = 0;
-    (Eigen::RowVector3d(across * std::cos(angle), y, across * std::sin(angle)) * points).maxCoeff(&furthest);
+    (Eigen::RowVector3d(direction.x, direction.y, direction.z) * points).maxCoeff(&furthest);
     chosen.insert(furthest);
   }
   std::vector<double> corners;

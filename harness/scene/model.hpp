@@ -31,8 +31,11 @@ struct Model {
 /// round). Throws UsageError for a file that holds no triangles.
 [[nodiscard]] Model load_surface(const std::filesystem::path& file, const PlumbVec3& scale);
 
-/// The model's furthest points along `count` directions spread evenly over the sphere (Gonzalez 2010, "Measurement of
-/// areas on a sphere using Fibonacci and latitude-longitude lattices"), each once: corners of a hull as fine as that.
+/// Unit vectors spread evenly over the sphere (Gonzalez 2010, "Measurement of areas on a sphere using Fibonacci and
+/// latitude-longitude lattices").
+[[nodiscard]] std::vector<PlumbVec3> even_directions(std::size_t count);
+
+/// The model's furthest points along so many even directions, each once: corners of a hull as fine as that.
 [[nodiscard]] std::vector<double> extreme_points(const Model& model, std::size_t count);
 
 }  // namespace plumb::harness

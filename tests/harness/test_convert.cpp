@@ -68,6 +68,7 @@ TEST(Convert, SaysWhatIsAskedWrongly) {
   expect({"convert", (folder / "page.html").string(), json}, "it begins with <html>");
   expect({"convert", (folder / "page.html").string(), json, "--param", "H=3"}, "is no scene and has no parameters");
   expect({"convert", (folder / "page.html").string(), json, "--dt", "-1"}, "must be a number above 0");
+  expect({"convert", (folder / "page.html").string(), json, "--id", "robot"}, "must be a letter and digits");
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <regex>
 
 #include "base/shown.hpp"
 #include "cli/manual/examples.hpp"
@@ -138,7 +139,14 @@ void add_convert(CLI::App& program, int& status) {
       ->type_name("SECONDS")
       ->check(number_above_0());
   verb->add_option("--id", options->id, "The scene's id, a letter and digits; left out: made of TO's name")
-      ->type_name("ID");
+      ->type_name("ID")
+      ->check(CLI::Validator(
+          [](std::string& id) {
+            static const std::regex right("[A-Z][0-9]{1,6}[a-z]?");
+            return std::regex_match(id, right) ? std::string()
+                                               : "must be a letter and digits, as in X1, not " + shortened(id);
+          },
+          ""));
   add_examples(
       *verb, {{"plumb convert arm.urdf arm.json --fix-base", "an arm that hangs from its base"},
               {"plumb convert level.glb level.json", "what an artist exported with KHR_physics_rigid_bodies"},

@@ -14,23 +14,26 @@ namespace {
 using nlohmann::json;
 using referee::Vec3;
 
-/// Points around a circle, or on a ball, of this radius about a point on the y axis.
-void add_round(std::vector<double>& points, double radius, double height, bool ball) {
+/// Points on a ball of this radius about a point on the y axis.
+void add_ball(std::vector<double>& points, double radius, double height) {
+  for (const PlumbVec3& direction : even_directions(32))
+    points.insert(points.end(), {radius * direction.x, height + radius * direction.y, radius * direction.z});
+}
+
+void add_circle(std::vector<double>& points, double radius, double height) {
   constexpr int corners = 32;
-  const double golden = std::numbers::pi * (3 - std::sqrt(5.0));
   for (int i = 0; i < corners; ++i) {
-    const double y = ball ? 1 - (2 * i + 1.0) / corners : 0, across = std::sqrt(1 - y * y);
-    const double angle = ball ? golden * i : 2 * std::numbers::pi * i / corners;
-    points.insert(points.end(),
-                  {radius * across * std::cos(angle), height + radius * y, radius * across * std::sin(angle)});
+    const double angle = 2 * std::numbers::pi * i / corners;
+    points.insert(points.end(), {radius * std::cos(angle), height, radius * std::sin(angle)});
   }
 }
 
-SceneShape tapered(double bottom, double top, double half_height, bool balls) {
+SceneShape tapered(double bottom, double top, double half_height, bool capsule) {
   SceneShape shape;
   shape.desc = shape_desc(PLUMB_CONVEX_HULL);
-  add_round(shape.vertices, bottom, -half_height, balls);
-  add_round(shape.vertices, top, half_height, balls);
+  const auto add = capsule ? add_ball : add_circle;
+  add(shape.vertices, bottom, -half_height);
+  add(shape.vertices, top, half_height);
   return shape;
 }
 
