@@ -1,11 +1,13 @@
 // Random calls through a backend's table: most make sense, many do not. Nothing may crash, hang or leak; each failure
-// has a text; and a world that was given up is replaced.
+// has a text; and a world that was given up is replaced. With another backend that promises the same bits: the same
+// calls through both, with the same answers and the same state.
 //
-// usage: fuzz_calls BACKEND CALLS [SEED]
+// usage: fuzz_calls BACKEND CALLS [SEED [OTHER_BACKEND]]
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
+#include <optional>
 #include <random>
 #include <vector>
 
@@ -31,16 +33,18 @@ class Fuzzer {
   }
   ~Fuzzer() { table_.destroy_world(world_); }
 
-  /// Makes that many calls; false when a rule was broken.
-  bool run(std::uint64_t calls) {
-    for (std::uint64_t i = 0; i < calls && broken_ == nullptr; ++i) {
-      one_call();
-      if (i % 5000 == 4999) fresh_world();
-    }
+  /// Makes one call; false when a rule was broken.
+  bool call() {
+    one_call();
+    if (++calls_ % 5000 == 0) fresh_world();
     if (broken_ != nullptr)
-      std::fprintf(stderr, "rule broken: %s (last error text: %s)\n", broken_, table_.error_text(world_));
+      std::fprintf(stderr, "rule broken in call %llu: %s (last error text: %s)\n",
+                   static_cast<unsigned long long>(calls_), broken_, table_.error_text(world_));
     return broken_ == nullptr;
   }
+  [[nodiscard]] std::uint64_t calls() const { return calls_; }
+  /// Of all results so far, and of the state after each step.
+  [[nodiscard]] std::uint64_t digest() const { return digest_; }
   [[nodiscard]] std::uint64_t refused() const { return refused_; }
   [[nodiscard]] std::uint64_t done() const { return done_; }
   [[nodiscard]] std::uint64_t worlds_lost() const { return worlds_lost_; }
@@ -75,6 +79,7 @@ class Fuzzer {
 
   /// What every result must obey. True when the call was done.
   bool judge(PlumbResult result) {
+    if (result < 0) note(static_cast<std::uint64_t>(-static_cast<std::int64_t>(result)));
     if (result < PLUMB_E_DEVICE_LOST || result > PLUMB_COPIED) broken_ = "a result that plumb.h does not name";
     if (result >= 0) return ++done_, true;
     ++refused_;
@@ -85,6 +90,8 @@ class Fuzzer {
     }
     return false;
   }
+
+  void note(std::uint64_t number) { digest_ = (digest_ ^ number) * 0x100000001b3U; }
 
   void fresh_world() {
     table_.destroy_world(world_);
@@ -263,7 +270,9 @@ class Fuzzer {
     if (state_ == nullptr) return;
     const PlumbStateRequest request = {sizeof request, below(3), 1 + static_cast<std::int32_t>(below(2)), below(2)};
     PlumbDLManagedTensor* tensor = nullptr;
+    const std::uint64_t digest = digest_;  // where the rows are lent is each backend's own affair
     if (judge(state_->borrow(world_, &request, &tensor, nullptr))) tensor->deleter(tensor);
+    digest_ = digest;
   }
 
   void except() {
@@ -336,8 +345,14 @@ class Fuzzer {
       if (chance(100)) judge(table_.step(world_, &desc));  // one is under way
       if (chance(2)) modify_manifolds();
       judge(table_.wait(world_, &report));
+      note_state();
     }
     if (chance(100)) judge(table_.wait(world_, &report));  // none is
+  }
+
+  void note_state() {
+    std::uint64_t hash = 0;
+    if (snapshot_ != nullptr && snapshot_->hash(world_, &hash) >= 0) note(hash);
   }
 
   void modify_manifolds() {
@@ -402,21 +417,39 @@ class Fuzzer {
   const PlumbModifyTable* modify_ = nullptr;
   const PlumbManifoldsTable* manifolds_ = nullptr;
   std::vector<std::uint64_t> shapes_, bodies_, joint_ids_;
-  std::uint64_t refused_ = 0, done_ = 0, worlds_lost_ = 0;
+  std::uint64_t calls_ = 0, digest_ = 0xcbf29ce484222325U, refused_ = 0, done_ = 0, worlds_lost_ = 0;
   const char* broken_ = nullptr;
 };
+
+/// Makes that many calls, of two backends in step with each other.
+bool run(std::uint64_t calls, Fuzzer& fuzzer, Fuzzer* other) {
+  for (std::uint64_t i = 0; i < calls; ++i) {
+    if (!fuzzer.call() || (other != nullptr && !other->call())) return false;
+    if (other == nullptr || fuzzer.digest() == other->digest()) continue;
+    std::fprintf(stderr, "after call %llu the two backends differ\n", static_cast<unsigned long long>(fuzzer.calls()));
+    return false;
+  }
+  return true;
+}
 
 }  // namespace
 
 int main(int argc, char** argv) {
   if (argc < 3) {
-    std::fprintf(stderr, "usage: fuzz_calls BACKEND CALLS [SEED]\n");
+    std::fprintf(stderr, "usage: fuzz_calls BACKEND CALLS [SEED [OTHER_BACKEND]]\n");
     return 2;
   }
   try {
+    const std::uint64_t seed = argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 1;
     const plumb::Backend backend = plumb::open_backend(argv[1]);
-    Fuzzer fuzzer(backend, argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 1);
-    const bool kept = fuzzer.run(std::strtoull(argv[2], nullptr, 10));
+    Fuzzer fuzzer(backend, seed);
+    std::optional<plumb::Backend> other_backend;
+    std::optional<Fuzzer> other;
+    if (argc > 4) {
+      other_backend.emplace(plumb::open_backend(argv[4]));
+      other.emplace(*other_backend, seed);
+    }
+    const bool kept = run(std::strtoull(argv[2], nullptr, 10), fuzzer, other ? &*other : nullptr);
     std::printf("%llu calls done, %llu refused, %llu worlds lost\n", static_cast<unsigned long long>(fuzzer.done()),
                 static_cast<unsigned long long>(fuzzer.refused()),
                 static_cast<unsigned long long>(fuzzer.worlds_lost()));

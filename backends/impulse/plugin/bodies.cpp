@@ -51,7 +51,7 @@ PlumbResult World::destroy_bodies(std::span<const PlumbBody> ids) {
     simulation_.bodies.state.touch(slot, kVelocityPart);
   }
   sensors_.remove_if([&](std::uint32_t slot) { return bodies_[slot].id == 0; });
-  std::erase_if(told_.records, [&](const ContactRecord& record) {  // their slots will be others'
+  std::erase_if(told_.records, [&](const ToldContact& record) {  // their slots will be others'
     return bodies_[record.bodies.a].id == 0 || bodies_[record.bodies.b].id == 0;
   });
   Simulation::Slots gone;

@@ -118,11 +118,16 @@ void World::clear_forces() {
   pushed_.clear();
 }
 
-const std::vector<ContactRecord>& World::records() {
-  if (!told_.records_known) {
-    told_.records = simulation_.contacts();
-    told_.records.insert(told_.records.end(), pacing_.parts.contacts.begin(), pacing_.parts.contacts.end());
-  }
+const std::vector<World::ToldContact>& World::records() {
+  if (told_.records_known) return told_.records;
+  told_.records.clear();
+  const auto add = [this](const std::vector<ContactRecord>& contacts) {
+    for (const ContactRecord& contact : contacts)
+      told_.records.push_back(
+          {contact, child_of(contact.pair.a, contact.triangle), child_of(contact.pair.b, contact.triangle)});
+  };
+  add(simulation_.contacts());
+  add(pacing_.parts.contacts);
   told_.records_known = true;
   return told_.records;
 }
@@ -135,7 +140,7 @@ void World::find_events() {
 }
 
 void World::find_touches() {
-  for (const ContactRecord& record : records())
+  for (const ToldContact& record : records())
     for (std::uint32_t p = 0; p < record.count; ++p)
       if (record.separation[p] <= 0 || record.normal_impulse[p] > 0) {
         told_.touches.touch(bodies_[record.bodies.a].id, bodies_[record.bodies.b].id);
@@ -147,13 +152,13 @@ std::span<const PlumbContact> World::contacts() {
   lent_.contacts.clear();
   const bool impulses = init_.needs(PLUMB_NEED_CONTACT_IMPULSES);
   const double unknown = std::numeric_limits<double>::quiet_NaN();
-  for (const ContactRecord& record : records())
+  for (const ToldContact& record : records())
     for (std::uint32_t p = 0; p < record.count; ++p) {
       PlumbContact contact{};
       contact.body_a = bodies_[record.bodies.a].id;
       contact.body_b = bodies_[record.bodies.b].id;
-      contact.child_a = child_of(record.pair.a, record.triangle);
-      contact.child_b = child_of(record.pair.b, record.triangle);
+      contact.child_a = record.child_a;
+      contact.child_b = record.child_b;
       contact.position = plumb_vec(record.position[p]);
       contact.normal = to_plumb(record.normal);
       contact.depth = -static_cast<double>(record.separation[p]);

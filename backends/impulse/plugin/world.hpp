@@ -149,7 +149,11 @@ class World final : public IPhysicsWorld,
   void wake_for_write(PlumbField field, std::span<const PlumbBody> ids);
   void wake_for_joint(const PlumbJointDesc& desc);
   void write_awake(std::span<const PlumbBody> ids, ConstRows rows);
-  const std::vector<ContactRecord>& records();
+  /// A contact of the last step. Its proxies may be others' by now, or nobody's.
+  struct ToldContact : ContactRecord {
+    std::uint32_t child_a, child_b;
+  };
+  const std::vector<ToldContact>& records();
   template <class Ask>
   Hits ask(const Ask& ask);
   HitNames hit_names();
@@ -181,7 +185,7 @@ class World final : public IPhysicsWorld,
   /// What is told of the last step.
   struct Told {
     bool records_known = false;
-    std::vector<ContactRecord> records;
+    std::vector<ToldContact> records;
     std::vector<PlumbEvent> events, early_events;  // early: of what the host did since
     backend::TouchTracker touches;
   };

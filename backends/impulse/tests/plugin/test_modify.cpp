@@ -106,6 +106,46 @@ TEST(Modify, JointsAreAsIfTheyHadBeenMadeSo) {
 }
 
 /// A joint that was let go and taken again has borne nothing yet.
+std::vector<PlumbContact> contacts_of(Scene& scene) {
+  const std::span<const PlumbContact> contacts = scene.world().contacts();
+  return {contacts.begin(), contacts.end()};
+}
+
+/// Three boxes in a row, of one body, on the ground.
+struct LyingCompound {
+  LyingCompound() : scene(engine(), kModifyNeeds | PLUMB_NEED_CONTACTS | PLUMB_NEED_CONTACT_IMPULSES, kDown, 1) {
+    const PlumbShape box = scene.box({0.5, 0.5, 0.5});
+    PlumbCompoundChild children[3];
+    for (int i = 0; i < 3; ++i) children[i] = {box, {{1.5 * i, 0, 0}, {0, 0, 0, 1}}, 0, 0, {}};
+    PlumbShapeDesc desc = shape_desc(PLUMB_COMPOUND);
+    desc.children = children;
+    desc.child_count = 3;
+    bodies = {scene.add_static(scene.box({50, 0.5, 50}), {0, -0.5, 0}), scene.add(scene.make(desc), {0, 0.5, 0})};
+    scene.run(10);
+  }
+  Scene scene;
+  std::vector<PlumbBody> bodies;
+};
+
+TEST(Modify, ContactsAreStillThoseOfTheStep) {
+  LyingCompound same, changed;
+  const PlumbShape ball = changed.scene.sphere(0.5);
+  for (const PlumbBody body : changed.bodies) {
+    PlumbBodyChange change = body_change(body);
+    change.what = PLUMB_MODIFY_SHAPE;
+    change.shape = ball;
+    changed.scene.modify(change);
+  }
+  const std::vector<PlumbContact> before = contacts_of(same.scene), after = contacts_of(changed.scene);
+  ASSERT_EQ(before.size(), 12U);
+  ASSERT_EQ(after.size(), before.size());
+  for (std::size_t i = 0; i < after.size(); ++i) {
+    EXPECT_EQ(after[i].child_a, before[i].child_a) << i;
+    EXPECT_EQ(after[i].child_b, before[i].child_b) << i;
+    EXPECT_EQ(after[i].normal_impulse, before[i].normal_impulse) << i;
+  }
+}
+
 TEST(Modify, ReactionsAreNotThoseOfBefore) {
   Scene scene(engine(), kModifyNeeds | PLUMB_NEED_JOINT_REACTIONS, {0, -9.81, 0}, 1);
   PlumbJointDesc desc = joint_desc(PLUMB_JOINT_FIXED);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 
 #include "math/real.hpp"
 #include "tests/rigs/engine.hpp"
@@ -100,6 +101,29 @@ void harms_nobody(const std::vector<double>& velocity_row, Stopped stopped) {
   for (int i = 0; i < 6; ++i) step(scene);
   EXPECT_NEAR(scene.velocity(on_top)[1], -0.981, 1e-3) << "the neighbour no longer falls";
   EXPECT_NEAR(scene.velocity(far)[1], 0, 1e-3);
+}
+
+std::vector<PlumbPose> poses_in_steps_of_two_lengths(bool somebody_comes) {
+  Scene scene(engine(), kStepNeeds, kDown, 1);
+  fill(scene, 60);
+  scene.run(60);
+  PlumbBody comer = 0;
+  if (somebody_comes) comer = scene.add(scene.sphere(0.5), {0, 100, 0});
+  for (int i = 0; i < 200; ++i) {
+    PlumbStepReport report{};
+    check(scene.world(), scene.world().step(1.0 / 240));
+    check(scene.world(), scene.world().wait(report));
+  }
+  if (somebody_comes) scene.remove(comer);
+  return scene.poses();
+}
+
+/// What stands still is bounded once, by the step's length then: not anew where the list of it only grows in room.
+TEST(Step, WhoComesFarAwayChangesNoBit) {
+  const std::vector<PlumbPose> alone = poses_in_steps_of_two_lengths(false);
+  const std::vector<PlumbPose> beside = poses_in_steps_of_two_lengths(true);
+  ASSERT_EQ(beside.size(), alone.size());
+  EXPECT_EQ(std::memcmp(beside.data(), alone.data(), alone.size() * sizeof(PlumbPose)), 0);
 }
 
 TEST(Step, AWildBodyHarmsNobody) {
