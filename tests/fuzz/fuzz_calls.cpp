@@ -36,7 +36,7 @@ class Fuzzer {
   /// Makes one call; false when a rule was broken.
   bool call() {
     one_call();
-    if (++calls_ % 5000 == 0) fresh_world();
+    if (++calls_ % 2000 == 0) fresh_world();
     if (broken_ != nullptr)
       std::fprintf(stderr, "rule broken in call %llu: %s (last error text: %s)\n",
                    static_cast<unsigned long long>(calls_), broken_, table_.error_text(world_));
@@ -99,9 +99,13 @@ class Fuzzer {
     shapes_.clear();
     bodies_.clear();
     joint_ids_.clear();
-    PlumbWorldDesc desc = plumb::world_desc(0);
+    PlumbNeeds offered = 0;
     for (std::uint32_t i = 0; i < PLUMB_NEED_COUNT; ++i)
-      if (backend_.capability(PLUMB_CAP_NEED, i) != PLUMB_NONE) desc.needs |= PlumbNeeds{1} << i;
+      if (backend_.capability(PLUMB_CAP_NEED, i) != PLUMB_NONE) offered |= PlumbNeeds{1} << i;
+    PlumbWorldDesc desc = plumb::world_desc(offered);
+    if (chance(2)) desc.needs &= random_() | PLUMB_NEED_SNAPSHOT;
+    if (table_.create_world(&desc, &world_) >= 0) return;
+    desc.needs = offered;  // some only go with others
     if (table_.create_world(&desc, &world_) < 0) broken_ = "a plain world cannot be made";
   }
 
@@ -338,7 +342,8 @@ class Fuzzer {
   }
 
   void step() {
-    const PlumbStepDesc desc = {sizeof desc, 0, chance(50) ? number() : 1.0 / 60};
+    constexpr double usual[] = {1.0 / 60, 1.0 / 60, 1.0 / 30, 1.0 / 240};
+    const PlumbStepDesc desc = {sizeof desc, 0, chance(50) ? number() : usual[below(std::size(usual))]};
     PlumbStepReport report{};
     report.struct_size = chance(20) ? below(sizeof report) : sizeof report;
     if (judge(table_.step(world_, chance(200) ? nullptr : &desc))) {
