@@ -70,7 +70,7 @@ class Simulation {
 
   /// One timed step of scene().dt, then reads poses. False when scene().seconds are over (nothing was done).
   bool advance();
-  /// Steps until the end, or until `until` seconds; calls `observe` after each step when given.
+  /// Steps until the end; calls `observe` after each step when given.
   void run(const std::function<void(Simulation&)>& observe = {});
 
   [[nodiscard]] double time() const;  ///< steps * dt

@@ -126,7 +126,7 @@ PLUMB_HD auto is_about_to_strike(const Contact<P, N>& contact, const SolverBody<
                                  const ImpactLaw& law) {
   const PerPoint<P, N> closing = -speed_at(motion_of(contact, a, b).normal, contact.place);
   const PointMask<P, N> near = closing * N(4 * law.h) > separations_now(contact, a, b);
-  return in_any_point(near && closing > N(law.slowest / 2) && contact.restitution > N(0));
+  return in_any_point(contact.there() && near && closing > N(law.slowest / 2) && contact.restitution > N(0));
 }
 
 }  // namespace plumb::impulse

@@ -10,12 +10,12 @@ namespace plumb::harness {
 /// The list of the group.
 [[nodiscard]] std::span<const MeasureEntry> integrator_measures();
 
-// integrator_rotation.cpp
+// rotation.cpp
 void measure_free_rotation(MeasureContext& context);
 void measure_symmetric_rotation(MeasureContext& context);
 void measure_heavy_top(MeasureContext& context);
 
-// integrator_pendulums.cpp
+// pendulums.cpp
 void measure_pendulum(MeasureContext& context);
 void measure_spherical_pendulum(MeasureContext& context);
 void measure_double_pendulum(MeasureContext& context);

@@ -326,8 +326,9 @@ TEST(Catalogue, FindsScenesByWhatAUserTypes) {
   EXPECT_GE(find_scenes("friction").size(), 8u);
   EXPECT_GT(find_scenes("all").size(), find_scenes("core").size());
   const auto integrator = find_scenes("integrator");
+  EXPECT_GE(integrator.size(), 9U);
   EXPECT_EQ(integrator.front().id, "A1");
-  EXPECT_EQ(integrator.back().id, "A9");
+  for (const auto& scene : integrator) EXPECT_EQ(scene.id.front(), 'A') << scene.id;
   try {
     static_cast<void>(find_scenes("twoer"));
     FAIL();

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "contacts/contact_friction.hpp"
+#include "contacts/contact_impact.hpp"
 #include "contacts/contact_normals.hpp"
 #include "contacts/prepare_contacts.hpp"
 #include "tests/hashes/scene.hpp"
@@ -96,6 +97,41 @@ TEST(ContactSolving, RoomForPointsThatAreNotThereChangesNoBit) {
     ASSERT_EQ(solved<1>(one), solved<kManifoldPoints>(one)) << "seed " << seed;
     ASSERT_EQ(solved<2>(two), solved<kManifoldPoints>(two)) << "seed " << seed;
   }
+}
+
+/// Of points that are apart and come closer: whether impacts are looked for in the next sub-step, and what one does.
+template <int P>
+std::vector<Real> struck(const OneContact& start, std::uint64_t seed, bool& is_about_to) {
+  Random random(seed);
+  const ImpactLaw law = {Real(0.1), Real(1) / 480, 480, true};
+  Contact<P, Real> contact = start.load<P>();
+  contact.restitution = Real(0.6);
+  const auto gap = static_cast<Real>(random.between(0, 0.02));
+  contact.separation = select(contact.there(), for_all_points<P>(gap), for_all_points<P>(Real(0)));
+  contact.noted = for_all_points<P>(Real(-1));
+  SolverBody<Real> a = start.a, b = start.b;
+  is_about_to = is_about_to_strike(contact, a, b, law);
+  std::vector<Real> result = {solve_impact(contact, a, b, law) ? Real(1) : Real(0)};
+  for (const SolverBody<Real>& body : {a, b})
+    for (const Real number : numbers_of(body)) result.push_back(number);
+  return result;
+}
+TEST(ContactSolving, NorDoPointsThatAreNotThereStrike) {
+  int about_to = 0, striking = 0;
+  for (std::uint64_t seed = 0; seed < 2000; ++seed) {
+    const OneContact one(seed, 1), two(seed, 2);
+    bool of[5];
+    const std::vector<Real> alone = struck<1>(one, seed, of[0]), pair = struck<2>(two, seed, of[3]);
+    ASSERT_EQ(alone, struck<2>(one, seed, of[1])) << "seed " << seed;
+    ASSERT_EQ(alone, struck<kManifoldPoints>(one, seed, of[2])) << "seed " << seed;
+    ASSERT_EQ(pair, struck<kManifoldPoints>(two, seed, of[4])) << "seed " << seed;
+    ASSERT_TRUE(of[0] == of[1] && of[0] == of[2] && of[3] == of[4]) << "seed " << seed;
+    about_to += of[0] ? 1 : 0;
+    striking += alone[0] > 0 ? 1 : 0;
+  }
+  EXPECT_GT(about_to, 200);
+  EXPECT_LT(about_to, 1800);
+  EXPECT_GT(striking, 50);
 }
 
 /// The frame's matrix says what a push does to how the bodies move against each other.
