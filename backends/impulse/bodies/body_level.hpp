@@ -52,8 +52,8 @@ class BodyLevels {
 
  private:
   // What is the same for all is not looked up for each.
-  PLUMB_HD bool have_several() const { return levels_ != nullptr && counters_->levels > 1; }
-  PLUMB_HD bool all_go_on() const { return counters_->levels <= 1 && counters_->other_substeps == 0; }
+  PLUMB_HD bool have_several() const { return levels_ != nullptr && counters_->levels.count > 1; }
+  PLUMB_HD bool all_go_on() const { return counters_->levels.count <= 1 && counters_->levels.other_substeps == 0; }
 
   /// Which of two bodies tells of both. kNone may be one of them.
   PLUMB_HD std::uint32_t leading(const Velocity* velocities, std::uint32_t a, std::uint32_t b) const {

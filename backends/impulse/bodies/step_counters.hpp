@@ -18,21 +18,31 @@ PLUMB_HD constexpr std::uint32_t colour_key(std::uint32_t level, std::uint32_t c
   return level * (kColours + 1) + colour;
 }
 
+/// Sub-steps in which impacts are solved at their time.
+struct ImpactCounters {
+  std::uint32_t about_to_strike[2];  ///< the last even and odd sub-steps, less one, that saw impacts come
+  std::uint32_t struck;              ///< the last round of impacts in which anything was
+};
+
+/// Of sub-steps, which islands choose (choose_substeps.hpp).
+struct LevelCounters {
+  std::uint32_t wanted_work[kSubstepLevels];  ///< of islands that want a level: contacts
+  std::uint32_t loaded;                       ///< not 0: something may ask for more sub-steps
+  std::uint32_t other_substeps;               ///< not 0: some have others than in their last step, or had none
+  std::uint32_t count;                        ///< up to the last one in use
+  std::uint32_t substeps;                     ///< of that one
+  std::uint32_t body_groups[kSubstepLevels];  ///< with bodies of a level, where there are several
+};
+
 struct StepCounters {
   std::uint32_t pairs;  ///< candidates found; more than there is room for: the step does nothing and is repeated
   std::uint32_t midphase_pairs;  ///< of these, where there are planes, meshes or height fields (midphase.hpp)
   std::uint32_t manifolds;       ///< of these, touching
   std::uint32_t points;
-  std::uint32_t uncoloured[3];                ///< manifolds without a colour: this round, the next, the one after
-  std::uint32_t rounds;                       ///< of the colouring
-  std::uint32_t about_to_strike[2];           ///< the last even and odd sub-steps, less one, that saw impacts come
-  std::uint32_t struck;                       ///< the last round of impacts in which anything was
-  std::uint32_t wanted_work[kSubstepLevels];  ///< of islands that want a level: contacts (choose_substeps.hpp)
-  std::uint32_t loaded;                       ///< not 0: something may ask for more sub-steps (choose_substeps.hpp)
-  std::uint32_t other_substeps;               ///< not 0: some have others than in their last step, or had none
-  std::uint32_t levels;                       ///< of sub-steps, up to the last one in use
-  std::uint32_t substeps;                     ///< of that one
-  std::uint32_t body_groups[kSubstepLevels];  ///< with bodies of a level, where there are several
+  std::uint32_t uncoloured[3];  ///< manifolds without a colour: this round, the next, the one after
+  std::uint32_t rounds;         ///< of the colouring
+  ImpactCounters impacts;
+  LevelCounters levels;
   std::uint32_t first_in_colour[kColourKeys + 1];  ///< by key: place in the order; the last: how many are solved
   std::uint32_t first_slot[kColourKeys + 1];       ///< by key: solver rows begin here, a multiple of the lanes
   std::uint32_t slots;                             ///< solver rows of all

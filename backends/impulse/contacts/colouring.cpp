@@ -142,11 +142,11 @@ struct LayOutSlots {
   StepCounters* counters;
   bool together;  ///< contacts of all colours may be in one loop
   PLUMB_HD void operator()(std::uint32_t) const {
-    counters->levels = max(counters->levels, 1U);
+    counters->levels.count = max(counters->levels.count, 1U);
     std::uint32_t slot = 0;
-    for (std::uint32_t level = 0; level < counters->levels; ++level) slot = lay_out(level, slot);
+    for (std::uint32_t level = 0; level < counters->levels.count; ++level) slot = lay_out(level, slot);
     PLUMB_ASSERT(slot <= slots_for(counters->manifolds));
-    counters->slots = counters->first_slot[colour_key(counters->levels, 0)] = slot;
+    counters->slots = counters->first_slot[colour_key(counters->levels.count, 0)] = slot;
   }
 
  private:

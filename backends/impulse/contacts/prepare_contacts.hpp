@@ -123,7 +123,7 @@ struct PrepareContacts {
 
   /// The colour_key of a slot: the last one that begins there or before.
   [[nodiscard]] PLUMB_HD std::uint32_t key_of(std::uint32_t slot) const {
-    std::uint32_t low = 0, high = colour_key(counters->levels, 0);
+    std::uint32_t low = 0, high = colour_key(counters->levels.count, 0);
     while (high - low > 1) {
       const std::uint32_t middle = (low + high) / 2;
       (counters->first_slot[middle] <= slot ? low : high) = middle;

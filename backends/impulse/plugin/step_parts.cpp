@@ -60,7 +60,8 @@ void World::finish_part() {
     divide(part);
   } else {
     tell(PLUMB_EVENT_SLEEP, simulation_.outcome().fallen_asleep, told_.events);
-    pacing_.last_h = settings_.substep(part.dt, counters.substeps != 0 ? counters.substeps : settings_.substeps);
+    pacing_.last_h =
+        settings_.substep(part.dt, counters.levels.substeps != 0 ? counters.levels.substeps : settings_.substeps);
     parts.any_done = true;
   }
   if (!parts.to_do.empty()) start(parts.to_do.back());

@@ -52,7 +52,8 @@ struct ChooseLevels {
     team.each(bodies, [self](std::uint32_t i) { self.begin(i); });
     team.each(counters->manifolds, [self](std::uint32_t row) { self.ask_for_contact(row); });
     team.barrier();
-    const bool any_asks = counters->loaded != 0, any_settled = work.settled != nullptr && work.parameters->is_repeat;
+    const bool any_asks = counters->levels.loaded != 0,
+               any_settled = work.settled != nullptr && work.parameters->is_repeat;
     if (any_asks)
       choose_for_islands(team);
     else
@@ -85,11 +86,11 @@ struct ChooseLevels {
     const Real rate = pushed ? before.load_rate : Real(0);
     work.loads[i] = {i, i, 0, ordered_bits(rate), 0, 0, {}, 0};
     note_asked(rate * work.parameters->dt);
-    if (pushed && before.last_h != work.levels->of[0].h) atomic_raise(&work.counters->other_substeps, 1U);
+    if (pushed && before.last_h != work.levels->of[0].h) atomic_raise(&work.counters->levels.other_substeps, 1U);
     put_level(i, 0, before, 0, 0);
   }
   PLUMB_HD void note_asked(Real asked) const {
-    if (asked > substeps(0) && work.levels->count > 1) atomic_raise(&work.counters->loaded, 1U);
+    if (asked > substeps(0) && work.levels->count > 1) atomic_raise(&work.counters->levels.loaded, 1U);
   }
 
   /// For the contact in a row of the cache: by the force of the last step, or where it is new by the weight that may
@@ -133,7 +134,7 @@ struct ChooseLevels {
     const Real wanted = work.parameters->dt * column_rate(n, max(apart, -apart), gravity, patch);
     if (!(wanted > kColumnStays * substeps(0)) || wanted > kHopeless * most) return;
     atomic_max(&work.loads[on].asked, ordered_bits(min(as_before(on, wanted), most)));
-    atomic_raise(&work.counters->loaded, 1U);
+    atomic_raise(&work.counters->levels.loaded, 1U);
   }
   /// Sub-steps wanted for a column: what was enough for the next lower level by a little is what it had; and no load is
   /// one that has just come.
@@ -153,7 +154,7 @@ struct ChooseLevels {
     const Real own = all[on].inverse_mass, others = all[by].inverse_mass;
     if (!(others > 0 && own > kLeastSpoke * others && downward > kSpokeUpright * length(work.parameters->gravity)))
       return;
-    if (work.loads[on].star.add(own / others)) atomic_raise(&work.counters->loaded, 1U);
+    if (work.loads[on].star.add(own / others)) atomic_raise(&work.counters->levels.loaded, 1U);
   }
   /// By which two bodies pressed on each other in the last step.
   PLUMB_HD Real force_of(const CachedManifold& kept, std::uint32_t a, std::uint32_t b) const {
@@ -231,18 +232,18 @@ struct ChooseLevels {
       if (island.work > kMostWork / passes_of(star)) star = kStarLevel;
       if (island.work <= kMostWork / passes_of(star)) island.wants = star;
     }
-    if (island.wants != 0) atomic_add(&work.counters->wanted_work[island.wants], island.work);
+    if (island.wants != 0) atomic_add(&work.counters->levels.wanted_work[island.wants], island.work);
   }
   /// Whether there is time for all who want a level, or one beyond.
   PLUMB_HD bool has_time_for(std::uint32_t level) const {
     std::uint32_t wanted = 0;
-    for (std::uint32_t k = level; k < kSubstepLengths; ++k) wanted += work.counters->wanted_work[k];
+    for (std::uint32_t k = level; k < kSubstepLengths; ++k) wanted += work.counters->levels.wanted_work[k];
     return wanted <= kMostWorkOfAll / work.levels->of[level].substeps;
   }
   PLUMB_HD bool has_time_for_stars() const {
     std::uint32_t wanted = 0;
     for (std::uint32_t k = kStarLevel; k < kSubstepLevels; ++k)
-      wanted += min(work.counters->wanted_work[k], kMostWorkOfAll) * passes_of(k);
+      wanted += min(work.counters->levels.wanted_work[k], kMostWorkOfAll) * passes_of(k);
     return wanted <= kMostWorkOfAll;
   }
   /// Over the contacts in a step; elsewhere a sub-step has two, which count as one.
@@ -269,14 +270,14 @@ struct ChooseLevels {
     work.body_levels[i] = {level, before.last_h > 0 ? h / before.last_h : Real(1), before};
   }
   PLUMB_HD void note_levels(std::uint32_t level) const {
-    atomic_raise(&work.counters->levels, level + 1);
-    atomic_raise(&work.counters->substeps, work.levels->of[level].substeps);
+    atomic_raise(&work.counters->levels.count, level + 1);
+    atomic_raise(&work.counters->levels.substeps, work.levels->of[level].substeps);
   }
   /// With a second level, if it be empty, each body is asked for its own.
   PLUMB_HD void leave_settled_out(std::uint32_t i) const {
     if (!work.settled[i].is_settled) return;
     work.body_levels[i].level = kSettledLevel;
-    atomic_raise(&work.counters->levels, 2U);
+    atomic_raise(&work.counters->levels.count, 2U);
   }
   /// Among the groups of the levels that its bodies have.
   PLUMB_HD void list(std::uint32_t group) const {
@@ -285,7 +286,7 @@ struct ChooseLevels {
       found |= 1U << work.body_levels[i].level;
     for (std::uint32_t level = 0; level < kSubstepLevels; ++level)
       if ((found >> level & 1U) != 0)
-        work.body_groups[level * work.most_groups + atomic_add(&work.counters->body_groups[level], 1U)] = group;
+        work.body_groups[level * work.most_groups + atomic_add(&work.counters->levels.body_groups[level], 1U)] = group;
   }
 };
 

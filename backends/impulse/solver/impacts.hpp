@@ -18,7 +18,7 @@ PLUMB_HD inline ImpactLaw impact_law(const StepParameters& step, bool friction) 
 template <bool kSurfaceVelocity, bool kMechanisms>
 PLUMB_DEVICE void solve_impacts(Team& team, const SolverStep& on, const StepParameters& step, std::uint32_t& round) {
   const ImpactLaw law = impact_law(step, on.features.friction);
-  std::uint32_t* struck = &on.counters->struck;
+  std::uint32_t* struck = &on.counters->impacts.struck;
   team.barrier();  // all have read what the rounds before left
   for (const std::uint32_t end = round + kMostImpactRounds; round < end;) {
     const std::uint32_t now = ++round;

@@ -44,7 +44,7 @@ PLUMB_HD void close_pushed(Contact<P, N>& contact) {
 template <bool kSurfaceVelocity, bool kMechanisms, bool kImpacts>
 PLUMB_DEVICE void SoftContacts<kSurfaceVelocity, kMechanisms, kImpacts>::forget_strikes(Team& team) const {
   if constexpr (kImpacts) {
-    std::uint32_t* const about_to_strike = counters->about_to_strike;
+    std::uint32_t* const about_to_strike = counters->impacts.about_to_strike;
     team.single([=] { about_to_strike[0] = about_to_strike[1] = 0; });
   }
 }
@@ -64,7 +64,7 @@ PLUMB_DEVICE void SoftContacts<kSurfaceVelocity, kMechanisms, kImpacts>::bounce_
   if constexpr (kImpacts) {
     if (!features.restitution) return;
     team.barrier();
-    if (substep == 0 || counters->about_to_strike[(substep - 1) % 2] == substep)
+    if (substep == 0 || counters->impacts.about_to_strike[(substep - 1) % 2] == substep)
       solve_impacts<kSurfaceVelocity, kMechanisms>(team, *this, step, round);
   }
 }
@@ -78,7 +78,7 @@ PLUMB_DEVICE void SoftContacts<kSurfaceVelocity, kMechanisms, kImpacts>::push_co
                                     step.max_depenetration_speed};
   const bool friction = features.friction, impacts = kImpacts && features.restitution;
   const ImpactLaw law = impact_law(step, friction);
-  std::uint32_t* about_to_strike = &counters->about_to_strike[substep % 2];
+  std::uint32_t* about_to_strike = &counters->impacts.about_to_strike[substep % 2];
   const bool mechanisms = kMechanisms && solver.mechanisms.count != 0;
   const BodyUse use = final ? BodyUse::kLastVelocityWhereMoved : BodyUse::kVelocityWhereMoved;
   for_contacts<kSurfaceVelocity, kMechanisms>(team, contacts, step.level, solver, use,

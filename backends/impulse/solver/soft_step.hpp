@@ -18,7 +18,7 @@ struct StepSoftly : SoftContacts<kSurfaceVelocity, !Executor::kWarps || kJoints 
     if (this->must_repeat()) return;
     StepParameters step = *this->parameters;
     std::uint32_t round = 0;  // of impacts
-    for (std::uint32_t level = 0; level == 0 || level < this->counters->levels; ++level) {
+    for (std::uint32_t level = 0; level == 0 || level < this->counters->levels.count; ++level) {
       if (this->is_empty(level)) continue;
       static_cast<SubstepParameters&>(step) = this->levels->of[level];
       step_level(team, step, round);

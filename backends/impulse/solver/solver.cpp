@@ -34,12 +34,13 @@ void Solver::reserve(Executor& /*executor*/, std::uint32_t bodies, std::uint32_t
   loads_.grow(bodies);
   most_groups_ = body_groups(bodies);
   body_groups_.grow(std::size_t{kSubstepLevels} * most_groups_);
-  for (Buffer<std::uint32_t>* buffer : {&body_a_, &body_b_, &count_, &row_}) buffer->grow(slots_ + 1);
+  for (Buffer<std::uint32_t>* buffer : {&contacts_.body_a, &contacts_.body_b, &contacts_.count, &contacts_.row})
+    buffer->grow(slots_ + 1);
   const std::size_t padded = std::size_t{slots_ / kRowBlock + 1} * kRowBlock;
-  numbers_.grow(padded * kAllFields);
-  if constexpr (kHandsOver) turns_.grow(slots_ + 1);
+  contacts_.numbers.grow(padded * kAllFields);
+  if constexpr (kHandsOver) contacts_.turns.grow(slots_ + 1);
   if (features_.contact_impulses) {
-    sums_.grow(padded * kSumFields);
+    contacts_.sums.grow(padded * kSumFields);
     step_impulses_.grow(manifolds);
   }
   choose(kind_);
@@ -51,21 +52,19 @@ void Solver::choose(SolverKind kind) {
   if (kind == SolverKind::kJacobi) split_.reserve(sentinel_ + 1, slots_ - slots_for(0));
 }
 
-void Solver::begin(Executor& executor, const MovableBodies& all, std::uint32_t body_count,
-                   const StepParameters* parameters, const SubstepLevels* levels, const StepCounters* counters) {
-  executor.run(body_count, BeginBody{all, bodies(all, counters), parameters, levels});
+void Solver::begin(Executor& executor, const SolverInput& input) {
+  executor.run(input.body_count,
+               BeginBody{input.bodies, bodies(input.bodies, input.counters), input.parameters, input.levels});
 }
 
-void Solver::choose_substeps(Executor& executor, const ContactCache& cache, const MovableBodies& all,
-                             std::uint32_t body_count, const Proxies& proxies, JointStore& joints,
-                             const SubstepLevels* levels, const StepParameters* parameters, StepCounters* counters,
-                             std::uint32_t pair_capacity, const std::uint64_t* masks, const SettledBody* settled) {
+void Solver::choose_substeps(Executor& executor, const SolverInput& input, const std::uint64_t* masks,
+                             const SettledBody* settled) {
   if (!has_levels()) return;
-  enqueue_levels(
-      executor,
-      {cache, all, proxies, mechanisms_, joints.device(), joints.count(), body_count, pair_capacity, levels, parameters,
-       counters, paces_.data(), body_levels_.data(), loads_.data(), body_groups_.data(), most_groups_, masks, settled},
-      {&counters->manifolds, pair_capacity});
+  enqueue_levels(executor,
+                 {input.cache, input.bodies, input.proxies, mechanisms_, input.joints.device(), input.joints.count(),
+                  input.body_count, input.pair_capacity, input.levels, input.parameters, input.counters, paces_.data(),
+                  body_levels_.data(), loads_.data(), body_groups_.data(), most_groups_, masks, settled},
+                 {&input.counters->manifolds, input.pair_capacity});
 }
 
 const Mechanisms& Solver::take_mechanisms(JointStore& joints) {
@@ -73,26 +72,23 @@ const Mechanisms& Solver::take_mechanisms(JointStore& joints) {
   return mechanisms_;
 }
 
-void Solver::find_mobility(Executor& executor, const ContactCache& cache, const MovableBodies& all,
-                           const Proxies& proxies, const StepParameters* parameters, const SubstepLevels* levels,
-                           const StepCounters* counters, JointStore& joints) {
-  enqueue_mobility(executor, joints.code(),
-                   {joint_set(all, counters, joints), mechanisms_, joints.mobility_scratch(), cache, proxies.rows,
-                    parameters, levels, counters},
-                   {&counters->manifolds, slots_});
+void Solver::find_mobility(Executor& executor, const SolverInput& input) {
+  enqueue_mobility(executor, input.joints.code(),
+                   {joint_set(input.bodies, input.counters, input.joints), mechanisms_, input.joints.mobility_scratch(),
+                    input.cache, input.proxies.rows, input.parameters, input.levels, input.counters},
+                   {&input.counters->manifolds, slots_});
 }
 
-void Solver::prepare(Executor& executor, const ContactCache& cache, const MovableBodies& all, const Proxies& proxies,
-                     const Colouring& colouring, const Real* impacts, const ManifoldChanges& changes,
-                     const StepParameters* parameters, const SubstepLevels* levels, StepCounters* counters) {
-  const Count slots = {&counters->slots, slots_};
+void Solver::prepare(Executor& executor, const SolverInput& input, const Colouring& colouring, const Real* impacts,
+                     const ManifoldChanges& changes) {
+  const Count slots = {&input.counters->slots, slots_};
   const bool split = kind_ == SolverKind::kJacobi;
-  if (split) split_.list(executor, cache, all.velocity, proxies.rows, counters);
+  if (split) split_.list(executor, input.cache, input.bodies.velocity, input.proxies.rows, input.counters);
   const auto prepare = [&]<bool kImpacts, bool kMechanisms>() {
-    executor.run(slots,
-                 PrepareContacts<kImpacts, kMechanisms>{
-                     cache, all, proxies, bodies(all, counters), rows(), counters, colouring.order(), colouring.masks(),
-                     parameters, levels, sentinel_, split ? split_.parts().ranges : nullptr, impacts, changes});
+    executor.run(slots, PrepareContacts<kImpacts, kMechanisms>{
+                            input.cache, input.bodies, input.proxies, bodies(input.bodies, input.counters), rows(),
+                            input.counters, colouring.order(), colouring.masks(), input.parameters, input.levels,
+                            sentinel_, split ? split_.parts().ranges : nullptr, impacts, changes});
   };
   const bool whole = mechanisms_.count != 0;
   if (impacts == nullptr)
@@ -101,28 +97,26 @@ void Solver::prepare(Executor& executor, const ContactCache& cache, const Movabl
     whole ? prepare.operator()<true, true>() : prepare.operator()<true, false>();
 }
 
-void Solver::solve(Executor& executor, const MovableBodies& all, std::uint32_t body_count,
-                   const StepParameters* parameters, const SubstepLevels* levels, StepCounters* counters,
-                   std::uint32_t pair_capacity, JointStore& joints) {
-  const Count load = {&counters->longest_loop, contact_loop(slots_)};
-  const SolverStep step = {all,
-                           bodies(all, counters),
-                           {rows(), counters, features_.surface_velocity, parameters, levels},
-                           body_count,
+void Solver::solve(Executor& executor, const SolverInput& input) {
+  const Count load = {&input.counters->longest_loop, contact_loop(slots_)};
+  const SolverStep step = {input.bodies,
+                           bodies(input.bodies, input.counters),
+                           {rows(), input.counters, features_.surface_velocity, input.parameters, input.levels},
+                           input.body_count,
                            features_,
-                           parameters,
-                           counters,
-                           pair_capacity,
-                           joint_set(all, counters, joints),
-                           levels,
+                           input.parameters,
+                           input.counters,
+                           input.pair_capacity,
+                           joint_set(input.bodies, input.counters, input.joints),
+                           input.levels,
                            body_groups_.data(),
                            most_groups_};
-  const std::uint32_t least = max(body_count / 2, step.joints.system.small_count * Executor::kGroupThreads);
+  const std::uint32_t least = max(input.body_count / 2, step.joints.system.small_count * Executor::kGroupThreads);
   const StepWork work = {step, pass_changes_.data(), split_.parts(), kind_, load, least};
   if constexpr (Executor::kWarps) {
     if (features_.surface_velocity) return enqueue_step_with_surface_velocity(executor, work);
   }
-  switch (features_.surface_velocity ? JointCode::kAll : joints.code()) {
+  switch (features_.surface_velocity ? JointCode::kAll : input.joints.code()) {
     case JointCode::kContacts: return enqueue_step<JointCode::kContacts>(executor, work);
     case JointCode::kPlain: return enqueue_step<JointCode::kPlain>(executor, work);
     case JointCode::kAll: return enqueue_step_with_axes(executor, work);

@@ -25,6 +25,19 @@ struct SolverFeatures {
   bool sleeping = false, continuous = false, surface_velocity = false, contact_modification = false;
 };
 
+/// What all stages of a step work on.
+struct SolverInput {
+  ContactCache cache;
+  MovableBodies bodies;
+  std::uint32_t body_count;
+  Proxies proxies;
+  JointStore& joints;
+  const SubstepLevels* levels;
+  const StepParameters* parameters;
+  StepCounters* counters;
+  std::uint32_t pair_capacity;
+};
+
 class Solver {
  public:
   explicit Solver(const SolverFeatures& features) : features_(features) {}
@@ -38,10 +51,8 @@ class Solver {
                    const StepParameters* parameters, StepCounters* counters);
 
   /// How many sub-steps each island has, by what its contacts bear. masks, settled: as of LoadWork.
-  void choose_substeps(Executor& executor, const ContactCache& cache, const MovableBodies& bodies,
-                       std::uint32_t body_count, const Proxies& proxies, JointStore& joints,
-                       const SubstepLevels* levels, const StepParameters* parameters, StepCounters* counters,
-                       std::uint32_t pair_capacity, const std::uint64_t* masks, const SettledBody* settled);
+  void choose_substeps(Executor& executor, const SolverInput& input, const std::uint64_t* masks,
+                       const SettledBody* settled);
   /// What a body has, if bodies have their own.
   [[nodiscard]] BodyLevels levels(const StepCounters* counters) const {
     return has_levels() ? BodyLevels(body_levels_.data(), counters) : BodyLevels();
@@ -51,26 +62,20 @@ class Solver {
   [[nodiscard]] const BodyLevel* body_levels() const { return has_levels() ? body_levels_.data() : nullptr; }
   void exchange(Archive& archive, std::size_t bodies) { archive.rows_of_all(paces_, bodies); }
   /// World inertia of all bodies, what forces do to them in a sub-step, no displacement.
-  void begin(Executor& executor, const MovableBodies& bodies, std::uint32_t body_count,
-             const StepParameters* parameters, const SubstepLevels* levels, const StepCounters* counters);
+  void begin(Executor& executor, const SolverInput& input);
   /// The mechanisms that contacts push as a whole, as far as this solver does that.
   const Mechanisms& take_mechanisms(JointStore& joints);
   /// Of those that touch something.
-  void find_mobility(Executor& executor, const ContactCache& cache, const MovableBodies& bodies, const Proxies& proxies,
-                     const StepParameters* parameters, const SubstepLevels* levels, const StepCounters* counters,
-                     JointStore& joints);
+  void find_mobility(Executor& executor, const SolverInput& input);
   /// Contacts into rows, in the order of their colours. impacts: Impacts::times(), or null.
-  void prepare(Executor& executor, const ContactCache& cache, const MovableBodies& bodies, const Proxies& proxies,
-               const Colouring& colouring, const Real* impacts, const ManifoldChanges& changes,
-               const StepParameters* parameters, const SubstepLevels* levels, StepCounters* counters);
+  void prepare(Executor& executor, const SolverInput& input, const Colouring& colouring, const Real* impacts,
+               const ManifoldChanges& changes);
   /// The joints with what their kernels work on.
   [[nodiscard]] JointSet joint_set(const MovableBodies& all, const StepCounters* counters, JointStore& joints) {
     return joints.set(all, bodies(all, counters), features_.gyroscopic);
   }
   /// Moves the bodies through the step.
-  void solve(Executor& executor, const MovableBodies& bodies, std::uint32_t body_count,
-             const StepParameters* parameters, const SubstepLevels* levels, StepCounters* counters,
-             std::uint32_t pair_capacity, JointStore& joints);
+  void solve(Executor& executor, const SolverInput& input);
   void keep_impulses(Executor& executor, const ContactCache& cache, StepCounters* counters);
 
   /// How far bodies moved in the last step, by body.
@@ -79,8 +84,8 @@ class Solver {
   [[nodiscard]] StepImpulses* step_impulses() { return step_impulses_.data(); }
 
   [[nodiscard]] ContactRows rows() {
-    return {body_a_.data(),  body_b_.data(), count_.data(), row_.data(),
-            numbers_.data(), sums_.data(),   turns_.data(), slots_};
+    return {contacts_.body_a.data(),  contacts_.body_b.data(), contacts_.count.data(), contacts_.row.data(),
+            contacts_.numbers.data(), contacts_.sums.data(),   contacts_.turns.data(), slots_};
   }
 
  private:
@@ -90,6 +95,14 @@ class Solver {
   }
   /// Others than this one have the same sub-steps for all.
   [[nodiscard]] bool has_levels() const { return kind_ == SolverKind::kTgsSoft && features_.collision; }
+
+  /// Of ContactRows.
+  struct ContactMemory {
+    Buffer<std::uint32_t> body_a, body_b, count, row;
+    Buffer<Real> numbers;
+    Buffer<ContactTurns> turns;  // on a GPU
+    Buffer<Real> sums;           // of the step's impulses, where somebody asks
+  };
 
   SolverFeatures features_;
   SolverKind kind_ = SolverKind::kTgsSoft;
@@ -103,10 +116,7 @@ class Solver {
   Buffer<BodyLevel> body_levels_;
   Buffer<IslandLoad> loads_;
   Buffer<std::uint32_t> body_groups_;  // as of LoadWork
-  Buffer<std::uint32_t> body_a_, body_b_, count_, row_;
-  Buffer<Real> numbers_;
-  Buffer<ContactTurns> turns_;  // on a GPU
-  Buffer<Real> sums_;           // of the step's impulses, where somebody asks
+  ContactMemory contacts_;
   Buffer<StepImpulses> step_impulses_;
   Buffer<PassChange> pass_changes_;  // of si and jacobi
   SplitBodies split_;                // of jacobi

@@ -28,7 +28,7 @@ struct SolverStep {
 
   /// Whether no body has sub-steps of that level.
   [[nodiscard]] PLUMB_DEVICE bool is_empty(std::uint32_t level) const {
-    return counters->levels > 1 && counters->body_groups[level] == 0;
+    return counters->levels.count > 1 && counters->levels.body_groups[level] == 0;
   }
   /// first: of the step's sub-steps, or each where constraint impulses are not carried over.
   PLUMB_DEVICE void accelerate_bodies(Team& team, const StepParameters& step, bool first) const {
@@ -50,11 +50,11 @@ struct SolverStep {
   /// f(group) for the bodies that have sub-steps of the step's level.
   template <class F>
   PLUMB_DEVICE void each_body_group(Team& team, const StepParameters& step, const F& f) const {
-    if (counters->levels <= 1) {
+    if (counters->levels.count <= 1) {
       team.each(body_groups(body_count), [&](std::uint32_t group) { f(BodyGroup(group, body_count)); });
     } else {
       const std::uint32_t* const groups = body_groups_of_levels + step.level * most_groups;
-      team.each(counters->body_groups[step.level],
+      team.each(counters->levels.body_groups[step.level],
                 [&](std::uint32_t k) { f(BodyGroup(groups[k], body_count, solver.levels, step.level)); });
     }
   }

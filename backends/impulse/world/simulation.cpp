@@ -110,7 +110,7 @@ void Simulation::list_proxies() {
   stages_.narrow_phase.forget_found(executor_, statics.rows, lists_.statics.count());
   if ((lists_.types & kMidphaseTypes) != 0) use_midphase(true);
   if (origin_.find(lists_.movers, colliders, bodies.state) || other_statics) statics_changed();
-  if (!dirty_.statics && statics.count != statics_before) dirty_.statics = bound_again_ = true;  // to fill up the tree
+  if (!dirty_.statics && statics.count != statics_before) dirty_.statics = dirty_.bound_again = true;  // to fill up the tree
   dirty_.lists = false;
 }
 
@@ -149,8 +149,8 @@ void Simulation::upload_changes() {
 }
 
 void Simulation::bound_statics() {
-  if (!bound_again_) numbers_.of_statics[0] = numbers_.parameters[0];
-  bound_again_ = false;
+  if (!dirty_.bound_again) numbers_.of_statics[0] = numbers_.parameters[0];
+  dirty_.bound_again = false;
   executor_.to_device(numbers_.of_statics, 1);
   const ProxyRows statics = lists_.statics.view();
   for (const ProxyRows& list : {statics, lists_.planes.view()})
@@ -310,7 +310,7 @@ void Simulation::exchange(Archive& archive, const Extent& extent) {
   archive.value(step_);
   origin_.exchange(archive);
   archive.value(numbers_.of_statics[0]);
-  bool statics_dirty = dirty_.statics && !bound_again_;
+  bool statics_dirty = dirty_.statics && !dirty_.bound_again;
   archive.value(statics_dirty);
   StepCounters& counted = *numbers_.counters.host();
   archive.value(counted);
@@ -323,7 +323,7 @@ void Simulation::exchange(Archive& archive, const Extent& extent) {
   if (!archive.reads()) return;
   (void)find_proxies();  // so that what comes next tells whether the host has changed the statics since
   dirty_.lists = dirty_.statics = restored_ = true;
-  bound_again_ = !statics_dirty;
+  dirty_.bound_again = !statics_dirty;
   recorder_.forget();
 }
 

@@ -50,7 +50,7 @@ class Simulation {
   }
   void statics_changed() {  ///< bodies that do not move: placed elsewhere
     dirty_.statics = true;
-    bound_again_ = false;
+    dirty_.bound_again = false;
     ++list_version_;
   }
 
@@ -147,6 +147,7 @@ class Simulation {
   };
   struct Dirty {
     bool lists = true, statics = true;
+    bool bound_again = false;  // the statics, as they were: with the same parameters
   };
   /// What queries work with, made when the first comes: the step's own lists and trees are not touched.
   struct ForQueries {
@@ -189,9 +190,8 @@ class Simulation {
   std::uint32_t step_ = 0;
   std::uint64_t list_version_ = 1;  // changes when a body may have, but for those that the step moves
   Dirty dirty_;
-  bool bound_again_ = false;  // the statics, as they were: with the same parameters
-  bool restored_ = false;     // since the last step: what it found is not known
-  bool shows_ = false;        // what the step has found waits for respond()
+  bool restored_ = false;  // since the last step: what it found is not known
+  bool shows_ = false;     // what the step has found waits for respond()
 };
 
 }  // namespace plumb::impulse

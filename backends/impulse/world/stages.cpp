@@ -103,9 +103,7 @@ void match(const StepContext& step) {
 }
 
 void choose_substeps(const StepContext& step) {
-  step.stages.solver.choose_substeps(step.executor, step.now, step.movable, step.body_rows, step.proxies, step.joints,
-                                     step.levels, step.parameters, step.counters, step.pair_capacity,
-                                     step.stages.colouring.masks(),
+  step.stages.solver.choose_substeps(step.executor, step.solver_input(), step.stages.colouring.masks(),
                                      step.settles() ? step.stages.energy_bound.settled_bodies() : nullptr);
 }
 
@@ -120,14 +118,11 @@ void colour(const StepContext& step) {
 
 void prepare(const StepContext& step) {
   Stages& of = step.stages;
-  of.solver.begin(step.executor, step.movable, step.body_rows, step.parameters, step.levels, step.counters);
+  of.solver.begin(step.executor, step.solver_input());
   if (!step.collides()) return;
-  if (step.mechanisms.count != 0)
-    of.solver.find_mobility(step.executor, step.now, step.movable, step.proxies, step.parameters, step.levels,
-                            step.counters, step.joints);
-  of.solver.prepare(step.executor, step.now, step.movable, step.proxies, of.colouring,
-                    step.finds_impacts() ? of.impacts.times() : nullptr, of.changes(), step.parameters, step.levels,
-                    step.counters);
+  if (step.mechanisms.count != 0) of.solver.find_mobility(step.executor, step.solver_input());
+  of.solver.prepare(step.executor, step.solver_input(), of.colouring,
+                    step.finds_impacts() ? of.impacts.times() : nullptr, of.changes());
   if (step.surface_velocities != nullptr)
     put_surface_speeds(step.executor,
                        {step.now, step.bodies, step.proxies, step.surface_velocities, of.colouring.order(),
@@ -139,10 +134,7 @@ void keep_state(const StepContext& step) {
   if (step.bounds_energy()) step.stages.energy_bound.keep(step.executor, step.energy_work());
 }
 
-void solve(const StepContext& step) {
-  step.stages.solver.solve(step.executor, step.movable, step.body_rows, step.parameters, step.levels, step.counters,
-                           step.pair_capacity, step.joints);
-}
+void solve(const StepContext& step) { step.stages.solver.solve(step.executor, step.solver_input()); }
 
 void clamp(const StepContext& step) {
   if (!step.continuous) return;

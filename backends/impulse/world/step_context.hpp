@@ -99,6 +99,9 @@ struct StepContext : StepInput {
   }
   /// Of the narrow phase.
   [[nodiscard]] Count candidates() const { return stages.narrow_phase.candidates(counters); }
+  [[nodiscard]] SolverInput solver_input() const {
+    return {now, movable, body_rows, proxies, joints, levels, parameters, counters, pair_capacity};
+  }
   [[nodiscard]] EnergyWork energy_work() const {
     return {now,
             proxies,

@@ -42,7 +42,7 @@ struct ColouringRig {
     }
     std::uint32_t used = 0;
     for (const BodyLevel& level : levels) used = std::max(used, level.level + 1);
-    counters[0].levels = used;
+    counters[0].levels.count = used;
     colouring.colour(executor, cache, velocities.data(), proxies.data(), Mechanisms{},
                      levels.empty() ? BodyLevels() : BodyLevels(levels.data(), counters.data()), counters.data());
   }
@@ -70,12 +70,12 @@ struct ColouringRig {
     for (std::uint32_t body = 0; body < velocities.size(); ++body)  // whoever waits for a colour must not do so in vain
       for (std::uint32_t colour = 0; colour < kColours; ++colour)
         EXPECT_EQ(colouring.masks()[body] >> colour & 1U, pushed.count({colour, body}));
-    for (std::uint32_t key = 0; key < colour_key(counters[0].levels, 0); ++key) {
+    for (std::uint32_t key = 0; key < colour_key(counters[0].levels.count, 0); ++key) {
       const std::uint32_t size = counters[0].first_in_colour[key + 1] - counters[0].first_in_colour[key];
       EXPECT_EQ(counters[0].first_slot[key] % kLaneGroup, 0U);
       EXPECT_GE(counters[0].first_slot[key + 1] - counters[0].first_slot[key], size);
     }
-    EXPECT_EQ(counters[0].slots, counters[0].first_slot[colour_key(counters[0].levels, 0)]);
+    EXPECT_EQ(counters[0].slots, counters[0].first_slot[colour_key(counters[0].levels.count, 0)]);
   }
   /// Of sub-steps, of a manifold.
   [[nodiscard]] std::uint32_t level_of(std::uint32_t row) const {
@@ -166,7 +166,7 @@ TEST(Colouring, LevelsOfSubstepsAreApart) {
     rig.levels.push_back({body < kFixed ? 0 : 2 * (body % 3), 1, {0, body < kFixed ? Real(0) : Real(1), 0}});
   rig.colour();
   rig.check();
-  EXPECT_EQ(rig.counters[0].levels, 5U);
+  EXPECT_EQ(rig.counters[0].levels.count, 5U);
   EXPECT_EQ(rig.counters[0].colour_count[1], 0U) << "nobody's";
   EXPECT_GT(rig.counters[0].colour_count[2], 1U);
 }
