@@ -29,6 +29,20 @@ const Id* ids_or_null(std::span<const Id> ids) {
   return ids.empty() ? nullptr : ids.data();
 }
 
+/// The tables of a backend's extensions; null of those that it lacks.
+struct Extensions {
+  const PlumbJointsTable* joints;
+  const PlumbQueriesTable* queries;
+  const PlumbCollideTable* collide;
+  const PlumbDebugTable* debug;
+  const PlumbSettingsTable* settings;
+  const PlumbSnapshotTable* snapshot;
+  const PlumbStateTable* state;
+  const PlumbExceptionsTable* exceptions;
+  const PlumbModifyTable* modify;
+  const PlumbManifoldsTable* manifolds;
+};
+
 class HostWorld final : public IPhysicsWorld,
                         private IJoints,
                         private IQueries,
@@ -44,16 +58,11 @@ class HostWorld final : public IPhysicsWorld,
   HostWorld(const PlumbBackendTable& table, PlumbWorld* world)
       : table_(table),
         world_(world),
-        joints_(find<PlumbJointsTable>(PLUMB_EXT_JOINTS)),
-        queries_(find<PlumbQueriesTable>(PLUMB_EXT_QUERIES)),
-        collide_(find<PlumbCollideTable>(PLUMB_EXT_COLLIDE)),
-        debug_(find<PlumbDebugTable>(PLUMB_EXT_DEBUG)),
-        settings_(find<PlumbSettingsTable>(PLUMB_EXT_SETTINGS)),
-        snapshot_(find<PlumbSnapshotTable>(PLUMB_EXT_SNAPSHOT)),
-        state_(find<PlumbStateTable>(PLUMB_EXT_STATE)),
-        exceptions_(find<PlumbExceptionsTable>(PLUMB_EXT_EXCEPTIONS)),
-        modify_(find<PlumbModifyTable>(PLUMB_EXT_MODIFY)),
-        manifolds_(find<PlumbManifoldsTable>(PLUMB_EXT_MANIFOLDS)) {}
+        extensions_{find<PlumbJointsTable>(PLUMB_EXT_JOINTS),     find<PlumbQueriesTable>(PLUMB_EXT_QUERIES),
+                    find<PlumbCollideTable>(PLUMB_EXT_COLLIDE),   find<PlumbDebugTable>(PLUMB_EXT_DEBUG),
+                    find<PlumbSettingsTable>(PLUMB_EXT_SETTINGS), find<PlumbSnapshotTable>(PLUMB_EXT_SNAPSHOT),
+                    find<PlumbStateTable>(PLUMB_EXT_STATE),       find<PlumbExceptionsTable>(PLUMB_EXT_EXCEPTIONS),
+                    find<PlumbModifyTable>(PLUMB_EXT_MODIFY),     find<PlumbManifoldsTable>(PLUMB_EXT_MANIFOLDS)} {}
   ~HostWorld() override { table_.destroy_world(world_); }
 
   // --- core ----------------------------------------------------------------------------------------------------------
@@ -106,53 +115,55 @@ class HostWorld final : public IPhysicsWorld,
     return body_ids_;
   }
   PlumbResult hash(std::uint64_t& value) override {
-    return snapshot_ == nullptr ? PLUMB_E_UNSUPPORTED : snapshot_->hash(world_, &value);
+    return extensions_.snapshot == nullptr ? PLUMB_E_UNSUPPORTED : extensions_.snapshot->hash(world_, &value);
   }
   [[nodiscard]] std::string error_text() const override { return table_.error_text(world_); }
 
-  IJoints* joints() override { return joints_ == nullptr ? nullptr : this; }
-  IQueries* queries() override { return queries_ == nullptr ? nullptr : this; }
-  ICollide* collide() override { return collide_ == nullptr ? nullptr : this; }
-  IDebug* debug() override { return debug_ == nullptr ? nullptr : this; }
-  ISettings* settings() override { return settings_ == nullptr ? nullptr : this; }
-  ISnapshot* snapshot() override { return snapshot_ == nullptr ? nullptr : this; }
-  IState* state() override { return state_ == nullptr ? nullptr : this; }
-  IExceptions* exceptions() override { return exceptions_ == nullptr ? nullptr : this; }
-  IModify* modify() override { return modify_ == nullptr ? nullptr : this; }
-  IManifolds* manifolds() override { return manifolds_ == nullptr ? nullptr : this; }
+  IJoints* joints() override { return extensions_.joints == nullptr ? nullptr : this; }
+  IQueries* queries() override { return extensions_.queries == nullptr ? nullptr : this; }
+  ICollide* collide() override { return extensions_.collide == nullptr ? nullptr : this; }
+  IDebug* debug() override { return extensions_.debug == nullptr ? nullptr : this; }
+  ISettings* settings() override { return extensions_.settings == nullptr ? nullptr : this; }
+  ISnapshot* snapshot() override { return extensions_.snapshot == nullptr ? nullptr : this; }
+  IState* state() override { return extensions_.state == nullptr ? nullptr : this; }
+  IExceptions* exceptions() override { return extensions_.exceptions == nullptr ? nullptr : this; }
+  IModify* modify() override { return extensions_.modify == nullptr ? nullptr : this; }
+  IManifolds* manifolds() override { return extensions_.manifolds == nullptr ? nullptr : this; }
 
  private:
   // --- extensions ----------------------------------------------------------------------------------------------------
 
   PlumbResult create_joints(std::span<const PlumbJointDesc> descs, std::span<PlumbJoint> ids) override {
-    return joints_->create(world_, descs.data(), sizeof(PlumbJointDesc), count_of(descs), ids.data());
+    return extensions_.joints->create(world_, descs.data(), sizeof(PlumbJointDesc), count_of(descs), ids.data());
   }
   PlumbResult destroy_joints(std::span<const PlumbJoint> ids) override {
-    return joints_->destroy(world_, ids.data(), count_of(ids));
+    return extensions_.joints->destroy(world_, ids.data(), count_of(ids));
   }
   PlumbResult read_joints(PlumbJointField field, std::span<const PlumbJoint> ids, Rows rows) override {
-    return joints_->read(world_, field, rows.type(), ids_or_null(ids), static_cast<std::uint32_t>(rows.count()),
-                         rows.data(), rows.stride());
+    return extensions_.joints->read(world_, field, rows.type(), ids_or_null(ids),
+                                    static_cast<std::uint32_t>(rows.count()), rows.data(), rows.stride());
   }
   PlumbResult write_joints(PlumbJointField field, std::span<const PlumbJoint> ids, ConstRows rows) override {
-    return joints_->write(world_, field, rows.type(), ids_or_null(ids), static_cast<std::uint32_t>(rows.count()),
-                          rows.data(), rows.stride());
+    return extensions_.joints->write(world_, field, rows.type(), ids_or_null(ids),
+                                     static_cast<std::uint32_t>(rows.count()), rows.data(), rows.stride());
   }
 
   Hits cast_rays(PlumbHitMode mode, std::span<const PlumbRay> rays) override {
     return collect([&](PlumbHit* hits, std::uint32_t capacity, std::uint32_t* count) {
-      return queries_->rays(world_, mode, rays.data(), sizeof(PlumbRay), count_of(rays), hits, capacity, count);
+      return extensions_.queries->rays(world_, mode, rays.data(), sizeof(PlumbRay), count_of(rays), hits, capacity,
+                                       count);
     });
   }
   Hits cast_shapes(PlumbHitMode mode, std::span<const PlumbCast> casts) override {
     return collect([&](PlumbHit* hits, std::uint32_t capacity, std::uint32_t* count) {
-      return queries_->casts(world_, mode, casts.data(), sizeof(PlumbCast), count_of(casts), hits, capacity, count);
+      return extensions_.queries->casts(world_, mode, casts.data(), sizeof(PlumbCast), count_of(casts), hits, capacity,
+                                        count);
     });
   }
   Hits overlap_shapes(std::span<const PlumbOverlap> overlaps) override {
     return collect([&](PlumbHit* hits, std::uint32_t capacity, std::uint32_t* count) {
-      return queries_->overlaps(world_, overlaps.data(), sizeof(PlumbOverlap), count_of(overlaps), hits, capacity,
-                                count);
+      return extensions_.queries->overlaps(world_, overlaps.data(), sizeof(PlumbOverlap), count_of(overlaps), hits,
+                                           capacity, count);
     });
   }
 
@@ -160,80 +171,80 @@ class HostWorld final : public IPhysicsWorld,
                             std::span<const PlumbPairPoint>& points) override {
     thread_local std::vector<PlumbPairPoint> found;
     const PlumbResult result = fill_all(found, [&](PlumbPairPoint* out, std::uint32_t capacity, std::uint32_t* count) {
-      return collide_->pairs(world_, pairs.data(), sizeof(PlumbPosedPair), count_of(pairs), results.data(), out,
-                             capacity, count);
+      return extensions_.collide->pairs(world_, pairs.data(), sizeof(PlumbPosedPair), count_of(pairs), results.data(),
+                                        out, capacity, count);
     });
     points = found;
     return result;
   }
 
   PlumbResult candidate_pairs(std::span<const PlumbDebugPair>& pairs) override {
-    return look(debug_->pairs, debug_pairs_, pairs);
+    return look(extensions_.debug->pairs, debug_pairs_, pairs);
   }
   PlumbResult tree_boxes(std::span<const PlumbDebugBox>& boxes) override {
-    return look(debug_->boxes, debug_boxes_, boxes);
+    return look(extensions_.debug->boxes, debug_boxes_, boxes);
   }
   PlumbResult separating_axes(std::span<const PlumbDebugAxis>& axes) override {
-    return look(debug_->axes, debug_axes_, axes);
+    return look(extensions_.debug->axes, debug_axes_, axes);
   }
   PlumbResult body_states(std::span<const PlumbDebugBody>& bodies) override {
-    if (!has(*debug_, &PlumbDebugTable::bodies)) return PLUMB_E_UNSUPPORTED;
-    return look(debug_->bodies, debug_bodies_, bodies);
+    if (!has(*extensions_.debug, &PlumbDebugTable::bodies)) return PLUMB_E_UNSUPPORTED;
+    return look(extensions_.debug->bodies, debug_bodies_, bodies);
   }
   PlumbResult solved_constraints(std::span<const PlumbDebugConstraint>& constraints) override {
-    if (!has(*debug_, &PlumbDebugTable::constraints)) return PLUMB_E_UNSUPPORTED;
-    return look(debug_->constraints, debug_constraints_, constraints);
+    if (!has(*extensions_.debug, &PlumbDebugTable::constraints)) return PLUMB_E_UNSUPPORTED;
+    return look(extensions_.debug->constraints, debug_constraints_, constraints);
   }
 
   PlumbResult get_setting(const char* name, PlumbSettingValue& value) override {
-    return settings_->get(world_, name, &value);
+    return extensions_.settings->get(world_, name, &value);
   }
   PlumbResult set_setting(const char* name, const PlumbSettingValue& value) override {
-    return settings_->set(world_, name, &value);
+    return extensions_.settings->set(world_, name, &value);
   }
 
-  PlumbResult save(std::span<const std::byte>& data) override { return save_by(snapshot_->save, data); }
+  PlumbResult save(std::span<const std::byte>& data) override { return save_by(extensions_.snapshot->save, data); }
   PlumbResult save_world(std::span<const std::byte>& data) override {
-    if (!has(*snapshot_, &PlumbSnapshotTable::save_world)) return PLUMB_E_UNSUPPORTED;
-    return save_by(snapshot_->save_world, data);
+    if (!has(*extensions_.snapshot, &PlumbSnapshotTable::save_world)) return PLUMB_E_UNSUPPORTED;
+    return save_by(extensions_.snapshot->save_world, data);
   }
   PlumbResult restore(std::span<const std::byte> data) override {
-    return snapshot_->restore(world_, data.data(), data.size());
+    return extensions_.snapshot->restore(world_, data.data(), data.size());
   }
 
   PlumbResult borrow(const PlumbStateRequest& request, PlumbDLManagedTensor*& tensor, PlumbFence* fence) override {
-    return state_->borrow(world_, &request, &tensor, fence);
+    return extensions_.state->borrow(world_, &request, &tensor, fence);
   }
   PlumbResult row_map(std::span<const PlumbBody>& ids, std::uint64_t& generation) override {
     const PlumbResult result = fill_all(row_ids_, [&](PlumbBody* out, std::uint32_t capacity, std::uint32_t* count) {
-      return state_->rows(world_, out, capacity, count, &generation);
+      return extensions_.state->rows(world_, out, capacity, count, &generation);
     });
     ids = row_ids_;
     return result;
   }
 
   PlumbResult set_exceptions(std::span<const PlumbBodyPair> pairs, bool touch) override {
-    return exceptions_->set(world_, pairs.data(), sizeof(PlumbBodyPair), count_of(pairs), touch ? 1 : 0);
+    return extensions_.exceptions->set(world_, pairs.data(), sizeof(PlumbBodyPair), count_of(pairs), touch ? 1 : 0);
   }
   PlumbResult modify_bodies(std::span<const PlumbBodyChange> changes) override {
-    return modify_->bodies(world_, changes.data(), sizeof(PlumbBodyChange), count_of(changes));
+    return extensions_.modify->bodies(world_, changes.data(), sizeof(PlumbBodyChange), count_of(changes));
   }
   PlumbResult modify_joints(std::span<const PlumbJointChange> changes) override {
-    return modify_->joints(world_, changes.data(), sizeof(PlumbJointChange), count_of(changes));
+    return extensions_.modify->joints(world_, changes.data(), sizeof(PlumbJointChange), count_of(changes));
   }
   PlumbResult read_manifolds(std::span<const PlumbManifold>& manifolds) override {
     const PlumbResult result =
         fill_all(manifold_rows_, [this](PlumbManifold* out, std::uint32_t capacity, std::uint32_t* count) {
-          return manifolds_->read(world_, out, sizeof *out, capacity, count);
+          return extensions_.manifolds->read(world_, out, sizeof *out, capacity, count);
         });
     manifolds = manifold_rows_;
     return result;
   }
   PlumbResult modify_manifolds(std::span<const PlumbManifoldChange> changes) override {
-    return manifolds_->modify(world_, changes.data(), sizeof(PlumbManifoldChange), count_of(changes));
+    return extensions_.manifolds->modify(world_, changes.data(), sizeof(PlumbManifoldChange), count_of(changes));
   }
   PlumbResult list_exceptions(std::span<const PlumbBodyPair>& pairs) override {
-    return look(exceptions_->list, exception_pairs_, pairs);
+    return look(extensions_.exceptions->list, exception_pairs_, pairs);
   }
 
   // --- plumbing ------------------------------------------------------------------------------------------------------
@@ -277,16 +288,7 @@ class HostWorld final : public IPhysicsWorld,
 
   const PlumbBackendTable& table_;
   PlumbWorld* world_;
-  const PlumbJointsTable* joints_;
-  const PlumbQueriesTable* queries_;
-  const PlumbCollideTable* collide_;
-  const PlumbDebugTable* debug_;
-  const PlumbSettingsTable* settings_;
-  const PlumbSnapshotTable* snapshot_;
-  const PlumbStateTable* state_;
-  const PlumbExceptionsTable* exceptions_;
-  const PlumbModifyTable* modify_;
-  const PlumbManifoldsTable* manifolds_;
+  const Extensions extensions_;
   std::vector<PlumbContact> contact_rows_;
   std::vector<PlumbEvent> event_rows_;
   std::vector<PlumbManifold> manifold_rows_;

@@ -63,16 +63,16 @@ Value take(std::span<const std::byte>& data) {
 }  // namespace
 
 PlumbResult World::save(std::span<const std::byte>& data) {
-  snapshot_.clear();
-  append(snapshot_, to_plumb(b3World_GetGravity(world_)));
+  lent_.snapshot.clear();
+  append(lent_.snapshot, to_plumb(b3World_GetGravity(world_)));
   for (const auto& body : bodies_)
-    if (body) append(snapshot_, state_of(*body));
+    if (body) append(lent_.snapshot, state_of(*body));
   for (const Touching& pair : touches_.touching()) {
-    append(snapshot_, pair.a);
-    append(snapshot_, pair.b);
-    append(snapshot_, pair.sensor);
+    append(lent_.snapshot, pair.a);
+    append(lent_.snapshot, pair.b);
+    append(lent_.snapshot, pair.sensor);
   }
-  data = snapshot_;
+  data = lent_.snapshot;
   return PLUMB_OK;
 }
 

@@ -132,9 +132,12 @@ class World final : public IPhysicsWorld,
   bool contacts_fresh_ = false;
   backend::TouchTracker touches_;
   std::vector<PlumbEvent> events_, pending_events_;
-  std::vector<std::byte> snapshot_;
-  std::vector<PlumbDebugBox> debug_boxes_;
-  std::vector<PlumbDebugAxis> debug_axes_;
+  /// What callers look at until they ask again.
+  struct Lent {
+    std::vector<PlumbDebugBox> boxes;
+    std::vector<PlumbDebugAxis> axes;
+    std::vector<std::byte> snapshot;
+  } lent_;
 };
 
 /// The child of a compound, or the host's number of a triangle; triangle: Box3D's, or below 0.

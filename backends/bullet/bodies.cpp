@@ -154,14 +154,14 @@ void World::add_to_bullet(Body& body) {
 void World::take_from_bullet(Body& body) {
   world_.removeRigidBody(&body);
   world_.forget_predictions(body);
-  for (auto* list : {&kinematic_, &damped_, &locked_}) std::erase(*list, &body);
+  for (auto* list : {&lists_.kinematic, &lists_.damped, &lists_.locked}) std::erase(*list, &body);
 }
 
 void World::prepare_motion(Body& body) {
   const bool may_sleep = needs(PLUMB_NEED_SLEEPING) && (body.flags & PLUMB_BODY_NEVER_SLEEPS) == 0;
   if (!may_sleep && !body.is(PLUMB_STATIC)) body.setActivationState(DISABLE_DEACTIVATION);
   if (body.is(PLUMB_KINEMATIC)) {
-    kinematic_.push_back(&body);
+    lists_.kinematic.push_back(&body);
     body.coast(body.getLinearVelocity(), body.getAngularVelocity());
   }
   if (!body.is(PLUMB_DYNAMIC)) return;
@@ -171,9 +171,9 @@ void World::prepare_motion(Body& body) {
   if (body.locks != 0) {
     body.setLinearFactor(free_axes(body.locks, PLUMB_LOCK_LINEAR_X));
     body.setAngularFactor(body.getAngularFactor() * free_axes(body.locks, PLUMB_LOCK_ANGULAR_X));
-    locked_.push_back(&body);
+    lists_.locked.push_back(&body);
   }
-  if (body.linear_damping != 0 || body.angular_damping != 0) damped_.push_back(&body);
+  if (body.linear_damping != 0 || body.angular_damping != 0) lists_.damped.push_back(&body);
   prepare_ccd(body);
 }
 
@@ -211,7 +211,7 @@ PlumbResult World::destroy_bodies(std::span<const PlumbBody> ids) {
     take_from_bullet(gone);
   }
   for (const PlumbBody id : ids) bodies_[slot_of(id)].reset();
-  touches_.forget(ids, pending_events_);
+  events_.touches.forget(ids, events_.pending);
   return PLUMB_OK;
 }
 

@@ -61,9 +61,7 @@ class Body final : public btRigidBody {
   }
 
   void coast(const btVector3& linear, const btVector3& angular) {
-    coast_linear = linear;
-    coast_angular = angular;
-    coasts = !linear.isZero() || !angular.isZero();
+    coasting = {linear, angular, !linear.isZero() || !angular.isZero()};
   }
 
   bool offset_frame = false;  ///< whether body_to_mass differs from identity; first, because every read asks it
@@ -81,8 +79,11 @@ class Body final : public btRigidBody {
   btTransform mass_to_body = btTransform::getIdentity();
   bool was_asleep = false;  ///< after the step before
   bool conveys = false;     ///< has ever had a surface velocity
-  bool coasts = false;      ///< kinematic: moves with the two velocities below until told otherwise
-  btVector3 coast_linear = btVector3(0, 0, 0), coast_angular = btVector3(0, 0, 0);
+  /// Kinematic: moves with these velocities until told otherwise.
+  struct Coasting {
+    btVector3 linear = btVector3(0, 0, 0), angular = btVector3(0, 0, 0);
+    bool on = false;
+  } coasting;
   bool has_target = false;  ///< kinematic: must be at `target` after the next step
   btTransform target = btTransform::getIdentity();
 };

@@ -55,7 +55,7 @@ bool World::is_solved(const btPersistentManifold& manifold) const {
 
 /// Points get a number of their own in Bullet's user data, which lives as long as the point persists.
 void World::gather_contacts() {
-  contacts_.clear();
+  contacts_.rows.clear();
   btDispatcher& dispatcher = parts_.dispatcher;
   for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
     btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(i);
@@ -63,8 +63,9 @@ void World::gather_contacts() {
     const Body &a = *our_body(manifold.getBody0()), &b = *our_body(manifold.getBody1());
     for (int k = 0; k < manifold.getNumContacts(); ++k) {
       btManifoldPoint& point = manifold.getContactPoint(k);
-      if (point.m_userPersistentData == nullptr) point.m_userPersistentData = reinterpret_cast<void*>(++last_point_id_);
-      contacts_.push_back(contact_of(point, a, b, needs(PLUMB_NEED_CONTACT_IMPULSES)));
+      if (point.m_userPersistentData == nullptr)
+        point.m_userPersistentData = reinterpret_cast<void*>(++contacts_.last_point_id);
+      contacts_.rows.push_back(contact_of(point, a, b, needs(PLUMB_NEED_CONTACT_IMPULSES)));
     }
   }
 }
@@ -73,19 +74,20 @@ void World::gather_contacts() {
 /// itself.
 void World::add_sub_step_impulses() {
   const auto by_feature = [](const PlumbContact& a, const PlumbContact& b) { return a.feature < b.feature; };
-  std::stable_sort(sub_step_contacts_.begin(), sub_step_contacts_.end(), by_feature);
-  std::sort(contacts_.begin(), contacts_.end(), by_feature);
-  const std::size_t last = contacts_.size();
-  for (const PlumbContact& earlier : sub_step_contacts_) {
-    const auto found =
-        std::lower_bound(contacts_.begin(), contacts_.begin() + static_cast<std::ptrdiff_t>(last), earlier, by_feature);
+  std::stable_sort(contacts_.of_sub_steps.begin(), contacts_.of_sub_steps.end(), by_feature);
+  std::sort(contacts_.rows.begin(), contacts_.rows.end(), by_feature);
+  const std::size_t last = contacts_.rows.size();
+  for (const PlumbContact& earlier : contacts_.of_sub_steps) {
+    const auto found = std::lower_bound(
+        contacts_.rows.begin(), contacts_.rows.begin() + static_cast<std::ptrdiff_t>(last), earlier, by_feature);
     const bool lives =
-        found != contacts_.begin() + static_cast<std::ptrdiff_t>(last) && found->feature == earlier.feature;
-    PlumbContact* sum = lives                                                                    ? &*found
-                        : contacts_.size() > last && contacts_.back().feature == earlier.feature ? &contacts_.back()
-                                                                                                 : nullptr;
+        found != contacts_.rows.begin() + static_cast<std::ptrdiff_t>(last) && found->feature == earlier.feature;
+    PlumbContact* sum = lives ? &*found
+                        : contacts_.rows.size() > last && contacts_.rows.back().feature == earlier.feature
+                            ? &contacts_.rows.back()
+                            : nullptr;
     if (sum == nullptr) {
-      contacts_.push_back(earlier);
+      contacts_.rows.push_back(earlier);
       continue;
     }
     sum->normal_impulse += earlier.normal_impulse;
@@ -96,12 +98,12 @@ void World::add_sub_step_impulses() {
 }
 
 std::span<const PlumbContact> World::contacts() {
-  if (!contacts_fresh_) {
+  if (!contacts_.fresh) {
     gather_contacts();
-    if (!sub_step_contacts_.empty()) add_sub_step_impulses();
-    contacts_fresh_ = true;
+    if (!contacts_.of_sub_steps.empty()) add_sub_step_impulses();
+    contacts_.fresh = true;
   }
-  return contacts_;
+  return contacts_.rows;
 }
 
 void World::track_touches() {
@@ -112,12 +114,13 @@ void World::track_touches() {
     if (!touches(manifold)) continue;
     const Body &a = *our_body(manifold.getBody0()), &b = *our_body(manifold.getBody1());
     if (a.is_sensor() || b.is_sensor()) {
-      if (sensors) touches_.touch_sensor(a.is_sensor() ? a.handle : b.handle, a.is_sensor() ? b.handle : a.handle);
+      if (sensors)
+        events_.touches.touch_sensor(a.is_sensor() ? a.handle : b.handle, a.is_sensor() ? b.handle : a.handle);
     } else if (contacts) {
-      touches_.touch(a.handle, b.handle);
+      events_.touches.touch(a.handle, b.handle);
     }
   }
-  touches_.finish_step(events_);
+  events_.touches.finish_step(events_.rows);
 }
 
 }  // namespace plumb::bullet

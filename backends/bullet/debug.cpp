@@ -32,24 +32,24 @@ void add_boxes(const btDbvt& tree, std::uint32_t number, std::vector<PlumbDebugB
 }  // namespace
 
 PlumbResult World::candidate_pairs(std::span<const PlumbDebugPair>& pairs) {
-  debug_pairs_.clear();
+  lent_.pairs.clear();
   const btBroadphasePairArray& array = parts_.broadphase.getOverlappingPairCache()->getOverlappingPairArray();
   for (int i = 0; i < array.size(); ++i)
-    debug_pairs_.push_back({handle_of(array[i].m_pProxy0), handle_of(array[i].m_pProxy1)});
-  pairs = debug_pairs_;
+    lent_.pairs.push_back({handle_of(array[i].m_pProxy0), handle_of(array[i].m_pProxy1)});
+  pairs = lent_.pairs;
   return PLUMB_OK;
 }
 
 PlumbResult World::tree_boxes(std::span<const PlumbDebugBox>& boxes) {
-  debug_boxes_.clear();
-  for (std::uint32_t tree = 0; tree < 2; ++tree) add_boxes(parts_.broadphase.m_sets[tree], tree, debug_boxes_);
-  boxes = debug_boxes_;
+  lent_.boxes.clear();
+  for (std::uint32_t tree = 0; tree < 2; ++tree) add_boxes(parts_.broadphase.m_sets[tree], tree, lent_.boxes);
+  boxes = lent_.boxes;
   return PLUMB_OK;
 }
 
 /// Of those that are near enough for contact points; Bullet keeps no axes of others.
 PlumbResult World::separating_axes(std::span<const PlumbDebugAxis>& axes) {
-  debug_axes_.clear();
+  lent_.axes.clear();
   btDispatcher& dispatcher = parts_.dispatcher;
   for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
     const btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(i);
@@ -59,42 +59,41 @@ PlumbResult World::separating_axes(std::span<const PlumbDebugAxis>& axes) {
       if (deepest == nullptr || point.m_distance1 < deepest->m_distance1) deepest = &point;
     }
     if (deepest == nullptr) continue;
-    debug_axes_.push_back({our_body(manifold.getBody0())->handle, our_body(manifold.getBody1())->handle,
-                           to_plumb(-deepest->m_normalWorldOnB), static_cast<double>(deepest->m_distance1)});
+    lent_.axes.push_back({our_body(manifold.getBody0())->handle, our_body(manifold.getBody1())->handle,
+                          to_plumb(-deepest->m_normalWorldOnB), static_cast<double>(deepest->m_distance1)});
   }
-  axes = debug_axes_;
+  axes = lent_.axes;
   return PLUMB_OK;
 }
 
 /// Bullet's islands hold together what is near enough to be a candidate pair, whether it touches or not.
 PlumbResult World::body_states(std::span<const PlumbDebugBody>& bodies) {
-  debug_bodies_.clear();
+  lent_.bodies.clear();
   for (const auto& body : bodies_) {
     if (!body) continue;
     const bool dynamic = body->is(PLUMB_DYNAMIC);
-    debug_bodies_.push_back(
-        {body->handle, dynamic ? body->getIslandTag() : -1, dynamic && body->is_asleep() ? 1U : 0U});
+    lent_.bodies.push_back({body->handle, dynamic ? body->getIslandTag() : -1, dynamic && body->is_asleep() ? 1U : 0U});
   }
-  bodies = debug_bodies_;
+  bodies = lent_.bodies;
   return PLUMB_OK;
 }
 
 PlumbResult World::solved_constraints(std::span<const PlumbDebugConstraint>& constraints) {
   if (solver_kind_ == SolverKind::MlcpDantzig || solver_kind_ == SolverKind::MlcpLemke)
     throw Error(PLUMB_E_UNSUPPORTED, "a direct solver of Bullet takes all constraints of an island as one system");
-  debug_constraints_.clear();
+  lent_.constraints.clear();
   btDispatcher& dispatcher = parts_.dispatcher;
   for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
     const btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(i);
     if (manifold.getNumContacts() != 0 && is_solved(manifold))
-      debug_constraints_.push_back(
+      lent_.constraints.push_back(
           {our_body(manifold.getBody0())->handle, our_body(manifold.getBody1())->handle, 0, -1, 0});
   }
   const auto moves = [](const Body* body) { return body != nullptr && body->is(PLUMB_DYNAMIC) && body->isActive(); };
   for (const auto& joint : joints_)
     if (joint && (moves(joint->body_a) || moves(joint->body_b)))
-      debug_constraints_.push_back({joint->desc.body_a, joint->desc.body_b, joint->handle, -1, 0});
-  constraints = debug_constraints_;
+      lent_.constraints.push_back({joint->desc.body_a, joint->desc.body_b, joint->handle, -1, 0});
+  constraints = lent_.constraints;
   return PLUMB_OK;
 }
 

@@ -106,8 +106,8 @@ void World::write_row(PlumbField field, Body& at, const double* row) {
     case PLUMB_FIELD_DAMPING:
       at.linear_damping = row[0];
       at.angular_damping = row[1];
-      std::erase(damped_, &at);
-      if (at.is(PLUMB_DYNAMIC) && (row[0] != 0 || row[1] != 0)) damped_.push_back(&at);
+      std::erase(lists_.damped, &at);
+      if (at.is(PLUMB_DYNAMIC) && (row[0] != 0 || row[1] != 0)) lists_.damped.push_back(&at);
       return;
     case PLUMB_FIELD_SURFACE_VELOCITY:
       at.surface_velocity = {row[0], row[1], row[2]};

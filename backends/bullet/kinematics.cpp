@@ -8,7 +8,7 @@ namespace plumb::bullet {
 /// Bullet derives a kinematic body's velocity from the pose that it has at the beginning of a sub-step and the one of
 /// the sub-step before: put it where it must be at the end.
 void World::move_kinematic(int sub_steps_left, btScalar h) {
-  for (Body* body : kinematic_) {
+  for (Body* body : lists_.kinematic) {
     const btTransform from = body->getWorldTransform();
     btTransform to = from;
     if (body->has_target) {
@@ -20,10 +20,10 @@ void World::move_kinematic(int sub_steps_left, btScalar h) {
                                            angular);
         btTransformUtil::integrateTransform(from, linear, angular, h, to);
       }
-    } else if (body->coasts) {
-      btTransformUtil::integrateTransform(from, body->coast_linear, body->coast_angular, h, to);
+    } else if (body->coasting.on) {
+      btTransformUtil::integrateTransform(from, body->coasting.linear, body->coasting.angular, h, to);
     }
-    if (body->has_target || body->coasts) wake(*body);
+    if (body->has_target || body->coasting.on) wake(*body);
     body->setInterpolationWorldTransform(from);
     body->setWorldTransform(to);
   }
@@ -31,16 +31,16 @@ void World::move_kinematic(int sub_steps_left, btScalar h) {
 
 /// Bullet's derived velocity carries the rounding of the poses; a body that coasts keeps its own.
 void World::keep_coasting() {
-  for (Body* body : kinematic_) {
-    if (!body->coasts || body->has_target) continue;
-    body->setLinearVelocity(body->coast_linear);
-    body->setAngularVelocity(body->coast_angular);
+  for (Body* body : lists_.kinematic) {
+    if (!body->coasting.on || body->has_target) continue;
+    body->setLinearVelocity(body->coasting.linear);
+    body->setAngularVelocity(body->coasting.angular);
   }
 }
 
 /// dv/dt = -c v, solved exactly.
 void World::damp(btScalar h) {
-  for (Body* body : damped_) {
+  for (Body* body : lists_.damped) {
     body->setLinearVelocity(body->getLinearVelocity() *
                             static_cast<btScalar>(std::exp(-body->linear_damping * static_cast<double>(h))));
     body->setAngularVelocity(body->getAngularVelocity() *
@@ -50,7 +50,7 @@ void World::damp(btScalar h) {
 
 /// Bullet's factors keep impulses off locked axes, but not the gyroscopic term.
 void World::hold_locks() {
-  for (Body* body : locked_) {
+  for (Body* body : lists_.locked) {
     body->setLinearVelocity(body->getLinearVelocity() * body->getLinearFactor());
     body->setAngularVelocity(body->getAngularVelocity() * body->getAngularFactor());
   }

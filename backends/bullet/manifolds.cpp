@@ -38,9 +38,9 @@ PlumbManifold shown(const btPersistentManifold& manifold, std::span<const PlumbC
 }  // namespace
 
 PlumbResult World::read_manifolds(std::span<const PlumbManifold>& manifolds) {
-  manifolds_.clear();
-  shown_.clear();
-  while (sub_steps_left_ > 0) {
+  modification_.manifolds.clear();
+  modification_.shown.clear();
+  while (sub_step_.left > 0) {
     btDispatcher& dispatcher = parts_.dispatcher;
     for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
       btPersistentManifold& manifold = *dispatcher.getManifoldByIndexInternal(i);
@@ -49,13 +49,13 @@ PlumbResult World::read_manifolds(std::span<const PlumbManifold>& manifolds) {
       std::vector<PlumbContact> points;
       for (int k = 0; k < manifold.getNumContacts(); ++k)
         points.push_back(contact_of(manifold.getContactPoint(k), a, b, false));
-      manifolds_.push_back(shown(manifold, points));
-      shown_.push_back(&manifold);
+      modification_.manifolds.push_back(shown(manifold, points));
+      modification_.shown.push_back(&manifold);
     }
-    if (!shown_.empty()) break;
+    if (!modification_.shown.empty()) break;
     respond();
   }
-  manifolds = manifolds_;
+  manifolds = modification_.manifolds;
   return PLUMB_OK;
 }
 
@@ -66,18 +66,18 @@ PlumbResult World::modify_manifolds(std::span<const PlumbManifoldChange> changes
       static_cast<void>(vector(change.surface_velocity, "changes.surface_velocity"));
   }
   for (const PlumbManifoldChange& change : changes) {
-    btPersistentManifold* manifold = shown_[change.manifold];
+    btPersistentManifold* manifold = modification_.shown[change.manifold];
     if ((change.what & PLUMB_MANIFOLD_DISABLED) != 0)
       manifold->clearManifold();
     else
-      changed_.emplace_back(manifold, change);
+      modification_.changed.emplace_back(manifold, change);
   }
   respond();
   return PLUMB_OK;
 }
 
 void World::apply_manifold_changes() {
-  for (const auto& [manifold, change] : changed_) {
+  for (const auto& [manifold, change] : modification_.changed) {
     for (int k = 0; k < manifold->getNumContacts(); ++k) {
       btManifoldPoint& point = manifold->getContactPoint(k);
       if ((change.what & PLUMB_MANIFOLD_FRICTION) != 0)
@@ -91,11 +91,11 @@ void World::apply_manifold_changes() {
 }
 
 void World::take_back_manifold_changes() {
-  for (const auto& [manifold, change] : changed_) {
+  for (const auto& [manifold, change] : modification_.changed) {
     refresh_materials(*manifold);
     if ((change.what & PLUMB_MANIFOLD_SURFACE_VELOCITY) != 0) stop_surface(*manifold);
   }
-  changed_.clear();
+  modification_.changed.clear();
 }
 
 }  // namespace plumb::bullet

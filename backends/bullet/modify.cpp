@@ -27,7 +27,7 @@ void World::remake_body(const PlumbBodyChange& change, MadeOf made) {
   at.motion = change.motion;
   at.flags = change.flags;
   at.locks = change.locks;
-  at.coasts = at.has_target = false;
+  at.coasting.on = at.has_target = false;
   btRigidBody::btRigidBodyConstructionInfo info = construction(made, pose);
   info.m_friction = at.getFriction();
   info.m_restitution = at.getRestitution();

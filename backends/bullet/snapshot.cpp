@@ -50,12 +50,12 @@ BodyState state_of(const Body& body) {
   state.force = serialized(body.getTotalForce());
   state.torque = serialized(body.getTotalTorque());
   state.target = serialized(body.target);
-  state.coast_linear = serialized(body.coast_linear);
-  state.coast_angular = serialized(body.coast_angular);
+  state.coast_linear = serialized(body.coasting.linear);
+  state.coast_angular = serialized(body.coasting.angular);
   state.deactivation_time = body.getDeactivationTime();
   state.activation = body.getActivationState();
   state.has_target = body.has_target ? 1 : 0;
-  state.coasts = body.coasts ? 1 : 0;
+  state.coasts = body.coasting.on ? 1 : 0;
   return state;
 }
 
@@ -70,12 +70,12 @@ void set_state(Body& body, const BodyState& state) {
   body.applyCentralForce(restored(state.force));
   body.applyTorque(restored(state.torque));
   body.target = restored(state.target);
-  body.coast_linear = restored(state.coast_linear);
-  body.coast_angular = restored(state.coast_angular);
+  body.coasting.linear = restored(state.coast_linear);
+  body.coasting.angular = restored(state.coast_angular);
   body.setDeactivationTime(state.deactivation_time);
   body.forceActivationState(state.activation);
   body.has_target = state.has_target != 0;
-  body.coasts = state.coasts != 0;
+  body.coasting.on = state.coasts != 0;
 }
 
 template <class Row>
@@ -101,15 +101,15 @@ std::vector<Row> take(std::span<const std::byte>& data) {
 }  // namespace
 
 PlumbResult World::save(std::span<const std::byte>& data) {
-  snapshot_.clear();
+  lent_.snapshot.clear();
   std::vector<BodyState> states;
   for (const auto& body : bodies_)
     if (body) states.push_back(state_of(*body));
-  append(snapshot_, std::vector{gravity_});
-  append(snapshot_, states);
-  append(snapshot_, pending_events_);
-  append(snapshot_, touches_.touching());
-  data = snapshot_;
+  append(lent_.snapshot, std::vector{gravity_});
+  append(lent_.snapshot, states);
+  append(lent_.snapshot, events_.pending);
+  append(lent_.snapshot, events_.touches.touching());
+  data = lent_.snapshot;
   return PLUMB_OK;
 }
 
@@ -126,16 +126,16 @@ PlumbResult World::restore(std::span<const std::byte> data) {
   auto state = states.begin();
   for (const auto& body : bodies_)
     if (body) set_state(*body, *state++);
-  pending_events_ = std::move(pending_events);
-  touches_.touching() = std::move(touching);
+  events_.pending = std::move(pending_events);
+  events_.touches.touching() = std::move(touching);
   // Contacts of where the bodies have been since are none of theirs.
   btOverlappingPairCache& pairs = *parts_.broadphase.getOverlappingPairCache();
   btBroadphasePairArray& array = pairs.getOverlappingPairArray();
   for (int i = 0; i < array.size(); ++i) pairs.cleanOverlappingPair(array[i], &parts_.dispatcher);
   world_.updateAabbs();
   solver_->solver().reset();
-  contacts_.clear();
-  contacts_fresh_ = true;
+  contacts_.rows.clear();
+  contacts_.fresh = true;
   return PLUMB_OK;
 }
 

@@ -28,12 +28,12 @@ World::~World() {
 
 PlumbResult World::step(double dt) {
   const int sub_steps = static_cast<int>(settings_.number("substeps"));
-  h_ = dt / sub_steps;
-  static_cast<void>(positive_scalar(h_, "dt / substeps"));
+  sub_step_.h = dt / sub_steps;
+  static_cast<void>(positive_scalar(sub_step_.h, "dt / substeps"));
   begin_events();
   solver_->begin_step();
   world_.begin_step();
-  sub_steps_left_ = sub_steps;
+  sub_step_.left = sub_steps;
   find_contacts();
   if (!needs(PLUMB_NEED_CONTACT_MODIFICATION)) finish_step();
   return PLUMB_OK;
@@ -41,21 +41,21 @@ PlumbResult World::step(double dt) {
 
 /// The first half of a sub-step.
 void World::find_contacts() {
-  const auto h = static_cast<btScalar>(h_);
-  move_kinematic(sub_steps_left_, h);
+  const auto h = static_cast<btScalar>(sub_step_.h);
+  move_kinematic(sub_step_.left, h);
   world_.find_contacts(h);
 }
 
 /// The second half, and the first of the next.
 void World::respond() {
-  world_.respond(static_cast<btScalar>(h_));
-  if (--sub_steps_left_ == 0) return;
+  world_.respond(static_cast<btScalar>(sub_step_.h));
+  if (--sub_step_.left == 0) return;
   keep_sub_step_contacts();
   find_contacts();
 }
 
 void World::finish_step() {
-  while (sub_steps_left_ > 0) respond();
+  while (sub_step_.left > 0) respond();
   world_.end_step();
   forget_targets();
   if (needs(PLUMB_NEED_EVENTS | PLUMB_NEED_SENSORS)) finish_events();
@@ -70,40 +70,40 @@ void World::before_solve() {
   solver_->begin_sub_step();
   if (needs(PLUMB_NEED_SURFACE_VELOCITY)) apply_surface_velocities(parts_.dispatcher);
   apply_manifold_changes();
-  if (joint_count_ != 0) prepare_joints(static_cast<btScalar>(h_));
+  if (lists_.joint_count != 0) prepare_joints(static_cast<btScalar>(sub_step_.h));
 }
 
 void World::after_solve() {
   take_back_manifold_changes();
   hold_locks();
-  if (joint_count_ != 0) break_joints();
+  if (lists_.joint_count != 0) break_joints();
 }
 
 void World::begin_events() {
-  events_.clear();
-  sub_step_contacts_.clear();
-  contacts_fresh_ = false;
+  events_.rows.clear();
+  contacts_.of_sub_steps.clear();
+  contacts_.fresh = false;
 }
 
 void World::keep_sub_step_contacts() {
   if (!needs(PLUMB_NEED_CONTACTS)) return;
   gather_contacts();
-  sub_step_contacts_.insert(sub_step_contacts_.end(), contacts_.begin(), contacts_.end());
+  contacts_.of_sub_steps.insert(contacts_.of_sub_steps.end(), contacts_.rows.begin(), contacts_.rows.end());
 }
 
 void World::forget_targets() {
-  for (Body* body : kinematic_) {
-    if (body->has_target) body->coasts = false;
+  for (Body* body : lists_.kinematic) {
+    if (body->has_target) body->coasting.on = false;
     body->has_target = false;
   }
 }
 
 void World::finish_events() {
-  events_.insert(events_.end(), pending_events_.begin(), pending_events_.end());
-  pending_events_.clear();
+  events_.rows.insert(events_.rows.end(), events_.pending.begin(), events_.pending.end());
+  events_.pending.clear();
   track_touches();
   if (needs(PLUMB_NEED_EVENTS) && needs(PLUMB_NEED_SLEEPING)) track_sleep();
-  backend::sort_events(events_);
+  backend::sort_events(events_.rows);
 }
 
 void World::track_sleep() {
@@ -111,7 +111,7 @@ void World::track_sleep() {
     if (!body || !body->is(PLUMB_DYNAMIC)) continue;
     const bool asleep = body->is_asleep();
     if (asleep != body->was_asleep)
-      events_.push_back({asleep ? PLUMB_EVENT_SLEEP : PLUMB_EVENT_WAKE, 0, body->handle, 0, 0});
+      events_.rows.push_back({asleep ? PLUMB_EVENT_SLEEP : PLUMB_EVENT_WAKE, 0, body->handle, 0, 0});
     body->was_asleep = asleep;
   }
 }

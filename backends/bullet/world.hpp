@@ -52,7 +52,7 @@ class World final : public IPhysicsWorld,
 
   // contacts.cpp
   std::span<const PlumbContact> contacts() override;
-  std::span<const PlumbEvent> events() override { return events_; }
+  std::span<const PlumbEvent> events() override { return events_.rows; }
 
   IJoints* joints() override { return this; }
   IQueries* queries() override { return this; }
@@ -185,26 +185,41 @@ class World final : public IPhysicsWorld,
   std::vector<std::shared_ptr<const Shape>> shapes_;  ///< by slot, null where none lives
   std::vector<std::unique_ptr<Body>> bodies_;
   std::vector<std::unique_ptr<Joint>> joints_;
-  std::vector<Body*> kinematic_, damped_, locked_;  ///< those that a step must look at
-  std::uint32_t joint_count_ = 0;                   ///< that a step must prepare
+  /// Those that a step must look at.
+  struct Lists {
+    std::vector<Body*> kinematic, damped, locked;
+    std::uint32_t joint_count = 0;  ///< that it must prepare
+  } lists_;
 
-  std::vector<PlumbContact> contacts_;
-  std::vector<PlumbContact> sub_step_contacts_;  ///< of all sub-steps but the last
-  bool contacts_fresh_ = false;
-  std::uintptr_t last_point_id_ = 0;
-  backend::TouchTracker touches_;
-  std::vector<PlumbEvent> events_, pending_events_;
-  std::vector<PlumbManifold> manifolds_;
-  std::vector<btPersistentManifold*> shown_;  ///< Bullet's own of manifolds_, and as long as these
-  std::vector<std::pair<btPersistentManifold*, PlumbManifoldChange>> changed_;  ///< in the sub-step in hand
-  std::vector<std::byte> snapshot_;
-  std::vector<PlumbDebugPair> debug_pairs_;
-  std::vector<PlumbDebugBox> debug_boxes_;
-  std::vector<PlumbDebugAxis> debug_axes_;
-  std::vector<PlumbDebugBody> debug_bodies_;
-  std::vector<PlumbDebugConstraint> debug_constraints_;
-  double h_ = 0;            ///< of the sub-step in hand, s
-  int sub_steps_left_ = 0;  ///< with that one
+  struct Contacts {
+    std::vector<PlumbContact> rows;
+    std::vector<PlumbContact> of_sub_steps;  ///< of all sub-steps but the last
+    bool fresh = false;
+    std::uintptr_t last_point_id = 0;
+  } contacts_;
+  struct Events {
+    backend::TouchTracker touches;
+    std::vector<PlumbEvent> rows, pending;
+  } events_;
+  /// Contacts that the host is shown, and what it changes of them.
+  struct Modification {
+    std::vector<PlumbManifold> manifolds;
+    std::vector<btPersistentManifold*> shown;  ///< Bullet's own of manifolds, and as long as these
+    std::vector<std::pair<btPersistentManifold*, PlumbManifoldChange>> changed;  ///< in the sub-step in hand
+  } modification_;
+  /// What callers look at until they ask again.
+  struct Lent {
+    std::vector<PlumbDebugPair> pairs;
+    std::vector<PlumbDebugBox> boxes;
+    std::vector<PlumbDebugAxis> axes;
+    std::vector<PlumbDebugBody> bodies;
+    std::vector<PlumbDebugConstraint> constraints;
+    std::vector<std::byte> snapshot;
+  } lent_;
+  struct SubStep {
+    double h = 0;  ///< of the one in hand, s
+    int left = 0;  ///< with that one
+  } sub_step_;
   std::mutex query_mutex_;  ///< Bullet's tree keeps one stack for all of its rays
 };
 

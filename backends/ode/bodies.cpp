@@ -25,13 +25,13 @@ PlumbPose Body::frame() const {
   if (body == nullptr) return pose;
   const PlumbQuat q = quat(dBodyGetQuaternion(body));
   const PlumbVec3 at = vec(dBodyGetPosition(body));
-  return {is_zero(centre_of_mass) ? at : sub(at, rotate(q, centre_of_mass)), q};
+  return {is_zero(mass.centre) ? at : sub(at, rotate(q, mass.centre)), q};
 }
 
 void Body::wake() {
   if (!dynamic()) return;
   dBodyEnable(body);
-  idle = {dBodyGetAutoDisableSteps(body), dBodyGetAutoDisableTime(body)};
+  sleep.idle = {dBodyGetAutoDisableSteps(body), dBodyGetAutoDisableTime(body)};
 }
 
 void Body::count_idling(double h) {
@@ -39,10 +39,10 @@ void Body::count_idling(double h) {
   const PlumbVec3 v = linear_velocity(), w = vec(dBodyGetAngularVel(body));
   const double slow = dBodyGetAutoDisableLinearThreshold(body), slow_turn = dBodyGetAutoDisableAngularThreshold(body);
   if (dot(v, v) > slow * slow || dot(w, w) > slow_turn * slow_turn) {
-    idle = {dBodyGetAutoDisableSteps(body), dBodyGetAutoDisableTime(body)};
+    sleep.idle = {dBodyGetAutoDisableSteps(body), dBodyGetAutoDisableTime(body)};
   } else {
-    --idle.steps;
-    idle.time -= h;
+    --sleep.idle.steps;
+    sleep.idle.time -= h;
   }
 }
 
@@ -55,7 +55,7 @@ void Body::resume_idling(const Idle& countdown) {
   dBodyEnable(body);
   dBodySetAutoDisableSteps(body, steps);
   dBodySetAutoDisableTime(body, time);
-  idle = countdown;
+  sleep.idle = countdown;
 }
 
 void Body::set_frame(const PlumbPose& frame) {
@@ -64,10 +64,10 @@ void Body::set_frame(const PlumbPose& frame) {
     for (const auto& geom : geoms) place_geom(geom->placed, frame);
     return;
   }
-  const PlumbVec3 at = add(frame.position, rotate(frame.orientation, centre_of_mass));
+  const PlumbVec3 at = add(frame.position, rotate(frame.orientation, mass.centre));
   dBodySetPosition(body, at.x, at.y, at.z);
   dBodySetQuaternion(body, OdeQuaternion(frame.orientation).wxyz);
-  locked_position = at;
+  locks.position = at;
 }
 
 void Body::set_velocity(const PlumbVec3& linear, const PlumbVec3& angular) {
@@ -81,14 +81,14 @@ void Body::set_velocity(const PlumbVec3& linear, const PlumbVec3& angular) {
 }
 
 void Body::add_impulse(const PlumbVec3& impulse, const PlumbVec3& angular) {
-  set_velocity(add(linear_velocity(), scale(inverse_mass, impulse)),
+  set_velocity(add(linear_velocity(), scale(mass.inverse, impulse)),
                add(angular_velocity(), inverse_inertia_times(angular)));
 }
 
 PlumbVec3 Body::inverse_inertia_times(const PlumbVec3& v) const {
   if (!turns) return {};
   const PlumbQuat q = orientation();
-  return rotate(q, backend::multiply(inverse_inertia, unrotate(q, v)));
+  return rotate(q, backend::multiply(mass.inverse_inertia, unrotate(q, v)));
 }
 
 void refresh_tags(Body& body) {
@@ -125,12 +125,12 @@ void let_touch(Body& a, Body& b) {
 void set_mass(Body& body, const PlumbBodyDesc& desc) {
   const PlumbVec3& i = desc.inertia;
   body.turns = (desc.flags & PLUMB_BODY_NO_ROTATION) == 0 && !is_zero(i);
-  body.centre_of_mass = desc.centre_of_mass;
-  body.inverse_mass = 1 / desc.mass;
+  body.mass.centre = desc.centre_of_mass;
+  body.mass.inverse = 1 / desc.mass;
   Matrix3 inertia = Matrix3::diagonal(1, 1, 1);
   if (body.turns) {
     inertia = turned(desc.inertia_orientation, Matrix3::diagonal(i.x, i.y, i.z));
-    body.inverse_inertia = turned(desc.inertia_orientation, Matrix3::diagonal(1 / i.x, 1 / i.y, 1 / i.z));
+    body.mass.inverse_inertia = turned(desc.inertia_orientation, Matrix3::diagonal(1 / i.x, 1 / i.y, 1 / i.z));
   } else {
     // ODE inverts the tensor itself: one this large takes all turning away but for rounding, and no spin is let stand.
     constexpr double immovable = 1e30;
@@ -148,13 +148,13 @@ void set_mass(Body& body, const PlumbBodyDesc& desc) {
 }
 
 void set_damping(const Body& body, double h) {
-  if (body.linear_damping == 0 && body.angular_damping == 0) {
+  if (body.damping.none()) {
     dBodySetDamping(body.body, 0, 0);
     return;
   }
   dBodySetLinearDampingThreshold(body.body, 0);
   dBodySetAngularDampingThreshold(body.body, 0);
-  dBodySetDamping(body.body, -std::expm1(-body.linear_damping * h), -std::expm1(-body.angular_damping * h));
+  dBodySetDamping(body.body, -std::expm1(-body.damping.linear * h), -std::expm1(-body.damping.angular * h));
 }
 
 void make_locks(Body& body, dWorldID world) {
@@ -174,33 +174,33 @@ void make_locks(Body& body, dWorldID world) {
     }
     return joint;
   };
-  if ((body.locks & linear_locks) != 0)
-    body.linear_lock = lock(dJointCreateLMotor(world, nullptr), body.locks & linear_locks, dJointSetLMotorNumAxes,
-                            dJointSetLMotorAxis, dJointSetLMotorParam);
-  if ((body.locks & angular_locks) != 0 && body.turns)
-    body.angular_lock = lock(dJointCreateAMotor(world, nullptr), body.locks >> 3, dJointSetAMotorNumAxes,
-                             dJointSetAMotorAxis, dJointSetAMotorParam);
-  body.locked_position = body.centre();
+  if ((body.locks.axes & linear_locks) != 0)
+    body.locks.linear = lock(dJointCreateLMotor(world, nullptr), body.locks.axes & linear_locks, dJointSetLMotorNumAxes,
+                             dJointSetLMotorAxis, dJointSetLMotorParam);
+  if ((body.locks.axes & angular_locks) != 0 && body.turns)
+    body.locks.angular = lock(dJointCreateAMotor(world, nullptr), body.locks.axes >> 3, dJointSetAMotorNumAxes,
+                              dJointSetAMotorAxis, dJointSetAMotorParam);
+  body.locks.position = body.centre();
   project_locks(body);
 }
 
 void project_locks(const Body& body) {
-  const auto locked = [&](std::uint32_t bit) { return (body.locks & bit) != 0; };
+  const auto locked = [&](std::uint32_t bit) { return (body.locks.axes & bit) != 0; };
   PlumbVec3 v = body.linear_velocity(), w = vec(dBodyGetAngularVel(body.body)), at = body.centre();
-  if (locked(PLUMB_LOCK_LINEAR_X)) v.x = 0, at.x = body.locked_position.x;
-  if (locked(PLUMB_LOCK_LINEAR_Y)) v.y = 0, at.y = body.locked_position.y;
-  if (locked(PLUMB_LOCK_LINEAR_Z)) v.z = 0, at.z = body.locked_position.z;
+  if (locked(PLUMB_LOCK_LINEAR_X)) v.x = 0, at.x = body.locks.position.x;
+  if (locked(PLUMB_LOCK_LINEAR_Y)) v.y = 0, at.y = body.locks.position.y;
+  if (locked(PLUMB_LOCK_LINEAR_Z)) v.z = 0, at.z = body.locks.position.z;
   if (locked(PLUMB_LOCK_ANGULAR_X)) w.x = 0;
   if (locked(PLUMB_LOCK_ANGULAR_Y)) w.y = 0;
   if (locked(PLUMB_LOCK_ANGULAR_Z)) w.z = 0;
   dBodySetLinearVel(body.body, v.x, v.y, v.z);
   dBodySetAngularVel(body.body, w.x, w.y, w.z);
-  if ((body.locks & linear_locks) != 0) dBodySetPosition(body.body, at.x, at.y, at.z);
+  if ((body.locks.axes & linear_locks) != 0) dBodySetPosition(body.body, at.x, at.y, at.z);
 }
 
 void head_for_target(Body& body, double dt) {
-  const PlumbVec3 way = sub(body.target.position, body.centre());
-  const PlumbVec3 turn = rotation_vector(multiply(body.target.orientation, conjugate(body.orientation())));
+  const PlumbVec3 way = sub(body.target.pose.position, body.centre());
+  const PlumbVec3 turn = rotation_vector(multiply(body.target.pose.orientation, conjugate(body.orientation())));
   body.set_velocity(scale(1 / dt, way), scale(1 / dt, turn));
 }
 

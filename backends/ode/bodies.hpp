@@ -38,34 +38,51 @@ struct Body {
   bool turns = false;  ///< dynamic and not a particle
   bool sensor = false;
   bool shows_contacts = false;  ///< to the host, before they are solved
-  bool was_awake = true;        ///< after the last step, for events
-  bool pushed = false;          ///< force or torque were written
-  PlumbVec3 centre_of_mass{};   ///< body frame
   PlumbBody handle = 0;
-  std::uint32_t locks = 0;
+  struct MassProperties {
+    PlumbVec3 centre{};  ///< body frame
+    double inverse = 0;
+    Matrix3 inverse_inertia{};  ///< body frame
+  } mass;
   PlumbFilter filter{};
 
   const Shape* shape = nullptr;
   std::vector<std::unique_ptr<GeomTag>> geoms;
   /// Joined by joints without collide_connected, or excepted by the host; as often as there is a reason.
   std::vector<const Body*> untouchable;
-  PlumbPose pose{};             ///< of a static body
-  PlumbVec3 idle_spin{};        ///< angular velocity of a body that cannot turn: kept and never used
-  PlumbVec3 locked_position{};  ///< of the centre of mass, along locked axes
-  double inverse_mass = 0;
-  Matrix3 inverse_inertia{};  ///< body frame
+  PlumbPose pose{};       ///< of a static body
+  PlumbVec3 idle_spin{};  ///< angular velocity of a body that cannot turn: kept and never used
   PlumbMaterial material{};
   double gravity_scale = 1;
-  double linear_damping = 0, angular_damping = 0;
-  PlumbVec3 force{}, torque{};  ///< from the host, for the next step
-  PlumbPose target{};           ///< of a kinematic body
-  enum class Moving { as_told, to_target, arrived } moving = Moving::as_told;
+  struct Damping {
+    double linear = 0, angular = 0;  ///< 1/s
+    [[nodiscard]] bool none() const { return linear == 0 && angular == 0; }
+  } damping;
+  /// From the host, for the next step.
+  struct Push {
+    bool any = false;
+    PlumbVec3 force{}, torque{};
+  } push;
+  enum class Moving { as_told, to_target, arrived };
+  /// Of a kinematic body.
+  struct KinematicTarget {
+    PlumbPose pose{};
+    Moving moving = Moving::as_told;
+  } target;
   /// ODE's countdowns to sleep, which it does not tell: kept alongside for snapshots.
   struct Idle {
     int steps;
     double time;
-  } idle{};
-  dJointID linear_lock = nullptr, angular_lock = nullptr;
+  };
+  struct Sleep {
+    bool was_awake = true;  ///< after the last step, for events
+    Idle idle{};
+  } sleep;
+  struct Locks {
+    std::uint32_t axes = 0;
+    PlumbVec3 position{};  ///< of the centre of mass, along locked axes
+    dJointID linear = nullptr, angular = nullptr;
+  } locks;
 
   [[nodiscard]] bool dynamic() const { return motion == PLUMB_DYNAMIC; }
   [[nodiscard]] bool asleep() const { return body != nullptr && dBodyIsEnabled(body) == 0; }

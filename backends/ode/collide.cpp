@@ -50,7 +50,8 @@ PlumbResult World::collide_pairs(std::span<const PlumbPosedPair> pairs, std::spa
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       const PlumbPosedPair& pair = pairs[i];
       const std::size_t first = points_found.size();
-      const PosedGeoms a(*shapes_[slot_of(pair.shape_a)], pair.pose_a), b(*shapes_[slot_of(pair.shape_b)], pair.pose_b);
+      const PosedGeoms a(*slots_.shapes[slot_of(pair.shape_a)], pair.pose_a),
+          b(*slots_.shapes[slot_of(pair.shape_b)], pair.pose_b);
       for (const PlacedGeom& one : a.geoms())
         for (const PlacedGeom& two : b.geoms()) append_points(one.geom, two.geom);
       double deepest = -std::numeric_limits<double>::infinity();

@@ -44,25 +44,25 @@ bool ContactPass::shows(const Pair& pair) {
 ContactPass::ContactPass(const WorldInit& init, dWorldID world)
     : world_(world),
       group_(dJointGroupCreate(0)),
-      physical_(init.needs(PLUMB_NEED_COLLISION)),
-      filtered_(init.needs(PLUMB_NEED_FILTERS)),
-      sensing_(init.needs(PLUMB_NEED_SENSORS)),
-      sleeping_(init.needs(PLUMB_NEED_SLEEPING)),
-      conveyors_(init.needs(PLUMB_NEED_SURFACE_VELOCITY)),
-      holds_back_(init.needs(PLUMB_NEED_CONTACT_MODIFICATION)),
-      keeps_contacts_(init.needs(PLUMB_NEED_CONTACTS)),
-      keeps_impulses_(init.needs(PLUMB_NEED_CONTACTS | PLUMB_NEED_CONTACT_IMPULSES)),
-      keeps_pairs_(init.needs(PLUMB_NEED_EVENTS)) {}
+      needs_{.collision = init.needs(PLUMB_NEED_COLLISION),
+             .filters = init.needs(PLUMB_NEED_FILTERS),
+             .sensors = init.needs(PLUMB_NEED_SENSORS),
+             .sleeping = init.needs(PLUMB_NEED_SLEEPING),
+             .surface_velocity = init.needs(PLUMB_NEED_SURFACE_VELOCITY),
+             .modification = init.needs(PLUMB_NEED_CONTACT_MODIFICATION),
+             .contacts = init.needs(PLUMB_NEED_CONTACTS),
+             .impulses = init.needs(PLUMB_NEED_CONTACTS | PLUMB_NEED_CONTACT_IMPULSES),
+             .events = init.needs(PLUMB_NEED_EVENTS)} {}
 
 void ContactPass::configure(const Settings& settings) {
   mode_ = settings.friction_model == FrictionModel::pyramid ? dContactApprox1 : 0;
-  if (settings.contact_erp >= 0) mode_ |= dContactSoftERP;
-  if (settings.contact_cfm >= 0) mode_ |= dContactSoftCFM;
+  if (settings.contact.erp >= 0) mode_ |= dContactSoftERP;
+  if (settings.contact.cfm >= 0) mode_ |= dContactSoftCFM;
   sliding_directions_ = settings.friction_directions == FrictionDirections::sliding;
   substeps_ = settings.substeps;
   dContact blank{};
-  blank.surface.soft_erp = settings.contact_erp;
-  blank.surface.soft_cfm = settings.contact_cfm;
+  blank.surface.soft_erp = settings.contact.erp;
+  blank.surface.soft_cfm = settings.contact.cfm;
   blank.surface.bounce_vel = settings.bounce_vel;
   scratch_.assign(static_cast<std::size_t>(settings.max_contacts), blank);
 }
@@ -90,8 +90,8 @@ void ContactPass::near(void* self, dGeomID first, dGeomID second) {
 bool ContactPass::may_meet(const GeomTag& one, const GeomTag& two) const {
   const bool sensor = one.sensor || two.sensor;
   if (sensor ? (one.sensor && two.sensor) : !one.dynamic && !two.dynamic) return false;
-  if (!sensor && !physical_) return false;
-  if (filtered_ && !may_touch(one.body->filter, two.body->filter)) return false;
+  if (!sensor && !needs_.collision) return false;
+  if (needs_.filters && !may_touch(one.body->filter, two.body->filter)) return false;
   return !(one.choosy && two.choosy && knows(*one.body, *two.body));
 }
 
@@ -123,15 +123,15 @@ void ContactPass::meet(dGeomID first, dGeomID second) {
   const bool sensor = one.sensor || two.sensor;
   ++pairs_;
   const auto sleeps = [](const GeomTag& tag) { return tag.id == nullptr || dBodyIsEnabled(tag.id) == 0; };
-  const Pair pair{one, two, !sleeping_ || !sleeps(one) || !sleeps(two)};
-  if (!sensor && !pair.awake && !keeps_contacts_ && !keeps_pairs_) return;
+  const Pair pair{one, two, !needs_.sleeping || !sleeps(one) || !sleeps(two)};
+  if (!sensor && !pair.awake && !needs_.contacts && !needs_.events) return;
   const int wanted = sensor ? 1 | static_cast<int>(CONTACTS_UNIMPORTANT) : static_cast<int>(scratch_.size());
   const int count = dCollide(first, second, wanted, &scratch_[0].geom, sizeof(dContact));
   if (count == 0) return;
   if (sensor) {
     const PlumbBody a = one.body->handle, b = two.body->handle;
     sensed_.push_back(one.sensor ? BodyPair{a, b} : BodyPair{b, a});
-  } else if (holds_back_) {
+  } else if (needs_.modification) {
     hold_back(pair, count);
   } else {
     respond(pair, std::span(scratch_).first(static_cast<std::size_t>(count)), nullptr);
@@ -156,14 +156,14 @@ struct ContactPass::Surface {
 /// By how much the second's surface runs over the first's, which may be other than their bodies say.
 PlumbVec3 ContactPass::belts_of(const Pair& pair, const PlumbManifoldChange* change) const {
   if (change == nullptr || (change->what & PLUMB_MANIFOLD_SURFACE_VELOCITY) == 0)
-    return conveyors_ ? sub(belt_velocity(pair.second), belt_velocity(pair.first)) : PlumbVec3{};
+    return needs_.surface_velocity ? sub(belt_velocity(pair.second), belt_velocity(pair.first)) : PlumbVec3{};
   return is_swapped(pair) ? scale(-1, change->surface_velocity) : change->surface_velocity;
 }
 
 void ContactPass::respond(const Pair& pair, std::span<dContact> points, const PlumbManifoldChange* change) {
   const GeomTag &one = pair.first, &two = pair.second;
   points_ += static_cast<std::uint32_t>(points.size());
-  if (keeps_pairs_) {
+  if (needs_.events) {
     const PlumbBody a = one.body->handle, b = two.body->handle;
     touching_.push_back(slot_of(a) < slot_of(b) ? BodyPair{a, b} : BodyPair{b, a});
   }
@@ -180,7 +180,7 @@ void ContactPass::respond(const Pair& pair, std::span<dContact> points, const Pl
       joint = dJointCreateContact(world_, group_, &contact);
       dJointAttach(joint, one.id, two.id);
     }
-    if (keeps_contacts_) record(pair, contact.geom, joint);
+    if (needs_.contacts) record(pair, contact.geom, joint);
   }
 }
 
@@ -237,7 +237,7 @@ PlumbContact ContactPass::contact_of(const Pair& pair, const dContactGeom& point
 
 void ContactPass::record(const Pair& pair, const dContactGeom& point, dJointID joint) {
   contacts_.push_back(contact_of(pair, point));
-  if (!keeps_impulses_) return;
+  if (!needs_.impulses) return;
   Source source{nullptr, false};
   if (joint != nullptr) {
     if (feedbacks_used_ == feedbacks_.size()) feedbacks_.emplace_back();
@@ -357,9 +357,9 @@ void ContactPass::merge_substeps() {
 }
 
 void ContactPass::end_step(PairEvents& events) {
-  if (substeps_ > 1 && keeps_contacts_) merge_substeps();
-  if (keeps_pairs_) events.touching(touching_);
-  if (sensing_) events.sensed(sensed_);
+  if (substeps_ > 1 && needs_.contacts) merge_substeps();
+  if (needs_.events) events.touching(touching_);
+  if (needs_.sensors) events.sensed(sensed_);
 }
 
 }  // namespace plumb::ode

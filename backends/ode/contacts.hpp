@@ -79,8 +79,11 @@ class ContactPass {
 
   dWorldID world_;
   dJointGroupID group_;
-  bool physical_, filtered_, sensing_, sleeping_, conveyors_, holds_back_;
-  bool keeps_contacts_, keeps_impulses_, keeps_pairs_;
+  /// What the world needs.
+  const struct Needs {
+    bool collision, filters, sensors, sleeping, surface_velocity, modification;
+    bool contacts, impulses, events;
+  } needs_;
   int mode_ = 0;
   bool sliding_directions_ = false;
   int substeps_ = 1;

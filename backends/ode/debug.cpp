@@ -8,29 +8,29 @@ namespace plumb::ode {
 
 PlumbResult World::candidate_pairs(std::span<const PlumbDebugPair>& pairs) {
   return inside_ode([&] {
-    debug_pairs_.clear();
+    lent_.pairs.clear();
     const auto collect = [](void* list, dGeomID one, dGeomID two) {
       const Body &a = *static_cast<const GeomTag*>(dGeomGetData(one))->body,
                  &b = *static_cast<const GeomTag*>(dGeomGetData(two))->body;
       static_cast<std::vector<PlumbDebugPair>*>(list)->push_back({a.handle, b.handle});
     };
-    if (space_ != nullptr) dSpaceCollide(space_, &debug_pairs_, collect);
-    pairs = debug_pairs_;
+    if (space_ != nullptr) dSpaceCollide(space_, &lent_.pairs, collect);
+    pairs = lent_.pairs;
     return PLUMB_OK;
   });
 }
 
 PlumbResult World::tree_boxes(std::span<const PlumbDebugBox>& boxes) {
   return inside_ode([&] {
-    debug_boxes_.clear();
-    for (const Body* body : order_) {
+    lent_.boxes.clear();
+    for (const Body* body : lists_.all) {
       for (const auto& geom : body->geoms) {
         dReal b[6];
         dGeomGetAABB(geom->placed.geom, b);
-        debug_boxes_.push_back({{b[0], b[2], b[4]}, {b[1], b[3], b[5]}, body->handle, -1, 0});
+        lent_.boxes.push_back({{b[0], b[2], b[4]}, {b[1], b[3], b[5]}, body->handle, -1, 0});
       }
     }
-    boxes = debug_boxes_;
+    boxes = lent_.boxes;
     return PLUMB_OK;
   });
 }
@@ -38,11 +38,11 @@ PlumbResult World::tree_boxes(std::span<const PlumbDebugBox>& boxes) {
 /// Of those that touch: ODE does not tell along which axes others are apart.
 PlumbResult World::separating_axes(std::span<const PlumbDebugAxis>& axes) {
   return inside_ode([&] {
-    debug_axes_.clear();
+    lent_.axes.clear();
     if (space_ != nullptr)
       for (const ContactPass::Touch& touch : contacts_.look(space_))
-        debug_axes_.push_back({touch.a->handle, touch.b->handle, touch.normal, -touch.depth});
-    axes = debug_axes_;
+        lent_.axes.push_back({touch.a->handle, touch.b->handle, touch.normal, -touch.depth});
+    axes = lent_.axes;
     return PLUMB_OK;
   });
 }
@@ -63,14 +63,14 @@ PlumbResult World::body_states(std::span<const PlumbDebugBody>& bodies) {
     };
     if (space_ != nullptr)
       for (const ContactPass::Touch& touch : contacts_.look(space_)) join(touch.a, touch.b);
-    for (const Joint* joint : joint_order_)
+    for (const Joint* joint : joint_lists_.all)
       if (joint->solved()) join(joint->a, joint->b);
-    debug_bodies_.clear();
-    for (const Body* body : order_) {
+    lent_.bodies.clear();
+    for (const Body* body : lists_.all) {
       const std::int32_t island = body->dynamic() ? static_cast<std::int32_t>(slot_of(root(body)->handle)) : -1;
-      debug_bodies_.push_back({body->handle, island, body->dynamic() && body->asleep() ? 1U : 0U});
+      lent_.bodies.push_back({body->handle, island, body->dynamic() && body->asleep() ? 1U : 0U});
     }
-    bodies = debug_bodies_;
+    bodies = lent_.bodies;
     return PLUMB_OK;
   });
 }

@@ -156,7 +156,7 @@ Hits World::overlap_shapes(std::span<const PlumbOverlap> overlaps) {
     for (std::uint32_t i = 0; i < overlaps.size(); ++i) {
       const PlumbOverlap& overlap = overlaps[i];
       std::vector<PlacedGeom> geoms;
-      make_geoms(*shapes_[slot_of(overlap.shape)], nullptr, geoms);
+      make_geoms(*slots_.shapes[slot_of(overlap.shape)], nullptr, geoms);
       Search search{overlap.filter, i, nullptr, {}, 0, found.size()};
       for (const PlacedGeom& geom : geoms) {
         place_geom(geom, overlap.pose);

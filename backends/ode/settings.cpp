@@ -32,14 +32,15 @@ const backend::SettingsTable<Settings>& settings_table() {
       setting<&S::erp>(float_setting("erp", "1", quality, 0, 1, 0.2, "share of the position error mended in a step")),
       setting<&S::cfm>(
           float_setting("cfm", "s/kg", quality, 0, 1, 1e-10, "constraint force mixing: softness of constraints")),
-      setting<&S::contact_erp>(
+      setting<&S::contact, &S::Contact::erp>(
           float_setting("contact_erp", "1", quality, -1, 1, -1, "erp of contacts; below 0: that of the world")),
-      setting<&S::contact_cfm>(
+      setting<&S::contact, &S::Contact::cfm>(
           float_setting("contact_cfm", "s/kg", quality, -1, 1, -1, "cfm of contacts; below 0: that of the world")),
-      setting<&S::contact_surface_layer>(float_setting("contact_surface_layer", "m", quality, 0, 1, 0,
-                                                       "depth to which contacts may sink without being pushed out")),
-      setting<&S::contact_max_correcting_vel>(float_setting("contact_max_correcting_vel", "m/s", quality, 0, 1e6, 0,
-                                                            "fastest that a contact pushes bodies apart; 0: no limit")),
+      setting<&S::contact, &S::Contact::surface_layer>(float_setting(
+          "contact_surface_layer", "m", quality, 0, 1, 0, "depth to which contacts may sink without being pushed out")),
+      setting<&S::contact, &S::Contact::max_correcting_vel>(
+          float_setting("contact_max_correcting_vel", "m/s", quality, 0, 1e6, 0,
+                        "fastest that a contact pushes bodies apart; 0: no limit")),
       setting<&S::max_contacts>(int_setting("max_contacts", "1", quality, 1, 256, 8, "points of a pair of geoms")),
       setting<&S::friction_model>(
           choice_setting("friction_model", behaviour, friction_words,
@@ -55,23 +56,24 @@ const backend::SettingsTable<Settings>& settings_table() {
           bool_setting("gyroscopic", behaviour, true, "gyroscopic torque, where the world declares the need")),
       setting<&S::finite_rotation>(bool_setting("finite_rotation", behaviour, false,
                                                 "orientations by whole rotations instead of a first order step")),
-      setting<&S::sleep_linear>(
+      setting<&S::sleep, &S::Sleep::linear>(
           float_setting("auto_disable_linear_threshold", "m/s", behaviour, 0, 100, 0.01, "a slower body may sleep")),
-      setting<&S::sleep_angular>(
+      setting<&S::sleep, &S::Sleep::angular>(
           float_setting("auto_disable_angular_threshold", "rad/s", behaviour, 0, 100, 0.01, "a slower body may sleep")),
-      setting<&S::sleep_steps>(int_setting("auto_disable_steps", "1", behaviour, 0, 100000, 10,
-                                           "sub-steps that a body must be idle before it sleeps")),
-      setting<&S::sleep_time>(float_setting("auto_disable_time", "s", behaviour, 0, 1000, 0,
-                                            "time that a body must be idle before it sleeps")),
-      setting<&S::space>(choice_setting("space", speed, space_words, "broad phase", once)),
-      setting<&S::hash_min_level>(
+      setting<&S::sleep, &S::Sleep::steps>(int_setting("auto_disable_steps", "1", behaviour, 0, 100000, 10,
+                                                       "sub-steps that a body must be idle before it sleeps")),
+      setting<&S::sleep, &S::Sleep::time>(float_setting("auto_disable_time", "s", behaviour, 0, 1000, 0,
+                                                        "time that a body must be idle before it sleeps")),
+      setting<&S::broad_phase, &S::BroadPhase::space>(choice_setting("space", speed, space_words, "broad phase", once)),
+      setting<&S::broad_phase, &S::BroadPhase::hash_min_level>(
           int_setting("hash_min_level", "1", speed, -20, 0, -3, "smallest cell: 2^level m", once)),
-      setting<&S::hash_max_level>(
+      setting<&S::broad_phase, &S::BroadPhase::hash_max_level>(
           int_setting("hash_max_level", "1", speed, 0, 20, 10, "largest cell: 2^level m", once)),
-      setting<&S::quadtree_extent>(float_setting("quadtree_extent", "m", speed, 1, 1e6, 200,
-                                                 "half side of the quadtree around the origin", once)),
-      setting<&S::quadtree_depth>(int_setting("quadtree_depth", "1", speed, 1, 10, 6, "levels of the quadtree", once)),
-      setting<&S::sap_axes>(
+      setting<&S::broad_phase, &S::BroadPhase::quadtree_extent>(float_setting(
+          "quadtree_extent", "m", speed, 1, 1e6, 200, "half side of the quadtree around the origin", once)),
+      setting<&S::broad_phase, &S::BroadPhase::quadtree_depth>(
+          int_setting("quadtree_depth", "1", speed, 1, 10, 6, "levels of the quadtree", once)),
+      setting<&S::broad_phase, &S::BroadPhase::sap_axes>(
           choice_setting("sap_axes", speed, axes_words, "order of the axes of sweep and prune", once)),
       setting<&S::threads>(
           int_setting("threads", "1", speed, 1, 64, 1,
@@ -85,16 +87,16 @@ const backend::SettingsTable<Settings>& settings_table() {
 
 dSpaceID make_space(const Settings& settings) {
   const dVector3 origin = {0, 0, 0};
-  const double extent = settings.quadtree_extent;
+  const double extent = settings.broad_phase.quadtree_extent;
   const dVector3 extents = {extent, extent, extent};
-  switch (settings.space) {
-    case Space::sap: return dSweepAndPruneSpaceCreate(nullptr, axes_values[settings.sap_axes]);
-    case Space::quadtree: return dQuadTreeSpaceCreate(nullptr, origin, extents, settings.quadtree_depth);
+  switch (settings.broad_phase.space) {
+    case Space::sap: return dSweepAndPruneSpaceCreate(nullptr, axes_values[settings.broad_phase.sap_axes]);
+    case Space::quadtree: return dQuadTreeSpaceCreate(nullptr, origin, extents, settings.broad_phase.quadtree_depth);
     case Space::simple: return dSimpleSpaceCreate(nullptr);
     case Space::hash: break;
   }
   const dSpaceID space = dHashSpaceCreate(nullptr);
-  dHashSpaceSetLevels(space, settings.hash_min_level, settings.hash_max_level);
+  dHashSpaceSetLevels(space, settings.broad_phase.hash_min_level, settings.broad_phase.hash_max_level);
   return space;
 }
 
@@ -103,8 +105,8 @@ void apply_to_world(const Settings& settings, dWorldID world) {
   dWorldSetCFM(world, settings.cfm);
   dWorldSetQuickStepNumIterations(world, settings.iterations);
   dWorldSetQuickStepW(world, settings.sor_w);
-  dWorldSetContactSurfaceLayer(world, settings.contact_surface_layer);
-  const double fastest = settings.contact_max_correcting_vel;
+  dWorldSetContactSurfaceLayer(world, settings.contact.surface_layer);
+  const double fastest = settings.contact.max_correcting_vel;
   dWorldSetContactMaxCorrectingVel(world, fastest == 0 ? dInfinity : fastest);
 }
 

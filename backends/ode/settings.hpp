@@ -19,22 +19,28 @@ struct Settings {
   double sor_w;
   int substeps;
   double erp, cfm;
-  double contact_erp, contact_cfm;    ///< below 0: those of the world
-  double contact_surface_layer;       ///< m
-  double contact_max_correcting_vel;  ///< m/s, 0: no limit
+  struct Contact {
+    double erp, cfm;            ///< below 0: those of the world
+    double surface_layer;       ///< m
+    double max_correcting_vel;  ///< m/s, 0: no limit
+  } contact;
   int max_contacts;
   FrictionModel friction_model;
   FrictionDirections friction_directions;
   double bounce_vel;  ///< m/s
   bool gyroscopic, finite_rotation;
-  double sleep_linear, sleep_angular;  ///< m/s, rad/s
-  int sleep_steps;
-  double sleep_time;  ///< s
-  Space space;
-  int hash_min_level, hash_max_level;
-  double quadtree_extent;  ///< m
-  int quadtree_depth;
-  int sap_axes;  ///< index of the word
+  struct Sleep {
+    double linear, angular;  ///< m/s, rad/s
+    int steps;
+    double time;  ///< s
+  } sleep;
+  struct BroadPhase {
+    Space space;
+    int hash_min_level, hash_max_level;
+    double quadtree_extent;  ///< m
+    int quadtree_depth;
+    int sap_axes;  ///< index of the word
+  } broad_phase;
   int threads;
   int random_seed;
 };

@@ -80,15 +80,15 @@ BodyState state_of(const Body& body) {
   std::memset(&state, 0, sizeof state);  // the padding too: equal states are equal bytes
   state.static_pose = body.pose;
   state.idle_spin = body.idle_spin;
-  state.locked_position = body.locked_position;
-  state.force = body.force;
-  state.torque = body.torque;
-  state.target = body.target;
-  state.moving = body.moving;
-  state.idle = body.idle;
-  state.pushed = body.pushed;
+  state.locked_position = body.locks.position;
+  state.force = body.push.force;
+  state.torque = body.push.torque;
+  state.target = body.target.pose;
+  state.moving = body.target.moving;
+  state.idle = body.sleep.idle;
+  state.pushed = body.push.any;
   state.asleep = body.asleep();
-  state.was_awake = body.was_awake;
+  state.was_awake = body.sleep.was_awake;
   if (body.body == nullptr) return state;
   copy(state.position, dBodyGetPosition(body.body));
   copy(state.quaternion, dBodyGetQuaternion(body.body));
@@ -100,13 +100,13 @@ BodyState state_of(const Body& body) {
 
 void take_state(Body& body, const BodyState& state) {
   body.idle_spin = state.idle_spin;
-  body.locked_position = state.locked_position;
-  body.force = state.force;
-  body.torque = state.torque;
-  body.target = state.target;
-  body.moving = state.moving;
-  body.pushed = state.pushed;
-  body.was_awake = state.was_awake;
+  body.locks.position = state.locked_position;
+  body.push.force = state.force;
+  body.push.torque = state.torque;
+  body.target.pose = state.target;
+  body.target.moving = state.moving;
+  body.push.any = state.pushed;
+  body.sleep.was_awake = state.was_awake;
   if (body.body == nullptr) {
     body.set_frame(state.static_pose);
     return;
@@ -143,22 +143,23 @@ void put_in_order(std::vector<Object*>& order, const std::vector<std::uint64_t>&
 }  // namespace
 
 PlumbResult World::save(std::span<const std::byte>& data) {
-  if (space_ != nullptr && (settings_.space == Space::sap || settings_.space == Space::quadtree))
+  if (space_ != nullptr &&
+      (settings_.broad_phase.space == Space::sap || settings_.broad_phase.space == Space::quadtree))
     throw Error(PLUMB_E_UNSUPPORTED,
                 "ODE does not tell the order inside its sap and quadtree spaces, on which the bits "
                 "depend; make the world with the setting space=hash");
   return inside_ode([&] {
-    Writer out(snapshot_);
+    Writer out(lent_.snapshot);
     out.put(seed_);
     out.put(gravity_);
-    out.put_all(ids_of(order_));
-    out.put_all(ids_of(joint_order_));
-    for (const Body* body : order_) out.put(state_of(*body));
+    out.put_all(ids_of(lists_.all));
+    out.put_all(ids_of(joint_lists_.all));
+    for (const Body* body : lists_.all) out.put(state_of(*body));
     std::vector<GeomName> names;
     if (space_ != nullptr) {
       dSpaceClean(space_);
-      for (std::uint32_t i = 0; i < order_.size(); ++i)
-        for (std::uint32_t k = 0; k < order_[i]->geoms.size(); ++k) order_[i]->geoms[k]->name = {i, k};
+      for (std::uint32_t i = 0; i < lists_.all.size(); ++i)
+        for (std::uint32_t k = 0; k < lists_.all[i]->geoms.size(); ++k) lists_.all[i]->geoms[k]->name = {i, k};
       for (int i = 0; i < dSpaceGetNumGeoms(space_); ++i) {
         const auto [body, geom] = static_cast<const GeomTag*>(dGeomGetData(dSpaceGetGeom(space_, i)))->name;
         names.push_back({body, geom});
@@ -168,7 +169,7 @@ PlumbResult World::save(std::span<const std::byte>& data) {
     const PairEvents::Memory memory = events_.memory();
     out.put_all(memory.touching);
     out.put_all(memory.sensed);
-    data = snapshot_;
+    data = lent_.snapshot;
     return PLUMB_OK;
   });
 }
@@ -178,10 +179,10 @@ PlumbResult World::restore(std::span<const std::byte> data) {
     Reader in(data);
     const auto seed = in.take<unsigned long>();
     const auto gravity = in.take<PlumbVec3>();
-    put_in_order(order_, in.take_all<PlumbBody>());
-    put_in_order(joint_order_, in.take_all<PlumbJoint>());
+    put_in_order(lists_.all, in.take_all<PlumbBody>());
+    put_in_order(joint_lists_.all, in.take_all<PlumbJoint>());
     std::vector<BodyState> states;
-    for (std::size_t i = 0; i < order_.size(); ++i) states.push_back(in.take<BodyState>());
+    for (std::size_t i = 0; i < lists_.all.size(); ++i) states.push_back(in.take<BodyState>());
     const auto names = in.take_all<GeomName>();
     PairEvents::Memory memory;
     memory.touching = in.take_all<BodyPair>();
@@ -189,21 +190,21 @@ PlumbResult World::restore(std::span<const std::byte> data) {
 
     seed_ = seed;
     set_gravity(gravity);
-    pushed_.clear();
-    for (std::size_t i = 0; i < order_.size(); ++i) {
-      take_state(*order_[i], states[i]);
-      if (order_[i]->pushed) pushed_.push_back(order_[i]);
+    lists_.pushed.clear();
+    for (std::size_t i = 0; i < lists_.all.size(); ++i) {
+      take_state(*lists_.all[i], states[i]);
+      if (lists_.all[i]->push.any) lists_.pushed.push_back(lists_.all[i]);
     }
     if (space_ != nullptr) {
       dSpaceClean(space_);  // only then may geoms change places: a space keeps those that moved in front
       for (auto name = names.rbegin(); name != names.rend(); ++name) {
-        const dGeomID geom = order_[name->body]->geoms[name->geom]->placed.geom;
+        const dGeomID geom = lists_.all[name->body]->geoms[name->geom]->placed.geom;
         dSpaceRemove(space_, geom);
         dSpaceAdd(space_, geom);
       }
     }
     events_.remember(std::move(memory));
-    nonfinite_ = 0;
+    figures_.nonfinite = 0;
     return PLUMB_OK;
   });
 }

@@ -48,17 +48,17 @@ class OwnRandom {
 }  // namespace
 
 PlumbResult World::step(double dt) {
-  if (nonfinite_ != 0)
+  if (figures_.nonfinite != 0)
     throw Error(PLUMB_E_WORLD_LOST,
-                std::to_string(nonfinite_) +
+                std::to_string(figures_.nonfinite) +
                     " bodies have become NaN or infinite, with which ODE cannot "
                     "go on; destroy the world and take a smaller dt, more substeps or another stepper");
   return inside_ode([&] {
-    broad_narrow_seconds_ = solve_seconds_ = output_seconds_ = 0;
+    figures_.broad_narrow_seconds = figures_.solve_seconds = figures_.output_seconds = 0;
     contacts_.begin_step();
     events_.begin_step();
-    substeps_left_ = settings_.substeps;
-    set_substep(dt / substeps_left_);
+    substep_.left = settings_.substeps;
+    set_substep(dt / substep_.left);
     forget_reactions();
     steer_kinematics(dt);
     detect();
@@ -76,15 +76,15 @@ void World::detect() {
 /// The second half, and the first of the next.
 void World::respond(std::span<const PlumbManifoldChange> changes) {
   contacts_.respond(changes);
-  prepare_joints(substep_);
-  count_idling(substep_);
-  solve(substep_);
-  gather(substep_, 1.0 / settings_.substeps);
-  if (--substeps_left_ > 0) detect();
+  prepare_joints(substep_.h);
+  count_idling(substep_.h);
+  solve(substep_.h);
+  gather(substep_.h, 1.0 / settings_.substeps);
+  if (--substep_.left > 0) detect();
 }
 
 void World::finish_step() {
-  while (substeps_left_ > 0) respond({});
+  while (substep_.left > 0) respond({});
   settle_kinematics();
   break_joints();
   look_for_nonfinite();
@@ -95,8 +95,8 @@ void World::finish_step() {
 
 PlumbResult World::read_manifolds(std::span<const PlumbManifold>& manifolds) {
   return inside_ode([&] {
-    while (substeps_left_ > 0 && contacts_.shown().empty()) respond({});
-    manifolds = substeps_left_ > 0 ? contacts_.shown() : std::span<const PlumbManifold>{};
+    while (substep_.left > 0 && contacts_.shown().empty()) respond({});
+    manifolds = substep_.left > 0 ? contacts_.shown() : std::span<const PlumbManifold>{};
     return PLUMB_OK;
   });
 }
@@ -115,35 +115,35 @@ PlumbResult World::wait(PlumbStepReport& report) {
       return PLUMB_OK;
     });
   report.threads = static_cast<std::uint32_t>(settings_.threads);
-  report.awake = awake_;
+  report.awake = figures_.awake;
   report.pairs = contacts_.pair_count();
   report.contacts = contacts_.point_count();
-  report.nonfinite = nonfinite_;
-  report.phase_seconds[PLUMB_PHASE_BROAD] = broad_narrow_seconds_;
-  report.phase_seconds[PLUMB_PHASE_SOLVE] = solve_seconds_;
-  report.phase_seconds[PLUMB_PHASE_OUTPUT] = output_seconds_;
+  report.nonfinite = figures_.nonfinite;
+  report.phase_seconds[PLUMB_PHASE_BROAD] = figures_.broad_narrow_seconds;
+  report.phase_seconds[PLUMB_PHASE_SOLVE] = figures_.solve_seconds;
+  report.phase_seconds[PLUMB_PHASE_OUTPUT] = figures_.output_seconds;
   return PLUMB_OK;
 }
 
 /// Damping and springs are worked out for a length of the sub-step.
 void World::set_substep(double h) {
-  if (h == substep_) return;
-  substep_ = h;
-  for (Body* body : damped_) set_damping(*body, h);
-  for (Joint* joint : joint_order_)
+  if (h == substep_.h) return;
+  substep_.h = h;
+  for (Body* body : lists_.damped) set_damping(*body, h);
+  for (Joint* joint : joint_lists_.all)
     if (joint->solved()) set_parameters(*joint, settings_, h);
 }
 
 void World::forget_reactions() {
-  for (Joint* joint : busy_joints_) joint->force = joint->torque = {};
+  for (Joint* joint : joint_lists_.busy) joint->force = joint->torque = {};
 }
 
 void World::steer_kinematics(double dt) {
-  for (Body* body : kinematic_) {
-    if (body->moving == Body::Moving::to_target) head_for_target(*body, dt);
-    if (body->moving == Body::Moving::arrived) {
+  for (Body* body : lists_.kinematic) {
+    if (body->target.moving == Body::Moving::to_target) head_for_target(*body, dt);
+    if (body->target.moving == Body::Moving::arrived) {
       body->set_velocity({}, {});
-      body->moving = Body::Moving::as_told;
+      body->target.moving = Body::Moving::as_told;
     }
   }
   if (init_.needs(PLUMB_NEED_SLEEPING)) let_kinematics_rest();
@@ -151,7 +151,7 @@ void World::steer_kinematics(double dt) {
 
 /// A kinematic body that stands still is disabled: enabled, it would keep awake whatever lies on it.
 void World::let_kinematics_rest() {
-  for (Body* body : kinematic_) {
+  for (Body* body : lists_.kinematic) {
     const bool still = is_zero(body->linear_velocity()) && is_zero(body->angular_velocity());
     if (still) {
       dBodyDisable(body->body);
@@ -162,13 +162,13 @@ void World::let_kinematics_rest() {
 }
 
 void World::push_bodies() {
-  for (const Body* body : pushed_) {
-    dBodyAddForce(body->body, body->force.x, body->force.y, body->force.z);
-    dBodyAddTorque(body->body, body->torque.x, body->torque.y, body->torque.z);
+  for (const Body* body : lists_.pushed) {
+    dBodyAddForce(body->body, body->push.force.x, body->push.force.y, body->push.force.z);
+    dBodyAddTorque(body->body, body->push.torque.x, body->push.torque.y, body->push.torque.z);
   }
-  for (const Body* body : weighed_) {
+  for (const Body* body : lists_.weighed) {
     if (body->asleep()) continue;
-    const PlumbVec3 weight = scale(body->gravity_scale / body->inverse_mass, gravity_);
+    const PlumbVec3 weight = scale(body->gravity_scale / body->mass.inverse, gravity_);
     dBodyAddForce(body->body, weight.x, weight.y, weight.z);
   }
 }
@@ -176,23 +176,23 @@ void World::push_bodies() {
 void World::find_contacts() {
   contacts_.begin_substep();
   if (space_ == nullptr || !(init_.needs(PLUMB_NEED_COLLISION) || init_.needs(PLUMB_NEED_SENSORS))) return;
-  const Stopwatch watch(broad_narrow_seconds_);
+  const Stopwatch watch(figures_.broad_narrow_seconds);
   contacts_.detect(space_);
 }
 
 void World::prepare_joints(double h) {
   const RowMaker rows{world_, contacts_.group(), settings_, h};
-  for (Joint* joint : busy_joints_) prepare(*joint, rows);
+  for (Joint* joint : joint_lists_.busy) prepare(*joint, rows);
 }
 
 /// ODE counts too, but does not tell; a snapshot has to know.
 void World::count_idling(double h) {
   if (!init_.needs(PLUMB_NEED_SLEEPING | PLUMB_NEED_SNAPSHOT)) return;
-  for (Body* body : dynamic_) body->count_idling(h);
+  for (Body* body : lists_.dynamic) body->count_idling(h);
 }
 
 void World::solve(double h) {
-  const Stopwatch watch(solve_seconds_);
+  const Stopwatch watch(figures_.solve_seconds);
   int done = 0;
   if (settings_.stepper == Stepper::quickstep) {
     const OwnRandom random(seed_);
@@ -205,35 +205,32 @@ void World::solve(double h) {
 
 /// Impulses, reactions and locked axes of a sub-step that was solved.
 void World::gather(double h, double share) {
-  const Stopwatch watch(output_seconds_);
+  const Stopwatch watch(figures_.output_seconds);
   contacts_.end_substep(h);
-  for (Joint* joint : busy_joints_)
+  for (Joint* joint : joint_lists_.busy)
     if (joint->watched) take_reaction(*joint, share);
-  for (const Body* body : locked_)
+  for (const Body* body : lists_.locked)
     if (!body->asleep()) project_locks(*body);
 }
 
 void World::settle_kinematics() {
-  for (Body* body : kinematic_) {
-    if (body->moving != Body::Moving::to_target) continue;
-    body->set_frame(body->target);
-    body->moving = Body::Moving::arrived;
+  for (Body* body : lists_.kinematic) {
+    if (body->target.moving != Body::Moving::to_target) continue;
+    body->set_frame(body->target.pose);
+    body->target.moving = Body::Moving::arrived;
   }
-  for (Body* body : pushed_) {
-    body->force = body->torque = {};
-    body->pushed = false;
-  }
-  pushed_.clear();
+  for (Body* body : lists_.pushed) body->push = {};
+  lists_.pushed.clear();
   // Bounds are brought up to date now, not when first asked: so queries change nothing, not even the order of lists.
   if (space_ != nullptr) {
-    const Stopwatch watch(broad_narrow_seconds_);
+    const Stopwatch watch(figures_.broad_narrow_seconds);
     dSpaceClean(space_);
   }
 }
 
 void World::break_joints() {
-  for (std::size_t i = 0; i < busy_joints_.size();) {
-    Joint& joint = *busy_joints_[i];
+  for (std::size_t i = 0; i < joint_lists_.busy.size();) {
+    Joint& joint = *joint_lists_.busy[i];
     if (joint.watched && overloaded(joint)) {
       events_.add_broken(joint.handle);
       remove_joint(joint);  // takes it from the list
@@ -244,25 +241,25 @@ void World::break_joints() {
 }
 
 void World::note_sleep() {
-  awake_ = static_cast<std::uint32_t>(dynamic_.size());
+  figures_.awake = static_cast<std::uint32_t>(lists_.dynamic.size());
   if (!init_.needs(PLUMB_NEED_SLEEPING)) return;
   const bool tell = init_.needs(PLUMB_NEED_EVENTS);
-  for (Body* body : dynamic_) {
+  for (Body* body : lists_.dynamic) {
     const bool awake = !body->asleep();
-    if (!awake) --awake_;
-    if (awake != body->was_awake && tell) events_.add(awake ? PLUMB_EVENT_WAKE : PLUMB_EVENT_SLEEP, body->handle);
-    body->was_awake = awake;
+    if (!awake) --figures_.awake;
+    if (awake != body->sleep.was_awake && tell) events_.add(awake ? PLUMB_EVENT_WAKE : PLUMB_EVENT_SLEEP, body->handle);
+    body->sleep.was_awake = awake;
   }
 }
 
 void World::look_for_nonfinite() {
-  nonfinite_ = 0;
-  for (const dBodyID body : dynamic_ids_) {
+  figures_.nonfinite = 0;
+  for (const dBodyID body : lists_.dynamic_ids) {
     const dReal *at = dBodyGetPosition(body), *q = dBodyGetQuaternion(body), *v = dBodyGetLinearVel(body),
                 *w = dBodyGetAngularVel(body);
     double sum = q[3];  // one that is not finite leaves it so
     for (int i = 0; i < 3; ++i) sum += at[i] + q[i] + v[i] + w[i];
-    if (!std::isfinite(sum)) ++nonfinite_;
+    if (!std::isfinite(sum)) ++figures_.nonfinite;
   }
 }
 

@@ -44,26 +44,27 @@ World::World(const WorldInit& init)
       space_ = make_space(settings_);
     if (settings_.threads > 1) {
       const auto threads = static_cast<unsigned>(settings_.threads);
-      threading_ = dThreadingAllocateMultiThreadedImplementation();
-      pool_ = dThreadingAllocateThreadPool(threads, 0, static_cast<unsigned>(dAllocateFlagBasicData), nullptr);
-      dThreadingThreadPoolServeMultiThreadedImplementation(pool_, threading_);
+      threads_.implementation = dThreadingAllocateMultiThreadedImplementation();
+      threads_.pool = dThreadingAllocateThreadPool(threads, 0, static_cast<unsigned>(dAllocateFlagBasicData), nullptr);
+      dThreadingThreadPoolServeMultiThreadedImplementation(threads_.pool, threads_.implementation);
       dWorldSetStepIslandsProcessingMaxThreadCount(world_, threads);
-      dWorldSetStepThreadingImplementation(world_, dThreadingImplementationGetFunctions(threading_), threading_);
+      dWorldSetStepThreadingImplementation(world_, dThreadingImplementationGetFunctions(threads_.implementation),
+                                           threads_.implementation);
     }
   });
 }
 
 World::~World() {
   if (!usable_) {
-    keep_wreck({world_, space_, contacts_.group(), std::move(shapes_)});
+    keep_wreck({world_, space_, contacts_.group(), std::move(slots_.shapes)});
     return;
   }
   const ErrorScope scope(init_);
-  if (threading_ != nullptr) {
-    dThreadingImplementationShutdownProcessing(threading_);
-    dThreadingFreeThreadPool(pool_);
+  if (threads_.implementation != nullptr) {
+    dThreadingImplementationShutdownProcessing(threads_.implementation);
+    dThreadingFreeThreadPool(threads_.pool);
     dWorldSetStepThreadingImplementation(world_, nullptr, nullptr);
-    dThreadingFreeImplementation(threading_);
+    dThreadingFreeImplementation(threads_.implementation);
   }
   contacts_.destroy();
   if (space_ != nullptr) dSpaceDestroy(space_);  // and its geoms
@@ -84,17 +85,17 @@ PlumbResult World::create_shapes(std::span<const PlumbShapeDesc> descs, std::spa
     for (const PlumbShapeDesc& desc : descs) {
       std::vector<const Shape*> children;
       for (std::uint32_t i = 0; desc.type == PLUMB_COMPOUND && i < desc.child_count; ++i)
-        children.push_back(shapes_[slot_of(desc.children[i].shape)].get());
-      made.push_back(shape_stock_.take());
+        children.push_back(slots_.shapes[slot_of(desc.children[i].shape)].get());
+      made.push_back(stocks_.shapes.take());
       fill_shape(*made.back(), desc, children);
     }
-    for (std::size_t i = 0; i < made.size(); ++i) put(shapes_, ids[i], std::move(made[i]));
+    for (std::size_t i = 0; i < made.size(); ++i) put(slots_.shapes, ids[i], std::move(made[i]));
     return PLUMB_OK;
   });
 }
 
 PlumbResult World::destroy_shapes(std::span<const PlumbShape> ids) {
-  for (const PlumbShape id : ids) shapes_[slot_of(id)].reset();
+  for (const PlumbShape id : ids) slots_.shapes[slot_of(id)].reset();
   return PLUMB_OK;
 }
 
@@ -108,9 +109,9 @@ PlumbResult World::set_setting(const char* name, const PlumbSettingValue& value)
     settings_table().set(settings_, name, value);
     apply_to_world(settings_, world_);
     contacts_.configure(settings_);
-    for (Body* body : dynamic_) apply_body_settings(*body);
-    for (Joint* joint : joint_order_)
-      if (joint->solved() && substep_ != 0) set_parameters(*joint, settings_, substep_);
+    for (Body* body : lists_.dynamic) apply_body_settings(*body);
+    for (Joint* joint : joint_lists_.all)
+      if (joint->solved() && substep_.h != 0) set_parameters(*joint, settings_, substep_.h);
     return PLUMB_OK;
   });
 }

@@ -118,8 +118,8 @@ class World final : public IPhysicsWorld,
   }
 
   // Bodies and joints (world_*.cpp).
-  [[nodiscard]] Body& body(PlumbBody id) { return *bodies_[slot_of(id)]; }
-  [[nodiscard]] Joint& joint(PlumbJoint id) { return *joints_[slot_of(id)]; }
+  [[nodiscard]] Body& body(PlumbBody id) { return *slots_.bodies[slot_of(id)]; }
+  [[nodiscard]] Joint& joint(PlumbJoint id) { return *slots_.joints[slot_of(id)]; }
   std::unique_ptr<Body> make_body(const PlumbBodyDesc& desc, PlumbBody handle);
   void embody(Body& body, const PlumbBodyDesc& desc);
   void make_body_geoms(Body& body);
@@ -145,36 +145,57 @@ class World final : public IPhysicsWorld,
   bool usable_ = true;  ///< false after an error inside ODE: its objects are left alone, even at the end
   dWorldID world_ = nullptr;
   dSpaceID space_ = nullptr;
-  dThreadingImplementationID threading_ = nullptr;
-  dThreadingThreadPoolID pool_ = nullptr;
+  struct Threads {
+    dThreadingImplementationID implementation = nullptr;
+    dThreadingThreadPoolID pool = nullptr;
+  } threads_;
   ContactPass contacts_;
   PairEvents events_;
   unsigned long seed_;
 
-  Stock<Shape> shape_stock_;
-  Stock<Body> body_stock_;
-  Stock<GeomTag> tag_stock_;
-  std::vector<std::unique_ptr<Shape>> shapes_;  // by slot
-  std::vector<std::unique_ptr<Body>> bodies_;   // by slot
-  std::vector<std::unique_ptr<Joint>> joints_;  // by slot
-  /// By slot: the body in ODE where its rows are ours as they are, else null. Bulk reads need not touch Body then.
-  std::vector<dBodyID> plain_;
-  std::vector<Body*> order_;          // all, as created
-  std::vector<dBodyID> dynamic_ids_;  // of dynamic_
-  std::vector<Body*> dynamic_, kinematic_, damped_, locked_, weighed_, pushed_;
-  std::vector<Joint*> joint_order_, busy_joints_;  // busy: with work in each sub-step
+  struct Stocks {
+    Stock<Shape> shapes;
+    Stock<Body> bodies;
+    Stock<GeomTag> tags;
+  } stocks_;
+  /// Who lives, by slot.
+  struct Slots {
+    std::vector<std::unique_ptr<Shape>> shapes;
+    std::vector<std::unique_ptr<Body>> bodies;
+    std::vector<std::unique_ptr<Joint>> joints;
+    /// The body in ODE where its rows are ours as they are, else null. Bulk reads need not touch Body then.
+    std::vector<dBodyID> plain;
+  } slots_;
+  /// Whom a step goes through.
+  struct BodyLists {
+    std::vector<Body*> all;  // as created
+    std::vector<Body*> dynamic, kinematic, damped, locked, weighed, pushed;
+    std::vector<dBodyID> dynamic_ids;  // of dynamic
+  } lists_;
+  struct JointLists {
+    std::vector<Joint*> all;   // as created
+    std::vector<Joint*> busy;  // with work in each sub-step
+  } joint_lists_;
 
-  double substep_ = 0;     ///< for which damping and springs were set, s
-  int substeps_left_ = 0;  ///< with the one in hand
-  std::uint32_t nonfinite_ = 0, awake_ = 0;
-  double broad_narrow_seconds_ = 0, solve_seconds_ = 0, output_seconds_ = 0;
+  struct Substep {
+    double h = 0;  ///< for which damping and springs were set, s
+    int left = 0;  ///< with the one in hand
+  } substep_;
+  /// What is told of the step.
+  struct Figures {
+    std::uint32_t nonfinite = 0, awake = 0;
+    double broad_narrow_seconds = 0, solve_seconds = 0, output_seconds = 0;
+  } figures_;
 
   std::mutex query_mutex_;  // ODE's spaces note things even while they are only asked
-  std::vector<PlumbDebugPair> debug_pairs_;
-  std::vector<PlumbDebugBox> debug_boxes_;
-  std::vector<PlumbDebugAxis> debug_axes_;
-  std::vector<PlumbDebugBody> debug_bodies_;
-  std::vector<std::byte> snapshot_;
+  /// What callers look at until they ask again.
+  struct Lent {
+    std::vector<PlumbDebugPair> pairs;
+    std::vector<PlumbDebugBox> boxes;
+    std::vector<PlumbDebugAxis> axes;
+    std::vector<PlumbDebugBody> bodies;
+    std::vector<std::byte> snapshot;
+  } lent_;
 };
 
 }  // namespace plumb::ode

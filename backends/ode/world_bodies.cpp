@@ -16,7 +16,7 @@ constexpr unsigned long still_bit = 1, moving_bit = 2;
 PlumbResult World::create_bodies(std::span<const PlumbBodyDesc> descs, std::span<PlumbBody> ids) {
   return inside_ode([&] {
     for (std::size_t i = 0; i < descs.size(); ++i) {
-      put(bodies_, ids[i], make_body(descs[i], ids[i]));
+      put(slots_.bodies, ids[i], make_body(descs[i], ids[i]));
       enlist(body(ids[i]));
     }
     return PLUMB_OK;
@@ -26,10 +26,10 @@ PlumbResult World::create_bodies(std::span<const PlumbBodyDesc> descs, std::span
 PlumbResult World::destroy_bodies(std::span<const PlumbBody> ids) {
   return inside_ode([&] {
     for (const PlumbBody id : ids) {
-      std::erase(order_, &body(id));
+      std::erase(lists_.all, &body(id));
       strike_off(body(id));
       dismantle(body(id));
-      bodies_[slot_of(id)].reset();
+      slots_.bodies[slot_of(id)].reset();
     }
     return PLUMB_OK;
   });
@@ -41,16 +41,16 @@ PlumbResult World::set_exceptions(std::span<const PlumbBodyPair> pairs, bool tou
 }
 
 std::unique_ptr<Body> World::make_body(const PlumbBodyDesc& desc, PlumbBody handle) {
-  auto body = body_stock_.take();
+  auto body = stocks_.bodies.take();
   body->handle = handle;
   body->material = desc.material;
   body->filter = desc.filter;
   body->gravity_scale = desc.gravity_scale;
-  body->linear_damping = desc.linear_damping;
-  body->angular_damping = desc.angular_damping;
+  body->damping.linear = desc.linear_damping;
+  body->damping.angular = desc.angular_damping;
   embody(*body, desc);
   if ((desc.flags & PLUMB_BODY_ASLEEP) != 0 && body->dynamic()) dBodyDisable(body->body);
-  body->was_awake = !body->asleep();
+  body->sleep.was_awake = !body->asleep();
   return body;
 }
 
@@ -59,7 +59,7 @@ void World::embody(Body& body, const PlumbBodyDesc& desc) {
   body.motion = desc.motion;
   body.sensor = (desc.flags & PLUMB_BODY_SENSOR) != 0;
   body.shows_contacts = (desc.flags & PLUMB_BODY_MODIFY_CONTACTS) != 0;
-  body.shape = desc.shape == 0 ? nullptr : shapes_[slot_of(desc.shape)].get();
+  body.shape = desc.shape == 0 ? nullptr : slots_.shapes[slot_of(desc.shape)].get();
   if (desc.motion != PLUMB_STATIC) body.body = dBodyCreate(world_);
   if (desc.motion == PLUMB_KINEMATIC) {
     dBodySetKinematic(body.body);
@@ -68,7 +68,7 @@ void World::embody(Body& body, const PlumbBodyDesc& desc) {
   }
   if (desc.motion == PLUMB_DYNAMIC) {
     set_mass(body, desc);
-    body.locks = desc.locks;
+    body.locks.axes = desc.locks;
   }
   make_body_geoms(body);
   body.set_frame(desc.pose);
@@ -76,8 +76,8 @@ void World::embody(Body& body, const PlumbBodyDesc& desc) {
   if (desc.motion != PLUMB_DYNAMIC) return;
   apply_body_settings(body);
   body.wake();
-  if (substep_ != 0 && (body.linear_damping != 0 || body.angular_damping != 0)) set_damping(body, substep_);
-  if (body.locks != 0) make_locks(body, world_);
+  if (substep_.h != 0 && !body.damping.none()) set_damping(body, substep_.h);
+  if (body.locks.axes != 0) make_locks(body, world_);
   const bool sleeps = init_.needs(PLUMB_NEED_SLEEPING) && (desc.flags & PLUMB_BODY_NEVER_SLEEPS) == 0;
   dBodySetAutoDisableFlag(body.body, sleeps ? 1 : 0);
 }
@@ -87,39 +87,37 @@ void World::remake(Body& at, const PlumbBodyChange& change) {
   PlumbBodyDesc desc = backend::described(change);
   desc.pose = at.frame();
   if (change.motion == PLUMB_DYNAMIC) {
-    const PlumbVec3 shift = rotate(desc.pose.orientation, sub(desc.centre_of_mass, at.centre_of_mass));
+    const PlumbVec3 shift = rotate(desc.pose.orientation, sub(desc.centre_of_mass, at.mass.centre));
     desc.angular_velocity = at.angular_velocity();
     desc.linear_velocity = backend::velocity_of_moved_centre(at.linear_velocity(), desc.angular_velocity, shift);
     if ((change.flags & PLUMB_BODY_NO_ROTATION) != 0) desc.angular_velocity = {};
   }
-  const bool pushed = at.pushed && at.dynamic() && change.motion == PLUMB_DYNAMIC;
-  const PlumbVec3 force = at.force, torque = at.torque;
+  const bool pushed = at.push.any && at.dynamic() && change.motion == PLUMB_DYNAMIC;
+  const Body::Push push = at.push;
   strike_off(at);
   dismantle(at);
   at.geoms.clear();
   at.body = nullptr;
-  at.linear_lock = at.angular_lock = nullptr;
-  at.centre_of_mass = at.idle_spin = at.force = at.torque = {};
-  at.inverse_mass = 0;
-  at.inverse_inertia = {};
-  at.turns = at.pushed = false;
-  at.locks = 0;
-  at.moving = Body::Moving::as_told;
+  at.locks.linear = at.locks.angular = nullptr;
+  at.mass = {};
+  at.push = {};
+  at.idle_spin = {};
+  at.turns = false;
+  at.locks.axes = 0;
+  at.target.moving = Body::Moving::as_told;
   embody(at, desc);
   list(at);
-  if (change.motion != PLUMB_DYNAMIC) at.was_awake = true;
+  if (change.motion != PLUMB_DYNAMIC) at.sleep.was_awake = true;
   if (!pushed) return;
-  at.force = force;
-  at.torque = torque;
-  at.pushed = true;
-  pushed_.push_back(&at);
+  at.push = push;
+  lists_.pushed.push_back(&at);
 }
 
 PlumbResult World::modify_bodies(std::span<const PlumbBodyChange> changes) {
   return inside_ode([&] {
     const backend::ChangedBodies changed(changes);
     std::vector<Joint*> joints;
-    for (Joint* joint : joint_order_)
+    for (Joint* joint : joint_lists_.all)
       if (changed.joined_by(joint->desc)) joints.push_back(joint);
     for (Joint* joint : joints) unbind(*joint);
     for (const PlumbBodyChange& change : changes) remake(body(change.body), change);
@@ -133,7 +131,7 @@ void World::make_body_geoms(Body& body) {
   std::vector<PlacedGeom> placed;
   make_geoms(*body.shape, space_, placed);
   for (const PlacedGeom& geom : placed) {
-    body.geoms.push_back(tag_stock_.take());
+    body.geoms.push_back(stocks_.tags.take());
     GeomTag& tag = *body.geoms.back();
     tag.placed = geom;
     if (geom.material != nullptr) tag.own_material = *geom.material;
@@ -142,7 +140,7 @@ void World::make_body_geoms(Body& body) {
     dGeomSetCollideBits(geom.geom, body.body == nullptr ? moving_bit : still_bit | moving_bit);
     if (body.body == nullptr) continue;
     dGeomSetBody(geom.geom, body.body);
-    offset_geom(geom, body.centre_of_mass);
+    offset_geom(geom, body.mass.centre);
   }
   refresh_tags(body);
 }
@@ -152,48 +150,50 @@ void World::apply_body_settings(Body& body) {
     dBodySetGyroscopicMode(body.body, settings_.gyroscopic && init_.needs(PLUMB_NEED_GYROSCOPIC) ? 1 : 0);
     dBodySetFiniteRotationMode(body.body, settings_.finite_rotation ? 1 : 0);
   }
-  dBodySetAutoDisableLinearThreshold(body.body, settings_.sleep_linear);
-  dBodySetAutoDisableAngularThreshold(body.body, settings_.sleep_angular);
-  dBodySetAutoDisableSteps(body.body, settings_.sleep_steps);
-  dBodySetAutoDisableTime(body.body, settings_.sleep_time);
+  dBodySetAutoDisableLinearThreshold(body.body, settings_.sleep.linear);
+  dBodySetAutoDisableAngularThreshold(body.body, settings_.sleep.angular);
+  dBodySetAutoDisableSteps(body.body, settings_.sleep.steps);
+  dBodySetAutoDisableTime(body.body, settings_.sleep.time);
 }
 
 void World::enlist(Body& body) {
-  order_.push_back(&body);
-  plain_.resize(bodies_.size());
+  lists_.all.push_back(&body);
+  slots_.plain.resize(slots_.bodies.size());
   list(body);
 }
 
 /// Into the lists of those that a step must look at.
 void World::list(Body& body) {
-  const bool plain = is_zero(body.centre_of_mass) && (body.turns || body.motion == PLUMB_KINEMATIC);
-  plain_[slot_of(body.handle)] = plain ? body.body : nullptr;
-  if (body.motion == PLUMB_KINEMATIC) kinematic_.push_back(&body);
+  const bool plain = is_zero(body.mass.centre) && (body.turns || body.motion == PLUMB_KINEMATIC);
+  slots_.plain[slot_of(body.handle)] = plain ? body.body : nullptr;
+  if (body.motion == PLUMB_KINEMATIC) lists_.kinematic.push_back(&body);
   if (!body.dynamic()) return;
-  dynamic_.push_back(&body);
-  dynamic_ids_.push_back(body.body);
-  if (body.locks != 0) locked_.push_back(&body);
-  if (body.linear_damping != 0 || body.angular_damping != 0) damped_.push_back(&body);
+  lists_.dynamic.push_back(&body);
+  lists_.dynamic_ids.push_back(body.body);
+  if (body.locks.axes != 0) lists_.locked.push_back(&body);
+  if (!body.damping.none()) lists_.damped.push_back(&body);
   set_gravity_scale(body, body.gravity_scale);
 }
 
 void World::strike_off(const Body& body) {
-  for (auto* list : {&dynamic_, &kinematic_, &damped_, &locked_, &weighed_, &pushed_}) std::erase(*list, &body);
-  std::erase(dynamic_ids_, body.body);
+  for (auto* list :
+       {&lists_.dynamic, &lists_.kinematic, &lists_.damped, &lists_.locked, &lists_.weighed, &lists_.pushed})
+    std::erase(*list, &body);
+  std::erase(lists_.dynamic_ids, body.body);
 }
 
 void World::dismantle(Body& body) {
   wake_neighbours(body);
   for (const auto& geom : body.geoms) dGeomDestroy(geom->placed.geom);
-  if (body.linear_lock != nullptr) dJointDestroy(body.linear_lock);
-  if (body.angular_lock != nullptr) dJointDestroy(body.angular_lock);
+  if (body.locks.linear != nullptr) dJointDestroy(body.locks.linear);
+  if (body.locks.angular != nullptr) dJointDestroy(body.locks.angular);
   if (body.body != nullptr) dBodyDestroy(body.body);
 }
 
 void World::set_gravity_scale(Body& body, double scale) {
   body.gravity_scale = scale;
-  std::erase(weighed_, &body);
-  if (scale != 0 && scale != 1) weighed_.push_back(&body);
+  std::erase(lists_.weighed, &body);
+  if (scale != 0 && scale != 1) lists_.weighed.push_back(&body);
   dBodySetGravityMode(body.body, scale == 1 ? 1 : 0);
 }
 

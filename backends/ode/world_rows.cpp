@@ -28,7 +28,7 @@ void put_pose(const PlumbVec3& position, const PlumbQuat& q, double* row) {
 PlumbResult World::read_poses(std::span<const PlumbBody> ids, const Rows& rows) {
   double row[7];
   for (std::size_t i = 0; i < ids.size(); ++i) {
-    if (const dBodyID plain = plain_[slot_of(ids[i])]; plain != nullptr) {
+    if (const dBodyID plain = slots_.plain[slot_of(ids[i])]; plain != nullptr) {
       put_pose(vec(dBodyGetPosition(plain)), quat(dBodyGetQuaternion(plain)), row);
     } else {
       const PlumbPose pose = body(ids[i]).frame();
@@ -42,7 +42,7 @@ PlumbResult World::read_poses(std::span<const PlumbBody> ids, const Rows& rows) 
 PlumbResult World::read_velocities(std::span<const PlumbBody> ids, const Rows& rows) {
   double row[6];
   for (std::size_t i = 0; i < ids.size(); ++i) {
-    if (const dBodyID plain = plain_[slot_of(ids[i])]; plain != nullptr) {
+    if (const dBodyID plain = slots_.plain[slot_of(ids[i])]; plain != nullptr) {
       put_vec(vec(dBodyGetLinearVel(plain)), row);
       put_vec(vec(dBodyGetAngularVel(plain)), row + 3);
     } else {
@@ -77,8 +77,8 @@ PlumbResult World::read(PlumbField field, std::span<const PlumbBody> ids, Rows r
       return each(+[](const Body& body, double(&row)[1]) { row[0] = body.gravity_scale; });
     case PLUMB_FIELD_DAMPING:
       return each(+[](const Body& body, double(&row)[2]) {
-        row[0] = body.linear_damping;
-        row[1] = body.angular_damping;
+        row[0] = body.damping.linear;
+        row[1] = body.damping.angular;
       });
     case PLUMB_FIELD_SURFACE_VELOCITY:
       return each(+[](const Body& body, double(&row)[3]) { put_vec(body.material.surface_velocity, row); });
@@ -108,10 +108,10 @@ void World::write_row(PlumbField field, Body& body, const double* row) {
   const PlumbVec3 v{row[0], row[1], row[2]};
   const auto wake = [&] { body.wake(); };
   const auto push = [&](const PlumbVec3& force, const PlumbVec3& torque) {
-    if (!body.pushed) pushed_.push_back(&body);
-    body.pushed = true;
-    body.force = add(body.force, force);
-    body.torque = add(body.torque, torque);
+    if (!body.push.any) lists_.pushed.push_back(&body);
+    body.push.any = true;
+    body.push.force = add(body.push.force, force);
+    body.push.torque = add(body.push.torque, torque);
     wake();
   };
   const auto arm = [&] { return sub({row[3], row[4], row[5]}, body.centre()); };
@@ -119,12 +119,12 @@ void World::write_row(PlumbField field, Body& body, const double* row) {
     case PLUMB_FIELD_POSE:
       wake_neighbours(body);
       body.set_frame(pose_of(row));
-      body.moving = Body::Moving::as_told;
+      body.target.moving = Body::Moving::as_told;
       wake_neighbours(body);
       return wake();
     case PLUMB_FIELD_VELOCITY:
       body.set_velocity(v, {row[3], row[4], row[5]});
-      body.moving = Body::Moving::as_told;
+      body.target.moving = Body::Moving::as_told;
       return wake();
     case PLUMB_FIELD_FORCE: return push(v, {});
     case PLUMB_FIELD_TORQUE: return push({}, v);
@@ -137,8 +137,8 @@ void World::write_row(PlumbField field, Body& body, const double* row) {
       body.set_velocity({}, {});
       return dBodyDisable(body.body);
     case PLUMB_FIELD_KINEMATIC_TARGET:
-      body.target = pose_of(row);
-      body.moving = Body::Moving::to_target;
+      body.target.pose = pose_of(row);
+      body.target.moving = Body::Moving::to_target;
       return;
     case PLUMB_FIELD_MATERIAL:
       body.material.friction = row[0];
@@ -146,11 +146,11 @@ void World::write_row(PlumbField field, Body& body, const double* row) {
       return refresh_tags(body);
     case PLUMB_FIELD_GRAVITY_SCALE: set_gravity_scale(body, row[0]); return wake();
     case PLUMB_FIELD_DAMPING:
-      body.linear_damping = row[0];
-      body.angular_damping = row[1];
-      std::erase(damped_, &body);
-      damped_.push_back(&body);
-      return set_damping(body, substep_);
+      body.damping.linear = row[0];
+      body.damping.angular = row[1];
+      std::erase(lists_.damped, &body);
+      lists_.damped.push_back(&body);
+      return set_damping(body, substep_.h);
     case PLUMB_FIELD_SURFACE_VELOCITY: body.material.surface_velocity = v; return refresh_tags(body);
     case PLUMB_FIELD_FILTER:
       body.filter.category = static_cast<std::uint32_t>(row[0]);

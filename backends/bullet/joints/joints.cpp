@@ -51,7 +51,7 @@ void World::add_to_bullet(Joint& joint) {
   world_.addConstraint(joint.constraint.get(), apart);
   for (auto& spring : joint.springs) world_.addConstraint(spring.get(), false);
   if (apart) forget_contacts(*joint.body_a, *joint.body_b);
-  ++joint_count_;
+  ++lists_.joint_count;
 }
 
 void World::take_from_bullet(Joint& joint) {
@@ -61,7 +61,7 @@ void World::take_from_bullet(Joint& joint) {
   for (auto& spring : joint.springs) world_.removeConstraint(spring.get());
   world_.removeConstraint(joint.constraint.get());
   joint.solved = false;
-  --joint_count_;
+  --lists_.joint_count;
 }
 
 void World::remove_joint(Joint& joint) {
@@ -140,7 +140,7 @@ void World::break_joints() {
     const bool broken = (desc.break_force > 0 && static_cast<double>(force.length()) > desc.break_force) ||
                         (desc.break_torque > 0 && static_cast<double>(torque.length()) > desc.break_torque);
     if (!broken) continue;
-    events_.push_back({PLUMB_EVENT_JOINT_BROKEN, 0, desc.body_a, desc.body_b, at->handle});
+    events_.rows.push_back({PLUMB_EVENT_JOINT_BROKEN, 0, desc.body_a, desc.body_b, at->handle});
     remove_joint(*at);
   }
 }

@@ -36,7 +36,7 @@ void with_frames_together(const Joint& joint, Set&& set) {
   const PlumbQuat q = first.orientation();
   const PlumbPose own = joint.swapped() ? joint.desc.frame_a : joint.desc.frame_b;
   const PlumbPose frame = compose(joint.second_frame(), inverse(own));
-  const PlumbVec3 centre = add(frame.position, rotate(frame.orientation, first.centre_of_mass));
+  const PlumbVec3 centre = add(frame.position, rotate(frame.orientation, first.mass.centre));
   dBodySetPosition(first.body, centre.x, centre.y, centre.z);
   dBodySetQuaternion(first.body, OdeQuaternion(frame.orientation).wxyz);
   set();
@@ -80,12 +80,12 @@ double effective_mass(const Joint& joint, std::size_t axis) {
     const bool generic = joint.desc.type == PLUMB_JOINT_GENERIC;
     const PlumbVec3 way = sub(b.position, a.position);
     const PlumbVec3 n = !generic && length(way) > together ? normalized(way) : axis_of(a, generic ? axis : 0);
-    inverse = joint.b->inverse_mass + turning(*joint.b, cross(sub(b.position, joint.b->centre()), n));
+    inverse = joint.b->mass.inverse + turning(*joint.b, cross(sub(b.position, joint.b->centre()), n));
     if (joint.a != nullptr)
-      inverse += joint.a->inverse_mass +
+      inverse += joint.a->mass.inverse +
                  turning(*joint.a, cross(sub(generic ? b.position : a.position, joint.a->centre()), n));
   } else {
-    inverse = joint.b->inverse_mass + (joint.a == nullptr ? 0 : joint.a->inverse_mass);
+    inverse = joint.b->mass.inverse + (joint.a == nullptr ? 0 : joint.a->mass.inverse);
   }
   return 1 / inverse;
 }

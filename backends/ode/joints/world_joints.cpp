@@ -18,8 +18,8 @@ PlumbResult World::create_joints(std::span<const PlumbJointDesc> descs, std::spa
       joint->a = desc.body_a == 0 ? nullptr : &body(desc.body_a);
       joint->b = &body(desc.body_b);
       bind(*joint);
-      joint_order_.push_back(joint.get());
-      put(joints_, ids[i], std::move(joint));
+      joint_lists_.all.push_back(joint.get());
+      put(slots_.joints, ids[i], std::move(joint));
     }
     return PLUMB_OK;
   });
@@ -38,9 +38,9 @@ void World::bind(Joint& joint) {
   const PlumbJointDesc& desc = joint.desc;
   joint.watched = init_.needs(PLUMB_NEED_JOINT_REACTIONS) || desc.break_force > 0 || desc.break_torque > 0;
   attach(joint, world_);
-  if (substep_ != 0) set_parameters(joint, settings_, substep_);
+  if (substep_.h != 0) set_parameters(joint, settings_, substep_.h);
   if (joint.a != nullptr && desc.collide_connected == 0) keep_apart(*joint.a, *joint.b);
-  if (joint.watched || joint.made_of_rows()) busy_joints_.push_back(&joint);
+  if (joint.watched || joint.made_of_rows()) joint_lists_.busy.push_back(&joint);
 }
 
 void World::unbind(Joint& joint) {
@@ -50,13 +50,13 @@ void World::unbind(Joint& joint) {
   if (joint.a != nullptr && joint.desc.collide_connected == 0) let_touch(*joint.a, *joint.b);
   dJointDestroy(joint.id);
   joint.id = nullptr;
-  std::erase(busy_joints_, &joint);
+  std::erase(joint_lists_.busy, &joint);
 }
 
 void World::remove_joint(Joint& joint) {
   unbind(joint);
-  std::erase(joint_order_, &joint);
-  joints_[slot_of(joint.handle)].reset();
+  std::erase(joint_lists_.all, &joint);
+  slots_.joints[slot_of(joint.handle)].reset();
 }
 
 PlumbResult World::modify_joints(std::span<const PlumbJointChange> changes) {
@@ -114,7 +114,7 @@ PlumbResult World::write_joints(PlumbJointField, std::span<const PlumbJoint> ids
     for (std::size_t i = 0; i < ids.size(); ++i) {
       Joint& written = joint(ids[i]);
       written.desc = changed[i];
-      if (written.solved() && substep_ != 0) set_parameters(written, settings_, substep_);
+      if (written.solved() && substep_.h != 0) set_parameters(written, settings_, substep_.h);
       for (Body* body : {written.a, written.b})
         if (body != nullptr) body->wake();
     }

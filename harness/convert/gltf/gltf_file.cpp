@@ -15,13 +15,9 @@ using nlohmann::json;
 constexpr const char* rigid_bodies_extension = "KHR_physics_rigid_bodies";
 constexpr const char* shapes_extension = "KHR_implicit_shapes";
 
-bool ignore_image(tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*, int, void*) {
-  return true;
-}
-
 tinygltf::Model load(const std::filesystem::path& file) {
   tinygltf::TinyGLTF loader;
-  loader.SetImageLoader(ignore_image, nullptr);
+  loader.SetImageLoader([](auto...) { return true; }, nullptr);  // nobody looks at pictures here
   loader.SetStoreOriginalJSONForExtrasAndExtensions(true);
   tinygltf::Model model;
   std::string error, warning;

@@ -88,16 +88,26 @@ struct MemberOf;
 template <class Settings, class Value>
 struct MemberOf<Value Settings::*> {
   using Of = Settings;
-  using Type = Value;
 };
 
-/// The row of a setting that lies in a member: a number, a bool or an enumeration.
-template <auto Member>
+template <auto Member, auto... Within>
+[[nodiscard]] constexpr auto& member_within(auto& of) {
+  if constexpr (sizeof...(Within) == 0)
+    return of.*Member;
+  else
+    return member_within<Within...>(of.*Member);
+}
+
+/// The row of a setting that lies in a member, or in a member's member: a number, a bool or an enumeration.
+template <auto Member, auto... Within>
 [[nodiscard]] constexpr auto setting(const PlumbSettingInfo& info) {
   using Settings = typename MemberOf<decltype(Member)>::Of;
-  using Value = typename MemberOf<decltype(Member)>::Type;
-  return SettingRow<Settings>{info, [](const Settings& from) { return static_cast<double>(from.*Member); },
-                              [](Settings& to, double number) { to.*Member = static_cast<Value>(number); }};
+  return SettingRow<Settings>{
+      info, [](const Settings& from) { return static_cast<double>(member_within<Member, Within...>(from)); },
+      [](Settings& to, double number) {
+        auto& value = member_within<Member, Within...>(to);
+        value = static_cast<std::remove_reference_t<decltype(value)>>(number);
+      }};
 }
 
 template <class Settings>
