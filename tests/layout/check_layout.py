@@ -3,13 +3,16 @@
 Arrows go harness -> api <- backends, and within a part down its floors: a room, which is a folder, includes files of
 its own and of rooms on lower floors, as floors.json lists them from the top. Rooms on one floor do not see each other.
 A folder within a room belongs to it, unless it is a room of its own.
-No folder holds more files than a reader takes in. Prints what is wrong, a line each; exits with 1 then.
+No folder holds more files than a reader takes in, no class more members, no function more parameters (sizes.py).
+Prints what is wrong, a line each; exits with 1 then.
 """
 import json
 import pathlib
 import re
 import subprocess
 import sys
+
+from sizes import check_sizes
 
 MOST_FILES = 30
 SOURCES = {".c", ".h", ".hpp", ".cpp", ".cu", ".cuh"}
@@ -91,6 +94,7 @@ def main():
         wrong += check_floors(part, rooms, [file for file in sources if file.is_relative_to(part)], root)
     wrong += check_arrows(sources, root)
     wrong += check_folders(files)
+    wrong += check_sizes(sources, root)
     print("\n".join(wrong) if wrong else f"{len(sources)} sources in {len(floors)} parts")
     return 1 if wrong else 0
 

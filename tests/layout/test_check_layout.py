@@ -69,6 +69,48 @@ class CheckLayout(unittest.TestCase):
         self.assertEqual(status, 1, printed)
         self.assertIn("api/src: 31 files", printed)
 
+    def check_all(self, path, texts, says):
+        """Each is wrong where all are in one file, in the order of its lines; says "" for those that are right."""
+        status, printed = self.run_on({path: "".join(texts)})
+        self.assertEqual(status, 1 if any(says) else 0, printed)
+        first, expected = 1, []
+        for text, what in zip(texts, says):
+            if what:
+                expected.append(f"{path}:{first}: {what}")
+            first += text.count("\n")
+        self.assertEqual(sorted(printed.splitlines()) if expected else [], sorted(expected), printed)
+
+    def test_classes_that_hold_too_much(self):
+        members = "".join(f"  int m{i} = f({{1, 2}});\n" for i in range(20))
+        others = "  static constexpr int kMost = 2;\n  static int count;\n  void f(int a);\n  using T = int;\n"
+        full = f"namespace {{ class Full {{\n{others}{members}}}; }}\n"
+        holder = f"struct Holder {{\n  struct Within {{\n{members}  }};\n  Within within[2];\n}};\n"
+        specializations = [f"template <> struct S<{type}> {{\n{members}}};\n" for type in ("int", "char")]
+        more = ("int x", "int bits : 3", "std::array<int, 2> x{}", "enum class E { a, b } x = E::a", "void (*f)(int)",
+                "std::function<void(int, int)> f", "struct { int a, b; } x", "Buffer<int>& x", "mutable Mutex x")
+        wrong = [f"template <class T> class C{i} {{\n{members}  {one};\n}};\n" for i, one in enumerate(more)]
+        self.check_all("backends/engine/main.hpp", [full, holder, *specializations, *wrong],
+                       ["", "", "", "", *(f"C{i} has 21 data members, more than 20" for i in range(len(more)))])
+        two = f"struct Full {{\n{members}  PLUMB_UNSEEN float x[3], y;\n}};\n"
+        self.check_all("backends/engine/main.cu", [two], ["Full has 22 data members, more than 20"])
+        self.check_all("api/include/plumb/a.h", [two], [""])
+
+    def test_functions_that_take_too_much(self):
+        eight = "int a, std::pair<int, int> b, int c = f(1, 2), void (*d)(int, int), int e, int f, int g, int h"
+        right = [f"namespace {{ void f({eight}) {{}} }}\n",
+                 "void g() { call(1, 2, 3, 4, 5, 6, 7, 8, 9); }\n",
+                 f"void call(CallTag<call>, {eight}, int i) {{}}\n"]
+        nine = [f"void f({eight}, int i);\n",
+                f"PLUMB_HD inline void f({eight}, int i) {{}}\n",
+                f"template <class T> [[nodiscard]] auto f({eight}, const T& i) -> T {{ return i; }}\n",
+                f"struct S {{ void f({eight}, int i) const; }};\n",
+                f"void S::f({eight}, int i) const {{}}\n"]
+        self.check_all("backends/engine/main.cu", right + nine,
+                       ["", "", "", *["f takes 9 parameters, more than 8"] * len(nine)])
+        self.check_all("api/include/plumb/a.h", nine, [""] * len(nine))
+        status, printed = self.run_on({"harness/a.cpp": f"const auto f = []({eight}, int i) {{ return 1; }};\n"})
+        self.assertIn("takes 9 parameters", printed)
+
 
 if __name__ == "__main__":
     unittest.main()
