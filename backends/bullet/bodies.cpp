@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "moving_mesh.hpp"
+#include "plumb/assert.hpp"
 #include "plumb/backend/small_math.hpp"
 #include "world.hpp"
 
@@ -132,6 +133,7 @@ PlumbResult World::create_bodies(std::span<const PlumbBodyDesc> descs, std::span
 }
 
 void World::add_to_bullet(Body& body) {
+  PLUMB_ASSERT(body.getBroadphaseHandle() == nullptr && body.getWorldArrayIndex() == -1);
   int flags = body.getCollisionFlags();
   if (body.is(PLUMB_KINEMATIC))
     flags = (flags & ~btCollisionObject::CF_STATIC_OBJECT) | btCollisionObject::CF_KINEMATIC_OBJECT;
@@ -161,6 +163,7 @@ void World::prepare_motion(Body& body) {
   const bool may_sleep = needs(PLUMB_NEED_SLEEPING) && (body.flags & PLUMB_BODY_NEVER_SLEEPS) == 0;
   if (!may_sleep && !body.is(PLUMB_STATIC)) body.setActivationState(DISABLE_DEACTIVATION);
   if (body.is(PLUMB_KINEMATIC)) {
+    PLUMB_ASSERT(std::find(lists_.kinematic.begin(), lists_.kinematic.end(), &body) == lists_.kinematic.end());
     lists_.kinematic.push_back(&body);
     body.coast(body.getLinearVelocity(), body.getAngularVelocity());
   }
@@ -180,6 +183,7 @@ void World::prepare_motion(Body& body) {
 void World::prepare_ccd(Body& body) const {
   if ((body.flags & PLUMB_BODY_CCD) == 0 || !body.shape) return;
   const double radius = body.shape->inner_radius;
+  PLUMB_ASSERT(radius >= 0);
   body.setCcdMotionThreshold(static_cast<btScalar>(radius * settings_.number("ccd_threshold")));
   body.setCcdSweptSphereRadius(static_cast<btScalar>(radius * settings_.number("ccd_radius")));
 }
@@ -251,6 +255,7 @@ void World::forget_contacts(Body& a, Body& b) {
 /// In force where filters or sensors were declared; without them Bullet's own rule will do.
 bool World::needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy* b) const {
   if (a->m_collisionFilterGroup == 0 || b->m_collisionFilterGroup == 0) return false;
+  PLUMB_ASSERT(a->m_clientObject != nullptr && b->m_clientObject != nullptr && a->m_clientObject != b->m_clientObject);
   const Body& body_a = *our_body(static_cast<const btCollisionObject*>(a->m_clientObject));
   const Body& body_b = *our_body(static_cast<const btCollisionObject*>(b->m_clientObject));
   const bool sensed = body_a.is_sensor() != body_b.is_sensor();

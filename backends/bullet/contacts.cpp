@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "plumb/assert.hpp"
 #include "world.hpp"
 
 namespace plumb::bullet {
@@ -49,6 +50,7 @@ PlumbContact contact_of(const btManifoldPoint& point, const Body& a, const Body&
 
 bool World::is_solved(const btPersistentManifold& manifold) const {
   const Body &a = *our_body(manifold.getBody0()), &b = *our_body(manifold.getBody1());
+  PLUMB_ASSERT(&a != &b && slot_of(a.handle) != slot_of(b.handle));
   if (a.is_sensor() || b.is_sensor()) return false;
   return (a.is(PLUMB_DYNAMIC) && a.isActive()) || (b.is(PLUMB_DYNAMIC) && b.isActive());
 }
@@ -82,6 +84,7 @@ void World::add_sub_step_impulses() {
         contacts_.rows.begin(), contacts_.rows.begin() + static_cast<std::ptrdiff_t>(last), earlier, by_feature);
     const bool lives =
         found != contacts_.rows.begin() + static_cast<std::ptrdiff_t>(last) && found->feature == earlier.feature;
+    PLUMB_ASSERT(earlier.feature != 0);
     PlumbContact* sum = lives ? &*found
                         : contacts_.rows.size() > last && contacts_.rows.back().feature == earlier.feature
                             ? &contacts_.rows.back()

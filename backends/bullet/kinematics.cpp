@@ -1,6 +1,7 @@
 // What moves bodies in a step beside Bullet's solver: kinematic targets and velocities, exact damping, locked axes.
 #include <cmath>
 
+#include "plumb/assert.hpp"
 #include "world.hpp"
 
 namespace plumb::bullet {
@@ -8,7 +9,9 @@ namespace plumb::bullet {
 /// Bullet derives a kinematic body's velocity from the pose that it has at the beginning of a sub-step and the one of
 /// the sub-step before: put it where it must be at the end.
 void World::move_kinematic(int sub_steps_left, btScalar h) {
+  PLUMB_ASSERT(sub_steps_left > 0 && h > 0);
   for (Body* body : lists_.kinematic) {
+    PLUMB_ASSERT(body->is(PLUMB_KINEMATIC));
     const btTransform from = body->getWorldTransform();
     btTransform to = from;
     if (body->has_target) {
@@ -41,6 +44,7 @@ void World::keep_coasting() {
 /// dv/dt = -c v, solved exactly.
 void World::damp(btScalar h) {
   for (Body* body : lists_.damped) {
+    PLUMB_ASSERT(body->is(PLUMB_DYNAMIC));
     body->setLinearVelocity(body->getLinearVelocity() *
                             static_cast<btScalar>(std::exp(-body->linear_damping * static_cast<double>(h))));
     body->setAngularVelocity(body->getAngularVelocity() *

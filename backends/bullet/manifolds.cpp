@@ -1,5 +1,6 @@
 // plumb.manifolds/1: what a sub-step has found, and what the host makes of it.
 #include "contacts.hpp"
+#include "plumb/assert.hpp"
 #include "world.hpp"
 
 namespace plumb::bullet {
@@ -14,6 +15,7 @@ btVector3 velocity_at(const Body& body, const btVector3& point) {
 /// The points stand as Bullet has them; where a mesh has several triangles in a manifold, it is named by the first.
 PlumbManifold shown(const btPersistentManifold& manifold, std::span<const PlumbContact> points) {
   const Body &a = *our_body(manifold.getBody0()), &b = *our_body(manifold.getBody1());
+  PLUMB_ASSERT(!points.empty() && points.size() <= PLUMB_MANIFOLD_POINTS);
   PlumbManifold row{};
   row.body_a = a.handle;
   row.body_b = b.handle;
@@ -55,6 +57,7 @@ PlumbResult World::read_manifolds(std::span<const PlumbManifold>& manifolds) {
     if (!modification_.shown.empty()) break;
     respond();
   }
+  PLUMB_ASSERT(modification_.manifolds.size() == modification_.shown.size());
   manifolds = modification_.manifolds;
   return PLUMB_OK;
 }
@@ -66,6 +69,7 @@ PlumbResult World::modify_manifolds(std::span<const PlumbManifoldChange> changes
       static_cast<void>(vector(change.surface_velocity, "changes.surface_velocity"));
   }
   for (const PlumbManifoldChange& change : changes) {
+    PLUMB_ASSERT(change.manifold < modification_.shown.size());
     btPersistentManifold* manifold = modification_.shown[change.manifold];
     if ((change.what & PLUMB_MANIFOLD_DISABLED) != 0)
       manifold->clearManifold();

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <mutex>
 
+#include "plumb/assert.hpp"
+
 namespace plumb::bullet {
 namespace {
 
@@ -40,6 +42,7 @@ Coefficients coefficients_at(const btCollisionObject* object, int index) {
 }
 
 void combine(btManifoldPoint& point, const btCollisionObject* a, int index_a, const btCollisionObject* b, int index_b) {
+  PLUMB_ASSERT(ours(a, b));
   const Coefficients of_a = coefficients_at(a, index_a), of_b = coefficients_at(b, index_b);
   point.m_combinedFriction = btSqrt(of_a.friction * of_b.friction);
   point.m_combinedRestitution = std::max(of_a.restitution, of_b.restitution);
@@ -67,6 +70,7 @@ void direct_friction(btManifoldPoint& point, const Body& a, const Body& b, const
   const btVector3 slip = a.getVelocityInLocalPoint(point.m_positionWorldOnA - a.getWorldTransform().getOrigin()) -
                          b.getVelocityInLocalPoint(point.m_positionWorldOnB - b.getWorldTransform().getOrigin()) +
                          surface_slip;
+  PLUMB_ASSERT(std::abs(normal.length2() - 1) < btScalar(1e-3));
   const btVector3 along = slip - normal * normal.dot(slip);
   if (along.length2() > SIMD_EPSILON) {
     point.m_lateralFrictionDir1 = along.normalized();

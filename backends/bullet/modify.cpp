@@ -1,5 +1,6 @@
 // Bodies and joints of a world that become others while they live.
 #include "plumb/backend/modify.hpp"
+#include "plumb/assert.hpp"
 
 #include "world.hpp"
 
@@ -70,6 +71,7 @@ PlumbResult World::modify_joints(std::span<const PlumbJointChange> changes) {
 
 void World::replace_joint(std::unique_ptr<Joint> joint) {
   std::unique_ptr<Joint>& place = joints_[slot_of(joint->handle)];
+  PLUMB_ASSERT(place != nullptr && place->handle == joint->handle);
   take_from_bullet(*place);
   place = std::move(joint);
   add_to_bullet(*place);

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "plumb/assert.hpp"
+
 namespace plumb::bullet {
 namespace {
 
@@ -85,8 +87,10 @@ void make_height_field(const PlumbShapeDesc& desc, Shape& shape) {
 }
 
 void add_children(btCompoundShape& compound, const Shape& shape, const btTransform& offset, bool identity) {
-  for (const Shape::Child& child : shape.children)
+  for (const Shape::Child& child : shape.children) {
+    PLUMB_ASSERT(child.shape != nullptr && child.shape->type != PLUMB_COMPOUND);
     compound.addChildShape(identity ? child.pose : offset * child.pose, child.shape->bullet.get());
+  }
 }
 
 double inner_radius(const PlumbShapeDesc& desc, const Shape& shape) {
@@ -136,11 +140,13 @@ std::shared_ptr<const Shape> make_shape(const PlumbShapeDesc& desc, std::vector<
     }
     default: throw Error(PLUMB_E_UNSUPPORTED, "Bullet has no shape of type " + std::to_string(desc.type));
   }
+  PLUMB_ASSERT(shape->bullet != nullptr);
   shape->inner_radius = inner_radius(desc, *shape);
   return shape;
 }
 
 btIndexedMesh indexed_mesh(const std::vector<btScalar>& vertices, const std::vector<int>& indices) {
+  PLUMB_ASSERT(vertices.size() % 3 == 0 && indices.size() % 3 == 0);
   btIndexedMesh mesh;
   mesh.m_numTriangles = static_cast<int>(indices.size() / 3);
   mesh.m_triangleIndexBase = reinterpret_cast<const unsigned char*>(indices.data());

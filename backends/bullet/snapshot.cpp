@@ -2,6 +2,7 @@
 #include <cstring>
 #include <type_traits>
 
+#include "plumb/assert.hpp"
 #include "world.hpp"
 
 namespace plumb::bullet {
@@ -123,6 +124,7 @@ PlumbResult World::restore(std::span<const std::byte> data) {
   if (gravity.size() != 1 || states.size() != live)
     throw Error(PLUMB_E_CORRUPT, "the snapshot does not have a state for every body");
   set_gravity(gravity[0]);
+  PLUMB_ASSERT(sub_step_.left == 0);
   auto state = states.begin();
   for (const auto& body : bodies_)
     if (body) set_state(*body, *state++);

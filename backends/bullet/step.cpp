@@ -1,4 +1,5 @@
 // The step, and what it reports.
+#include "plumb/assert.hpp"
 #include "world.hpp"
 
 namespace plumb::bullet {
@@ -30,6 +31,7 @@ PlumbResult World::step(double dt) {
   const int sub_steps = static_cast<int>(settings_.number("substeps"));
   sub_step_.h = dt / sub_steps;
   static_cast<void>(positive_scalar(sub_step_.h, "dt / substeps"));
+  PLUMB_ASSERT(sub_step_.left == 0 && modification_.changed.empty());  // the step before was waited for
   begin_events();
   solver_->begin_step();
   world_.begin_step();
@@ -48,6 +50,7 @@ void World::find_contacts() {
 
 /// The second half, and the first of the next.
 void World::respond() {
+  PLUMB_ASSERT(sub_step_.left > 0);
   world_.respond(static_cast<btScalar>(sub_step_.h));
   if (--sub_step_.left == 0) return;
   keep_sub_step_contacts();
@@ -56,6 +59,7 @@ void World::respond() {
 
 void World::finish_step() {
   while (sub_step_.left > 0) respond();
+  PLUMB_ASSERT(modification_.changed.empty());
   world_.end_step();
   forget_targets();
   if (needs(PLUMB_NEED_EVENTS | PLUMB_NEED_SENSORS)) finish_events();
@@ -129,6 +133,7 @@ PlumbResult World::wait(PlumbStepReport& report) {
 }
 
 void World::count_bodies(PlumbStepReport& report) const {
+  PLUMB_ASSERT(report.awake == 0 && report.nonfinite == 0);
   const btAlignedObjectArray<btRigidBody*>& moving = world_.getNonStaticRigidBodies();
   for (int i = 0; i < moving.size(); ++i) {
     const Body& body = *our_body(moving[i]);

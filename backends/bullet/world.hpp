@@ -9,6 +9,7 @@
 #include "dynamics_world.hpp"
 #include "joints/joint.hpp"
 #include "materials.hpp"
+#include "plumb/assert.hpp"
 #include "plumb/backend/touch_tracker.hpp"
 #include "settings.hpp"
 
@@ -104,9 +105,23 @@ class World final : public IPhysicsWorld,
 
  private:
   [[nodiscard]] bool needs(PlumbNeeds bits) const { return (needs_ & bits) != 0; }
-  [[nodiscard]] Body& body(PlumbBody handle) { return *bodies_[slot_of(handle)]; }
-  [[nodiscard]] Joint& joint(PlumbJoint handle) { return *joints_[slot_of(handle)]; }
-  [[nodiscard]] const std::shared_ptr<const Shape>& shape(PlumbShape handle) const { return shapes_[slot_of(handle)]; }
+  /// The guard has refused handles of those who are gone.
+  template <class Slots>
+  [[nodiscard]] static auto& living(Slots& slots, std::uint64_t handle) {
+    PLUMB_ASSERT(slot_of(handle) < slots.size() && slots[slot_of(handle)] != nullptr);
+    return slots[slot_of(handle)];
+  }
+  [[nodiscard]] Body& body(PlumbBody handle) {
+    Body& at = *living(bodies_, handle);
+    PLUMB_ASSERT(at.handle == handle);
+    return at;
+  }
+  [[nodiscard]] Joint& joint(PlumbJoint handle) {
+    Joint& at = *living(joints_, handle);
+    PLUMB_ASSERT(at.handle == handle);
+    return at;
+  }
+  [[nodiscard]] const std::shared_ptr<const Shape>& shape(PlumbShape handle) const { return living(shapes_, handle); }
 
   // bodies.cpp
   [[nodiscard]] MadeOf made_of(const PlumbBodyDesc& desc) const;

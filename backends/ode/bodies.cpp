@@ -6,6 +6,7 @@
 #include <numbers>
 #include <string>
 
+#include "plumb/assert.hpp"
 namespace plumb::ode {
 namespace {
 
@@ -91,6 +92,15 @@ PlumbVec3 Body::inverse_inertia_times(const PlumbVec3& v) const {
   return rotate(q, backend::multiply(mass.inverse_inertia, unrotate(q, v)));
 }
 
+const GeomTag& tag_of(dGeomID geom) {
+  const auto* tag = static_cast<const GeomTag*>(dGeomGetData(geom));
+  PLUMB_ASSERT(tag != nullptr && tag->body != nullptr && tag->placed.geom == geom);
+  // What was copied from the body is as it is there.
+  PLUMB_ASSERT(tag->id == tag->body->body && tag->dynamic == tag->body->dynamic() && tag->sensor == tag->body->sensor);
+  PLUMB_ASSERT(tag->choosy == !tag->body->untouchable.empty());
+  return *tag;
+}
+
 void refresh_tags(Body& body) {
   for (const auto& tag : body.geoms) {
     const PlumbMaterial& material = tag->placed.material == nullptr ? body.material : tag->own_material;
@@ -114,7 +124,9 @@ void keep_apart(Body& a, Body& b) {
 
 void let_touch(Body& a, Body& b) {
   const auto forget_one = [](std::vector<const Body*>& list, const Body* other) {
-    if (const auto at = std::find(list.begin(), list.end(), other); at != list.end()) list.erase(at);
+    const auto at = std::find(list.begin(), list.end(), other);
+    PLUMB_ASSERT(at != list.end());  // what had kept them apart
+    if (at != list.end()) list.erase(at);
   };
   forget_one(a.untouchable, &b);
   forget_one(b.untouchable, &a);
@@ -123,6 +135,7 @@ void let_touch(Body& a, Body& b) {
 }
 
 void set_mass(Body& body, const PlumbBodyDesc& desc) {
+  PLUMB_ASSERT(body.dynamic() && desc.mass > 0);
   const PlumbVec3& i = desc.inertia;
   body.turns = (desc.flags & PLUMB_BODY_NO_ROTATION) == 0 && !is_zero(i);
   body.mass.centre = desc.centre_of_mass;
@@ -152,12 +165,14 @@ void set_damping(const Body& body, double h) {
     dBodySetDamping(body.body, 0, 0);
     return;
   }
+  PLUMB_ASSERT(h > 0);
   dBodySetLinearDampingThreshold(body.body, 0);
   dBodySetAngularDampingThreshold(body.body, 0);
   dBodySetDamping(body.body, -std::expm1(-body.damping.linear * h), -std::expm1(-body.damping.angular * h));
 }
 
 void make_locks(Body& body, dWorldID world) {
+  PLUMB_ASSERT(body.dynamic() && body.locks.linear == nullptr && body.locks.angular == nullptr);
   const auto lock = [&](dJointID joint, std::uint32_t bits, void (*set_count)(dJointID, int),
                         void (*set_axis)(dJointID, int, int, dReal, dReal, dReal), void (*set)(dJointID, int, dReal)) {
     dJointAttach(joint, body.body, nullptr);
@@ -199,6 +214,7 @@ void project_locks(const Body& body) {
 }
 
 void head_for_target(Body& body, double dt) {
+  PLUMB_ASSERT(body.motion == PLUMB_KINEMATIC && dt > 0);
   const PlumbVec3 way = sub(body.target.pose.position, body.centre());
   const PlumbVec3 turn = rotation_vector(multiply(body.target.pose.orientation, conjugate(body.orientation())));
   body.set_velocity(scale(1 / dt, way), scale(1 / dt, turn));

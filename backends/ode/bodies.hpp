@@ -113,6 +113,9 @@ struct Body {
   [[nodiscard]] PlumbVec3 inverse_inertia_times(const PlumbVec3& v) const;
 };
 
+/// Of a geom in a world's space.
+[[nodiscard]] const GeomTag& tag_of(dGeomID geom);
+
 /// After a change of the body's material or untouchables.
 void refresh_tags(Body& body);
 

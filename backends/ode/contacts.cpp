@@ -6,6 +6,7 @@
 #include <limits>
 #include <tuple>
 
+#include "plumb/assert.hpp"
 namespace plumb::ode {
 namespace {
 
@@ -77,6 +78,7 @@ void ContactPass::begin_step() {
 }
 
 void ContactPass::begin_substep() {
+  PLUMB_ASSERT(held_.empty() && feedbacks_used_ == 0);
   pairs_ = points_ = 0;  // the report tells of the last sub-step
   substep_starts_.push_back(contacts_.size());
 }
@@ -103,8 +105,7 @@ std::vector<ContactPass::Touch> ContactPass::look(dSpaceID space) {
   } look = {this, std::vector<dContactGeom>(scratch_.size()), {}};
   dSpaceCollide(space, &look, [](void* data, dGeomID first, dGeomID second) {
     auto& [self, points, found] = *static_cast<Look*>(data);
-    const GeomTag& one = *static_cast<const GeomTag*>(dGeomGetData(first));
-    const GeomTag& two = *static_cast<const GeomTag*>(dGeomGetData(second));
+    const GeomTag &one = tag_of(first), &two = tag_of(second);
     if (one.sensor || two.sensor || !self->may_meet(one, two)) return;
     const int count = dCollide(first, second, static_cast<int>(points.size()), points.data(), sizeof(dContactGeom));
     if (count == 0) return;
@@ -117,8 +118,7 @@ std::vector<ContactPass::Touch> ContactPass::look(dSpaceID space) {
 }
 
 void ContactPass::meet(dGeomID first, dGeomID second) {
-  const GeomTag& one = *static_cast<const GeomTag*>(dGeomGetData(first));
-  const GeomTag& two = *static_cast<const GeomTag*>(dGeomGetData(second));
+  const GeomTag &one = tag_of(first), &two = tag_of(second);
   if (!may_meet(one, two)) return;
   const bool sensor = one.sensor || two.sensor;
   ++pairs_;
@@ -128,6 +128,7 @@ void ContactPass::meet(dGeomID first, dGeomID second) {
   const int wanted = sensor ? 1 | static_cast<int>(CONTACTS_UNIMPORTANT) : static_cast<int>(scratch_.size());
   const int count = dCollide(first, second, wanted, &scratch_[0].geom, sizeof(dContact));
   if (count == 0) return;
+  PLUMB_ASSERT(count > 0 && static_cast<std::size_t>(count) <= scratch_.size());
   if (sensor) {
     const PlumbBody a = one.body->handle, b = two.body->handle;
     sensed_.push_back(one.sensor ? BodyPair{a, b} : BodyPair{b, a});
@@ -249,10 +250,12 @@ void ContactPass::record(const Pair& pair, const dContactGeom& point, dJointID j
     source = {&feedback, ode_first == (is_swapped(pair) ? pair.first : pair.second).id};
   }
   sources_.push_back(source);
+  PLUMB_ASSERT(sources_.size() == contacts_.size());
 }
 
 void ContactPass::end_substep(double h) {
   // A world that did not declare collision never detects.
+  PLUMB_ASSERT(held_.empty());
   const std::size_t first = substep_starts_.empty() ? sources_.size() : substep_starts_.back();
   for (std::size_t i = first; i < sources_.size(); ++i) {
     const Source& source = sources_[i];
@@ -307,7 +310,10 @@ PlumbManifold ContactPass::show(const Pair& pair, std::span<const dContact> poin
 
 void ContactPass::respond(std::span<const PlumbManifoldChange> changes) {
   std::vector<const PlumbManifoldChange*> of_shown(shown_.size(), nullptr);
-  for (const PlumbManifoldChange& change : changes) of_shown[change.manifold] = &change;
+  for (const PlumbManifoldChange& change : changes) {
+    PLUMB_ASSERT(change.manifold < shown_.size());
+    of_shown[change.manifold] = &change;
+  }
   for (const Held& held : held_) {
     const PlumbManifoldChange* change = held.is_shown ? of_shown[held.shown] : nullptr;
     if (change != nullptr && (change->what & PLUMB_MANIFOLD_DISABLED) != 0) continue;
@@ -340,6 +346,7 @@ void ContactPass::merge_substeps() {
   std::stable_sort(entries.begin(), entries.end(), [&](const Entry& x, const Entry& y) {
     return std::tuple(key(x.index), x.nth) < std::tuple(key(y.index), y.nth);
   });
+  PLUMB_ASSERT(std::is_sorted(substep_starts_.begin(), substep_starts_.end()));
   std::vector<PlumbContact> merged;
   for (std::size_t i = 0; i < entries.size(); ++i) {
     PlumbContact contact = contacts_[entries[i].index];

@@ -10,8 +10,7 @@ PlumbResult World::candidate_pairs(std::span<const PlumbDebugPair>& pairs) {
   return inside_ode([&] {
     lent_.pairs.clear();
     const auto collect = [](void* list, dGeomID one, dGeomID two) {
-      const Body &a = *static_cast<const GeomTag*>(dGeomGetData(one))->body,
-                 &b = *static_cast<const GeomTag*>(dGeomGetData(two))->body;
+      const Body &a = *tag_of(one).body, &b = *tag_of(two).body;
       static_cast<std::vector<PlumbDebugPair>*>(list)->push_back({a.handle, b.handle});
     };
     if (space_ != nullptr) dSpaceCollide(space_, &lent_.pairs, collect);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "plumb/assert.hpp"
 namespace plumb::ode {
 
 bool before(const BodyPair& x, const BodyPair& y) {
@@ -17,6 +18,7 @@ void PairEvents::compare(std::vector<BodyPair>& known, std::vector<BodyPair>& no
                          PlumbEventType end) {
   std::sort(now.begin(), now.end(), before);
   now.erase(std::unique(now.begin(), now.end()), now.end());
+  PLUMB_ASSERT(std::is_sorted(known.begin(), known.end(), before));
   auto old = known.cbegin();
   for (const BodyPair& pair : now) {
     for (; old != known.cend() && before(*old, pair); ++old) events_.push_back({end, 0, old->a, old->b, 0});

@@ -3,6 +3,7 @@
 #include <array>
 #include <limits>
 
+#include "plumb/assert.hpp"
 #include "world.hpp"
 
 namespace plumb::ode {
@@ -13,8 +14,6 @@ constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr int most_points = 16;
 
 thread_local std::vector<PlumbHit> found;
-
-const GeomTag& tag_of(dGeomID geom) { return *static_cast<const GeomTag*>(dGeomGetData(geom)); }
 
 std::uint32_t child_of(const GeomTag& tag, const dContactGeom& point) {
   if (tag.body->shape->type != PLUMB_TRIANGLE_MESH) return tag.placed.child;
@@ -66,6 +65,7 @@ struct Search {
     dGeomRayGet(probe, start, along);
     dGeomGetPosRelPoint(geom, start[0], start[1], start[2], p);
     dGeomVectorFromWorld(geom, direction.x, direction.y, direction.z, d);
+    PLUMB_ASSERT(!hull.planes.empty() && hull.planes.size() % 4 == 0);
     double enter = 0, leave = length;
     const dReal* entered = nullptr;
     for (std::size_t i = 0; i < hull.planes.size(); i += 4) {
@@ -94,6 +94,7 @@ struct Search {
   }
 
   void keep(const PlumbHit& hit) const {
+    PLUMB_ASSERT(hit.query == query && hit.fraction >= 0);
     for (std::size_t i = first; i < found.size(); ++i) {
       if (found[i].body != hit.body) continue;
       if (hit.fraction < found[i].fraction) found[i] = hit;

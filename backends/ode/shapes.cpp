@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "plumb/assert.hpp"
 #include "plumb/backend/convex_hull.hpp"
 
 namespace plumb::ode {
@@ -16,6 +17,7 @@ constexpr double field_thickness = 1;
 
 void take_hull(Shape& shape, const PlumbShapeDesc& desc) {
   const backend::ConvexHull hull = backend::convex_hull(desc);
+  PLUMB_ASSERT(hull.vertices.size() >= 4 && hull.faces.size() >= 4);
   for (const PlumbVec3& vertex : hull.vertices) shape.centre = add(shape.centre, vertex);
   shape.centre = scale(1.0 / static_cast<double>(hull.vertices.size()), shape.centre);
   for (const PlumbVec3& vertex : hull.vertices) {
@@ -114,6 +116,7 @@ void fill_shape(Shape& shape, const PlumbShapeDesc& desc, const std::vector<cons
   if (desc.type == PLUMB_CONVEX_HULL) take_hull(shape, desc);
   if (desc.type == PLUMB_TRIANGLE_MESH) take_mesh(shape, desc);
   if (desc.type == PLUMB_HEIGHT_FIELD) take_height_field(shape, desc);
+  PLUMB_ASSERT(children.size() == (desc.type == PLUMB_COMPOUND ? desc.child_count : 0));
   for (std::size_t i = 0; i < children.size(); ++i) {
     const PlumbCompoundChild& child = desc.children[i];
     shape.children.push_back({children[i], child.pose, child.has_material != 0, child.material});

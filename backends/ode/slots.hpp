@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "plumb/assert.hpp"
 #include "plumb/physics_world.hpp"
 
 namespace plumb::ode {
@@ -37,7 +38,16 @@ template <class Object>
 void put(std::vector<std::unique_ptr<Object>>& slots, std::uint64_t handle, std::unique_ptr<Object> object) {
   const std::uint32_t slot = slot_of(handle);
   if (slot >= slots.size()) slots.resize(slot + 1);
+  PLUMB_ASSERT(slots[slot] == nullptr);  // handles of the living differ in their slots
   slots[slot] = std::move(object);
+}
+
+/// The guard has refused handles of those who are gone.
+template <class Object>
+[[nodiscard]] Object& living(const std::vector<std::unique_ptr<Object>>& slots, std::uint64_t handle) {
+  PLUMB_ASSERT(slot_of(handle) < slots.size());
+  PLUMB_ASSERT(slots[slot_of(handle)] != nullptr && slots[slot_of(handle)]->handle == handle);
+  return *slots[slot_of(handle)];
 }
 
 }  // namespace plumb::ode

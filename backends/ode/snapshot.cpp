@@ -7,6 +7,7 @@
 #include <cstring>
 #include <unordered_map>
 
+#include "plumb/assert.hpp"
 #include "world.hpp"
 
 namespace plumb::ode {
@@ -161,7 +162,8 @@ PlumbResult World::save(std::span<const std::byte>& data) {
       for (std::uint32_t i = 0; i < lists_.all.size(); ++i)
         for (std::uint32_t k = 0; k < lists_.all[i]->geoms.size(); ++k) lists_.all[i]->geoms[k]->name = {i, k};
       for (int i = 0; i < dSpaceGetNumGeoms(space_); ++i) {
-        const auto [body, geom] = static_cast<const GeomTag*>(dGeomGetData(dSpaceGetGeom(space_, i)))->name;
+        const auto [body, geom] = tag_of(dSpaceGetGeom(space_, i)).name;
+        PLUMB_ASSERT(body < lists_.all.size() && geom < lists_.all[body]->geoms.size());
         names.push_back({body, geom});
       }
     }
@@ -184,12 +186,16 @@ PlumbResult World::restore(std::span<const std::byte> data) {
     std::vector<BodyState> states;
     for (std::size_t i = 0; i < lists_.all.size(); ++i) states.push_back(in.take<BodyState>());
     const auto names = in.take_all<GeomName>();
+    for (const GeomName& name : names)
+      if (name.body >= lists_.all.size() || name.geom >= lists_.all[name.body]->geoms.size())
+        throw Error(PLUMB_E_CORRUPT, "the snapshot is of other shapes");
     PairEvents::Memory memory;
     memory.touching = in.take_all<BodyPair>();
     memory.sensed = in.take_all<BodyPair>();
 
     seed_ = seed;
     set_gravity(gravity);
+    PLUMB_ASSERT(substep_.left == 0);
     lists_.pushed.clear();
     for (std::size_t i = 0; i < lists_.all.size(); ++i) {
       take_state(*lists_.all[i], states[i]);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "plumb/assert.hpp"
 #include "world.hpp"
 
 namespace plumb::ode {
@@ -53,6 +54,7 @@ PlumbResult World::step(double dt) {
                 std::to_string(figures_.nonfinite) +
                     " bodies have become NaN or infinite, with which ODE cannot "
                     "go on; destroy the world and take a smaller dt, more substeps or another stepper");
+  PLUMB_ASSERT(substep_.left == 0);  // the step before was waited for
   return inside_ode([&] {
     figures_.broad_narrow_seconds = figures_.solve_seconds = figures_.output_seconds = 0;
     contacts_.begin_step();
@@ -75,6 +77,7 @@ void World::detect() {
 
 /// The second half, and the first of the next.
 void World::respond(std::span<const PlumbManifoldChange> changes) {
+  PLUMB_ASSERT(substep_.left > 0);
   contacts_.respond(changes);
   prepare_joints(substep_.h);
   count_idling(substep_.h);
@@ -163,6 +166,7 @@ void World::let_kinematics_rest() {
 
 void World::push_bodies() {
   for (const Body* body : lists_.pushed) {
+    PLUMB_ASSERT(body->dynamic() && body->push.any);
     dBodyAddForce(body->body, body->push.force.x, body->push.force.y, body->push.force.z);
     dBodyAddTorque(body->body, body->push.torque.x, body->push.torque.y, body->push.torque.z);
   }
@@ -192,6 +196,7 @@ void World::count_idling(double h) {
 }
 
 void World::solve(double h) {
+  PLUMB_ASSERT(h > 0);
   const Stopwatch watch(figures_.solve_seconds);
   int done = 0;
   if (settings_.stepper == Stepper::quickstep) {
@@ -207,8 +212,10 @@ void World::solve(double h) {
 void World::gather(double h, double share) {
   const Stopwatch watch(figures_.output_seconds);
   contacts_.end_substep(h);
-  for (Joint* joint : joint_lists_.busy)
+  for (Joint* joint : joint_lists_.busy) {
+    PLUMB_ASSERT(joint->solved());
     if (joint->watched) take_reaction(*joint, share);
+  }
   for (const Body* body : lists_.locked)
     if (!body->asleep()) project_locks(*body);
 }
@@ -253,6 +260,7 @@ void World::note_sleep() {
 }
 
 void World::look_for_nonfinite() {
+  PLUMB_ASSERT(lists_.dynamic_ids.size() == lists_.dynamic.size());
   figures_.nonfinite = 0;
   for (const dBodyID body : lists_.dynamic_ids) {
     const dReal *at = dBodyGetPosition(body), *q = dBodyGetQuaternion(body), *v = dBodyGetLinearVel(body),

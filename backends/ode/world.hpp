@@ -118,8 +118,8 @@ class World final : public IPhysicsWorld,
   }
 
   // Bodies and joints (world_*.cpp).
-  [[nodiscard]] Body& body(PlumbBody id) { return *slots_.bodies[slot_of(id)]; }
-  [[nodiscard]] Joint& joint(PlumbJoint id) { return *slots_.joints[slot_of(id)]; }
+  [[nodiscard]] Body& body(PlumbBody id) { return living(slots_.bodies, id); }
+  [[nodiscard]] Joint& joint(PlumbJoint id) { return living(slots_.joints, id); }
   std::unique_ptr<Body> make_body(const PlumbBodyDesc& desc, PlumbBody handle);
   void embody(Body& body, const PlumbBodyDesc& desc);
   void make_body_geoms(Body& body);

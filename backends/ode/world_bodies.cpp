@@ -1,6 +1,7 @@
 // Bodies of a world: made, listed, taken apart.
 #include <algorithm>
 
+#include "plumb/assert.hpp"
 #include "plumb/backend/modify.hpp"
 #include "slots.hpp"
 #include "world.hpp"
@@ -56,6 +57,7 @@ std::unique_ptr<Body> World::make_body(const PlumbBodyDesc& desc, PlumbBody hand
 
 /// What ODE has of a body, of the motion, shape, mass, flags, locks, pose and velocities of a descriptor.
 void World::embody(Body& body, const PlumbBodyDesc& desc) {
+  PLUMB_ASSERT(body.body == nullptr && body.geoms.empty());
   body.motion = desc.motion;
   body.sensor = (desc.flags & PLUMB_BODY_SENSOR) != 0;
   body.shows_contacts = (desc.flags & PLUMB_BODY_MODIFY_CONTACTS) != 0;
@@ -164,10 +166,12 @@ void World::enlist(Body& body) {
 
 /// Into the lists of those that a step must look at.
 void World::list(Body& body) {
+  PLUMB_ASSERT(&this->body(body.handle) == &body && slots_.plain.size() == slots_.bodies.size());
   const bool plain = is_zero(body.mass.centre) && (body.turns || body.motion == PLUMB_KINEMATIC);
   slots_.plain[slot_of(body.handle)] = plain ? body.body : nullptr;
   if (body.motion == PLUMB_KINEMATIC) lists_.kinematic.push_back(&body);
   if (!body.dynamic()) return;
+  PLUMB_ASSERT(std::find(lists_.dynamic.begin(), lists_.dynamic.end(), &body) == lists_.dynamic.end());
   lists_.dynamic.push_back(&body);
   lists_.dynamic_ids.push_back(body.body);
   if (body.locks.axes != 0) lists_.locked.push_back(&body);
@@ -180,6 +184,7 @@ void World::strike_off(const Body& body) {
        {&lists_.dynamic, &lists_.kinematic, &lists_.damped, &lists_.locked, &lists_.weighed, &lists_.pushed})
     std::erase(*list, &body);
   std::erase(lists_.dynamic_ids, body.body);
+  PLUMB_ASSERT(lists_.dynamic_ids.size() == lists_.dynamic.size());
 }
 
 void World::dismantle(Body& body) {
@@ -202,7 +207,7 @@ void World::wake_neighbours(const Body& body) {
   if (space_ == nullptr || !init_.needs(PLUMB_NEED_SLEEPING)) return;
   const auto wake = [](void* self, dGeomID one, dGeomID two) {
     for (const dGeomID geom : {one, two}) {
-      Body& met = *static_cast<const GeomTag*>(dGeomGetData(geom))->body;
+      Body& met = *tag_of(geom).body;
       if (&met != self && met.asleep()) met.wake();
     }
   };

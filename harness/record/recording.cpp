@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "plumb/assert.hpp"
 #include "record/trajectory_header.hpp"
 #include "simulation/scene_nature.hpp"
 
@@ -27,6 +28,7 @@ Json header_of(const RecordingRequest& request, const Simulation& simulation, co
 std::uint64_t stride_of(const Scene& scene) {
   const double rate = std::max(frame_rate, fewest_frames / scene.seconds);
   const double most_frames = std::max(fewest_frames, most_poses / static_cast<double>(scene.bodies.size() + 1));
+  PLUMB_ASSERT(scene.seconds > 0 && scene.dt > 0);
   const double interval = std::max(1 / rate, scene.seconds / most_frames);
   return static_cast<std::uint64_t>(std::max(1.0, std::round(interval / scene.dt)));
 }
@@ -57,6 +59,7 @@ void Recording::stepped(Simulation& simulation) {
 }
 
 void Recording::add_frame(Simulation& simulation) {
+  PLUMB_ASSERT(moving_.empty() || moving_.back() < simulation.poses().size());
   std::vector<PoseRow> poses;
   poses.reserve(moving_.size());
   for (const std::size_t body : moving_) poses.push_back(simulation.poses()[body]);

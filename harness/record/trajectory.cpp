@@ -8,6 +8,8 @@
 #include <cmath>
 #include <map>
 
+#include "plumb/assert.hpp"
+
 namespace plumb::harness {
 
 namespace {
@@ -200,6 +202,7 @@ TrajectoryWriter::TrajectoryWriter(const std::filesystem::path& file, Json heade
 }
 
 void TrajectoryWriter::add_frame(std::uint32_t step, std::span<const PoseRow> poses, const FrameLayers& layers) {
+  PLUMB_ASSERT(poses.size() == starts_.size() && layers.size() == layers_.size());
   put(block_, step);
   for (std::size_t i = 0; i < starts_.size(); ++i) {
     const PoseRow& row = poses[i];
@@ -213,6 +216,7 @@ void TrajectoryWriter::add_frame(std::uint32_t step, std::span<const PoseRow> po
     const std::optional<LayerData>& data = layers[i];
     put(block_, static_cast<std::uint8_t>(data.has_value()));
     if (!data) continue;
+    PLUMB_ASSERT(data->columns.size() == layers_[i].columns.size());
     if (layers_[i].rows == LayerRows::list) put(block_, data->rows);
     for (const std::string& column : data->columns) block_ += column;
   }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "plumb/assert.hpp"
+
 namespace plumb::referee {
 namespace {
 
@@ -79,6 +81,7 @@ struct Feature {
 
 /// What a core has furthest along a direction. facing: that of its surface.
 Feature feature_of(const Polytope& core, const Pose& pose, const Vec3& facing, const Across& across, double flat) {
+  PLUMB_ASSERT(!core.corners.empty());
   const Vec3 local = pose.rotation.transpose() * facing;
   double furthest = -INFINITY;
   for (const Vec3& corner : core.corners) furthest = std::max(furthest, local.dot(corner));
@@ -121,6 +124,7 @@ void add_convex(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& 
   const Penetration found = penetration(a, pose_a, b, pose_b);
   if (!(found.depth >= -reach)) return;
   const Vec3 normal = snapped(found.normal, a, pose_a, b, pose_b);
+  PLUMB_ASSERT(std::abs(normal.squaredNorm() - 1) < 1e-6);
   const Across across(normal);
   const Feature on_a = feature_of(a.core(), pose_a, normal, across, flat);
   const Feature on_b = feature_of(b.core(), pose_b, -normal, across, flat);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "plumb/assert.hpp"
+
 namespace plumb::referee {
 
 namespace {
@@ -45,6 +47,7 @@ double cone_violation(const ContactSample& sample, const Scale& scale) {
 }
 
 Vec3 project_on_cone(const Vec3& impulse, const Vec3& normal, double friction) {
+  PLUMB_ASSERT(friction >= 0);
   const double along = impulse.dot(normal);
   const Vec3 tangent = impulse - along * normal;
   const double across = tangent.norm();
@@ -72,6 +75,7 @@ double complementarity(const ContactSample& sample, const Scale& scale) {
 
 ContactQuality contact_quality(std::span<const ContactSample> contacts, const Scale& scale,
                                double least_slip_of_speed) {
+  PLUMB_ASSERT(scale.impulse >= 0 && scale.speed >= 0 && scale.length >= 0);
   ContactQuality quality;
   double defect_sum = 0, weight_sum = 0;
   for (const ContactSample& sample : contacts) {

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "plumb/assert.hpp"
+
 namespace plumb::referee {
 
 namespace {
@@ -29,6 +31,7 @@ struct Simplex {
 // Weights of the point of the affine hull of some corners that is nearest to the origin; false when one is not above 0
 // or the corners are dependent.
 bool interior_weights(const std::array<Vec3, 4>& p, int count, std::array<double, 4>& weight) {
+  PLUMB_ASSERT(count >= 1 && count <= 4);
   constexpr double dependent = 1e-14;
   if (count == 1) {
     weight[0] = 1;
@@ -71,6 +74,7 @@ void reduce(Simplex& simplex) {
     if (!interior_weights(points, part.size, part.weight)) continue;
     if (const double distance = part.nearest().squaredNorm(); distance < nearest) nearest = distance, best = part;
   }
+  PLUMB_ASSERT(best.size >= 1 && best.size <= simplex.size);  // a corner alone always does
   simplex = best;
 }
 
@@ -94,6 +98,7 @@ ConvexDistance convex_distance(const ConvexView& a, const ConvexView& b) {
     size = std::max(size, next.point.norm());
     // No point of the difference is nearer than v . next / |v|; rounding of the products bounds what can be told apart.
     if (squared - v.dot(next.point) <= 1e-15 * size * std::sqrt(squared) + 1e-15 * squared) break;
+    PLUMB_ASSERT(simplex.size < 4);
     Simplex grown = simplex;
     grown.corner[static_cast<std::size_t>(grown.size++)] = next;
     reduce(grown);

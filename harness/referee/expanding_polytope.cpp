@@ -89,6 +89,7 @@ class Expansion {
   }
 
   void add_facet(std::size_t i, std::size_t j, std::size_t k, const std::array<std::size_t, 3>& across) {
+    PLUMB_ASSERT(std::max({i, j, k}) < points_.size() && i != j && j != k && k != i);
     const Vec3& p = points_[i].point;
     const Vec3 normal = (points_[j].point - p).cross(points_[k].point - p).normalized();
     facets_.push_back({{i, j, k}, across, normal, normal.dot(p), true});
@@ -131,6 +132,7 @@ class Expansion {
       if (++walked > rim.size()) return false;
     if (walked != rim.size()) return false;
 
+    PLUMB_ASSERT(rim.size() >= 3);
     points_.push_back(point);
     for (const std::size_t f : seen) facets_[f].alive = false;
     std::map<std::size_t, std::size_t> cone;  // facet by the corner that its rim edge starts from

@@ -6,6 +6,7 @@
 #include <map>
 #include <string>
 
+#include "plumb/assert.hpp"
 #include "plumb/physics_world.hpp"
 
 extern "C" {
@@ -141,6 +142,7 @@ Hull convex_hull(std::span<const Vec3> points) {
       for (const std::uint32_t point : loop) corner_of[point] = 0;
     }
   }
+  PLUMB_ASSERT(triangles.size() >= 4 && faces.size() >= 4 && corner_of.rbegin()->first < points.size());
   Hull hull;
   for (auto& [point, corner] : corner_of) {
     corner = static_cast<std::uint32_t>(hull.corners.size());
@@ -148,6 +150,7 @@ Hull convex_hull(std::span<const Vec3> points) {
   }
   for (const Loop& t : triangles) hull.triangles.push_back({corner_of[t[0]], corner_of[t[1]], corner_of[t[2]]});
   for (const Loop& loop : faces) {
+    PLUMB_ASSERT(loop.size() >= 3);
     Hull::Face face{{}, area_vector(points, loop).normalized()};
     for (const std::uint32_t point : loop) face.loop.push_back(corner_of[point]);
     hull.faces.push_back(std::move(face));

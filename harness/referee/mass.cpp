@@ -4,6 +4,8 @@
 #include <numbers>
 #include <string>
 
+#include "plumb/assert.hpp"
+
 namespace plumb::referee {
 
 namespace {
@@ -21,6 +23,7 @@ Mass combine(std::span<const Mass> parts) {
     whole.mass += part.mass;
     whole.centre += part.mass * part.centre;
   }
+  PLUMB_ASSERT(whole.mass > 0);
   whole.centre /= whole.mass;
   for (const Mass& part : parts) whole.inertia += part.inertia + of_point(part.mass, part.centre - whole.centre);
   return whole;
@@ -29,6 +32,7 @@ Mass combine(std::span<const Mass> parts) {
 // Each triangle and a fixed point span a tetrahedron, positive or negative. With corners a, b, c from that point and
 // six times the volume d = a . (b x c), the second moment is d/120 (a a^T + b b^T + c c^T + s s^T), s = a + b + c.
 Mass of_triangles(const std::vector<Shape::Triangle>& triangles, double density) {
+  PLUMB_ASSERT(!triangles.empty());
   const Vec3 apex = triangles.front()[0];
   double six_volumes = 0;
   Vec3 first = Vec3::Zero();

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "plumb/assert.hpp"
+
 namespace plumb::referee {
 
 Energy energy(std::span<const BodyState> bodies, const Vec3& gravity, const Vec3& datum, double spring) {
@@ -58,6 +60,7 @@ void EnergyAccount::add(double total, double work) {
 MomentumBalance momentum_balance(std::span<const BodyState> before, std::span<const BodyState> after,
                                  const Vec3& gravity, double dt, std::span<const ExternalImpulse> impulses,
                                  const Vec3& about) {
+  PLUMB_ASSERT(before.size() == after.size());
   MomentumBalance balance{linear_momentum(after) - linear_momentum(before),
                           angular_momentum(after, about) - angular_momentum(before, about)};
   for (const BodyState& body : before) {

@@ -3,6 +3,7 @@
 #include <limits>
 #include <vector>
 
+#include "plumb/assert.hpp"
 #include "referee/convex_distance.hpp"
 #include "referee/convex_penetration.hpp"
 #include "referee/expanding_polytope.hpp"
@@ -77,6 +78,7 @@ class TrianglePair {
     if (!(length > 1e-12 * triangle_.radius)) return;
     const Vec3 normal = direction / length;
     if (!lets_go(normal)) return;
+    PLUMB_ASSERT(std::abs(normal.squaredNorm() - 1) < 1e-9);
     const double reach = triangle_.corners[triangle_.support(normal)].dot(normal);
     const double depth = reach - (pose_ * convex_.support(-(pose_.rotation.transpose() * normal))).dot(normal);
     if (depth < best_depth_) best_depth_ = depth, best_normal_ = normal;
@@ -111,6 +113,8 @@ double box_distance(const Aabb& a, const Aabb& b) {
 
 Penetration mesh_penetration(const Shape& mesh, const Shape& convex, const Pose& pose_convex, Apart apart) {
   const Aabb bounds = convex.bounds(pose_convex);
+  PLUMB_ASSERT(mesh.triangle_bounds().size() == mesh.triangles().size());
+  PLUMB_ASSERT(mesh.neighbour_normals().size() == mesh.triangles().size());
   Penetration deepest{-infinity, Vec3::UnitY(), pose_convex.position};
   for (std::size_t i = 0; i < mesh.triangles().size(); ++i) {
     const double at_least = box_distance(mesh.triangle_bounds()[i], bounds);

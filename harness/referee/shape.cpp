@@ -4,11 +4,13 @@
 #include <string>
 #include <utility>
 
+#include "plumb/assert.hpp"
 #include "referee/hull.hpp"
 
 namespace plumb::referee {
 
 std::size_t Polytope::support(const Vec3& direction) const {
+  PLUMB_ASSERT(!corners.empty());
   std::size_t best = 0;
   double furthest = corners[0].dot(direction);
   for (std::size_t i = 1; i < corners.size(); ++i)
@@ -31,6 +33,7 @@ void finish(Polytope& polytope) {
 // Faces and edges from loops of corners, counter-clockwise seen from outside. False when the loops do not close up.
 bool add_loops(Polytope& polytope, const std::vector<std::vector<std::uint32_t>>& loops,
                const std::vector<Vec3>& normals) {
+  PLUMB_ASSERT(loops.size() == normals.size());
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> face_of;
   for (std::size_t f = 0; f < loops.size(); ++f)
     for (std::size_t i = 0; i < loops[f].size(); ++i) face_of[{loops[f][i], loops[f][(i + 1) % loops[f].size()]}] = f;

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <optional>
 
+#include "plumb/assert.hpp"
 #include "reference/contact_problem.hpp"
 
 namespace plumb::reference {
@@ -39,6 +40,7 @@ struct SlipAcross {
 
 /// The root between two angles at which the signs differ: Newton's method, halving where that leaves the bracket.
 double root_between(const SlipAcross& across, double low, double high) {
+  PLUMB_ASSERT(low < high && (across.at(low) < 0) != (across.at(high) < 0));
   const bool rises = across.at(low) < 0;
   double angle = (low + high) / 2;
   for (int i = 0; i < 60; ++i) {

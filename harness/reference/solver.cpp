@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "plumb/assert.hpp"
 #include "reference/one_contact.hpp"
 
 namespace plumb::reference {
@@ -30,6 +31,7 @@ Scaled scaled(const ContactProblem& given) {
   Scaled result{{rows.asDiagonal() * given.w * rows.asDiagonal(), rows.cwiseProduct(given.q), given.mu}, rows};
   result.problem.w = (result.problem.w + result.problem.w.transpose()).eval() / 2;
   const double size = result.problem.q.norm();
+  PLUMB_ASSERT(size > 0);
   result.problem.q /= size;
   result.factors *= size;
   return result;
@@ -59,6 +61,7 @@ struct Projection {
   Matrix3d derivative = Matrix3d::Zero();
 
   Projection(const Vector3d& y, double mu) {
+    PLUMB_ASSERT(mu >= 0);
     if (y[0] <= 0) return;
     value[0] = y[0];
     derivative(0, 0) = 1;
@@ -112,6 +115,7 @@ struct Best {
   bool offer(const VectorXd& other) {
     const double now = other.allFinite() ? residual(problem, other).natural_map : INFINITY;
     if (!(now < value)) return false;
+    PLUMB_ASSERT(other.size() == problem.q.size());
     value = now;
     impulse = other;
     return true;
@@ -215,6 +219,7 @@ Solution solve(const ContactProblem& problem, const SolverOptions& options) {
     solution.sweeps = effort.sweeps;
     solution.newton_iterations = effort.newton_iterations;
   }
+  PLUMB_ASSERT(solution.impulse.allFinite());
   solution.velocity = problem.velocity(solution.impulse);
   solution.residual = residual(problem, solution.impulse);
   solution.converged = solution.residual.natural_map <= options.tolerance;

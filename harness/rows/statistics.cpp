@@ -4,12 +4,15 @@
 #include <cmath>
 #include <numbers>
 
+#include "plumb/assert.hpp"
+
 namespace plumb::harness {
 namespace {
 
 /// The probability that |t| stays below a bound, in closed form for whole degrees of freedom (Abramowitz and Stegun
 /// 1964, 26.7.3 and 26.7.4).
 double two_sided(double t, std::size_t degrees) {
+  PLUMB_ASSERT(degrees > 0);
   const double angle = std::atan2(t, std::sqrt(static_cast<double>(degrees)));
   const double c = std::cos(angle), s = std::sin(angle);
   double term = degrees % 2 == 1 ? c : 1, sum = degrees == 1 ? 0 : term;
@@ -24,6 +27,7 @@ double two_sided(double t, std::size_t degrees) {
 
 std::optional<double> quantile(std::vector<double> values, double share) {
   if (values.empty()) return std::nullopt;
+  PLUMB_ASSERT(std::none_of(values.begin(), values.end(), [](double value) { return std::isnan(value); }));
   std::sort(values.begin(), values.end());
   const double place = std::clamp(share, 0.0, 1.0) * static_cast<double>(values.size() - 1);
   const auto below = static_cast<std::size_t>(place);
@@ -52,6 +56,7 @@ std::optional<Interval> median_interval(std::vector<double> values, double confi
 }
 
 double student_t(std::size_t degrees, double confidence) {
+  PLUMB_ASSERT(confidence > 0 && confidence < 1);
   double low = 0, high = 1;
   while (two_sided(high, degrees) < confidence && high < 1e6) high *= 2;
   for (int i = 0; i < 80; ++i) {
@@ -75,11 +80,13 @@ std::optional<Interval> log_normal_interval(const std::vector<double>& values) {
 std::optional<double> relative_spread(const std::vector<double>& values) {
   const auto interval = log_normal_interval(values);
   if (!interval) return std::nullopt;
+  PLUMB_ASSERT(interval->low > 0 && interval->high >= interval->low);
   return (interval->high - interval->low) / 2 / std::sqrt(interval->high * interval->low);
 }
 
 std::optional<LineFit> fit_line(const std::vector<double>& x, const std::vector<double>& y) {
-  const std::size_t n = std::min(x.size(), y.size());
+  PLUMB_ASSERT(x.size() == y.size());
+  const std::size_t n = x.size();
   if (n < 2) return std::nullopt;
   double mean_x = 0, mean_y = 0;
   for (std::size_t i = 0; i < n; ++i) {

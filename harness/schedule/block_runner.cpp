@@ -7,6 +7,8 @@
 #include <random>
 #include <thread>
 
+#include "plumb/assert.hpp"
+
 namespace plumb::harness {
 
 namespace {
@@ -106,6 +108,7 @@ class BlockRunner {
   }
 
   void leave_out_idle(const CellBlock& block, const Ladder& ladder, std::vector<const Cell*>& open, Answers& answers) {
+    PLUMB_ASSERT(ladder.base < block.cells.size() && ladder.probe < block.cells.size());
     std::vector<std::size_t> idle = ladder.others;
     const End base = first_end(block.cells[ladder.base], answers);
     if (base.status == "unsupported") {

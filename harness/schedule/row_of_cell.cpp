@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 
+#include "plumb/assert.hpp"
 #include "rows/statistics.hpp"
 
 namespace plumb::harness {
@@ -15,7 +16,9 @@ namespace {
 int badness(const std::string& status) {
   static const std::vector<std::string> order{"ok",    "failed",        "unjudged", "unsupported",
                                               "error", "out_of_memory", "timeout",  "crashed"};
-  return static_cast<int>(std::find(order.begin(), order.end(), status) - order.begin());
+  const auto at = std::find(order.begin(), order.end(), status);
+  PLUMB_ASSERT(at != order.end());
+  return static_cast<int>(at - order.begin());
 }
 
 std::string status_of(const Answer& answer) {
@@ -32,6 +35,7 @@ Json part_of(const Answer& answer, const char* key, Json otherwise) {
 // Nearest rank (median: the upper of two).
 std::optional<double> percentile(const std::vector<double>& sorted, double share) {
   if (sorted.empty()) return std::nullopt;
+  PLUMB_ASSERT(share >= 0 && share <= 1 && std::is_sorted(sorted.begin(), sorted.end()));
   const auto rank = static_cast<std::size_t>(share * static_cast<double>(sorted.size()));
   return sorted[std::min(rank, sorted.size() - 1)];
 }
@@ -187,6 +191,7 @@ std::vector<double> medians_of_runs(const std::vector<Answer>& answers) {
 }
 
 Row make_row(const Cell& cell, const std::vector<Answer>& answers, const Json& machine) {
+  PLUMB_ASSERT(!answers.empty());
   const Answer& chosen = *std::max_element(answers.begin(), answers.end(), [](const Answer& a, const Answer& b) {
     return badness(status_of(a)) < badness(status_of(b));
   });

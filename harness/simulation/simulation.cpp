@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "plumb/assert.hpp"
 #include "plumb/backend/small_math.hpp"
 #include "referee/hash.hpp"
 #include "simulation/host.hpp"
@@ -36,6 +37,7 @@ bool is_finite(const PoseRow& row) {
 
 double median(std::vector<double> values) {
   if (values.empty()) return not_known;
+  PLUMB_ASSERT(std::none_of(values.begin(), values.end(), [](double value) { return std::isnan(value); }));
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
@@ -94,6 +96,7 @@ void Simulation::State::create_shapes() {
     for (const SceneShape::Child& child : shape.children) {
       PlumbCompoundChild row{};
       row.shape = shapes.at(child.shape);
+      PLUMB_ASSERT(row.shape != 0);  // made before it, as a compound is no child
       row.pose = child.pose;
       row.has_material = child.material ? 1 : 0;
       if (child.material) row.material = *child.material;
@@ -188,6 +191,7 @@ Simulation::Simulation(Backend& backend, const Scene& scene, const SimulationOpt
     s.create_bodies();
     s.create_joints();
     s.statistics.setup_ms = milliseconds_since(start);
+    PLUMB_ASSERT(s.bodies.size() == scene.bodies.size() && s.joints.size() == scene.joints.size());
     s.poses.resize(s.bodies.size());
     s.read_poses();
   }
@@ -218,6 +222,7 @@ PlumbJoint Simulation::joint_handle(std::size_t joint) const { return state_->jo
 bool Simulation::advance() {
   State& s = *state_;
   if (s.steps >= s.steps_total) return false;
+  PLUMB_ASSERT(s.statistics.step_ms.size() == s.steps);
   PlumbStepReport report{};
   report.struct_size = sizeof(report);
   {

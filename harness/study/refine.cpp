@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "plumb/assert.hpp"
+
 namespace plumb::harness {
 
 namespace {
@@ -18,6 +20,7 @@ bool crosses_a_level(const LadderPoint& a, const LadderPoint& b) {
 /// d log error / d log value; none where an error is nothing.
 std::optional<double> slope(const LadderPoint& a, const LadderPoint& b) {
   if (!(a.error > 0) || !(b.error > 0)) return std::nullopt;
+  PLUMB_ASSERT(a.value > 0 && b.value > a.value);
   return std::log(b.error / a.error) / std::log(b.value / a.value);
 }
 

@@ -7,6 +7,7 @@
 #include <random>
 #include <set>
 
+#include "plumb/assert.hpp"
 #include "plumb/nearest.hpp"
 #include "scene/catalogue.hpp"
 
@@ -175,6 +176,7 @@ class Planner {
     for (Sweep& sweep : sweeps_of(set, *cell.backend)) sweeps.push_back(std::move(sweep));
     std::vector<std::size_t> turned{base};
     for (const Sweep& sweep : sweeps) {
+      PLUMB_ASSERT(base < plan_.cells.size());
       const SweptSettings swept = swept_settings(*cell.backend, cell.settings, sweep, fixed_settings(set));
       std::vector<std::size_t> places;
       for (const Json& settings : swept.settings) {
@@ -189,6 +191,7 @@ class Planner {
   }
 
   void add_ladder(const StudySet& set, const Ladder& ladder, const std::vector<std::size_t>& places) {
+    PLUMB_ASSERT(ladder.base < places.size() && ladder.probe < places.size() && ladder.base != ladder.probe);
     const std::size_t base = places[ladder.base], probe = places[ladder.probe];
     StudyLadder mine;
     mine.knob = differing_knob(plan_.cells[base].cell, plan_.cells[probe].cell);
@@ -329,6 +332,7 @@ class Planner {
 
 std::size_t StudyPlan::add(PlannedCell cell) {
   const auto [at, is_new] = places.try_emplace(cell.id, cells.size());
+  PLUMB_ASSERT(is_new ? at->second == cells.size() : at->second < cells.size());
   if (is_new) {
     cells.push_back(std::move(cell));
     return at->second;
@@ -349,6 +353,7 @@ std::size_t StudyPlan::add(PlannedCell cell) {
 double knob_value(const Cell& cell, const std::string& knob) {
   if (knob == "dt") return cell.dt;
   const SettingDescription* setting = cell.backend->setting(knob);
+  PLUMB_ASSERT(setting != nullptr && is_number(*setting));
   return cell.settings.value(knob, setting->default_value).get<double>();
 }
 
@@ -358,6 +363,7 @@ Cell with_knob(Cell cell, const std::string& knob, double value) {
     return cell;
   }
   const SettingDescription* setting = cell.backend->setting(knob);
+  PLUMB_ASSERT(setting != nullptr && is_number(*setting));
   const Json wanted = setting->type == "int" ? Json(static_cast<std::int64_t>(std::llround(value))) : Json(value);
   if (wanted == setting->default_value) {
     cell.settings.erase(knob);

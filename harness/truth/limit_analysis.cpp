@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "plumb/assert.hpp"
+
 namespace plumb::truth {
 namespace {
 
@@ -15,6 +17,7 @@ double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y(
 /// Least |A x - b| over x >= 0: the residual. Lawson & Hanson 1974, algorithm NNLS.
 Eigen::VectorXd nonnegative_residual(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) {
   constexpr double tolerance = 1e-13;
+  PLUMB_ASSERT(a.rows() == b.size());
   const Eigen::Index n = a.cols();
   std::vector<Eigen::Index> passive;
   std::vector<bool> is_passive(static_cast<std::size_t>(n));
@@ -78,6 +81,7 @@ double unbalance(const PlaneStructure& structure) {
     const Vector2d force = contact.normal + (c % 2 == 0 ? 1 : -1) * contact.friction * along;
     const auto add = [&](int block, double sign) {
       if (block == PlaneContact::ground) return;
+      PLUMB_ASSERT(block >= 0 && static_cast<std::size_t>(block) < structure.blocks.size());
       const Vector2d arm = contact.point - structure.blocks[static_cast<std::size_t>(block)].centre;
       a.block<2, 1>(3 * block, c) = sign * force;
       a(3 * block + 2, c) = sign * cross(arm, force) / size;

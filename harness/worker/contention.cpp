@@ -8,6 +8,8 @@
 #include <sstream>
 #include <string>
 
+#include "plumb/assert.hpp"
+
 namespace plumb::harness {
 
 namespace {
@@ -51,6 +53,7 @@ ProcessorTime processor_time() {
 }
 
 std::optional<Contention> contended(const Load& load, unsigned cores, unsigned threads, unsigned ranks) {
+  PLUMB_ASSERT(cores > 0);
   const unsigned asked = threads * std::max(1u, ranks);
   const double all = load.others + threads;
   if (asked > cores) {
@@ -69,6 +72,7 @@ std::optional<Contention> contended(const Load& load, unsigned cores, unsigned t
 LoadWatch::LoadWatch() { moments_.push_back({Clock::now(), processor_time(), 0}); }
 
 Load LoadWatch::since(Clock::time_point since, double own) {
+  PLUMB_ASSERT(!moments_.empty());
   const Moment now{Clock::now(), processor_time(), own};
   const auto latest = std::min(since, now.time - shortest);
   // The latest of the moments that lie far enough back; older ones will never be asked for again.

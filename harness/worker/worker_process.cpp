@@ -17,6 +17,8 @@
 #include <thread>
 #include <vector>
 
+#include "plumb/assert.hpp"
+
 extern char** environ;
 
 namespace plumb::harness {
@@ -145,6 +147,7 @@ WorkerProcess::~WorkerProcess() {
 
 Answer WorkerProcess::ask(const Json& request, const WorkerLimits& limits,
                           const std::function<void(const Progress&)>& tick) {
+  PLUMB_ASSERT(alive());
   progress_->step = 0;
   progress_->total = 0;
   progress_->clock.start();
@@ -289,6 +292,7 @@ void WorkerProcess::end_process(bool politely) {
 
 // The wait status; pid_ stays when patience ends first.
 int WorkerProcess::wait_for_end(std::chrono::milliseconds patience) {
+  PLUMB_ASSERT(pid_ > 0);  // kill(-0) is this program's own group
   const auto start = Clock::now();
   int status = 0;
   while (true) {

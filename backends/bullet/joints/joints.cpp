@@ -1,6 +1,7 @@
 // Joints of a world: create, destroy, read, write, react and break.
 #include <algorithm>
 
+#include "plumb/assert.hpp"
 #include "plumb/backend/modify.hpp"
 #include "world.hpp"
 
@@ -17,6 +18,7 @@ std::unique_ptr<Joint> World::make_joint(const PlumbJointDesc& desc, PlumbJoint 
   if (joint->body_a == nullptr || !joint->body_a->offset_frame) joint->frame_a = frame_a;
   if (!joint->body_b->offset_frame) joint->frame_b = frame_b;
   make_constraint(*joint);
+  PLUMB_ASSERT(joint->constraint != nullptr && joint->body_a != joint->body_b);
   joint->wants_reaction = needs(PLUMB_NEED_JOINT_REACTIONS) || joint->breaks();
   if (joint->wants_reaction) {
     joint->feedback = std::make_unique<btJointFeedback[]>(1 + joint->springs.size());
@@ -45,6 +47,7 @@ void World::add_to_bullet(Joint& joint) {
   if (joint.body_a != nullptr) wake(*joint.body_a);
   wake(*joint.body_b);
   const bool moves = joint.body_b->is(PLUMB_DYNAMIC) || (joint.body_a != nullptr && joint.body_a->is(PLUMB_DYNAMIC));
+  PLUMB_ASSERT(!joint.solved);
   joint.solved = joint.enabled && moves;
   if (!joint.solved) return;
   const bool apart = joint.desc.collide_connected == 0 && joint.body_a != nullptr;
@@ -61,6 +64,7 @@ void World::take_from_bullet(Joint& joint) {
   for (auto& spring : joint.springs) world_.removeConstraint(spring.get());
   world_.removeConstraint(joint.constraint.get());
   joint.solved = false;
+  PLUMB_ASSERT(lists_.joint_count > 0);
   --lists_.joint_count;
 }
 
@@ -128,6 +132,7 @@ void World::prepare_joints(btScalar h) {
 void World::break_joints() {
   for (auto& at : joints_) {
     if (!at || !at->solved || !at->wants_reaction) continue;
+    PLUMB_ASSERT(at->feedback != nullptr && at->constraint->getJointFeedback() == &at->feedback[0]);
     btVector3 force(0, 0, 0), torque(0, 0, 0);
     for (std::size_t k = 0; k <= at->springs.size(); ++k) {
       force += at->feedback[k].m_appliedForceBodyB;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "joints/generic_joint.hpp"
+#include "plumb/assert.hpp"
 #include "plumb/backend/names.hpp"
 #include "plumb/backend/usual_capability.hpp"
 
@@ -122,6 +123,7 @@ void set_row(const Joint& joint, std::size_t axis, const Settings& settings, dou
 }  // namespace
 
 SoftRow soft_row(const PlumbSpring& spring, double mass, double h) {
+  PLUMB_ASSERT(mass > 0 && h > 0);
   const double rate = 2 * std::numbers::pi * spring.frequency;
   const double k = mass * rate * rate, c = 2 * mass * spring.damping_ratio * rate;
   return {h * k / (h * k + c), 1 / (h * k + c)};
@@ -244,6 +246,7 @@ void RowMaker::add(Joint& joint, dContact contact) const {
   contact.geom.pos[0] = at.x;
   contact.geom.pos[1] = at.y;
   contact.geom.pos[2] = at.z;
+  PLUMB_ASSERT(joint.rows < joint.row_feedbacks.size());
   const dJointID row = dJointCreateContact(world, group, &contact);
   dJointAttach(row, joint.first().body, joint.second());
   if (joint.watched) dJointSetFeedback(row, &joint.row_feedbacks[joint.rows]);
@@ -263,6 +266,7 @@ void RowMaker::add_push(Joint& joint, const PlumbVec3& push, double depth) const
 }
 
 void prepare(Joint& joint, const RowMaker& rows) {
+  PLUMB_ASSERT(joint.solved() && rows.h > 0);
   joint.rows = 0;
   const PlumbPose frame_b = joint.frame_b();
   joint.arm = sub(frame_b.position, joint.first().centre());
@@ -279,6 +283,7 @@ void prepare(Joint& joint, const RowMaker& rows) {
 }
 
 void take_reaction(Joint& joint, double share) {
+  PLUMB_ASSERT(joint.watched && joint.rows <= joint.row_feedbacks.size());
   const double on_b = joint.swapped() ? -share : share;
   const auto take = [&](const dJointFeedback& feedback) {
     const PlumbVec3 force = vec(feedback.f1);

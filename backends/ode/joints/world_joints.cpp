@@ -1,6 +1,7 @@
 // Joints of a world: made, broken, their rows.
 #include <algorithm>
 
+#include "plumb/assert.hpp"
 #include "plumb/backend/modify.hpp"
 #include "slots.hpp"
 #include "world.hpp"
@@ -33,6 +34,7 @@ PlumbResult World::destroy_joints(std::span<const PlumbJoint> ids) {
 }
 
 void World::bind(Joint& joint) {
+  PLUMB_ASSERT(!joint.solved() && joint.b != nullptr && joint.a != joint.b);
   joint.force = joint.torque = {};
   if (!joint.enabled || !(joint.b->dynamic() || (joint.a != nullptr && joint.a->dynamic()))) return;
   const PlumbJointDesc& desc = joint.desc;

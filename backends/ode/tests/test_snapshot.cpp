@@ -88,6 +88,19 @@ TEST(Snapshot, OfAnotherStateDiffers) {
   EXPECT_NE(scene.rows(), later);
 }
 
+TEST(Snapshot, OfOtherShapesIsRefused) {
+  const TestWorld round(needs), bare(needs);
+  round.dynamic(round.sphere(.5), {0, 1, 0});
+  PlumbBodyDesc desc = body_desc();
+  desc.mass_mode = PLUMB_MASS_EXPLICIT;
+  desc.mass = 1;
+  desc.inertia = {1, 1, 1};
+  bare.body(desc);
+  std::span<const std::byte> data;
+  check(*round, round->snapshot()->save(data));
+  EXPECT_EQ(bare->snapshot()->restore(data), PLUMB_E_CORRUPT);
+}
+
 TEST(Snapshot, IsRefusedWhereOdeKeepsItsOrderToItself) {
   const Scene scene(0, {setting("space", "sap")});
   std::span<const std::byte> data;

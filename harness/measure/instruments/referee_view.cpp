@@ -5,6 +5,7 @@
 
 #include "measure/instruments/mechanics.hpp"
 #include "measure/instruments/series.hpp"
+#include "plumb/assert.hpp"
 #include "referee/joints.hpp"
 
 namespace plumb::harness {
@@ -116,6 +117,7 @@ ImpulseAccount::PairForce ImpulseAccount::between(std::size_t body_a, std::size_
   const auto [low, high] = ordered(body_a, body_b);
   const auto found = pairs_.find(std::uint64_t{low} << 32 | high);
   if (found == pairs_.end()) return {0, 0};
+  PLUMB_ASSERT(seconds_ > 0);
   return {found->second.normal.norm() / seconds_, found->second.tangent.norm() / seconds_};
 }
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "plumb/assert.hpp"
+
 namespace plumb::harness {
 namespace {
 
@@ -14,6 +16,7 @@ constexpr double slack = 1e-6;  ///< steps by which times that are meant to be e
 class Last {
  public:
   void push(const SeriesPoint& sample) {
+    PLUMB_ASSERT(count_ == 0 || sample.time > here_.time);
     before_ = last_;
     last_ = here_;
     here_ = sample;
@@ -152,6 +155,7 @@ class Passes : public Reduction {
     if (spec().take == Take::crossing_time) return {first_, fmt::format("it never passed {:g}", spec().level)};
     if (count_ < 3)
       return {not_measured, fmt::format("it passed {:g} {} times, and a period takes 3", spec().level, count_)};
+    PLUMB_ASSERT(same_way_ > first_);
     return {(same_way_ - first_) / static_cast<double>((count_ - 1) / 2), ""};
   }
 
@@ -211,6 +215,7 @@ Reduction::Result Reduction::result() const {
 }
 
 std::unique_ptr<Reduction> make_reduction(const ReductionSpec& spec) {
+  PLUMB_ASSERT(spec.dt > 0);
   if (spec.take == Take::at) return std::make_unique<AtTime>(spec);
   if (spec.take == Take::mean || spec.take == Take::rms) return std::make_unique<Mean>(spec);
   if (spec.take == Take::rise || spec.take == Take::range) return std::make_unique<RiseOrRange>(spec);

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "base/format.hpp"
+#include "plumb/assert.hpp"
 
 namespace plumb::harness {
 namespace {
@@ -65,6 +66,7 @@ std::vector<Curve> curves_along_knobs(const std::vector<const Row*>& rows) {
 }
 
 MethodCurves curves_of(const std::vector<const Row*>& rows) {
+  PLUMB_ASSERT(!rows.empty());
   MethodCurves out{0, {}, {}, {}};
   for (const Row* row : rows) {
     if (!row->completed()) out.broken.push_back(row);

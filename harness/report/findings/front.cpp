@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "plumb/assert.hpp"
+
 namespace plumb::harness {
 
 Front pareto_front(const Problem& problem, const std::string& metric, std::vector<FrontPoint> points) {
@@ -16,6 +18,7 @@ Front pareto_front(const Problem& problem, const std::string& metric, std::vecto
       front.best.push_back(std::move(point));
       continue;
     }
+    PLUMB_ASSERT(front.best.back().error <= point.error);
     // Errors fall along the front, so that the first one as exact is the cheapest of those.
     const auto by = std::find_if(front.best.begin(), front.best.end(),
                                  [&](const FrontPoint& best) { return best.error <= point.error; });

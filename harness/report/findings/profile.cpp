@@ -6,6 +6,8 @@
 #include <map>
 #include <optional>
 
+#include "plumb/assert.hpp"
+
 namespace plumb::harness {
 namespace {
 
@@ -71,6 +73,7 @@ Profile profile_of(const OrderedRows& ordered, const std::vector<Lines>& tests, 
     for (std::size_t i = 0; i < of_backend.size(); ++i) {
       curve.tests.push_back(of_backend[i].second);
       const double share = static_cast<double>(i + 1) / static_cast<double>(tests.size());
+      PLUMB_ASSERT(share <= 1);
       if (!curve.steps.empty() && curve.steps.back().x == of_backend[i].first) {
         curve.steps.back().share = share;
       } else {

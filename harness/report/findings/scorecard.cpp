@@ -8,6 +8,7 @@
 #include <set>
 
 #include "base/format.hpp"
+#include "plumb/assert.hpp"
 #include "report/ordered/counted_error.hpp"
 #include "report/ordered/default_run.hpp"
 #include "report/ordered/sample.hpp"
@@ -42,6 +43,7 @@ struct EqualCostTest {
 class MeanFactor {
  public:
   void add(double factor) {
+    PLUMB_ASSERT(factor > 0);
     sum_ += std::log(factor);
     ++count_;
   }
@@ -113,6 +115,7 @@ RelativeScore error_score(const std::vector<EqualCostTest>& tests, std::size_t b
     ++score.tests;
     if (!test.errors[backend]) continue;
     ++score.reached;
+    PLUMB_ASSERT(backend < test.errors.size() && test.ran.size() == test.errors.size());
     const double best = *test.best(), mine = test.errors[backend]->error;
     // Without a limit an error of zero leaves no room for a factor: whoever has it too is as good.
     if (best > 0)
@@ -150,6 +153,7 @@ GroupScore group_score(const OrderedRows& ordered, const std::vector<EqualCostTe
     ++score.scored;
     score.passed += row->passes();
   }
+  PLUMB_ASSERT(score.passed <= score.scored);
   score.error = error_score(equal_cost, backend, group);
   score.cost = cost_score(costs, ordered.backends[backend], group);
   return score;

@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <map>
 
+#include "plumb/assert.hpp"
+
 namespace plumb::harness {
 namespace {
 
 /// The cheapest of what reaches the same; what has no time is remembered.
 void offer(std::optional<Reached>& best, Reached offered) {
+  PLUMB_ASSERT(!std::isnan(offered.error));
   offered.untimed = offered.ms ? 0 : 1;
   if (!best) {
     best = offered;

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "base/format.hpp"
+#include "plumb/assert.hpp"
 
 namespace plumb::harness {
 namespace {
@@ -109,7 +110,11 @@ OrderedRows::OrderedRows(std::vector<Row> given) : rows(std::move(given)) {
   for (const Row& row : rows) is_default_.push_back(find_default(row));
 }
 
-bool OrderedRows::is_default(const Row& row) const { return is_default_[static_cast<std::size_t>(&row - rows.data())]; }
+bool OrderedRows::is_default(const Row& row) const {
+  const auto place = static_cast<std::size_t>(&row - rows.data());
+  PLUMB_ASSERT(place < is_default_.size());  // it is one of ours, and no copy
+  return is_default_[place];
+}
 
 bool OrderedRows::find_default(const Row& row) const {
   const Baseline& baseline = baselines_.at(row.backend);

@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "base/format.hpp"
+#include "plumb/assert.hpp"
 #include "report/ordered/ordered_rows.hpp"
 
 namespace plumb::harness {
@@ -23,6 +24,7 @@ std::string configuration_key(const Row& row) {
 }  // namespace
 
 bool Sample::passes() const {
+  PLUMB_ASSERT(!rows.empty());
   const auto passed = std::count_if(rows.begin(), rows.end(), [](const Row* row) { return row->passes(); });
   return 2 * static_cast<std::size_t>(passed) >= rows.size();
 }
