@@ -110,7 +110,8 @@ void Simulation::list_proxies() {
   stages_.narrow_phase.forget_found(executor_, statics.rows, lists_.statics.count());
   if ((lists_.types & kMidphaseTypes) != 0) use_midphase(true);
   if (origin_.find(lists_.movers, colliders, bodies.state) || other_statics) statics_changed();
-  if (!dirty_.statics && statics.count != statics_before) dirty_.statics = dirty_.bound_again = true;  // to fill up the tree
+  const bool other_room = statics.count != statics_before;
+  if (!dirty_.statics && other_room) dirty_.statics = dirty_.bound_again = true;  // to fill up the tree
   dirty_.lists = false;
 }
 

@@ -105,7 +105,6 @@ TEST(Modify, JointsAreAsIfTheyHadBeenMadeSo) {
   EXPECT_EQ(paused.hash_after(90), expected);
 }
 
-/// A joint that was let go and taken again has borne nothing yet.
 std::vector<PlumbContact> contacts_of(Scene& scene) {
   const std::span<const PlumbContact> contacts = scene.world().contacts();
   return {contacts.begin(), contacts.end()};
@@ -146,6 +145,7 @@ TEST(Modify, ContactsAreStillThoseOfTheStep) {
   }
 }
 
+/// A joint that was let go and taken again has borne nothing yet.
 TEST(Modify, ReactionsAreNotThoseOfBefore) {
   Scene scene(engine(), kModifyNeeds | PLUMB_NEED_JOINT_REACTIONS, {0, -9.81, 0}, 1);
   PlumbJointDesc desc = joint_desc(PLUMB_JOINT_FIXED);
