@@ -37,7 +37,7 @@ PlumbResult World::create_bodies(std::span<const PlumbBodyDesc> descs, std::span
 
 PlumbResult World::destroy_bodies(std::span<const PlumbBody> ids) {
   if (init_.needs(PLUMB_NEED_EVENTS) || init_.needs(PLUMB_NEED_SENSORS)) told_.touches.forget(ids, told_.early_events);
-  if (init_.needs(PLUMB_NEED_CONTACTS)) records();  // while the bodies are where the step left them
+  if (init_.needs(PLUMB_NEED_CONTACTS)) contacts();  // while the bodies are where the step left them
   wake_for_write(PLUMB_FIELD_POSE, ids);
   for (const PlumbBody id : ids) {
     const std::uint32_t slot = slot_of(id);
@@ -51,8 +51,11 @@ PlumbResult World::destroy_bodies(std::span<const PlumbBody> ids) {
     simulation_.bodies.state.touch(slot, kVelocityPart);
   }
   sensors_.remove_if([&](std::uint32_t slot) { return bodies_[slot].id == 0; });
-  std::erase_if(told_.records, [&](const ToldContact& record) {  // their slots will be others'
+  std::erase_if(told_.records, [&](const ContactRecord& record) {  // their slots will be others'
     return bodies_[record.bodies.a].id == 0 || bodies_[record.bodies.b].id == 0;
+  });
+  std::erase_if(lent_.contacts, [&](const PlumbContact& contact) {
+    return bodies_[slot_of(contact.body_a)].id == 0 || bodies_[slot_of(contact.body_b)].id == 0;
   });
   Simulation::Slots gone;
   for (const PlumbBody id : ids) gone.push_back(slot_of(id));

@@ -101,7 +101,7 @@ std::vector<std::uint32_t> World::islands_of_bodies() {
     const std::uint32_t root_a = root(a), root_b = root(b);
     parent[std::max(root_a, root_b)] = std::min(root_a, root_b);
   };
-  for (const ToldContact& record : records())
+  for (const ContactRecord& record : records())
     if (body_of_last_step(record.pair.a) != 0 && body_of_last_step(record.pair.b) != 0)
       join(record.bodies.a, record.bodies.b);
   for (const JointRecord& joint : joints_.records)

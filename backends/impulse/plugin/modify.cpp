@@ -16,7 +16,7 @@ PlumbResult World::modify_bodies(std::span<const PlumbBodyChange> changes) {
     require_range(backend::described(changes[i]), i);
     ids.push_back(changes[i].body);
   }
-  if (init_.needs(PLUMB_NEED_CONTACTS)) records();  // while the bodies are what the step left them
+  if (init_.needs(PLUMB_NEED_CONTACTS)) contacts();  // while the bodies are what the step left them
   wake_for_write(PLUMB_FIELD_POSE, ids);
   Simulation::Slots slots(ids.size());
   std::transform(ids.begin(), ids.end(), slots.begin(), [](PlumbBody id) { return slot_of(id); });

@@ -187,7 +187,7 @@ void World::put_proxy_row(std::uint32_t slot, std::uint32_t row) {
 /// What a contact tells of the proxy beside its body: the triangle where it is a surface.
 std::uint32_t World::child_of(std::uint32_t proxy, std::uint32_t triangle) const {
   const std::uint32_t shape = simulation_.colliders.proxies[proxy].shape;
-  if (shape == kNone) return 0;
+  PLUMB_ASSERT(shape != kNone);
   if (is_surface(simulation_.colliders.shapes[shape].type)) return triangle;
   return proxy < proxies_.size() ? proxies_[proxy].child : 0;
 }

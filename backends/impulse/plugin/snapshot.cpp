@@ -26,6 +26,7 @@ PlumbResult World::restore(std::span<const std::byte> data) {
   exchange(archive);
   told_.records.clear();  // contacts are told of by the steps to come
   told_.records_known = true;
+  told_.contacts_known = false;
   return PLUMB_OK;
 }
 

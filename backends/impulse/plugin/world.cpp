@@ -44,7 +44,7 @@ PlumbResult World::set_gravity(const PlumbVec3& gravity) {
 PlumbResult World::step(double dt) {
   steer_kinematics(dt);
   pacing_.dt = dt;
-  told_.records_known = false;
+  told_.records_known = told_.contacts_known = false;
   pacing_.parts = {};
   told_.events.swap(told_.early_events);
   told_.early_events.clear();
@@ -118,16 +118,11 @@ void World::clear_forces() {
   pushed_.clear();
 }
 
-const std::vector<World::ToldContact>& World::records() {
-  if (told_.records_known) return told_.records;
-  told_.records.clear();
-  const auto add = [this](const std::vector<ContactRecord>& contacts) {
-    for (const ContactRecord& contact : contacts)
-      told_.records.push_back(
-          {contact, child_of(contact.pair.a, contact.triangle), child_of(contact.pair.b, contact.triangle)});
-  };
-  add(simulation_.contacts());
-  add(pacing_.parts.contacts);
+const std::vector<ContactRecord>& World::records() {
+  if (!told_.records_known) {
+    told_.records = simulation_.contacts();
+    told_.records.insert(told_.records.end(), pacing_.parts.contacts.begin(), pacing_.parts.contacts.end());
+  }
   told_.records_known = true;
   return told_.records;
 }
@@ -140,7 +135,7 @@ void World::find_events() {
 }
 
 void World::find_touches() {
-  for (const ToldContact& record : records())
+  for (const ContactRecord& record : records())
     for (std::uint32_t p = 0; p < record.count; ++p)
       if (record.separation[p] <= 0 || record.normal_impulse[p] > 0) {
         told_.touches.touch(bodies_[record.bodies.a].id, bodies_[record.bodies.b].id);
@@ -149,16 +144,17 @@ void World::find_touches() {
 }
 
 std::span<const PlumbContact> World::contacts() {
+  if (told_.contacts_known) return lent_.contacts;
   lent_.contacts.clear();
   const bool impulses = init_.needs(PLUMB_NEED_CONTACT_IMPULSES);
   const double unknown = std::numeric_limits<double>::quiet_NaN();
-  for (const ToldContact& record : records())
+  for (const ContactRecord& record : records())
     for (std::uint32_t p = 0; p < record.count; ++p) {
       PlumbContact contact{};
       contact.body_a = bodies_[record.bodies.a].id;
       contact.body_b = bodies_[record.bodies.b].id;
-      contact.child_a = record.child_a;
-      contact.child_b = record.child_b;
+      contact.child_a = child_of(record.pair.a, record.triangle);
+      contact.child_b = child_of(record.pair.b, record.triangle);
       contact.position = plumb_vec(record.position[p]);
       contact.normal = to_plumb(record.normal);
       contact.depth = -static_cast<double>(record.separation[p]);
@@ -167,6 +163,7 @@ std::span<const PlumbContact> World::contacts() {
       contact.feature = record.feature[p] + std::uint64_t{1};
       lent_.contacts.push_back(contact);
     }
+  told_.contacts_known = true;
   return lent_.contacts;
 }
 

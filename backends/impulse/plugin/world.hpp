@@ -149,11 +149,7 @@ class World final : public IPhysicsWorld,
   void wake_for_write(PlumbField field, std::span<const PlumbBody> ids);
   void wake_for_joint(const PlumbJointDesc& desc);
   void write_awake(std::span<const PlumbBody> ids, ConstRows rows);
-  /// A contact of the last step. Its proxies may be others' by now, or nobody's.
-  struct ToldContact : ContactRecord {
-    std::uint32_t child_a, child_b;
-  };
-  const std::vector<ToldContact>& records();
+  const std::vector<ContactRecord>& records();
   template <class Ask>
   Hits ask(const Ask& ask);
   HitNames hit_names();
@@ -184,9 +180,9 @@ class World final : public IPhysicsWorld,
   };
   /// What is told of the last step.
   struct Told {
-    bool records_known = false;
-    std::vector<ToldContact> records;
-    std::vector<PlumbEvent> events, early_events;  // early: of what the host did since
+    bool records_known = false, contacts_known = false;  // contacts: Lent has them
+    std::vector<ContactRecord> records;                  // their proxies may be others' by now, or nobody's
+    std::vector<PlumbEvent> events, early_events;        // early: of what the host did since
     backend::TouchTracker touches;
   };
   /// What callers look at until they ask again.
