@@ -59,10 +59,11 @@ struct BoundProxies {
   /// on within the step, even where it only just does not touch.
   PLUMB_HD Real look_ahead(const Proxy& proxy, const Shape& shape) const {
     const Velocity& velocity = bodies.velocity[proxy.body];
+    const BodyMass& mass = bodies.mass[proxy.body];
     const Real reach = shape.reach + length(proxy.frame.position);
     const Real dt = parameters->dt;
-    const Real travel =
-        dt * (length(velocity.linear) + reach * length(velocity.angular)) + dt * dt * length(parameters->gravity);
+    const Real falls = (mass.flags & kBodyDynamic) != 0 ? abs(mass.gravity_scale) * length(parameters->gravity) : 0;
+    const Real travel = dt * (length(velocity.linear) + reach * length(velocity.angular)) + dt * dt * falls;
     const Real struck = proxy.restitution > 0 ? kStruckShare * shape.reach : Real(0);
     return min(travel + struck, shape.reach);
   }

@@ -1,10 +1,11 @@
 // How much a pass over the constraints changed their impulses: what tells that further passes would buy nothing.
 #pragma once
 
+#include <limits>
 #include <type_traits>
 
 #include "exec/atomic.hpp"
-#include "math/real.hpp"
+#include "math/wide.hpp"
 
 namespace plumb::impulse {
 
@@ -32,5 +33,12 @@ struct PassChange {
     atomic_max(&most, bits);
   }
 };
+
+/// x, not negative, or 0 where it is no number any more. A body that is lost changes for ever, and all others would be
+/// passed over on its account; and whether inf or NaN is left of it differs by device.
+template <class N>
+[[nodiscard]] PLUMB_HD N zero_unless_finite(const N& x) {
+  return select(x < N(std::numeric_limits<Real>::infinity()), x, N(0));
+}
 
 }  // namespace plumb::impulse

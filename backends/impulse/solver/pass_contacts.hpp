@@ -36,8 +36,8 @@ struct ContactPass {
       PLUMB_UNROLL
       for (int k = 0; k < 3; ++k) {
         const N now = contact.impulse[k].at[i], change = now - before[k].at[i];
-        changed = max(changed, max(change, -change));
-        reached = max(reached, max(now, -now));
+        changed = max(changed, zero_unless_finite(max(change, -change)));
+        reached = max(reached, zero_unless_finite(max(now, -now)));
       }
       noted->note(largest(changed), largest(reached));
     }

@@ -28,8 +28,8 @@ PLUMB_HD void note_joint(const JointView& view, std::uint32_t j, PassChange* not
   const JointImpulse& now = view.impulses[view.joints[j].slot];
   Real changed = 0, reached = 0;
   for (int i = 0; i < row_count(view.joints[j]); ++i) {
-    changed = max(changed, abs(now.along[i] - before.along[i]));
-    reached = max(reached, abs(now.along[i]));
+    changed = max(changed, zero_unless_finite(abs(now.along[i] - before.along[i])));
+    reached = max(reached, zero_unless_finite(abs(now.along[i])));
   }
   noted->note(changed, reached);
 }

@@ -17,7 +17,6 @@ constexpr std::uint32_t kLeastPairs = 1024;
 Simulation::Numbers::Numbers() {
   parameters.grow(1);
   levels.grow(1);
-  of_statics.grow(1);
   counters.grow(1);
 }
 
@@ -110,8 +109,7 @@ void Simulation::list_proxies() {
   stages_.narrow_phase.forget_found(executor_, statics.rows, lists_.statics.count());
   if ((lists_.types & kMidphaseTypes) != 0) use_midphase(true);
   if (origin_.find(lists_.movers, colliders, bodies.state) || other_statics) statics_changed();
-  const bool other_room = statics.count != statics_before;
-  if (!dirty_.statics && other_room) dirty_.statics = dirty_.bound_again = true;  // to fill up the tree
+  dirty_.statics = dirty_.statics || statics.count != statics_before;  // to fill up the tree
   dirty_.lists = false;
 }
 
@@ -150,12 +148,9 @@ void Simulation::upload_changes() {
 }
 
 void Simulation::bound_statics() {
-  if (!dirty_.bound_again) numbers_.of_statics[0] = numbers_.parameters[0];
-  dirty_.bound_again = false;
-  executor_.to_device(numbers_.of_statics, 1);
   const ProxyRows statics = lists_.statics.view();
   for (const ProxyRows& list : {statics, lists_.planes.view()})
-    executor_.run(list.count, BoundProxies{body_view(), colliders.view(), numbers_.of_statics.device(), list.rows,
+    executor_.run(list.count, BoundProxies{body_view(), colliders.view(), numbers_.parameters.device(), list.rows,
                                            stages_.boxes.data(), stages_.margins.data()});
   stages_.broad_phase.build_statics(executor_, stages_.boxes.data(), statics.rows, statics.count);
   dirty_.statics = false;
@@ -310,9 +305,6 @@ std::vector<Pair> Simulation::candidates() {
 void Simulation::exchange(Archive& archive, const Extent& extent) {
   archive.value(step_);
   origin_.exchange(archive);
-  archive.value(numbers_.of_statics[0]);
-  bool statics_dirty = dirty_.statics && !dirty_.bound_again;
-  archive.value(statics_dirty);
   StepCounters& counted = *numbers_.counters.host();
   archive.value(counted);
   if (candidate_count() > stages_.pair_capacity) reserve_pairs(candidate_count());
@@ -324,7 +316,6 @@ void Simulation::exchange(Archive& archive, const Extent& extent) {
   if (!archive.reads()) return;
   (void)find_proxies();  // so that what comes next tells whether the host has changed the statics since
   dirty_.lists = dirty_.statics = restored_ = true;
-  dirty_.bound_again = !statics_dirty;
   recorder_.forget();
 }
 

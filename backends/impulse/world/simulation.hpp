@@ -50,7 +50,6 @@ class Simulation {
   }
   void statics_changed() {  ///< bodies that do not move: placed elsewhere
     dirty_.statics = true;
-    dirty_.bound_again = false;
     ++list_version_;
   }
 
@@ -142,12 +141,10 @@ class Simulation {
     Numbers();
     Mirror<StepParameters> parameters;
     Mirror<SubstepLevels> levels;
-    Mirror<StepParameters> of_statics;  // with which the statics were bounded
     Mirror<StepCounters> counters;
   };
   struct Dirty {
     bool lists = true, statics = true;
-    bool bound_again = false;  // the statics, as they were: with the same parameters
   };
   /// What queries work with, made when the first comes: the step's own lists and trees are not touched.
   struct ForQueries {
