@@ -118,6 +118,11 @@ export interface BodyChange extends MassOptions {
 export type Axis = 'x' | 'y' | 'z' | 'angularX' | 'angularY' | 'angularZ';
 type OfAxes<Value> = Partial<Record<Axis, Value>>;
 
+/** About rest, m or rad: by frequency, Hz, and damping ratio, of which 1 is critical; or by stiffness, N/m or N m/rad, and
+ *  damping, N s/m or N m s/rad. */
+export type Spring = { rest?: number } &
+  ({ frequency: number; dampingRatio?: number } | { stiffness?: number; damping?: number });
+
 export interface JointRow {
   frameA?: Frame;
   frameB?: Frame;
@@ -127,8 +132,7 @@ export interface JointRow {
   limits?: OfAxes<readonly [lower: number, upper: number]>;
   /** m/s or rad/s; N or N m. */
   motors?: OfAxes<{ targetVelocity?: number; maxForce: number }>;
-  /** m or rad; Hz; 1 is critical damping. */
-  springs?: OfAxes<{ rest?: number; frequency: number; dampingRatio?: number }>;
+  springs?: OfAxes<Spring>;
   restLength?: number;
   /** N and N m; 0: never breaks. */
   breakForce?: number;

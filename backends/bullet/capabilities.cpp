@@ -69,8 +69,12 @@ PlumbDegree joint_feature_degree(std::uint32_t type, std::uint32_t feature, cons
       return has_axes ? PLUMB_NATIVE : type == PLUMB_JOINT_DISTANCE ? PLUMB_EMULATED : PLUMB_NONE;
     case PLUMB_JOINT_HAS_MOTORS: return has_axes ? PLUMB_NATIVE : PLUMB_NONE;
     case PLUMB_JOINT_HAS_SPRINGS:
+    case PLUMB_JOINT_HAS_STIFFNESS:
       if (!has_axes && type != PLUMB_JOINT_DISTANCE) return PLUMB_NONE;
-      return answer(PLUMB_EMULATED, note, "a force of the adapter on the axis; no faster than one radian a sub-step");
+      return answer(PLUMB_EMULATED, note,
+                    feature == PLUMB_JOINT_HAS_SPRINGS
+                        ? "a force of the adapter on the axis; no faster than one radian a sub-step"
+                        : "a force of the adapter on the axis, of stiff ones a soft row");
     case PLUMB_JOINT_BREAKS: return answer(PLUMB_EMULATED, note, "by the length of the reaction after each sub-step");
     case PLUMB_JOINT_HAS_REACTION: return PLUMB_NATIVE;
     default: return PLUMB_NONE;

@@ -92,6 +92,17 @@ void write_inertial(Writer& out, const Body& body) {
       << "\" diaginertia=\"" << desc.mass << desc.mass << desc.mass << "\"/>\n";
 }
 
+void write_stiffness(Writer& out, const Joint& joint, std::size_t axis) {
+  const PlumbSpring& spring = joint.desc.springs[axis];
+  double stiffness = spring.frequency, damping = spring.damping_ratio;
+  if (spring.mode == PLUMB_SPRING_FREQUENCY) {
+    const double mass = effective_mass(joint, axis), rate = 2 * std::numbers::pi * spring.frequency;
+    stiffness = mass * rate * rate;
+    damping = 2 * spring.damping_ratio * mass * rate;
+  }
+  out << " stiffness=\"" << stiffness << "\" damping=\"" << damping << "\"";
+}
+
 void write_scalar_joint(Writer& out, const Body& body, std::size_t axis, const PlumbPose& frame) {
   const Joint& link = *body.link;
   const double sign = body.reversed ? -1 : 1;
@@ -103,9 +114,8 @@ void write_scalar_joint(Writer& out, const Body& body, std::size_t axis, const P
     out << " limited=\"true\" range=\"" << limit.lower << std::max(limit.upper, limit.lower + 1e-9) << "\"";
   }
   if (const PlumbSpring& spring = link.desc.springs[axis]; spring.enabled != 0) {
-    const double mass = effective_mass(link, axis), rate = 2 * std::numbers::pi * spring.frequency;
-    out << " stiffness=\"" << mass * rate * rate << "\" damping=\"" << 2 * spring.damping_ratio * mass * rate
-        << "\" springref=\"" << spring.rest << "\"";
+    write_stiffness(out, link, axis);
+    out << " springref=\"" << spring.rest << "\"";
   }
   out << "/>\n";
 }
@@ -171,10 +181,9 @@ void write_rod(Writer& out, const Joint& joint) {
   out << "<spatial name=\"" << name('t', joint.handle) << "\"";
   if (limit.enabled != 0)
     out << " limited=\"true\" range=\"" << limit.lower << std::max(limit.upper, limit.lower + 1e-9) << "\"";
-  if (const PlumbSpring& spring = joint.desc.springs[0]; spring.enabled != 0) {
-    const double mass = effective_mass(joint, 0), rate = 2 * std::numbers::pi * spring.frequency;
-    out << " stiffness=\"" << mass * rate * rate << "\" damping=\"" << 2 * spring.damping_ratio * mass * rate
-        << "\" springlength=\"" << joint.desc.rest_length << "\"";
+  if (joint.desc.springs[0].enabled != 0) {
+    write_stiffness(out, joint, 0);
+    out << " springlength=\"" << joint.desc.rest_length << "\"";
   }
   out << "><site site=\"" << name('p', joint.handle) << "\"/><site site=\"" << name('q', joint.handle)
       << "\"/></spatial>\n";

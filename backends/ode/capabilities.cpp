@@ -62,7 +62,8 @@ Fact joint_feature_fact(std::uint32_t type, std::uint32_t feature) {
   if (feature == PLUMB_JOINT_BREAKS) return {PLUMB_EMULATED, "the reaction is compared after each step"};
   if (type == PLUMB_JOINT_DISTANCE && feature == PLUMB_JOINT_HAS_LIMITS)
     return {PLUMB_EMULATED, "a contact row along the line between the frames"};
-  if (feature == PLUMB_JOINT_HAS_SPRINGS) return {PLUMB_NATIVE, "implicit: soft rows by ERP and CFM"};
+  if (feature == PLUMB_JOINT_HAS_SPRINGS || feature == PLUMB_JOINT_HAS_STIFFNESS)
+    return {PLUMB_NATIVE, "implicit: soft rows by ERP and CFM; by stiffness beside a motor, and at a limit, a force"};
   return {PLUMB_NATIVE};
 }
 

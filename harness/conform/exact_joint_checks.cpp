@@ -103,6 +103,51 @@ void springs(Conformance& c) {
   });
 }
 
+/// Of a hinge or slider with a spring by stiffness k and damping c: how b moves, mass m or moment I about the axis.
+struct StiffPair : JointPair {
+  double inertia = 0;
+  std::size_t axis;
+
+  StiffPair(Conformance& c, PlumbJointType type, std::size_t driven)
+      : JointPair(c, type, true, kJointNeeds), axis(driven) {
+    const std::vector<double> mass = probe.read(PLUMB_FIELD_MASS, b);
+    inertia = type == PLUMB_JOINT_HINGE ? mass[4] : mass[0];  // the axis goes through the centre of mass
+  }
+  void spring(double rest, double rate, double decay) {
+    desc.springs[axis] = {rest, inertia * rate * rate, inertia * decay, 1, PLUMB_SPRING_STIFFNESS};
+    probe.joint(desc);
+  }
+};
+
+/// x'' + c x' + k (x - rest) = 0 per mass: a damper brakes exp(-c t), a spring swings with sqrt(k).
+void stiffness(Conformance& c) {
+  constexpr double kShort = 1.0 / 240;
+  hinge_and_slider(
+      c, kJointNeeds, PLUMB_JOINT_HAS_STIFFNESS, "springs by stiffness", [&](PlumbJointType type, std::size_t axis) {
+        StiffPair damper(c, type, axis);
+        damper.probe.write(
+            PLUMB_FIELD_VELOCITY, damper.b,
+            type == PLUMB_JOINT_HINGE ? std::vector<double>{0, 0, 0, 2, 0, 0} : std::vector<double>{2, 0, 0, 0, 0, 0});
+        damper.spring(0, 0, 1.5);
+        damper.probe.step(240, kShort);
+        const double gone = 2 / 1.5 * (1 - std::exp(-1.5));
+        c.expect(std::abs(damper.coordinate(axis) / gone - 1) < 0.01,
+                 "a {} joint with a damper goes {:.5f} in a second instead of {:.5f}", joint_name(type),
+                 damper.coordinate(axis), gone);
+
+        StiffPair spring(c, type, axis);
+        constexpr double kRest = 0.3, kRate = 2 * M_PI;
+        spring.spring(kRest, kRate, 0);
+        spring.probe.step(300, kShort);  // a period and a quarter: it passes its rest
+        const double before = spring.coordinate(axis) - kRest;
+        spring.probe.step(1, kShort);
+        const double speed = (spring.coordinate(axis) - kRest - before) / kShort;
+        c.expect(std::abs(before) < 0.02 && std::abs(speed / (kRest * kRate) - 1) < 0.12,
+                 "a {} spring of 1 Hz by stiffness is {:.5f} from its rest after 1.25 s, at {:.5f} a second",
+                 joint_name(type), before, speed);
+      });
+}
+
 /// A weight that hangs: the reaction is its weight and nothing else, and the frames lie on each other.
 void hanging(Conformance& c) {
   const PlumbNeeds needs = kJointNeeds | PLUMB_NEED_JOINT_REACTIONS;
@@ -165,6 +210,7 @@ std::span<const Check> exact_joint_checks() {
       {"exact.motors", "speed within .6 %, and the acceleration of a bounded force", &exact::motors},
       {"exact.limits", "pressed against a stop: within 4 mm or mrad", &exact::limits},
       {"exact.springs", "frequency within 1 %, damping within .025", &exact::springs},
+      {"exact.stiffness", "springs by stiffness: a damper and a period within 1 %", &exact::stiffness},
       {"exact.reactions", "a hanging weight within .5 %, without a gap", &exact::hanging},
       {"exact.distance", "the length of a loaded rod", &exact::distance},
       {"exact.break", "holds at .8 of its break force, breaks at 1.25", &exact::breaking},

@@ -152,6 +152,31 @@ void springs(Conformance& c) {
   });
 }
 
+/// Beside a limit, as robots have it: a spring by stiffness sinks under a force by force / stiffness.
+void stiffness(Conformance& c) {
+  c.require_needs(PLUMB_NEED_FORCES);
+  hinge_and_slider(c, PLUMB_JOINT_HAS_STIFFNESS, "springs by stiffness", [&](PlumbJointType type) {
+    const std::size_t axis = main_axis(type);
+    const PlumbNeeds needs = kJointNeeds | PLUMB_NEED_FORCES;
+    for (const bool limited : {false, true}) {
+      JointPair pair(c, type, true, needs);
+      const std::vector<double> mass = pair.probe.read(PLUMB_FIELD_MASS, pair.b);
+      const double resistance = type == PLUMB_JOINT_HINGE ? mass[4] : mass[0];
+      if (limited) pair.desc.limits[axis] = {-1, 1, 1, 0};
+      pair.desc.springs[axis] = {0.1, 40 * resistance, 12 * resistance, 1, PLUMB_SPRING_STIFFNESS};
+      pair.probe.joint(pair.desc);
+      for (int i = 0; i < 180; ++i) {
+        pair.probe.write(type == PLUMB_JOINT_HINGE ? PLUMB_FIELD_TORQUE : PLUMB_FIELD_FORCE, pair.b,
+                         {8 * resistance, 0, 0});
+        pair.probe.step();
+      }
+      c.expect(std::abs(pair.coordinate(axis) - 0.3) < 0.01,
+               "a {} joint{} with a spring by stiffness is at {:.4f} instead of .3 under a force", joint_name(type),
+               limited ? " with limits" : "", pair.coordinate(axis));
+    }
+  });
+}
+
 /// A hanging weight: the joint's reaction carries it.
 void reactions(Conformance& c) {
   const PlumbNeeds needs = kJointNeeds | PLUMB_NEED_JOINT_REACTIONS;
@@ -275,6 +300,7 @@ std::span<const Check> joint_checks() {
       {"joints.motors", "motors reach their speed and can be changed", &motors},
       {"joints.motor_force", "motors are no stronger than they may be", &motor_force},
       {"joints.springs", "springs of hinge and slider come to rest where they should", &springs},
+      {"joints.stiffness", "springs by stiffness give way by force over stiffness, beside limits too", &stiffness},
       {"joints.reactions", "the reaction carries a hanging weight", &reactions},
       {"joints.break", "joints break above their force, with an event", &breaking},
       {"joints.collide_connected", "jointed bodies touch only by choice", &collide_connected},

@@ -48,7 +48,7 @@ const Words& query_words() {
   return words;
 }
 const Words& joint_feature_words() {
-  static const Words words{"limits", "motors", "springs", "breaks", "reaction"};
+  static const Words words{"limits", "motors", "springs", "breaks", "reaction", "stiffness"};
   return words;
 }
 const Words& setting_type_words() {

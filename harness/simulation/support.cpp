@@ -91,7 +91,9 @@ std::vector<Question> joint_questions(const Scene& scene) {
     for (std::size_t axis = 0; axis < 6; ++axis) {
       if (joint.desc.limits[axis].enabled != 0) feature(PLUMB_JOINT_HAS_LIMITS);
       if (joint.desc.motors[axis].enabled != 0) feature(PLUMB_JOINT_HAS_MOTORS);
-      if (joint.desc.springs[axis].enabled != 0) feature(PLUMB_JOINT_HAS_SPRINGS);
+      if (joint.desc.springs[axis].enabled != 0)
+        feature(joint.desc.springs[axis].mode == PLUMB_SPRING_STIFFNESS ? PLUMB_JOINT_HAS_STIFFNESS
+                                                                        : PLUMB_JOINT_HAS_SPRINGS);
     }
     if (joint.desc.break_force > 0 || joint.desc.break_torque > 0) feature(PLUMB_JOINT_BREAKS);
     if ((scene.needs & PLUMB_NEED_JOINT_REACTIONS) != 0) feature(PLUMB_JOINT_HAS_REACTION);

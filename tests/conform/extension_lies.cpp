@@ -87,6 +87,12 @@ void springs_too_stiff() {
     for (PlumbSpring& spring : desc.springs) spring.frequency *= 1.1;
   }>();
 }
+void springs_by_stiffness_fall_short_beside_limits() {
+  change_joints<[](PlumbJointDesc& desc) {
+    for (std::size_t axis = 0; axis < 6; ++axis)
+      if (desc.limits[axis].enabled != 0) desc.springs[axis].frequency *= 0.9;
+  }>();
+}
 void joints_stay() {
   liar.joints.destroy = [](PlumbWorld*, const PlumbJoint*, std::uint32_t) -> PlumbResult { return PLUMB_OK; };
 }

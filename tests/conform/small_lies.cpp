@@ -279,6 +279,18 @@ void springs_damped_by_a_quarter_more() {
     for (PlumbSpring& spring : desc.springs) spring.damping_ratio *= 1.25;
   }>();
 }
+void dampers_a_twentieth_strong() {
+  change_joints<[](PlumbJointDesc& desc) {
+    for (PlumbSpring& spring : desc.springs)
+      if (spring.mode == PLUMB_SPRING_STIFFNESS) spring.damping_ratio *= 1.05;
+  }>();
+}
+void springs_by_stiffness_a_twentieth_stiff() {
+  change_joints<[](PlumbJointDesc& desc) {
+    for (PlumbSpring& spring : desc.springs)
+      if (spring.mode == PLUMB_SPRING_STIFFNESS) spring.frequency *= 1.05;
+  }>();
+}
 void rods_two_millimetres_long() {
   change_joints<[](PlumbJointDesc& desc) { desc.rest_length += 0.002; }>();
 }

@@ -160,6 +160,11 @@ class Fuzzer {
       bodies_.insert(bodies_.end(), ids, ids + count);
   }
 
+  PlumbSpring spring() {
+    return {0, positive(), positive(), chance(8) ? 1u : 0u,
+            chance(3) ? PLUMB_SPRING_STIFFNESS : PLUMB_SPRING_FREQUENCY};
+  }
+
   void create_joint() {
     if (joints_ == nullptr) return;
     PlumbJointDesc desc = plumb::joint_desc(below(PLUMB_JOINT_TYPE_COUNT));
@@ -172,7 +177,7 @@ class Fuzzer {
       desc.axis_modes[axis] = below(3);
       desc.limits[axis] = {-positive(), positive(), chance(4) ? 1u : 0u, 0};
       desc.motors[axis] = {number(), positive(), chance(6) ? 1u : 0u, 0};
-      desc.springs[axis] = {0, positive(), positive(), chance(8) ? 1u : 0u, 0};
+      desc.springs[axis] = spring();
     }
     desc.rest_length = positive();
     desc.break_force = chance(4) ? 1000 * positive() : 0;
@@ -323,7 +328,7 @@ class Fuzzer {
       change.axis_modes[axis] = below(3);
       change.limits[axis] = {-positive(), positive(), chance(4) ? 1u : 0u, 0};
       change.motors[axis] = {number(), positive(), chance(6) ? 1u : 0u, 0};
-      change.springs[axis] = {0, positive(), positive(), chance(8) ? 1u : 0u, 0};
+      change.springs[axis] = spring();
     }
     change.rest_length = positive();
     change.break_force = chance(4) ? 1000 * positive() : 0;

@@ -42,12 +42,20 @@ typedef struct PlumbMotor {
   uint32_t reserved;
 } PlumbMotor;
 
+/* What a spring's two numbers are. By stiffness needs PLUMB_JOINT_HAS_STIFFNESS. */
+typedef uint32_t PlumbSpringMode;
+enum {
+  PLUMB_SPRING_FREQUENCY = 0, /* frequency and damping ratio with the pair's effective mass on the axis */
+  PLUMB_SPRING_STIFFNESS = 1  /* stiffness and damping: force = -stiffness (x - rest) - damping dx/dt. A stiffness of 0
+                                 is a damper; with rest as the target it is a PD controller. */
+};
+
 typedef struct PlumbSpring {
   double rest;          /* m or rad; for a distance joint its rest_length is used instead */
-  double frequency;     /* Hz of the undamped spring with the pair's effective mass on this axis */
-  double damping_ratio; /* 1 is critical */
+  double frequency;     /* Hz, of the undamped spring, > 0; by stiffness: N/m or N m/rad, >= 0 */
+  double damping_ratio; /* 1 is critical, >= 0; by stiffness: N s/m or N m s/rad */
   uint32_t enabled;
-  uint32_t reserved;
+  PlumbSpringMode mode;
 } PlumbSpring;
 
 typedef struct PlumbJointDesc {
@@ -86,7 +94,8 @@ enum {
   PLUMB_JOINT_HAS_SPRINGS = 2,
   PLUMB_JOINT_BREAKS = 3,
   PLUMB_JOINT_HAS_REACTION = 4,
-  PLUMB_JOINT_FEATURE_COUNT = 5
+  PLUMB_JOINT_HAS_STIFFNESS = 5, /* springs by PLUMB_SPRING_STIFFNESS */
+  PLUMB_JOINT_FEATURE_COUNT = 6
 };
 
 typedef struct PlumbJointsTable {

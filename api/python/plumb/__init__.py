@@ -27,10 +27,10 @@ from ._core import interface_version
 from ._errors import Error, Result
 from .backend import Backend, BackendInfo, Capability, FoundBackend, backends, open, search_path
 from .bodies import BodyDesc, Filter, body_rows
-from .enums import (AxisMode, BodyFlag, BodyMember, CapabilityKind, ContactChange, Degree, Determinism, EventType, Field,
-                    HitMode, JointFeature, JointField, JointMember, JointType, Lock, MassMode, Motion, Need, Phase, QueryKind,
-                    Remark, SettingRole, SettingType, ShapeType)
-from .joints import JointDesc, Joints, Limit, Motor, Spring
+from .enums import (AxisMode, BodyFlag, BodyMember, CapabilityKind, ContactChange, Degree, Determinism, EventType,
+                    Field, HitMode, JointFeature, JointField, JointMember, JointType, Lock, MassMode, Motion, Need,
+                    Phase, QueryKind, Remark, SettingRole, SettingType, ShapeType, SpringMode)
+from .joints import JointDesc, Joints, Limit, Motor, Spring, StiffSpring
 from .modify import BodyChange, JointChange, Modify
 from .queries import Collide, Collided, Debug, Queries
 from .report import StepReport
@@ -48,6 +48,6 @@ __all__ = [
     "HitMode", "JointChange", "JointDesc", "JointFeature", "JointField", "JointMember", "JointType", "Joints",
     "LentRows", "Limit", "Lock", "MassMode", "Material", "Modify", "Motion", "Motor", "Need", "Phase", "Plane",
     "Queries", "QueryKind", "Remark", "Result", "RowMap", "SettingInfo", "SettingRole", "SettingType", "Settings",
-    "ShapeDesc", "ShapeType", "Snapshot", "Sphere", "Spring", "State", "StepReport", "TriangleMesh", "World",
+    "ShapeDesc", "ShapeType", "Snapshot", "Sphere", "Spring", "SpringMode", "State", "StepReport", "StiffSpring", "TriangleMesh", "World",
     "backends", "body_rows", "harness", "interface_version", "open", "search_path",
 ]

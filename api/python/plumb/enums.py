@@ -142,6 +142,15 @@ class AxisMode(IntEnum):
     LIMITED = 2
 
 
+class SpringMode(IntEnum):
+    """What the two numbers of a spring are."""
+
+    FREQUENCY = 0
+    """frequency and damping ratio with the pair's effective mass on the axis"""
+    STIFFNESS = 1
+    """stiffness and damping"""
+
+
 class JointField(IntEnum):
     """A row of numbers for every joint, with so many columns."""
 
@@ -161,6 +170,8 @@ class JointFeature(IntEnum):
     HAS_SPRINGS = 2
     BREAKS = 3
     HAS_REACTION = 4
+    HAS_STIFFNESS = 5
+    """springs by SpringMode.STIFFNESS"""
 
 
 class QueryKind(IntEnum):

@@ -15,7 +15,7 @@ A pendulum of a metre and its period, about 2 s:
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any, Dict, Mapping, Optional, Sequence, Type, Union
+from typing import Any, Dict, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -36,7 +36,7 @@ from ._arrays import (
     unsigned,
 )
 from ._words import pick
-from .enums import AxisMode, JointField, JointType
+from .enums import AxisMode, JointField, JointType, SpringMode
 from .shapes import Vec3
 
 
@@ -71,8 +71,21 @@ class Spring:
     damping_ratio: float = 1.0
     rest: float = 0.0
 
-    def _row(self) -> tuple[float, float, float, int]:
-        return (self.rest, self.frequency, self.damping_ratio, 1)
+    def _row(self) -> tuple[float, float, float, int, int]:
+        return (self.rest, self.frequency, self.damping_ratio, 1, SpringMode.FREQUENCY)
+
+
+@dataclass
+class StiffSpring:
+    """A spring of so much force: stiffness in N/m or N m/rad, damping in N s/m or N m s/rad, about rest in m or rad. Of
+    stiffness 0 it is a damper; with rest as its target, a PD controller."""
+
+    stiffness: float
+    damping: float = 0.0
+    rest: float = 0.0
+
+    def _row(self) -> tuple[float, float, float, int, int]:
+        return (self.rest, self.stiffness, self.damping, 1, SpringMode.STIFFNESS)
 
 
 @dataclass
@@ -94,7 +107,7 @@ class JointDesc:
     limits: Mapping[int, Limit] = field(default_factory=dict)
     """By axis, as motors and springs."""
     motors: Mapping[int, Motor] = field(default_factory=dict)
-    springs: Mapping[int, Spring] = field(default_factory=dict)
+    springs: Mapping[int, Union[Spring, StiffSpring]] = field(default_factory=dict)
     rest_length: float = 0.0
     """Of a distance joint, m, >= 0."""
     break_force: float = 0.0
@@ -135,10 +148,9 @@ def fill_axes(row: NDArray[np.void], column: str, by_axis: Mapping[int, Any], na
 
 
 def _checked(part: Any, column: str, what: str) -> Any:
-    kinds: Dict[str, Type[Union[Limit, Motor, Spring]]] = {"limits": Limit, "motors": Motor, "springs": Spring}
-    kind = kinds[column]
-    if not isinstance(part, kind):
-        raise TypeError(f"{what} must be a {kind.__name__}, not {part!r}")
+    kinds: Dict[str, Tuple[type, ...]] = {"limits": (Limit,), "motors": (Motor,), "springs": (Spring, StiffSpring)}
+    if not isinstance(part, kinds[column]):
+        raise TypeError(f"{what} must be a {' or a '.join(kind.__name__ for kind in kinds[column])}, not {part!r}")
     return tuple(number(one, what) for one in part._row())
 
 

@@ -24,7 +24,7 @@ from ._arrays import Handle, handle
 from ._words import pick, pick_bits
 from .bodies import BodyDesc
 from .enums import AxisMode, BodyFlag, BodyMember, JointMember, Lock, MassMode, Motion
-from .joints import JointDesc, Limit, Motor, Spring
+from .joints import JointDesc, Limit, Motor, Spring, StiffSpring
 from .shapes import Vec3
 
 
@@ -110,7 +110,7 @@ class JointChange:
 
     motors: Optional[Mapping[int, Motor]] = None
 
-    springs: Optional[Mapping[int, Spring]] = None
+    springs: Optional[Mapping[int, Union[Spring, StiffSpring]]] = None
 
     break_force: Optional[float] = None
     break_torque: Optional[float] = None

@@ -58,7 +58,8 @@ py::dtype motor() {
 py::dtype spring() {
   return make(sizeof(PlumbSpring),
               {PLUMB_COLUMN(PlumbSpring, rest, text("f8")), PLUMB_COLUMN(PlumbSpring, frequency, text("f8")),
-               PLUMB_COLUMN(PlumbSpring, damping_ratio, text("f8")), PLUMB_COLUMN(PlumbSpring, enabled, text("u4"))});
+               PLUMB_COLUMN(PlumbSpring, damping_ratio, text("f8")), PLUMB_COLUMN(PlumbSpring, enabled, text("u4")),
+               PLUMB_COLUMN(PlumbSpring, mode, text("u4"))});
 }
 
 template <class Row>

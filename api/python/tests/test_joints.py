@@ -68,6 +68,21 @@ class Joints(unittest.TestCase):
             self.assertAlmostEqual(np.argmax(x) / 240, 0.25, delta=0.03)  # a quarter of the period
             self.assertAlmostEqual(np.argmin(x) / 240, 0.75, delta=0.03)
 
+    @on_each(*NEEDS, asked=having("slider", "has_stiffness"))
+    def test_a_spring_by_stiffness_swings_with_its_mass(self, engine):
+        with engine.world(NEEDS, gravity=(0, 0, 0)) as world:
+            bar = self.bar(world, linear_velocity=(1, 0, 0))
+            stiffness = world.read("mass", bar)[0] * (2 * np.pi) ** 2  # 1 Hz
+            world.joints.create(
+                plumb.JointDesc("slider", bar, position_a=(0.5, 0, 0), springs={0: plumb.StiffSpring(stiffness)})
+            )
+            x = []
+            for _ in range(240):
+                world.step(1 / 240)
+                x.append(world.read("pose", bar)[0] - 0.5)
+            self.assertAlmostEqual(np.argmax(x) / 240, 0.25, delta=0.03)
+            self.assertAlmostEqual(np.argmin(x) / 240, 0.75, delta=0.03)
+
     @on_each(*NEEDS, "events", asked=having("fixed", "breaks"))
     def test_a_joint_breaks_and_says_so(self, engine):
         with engine.world([*NEEDS, "events"]) as world:

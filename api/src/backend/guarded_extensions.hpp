@@ -294,15 +294,17 @@ class GuardedExtensions : public GuardedWorld {
         require_capability(PLUMB_CAP_JOINT_FEATURE, desc.type, which,
                            std::string(joint_name(desc.type)) + " joint with " + what);
     };
-    bool limits = false, motors = false, springs = false;
+    bool limits = false, motors = false, springs = false, stiffness = false;
     for (std::size_t axis = 0; axis < 6; ++axis) {
       limits = limits || desc.limits[axis].enabled != 0;
       motors = motors || desc.motors[axis].enabled != 0;
       springs = springs || desc.springs[axis].enabled != 0;
+      stiffness = stiffness || (desc.springs[axis].enabled != 0 && desc.springs[axis].mode == PLUMB_SPRING_STIFFNESS);
     }
     feature(limits, PLUMB_JOINT_HAS_LIMITS, "limits");
     feature(motors, PLUMB_JOINT_HAS_MOTORS, "motors");
     feature(springs, PLUMB_JOINT_HAS_SPRINGS, "springs");
+    feature(stiffness, PLUMB_JOINT_HAS_STIFFNESS, "springs by stiffness");
     feature(breaks(desc), PLUMB_JOINT_BREAKS, "a break force");
     require_need(init_.desc.needs, PLUMB_NEED_EVENTS, breaks(desc), where.member("break_force"));
   }

@@ -1,5 +1,5 @@
 // Options, as a page writes them, become descriptors, as plumb.h has them.
-import { AXIS, bitsOf, CHANGE_OF_BODY, CHANGE_OF_CONTACT, CHANGE_OF_JOINT, FLAG, JOINT, LOCK, MASS, MOTION, numberOf, SHAPE }
+import { AXIS, bitsOf, CHANGE_OF_BODY, CHANGE_OF_CONTACT, CHANGE_OF_JOINT, FLAG, JOINT, LOCK, MASS, MOTION, numberOf, SHAPE, SPRING }
   from './words.mjs';
 import { LAYOUT } from './layouts.mjs';
 import { INVALID, PlumbError } from './error.mjs';
@@ -45,8 +45,12 @@ const limitsOf = (given = {}) =>
   sixOf(given, 'limits', ([lower, upper]) => ({ lower, upper, enabled: 1 }), { lower: 0, upper: 0, enabled: 0 });
 const motorsOf = (given = {}) => sixOf(given, 'motors', ({ targetVelocity = 0, maxForce }) =>
   ({ targetVelocity, maxForce, enabled: 1 }), { targetVelocity: 0, maxForce: 0, enabled: 0 });
-const springsOf = (given = {}) => sixOf(given, 'springs', ({ rest = 0, frequency, dampingRatio = 1 }) =>
-  ({ rest, frequency, dampingRatio, enabled: 1 }), { rest: 0, frequency: 0, dampingRatio: 0, enabled: 0 });
+const springOf = ({ rest = 0, frequency, dampingRatio = 1, stiffness, damping }) =>
+  stiffness === undefined && damping === undefined
+    ? { rest, frequency, dampingRatio, enabled: 1, mode: SPRING.frequency }
+    : { rest, frequency: stiffness ?? 0, dampingRatio: damping ?? 0, enabled: 1, mode: SPRING.stiffness };
+const springsOf = (given = {}) => sixOf(given, 'springs', springOf,
+  { rest: 0, frequency: 0, dampingRatio: 0, enabled: 0, mode: SPRING.frequency });
 const modesOf = (given = {}) => sixOf(given, 'axes', (mode) => numberOf(AXIS, mode, 'axis mode'), AXIS.free);
 
 export function jointOf({ type, a = 0n, b, frameA, frameB, collideConnected = false, axes, limits, motors, springs,

@@ -14,6 +14,7 @@ export const SHAPE =
   inOrder('sphere', 'box', 'capsule', 'cylinder', 'hull', 'mesh', 'heightField', 'plane', 'compound');
 export const JOINT = inOrder('ball', 'hinge', 'slider', 'distance', 'fixed', 'universal', 'generic');
 export const AXIS = inOrder('free', 'locked', 'limited');
+export const SPRING = inOrder('frequency', 'stiffness');
 export const MASS = inOrder('fromDensity', 'fromTotal', 'explicit');
 export const FIELD = inOrder('pose', 'velocity', 'force', 'torque', 'impulse', 'angularImpulse', 'forceAtPoint',
   'impulseAtPoint', 'awake', 'kinematicTarget', 'mass', 'material', 'gravityScale', 'damping', 'surfaceVelocity',

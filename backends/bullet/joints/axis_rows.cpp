@@ -31,12 +31,39 @@ void Row::write(btTypedConstraint::btConstraintInfo2& info) const {
   }
 }
 
-btScalar spring_impulse(const PlumbSpring& spring, btScalar x, btScalar v, btScalar inverse_mass, btScalar h) {
-  if (!(inverse_mass > 0)) return 0;
+namespace {
+
+/// Of a spring by its frequency, no faster than one radian a sub-step.
+btScalar impulse_by_frequency(const PlumbSpring& spring, btScalar x, btScalar v, btScalar inverse_mass, btScalar h) {
   const auto wanted = static_cast<btScalar>(2 * std::numbers::pi * spring.frequency);
   const btScalar omega = std::min(wanted, 1 / h);
   const btScalar damping = 2 * static_cast<btScalar>(spring.damping_ratio) * omega;
   return -h * (omega * omega * x + damping * v) / (inverse_mass * (1 + h * damping));
+}
+
+}  // namespace
+
+void put_spring(const PlumbSpring& spring, btScalar x, const Row& row, const btRigidBody& a, const btRigidBody& b,
+                btScalar h, btTypedConstraint::btConstraintInfo2& info, int index) {
+  const btScalar inverse_mass = row.inverse_mass(a, b);
+  btScalar impulse = 0;
+  if (inverse_mass > 0 && spring.mode == PLUMB_SPRING_STIFFNESS) {
+    const auto pull = h * static_cast<btScalar>(spring.frequency);
+    const auto damping = h * static_cast<btScalar>(spring.damping_ratio);
+    // Against the two bodies alone, than which no less moves, a force would overshoot from 2 on; and a soft row comes
+    // to no end below 1, for Bullet leaves its constraint force mixing out of the diagonal.
+    constexpr btScalar kStiff = btScalar(1.5);
+    const btScalar drag = damping + h * pull;
+    if (drag * inverse_mass > kStiff) {
+      info.m_constraintError[index] = -pull * x / drag;
+      info.cfm[index] = 1 / (drag * inverse_mass);
+      return;
+    }
+    impulse = -(pull * x + damping * row.velocity(a, b, 0));
+  } else if (inverse_mass > 0) {
+    impulse = impulse_by_frequency(spring, x, row.velocity(a, b, h), inverse_mass, h);
+  }
+  info.m_lowerLimit[index] = info.m_upperLimit[index] = impulse;
 }
 
 DistanceConstraint::DistanceConstraint(btRigidBody& a, btRigidBody& b, const btVector3& point_a,
@@ -84,9 +111,7 @@ void DistanceConstraint::getInfo2(btConstraintInfo2* info) {
   };
   if (spring_.enabled != 0) {
     const int here = next_row();
-    const btScalar impulse =
-        spring_impulse(spring_, distance - rest_, row.velocity(m_rbA, m_rbB, h), row.inverse_mass(m_rbA, m_rbB), h);
-    info->m_lowerLimit[here] = info->m_upperLimit[here] = impulse;
+    put_spring(spring_, distance - rest_, row, m_rbA, m_rbB, h, *info, here);
     if (upper_ >= SIMD_INFINITY) return;
   }
   const int here = next_row();
@@ -133,8 +158,7 @@ void AxisSpring::getInfo2(btConstraintInfo2* info) {
   const btScalar h = 1 / info->fps;
   auto deviation = coordinate - static_cast<btScalar>(spring_.rest);
   if (axis_ >= 3) deviation = btNormalizeAngle(deviation);
-  info->m_lowerLimit[0] = info->m_upperLimit[0] =
-      spring_impulse(spring_, deviation, row.velocity(m_rbA, m_rbB, h), row.inverse_mass(m_rbA, m_rbB), h);
+  put_spring(spring_, deviation, row, m_rbA, m_rbB, h, *info, 0);
 }
 
 btVector3 angles_xyz(const btMatrix3x3& r) {

@@ -18,10 +18,12 @@ struct Row {
   void write(btTypedConstraint::btConstraintInfo2& info) const;
 };
 
-/// Oscillator of a spring: impulse of a sub-step of h seconds for a deviation x and a velocity v. The position enters
-/// as it is and the velocity as it will be, so that an undamped spring neither gains nor loses energy; a spring that
-/// turns by more than a radian a sub-step is softened to that, because it could not be followed.
-btScalar spring_impulse(const PlumbSpring& spring, btScalar x, btScalar v, btScalar inverse_mass, btScalar h);
+/// Makes a row of a constraint the impulse of a spring over a sub-step of h seconds. x: how far it is from rest. The
+/// position enters as it is, so that an undamped spring neither gains nor loses energy; one by its frequency that turns
+/// by more than a radian a sub-step is softened to that, because it could not be followed, and a stiff one by stiffness
+/// is a soft constraint.
+void put_spring(const PlumbSpring& spring, btScalar x, const Row& row, const btRigidBody& a, const btRigidBody& b,
+                btScalar h, btTypedConstraint::btConstraintInfo2& info, int index);
 
 /// Bullet asks its own constraint types for parameters; ours have none.
 class RowConstraint : public btTypedConstraint {

@@ -35,9 +35,11 @@ struct JointAxes {
   RowSpec row[kJointRows];
   Real lower[kJointRows], upper[kJointRows];  ///< beyond kHuge / 2: none
   Real rest[kJointRows];
-  Real omega[kJointRows];  ///< of the spring without damping, rad/s; 0: there is none
-  Real damping_ratio[kJointRows];
-  std::uint32_t masses_alone;  ///< whether no turn is free: then springs along axes work against the masses
+  /// Of the spring: N/m and N s/m, N m/rad and N m s/rad; of one that is given by its frequency, per mass that it works
+  /// against: 1/s2 and 1/s.
+  Real stiffness[kJointRows], damping[kJointRows];
+  std::uint32_t springs, springs_by_mass;  ///< bits: rows that have one, rows whose spring is given by its frequency
+  std::uint32_t masses_alone;              ///< whether no turn is free: then springs along axes work against the masses
 };
 
 /// What the host may write between steps, by the joint's axis.

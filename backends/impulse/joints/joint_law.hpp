@@ -118,17 +118,22 @@ PLUMB_HD inline Real growth(Real x) {
   return x * (Real(1) + x / 2 * (Real(1) + x / 3 * (Real(1) + x / 4 * (Real(1) + x / 5))));
 }
 
-/// The spring's drag over its mass, and the rate at which it takes back what it is off. A slow spring has the decrement
-/// of the true one and keeps its energy without damping: its place enters as it is. A fast one, of more than a quarter
-/// of a radian a sub-step, becomes implicit in its place too, which is stable at any stiffness.
+/// A spring's impulse over h seconds: drag times the speed, and pull times what it is off. A slow spring keeps its
+/// energy without damping: its place enters as it is. A fast one, of more than a quarter of a radian a sub-step,
+/// becomes implicit in its place too, which is stable at any stiffness. One that is given by its frequency knows its
+/// mass, and has the decrement of the true one; of the others it is only known that no less moves than the two bodies
+/// by themselves.
 struct SpringNumbers {
   Real drag, pull;
 };
-PLUMB_HD inline SpringNumbers spring_numbers(Real omega, Real damping_ratio, Real h) {
-  const Real turn = h * omega, damping = 2 * damping_ratio * turn;
+PLUMB_HD inline SpringNumbers spring_numbers(const JointAxes& axes, int row, Real mass, Real h) {
+  const bool by_mass = (axes.springs_by_mass >> row & 1U) != 0;
+  const Real unit = by_mass ? mass : Real(1), stiffness = axes.stiffness[row], damping = h * axes.damping[row];
+  const Real turn = h * sqrt(by_mass ? stiffness : stiffness * reciprocal_or_zero(mass));
   const Real fast = clamp(4 * turn - Real(1), Real(0), Real(1));
-  const Real drag = (Real(1) - fast) * growth(min(damping, Real(64))) + fast * (damping + turn * turn);
-  return {drag, turn * omega};
+  const Real slow_drag = by_mass ? growth(min(damping, Real(64))) : damping;
+  const Real drag = (Real(1) - fast) * slow_drag + fast * (damping + h * h * stiffness);
+  return {unit * drag, unit * (h * stiffness)};
 }
 
 /// Of a row in a pass over places. x: its coordinate.
@@ -152,11 +157,11 @@ PLUMB_HD inline RowLaw law_of_places(const JointAxes& axes, int row, Real x, con
     law.steady = drive.velocity[spec.coordinate];
     law.push = force * time.h;
   }
-  if (axes.omega[row] > 0) {
-    const SpringNumbers numbers = spring_numbers(axes.omega[row], axes.damping_ratio[row], time.h);
+  if ((axes.springs >> row & 1U) != 0) {
+    const SpringNumbers numbers = spring_numbers(axes, row, spring_mass, time.h);
     const Real off = turns ? wrapped(x - axes.rest[row]) : x - axes.rest[row];
-    law.drag = spring_mass * numbers.drag;
-    law.spring = -(spring_mass * numbers.pull * off);
+    law.drag = numbers.drag;
+    law.spring = -(numbers.pull * off);
   }
   return law;
 }

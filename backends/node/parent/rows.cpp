@@ -74,9 +74,10 @@ void append_joint(std::vector<double>& row, std::uint32_t slot, const PlumbJoint
     const PlumbLimit& limit = desc.limits[axis];
     const PlumbMotor& motor = desc.motors[axis];
     const PlumbSpring& spring = desc.springs[axis];
-    row.insert(row.end(), {double(desc.axis_modes[axis]), double(limit.enabled), limit.lower, limit.upper,
-                           double(motor.enabled), motor.target_velocity, motor.max_force, double(spring.enabled),
-                           spring.rest, spring.frequency, spring.damping_ratio});
+    row.insert(row.end(),
+               {double(desc.axis_modes[axis]), double(limit.enabled), limit.lower, limit.upper, double(motor.enabled),
+                motor.target_velocity, motor.max_force, double(spring.enabled != 0 ? 1 + spring.mode : 0), spring.rest,
+                spring.frequency, spring.damping_ratio});
   }
 }
 

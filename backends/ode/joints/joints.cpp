@@ -97,7 +97,7 @@ void set_row(const Joint& joint, std::size_t axis, const Settings& settings, dou
   const PlumbSpring& spring = joint.desc.springs[axis];
   double erp = settings.erp, cfm = settings.cfm, lower = -dInfinity, upper = dInfinity;
   double velocity = motor.target_velocity;
-  if (spring.enabled != 0) {
+  if (spring.enabled != 0 && !joint.is_pushed_by_spring(axis)) {
     const SoftRow row = soft_row(spring, joint.spring_mass[axis], h);
     erp = row.erp;
     cfm = row.cfm;
@@ -124,15 +124,20 @@ void set_row(const Joint& joint, std::size_t axis, const Settings& settings, dou
 
 SoftRow soft_row(const PlumbSpring& spring, double mass, double h) {
   PLUMB_ASSERT(mass > 0 && h > 0);
+  const bool by_stiffness = spring.mode == PLUMB_SPRING_STIFFNESS;
   const double rate = 2 * std::numbers::pi * spring.frequency;
-  const double k = mass * rate * rate, c = 2 * mass * spring.damping_ratio * rate;
-  return {h * k / (h * k + c), 1 / (h * k + c)};
+  const double k = by_stiffness ? spring.frequency : mass * rate * rate;
+  const double c = by_stiffness ? spring.damping_ratio : 2 * mass * spring.damping_ratio * rate;
+  constexpr double kNothing = 1e-9;  // of a spring that holds nothing: ODE has no row of infinite softness
+  const double both = std::max(h * k + c, kNothing);
+  return {h * k / both, 1 / both};
 }
 
 bool joint_has(PlumbJointType type, PlumbJointFeature feature) {
   switch (feature) {
     case PLUMB_JOINT_HAS_LIMITS:
-    case PLUMB_JOINT_HAS_SPRINGS: return free_axes(type) != 0;
+    case PLUMB_JOINT_HAS_SPRINGS:
+    case PLUMB_JOINT_HAS_STIFFNESS: return free_axes(type) != 0;
     case PLUMB_JOINT_HAS_MOTORS: return free_axes(type) != 0 && type != PLUMB_JOINT_DISTANCE;
     default: return true;
   }
@@ -146,9 +151,12 @@ void check_joint(const PlumbJointDesc& desc) {
     const std::string what = std::string("a ") + backend::joint_name(desc.type) + " joint";
     if ((limit || motor || spring) && (free_axes(desc) >> axis & 1u) == 0)
       throw Error(PLUMB_E_UNSUPPORTED, what + " of ODE has no limit, motor or spring on axis " + std::to_string(axis));
-    if (spring && (limit || motor) && desc.type != PLUMB_JOINT_DISTANCE)
+    const bool has_one_row =
+        desc.type != PLUMB_JOINT_DISTANCE && (generic || desc.springs[axis].mode == PLUMB_SPRING_FREQUENCY);
+    if (spring && (limit || motor) && has_one_row)
       throw Error(PLUMB_E_UNSUPPORTED, what + " of ODE has one row for axis " + std::to_string(axis) +
-                                           ": a spring leaves no room for a limit or motor; use a second joint");
+                                           ": a spring leaves no room for a limit or motor; use a second joint" +
+                                           (generic ? "" : ", or give the spring by its stiffness"));
   }
   const PlumbLimit& distance = desc.limits[0];
   if (desc.type == PLUMB_JOINT_DISTANCE && distance.enabled != 0 && distance.lower < 0)
@@ -265,8 +273,60 @@ void RowMaker::add_push(Joint& joint, const PlumbVec3& push, double depth) const
   add(joint, contact);
 }
 
+namespace {
+
+/// Of ODE's joint, and so of its first body seen from its second: the coordinate of one of our axes, and its rate.
+struct Motion {
+  double at, rate;
+};
+Motion motion_of(const Joint& joint, std::size_t axis) {
+  const dJointID id = joint.id;
+  switch (joint.desc.type) {
+    case PLUMB_JOINT_HINGE: return {dJointGetHingeAngle(id), dJointGetHingeAngleRate(id)};
+    case PLUMB_JOINT_SLIDER: return {dJointGetSliderPosition(id), dJointGetSliderPositionRate(id)};
+    default:
+      return (axis == 3) == joint.swapped() ? Motion{dJointGetUniversalAngle1(id), dJointGetUniversalAngle1Rate(id)}
+                                            : Motion{dJointGetUniversalAngle2(id), dJointGetUniversalAngle2Rate(id)};
+  }
+}
+
+void push(const Joint& joint, std::size_t axis, double force) {
+  switch (joint.desc.type) {
+    case PLUMB_JOINT_HINGE: return dJointAddHingeTorque(joint.id, force);
+    case PLUMB_JOINT_SLIDER: return dJointAddSliderForce(joint.id, force);
+    default: {
+      const bool first = (axis == 3) == joint.swapped();
+      return dJointAddUniversalTorques(joint.id, first ? force : 0, first ? 0 : force);
+    }
+  }
+}
+
+/// Between its limits the one row that ODE has for the axis is a motor as soft as the spring, at a limit or beside a
+/// motor the spring is a force: implicit against the mass of the two bodies by themselves, than which no less moves.
+void push_by_spring(const Joint& joint, std::size_t axis, double h) {
+  const PlumbSpring& spring = joint.desc.springs[axis];
+  const PlumbLimit& limit = joint.desc.limits[axis];
+  const Motion now = motion_of(joint, axis);
+  const double sign = joint.swapped() ? -1 : 1, x = sign * now.at;
+  double off = x - spring.rest;
+  if (axis >= 3) off = std::remainder(off, 2 * std::numbers::pi);
+  const double drag = spring.damping_ratio + h * spring.frequency;
+  if (joint.desc.motors[axis].enabled == 0) {
+    const bool between = x > limit.lower && x < limit.upper && drag > 0;
+    set_parameter(joint, axis, dParamFMax, between ? dInfinity : 0);
+    set_parameter(joint, axis, dParamVel, between ? -sign * spring.frequency * off / drag : 0);
+    if (between) return set_parameter(joint, axis, dParamCFM, 1 / drag);
+  }
+  const double damped = spring.frequency * off + drag * sign * now.rate;
+  push(joint, axis, -sign * damped / (1 + h * drag / joint.spring_mass[axis]));
+}
+
+}  // namespace
+
 void prepare(Joint& joint, const RowMaker& rows) {
   PLUMB_ASSERT(joint.solved() && rows.h > 0);
+  for (std::size_t axis = 0; axis < 6; ++axis)
+    if (joint.is_pushed_by_spring(axis)) push_by_spring(joint, axis, rows.h);
   joint.rows = 0;
   const PlumbPose frame_b = joint.frame_b();
   joint.arm = sub(frame_b.position, joint.first().centre());

@@ -40,8 +40,18 @@ struct Joint {
   [[nodiscard]] bool has_distance_limits() const {
     return desc.type == PLUMB_JOINT_DISTANCE && desc.limits[0].enabled != 0;
   }
-  /// Whether prepare() has rows to make in each sub-step.
-  [[nodiscard]] bool made_of_rows() const { return has_distance_limits() || desc.type == PLUMB_JOINT_GENERIC; }
+  /// Whether the axis' spring is told in each sub-step, for it shares the one row of ODE's joint with a limit or motor.
+  /// Of one by frequency check_joint() lets nothing be beside it.
+  [[nodiscard]] bool is_pushed_by_spring(std::size_t axis) const {
+    return desc.springs[axis].enabled != 0 && desc.type != PLUMB_JOINT_DISTANCE && desc.type != PLUMB_JOINT_GENERIC &&
+           (desc.limits[axis].enabled != 0 || desc.motors[axis].enabled != 0);
+  }
+  /// Whether prepare() has something to do in each sub-step.
+  [[nodiscard]] bool needs_preparing() const {
+    bool pushed = false;
+    for (std::size_t axis = 0; axis < 6; ++axis) pushed = pushed || is_pushed_by_spring(axis);
+    return pushed || has_distance_limits() || desc.type == PLUMB_JOINT_GENERIC;
+  }
 };
 
 /// Which joint types have the feature at all; the axes that have it are those that the type leaves free.

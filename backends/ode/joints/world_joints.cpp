@@ -42,7 +42,7 @@ void World::bind(Joint& joint) {
   attach(joint, world_);
   if (substep_.h != 0) set_parameters(joint, settings_, substep_.h);
   if (joint.a != nullptr && desc.collide_connected == 0) keep_apart(*joint.a, *joint.b);
-  if (joint.watched || joint.made_of_rows()) joint_lists_.busy.push_back(&joint);
+  if (joint.watched || joint.needs_preparing()) joint_lists_.busy.push_back(&joint);
 }
 
 void World::unbind(Joint& joint) {

@@ -74,6 +74,33 @@ TEST_P(Drives, MotorThenLimitMoveTheCoordinateAsTold) {
   EXPECT_NEAR(coordinate(world, joint, axis, 180), -.2, .02);
 }
 
+// A damper and a spring by stiffness, alone in ODE's row of the axis and as a force beside limits: about the rest and
+// towards it, whichever body is free.
+TEST_P(Drives, SpringsByStiffnessPullToTheirRest) {
+  const auto [type, axis, free] = GetParam();
+  for (const bool limited : {false, true})
+    for (const double stiffness : {0.0, 400.0}) {
+      const TestWorld world = direct_world();
+      const auto fixed = [&] { return world.fixed(world.box(.1, .1, .1)); };
+      const auto loose = [&] { return world.dynamic(world.box(.5, .5, .5), {0, 0, 0}); };
+      const PlumbBody a = free == Free::b_of_world ? 0 : free == Free::b_of_static ? fixed() : loose();
+      const PlumbBody b = free == Free::a_of_static ? fixed() : loose();
+      const PlumbBody mover = free == Free::a_of_static ? a : b;
+      const auto mass = world.row(mover, PLUMB_FIELD_MASS);
+      const double inertia = (axis < 3 ? mass[0] : mass[4]) * (free == Free::both ? .5 : 1);
+      PlumbJointDesc desc = between(type, a, b, {0, 0, 0}, {0, 0, 0});
+      if (limited) desc.limits[axis] = {-1, 1, 1, 0};
+      desc.springs[axis] = {.2, stiffness / 100 * inertia, 2 * inertia, 1, PLUMB_SPRING_STIFFNESS};
+      const PlumbJoint joint = world.joint(desc);
+      for (int i = 0; i < 240; ++i) world.step(1, 1. / 240);
+      const double now = world.row(joint, PLUMB_JOINT_COORDINATES, 6)[axis];
+      // x'' + 2 x' + 4 (x - .2) = 0 from rest: after a second.
+      const double w = std::sqrt(3.);
+      const double truth = stiffness == 0 ? 0 : .2 * (1 - std::exp(-1.) * (std::cos(w) + std::sin(w) / w));
+      EXPECT_NEAR(now, truth, .004) << "stiffness " << stiffness << (limited ? " beside limits" : "");
+    }
+}
+
 std::string case_name(const testing::TestParamInfo<Case>& info) {
   constexpr const char* names[] = {"b_of_world", "b_of_static", "a_of_static", "both"};
   return "type" + std::to_string(info.param.type) + "_axis" + std::to_string(info.param.axis) + "_" +

@@ -43,7 +43,13 @@ void scale_joint(PlumbJointDesc& joint, double scale) {
     joint.motors[axis].target_velocity *= linear ? speed : 1 / speed;
     joint.motors[axis].max_force *= linear ? force : torque;
     joint.springs[axis].rest *= linear ? scale : 1;
-    joint.springs[axis].frequency /= speed;
+    PlumbSpring& spring = joint.springs[axis];
+    if (spring.mode == PLUMB_SPRING_STIFFNESS) {
+      spring.frequency *= linear ? force / scale : torque;
+      spring.damping_ratio *= linear ? force / speed : torque * speed;
+    } else {
+      spring.frequency /= speed;
+    }
   }
 }
 

@@ -230,6 +230,8 @@ TEST_F(Guard, RefusesBadJointsByName) {
   joint_refused(PLUMB_E_INVALID_ARGUMENT, "limits[4].upper", limited(4, {0, kNan, 0, 0}));
   joint_refused(PLUMB_E_INVALID_ARGUMENT, "motors[3].max_force", [](auto& d) { d.motors[3] = {1, -1, 1, 0}; });
   joint_refused(PLUMB_E_INVALID_ARGUMENT, "springs[0].frequency", [](auto& d) { d.springs[0] = {0, 0, 1, 1, 0}; });
+  joint_refused(PLUMB_E_INVALID_ARGUMENT, "springs[3].frequency", [](auto& d) { d.springs[3] = {0, -1, 1, 1, 1}; });
+  joint_refused(PLUMB_E_INVALID_ARGUMENT, "springs[3].mode", [](auto& d) { d.springs[3] = {0, 1, 1, 1, 2}; });
   joint_refused(PLUMB_E_INVALID_ARGUMENT, "frame_a.position.x", [](auto& d) { d.frame_a.position.x = kNan; });
 }
 

@@ -152,7 +152,11 @@ inline void check_joint(const Where& where, const PlumbJointDesc& desc) {
     }
     if (desc.springs[axis].enabled != 0) {
       require_finite(where, ("springs" + suffix + ".rest").c_str(), desc.springs[axis].rest);
-      require_positive(where, ("springs" + suffix + ".frequency").c_str(), desc.springs[axis].frequency);
+      const PlumbSpringMode mode = desc.springs[axis].mode;
+      if (mode > PLUMB_SPRING_STIFFNESS)
+        refuse_value(where, ("springs" + suffix + ".mode").c_str(), mode, "a PlumbSpringMode");
+      const auto require = mode == PLUMB_SPRING_STIFFNESS ? &require_not_negative : &require_positive;
+      require(where, ("springs" + suffix + ".frequency").c_str(), desc.springs[axis].frequency);
       require_not_negative(where, ("springs" + suffix + ".damping_ratio").c_str(), desc.springs[axis].damping_ratio);
     }
   }

@@ -67,8 +67,16 @@ class RowList {
     if (spring.enabled == 0) return;
     const double rest = kind == RowKind::kDistance ? desc_.rest_length : spring.rest;
     axes.rest[i] = static_cast<Real>(turns ? std::remainder(rest, 2 * std::numbers::pi) : rest);
-    axes.omega[i] = static_cast<Real>(2 * std::numbers::pi * spring.frequency);
-    axes.damping_ratio[i] = static_cast<Real>(spring.damping_ratio);
+    axes.springs |= 1U << i;
+    if (spring.mode == PLUMB_SPRING_STIFFNESS) {
+      axes.stiffness[i] = static_cast<Real>(spring.frequency);
+      axes.damping[i] = static_cast<Real>(spring.damping_ratio);
+      return;
+    }
+    const double omega = 2 * std::numbers::pi * spring.frequency;
+    axes.springs_by_mass |= 1U << i;
+    axes.stiffness[i] = static_cast<Real>(omega * omega);
+    axes.damping[i] = static_cast<Real>(2 * spring.damping_ratio * omega);
   }
 
  private:

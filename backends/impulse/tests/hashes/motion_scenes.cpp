@@ -39,6 +39,8 @@ void puppets(Scene& scene) {
   universal.limits[3] = universal.limits[4] = {-0.6, 0.6, 1, 0};
   universal.springs[3] = {0.1, 2, 0.3, 1, 0};
   universal.break_force = 20000;
+  hinge.springs[3] = {0.4, 20, 1, 1, PLUMB_SPRING_STIFFNESS};
+  generic.springs[4] = {0, 0, 0.5, 1, PLUMB_SPRING_STIFFNESS};
   for (int axis = 0; axis < 6; ++axis) generic.axis_modes[axis] = axis < 3 ? PLUMB_AXIS_LOCKED : PLUMB_AXIS_LIMITED;
   for (int axis = 3; axis < 6; ++axis) generic.limits[axis] = {-0.4, 0.3, 1, 0};
   for (int i = 0; i < 6; ++i) {

@@ -57,6 +57,23 @@ test('a spring swings with its frequency', () => {
   world.destroy();
 });
 
+test('a spring by stiffness swings with its mass', () => {
+  const { world, body } = held({ type: 'slider', springs: { x: { stiffness: 1000 * (2 * Math.PI) ** 2 } } },
+    { gravity: [0, 0, 0] });
+  world.write('velocity', body, [1, 0, 0, 0, 0, 0]);
+  steps(world, 15);
+  near(positionOf(world, body)[0], 1 / (2 * Math.PI), 0.02);
+  world.destroy();
+});
+
+test('a damper brakes what slides', () => {
+  const { world, body } = held({ type: 'slider', springs: { x: { damping: 2000 } } }, { gravity: [0, 0, 0] });
+  world.write('velocity', body, [1, 0, 0, 0, 0, 0]);
+  steps(world, 60);
+  near(velocityOf(world, body)[0], Math.exp(-2), 0.01);
+  world.destroy();
+});
+
 test('a joint tells its load, and breaks above its strength', () => {
   const { world, body, joint } = held({ type: 'fixed', breakForce: 2e4, userData: 'rope' },
     { needs: ['jointReactions', 'events', 'forces'] });
