@@ -45,6 +45,22 @@ void read_frames(const Node& node, const SceneBuilder& builder, SceneJoint& join
   joint.desc.frame_b = in_body(bodies[joint.body_b].desc.pose, world);
 }
 
+/// By frequency and damping ratio, or by stiffness and damping.
+PlumbSpring read_spring(const Node& node) {
+  const double rest = node.number_or("rest", 0);
+  if (!node.find("stiffness") && !node.find("damping"))
+    return {rest, node.at("frequency").number(), node.at("damping_ratio").number(), 1, PLUMB_SPRING_FREQUENCY};
+  for (const char* key : {"frequency", "damping_ratio"})
+    if (const auto other = node.find(key))
+      other->fail("a spring has either frequency and damping_ratio or stiffness and damping");
+  const auto not_negative = [&](const char* key) {
+    const double value = node.number_or(key, 0);
+    if (!(value >= 0)) node.at(key).fail(fmt::format("{} is {:g}; it must be 0 or above", key, value));
+    return value;
+  };
+  return {rest, not_negative("stiffness"), not_negative("damping"), 1, PLUMB_SPRING_STIFFNESS};
+}
+
 void read_axes(const Node& node, PlumbJointDesc& desc) {
   static const std::vector<std::string> modes{"free", "locked", "limited"};
   if (const auto given = node.find("axis_modes")) {
@@ -66,8 +82,7 @@ void read_axes(const Node& node, PlumbJointDesc& desc) {
   if (const auto given = node.find("springs"))
     for_each_axis(*given, [&](std::size_t axis, const Node& spring) {
       spring.only(scene_keys().at("spring"));
-      desc.springs[axis] = {spring.number_or("rest", 0), spring.at("frequency").number(),
-                            spring.at("damping_ratio").number(), 1, 0};
+      desc.springs[axis] = read_spring(spring);
     });
 }
 

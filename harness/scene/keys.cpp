@@ -51,7 +51,7 @@ const std::map<std::string, std::vector<std::string>>& scene_keys() {
       {"frame", {"position", "orientation"}},
       {"limit", {"lower", "upper"}},
       {"motor", {"target_velocity", "max_force"}},
-      {"spring", {"rest", "frequency", "damping_ratio"}},
+      {"spring", {"rest", "frequency", "damping_ratio", "stiffness", "damping"}},
       {"joint",
        {"name",
         "repeat",
