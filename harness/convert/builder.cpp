@@ -230,6 +230,8 @@ void add_joint(Imported& imported, const std::string& name, const JointPlace& pl
 void set_axis(Imported& imported, std::size_t axis, const JointAxis& from) {
   PlumbJointDesc& desc = imported.scene.joints.back().desc;
   if (from.limits) desc.limits[axis] = {(*from.limits)[0], (*from.limits)[1], 1, 0};
+  if (from.damping != 0 || from.stiffness != 0)
+    desc.springs[axis] = {from.rest, from.stiffness, from.damping, 1, PLUMB_SPRING_STIFFNESS};
   if (from.friction > 0) desc.motors[axis] = {0, from.friction, 1, 0};
   imported.efforts.back()[axis] = from.effort;
 }

@@ -41,6 +41,8 @@ struct JointAxis {
   referee::Vec3 direction = referee::Vec3::UnitX();         ///< world
   std::optional<std::array<double, 2>> limits;              ///< m or rad
   double friction = 0;                                      ///< N or N m that it takes to move it
+  double damping = 0;                                       ///< N s/m or N m s/rad
+  double stiffness = 0, rest = 0;                           ///< N/m or N m/rad, about a place, m or rad
   double effort = std::numeric_limits<double>::infinity();  ///< most that its motor gives, N or N m
 };
 

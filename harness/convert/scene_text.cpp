@@ -133,9 +133,12 @@ void add_axes(Json& json, const PlumbJointDesc& desc) {
     if (limit.enabled != 0) json["limits"][words[i]] = {{"lower", limit.lower}, {"upper", limit.upper}};
     if (motor.enabled != 0)
       json["motors"][words[i]] = {{"target_velocity", motor.target_velocity}, {"max_force", motor.max_force}};
-    if (spring.enabled != 0)
+    if (spring.enabled != 0 && spring.mode == PLUMB_SPRING_FREQUENCY)
       json["springs"][words[i]] = {
           {"rest", spring.rest}, {"frequency", spring.frequency}, {"damping_ratio", spring.damping_ratio}};
+    if (spring.enabled != 0 && spring.mode == PLUMB_SPRING_STIFFNESS)
+      json["springs"][words[i]] = {
+          {"rest", spring.rest}, {"stiffness", spring.frequency}, {"damping", spring.damping_ratio}};
   }
 }
 

@@ -82,8 +82,15 @@ void set_drive(PlumbJointDesc& desc, const json& drive, const Kind& kind, double
                Remarks& remarks) {
   const std::size_t axis =
       turned_axis(drive.at("axis").get<std::size_t>() + (drive.at("type") == "angular" ? 3 : 0), kind.turn);
-  if (member(drive, "stiffness", 0.0) != 0) remarks.add("springs in joints are left out", name);
-  if (member(drive, "damping", 0.0) == 0) return;
+  const double stiffness = member(drive, "stiffness", 0.0), damping = member(drive, "damping", 0.0);
+  const bool is_force = member(drive, "mode", std::string("force")) == "force";
+  if (is_force && !drive.contains("maxForce") && member(drive, "velocityTarget", 0.0) == 0) {
+    desc.springs[axis] = {sign * member(drive, "positionTarget", 0.0), stiffness, damping, 1, PLUMB_SPRING_STIFFNESS};
+    return;
+  }
+  if (stiffness != 0)
+    remarks.add("springs of drives that have a strongest force, a speed or go by acceleration are left out", name);
+  if (damping == 0) return;
   remarks.add("drives reach their speed at once, as strong as they may be", name);
   desc.motors[axis] = {sign * member(drive, "velocityTarget", 0.0), member(drive, "maxForce", 1e6), 1, 0};
 }

@@ -46,9 +46,11 @@ JointAxis axis_of(const mjModel& model, const Dof& dof, double sign, const std::
     const double low = model.jnt_range[2 * dof.joint] - start, high = model.jnt_range[2 * dof.joint + 1] - start;
     axis.limits = sign > 0 ? std::array{low, high} : std::array{-high, -low};
   }
-  if (model.dof_damping[at] != 0) remarks.add("damping of joints is left out", name);
+  axis.damping = model.dof_damping[at];
+  axis.stiffness = model.jnt_stiffness[dof.joint];
+  const int coordinate = model.jnt_qposadr[dof.joint];
+  axis.rest = sign * (model.qpos_spring[coordinate] - model.qpos0[coordinate]);
   if (model.dof_armature[at] != 0) remarks.add("armature of joints is left out", name);
-  if (model.jnt_stiffness[dof.joint] != 0) remarks.add("springs in joints are left out", name);
   return axis;
 }
 
@@ -94,7 +96,8 @@ std::vector<Dof> dofs_of(const mjModel& model, int body, const Pose& pose) {
 
 void add_ball(const mjModel& model, const Dof& dof, const MjcfEnds& ends, const std::string& name, Imported& imported) {
   if (model.jnt_limited[dof.joint] != 0) imported.remarks.add("limits of ball joints are left out", name);
-  if (model.dof_damping[model.jnt_dofadr[dof.joint]] != 0) imported.remarks.add("damping of joints is left out", name);
+  if (model.dof_damping[model.jnt_dofadr[dof.joint]] != 0)
+    imported.remarks.add("damping of ball joints is left out", name);
   Pose frame;
   frame.position = dof.anchor;
   add_joint(imported, name, {PLUMB_JOINT_BALL, ends.parent, ends.child, frame}, {});

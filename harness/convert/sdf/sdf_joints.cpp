@@ -34,8 +34,8 @@ Kind kind_of(const sdf::Joint& joint, const std::string& name) {
   }
 }
 
-JointAxis axis_of(const sdf::Joint& joint, unsigned index, const Pose& world, bool continuous, const std::string& name,
-                  Remarks& remarks) {
+JointAxis axis_of(const sdf::Joint& joint, unsigned index, const Pose& world, bool continuous,
+                  const std::string& name) {
   const sdf::JointAxis* axis = joint.Axis(index);
   if (axis == nullptr) throw UsageError(fmt::format("joint \"{}\" has no axis {}", name, index));
   ignition::math::Vector3d direction;
@@ -51,8 +51,12 @@ JointAxis axis_of(const sdf::Joint& joint, unsigned index, const Pose& world, bo
                                    axis->Upper()));
     read.limits = {{axis->Lower(), axis->Upper()}};
   }
-  if (axis->Damping() != 0) remarks.add("damping of joints is left out", name);
-  if (axis->SpringStiffness() != 0) remarks.add("springs in joints are left out", name);
+  read.damping = axis->Damping();
+  read.stiffness = axis->SpringStiffness();
+  read.rest = axis->SpringReference();
+  for (const auto& [key, value] : {std::pair("damping", read.damping), {"spring_stiffness", read.stiffness}})
+    if (!(value >= 0))
+      throw UsageError(fmt::format("joint \"{}\": its {} is {}; it must be 0 or above", name, key, value));
   return read;
 }
 
@@ -72,7 +76,7 @@ void add_sdf_joint(const sdf::Joint& joint, const std::string& name, const Pose&
   const Pose world = model * pose_of(pose);
   std::vector<JointAxis> axes;
   for (unsigned i = 0; i < kind.axes; ++i)
-    axes.push_back(axis_of(joint, i, world, joint.Type() == sdf::JointType::CONTINUOUS, name, imported.remarks));
+    axes.push_back(axis_of(joint, i, world, joint.Type() == sdf::JointType::CONTINUOUS, name));
   Pose frame = world;
   if (axes.size() == 1) frame = frame_of(world.position, axes[0].direction);
   if (axes.size() == 2) {

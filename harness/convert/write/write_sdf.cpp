@@ -111,12 +111,20 @@ void write_axis(SdfOutput& out, const SceneJoint& joint, std::size_t axis, bool 
     xml.numbers("upper", {limit.upper - start});
   }
   const PlumbMotor& motor = joint.desc.motors[axis];
-  if (motor.enabled != 0 && motor.target_velocity == 0) {
+  const PlumbSpring& spring = joint.desc.springs[axis];
+  const bool brakes = motor.enabled != 0 && motor.target_velocity == 0;
+  const bool springs = spring.enabled != 0 && spring.mode == PLUMB_SPRING_STIFFNESS;
+  if (brakes || springs) {
     const Xml::Element dynamics(xml, "dynamics");
-    xml.numbers("friction", {motor.max_force});
+    if (brakes) xml.numbers("friction", {motor.max_force});
+    if (springs) {
+      xml.numbers("damping", {spring.damping_ratio});
+      xml.numbers("spring_stiffness", {spring.frequency});
+      xml.numbers("spring_reference", {spring.rest - start_of(out.scene, joint, axis)});
+    }
   }
-  if (motor.enabled != 0 && motor.target_velocity != 0) out.remarks.add("motors that drive are left out", joint.name);
-  if (joint.desc.springs[axis].enabled != 0) out.remarks.add("springs in joints are left out", joint.name);
+  if (motor.enabled != 0 && !brakes) out.remarks.add("motors that drive are left out", joint.name);
+  if (spring.enabled != 0 && !springs) out.remarks.add("springs by frequency are left out", joint.name);
 }
 
 void write_joint(SdfOutput& out, const SceneJoint& joint) {

@@ -130,6 +130,23 @@ TEST(ReadGltf, FromTheWorldAJointGoesTheOtherWay) {
   EXPECT_EQ(world.scene.joints[0].desc.motors[3].target_velocity, -2);
 }
 
+TEST(ReadGltf, DrivesToAPlaceAreSprings) {
+  const std::string limits =
+      std::string(in_place) + R"(,{"angularAxes":[1,2],"max":0},{"angularAxes":[0],"min":-0.5,"max":1})";
+  const std::string drive =
+      R"({"type":"angular","mode":"force","axis":0,"positionTarget":0.4,"stiffness":50,"damping":7)";
+  const auto spring = [&](const std::string& b, const std::string& more) {
+    return jointed(limits, b, drive + more + "}").scene.joints.at(0).desc.springs[3];
+  };
+  const std::string moves = R"("motion":{},)" + collider(1);
+  const PlumbSpring both = spring(moves, "");
+  EXPECT_EQ(std::tie(both.rest, both.frequency, both.damping_ratio), std::make_tuple(0.4, 50.0, 7.0));
+  EXPECT_EQ(both.mode, static_cast<PlumbSpringMode>(PLUMB_SPRING_STIFFNESS));
+  EXPECT_EQ(spring(collider(1), "").rest, -0.4) << "from the world it goes the other way";
+  EXPECT_EQ(spring(moves, R"(,"maxForce":9)").enabled, 0U) << "no spring has a strongest force";
+  EXPECT_EQ(spring(moves, R"(,"velocityTarget":1)").enabled, 0U);
+}
+
 TEST(ReadGltf, NodesOfOneNameAreBodiesOfSeveral) {
   const std::string ball = R"("motion":{},)" + collider(1);
   const Scene scene = read(file_of(node("a", ball) + "," + node("a", ball) + "," + node("world", ball), 3)).scene;

@@ -25,7 +25,7 @@ constexpr const char* machine =
     <body name="upper" pos="0.3 0 0" euler="0 0.3 0"><joint name="shoulder_y" type="hinge" axis="0 1 0" pos="0 0 0.1" range="-0.5 1" limited="true"/>
       <joint name="shoulder_x" type="hinge" axis="1 0 0" pos="0 0 0.1"/>
       <geom type="capsule" fromto="0 0 0 0 0 -0.4" size="0.05" mass="1"/>
-      <body name="lower" pos="0 0 -0.5" quat="0.9 0.1 0.2 0.3"><joint name="elbow" type="hinge" axis="0 1 1" ref="0.2" range="-0.3 1.2" limited="true" frictionloss="0.4"/>
+      <body name="lower" pos="0 0 -0.5" quat="0.9 0.1 0.2 0.3"><joint name="elbow" type="hinge" axis="0 1 1" ref="0.2" range="-0.3 1.2" limited="true" frictionloss="0.4" damping="0.3" stiffness="6" springref="0.5"/>
         <geom type="cylinder" size="0.05 0.2" pos="0 0 -0.2" mass="0.5"/>
         <body name="hand" pos="0 0 -0.45"><joint name="wrist" type="ball"/><geom type="ellipsoid" size="0.1 0.05 0.02" mass="0.2"/></body>
       </body>
@@ -115,6 +115,11 @@ TEST(ReadMjcf, LimitsCountFromTheStart) {
   EXPECT_NEAR(desc("elbow").limits[3].upper, 1.0, 1e-12);
   EXPECT_EQ(desc("elbow").motors[3].max_force, 0.4);
   EXPECT_EQ(read.efforts[read.scene.joint("elbow")][3], 30);
+  const PlumbSpring& spring = desc("elbow").springs[3];
+  EXPECT_EQ(spring.mode, static_cast<PlumbSpringMode>(PLUMB_SPRING_STIFFNESS));
+  EXPECT_EQ(spring.frequency, 6);
+  EXPECT_EQ(spring.damping_ratio, 0.3);
+  EXPECT_NEAR(spring.rest, 0.3, 1e-12);  // .5 where the start is called .2
   EXPECT_EQ(desc("shoulder_y").limits[3].upper, 1);
   EXPECT_EQ(desc("shoulder_y").limits[4].enabled, 0u);
   EXPECT_EQ(read.scene.dt, 0.004);

@@ -83,7 +83,8 @@ std::string jointed(const std::string& joint) {
 TEST(ReadSdf, TakesJointsWithAxesLimitsAndFriction) {
   const Imported read = read_text("a.sdf", jointed(R"(<joint name='j' type='revolute'><parent>a</parent><child>b</child>
     <pose>0 0.5 0 0 0 0</pose><axis><xyz>0 0 1</xyz><limit><lower>-1</lower><upper>2</upper><effort>7</effort></limit>
-    <dynamics><friction>0.3</friction><damping>0.1</damping></dynamics></axis></joint>)"));
+    <dynamics><friction>0.3</friction><damping>0.1</damping><spring_stiffness>5</spring_stiffness>
+    <spring_reference>0.2</spring_reference></dynamics></axis></joint>)"));
   const SceneJoint& joint = read.scene.joints.at(0);
   EXPECT_EQ(joint.desc.type, static_cast<PlumbJointType>(PLUMB_JOINT_HINGE));
   EXPECT_EQ(joint.body_a, read.scene.body("m::a"));
@@ -96,7 +97,12 @@ TEST(ReadSdf, TakesJointsWithAxesLimitsAndFriction) {
   EXPECT_EQ(joint.desc.limits[3].upper, 2);
   EXPECT_EQ(joint.desc.motors[3].max_force, 0.3);
   EXPECT_EQ(read.efforts.at(0)[3], 7);
-  EXPECT_TRUE(has_line(read.remarks, "damping of joints is left out: m::j"));
+  const PlumbSpring& spring = joint.desc.springs[3];
+  EXPECT_EQ(spring.mode, static_cast<PlumbSpringMode>(PLUMB_SPRING_STIFFNESS));
+  EXPECT_EQ(spring.enabled, 1U);
+  EXPECT_EQ(spring.frequency, 5);
+  EXPECT_EQ(spring.damping_ratio, 0.1);
+  EXPECT_EQ(spring.rest, 0.2);
 }
 
 TEST(ReadSdf, TakesEveryKindOfJoint) {

@@ -66,6 +66,12 @@ void expect_same_joints(const Scene& before, const Scene& after) {
       EXPECT_EQ(joint.desc.limits[axis].enabled, same->desc.limits[axis].enabled) << joint.name;
       EXPECT_NEAR(joint.desc.limits[axis].lower, same->desc.limits[axis].lower, 1e-9) << joint.name;
       EXPECT_NEAR(joint.desc.limits[axis].upper, same->desc.limits[axis].upper, 1e-9) << joint.name;
+      const PlumbSpring &one_spring = joint.desc.springs[axis], &other = same->desc.springs[axis];
+      if (one_spring.enabled == 0 || one_spring.mode == PLUMB_SPRING_FREQUENCY) continue;
+      EXPECT_EQ(other.mode, static_cast<PlumbSpringMode>(PLUMB_SPRING_STIFFNESS)) << joint.name;
+      EXPECT_EQ(one_spring.frequency, other.frequency) << joint.name;
+      EXPECT_EQ(one_spring.damping_ratio, other.damping_ratio) << joint.name;
+      EXPECT_NEAR(one_spring.rest, other.rest, 1e-9) << joint.name;
     }
   }
 }
@@ -89,6 +95,8 @@ INSTANTIATE_TEST_SUITE_P(Scenes, RoundTrip,
 TEST(SceneText, IsASceneFileThatIsReadAsWhatItWas) {
   Imported imported;
   imported.scene = scene_of("I14");
+  imported.scene.joints[0].desc.springs[3] = {0.1, 20, 3, 1, PLUMB_SPRING_STIFFNESS};
+  imported.scene.joints[1].desc.springs[3] = {0.2, 2, 0.5, 1, PLUMB_SPRING_FREQUENCY};
   imported.efforts.resize(imported.scene.joints.size());
   for (auto& efforts : imported.efforts) efforts.fill(std::numeric_limits<double>::infinity());
   const Scene before = imported.scene;
@@ -109,6 +117,9 @@ TEST(SceneText, IsASceneFileThatIsReadAsWhatItWas) {
   for (std::size_t i = 0; i < before.joints.size(); ++i) {
     expect_same(place_of(before, before.joints[i]), place_of(after, after.joints[i]), 1e-15, before.joints[i].name);
     EXPECT_EQ(before.joints[i].desc.limits[3].upper, after.joints[i].desc.limits[3].upper);
+    const PlumbSpring &one = before.joints[i].desc.springs[3], &other = after.joints[i].desc.springs[3];
+    EXPECT_EQ(std::tie(one.rest, one.frequency, one.damping_ratio, one.enabled, one.mode),
+              std::tie(other.rest, other.frequency, other.damping_ratio, other.enabled, other.mode));
   }
   EXPECT_EQ(after.measure, "quantities");
 }
@@ -120,6 +131,7 @@ TEST(WriteSdf, LimitsCountFromTheStart) {
   const referee::Pose turned{Eigen::AngleAxisd(0.3, referee::Vec3::UnitX()).toRotationMatrix(), referee::Vec3::Zero()};
   joint.frame_b = plain(referee::pose(joint.frame_b) * turned);
   joint.limits[3] = {-0.5, 1, 1, 0};
+  joint.springs[3] = {0.5, 20, 3, 1, PLUMB_SPRING_STIFFNESS};
   Remarks remarks;
   const Imported back = there_and_back(scene, remarks);
   const auto same = std::find_if(back.scene.joints.begin(), back.scene.joints.end(), [&](const SceneJoint& other) {
@@ -128,6 +140,9 @@ TEST(WriteSdf, LimitsCountFromTheStart) {
   ASSERT_NE(same, back.scene.joints.end());
   EXPECT_NEAR(same->desc.limits[3].lower, -0.8, 1e-9);
   EXPECT_NEAR(same->desc.limits[3].upper, 0.7, 1e-9);
+  EXPECT_NEAR(same->desc.springs[3].rest, 0.2, 1e-9);
+  EXPECT_EQ(same->desc.springs[3].frequency, 20);
+  EXPECT_EQ(same->desc.springs[3].damping_ratio, 3);
 }
 
 TEST(WriteSdf, SaysWhatSdfLacks) {
