@@ -70,7 +70,7 @@ class LayerSlots {
     for (std::size_t slot = 0; slot < count; ++slot) {
       if (slots_[slot].layer != nullptr) continue;
       slots_[slot].layer = std::make_unique<Layer>(next, std::forward<Args>(args)...);
-      fill_slot(slot, std::make_index_sequence<count>());
+      fill(slot, std::make_index_sequence<count>());
       return &std::get<PlumbBackendTable>(slots_[slot].tables);
     }
     throw Error(PLUMB_E_OUT_OF_MEMORY,
@@ -110,20 +110,24 @@ class LayerSlots {
   struct Thunk;
   template <std::size_t slot, Call call, class Result, class Table, class... Args>
   struct Thunk<slot, call, Result (*Table::*)(Args...)> {
-    static Result run(Args... args) {
-      if constexpr (std::is_same_v<Result, PlumbResult>) {
-        try {
-          return slots_[slot].layer->template on<call>(args...);
-        } catch (const std::bad_alloc&) {
-          return PLUMB_E_OUT_OF_MEMORY;
-        } catch (...) {
-          return PLUMB_E_INTERNAL;
-        }
-      } else {
-        return slots_[slot].layer->template on<call>(args...);
-      }
-    }
+    static Result run(Args... args) { return answer<call, Result>(slot, args...); }
   };
+  // A function beside the thunks, so that it is compiled once for all slots.
+  template <Call call, class Result, class... Args>
+  static Result answer(std::size_t slot, Args... args) {
+    Layer& layer = *slots_[slot].layer;
+    if constexpr (std::is_same_v<Result, PlumbResult>) {
+      try {
+        return layer.template on<call>(args...);
+      } catch (const std::bad_alloc&) {
+        return PLUMB_E_OUT_OF_MEMORY;
+      } catch (...) {
+        return PLUMB_E_INTERNAL;
+      }
+    } else {
+      return layer.template on<call>(args...);
+    }
+  }
 
   template <std::size_t slot>
   static PlumbDegree capability(PlumbCapability kind, std::uint32_t a, std::uint32_t b, const char** note) {
@@ -143,27 +147,23 @@ class LayerSlots {
     return table;
   }
 
+  // Copies next's tables as far as both sides know them, then puts the slot's thunks in the place of what they hold.
   template <std::size_t... all>
-  static void fill_slot(std::size_t wanted, std::index_sequence<all...>) {
-    ((all == wanted ? fill<all>() : void()), ...);
-  }
-  // Copies next's tables as far as both sides know them, then puts thunks in the place of what they hold.
-  template <std::size_t slot>
-  static void fill() {
+  static void fill(std::size_t slot, std::index_sequence<all...>) {
     auto& tables = slots_[slot].tables;
     const Layer& layer = *slots_[slot].layer;
     std::apply(
         [&layer](auto&... table) { (copy(table, layer.template next_table<std::decay_t<decltype(table)>>()), ...); },
         tables);
     PlumbBackendTable& core = std::get<PlumbBackendTable>(tables);
-    core.capability = &capability<slot>;
-    core.extension = &extension<slot>;
-    core.error_text = &error_text<slot>;
-    for_each_call([]<Call call>() {
-      auto& table = std::get<typename CallTraits<call>::Table>(slots_[slot].tables);
-      if (has(table, CallTraits<call>::pointer))
-        table.*CallTraits<call>::pointer =
-            &Thunk<slot, call, std::remove_cv_t<decltype(CallTraits<call>::pointer)>>::run;
+    core.capability = std::array{&capability<all>...}[slot];
+    core.extension = std::array{&extension<all>...}[slot];
+    core.error_text = std::array{&error_text<all>...}[slot];
+    for_each_call([&tables, slot]<Call call>() {
+      constexpr auto pointer = CallTraits<call>::pointer;
+      auto& table = std::get<typename CallTraits<call>::Table>(tables);
+      if (has(table, pointer))
+        table.*pointer = std::array{&Thunk<all, call, std::remove_cv_t<decltype(pointer)>>::run...}[slot];
     });
   }
   template <class Table>

@@ -33,6 +33,12 @@ bool is_allowed(Remarks allowed, PlumbResult result) {
 
 template <Call call, class... Args>
 PlumbResult ValidationLayer::on_world_call(PlumbWorld* world, Args... args) {
+  const auto forward = [&](ValidatedWorld& state) { return run(CallTag<call>(), state, world, args...); };
+  return checked_call(call, CallTraits<call>::thread, CallTraits<call>::remarks, world, std::ref(forward));
+}
+
+PlumbResult ValidationLayer::checked_call(Call call, Thread thread, Remarks remarks, PlumbWorld* world,
+                                          const std::function<PlumbResult(ValidatedWorld&)>& forward) {
   const std::shared_ptr<ValidatedWorld> state = find(world);
   if (state == nullptr || state->destroyed) {
     const std::string text = text_for(call, world == nullptr   ? "world is null"
@@ -49,10 +55,10 @@ PlumbResult ValidationLayer::on_world_call(PlumbWorld* world, Args... args) {
     return code;
   };
   try {
-    const Visit visit(*state, CallTraits<call>::thread);
+    const Visit visit(*state, thread);
     enter(call, *state, visit);
-    const PlumbResult result = run(CallTag<call>(), *state, world, args...);
-    judge(call, CallTraits<call>::remarks, *state, world, result);
+    const PlumbResult result = forward(*state);
+    judge(call, remarks, *state, world, result);
     return result;
   } catch (const HostError& error) {
     return fail(FindingKind::host_mistake, error.code, error.text);

@@ -1,6 +1,7 @@
 // The validation layer: one object for each table that is validated, with what it knows of its worlds.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -40,6 +41,9 @@ class ValidationLayer : public LayerBase {
  private:
   template <Call call, class... Args>
   PlumbResult on_world_call(PlumbWorld* world, Args... args);
+  // What all of them have around their own part, compiled once.
+  PlumbResult checked_call(Call call, Thread thread, Remarks remarks, PlumbWorld* world,
+                           const std::function<PlumbResult(ValidatedWorld&)>& forward);
 
   // One function for each shape of a call: checks the arguments, forwards, checks the answer.
   template <Call call, class Desc>
