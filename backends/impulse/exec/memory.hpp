@@ -80,11 +80,12 @@ class Buffer {
   std::size_t size_ = 0;
 };
 
-/// Whether the host and the kernels share their memory. They do on the CPU, but for a build that tests what travels.
-#if defined(PLUMB_IMPULSE_CUDA) || defined(PLUMB_IMPULSE_MEMORY_APART)
+/// Whether the host and the kernels share their memory. They do on the CPU, but for programs that test what travels:
+/// what is linked decides (cpu/one_memory.cpp or cpu/memory_apart.cpp), so that they are made of the same objects.
+#if defined(PLUMB_IMPULSE_CUDA)
 constexpr bool kOneMemory = false;
 #else
-constexpr bool kOneMemory = true;
+extern const bool kOneMemory;
 #endif
 
 /// An array of which the host has a twin. On the CPU both are one. Who writes the one side says so by copying.

@@ -63,7 +63,7 @@ void Simulation::reserve_pairs(std::uint32_t pairs) {
 /// So many of a thing that a recorded step has room for, when there are n now. While bodies come and go the numbers
 /// stay in coarse steps, and the recording serves on.
 std::uint32_t Simulation::room_for(std::uint32_t n) const {
-  if (!Executor::kRecords || step_ <= 1 || n == 0) return n;
+  if (!Executor::records() || step_ <= 1 || n == 0) return n;
   std::uint32_t unit = 64;
   while (unit * 32 <= n) unit *= 2;
   return (n + unit - 1) / unit * unit;

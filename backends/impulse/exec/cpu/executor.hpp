@@ -59,11 +59,11 @@ class Executor {
  public:
   static constexpr bool kWarps = false;              // whether neighbouring threads must do the same to be fast
   static constexpr std::uint32_t kGroupThreads = 1;  // of the team of a small group
-  static constexpr bool kRecords = !kOneMemory;      // whether a step is recorded, with the numbers that it had
-  static constexpr std::int32_t kDeviceType = kOneMemory ? 1 : 2;  // of DLPack
 
   Executor(const PlumbHost* host, std::uint32_t threads) : pool_(host, threads) {}
 
+  /// Whether a step is recorded, with the numbers that it had.
+  static bool records() { return !kOneMemory; }
   static std::string unmet_requirement() { return {}; }
   static const char* device_name() { return "cpu"; }
   static std::uint32_t max_threads() { return ThreadPool::processors(); }
@@ -72,23 +72,23 @@ class Executor {
 
   template <class F>
   void run(std::uint32_t n, const F& f) {
-    if (!kOneMemory && recording_ != nullptr) recording_->note(n, f);
+    if (recording_ != nullptr) recording_->note(n, f);
     pool_.each(n, f);
   }
   template <class F>
   void run(Count n, const F& f) {
-    if (!kOneMemory && recording_ != nullptr) recording_->note(n.capacity, f);
+    if (recording_ != nullptr) recording_->note(n.capacity, f);
     pool_.each(*n.value < n.capacity ? *n.value : n.capacity, f);
   }
   template <class F>
   void team(Count load, std::uint32_t least, const F& f) {
-    if (!kOneMemory && recording_ != nullptr) recording_->note(load.capacity < least ? least : load.capacity, f);
+    if (recording_ != nullptr) recording_->note(load.capacity < least ? least : load.capacity, f);
     Team team(pool_);
     f(team);
   }
   template <class F>
   void record(Recording& recording, const F& f) {
-    if (kOneMemory) return pool_.together(f);
+    if (!records()) return pool_.together(f);
     PLUMB_ASSERT(recording_ == nullptr);  // recordings do not nest
     recording.begin();
     recording_ = &recording;
@@ -123,6 +123,7 @@ class Executor {
   void wait() {}
   void send(Signal& /*signal*/) {}
   [[nodiscard]] void* stream_handle() const { return nullptr; }
+  [[nodiscard]] static std::int32_t device_type() { return kOneMemory ? 1 : 2; }  // of DLPack
   [[nodiscard]] static std::int32_t device_id() { return 0; }
   ThreadPool& pool() { return pool_; }
 

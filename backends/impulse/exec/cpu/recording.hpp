@@ -1,14 +1,10 @@
-// A sequence that record() has seen. The CPU runs it anew each time, so there is nothing to keep. The build that plays
-// a device (PLUMB_IMPULSE_MEMORY_APART) notes what a device would replay, and fails where that is no longer what is
-// meant.
+// A sequence that record() has seen. The CPU runs it anew each time, so there is nothing to keep. A program that plays
+// a device (memory_apart.cpp) notes what a device would replay, and fails where that is no longer what is meant.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <vector>
-
-#include "exec/memory.hpp"
 
 namespace plumb::impulse {
 
@@ -20,11 +16,12 @@ class Recording {
     replays_ = !noted_.empty();
     at_ = 0;
   }
+  /// Out of the way of kernels that run with nothing recorded.
   template <class F>
-  void note(std::uint32_t n, [[maybe_unused]] F kernel) {
-    if (kOneMemory) return;
+  [[gnu::cold, gnu::noinline]] void note(std::uint32_t n, [[maybe_unused]] const F& f) {
     note_bytes(&n, sizeof n);
 #if __has_builtin(__builtin_clear_padding)  // where the compiler has none, as Clang 19, kernels cannot be compared
+    F kernel = f;
     __builtin_clear_padding(&kernel);
     note_bytes(&kernel, sizeof kernel);
 #endif
@@ -34,12 +31,7 @@ class Recording {
   }
 
  private:
-  void note_bytes(const void* data, std::size_t size) {
-    const auto* bytes = static_cast<const std::byte*>(data);
-    if (!replays_) noted_.insert(noted_.end(), bytes, bytes + size);
-    if (replays_ && (at_ + size > noted_.size() || std::memcmp(noted_.data() + at_, bytes, size) != 0)) stale();
-    at_ += size;
-  }
+  void note_bytes(const void* data, std::size_t size);
   [[noreturn]] static void stale();
 
   std::vector<std::byte> noted_;

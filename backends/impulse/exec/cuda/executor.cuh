@@ -93,14 +93,14 @@ class Executor {
  public:
   static constexpr bool kWarps = true;  // whether neighbouring threads must do the same to be fast
   static constexpr std::uint32_t kGroupThreads = kTeamThreads;  // of the team of a small group
-  static constexpr bool kRecords = true;          // whether a step is recorded, with the numbers that it had
-  static constexpr std::int32_t kDeviceType = 2;  // of DLPack
 
   Executor(const PlumbHost* host, std::uint32_t threads);
   Executor(const Executor&) = delete;
   Executor& operator=(const Executor&) = delete;
   ~Executor();
 
+  /// Whether a step is recorded, with the numbers that it had.
+  static constexpr bool records() { return true; }
   static std::string unmet_requirement();
   static const char* device_name();
   static std::uint32_t max_threads();
@@ -182,6 +182,7 @@ class Executor {
   void wait() { check_cuda(cudaStreamSynchronize(stream_), "a kernel failed"); }
   void send(Signal& signal) { check_cuda(cudaEventRecord(signal.handle(), stream_), "cannot record an event"); }
   [[nodiscard]] void* stream_handle() const { return stream_; }
+  [[nodiscard]] static std::int32_t device_type() { return 2; }  // of DLPack
   [[nodiscard]] static std::int32_t device_id() {
     int device = 0;
     check_cuda(cudaGetDevice(&device), "there is no CUDA device");

@@ -32,7 +32,7 @@ class LentRows {
     PlumbDLTensor& tensor = tensor_.dl_tensor;
     tensor.data = on_device ? block_->rows.device() : block_->rows.host();
     if (on_device)
-      tensor.device = {Executor::kDeviceType, Executor::device_id()};
+      tensor.device = {Executor::device_type(), Executor::device_id()};
     else
       tensor.device = {1, 0};
     tensor.ndim = 2;

@@ -1,4 +1,4 @@
-// The engine whose kernels have a memory of their own (PLUMB_IMPULSE_MEMORY_APART), as a GPU has: everything that they
+// The engine whose kernels have a memory of their own (exec/cpu/memory_apart.cpp), as a GPU has: everything that they
 // read must have travelled, and no more than that.
 #include <gtest/gtest.h>
 

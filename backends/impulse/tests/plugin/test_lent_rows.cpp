@@ -12,8 +12,9 @@ namespace plumb::impulse::test {
 namespace {
 
 constexpr PlumbNeeds kRowNeeds = PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION;
-constexpr std::int32_t kHost = 1, kDevice = 2, kOwn = Executor::kDeviceType;
-constexpr bool kOnHost = kOwn == kHost;
+constexpr std::int32_t kHost = 1, kDevice = 2;
+const std::int32_t kOwn = Executor::device_type();
+const bool kOnHost = kOwn == kHost;
 
 /// A tensor, given back in the end.
 using Tensor = std::shared_ptr<PlumbDLManagedTensor>;
