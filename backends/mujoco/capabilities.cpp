@@ -46,9 +46,8 @@ Capability joint_fact(std::uint32_t type) {
 }
 
 Capability joint_feature_fact(std::uint32_t type, std::uint32_t feature) {
-  const bool springs = feature == PLUMB_JOINT_HAS_STIFFNESS;  // as those by frequency
-  const Capability usual =
-      backend::usual_capability(PLUMB_CAP_JOINT_FEATURE, type, springs ? PLUMB_JOINT_HAS_SPRINGS : feature);
+  if (feature == PLUMB_JOINT_HAS_STIFFNESS) feature = PLUMB_JOINT_HAS_SPRINGS;
+  const Capability usual = backend::usual_capability(PLUMB_CAP_JOINT_FEATURE, type, feature);
   if (usual.degree == PLUMB_NONE) return usual;
   switch (feature) {
     case PLUMB_JOINT_HAS_LIMITS: return {PLUMB_NATIVE, "soft by joint_time and impedance"};
