@@ -97,7 +97,7 @@ void set_row(const Joint& joint, std::size_t axis, const Settings& settings, dou
   const PlumbSpring& spring = joint.desc.springs[axis];
   double erp = settings.erp, cfm = settings.cfm, lower = -dInfinity, upper = dInfinity;
   double velocity = motor.target_velocity;
-  if (spring.enabled != 0 && !joint.is_pushed_by_spring(axis)) {
+  if (spring.enabled != 0 && !joint.spring_shares_row(axis)) {
     const SoftRow row = soft_row(spring, joint.spring_mass[axis], h);
     erp = row.erp;
     cfm = row.cfm;
@@ -303,7 +303,7 @@ void push(const Joint& joint, std::size_t axis, double force) {
 
 /// Between its limits the one row that ODE has for the axis is a motor as soft as the spring, at a limit or beside a
 /// motor the spring is a force: implicit against the mass of the two bodies by themselves, than which no less moves.
-void push_by_spring(const Joint& joint, std::size_t axis, double h) {
+void drive_spring(const Joint& joint, std::size_t axis, double h) {
   const PlumbSpring& spring = joint.desc.springs[axis];
   const PlumbLimit& limit = joint.desc.limits[axis];
   const Motion now = motion_of(joint, axis);
@@ -326,7 +326,7 @@ void push_by_spring(const Joint& joint, std::size_t axis, double h) {
 void prepare(Joint& joint, const RowMaker& rows) {
   PLUMB_ASSERT(joint.solved() && rows.h > 0);
   for (std::size_t axis = 0; axis < 6; ++axis)
-    if (joint.is_pushed_by_spring(axis)) push_by_spring(joint, axis, rows.h);
+    if (joint.spring_shares_row(axis)) drive_spring(joint, axis, rows.h);
   joint.rows = 0;
   const PlumbPose frame_b = joint.frame_b();
   joint.arm = sub(frame_b.position, joint.first().centre());

@@ -40,17 +40,17 @@ struct Joint {
   [[nodiscard]] bool has_distance_limits() const {
     return desc.type == PLUMB_JOINT_DISTANCE && desc.limits[0].enabled != 0;
   }
-  /// Whether the axis' spring is told in each sub-step, for it shares the one row of ODE's joint with a limit or motor.
-  /// Of one by frequency check_joint() lets nothing be beside it.
-  [[nodiscard]] bool is_pushed_by_spring(std::size_t axis) const {
+  /// Whether the axis' spring, by stiffness, and a limit or motor share the one row that ODE's joint has for it: then
+  /// who has it is settled in each sub-step.
+  [[nodiscard]] bool spring_shares_row(std::size_t axis) const {
     return desc.springs[axis].enabled != 0 && desc.type != PLUMB_JOINT_DISTANCE && desc.type != PLUMB_JOINT_GENERIC &&
            (desc.limits[axis].enabled != 0 || desc.motors[axis].enabled != 0);
   }
   /// Whether prepare() has something to do in each sub-step.
   [[nodiscard]] bool needs_preparing() const {
-    bool pushed = false;
-    for (std::size_t axis = 0; axis < 6; ++axis) pushed = pushed || is_pushed_by_spring(axis);
-    return pushed || has_distance_limits() || desc.type == PLUMB_JOINT_GENERIC;
+    bool shares = false;
+    for (std::size_t axis = 0; axis < 6; ++axis) shares = shares || spring_shares_row(axis);
+    return shares || has_distance_limits() || desc.type == PLUMB_JOINT_GENERIC;
   }
 };
 

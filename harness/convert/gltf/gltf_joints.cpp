@@ -83,6 +83,7 @@ void set_drive(PlumbJointDesc& desc, const json& drive, const Kind& kind, double
   const std::size_t axis =
       turned_axis(drive.at("axis").get<std::size_t>() + (drive.at("type") == "angular" ? 3 : 0), kind.turn);
   const double stiffness = member(drive, "stiffness", 0.0), damping = member(drive, "damping", 0.0);
+  if (stiffness == 0 && damping == 0) return;
   const bool is_force = member(drive, "mode", std::string("force")) == "force";
   if (is_force && !drive.contains("maxForce") && member(drive, "velocityTarget", 0.0) == 0) {
     desc.springs[axis] = {sign * member(drive, "positionTarget", 0.0), stiffness, damping, 1, PLUMB_SPRING_STIFFNESS};
