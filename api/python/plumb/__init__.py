@@ -48,6 +48,6 @@ __all__ = [
     "HitMode", "JointChange", "JointDesc", "JointFeature", "JointField", "JointMember", "JointType", "Joints",
     "LentRows", "Limit", "Lock", "MassMode", "Material", "Modify", "Motion", "Motor", "Need", "Phase", "Plane",
     "Queries", "QueryKind", "Remark", "Result", "RowMap", "SettingInfo", "SettingRole", "SettingType", "Settings",
-    "ShapeDesc", "ShapeType", "Snapshot", "Sphere", "Spring", "SpringMode", "State", "StepReport", "StiffSpring", "TriangleMesh", "World",
-    "backends", "body_rows", "harness", "interface_version", "open", "search_path",
+    "ShapeDesc", "ShapeType", "Snapshot", "Sphere", "Spring", "SpringMode", "State", "StepReport", "StiffSpring",
+    "TriangleMesh", "World", "backends", "body_rows", "harness", "interface_version", "open", "search_path",
 ]

@@ -121,7 +121,7 @@ void require_axis(const PlumbJointDesc& desc, PlumbJointFeature feature, std::si
 }  // namespace
 
 bool joint_has(PlumbJointType type, PlumbJointFeature feature) {
-  if (feature > PLUMB_JOINT_HAS_SPRINGS) return feature != PLUMB_JOINT_HAS_STIFFNESS;
+  if (feature > PLUMB_JOINT_HAS_SPRINGS) return true;
   return type == PLUMB_JOINT_HINGE || type == PLUMB_JOINT_SLIDER || type == PLUMB_JOINT_DISTANCE;
 }
 

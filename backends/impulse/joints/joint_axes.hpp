@@ -38,8 +38,13 @@ struct JointAxes {
   /// Of the spring: N/m and N s/m, N m/rad and N m s/rad; of one that is given by its frequency, per mass that it works
   /// against: 1/s2 and 1/s.
   Real stiffness[kJointRows], damping[kJointRows];
-  std::uint32_t springs, springs_by_mass;  ///< bits: rows that have one, rows whose spring is given by its frequency
-  std::uint32_t masses_alone;              ///< whether no turn is free: then springs along axes work against the masses
+  std::uint32_t springs_by_mass;  ///< bits: rows whose spring is given by its frequency
+  std::uint32_t masses_alone;     ///< whether no turn is free: then springs along axes work against the masses
+
+  [[nodiscard]] PLUMB_HD bool has_spring(int i) const { return stiffness[i] > 0 || damping[i] > 0; }
+  [[nodiscard]] PLUMB_HD bool is_by_mass(int i) const { return (springs_by_mass >> i & 1U) != 0; }
+  /// By which stiffness and damping are to be multiplied. mass: what the spring works against.
+  [[nodiscard]] PLUMB_HD Real spring_unit(int i, Real mass) const { return is_by_mass(i) ? mass : Real(1); }
 };
 
 /// What the host may write between steps, by the joint's axis.

@@ -127,8 +127,8 @@ struct SpringNumbers {
   Real drag, pull;
 };
 PLUMB_HD inline SpringNumbers spring_numbers(const JointAxes& axes, int row, Real mass, Real h) {
-  const bool by_mass = (axes.springs_by_mass >> row & 1U) != 0;
-  const Real unit = by_mass ? mass : Real(1), stiffness = axes.stiffness[row], damping = h * axes.damping[row];
+  const bool by_mass = axes.is_by_mass(row);
+  const Real unit = axes.spring_unit(row, mass), stiffness = axes.stiffness[row], damping = h * axes.damping[row];
   const Real turn = h * sqrt(by_mass ? stiffness : stiffness * reciprocal_or_zero(mass));
   const Real fast = clamp(4 * turn - Real(1), Real(0), Real(1));
   const Real slow_drag = by_mass ? growth(min(damping, Real(64))) : damping;
@@ -157,7 +157,7 @@ PLUMB_HD inline RowLaw law_of_places(const JointAxes& axes, int row, Real x, con
     law.steady = drive.velocity[spec.coordinate];
     law.push = force * time.h;
   }
-  if ((axes.springs >> row & 1U) != 0) {
+  if (axes.has_spring(row)) {
     const SpringNumbers numbers = spring_numbers(axes, row, spring_mass, time.h);
     const Real off = turns ? wrapped(x - axes.rest[row]) : x - axes.rest[row];
     law.drag = numbers.drag;

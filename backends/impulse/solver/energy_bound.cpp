@@ -224,11 +224,10 @@ struct JudgeEnergy {
       const Real most = drive.max_force[k] * work.parameters->dt;
       const Real pushed = k < 3 ? length(reaction.force) : length(reaction.torque);
       sum = sum + min(most, pushed) * sqrt(drive.velocity[k] * drive.velocity[k]);
-      if ((axes.springs >> i & 1U) == 0) continue;
+      if (!axes.has_spring(i)) continue;
       const Real off = places[first + i] - axes.rest[i];
       const Real bent = axes.row[i].kind == RowKind::kAngle ? wrapped(off) : off;
-      const Real unit = (axes.springs_by_mass >> i & 1U) != 0 ? reaction.spring_mass[first + i] : Real(1);
-      sum = sum + unit * axes.stiffness[i] * bent * bent / 2;
+      sum = sum + axes.spring_unit(i, reaction.spring_mass[first + i]) * axes.stiffness[i] * bent * bent / 2;
     }
     given[j] = sum;
     atomic_max(&islands[root_of(joint)].peak, ordered_bits(sum));

@@ -29,6 +29,12 @@ void scale_shape(SceneShape& shape, double scale) {
   for (SceneShape::Child& child : shape.children) child.pose.position = times(child.pose.position, scale);
 }
 
+/// One by stiffness.
+void strengthen(PlumbSpring& spring, double stiffness, double damping) {
+  spring.frequency *= stiffness;
+  spring.damping_ratio *= damping;
+}
+
 void scale_joint(PlumbJointDesc& joint, double scale) {
   const double speed = std::sqrt(scale), force = std::pow(scale, 3), torque = std::pow(scale, 4);
   joint.frame_a.position = times(joint.frame_a.position, scale);
@@ -43,13 +49,10 @@ void scale_joint(PlumbJointDesc& joint, double scale) {
     joint.motors[axis].target_velocity *= linear ? speed : 1 / speed;
     joint.motors[axis].max_force *= linear ? force : torque;
     joint.springs[axis].rest *= linear ? scale : 1;
-    PlumbSpring& spring = joint.springs[axis];
-    if (spring.mode == PLUMB_SPRING_STIFFNESS) {
-      spring.frequency *= linear ? force / scale : torque;
-      spring.damping_ratio *= linear ? force / speed : torque * speed;
-    } else {
-      spring.frequency /= speed;
-    }
+    if (joint.springs[axis].mode == PLUMB_SPRING_FREQUENCY)
+      joint.springs[axis].frequency /= speed;
+    else
+      strengthen(joint.springs[axis], linear ? force / scale : torque, linear ? force / speed : torque * speed);
   }
 }
 
@@ -86,6 +89,8 @@ Scene heavier(Scene scene, double factor) {
     joint.desc.break_force *= factor;
     joint.desc.break_torque *= factor;
     for (PlumbMotor& motor : joint.desc.motors) motor.max_force *= factor;
+    for (PlumbSpring& spring : joint.desc.springs)
+      if (spring.mode == PLUMB_SPRING_STIFFNESS) strengthen(spring, factor, factor);
   }
   return scene;
 }

@@ -38,12 +38,14 @@ Scene sample() {
   scene.joints[0].body_b = 0;
   scene.joints[0].desc.frame_a.position = {1, 0, 0};
   scene.joints[0].desc.motors[3] = {5, 7, 1, 0};
+  scene.joints[0].desc.springs[3] = {0.1, 2, 3, 1, PLUMB_SPRING_STIFFNESS};
   scene.joints[1].desc = joint_desc(PLUMB_JOINT_SLIDER);
   scene.joints[1].body_a = 0;
   scene.joints[1].body_b = 1;
   scene.joints[1].desc.frame_a.position = {0, 1, 0};
   scene.joints[1].desc.limits[0] = {-1, 2, 1, 0};
   scene.joints[1].desc.motors[0] = {5, 7, 1, 0};
+  scene.joints[1].desc.springs[0] = {0.1, 2, 3, 1, PLUMB_SPRING_STIFFNESS};
   return scene;
 }
 
@@ -69,6 +71,13 @@ TEST(Transform, ScaledByFour) {
   EXPECT_EQ(slider.limits[0].upper, 8);
   EXPECT_EQ(slider.motors[0].target_velocity, 10);
   EXPECT_EQ(slider.motors[0].max_force, 7 * 64);
+  const PlumbSpring &turning = hinge.springs[3], &sliding = slider.springs[0];
+  EXPECT_EQ(turning.rest, 0.1);
+  EXPECT_EQ(turning.frequency, 2 * 256) << "torque over an angle";
+  EXPECT_EQ(turning.damping_ratio, 3 * 512) << "torque over a rate, which is halved";
+  EXPECT_EQ(sliding.rest, 0.4);
+  EXPECT_EQ(sliding.frequency, 2 * 16);
+  EXPECT_EQ(sliding.damping_ratio, 3 * 32);
 }
 
 TEST(Transform, HeavierKeepsWhatMoves) {
@@ -78,6 +87,8 @@ TEST(Transform, HeavierKeepsWhatMoves) {
   EXPECT_EQ(after.bodies[1].desc.density, 10000);
   EXPECT_EQ(after.bodies[0].desc.linear_velocity.x, 4);
   EXPECT_EQ(after.joints[0].desc.motors[3].max_force, 70);
+  EXPECT_EQ(after.joints[0].desc.springs[3].frequency, 20);
+  EXPECT_EQ(after.joints[0].desc.springs[3].damping_ratio, 30);
   EXPECT_EQ(after.joints[0].desc.motors[3].target_velocity, 5);
 }
 

@@ -67,7 +67,6 @@ class RowList {
     if (spring.enabled == 0) return;
     const double rest = kind == RowKind::kDistance ? desc_.rest_length : spring.rest;
     axes.rest[i] = static_cast<Real>(turns ? std::remainder(rest, 2 * std::numbers::pi) : rest);
-    axes.springs |= 1U << i;
     if (spring.mode == PLUMB_SPRING_STIFFNESS) {
       axes.stiffness[i] = static_cast<Real>(spring.frequency);
       axes.damping[i] = static_cast<Real>(spring.damping_ratio);

@@ -48,6 +48,7 @@ class CubeWorld {
     desc.inertia = {mass / 6, mass / 6, mass / 6};
     desc.material.friction = 0.5;
     desc.material.restitution = restitution;
+    desc.gravity_scale = gravity_scale;
     return add(desc);
   }
   /// Of radius 0.5 m, that strikes the ground so hard that the impulse is no number any more.
@@ -94,6 +95,8 @@ class CubeWorld {
   }
   std::span<const PlumbContact> contacts() { return world_.contacts(); }
   std::uint32_t passes() const { return world_.counters().passes; }
+
+  double gravity_scale = 1;  ///< of cubes to come
 
  private:
   static WorldInit init(const PlumbVec3& gravity, std::uint32_t threads) {
@@ -268,6 +271,15 @@ TEST(Jacobi, KeepsTheMomentumOfABodyInManyParts) {
   EXPECT_NEAR(sum.x, 0, 1e-4);
   EXPECT_NEAR(sum.y, -6, 1e-4);
   EXPECT_NEAR(sum.z, 0, 1e-4);
+}
+
+/// What falls fifty times as fast is foreseen at the ground fifty times as far off.
+TEST_P(EachSolver, FindsTheGroundThatAHeavyScaleOfGravityReachesWithinTheStep) {
+  CubeWorld world(GetParam());
+  world.gravity_scale = 50;
+  const PlumbBody box = world.cube({0, 0.53, 0});
+  world.step();
+  EXPECT_GT(world.place(box).y, 0.49);
 }
 
 class PassingSolver : public testing::TestWithParam<const char*> {};
