@@ -9,8 +9,8 @@
 namespace plumb::impulse {
 
 /// Of what two bodies of one mechanism would move alone the share below which a contact between them pushes less and
-/// less, and the least that counts.
-constexpr Real kShareLeft = Real(0.01), kLeastLeft = Real(1e-6);
+/// less, and the least that counts. How soft such a contact is at most, as a share of what they would move alone.
+constexpr Real kShareLeft = Real(0.01), kLeastLeft = Real(1e-6), kSoftBetweenJoined = 1;
 /// Of what a body would move alone the share below which joints hold it, by themselves and not by the mass of what is
 /// joined to it: it is about what they yield (kCfmShareInLoops). And how soft a contact is between two that are held.
 constexpr Real kShareHeld = Real(2e-4), kSoftWhereHeld = 1000;
@@ -62,10 +62,12 @@ struct FrameDelassus {
   }
   /// Between two bodies of one mechanism: what they move against each other is a difference of large numbers, and next
   /// to nothing where joints hold them against each other. The less of what they would move `alone` is left along the
-  /// normal, the less a contact may push: joints and contact would strive against each other, with ever more.
+  /// normal, the less a contact may push: joints and contact would strive against each other, with ever more. But what
+  /// counts as held may be held by a motor, which squeezes what is between its bodies: against that the contact is as
+  /// stiff as between bodies that are alone.
   PLUMB_HD void yield_where_joints_hold(const FrameDelassus& alone) {
     const Real over = kShareLeft / max(at[0][0] / alone.at[0][0], kLeastLeft);
-    soften(kShareLeft * over * over, alone);
+    soften(min(kShareLeft * over * over, kSoftBetweenJoined), alone);
   }
   /// Between a body of a mechanism and one of none, or of another. left: of what each would move alone along the normal
   /// the share that joints leave it, the greater of the two. Where they leave both as good as nothing, as of a door and

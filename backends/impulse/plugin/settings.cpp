@@ -101,21 +101,21 @@ double Settings::substep(double dt, std::uint32_t parts) const {
   return solver == SolverKind::kSequential || solver == SolverKind::kJacobi ? dt : dt / parts;
 }
 
-SubstepParameters Settings::of_substep(double dt, std::uint32_t parts, double last_h, double most_rate) const {
+SubstepParameters Settings::of_substep(double dt, std::uint32_t parts, double last_h, double whole) const {
   const double h = substep(dt, parts), ratio = last_h == 0 ? 1 : h / last_h;
   SubstepParameters of{};
   of.substeps = parts;
   of.relaxations = 1;
   of.h = static_cast<Real>(h);
   of.inverse_h = static_cast<Real>(1 / h);
-  const double rate = parts > substeps ? kLoadedContactRate : kContactRate;
-  const double hertz = contact_hertz > 0 ? contact_hertz : rate / h;
-  of.contact = make_softness(contact_hertz > 0 ? contact_hertz : kContactRate / h, contact_damping_ratio, h);
+  const double whole_h = substep(whole, parts), rate = parts > substeps ? kLoadedContactRate : kContactRate;
+  const double hertz = contact_hertz > 0 ? contact_hertz : rate / whole_h;
+  of.contact = make_softness(contact_hertz > 0 ? contact_hertz : kContactRate / whole_h, contact_damping_ratio, h);
   of.loaded = make_softness(hertz, contact_damping_ratio, h);
   of.ground = make_softness(kGroundStiffness * hertz, contact_damping_ratio, h);
   of.joint = make_softness(joint_hertz > 0 ? joint_hertz : 0.25 / h, joint_damping_ratio, h);
   of.joint_rate = joint_hertz > 0 ? of.joint.bias_rate : of.inverse_h;
-  if (most_rate > 0) of.joint_rate = std::min(of.joint_rate, static_cast<Real>(most_rate));
+  if (dt < whole) of.joint_rate = std::min(of.joint_rate, static_cast<Real>(1 / whole));
   of.chain_rate = joint_hertz > 0 ? of.joint_rate : make_softness(kChainHertz, kChainDampingRatio, h).bias_rate;
   of.warm_start = static_cast<Real>(warm_starting && last_h != 0 ? ratio : 0);
   of.shortened = static_cast<Real>(ratio * ratio);
@@ -141,7 +141,7 @@ StepParameters Settings::parameters(double dt, const PlumbVec3& gravity, const S
   return step;
 }
 
-SubstepLevels Settings::levels(double dt, double last_h, double most_rate) const {
+SubstepLevels Settings::levels(double dt, double last_h, double whole) const {
   SubstepLevels levels{};
   std::uint32_t factor = 2;  // larger where few levels would end far below the most
   while (substeps * factor * factor * factor * factor * 4 <= most_substeps) factor *= 2;
@@ -149,7 +149,7 @@ SubstepLevels Settings::levels(double dt, double last_h, double most_rate) const
   std::uint32_t parts = substeps;
   do {
     SubstepParameters& level = levels.of[levels.count];
-    level = of_substep(dt, parts, last_h, most_rate);
+    level = of_substep(dt, parts, last_h, whole);
     level.level = levels.count++;
     parts *= factor;
   } while (levels.count < kSubstepLengths && parts <= most_substeps);

@@ -30,13 +30,15 @@ struct Settings {
   /// Length of the parts that a step of dt is solved in, when it is solved in so many if in any.
   [[nodiscard]] double substep(double dt, std::uint32_t parts) const;
   /// In what parts a step of dt may be solved, those that are set first. last_h: the sub-step before, 0 when there was
-  /// none. most_rate: errors of joints are taken back no faster, 1/s; 0: as fast as is set.
-  [[nodiscard]] SubstepLevels levels(double dt, double last_h, double most_rate = 0) const;
+  /// none. whole: the step of which dt is a part, or dt. Of its parts contacts are no stiffer than of itself: overlap
+  /// from before would be a spring that is wound up by the change. Nor do they take back errors of joints faster than
+  /// in its time: what is taut lifts what lies on it by many times the error.
+  [[nodiscard]] SubstepLevels levels(double dt, double last_h, double whole) const;
   /// What it works with, in parts of the first kind unless its loads choose others.
   [[nodiscard]] StepParameters parameters(double dt, const PlumbVec3& gravity, const SubstepLevels& levels) const;
 
  private:
-  [[nodiscard]] SubstepParameters of_substep(double dt, std::uint32_t parts, double last_h, double most_rate) const;
+  [[nodiscard]] SubstepParameters of_substep(double dt, std::uint32_t parts, double last_h, double whole) const;
 };
 
 [[nodiscard]] const backend::SettingsTable<Settings>& settings_table();

@@ -12,14 +12,12 @@ constexpr int kMostDivisions = 2;
 
 }  // namespace
 
-/// Enqueues a step, or a part of one. In parts errors of joints are taken back no faster than in the time of the whole
-/// step: what is taut lifts what lies on it by many times the error.
+/// Enqueues a step, or a part of one.
 void World::start(const StepPart& part, bool is_repeat) {
   if (pacing_.parts.any_done) keep_part();
   simulation_.choose(settings_.broad_phase);
   simulation_.joints.solve_one_by_one(settings_.joints_one_by_one);
-  const double most_rate = part.divided == 0 ? 0 : 1 / pacing_.dt;
-  const SubstepLevels levels = settings_.levels(part.dt, pacing_.last_h, most_rate);
+  const SubstepLevels levels = settings_.levels(part.dt, pacing_.last_h, pacing_.dt);
   StepParameters parameters = settings_.parameters(part.dt, gravity_, levels);
   parameters.may_be_taken_back = part.divided < kMostDivisions;
   parameters.is_repeat = is_repeat;

@@ -175,7 +175,7 @@ struct ChooseLevels {
     const Real weight = others > 0 ? max(downward, Real(0)) / others : Real(0);
     const Real force = force_of(kept, on.body, by.body);
     Real load = force > 0 ? force : weight;
-    if (!in_one) load = min(load, kMostWeights * weight);
+    if (!in_one || mechanisms.together(on.body, by.body)) load = min(load, kMostWeights * weight);
     load = load - kAlikeMasses * length(work.parameters->gravity) / own;
     if (!(load > 0)) return;
     const Real squared = lighter / work.proxies.shapes[on.shape].reach;

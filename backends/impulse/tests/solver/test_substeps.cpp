@@ -304,5 +304,27 @@ TEST(SubstepsByLoad, AreNotSpentOnWhatIsPastHelp) {
   EXPECT_EQ(chooses.scene.hash(), keeps.scene.hash());
 }
 
+/// A vise: a slider's motor squeezes one cube against the other with hundreds of their weights, and the slider holds
+/// against it. Contacts that stiffen by what they press would be wound up by that, and throw what they squeeze.
+TEST(SubstepsByLoad, AreNotSpentOnWhatJointsSqueeze) {
+  Cubes chooses(PLUMB_NEED_JOINTS), keeps(PLUMB_NEED_JOINTS);
+  keeps.keep_to_the_setting();
+  PlumbBody squeezed = 0;
+  for (Cubes* cubes : {&keeps, &chooses}) {
+    PlumbJointDesc vise = joint_desc(PLUMB_JOINT_SLIDER);
+    vise.body_a = cubes->add(10, {0, 0.5, 0});
+    vise.body_b = squeezed = cubes->add(10, {1, 0.5, 0});
+    vise.frame_a.position = {0.5, 0, 0};
+    vise.frame_b.position = {-0.5, 0, 0};
+    vise.collide_connected = 1;
+    vise.motors[0] = {-1, 2e4, 1, 0};
+    PlumbJoint id = 0;
+    check(cubes->scene.world(), cubes->scene.world().joints()->create_joints({&vise, 1}, {&id, 1}));
+    cubes->scene.run(120);
+  }
+  EXPECT_EQ(chooses.scene.hash(), keeps.scene.hash());
+  EXPECT_LT(chooses.speed(squeezed), 1e-3);
+}
+
 }  // namespace
 }  // namespace plumb::impulse::test
