@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <limits>
 #include <optional>
 #include <random>
@@ -48,6 +49,31 @@ class Fuzzer {
   [[nodiscard]] std::uint64_t refused() const { return refused_; }
   [[nodiscard]] std::uint64_t done() const { return done_; }
   [[nodiscard]] std::uint64_t worlds_lost() const { return worlds_lost_; }
+
+  /// Which bodies are not where they are in the other's world, and under which settings.
+  void tell_difference(const Fuzzer& other) const {
+    std::fprintf(stderr, "the last step was of %.9g s\n", last_dt_);
+    for (std::uint32_t i = 0; settings_ != nullptr && i < settings_->count; ++i) {
+      const PlumbSettingInfo& info = *settings_->describe(i);
+      PlumbSettingValue value{};
+      if (settings_->get(world_, info.name, &value) < 0) continue;
+      if (info.type == PLUMB_SETTING_CHOICE)
+        std::fprintf(stderr, "%s = %s\n", info.name, value.choice);
+      else
+        std::fprintf(stderr, "%s = %g\n", info.name, value.number);
+    }
+    for (const PlumbBody body : bodies_)
+      for (const PlumbField field : {PLUMB_FIELD_POSE, PLUMB_FIELD_VELOCITY}) {
+        const std::vector<double> own = row_of(body, field), its = other.row_of(body, field);
+        if (std::memcmp(own.data(), its.data(), own.size() * sizeof own[0]) == 0) continue;
+        std::fprintf(stderr, "body %llx, %s\n", static_cast<unsigned long long>(body),
+                     field == PLUMB_FIELD_POSE ? "pose" : "velocity");
+        for (const std::vector<double>* row : {&own, &its}) {
+          for (const double number : *row) std::fprintf(stderr, " %.9g", number);
+          std::fprintf(stderr, "\n");
+        }
+      }
+  }
 
  private:
   std::uint32_t below(std::uint32_t n) { return static_cast<std::uint32_t>(random_() % n); }
@@ -349,6 +375,7 @@ class Fuzzer {
   void step() {
     constexpr double usual[] = {1.0 / 60, 1.0 / 60, 1.0 / 30, 1.0 / 240};
     const PlumbStepDesc desc = {sizeof desc, 0, chance(50) ? number() : usual[below(std::size(usual))]};
+    last_dt_ = desc.dt;
     PlumbStepReport report{};
     report.struct_size = chance(20) ? below(sizeof report) : sizeof report;
     if (judge(table_.step(world_, chance(200) ? nullptr : &desc))) {
@@ -358,6 +385,13 @@ class Fuzzer {
       note_state();
     }
     if (chance(100)) judge(table_.wait(world_, &report));  // none is
+  }
+
+  /// Of 8 numbers, and what there is not is 0.
+  [[nodiscard]] std::vector<double> row_of(PlumbBody body, PlumbField field) const {
+    std::vector<double> row(8);
+    table_.read(world_, field, PLUMB_F64, &body, 1, row.data(), row.size() * sizeof row[0]);
+    return row;
   }
 
   void note_state() {
@@ -427,6 +461,7 @@ class Fuzzer {
   const PlumbModifyTable* modify_ = nullptr;
   const PlumbManifoldsTable* manifolds_ = nullptr;
   std::vector<std::uint64_t> shapes_, bodies_, joint_ids_;
+  double last_dt_ = 0;
   std::uint64_t calls_ = 0, digest_ = 0xcbf29ce484222325U, refused_ = 0, done_ = 0, worlds_lost_ = 0;
   const char* broken_ = nullptr;
 };
@@ -437,6 +472,7 @@ bool run(std::uint64_t calls, Fuzzer& fuzzer, Fuzzer* other) {
     if (!fuzzer.call() || (other != nullptr && !other->call())) return false;
     if (other == nullptr || fuzzer.digest() == other->digest()) continue;
     std::fprintf(stderr, "after call %llu the two backends differ\n", static_cast<unsigned long long>(fuzzer.calls()));
+    fuzzer.tell_difference(*other);
     return false;
   }
   return true;

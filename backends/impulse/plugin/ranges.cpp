@@ -41,6 +41,12 @@ void require_speed(const std::string& name, const PlumbVec3& speed) {
     if (const Real x = static_cast<Real>(along); !is_finite(x * x)) refuse_range(name, along, "m/s");
 }
 
+void require_step(double dt) {
+  constexpr double kMostParts = 4096;  // 256 sub-steps, and the step divided twice by four
+  const Real least = static_cast<Real>(dt / kMostParts), most = static_cast<Real>(dt);
+  if (!is_finite(1 / (least * least)) || !is_finite(most * most)) refuse_range("step.dt", dt, "s");
+}
+
 void require_range(const PlumbShapeDesc& desc, std::size_t i) {
   const std::string name = "descs[" + std::to_string(i) + "].";
   for (std::uint32_t k = 0; desc.type == PLUMB_COMPOUND && k < desc.child_count; ++k)

@@ -1,4 +1,4 @@
-// Sizes, masses and speeds of surfaces that the engine's numbers cannot hold are refused.
+// Sizes, masses, speeds of surfaces and lengths of steps that the engine's numbers cannot hold are refused.
 #pragma once
 
 #include <cstddef>
@@ -13,5 +13,7 @@ void require_range(const PlumbShapeDesc& desc, std::size_t i);
 void require_range(const PlumbBodyDesc& desc, std::size_t i);
 /// Throws likewise; name: of the speed, which is in m/s.
 void require_speed(const std::string& name, const PlumbVec3& speed);
+/// Throws likewise where a step of dt, s, is too long, or its shortest parts are too short.
+void require_step(double dt);
 
 }  // namespace plumb::impulse

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "plugin/ranges.hpp"
+
 namespace plumb::impulse {
 
 namespace {
@@ -42,6 +44,7 @@ PlumbResult World::set_gravity(const PlumbVec3& gravity) {
 }
 
 PlumbResult World::step(double dt) {
+  require_step(dt);
   steer_kinematics(dt);
   pacing_.dt = dt;
   told_.records_known = told_.contacts_known = false;

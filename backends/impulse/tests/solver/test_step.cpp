@@ -53,9 +53,9 @@ TEST(Step, HasTheSameBitsUnderAnyRoundingOfTheHost) {
   EXPECT_EQ(scene.hash(), pile_hash(1));
 }
 
-PlumbStepReport step(Scene& scene) {
+PlumbStepReport step(Scene& scene, double dt = 1.0 / 60) {
   PlumbStepReport report{};
-  check(scene.world(), scene.world().step(1.0 / 60));
+  check(scene.world(), scene.world().step(dt));
   check(scene.world(), scene.world().wait(report));
   return report;
 }
@@ -153,6 +153,15 @@ TEST(Step, SizesBeyondTheEnginesNumbersAreRefused) {
   scene.body.mass = 1e-320;
   EXPECT_THROW(scene.add(scene.sphere(1), {0, 0, 0}), Error);
   EXPECT_TRUE(scene.world().bodies().empty());
+}
+
+TEST(Step, LengthsBeyondTheEnginesNumbersAreRefused) {
+  Scene scene(engine(), kStepNeeds, kDown, 1);
+  const PlumbBody ball = scene.add(scene.sphere(1), {0, 0, 0});
+  scene.write(PLUMB_FIELD_VELOCITY, ball, {1, 0, 0, 0, 0, 0});
+  for (const double dt : {5e-324, 1e-170, 1e200, 1e300}) EXPECT_THROW(step(scene, dt), Error) << dt;
+  for (const double dt : {1e-15, 1e3}) step(scene, dt);
+  EXPECT_EQ(scene.velocity(ball)[0], 1);
 }
 
 /// More pairs in the first step than there is room for.
