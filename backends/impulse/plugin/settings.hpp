@@ -31,7 +31,7 @@ struct Settings {
   [[nodiscard]] double substep(double dt, std::uint32_t parts) const;
   /// In what parts a step of dt may be solved, those that are set first. last_h: the sub-step before, 0 when there was
   /// none. whole: the step of which dt is a part, or dt. Of its parts contacts are no stiffer than of itself: overlap
-  /// from before would be a spring that is wound up by the change. Nor do they take back errors of joints faster than
+  /// from before would be a spring that is wound up by the change. Nor are errors of joints taken back faster than
   /// in its time: what is taut lifts what lies on it by many times the error.
   [[nodiscard]] SubstepLevels levels(double dt, double last_h, double whole) const;
   /// What it works with, in parts of the first kind unless its loads choose others.
