@@ -9,8 +9,8 @@
 namespace plumb::impulse {
 
 /// Of what two bodies of one mechanism would move alone the share below which a contact between them pushes less and
-/// less, and the least that counts. How soft such a contact is at most, as a share of what they would move alone.
-constexpr Real kShareLeft = Real(0.01), kLeastLeft = Real(1e-6), kSoftBetweenJoined = 1;
+/// less, and the least that counts: there it is as soft as if what they would move alone came on top.
+constexpr Real kShareLeft = Real(0.01), kLeastLeft = Real(1e-3);
 /// Of what a body would move alone the share below which joints hold it, by themselves and not by the mass of what is
 /// joined to it: it is about what they yield (kCfmShareInLoops). And how soft a contact is between two that are held.
 constexpr Real kShareHeld = Real(2e-4), kSoftWhereHeld = 1000;
@@ -67,7 +67,7 @@ struct FrameDelassus {
   /// stiff as between bodies that are alone.
   PLUMB_HD void yield_where_joints_hold(const FrameDelassus& alone) {
     const Real over = kShareLeft / max(at[0][0] / alone.at[0][0], kLeastLeft);
-    soften(min(kShareLeft * over * over, kSoftBetweenJoined), alone);
+    soften(kShareLeft * over * over, alone);
   }
   /// Between a body of a mechanism and one of none, or of another. left: of what each would move alone along the normal
   /// the share that joints leave it, the greater of the two. Where they leave both as good as nothing, as of a door and

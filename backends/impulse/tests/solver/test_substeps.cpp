@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "tests/rigs/engine.hpp"
+#include "tests/rigs/vise.hpp"
 
 namespace plumb::impulse::test {
 namespace {
@@ -311,15 +312,7 @@ TEST(SubstepsByLoad, AreNotSpentOnWhatJointsSqueeze) {
   keeps.keep_to_the_setting();
   PlumbBody squeezed = 0;
   for (Cubes* cubes : {&keeps, &chooses}) {
-    PlumbJointDesc vise = joint_desc(PLUMB_JOINT_SLIDER);
-    vise.body_a = cubes->add(10, {0, 0.5, 0});
-    vise.body_b = squeezed = cubes->add(10, {1, 0.5, 0});
-    vise.frame_a.position = {0.5, 0, 0};
-    vise.frame_b.position = {-0.5, 0, 0};
-    vise.collide_connected = 1;
-    vise.motors[0] = {-1, 2e4, 1, 0};
-    PlumbJoint id = 0;
-    check(cubes->scene.world(), cubes->scene.world().joints()->create_joints({&vise, 1}, {&id, 1}));
+    squeezed = vise(cubes->scene, 2e4);
     cubes->scene.run(120);
   }
   EXPECT_EQ(chooses.scene.hash(), keeps.scene.hash());
