@@ -12,23 +12,57 @@ Pose relative_frame(const PlumbJointDesc& joint, const Pose& body_a, const Pose&
   return (body_b * pose(joint.frame_b)).seen_from(body_a * pose(joint.frame_a));
 }
 
-std::array<double, 6> coordinates_of(const Pose& relative) {
-  const Mat3& r = relative.rotation;
-  const Vec3& t = relative.position;
-  return {t.x(),
-          t.y(),
-          t.z(),
-          std::atan2(-r(1, 2), r(2, 2)),
-          std::atan2(r(0, 2), std::hypot(r(1, 2), r(2, 2))),
-          std::atan2(-r(0, 1), r(0, 0))};
-}
-
 double whole_angle(const Mat3& rotation) {
   const Eigen::Quaterniond q(rotation);
   return 2 * std::atan2(q.vec().norm(), std::abs(q.w()));
 }
 
 double angle_between(const Vec3& a, const Vec3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
+
+/// Turns about x, y and z that the joint does not lock, as bits.
+unsigned free_turns(const PlumbJointDesc& joint) {
+  constexpr unsigned x = 1, y = 2, all = 7;
+  switch (joint.type) {
+    case PLUMB_JOINT_HINGE: return x;
+    case PLUMB_JOINT_UNIVERSAL: return x | y;
+    case PLUMB_JOINT_GENERIC: {
+      unsigned free = 0;
+      for (std::size_t i = 0; i < 3; ++i)
+        if (joint.axis_modes[3 + i] != PLUMB_AXIS_LOCKED) free |= 1U << i;
+      return free;
+    }
+    default: return all;
+  }
+}
+
+/// R = Rx Ry Rz. Where one or two of the turns are locked, the others are measured between axes that the locks keep
+/// square, which knows no singular place, and what is locked by how far they are from that.
+Vec3 turns_of(const Mat3& r, unsigned free) {
+  const auto sine = [](double x) { return std::asin(std::clamp(x, -1.0, 1.0)); };
+  const auto about = [&](int i, int j, int k) {
+    Vec3 turns = Vec3::Zero();
+    turns[i] = std::atan2(r(k, j) - r(j, k), r(j, j) + r(k, k));
+    turns[j] = angle_between(Vec3::Unit(i), r.col(i));  // of the two locked ones together
+    return turns;
+  };
+  switch (free) {
+    case 0b001: return about(0, 1, 2);
+    case 0b010: return about(1, 2, 0);
+    case 0b100: return about(2, 0, 1);
+    case 0b011: return {std::atan2(r(2, 1), r(1, 1)), std::atan2(r(0, 2), r(0, 0)), sine(-r(0, 1))};
+    case 0b101: return {std::atan2(-r(1, 2), r(2, 2)), sine(r(0, 2)), std::atan2(-r(0, 1), r(0, 0))};
+    case 0b110: return {sine(-r(1, 2)), std::atan2(r(0, 2), r(2, 2)), std::atan2(r(1, 0), r(1, 1))};
+    default:
+      return {std::atan2(-r(1, 2), r(2, 2)), std::atan2(r(0, 2), std::hypot(r(1, 2), r(2, 2))),
+              std::atan2(-r(0, 1), r(0, 0))};
+  }
+}
+
+std::array<double, 6> coordinates_of(const PlumbJointDesc& joint, const Pose& relative) {
+  const Vec3 turns = turns_of(relative.rotation, free_turns(joint));
+  const Vec3& t = relative.position;
+  return {t.x(), t.y(), t.z(), turns.x(), turns.y(), turns.z()};
+}
 
 double beyond(const PlumbLimit& limit, double value) {
   return limit.enabled != 0 ? std::max({0.0, limit.lower - value, value - limit.upper}) : 0;
@@ -37,14 +71,14 @@ double beyond(const PlumbLimit& limit, double value) {
 }  // namespace
 
 std::array<double, 6> joint_coordinates(const PlumbJointDesc& joint, const Pose& body_a, const Pose& body_b) {
-  return coordinates_of(relative_frame(joint, body_a, body_b));
+  return coordinates_of(joint, relative_frame(joint, body_a, body_b));
 }
 
 JointError joint_error(const PlumbJointDesc& joint, const Pose& body_a, const Pose& body_b) {
   const Pose relative = relative_frame(joint, body_a, body_b);
   const Mat3& r = relative.rotation;
   const Vec3& gap = relative.position;
-  std::array<double, 6> at = coordinates_of(relative);
+  std::array<double, 6> at = coordinates_of(joint, relative);
   JointError error;
   std::array<bool, 6> limited{};
   switch (joint.type) {
@@ -54,8 +88,7 @@ JointError joint_error(const PlumbJointDesc& joint, const Pose& body_a, const Po
       break;
     case PLUMB_JOINT_HINGE:
       error.position = gap.norm();
-      error.angle = angle_between(Vec3::UnitX(), r.col(0));
-      at[3] = std::atan2(r(2, 1) - r(1, 2), r(1, 1) + r(2, 2));  // turn about x, whatever the axes' small misalignment
+      error.angle = at[4];
       limited[3] = true;
       break;
     case PLUMB_JOINT_SLIDER:
@@ -75,7 +108,7 @@ JointError joint_error(const PlumbJointDesc& joint, const Pose& body_a, const Po
       break;
     case PLUMB_JOINT_UNIVERSAL:
       error.position = gap.norm();
-      error.angle = std::abs(std::asin(std::clamp(r(0, 1), -1.0, 1.0)));  // a's x . b's y
+      error.angle = std::abs(at[5]);
       limited[3] = limited[4] = true;
       break;
     case PLUMB_JOINT_GENERIC: {

@@ -9,7 +9,8 @@
 namespace plumb::referee {
 
 /// Coordinates of frame b seen from frame a: translations along a's axes (m), then the angles of turning about x, then
-/// the new y, then the new z (rad): R = Rx Ry Rz. With one free rotation each angle is the plain one about its axis.
+/// the new y, then the new z (rad): R = Rx Ry Rz. With one or two free rotations the angles are those of the axes that
+/// the locks keep square, from -pi to pi and without a singular place; with one it is the plain angle about its axis.
 [[nodiscard]] std::array<double, 6> joint_coordinates(const PlumbJointDesc& joint, const Pose& body_a,
                                                       const Pose& body_b);
 
@@ -25,7 +26,9 @@ struct JointError {
 ///  - slider: distance of b's origin from a's x axis, and the whole angle; universal: gap, and how far a's x and b's y
 ///  are
 ///    from square; distance: |distance - rest_length|, unless limits[0] or the spring holds it instead;
-///  - generic: norm of the locked translations; with all rotations locked the whole angle, else the largest locked one.
+///  - generic: norm of the locked translations; with all rotations locked the whole angle, with two the angle between
+///  the
+///    axes of the third, with one how far two axes are from square.
 /// Limits count on the axes that the joint leaves free. Of a hinge axis 3 is the angle about x.
 [[nodiscard]] JointError joint_error(const PlumbJointDesc& joint, const Pose& body_a, const Pose& body_b);
 

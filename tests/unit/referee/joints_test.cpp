@@ -113,5 +113,30 @@ TEST(Joints, Generic) {
   EXPECT_NEAR(error_of(joint).angle, 10 * degree, near_zero);
 }
 
+/// Two turns of which the third is locked are told apart all the way round: no angle jumps where the second is square.
+TEST(Joints, TwoFreeTurnsHaveNoSingularPlace) {
+  const Vec3 axes[] = {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
+  for (std::size_t locked = 0; locked < 3; ++locked) {
+    const std::size_t first = locked == 0 ? 1 : 0, second = locked == 2 ? 1 : 2;
+    for (const double one : {-170, -100, -20, 0, 80, 95, 179})
+      for (const double other : {-179, -95, -90, -30, 0, 90, 150}) {
+        Jointed joint = jointed(PLUMB_JOINT_GENERIC, turned(one, axes[first]) * turned(other, axes[second]));
+        for (PlumbAxisMode& mode : joint.desc.axis_modes) mode = PLUMB_AXIS_LOCKED;
+        joint.desc.axis_modes[3 + first] = PLUMB_AXIS_LIMITED;
+        joint.desc.axis_modes[3 + second] = PLUMB_AXIS_FREE;
+        joint.desc.limits[3 + first] = {(one - 1) * degree, (one + 1) * degree, 1, 0};
+        const auto found = joint_coordinates(joint.desc, joint.a, joint.b);
+        EXPECT_NEAR(found[3 + first], one * degree, 1e-9);
+        EXPECT_NEAR(found[3 + second], other * degree, 1e-9);
+        EXPECT_NEAR(error_of(joint).angle, 0, 1e-7);
+        EXPECT_EQ(error_of(joint).limit_angle, 0);
+        if (locked != 2) continue;
+        joint.desc.type = PLUMB_JOINT_UNIVERSAL;
+        EXPECT_NEAR(joint_coordinates(joint.desc, joint.a, joint.b)[3], one * degree, 1e-9);
+        EXPECT_NEAR(error_of(joint).angle, 0, 1e-7);
+      }
+  }
+}
+
 }  // namespace
 }  // namespace plumb::referee::testing

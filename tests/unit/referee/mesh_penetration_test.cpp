@@ -89,5 +89,54 @@ TEST(MeshPenetration, HeightFieldIsCentredAndFacesUp) {
   EXPECT_GE(bound.depth, -1.9 - 1e-12);
 }
 
+TEST(MeshPenetration, TheDeepestTriangleCounts) {
+  // Two tables of different heights below one box, in either order.
+  for (const bool high_first : {false, true}) {
+    std::vector<double> vertices;
+    for (const bool left : {true, false}) {
+      const double x = left ? -2 : 2, y = left == high_first ? 0.05 : 0;
+      vertices.insert(vertices.end(), {x - 1, y, -1, x - 1, y, 1, x + 1, y, 0});
+    }
+    const ShapePtr tables = Shape::make(mesh_desc(vertices, {0, 1, 2, 3, 4, 5}));
+    const Penetration found = penetration(*tables, at(0, 0, 0), *box(4, 1, 1), at(0, 0.99, 0));
+    EXPECT_NEAR(found.depth, 0.06, 1e-9) << high_first;
+  }
+}
+
+TEST(MeshPenetration, APeakBesideAValleyHoldsWhatLiesOnIt) {
+  // Seven corners of a rough field: the middle one is the highest, and some edges at it are valleys. A level box cuts
+  // 1 cm of it off: up is the way out, though no triangle alone lets go so.
+  std::vector<double> heights(49, -1.0);
+  const double ring[] = {-0.9, -0.1, -0.9, -0.1, -0.9, -0.1};
+  heights[3 * 7 + 3] = 0;
+  heights[2 * 7 + 3] = ring[0], heights[2 * 7 + 4] = ring[1], heights[3 * 7 + 4] = ring[2];
+  heights[4 * 7 + 3] = ring[3], heights[4 * 7 + 2] = ring[4], heights[3 * 7 + 2] = ring[5];
+  const ShapePtr peak = field(7, 7, heights);
+  const Penetration found = penetration(*peak, at(0, 0, 0), *box(0.05, 0.3, 0.05), at(0, 0.29, 0));
+  EXPECT_NEAR(found.depth, 0.01, 1e-6);
+  EXPECT_NEAR(found.normal.y(), 1, 1e-6);
+}
+
+TEST(MeshPenetration, OfRoughGroundTheDepthSeparates) {
+  Random random(77);
+  int cut = 0;
+  for (int i = 0; i < 400; ++i) {
+    std::vector<double> heights;
+    for (int k = 0; k < 64; ++k) heights.push_back(random.in(-0.5, 0));
+    const ShapePtr ground = field(8, 8, heights);
+    const ShapePtr shape = random.convex();
+    Pose pose = random.pose(1);
+    const double lowest = (pose * shape->support(pose.rotation.transpose() * -Vec3::UnitY())).y();
+    pose.position.y() += random.in(-0.4, 0) - lowest;
+    const Penetration found = penetration(*ground, at(0, 0, 0), *shape, pose);
+    if (found.depth <= 0) continue;
+    ++cut;
+    pose.position += found.depth * (1 + 1e-5) * found.normal + 1e-6 * found.normal;
+    // Over a single triangle's own way another one may still be cut, but never as deep.
+    EXPECT_LT(penetration(*ground, at(0, 0, 0), *shape, pose).depth, 0.5 * found.depth) << i;
+  }
+  EXPECT_GT(cut, 100);
+}
+
 }  // namespace
 }  // namespace plumb::referee::testing
