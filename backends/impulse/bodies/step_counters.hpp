@@ -34,6 +34,14 @@ struct LevelCounters {
   std::uint32_t body_groups[kSubstepLevels];  ///< with bodies of a level, where there are several
 };
 
+/// Of what a step must not do to islands with joints (solver/energy_bound.hpp).
+struct BoundCounters {
+  std::uint32_t gained;      ///< islands that gained more energy than they may
+  std::uint32_t let_go;      ///< joints of which rows have not held as predicted (joints/joint_axis_solve.hpp)
+  std::uint32_t opened;      ///< joints that it opened by more than it may (solver/opened_joints.hpp)
+  std::uint32_t taken_back;  ///< because of one of these all is as it was before the step
+};
+
 struct StepCounters {
   std::uint32_t pairs;  ///< candidates found; more than there is room for: the step does nothing and is repeated
   std::uint32_t midphase_pairs;  ///< of these, where there are planes, meshes or height fields (midphase.hpp)
@@ -51,17 +59,15 @@ struct StepCounters {
   std::uint32_t longest_loop;                  ///< of all levels
   std::uint32_t passes;  ///< over the constraints, of the solvers that make them until it is enough
   std::uint32_t
-      touched_sleepers;      ///< manifolds with somebody awake: the step does nothing, they wake, and it is repeated
-  std::uint32_t gained;      ///< islands that gained more energy than they may (solver/energy_bound.hpp)
-  std::uint32_t let_go;      ///< joints of which rows have not held as predicted (joints/joint_axis_solve.hpp)
-  std::uint32_t taken_back;  ///< because of either all is as it was before the step
-  std::uint32_t nonfinite;   ///< bodies that came out not finite and were put back
+      touched_sleepers;  ///< manifolds with somebody awake: the step does nothing, they wake, and it is repeated
+  BoundCounters bound;
+  std::uint32_t nonfinite;  ///< bodies that came out not finite and were put back
 };
 
 /// The step did nothing and comes again, because there was too little room for the pairs or somebody must wake first;
 /// or it was taken back.
 PLUMB_HD inline bool is_undone(const StepCounters& counters, std::uint32_t pair_capacity) {
-  return counters.pairs > pair_capacity || counters.touched_sleepers != 0 || counters.taken_back != 0;
+  return counters.pairs > pair_capacity || counters.touched_sleepers != 0 || counters.bound.taken_back != 0;
 }
 
 }  // namespace plumb::impulse

@@ -71,7 +71,7 @@ struct StepParameters : SubstepParameters {
   Real dt;                       ///< s
   std::uint32_t step;            ///< number of this step; steps count from 1
   bool may_be_taken_back;        ///< where it makes energy, to be gone in parts
-  bool is_repeat;                ///< rows of joints have not held as predicted (solver/energy_bound.hpp)
+  bool is_repeat;                ///< rows of joints have not held, or were opened (solver/energy_bound.hpp)
   bool is_later_part;            ///< of a step that is gone in parts
   bool lets_go;                  ///< what may have squeezed bodies is gone or another (contacts/match.cpp)
   Real max_depenetration_speed;  ///< overlap is taken back no faster than this, m/s

@@ -40,16 +40,16 @@ bool World::advance() {
 }
 
 /// When it is done: what is told and remembered of it, and the next one begins. Goes over it again where joints did not
-/// hold as predicted, and in parts where it made energy.
+/// hold as predicted or were opened, and in parts where it made energy.
 void World::finish_part() {
   Parts& parts = pacing_.parts;
   const StepPart part = parts.to_do.back();
   const StepCounters& counters = simulation_.counters();
   tell(PLUMB_EVENT_WAKE, simulation_.outcome().woken, told_.events);
-  parts.gained = parts.gained || counters.gained != 0;
+  parts.gained = parts.gained || counters.bound.gained != 0;
   parts.repeated = parts.repeated || simulation_.outcome().repeated;
   parts.grew = parts.grew || simulation_.outcome().grew;
-  if (counters.let_go != 0) {
+  if (counters.bound.let_go != 0 || counters.bound.opened != 0) {
     parts.repeated = true;
     return start(part, true);
   }

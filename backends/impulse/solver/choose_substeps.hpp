@@ -9,8 +9,8 @@
 // nor does a load of no more than so many times a body's own weight: piles do well as it is. But a column of like
 // bodies buckles where it is high (columns.hpp), and many on a light one take more relaxing passes (stars.hpp). Tension
 // in joints asks for nothing: tension.hpp deals with it, and what swings gains where the number changes with each
-// swing. Nor do bodies of one mechanism that its joints squeeze, beyond the weight of them: the contact would stiffen by
-// what it presses, and press the harder for it, until it throws them.
+// swing. Nor do bodies of one mechanism that its joints squeeze, beyond the weight of them: the contact would stiffen
+// by what it presses, and press the harder for it, until it throws them.
 //
 // Bodies that touch or are joined are of one island and go through its sub-steps together; no contact and no joint is
 // between two islands, so that one may be solved after the other. What was asked lives on in the bodies, and fades

@@ -5,6 +5,7 @@
 #include "joints/joint_axis_solve.hpp"
 #include "math/ordered_bits.hpp"
 #include "plumb/assert.hpp"
+#include "solver/opened_joints.hpp"
 
 namespace plumb::impulse {
 
@@ -77,8 +78,9 @@ struct JudgeEnergy {
     const JudgeEnergy self = *this;
     const std::uint32_t bodies = work.body_count, joints = work.joints.count;
     if (work.settles && work.parameters->is_repeat) put_settled(team);
-    team.each(bodies,
-              [self](std::uint32_t i) { self.islands[i] = IslandEnergy{i, i, 0, 0, 0, 0, 0, 0, false, 1, 0, 0, 0}; });
+    team.each(bodies, [self](std::uint32_t i) {
+      self.islands[i] = IslandEnergy{i, i, 0, 0, 0, 0, 0, 0, 0, false, 1, 0, 0, 0};
+    });
     team.each(work.counters->manifolds, [self](std::uint32_t row) { self.join_contact(row); });
     team.each(joints, [self](std::uint32_t j) { self.join_joint(j); });
     team.each(bodies, [self](std::uint32_t i) { self.find_root(i); });
@@ -86,8 +88,16 @@ struct JudgeEnergy {
       const std::uint32_t base = work.joints.system.base;
       team.each(joints - base, [self, base](std::uint32_t i) { self.find_let_go(base + i); });
       team.barrier();
-      if (work.counters->let_go != 0) {
+      if (work.counters->bound.let_go != 0) {
         team.each(joints - base, [self, base](std::uint32_t i) { self.distrust(base + i); });
+        if (work.settles) set_settled_aside(team);
+        return put_all_back(team);
+      }
+    }
+    if (work.levels != nullptr) {
+      team.each(joints, [self](std::uint32_t j) { self.find_opened(j); });
+      team.barrier();
+      if (work.counters->bound.opened != 0) {
         if (work.settles) set_settled_aside(team);
         return put_all_back(team);
       }
@@ -98,7 +108,7 @@ struct JudgeEnergy {
     team.each(joints, [self](std::uint32_t j) { self.add_given(j); });
     team.each(bodies, [self](std::uint32_t i) { self.judge(i); });
     team.barrier();
-    if (work.counters->gained == 0) return;
+    if (work.counters->bound.gained == 0) return;
     if (work.parameters->may_be_taken_back) return put_all_back(team);
     team.each(bodies, [self](std::uint32_t i) { self.take_gain_out(i); });
     team.each(joints, [self](std::uint32_t j) { self.put_joint_back(j, false); });
@@ -109,7 +119,8 @@ struct JudgeEnergy {
     const JudgeEnergy self = *this;
     const JointView view = work.joints.view;
     team.each(work.body_count, [self, view](std::uint32_t i) {
-      self.settled.set_body_aside(view, i, self.is_pushed(i) && self.islands[self.islands[i].root].let_go == 0);
+      const IslandEnergy& island = self.islands[self.islands[i].root];
+      self.settled.set_body_aside(view, i, self.is_pushed(i) && island.let_go == 0 && island.opened == 0);
     });
     team.each(work.joints.count, [self](std::uint32_t j) { self.settled.set_joint_aside(self.work.joints, j); });
     team.each(work.counters->manifolds, [self, view](std::uint32_t row) {
@@ -132,10 +143,10 @@ struct JudgeEnergy {
     const JudgeEnergy self = *this;
     team.each(work.body_count, [self](std::uint32_t i) {
       self.put_back(i);
-      if (self.work.levels != nullptr) self.work.paces[i] = self.work.levels[i].before;
+      if (self.work.levels != nullptr) self.put_pace_back(i);
     });
     team.each(work.joints.count, [self](std::uint32_t j) { self.put_joint_back(j, true); });
-    team.single([self] { self.work.counters->taken_back = 1; });
+    team.single([self] { self.work.counters->bound.taken_back = 1; });
   }
   /// Whether contacts were told that rows of joints hold which need not.
   PLUMB_HD bool predicts() const {
@@ -143,11 +154,47 @@ struct JudgeEnergy {
   }
   PLUMB_HD void find_let_go(std::uint32_t j) const {
     if (work.joints.axes.work[j].let_go == 0) return;
-    atomic_add(&work.counters->let_go, 1U);
+    atomic_add(&work.counters->bound.let_go, 1U);
     atomic_max(&islands[root_of(work.joints.view.joints[j])].let_go, 1U);
   }
   PLUMB_HD void distrust(std::uint32_t j) const {
     if (islands[root_of(work.joints.view.joints[j])].let_go != 0) work.joints.axes.work[j].is_trusted = false;
+  }
+  /// Whether the step has opened a joint whose island has not yet all sub-steps that it may have.
+  PLUMB_HD void find_opened(std::uint32_t j) const {
+    const Joint& joint = work.joints.view.joints[j];
+    if (!is_pushed(joint.body_a) && !is_pushed(joint.body_b)) return;
+    const JointAxes* axes = work.code == JointCode::kAll ? &work.joints.axes.axes[j] : nullptr;
+    const Real after = openness(joint, axes, place_after(joint));
+    if (!(after > 1) || !may_have_more(root_of(joint))) return;
+    if (!(after > openness(joint, axes, place_before(joint)) + 1)) return;
+    atomic_add(&work.counters->bound.opened, 1U);
+    atomic_max(&islands[root_of(joint)].opened, 1U);
+  }
+  PLUMB_HD Real substeps_of(std::uint32_t level) const { return static_cast<Real>(work.substeps->of[level].substeps); }
+  /// Sub-steps, of a body's island; what asked for more than it had will not get them by asking again.
+  PLUMB_HD bool may_have_more(std::uint32_t body) const {
+    const BodyLevel& level = work.levels[body];
+    if (level.level == kSettledLevel) return false;
+    const Real has = substeps_of(level.level);
+    return has < substeps_of(min(kLevelOfOpened, work.substeps->count - 1)) &&
+           !(level.before.load_rate * work.parameters->dt > has * kDenied);
+  }
+  /// As it was, but that the island of an opened joint asks for more.
+  PLUMB_HD void put_pace_back(std::uint32_t i) const {
+    BodyPace& pace = work.paces[i];
+    pace = work.levels[i].before;
+    if (is_pushed(i) && islands[islands[i].root].opened != 0)
+      pace.load_rate = max(pace.load_rate, kMoreForOpened * substeps_of(work.levels[i].level) / work.parameters->dt);
+  }
+  PLUMB_HD JointPlace place_after(const Joint& joint) const {
+    const Bodies& all = work.joints.view.bodies;
+    const auto end = [&](std::uint32_t body) -> JointEnd {
+      if (body == kWorld) return {{0, 0, 0}, {0, 0, 0, 1}};
+      return {{0, 0, 0}, all.orientation[body]};
+    };
+    const Position from = joint.body_a == kWorld ? joint.world_anchor : all.position[joint.body_a];
+    return place_joint(joint, between(from, all.position[joint.body_b]), end(joint.body_a), end(joint.body_b));
   }
   PLUMB_HD bool is_pushed(std::uint32_t body) const {
     return body != kWorld && work.joints.view.bodies.velocity[body].inverse_mass > 0;
@@ -292,7 +339,7 @@ struct JudgeEnergy {
     if (!(gain > kMostGain)) return;
     island.is_held = gain > kMostGainAtLast;
     island.keeps = island.is_held ? kHeldShare : sqrt(Real(1) / gain);
-    atomic_add(&work.counters->gained, 1U);
+    atomic_add(&work.counters->bound.gained, 1U);
   }
   /// What an island has over what it may have.
   PLUMB_HD static Real gain_of(const IslandEnergy& island) {

@@ -12,6 +12,9 @@
 // back by the same means, before energies are looked at, and solved again whole: in islands of which a joint let go
 // nothing is counted on then, and others are settled (settled_islands.hpp). So none depends on what happens in another.
 //
+// So is, next, a step that opened a joint (opened_joints.hpp): its island asks for more sub-steps then, up to all that
+// there are (choose_substeps.hpp), and others are settled likewise.
+//
 // The bound is generous (kMostGain): it tells what flies apart from what does not, and is no measure of drift. Worlds
 // without joints, and solvers other than the default, are not watched.
 #pragma once
@@ -55,6 +58,7 @@ struct IslandEnergy {
   std::uint32_t peak;         ///< the largest term of the sums, J: bits of a float
   std::uint32_t joined;       ///< at the root: a joint holds one of its bodies
   std::uint32_t let_go;       ///< likewise: one of which rows have not held as predicted does
+  std::uint32_t opened;       ///< likewise: one that the step has opened does
   bool is_held;               ///< it stays where it was before the step
   Real keeps;                 ///< of its velocities the share that is left
   // Sums in whole numbers of a share of the peak, which do not depend on the order:
@@ -77,7 +81,8 @@ struct EnergyWork {
   StepCounters* counters;
   BodyPace* paces;
   const BodyLevel* levels;  ///< null: paces are nobody's
-  bool settles;             ///< islands may be settled
+  const SubstepLevels* substeps;
+  bool settles;  ///< islands may be settled
 };
 
 class EnergyBound {

@@ -116,6 +116,7 @@ struct StepContext : StepInput {
             counters,
             stages.solver.paces(),
             stages.solver.body_levels(),
+            levels,
             settles()};
   }
 };

@@ -38,7 +38,8 @@ PLUMB_HD void touch_polyhedron(const View& view, const Placement& at, Real margi
 }
 
 /// A cylinder stands on its rim, on four points of it, or lies on a line of its side: of each cap the deepest point of
-/// the rim, and three more of the lower cap. Where the cap is level those are the same places of it all the time.
+/// the rim, and three more of the lower cap. Where the cap is level those are the same places of it all the time. One
+/// that lies so deep that the plane holds its lower cap lies on both caps all the same.
 PLUMB_HD inline void touch_cylinder(const Vec& size, const Placement& at, Real margin, Manifold& out) {
   const Vec down = {at.turn.x.y, at.turn.y.y, at.turn.z.y};  // the plane's normal in the cylinder's frame
   const Real cap = down.y > 0 ? -size.y : size.y;
@@ -51,13 +52,13 @@ PLUMB_HD inline void touch_cylinder(const Vec& size, const Placement& at, Real m
   };
   rim(ux, cap, uz, 0);
   const Vec opposite = at.turn * Vec{-size.x * ux, cap, -size.x * uz} + at.shift;
+  const bool lies = abs(down.y) < tilt;
   if (opposite.y <= margin) {
     rim(-uz, cap, ux, 1);
-    rim(-ux, cap, -uz, 2);
+    if (!lies) rim(-ux, cap, -uz, 2);
     rim(uz, cap, -ux, 3);
-  } else {
-    rim(ux, -cap, uz, 4);
   }
+  if (opposite.y > margin || lies) rim(ux, -cap, uz, 4);
 }
 
 }  // namespace plane

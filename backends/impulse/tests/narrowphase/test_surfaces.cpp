@@ -233,5 +233,24 @@ TEST(RoundBodies, CylindersRollTrueOnEveryGround) {
   }
 }
 
+/// However deep it is in a plane and however it lies there, a rod is pushed out.
+TEST(RoundBodies, CylindersComeOutOfAPlane) {
+  constexpr double kRadius = 0.02, kHalf = 0.12;
+  for (const double depth : {0.01, 0.03, 0.06, 0.1})
+    for (const double tilt : {0.0, 0.02, 0.2, 0.6, 1.0, 1.4, 1.55}) {  // of its axis from level
+      SCOPED_TRACE("depth " + std::to_string(depth) + " tilt " + std::to_string(tilt));
+      Scene scene(engine(), kSurfaceNeeds, kDown, 1);
+      add_ground(scene, Ground::kPlane);
+      const double turn = (std::acos(-1.0) / 2 - tilt) / 2;
+      const double reach = kHalf * std::sin(tilt) + kRadius * std::cos(tilt);
+      scene.add(make_cylinder(scene, kRadius, kHalf), {0, reach - depth, 0}, {std::sin(turn), 0, 0, std::cos(turn)});
+      scene.run(300);
+      const PlumbPose pose = scene.poses()[1];
+      const PlumbQuat& q = pose.orientation;
+      const double up = std::min(1.0, std::abs(1 - 2 * (q.x * q.x + q.z * q.z)));
+      EXPECT_GT(pose.position.y, kHalf * up + kRadius * std::sqrt(1 - up * up) - 1e-3);
+    }
+}
+
 }  // namespace
 }  // namespace plumb::impulse::test

@@ -1,0 +1,49 @@
+// How far a joint is from where it holds its bodies, in parts of what a step may open it by.
+//
+// A blow can turn what is light and short by a radian in a sub-step, and rows that are straight in the sub-step do not
+// follow it round. In shorter ones they do: the error falls by eight and more for each halving. So a step that opens a
+// joint by more than this is taken back, and its island has more sub-steps (energy_bound.hpp).
+#pragma once
+
+#include "joints/joint_axes.hpp"
+
+namespace plumb::impulse {
+
+/// What a step may open a joint by: m, rad.
+inline constexpr Real kMostOpening = Real(5e-3), kMostTurning = Real(0.02);
+
+/// So many times the sub-steps that it had an island asks for then; a little more than the level below.
+inline constexpr Real kMoreForOpened = Real(2.01);
+/// And no more than this level has: in yet shorter ones contacts, which a step has of its start, press too hard.
+inline constexpr std::uint32_t kLevelOfOpened = 3;
+/// What has asked for so many times what it has got does not get more.
+inline constexpr Real kDenied = Real(1.001);
+
+/// How far a coordinate is beyond the limits of its row, m or rad.
+PLUMB_HD inline Real beyond_limits(const JointAxes& axes, int row, Real x) {
+  const Real lower = axes.lower[row], upper = axes.upper[row];
+  const bool turns = axes.row[row].kind == RowKind::kAngle, is_between = lower > -kHuge / 2 && upper < kHuge / 2;
+  const Real middle = turns && is_between ? (lower + upper) / 2 : Real(0);
+  const Real from_middle = turns ? wrapped(x - middle) : x;
+  return max(max((lower - middle) - from_middle, from_middle - (upper - middle)), Real(0));
+}
+
+/// The largest error of any row that is locked, or beyond its limit. axes: null for a joint that has no such rows.
+PLUMB_HD inline Real openness(const Joint& joint, const JointAxes* axes, const JointPlace& place) {
+  RowNumbers errors;
+  if (axes == nullptr)
+    joint_errors(joint, place, errors);
+  else
+    all_errors(joint, *axes, place, errors);
+  const int first = rows_of(joint.type);
+  Real pulled = 0, turned = 0;
+  for (int i = 0; i < row_count(joint); ++i) {
+    Real error = errors[i];
+    if (i >= first && axes->row[i - first].coordinate != kLocked) error = beyond_limits(*axes, i - first, error);
+    Real& sum = (joint.pulls >> i & 1U) != 0 ? pulled : turned;
+    sum = sum + error * error;
+  }
+  return max(sqrt(pulled) / kMostOpening, sqrt(turned) / kMostTurning);
+}
+
+}  // namespace plumb::impulse
