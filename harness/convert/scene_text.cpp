@@ -1,7 +1,11 @@
 #include "convert/scene_text.hpp"
 
-#include <array>
+#include <fmt/format.h>
 
+#include <array>
+#include <regex>
+
+#include "base/format.hpp"
 #include "scene/build.hpp"
 
 namespace plumb::harness {
@@ -121,8 +125,10 @@ Json frame_json(const PlumbPose& pose) {
   return json;
 }
 
+constexpr std::array axis_words{"x", "y", "z", "rx", "ry", "rz"};
+
 void add_axes(Json& json, const PlumbJointDesc& desc) {
-  static constexpr std::array words{"x", "y", "z", "rx", "ry", "rz"};
+  static constexpr auto& words = axis_words;
   static constexpr std::array modes{"free", "locked", "limited"};
   for (std::size_t i = 0; i < words.size(); ++i) {
     const PlumbLimit& limit = desc.limits[i];
@@ -155,6 +161,55 @@ Json json_of(const SceneJoint& joint, const Scene& scene) {
   if (desc.break_force != 0) json["break_force"] = desc.break_force;
   if (desc.break_torque != 0) json["break_torque"] = desc.break_torque;
   if (joint.cut != std::numeric_limits<double>::infinity()) json["cut"] = joint.cut;
+  return json;
+}
+
+/// An expression in which the time alone is left of names; what is called is a function and no name.
+std::string with_numbers_for_names(const SceneAction& action, const std::string& text) {
+  static const std::regex word("[A-Za-z_][A-Za-z_0-9]*");
+  std::string plain;
+  auto from = text.begin();
+  for (std::sregex_iterator at(text.begin(), text.end(), word), end; at != end; ++at) {
+    plain.append(from, text.begin() + at->position());
+    from = text.begin() + at->position() + at->length();
+    const auto known = action.names.find(at->str());
+    plain += known == action.names.end() ? at->str() : fmt::format("({})", shortest_number(known->second));
+  }
+  return plain.append(from, text.end());
+}
+
+Json json_of(const SceneAction& action, const Scene& scene) {
+  const auto number = [&](std::size_t i) {
+    const SceneAction::Number& one = action.numbers[i];
+    return one.text.empty() ? Json(one.constant) : Json(with_numbers_for_names(action, one.text));
+  };
+  const auto vector = [&](std::size_t first) {
+    return Json::array({number(first), number(first + 1), number(first + 2)});
+  };
+  Json json{{action.kind == SceneAction::motors ? "joint" : "body", action.name}};
+  switch (action.kind) {
+    case SceneAction::path:
+      json["position"] = vector(0);
+      if (!action.numbers[3].text.empty()) json["turn"] = {{"axis", json_of(action.axis)}, {"radians", number(3)}};
+      break;
+    case SceneAction::force:
+      json["force"] = vector(0);
+      json["torque"] = vector(3);
+      break;
+    case SceneAction::impulse:
+      json["impulse"] = vector(0);
+      json["angular_impulse"] = vector(3);
+      json["at"] = action.begin;
+      break;
+    case SceneAction::motors:
+      for (std::size_t axis = 0; axis < axis_words.size(); ++axis)
+        if (scene.joints[action.target].desc.motors[axis].enabled != 0)
+          json["motors"][axis_words[axis]] = {{"target_velocity", number(2 * axis)},
+                                              {"max_force", number(2 * axis + 1)}};
+      break;
+  }
+  const bool lasts = action.kind == SceneAction::force || action.kind == SceneAction::motors;
+  if (lasts && (action.begin != 0 || action.end != scene.seconds)) json["over"] = {action.begin, action.end};
   return json;
 }
 
@@ -192,6 +247,7 @@ Json scene_json(const Scene& scene, const SceneTitle& title) {
   json["bodies"] = Json::array();
   for (const SceneBody& body : scene.bodies) json["bodies"].push_back(json_of(body, scene));
   for (const SceneJoint& joint : scene.joints) json["joints"].push_back(json_of(joint, scene));
+  for (const SceneAction& action : scene.host) json["host"].push_back(json_of(action, scene));
   return json;
 }
 

@@ -15,8 +15,8 @@ struct SetUp {
 /// Sets the scene's needs, too: those that its bodies and joints have.
 void set_up(Imported& imported, const SetUp& wanted);
 
-/// Adds a measure and metrics with truths that hold for every machine: no joint opens, nothing sinks in, no energy is
-/// made of nothing.
+/// Adds a measure and metrics with truths that hold for every machine: no joint opens, nothing sinks in, and where
+/// nobody drives it no energy is made of nothing.
 void add_metrics(Json& scene_json, const Scene& scene);
 
 }  // namespace plumb::harness

@@ -159,5 +159,13 @@ TEST(Quantities, ATimeBeyondTheEndIsAWrongQuestion) {
       << finished.err;
 }
 
+TEST(Quantities, SayHowFarJointsAreBeyondTheirLimits) {
+  const Finished run = plumb({"run", own_words("X6-stops.json"), "--backend", MISBEHAVING_BACKEND, "--json"});
+  ASSERT_EQ(run.rows().size(), 1u) << run.err;
+  EXPECT_EQ(run.rows()[0].at("status"), "ok") << run.rows()[0].at("reason");
+  for (const char* name : {"beyond", "half_way", "turned", "turned_one", "askew", "gap"})
+    EXPECT_EQ(run.rows()[0].at("metrics").at(name).at("pass"), true) << name;
+}
+
 }  // namespace
 }  // namespace plumb::harness::testing

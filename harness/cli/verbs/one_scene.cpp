@@ -5,7 +5,7 @@
 
 namespace plumb::harness {
 
-Scene one_scene(const std::string& name, const std::vector<std::string>& parameters) {
+Scene one_scene(const std::string& name, const std::vector<std::string>& parameters, const Times& times) {
   const std::vector<SceneFile> files = find_scenes(name);
   if (files.size() != 1) throw UsageError("\"" + name + "\" names several scenes: name one, as in D7");
   const SceneFile& file = files.front();
@@ -16,7 +16,7 @@ Scene one_scene(const std::string& name, const std::vector<std::string>& paramet
     const ParameterSpec& spec = find_parameter(file, given.substr(0, equals));
     values[spec.name] = parse_parameter(spec, given.substr(equals + 1));
   }
-  return file.instantiate(values);
+  return file.instantiate(values, times);
 }
 
 }  // namespace plumb::harness

@@ -9,6 +9,7 @@
 namespace plumb::harness {
 
 /// By id or file, its first variant but for parameters "name=value". Throws UsageError for several scenes or none.
-[[nodiscard]] Scene one_scene(const std::string& name, const std::vector<std::string>& parameters);
+[[nodiscard]] Scene one_scene(const std::string& name, const std::vector<std::string>& parameters,
+                              const Times& times = {});
 
 }  // namespace plumb::harness

@@ -1,11 +1,11 @@
-#include "cli/verbs/replay.hpp"
-
+// plumb replay: runs a recorded trace again on backends, and says where they first part from it.
 #include <fmt/format.h>
 
 #include <memory>
 
 #include "base/json.hpp"
 #include "cli/manual/examples.hpp"
+#include "cli/verbs/verbs.hpp"
 #include "plumb/layers.hpp"
 #include "plumb/loader.hpp"
 #include "scene/scene.hpp"

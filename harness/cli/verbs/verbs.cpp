@@ -1,7 +1,5 @@
 #include "cli/verbs/verbs.hpp"
 
-#include "cli/verbs/replay.hpp"
-
 namespace plumb::harness {
 
 void add_verbs(CLI::App& program, int& status) {
@@ -17,6 +15,8 @@ void add_verbs(CLI::App& program, int& status) {
   add_conform(program, status);
   add_study(program, status);
   add_convert(program, status);
+  add_generate(program, status);
+  add_reduce(program, status);
   add_export(program, status);
   add_pairs(program, status);
   add_report(program, status);

@@ -71,14 +71,18 @@ referee::Energy RefereeView::energy(Simulation& simulation) const {
   return referee::energy(states(simulation), referee::vec(scene_->gravity));
 }
 
-double RefereeView::joint_gap(std::span<const PoseRow> poses, double time) const {
-  double gap = 0;
+referee::JointError RefereeView::joint_error(std::span<const PoseRow> poses, double time) const {
+  referee::JointError most;
   for (const SceneJoint& joint : scene_->joints) {
     if (time > joint.cut) continue;
     const referee::Pose a = joint.body_a ? pose_of(poses[*joint.body_a]) : referee::Pose{};
-    gap = largest(gap, referee::joint_error(joint.desc, a, pose_of(poses[joint.body_b])).position);
+    const referee::JointError error = referee::joint_error(joint.desc, a, pose_of(poses[joint.body_b]));
+    most.position = largest(most.position, error.position);
+    most.angle = largest(most.angle, error.angle);
+    most.limit_position = largest(most.limit_position, error.limit_position);
+    most.limit_angle = largest(most.limit_angle, error.limit_angle);
   }
-  return gap;
+  return most;
 }
 
 DepthSummary depth_summary(const referee::WorldPenetration& penetration) {

@@ -9,6 +9,7 @@
 
 #include "measure/measure.hpp"
 #include "referee/contacts.hpp"
+#include "referee/joints.hpp"
 #include "referee/mechanics.hpp"
 #include "referee/world_penetration.hpp"
 
@@ -26,9 +27,12 @@ class RefereeView {
   [[nodiscard]] referee::Energy energy(Simulation& simulation) const;
   [[nodiscard]] const std::vector<referee::Mass>& masses() const { return masses_; }
   [[nodiscard]] double total_mass() const { return total_mass_; }
-  /// Largest drift of any joint: how far its frames' origins are from where it allows them, m. Those that the host
-  /// has cut until the time are left out.
-  [[nodiscard]] double joint_gap(std::span<const PoseRow> poses, double time = 0) const;
+  /// The largest error of any joint, of each kind. Those that the host has cut until the time are left out.
+  [[nodiscard]] referee::JointError joint_error(std::span<const PoseRow> poses, double time = 0) const;
+  /// Largest drift of any joint: how far its frames' origins are from where it allows them, m.
+  [[nodiscard]] double joint_gap(std::span<const PoseRow> poses, double time = 0) const {
+    return joint_error(poses, time).position;
+  }
 
  private:
   const Scene* scene_;

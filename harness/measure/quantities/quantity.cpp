@@ -84,6 +84,8 @@ referee::JointError joint_error(const Observation& o) {
 }
 double joint_gap(const Observation& o) { return joint_error(o).position; }
 double joint_misalignment(const Observation& o) { return joint_error(o).angle; }
+double joint_limit_position(const Observation& o) { return joint_error(o).limit_position; }
+double joint_limit_angle(const Observation& o) { return joint_error(o).limit_angle; }
 Vec3 joint_position(const Observation& o) {
   const auto [desc, a, b] = joint_poses(o);
   const auto at = referee::joint_coordinates(desc, a, b);
@@ -173,7 +175,13 @@ Vec3 all_ground_force(const Observation& o) {
   step.add(o.now);
   return step.from_ground();
 }
-double all_gap(const Observation& o) { return o.scene.view().joint_gap(o.now.poses(), o.now.time()); }
+referee::JointError all_joint_errors(const Observation& o) {
+  return o.scene.view().joint_error(o.now.poses(), o.now.time());
+}
+double all_gap(const Observation& o) { return all_joint_errors(o).position; }
+double all_misalignment(const Observation& o) { return all_joint_errors(o).angle; }
+double all_limit_position(const Observation& o) { return all_joint_errors(o).limit_position; }
+double all_limit_angle(const Observation& o) { return all_joint_errors(o).limit_angle; }
 
 }  // namespace
 
@@ -210,6 +218,8 @@ std::span<const QuantitySpec> quantity_specs() {
        nullptr, of_step | difference},
       {joint, "gap", "m", "how far the joint's frames are from where it allows them", nullptr, joint_gap},
       {joint, "misalignment", "rad", "how far they are turned in ways that it locks", nullptr, joint_misalignment},
+      {joint, "limit_position", "m", "how far it has slid beyond a limit", nullptr, joint_limit_position},
+      {joint, "limit_angle", "rad", "how far it has turned beyond a limit", nullptr, joint_limit_angle},
       {joint, "position", "m", "of its frame on body b, as that on body a sees it", joint_position},
       {joint, "angle", "rad",
        "of its frame on body b about a direction of that on body a, left out: x, a hinge's "
@@ -235,6 +245,9 @@ std::span<const QuantitySpec> quantity_specs() {
       {all, "angular_momentum", "kg m2/s", "of all bodies, about the origin", all_angular_momentum},
       {all, "overlap", "m", "the deepest of any two that may touch", nullptr, all_overlap},
       {all, "gap", "m", "the widest of any joint", nullptr, all_gap},
+      {all, "misalignment", "rad", "the largest of any joint", nullptr, all_misalignment},
+      {all, "limit_position", "m", "of the joint that has slid farthest beyond a limit", nullptr, all_limit_position},
+      {all, "limit_angle", "rad", "of the joint that has turned farthest beyond a limit", nullptr, all_limit_angle},
       {all, "ground_force", "N", "of static and kinematic bodies on the others, as the engine tells its contacts",
        all_ground_force, nullptr, of_step, PLUMB_NEED_CONTACTS | PLUMB_NEED_CONTACT_IMPULSES},
       {all, "speed", "m/s", "of the fastest body: 0 at rest", nullptr, all_speed},

@@ -1,0 +1,173 @@
+// plumb reduce: from a scene that an engine gets wrong to the smallest that it still does, for who has to mend it.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "base/format.hpp"
+#include "base/shown.hpp"
+#include "cli/manual/examples.hpp"
+#include "cli/output/draft_file.hpp"
+#include "cli/output/output.hpp"
+#include "cli/verbs/one_scene.hpp"
+#include "cli/verbs/run_options.hpp"
+#include "cli/verbs/verbs.hpp"
+#include "convert/scene_text.hpp"
+#include "plumb/nearest.hpp"
+#include "reduce/plain_scene.hpp"
+#include "reduce/reduction.hpp"
+#include "scene/catalogue.hpp"
+#include "schedule/bench.hpp"
+
+namespace plumb::harness {
+namespace {
+
+struct ReduceOptions {
+  std::string scene, to, backend, metric;
+  RunRequest request;
+};
+
+/// What a run has to do to be wrong in the same way.
+struct Failure {
+  std::string status, metric;  ///< metric: of a run that came to its end; else ""
+
+  [[nodiscard]] bool is_of(const Row& row) const {
+    if (row.status != status) return false;
+    if (metric.empty()) return true;
+    const MetricResult* result = row.metric(metric);
+    return result != nullptr && result->badness().value_or(0) > 1;
+  }
+};
+
+/// One scene after the other on one backend.
+class Trials {
+ public:
+  Trials(const ReduceOptions& options, const std::string& slug)
+      : request_(options.request),
+        folder_(std::filesystem::temp_directory_path() / fmt::format("plumb-reduce-{}", ::getpid())) {
+    request_.parameters.clear();  // scenes have their numbers, and their times
+    request_.dt.reset();
+    request_.seconds.reset();
+    request_.scenes = {(folder_ / (slug + ".json")).string()};
+    std::filesystem::create_directories(folder_);
+    backends_ = build_ids(open_backends({options.backend}, request_.limits()).usable);
+    const BackendDescription& backend = *backends_.front().description;
+    if (!backend.error.empty())
+      throw UsageError(fmt::format("{} cannot be loaded: {}", options.backend, backend.error));
+  }
+  ~Trials() {
+    std::error_code ignored;
+    std::filesystem::remove_all(folder_, ignored);
+  }
+  Trials(const Trials&) = delete;
+  Trials& operator=(const Trials&) = delete;
+
+  /// Throws UsageError where the scene is none.
+  Row run(const Json& scene) {
+    ++runs_;
+    DraftFile(request_.scenes.front()).write(scene_text(scene));
+    const Cell cell = plan_blocks(request_, backends_).front().cells.front();
+    std::vector<Answer> answers;
+    for (std::uint32_t i = 0; i < request_.repeat; ++i)
+      answers.push_back(bench_.repeat_quietly(cell, {}, request_.limits()));
+    return bench_.row_of(cell, answers);
+  }
+  [[nodiscard]] std::size_t runs() const { return runs_; }
+
+ private:
+  RunRequest request_;
+  std::filesystem::path folder_;
+  std::vector<BuiltBackend> backends_;
+  RunCallbacks callbacks_;
+  Bench bench_{nullptr, Ranks{}, callbacks_};
+  std::size_t runs_ = 0;
+};
+
+Failure failure_of(const Row& row, const ReduceOptions& options) {
+  if (row.status == "unsupported")
+    throw UsageError(fmt::format("{} lacks what the scene needs: {}", options.backend, row.reason));
+  if (row.status != "ok" && row.status != "failed") {
+    if (!options.metric.empty())
+      throw UsageError(fmt::format("--metric {}: the run has none, it ended: {}", options.metric, row.status));
+    return {row.status, ""};
+  }
+  std::string metric = options.metric;
+  if (metric.empty() && row.status == "failed") metric = row.worst()->name;
+  std::vector<std::string> known;
+  for (const MetricResult& one : row.metrics)
+    if (one.badness()) known.push_back(one.name);
+  if (!metric.empty() && std::find(known.begin(), known.end(), metric) == known.end())
+    throw UsageError(fmt::format("--metric {}: nothing of that name is judged{}", metric, suggestion(metric, known)));
+  Failure failure{"failed", metric};
+  if (metric.empty() || !failure.is_of(row))
+    throw UsageError(fmt::format("{} gets it right{}: there is nothing to reduce", options.backend,
+                                 metric.empty() ? "" : ", as far as " + metric + " goes"));
+  return failure;
+}
+
+std::string text_of(const Failure& failure, const Row& row) {
+  if (failure.metric.empty()) return failure.status + ": " + row.reason;
+  const MetricResult& metric = *row.metric(failure.metric);
+  return fmt::format("{} {} > {}", metric.name, short_number(metric.error), limit_text(metric.threshold.value_or(0)));
+}
+
+int reduce(const ReduceOptions& options) {
+  catch_signals();
+  if (!options.to.ends_with(".json"))
+    throw UsageError(fmt::format("cannot write {}: a scene's file ends with .json", shortened(options.to, 200)));
+  DraftFile out(options.to);
+  const std::vector<SceneFile> files = find_scenes(options.scene);
+  const Scene scene =
+      one_scene(options.scene, options.request.parameters, {options.request.dt, options.request.seconds});
+  Trials trials(options, scene.slug);
+  const Json whole = plain_scene(scene, files.front());
+  const Row first = trials.run(whole);
+  const Failure failure = failure_of(first, options);
+  const auto fails = [&](const Json& candidate) {
+    throw_if_interrupted();
+    try {
+      return failure.is_of(trials.run(candidate));
+    } catch (const UsageError&) {
+      return false;  // no scene any more
+    }
+  };
+  const auto shrunk = [&](const Json& smallest) {
+    fmt::print(stderr, "run {}: {}\n", trials.runs(), size_text(smallest));
+  };
+  fmt::print(stderr, "run 1: {}: {}\n", size_text(whole), text_of(failure, first));
+  const Json small = reduced(whole, fails, shrunk);
+  out.write(scene_text(small));
+  const Row last = trials.run(small);
+  std::cout << fmt::format("{}: {}, of {}, in {} runs: {}\n", options.to, size_text(small), size_text(whole),
+                           trials.runs(), text_of(failure, last));
+  return 0;
+}
+
+}  // namespace
+
+void add_reduce(CLI::App& program, int& status) {
+  const auto options = std::make_shared<ReduceOptions>();
+  CLI::App* verb = program.add_subcommand(
+      "reduce", "Make of a scene that a backend gets wrong the smallest that it still gets wrong in the same way");
+  verb->add_option("SCENE", options->scene, "Id, slug or file of one scene, of which the first variant counts")
+      ->required();
+  verb->add_option("TO", options->to, "Scene file to write, as in small.json")->type_name("FILE")->required();
+  verb->add_option("--backend", options->backend, "Backend by name or file")->type_name("BACKEND")->required();
+  verb->add_option("--metric", options->metric, "What has to stay wrong; left out: what is worst, or how the run ends")
+      ->type_name("METRIC");
+  verb->add_option("--set", options->request.settings, "name=value of a backend's setting, repeatable")
+      ->type_name("NAME=VALUE")
+      ->take_all()
+      ->expected(1)
+      ->allow_extra_args(false);
+  add_cell_options(*verb, options->request);
+  add_examples(*verb,
+               {{"plumb reduce random/R17-random.json small.json --backend ode", "what is left is for a bug report"},
+                {"plumb reduce D11 small.json --backend bullet --metric drift --param N=40",
+                 "a scene of the catalogue, and which of its metrics"}});
+  verb->callback([options, &status] { status = reduce(*options); });
+}
+
+}  // namespace plumb::harness
