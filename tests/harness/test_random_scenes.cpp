@@ -10,10 +10,10 @@ namespace {
 
 Json read(const std::filesystem::path& file) { return Json::parse(std::ifstream(file)); }
 
-/// Balls that fly, joined in pairs, of which the misbehaving backend refuses one: it is too large.
-std::string scene_with_a_culprit(const std::filesystem::path& folder) {
+/// Balls that fly, joined in pairs or alone, of which the misbehaving backend refuses one: it is too large.
+std::string scene_with_a_culprit(const std::filesystem::path& folder, bool joined = true) {
   Json scene = {{"id", "X7"}, {"slug", "balls"}, {"title", "Balls"}, {"doc", "Eight balls."}};
-  scene["needs"] = {"rotation", "joints"};
+  scene["needs"] = joined ? Json{"rotation", "joints"} : Json::array();
   scene["seconds"] = 1;
   scene["shapes"]["ball"] = {{"type", "sphere"}, {"radius", 0.1}};
   scene["shapes"]["moon"] = {{"type", "sphere"}, {"radius", 2e6}};
@@ -22,8 +22,9 @@ std::string scene_with_a_culprit(const std::filesystem::path& folder) {
                                {"shape", i == 5 ? "moon" : "ball"},
                                {"position", {i, 10, 0}},
                                {"linear_velocity", {0, 1, 0}},
+                               {"flags", {"no_rotation"}},
                                {"mass", 1}});
-  for (int i = 0; i < 8; i += 2)
+  for (int i = 0; joined && i < 8; i += 2)
     scene["joints"].push_back({{"name", "joint" + std::to_string(i)},
                                {"type", "ball"},
                                {"body_a", "ball" + std::to_string(i)},
@@ -53,6 +54,22 @@ TEST(Reduce, LeavesTheCulprit) {
   EXPECT_LT(left.at("seconds").get<double>(), 0.05);
   const Finished again = plumb({"run", small, "--backend", MISBEHAVING_BACKEND, "--json"});
   EXPECT_EQ(again.rows().at(0).at("status"), "error") << "it is a scene, and as wrong as the whole";
+}
+
+/// Where another backend has to get right what is left, nobody is asked what it gets wrong itself.
+TEST(Reduce, AsksWhoGetsItRight) {
+  const std::filesystem::path folder = fresh_folder("reduce-against");
+  const std::string whole = scene_with_a_culprit(folder), small = (folder / "small.json").string();
+  const Finished alike =
+      plumb({"reduce", whole, small, "--backend", MISBEHAVING_BACKEND, "--against", MISBEHAVING_BACKEND});
+  EXPECT_EQ(alike.status, 2);
+  EXPECT_NE(alike.err.find("it gets the scene wrong, too"), std::string::npos) << alike.err;
+  EXPECT_FALSE(std::filesystem::exists(small));
+  const std::string loose = scene_with_a_culprit(folder, false);
+  const Finished run = plumb({"reduce", loose, small, "--backend", MISBEHAVING_BACKEND, "--against", SAMPLE_BACKEND,
+                              "--set", "iterations=20"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(read(small).at("bodies").size(), 1u) << "with a setting that the other does not have";
 }
 
 /// A worker that dies is an answer like others.

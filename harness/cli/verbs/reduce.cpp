@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 
 #include "base/format.hpp"
 #include "base/shown.hpp"
@@ -25,7 +26,7 @@ namespace plumb::harness {
 namespace {
 
 struct ReduceOptions {
-  std::string scene, to, backend, metric;
+  std::string scene, to, backend, against, metric;
   RunRequest request;
 };
 
@@ -39,23 +40,29 @@ struct Failure {
     const MetricResult* result = row.metric(metric);
     return result != nullptr && result->badness().value_or(0) > 1;
   }
+  /// The run came to its end, and what is wrong elsewhere is right.
+  [[nodiscard]] bool is_absent_from(const Row& row) const {
+    if (!row.completed()) return false;
+    if (metric.empty()) return true;
+    const MetricResult* result = row.metric(metric);
+    return result != nullptr && result->badness() && *result->badness() <= 1;
+  }
 };
 
 /// One scene after the other on one backend.
 class Trials {
  public:
-  Trials(const ReduceOptions& options, const std::string& slug)
+  Trials(const ReduceOptions& options, const std::string& backend_name, const std::string& slug)
       : request_(options.request),
-        folder_(std::filesystem::temp_directory_path() / fmt::format("plumb-reduce-{}", ::getpid())) {
+        folder_(std::filesystem::temp_directory_path() / fmt::format("plumb-reduce-{}-{}", ::getpid(), count_++)) {
     request_.parameters.clear();  // scenes have their numbers, and their times
     request_.dt.reset();
     request_.seconds.reset();
     request_.scenes = {(folder_ / (slug + ".json")).string()};
     std::filesystem::create_directories(folder_);
-    backends_ = build_ids(open_backends({options.backend}, request_.limits()).usable);
+    backends_ = build_ids(open_backends({backend_name}, request_.limits()).usable);
     const BackendDescription& backend = *backends_.front().description;
-    if (!backend.error.empty())
-      throw UsageError(fmt::format("{} cannot be loaded: {}", options.backend, backend.error));
+    if (!backend.error.empty()) throw UsageError(fmt::format("{} cannot be loaded: {}", backend_name, backend.error));
   }
   ~Trials() {
     std::error_code ignored;
@@ -77,6 +84,7 @@ class Trials {
   [[nodiscard]] std::size_t runs() const { return runs_; }
 
  private:
+  inline static int count_ = 0;
   RunRequest request_;
   std::filesystem::path folder_;
   std::vector<BuiltBackend> backends_;
@@ -121,14 +129,23 @@ int reduce(const ReduceOptions& options) {
   const std::vector<SceneFile> files = find_scenes(options.scene);
   const Scene scene =
       one_scene(options.scene, options.request.parameters, {options.request.dt, options.request.seconds});
-  Trials trials(options, scene.slug);
+  Trials trials(options, options.backend, scene.slug);
+  std::optional<Trials> others;
+  if (!options.against.empty()) {
+    ReduceOptions as_it_is = options;
+    as_it_is.request.settings.clear();  // they are the other's
+    others.emplace(as_it_is, options.against, scene.slug);
+  }
   const Json whole = plain_scene(scene, files.front());
   const Row first = trials.run(whole);
   const Failure failure = failure_of(first, options);
+  if (others && !failure.is_absent_from(others->run(whole)))
+    throw UsageError(
+        fmt::format("--against {}: it gets the scene wrong, too: name one that gets it right", options.against));
   const auto fails = [&](const Json& candidate) {
     throw_if_interrupted();
     try {
-      return failure.is_of(trials.run(candidate));
+      return failure.is_of(trials.run(candidate)) && (!others || failure.is_absent_from(others->run(candidate)));
     } catch (const UsageError&) {
       return false;  // no scene any more
     }
@@ -155,6 +172,11 @@ void add_reduce(CLI::App& program, int& status) {
       ->required();
   verb->add_option("TO", options->to, "Scene file to write, as in small.json")->type_name("FILE")->required();
   verb->add_option("--backend", options->backend, "Backend by name or file")->type_name("BACKEND")->required();
+  verb->add_option(
+          "--against", options->against,
+          "Another backend, by name or file, which has to get right what is left: so that nothing is taken out "
+          "without which nobody could, such as the ground")
+      ->type_name("BACKEND");
   verb->add_option("--metric", options->metric, "What has to stay wrong; left out: what is worst, or how the run ends")
       ->type_name("METRIC");
   verb->add_option("--set", options->request.settings, "name=value of a backend's setting, repeatable")
@@ -163,10 +185,11 @@ void add_reduce(CLI::App& program, int& status) {
       ->expected(1)
       ->allow_extra_args(false);
   add_cell_options(*verb, options->request);
-  add_examples(*verb,
-               {{"plumb reduce random/R17-random.json small.json --backend ode", "what is left is for a bug report"},
-                {"plumb reduce D11 small.json --backend bullet --metric drift --param N=40",
-                 "a scene of the catalogue, and which of its metrics"}});
+  add_examples(
+      *verb, {{"plumb reduce random/R17-random.json small.json --backend ode", "what is left is for a bug report"},
+              {"plumb reduce I3 small.json --backend ode --against impulse", "what one gets wrong and the other right"},
+              {"plumb reduce D2 small.json --backend bullet --metric drift --param N=10",
+               "a scene of the catalogue, and which of its metrics"}});
   verb->callback([options, &status] { status = reduce(*options); });
 }
 
