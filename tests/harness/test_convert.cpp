@@ -30,6 +30,7 @@ TEST(Convert, MakesASceneOfWhatOthersWrote) {
   const Finished sheet = plumb({"scenes", scene});
   EXPECT_EQ(sheet.status, 0) << sheet.err;
   EXPECT_NE(sheet.out.find("overlap"), std::string::npos) << sheet.out;
+  EXPECT_NE(sheet.out.find("plumb run " + scene), std::string::npos) << "no id of the catalogue names it";
   const Finished run = plumb({"run", scene, "--backend", SAMPLE_BACKEND, "--json"});
   ASSERT_EQ(run.rows().size(), 1u) << run.err;
   EXPECT_EQ(run.rows()[0].at("status"), "unsupported") << "it has no collision";

@@ -8,6 +8,7 @@
 #include "cli/output/layout.hpp"
 #include "measure/registry/registry.hpp"
 #include "scene/build.hpp"
+#include "scene/catalogue.hpp"
 
 namespace plumb::harness {
 
@@ -101,8 +102,11 @@ std::string size_of(const Scene& scene) {
                      scene.seconds);
 }
 
+/// By its id where that names it, else by its file.
 std::string example_of(const SceneFile& file) {
-  std::string line = "plumb run " + file.id;
+  const std::vector<std::string> known = scene_words();
+  const bool is_known = std::find(known.begin(), known.end(), file.id) != known.end();
+  std::string line = "plumb run " + (is_known ? file.id : file.path.string());
   if (!file.parameters.empty())
     line += " --param " + file.parameters.front().name + "=" + text_of(file.parameters.front().default_value);
   return line;
