@@ -75,8 +75,9 @@ TEST(OpenedJoints, HoldUnderABlow) {
     for (const int hertz : {30, 60, 240}) {
       SCOPED_TRACE(std::to_string(speed) + " m/s, " + std::to_string(hertz) + " Hz");
       const Opened opened = Flail(speed).run(2 * hertz, 1.0 / hertz);
-      EXPECT_LT(opened.gap, 0.006);
-      EXPECT_LT(opened.angle, 0.035);
+      // A step may open a joint by 5 mm or .02 rad, and a blow can last for two.
+      EXPECT_LT(opened.gap, 0.01);
+      EXPECT_LT(opened.angle, 0.04);
       EXPECT_LT(opened.repeated, 5) << "those of blows";
       repeated += opened.repeated;
     }
