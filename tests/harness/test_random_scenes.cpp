@@ -103,9 +103,10 @@ TEST(Reduce, SaysWhatIsAskedWrongly) {
 
 TEST(Generate, WritesScenesThatRun) {
   const std::filesystem::path folder = fresh_folder("generate") / "new" / "one";
-  const Finished made = plumb({"generate", folder.string(), "--seeds", "3-5", "--seconds", "0.1"});
+  const Finished made = plumb({"generate", folder.string(), "--seeds", "3-5", "--seconds", "0.1", "--dt", "1/240"});
   ASSERT_EQ(made.status, 0) << made.err;
   EXPECT_NE(made.out.find("3 scenes in"), std::string::npos) << made.out;
+  EXPECT_NEAR(read(folder / "R3-random.json").at("dt").get<double>(), 1.0 / 240, 1e-12);
   for (const char* name : {"R3-random.json", "R4-random.json", "R5-random.json"}) {
     const Finished run = plumb({"run", (folder / name).string(), "--backend", SAMPLE_BACKEND, "--json"});
     ASSERT_EQ(run.rows().size(), 1u) << run.err;
@@ -130,6 +131,8 @@ TEST(Generate, SaysWhatIsAskedWrongly) {
   expect({"generate", to, "--bodies", "1"}, "must be a whole number from 2 to 10000");
   expect({"generate", to, "--ratio", "0.5"}, "must be a number from 1");
   expect({"generate", to, "--dt", "0"}, "must be a number above 0");
+  expect({"generate", to, "--dt", "1e-12"}, "a step is from 1e-09 to");
+  expect({"generate", to, "--seconds", "1e7"}, "there are 1e+07 at most");
   expect({"generate", (folder / "file" / "below").string()}, "cannot make");
 }
 

@@ -134,9 +134,11 @@ void add_convert(CLI::App& program, int& status) {
       ->allow_extra_args(false);
   verb->add_option("--seconds", options->seconds, "Simulated time of the scene; left out: 10")
       ->type_name("SECONDS")
+      ->transform(evaluated)
       ->check(number_above_0());
   verb->add_option("--dt", options->dt, "Its time step; left out: the file's, or 1/60")
       ->type_name("SECONDS")
+      ->transform(evaluated)
       ->check(number_above_0());
   verb->add_option("--id", options->id, "The scene's id, a letter and digits; left out: made of TO's name")
       ->type_name("ID")

@@ -10,6 +10,7 @@
 #include "base/shown.hpp"
 #include "cli/manual/examples.hpp"
 #include "cli/output/draft_file.hpp"
+#include "cli/output/going_on.hpp"
 #include "cli/verbs/numbers.hpp"
 #include "cli/verbs/verbs.hpp"
 #include "convert/scene_text.hpp"
@@ -43,6 +44,9 @@ std::pair<std::uint32_t, std::uint32_t> seeds_of(const std::string& text) {
 
 int generate(const GenerateOptions& options) {
   const auto [first, last] = seeds_of(options.seeds);
+  if (options.dt < least_dt || options.dt > most_dt || !(steps_of(options.seconds, options.dt) <= most_steps))
+    throw UsageError(fmt::format("--seconds {:g} --dt {:g}: a step is from {:g} to {:g} s, and there are {:g} at most",
+                                 options.seconds, options.dt, least_dt, most_dt, most_steps));
   RandomSceneRequest request;
   request.most_bodies = options.bodies;
   request.mass_ratio = options.ratio;
@@ -57,7 +61,7 @@ int generate(const GenerateOptions& options) {
     const std::filesystem::path file = std::filesystem::path(options.folder) / fmt::format("R{}-random.json", seed);
     DraftFile(file.string()).write(scene_text(random_scene(request)));
   }
-  std::cout << fmt::format("{} scenes in {}: plumb compare {}/*.json\n", last - first + 1, options.folder,
+  std::cout << fmt::format("{} in {}: plumb compare {}/*.json\n", count_of(last - first + 1, "scene"), options.folder,
                            options.folder);
   return 0;
 }
@@ -90,10 +94,12 @@ void add_generate(CLI::App& program, int& status) {
       ->allow_extra_args(false);
   verb->add_option("--seconds", options->seconds, "Simulated time of the scenes")
       ->type_name("SECONDS")
+      ->transform(evaluated)
       ->check(number_above_0())
       ->capture_default_str();
-  verb->add_option("--dt", options->dt, "Their time step")
+  verb->add_option("--dt", options->dt, "Their time step: 1/240 or 0.004")
       ->type_name("SECONDS")
+      ->transform(evaluated)
       ->check(number_above_0())
       ->capture_default_str();
   add_examples(*verb, {{"plumb generate random", "20 scenes; then: plumb compare random/*.json"},

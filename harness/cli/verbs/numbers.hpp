@@ -11,6 +11,7 @@
 #include <string>
 
 #include "base/shown.hpp"
+#include "scene/expressions.hpp"
 
 namespace plumb::harness {
 
@@ -46,6 +47,15 @@ template <class Number>
   return number_that<std::int64_t>(fmt::format("a whole number from {} to {}", least, most),
                                    fmt::format("{}..{}", least, most),
                                    [=](std::int64_t n) { return n >= least && n <= most; });
+}
+
+/// A number as scene files may write it, "1/240", as one that the parser of options reads: for transform().
+[[nodiscard]] inline std::string evaluated(const std::string& text) {
+  try {
+    return fmt::format("{}", Expressions().evaluate(text));
+  } catch (const std::invalid_argument& error) {
+    throw CLI::ValidationError(error.what());
+  }
 }
 
 }  // namespace plumb::harness

@@ -8,7 +8,6 @@
 #include "cli/output/going_on.hpp"
 #include "cli/verbs/numbers.hpp"
 #include "report/text/csv.hpp"
-#include "scene/expressions.hpp"
 #include "schedule/block_runner.hpp"
 
 namespace plumb::harness {
@@ -20,15 +19,6 @@ bool misses_something(const Row& row) { return row.status != "ok" && row.status 
 void say_what_is_left_out(const Plan& plan) {
   for (const BackendDescription& backend : plan.broken)
     fmt::print(stderr, "left out: backend {}: {}: {}\n", backend.name, backend.status, backend.error);
-}
-
-/// A number as scene files may write it, "1/240", as one that the parser of options reads.
-std::string evaluated(const std::string& text) {
-  try {
-    return fmt::format("{}", Expressions().evaluate(text));
-  } catch (const std::invalid_argument& error) {
-    throw CLI::ValidationError(error.what());
-  }
 }
 
 }  // namespace
