@@ -93,7 +93,7 @@ TEST(Reduce, SaysWhatIsAskedWrongly) {
     EXPECT_FALSE(std::filesystem::exists(small)) << "nothing half done";
   };
   expect({"reduce", scene, small, "--backend", MISBEHAVING_BACKEND}, "there is nothing to reduce");
-  expect({"reduce", scene, small, "--backend", "bulet"}, "there is no backend \"bulet\"");
+  expect({"reduce", scene, small, "--backend", "nobody"}, "there is no backend \"nobody\"");
   expect({"reduce", scene, (folder / "small.txt").string(), "--backend", MISBEHAVING_BACKEND}, "ends with .json");
   expect({"reduce", scene, "/nowhere/small.json", "--backend", MISBEHAVING_BACKEND}, "cannot write /nowhere");
   expect({"reduce", "stacking", small, "--backend", MISBEHAVING_BACKEND}, "names several scenes");
