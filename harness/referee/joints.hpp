@@ -26,9 +26,8 @@ struct JointError {
 ///  - slider: distance of b's origin from a's x axis, and the whole angle; universal: gap, and how far a's x and b's y
 ///  are
 ///    from square; distance: |distance - rest_length|, unless limits[0] or the spring holds it instead;
-///  - generic: norm of the locked translations; with all rotations locked the whole angle, with two the angle between
-///  the
-///    axes of the third, with one how far two axes are from square.
+///  - generic: norm of the locked translations; with all rotations locked the whole angle, with two the angle
+///    between the axes of the third, with one how far two axes are from square.
 /// Limits count on the axes that the joint leaves free. Of a hinge axis 3 is the angle about x.
 [[nodiscard]] JointError joint_error(const PlumbJointDesc& joint, const Pose& body_a, const Pose& body_b);
 

@@ -26,8 +26,8 @@ enum class Apart {
 ///  - a mesh or height field against a convex shape: triangle by triangle, the deepest counts. A triangle lets go along
 ///    its front, the other shape's faces and edge pairs, but not through its back, nor over an edge further than the
 ///    surface turns away there: flat ground answers as a plane, however it is cut. Where several are cut and the whole
-///    lets go sooner along one of their directions or of the shape's faces, that way counts. Only what cuts the surface
-///    does: a body that has passed through it entirely is apart;
+///    lets go sooner along one of their directions or of the shape's faces, that way counts. What does not cut the
+///    surface is apart, a body that has passed through it entirely, too;
 ///  - compounds: the deepest pair of children.
 /// Pairs in which neither is convex (after taking compounds apart), and plane against plane, never touch: depth
 /// -infinity.

@@ -53,6 +53,23 @@ struct JointDrive {
   Real max_force[6];  ///< N, N m; 0: no motor
 };
 
+/// From a coordinate to the limits of its row, m or rad: beyond the lower one where that is above 0, beyond the upper
+/// one where that is below.
+struct WaysToLimits {
+  bool has_lower, has_upper;
+  Real lower, upper;
+};
+PLUMB_HD inline WaysToLimits ways_to_limits(const JointAxes& axes, int row, Real x) {
+  const Real lower = axes.lower[row], upper = axes.upper[row];
+  const bool has_lower = lower > -kHuge / 2, has_upper = upper < kHuge / 2;
+  if (!has_lower && !has_upper) return {false, false, 0, 0};
+  // Angles are counted from the middle between the limits, so that they jump where the joint never is.
+  const bool turns = axes.row[row].kind == RowKind::kAngle;
+  const Real middle = turns && has_lower && has_upper && upper - lower < 2 * kPi ? (lower + upper) / 2 : Real(0);
+  const Real from_middle = turns ? wrapped(x - middle) : x;
+  return {has_lower, has_upper, (lower - middle) - from_middle, (upper - middle) - from_middle};
+}
+
 /// Both frames as matrices: cosine(i, j) of axis i of a and axis j of b.
 struct JointAxesPlace {
   Mat a, b;

@@ -142,16 +142,9 @@ PLUMB_HD inline RowLaw law_of_places(const JointAxes& axes, int row, Real x, con
   const RowSpec& spec = axes.row[row];
   const bool turns = spec.kind == RowKind::kAngle;
   RowLaw law = {-kHuge, kHuge, kHuge, 0, 0, 0};
-  const Real lower = axes.lower[row], upper = axes.upper[row];
-  const bool has_lower = lower > -kHuge / 2, has_upper = upper < kHuge / 2;
-  if (has_lower || has_upper) {
-    // Angles are counted from the middle between the limits, so that they jump where the joint never is.
-    const Real middle = turns && has_lower && has_upper && upper - lower < 2 * kPi ? (lower + upper) / 2 : Real(0);
-    const Real from_middle = turns ? wrapped(x - middle) : x;
-    const Real to_lower = (lower - middle) - from_middle, to_upper = (upper - middle) - from_middle;
-    if (has_lower) law.lower = to_lower < 0 ? to_lower * time.inverse_h : min(to_lower * time.rate, time.most_return);
-    if (has_upper) law.upper = to_upper > 0 ? to_upper * time.inverse_h : max(to_upper * time.rate, -time.most_return);
-  }
+  const WaysToLimits to = ways_to_limits(axes, row, x);
+  if (to.has_lower) law.lower = to.lower < 0 ? to.lower * time.inverse_h : min(to.lower * time.rate, time.most_return);
+  if (to.has_upper) law.upper = to.upper > 0 ? to.upper * time.inverse_h : max(to.upper * time.rate, -time.most_return);
   const Real force = drive.max_force[spec.coordinate];
   if (force > 0) {
     law.steady = drive.velocity[spec.coordinate];

@@ -163,11 +163,10 @@ struct JudgeEnergy {
   /// Whether the step has opened a joint whose island has not yet all sub-steps that it may have.
   PLUMB_HD void find_opened(std::uint32_t j) const {
     const Joint& joint = work.joints.view.joints[j];
-    if (!is_pushed(joint.body_a) && !is_pushed(joint.body_b)) return;
+    if ((!is_pushed(joint.body_a) && !is_pushed(joint.body_b)) || !may_have_more(root_of(joint))) return;
     const JointAxes* axes = work.code == JointCode::kAll ? &work.joints.axes.axes[j] : nullptr;
     const Real after = openness(joint, axes, place_after(joint));
-    if (!(after > 1) || !may_have_more(root_of(joint))) return;
-    if (!(after > openness(joint, axes, place_before(joint)) + 1)) return;
+    if (!(after > 1) || !(after > openness(joint, axes, place_before(joint)) + 1)) return;
     atomic_add(&work.counters->bound.opened, 1U);
     atomic_max(&islands[root_of(joint)].opened, 1U);
   }
@@ -189,12 +188,24 @@ struct JudgeEnergy {
   }
   PLUMB_HD JointPlace place_after(const Joint& joint) const {
     const Bodies& all = work.joints.view.bodies;
+    return place_at(
+        joint, [&](std::uint32_t body) -> const Position& { return all.position[body]; },
+        [&](std::uint32_t body) -> const Quat& { return all.orientation[body]; });
+  }
+  PLUMB_HD JointPlace place_before(const Joint& joint) const {
+    return place_at(
+        joint, [&](std::uint32_t body) -> const Position& { return kept[body].position; },
+        [&](std::uint32_t body) -> const Quat& { return kept[body].orientation; });
+  }
+  template <class PositionOf, class OrientationOf>
+  PLUMB_HD static JointPlace place_at(const Joint& joint, const PositionOf& position,
+                                      const OrientationOf& orientation) {
     const auto end = [&](std::uint32_t body) -> JointEnd {
       if (body == kWorld) return {{0, 0, 0}, {0, 0, 0, 1}};
-      return {{0, 0, 0}, all.orientation[body]};
+      return {{0, 0, 0}, orientation(body)};
     };
-    const Position from = joint.body_a == kWorld ? joint.world_anchor : all.position[joint.body_a];
-    return place_joint(joint, between(from, all.position[joint.body_b]), end(joint.body_a), end(joint.body_b));
+    const Position from = joint.body_a == kWorld ? joint.world_anchor : position(joint.body_a);
+    return place_joint(joint, between(from, position(joint.body_b)), end(joint.body_a), end(joint.body_b));
   }
   PLUMB_HD bool is_pushed(std::uint32_t body) const {
     return body != kWorld && work.joints.view.bodies.velocity[body].inverse_mass > 0;
@@ -278,14 +289,6 @@ struct JudgeEnergy {
     }
     given[j] = sum;
     atomic_max(&islands[root_of(joint)].peak, ordered_bits(sum));
-  }
-  PLUMB_HD JointPlace place_before(const Joint& joint) const {
-    const auto end = [&](std::uint32_t body) -> JointEnd {
-      if (body == kWorld) return {{0, 0, 0}, {0, 0, 0, 1}};
-      return {{0, 0, 0}, kept[body].orientation};
-    };
-    const Position from = joint.body_a == kWorld ? joint.world_anchor : kept[joint.body_a].position;
-    return place_joint(joint, between(from, kept[joint.body_b].position), end(joint.body_a), end(joint.body_b));
   }
 
   PLUMB_HD BodyEnergy energy_of(std::uint32_t i) const {

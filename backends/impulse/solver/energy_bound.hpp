@@ -12,8 +12,8 @@
 // back by the same means, before energies are looked at, and solved again whole: in islands of which a joint let go
 // nothing is counted on then, and others are settled (settled_islands.hpp). So none depends on what happens in another.
 //
-// So is, next, a step that opened a joint (opened_joints.hpp): its island asks for more sub-steps then, up to all that
-// there are (choose_substeps.hpp), and others are settled likewise.
+// So is, next, a step that opened a joint (opened_joints.hpp): its island asks for more sub-steps then, of which it
+// has eight times as many at most (choose_substeps.hpp), and others are settled likewise.
 //
 // The bound is generous (kMostGain): it tells what flies apart from what does not, and is no measure of drift. Worlds
 // without joints, and solvers other than the default, are not watched.

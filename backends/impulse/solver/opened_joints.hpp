@@ -21,11 +21,8 @@ inline constexpr Real kDenied = Real(1.001);
 
 /// How far a coordinate is beyond the limits of its row, m or rad.
 PLUMB_HD inline Real beyond_limits(const JointAxes& axes, int row, Real x) {
-  const Real lower = axes.lower[row], upper = axes.upper[row];
-  const bool turns = axes.row[row].kind == RowKind::kAngle, is_between = lower > -kHuge / 2 && upper < kHuge / 2;
-  const Real middle = turns && is_between ? (lower + upper) / 2 : Real(0);
-  const Real from_middle = turns ? wrapped(x - middle) : x;
-  return max(max((lower - middle) - from_middle, from_middle - (upper - middle)), Real(0));
+  const WaysToLimits to = ways_to_limits(axes, row, x);
+  return max(to.has_lower ? to.lower : Real(0), max(to.has_upper ? -to.upper : Real(0), Real(0)));
 }
 
 /// The largest error of any row that is locked, or beyond its limit. axes: null for a joint that has no such rows.

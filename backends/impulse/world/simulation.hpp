@@ -102,7 +102,7 @@ class Simulation {
   [[nodiscard]] const Outcome& outcome() const { return outcome_; }
   [[nodiscard]] const StepCounters& counters() const { return *numbers_.counters.host(); }
   [[nodiscard]] std::uint32_t steps() const { return step_; }
-  /// Whether all is as it was before the step: it made energy, or joints let go (solver/energy_bound.hpp).
+  /// Whether all is as it was before the step: it made energy, or joints let go or opened (solver/energy_bound.hpp).
   [[nodiscard]] bool taken_back() const { return counters().bound.taken_back != 0; }
   /// Of the last step, s; NaN where it was not measured, and for phases that this engine does not tell apart.
   [[nodiscard]] double phase_seconds(PlumbPhase phase) const;

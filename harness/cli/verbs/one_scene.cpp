@@ -5,10 +5,13 @@
 
 namespace plumb::harness {
 
-Scene one_scene(const std::string& name, const std::vector<std::string>& parameters, const Times& times) {
-  const std::vector<SceneFile> files = find_scenes(name);
+SceneFile one_scene_file(const std::string& name) {
+  std::vector<SceneFile> files = find_scenes(name);
   if (files.size() != 1) throw UsageError("\"" + name + "\" names several scenes: name one, as in D7");
-  const SceneFile& file = files.front();
+  return std::move(files.front());
+}
+
+Scene one_scene(const SceneFile& file, const std::vector<std::string>& parameters, const Times& times) {
   Parameters values = file.variants.front();
   for (const std::string& given : parameters) {
     const std::size_t equals = given.find('=');

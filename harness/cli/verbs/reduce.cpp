@@ -1,14 +1,13 @@
 // plumb reduce: from a scene that an engine gets wrong to the smallest that it still does, for who has to mend it.
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
 
 #include "base/format.hpp"
 #include "base/shown.hpp"
+#include "base/temporary_folder.hpp"
 #include "cli/manual/examples.hpp"
 #include "cli/output/draft_file.hpp"
 #include "cli/output/output.hpp"
@@ -19,7 +18,6 @@
 #include "plumb/nearest.hpp"
 #include "reduce/plain_scene.hpp"
 #include "reduce/reduction.hpp"
-#include "scene/catalogue.hpp"
 #include "schedule/bench.hpp"
 
 namespace plumb::harness {
@@ -53,23 +51,15 @@ struct Failure {
 class Trials {
  public:
   Trials(const ReduceOptions& options, const std::string& backend_name, const std::string& slug)
-      : request_(options.request),
-        folder_(std::filesystem::temp_directory_path() / fmt::format("plumb-reduce-{}-{}", ::getpid(), count_++)) {
+      : request_(options.request) {
     request_.parameters.clear();  // scenes have their numbers, and their times
     request_.dt.reset();
     request_.seconds.reset();
-    request_.scenes = {(folder_ / (slug + ".json")).string()};
-    std::filesystem::create_directories(folder_);
+    request_.scenes = {(folder_.path() / (slug + ".json")).string()};
     backends_ = build_ids(open_backends({backend_name}, request_.limits()).usable);
     const BackendDescription& backend = *backends_.front().description;
     if (!backend.error.empty()) throw UsageError(fmt::format("{} cannot be loaded: {}", backend_name, backend.error));
   }
-  ~Trials() {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
-  }
-  Trials(const Trials&) = delete;
-  Trials& operator=(const Trials&) = delete;
 
   /// Throws UsageError where the scene is none.
   Row run(const Json& scene) {
@@ -84,9 +74,8 @@ class Trials {
   [[nodiscard]] std::size_t runs() const { return runs_; }
 
  private:
-  inline static int count_ = 0;
   RunRequest request_;
-  std::filesystem::path folder_;
+  TemporaryFolder folder_{"plumb-reduce"};
   std::vector<BuiltBackend> backends_;
   RunCallbacks callbacks_;
   Bench bench_{nullptr, Ranks{}, callbacks_};
@@ -126,9 +115,8 @@ int reduce(const ReduceOptions& options) {
   if (!options.to.ends_with(".json"))
     throw UsageError(fmt::format("cannot write {}: a scene's file ends with .json", shortened(options.to, 200)));
   DraftFile out(options.to);
-  const std::vector<SceneFile> files = find_scenes(options.scene);
-  const Scene scene =
-      one_scene(options.scene, options.request.parameters, {options.request.dt, options.request.seconds});
+  const SceneFile file = one_scene_file(options.scene);
+  const Scene scene = one_scene(file, options.request.parameters, {options.request.dt, options.request.seconds});
   Trials trials(options, options.backend, scene.slug);
   std::optional<Trials> others;
   if (!options.against.empty()) {
@@ -136,7 +124,7 @@ int reduce(const ReduceOptions& options) {
     as_it_is.request.settings.clear();  // they are the other's
     others.emplace(as_it_is, options.against, scene.slug);
   }
-  const Json whole = plain_scene(scene, files.front());
+  const Json whole = plain_scene(scene, file);
   const Row first = trials.run(whole);
   const Failure failure = failure_of(first, options);
   if (others && !failure.is_absent_from(others->run(whole)))

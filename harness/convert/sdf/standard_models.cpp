@@ -2,10 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <cstdlib>
+#include <filesystem>
 #include <fstream>
-
-#include "base/usage_error.hpp"
 
 namespace plumb::harness {
 namespace {
@@ -18,13 +16,6 @@ constexpr const char* ground = R"(<model name="ground_plane"><static>true</stati
 </link></model>)";
 constexpr const char* sun = R"(<light type="directional" name="sun"><direction>0 0 -1</direction></light>)";
 
-fs::path new_folder() {
-  std::string name = (fs::temp_directory_path() / "plumb-models-XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr)
-    throw UsageError("cannot make a folder in " + fs::temp_directory_path().string());
-  return name;
-}
-
 void write_model(const fs::path& folder, const std::string& name, const std::string& content) {
   fs::create_directories(folder);
   std::ofstream(folder / "model.config") << fmt::format(
@@ -34,17 +25,12 @@ void write_model(const fs::path& folder, const std::string& name, const std::str
 
 }  // namespace
 
-StandardModels::~StandardModels() {
-  std::error_code ignored;
-  if (!folder_.empty()) fs::remove_all(folder_, ignored);
-}
-
 std::string StandardModels::find(const std::string& uri) {
   for (const auto& [name, content] : {std::pair{"ground_plane", ground}, {"sun", sun}}) {
     if (uri != fmt::format("model://{}", name)) continue;
-    if (folder_.empty()) folder_ = new_folder();
-    write_model(folder_ / name, name, content);
-    return (folder_ / name).string();
+    if (!folder_) folder_.emplace("plumb-models");
+    write_model(folder_->path() / name, name, content);
+    return (folder_->path() / name).string();
   }
   return "";
 }
