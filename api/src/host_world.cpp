@@ -41,6 +41,7 @@ struct Extensions {
   const PlumbExceptionsTable* exceptions;
   const PlumbModifyTable* modify;
   const PlumbManifoldsTable* manifolds;
+  const PlumbWorldsTable* worlds;
 };
 
 class HostWorld final : public IPhysicsWorld,
@@ -53,7 +54,8 @@ class HostWorld final : public IPhysicsWorld,
                         private IState,
                         private IExceptions,
                         private IModify,
-                        private IManifolds {
+                        private IManifolds,
+                        private IWorlds {
  public:
   HostWorld(const PlumbBackendTable& table, PlumbWorld* world)
       : table_(table),
@@ -62,7 +64,8 @@ class HostWorld final : public IPhysicsWorld,
                     find<PlumbCollideTable>(PLUMB_EXT_COLLIDE),   find<PlumbDebugTable>(PLUMB_EXT_DEBUG),
                     find<PlumbSettingsTable>(PLUMB_EXT_SETTINGS), find<PlumbSnapshotTable>(PLUMB_EXT_SNAPSHOT),
                     find<PlumbStateTable>(PLUMB_EXT_STATE),       find<PlumbExceptionsTable>(PLUMB_EXT_EXCEPTIONS),
-                    find<PlumbModifyTable>(PLUMB_EXT_MODIFY),     find<PlumbManifoldsTable>(PLUMB_EXT_MANIFOLDS)} {}
+                    find<PlumbModifyTable>(PLUMB_EXT_MODIFY),     find<PlumbManifoldsTable>(PLUMB_EXT_MANIFOLDS),
+                    find<PlumbWorldsTable>(PLUMB_EXT_WORLDS)} {}
   ~HostWorld() override { table_.destroy_world(world_); }
 
   // --- core ----------------------------------------------------------------------------------------------------------
@@ -129,6 +132,7 @@ class HostWorld final : public IPhysicsWorld,
   IExceptions* exceptions() override { return extensions_.exceptions == nullptr ? nullptr : this; }
   IModify* modify() override { return extensions_.modify == nullptr ? nullptr : this; }
   IManifolds* manifolds() override { return extensions_.manifolds == nullptr ? nullptr : this; }
+  IWorlds* worlds() override { return extensions_.worlds == nullptr ? nullptr : this; }
 
  private:
   // --- extensions ----------------------------------------------------------------------------------------------------
@@ -245,6 +249,20 @@ class HostWorld final : public IPhysicsWorld,
   }
   PlumbResult list_exceptions(std::span<const PlumbBodyPair>& pairs) override {
     return look(extensions_.exceptions->list, exception_pairs_, pairs);
+  }
+
+  PlumbResult group(std::span<IPhysicsWorld* const> others) override {
+    std::vector<PlumbWorld*> handles;
+    for (IPhysicsWorld* other : others) {
+      const auto* host_world = dynamic_cast<const HostWorld*>(other);
+      if (host_world == nullptr || &host_world->table_ != &table_)
+        throw Error(PLUMB_E_INVALID_ARGUMENT, "worlds of several backends, or none of a backend's, cannot be grouped");
+      handles.push_back(host_world->world_);
+    }
+    return extensions_.worlds->group(world_, handles.data(), count_of(others));
+  }
+  PlumbResult borrow_all(const PlumbStateRequest& request, PlumbDLManagedTensor*& tensor, PlumbFence* fence) override {
+    return extensions_.worlds->borrow_all(world_, &request, &tensor, fence);
   }
 
   // --- plumbing ------------------------------------------------------------------------------------------------------

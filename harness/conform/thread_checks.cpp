@@ -1,4 +1,6 @@
 // Threads: worlds are apart, queries run side by side, and more threads give what is promised.
+#include <cmath>
+#include <memory>
 #include <thread>
 
 #include "conform/probe.hpp"
@@ -36,6 +38,82 @@ void worlds_apart(Conformance& c) {
     c.expect(together[i] == alone, "a world beside another ends in other bits than alone");
 }
 
+/// Rows of all worlds of a group, as each world reads its own.
+void expect_rows_of_all(Conformance& c, const std::vector<std::unique_ptr<Probe>>& grouped) {
+  IPhysicsWorld& first = grouped[0]->world();
+  const PlumbStateRequest request = {sizeof request, PLUMB_FIELD_POSE, 1, 1};
+  PlumbDLManagedTensor* lent = nullptr;
+  check(first, first.worlds()->borrow_all(request, lent, nullptr));
+  const PlumbDLTensor& rows = lent->dl_tensor;
+  const auto count = static_cast<std::int64_t>(grouped.size());
+  c.expect(rows.ndim == 3 && rows.shape[0] == count && rows.shape[2] == 7, "the rows of {} worlds have another shape",
+           count);
+  const auto number = [&](std::size_t world, std::size_t row, std::size_t column) {
+    const auto place = static_cast<std::int64_t>(world) * rows.strides[0] +
+                       static_cast<std::int64_t>(row) * rows.strides[1] +
+                       static_cast<std::int64_t>(column) * rows.strides[2];
+    const auto* bytes = static_cast<const std::byte*>(rows.data) + rows.byte_offset;
+    return rows.dtype.bits == 64 ? reinterpret_cast<const double*>(bytes)[place]
+                                 : static_cast<double>(reinterpret_cast<const float*>(bytes)[place]);
+  };
+  for (std::size_t world = 0; world < grouped.size(); ++world) {
+    std::span<const PlumbBody> ids;
+    std::uint64_t generation = 0;
+    check(grouped[world]->world(), grouped[world]->world().state()->row_map(ids, generation));
+    for (std::size_t row = 0; row < ids.size(); ++row) {
+      if (ids[row] == 0) continue;
+      const std::vector<double> own = grouped[world]->read(PLUMB_FIELD_POSE, ids[row]);
+      for (std::size_t k = 0; k < own.size(); ++k)
+        c.expect(std::abs(number(world, row, k) - own[k]) < 1e-5, "row {} of world {} of a group is another", row,
+                 world);
+    }
+  }
+  lent->deleter(lent);
+}
+
+/// Worlds of one group: stepped together, one left out at times, one that goes, and the rest by itself again.
+void worlds_grouped(Conformance& c) {
+  std::vector<std::unique_ptr<Probe>> alone, grouped;
+  for (int i = 0; i < 4; ++i)
+    for (auto* of : {&alone, &grouped}) {
+      of->push_back(std::make_unique<Probe>(c, c.available(kPlainNeeds)));
+      Probe& probe = *of->back();
+      probe.ground();
+      const PlumbShape cube = probe.lump(0.4);
+      for (int k = 0; k < 6; ++k) probe.dynamic(cube, {0.05 * i * k, 0.5 + 0.9 * k, 0.1 * (k % 2)});
+    }
+  IPhysicsWorld& first = grouped[0]->world();
+  if (first.worlds() == nullptr) throw Skipped{"no plumb.worlds/1"};
+  const auto others = [&] {
+    std::vector<IPhysicsWorld*> worlds;
+    for (std::size_t i = 1; i < grouped.size(); ++i) worlds.push_back(&grouped[i]->world());
+    return worlds;
+  };
+  check(first, first.worlds()->group(others()));
+  for (int step = 0; step < 120; ++step) {
+    const auto takes_part = [&](std::size_t i) { return i != 2 || step % 3 != 0; };
+    for (std::size_t i = 0; i < grouped.size(); ++i)
+      if (takes_part(i)) check(grouped[i]->world(), grouped[i]->world().step(1.0 / 60));
+    for (std::size_t i = 0; i < grouped.size(); ++i) {
+      if (!takes_part(i)) continue;
+      PlumbStepReport report;
+      check(grouped[i]->world(), grouped[i]->world().wait(report));
+      alone[i]->step();
+    }
+    if (step == 40) {
+      grouped.pop_back();
+      alone.pop_back();
+      check(first, first.worlds()->group(others()));
+    }
+    if (step == 60) expect_rows_of_all(c, grouped);
+    if (step == 30) expect_rows_of_all(c, grouped);
+    if (step == 80) check(first, first.worlds()->group({}));
+  }
+  if (c.backend().info().determinism == PLUMB_DETERMINISM_NONE) return;
+  for (std::size_t i = 0; i < grouped.size(); ++i)
+    c.expect(grouped[i]->hash() == alone[i]->hash(), "world {} of a group ends in other bits than alone", i);
+}
+
 void more_threads(Conformance& c) {
   const std::uint64_t one = tumble(c, 1), four = tumble(c, 4);
   if (c.backend().info().determinism >= PLUMB_DETERMINISM_THREADS)
@@ -69,6 +147,7 @@ void queries_together(Conformance& c) {
 std::span<const Check> thread_checks() {
   static constexpr Check checks[] = {
       {"threads.worlds", "two worlds in two threads", &worlds_apart},
+      {"threads.group", "worlds whose steps are taken together", &worlds_grouped},
       {"threads.more", "a world with more threads", &more_threads},
       {"threads.queries", "queries from several threads at once", &queries_together},
   };

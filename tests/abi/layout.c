@@ -21,4 +21,5 @@ static_assert(sizeof(PLUMB_EXT_QUERIES) == sizeof("plumb.queries/1"), "PLUMB_EXT
 static_assert(sizeof(PLUMB_EXT_SETTINGS) == sizeof("plumb.settings/1"), "PLUMB_EXT_SETTINGS has changed");
 static_assert(sizeof(PLUMB_EXT_SNAPSHOT) == sizeof("plumb.snapshot/1"), "PLUMB_EXT_SNAPSHOT has changed");
 static_assert(sizeof(PLUMB_EXT_STATE) == sizeof("plumb.state/1"), "PLUMB_EXT_STATE has changed");
+static_assert(sizeof(PLUMB_EXT_WORLDS) == sizeof("plumb.worlds/1"), "PLUMB_EXT_WORLDS has changed");
 static_assert(sizeof(PLUMB_OPEN_SYMBOL) == sizeof("plumb_backend_open"), "the symbol has changed");

@@ -201,6 +201,11 @@ SIZE(PlumbStateTable, 24)
   AT(PlumbStateTable, struct_size, 0) AT(PlumbStateTable, reserved, 4) AT(PlumbStateTable, borrow, 8)
   AT(PlumbStateTable, rows, 16)
 
+/* worlds.h */
+SIZE(PlumbWorldsTable, 24)
+  AT(PlumbWorldsTable, struct_size, 0) AT(PlumbWorldsTable, reserved, 4) AT(PlumbWorldsTable, group, 8)
+  AT(PlumbWorldsTable, borrow_all, 16)
+
 /* plumb.h */
 SIZE(PlumbHost, 32)
   AT(PlumbHost, struct_size, 0) AT(PlumbHost, worker_count, 4) AT(PlumbHost, user, 8) AT(PlumbHost, log, 16)

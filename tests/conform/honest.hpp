@@ -21,6 +21,7 @@ struct Tables {
   PlumbExceptionsTable exceptions;
   PlumbModifyTable modify;
   PlumbManifoldsTable manifolds;
+  PlumbWorldsTable worlds;
 };
 
 inline Tables honest{}, liar{};

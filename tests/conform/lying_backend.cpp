@@ -32,6 +32,7 @@ const void* extension(const char* name) {
   if (wanted == PLUMB_EXT_EXCEPTIONS) return &liar.exceptions;
   if (wanted == PLUMB_EXT_MODIFY) return &liar.modify;
   if (wanted == PLUMB_EXT_MANIFOLDS) return &liar.manifolds;
+  if (wanted == PLUMB_EXT_WORLDS) return &liar.worlds;
   return truth;
 }
 
@@ -52,6 +53,7 @@ void take_tables(const PlumbBackendTable& table) {
   take(honest.exceptions, PLUMB_EXT_EXCEPTIONS);
   take(honest.modify, PLUMB_EXT_MODIFY);
   take(honest.manifolds, PLUMB_EXT_MANIFOLDS);
+  take(honest.worlds, PLUMB_EXT_WORLDS);
   liar = honest;
   liar.core.extension = &extension;
   liar.core.info = []() -> const PlumbBackendInfo* { return &liar.info; };

@@ -314,4 +314,12 @@ void reactions_on_the_other_body() {
   }>();
 }
 
+void groups_lose_their_gravity() {
+  liar.worlds.group = [](PlumbWorld* world, PlumbWorld* const* others, std::uint32_t count) {
+    const PlumbVec3 none = {0, 0, 0};
+    if (count != 0) (void)honest.core.set_gravity(others[0], &none);
+    return honest.worlds.group(world, others, count);
+  };
+}
+
 }  // namespace plumb::lying

@@ -30,9 +30,13 @@ class Fuzzer {
     modify_ = static_cast<const PlumbModifyTable*>(table_.extension(PLUMB_EXT_MODIFY));
     manifolds_ = static_cast<const PlumbManifoldsTable*>(table_.extension(PLUMB_EXT_MANIFOLDS));
     state_ = static_cast<const PlumbStateTable*>(table_.extension(PLUMB_EXT_STATE));
+    worlds_ = static_cast<const PlumbWorldsTable*>(table_.extension(PLUMB_EXT_WORLDS));
     fresh_world();
   }
-  ~Fuzzer() { table_.destroy_world(world_); }
+  ~Fuzzer() {
+    table_.destroy_world(world_);
+    table_.destroy_world(companion_);
+  }
 
   /// Makes one call; false when a rule was broken.
   bool call() {
@@ -122,6 +126,8 @@ class Fuzzer {
   void fresh_world() {
     table_.destroy_world(world_);
     world_ = nullptr;
+    table_.destroy_world(companion_);
+    companion_ = nullptr;
     shapes_.clear();
     bodies_.clear();
     joint_ids_.clear();
@@ -130,9 +136,11 @@ class Fuzzer {
       if (backend_.capability(PLUMB_CAP_NEED, i) != PLUMB_NONE) offered |= PlumbNeeds{1} << i;
     PlumbWorldDesc desc = plumb::world_desc(offered);
     if (chance(2)) desc.needs &= random_() | PLUMB_NEED_SNAPSHOT;
-    if (table_.create_world(&desc, &world_) >= 0) return;
-    desc.needs = offered;  // some only go with others
-    if (table_.create_world(&desc, &world_) < 0) broken_ = "a plain world cannot be made";
+    if (table_.create_world(&desc, &world_) < 0) {
+      desc.needs = offered;  // some only go with others
+      if (table_.create_world(&desc, &world_) < 0) broken_ = "a plain world cannot be made";
+    }
+    if (table_.create_world(&desc, &companion_) < 0) broken_ = "a second world cannot be made";
   }
 
   void create_shape() {
@@ -310,6 +318,18 @@ class Fuzzer {
     digest_ = digest;
   }
 
+  /// With a world in which nothing is, which takes part in some steps.
+  void group() {
+    if (worlds_ == nullptr) return;
+    PlumbWorld* const others[2] = {chance(20) ? nullptr : companion_, chance(2) ? world_ : companion_};
+    judge(worlds_->group(world_, chance(60) ? nullptr : others, chance(20) ? 2 : chance(4) ? 0 : 1));
+    const PlumbStateRequest request = {sizeof request, below(3), 1 + static_cast<std::int32_t>(below(2)), below(2)};
+    PlumbDLManagedTensor* tensor = nullptr;
+    const std::uint64_t digest = digest_;
+    if (judge(worlds_->borrow_all(world_, &request, &tensor, nullptr))) tensor->deleter(tensor);
+    digest_ = digest;
+  }
+
   void except() {
     if (exceptions_ == nullptr) return;
     PlumbBodyPair pairs[3];
@@ -378,12 +398,15 @@ class Fuzzer {
     last_dt_ = desc.dt;
     PlumbStepReport report{};
     report.struct_size = chance(20) ? below(sizeof report) : sizeof report;
+    const PlumbStepDesc own = {sizeof own, 0, 1.0 / 60};
+    const bool together = chance(2) && table_.step(companion_, &own) >= 0;
     if (judge(table_.step(world_, chance(200) ? nullptr : &desc))) {
       if (chance(100)) judge(table_.step(world_, &desc));  // one is under way
       if (chance(2)) modify_manifolds();
       judge(table_.wait(world_, &report));
       note_state();
     }
+    if (together && table_.wait(companion_, nullptr) < 0) broken_ = "an empty world cannot be stepped";
     if (chance(100)) judge(table_.wait(world_, &report));  // none is
   }
 
@@ -425,7 +448,7 @@ class Fuzzer {
 
   void one_call() {
     const bool full = bodies_.size() > 40;
-    switch (below(19)) {
+    switch (below(20)) {
       case 0: return shapes_.size() < 30 ? create_shape() : destroy_some();
       case 1:
       case 2: return full ? destroy_some() : create_bodies();
@@ -442,6 +465,7 @@ class Fuzzer {
       case 13: return except();
       case 14:
       case 15: return chance(2) ? modify_bodies() : modify_joint();
+      case 16: return chance(10) ? group() : step();
       default: return step();
     }
   }
@@ -449,7 +473,7 @@ class Fuzzer {
   const PlumbBackendTable& table_;
   const plumb::Backend& backend_;
   std::mt19937_64 random_;
-  PlumbWorld* world_ = nullptr;
+  PlumbWorld *world_ = nullptr, *companion_ = nullptr;
   const PlumbJointsTable* joints_ = nullptr;
   const PlumbQueriesTable* queries_ = nullptr;
   const PlumbSettingsTable* settings_ = nullptr;
@@ -460,6 +484,7 @@ class Fuzzer {
   const PlumbExceptionsTable* exceptions_ = nullptr;
   const PlumbModifyTable* modify_ = nullptr;
   const PlumbManifoldsTable* manifolds_ = nullptr;
+  const PlumbWorldsTable* worlds_ = nullptr;
   std::vector<std::uint64_t> shapes_, bodies_, joint_ids_;
   double last_dt_ = 0;
   std::uint64_t calls_ = 0, digest_ = 0xcbf29ce484222325U, refused_ = 0, done_ = 0, worlds_lost_ = 0;

@@ -229,6 +229,19 @@ class IManifolds {
   virtual PlumbResult modify_manifolds(std::span<const PlumbManifoldChange> changes) = 0;
 };
 
+class IPhysicsWorld;
+
+/// plumb.worlds/1. A backend gets worlds of its own class, all different, none within a step.
+class IWorlds {
+ public:
+  virtual ~IWorlds() = default;
+  /// This world and the others, or where there are none this one by itself.
+  virtual PlumbResult group(std::span<IPhysicsWorld* const> others) = 0;
+  /// A backend gets requests for poses or velocities.
+  virtual PlumbResult borrow_all(const PlumbStateRequest& request, PlumbDLManagedTensor*& tensor,
+                                 PlumbFence* fence) = 0;
+};
+
 // --- the world -------------------------------------------------------------------------------------------------------
 
 class IPhysicsWorld {
@@ -272,6 +285,7 @@ class IPhysicsWorld {
   virtual IExceptions* exceptions() { return nullptr; }
   virtual IModify* modify() { return nullptr; }
   virtual IManifolds* manifolds() { return nullptr; }
+  virtual IWorlds* worlds() { return nullptr; }
 
   // Only the host calls what follows; backend.hpp answers it for every backend.
 

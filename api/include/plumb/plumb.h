@@ -24,6 +24,7 @@
 #include "plumb/state.h"
 #include "plumb/types.h"
 #include "plumb/world.h"
+#include "plumb/worlds.h"
 
 #ifdef __cplusplus
 extern "C" {

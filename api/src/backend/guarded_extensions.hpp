@@ -253,10 +253,7 @@ class GuardedExtensions : public GuardedWorld {
   }
 
   PlumbResult borrow(const PlumbStateRequest* request, PlumbDLManagedTensor** tensor, PlumbFence* fence) {
-    require_pointer(request, 1, "request");
-    require_pointer(tensor, 1, "tensor");
-    if (request->field != PLUMB_FIELD_POSE && request->field != PLUMB_FIELD_VELOCITY)
-      refuse(PLUMB_E_INVALID_ARGUMENT, "only pose and velocity rows are lent");
+    require_state_request(request, tensor);
     if (IState* extension = world_->state(); extension != nullptr) return extension->borrow(*request, *tensor, fence);
     if (request->device_type != kHostDevice)
       refuse(PLUMB_E_UNSUPPORTED,
@@ -280,6 +277,13 @@ class GuardedExtensions : public GuardedWorld {
   }
 
  protected:
+  static void require_state_request(const PlumbStateRequest* request, PlumbDLManagedTensor** tensor) {
+    require_pointer(request, 1, "request");
+    require_pointer(tensor, 1, "tensor");
+    if (request->field != PLUMB_FIELD_POSE && request->field != PLUMB_FIELD_VELOCITY)
+      refuse(PLUMB_E_INVALID_ARGUMENT, "only pose and velocity rows are lent");
+  }
+
   template <class Extension>
   Extension& require_extension(Extension* extension, const char* name) const {
     if (extension == nullptr) refuse(PLUMB_E_UNSUPPORTED, std::string(facts_.info->name) + " has no " + name);

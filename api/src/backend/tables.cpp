@@ -5,7 +5,7 @@
 #include <memory>
 #include <string_view>
 
-#include "guarded_manifolds.hpp"
+#include "guarded_worlds.hpp"
 
 namespace plumb::backend {
 
@@ -18,7 +18,7 @@ template <class Guard, class... Arguments, PlumbResult (Guard::*Member)(Argument
 struct Entry<Member> {
   static PlumbResult call(PlumbWorld* world, Arguments... arguments) noexcept {
     if (world == nullptr) return PLUMB_E_INVALID_ARGUMENT;
-    auto& guarded = *reinterpret_cast<GuardedManifolds*>(world);
+    auto& guarded = *reinterpret_cast<GuardedWorlds*>(world);
     return guarded.guard([&] { return (guarded.*Member)(arguments...); });
   }
 };
@@ -55,6 +55,8 @@ const PlumbModifyTable kModifyTable = {sizeof(PlumbModifyTable), 0, &Entry<&Guar
 const PlumbManifoldsTable kManifoldsTable = {sizeof(PlumbManifoldsTable), 0,
                                              &Entry<&GuardedManifolds::read_manifolds>::call,
                                              &Entry<&GuardedManifolds::modify_manifolds>::call};
+const PlumbWorldsTable kWorldsTable = {sizeof(PlumbWorldsTable), 0, &Entry<&GuardedWorlds::group>::call,
+                                       &Entry<&GuardedWorlds::borrow_all>::call};
 const PlumbStateTable kStateTable = {sizeof(PlumbStateTable), 0, &Entry<&GuardedExtensions::borrow>::call,
                                      &Entry<&GuardedExtensions::state_rows>::call};
 
@@ -64,12 +66,12 @@ std::string& creation_error() {
 }
 
 const char* error_text(PlumbWorld* world) {
-  return world == nullptr ? creation_error().c_str() : reinterpret_cast<GuardedManifolds*>(world)->error_text();
+  return world == nullptr ? creation_error().c_str() : reinterpret_cast<GuardedWorlds*>(world)->error_text();
 }
 
 void destroy_world(PlumbWorld* world) {
   try {
-    delete reinterpret_cast<GuardedManifolds*>(world);
+    delete reinterpret_cast<GuardedWorlds*>(world);
   } catch (...) {  // a destructor that throws has nowhere to report to
   }
 }
@@ -140,6 +142,7 @@ const void* extension_table(const BackendFacts& facts, const PlumbSettingsTable&
   if (wanted == PLUMB_EXT_EXCEPTIONS && facts.has_exceptions) return &kExceptionsTable;
   if (wanted == PLUMB_EXT_MODIFY && facts.has_modify) return &kModifyTable;
   if (wanted == PLUMB_EXT_MANIFOLDS && facts.has_manifolds) return &kManifoldsTable;
+  if (wanted == PLUMB_EXT_WORLDS && facts.has_worlds) return &kWorldsTable;
   if (wanted == PLUMB_EXT_SETTINGS && facts.has_settings) return &settings;
   return nullptr;
 }
@@ -164,7 +167,7 @@ PlumbResult create_guarded_world(const BackendFacts& facts, const PlumbHost* hos
     require_pointer(world, 1, "world");
     const WorldInit init = checked_init(facts, host, desc);
     std::unique_ptr<IPhysicsWorld> made(facts.make(init));
-    *world = reinterpret_cast<PlumbWorld*>(new GuardedManifolds(facts, init, std::move(made)));
+    *world = reinterpret_cast<PlumbWorld*>(new GuardedWorlds(facts, init, std::move(made)));
     return PLUMB_OK;
   } catch (const Error& error) {
     return failed(error.code(), error.what());

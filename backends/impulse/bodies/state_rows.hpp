@@ -41,10 +41,22 @@ struct RowBlock {
   Signal written;
 };
 
+/// A part of somebody's block; none where rows is null.
+template <class Row>
+struct RowSlice {
+  Row* rows = nullptr;  ///< kernels' memory
+  std::uint32_t count = 0;
+};
+
 /// The rows of one field.
 template <class Row>
 class FieldRows {
  public:
+  /// From now on what is written stands there, too; whoever records steps has to do it anew.
+  void also_write(const RowSlice<Row>& slice) {
+    slice_ = slice;
+    version_ = 0;
+  }
   /// Whether the steps to come bring rows, and whether to the host too.
   [[nodiscard]] bool in_step() const { return wanted_; }
   /// Asks for it. Returns whether that is news.
@@ -79,8 +91,9 @@ class FieldRows {
 
  private:
   bool wanted_ = false, to_host_ = false, on_host_ = false;
-  std::uint64_t version_ = 0;
+  std::uint64_t version_ = 0;  // of which the rows are; that of no state where they are to be written anew
   std::shared_ptr<RowBlock<Row>> block_;
+  RowSlice<Row> slice_;
 };
 
 }  // namespace plumb::impulse

@@ -22,6 +22,8 @@
 //   on_host(n, f)       f(i) for every i < n on threads of the host, for a few i that take long; host_threads() is how
 //                       many there are. Not enqueued: all is done when it returns
 //   wait()              returns when all that was enqueued is done
+//   join(batch), leave(), is_in_batch()   what is recorded from then on is taken together with what the others of the
+//                       batch record, when one of them waits; a CPU takes each by itself
 //   send(Signal)        the signal is given when all that was enqueued is done: what an outsider's stream can wait for
 //   unmet_requirement() a sentence that says why this machine cannot run it, or ""
 //   device_name()       "cpu" or the name of the GPU

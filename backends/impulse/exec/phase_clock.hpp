@@ -2,6 +2,7 @@
 // same members:
 //
 //   measures(step)         whether the step of this number is measured
+//   measure(on)            whether what is enqueued from here on is
 //   start(executor)        the step begins here
 //   end(executor, phase)   what was enqueued since the last call belongs to the phase; a phase ends once a step
 //   seconds(phase)         after wait(): what the phase took in the last measured step, 0 where it was left out

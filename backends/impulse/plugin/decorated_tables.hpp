@@ -73,6 +73,7 @@ class DecoratedTables {
     using SettingsTable = PlumbSettingsTable;
     using Snapshot = PlumbSnapshotTable;
     using State = PlumbStateTable;
+    using Worlds = PlumbWorldsTable;
     const std::string_view wanted = name == nullptr ? "" : name;
     if (wanted == PLUMB_EXT_COLLIDE) return served<Collide, &Collide::pairs>(name);
     if (wanted == PLUMB_EXT_DEBUG)
@@ -88,6 +89,7 @@ class DecoratedTables {
     if (wanted == PLUMB_EXT_SNAPSHOT)
       return served<Snapshot, &Snapshot::save, &Snapshot::restore, &Snapshot::hash, &Snapshot::save_world>(name);
     if (wanted == PLUMB_EXT_STATE) return served<State, &State::borrow, &State::rows>(name);
+    if (wanted == PLUMB_EXT_WORLDS) return served<Worlds, &Worlds::group, &Worlds::borrow_all>(name);
     return nullptr;
   }
 };

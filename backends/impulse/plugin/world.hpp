@@ -11,6 +11,7 @@
 #include "plugin/rows/joint_record.hpp"
 #include "plugin/rows/proxy_slots.hpp"
 #include "plugin/rows/slot_list.hpp"
+#include "plugin/rows/world_group.hpp"
 #include "plugin/settings.hpp"
 #include "plumb/backend/touch_tracker.hpp"
 #include "plumb/backend/world_init.hpp"
@@ -30,9 +31,11 @@ class World final : public IPhysicsWorld,
                     public IState,
                     public IExceptions,
                     public IModify,
-                    public IManifolds {
+                    public IManifolds,
+                    public IWorlds {
  public:
   explicit World(const WorldInit& init);
+  ~World() override;
 
   static const PlumbBackendInfo& info();
   static std::string unmet_requirement() { return Executor::unmet_requirement(); }
@@ -67,6 +70,7 @@ class World final : public IPhysicsWorld,
   IExceptions* exceptions() override { return this; }
   IModify* modify() override { return this; }
   IManifolds* manifolds() override { return this; }
+  IWorlds* worlds() override { return this; }
 
  private:
   PlumbResult create_joints(std::span<const PlumbJointDesc> descs, std::span<PlumbJoint> ids) override;
@@ -99,12 +103,18 @@ class World final : public IPhysicsWorld,
   PlumbResult read_manifolds(std::span<const PlumbManifold>& manifolds) override;
   PlumbResult modify_manifolds(std::span<const PlumbManifoldChange> changes) override;
 
+  PlumbResult group(std::span<IPhysicsWorld* const> others) override;
+  PlumbResult borrow_all(const PlumbStateRequest& request, PlumbDLManagedTensor*& tensor, PlumbFence* fence) override;
+
   /// A share of a step that the simulation takes as a whole.
   struct StepPart {
     double dt;    ///< s
     int divided;  ///< how many times over
   };
 
+  void leave_group();
+  template <class Row>
+  void share_rows(std::shared_ptr<RowBlock<Row>>& block);
   void exchange(Archive& archive);
   void make_room(const Simulation::Extent& rows);
   void exchange_proxies(Archive& archive);
@@ -195,6 +205,7 @@ class World final : public IPhysicsWorld,
     std::vector<PlumbDebugBody> bodies;
     std::vector<PlumbDebugConstraint> constraints;
     std::vector<std::byte> snapshot;
+    std::shared_ptr<WorldGroup> group;  // null where it is by itself
   };
   struct Queries {
     std::mutex mutex;  // of what queries build when they need it, and of the batches

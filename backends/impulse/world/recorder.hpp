@@ -2,7 +2,6 @@
 #pragma once
 
 #include "exec/executor.hpp"
-#include "exec/phase_clock.hpp"
 #include "world/step_context.hpp"
 
 namespace plumb::impulse {
@@ -14,14 +13,14 @@ class StepRecorder {
   [[nodiscard]] std::uint64_t generation() const { return generation_; }
 
   /// Of the step of this number, or of its second half.
-  Recording& recording(std::uint32_t number, const StepInput& input, bool second_half = false) {
+  Recording& recording(std::uint32_t number, bool measured, const StepInput& input, bool second_half = false) {
     if (!(input == recorded_)) {
       for (auto& of_half : recordings_)
         for (auto& of_parity : of_half)
           for (Recording& recording : of_parity) recording.forget();
       recorded_ = input;
     }
-    return recordings_[second_half ? 1 : 0][PhaseClock::measures(number) ? 1 : 0][number % 2];
+    return recordings_[second_half ? 1 : 0][measured ? 1 : 0][number % 2];
   }
 
  private:

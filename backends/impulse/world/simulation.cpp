@@ -27,6 +27,9 @@ Simulation::Simulation(const PlumbHost* host, std::uint32_t threads, const Solve
   reserve_pairs(kLeastPairs);
 }
 
+/// What a batch has yet to launch works with memory that goes with this.
+Simulation::~Simulation() { executor_.leave(); }
+
 // --- room ---
 
 void Simulation::reserve_bodies(std::uint32_t slots) {
@@ -199,13 +202,13 @@ void Simulation::launch() {
   reserve_rows();
   PLUMB_ASSERT(numbers_.parameters[0].dt > 0);
   PLUMB_ASSERT(bodies.count < bodies.size() && colliders.count <= colliders.proxies.size());
-  shows_ = stages_.modifies_contacts;
-  enqueue(shows_ ? Half::kDetection : Half::kBoth);
+  last_.shows = stages_.modifies_contacts;
+  enqueue(last_.shows ? Half::kDetection : Half::kBoth);
 }
 
 void Simulation::respond(std::span<const ManifoldChange> changes) {
-  PLUMB_ASSERT(shows_);
-  shows_ = false;
+  PLUMB_ASSERT(last_.shows);
+  last_.shows = false;
   stages_.modification.change(executor_, changes);
   enqueue(Half::kResponse);
 }
@@ -213,7 +216,10 @@ void Simulation::respond(std::span<const ManifoldChange> changes) {
 void Simulation::enqueue(Half half) {
   NarrowPhase& narrow_phase = stages_.narrow_phase;
   const StepInput known = input();
-  executor_.record(recorder_.recording(step_, known, half == Half::kResponse), [&] {
+  // A batch has no time for one of its worlds; and what modifies contacts has the host's time in its own.
+  last_.measured = PhaseClock::measures(step_) && !executor_.is_in_batch() && !stages_.modifies_contacts;
+  stages_.phases.measure(last_.measured);
+  executor_.record(recorder_.recording(step_, last_.measured, known, half == Half::kResponse), [&] {
     const StepContext step = {known,
                               executor_,
                               stages_,
@@ -254,7 +260,7 @@ bool Simulation::wait() {
     executor_.wait();
   }
   PLUMB_ASSERT(candidate_count() <= stages_.pair_capacity || taken_back());
-  if (shows_) return false;
+  if (last_.shows) return false;
   PLUMB_ASSERT(counters().manifolds <= candidate_count());
   if (taken_back()) --step_;
   if (taken_back() || !stages_.features.sleeping) return true;
@@ -267,8 +273,7 @@ bool Simulation::wait() {
 
 double Simulation::phase_seconds(PlumbPhase phase) const {
   const bool told = phase <= PLUMB_PHASE_SOLVE || phase == PLUMB_PHASE_OUTPUT;
-  if (stages_.modifies_contacts) return std::numeric_limits<double>::quiet_NaN();  // the host's time is in it
-  return told && PhaseClock::measures(step_) ? stages_.phases.seconds(phase) : std::numeric_limits<double>::quiet_NaN();
+  return told && last_.measured ? stages_.phases.seconds(phase) : std::numeric_limits<double>::quiet_NaN();
 }
 
 std::vector<ContactRecord> Simulation::contacts() {

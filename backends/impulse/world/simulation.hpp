@@ -23,6 +23,7 @@ class Simulation {
   using Slots = std::vector<std::uint32_t>;
 
   Simulation(const PlumbHost* host, std::uint32_t threads, const SolverFeatures& features);
+  ~Simulation();
 
   // --- what the host fills ---
   BodyTable bodies;
@@ -107,6 +108,8 @@ class Simulation {
   /// Of the last step, s; NaN where it was not measured, and for phases that this engine does not tell apart.
   [[nodiscard]] double phase_seconds(PlumbPhase phase) const;
   [[nodiscard]] Executor& executor() { return executor_; }
+  /// The steps to come are taken with those of the others of the batch; null: by themselves. Between steps.
+  void join(std::shared_ptr<Batch> batch) { executor_.join(std::move(batch)); }
 
   /// Manifolds of the last step, copied to the host. Impulses are 0 where the scene did not ask for them.
   [[nodiscard]] std::vector<ContactRecord> contacts();
@@ -133,6 +136,16 @@ class Simulation {
   [[nodiscard]] std::shared_ptr<RowBlock<PoseRow>> pose_rows(bool on_host) { return rows(output_.poses, on_host); }
   [[nodiscard]] std::shared_ptr<RowBlock<VelocityRow>> velocity_rows(bool on_host) {
     return rows(output_.velocities, on_host);
+  }
+
+  /// From now on rows stand there, too: in a block of those of many worlds. Between steps.
+  void also_write(const RowSlice<PoseRow>& poses) {
+    output_.poses.also_write(poses);
+    recorder_.forget();
+  }
+  void also_write(const RowSlice<VelocityRow>& velocities) {
+    output_.velocities.also_write(velocities);
+    recorder_.forget();
   }
 
  private:
@@ -188,7 +201,11 @@ class Simulation {
   std::uint64_t list_version_ = 1;  // changes when a body may have, but for those that the step moves
   Dirty dirty_;
   bool restored_ = false;  // since the last step: what it found is not known
-  bool shows_ = false;     // what the step has found waits for respond()
+  /// Of the last step, or the one that is under way.
+  struct Last {
+    bool shows = false;     // what it has found waits for respond()
+    bool measured = false;  // so are its phases
+  } last_;
 };
 
 }  // namespace plumb::impulse

@@ -16,7 +16,8 @@ class FakeWorld final : public IPhysicsWorld,
                         public ISnapshot,
                         public IExceptions,
                         public IModify,
-                        public IManifolds {
+                        public IManifolds,
+                        public IWorlds {
  public:
   explicit FakeWorld(const WorldInit& init) : iterations_(init.setting("iterations").number) { last = this; }
 
@@ -117,6 +118,7 @@ class FakeWorld final : public IPhysicsWorld,
   IExceptions* exceptions() override { return this; }
   IModify* modify() override { return this; }
   IManifolds* manifolds() override { return this; }
+  IWorlds* worlds() override { return this; }
 
   PlumbResult create_joints(std::span<const PlumbJointDesc>, std::span<PlumbJoint>) override { return called(); }
   PlumbResult destroy_joints(std::span<const PlumbJoint>) override { return called(); }
@@ -171,6 +173,14 @@ class FakeWorld final : public IPhysicsWorld,
     return called();
   }
 
+  PlumbResult group(std::span<IPhysicsWorld* const> others) override {
+    grouped_with.assign(others.begin(), others.end());
+    return called();
+  }
+
+  PlumbResult borrow_all(const PlumbStateRequest&, PlumbDLManagedTensor*&, PlumbFence*) override { return called(); }
+
+  std::vector<IPhysicsWorld*> grouped_with;
   std::vector<PlumbManifold> shown;
   std::vector<PlumbManifoldChange> manifold_changes;
   std::vector<PlumbBodyChange> body_changes;

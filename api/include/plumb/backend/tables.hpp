@@ -28,7 +28,8 @@ struct BackendFacts {
   PlumbDegree (*capability)(PlumbCapability kind, std::uint32_t a, std::uint32_t b, const char*& note);
   std::span<const PlumbSettingInfo> settings;
   IPhysicsWorld* (*make)(const WorldInit& init);  ///< new World(init)
-  bool has_joints, has_queries, has_collide, has_debug, has_exceptions, has_modify, has_manifolds, has_settings;
+  bool has_joints, has_queries, has_collide, has_debug, has_exceptions, has_modify, has_manifolds, has_worlds,
+      has_settings;
 };
 
 /// The entries of PlumbBackendTable that depend on the class, for they are given nothing that would name it.
@@ -75,6 +76,7 @@ class Tables {
                                        std::derived_from<World, IExceptions>,
                                        std::derived_from<World, IModify>,
                                        std::derived_from<World, IManifolds>,
+                                       std::derived_from<World, IWorlds>,
                                        std::derived_from<World, ISettings>};
     return facts;
   }

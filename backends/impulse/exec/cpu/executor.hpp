@@ -1,6 +1,7 @@
 // The executor of the CPU library: kernels run at once, on the world's threads.
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include "exec/cpu/recording.hpp"
@@ -55,6 +56,9 @@ struct Signal {
   [[nodiscard]] void* handle() const { return nullptr; }
 };
 
+/// Worlds that are stepped together. On a CPU they are not: a thread a world is all that can be done.
+class Batch {};
+
 class Executor {
  public:
   static constexpr bool kWarps = false;              // whether neighbouring threads must do the same to be fast
@@ -69,6 +73,9 @@ class Executor {
   static std::uint32_t max_threads() { return ThreadPool::processors(); }
 
   [[nodiscard]] std::uint32_t threads() const { return pool_.threads(); }
+  void join(const std::shared_ptr<Batch>& /*batch*/) {}
+  [[nodiscard]] static bool is_in_batch() { return false; }
+  void leave() noexcept {}
 
   template <class F>
   void run(std::uint32_t n, const F& f) {

@@ -37,7 +37,8 @@ Executor::Executor(const PlumbHost* host, std::uint32_t threads)
   check_cuda(cudaGetDevice(&device), "there is no CUDA device");
   check_cuda(cudaDeviceGetAttribute(&multiprocessors, cudaDevAttrMultiProcessorCount, device), "cannot ask the device");
   multiprocessors_ = static_cast<std::uint32_t>(multiprocessors);
-  check_cuda(cudaStreamCreateWithFlags(&stream_, cudaStreamNonBlocking), "cannot make a stream");
+  check_cuda(cudaStreamCreateWithFlags(&own_stream_, cudaStreamNonBlocking), "cannot make a stream");
+  stream_ = own_stream_;
   void* barrier = memory::allocate(sizeof(TeamBarrier));
   memory::fill(barrier, 0, sizeof(TeamBarrier));
   barrier_ = static_cast<TeamBarrier*>(barrier);
@@ -46,7 +47,35 @@ Executor::Executor(const PlumbHost* host, std::uint32_t threads)
 Executor::~Executor() {
   (void)cudaStreamSynchronize(stream_);
   memory::release(barrier_);
-  (void)cudaStreamDestroy(stream_);
+  (void)cudaStreamDestroy(own_stream_);
+}
+
+void Executor::join(std::shared_ptr<Batch> batch) {
+  wait();
+  batch_ = std::move(batch);
+  stream_ = batch_ != nullptr ? batch_->stream() : own_stream_;
+}
+
+void Executor::leave() noexcept {
+  try {
+    if (is_in_batch()) join(nullptr);
+  } catch (const Error&) {  // the device is lost
+    batch_ = nullptr;
+    stream_ = own_stream_;
+  }
+}
+
+void Executor::enqueue_past_batch() {
+  batch_->launch();
+  for (const Transfer& upload : uploads_) copy(upload, cudaMemcpyHostToDevice);
+  uploads_.clear();
+  batch_->enqueued();
+}
+
+void Executor::wait() {
+  if (!is_in_batch()) return check_cuda(cudaStreamSynchronize(stream_), "a kernel failed");
+  if (!uploads_.empty()) enqueue_past_batch();
+  batch_->wait();
 }
 
 /// A thread a task, which lasts longer than it takes to start one.

@@ -1,11 +1,16 @@
-// The executor of the CUDA library: kernels are enqueued on one stream; a recorded sequence is one graph launch.
+// The executor of the CUDA library: kernels are enqueued on one stream; a recorded sequence is one graph launch, or a
+// part of a batch with those of other worlds.
 #pragma once
 
 #include <cuda_runtime.h>
 
 #include <cstdint>
+#include <memory>
+#include <vector>
 
+#include "exec/cuda/batch.hpp"
 #include "exec/cuda/check.hpp"
+#include "exec/cuda/launch_list.cuh"
 #include "exec/cuda/team_threads.hpp"
 #include "exec/executor.hpp"
 #include "exec/memory.hpp"
@@ -35,7 +40,7 @@ class Team {
 };
 #endif
 
-/// A captured graph. Must be forgotten when a buffer that it uses was grown.
+/// A captured graph, or in a batch a list of launches. Must be forgotten when a buffer that it uses was grown.
 class Recording {
  public:
   Recording() = default;
@@ -45,11 +50,13 @@ class Recording {
   void forget() {
     if (graph_ != nullptr) (void)cudaGraphExecDestroy(graph_);
     graph_ = nullptr;
+    list_.clear();
   }
 
  private:
   friend class Executor;
   cudaGraphExec_t graph_ = nullptr;
+  LaunchList list_;
 };
 
 /// An event that another stream can wait for. May outlive the executor.
@@ -106,24 +113,48 @@ class Executor {
   static std::uint32_t max_threads();
 
   [[nodiscard]] std::uint32_t threads() const { return 1; }
-  [[nodiscard]] cudaStream_t stream() const { return stream_; }
+  /// For what is enqueued by others.
+  [[nodiscard]] cudaStream_t stream() {
+    begin_enqueuing();
+    return stream_;
+  }
+
+  /// From now on recorded sequences are the batch's, which others share; null: by themselves again. Nothing is under
+  /// way.
+  void join(std::shared_ptr<Batch> batch);
+  /// The same with null, where something may be under way and may fail.
+  void leave() noexcept;
+  [[nodiscard]] bool is_in_batch() const { return batch_ != nullptr; }
+  /// Whether what is enqueued now becomes a part of a batch, and is launched with a block for each world.
+  [[nodiscard]] bool lists() const { return list_ != nullptr; }
 
 #if defined(__CUDACC__)
+  /// f() by all kTeamThreads threads of a block; only where it lists.
+  template <class F>
+  void list_block(const F& f) {
+    list_->add(&listed::launch_block<F>, listed::Whole<F>{f});
+  }
   template <class F>
   void run(std::uint32_t n, const F& f) {
     if (n == 0) return;
+    if (lists()) return list_->add(&listed::launch_run<F>, listed::Loop<F>{f, nullptr, n});
+    begin_enqueuing();
     run_kernel<<<(n + kBlock - 1) / kBlock, kBlock, 0, stream_>>>(f, n);
     check_cuda(cudaGetLastError(), "cannot launch a kernel");
   }
   template <class F>
   void run(Count n, const F& f) {
     if (n.capacity == 0) return;
+    if (lists()) return list_->add(&listed::launch_run<F>, listed::Loop<F>{f, n.value, n.capacity});
+    begin_enqueuing();
     run_counted_kernel<<<(n.capacity + kBlock - 1) / kBlock, kBlock, 0, stream_>>>(f, n);
     check_cuda(cudaGetLastError(), "cannot launch a kernel");
   }
   /// load and least: length of the longest loop, so that short ones get few blocks.
   template <class F>
   void team(Count load, std::uint32_t least, const F& f) {
+    if (lists()) return list_->add(&listed::launch_team<F>, listed::Whole<F>{f});
+    begin_enqueuing();
     int blocks = 0;
     check_cuda(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks, team_kernel<F>, kTeamThreads, 0),
                "cannot size a team");
@@ -141,6 +172,7 @@ class Executor {
   }
   template <class F>
   void record(Recording& recording, const F& f) {
+    if (is_in_batch()) return add_to_batch(recording.list_, f);
     if (recording.graph_ == nullptr) {
       const std::scoped_lock alone(recording_mutex());
       check_cuda(cudaStreamBeginCapture(stream_, cudaStreamCaptureModeThreadLocal), "cannot begin a recording");
@@ -170,17 +202,29 @@ class Executor {
   template <class T>
   void to_device(Mirror<T>& mirror, std::size_t count, std::size_t first = 0) {
     PLUMB_ASSERT(first + count <= mirror.size());
-    copy(mirror.device() + first, mirror.host() + first, count * sizeof(T), cudaMemcpyHostToDevice);
-    uploaded_bytes_ += count * sizeof(T);
+    const Transfer transfer = {mirror.device() + first, mirror.host() + first, count * sizeof(T)};
+    uploaded_bytes_ += transfer.bytes;
+    if (transfer.bytes == 0) return;
+    if (is_in_batch())
+      uploads_.push_back(transfer);  // goes with what is recorded next
+    else
+      copy(transfer, cudaMemcpyHostToDevice);
   }
   template <class T>
   void to_host(Mirror<T>& mirror, std::size_t count) {
     PLUMB_ASSERT(count <= mirror.size());
-    copy(mirror.host(), mirror.device(), count * sizeof(T), cudaMemcpyDeviceToHost);
+    const Transfer transfer = {mirror.host(), mirror.device(), count * sizeof(T)};
+    if (transfer.bytes == 0) return;
+    if (lists()) return list_->add(&launch_transfer, ListedTransfer{transfer});
+    begin_enqueuing();
+    copy(transfer, cudaMemcpyDeviceToHost);
   }
   [[nodiscard]] std::uint64_t uploaded_bytes() const { return uploaded_bytes_; }
-  void wait() { check_cuda(cudaStreamSynchronize(stream_), "a kernel failed"); }
-  void send(Signal& signal) { check_cuda(cudaEventRecord(signal.handle(), stream_), "cannot record an event"); }
+  void wait();
+  void send(Signal& signal) {
+    begin_enqueuing();
+    check_cuda(cudaEventRecord(signal.handle(), stream_), "cannot record an event");
+  }
   [[nodiscard]] void* stream_handle() const { return stream_; }
   [[nodiscard]] static std::int32_t device_type() { return 2; }  // of DLPack
   [[nodiscard]] static std::int32_t device_id() {
@@ -193,11 +237,36 @@ class Executor {
   static constexpr std::uint32_t kBlock = 128;
 
   void run_on_host(std::uint32_t n, void* context, PlumbTask task) const;
-  void copy(void* to, const void* from, std::size_t bytes, cudaMemcpyKind kind) {
-    if (bytes != 0) check_cuda(cudaMemcpyAsync(to, from, bytes, kind, stream_), "cannot copy");
+  void copy(const Transfer& transfer, cudaMemcpyKind kind) {
+    check_cuda(cudaMemcpyAsync(transfer.to, transfer.from, transfer.bytes, kind, stream_), "cannot copy");
+  }
+  /// In a batch: before something is enqueued past it what was said before is.
+  void begin_enqueuing() {
+    if (is_in_batch() && !lists()) enqueue_past_batch();
+  }
+  void enqueue_past_batch();
+  template <class F>
+  void add_to_batch(LaunchList& list, const F& f) {
+    if (list.empty()) {
+      list_ = &list;
+      try {
+        f();
+      } catch (...) {
+        list_ = nullptr;
+        list.clear();
+        throw;
+      }
+      list_ = nullptr;
+      list.finish();
+    }
+    batch_->add(list, uploads_);
+    uploads_.clear();
   }
 
-  cudaStream_t stream_ = nullptr;
+  cudaStream_t own_stream_ = nullptr, stream_ = nullptr;  // the second is the first, or the batch's
+  std::shared_ptr<Batch> batch_;                          // null where it is by itself
+  LaunchList* list_ = nullptr;                            // that is being recorded
+  std::vector<Transfer> uploads_;                         // that the batch does not know of
   std::uint32_t multiprocessors_ = 1;
   TeamBarrier* barrier_ = nullptr;  // on the device
   std::uint64_t uploaded_bytes_ = 0;

@@ -26,9 +26,10 @@ class PhaseClock {
     for (Mark& mark : marks_) (void)cudaEventDestroy(mark.event);
   }
 
+  void measure(bool on) { on_ = on; }
   /// These two are called while the graph is captured; its replays record the same events anew.
   void start(Executor& executor) {
-    count_ = 0;
+    if (on_) count_ = 0;
     record(executor, PLUMB_PHASE_COUNT);
   }
   void end(Executor& executor, PlumbPhase phase) { record(executor, phase); }
@@ -49,6 +50,7 @@ class PhaseClock {
     cudaEvent_t event;
   };
   void record(Executor& executor, PlumbPhase phase) {
+    if (!on_) return;
     Mark& mark = marks_[count_++];
     mark.phase = phase;
     check_cuda(cudaEventRecordWithFlags(mark.event, executor.stream(), cudaEventRecordExternal),
@@ -57,6 +59,7 @@ class PhaseClock {
 
   std::array<Mark, PLUMB_PHASE_COUNT + 1> marks_{};
   std::uint32_t count_ = 0;
+  bool on_ = false;
 };
 
 }  // namespace plumb::impulse

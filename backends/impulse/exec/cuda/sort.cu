@@ -46,6 +46,80 @@ struct Total {
   }
 };
 
+template <class K>
+struct SortArrays {
+  const K* keys;
+  const std::uint32_t* values;
+  K* sorted_keys;
+  std::uint32_t* sorted_values;
+};
+
+__device__ std::uint32_t number_of(const Count& n) {
+  return n.value == nullptr || *n.value > n.capacity ? n.capacity : *n.value;
+}
+
+/// By one block, for the few things of a small world: each is put behind those that come before it.
+template <class K>
+struct SortInBlock {
+  SortArrays<K> of;
+  Count n;
+  K mask;
+
+  __device__ void operator()() const {
+    constexpr std::uint32_t kTile = 512;
+    __shared__ K tile[kTile];
+    const std::uint32_t count = number_of(n);
+    for (std::uint32_t first = 0; first < count; first += blockDim.x) {
+      const std::uint32_t i = first + threadIdx.x;
+      const K own = i < count ? of.keys[i] & mask : K{0};
+      std::uint32_t rank = 0;
+      for (std::uint32_t begin = 0; begin < count; begin += kTile) {
+        const std::uint32_t size = count - begin < kTile ? count - begin : kTile;
+        __syncthreads();
+        for (std::uint32_t t = threadIdx.x; t < size; t += blockDim.x) tile[t] = of.keys[begin + t] & mask;
+        __syncthreads();
+        for (std::uint32_t t = 0; t < size; ++t) rank += tile[t] < own || (tile[t] == own && begin + t < i) ? 1U : 0U;
+      }
+      if (i >= count) continue;
+      of.sorted_keys[rank] = of.keys[i];
+      of.sorted_values[rank] = of.values[i];
+    }
+  }
+};
+
+struct ScanInBlock {
+  const std::uint32_t* values;
+  std::uint32_t* sums;
+  Count n;
+  std::uint32_t* total;
+
+  __device__ void operator()() const {
+    constexpr std::uint32_t kWarp = 32;
+    __shared__ std::uint32_t sums_of_warps[kTeamThreads / kWarp];
+    const std::uint32_t count = number_of(n), lane = threadIdx.x % kWarp, warp = threadIdx.x / kWarp;
+    std::uint32_t before = 0;  // of the parts that are done
+    for (std::uint32_t first = 0; first < count; first += blockDim.x) {
+      const std::uint32_t i = first + threadIdx.x;
+      std::uint32_t sum = i < count ? values[i] : 0U;  // of the warp, up to here
+      for (std::uint32_t by = 1; by < kWarp; by *= 2) {
+        const std::uint32_t other = __shfl_up_sync(~0U, sum, by);
+        if (lane >= by) sum = SaturatingSum{}(other, sum);
+      }
+      if (lane == kWarp - 1) sums_of_warps[warp] = sum;
+      const std::uint32_t last = __shfl_up_sync(~0U, sum, 1);
+      __syncthreads();
+      std::uint32_t here = 0;
+      for (std::uint32_t w = 0; w < blockDim.x / kWarp; ++w) {
+        if (w == warp) here = SaturatingSum{}(before, lane == 0 ? 0U : last);
+        before = SaturatingSum{}(before, sums_of_warps[w]);
+      }
+      if (i < count) sums[i] = here;
+      __syncthreads();
+    }
+    if (threadIdx.x == 0) *total = before;
+  }
+};
+
 auto values_or_zeros(const std::uint32_t* values, const std::uint32_t* n) {
   return thrust::make_transform_iterator(thrust::make_counting_iterator(0U), ValueOrZero{values, n});
 }
@@ -60,14 +134,6 @@ std::size_t scan(void* scratch, std::size_t bytes, Values values, std::uint32_t*
 }
 
 template <class K>
-struct SortArrays {
-  const K* keys;
-  const std::uint32_t* values;
-  K* sorted_keys;
-  std::uint32_t* sorted_values;
-};
-
-template <class K>
 std::size_t sort(void* scratch, std::size_t bytes, const SortArrays<K>& of, std::uint32_t n, int bits,
                  cudaStream_t stream) {
   check_cuda(cub::DeviceRadixSort::SortPairs(scratch, bytes, of.keys, of.sorted_keys, of.values, of.sorted_values, n, 0,
@@ -78,6 +144,11 @@ std::size_t sort(void* scratch, std::size_t bytes, const SortArrays<K>& of, std:
 
 template <class K>
 constexpr int kKeyBits = static_cast<int>(8 * sizeof(K));
+
+template <class K>
+void sort_in_block(Executor& executor, Count n, const SortArrays<K>& of, int bits) {
+  executor.list_block(SortInBlock<K>{of, n, static_cast<K>(~K{0} >> (kKeyBits<K> - bits))});
+}
 
 }  // namespace
 
@@ -91,6 +162,7 @@ void RadixSort<K>::reserve(std::uint32_t capacity) {
 template <class K>
 void RadixSort<K>::run(Executor& executor, Count n, K* keys, const std::uint32_t* values, K* sorted_keys,
                        std::uint32_t* sorted_values, int bits) {
+  if (executor.lists()) return sort_in_block<K>(executor, n, {keys, values, sorted_keys, sorted_values}, bits);
   executor.run(n.capacity, PadKeys<K>{keys, n.value});
   // One bit more than the caller's keys have, so that the padding comes last: its bit there is 1.
   run(executor, n.capacity, keys, values, sorted_keys, sorted_values, bits < kKeyBits<K> ? bits + 1 : bits);
@@ -101,7 +173,9 @@ void RadixSort<K>::run(Executor& executor, std::uint32_t n, const K* keys, const
                        std::uint32_t* sorted_values, int bits) {
   PLUMB_ASSERT(n <= capacity_);
   if (n == 0) return;
-  sort<K>(scratch_.data(), scratch_.size(), {keys, values, sorted_keys, sorted_values}, n, bits, executor.stream());
+  const SortArrays<K> of = {keys, values, sorted_keys, sorted_values};
+  if (executor.lists()) return sort_in_block(executor, {nullptr, n}, of, bits);
+  sort<K>(scratch_.data(), scratch_.size(), of, n, bits, executor.stream());
 }
 
 template class RadixSort<std::uint32_t>;
@@ -116,6 +190,7 @@ void Scan::reserve(std::uint32_t capacity) {
 }
 
 void Scan::run(Executor& executor, Count n, const std::uint32_t* values, std::uint32_t* sums, std::uint32_t* total) {
+  if (executor.lists()) return executor.list_block(ScanInBlock{values, sums, n, total});
   if (n.capacity != 0)
     scan(scratch_.data(), scratch_.size(), values_or_zeros(values, n.value), sums, n.capacity, executor.stream());
   executor.run(1U, Total{values, sums, n, total});
@@ -123,6 +198,7 @@ void Scan::run(Executor& executor, Count n, const std::uint32_t* values, std::ui
 
 void Scan::run(Executor& executor, std::uint32_t n, const std::uint32_t* values, std::uint32_t* sums,
                std::uint32_t* total) {
+  if (executor.lists()) return executor.list_block(ScanInBlock{values, sums, {nullptr, n}, total});
   if (n != 0) scan(scratch_.data(), scratch_.size(), values, sums, n, executor.stream());
   executor.run(1U, Total{values, sums, Count{nullptr, n}, total});
 }

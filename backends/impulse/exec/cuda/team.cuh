@@ -19,6 +19,8 @@ struct TeamBarrier {
 class Team {
  public:
   __device__ Team(std::uint32_t blocks, TeamBarrier* barrier) : Team(blocks, blockIdx.x, barrier) {}
+  /// The block by itself, wherever it is in the launch and however many threads it has.
+  __device__ static Team of_one_block() { return {1, 0, nullptr}; }
 
   template <class F>
   __device__ void each(std::uint32_t n, const F& f) {
@@ -47,7 +49,7 @@ class Team {
     if (small != 0) g = join(small == 1 ? 1 : ~0U) ? min(block_, small) : small;
     while (g < n) {
       const bool is_small = g < small;
-      Team team = is_small ? Team(1, 0, nullptr) : *this;
+      Team team = is_small ? of_one_block() : *this;
       f(team, g);
       if (!is_small) *this = team;
       g = is_small ? min(g + blocks_, small) : g + 1;
@@ -69,10 +71,8 @@ class Team {
 
   enum class Work { kNothing, kFirstBlock, kAll };  // that was done since threads met
 
-  __device__ std::uint32_t stride_of(std::uint32_t n) const {
-    return is_small(n) ? kTeamThreads : blocks_ * kTeamThreads;
-  }
-  __device__ bool is_small(std::uint32_t n) const { return blocks_ == 1 || n <= kTeamThreads; }
+  __device__ std::uint32_t stride_of(std::uint32_t n) const { return is_small(n) ? blockDim.x : blocks_ * blockDim.x; }
+  __device__ bool is_small(std::uint32_t n) const { return blocks_ == 1 || n <= blockDim.x; }
 
   /// Meets as far as a loop over n things asks for. Returns whether this block takes part in it.
   __device__ bool join(std::uint32_t n) {
