@@ -7,9 +7,6 @@
 
 namespace plumb::harness {
 
-/// The status of a cell whose scene turned out wrong only when it was made, which is no row but a wrong question.
-inline constexpr const char* wrong_scene = "wrong_scene";
-
 /// request: {"scene": path, "scene_hash", "parameters", "settings", "dt", "seconds", "threads", "needs",
 /// "trajectory" and "trace": path or ""}. The answer has "status", "reason", "metrics", "settings" (in force),
 /// "step_ms" (of the window), "window", "steps", "setup_ms", "phase_ms", "counts", "hash" and "peak_mb". Throws

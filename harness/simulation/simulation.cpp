@@ -62,6 +62,7 @@ struct Simulation::State {
   bool finite = true;
   PlumbStepReport report{};
   StepStatistics statistics;
+  Clock::time_point step_start;
   std::array<std::vector<double>, PLUMB_PHASE_COUNT> phases;
 
   void create_shapes();
@@ -219,26 +220,37 @@ IPhysicsWorld& Simulation::world() {
 PlumbBody Simulation::handle(std::size_t body) const { return state_->bodies.at(body); }
 PlumbJoint Simulation::joint_handle(std::size_t joint) const { return state_->joints.at(joint); }
 
-bool Simulation::advance() {
+bool Simulation::begin_step() {
   State& s = *state_;
   if (s.steps >= s.steps_total) return false;
   PLUMB_ASSERT(s.statistics.step_ms.size() == s.steps);
+  const EngineAtWork at_work(s.options.clock);
+  s.host->before_step(*this);
+  s.step_start = Clock::now();
+  check(*s.world, s.world->step(s.scene.dt));
+  return true;
+}
+
+void Simulation::finish_step() {
+  State& s = *state_;
   PlumbStepReport report{};
   report.struct_size = sizeof(report);
   {
     const EngineAtWork at_work(s.options.clock);
-    s.host->before_step(*this);
-    const auto start = Clock::now();
-    check(*s.world, s.world->step(s.scene.dt));
     check(*s.world, s.world->wait(report));
     s.read_poses();
-    s.statistics.step_ms.push_back(milliseconds_since(start));
+    s.statistics.step_ms.push_back(milliseconds_since(s.step_start));
   }
   s.report = report;
   ++s.steps;
   s.velocities_fresh = false;
   s.take_stock();
   if (s.options.observer) s.options.observer->stepped(*this);
+}
+
+bool Simulation::advance() {
+  if (!begin_step()) return false;
+  finish_step();
   return true;
 }
 

@@ -70,6 +70,9 @@ class Simulation {
 
   /// One timed step of scene().dt, then reads poses. False when scene().seconds are over (nothing was done).
   bool advance();
+  /// The same in two, for worlds that are stepped together: the first is false when the scene's seconds are over.
+  bool begin_step();
+  void finish_step();
   /// Steps until the end; calls `observe` after each step when given.
   void run(const std::function<void(Simulation&)>& observe = {});
 

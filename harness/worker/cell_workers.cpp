@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "cell/cell_runner.hpp"
+#include "cell/request.hpp"
 
 namespace plumb::harness {
 

@@ -13,6 +13,7 @@
 
 #include "cell/cell_runner.hpp"
 #include "cell/description.hpp"
+#include "cell/worlds_runner.hpp"
 #include "conform/request.hpp"
 #include "record/pair_tour.hpp"
 #include "simulation/names.hpp"
@@ -51,6 +52,7 @@ class Server {
     if (what == "describe") return describe(*backend_);
     if (what == "conform") return conform::answer_request(*backend_, request);
     if (what == "pairs") return answer_pair_request(*backend_, request);
+    if (what == "worlds") return run_worlds(*backend_, request, progress_);
     return run_cell(*backend_, request, progress_);
   }
 

@@ -1,4 +1,4 @@
-#include "cli/verbs/one_scene.hpp"
+#include "cli/options/one_scene.hpp"
 
 #include "scene/catalogue.hpp"
 #include "scene/parameters.hpp"

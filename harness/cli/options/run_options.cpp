@@ -1,12 +1,12 @@
-#include "cli/verbs/run_options.hpp"
+#include "cli/options/run_options.hpp"
 
 #include <fmt/format.h>
 
 #include <iostream>
 #include <optional>
 
+#include "cli/options/numbers.hpp"
 #include "cli/output/going_on.hpp"
-#include "cli/verbs/numbers.hpp"
 #include "report/text/csv.hpp"
 #include "schedule/block_runner.hpp"
 
@@ -61,10 +61,7 @@ void add_cell_options(CLI::App& verb, RunRequest& request) {
       ->capture_default_str();
 }
 
-void add_run_options(CLI::App& verb, RunOptions& options) {
-  RunRequest& request = options.request;
-  verb.add_option("SCENE", request.scenes, "Scenes: ids (D1), slugs (tower), groups (stacking, core, all) or files")
-      ->required();
+void add_backend_options(CLI::App& verb, RunRequest& request) {
   verb.add_option("--backend", request.backends, "Backend by name or file, repeatable; none: all that load")
       ->type_name("BACKEND")
       ->take_all()
@@ -79,6 +76,13 @@ void add_run_options(CLI::App& verb, RunOptions& options) {
                   "default: as the engine ships; matched: its own damping and sleeping off; tuned: its author's file")
       ->type_name("WORD:{default,matched,tuned}")
       ->capture_default_str();
+}
+
+void add_run_options(CLI::App& verb, RunOptions& options) {
+  RunRequest& request = options.request;
+  verb.add_option("SCENE", request.scenes, "Scenes: ids (D1), slugs (tower), groups (stacking, core, all) or files")
+      ->required();
+  add_backend_options(verb, request);
   add_cell_options(verb, request);
   verb.add_option("--out", request.out, "Folder for results.jsonl; cells that are finished there are not run again")
       ->type_name("DIR")

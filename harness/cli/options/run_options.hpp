@@ -20,6 +20,9 @@ struct RunOptions {
 /// those that stand in `request`, which must outlive the parsing.
 void add_cell_options(CLI::App& verb, RunRequest& request);
 
+/// Likewise which backends, and with what settings.
+void add_backend_options(CLI::App& verb, RunRequest& request);
+
 /// Adds them to a verb; the defaults are those that stand in `options`, which must outlive the parsing.
 void add_run_options(CLI::App& verb, RunOptions& options);
 

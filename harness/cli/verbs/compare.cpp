@@ -1,7 +1,7 @@
 #include <memory>
 
 #include "cli/manual/examples.hpp"
-#include "cli/verbs/run_options.hpp"
+#include "cli/options/run_options.hpp"
 #include "cli/verbs/verbs.hpp"
 #include "report/text/terminal.hpp"
 

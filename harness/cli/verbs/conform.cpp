@@ -9,8 +9,8 @@
 #include <memory>
 
 #include "cli/manual/examples.hpp"
+#include "cli/options/numbers.hpp"
 #include "cli/output/output.hpp"
-#include "cli/verbs/numbers.hpp"
 #include "cli/verbs/verbs.hpp"
 #include "conform/conformance.hpp"
 #include "plumb/nearest.hpp"

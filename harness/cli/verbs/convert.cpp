@@ -10,9 +10,9 @@
 
 #include "base/shown.hpp"
 #include "cli/manual/examples.hpp"
+#include "cli/options/numbers.hpp"
+#include "cli/options/one_scene.hpp"
 #include "cli/output/draft_file.hpp"
-#include "cli/verbs/numbers.hpp"
-#include "cli/verbs/one_scene.hpp"
 #include "cli/verbs/verbs.hpp"
 #include "convert/read.hpp"
 #include "convert/scene_text.hpp"

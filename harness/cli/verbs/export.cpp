@@ -11,8 +11,8 @@
 #include <optional>
 
 #include "cli/manual/examples.hpp"
+#include "cli/options/numbers.hpp"
 #include "cli/output/draft_file.hpp"
-#include "cli/verbs/numbers.hpp"
 #include "cli/verbs/page_replays.hpp"
 #include "cli/verbs/verbs.hpp"
 #include "replay/bundle.hpp"

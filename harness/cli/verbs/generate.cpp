@@ -9,9 +9,9 @@
 
 #include "base/shown.hpp"
 #include "cli/manual/examples.hpp"
+#include "cli/options/numbers.hpp"
 #include "cli/output/draft_file.hpp"
 #include "cli/output/going_on.hpp"
-#include "cli/verbs/numbers.hpp"
 #include "cli/verbs/verbs.hpp"
 #include "convert/scene_text.hpp"
 #include "generate/random_scene.hpp"

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "cli/manual/examples.hpp"
-#include "cli/verbs/numbers.hpp"
+#include "cli/options/numbers.hpp"
 #include "cli/verbs/verbs.hpp"
 #include "plumb/nearest.hpp"
 #include "record/pair_tour.hpp"

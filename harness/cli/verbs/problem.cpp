@@ -8,9 +8,9 @@
 
 #include "base/json.hpp"
 #include "cli/manual/examples.hpp"
+#include "cli/options/numbers.hpp"
+#include "cli/options/one_scene.hpp"
 #include "cli/output/draft_file.hpp"
-#include "cli/verbs/numbers.hpp"
-#include "cli/verbs/one_scene.hpp"
 #include "cli/verbs/verbs.hpp"
 #include "measure/instruments/step_contacts.hpp"
 #include "plumb/loader.hpp"

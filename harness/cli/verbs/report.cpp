@@ -8,10 +8,10 @@
 #include <sstream>
 
 #include "cli/manual/examples.hpp"
+#include "cli/options/numbers.hpp"
 #include "cli/output/draft_file.hpp"
 #include "cli/output/output.hpp"
 #include "cli/verbs/earlier_rows.hpp"
-#include "cli/verbs/numbers.hpp"
 #include "cli/verbs/page_replays.hpp"
 #include "cli/verbs/verbs.hpp"
 #include "report/page/page.hpp"

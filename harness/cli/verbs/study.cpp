@@ -5,9 +5,9 @@
 #include <memory>
 
 #include "cli/manual/examples.hpp"
+#include "cli/options/numbers.hpp"
 #include "cli/output/going_on.hpp"
 #include "cli/output/output.hpp"
-#include "cli/verbs/numbers.hpp"
 #include "cli/verbs/verbs.hpp"
 #include "plumb/nearest.hpp"
 #include "study/runner.hpp"

@@ -17,6 +17,7 @@ void add_verbs(CLI::App& program, int& status) {
   add_convert(program, status);
   add_generate(program, status);
   add_reduce(program, status);
+  add_worlds(program, status);
   add_export(program, status);
   add_pairs(program, status);
   add_report(program, status);

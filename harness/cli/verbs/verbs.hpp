@@ -18,6 +18,7 @@ void add_study(CLI::App& program, int& status);
 void add_convert(CLI::App& program, int& status);
 void add_generate(CLI::App& program, int& status);
 void add_reduce(CLI::App& program, int& status);
+void add_worlds(CLI::App& program, int& status);
 void add_export(CLI::App& program, int& status);
 void add_pairs(CLI::App& program, int& status);
 void add_report(CLI::App& program, int& status);
