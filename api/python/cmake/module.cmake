@@ -1,11 +1,12 @@
 # The extension module plumb._core, and beside it the package's own files.
 pybind11_add_module(plumb_python MODULE NO_EXTRAS
   src/module.cpp src/errors.cpp src/dtypes.cpp src/backend.cpp src/world.cpp src/shapes.cpp src/numbers.cpp
-  src/core_calls.cpp src/extensions.cpp src/queries.cpp src/state.cpp src/lent_rows.cpp src/cuda_order.cpp)
+  src/core_calls.cpp src/extensions.cpp src/queries.cpp src/state.cpp src/lent_rows.cpp src/worlds.cpp
+  src/cuda_order.cpp)
 set_target_properties(plumb_python PROPERTIES OUTPUT_NAME _core CXX_VISIBILITY_PRESET hidden)
 target_compile_features(plumb_python PRIVATE cxx_std_20)
 target_compile_options(plumb_python PRIVATE $<$<CONFIG:Release>:-O1>)  # it hands on: what takes time is in the engines
-target_link_libraries(plumb_python PRIVATE plumb::loader ${CMAKE_DL_LIBS})
+target_link_libraries(plumb_python PRIVATE plumb::loader plumb::helpers ${CMAKE_DL_LIBS})
 
 if(alone)
   # Where backends and the program lie: this package goes elsewhere.

@@ -19,7 +19,7 @@ events and hits are NumPy arrays. `world.joints`, `.queries`, `.collide`, `.sett
 `.exceptions`, `.modify` and `.debug` are the interface's extensions, and so is what step() takes. Where enumerations are taken, words are:
 "dynamic" for plumb.Motion.DYNAMIC.
 
-`plumb.harness` runs scenes, studies and reports by the program plumb.
+`plumb.Worlds` steps many worlds together. `plumb.harness` runs scenes, studies and reports by the program plumb.
 """
 
 from . import harness
@@ -40,6 +40,7 @@ from .shapes import (Box, Capsule, Child, Compound, ConvexHull, Cylinder, Height
 from .snapshot import Exceptions, Snapshot
 from .state import LentRows, RowMap, State
 from .world import World
+from .worlds import Worlds
 
 __all__ = [
     "AxisMode", "Backend", "BackendInfo", "BodyChange", "BodyDesc", "BodyFlag", "BodyMember", "Box", "Capability",
@@ -49,5 +50,5 @@ __all__ = [
     "LentRows", "Limit", "Lock", "MassMode", "Material", "Modify", "Motion", "Motor", "Need", "Phase", "Plane",
     "Queries", "QueryKind", "Remark", "Result", "RowMap", "SettingInfo", "SettingRole", "SettingType", "Settings",
     "ShapeDesc", "ShapeType", "Snapshot", "Sphere", "Spring", "SpringMode", "State", "StepReport", "StiffSpring",
-    "TriangleMesh", "World", "backends", "body_rows", "harness", "interface_version", "open", "search_path",
+    "TriangleMesh", "World", "Worlds", "backends", "body_rows", "harness", "interface_version", "open", "search_path",
 ]

@@ -57,6 +57,7 @@ EXTENSIONS = (
     "plumb.exceptions/1",
     "plumb.modify/1",
     "plumb.manifolds/1",
+    "plumb.worlds/1",
 )
 
 

@@ -47,8 +47,8 @@ class LentRows:
         self._core = core
 
     @property
-    def shape(self) -> Tuple[int, int]:
-        """Rows, columns."""
+    def shape(self) -> Tuple[int, ...]:
+        """Rows, columns; worlds before them where the rows are of all worlds (Worlds.borrow)."""
         return self._core.shape
 
     @property
@@ -113,9 +113,16 @@ class LentRows:
     def __repr__(self) -> str:
         kind, number = self._core.device
         where = "cpu" if kind == _core.host_device else f"cuda:{number}"
-        return (
-            f"<LentRows {self.shape[0]} x {self.shape[1]} {self.dtype} on {where}{', a copy' if self.is_copy else ''}>"
-        )
+        shape = " x ".join(str(length) for length in self.shape)
+        return f"<LentRows {shape} {self.dtype} on {where}{', a copy' if self.is_copy else ''}>"
+
+
+def device_number(device: str) -> int:
+    """DLPack's, of the word for a device."""
+    devices = {"cpu": _core.host_device, "cuda": _core.cuda_device}
+    if device not in devices:
+        raise ValueError(f'device "{device}" is unknown; use "cpu" or "cuda"')
+    return devices[device]
 
 
 class State:
@@ -127,10 +134,7 @@ class State:
     def borrow(self, field: Union[Field, str], device: str = "cpu", copy: bool = False) -> LentRows:
         """Rows of the field pose (7 columns) or velocity (6). device: "cpu" or "cuda". copy: where the engine cannot
         lend them as they lie there, a copy instead of an Error of UNSUPPORTED."""
-        devices = {"cpu": _core.host_device, "cuda": _core.cuda_device}
-        if device not in devices:
-            raise ValueError(f'device "{device}" is unknown; use "cpu" or "cuda"')
-        return LentRows(_core.borrow(self._core, pick(Field, field, "field"), devices[device], copy))
+        return LentRows(_core.borrow(self._core, pick(Field, field, "field"), device_number(device), copy))
 
     def rows(self) -> RowMap:
         """Which body each lent row is."""

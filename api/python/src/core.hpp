@@ -25,5 +25,6 @@ using WorldClass = py::class_<World>;
 void bind_core(WorldClass& world);
 void bind_extensions(WorldClass& world);
 void bind_queries(WorldClass& world);
+void bind_worlds(py::module_& module);  // after the class of its worlds
 
 }  // namespace plumb::python

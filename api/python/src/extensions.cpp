@@ -105,11 +105,8 @@ py::bytes save(World& world, bool whole) {
   world.call_unlocked(Tag::world, "snapshot.save", [&](const PlumbBackendTable&, PlumbWorld* self) {
     if (whole && !has(snapshot, &PlumbSnapshotTable::save_world)) return PlumbResult{PLUMB_E_UNSUPPORTED};
     const auto function = whole ? snapshot.save_world : snapshot.save;
-    std::size_t size = 0;
-    const PlumbResult result = function(self, nullptr, 0, &size);
-    if (result != PLUMB_TRUNCATED) return result;
-    bytes.resize(size);
-    return function(self, bytes.data(), size, &size);
+    return fill_bytes(
+        bytes, [&](void* out, std::size_t capacity, std::size_t* size) { return function(self, out, capacity, size); });
   });
   return bytes;
 }

@@ -42,6 +42,13 @@ struct Handed {
 
 }  // namespace
 
+LentRows::LentRows(PlumbDLManagedTensor* lent, const PlumbFence& readable)
+    : tensor(lent, [](PlumbDLManagedTensor* done) { done->deleter(done); }), fence(readable) {
+  const PlumbDLDataType& type = tensor->dl_tensor.dtype;
+  if (type.code != 2 || (type.bits != 32 && type.bits != 64) || type.lanes != 1)
+    throw Error(PLUMB_E_INTERNAL, "borrow: the backend lends rows that are neither float32 nor float64");
+}
+
 py::capsule LentRows::capsule(bool versioned) const {
   return versioned ? Handed<PlumbDLManagedTensor>::capsule(tensor, "dltensor_versioned")
                    : Handed<UnversionedTensor>::capsule(tensor, "dltensor");

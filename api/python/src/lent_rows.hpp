@@ -11,8 +11,11 @@ namespace plumb::python {
 using Lent = std::shared_ptr<PlumbDLManagedTensor>;
 
 struct LentRows {
+  /// Takes the tensor over. Throws Error where it has neither float32 nor float64.
+  LentRows(PlumbDLManagedTensor* lent, const PlumbFence& readable);
+
   Lent tensor;
-  PlumbFence fence{};
+  PlumbFence fence;
 
   /// A view, which keeps self alive.
   static py::array view(const py::object& self);

@@ -13,4 +13,5 @@ PYBIND11_MODULE(_core, module) {
   bind_core(world);
   bind_extensions(world);
   bind_queries(world);
+  bind_worlds(module);
 }

@@ -11,15 +11,10 @@ LentRows borrow(World& world, PlumbField field, std::int32_t device_type, bool a
   const auto& state = world.extension<PlumbStateTable>(PLUMB_EXT_STATE);
   const PlumbStateRequest request = {sizeof request, field, device_type, allow_copy ? 1u : 0u};
   PlumbDLManagedTensor* tensor = nullptr;
-  LentRows rows;
-  world.call(Tag::world, "state.borrow", [&](const PlumbBackendTable&, PlumbWorld* self) {
-    return state.borrow(self, &request, &tensor, &rows.fence);
-  });
-  rows.tensor = Lent(tensor, [](PlumbDLManagedTensor* lent) { lent->deleter(lent); });
-  const PlumbDLDataType& type = tensor->dl_tensor.dtype;
-  if (type.code != 2 || (type.bits != 32 && type.bits != 64) || type.lanes != 1)
-    throw Error(PLUMB_E_INTERNAL, "state.borrow: the backend lends rows that are neither float32 nor float64");
-  return rows;
+  PlumbFence fence{};
+  world.call(Tag::world, "state.borrow",
+             [&](const PlumbBackendTable&, PlumbWorld* self) { return state.borrow(self, &request, &tensor, &fence); });
+  return {tensor, fence};
 }
 
 std::pair<py::array_t<std::uint64_t>, std::uint64_t> row_map(World& world) {
@@ -60,7 +55,7 @@ void bind_state(py::module_& module) {
       .def_property_readonly("shape",
                              [](const LentRows& rows) {
                                const PlumbDLTensor& lent = rows.tensor->dl_tensor;
-                               return std::pair(lent.shape[0], lent.shape[1]);
+                               return py::tuple(py::cast(std::vector(lent.shape, lent.shape + lent.ndim)));
                              })
       .def_property_readonly("bits", [](const LentRows& rows) { return rows.tensor->dl_tensor.dtype.bits; })
       .def_property_readonly("flags", [](const LentRows& rows) { return rows.tensor->flags; })

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core.hpp"
@@ -61,6 +62,8 @@ class World {
   }
 
  private:
+  friend class Worlds;  // holds the gates of many for the time of a call
+
   void destroy();
   PlumbResult begin(double dt);
   PlumbResult finish(Report& report);
@@ -74,6 +77,7 @@ class World {
   PlumbWorld* world_ = nullptr;
   Gate gate_;
   bool stepping_ = false;
+  const void* together_ = nullptr;  ///< the Worlds that it came to last; they may be gone
 };
 
 /// Calls a function of the table that fills an array, with an array that is long enough.
@@ -89,6 +93,16 @@ PlumbResult fill_all(std::vector<Row>& rows, Fill&& fill) {
   }
   rows.resize(result < 0 ? 0 : count);
   return result;
+}
+
+/// The same of bytes, as many as the function says that there are.
+template <class Fill>
+PlumbResult fill_bytes(std::string& bytes, Fill&& fill) {
+  std::size_t size = 0;
+  const PlumbResult result = fill(nullptr, 0, &size);
+  if (result != PLUMB_TRUNCATED) return result;
+  bytes.resize(size);
+  return fill(bytes.data(), size, &size);
 }
 
 }  // namespace plumb::python
