@@ -6,6 +6,7 @@
 #include <chrono>
 #include <vector>
 
+#include "base/median.hpp"
 #include "cell/machine.hpp"
 #include "cell/request.hpp"
 #include "plumb/helpers/worlds.hpp"
@@ -18,13 +19,6 @@ using Clock = std::chrono::steady_clock;
 
 double milliseconds_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 std::uint64_t hash_of_one(Backend& backend, const Scene& scene, const SimulationOptions& options) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/median.hpp"
 #include "plumb/assert.hpp"
 #include "plumb/backend/small_math.hpp"
 #include "referee/hash.hpp"
@@ -33,14 +34,6 @@ struct MassRow {
 bool is_finite(const PoseRow& row) {
   const auto& [p, q] = row;
   return std::isfinite(p.x + p.y + p.z + q.x + q.y + q.z + q.w);
-}
-
-double median(std::vector<double> values) {
-  if (values.empty()) return not_known;
-  PLUMB_ASSERT(std::none_of(values.begin(), values.end(), [](double value) { return std::isnan(value); }));
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 }  // namespace

@@ -129,7 +129,7 @@ class Executor {
   [[nodiscard]] bool lists() const { return list_ != nullptr; }
 
 #if defined(__CUDACC__)
-  /// f() by all kTeamThreads threads of a block; only where it lists.
+  /// f() by all threads of a world's block; only where it lists.
   template <class F>
   void list_block(const F& f) {
     list_->add(&listed::launch_block<F>, listed::Whole<F>{f});
