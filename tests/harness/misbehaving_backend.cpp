@@ -1,5 +1,6 @@
 // A backend of particles that does, when asked by its setting "misbehaviour" or by PLUMB_MISBEHAVE, what engines do on
 // bad days. Everything that happens before there is a world is asked for by the variable only.
+#include <atomic>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -17,8 +18,8 @@
 
 namespace {
 
-const char* const choices[] = {"none", "segfault", "abort",  "hang",   "eat_memory", "nan",   "throw",
-                               "exit", "print",    "refuse", "garble", "jostle",     "remark"};
+const char* const choices[] = {"none", "segfault", "abort",  "hang",   "eat_memory", "nan",    "throw",
+                               "exit", "print",    "refuse", "garble", "jostle",     "remark", "disturb"};
 
 std::string from_environment() {
   const char* word = std::getenv("PLUMB_MISBEHAVE");
@@ -210,6 +211,11 @@ class MisbehavingWorld final : public plumb::IPhysicsWorld, public plumb::IJoint
     }
     if (word == "jostle") {  // the more bodies there are, the farther each is moved
       for (PlumbBodyDesc& body : bodies_) body.pose.position.x += 0.01 * static_cast<double>(bodies_.size());
+    }
+    if (word == "disturb") {  // worlds that came to this step before move the bodies
+      static std::atomic<int> before{0};
+      const int worlds = before++;
+      for (PlumbBodyDesc& body : bodies_) body.pose.position.x += 0.01 * worlds;
     }
     if (word == "print") {
       std::puts("{\"status\": \"ok\", \"this\": \"is no answer\"}");

@@ -82,7 +82,7 @@ typedef uint32_t PlumbJointField;
 enum {
   PLUMB_JOINT_COORDINATES = 0, /* 6: coordinates of the six axes (angles in -pi..pi) */
   PLUMB_JOINT_REACTION = 1,    /* 6: force, torque on body b at frame b's origin in the last step, world axes; N, N m */
-  PLUMB_JOINT_MOTOR = 2,       /* 12: target velocity and max force of the six axes; also written */
+  PLUMB_JOINT_MOTOR = 2,       /* 12: target velocity and max force of axis 0, of axis 1, ...; also written */
   PLUMB_JOINT_FIELD_COUNT = 3
 };
 

@@ -159,7 +159,7 @@ class JointField(IntEnum):
     REACTION = 1
     """6: force, torque on body b at frame b's origin in the last step, world axes"""
     MOTOR = 2
-    """12: target velocity and max force of the six axes; also written"""
+    """12: target velocity and max force of axis 0, of axis 1 and so on; also written"""
 
 
 class JointFeature(IntEnum):

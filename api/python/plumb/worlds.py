@@ -35,9 +35,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
-from ._arrays import Floats, as_floats, is_single, number, unsigned
+from ._arrays import Floats, Handle, Handles, as_floats, handles, is_single, number, unsigned
 from ._words import pick
-from .enums import Field
+from .enums import Field, JointField
 from .report import StepReport
 from .state import LentRows, device_number
 from .world import World
@@ -160,6 +160,34 @@ class Worlds:
         places = self._places(bodies)
         rows = _rows_for_all(values, self._shape(places, kind), is_single(bodies))
         self._core.write(kind, places, rows, self._mask(mask))
+
+    def read_joints(
+        self, field: Union[JointField, str], joints: Union[Handle, Handles], out: Optional[Floats] = None
+    ) -> Floats:
+        """Rows of joints of all worlds: worlds x joints x columns. joints: handles, the same in every world, as worlds
+        that were made by the same calls have them; of a single one worlds x columns come back. out: as of read."""
+        kind = pick(JointField, field, "field")
+        ids = handles(joints, "joints")
+        shape = (len(self), len(ids), _core.joint_columns_of(kind))
+        into = np.empty(shape) if out is None else _for_output(out, shape)
+        self._core.read_joints(kind, ids, into)
+        return into[:, 0] if out is None and is_single(joints) else into
+
+    def write_joints(
+        self,
+        field: Union[JointField, str],
+        values: ArrayLike,
+        joints: Union[Handle, Handles],
+        mask: Optional[Mask] = None,
+    ) -> None:
+        """Motors alone are written: target velocity and max force of axis 0, of axis 1 and so on, 12 numbers a joint.
+        values: worlds x joints x 12, or joints x 12 for every world, or one row for every joint. A world whose entry of
+        mask is False is left alone."""
+        kind = pick(JointField, field, "field")
+        ids = handles(joints, "joints")
+        shape = (len(self), len(ids), _core.joint_columns_of(kind))
+        rows = _rows_for_all(values, shape, is_single(joints))
+        self._core.write_joints(kind, ids, rows, self._mask(mask))
 
     def borrow(self, field: Union[Field, str], device: str = "cpu", copy: bool = False) -> LentRows:
         """Rows of the field pose (7 columns) or velocity (6) of all worlds where the engine keeps them: worlds x rows x

@@ -177,13 +177,17 @@ struct Worlds::Block {
   }
 };
 
+Worlds::Block Worlds::block_of(const py::array& rows, std::size_t count, std::uint32_t columns) const {
+  if (rows.ndim() != 3 || static_cast<std::size_t>(rows.shape(0)) != worlds_.size() ||
+      static_cast<std::size_t>(rows.shape(1)) != count)
+    throw py::value_error("rows must be of worlds x " + std::to_string(count) + " x columns, not of shape " +
+                          std::string(py::str(rows.attr("shape"))));
+  return {numbers_in(py::array(rows[py::int_(0)]), columns, std::nullopt), rows.strides(0), {}};
+}
+
 Worlds::Block Worlds::block_of(PlumbField field, const std::optional<Places>& places, const py::array& rows) const {
   const std::size_t bodies = places ? static_cast<std::size_t>(places->size()) : ids_[0].size();
-  if (rows.ndim() != 3 || static_cast<std::size_t>(rows.shape(0)) != worlds_.size() ||
-      static_cast<std::size_t>(rows.shape(1)) != bodies)
-    throw py::value_error("rows must be of worlds x bodies x columns, not of shape " +
-                          std::string(py::str(rows.attr("shape"))));
-  Block block{numbers_in(py::array(rows[py::int_(0)]), columns_of(field), std::nullopt), rows.strides(0), {}};
+  Block block = block_of(rows, bodies, columns_of(field));
   if (!places) return block;
   block.places.emplace(places->data(), bodies);
   for (const std::uint32_t place : *block.places)
@@ -217,6 +221,32 @@ void Worlds::write(PlumbField field, const std::optional<Places>& places, const 
   });
 }
 
+void Worlds::read_joints(PlumbJointField field, const Handles& joints, py::array rows) {
+  const auto& table = worlds_[0]->extension<PlumbJointsTable>(PLUMB_EXT_JOINTS);
+  const Block block = block_of(rows, static_cast<std::size_t>(joints.size()), joint_columns_of(field));
+  auto* data = static_cast<std::byte*>(rows.mutable_data());
+  const PlumbJoint* ids = joints.data();
+  if (block.of_one.count == 0) return;
+  call("joints.read", [&](std::size_t i) {
+    return table.read(worlds_[i]->world_, field, block.of_one.type, ids, block.of_one.count,
+                      data + static_cast<py::ssize_t>(i) * block.stride, block.of_one.stride);
+  });
+}
+
+void Worlds::write_joints(PlumbJointField field, const Handles& joints, const py::array& rows, const Mask& mask) {
+  const auto& table = worlds_[0]->extension<PlumbJointsTable>(PLUMB_EXT_JOINTS);
+  const Block block = block_of(rows, static_cast<std::size_t>(joints.size()), joint_columns_of(field));
+  const std::span<const bool> chosen = checked(mask);
+  const auto* data = static_cast<const std::byte*>(rows.data());
+  const PlumbJoint* ids = joints.data();
+  if (block.of_one.count == 0) return;
+  call("joints.write", [&](std::size_t i) {
+    if (!chosen[i]) return PlumbResult{PLUMB_OK};
+    return table.write(worlds_[i]->world_, field, block.of_one.type, ids, block.of_one.count,
+                       data + static_cast<py::ssize_t>(i) * block.stride, block.of_one.stride);
+  });
+}
+
 LentRows Worlds::borrow(PlumbField field, std::int32_t device_type, bool allow_copy) {
   const PlumbWorldsTable* table = extension();
   if (table == nullptr)
@@ -246,6 +276,8 @@ void bind_worlds(py::module_& module) {
       .def("reset", &Worlds::reset)
       .def("read", &Worlds::read)
       .def("write", &Worlds::write)
+      .def("read_joints", &Worlds::read_joints)
+      .def("write_joints", &Worlds::write_joints)
       .def("borrow", &Worlds::borrow);
 }
 

@@ -31,6 +31,9 @@ class Worlds {
   /// rows: [world][body][column].
   void read(PlumbField field, const std::optional<Places>& places, py::array rows);
   void write(PlumbField field, const std::optional<Places>& places, const py::array& rows, const Mask& mask);
+  /// rows: [world][joint][column]; joints: handles, the same in every world.
+  void read_joints(PlumbJointField field, const Handles& joints, py::array rows);
+  void write_joints(PlumbJointField field, const Handles& joints, const py::array& rows, const Mask& mask);
   LentRows borrow(PlumbField field, std::int32_t device_type, bool allow_copy);
 
  private:
@@ -47,6 +50,7 @@ class Worlds {
   template <class Act>
   void call(const char* name, Act&& act);
 
+  [[nodiscard]] Block block_of(const py::array& rows, std::size_t count, std::uint32_t columns) const;
   [[nodiscard]] Block block_of(PlumbField field, const std::optional<Places>& places, const py::array& rows) const;
   [[nodiscard]] std::span<const bool> checked(const Mask& mask) const;
   [[nodiscard]] const PlumbWorldsTable* extension() const;

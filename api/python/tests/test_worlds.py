@@ -49,6 +49,35 @@ def read_alone(worlds, field="pose"):
     return np.stack([world.read(field) for world in worlds])
 
 
+class Joints(unittest.TestCase):
+    @on_each("rotation", "joints")
+    def test_motors_of_all_are_one_array(self, engine):
+        def wheel():
+            world = engine.world(["rotation", "joints"], gravity=(0, 0, 0))
+            body = world.create_body(plumb.BodyDesc(world.create_shape(plumb.Sphere(0.5)), mass=1))
+            joint = plumb.JointDesc("hinge", 0, body, motors={3: plumb.Motor(0, 100)})
+            return world, world.joints.create(joint)
+
+        made = [wheel() for _ in range(3)]
+        joint = made[0][1]
+        worlds = plumb.Worlds([world for world, _ in made], threads=2)
+        motors = np.zeros((3, 1, 12))
+        motors[:, 0, 6] = (1, 2, 3)
+        motors[:, 0, 7] = 100
+        worlds.write_joints("motor", motors, [joint], mask=[True, False, True])
+        for _ in range(30):
+            worlds.step(1 / 60)
+        turned = worlds.read_joints("coordinates", joint)
+        self.assertEqual(turned.shape, (3, 6))
+        np.testing.assert_allclose(turned[:, 3], (0.5, 0, 1.5), atol=0.08)
+        alone = np.stack([world.joints.read("coordinates", joint) for world in worlds])
+        np.testing.assert_array_equal(turned, alone)
+        with self.assertRaisesRegex(plumb.Error, "world 0: "):
+            worlds.read_joints("coordinates", [12345])
+        with self.assertRaisesRegex(ValueError, "values must be 3 x 1 x 12"):
+            worlds.write_joints("motor", np.zeros((2, 1, 12)), [joint])
+
+
 class Steps(unittest.TestCase):
     @on_each(*NEEDS)
     def test_each_ends_as_alone(self, engine):

@@ -18,6 +18,20 @@ void check_world(const IPhysicsWorld& world, std::size_t index, PlumbResult resu
   if (result < 0) throw Error(result, world_number(index) + world.error_text());
 }
 
+IJoints& joints_of(IPhysicsWorld& world) {
+  return require_extension(world.joints(), "joints of worlds", "plumb.joints/1", "PLUMB_NEED_JOINTS");
+}
+
+/// A world's own part of an array over all worlds.
+Rows rows_of_world(std::vector<double>& all, std::size_t world, std::size_t count, std::size_t columns) {
+  return {reinterpret_cast<std::byte*>(all.data() + world * count * columns), count, columns * sizeof(double),
+          PLUMB_F64};
+}
+ConstRows rows_of_world(std::span<const double> all, std::size_t world, std::size_t count, std::size_t columns) {
+  return {reinterpret_cast<const std::byte*>(all.data() + world * count * columns), count, columns * sizeof(double),
+          PLUMB_F64};
+}
+
 }  // namespace
 
 StepTogether::StepTogether(std::uint32_t threads)
@@ -103,9 +117,7 @@ std::span<const double> Worlds::read(PlumbField field, std::span<const std::uint
   rows.resize(worlds_.size() * bodies * columns);
   if (bodies == 0) return rows;
   together_.each(worlds_.size(), [&](std::size_t i) {
-    const Rows own(reinterpret_cast<std::byte*>(rows.data() + i * bodies * columns), bodies, columns * sizeof(double),
-                   PLUMB_F64);
-    check_world(*worlds_[i], i, worlds_[i]->read(field, ids_of(i, which), own));
+    check_world(*worlds_[i], i, worlds_[i]->read(field, ids_of(i, which), rows_of_world(rows, i, bodies, columns)));
   });
   return rows;
 }
@@ -115,15 +127,38 @@ void Worlds::write(PlumbField field, std::span<const double> rows, std::span<con
   require(field < PLUMB_FIELD_COUNT, "worlds: there is no field " + std::to_string(field));
   if (!mask.empty()) require_mask(mask);
   const std::size_t columns = columns_of(field), bodies = which.empty() ? bodies_ : which.size();
-  require(rows.size() == worlds_.size() * bodies * columns,
-          "worlds: " + std::to_string(rows.size()) + " numbers to write: give " + std::to_string(worlds_.size()) +
-              " worlds x " + std::to_string(bodies) + " bodies x " + std::to_string(columns) + " columns");
+  require_rows(rows.size(), "bodies", bodies, columns);
   if (bodies == 0) return;
   together_.each(worlds_.size(), [&](std::size_t i) {
     if (!mask.empty() && mask[i] == 0) return;
-    const ConstRows own(reinterpret_cast<const std::byte*>(rows.data() + i * bodies * columns), bodies,
-                        columns * sizeof(double), PLUMB_F64);
-    check_world(*worlds_[i], i, worlds_[i]->write(field, ids_of(i, which), own));
+    check_world(*worlds_[i], i, worlds_[i]->write(field, ids_of(i, which), rows_of_world(rows, i, bodies, columns)));
+  });
+}
+
+std::span<const double> Worlds::read_joints(PlumbJointField field, std::span<const PlumbJoint> joints) {
+  require(field < PLUMB_JOINT_FIELD_COUNT, "worlds: joints have no field " + std::to_string(field));
+  const std::size_t columns = joint_columns_of(field);
+  std::vector<double>& rows = joint_rows_[field];
+  rows.resize(worlds_.size() * joints.size() * columns);
+  if (joints.empty()) return rows;
+  together_.each(worlds_.size(), [&](std::size_t i) {
+    check_world(*worlds_[i], i,
+                joints_of(*worlds_[i]).read_joints(field, joints, rows_of_world(rows, i, joints.size(), columns)));
+  });
+  return rows;
+}
+
+void Worlds::write_joints(PlumbJointField field, std::span<const double> rows, std::span<const PlumbJoint> joints,
+                          std::span<const std::uint8_t> mask) {
+  require(field < PLUMB_JOINT_FIELD_COUNT, "worlds: joints have no field " + std::to_string(field));
+  if (!mask.empty()) require_mask(mask);
+  const std::size_t columns = joint_columns_of(field);
+  require_rows(rows.size(), "joints", joints.size(), columns);
+  if (joints.empty()) return;
+  together_.each(worlds_.size(), [&](std::size_t i) {
+    if (!mask.empty() && mask[i] == 0) return;
+    check_world(*worlds_[i], i,
+                joints_of(*worlds_[i]).write_joints(field, joints, rows_of_world(rows, i, joints.size(), columns)));
   });
 }
 
@@ -140,6 +175,12 @@ PlumbDLManagedTensor* Worlds::borrow(const PlumbStateRequest& request, PlumbFenc
 void Worlds::require_mask(std::span<const std::uint8_t> mask) const {
   require(mask.size() == worlds_.size(), "worlds: a mask of " + std::to_string(mask.size()) + " entries for " +
                                              std::to_string(worlds_.size()) + " worlds: give one for each");
+}
+
+void Worlds::require_rows(std::size_t numbers, const char* what, std::size_t count, std::size_t columns) const {
+  require(numbers == worlds_.size() * count * columns,
+          "worlds: " + std::to_string(numbers) + " numbers to write: give " + std::to_string(worlds_.size()) +
+              " worlds x " + std::to_string(count) + " " + what + " x " + std::to_string(columns) + " columns");
 }
 
 std::vector<PlumbBody> Worlds::ids_of(std::size_t world, std::span<const std::uint32_t> which) const {

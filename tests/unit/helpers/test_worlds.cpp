@@ -91,6 +91,40 @@ TEST(Worlds, LendTheRowsOfAllWhereTheyLie) {
   lent->deleter(lent);
 }
 
+/// A wheel that a motor turns, as fast as its world is told.
+TEST(Worlds, DriveTheJointsOfAllByOneArray) {
+  if (!offers(PLUMB_NEED_ROTATION | PLUMB_NEED_JOINTS)) GTEST_SKIP() << "no joints";
+  const Backend& backend = backend_under_test();
+  if (backend.capability(PLUMB_CAP_JOINT_FEATURE, PLUMB_JOINT_HINGE, PLUMB_JOINT_HAS_MOTORS) == PLUMB_NONE)
+    GTEST_SKIP() << "no motors";
+  PlumbJoint hinge = 0;
+  const auto wheel = [&](std::uint32_t) {
+    TestWorld t({0, 0, 0}, PLUMB_NEED_ROTATION | PLUMB_NEED_JOINTS);
+    PlumbJointDesc desc = joint_desc(PLUMB_JOINT_HINGE);
+    desc.body_b = t.sphere(0.5, {0, 0, 0}, 1);
+    desc.motors[3] = {0, 100, 1, 0};
+    check(*t.world, t.world->joints()->create_joints({&desc, 1}, {&hinge, 1}));
+    return std::move(t.world);
+  };
+  Worlds worlds(3, wheel, 2);
+  std::vector<double> motors(3 * 12);
+  for (std::size_t i = 0; i < 3; ++i) {
+    motors[12 * i + 6] = 1.0 + static_cast<double>(i);
+    motors[12 * i + 7] = 100;
+  }
+  const std::array<std::uint8_t, 3> mask = {1, 0, 1};
+  worlds.write_joints(PLUMB_JOINT_MOTOR, motors, {&hinge, 1}, mask);
+  for (int k = 0; k < 30; ++k) worlds.step(1.0 / 60);
+  const std::span<const double> turned = worlds.read_joints(PLUMB_JOINT_COORDINATES, {&hinge, 1});
+  ASSERT_EQ(turned.size(), 3U * 6);
+  EXPECT_NEAR(turned[3], 0.5, 0.03);
+  EXPECT_NEAR(turned[6 + 3], 0, 1e-6);
+  EXPECT_NEAR(turned[12 + 3], 1.5, 0.08);
+  const PlumbJoint none = 0;
+  EXPECT_THROW((void)worlds.read_joints(PLUMB_JOINT_COORDINATES, {&none, 1}), Error);
+  EXPECT_THROW(worlds.write_joints(PLUMB_JOINT_MOTOR, std::span(motors).first(12), {&hinge, 1}), Error);
+}
+
 TEST(Worlds, GoBackToTheirStartByMask) {
   if (!offers(Worlds::needs)) GTEST_SKIP() << "no snapshots";
   Worlds worlds(

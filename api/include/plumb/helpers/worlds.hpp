@@ -68,6 +68,15 @@ class Worlds {
   void write(PlumbField field, std::span<const double> rows, std::span<const std::uint32_t> which = {},
              std::span<const std::uint8_t> mask = {});
 
+  /// Numbers of joints of all worlds: [world][joint][column]. joints: handles, the same in every world, as worlds that
+  /// were made by the same calls have them. Stays until the next call for the same field. Throws Error where a world
+  /// has no such joint.
+  [[nodiscard]] std::span<const double> read_joints(PlumbJointField field, std::span<const PlumbJoint> joints);
+  /// The same way round, of motors alone: target velocity and max force of axis 0, of axis 1 and so on, 12 numbers a
+  /// joint. Mask as of write().
+  void write_joints(PlumbJointField field, std::span<const double> rows, std::span<const PlumbJoint> joints,
+                    std::span<const std::uint8_t> mask = {});
+
   /// Poses or velocities of all worlds where the engine keeps them, without a copy where it can: worlds x rows x
   /// columns (plumb.worlds/1 and plumb.state/1 say more). Throws Error where the backend has no plumb.worlds/1; read()
   /// then.
@@ -75,6 +84,7 @@ class Worlds {
 
  private:
   void require_mask(std::span<const std::uint8_t> mask) const;
+  void require_rows(std::size_t numbers, const char* what, std::size_t count, std::size_t columns) const;
   [[nodiscard]] std::vector<PlumbBody> ids_of(std::size_t world, std::span<const std::uint32_t> which) const;
 
   StepTogether together_;
@@ -84,7 +94,7 @@ class Worlds {
   std::uint32_t bodies_ = 0;
   std::vector<PlumbStepReport> reports_;
   std::vector<std::vector<std::byte>> marks_;  // by world; empty before the first
-  std::vector<double> rows_[PLUMB_FIELD_COUNT];
+  std::vector<double> rows_[PLUMB_FIELD_COUNT], joint_rows_[PLUMB_JOINT_FIELD_COUNT];
 };
 
 }  // namespace plumb::helpers
