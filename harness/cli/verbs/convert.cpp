@@ -17,6 +17,7 @@
 #include "convert/read.hpp"
 #include "convert/scene_text.hpp"
 #include "convert/set_up.hpp"
+#include "convert/write/write_mjcf.hpp"
 #include "convert/write/write_sdf.hpp"
 
 namespace plumb::harness {
@@ -81,12 +82,16 @@ void write_world(const std::filesystem::path& to, Imported& imported, const std:
 
 int convert(const ConvertOptions& options) {
   const std::filesystem::path to(options.to);
-  const bool to_scene = to.extension() == ".json", to_world = to.extension() == ".sdf" || to.extension() == ".world";
-  if (!to_scene && !to_world)
-    throw UsageError(fmt::format("cannot write {}: a scene's file ends with .json, an SDF world's with .sdf or .world",
-                                 shortened(options.to, 200)));
+  const bool to_scene = to.extension() == ".json", to_world = to.extension() == ".sdf" || to.extension() == ".world",
+             to_model = to.extension() == ".xml" || to.extension() == ".mjcf";
+  if (!to_scene && !to_world && !to_model)
+    throw UsageError(
+        fmt::format("cannot write {}: a scene's file ends with .json, an SDF world's with .sdf or .world, "
+                    "an MJCF model's with .xml or .mjcf",
+                    shortened(options.to, 200)));
   if (to_scene && !is_machine(options.from))
-    throw UsageError(options.from + " is a scene already; a world is written to a file that ends with .sdf");
+    throw UsageError(options.from +
+                     " is a scene already; a world is written to a file that ends with .sdf, a model to .xml");
   DraftFile out(options.to);
   Imported imported = read(options);
   set_up(imported, options.set_up);
@@ -97,6 +102,8 @@ int convert(const ConvertOptions& options) {
   const std::string slug = slug_of(to);
   if (to_scene)
     write_scene(options, imported, slug, out);
+  else if (to_model)
+    out.write(write_mjcf(scene, slug, imported.remarks));
   else
     write_world(to, imported, slug, out);
   std::cout << fmt::format("{}: {} bodies, {} joints, {} shapes\n", options.to, scene.bodies.size(),
@@ -110,11 +117,14 @@ int convert(const ConvertOptions& options) {
 void add_convert(CLI::App& program, int& status) {
   const auto options = std::make_shared<ConvertOptions>();
   CLI::App* verb = program.add_subcommand(
-      "convert", "Make a scene of a machine in URDF, SDF, MJCF or glTF, or an SDF world of a scene");
+      "convert", "Make a scene of a machine in URDF, SDF, MJCF or glTF, or an SDF world or MJCF model of a scene");
   verb->add_option("FROM", options->from,
                    "File to read, its kind told by its outermost element, of glTF by its name; or a scene")
       ->required();
-  verb->add_option("TO", options->to, "File to write: a scene, as in arm.json, or a world, as in arm.sdf")->required();
+  verb->add_option(
+          "TO", options->to,
+          "File to write: a scene, as in arm.json, a world, as in arm.sdf, or a model for MuJoCo, as in arm.xml")
+      ->required();
   verb->add_option("--folder", options->folders,
                    "Where model:// and package:// names and meshes are looked for, beside the folders above FROM; "
                    "repeatable")
@@ -153,7 +163,8 @@ void add_convert(CLI::App& program, int& status) {
       *verb, {{"plumb convert arm.urdf arm.json --fix-base", "an arm that hangs from its base"},
               {"plumb convert level.glb level.json", "what an artist exported with KHR_physics_rigid_bodies"},
               {"plumb convert robot.sdf robot.json --ground --hold", "a robot that stands still: plumb run robot.json"},
-              {"plumb convert D1 tower.sdf --param H=20", "a tower for Gazebo"}});
+              {"plumb convert D1 tower.sdf --param H=20", "a tower for Gazebo"},
+              {"plumb convert I14 ragdoll.xml", "a ragdoll for MuJoCo"}});
   verb->callback([options, &status] { status = convert(*options); });
 }
 

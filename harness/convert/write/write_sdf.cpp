@@ -1,11 +1,12 @@
 #include "convert/write/write_sdf.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 #include "convert/upright.hpp"
+#include "convert/write/left_out.hpp"
 #include "convert/write/sdf_collisions.hpp"
+#include "convert/write/start_of_joint.hpp"
 #include "measure/instruments/mechanics.hpp"
 
 namespace plumb::harness {
@@ -46,17 +47,6 @@ void write_inertial(Xml& xml, const referee::Mass& mass) {
     for (int column = row; column < 3; ++column) xml.numbers(names[row][column], {mass.inertia(row, column)});
 }
 
-void remark_body(const SceneBody& body, Remarks& remarks) {
-  const PlumbBodyDesc& desc = body.desc;
-  const auto is = [](const PlumbVec3& v) { return v.x != 0 || v.y != 0 || v.z != 0; };
-  if (is(desc.linear_velocity) || is(desc.angular_velocity))
-    remarks.add("velocities at the start are left out", body.name);
-  if (desc.flags != 0 || desc.locks != 0) remarks.add("flags and locks are left out", body.name);
-  if (desc.linear_damping != 0 || desc.angular_damping != 0) remarks.add("damping is left out", body.name);
-  if (is(desc.material.surface_velocity)) remarks.add("surface velocities are left out", body.name);
-  if (desc.gravity_scale != 1 && desc.gravity_scale != 0) remarks.add("a gravity of its own is left out", body.name);
-}
-
 void write_link(SdfOutput& out, std::size_t index) {
   const SceneBody& body = out.scene.bodies[index];
   Xml& xml = out.xml;
@@ -89,42 +79,28 @@ SdfKind kind_of(const SceneJoint& joint) {
   }
 }
 
-/// What the axis is at the start, which SDF calls 0.
-double start_of(const Scene& scene, const SceneJoint& joint, std::size_t axis) {
-  const Pose a = (joint.body_a ? referee::pose(scene.bodies[*joint.body_a].desc.pose) : Pose{}) *
-                 referee::pose(joint.desc.frame_a);
-  const Pose b = referee::pose(scene.bodies[joint.body_b].desc.pose) * referee::pose(joint.desc.frame_b);
-  const Pose moved = b.seen_from(a);
-  if (axis == 0) return moved.position.x();
-  const referee::Mat3& r = moved.rotation;
-  return axis == 3 ? std::atan2(r(2, 1) - r(1, 2), r(1, 1) + r(2, 2)) : std::atan2(r(0, 2), r(2, 2));
-}
-
 void write_axis(SdfOutput& out, const SceneJoint& joint, std::size_t axis, bool second) {
   Xml& xml = out.xml;
   const Xml::Element element(xml, second ? "axis2" : "axis");
   xml.text("xyz", second ? "0 1 0" : "1 0 0");
   if (const PlumbLimit& limit = joint.desc.limits[axis]; limit.enabled != 0) {
-    const double start = start_of(out.scene, joint, axis);
+    const double start = start_of_joint(out.scene, joint, axis);
     const Xml::Element inside(xml, "limit");
     xml.numbers("lower", {limit.lower - start});
     xml.numbers("upper", {limit.upper - start});
   }
   const PlumbMotor& motor = joint.desc.motors[axis];
   const PlumbSpring& spring = joint.desc.springs[axis];
-  const bool brakes = motor.enabled != 0 && motor.target_velocity == 0;
-  const bool springs = spring.enabled != 0 && spring.mode == PLUMB_SPRING_STIFFNESS;
-  if (brakes || springs) {
+  if (brakes(motor) || springs_by_stiffness(spring)) {
     const Xml::Element dynamics(xml, "dynamics");
-    if (brakes) xml.numbers("friction", {motor.max_force});
-    if (springs) {
+    if (brakes(motor)) xml.numbers("friction", {motor.max_force});
+    if (springs_by_stiffness(spring)) {
       xml.numbers("damping", {spring.damping_ratio});
       xml.numbers("spring_stiffness", {spring.frequency});
-      xml.numbers("spring_reference", {spring.rest - start_of(out.scene, joint, axis)});
+      xml.numbers("spring_reference", {spring.rest - start_of_joint(out.scene, joint, axis)});
     }
   }
-  if (motor.enabled != 0 && !brakes) out.remarks.add("motors that drive are left out", joint.name);
-  if (spring.enabled != 0 && !springs) out.remarks.add("springs by frequency are left out", joint.name);
+  remark_axis(joint, axis, out.remarks);
 }
 
 void write_joint(SdfOutput& out, const SceneJoint& joint) {
@@ -135,9 +111,7 @@ void write_joint(SdfOutput& out, const SceneJoint& joint) {
   xml.text("child", sdf_name(out.scene.bodies[joint.body_b].name));
   write_pose(xml, referee::pose(joint.desc.frame_b));
   for (std::size_t i = 0; i < kind.axes.size(); ++i) write_axis(out, joint, kind.axes[i], i == 1);
-  if (joint.desc.break_force != 0 || joint.desc.break_torque != 0 || std::isfinite(joint.cut))
-    out.remarks.add("that joints break is left out", joint.name);
-  if (joint.desc.collide_connected != 0) out.remarks.add("that joined bodies collide is left out", joint.name);
+  remark_joint(joint, out.remarks);
 }
 
 /// In a model whose other links move, one that stands is fixed to the world.
@@ -183,7 +157,7 @@ SdfFiles write_sdf(const Scene& scene, const std::string& name, Remarks& remarks
     }
     for (const auto& group : groups_of(scene)) write_model(out, group);
   }
-  for (const SceneAction& action : scene.host) remarks.add("what the host does is left out", action.name);
+  remark_host(scene, remarks);
   return {out.xml.str(), std::move(out.meshes)};
 }
 
