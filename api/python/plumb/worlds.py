@@ -63,7 +63,8 @@ class Worlds:
     def __init__(self, worlds: Iterable[World], threads: int = 0) -> None:
         """worlds: at least one, all different. threads: over which they are spread, the caller's included; 0: as many
         as the machine has processors. It makes no difference to results; worlds made with threads=1 leave the threads
-        to these. A World that was in other Worlds works in these; the others cannot borrow its rows any more."""
+        to these. A World that was in other Worlds works in these; the others cannot borrow its rows any more. A
+        process that is forked has none of the threads: make Worlds behind the fork."""
         if not isinstance(worlds, AnyIterable):
             raise TypeError(f"worlds must be Worlds that a backend made, as in [make(0), make(1)], not {worlds!r}")
         self._worlds: Tuple[World, ...] = tuple(worlds)
