@@ -90,7 +90,7 @@ Json extensions_of(const Backend& backend) {
   Json names = Json::array();
   for (const char* name :
        {PLUMB_EXT_JOINTS, PLUMB_EXT_QUERIES, PLUMB_EXT_COLLIDE, PLUMB_EXT_DEBUG, PLUMB_EXT_SETTINGS, PLUMB_EXT_SNAPSHOT,
-        PLUMB_EXT_STATE, PLUMB_EXT_EXCEPTIONS, PLUMB_EXT_MODIFY, PLUMB_EXT_MANIFOLDS}) {
+        PLUMB_EXT_STATE, PLUMB_EXT_EXCEPTIONS, PLUMB_EXT_MODIFY, PLUMB_EXT_MANIFOLDS, PLUMB_EXT_WORLDS}) {
     if (backend.table().extension(name) != nullptr) names.push_back(name);
   }
   return names;
