@@ -90,7 +90,7 @@ std::string refusal(const std::string& text) {
 }
 
 TEST(StudyFiles, presets_are_studies) {
-  EXPECT_EQ(study_presets().size(), 3u);
+  EXPECT_EQ(study_presets().size(), 4u);
   for (const auto& [name, text] : study_presets()) {
     EXPECT_EQ(read_study(name, text).name, name);
     const Finished printed = plumb({"study", name, "--print"});

@@ -76,7 +76,7 @@ def compare(*scenes: PathLike, out: Optional[PathLike] = None, on_row: OnRow = N
 def study(
     study: Union[PathLike, Mapping[str, Any]], out: Optional[PathLike] = None, on_row: OnRow = None, **options: Any
 ) -> List[Row]:
-    """A whole study: a preset (quick, standard, full), a study file, or what such a file holds as a dictionary."""
+    """A whole study: a preset (quick, standard, full, scaling), a study file, or what one holds as a dictionary."""
     if not isinstance(study, Mapping):
         return _kept("study", (study,), out, on_row, options)
     with tempfile.TemporaryDirectory() as folder:

@@ -152,7 +152,7 @@ void add_study(CLI::App& program, int& status) {
   const auto options = std::make_shared<StudyVerbOptions>();
   CLI::App* verb = program.add_subcommand(
       "study", "Run a whole study: scenes, backends, knobs, steps and seeds as a file or a preset says");
-  verb->add_option("STUDY", options->what, "A preset (quick, standard, full) or a study file")->required();
+  verb->add_option("STUDY", options->what, "A preset (quick, standard, full, scaling) or a study file")->required();
   verb->add_option("--out", options->out, "Folder for the results; what is finished there is not run again")
       ->type_name("DIR")
       ->capture_default_str();
