@@ -50,10 +50,10 @@ def read_alone(worlds, field="pose"):
 
 
 class Joints(unittest.TestCase):
-    @on_each("rotation", "joints")
+    @on_each("rotation", "collision", "friction", "joints")
     def test_motors_of_all_are_one_array(self, engine):
         def wheel():
-            world = engine.world(["rotation", "joints"], gravity=(0, 0, 0))
+            world = engine.world(["rotation", "collision", "friction", "joints"], gravity=(0, 0, 0))
             body = world.create_body(plumb.BodyDesc(world.create_shape(plumb.Sphere(0.5)), mass=1))
             joint = plumb.JointDesc("hinge", 0, body, motors={3: plumb.Motor(0, 100)})
             return world, world.joints.create(joint)

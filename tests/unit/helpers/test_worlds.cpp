@@ -93,13 +93,13 @@ TEST(Worlds, LendTheRowsOfAllWhereTheyLie) {
 
 /// A wheel that a motor turns, as fast as its world is told.
 TEST(Worlds, DriveTheJointsOfAllByOneArray) {
-  if (!offers(PLUMB_NEED_ROTATION | PLUMB_NEED_JOINTS)) GTEST_SKIP() << "no joints";
+  if (!offers(kNeeds | PLUMB_NEED_JOINTS)) GTEST_SKIP() << "no joints";
   const Backend& backend = backend_under_test();
   if (backend.capability(PLUMB_CAP_JOINT_FEATURE, PLUMB_JOINT_HINGE, PLUMB_JOINT_HAS_MOTORS) == PLUMB_NONE)
     GTEST_SKIP() << "no motors";
   PlumbJoint hinge = 0;
   const auto wheel = [&](std::uint32_t) {
-    TestWorld t({0, 0, 0}, PLUMB_NEED_ROTATION | PLUMB_NEED_JOINTS);
+    TestWorld t({0, 0, 0}, kNeeds | PLUMB_NEED_JOINTS);
     PlumbJointDesc desc = joint_desc(PLUMB_JOINT_HINGE);
     desc.body_b = t.sphere(0.5, {0, 0, 0}, 1);
     desc.motors[3] = {0, 100, 1, 0};
