@@ -33,10 +33,6 @@ Attributes geometry_of(const Scene& scene, std::size_t index) {
   }
 }
 
-bool lies_along_y(PlumbShapeType type) {
-  return type == PLUMB_CAPSULE || type == PLUMB_CYLINDER || type == PLUMB_PLANE;
-}
-
 /// Two geoms collide in MuJoCo where one's contype meets the other's conaffinity, in scenes where both do.
 void add_filter(Attributes& attributes, const SceneBody& body, Remarks& remarks) {
   const PlumbFilter &filter = body.desc.filter, open = body_desc(PLUMB_DYNAMIC).filter;

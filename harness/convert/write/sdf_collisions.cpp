@@ -80,10 +80,6 @@ void write_geometry(SdfOutput& out, std::size_t index) {
   }
 }
 
-bool lies_along_y(PlumbShapeType type) {
-  return type == PLUMB_CAPSULE || type == PLUMB_CYLINDER || type == PLUMB_PLANE;
-}
-
 void write_surface(SdfOutput& out, const SceneBody& body, const PlumbMaterial& material) {
   Xml& xml = out.xml;
   const Xml::Element surface(xml, "surface");
