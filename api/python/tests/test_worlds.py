@@ -55,7 +55,7 @@ class Joints(unittest.TestCase):
         def wheel():
             world = engine.world(["rotation", "collision", "friction", "joints"], gravity=(0, 0, 0))
             body = world.create_body(plumb.BodyDesc(world.create_shape(plumb.Sphere(0.5)), mass=1))
-            joint = plumb.JointDesc("hinge", 0, body, motors={3: plumb.Motor(0, 100)})
+            joint = plumb.JointDesc("hinge", body, motors={3: plumb.Motor(0, 100)})
             return world, world.joints.create(joint)
 
         made = [wheel() for _ in range(3)]
