@@ -1,4 +1,5 @@
-// Threads that wait for tasks and share them.
+// Threads that wait for tasks and share them. Each has the same ones every time, as far as it gets to them before the
+// others: what a task works with is in its processor's caches, and its memory from its own arena.
 #pragma once
 
 #include <atomic>
@@ -25,8 +26,14 @@ class ThreadTeam {
   void each(std::size_t n, const std::function<void(std::size_t)>& f);
 
  private:
-  void wait_for_tasks();
-  void work();
+  /// Tasks of one thread, which others help with when they are done with their own.
+  struct alignas(64) Share {
+    std::atomic<std::size_t> next{0};
+    std::size_t end = 0;
+  };
+  void wait_for_tasks(std::size_t thread);
+  void work(std::size_t thread);
+  void run(std::size_t task);
 
   std::mutex mutex_;
   std::condition_variable begins_, ends_;
@@ -34,8 +41,7 @@ class ThreadTeam {
   std::size_t at_work_ = 0;  // others that have not come to the end of this round
   bool over_ = false;
   const std::function<void(std::size_t)>* task_ = nullptr;
-  std::size_t count_ = 0;
-  std::atomic<std::size_t> next_{0};
+  std::vector<Share> shares_;  // by thread; the caller's first
   std::exception_ptr failure_;
   std::size_t failed_ = 0;
   std::vector<std::jthread> others_;  // last: they see all above
