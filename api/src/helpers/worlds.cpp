@@ -112,12 +112,14 @@ void Worlds::reset() { reset(std::vector<std::uint8_t>(worlds_.size(), 1)); }
 
 std::span<const double> Worlds::read(PlumbField field, std::span<const std::uint32_t> which) {
   require(field < PLUMB_FIELD_COUNT, "worlds: there is no field " + std::to_string(field));
-  const std::size_t columns = columns_of(field), bodies = which.empty() ? bodies_ : which.size();
+  const Chosen bodies = choose(which);
+  const std::size_t columns = columns_of(field);
   std::vector<double>& rows = rows_[field];
-  rows.resize(worlds_.size() * bodies * columns);
-  if (bodies == 0) return rows;
+  rows.resize(worlds_.size() * bodies.count * columns);
+  if (bodies.count == 0) return rows;
   together_.each(worlds_.size(), [&](std::size_t i) {
-    check_world(*worlds_[i], i, worlds_[i]->read(field, ids_of(i, which), rows_of_world(rows, i, bodies, columns)));
+    check_world(*worlds_[i], i,
+                worlds_[i]->read(field, ids_of(i, bodies), rows_of_world(rows, i, bodies.count, columns)));
   });
   return rows;
 }
@@ -126,12 +128,14 @@ void Worlds::write(PlumbField field, std::span<const double> rows, std::span<con
                    std::span<const std::uint8_t> mask) {
   require(field < PLUMB_FIELD_COUNT, "worlds: there is no field " + std::to_string(field));
   if (!mask.empty()) require_mask(mask);
-  const std::size_t columns = columns_of(field), bodies = which.empty() ? bodies_ : which.size();
-  require_rows(rows.size(), "bodies", bodies, columns);
-  if (bodies == 0) return;
+  const Chosen bodies = choose(which);
+  const std::size_t columns = columns_of(field);
+  require_rows(rows.size(), "bodies", bodies.count, columns);
+  if (bodies.count == 0) return;
   together_.each(worlds_.size(), [&](std::size_t i) {
     if (!mask.empty() && mask[i] == 0) return;
-    check_world(*worlds_[i], i, worlds_[i]->write(field, ids_of(i, which), rows_of_world(rows, i, bodies, columns)));
+    check_world(*worlds_[i], i,
+                worlds_[i]->write(field, ids_of(i, bodies), rows_of_world(rows, i, bodies.count, columns)));
   });
 }
 
@@ -183,15 +187,22 @@ void Worlds::require_rows(std::size_t numbers, const char* what, std::size_t cou
               " worlds x " + std::to_string(count) + " " + what + " x " + std::to_string(columns) + " columns");
 }
 
-std::vector<PlumbBody> Worlds::ids_of(std::size_t world, std::span<const std::uint32_t> which) const {
-  if (which.empty()) return ids_[world];
-  std::vector<PlumbBody> ids;
-  for (const std::uint32_t body : which) {
-    require(body < bodies_, "worlds: there is no body " + std::to_string(body) + ": each has " +
-                                std::to_string(bodies_) + ", counted from 0 in order of creation");
-    ids.push_back(ids_[world][body]);
-  }
-  return ids;
+Worlds::Chosen Worlds::choose(std::span<const std::uint32_t> which) const {
+  Chosen chosen{which.empty() ? bodies_ : which.size(), {}};
+  if (which.empty()) return chosen;
+  for (const std::uint32_t body : which)
+    if (body >= bodies_)
+      throw Error(PLUMB_E_INVALID_ARGUMENT, "worlds: there is no body " + std::to_string(body) + ": each has " +
+                                                std::to_string(bodies_) + ", counted from 0 in order of creation");
+  chosen.ids.reserve(ids_.size() * which.size());
+  for (const std::vector<PlumbBody>& all : ids_)
+    for (const std::uint32_t body : which) chosen.ids.push_back(all[body]);
+  return chosen;
+}
+
+std::span<const PlumbBody> Worlds::ids_of(std::size_t world, const Chosen& chosen) const {
+  return chosen.ids.empty() ? std::span(ids_[world])
+                            : std::span(chosen.ids).subspan(world * chosen.count, chosen.count);
 }
 
 }  // namespace plumb::helpers

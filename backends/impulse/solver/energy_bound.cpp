@@ -166,7 +166,7 @@ struct JudgeEnergy {
     if ((!is_pushed(joint.body_a) && !is_pushed(joint.body_b)) || !may_have_more(root_of(joint))) return;
     const JointAxes* axes = work.code == JointCode::kAll ? &work.joints.axes.axes[j] : nullptr;
     const Real after = openness(joint, axes, place_after(joint));
-    if (!(after > 1) || !(after > openness(joint, axes, place_before(joint)) + Real(0.25))) return;
+    if (!(after > 1) || !(after > openness(joint, axes, place_before(joint)) + kOpensBy)) return;
     atomic_add(&work.counters->bound.opened, 1U);
     atomic_max(&islands[root_of(joint)].opened, 1U);
   }

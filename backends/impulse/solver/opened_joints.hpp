@@ -1,16 +1,20 @@
-// How far a joint is from where it holds its bodies, in parts of what a step may open it by.
+// How far a joint is from where it holds its bodies, in parts of what it may be open by.
 //
 // A blow can turn what is light and short by a radian in a sub-step, and rows that are straight in the sub-step do not
 // follow it round. In shorter ones they do: the error falls by eight and more for each halving. So a step that opens a
-// joint by more than this is taken back, and its island has more sub-steps (energy_bound.hpp).
+// joint beyond this, and by a quarter of it or more, is taken back, and its island has more sub-steps
+// (energy_bound.hpp).
 #pragma once
 
 #include "joints/joint_axes.hpp"
 
 namespace plumb::impulse {
 
-/// What a step may open a joint by: m, rad.
+/// How far a joint may be open: m, rad.
 inline constexpr Real kMostOpening = Real(5e-3), kMostTurning = Real(0.02);
+/// Parts of that by which a step opens one: what was open before and is hardly more so now, more sub-steps do not
+/// close.
+inline constexpr Real kOpensBy = Real(0.25);
 
 /// So many times the sub-steps that it had an island asks for then; a little more than the level below.
 inline constexpr Real kMoreForOpened = Real(2.01);

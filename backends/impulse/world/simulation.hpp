@@ -204,7 +204,7 @@ class Simulation {
   /// Of the last step, or the one that is under way.
   struct Last {
     bool shows = false;     // what it has found waits for respond()
-    bool measured = false;  // so are its phases
+    bool measured = false;  // the times of its phases are known
   } last_;
 };
 

@@ -8,6 +8,7 @@
 
 #include "convert/read.hpp"
 #include "measure/instruments/mechanics.hpp"
+#include "scene/catalogue.hpp"
 
 namespace plumb::harness::testing {
 
@@ -39,6 +40,12 @@ inline std::string failure_of(const std::string& name, const std::string& text) 
     return error.what();
   }
   return "no failure";
+}
+
+/// A scene of the catalogue as its first variant has it.
+inline Scene scene_of(const std::string& id) {
+  const SceneFile file = find_scenes(id).at(0);
+  return file.instantiate(file.variants.front());
 }
 
 inline referee::Pose pose_of(const Scene& scene, const std::string& body) {

@@ -7,15 +7,9 @@
 #include "convert/upright.hpp"
 #include "convert/write/write_sdf.hpp"
 #include "machine_files.hpp"
-#include "scene/catalogue.hpp"
 
 namespace plumb::harness::testing {
 namespace {
-
-Scene scene_of(const std::string& id) {
-  const SceneFile file = find_scenes(id).at(0);
-  return file.instantiate(file.variants.front());
-}
 
 Imported there_and_back(const Scene& scene, Remarks& remarks) {
   const auto folder = own_folder();

@@ -14,11 +14,6 @@
 namespace plumb::harness::testing {
 namespace {
 
-Scene scene_of(const std::string& id) {
-  const SceneFile file = find_scenes(id).at(0);
-  return file.instantiate(file.variants.front());
-}
-
 Imported there_and_back(const Scene& scene) {
   Remarks remarks;
   return read_mjcf({write_file("m.xml", write_mjcf(scene, "m", remarks)), {}});

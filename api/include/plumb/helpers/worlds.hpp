@@ -85,7 +85,13 @@ class Worlds {
  private:
   void require_mask(std::span<const std::uint8_t> mask) const;
   void require_rows(std::size_t numbers, const char* what, std::size_t count, std::size_t columns) const;
-  [[nodiscard]] std::vector<PlumbBody> ids_of(std::size_t world, std::span<const std::uint32_t> which) const;
+  /// So many bodies of each world; their handles world by world, or none where all are meant.
+  struct Chosen {
+    std::size_t count;
+    std::vector<PlumbBody> ids;
+  };
+  [[nodiscard]] Chosen choose(std::span<const std::uint32_t> which) const;
+  [[nodiscard]] std::span<const PlumbBody> ids_of(std::size_t world, const Chosen& chosen) const;
 
   StepTogether together_;
   std::vector<std::unique_ptr<IPhysicsWorld>> worlds_;
