@@ -61,6 +61,29 @@ TEST(Worlds, AreReadAndWrittenAsOneArray) {
   EXPECT_EQ(worlds.read(PLUMB_FIELD_POSE, two).size(), 3U * 2 * 7);
 }
 
+/// Of worlds in which others have lived before, under handles that so are not those of the world beside.
+TEST(Worlds, KnowBodiesByTheirPlaceWhateverTheirHandles) {
+  const auto make = [](std::uint32_t index) {
+    TestWorld t({0, 0, 0}, kNeeds);
+    for (std::uint32_t gone = 0; gone < index; ++gone) {
+      const PlumbBody body = t.sphere(0.1, {0, 5, 0}, 1);
+      check(*t.world, t.world->destroy_bodies({&body, 1}));
+    }
+    for (int k = 0; k < 2; ++k) t.sphere(0.1, {10.0 * index + k, 0, 0}, 1);
+    return std::move(t.world);
+  };
+  Worlds worlds(3, make, 2);
+  ASSERT_NE(worlds[0].bodies()[0], worlds[1].bodies()[0]);
+  const std::array<std::uint32_t, 1> first = {0};
+  const std::vector<double> velocities = {1, 0, 0, 0, 0, 0, 2, 0, 0, 0, 0, 0, 3, 0, 0, 0, 0, 0};
+  worlds.write(PLUMB_FIELD_VELOCITY, velocities, first);
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(worlds.read(PLUMB_FIELD_POSE, first)[7 * i], 10.0 * i, 1e-6);
+    EXPECT_NEAR(worlds.read(PLUMB_FIELD_VELOCITY)[12 * i], 1.0 + i, 1e-6);
+    EXPECT_NEAR(worlds.read(PLUMB_FIELD_VELOCITY)[12 * i + 6], 0, 1e-6);
+  }
+}
+
 TEST(Worlds, LendTheRowsOfAllWhereTheyLie) {
   Worlds worlds(
       3, [](std::uint32_t i) { return falling_cubes(lean_of(i)); }, 2);
