@@ -29,11 +29,12 @@ struct Match {
       kept.feature[i] = i < found.count ? found.points[i].feature : 0;
       kept.normal_impulse[i] = kept.tangent_impulse[0][i] = kept.tangent_impulse[1][i] = 0;
     }
-    const std::uint32_t step = parameters->step;
-    const std::uint32_t triangle = cache.triangles == nullptr ? 0U : cache.triangles[candidate];
-    const std::uint32_t old_row = a.first_step == step || b.first_step == step ? kNone : find_row(last, pair, triangle);
-    const CachedManifold* old = old_row != kNone ? &last.kept[old_row] : nullptr;
-    if (old == nullptr && woken != nullptr) old = find_kept(woken, parameters->woken_contacts, pair, triangle);
+    const std::uint32_t previous = cache.previous[candidate];
+    const CachedManifold* old =
+        previous != kNone && last.touching[previous] != 0 ? &last.kept[last.row[previous]] : nullptr;
+    if (old == nullptr && woken != nullptr)
+      old = find_kept(woken, parameters->woken_contacts, pair,
+                      cache.triangles == nullptr ? 0U : cache.triangles[candidate]);
     if (old != nullptr) remember(*old, found, kept);
     PLUMB_ASSERT(kept.count >= 1);
     cache.kept[row] = kept;

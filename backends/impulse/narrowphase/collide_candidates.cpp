@@ -38,7 +38,7 @@ struct Collide {
 }  // namespace
 
 void collide_candidates(Executor& executor, Count candidates, const CollideInput& input, std::uint32_t shape_types) {
-  if (input.cache.triangles != nullptr || (shape_types & bit_of(ShapeType::kCylinder)) != 0)
+  if (input.work.cache.triangles != nullptr || (shape_types & bit_of(ShapeType::kCylinder)) != 0)
     executor.run(candidates, Collide<AnyPiece>{input});
   else
     executor.run(candidates, Collide<AnyKind>{input});

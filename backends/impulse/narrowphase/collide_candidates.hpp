@@ -4,7 +4,7 @@
 
 #include "bodies/body.hpp"
 #include "exec/executor.hpp"
-#include "narrowphase/contact_cache.hpp"
+#include "narrowphase/contact_recycling.hpp"
 #include "narrowphase/shape_pair.hpp"
 #include "plumb/assert.hpp"
 
@@ -20,10 +20,7 @@ PLUMB_HD constexpr std::uint32_t pair_kind(ShapeType a, ShapeType b) {
 
 /// What is collided, and where the candidates of a kind are.
 struct CollideInput {
-  ContactCache cache;
-  Bodies bodies;
-  Proxies proxies;
-  const Real* margins;         ///< by proxy
+  NarrowPhaseWork work;
   const std::uint32_t* order;  ///< candidates by pair_kind; null where all are of one kind, or nobody asks
   const std::uint32_t* first;  ///< by pair_kind: its first place in the order
 };
@@ -31,23 +28,34 @@ struct CollideInput {
 /// shape_types: a bit for each ShapeType in the scene.
 void collide_candidates(Executor& executor, Count candidates, const CollideInput& input, std::uint32_t shape_types);
 
-/// Runs Kind::collide(shape_pair, proxies, triangle, manifold) on a candidate, and writes down what it found.
+/// Runs Kind::collide(shape_pair, proxies, triangle, manifold) on a candidate that is not recycled, and writes down
+/// what it found.
 template <class Kind>
 PLUMB_HD void collide_candidate(const CollideInput& in, std::uint32_t p) {
-  const Pair pair = in.cache.pairs[p];
-  const Proxy &a = in.proxies.rows[pair.a], &b = in.proxies.rows[pair.b];
+  const ContactCache& cache = in.work.cache;
+  CollidedManifold& collided = cache.collided[p];
+  if (collided.is_recyclable()) return;  // and has been, in this step
+  const Bodies& bodies = in.work.bodies;
+  const Proxies& proxies = in.work.proxies;
+  const Pair pair = cache.pairs[p];
+  const Proxy &a = proxies.rows[pair.a], &b = proxies.rows[pair.b];
   PLUMB_ASSERT(a.shape != kNone && b.shape != kNone && a.body != b.body);
-  const ShapePose pose_a = shape_pose(a, in.bodies.orientation[a.body]),
-                  pose_b = shape_pose(b, in.bodies.orientation[b.body]);
-  const Vec apart = between(in.bodies.position[a.body], in.bodies.position[b.body]) + pose_b.offset - pose_a.offset;
+  const Quat &qa = bodies.orientation[a.body], &qb = bodies.orientation[b.body];
+  const ShapePose pose_a = shape_pose(a, qa), pose_b = shape_pose(b, qb);
+  const Vec apart = between(bodies.position[a.body], bodies.position[b.body]) + pose_b.offset - pose_a.offset;
+  const Shape &shape_a = proxies.shapes[a.shape], &shape_b = proxies.shapes[b.shape];
+  const Real margin = in.work.margin(pair);
   Manifold manifold;
-  const bool touch = Kind::collide({in.proxies.shapes[a.shape], in.proxies.shapes[b.shape], pose_a.orientation,
-                                    pose_b.orientation, apart, in.margins[pair.a] + in.margins[pair.b]},
-                                   in.proxies, in.cache.triangles == nullptr ? 0U : in.cache.triangles[p], manifold);
+  manifold.gap = 0;
+  const bool touch = Kind::collide({shape_a, shape_b, pose_a.orientation, pose_b.orientation, apart, margin}, proxies,
+                                   cache.triangles == nullptr ? 0U : cache.triangles[p], manifold);
   PLUMB_ASSERT(!touch || (manifold.count >= 1 && manifold.count <= static_cast<std::uint32_t>(kManifoldPoints)));
   PLUMB_ASSERT(!touch || is_finite(manifold.normal));
-  in.cache.touching[p] = touch ? 1 : 0;
-  if (touch) in.cache.found[p] = manifold;
+  cache.touching[p] = touch ? 1 : 0;
+  if (touch) cache.found[p] = manifold;
+  if (!touch) manifold.count = 0;
+  if (touch ? may_recycle(shape_a.type, shape_b.type, manifold) : manifold.gap > margin)
+    collided = {bodies.position[b.body] - bodies.position[a.body], qa, qb, margin, manifold};
 }
 
 }  // namespace plumb::impulse

@@ -34,32 +34,43 @@ struct StepImpulses {
   Real tangent[2][kManifoldPoints];
 };
 
-/// Contacts of one step. Two of these take turns: this step's and the last one's.
-struct ContactCache {
-  Pair* pairs;               ///< candidates of the broad phase
-  PairRange* ranges;         ///< by proxy: the candidates that it found
-  Manifold* found;           ///< by candidate; valid where touching
-  std::uint32_t* touching;   ///< by candidate: 1 or 0
-  std::uint32_t* row;        ///< by candidate: its manifold's row where touching
-  std::uint32_t* candidate;  ///< by row
-  CachedManifold* kept;      ///< by row
-  std::uint32_t* triangles;  ///< by candidate: the triangle of a surface, or 0; null where nothing has pieces
+/// What collision found, and how the bodies lay then (contact_recycling.hpp).
+struct CollidedManifold {
+  Position apart;  ///< from body a to body b, m
+  Quat orientation_a, orientation_b;
+  Real margin;        ///< how far ahead the two looked, m
+  Manifold manifold;  ///< without points and gap: none that may be recycled
+
+  [[nodiscard]] PLUMB_HD bool is_recyclable() const { return manifold.count != 0 || manifold.gap > 0; }
 };
 
-/// The row of pair (a, b), or of that part of it, in a step's cache, or kNone. The pair is in the list of whichever of
-/// both found it.
-PLUMB_HD inline std::uint32_t find_row(const ContactCache& cache, Pair wanted, std::uint32_t triangle = 0) {
+/// Contacts of one step. Two of these take turns: this step's and the last one's.
+struct ContactCache {
+  Pair* pairs;                 ///< candidates of the broad phase
+  PairRange* ranges;           ///< by proxy: the candidates that it found
+  Manifold* found;             ///< by candidate; valid where touching
+  std::uint32_t* touching;     ///< by candidate: 1 or 0
+  std::uint32_t* row;          ///< by candidate: its manifold's row where touching
+  std::uint32_t* previous;     ///< by candidate: the same pair among the last step's candidates, or kNone
+  CollidedManifold* collided;  ///< by candidate: what may be recycled in the next step
+  std::uint32_t* candidate;    ///< by row
+  CachedManifold* kept;        ///< by row
+  std::uint32_t* triangles;    ///< by candidate: the triangle of a surface, or 0; null where nothing has pieces
+};
+
+/// Pair (a, b), or that part of it, among a step's candidates, or kNone. It is in the list of whichever of both found
+/// it.
+PLUMB_HD inline std::uint32_t find_candidate(const ContactCache& cache, Pair wanted, std::uint32_t triangle = 0) {
   const std::uint32_t owners[2] = {wanted.a, wanted.b};
   for (const std::uint32_t owner : owners) {
     const PairRange range = cache.ranges[owner];
     for (std::uint32_t p = range.first; p < range.first + range.count; ++p)
       if (cache.pairs[p].a == wanted.a && cache.pairs[p].b == wanted.b &&
           (cache.triangles == nullptr || cache.triangles[p] == triangle))
-        return cache.touching[p] != 0 ? cache.row[p] : kNone;
+        return p;
   }
   return kNone;
 }
-
 PLUMB_HD inline bool earlier(const KeptPair& x, const KeptPair& y) {
   if (x.pair.a != y.pair.a) return x.pair.a < y.pair.a;
   return x.pair.b != y.pair.b ? x.pair.b < y.pair.b : x.triangle < y.triangle;

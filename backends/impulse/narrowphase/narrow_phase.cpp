@@ -54,6 +54,33 @@ struct ForgetFound {
   PLUMB_HD void operator()(std::uint32_t i) const { ranges[statics[i]] = other_ranges[statics[i]] = {0, 0}; }
 };
 
+void exchange(Archive& archive, CollidedManifold& collided) {
+  archive.value(collided.apart);
+  archive.value(collided.orientation_a);
+  archive.value(collided.orientation_b);
+  archive.value(collided.margin);
+  Manifold& manifold = collided.manifold;
+  archive.value(manifold.normal);
+  archive.value(manifold.count);
+  for (ManifoldPoint* point = manifold.points; point != manifold.points + manifold.count; ++point) {
+    archive.value(point->position);
+    archive.value(point->separation);
+    archive.value(point->feature);
+  }
+}
+
+/// Those that may be recycled, and where they are.
+void exchange_collided(Archive& archive, Buffer<CollidedManifold>& collided, std::uint32_t candidates) {
+  std::vector<CollidedManifold> rows =
+      archive.reads() ? std::vector<CollidedManifold>(candidates) : collided.to_host(candidates);
+  std::vector<std::uint32_t> recyclable;
+  for (std::uint32_t p = 0; p < candidates; ++p)
+    if (rows[p].manifold.count != 0) recyclable.push_back(p);
+  archive.list(recyclable);
+  for (const std::uint32_t p : recyclable) exchange(archive, rows[p]);
+  if (archive.reads()) collided.from_host(rows.data(), candidates);
+}
+
 }  // namespace
 
 void NarrowPhase::reserve(Executor& /*executor*/, std::uint32_t proxies, std::uint32_t pairs) {
@@ -63,6 +90,8 @@ void NarrowPhase::reserve(Executor& /*executor*/, std::uint32_t proxies, std::ui
     cache.found.grow(pairs);
     cache.touching.grow(pairs);
     cache.row.grow(pairs);
+    cache.previous.grow(pairs);
+    cache.collided.grow(pairs);
     cache.candidate.grow(pairs);
     cache.kept.grow(pairs);
     if (uses_midphase_) cache.triangles.grow(pairs);
@@ -76,12 +105,13 @@ void NarrowPhase::reserve(Executor& /*executor*/, std::uint32_t proxies, std::ui
   capacity_ = pairs;
 }
 
-void NarrowPhase::collide(Executor& executor, const ContactCache& cache, const Bodies& bodies, const Proxies& proxies,
-                          const Real* margins, std::uint32_t shape_types, StepCounters* counters) {
+void NarrowPhase::collide(Executor& executor, const NarrowPhaseWork& work, std::uint32_t shape_types,
+                          StepCounters* counters) {
+  recycle_contacts(executor, candidates(counters), work);
   const bool binned = Executor::kWarps && (shape_types & (shape_types - 1)) != 0;
-  if (binned) bin(executor, cache, proxies, counters);
-  collide_candidates(executor, candidates(counters),
-                     {cache, bodies, proxies, margins, binned ? order_.data() : nullptr, first_.data()}, shape_types);
+  if (binned) bin(executor, work.cache, work.proxies, counters);
+  collide_candidates(executor, candidates(counters), {work, binned ? order_.data() : nullptr, first_.data()},
+                     shape_types);
 }
 
 void NarrowPhase::number(Executor& executor, const ContactCache& cache, StepCounters* counters) {
@@ -113,6 +143,7 @@ void NarrowPhase::exchange(Archive& archive, std::uint32_t parity, std::uint32_t
   archive.rows(cache.touching, candidates);
   archive.rows(cache.row, candidates);
   archive.rows(cache.kept, counters.manifolds);
+  exchange_collided(archive, cache.collided, candidates);
 }
 
 std::vector<KeptPair> NarrowPhase::kept(std::uint32_t parity, const StepCounters& counters) const {

@@ -6,7 +6,7 @@
 #include "bodies/step_parameters.hpp"
 #include "exec/archive.hpp"
 #include "exec/sort.hpp"
-#include "narrowphase/contact_cache.hpp"
+#include "narrowphase/contact_recycling.hpp"
 
 namespace plumb::impulse {
 
@@ -39,10 +39,9 @@ class NarrowPhase {
     return caches_[parity % 2].pairs.to_host(count);
   }
 
-  /// Collides the candidates in cache. margins: by proxy, how far ahead it looks, m.
-  /// shape_types: a bit for each ShapeType in the scene.
-  void collide(Executor& executor, const ContactCache& cache, const Bodies& bodies, const Proxies& proxies,
-               const Real* margins, std::uint32_t shape_types, StepCounters* counters);
+  /// Collides the candidates in work.cache, or recycles what the last step knew of them. shape_types: a bit for each
+  /// ShapeType in the scene.
+  void collide(Executor& executor, const NarrowPhaseWork& work, std::uint32_t shape_types, StepCounters* counters);
 
   /// Numbers those that touch.
   void number(Executor& executor, const ContactCache& cache, StepCounters* counters);
@@ -52,12 +51,14 @@ class NarrowPhase {
     Buffer<Pair> pairs;
     Buffer<PairRange> ranges;
     Buffer<Manifold> found;
-    Buffer<std::uint32_t> touching, row, candidate;
+    Buffer<std::uint32_t> touching, row, previous;
+    Buffer<CollidedManifold> collided;
+    Buffer<std::uint32_t> candidate;
     Buffer<CachedManifold> kept;
     Buffer<std::uint32_t> triangles;
     ContactCache view() {
-      return {pairs.data(), ranges.data(),    found.data(), touching.data(),
-              row.data(),   candidate.data(), kept.data(),  triangles.data()};
+      return {pairs.data(),    ranges.data(),   found.data(),     touching.data(), row.data(),
+              previous.data(), collided.data(), candidate.data(), kept.data(),     triangles.data()};
     }
   };
 

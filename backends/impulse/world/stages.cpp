@@ -63,8 +63,9 @@ void midphase(const StepContext& step) {
 }
 
 void collide(const StepContext& step) {
-  step.stages.narrow_phase.collide(step.executor, step.now, step.bodies, step.proxies, step.stages.margins.data(),
-                                   step.shape_types, step.counters);
+  step.stages.narrow_phase.collide(
+      step.executor, {step.now, step.last, step.bodies, step.proxies, step.stages.margins.data(), step.parameters},
+      step.shape_types, step.counters);
   if (may_have_inner_edges(step.statics.count, step.shape_types))
     drop_inner_edges(step.executor, step.candidates(), step.now, step.bodies, step.proxies, step.filter,
                      step.stages.broad_phase.statics(), step.parameters);

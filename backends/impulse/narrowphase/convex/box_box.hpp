@@ -54,15 +54,18 @@ PLUMB_HD inline bool edges_graze(const BoxPair& p, const Vec& by_a, const Vec& b
   return false;
 }
 
-/// The axis of greatest separation. False as soon as one separates by more than margin, and where edges graze, unless
-/// margin is 0: who asks for no points ahead of time, as queries do, asks for overlap however small.
+/// The axis of greatest separation. False as soon as one separates by more than margin, by out.separation, and where
+/// edges graze, unless margin is 0: who asks for no points ahead of time, as queries do, asks for overlap however
+/// small.
 PLUMB_HD inline bool find_axis(const BoxPair& p, Real margin, Real tie, BoxAxis& out) {
   const Mat m = {abs(p.r.x), abs(p.r.y), abs(p.r.z)};
   const Vec by_a = abs(p.t) - p.a - m * p.b;
-  if (by_a.x > margin || by_a.y > margin || by_a.z > margin) return false;
+  out.separation = max(max(by_a.x, by_a.y), by_a.z);
+  if (out.separation > margin) return false;
   const Vec along_b = multiply_transposed(p.r, p.t);
   const Vec by_b = abs(along_b) - p.b - multiply_transposed(m, p.a);
-  if (by_b.x > margin || by_b.y > margin || by_b.z > margin) return false;
+  out.separation = max(max(by_b.x, by_b.y), by_b.z);
+  if (out.separation > margin) return false;
 
   Real best = by_a.x;
   int axis = 0;
@@ -93,6 +96,7 @@ PLUMB_HD inline bool find_axis(const BoxPair& p, Real margin, Real tie, BoxAxis&
       const Real reach = p.a[i1] * m[j][i2] + p.a[i2] * m[j][i1] + p.b[j1] * abs(v[i2] * u[i1] - v[i1] * u[i2]) +
                          p.b[j2] * abs(w[i2] * u[i1] - w[i1] * u[i2]);
       const Real s = (abs(p.t[i2] * u[i1] - p.t[i1] * u[i2]) - reach) / sqrt(sine2);
+      out.separation = s;
       if (s > margin) return false;
       if (s > best_edge + tie) {
         best_edge = s;
@@ -309,7 +313,10 @@ PLUMB_HD inline bool collide_box_box(const ShapePair& pair, const Hulls&, Manifo
   const BoxPair p = {pair.a.size, pair.b.size, to_matrix(conjugate(pair.qa) * pair.qb), rotate_back(pair.qa, pair.d)};
   const Real tie = kTie * (pair.a.reach + pair.b.reach);
   BoxAxis axis;
-  if (!find_axis(p, pair.margin, tie, axis)) return false;
+  if (!find_axis(p, pair.margin, tie, axis)) {
+    out.gap = axis.separation;
+    return false;
+  }
   const bool edges = axis.a >= 0 && axis.b >= 0;
   const Real near_a = abs(axis.normal[widest(axis.normal)]);
   const Vec along_b = multiply_transposed(p.r, axis.normal);

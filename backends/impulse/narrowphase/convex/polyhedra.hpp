@@ -57,6 +57,7 @@ struct Balls {
   }
 };
 
+/// False as soon as one separates by more than margin, which is the best then.
 template <class ViewA, class ViewB>
 PLUMB_HD bool find_face_axes(const ViewA& a, const ViewB& b, const Placement& at, const Balls& balls, Real margin,
                              Real tie, ContactAxis& best) {
@@ -65,16 +66,16 @@ PLUMB_HD bool find_face_axes(const ViewA& a, const ViewB& b, const Placement& at
     if (dot(n, balls.centre_b) - a.offset(f) - balls.radius_b <= best.separation) continue;
     const Vec n_b = multiply_transposed(at.turn, n);
     const Real s = dot(n, at.shift) + dot(n_b, b.vertex(b.support(-n_b))) - a.offset(f);
+    if (s > margin || s > best.separation + tie) best = {n, s, f, 0, ContactAxis::Kind::kFaceOfA};
     if (s > margin) return false;
-    if (s > best.separation + tie) best = {n, s, f, 0, ContactAxis::Kind::kFaceOfA};
   }
   for (std::uint32_t f = 0; f < b.face_count(); ++f) {
     const Vec n = at.turn * b.normal(f);
     const Real offset = b.offset(f) + dot(n, at.shift);
     if (dot(n, a.centre()) - offset - balls.radius_a <= best.separation) continue;
     const Real s = dot(n, a.vertex(a.support(-n))) - offset;
+    if (s > margin || s > best.separation + tie) best = {-n, s, 0, f, ContactAxis::Kind::kFaceOfB};
     if (s > margin) return false;
-    if (s > best.separation + tie) best = {-n, s, 0, f, ContactAxis::Kind::kFaceOfB};
   }
   return true;
 }
@@ -173,8 +174,10 @@ PLUMB_HD bool touch(const ViewA& a, const ViewB& b, const Placement& at, Real ma
   out.count = 0;
   ContactAxis axis;
   const Balls balls(a, b, at);
-  if (!find_face_axes(a, b, at, balls, margin, tie, axis) || !find_edge_axes(a, b, at, balls, margin, tie, axis))
+  if (!find_face_axes(a, b, at, balls, margin, tie, axis) || !find_edge_axes(a, b, at, balls, margin, tie, axis)) {
+    out.gap = axis.separation;
     return false;
+  }
   out.normal = axis.normal;
 
   const Vec against_b = -multiply_transposed(at.turn, axis.normal);

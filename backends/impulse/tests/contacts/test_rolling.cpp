@@ -71,6 +71,18 @@ TEST_P(Rolling, NeitherRisesNorFallsNorSlows) {
   EXPECT_NEAR(scene_.velocity(body)[0], kSpeed, 1e-3 * kSpeed);
 }
 
+/// Who creeps is not held up by a point that stayed behind, which would push it on.
+TEST_P(Rolling, CreepsOnAsSlowlyAsItBegan) {
+  constexpr double kCreep = 1e-3;
+  lay_ground();
+  scene_.body.linear_velocity = {kCreep, 0, 0};
+  scene_.body.angular_velocity = {0, 0, -kCreep / kRadius};
+  const double half = std::sqrt(0.5);
+  const PlumbBody body = scene_.add(roller(), {0, kRadius, 0}, {half, 0, 0, half});
+  scene_.run(600);
+  EXPECT_NEAR(scene_.velocity(body)[0], kCreep, 0.01 * kCreep);
+}
+
 std::vector<Case> cases() {
   std::vector<Case> all;
   for (const char* solver : {"tgs_soft", "si", "jacobi", "xpbd"})

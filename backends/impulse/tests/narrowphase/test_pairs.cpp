@@ -97,6 +97,8 @@ class Rig {
     proxies_.grow(proxies);
     margins_.grow(proxies);
     counters_.grow(1);
+    parameters_.grow(1);
+    parameters_[0].step = 1;
     shapes_.grow(kit_.shapes.size());
     for (std::size_t i = 0; i < kit_.shapes.size(); ++i) shapes_[i] = kit_.shapes[i];
     pairs_.resize(count_);
@@ -115,6 +117,7 @@ class Rig {
     executor_.to_device(shapes_, shapes_.size());
     executor_.to_device(margins_, margins_.size());
     executor_.to_device(counters_, 1);
+    executor_.to_device(parameters_, 1);
     kit_.hulls.upload(executor_);
     NarrowPhase narrow_phase;
     narrow_phase.reserve(executor_, 2 * count_, count_ + 3);
@@ -123,9 +126,14 @@ class Rig {
     std::uint32_t types = 0;
     for (const Kind& kind : kinds_)
       types |= 1U << static_cast<std::uint32_t>(kind.a) | 1U << static_cast<std::uint32_t>(kind.b);
-    narrow_phase.collide(executor_, cache, {position_.device(), orientation_.device(), nullptr, nullptr, nullptr, true},
-                         {proxies_.device(), shapes_.device(), kit_.hulls.device()}, margins_.device(), types,
-                         counters_.device());
+    narrow_phase.collide(executor_,
+                         {cache,
+                          narrow_phase.cache(1),
+                          {position_.device(), orientation_.device(), nullptr, nullptr, nullptr, true},
+                          {proxies_.device(), shapes_.device(), kit_.hulls.device()},
+                          margins_.device(),
+                          parameters_.device()},
+                         types, counters_.device());
     narrow_phase.number(executor_, cache, counters_.device());
     executor_.to_host(counters_, 1);
     executor_.wait();
@@ -205,6 +213,7 @@ class Rig {
   Mirror<Shape> shapes_;
   Mirror<Real> margins_;
   Mirror<StepCounters> counters_;
+  Mirror<StepParameters> parameters_;
   std::vector<Pair> pairs_;
 };
 

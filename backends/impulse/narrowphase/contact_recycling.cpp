@@ -1,0 +1,103 @@
+#include "narrowphase/contact_recycling.hpp"
+
+#include "geometry/tolerance.hpp"
+
+namespace plumb::impulse {
+
+namespace {
+
+/// How far a point may have slid, as a share of the smaller shape's reach.
+constexpr Real kMostSlide = Real(1e-3);
+
+/// A body's turn since the shapes were collided.
+struct Turn {
+  Quat by;
+  PLUMB_HD Turn(const Quat& then, const Quat& now) : by(now * conjugate(then)) {}
+
+  /// rad, of a small one; a quaternion and its negative are the same turn, and count as far apart.
+  [[nodiscard]] PLUMB_HD Real angle_to(const Turn& other) const {
+    const Vec u = vector_part(other.by) - vector_part(by);
+    const Real w = other.by.w - by.w;
+    return 2 * sqrt(length_squared(u) + w * w);
+  }
+  /// What it adds to a vector: nothing at all where the body has not turned.
+  [[nodiscard]] PLUMB_HD Vec change(const Vec& v) const {
+    const Vec u = vector_part(by), t = cross(u, v), s = t + t;
+    return by.w * s + cross(u, s);
+  }
+};
+
+struct RecycleContact {
+  NarrowPhaseWork work;
+
+  PLUMB_HD void operator()(std::uint32_t p) const {
+    const auto& [cache, last, bodies, proxies, margins, parameters] = work;
+    CollidedManifold& collided = cache.collided[p];
+    collided.manifold.count = 0;
+    collided.manifold.gap = 0;
+    cache.previous[p] = kNone;
+    const Pair pair = cache.pairs[p];
+    const Proxy &a = proxies.rows[pair.a], &b = proxies.rows[pair.b];
+    if (a.first_step == parameters->step || b.first_step == parameters->step) return;
+    const std::uint32_t previous = find_candidate(last, pair, cache.triangles == nullptr ? 0U : cache.triangles[p]);
+    cache.previous[p] = previous;
+    if (previous == kNone || !last.collided[previous].is_recyclable()) return;
+    const CollidedManifold& before = last.collided[previous];
+    const bool touched = before.manifold.count != 0;
+    if (touched ? !carry(before, a, b, work.margin(pair), cache.found[p]) : !are_apart(before, a, b, work.margin(pair)))
+      return;
+    collided = before;
+    cache.touching[p] = touched ? 1 : 0;
+  }
+
+ private:
+  /// The manifold as the bodies lie now; false where a point of it has slid too far, or more may be in reach by now.
+  PLUMB_HD bool carry(const CollidedManifold& before, const Proxy& a, const Proxy& b, Real margin,
+                      Manifold& out) const {
+    const Bodies& bodies = work.bodies;
+    const Real reach = min(work.proxies.shapes[a.shape].reach, work.proxies.shapes[b.shape].reach);
+    const Real most = kMostSlide * reach;
+    const Turn turn_a(before.orientation_a, bodies.orientation[a.body]);
+    const Turn turn_b(before.orientation_b, bodies.orientation[b.body]);
+    if (!(turn_a.angle_to(turn_b) * reach <= most) || !(margin <= before.margin + most)) return false;
+
+    const Vec moved = between(before.apart, bodies.position[b.body] - bodies.position[a.body]);
+    const Vec apart_then = between({0, 0, 0}, before.apart);
+    const Vec origin_then = rotate(before.orientation_a, a.frame.position);
+    const Vec origin = rotate(bodies.orientation[a.body], a.frame.position);
+    const Manifold& then = before.manifold;
+    out.normal = then.normal + turn_b.change(then.normal);
+    out.count = then.count;
+    for (std::uint32_t i = 0; i < then.count; ++i) {
+      const ManifoldPoint& point = then.points[i];
+      const Vec arm_a = origin_then + point.position, arm_b = arm_a - apart_then;
+      const Vec arm = arm_a + turn_a.change(arm_a);
+      const Vec slide = moved + turn_b.change(arm_b) - turn_a.change(arm_a);
+      if (!(length_squared(slide) <= most * most)) return false;
+      out.points[i] = {arm + Real(0.5) * slide - origin, point.separation + dot(slide, out.normal), point.feature};
+    }
+    return true;
+  }
+  /// Whether shapes that did not touch have not come so near since that they may.
+  PLUMB_HD bool are_apart(const CollidedManifold& before, const Proxy& a, const Proxy& b, Real margin) const {
+    const Bodies& bodies = work.bodies;
+    const Real reach_a = work.proxies.shapes[a.shape].reach, reach_b = work.proxies.shapes[b.shape].reach;
+    const Real most = before.manifold.gap - margin - kTie * (reach_a + reach_b);
+    const Turn turn_a(before.orientation_a, bodies.orientation[a.body]);
+    const Turn turn_b(before.orientation_b, bodies.orientation[b.body]);
+    // As seen from a, b's shape turns about its origin, and its origin goes this way.
+    const Vec to_b = rotate(before.orientation_b, b.frame.position);
+    const Vec between_then = between({0, 0, 0}, before.apart) + to_b;
+    const Vec way = between(before.apart, bodies.position[b.body] - bodies.position[a.body]) + turn_b.change(to_b) -
+                    turn_a.change(between_then);
+    return length(way) + turn_a.angle_to(turn_b) * reach_b < most;
+  }
+};
+
+}  // namespace
+
+void recycle_contacts(Executor& executor, Count candidates, const NarrowPhaseWork& work) {
+  executor.run(candidates, RecycleContact{work});
+}
+
+}  // namespace plumb::impulse
