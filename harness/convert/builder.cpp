@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 
+#include "convert/principal.hpp"
 #include "convert/upright.hpp"
 #include "referee/hull.hpp"
 
@@ -68,20 +68,11 @@ std::optional<std::size_t> add_parts(Scene& scene, const std::vector<LinkShape>&
   return add_shape(scene, std::move(compound), name);
 }
 
-/// Principal moments and axes; a matrix that is diagonal keeps its axes.
 void set_mass(PlumbBodyDesc& desc, const LinkMass& mass) {
   desc.mass_mode = PLUMB_MASS_EXPLICIT;
   desc.mass = mass.mass;
   desc.centre_of_mass = referee::plain(mass.centre);
-  Mat3 axes = Mat3::Identity();
-  Vec3 moments = mass.inertia.diagonal();
-  const Mat3 aside = mass.inertia - Mat3(moments.asDiagonal());
-  if (aside.cwiseAbs().maxCoeff() > 1e-9 * moments.cwiseAbs().maxCoeff()) {
-    const Eigen::SelfAdjointEigenSolver<Mat3> solver(mass.inertia);
-    moments = solver.eigenvalues();
-    axes = solver.eigenvectors();
-    if (axes.determinant() < 0) axes.col(0) = -axes.col(0);
-  }
+  const auto [moments, axes] = principal_of(mass.inertia);
   desc.inertia = referee::plain(moments);
   desc.inertia_orientation = plain(Pose{axes, Vec3::Zero()}).orientation;
 }

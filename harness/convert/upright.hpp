@@ -1,6 +1,7 @@
 // Robots' files have z up, scenes y; their cylinders and capsules lie along z, those of scenes along y.
 #pragma once
 
+#include "plumb/shapes.h"
 #include "referee/pose.hpp"
 
 namespace plumb::harness {

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <iostream>
 
+#include "base/base64.hpp"
 #include "replay/bundle.hpp"
-#include "report/page/parts/base64.hpp"
 
 namespace plumb::harness {
 namespace {

@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "convert/upright.hpp"
+#include "convert/write/surface.hpp"
 #include "measure/instruments/mechanics.hpp"
 #include "referee/hull.hpp"
 
@@ -15,19 +16,15 @@ using Attributes = std::vector<std::pair<const char*, std::string>>;
 
 std::string mesh_name(std::size_t shape) { return fmt::format("mesh{}", shape); }
 
-bool is_mesh(PlumbShapeType type) {
-  return type == PLUMB_CONVEX_HULL || type == PLUMB_TRIANGLE_MESH || type == PLUMB_HEIGHT_FIELD;
-}
-
 /// Type and size; capsules and cylinders lie along z, planes are above which z is.
 Attributes geometry_of(const Scene& scene, std::size_t index) {
   const PlumbShapeDesc& desc = scene.shapes[index].desc;
   const PlumbVec3& half = desc.half_extents;
   switch (desc.type) {
-    case PLUMB_BOX: return {{"type", "box"}, {"size", mjcf_numbers({half.x, half.y, half.z})}};
-    case PLUMB_SPHERE: return {{"type", "sphere"}, {"size", mjcf_numbers({desc.radius})}};
-    case PLUMB_CAPSULE: return {{"type", "capsule"}, {"size", mjcf_numbers({desc.radius, desc.half_height})}};
-    case PLUMB_CYLINDER: return {{"type", "cylinder"}, {"size", mjcf_numbers({desc.radius, desc.half_height})}};
+    case PLUMB_BOX: return {{"type", "box"}, {"size", numbers_text({half.x, half.y, half.z})}};
+    case PLUMB_SPHERE: return {{"type", "sphere"}, {"size", numbers_text({desc.radius})}};
+    case PLUMB_CAPSULE: return {{"type", "capsule"}, {"size", numbers_text({desc.radius, desc.half_height})}};
+    case PLUMB_CYLINDER: return {{"type", "cylinder"}, {"size", numbers_text({desc.radius, desc.half_height})}};
     case PLUMB_PLANE: return {{"type", "plane"}, {"size", "0 0 1"}};
     default: return {{"type", "mesh"}, {"mesh", mesh_name(index)}};
   }
@@ -50,7 +47,7 @@ void write_geom(MjcfOutput& out, const SceneBody& body, std::size_t shape, const
   const PlumbShapeType type = out.scene.shapes[shape].desc.type;
   for (auto& attribute : mjcf_pose(lies_along_y(type) ? pose * along_z().inverse() : pose))
     attributes.push_back(std::move(attribute));
-  attributes.emplace_back("friction", mjcf_numbers({material.friction}));
+  attributes.emplace_back("friction", numbers_text({material.friction}));
   add_filter(attributes, body, out.remarks);
   if (material.restitution != 0) out.remarks.add("restitution is left out", body.name);
   if (type == PLUMB_TRIANGLE_MESH || type == PLUMB_HEIGHT_FIELD)
@@ -77,7 +74,8 @@ void write_mesh(MjcfOutput& out, std::size_t index) {
       points.emplace_back(shape.vertices[i], shape.vertices[i + 1], shape.vertices[i + 2]);
     for (const Vec3& corner : referee::convex_hull(points).corners) add_corner(corner);
   } else {
-    for (const auto& triangle : shape_of(out.scene, index)->triangles())
+    const referee::ShapePtr cut = shape_of(out.scene, index);
+    for (const auto& triangle : cut->triangles())
       for (const Vec3& v : triangle) {
         faces.push_back(static_cast<double>(corners.size() / 3));
         add_corner(v);
@@ -88,27 +86,22 @@ void write_mesh(MjcfOutput& out, std::size_t index) {
         fmt::format("shape \"{}\" is a flat mesh, and MuJoCo takes meshes for their convex hulls; make it a "
                     "plane or a box",
                     shape.name));
-  Attributes attributes = {{"name", mesh_name(index)}, {"vertex", mjcf_numbers(std::move(corners))}};
-  if (!faces.empty()) attributes.emplace_back("face", mjcf_numbers(std::move(faces)));
+  Attributes attributes = {{"name", mesh_name(index)}, {"vertex", numbers_text(std::move(corners))}};
+  if (!faces.empty()) attributes.emplace_back("face", numbers_text(std::move(faces)));
   const Xml::Element mesh(out.xml, "mesh", attributes);
 }
 
 }  // namespace
 
-std::string mjcf_numbers(std::vector<double> values) {
-  for (double& value : values) value += 0.0;  // no "-0"
-  return fmt::format("{}", fmt::join(values, " "));
-}
-
 std::vector<std::pair<const char*, std::string>> mjcf_pose(const Pose& pose) {
   const referee::Quat q(pose.rotation);
   const Vec3& p = pose.position;
-  return {{"pos", mjcf_numbers({p.x(), p.y(), p.z()})}, {"quat", mjcf_numbers({q.w(), q.x(), q.y(), q.z()})}};
+  return {{"pos", numbers_text({p.x(), p.y(), p.z()})}, {"quat", numbers_text({q.w(), q.x(), q.y(), q.z()})}};
 }
 
 void write_meshes(MjcfOutput& out) {
   for (std::size_t shape = 0; shape < out.scene.shapes.size(); ++shape)
-    if (is_mesh(out.scene.shapes[shape].desc.type)) write_mesh(out, shape);
+    if (has_surface(out.scene.shapes[shape].desc.type)) write_mesh(out, shape);
 }
 
 void write_geoms(MjcfOutput& out, const SceneBody& body) {

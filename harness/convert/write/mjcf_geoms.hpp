@@ -13,8 +13,6 @@ struct MjcfOutput {
   Remarks& remarks;
 };
 
-/// Numbers as an attribute's value.
-[[nodiscard]] std::string mjcf_numbers(std::vector<double> values);
 /// "pos" and "quat" of a frame in the one around it.
 [[nodiscard]] std::vector<std::pair<const char*, std::string>> mjcf_pose(const referee::Pose& pose);
 

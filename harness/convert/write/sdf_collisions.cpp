@@ -1,10 +1,8 @@
 #include "convert/write/sdf_collisions.hpp"
 
-#include <cmath>
-
 #include "convert/upright.hpp"
-#include "measure/instruments/mechanics.hpp"
-#include "referee/hull.hpp"
+#include "convert/write/roll_pitch_yaw.hpp"
+#include "convert/write/surface.hpp"
 
 namespace plumb::harness {
 namespace {
@@ -12,38 +10,9 @@ namespace {
 using referee::Pose;
 using referee::Vec3;
 
-void add_obj_triangle(std::string& text, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-  text += fmt::format("f {} {} {}\n", a + 1, b + 1, c + 1);
-}
-
-std::string obj_of_hull(const SceneShape& shape) {
-  std::vector<Vec3> points;
-  for (std::size_t i = 0; i < shape.vertices.size(); i += 3)
-    points.emplace_back(shape.vertices[i], shape.vertices[i + 1], shape.vertices[i + 2]);
-  const referee::Hull hull = referee::convex_hull(points);
-  std::string text;
-  for (const Vec3& corner : hull.corners) text += fmt::format("v {} {} {}\n", corner.x(), corner.y(), corner.z());
-  for (const auto& triangle : hull.triangles) add_obj_triangle(text, triangle[0], triangle[1], triangle[2]);
-  return text;
-}
-
-/// A mesh, or a height field as the referee cuts it.
-std::string obj_of_surface(const Scene& scene, std::size_t shape) {
-  std::string text;
-  std::uint32_t corner = 0;
-  for (const auto& triangle : shape_of(scene, shape)->triangles()) {
-    for (const Vec3& v : triangle) text += fmt::format("v {} {} {}\n", v.x(), v.y(), v.z());
-    add_obj_triangle(text, corner, corner + 1, corner + 2);
-    corner += 3;
-  }
-  return text;
-}
-
 void write_mesh(SdfOutput& out, std::size_t index) {
-  const SceneShape& shape = out.scene.shapes[index];
   const std::string file = fmt::format("{}-{}.obj", out.name, index);
-  const bool hull = shape.desc.type == PLUMB_CONVEX_HULL;
-  out.meshes[file] = hull ? obj_of_hull(shape) : obj_of_surface(out.scene, index);
+  out.meshes[file] = obj_of(surface_of(out.scene, index));
   const Xml::Element mesh(out.xml, "mesh");
   out.xml.text("uri", file);
 }
@@ -113,14 +82,9 @@ void write_collision(SdfOutput& out, const SceneBody& body, std::size_t shape, c
 }  // namespace
 
 void write_pose(Xml& xml, const Pose& pose) {
-  // Roll, pitch, yaw: about x, then y, then z of the frame around it.
-  const referee::Mat3& r = pose.rotation;
-  const double pitch = std::atan2(-r(2, 0), std::hypot(r(0, 0), r(1, 0)));
-  const bool upright = std::hypot(r(0, 0), r(1, 0)) < 1e-9;  // then only the sum of the other two is there
-  const double roll = upright ? std::atan2(-r(1, 2), r(1, 1)) : std::atan2(r(2, 1), r(2, 2));
-  const double yaw = upright ? 0 : std::atan2(r(1, 0), r(0, 0));
+  const Vec3 turns = roll_pitch_yaw(pose.rotation);
   const Vec3& p = pose.position;
-  xml.numbers("pose", {p.x(), p.y(), p.z(), roll, pitch, yaw});
+  xml.numbers("pose", {p.x(), p.y(), p.z(), turns.x(), turns.y(), turns.z()});
 }
 
 void write_collisions(SdfOutput& out, const SceneBody& body) {

@@ -108,16 +108,16 @@ class MjcfWriter {
     const auto& i = mass.inertia;
     const Xml::Element inertial(
         out_.xml, "inertial",
-        {{"pos", mjcf_numbers({mass.centre.x(), mass.centre.y(), mass.centre.z()})},
-         {"mass", mjcf_numbers({mass.mass})},
-         {"fullinertia", mjcf_numbers({i(0, 0), i(1, 1), i(2, 2), i(0, 1), i(0, 2), i(1, 2)})}});
+        {{"pos", numbers_text({mass.centre.x(), mass.centre.y(), mass.centre.z()})},
+         {"mass", numbers_text({mass.mass})},
+         {"fullinertia", numbers_text({i(0, 0), i(1, 1), i(2, 2), i(0, 1), i(0, 2), i(1, 2)})}});
   }
 
   /// forward: within body a is body b. The other way round coordinates count from b's axes to a's, and backwards.
   void write_joint(const SceneJoint& joint, bool forward) {
     remark_joint(joint, out_.remarks);
     const PlumbPose& own = forward ? joint.desc.frame_b : joint.desc.frame_a;
-    const std::string anchor = mjcf_numbers({own.position.x, own.position.y, own.position.z});
+    const std::string anchor = numbers_text({own.position.x, own.position.y, own.position.z});
     if (joint.desc.type == PLUMB_JOINT_BALL) {
       const Xml::Element ball(out_.xml, "joint", {{"name", joint.name}, {"type", "ball"}, {"pos", anchor}});
       return;
@@ -141,18 +141,18 @@ class MjcfWriter {
     Attributes attributes = {{"name", one_of_many ? fmt::format("{}/{}", joint.name, axis) : joint.name},
                              {"type", axis < 3 ? "slide" : "hinge"},
                              {"pos", anchor},
-                             {"axis", mjcf_numbers({direction.x(), direction.y(), direction.z()})}};
+                             {"axis", numbers_text({direction.x(), direction.y(), direction.z()})}};
     const double start = start_of_joint(out_.scene, joint, axis);
     if (const PlumbLimit& limit = joint.desc.limits[axis]; limit.enabled != 0) {
       attributes.emplace_back("limited", "true");
-      attributes.emplace_back("range", mjcf_numbers({limit.lower - start, limit.upper - start}));
+      attributes.emplace_back("range", numbers_text({limit.lower - start, limit.upper - start}));
     }
     if (brakes(joint.desc.motors[axis]))
-      attributes.emplace_back("frictionloss", mjcf_numbers({joint.desc.motors[axis].max_force}));
+      attributes.emplace_back("frictionloss", numbers_text({joint.desc.motors[axis].max_force}));
     if (const PlumbSpring& spring = joint.desc.springs[axis]; springs_by_stiffness(spring)) {
-      attributes.emplace_back("stiffness", mjcf_numbers({spring.frequency}));
-      attributes.emplace_back("damping", mjcf_numbers({spring.damping_ratio}));
-      attributes.emplace_back("springref", mjcf_numbers({spring.rest - start}));
+      attributes.emplace_back("stiffness", numbers_text({spring.frequency}));
+      attributes.emplace_back("damping", numbers_text({spring.damping_ratio}));
+      attributes.emplace_back("springref", numbers_text({spring.rest - start}));
     }
     remark_axis(joint, axis, out_.remarks);
     const Xml::Element element(out_.xml, "joint", attributes);
@@ -165,7 +165,7 @@ class MjcfWriter {
     const Pose frame = referee::pose(joint.desc.frame_b);
     const auto write_connect = [&](const Vec3& at) {
       Attributes attributes = ends;
-      attributes.emplace_back("anchor", mjcf_numbers({at.x(), at.y(), at.z()}));
+      attributes.emplace_back("anchor", numbers_text({at.x(), at.y(), at.z()}));
       const Xml::Element connect(out_.xml, "connect", attributes);
     };
     switch (joint.desc.type) {
@@ -205,7 +205,7 @@ std::string write_mjcf(const Scene& scene, const std::string& name, Remarks& rem
     {
       const Xml::Element option(
           xml, "option",
-          {{"timestep", mjcf_numbers({scene.dt})}, {"gravity", mjcf_numbers({gravity.x(), gravity.y(), gravity.z()})}});
+          {{"timestep", numbers_text({scene.dt})}, {"gravity", numbers_text({gravity.x(), gravity.y(), gravity.z()})}});
     }
     MjcfOutput out{scene, xml, remarks};
     {

@@ -6,6 +6,7 @@
 #include "convert/upright.hpp"
 #include "convert/write/left_out.hpp"
 #include "convert/write/sdf_collisions.hpp"
+#include "convert/write/sdf_name.hpp"
 #include "convert/write/start_of_joint.hpp"
 #include "measure/instruments/mechanics.hpp"
 
@@ -29,12 +30,6 @@ std::vector<std::vector<std::size_t>> groups_of(const Scene& scene) {
   for (std::size_t body = 0; body < scene.bodies.size(); ++body) groups[find(body)].push_back(body);
   std::erase_if(groups, [](const auto& group) { return group.empty(); });
   return groups;
-}
-
-/// "::" parts names in SDF, and a beginning of "__" is its own.
-std::string sdf_name(std::string name) {
-  for (std::size_t at; (at = name.find("::")) != std::string::npos;) name.replace(at, 2, "/");
-  return name.starts_with("__") ? "x" + name : name;
 }
 
 void write_inertial(Xml& xml, const referee::Mass& mass) {

@@ -12,6 +12,12 @@
 
 namespace plumb::harness {
 
+/// Numbers as the text of an element or attribute.
+[[nodiscard]] inline std::string numbers_text(std::vector<double> values) {
+  for (double& value : values) value += 0.0;  // no "-0"
+  return fmt::format("{}", fmt::join(values, " "));
+}
+
 class Xml {
  public:
   /// An element as long as it lives.
@@ -34,10 +40,7 @@ class Xml {
     const Element inside(*this, name);
     printer_.PushText(value.c_str());
   }
-  void numbers(const char* name, std::vector<double> values) {
-    for (double& value : values) value += 0.0;  // no "-0"
-    text(name, fmt::format("{}", fmt::join(values, " ")));
-  }
+  void numbers(const char* name, std::vector<double> values) { text(name, numbers_text(std::move(values))); }
   [[nodiscard]] std::string str() const { return printer_.CStr(); }
 
  private:

@@ -82,9 +82,11 @@ TEST_P(RoundTrip, IsTheSameMachine) {
   expect_same_joints(scene, back.scene);
 }
 
-// Towers, hulls, a chain, a four-bar, cars, a ragdoll with limits, a robot's arm, a piston, thin things.
+// Towers, hulls, a chain, a four-bar, cars, one of them on a mesh, a ragdoll with limits, a robot's arm, a piston, thin
+// things.
 INSTANTIATE_TEST_SUITE_P(Scenes, RoundTrip,
-                         ::testing::Values("D1", "D14", "E1", "E10", "I1", "I14", "I18", "I22", "I23", "I25", "H2"));
+                         ::testing::Values("D1", "D14", "E1", "E10", "I1", "I14", "I15", "I18", "I22", "I23", "I25",
+                                           "H2"));
 
 TEST(SceneText, IsASceneFileThatIsReadAsWhatItWas) {
   Imported imported;

@@ -6,8 +6,8 @@
 #include <regex>
 #include <set>
 
+#include "base/base64.hpp"
 #include "page_reader.hpp"
-#include "report/page/parts/base64.hpp"
 #include "report/page/parts/bundled_scripts.hpp"
 #include "report/page/parts/markup.hpp"
 #include "sample_rows.hpp"

@@ -1,7 +1,7 @@
 #include "report/page/parts/packed.hpp"
 
+#include "base/base64.hpp"
 #include "base/deflate.hpp"
-#include "report/page/parts/base64.hpp"
 #include "report/page/parts/bundled_scripts.hpp"
 
 namespace plumb::harness {

@@ -1,8 +1,8 @@
 // Replays: recorded scenes in three dimensions, all engines side by side. The viewer finds the bundles by their class.
 #include <fmt/format.h>
 
+#include "base/base64.hpp"
 #include "report/page/parts/assets.hpp"
-#include "report/page/parts/base64.hpp"
 #include "report/page/parts/bundled_scripts.hpp"
 #include "report/page/parts/looks.hpp"
 #include "report/page/parts/markup.hpp"

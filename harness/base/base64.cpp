@@ -1,4 +1,4 @@
-#include "report/page/parts/base64.hpp"
+#include "base/base64.hpp"
 
 #include <cstdint>
 
