@@ -49,14 +49,35 @@ TEST(Convert, MakesAWorldOfASceneWithItsMeshesBeside) {
   EXPECT_GT(meshes, 0u);
 }
 
+TEST(Convert, MakesRobotsAndNodesOfScenes) {
+  const std::filesystem::path folder = fresh_folder("convert-robot");
+  const auto text_of = [&](const std::vector<std::string>& arguments, const std::string& name) {
+    std::vector<std::string> all{"convert"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    all.push_back((folder / name).string());
+    const Finished run = plumb(all);
+    EXPECT_EQ(run.status, 0) << run.err;
+    std::ifstream file(folder / name);
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  };
+  const std::string robot = text_of({"I23"}, "arm.urdf");
+  EXPECT_TRUE(robot.starts_with("<robot name=\"arm\">")) << robot.substr(0, 100);
+  const std::string nodes = text_of({"H2"}, "hulls.gltf"), binary = text_of({"H2"}, "hulls.glb");
+  EXPECT_NE(nodes.find("\"KHR_physics_rigid_bodies\""), std::string::npos);
+  EXPECT_EQ(binary.substr(0, 4), "glTF");
+  EXPECT_LT(binary.size(), nodes.size());
+}
+
 TEST(Convert, SaysWhatIsAskedWrongly) {
   const std::filesystem::path folder = fresh_folder("convert-wrong");
-  const std::string json = (folder / "x.json").string(), sdf = (folder / "x.sdf").string();
+  const std::string json = (folder / "x.json").string(), sdf = (folder / "x.sdf").string(),
+                    urdf = (folder / "x.urdf").string();
   const auto expect = [&](const std::vector<std::string>& arguments, const std::string& words) {
     const Finished run = plumb(arguments);
     EXPECT_EQ(run.status, 2);
     EXPECT_NE(run.err.find(words), std::string::npos) << run.err;
-    EXPECT_FALSE(std::filesystem::exists(json) || std::filesystem::exists(sdf)) << "nothing half done";
+    for (const std::string& file : {json, sdf, urdf})
+      EXPECT_FALSE(std::filesystem::exists(file)) << "nothing half done";
   };
   expect({"convert", "gone.urdf", json}, "gone.urdf: there is no such file");
   expect({"convert", "D1", (folder / "x.txt").string()}, "a scene's file ends with .json");
@@ -64,6 +85,7 @@ TEST(Convert, SaysWhatIsAskedWrongly) {
   expect({"convert", "stacking", sdf}, "names several scenes");
   expect({"convert", "D1", sdf, "--param", "K=3"}, "K");
   expect({"convert", "E8", sdf}, "which SDF lacks");
+  expect({"convert", "H2", urdf}, "URDF describes one robot, and 15 bodies are not joined to");
   expect({"convert", "D1", "/nowhere/x.sdf"}, "cannot write /nowhere/x.sdf");
   std::ofstream(folder / "page.html") << "<!-- <sdf> --><html></html>";
   expect({"convert", (folder / "page.html").string(), json}, "it begins with <html>");

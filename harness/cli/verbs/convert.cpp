@@ -4,6 +4,7 @@
 #include <cctype>
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <optional>
 #include <regex>
@@ -17,6 +18,8 @@
 #include "convert/read.hpp"
 #include "convert/scene_text.hpp"
 #include "convert/set_up.hpp"
+#include "convert/write/gltf/write_gltf.hpp"
+#include "convert/write/urdf/write_urdf.hpp"
 #include "convert/write/write_mjcf.hpp"
 #include "convert/write/write_sdf.hpp"
 
@@ -74,24 +77,53 @@ void write_scene(const ConvertOptions& options, const Imported& imported, const 
   out.write(scene_text(json));
 }
 
-void write_world(const std::filesystem::path& to, Imported& imported, const std::string& slug, DraftFile& out) {
-  const SdfFiles files = write_sdf(imported.scene, slug, imported.remarks);
-  for (const auto& [name, text] : files.meshes) DraftFile((to.parent_path() / name).string()).write(text);
-  out.write(files.world);
+void write_with_meshes(const std::filesystem::path& to, const std::string& text,
+                       const std::map<std::string, std::string>& meshes, DraftFile& out) {
+  for (const auto& [name, mesh] : meshes) DraftFile((to.parent_path() / name).string()).write(mesh);
+  out.write(text);
+}
+
+enum class Format { scene, sdf, mjcf, urdf, gltf, glb };
+
+/// What a file is, which its name's end says.
+Format format_of(const std::string& file) {
+  static const std::map<std::string, Format> formats{
+      {".json", Format::scene}, {".sdf", Format::sdf},   {".world", Format::sdf}, {".xml", Format::mjcf},
+      {".mjcf", Format::mjcf},  {".urdf", Format::urdf}, {".gltf", Format::gltf}, {".glb", Format::glb}};
+  const auto found = formats.find(std::filesystem::path(file).extension().string());
+  if (found != formats.end()) return found->second;
+  throw UsageError(
+      fmt::format("cannot write {}: a scene's file ends with .json, an SDF world's with .sdf or .world, "
+                  "an MJCF model's with .xml or .mjcf, a URDF robot's with .urdf, a glTF file with .gltf or .glb",
+                  shortened(file, 200)));
+}
+
+void write(const ConvertOptions& options, Format format, Imported& imported, DraftFile& out) {
+  const std::filesystem::path to(options.to);
+  const std::string slug = slug_of(to);
+  switch (format) {
+    case Format::scene: return write_scene(options, imported, slug, out);
+    case Format::mjcf: return out.write(write_mjcf(imported.scene, slug, imported.remarks));
+    case Format::gltf:
+    case Format::glb: return out.write(write_gltf(imported.scene, format == Format::glb, imported.remarks));
+    case Format::sdf: {
+      const SdfFiles files = write_sdf(imported.scene, slug, imported.remarks);
+      return write_with_meshes(to, files.world, files.meshes, out);
+    }
+    case Format::urdf: {
+      const UrdfFiles files = write_urdf(imported, slug);
+      return write_with_meshes(to, files.robot, files.meshes, out);
+    }
+  }
 }
 
 int convert(const ConvertOptions& options) {
-  const std::filesystem::path to(options.to);
-  const bool to_scene = to.extension() == ".json", to_world = to.extension() == ".sdf" || to.extension() == ".world",
-             to_model = to.extension() == ".xml" || to.extension() == ".mjcf";
-  if (!to_scene && !to_world && !to_model)
+  const Format format = format_of(options.to);
+  if (format == Format::scene && !is_machine(options.from))
     throw UsageError(
-        fmt::format("cannot write {}: a scene's file ends with .json, an SDF world's with .sdf or .world, "
-                    "an MJCF model's with .xml or .mjcf",
-                    shortened(options.to, 200)));
-  if (to_scene && !is_machine(options.from))
-    throw UsageError(options.from +
-                     " is a scene already; a world is written to a file that ends with .sdf, a model to .xml");
+        options.from +
+        " is a scene already; a world is written to a file that ends with .sdf, a model to .xml, a robot to "
+        ".urdf, nodes with physics to .gltf or .glb");
   DraftFile out(options.to);
   Imported imported = read(options);
   set_up(imported, options.set_up);
@@ -99,13 +131,7 @@ int convert(const ConvertOptions& options) {
   if (options.seconds) scene.seconds = *options.seconds;
   if (options.dt) scene.dt = *options.dt;
   if (scene.dt == 0) scene.dt = Scene{}.dt;
-  const std::string slug = slug_of(to);
-  if (to_scene)
-    write_scene(options, imported, slug, out);
-  else if (to_model)
-    out.write(write_mjcf(scene, slug, imported.remarks));
-  else
-    write_world(to, imported, slug, out);
+  write(options, format, imported, out);
   std::cout << fmt::format("{}: {} bodies, {} joints, {} shapes\n", options.to, scene.bodies.size(),
                            scene.joints.size(), scene.shapes.size());
   for (const std::string& remark : imported.remarks.lines()) std::cout << "note: " << shortened(remark, 500) << "\n";
@@ -117,13 +143,14 @@ int convert(const ConvertOptions& options) {
 void add_convert(CLI::App& program, int& status) {
   const auto options = std::make_shared<ConvertOptions>();
   CLI::App* verb = program.add_subcommand(
-      "convert", "Make a scene of a machine in URDF, SDF, MJCF or glTF, or an SDF world or MJCF model of a scene");
+      "convert", "Make a scene of a machine in URDF, SDF, MJCF or glTF, or such a file of a scene");
   verb->add_option("FROM", options->from,
                    "File to read, its kind told by its outermost element, of glTF by its name; or a scene")
       ->required();
   verb->add_option(
           "TO", options->to,
-          "File to write: a scene, as in arm.json, a world, as in arm.sdf, or a model for MuJoCo, as in arm.xml")
+          "File to write: a scene, as in arm.json; SDF, as in arm.sdf; MJCF, as in arm.xml; one robot in URDF, as in "
+          "arm.urdf; or glTF with KHR_physics_rigid_bodies, as in arm.gltf or arm.glb")
       ->required();
   verb->add_option("--folder", options->folders,
                    "Where model:// and package:// names and meshes are looked for, beside the folders above FROM; "
@@ -164,7 +191,9 @@ void add_convert(CLI::App& program, int& status) {
               {"plumb convert level.glb level.json", "what an artist exported with KHR_physics_rigid_bodies"},
               {"plumb convert robot.sdf robot.json --ground --hold", "a robot that stands still: plumb run robot.json"},
               {"plumb convert D1 tower.sdf --param H=20", "a tower for Gazebo"},
-              {"plumb convert I14 ragdoll.xml", "a ragdoll for MuJoCo"}});
+              {"plumb convert I14 ragdoll.xml", "a ragdoll for MuJoCo"},
+              {"plumb convert I14 ragdoll.glb", "the same for engines of games and the web"},
+              {"plumb convert I23 arm.urdf", "a robot's arm for ROS"}});
   verb->callback([options, &status] { status = convert(*options); });
 }
 

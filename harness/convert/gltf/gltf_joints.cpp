@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "convert/gltf/gltf_distance.hpp"
 #include "convert/upright.hpp"
 
 namespace plumb::harness {
@@ -64,6 +65,8 @@ struct Kind {
 
 Kind kind_of(const Ranges& ranges) {
   const bool placed = count(ranges, 0, PLUMB_AXIS_LOCKED) == 3, aligned = count(ranges, 3, PLUMB_AXIS_LOCKED) == 3;
+  const bool two_turns = count(ranges, 3, PLUMB_AXIS_LOCKED) == 1 && ranges[5].mode == PLUMB_AXIS_LOCKED;
+  if (placed && two_turns) return {PLUMB_JOINT_UNIVERSAL, referee::Mat3::Identity()};
   if (placed && aligned) return {PLUMB_JOINT_FIXED, referee::Mat3::Identity()};
   if (placed && count(ranges, 3, PLUMB_AXIS_FREE) == 3) return {PLUMB_JOINT_BALL, referee::Mat3::Identity()};
   if (const auto turn = turn_to_x(ranges, 3); placed && turn) return {PLUMB_JOINT_HINGE, *turn};
@@ -114,10 +117,13 @@ void add_gltf_joint(const GltfFile& file, int node, const std::map<int, std::siz
     imported.remarks.add("joints of a body to itself, or of the world, are left out", name);
     return;
   }
+  const json limits = member(description, "limits", json::array());
+  const bool distance = is_distance(limits);
   Ranges ranges;
-  for (const json& limit : member(description, "limits", json::array()))
-    restrict_axes(ranges, limit, name, imported.remarks);
-  const Kind kind = kind_of(ranges);
+  if (!distance)
+    for (const json& limit : limits) restrict_axes(ranges, limit, name, imported.remarks);
+  Kind kind = kind_of(ranges);
+  if (distance) kind.type = PLUMB_JOINT_DISTANCE;
   const auto frame = [&](int of) {
     Pose pose = file.place[static_cast<std::size_t>(of)].pose;
     pose.rotation = pose.rotation * kind.turn;
@@ -126,6 +132,7 @@ void add_gltf_joint(const GltfFile& file, int node, const std::map<int, std::siz
   Pose frame_a = frame(node), frame_b = frame(other);
   double sign = 1;
   if (!b) {  // the world is body a: seen from there all goes the other way
+    if (kind.type == PLUMB_JOINT_UNIVERSAL) kind.type = PLUMB_JOINT_GENERIC;  // whose x is body a's
     std::swap(a, b);
     std::swap(frame_a, frame_b);
     sign = -1;
@@ -135,6 +142,7 @@ void add_gltf_joint(const GltfFile& file, int node, const std::map<int, std::siz
   const auto& scene = imported.scene;
   desc.frame_a = plain(a ? frame_a.seen_from(referee::pose(scene.bodies[*a].desc.pose)) : frame_a);
   desc.collide_connected = member(joint, "enableCollision", false) ? 1 : 0;
+  if (distance) return set_distance(desc, description, name, imported.remarks);
   for (std::size_t axis = 0; axis < ranges.size(); ++axis) {
     const AxisRange& range = ranges[axis];
     const std::size_t to = turned_axis(axis, kind.turn);

@@ -107,6 +107,11 @@ TEST(ReadGltf, LimitsMakeTheJointThatTheyAre) {
   EXPECT_EQ(slider.type, static_cast<PlumbJointType>(PLUMB_JOINT_SLIDER));
   EXPECT_LT((referee::pose(slider.frame_b).rotation.col(0) - Vec3::UnitY()).norm(), 1e-12);
   EXPECT_EQ(slider.limits[0].upper, 2);
+  EXPECT_EQ(desc(placed + R"(,{"angularAxes":[2],"min":0,"max":0})").type,
+            static_cast<PlumbJointType>(PLUMB_JOINT_UNIVERSAL));
+  const PlumbJointDesc string = desc(R"({"linearAxes":[0,1,2],"max":2})");
+  EXPECT_EQ(string.type, static_cast<PlumbJointType>(PLUMB_JOINT_DISTANCE));
+  EXPECT_EQ(string.limits[0].upper, 2);
   const PlumbJointDesc generic = desc(R"({"linearAxes":[0],"min":-1,"max":1},{"linearAxes":[1],"max":0,"min":0})");
   EXPECT_EQ(generic.type, static_cast<PlumbJointType>(PLUMB_JOINT_GENERIC));
   EXPECT_EQ(generic.axis_modes[0], static_cast<PlumbAxisMode>(PLUMB_AXIS_LIMITED));
