@@ -26,9 +26,9 @@ struct Motion {
 };
 
 /// Pairs that have been collided once; pair i is of the bodies 2 i and 2 i + 1.
-class Rig {
+class RecyclingRig {
  public:
-  Rig(ShapeType a, ShapeType b) {
+  RecyclingRig(ShapeType a, ShapeType b) {
     position_.grow(std::size_t{2} * kPairs);
     orientation_.grow(std::size_t{2} * kPairs);
     proxies_.grow(std::size_t{2} * kPairs);
@@ -174,7 +174,7 @@ constexpr double kTolerance = 1e-3;  // of the smaller reach
 
 class Recycling : public ::testing::TestWithParam<std::pair<ShapeType, ShapeType>> {
  protected:
-  Rig rig_{GetParam().first, GetParam().second};
+  RecyclingRig rig_{GetParam().first, GetParam().second};
 };
 
 TEST_P(Recycling, KeepsWhatHasHardlyMovedAndCarriesItAlong) {
@@ -254,10 +254,10 @@ INSTANTIATE_TEST_SUITE_P(Of, Recycling,
 
 TEST(RecyclingOfRoundShapes, IsNotDone) {
   for (const auto& [a, b] : {std::pair{kSphere, kBox}, std::pair{kBox, kCapsule}, std::pair{kHull, kSphere}}) {
-    Rig rig(a, b);
+    RecyclingRig rig(a, b);
     for (std::uint32_t i = 0; i < kPairs; ++i) ASSERT_FALSE(rig.is_recyclable(i));
   }
-  Rig rig(kBox, kCylinder);
+  RecyclingRig rig(kBox, kCylinder);
   std::uint32_t standing = 0;
   for (std::uint32_t i = 0; i < kPairs; ++i) {
     ASSERT_EQ(rig.is_recyclable(i), rig.touches(i) && rig.found(i).count > 2);
