@@ -33,8 +33,7 @@ void collide_candidates(Executor& executor, Count candidates, const CollideInput
 template <class Kind>
 PLUMB_HD void collide_candidate(const CollideInput& in, std::uint32_t p) {
   const ContactCache& cache = in.work.cache;
-  CollidedManifold& collided = cache.collided[p];
-  if (collided.is_recyclable()) return;  // and has been, in this step
+  if (cache.collided.is_recyclable(p)) return;  // and has been, in this step
   const Bodies& bodies = in.work.bodies;
   const Proxies& proxies = in.work.proxies;
   const Pair pair = cache.pairs[p];
@@ -55,7 +54,7 @@ PLUMB_HD void collide_candidate(const CollideInput& in, std::uint32_t p) {
   if (touch) cache.found[p] = manifold;
   if (!touch) manifold.count = 0;
   if (touch ? may_recycle(shape_a.type, shape_b.type, manifold) : manifold.gap > margin)
-    collided = {bodies.position[b.body] - bodies.position[a.body], qa, qb, margin, manifold};
+    cache.collided.store(p, {manifold, margin, qa, qb, bodies.position[b.body] - bodies.position[a.body]});
 }
 
 }  // namespace plumb::impulse

@@ -5,6 +5,7 @@
 
 #include "bodies/body.hpp"
 #include "broadphase/pairs.hpp"
+#include "narrowphase/collided_rows.hpp"
 #include "narrowphase/manifold.hpp"
 
 namespace plumb::impulse {
@@ -34,28 +35,18 @@ struct StepImpulses {
   Real tangent[2][kManifoldPoints];
 };
 
-/// What collision found, and how the bodies lay then (contact_recycling.hpp).
-struct CollidedManifold {
-  Position apart;  ///< from body a to body b, m
-  Quat orientation_a, orientation_b;
-  Real margin;        ///< how far ahead the two looked, m
-  Manifold manifold;  ///< without points and gap: none that may be recycled
-
-  [[nodiscard]] PLUMB_HD bool is_recyclable() const { return manifold.count != 0 || manifold.gap > 0; }
-};
-
 /// Contacts of one step. Two of these take turns: this step's and the last one's.
 struct ContactCache {
-  Pair* pairs;                 ///< candidates of the broad phase
-  PairRange* ranges;           ///< by proxy: the candidates that it found
-  Manifold* found;             ///< by candidate; valid where touching
-  std::uint32_t* touching;     ///< by candidate: 1 or 0
-  std::uint32_t* row;          ///< by candidate: its manifold's row where touching
-  std::uint32_t* previous;     ///< by candidate: the same pair among the last step's candidates, or kNone
-  CollidedManifold* collided;  ///< by candidate: what may be recycled in the next step
-  std::uint32_t* candidate;    ///< by row
-  CachedManifold* kept;        ///< by row
-  std::uint32_t* triangles;    ///< by candidate: the triangle of a surface, or 0; null where nothing has pieces
+  Pair* pairs;               ///< candidates of the broad phase
+  PairRange* ranges;         ///< by proxy: the candidates that it found
+  Manifold* found;           ///< by candidate; valid where touching
+  std::uint32_t* touching;   ///< by candidate: 1 or 0
+  std::uint32_t* row;        ///< by candidate: its manifold's row where touching
+  std::uint32_t* previous;   ///< by candidate: the same pair among the last step's candidates, or kNone
+  CollidedRows collided;     ///< by candidate: what may be recycled in the next step
+  std::uint32_t* candidate;  ///< by row
+  CachedManifold* kept;      ///< by row
+  std::uint32_t* triangles;  ///< by candidate: the triangle of a surface, or 0; null where nothing has pieces
 };
 
 /// Pair (a, b), or that part of it, among a step's candidates, or kNone. It is in the list of whichever of both found

@@ -32,21 +32,19 @@ struct RecycleContact {
 
   PLUMB_HD void operator()(std::uint32_t p) const {
     const auto& [cache, last, bodies, proxies, margins, parameters] = work;
-    CollidedManifold& collided = cache.collided[p];
-    collided.manifold.count = 0;
-    collided.manifold.gap = 0;
+    cache.collided.clear(p);
     cache.previous[p] = kNone;
     const Pair pair = cache.pairs[p];
     const Proxy &a = proxies.rows[pair.a], &b = proxies.rows[pair.b];
     if (a.first_step == parameters->step || b.first_step == parameters->step) return;
     const std::uint32_t previous = find_candidate(last, pair, cache.triangles == nullptr ? 0U : cache.triangles[p]);
     cache.previous[p] = previous;
-    if (previous == kNone || !last.collided[previous].is_recyclable()) return;
-    const CollidedManifold& before = last.collided[previous];
+    if (previous == kNone || !last.collided.is_recyclable(previous)) return;
+    const CollidedManifold before = last.collided.load(previous);
     const bool touched = before.manifold.count != 0;
     if (touched ? !carry(before, a, b, work.margin(pair), cache.found[p]) : !are_apart(before, a, b, work.margin(pair)))
       return;
-    collided = before;
+    cache.collided.store(p, before);
     cache.touching[p] = touched ? 1 : 0;
   }
 
@@ -68,7 +66,9 @@ struct RecycleContact {
     const Manifold& then = before.manifold;
     out.normal = then.normal + turn_b.change(then.normal);
     out.count = then.count;
-    for (std::uint32_t i = 0; i < then.count; ++i) {
+    PLUMB_UNROLL
+    for (std::uint32_t i = 0; i < kManifoldPoints; ++i) {
+      if (i >= then.count) break;
       const ManifoldPoint& point = then.points[i];
       const Vec arm_a = origin_then + point.position, arm_b = arm_a - apart_then;
       const Vec arm = arm_a + turn_a.change(arm_a);

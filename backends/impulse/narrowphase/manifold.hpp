@@ -16,9 +16,9 @@ struct ManifoldPoint {
 };
 
 struct Manifold {
-  Vec normal;  ///< unit, from the first shape to the second, world axes
   std::uint32_t count;
-  Real gap;  ///< shapes that do not touch are at least so far apart, m, where collision saw it; else 0
+  Real gap;    ///< shapes that do not touch are at least so far apart, m, where collision saw it; else 0
+  Vec normal;  ///< unit, from the first shape to the second, world axes
   ManifoldPoint points[kManifoldPoints];
 };
 

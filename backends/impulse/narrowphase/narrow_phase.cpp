@@ -69,16 +69,21 @@ void exchange(Archive& archive, CollidedManifold& collided) {
   }
 }
 
-/// Those that may be recycled, and where they are.
-void exchange_collided(Archive& archive, Buffer<CollidedManifold>& collided, std::uint32_t candidates) {
-  std::vector<CollidedManifold> rows =
-      archive.reads() ? std::vector<CollidedManifold>(candidates) : collided.to_host(candidates);
+/// The manifolds that may be recycled, and where they are. What is apart is collided again without being missed.
+void exchange_collided(Archive& archive, Buffer<CollidedRows::Line>& buffer, std::uint32_t candidates) {
+  const std::size_t n = CollidedRows::lines_for(candidates);
+  std::vector<CollidedRows::Line> lines = archive.reads() ? std::vector<CollidedRows::Line>(n) : buffer.to_host(n);
+  const CollidedRows rows = {lines.data()};
   std::vector<std::uint32_t> recyclable;
-  for (std::uint32_t p = 0; p < candidates; ++p)
-    if (rows[p].manifold.count != 0) recyclable.push_back(p);
+  for (std::uint32_t p = 0; p < candidates && !archive.reads(); ++p)
+    if (rows.load(p).manifold.count != 0) recyclable.push_back(p);
   archive.list(recyclable);
-  for (const std::uint32_t p : recyclable) exchange(archive, rows[p]);
-  if (archive.reads()) collided.from_host(rows.data(), candidates);
+  for (const std::uint32_t p : recyclable) {
+    CollidedManifold collided = rows.load(p);
+    exchange(archive, collided);
+    rows.store(p, collided);
+  }
+  if (archive.reads()) buffer.from_host(lines.data(), n);
 }
 
 }  // namespace
@@ -91,7 +96,7 @@ void NarrowPhase::reserve(Executor& /*executor*/, std::uint32_t proxies, std::ui
     cache.touching.grow(pairs);
     cache.row.grow(pairs);
     cache.previous.grow(pairs);
-    cache.collided.grow(pairs);
+    cache.collided.grow(CollidedRows::lines_for(pairs));
     cache.candidate.grow(pairs);
     cache.kept.grow(pairs);
     if (uses_midphase_) cache.triangles.grow(pairs);

@@ -52,13 +52,13 @@ class NarrowPhase {
     Buffer<PairRange> ranges;
     Buffer<Manifold> found;
     Buffer<std::uint32_t> touching, row, previous;
-    Buffer<CollidedManifold> collided;
+    Buffer<CollidedRows::Line> collided;
     Buffer<std::uint32_t> candidate;
     Buffer<CachedManifold> kept;
     Buffer<std::uint32_t> triangles;
     ContactCache view() {
-      return {pairs.data(),    ranges.data(),   found.data(),     touching.data(), row.data(),
-              previous.data(), collided.data(), candidate.data(), kept.data(),     triangles.data()};
+      return {pairs.data(),    ranges.data(),     found.data(),     touching.data(), row.data(),
+              previous.data(), {collided.data()}, candidate.data(), kept.data(),     triangles.data()};
     }
   };
 

@@ -90,18 +90,19 @@ class RecyclingRig {
     executor_.wait();
     touching_.resize(kPairs);
     found_.resize(kPairs);
-    collided_.resize(kPairs);
+    collided_.resize(CollidedRows::lines_for(kPairs));
     memory::download(touching_.data(), cache_.touching, kPairs * sizeof(std::uint32_t));
     memory::download(found_.data(), cache_.found, kPairs * sizeof(Manifold));
-    memory::download(collided_.data(), cache_.collided, kPairs * sizeof(CollidedManifold));
+    memory::download(collided_.data(), cache_.collided.lines, collided_.size() * sizeof(CollidedRows::Line));
   }
 
   [[nodiscard]] bool touches(std::uint32_t i) const { return touching_[i] != 0; }
   [[nodiscard]] const Manifold& found(std::uint32_t i) const { return found_[i]; }
   /// Whether a pair may be recycled, and has been collided before its bodies came to where they are.
-  [[nodiscard]] bool is_recyclable(std::uint32_t i) const { return collided_[i].is_recyclable(); }
-  [[nodiscard]] bool is_recycled(std::uint32_t i) const {
-    return is_recyclable(i) && std::memcmp(&collided_[i].orientation_a, &orientation_[2 * i], sizeof(Quat)) != 0;
+  [[nodiscard]] bool is_recyclable(std::uint32_t i) { return CollidedRows{collided_.data()}.is_recyclable(i); }
+  [[nodiscard]] bool is_recycled(std::uint32_t i) {
+    const CollidedManifold collided = CollidedRows{collided_.data()}.load(i);
+    return is_recyclable(i) && std::memcmp(&collided.orientation_a, &orientation_[2 * i], sizeof(Quat)) != 0;
   }
   [[nodiscard]] double least_reach(std::uint32_t i) const {
     return static_cast<double>(min(shape(2 * i).reach, shape(2 * i + 1).reach));
@@ -167,7 +168,7 @@ class RecyclingRig {
   std::uint32_t types_ = 0;
   std::vector<std::uint32_t> touching_;
   std::vector<Manifold> found_;
-  std::vector<CollidedManifold> collided_;
+  std::vector<CollidedRows::Line> collided_;
 };
 
 constexpr double kTolerance = 1e-3;  // of the smaller reach
