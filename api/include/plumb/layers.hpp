@@ -4,6 +4,7 @@
 //   validate  checks that both sides keep the rules of plumb.h (phases, threads, sizes, capacities, results)
 //   trace     writes every call to a file, which replay() runs again on any backend
 //   inject    makes one chosen call fail, so that a host can show that it survives
+//   profile   tells how long every call and phase took: plumb/profile.hpp
 //
 // Layers never wrap handles and pass unknown extensions through, so they stack in any order. What they return lives as
 // long as the process, unless said otherwise, and there is room for 16 of each kind at a time; more throw Error.
