@@ -60,7 +60,7 @@ std::string cell_id(const Cell& cell) {
   return hash.hex();
 }
 
-Json request_of(const Cell& cell, const std::string& trajectory_file, const std::string& trace_file) {
+Json request_of(const Cell& cell, const CellFiles& files) {
   return {{"request", "run"},
           {"scene", cell.scene->path.string()},
           {"scene_hash", fmt::format("{:016x}", cell.scene->hash)},
@@ -70,14 +70,16 @@ Json request_of(const Cell& cell, const std::string& trajectory_file, const std:
           {"seconds", cell.seconds},
           {"threads", cell.threads},
           {"needs", cell.needs},
-          {"trajectory", trajectory_file},
+          {"trajectory", files.trajectory},
+          {"layers", files.layers},
           {"about",
            {{"title", cell.scene->title},
             {"params", json_of(cell.shown)},
             {"backend", cell.backend->name},
             {"label", label_of(cell)},
             {"cell", cell_id(cell)}}},
-          {"trace", trace_file}};
+          {"trace", files.trace},
+          {"timeline", files.timeline}};
 }
 
 std::string build_id(const BackendDescription& backend) {

@@ -34,8 +34,14 @@ struct Cell {
 /// settings, profile, needs, dt, seconds, threads. Equal in every process.
 [[nodiscard]] std::string cell_id(const Cell& cell);
 
-/// What run_cell takes; files that are not to be written are "". "layers": true, added to it, records the heavy ones.
-[[nodiscard]] Json request_of(const Cell& cell, const std::string& trajectory_file, const std::string& trace_file);
+/// Files that a repetition writes; "" is none.
+struct CellFiles {
+  std::string trajectory, trace, timeline;
+  bool layers = false;  ///< in the trajectory also what plumb.debug/1 shows
+};
+
+/// What run_cell takes.
+[[nodiscard]] Json request_of(const Cell& cell, const CellFiles& files);
 
 /// Of a library's bytes and what it says of itself, so that a rebuilt adapter is another backend.
 [[nodiscard]] std::string build_id(const BackendDescription& backend);

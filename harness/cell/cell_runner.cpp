@@ -16,8 +16,8 @@
 #include "cell/machine.hpp"
 #include "cell/metric_rows.hpp"
 #include "cell/request.hpp"
+#include "cell/watched_backend.hpp"
 #include "measure/registry/registry.hpp"
-#include "plumb/layers.hpp"
 #include "record/recording.hpp"
 #include "simulation/names.hpp"
 #include "simulation/support.hpp"
@@ -201,28 +201,6 @@ void add_record(Json& answer, const Record& record) {
   if (record.statistics && record.trouble.empty()) answer["hash"] = fmt::format("{:016x}", record.hash);
 }
 
-/// The backend itself, or behind a layer that writes every call to a file. Outlives the worlds of the cell.
-class Trace {
- public:
-  Trace(Backend& backend, const std::string& file)
-      : backend_(file.empty() ? backend : Backend(layers::trace(&backend.table(), file), backend.file())),
-        traces_(!file.empty()) {}
-  ~Trace() {
-    try {
-      if (traces_) layers::end_trace(&backend_.table());
-    } catch (const Error& error) {
-      fmt::print(stderr, "the trace is not complete: {}\n", error.what());
-    }
-  }
-  Trace(const Trace&) = delete;
-  Trace& operator=(const Trace&) = delete;
-  [[nodiscard]] Backend& backend() { return backend_; }
-
- private:
-  Backend backend_;
-  bool traces_;
-};
-
 std::string joined(const std::vector<std::string>& sentences) {
   std::string text;
   for (const std::string& sentence : sentences) text += (text.empty() ? "" : "; ") + sentence;
@@ -253,7 +231,7 @@ Json run_cell(Backend& backend, const Json& request, Progress& progress) {
   reset_peak_memory();
   std::optional<SceneFile> file;
   std::optional<Scene> scene;
-  std::optional<Trace> trace;
+  std::optional<WatchedBackend> watched;
   std::optional<CellContext> context;
   const RecordingRequest recording = recording_of(request);
   if (!recording.file.empty()) std::filesystem::remove(recording.file);
@@ -261,8 +239,8 @@ Json run_cell(Backend& backend, const Json& request, Progress& progress) {
     file.emplace(scene_file_of(request));
     scene.emplace(scene_of(*file, request));
     const SimulationOptions options = options_of(backend, request);
-    trace.emplace(backend, request.value("trace", ""));
-    context.emplace(trace->backend(), *scene, options, progress, recording);
+    watched.emplace(backend, request);
+    context.emplace(watched->backend(), *scene, options, progress, recording);
     find_measure(*file).run(*context);
   });
   if (outcome.status == "ok" && !context->record().trouble.empty()) outcome = {"error", context->record().trouble};

@@ -125,8 +125,10 @@ class BlockRunner {
   Answer ask(const Cell& cell, std::uint32_t round) {
     CellFiles files;
     files.layers = request_.layers;
-    if (round == 1 && results_ != nullptr && request_.trace)
-      files.trace = cell_file(results_->folder(), cell, "traces", ".trace");
+    if (round == 1 && results_ != nullptr) {
+      if (request_.trace) files.trace = cell_file(results_->folder(), cell, "traces", ".trace");
+      if (request_.timeline) files.timeline = cell_file(results_->folder(), cell, "timelines", ".json");
+    }
     return bench_.repeat(cell, files, request_.limits(),
                          progress_at(label_of_repetition(cell, round, request_.repeat)));
   }

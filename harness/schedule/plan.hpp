@@ -33,9 +33,10 @@ struct RunRequest {
   std::optional<double> judge_timeout;  ///< of the referee; none: that of the engine, and at least a minute
   double memory_limit_mb = 0;           ///< 0: three quarters of the machine's memory
   std::string out;                      ///< folder; empty: none
-  bool record = false;  ///< each cell once more than `repeat`, and that one to a file: no time or error comes from it
-  bool layers = false;  ///< what plumb.debug/1 shows, too
-  bool trace = false;   ///< times then include the writing of the trace
+  bool record = false;    ///< each cell once more than `repeat`, and that one to a file: no time or error comes from it
+  bool layers = false;    ///< what plumb.debug/1 shows, too
+  bool trace = false;     ///< times then include the writing of the trace
+  bool timeline = false;  ///< and of the timeline
 
   [[nodiscard]] WorkerLimits limits() const;
 };

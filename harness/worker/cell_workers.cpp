@@ -66,9 +66,7 @@ Answer CellWorkers::ask_once(const Cell& cell, const CellFiles& files, const Wor
   if (!worker || !worker->alive()) worker = std::make_unique<WorkerProcess>(cell.backend->file);
   const auto start = std::chrono::steady_clock::now();
   const double before = worker->processor_seconds();
-  Json request = request_of(cell, files.trajectory, files.trace);
-  request["layers"] = files.layers;
-  Answer answer = worker->ask(request, limits, tick);
+  Answer answer = worker->ask(request_of(cell, files), limits, tick);
   if (answer.status == "ok" && answer.json.value("status", "") == wrong_scene)
     throw UsageError(answer.json.value("reason", ""));
   answer.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -13,12 +13,6 @@
 
 namespace plumb::harness {
 
-/// Files that a repetition writes; "" is none.
-struct CellFiles {
-  std::string trajectory, trace;
-  bool layers = false;  ///< in the trajectory also what plumb.debug/1 shows
-};
-
 class CellWorkers {
  public:
   /// ranks: how many processes like this one time cells on this machine at once.

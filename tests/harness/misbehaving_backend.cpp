@@ -174,6 +174,7 @@ class MisbehavingWorld final : public plumb::IPhysicsWorld, public plumb::IJoint
   PlumbResult wait(PlumbStepReport& report) override {
     if (steps_ == 10 && std::strcmp(values_[0].choice, "remark") == 0)
       report.remarks = PLUMB_REMARK_SOLVER_FELL_BACK | PLUMB_REMARK_STEP_REPEATED | PLUMB_REMARK_ENERGY_BOUNDED;
+    report.phase_seconds[PLUMB_PHASE_INTEGRATE] = 1e-7;  // so that there is one to be shown
     return PLUMB_OK;
   }
   std::span<const PlumbContact> contacts() override { return {}; }

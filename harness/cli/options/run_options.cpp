@@ -94,6 +94,8 @@ void add_run_options(CLI::App& verb, RunOptions& options) {
       ->needs("--record");
   verb.add_flag("--trace", request.trace,
                 "Write every call to the folder of --out, for plumb replay; times include that");
+  verb.add_flag("--timeline", request.timeline,
+                "Write how long every call and phase took to the folder of --out, for Perfetto; times include that");
   verb.add_flag("--json", options.output.json, "One object a cell, one a line, as they finish");
   verb.add_flag("--csv", options.output.csv, "One line a metric")->excludes("--json");
   verb.add_flag("--strict", options.strict, "Exit with 1 when a threshold is missed");
@@ -105,6 +107,8 @@ int run_and_print(const RunOptions& options, PrintRows print) {
     throw UsageError("--record writes trajectories to a folder: name it with --out DIR");
   if (request.trace && request.out.empty())
     throw UsageError("--trace writes traces to a folder: name it with --out DIR");
+  if (request.timeline && request.out.empty())
+    throw UsageError("--timeline writes timelines to a folder: name it with --out DIR");
   catch_signals();
   const Plan plan = make_plan(request);
   say_what_is_left_out(plan);

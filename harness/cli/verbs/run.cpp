@@ -17,7 +17,9 @@ void add_run(CLI::App& program, int& status) {
        {"plumb run C1 --backend ode --set iterations=50 --json", "another setting; a row as JSON"},
        {"plumb run D1 --backend impulse --profile tuned --seconds 2", "with the settings of the engine's author"},
        {"plumb run ./my-scene.json --strict", "a file of one's own; status 1 when a threshold is missed"},
-       {"plumb run D12 --record --out results", "with a trajectory for plumb report and plumb export"}});
+       {"plumb run D12 --record --out results", "with a trajectory for plumb report and plumb export"},
+       {"plumb run D1 --backend impulse --timeline --out results",
+        "with a timeline of its calls and phases for Perfetto"}});
   verb->callback([options, &status] { status = run_and_print(*options, print_table); });
 }
 

@@ -26,7 +26,7 @@ struct WorldsOptions {
 };
 
 Json ask_once(WorkerProcess& worker, const Cell& cell, std::uint32_t count, const WorldsOptions& options) {
-  Json request = request_of(cell, "", "");
+  Json request = request_of(cell, {});
   request["request"] = "worlds";
   request["count"] = count;
   request["over"] = options.over;
