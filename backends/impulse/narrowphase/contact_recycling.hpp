@@ -8,7 +8,7 @@
 //    .---------*------.          separation = separation then + n . s
 //    |    r_b /   b   |
 //
-// After Box3D (Catto, 2026), within a hundredth of its tolerance: a step carries the points of its contacts through its
+// After Box3D (Catto, 2026), within a fiftieth of its tolerance: a step carries the points of its contacts through its
 // sub-steps in the same way, and further. Points that stay where they are let heaps come to rest: collided again and
 // again, what lies flat has now these points and now those, and trembles.
 //
