@@ -88,6 +88,7 @@ std::uint32_t HullPool::add(std::span<const PlumbVec3> vertices) {
       sum = backend::add(sum, hull.vertices[v]);
     }
   range.centre = to_real(backend::scale(1.0 / need.vertices, sum));
+  range.inner_radius = kHuge;
   std::uint32_t at = 0;
   for (std::uint32_t f = 0; f < need.faces; ++f) {
     const auto& loop = hull.faces[f].loop;
@@ -97,6 +98,7 @@ std::uint32_t HullPool::add(std::span<const PlumbVec3> vertices) {
       face.offset = max(face.offset, dot(face.normal, vertices_[range.first_vertex + number[v]]));
     }
     faces_[range.first_face + f] = face;
+    range.inner_radius = min(range.inner_radius, face.offset - dot(face.normal, range.centre));
   }
   for (std::uint32_t e = 0; e < need.edges; ++e)
     edges_[range.first_edge + e] = {number[edges[e].from], number[edges[e].to], edges[e].left, edges[e].right};
@@ -123,7 +125,7 @@ std::uint32_t HullPool::find_room(const Room& need) {
   make_room(faces_, face_count_ + need.faces);
   make_room(loops_, loop_count_ + need.loops);
   make_room(edges_, edge_count_ + need.edges);
-  ranges_[row] = {vertex_count_, 0, face_count_, 0, loop_count_, edge_count_, 0, {0, 0, 0}};
+  ranges_[row] = {vertex_count_, 0, face_count_, 0, loop_count_, edge_count_, 0, {0, 0, 0}, 0};
   vertex_count_ += need.vertices;
   face_count_ += need.faces;
   loop_count_ += need.loops;

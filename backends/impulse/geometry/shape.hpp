@@ -71,7 +71,8 @@ struct HullRange {
   std::uint32_t first_face, face_count;
   std::uint32_t first_loop;  ///< HullFace::first counts from here
   std::uint32_t first_edge, edge_count;
-  Vec centre;  ///< a point well inside
+  Vec centre;         ///< a point well inside
+  Real inner_radius;  ///< of the largest ball about it that the hull holds
 };
 
 /// All hulls of a world.

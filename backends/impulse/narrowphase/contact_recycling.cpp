@@ -1,13 +1,28 @@
 #include "narrowphase/contact_recycling.hpp"
 
 #include "geometry/tolerance.hpp"
+#include "narrowphase/convex/polyhedron.hpp"
 
 namespace plumb::impulse {
 
 namespace {
 
-/// How far a point may have slid, as a share of the smaller shape's reach.
-constexpr Real kMostSlide = Real(1e-3);
+/// How far a point may have slid, as a share of the thinner shape's inner radius: where edges cross, or an edge ends,
+/// the true point has gone along one body and not along the other.
+constexpr Real kMostSlide = Real(2e-3);
+
+/// What counts of a shape's size, m.
+struct Size {
+  Real reach;         ///< from its origin to what is furthest
+  Real inner_radius;  ///< of a ball about its middle that it holds
+
+  PLUMB_HD Size(const Shape& shape, const Hulls& hulls) : reach(shape.reach), inner_radius(kHuge) {
+    if (shape.type == ShapeType::kBox) inner_radius = BoxView{shape.size}.inner_radius();
+    if (shape.type == ShapeType::kCylinder) inner_radius = min(shape.size.x, shape.size.y);
+    if (shape.type == ShapeType::kHull) inner_radius = hulls.ranges[shape.hull].inner_radius;
+    if (shape.type == ShapeType::kPlane) reach = kHuge;
+  }
+};
 
 /// A body's turn since the shapes were collided.
 struct Turn {
@@ -53,8 +68,10 @@ struct RecycleContact {
   PLUMB_HD bool carry(const CollidedManifold& before, const Proxy& a, const Proxy& b, Real margin,
                       Manifold& out) const {
     const Bodies& bodies = work.bodies;
-    const Real reach = min(work.proxies.shapes[a.shape].reach, work.proxies.shapes[b.shape].reach);
-    const Real most = kMostSlide * reach;
+    const Size size_a(work.proxies.shapes[a.shape], work.proxies.hulls);
+    const Size size_b(work.proxies.shapes[b.shape], work.proxies.hulls);
+    const Real reach = min(size_a.reach, size_b.reach);
+    const Real most = kMostSlide * min(size_a.inner_radius, size_b.inner_radius);
     const Turn turn_a(before.orientation_a, bodies.orientation[a.body]);
     const Turn turn_b(before.orientation_b, bodies.orientation[b.body]);
     if (!(turn_a.angle_to(turn_b) * reach <= most) || !(margin <= before.margin + most)) return false;

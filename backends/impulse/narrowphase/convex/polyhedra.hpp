@@ -44,7 +44,7 @@ struct Balls {
 
   template <class ViewA, class ViewB>
   PLUMB_HD Balls(const ViewA& a, const ViewB& b, const Placement& at)
-      : centre_b(at.turn * b.centre() + at.shift), radius_a(inner_radius(a)), radius_b(inner_radius(b)) {
+      : centre_b(at.turn * b.centre() + at.shift), radius_a(a.inner_radius()), radius_b(b.inner_radius()) {
     apart = centre_b - a.centre();
   }
   /// Whether some direction between two adjacent face normals may separate by more than `beaten`.

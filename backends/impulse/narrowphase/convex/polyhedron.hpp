@@ -26,6 +26,7 @@ struct HullView {
   PLUMB_HD std::uint32_t face_count() const { return range.face_count; }
   PLUMB_HD std::uint32_t edge_count() const { return range.edge_count; }
   PLUMB_HD Vec centre() const { return range.centre; }
+  PLUMB_HD Real inner_radius() const { return range.inner_radius; }
   PLUMB_HD Vec vertex(std::uint32_t v) const { return vertices[v]; }
   PLUMB_HD Vec normal(std::uint32_t f) const { return faces[f].normal; }
   PLUMB_HD Real offset(std::uint32_t f) const { return faces[f].offset; }
@@ -54,6 +55,7 @@ struct BoxView {
   PLUMB_HD std::uint32_t face_count() const { return 6; }
   PLUMB_HD std::uint32_t edge_count() const { return 12; }
   PLUMB_HD Vec centre() const { return {0, 0, 0}; }
+  PLUMB_HD Real inner_radius() const { return min(min(half.x, half.y), half.z); }
   PLUMB_HD Vec vertex(std::uint32_t v) const {
     return {(v & 1U) != 0 ? half.x : -half.x, (v & 2U) != 0 ? half.y : -half.y, (v & 4U) != 0 ? half.z : -half.z};
   }
@@ -82,15 +84,6 @@ struct BoxView {
     return (n.x > 0 ? 1U : 0U) | (n.y > 0 ? 2U : 0U) | (n.z > 0 ? 4U : 0U);
   }
 };
-
-/// Radius of the largest ball about the centre that the polyhedron holds.
-template <class View>
-PLUMB_HD Real inner_radius(const View& view) {
-  Real least = kHuge;
-  for (std::uint32_t f = 0; f < view.face_count(); ++f)
-    least = min(least, view.offset(f) - dot(view.normal(f), view.centre()));
-  return least;
-}
 
 /// That of an edge's two faces whose normal is closer to n.
 template <class View>
