@@ -12,11 +12,11 @@ namespace {
 constexpr Real kMostSlide = Real(2e-3);
 
 /// What counts of a shape's size, m.
-struct Size {
+struct ShapeSize {
   Real reach;         ///< from its origin to what is furthest
   Real inner_radius;  ///< of a ball about its middle that it holds
 
-  PLUMB_HD Size(const Shape& shape, const Hulls& hulls) : reach(shape.reach), inner_radius(kHuge) {
+  PLUMB_HD ShapeSize(const Shape& shape, const Hulls& hulls) : reach(shape.reach), inner_radius(kHuge) {
     if (shape.type == ShapeType::kBox) inner_radius = BoxView{shape.size}.inner_radius();
     if (shape.type == ShapeType::kCylinder) inner_radius = min(shape.size.x, shape.size.y);
     if (shape.type == ShapeType::kHull) inner_radius = hulls.ranges[shape.hull].inner_radius;
@@ -25,12 +25,12 @@ struct Size {
 };
 
 /// A body's turn since the shapes were collided.
-struct Turn {
+struct TurnSince {
   Quat by;
-  PLUMB_HD Turn(const Quat& then, const Quat& now) : by(now * conjugate(then)) {}
+  PLUMB_HD TurnSince(const Quat& then, const Quat& now) : by(now * conjugate(then)) {}
 
   /// rad, of a small one; a quaternion and its negative are the same turn, and count as far apart.
-  [[nodiscard]] PLUMB_HD Real angle_to(const Turn& other) const {
+  [[nodiscard]] PLUMB_HD Real angle_to(const TurnSince& other) const {
     const Vec u = vector_part(other.by) - vector_part(by);
     const Real w = other.by.w - by.w;
     return 2 * sqrt(length_squared(u) + w * w);
@@ -68,12 +68,12 @@ struct RecycleContact {
   PLUMB_HD bool carry(const CollidedManifold& before, const Proxy& a, const Proxy& b, Real margin,
                       Manifold& out) const {
     const Bodies& bodies = work.bodies;
-    const Size size_a(work.proxies.shapes[a.shape], work.proxies.hulls);
-    const Size size_b(work.proxies.shapes[b.shape], work.proxies.hulls);
+    const ShapeSize size_a(work.proxies.shapes[a.shape], work.proxies.hulls);
+    const ShapeSize size_b(work.proxies.shapes[b.shape], work.proxies.hulls);
     const Real reach = min(size_a.reach, size_b.reach);
     const Real most = kMostSlide * min(size_a.inner_radius, size_b.inner_radius);
-    const Turn turn_a(before.orientation_a, bodies.orientation[a.body]);
-    const Turn turn_b(before.orientation_b, bodies.orientation[b.body]);
+    const TurnSince turn_a(before.orientation_a, bodies.orientation[a.body]);
+    const TurnSince turn_b(before.orientation_b, bodies.orientation[b.body]);
     if (!(turn_a.angle_to(turn_b) * reach <= most) || !(margin <= before.margin + most)) return false;
 
     const Vec moved = between(before.apart, bodies.position[b.body] - bodies.position[a.body]);
@@ -100,8 +100,8 @@ struct RecycleContact {
     const Bodies& bodies = work.bodies;
     const Real reach_a = work.proxies.shapes[a.shape].reach, reach_b = work.proxies.shapes[b.shape].reach;
     const Real most = before.manifold.gap - margin - kTie * (reach_a + reach_b);
-    const Turn turn_a(before.orientation_a, bodies.orientation[a.body]);
-    const Turn turn_b(before.orientation_b, bodies.orientation[b.body]);
+    const TurnSince turn_a(before.orientation_a, bodies.orientation[a.body]);
+    const TurnSince turn_b(before.orientation_b, bodies.orientation[b.body]);
     // As seen from a, b's shape turns about its origin, and its origin goes this way.
     const Vec to_b = rotate(before.orientation_b, b.frame.position);
     const Vec between_then = between({0, 0, 0}, before.apart) + to_b;
