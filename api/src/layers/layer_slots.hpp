@@ -91,13 +91,28 @@ class LayerSlots {
       if (slot.layer != nullptr && slot.layer->next_core() == next) return &std::get<PlumbBackendTable>(slot.tables);
     return nullptr;
   }
+  /// Has the layer of a table finish() what it writes and frees its slot, also where finish() throws. Throws Error for
+  /// a table that open() did not give.
+  static void finish(const std::string& kind, const PlumbBackendTable* table) {
+    Layer* layer = find(table);
+    if (layer == nullptr)
+      throw Error(PLUMB_E_INVALID_ARGUMENT, "end_" + kind + " got a table that " + kind + "() did not give");
+    try {
+      layer->finish();
+    } catch (...) {
+      close(table);
+      throw;
+    }
+    close(table);
+  }
+
+ private:
   static void close(const PlumbBackendTable* table) {
     const std::lock_guard lock(mutex_);
     for (Slot& slot : slots_)
       if (&std::get<PlumbBackendTable>(slot.tables) == table) slot.layer.reset();
   }
 
- private:
   struct Slot {
     std::unique_ptr<Layer> layer;
     std::tuple<PlumbBackendTable, PlumbJointsTable, PlumbQueriesTable, PlumbCollideTable, PlumbDebugTable,

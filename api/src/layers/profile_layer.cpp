@@ -185,16 +185,6 @@ const PlumbBackendTable* profile(const PlumbBackendTable* next, const std::strin
   return LayerSlots<ProfileLayer>::open("profile", next, file);
 }
 
-void end_profile(const PlumbBackendTable* profiled) {
-  ProfileLayer* layer = LayerSlots<ProfileLayer>::find(profiled);
-  if (layer == nullptr) throw Error(PLUMB_E_INVALID_ARGUMENT, "end_profile got a table that profile() did not give");
-  try {
-    layer->finish();
-  } catch (...) {
-    LayerSlots<ProfileLayer>::close(profiled);
-    throw;
-  }
-  LayerSlots<ProfileLayer>::close(profiled);
-}
+void end_profile(const PlumbBackendTable* profiled) { LayerSlots<ProfileLayer>::finish("profile", profiled); }
 
 }  // namespace plumb::layers

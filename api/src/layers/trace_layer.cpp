@@ -181,16 +181,6 @@ const PlumbBackendTable* trace(const PlumbBackendTable* next, const std::string&
   return LayerSlots<TraceLayer>::open("trace", next, file, options);
 }
 
-void end_trace(const PlumbBackendTable* traced) {
-  TraceLayer* layer = LayerSlots<TraceLayer>::find(traced);
-  if (layer == nullptr) throw Error(PLUMB_E_INVALID_ARGUMENT, "end_trace got a table that trace() did not give");
-  try {
-    layer->finish();
-  } catch (...) {
-    LayerSlots<TraceLayer>::close(traced);
-    throw;
-  }
-  LayerSlots<TraceLayer>::close(traced);
-}
+void end_trace(const PlumbBackendTable* traced) { LayerSlots<TraceLayer>::finish("trace", traced); }
 
 }  // namespace plumb::layers

@@ -30,14 +30,6 @@ template <class N>
 PLUMB_HD Vec3<N> velocity_at(const SolverBody<N>& body, const Vec3<N>& arm) {
   return body.linear + cross(body.angular, arm);
 }
-/// By how much a turn changes a vector.
-template <class N>
-PLUMB_HD Vec3<N> change_by_turn(const Quat4<N>& turn, const Vec3<N>& v) {
-  const Vec3<N> u = vector_part(turn);
-  const Vec3<N> t = cross(u, v);
-  const Vec3<N> s = t + t;
-  return turn.w * s + cross(u, s);
-}
 /// How far the end of an arm has moved since the step began: the body's own way and the turn of the arm.
 template <class N>
 PLUMB_HD Vec3<N> displacement_at(const SolverBody<N>& body, const Vec3<N>& arm) {

@@ -36,6 +36,14 @@ template <class N>
 PLUMB_INLINE constexpr Vec3<N> rotate_back(const Quat4<N>& q, const Vec3<N>& v) {
   return rotate(conjugate(q), v);
 }
+/// By how much a turn changes a vector: nothing at all where it is none.
+template <class N>
+PLUMB_HD Vec3<N> change_by_turn(const Quat4<N>& turn, const Vec3<N>& v) {
+  const Vec3<N> u = vector_part(turn);
+  const Vec3<N> t = cross(u, v);
+  const Vec3<N> s = t + t;
+  return turn.w * s + cross(u, s);
+}
 template <class N>
 PLUMB_HD Quat4<N> normalized(const Quat4<N>& q) {
   const N n = sqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);

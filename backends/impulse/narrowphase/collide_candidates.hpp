@@ -45,7 +45,6 @@ PLUMB_HD void collide_candidate(const CollideInput& in, std::uint32_t p) {
   const Shape &shape_a = proxies.shapes[a.shape], &shape_b = proxies.shapes[b.shape];
   const Real margin = in.work.margin(pair);
   Manifold manifold;
-  manifold.gap = 0;
   const bool touch = Kind::collide({shape_a, shape_b, pose_a.orientation, pose_b.orientation, apart, margin}, proxies,
                                    cache.triangles == nullptr ? 0U : cache.triangles[p], manifold);
   PLUMB_ASSERT(!touch || (manifold.count >= 1 && manifold.count <= static_cast<std::uint32_t>(kManifoldPoints)));

@@ -2,6 +2,7 @@
 // (contact_recycling.hpp).
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 

@@ -24,23 +24,14 @@ struct ShapeSize {
   }
 };
 
-/// A body's turn since the shapes were collided.
-struct TurnSince {
-  Quat by;
-  PLUMB_HD TurnSince(const Quat& then, const Quat& now) : by(now * conjugate(then)) {}
-
-  /// rad, of a small one; a quaternion and its negative are the same turn, and count as far apart.
-  [[nodiscard]] PLUMB_HD Real angle_to(const TurnSince& other) const {
-    const Vec u = vector_part(other.by) - vector_part(by);
-    const Real w = other.by.w - by.w;
-    return 2 * sqrt(length_squared(u) + w * w);
-  }
-  /// What it adds to a vector: nothing at all where the body has not turned.
-  [[nodiscard]] PLUMB_HD Vec change(const Vec& v) const {
-    const Vec u = vector_part(by), t = cross(u, v), s = t + t;
-    return by.w * s + cross(u, s);
-  }
-};
+/// The turn from then to now.
+PLUMB_HD Quat turn_since(const Quat& then, const Quat& now) { return now * conjugate(then); }
+/// Between two turns, rad, where it is small; a quaternion and its negative are the same turn, and count as far apart.
+PLUMB_HD Real angle_between(const Quat& a, const Quat& b) {
+  const Vec u = vector_part(b) - vector_part(a);
+  const Real w = b.w - a.w;
+  return 2 * sqrt(length_squared(u) + w * w);
+}
 
 struct RecycleContact {
   NarrowPhaseWork work;
@@ -72,26 +63,27 @@ struct RecycleContact {
     const ShapeSize size_b(work.proxies.shapes[b.shape], work.proxies.hulls);
     const Real reach = min(size_a.reach, size_b.reach);
     const Real most = kMostSlide * min(size_a.inner_radius, size_b.inner_radius);
-    const TurnSince turn_a(before.orientation_a, bodies.orientation[a.body]);
-    const TurnSince turn_b(before.orientation_b, bodies.orientation[b.body]);
-    if (!(turn_a.angle_to(turn_b) * reach <= most) || !(margin <= before.margin + most)) return false;
+    const Quat turn_a = turn_since(before.orientation_a, bodies.orientation[a.body]);
+    const Quat turn_b = turn_since(before.orientation_b, bodies.orientation[b.body]);
+    if (!(angle_between(turn_a, turn_b) * reach <= most) || !(margin <= before.margin + most)) return false;
 
     const Vec moved = between(before.apart, bodies.position[b.body] - bodies.position[a.body]);
     const Vec apart_then = between({0, 0, 0}, before.apart);
     const Vec origin_then = rotate(before.orientation_a, a.frame.position);
     const Vec origin = rotate(bodies.orientation[a.body], a.frame.position);
     const Manifold& then = before.manifold;
-    out.normal = then.normal + turn_b.change(then.normal);
+    out.normal = then.normal + change_by_turn(turn_b, then.normal);
     out.count = then.count;
     PLUMB_UNROLL
     for (std::uint32_t i = 0; i < kManifoldPoints; ++i) {
       if (i >= then.count) break;
       const ManifoldPoint& point = then.points[i];
       const Vec arm_a = origin_then + point.position, arm_b = arm_a - apart_then;
-      const Vec arm = arm_a + turn_a.change(arm_a);
-      const Vec slide = moved + turn_b.change(arm_b) - turn_a.change(arm_a);
+      const Vec by_a = change_by_turn(turn_a, arm_a);
+      const Vec slide = moved + change_by_turn(turn_b, arm_b) - by_a;
       if (!(length_squared(slide) <= most * most)) return false;
-      out.points[i] = {arm + Real(0.5) * slide - origin, point.separation + dot(slide, out.normal), point.feature};
+      out.points[i] = {arm_a + by_a + Real(0.5) * slide - origin, point.separation + dot(slide, out.normal),
+                       point.feature};
     }
     return true;
   }
@@ -100,14 +92,14 @@ struct RecycleContact {
     const Bodies& bodies = work.bodies;
     const Real reach_a = work.proxies.shapes[a.shape].reach, reach_b = work.proxies.shapes[b.shape].reach;
     const Real most = before.manifold.gap - margin - kTie * (reach_a + reach_b);
-    const TurnSince turn_a(before.orientation_a, bodies.orientation[a.body]);
-    const TurnSince turn_b(before.orientation_b, bodies.orientation[b.body]);
+    const Quat turn_a = turn_since(before.orientation_a, bodies.orientation[a.body]);
+    const Quat turn_b = turn_since(before.orientation_b, bodies.orientation[b.body]);
     // As seen from a, b's shape turns about its origin, and its origin goes this way.
     const Vec to_b = rotate(before.orientation_b, b.frame.position);
     const Vec between_then = between({0, 0, 0}, before.apart) + to_b;
-    const Vec way = between(before.apart, bodies.position[b.body] - bodies.position[a.body]) + turn_b.change(to_b) -
-                    turn_a.change(between_then);
-    return length(way) + turn_a.angle_to(turn_b) * reach_b < most;
+    const Vec way = between(before.apart, bodies.position[b.body] - bodies.position[a.body]) +
+                    change_by_turn(turn_b, to_b) - change_by_turn(turn_a, between_then);
+    return length(way) + angle_between(turn_a, turn_b) * reach_b < most;
   }
 };
 

@@ -18,23 +18,10 @@
 // that lags behind, a ball would roll for ever.
 #pragma once
 
-#include "bodies/body.hpp"
-#include "bodies/step_parameters.hpp"
 #include "exec/executor.hpp"
-#include "narrowphase/contact_cache.hpp"
+#include "narrowphase/narrow_phase_work.hpp"
 
 namespace plumb::impulse {
-
-/// What the narrow phase reads of the world, and where it writes.
-struct NarrowPhaseWork {
-  ContactCache cache, last;  ///< of this step, and of the last one
-  Bodies bodies;
-  Proxies proxies;
-  const Real* margins;  ///< by proxy: how far ahead it looks, m
-  const StepParameters* parameters;
-
-  [[nodiscard]] PLUMB_HD Real margin(Pair pair) const { return margins[pair.a] + margins[pair.b]; }
-};
 
 /// Fills cache.previous of all candidates, and cache.collided, found and touching of those that are recycled.
 void recycle_contacts(Executor& executor, Count candidates, const NarrowPhaseWork& work);

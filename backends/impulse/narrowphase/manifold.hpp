@@ -17,8 +17,8 @@ struct ManifoldPoint {
 
 struct Manifold {
   std::uint32_t count;
-  Real gap;    ///< shapes that do not touch are at least so far apart, m, where collision saw it; else 0
-  Vec normal;  ///< unit, from the first shape to the second, world axes
+  Real gap = 0;  ///< shapes that do not touch are at least so far apart, m, where collision saw it; else 0
+  Vec normal;    ///< unit, from the first shape to the second, world axes
   ManifoldPoint points[kManifoldPoints];
 };
 

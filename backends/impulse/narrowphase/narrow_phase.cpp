@@ -4,6 +4,7 @@
 
 #include "exec/atomic.hpp"
 #include "narrowphase/collide_candidates.hpp"
+#include "narrowphase/contact_recycling.hpp"
 #include "plumb/assert.hpp"
 
 namespace plumb::impulse {

@@ -6,7 +6,7 @@
 #include "bodies/step_parameters.hpp"
 #include "exec/archive.hpp"
 #include "exec/sort.hpp"
-#include "narrowphase/contact_recycling.hpp"
+#include "narrowphase/narrow_phase_work.hpp"
 
 namespace plumb::impulse {
 

@@ -96,8 +96,10 @@ PLUMB_HD inline bool find_axis(const BoxPair& p, Real margin, Real tie, BoxAxis&
       const Real reach = p.a[i1] * m[j][i2] + p.a[i2] * m[j][i1] + p.b[j1] * abs(v[i2] * u[i1] - v[i1] * u[i2]) +
                          p.b[j2] * abs(w[i2] * u[i1] - w[i1] * u[i2]);
       const Real s = (abs(p.t[i2] * u[i1] - p.t[i1] * u[i2]) - reach) / sqrt(sine2);
-      out.separation = s;
-      if (s > margin) return false;
+      if (s > margin) {
+        out.separation = s;
+        return false;
+      }
       if (s > best_edge + tie) {
         best_edge = s;
         edge = 3 * i + j;
