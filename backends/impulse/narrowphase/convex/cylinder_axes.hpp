@@ -60,7 +60,17 @@ struct EdgeGap {
   }
 };
 
-/// Corners and edges; points are those of the view, placed. `inner`: radius of a ball in the cylinder.
+/// Whether on all directions from a face's normal `near` to that of its neighbour `far`, turned by no more than a right
+/// angle, the gap to their edge through v is no greater than at `near`. Turning by t changes n . v by no more than
+/// sin t (far . v - sqrt(2) min(near . v, 0)) over the sine of the angle between the two, and the cylinder's reach by
+/// no more than sqrt(2) sin t times the distance of its rim.
+PLUMB_HD inline bool narrows_from(const Cylinder& c, const Vec& v, const Vec& near, const Vec& far) {
+  constexpr Real kMore = Real(1.5);  // than sqrt(2)
+  return dot(far, v) - kMore * min(dot(near, v), Real(0)) + kMore * (c.radius + c.half) < 0;
+}
+
+/// Edges; points are those of the view, placed. arc(e, v, from, to): between which directions the edge e, which goes
+/// through v, decides; false where it does not.
 template <class View, class Arc>
 PLUMB_HD bool try_edges(const Cylinder& c, const View& view, const polyhedra::Placement& at, const Arc& arc,
                         Real margin, Real tie, Axis& best) {
@@ -72,7 +82,7 @@ PLUMB_HD bool try_edges(const Cylinder& c, const View& view, const polyhedra::Pl
     const Real nearest_to_centre = length(p + closest_on_segment(p, d, {0, 0, 0}) * d);
     if (nearest_to_centre - min(c.radius, c.half) <= best.separation + tie) continue;
     EdgeGap gap{c, p, {}, {}};
-    arc(e, gap.from, gap.to);
+    if (!arc(e, p, gap.from, gap.to)) continue;
     const Real s = gap.widest(), separation = gap.at(s);
     if (separation > margin) return false;
     if (separation > best.separation + tie) best = {gap.direction(s), separation, Axis::Kind::kEdge, e};
@@ -80,6 +90,7 @@ PLUMB_HD bool try_edges(const Cylinder& c, const View& view, const polyhedra::Pl
   return true;
 }
 
+/// Corners and caps.
 template <class View>
 PLUMB_HD bool try_corners(const Cylinder& c, const View& view, const polyhedra::Placement& at, Real margin, Real tie,
                           Axis& best) {
@@ -114,10 +125,13 @@ PLUMB_HD bool find_axis(const Cylinder& c, const View& view, const polyhedra::Pl
     if (s > best.separation + tie) best = {n, s, Axis::Kind::kFace, f};
   }
   if (!try_corners(c, view, at, margin, tie, best)) return false;
-  const auto arc = [&](std::uint32_t e, Vec& from, Vec& to) {
+  // What is far beyond one of an edge's faces meets the other, as wheels meet the ground: that has been tried.
+  const auto arc = [&](std::uint32_t e, const Vec& v, Vec& from, Vec& to) {
     const HullEdge edge = view.edge(e);
     from = -(at.turn * view.normal(edge.left));
     to = -(at.turn * view.normal(edge.right));
+    const bool turns_far = dot(from, to) < -kParallel;
+    return turns_far || !(narrows_from(c, v, from, to) || narrows_from(c, v, to, from));
   };
   return try_edges(c, view, at, arc, margin, tie, best);
 }

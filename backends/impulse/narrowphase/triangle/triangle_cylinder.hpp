@@ -26,9 +26,10 @@ PLUMB_HD bool touch_cylinder(const Surface& on, std::uint32_t t, const cylinder:
   const polyhedra::Placement at = {{{m.x.x, m.y.x, m.z.x}, {m.x.y, m.y.y, m.z.y}, {m.x.z, m.y.z, m.z.z}},
                                    -to_cylinder(of_cylinder.shift)};
   const TriangleView view{side};
-  const auto arc = [&](std::uint32_t e, Vec& from, Vec& to) {
+  const auto arc = [&](std::uint32_t e, const Vec& v, Vec& from, Vec& to) {
     from = -to_cylinder(side.normal);
     to = -to_cylinder(normalized_or(side.outward(static_cast<int>(e)), side.normal));
+    return !cylinder::narrows_from(c, v, from, to);
   };
   cylinder::Axis axis;
   if (!cylinder::try_corners(c, view, at, margin, tie, axis) ||

@@ -112,6 +112,33 @@ INSTANTIATE_TEST_SUITE_P(All, Cylinders, ::testing::Values(kSphere, kBox, kCapsu
 constexpr Quat kUpright = {0, 0, 0, 1};
 const Quat kLying = Dice::to_real(Dice::turn({0, 0, 1}, 1.5707963267948966));
 
+// An edge is left out where the gap along all directions between its faces' normals is widest at one of the two.
+TEST(CylinderEdges, AreLeftOutOnlyWhereAFaceDecides) {
+  Dice dice(77);
+  int left_out = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const double radius = dice.uniform(0.02, 1), half = dice.uniform(0.02, 1), angle = dice.uniform(0.05, 1.5707963);
+    const V from = dice.direction(), across = dice.direction();
+    const double along = dot(across, from);
+    const V side = (1 / length(across - along * from)) * (across - along * from);
+    const V to = std::cos(angle) * from + std::sin(angle) * side;
+    const double reach = std::hypot(radius, half);
+    const V v = dice.uniform(0, 8) * reach * dice.direction();
+    const auto real = [](const V& u) {
+      return Vec{static_cast<Real>(u.x), static_cast<Real>(u.y), static_cast<Real>(u.z)};
+    };
+    const cylinder::Cylinder c = {static_cast<Real>(radius), static_cast<Real>(half)};
+    if (!cylinder::narrows_from(c, real(v), real(from), real(to))) continue;
+    ++left_out;
+    const auto gap = [&](double turn) {
+      const V n = std::cos(turn) * from + std::sin(turn) * side;
+      return dot(n, v) - half * std::abs(n.y) - radius * std::hypot(n.x, n.z);
+    };
+    for (int k = 1; k <= 64; ++k) ASSERT_LE(gap(angle * k / 64), gap(0) + 1e-12 * reach) << i;
+  }
+  EXPECT_GT(left_out, 500);
+}
+
 TEST(CylinderPoints, StandingOnABoxAreFourOfTheRim) {
   Manifold m{};
   ASSERT_TRUE(
