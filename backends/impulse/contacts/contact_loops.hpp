@@ -211,6 +211,12 @@ PLUMB_DEVICE void for_slots(Team& team, const ContactSet& contacts, const Solver
       });
 }
 
+/// Whether a colour has one contact, the others of its lanes being empty: by itself that takes a CPU half as long as
+/// eight do.
+PLUMB_HD inline bool has_one_contact(const ContactRows& rows, std::uint32_t first, std::uint32_t slots) {
+  return slots == kLaneGroup && rows.count[first + 1] == 0;
+}
+
 /// Runs work on every contact of a level, colour after colour, and on those without a colour one after the other.
 /// kMechanisms: what it pushes may be in mechanisms that move as a whole.
 template <bool kSurfaceVelocity = false, bool kMechanisms = false, class Work>
@@ -232,7 +238,7 @@ PLUMB_DEVICE void for_contacts(Team& team, const ContactSet& contacts, std::uint
       for_slots<kSurfaceVelocity, kMechanisms, Real>(team, contacts, bodies, first, slots, use, by_turns && !lonely,
                                                      work);
     } else {
-      if (lonely)
+      if (lonely || has_one_contact(contacts.rows, first, slots))
         for_slots<kSurfaceVelocity, kMechanisms, Real>(team, contacts, bodies, first, 1, use, false, work);
       else
         for_slots<kSurfaceVelocity, kMechanisms, Lanes>(team, contacts, bodies, first, slots / kLanes, use, false,
