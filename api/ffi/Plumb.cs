@@ -184,6 +184,151 @@ public unsafe struct PlumbBodyDesc
     public ulong user_data;
 }
 
+// --- plumb/queries.h
+// plumb.queries/1: rays, shape casts and overlaps against the world as the last step left it. Always in batches.
+
+/// <summary>Sees a body when the rule of PlumbFilter says that the two may touch. Sensors are not seen. Of a body in
+/// which the ray starts engines tell different things: a hit at fraction 0, the far side, or nothing; see the note of
+/// PLUMB_CAP_QUERY.</summary>
+[StructLayout(LayoutKind.Sequential)]
+public unsafe struct PlumbRay
+{
+    /// <summary>m</summary>
+    public PlumbVec3 origin;
+    /// <summary>m: direction and length in one, not 0</summary>
+    public PlumbVec3 translation;
+    public PlumbFilter filter;
+}
+
+/// <summary>A convex shape moved without turning. A shape that overlaps at the start hits at fraction 0.</summary>
+[StructLayout(LayoutKind.Sequential)]
+public unsafe struct PlumbCast
+{
+    /// <summary>sphere, box, capsule, cylinder or hull</summary>
+    public ulong shape;
+    public PlumbPose pose;
+    /// <summary>m, not 0</summary>
+    public PlumbVec3 translation;
+    public PlumbFilter filter;
+}
+
+[StructLayout(LayoutKind.Sequential)]
+public unsafe struct PlumbOverlap
+{
+    public ulong shape;
+    public PlumbPose pose;
+    public PlumbFilter filter;
+}
+
+[StructLayout(LayoutKind.Sequential)]
+public unsafe struct PlumbHit
+{
+    /// <summary>0: nothing</summary>
+    public ulong body;
+    /// <summary>index into the batch</summary>
+    public uint query;
+    /// <summary>of a compound, triangle of a mesh; else 0, also for a height field</summary>
+    public uint child;
+    /// <summary>of the translation, 0..1; 0 for overlaps</summary>
+    public double fraction;
+    /// <summary>world, m; NaN for overlaps</summary>
+    public PlumbVec3 position;
+    /// <summary>of the surface that was hit, unit; NaN for overlaps</summary>
+    public PlumbVec3 normal;
+}
+
+/// <summary>hits[capacity]; *hit_count is how many there are, also when the answer is PLUMB_TRUNCATED. Strides are in
+/// bytes. All [query]: any number at once while no step runs.</summary>
+[StructLayout(LayoutKind.Sequential)]
+public unsafe struct PlumbQueriesTable
+{
+    public uint struct_size;
+    public uint reserved;
+    public IntPtr rays;
+    public IntPtr casts;
+    /// <summary>Always all hits.</summary>
+    public IntPtr overlaps;
+
+    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+    public unsafe delegate int Rays(
+        PlumbWorld* world, uint mode, PlumbRay* rays, UIntPtr stride, uint count, PlumbHit* hits, uint capacity,
+        uint* hit_count
+    );
+
+    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+    public unsafe delegate int Casts(
+        PlumbWorld* world, uint mode, PlumbCast* casts, UIntPtr stride, uint count, PlumbHit* hits, uint capacity,
+        uint* hit_count
+    );
+
+    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+    public unsafe delegate int Overlaps(
+        PlumbWorld* world, PlumbOverlap* overlaps, UIntPtr stride, uint count, PlumbHit* hits, uint capacity,
+        uint* hit_count
+    );
+}
+
+// --- plumb/closest.h
+// plumb.closest/1: which bodies are near a convex shape, how far away, and where, in the world as the last step left
+// it. Always in batches. Since 1.2.
+
+/// <summary>Looks around a shape that need not be in the world. Sees a body when the rule of PlumbFilter says that the
+/// two may touch. Sensors are not seen. To look around a point give a small sphere and add its radius to
+/// distances.</summary>
+[StructLayout(LayoutKind.Sequential)]
+public unsafe struct PlumbProbe
+{
+    /// <summary>sphere, box, capsule, cylinder or hull; PLUMB_CAP_CLOSEST says which</summary>
+    public ulong shape;
+    public PlumbPose pose;
+    /// <summary>m, &gt; 0 and finite: what is further away is not looked for</summary>
+    public double most_distance;
+    public PlumbFilter filter;
+}
+
+/// <summary>The shortest way from a probe to a body. Convex shapes are solid and a plane is solid below; meshes and
+/// height fields are surfaces with two sides and nothing inside. Of several ways that are equally short it is one of
+/// them.</summary>
+[StructLayout(LayoutKind.Sequential)]
+public unsafe struct PlumbClosest
+{
+    /// <summary>0: nothing is within most_distance; then what follows child is NaN</summary>
+    public ulong body;
+    /// <summary>index into the batch</summary>
+    public uint probe;
+    /// <summary>of a compound, triangle of a mesh; else 0, also for a height field. The first of equal ones; where
+    /// distance is 0 one of those that touch</summary>
+    public uint child;
+    /// <summary>m, &gt;= 0; 0 where they touch or overlap: plumb.collide/1 tells how deep</summary>
+    public double distance;
+    /// <summary>world, m: the point of the probe's surface; NaN where distance is 0</summary>
+    public PlumbVec3 on_probe;
+    /// <summary>world, m: the point of the body's surface; NaN where distance is 0</summary>
+    public PlumbVec3 on_body;
+    /// <summary>unit, from the probe to the body; NaN where distance is 0</summary>
+    public PlumbVec3 normal;
+}
+
+/// <summary>Needs PLUMB_NEED_QUERIES.</summary>
+[StructLayout(LayoutKind.Sequential)]
+public unsafe struct PlumbClosestTable
+{
+    public uint struct_size;
+    public uint reserved;
+    /// <summary>[query] PLUMB_HIT_CLOSEST: one row a probe, in their order, of the body that is nearest; of bodies that
+    /// are equally near of the one in the lower slot. PLUMB_HIT_ALL: a row for each body within most_distance, sorted
+    /// by probe, then distance, then body slot. out[capacity] is the caller's; *out_count is how many there are, also
+    /// when the answer is PLUMB_TRUNCATED. stride is in bytes, sizeof the caller's probe. A shape that is not convex,
+    /// and a number that may not be, are PLUMB_E_INVALID_ARGUMENT; then nothing is written.</summary>
+    public IntPtr bodies;
+
+    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+    public unsafe delegate int Bodies(
+        PlumbWorld* world, uint mode, PlumbProbe* probes, UIntPtr stride, uint count, PlumbClosest* @out, uint capacity,
+        uint* out_count
+    );
+}
+
 // --- plumb/collide.h
 // plumb.collide/1: collision without a step. Posed shapes in, contacts and distances out.
 
@@ -596,90 +741,6 @@ public unsafe struct PlumbModifyTable
 
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
     public unsafe delegate int Joints(PlumbWorld* world, PlumbJointChange* changes, UIntPtr stride, uint count);
-}
-
-// --- plumb/queries.h
-// plumb.queries/1: rays, shape casts and overlaps against the world as the last step left it. Always in batches.
-
-/// <summary>Sees a body when the rule of PlumbFilter says that the two may touch. Sensors are not seen. Of a body in
-/// which the ray starts engines tell different things: a hit at fraction 0, the far side, or nothing; see the note of
-/// PLUMB_CAP_QUERY.</summary>
-[StructLayout(LayoutKind.Sequential)]
-public unsafe struct PlumbRay
-{
-    /// <summary>m</summary>
-    public PlumbVec3 origin;
-    /// <summary>m: direction and length in one, not 0</summary>
-    public PlumbVec3 translation;
-    public PlumbFilter filter;
-}
-
-/// <summary>A convex shape moved without turning. A shape that overlaps at the start hits at fraction 0.</summary>
-[StructLayout(LayoutKind.Sequential)]
-public unsafe struct PlumbCast
-{
-    /// <summary>sphere, box, capsule, cylinder or hull</summary>
-    public ulong shape;
-    public PlumbPose pose;
-    /// <summary>m, not 0</summary>
-    public PlumbVec3 translation;
-    public PlumbFilter filter;
-}
-
-[StructLayout(LayoutKind.Sequential)]
-public unsafe struct PlumbOverlap
-{
-    public ulong shape;
-    public PlumbPose pose;
-    public PlumbFilter filter;
-}
-
-[StructLayout(LayoutKind.Sequential)]
-public unsafe struct PlumbHit
-{
-    /// <summary>0: nothing</summary>
-    public ulong body;
-    /// <summary>index into the batch</summary>
-    public uint query;
-    /// <summary>of a compound, triangle of a mesh; else 0, also for a height field</summary>
-    public uint child;
-    /// <summary>of the translation, 0..1; 0 for overlaps</summary>
-    public double fraction;
-    /// <summary>world, m; NaN for overlaps</summary>
-    public PlumbVec3 position;
-    /// <summary>of the surface that was hit, unit; NaN for overlaps</summary>
-    public PlumbVec3 normal;
-}
-
-/// <summary>hits[capacity]; *hit_count is how many there are, also when the answer is PLUMB_TRUNCATED. Strides are in
-/// bytes. All [query]: any number at once while no step runs.</summary>
-[StructLayout(LayoutKind.Sequential)]
-public unsafe struct PlumbQueriesTable
-{
-    public uint struct_size;
-    public uint reserved;
-    public IntPtr rays;
-    public IntPtr casts;
-    /// <summary>Always all hits.</summary>
-    public IntPtr overlaps;
-
-    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
-    public unsafe delegate int Rays(
-        PlumbWorld* world, uint mode, PlumbRay* rays, UIntPtr stride, uint count, PlumbHit* hits, uint capacity,
-        uint* hit_count
-    );
-
-    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
-    public unsafe delegate int Casts(
-        PlumbWorld* world, uint mode, PlumbCast* casts, UIntPtr stride, uint count, PlumbHit* hits, uint capacity,
-        uint* hit_count
-    );
-
-    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
-    public unsafe delegate int Overlaps(
-        PlumbWorld* world, PlumbOverlap* overlaps, UIntPtr stride, uint count, PlumbHit* hits, uint capacity,
-        uint* hit_count
-    );
 }
 
 // --- plumb/settings.h
@@ -1459,6 +1520,28 @@ public static class Constants
     public const uint PLUMB_FIELD_FILTER = 15u;
     public const uint PLUMB_FIELD_COUNT = 16u;
 
+    // --- plumb/queries.h
+    // plumb.queries/1: rays, shape casts and overlaps against the world as the last step left it. Always in batches.
+    public const string PLUMB_EXT_QUERIES = "plumb.queries/1";
+
+    // PlumbQueryKind, uint. First argument of PLUMB_CAP_QUERY; the second is the shape type that is cast or overlapped
+    // (0 for rays).
+    public const uint PLUMB_QUERY_RAY = 0u;
+    public const uint PLUMB_QUERY_CAST = 1u;
+    public const uint PLUMB_QUERY_OVERLAP = 2u;
+    public const uint PLUMB_QUERY_KIND_COUNT = 3u;
+
+    // PlumbHitMode, uint.
+    /// <summary>hits has one row a query, in its order; body 0 where nothing was hit</summary>
+    public const uint PLUMB_HIT_CLOSEST = 0u;
+    /// <summary>hits has all rows, sorted by query, then fraction, then body slot: one a body</summary>
+    public const uint PLUMB_HIT_ALL = 1u;
+
+    // --- plumb/closest.h
+    // plumb.closest/1: which bodies are near a convex shape, how far away, and where, in the world as the last step
+    // left it. Always in batches. Since 1.2.
+    public const string PLUMB_EXT_CLOSEST = "plumb.closest/1";
+
     // --- plumb/collide.h
     // plumb.collide/1: collision without a step. Posed shapes in, contacts and distances out.
     public const string PLUMB_EXT_COLLIDE = "plumb.collide/1";
@@ -1576,23 +1659,6 @@ public static class Constants
     /// <summary>enabled; a joint that is not lets its bodies go and touch, and waits for 1</summary>
     public const uint PLUMB_MODIFY_ENABLED = 1u << 6;
     public const uint PLUMB_MODIFY_JOINT_COUNT = 7u;
-
-    // --- plumb/queries.h
-    // plumb.queries/1: rays, shape casts and overlaps against the world as the last step left it. Always in batches.
-    public const string PLUMB_EXT_QUERIES = "plumb.queries/1";
-
-    // PlumbQueryKind, uint. First argument of PLUMB_CAP_QUERY; the second is the shape type that is cast or overlapped
-    // (0 for rays).
-    public const uint PLUMB_QUERY_RAY = 0u;
-    public const uint PLUMB_QUERY_CAST = 1u;
-    public const uint PLUMB_QUERY_OVERLAP = 2u;
-    public const uint PLUMB_QUERY_KIND_COUNT = 3u;
-
-    // PlumbHitMode, uint.
-    /// <summary>hits has one row a query, in its order; body 0 where nothing was hit</summary>
-    public const uint PLUMB_HIT_CLOSEST = 0u;
-    /// <summary>hits has all rows, sorted by query, then fraction, then body slot: one a body</summary>
-    public const uint PLUMB_HIT_ALL = 1u;
 
     // --- plumb/settings.h
     // plumb.settings/1: an engine's knobs by name, so that a host can list and sweep them without knowing the engine.
@@ -1758,7 +1824,9 @@ public static class Constants
     public const uint PLUMB_CAP_MODIFY = 14u;
     /// <summary>index of a PLUMB_MANIFOLD_ bit. Since 1.2</summary>
     public const uint PLUMB_CAP_MANIFOLD = 15u;
-    public const uint PLUMB_CAP_COUNT = 16u;
+    /// <summary>shape type of the probe: bodies of every shape are seen. Since 1.2</summary>
+    public const uint PLUMB_CAP_CLOSEST = 16u;
+    public const uint PLUMB_CAP_COUNT = 17u;
     /// <summary>The one symbol of a backend. [any] May be called again: the same table comes back for the same
     /// version.</summary>
     public const string PLUMB_OPEN_SYMBOL = "plumb_backend_open";

@@ -362,6 +362,156 @@ pub const PLUMB_FIELD_SURFACE_VELOCITY: PlumbField = 14;
 pub const PLUMB_FIELD_FILTER: PlumbField = 15;
 pub const PLUMB_FIELD_COUNT: PlumbField = 16;
 
+// --- plumb/queries.h
+// plumb.queries/1: rays, shape casts and overlaps against the world as the last step left it. Always in batches.
+
+pub const PLUMB_EXT_QUERIES: &CStr = unsafe { CStr::from_bytes_with_nul_unchecked(b"plumb.queries/1\0") };
+
+/// First argument of PLUMB_CAP_QUERY; the second is the shape type that is cast or overlapped (0 for rays).
+pub type PlumbQueryKind = u32;
+
+pub const PLUMB_QUERY_RAY: PlumbQueryKind = 0;
+pub const PLUMB_QUERY_CAST: PlumbQueryKind = 1;
+pub const PLUMB_QUERY_OVERLAP: PlumbQueryKind = 2;
+pub const PLUMB_QUERY_KIND_COUNT: PlumbQueryKind = 3;
+
+pub type PlumbHitMode = u32;
+
+/// hits has one row a query, in its order; body 0 where nothing was hit
+pub const PLUMB_HIT_CLOSEST: PlumbHitMode = 0;
+/// hits has all rows, sorted by query, then fraction, then body slot: one a body
+pub const PLUMB_HIT_ALL: PlumbHitMode = 1;
+
+/// Sees a body when the rule of PlumbFilter says that the two may touch. Sensors are not seen. Of a body in which the
+/// ray starts engines tell different things: a hit at fraction 0, the far side, or nothing; see the note of
+/// PLUMB_CAP_QUERY.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct PlumbRay {
+    /// m
+    pub origin: PlumbVec3,
+    /// m: direction and length in one, not 0
+    pub translation: PlumbVec3,
+    pub filter: PlumbFilter,
+}
+
+/// A convex shape moved without turning. A shape that overlaps at the start hits at fraction 0.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct PlumbCast {
+    /// sphere, box, capsule, cylinder or hull
+    pub shape: PlumbShape,
+    pub pose: PlumbPose,
+    /// m, not 0
+    pub translation: PlumbVec3,
+    pub filter: PlumbFilter,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct PlumbOverlap {
+    pub shape: PlumbShape,
+    pub pose: PlumbPose,
+    pub filter: PlumbFilter,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct PlumbHit {
+    /// 0: nothing
+    pub body: PlumbBody,
+    /// index into the batch
+    pub query: u32,
+    /// of a compound, triangle of a mesh; else 0, also for a height field
+    pub child: u32,
+    /// of the translation, 0..1; 0 for overlaps
+    pub fraction: f64,
+    /// world, m; NaN for overlaps
+    pub position: PlumbVec3,
+    /// of the surface that was hit, unit; NaN for overlaps
+    pub normal: PlumbVec3,
+}
+
+/// hits\[capacity\]; \*hit_count is how many there are, also when the answer is PLUMB_TRUNCATED. Strides are in bytes.
+/// All \[query\]: any number at once while no step runs.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct PlumbQueriesTable {
+    pub struct_size: u32,
+    pub reserved: u32,
+    pub rays: Option<unsafe extern "C" fn(
+        world: *mut PlumbWorld, mode: PlumbHitMode, rays: *const PlumbRay, stride: usize, count: u32,
+        hits: *mut PlumbHit, capacity: u32, hit_count: *mut u32
+    ) -> PlumbResult>,
+    pub casts: Option<unsafe extern "C" fn(
+        world: *mut PlumbWorld, mode: PlumbHitMode, casts: *const PlumbCast, stride: usize, count: u32,
+        hits: *mut PlumbHit, capacity: u32, hit_count: *mut u32
+    ) -> PlumbResult>,
+    /// Always all hits.
+    pub overlaps: Option<unsafe extern "C" fn(
+        world: *mut PlumbWorld, overlaps: *const PlumbOverlap, stride: usize, count: u32, hits: *mut PlumbHit,
+        capacity: u32, hit_count: *mut u32
+    ) -> PlumbResult>,
+}
+
+// --- plumb/closest.h
+// plumb.closest/1: which bodies are near a convex shape, how far away, and where, in the world as the last step left
+// it. Always in batches. Since 1.2.
+
+pub const PLUMB_EXT_CLOSEST: &CStr = unsafe { CStr::from_bytes_with_nul_unchecked(b"plumb.closest/1\0") };
+
+/// Looks around a shape that need not be in the world. Sees a body when the rule of PlumbFilter says that the two may
+/// touch. Sensors are not seen. To look around a point give a small sphere and add its radius to distances.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct PlumbProbe {
+    /// sphere, box, capsule, cylinder or hull; PLUMB_CAP_CLOSEST says which
+    pub shape: PlumbShape,
+    pub pose: PlumbPose,
+    /// m, > 0 and finite: what is further away is not looked for
+    pub most_distance: f64,
+    pub filter: PlumbFilter,
+}
+
+/// The shortest way from a probe to a body. Convex shapes are solid and a plane is solid below; meshes and height
+/// fields are surfaces with two sides and nothing inside. Of several ways that are equally short it is one of them.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct PlumbClosest {
+    /// 0: nothing is within most_distance; then what follows child is NaN
+    pub body: PlumbBody,
+    /// index into the batch
+    pub probe: u32,
+    /// of a compound, triangle of a mesh; else 0, also for a height field. The first of equal ones; where distance is 0
+    /// one of those that touch
+    pub child: u32,
+    /// m, >= 0; 0 where they touch or overlap: plumb.collide/1 tells how deep
+    pub distance: f64,
+    /// world, m: the point of the probe's surface; NaN where distance is 0
+    pub on_probe: PlumbVec3,
+    /// world, m: the point of the body's surface; NaN where distance is 0
+    pub on_body: PlumbVec3,
+    /// unit, from the probe to the body; NaN where distance is 0
+    pub normal: PlumbVec3,
+}
+
+/// Needs PLUMB_NEED_QUERIES.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct PlumbClosestTable {
+    pub struct_size: u32,
+    pub reserved: u32,
+    /// \[query\] PLUMB_HIT_CLOSEST: one row a probe, in their order, of the body that is nearest; of bodies that are
+    /// equally near of the one in the lower slot. PLUMB_HIT_ALL: a row for each body within most_distance, sorted by
+    /// probe, then distance, then body slot. out\[capacity\] is the caller's; \*out_count is how many there are, also
+    /// when the answer is PLUMB_TRUNCATED. stride is in bytes, sizeof the caller's probe. A shape that is not convex,
+    /// and a number that may not be, are PLUMB_E_INVALID_ARGUMENT; then nothing is written.
+    pub bodies: Option<unsafe extern "C" fn(
+        world: *mut PlumbWorld, mode: PlumbHitMode, probes: *const PlumbProbe, stride: usize, count: u32,
+        out: *mut PlumbClosest, capacity: u32, out_count: *mut u32
+    ) -> PlumbResult>,
+}
+
 // --- plumb/collide.h
 // plumb.collide/1: collision without a step. Posed shapes in, contacts and distances out.
 
@@ -865,98 +1015,6 @@ pub struct PlumbModifyTable {
     /// \[world\]
     pub joints: Option<unsafe extern "C" fn(
         world: *mut PlumbWorld, changes: *const PlumbJointChange, stride: usize, count: u32
-    ) -> PlumbResult>,
-}
-
-// --- plumb/queries.h
-// plumb.queries/1: rays, shape casts and overlaps against the world as the last step left it. Always in batches.
-
-pub const PLUMB_EXT_QUERIES: &CStr = unsafe { CStr::from_bytes_with_nul_unchecked(b"plumb.queries/1\0") };
-
-/// First argument of PLUMB_CAP_QUERY; the second is the shape type that is cast or overlapped (0 for rays).
-pub type PlumbQueryKind = u32;
-
-pub const PLUMB_QUERY_RAY: PlumbQueryKind = 0;
-pub const PLUMB_QUERY_CAST: PlumbQueryKind = 1;
-pub const PLUMB_QUERY_OVERLAP: PlumbQueryKind = 2;
-pub const PLUMB_QUERY_KIND_COUNT: PlumbQueryKind = 3;
-
-pub type PlumbHitMode = u32;
-
-/// hits has one row a query, in its order; body 0 where nothing was hit
-pub const PLUMB_HIT_CLOSEST: PlumbHitMode = 0;
-/// hits has all rows, sorted by query, then fraction, then body slot: one a body
-pub const PLUMB_HIT_ALL: PlumbHitMode = 1;
-
-/// Sees a body when the rule of PlumbFilter says that the two may touch. Sensors are not seen. Of a body in which the
-/// ray starts engines tell different things: a hit at fraction 0, the far side, or nothing; see the note of
-/// PLUMB_CAP_QUERY.
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct PlumbRay {
-    /// m
-    pub origin: PlumbVec3,
-    /// m: direction and length in one, not 0
-    pub translation: PlumbVec3,
-    pub filter: PlumbFilter,
-}
-
-/// A convex shape moved without turning. A shape that overlaps at the start hits at fraction 0.
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct PlumbCast {
-    /// sphere, box, capsule, cylinder or hull
-    pub shape: PlumbShape,
-    pub pose: PlumbPose,
-    /// m, not 0
-    pub translation: PlumbVec3,
-    pub filter: PlumbFilter,
-}
-
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct PlumbOverlap {
-    pub shape: PlumbShape,
-    pub pose: PlumbPose,
-    pub filter: PlumbFilter,
-}
-
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct PlumbHit {
-    /// 0: nothing
-    pub body: PlumbBody,
-    /// index into the batch
-    pub query: u32,
-    /// of a compound, triangle of a mesh; else 0, also for a height field
-    pub child: u32,
-    /// of the translation, 0..1; 0 for overlaps
-    pub fraction: f64,
-    /// world, m; NaN for overlaps
-    pub position: PlumbVec3,
-    /// of the surface that was hit, unit; NaN for overlaps
-    pub normal: PlumbVec3,
-}
-
-/// hits\[capacity\]; \*hit_count is how many there are, also when the answer is PLUMB_TRUNCATED. Strides are in bytes.
-/// All \[query\]: any number at once while no step runs.
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct PlumbQueriesTable {
-    pub struct_size: u32,
-    pub reserved: u32,
-    pub rays: Option<unsafe extern "C" fn(
-        world: *mut PlumbWorld, mode: PlumbHitMode, rays: *const PlumbRay, stride: usize, count: u32,
-        hits: *mut PlumbHit, capacity: u32, hit_count: *mut u32
-    ) -> PlumbResult>,
-    pub casts: Option<unsafe extern "C" fn(
-        world: *mut PlumbWorld, mode: PlumbHitMode, casts: *const PlumbCast, stride: usize, count: u32,
-        hits: *mut PlumbHit, capacity: u32, hit_count: *mut u32
-    ) -> PlumbResult>,
-    /// Always all hits.
-    pub overlaps: Option<unsafe extern "C" fn(
-        world: *mut PlumbWorld, overlaps: *const PlumbOverlap, stride: usize, count: u32, hits: *mut PlumbHit,
-        capacity: u32, hit_count: *mut u32
     ) -> PlumbResult>,
 }
 
@@ -1473,7 +1531,9 @@ pub const PLUMB_CAP_CHILD_MATERIAL: PlumbCapability = 13;
 pub const PLUMB_CAP_MODIFY: PlumbCapability = 14;
 /// index of a PLUMB_MANIFOLD_ bit. Since 1.2
 pub const PLUMB_CAP_MANIFOLD: PlumbCapability = 15;
-pub const PLUMB_CAP_COUNT: PlumbCapability = 16;
+/// shape type of the probe: bodies of every shape are seen. Since 1.2
+pub const PLUMB_CAP_CLOSEST: PlumbCapability = 16;
+pub const PLUMB_CAP_COUNT: PlumbCapability = 17;
 
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
@@ -1583,16 +1643,16 @@ pub type PlumbOpenFunction = Option<unsafe extern "C" fn(
 ) -> PlumbResult>;
 
 zero!(
-    PlumbVec3, PlumbQuat, PlumbPose, PlumbMaterial, PlumbCompoundChild, PlumbFilter, PlumbPosedPair, PlumbPairResult,
-    PlumbPairPoint, PlumbDebugPair, PlumbDebugBox, PlumbDebugAxis, PlumbDebugBody, PlumbDebugConstraint, PlumbBodyPair,
-    PlumbLimit, PlumbMotor, PlumbSpring, PlumbManifold, PlumbManifoldChange, PlumbBodyChange, PlumbJointChange,
-    PlumbRay, PlumbCast, PlumbOverlap, PlumbHit, PlumbSettingValue, PlumbSetting, PlumbSettingInfo, PlumbDLDevice,
-    PlumbDLDataType, PlumbDLTensor, PlumbDLManagedTensor_version, PlumbDLManagedTensor, PlumbFence, PlumbContact,
-    PlumbEvent
+    PlumbVec3, PlumbQuat, PlumbPose, PlumbMaterial, PlumbCompoundChild, PlumbFilter, PlumbRay, PlumbCast, PlumbOverlap,
+    PlumbHit, PlumbProbe, PlumbClosest, PlumbPosedPair, PlumbPairResult, PlumbPairPoint, PlumbDebugPair, PlumbDebugBox,
+    PlumbDebugAxis, PlumbDebugBody, PlumbDebugConstraint, PlumbBodyPair, PlumbLimit, PlumbMotor, PlumbSpring,
+    PlumbManifold, PlumbManifoldChange, PlumbBodyChange, PlumbJointChange, PlumbSettingValue, PlumbSetting,
+    PlumbSettingInfo, PlumbDLDevice, PlumbDLDataType, PlumbDLTensor, PlumbDLManagedTensor_version, PlumbDLManagedTensor,
+    PlumbFence, PlumbContact, PlumbEvent
 );
 sized!(
-    PlumbShapeDesc, PlumbBodyDesc, PlumbCollideTable, PlumbDebugTable, PlumbExceptionsTable, PlumbJointDesc,
-    PlumbJointsTable, PlumbManifoldsTable, PlumbModifyTable, PlumbQueriesTable, PlumbSettingsTable, PlumbSnapshotTable,
-    PlumbStateRequest, PlumbStateTable, PlumbWorldDesc, PlumbStepDesc, PlumbStepReport, PlumbWorldsTable, PlumbHost,
-    PlumbBackendInfo, PlumbBackendTable, PlumbOpenRequest, PlumbOpenReply
+    PlumbShapeDesc, PlumbBodyDesc, PlumbQueriesTable, PlumbClosestTable, PlumbCollideTable, PlumbDebugTable,
+    PlumbExceptionsTable, PlumbJointDesc, PlumbJointsTable, PlumbManifoldsTable, PlumbModifyTable, PlumbSettingsTable,
+    PlumbSnapshotTable, PlumbStateRequest, PlumbStateTable, PlumbWorldDesc, PlumbStepDesc, PlumbStepReport,
+    PlumbWorldsTable, PlumbHost, PlumbBackendInfo, PlumbBackendTable, PlumbOpenRequest, PlumbOpenReply
 );

@@ -42,6 +42,7 @@ struct Extensions {
   const PlumbModifyTable* modify;
   const PlumbManifoldsTable* manifolds;
   const PlumbWorldsTable* worlds;
+  const PlumbClosestTable* closest;
 };
 
 class HostWorld final : public IPhysicsWorld,
@@ -55,7 +56,8 @@ class HostWorld final : public IPhysicsWorld,
                         private IExceptions,
                         private IModify,
                         private IManifolds,
-                        private IWorlds {
+                        private IWorlds,
+                        private IClosest {
  public:
   HostWorld(const PlumbBackendTable& table, PlumbWorld* world)
       : table_(table),
@@ -65,7 +67,7 @@ class HostWorld final : public IPhysicsWorld,
                     find<PlumbSettingsTable>(PLUMB_EXT_SETTINGS), find<PlumbSnapshotTable>(PLUMB_EXT_SNAPSHOT),
                     find<PlumbStateTable>(PLUMB_EXT_STATE),       find<PlumbExceptionsTable>(PLUMB_EXT_EXCEPTIONS),
                     find<PlumbModifyTable>(PLUMB_EXT_MODIFY),     find<PlumbManifoldsTable>(PLUMB_EXT_MANIFOLDS),
-                    find<PlumbWorldsTable>(PLUMB_EXT_WORLDS)} {}
+                    find<PlumbWorldsTable>(PLUMB_EXT_WORLDS),     find<PlumbClosestTable>(PLUMB_EXT_CLOSEST)} {}
   ~HostWorld() override { table_.destroy_world(world_); }
 
   // --- core ----------------------------------------------------------------------------------------------------------
@@ -133,6 +135,7 @@ class HostWorld final : public IPhysicsWorld,
   IModify* modify() override { return extensions_.modify == nullptr ? nullptr : this; }
   IManifolds* manifolds() override { return extensions_.manifolds == nullptr ? nullptr : this; }
   IWorlds* worlds() override { return extensions_.worlds == nullptr ? nullptr : this; }
+  IClosest* closest() override { return extensions_.closest == nullptr ? nullptr : this; }
 
  private:
   // --- extensions ----------------------------------------------------------------------------------------------------
@@ -169,6 +172,15 @@ class HostWorld final : public IPhysicsWorld,
       return extensions_.queries->overlaps(world_, overlaps.data(), sizeof(PlumbOverlap), count_of(overlaps), hits,
                                            capacity, count);
     });
+  }
+
+  ClosestBodies closest_bodies(PlumbHitMode mode, std::span<const PlumbProbe> probes) override {
+    thread_local std::vector<PlumbClosest> found;
+    const PlumbResult result = fill_all(found, [&](PlumbClosest* out, std::uint32_t capacity, std::uint32_t* count) {
+      return extensions_.closest->bodies(world_, mode, probes.data(), sizeof(PlumbProbe), count_of(probes), out,
+                                         capacity, count);
+    });
+    return {result, found};
   }
 
   PlumbResult collide_pairs(std::span<const PlumbPosedPair> pairs, std::span<PlumbPairResult> results,

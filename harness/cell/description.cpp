@@ -72,6 +72,7 @@ Json capabilities_of(const Backend& backend) {
   all.list("joints", PLUMB_CAP_JOINT, joint_words());
   all.table("joint_features", PLUMB_CAP_JOINT_FEATURE, joint_words(), joint_feature_words());
   all.table("queries", PLUMB_CAP_QUERY, query_words(), shape_words());
+  all.list("closest", PLUMB_CAP_CLOSEST, shape_words());
   all.list("fields_read", PLUMB_CAP_FIELD_READ, field_words());
   all.list("fields_written", PLUMB_CAP_FIELD_WRITE, field_words());
   all.list("events", PLUMB_CAP_EVENT, event_words());
@@ -88,9 +89,9 @@ Json capabilities_of(const Backend& backend) {
 
 Json extensions_of(const Backend& backend) {
   Json names = Json::array();
-  for (const char* name :
-       {PLUMB_EXT_JOINTS, PLUMB_EXT_QUERIES, PLUMB_EXT_COLLIDE, PLUMB_EXT_DEBUG, PLUMB_EXT_SETTINGS, PLUMB_EXT_SNAPSHOT,
-        PLUMB_EXT_STATE, PLUMB_EXT_EXCEPTIONS, PLUMB_EXT_MODIFY, PLUMB_EXT_MANIFOLDS, PLUMB_EXT_WORLDS}) {
+  for (const char* name : {PLUMB_EXT_JOINTS, PLUMB_EXT_QUERIES, PLUMB_EXT_COLLIDE, PLUMB_EXT_DEBUG, PLUMB_EXT_SETTINGS,
+                           PLUMB_EXT_SNAPSHOT, PLUMB_EXT_STATE, PLUMB_EXT_EXCEPTIONS, PLUMB_EXT_MODIFY,
+                           PLUMB_EXT_MANIFOLDS, PLUMB_EXT_WORLDS, PLUMB_EXT_CLOSEST}) {
     if (backend.table().extension(name) != nullptr) names.push_back(name);
   }
   return names;

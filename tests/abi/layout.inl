@@ -138,6 +138,15 @@ SIZE(PlumbQueriesTable, 32)
   AT(PlumbQueriesTable, struct_size, 0) AT(PlumbQueriesTable, reserved, 4) AT(PlumbQueriesTable, rays, 8)
   AT(PlumbQueriesTable, casts, 16) AT(PlumbQueriesTable, overlaps, 24)
 
+/* closest.h */
+SIZE(PlumbProbe, 88)
+  AT(PlumbProbe, shape, 0) AT(PlumbProbe, pose, 8) AT(PlumbProbe, most_distance, 64) AT(PlumbProbe, filter, 72)
+SIZE(PlumbClosest, 96)
+  AT(PlumbClosest, body, 0) AT(PlumbClosest, probe, 8) AT(PlumbClosest, child, 12) AT(PlumbClosest, distance, 16)
+  AT(PlumbClosest, on_probe, 24) AT(PlumbClosest, on_body, 48) AT(PlumbClosest, normal, 72)
+SIZE(PlumbClosestTable, 16)
+  AT(PlumbClosestTable, struct_size, 0) AT(PlumbClosestTable, reserved, 4) AT(PlumbClosestTable, bodies, 8)
+
 /* collide.h */
 SIZE(PlumbPosedPair, 128)
   AT(PlumbPosedPair, shape_a, 0) AT(PlumbPosedPair, shape_b, 8) AT(PlumbPosedPair, pose_a, 16)
@@ -307,4 +316,4 @@ IS(PLUMB_DETERMINISM_DEVICE, 3) IS(PLUMB_CAP_SHAPE, 0) IS(PLUMB_CAP_PAIR, 1) IS(
 IS(PLUMB_CAP_JOINT_FEATURE, 3) IS(PLUMB_CAP_QUERY, 4) IS(PLUMB_CAP_FIELD_READ, 5) IS(PLUMB_CAP_FIELD_WRITE, 6)
 IS(PLUMB_CAP_NEED, 7) IS(PLUMB_CAP_EVENT, 8) IS(PLUMB_CAP_PHASE_TIME, 9) IS(PLUMB_CAP_RESIDUAL, 10)
 IS(PLUMB_CAP_SNAPSHOT, 11) IS(PLUMB_CAP_HOST_JOBS, 12) IS(PLUMB_CAP_CHILD_MATERIAL, 13) IS(PLUMB_CAP_MODIFY, 14)
-IS(PLUMB_CAP_MANIFOLD, 15) IS(PLUMB_CAP_COUNT, 16)
+IS(PLUMB_CAP_MANIFOLD, 15) IS(PLUMB_CAP_CLOSEST, 16) IS(PLUMB_CAP_COUNT, 17)

@@ -31,6 +31,7 @@ class Fuzzer {
     manifolds_ = static_cast<const PlumbManifoldsTable*>(table_.extension(PLUMB_EXT_MANIFOLDS));
     state_ = static_cast<const PlumbStateTable*>(table_.extension(PLUMB_EXT_STATE));
     worlds_ = static_cast<const PlumbWorldsTable*>(table_.extension(PLUMB_EXT_WORLDS));
+    closest_ = static_cast<const PlumbClosestTable*>(table_.extension(PLUMB_EXT_CLOSEST));
     fresh_world();
   }
   ~Fuzzer() {
@@ -276,6 +277,13 @@ class Fuzzer {
     judge(queries_->rays(world_, below(2), rays, sizeof rays[0], 2, hits, below(17), &count));
     judge(queries_->casts(world_, below(2), &cast, sizeof cast, 1, hits, below(17), &count));
     judge(queries_->overlaps(world_, &overlap, sizeof overlap, 1, hits, below(17), &count));
+    if (closest_ != nullptr) {
+      PlumbProbe probes[2] = {};
+      for (PlumbProbe& probe : probes)
+        probe = {handle(shapes_), pose(), chance(2) ? 10 * positive() : positive(), filter()};
+      PlumbClosest rows[16];
+      judge(closest_->bodies(world_, below(2), probes, sizeof probes[0], 2, rows, below(17), &count));
+    }
     if (collide_ != nullptr) {
       const PlumbPosedPair pair = {handle(shapes_), handle(shapes_), pose(), pose()};
       PlumbPairResult result{};
@@ -487,6 +495,7 @@ class Fuzzer {
   const PlumbModifyTable* modify_ = nullptr;
   const PlumbManifoldsTable* manifolds_ = nullptr;
   const PlumbWorldsTable* worlds_ = nullptr;
+  const PlumbClosestTable* closest_ = nullptr;
   std::vector<std::uint64_t> shapes_, bodies_, joint_ids_;
   double last_dt_ = 0;
   std::uint64_t calls_ = 0, digest_ = 0xcbf29ce484222325U, refused_ = 0, done_ = 0, worlds_lost_ = 0;

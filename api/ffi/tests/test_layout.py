@@ -7,7 +7,9 @@ import unittest
 TESTS = pathlib.Path(__file__).resolve().parent
 LANGUAGE, LAYOUT, SOURCE, WORK, *COMPILER = sys.argv[1:]
 del sys.argv[1:]
-FLOAT = {"rust": ("pub distance: f64", "pub distance: f32"), "csharp": ("double distance", "float distance")}
+# Of PlumbPairResult: what follows the number has no need to lie at a multiple of 8.
+FLOAT = {"rust": ("f64,\n    /// into points", "f32,\n    /// into points"),
+         "csharp": ("double distance;\n    /// <summary>into points", "float distance;\n    /// <summary>into points")}
 STRUCT = {"rust": "pub struct PlumbFence {", "csharp": "public unsafe struct PlumbFence\n"}
 VALUE = {"rust": "PLUMB_KINEMATIC: PlumbMotion = 1", "csharp": "PLUMB_KINEMATIC = 1"}
 

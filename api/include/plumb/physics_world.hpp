@@ -140,6 +140,20 @@ class IQueries {
   virtual Hits overlap_shapes(std::span<const PlumbOverlap> overlaps) = 0;
 };
 
+/// Which bodies are near, in the order that closest.h states. Lives until the next query of the same thread.
+struct ClosestBodies {
+  PlumbResult result = PLUMB_OK;
+  std::span<const PlumbClosest> rows;
+};
+
+/// plumb.closest/1. May be called from several threads at once. A backend gets shapes that it has said it can look
+/// around.
+class IClosest {
+ public:
+  virtual ~IClosest() = default;
+  virtual ClosestBodies closest_bodies(PlumbHitMode mode, std::span<const PlumbProbe> probes) = 0;
+};
+
 /// plumb.collide/1
 class ICollide {
  public:
@@ -286,6 +300,7 @@ class IPhysicsWorld {
   virtual IModify* modify() { return nullptr; }
   virtual IManifolds* manifolds() { return nullptr; }
   virtual IWorlds* worlds() { return nullptr; }
+  virtual IClosest* closest() { return nullptr; }
 
   // Only the host calls what follows; backend.hpp answers it for every backend.
 

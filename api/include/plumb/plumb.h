@@ -11,6 +11,7 @@
 #define PLUMB_PLUMB_H
 
 #include "plumb/bodies.h"
+#include "plumb/closest.h"
 #include "plumb/collide.h"
 #include "plumb/debug.h"
 #include "plumb/exceptions.h"
@@ -91,7 +92,8 @@ enum {
   PLUMB_CAP_CHILD_MATERIAL = 13, /* materials of compound children */
   PLUMB_CAP_MODIFY = 14,         /* 0: bodies, 1: joints; index of a PLUMB_MODIFY_ bit. Since 1.2 */
   PLUMB_CAP_MANIFOLD = 15,       /* index of a PLUMB_MANIFOLD_ bit. Since 1.2 */
-  PLUMB_CAP_COUNT = 16
+  PLUMB_CAP_CLOSEST = 16,        /* shape type of the probe: bodies of every shape are seen. Since 1.2 */
+  PLUMB_CAP_COUNT = 17
 };
 
 typedef struct PlumbBackendTable {

@@ -144,6 +144,22 @@ class GuardedExtensions : public GuardedWorld {
     return hand_out_hits(extension.overlap_shapes(adopted), hits, capacity, hit_count);
   }
 
+  PlumbResult closest_bodies(PlumbHitMode mode, const PlumbProbe* probes, std::size_t stride, std::uint32_t count,
+                             PlumbClosest* out, std::uint32_t capacity, std::uint32_t* out_count) {
+    IClosest& extension = require_extension(world_->closest(), PLUMB_EXT_CLOSEST);
+    require_need(init_.desc.needs, PLUMB_NEED_QUERIES, true, "a query");
+    check_hit_mode(mode);
+    const std::vector<PlumbProbe> adopted = adopt_rows(probes, stride, count, "probes");
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const Where where{"probes", i};
+      const PlumbShapeType type = check_posed_convex(where, adopted[i].shape, adopted[i].pose);
+      require_capability(PLUMB_CAP_CLOSEST, type, 0, std::string("way to look around a ") + shape_name(type));
+      require_positive(where, "most_distance", adopted[i].most_distance);
+    }
+    const ClosestBodies found = extension.closest_bodies(mode, adopted);
+    return std::max(found.result, hand_out(found.rows, out, sizeof(PlumbClosest), capacity, out_count));
+  }
+
   PlumbResult collide_pairs(const PlumbPosedPair* pairs, std::size_t stride, std::uint32_t count,
                             PlumbPairResult* results, PlumbPairPoint* points, std::uint32_t capacity,
                             std::uint32_t* point_count) {
@@ -387,13 +403,18 @@ class GuardedExtensions : public GuardedWorld {
       refuse(PLUMB_E_INVALID_ARGUMENT, where.member("translation") + " is 0; it must have a length");
   }
 
-  void check_posed_shape(const Where& where, PlumbShape shape, const PlumbPose& pose, PlumbQueryKind kind,
-                         const char* what) const {
+  PlumbShapeType check_posed_convex(const Where& where, PlumbShape shape, const PlumbPose& pose) const {
     if (!shapes_.alive(shape)) refuse(PLUMB_E_STALE_HANDLE, where.member("shape") + " names no living shape");
     require_pose(where, "pose", pose);
     const PlumbShapeType type = shapes_[shape].type;
     if (!is_convex(type))
       refuse(PLUMB_E_INVALID_ARGUMENT, where.member("shape") + " is a " + shape_name(type) + "; it must be convex");
+    return type;
+  }
+
+  void check_posed_shape(const Where& where, PlumbShape shape, const PlumbPose& pose, PlumbQueryKind kind,
+                         const char* what) const {
+    const PlumbShapeType type = check_posed_convex(where, shape, pose);
     require_capability(PLUMB_CAP_QUERY, kind, type, std::string(what) + shape_name(type));
   }
 

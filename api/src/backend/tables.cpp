@@ -57,6 +57,8 @@ const PlumbManifoldsTable kManifoldsTable = {sizeof(PlumbManifoldsTable), 0,
                                              &Entry<&GuardedManifolds::modify_manifolds>::call};
 const PlumbWorldsTable kWorldsTable = {sizeof(PlumbWorldsTable), 0, &Entry<&GuardedWorlds::group>::call,
                                        &Entry<&GuardedWorlds::borrow_all>::call};
+const PlumbClosestTable kClosestTable = {sizeof(PlumbClosestTable), 0,
+                                         &Entry<&GuardedExtensions::closest_bodies>::call};
 const PlumbStateTable kStateTable = {sizeof(PlumbStateTable), 0, &Entry<&GuardedExtensions::borrow>::call,
                                      &Entry<&GuardedExtensions::state_rows>::call};
 
@@ -137,6 +139,7 @@ const void* extension_table(const BackendFacts& facts, const PlumbSettingsTable&
   if (wanted == PLUMB_EXT_SNAPSHOT) return &kSnapshotTable;  // its hash is there for every backend
   if (wanted == PLUMB_EXT_JOINTS && facts.has_joints) return &kJointsTable;
   if (wanted == PLUMB_EXT_QUERIES && facts.has_queries) return &kQueriesTable;
+  if (wanted == PLUMB_EXT_CLOSEST && facts.has_closest) return &kClosestTable;
   if (wanted == PLUMB_EXT_COLLIDE && facts.has_collide) return &kCollideTable;
   if (wanted == PLUMB_EXT_DEBUG && facts.has_debug) return &kDebugTable;
   if (wanted == PLUMB_EXT_EXCEPTIONS && facts.has_exceptions) return &kExceptionsTable;
@@ -151,8 +154,13 @@ PlumbDegree answer_capability(const BackendFacts& facts, PlumbCapability kind, s
                               const char** note) {
   const char* text = "";
   const bool lacks = (kind == PLUMB_CAP_MODIFY && !facts.has_modify) ||
-                     (kind == PLUMB_CAP_MANIFOLD && !facts.has_manifolds) || kind >= PLUMB_CAP_COUNT;
-  const PlumbDegree degree = lacks ? PLUMB_NONE : facts.capability(kind, a, b, text);
+                     (kind == PLUMB_CAP_MANIFOLD && !facts.has_manifolds) ||
+                     (kind == PLUMB_CAP_CLOSEST && !facts.has_closest) || kind >= PLUMB_CAP_COUNT;
+  PlumbDegree degree = kind >= PLUMB_CAP_COUNT ? PLUMB_NONE : facts.capability(kind, a, b, text);
+  if (lacks && degree != PLUMB_NONE) {  // a class that says NONE may say why; the note of any other degree tells how
+    degree = PLUMB_NONE;
+    text = "";
+  }
   if (note != nullptr) *note = text;
   return degree;
 }

@@ -25,6 +25,7 @@ using state = PlumbStateTable;
 using exceptions = PlumbExceptionsTable;
 using modify = PlumbModifyTable;
 using manifolds = PlumbManifoldsTable;
+using closest = PlumbClosestTable;
 }  // namespace tables
 
 enum class Call : std::uint8_t {
@@ -82,6 +83,7 @@ void for_each_extension(Visit&& visit) {
   visit.template operator()<PlumbExceptionsTable>(PLUMB_EXT_EXCEPTIONS);
   visit.template operator()<PlumbModifyTable>(PLUMB_EXT_MODIFY);
   visit.template operator()<PlumbManifoldsTable>(PLUMB_EXT_MANIFOLDS);
+  visit.template operator()<PlumbClosestTable>(PLUMB_EXT_CLOSEST);
 }
 
 }  // namespace plumb::layers

@@ -187,6 +187,14 @@ inline void encode(CallTag<Call::queries_overlaps>, Encoding e, const PlumbOverl
   e.room(hits, capacity);
   if (e.done()) e.output_rows(hits, sizeof(PlumbHit), capacity, *hit_count);
 }
+inline void encode(CallTag<Call::closest_bodies>, Encoding e, PlumbHitMode mode, const PlumbProbe* probes,
+                   std::size_t stride, std::uint32_t count, PlumbClosest* out, std::uint32_t capacity,
+                   std::uint32_t* out_count) {
+  e.out.put(mode);
+  e.rows(probes, stride, count);
+  e.room(out, capacity);
+  if (e.done()) e.output_rows(out, sizeof(PlumbClosest), capacity, *out_count);
+}
 inline void encode(CallTag<Call::collide_pairs>, Encoding e, const PlumbPosedPair* pairs, std::size_t stride,
                    std::uint32_t count, PlumbPairResult*, PlumbPairPoint* points, std::uint32_t capacity,
                    std::uint32_t* point_count) {

@@ -1,6 +1,7 @@
 // The validation layer's check of each call, by the shape of its arguments.
 #pragma once
 
+#include <cmath>
 #include <set>
 
 #include "validation.hpp"
@@ -141,52 +142,88 @@ PlumbResult ValidationLayer::run(CallTag<call>, ValidatedWorld&, PlumbWorld* wor
   return next<call>()(world, field, type, ids, count, rows, stride);
 }
 
-// Forwards a query with a stand-in for hits, and checks what it answers.
-template <class Forward>
-PlumbResult checked_hits(std::uint32_t queries, bool closest, PlumbHit* hits, std::uint32_t capacity,
-                         std::uint32_t* hit_count, Forward&& forward) {
-  require_memory(hits, capacity, "hits");
-  require_memory(hit_count, 1, "hit_count");
-  Canary canary(sizeof(PlumbHit), sizeof(PlumbHit), capacity);
-  std::uint32_t found = 0;
-  const PlumbResult result = forward(reinterpret_cast<PlumbHit*>(canary.data()), &found);
-  if (!canary.end_intact()) throw BackendError{"wrote more than " + std::to_string(capacity) + " hits"};
-  if (result < 0) return result;
-  require_count(result, capacity, found);
-  if (closest && found != queries)
-    throw BackendError{"counts " + std::to_string(found) + " closest hits for " + std::to_string(queries) + " queries"};
-  const std::uint32_t written = std::min(found, capacity);
-  if (const std::size_t i = canary.first_unwritten(written); i < written)
-    throw BackendError{"left hits[" + std::to_string(i) + "] unwritten"};
-  canary.copy_to(hits, written);
-  *hit_count = found;
+/// What was asked for, and what its answer is called.
+struct Question {
+  std::uint32_t queries;
+  bool closest;
+  const char *rows, *count;  ///< its arguments
+  const char* found;         ///< what they hold
+};
+
+inline void check_found(const Question& asked, const PlumbHit* hits, std::uint32_t written) {
   const auto key = [](const PlumbHit& hit) { return std::tuple(hit.query, hit.fraction, slot_of(hit.body)); };
   for (std::uint32_t i = 0; i < written; ++i) {
     const std::string which = "hits[" + std::to_string(i) + "]";
-    if (hits[i].query >= queries)
+    if (hits[i].query >= asked.queries)
       throw BackendError{which + " is of query " + std::to_string(hits[i].query) + ", which is none"};
-    if (closest && hits[i].query != i) throw BackendError{which + " is of query " + std::to_string(hits[i].query)};
-    if (!closest && hits[i].body == 0) throw BackendError{which + " names no body"};
+    if (asked.closest && hits[i].query != i)
+      throw BackendError{which + " is of query " + std::to_string(hits[i].query)};
+    if (!asked.closest && hits[i].body == 0) throw BackendError{which + " names no body"};
     if (!(hits[i].body == 0 || (hits[i].fraction >= 0 && hits[i].fraction <= 1)))
       throw BackendError{which + ".fraction is " + std::to_string(hits[i].fraction) + ", not in 0..1"};
-    if (!closest && i > 0 && key(hits[i]) < key(hits[i - 1]))
+    if (!asked.closest && i > 0 && key(hits[i]) < key(hits[i - 1]))
       throw BackendError{which + " breaks the order of query, fraction, body"};
   }
+}
+
+inline void check_found(const Question& asked, const PlumbClosest* rows, std::uint32_t written) {
+  const auto key = [](const PlumbClosest& row) { return std::tuple(row.probe, row.distance, slot_of(row.body)); };
+  for (std::uint32_t i = 0; i < written; ++i) {
+    const PlumbClosest& row = rows[i];
+    const std::string which = "out[" + std::to_string(i) + "]";
+    if (row.probe >= asked.queries)
+      throw BackendError{which + " is of probe " + std::to_string(row.probe) + ", which is none"};
+    if (asked.closest && row.probe != i) throw BackendError{which + " is of probe " + std::to_string(row.probe)};
+    if (!asked.closest && row.body == 0) throw BackendError{which + " names no body"};
+    if (row.body != 0 && !(row.distance >= 0))
+      throw BackendError{which + ".distance is " + std::to_string(row.distance) + ", not 0 or above"};
+    if (row.body != 0 && std::isnan(row.normal.x) != (row.distance == 0))
+      throw BackendError{which + ".normal is " + (row.distance == 0 ? "told of what touches" : "NaN of what is apart")};
+    if (!asked.closest && i > 0 && key(row) < key(rows[i - 1]))
+      throw BackendError{which + " breaks the order of probe, distance, body"};
+  }
+}
+
+// Forwards a query with a stand-in for its answer, and checks that.
+template <class Row, class Forward>
+PlumbResult checked_answer(const Question& asked, Row* rows, std::uint32_t capacity, std::uint32_t* count,
+                           Forward&& forward) {
+  require_memory(rows, capacity, asked.rows);
+  require_memory(count, 1, asked.count);
+  Canary canary(sizeof(Row), sizeof(Row), capacity);
+  std::uint32_t found = 0;
+  const PlumbResult result = forward(reinterpret_cast<Row*>(canary.data()), &found);
+  if (!canary.end_intact()) throw BackendError{"wrote more than " + std::to_string(capacity) + " " + asked.rows};
+  if (result < 0) return result;
+  require_count(result, capacity, found);
+  if (asked.closest && found != asked.queries)
+    throw BackendError{"counts " + std::to_string(found) + " closest " + asked.found + " for " +
+                       std::to_string(asked.queries) + " queries"};
+  const std::uint32_t written = std::min(found, capacity);
+  if (const std::size_t i = canary.first_unwritten(written); i < written)
+    throw BackendError{std::string("left ") + asked.rows + "[" + std::to_string(i) + "] unwritten"};
+  canary.copy_to(rows, written);
+  *count = found;
+  check_found(asked, rows, written);
   return result;
+}
+
+inline void require_hit_mode(PlumbHitMode mode) {
+  if (mode != PLUMB_HIT_CLOSEST && mode != PLUMB_HIT_ALL)
+    refuse_argument("mode is " + std::to_string(mode) + "; it must be PLUMB_HIT_CLOSEST or PLUMB_HIT_ALL");
 }
 
 template <Call call, class Query>
 PlumbResult ValidationLayer::run(CallTag<call>, ValidatedWorld&, PlumbWorld* world, PlumbHitMode mode,
                                  const Query* queries, std::size_t stride, std::uint32_t count, PlumbHit* hits,
                                  std::uint32_t capacity, std::uint32_t* hit_count) {
-  if (mode != PLUMB_HIT_CLOSEST && mode != PLUMB_HIT_ALL)
-    refuse_argument("mode is " + std::to_string(mode) + "; it must be PLUMB_HIT_CLOSEST or PLUMB_HIT_ALL");
+  require_hit_mode(mode);
   require_memory(queries, count, "queries");
   require_stride<Query>(stride, count, "queries");
-  return checked_hits(count, mode == PLUMB_HIT_CLOSEST, hits, capacity, hit_count,
-                      [&](PlumbHit* out, std::uint32_t* found) {
-                        return next<call>()(world, mode, queries, stride, count, out, capacity, found);
-                      });
+  return checked_answer({count, mode == PLUMB_HIT_CLOSEST, "hits", "hit_count", "hits"}, hits, capacity, hit_count,
+                        [&](PlumbHit* out, std::uint32_t* found) {
+                          return next<call>()(world, mode, queries, stride, count, out, capacity, found);
+                        });
 }
 
 inline PlumbResult ValidationLayer::run(CallTag<Call::queries_overlaps>, ValidatedWorld&, PlumbWorld* world,
@@ -194,9 +231,24 @@ inline PlumbResult ValidationLayer::run(CallTag<Call::queries_overlaps>, Validat
                                         PlumbHit* hits, std::uint32_t capacity, std::uint32_t* hit_count) {
   require_memory(overlaps, count, "overlaps");
   require_stride<PlumbOverlap>(stride, count, "overlaps");
-  return checked_hits(count, false, hits, capacity, hit_count, [&](PlumbHit* out, std::uint32_t* found) {
-    return next<Call::queries_overlaps>()(world, overlaps, stride, count, out, capacity, found);
-  });
+  return checked_answer({count, false, "hits", "hit_count", "hits"}, hits, capacity, hit_count,
+                        [&](PlumbHit* out, std::uint32_t* found) {
+                          return next<Call::queries_overlaps>()(world, overlaps, stride, count, out, capacity, found);
+                        });
+}
+
+inline PlumbResult ValidationLayer::run(CallTag<Call::closest_bodies>, ValidatedWorld&, PlumbWorld* world,
+                                        PlumbHitMode mode, const PlumbProbe* probes, std::size_t stride,
+                                        std::uint32_t count, PlumbClosest* out, std::uint32_t capacity,
+                                        std::uint32_t* out_count) {
+  require_hit_mode(mode);
+  require_memory(probes, count, "probes");
+  require_stride<PlumbProbe>(stride, count, "probes");
+  return checked_answer({count, mode == PLUMB_HIT_CLOSEST, "out", "out_count", "bodies"}, out, capacity, out_count,
+                        [&](PlumbClosest* rows, std::uint32_t* found) {
+                          return next<Call::closest_bodies>()(world, mode, probes, stride, count, rows, capacity,
+                                                              found);
+                        });
 }
 
 }  // namespace plumb::layers

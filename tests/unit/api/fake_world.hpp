@@ -17,7 +17,8 @@ class FakeWorld final : public IPhysicsWorld,
                         public IExceptions,
                         public IModify,
                         public IManifolds,
-                        public IWorlds {
+                        public IWorlds,
+                        public IClosest {
  public:
   explicit FakeWorld(const WorldInit& init) : iterations_(init.setting("iterations").number) { last = this; }
 
@@ -119,6 +120,7 @@ class FakeWorld final : public IPhysicsWorld,
   IModify* modify() override { return this; }
   IManifolds* manifolds() override { return this; }
   IWorlds* worlds() override { return this; }
+  IClosest* closest() override { return this; }
 
   PlumbResult create_joints(std::span<const PlumbJointDesc>, std::span<PlumbJoint>) override { return called(); }
   PlumbResult destroy_joints(std::span<const PlumbJoint>) override { return called(); }
@@ -131,6 +133,11 @@ class FakeWorld final : public IPhysicsWorld,
   }
   Hits cast_shapes(PlumbHitMode, std::span<const PlumbCast>) override { return {called(), {}}; }
   Hits overlap_shapes(std::span<const PlumbOverlap>) override { return {called(), {}}; }
+  ClosestBodies closest_bodies(PlumbHitMode, std::span<const PlumbProbe> probes) override {
+    ++calls;
+    closest_rows.assign(probes.size(), PlumbClosest{});
+    return {PLUMB_OK, closest_rows};
+  }
   PlumbResult get_setting(const char*, PlumbSettingValue& value) override {
     value = {PLUMB_SETTING_INT, 0, iterations_, nullptr};
     return called();
@@ -193,6 +200,7 @@ class FakeWorld final : public IPhysicsWorld,
   std::vector<ExceptionCall> exception_calls;
   std::vector<PlumbBody> handles;
   std::vector<PlumbHit> hit_rows;
+  std::vector<PlumbClosest> closest_rows;
   std::size_t restored = 0;
 
  private:

@@ -48,9 +48,18 @@ inline PlumbResult fake_cast(PlumbWorld*, PlumbHitMode, const PlumbCast* casts, 
   return PLUMB_OK;
 }
 
+inline PlumbResult fake_closest(PlumbWorld*, PlumbHitMode, const PlumbProbe* probes, std::size_t, std::uint32_t count,
+                                PlumbClosest* out, std::uint32_t, std::uint32_t* found) {
+  for (std::uint32_t i = 0; i < count; ++i)
+    out[i] = {0, i, 0, probes[i].most_distance, probes[i].pose.position, {}, {1, 0, 0}};
+  *found = count;
+  return PLUMB_OK;
+}
+
 /// The fake world with every extension.
 inline const PlumbBackendTable& complete() {
   static const PlumbCollideTable collide_table = {sizeof(PlumbCollideTable), 0, &fake_collide};
+  static const PlumbClosestTable closest_table = {sizeof(PlumbClosestTable), 0, &fake_closest};
   static const PlumbDebugTable debug_table = {sizeof(PlumbDebugTable),        0,
                                               &fake_row<PlumbDebugPair>,      &fake_row<PlumbDebugBox>,
                                               &fake_row<PlumbDebugAxis>,      &fake_row<PlumbDebugBody>,
@@ -74,6 +83,7 @@ inline const PlumbBackendTable& complete() {
     core.extension = [](const char* name) -> const void* {
       const std::string_view wanted = name;
       if (wanted == PLUMB_EXT_COLLIDE) return &collide_table;
+      if (wanted == PLUMB_EXT_CLOSEST) return &closest_table;
       if (wanted == PLUMB_EXT_DEBUG) return &debug_table;
       if (wanted == PLUMB_EXT_QUERIES) return &queries_table;
       if (wanted == PLUMB_EXT_JOINTS) return &joints_table;

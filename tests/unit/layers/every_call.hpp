@@ -84,6 +84,10 @@ class Everything {
     ok(table.rays(world_, PLUMB_HIT_CLOSEST, &ray, sizeof ray, 1, &hit, 1, &count));
     ok(table.casts(world_, PLUMB_HIT_CLOSEST, &cast, sizeof cast, 1, &hit, 1, &count));
     ok(table.overlaps(world_, &overlap, sizeof overlap, 1, &hit, 1, &count));
+    const PlumbProbe probe = {shape_, identity_pose(), 7, filter};
+    PlumbClosest closest;
+    ok(extension<PlumbClosestTable>(PLUMB_EXT_CLOSEST)
+           .bodies(world_, PLUMB_HIT_CLOSEST, &probe, sizeof probe, 1, &closest, 1, &count));
     PlumbPosedPair pairs[2] = {{shape_, shape_, identity_pose(), identity_pose()},
                                {shape_, shape_, identity_pose(), identity_pose()}};
     pairs[1].pose_b.position = {7, 8, 9};

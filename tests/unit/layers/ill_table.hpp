@@ -20,6 +20,7 @@ struct IllTables {
   PlumbExceptionsTable exceptions;
   PlumbModifyTable modify;
   PlumbManifoldsTable manifolds;
+  PlumbClosestTable closest;
 };
 
 template <class Table>
@@ -36,7 +37,8 @@ inline const IllTables& good() {
                                    table_named<PlumbStateTable>(PLUMB_EXT_STATE),
                                    table_named<PlumbExceptionsTable>(PLUMB_EXT_EXCEPTIONS),
                                    table_named<PlumbModifyTable>(PLUMB_EXT_MODIFY),
-                                   table_named<PlumbManifoldsTable>(PLUMB_EXT_MANIFOLDS)};
+                                   table_named<PlumbManifoldsTable>(PLUMB_EXT_MANIFOLDS),
+                                   table_named<PlumbClosestTable>(PLUMB_EXT_CLOSEST)};
   return tables;
 }
 
@@ -65,6 +67,7 @@ class Validated : public ::testing::Test {
       if (wanted == PLUMB_EXT_EXCEPTIONS) return &ill().exceptions;
       if (wanted == PLUMB_EXT_MODIFY) return &ill().modify;
       if (wanted == PLUMB_EXT_MANIFOLDS) return &ill().manifolds;
+      if (wanted == PLUMB_EXT_CLOSEST) return &ill().closest;
       if (wanted == "test.unknown/1") return &unknown_table;
       return nullptr;
     };

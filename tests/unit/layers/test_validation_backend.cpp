@@ -165,6 +165,50 @@ TEST_F(ValidatedBackend, HitsThatCannotBe) {
   expect_found(layers::FindingKind::host_mistake, "mode is 7");
 }
 
+TEST_F(ValidatedBackend, ClosestBodiesThatCannotBe) {
+  static std::vector<PlumbClosest> answer;
+  ill().closest.bodies = [](PlumbWorld*, PlumbHitMode, const PlumbProbe*, std::size_t, std::uint32_t, PlumbClosest* out,
+                            std::uint32_t capacity, std::uint32_t* count) -> PlumbResult {
+    std::copy(answer.begin(), answer.end(), out);
+    *count = std::min(capacity, static_cast<std::uint32_t>(answer.size()));
+    return PLUMB_OK;
+  };
+  const PlumbProbe probes[2] = {{shape, identity_pose(), 1, {1, 1, 0, 0}}, {shape, identity_pose(), 1, {1, 1, 0, 0}}};
+  PlumbClosest rows[2];
+  std::uint32_t count = 0;
+  const auto ask = [&](PlumbHitMode mode, std::uint32_t asked = 1) {
+    return extension<PlumbClosestTable>(PLUMB_EXT_CLOSEST)
+        .bodies(world, mode, probes, sizeof probes[0], asked, rows, 2, &count);
+  };
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto row = [&](PlumbBody body, std::uint32_t probe, double distance) {
+    return PlumbClosest{body, probe, 0, distance, {}, {}, {distance == 0 ? nan : 1.0, 0, 0}};
+  };
+  answer = {row(bodies[0], 0, 0), row(bodies[1], 0, 0.5)};
+  EXPECT_EQ(ask(PLUMB_HIT_ALL), PLUMB_OK) << table->error_text(world);
+  EXPECT_EQ(count, 2u);
+  answer = {row(bodies[0], 0, 0.5), row(bodies[1], 0, 0)};
+  expect(PLUMB_E_INTERNAL, ask(PLUMB_HIT_ALL), "out[1] breaks the order of probe, distance, body");
+  answer = {row(bodies[0], 0, -0.5)};
+  expect(PLUMB_E_INTERNAL, ask(PLUMB_HIT_ALL), "out[0].distance is -0.5");
+  answer = {row(bodies[0], 0, nan)};
+  expect(PLUMB_E_INTERNAL, ask(PLUMB_HIT_ALL), "out[0].distance is");
+  answer = {row(0, 0, 0.5)};
+  expect(PLUMB_E_INTERNAL, ask(PLUMB_HIT_ALL), "out[0] names no body");
+  EXPECT_EQ(ask(PLUMB_HIT_CLOSEST), PLUMB_OK) << "nothing near is an answer";
+  answer = {row(bodies[0], 2, 0.5)};
+  expect(PLUMB_E_INTERNAL, ask(PLUMB_HIT_ALL), "out[0] is of probe 2");
+  answer = {row(bodies[0], 1, 0.5), row(bodies[0], 0, 0.5)};
+  expect(PLUMB_E_INTERNAL, ask(PLUMB_HIT_CLOSEST, 2), "out[0] is of probe 1");
+  answer = {row(bodies[0], 0, 0.5)};
+  expect(PLUMB_E_INTERNAL, ask(PLUMB_HIT_CLOSEST, 2), "counts 1 closest bodies for 2 queries");
+  answer[0].normal.x = nan;
+  expect(PLUMB_E_INTERNAL, ask(PLUMB_HIT_ALL), "out[0].normal is NaN of what is apart");
+  answer[0].distance = 0;
+  answer[0].normal.x = 1;
+  expect(PLUMB_E_INTERNAL, ask(PLUMB_HIT_ALL), "out[0].normal is told of what touches");
+}
+
 TEST_F(ValidatedBackend, HitsBeyondTheCapacityOrOutOfOrder) {
   static std::vector<PlumbHit> answer;
   static std::uint32_t counted;

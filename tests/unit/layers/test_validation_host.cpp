@@ -221,6 +221,18 @@ TEST_F(ValidatedHost, SizesAndPointersOfExtensions) {
           [&] { return queries.overlaps(world, nullptr, sizeof overlap, 1, &hit, 1, &count); });
   refused(PLUMB_E_INVALID_ARGUMENT, "stride of overlaps is 8",
           [&] { return queries.overlaps(world, &overlap, 8, 1, &hit, 1, &count); });
+  const auto& closest = extension<PlumbClosestTable>(PLUMB_EXT_CLOSEST);
+  const PlumbProbe probe{shape, identity_pose(), 1, {1, 1, 0, 0}};
+  PlumbClosest row;
+  const auto look = [&](const PlumbProbe* in, std::size_t stride, PlumbClosest* out, std::uint32_t* found) {
+    return closest.bodies(world, PLUMB_HIT_ALL, in, stride, 1, out, 1, found);
+  };
+  refused(PLUMB_E_INVALID_ARGUMENT, "probes is null", [&] { return look(nullptr, sizeof probe, &row, &count); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "stride of probes is 8", [&] { return look(&probe, 8, &row, &count); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "out is null", [&] { return look(&probe, sizeof probe, nullptr, &count); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "out_count is null", [&] { return look(&probe, sizeof probe, &row, nullptr); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "mode is 7",
+          [&] { return closest.bodies(world, 7, &probe, sizeof probe, 1, &row, 1, &count); });
   const auto& collide = extension<PlumbCollideTable>(PLUMB_EXT_COLLIDE);
   const PlumbPosedPair pair{shape, shape, identity_pose(), identity_pose()};
   PlumbPairResult result;

@@ -29,7 +29,7 @@ struct BackendFacts {
   std::span<const PlumbSettingInfo> settings;
   IPhysicsWorld* (*make)(const WorldInit& init);  ///< new World(init)
   bool has_joints, has_queries, has_collide, has_debug, has_exceptions, has_modify, has_manifolds, has_worlds,
-      has_settings;
+      has_closest, has_settings;
 };
 
 /// The entries of PlumbBackendTable that depend on the class, for they are given nothing that would name it.
@@ -77,6 +77,7 @@ class Tables {
                                        std::derived_from<World, IModify>,
                                        std::derived_from<World, IManifolds>,
                                        std::derived_from<World, IWorlds>,
+                                       std::derived_from<World, IClosest>,
                                        std::derived_from<World, ISettings>};
     return facts;
   }

@@ -46,6 +46,7 @@ struct Capability {
     case PLUMB_CAP_QUERY:
       if (a == PLUMB_QUERY_RAY) return yes;
       return in_range(a < PLUMB_QUERY_KIND_COUNT && b < PLUMB_SHAPE_TYPE_COUNT && is_convex(b));
+    case PLUMB_CAP_CLOSEST: return in_range(is_convex(a));
     case PLUMB_CAP_FIELD_READ:
     case PLUMB_CAP_FIELD_WRITE: {
       if (a >= PLUMB_FIELD_COUNT) return no;
