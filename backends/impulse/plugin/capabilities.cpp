@@ -30,6 +30,9 @@ Capability known(PlumbCapability kind, std::uint32_t a, std::uint32_t b) {
       if (a < PLUMB_QUERY_KIND_COUNT && !backend::is_convex(b))
         return {PLUMB_NONE, "what is cast or overlapped is convex"};
       break;
+    case PLUMB_CAP_CLOSEST:
+      if (a < PLUMB_SHAPE_TYPE_COUNT && !backend::is_convex(a)) return {PLUMB_NONE, "what is looked around is convex"};
+      break;
     case PLUMB_CAP_PHASE_TIME: return phase_time(a);
     case PLUMB_CAP_RESIDUAL: return {PLUMB_NONE, "not in impulse yet"};
     case PLUMB_CAP_MODIFY:

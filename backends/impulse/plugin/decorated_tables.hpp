@@ -63,6 +63,7 @@ class DecoratedTables {
   }
 
   static const void* extension(const char* name) {
+    using Closest = PlumbClosestTable;
     using Collide = PlumbCollideTable;
     using Debug = PlumbDebugTable;
     using Exceptions = PlumbExceptionsTable;
@@ -75,6 +76,7 @@ class DecoratedTables {
     using State = PlumbStateTable;
     using Worlds = PlumbWorldsTable;
     const std::string_view wanted = name == nullptr ? "" : name;
+    if (wanted == PLUMB_EXT_CLOSEST) return served<Closest, &Closest::bodies>(name);
     if (wanted == PLUMB_EXT_COLLIDE) return served<Collide, &Collide::pairs>(name);
     if (wanted == PLUMB_EXT_DEBUG)
       return served<Debug, &Debug::pairs, &Debug::boxes, &Debug::axes, &Debug::bodies, &Debug::constraints>(name);

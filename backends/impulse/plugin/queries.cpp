@@ -1,4 +1,5 @@
-// plumb.queries/1. Threads that ask at once take turns where something is built first; on a device, altogether.
+// plumb.queries/1 and plumb.closest/1. Threads that ask at once take turns where something is built first; on a device,
+// altogether.
 #include "plugin/world.hpp"
 
 namespace plumb::impulse {
@@ -12,30 +13,37 @@ HitNames World::hit_names() {
   return {rows_.ids, queries_.hit_children, rows_.generation};
 }
 
-template <class Ask>
-Hits World::ask(const Ask& ask) {
+/// ask(batch, executor, scene), with a batch that this thread keeps until it asks again.
+template <class Batch, class Ask>
+auto World::ask(BatchPool<Batch>& batches, const Ask& ask) {
   std::unique_lock lock(queries_.mutex);
   const QueryScene scene = simulation_.query_scene(hit_names());
-  QueryBatch& batch = queries_.batches.take();
+  Batch& batch = batches.take();
   if (kOneMemory) lock.unlock();
-  return {PLUMB_OK, ask(batch, simulation_.executor(), scene)};
+  return ask(batch, simulation_.executor(), scene);
 }
 
 Hits World::cast_rays(PlumbHitMode mode, std::span<const PlumbRay> rays) {
-  return ask([&](QueryBatch& batch, Executor& executor, const QueryScene& scene) {
-    return batch.rays(executor, scene, mode, rays);
+  return ask(queries_.batches, [&](QueryBatch& batch, Executor& executor, const QueryScene& scene) {
+    return Hits{PLUMB_OK, batch.rays(executor, scene, mode, rays)};
   });
 }
 
 Hits World::cast_shapes(PlumbHitMode mode, std::span<const PlumbCast> casts) {
-  return ask([&](QueryBatch& batch, Executor& executor, const QueryScene& scene) {
-    return batch.casts(executor, scene, mode, casts);
+  return ask(queries_.batches, [&](QueryBatch& batch, Executor& executor, const QueryScene& scene) {
+    return Hits{PLUMB_OK, batch.casts(executor, scene, mode, casts)};
   });
 }
 
 Hits World::overlap_shapes(std::span<const PlumbOverlap> overlaps) {
-  return ask([&](QueryBatch& batch, Executor& executor, const QueryScene& scene) {
-    return batch.overlaps(executor, scene, overlaps);
+  return ask(queries_.batches, [&](QueryBatch& batch, Executor& executor, const QueryScene& scene) {
+    return Hits{PLUMB_OK, batch.overlaps(executor, scene, overlaps)};
+  });
+}
+
+ClosestBodies World::closest_bodies(PlumbHitMode mode, std::span<const PlumbProbe> probes) {
+  return ask(queries_.closest_batches, [&](ClosestBatch& batch, Executor& executor, const QueryScene& scene) {
+    return ClosestBodies{PLUMB_OK, batch.find(executor, scene, mode, probes)};
   });
 }
 

@@ -16,6 +16,7 @@
 #include "plumb/backend/touch_tracker.hpp"
 #include "plumb/backend/world_init.hpp"
 #include "plumb/physics_world.hpp"
+#include "queries/closest_batch.hpp"
 #include "queries/query_batch.hpp"
 #include "world/simulation.hpp"
 
@@ -32,7 +33,8 @@ class World final : public IPhysicsWorld,
                     public IExceptions,
                     public IModify,
                     public IManifolds,
-                    public IWorlds {
+                    public IWorlds,
+                    public IClosest {
  public:
   explicit World(const WorldInit& init);
   ~World() override;
@@ -71,6 +73,7 @@ class World final : public IPhysicsWorld,
   IModify* modify() override { return this; }
   IManifolds* manifolds() override { return this; }
   IWorlds* worlds() override { return this; }
+  IClosest* closest() override { return this; }
 
  private:
   PlumbResult create_joints(std::span<const PlumbJointDesc> descs, std::span<PlumbJoint> ids) override;
@@ -80,6 +83,7 @@ class World final : public IPhysicsWorld,
   Hits cast_rays(PlumbHitMode mode, std::span<const PlumbRay> rays) override;
   Hits cast_shapes(PlumbHitMode mode, std::span<const PlumbCast> casts) override;
   Hits overlap_shapes(std::span<const PlumbOverlap> overlaps) override;
+  ClosestBodies closest_bodies(PlumbHitMode mode, std::span<const PlumbProbe> probes) override;
   PlumbResult collide_pairs(std::span<const PlumbPosedPair> pairs, std::span<PlumbPairResult> results,
                             std::span<const PlumbPairPoint>& points) override;
   void put_joint(std::uint32_t slot);
@@ -160,8 +164,8 @@ class World final : public IPhysicsWorld,
   void wake_for_joint(const PlumbJointDesc& desc);
   void write_awake(std::span<const PlumbBody> ids, ConstRows rows);
   const std::vector<ContactRecord>& records();
-  template <class Ask>
-  Hits ask(const Ask& ask);
+  template <class Batch, class Ask>
+  auto ask(BatchPool<Batch>& batches, const Ask& ask);
   HitNames hit_names();
   void pose_parts(PlumbShape id, const PlumbPose& pose, std::vector<PosedShape>& parts) const;
   [[nodiscard]] PlumbBody body_of_last_step(std::uint32_t proxy) const;
@@ -210,6 +214,7 @@ class World final : public IPhysicsWorld,
   struct Queries {
     std::mutex mutex;  // of what queries build when they need it, and of the batches
     BatchPool<QueryBatch> batches;
+    BatchPool<ClosestBatch> closest_batches;
     BatchPool<PairBatch> pair_batches;
     std::vector<std::uint32_t> hit_children;  // by proxy; as of that generation of the rows
     std::uint64_t hit_children_generation = 0;

@@ -24,10 +24,10 @@ struct SameBodyHit {
 };
 
 /// Heap sort (Williams 1964): in place, never slow, and equal wherever it runs. No two hits are equal in either order.
-template <class Less>
-PLUMB_HD void sort_hits(PlumbHit* hits, std::uint32_t n, const Less& less) {
+template <class Hit, class Less>
+PLUMB_HD void sort_hits(Hit* hits, std::uint32_t n, const Less& less) {
   const auto sink = [&](std::uint32_t root, std::uint32_t end) {
-    const PlumbHit hit = hits[root];
+    const Hit hit = hits[root];
     for (std::uint32_t child = 2 * root + 1; child < end; child = 2 * root + 1) {
       if (child + 1 < end && less(hits[child], hits[child + 1])) ++child;
       if (!less(hit, hits[child])) break;
@@ -38,15 +38,16 @@ PLUMB_HD void sort_hits(PlumbHit* hits, std::uint32_t n, const Less& less) {
   };
   for (std::uint32_t root = n / 2; root-- > 0;) sink(root, n);
   for (std::uint32_t end = n; end-- > 1;) {
-    const PlumbHit last = hits[end];
+    const Hit last = hits[end];
     hits[end] = hits[0];
     hits[0] = last;
     sink(0, end);
   }
 }
 
-/// Keeps the nearest hit of each body of hits in the order of SameBodyHit. Returns how many those are.
-PLUMB_HD inline std::uint32_t keep_first_of_bodies(PlumbHit* hits, std::uint32_t n) {
+/// Keeps the first of each body of hits that lie side by side. Returns how many those are.
+template <class Hit>
+PLUMB_HD std::uint32_t keep_first_of_bodies(Hit* hits, std::uint32_t n) {
   std::uint32_t kept = 0;
   for (std::uint32_t i = 0; i < n; ++i)
     if (i == 0 || hits[i].body != hits[kept - 1].body) hits[kept++] = hits[i];

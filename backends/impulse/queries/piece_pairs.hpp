@@ -9,19 +9,6 @@
 
 namespace plumb::impulse {
 
-/// How far B is from A where that is so far that its fourth power is beyond all numbers, and their sizes count for
-/// nothing. False: it is not.
-PLUMB_HD inline bool is_beyond(const Vec64& shift, ShapeGap<double>& gap) {
-  constexpr double kBeyond = 1e70;
-  const Vec64 m = abs(shift);
-  const double most = max(m.x, max(m.y, m.z));
-  if (!(most > kBeyond)) return false;
-  const Vec64 scaled = {shift.x / most, shift.y / most, shift.z / most};
-  const double size = length(scaled);
-  gap = {false, most * size, {scaled.x / size, scaled.y / size, scaled.z / size}, {0, 0, 0}, shift};
-  return true;
-}
-
 PLUMB_HD inline void take_deepest(PairAnswer& answer) {
   const Manifold& manifold = answer.manifold;
   std::uint32_t deepest = 0;

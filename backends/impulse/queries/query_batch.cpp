@@ -3,7 +3,6 @@
 #include <limits>
 
 #include "plumb/assert.hpp"
-#include "plumb/physics_world.hpp"
 #include "queries/hit_order.hpp"
 #include "queries/sweep_search.hpp"
 
@@ -25,12 +24,6 @@ PLUMB_HD PlumbHit no_hit(std::uint32_t query) {
 template <class Probe>
 PLUMB_HD SweptBox sweep_of(const QueryScene& scene, const Probe& probe) {
   return {probe.start - scene.origin, probe.course.along, probe.course.length, probe.carried(scene)};
-}
-
-/// What is in no tree, where there may be any.
-template <class Visit>
-PLUMB_HD void visit_planes(const QueryScene& scene, Visit& visit) {
-  for (std::uint32_t i = 0; i < scene.planes.count; ++i) visit(scene.planes[i]);
 }
 
 /// Meets the proxies that a search finds, as far as the query's filter lets it see them.
@@ -146,18 +139,6 @@ struct ListHits {
   }
 };
 
-/// Closes the gaps that hits of the same body have left.
-struct PackHits {
-  const PlumbHit* from;
-  const std::uint32_t *from_offsets, *offsets, *counts;
-  PlumbHit* to;
-  PLUMB_HD void operator()(std::uint32_t i) const {
-    for (std::uint32_t k = 0; k < counts[i]; ++k) to[offsets[i] + k] = from[from_offsets[i] + k];
-  }
-};
-
-bool has_few_types(const QueryScene& scene) { return (scene.types & ~kFewTypes) == 0; }
-
 }  // namespace
 
 void QueryBatch::closest_rays(Executor& executor, const QueryScene& scene, const PlumbRay* rays, std::uint32_t n,
@@ -168,49 +149,25 @@ void QueryBatch::closest_rays(Executor& executor, const QueryScene& scene, const
     executor.run(n, FindClosest<RayProbe<Kinds::kAll>>{scene, rays, hits});
 }
 
-/// Offsets of the counts; returns their sum.
-std::uint32_t QueryBatch::scan_counts(Executor& executor, std::uint32_t n, Buffer<std::uint32_t>& offsets) {
-  scan_.reserve(n);
-  offsets.grow(n);
-  total_.grow(1);
-  scan_.run(executor, n, counts_.data(), offsets.data(), total_.data());
-  executor.wait();
-  const std::uint32_t total = total_.to_host(1)[0];
-  if (total == ~0U)
-    throw Error(PLUMB_E_OUT_OF_MEMORY, "a batch of queries has more hits than can be counted; ask fewer at a time");
-  return total;
-}
-
 template <class Probe>
 std::uint32_t QueryBatch::find_all(Executor& executor, const QueryScene& scene, const typename Probe::Row* rows,
                                    std::uint32_t n) {
-  if (n == 0) return 0;
-  PLUMB_ASSERT(rows != nullptr);
-  counts_.grow(n);
-  executor.run(n, CountHits<Probe>{scene, rows, counts_.data()});
-  const std::uint32_t met = scan_counts(executor, n, offsets_);
-  const auto list = [&](PlumbHit* hits) {
-    executor.run(n, ListHits<Probe>{scene, rows, offsets_.data(), counts_.data(), hits});
-  };
-  if (!scene.several) {
-    hits_.grow(met);
-    list(hits_.device());
-    return met;
-  }
-  found_.grow(met);
-  list(found_.data());
-  const std::uint32_t count = scan_counts(executor, n, packed_offsets_);
-  hits_.grow(count);
-  executor.run(n, PackHits{found_.data(), offsets_.data(), packed_offsets_.data(), counts_.data(), hits_.device()});
-  return count;
+  PLUMB_ASSERT(n == 0 || rows != nullptr);
+  return hits_.find(
+      executor, n, scene.several,
+      [&](std::uint32_t* counts) {
+        executor.run(n, CountHits<Probe>{scene, rows, counts});
+      },
+      [&](const std::uint32_t* offsets, std::uint32_t* counts, PlumbHit* hits) {
+        executor.run(n, ListHits<Probe>{scene, rows, offsets, counts, hits});
+      });
 }
 
 template <class Probe>
 std::uint32_t QueryBatch::find_of(Executor& executor, const QueryScene& scene, PlumbHitMode mode,
                                   const typename Probe::Row* rows, std::uint32_t n) {
   if (mode == PLUMB_HIT_ALL) return find_all<Probe>(executor, scene, rows, n);
-  hits_.grow(n);
-  executor.run(n, FindClosest<Probe>{scene, rows, hits_.device()});
+  executor.run(n, FindClosest<Probe>{scene, rows, hits_.room(n)});
   return n;
 }
 
@@ -221,16 +178,10 @@ std::uint32_t QueryBatch::find(Executor& executor, const QueryScene& scene, Plum
                               : find_of<Probe<Kinds::kAll>>(executor, scene, mode, rows, n);
 }
 
-std::span<const PlumbHit> QueryBatch::hand_out(Executor& executor, std::uint32_t count) {
-  executor.to_host(hits_, count);
-  executor.wait();
-  return {hits_.host(), count};
-}
-
 std::span<const PlumbHit> QueryBatch::rays(Executor& executor, const QueryScene& scene, PlumbHitMode mode,
                                            std::span<const PlumbRay> rays) {
   const auto n = static_cast<std::uint32_t>(rays.size());
-  return hand_out(executor, find<RayProbe>(executor, scene, mode, rays_.bring(rays), n));
+  return hits_.hand_out(executor, find<RayProbe>(executor, scene, mode, rays_.bring(rays), n));
 }
 
 std::span<const PlumbHit> QueryBatch::casts(Executor& executor, const QueryScene& scene, PlumbHitMode mode,
@@ -239,15 +190,15 @@ std::span<const PlumbHit> QueryBatch::casts(Executor& executor, const QueryScene
   const PlumbCast* rows = casts_.bring(casts);
   const std::uint32_t count = find<CastProbe>(executor, scene, mode, rows, n);
   depth_.describe(executor, scene, rows, hits_.device(), count);
-  return hand_out(executor, count);
+  return hits_.hand_out(executor, count);
 }
 
 std::span<const PlumbHit> QueryBatch::overlaps(Executor& executor, const QueryScene& scene,
                                                std::span<const PlumbOverlap> overlaps) {
   const auto n = static_cast<std::uint32_t>(overlaps.size());
   const PlumbOverlap* rows = overlaps_.bring(overlaps);
-  return hand_out(executor, has_few_types(scene) ? find_all<OverlapProbe<Kinds::kFew>>(executor, scene, rows, n)
-                                                 : find_all<OverlapProbe<Kinds::kAll>>(executor, scene, rows, n));
+  return hits_.hand_out(executor, has_few_types(scene) ? find_all<OverlapProbe<Kinds::kFew>>(executor, scene, rows, n)
+                                                       : find_all<OverlapProbe<Kinds::kAll>>(executor, scene, rows, n));
 }
 
 }  // namespace plumb::impulse

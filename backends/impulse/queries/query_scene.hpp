@@ -49,4 +49,12 @@ struct QueryScene {
   std::uint32_t types;  ///< a bit for each ShapeType there is to meet
 };
 
+inline bool has_few_types(const QueryScene& scene) { return (scene.types & ~kFewTypes) == 0; }
+
+/// What is in no tree, where there may be any.
+template <class Visit>
+PLUMB_HD void visit_planes(const QueryScene& scene, Visit& visit) {
+  for (std::uint32_t i = 0; i < scene.planes.count; ++i) visit(scene.planes[i]);
+}
+
 }  // namespace plumb::impulse

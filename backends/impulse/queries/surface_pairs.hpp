@@ -21,6 +21,19 @@ PLUMB_HD inline Box box_about(const Shape& shape, const Quat64& turn, const Hull
   return {box.low - rounding, box.high + rounding};
 }
 
+/// How far B is from A where that is so far that its fourth power is beyond all numbers, and their sizes count for
+/// nothing. False: it is not.
+PLUMB_HD inline bool is_beyond(const Vec64& shift, ShapeGap<double>& gap) {
+  constexpr double kBeyond = 1e70;
+  const Vec64 m = abs(shift);
+  const double most = max(m.x, max(m.y, m.z));
+  if (!(most > kBeyond)) return false;
+  const Vec64 scaled = {shift.x / most, shift.y / most, shift.z / most};
+  const double size = length(scaled);
+  gap = {false, most * size, {scaled.x / size, scaled.y / size, scaled.z / size}, {0, 0, 0}, shift};
+  return true;
+}
+
 namespace plane {
 
 /// The lowest point of B.
@@ -105,7 +118,7 @@ struct NearestTriangle {
   }
   /// `box` and what is about it as far as the nearest so far, in the engine's numbers and a little larger.
   [[nodiscard]] PLUMB_HD Box within(const Box& box) const {
-    const Real far = static_cast<Real>(max(gap.distance, 0.0));
+    const Real far = static_cast<Real>(clamp(gap.distance, 0.0, static_cast<double>(kHuge)));
     const Vec size = abs(box.low) + abs(box.high) + Vec{far, far, far};
     const Vec more = Vec{far, far, far} + (8 * kEpsilon) * size;
     return {box.low - more, box.high + more};
@@ -160,7 +173,11 @@ PLUMB_HD inline void find_nearest(const HeightView& field, const Box& box, const
   const std::uint32_t column = cell(pair.shift.x, field.x0, field.spacing_x, field.columns),
                       row = cell(pair.shift.z, field.z0, field.spacing_z, field.rows);
   nearest.look(field, 2 * (row * (field.columns - 1) + column), pair);
-  const auto look = [&](std::uint32_t t) { nearest.look(field, t, pair); };
+  const auto look = [&](std::uint32_t t) {
+    const Triangle seen = field.triangle(t);
+    const Box bounds = {min(seen.at[0], min(seen.at[1], seen.at[2])), max(seen.at[0], max(seen.at[1], seen.at[2]))};
+    if (overlap(nearest.within(box), bounds)) nearest.look(field, t, pair);
+  };
   field.overlaps(nearest.within(box), look);
 }
 

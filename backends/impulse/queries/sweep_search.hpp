@@ -58,9 +58,10 @@ class SweptBox {
   Real first_;
 };
 
-/// visit(proxy) for every leaf of the subtree at `id` that the sweep meets, in the tree's order; `end` follows it.
-template <class Visit>
-PLUMB_HD void visit_subtree(const TreeView& tree, std::uint32_t id, std::uint32_t end, const SweptBox& sweep,
+/// visit(proxy) for every leaf of the subtree at `id` that the sweep meets, in the tree's order; `end` follows it. A
+/// sweep is a SweptBox, or has its `last` and meets().
+template <class Sweep, class Visit>
+PLUMB_HD void visit_subtree(const TreeView& tree, std::uint32_t id, std::uint32_t end, const Sweep& sweep,
                             Visit& visit) {
   while (id != end) {
     const TreeNode& node = tree.nodes[id];
@@ -70,15 +71,15 @@ PLUMB_HD void visit_subtree(const TreeView& tree, std::uint32_t id, std::uint32_
     id = met && inner ? node.child : node.next;
   }
 }
-template <class Visit>
-PLUMB_HD void visit_all(const TreeView& tree, const SweptBox& sweep, Visit& visit) {
+template <class Sweep, class Visit>
+PLUMB_HD void visit_all(const TreeView& tree, const Sweep& sweep, Visit& visit) {
   visit_subtree(tree, tree.root(), TreeView::kEnd, sweep, visit);
 }
 
 /// The same, nearer subtrees first, for a visitor that brings sweep.last closer. What is left for later is noted; where
 /// there is no more room for notes a subtree is gone through in the tree's order, so that nothing is ever missed.
-template <class Visit>
-PLUMB_HD void visit_nearest_first(const TreeView& tree, const SweptBox& sweep, Visit& visit) {
+template <class Sweep, class Visit>
+PLUMB_HD void visit_nearest_first(const TreeView& tree, const Sweep& sweep, Visit& visit) {
   constexpr std::uint32_t kRoom = 32;
   std::uint32_t later[kRoom];
   Real later_from[kRoom];

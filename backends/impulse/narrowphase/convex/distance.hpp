@@ -90,12 +90,16 @@ struct ShapeGap {
 };
 
 template <class Pair, class N = typename Pair::Number>
-PLUMB_HD ShapeGap<N> shape_gap(const Pair& pair) {
-  Simplex<N> simplex;
-  const CoreGap<N> core = core_gap(pair, simplex, N(kHuge));
+PLUMB_HD ShapeGap<N> to_shape_gap(const Pair& pair, const CoreGap<N>& core) {
   if (core.overlap) return {true, 0, {}, {}, {}};
   return {false, core.distance - pair.radii(), core.normal, core.on_a + pair.radius_a() * core.normal,
           core.on_b - pair.radius_b() * core.normal};
+}
+
+template <class Pair, class N = typename Pair::Number>
+PLUMB_HD ShapeGap<N> shape_gap(const Pair& pair) {
+  Simplex<N> simplex;
+  return to_shape_gap(pair, core_gap(pair, simplex, N(kHuge)));
 }
 
 /// Touching counts.

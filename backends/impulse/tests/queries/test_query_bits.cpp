@@ -71,6 +71,17 @@ TEST_F(QueryBits, OfCastsAndOverlapsAreThoseRecorded) {
   EXPECT_EQ(hash.value, kDouble ? 0x3ad03151dd5a4405U : 0x317e25dd274c9fecU);
 }
 
+TEST_F(QueryBits, OfTheClosestAreThoseRecorded) {
+  std::vector<PlumbProbe> probes;
+  for (std::size_t i = 0; i < 2000; ++i)
+    probes.push_back({shapes_[i % 4], {place(), random_.turn()}, random_.between(0.1, 3), kSeesAll});
+  IClosest& closest = *scene_->world().closest();
+  Hash hash;
+  hash.add(closest.closest_bodies(PLUMB_HIT_CLOSEST, probes).rows);
+  hash.add(closest.closest_bodies(PLUMB_HIT_ALL, probes).rows);
+  EXPECT_EQ(hash.value, kDouble ? 0x94878af4d08808e3U : 0x46c81f55cbce539eU);
+}
+
 TEST_F(QueryBits, OfPosedPairsAreThoseRecorded) {
   std::vector<PlumbPosedPair> pairs;
   for (std::size_t i = 0; i < 4000; ++i) {
