@@ -90,6 +90,7 @@ Capability fact(PlumbCapability kind, std::uint32_t a, std::uint32_t b) {
     case PLUMB_CAP_JOINT: return joint_fact(a);
     case PLUMB_CAP_JOINT_FEATURE: return joint_feature_fact(a, b);
     case PLUMB_CAP_QUERY: return query_fact(a, b);
+    case PLUMB_CAP_CLOSEST: return {PLUMB_NONE, "the adapter does not ask Box3D for distances"};
     case PLUMB_CAP_FIELD_WRITE:
       if (a == PLUMB_FIELD_KINEMATIC_TARGET) return {PLUMB_EMULATED, "the velocity that leads there"};
       return backend::usual_capability(kind, a, b);

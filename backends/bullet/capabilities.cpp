@@ -92,6 +92,13 @@ PlumbDegree query_degree(std::uint32_t kind, std::uint32_t type, const char*& no
   return PLUMB_NATIVE;
 }
 
+/// In single precision Bullet's GJKs end a little early about edges and round sides.
+PlumbDegree closest_degree(std::uint32_t type, const char*& note) {
+  if (!is_convex(type)) return PLUMB_NONE;
+  if (sizeof(btScalar) == 8 || type == PLUMB_SPHERE) return PLUMB_NATIVE;
+  return answer(PLUMB_APPROXIMATE, note, "up to 1 mm too far, also of shapes that overlap by less");
+}
+
 PlumbDegree write_degree(std::uint32_t field, const char*& note) {
   if (field == PLUMB_FIELD_DAMPING)
     return answer(PLUMB_EMULATED, note, "exp(-c dt) by the adapter, which holds for any c");
@@ -153,6 +160,7 @@ PlumbDegree World::capability(PlumbCapability kind, std::uint32_t a, std::uint32
     case PLUMB_CAP_JOINT: return joint_degree(a, note);
     case PLUMB_CAP_JOINT_FEATURE: return joint_feature_degree(a, b, note);
     case PLUMB_CAP_QUERY: return query_degree(a, b, note);
+    case PLUMB_CAP_CLOSEST: return closest_degree(a, note);
     case PLUMB_CAP_FIELD_READ: return usual_degree(kind, a, note);
     case PLUMB_CAP_FIELD_WRITE: return write_degree(a, note);
     case PLUMB_CAP_NEED: return need_degree(a, note);

@@ -62,9 +62,15 @@ std::unique_ptr<btCollisionShape> make_hull(const PlumbShapeDesc& desc, const Sh
   return shape;
 }
 
-void make_mesh(const PlumbShapeDesc& desc, Shape& shape) {
+std::vector<btScalar> vertices_of(const PlumbShapeDesc& desc) {
+  std::vector<btScalar> vertices;
   for (std::size_t i = 0; i < std::size_t{desc.vertex_count} * 3; ++i)
-    shape.vertices.push_back(scalar(desc.vertices[i], "vertices"));
+    vertices.push_back(scalar(desc.vertices[i], "vertices"));
+  return vertices;
+}
+
+void make_mesh(const PlumbShapeDesc& desc, Shape& shape) {
+  shape.vertices = vertices_of(desc);
   shape.indices.assign(desc.indices, desc.indices + std::size_t{desc.triangle_count} * 3);
   auto mesh = std::make_unique<btTriangleIndexVertexArray>();
   mesh->addIndexedMesh(indexed_mesh(shape.vertices, shape.indices), PHY_INTEGER);
@@ -127,7 +133,10 @@ std::shared_ptr<const Shape> make_shape(const PlumbShapeDesc& desc, std::vector<
                                                        2 * scalar(desc.half_height, "half_height"));
       break;
     case PLUMB_CYLINDER: shape->bullet = make_cylinder(desc, options); break;
-    case PLUMB_CONVEX_HULL: shape->bullet = make_hull(desc, options); break;
+    case PLUMB_CONVEX_HULL:
+      shape->bullet = make_hull(desc, options);
+      shape->vertices = vertices_of(desc);
+      break;
     case PLUMB_TRIANGLE_MESH: make_mesh(desc, *shape); break;
     case PLUMB_HEIGHT_FIELD: make_height_field(desc, *shape); break;
     case PLUMB_PLANE: shape->bullet = std::make_unique<btStaticPlaneShape>(btVector3(0, 1, 0), btScalar(0)); break;

@@ -24,7 +24,7 @@ struct Shape {
 
   PlumbShapeType type = PLUMB_SPHERE;
   std::unique_ptr<btCollisionShape> bullet;
-  std::vector<btScalar> vertices;  ///< of a mesh
+  std::vector<btScalar> vertices;  ///< of a mesh, or of a hull as it was given
   std::vector<int> indices;
   std::unique_ptr<btStridingMeshInterface> mesh;
   std::vector<btScalar> heights;

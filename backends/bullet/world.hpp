@@ -25,6 +25,7 @@ class World final : public IPhysicsWorld,
                     public IExceptions,
                     public IModify,
                     public IManifolds,
+                    public IClosest,
                     private btOverlapFilterCallback,
                     private StepHooks {
  public:
@@ -64,6 +65,7 @@ class World final : public IPhysicsWorld,
   IExceptions* exceptions() override { return this; }
   IModify* modify() override { return this; }
   IManifolds* manifolds() override { return this; }
+  IClosest* closest() override { return this; }
 
   // joints/joints.cpp
   PlumbResult create_joints(std::span<const PlumbJointDesc> descs, std::span<PlumbJoint> ids) override;
@@ -83,6 +85,9 @@ class World final : public IPhysicsWorld,
   Hits cast_rays(PlumbHitMode mode, std::span<const PlumbRay> rays) override;
   Hits cast_shapes(PlumbHitMode mode, std::span<const PlumbCast> casts) override;
   Hits overlap_shapes(std::span<const PlumbOverlap> overlaps) override;
+
+  // queries/closest.cpp
+  ClosestBodies closest_bodies(PlumbHitMode mode, std::span<const PlumbProbe> probes) override;
 
   // queries/collide.cpp
   PlumbResult collide_pairs(std::span<const PlumbPosedPair> pairs, std::span<PlumbPairResult> results,

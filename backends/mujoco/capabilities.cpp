@@ -105,6 +105,8 @@ Capability fact(PlumbCapability kind, std::uint32_t a, std::uint32_t b) {
     case PLUMB_CAP_JOINT: return joint_fact(a);
     case PLUMB_CAP_JOINT_FEATURE: return joint_feature_fact(a, b);
     case PLUMB_CAP_QUERY: return query_fact(a);
+    case PLUMB_CAP_CLOSEST:
+      return {PLUMB_NONE, "MuJoCo tells distances of geoms of its model alone, not around a shape"};
     case PLUMB_CAP_FIELD_READ:
     case PLUMB_CAP_FIELD_WRITE: return field_fact(kind, a);
     case PLUMB_CAP_NEED: return need_fact(a);

@@ -165,4 +165,23 @@ TEST(MovingMesh, IsSeenByRaysAndCollide) {
   }
 }
 
+/// Where its triangles are, not where Bullet's margin is, and with its centre of mass beside its origin.
+TEST(MovingMesh, IsAsFarAwayAsItsTriangles) {
+  auto world = scenes::make_world(kNeeds);
+  plumb::check(*world, world->set_gravity({0, 0, 0}));
+  const PlumbBody cube = add(*world, PLUMB_DYNAMIC, add_mesh_box(*world, {0.5, 0.5, 0.5}, {3, 0, 0}), {0, 1, 0});
+  scenes::advance(*world);
+  PlumbShapeDesc ball = plumb::shape_desc(PLUMB_SPHERE);
+  ball.radius = 0.25;
+  const PlumbProbe probe = {
+      scenes::add_shape(*world, ball), {{3.25, 4, 0.125}, {0, 0, 0, 1}}, 10, plumb::body_desc().filter};
+  const plumb::ClosestBodies found = world->closest()->closest_bodies(PLUMB_HIT_CLOSEST, {&probe, 1});
+  plumb::check(*world, found.result);
+  ASSERT_EQ(found.rows.size(), 1u);
+  EXPECT_EQ(found.rows[0].body, cube);
+  EXPECT_NEAR(found.rows[0].distance, 2.25, 1e-5);
+  EXPECT_NEAR(found.rows[0].normal.y, -1, 1e-5);
+  EXPECT_TRUE(found.rows[0].child == 6 || found.rows[0].child == 7) << found.rows[0].child;
+}
+
 }  // namespace
