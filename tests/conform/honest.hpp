@@ -22,6 +22,7 @@ struct Tables {
   PlumbModifyTable modify;
   PlumbManifoldsTable manifolds;
   PlumbWorldsTable worlds;
+  PlumbClosestTable closest;
 };
 
 inline Tables honest{}, liar{};

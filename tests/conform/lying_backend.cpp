@@ -33,6 +33,7 @@ const void* extension(const char* name) {
   if (wanted == PLUMB_EXT_MODIFY) return &liar.modify;
   if (wanted == PLUMB_EXT_MANIFOLDS) return &liar.manifolds;
   if (wanted == PLUMB_EXT_WORLDS) return &liar.worlds;
+  if (wanted == PLUMB_EXT_CLOSEST) return &liar.closest;
   return truth;
 }
 
@@ -54,6 +55,7 @@ void take_tables(const PlumbBackendTable& table) {
   take(honest.modify, PLUMB_EXT_MODIFY);
   take(honest.manifolds, PLUMB_EXT_MANIFOLDS);
   take(honest.worlds, PLUMB_EXT_WORLDS);
+  take(honest.closest, PLUMB_EXT_CLOSEST);
   liar = honest;
   liar.core.extension = &extension;
   liar.core.info = []() -> const PlumbBackendInfo* { return &liar.info; };

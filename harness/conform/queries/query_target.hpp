@@ -9,6 +9,11 @@
 
 namespace plumb::harness::conform {
 
+/// Every shape that can stand still.
+inline constexpr PlumbShapeType kTargets[] = {PLUMB_SPHERE,   PLUMB_BOX,           PLUMB_CAPSULE,
+                                              PLUMB_CYLINDER, PLUMB_CONVEX_HULL,   PLUMB_COMPOUND,
+                                              PLUMB_PLANE,    PLUMB_TRIANGLE_MESH, PLUMB_HEIGHT_FIELD};
+
 class Target {
  public:
   Target(Conformance& c, PlumbShapeType type)

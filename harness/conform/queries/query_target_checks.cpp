@@ -3,15 +3,12 @@
 #include <cmath>
 #include <random>
 
-#include "conform/query_target.hpp"
+#include "conform/queries/query_target.hpp"
 #include "plumb/backend/names.hpp"
 
 namespace plumb::harness::conform {
 namespace {
 
-constexpr PlumbShapeType kTargets[] = {PLUMB_SPHERE,   PLUMB_BOX,           PLUMB_CAPSULE,
-                                       PLUMB_CYLINDER, PLUMB_CONVEX_HULL,   PLUMB_COMPOUND,
-                                       PLUMB_PLANE,    PLUMB_TRIANGLE_MESH, PLUMB_HEIGHT_FIELD};
 constexpr PlumbShapeType kMovers[] = {PLUMB_SPHERE, PLUMB_BOX, PLUMB_CAPSULE, PLUMB_CYLINDER, PLUMB_CONVEX_HULL};
 constexpr double kNear = 0.05;
 
