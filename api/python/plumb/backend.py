@@ -58,6 +58,7 @@ EXTENSIONS = (
     "plumb.modify/1",
     "plumb.manifolds/1",
     "plumb.worlds/1",
+    "plumb.closest/1",
 )
 
 
@@ -87,6 +88,7 @@ _ARGUMENTS: Dict[CapabilityKind, Tuple[Type[IntEnum], ...]] = {
     CapabilityKind.PHASE_TIME: (Phase,),
     CapabilityKind.MODIFY: (Modifiable, _by_index(BodyMember)),
     CapabilityKind.MANIFOLD: (_by_index(ContactChange),),
+    CapabilityKind.CLOSEST: (ShapeType,),
 }
 _JOINT_MEMBERS = _by_index(JointMember)
 

@@ -272,6 +272,7 @@ class CapabilityKind(IntEnum):
     CHILD_MATERIAL = 13
     MODIFY = 14
     MANIFOLD = 15
+    CLOSEST = 16
 
 
 class Degree(IntEnum):

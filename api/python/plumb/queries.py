@@ -1,4 +1,5 @@
-"""plumb.queries/1 and plumb.collide/1: rays, shape casts, overlaps and pairs of posed shapes, always in batches.
+"""plumb.queries/1, plumb.closest/1 and plumb.collide/1: rays, shape casts, overlaps, the closest bodies and pairs of
+posed shapes, always in batches.
 
 >>> import plumb
 >>> world = plumb.open("impulse").world(needs=["collision", "friction", "queries"])
@@ -6,6 +7,9 @@
 >>> hits = world.queries.rays([(0, 0, 0), (0, 0, 0)], [(10, 0, 0), (-10, 0, 0)])
 >>> float(hits["fraction"][0]), bool(hits["body"][0] == wall), int(hits["body"][1])
 (0.5, True, 0)
+>>> near = world.queries.closest(world.create_shape(plumb.Sphere(0.5)), [(0, 0, 0), (0, 30, 0)], 10)
+>>> float(near["distance"][0]), bool(near["body"][0] == wall), int(near["body"][1])
+(4.5, True, 0)
 >>> world.close()
 """
 
@@ -92,6 +96,29 @@ class Queries:
         """All bodies that each shape overlaps."""
         table = _table(_core.overlap, shape=handles(shapes, "shapes"), position=positions, orientation=orientations)
         return self._core.overlap_shapes(_filtered(table, filter))
+
+    def closest(
+        self,
+        shapes: Shapes,
+        positions: ArrayLike,
+        most_distance: ArrayLike,
+        orientations: ArrayLike = IDENTITY,
+        mode: Union[HitMode, str] = HitMode.CLOSEST,
+        filter: Optional[Filter] = None,
+    ) -> NDArray[np.void]:
+        """Bodies near convex shapes: plumb.closest/1. most_distance: m, above 0; what is further away is not looked
+        for. mode closest: one row a shape; all: a row for each body, by shape, then distance. Columns body (0: nothing
+        is near), probe (index into the batch), child, distance (m; 0 where they touch or overlap), on_probe and on_body
+        (the points of both surfaces, m), normal (from the shape to the body); the last three are NaN where distance is
+        0."""
+        table = _table(
+            _core.probe,
+            shape=handles(shapes, "shapes"),
+            position=positions,
+            orientation=orientations,
+            most_distance=most_distance,
+        )
+        return self._core.closest_bodies(pick(HitMode, mode, "mode"), _filtered(table, filter))
 
 
 class Collided(NamedTuple):

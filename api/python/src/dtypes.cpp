@@ -178,6 +178,20 @@ py::dtype build<PlumbHit>() {
                             PLUMB_COLUMN(Row, position, text("(3,)f8")), PLUMB_COLUMN(Row, normal, text("(3,)f8"))});
 }
 template <>
+py::dtype build<PlumbProbe>() {
+  using Row = PlumbProbe;
+  return make(sizeof(Row), {PLUMB_COLUMN(Row, shape, text("u8")), PLUMB_POSE(Row, pose, ""),
+                            PLUMB_COLUMN(Row, most_distance, text("f8")), PLUMB_COLUMN(Row, filter, filter())});
+}
+template <>
+py::dtype build<PlumbClosest>() {
+  using Row = PlumbClosest;
+  return make(sizeof(Row), {PLUMB_COLUMN(Row, body, text("u8")), PLUMB_COLUMN(Row, probe, text("u4")),
+                            PLUMB_COLUMN(Row, child, text("u4")), PLUMB_COLUMN(Row, distance, text("f8")),
+                            PLUMB_COLUMN(Row, on_probe, text("(3,)f8")), PLUMB_COLUMN(Row, on_body, text("(3,)f8")),
+                            PLUMB_COLUMN(Row, normal, text("(3,)f8"))});
+}
+template <>
 py::dtype build<PlumbPosedPair>() {
   using Row = PlumbPosedPair;
   return make(sizeof(Row), {PLUMB_COLUMN(Row, shape_a, text("u8")), PLUMB_COLUMN(Row, shape_b, text("u8")),
@@ -257,6 +271,8 @@ void require_rows(const py::array& rows, const py::dtype& dtype, const char* wha
   ROW(PlumbCast, cast)                      \
   ROW(PlumbOverlap, overlap)                \
   ROW(PlumbHit, hit)                        \
+  ROW(PlumbProbe, probe)                    \
+  ROW(PlumbClosest, closest)                \
   ROW(PlumbPosedPair, posed_pair)           \
   ROW(PlumbPairResult, pair_result)         \
   ROW(PlumbPairPoint, pair_point)           \

@@ -1,4 +1,5 @@
-// Questions to a world that change nothing: rays, casts, overlaps, collision of pairs, and what the engine sees.
+// Questions to a world that change nothing: rays, casts, overlaps, closest bodies, collision of pairs, and what the
+// engine sees.
 #include "world.hpp"
 
 namespace plumb::python {
@@ -41,6 +42,19 @@ py::array overlap_shapes(World& world, const py::array& rows) {
   return array_of(hits);
 }
 
+py::array closest_bodies(World& world, PlumbHitMode mode, const py::array& rows) {
+  const auto& closest = world.extension<PlumbClosestTable>(PLUMB_EXT_CLOSEST);
+  const auto probes = rows_of<PlumbProbe>(rows, "probes");
+  std::vector<PlumbClosest> found;
+  world.call_unlocked(Tag::query, "closest.bodies", [&](const PlumbBackendTable&, PlumbWorld* self) {
+    return fill_all(found, [&](PlumbClosest* out, std::uint32_t capacity, std::uint32_t* count) {
+      return closest.bodies(self, mode, probes.data(), sizeof(PlumbProbe), count_of(probes.size()), out, capacity,
+                            count);
+    });
+  });
+  return array_of(found);
+}
+
 std::pair<py::array, py::array> collide_pairs(World& world, const py::array& rows) {
   const auto& collide = world.extension<PlumbCollideTable>(PLUMB_EXT_COLLIDE);
   const auto pairs = rows_of<PlumbPosedPair>(rows, "pairs");
@@ -76,6 +90,7 @@ void bind_queries(WorldClass& world) {
   world.def("cast_rays", &cast_rays)
       .def("cast_shapes", &cast_shapes)
       .def("overlap_shapes", &overlap_shapes)
+      .def("closest_bodies", &closest_bodies)
       .def("collide_pairs", &collide_pairs)
       .def("debug_pairs", [](World& self) { return look<&Debug::pairs, PlumbDebugPair>(self, "debug.pairs"); })
       .def("debug_boxes", [](World& self) { return look<&Debug::boxes, PlumbDebugBox>(self, "debug.boxes"); })

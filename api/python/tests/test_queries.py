@@ -49,6 +49,29 @@ class Queries(unittest.TestCase):
         np.testing.assert_array_equal(hits["query"], [1, 2])
         np.testing.assert_array_equal(hits["body"], bodies[1:])
 
+    @on_each(*NEEDS, asked=[("closest", "sphere")])
+    def test_closest(self, engine):
+        world, ball, bodies = self.scene(engine)
+        rows = world.queries.closest(ball, [(0, 0, 0), (5, 4, 0), (0, 90, 0), (10, 1, 0)], [9, 9, 9, 0.25])
+        np.testing.assert_array_equal(rows["body"], [bodies[0], bodies[0], 0, bodies[1]])
+        np.testing.assert_array_equal(rows["probe"], [0, 1, 2, 3])
+        np.testing.assert_allclose(rows["distance"], [3, 2, np.nan, 0], atol=1e-4)
+        np.testing.assert_allclose(rows["on_probe"][:2], [(1, 0, 0), (5, 3, 0)], atol=1e-3)
+        np.testing.assert_allclose(rows["on_body"][:2], [(4, 0, 0), (5, 1, 0)], atol=1e-3)
+        np.testing.assert_allclose(rows["normal"][:2], [(1, 0, 0), (0, -1, 0)], atol=1e-3)
+        self.assertTrue(np.isnan(rows["normal"][2:]).all())
+        every = world.queries.closest(ball, (0, 0, 0), 10, mode="all")
+        np.testing.assert_array_equal(every["body"], bodies[:2])
+        np.testing.assert_allclose(every["distance"], [3, 8], atol=1e-4)
+        far = world.queries.closest(ball, (0, 0, 0), 100, filter=plumb.Filter(mask=4))
+        np.testing.assert_array_equal(far["body"], bodies[2:])
+        for most in (0, -1, np.nan, np.inf):
+            with self.assertRaisesRegex(plumb.Error, r"probes\[0\].most_distance"):
+                world.queries.closest(ball, (0, 0, 0), most)
+        plane = world.create_shape(plumb.Plane())
+        with self.assertRaisesRegex(plumb.Error, "is a plane; it must be convex"):
+            world.queries.closest(plane, (0, 0, 0), 1)
+
     @on_each("collision", "friction", "rotation")
     def test_collision_without_a_step(self, engine):
         if "plumb.collide/1" not in engine.extensions:
