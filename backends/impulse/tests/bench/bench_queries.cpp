@@ -1,9 +1,10 @@
 // A million rays against a pile of 32,000 boxes, on one thread and on all. The label is the hash of the hits, which the
-// CUDA bench must print too.
+// CUDA bench must print too. And what is around a thousand balls where such rays begin: the nearest, or all.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
 #include <thread>
+#include <utility>
 
 #include "tests/rigs/broad_phase_cases.hpp"
 #include "tests/rigs/query_cases.hpp"
@@ -22,6 +23,16 @@ void closest_rays(benchmark::State& state, std::uint32_t rays, std::uint32_t thr
   state.SetLabel(hexadecimal(bench.hash()));
 }
 
+void closest_bodies(benchmark::State& state, PlumbHitMode mode, std::uint32_t balls) {
+  QueryBench bench(kBoxes, balls, 1);
+  const std::vector<PlumbProbe> probes = bench.probes(3);
+  std::size_t rows = 0;
+  for (auto _ : state) rows = bench.rig.closest(mode, probes).size();
+  state.counters["per_ball"] =
+      benchmark::Counter(balls, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  state.counters["rows"] = static_cast<double>(rows);
+}
+
 }  // namespace
 }  // namespace plumb::impulse
 
@@ -35,6 +46,11 @@ int main(int argc, char** argv) {
           ->Unit(benchmark::kMillisecond)
           ->UseRealTime();
     }
+  for (const auto& [name, mode] : {std::pair{"the nearest within 3 m of 1000 balls", PLUMB_HIT_CLOSEST},
+                                   std::pair{"all within 3 m of 1000 balls", PLUMB_HIT_ALL}})
+    benchmark::RegisterBenchmark(name, closest_bodies, static_cast<PlumbHitMode>(mode), kRays / 1000)
+        ->Unit(benchmark::kMillisecond)
+        ->UseRealTime();
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   benchmark::RunSpecifiedBenchmarks();

@@ -1,5 +1,5 @@
 // What the benchmarks of queries measure, on the CPU and on a CUDA device: rays against a pile of boxes in its
-// container, and a hash of the hits, which must be the same on both.
+// container, and the boxes around balls where the rays begin; and a hash of the hits, which must be the same on both.
 #pragma once
 
 #include <cmath>
@@ -20,6 +20,7 @@ class QueryBench {
   QueryBench(std::uint32_t boxes, std::uint32_t rays, std::uint32_t threads) : rig(threads) {
     FieldDice dice(11);
     const std::uint32_t cube = rig.add_shape(make({Real(.5), Real(.5), Real(.5)}));
+    ball_ = rig.add_shape({ShapeType::kSphere, 0, {Real(.1), 0, 0}, Real(.1)});
     const auto across = static_cast<std::uint32_t>(std::lround(cube_root(boxes)));
     const double pitch = 1.145, half = .5 * pitch * across;  // 1.5 m3 a cube
     for (std::uint32_t i = 0; i < boxes; ++i) {
@@ -46,6 +47,13 @@ class QueryBench {
   /// The whole call, with the way of the rays there and of the hits back.
   void ask() { hits_ = rig.rays(PLUMB_HIT_CLOSEST, rays_); }
   [[nodiscard]] const std::vector<PlumbRay>& rays() const { return rays_; }
+  /// A ball of 10 cm where each ray begins, for what is within `most` metres.
+  [[nodiscard]] std::vector<PlumbProbe> probes(double most) const {
+    std::vector<PlumbProbe> probes;
+    for (const PlumbRay& ray : rays_)
+      probes.push_back({std::uint64_t{1} << 32 | ball_, {ray.origin, {0, 0, 0, 1}}, most, ray.filter});
+    return probes;
+  }
   /// FNV-1a over the hits of the last call.
   [[nodiscard]] std::uint64_t hash() const {
     std::uint64_t h = 0xCBF29CE484222325U;
@@ -85,6 +93,7 @@ class QueryBench {
     return rays;
   }
 
+  std::uint32_t ball_;
   std::vector<PlumbRay> rays_;
   std::span<const PlumbHit> hits_;
 };

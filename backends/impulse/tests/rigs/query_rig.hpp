@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "geometry/hull_pool.hpp"
+#include "queries/closest_batch.hpp"
 #include "queries/query_batch.hpp"
 #include "queries/query_trees.hpp"
 
@@ -72,6 +73,10 @@ struct QueryRig {
     return batch.rays(executor, scene, mode, rays);
   }
 
+  std::span<const PlumbClosest> closest(PlumbHitMode mode, const std::vector<PlumbProbe>& probes) {
+    return near.find(executor, scene, mode, probes);
+  }
+
   Executor executor;
   std::vector<Position> positions;
   std::vector<Quat> orientations;
@@ -84,6 +89,7 @@ struct QueryRig {
   QueryTrees trees;
   QueryScene scene{};
   QueryBatch batch;
+  ClosestBatch near;
 
  private:
   struct {
