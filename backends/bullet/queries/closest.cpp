@@ -6,8 +6,11 @@
 #include <BulletCollision/NarrowPhaseCollision/btVoronoiSimplexSolver.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <mutex>
 #include <optional>
+#include <vector>
 
 #include "plumb/backend/small_math.hpp"
 #include "queries/sharp_shape.hpp"

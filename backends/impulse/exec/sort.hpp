@@ -9,7 +9,8 @@
 
 namespace plumb::impulse {
 
-/// Stable radix sort of (key, value) pairs by the low `bits` bits of the keys. K is uint32_t or uint64_t.
+/// Stable radix sort of (key, value) pairs by the low `bits` bits of the keys; a device merges where that takes fewer
+/// rounds. K is uint32_t or uint64_t.
 template <class K>
 class RadixSort {
  public:
@@ -17,7 +18,7 @@ class RadixSort {
   void reserve(std::uint32_t capacity);
 
   /// Sorts the first n pairs of keys, values into sorted_keys, sorted_values (other arrays). A device sorts n.capacity
-  /// pairs, and writes maximal keys behind the last of `keys` for that.
+  /// pairs, and may write maximal keys behind the last of `keys` for that.
   void run(Executor& executor, Count n, K* keys, const std::uint32_t* values, K* sorted_keys,
            std::uint32_t* sorted_values, int bits);
   /// The same for a number that the host knows; keys stay as they are.

@@ -1,7 +1,5 @@
 #include "queries/closest_batch.hpp"
 
-#include <limits>
-
 #include "queries/closest_probe.hpp"
 #include "queries/hit_order.hpp"
 
@@ -58,11 +56,10 @@ struct FindClosestBody {
   const PlumbProbe* probes;
   PlumbClosest* rows;
   PLUMB_HD void operator()(std::uint32_t i) const {
-    constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-    constexpr PlumbVec3 kNowhere = {kUnknown, kUnknown, kUnknown};
     const Probe probe(scene, probes[i]);
     BoxAround around = probe.around(scene);
-    KeepClosest<Probe> keep{{scene, probe}, around, {0, i, 0, kUnknown, kNowhere, kNowhere, kNowhere}, probe.most};
+    KeepClosest<Probe> keep{
+        {scene, probe}, around, {0, i, 0, nowhere().x, nowhere(), nowhere(), nowhere()}, probe.most};
     visit_planes(scene, keep);
     visit_nearest_first(scene.statics, around, keep);
     visit_nearest_first(scene.movers, around, keep);

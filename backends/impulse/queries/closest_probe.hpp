@@ -2,11 +2,19 @@
 // proxy. As the probes of probes.hpp it comes for scenes of spheres, boxes, capsules and hulls alone, and for all.
 #pragma once
 
+#include <limits>
+
 #include "plumb/closest.h"
 #include "queries/closest_search.hpp"
 #include "queries/probes.hpp"
 
 namespace plumb::impulse {
+
+/// A place that is not told.
+PLUMB_HD inline PlumbVec3 nowhere() {
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  return {kUnknown, kUnknown, kUnknown};
+}
 
 /// The nearest point of a plane or surface; false where it is further away than `most`. turn: of B.
 PLUMB_HD PLUMB_OUT_OF_LINE inline bool gap_to_surface(const Surfaces& surfaces, const SurfacePair& pair,
@@ -50,9 +58,8 @@ struct ClosestProbe {
     row.child = target.child;
     if (!gap_of(scene, target, pair, enough, gap, row.child)) return false;
     row.body = scene.ids[target.body];
-    constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
     row.distance = 0;
-    row.on_probe = row.on_body = row.normal = {kUnknown, kUnknown, kUnknown};
+    row.on_probe = row.on_body = row.normal = nowhere();
     if (gap.cores_overlap || !(gap.distance > 0)) return true;
     row.distance = gap.distance;
     row.on_probe = to_plumb_vec3(target.place + rotate(target.turn, gap.on_b));

@@ -10,7 +10,6 @@
 namespace plumb::harness::conform {
 namespace {
 
-constexpr PlumbShapeType kProbes[] = {PLUMB_SPHERE, PLUMB_BOX, PLUMB_CAPSULE, PLUMB_CYLINDER, PLUMB_CONVEX_HULL};
 constexpr PlumbQuat kLevel = {0, 0, 0, 1};
 
 /// What rounding may do to a distance of some metres, m.
@@ -24,7 +23,7 @@ bool looks_around(Conformance& c, PlumbShapeType type) {
 }
 void require_any(Conformance& c) {
   c.require_needs(kQueryNeeds);
-  if (std::none_of(std::begin(kProbes), std::end(kProbes), [&](PlumbShapeType type) { return looks_around(c, type); }))
+  if (std::none_of(std::begin(kConvex), std::end(kConvex), [&](PlumbShapeType type) { return looks_around(c, type); }))
     c.require(PLUMB_CAP_CLOSEST, PLUMB_SPHERE, 0, "closest bodies");
 }
 
@@ -179,22 +178,11 @@ void children(Conformance& c) {
 
 // --- against the referee ---------------------------------------------------------------------------------------------
 
-PlumbShapeDesc probe_desc(PlumbShapeType type) {
-  static constexpr double kVertices[] = {-0.4, -0.3, -0.4, 0.4, -0.3, -0.4, 0, -0.3, 0.4, 0.1, 0.4, 0};
-  PlumbShapeDesc desc = shape_desc(type);
-  desc.radius = 0.3;
-  desc.half_height = 0.25;
-  desc.half_extents = {0.3, 0.2, 0.4};
-  desc.vertices = kVertices;
-  desc.vertex_count = 4;
-  return desc;
-}
-
 /// Points on both surfaces that far apart say that the distance is no larger, the referee that it is no smaller.
 void compare_rows(Conformance& c, PlumbShapeType type, PlumbShapeType at) {
   Target target(c, at);
-  const PlumbShape shape = target.probe.shape(probe_desc(type));
-  const referee::ShapePtr known = referee::Shape::make(probe_desc(type));
+  const PlumbShape shape = target.probe.shape(convex_desc(type));
+  const referee::ShapePtr known = referee::Shape::make(convex_desc(type));
   PlumbShapeDesc grain = shape_desc(PLUMB_SPHERE);
   grain.radius = 1e-9;
   const referee::ShapePtr point = referee::Shape::make(grain);
@@ -235,7 +223,7 @@ void compare_rows(Conformance& c, PlumbShapeType type, PlumbShapeType at) {
 
 void every_shape(Conformance& c) {
   require_any(c);
-  for (const PlumbShapeType type : kProbes)
+  for (const PlumbShapeType type : kConvex)
     for (const PlumbShapeType at : kTargets)
       if (looks_around(c, type) && c.backend().capability(PLUMB_CAP_SHAPE, at, PLUMB_STATIC) != PLUMB_NONE)
         compare_rows(c, type, at);
@@ -367,7 +355,7 @@ void unseen_sensors(Conformance& c) {
 void other_frames(Conformance& c) {
   require_any(c);
   double near = 0;
-  for (const PlumbShapeType type : kProbes) near = std::max(near, allowed(c, type));
+  for (const PlumbShapeType type : kConvex) near = std::max(near, allowed(c, type));
   std::vector<double> first;
   for (const Vec& shift : {Vec(0, 0, 0), Vec(1e5, 0, 0), Vec(-5e4, 1e5, 7e4), Vec(0.25, -1000.5, 3)})
     for (const int quarter : {0, 1, 2}) {
@@ -390,9 +378,9 @@ void other_frames(Conformance& c) {
         world.body(desc);
       }
       std::vector<PlumbProbe> probes;
-      for (const PlumbShapeType type : kProbes)
+      for (const PlumbShapeType type : kConvex)
         for (int i = 0; i < 20 && looks_around(c, type); ++i)
-          probes.push_back({world.shape(probe_desc(type)), placed(any_turn(random)), 20, kSeesAll});
+          probes.push_back({world.shape(convex_desc(type)), placed(any_turn(random)), 20, kSeesAll});
       const std::vector<PlumbClosest> rows = closest(world, PLUMB_HIT_CLOSEST, probes);
       int other = 0;
       for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -429,10 +417,10 @@ void crowd(Conformance& c) {
 void refusals(Conformance& c) {
   require_any(c);
   const PlumbShapeType type =
-      *std::find_if(std::begin(kProbes), std::end(kProbes), [&](PlumbShapeType t) { return looks_around(c, t); });
+      *std::find_if(std::begin(kConvex), std::end(kConvex), [&](PlumbShapeType t) { return looks_around(c, t); });
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN(), kInfinity = std::numeric_limits<double>::infinity();
   Probe world(c, kQueryNeeds, Vec::Zero());
-  const PlumbProbe good = {world.shape(probe_desc(type)), {{0, 0, 0}, kLevel}, 5, kSeesAll};
+  const PlumbProbe good = {world.shape(convex_desc(type)), {{0, 0, 0}, kLevel}, 5, kSeesAll};
   const auto refused = [&](const PlumbProbe& bad, const char* words) {
     const PlumbProbe both[2] = {good, bad};
     const ClosestBodies found = world.world().closest()->closest_bodies(PLUMB_HIT_CLOSEST, both);

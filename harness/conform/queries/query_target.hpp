@@ -14,6 +14,20 @@ inline constexpr PlumbShapeType kTargets[] = {PLUMB_SPHERE,   PLUMB_BOX,        
                                               PLUMB_CYLINDER, PLUMB_CONVEX_HULL,   PLUMB_COMPOUND,
                                               PLUMB_PLANE,    PLUMB_TRIANGLE_MESH, PLUMB_HEIGHT_FIELD};
 
+/// Every shape that can ask.
+inline constexpr PlumbShapeType kConvex[] = {PLUMB_SPHERE, PLUMB_BOX, PLUMB_CAPSULE, PLUMB_CYLINDER, PLUMB_CONVEX_HULL};
+/// One of them, of about half a metre.
+inline PlumbShapeDesc convex_desc(PlumbShapeType type) {
+  static constexpr double kVertices[] = {-0.4, -0.3, -0.4, 0.4, -0.3, -0.4, 0, -0.3, 0.4, 0.1, 0.4, 0};
+  PlumbShapeDesc desc = shape_desc(type);
+  desc.radius = 0.3;
+  desc.half_height = 0.25;
+  desc.half_extents = {0.3, 0.2, 0.4};
+  desc.vertices = kVertices;
+  desc.vertex_count = 4;
+  return desc;
+}
+
 class Target {
  public:
   Target(Conformance& c, PlumbShapeType type)

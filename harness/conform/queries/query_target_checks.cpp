@@ -9,7 +9,6 @@
 namespace plumb::harness::conform {
 namespace {
 
-constexpr PlumbShapeType kMovers[] = {PLUMB_SPHERE, PLUMB_BOX, PLUMB_CAPSULE, PLUMB_CYLINDER, PLUMB_CONVEX_HULL};
 constexpr double kNear = 0.05;
 
 /// By sphere tracing (Hart 1996, "Sphere tracing"): no step is longer than the way to the nearest surface.
@@ -67,17 +66,6 @@ void rays_at(Conformance& c, PlumbShapeType type) {
   c.expect(elsewhere == 0, "{} of {} hits are not on the triangle that they tell", elsewhere, found);
 }
 
-PlumbShapeDesc mover_desc(PlumbShapeType type) {
-  static constexpr double kVertices[] = {-0.4, -0.3, -0.4, 0.4, -0.3, -0.4, 0, -0.3, 0.4, 0.1, 0.4, 0};
-  PlumbShapeDesc desc = shape_desc(type);
-  desc.radius = 0.3;
-  desc.half_height = 0.25;
-  desc.half_extents = {0.3, 0.2, 0.4};
-  desc.vertices = kVertices;
-  desc.vertex_count = 4;
-  return desc;
-}
-
 /// A shape that is thrown about a target.
 struct Mover {
   referee::ShapePtr known;
@@ -85,7 +73,7 @@ struct Mover {
   std::mt19937 random{33};
 
   Mover(Target& target, PlumbShapeType type)
-      : known(referee::Shape::make(mover_desc(type))), shape(target.probe.shape(mover_desc(type))) {}
+      : known(referee::Shape::make(convex_desc(type))), shape(target.probe.shape(convex_desc(type))) {}
   PlumbPose pose_about(const Target& target, double spread) {
     std::uniform_real_distribution<double> unit(-1, 1);
     const Eigen::Quaterniond q =
@@ -225,7 +213,7 @@ void rays_at_shapes(Conformance& c) {
 void casts_at_shapes(Conformance& c) {
   c.require_needs(kQueryNeeds);
   c.require(PLUMB_CAP_QUERY, PLUMB_QUERY_CAST, PLUMB_SPHERE, "sphere casts");
-  for (const PlumbShapeType type : kMovers)
+  for (const PlumbShapeType type : kConvex)
     for (const PlumbShapeType at : kTargets)
       if (const PlumbDegree claim = claim_of(c, PLUMB_QUERY_CAST, type, at); stands_still(c, at) && claim != PLUMB_NONE)
         casts_at(c, type, at, claim == PLUMB_APPROXIMATE ? 8 : 1);
@@ -234,7 +222,7 @@ void casts_at_shapes(Conformance& c) {
 void overlaps_with_shapes(Conformance& c) {
   c.require_needs(kQueryNeeds);
   c.require(PLUMB_CAP_QUERY, PLUMB_QUERY_OVERLAP, PLUMB_SPHERE, "sphere overlaps");
-  for (const PlumbShapeType type : kMovers)
+  for (const PlumbShapeType type : kConvex)
     for (const PlumbShapeType with : kTargets) {
       const PlumbDegree claim = claim_of(c, PLUMB_QUERY_OVERLAP, type, with);
       if (stands_still(c, with) && claim != PLUMB_NONE)
@@ -245,7 +233,7 @@ void overlaps_with_shapes(Conformance& c) {
 void collided_shapes(Conformance& c) {
   c.require_needs(kQueryNeeds);
   if (Probe(c, kQueryNeeds, Vec::Zero()).world().collide() == nullptr) throw Skipped{"no " PLUMB_EXT_COLLIDE};
-  for (const PlumbShapeType type : kMovers)
+  for (const PlumbShapeType type : kConvex)
     for (const PlumbShapeType with : kTargets) {
       const PlumbDegree claim = c.backend().capability(PLUMB_CAP_PAIR, type, with);
       if (claim != PLUMB_NONE) pairs_with(c, type, with, claim == PLUMB_APPROXIMATE ? 12 : 3);
