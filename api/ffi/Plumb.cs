@@ -611,8 +611,9 @@ public unsafe struct PlumbJointsTable
 // --- plumb/manifolds.h
 // plumb.manifolds/1: contact modification: what touches is shown to the host before the solver sees it. Since 1.2.
 
-/// <summary>Where two shapes, or a shape and a triangle, touch or are about to: up to four points of one
-/// plane.</summary>
+/// <summary>Where two shapes, or a shape and a triangle, touch or are about to: up to four points of one plane. Engines
+/// that make one contact of those with several triangles leave them apart for bodies with
+/// PLUMB_BODY_MODIFY_CONTACTS.</summary>
 [StructLayout(LayoutKind.Sequential)]
 public unsafe struct PlumbManifold
 {

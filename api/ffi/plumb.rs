@@ -855,7 +855,8 @@ pub const PLUMB_MANIFOLD_SURFACE_VELOCITY: u32 = 1 << 3;
 pub const PLUMB_MANIFOLD_CHANGE_COUNT: u32 = 4;
 pub const PLUMB_MANIFOLD_POINTS: u32 = 4;
 
-/// Where two shapes, or a shape and a triangle, touch or are about to: up to four points of one plane.
+/// Where two shapes, or a shape and a triangle, touch or are about to: up to four points of one plane. Engines that
+/// make one contact of those with several triangles leave them apart for bodies with PLUMB_BODY_MODIFY_CONTACTS.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct PlumbManifold {

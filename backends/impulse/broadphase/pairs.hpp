@@ -12,6 +12,7 @@ namespace plumb::impulse {
 struct Pair {
   std::uint32_t a, b;
 };
+PLUMB_HD constexpr bool is_same(const Pair& p, const Pair& q) { return p.a == q.a && p.b == q.b; }
 
 /// The pairs that the traversal of one mover found. The mover is a or b of each; every pair has one finder.
 struct PairRange {

@@ -36,13 +36,13 @@ struct ShowManifolds {
     ShownManifold row{};
     row.contact.pair = pair;
     row.contact.bodies = {a.body, b.body};
-    row.contact.triangle = in.cache.triangles == nullptr ? 0 : in.cache.triangles[p];
     row.contact.normal = found.normal;
     row.contact.count = found.count;
     const Vec arm = rotate(in.bodies.orientation[a.body], a.frame.position);
     const Position origin = moved(in.bodies.position[a.body], arm);
     Vec middle = {0, 0, 0};
     for (std::uint32_t i = 0; i < found.count; ++i) {
+      row.contact.triangle[i] = in.cache.triangles == nullptr ? 0 : in.cache.triangles[p];
       row.contact.feature[i] = found.points[i].feature;
       row.contact.position[i] = moved(origin, found.points[i].position);
       row.contact.separation[i] = found.points[i].separation;

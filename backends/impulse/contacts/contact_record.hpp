@@ -7,11 +7,11 @@
 namespace plumb::impulse {
 
 struct ContactRecord {
-  Pair pair;               ///< of proxies
-  Pair bodies;             ///< their bodies' slots
-  std::uint32_t triangle;  ///< triangle of a surface
+  Pair pair;    ///< of proxies
+  Pair bodies;  ///< their bodies' slots
   Vec normal;
   std::uint32_t count;
+  std::uint32_t triangle[kManifoldPoints];  ///< of a surface; else 0
   std::uint32_t feature[kManifoldPoints];
   Position position[kManifoldPoints];  ///< at detection
   Real separation[kManifoldPoints];    ///< likewise
@@ -33,15 +33,16 @@ struct DescribeContacts {
     const CachedManifold& kept = cache.kept[row];
     ContactRecord& record = records[row];
     record.pair = cache.pairs[candidate];
-    record.triangle = cache.triangles == nullptr ? 0 : cache.triangles[candidate];
     record.normal = found.normal;
     record.count = found.count;
-    const Proxy& a = proxies.rows[record.pair.a];
-    record.bodies = {a.body, proxies.rows[record.pair.b].body};
+    const Proxy &a = proxies.rows[record.pair.a], &b = proxies.rows[record.pair.b];
+    const bool has_triangles = is_surface(proxies.shapes[a.shape].type) || is_surface(proxies.shapes[b.shape].type);
+    record.bodies = {a.body, b.body};
     const Displacement& moved_by = displacements[a.body];
     const Quat orientation = conjugate(moved_by.rotation) * bodies.orientation[a.body];
     const Position origin = moved(bodies.position[a.body], rotate(orientation, a.frame.position) - moved_by.linear);
     for (std::uint32_t p = 0; p < found.count; ++p) {
+      record.triangle[p] = has_triangles ? cache.point_triangles[candidate].of[p] : 0;
       record.feature[p] = found.points[p].feature;
       record.position[p] = moved(origin, found.points[p].position);
       record.separation[p] = found.points[p].separation;

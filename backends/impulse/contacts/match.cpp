@@ -8,6 +8,48 @@ namespace plumb::impulse {
 
 namespace {
 
+/// Cosine of the angle between the normals of two contacts up to which they touch the same side of a surface.
+constexpr Real kSameSide = Real(0.99);
+
+/// Impulses of points that are still there; those across the normal keep their direction in the world.
+class Remembered {
+ public:
+  PLUMB_HD Remembered(CachedManifold& kept, const Manifold& found, const StepParameters* parameters)
+      : kept_(kept), found_(found), step_(*parameters), wanting_((1U << found.count) - 1) {}
+
+  /// Whether there are points that nothing was remembered of.
+  [[nodiscard]] PLUMB_HD bool is_wanting() const { return wanting_ != 0; }
+  PLUMB_HD void add_if_same_side(const CachedManifold& old) {
+    if (is_wanting() && dot(old.normal, kept_.normal) > kSameSide) add(old);
+  }
+  PLUMB_HD void add(const CachedManifold& old) {
+    const Vec old_bitangent = cross(old.normal, old.tangent), bitangent = cross(kept_.normal, kept_.tangent);
+    for (std::uint32_t i = 0; i < kept_.count; ++i)
+      for (std::uint32_t j = 0; j < old.count && (wanting_ >> i & 1U) != 0; ++j) {
+        if (kept_.feature[i] != old.feature[j] || is_let_go(found_.points[i])) continue;
+        const Vec friction = old.tangent_impulse[0][j] * old.tangent + old.tangent_impulse[1][j] * old_bitangent;
+        // Impulses of a body that came out not finite must not reach the next step.
+        const bool sane = is_finite(friction) && is_finite(old.normal_impulse[j]);
+        kept_.normal_impulse[i] = sane ? old.normal_impulse[j] : 0;
+        kept_.tangent_impulse[0][i] = sane ? dot(friction, kept_.tangent) : 0;
+        kept_.tangent_impulse[1][i] = sane ? dot(friction, bitangent) : 0;
+        wanting_ &= ~(1U << i);
+      }
+  }
+
+ private:
+  /// Whether a point starts cold because it is deep: what squeezes a body from two sides braces itself, and if one side
+  /// goes, the other would shoot the body away.
+  [[nodiscard]] PLUMB_HD bool is_let_go(const ManifoldPoint& point) const {
+    return step_.lets_go && point.separation * step_.contact.bias_rate < -kDeepSpeed;
+  }
+
+  CachedManifold& kept_;
+  const Manifold& found_;
+  const StepParameters& step_;
+  std::uint32_t wanting_;  ///< a bit a point
+};
+
 struct Match {
   MatchWork work;
 
@@ -35,7 +77,13 @@ struct Match {
     if (old == nullptr && woken != nullptr)
       old = find_kept(woken, parameters->woken_contacts, pair,
                       cache.triangles == nullptr ? 0U : cache.triangles[candidate]);
-    if (old != nullptr) remember(*old, found, kept);
+    Remembered remembered(kept, found, work.parameters);
+    if (old != nullptr) {
+      if (old->colour < kOverflow && old->owner_a == kept.owner_a && old->owner_b == kept.owner_b)
+        kept.colour = old->colour;
+      remembered.add(*old);
+    }
+    if (cache.triangles != nullptr && remembered.is_wanting()) ask_other_pieces(pair, candidate, remembered);
     PLUMB_ASSERT(kept.count >= 1);
     cache.kept[row] = kept;
     atomic_add(&counters->points, kept.count);
@@ -49,27 +97,20 @@ struct Match {
   PLUMB_HD std::uint32_t pushed_owner(std::uint32_t body) const {
     return work.bodies.velocity[body].inverse_mass > 0 ? work.mechanisms.owner(body) : kNone;
   }
-  /// Whether a point starts cold because it is deep: what squeezes a body from two sides braces itself, and if one side
-  /// goes, the other would shoot the body away.
-  PLUMB_HD bool is_let_go(const ManifoldPoint& point) const {
-    const StepParameters& step = *work.parameters;
-    return step.lets_go && point.separation * step.contact.bias_rate < -kDeepSpeed;
-  }
-  /// Impulses of points that are still there; those across the normal keep their direction in the world.
-  PLUMB_HD void remember(const CachedManifold& old, const Manifold& found, CachedManifold& kept) const {
-    if (old.colour < kOverflow && old.owner_a == kept.owner_a && old.owner_b == kept.owner_b) kept.colour = old.colour;
-    const Vec old_bitangent = cross(old.normal, old.tangent), bitangent = cross(kept.normal, kept.tangent);
-    for (std::uint32_t i = 0; i < kept.count; ++i)
-      for (std::uint32_t j = 0; j < old.count; ++j) {
-        if (kept.feature[i] != old.feature[j] || is_let_go(found.points[i])) continue;
-        const Vec friction = old.tangent_impulse[0][j] * old.tangent + old.tangent_impulse[1][j] * old_bitangent;
-        // Impulses of a body that came out not finite must not reach the next step.
-        const bool sane = is_finite(friction) && is_finite(old.normal_impulse[j]);
-        kept.normal_impulse[i] = sane ? old.normal_impulse[j] : 0;
-        kept.tangent_impulse[0][i] = sane ? dot(friction, kept.tangent) : 0;
-        kept.tangent_impulse[1][i] = sane ? dot(friction, bitangent) : 0;
-        break;
-      }
+  /// What a point remembers of the triangle that it has come from: the other pieces of a pair that were touched from
+  /// the same side in the last step.
+  PLUMB_HD void ask_other_pieces(Pair pair, std::uint32_t candidate, Remembered& remembered) const {
+    const auto& [cache, last, woken, bodies, proxies, parameters, counters, mechanisms, masks] = work;
+    const Proxy &a = proxies.rows[pair.a], &b = proxies.rows[pair.b];
+    if (!is_surface(proxies.shapes[a.shape].type) && !is_surface(proxies.shapes[b.shape].type)) return;
+    if (a.first_step == parameters->step || b.first_step == parameters->step) return;
+    const std::uint32_t owners[2] = {pair.a, pair.b};
+    for (const std::uint32_t owner : owners) {
+      const PairRange range = last.ranges[owner];
+      for (std::uint32_t p = range.first; p < range.first + range.count; ++p)
+        if (is_same(last.pairs[p], pair) && last.touching[p] != 0 && p != cache.previous[candidate])
+          remembered.add_if_same_side(last.kept[last.row[p]]);
+    }
   }
 };
 

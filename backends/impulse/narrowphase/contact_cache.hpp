@@ -22,6 +22,11 @@ struct CachedManifold {
   Real tangent_impulse[2][kManifoldPoints];  ///< along tangent and along cross(normal, tangent)
 };
 
+/// On which triangle of a surface each point of a manifold lies (manifold_reduction.hpp).
+struct PointTriangles {
+  std::uint32_t of[kManifoldPoints];
+};
+
 /// A manifold that was kept apart from a step's.
 struct KeptPair {
   Pair pair;
@@ -37,16 +42,17 @@ struct StepImpulses {
 
 /// Contacts of one step. Two of these take turns: this step's and the last one's.
 struct ContactCache {
-  Pair* pairs;               ///< candidates of the broad phase
-  PairRange* ranges;         ///< by proxy: the candidates that it found
-  Manifold* found;           ///< by candidate; valid where touching
-  std::uint32_t* touching;   ///< by candidate: 1 or 0
-  std::uint32_t* row;        ///< by candidate: its manifold's row where touching
-  std::uint32_t* previous;   ///< by candidate: the same pair among the last step's candidates, or kNone
-  CollidedRows collided;     ///< by candidate: what may be recycled in the next step
-  std::uint32_t* candidate;  ///< by row
-  CachedManifold* kept;      ///< by row
-  std::uint32_t* triangles;  ///< by candidate: the triangle of a surface, or 0; null where nothing has pieces
+  Pair* pairs;                      ///< candidates of the broad phase
+  PairRange* ranges;                ///< by proxy: the candidates that it found
+  Manifold* found;                  ///< by candidate; valid where touching
+  std::uint32_t* touching;          ///< by candidate: 1 or 0
+  std::uint32_t* row;               ///< by candidate: its manifold's row where touching
+  std::uint32_t* previous;          ///< by candidate: the same pair among the last step's candidates, or kNone
+  CollidedRows collided;            ///< by candidate: what may be recycled in the next step
+  std::uint32_t* candidate;         ///< by row
+  CachedManifold* kept;             ///< by row
+  std::uint32_t* triangles;         ///< by candidate: the triangle of a surface, or 0; null where nothing has pieces
+  PointTriangles* point_triangles;  ///< by candidate: of its points, where a surface touches; likewise
 };
 
 /// Pair (a, b), or that part of it, among a step's candidates, or kNone. It is in the list of whichever of both found
@@ -56,9 +62,7 @@ PLUMB_HD inline std::uint32_t find_candidate(const ContactCache& cache, Pair wan
   for (const std::uint32_t owner : owners) {
     const PairRange range = cache.ranges[owner];
     for (std::uint32_t p = range.first; p < range.first + range.count; ++p)
-      if (cache.pairs[p].a == wanted.a && cache.pairs[p].b == wanted.b &&
-          (cache.triangles == nullptr || cache.triangles[p] == triangle))
-        return p;
+      if (is_same(cache.pairs[p], wanted) && (cache.triangles == nullptr || cache.triangles[p] == triangle)) return p;
   }
   return kNone;
 }

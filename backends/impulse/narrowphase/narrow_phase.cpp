@@ -100,7 +100,9 @@ void NarrowPhase::reserve(Executor& /*executor*/, std::uint32_t proxies, std::ui
     cache.collided.grow(CollidedRows::lines_for(pairs));
     cache.candidate.grow(pairs);
     cache.kept.grow(pairs);
-    if (uses_midphase_) cache.triangles.grow(pairs);
+    if (!uses_midphase_) continue;
+    cache.triangles.grow(pairs);
+    cache.point_triangles.grow(pairs);
   }
   scan_.reserve(pairs);
   if (Executor::kWarps) {

@@ -56,9 +56,11 @@ class NarrowPhase {
     Buffer<std::uint32_t> candidate;
     Buffer<CachedManifold> kept;
     Buffer<std::uint32_t> triangles;
+    Buffer<PointTriangles> point_triangles;
     ContactCache view() {
-      return {pairs.data(),    ranges.data(),     found.data(),     touching.data(), row.data(),
-              previous.data(), {collided.data()}, candidate.data(), kept.data(),     triangles.data()};
+      return {pairs.data(), ranges.data(),    found.data(),          touching.data(),
+              row.data(),   previous.data(),  {collided.data()},     candidate.data(),
+              kept.data(),  triangles.data(), point_triangles.data()};
     }
   };
 

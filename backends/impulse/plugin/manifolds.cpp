@@ -12,8 +12,8 @@ PlumbResult World::read_manifolds(std::span<const PlumbManifold>& manifolds) {
       PlumbManifold manifold{};
       manifold.body_a = bodies_[contact.bodies.a].id;
       manifold.body_b = bodies_[contact.bodies.b].id;
-      manifold.child_a = child_of(contact.pair.a, contact.triangle);
-      manifold.child_b = child_of(contact.pair.b, contact.triangle);
+      manifold.child_a = child_of(contact.pair.a, contact.triangle[0]);
+      manifold.child_b = child_of(contact.pair.b, contact.triangle[0]);
       manifold.point_count = contact.count;
       manifold.normal = to_plumb(contact.normal);
       manifold.velocity = to_plumb(shown.velocity);

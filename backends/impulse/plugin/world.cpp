@@ -156,8 +156,8 @@ std::span<const PlumbContact> World::contacts() {
       PlumbContact contact{};
       contact.body_a = bodies_[record.bodies.a].id;
       contact.body_b = bodies_[record.bodies.b].id;
-      contact.child_a = child_of(record.pair.a, record.triangle);
-      contact.child_b = child_of(record.pair.b, record.triangle);
+      contact.child_a = child_of(record.pair.a, record.triangle[p]);
+      contact.child_b = child_of(record.pair.b, record.triangle[p]);
       contact.position = plumb_vec(record.position[p]);
       contact.normal = to_plumb(record.normal);
       contact.depth = -static_cast<double>(record.separation[p]);

@@ -4,6 +4,7 @@
 #include "contacts/match.hpp"
 #include "contacts/surface_velocity.hpp"
 #include "narrowphase/inner_edges.hpp"
+#include "narrowphase/manifold_reduction.hpp"
 #include "narrowphase/sweep_rims.hpp"
 #include "plumb/assert.hpp"
 
@@ -77,6 +78,13 @@ void find_impacts(const StepContext& step) {
   if (!step.finds_impacts()) return;
   step.stages.impacts.find(step.executor, step.now, step.candidates(), step.bodies, step.proxies,
                            step.stages.margins.data(), step.parameters, step.uses_midphase);
+}
+
+void reduce_manifolds(const StepContext& step) {
+  constexpr std::uint32_t kSurfaces = bit_of(ShapeType::kMesh) | bit_of(ShapeType::kHeightField);
+  if ((step.shape_types & kSurfaces) == 0) return;
+  reduce_manifolds(step.executor, step.candidates(), step.now, step.last, step.bodies, step.proxies,
+                   step.finds_impacts() ? step.stages.impacts.times() : nullptr);
 }
 
 void show_manifolds(const StepContext& step) {

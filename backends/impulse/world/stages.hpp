@@ -22,6 +22,8 @@ void midphase(const StepContext& step);
 void collide(const StepContext& step);
 /// Manifolds of what comes to touch in the course of the step, where the scene asks for it.
 void find_impacts(const StepContext& step);
+/// One manifold for all triangles of a surface that a shape touches from the same side.
+void reduce_manifolds(const StepContext& step);
 /// What touches, for the host: where it asks for it.
 void show_manifolds(const StepContext& step);
 /// What the host does not want to touch is gone.

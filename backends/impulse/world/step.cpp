@@ -19,6 +19,7 @@ void enqueue_detection(const StepContext& step) {
 
   collide(step);
   find_impacts(step);
+  reduce_manifolds(step);
   show_manifolds(step);
 }
 

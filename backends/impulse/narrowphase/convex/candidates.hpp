@@ -14,15 +14,15 @@ struct Candidate {
   std::uint32_t feature;
 };
 
-/// Whether the points differ in depth by so little, for how far they are spread, that the deepest is so by accident.
-PLUMB_HD inline bool are_level(const Candidate* at, int count) {
+/// Whether the points differ in depth by less than an angle, for how far they are spread.
+PLUMB_HD inline bool are_level(const Candidate* at, int count, Real angle) {
   Vec low = {at[0].x, at[0].y, at[0].separation}, high = low;
   for (int i = 1; i < count; ++i) {
     const Vec p = {at[i].x, at[i].y, at[i].separation};
     low = min(low, p);
     high = max(high, p);
   }
-  return high.z - low.z <= kLevel * (high.x - low.x + high.y - low.y);
+  return high.z - low.z <= angle * (high.x - low.x + high.y - low.y);
 }
 
 /// How much a point counts for where it lies: fully when it is as deep as `deepest`, less the further the body has to
@@ -36,10 +36,12 @@ PLUMB_HD inline Real tip_weight(const Candidate& deepest, const Candidate& at) {
 
 /// Puts the four points that matter first in `at` and returns how many there are: the deepest, the farthest from it,
 /// the one that spans the largest triangle with both, and the one that widens that triangle most, each by its
-/// tip_weight. Points that are equal within `tie` (a length) are taken in their order. Of more than four that are level
-/// the first takes the place of the deepest, so that a trembling body rests on the same four all the time.
-PLUMB_HD inline int choose_points(Candidate* at, int count, Real tie) {
-  PLUMB_ASSERT(count >= 0);
+/// tip_weight. Points that are equal within `tie` (a length) are taken in their order. Of more than four that are level,
+/// so that the deepest is so by accident, the first is taken as it is: a trembling body rests on the same four all the
+/// time. set (1 to 4): whoever knows so many that the body rests on puts them first; they are taken where it does not
+/// have to tip over the others.
+PLUMB_HD inline int choose_points(Candidate* at, int count, Real tie, int set = 1) {
+  PLUMB_ASSERT(count >= 0 && set >= 1 && set <= kManifoldPoints);
   const auto swap = [at](int i, int j) {
     const Candidate c = at[i];
     at[i] = at[j];
@@ -52,29 +54,37 @@ PLUMB_HD inline int choose_points(Candidate* at, int count, Real tie) {
     swap(0, best);
     return count;
   }
-  if (!are_level(at, count)) swap(0, best);
+  if (!are_level(at, count, set > 1 ? kTip : kLevel)) {
+    swap(0, best);
+    set = 1;
+  }
 
   Real most = 0;
-  best = 1;
-  for (int i = 1; i < count; ++i) {
-    const Real dx = at[i].x - at[0].x, dy = at[i].y - at[0].y, far = (dx * dx + dy * dy) * tip_weight(at[0], at[i]);
-    if (far > most * (1 + kClipSlack)) {
-      most = far;
-      best = i;
+  if (set < 2) {
+    best = 1;
+    for (int i = 1; i < count; ++i) {
+      const Real dx = at[i].x - at[0].x, dy = at[i].y - at[0].y, far = (dx * dx + dy * dy) * tip_weight(at[0], at[i]);
+      if (far > most * (1 + kClipSlack)) {
+        most = far;
+        best = i;
+      }
     }
+    swap(1, best);
   }
-  swap(1, best);
 
   const Real ux = at[1].x - at[0].x, uy = at[1].y - at[0].y;
   const auto side = [&](int i) { return ux * (at[i].y - at[0].y) - uy * (at[i].x - at[0].x); };
-  most = 0;
-  best = 2;
-  for (int i = 2; i < count; ++i)
-    if (const Real area = abs(side(i)) * tip_weight(at[0], at[i]); area > most * (1 + kClipSlack)) {
-      most = area;
-      best = i;
-    }
-  swap(2, best);
+  if (set < 3) {
+    most = 0;
+    best = 2;
+    for (int i = 2; i < count; ++i)
+      if (const Real area = abs(side(i)) * tip_weight(at[0], at[i]); area > most * (1 + kClipSlack)) {
+        most = area;
+        best = i;
+      }
+    swap(2, best);
+  }
+  if (set > 3) return 4;
 
   // The triangle 0, 1, 2, counter-clockwise, and how far a point lies outside of its widest side.
   const bool turned = side(2) < 0;

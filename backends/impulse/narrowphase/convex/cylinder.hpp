@@ -117,10 +117,11 @@ PLUMB_HD inline void touch_edge(const Cylinder& c, const Vec& n, const Vec& p, c
   add(p + s * d, separation, 4);
 }
 
-/// Another shape's face that looks at the cylinder: n is its normal turned round, or close to that.
+/// Another shape's face that looks at the cylinder: n is its normal turned round, or close to that. one_of_many: the
+/// face goes on in others; then points of the cylinder's own are put before those where the face ends.
 template <class View>
-PLUMB_HD void touch_face(const Cylinder& c, const Vec& n, const FacePolygon<View>& polygon, Real separation,
-                         Real margin, Real tie, Manifold& out) {
+PLUMB_HD void touch_face(const Cylinder& c, const Vec& n, const FacePolygon<View>& polygon, bool one_of_many,
+                         Real separation, Real margin, Real tie, Manifold& out) {
   const ContactPlane& plane = polygon.plane;
   const FaceHeight height = polygon.height();
   const Real slack = polygon.slack();
@@ -142,6 +143,7 @@ PLUMB_HD void touch_face(const Cylinder& c, const Vec& n, const FacePolygon<View
     if (is_over(p))
       overlap.add(p.x, p.y, height.at(p.x, p.y) - p.z, feature_id(Part::kVertex, feature, Part::kFace, 0));
   };
+  int own = 0;
   const Part3 part = part_along(n);
   if (part == Part3::kRim) {
     add_own(rim_point(c, n), 0);
@@ -152,8 +154,9 @@ PLUMB_HD void touch_face(const Cylinder& c, const Vec& n, const FacePolygon<View
     if (!clipped.empty) {
       for (int end = 0; end < 2; ++end) {
         const Vec p = from + (end == 0 ? clipped.s0 : clipped.s1) * along;
+        const bool cut = one_of_many && (end == 0 ? clipped.cut0 : clipped.cut1) != ClippedSide::kUncut;
         overlap.add(p.x, p.y, height.at(p.x, p.y) - p.z,
-                    feature_id(Part::kEdge, static_cast<std::uint32_t>(end), Part::kFace, 0));
+                    feature_id(Part::kEdge, static_cast<std::uint32_t>(end), cut ? Part::kEdge : Part::kFace, 0));
       }
     }
   } else {
@@ -164,6 +167,7 @@ PLUMB_HD void touch_face(const Cylinder& c, const Vec& n, const FacePolygon<View
     add_own({-uz, y, ux}, 1);
     add_own({-ux, y, -uz}, 2);
     add_own({uz, y, -ux}, 3);
+    own = overlap.count;
     // The face's corners and sides over the disc: along n, onto the cap.
     const auto onto_cap = [&](const Vec& flat) {
       const Vec w = plane.unflatten(flat);
@@ -191,7 +195,7 @@ PLUMB_HD void touch_face(const Cylinder& c, const Vec& n, const FacePolygon<View
       from = to;
     }
   }
-  const int count = choose_points(overlap.at, overlap.count, tie);
+  const int count = choose_points(overlap.at, overlap.count, tie, one_of_many ? max(own, 1) : 1);
   out.count = static_cast<std::uint32_t>(count);
   for (int i = 0; i < count; ++i) {
     const Candidate& at = overlap.at[i];

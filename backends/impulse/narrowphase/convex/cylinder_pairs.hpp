@@ -74,7 +74,7 @@ PLUMB_HD bool touch_polyhedron(const Cylinder& c, const View& view, const polyhe
   if (dot(view.normal(face), against) > kNearFace) {
     const FacePolygon<View> polygon = {view,     face, ContactPlane(axis.normal), at.turn,
                                        at.shift, true, view.loop_size(face)};
-    touch_face(c, axis.normal, polygon, axis.separation, margin, tie, out);
+    touch_face(c, axis.normal, polygon, false, axis.separation, margin, tie, out);
     if (out.count != 0) return true;
   }
   Vec p, d;

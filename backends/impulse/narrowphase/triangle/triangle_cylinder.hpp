@@ -44,7 +44,7 @@ PLUMB_HD bool touch_cylinder(const Surface& on, std::uint32_t t, const cylinder:
   Vec normal = -to_cylinder(side.normal);
   if (touches != Touches::kEdge) {
     const FacePolygon<TriangleView> polygon = {view, 0, ContactPlane(normal), at.turn, at.shift, true, 3};
-    cylinder::touch_face(c, normal, polygon, separation, margin, tie, out);
+    cylinder::touch_face(c, normal, polygon, true, separation, margin, tie, out);
   }
   if (out.count == 0 && touches != Touches::kFace) {
     normal = axis.normal;
@@ -55,8 +55,10 @@ PLUMB_HD bool touch_cylinder(const Surface& on, std::uint32_t t, const cylinder:
     cylinder::touch_edge(c, normal, p, d, 0, axis.separation, margin, out);
   }
   out.normal = -(of_cylinder.turn * normal);
-  for (std::uint32_t i = 0; i < out.count; ++i)
+  for (std::uint32_t i = 0; i < out.count; ++i) {
     out.points[i].position = of_cylinder.turn * out.points[i].position + of_cylinder.shift;
+    out.points[i].feature = swapped_feature(out.points[i].feature);
+  }
   return out.count != 0;
 }
 

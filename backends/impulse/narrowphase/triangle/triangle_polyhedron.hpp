@@ -162,6 +162,20 @@ PLUMB_HD void touch_with_edge(const Triangle& t, const View& view, const polyhed
   if (length_squared(along) * (c.s1 - c.s0) * (c.s1 - c.s0) > 0) add(c.s1, c.cut1, 1);
 }
 
+/// Puts corners of the polyhedron before what lies on the triangle's edges, and returns how many there are. A corner
+/// goes on to the next triangle as the same point, so that of all triangles together the corners are left, as of a
+/// plane (manifold_reduction.hpp).
+PLUMB_HD inline int put_corners_first(Overlap& overlap) {
+  int corners = 0;
+  for (int i = 0; i < overlap.count; ++i) {
+    const Candidate point = overlap.at[i];
+    if ((point.feature & 0xffffU) >> 14U != static_cast<std::uint32_t>(Part::kVertex)) continue;
+    overlap.at[i] = overlap.at[corners];
+    overlap.at[corners++] = point;
+  }
+  return corners;
+}
+
 /// The polyhedron's face over the triangle.
 template <class View>
 PLUMB_HD void touch_with_face(const TriangleSide& side, const View& view, const polyhedra::Placement& at, Real deepest,
@@ -177,7 +191,9 @@ PLUMB_HD void touch_with_face(const TriangleSide& side, const View& view, const 
   overlap.margin = margin;
   overlap.tie = tie;
   overlap_faces(polygon_a, polygon_b, overlap);
-  const int count = choose_points(overlap.at, overlap.count, tie);
+  const int corners = put_corners_first(overlap);
+  const int set = corners <= kManifoldPoints ? max(corners, 1) : 1;
+  const int count = choose_points(overlap.at, overlap.count, tie, set);
   out.count = static_cast<std::uint32_t>(count);
   for (int i = 0; i < count; ++i) {
     const Candidate& c = overlap.at[i];

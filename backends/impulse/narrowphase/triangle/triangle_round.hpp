@@ -90,8 +90,9 @@ PLUMB_HD bool touch_round(const Surface& on, std::uint32_t t, const Vec& p, cons
     const Real h = h0 + s * (h1 - h0);
     add(at - h * side.normal, h - radius, feature);
   };
-  add_end(s0, s0 > 0 ? 2U : 0U);
-  if (length_squared(d) * (s1 - s0) * (s1 - s0) > 0) add_end(s1, s1 < 1 ? 3U : 1U);
+  add_end(s0, s0 > 0 ? 2U : feature_id(Part::kFace, 0, Part::kVertex, 0));
+  if (length_squared(d) * (s1 - s0) * (s1 - s0) > 0)
+    add_end(s1, s1 < 1 ? 3U : feature_id(Part::kFace, 0, Part::kVertex, 1));
   return out.count != 0;
 }
 
