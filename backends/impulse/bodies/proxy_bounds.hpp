@@ -56,15 +56,16 @@ struct BoundProxies {
   }
   /// How far a point of the shape may travel in the step: contacts nearer than that are foreseen. Not beyond the
   /// shape's own size, or the plane of a contact would stand for a body that is elsewhere. What bounces passes a blow
-  /// on within the step, even where it only just does not touch.
+  /// on within the step, even where it only just does not touch; a ground does not.
   PLUMB_HD Real look_ahead(const Proxy& proxy, const Shape& shape) const {
     const Velocity& velocity = bodies.velocity[proxy.body];
     const BodyMass& mass = bodies.mass[proxy.body];
     const Real reach = shape.reach + length(proxy.frame.position);
     const Real dt = parameters->dt;
-    const Real falls = (mass.flags & kBodyDynamic) != 0 ? abs(mass.gravity_scale) * length(parameters->gravity) : 0;
+    const bool dynamic = (mass.flags & kBodyDynamic) != 0;
+    const Real falls = dynamic ? abs(mass.gravity_scale) * length(parameters->gravity) : 0;
     const Real travel = dt * (length(velocity.linear) + reach * length(velocity.angular)) + dt * dt * falls;
-    const Real struck = proxy.restitution > 0 ? kStruckShare * shape.reach : Real(0);
+    const Real struck = dynamic && proxy.restitution > 0 ? kStruckShare * shape.reach : Real(0);
     return min(travel + struck, shape.reach);
   }
 

@@ -47,6 +47,16 @@ TEST(Bounces, ABallComesBackToItsHeight) {
   }
 }
 
+/// What bounces looks ahead by its own size, not by that of the ground: nothing is touched from afar.
+TEST(Bounces, ALargeGroundIsNotTouchedFromAfar) {
+  Scene scene(engine(), kBounceNeeds | PLUMB_NEED_CONTACTS, {0, 0, 0}, 1);
+  scene.body.material.restitution = 0.6;
+  scene.add_static(scene.box({500, 1, 500}), {0, -1, 0});
+  for (int i = 0; i < 10; ++i) scene.add(scene.box({0.5, 0.5, 0.5}), {2.0 * i, 0.55 + 0.05 * i, 0});
+  scene.run(1);
+  EXPECT_EQ(scene.world().contacts().size(), 0U);
+}
+
 /// A ball that strikes at 45 degrees slips where mu (1 + e) < 2 / 7 of the normal speed, and rolls off where not.
 TEST(Bounces, ABallThatIsThrownBackRubsAsMuchMore) {
   for (const double mu : {0.1, 0.5}) {
