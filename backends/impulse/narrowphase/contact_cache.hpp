@@ -56,15 +56,28 @@ struct ContactCache {
 };
 
 /// Pair (a, b), or that part of it, among a step's candidates, or kNone. It is in the list of whichever of both found
-/// it.
-PLUMB_HD inline std::uint32_t find_candidate(const ContactCache& cache, Pair wanted, std::uint32_t triangle = 0) {
+/// it; guess: about how far down. A body on a fine mesh has thousands, in much the same order from step to step.
+PLUMB_HD inline std::uint32_t find_candidate(const ContactCache& cache, Pair wanted, std::uint32_t triangle,
+                                             std::uint32_t guess) {
+  const auto is_it = [&](std::uint32_t p) {
+    return is_same(cache.pairs[p], wanted) && (cache.triangles == nullptr || cache.triangles[p] == triangle);
+  };
   const std::uint32_t owners[2] = {wanted.a, wanted.b};
   for (const std::uint32_t owner : owners) {
     const PairRange range = cache.ranges[owner];
-    for (std::uint32_t p = range.first; p < range.first + range.count; ++p)
-      if (is_same(cache.pairs[p], wanted) && (cache.triangles == nullptr || cache.triangles[p] == triangle)) return p;
+    const std::uint32_t middle = min(guess, range.count);
+    for (std::uint32_t away = 0; away < range.count; ++away) {
+      if (middle + away < range.count && is_it(range.first + middle + away)) return range.first + middle + away;
+      if (away < middle && is_it(range.first + middle - 1 - away)) return range.first + middle - 1 - away;
+    }
   }
   return kNone;
+}
+/// How far down its owner's list a candidate is.
+PLUMB_HD inline std::uint32_t place_in_list(const ContactCache& cache, std::uint32_t candidate) {
+  const PairRange range = cache.ranges[cache.pairs[candidate].a];
+  const bool of_a = candidate >= range.first && candidate - range.first < range.count;
+  return candidate - (of_a ? range.first : cache.ranges[cache.pairs[candidate].b].first);
 }
 PLUMB_HD inline bool earlier(const KeptPair& x, const KeptPair& y) {
   if (x.pair.a != y.pair.a) return x.pair.a < y.pair.a;

@@ -43,7 +43,8 @@ struct RecycleContact {
     const Pair pair = cache.pairs[p];
     const Proxy &a = proxies.rows[pair.a], &b = proxies.rows[pair.b];
     if (a.first_step == parameters->step || b.first_step == parameters->step) return;
-    const std::uint32_t previous = find_candidate(last, pair, cache.triangles == nullptr ? 0U : cache.triangles[p]);
+    const std::uint32_t triangle = cache.triangles == nullptr ? 0U : cache.triangles[p];
+    const std::uint32_t previous = find_candidate(last, pair, triangle, place_in_list(cache, p));
     cache.previous[p] = previous;
     if (previous == kNone || !last.collided.is_recyclable(previous)) return;
     const CollidedManifold before = last.collided.load(previous);

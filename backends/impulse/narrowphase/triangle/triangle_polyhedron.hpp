@@ -55,11 +55,11 @@ PLUMB_HD bool find_side_axis(const Triangle& t, const View& view, const polyhedr
   for (std::uint32_t e = 0; e < view.edge_count(); ++e) {
     const HullEdge edge = view.edge(e);
     const Vec left = at.turn * view.normal(edge.left), right = at.turn * view.normal(edge.right);
-    const Vec from = at.turn * view.vertex(edge.from) + at.shift;
-    const Vec along = at.turn * (view.vertex(edge.to) - view.vertex(edge.from));
     for (int k = 0; k < 3; ++k) {
       const Vec side = t.at[k == 2 ? 0 : k + 1] - t.at[k];
       if (!(dot(left, side) * dot(right, side) < 0)) continue;  // no direction across both is between the faces
+      const Vec from = at.turn * view.vertex(edge.from) + at.shift;
+      const Vec along = at.turn * (view.vertex(edge.to) - view.vertex(edge.from));
       Vec n = cross(side, along);
       const Real square = length_squared(n);
       if (square <= kParallel * kParallel * length_squared(side) * length_squared(along)) continue;
