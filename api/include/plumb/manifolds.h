@@ -30,8 +30,8 @@ enum {
 #define PLUMB_MANIFOLD_CHANGE_COUNT 4
 #define PLUMB_MANIFOLD_POINTS 4
 
-/* Where two shapes, or a shape and a triangle, touch or are about to: up to four points of one plane. Engines that make one
- * contact of those with several triangles leave them apart for bodies with PLUMB_BODY_MODIFY_CONTACTS. */
+/* Where two shapes, or a shape and a triangle, touch or are about to: up to four points of one plane. Engines that make
+ * one contact of those with several triangles leave them apart for bodies with PLUMB_BODY_MODIFY_CONTACTS. */
 typedef struct PlumbManifold {
   PlumbBody body_a, body_b;
   uint32_t child_a, child_b; /* child of a compound, triangle of a mesh; else 0 */

@@ -36,10 +36,10 @@ PLUMB_HD inline Real tip_weight(const Candidate& deepest, const Candidate& at) {
 
 /// Puts the four points that matter first in `at` and returns how many there are: the deepest, the farthest from it,
 /// the one that spans the largest triangle with both, and the one that widens that triangle most, each by its
-/// tip_weight. Points that are equal within `tie` (a length) are taken in their order. Of more than four that are level,
-/// so that the deepest is so by accident, the first is taken as it is: a trembling body rests on the same four all the
-/// time. set (1 to 4): whoever knows so many that the body rests on puts them first; they are taken where it does not
-/// have to tip over the others.
+/// tip_weight. Points that are equal within `tie` (a length) are taken in their order. Of more than four that are
+/// level, so that the deepest is so by accident, the first is taken as it is: a trembling body rests on the same four
+/// all the time. set (1 to 4): whoever knows so many that the body rests on puts them first; they are taken where it
+/// does not have to tip over the others.
 PLUMB_HD inline int choose_points(Candidate* at, int count, Real tie, int set = 1) {
   PLUMB_ASSERT(count >= 0 && set >= 1 && set <= kManifoldPoints);
   const auto swap = [at](int i, int j) {
