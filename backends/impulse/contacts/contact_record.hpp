@@ -35,9 +35,9 @@ struct DescribeContacts {
     record.pair = cache.pairs[candidate];
     record.normal = found.normal;
     record.count = found.count;
-    const Proxy &a = proxies.rows[record.pair.a], &b = proxies.rows[record.pair.b];
-    const bool has_triangles = is_surface(proxies.shapes[a.shape].type) || is_surface(proxies.shapes[b.shape].type);
-    record.bodies = {a.body, b.body};
+    const Proxy& a = proxies.rows[record.pair.a];
+    const bool has_triangles = has_surface(proxies, record.pair);
+    record.bodies = {a.body, proxies.rows[record.pair.b].body};
     const Displacement& moved_by = displacements[a.body];
     const Quat orientation = conjugate(moved_by.rotation) * bodies.orientation[a.body];
     const Position origin = moved(bodies.position[a.body], rotate(orientation, a.frame.position) - moved_by.linear);

@@ -101,8 +101,8 @@ struct Match {
   /// the same side in the last step.
   PLUMB_HD void ask_other_pieces(Pair pair, std::uint32_t candidate, Remembered& remembered) const {
     const auto& [cache, last, woken, bodies, proxies, parameters, counters, mechanisms, masks] = work;
+    if (!has_surface(proxies, pair)) return;
     const Proxy &a = proxies.rows[pair.a], &b = proxies.rows[pair.b];
-    if (!is_surface(proxies.shapes[a.shape].type) && !is_surface(proxies.shapes[b.shape].type)) return;
     if (a.first_step == parameters->step || b.first_step == parameters->step) return;
     const std::uint32_t owners[2] = {pair.a, pair.b};
     for (const std::uint32_t owner : owners) {

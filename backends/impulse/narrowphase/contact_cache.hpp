@@ -79,6 +79,11 @@ PLUMB_HD inline std::uint32_t place_in_list(const ContactCache& cache, std::uint
   const bool of_a = candidate >= range.first && candidate - range.first < range.count;
   return candidate - (of_a ? range.first : cache.ranges[cache.pairs[candidate].b].first);
 }
+/// Whether one of a pair is a mesh or a height field, so that its candidates have triangles.
+PLUMB_HD inline bool has_surface(const Proxies& proxies, Pair pair) {
+  const auto is_one = [&](std::uint32_t proxy) { return is_surface(proxies.shapes[proxies.rows[proxy].shape].type); };
+  return is_one(pair.a) || is_one(pair.b);
+}
 PLUMB_HD inline bool earlier(const KeptPair& x, const KeptPair& y) {
   if (x.pair.a != y.pair.a) return x.pair.a < y.pair.a;
   return x.pair.b != y.pair.b ? x.pair.b < y.pair.b : x.triangle < y.triangle;

@@ -11,6 +11,9 @@ namespace {
 /// with all.
 constexpr std::uint32_t kMostOthers = 64;
 
+/// Squared length of the difference between two normals within which they are one.
+constexpr Real kSameNormal = Real(1e-6);
+
 PLUMB_HD Part part_of(std::uint32_t half) { return static_cast<Part>(half >> 14U & 3U); }
 
 /// A feature of a triangle and a shape upon it.
@@ -151,8 +154,8 @@ struct ReduceManifolds {
   /// The first candidate of a pair works for all of them, which follow each other.
   PLUMB_HD void operator()(std::uint32_t first) const {
     const Pair pair = cache.pairs[first];
+    if (!has_surface(proxies, pair)) return;
     const bool surface_first = is_surface(shape(pair.a).type);
-    if (!surface_first && !is_surface(shape(pair.b).type)) return;
     if (first != 0 && is_same(cache.pairs[first - 1], pair)) return;
     const std::uint32_t count = min(*candidates.value, candidates.capacity);
     std::uint32_t end = first;

@@ -20,9 +20,6 @@
 
 namespace plumb::impulse {
 
-/// Squared length of the difference between two normals within which they are one.
-constexpr Real kSameNormal = Real(1e-6);
-
 /// Of all candidates that touch, those with surfaces: leaves one for each side from which a shape is touched
 /// (cache.touching, found), writes down whose triangle each point is (cache.point_triangles), and puts that into the
 /// points' features. impacts: Impacts::times(), or null; contacts of another time stay as they are.

@@ -18,18 +18,7 @@ constexpr PlumbNeeds kReductionNeeds =
 constexpr PlumbVec3 kHalf = {0.5, 0.25, 0.4};
 constexpr double kMass = 400, kGravity = 9.81, kStep = 1.0 / 60;  // of water
 
-/// Flat, about the origin, in cells of a side.
-enum class Flat { kMesh, kBackOfMesh, kField };
 constexpr Flat kFlats[] = {Flat::kMesh, Flat::kBackOfMesh, Flat::kField};
-PlumbShape make_flat(Scene& scene, Flat flat, std::uint32_t cells, double side) {
-  if (flat == Flat::kField)
-    return scene.make(
-        field_desc(std::vector<double>(std::size_t{cells + 1} * (cells + 1), 0.0), cells + 1, cells + 1, side));
-  TriangleSet set = flat_grid(cells, side);
-  if (flat == Flat::kBackOfMesh)
-    for (std::size_t i = 0; i < set.indices.size(); i += 3) std::swap(set.indices[i], set.indices[i + 1]);
-  return scene.make(set.desc());
-}
 
 /// A quaternion about y.
 PlumbQuat heading(double angle) { return {0, std::sin(angle / 2), 0, std::cos(angle / 2)}; }

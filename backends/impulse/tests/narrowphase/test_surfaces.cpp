@@ -18,13 +18,10 @@ constexpr Ground kGrounds[] = {Ground::kPlane, Ground::kMesh, Ground::kBackOfMes
 PlumbShape make_ground(Scene& scene, Ground ground, std::uint32_t cells, double side) {
   if (ground == Ground::kBox) return scene.box({50, 0.5, 50});
   if (ground == Ground::kPlane) return scene.make(shape_desc(PLUMB_PLANE));
-  if (ground == Ground::kField)
-    return scene.make(
-        field_desc(std::vector<double>(std::size_t{cells + 1} * (cells + 1), 0.0), cells + 1, cells + 1, side));
-  TriangleSet set = flat_grid(cells, side);
-  if (ground == Ground::kBackOfMesh)
-    for (std::size_t i = 0; i < set.indices.size(); i += 3) std::swap(set.indices[i], set.indices[i + 1]);
-  return scene.make(set.desc());
+  const Flat flat = ground == Ground::kField        ? Flat::kField
+                    : ground == Ground::kBackOfMesh ? Flat::kBackOfMesh
+                                                    : Flat::kMesh;
+  return make_flat(scene, flat, cells, side);
 }
 void add_ground(Scene& scene, Ground ground, std::uint32_t cells = 64, double side = 0.47) {
   scene.add_static(make_ground(scene, ground, cells, side), {0, ground == Ground::kBox ? -0.5 : 0, 0});

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "tests/rigs/engine.hpp"
@@ -89,6 +90,18 @@ inline PlumbShapeDesc field_desc(const std::vector<double>& heights, std::uint32
   desc.columns = columns;
   desc.spacing = {side, 0, side};
   return desc;
+}
+
+/// A flat surface about the origin, of cells x cells squares of a side.
+enum class Flat { kMesh, kBackOfMesh, kField };
+inline PlumbShape make_flat(Scene& scene, Flat flat, std::uint32_t cells, double side) {
+  if (flat == Flat::kField)
+    return scene.make(
+        field_desc(std::vector<double>(std::size_t{cells + 1} * (cells + 1), 0.0), cells + 1, cells + 1, side));
+  TriangleSet set = flat_grid(cells, side);
+  if (flat == Flat::kBackOfMesh)
+    for (std::size_t i = 0; i < set.indices.size(); i += 3) std::swap(set.indices[i], set.indices[i + 1]);
+  return scene.make(set.desc());
 }
 
 }  // namespace plumb::impulse::test
