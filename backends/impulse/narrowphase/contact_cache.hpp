@@ -79,9 +79,13 @@ PLUMB_HD inline std::uint32_t place_in_list(const ContactCache& cache, std::uint
   const bool of_a = candidate >= range.first && candidate - range.first < range.count;
   return candidate - (of_a ? range.first : cache.ranges[cache.pairs[candidate].b].first);
 }
-/// Whether one of a pair is a mesh or a height field, so that its candidates have triangles.
+/// Whether one of a pair is a mesh or a height field, so that its candidates have triangles. A proxy that has been
+/// removed since the step is neither.
 PLUMB_HD inline bool has_surface(const Proxies& proxies, Pair pair) {
-  const auto is_one = [&](std::uint32_t proxy) { return is_surface(proxies.shapes[proxies.rows[proxy].shape].type); };
+  const auto is_one = [&](std::uint32_t proxy) {
+    const std::uint32_t shape = proxies.rows[proxy].shape;
+    return shape != kNone && is_surface(proxies.shapes[shape].type);
+  };
   return is_one(pair.a) || is_one(pair.b);
 }
 PLUMB_HD inline bool earlier(const KeptPair& x, const KeptPair& y) {

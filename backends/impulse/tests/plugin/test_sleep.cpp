@@ -278,6 +278,20 @@ TEST_F(Asleep, ASlotIsTakenOverAwake) {
   EXPECT_LT(velocity(scene, fresh, 1), -2);
 }
 
+/// Contacts of the last step are kept for those who fall asleep, and some are with bodies that are there no more.
+TEST_F(Asleep, WhoWasTouchedMayBeGone) {
+  scene.ground();
+  const Tower tower(scene, 3);
+  scene.run(2);
+  scene.remove(tower.cubes[0]);  // two: the sleeper takes over the row of one
+  scene.remove(tower.cubes[1]);
+  scene.body.flags = PLUMB_BODY_ASLEEP;
+  const PlumbBody sleeper = scene.add(scene.sphere(0.5), {5, 0.5, 0});
+  scene.run(2);
+  EXPECT_FALSE(is_awake(scene, sleeper));
+  EXPECT_LT(velocity(scene, tower.cubes[2], 1), -0.1) << "nothing of who is gone holds it up";
+}
+
 /// A pile, part of which comes to rest and is hit again and again: the same bits on any number of threads.
 TEST(Sleep, HasTheSameBitsOnThreads) {
   const auto hash = [](std::uint32_t threads) {
