@@ -126,8 +126,16 @@ public unsafe struct PlumbShapeDesc
     public PlumbVec3 spacing;
     public PlumbCompoundChild* children;
     public uint child_count;
-    public uint reserved;
+    /// <summary>of a mesh or height field; 0: all of it has the body's material. Was reserved before 1.2</summary>
+    public uint material_count;
     public ulong user_data;
+    /// <summary>Materials by triangle, where PLUMB_CAP_TRIANGLE_MATERIAL says that the backend has them: read when
+    /// material_count is above 0. Their surface_velocity must be 0. Since 1.2</summary>
+    public PlumbMaterial* materials;
+    /// <summary>For each triangle the row of its material, or PLUMB_BODY_MATERIAL. Of a mesh triangle_count; of a
+    /// height field 2 (rows - 1) (columns - 1): cell by cell, first along x, of each cell first the triangle at its
+    /// corner (column, row).</summary>
+    public uint* triangle_materials;
 }
 
 // --- plumb/bodies.h
@@ -1441,6 +1449,8 @@ public static class Constants
     /// <summary>children</summary>
     public const uint PLUMB_COMPOUND = 8u;
     public const uint PLUMB_SHAPE_TYPE_COUNT = 9u;
+    /// <summary>In PlumbShapeDesc.triangle_materials: the material of the body that has the shape. Since 1.2</summary>
+    public const uint PLUMB_BODY_MATERIAL = 4294967295u;
 
     // --- plumb/bodies.h
     // Bodies, and the fields in which their state is read and written in batches.
@@ -1827,7 +1837,9 @@ public static class Constants
     public const uint PLUMB_CAP_MANIFOLD = 15u;
     /// <summary>shape type of the probe: bodies of every shape are seen. Since 1.2</summary>
     public const uint PLUMB_CAP_CLOSEST = 16u;
-    public const uint PLUMB_CAP_COUNT = 17u;
+    /// <summary>shape type: PlumbShapeDesc.materials. Since 1.2</summary>
+    public const uint PLUMB_CAP_TRIANGLE_MATERIAL = 17u;
+    public const uint PLUMB_CAP_COUNT = 18u;
     /// <summary>The one symbol of a backend. [any] May be called again: the same table comes back for the same
     /// version.</summary>
     public const string PLUMB_OPEN_SYMBOL = "plumb_backend_open";

@@ -224,9 +224,20 @@ pub struct PlumbShapeDesc {
     pub spacing: PlumbVec3,
     pub children: *const PlumbCompoundChild,
     pub child_count: u32,
-    pub reserved: u32,
+    /// of a mesh or height field; 0: all of it has the body's material. Was reserved before 1.2
+    pub material_count: u32,
     pub user_data: u64,
+    /// Materials by triangle, where PLUMB_CAP_TRIANGLE_MATERIAL says that the backend has them: read when
+    /// material_count is above 0. Their surface_velocity must be 0. Since 1.2
+    pub materials: *const PlumbMaterial,
+    /// For each triangle the row of its material, or PLUMB_BODY_MATERIAL. Of a mesh triangle_count; of a height field 2
+    /// (rows - 1) (columns - 1): cell by cell, first along x, of each cell first the triangle at its corner (column,
+    /// row).
+    pub triangle_materials: *const u32,
 }
+
+/// In PlumbShapeDesc.triangle_materials: the material of the body that has the shape. Since 1.2
+pub const PLUMB_BODY_MATERIAL: u32 = 4294967295;
 
 // --- plumb/bodies.h
 // Bodies, and the fields in which their state is read and written in batches.
@@ -1534,7 +1545,9 @@ pub const PLUMB_CAP_MODIFY: PlumbCapability = 14;
 pub const PLUMB_CAP_MANIFOLD: PlumbCapability = 15;
 /// shape type of the probe: bodies of every shape are seen. Since 1.2
 pub const PLUMB_CAP_CLOSEST: PlumbCapability = 16;
-pub const PLUMB_CAP_COUNT: PlumbCapability = 17;
+/// shape type: PlumbShapeDesc.materials. Since 1.2
+pub const PLUMB_CAP_TRIANGLE_MATERIAL: PlumbCapability = 17;
+pub const PLUMB_CAP_COUNT: PlumbCapability = 18;
 
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]

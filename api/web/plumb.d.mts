@@ -57,15 +57,23 @@ export interface Child extends Frame {
   material?: Material;
 }
 
+/** For each triangle the number of its material, or -1: the body's. A height field has two a cell, cell by cell along x,
+ * row by row. A triangle's material has no surfaceVelocity. */
+export interface TriangleMaterials {
+  materials?: readonly Material[];
+  triangleMaterials?: ArrayLike<number>;
+}
+
 /** Metres. Capsules and cylinders stand along y. */
 export type ShapeOptions =
   | { type: 'sphere'; radius: number }
   | { type: 'box'; halfExtents: Vec3 }
   | { type: 'capsule' | 'cylinder'; radius: number; halfHeight: number }
   | { type: 'hull'; vertices: ArrayLike<number> }
-  | { type: 'mesh'; vertices: ArrayLike<number>; indices: ArrayLike<number> }
+  | ({ type: 'mesh'; vertices: ArrayLike<number>; indices: ArrayLike<number> } & TriangleMaterials)
   /** rows (along z) times columns (along x) heights; spacing along x and z. The origin is the middle. */
-  | { type: 'heightField'; rows: number; columns: number; heights: ArrayLike<number>; spacing: readonly [number, number] }
+  | ({ type: 'heightField'; rows: number; columns: number; heights: ArrayLike<number>; spacing: readonly [number, number] }
+    & TriangleMaterials)
   | { type: 'plane' }
   | { type: 'compound'; children: readonly Child[] };
 
@@ -323,7 +331,9 @@ export interface Engine {
   readonly settings: readonly Setting[];
   createWorld(options?: WorldOptions): World;
   /** How truly it has a thing: capability('shape', 'mesh'), capability('joint', 'generic'). */
-  capability(kind: 'shape' | 'pair' | 'joint' | 'jointFeature' | 'query' | 'fieldRead' | 'fieldWrite' | 'need' | 'event',
+  capability(kind: 'shape' | 'pair' | 'joint' | 'jointFeature' | 'query' | 'fieldRead' | 'fieldWrite' | 'need' | 'event'
+    | 'phaseTime' | 'residual' | 'snapshot' | 'hostJobs' | 'childMaterial' | 'modify' | 'manifold' | 'closest'
+    | 'triangleMaterial',
     of?: string | number, with_?: string | number): 'none' | 'approximate' | 'emulated' | 'native';
 }
 

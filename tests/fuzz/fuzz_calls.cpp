@@ -167,6 +167,13 @@ class Fuzzer {
       child = {handle(shapes_), {vector(), unit()}, chance(4) ? 1u : 0u, 0, {0.5, 0, {0, 0, 0}}};
     desc.children = children.data();
     desc.child_count = static_cast<std::uint32_t>(children.size());
+    PlumbMaterial materials[3];
+    for (PlumbMaterial& material : materials) material = {positive(), chance(4) ? positive() : 0, {0, 0, 0}};
+    std::vector<std::uint32_t> of(50);  // as many as a shape has here at most
+    for (std::uint32_t& row : of) row = chance(3) ? PLUMB_BODY_MATERIAL : below(chance(1000) ? 4 : 3);
+    desc.materials = materials;
+    desc.triangle_materials = of.data();
+    desc.material_count = chance(3) ? 3 : 0;
     if (chance(60)) desc.struct_size = below(500);
     PlumbShape id = 0;
     if (judge(table_.create_shapes(world_, chance(200) ? nullptr : &desc, sizeof desc, 1, &id))) shapes_.push_back(id);

@@ -57,9 +57,20 @@ typedef struct PlumbShapeDesc {
   PlumbVec3 spacing; /* x and z > 0, m; y unused */
   const PlumbCompoundChild* children;
   uint32_t child_count;
-  uint32_t reserved;
+  uint32_t
+      material_count; /* of a mesh or height field; 0: all of it has the body's material. Was reserved before 1.2 */
   uint64_t user_data;
+  /* Materials by triangle, where PLUMB_CAP_TRIANGLE_MATERIAL says that the backend has them: read when material_count
+   * is above 0. Their surface_velocity must be 0. Since 1.2 */
+  const PlumbMaterial* materials;
+  /* For each triangle the row of its material, or PLUMB_BODY_MATERIAL. Of a mesh triangle_count; of a height field
+   * 2 (rows - 1) (columns - 1): cell by cell, first along x, of each cell first the triangle at its corner
+   * (column, row). */
+  const uint32_t* triangle_materials;
 } PlumbShapeDesc;
+
+/* In PlumbShapeDesc.triangle_materials: the material of the body that has the shape. Since 1.2 */
+#define PLUMB_BODY_MATERIAL 0xffffffffu
 
 #ifdef __cplusplus
 }

@@ -89,6 +89,7 @@ _ARGUMENTS: Dict[CapabilityKind, Tuple[Type[IntEnum], ...]] = {
     CapabilityKind.MODIFY: (Modifiable, _by_index(BodyMember)),
     CapabilityKind.MANIFOLD: (_by_index(ContactChange),),
     CapabilityKind.CLOSEST: (ShapeType,),
+    CapabilityKind.TRIANGLE_MATERIAL: (ShapeType,),
 }
 _JOINT_MEMBERS = _by_index(JointMember)
 
@@ -171,7 +172,7 @@ class Backend:
         """How truly the engine has a thing: shape (type, motion), pair (type, type), joint (type), joint_feature (type,
         feature), query (kind, type of what is cast), field_read, field_write (field), need, event, phase_time (word),
         residual, snapshot, host_jobs, child_material (), modify ("bodies", BodyMember or "joints", JointMember),
-        manifold (ContactChange)."""
+        manifold (ContactChange), triangle_material (type)."""
         which = pick(CapabilityKind, kind, "capability")
         takes = _takes(which, arguments[0] if arguments else None)
         if len(arguments) != len(takes):

@@ -273,6 +273,7 @@ class CapabilityKind(IntEnum):
     MODIFY = 14
     MANIFOLD = 15
     CLOSEST = 16
+    TRIANGLE_MATERIAL = 17
 
 
 class Degree(IntEnum):

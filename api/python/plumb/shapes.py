@@ -31,6 +31,25 @@ def _shape(kind: ShapeType, desc: ShapeDesc, half_extents: Sequence[float] = (0.
     )
 
 
+def _give_materials(shape: _core.Shape, desc: Union[TriangleMesh, HeightField], triangles: int) -> None:
+    name = type(desc).__name__
+    given = np.asarray(desc.triangle_materials)
+    if not len(desc.materials):
+        if given.size:
+            raise ValueError(f"{name}.triangle_materials is given, but no materials")
+        return
+    if given.dtype.kind not in "iu" or given.shape != (triangles,):
+        raise ValueError(
+            f"{name}.triangle_materials must be {triangles} whole numbers, one a triangle, "
+            f"not {given.dtype} of shape {given.shape}"
+        )
+    if given.size and (given.min() < -1 or given.max() >= len(desc.materials)):
+        wrong = given.min() if given.min() < -1 else given.max()
+        raise ValueError(f"{name}.triangle_materials has {wrong}; they are -1 to the number of materials less 1")
+    rows = np.array([material._row() for material in desc.materials], _core.material)
+    shape.set_materials(rows, np.ascontiguousarray(given.astype(np.int64), np.uint32))
+
+
 Vec3 = Union[Sequence[float], ArrayLike]
 
 
@@ -96,10 +115,13 @@ class ConvexHull:
 
 @dataclass
 class TriangleMesh:
-    """vertices: n x 3, m. triangles: m x 3 indices of vertices, counter-clockwise seen from outside."""
+    """vertices: n x 3, m. triangles: m x 3 indices of vertices, counter-clockwise seen from outside.
+    materials, triangle_materials: for each triangle the number of its material, or -1: that of the body."""
 
     vertices: ArrayLike
     triangles: ArrayLike
+    materials: Sequence[Material] = field(default=(), kw_only=True)
+    triangle_materials: ArrayLike = field(default=(), kw_only=True)
     user_data: int = field(default=0, kw_only=True)
 
     def _described(self) -> _core.Shape:
@@ -116,22 +138,29 @@ class TriangleMesh:
         shape = _shape(ShapeType.TRIANGLE_MESH, self)
         shape.set_vertices(numbers(self.vertices, (-1, 3), "TriangleMesh.vertices"))
         shape.set_triangles(np.ascontiguousarray(corners, np.uint32))
+        _give_materials(shape, self, len(corners))
         return shape
 
 
 @dataclass
 class HeightField:
     """heights: rows x columns, m: y of the point at x = column * spacing[0], z = row * spacing[1], about the middle.
-    spacing: m, > 0, along x and z."""
+    spacing: m, > 0, along x and z.
+    materials, triangle_materials: for each triangle the number of its material, or -1: that of the body. Two a cell,
+    cell by cell along x, row by row; of each cell first the triangle at its corner (row, column)."""
 
     heights: ArrayLike
     spacing: Tuple[float, float]
+    materials: Sequence[Material] = field(default=(), kw_only=True)
+    triangle_materials: ArrayLike = field(default=(), kw_only=True)
     user_data: int = field(default=0, kw_only=True)
 
     def _described(self) -> _core.Shape:
         shape = _shape(ShapeType.HEIGHT_FIELD, self)
         x, z = numbers(self.spacing, (2,), "HeightField.spacing").tolist()
-        shape.set_heights(numbers(self.heights, (-1, -1), "HeightField.heights"), x, z)
+        heights = numbers(self.heights, (-1, -1), "HeightField.heights")
+        shape.set_heights(heights, x, z)
+        _give_materials(shape, self, 2 * max(0, heights.shape[0] - 1) * max(0, heights.shape[1] - 1))
         return shape
 
 

@@ -91,6 +91,10 @@ py::dtype build<PlumbJointDesc>() {
                             PLUMB_COLUMN(Row, break_torque, text("f8")), PLUMB_COLUMN(Row, user_data, text("u8"))});
 }
 template <>
+py::dtype build<PlumbMaterial>() {
+  return material();
+}
+template <>
 py::dtype build<PlumbCompoundChild>() {
   using Row = PlumbCompoundChild;
   return make(sizeof(Row), {PLUMB_COLUMN(Row, shape, text("u8")), PLUMB_POSE(Row, pose, ""),
@@ -261,6 +265,7 @@ void require_rows(const py::array& rows, const py::dtype& dtype, const char* wha
   ROW(PlumbBodyDesc, body_desc)             \
   ROW(PlumbJointDesc, joint_desc)           \
   ROW(PlumbCompoundChild, compound_child)   \
+  ROW(PlumbMaterial, material)              \
   ROW(PlumbBodyChange, body_change)         \
   ROW(PlumbJointChange, joint_change)       \
   ROW(PlumbContact, contact)                \

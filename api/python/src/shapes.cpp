@@ -12,6 +12,9 @@ PlumbShapeDesc Shape::pointing() const {
   pointed.heights = heights.size() == 0 ? nullptr : heights.data();
   pointed.children = children.empty() ? nullptr : children.data();
   pointed.child_count = static_cast<std::uint32_t>(children.size());
+  pointed.materials = materials.data();
+  pointed.material_count = static_cast<std::uint32_t>(materials.size());
+  pointed.triangle_materials = triangle_materials.data();
   return pointed;
 }
 
@@ -48,6 +51,11 @@ void bind_shapes(py::module_& module) {
              shape.desc.rows = static_cast<std::uint32_t>(heights.shape(0));
              shape.desc.columns = static_cast<std::uint32_t>(heights.shape(1));
              shape.desc.spacing = {spacing_x, 0, spacing_z};
+           })
+      .def("set_materials",
+           [](Shape& shape, const py::array& materials, py::array_t<std::uint32_t, py::array::c_style> of_triangles) {
+             shape.materials = rows_of<PlumbMaterial>(materials, "materials");
+             shape.triangle_materials = of_triangles;
            })
       .def("set_children", [](Shape& shape, const py::array& children) {
         shape.children = rows_of<PlumbCompoundChild>(children, "children");

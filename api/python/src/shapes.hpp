@@ -9,8 +9,9 @@ namespace plumb::python {
 struct Shape {
   PlumbShapeDesc desc{};
   py::array_t<double, py::array::c_style> vertices, heights;
-  py::array_t<std::uint32_t, py::array::c_style> indices;
+  py::array_t<std::uint32_t, py::array::c_style> indices, triangle_materials;
   std::vector<PlumbCompoundChild> children;
+  std::vector<PlumbMaterial> materials;
 
   /// As the C calls read it. Good while this lives.
   [[nodiscard]] PlumbShapeDesc pointing() const;

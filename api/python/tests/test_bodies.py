@@ -134,6 +134,29 @@ class Bodies(unittest.TestCase):
                 ),
                 (lambda: world.create_shape(plumb.HeightField([1, 2], (1, 1))), ValueError, "heights must be n x n"),
                 (
+                    lambda: world.create_shape(
+                        plumb.HeightField([[0, 0], [0, 0]], (1, 1), materials=[plumb.Material()], triangle_materials=[0])
+                    ),
+                    ValueError,
+                    "must be 2 whole numbers, one a triangle",
+                ),
+                (
+                    lambda: world.create_shape(
+                        plumb.TriangleMesh(
+                            np.zeros((3, 3)), [[0, 1, 2]], materials=[plumb.Material()], triangle_materials=[1]
+                        )
+                    ),
+                    ValueError,
+                    "triangle_materials has 1",
+                ),
+                (
+                    lambda: world.create_shape(
+                        plumb.TriangleMesh(np.zeros((3, 3)), [[0, 1, 2]], triangle_materials=[0])
+                    ),
+                    ValueError,
+                    "but no materials",
+                ),
+                (
                     lambda: world.create_shape(plumb.Compound([plumb.Child(1, (0, 0))])),
                     ValueError,
                     r"Compound.children\[0\].position must be 3 numbers",

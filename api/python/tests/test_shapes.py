@@ -61,6 +61,24 @@ class Shapes(unittest.TestCase):
             )
             self.assertTrue(np.isnan(heights_along_x(world, [4.5])[0]), "the field is 8 m long")
 
+    @on_each("rotation", "collision", "friction", asked=[("triangle_material", "triangle_mesh")])
+    def test_materials_by_triangle(self, engine):
+        corners = [(x, 0, z) for x in (-20, 0, 20) for z in (-20, 20)]
+        halves = [(0, 1, 3), (0, 3, 2), (2, 3, 5), (2, 5, 4)]
+        ice = dict(materials=[plumb.Material(0)], triangle_materials=[0, 0, -1, -1])
+        with engine.world(["rotation", "collision", "friction"]) as world:
+            mesh = world.create_shape(plumb.TriangleMesh(corners, halves, **ice))
+            world.create_body(plumb.BodyDesc(mesh, "static"))
+            box = world.create_shape(plumb.Box((0.5, 0.25, 0.5)))
+            slides, stops = (
+                world.create_body(plumb.BodyDesc(box, position=(x, 0.25, 1), linear_velocity=(2, 0, 0)))
+                for x in (-15, 5)
+            )
+            for _ in range(60):
+                world.step(1 / 60)
+            self.assertAlmostEqual(world.read("velocity", slides)[0], 2, delta=0.02)
+            self.assertAlmostEqual(world.read("velocity", stops)[0], 0, delta=0.02)
+
     @on_each("rotation", "collision", "friction", asked=[("shape", "compound", "dynamic")])
     def test_compounds(self, engine):
         with engine.world(["rotation", "collision", "friction"]) as world:

@@ -49,7 +49,7 @@ class GuardedWorld {
   // --- shapes --------------------------------------------------------------------------------------------------------
 
   PlumbResult create_shapes(const PlumbShapeDesc* descs, std::size_t stride, std::uint32_t count, PlumbShape* ids) {
-    const std::vector<PlumbShapeDesc> adopted = adopt_descs(descs, stride, count, "shapes");
+    const std::vector<PlumbShapeDesc> adopted = adopt_descs(descs, stride, count, "shapes", kShapeDesc10);
     require_pointer(ids, count, "ids");
     std::vector<ShapeRecord> records(count);
     for (std::uint32_t i = 0; i < count; ++i) records[i] = examine_shape({"shapes", i}, adopted[i]);
@@ -428,6 +428,13 @@ class GuardedWorld {
       record.children.push_back(child.shape);
       children.push_back(*child_record.unit_mass);
       contents.push_back(child_record.content);
+    }
+    if (has_triangle_materials(desc)) {
+      require_capability(PLUMB_CAP_TRIANGLE_MATERIAL, desc.type, 0,
+                         std::string("materials by triangle of a ") + shape_name(desc.type));
+      for (std::uint32_t i = 0; i < desc.material_count; ++i)
+        check_material_needs(init_.desc.needs, where.member(("materials[" + std::to_string(i) + "]").c_str()),
+                             desc.materials[i]);
     }
     if (init_.needs(PLUMB_NEED_SNAPSHOT)) record.content = shape_content(desc, contents);
     try {

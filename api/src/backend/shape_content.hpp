@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "plumb/backend/check_descs.hpp"
 #include "plumb/backend/state_hash.hpp"
 #include "plumb/plumb.h"
 
@@ -50,6 +51,13 @@ namespace plumb::backend {
       }
       break;
     default: break;
+  }
+  if (has_triangle_materials(desc)) {
+    for (std::uint32_t i = 0; i < desc.material_count; ++i) {
+      hash.add(desc.materials[i].friction);
+      hash.add(desc.materials[i].restitution);
+    }
+    for (std::size_t t = 0; t < triangles_of(desc); ++t) hash.add_word(desc.triangle_materials[t]);
   }
   return hash.value();
 }

@@ -51,7 +51,9 @@ struct Decoding {
   }
   template <class Row>
   Array<Row> rows() {
-    return array<Row>(sizeof(Row), [this] { return row<Row>(); });
+    auto read = array<Row>(recorded_size<Row>(), [this] { return row<Row>(); });
+    if (read.stride >= recorded_size<Row>()) read.stride = sizeof(Row);
+    return read;
   }
   Array<std::uint64_t> handles(Objects kind) {
     return array<std::uint64_t>(sizeof(std::uint64_t), [&] { return to.names.handle(kind, in.get<std::uint64_t>()); });
@@ -107,14 +109,24 @@ struct Decoding {
   }
 
  private:
+  /// How much of a row a trace of any version has.
+  template <class Row>
+  static constexpr std::size_t recorded_size() {
+    return std::is_same_v<Row, PlumbShapeDesc> ? backend::kShapeDesc10 : sizeof(Row);
+  }
   template <class Row>
   Row row() {
-    auto row = in.get<Row>();
+    Row row{};
+    const auto bytes = in.get_bytes(recorded_size<Row>());
+    std::memcpy(static_cast<void*>(&row), bytes.data(), bytes.size());
     if constexpr (std::is_same_v<Row, PlumbShapeDesc>) {
       row.vertices = reinterpret_cast<const double*>(keep_rows<PlumbVec3>());
       row.indices = reinterpret_cast<const std::uint32_t*>(keep_rows<std::array<std::uint32_t, 3>>());
       row.heights = keep_rows<double>();
       row.children = keep_rows<PlumbCompoundChild>();
+      if (!backend::has_triangle_materials(row)) return row;
+      row.materials = keep_rows<PlumbMaterial>();
+      row.triangle_materials = keep_rows<std::uint32_t>();
     } else {
       to.names.to_handles(row);
     }

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "layer_slots.hpp"
+#include "plumb/backend/check_descs.hpp"
 #include "trace_format.hpp"
 #include "trace_objects.hpp"
 
@@ -88,22 +89,27 @@ struct Encoding {
     desc.settings = nullptr;
     out.put(desc);
   }
-  // Arrays are there only for the types that have them: members of other types may hold anything.
+  // Arrays are there only for the types that have them: members of other types may hold anything. Of the descriptor the
+  // part that all versions have; what came later follows where there is any, so that older traces are read alike.
   void row_with_arrays(PlumbShapeDesc& desc) {
     const bool hull = desc.type == PLUMB_CONVEX_HULL, mesh = desc.type == PLUMB_TRIANGLE_MESH;
     const auto* vertices = hull || mesh ? desc.vertices : nullptr;
     const auto* indices = mesh ? desc.indices : nullptr;
     const auto* heights = desc.type == PLUMB_HEIGHT_FIELD ? desc.heights : nullptr;
     const auto* children = desc.type == PLUMB_COMPOUND ? desc.children : nullptr;
+    const PlumbShapeDesc given = desc;
     desc.vertices = desc.heights = nullptr;
     desc.indices = nullptr;
     desc.children = nullptr;
-    out.put(desc);
+    out.put_bytes(std::as_bytes(std::span(&desc, 1)).first(backend::kShapeDesc10));
     rows(reinterpret_cast<const PlumbVec3*>(vertices), sizeof(PlumbVec3), vertices == nullptr ? 0 : desc.vertex_count);
     rows(reinterpret_cast<const std::array<std::uint32_t, 3>*>(indices), 12,
          indices == nullptr ? 0 : desc.triangle_count);
     rows(heights, sizeof(double), heights == nullptr ? 0 : desc.rows * desc.columns);
     rows(children, sizeof(PlumbCompoundChild), children == nullptr ? 0 : desc.child_count);
+    if (!backend::has_triangle_materials(given)) return;
+    rows(given.materials, sizeof(PlumbMaterial), given.material_count);
+    rows(given.triangle_materials, sizeof(std::uint32_t), static_cast<std::uint32_t>(backend::triangles_of(given)));
   }
 };
 

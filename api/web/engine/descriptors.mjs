@@ -12,14 +12,17 @@ export const filterOf = ({ category = 1, mask = 0xffffffff, group = 0 } = {}) =>
 const materialOf = ({ friction = 0.5, restitution = 0, surfaceVelocity = kOrigin }) =>
   ({ friction, restitution, surfaceVelocity });
 
-export function shapeOf(memory, { type, vertices = [], indices = [], heights = [], children = [], ...rest }) {
+export function shapeOf(memory, { type, vertices = [], indices = [], heights = [], children = [], materials = [],
+  triangleMaterials = [], ...rest }) {
   const childOf = ({ shape, material, ...pose }) =>
     ({ shape, pose: poseOf(pose), hasMaterial: material ? 1 : 0, material: materialOf(material ?? {}) });
   return { ...rest, type: numberOf(SHAPE, type, 'shape'), vertices: memory.putArray(Float64Array, vertices),
     vertexCount: vertices.length / 3, indices: memory.putArray(Uint32Array, indices),
     triangleCount: indices.length / 3, heights: memory.putArray(Float64Array, heights),
     spacing: rest.spacing && [rest.spacing[0], 0, rest.spacing[1]],
-    children: memory.putStructs(LAYOUT.child, children.map(childOf)), childCount: children.length };
+    children: memory.putStructs(LAYOUT.child, children.map(childOf)), childCount: children.length,
+    materials: memory.putStructs(LAYOUT.material, materials.map(materialOf)), materialCount: materials.length,
+    triangleMaterials: memory.putArray(Uint32Array, Array.from(triangleMaterials, (m) => m >>> 0)) };
 }
 
 /** Explicit with an inertia, from the mass with a mass alone, else from the density. */

@@ -25,7 +25,7 @@ export class Engine {
   }
   /** How truly it has a thing: capability('shape', 'mesh'), capability('joint', 'generic'). */
   capability(kind, of = 0, with_ = 0) {
-    const words = { shape: SHAPE, pair: SHAPE, joint: JOINT, jointFeature: JOINT }[kind];
+    const words = { shape: SHAPE, pair: SHAPE, closest: SHAPE, triangleMaterial: SHAPE, joint: JOINT, jointFeature: JOINT }[kind];
     const number = (word) => typeof word === 'number' ? word : numberOf(words ?? {}, word, kind);
     return DEGREE[this.wasm.plumb_capability(numberOf(CAPABILITY, kind, 'capability'), number(of), number(with_))];
   }

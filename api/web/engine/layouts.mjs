@@ -33,7 +33,9 @@ const axes = { axisModes: ['u32', 6], limits: [limit, 6], motors: [motor, 6], sp
 export const LAYOUT = {
   shape: laidOut({ structSize: 'u32', type: 'u32', radius: 'f64', halfHeight: 'f64', halfExtents: vec3,
     vertices: 'pointer', vertexCount: 'u32', triangleCount: 'u32', indices: 'pointer', heights: 'pointer', rows: 'u32',
-    columns: 'u32', spacing: vec3, children: 'pointer', childCount: 'u32', reserved: 'u32', userData: 'u64' }),
+    columns: 'u32', spacing: vec3, children: 'pointer', childCount: 'u32', materialCount: 'u32', userData: 'u64',
+    materials: 'pointer', triangleMaterials: 'pointer' }),
+  material,
   child: laidOut({ shape: 'u64', pose, hasMaterial: 'u32', reserved: 'u32', material }),
   body: laidOut({ structSize: 'u32', motion: 'u32', flags: 'u32', locks: 'u32', shape: 'u64', pose,
     linearVelocity: vec3, angularVelocity: vec3, massMode: 'u32', reserved: 'u32', density: 'f64', mass: 'f64', ...mass,

@@ -26,7 +26,8 @@ export const CHANGE_OF_JOINT =
   asBits('frames', 'limits', 'motors', 'springs', 'strength', 'collideConnected', 'enabled');
 export const CHANGE_OF_CONTACT = asBits('disabled', 'friction', 'restitution', 'surfaceVelocity');
 export const CAPABILITY = inOrder('shape', 'pair', 'joint', 'jointFeature', 'query', 'fieldRead', 'fieldWrite', 'need',
-  'event');
+  'event', 'phaseTime', 'residual', 'snapshot', 'hostJobs', 'childMaterial', 'modify', 'manifold', 'closest',
+  'triangleMaterial');
 export const DEGREE = ['none', 'approximate', 'emulated', 'native'];
 
 /** The number of a word, or a sentence that lists the words. */

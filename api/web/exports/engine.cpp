@@ -42,14 +42,14 @@ PLUMB_WEB(const PlumbSettingInfo*, plumb_setting)(std::uint32_t index) {
 /// Bytes of a struct, in the order of engine/layouts.mjs: whether it was written against this plumb.h. 0: no more.
 PLUMB_WEB(std::uint32_t, plumb_struct_size)(std::uint32_t which) {
   constexpr std::uint32_t sizes[] = {
-      sizeof(PlumbShapeDesc),      sizeof(PlumbCompoundChild), sizeof(PlumbBodyDesc),
-      sizeof(PlumbJointDesc),      sizeof(PlumbWorldDesc),     sizeof(PlumbSetting),
-      sizeof(PlumbSettingInfo),    sizeof(PlumbStepReport),    sizeof(PlumbContact),
-      sizeof(PlumbEvent),          sizeof(PlumbRay),           sizeof(PlumbCast),
-      sizeof(PlumbOverlap),        sizeof(PlumbHit),           sizeof(PlumbBodyPair),
-      sizeof(PlumbBodyChange),     sizeof(PlumbJointChange),   sizeof(PlumbPosedPair),
-      sizeof(PlumbPairResult),     sizeof(PlumbPairPoint),     sizeof(PlumbManifold),
-      sizeof(PlumbManifoldChange),
+      sizeof(PlumbShapeDesc), sizeof(PlumbMaterial),       sizeof(PlumbCompoundChild),
+      sizeof(PlumbBodyDesc),  sizeof(PlumbJointDesc),      sizeof(PlumbWorldDesc),
+      sizeof(PlumbSetting),   sizeof(PlumbSettingInfo),    sizeof(PlumbStepReport),
+      sizeof(PlumbContact),   sizeof(PlumbEvent),          sizeof(PlumbRay),
+      sizeof(PlumbCast),      sizeof(PlumbOverlap),        sizeof(PlumbHit),
+      sizeof(PlumbBodyPair),  sizeof(PlumbBodyChange),     sizeof(PlumbJointChange),
+      sizeof(PlumbPosedPair), sizeof(PlumbPairResult),     sizeof(PlumbPairPoint),
+      sizeof(PlumbManifold),  sizeof(PlumbManifoldChange),
   };
   return which < sizeof sizes / sizeof *sizes ? sizes[which] : 0;
 }

@@ -25,6 +25,7 @@ class FakeWorld final : public IPhysicsWorld,
   /// The world made last, and how often its class was called: a refused call must not have got here.
   inline static FakeWorld* last = nullptr;
   int calls = 0;
+  std::vector<PlumbShapeDesc> shapes;  ///< of the last call; their arrays are gone
   std::vector<PlumbBodyDesc> made;
   std::function<void()> on_step;
   bool fails_to_destroy = false;
@@ -81,7 +82,10 @@ class FakeWorld final : public IPhysicsWorld,
     return infos;
   }
 
-  PlumbResult create_shapes(std::span<const PlumbShapeDesc>, std::span<PlumbShape>) override { return called(); }
+  PlumbResult create_shapes(std::span<const PlumbShapeDesc> descs, std::span<PlumbShape>) override {
+    shapes.assign(descs.begin(), descs.end());
+    return called();
+  }
   PlumbResult destroy_shapes(std::span<const PlumbShape>) override { return called(); }
   PlumbResult create_bodies(std::span<const PlumbBodyDesc> descs, std::span<PlumbBody> ids) override {
     for (std::size_t i = 0; i < descs.size(); ++i) {

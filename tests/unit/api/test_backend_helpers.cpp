@@ -9,6 +9,7 @@
 
 #include "plumb/backend/settings_table.hpp"
 #include "plumb/backend/small_math.hpp"
+#include "plumb/backend/triangle_materials.hpp"
 #include "plumb/backend/usual_capability.hpp"
 
 namespace plumb::backend {
@@ -118,6 +119,44 @@ TEST(SettingsTable, KnowsNoOtherNamesAndWords) {
   EXPECT_THROW(table().set(settings, "colour", {PLUMB_SETTING_CHOICE, 0, 0, "grey"}), Error);
 }
 
+/// A field of 3 x 4 corners, every triangle of its own material.
+TEST(TriangleMaterials, OfAPlaceAreThoseOfItsTriangle) {
+  const std::vector<double> heights(12, 0.0);
+  std::vector<PlumbMaterial> rows;
+  std::vector<std::uint32_t> of;
+  for (std::uint32_t t = 0; t < 12; ++t) {
+    rows.push_back({static_cast<double>(t), 0, {}});
+    of.push_back(t == 7 ? PLUMB_BODY_MATERIAL : t);
+  }
+  PlumbShapeDesc desc = shape_desc(PLUMB_HEIGHT_FIELD);
+  desc.heights = heights.data();
+  desc.rows = 3;
+  desc.columns = 4;
+  desc.spacing = {2, 0, 5};
+  EXPECT_TRUE(TriangleMaterials(desc).empty());
+  EXPECT_EQ(TriangleMaterials(desc).at(0, 0), nullptr);
+  desc.materials = rows.data();
+  desc.material_count = 12;
+  desc.triangle_materials = of.data();
+  const TriangleMaterials materials(desc);
+  for (std::uint32_t row = 0; row < 2; ++row)
+    for (std::uint32_t column = 0; column < 3; ++column)
+      for (std::uint32_t k = 0; k < 2; ++k) {
+        const std::uint32_t t = 2 * (3 * row + column) + k;
+        const double x = 2 * (column + (k == 0 ? 0.3 : 0.7) - 1.5), z = 5 * (row + (k == 0 ? 0.6 : 0.4) - 1);
+        const PlumbMaterial* found = materials.at(x, z);
+        ASSERT_EQ(found == nullptr, t == 7) << t;
+        if (found != nullptr) {
+          EXPECT_EQ(found->friction, t);
+        }
+      }
+  EXPECT_EQ(materials.at(-100, -100)->friction, 0) << "the nearest";
+  EXPECT_EQ(materials.at(100, 100)->friction, 11);
+  EXPECT_EQ(materials.of(3)->friction, 3);
+  EXPECT_EQ(materials.of(7), nullptr);
+  EXPECT_EQ(materials.of(12), nullptr);
+}
+
 PlumbDegree usual(PlumbCapability kind, std::uint32_t a, std::uint32_t b = 0) {
   return usual_capability(kind, a, b).degree;
 }
@@ -152,6 +191,8 @@ TEST(UsualCapability, IsWhatTheInterfaceMeans) {
   EXPECT_EQ(usual(PLUMB_CAP_QUERY, PLUMB_QUERY_OVERLAP, PLUMB_PLANE), PLUMB_NONE);
   EXPECT_EQ(usual(PLUMB_CAP_CLOSEST, PLUMB_CONVEX_HULL), PLUMB_NATIVE);
   EXPECT_EQ(usual(PLUMB_CAP_CLOSEST, PLUMB_COMPOUND), PLUMB_NONE);
+  EXPECT_EQ(usual(PLUMB_CAP_TRIANGLE_MATERIAL, PLUMB_TRIANGLE_MESH), PLUMB_NONE)
+      << "an engine must do something for it";
   EXPECT_EQ(usual(PLUMB_CAP_FIELD_READ, PLUMB_FIELD_FORCE), PLUMB_NONE) << "it acts and is spent";
   EXPECT_EQ(usual(PLUMB_CAP_FIELD_WRITE, PLUMB_FIELD_FORCE), PLUMB_NATIVE);
   EXPECT_EQ(usual(PLUMB_CAP_FIELD_WRITE, PLUMB_FIELD_MASS), PLUMB_NONE);

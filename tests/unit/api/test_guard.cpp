@@ -112,12 +112,53 @@ TEST_F(Guard, RefusesBadShapesByName) {
   desc.triangle_count = 1;
   shape_refused(PLUMB_E_INVALID_ARGUMENT, "indices[2] is 4", desc);
 
+  const std::uint32_t corners[] = {0, 1, 2, 1, 3, 2}, of[] = {1, PLUMB_BODY_MATERIAL}, astray[] = {0, 2};
+  PlumbMaterial materials[2] = {{0.5, 0, {}}, {0.1, 1, {}}};
+  desc.indices = corners;
+  desc.triangle_count = desc.material_count = 2;
+  shape_refused(PLUMB_E_INVALID_ARGUMENT, "shapes[0].materials is null", desc);
+  desc.materials = materials;
+  shape_refused(PLUMB_E_INVALID_ARGUMENT, "shapes[0].triangle_materials is null", desc);
+  desc.triangle_materials = astray;
+  shape_refused(PLUMB_E_INVALID_ARGUMENT, "triangle_materials[1] is 2", desc);
+  desc.triangle_materials = of;
+  materials[1].restitution = 2;
+  shape_refused(PLUMB_E_INVALID_ARGUMENT, "materials[1].restitution is 2", desc);
+  materials[1] = {0, 0, {0, 0, 1}};
+  shape_refused(PLUMB_E_INVALID_ARGUMENT, "materials[1].surface_velocity", desc);
+
   PlumbCompoundChild child{box + 1000, identity_pose(), 0, 0, {}};
   desc = shape_desc(PLUMB_COMPOUND);
   shape_refused(PLUMB_E_INVALID_ARGUMENT, "child_count", desc);
   desc.children = &child;
   desc.child_count = 1;
   shape_refused(PLUMB_E_STALE_HANDLE, "children[0].shape", desc);
+}
+
+/// A caller that was compiled when the descriptor ended before materials by triangle.
+TEST_F(Guard, TakesShapesOfAnOlderCaller) {
+  constexpr std::size_t kOlder = offsetof(PlumbShapeDesc, materials);
+  PlumbShapeDesc desc = shape_desc(PLUMB_SPHERE);
+  desc.struct_size = kOlder;
+  std::vector<std::byte> rows(3 * kOlder);
+  for (std::size_t i = 0; i < 3; ++i) {
+    desc.radius = static_cast<double>(i + 1);
+    std::memcpy(rows.data() + i * kOlder, &desc, kOlder);
+  }
+  const Backend backend = fake_backend();
+  const PlumbBackendTable& table = backend.table();
+  const PlumbWorldDesc world_of = world_desc(kEverything);
+  PlumbWorld* older = nullptr;
+  ASSERT_EQ(table.create_world(&world_of, &older), PLUMB_OK);
+  PlumbShape ids[3];
+  const auto* descs = reinterpret_cast<const PlumbShapeDesc*>(rows.data());
+  EXPECT_EQ(table.create_shapes(older, descs, kOlder, 3, ids), PLUMB_OK) << table.error_text(older);
+  ASSERT_EQ(FakeWorld::last->shapes.size(), 3U);
+  EXPECT_EQ(FakeWorld::last->shapes[2].radius, 3);
+  EXPECT_EQ(FakeWorld::last->shapes[2].struct_size, sizeof(PlumbShapeDesc));
+  EXPECT_EQ(FakeWorld::last->shapes[2].triangle_materials, nullptr);
+  EXPECT_EQ(table.create_shapes(older, descs, kOlder - 8, 1, ids), PLUMB_E_INVALID_ARGUMENT) << "of none";
+  table.destroy_world(older);
 }
 
 TEST_F(Guard, RefusesBadRowsByName) {

@@ -170,6 +170,38 @@ TEST_F(GuardedWorldSnapshots, OfOtherShapesOrNeedsOrTornAreRefused) {
   EXPECT_EQ(world->snapshot()->restore(saved), PLUMB_OK) << "another world of the same shapes: " << world->error_text();
 }
 
+TEST_F(GuardedWorldSnapshots, OfOtherMaterialsByTriangleAreRefused) {
+  const double corners[] = {0, 0, 0, 1, 0, 0, 0, 0, 1, 1, 0, 1};
+  const std::uint32_t triangles[] = {0, 2, 1, 1, 2, 3};
+  const auto world_with = [&](double friction, std::uint32_t second) {
+    const PlumbMaterial material{friction, 0, {}};
+    const std::uint32_t of[] = {0, second};
+    PlumbShapeDesc desc = shape_desc(PLUMB_TRIANGLE_MESH);
+    desc.vertices = corners;
+    desc.vertex_count = 4;
+    desc.indices = triangles;
+    desc.triangle_count = 2;
+    desc.materials = &material;
+    desc.material_count = 1;
+    desc.triangle_materials = of;
+    auto made = fake_world();
+    PlumbShape mesh = 0;
+    EXPECT_EQ(made->create_shapes({&desc, 1}, {&mesh, 1}), PLUMB_OK) << made->error_text();
+    PlumbBodyDesc ground = body_desc(PLUMB_STATIC);
+    ground.shape = mesh;
+    PlumbBody id = 0;
+    EXPECT_EQ(made->create_bodies({&ground, 1}, {&id, 1}), PLUMB_OK) << made->error_text();
+    return made;
+  };
+  const std::vector<std::byte> of_ice = save(*world_with(0.1, PLUMB_BODY_MATERIAL));
+  world = world_with(0.2, PLUMB_BODY_MATERIAL);
+  refused("geometry", of_ice);
+  world = world_with(0.1, 0);
+  refused("geometry", of_ice);
+  world = world_with(0.1, PLUMB_BODY_MATERIAL);
+  EXPECT_EQ(world->snapshot()->restore(of_ice), PLUMB_OK) << world->error_text();
+}
+
 TEST_F(GuardedWorldSnapshots, AWorldThatIsHalfRestoredIsLost) {
   (void)add_body(*world, ball, 5);
   FakeWorld::last->fails_to_destroy = true;

@@ -186,6 +186,13 @@ TEST_F(Trace, AllCallsOfABackendWithExtensions) {
     shapes[3].rows = 2;
     shapes[3].columns = 3;
     shapes[3].spacing = {1, 0, 1};
+    const PlumbMaterial materials[] = {{0.1, 0, {}}, {0.9, 0.5, {}}};
+    const std::uint32_t of[] = {1, 0, PLUMB_BODY_MATERIAL, 1};
+    for (PlumbShapeDesc& surface : std::span(shapes).subspan(2)) {
+      surface.materials = materials;
+      surface.material_count = 2;
+      surface.triangle_materials = of;
+    }
     PlumbShape ids[4];
     check(*world, world->create_shapes(shapes, ids));
     const PlumbCompoundChild children[2] = {{ids[0], identity_pose(), 0, 0, {}}, {ids[1], identity_pose(), 0, 0, {}}};

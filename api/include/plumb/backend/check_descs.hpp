@@ -1,6 +1,8 @@
 // Ranges of the numbers in shape, body and joint descriptors: what every engine may rely on.
 #pragma once
 
+#include <cstddef>
+
 #include "plumb/backend/checks.hpp"
 #include "plumb/backend/names.hpp"
 #include "plumb/physics_world.hpp"
@@ -46,6 +48,37 @@ inline void check_height_field(const Where& where, const PlumbShapeDesc& desc) {
       refuse_value(where, ("heights[" + std::to_string(i) + "]").c_str(), desc.heights[i], "finite");
 }
 
+/// What PlumbShapeDesc was before materials by triangle.
+inline constexpr std::size_t kShapeDesc10 = offsetof(PlumbShapeDesc, materials);
+
+[[nodiscard]] inline bool has_triangle_materials(const PlumbShapeDesc& desc) {
+  return (desc.type == PLUMB_TRIANGLE_MESH || desc.type == PLUMB_HEIGHT_FIELD) && desc.material_count != 0;
+}
+/// Of a mesh or height field.
+[[nodiscard]] inline std::size_t triangles_of(const PlumbShapeDesc& desc) {
+  if (desc.type == PLUMB_TRIANGLE_MESH) return desc.triangle_count;
+  return desc.rows < 2 || desc.columns < 2 ? 0 : std::size_t{2} * (desc.rows - 1) * (desc.columns - 1);
+}
+
+inline void check_triangle_materials(const Where& where, const PlumbShapeDesc& desc) {
+  if (!has_triangle_materials(desc)) return;
+  const std::size_t triangles = triangles_of(desc);
+  require_pointer(desc.materials, desc.material_count, where.member("materials").c_str());
+  require_pointer(desc.triangle_materials, triangles, where.member("triangle_materials").c_str());
+  for (std::uint32_t i = 0; i < desc.material_count; ++i) {
+    const std::string name = "materials[" + std::to_string(i) + "]";
+    const PlumbVec3& v = desc.materials[i].surface_velocity;
+    check_material(where, name.c_str(), desc.materials[i]);
+    if (v.x != 0 || v.y != 0 || v.z != 0)
+      refuse(PLUMB_E_INVALID_ARGUMENT, where.member((name + ".surface_velocity").c_str()) +
+                                           " is not 0; triangles do not run: give it to the body's material");
+  }
+  for (std::size_t t = 0; t < triangles; ++t)
+    if (desc.triangle_materials[t] >= desc.material_count && desc.triangle_materials[t] != PLUMB_BODY_MATERIAL)
+      refuse_value(where, ("triangle_materials[" + std::to_string(t) + "]").c_str(), desc.triangle_materials[t],
+                   "below material_count, or PLUMB_BODY_MATERIAL");
+}
+
 /// All but the children's handles, which need the world.
 inline void check_shape(const Where& where, const PlumbShapeDesc& desc) {
   switch (desc.type) {
@@ -61,8 +94,8 @@ inline void check_shape(const Where& where, const PlumbShapeDesc& desc) {
       require_positive(where, "radius", desc.radius);
       return require_positive(where, "half_height", desc.half_height);
     case PLUMB_CONVEX_HULL: return check_vertices(where, desc, 4);
-    case PLUMB_TRIANGLE_MESH: return check_mesh(where, desc);
-    case PLUMB_HEIGHT_FIELD: return check_height_field(where, desc);
+    case PLUMB_TRIANGLE_MESH: check_mesh(where, desc); break;
+    case PLUMB_HEIGHT_FIELD: check_height_field(where, desc); break;
     case PLUMB_PLANE: return;
     case PLUMB_COMPOUND:
       if (desc.child_count == 0) refuse_value(where, "child_count", 0, "at least 1");
@@ -76,6 +109,7 @@ inline void check_shape(const Where& where, const PlumbShapeDesc& desc) {
       return;
     default: refuse_value(where, "type", desc.type, "a PlumbShapeType");
   }
+  check_triangle_materials(where, desc);
 }
 
 inline void check_mass(const Where& where, const PlumbBodyDesc& desc) {

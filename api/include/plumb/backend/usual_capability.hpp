@@ -22,8 +22,9 @@ struct Capability {
 /// Of an engine of rigid bodies that has all of the interface: NATIVE wherever the question means something. NONE of
 /// numbers out of range, of what cannot be (a plane that moves, a limit on a joint that locks every axis, reading a
 /// force, writing the mass), and of what an engine must do something for to have it: continuous collision, snapshots,
-/// changes of what lives, times of its phases but that of the output, a residual, tasks on the host's threads. NONE
-/// without a note is no answer that helps a user: put a note where your engine lacks what others have.
+/// changes of what lives, materials by triangle, times of its phases but that of the output, a residual, tasks on the
+/// host's threads. NONE without a note is no answer that helps a user: put a note where your engine lacks what others
+/// have.
 [[nodiscard]] constexpr Capability usual_capability(PlumbCapability kind, std::uint32_t a, std::uint32_t b) {
   constexpr Capability yes{PLUMB_NATIVE}, no{};
   const auto moves_alone = [](std::uint32_t type) { return is_convex(type) || type == PLUMB_COMPOUND; };
@@ -63,6 +64,9 @@ struct Capability {
     case PLUMB_CAP_EVENT: return in_range(a < PLUMB_EVENT_COUNT);
     case PLUMB_CAP_PHASE_TIME: return in_range(a == PLUMB_PHASE_OUTPUT);
     case PLUMB_CAP_CHILD_MATERIAL: return yes;
+    case PLUMB_CAP_TRIANGLE_MATERIAL:
+      if (a == PLUMB_TRIANGLE_MESH || a == PLUMB_HEIGHT_FIELD) return {PLUMB_NONE, "all of it has the body's material"};
+      return no;
     default: return no;
   }
 }
