@@ -100,13 +100,9 @@ struct Proxy {
   std::uint32_t body;
   std::uint32_t shape;       ///< row of the shapes
   std::uint32_t first_step;  ///< the step before which it was made: older contacts of this row are somebody else's
-  Real friction, restitution;
+  Material material;
   Frame frame;  ///< of the shape in the body's principal frame
 };
-
-/// What the materials of two are together, as the interface has it.
-PLUMB_HD inline Real pair_friction(const Proxy& a, const Proxy& b) { return sqrt(a.friction * b.friction); }
-PLUMB_HD inline Real pair_restitution(const Proxy& a, const Proxy& b) { return max(a.restitution, b.restitution); }
 
 struct Proxies {
   const Proxy* rows;

@@ -65,7 +65,7 @@ struct BoundProxies {
     const bool dynamic = (mass.flags & kBodyDynamic) != 0;
     const Real falls = dynamic ? abs(mass.gravity_scale) * length(parameters->gravity) : 0;
     const Real travel = dt * (length(velocity.linear) + reach * length(velocity.angular)) + dt * dt * falls;
-    const Real struck = dynamic && proxy.restitution > 0 ? kStruckShare * shape.reach : Real(0);
+    const Real struck = dynamic && proxy.material.restitution > 0 ? kStruckShare * shape.reach : Real(0);
     return min(travel + struck, shape.reach);
   }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "narrowphase/contact_material.hpp"
 #include "plumb/assert.hpp"
 
 namespace plumb::impulse {
@@ -51,8 +52,9 @@ struct ShowManifolds {
     const Vec from_a = arm + (Real(1) / static_cast<Real>(found.count)) * middle;
     const Vec from_b = from_a - between(in.bodies.position[a.body], in.bodies.position[b.body]);
     row.velocity = velocity_of(b.body, from_b) - velocity_of(a.body, from_a);
-    row.friction = pair_friction(a, b);
-    row.restitution = pair_restitution(a, b);
+    const Material material = contact_material(in.cache, in.proxies, p);
+    row.friction = material.friction;
+    row.restitution = material.restitution;
     if (in.surface_velocities != nullptr) row.surface_velocity = surface_of(pair.b) - surface_of(pair.a);
     rows[place[p]] = row;
   }

@@ -15,7 +15,7 @@
 #include "contacts/rolling.hpp"
 #include "exec/executor.hpp"
 #include "math/lane_vectors.hpp"
-#include "narrowphase/contact_cache.hpp"
+#include "narrowphase/contact_material.hpp"
 #include "narrowphase/manifold_change.hpp"
 
 namespace plumb::impulse {
@@ -211,10 +211,11 @@ PLUMB_HD void PrepareContacts<kImpacts, kMechanisms>::read(std::uint32_t row, st
     lane_of(source.impulse[1][p], lane) = warm_start * kept.tangent_impulse[0][p];
     lane_of(source.impulse[2][p], lane) = warm_start * kept.tangent_impulse[1][p];
   }
+  const Material material = contact_material(cache, proxies, candidate);
   const ManifoldChange* rubs = changes.find(candidate, PLUMB_MANIFOLD_FRICTION);
-  lane_of(source.friction, lane) = rubs != nullptr ? rubs->friction : pair_friction(proxy_a, proxy_b);
+  lane_of(source.friction, lane) = rubs != nullptr ? rubs->friction : material.friction;
   const ManifoldChange* bounces = changes.find(candidate, PLUMB_MANIFOLD_RESTITUTION);
-  const Real restitution = bounces != nullptr ? bounces->restitution : pair_restitution(proxy_a, proxy_b);
+  const Real restitution = bounces != nullptr ? bounces->restitution : material.restitution;
   lane_of(source.restitution, lane) = restitution;
   if (restitution > 0) {
     const Real h = levels->of[solver_bodies.levels.of_pair(bodies.velocity, a, b)].h;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "continuous/impacts.hpp"
+#include "narrowphase/contact_material.hpp"
 
 namespace plumb::impulse {
 
@@ -42,8 +43,8 @@ struct ImpactSearch {
     return travel(a, parameters->dt) + travel(b, parameters->dt) > margins[pair.a] + margins[pair.b];
   }
   /// Whether the narrow phase foresees that they touch, and they bounce where they do.
-  [[nodiscard]] PLUMB_HD bool bounces(std::uint32_t p, const Pair& pair) const {
-    return cache.touching[p] != 0 && pair_restitution(proxies.rows[pair.a], proxies.rows[pair.b]) > 0;
+  [[nodiscard]] PLUMB_HD bool bounces(std::uint32_t p) const {
+    return cache.touching[p] != 0 && contact_material(cache, proxies, p).restitution > 0;
   }
   /// Whether one is round, and comes so far that the normal where they touch is not that of now.
   [[nodiscard]] PLUMB_HD bool glances_off(const MovingShape& a, const MovingShape& b) const {

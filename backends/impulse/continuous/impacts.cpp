@@ -15,7 +15,7 @@ struct FindImpacts {
     search.times[p] = 0;
     const ContactCache& cache = search.cache;
     const Pair pair = cache.pairs[p];
-    const bool flagged = search.is_flagged(pair), bounces = search.bounces(p, pair);
+    const bool flagged = search.is_flagged(pair), bounces = search.bounces(p);
     if (!(flagged || bounces) || !search.is_convex(pair.a) || !search.is_convex(pair.b)) return;
     const MovingShape a = search.moving(pair.a), b = search.moving(pair.b);
     const bool may_pass = flagged && search.is_fast(pair, a, b);

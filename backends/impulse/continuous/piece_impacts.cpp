@@ -12,7 +12,7 @@ struct FindPieceImpacts {
   PLUMB_HD void operator()(std::uint32_t p) const {
     const ContactCache& cache = search.cache;
     const Pair pair = cache.pairs[p];
-    const bool flagged = search.is_flagged(pair), bounces = search.bounces(p, pair);
+    const bool flagged = search.is_flagged(pair), bounces = search.bounces(p);
     if (!(flagged || bounces) || search.is_convex(pair.a) == search.is_convex(pair.b)) return;
     const bool swapped = search.is_convex(pair.b);
     const MovingShape own = search.moving(swapped ? pair.b : pair.a), on = search.moving(swapped ? pair.a : pair.b);

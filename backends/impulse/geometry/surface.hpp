@@ -7,11 +7,13 @@
 //   around(v, f)         f(w) for every corner w that shares an edge with v, until it returns false
 //   overlaps(box, f)     f(t) for every triangle whose box touches the box
 //   is_closed()          no edge has but one triangle
+//   materials            of triangles, where they have their own
 //
 // Corners are relative to the middle of the surface's box.
 #pragma once
 
 #include "bvh/tree_view.hpp"
+#include "geometry/material.hpp"
 #include "math/box.hpp"
 
 namespace plumb::impulse {
@@ -36,6 +38,7 @@ struct MeshView {
   const std::uint32_t* neighbours;
   TreeView tree;
   std::uint32_t closed;
+  TriangleMaterials materials;
 
   PLUMB_HD Vec corner(std::uint32_t v) const { return corners[v]; }
   PLUMB_HD Triangle triangle(std::uint32_t t) const {
@@ -63,6 +66,7 @@ struct HeightView {
   std::uint32_t rows, columns;
   Real spacing_x, spacing_z;
   Real x0, z0;  ///< of corner 0
+  TriangleMaterials materials;
 
   PLUMB_HD Vec corner(std::uint32_t v) const {
     const std::uint32_t row = v / columns, column = v - row * columns;
@@ -127,6 +131,7 @@ struct HeightView {
 struct Surfaces {
   const MeshView* meshes;
   const HeightView* fields;
+  std::uint32_t with_materials;  ///< how many have materials by triangle
   bool operator==(const Surfaces&) const = default;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <span>
 
 #include "geometry/mesh_topology.hpp"
 
@@ -41,6 +42,17 @@ std::uint32_t SurfacePool::add(std::vector<std::unique_ptr<T>>& all, std::unique
   return row;
 }
 
+TriangleMaterials SurfacePool::add_materials(const PlumbShapeDesc& desc, std::size_t triangles, Materials& materials) {
+  if (desc.material_count == 0) return {};
+  std::vector<Material> rows;
+  for (const PlumbMaterial& given : std::span(desc.materials, desc.material_count))
+    rows.push_back({static_cast<Real>(given.friction), static_cast<Real>(given.restitution)});
+  materials.rows.assign(rows);
+  materials.of.assign(std::vector<std::uint32_t>(desc.triangle_materials, desc.triangle_materials + triangles));
+  ++with_materials_;
+  return {materials.rows.data(), materials.of.data()};
+}
+
 AddedSurface SurfacePool::add_mesh(Executor& executor, const PlumbShapeDesc& desc) {
   const MeshTopology topology(executor, {reinterpret_cast<const PlumbVec3*>(desc.vertices), desc.vertex_count},
                               {desc.indices, std::size_t{3} * desc.triangle_count});
@@ -55,7 +67,8 @@ AddedSurface SurfacePool::add_mesh(Executor& executor, const PlumbShapeDesc& des
                          mesh->first_neighbour.data(),
                          mesh->neighbours.data(),
                          {mesh->nodes.data(), desc.triangle_count},
-                         topology.closed ? 1U : 0U};
+                         topology.closed ? 1U : 0U,
+                         add_materials(desc, desc.triangle_count, mesh->materials)};
   const std::uint32_t row = add(meshes_, std::move(mesh));
   if (row >= mesh_views_.size()) mesh_views_.grow(row + row / 2 + 1);
   mesh_views_.edit(row) = view;
@@ -70,14 +83,16 @@ AddedSurface SurfacePool::add_field(const PlumbShapeDesc& desc) {
   std::vector<Real> heights(count);
   for (std::size_t i = 0; i < count; ++i) heights[i] = static_cast<Real>(desc.heights[i] - middle);
   auto field = std::make_unique<Field>();
-  field->assign(heights);
-  const HeightView view = {field->data(),
+  field->heights.assign(heights);
+  const std::size_t triangles = std::size_t{2} * (desc.rows - 1) * (desc.columns - 1);
+  const HeightView view = {field->heights.data(),
                            desc.rows,
                            desc.columns,
                            static_cast<Real>(desc.spacing.x),
                            static_cast<Real>(desc.spacing.z),
                            static_cast<Real>(-width),
-                           static_cast<Real>(-depth)};
+                           static_cast<Real>(-depth),
+                           add_materials(desc, triangles, field->materials)};
   const std::uint32_t row = add(fields_, std::move(field));
   if (row >= field_views_.size()) field_views_.grow(row + row / 2 + 1);
   field_views_.edit(row) = view;

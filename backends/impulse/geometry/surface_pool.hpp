@@ -34,28 +34,41 @@ class SurfacePool {
     field_views_.upload(executor);
   }
   /// To be asked for anew after an addition.
-  [[nodiscard]] Surfaces device() { return {mesh_views_.device(), field_views_.device()}; }
+  [[nodiscard]] Surfaces device() { return {mesh_views_.device(), field_views_.device(), with_materials_}; }
 
  private:
+  /// By triangle; empty where all are the body's.
+  struct Materials {
+    Buffer<Material> rows;
+    Buffer<std::uint32_t> of;
+  };
   struct Mesh {
     Buffer<Vec> corners;
     Buffer<MeshTriangle> triangles;
     Buffer<std::uint32_t> first_neighbour, neighbours;
     Buffer<TreeNode> nodes;
+    Materials materials;
   };
-  using Field = Buffer<Real>;
+  struct Field {
+    Buffer<Real> heights;
+    Materials materials;
+  };
 
   template <class T>
   static std::uint32_t add(std::vector<std::unique_ptr<T>>& all, std::unique_ptr<T> one);
   template <class T>
-  static void remove(std::vector<std::unique_ptr<T>>& all, std::uint32_t row) {
+  void remove(std::vector<std::unique_ptr<T>>& all, std::uint32_t row) {
+    if (all[row]->materials.of.size() != 0) --with_materials_;
     all[row].reset();
   }
+  [[nodiscard]] TriangleMaterials add_materials(const PlumbShapeDesc& desc, std::size_t triangles,
+                                                Materials& materials);
 
   std::vector<std::unique_ptr<Mesh>> meshes_;  // by row; none where one was removed
   std::vector<std::unique_ptr<Field>> fields_;
   Table<MeshView> mesh_views_;
   Table<HeightView> field_views_;
+  std::uint32_t with_materials_ = 0;
 };
 
 }  // namespace plumb::impulse

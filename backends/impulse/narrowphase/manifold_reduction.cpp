@@ -1,5 +1,6 @@
 #include "narrowphase/manifold_reduction.hpp"
 
+#include "narrowphase/contact_material.hpp"
 #include "narrowphase/convex/face_overlap.hpp"
 
 namespace plumb::impulse {
@@ -194,16 +195,22 @@ struct ReduceManifolds {
     return previous != kNone && last.touching[previous] != 0;
   }
 
-  /// Makes one of the manifolds of p and of those behind it that face the same way. Who led goes on to lead, for the
-  /// sake of its colour.
+  [[nodiscard]] PLUMB_HD std::uint32_t material_of(const Shape& surface, std::uint32_t p) const {
+    return materials_of(surface, proxies.surfaces).row(cache.triangles[p]);
+  }
+  /// Makes one of the manifolds of p and of those behind it that face the same way and are of one material. Who led
+  /// goes on to lead, for the sake of its colour.
   PLUMB_HD void reduce(std::uint32_t p, std::uint32_t end, Real reach, bool surface_first) const {
+    const Pair pair = cache.pairs[p];
+    const Shape& surface = shape(surface_first ? pair.a : pair.b);
+    const std::uint32_t material = material_of(surface, p);
     const Vec normal = cache.found[p].normal;
     PointsOfAll points(normal, kTie * (reach + length(cache.found[p].points[0].position)), kClipSlack * reach);
     std::uint32_t leader = kNone, manifolds = 0;
     for (std::uint32_t q = p, others = 0; q < end && others < kMostOthers; ++q) {
       if (!is_open(q)) continue;
       const Manifold& found = cache.found[q];
-      if (length_squared(found.normal - normal) > kSameNormal) {
+      if (length_squared(found.normal - normal) > kSameNormal || material_of(surface, q) != material) {
         ++others;
         continue;
       }

@@ -33,6 +33,8 @@ Capability known(PlumbCapability kind, std::uint32_t a, std::uint32_t b) {
     case PLUMB_CAP_CLOSEST:
       if (a < PLUMB_SHAPE_TYPE_COUNT && !backend::is_convex(a)) return {PLUMB_NONE, "what is looked around is convex"};
       break;
+    case PLUMB_CAP_TRIANGLE_MATERIAL:
+      return {a == PLUMB_TRIANGLE_MESH || a == PLUMB_HEIGHT_FIELD ? PLUMB_NATIVE : PLUMB_NONE};
     case PLUMB_CAP_PHASE_TIME: return phase_time(a);
     case PLUMB_CAP_RESIDUAL: return {PLUMB_NONE, "not in impulse yet"};
     case PLUMB_CAP_MODIFY:

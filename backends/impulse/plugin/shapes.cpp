@@ -173,8 +173,7 @@ void World::put_proxy_row(std::uint32_t slot, std::uint32_t row) {
   const bool own = row < proxies_.size() && proxies_[row].has_material;
   const PlumbMaterial& material = own ? proxies_[row].material : body.material;
   Proxy& proxy = simulation_.colliders.proxies.edit(row);
-  proxy.friction = static_cast<Real>(material.friction);
-  proxy.restitution = static_cast<Real>(material.restitution);
+  proxy.material = {static_cast<Real>(material.friction), static_cast<Real>(material.restitution)};
   const std::uint32_t flags = (body.motion == PLUMB_DYNAMIC ? 0 : kProxyImmovable) | (body.senses ? kProxyUnseen : 0);
   if (row < simulation_.colliders.surface_velocities.size()) {
     const PlumbVec3& v = material.surface_velocity;

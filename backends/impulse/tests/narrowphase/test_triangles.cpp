@@ -27,7 +27,8 @@ struct Mesh {
             topology.first_neighbour.data(),
             topology.neighbours.data(),
             {nullptr, 0},
-            topology.closed ? 1U : 0U};
+            topology.closed ? 1U : 0U,
+            {}};
   }
   [[nodiscard]] Shape shape() const { return {kMesh, 0, topology.half, topology.reach}; }
 };
@@ -40,7 +41,7 @@ struct Nearest {
 Nearest over_all(const Mesh& mesh, const Shape& a, const Quat& qa, const Quat& qb, const Vec& d, Real margin,
                  const Hulls& hulls) {
   const MeshView view = mesh.view();
-  const Proxies proxies{nullptr, nullptr, hulls, {&view, nullptr}};
+  const Proxies proxies{nullptr, nullptr, hulls, {&view, nullptr, 0}};
   Nearest nearest;
   for (std::uint32_t t = 0; t < mesh.topology.triangles.size(); ++t) {
     Manifold m{};
@@ -200,7 +201,7 @@ TEST(Topology, OfAHeightFieldIsThatOfItsTriangles) {
   });
   const Mesh mesh(set);
   const MeshView view = mesh.view();
-  const HeightView field = {heights.data(), cells + 1, cells + 1, Real(0.5), Real(0.5), Real(-1), Real(-1)};
+  const HeightView field = {heights.data(), cells + 1, cells + 1, Real(0.5), Real(0.5), Real(-1), Real(-1), {}};
   const Real middle = static_cast<Real>(mesh.topology.centre.y);
   const auto same = [&](const Vec& on_mesh, const Vec& on_field) {
     return length(on_mesh + Vec{0, middle, 0} - on_field) < Real(1e-5);

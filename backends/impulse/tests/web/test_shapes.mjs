@@ -35,6 +35,23 @@ test('a ball comes to rest in the valley of a height field', () => {
   world.destroy();
 });
 
+test('triangles have their own materials', () => {
+  const world = engine.createWorld({ needs: ['rotation', 'collision', 'friction'] });
+  assert.equal(engine.capability('triangleMaterial', 'heightField'), 'native');
+  const field = world.createShape({ type: 'heightField', rows: 2, columns: 3, heights: Array(6).fill(0), spacing: [20, 40],
+    materials: [{ friction: 0 }, { friction: 1 }], triangleMaterials: [0, 0, -1, -1] });
+  world.createBody({ shape: field, motion: 'static', friction: 0.5 });
+  const shape = world.createShape({ type: 'box', halfExtents: [0.5, 0.25, 0.5] });
+  const [ice, ground] = world.createBodies([-15, 5].map((x) =>
+    ({ shape, position: [x, 0.25, 1], linearVelocity: [2, 0, 0], friction: 0.5 })));
+  steps(world, 60);
+  near(world.read('velocity', [ice])[0], 2, 1e-3);
+  near(world.read('velocity', [ground])[0], 0, 1e-3);
+  assert.throws(() => world.createShape({ type: 'heightField', rows: 2, columns: 2, heights: [0, 0, 0, 0], spacing: [1, 1],
+    materials: [{}], triangleMaterials: [0, 1] }), /triangle_materials\[1\] is 1/);
+  world.destroy();
+});
+
 test('filters and excluded pairs let bodies through', () => {
   const { world, ground, cube } = grounded(['filters']);
   const [lies, falls, excluded] = world.createBodies([
