@@ -171,6 +171,10 @@ PlumbDegree World::capability(PlumbCapability kind, std::uint32_t a, std::uint32
                     "largest squared change of an impulse in the last iteration; not with mlcp solvers");
     case PLUMB_CAP_SNAPSHOT: return answer(PLUMB_APPROXIMATE, note, "warm-start data are lost");
     case PLUMB_CAP_CHILD_MATERIAL: return PLUMB_NATIVE;
+    case PLUMB_CAP_TRIANGLE_MATERIAL:
+      if (a == PLUMB_HEIGHT_FIELD)
+        return answer(PLUMB_EMULATED, note, "Bullet's point tells the place, not the triangle");
+      return a == PLUMB_TRIANGLE_MESH ? PLUMB_NATIVE : PLUMB_NONE;
     case PLUMB_CAP_MODIFY: return modify_degree(a, b, note);
     case PLUMB_CAP_MANIFOLD: return manifold_degree(a, note);
     default: return PLUMB_NONE;

@@ -31,19 +31,32 @@ struct Coefficients {
   btScalar friction, restitution;
 };
 
-Coefficients coefficients_at(const btCollisionObject* object, int index) {
-  const Body& body = *our_body(object);
-  if (body.shape && index >= 0 && static_cast<std::size_t>(index) < body.shape->children.size()) {
-    const Shape::Child& child = body.shape->children[static_cast<std::size_t>(index)];
-    if (child.has_material)
-      return {static_cast<btScalar>(child.material.friction), static_cast<btScalar>(child.material.restitution)};
+/// Of the part of a body's shape that is touched; null: the body's. index: as Bullet numbers parts, which it does not
+/// do with the triangles of a height field. place: in the world.
+const PlumbMaterial* own_material(const Body& body, int index, const btVector3& place) {
+  if (!body.shape) return nullptr;
+  if (body.shape->type == PLUMB_HEIGHT_FIELD) {
+    const btVector3 local = body.frame_pose().invXform(place);
+    return body.shape->materials.at(static_cast<double>(local.x()), static_cast<double>(local.z()));
   }
-  return {body.getFriction(), body.getRestitution()};
+  const auto part = static_cast<std::size_t>(index);
+  if (index < 0) return nullptr;
+  if (body.shape->type == PLUMB_TRIANGLE_MESH) return body.shape->materials.of(part);
+  if (part >= body.shape->children.size() || !body.shape->children[part].has_material) return nullptr;
+  return &body.shape->children[part].material;
+}
+
+Coefficients coefficients_at(const btCollisionObject* object, int index, const btVector3& place) {
+  const Body& body = *our_body(object);
+  const PlumbMaterial* own = own_material(body, index, place);
+  if (own == nullptr) return {body.getFriction(), body.getRestitution()};
+  return {static_cast<btScalar>(own->friction), static_cast<btScalar>(own->restitution)};
 }
 
 void combine(btManifoldPoint& point, const btCollisionObject* a, int index_a, const btCollisionObject* b, int index_b) {
   PLUMB_ASSERT(ours(a, b));
-  const Coefficients of_a = coefficients_at(a, index_a), of_b = coefficients_at(b, index_b);
+  const Coefficients of_a = coefficients_at(a, index_a, point.m_positionWorldOnA),
+                     of_b = coefficients_at(b, index_b, point.m_positionWorldOnB);
   point.m_combinedFriction = btSqrt(of_a.friction * of_b.friction);
   point.m_combinedRestitution = std::max(of_a.restitution, of_b.restitution);
 }
@@ -97,7 +110,7 @@ void install_material_callbacks() {
   });
 }
 
-bool needs_contact_material(const Body& body) { return body.shape && body.shape->has_child_material(); }
+bool needs_contact_material(const Body& body) { return body.shape && body.shape->has_own_material(); }
 
 void refresh_materials(btDispatcher& dispatcher, const Body& body) {
   for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {

@@ -117,14 +117,16 @@ double inner_radius(const PlumbShapeDesc& desc, const Shape& shape) {
 
 }  // namespace
 
-bool Shape::has_child_material() const {
-  return std::any_of(children.begin(), children.end(), [](const Child& child) { return child.has_material; });
+bool Shape::has_own_material() const {
+  return !materials.empty() ||
+         std::any_of(children.begin(), children.end(), [](const Child& child) { return child.has_material; });
 }
 
 std::shared_ptr<const Shape> make_shape(const PlumbShapeDesc& desc, std::vector<Shape::Child> children,
                                         const ShapeOptions& options) {
   auto shape = std::make_shared<Shape>();
   shape->type = desc.type;
+  shape->materials = backend::TriangleMaterials(desc);
   switch (desc.type) {
     case PLUMB_SPHERE: shape->bullet = std::make_unique<btSphereShape>(positive_scalar(desc.radius, "radius")); break;
     case PLUMB_BOX: shape->bullet = make_box(desc, options); break;

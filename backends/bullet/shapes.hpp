@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bullet_math.hpp"
+#include "plumb/backend/triangle_materials.hpp"
 
 namespace plumb::bullet {
 
@@ -29,9 +30,11 @@ struct Shape {
   std::unique_ptr<btStridingMeshInterface> mesh;
   std::vector<btScalar> heights;
   std::vector<Child> children;
+  backend::TriangleMaterials materials;
   double inner_radius = 0;  ///< m, of a sphere that fits inside, about the origin of a convex shape; for swept spheres
 
-  [[nodiscard]] bool has_child_material() const;
+  /// Whether parts of it may have another material than the body.
+  [[nodiscard]] bool has_own_material() const;
 };
 
 /// find: the living shape of a handle. Throws Error for what Bullet's arithmetic cannot hold.

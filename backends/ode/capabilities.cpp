@@ -146,6 +146,9 @@ Fact fact(PlumbCapability kind, std::uint32_t a, std::uint32_t b) {
       return {PLUMB_NATIVE, "not with the spaces sap and quadtree, which keep their order to themselves"};
     case PLUMB_CAP_HOST_JOBS: return {PLUMB_NONE, "ODE runs threads of its own"};
     case PLUMB_CAP_CHILD_MATERIAL: return {PLUMB_NATIVE};
+    case PLUMB_CAP_TRIANGLE_MATERIAL:
+      if (a == PLUMB_HEIGHT_FIELD) return {PLUMB_EMULATED, "ODE's point tells the place, not the triangle"};
+      return {a == PLUMB_TRIANGLE_MESH ? PLUMB_NATIVE : PLUMB_NONE};
     case PLUMB_CAP_MODIFY: return modify_fact(a, b);
     case PLUMB_CAP_MANIFOLD: return {a < PLUMB_MANIFOLD_CHANGE_COUNT ? PLUMB_NATIVE : PLUMB_NONE};
     default: return {PLUMB_NONE};

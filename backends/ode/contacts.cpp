@@ -141,11 +141,12 @@ void ContactPass::meet(dGeomID first, dGeomID second) {
 
 /// Friction sqrt(mu1 mu2), restitution max(e1, e2), unless the host wants others.
 struct ContactPass::Surface {
-  Surface(const Pair& pair, int base_mode, const PlumbManifoldChange* change)
-      : mode(base_mode),
-        mu(pair.first.friction == pair.second.friction ? pair.first.friction
-                                                       : std::sqrt(pair.first.friction * pair.second.friction)),
-        bounce(std::max(pair.first.restitution, pair.second.restitution)) {
+  /// point: where they touch, for surfaces with materials by triangle.
+  Surface(const Pair& pair, const dContactGeom& point, int base_mode, const PlumbManifoldChange* change)
+      : mode(base_mode) {
+    const Coefficients one = coefficients_at(pair.first, point), two = coefficients_at(pair.second, point);
+    mu = one.friction == two.friction ? one.friction : std::sqrt(one.friction * two.friction);
+    bounce = std::max(one.restitution, two.restitution);
     if (change != nullptr && (change->what & PLUMB_MANIFOLD_FRICTION) != 0) mu = change->friction;
     if (change != nullptr && (change->what & PLUMB_MANIFOLD_RESTITUTION) != 0) bounce = change->restitution;
     if (bounce > 0) mode |= dContactBounce;
@@ -153,6 +154,24 @@ struct ContactPass::Surface {
   int mode;
   double mu, bounce;
 };
+
+bool ContactPass::has_materials(const Pair& pair) {
+  const auto has = [](const GeomTag& tag) { return !tag.body->shape->materials.empty(); };
+  return has(pair.first) || has(pair.second);
+}
+
+/// Of a geom where it is touched.
+ContactPass::Coefficients ContactPass::coefficients_at(const GeomTag& tag, const dContactGeom& point) {
+  const Shape& shape = *tag.body->shape;
+  const PlumbMaterial* own = nullptr;
+  if (shape.type == PLUMB_TRIANGLE_MESH) own = shape.materials.of(child_of(tag, point));
+  if (shape.type == PLUMB_HEIGHT_FIELD && !shape.materials.empty()) {
+    dVector3 local;
+    dGeomGetPosRelPoint(tag.placed.geom, point.pos[0], point.pos[1], point.pos[2], local);
+    own = shape.materials.at(local[0], local[2]);
+  }
+  return own == nullptr ? Coefficients{tag.friction, tag.restitution} : Coefficients{own->friction, own->restitution};
+}
 
 /// By how much the second's surface runs over the first's, which may be other than their bodies say.
 PlumbVec3 ContactPass::belts_of(const Pair& pair, const PlumbManifoldChange* change) const {
@@ -168,11 +187,13 @@ void ContactPass::respond(const Pair& pair, std::span<dContact> points, const Pl
     const PlumbBody a = one.body->handle, b = two.body->handle;
     touching_.push_back(slot_of(a) < slot_of(b) ? BodyPair{a, b} : BodyPair{b, a});
   }
-  const Surface surface(pair, mode_, change);
+  Surface surface(pair, points[0].geom, mode_, change);
+  const bool by_triangle = has_materials(pair);
   const PlumbVec3 belts = belts_of(pair, change);
-  const bool aimed = surface.mu > 0 && (sliding_directions_ || !is_zero(belts));
   for (dContact& contact : points) {
     dJointID joint = nullptr;
+    if (by_triangle) surface = Surface(pair, contact.geom, mode_, change);
+    const bool aimed = surface.mu > 0 && (sliding_directions_ || !is_zero(belts));
     if (pair.awake) {
       contact.surface.mode = surface.mode;
       contact.surface.mu = surface.mu;
@@ -215,7 +236,7 @@ bool ContactPass::is_swapped(const Pair& pair) {
 std::uint32_t ContactPass::child_of(const GeomTag& tag, const dContactGeom& point) {
   if (tag.body->shape->type != PLUMB_TRIANGLE_MESH) return tag.placed.child;
   const int side = point.g1 == tag.placed.geom ? point.side1 : point.side2;
-  return side < 0 ? 0 : static_cast<std::uint32_t>(side);
+  return side < 0 ? 0 : std::min(static_cast<std::uint32_t>(side), tag.body->shape->triangle_count - 1);
 }
 
 /// Without its impulses.
@@ -301,7 +322,7 @@ PlumbManifold ContactPass::show(const Pair& pair, std::span<const dContact> poin
   }
   const PlumbVec3 of_first = velocity_at(*pair.first.body, middle), of_second = velocity_at(*pair.second.body, middle);
   row.velocity = swapped ? sub(of_first, of_second) : sub(of_second, of_first);
-  const Surface surface(pair, mode_, nullptr);
+  const Surface surface(pair, deepest[0], mode_, nullptr);
   row.friction = surface.mu;
   row.restitution = surface.bounce;
   row.surface_velocity = scale(swapped ? -1 : 1, belts_of(pair, nullptr));

@@ -55,12 +55,17 @@ class ContactPass {
  private:
   struct Pair;
   struct Surface;
+  struct Coefficients {
+    double friction, restitution;
+  };
   static void near(void* self, dGeomID first, dGeomID second);
   void meet(dGeomID first, dGeomID second);
   [[nodiscard]] static bool shows(const Pair& pair);
   /// Whether the second is the interface's body_a.
   [[nodiscard]] static bool is_swapped(const Pair& pair);
   [[nodiscard]] static std::uint32_t child_of(const GeomTag& tag, const dContactGeom& point);
+  [[nodiscard]] static bool has_materials(const Pair& pair);  ///< by triangle
+  [[nodiscard]] static Coefficients coefficients_at(const GeomTag& tag, const dContactGeom& point);
   [[nodiscard]] PlumbVec3 belts_of(const Pair& pair, const PlumbManifoldChange* change) const;
   [[nodiscard]] bool may_meet(const GeomTag& one, const GeomTag& two) const;
   void respond(const Pair& pair, std::span<dContact> points, const PlumbManifoldChange* change);

@@ -45,6 +45,7 @@ void split_single_triangle(Shape& shape) {
 void take_mesh(Shape& shape, const PlumbShapeDesc& desc) {
   static_assert(sizeof(dTriIndex) == sizeof(std::uint32_t));
   shape.vertices.assign(desc.vertices, desc.vertices + std::size_t{desc.vertex_count} * 3);
+  shape.triangle_count = desc.triangle_count;
   shape.indices.assign(desc.indices, desc.indices + std::size_t{desc.triangle_count} * 3);
   if (desc.triangle_count == 1) split_single_triangle(shape);
   shape.mesh.reset(dGeomTriMeshDataCreate());
@@ -116,6 +117,7 @@ void fill_shape(Shape& shape, const PlumbShapeDesc& desc, const std::vector<cons
   if (desc.type == PLUMB_CONVEX_HULL) take_hull(shape, desc);
   if (desc.type == PLUMB_TRIANGLE_MESH) take_mesh(shape, desc);
   if (desc.type == PLUMB_HEIGHT_FIELD) take_height_field(shape, desc);
+  shape.materials = backend::TriangleMaterials(desc);
   PLUMB_ASSERT(children.size() == (desc.type == PLUMB_COMPOUND ? desc.child_count : 0));
   for (std::size_t i = 0; i < children.size(); ++i) {
     const PlumbCompoundChild& child = desc.children[i];

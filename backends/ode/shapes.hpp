@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ode_math.hpp"
+#include "plumb/backend/triangle_materials.hpp"
 #include "plumb/physics_world.hpp"
 
 namespace plumb::ode {
@@ -43,8 +44,10 @@ struct Shape {
   // Mesh and height field; row by row as given.
   std::vector<double> vertices;
   std::vector<std::uint32_t> indices;
+  std::uint32_t triangle_count = 0;  ///< as given: a single one is cut in two
   std::unique_ptr<dxTriMeshData, TriMeshDataDeleter> mesh;
   std::unique_ptr<dxHeightfieldData, HeightfieldDataDeleter> field;
+  backend::TriangleMaterials materials;
 };
 
 /// A geom of a shape and where it stands in the shape's frame. A plane has no place: see place_plane.

@@ -106,6 +106,91 @@ void child_material(Conformance& c) {
            probe.velocity(body).x());
 }
 
+/// A square about the origin of 2 x 2 cells whose triangles have, by the side of x on which they lie, one of two
+/// materials.
+struct HalvedSurface {
+  static constexpr std::uint32_t kCells = 2;
+  static constexpr double kSide = 8;  // m: nothing here slides over an edge, at which an engine may catch it
+
+  explicit HalvedSurface(PlumbShapeType type) : desc(shape_desc(type)) {
+    constexpr std::uint32_t across = kCells + 1;
+    for (std::uint32_t row = 0; row < across; ++row)
+      for (std::uint32_t column = 0; column < across; ++column)
+        corners.insert(corners.end(), {kSide * (column - kCells / 2.0), 0, kSide * (row - kCells / 2.0)});
+    for (std::uint32_t row = 0; row < kCells; ++row)
+      for (std::uint32_t column = 0; column < kCells; ++column) {
+        const std::uint32_t here = row * across + column;
+        indices.insert(indices.end(), {here, here + across, here + 1, here + 1, here + across, here + across + 1});
+        of.insert(of.end(), 2, column < kCells / 2 ? 0U : PLUMB_BODY_MATERIAL);
+      }
+    desc.vertices = corners.data();
+    desc.vertex_count = across * across;
+    desc.indices = indices.data();
+    desc.triangle_count = 2 * kCells * kCells;
+    desc.heights = heights.data();
+    desc.rows = desc.columns = across;
+    desc.spacing = {kSide, 0, kSide};
+    desc.materials = &material;
+    desc.material_count = 1;
+    desc.triangle_materials = of.data();
+  }
+
+  std::vector<double> corners, heights = std::vector<double>((kCells + 1) * (kCells + 1), 0.0);
+  std::vector<std::uint32_t> indices, of;
+  PlumbMaterial material{};  ///< of triangles at x < 0; elsewhere the body's counts
+  PlumbShapeDesc desc;
+};
+
+void triangle_material(Conformance& c, PlumbShapeType type) {
+  c.require(PLUMB_CAP_TRIANGLE_MATERIAL, type, 0, "materials by triangle");
+  HalvedSurface surface(type);
+  surface.material.restitution = 0.8;  // and no friction
+  Probe probe(c, kPlainNeeds | PLUMB_NEED_RESTITUTION);
+  PlumbBodyDesc ground = body_desc(PLUMB_STATIC);
+  ground.shape = probe.shape(surface.desc);
+  ground.material.friction = 0.5;
+  probe.body(ground);
+  const PlumbShape cube = probe.box({0.25, 0.25, 0.25}), ball = probe.sphere(0.25);
+  const PlumbBody on_ice = probe.dynamic(cube, {-6.5, 0.25, -6.5}, {1, 0, 0});
+  const PlumbBody on_body = probe.dynamic(cube, {1.5, 0.25, -6.5}, {1, 0, 0});
+  const PlumbBody bounces = probe.dynamic(ball, {-2, 0.499, -2}, {0, -5, 0});
+  const PlumbBody lies = probe.dynamic(ball, {6, 0.499, -2}, {0, -5, 0});
+  probe.step(24, 1.0 / 240);
+  const double up = probe.velocity(bounces).y(), dead = probe.velocity(lies).y();
+  c.expect(up > 3, "a ball of 5 m/s leaves triangles of restitution .8 with {:.3f} m/s", up);
+  c.expect(std::abs(dead) < 0.3, "a ball of 5 m/s leaves triangles of the body's restitution 0 with {:.3f} m/s", dead);
+  probe.seconds(1);
+  c.expect(std::abs(probe.velocity(on_ice).x() - 1) < 0.05, "on triangles without friction a cube slowed to {:.3f} m/s",
+           probe.velocity(on_ice).x());
+  c.expect(std::abs(probe.velocity(on_body).x()) < 0.05,
+           "on triangles of the body's friction a cube still slides at {:.3f} m/s", probe.velocity(on_body).x());
+}
+void mesh_material(Conformance& c) { triangle_material(c, PLUMB_TRIANGLE_MESH); }
+void field_material(Conformance& c) { triangle_material(c, PLUMB_HEIGHT_FIELD); }
+
+/// What cannot be is refused, and the world goes on.
+void wrong_triangle_materials(Conformance& c) {
+  c.require(PLUMB_CAP_TRIANGLE_MATERIAL, PLUMB_TRIANGLE_MESH, 0, "materials by triangle");
+  Probe probe(c, kPlainNeeds);
+  const auto is_refused = [&](PlumbResult expected, const char* what, auto&& spoil) {
+    HalvedSurface surface(PLUMB_TRIANGLE_MESH);
+    spoil(surface);
+    PlumbShape shape = 0;
+    const PlumbResult result = probe.world().create_shapes({&surface.desc, 1}, {&shape, 1});
+    c.expect(result == expected, "{}: answered with {} instead of {}", what, result, expected);
+  };
+  is_refused(PLUMB_E_INVALID_ARGUMENT, "a row that is not there", [](HalvedSurface& s) { s.of[7] = 1; });
+  is_refused(PLUMB_E_INVALID_ARGUMENT, "no rows", [](HalvedSurface& s) { s.desc.materials = nullptr; });
+  is_refused(PLUMB_E_INVALID_ARGUMENT, "no numbers", [](HalvedSurface& s) { s.desc.triangle_materials = nullptr; });
+  is_refused(PLUMB_E_INVALID_ARGUMENT, "friction below 0", [](HalvedSurface& s) { s.material.friction = -1; });
+  is_refused(PLUMB_E_INVALID_ARGUMENT, "a triangle that runs", [](HalvedSurface& s) {
+    s.material.surface_velocity = {1, 0, 0};
+  });
+  is_refused(PLUMB_E_NOT_DECLARED, "restitution without its need",
+             [](HalvedSurface& s) { s.material.restitution = 0.5; });
+  is_refused(PLUMB_OK, "none of them", [](HalvedSurface&) {});
+}
+
 }  // namespace
 
 std::span<const Check> material_checks() {
@@ -115,6 +200,9 @@ std::span<const Check> material_checks() {
       {"materials.written", "a material changed while in contact", &written_material},
       {"materials.surface_velocity", "a conveyor belt", &surface_velocity},
       {"materials.children", "a compound's child with its own material", &child_material},
+      {"materials.mesh", "a mesh whose triangles have their own material", &mesh_material},
+      {"materials.height_field", "a height field whose triangles have their own material", &field_material},
+      {"materials.refused", "materials by triangle that cannot be", &wrong_triangle_materials},
   };
   return checks;
 }

@@ -43,6 +43,26 @@ void children_without_material() {
   }>();
 }
 
+void triangles_without_material() {
+  change_shapes<[](PlumbShapeDesc& desc) {
+    if (desc.type == PLUMB_TRIANGLE_MESH) desc.material_count = 0;
+  }>();
+}
+void cells_without_material() {
+  change_shapes<[](PlumbShapeDesc& desc) {
+    if (desc.type == PLUMB_HEIGHT_FIELD) desc.material_count = 0;
+  }>();
+}
+void triangles_that_run_are_taken() {
+  change_shapes<[](PlumbShapeDesc& desc) {
+    static PlumbMaterial standing;
+    if (desc.material_count != 1 || desc.materials == nullptr) return;
+    standing = desc.materials[0];
+    standing.surface_velocity = {};
+    desc.materials = &standing;
+  }>();
+}
+
 void gravity_too_weak() {
   change_worlds<[](PlumbWorldDesc& desc) { desc.gravity.y *= 0.99; }>();
 }
