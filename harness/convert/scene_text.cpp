@@ -73,6 +73,10 @@ Json json_of(const SceneShape& shape, const Scene& scene) {
     default:  // a plane is a plane
       break;
   }
+  for (const PlumbMaterial& material : shape.materials)
+    json["materials"].push_back({{"friction", material.friction}, {"restitution", material.restitution}});
+  for (const std::uint32_t row : shape.triangle_materials)
+    json["triangle_materials"].push_back(static_cast<std::int32_t>(row));
   return json;
 }
 

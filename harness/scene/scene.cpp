@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "plumb/nearest.hpp"
 
 namespace plumb::harness {
@@ -24,9 +26,20 @@ PlumbShapeDesc SceneShape::descriptor() const {
   full.vertices = vertices.empty() ? nullptr : vertices.data();
   full.indices = indices.empty() ? nullptr : indices.data();
   full.heights = heights.empty() ? nullptr : heights.data();
+  full.materials = materials.data();
+  full.material_count = static_cast<std::uint32_t>(materials.size());
+  full.triangle_materials = triangle_materials.data();
   full.children = nullptr;
   full.child_count = 0;
   return full;
+}
+
+bool Scene::has_part_materials() const {
+  return std::any_of(shapes.begin(), shapes.end(), [](const SceneShape& shape) {
+    return !shape.materials.empty() ||
+           std::any_of(shape.children.begin(), shape.children.end(),
+                       [](const SceneShape::Child& child) { return child.material.has_value(); });
+  });
 }
 
 std::size_t Scene::body(const std::string& name) const { return find_item(bodies, "body", name, id); }

@@ -45,7 +45,8 @@ struct SceneShape {
   std::string name;
   PlumbShapeDesc desc{};  ///< array pointers unset: see descriptor()
   std::vector<double> vertices, heights;
-  std::vector<std::uint32_t> indices;
+  std::vector<std::uint32_t> indices, triangle_materials;
+  std::vector<PlumbMaterial> materials;  ///< by triangle_materials; none: the body's
   std::vector<Child> children;
 
   /// desc with its array pointers set into this object; children are left to the caller, who knows their handles.
@@ -102,6 +103,8 @@ struct Scene {
   std::string lacks;  ///< what this machine has not and the scene needs, with the remedy; "" when nothing: else it
                       ///< cannot be built
 
+  /// Whether parts of shapes have other materials than the bodies that have them.
+  [[nodiscard]] bool has_part_materials() const;
   /// Index of a body by name; throws UsageError with the nearest name.
   [[nodiscard]] std::size_t body(const std::string& name) const;
   [[nodiscard]] std::size_t joint(const std::string& name) const;

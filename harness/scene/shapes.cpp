@@ -38,22 +38,22 @@ void read_indices(const Node& node, SceneShape& shape) {
   }
 }
 
-/// Heights of a grid as an expression over x and z, which it alone knows.
-class GridHeight {
+/// An expression over x and z, places in a shape's frame, which it alone knows; without one 0.
+class PlaceExpression {
  public:
-  explicit GridHeight(std::optional<Node> node) : node_(std::move(node)) {
+  explicit PlaceExpression(std::optional<Node> node) : node_(std::move(node)) {
     for (const char* name : {"x", "z"}) {
       if (!node_) return;
       node_->check_new_name(name);
       node_->expressions().set(name, 0);
     }
   }
-  ~GridHeight() {
+  ~PlaceExpression() {
     for (const char* name : {"x", "z"})
       if (node_) node_->expressions().erase(name);
   }
-  GridHeight(const GridHeight&) = delete;
-  GridHeight& operator=(const GridHeight&) = delete;
+  PlaceExpression(const PlaceExpression&) = delete;
+  PlaceExpression& operator=(const PlaceExpression&) = delete;
 
   [[nodiscard]] double at(double x, double z) const {
     if (!node_) return 0;
@@ -74,7 +74,7 @@ void read_grid(const Node& node, const std::optional<Node>& height, SceneShape& 
   const double side = numbers[1].number();
   if (!(side > 0)) numbers[1].fail(fmt::format("the side of a cell is above 0, not {:g}", side));
   builder.add_vertices(node, std::size_t{cells + 1} * (cells + 1));
-  const GridHeight y(height);
+  const PlaceExpression y(height);
   for (std::uint32_t row = 0; row <= cells; ++row)
     for (std::uint32_t column = 0; column <= cells; ++column) {
       const double x = (column - cells / 2.0) * side, z = (row - cells / 2.0) * side;
@@ -99,6 +99,58 @@ void read_heights(const Node& node, SceneShape& shape, SceneBuilder& builder) {
   }
   shape.desc.rows = static_cast<std::uint32_t>(rows.size());
   shape.desc.columns = static_cast<std::uint32_t>(shape.heights.size() / rows.size());
+}
+
+/// The middle of each triangle of a mesh or height field, in its frame.
+std::vector<PlumbVec3> middles_of(const SceneShape& shape) {
+  std::vector<PlumbVec3> middles;
+  for (std::size_t i = 0; i < shape.indices.size(); i += 3) {
+    PlumbVec3 sum{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double* corner = &shape.vertices[std::size_t{3} * shape.indices[i + k]];
+      sum = {sum.x + corner[0], sum.y + corner[1], sum.z + corner[2]};
+    }
+    middles.push_back({sum.x / 3, sum.y / 3, sum.z / 3});
+  }
+  const PlumbShapeDesc& field = shape.desc;
+  for (std::uint32_t row = 0; row + 1 < field.rows; ++row)
+    for (std::uint32_t column = 0; column + 1 < field.columns; ++column)
+      for (const double third : {1.0 / 3, 2.0 / 3})
+        middles.push_back({(column + third - (field.columns - 1) / 2.0) * field.spacing.x, 0,
+                           (row + third - (field.rows - 1) / 2.0) * field.spacing.z});
+  return middles;
+}
+
+/// Materials by triangle, and which each has: a list, or an expression over the place of its middle.
+void read_materials(const Node& node, SceneShape& shape) {
+  const auto materials = node.find("materials"), of = node.find("triangle_materials");
+  if (!materials && !of) return;
+  if (!materials || !of) node.fail("\"materials\" and \"triangle_materials\" go together");
+  for (const Node& row : materials->elements()) {
+    row.only(scene_keys().at("triangle_material"));
+    PlumbMaterial material{};
+    material.friction = row.number_or("friction", 0.5);
+    material.restitution = row.number_or("restitution", 0);
+    check_values(row, material);
+    shape.materials.push_back(material);
+  }
+  if (shape.materials.empty()) materials->fail("a shape with materials has one or more");
+  const auto last = static_cast<std::int64_t>(shape.materials.size()) - 1;
+  const std::vector<PlumbVec3> middles = middles_of(shape);
+  const auto take = [&](const Node& number) {
+    shape.triangle_materials.push_back(static_cast<std::uint32_t>(number.integer(-1, last)));  // -1: the body's
+  };
+  if (of->json().is_array()) {
+    if (of->json().size() != middles.size())
+      of->fail(fmt::format("the shape has {} triangles, not {}", middles.size(), of->json().size()));
+    for (const Node& number : of->elements()) take(number);
+    return;
+  }
+  const PlaceExpression row(*of);
+  for (const PlumbVec3& middle : middles) {
+    (void)row.at(middle.x, middle.z);
+    take(*of);
+  }
 }
 
 /// A model of a package. Where the machine lacks it the scene says so and cannot be built.
@@ -158,6 +210,8 @@ SceneShape read_shape(const Node& node, const std::string& name, SceneBuilder& b
   for (const auto& [key, member] : node.members()) {
     const auto& keys = keys_by_type()[type];
     if ((as_grid && (key == "grid" || key == "height")) || (as_model && key == "model")) continue;
+    const bool of_surface = key == "materials" || key == "triangle_materials";
+    if (of_surface && (type == PLUMB_TRIANGLE_MESH || type == PLUMB_HEIGHT_FIELD)) continue;
     if (key == "type" || key == "user_data" || std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
     member.fail(fmt::format("a {} has no {}", shape_words()[type], key));
   }
@@ -181,6 +235,7 @@ SceneShape read_shape(const Node& node, const std::string& name, SceneBuilder& b
     shape.desc.user_data = static_cast<std::uint64_t>(data->integer(0, std::int64_t{1} << 53));
   shape.desc.vertex_count = static_cast<std::uint32_t>(shape.vertices.size() / 3);
   shape.desc.triangle_count = static_cast<std::uint32_t>(shape.indices.size() / 3);
+  if (builder.scene.lacks.empty() || !as_model) read_materials(node, shape);
   if (builder.scene.lacks.empty() || !as_model) check_values(node, shape);
   return shape;
 }

@@ -121,6 +121,10 @@ std::string missing_support(const Backend& backend, const Scene& scene) {
       questions.push_back({PLUMB_CAP_SHAPE, type, kind.motion,
                            word_of(motion_words(), kind.motion) + " " + word_of(shape_words(), type)});
   }
+  for (const SceneShape& shape : scene.shapes)
+    if (!shape.materials.empty())
+      questions.push_back({PLUMB_CAP_TRIANGLE_MATERIAL, shape.desc.type, 0,
+                           "materials by triangle of a " + word_of(shape_words(), shape.desc.type)});
   for (const auto& more : {joint_questions(scene), pair_questions(scene)})
     questions.insert(questions.end(), more.begin(), more.end());
   for (const Question& question : questions) {

@@ -29,6 +29,11 @@ void remark_host(const Scene& scene, Remarks& remarks) {
   for (const SceneAction& action : scene.host) remarks.add("what the host does is left out", action.name);
 }
 
+void remark_materials(const Scene& scene, Remarks& remarks) {
+  for (const SceneShape& shape : scene.shapes)
+    if (!shape.materials.empty()) remarks.add("materials by triangle are left out", shape.name);
+}
+
 void remark_gravity(const Scene& scene, Remarks& remarks) {
   const PlumbVec3 &g = scene.gravity, earth = Scene{}.gravity;
   if (g.x != earth.x || g.y != earth.y || g.z != earth.z)

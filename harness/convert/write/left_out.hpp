@@ -16,6 +16,7 @@ struct Vocabulary {
 void remark_body(const SceneBody& body, Remarks& remarks, const Vocabulary& known = {});
 void remark_joint(const SceneJoint& joint, Remarks& remarks, const Vocabulary& known = {});
 void remark_host(const Scene& scene, Remarks& remarks);
+void remark_materials(const Scene& scene, Remarks& remarks);  ///< by triangle
 /// Of formats that are silent about it, and whose readers take the earth's.
 void remark_gravity(const Scene& scene, Remarks& remarks);
 

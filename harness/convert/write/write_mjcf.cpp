@@ -218,6 +218,7 @@ std::string write_mjcf(const Scene& scene, const std::string& name, Remarks& rem
     writer.write_exclusions();
   }
   remark_host(scene, remarks);
+  remark_materials(scene, remarks);
   return xml.str();
 }
 

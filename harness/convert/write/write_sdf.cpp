@@ -153,6 +153,7 @@ SdfFiles write_sdf(const Scene& scene, const std::string& name, Remarks& remarks
     for (const auto& group : groups_of(scene)) write_model(out, group);
   }
   remark_host(scene, remarks);
+  remark_materials(scene, remarks);
   return {out.xml.str(), std::move(out.meshes)};
 }
 

@@ -29,13 +29,6 @@ double mobility(const BodyState& body, const Vec3& point) {
   return trace;
 }
 
-bool has_child_materials(const Scene& scene) {
-  for (const SceneShape& shape : scene.shapes)
-    for (const SceneShape::Child& child : shape.children)
-      if (child.material) return true;
-  return false;
-}
-
 }  // namespace
 
 double natural_map(const ContactSample& sample, const referee::Scale& scale) {
@@ -80,7 +73,7 @@ LawResiduals law_residuals(std::span<const BodyState> before, std::span<const Bo
 ContactLaws::ContactLaws(Simulation& simulation) {
   const Scene& scene = simulation.scene();
   judges_ =
-      (scene.needs & PLUMB_NEED_CONTACT_IMPULSES) != 0 && vec(scene.gravity).norm() > 0 && !has_child_materials(scene);
+      (scene.needs & PLUMB_NEED_CONTACT_IMPULSES) != 0 && vec(scene.gravity).norm() > 0 && !scene.has_part_materials();
   if (!judges_) return;
   balance_ = scene.joints.empty() && (scene.needs & (PLUMB_NEED_FORCES | PLUMB_NEED_DAMPING)) == 0;
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {

@@ -70,6 +70,7 @@ std::string write_gltf(const Scene& scene, bool binary, Remarks& remarks) {
   }
   remark_gravity(scene, remarks);
   remark_host(scene, remarks);
+  remark_materials(scene, remarks);
   return binary ? draft.binary() : draft.text();
 }
 

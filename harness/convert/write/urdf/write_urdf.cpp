@@ -127,6 +127,7 @@ UrdfFiles write_urdf(Imported& imported, const std::string& name) {
   UrdfWriter(imported, out).write();
   remark_gravity(imported.scene, imported.remarks);
   remark_host(imported.scene, imported.remarks);
+  remark_materials(imported.scene, imported.remarks);
   return {out.xml.str(), std::move(out.meshes)};
 }
 
