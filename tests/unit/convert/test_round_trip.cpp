@@ -120,6 +120,25 @@ TEST(SceneText, IsASceneFileThatIsReadAsWhatItWas) {
   EXPECT_EQ(after.measure, "quantities");
 }
 
+TEST(SceneText, KeepsMaterialsByTriangle) {
+  Imported imported;
+  imported.scene = scene_of("C12");
+  const Scene before = imported.scene;
+  set_up(imported, {});
+  Json json = scene_json(imported.scene, {"X2", "land", "Land", "As it was."});
+  add_metrics(json, imported.scene);
+  const Scene after = SceneFile::load(write_file("X2-land.json", scene_text(json))).instantiate({});
+  const auto mesh = [](const Scene& scene) {
+    return std::find_if(scene.shapes.begin(), scene.shapes.end(),
+                        [](const SceneShape& shape) { return shape.desc.type == PLUMB_TRIANGLE_MESH; });
+  };
+  ASSERT_NE(mesh(after), after.shapes.end());
+  EXPECT_EQ(mesh(after)->triangle_materials, mesh(before)->triangle_materials);
+  ASSERT_EQ(mesh(after)->materials.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i)
+    EXPECT_DOUBLE_EQ(mesh(after)->materials[i].friction, mesh(before)->materials[i].friction);
+}
+
 /// SDF calls 0 where a joint is at the start.
 TEST(WriteSdf, LimitsCountFromTheStart) {
   Scene scene = scene_of("I23");

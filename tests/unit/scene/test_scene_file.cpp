@@ -145,6 +145,49 @@ TEST_F(SceneFiles, GiveAGridTheHeightOfAnExpression) {
   EXPECT_EQ(hills->vertices[1], 2 - 1 - 30);
 }
 
+TEST_F(SceneFiles, GiveTrianglesTheirMaterials) {
+  const auto surface = [&](const std::string& member) {
+    std::string text = good;
+    const std::string shapes = "\"shapes\": {";
+    text.replace(text.find(shapes), shapes.size(), shapes + "\"land\": { " + member + " },");
+    try {
+      const Scene scene = load(text).instantiate({{"n", 2.0}});
+      for (const SceneShape& shape : scene.shapes)
+        if (shape.name == "land") return std::pair(shape, std::string());
+    } catch (const UsageError& error) {
+      return std::pair(SceneShape{}, std::string(error.what()));
+    }
+    return std::pair(SceneShape{}, std::string("it is not there"));
+  };
+  const std::string mesh = R"("type": "triangle_mesh", "grid": [2, 3])";
+  const std::string field = R"("type": "height_field", "heights": [[0, 0, 0], [0, 0, 0]], "spacing": [1, 1, 1])";
+  const std::string rows = R"(, "materials": [{ "friction": 0.1 }, { "restitution": "n / 4" }])";
+  const auto [land, nothing] = surface(mesh + rows + R"(, "triangle_materials": "x < 0 ? (z < 0 ? 0 : 1) : -1")");
+  EXPECT_EQ(nothing, "");
+  EXPECT_EQ(land.triangle_materials, (std::vector<std::uint32_t>{0, 0, ~0U, ~0U, 1, 1, ~0U, ~0U}));
+  ASSERT_EQ(land.materials.size(), 2U);
+  EXPECT_EQ(land.materials[0].friction, 0.1);
+  EXPECT_EQ(land.materials[1].friction, 0.5);
+  EXPECT_EQ(land.materials[1].restitution, 0.5);
+  EXPECT_EQ(land.descriptor().material_count, 2U);
+  const auto by_place = surface(field + rows + R"(, "triangle_materials": "x + z < -0.5 ? 0 : 1")").first;
+  EXPECT_EQ(by_place.triangle_materials, (std::vector<std::uint32_t>{0, 1, 1, 1}));
+  const auto by_list = surface(field + rows + R"(, "triangle_materials": [1, 0, -1, "n - 2"])").first;
+  EXPECT_EQ(by_list.triangle_materials, (std::vector<std::uint32_t>{1, 0, ~0U, 0}));
+
+  const auto refused = [&](const std::string& member, const std::string& words) {
+    const std::string said = surface(member).second;
+    EXPECT_NE(said.find(words), std::string::npos) << member << "\n  " << said;
+  };
+  refused(mesh + rows, "\"materials\" and \"triangle_materials\" go together");
+  refused(mesh + R"(, "triangle_materials": 0)", "go together");
+  refused(mesh + rows + R"(, "triangle_materials": [0, 1])", "the shape has 8 triangles, not 2");
+  refused(mesh + rows + R"(, "triangle_materials": 2)", "expected a whole number from -1 to 1, found 2");
+  refused(mesh + R"(, "materials": [], "triangle_materials": 0)", "one or more");
+  refused(mesh + R"(, "materials": [{ "friction": -1 }], "triangle_materials": 0)", "friction");
+  refused(R"("type": "sphere", "radius": 1)" + rows + R"(, "triangle_materials": 0)", "a sphere has no");
+}
+
 TEST_F(SceneFiles, SayWhatTheHostDoes) {
   std::string text = good;
   const std::string measure = "\"measure\":", needs = "\"needs\": [", pin = "\"name\": \"pin\",";
