@@ -42,6 +42,11 @@ void attach_shapes(Body& body, bool sensed) {
   def.enableCustomFiltering = true;  // excluded pairs; asked once when two come near each other
   const auto add = [&](const Shape& shape, const PlumbMaterial& material, std::uintptr_t child, const PlumbPose* pose) {
     def.baseMaterial = material_of(material);
+    std::vector<b3SurfaceMaterial> by_triangle;
+    if (!shape.materials.empty()) by_triangle.push_back(def.baseMaterial);
+    for (const PlumbMaterial& row : shape.materials) by_triangle.push_back(material_of(row));
+    def.materials = by_triangle.data();
+    def.materialCount = static_cast<int>(by_triangle.size());
     def.userData = reinterpret_cast<void*>(child);
     const b3ShapeId id = make_box3d_shape(body.id, def, shape, pose);
     if (!b3Shape_IsValid(id)) throw Error(PLUMB_E_OUT_OF_MEMORY, "Box3D made no shape; it holds 4 million");
@@ -55,7 +60,9 @@ void attach_shapes(Body& body, bool sensed) {
 
 void apply_material(const Body& body) {
   for (std::size_t i = 0; i < body.shapes.size(); ++i)
-    if (body.shape->children.empty() || !body.shape->children[i].has_material)
+    if (!body.shape->materials.empty())
+      b3Shape_SetMeshMaterial(body.shapes[i], material_of(body.desc.material), 0);
+    else if (body.shape->children.empty() || !body.shape->children[i].has_material)
       b3Shape_SetSurfaceMaterial(body.shapes[i], material_of(body.desc.material));
 }
 

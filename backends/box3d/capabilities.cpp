@@ -98,6 +98,8 @@ Capability fact(PlumbCapability kind, std::uint32_t a, std::uint32_t b) {
     case PLUMB_CAP_EVENT: return {a < PLUMB_EVENT_COUNT ? PLUMB_EMULATED : PLUMB_NONE};
     case PLUMB_CAP_PHASE_TIME:
       return {a == PLUMB_PHASE_BROAD || a == PLUMB_PHASE_NARROW || a == PLUMB_PHASE_SOLVE ? PLUMB_NATIVE : PLUMB_NONE};
+    case PLUMB_CAP_TRIANGLE_MATERIAL:
+      return {a == PLUMB_TRIANGLE_MESH || a == PLUMB_HEIGHT_FIELD ? PLUMB_NATIVE : PLUMB_NONE};
     case PLUMB_CAP_SNAPSHOT: return {PLUMB_APPROXIMATE, "warm-start data are lost"};
     default: return backend::usual_capability(kind, a, b);
   }

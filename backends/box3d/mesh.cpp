@@ -3,6 +3,7 @@
 #include <array>
 #include <map>
 
+#include "plumb/backend/check_descs.hpp"
 #include "shapes.hpp"
 
 namespace plumb::box3d {
@@ -28,12 +29,28 @@ std::vector<std::uint32_t> numbers_of(const b3MeshData& mesh, const std::vector<
   return found;
 }
 
-void make(Shape& shape, std::vector<b3Vec3> points, std::vector<std::int32_t> indices) {
+/// For each triangle its row of the materials that attach_shapes() gives, of which the first is the body's.
+std::vector<std::uint8_t> take_materials(Shape& shape, const PlumbShapeDesc& desc) {
+  constexpr std::uint32_t most = 255;  // beside the body's, in Box3D's byte a triangle
+  if (!backend::has_triangle_materials(desc)) return {};
+  if (desc.material_count > most)
+    throw Error(PLUMB_E_UNSUPPORTED, "material_count is " + std::to_string(desc.material_count) +
+                                         "; a mesh of Box3D holds " + std::to_string(most));
+  shape.materials.assign(desc.materials, desc.materials + desc.material_count);
+  std::vector<std::uint8_t> rows;
+  for (std::size_t t = 0; t < backend::triangles_of(desc); ++t)
+    rows.push_back(static_cast<std::uint8_t>(desc.triangle_materials[t] + 1));  // PLUMB_BODY_MATERIAL + 1 is 0
+  return rows;
+}
+
+void make(Shape& shape, const PlumbShapeDesc& desc, std::vector<b3Vec3> points, std::vector<std::int32_t> indices) {
+  std::vector<std::uint8_t> materials = take_materials(shape, desc);
   b3MeshDef def{};
   def.vertices = points.data();
   def.vertexCount = static_cast<int>(points.size());
   def.indices = indices.data();
   def.triangleCount = static_cast<int>(indices.size() / 3);
+  def.materialIndices = materials.empty() ? nullptr : materials.data();
   def.identifyEdges = true;
   shape.mesh.reset(b3CreateMesh(&def, nullptr, 0));
   if (!shape.mesh)
@@ -47,7 +64,7 @@ void make(Shape& shape, std::vector<b3Vec3> points, std::vector<std::int32_t> in
 void make_mesh(Shape& shape, const PlumbShapeDesc& desc) {
   std::vector<b3Vec3> points;
   for (std::uint32_t i = 0; i < desc.vertex_count; ++i) points.push_back(vector(desc.vertices + 3 * i, "a vertex"));
-  make(shape, std::move(points), {desc.indices, desc.indices + 3 * std::size_t{desc.triangle_count}});
+  make(shape, desc, std::move(points), {desc.indices, desc.indices + 3 * std::size_t{desc.triangle_count}});
 }
 
 void make_height_field(Shape& shape, const PlumbShapeDesc& desc) {
@@ -63,7 +80,7 @@ void make_height_field(Shape& shape, const PlumbShapeDesc& desc) {
     for (std::uint32_t c = 0; c + 1 < desc.columns; ++c)
       indices.insert(indices.end(),
                      {at(r, c), at(r + 1, c), at(r, c + 1), at(r, c + 1), at(r + 1, c), at(r + 1, c + 1)});
-  make(shape, std::move(points), std::move(indices));
+  make(shape, desc, std::move(points), std::move(indices));
 }
 
 }  // namespace plumb::box3d

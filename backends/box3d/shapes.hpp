@@ -30,6 +30,7 @@ struct Shape {
   Hull hull;                             ///< of all with faces; of a plane, a large box below it
   Mesh mesh;                             ///< of meshes and height fields; Box3D's shapes point to it
   std::vector<std::uint32_t> triangles;  ///< the host's number of each of the mesh's triangles
+  std::vector<PlumbMaterial> materials;  ///< of triangles, after the body's, which is 0 in the mesh; none: all are that
   std::vector<Child> children;
 
   /// A capsule that Box3D would find too short is a sphere.
