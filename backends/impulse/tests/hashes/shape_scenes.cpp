@@ -39,7 +39,27 @@ std::vector<double> hills() {
     for (std::uint32_t column = 0; column <= kCells; ++column) heights.push_back(hill(column, row));
   return heights;
 }
-PlumbShape make_mesh(Scene& scene, const std::vector<double>& heights) {
+
+/// A material a cell, of those of ice, sand, rubber and the body in turn.
+struct Chequers {
+  PlumbMaterial materials[3] = {{0.01, 0, {}}, {1.5, 0.1, {}}, {0.7, 0.9, {}}};
+  std::vector<std::uint32_t> of;
+
+  Chequers() {
+    for (std::uint32_t row = 0; row < kCells; ++row)
+      for (std::uint32_t column = 0; column < kCells; ++column) {
+        const std::uint32_t which = (row + 3 * column) % 4;
+        of.insert(of.end(), 2, which < 3 ? which : PLUMB_BODY_MATERIAL);
+      }
+  }
+  void cover(PlumbShapeDesc& desc) const {
+    desc.materials = materials;
+    desc.material_count = 3;
+    desc.triangle_materials = of.data();
+  }
+};
+
+PlumbShape make_mesh(Scene& scene, const std::vector<double>& heights, const Chequers* chequers = nullptr) {
   std::vector<double> vertices;
   std::vector<std::uint32_t> indices;
   for (std::uint32_t row = 0; row <= kCells; ++row)
@@ -53,13 +73,15 @@ PlumbShape make_mesh(Scene& scene, const std::vector<double>& heights) {
   desc.vertex_count = static_cast<std::uint32_t>(vertices.size() / 3);
   desc.indices = indices.data();
   desc.triangle_count = static_cast<std::uint32_t>(indices.size() / 3);
+  if (chequers != nullptr) chequers->cover(desc);
   return scene.make(desc);
 }
-PlumbShape make_field(Scene& scene, const std::vector<double>& heights) {
+PlumbShape make_field(Scene& scene, const std::vector<double>& heights, const Chequers* chequers = nullptr) {
   PlumbShapeDesc desc = shape_desc(PLUMB_HEIGHT_FIELD);
   desc.heights = heights.data();
   desc.rows = desc.columns = kCells + 1;
   desc.spacing = {kSide, 0, kSide};
+  if (chequers != nullptr) chequers->cover(desc);
   return scene.make(desc);
 }
 
@@ -109,6 +131,26 @@ void pile_on_surfaces(Scene& scene) {
   scene.before_step = [lift](Scene& moved, int step) {
     moved.target(lift, {0, 0.004 * (step + 1), -kCells * kSide + 0.002 * (step + 1)});
   };
+}
+
+void chequers(Scene& scene) {
+  const Chequers chequers;
+  const std::vector<double> level(std::size_t{kCells + 1} * (kCells + 1), 0.0);
+  scene.add_static(make_mesh(scene, level, &chequers), {0, 0, 0});
+  scene.add_static(make_field(scene, hills(), &chequers), {kCells * kSide, 0, 0});
+  const std::vector<PlumbShape> shapes = convex_shapes(scene);
+  Random random(53);
+  for (int i = 0; i < 120; ++i) {
+    scene.body.flags = 0;
+    if (i % 7 == 0)
+      scene.body.flags = PLUMB_BODY_CCD;
+    else if (i % 11 == 0)
+      scene.body.flags = PLUMB_BODY_ASLEEP;
+    scene.body.linear_velocity = {random.between(-6, 6), i % 7 == 0 ? -60.0 : 0.0, random.between(-6, 6)};
+    const PlumbQuat turn = random.turn();
+    scene.add(shapes[static_cast<std::size_t>(i % 5)], {random.between(-3, 12), 1 + 0.05 * i, random.between(-3, 3)},
+              turn);
+  }
 }
 
 void sheets(Scene& scene) {
