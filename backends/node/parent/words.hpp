@@ -15,6 +15,7 @@ inline constexpr const char* kKindWords[PLUMB_CAP_COUNT] = {
     "shape",     "pair",           "joint",  "joint_feature", "query",    "read",
     "write",     "need",           "event",  "phase_time",    "residual", "snapshot",
     "host_jobs", "child_material", "modify", "manifold",      "closest",  "triangle_material"};
+static_assert(kKindWords[PLUMB_CAP_COUNT - 1] != nullptr, "a capability has no word");
 inline constexpr const char* kShapeWords[PLUMB_SHAPE_TYPE_COUNT] = {
     "sphere", "box", "capsule", "cylinder", "hull", "mesh", "height_field", "plane", "compound"};
 inline constexpr const char* kMotionWords[PLUMB_MOTION_COUNT] = {"static", "kinematic", "dynamic"};
