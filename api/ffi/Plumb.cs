@@ -126,7 +126,7 @@ public unsafe struct PlumbShapeDesc
     public PlumbVec3 spacing;
     public PlumbCompoundChild* children;
     public uint child_count;
-    /// <summary>of a mesh or height field; 0: all of it has the body's material. Was reserved before 1.2</summary>
+    /// <summary>of materials below; 0: all is the body's. Was reserved before 1.2</summary>
     public uint material_count;
     public ulong user_data;
     /// <summary>Materials by triangle, where PLUMB_CAP_TRIANGLE_MATERIAL says that the backend has them: read when

@@ -224,7 +224,7 @@ pub struct PlumbShapeDesc {
     pub spacing: PlumbVec3,
     pub children: *const PlumbCompoundChild,
     pub child_count: u32,
-    /// of a mesh or height field; 0: all of it has the body's material. Was reserved before 1.2
+    /// of materials below; 0: all is the body's. Was reserved before 1.2
     pub material_count: u32,
     pub user_data: u64,
     /// Materials by triangle, where PLUMB_CAP_TRIANGLE_MATERIAL says that the backend has them: read when

@@ -57,8 +57,7 @@ typedef struct PlumbShapeDesc {
   PlumbVec3 spacing; /* x and z > 0, m; y unused */
   const PlumbCompoundChild* children;
   uint32_t child_count;
-  uint32_t
-      material_count; /* of a mesh or height field; 0: all of it has the body's material. Was reserved before 1.2 */
+  uint32_t material_count; /* of materials below; 0: all is the body's. Was reserved before 1.2 */
   uint64_t user_data;
   /* Materials by triangle, where PLUMB_CAP_TRIANGLE_MATERIAL says that the backend has them: read when material_count
    * is above 0. Their surface_velocity must be 0. Since 1.2 */

@@ -153,7 +153,7 @@ TEST(TriangleMaterials, AreShownToTheHost) {
 }
 
 /// A shape with materials that no body has, beside bodies that touch no surface at all.
-TEST(TriangleMaterials, OfShapesThatNobodyHasCostNobodyAnything) {
+TEST(TriangleMaterials, OfShapesThatNobodyHasAreNotAsked) {
   Scene scene(engine(), kNeeds, kDown, 1);
   (void)ice_and_sand().make(scene, Kind::kMesh);
   scene.ground();
