@@ -52,6 +52,7 @@ PLUMB_HD void collide_candidate(const CollideInput& in, std::uint32_t p) {
   cache.touching[p] = touch ? 1 : 0;
   if (touch) cache.found[p] = manifold;
   if (!touch) manifold.count = 0;
+  if (is_surface(shape_a.type) || is_surface(shape_b.type)) return;  // recycled as a whole (manifold_reduction.hpp)
   if (touch ? may_recycle(shape_a.type, shape_b.type, manifold) : manifold.gap > margin)
     cache.collided.store(p, {manifold, margin, qa, qb, bodies.position[b.body] - bodies.position[a.body]});
 }

@@ -40,6 +40,9 @@ struct StepImpulses {
   Real tangent[2][kManifoldPoints];
 };
 
+/// Of ContactCache::touching, until manifolds are reduced: touches as it did, and has been reduced before.
+constexpr std::uint32_t kCarried = 2;
+
 /// Contacts of one step. Two of these take turns: this step's and the last one's.
 struct ContactCache {
   Pair* pairs;                      ///< candidates of the broad phase

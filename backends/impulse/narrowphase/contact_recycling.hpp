@@ -14,6 +14,9 @@
 //
 // Shapes that were apart, where collision saw by how much, are apart for as long as they have not come that near.
 //
+// With meshes and height fields all that touched is recycled or nothing is, and then no triangle is looked for, either
+// (midphase.cpp decides, for that is before). A terrain so costs what it is touched by, not what lies below.
+//
 // What is round is always collided. Where it rolls, neither body keeps the point in which they touch; held up by one
 // that lags behind, a ball would roll for ever.
 #pragma once

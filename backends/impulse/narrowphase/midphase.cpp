@@ -2,6 +2,7 @@
 
 #include "bodies/way.hpp"
 #include "geometry/shape_box.hpp"
+#include "narrowphase/carried_manifold.hpp"
 
 namespace plumb::impulse {
 
@@ -12,7 +13,44 @@ template <class Sink>
 struct TrianglesOf {
   Pair pair;
   Sink& sink;
-  PLUMB_HD void operator()(std::uint32_t triangle) const { sink(pair, triangle); }
+  PLUMB_HD void operator()(std::uint32_t triangle) const { sink(pair, triangle, 0); }
+};
+
+/// Whether what a pair with a surface touched in the last step is recycled, whole: candidates of the last step.
+class LastTouches {
+ public:
+  PLUMB_HD explicit LastTouches(const NarrowPhaseWork& work, Pair pair) : work_(work), pair_(pair) {}
+
+  /// Whether there are such, and all of them may be recycled.
+  [[nodiscard]] PLUMB_HD bool may_be_recycled() const {
+    if (is_new(pair_.a) || is_new(pair_.b)) return false;
+    bool any = false, all = true;
+    for_each([&](std::uint32_t p) {
+      Manifold manifold;
+      any = true;
+      all = work_.last.collided.is_recyclable(p) && carry(work_, work_.last.collided.load(p), pair_, manifold);
+      return all;
+    });
+    return any && all;
+  }
+  /// For all, in their order, as long as it is true.
+  template <class Each>
+  PLUMB_HD void for_each(const Each& each) const {
+    const std::uint32_t owners[2] = {pair_.a, pair_.b};
+    for (const std::uint32_t owner : owners) {
+      const PairRange range = work_.last.ranges[owner];
+      for (std::uint32_t p = range.first; p < range.first + range.count; ++p)
+        if (is_same(work_.last.pairs[p], pair_) && work_.last.touching[p] != 0 && !each(p)) return;
+    }
+  }
+
+ private:
+  [[nodiscard]] PLUMB_HD bool is_new(std::uint32_t proxy) const {
+    return work_.proxies.rows[proxy].first_step == work_.parameters->step;
+  }
+
+  const NarrowPhaseWork& work_;
+  Pair pair_;
 };
 
 /// kSwept: some bodies must not pass through others however fast they are.
@@ -22,7 +60,7 @@ struct Search {
   const Pair* pairs;
   const PairRange* ranges;
 
-  /// sink(pair, triangle) for every piece of mover i.
+  /// sink(pair, triangle, touching) for every piece of mover i.
   template <class Sink>
   PLUMB_HD void operator()(std::uint32_t i, Sink& sink) const {
     const std::uint32_t mover = in.movers[i];
@@ -31,49 +69,69 @@ struct Search {
       const Pair pair = pairs[p];
       const bool surface_a = is_surface(type_of(pair.a)), surface_b = is_surface(type_of(pair.b));
       if (surface_a && surface_b) continue;
+      if ((surface_a || surface_b) && recycle(pair, sink)) continue;
       if (surface_a || surface_b)
         triangles(surface_a ? pair.a : pair.b, surface_a ? pair.b : pair.a, TrianglesOf<Sink>{pair, sink});
       else
-        sink(pair, 0);
+        sink(pair, 0, 0);
     }
     for (std::uint32_t k = 0; k < in.planes.count; ++k)
-      if (in.filter(mover, in.planes[k]) && reaches(mover, in.planes[k])) sink({mover, in.planes[k]}, 0);
+      if (in.filter(mover, in.planes[k]) && reaches(mover, in.planes[k])) sink({mover, in.planes[k]}, 0, 0);
   }
 
  private:
   [[nodiscard]] PLUMB_HD ShapeType type_of(std::uint32_t proxy) const {
-    return in.proxies.shapes[in.proxies.rows[proxy].shape].type;
+    return in.work.proxies.shapes[in.work.proxies.rows[proxy].shape].type;
+  }
+
+  /// False, and does nothing, where not all that was touched may be recycled. A host that is shown contacts may have
+  /// disabled some, and what must not pass through others has to look ahead.
+  template <class Sink>
+  PLUMB_HD bool recycle(Pair pair, Sink& sink) const {
+    constexpr std::uint32_t kNever = kBodyShowsContacts | (kSwept ? kBodyContinuous : 0U);
+    if (((flags_of(pair.a) | flags_of(pair.b)) & kNever) != 0) return false;
+    const LastTouches touches(in.work, pair);
+    if (!touches.may_be_recycled()) return false;
+    touches.for_each([&](std::uint32_t p) {
+      sink(pair, in.work.last.triangles[p], kCarried);
+      return true;
+    });
+    return true;
+  }
+  [[nodiscard]] PLUMB_HD std::uint32_t flags_of(std::uint32_t proxy) const {
+    return in.work.bodies.mass[in.work.proxies.rows[proxy].body].flags;
   }
 
   template <class Found>
   PLUMB_HD void triangles(std::uint32_t surface, std::uint32_t other, const Found& found) const {
-    const Proxy &a = in.proxies.rows[surface], &b = in.proxies.rows[other];
-    const ShapePose pose_a = shape_pose(a, in.bodies.orientation[a.body]),
-                    pose_b = shape_pose(b, in.bodies.orientation[b.body]);
-    const Vec apart = between(in.bodies.position[a.body], in.bodies.position[b.body]) + pose_b.offset - pose_a.offset;
+    const Proxy &a = in.work.proxies.rows[surface], &b = in.work.proxies.rows[other];
+    const ShapePose pose_a = shape_pose(a, in.work.bodies.orientation[a.body]),
+                    pose_b = shape_pose(b, in.work.bodies.orientation[b.body]);
+    const Vec apart =
+        between(in.work.bodies.position[a.body], in.work.bodies.position[b.body]) + pose_b.offset - pose_a.offset;
     const Vec place = rotate_back(pose_a.orientation, apart);
-    const Shape &shape = in.proxies.shapes[b.shape], &on = in.proxies.shapes[a.shape];
-    Box box = shape_box(shape, conjugate(pose_a.orientation) * pose_b.orientation, in.proxies.hulls);
+    const Shape &shape = in.work.proxies.shapes[b.shape], &on = in.work.proxies.shapes[a.shape];
+    Box box = shape_box(shape, conjugate(pose_a.orientation) * pose_b.orientation, in.work.proxies.hulls);
     // Rounding must not lose a touch: a few units in the last place of the lengths that enter.
-    const Real more = in.margins[surface] + in.margins[other] + 8 * kEpsilon * (length(place) + shape.reach);
+    const Real more = in.work.margins[surface] + in.work.margins[other] + 8 * kEpsilon * (length(place) + shape.reach);
     const Vec wider = {more, more, more};
     box = {place + box.low - wider, place + box.high + wider};
     if constexpr (kSwept) {
-      if ((in.bodies.mass[b.body].flags & kBodyContinuous) != 0) cover_way(a, pose_a, in.boxes[other], box);
+      if ((in.work.bodies.mass[b.body].flags & kBodyContinuous) != 0) cover_way(a, pose_a, in.boxes[other], box);
     }
     if (!overlap(box, Box{-on.size, on.size})) return;
     if (on.type == ShapeType::kMesh)
-      in.proxies.surfaces.meshes[on.hull].overlaps(box, found);
+      in.work.proxies.surfaces.meshes[on.hull].overlaps(box, found);
     else
-      in.proxies.surfaces.fields[on.hull].overlaps(box, found);
+      in.work.proxies.surfaces.fields[on.hull].overlaps(box, found);
   }
 
   /// Adds to a box in the frame of a surface where others may be in the step whose box in the world is `swept`.
   PLUMB_HD void cover_way(const Proxy& a, const ShapePose& pose_a, const Box& swept, Box& box) const {
-    const StepParameters& step = *in.parameters;
-    const Way way = way_through_step(in.bodies, step, a.body);
+    const StepParameters& step = *in.work.parameters;
+    const Way way = way_through_step(in.work.bodies, step, a.body);
     const Vec middle = Real(.5) * (swept.low + swept.high), half = Real(.5) * (swept.high - swept.low);
-    const Vec at = middle - between(step.origin, in.bodies.position[a.body]) - pose_a.offset;
+    const Vec at = middle - between(step.origin, in.work.bodies.position[a.body]) - pose_a.offset;
     const Mat axes = to_matrix(pose_a.orientation);
     // As a surface that moves sees it, they move the other way; where it turns, about the centre of its body.
     const Vec place = multiply_transposed(axes, at), back = multiply_transposed(axes, -step.dt * way.linear);
@@ -87,10 +145,10 @@ struct Search {
 
   /// Whether the mover's box comes below the plane.
   [[nodiscard]] PLUMB_HD bool reaches(std::uint32_t mover, std::uint32_t plane) const {
-    const Proxy& proxy = in.proxies.rows[plane];
-    const ShapePose pose = shape_pose(proxy, in.bodies.orientation[proxy.body]);
+    const Proxy& proxy = in.work.proxies.rows[plane];
+    const ShapePose pose = shape_pose(proxy, in.work.bodies.orientation[proxy.body]);
     const Vec n = rotate(pose.orientation, Vec{0, 1, 0});
-    const Vec at = between(in.parameters->origin, in.bodies.position[proxy.body]) + pose.offset;
+    const Vec at = between(in.work.parameters->origin, in.work.bodies.position[proxy.body]) + pose.offset;
     const Box& box = in.boxes[mover];
     const Vec middle = Real(.5) * (box.low + box.high), half = Real(.5) * (box.high - box.low);
     const Real reach = dot(abs(n), half);
@@ -100,7 +158,7 @@ struct Search {
 
 struct CountSink {
   std::uint32_t count;
-  PLUMB_HD void operator()(const Pair&, std::uint32_t) { ++count; }
+  PLUMB_HD void operator()(const Pair&, std::uint32_t, std::uint32_t) { ++count; }
 };
 template <bool kSwept>
 struct CountTriangles {
@@ -116,20 +174,21 @@ struct CountTriangles {
 struct WriteSink {
   ContactCache cache;
   std::uint32_t at, end;
-  PLUMB_HD void operator()(const Pair& pair, std::uint32_t triangle) {
+  PLUMB_HD void operator()(const Pair& pair, std::uint32_t triangle, std::uint32_t touching) {
     if (at >= end) return;
     cache.pairs[at] = pair;
+    cache.touching[at] = touching;
     cache.triangles[at++] = triangle;
   }
 };
 template <bool kSwept>
 struct WriteTriangles {
   Search<kSwept> search;
-  ContactCache cache;
   const std::uint32_t *counts, *offsets;
   std::uint32_t capacity;
   PLUMB_HD void operator()(std::uint32_t i) const {
     const std::uint32_t first = min(offsets[i], capacity), count = min(counts[i], capacity - first);
+    const ContactCache& cache = search.in.work.cache;
     cache.ranges[search.in.movers[i]] = {first, count};
     WriteSink sink{cache, first, first + count};
     search(i, sink);
@@ -156,13 +215,12 @@ void Midphase::reserve(std::uint32_t proxies, std::uint32_t pairs) {
   scan_.reserve(proxies);
 }
 
-void Midphase::find(Executor& executor, const Input& input, const ContactCache& cache, StepCounters* counters,
-                    bool swept) {
+void Midphase::find(Executor& executor, const Input& input, StepCounters* counters, bool swept) {
   const auto find = [&]<bool kSwept>() {
     const Search<kSwept> search{input, pairs_.data(), ranges_.data()};
     executor.run(input.movers.count, CountTriangles<kSwept>{search, counts_.data()});
     scan_.run(executor, input.movers.count, counts_.data(), offsets_.data(), &counters->midphase_pairs);
-    executor.run(input.movers.count, WriteTriangles<kSwept>{search, cache, counts_.data(), offsets_.data(), capacity_});
+    executor.run(input.movers.count, WriteTriangles<kSwept>{search, counts_.data(), offsets_.data(), capacity_});
   };
   swept ? find.operator()<true>() : find.operator()<false>();
   executor.run(1U, CountAsPairs{counters, capacity_});

@@ -1,16 +1,15 @@
 // The midphase, in scenes with planes, meshes or height fields: which triangles of a surface are worth a look.
 //
 // A pair of the broad phase that has a surface becomes one candidate for each of its triangles whose box the other
-// shape's box touches, in the surface's own frame; any other pair is one candidate. Planes have no box: each is held
-// against every mover here.
+// shape's box touches, in the surface's own frame; any other pair is one candidate. Where the two have hardly moved
+// against each other, so that all that touched may be recycled, that is all there is to look at. Planes have no box:
+// each is held against every mover here.
 #pragma once
 
-#include "bodies/body.hpp"
 #include "bodies/step_counters.hpp"
-#include "bodies/step_parameters.hpp"
 #include "broadphase/pair_filter.hpp"
 #include "exec/sort.hpp"
-#include "narrowphase/contact_cache.hpp"
+#include "narrowphase/narrow_phase_work.hpp"
 
 namespace plumb::impulse {
 
@@ -24,17 +23,15 @@ class Midphase {
 
   /// What this reads of the world.
   struct Input {
-    Bodies bodies;
-    Proxies proxies;
-    const StepParameters* parameters;
+    NarrowPhaseWork work;
     PairFilter filter;
     const Box* boxes;
-    const Real* margins;  ///< by proxy
     ProxyRows movers, planes;
   };
-  /// Writes cache.pairs, cache.triangles, cache.ranges and counters->midphase_pairs. More candidates than there is room
-  /// for count as so many pairs. swept: what some bodies must not pass through in the step is found, too.
-  void find(Executor& executor, const Input& input, const ContactCache& cache, StepCounters* counters, bool swept);
+  /// Writes pairs, triangles, ranges and touching (0 or kCarried) of work.cache, and counters->midphase_pairs. More
+  /// candidates than there is room for count as so many pairs. swept: what some bodies must not pass through in the
+  /// step is found, too.
+  void find(Executor& executor, const Input& input, StepCounters* counters, bool swept);
 
  private:
   Buffer<Pair> pairs_;

@@ -70,11 +70,15 @@ void exchange(Archive& archive, CollidedManifold& collided) {
   }
 }
 
-/// The manifolds that may be recycled, and where they are. What is apart is collided again without being missed.
-void exchange_collided(Archive& archive, Buffer<CollidedRows::Line>& buffer, std::uint32_t candidates) {
+/// The manifolds that may be recycled, where they are, and on which triangles their points lie in worlds that know it.
+/// What is apart is collided again without being missed.
+void exchange_collided(Archive& archive, Buffer<CollidedRows::Line>& buffer, Buffer<PointTriangles>* triangles_buffer,
+                       std::uint32_t candidates) {
   const std::size_t n = CollidedRows::lines_for(candidates);
   std::vector<CollidedRows::Line> lines = archive.reads() ? std::vector<CollidedRows::Line>(n) : buffer.to_host(n);
   const CollidedRows rows = {lines.data()};
+  std::vector<PointTriangles> triangles(triangles_buffer == nullptr ? 0 : candidates);
+  if (!archive.reads() && triangles_buffer != nullptr) triangles = triangles_buffer->to_host(candidates);
   std::vector<std::uint32_t> recyclable;
   for (std::uint32_t p = 0; p < candidates && !archive.reads(); ++p)
     if (rows.load(p).manifold.count != 0) recyclable.push_back(p);
@@ -83,8 +87,12 @@ void exchange_collided(Archive& archive, Buffer<CollidedRows::Line>& buffer, std
     CollidedManifold collided = rows.load(p);
     exchange(archive, collided);
     rows.store(p, collided);
+    for (std::uint32_t i = 0; i < collided.manifold.count && triangles_buffer != nullptr; ++i)
+      archive.value(triangles[p].of[i]);
   }
-  if (archive.reads()) buffer.from_host(lines.data(), n);
+  if (!archive.reads()) return;
+  buffer.from_host(lines.data(), n);
+  if (triangles_buffer != nullptr) triangles_buffer->from_host(triangles.data(), candidates);
 }
 
 }  // namespace
@@ -151,7 +159,7 @@ void NarrowPhase::exchange(Archive& archive, std::uint32_t parity, std::uint32_t
   archive.rows(cache.touching, candidates);
   archive.rows(cache.row, candidates);
   archive.rows(cache.kept, counters.manifolds);
-  exchange_collided(archive, cache.collided, candidates);
+  exchange_collided(archive, cache.collided, uses_midphase_ ? &cache.point_triangles : nullptr, candidates);
 }
 
 std::vector<KeptPair> NarrowPhase::kept(std::uint32_t parity, const StepCounters& counters) const {

@@ -57,16 +57,12 @@ void find_pairs(const StepContext& step) {
 void midphase(const StepContext& step) {
   if (!step.uses_midphase) return;
   Stages& of = step.stages;
-  of.midphase.find(step.executor,
-                   {step.bodies, step.proxies, step.parameters, step.filter, of.boxes.data(), of.margins.data(),
-                    step.movers, step.planes},
-                   step.now, step.counters, step.continuous);
+  of.midphase.find(step.executor, {step.narrow_phase_work(), step.filter, of.boxes.data(), step.movers, step.planes},
+                   step.counters, step.continuous);
 }
 
 void collide(const StepContext& step) {
-  step.stages.narrow_phase.collide(
-      step.executor, {step.now, step.last, step.bodies, step.proxies, step.stages.margins.data(), step.parameters},
-      step.shape_types, step.counters);
+  step.stages.narrow_phase.collide(step.executor, step.narrow_phase_work(), step.shape_types, step.counters);
   if (may_have_inner_edges(step.statics.count, step.shape_types))
     drop_inner_edges(step.executor, step.candidates(), step.now, step.bodies, step.proxies, step.filter,
                      step.stages.broad_phase.statics(), step.parameters);
@@ -83,7 +79,7 @@ void find_impacts(const StepContext& step) {
 void reduce_manifolds(const StepContext& step) {
   constexpr std::uint32_t kSurfaces = bit_of(ShapeType::kMesh) | bit_of(ShapeType::kHeightField);
   if ((step.shape_types & kSurfaces) == 0) return;
-  reduce_manifolds(step.executor, step.candidates(), step.now, step.last, step.bodies, step.proxies,
+  reduce_manifolds(step.executor, step.candidates(), step.narrow_phase_work(),
                    step.finds_impacts() ? step.stages.impacts.times() : nullptr);
 }
 

@@ -242,6 +242,7 @@ const std::vector<NamedScene>& named_scenes() {
       {"surfaces", {}, kAll | PLUMB_NEED_KINEMATIC, kDown, &pile_on_surfaces},
       {"puppets", {}, kAll | PLUMB_NEED_JOINTS | PLUMB_NEED_EVENTS, kDown, &puppets},
       {"chequers", {}, kAll | PLUMB_NEED_RESTITUTION | PLUMB_NEED_CCD | PLUMB_NEED_SLEEPING, kDown, &chequers},
+      {"bumps", {}, kAll | PLUMB_NEED_KINEMATIC | PLUMB_NEED_SLEEPING, kDown, &bumps},
       {"bullets", {}, kAll | PLUMB_NEED_CCD, kDown, &bullets},
       {"held", {}, kAll | PLUMB_NEED_AXIS_LOCKS, kDown, &held},
       {"loads", {}, kContactNeeds | PLUMB_NEED_JOINTS, kDown, &loads},

@@ -59,13 +59,14 @@ struct Chequers {
   }
 };
 
-PlumbShape make_mesh(Scene& scene, const std::vector<double>& heights, const Chequers* chequers = nullptr) {
+PlumbShape make_mesh(Scene& scene, const std::vector<double>& heights, const Chequers* chequers = nullptr,
+                     double side = kSide) {
   std::vector<double> vertices;
   std::vector<std::uint32_t> indices;
   for (std::uint32_t row = 0; row <= kCells; ++row)
     for (std::uint32_t column = 0; column <= kCells; ++column) {
       const std::uint32_t near = row * (kCells + 1) + column, far = near + kCells + 1;
-      vertices.insert(vertices.end(), {(column - kCells / 2.0) * kSide, heights[near], (row - kCells / 2.0) * kSide});
+      vertices.insert(vertices.end(), {(column - kCells / 2.0) * side, heights[near], (row - kCells / 2.0) * side});
       if (row < kCells && column < kCells) indices.insert(indices.end(), {near, far, near + 1, near + 1, far, far + 1});
     }
   PlumbShapeDesc desc = shape_desc(PLUMB_TRIANGLE_MESH);
@@ -151,6 +152,29 @@ void chequers(Scene& scene) {
     scene.add(shapes[static_cast<std::size_t>(i % 5)], {random.between(-3, 12), 1 + 0.05 * i, random.between(-3, 3)},
               turn);
   }
+}
+
+void bumps(Scene& scene) {
+  constexpr double kFine = 0.12;
+  std::vector<double> heights = hills();
+  for (double& height : heights) height *= 0.05;
+  scene.add_static(make_mesh(scene, heights, nullptr, kFine), {0, 0, 0});
+  PlumbShapeDesc field = shape_desc(PLUMB_HEIGHT_FIELD);
+  field.heights = heights.data();
+  field.rows = field.columns = kCells + 1;
+  field.spacing = {kFine, 0, kFine};
+  const PlumbBody tray = scene.add_kinematic(scene.make(field), {kCells * kFine, 0, 0});
+  const PlumbShape shapes[] = {scene.box({0.5, 0.1, 0.4}), make_cylinder(scene, 0.4, 0.15), scene.box({0.3, 0.3, 0.3}),
+                               scene.hull({{0.5, -0.2, 0}, {-0.2, -0.2, 0.5}, {-0.2, -0.2, -0.5}, {0, 0.3, 0}})};
+  Random random(59);
+  for (int i = 0; i < 60; ++i) {
+    scene.body.material.friction = i % 5 == 0 ? 0 : 0.6;
+    const PlumbVec3 at = {random.between(-1, 4), 0.4 + 0.08 * i, random.between(-1, 1)};
+    scene.add(shapes[i % 4], at, i % 3 == 0 ? random.turn() : PlumbQuat{0, 0, 0, 1});
+  }
+  scene.before_step = [tray](Scene& moved, int step) {
+    moved.target(tray, {kCells * kFine, 0.001 * (step + 1), 0.002 * (step + 1)});
+  };
 }
 
 void sheets(Scene& scene) {

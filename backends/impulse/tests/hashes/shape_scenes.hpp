@@ -18,6 +18,8 @@ void pile_on_surfaces(Scene& scene);
 /// All convex shapes on a level mesh and a hilly height field whose cells are of four materials in turn, ice, sand,
 /// rubber and the body's; some are flagged, some asleep at the start.
 void chequers(Scene& scene);
+/// What has faces, on a mesh and a moving height field of bumps far smaller than these.
+void bumps(Scene& scene);
 /// Flagged bodies of every convex shape, too fast for a step, into a mesh, a height field, a plane and a mesh that
 /// moves.
 void sheets(Scene& scene);

@@ -315,5 +315,71 @@ TEST(ManifoldReduction, HillsKeepTheirNormals) {
   EXPECT_GT(most, 20U);
 }
 
+/// Heights of waves that are long beside the cells of a grid and short beside a box.
+double wave(double x, double z) { return 0.01 * std::sin(3 * x) * std::cos(3 * z); }
+
+/// How far the highest of a surface's vertices reaches into a box of kHalf that lies on it, m; negative: below it.
+double deepest_vertex(const TriangleSet& surface, const PlumbPose& box) {
+  const Quat4<double> turn = {box.orientation.x, box.orientation.y, box.orientation.z, box.orientation.w};
+  double deepest = -1;
+  for (std::size_t i = 0; i < surface.vertices.size(); i += 3) {
+    const Vec3<double> local =
+        rotate_back(turn, {surface.vertices[i] - box.position.x, surface.vertices[i + 1] - box.position.y,
+                           surface.vertices[i + 2] - box.position.z});
+    if (std::abs(local.x) < kHalf.x && std::abs(local.z) < kHalf.z) deepest = std::max(deepest, local.y + kHalf.y);
+  }
+  return deepest;
+}
+
+/// However many bumps there are below it, a box has a few contacts, and lies on the highest of them. (It may well rock
+/// there: a flat face rolls over a round crest without loss.)
+TEST(ManifoldReduction, ABoxLiesOnTheHighestOfManyBumps) {
+  for (const double side : {0.1, 0.05}) {
+    SCOPED_TRACE(side);
+    Scene scene(engine(), kReductionNeeds, kDown, 1);
+    const TriangleSet waves = grid(static_cast<std::uint32_t>(8 / side), side, wave);
+    scene.add_static(scene.make(waves.desc()), {0, 0, 0});
+    std::vector<PlumbBody> boxes;
+    for (int i = 0; i < 9; ++i)
+      boxes.push_back(scene.add(scene.box(kHalf), {1.7 * (i % 3) - 1.7, 0.29, 1.7 * (i / 3) - 1.7}, heading(i)));
+    scene.run(240);
+    const auto contacts = scene.world().contacts();
+    const std::vector<PlumbPose> poses = scene.poses();
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      SCOPED_TRACE(i);
+      EXPECT_NEAR(deepest_vertex(waves, poses[poses.size() - boxes.size() + i]), 0, 2e-3);
+      const auto count = std::count_if(contacts.begin(), contacts.end(), [&](const PlumbContact& contact) {
+        return contact.body_a == boxes[i] || contact.body_b == boxes[i];
+      });
+      EXPECT_GE(count, 3);
+      EXPECT_LE(count, 16);
+    }
+  }
+}
+
+/// In a round trough without friction a box swings as a pendulum does: m g r sin(angle) turns m r^2 + I.
+TEST(ManifoldReduction, ABoxSwingsInARoundTrough) {
+  constexpr double kRound = 20, kStart = 0.05;
+  const double arm = std::sqrt(kRound * kRound - kHalf.x * kHalf.x) - kHalf.y;
+  const double inertia = (kHalf.x * kHalf.x + kHalf.y * kHalf.y) / 3;  // about its centre, a kilogram
+  const double half_period =
+      std::numbers::pi * std::sqrt((arm * arm + inertia) / (kGravity * arm)) * (1 + kStart * kStart / 16);
+  for (const double side : {0.1, 0.025}) {
+    SCOPED_TRACE(side);
+    Scene scene(engine(), PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION, kDown, 1);
+    scene.body.material = {};
+    const TriangleSet trough = grid(static_cast<std::uint32_t>(5 / side), side,
+                                    [](double x, double) { return kRound - std::sqrt(kRound * kRound - x * x); });
+    scene.add_static(scene.make(trough.desc()), {0, 0, 0});
+    const PlumbBody box = scene.add(scene.box(kHalf), {arm * std::sin(kStart), kRound - arm * std::cos(kStart), 0},
+                                    {0, 0, std::sin(kStart / 2), std::cos(kStart / 2)});
+    scene.run(static_cast<int>(std::lround(half_period / kStep)));
+    const PlumbPose end = scene.poses().back();
+    EXPECT_NEAR(end.position.x, -arm * std::sin(kStart), 0.03 * arm * kStart);
+    EXPECT_NEAR(end.position.z, 0, 1e-3);
+    EXPECT_NEAR(scene.velocity(box)[0], 0, 0.05 * arm * kStart * std::sqrt(kGravity / arm));
+  }
+}
+
 }  // namespace
 }  // namespace plumb::impulse::test
