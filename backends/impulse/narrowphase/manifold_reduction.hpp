@@ -28,7 +28,8 @@ namespace plumb::impulse {
 
 /// Of all candidates that touch, those with surfaces: leaves one for each side from which a shape is touched
 /// (cache.touching, found), writes down whose triangle each point is (cache.point_triangles), puts that into the
-/// points' features, and keeps what may be recycled (cache.collided). impacts: Impacts::times(), or null; contacts of another time stay as they are.
+/// points' features, and keeps what may be recycled (cache.collided). impacts: Impacts::times(), or null; contacts of
+/// another time stay as they are.
 void reduce_manifolds(Executor& executor, Count candidates, const NarrowPhaseWork& work, const Real* impacts);
 
 }  // namespace plumb::impulse
