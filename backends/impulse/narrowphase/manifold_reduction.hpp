@@ -14,7 +14,7 @@
 //
 // A face that lies on bumps smaller than itself touches hundreds of triangles of which no two are level. There, of
 // those within 5 degrees of each other, what bears is left and four points besides, each where it is and along its own
-// normal: with one normal for all, a box that slides through a round trough would lose a tenth of its speed a swing.
+// normal: with one normal for all, a box that slides through a round trough comes a tenth less far on the other side.
 //
 // What is left may be recycled as a whole (contact_recycling.hpp): while the two hardly move against each other, other
 // triangles are not looked at (midphase.hpp). Where the host is shown what touches, for it may treat triangles each in

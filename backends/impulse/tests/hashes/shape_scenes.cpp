@@ -77,11 +77,12 @@ PlumbShape make_mesh(Scene& scene, const std::vector<double>& heights, const Che
   if (chequers != nullptr) chequers->cover(desc);
   return scene.make(desc);
 }
-PlumbShape make_field(Scene& scene, const std::vector<double>& heights, const Chequers* chequers = nullptr) {
+PlumbShape make_field(Scene& scene, const std::vector<double>& heights, const Chequers* chequers = nullptr,
+                      double side = kSide) {
   PlumbShapeDesc desc = shape_desc(PLUMB_HEIGHT_FIELD);
   desc.heights = heights.data();
   desc.rows = desc.columns = kCells + 1;
-  desc.spacing = {kSide, 0, kSide};
+  desc.spacing = {side, 0, side};
   if (chequers != nullptr) chequers->cover(desc);
   return scene.make(desc);
 }
@@ -159,11 +160,7 @@ void bumps(Scene& scene) {
   std::vector<double> heights = hills();
   for (double& height : heights) height *= 0.05;
   scene.add_static(make_mesh(scene, heights, nullptr, kFine), {0, 0, 0});
-  PlumbShapeDesc field = shape_desc(PLUMB_HEIGHT_FIELD);
-  field.heights = heights.data();
-  field.rows = field.columns = kCells + 1;
-  field.spacing = {kFine, 0, kFine};
-  const PlumbBody tray = scene.add_kinematic(scene.make(field), {kCells * kFine, 0, 0});
+  const PlumbBody tray = scene.add_kinematic(make_field(scene, heights, nullptr, kFine), {kCells * kFine, 0, 0});
   const PlumbShape shapes[] = {scene.box({0.5, 0.1, 0.4}), make_cylinder(scene, 0.4, 0.15), scene.box({0.3, 0.3, 0.3}),
                                scene.hull({{0.5, -0.2, 0}, {-0.2, -0.2, 0.5}, {-0.2, -0.2, -0.5}, {0, 0.3, 0}})};
   Random random(59);
