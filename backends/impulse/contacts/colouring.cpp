@@ -68,23 +68,30 @@ struct ColourNew {
   PLUMB_HD void queue_if_new(std::uint32_t row) const {
     if (view.cache.kept[row].colour == kNone) view.waiting[0][atomic_add(&view.counters->uncoloured[0], 1U)] = row;
   }
+  [[nodiscard]] PLUMB_HD std::uint64_t taken(const Ends& ends) const {
+    return (ends.pushes_a ? view.masks[ends.a] : 0) | (ends.pushes_b ? view.masks[ends.b] : 0);
+  }
+  /// Who can have no colour does not wait for its turn: on a body that thousands touch all others would wait for it.
   PLUMB_HD void claim(std::uint32_t round, std::uint32_t row) const {
     const Ends ends = view.ends(row);
+    if (lowest_free_colour(taken(ends)) == kOverflow) {
+      view.cache.kept[row].colour = kOverflow;
+      return;
+    }
     if (ends.pushes_a) atomic_min(&view.claims[ends.a], priority(round, row));
     if (ends.pushes_b) atomic_min(&view.claims[ends.b], priority(round, row));
   }
   PLUMB_HD void colour_or_wait(std::uint32_t round, std::uint32_t row) const {
+    if (view.cache.kept[row].colour == kOverflow) return;
     const Ends ends = view.ends(row);
     const std::uint64_t mine = priority(round, row);
     if ((ends.pushes_a && view.claims[ends.a] != mine) || (ends.pushes_b && view.claims[ends.b] != mine)) {
       view.waiting[(round + 1) % 2][atomic_add(&view.counters->uncoloured[(round + 1) % 3], 1U)] = row;
       return;
     }
-    const std::uint64_t taken = (ends.pushes_a ? view.masks[ends.a] : 0) | (ends.pushes_b ? view.masks[ends.b] : 0);
-    const std::uint32_t colour = lowest_free_colour(taken);
-    PLUMB_ASSERT(colour <= kOverflow);
+    const std::uint32_t colour = lowest_free_colour(taken(ends));
+    PLUMB_ASSERT(colour < kOverflow);
     view.cache.kept[row].colour = colour;
-    if (colour == kOverflow) return;
     if (ends.pushes_a) view.masks[ends.a] |= std::uint64_t{1} << colour;
     if (ends.pushes_b) view.masks[ends.b] |= std::uint64_t{1} << colour;
   }

@@ -146,6 +146,16 @@ TEST(Colouring, WhatFindsNoColourOverflowsAndIsNotLost) {
   EXPECT_EQ(std::count(colours.begin(), colours.end(), kOverflow), 200 - static_cast<std::ptrdiff_t>(kColours));
 }
 
+/// A raft that carries thousands: those that can have no colour do not wait for each other, one a round.
+TEST(Colouring, AHubOfThousandsTakesAsManyRoundsAsColours) {
+  std::vector<Pair> ends;
+  for (std::uint32_t i = 1; i <= 3000; ++i) ends.push_back({0, i});
+  ColouringRig rig(3001, 0, ends);
+  rig.colour();
+  rig.check();
+  EXPECT_LE(rig.counters[0].rounds, kColours + 1);
+}
+
 TEST(Colouring, WhatCannotBePushedIsSharedByAll) {
   std::vector<Pair> on_the_ground;
   for (std::uint32_t i = 1; i <= 200; ++i) on_the_ground.push_back({0, i});
