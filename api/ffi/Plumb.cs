@@ -190,6 +190,12 @@ public unsafe struct PlumbBodyDesc
     public double angular_damping;
     public PlumbFilter filter;
     public ulong user_data;
+    /// <summary>Resistance to rolling and to spinning, where the shape is round or soft: the greatest moment along and
+    /// about the normal of a contact, relative to its normal force, m. Of two bodies that touch the larger of each
+    /// counts, and neither needs friction, though without it a ball slides instead of rolling. &gt;= 0; need
+    /// PLUMB_NEED_ROLLING_FRICTION when not 0. Since 1.2</summary>
+    public double rolling_friction;
+    public double spinning_friction;
 }
 
 // --- plumb/queries.h
@@ -1529,7 +1535,9 @@ public static class Constants
     public const uint PLUMB_FIELD_SURFACE_VELOCITY = 14u;
     /// <summary>3: category, mask, group, as whole numbers</summary>
     public const uint PLUMB_FIELD_FILTER = 15u;
-    public const uint PLUMB_FIELD_COUNT = 16u;
+    /// <summary>2: rolling, spinning, m. Since 1.2</summary>
+    public const uint PLUMB_FIELD_ROLLING_FRICTION = 16u;
+    public const uint PLUMB_FIELD_COUNT = 17u;
 
     // --- plumb/queries.h
     // plumb.queries/1: rays, shape casts and overlaps against the world as the last step left it. Always in batches.
@@ -1736,8 +1744,10 @@ public static class Constants
     public const ulong PLUMB_NEED_SNAPSHOT = 1ul << 20;
     /// <summary>manifolds.h. Since 1.2</summary>
     public const ulong PLUMB_NEED_CONTACT_MODIFICATION = 1ul << 21;
-    public const uint PLUMB_NEED_COUNT = 22u;
-    public const ulong PLUMB_NEED_ALL = 4194303ul;
+    /// <summary>rolling and spinning friction of bodies. Since 1.2</summary>
+    public const ulong PLUMB_NEED_ROLLING_FRICTION = 1ul << 22;
+    public const uint PLUMB_NEED_COUNT = 23u;
+    public const ulong PLUMB_NEED_ALL = 8388607ul;
 
     // PlumbPhase, uint. Phases of a step for which a backend may report its time.
     /// <summary>bounds and candidate pairs</summary>

@@ -332,6 +332,12 @@ pub struct PlumbBodyDesc {
     pub angular_damping: f64,
     pub filter: PlumbFilter,
     pub user_data: u64,
+    /// Resistance to rolling and to spinning, where the shape is round or soft: the greatest moment along and about the
+    /// normal of a contact, relative to its normal force, m. Of two bodies that touch the larger of each counts, and
+    /// neither needs friction, though without it a ball slides instead of rolling. >= 0; need
+    /// PLUMB_NEED_ROLLING_FRICTION when not 0. Since 1.2
+    pub rolling_friction: f64,
+    pub spinning_friction: f64,
 }
 
 /// A field is a row of numbers for every body. Pose and velocity rows are state: a write sets them. Force to impulse
@@ -371,7 +377,9 @@ pub const PLUMB_FIELD_DAMPING: PlumbField = 13;
 pub const PLUMB_FIELD_SURFACE_VELOCITY: PlumbField = 14;
 /// 3: category, mask, group, as whole numbers
 pub const PLUMB_FIELD_FILTER: PlumbField = 15;
-pub const PLUMB_FIELD_COUNT: PlumbField = 16;
+/// 2: rolling, spinning, m. Since 1.2
+pub const PLUMB_FIELD_ROLLING_FRICTION: PlumbField = 16;
+pub const PLUMB_FIELD_COUNT: PlumbField = 17;
 
 // --- plumb/queries.h
 // plumb.queries/1: rays, shape casts and overlaps against the world as the last step left it. Always in batches.
@@ -1281,8 +1289,10 @@ pub const PLUMB_NEED_JOINT_REACTIONS: PlumbNeeds = 1 << 19;
 pub const PLUMB_NEED_SNAPSHOT: PlumbNeeds = 1 << 20;
 /// manifolds.h. Since 1.2
 pub const PLUMB_NEED_CONTACT_MODIFICATION: PlumbNeeds = 1 << 21;
-pub const PLUMB_NEED_COUNT: u32 = 22;
-pub const PLUMB_NEED_ALL: PlumbNeeds = 4194303;
+/// rolling and spinning friction of bodies. Since 1.2
+pub const PLUMB_NEED_ROLLING_FRICTION: PlumbNeeds = 1 << 22;
+pub const PLUMB_NEED_COUNT: u32 = 23;
+pub const PLUMB_NEED_ALL: PlumbNeeds = 8388607;
 
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]

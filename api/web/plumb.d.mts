@@ -14,13 +14,15 @@ export type Joint = bigint;
 export type Need =
   | 'rotation' | 'collision' | 'friction' | 'restitution' | 'joints' | 'ccd' | 'sleeping' | 'events' | 'contacts'
   | 'contactImpulses' | 'sensors' | 'kinematic' | 'gyroscopic' | 'damping' | 'forces' | 'axisLocks' | 'filters'
-  | 'queries' | 'surfaceVelocity' | 'jointReactions' | 'snapshot' | 'contactModification';
+  | 'queries' | 'surfaceVelocity' | 'jointReactions' | 'snapshot' | 'contactModification'
+  | 'rollingFriction';
 
 /** Columns: pose 7, velocity 6, forceAtPoint and impulseAtPoint 6, kinematicTarget 7, mass 11, material and damping 2,
  * awake and gravityScale 1, the others 3. */
 export type Field =
   | 'pose' | 'velocity' | 'force' | 'torque' | 'impulse' | 'angularImpulse' | 'forceAtPoint' | 'impulseAtPoint'
-  | 'awake' | 'kinematicTarget' | 'mass' | 'material' | 'gravityScale' | 'damping' | 'surfaceVelocity' | 'filter';
+  | 'awake' | 'kinematicTarget' | 'mass' | 'material' | 'gravityScale' | 'damping' | 'surfaceVelocity' | 'filter'
+  | 'rollingFriction';
 
 /** Columns: coordinates 6, reaction 6, motor 12 (target velocity, max force, of each of the six axes in turn). */
 export type JointField = 'coordinates' | 'reaction' | 'motor';
@@ -105,6 +107,10 @@ export interface BodyOptions extends Frame, MassOptions, Material {
   linearVelocity?: Vec3;
   angularVelocity?: Vec3;
   gravityScale?: number;
+  /** m, the greatest moment along a contact relative to its normal force; needs rollingFriction. */
+  rollingFriction?: number;
+  /** Likewise about its normal. */
+  spinningFriction?: number;
   /** 1/s */
   linearDamping?: number;
   angularDamping?: number;

@@ -6,10 +6,17 @@ namespace {
 
 b3Filter filter_of(const PlumbFilter& filter) { return {filter.category, filter.mask, filter.group}; }
 
-b3SurfaceMaterial material_of(const PlumbMaterial& material) {
+/// Box3D resists rolling and spinning alike, of spheres and capsules alone, by a share of their radius.
+float rolling_resistance(const PlumbBodyDesc& desc, const Shape& shape) {
+  const bool round = shape.is_sphere() || shape.type == PLUMB_CAPSULE;
+  return round ? scalar(desc.rolling_friction, "rolling_friction") / shape.radius : 0;
+}
+
+b3SurfaceMaterial material_of(const PlumbMaterial& material, float rolling = 0) {
   b3SurfaceMaterial made = b3DefaultSurfaceMaterial();
   made.friction = scalar(material.friction, "friction");
   made.restitution = static_cast<float>(material.restitution);
+  made.rollingResistance = rolling;
   made.tangentVelocity = vector(material.surface_velocity, "surface_velocity");
   return made;
 }
@@ -41,7 +48,7 @@ void attach_shapes(Body& body, bool sensed) {
   def.enableSensorEvents = sensed;
   def.enableCustomFiltering = true;  // excluded pairs; asked once when two come near each other
   const auto add = [&](const Shape& shape, const PlumbMaterial& material, std::uintptr_t child, const PlumbPose* pose) {
-    def.baseMaterial = material_of(material);
+    def.baseMaterial = material_of(material, rolling_resistance(body.desc, shape));
     std::vector<b3SurfaceMaterial> by_triangle;
     if (!shape.materials.empty()) by_triangle.push_back(def.baseMaterial);
     for (const PlumbMaterial& row : shape.materials) by_triangle.push_back(material_of(row));
@@ -59,11 +66,16 @@ void attach_shapes(Body& body, bool sensed) {
 }
 
 void apply_material(const Body& body) {
-  for (std::size_t i = 0; i < body.shapes.size(); ++i)
+  for (std::size_t i = 0; i < body.shapes.size(); ++i) {
+    const Shape::Child* child = body.shape->children.empty() ? nullptr : &body.shape->children[i];
+    const Shape& shape = child == nullptr ? *body.shape : *child->shape;
+    const bool own = child != nullptr && child->has_material;
+    const PlumbMaterial& material = own ? child->material : body.desc.material;
     if (!body.shape->materials.empty())
-      b3Shape_SetMeshMaterial(body.shapes[i], material_of(body.desc.material), 0);
-    else if (body.shape->children.empty() || !body.shape->children[i].has_material)
-      b3Shape_SetSurfaceMaterial(body.shapes[i], material_of(body.desc.material));
+      b3Shape_SetMeshMaterial(body.shapes[i], material_of(material), 0);
+    else
+      b3Shape_SetSurfaceMaterial(body.shapes[i], material_of(material, rolling_resistance(body.desc, shape)));
+  }
 }
 
 void apply_filter(const Body& body) {

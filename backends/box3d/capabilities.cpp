@@ -75,6 +75,8 @@ Capability need_fact(std::uint32_t index) {
     case PLUMB_NEED_EVENTS:
     case PLUMB_NEED_SENSORS:
       return {PLUMB_EMULATED, "by comparing who touches after one step with who does after the next"};
+    case PLUMB_NEED_ROLLING_FRICTION:
+      return {PLUMB_APPROXIMATE, "of spheres and capsules alone, and they resist spinning as they do rolling"};
     case PLUMB_NEED_JOINT_REACTIONS: return {PLUMB_APPROXIMATE, kSubStep};
     case PLUMB_NEED_CONTACT_IMPULSES:
       return {PLUMB_APPROXIMATE,
@@ -91,8 +93,11 @@ Capability fact(PlumbCapability kind, std::uint32_t a, std::uint32_t b) {
     case PLUMB_CAP_JOINT_FEATURE: return joint_feature_fact(a, b);
     case PLUMB_CAP_QUERY: return query_fact(a, b);
     case PLUMB_CAP_CLOSEST: return {PLUMB_NONE, "the adapter does not ask Box3D for distances"};
+    case PLUMB_CAP_FIELD_READ:
     case PLUMB_CAP_FIELD_WRITE:
-      if (a == PLUMB_FIELD_KINEMATIC_TARGET) return {PLUMB_EMULATED, "the velocity that leads there"};
+      if (a == PLUMB_FIELD_ROLLING_FRICTION) return {PLUMB_NATIVE};
+      if (kind == PLUMB_CAP_FIELD_WRITE && a == PLUMB_FIELD_KINEMATIC_TARGET)
+        return {PLUMB_EMULATED, "the velocity that leads there"};
       return backend::usual_capability(kind, a, b);
     case PLUMB_CAP_NEED: return need_fact(a);
     case PLUMB_CAP_EVENT: return {a < PLUMB_EVENT_COUNT ? PLUMB_EMULATED : PLUMB_NONE};

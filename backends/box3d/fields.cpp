@@ -36,6 +36,10 @@ void read_row(PlumbField field, const Body& body, double* row) {
     case PLUMB_FIELD_SURFACE_VELOCITY: return put_vector(desc.material.surface_velocity, row);
     case PLUMB_FIELD_FILTER:
       return put_vector({double(desc.filter.category), double(desc.filter.mask), double(desc.filter.group)}, row);
+    case PLUMB_FIELD_ROLLING_FRICTION:
+      row[0] = desc.rolling_friction;
+      row[1] = desc.spinning_friction;
+      return;
     default: throw Error(PLUMB_E_UNSUPPORTED, "field " + std::to_string(field) + " cannot be read");
   }
 }
@@ -100,6 +104,10 @@ void World::write_row(PlumbField field, Body& at, const double* row) {
     case PLUMB_FIELD_MATERIAL:
       desc.material.friction = row[0];
       desc.material.restitution = row[1];
+      return apply_material(at);
+    case PLUMB_FIELD_ROLLING_FRICTION:
+      desc.rolling_friction = row[0];
+      desc.spinning_friction = row[1];
       return apply_material(at);
     case PLUMB_FIELD_GRAVITY_SCALE:
       desc.gravity_scale = row[0];

@@ -106,6 +106,8 @@ std::unique_ptr<Body> World::make_body(const PlumbBodyDesc& desc, PlumbBody hand
   btRigidBody::btRigidBodyConstructionInfo info = construction(made, transform(desc.pose, "pose"));
   info.m_friction = scalar(desc.material.friction, "friction");
   info.m_restitution = static_cast<btScalar>(desc.material.restitution);
+  info.m_rollingFriction = scalar(desc.rolling_friction, "rolling_friction");
+  info.m_spinningFriction = scalar(desc.spinning_friction, "spinning_friction");
   auto body = std::make_unique<Body>(info, handle, desc);
   body->take(std::move(made));
   body->conveys = !(desc.material.surface_velocity.x == 0 && desc.material.surface_velocity.y == 0 &&

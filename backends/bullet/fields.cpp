@@ -32,6 +32,10 @@ void read_row(PlumbField field, const Body& body, double* row) {
       row[1] = body.filter.mask;
       row[2] = body.filter.group;
       return;
+    case PLUMB_FIELD_ROLLING_FRICTION:
+      row[0] = body.getRollingFriction();
+      row[1] = body.getSpinningFriction();
+      return;
     default: throw Error(PLUMB_E_UNSUPPORTED, "Bullet cannot read field " + std::to_string(field));
   }
 }
@@ -97,6 +101,10 @@ void World::write_row(PlumbField field, Body& at, const double* row) {
     case PLUMB_FIELD_MATERIAL:
       at.setFriction(static_cast<btScalar>(row[0]));
       at.setRestitution(static_cast<btScalar>(row[1]));
+      return refresh_materials(parts_.dispatcher, at);
+    case PLUMB_FIELD_ROLLING_FRICTION:
+      at.setRollingFriction(static_cast<btScalar>(row[0]));
+      at.setSpinningFriction(static_cast<btScalar>(row[1]));
       return refresh_materials(parts_.dispatcher, at);
     case PLUMB_FIELD_GRAVITY_SCALE:
       at.gravity_scale = row[0];

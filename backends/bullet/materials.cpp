@@ -13,6 +13,8 @@ namespace {
 
 CalculateCombinedCallback next_friction = nullptr;
 CalculateCombinedCallback next_restitution = nullptr;
+CalculateCombinedCallback next_rolling = nullptr;
+CalculateCombinedCallback next_spinning = nullptr;
 ContactAddedCallback next_contact_added = nullptr;
 
 bool ours(const btCollisionObject* a, const btCollisionObject* b) {
@@ -25,6 +27,17 @@ btScalar combine_friction(const btCollisionObject* a, const btCollisionObject* b
 
 btScalar combine_restitution(const btCollisionObject* a, const btCollisionObject* b) {
   return ours(a, b) ? std::max(a->getRestitution(), b->getRestitution()) : next_restitution(a, b);
+}
+
+btScalar combine_spinning(const btCollisionObject* a, const btCollisionObject* b) {
+  return ours(a, b) ? std::max(a->getSpinningFriction(), b->getSpinningFriction()) : next_spinning(a, b);
+}
+
+/// Bullet looks at the spinning friction only where there is some rolling friction.
+btScalar combine_rolling(const btCollisionObject* a, const btCollisionObject* b) {
+  if (!ours(a, b)) return next_rolling(a, b);
+  const btScalar least = combine_spinning(a, b) > 0 ? btScalar(1e-12) : btScalar(0);
+  return std::max({a->getRollingFriction(), b->getRollingFriction(), least});
 }
 
 struct Coefficients {
@@ -59,6 +72,8 @@ void combine(btManifoldPoint& point, const btCollisionObject* a, int index_a, co
                      of_b = coefficients_at(b, index_b, point.m_positionWorldOnB);
   point.m_combinedFriction = btSqrt(of_a.friction * of_b.friction);
   point.m_combinedRestitution = std::max(of_a.restitution, of_b.restitution);
+  point.m_combinedRollingFriction = combine_rolling(a, b);
+  point.m_combinedSpinningFriction = combine_spinning(a, b);
 }
 
 bool contact_added(btManifoldPoint& point, const btCollisionObjectWrapper* a, int part_a, int index_a,
@@ -103,9 +118,13 @@ void install_material_callbacks() {
   std::call_once(once, [] {
     next_friction = gCalculateCombinedFrictionCallback;
     next_restitution = gCalculateCombinedRestitutionCallback;
+    next_rolling = gCalculateCombinedRollingFrictionCallback;
+    next_spinning = gCalculateCombinedSpinningFrictionCallback;
     next_contact_added = gContactAddedCallback;
     gCalculateCombinedFrictionCallback = &combine_friction;
     gCalculateCombinedRestitutionCallback = &combine_restitution;
+    gCalculateCombinedRollingFrictionCallback = &combine_rolling;
+    gCalculateCombinedSpinningFrictionCallback = &combine_spinning;
     gContactAddedCallback = &contact_added;
   });
 }

@@ -1,4 +1,5 @@
-// The pair's coefficients, as every backend understands them: friction sqrt(mu_a mu_b), restitution max(e_a, e_b).
+// The pair's coefficients, as every backend understands them: friction sqrt(mu_a mu_b), restitution
+// max(e_a, e_b), rolling and spinning friction the larger.
 #pragma once
 
 #include "body.hpp"

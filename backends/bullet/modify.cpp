@@ -32,6 +32,8 @@ void World::remake_body(const PlumbBodyChange& change, MadeOf made) {
   btRigidBody::btRigidBodyConstructionInfo info = construction(made, pose);
   info.m_friction = at.getFriction();
   info.m_restitution = at.getRestitution();
+  info.m_rollingFriction = at.getRollingFriction();
+  info.m_spinningFriction = at.getSpinningFriction();
   at.remake(info);
   at.take(std::move(made));
   add_to_bullet(at);

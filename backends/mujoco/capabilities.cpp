@@ -72,6 +72,7 @@ Capability need_fact(std::uint32_t index) {
     case PLUMB_NEED_SLEEPING: return kNoSleep;
     case PLUMB_NEED_FRICTION:
       return {PLUMB_APPROXIMATE, "soft: what should stick creeps, less with impratio or noslip"};
+    case PLUMB_NEED_ROLLING_FRICTION: return {PLUMB_APPROXIMATE, "soft: what should stay creeps"};
     case PLUMB_NEED_RESTITUTION:
       return {PLUMB_APPROXIMATE,
               "a spring for bounce_substeps sub-steps, in which bodies overlap; a rebound of a twentieth where there "
@@ -92,6 +93,7 @@ Capability need_fact(std::uint32_t index) {
 }
 
 Capability field_fact(PlumbCapability kind, std::uint32_t field) {
+  if (field == PLUMB_FIELD_ROLLING_FRICTION) return {PLUMB_NATIVE};
   if (field == PLUMB_FIELD_AWAKE && kind == PLUMB_CAP_FIELD_WRITE) return kNoSleep;
   if (field == PLUMB_FIELD_KINEMATIC_TARGET && kind == PLUMB_CAP_FIELD_WRITE)
     return {PLUMB_EMULATED, "the velocity that leads there"};

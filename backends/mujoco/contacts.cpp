@@ -55,8 +55,12 @@ void World::judge_contacts(double h) {
     }
     const double friction = std::sqrt(one.material->friction * two.material->friction);
     const double restitution = std::max(one.material->restitution, two.material->restitution);
-    contact.dim = friction > 0 ? 3 : 1;
+    const double rolling = std::max(a.desc.rolling_friction, b.desc.rolling_friction);
+    const double spinning = std::max(a.desc.spinning_friction, b.desc.spinning_friction);
+    contact.dim = rolling > 0 ? 6 : spinning > 0 ? 4 : friction > 0 ? 3 : 1;
     contact.friction[0] = contact.friction[1] = std::max(friction, mjMINMU);
+    contact.friction[2] = std::max(spinning, mjMINMU);
+    contact.friction[3] = contact.friction[4] = std::max(rolling, mjMINMU);
     contact.solref[0] = settings_.contact_time;
     contact.solref[1] = settings_.contact_damping;
     if (needs(PLUMB_NEED_RESTITUTION)) contact.solref[1] = std::max(contact.solref[1], kNoRebound);

@@ -31,6 +31,10 @@ void read_row(PlumbField field, const Body& body, double* row) {
       row[1] = desc.filter.mask;
       row[2] = desc.filter.group;
       return;
+    case PLUMB_FIELD_ROLLING_FRICTION:
+      row[0] = desc.rolling_friction;
+      row[1] = desc.spinning_friction;
+      return;
     default: throw Error(PLUMB_E_UNSUPPORTED, "field " + std::to_string(field) + " cannot be read");
   }
 }
@@ -109,6 +113,10 @@ void World::write_row(PlumbField field, Body& at, const double* row) {
     case PLUMB_FIELD_MATERIAL:
       desc.material.friction = row[0];
       desc.material.restitution = row[1];
+      return;
+    case PLUMB_FIELD_ROLLING_FRICTION:
+      desc.rolling_friction = row[0];
+      desc.spinning_friction = row[1];
       return;
     case PLUMB_FIELD_GRAVITY_SCALE: desc.gravity_scale = row[0]; return;
     case PLUMB_FIELD_DAMPING:

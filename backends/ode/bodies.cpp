@@ -103,7 +103,7 @@ const GeomTag& tag_of(dGeomID geom) {
 
 void refresh_tags(Body& body) {
   for (const auto& tag : body.geoms) {
-    const PlumbMaterial& material = tag->placed.material == nullptr ? body.material : tag->own_material;
+    const PlumbMaterial& material = tag->placed.material == nullptr ? body.surface.material : tag->own_material;
     tag->body = &body;
     tag->id = body.body;
     tag->dynamic = body.dynamic();
@@ -112,6 +112,8 @@ void refresh_tags(Body& body) {
     tag->friction = material.friction;
     tag->restitution = material.restitution;
     tag->surface_velocity = material.surface_velocity;
+    tag->rolling = body.surface.rolling_friction;
+    tag->spinning = body.surface.spinning_friction;
   }
 }
 

@@ -23,7 +23,8 @@ struct GeomTag {
   bool dynamic = false, sensor = false;
   bool choosy = false;  ///< the body has untouchables
   double friction = 0, restitution = 0;
-  PlumbVec3 surface_velocity{};  ///< body frame
+  double rolling = 0, spinning = 0;  ///< friction, m
+  PlumbVec3 surface_velocity{};      ///< body frame
   PlacedGeom placed{};
   PlumbMaterial own_material{};  ///< a child's; read when placed.material is not null
   struct {
@@ -52,7 +53,10 @@ struct Body {
   std::vector<const Body*> untouchable;
   PlumbPose pose{};       ///< of a static body
   PlumbVec3 idle_spin{};  ///< angular velocity of a body that cannot turn: kept and never used
-  PlumbMaterial material{};
+  struct {
+    PlumbMaterial material{};
+    double rolling_friction = 0, spinning_friction = 0;  ///< m
+  } surface;
   double gravity_scale = 1;
   struct Damping {
     double linear = 0, angular = 0;  ///< 1/s

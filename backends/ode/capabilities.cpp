@@ -88,12 +88,15 @@ Fact need_fact(std::uint32_t index) {
     case PLUMB_NEED_EVENTS: return {PLUMB_EMULATED, "the difference of the touching pairs of two steps"};
     case PLUMB_NEED_SENSORS: return {PLUMB_EMULATED, "pairs whose contacts get no joints"};
     case PLUMB_NEED_AXIS_LOCKS: return {PLUMB_EMULATED, "motors at rest against the world, and projection"};
+    case PLUMB_NEED_ROLLING_FRICTION:
+      return {PLUMB_APPROXIMATE, "a pyramid of two directions, at each point with its share of the load"};
     case PLUMB_NEED_DAMPING: return {PLUMB_EMULATED, "ODE's share per step set to 1 - exp(-c dt)"};
     default: return {PLUMB_NATIVE};
   }
 }
 
 Fact field_fact(PlumbCapability kind, std::uint32_t field) {
+  if (field == PLUMB_FIELD_ROLLING_FRICTION) return {PLUMB_NATIVE};
   const Fact usual = backend::usual_capability(kind, field, 0);
   if (usual.degree == PLUMB_NONE) return usual;
   switch (field) {

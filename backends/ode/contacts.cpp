@@ -139,7 +139,8 @@ void ContactPass::meet(dGeomID first, dGeomID second) {
   }
 }
 
-/// Friction sqrt(mu1 mu2), restitution max(e1, e2), unless the host wants others.
+/// Friction sqrt(mu1 mu2), restitution max(e1, e2), unless the host wants others; rolling and spinning friction the
+/// larger.
 struct ContactPass::Surface {
   /// point: where they touch, for surfaces with materials by triangle.
   Surface(const Pair& pair, const dContactGeom& point, int base_mode, const PlumbManifoldChange* change)
@@ -150,9 +151,12 @@ struct ContactPass::Surface {
     if (change != nullptr && (change->what & PLUMB_MANIFOLD_FRICTION) != 0) mu = change->friction;
     if (change != nullptr && (change->what & PLUMB_MANIFOLD_RESTITUTION) != 0) bounce = change->restitution;
     if (bounce > 0) mode |= dContactBounce;
+    rolling = std::max(pair.first.rolling, pair.second.rolling);
+    spinning = std::max(pair.first.spinning, pair.second.spinning);
+    if (rolling > 0 || spinning > 0) mode |= dContactRolling | dContactAxisDep | dContactApprox1;
   }
   int mode;
-  double mu, bounce;
+  double mu, bounce, rolling, spinning;
 };
 
 bool ContactPass::has_materials(const Pair& pair) {
@@ -198,6 +202,9 @@ void ContactPass::respond(const Pair& pair, std::span<dContact> points, const Pl
       contact.surface.mode = surface.mode;
       contact.surface.mu = surface.mu;
       contact.surface.bounce = surface.bounce;
+      contact.surface.mu2 = surface.mu;  // dContactAxisDep is of both
+      contact.surface.rho = contact.surface.rho2 = surface.rolling;
+      contact.surface.rhoN = surface.spinning;
       if (aimed) aim_friction(pair, contact, belts);
       joint = dJointCreateContact(world_, group_, &contact);
       dJointAttach(joint, one.id, two.id);

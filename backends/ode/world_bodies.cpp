@@ -44,7 +44,9 @@ PlumbResult World::set_exceptions(std::span<const PlumbBodyPair> pairs, bool tou
 std::unique_ptr<Body> World::make_body(const PlumbBodyDesc& desc, PlumbBody handle) {
   auto body = stocks_.bodies.take();
   body->handle = handle;
-  body->material = desc.material;
+  body->surface.material = desc.material;
+  body->surface.rolling_friction = desc.rolling_friction;
+  body->surface.spinning_friction = desc.spinning_friction;
   body->filter = desc.filter;
   body->gravity_scale = desc.gravity_scale;
   body->damping.linear = desc.linear_damping;

@@ -70,8 +70,8 @@ PlumbResult World::read(PlumbField field, std::span<const PlumbBody> ids, Rows r
       return each(+[](const Body& body, double(&row)[1]) { row[0] = body.dynamic() && body.asleep() ? 0 : 1; });
     case PLUMB_FIELD_MATERIAL:
       return each(+[](const Body& body, double(&row)[2]) {
-        row[0] = body.material.friction;
-        row[1] = body.material.restitution;
+        row[0] = body.surface.material.friction;
+        row[1] = body.surface.material.restitution;
       });
     case PLUMB_FIELD_GRAVITY_SCALE:
       return each(+[](const Body& body, double(&row)[1]) { row[0] = body.gravity_scale; });
@@ -81,12 +81,17 @@ PlumbResult World::read(PlumbField field, std::span<const PlumbBody> ids, Rows r
         row[1] = body.damping.angular;
       });
     case PLUMB_FIELD_SURFACE_VELOCITY:
-      return each(+[](const Body& body, double(&row)[3]) { put_vec(body.material.surface_velocity, row); });
+      return each(+[](const Body& body, double(&row)[3]) { put_vec(body.surface.material.surface_velocity, row); });
     case PLUMB_FIELD_FILTER:
       return each(+[](const Body& body, double(&row)[3]) {
         row[0] = body.filter.category;
         row[1] = body.filter.mask;
         row[2] = body.filter.group;
+      });
+    case PLUMB_FIELD_ROLLING_FRICTION:
+      return each(+[](const Body& body, double(&row)[2]) {
+        row[0] = body.surface.rolling_friction;
+        row[1] = body.surface.spinning_friction;
       });
     default: throw Error(PLUMB_E_UNSUPPORTED, "field " + std::to_string(field) + " cannot be read");
   }
@@ -141,8 +146,12 @@ void World::write_row(PlumbField field, Body& body, const double* row) {
       body.target.moving = Body::Moving::to_target;
       return;
     case PLUMB_FIELD_MATERIAL:
-      body.material.friction = row[0];
-      body.material.restitution = row[1];
+      body.surface.material.friction = row[0];
+      body.surface.material.restitution = row[1];
+      return refresh_tags(body);
+    case PLUMB_FIELD_ROLLING_FRICTION:
+      body.surface.rolling_friction = row[0];
+      body.surface.spinning_friction = row[1];
       return refresh_tags(body);
     case PLUMB_FIELD_GRAVITY_SCALE: set_gravity_scale(body, row[0]); return wake();
     case PLUMB_FIELD_DAMPING:
@@ -151,7 +160,7 @@ void World::write_row(PlumbField field, Body& body, const double* row) {
       std::erase(lists_.damped, &body);
       lists_.damped.push_back(&body);
       return set_damping(body, substep_.h);
-    case PLUMB_FIELD_SURFACE_VELOCITY: body.material.surface_velocity = v; return refresh_tags(body);
+    case PLUMB_FIELD_SURFACE_VELOCITY: body.surface.material.surface_velocity = v; return refresh_tags(body);
     case PLUMB_FIELD_FILTER:
       body.filter.category = static_cast<std::uint32_t>(row[0]);
       body.filter.mask = static_cast<std::uint32_t>(row[1]);

@@ -1,4 +1,6 @@
 // Materials: the coefficients of a pair are the same in every backend.
+#include <bit>
+
 #include "conform/probe.hpp"
 
 namespace plumb::harness::conform {
@@ -89,6 +91,98 @@ void surface_velocity(Conformance& c) {
   probe.seconds(2);
   c.expect(std::abs(probe.velocity(body).x() - 2) < 0.05, "on a belt of 2 m/s a cube moves at {:.4f} m/s after 2 s",
            probe.velocity(body).x());
+}
+
+constexpr PlumbNeeds kRollingNeeds = kPlainNeeds | PLUMB_NEED_ROLLING_FRICTION;
+
+/// m/s of the speed that a second of rolling friction takes, .7 or .9 m/s.
+double rolling_tolerance(const Conformance& c) {
+  return c.is_exact(PLUMB_CAP_NEED, std::countr_zero(PLUMB_NEED_ROLLING_FRICTION)) ? 0.03 : 0.15;
+}
+
+/// A ball of radius .5 m on level ground, of friction against rolling and spinning.
+struct ResistingBall {
+  static constexpr double kRadius = 0.5, kRolling = 0.05, kSpinning = 0.02;
+
+  /// What resists is the ball or the ground; the other one has less.
+  ResistingBall(Conformance& c, bool by_ground, double speed, double spin) : probe(c, kRollingNeeds) {
+    PlumbBodyDesc floor = body_desc(PLUMB_STATIC), ball = dynamic_desc(probe.sphere(kRadius), {0, kRadius, 0});
+    floor.shape = probe.box({100, 1, 100});
+    floor.pose.position.y = -1;
+    PlumbBodyDesc& resists = by_ground ? floor : ball;
+    PlumbBodyDesc& other = by_ground ? ball : floor;
+    resists.rolling_friction = kRolling;
+    resists.spinning_friction = kSpinning;
+    other.rolling_friction = kRolling / 3;
+    other.spinning_friction = kSpinning / 3;
+    ball.mass_mode = PLUMB_MASS_FROM_TOTAL;
+    ball.mass = 3;
+    ball.linear_velocity.x = speed;
+    ball.angular_velocity = {0, spin, -speed / kRadius};
+    probe.body(floor);
+    body = probe.body(ball);
+  }
+  double speed() { return probe.velocity(body).x(); }
+  double spin() { return probe.read(PLUMB_FIELD_VELOCITY, body)[4]; }
+
+  Probe probe;
+  PlumbBody body = 0;
+};
+
+/// a = rho g / (r (1 + 2 / 5)), until it stops.
+void ball_rolls(Conformance& c, bool by_ground) {
+  ResistingBall ball(c, by_ground, 2, 0);
+  ball.probe.seconds(1);
+  const double speed = ball.speed(), truth = 2 - ball.kRolling * kG / (ball.kRadius * 1.4);
+  c.expect(std::abs(speed - truth) < rolling_tolerance(c),
+           "a ball of 2 m/s and a rolling friction of .05 m has {:.4f} m/s after 1 s instead of {:.4f}", speed, truth);
+  ball.probe.seconds(4);
+  c.expect(std::abs(ball.speed()) < 0.02, "a ball against rolling friction still has {:.4f} m/s after 5 s",
+           ball.speed());
+}
+
+void rolling_friction(Conformance& c) {
+  c.require_needs(kRollingNeeds);
+  ball_rolls(c, false);
+}
+
+/// dw / dt = sigma g / (2 / 5 r^2), and of two bodies the larger friction counts: engines that know it approximately
+/// may have neither.
+void spinning_friction(Conformance& c) {
+  c.require_needs(kRollingNeeds);
+  c.require_exact(PLUMB_CAP_NEED, std::countr_zero(PLUMB_NEED_ROLLING_FRICTION), 0, "spinning friction");
+  ball_rolls(c, true);
+  for (const bool by_ground : {false, true}) {
+    ResistingBall ball(c, by_ground, 0, 4);
+    ball.probe.seconds(1);
+    const double spin = ball.spin(), truth = 4 - ball.kSpinning * kG / (0.4 * ball.kRadius * ball.kRadius);
+    c.expect(std::abs(spin - truth) < 0.1,
+             "a ball of 4 rad/s and a spinning friction of .02 m has {:.4f} rad/s after 1 s instead of {:.4f}", spin,
+             truth);
+  }
+}
+
+void written_rolling_friction(Conformance& c) {
+  c.require_needs(kRollingNeeds);
+  c.require(PLUMB_CAP_FIELD_WRITE, PLUMB_FIELD_ROLLING_FRICTION, 0, "writing of rolling friction");
+  Probe probe(c, kRollingNeeds);
+  probe.ground();
+  PlumbBodyDesc desc = dynamic_desc(probe.sphere(0.5), {0, 0.5, 0}, {2, 0, 0});
+  desc.angular_velocity.z = -4;
+  desc.spinning_friction = 0.25;
+  desc.mass_mode = PLUMB_MASS_FROM_TOTAL;
+  desc.mass = 3;
+  const PlumbBody ball = probe.body(desc);
+  c.expect(probe.read(PLUMB_FIELD_ROLLING_FRICTION, ball)[1] == 0.25, "a spinning friction is not read back");
+  probe.seconds(0.5);
+  const double free = probe.velocity(ball).x();
+  probe.write(PLUMB_FIELD_ROLLING_FRICTION, ball, {0.0625, 0});
+  c.expect(probe.read(PLUMB_FIELD_ROLLING_FRICTION, ball)[0] == 0.0625, "a written rolling friction is not read back");
+  probe.seconds(1);
+  const double slowed = free - probe.velocity(ball).x(), truth = 0.0625 * kG / 0.7;
+  c.expect(std::abs(slowed - truth) < rolling_tolerance(c),
+           "rolling friction was set in a contact, and a ball slowed by {:.4f} m/s in 1 s instead of {:.4f}", slowed,
+           truth);
 }
 
 void child_material(Conformance& c) {
@@ -199,6 +293,10 @@ std::span<const Check> material_checks() {
       {"materials.restitution", "the pair's restitution is max(e1, e2)", &restitution},
       {"materials.written", "a material changed while in contact", &written_material},
       {"materials.surface_velocity", "a conveyor belt", &surface_velocity},
+      {"materials.rolling_friction", "a ball that rolls to a stop", &rolling_friction},
+      {"materials.spinning_friction", "a ball that spins to a stop, and the larger of two frictions",
+       &spinning_friction},
+      {"materials.rolling_friction_written", "rolling friction changed while in contact", &written_rolling_friction},
       {"materials.children", "a compound's child with its own material", &child_material},
       {"materials.mesh", "a mesh whose triangles have their own material", &mesh_material},
       {"materials.height_field", "a height field whose triangles have their own material", &field_material},

@@ -115,6 +115,8 @@ Json json_of(const SceneBody& body, const Scene& scene) {
   if (desc.gravity_scale != 1) json["gravity_scale"] = desc.gravity_scale;
   if (desc.linear_damping != 0) json["linear_damping"] = desc.linear_damping;
   if (desc.angular_damping != 0) json["angular_damping"] = desc.angular_damping;
+  if (desc.rolling_friction != 0) json["rolling_friction"] = desc.rolling_friction;
+  if (desc.spinning_friction != 0) json["spinning_friction"] = desc.spinning_friction;
   const PlumbFilter &filter = desc.filter, &open = usual.filter;
   if (filter.category != open.category) json["filter"]["category"] = filter.category;
   if (filter.mask != open.mask) json["filter"]["mask"] = filter.mask;

@@ -65,6 +65,8 @@ SceneBody read_body(const Node& node, const SceneBuilder& builder) {
   desc.gravity_scale = node.number_or("gravity_scale", desc.gravity_scale);
   desc.linear_damping = node.number_or("linear_damping", 0);
   desc.angular_damping = node.number_or("angular_damping", 0);
+  desc.rolling_friction = node.number_or("rolling_friction", 0);
+  desc.spinning_friction = node.number_or("spinning_friction", 0);
   if (const auto filter = node.find("filter")) desc.filter = read_filter(*filter, desc.filter);
   if (const auto data = node.find("user_data"))
     desc.user_data = static_cast<std::uint64_t>(data->integer(0, std::int64_t{1} << 53));

@@ -46,6 +46,8 @@ const std::map<std::string, std::vector<std::string>>& scene_keys() {
         "gravity_scale",
         "linear_damping",
         "angular_damping",
+        "rolling_friction",
+        "spinning_friction",
         "filter",
         "user_data"}},
       {"generator", {"generate", "count", "seed", "friction"}},
@@ -85,11 +87,11 @@ const std::map<std::string, std::vector<std::string>>& scene_keys() {
 
 const std::vector<std::string>& need_words() {
   static const std::vector<std::string> words{
-      "rotation",         "collision",       "friction", "restitution",         "joints",  "ccd",
-      "sleeping",         "events",          "contacts", "contact_impulses",    "sensors", "kinematic",
-      "gyroscopic",       "damping",         "forces",   "axis_locks",          "filters", "queries",
-      "surface_velocity", "joint_reactions", "snapshot", "contact_modification"};
-  static_assert(PLUMB_NEED_COUNT == 22);
+      "rotation",         "collision",       "friction", "restitution",          "joints",          "ccd",
+      "sleeping",         "events",          "contacts", "contact_impulses",     "sensors",         "kinematic",
+      "gyroscopic",       "damping",         "forces",   "axis_locks",           "filters",         "queries",
+      "surface_velocity", "joint_reactions", "snapshot", "contact_modification", "rolling_friction"};
+  static_assert(PLUMB_NEED_COUNT == 23);
   return words;
 }
 

@@ -104,6 +104,13 @@ void no_restitution() {
 void belts_stand_still() {
   change_bodies<[](PlumbBodyDesc& desc) { desc.material.surface_velocity = {0, 0, 0}; }>();
 }
+void balls_roll_for_ever() {
+  change_bodies<[](PlumbBodyDesc& desc) { desc.rolling_friction = 0; }>();
+}
+void balls_spin_for_ever() {
+  change_bodies<[](PlumbBodyDesc& desc) { desc.spinning_friction = 0; }>();
+}
+void rolling_friction_not_written() { lose_writes<PLUMB_FIELD_ROLLING_FRICTION>(); }
 
 void torques_lost() { lose_writes<PLUMB_FIELD_TORQUE>(); }
 void velocities_not_written() { lose_writes<PLUMB_FIELD_VELOCITY>(); }

@@ -195,6 +195,8 @@ class Fuzzer {
       desc.inertia = {positive(), positive(), positive()};
       desc.material = {positive(), chance(4) ? positive() : 0, {0, 0, 0}};
       desc.linear_damping = chance(5) ? positive() : 0;
+      desc.rolling_friction = chance(4) ? positive() : 0;
+      desc.spinning_friction = chance(4) ? positive() : 0;
       if (chance(5)) desc.filter = filter();
     }
     PlumbBody ids[3];

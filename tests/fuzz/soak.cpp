@@ -155,6 +155,7 @@ class Soak {
     desc.linear_velocity = {between(-3, 3), between(-3, 3), between(-3, 3)};
     desc.angular_velocity = {between(-5, 5), between(-5, 5), between(-5, 5)};
     desc.material.restitution = can(PLUMB_NEED_RESTITUTION) ? between(0, 0.8) : 0;
+    desc.rolling_friction = can(PLUMB_NEED_ROLLING_FRICTION) && below(2) == 0 ? between(0, 0.05) : 0;
     if (can(PLUMB_NEED_CONTACT_MODIFICATION) && below(2) == 0) desc.flags |= PLUMB_BODY_MODIFY_CONTACTS;
     const bool is_bullet = can(PLUMB_NEED_CCD) && below(4) == 0;
     if (is_bullet) {

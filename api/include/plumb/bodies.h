@@ -77,6 +77,12 @@ typedef struct PlumbBodyDesc {
   double angular_damping; /* likewise for the angular velocity */
   PlumbFilter filter;
   uint64_t user_data;
+  /* Resistance to rolling and to spinning, where the shape is round or soft: the greatest moment along and about the
+   * normal of a contact, relative to its normal force, m. Of two bodies that touch the larger of each counts, and
+   * neither needs friction, though without it a ball slides instead of rolling. >= 0; need
+   * PLUMB_NEED_ROLLING_FRICTION when not 0. Since 1.2 */
+  double rolling_friction;
+  double spinning_friction;
 } PlumbBodyDesc;
 
 /* A field is a row of numbers for every body. Pose and velocity rows are state: a write sets them.
@@ -101,7 +107,8 @@ enum {
   PLUMB_FIELD_DAMPING = 13,          /* 2: linear, angular, 1/s */
   PLUMB_FIELD_SURFACE_VELOCITY = 14, /* 3: m/s, body frame */
   PLUMB_FIELD_FILTER = 15,           /* 3: category, mask, group, as whole numbers */
-  PLUMB_FIELD_COUNT = 16
+  PLUMB_FIELD_ROLLING_FRICTION = 16, /* 2: rolling, spinning, m. Since 1.2 */
+  PLUMB_FIELD_COUNT = 17
 };
 
 #ifdef __cplusplus

@@ -45,7 +45,7 @@ template <class Table, class Member>
 
 /// Columns of a field's rows; 0 for what is not a field.
 [[nodiscard]] constexpr std::uint32_t columns_of(PlumbField field) {
-  constexpr std::uint32_t columns[PLUMB_FIELD_COUNT] = {7, 6, 3, 3, 3, 3, 6, 6, 1, 7, 11, 2, 1, 2, 3, 3};
+  constexpr std::uint32_t columns[PLUMB_FIELD_COUNT] = {7, 6, 3, 3, 3, 3, 6, 6, 1, 7, 11, 2, 1, 2, 3, 3, 2};
   return field < PLUMB_FIELD_COUNT ? columns[field] : 0;
 }
 [[nodiscard]] constexpr std::uint32_t joint_columns_of(PlumbJointField field) {

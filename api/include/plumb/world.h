@@ -35,7 +35,8 @@ typedef uint64_t PlumbNeeds;
 #define PLUMB_NEED_JOINT_REACTIONS ((PlumbNeeds)1 << 19)
 #define PLUMB_NEED_SNAPSHOT ((PlumbNeeds)1 << 20)
 #define PLUMB_NEED_CONTACT_MODIFICATION ((PlumbNeeds)1 << 21) /* manifolds.h. Since 1.2 */
-#define PLUMB_NEED_COUNT 22
+#define PLUMB_NEED_ROLLING_FRICTION ((PlumbNeeds)1 << 22)     /* rolling and spinning friction of bodies. Since 1.2 */
+#define PLUMB_NEED_COUNT 23
 #define PLUMB_NEED_ALL (((PlumbNeeds)1 << PLUMB_NEED_COUNT) - 1)
 
 typedef struct PlumbWorldDesc {

@@ -75,6 +75,10 @@ class BodyDesc:
     locks: Union[Lock, str, Iterable[Union[Lock, str]]] = Lock(0)
     user_data: int = 0
     """64 bits of the host's."""
+    rolling_friction: float = 0.0
+    """m, >= 0: the greatest moment along a contact, relative to its normal force; needs rolling_friction when not 0."""
+    spinning_friction: float = 0.0
+    """Likewise about its normal."""
 
     def _mass_mode(self) -> MassMode:
         if self.mass_mode is not None:
@@ -106,6 +110,8 @@ class BodyDesc:
             "gravity_scale",
             "linear_damping",
             "angular_damping",
+            "rolling_friction",
+            "spinning_friction",
         ):
             fill(row, column, getattr(self, column), f"{name}.{column}")
 

@@ -31,6 +31,7 @@ class Need(IntFlag):
     JOINT_REACTIONS = 1 << 19
     SNAPSHOT = 1 << 20
     CONTACT_MODIFICATION = 1 << 21
+    ROLLING_FRICTION = 1 << 22
 
 
 class ShapeType(IntEnum):
@@ -120,6 +121,8 @@ class Field(IntEnum):
     """3: m/s, body frame"""
     FILTER = 15
     """3: category, mask, group"""
+    ROLLING_FRICTION = 16
+    """2: rolling, spinning, m"""
 
 
 class JointType(IntEnum):

@@ -68,16 +68,27 @@ py::dtype build();
 template <>
 py::dtype build<PlumbBodyDesc>() {
   using Row = PlumbBodyDesc;
-  return make(sizeof(Row),
-              {PLUMB_COLUMN(Row, motion, text("u4")), PLUMB_COLUMN(Row, flags, text("u4")),
-               PLUMB_COLUMN(Row, locks, text("u4")), PLUMB_COLUMN(Row, shape, text("u8")), PLUMB_POSE(Row, pose, ""),
-               PLUMB_COLUMN(Row, linear_velocity, text("(3,)f8")), PLUMB_COLUMN(Row, angular_velocity, text("(3,)f8")),
-               PLUMB_COLUMN(Row, mass_mode, text("u4")), PLUMB_COLUMN(Row, density, text("f8")),
-               PLUMB_COLUMN(Row, mass, text("f8")), PLUMB_COLUMN(Row, centre_of_mass, text("(3,)f8")),
-               PLUMB_COLUMN(Row, inertia, text("(3,)f8")), PLUMB_COLUMN(Row, inertia_orientation, text("(4,)f8")),
-               PLUMB_COLUMN(Row, material, material()), PLUMB_COLUMN(Row, gravity_scale, text("f8")),
-               PLUMB_COLUMN(Row, linear_damping, text("f8")), PLUMB_COLUMN(Row, angular_damping, text("f8")),
-               PLUMB_COLUMN(Row, filter, filter()), PLUMB_COLUMN(Row, user_data, text("u8"))});
+  return make(sizeof(Row), {PLUMB_COLUMN(Row, motion, text("u4")),
+                            PLUMB_COLUMN(Row, flags, text("u4")),
+                            PLUMB_COLUMN(Row, locks, text("u4")),
+                            PLUMB_COLUMN(Row, shape, text("u8")),
+                            PLUMB_POSE(Row, pose, ""),
+                            PLUMB_COLUMN(Row, linear_velocity, text("(3,)f8")),
+                            PLUMB_COLUMN(Row, angular_velocity, text("(3,)f8")),
+                            PLUMB_COLUMN(Row, mass_mode, text("u4")),
+                            PLUMB_COLUMN(Row, density, text("f8")),
+                            PLUMB_COLUMN(Row, mass, text("f8")),
+                            PLUMB_COLUMN(Row, centre_of_mass, text("(3,)f8")),
+                            PLUMB_COLUMN(Row, inertia, text("(3,)f8")),
+                            PLUMB_COLUMN(Row, inertia_orientation, text("(4,)f8")),
+                            PLUMB_COLUMN(Row, material, material()),
+                            PLUMB_COLUMN(Row, gravity_scale, text("f8")),
+                            PLUMB_COLUMN(Row, linear_damping, text("f8")),
+                            PLUMB_COLUMN(Row, angular_damping, text("f8")),
+                            PLUMB_COLUMN(Row, filter, filter()),
+                            PLUMB_COLUMN(Row, user_data, text("u8")),
+                            PLUMB_COLUMN(Row, rolling_friction, text("f8")),
+                            PLUMB_COLUMN(Row, spinning_friction, text("f8"))});
 }
 template <>
 py::dtype build<PlumbJointDesc>() {

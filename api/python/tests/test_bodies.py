@@ -6,6 +6,15 @@ from support import SLIPPERY, first, np, on_each, particle, plumb, steps
 
 
 class Bodies(unittest.TestCase):
+    @on_each("rotation", "collision", "friction", "rolling_friction")
+    def test_rolling_friction_arrives(self, engine):
+        with engine.world(["rotation", "collision", "friction", "rolling_friction"]) as world:
+            ball = world.create_shape(plumb.Sphere(0.5))
+            body = world.create_body(plumb.BodyDesc(ball, rolling_friction=0.25, spinning_friction=0.125))
+            np.testing.assert_allclose(world.read("rolling_friction", body), [0.25, 0.125])
+            world.write("rolling_friction", [0.5, 0], body)
+            np.testing.assert_allclose(world.read("rolling_friction", body), [0.5, 0])
+
     @on_each("rotation", "collision", "friction", "restitution", "damping", "filters")
     def test_members_arrive(self, engine):
         with engine.world(["rotation", "collision", "friction", "restitution", "damping", "filters"]) as world:

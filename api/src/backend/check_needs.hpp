@@ -42,6 +42,8 @@ inline void check_body_needs(PlumbNeeds declared, const Where& where, const Plum
   need(PLUMB_NEED_AXIS_LOCKS, desc.locks != 0, "locks");
   need(PLUMB_NEED_DAMPING, desc.linear_damping != 0, "linear_damping");
   need(PLUMB_NEED_DAMPING, desc.angular_damping != 0, "angular_damping");
+  need(PLUMB_NEED_ROLLING_FRICTION, desc.rolling_friction != 0, "rolling_friction");
+  need(PLUMB_NEED_ROLLING_FRICTION, desc.spinning_friction != 0, "spinning_friction");
   check_material_needs(declared, where.member("material"), desc.material);
   check_filter_needs(declared, where.member("filter"), desc.filter);
 }
@@ -59,6 +61,7 @@ inline void check_body_needs(PlumbNeeds declared, const Where& where, const Plum
     case PLUMB_FIELD_DAMPING: return PLUMB_NEED_DAMPING;
     case PLUMB_FIELD_SURFACE_VELOCITY: return PLUMB_NEED_SURFACE_VELOCITY;
     case PLUMB_FIELD_FILTER: return PLUMB_NEED_FILTERS;
+    case PLUMB_FIELD_ROLLING_FRICTION: return PLUMB_NEED_ROLLING_FRICTION;
     default: return 0;
   }
 }

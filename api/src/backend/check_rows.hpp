@@ -37,6 +37,9 @@ inline void check_row(PlumbField field, const Where& where, const double* row, s
     case PLUMB_FIELD_DAMPING:
       require_not_negative(where, "linear damping", row[0]);
       return require_not_negative(where, "angular damping", row[1]);
+    case PLUMB_FIELD_ROLLING_FRICTION:
+      require_not_negative(where, "rolling friction", row[0]);
+      return require_not_negative(where, "spinning friction", row[1]);
     case PLUMB_FIELD_FILTER:
       for (std::uint32_t i = 0; i < 2; ++i)
         if (row[i] < 0 || row[i] > 4294967295.0 || row[i] != std::floor(row[i]))

@@ -148,6 +148,7 @@ class GuardedSnapshot : public GuardedModify {
     read_into(PLUMB_FIELD_GRAVITY_SCALE, handles, [&](std::size_t i) { return kinds[i].gravity_scale; });
     read_into(PLUMB_FIELD_DAMPING, handles, [&](std::size_t i) { return kinds[i].damping; });
     read_into(PLUMB_FIELD_FILTER, handles, [&](std::size_t i) { return kinds[i].filter; });
+    read_into(PLUMB_FIELD_ROLLING_FRICTION, handles, [&](std::size_t i) { return kinds[i].rolling_friction; });
     return kinds;
   }
 
@@ -333,6 +334,8 @@ class GuardedSnapshot : public GuardedModify {
     desc.angular_damping = kind.damping[1];
     desc.filter = {static_cast<std::uint32_t>(kind.filter[0]), static_cast<std::uint32_t>(kind.filter[1]),
                    static_cast<std::int32_t>(kind.filter[2]), 0};
+    desc.rolling_friction = kind.rolling_friction[0];
+    desc.spinning_friction = kind.rolling_friction[1];
     desc.user_data = user_data;
     return desc;
   }

@@ -78,7 +78,7 @@ class GuardedWorld {
   // --- bodies --------------------------------------------------------------------------------------------------------
 
   PlumbResult create_bodies(const PlumbBodyDesc* descs, std::size_t stride, std::uint32_t count, PlumbBody* ids) {
-    std::vector<PlumbBodyDesc> adopted = adopt_descs(descs, stride, count, "bodies");
+    std::vector<PlumbBodyDesc> adopted = adopt_descs(descs, stride, count, "bodies", kBodyDesc10);
     require_pointer(ids, count, "ids");
     std::vector<BodyRecord> records(count);
     for (std::uint32_t i = 0; i < count; ++i) records[i] = examine_body({"bodies", i}, adopted[i]);

@@ -22,7 +22,7 @@ struct BodyKind {
   std::uint32_t flags, locks, reserved;
   double mass_row[11];
   double pose[7];  ///< of static bodies; else 0
-  double material[2], surface_velocity[3], gravity_scale[1], damping[2], filter[3];
+  double material[2], surface_velocity[3], gravity_scale[1], damping[2], filter[3], rolling_friction[2];
 };
 /// Likewise; the descriptor names no bodies and has no user_data.
 struct JointKind {

@@ -112,6 +112,7 @@ struct Decoding {
   /// How much of a row a trace of any version has.
   template <class Row>
   static constexpr std::size_t recorded_size() {
+    if (std::is_same_v<Row, PlumbBodyDesc>) return backend::kBodyDesc10;
     return std::is_same_v<Row, PlumbShapeDesc> ? backend::kShapeDesc10 : sizeof(Row);
   }
   template <class Row>
@@ -128,6 +129,12 @@ struct Decoding {
       row.materials = keep_rows<PlumbMaterial>();
       row.triangle_materials = keep_rows<std::uint32_t>();
     } else {
+      if constexpr (std::is_same_v<Row, PlumbBodyDesc>) {
+        const auto later =
+            in.get_bytes(row.struct_size > backend::kBodyDesc10 ? sizeof(Row) - backend::kBodyDesc10 : 0);
+        std::memcpy(reinterpret_cast<std::byte*>(&row) + backend::kBodyDesc10, later.data(), later.size());
+        if (row.struct_size == backend::kBodyDesc10) row.struct_size = sizeof(Row);
+      }
       to.names.to_handles(row);
     }
     return row;

@@ -33,10 +33,12 @@ function massOf({ density = 1000, mass = 0, centreOfMass = kOrigin, inertia, ine
 
 export function bodyOf(options) {
   const { shape = 0n, motion = 'dynamic', flags = [], locks = [], linearVelocity = kOrigin, angularVelocity = kOrigin,
-    gravityScale = 1, linearDamping = 0, angularDamping = 0, filter } = options;
+    gravityScale = 1, linearDamping = 0, angularDamping = 0, filter, rollingFriction = 0,
+    spinningFriction = 0 } = options;
   return { shape, motion: numberOf(MOTION, motion, 'motion'), flags: bitsOf(FLAG, flags, 'flag'),
     locks: bitsOf(LOCK, locks, 'lock'), pose: poseOf(options), linearVelocity, angularVelocity, ...massOf(options),
-    material: materialOf(options), gravityScale, linearDamping, angularDamping, filter: filterOf(filter) };
+    material: materialOf(options), gravityScale, linearDamping, angularDamping, filter: filterOf(filter),
+    rollingFriction, spinningFriction };
 }
 
 /** Six of them, from those that an object names: { x: ..., angularZ: ... }; the others are nothing. */

@@ -6,7 +6,8 @@ const asBits = (...words) => Object.fromEntries(words.map((word, bit) => [word, 
 
 export const NEED = asBits('rotation', 'collision', 'friction', 'restitution', 'joints', 'ccd', 'sleeping', 'events',
   'contacts', 'contactImpulses', 'sensors', 'kinematic', 'gyroscopic', 'damping', 'forces', 'axisLocks', 'filters',
-  'queries', 'surfaceVelocity', 'jointReactions', 'snapshot', 'contactModification');
+  'queries', 'surfaceVelocity', 'jointReactions', 'snapshot', 'contactModification',
+  'rollingFriction');
 export const MOTION = inOrder('static', 'kinematic', 'dynamic');
 export const FLAG = asBits('sensor', 'ccd', 'noRotation', 'asleep', 'neverSleeps', 'modifyContacts');
 export const LOCK = asBits('linearX', 'linearY', 'linearZ', 'angularX', 'angularY', 'angularZ');
@@ -18,7 +19,7 @@ export const SPRING = inOrder('frequency', 'stiffness');
 export const MASS = inOrder('fromDensity', 'fromTotal', 'explicit');
 export const FIELD = inOrder('pose', 'velocity', 'force', 'torque', 'impulse', 'angularImpulse', 'forceAtPoint',
   'impulseAtPoint', 'awake', 'kinematicTarget', 'mass', 'material', 'gravityScale', 'damping', 'surfaceVelocity',
-  'filter');
+  'filter', 'rollingFriction');
 export const JOINT_FIELD = inOrder('coordinates', 'reaction', 'motor');
 export const EVENT = ['contactBegin', 'contactEnd', 'sensorEnter', 'sensorLeave', 'wake', 'sleep', 'jointBroken'];
 export const CHANGE_OF_BODY = asBits('motion', 'shape', 'mass', 'flags', 'locks');

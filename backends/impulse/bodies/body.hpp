@@ -59,6 +59,11 @@ struct BodyMass {
   std::uint32_t flags;  ///< BodyFlag
 };
 
+/// How large a moment of a contact may be along its tangents and about its normal, relative to its normal force, m.
+struct RollingFriction {
+  Real rolling, spinning;
+};
+
 /// What the host makes act on a body in the next step.
 struct BodyForce {
   Vec force, torque;  ///< N, N m at the centre of mass, world axes

@@ -162,12 +162,11 @@ PLUMB_HD void push(const Contact<P, N>& contact, const ContactWrench<N>& wrench,
   b.angular += b.inverse_inertia * (cross(contact.centre_b, impulse) + torque);
 }
 
-/// Applies the impulses that the last step ended with (warm starting).
+/// The impulses that the last step ended with (warm starting).
 template <int P, class N>
-PLUMB_HD void warm_start_contact(const Contact<P, N>& contact, SolverBody<N>& a, SolverBody<N>& b) {
+PLUMB_HD ContactWrench<N> wrench_of(const Contact<P, N>& contact) {
   const auto& impulse = contact.impulse;
-  push(contact, {normal_wrench(contact.place, impulse[0]), friction_wrench(contact.place, impulse[1], impulse[2])}, a,
-       b);
+  return {normal_wrench(contact.place, impulse[0]), friction_wrench(contact.place, impulse[1], impulse[2])};
 }
 
 /// Separation of each point now that the bodies have moved, m. What rolls turns about the axis of what is round, which

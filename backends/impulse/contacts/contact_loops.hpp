@@ -103,13 +103,13 @@ PLUMB_HD inline std::uint32_t slot_of(const ContactRows& rows, std::uint32_t fir
 /// Whether this thread stores body a (0) or b (1) of its contact.
 PLUMB_HD inline bool stores_body(int which) { return holds_point(which); }
 
-/// Runs work(row, contact, a, b) with the velocities of the surfaces. kSurfaceVelocity says whether these may differ
+/// Runs work(row, contact, a, b) with the velocities of the surfaces. kSurfaceEffects says whether these may differ
 /// from the bodies' own. A GPU's kernels are for worlds with surface velocities or without; a CPU asks each time, and
 /// so is compiled once.
-template <bool kSurfaceVelocity, class N, class C, class Work>
+template <bool kSurfaceEffects, class N, class C, class Work>
 PLUMB_HD void work_on_surfaces([[maybe_unused]] bool surface_velocities, const RowAccess<N>& row, C& contact,
                                SolverBody<N>& a, SolverBody<N>& b, const Work& work) {
-  if constexpr (kSurfaceVelocity) {
+  if constexpr (kSurfaceEffects) {
     const bool runs = Executor::kWarps || surface_velocities;
     const Vec3<N> own = b.linear;
     Vec3<N> before = own;
@@ -160,7 +160,7 @@ PLUMB_HD void store_bodies(const SolverBodies& bodies, const LoadedContact<N>& l
 }
 
 /// Runs work(row, contact, a, b) on a contact and keeps what it did to the bodies.
-template <bool kSurfaceVelocity, bool kMechanisms, class N, class Work>
+template <bool kSurfaceEffects, bool kMechanisms, class N, class Work>
 PLUMB_HD void work_on(const ContactSet& contacts, const SolverBodies& bodies, std::uint32_t slot,
                       LoadedContact<N>& loaded, BodyUse use, bool by_turns, const Work& work) {
   const ContactRows& rows = contacts.rows;
@@ -175,7 +175,7 @@ PLUMB_HD void work_on(const ContactSet& contacts, const SolverBodies& bodies, st
     if (whole || use == BodyUse::kImpact) {
       const SolverBody<N> a_before = a, b_before = b;
       if (use == BodyUse::kImpact) put_impact_speed(bodies, loaded.a, loaded.b, a, b, contact);
-      work_on_surfaces<kSurfaceVelocity>(contacts.surface_velocities, RowAccess<N>(rows, slot), contact, a, b, work);
+      work_on_surfaces<kSurfaceEffects>(contacts.surface_velocities, RowAccess<N>(rows, slot), contact, a, b, work);
       const bool impact = use == BodyUse::kImpact;
       if (whole) push_mechanisms<N>(bodies, loaded.a, a, a_before, impact);
       if (whole) push_mechanisms<N>(bodies, loaded.b, b, b_before, impact);
@@ -187,7 +187,7 @@ PLUMB_HD void work_on(const ContactSet& contacts, const SolverBodies& bodies, st
         if (stores_body(1)) store_free_velocity<N>(bodies, loaded.b, b, b_before);
       }
     } else {
-      work_on_surfaces<kSurfaceVelocity>(contacts.surface_velocities, RowAccess<N>(rows, slot), contact, a, b, work);
+      work_on_surfaces<kSurfaceEffects>(contacts.surface_velocities, RowAccess<N>(rows, slot), contact, a, b, work);
     }
     store_bodies(bodies, loaded, by_turns, a, b);
     if (!moves_bodies(use)) return;
@@ -197,7 +197,7 @@ PLUMB_HD void work_on(const ContactSet& contacts, const SolverBodies& bodies, st
 }
 
 /// Runs work on the contacts of slots first .. first + n * lanes, which share no body that they push or take turns.
-template <bool kSurfaceVelocity, bool kMechanisms, class N, class Work>
+template <bool kSurfaceEffects, bool kMechanisms, class N, class Work>
 PLUMB_DEVICE void for_slots(Team& team, const ContactSet& contacts, const SolverBodies& bodies, std::uint32_t first,
                             std::uint32_t n, BodyUse use, bool by_turns, const Work& work) {
   const auto slot = [=, &contacts](std::uint32_t i) {
@@ -207,7 +207,7 @@ PLUMB_DEVICE void for_slots(Team& team, const ContactSet& contacts, const Solver
       contact_loop(n), [&](std::uint32_t i) { return load_slot<N>(contacts.rows, slot(i)); },
       [&](std::uint32_t i) { fetch_slot(contacts.rows, slot(i)); },
       [&](std::uint32_t i, LoadedContact<N>& loaded) {
-        work_on<kSurfaceVelocity, kMechanisms, N>(contacts, bodies, slot(i), loaded, use, by_turns, work);
+        work_on<kSurfaceEffects, kMechanisms, N>(contacts, bodies, slot(i), loaded, use, by_turns, work);
       });
 }
 
@@ -219,7 +219,7 @@ PLUMB_HD inline bool has_one_contact(const ContactRows& rows, std::uint32_t firs
 
 /// Runs work on every contact of a level, colour after colour, and on those without a colour one after the other.
 /// kMechanisms: what it pushes may be in mechanisms that move as a whole.
-template <bool kSurfaceVelocity = false, bool kMechanisms = false, class Work>
+template <bool kSurfaceEffects = false, bool kMechanisms = false, class Work>
 PLUMB_DEVICE void for_contacts(Team& team, const ContactSet& contacts, std::uint32_t level, const SolverBodies& bodies,
                                BodyUse use, const Work& work) {
   const StepCounters& counters = *contacts.counters;
@@ -235,14 +235,13 @@ PLUMB_DEVICE void for_contacts(Team& team, const ContactSet& contacts, std::uint
     const std::uint32_t first = lonely ? lone + (k - colours) : first_slot[by_turns ? 0 : k];
     const std::uint32_t slots = lonely ? 1 : first_slot[k + 1] - first;
     if constexpr (kLanes == 1) {
-      for_slots<kSurfaceVelocity, kMechanisms, Real>(team, contacts, bodies, first, slots, use, by_turns && !lonely,
-                                                     work);
+      for_slots<kSurfaceEffects, kMechanisms, Real>(team, contacts, bodies, first, slots, use, by_turns && !lonely,
+                                                    work);
     } else {
       if (lonely || has_one_contact(contacts.rows, first, slots))
-        for_slots<kSurfaceVelocity, kMechanisms, Real>(team, contacts, bodies, first, 1, use, false, work);
+        for_slots<kSurfaceEffects, kMechanisms, Real>(team, contacts, bodies, first, 1, use, false, work);
       else
-        for_slots<kSurfaceVelocity, kMechanisms, Lanes>(team, contacts, bodies, first, slots / kLanes, use, false,
-                                                        work);
+        for_slots<kSurfaceEffects, kMechanisms, Lanes>(team, contacts, bodies, first, slots / kLanes, use, false, work);
     }
   }
   if (one_loop && !by_turns) team.barrier();

@@ -31,6 +31,7 @@
 
 #include <cstdint>
 
+#include "contacts/per_point.hpp"
 #include "math/vec3.hpp"
 #include "math/wide.hpp"
 #include "narrowphase/manifold.hpp"
@@ -80,6 +81,9 @@ constexpr std::uint32_t kAllFields = kSurfaceSpeed + 4;
 static_assert(kManifoldPoints == 4 && kAllFields % 4 == 0 && kSurfaceSpeed % 4 == 0);
 /// Impulses of a point summed over the sub-steps so far, N s: normal, tangent, bitangent.
 constexpr std::uint32_t kSumFields = 3 * kManifoldPoints;
+/// Of rolling friction (rolling_friction.hpp): the moment along tangent and bitangent and about the normal, N m s; and
+/// how large it may be along them and about it, relative to the normal impulse, m.
+constexpr std::uint32_t kMoment = 0, kMostMoment = 3, kMomentFields = 5;
 
 /// Where a field is, from the first number of its slot.
 PLUMB_HD constexpr std::uint32_t place_of(std::uint32_t field) {
@@ -95,6 +99,7 @@ struct ContactRows {
   std::uint32_t* row;    ///< of the contact cache
   Real* numbers;
   Real* sums;           ///< null where nobody asks for them
+  Real* moments;        ///< null in worlds without rolling friction; a copy for each thread of a contact
   ContactTurns* turns;  ///< null on a CPU (hand_over.hpp)
   std::uint32_t spare;  ///< slot of no contact, for threads that have none to work on
 
@@ -107,6 +112,16 @@ struct ContactRows {
   PLUMB_HD Real* sums_at(std::uint32_t slot) const {
     if (sums == nullptr) return nullptr;
     return sums + std::size_t{slot / kRowBlock} * (kSumFields * kRowBlock) + slot % kRowBlock;
+  }
+  PLUMB_HD Real* moment_at(std::uint32_t slot, std::uint32_t copy, std::uint32_t field) const {
+    constexpr std::uint32_t kBlock = kMomentFields * kContactThreads * kRowBlock;
+    return moments + std::size_t{slot / kRowBlock} * kBlock + (field * kContactThreads + copy) * kRowBlock +
+           slot % kRowBlock;
+  }
+  /// Those of a thread; null where there are none.
+  PLUMB_HD Real* own_moments_at(std::uint32_t slot) const {
+    if (moments == nullptr) return nullptr;
+    return moment_at(slot, kContactThreads == 1 ? 0U : static_cast<std::uint32_t>(point_of(0)), 0);
   }
 };
 PLUMB_HD constexpr std::uint32_t point_field(int point, std::uint32_t field) {
@@ -142,10 +157,10 @@ struct ContactNumbers {
 /// Reads and writes the fields of kLanes neighbouring slots.
 template <class N>
 struct RowAccess {
-  Real* base;
-  Real* sums;
+  Real *base, *sums, *moments;
 
-  PLUMB_HD RowAccess(const ContactRows& rows, std::uint32_t slot) : base(rows.at(slot)), sums(rows.sums_at(slot)) {}
+  PLUMB_HD RowAccess(const ContactRows& rows, std::uint32_t slot)
+      : base(rows.at(slot)), sums(rows.sums_at(slot)), moments(rows.own_moments_at(slot)) {}
 
   /// Fields f to f + 3, f being the first of a quad.
   PLUMB_HD void get_quad(std::uint32_t f, N (&quad)[4]) const {
@@ -177,6 +192,17 @@ struct RowAccess {
     if (sums == nullptr) return;
     Real* at = sums + (static_cast<std::uint32_t>(point) * 3 + direction) * kRowBlock;
     write(at, read(at) + impulse);
+  }
+  /// Of rolling friction.
+  [[nodiscard]] PLUMB_HD bool has_moments() const { return moments != nullptr; }
+  PLUMB_HD N moment(std::uint32_t field) const { return read(moments + field * kContactThreads * kRowBlock); }
+  PLUMB_HD void put_moment(std::uint32_t field, const N& value) const {
+    write(moments + field * kContactThreads * kRowBlock, value);
+  }
+  /// Of lanes that have no contact, too.
+  PLUMB_HD void clear_moments() const {
+    if (moments == nullptr) return;
+    for (std::uint32_t f = 0; f < kMomentFields; ++f) put_moment(f, N(0));
   }
 
  private:

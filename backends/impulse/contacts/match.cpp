@@ -34,6 +34,7 @@ class Remembered {
         kept_.tangent_impulse[0][i] = sane ? dot(friction, kept_.tangent) : 0;
         kept_.tangent_impulse[1][i] = sane ? dot(friction, bitangent) : 0;
         wanting_ &= ~(1U << i);
+        if (is_finite(old.moment)) kept_.moment = old.moment;
       }
   }
 
@@ -65,6 +66,7 @@ struct Match {
     kept.tangent = perpendicular(found.normal);
     kept.count = found.count;
     kept.colour = kNone;
+    kept.moment = {0, 0, 0};
     kept.owner_a = pushed_owner(a.body);
     kept.owner_b = pushed_owner(b.body);
     for (std::uint32_t i = 0; i < kManifoldPoints; ++i) {

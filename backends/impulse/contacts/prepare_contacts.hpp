@@ -361,7 +361,9 @@ PLUMB_HD void PrepareContacts<kImpacts, kMechanisms>::operator()(std::uint32_t s
   numbers.at[kRollingRadius] = source.rolling_radius[0];
   numbers.at[kRollingRadius + 1] = source.rolling_radius[1];
   numbers.store(rows.at(slot));
-  RowAccess<Lanes>(rows, slot).clear_sums();
+  const RowAccess<Lanes> row(rows, slot);
+  row.clear_sums();
+  row.clear_moments();
 }
 
 /// Writes the impulses of a solver row back to the contact cache.

@@ -20,6 +20,7 @@ struct CachedManifold {
   std::uint32_t feature[kManifoldPoints];
   Real normal_impulse[kManifoldPoints];      ///< N s over the last sub-step
   Real tangent_impulse[2][kManifoldPoints];  ///< along tangent and along cross(normal, tangent)
+  Vec moment;                                ///< of rolling friction, likewise, N m s
 };
 
 /// On which triangle of a surface each point of a manifold lies (manifold_reduction.hpp).

@@ -76,6 +76,8 @@ void World::make_body(const PlumbBodyDesc& desc, PlumbBody id) {
   body.gravity_scale = desc.gravity_scale;
   body.linear_damping = desc.linear_damping;
   body.angular_damping = desc.angular_damping;
+  body.rolling_friction = desc.rolling_friction;
+  body.spinning_friction = desc.spinning_friction;
   simulation_.bodies.force.edit(slot) = {};
   embody(slot, desc);
 }
@@ -155,6 +157,9 @@ void World::put_body_rows(std::uint32_t slot) {
   mass.gravity_scale = static_cast<Real>(body.gravity_scale);
   mass.linear_damping = static_cast<Real>(body.linear_damping);
   mass.angular_damping = static_cast<Real>(body.angular_damping);
+  if (slot < simulation_.bodies.rolling_frictions.size())
+    simulation_.bodies.rolling_frictions.edit(slot) = {static_cast<Real>(body.rolling_friction),
+                                                       static_cast<Real>(body.spinning_friction)};
   if (body.proxy != kNone) put_proxy_row(slot, body.proxy);
   for (const std::uint32_t row : body.more_proxies) put_proxy_row(slot, row);
 }
@@ -218,6 +223,10 @@ PlumbResult World::read(PlumbField field, std::span<const PlumbBody> ids, Rows r
         row[1] = body.filter.mask;
         row[2] = body.filter.group;
         break;
+      case PLUMB_FIELD_ROLLING_FRICTION:
+        row[0] = body.rolling_friction;
+        row[1] = body.spinning_friction;
+        break;
       default: throw Error(PLUMB_E_UNSUPPORTED, "field " + std::to_string(field) + " cannot be read");
     }
     rows.put(i, row, columns_of(field));
@@ -229,9 +238,12 @@ PlumbResult World::write(PlumbField field, std::span<const PlumbBody> ids, Const
   if (field == PLUMB_FIELD_POSE && init_.needs(PLUMB_NEED_CONTACTS)) records();  // they are told of by places
   if (field == PLUMB_FIELD_AWAKE) return write_awake(ids, rows), PLUMB_OK;
   double row[16];
-  for (std::size_t i = 0; field == PLUMB_FIELD_SURFACE_VELOCITY && i < ids.size(); ++i) {
-    rows.get(i, row, 3);
-    require_speed("rows[" + std::to_string(i) + "]", {row[0], row[1], row[2]});
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    if (field != PLUMB_FIELD_SURFACE_VELOCITY && field != PLUMB_FIELD_ROLLING_FRICTION) break;
+    rows.get(i, row, columns_of(field));
+    const std::string name = "rows[" + std::to_string(i) + "]";
+    field == PLUMB_FIELD_SURFACE_VELOCITY ? require_speed(name, {row[0], row[1], row[2]})
+                                          : require_rolling_friction(name + ".", row[0], row[1]);
   }
   wake_for_write(field, ids);
   pacing_.lets_go = pacing_.lets_go || field == PLUMB_FIELD_POSE || field == PLUMB_FIELD_FILTER;
@@ -337,6 +349,10 @@ void World::write_row(PlumbField field, std::uint32_t slot, const double* row) {
       body.filter.category = static_cast<std::uint32_t>(row[0]);
       body.filter.mask = static_cast<std::uint32_t>(row[1]);
       body.filter.group = static_cast<std::int32_t>(row[2]);
+      return put_body_rows(slot);
+    case PLUMB_FIELD_ROLLING_FRICTION:
+      body.rolling_friction = row[0];
+      body.spinning_friction = row[1];
       return put_body_rows(slot);
     default: throw Error(PLUMB_E_UNSUPPORTED, "field " + std::to_string(field) + " cannot be written");
   }

@@ -21,6 +21,10 @@ Capability phase_time(std::uint32_t phase) {
 Capability known(PlumbCapability kind, std::uint32_t a, std::uint32_t b) {
   switch (kind) {
     case PLUMB_CAP_NEED: return {a < PLUMB_NEED_COUNT ? PLUMB_NATIVE : PLUMB_NONE};
+    case PLUMB_CAP_FIELD_READ:
+    case PLUMB_CAP_FIELD_WRITE:
+      if (a == PLUMB_FIELD_ROLLING_FRICTION) return {PLUMB_NATIVE};
+      break;
     case PLUMB_CAP_JOINT_FEATURE:
       if (b == PLUMB_JOINT_HAS_STIFFNESS) return backend::usual_capability(kind, a, PLUMB_JOINT_HAS_SPRINGS);
       break;

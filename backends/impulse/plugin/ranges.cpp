@@ -41,6 +41,13 @@ void require_speed(const std::string& name, const PlumbVec3& speed) {
     if (const Real x = static_cast<Real>(along); !is_finite(x * x)) refuse_range(name, along, "m/s");
 }
 
+void require_rolling_friction(const std::string& name, double rolling, double spinning) {
+  if (const Real x = static_cast<Real>(rolling); !is_finite(x * x))
+    refuse_range(name + "rolling_friction", rolling, "m");
+  if (const Real x = static_cast<Real>(spinning); !is_finite(x * x))
+    refuse_range(name + "spinning_friction", spinning, "m");
+}
+
 void require_step(double dt) {
   constexpr double kMostParts = 4096;  // 256 sub-steps, and the step divided twice by four
   const Real least = static_cast<Real>(dt / kMostParts), most = static_cast<Real>(dt);
@@ -72,6 +79,7 @@ void require_range(const PlumbShapeDesc& desc, std::size_t i) {
 void require_range(const PlumbBodyDesc& desc, std::size_t i) {
   const std::string name = "descs[" + std::to_string(i) + "].";
   require_speed(name + "material.surface_velocity", desc.material.surface_velocity);
+  require_rolling_friction(name, desc.rolling_friction, desc.spinning_friction);
   if (desc.motion != PLUMB_DYNAMIC) return;
   require_inertia(name + "mass", desc.mass, "kg");
   for (const double moment : {desc.inertia.x, desc.inertia.y, desc.inertia.z})

@@ -13,6 +13,8 @@ void require_range(const PlumbShapeDesc& desc, std::size_t i);
 void require_range(const PlumbBodyDesc& desc, std::size_t i);
 /// Throws likewise; name: of the speed, which is in m/s.
 void require_speed(const std::string& name, const PlumbVec3& speed);
+/// Throws likewise; both in m.
+void require_rolling_friction(const std::string& name, double rolling, double spinning);
 /// Throws likewise where a step of dt, s, is too long, or its shortest parts are too short.
 void require_step(double dt);
 

@@ -9,8 +9,8 @@ namespace plumb::impulse {
 
 /// Bits mean the same to every library of this physics and this number type, wherever its kernels run.
 std::string_view World::format() const {
-  return sizeof(Real) == 8 ? "impulse 9, double, physics " PLUMB_IMPULSE_PHYSICS_REVISION_TEXT
-                           : "impulse 9, float, physics " PLUMB_IMPULSE_PHYSICS_REVISION_TEXT;
+  return sizeof(Real) == 8 ? "impulse 10, double, physics " PLUMB_IMPULSE_PHYSICS_REVISION_TEXT
+                           : "impulse 10, float, physics " PLUMB_IMPULSE_PHYSICS_REVISION_TEXT;
 }
 
 PlumbResult World::save(std::span<const std::byte>& data) {
@@ -58,9 +58,11 @@ void World::exchange(Archive& archive) {
   for (const std::uint32_t slot : pushed_) archive.value(simulation_.bodies.force.edit(slot));
   archive.list(told_.early_events);
   archive.list(told_.touches.touching());
-  if (!init_.needs(PLUMB_NEED_SURFACE_VELOCITY)) return;
-  for (std::uint32_t slot = 0; slot < saved.rows.bodies; ++slot) {
-    archive.value(bodies_[slot].material.surface_velocity);
+  const bool runs = init_.needs(PLUMB_NEED_SURFACE_VELOCITY), rolls = init_.needs(PLUMB_NEED_ROLLING_FRICTION);
+  for (std::uint32_t slot = 0; (runs || rolls) && slot < saved.rows.bodies; ++slot) {
+    if (runs) archive.value(bodies_[slot].material.surface_velocity);
+    if (rolls) archive.value(bodies_[slot].rolling_friction);
+    if (rolls) archive.value(bodies_[slot].spinning_friction);
     if (archive.reads() && bodies_[slot].id != 0) put_body_rows(slot);
   }
 }

@@ -18,7 +18,8 @@ SolverFeatures features_of(const WorldInit& init) {
           .sleeping = init.needs(PLUMB_NEED_SLEEPING),
           .continuous = init.needs(PLUMB_NEED_COLLISION | PLUMB_NEED_CCD),
           .surface_velocity = init.needs(PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION | PLUMB_NEED_SURFACE_VELOCITY),
-          .contact_modification = init.needs(PLUMB_NEED_COLLISION | PLUMB_NEED_CONTACT_MODIFICATION)};
+          .contact_modification = init.needs(PLUMB_NEED_COLLISION | PLUMB_NEED_CONTACT_MODIFICATION),
+          .rolling_friction = init.needs(PLUMB_NEED_COLLISION | PLUMB_NEED_ROTATION | PLUMB_NEED_ROLLING_FRICTION)};
 }
 
 /// Steps are divided from the start for so long after one that made energy: what moves so that whole steps do goes on
@@ -32,8 +33,9 @@ World::World(const WorldInit& init)
       simulation_(init.host, init.desc.threads, features_of(init)),
       settings_(settings_table().values(init)),
       gravity_(init.desc.gravity) {
-  // The step with surface velocities has the code of all joints, which reactions ask for.
-  if (init.needs(PLUMB_NEED_JOINT_REACTIONS) || features_of(init).surface_velocity) simulation_.joints.want_reactions();
+  // The step with surface effects has the code of all joints, which reactions ask for.
+  if (init.needs(PLUMB_NEED_JOINT_REACTIONS) || features_of(init).has_surface_effects())
+    simulation_.joints.want_reactions();
   if (init.desc.body_capacity != 0) simulation_.reserve_bodies(init.desc.body_capacity);
 }
 

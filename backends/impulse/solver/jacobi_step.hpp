@@ -11,7 +11,7 @@ namespace plumb::impulse {
 /// the energy of the impulses' error falls in every pass (R. Tonge, F. Benevolenski, A. Voroshilov, "Mass Splitting for
 /// Jitter-Free Parallel Rigid Body Simulation", ACM Trans. Graph. 31(4), 2012). The sum over a body's parts goes in the
 /// order of its contacts. Joints are solved by colours, between the passes.
-template <JointCode kJoints, bool kSurfaceVelocity>
-using StepInParts = StepInPasses<InParts<kSurfaceVelocity>, kJoints>;
+template <JointCode kJoints, bool kSurfaceEffects>
+using StepInParts = StepInPasses<InParts<kSurfaceEffects>, kJoints>;
 
 }  // namespace plumb::impulse

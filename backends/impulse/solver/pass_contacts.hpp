@@ -6,12 +6,14 @@
 #include "contacts/contact_bounce.hpp"
 #include "contacts/contact_friction.hpp"
 #include "contacts/contact_normals.hpp"
+#include "contacts/rolling_friction.hpp"
 #include "solver/pass_change.hpp"
 #include "solver/solver_step.hpp"
 
 namespace plumb::impulse {
 
 /// A contact in one pass of a solver that takes the step whole: normals, then friction, which so stays within the cone.
+template <bool kMoments>
 struct ContactPass {
   bool friction, note_impacts;
   PassChange* noted;  ///< null where nobody asks
@@ -25,6 +27,7 @@ struct ContactPass {
     ContactMotion<N> motion = motion_of(contact, a, b);
     ContactWrench<N> wrench = no_wrench<N>();
     const auto held = solve_normals(contact, target, motion, wrench, note_impacts);
+    solve_rolling_friction<kMoments>(row, contact, motion, wrench);
     if (friction) solve_friction(contact, motion, wrench, held);
     push(contact, wrench, a, b);
     store_impulses(row, contact);
@@ -45,20 +48,20 @@ struct ContactPass {
 };
 
 /// One contact after the other, each seeing what those before it did.
-template <bool kSurfaceVelocity>
+template <bool kSurfaceEffects>
 struct InSequence : SolverStep {
-  static constexpr bool kInSequence = true, kRuns = kSurfaceVelocity;
+  static constexpr bool kInSequence = true, kEffects = kSurfaceEffects;
 
   template <class Work>
   PLUMB_DEVICE void for_each_contact(Team& team, const Work& work, BodyUse use = BodyUse::kVelocity) const {
-    for_contacts<kSurfaceVelocity>(team, contacts, 0, solver, use, work);
+    for_contacts<kSurfaceEffects>(team, contacts, 0, solver, use, work);
   }
 };
 
 /// All contacts at once, on parts of bodies.
-template <bool kSurfaceVelocity>
+template <bool kSurfaceEffects>
 struct InParts : SolverStep {
-  static constexpr bool kInSequence = false;
+  static constexpr bool kInSequence = false, kEffects = kSurfaceEffects;
 
   BodyParts parts;
 
@@ -80,8 +83,7 @@ struct InParts : SolverStep {
     with_contact(rows, slot, loaded, [&](auto& contact) {
       SolverBody<Lanes> a = load_part(loaded.a), b = load_part(loaded.b);
       const Vec3<Lanes> a_linear = a.linear, a_angular = a.angular, b_linear = b.linear, b_angular = b.angular;
-      work_on_surfaces<kSurfaceVelocity>(contacts.surface_velocities, RowAccess<Lanes>(rows, slot), contact, a, b,
-                                         work);
+      work_on_surfaces<kSurfaceEffects>(contacts.surface_velocities, RowAccess<Lanes>(rows, slot), contact, a, b, work);
       if (stores_body(0)) store_change(2 * slot, a.linear - a_linear, a.angular - a_angular);
       if (stores_body(1)) store_change(2 * slot + 1, b.linear - b_linear, b.angular - b_angular);
     });
@@ -135,14 +137,15 @@ PLUMB_DEVICE void PassContacts<Order>::start_contacts(Team& team, const StepPara
   const auto start = [=](const auto& row, auto& contact, auto& a, auto& b) {
     put_bias(contact, moved ? separations_now(contact, a, b) : contact.separation, step);
     store_impulses(row, contact);
-    warm_start_contact(contact, a, b);
+    warm_start_contact<Order::kEffects>(row, contact, a, b);
   };
   this->for_each_contact(team, start, moved ? BodyUse::kVelocityWhereMoved : BodyUse::kVelocity);
 }
 
 template <class Order>
 PLUMB_DEVICE void PassContacts<Order>::solve_contacts(Team& team, PassChange* noted) const {
-  const ContactPass pass = {this->features.friction, !Order::kInSequence && this->features.restitution, noted};
+  const ContactPass<Order::kEffects> pass = {this->features.friction, !Order::kInSequence && this->features.restitution,
+                                             noted};
   this->for_each_contact(team,
                          [pass](const auto& row, auto& contact, auto& a, auto& b) { pass.solve(row, contact, a, b); });
 }

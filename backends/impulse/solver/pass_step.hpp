@@ -71,7 +71,7 @@ struct StepInPasses : PassContacts<Order> {
     });
     if constexpr (Order::kInSequence) {
       std::uint32_t round = 0;
-      if (features.collision && features.restitution) solve_impacts<Order::kRuns, false>(team, *this, step, round);
+      if (features.collision && features.restitution) solve_impacts<Order::kEffects, false>(team, *this, step, round);
     }
     start_joints(team, step);
     if (features.collision) this->start_contacts(team, step);

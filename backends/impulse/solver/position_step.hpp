@@ -14,8 +14,8 @@ namespace plumb::impulse {
 /// friction of what slides. Unlike there, what strikes is thrown back before it moves, and friction at the level of
 /// positions is cut to the cone and not refused beyond it: one point of a face would always be beyond, and a cube at
 /// rest on a slope would creep.
-template <JointCode kJoints, bool kSurfaceVelocity>
-struct StepPositions : PositionContacts<kSurfaceVelocity> {
+template <JointCode kJoints, bool kSurfaceEffects>
+struct StepPositions : PositionContacts<kSurfaceEffects> {
   PLUMB_DEVICE void operator()(Team& team) const {
     if (this->must_repeat()) return;
     const SolverStep self = *this;
@@ -24,7 +24,7 @@ struct StepPositions : PositionContacts<kSurfaceVelocity> {
     for (std::uint32_t k = 0; k < step.substeps; ++k) {
       this->accelerate_bodies(team, step, true);
       if (self.features.collision && self.features.restitution)
-        solve_impacts<kSurfaceVelocity, false>(team, self, step, round);
+        solve_impacts<kSurfaceEffects, false>(team, self, step, round);
       this->move_bodies(team, step);
       correct_joints(team, step, k == 0);
       if (!self.features.collision) continue;

@@ -10,8 +10,8 @@ namespace plumb::impulse {
 /// Sub-steps with soft constraints and relaxation ("soft step": Catto, "Solver2D", 2024; sub-stepping after Macklin et
 /// al., "Small Steps in Physics Simulation", SCA 2019). In each sub-step velocities are solved with a soft bias against
 /// overlap, positions moved, and velocities solved again without the bias, so that what it pushed does not stay.
-template <JointCode kJoints, bool kSurfaceVelocity, bool kImpacts>
-struct StepSoftly : SoftContacts<kSurfaceVelocity, !Executor::kWarps || kJoints != JointCode::kContacts, kImpacts> {
+template <JointCode kJoints, bool kSurfaceEffects, bool kImpacts>
+struct StepSoftly : SoftContacts<kSurfaceEffects, !Executor::kWarps || kJoints != JointCode::kContacts, kImpacts> {
   using SolverStep::solver, SolverStep::features, SolverStep::joints;
 
   PLUMB_DEVICE void operator()(Team& team) const {

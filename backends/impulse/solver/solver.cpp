@@ -2,6 +2,7 @@
 
 #include "bodies/motion_lanes.hpp"
 #include "contacts/prepare_contacts.hpp"
+#include "contacts/rolling_friction.hpp"
 #include "solver/enqueue_step.hpp"
 #include "solver/mechanism_mobility.hpp"
 
@@ -43,6 +44,7 @@ void Solver::reserve(Executor& /*executor*/, std::uint32_t bodies, std::uint32_t
     contacts_.sums.grow(padded * kSumFields);
     step_impulses_.grow(manifolds);
   }
+  if (features_.rolling_friction) contacts_.moments.grow(padded * kMomentFields * kContactThreads);
   choose(kind_);
 }
 
@@ -114,9 +116,9 @@ void Solver::solve(Executor& executor, const SolverInput& input) {
   const std::uint32_t least = max(input.body_count / 2, step.joints.system.small_count * Executor::kGroupThreads);
   const StepWork work = {step, pass_changes_.data(), split_.parts(), kind_, load, least};
   if constexpr (Executor::kWarps) {
-    if (features_.surface_velocity) return enqueue_step_with_surface_velocity(executor, work);
+    if (features_.has_surface_effects()) return enqueue_step_with_surface_effects(executor, work);
   }
-  switch (features_.surface_velocity ? JointCode::kAll : input.joints.code()) {
+  switch (features_.has_surface_effects() ? JointCode::kAll : input.joints.code()) {
     case JointCode::kContacts: return enqueue_step<JointCode::kContacts>(executor, work);
     case JointCode::kPlain: return enqueue_step<JointCode::kPlain>(executor, work);
     case JointCode::kAll: return enqueue_step_with_axes(executor, work);
@@ -125,6 +127,7 @@ void Solver::solve(Executor& executor, const SolverInput& input) {
 
 void Solver::keep_impulses(Executor& executor, const ContactCache& cache, StepCounters* counters) {
   executor.run(Count{&counters->slots, slots_}, KeepImpulses{cache, rows(), step_impulses()});
+  if (features_.rolling_friction) keep_moments(executor, cache, rows(), counters, slots_);
 }
 
 }  // namespace plumb::impulse

@@ -8,7 +8,6 @@
 #include "contacts/colouring.hpp"
 #include "contacts/contact_rows.hpp"
 #include "contacts/hand_over.hpp"
-#include "contacts/split_bodies.hpp"
 #include "exec/executor.hpp"
 #include "exec/memory.hpp"
 #include "joints/joint_store.hpp"
@@ -16,6 +15,7 @@
 #include "narrowphase/manifold_change.hpp"
 #include "solver/choose_substeps.hpp"
 #include "solver/pass_change.hpp"
+#include "solver/split_bodies.hpp"
 
 namespace plumb::impulse {
 
@@ -23,6 +23,10 @@ namespace plumb::impulse {
 struct SolverFeatures {
   bool rotation, collision, friction, restitution, gyroscopic, contact_impulses;
   bool sleeping = false, continuous = false, surface_velocity = false, contact_modification = false;
+  bool rolling_friction = false;
+
+  /// What only the code for all joints has beside it.
+  [[nodiscard]] bool has_surface_effects() const { return surface_velocity || rolling_friction; }
 };
 
 /// What all stages of a step work on.
@@ -84,8 +88,9 @@ class Solver {
   [[nodiscard]] StepImpulses* step_impulses() { return step_impulses_.data(); }
 
   [[nodiscard]] ContactRows rows() {
-    return {contacts_.body_a.data(),  contacts_.body_b.data(), contacts_.count.data(), contacts_.row.data(),
-            contacts_.numbers.data(), contacts_.sums.data(),   contacts_.turns.data(), slots_};
+    return {contacts_.body_a.data(),  contacts_.body_b.data(),  contacts_.count.data(),
+            contacts_.row.data(),     contacts_.numbers.data(), contacts_.sums.data(),
+            contacts_.moments.data(), contacts_.turns.data(),   slots_};
   }
 
  private:
@@ -102,6 +107,7 @@ class Solver {
     Buffer<Real> numbers;
     Buffer<ContactTurns> turns;  // on a GPU
     Buffer<Real> sums;           // of the step's impulses, where somebody asks
+    Buffer<Real> moments;        // in worlds with rolling friction
   };
 
   SolverFeatures features_;

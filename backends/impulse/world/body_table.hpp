@@ -13,14 +13,16 @@ struct BodyTable {
   Table<BodyForce> force;
   Table<BodyMass> mass;
   Table<BodyFrame> frames;
-  std::uint32_t count = 0;  ///< slots in use; rows behind are nobody's, and the last row is a sentinel
+  Table<RollingFriction> rolling_frictions;  ///< in worlds that have them
+  std::uint32_t count = 0;                   ///< slots in use; rows behind are nobody's, and the last row is a sentinel
 
   [[nodiscard]] std::size_t size() const { return state.size(); }
-  void grow(std::size_t rows) {
+  void grow(std::size_t rows, bool with_rolling_friction) {
     state.grow(rows);
     force.grow(rows);
     mass.grow(rows);
     frames.grow(rows);
+    if (with_rolling_friction) rolling_frictions.grow(rows);
   }
   /// turn: whether dynamic bodies may.
   [[nodiscard]] MovableBodies view(bool turn) {

@@ -36,7 +36,7 @@ void Simulation::reserve_bodies(std::uint32_t slots) {
   const std::size_t rows = std::size_t{slots} + 1;  // and nobody
   if (rows <= bodies.size()) return;
   const std::size_t size = rows + rows / 2;
-  bodies.grow(size);
+  bodies.grow(size, stages_.features.rolling_friction);
   joints.reserve_bodies(size);
   dirty_.lists = true;
   reserve_proxies(static_cast<std::uint32_t>(size));
@@ -128,6 +128,7 @@ void Simulation::upload_changes() {
   bodies.force.upload(executor_);
   bodies.mass.upload(executor_);
   bodies.frames.upload(executor_);
+  bodies.rolling_frictions.upload(executor_);
   colliders.surface_velocities.upload(executor_);
   joints.drives.upload(executor_);
   if (joints.changed()) {
@@ -173,6 +174,7 @@ StepInput Simulation::input() {
           colliders.view(),
           bodies.frames.device(),
           stages_.features.surface_velocity ? colliders.surface_velocities.device() : nullptr,
+          stages_.features.rolling_friction ? bodies.rolling_frictions.device() : nullptr,
           {colliders.filters.device(), exclusions.device(), exclusions.count()},
           lists_.movers.view(),
           lists_.statics.view(),

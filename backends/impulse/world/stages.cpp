@@ -2,6 +2,7 @@
 
 #include "bodies/proxy_bounds.hpp"
 #include "contacts/match.hpp"
+#include "contacts/rolling_friction.hpp"
 #include "contacts/surface_velocity.hpp"
 #include "narrowphase/inner_edges.hpp"
 #include "narrowphase/manifold_reduction.hpp"
@@ -133,6 +134,11 @@ void prepare(const StepContext& step) {
                        {step.now, step.bodies, step.proxies, step.surface_velocities, of.colouring.order(),
                         of.colouring.keys(), of.solver.rows(), step.counters, of.changes()},
                        step.pair_capacity);
+  if (step.rolling_frictions != nullptr)
+    put_moments(step.executor,
+                {step.now, step.bodies, step.proxies, step.rolling_frictions, of.colouring.order(), of.colouring.keys(),
+                 of.solver.rows(), step.counters, step.parameters, of.solver.levels(step.counters)},
+                step.pair_capacity);
 }
 
 void keep_state(const StepContext& step) {

@@ -54,7 +54,8 @@ struct StepInput {
   MovableBodies movable;
   Proxies proxies;
   const BodyFrame* frames;
-  const Vec* surface_velocities;  ///< by proxy; null in worlds without
+  const Vec* surface_velocities;             ///< by proxy; null in worlds without
+  const RollingFriction* rolling_frictions;  ///< by body; null in worlds without
   PairFilter filter;
   ProxyRows movers, statics, planes;
   std::uint32_t body_rows;  ///< that kernels go through; those without a body are nobody's

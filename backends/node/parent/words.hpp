@@ -39,12 +39,13 @@ inline constexpr const char* kFieldWords[PLUMB_FIELD_COUNT] = {"pose",
                                                                "gravity_scale",
                                                                "damping",
                                                                "surface_velocity",
-                                                               "filter"};
+                                                               "filter",
+                                                               "rolling_friction"};
 inline constexpr const char* kNeedWords[PLUMB_NEED_COUNT] = {
-    "rotation",         "collision",       "friction", "restitution",         "joints",  "ccd",
-    "sleeping",         "events",          "contacts", "contact_impulses",    "sensors", "kinematic",
-    "gyroscopic",       "damping",         "forces",   "axis_locks",          "filters", "queries",
-    "surface_velocity", "joint_reactions", "snapshot", "contact_modification"};
+    "rotation",         "collision",       "friction", "restitution",          "joints",          "ccd",
+    "sleeping",         "events",          "contacts", "contact_impulses",     "sensors",         "kinematic",
+    "gyroscopic",       "damping",         "forces",   "axis_locks",           "filters",         "queries",
+    "surface_velocity", "joint_reactions", "snapshot", "contact_modification", "rolling_friction"};
 inline constexpr const char* kEventWords[PLUMB_EVENT_COUNT] = {
     "contact_begin", "contact_end", "sensor_enter", "sensor_leave", "wake", "sleep", "joint_broken"};
 inline constexpr const char* kDegreeWords[] = {"none", "approximate", "emulated", "native"};

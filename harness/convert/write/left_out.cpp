@@ -13,6 +13,8 @@ void remark_body(const SceneBody& body, Remarks& remarks, const Vocabulary& know
     remarks.add("velocities at the start are left out", body.name);
   if ((desc.flags & ~known.flags) != 0 || desc.locks != 0) remarks.add("flags and locks are left out", body.name);
   if (desc.linear_damping != 0 || desc.angular_damping != 0) remarks.add("damping is left out", body.name);
+  if (desc.rolling_friction != 0 || desc.spinning_friction != 0)
+    remarks.add("rolling and spinning friction are left out", body.name);
   if (is(desc.material.surface_velocity)) remarks.add("surface velocities are left out", body.name);
   if (!known.gravity_scales && desc.gravity_scale != 1 && desc.gravity_scale != 0)
     remarks.add("a gravity of its own is left out", body.name);

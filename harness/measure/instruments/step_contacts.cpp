@@ -16,6 +16,7 @@ std::string obstacle_in(const Scene& scene, const std::vector<referee::ShapePtr>
   if (!scene.joints.empty()) return "it has joints";
   if ((scene.needs & PLUMB_NEED_COLLISION) == 0) return "nothing collides in it";
   if ((scene.needs & PLUMB_NEED_SURFACE_VELOCITY) != 0) return "it has moving surfaces";
+  if ((scene.needs & PLUMB_NEED_ROLLING_FRICTION) != 0) return "it has rolling friction";
   if ((scene.needs & PLUMB_NEED_KINEMATIC) != 0) return "it has kinematic bodies";
   if ((scene.needs & PLUMB_NEED_FORCES) != 0) return "the host pushes bodies";
   if ((scene.needs & PLUMB_NEED_DAMPING) != 0) return "it has damping";

@@ -74,6 +74,8 @@ Scene scaled(Scene scene, double scale) {
     desc.inertia = times(desc.inertia, mass * scale * scale);
     desc.linear_damping /= time;
     desc.angular_damping /= time;
+    desc.rolling_friction *= scale;
+    desc.spinning_friction *= scale;
   }
   for (SceneJoint& joint : scene.joints) scale_joint(joint.desc, scale);
   return scene;

@@ -201,7 +201,7 @@ TEST(UsualCapability, IsWhatTheInterfaceMeans) {
   std::uint32_t own_work = 0;
   for (std::uint32_t need = 0; need < PLUMB_NEED_COUNT; ++need)
     if (usual(PLUMB_CAP_NEED, need) == PLUMB_NONE) ++own_work;
-  EXPECT_EQ(own_work, 3U) << "continuous collision, snapshots and contact modification";
+  EXPECT_EQ(own_work, 4U) << "continuous collision, snapshots, contact modification and rolling friction";
 }
 
 }  // namespace

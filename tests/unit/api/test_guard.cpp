@@ -78,6 +78,8 @@ TEST_F(Guard, RefusesBadNumbersOfBodiesByName) {
   body_refused(PLUMB_E_INVALID_ARGUMENT, "friction", [](auto& d) { d.material.friction = -0.1; });
   body_refused(PLUMB_E_INVALID_ARGUMENT, "restitution", [](auto& d) { d.material.restitution = 1.1; });
   body_refused(PLUMB_E_INVALID_ARGUMENT, "linear_damping", [](auto& d) { d.linear_damping = -1; });
+  body_refused(PLUMB_E_INVALID_ARGUMENT, "rolling_friction is -1", [](auto& d) { d.rolling_friction = -1; });
+  body_refused(PLUMB_E_INVALID_ARGUMENT, "spinning_friction", [](auto& d) { d.spinning_friction = kInfinity; });
   body_refused(PLUMB_E_INVALID_ARGUMENT, "motion is 9", [](auto& d) { d.motion = 9; });
   body_refused(PLUMB_E_INVALID_ARGUMENT, "flags", [](auto& d) { d.flags = 1u << 30; });
   body_refused(PLUMB_E_INVALID_ARGUMENT, "struct_size", [](auto& d) { d.struct_size = 0; });
@@ -158,6 +160,32 @@ TEST_F(Guard, TakesShapesOfAnOlderCaller) {
   EXPECT_EQ(FakeWorld::last->shapes[2].struct_size, sizeof(PlumbShapeDesc));
   EXPECT_EQ(FakeWorld::last->shapes[2].triangle_materials, nullptr);
   EXPECT_EQ(table.create_shapes(older, descs, kOlder - 8, 1, ids), PLUMB_E_INVALID_ARGUMENT) << "of none";
+  table.destroy_world(older);
+}
+
+/// Likewise before rolling friction.
+TEST_F(Guard, TakesBodiesOfAnOlderCaller) {
+  constexpr std::size_t kOlder = offsetof(PlumbBodyDesc, rolling_friction);
+  PlumbBodyDesc desc = body_desc(PLUMB_STATIC);
+  desc.struct_size = kOlder;
+  std::vector<std::byte> rows(2 * kOlder);
+  for (std::size_t i = 0; i < 2; ++i) {
+    desc.user_data = i + 1;
+    std::memcpy(rows.data() + i * kOlder, &desc, kOlder);
+  }
+  const Backend backend = fake_backend();
+  const PlumbBackendTable& table = backend.table();
+  const PlumbWorldDesc world_of = world_desc(kEverything);
+  PlumbWorld* older = nullptr;
+  ASSERT_EQ(table.create_world(&world_of, &older), PLUMB_OK);
+  PlumbBody ids[2];
+  const auto* descs = reinterpret_cast<const PlumbBodyDesc*>(rows.data());
+  EXPECT_EQ(table.create_bodies(older, descs, kOlder, 2, ids), PLUMB_OK) << table.error_text(older);
+  ASSERT_EQ(FakeWorld::last->made.size(), 2U);
+  EXPECT_EQ(FakeWorld::last->made[1].user_data, 2U);
+  EXPECT_EQ(FakeWorld::last->made[1].struct_size, sizeof(PlumbBodyDesc));
+  EXPECT_EQ(FakeWorld::last->made[1].rolling_friction, 0);
+  EXPECT_EQ(table.create_bodies(older, descs, kOlder - 8, 1, ids), PLUMB_E_INVALID_ARGUMENT) << "of none";
   table.destroy_world(older);
 }
 
@@ -499,6 +527,8 @@ TEST_F(UndeclaredNeeds, EachIsNamed) {
   alone("PLUMB_NEED_SLEEPING", [](auto& d) { d.flags = PLUMB_BODY_ASLEEP; });
   alone("PLUMB_NEED_AXIS_LOCKS", [](auto& d) { d.locks = PLUMB_LOCK_LINEAR_X; });
   alone("PLUMB_NEED_DAMPING", [](auto& d) { d.angular_damping = 1; });
+  alone("PLUMB_NEED_ROLLING_FRICTION", [](auto& d) { d.rolling_friction = 0.1; });
+  alone("PLUMB_NEED_ROLLING_FRICTION", [](auto& d) { d.spinning_friction = 0.1; });
   alone("PLUMB_NEED_FILTERS", [](auto& d) { d.filter.group = 3; });
   PlumbJointDesc joint = joint_desc(PLUMB_JOINT_BALL);
   PlumbJoint id = 0;

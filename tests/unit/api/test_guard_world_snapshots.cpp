@@ -83,6 +83,7 @@ TEST_F(GuardedWorldSnapshots, WhoIsGoneLivesAgainUnderItsHandle) {
   EXPECT_EQ(FakeWorld::last->made[0].mass, 2);
   EXPECT_EQ(FakeWorld::last->made[0].shape, ball);
   EXPECT_EQ(FakeWorld::last->made[0].user_data, 102U);
+  EXPECT_EQ(FakeWorld::last->made[0].spinning_friction, slot_of(bodies[1])) << "what the fake reads of all";
   EXPECT_EQ(world->destroy_bodies({&comer, 1}), PLUMB_E_STALE_HANDLE);
   EXPECT_EQ(world->destroy_bodies({&bodies[1], 1}), PLUMB_E_IN_USE) << "its joint lives again";
   EXPECT_EQ(world->joints()->destroy_joints({&hinge, 1}), PLUMB_OK) << world->error_text();

@@ -32,10 +32,23 @@ TEST(TraceCalls, EveryCallOfTheListIsRecordedAndReplaysTheSame) {
     EXPECT_TRUE(seen.contains(static_cast<std::uint8_t>(call))) << layers::name_of(call) << " is not in the trace";
   });
 
-  const layers::ReplayReport report = layers::replay(file, &complete());
+  static std::vector<PlumbBodyDesc> heard;
+  heard.clear();
+  static PlumbBackendTable hearing;
+  hearing = complete();
+  hearing.create_bodies = [](PlumbWorld* world, const PlumbBodyDesc* descs, std::size_t stride, std::uint32_t count,
+                             PlumbBody* ids) {
+    EXPECT_EQ(stride, sizeof(PlumbBodyDesc));
+    heard.assign(descs, descs + count);
+    return complete().create_bodies(world, descs, stride, count, ids);
+  };
+  const layers::ReplayReport report = layers::replay(file, &hearing);
   EXPECT_TRUE(report.same()) << (report.result ? report.result->name + ": " + report.result->text
                                                : report.first_output.value_or("state"));
   EXPECT_EQ(report.steps, 2u);
+  ASSERT_EQ(heard.size(), 2U);
+  EXPECT_EQ(heard[0].rolling_friction, 0);
+  EXPECT_EQ(heard[1].rolling_friction, 0.25);
   std::filesystem::remove(file);
 }
 

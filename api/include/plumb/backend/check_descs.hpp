@@ -147,6 +147,9 @@ inline void check_mass(const Where& where, const PlumbBodyDesc& desc) {
   }
 }
 
+/// What PlumbBodyDesc was before rolling friction.
+inline constexpr std::size_t kBodyDesc10 = offsetof(PlumbBodyDesc, rolling_friction);
+
 inline void check_body(const Where& where, const PlumbBodyDesc& desc) {
   if (desc.motion >= PLUMB_MOTION_COUNT) refuse_value(where, "motion", desc.motion, "a PlumbMotion");
   require_known_bits(where, "flags", desc.flags, (PLUMB_BODY_MODIFY_CONTACTS << 1) - 1);
@@ -158,6 +161,8 @@ inline void check_body(const Where& where, const PlumbBodyDesc& desc) {
   require_finite(where, "gravity_scale", desc.gravity_scale);
   require_not_negative(where, "linear_damping", desc.linear_damping);
   require_not_negative(where, "angular_damping", desc.angular_damping);
+  require_not_negative(where, "rolling_friction", desc.rolling_friction);
+  require_not_negative(where, "spinning_friction", desc.spinning_friction);
   if (desc.motion == PLUMB_DYNAMIC) check_mass(where, desc);
 }
 

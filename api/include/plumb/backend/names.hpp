@@ -40,7 +40,8 @@ namespace plumb::backend {
                                                     "gravity scale",
                                                     "damping",
                                                     "surface velocity",
-                                                    "filter"};
+                                                    "filter",
+                                                    "rolling friction"};
   return field < PLUMB_FIELD_COUNT ? names[field] : "unknown field";
 }
 
@@ -56,7 +57,8 @@ namespace plumb::backend {
                                                    "PLUMB_NEED_FORCES",           "PLUMB_NEED_AXIS_LOCKS",
                                                    "PLUMB_NEED_FILTERS",          "PLUMB_NEED_QUERIES",
                                                    "PLUMB_NEED_SURFACE_VELOCITY", "PLUMB_NEED_JOINT_REACTIONS",
-                                                   "PLUMB_NEED_SNAPSHOT",         "PLUMB_NEED_CONTACT_MODIFICATION"};
+                                                   "PLUMB_NEED_SNAPSHOT",         "PLUMB_NEED_CONTACT_MODIFICATION",
+                                                   "PLUMB_NEED_ROLLING_FRICTION"};
   return index < PLUMB_NEED_COUNT ? names[index] : "an unknown need";
 }
 

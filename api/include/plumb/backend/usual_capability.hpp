@@ -22,9 +22,9 @@ struct Capability {
 /// Of an engine of rigid bodies that has all of the interface: NATIVE wherever the question means something. NONE of
 /// numbers out of range, of what cannot be (a plane that moves, a limit on a joint that locks every axis, reading a
 /// force, writing the mass), and of what an engine must do something for to have it: continuous collision, snapshots,
-/// changes of what lives, materials by triangle, times of its phases but that of the output, a residual, tasks on the
-/// host's threads. NONE without a note is no answer that helps a user: put a note where your engine lacks what others
-/// have.
+/// changes of what lives, rolling friction, materials by triangle, times of its phases but that of the output, a
+/// residual, tasks on the host's threads. NONE without a note is no answer that helps a user: put a note where your
+/// engine lacks what others have.
 [[nodiscard]] constexpr Capability usual_capability(PlumbCapability kind, std::uint32_t a, std::uint32_t b) {
   constexpr Capability yes{PLUMB_NATIVE}, no{};
   const auto moves_alone = [](std::uint32_t type) { return is_convex(type) || type == PLUMB_COMPOUND; };
@@ -55,10 +55,12 @@ struct Capability {
       if (a == PLUMB_FIELD_MASS) return reads ? yes : Capability{PLUMB_NONE, "it follows from shapes and density"};
       const bool acts =
           (a >= PLUMB_FIELD_FORCE && a <= PLUMB_FIELD_IMPULSE_AT_POINT) || a == PLUMB_FIELD_KINEMATIC_TARGET;
+      if (a == PLUMB_FIELD_ROLLING_FRICTION) return {PLUMB_NONE, "it has no rolling friction"};
       return reads && acts ? Capability{PLUMB_NONE, "it acts and is spent"} : yes;
     }
     case PLUMB_CAP_NEED: {
-      constexpr PlumbNeeds own_work = PLUMB_NEED_CCD | PLUMB_NEED_SNAPSHOT | PLUMB_NEED_CONTACT_MODIFICATION;
+      constexpr PlumbNeeds own_work =
+          PLUMB_NEED_CCD | PLUMB_NEED_SNAPSHOT | PLUMB_NEED_CONTACT_MODIFICATION | PLUMB_NEED_ROLLING_FRICTION;
       return in_range(a < PLUMB_NEED_COUNT && (PlumbNeeds{1} << a & own_work) == 0);
     }
     case PLUMB_CAP_EVENT: return in_range(a < PLUMB_EVENT_COUNT);

@@ -16,6 +16,7 @@ struct BodyRecord {
   PlumbFilter filter{};
   double gravity_scale = 1;
   double linear_damping = 0, angular_damping = 0;
+  double rolling_friction = 0, spinning_friction = 0;  ///< m
   /// A kinematic body under way to where the host wants it at the end of the step.
   bool to_target = false, arrived = false;
   PlumbPose target{};

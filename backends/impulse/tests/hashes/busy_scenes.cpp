@@ -98,6 +98,35 @@ void belts(Scene& scene) {
   };
 }
 
+void rollers(Scene& scene) {
+  scene.body.spinning_friction = 0.01;
+  scene.container(4, 30);
+  scene.add_static(scene.box({3, 0.2, 1}), {-1, 0.6, 2}, {0, 0, 0.1, std::sqrt(0.99)});
+  scene.body.material.surface_velocity = {1, 0, 0};
+  scene.add_static(scene.box({3, 0.2, 1}), {0, 0.2, -2});
+  scene.body.material.surface_velocity = {0, 0, 0};
+  const std::vector<PlumbShape> shapes = convex_shapes(scene);
+  Random random(53);
+  std::vector<PlumbBody> bodies;
+  for (int i = 0; i < 70; ++i) {
+    constexpr double kRolling[] = {0, 0.01, 0.05, 0.2};
+    scene.body.rolling_friction = kRolling[i % 4];
+    scene.body.spinning_friction = kRolling[i / 4 % 4] / 2;
+    scene.body.material.restitution = i % 3 == 0 ? 0.4 : 0;
+    scene.body.flags = i % 10 == 9 ? PLUMB_BODY_CCD : 0;
+    const PlumbQuat turn = random.turn();
+    const double x = random.between(-3, 3), z = random.between(-3, 3);
+    scene.body.angular_velocity = {0, random.between(-5, 5), random.between(-5, 5)};
+    bodies.push_back(scene.add(shapes[static_cast<std::size_t>(i % 5)], {x, 1.5 + 0.2 * i, z}, turn));
+    if (i % 7 == 6) scene.ball_joint(bodies[bodies.size() - 2], {0.6, 0, 0}, bodies.back(), {-0.6, 0, 0});
+  }
+  scene.before_step = [=](Scene& all, int step) {
+    if (step % 40 != 39) return;
+    const auto i = static_cast<std::size_t>(step);
+    all.write(PLUMB_FIELD_ROLLING_FRICTION, bodies[i % bodies.size()], {0.001 * (step % 13), 0.001 * (step % 7)});
+  };
+}
+
 void heavy_bridge(Scene& scene) {
   const RopeBridge bridge = rope_bridge(scene);
   for (int i = 0; i < 8; ++i) person(scene, bridge, 2000, 1.4 * (i - 3.5));

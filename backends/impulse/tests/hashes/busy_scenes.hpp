@@ -11,6 +11,9 @@ void comers(Scene& scene);
 void machines(Scene& scene);
 /// Boxes, balls and capsules on belts that run level, uphill, round a corner and back, and on one that moves.
 void belts(Scene& scene);
+/// Balls, capsules, cylinders, boxes and hulls that roll and spin against friction, more or less of it from step to
+/// step: on level ground, down a slope, over a belt, joined in pairs.
+void rollers(Scene& scene);
 /// A rope bridge on which people land who are too heavy for whole steps (solver/energy_bound.hpp).
 void heavy_bridge(Scene& scene);
 /// A heap, heavy cubes on light ones, which have sub-steps of their own (solver/choose_substeps.hpp), one of which the

@@ -252,6 +252,12 @@ const std::vector<NamedScene>& named_scenes() {
       {"comers", {}, kAll | PLUMB_NEED_SLEEPING, kDown, &comers},
       {"machines", {}, kContactNeeds | PLUMB_NEED_KINEMATIC | PLUMB_NEED_SLEEPING, kDown, &machines},
       {"belts", {}, kAll | PLUMB_NEED_KINEMATIC | PLUMB_NEED_SURFACE_VELOCITY | PLUMB_NEED_SLEEPING, kDown, &belts},
+      {"rollers",
+       {},
+       kAll | PLUMB_NEED_JOINTS | PLUMB_NEED_RESTITUTION | PLUMB_NEED_SURFACE_VELOCITY | PLUMB_NEED_ROLLING_FRICTION |
+           PLUMB_NEED_SLEEPING | PLUMB_NEED_CCD,
+       kDown,
+       &rollers},
       {"heavy-bridge", {}, kAll | PLUMB_NEED_JOINTS | PLUMB_NEED_AXIS_LOCKS, kDown, &heavy_bridge},
       {"drawers", {}, kContactNeeds | PLUMB_NEED_JOINTS, kDown, &drawers},
       {"sieves",

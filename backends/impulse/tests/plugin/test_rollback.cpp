@@ -122,6 +122,8 @@ class Game {
     if (moves(one) && chance(0.1)) scene_.write(PLUMB_FIELD_GRAVITY_SCALE, one, {random.uniform()});
     if (moves(one) && chance(0.1)) scene_.write(PLUMB_FIELD_VELOCITY, one, {random.between(-3, 3), 4, 0, 0, 5, 0});
     if (needs(PLUMB_NEED_FILTERS) && chance(0.05)) scene_.write(PLUMB_FIELD_FILTER, one, {3, 0xfffffffe, 0});
+    if (needs(PLUMB_NEED_ROLLING_FRICTION) && chance(0.2))
+      scene_.write(PLUMB_FIELD_ROLLING_FRICTION, one, {0.2 * random.uniform(), 0.1 * random.uniform()});
     if (needs(PLUMB_NEED_FORCES) && moves(one) && chance(0.2)) scene_.write(PLUMB_FIELD_FORCE, one, {0, 9000, 500});
     if (one != other && chance(0.1)) {
       const PlumbBodyPair pair{one, other};
@@ -136,6 +138,7 @@ class Game {
     desc.pose.orientation = random.turn();
     desc.density = random.between(200, 900);
     desc.material.friction = 0.25 * static_cast<double>(random.next() % 4);
+    if (needs(PLUMB_NEED_ROLLING_FRICTION)) desc.rolling_friction = 0.1 * random.uniform();
     desc.user_data = random.next();
     const double what = random.uniform();
     if (what < 0.06) {
@@ -257,12 +260,12 @@ TEST_P(Rollback, EightFramesAreTakenBackEachFrame) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, Rollback,
-                         ::testing::Values(Game::Kind{"LeastNeeds", kLeast, 1.0 / 60},
-                                           Game::Kind{"MostNeeds", kMost, 1.0 / 60},
-                                           Game::Kind{"LongSteps", kMost, 1.0 / 30},
-                                           Game::Kind{"UnevenSteps", kMost, 1.0 / 60, false}),
-                         [](const auto& kind) { return std::string(kind.param.name); });
+INSTANTIATE_TEST_SUITE_P(
+    Of, Rollback,
+    ::testing::Values(Game::Kind{"LeastNeeds", kLeast, 1.0 / 60}, Game::Kind{"MostNeeds", kMost, 1.0 / 60},
+                      Game::Kind{"LongSteps", kMost, 1.0 / 30}, Game::Kind{"UnevenSteps", kMost, 1.0 / 60, false},
+                      Game::Kind{"RollingFriction", kMost | PLUMB_NEED_ROLLING_FRICTION, 1.0 / 60}),
+    [](const auto& kind) { return std::string(kind.param.name); });
 
 /// Shapes are the host's to keep.
 TEST(Rollback, NeedsTheShapesThatTheBodiesHad) {

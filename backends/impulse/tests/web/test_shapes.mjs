@@ -52,6 +52,22 @@ test('triangles have their own materials', () => {
   world.destroy();
 });
 
+test('a ball rolls to a stop where it has rolling friction', () => {
+  const { world } = grounded(['rollingFriction']);
+  const shape = world.createShape({ type: 'sphere', radius: 0.5 });
+  const [rolls, stops] = world.createBodies([0, 0.05].map((rollingFriction, i) =>
+    ({ shape, position: [0, 0.5, 3 * i], linearVelocity: [1, 0, 0], angularVelocity: [0, 0, -2], rollingFriction,
+      spinningFriction: 0.25 })));
+  assert.deepEqual([...world.read('rollingFriction', [stops])].map((x) => Number(x.toFixed(4))), [0.05, 0.25]);
+  steps(world, 120);
+  near(world.read('velocity', [rolls])[0], 1, 1e-3);
+  near(world.read('velocity', [stops])[0], 0, 1e-3);
+  world.write('rollingFriction', [rolls], [0.05, 0]);
+  steps(world, 120);
+  near(world.read('velocity', [rolls])[0], 0, 1e-3);
+  world.destroy();
+});
+
 test('filters and excluded pairs let bodies through', () => {
   const { world, ground, cube } = grounded(['filters']);
   const [lies, falls, excluded] = world.createBodies([

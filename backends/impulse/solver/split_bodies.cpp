@@ -1,4 +1,4 @@
-#include "contacts/split_bodies.hpp"
+#include "solver/split_bodies.hpp"
 
 #include <bit>
 
