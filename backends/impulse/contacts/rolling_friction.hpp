@@ -38,9 +38,10 @@ PLUMB_HD ContactMoment<N> moment_of(const RowAccess<N>& row) {
 
 /// No moment yet, of solvers whose impulses start at 0 in each sub-step.
 template <bool kMoments, class N>
-PLUMB_HD void start_moment(const RowAccess<N>& row) {
-  if (!kMoments || !row.has_moments()) return;
-  for (std::uint32_t f = 0; f < 3; ++f) row.put_moment(kMoment + f, N(0));
+PLUMB_HD void start_moment([[maybe_unused]] const RowAccess<N>& row) {
+  if constexpr (kMoments) {
+    for (std::uint32_t f = 0; row.has_moments() && f < 3; ++f) row.put_moment(kMoment + f, N(0));
+  }
 }
 
 /// Applies what the last step ended with. kMoments: there may be moments.
