@@ -90,12 +90,13 @@ struct Encoding {
     out.put(desc);
   }
   // As bodies were before rolling friction where there is none, so that older traces are read alike; struct_size tells.
+  // One that is refused keeps its own, to be refused again.
   void row_with_arrays(PlumbBodyDesc& desc) {
     names.to_numbers(desc);
-    const bool rolls =
-        desc.struct_size > backend::kBodyDesc10 && (desc.rolling_friction != 0 || desc.spinning_friction != 0);
-    if (!rolls) desc.struct_size = std::min<std::uint32_t>(desc.struct_size, backend::kBodyDesc10);
-    out.put_bytes(std::as_bytes(std::span(&desc, 1)).first(rolls ? sizeof desc : backend::kBodyDesc10));
+    const bool rolls = desc.rolling_friction != 0 || desc.spinning_friction != 0;
+    if (!rolls && desc.struct_size == sizeof desc) desc.struct_size = backend::kBodyDesc10;
+    const bool is_whole = desc.struct_size > backend::kBodyDesc10;
+    out.put_bytes(std::as_bytes(std::span(&desc, 1)).first(is_whole ? sizeof desc : backend::kBodyDesc10));
   }
   // Arrays are there only for the types that have them: members of other types may hold anything. Of the descriptor the
   // part that all versions have; what came later follows where there is any, so that older traces are read alike.

@@ -90,6 +90,21 @@ TEST_F(Trace, RoundTrip) {
   EXPECT_GT(report.calls, 60u);
 }
 
+/// Which part of a descriptor is recorded must not make of it one that is taken.
+TEST_F(Trace, ABodyOfAWrongSizeIsRefusedAgain) {
+  const PlumbBackendTable* traced = layers::trace(&sample(), file, {1});
+  {
+    const auto world = Backend(traced).create_world(world_desc(0));
+    PlumbBodyDesc desc = body_desc(PLUMB_STATIC);
+    desc.material.friction = 0;
+    desc.struct_size = 4096;
+    PlumbBody id = 0;
+    EXPECT_EQ(world->create_bodies({&desc, 1}, {&id, 1}), PLUMB_E_INVALID_ARGUMENT);
+  }
+  layers::end_trace(traced);
+  EXPECT_TRUE(layers::replay(file, &sample()).same());
+}
+
 TEST_F(Trace, ReplaysUnderValidationWithoutAFinding) {
   record(sample());
   const PlumbBackendTable* validated = layers::validate(&sample());
