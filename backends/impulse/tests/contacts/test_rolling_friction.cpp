@@ -159,6 +159,25 @@ TEST(RollingFriction, LetsAHeapOfBallsComeToRest) {
   }
 }
 
+/// A cube of balls stands where each step begins with the moments that the last one ended with; else it slumps.
+TEST(RollingFriction, HoldsAHeapByTheMomentsOfTheLastStep) {
+  constexpr int kAcross = 6;
+  Scene scene(engine(), kRollingNeeds, kDown, 1);
+  scene.ground();
+  resist(scene, 0.1, 0.02);
+  std::vector<PlumbBody> balls;
+  const PlumbShape ball = scene.sphere(0.25);
+  for (int j = 0; j < kAcross; ++j)
+    for (int i = 0; i < kAcross; ++i)
+      for (int k = 0; k < kAcross; ++k)
+        balls.push_back(scene.add(ball, {0.501 * i + 0.03 * (j % 3), 0.26 + 0.51 * j, 0.501 * k + 0.02 * (j % 2)}));
+  scene.run(1200);
+  double height = 0;
+  for (const PlumbBody body : balls) height += place(scene, body).y / static_cast<double>(balls.size());
+  EXPECT_GT(height, 1.4);
+  EXPECT_LT(speed(scene, balls.back()), 1e-3);
+}
+
 /// What a host writes counts from the next step on, and is read back.
 TEST(RollingFriction, IsWrittenAndRead) {
   Scene scene(engine(), kRollingNeeds, kDown, 1);
