@@ -5,15 +5,11 @@
 #include <cmath>
 
 #include "plumb/assert.hpp"
+#include "referee/difference.hpp"
 
 namespace plumb::referee {
 
 namespace {
-
-// A point of the difference a - b, and the two that it came from.
-struct Difference {
-  Vec3 point = Vec3::Zero(), on_a = Vec3::Zero(), on_b = Vec3::Zero();
-};
 
 struct Simplex {
   std::array<Difference, 4> corner;
@@ -62,7 +58,7 @@ bool interior_weights(const std::array<Vec3, 4>& p, int count, std::array<double
 // slower than Johnson's recursion and cannot go wrong.
 void reduce(Simplex& simplex) {
   Simplex best;
-  double nearest = std::numeric_limits<double>::infinity();
+  double nearest = infinity;
   for (unsigned subset = 1; subset < (1u << simplex.size); ++subset) {
     Simplex part;
     std::array<Vec3, 4> points;

@@ -8,14 +8,11 @@
 #include <vector>
 
 #include "plumb/assert.hpp"
+#include "referee/difference.hpp"
 
 namespace plumb::referee {
 
 namespace {
-
-struct Difference {
-  Vec3 point, on_a, on_b;
-};
 
 struct Facet {
   std::array<std::size_t, 3> corner;

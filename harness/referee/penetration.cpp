@@ -1,14 +1,10 @@
 #include "referee/penetration.hpp"
 
-#include <limits>
-
 #include "referee/convex_penetration.hpp"
 
 namespace plumb::referee {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 bool has_triangles(const Shape& shape) {
   return shape.type() == PLUMB_TRIANGLE_MESH || shape.type() == PLUMB_HEIGHT_FIELD;

@@ -1,15 +1,12 @@
 #include "referee/polytope_penetration.hpp"
 
 #include <cmath>
-#include <limits>
 
 #include "referee/convex_distance.hpp"
 
 namespace plumb::referee {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // An edge pair must beat the faces by this much of the size: parallel faces and edges tie but for rounding.
 constexpr double edge_handicap = 1e-12;

@@ -227,7 +227,6 @@ Aabb Shape::bounds(const Pose& pose) const {
       box.high[axis] = (pose * core_support(direction))[axis] + rounding();
     }
   } else if (type_ == PLUMB_PLANE) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     box = {Vec3::Constant(-infinity), Vec3::Constant(infinity)};
     const Vec3 normal = pose.rotation.col(1);
     for (int axis = 0; axis < 3; ++axis) {  // only a plane square to an axis is bounded, on one side

@@ -13,9 +13,11 @@
 
 namespace plumb::referee {
 
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
+
 struct Aabb {
-  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity());
-  Vec3 high = Vec3::Constant(-std::numeric_limits<double>::infinity());
+  Vec3 low = Vec3::Constant(infinity);
+  Vec3 high = Vec3::Constant(-infinity);
 
   void include(const Vec3& p) {
     low = low.cwiseMin(p);

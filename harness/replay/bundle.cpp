@@ -10,6 +10,7 @@
 #include <set>
 
 #include "replay/badge.hpp"
+#include "replay/bytes.hpp"
 #include "replay/fineness.hpp"
 #include "replay/lists.hpp"
 #include "replay/motion.hpp"
@@ -26,11 +27,6 @@ constexpr double step_of_normal = 1.0 / 256;
 constexpr int digits_of_header = 7;
 const std::set<std::string> not_drawn{"contacts/depth", "contacts/engine_depth", "boxes/tree"};
 
-template <class Number>
-void put(std::string& bytes, Number number) {
-  bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
-}
-
 /// The same JSON with numbers as short as a float32 needs.
 Json shortened(const Json& json) {
   if (json.is_number_float())
@@ -46,9 +42,9 @@ struct Choice {
   std::set<std::string> left_out;
 };
 
-class Maker {
+class BundleMaker {
  public:
-  Maker(const Trajectory& trajectory, const Choice& choice)
+  BundleMaker(const Trajectory& trajectory, const Choice& choice)
       : from_(trajectory), left_out_(choice.left_out), step_(step_of_positions(trajectory)) {
     const std::size_t count = trajectory.frames.size();
     for (std::size_t i = 0; i < count; i += choice.stride) frames_.push_back(i);
@@ -288,14 +284,14 @@ std::string note_of(const Trajectory& trajectory, const Choice& choice) {
 }
 
 std::string packed(const Trajectory& trajectory, const Choice& choice) {
-  Bundle bundle = Maker(trajectory, choice).make();
+  Bundle bundle = BundleMaker(trajectory, choice).make();
   if (const std::string note = note_of(trajectory, choice); !note.empty()) bundle.header["note"] = note;
   return pack(bundle);
 }
 
 }  // namespace
 
-Bundle whole_bundle(const Trajectory& trajectory) { return Maker(trajectory, {}).make(); }
+Bundle whole_bundle(const Trajectory& trajectory) { return BundleMaker(trajectory, {}).make(); }
 
 std::string bounded_bundle(const Trajectory& trajectory, std::size_t most_bytes) {
   Choice choice;

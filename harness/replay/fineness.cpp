@@ -15,7 +15,7 @@ constexpr double tail = 0.04;       // of positions at either end
 constexpr double small_body = 0.1;  // this quantile of radii
 constexpr std::size_t frames_looked_at = 32;
 
-double quantile(std::vector<double>& values, double q) {
+double at_share(std::vector<double>& values, double q) {
   const auto at = values.begin() + std::llround(q * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), at, values.end());
   return *at;
@@ -52,8 +52,8 @@ double reach_of(const Trajectory& trajectory) {
   if (values[0].empty()) return 0;
   std::array<double, 3> size{};
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double low = quantile(values[axis], tail);
-    size[axis] = quantile(values[axis], 1 - tail) - low;
+    const double low = at_share(values[axis], tail);
+    size[axis] = at_share(values[axis], 1 - tail) - low;
   }
   return std::hypot(size[0], size[1], size[2]) / 2;
 }
@@ -78,7 +78,7 @@ std::vector<double> radii_of_moving(const Trajectory& trajectory) {
 double radius_of_small_bodies(const Trajectory& trajectory) {
   std::vector<double> radii = radii_of_moving(trajectory);
   std::erase(radii, 0);
-  return radii.empty() ? 0 : quantile(radii, small_body);
+  return radii.empty() ? 0 : at_share(radii, small_body);
 }
 
 double step_of_positions(const Trajectory& trajectory) {

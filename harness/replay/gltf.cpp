@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "replay/bytes.hpp"
 #include "replay/fineness.hpp"
 #include "replay/mesh.hpp"
 
@@ -27,19 +28,14 @@ constexpr std::array<std::array<double, 3>, 7> colours{{{0.6, 0.6, 0.6},
                                                         {0.337, 0.706, 0.914},
                                                         {0.835, 0.369, 0.0}}};
 
-template <class Number>
-void put(std::string& bytes, Number number) {
-  bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
-}
-
 bool is_finite(const PoseRow& row) {
   const auto& [p, q] = row;
   return std::isfinite(p.x + p.y + p.z + q.x + q.y + q.z + q.w);
 }
 
-class Maker {
+class GltfMaker {
  public:
-  explicit Maker(const Trajectory& trajectory) : from_(trajectory) {}
+  explicit GltfMaker(const Trajectory& trajectory) : from_(trajectory) {}
 
   std::string make() {
     gltf_ = {{"asset", {{"version", "2.0"}, {"generator", "plumb"}}},
@@ -271,6 +267,6 @@ class Maker {
 
 }  // namespace
 
-std::string binary_gltf(const Trajectory& trajectory) { return Maker(trajectory).make(); }
+std::string binary_gltf(const Trajectory& trajectory) { return GltfMaker(trajectory).make(); }
 
 }  // namespace plumb::harness

@@ -4,19 +4,18 @@
 #include <cmath>
 #include <limits>
 
+#include "replay/bytes.hpp"
 #include "replay/planes.hpp"
 
 namespace plumb::harness {
 
 namespace {
 
-constexpr double largest_number = 1 << 28;  // predictions of twice and thrice as much still fit
-constexpr std::int32_t unit = 8192;         // steps of a component
-constexpr double large_enough = 0.45;       // of a component that was left out before and stays so
+constexpr double largest_steps = 1 << 28;  // predictions of twice and thrice as much still fit
+constexpr std::int32_t unit = 8192;        // steps of a component
+constexpr double large_enough = 0.45;      // of a component that was left out before and stays so
 
 using Numbers = std::vector<std::int32_t>;
-
-void put(std::string& bytes, float number) { bytes.append(reinterpret_cast<const char*>(&number), sizeof number); }
 
 double coordinate(const PoseRow& row, std::size_t axis) {
   return std::array{row.position.x, row.position.y, row.position.z}[axis];
@@ -149,7 +148,7 @@ BundleSection coded_positions(const std::vector<std::vector<PoseRow>>& poses, do
     for (std::size_t axis = 0; axis < 3; ++axis) {
       std::vector<double> steps;
       for (const std::vector<PoseRow>& frame : poses) steps.push_back(coordinate(frame[body], axis) / step);
-      fits = fits && std::all_of(steps.begin(), steps.end(), [](double at) { return std::abs(at) < largest_number; });
+      fits = fits && std::all_of(steps.begin(), steps.end(), [](double at) { return std::abs(at) < largest_steps; });
       if (!fits) break;
       for (const int order : {1, 2}) tried[static_cast<std::size_t>(order - 1)][axis] = residuals_of(steps, order);
     }

@@ -1,6 +1,5 @@
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <vector>
 
@@ -13,8 +12,6 @@
 namespace plumb::referee {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // One triangle and a convex shape that cuts it or that it is near to, in the mesh's frame.
 class TrianglePair {

@@ -1,31 +1,18 @@
 // The examples that end each verb's help are lines that the program takes.
 #include <gtest/gtest.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <set>
 #include <sstream>
 
 #include "cli/manual/option_table.hpp"
-#include "cli/verbs/verbs.hpp"
+#include "parser.hpp"
 #include "scene/catalogue.hpp"
 #include "scene/parameters.hpp"
 #include "shell.hpp"
 
 namespace plumb::harness::testing {
 namespace {
-
-struct Parsed {};
-
-/// The program's parser, which stops when it has taken a line and before a verb does anything.
-struct Parser {
-  Parser() : program("the program", "plumb") {
-    add_verbs(program, status);
-    program.parse_complete_callback([] { throw Parsed(); });
-  }
-  int status = 0;
-  CLI::App program;
-};
 
 /// The words after "plumb" of a line: what a shell or another program does before and after it is left out.
 std::vector<std::string> words_of(const std::string& line) {

@@ -19,8 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Parser {
-  Parser() : program("Holds engines against the truth.", "plumb") { add_verbs(program, status); }
+struct Described {
+  Described() : program("Holds engines against the truth.", "plumb") { add_verbs(program, status); }
   int status = 0;
   CLI::App program;
 };
@@ -64,7 +64,7 @@ bool contains(const std::vector<std::string>& words, const std::string& word) {
 }
 
 TEST(ManPages, TellOfEveryVerbAndEveryOption) {
-  Parser parser;
+  Described parser;
   const ProgramTable table = table_of(parser.program);
   const std::string overview = man_page(table, "plumb 1");
   std::size_t verbs = 0;
@@ -118,7 +118,7 @@ TEST_F(Written, ScriptsAreReadByTheirShells) {
 
 TEST_F(Written, BashCompletesVerbsAndOptions) {
   EXPECT_EQ(completions({"sc"}), std::vector<std::string>{"scenes"});
-  Parser parser;
+  Described parser;
   const ProgramTable table = table_of(parser.program);
   const auto offered = completions({""});
   for (const VerbEntry& verb : table.verbs) {

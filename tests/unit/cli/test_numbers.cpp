@@ -1,28 +1,22 @@
 // Options that are numbers refuse what is none, and say by name what they want.
 #include <gtest/gtest.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <set>
 
 #include "cli/manual/option_table.hpp"
-#include "cli/verbs/verbs.hpp"
+#include "parser.hpp"
 #include "shell.hpp"
 
 namespace plumb::harness::testing {
 namespace {
 
-struct Parsed {};
-
 /// What the parser says of a line; "" where it takes it. No verb does anything.
 std::string said(std::vector<std::string> words) {
-  int status = 0;
-  CLI::App program("the program", "plumb");
-  add_verbs(program, status);
-  program.parse_complete_callback([] { throw Parsed(); });
+  Parser parser;
   std::reverse(words.begin(), words.end());  // as CLI11 wants them
   try {
-    program.parse(words);
+    parser.program.parse(words);
   } catch (const Parsed&) {
   } catch (const CLI::ParseError& error) {
     return error.what();
@@ -32,10 +26,9 @@ std::string said(std::vector<std::string> words) {
 
 TEST(Numbers, AreRefusedByNameWhereverTheyAreNone) {
   const std::set<std::string> numbers{"FLOAT", "UINT", "SECONDS", "MB"};
-  int status = 0, looked_at = 0;
-  CLI::App program("the program", "plumb");
-  add_verbs(program, status);
-  for (const VerbEntry& verb : table_of(program).verbs) {
+  Parser parser;
+  int looked_at = 0;
+  for (const VerbEntry& verb : table_of(parser.program).verbs) {
     for (const OptionEntry& option : verb.options) {
       if (option.positional || !numbers.contains(option.value)) continue;
       ++looked_at;

@@ -2,14 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "../truth_units.hpp"
 #include "truth/limit_analysis.hpp"
 
 namespace plumb::truth {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 TEST(LimitAnalysis, ABlockOnASlopeByItsFriction) {
   const auto slope = [](double angle, double friction) {

@@ -4,13 +4,12 @@
 #include <cmath>
 #include <numbers>
 
+#include "../truth_units.hpp"
 #include "limit_load.hpp"
 #include "truth/structures.hpp"
 
 namespace plumb::truth {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 /// Where the largest load of a family passes through 0: there it begins to carry its own weight.
 template <class Load>

@@ -2,15 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "../truth_units.hpp"
 #include "truth/mechanisms.hpp"
 
 namespace plumb::truth {
 namespace {
-
-constexpr double g = 9.81;
-constexpr double degree = std::numbers::pi / 180;
 
 TEST(TopplingRod, FromTenDegrees) {
   EXPECT_NEAR(toppling_time(g, 2, 10 * degree), 1.08608519, 5e-9);

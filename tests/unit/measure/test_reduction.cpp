@@ -9,12 +9,12 @@
 namespace plumb::harness {
 namespace {
 
-constexpr double dt = 1.0 / 64;
+constexpr double spacing = 1.0 / 64;
 
 template <class Function>
 Reduction::Result reduced(const ReductionSpec& spec, const Function& function, int steps = 640) {
   const auto reduction = make_reduction(spec);
-  for (int k = spec.of_step ? 1 : 0; k <= steps; ++k) reduction->add({k * dt, function(k * dt)});
+  for (int k = spec.of_step ? 1 : 0; k <= steps; ++k) reduction->add({k * spacing, function(k * spacing)});
   return reduction->result();
 }
 
@@ -23,7 +23,7 @@ ReductionSpec window(Take take, double begin, double end) {
   spec.take = take;
   spec.begin = begin;
   spec.end = end;
-  spec.dt = dt;
+  spec.dt = spacing;
   return spec;
 }
 
@@ -41,26 +41,27 @@ double wave(double t) { return std::cos(3 * t) * std::exp(-t / 5); }
 
 Series series_of_wave() {
   Series series;
-  for (int k = 0; k <= 640; ++k) series.add(k * dt, wave(k * dt));
+  for (int k = 0; k <= 640; ++k) series.add(k * spacing, wave(k * spacing));
   return series;
 }
 
 TEST(Reduction, TakesTheValueAtATime) {
   const Series series = series_of_wave();
-  for (const double time : {0.0, 1.0, 2.003, 3.5 + 0.3 * dt, 9.99, 10.0}) {
+  for (const double time : {0.0, 1.0, 2.003, 3.5 + 0.3 * spacing, 9.99, 10.0}) {
     SCOPED_TRACE(time);
     EXPECT_NEAR(reduced(smooth(window(Take::at, time, time)), wave).value, series.at(time), 1e-15);
-    EXPECT_NEAR(reduced(window(Take::at, time, time), wave).value, wave(time), 9 * dt * dt / 8);
+    EXPECT_NEAR(reduced(window(Take::at, time, time), wave).value, wave(time), 9 * spacing * spacing / 8);
   }
   EXPECT_EQ(reduced(window(Take::at, 2, 2), wave).value, wave(2));
-  EXPECT_EQ(reduced(window(Take::at, 2 + dt / 4, 2 + dt / 4), [](double t) { return 3 * t; }).value, 6 + 0.75 * dt);
+  EXPECT_EQ(reduced(window(Take::at, 2 + spacing / 4, 2 + spacing / 4), [](double t) { return 3 * t; }).value,
+            6 + 0.75 * spacing);
 }
 
 TEST(Reduction, TakesTheStepThatATimeLiesIn) {
-  const auto step = [](double t) { return t / dt; };
+  const auto step = [](double t) { return t / spacing; };
   EXPECT_EQ(reduced(of_step(window(Take::at, 0, 0)), step).value, 1);
-  EXPECT_EQ(reduced(of_step(window(Take::at, dt, dt)), step).value, 1);
-  EXPECT_EQ(reduced(of_step(window(Take::at, 1.5 * dt, 1.5 * dt)), step).value, 2);
+  EXPECT_EQ(reduced(of_step(window(Take::at, spacing, spacing)), step).value, 1);
+  EXPECT_EQ(reduced(of_step(window(Take::at, 1.5 * spacing, 1.5 * spacing)), step).value, 2);
 }
 
 TEST(Reduction, TakesExtremesOfSamplesOrOfTheParabolasBetween) {
@@ -72,7 +73,7 @@ TEST(Reduction, TakesExtremesOfSamplesOrOfTheParabolasBetween) {
   EXPECT_EQ(reduced(smooth(window(Take::time_of_min, 2, 10)), wave).value, lows[1].time);
   EXPECT_EQ(reduced(smooth(window(Take::max_abs, 1, 10)), wave).value, -lows.front().value);
   double most = -1;
-  for (int k = 64; k <= 640; ++k) most = std::max(most, wave(k * dt));
+  for (int k = 64; k <= 640; ++k) most = std::max(most, wave(k * spacing));
   EXPECT_EQ(reduced(window(Take::max, 1, 10), wave).value, most);
   EXPECT_EQ(reduced(window(Take::max, 0, 10), wave).value, 1) << "the start counts";
 }
@@ -106,10 +107,10 @@ TEST(Reduction, MeansAreOverTime) {
 }
 
 TEST(Reduction, MeansOfStepsAreOfThoseThatLieWhollyWithin) {
-  const auto number = [](double t) { return std::round(t / dt); };
-  EXPECT_EQ(reduced(of_step(window(Take::mean, 0, 4 * dt)), number).value, 2.5);
-  EXPECT_EQ(reduced(of_step(window(Take::mean, 2 * dt, 4 * dt)), number).value, 3.5);
-  EXPECT_EQ(reduced(of_step(window(Take::mean, 1.5 * dt, 4.5 * dt)), number).value, 3.5);
+  const auto number = [](double t) { return std::round(t / spacing); };
+  EXPECT_EQ(reduced(of_step(window(Take::mean, 0, 4 * spacing)), number).value, 2.5);
+  EXPECT_EQ(reduced(of_step(window(Take::mean, 2 * spacing, 4 * spacing)), number).value, 3.5);
+  EXPECT_EQ(reduced(of_step(window(Take::mean, 1.5 * spacing, 4.5 * spacing)), number).value, 3.5);
 }
 
 TEST(Reduction, FindsPassesAndPeriods) {
@@ -139,9 +140,9 @@ TEST(Reduction, SaysWhyThereIsNoNumber) {
 TEST(Reduction, CountsWhatAWindowHolds) {
   EXPECT_EQ(samples_within(window(Take::max, 0, 10)), 641);
   EXPECT_EQ(samples_within(of_step(window(Take::max, 0, 10))), 640);
-  EXPECT_EQ(samples_within(of_step(window(Take::mean, dt, 2 * dt))), 1);
-  EXPECT_EQ(samples_within(of_step(window(Take::mean, 0.2 * dt, 1.8 * dt))), 0);
-  EXPECT_EQ(samples_within(window(Take::mean, 0.2 * dt, 0.8 * dt)), 0);
+  EXPECT_EQ(samples_within(of_step(window(Take::mean, spacing, 2 * spacing))), 1);
+  EXPECT_EQ(samples_within(of_step(window(Take::mean, 0.2 * spacing, 1.8 * spacing))), 0);
+  EXPECT_EQ(samples_within(window(Take::mean, 0.2 * spacing, 0.8 * spacing)), 0);
   EXPECT_EQ(samples_within(window(Take::mean, 2, 1)), 0);
 }
 

@@ -4,13 +4,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "../truth_units.hpp"
 #include "truth/structures.hpp"
 
 namespace plumb::truth {
 namespace {
-
-constexpr double g = 9.81;
-constexpr double degree = std::numbers::pi / 180;
 
 TEST(HarmonicStack, OverhangOfItsTip) {
   EXPECT_NEAR(harmonic_overhang(1, 5), 1.14166667, 5e-9);

@@ -3,16 +3,12 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <numbers>
 
+#include "../truth_units.hpp"
 #include "truth/contacts.hpp"
 
 namespace plumb::truth {
 namespace {
-
-constexpr double digits = 6e-9;
-constexpr double degree = std::numbers::pi / 180;
-constexpr double g = 9.81;
 
 TEST(Impact, LadderOfBounces) {
   const double half[] = {1.75, .8125, .578125, .51953125, .50488281};

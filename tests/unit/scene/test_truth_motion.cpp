@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "../truth_units.hpp"
 #include "truth/elliptic.hpp"
 #include "truth/ode.hpp"
 #include "truth/pendulums.hpp"
@@ -11,9 +12,6 @@
 
 namespace plumb::truth {
 namespace {
-
-constexpr double digits = 6e-9;  ///< half of the last of eight decimals, and a little
-constexpr double degree = std::numbers::pi / 180;
 
 TEST(Elliptic, JacobiFunctionsKeepTheirIdentitiesAndQuarterPeriod) {
   for (const double m : {0.0, 0.1, 0.5, 0.9, 0.98741319, 0.999999}) {

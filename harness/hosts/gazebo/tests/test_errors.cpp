@@ -34,7 +34,7 @@ class Errors : public testing::Test {
   std::unique_ptr<Host> host;
 };
 
-const std::string kBob = inertia(1, 0.004, 0.004, 0.004);
+const std::string kBareBob = inertia(1, 0.004, 0.004, 0.004);
 
 TEST(Backend, ThatIsUnknownIsToldWithThoseThatAreThere) {
   Host host("no-such-engine");
@@ -47,7 +47,7 @@ TEST(Backend, ThatIsUnknownIsToldWithThoseThatAreThere) {
 
 TEST_F(Errors, JointTypesThatAreNotThere) {
   for (const std::string type : {"screw", "revolute2"}) {
-    const std::string text = link(kBob, "a") + link(kBob, "b") + "<joint name='turns' type='" + type +
+    const std::string text = link(kBareBob, "a") + link(kBareBob, "b") + "<joint name='turns' type='" + type +
                              "'><parent>a</parent><child>b</child><axis><xyz>0 0 1</xyz></axis>"
                              "<axis2><xyz>0 1 0</xyz></axis2></joint>";
     expect_words(told_of(model("m", "0 0 0 0 0 0", text)), {"[turns]", type.c_str(), "revolute"});
@@ -57,7 +57,7 @@ TEST_F(Errors, JointTypesThatAreNotThere) {
 }
 
 TEST_F(Errors, ParallelAxes) {
-  const std::string text = link(kBob, "a") +
+  const std::string text = link(kBareBob, "a") +
                            "<joint name='turns' type='universal'><parent>world</parent><child>a</child>"
                            "<axis><xyz>0 0 1</xyz></axis><axis2><xyz>0 0 1</xyz></axis2></joint>";
   expect_words(told_of(model("m", "0 0 0 0 0 0", text)), {"[turns]", "parallel"});
@@ -72,13 +72,13 @@ TEST_F(Errors, Heightmaps) {
 }
 
 TEST_F(Errors, MeshesThatAreMissing) {
-  const std::string text = kBob + collision("hull", "<mesh><uri>no-such-file.dae</uri></mesh>");
+  const std::string text = kBareBob + collision("hull", "<mesh><uri>no-such-file.dae</uri></mesh>");
   expect_words(told_of(model("ship", "0 0 0 0 0 0", link(text))), {"no-such-file.dae", "IGN_FILE_PATH"});
   EXPECT_EQ(host->shapes("ship::link"), 0U);
 }
 
 TEST_F(Errors, PlanesThatMove) {
-  const std::string text = kBob + collision("floor", "<plane><normal>0 0 1</normal></plane>");
+  const std::string text = kBareBob + collision("floor", "<plane><normal>0 0 1</normal></plane>");
   expect_words(told_of(model("m", "0 0 0 0 0 0", link(text))), {"[floor]", "static"});
 }
 
@@ -90,11 +90,12 @@ TEST_F(Errors, LinksWithoutMass) {
 }
 
 TEST_F(Errors, NumbersThatAreNone) {
-  ASSERT_TRUE(host->load(world(
-      cube("a", "0 0 0 0 0 0") + model("p", "2 0 0 0 0 0",
-                                       link(kBob, "bob") + "<joint name='j' type='revolute'><parent>world</parent>"
-                                                           "<child>bob</child><axis><xyz>0 0 1</xyz></axis></joint>"),
-      "0 0 0")));
+  ASSERT_TRUE(
+      host->load(world(cube("a", "0 0 0 0 0 0") +
+                           model("p", "2 0 0 0 0 0",
+                                 link(kBareBob, "bob") + "<joint name='j' type='revolute'><parent>world</parent>"
+                                                         "<child>bob</child><axis><xyz>0 0 1</xyz></axis></joint>"),
+                       "0 0 0")));
   const double nan = std::nan(""), inf = std::numeric_limits<double>::infinity();
   testing::internal::CaptureStderr();
   host->push("a::link", {nan, 0, 0}, {0, 0, 0});
