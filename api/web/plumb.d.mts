@@ -155,7 +155,7 @@ export interface JointRow {
 }
 
 export interface JointOptions extends JointRow {
-  type: 'ball' | 'hinge' | 'slider' | 'distance' | 'fixed' | 'universal' | 'generic';
+  type: 'ball' | 'hinge' | 'slider' | 'distance' | 'fixed' | 'universal' | 'generic' | 'swing_twist';
   /** Left out: the world. */
   a?: Body;
   b: Body;

@@ -41,6 +41,8 @@ Capability joint_fact(std::uint32_t type) {
   if (type == PLUMB_JOINT_GENERIC) return {PLUMB_NONE, "Box3D has no joint of six axes"};
   if (type == PLUMB_JOINT_UNIVERSAL)
     return {PLUMB_EMULATED, "Box3D's wheel joint, steered freely and without travel of its suspension"};
+  if (type == PLUMB_JOINT_SWING_TWIST)
+    return {PLUMB_APPROXIMATE, "its cones are round: one of two half angles is refused"};
   return backend::usual_capability(PLUMB_CAP_JOINT, type, 0);
 }
 
@@ -52,6 +54,7 @@ Capability joint_feature_fact(std::uint32_t type, std::uint32_t feature) {
   if (joint_has(type, feature)) return usual;
   if (type == PLUMB_JOINT_BALL)
     return {PLUMB_NONE, "Box3D's cone, twist, motor and spring are not those of single axes"};
+  if (type == PLUMB_JOINT_SWING_TWIST) return {PLUMB_NONE, "not made: Box3D's motor and spring are of all three turns"};
   return {PLUMB_NONE, "Box3D's wheel joint has them on one of the two axes only"};
 }
 

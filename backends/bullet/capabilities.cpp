@@ -55,6 +55,8 @@ PlumbDegree pair_degree(std::uint32_t a, std::uint32_t b, const char*& note) {
 
 PlumbDegree joint_degree(std::uint32_t type, const char*& note) {
   if (type >= PLUMB_JOINT_TYPE_COUNT) return PLUMB_NONE;
+  if (type == PLUMB_JOINT_SWING_TWIST)
+    return answer(PLUMB_APPROXIMATE, note, "elliptic cones let go by up to .6 rad; round ones hold");
   if (type == PLUMB_JOINT_DISTANCE)
     return answer(PLUMB_EMULATED, note, "a constraint row of the adapter in Bullet's solver");
   return PLUMB_NATIVE;
@@ -66,7 +68,9 @@ PlumbDegree joint_feature_degree(std::uint32_t type, std::uint32_t feature, cons
                         type == PLUMB_JOINT_GENERIC;
   switch (feature) {
     case PLUMB_JOINT_HAS_LIMITS:
-      return has_axes ? PLUMB_NATIVE : type == PLUMB_JOINT_DISTANCE ? PLUMB_EMULATED : PLUMB_NONE;
+      return has_axes || type == PLUMB_JOINT_SWING_TWIST ? PLUMB_NATIVE
+             : type == PLUMB_JOINT_DISTANCE              ? PLUMB_EMULATED
+                                                         : PLUMB_NONE;
     case PLUMB_JOINT_HAS_MOTORS: return has_axes ? PLUMB_NATIVE : PLUMB_NONE;
     case PLUMB_JOINT_HAS_SPRINGS:
     case PLUMB_JOINT_HAS_STIFFNESS:

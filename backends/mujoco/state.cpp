@@ -101,7 +101,7 @@ void World::write_coordinates(const Body& body) {
   const Joint& link = *body.link;
   const PlumbPose a = link.frame_a(), b = link.frame_b();
   double row[6];
-  backend::joint_coordinates(a, b, row);
+  backend::joint_coordinates(link.desc.type, a, b, row);
   for (std::size_t axis = 0; axis < 6; ++axis)
     if (link.axis_joint[axis] >= 0) d->qpos[model_.model->jnt_qposadr[link.axis_joint[axis]]] = row[axis];
   if (is_plain_ball(link.desc)) {

@@ -58,8 +58,24 @@ Vec3 turns_of(const Mat3& r, unsigned free) {
   }
 }
 
+/// R = swing twist: the twist about x, then the y and z of the swing's vector.
+Vec3 swing_twist_of(const Mat3& r) {
+  const Vec3 across = Vec3::UnitX().cross(r.col(0));
+  const double angle = angle_between(Vec3::UnitX(), r.col(0));
+  const Vec3 about = across.norm() > 0 ? across.normalized() : Vec3::UnitY();
+  const Mat3 twist = Eigen::AngleAxisd(-angle, about).toRotationMatrix() * r;
+  return {std::atan2(twist(2, 1), twist(1, 1)), angle * about.y(), angle * about.z()};
+}
+
+/// How far b's x axis is beyond the cone, along its meridian, rad.
+double beyond_cone(double half_y, double half_z, double y, double z) {
+  const double angle = std::hypot(y, z);
+  return angle > 0 ? std::max(0.0, angle - angle / std::hypot(y / half_y, z / half_z)) : 0;
+}
+
 std::array<double, 6> coordinates_of(const PlumbJointDesc& joint, const Pose& relative) {
-  const Vec3 turns = turns_of(relative.rotation, free_turns(joint));
+  const Vec3 turns = joint.type == PLUMB_JOINT_SWING_TWIST ? swing_twist_of(relative.rotation)
+                                                           : turns_of(relative.rotation, free_turns(joint));
   const Vec3& t = relative.position;
   return {t.x(), t.y(), t.z(), turns.x(), turns.y(), turns.z()};
 }
@@ -110,6 +126,12 @@ JointError joint_error(const PlumbJointDesc& joint, const Pose& body_a, const Po
       error.position = gap.norm();
       error.angle = std::abs(at[5]);
       limited[3] = limited[4] = true;
+      break;
+    case PLUMB_JOINT_SWING_TWIST:
+      error.position = gap.norm();
+      limited[3] = true;
+      if (joint.limits[4].enabled != 0)
+        error.limit_angle = beyond_cone(joint.limits[4].upper, joint.limits[5].upper, at[4], at[5]);
       break;
     case PLUMB_JOINT_GENERIC: {
       const auto locked = [&](std::size_t axis) { return joint.axis_modes[axis] == PLUMB_AXIS_LOCKED; };

@@ -103,8 +103,8 @@ const std::vector<std::string>& shape_words() {
 }
 
 const std::vector<std::string>& joint_words() {
-  static const std::vector<std::string> words{"ball", "hinge", "slider", "distance", "fixed", "universal", "generic"};
-  static_assert(PLUMB_JOINT_TYPE_COUNT == 7);
+  static const std::vector<std::string> words{"ball", "hinge", "slider", "distance", "fixed", "universal", "generic", "swing_twist"};
+  static_assert(PLUMB_JOINT_TYPE_COUNT == 8);
   return words;
 }
 

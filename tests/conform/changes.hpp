@@ -123,12 +123,12 @@ void change_casts() {
   };
 }
 
-template <auto change>
+template <auto change, PlumbJointField changed = PLUMB_JOINT_REACTION>
 void change_joint_reads() {
   liar.joints.read = [](PlumbWorld* world, PlumbJointField field, PlumbDataType type, const PlumbJoint* ids,
                         std::uint32_t count, void* rows, std::size_t stride) {
     const PlumbResult result = honest.joints.read(world, field, type, ids, count, rows, stride);
-    if (result >= 0 && field == PLUMB_JOINT_REACTION) change_rows(type, rows, stride, count, change);
+    if (result >= 0 && field == changed) change_rows(type, rows, stride, count, change);
     return result;
   };
 }

@@ -93,6 +93,30 @@ void springs_by_stiffness_fall_short_beside_limits() {
       if (desc.limits[axis].enabled != 0) desc.springs[axis].frequency *= 0.9;
   }>();
 }
+void swings_are_told_too_small() {
+  change_joint_reads<[](double* row) {
+    row[4] *= 0.999;
+    row[5] *= 0.999;
+  },
+                     PLUMB_JOINT_COORDINATES>();
+}
+void twists_stop_early() {
+  change_joints<[](PlumbJointDesc& desc) {
+    if (desc.type != PLUMB_JOINT_SWING_TWIST) return;
+    desc.limits[3].lower /= 2;
+    desc.limits[3].upper /= 2;
+  }>();
+}
+void cones_are_open() {
+  change_joints<[](PlumbJointDesc& desc) {
+    if (desc.type == PLUMB_JOINT_SWING_TWIST) desc.limits[4].enabled = desc.limits[5].enabled = 0;
+  }>();
+}
+void cones_are_round() {
+  change_joints<[](PlumbJointDesc& desc) {
+    if (desc.type == PLUMB_JOINT_SWING_TWIST) desc.limits[5] = desc.limits[4];
+  }>();
+}
 void joints_stay() {
   liar.joints.destroy = [](PlumbWorld*, const PlumbJoint*, std::uint32_t) -> PlumbResult { return PLUMB_OK; };
 }

@@ -3,6 +3,7 @@
 // calls through both, with the same answers and the same state.
 //
 // usage: fuzz_calls BACKEND CALLS [SEED [OTHER_BACKEND]]
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -209,6 +210,14 @@ class Fuzzer {
             chance(3) ? PLUMB_SPRING_STIFFNESS : PLUMB_SPRING_FREQUENCY};
   }
 
+  void give_cone(PlumbJointDesc& desc) {
+    for (std::size_t axis = 4; axis < 6; ++axis) {
+      const double half = std::clamp(positive(), 0.01, 3.1);
+      desc.limits[axis] = {-half, half, desc.limits[4].enabled, 0};
+      desc.motors[axis].enabled = desc.springs[axis].enabled = 0;
+    }
+  }
+
   void create_joint() {
     if (joints_ == nullptr) return;
     PlumbJointDesc desc = plumb::joint_desc(below(PLUMB_JOINT_TYPE_COUNT));
@@ -223,6 +232,7 @@ class Fuzzer {
       desc.motors[axis] = {number(), positive(), chance(6) ? 1u : 0u, 0};
       desc.springs[axis] = spring();
     }
+    if (desc.type == PLUMB_JOINT_SWING_TWIST && !chance(8)) give_cone(desc);
     desc.rest_length = positive();
     desc.break_force = chance(4) ? 1000 * positive() : 0;
     PlumbJoint id = 0;

@@ -2,6 +2,14 @@
  *
  * Every joint joins a frame fixed in body a to a frame fixed in body b. Coordinates are those of b's frame seen from
  * a's: axes 0 1 2 are translations along x y z of frame a, axes 3 4 5 rotations about x y z.
+ *
+ * Of PLUMB_JOINT_SWING_TWIST (others: cone twist, ball and socket with a cone) axes 3 4 5 are other numbers. b's turn
+ * seen from a is taken apart into a twist about x and, after it, a swing about an axis square to x, by the shorter way
+ * (Dobrowolski, "Swing-twist decomposition in Clifford algebra", 2015). Axis 3 is the twist's angle; axes 4 and 5 are
+ * the swing as a rotation vector: its direction in a's y and z times its angle, which is the one between both x axes.
+ * limits[3] bounds the twist. limits[4] and limits[5], both or neither and each with lower = -upper, are the half
+ * angles of an elliptic cone about a's x axis that b's x axis stays within: (x4 / upper4)^2 + (x5 / upper5)^2 <= 1, 0 <
+ * upper < pi. Motors and springs are of axis 3 alone.
  */
 #ifndef PLUMB_JOINTS_H
 #define PLUMB_JOINTS_H
@@ -16,14 +24,15 @@ extern "C" {
 
 typedef uint32_t PlumbJointType;
 enum {
-  PLUMB_JOINT_BALL = 0,      /* origins coincide */
-  PLUMB_JOINT_HINGE = 1,     /* origins and x axes coincide; free axis 3 */
-  PLUMB_JOINT_SLIDER = 2,    /* orientations equal, b's origin on a's x axis; free axis 0 */
-  PLUMB_JOINT_DISTANCE = 3,  /* distance of the origins: rest_length, or within limits[0]; spring on axis 0 */
-  PLUMB_JOINT_FIXED = 4,     /* frames coincide */
-  PLUMB_JOINT_UNIVERSAL = 5, /* origins coincide, a's x axis stays square to b's y axis; free axes 3 and 4 */
-  PLUMB_JOINT_GENERIC = 6,   /* axis_modes say which of the six axes are free, locked or limited */
-  PLUMB_JOINT_TYPE_COUNT = 7
+  PLUMB_JOINT_BALL = 0,        /* origins coincide */
+  PLUMB_JOINT_HINGE = 1,       /* origins and x axes coincide; free axis 3 */
+  PLUMB_JOINT_SLIDER = 2,      /* orientations equal, b's origin on a's x axis; free axis 0 */
+  PLUMB_JOINT_DISTANCE = 3,    /* distance of the origins: rest_length, or within limits[0]; spring on axis 0 */
+  PLUMB_JOINT_FIXED = 4,       /* frames coincide */
+  PLUMB_JOINT_UNIVERSAL = 5,   /* origins coincide, a's x axis stays square to b's y axis; free axes 3 and 4 */
+  PLUMB_JOINT_GENERIC = 6,     /* axis_modes say which of the six axes are free, locked or limited */
+  PLUMB_JOINT_SWING_TWIST = 7, /* origins coincide; what turns freely is told as a swing after a twist: see below */
+  PLUMB_JOINT_TYPE_COUNT = 8
 };
 
 typedef uint32_t PlumbAxisMode;

@@ -135,6 +135,7 @@ class JointType(IntEnum):
     FIXED = 4
     UNIVERSAL = 5
     GENERIC = 6
+    SWING_TWIST = 7
 
 
 class AxisMode(IntEnum):

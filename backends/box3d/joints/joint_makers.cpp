@@ -21,9 +21,32 @@ PlumbPose turned(const PlumbPose& frame, const PlumbQuat& by) {
 
 float value(double number) { return scalar(number, "a number of a joint"); }
 
+/// Box3D takes no limits of an angle beyond these.
+float furthest(double angle) {
+  constexpr double kMost = 0.99 * std::numbers::pi;
+  return value(std::clamp(angle, -kMost, kMost));
+}
+
 b3JointId make_ball(b3WorldId world, const b3JointDef& base) {
   b3SphericalJointDef def = b3DefaultSphericalJointDef();
   def.base = base;
+  return b3CreateSphericalJoint(world, &def);
+}
+
+/// Its cone is about z, as its twist is, and round.
+b3JointId make_swing_twist(b3WorldId world, const PlumbJointDesc& desc, const b3JointDef& base) {
+  const PlumbLimit &twist = desc.limits[3], &cone = desc.limits[4];
+  if (cone.enabled != 0 && cone.upper != desc.limits[5].upper)
+    throw Error(PLUMB_E_UNSUPPORTED, "Box3D's cones are round; limits[4] and limits[5] must be the same");
+  b3SphericalJointDef def = b3DefaultSphericalJointDef();
+  def.base = base;
+  def.base.localFrameA = transform(turned(desc.frame_a, kZToX), "frame_a");
+  def.base.localFrameB = transform(turned(desc.frame_b, kZToX), "frame_b");
+  def.enableConeLimit = cone.enabled != 0;
+  def.coneAngle = value(cone.upper);
+  def.enableTwistLimit = twist.enabled != 0;
+  def.lowerTwistAngle = furthest(twist.lower);
+  def.upperTwistAngle = furthest(twist.upper);
   return b3CreateSphericalJoint(world, &def);
 }
 
@@ -31,14 +54,13 @@ b3JointId make_hinge(b3WorldId world, const PlumbJointDesc& desc, const b3JointD
   const PlumbLimit& limit = desc.limits[3];
   const PlumbMotor& motor = desc.motors[3];
   const PlumbSpring& spring = desc.springs[3];
-  constexpr double furthest = 0.99 * std::numbers::pi;  // that Box3D takes
   b3RevoluteJointDef def = b3DefaultRevoluteJointDef();
   def.base = base;
   def.base.localFrameA = transform(turned(desc.frame_a, kZToX), "frame_a");
   def.base.localFrameB = transform(turned(desc.frame_b, kZToX), "frame_b");
   def.enableLimit = limit.enabled != 0;
-  def.lowerAngle = value(std::clamp(limit.lower, -furthest, furthest));
-  def.upperAngle = value(std::clamp(limit.upper, -furthest, furthest));
+  def.lowerAngle = furthest(limit.lower);
+  def.upperAngle = furthest(limit.upper);
   def.enableMotor = motor.enabled != 0;
   def.motorSpeed = value(motor.target_velocity);
   def.maxMotorTorque = value(motor.max_force);
@@ -113,7 +135,7 @@ b3JointId make_fixed(b3WorldId world, const b3JointDef& base) {
 }
 
 void require_axis(const PlumbJointDesc& desc, PlumbJointFeature feature, std::size_t axis, const char* what) {
-  if (joint_has(desc.type, feature) && axis == driven_axis(desc.type)) return;
+  if (joint_has(desc.type, feature) && (desc.type == PLUMB_JOINT_SWING_TWIST || axis == driven_axis(desc.type))) return;
   throw Error(PLUMB_E_UNSUPPORTED, std::string("Box3D's ") + backend::joint_name(desc.type) + " joint has no " + what +
                                        " on axis " + std::to_string(axis) + "; leave it out or take another joint");
 }
@@ -122,6 +144,7 @@ void require_axis(const PlumbJointDesc& desc, PlumbJointFeature feature, std::si
 
 bool joint_has(PlumbJointType type, PlumbJointFeature feature) {
   if (feature > PLUMB_JOINT_HAS_SPRINGS) return true;
+  if (type == PLUMB_JOINT_SWING_TWIST) return feature == PLUMB_JOINT_HAS_LIMITS;
   return type == PLUMB_JOINT_HINGE || type == PLUMB_JOINT_SLIDER || type == PLUMB_JOINT_DISTANCE;
 }
 
@@ -149,6 +172,7 @@ b3JointDef base_of(const PlumbJointDesc& desc, b3BodyId a, b3BodyId b) {
 b3JointId make_joint(b3WorldId world, const PlumbJointDesc& desc, const b3JointDef& base) {
   switch (desc.type) {
     case PLUMB_JOINT_BALL: return make_ball(world, base);
+    case PLUMB_JOINT_SWING_TWIST: return make_swing_twist(world, desc, base);
     case PLUMB_JOINT_HINGE: return make_hinge(world, desc, base);
     case PLUMB_JOINT_SLIDER: return make_slider(world, desc, base);
     case PLUMB_JOINT_DISTANCE: return make_distance(world, desc, base);

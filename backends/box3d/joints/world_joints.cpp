@@ -7,7 +7,7 @@ namespace {
 
 /// Two frames in world axes; of a distance joint their origins' distance stands for the first coordinate.
 void coordinates(const PlumbJointDesc& desc, const PlumbPose& a, const PlumbPose& b, double* row) {
-  backend::joint_coordinates(a, b, row);
+  backend::joint_coordinates(desc.type, a, b, row);
   if (desc.type != PLUMB_JOINT_DISTANCE) return;
   row[0] = backend::length({row[0], row[1], row[2]});
   row[1] = row[2] = 0;

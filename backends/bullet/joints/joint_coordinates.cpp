@@ -1,4 +1,5 @@
 // Coordinates of a joint: b's frame seen from a's.
+#include "plumb/backend/joint_coordinates.hpp"
 #include "joints/joint.hpp"
 
 namespace plumb::bullet {
@@ -8,7 +9,13 @@ void joint_coordinates(const Joint& joint, double* row) {
   const btTransform at_b = joint.body_b->getWorldTransform() * joint.frame_b;
   const btTransform relative = at_a.inverseTimes(at_b);
   put_vector(relative.getOrigin(), row);
-  put_vector(angles_xyz(relative.getBasis()), row + 3);
+  if (joint.desc.type == PLUMB_JOINT_SWING_TWIST) {
+    const btQuaternion turn = relative.getRotation();
+    const PlumbVec3 turns = backend::swing_twist({turn.x(), turn.y(), turn.z(), turn.w()});
+    row[3] = turns.x, row[4] = turns.y, row[5] = turns.z;
+  } else {
+    put_vector(angles_xyz(relative.getBasis()), row + 3);
+  }
 }
 
 }  // namespace plumb::bullet

@@ -1,4 +1,5 @@
 // From the interface's joints to Bullet's constraints.
+#include <BulletDynamics/ConstraintSolver/btConeTwistConstraint.h>
 #include <BulletDynamics/ConstraintSolver/btFixedConstraint.h>
 
 #include "joints/joint.hpp"
@@ -22,6 +23,22 @@ std::unique_ptr<btTypedConstraint> make_hinge(Joint& joint) {
                     btScalar(0.3), 0);
   joint.hinge = hinge.get();
   return hinge;
+}
+
+/// Bullet's cone is fixed in its second body, where ours is in a; its twist is as far either way, so b's frame is
+/// turned by the middle of ours.
+std::unique_ptr<btTypedConstraint> make_swing_twist(Joint& joint) {
+  const PlumbLimit& twist = joint.desc.limits[3];
+  const double middle = twist.enabled != 0 ? (twist.lower + twist.upper) / 2 : 0;
+  const btQuaternion back(btVector3(1, 0, 0), -scalar(middle, "limits[3]"));
+  auto cone = std::make_unique<btConeTwistConstraint>(*joint.body_b, *joint.a, joint.frame_b * btTransform(back),
+                                                      joint.frame_a);
+  constexpr btScalar none = BT_LARGE_FLOAT;
+  const bool swings = joint.desc.limits[4].enabled == 0;
+  cone->setLimit(3, twist.enabled != 0 ? scalar((twist.upper - twist.lower) / 2, "limits[3]") : none);
+  cone->setLimit(4, swings ? none : scalar(joint.desc.limits[4].upper, "limits[4].upper"));
+  cone->setLimit(5, swings ? none : scalar(joint.desc.limits[5].upper, "limits[5].upper"));
+  return cone;
 }
 
 PlumbAxisMode axis_mode(const PlumbJointDesc& desc, std::size_t axis) {
@@ -63,6 +80,7 @@ std::unique_ptr<btTypedConstraint> make(Joint& joint) {
   switch (joint.desc.type) {
     case PLUMB_JOINT_BALL: return std::make_unique<btPoint2PointConstraint>(a, b, point_a, point_b);
     case PLUMB_JOINT_HINGE: return make_hinge(joint);
+    case PLUMB_JOINT_SWING_TWIST: return make_swing_twist(joint);
     case PLUMB_JOINT_FIXED: return std::make_unique<btFixedConstraint>(a, b, joint.frame_a, joint.frame_b);
     case PLUMB_JOINT_DISTANCE: {
       auto distance = std::make_unique<DistanceConstraint>(a, b, point_a, point_b, joint.desc);

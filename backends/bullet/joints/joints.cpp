@@ -135,8 +135,9 @@ void World::break_joints() {
     PLUMB_ASSERT(at->feedback != nullptr && at->constraint->getJointFeedback() == &at->feedback[0]);
     btVector3 force(0, 0, 0), torque(0, 0, 0);
     for (std::size_t k = 0; k <= at->springs.size(); ++k) {
-      force += at->feedback[k].m_appliedForceBodyB;
-      torque += at->feedback[k].m_appliedTorqueBodyB;
+      const bool first = k == 0 && &at->constraint->getRigidBodyA() == at->body_b;
+      force += first ? at->feedback[k].m_appliedForceBodyA : at->feedback[k].m_appliedForceBodyB;
+      torque += first ? at->feedback[k].m_appliedTorqueBodyA : at->feedback[k].m_appliedTorqueBodyB;
     }
     torque -= at->arm_b.cross(force);
     put_vector(force, at->force);

@@ -131,15 +131,18 @@ class Alignment {
   Real cosine_;
 };
 
+/// Of frame b seen from frame a.
+PLUMB_HD inline Quat turn_of(const JointPlace& place) { return conjugate(place.frame_a) * place.frame_b; }
+
 /// The turn of frame b seen from frame a, as a vector in frame a: its direction times twice the sine of half the angle.
 PLUMB_HD inline Vec turn_error(const JointPlace& place) {
-  const Quat turn = conjugate(place.frame_a) * place.frame_b;
+  const Quat turn = turn_of(place);
   return (turn.w < 0 ? Real(-2) : Real(2)) * vector_part(turn);
 }
 
 /// Whether the frames are turned more than a right angle from where turn_error is 0.
 PLUMB_HD inline bool is_turned_far(const JointPlace& place) {
-  const Quat turn = conjugate(place.frame_a) * place.frame_b;
+  const Quat turn = turn_of(place);
   return turn.w * turn.w < Real(0.5);
 }
 

@@ -8,6 +8,7 @@
 
 #include "joints/joint.hpp"
 #include "math/angle.hpp"
+#include "math/swing_twist.hpp"
 
 namespace plumb::impulse {
 
@@ -18,8 +19,13 @@ enum class RowKind : std::uint8_t {
   kTurn,      ///< one of the three numbers of turn_error
   kAlign,     ///< one of the two of an Alignment of an axis
   kSquare,    ///< an axis of a against one of b that should be square to it
-  kAngle      ///< a turn that is free
+  kAngle,     ///< a turn that is free
+  kTwist,     ///< the twist of a turn that is all free
+  kCone       ///< its swing, as the half angle about y of the cone through it
 };
+
+/// Whether the row's number is an angle that goes round.
+PLUMB_HD constexpr bool goes_round(RowKind kind) { return kind == RowKind::kAngle || kind == RowKind::kTwist; }
 
 /// What a row holds or drives.
 struct RowSpec {
@@ -38,6 +44,7 @@ struct JointAxes {
   /// Of the spring: N/m and N s/m, N m/rad and N m s/rad; of one that is given by its frequency, per mass that it works
   /// against: 1/s2 and 1/s.
   Real stiffness[kJointRows], damping[kJointRows];
+  Real narrow;                    ///< of kCone: the half angle about y by that about z
   std::uint32_t springs_by_mass;  ///< bits: rows whose spring is given by its frequency
   std::uint32_t masses_alone;     ///< whether no turn is free: then springs along axes work against the masses
 
@@ -64,7 +71,7 @@ PLUMB_HD inline WaysToLimits ways_to_limits(const JointAxes& axes, int row, Real
   const bool has_lower = lower > -kHuge / 2, has_upper = upper < kHuge / 2;
   if (!has_lower && !has_upper) return {false, false, 0, 0};
   // Angles are counted from the middle between the limits, so that they jump where the joint never is.
-  const bool turns = axes.row[row].kind == RowKind::kAngle;
+  const bool turns = goes_round(axes.row[row].kind);
   const Real middle = turns && has_lower && has_upper && upper - lower < 2 * kPi ? (lower + upper) / 2 : Real(0);
   const Real from_middle = turns ? wrapped(x - middle) : x;
   return {has_lower, has_upper, (lower - middle) - from_middle, (upper - middle) - from_middle};
@@ -127,7 +134,7 @@ PLUMB_HD inline OffSquare off_square(const JointAxesPlace& at, int of_a, int of_
 }
 
 /// Of a row that is locked what should be 0, else the coordinate.
-PLUMB_HD inline Real axis_error(const RowSpec& row, const JointPlace& place, const JointAxesPlace& at) {
+PLUMB_HD inline Real axis_error(const RowSpec& row, Real narrow, const JointPlace& place, const JointAxesPlace& at) {
   const int k = row.axis;
   switch (row.kind) {
     case RowKind::kPoint: return place.gap[k];
@@ -137,11 +144,13 @@ PLUMB_HD inline Real axis_error(const RowSpec& row, const JointPlace& place, con
     case RowKind::kAlign: return Alignment(at.a[k], at.b, k).error(row.other);
     case RowKind::kSquare: return off_square(at, k, row.other).error;
     case RowKind::kAngle: return free_turn(at, k, row.other).angle;
+    case RowKind::kTwist: return twist_of(turn_of(place), at.a.x, at.b.x).value;
+    case RowKind::kCone: return swing_in_cone(at.a, at.b.x, narrow).value;
   }
   return 0;
 }
 
-PLUMB_HD inline JointRow axis_row(const RowSpec& row, const JointPlace& place, const JointAxesPlace& at) {
+PLUMB_HD inline JointRow axis_row(const RowSpec& row, Real narrow, const JointPlace& place, const JointAxesPlace& at) {
   const int k = row.axis;
   switch (row.kind) {
     case RowKind::kPoint: {
@@ -155,6 +164,8 @@ PLUMB_HD inline JointRow axis_row(const RowSpec& row, const JointPlace& place, c
     case RowKind::kAlign: return turn_row(Alignment(at.a[k], at.b, k).row(row.other));
     case RowKind::kSquare: return turn_row(off_square(at, k, row.other).row);
     case RowKind::kAngle: return turn_row(free_turn(at, k, row.other).direction);
+    case RowKind::kTwist: return turn_row(twist_of(turn_of(place), at.a.x, at.b.x).direction);
+    case RowKind::kCone: return turn_row(swing_in_cone(at.a, at.b.x, narrow).direction);
   }
   return turn_row({0, 0, 0});
 }
@@ -175,7 +186,7 @@ PLUMB_HD inline void all_errors(const Joint& joint, const JointAxes& axes, const
   const int first = rows_of(joint.type);
   if (first == row_count(joint)) return;
   const JointAxesPlace at = axes_of(place);
-  for (int i = first; i < row_count(joint); ++i) error[i] = axis_error(axes.row[i - first], place, at);
+  for (int i = first; i < row_count(joint); ++i) error[i] = axis_error(axes.row[i - first], axes.narrow, place, at);
 }
 PLUMB_HD inline bool is_any_far_off(const Joint& joint, const JointAxes& axes, const JointPlace& place) {
   const int first = rows_of(joint.type);
@@ -191,7 +202,7 @@ PLUMB_HD inline void all_rows(const Joint& joint, const JointAxes& axes, const J
   const int first = rows_of(joint.type);
   if (first == row_count(joint)) return;
   const JointAxesPlace at = axes_of(place);
-  for (int i = first; i < row_count(joint); ++i) rows[i] = axis_row(axes.row[i - first], place, at);
+  for (int i = first; i < row_count(joint); ++i) rows[i] = axis_row(axes.row[i - first], axes.narrow, place, at);
 }
 
 }  // namespace plumb::impulse

@@ -138,7 +138,7 @@ PLUMB_HD inline Lanes speeds_over_places(const AxisView& view, std::uint32_t j, 
   const int first = rows_of(joint.type);
   return by_row(row_count(joint), [&](int i) {
     Real moved = then[i] - work.error[i];
-    if (i >= first && axes.row[i - first].kind == RowKind::kAngle) moved = wrapped(moved);
+    if (i >= first && goes_round(axes.row[i - first].kind)) moved = wrapped(moved);
     return moved * time.inverse_h;
   });
 }

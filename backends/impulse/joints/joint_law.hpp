@@ -140,7 +140,7 @@ PLUMB_HD inline SpringNumbers spring_numbers(const JointAxes& axes, int row, Rea
 PLUMB_HD inline RowLaw law_of_places(const JointAxes& axes, int row, Real x, const JointDrive& drive, Real spring_mass,
                                      const RowTime& time) {
   const RowSpec& spec = axes.row[row];
-  const bool turns = spec.kind == RowKind::kAngle;
+  const bool turns = goes_round(spec.kind);
   RowLaw law = {-kHuge, kHuge, kHuge, 0, 0, 0};
   const WaysToLimits to = ways_to_limits(axes, row, x);
   if (to.has_lower) law.lower = to.lower < 0 ? to.lower * time.inverse_h : min(to.lower * time.rate, time.most_return);

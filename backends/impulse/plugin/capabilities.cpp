@@ -25,6 +25,9 @@ Capability known(PlumbCapability kind, std::uint32_t a, std::uint32_t b) {
     case PLUMB_CAP_FIELD_WRITE:
       if (a == PLUMB_FIELD_ROLLING_FRICTION) return {PLUMB_NATIVE};
       break;
+    case PLUMB_CAP_JOINT:
+      if (a == PLUMB_JOINT_SWING_TWIST) return {PLUMB_NATIVE};
+      break;
     case PLUMB_CAP_JOINT_FEATURE:
       if (b == PLUMB_JOINT_HAS_STIFFNESS) return backend::usual_capability(kind, a, PLUMB_JOINT_HAS_SPRINGS);
       break;

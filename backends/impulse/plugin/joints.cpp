@@ -6,6 +6,7 @@
 
 #include "plugin/rows/joint_rows.hpp"
 #include "plugin/world.hpp"
+#include "plumb/backend/joint_coordinates.hpp"
 #include "plumb/backend/modify.hpp"
 
 namespace plumb::impulse {
@@ -28,10 +29,15 @@ Placed placed(const PlumbPose& body, const PlumbPose& frame) {
   return {to_position(body.position) + rotate(q, to_position(frame.position)), q * to_double(frame.orientation)};
 }
 
-/// Frame b seen from frame a; the turns about x, then the turned y, then the turned z.
-std::array<double, 6> coordinates(const Placed& a, const Placed& b) {
+/// Frame b seen from frame a; the turns about x, then the turned y, then the turned z, or a swing after a twist.
+std::array<double, 6> coordinates(PlumbJointType type, const Placed& a, const Placed& b) {
   const Position at = rotate_back(a.axes, b.origin - a.origin);
-  const Mat33<double> r = to_matrix(conjugate(a.axes) * b.axes);
+  const QuatD turn = conjugate(a.axes) * b.axes;
+  if (type == PLUMB_JOINT_SWING_TWIST) {
+    const PlumbVec3 turns = backend::swing_twist({turn.x, turn.y, turn.z, turn.w});
+    return {at.x, at.y, at.z, turns.x, turns.y, turns.z};
+  }
+  const Mat33<double> r = to_matrix(turn);
   return {
       at.x, at.y, at.z, std::atan2(-r.z.y, r.z.z), std::asin(std::clamp(r.z.x, -1.0, 1.0)), std::atan2(-r.y.x, r.x.x)};
 }
@@ -129,7 +135,8 @@ PlumbResult World::read_joints(PlumbJointField field, std::span<const PlumbJoint
     std::array<double, 12> row{};
     if (field == PLUMB_JOINT_COORDINATES) {
       const PlumbPose a = joint.body_a == 0 ? identity_pose() : pose(slot_of(joint.body_a));
-      const auto six = coordinates(placed(a, joint.frame_a), placed(pose(slot_of(joint.body_b)), joint.frame_b));
+      const auto six =
+          coordinates(joint.type, placed(a, joint.frame_a), placed(pose(slot_of(joint.body_b)), joint.frame_b));
       std::copy(six.begin(), six.end(), row.begin());
     } else if (field == PLUMB_JOINT_REACTION) {
       const JointRecord& record = joints_.records[slot];

@@ -284,7 +284,7 @@ struct JudgeEnergy {
       sum = sum + min(most, pushed) * sqrt(drive.velocity[k] * drive.velocity[k]);
       if (!axes.has_spring(i)) continue;
       const Real off = places[first + i] - axes.rest[i];
-      const Real bent = axes.row[i].kind == RowKind::kAngle ? wrapped(off) : off;
+      const Real bent = goes_round(axes.row[i].kind) ? wrapped(off) : off;
       sum = sum + axes.spring_unit(i, reaction.spring_mass[first + i]) * axes.stiffness[i] * bent * bent / 2;
     }
     given[j] = sum;

@@ -50,7 +50,7 @@ PlumbResult World::read_joints(PlumbJointField field, std::span<const PlumbJoint
   for (std::size_t i = 0; i < ids.size(); ++i) {
     const Joint& read = joint(ids[i]);
     if (field == PLUMB_JOINT_COORDINATES) {
-      backend::joint_coordinates(read.frame_a(), read.frame_b(), row);
+      backend::joint_coordinates(read.desc.type, read.frame_a(), read.frame_b(), row);
       if (read.desc.type == PLUMB_JOINT_DISTANCE) {
         row[0] = length({row[0], row[1], row[2]});
         row[1] = row[2] = 0;

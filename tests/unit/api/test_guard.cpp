@@ -301,6 +301,22 @@ TEST_F(Guard, RefusesBadJointsByName) {
   joint_refused(PLUMB_E_INVALID_ARGUMENT, "springs[0].frequency", [](auto& d) { d.springs[0] = {0, 0, 1, 1, 0}; });
   joint_refused(PLUMB_E_INVALID_ARGUMENT, "springs[3].frequency", [](auto& d) { d.springs[3] = {0, -1, 1, 1, 1}; });
   joint_refused(PLUMB_E_INVALID_ARGUMENT, "springs[3].mode", [](auto& d) { d.springs[3] = {0, 1, 1, 1, 2}; });
+  const auto cone = [&](const PlumbLimit& y, const PlumbLimit& z) {
+    return [=](PlumbJointDesc& d) {
+      d.type = PLUMB_JOINT_SWING_TWIST;
+      d.limits[4] = y;
+      d.limits[5] = z;
+    };
+  };
+  const PlumbLimit good = {-1, 1, 1, 0};
+  joint_refused(PLUMB_E_INVALID_ARGUMENT, "limits[4] and limits[5] are the half angles of one cone", cone(good, {}));
+  joint_refused(PLUMB_E_INVALID_ARGUMENT, "limits[5].upper", cone(good, {-4, 4, 1, 0}));
+  joint_refused(PLUMB_E_INVALID_ARGUMENT, "limits[4].upper", cone({0, 0, 1, 0}, good));
+  joint_refused(PLUMB_E_INVALID_ARGUMENT, "limits[5].lower", cone(good, {-1, 0.5, 1, 0}));
+  joint_refused(PLUMB_E_INVALID_ARGUMENT, "springs[5] is of a swing", [&](auto& d) {
+    cone(good, good)(d);
+    d.springs[5] = {0, 1, 1, 1, 0};
+  });
   joint_refused(PLUMB_E_INVALID_ARGUMENT, "frame_a.position.x", [](auto& d) { d.frame_a.position.x = kNan; });
 }
 

@@ -1,6 +1,9 @@
 // What adapters take for queries and joints: one hit a body in the interface's order, and the coordinates of a joint.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "plumb/backend/hit_collector.hpp"
 #include "plumb/backend/joint_coordinates.hpp"
 
@@ -64,9 +67,25 @@ TEST(JointCoordinates, AreTheTurnsAboutXThenYThenZ) {
   const PlumbQuat turn = multiply(multiply(about({1, 0, 0}, 0.4), about({0, 1, 0}, -0.7)), about({0, 0, 1}, 1.1));
   const PlumbPose b = compose(a, {{0.5, -0.25, 2}, turn});
   double row[6];
-  joint_coordinates(a, b, row);
+  joint_coordinates(PLUMB_JOINT_GENERIC, a, b, row);
   const double expected[6] = {0.5, -0.25, 2, 0.4, -0.7, 1.1};
   for (int axis = 0; axis < 6; ++axis) EXPECT_NEAR(row[axis], expected[axis], 1e-12) << axis;
+}
+
+TEST(JointCoordinates, AreASwingAfterATwist) {
+  for (const double twist : {-3.0, 0.0, 1.2})
+    for (const double swing : {0.0, 1e-9, 0.8, 3.1})
+      for (const double sign : {1.0, -1.0}) {  // both quaternions of a turn
+        const PlumbQuat q = multiply(about({0, 0.6, -0.8}, swing), about({1, 0, 0}, twist));
+        const PlumbPose a{{1, 2, 3}, normalized({0.3, -0.2, 0.5, 0.7})};
+        const PlumbPose b = compose(a, {{0, 0, 0}, {sign * q.x, sign * q.y, sign * q.z, sign * q.w}});
+        double row[6];
+        joint_coordinates(PLUMB_JOINT_SWING_TWIST, a, b, row);
+        const double expected[6] = {0, 0, 0, twist, 0.6 * swing, -0.8 * swing};
+        for (int axis = 0; axis < 6; ++axis) EXPECT_NEAR(row[axis], expected[axis], 1e-12) << twist << " " << swing;
+      }
+  const PlumbVec3 opposite = swing_twist({0, 1, 0, 0});
+  EXPECT_NEAR(std::hypot(opposite.y, opposite.z), std::numbers::pi, 1e-12);
 }
 
 }  // namespace

@@ -87,6 +87,23 @@ TEST(Joints, Distance) {
   EXPECT_NEAR(error_of(joint).limit_position, 0.05, near_zero);
 }
 
+TEST(Joints, SwingTwist) {
+  Jointed joint = jointed(PLUMB_JOINT_SWING_TWIST, turned(70, {0, 0.6, 0.8}) * turned(-100, Vec3::UnitX()));
+  const auto found = joint_coordinates(joint.desc, joint.a, joint.b);
+  const double truth[6] = {0, 0, 0, -100 * degree, 42 * degree, 56 * degree};
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(found[i], truth[i], near_zero);
+  EXPECT_EQ(error_of(joint).limit_angle, 0);
+  joint.desc.limits[4] = {-80 * degree, 80 * degree, 1, 0};
+  joint.desc.limits[5] = {-40 * degree, 40 * degree, 1, 0};
+  const double along = 1 / std::hypot(0.6 / 80, 0.8 / 40);  // the cone's half angle on this meridian, degrees
+  EXPECT_NEAR(error_of(joint).limit_angle, (70 - along) * degree, near_zero);
+  joint.desc.limits[5] = {-80 * degree, 80 * degree, 1, 0};
+  EXPECT_EQ(error_of(joint).limit_angle, 0);
+  joint.desc.limits[3] = {-97 * degree, 1, 1, 0};
+  EXPECT_NEAR(error_of(joint).limit_angle, 3 * degree, near_zero);
+  EXPECT_NEAR(error_of(PLUMB_JOINT_SWING_TWIST, turned(100, {1, 2, 3}, {0.3, 0, 0.4})).position, 0.5, near_zero);
+}
+
 TEST(Joints, Fixed) {
   const JointError off = error_of(PLUMB_JOINT_FIXED, turned(178, {1, 1, 0}, {0, 0, 2}));
   EXPECT_NEAR(off.position, 2, near_zero);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <numbers>
 
 #include "plumb/backend/checks.hpp"
 #include "plumb/backend/names.hpp"
@@ -166,6 +167,28 @@ inline void check_body(const Where& where, const PlumbBodyDesc& desc) {
   if (desc.motion == PLUMB_DYNAMIC) check_mass(where, desc);
 }
 
+/// A swing-twist joint has a cone, whose half angles are told as limits, and is driven about its twist alone.
+inline void check_swing(const Where& where, const PlumbJointDesc& desc) {
+  if ((desc.limits[4].enabled != 0) != (desc.limits[5].enabled != 0))
+    refuse(PLUMB_E_INVALID_ARGUMENT, where.member("limits[4]") +
+                                         " and limits[5] are the half angles of one cone; enable "
+                                         "both or neither");
+  for (std::size_t axis = 4; axis < 6; ++axis) {
+    const PlumbLimit& limit = desc.limits[axis];
+    if (limit.enabled == 0) continue;
+    const std::string name = "limits[" + std::to_string(axis) + "]";
+    if (!(limit.upper > 0 && limit.upper < std::numbers::pi))
+      refuse_value(where, (name + ".upper").c_str(), limit.upper, "a half angle of a cone, above 0 and below pi");
+    if (limit.lower != -limit.upper)
+      refuse_value(where, (name + ".lower").c_str(), limit.lower, "-upper, as a cone is as wide on either side");
+  }
+  for (std::size_t axis = 4; axis < 6; ++axis)
+    if (desc.motors[axis].enabled != 0 || desc.springs[axis].enabled != 0)
+      refuse(PLUMB_E_INVALID_ARGUMENT,
+             where.member(desc.motors[axis].enabled != 0 ? "motors[" : "springs[") + std::to_string(axis) +
+                 "] is of a swing; a swing-twist joint is driven about axis 3, its twist, alone");
+}
+
 inline void check_joint(const Where& where, const PlumbJointDesc& desc) {
   if (desc.type >= PLUMB_JOINT_TYPE_COUNT) refuse_value(where, "type", desc.type, "a PlumbJointType");
   require_pose(where, "frame_a", desc.frame_a);
@@ -199,6 +222,7 @@ inline void check_joint(const Where& where, const PlumbJointDesc& desc) {
       require_not_negative(where, ("springs" + suffix + ".damping_ratio").c_str(), desc.springs[axis].damping_ratio);
     }
   }
+  if (desc.type == PLUMB_JOINT_SWING_TWIST) check_swing(where, desc);
 }
 
 }  // namespace plumb::backend

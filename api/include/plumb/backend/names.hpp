@@ -19,8 +19,8 @@ namespace plumb::backend {
 }
 
 [[nodiscard]] constexpr const char* joint_name(PlumbJointType type) {
-  constexpr const char* names[PLUMB_JOINT_TYPE_COUNT] = {"ball",  "hinge",     "slider", "distance",
-                                                         "fixed", "universal", "generic"};
+  constexpr const char* names[PLUMB_JOINT_TYPE_COUNT] = {"ball",  "hinge",     "slider",  "distance",
+                                                         "fixed", "universal", "generic", "swing-twist"};
   return type < PLUMB_JOINT_TYPE_COUNT ? names[type] : "unknown joint";
 }
 

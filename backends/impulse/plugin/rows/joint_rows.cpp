@@ -15,7 +15,8 @@ namespace {
 
 JointType plain_type(const PlumbJointDesc& desc) {
   switch (desc.type) {
-    case PLUMB_JOINT_BALL: return JointType::kBall;
+    case PLUMB_JOINT_BALL:
+    case PLUMB_JOINT_SWING_TWIST: return JointType::kBall;
     case PLUMB_JOINT_HINGE: return JointType::kHinge;
     case PLUMB_JOINT_SLIDER: return JointType::kSlider;
     case PLUMB_JOINT_FIXED: return JointType::kFixed;
@@ -60,7 +61,7 @@ class RowList {
     if (!limited && desc_.motors[axis].enabled == 0 && spring.enabled == 0) return;
     const int i = put(kind, axis % 3, other, static_cast<std::uint8_t>(axis));
     JointAxes& axes = rows_.axes;
-    const bool turns = kind == RowKind::kAngle;
+    const bool turns = goes_round(kind);
     const double most = turns ? 2 * std::numbers::pi : static_cast<double>(kHuge);
     axes.lower[i] = static_cast<Real>(limited ? std::max(desc_.limits[axis].lower, -most) : -kHuge);
     axes.upper[i] = static_cast<Real>(limited ? std::min(desc_.limits[axis].upper, most) : kHuge);
@@ -76,6 +77,15 @@ class RowList {
     axes.springs_by_mass |= 1U << i;
     axes.stiffness[i] = static_cast<Real>(omega * omega);
     axes.damping[i] = static_cast<Real>(2 * spring.damping_ratio * omega);
+  }
+
+  /// The cone of a swing-twist joint, where it has one.
+  void bound_swing() {
+    if (desc_.limits[4].enabled == 0) return;
+    const int i = put(RowKind::kCone, 0, 0, 4);
+    rows_.axes.lower[i] = -kHuge;
+    rows_.axes.upper[i] = static_cast<Real>(desc_.limits[4].upper);
+    rows_.axes.narrow = static_cast<Real>(desc_.limits[4].upper / desc_.limits[5].upper);
   }
 
  private:
@@ -140,9 +150,13 @@ JointRows rows_of_joint(const PlumbJointDesc& desc) {
   for (std::size_t axis = 0; axis < 6; ++axis) {
     rows.drive.velocity[axis] = static_cast<Real>(desc.motors[axis].target_velocity);
     rows.drive.max_force[axis] = static_cast<Real>(desc.motors[axis].enabled != 0 ? desc.motors[axis].max_force : 0);
-    if ((free >> axis & 1U) == 0) continue;
+    if ((free >> axis & 1U) == 0 || desc.type == PLUMB_JOINT_SWING_TWIST) continue;
     const RowKind kind = axis >= 3 ? RowKind::kAngle : pulls ? RowKind::kDistance : RowKind::kAlong;
     list.drive(kind, axis, axis >= 3 ? turns : 0);
+  }
+  if (desc.type == PLUMB_JOINT_SWING_TWIST) {
+    list.drive(RowKind::kTwist, 3);
+    list.bound_swing();
   }
   return rows;
 }

@@ -55,6 +55,30 @@ void puppets(Scene& scene) {
   }
 }
 
+void sockets(Scene& scene) {
+  scene.ground();
+  scene.add_static(scene.box({0.3, 0.6, 3}), {0.5, 0.6, 0});
+  const PlumbShape limb = scene.capsule(0.08, 0.15), head = scene.sphere(0.2);
+  PlumbJointDesc socket = joint_desc(PLUMB_JOINT_SWING_TWIST);
+  socket.frame_a.orientation = socket.frame_b.orientation = {0, 0, 0.6, 0.8};  // between x and y
+  for (int chain = 0; chain < 8; ++chain) {
+    const double half = 0.2 + 0.15 * chain;
+    socket.limits[3] = {-0.4, 0.1 * chain, chain % 3 != 0 ? 1U : 0U, 0};
+    socket.limits[4] = {-half, half, chain != 5 ? 1U : 0U, 0};
+    socket.limits[5] = {-0.7, 0.7, chain != 5 ? 1U : 0U, 0};
+    socket.motors[3] = {2, 0.5, chain % 4 == 1 ? 1U : 0U, 0};
+    socket.springs[3] = {0.1, 3, 0.2, chain % 4 == 2 ? 1U : 0U, PLUMB_SPRING_FREQUENCY};
+    PlumbBody before = 0;
+    for (int i = 0; i < 8; ++i) {
+      const PlumbVec3 at = {0.3 * chain - 1, 1.6 + 0.46 * i, 0.25 * chain - 1};
+      const PlumbBody body = i == 7 ? scene.add(head, at) : scene.add(limb, at);
+      if (before != 0) join(scene, socket, before, {0, 0.23, 0}, body, {0, -0.23, 0});
+      before = body;
+    }
+    if (chain % 3 == 2) join(scene, socket, 0, {0.3 * chain - 1, 5.2, 0.25 * chain - 1}, before, {0, 0.38, 0});
+  }
+}
+
 /// Doors swing between limits, pistons are driven back and forth, wheels hang on springs, planks are welded to a bridge
 /// that breaks under what falls on it.
 void clockwork(Scene& scene) {
