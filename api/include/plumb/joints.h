@@ -9,7 +9,8 @@
  * the swing as a rotation vector: its direction in a's y and z times its angle, which is the one between both x axes.
  * limits[3] bounds the twist. limits[4] and limits[5], both or neither and each with lower = -upper, are the half
  * angles of an elliptic cone about a's x axis that b's x axis stays within: (x4 / upper4)^2 + (x5 / upper5)^2 <= 1, 0 <
- * upper < pi. Motors and springs are of axis 3 alone.
+ * upper < pi. Motors and springs are of axis 3 alone. Where the x axes are opposite the twist is any number: what
+ * swings as far as that is held by no limit of the twist, and should have a cone.
  */
 #ifndef PLUMB_JOINTS_H
 #define PLUMB_JOINTS_H
