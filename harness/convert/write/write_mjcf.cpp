@@ -118,7 +118,7 @@ class MjcfWriter {
     remark_joint(joint, out_.remarks);
     const PlumbPose& own = forward ? joint.desc.frame_b : joint.desc.frame_a;
     const std::string anchor = numbers_text({own.position.x, own.position.y, own.position.z});
-    if (joint.desc.type == PLUMB_JOINT_BALL) {
+    if (joint.desc.type == PLUMB_JOINT_BALL || joint.desc.type == PLUMB_JOINT_SWING_TWIST) {
       const Xml::Element ball(out_.xml, "joint", {{"name", joint.name}, {"type", "ball"}, {"pos", anchor}});
       return;
     }
@@ -169,7 +169,8 @@ class MjcfWriter {
       const Xml::Element connect(out_.xml, "connect", attributes);
     };
     switch (joint.desc.type) {
-      case PLUMB_JOINT_BALL: return write_connect(frame.position);
+      case PLUMB_JOINT_BALL:
+      case PLUMB_JOINT_SWING_TWIST: return write_connect(frame.position);
       case PLUMB_JOINT_HINGE: {
         constexpr double kApart = 0.1;  // m: two points of the axis
         remark_axis(joint, 3, out_.remarks);

@@ -64,7 +64,8 @@ SdfKind kind_of(const SceneJoint& joint) {
     case PLUMB_JOINT_HINGE: return {"revolute", {3}};
     case PLUMB_JOINT_SLIDER: return {"prismatic", {0}};
     case PLUMB_JOINT_UNIVERSAL: return {"universal", {3, 4}};
-    case PLUMB_JOINT_BALL: return {"ball", {}};
+    case PLUMB_JOINT_BALL:
+    case PLUMB_JOINT_SWING_TWIST: return {"ball", {}};
     case PLUMB_JOINT_FIXED: return {"fixed", {}};
     default:
       throw UsageError(

@@ -160,6 +160,14 @@ TEST(WriteSdf, LimitsCountFromTheStart) {
   EXPECT_EQ(same->desc.springs[3].damping_ratio, 3);
 }
 
+TEST(WriteSdf, ASwingTwistJointIsABallAndItIsSaid) {
+  Remarks remarks;
+  const Imported back = there_and_back(scene_of("E16"), remarks);
+  ASSERT_EQ(back.scene.joints.size(), 1U);
+  EXPECT_EQ(back.scene.joints[0].desc.type, PLUMB_JOINT_BALL);
+  EXPECT_TRUE(has_line(remarks, "its cone, and what is on its twist, are left out: socket"));
+}
+
 TEST(WriteSdf, SaysWhatSdfLacks) {
   Scene scene = scene_of("I23");
   Remarks remarks;

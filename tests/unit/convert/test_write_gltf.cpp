@@ -237,6 +237,15 @@ TEST(WriteGltf, WhatDoesNotTurnAndWhatOnlySensesAreSaid) {
   EXPECT_TRUE(has_line(back.remarks, "triggers are left out: gate"));
 }
 
+TEST(WriteGltf, ASwingTwistJointIsABallAndItIsSaid) {
+  const Scene before = scene_of("E16");
+  Remarks remarks;
+  const Imported back = there_and_back(before, remarks);
+  ASSERT_EQ(back.scene.joints.size(), 1U);
+  EXPECT_EQ(back.scene.joints[0].desc.type, PLUMB_JOINT_BALL);
+  EXPECT_TRUE(has_line(remarks, "its cone, and what is on its twist, are left out: socket"));
+}
+
 TEST(WriteGltf, SaysWhatGltfLacks) {
   Scene scene = scene_of("I23");
   scene.gravity = {0, -1.62, 0};

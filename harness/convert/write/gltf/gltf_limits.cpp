@@ -18,6 +18,7 @@ Modes modes_of(const PlumbJointDesc& desc) {
     case PLUMB_JOINT_SLIDER: modes = {F, L, L, L, L, L}; break;
     case PLUMB_JOINT_UNIVERSAL: modes = {L, L, L, F, F, L}; break;
     case PLUMB_JOINT_GENERIC: return std::to_array(desc.axis_modes);
+    case PLUMB_JOINT_SWING_TWIST: return {L, L, L, F, F, F};  // whose limits are of other numbers
     default: return modes;
   }
   for (std::size_t axis = 0; axis < modes.size(); ++axis)
@@ -91,7 +92,7 @@ Json joint_description(const SceneJoint& joint, Remarks& remarks) {
     add_distance(limits, desc);
   } else {
     for (const bool turns : {false, true}) add_limits(limits, desc, turns);
-    for (std::size_t axis = 0; axis < 6; ++axis) add_drives(drives, desc, axis);
+    for (std::size_t axis = 0; axis < 6 && desc.type != PLUMB_JOINT_SWING_TWIST; ++axis) add_drives(drives, desc, axis);
   }
   for (std::size_t axis = 0; axis < 6; ++axis) remark_spring(joint, axis, remarks);
   Json description = Json::object();
