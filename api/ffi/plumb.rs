@@ -726,7 +726,6 @@ pub const PLUMB_JOINT_FIXED: PlumbJointType = 4;
 pub const PLUMB_JOINT_UNIVERSAL: PlumbJointType = 5;
 /// axis_modes say which of the six axes are free, locked or limited
 pub const PLUMB_JOINT_GENERIC: PlumbJointType = 6;
-/// origins coincide; what turns freely is told as a swing after a twist: see below
 pub const PLUMB_JOINT_SWING_TWIST: PlumbJointType = 7;
 pub const PLUMB_JOINT_TYPE_COUNT: PlumbJointType = 8;
 

@@ -66,6 +66,8 @@ class GuardedExtensions : public GuardedWorld {
       for (std::size_t axis = 0; axis < 6; ++axis) {
         require_finite({"rows", i}, "target velocity", row[2 * axis]);
         require_not_negative({"rows", i}, "max force", row[2 * axis + 1]);
+        if (axis >= 4 && row[2 * axis + 1] > 0 && joints_[spelled_out[i]].type == PLUMB_JOINT_SWING_TWIST)
+          refuse_driven_swing(Where{"rows", i}.member(""), axis);
       }
     }
     const PlumbResult result = done(extension.write_joints(field, spelled_out, in));

@@ -274,6 +274,21 @@ TEST_F(Guard, KeepsShapesAndBodiesThatAreInUse) {
   EXPECT_EQ(world->destroy_shapes({&box, 1}), PLUMB_OK);
 }
 
+TEST_F(Guard, RefusesToDriveASwing) {
+  PlumbJointDesc desc = joint_desc(PLUMB_JOINT_SWING_TWIST);
+  desc.body_b = add(body());
+  PlumbJoint joint = 0;
+  ASSERT_EQ(world->joints()->create_joints({&desc, 1}, {&joint, 1}), PLUMB_OK);
+  const auto write = [&](std::size_t axis) {
+    double row[12] = {};
+    row[2 * axis + 1] = 5;
+    return world->joints()->write_joints(PLUMB_JOINT_MOTOR, {&joint, 1},
+                                         ConstRows(reinterpret_cast<const std::byte*>(row), 1, sizeof row, PLUMB_F64));
+  };
+  EXPECT_EQ(write(3), PLUMB_OK);
+  refused(PLUMB_E_INVALID_ARGUMENT, "drives axis 4, of a swing", [&] { return write(4); });
+}
+
 TEST_F(Guard, RefusesBadJointsByName) {
   const PlumbBody a = add(body()), b = add(body());
   const auto joint_refused = [&](PlumbResult code, const std::string& named,
@@ -313,7 +328,7 @@ TEST_F(Guard, RefusesBadJointsByName) {
   joint_refused(PLUMB_E_INVALID_ARGUMENT, "limits[5].upper", cone(good, {-4, 4, 1, 0}));
   joint_refused(PLUMB_E_INVALID_ARGUMENT, "limits[4].upper", cone({0, 0, 1, 0}, good));
   joint_refused(PLUMB_E_INVALID_ARGUMENT, "limits[5].lower", cone(good, {-1, 0.5, 1, 0}));
-  joint_refused(PLUMB_E_INVALID_ARGUMENT, "springs[5] is of a swing", [&](auto& d) {
+  joint_refused(PLUMB_E_INVALID_ARGUMENT, "springs drives axis 5, of a swing", [&](auto& d) {
     cone(good, good)(d);
     d.springs[5] = {0, 1, 1, 1, 0};
   });

@@ -92,7 +92,8 @@ Json joint_description(const SceneJoint& joint, Remarks& remarks) {
     add_distance(limits, desc);
   } else {
     for (const bool turns : {false, true}) add_limits(limits, desc, turns);
-    for (std::size_t axis = 0; axis < 6 && desc.type != PLUMB_JOINT_SWING_TWIST; ++axis) add_drives(drives, desc, axis);
+    if (desc.type != PLUMB_JOINT_SWING_TWIST)
+      for (std::size_t axis = 0; axis < 6; ++axis) add_drives(drives, desc, axis);
   }
   for (std::size_t axis = 0; axis < 6; ++axis) remark_spring(joint, axis, remarks);
   Json description = Json::object();
