@@ -1592,6 +1592,7 @@ public static class Constants
     public const uint PLUMB_JOINT_UNIVERSAL = 5u;
     /// <summary>axis_modes say which of the six axes are free, locked or limited</summary>
     public const uint PLUMB_JOINT_GENERIC = 6u;
+    /// <summary>origins coincide; axes 3 4 5 are a twist and a swing (head of joints.h)</summary>
     public const uint PLUMB_JOINT_SWING_TWIST = 7u;
     public const uint PLUMB_JOINT_TYPE_COUNT = 8u;
 

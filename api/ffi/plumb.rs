@@ -726,6 +726,7 @@ pub const PLUMB_JOINT_FIXED: PlumbJointType = 4;
 pub const PLUMB_JOINT_UNIVERSAL: PlumbJointType = 5;
 /// axis_modes say which of the six axes are free, locked or limited
 pub const PLUMB_JOINT_GENERIC: PlumbJointType = 6;
+/// origins coincide; axes 3 4 5 are a twist and a swing (head of joints.h)
 pub const PLUMB_JOINT_SWING_TWIST: PlumbJointType = 7;
 pub const PLUMB_JOINT_TYPE_COUNT: PlumbJointType = 8;
 

@@ -25,15 +25,14 @@ extern "C" {
 
 typedef uint32_t PlumbJointType;
 enum {
-  PLUMB_JOINT_BALL = 0,      /* origins coincide */
-  PLUMB_JOINT_HINGE = 1,     /* origins and x axes coincide; free axis 3 */
-  PLUMB_JOINT_SLIDER = 2,    /* orientations equal, b's origin on a's x axis; free axis 0 */
-  PLUMB_JOINT_DISTANCE = 3,  /* distance of the origins: rest_length, or within limits[0]; spring on axis 0 */
-  PLUMB_JOINT_FIXED = 4,     /* frames coincide */
-  PLUMB_JOINT_UNIVERSAL = 5, /* origins coincide, a's x axis stays square to b's y axis; free axes 3 and 4 */
-  PLUMB_JOINT_GENERIC = 6,   /* axis_modes say which of the six axes are free, locked or limited */
-  PLUMB_JOINT_SWING_TWIST =
-      7, /* origins coincide; what turns freely is told as a swing after a twist (head of joints.h) */
+  PLUMB_JOINT_BALL = 0,        /* origins coincide */
+  PLUMB_JOINT_HINGE = 1,       /* origins and x axes coincide; free axis 3 */
+  PLUMB_JOINT_SLIDER = 2,      /* orientations equal, b's origin on a's x axis; free axis 0 */
+  PLUMB_JOINT_DISTANCE = 3,    /* distance of the origins: rest_length, or within limits[0]; spring on axis 0 */
+  PLUMB_JOINT_FIXED = 4,       /* frames coincide */
+  PLUMB_JOINT_UNIVERSAL = 5,   /* origins coincide, a's x axis stays square to b's y axis; free axes 3 and 4 */
+  PLUMB_JOINT_GENERIC = 6,     /* axis_modes say which of the six axes are free, locked or limited */
+  PLUMB_JOINT_SWING_TWIST = 7, /* origins coincide; axes 3 4 5 are a twist and a swing (head of joints.h) */
   PLUMB_JOINT_TYPE_COUNT = 8
 };
 
