@@ -8,9 +8,13 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <map>
+#include <cstring>
 #include <numbers>
+#include <numeric>
+#include <optional>
+#include <span>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -116,32 +120,83 @@ template <class Triangles>
   return {volume, add(origin, centre), principal.moments, principal.orientation, volume};
 }
 
-// Every edge must be run through once each way; corners at the same place count as one, so soups of triangles will do.
-[[nodiscard]] MassProperties of_mesh(const PlumbShapeDesc& desc) {
-  std::vector<PlumbVec3> vertices;
-  std::vector<std::uint32_t> place;
-  std::map<std::array<double, 3>, std::uint32_t> place_of;
-  for (std::uint32_t i = 0; i < desc.vertex_count; ++i) {
-    const double* v = desc.vertices + 3 * std::size_t{i};
-    vertices.push_back({v[0], v[1], v[2]});
-    place.push_back(place_of.try_emplace({v[0] + 0.0, v[1] + 0.0, v[2] + 0.0}, i).first->second);
+using Triangle = std::array<std::uint32_t, 3>;
+
+struct PlaceHash {
+  std::size_t operator()(const std::array<double, 3>& place) const {
+    std::uint64_t key = 0;
+    for (const double x : place) {  // as SplitMix64 finishes (Steele, Lea and Flood 2014)
+      std::uint64_t bits = 0;
+      std::memcpy(&bits, &x, sizeof bits);
+      key = (key ^ bits) * 0xbf58476d1ce4e5b9U;
+      key = (key ^ key >> 27) * 0x94d049bb133111ebU;
+      key ^= key >> 31;
+    }
+    return static_cast<std::size_t>(key);
   }
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, int> balance;
-  for (std::uint32_t t = 0; t < desc.triangle_count; ++t) {
-    const std::uint32_t* corner = desc.indices + 3 * std::size_t{t};
-    triangles.push_back({corner[0], corner[1], corner[2]});
-    for (std::size_t e = 0; e < 3; ++e) {
-      const std::uint32_t from = place[corner[e]], to = place[corner[(e + 1) % 3]];
-      balance[std::minmax(from, to)] += from < to ? 1 : -1;
+};
+
+/// For each vertex the first one at its place.
+std::vector<std::uint32_t> first_at_place(std::span<const PlumbVec3> vertices) {
+  std::unordered_map<std::array<double, 3>, std::uint32_t, PlaceHash> place_of(vertices.size());
+  std::vector<std::uint32_t> first;
+  first.reserve(vertices.size());
+  for (const PlumbVec3& v : vertices) {
+    const std::array<double, 3> place = {v.x + 0.0, v.y + 0.0, v.z + 0.0};  // 0 is -0
+    first.push_back(place_of.try_emplace(place, static_cast<std::uint32_t>(first.size())).first->second);
+  }
+  return first;
+}
+
+using Edge = std::pair<std::uint32_t, std::uint32_t>;  // the smaller vertex first
+
+/// The first edge that triangles run through more often one way than the other; none: they close. Edges are dealt out
+/// by their smaller vertex, at which few meet.
+std::optional<Edge> open_edge(std::span<const Triangle> triangles, std::size_t vertices) {
+  struct Run {
+    std::uint32_t to;
+    int way;
+  };
+  const auto each_edge = [&](const auto& f) {
+    for (const Triangle& t : triangles)
+      for (std::size_t e = 0; e < 3; ++e) f(std::min(t[e], t[(e + 1) % 3]), std::max(t[e], t[(e + 1) % 3]), t[e]);
+  };
+  std::vector<std::uint32_t> first(vertices + 1, 0);
+  each_edge([&](std::uint32_t low, std::uint32_t, std::uint32_t) { ++first[low + 1]; });
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<Run> runs(first.back());
+  std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
+  each_edge([&](std::uint32_t low, std::uint32_t high, std::uint32_t from) {
+    runs[next[low]++] = {high, from < high ? 1 : -1};
+  });
+  for (std::uint32_t low = 0; low < vertices; ++low) {
+    const std::span<Run> here(runs.data() + first[low], first[low + 1] - first[low]);
+    std::sort(here.begin(), here.end(), [](const Run& a, const Run& b) { return a.to < b.to; });
+    int balance = 0;
+    for (std::size_t i = 0; i < here.size(); ++i) {
+      balance += here[i].way;
+      if (i + 1 < here.size() && here[i + 1].to == here[i].to) continue;
+      if (balance != 0) return Edge{low, here[i].to};
     }
   }
-  for (const auto& [edge, count] : balance)
-    if (count != 0)
-      throw Error(PLUMB_E_INVALID_ARGUMENT, "triangle mesh: open at the edge between vertices " +
-                                                std::to_string(edge.first) + " and " + std::to_string(edge.second) +
-                                                "; only a closed mesh has mass, others are for static bodies");
-  return of_surface(std::span<const PlumbVec3>(vertices), triangles, "triangle mesh");
+  return std::nullopt;
+}
+
+// Every edge must be run through once each way; corners at the same place count as one, so soups of triangles will do.
+[[nodiscard]] MassProperties of_mesh(const PlumbShapeDesc& desc) {
+  const std::span vertices(reinterpret_cast<const PlumbVec3*>(desc.vertices), desc.vertex_count);
+  const std::vector<std::uint32_t> place = first_at_place(vertices);
+  std::vector<Triangle> triangles(desc.triangle_count), joined(desc.triangle_count);
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    for (std::size_t e = 0; e < 3; ++e) {
+      triangles[t][e] = desc.indices[3 * t + e];
+      joined[t][e] = place[triangles[t][e]];
+    }
+  if (const std::optional<Edge> edge = open_edge(joined, vertices.size()))
+    throw Error(PLUMB_E_INVALID_ARGUMENT, "triangle mesh: open at the edge between vertices " +
+                                              std::to_string(edge->first) + " and " + std::to_string(edge->second) +
+                                              "; only a closed mesh has mass, others are for static bodies");
+  return of_surface(vertices, triangles, "triangle mesh");
 }
 
 [[nodiscard]] MassProperties of_children(std::span<const PlumbCompoundChild> children,
