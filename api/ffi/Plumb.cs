@@ -67,7 +67,8 @@ public struct PlumbWorld
 }
 
 // --- plumb/shapes.h
-// Collision shapes. A shape is immutable and may be shared by any number of bodies of its world.
+// Collision shapes. A shape may be shared by any number of bodies of its world, and stays what it is; but for meshes
+// and height fields, which modify.h lets become others where the backend can.
 
 /// <summary>Surface of a body. The coefficients of a PAIR are the same in every backend: friction sqrt(friction_a *
 /// friction_b), restitution max(restitution_a, restitution_b).</summary>
@@ -695,7 +696,7 @@ public unsafe struct PlumbManifoldsTable
 }
 
 // --- plumb/modify.h
-// plumb.modify/1: bodies and joints that become others while they live. Since 1.2.
+// plumb.modify/1: bodies, joints and shapes that become others while they live. Since 1.2.
 
 [StructLayout(LayoutKind.Sequential)]
 public unsafe struct PlumbBodyChange
@@ -739,8 +740,8 @@ public unsafe struct PlumbJointChange
 
 /// <summary>All or none; a body or joint stands in a call once. What sleeps and is changed, or rested on what is
 /// changed, wakes. Contacts that a change ends, or begins, are told by the events of the next step. A snapshot of
-/// bodies with other motions, shapes, masses, flags or locks is PLUMB_E_CORRUPT until they are as they were. stride is
-/// sizeof the caller's row.</summary>
+/// bodies with other motions, shapes, masses, flags or locks is PLUMB_E_CORRUPT until they are as they were, and so is
+/// one of shapes that are others. stride is sizeof the caller's row.</summary>
 [StructLayout(LayoutKind.Sequential)]
 public unsafe struct PlumbModifyTable
 {
@@ -750,12 +751,23 @@ public unsafe struct PlumbModifyTable
     public IntPtr bodies;
     /// <summary>[world]</summary>
     public IntPtr joints;
+    /// <summary>[world] Terrain that is dug, surfaces that bend: shapes[i] becomes what descs[i] says, whole and of the
+    /// type that it has, for all bodies that have it; their masses stay. What sleeps where the surface is another
+    /// wakes; elsewhere contacts and sleep go on. An engine finds by itself what differs: a mesh with the same indices,
+    /// or a height field of the same rows, columns and spacing, costs far less than one made anew. user_data is not
+    /// read. From then on a snapshot of a whole world knows the shape by what it is now.</summary>
+    public IntPtr shapes;
 
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
     public unsafe delegate int Bodies(PlumbWorld* world, PlumbBodyChange* changes, UIntPtr stride, uint count);
 
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
     public unsafe delegate int Joints(PlumbWorld* world, PlumbJointChange* changes, UIntPtr stride, uint count);
+
+    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+    public unsafe delegate int Shapes(
+        PlumbWorld* world, ulong* shapes, PlumbShapeDesc* descs, UIntPtr stride, uint count
+    );
 }
 
 // --- plumb/settings.h
@@ -1433,7 +1445,8 @@ public static class Constants
     public const uint PLUMB_F64 = 2u;
 
     // --- plumb/shapes.h
-    // Collision shapes. A shape is immutable and may be shared by any number of bodies of its world.
+    // Collision shapes. A shape may be shared by any number of bodies of its world, and stays what it is; but for
+    // meshes and height fields, which modify.h lets become others where the backend can.
 
     // PlumbShapeType, uint.
     /// <summary>radius</summary>
@@ -1644,7 +1657,7 @@ public static class Constants
     public const uint PLUMB_MANIFOLD_POINTS = 4u;
 
     // --- plumb/modify.h
-    // plumb.modify/1: bodies and joints that become others while they live. Since 1.2.
+    // plumb.modify/1: bodies, joints and shapes that become others while they live. Since 1.2.
     public const string PLUMB_EXT_MODIFY = "plumb.modify/1";
 
     // PlumbBodyChange.what: the members that count; the others are not read.
@@ -1843,7 +1856,7 @@ public static class Constants
     public const uint PLUMB_CAP_HOST_JOBS = 12u;
     /// <summary>materials of compound children</summary>
     public const uint PLUMB_CAP_CHILD_MATERIAL = 13u;
-    /// <summary>0: bodies, 1: joints; index of a PLUMB_MODIFY_ bit. Since 1.2</summary>
+    /// <summary>0: bodies, 1: joints; index of a PLUMB_MODIFY_ bit. 2: shapes; type. Since 1.2</summary>
     public const uint PLUMB_CAP_MODIFY = 14u;
     /// <summary>index of a PLUMB_MANIFOLD_ bit. Since 1.2</summary>
     public const uint PLUMB_CAP_MANIFOLD = 15u;

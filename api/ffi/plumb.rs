@@ -144,7 +144,8 @@ pub struct PlumbWorld {
 }
 
 // --- plumb/shapes.h
-// Collision shapes. A shape is immutable and may be shared by any number of bodies of its world.
+// Collision shapes. A shape may be shared by any number of bodies of its world, and stays what it is; but for meshes
+// and height fields, which modify.h lets become others where the backend can.
 
 pub type PlumbShapeType = u32;
 
@@ -942,7 +943,7 @@ pub struct PlumbManifoldsTable {
 }
 
 // --- plumb/modify.h
-// plumb.modify/1: bodies and joints that become others while they live. Since 1.2.
+// plumb.modify/1: bodies, joints and shapes that become others while they live. Since 1.2.
 
 pub const PLUMB_EXT_MODIFY: &CStr = unsafe { CStr::from_bytes_with_nul_unchecked(b"plumb.modify/1\0") };
 
@@ -1023,8 +1024,8 @@ pub struct PlumbJointChange {
 
 /// All or none; a body or joint stands in a call once. What sleeps and is changed, or rested on what is changed, wakes.
 /// Contacts that a change ends, or begins, are told by the events of the next step. A snapshot of bodies with other
-/// motions, shapes, masses, flags or locks is PLUMB_E_CORRUPT until they are as they were. stride is sizeof the
-/// caller's row.
+/// motions, shapes, masses, flags or locks is PLUMB_E_CORRUPT until they are as they were, and so is one of shapes that
+/// are others. stride is sizeof the caller's row.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct PlumbModifyTable {
@@ -1037,6 +1038,14 @@ pub struct PlumbModifyTable {
     /// \[world\]
     pub joints: Option<unsafe extern "C" fn(
         world: *mut PlumbWorld, changes: *const PlumbJointChange, stride: usize, count: u32
+    ) -> PlumbResult>,
+    /// \[world\] Terrain that is dug, surfaces that bend: shapes\[i\] becomes what descs\[i\] says, whole and of the
+    /// type that it has, for all bodies that have it; their masses stay. What sleeps where the surface is another
+    /// wakes; elsewhere contacts and sleep go on. An engine finds by itself what differs: a mesh with the same indices,
+    /// or a height field of the same rows, columns and spacing, costs far less than one made anew. user_data is not
+    /// read. From then on a snapshot of a whole world knows the shape by what it is now.
+    pub shapes: Option<unsafe extern "C" fn(
+        world: *mut PlumbWorld, shapes: *const PlumbShape, descs: *const PlumbShapeDesc, stride: usize, count: u32
     ) -> PlumbResult>,
 }
 
@@ -1551,7 +1560,7 @@ pub const PLUMB_CAP_SNAPSHOT: PlumbCapability = 11;
 pub const PLUMB_CAP_HOST_JOBS: PlumbCapability = 12;
 /// materials of compound children
 pub const PLUMB_CAP_CHILD_MATERIAL: PlumbCapability = 13;
-/// 0: bodies, 1: joints; index of a PLUMB_MODIFY_ bit. Since 1.2
+/// 0: bodies, 1: joints; index of a PLUMB_MODIFY_ bit. 2: shapes; type. Since 1.2
 pub const PLUMB_CAP_MODIFY: PlumbCapability = 14;
 /// index of a PLUMB_MANIFOLD_ bit. Since 1.2
 pub const PLUMB_CAP_MANIFOLD: PlumbCapability = 15;

@@ -248,6 +248,10 @@ class HostWorld final : public IPhysicsWorld,
   PlumbResult modify_joints(std::span<const PlumbJointChange> changes) override {
     return extensions_.modify->joints(world_, changes.data(), sizeof(PlumbJointChange), count_of(changes));
   }
+  PlumbResult modify_shapes(std::span<const PlumbShape> shapes, std::span<const PlumbShapeDesc> descs) override {
+    if (!has(*extensions_.modify, &PlumbModifyTable::shapes)) return PLUMB_E_UNSUPPORTED;
+    return extensions_.modify->shapes(world_, shapes.data(), descs.data(), sizeof(PlumbShapeDesc), count_of(descs));
+  }
   PlumbResult read_manifolds(std::span<const PlumbManifold>& manifolds) override {
     const PlumbResult result =
         fill_all(manifold_rows_, [this](PlumbManifold* out, std::uint32_t capacity, std::uint32_t* count) {

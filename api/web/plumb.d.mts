@@ -268,6 +268,8 @@ export interface World {
   jointUserData(joint: Joint): unknown;
   modifyBody(body: Body, change: BodyChange): void;
   modifyJoint(joint: Joint, change: JointChange): void;
+  /** Of meshes and height fields: whole, and of the type that the shape has. */
+  modifyShape(shape: Shape, options: ShapeOptions): void;
   /** false: the two never touch; true: their filters decide again. */
   setPairTouches(a: Body, b: Body, touch: boolean): void;
 

@@ -1,4 +1,5 @@
 // What Bullet has, and how truly.
+#include "plumb/backend/modify.hpp"
 #include "plumb/backend/usual_capability.hpp"
 #include "world.hpp"
 
@@ -145,9 +146,11 @@ PlumbDegree need_degree(std::uint32_t index, const char*& note) {
   }
 }
 
-PlumbDegree modify_degree(std::uint32_t is_joint, std::uint32_t index, const char*& note) {
-  if (is_joint == 0 && index < PLUMB_MODIFY_BODY_COUNT) return PLUMB_NATIVE;
-  if (is_joint != 1 || index >= PLUMB_MODIFY_JOINT_COUNT) return PLUMB_NONE;
+PlumbDegree modify_degree(std::uint32_t kind, std::uint32_t index, const char*& note) {
+  if (kind == 0 && index < PLUMB_MODIFY_BODY_COUNT) return PLUMB_NATIVE;
+  if (kind == 2 && backend::may_change(index))
+    return answer(PLUMB_EMULATED, note, "by another shape in its place; all that rests on it wakes");
+  if (kind != 1 || index >= PLUMB_MODIFY_JOINT_COUNT) return PLUMB_NONE;
   return answer(PLUMB_EMULATED, note, "by another constraint in its place, which starts without impulses");
 }
 

@@ -1,7 +1,10 @@
-// Bodies and joints of a world that become others while they live.
+// Bodies, joints and shapes of a world that become others while they live.
 #include "plumb/backend/modify.hpp"
 #include "plumb/assert.hpp"
 
+#include <utility>
+
+#include "moving_mesh.hpp"
 #include "world.hpp"
 
 namespace plumb::bullet {
@@ -77,6 +80,32 @@ void World::replace_joint(std::unique_ptr<Joint> joint) {
   take_from_bullet(*place);
   place = std::move(joint);
   add_to_bullet(*place);
+}
+
+PlumbResult World::modify_shapes(std::span<const PlumbShape> shapes, std::span<const PlumbShapeDesc> descs) {
+  std::vector<std::shared_ptr<const Shape>> made;
+  for (const PlumbShapeDesc& desc : descs) made.push_back(make_shape(desc, {}, settings_.shape_options()));
+  if (needs(PLUMB_NEED_CONTACTS)) (void)contacts();  // while those of the last step are there
+  for (std::size_t i = 0; i < made.size(); ++i) {
+    const std::shared_ptr<const Shape> before = std::exchange(shapes_[slot_of(shapes[i])], made[i]);
+    for (const auto& body : bodies_)
+      if (body && body->shape == before) reshape(*body, made[i]);
+  }
+  return PLUMB_OK;
+}
+
+/// Gives a body the other shape in the place of the one that it has; its mass stays where it is.
+void World::reshape(Body& at, const std::shared_ptr<const Shape>& other) {
+  wake_neighbours(at);
+  take_from_bullet(at);
+  at.shape = other;
+  if (at.is(PLUMB_DYNAMIC) && other->type == PLUMB_TRIANGLE_MESH)
+    at.own_shape = make_moving_mesh(*other, at.mass_to_body);
+  else if (at.offset_frame)
+    at.own_shape = make_offset_shape(*other, at.mass_to_body);
+  at.setCollisionShape(at.own_shape ? at.own_shape.get() : other->bullet.get());
+  add_to_bullet(at);
+  wake(at);
 }
 
 }  // namespace plumb::bullet

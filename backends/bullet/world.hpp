@@ -76,6 +76,7 @@ class World final : public IPhysicsWorld,
   // modify.cpp
   PlumbResult modify_bodies(std::span<const PlumbBodyChange> changes) override;
   PlumbResult modify_joints(std::span<const PlumbJointChange> changes) override;
+  PlumbResult modify_shapes(std::span<const PlumbShape> shapes, std::span<const PlumbShapeDesc> descs) override;
 
   // manifolds.cpp
   PlumbResult read_manifolds(std::span<const PlumbManifold>& manifolds) override;
@@ -189,6 +190,7 @@ class World final : public IPhysicsWorld,
   void remove_joint(Joint& joint);
   // modify.cpp
   void remake_body(const PlumbBodyChange& change, MadeOf made);
+  void reshape(Body& at, const std::shared_ptr<const Shape>& other);
   void remake_joints_of(std::span<const PlumbBodyChange> changes);
   void replace_joint(std::unique_ptr<Joint> joint);
 

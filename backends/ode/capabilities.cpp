@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "plumb/backend/modify.hpp"
 #include "plumb/backend/usual_capability.hpp"
 #include "world.hpp"
 
@@ -116,10 +117,12 @@ Fact event_fact(std::uint32_t type) {
   return {PLUMB_EMULATED, "found by comparing with the step before"};
 }
 
-Fact modify_fact(std::uint32_t is_joint, std::uint32_t index) {
-  if (is_joint == 0 && index < PLUMB_MODIFY_BODY_COUNT)
+Fact modify_fact(std::uint32_t kind, std::uint32_t index) {
+  if (kind == 0 && index < PLUMB_MODIFY_BODY_COUNT)
     return {PLUMB_EMULATED, "another body of ODE's in the place of the one there was"};
-  if (is_joint == 1 && index < PLUMB_MODIFY_JOINT_COUNT)
+  if (kind == 2 && backend::may_change(index))
+    return {PLUMB_EMULATED, "another geom of ODE's in the place of the one there was; all that rests on it wakes"};
+  if (kind == 1 && index < PLUMB_MODIFY_JOINT_COUNT)
     return {PLUMB_EMULATED, "another joint of ODE's in the place of the one there was"};
   return {PLUMB_NONE};
 }

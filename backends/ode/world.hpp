@@ -82,6 +82,7 @@ class World final : public IPhysicsWorld,
   PlumbResult restore(std::span<const std::byte> data) override;
   PlumbResult set_exceptions(std::span<const PlumbBodyPair> pairs, bool touch) override;
   PlumbResult modify_bodies(std::span<const PlumbBodyChange> changes) override;
+  PlumbResult modify_shapes(std::span<const PlumbShape> shapes, std::span<const PlumbShapeDesc> descs) override;
   PlumbResult modify_joints(std::span<const PlumbJointChange> changes) override;
   PlumbResult read_manifolds(std::span<const PlumbManifold>& manifolds) override;
   PlumbResult modify_manifolds(std::span<const PlumbManifoldChange> changes) override;
@@ -125,6 +126,7 @@ class World final : public IPhysicsWorld,
   void make_body_geoms(Body& body);
   void dismantle(Body& body);
   void remake(Body& body, const PlumbBodyChange& change);
+  void reshape(Body& at, const Shape& other);
   void enlist(Body& body);
   void list(Body& body);
   void strike_off(const Body& body);

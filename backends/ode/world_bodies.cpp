@@ -130,6 +130,31 @@ PlumbResult World::modify_bodies(std::span<const PlumbBodyChange> changes) {
   });
 }
 
+PlumbResult World::modify_shapes(std::span<const PlumbShape> shapes, std::span<const PlumbShapeDesc> descs) {
+  return inside_ode([&] {
+    std::vector<std::unique_ptr<Shape>> made;
+    for (const PlumbShapeDesc& desc : descs) fill_shape(*made.emplace_back(std::make_unique<Shape>()), desc, {});
+    for (std::size_t i = 0; i < made.size(); ++i) {
+      std::unique_ptr<Shape>& place = slots_.shapes[slot_of(shapes[i])];
+      for (Body* const body : lists_.all)
+        if (body->shape == place.get()) reshape(*body, *made[i]);
+      place = std::move(made[i]);
+    }
+    return PLUMB_OK;
+  });
+}
+
+/// Gives a body the geoms of another shape in the place of those that it has.
+void World::reshape(Body& at, const Shape& other) {
+  wake_neighbours(at);
+  for (const auto& geom : at.geoms) dGeomDestroy(geom->placed.geom);
+  at.geoms.clear();
+  at.shape = &other;
+  make_body_geoms(at);
+  if (at.body == nullptr) at.set_frame(at.frame());
+  if (at.dynamic()) at.wake();
+}
+
 void World::make_body_geoms(Body& body) {
   if (space_ == nullptr || body.shape == nullptr) return;
   std::vector<PlacedGeom> placed;

@@ -27,8 +27,13 @@ class Capabilities {
         json_[title][rows[a]][columns[b]] = degree(kind, a, b, title + "." + rows[a] + "." + columns[b]);
     }
   }
-  /// Of bodies, then of joints, which can change in different things.
+  /// Of bodies, then of joints, which can change in different things; then of shapes, by type.
   void changes(const std::string& title) {
+    for (PlumbShapeType type = 0; type < PLUMB_SHAPE_TYPE_COUNT; ++type) {
+      if (!backend::may_change(type)) continue;
+      const std::string& what = shape_words()[type];
+      json_[title]["shapes"][what] = degree(PLUMB_CAP_MODIFY, 2, type, title + ".shapes." + what);
+    }
     for (std::uint32_t a = 0; a < 2; ++a) {
       const std::string whose = a == 0 ? "bodies" : "joints";
       const std::uint32_t count = a == 0 ? PLUMB_MODIFY_BODY_COUNT : PLUMB_MODIFY_JOINT_COUNT;

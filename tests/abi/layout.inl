@@ -122,9 +122,9 @@ SIZE(PlumbJointChange, 664)
   AT(PlumbJointChange, frame_b, 80) AT(PlumbJointChange, axis_modes, 136) AT(PlumbJointChange, limits, 160)
   AT(PlumbJointChange, motors, 304) AT(PlumbJointChange, springs, 448) AT(PlumbJointChange, rest_length, 640)
   AT(PlumbJointChange, break_force, 648) AT(PlumbJointChange, break_torque, 656)
-SIZE(PlumbModifyTable, 24)
+SIZE(PlumbModifyTable, 32)
   AT(PlumbModifyTable, struct_size, 0) AT(PlumbModifyTable, reserved, 4) AT(PlumbModifyTable, bodies, 8)
-  AT(PlumbModifyTable, joints, 16)
+  AT(PlumbModifyTable, joints, 16) AT(PlumbModifyTable, shapes, 24)
 
 /* queries.h */
 SIZE(PlumbRay, 64)

@@ -24,6 +24,15 @@ void keep_of_joints() {
   };
 }
 
+void put_all_to_sleep(PlumbWorld* world) {
+  std::vector<PlumbBody> all(100);
+  std::uint32_t live = 0;
+  honest.core.list_bodies(world, all.data(), 100, &live);
+  const double asleep = 0;
+  for (std::uint32_t i = 0; i < live; ++i)
+    honest.core.write(world, PLUMB_FIELD_AWAKE, PLUMB_F64, &all[i], 1, &asleep, sizeof asleep);
+}
+
 }  // namespace
 
 void motions_stay() { keep_of_bodies<PLUMB_MODIFY_MOTION>(); }
@@ -60,12 +69,7 @@ void velocity_stays_with_the_old_centre() {
 void changed_bodies_sleep_on() {
   liar.modify.bodies = [](PlumbWorld* world, const PlumbBodyChange* changes, std::size_t stride, std::uint32_t count) {
     const PlumbResult result = honest.modify.bodies(world, changes, stride, count);
-    std::vector<PlumbBody> all(100);
-    std::uint32_t live = 0;
-    honest.core.list_bodies(world, all.data(), 100, &live);
-    const double asleep = 0;
-    for (std::uint32_t i = 0; i < live; ++i)
-      honest.core.write(world, PLUMB_FIELD_AWAKE, PLUMB_F64, &all[i], 1, &asleep, sizeof asleep);
+    put_all_to_sleep(world);
     return result;
   };
 }
@@ -84,6 +88,40 @@ void any_snapshot_is_restored() {
     return result == PLUMB_E_CORRUPT ? PLUMB_OK : result;
   };
 }
+
+void grounds_stay() {
+  liar.modify.shapes = [](PlumbWorld*, const PlumbShape*, const PlumbShapeDesc*, std::size_t,
+                          std::uint32_t) -> PlumbResult { return PLUMB_OK; };
+}
+void vertices_stay() {
+  liar.modify.shapes = [](PlumbWorld* world, const PlumbShape* shapes, const PlumbShapeDesc* descs, std::size_t stride,
+                          std::uint32_t count) -> PlumbResult {
+    return descs->type == PLUMB_TRIANGLE_MESH ? PLUMB_OK : honest.modify.shapes(world, shapes, descs, stride, count);
+  };
+}
+void meshes_keep_their_triangles() {
+  liar.modify.shapes = [](PlumbWorld* world, const PlumbShape* shapes, const PlumbShapeDesc* descs, std::size_t stride,
+                          std::uint32_t count) -> PlumbResult {
+    return descs->triangle_count == 2 ? PLUMB_OK : honest.modify.shapes(world, shapes, descs, stride, count);
+  };
+}
+void sleepers_hang_over_pits() {
+  liar.modify.shapes = [](PlumbWorld* world, const PlumbShape* shapes, const PlumbShapeDesc* descs, std::size_t stride,
+                          std::uint32_t count) {
+    const PlumbResult result = honest.modify.shapes(world, shapes, descs, stride, count);
+    put_all_to_sleep(world);
+    return result;
+  };
+}
+void first_of_bad_grounds_is_another() {
+  liar.modify.shapes = [](PlumbWorld* world, const PlumbShape* shapes, const PlumbShapeDesc* descs, std::size_t stride,
+                          std::uint32_t count) {
+    const PlumbResult result = honest.modify.shapes(world, shapes, descs, stride, count);
+    if (result < 0 && count == 2) honest.modify.shapes(world, shapes, descs, stride, 1);
+    return result;
+  };
+}
+void snapshots_know_no_ground() { any_snapshot_is_restored(); }
 
 void springs_are_those_of_one_hertz() {
   liar.modify.joints = [](PlumbWorld* world, const PlumbJointChange* changes, std::size_t stride, std::uint32_t count) {

@@ -131,6 +131,7 @@ class Fuzzer {
     table_.destroy_world(companion_);
     companion_ = nullptr;
     shapes_.clear();
+    surfaces_.clear();
     bodies_.clear();
     joint_ids_.clear();
     PlumbNeeds offered = 0;
@@ -145,39 +146,84 @@ class Fuzzer {
     if (table_.create_world(&desc, &companion_) < 0) broken_ = "a second world cannot be made";
   }
 
-  void create_shape() {
-    PlumbShapeDesc desc = plumb::shape_desc(below(PLUMB_SHAPE_TYPE_COUNT + 1));
+  /// What a shape may be made of, with the arrays that it is made of.
+  struct ShapeArrays {
+    PlumbShapeDesc desc = plumb::shape_desc(PLUMB_SPHERE);
+    std::vector<double> vertices, heights;
+    std::vector<std::uint32_t> indices, triangle_materials;
+    std::vector<PlumbCompoundChild> children;
+    std::vector<PlumbMaterial> materials;
+
+    const PlumbShapeDesc* pointing() {
+      desc.vertices = vertices.data();
+      desc.indices = indices.data();
+      desc.heights = heights.data();
+      desc.children = children.data();
+      desc.materials = materials.data();
+      desc.triangle_materials = triangle_materials.data();
+      return &desc;
+    }
+  };
+
+  ShapeArrays shape_of(PlumbShapeType type) {
+    ShapeArrays made;
+    PlumbShapeDesc& desc = made.desc;
+    desc.type = type;
     desc.radius = positive();
     desc.half_height = positive();
     desc.half_extents = {positive(), positive(), positive()};
-    std::vector<double> vertices(3 * (3 + below(12)));
-    for (double& v : vertices) v = chance(400) ? number() : std::uniform_real_distribution<double>(-1, 1)(random_);
-    desc.vertices = chance(40) ? nullptr : vertices.data();
-    desc.vertex_count = static_cast<std::uint32_t>(vertices.size() / 3);
-    std::vector<std::uint32_t> indices(3 * (1 + below(8)));
-    for (std::uint32_t& index : indices) index = below(desc.vertex_count + (chance(50) ? 1 : 0));
-    desc.indices = indices.data();
-    desc.triangle_count = static_cast<std::uint32_t>(indices.size() / 3);
-    std::vector<double> heights(36);
-    for (double& h : heights) h = std::uniform_real_distribution<double>(-0.2, 0.2)(random_);
-    desc.heights = heights.data();
+    made.vertices.resize(3 * (3 + below(12)));
+    for (double& v : made.vertices) v = chance(400) ? number() : std::uniform_real_distribution<double>(-1, 1)(random_);
+    desc.vertex_count = static_cast<std::uint32_t>(made.vertices.size() / 3);
+    made.indices.resize(3 * (1 + below(8)));
+    for (std::uint32_t& index : made.indices) index = below(desc.vertex_count + (chance(50) ? 1 : 0));
+    desc.triangle_count = static_cast<std::uint32_t>(made.indices.size() / 3);
+    made.heights.resize(36);
+    for (double& h : made.heights) h = std::uniform_real_distribution<double>(-0.2, 0.2)(random_);
     desc.rows = desc.columns = below(7);
     desc.spacing = {positive(), 0, positive()};
-    std::vector<PlumbCompoundChild> children(below(4));
-    for (PlumbCompoundChild& child : children)
+    made.children.resize(below(4));
+    for (PlumbCompoundChild& child : made.children)
       child = {handle(shapes_), {vector(), unit()}, chance(4) ? 1u : 0u, 0, {0.5, 0, {0, 0, 0}}};
-    desc.children = children.data();
-    desc.child_count = static_cast<std::uint32_t>(children.size());
-    PlumbMaterial materials[3];
-    for (PlumbMaterial& material : materials) material = {positive(), chance(4) ? positive() : 0, {0, 0, 0}};
-    std::vector<std::uint32_t> of(50);  // as many as a shape has here at most
-    for (std::uint32_t& row : of) row = chance(3) ? PLUMB_BODY_MATERIAL : below(chance(1000) ? 4 : 3);
-    desc.materials = materials;
-    desc.triangle_materials = of.data();
+    desc.child_count = static_cast<std::uint32_t>(made.children.size());
+    made.materials.resize(3);
+    for (PlumbMaterial& material : made.materials) material = {positive(), chance(4) ? positive() : 0, {0, 0, 0}};
+    made.triangle_materials.resize(50);  // as many as a shape has here at most
+    for (std::uint32_t& row : made.triangle_materials)
+      row = chance(3) ? PLUMB_BODY_MATERIAL : below(chance(1000) ? 4 : 3);
     desc.material_count = chance(3) ? 3 : 0;
+    return made;
+  }
+
+  void create_shape() {
+    ShapeArrays made = shape_of(below(PLUMB_SHAPE_TYPE_COUNT + 1));
+    PlumbShapeDesc desc = *made.pointing();
+    if (chance(40)) desc.vertices = nullptr;
     if (chance(60)) desc.struct_size = below(500);
     PlumbShape id = 0;
-    if (judge(table_.create_shapes(world_, chance(200) ? nullptr : &desc, sizeof desc, 1, &id))) shapes_.push_back(id);
+    if (!judge(table_.create_shapes(world_, chance(200) ? nullptr : &desc, sizeof desc, 1, &id))) return;
+    shapes_.push_back(id);
+    if (desc.type == PLUMB_TRIANGLE_MESH || desc.type == PLUMB_HEIGHT_FIELD)
+      surfaces_.emplace_back(id, std::move(made));
+  }
+
+  /// A surface becomes another, or bends where it was.
+  void modify_shape() {
+    if (modify_ == nullptr || surfaces_.empty()) return;
+    auto& [known, before] = surfaces_[below(static_cast<std::uint32_t>(surfaces_.size()))];
+    ShapeArrays other = before;
+    if (chance(4)) {
+      other = shape_of(before.desc.type);
+    } else {
+      for (std::vector<double>* places : {&other.vertices, &other.heights})
+        for (double& x : *places)
+          if (chance(3)) x += std::uniform_real_distribution<double>(-0.1, 0.1)(random_);
+    }
+    const PlumbShape id = chance(20) ? handle(shapes_) : known;
+    if (judge(modify_->shapes(world_, chance(60) ? nullptr : &id, other.pointing(), chance(60) ? 8 : sizeof other.desc,
+                              1)) &&
+        id == known)
+      before = std::move(other);
   }
 
   void create_bodies() {
@@ -493,7 +539,7 @@ class Fuzzer {
       case 12: return destroy_some();
       case 13: return except();
       case 14:
-      case 15: return chance(2) ? modify_bodies() : modify_joint();
+      case 15: return chance(3) ? modify_shape() : chance(2) ? modify_bodies() : modify_joint();
       case 16: return chance(10) ? group() : step();
       default: return step();
     }
@@ -516,6 +562,7 @@ class Fuzzer {
   const PlumbWorldsTable* worlds_ = nullptr;
   const PlumbClosestTable* closest_ = nullptr;
   std::vector<std::uint64_t> shapes_, bodies_, joint_ids_;
+  std::vector<std::pair<PlumbShape, ShapeArrays>> surfaces_;  ///< with what they are; some are gone
   double last_dt_ = 0;
   std::uint64_t calls_ = 0, digest_ = 0xcbf29ce484222325U, refused_ = 0, done_ = 0, worlds_lost_ = 0;
   const char* broken_ = nullptr;

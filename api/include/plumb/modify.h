@@ -1,4 +1,4 @@
-/* plumb.modify/1: bodies and joints that become others while they live. Since 1.2.
+/* plumb.modify/1: bodies, joints and shapes that become others while they live. Since 1.2.
  *
  * A handle stays what it was: its filters, material, excluded pairs, joints and user data stay, and nobody else's order
  * changes. Materials, gravity scales, damping, filters, velocities and poses are fields (bodies.h); here is what no row
@@ -9,6 +9,7 @@
 
 #include "plumb/bodies.h"
 #include "plumb/joints.h"
+#include "plumb/shapes.h"
 #include "plumb/types.h"
 
 #ifdef __cplusplus
@@ -81,14 +82,21 @@ typedef struct PlumbJointChange {
 
 /* All or none; a body or joint stands in a call once. What sleeps and is changed, or rested on what is changed, wakes.
  * Contacts that a change ends, or begins, are told by the events of the next step. A snapshot of bodies with other
- * motions, shapes, masses, flags or locks is PLUMB_E_CORRUPT until they are as they were. stride is sizeof the caller's
- * row. */
+ * motions, shapes, masses, flags or locks is PLUMB_E_CORRUPT until they are as they were, and so is one of shapes that
+ * are others. stride is sizeof the caller's row. */
 typedef struct PlumbModifyTable {
   uint32_t struct_size;
   uint32_t reserved;
   PlumbResult (*bodies)(PlumbWorld* world, const PlumbBodyChange* changes, size_t stride, uint32_t count); /* [world] */
   PlumbResult (*joints)(PlumbWorld* world, const PlumbJointChange* changes, size_t stride,
                         uint32_t count); /* [world] */
+  /* [world] Terrain that is dug, surfaces that bend: shapes[i] becomes what descs[i] says, whole and of the type that
+   * it has, for all bodies that have it; their masses stay. What sleeps where the surface is another wakes; elsewhere
+   * contacts and sleep go on. An engine finds by itself what differs: a mesh with the same indices, or a height field
+   * of the same rows, columns and spacing, costs far less than one made anew. user_data is not read. From then on a
+   * snapshot of a whole world knows the shape by what it is now. */
+  PlumbResult (*shapes)(PlumbWorld* world, const PlumbShape* shapes, const PlumbShapeDesc* descs, size_t stride,
+                        uint32_t count);
 } PlumbModifyTable;
 
 #ifdef __cplusplus

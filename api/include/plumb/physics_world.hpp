@@ -223,14 +223,17 @@ class IExceptions {
   virtual PlumbResult list_exceptions(std::span<const PlumbBodyPair>& /*pairs*/) { return PLUMB_E_UNSUPPORTED; }
 };
 
-/// plumb.modify/1. A backend gets living bodies and joints, each once. Of bodies all members are what they will be,
-/// with the mass explicit; what says which of them differ. Of joints the members named by what are checked; modify.hpp
-/// puts them into a descriptor.
+/// plumb.modify/1. A backend gets living bodies, joints and shapes, each once. Of bodies all members are what they will
+/// be, with the mass explicit; what says which of them differ. Of joints the members named by what are checked;
+/// modify.hpp puts them into a descriptor. Shapes keep their types.
 class IModify {
  public:
   virtual ~IModify() = default;
   virtual PlumbResult modify_bodies(std::span<const PlumbBodyChange> changes) = 0;
   virtual PlumbResult modify_joints(std::span<const PlumbJointChange> changes) = 0;
+  virtual PlumbResult modify_shapes(std::span<const PlumbShape> /*shapes*/, std::span<const PlumbShapeDesc> /*descs*/) {
+    return PLUMB_E_UNSUPPORTED;
+  }
 };
 
 /// plumb.manifolds/1. A backend gets changes of what was read last, each manifold once, with numbers that are checked.

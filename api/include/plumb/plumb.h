@@ -90,7 +90,7 @@ enum {
   PLUMB_CAP_SNAPSHOT = 11,          /* 0: of what moves, 1: of the whole world */
   PLUMB_CAP_HOST_JOBS = 12,         /* runs its tasks on PlumbHost.run */
   PLUMB_CAP_CHILD_MATERIAL = 13,    /* materials of compound children */
-  PLUMB_CAP_MODIFY = 14,            /* 0: bodies, 1: joints; index of a PLUMB_MODIFY_ bit. Since 1.2 */
+  PLUMB_CAP_MODIFY = 14,            /* 0: bodies, 1: joints; index of a PLUMB_MODIFY_ bit. 2: shapes; type. Since 1.2 */
   PLUMB_CAP_MANIFOLD = 15,          /* index of a PLUMB_MANIFOLD_ bit. Since 1.2 */
   PLUMB_CAP_CLOSEST = 16,           /* shape type of the probe: bodies of every shape are seen. Since 1.2 */
   PLUMB_CAP_TRIANGLE_MATERIAL = 17, /* shape type: PlumbShapeDesc.materials. Since 1.2 */

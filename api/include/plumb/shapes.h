@@ -1,4 +1,5 @@
-/* Collision shapes. A shape is immutable and may be shared by any number of bodies of its world. */
+/* Collision shapes. A shape may be shared by any number of bodies of its world, and stays what it is; but for meshes
+ * and height fields, which modify.h lets become others where the backend can. */
 #ifndef PLUMB_SHAPES_H
 #define PLUMB_SHAPES_H
 

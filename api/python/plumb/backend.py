@@ -67,6 +67,7 @@ class Modifiable(IntEnum):
 
     BODIES = 0
     JOINTS = 1
+    SHAPES = 2
 
 
 def _by_index(bits: Type[IntFlag]) -> Type[IntEnum]:
@@ -101,6 +102,8 @@ def _takes(kind: CapabilityKind, first: Union[IntEnum, str, None]) -> Tuple[Type
         return takes[:1]
     if kind == CapabilityKind.MODIFY and first in (Modifiable.JOINTS, "joints"):
         return (Modifiable, _JOINT_MEMBERS)
+    if kind == CapabilityKind.MODIFY and first in (Modifiable.SHAPES, "shapes"):
+        return (Modifiable, ShapeType)
     return takes
 
 
@@ -171,7 +174,8 @@ class Backend:
     def capability(self, kind: Union[CapabilityKind, str], *arguments: Union[IntEnum, str]) -> Capability:
         """How truly the engine has a thing: shape (type, motion), pair (type, type), joint (type), joint_feature (type,
         feature), query (kind, type of what is cast), field_read, field_write (field), need, event, phase_time (word),
-        residual, snapshot, host_jobs, child_material (), modify ("bodies", BodyMember or "joints", JointMember),
+        residual, snapshot, host_jobs, child_material (), modify ("bodies", BodyMember, "joints",
+        JointMember or "shapes", ShapeType),
         manifold (ContactChange), triangle_material (type)."""
         which = pick(CapabilityKind, kind, "capability")
         takes = _takes(which, arguments[0] if arguments else None)

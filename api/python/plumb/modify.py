@@ -1,4 +1,4 @@
-"""plumb.modify/1: bodies and joints that become others while they live. Their handles stay what they were.
+"""plumb.modify/1: bodies, joints and shapes that become others while they live. Their handles stay what they were.
 
 >>> import plumb
 >>> world = plumb.open("impulse").world(needs=["rotation", "collision", "friction"])
@@ -20,12 +20,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _core
-from ._arrays import Handle, handle
+from ._arrays import Handle, Handles, handle, handles
 from ._words import pick, pick_bits
 from .bodies import BodyDesc
 from .enums import AxisMode, BodyFlag, BodyMember, JointMember, Lock, MassMode, Motion
 from .joints import JointDesc, Limit, Motor, Spring, StiffSpring
-from .shapes import Vec3
+from .shapes import ShapeDesc, Vec3, described_shapes
 
 
 @dataclass
@@ -171,3 +171,21 @@ class Modify:
         for i, change in enumerate(changes):
             change._fill(rows[i : i + 1], f"changes[{i}]")
         self._core.modify_joints(rows)
+
+    def shapes(self, shapes: Union[Handle, Handles], others: Sequence[ShapeDesc]) -> None:
+        """shapes[i] becomes others[i], whole and of the type that it has (TriangleMesh, HeightField), for all bodies
+        that have it. All or none; each shape once. What sleeps where the surface is another wakes.
+
+        >>> import plumb
+        >>> with plumb.open("impulse").world(["rotation", "collision", "friction"]) as world:
+        ...     heights = np.zeros((9, 9))
+        ...     ground = world.create_shape(plumb.HeightField(heights, (1, 1)))
+        ...     _ = world.create_body(plumb.BodyDesc(ground, "static"))
+        ...     ball = world.create_body(plumb.BodyDesc(world.create_shape(plumb.Sphere(0.5)), position=(0, 0.5, 0)))
+        ...     heights[3:6, 3:6] = -2  # a hole under the ball
+        ...     world.modify.shapes(ground, [plumb.HeightField(heights, (1, 1))])
+        ...     _ = [world.step(1 / 60) for _ in range(120)]
+        ...     print(f"it lies at {world.read('pose', ball)[1]:.1f} m")
+        it lies at -1.5 m
+        """
+        self._core.modify_shapes(handles(shapes, "shapes"), described_shapes(others))

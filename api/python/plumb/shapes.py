@@ -1,4 +1,4 @@
-"""Descriptors of collision shapes. A shape is immutable, and any number of bodies of its world may share it.
+"""Descriptors of collision shapes, which any number of bodies of a world may share.
 
 >>> import plumb
 >>> with plumb.open("impulse").world(needs=["rotation", "collision"]) as world:
@@ -10,7 +10,7 @@ True
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Optional, Sequence, Tuple, Union
+from typing import List, Optional, Sequence, Tuple, Union
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -226,3 +226,11 @@ class Compound:
 
 ShapeDesc = Union[Sphere, Box, Capsule, Cylinder, ConvexHull, TriangleMesh, HeightField, Plane, Compound]
 """What World.create_shape takes."""
+
+
+def described_shapes(shapes: Sequence[ShapeDesc]) -> List[_core.Shape]:
+    """What World.create_shapes hands to the backend."""
+    for i, shape in enumerate(shapes):
+        if not hasattr(shape, "_described"):
+            raise TypeError(f"shapes[{i}] must be a Sphere, Box or another shape, not {shape!r}")
+    return [shape._described() for shape in shapes]

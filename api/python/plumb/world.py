@@ -30,7 +30,7 @@ from .queries import Collide, Debug, Queries
 from .modify import Modify
 from .report import StepReport
 from .settings import Settings
-from .shapes import ShapeDesc, Vec3
+from .shapes import ShapeDesc, Vec3, described_shapes
 from .snapshot import Exceptions, Snapshot
 from .state import State
 
@@ -95,12 +95,7 @@ class World:
 
     def create_shapes(self, shapes: Sequence[ShapeDesc]) -> NDArray[np.uint64]:
         """All or none. Gives their handles."""
-        described: List[_core.Shape] = []
-        for i, shape in enumerate(shapes):
-            if not hasattr(shape, "_described"):
-                raise TypeError(f"shapes[{i}] must be a Sphere, Box or another shape, not {shape!r}")
-            described.append(shape._described())
-        return self._core.create_shapes(described)
+        return self._core.create_shapes(described_shapes(shapes))
 
     def destroy_shapes(self, shapes: Union[Handle, Handles]) -> None:
         """One or many; all or none. A shape that a body or compound still uses is an Error of IN_USE."""

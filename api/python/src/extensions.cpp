@@ -1,5 +1,6 @@
 // Calls of the extensions that change or save a world: joints, changes, settings, snapshots, excluded pairs.
 #include "numbers.hpp"
+#include "shapes.hpp"
 #include "world.hpp"
 
 namespace plumb::python {
@@ -56,6 +57,20 @@ void modify_joints(World& world, const py::array& rows) {
   const auto changes = rows_of<PlumbJointChange>(rows, "changes");
   world.call(Tag::world, "modify.joints", [&](const PlumbBackendTable&, PlumbWorld* self) {
     return modify.joints(self, changes.data(), sizeof(PlumbJointChange), count_of(changes.size()));
+  });
+}
+
+void modify_shapes(World& world, const Handles& ids, const std::vector<const Shape*>& others) {
+  const auto& modify = world.extension<PlumbModifyTable>(PLUMB_EXT_MODIFY);
+  if (ids.size() != static_cast<py::ssize_t>(others.size()))
+    throw Error(PLUMB_E_INVALID_ARGUMENT, std::to_string(ids.size()) + " shapes become " +
+                                              std::to_string(others.size()) + " others; give as many");
+  if (!has(modify, &PlumbModifyTable::shapes))
+    throw Error(PLUMB_E_UNSUPPORTED, "the backend is older than changes of shapes; get a newer one");
+  std::vector<PlumbShapeDesc> descs;
+  for (const Shape* shape : others) descs.push_back(shape->pointing());
+  world.call(Tag::world, "modify.shapes", [&](const PlumbBackendTable&, PlumbWorld* self) {
+    return modify.shapes(self, ids.data(), descs.data(), sizeof(PlumbShapeDesc), count_of(descs.size()));
   });
 }
 
@@ -157,6 +172,7 @@ void bind_extensions(WorldClass& world) {
       .def("write_joints", &write_joints)
       .def("modify_bodies", &modify_bodies)
       .def("modify_joints", &modify_joints)
+      .def("modify_shapes", &modify_shapes)
       .def("read_manifolds", &read_manifolds)
       .def("modify_manifolds", &modify_manifolds)
       .def("get_setting", &get_setting)

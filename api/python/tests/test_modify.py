@@ -26,6 +26,23 @@ class Modify(unittest.TestCase):
             self.assertEqual(world.read("pose", falls)[1], there)
             self.assertLess(world.read("pose", stays)[1], 9)
 
+    @on_each("rotation", "collision", "friction", asked=able_to("shapes", "height_field"))
+    def test_ground(self, engine):
+        with engine.world(["rotation", "collision", "friction"]) as world:
+            heights = np.zeros((9, 9))
+            ground = world.create_shape(plumb.HeightField(heights, (1, 1)))
+            world.create_body(plumb.BodyDesc(ground, "static"))
+            ball = world.create_body(plumb.BodyDesc(world.create_shape(plumb.Sphere(0.5)), position=(0, 0.5, 0)))
+            steps(world, 10)
+            heights[3:6, 3:6] = -1
+            world.modify.shapes(ground, [plumb.HeightField(heights, (1, 1))])
+            steps(world, 120)
+            self.assertAlmostEqual(world.read("pose", ball)[1], -0.5, delta=0.05)
+            with self.assertRaisesRegex(plumb.Error, "type is sphere"):
+                world.modify.shapes([ground], [plumb.Sphere(1)])
+            with self.assertRaisesRegex(plumb.Error, "1 shapes become 2 others"):
+                world.modify.shapes([ground], [plumb.HeightField(heights, (1, 1))] * 2)
+
     @on_each("rotation", "collision", "friction", asked=able_to("bodies", "shape", "mass"))
     def test_shape_and_mass(self, engine):
         with engine.world(["rotation", "collision", "friction"]) as world:

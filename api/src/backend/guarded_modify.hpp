@@ -42,7 +42,35 @@ class GuardedModify : public GuardedExtensions {
     return result;
   }
 
+  PlumbResult modify_shapes(const PlumbShape* shapes, const PlumbShapeDesc* descs, std::size_t stride,
+                            std::uint32_t count) {
+    IModify& extension = require_extension(world_->modify(), PLUMB_EXT_MODIFY);
+    const auto handles = distinct_live(shapes_, shapes, count, "shapes");
+    const std::vector<PlumbShapeDesc> adopted = adopt_descs(descs, stride, count, "descs", kShapeDesc10);
+    std::vector<ShapeRecord> records(count);
+    for (std::uint32_t i = 0; i < count; ++i) records[i] = examine_shape_change({"descs", i}, handles[i], adopted[i]);
+    const PlumbResult result = done(extension.modify_shapes(handles, adopted));
+    for (std::uint32_t i = 0; i < count; ++i) {
+      records[i].uses = shapes_[handles[i]].uses;
+      shapes_[handles[i]] = std::move(records[i]);
+    }
+    return result;
+  }
+
  private:
+  ShapeRecord examine_shape_change(const Where& where, PlumbShape shape, const PlumbShapeDesc& desc) const {
+    const PlumbShapeType type = shapes_[shape].type;
+    if (!may_change(type))
+      refuse(PLUMB_E_UNSUPPORTED,
+             std::string("a ") + shape_name(type) +
+                 " does not change; only meshes and height fields do: give its bodies another shape");
+    require_capability(PLUMB_CAP_MODIFY, 2, type, std::string("way to change a ") + shape_name(type));
+    if (desc.type != type)
+      refuse(PLUMB_E_INVALID_ARGUMENT, where.member("type") + " is " + shape_name(desc.type) + ", but the shape is a " +
+                                           shape_name(type) + "; give its bodies another shape instead");
+    return examine_shape(where, desc);
+  }
+
   template <class Record, class Change>
   static void require_each_once(const SlotTable<Record>& table, std::span<const Change> changes,
                                 std::uint64_t Change::*handle, const char* name) {

@@ -32,8 +32,8 @@ class GuardedSnapshot : public GuardedModify {
     if (!saved.world.empty()) return restore_world(saved);
     if (saved.objects != hash_of_objects())
       refuse(PLUMB_E_CORRUPT,
-             "other bodies or joints live in the world than when the snapshot was saved, or bodies were made others; "
-             "save_world saves those, too");
+             "other bodies or joints live in the world than when the snapshot was saved, or bodies or shapes were made "
+             "others; save_world saves bodies and joints, too");
     check_saved_exceptions(saved.exceptions, bodies_);
     const PairExceptions::Pairs rejoined = PairExceptions::difference(exceptions_.list(), saved.exceptions);
     const PairExceptions::Pairs parted = PairExceptions::difference(saved.exceptions, exceptions_.list());
@@ -78,6 +78,7 @@ class GuardedSnapshot : public GuardedModify {
       const BodyRecord& body = bodies_[handle];
       hash.add_word(handle);
       hash.add_word(body.shape);
+      if (body.shape != 0 && may_change(shapes_[body.shape].type)) hash.add_word(shapes_[body.shape].content);
       hash.add_word(std::uint64_t{body.flags} << 32 | body.locks << 8 | body.motion);
       if (body.motion == PLUMB_DYNAMIC)
         for (const double number : body.mass_row) hash.add(number);

@@ -400,7 +400,6 @@ class GuardedWorld {
     if ((desc.flags & PLUMB_BODY_NO_ROTATION) != 0) desc.inertia = {0, 0, 0};
   }
 
- private:
   ShapeRecord examine_shape(const Where& where, const PlumbShapeDesc& desc) const {
     check_shape(where, desc);
     const char* note = "";
@@ -446,6 +445,7 @@ class GuardedWorld {
     return record;
   }
 
+ private:
   void check_field(PlumbField field, PlumbDataType type, std::uint32_t count, const void* rows, std::size_t stride,
                    PlumbCapability access) const {
     if (field >= PLUMB_FIELD_COUNT)

@@ -22,7 +22,7 @@ struct SnapshotHeader {
   std::uint64_t hash;  ///< of the header without it, and of all that follows
 };
 
-inline constexpr std::uint32_t kSnapshotVersion = 5;
+inline constexpr std::uint32_t kSnapshotVersion = 6;
 
 inline std::uint64_t hash_bytes(std::span<const std::byte> bytes) {
   StateHash hash;

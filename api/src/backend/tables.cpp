@@ -51,7 +51,8 @@ const PlumbExceptionsTable kExceptionsTable = {sizeof(PlumbExceptionsTable), 0,
                                                &Entry<&GuardedExtensions::set_exceptions>::call,
                                                &Entry<&GuardedExtensions::list_exceptions>::call};
 const PlumbModifyTable kModifyTable = {sizeof(PlumbModifyTable), 0, &Entry<&GuardedModify::modify_bodies>::call,
-                                       &Entry<&GuardedModify::modify_joints>::call};
+                                       &Entry<&GuardedModify::modify_joints>::call,
+                                       &Entry<&GuardedModify::modify_shapes>::call};
 const PlumbManifoldsTable kManifoldsTable = {sizeof(PlumbManifoldsTable), 0,
                                              &Entry<&GuardedManifolds::read_manifolds>::call,
                                              &Entry<&GuardedManifolds::modify_manifolds>::call};

@@ -219,6 +219,11 @@ PlumbResult again(CallTag<call>, Decoding& d,
   const auto rows = d.in.get_bytes(present ? stride * count : 0);
   return next(d.to.world, field, type, ids.data(), ids.count, present ? rows.data() : nullptr, stride);
 }
+inline PlumbResult again(CallTag<Call::modify_shapes>, Decoding& d, decltype(PlumbModifyTable::shapes) next) {
+  auto shapes = d.handles(Objects::shapes);
+  auto descs = d.rows<PlumbShapeDesc>();
+  return next(d.to.world, shapes.data(), descs.data(), descs.stride, descs.count);
+}
 template <class Forward>
 PlumbResult again_hits(Decoding& d, Forward&& forward) {
   auto hits = d.room<PlumbHit>();

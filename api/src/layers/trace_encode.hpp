@@ -281,7 +281,12 @@ inline void encode(CallTag<Call::state_rows>, Encoding e, PlumbBody* ids, std::u
   e.room(ids, capacity);
   if (e.done()) e.output(*count, {});
 }
-// modify.*, manifolds.modify
+inline void encode(CallTag<Call::modify_shapes>, Encoding e, const PlumbShape* shapes, const PlumbShapeDesc* descs,
+                   std::size_t stride, std::uint32_t count) {
+  e.handles(shapes, count, Objects::shapes);
+  e.rows(descs, stride, count);
+}
+// modify.bodies, modify.joints, manifolds.modify
 template <Call call, class Change>
 void encode(CallTag<call>, Encoding e, const Change* changes, std::size_t stride, std::uint32_t count) {
   e.rows(changes, stride, count);

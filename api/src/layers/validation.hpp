@@ -75,6 +75,8 @@ class ValidationLayer : public LayerBase {
   PlumbResult run(CallTag<Call::collide_pairs>, ValidatedWorld&, PlumbWorld*, const PlumbPosedPair* pairs,
                   std::size_t stride, std::uint32_t count, PlumbPairResult* results, PlumbPairPoint* points,
                   std::uint32_t capacity, std::uint32_t* point_count);
+  PlumbResult run(CallTag<Call::modify_shapes>, ValidatedWorld&, PlumbWorld*, const PlumbShape* shapes,
+                  const PlumbShapeDesc* descs, std::size_t stride, std::uint32_t count);
   PlumbResult run(CallTag<Call::exceptions_set>, ValidatedWorld&, PlumbWorld*, const PlumbBodyPair* pairs,
                   std::size_t stride, std::uint32_t count, std::uint32_t touch);
   template <Call call, class Change>

@@ -44,6 +44,14 @@ inline PlumbResult ValidationLayer::run(CallTag<Call::exceptions_set>, Validated
   return next<Call::exceptions_set>()(world, pairs, stride, count, touch);
 }
 
+inline PlumbResult ValidationLayer::run(CallTag<Call::modify_shapes>, ValidatedWorld&, PlumbWorld* world,
+                                        const PlumbShape* shapes, const PlumbShapeDesc* descs, std::size_t stride,
+                                        std::uint32_t count) {
+  require_memory(shapes, count, "shapes");
+  require_descs(descs, stride, count);
+  return next<Call::modify_shapes>()(world, shapes, descs, stride, count);
+}
+
 template <Call call, class Change>
 PlumbResult ValidationLayer::run(CallTag<call>, ValidatedWorld&, PlumbWorld* world, const Change* changes,
                                  std::size_t stride, std::uint32_t count) {

@@ -86,6 +86,11 @@ export class World {
     this.#call('plumb_modify_joints',
       () => this.#memory.putStructs(LAYOUT.jointChange, [jointChangeOf(joint, options)]), 1);
   }
+  /** A mesh or height field with other vertices or heights, whole as when it was made, for all bodies that have it. */
+  modifyShape(shape, options) {
+    this.#call('plumb_modify_shapes', this.#ids([shape]),
+      () => this.#memory.putStructs(LAYOUT.shape, [shapeOf(this.#memory, options)]), 1);
+  }
   /** Whether two bodies touch, whatever their filters say; true gives the filters their say back. */
   setPairTouches(a, b, touch) {
     this.#call('plumb_set_exceptions', () => this.#memory.putStructs(LAYOUT.pair, [{ a, b }]), 1, touch ? 1 : 0);

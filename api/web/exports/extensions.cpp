@@ -114,6 +114,13 @@ PLUMB_WEB(PlumbResult, plumb_modify_joints)
   });
 }
 
+PLUMB_WEB(PlumbResult, plumb_modify_shapes)
+(IPhysicsWorld* world, const PlumbShape* shapes, const PlumbShapeDesc* descs, std::uint32_t count) {
+  return with(*world, world->modify(), "changes of shapes", [&](auto& modify) {
+    return modify.modify_shapes({shapes, count}, {descs, count});
+  });
+}
+
 /// How many there are, or a result below 0; they live until the next call on the world.
 PLUMB_WEB(std::int32_t, plumb_read_manifolds)(IPhysicsWorld* world, const PlumbManifold** rows) {
   std::span<const PlumbManifold> found;

@@ -58,12 +58,50 @@ std::vector<std::uint32_t> first_at_place(Executor& executor, std::span<const Pl
   return first;
 }
 
+/// For each vertex the number of its place, by the order of their first vertices.
+std::vector<std::uint32_t> number_corners(Executor& executor, std::span<const PlumbVec3> vertices) {
+  const std::vector<std::uint32_t> first = first_at_place(executor, vertices);
+  std::vector<std::uint32_t> corner_of(vertices.size());
+  std::uint32_t corners = 0;
+  for (std::uint32_t i = 0; i < vertices.size(); ++i) corner_of[i] = first[i] == i ? corners++ : corner_of[first[i]];
+  return corner_of;
+}
+
 }  // namespace
 
+MeshPlaces place_corners(std::span<const PlumbVec3> vertices, std::span<const std::uint32_t> corner_of) {
+  PlumbVec3 low = vertices[0], high = vertices[0];
+  for (const PlumbVec3& v : vertices) {
+    low = {std::min(low.x, v.x), std::min(low.y, v.y), std::min(low.z, v.z)};
+    high = {std::max(high.x, v.x), std::max(high.y, v.y), std::max(high.z, v.z)};
+  }
+  MeshPlaces places = {
+      {0.5 * (low.x + high.x), 0.5 * (low.y + high.y), 0.5 * (low.z + high.z)}, {0, 0, 0}, 0, {}, true};
+  std::vector<std::uint32_t> first;
+  for (std::uint32_t i = 0; i < vertices.size(); ++i) {
+    const PlumbVec3& v = vertices[i];
+    if (corner_of[i] != first.size()) {
+      places.joined = places.joined && same_place(v, vertices[first[corner_of[i]]]);
+      continue;
+    }
+    first.push_back(i);
+    const Vec at = {static_cast<Real>(v.x - places.centre.x), static_cast<Real>(v.y - places.centre.y),
+                    static_cast<Real>(v.z - places.centre.z)};
+    places.corners.push_back(at);
+    places.half = max(places.half, abs(at));
+    places.reach = max(places.reach, length(at));
+  }
+  return places;
+}
+
+Box box_of(const MeshTriangle& triangle, const Vec* corners) {
+  const Vec &a = corners[triangle.corner[0]], &b = corners[triangle.corner[1]], &c = corners[triangle.corner[2]];
+  return has_area(a, b, c) ? Box{min(a, min(b, c)), max(a, max(b, c))} : empty_box();
+}
+
 MeshTopology::MeshTopology(Executor& executor, std::span<const PlumbVec3> vertices,
-                           std::span<const std::uint32_t> indices) {
-  std::vector<std::uint32_t> corner_of;
-  place_corners(executor, vertices, corner_of);
+                           std::span<const std::uint32_t> indices)
+    : corner_of(number_corners(executor, vertices)), places(place_corners(vertices, corner_of)) {
   triangles.resize(indices.size() / 3);
   boxes.resize(triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t) {
@@ -72,34 +110,9 @@ MeshTopology::MeshTopology(Executor& executor, std::span<const PlumbVec3> vertic
       triangle.corner[k] = corner_of[indices[3 * t + k]];
       triangle.across[k] = kNoCorner;
     }
-    const Vec &a = corners[triangle.corner[0]], &b = corners[triangle.corner[1]], &c = corners[triangle.corner[2]];
-    boxes[t] = has_area(a, b, c) ? Box{min(a, min(b, c)), max(a, max(b, c))} : empty_box();
+    boxes[t] = box_of(triangle, places.corners.data());
   }
   find_neighbours(executor);
-}
-
-void MeshTopology::place_corners(Executor& executor, std::span<const PlumbVec3> vertices,
-                                 std::vector<std::uint32_t>& corner_of) {
-  PlumbVec3 low = vertices[0], high = vertices[0];
-  for (const PlumbVec3& v : vertices) {
-    low = {std::min(low.x, v.x), std::min(low.y, v.y), std::min(low.z, v.z)};
-    high = {std::max(high.x, v.x), std::max(high.y, v.y), std::max(high.z, v.z)};
-  }
-  centre = {0.5 * (low.x + high.x), 0.5 * (low.y + high.y), 0.5 * (low.z + high.z)};
-  const std::vector<std::uint32_t> first = first_at_place(executor, vertices);
-  corner_of.resize(vertices.size());
-  half = {0, 0, 0};
-  reach = 0;
-  for (std::uint32_t i = 0; i < vertices.size(); ++i) {
-    corner_of[i] = first[i] == i ? static_cast<std::uint32_t>(corners.size()) : corner_of[first[i]];
-    if (first[i] != i) continue;
-    const PlumbVec3& v = vertices[i];
-    const Vec at = {static_cast<Real>(v.x - centre.x), static_cast<Real>(v.y - centre.y),
-                    static_cast<Real>(v.z - centre.z)};
-    corners.push_back(at);
-    half = max(half, abs(at));
-    reach = max(reach, length(at));
-  }
 }
 
 void MeshTopology::find_neighbours(Executor& executor) {
@@ -119,7 +132,7 @@ void MeshTopology::find_neighbours(Executor& executor) {
   const std::vector<std::uint32_t> order = order_by_key(executor, keys);
   for (std::size_t i = 0; i < order.size(); ++i) sides[i] = unsorted[order[i]];
   closed = true;
-  first_neighbour.assign(corners.size() + 1, 0);
+  first_neighbour.assign(places.corners.size() + 1, 0);
   for (std::size_t i = 0; i < sides.size();) {
     std::size_t end = i + 1;
     while (end < sides.size() && sides[end].edge() == sides[i].edge()) ++end;

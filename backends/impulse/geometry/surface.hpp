@@ -14,6 +14,8 @@
 
 #include "bvh/tree_view.hpp"
 #include "geometry/material.hpp"
+#include "geometry/shape.hpp"
+
 #include "math/box.hpp"
 
 namespace plumb::impulse {
@@ -30,6 +32,12 @@ struct MeshTriangle {
   std::uint32_t across[3];
 };
 
+/// A surface became another: contacts of earlier steps are of what it was there.
+struct LastChange {
+  std::uint32_t before_step = 0;  ///< 0: it never did
+  Box where{};                    ///< as seen from the middle of the surface's box
+};
+
 /// A mesh; all in the executor's memory.
 struct MeshView {
   const Vec* corners;
@@ -39,6 +47,7 @@ struct MeshView {
   TreeView tree;
   std::uint32_t closed;
   TriangleMaterials materials;
+  LastChange change = {};
 
   PLUMB_HD Vec corner(std::uint32_t v) const { return corners[v]; }
   PLUMB_HD Triangle triangle(std::uint32_t t) const {
@@ -67,6 +76,7 @@ struct HeightView {
   Real spacing_x, spacing_z;
   Real x0, z0;  ///< of corner 0
   TriangleMaterials materials;
+  LastChange change = {};
 
   PLUMB_HD Vec corner(std::uint32_t v) const {
     const std::uint32_t row = v / columns, column = v - row * columns;
@@ -133,6 +143,11 @@ struct Surfaces {
   const HeightView* fields;
   std::uint32_t with_materials;  ///< how many have materials by triangle
   bool operator==(const Surfaces&) const = default;
+
+  /// Of a shape that is one.
+  [[nodiscard]] PLUMB_HD const LastChange& change(const Shape& shape) const {
+    return shape.type == ShapeType::kMesh ? meshes[shape.hull].change : fields[shape.hull].change;
+  }
 };
 
 }  // namespace plumb::impulse

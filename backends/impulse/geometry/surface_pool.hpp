@@ -7,17 +7,10 @@
 #include "bvh/lbvh.hpp"
 #include "exec/table.hpp"
 #include "geometry/surface.hpp"
+#include "geometry/surface_change.hpp"
 #include "plumb/shapes.h"
 
 namespace plumb::impulse {
-
-/// A surface that was added: its row among those of its kind, and what its Shape tells.
-struct AddedSurface {
-  std::uint32_t row;
-  PlumbVec3 centre;  ///< of its box in the frame of the description; the origin of the Shape's frame
-  Vec half;
-  Real reach;
-};
 
 /// Rows are names that stay. A mesh has a tree of its triangles in its own frame, which is right wherever it moves.
 class SurfacePool {
@@ -28,11 +21,22 @@ class SurfacePool {
   void remove_mesh(std::uint32_t row) { remove(meshes_, row); }
   void remove_field(std::uint32_t row) { remove(fields_, row); }
 
-  /// What changed since the last upload goes to where kernels run. Not within a step.
-  void upload(Executor& executor) {
-    mesh_views_.upload(executor);
-    field_views_.upload(executor);
+  /// The surface becomes that of the description, as if it was added. Not within a step. A mesh that is joined as
+  /// before, and a height field of the same grid, cost less than new ones.
+  ChangedSurface change_mesh(Executor& executor, std::uint32_t row, const PlumbShapeDesc& desc);
+  ChangedSurface change_field(std::uint32_t row, const PlumbShapeDesc& desc);
+
+  /// Of a shape that is one of them.
+  [[nodiscard]] const LastChange& last_change(const Shape& shape) const {
+    return shape.type == ShapeType::kMesh ? mesh_views_[shape.hull].change : field_views_[shape.hull].change;
   }
+  void set_last_change(const Shape& shape, const LastChange& change) {
+    (shape.type == ShapeType::kMesh ? mesh_views_.edit(shape.hull).change : field_views_.edit(shape.hull).change) =
+        change;
+  }
+
+  /// What changed since the last upload goes to where kernels run. Not within a step.
+  void upload(Executor& executor);
   /// To be asked for anew after an addition.
   [[nodiscard]] Surfaces device() { return {mesh_views_.device(), field_views_.device(), with_materials_}; }
 
@@ -41,28 +45,44 @@ class SurfacePool {
   struct Materials {
     Buffer<Material> rows;
     Buffer<std::uint32_t> of;
+
+    explicit Materials(const PlumbShapeDesc& desc);
+    [[nodiscard]] bool is_of(const PlumbShapeDesc& desc) const;
+    [[nodiscard]] TriangleMaterials view() const { return {rows.data(), of.data()}; }
   };
   struct Mesh {
-    Buffer<Vec> corners;
-    Buffer<MeshTriangle> triangles;
+    Table<Vec> corners;
+    Table<MeshTriangle> triangles;
     Buffer<std::uint32_t> first_neighbour, neighbours;
     Buffer<TreeNode> nodes;
     Materials materials;
+    std::vector<std::uint32_t> corner_of;  ///< by vertex
+    AddedSurface added;
+    bool closed;
+
+    Mesh(Executor& executor, const PlumbShapeDesc& desc);
+    [[nodiscard]] bool move(Executor& executor, const PlumbShapeDesc& desc, Extent& where);
   };
   struct Field {
-    Buffer<Real> heights;
+    Table<Real> heights;
     Materials materials;
+    AddedSurface added;
+
+    explicit Field(const PlumbShapeDesc& desc);
+    void raise(const PlumbShapeDesc& desc, Extent& where);
   };
 
   template <class T>
-  static std::uint32_t add(std::vector<std::unique_ptr<T>>& all, std::unique_ptr<T> one);
+  static std::uint32_t row_for(std::vector<std::unique_ptr<T>>& all, std::unique_ptr<T> one);
   template <class T>
   void remove(std::vector<std::unique_ptr<T>>& all, std::uint32_t row) {
     if (all[row]->materials.of.size() != 0) --with_materials_;
     all[row].reset();
   }
-  [[nodiscard]] TriangleMaterials add_materials(const PlumbShapeDesc& desc, std::size_t triangles,
-                                                Materials& materials);
+  template <class T>
+  void replace(std::unique_ptr<T>& old, std::unique_ptr<T> other);
+  void show_mesh(std::uint32_t row);
+  void show_field(std::uint32_t row, const PlumbShapeDesc& desc);
 
   std::vector<std::unique_ptr<Mesh>> meshes_;  // by row; none where one was removed
   std::vector<std::unique_ptr<Field>> fields_;

@@ -69,11 +69,13 @@ struct Search {
       const Pair pair = pairs[p];
       const bool surface_a = is_surface(type_of(pair.a)), surface_b = is_surface(type_of(pair.b));
       if (surface_a && surface_b) continue;
-      if ((surface_a || surface_b) && recycle(pair, sink)) continue;
-      if (surface_a || surface_b)
-        triangles(surface_a ? pair.a : pair.b, surface_a ? pair.b : pair.a, TrianglesOf<Sink>{pair, sink});
-      else
+      if (!surface_a && !surface_b) {
         sink(pair, 0, 0);
+        continue;
+      }
+      const std::uint32_t surface = surface_a ? pair.a : pair.b, other = surface_a ? pair.b : pair.a;
+      if (!is_changed(surface, other) && recycle(pair, sink)) continue;
+      triangles(surface, other, TrianglesOf<Sink>{pair, sink});
     }
     for (std::uint32_t k = 0; k < in.planes.count; ++k)
       if (in.filter(mover, in.planes[k]) && reaches(mover, in.planes[k])) sink({mover, in.planes[k]}, 0, 0);
@@ -102,15 +104,22 @@ struct Search {
     return in.work.bodies.mass[in.work.proxies.rows[proxy].body].flags;
   }
 
-  template <class Found>
-  PLUMB_HD void triangles(std::uint32_t surface, std::uint32_t other, const Found& found) const {
+  /// Whether the surface became another before this step where the other is.
+  [[nodiscard]] PLUMB_HD bool is_changed(std::uint32_t surface, std::uint32_t other) const {
+    const Proxies& proxies = in.work.proxies;
+    const LastChange& change = proxies.surfaces.change(proxies.shapes[proxies.rows[surface].shape]);
+    return change.before_step == in.work.parameters->step && overlap(box_on(surface, other), change.where);
+  }
+
+  /// Where the other may be, in the frame of a surface.
+  [[nodiscard]] PLUMB_HD Box box_on(std::uint32_t surface, std::uint32_t other) const {
     const Proxy &a = in.work.proxies.rows[surface], &b = in.work.proxies.rows[other];
     const ShapePose pose_a = shape_pose(a, in.work.bodies.orientation[a.body]),
                     pose_b = shape_pose(b, in.work.bodies.orientation[b.body]);
     const Vec apart =
         between(in.work.bodies.position[a.body], in.work.bodies.position[b.body]) + pose_b.offset - pose_a.offset;
     const Vec place = rotate_back(pose_a.orientation, apart);
-    const Shape &shape = in.work.proxies.shapes[b.shape], &on = in.work.proxies.shapes[a.shape];
+    const Shape& shape = in.work.proxies.shapes[b.shape];
     Box box = shape_box(shape, conjugate(pose_a.orientation) * pose_b.orientation, in.work.proxies.hulls);
     // Rounding must not lose a touch: a few units in the last place of the lengths that enter.
     const Real more = in.work.margins[surface] + in.work.margins[other] + 8 * kEpsilon * (length(place) + shape.reach);
@@ -119,6 +128,13 @@ struct Search {
     if constexpr (kSwept) {
       if ((in.work.bodies.mass[b.body].flags & kBodyContinuous) != 0) cover_way(a, pose_a, in.boxes[other], box);
     }
+    return box;
+  }
+
+  template <class Found>
+  PLUMB_HD void triangles(std::uint32_t surface, std::uint32_t other, const Found& found) const {
+    const Box box = box_on(surface, other);
+    const Shape& on = in.work.proxies.shapes[in.work.proxies.rows[surface].shape];
     if (!overlap(box, Box{-on.size, on.size})) return;
     if (on.type == ShapeType::kMesh)
       in.work.proxies.surfaces.meshes[on.hull].overlaps(box, found);

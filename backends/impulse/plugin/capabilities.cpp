@@ -3,6 +3,7 @@
 
 #include "plugin/physics_revision.hpp"
 #include "plugin/world.hpp"
+#include "plumb/backend/modify.hpp"
 #include "plumb/backend/usual_capability.hpp"
 
 namespace plumb::impulse {
@@ -45,6 +46,7 @@ Capability known(PlumbCapability kind, std::uint32_t a, std::uint32_t b) {
     case PLUMB_CAP_PHASE_TIME: return phase_time(a);
     case PLUMB_CAP_RESIDUAL: return {PLUMB_NONE, "not in impulse yet"};
     case PLUMB_CAP_MODIFY:
+      if (a == 2) return {backend::may_change(b) ? PLUMB_NATIVE : PLUMB_NONE};
       return {a < 2 && b < (a == 0 ? PLUMB_MODIFY_BODY_COUNT : PLUMB_MODIFY_JOINT_COUNT) ? PLUMB_NATIVE : PLUMB_NONE};
     case PLUMB_CAP_MANIFOLD:
       if (1U << std::min(a, 31U) == PLUMB_MANIFOLD_RESTITUTION)

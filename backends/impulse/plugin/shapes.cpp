@@ -13,9 +13,6 @@ bool is_identity(const PlumbPose& pose) {
          pose.orientation.y == 0 && pose.orientation.z == 0 && pose.orientation.w == 1;
 }
 
-/// A surface's own frame has its origin in the middle of its box.
-Shape to_surface(ShapeType type, const AddedSurface& added) { return {type, added.row, added.half, added.reach}; }
-
 }  // namespace
 
 /// The row of a shape. What consists of others, or has its origin elsewhere, is told in `parts` too; `row` is its own.
@@ -51,13 +48,13 @@ Shape World::to_shape(const PlumbShapeDesc& desc, std::uint32_t row, Compound& p
     case PLUMB_PLANE: shape.type = ShapeType::kPlane; break;
     case PLUMB_TRIANGLE_MESH: {
       const AddedSurface added = simulation_.colliders.surfaces.add_mesh(simulation_.executor(), desc);
-      shape = to_surface(ShapeType::kMesh, added);
+      shape = surface_shape(ShapeType::kMesh, added);
       parts = {{row, {added.centre, {0, 0, 0, 1}}, false, {}}};
       break;
     }
     case PLUMB_HEIGHT_FIELD: {
       const AddedSurface added = simulation_.colliders.surfaces.add_field(desc);
-      shape = to_surface(ShapeType::kHeightField, added);
+      shape = surface_shape(ShapeType::kHeightField, added);
       parts = {{row, {added.centre, {0, 0, 0, 1}}, false, {}}};
       break;
     }

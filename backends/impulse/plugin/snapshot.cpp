@@ -9,8 +9,8 @@ namespace plumb::impulse {
 
 /// Bits mean the same to every library of this physics and this number type, wherever its kernels run.
 std::string_view World::format() const {
-  return sizeof(Real) == 8 ? "impulse 10, double, physics " PLUMB_IMPULSE_PHYSICS_REVISION_TEXT
-                           : "impulse 10, float, physics " PLUMB_IMPULSE_PHYSICS_REVISION_TEXT;
+  return sizeof(Real) == 8 ? "impulse 11, double, physics " PLUMB_IMPULSE_PHYSICS_REVISION_TEXT
+                           : "impulse 11, float, physics " PLUMB_IMPULSE_PHYSICS_REVISION_TEXT;
 }
 
 PlumbResult World::save(std::span<const std::byte>& data) {
@@ -114,6 +114,12 @@ void World::exchange_proxies(Archive& archive) {
     archive.value(first_step);
     if (archive.reads() && first_step != colliders.proxies[row].first_step)
       colliders.proxies.edit(row).first_step = first_step;
+    const std::uint32_t shape = colliders.proxies[row].shape;
+    if (shape == kNone || !is_surface(colliders.shapes[shape].type)) continue;
+    LastChange change = colliders.surfaces.last_change(colliders.shapes[shape]);
+    archive.value(change.before_step);
+    archive.value(change.where);
+    if (archive.reads()) colliders.surfaces.set_last_change(colliders.shapes[shape], change);
   }
 }
 

@@ -104,6 +104,7 @@ class World final : public IPhysicsWorld,
   PlumbResult set_exceptions(std::span<const PlumbBodyPair> pairs, bool touch) override;
   PlumbResult modify_bodies(std::span<const PlumbBodyChange> changes) override;
   PlumbResult modify_joints(std::span<const PlumbJointChange> changes) override;
+  PlumbResult modify_shapes(std::span<const PlumbShape> shapes, std::span<const PlumbShapeDesc> descs) override;
   PlumbResult read_manifolds(std::span<const PlumbManifold>& manifolds) override;
   PlumbResult modify_manifolds(std::span<const PlumbManifoldChange> changes) override;
 
@@ -128,6 +129,10 @@ class World final : public IPhysicsWorld,
   void remake_body(const PlumbBodyChange& change);
   void put_joints_of(std::span<const PlumbBodyChange> changes);
   void change_joint(std::uint32_t slot, const PlumbJointDesc& desc, bool enabled);
+  void change_surface(std::uint32_t row, const PlumbShapeDesc& desc);
+  void place_again(std::uint32_t slot, bool frame_is_other);
+  void find_sleepers_in(const Extent& where, std::uint32_t of_body, Simulation::Slots& found);
+  [[nodiscard]] double reach_of(std::uint32_t slot) const;
   void place(std::uint32_t slot, const PlumbPose& pose);
   [[nodiscard]] PlumbPose pose(std::uint32_t slot) const;
   void read_state(PlumbField field, std::span<const PlumbBody> ids, Rows rows);

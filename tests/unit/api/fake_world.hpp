@@ -174,6 +174,10 @@ class FakeWorld final : public IPhysicsWorld,
     joint_changes.assign(changes.begin(), changes.end());
     return called();
   }
+  PlumbResult modify_shapes(std::span<const PlumbShape> ids, std::span<const PlumbShapeDesc> descs) override {
+    shapes_changed.assign(ids.begin(), ids.end());
+    return descs.size() == ids.size() ? called() : PLUMB_E_INTERNAL;
+  }
 
   PlumbResult read_manifolds(std::span<const PlumbManifold>& rows) override {
     rows = shown;
@@ -196,6 +200,7 @@ class FakeWorld final : public IPhysicsWorld,
   std::vector<PlumbManifoldChange> manifold_changes;
   std::vector<PlumbBodyChange> body_changes;
   std::vector<PlumbJointChange> joint_changes;
+  std::vector<PlumbShape> shapes_changed;
   struct ExceptionCall {
     PlumbBody a, b;
     bool touch;

@@ -149,6 +149,43 @@ TEST_F(GuardedChanges, FlagsOfParticlesNeedAMassToTurn) {
   refused(PLUMB_E_INVALID_ARGUMENT, "it has no inertia", change);
 }
 
+TEST_F(GuardedChanges, OfShapesKeepTheirType) {
+  const double heights[6] = {0, 1, 2, 0, 1, 2};
+  PlumbShapeDesc field = shape_desc(PLUMB_HEIGHT_FIELD);
+  field.heights = heights;
+  field.rows = 2;
+  field.columns = 3;
+  field.spacing = {1, 0, 1};
+  PlumbShape ground = 0;
+  ASSERT_EQ(world->create_shapes({&field, 1}, {&ground, 1}), PLUMB_OK) << world->error_text();
+  const auto become = [&](PlumbShape shape, const PlumbShapeDesc& desc) {
+    return world->modify()->modify_shapes({&shape, 1}, {&desc, 1});
+  };
+  ASSERT_EQ(become(ground, field), PLUMB_OK) << world->error_text();
+  EXPECT_EQ(FakeWorld::last->shapes_changed, std::vector{ground});
+  const int before = FakeWorld::last->calls;
+  const auto refuse = [&](PlumbResult code, const std::string& named, PlumbShape shape, const PlumbShapeDesc& desc) {
+    EXPECT_EQ(become(shape, desc), code);
+    EXPECT_NE(world->error_text().find(named), std::string::npos)
+        << "\"" << world->error_text() << "\" does not name " << named;
+  };
+  PlumbShapeDesc ball = shape_desc(PLUMB_SPHERE);
+  ball.radius = 1;
+  refuse(PLUMB_E_INVALID_ARGUMENT, "descs[0].type is sphere, but the shape is a height field", ground, ball);
+  refuse(PLUMB_E_UNSUPPORTED, "a sphere does not change", shapes[1], ball);
+  refuse(PLUMB_E_STALE_HANDLE, "77", 77, field);
+  field.columns = 1;
+  refuse(PLUMB_E_INVALID_ARGUMENT, "descs[0].columns is 1", ground, field);
+  EXPECT_EQ(FakeWorld::last->calls, before) << "the class was called";
+  PlumbBodyDesc body = body_desc(PLUMB_STATIC);
+  body.shape = ground;
+  PlumbBody standing = 0;
+  ASSERT_EQ(world->create_bodies({&body, 1}, {&standing, 1}), PLUMB_OK) << world->error_text();
+  field.columns = 3;
+  ASSERT_EQ(become(ground, field), PLUMB_OK);
+  EXPECT_EQ(world->destroy_shapes({&ground, 1}), PLUMB_E_IN_USE) << "its body has it still";
+}
+
 TEST_F(GuardedChanges, JointChangesHoldWhatTheyName) {
   PlumbJointDesc desc = joint_desc(PLUMB_JOINT_GENERIC);
   desc.rest_length = 7;

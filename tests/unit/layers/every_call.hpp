@@ -142,6 +142,14 @@ class Everything {
     joint_changed.what = PLUMB_MODIFY_ENABLED;
     joint_changed.enabled = 1;
     ok(modify.joints(world_, &joint_changed, sizeof joint_changed, 1));
+    const double heights[4] = {0, 0, 0, 1};
+    PlumbShapeDesc field = shape_desc(PLUMB_HEIGHT_FIELD);
+    field.heights = heights;
+    field.rows = field.columns = 2;
+    field.spacing = {1, 0, 1};
+    PlumbShape ground = 0;
+    ok(table_.create_shapes(world_, &field, sizeof field, 1, &ground));
+    ok(modify.shapes(world_, &ground, &field, sizeof field, 1));
     const auto& manifolds = extension<PlumbManifoldsTable>(PLUMB_EXT_MANIFOLDS);
     PlumbManifold manifold;
     const PlumbStepDesc step = {sizeof step, 0, 0.01};

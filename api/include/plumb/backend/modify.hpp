@@ -10,6 +10,11 @@
 
 namespace plumb::backend {
 
+/// Whether PLUMB_CAP_MODIFY may say that shapes of that type become others.
+[[nodiscard]] constexpr bool may_change(PlumbShapeType type) {
+  return type == PLUMB_TRIANGLE_MESH || type == PLUMB_HEIGHT_FIELD;
+}
+
 /// "motion" of PLUMB_MODIFY_MOTION's index.
 [[nodiscard]] constexpr const char* modified_name(std::uint32_t is_joint, std::uint32_t index) {
   constexpr const char* of_bodies[PLUMB_MODIFY_BODY_COUNT] = {"motion", "shape", "mass", "flags", "locks"};

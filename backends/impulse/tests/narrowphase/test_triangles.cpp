@@ -22,7 +22,7 @@ struct Mesh {
       : topology(executor, {reinterpret_cast<const PlumbVec3*>(set.vertices.data()), set.vertices.size() / 3},
                  set.indices) {}
   [[nodiscard]] MeshView view() const {
-    return {topology.corners.data(),
+    return {topology.places.corners.data(),
             topology.triangles.data(),
             topology.first_neighbour.data(),
             topology.neighbours.data(),
@@ -30,7 +30,7 @@ struct Mesh {
             topology.closed ? 1U : 0U,
             {}};
   }
-  [[nodiscard]] Shape shape() const { return {kMesh, 0, topology.half, topology.reach}; }
+  [[nodiscard]] Shape shape() const { return {kMesh, 0, topology.places.half, topology.places.reach}; }
 };
 
 /// The least separation over all triangles, and the normal there; separation kHuge where nothing touches.
@@ -148,7 +148,7 @@ TEST(Topology, FindsNeighboursAndTheCornersAround) {
   const test::TriangleSet set = test::flat_grid(3, 1);
   const Mesh mesh(set);
   const MeshView view = mesh.view();
-  EXPECT_EQ(mesh.topology.corners.size(), 16U);
+  EXPECT_EQ(mesh.topology.places.corners.size(), 16U);
   int borders = 0;
   for (std::uint32_t t = 0; t < mesh.topology.triangles.size(); ++t)
     for (int k = 0; k < 3; ++k) {
@@ -179,7 +179,7 @@ TEST(Topology, VerticesAtOnePlaceAreOneCorner) {
     soup.triangle(corner[0], corner[1], corner[2]);
   }
   const Mesh one(shared), other(soup);
-  ASSERT_EQ(other.topology.corners.size(), one.topology.corners.size());
+  ASSERT_EQ(other.topology.places.corners.size(), one.topology.places.corners.size());
   for (std::uint32_t t = 0; t < one.topology.triangles.size(); ++t)
     for (int k = 0; k < 3; ++k) {
       const std::uint32_t a = one.view().across(t, k), b = other.view().across(t, k);
@@ -202,7 +202,7 @@ TEST(Topology, OfAHeightFieldIsThatOfItsTriangles) {
   const Mesh mesh(set);
   const MeshView view = mesh.view();
   const HeightView field = {heights.data(), cells + 1, cells + 1, Real(0.5), Real(0.5), Real(-1), Real(-1), {}};
-  const Real middle = static_cast<Real>(mesh.topology.centre.y);
+  const Real middle = static_cast<Real>(mesh.topology.places.centre.y);
   const auto same = [&](const Vec& on_mesh, const Vec& on_field) {
     return length(on_mesh + Vec{0, middle, 0} - on_field) < Real(1e-5);
   };

@@ -35,6 +35,26 @@ test('a ball comes to rest in the valley of a height field', () => {
   world.destroy();
 });
 
+test('a pit opens in a height field, and in a mesh', () => {
+  const spots = Array.from({ length: 81 }, (_, i) => [i % 9 - 4, Math.floor(i / 9) - 4]);
+  const cells = spots.flatMap(([x, z], i) => x < 4 && z < 4 ? [i, i + 9, i + 1, i + 1, i + 9, i + 10] : []);
+  const field = (height) => ({ type: 'heightField', rows: 9, columns: 9, heights: spots.map(height), spacing: [1, 1] });
+  const mesh = (height) =>
+    ({ type: 'mesh', vertices: spots.flatMap((spot) => [spot[0], height(spot), spot[1]]), indices: cells });
+  for (const ground of [field, mesh]) {
+    const world = engine.createWorld({ needs: ['rotation', 'collision', 'friction'] });
+    const shape = world.createShape(ground(() => 0));
+    world.createBody({ shape, motion: 'static' });
+    const ball = world.createBody({ shape: world.createShape({ type: 'sphere', radius: 0.5 }), position: [0, 0.5, 0] });
+    steps(world, 30);
+    world.modifyShape(shape, ground(([x, z]) => Math.max(Math.abs(x), Math.abs(z)) < 2 ? -1 : 0));
+    steps(world, 120);
+    near(positionOf(world, ball)[1], -0.5, 0.01);
+    assert.throws(() => world.modifyShape(shape, { type: 'sphere', radius: 1 }), /type is sphere/);
+    world.destroy();
+  }
+});
+
 test('triangles have their own materials', () => {
   const world = engine.createWorld({ needs: ['rotation', 'collision', 'friction'] });
   assert.equal(engine.capability('triangleMaterial', 'heightField'), 'native');
