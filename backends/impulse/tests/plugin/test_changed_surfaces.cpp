@@ -247,6 +247,37 @@ TEST(ChangedSurfaces, AreKnownToSnapshots) {
   }
 }
 
+/// Two platforms of one shape: one that is carried along, and one that stands askew. A pit opens in both.
+TEST(ChangedSurfaces, MayBeOfBodiesThatMove) {
+  for (const Kind kind : kKinds) {
+    Scene scene(engine(), kNeeds | PLUMB_NEED_KINEMATIC | PLUMB_NEED_SLEEPING, kDown, 1);
+    const PlumbShape shape = scene.make(Ground(kind, flat).desc());
+    const PlumbBody platform = scene.add_kinematic(shape, {0, 0, 0});
+    const double half_turn = 0.4;
+    scene.add_static(shape, {50, 0, 0}, {0, std::sin(half_turn), 0, std::cos(half_turn)});
+    scene.body.material.friction = 0.9;
+    const PlumbShape cube = scene.box({0.25, 0.25, 0.25});
+    const PlumbBody rides = scene.add(cube, {4, 0.25, 4}), falls = scene.add(cube, {0, 0.25, 0}),
+                    askew = scene.add(cube, {50, 0.25, 0});
+    double x = 0;
+    scene.before_step = [&](Scene& at, int) { at.target(platform, {x += 0.005, 0, 0}); };
+    scene.run(60);
+    become(scene, shape, Ground(kind, [](double at, double z) {
+                           return std::abs(at) < 1.7 && std::abs(z) < 1.7 ? -1.0 : 0.0;
+                         }).desc());
+    scene.run(120);
+    const auto at = [&](PlumbBody body) {
+      PlumbPose pose{};
+      check(scene.world(), scene.world().read(PLUMB_FIELD_POSE, {&body, 1}, rows_over(std::span(&pose, 1))));
+      return pose.position;
+    };
+    EXPECT_NEAR(at(rides).x, 4 + x, 0.02);
+    EXPECT_NEAR(at(rides).y, 0.25, 1e-3);
+    EXPECT_NEAR(at(falls).y, -0.75, 1e-3);
+    EXPECT_NEAR(at(askew).y, -0.75, 1e-3);
+  }
+}
+
 TEST(ChangedSurfaces, AreSeenByQueries) {
   for (const Kind kind : kKinds) {
     Scene scene(engine(), kNeeds | PLUMB_NEED_QUERIES, kDown, 1);
