@@ -436,6 +436,10 @@ class GuardedWorld {
                              desc.materials[i]);
     }
     if (init_.needs(PLUMB_NEED_SNAPSHOT)) record.content = shape_content(desc, contents);
+    // Whether a mesh is closed takes as long to find as all the rest, and matters to bodies that forces move alone.
+    const bool has_mass =
+        desc.type != PLUMB_TRIANGLE_MESH || degree(PLUMB_CAP_SHAPE, desc.type, PLUMB_DYNAMIC, note) != PLUMB_NONE;
+    if (!has_mass) return record;
     try {
       record.unit_mass = unit_mass_properties(desc, children);
     } catch (const Error& error) {
