@@ -14,8 +14,11 @@
 #include <vector>
 
 #include "plumb/loader.hpp"
+#include "shape_arrays.hpp"
 
 namespace {
+
+using plumb::fuzz::ShapeArrays;
 
 class Fuzzer {
  public:
@@ -145,25 +148,6 @@ class Fuzzer {
     }
     if (table_.create_world(&desc, &companion_) < 0) broken_ = "a second world cannot be made";
   }
-
-  /// What a shape may be made of, with the arrays that it is made of.
-  struct ShapeArrays {
-    PlumbShapeDesc desc = plumb::shape_desc(PLUMB_SPHERE);
-    std::vector<double> vertices, heights;
-    std::vector<std::uint32_t> indices, triangle_materials;
-    std::vector<PlumbCompoundChild> children;
-    std::vector<PlumbMaterial> materials;
-
-    const PlumbShapeDesc* pointing() {
-      desc.vertices = vertices.data();
-      desc.indices = indices.data();
-      desc.heights = heights.data();
-      desc.children = children.data();
-      desc.materials = materials.data();
-      desc.triangle_materials = triangle_materials.data();
-      return &desc;
-    }
-  };
 
   ShapeArrays shape_of(PlumbShapeType type) {
     ShapeArrays made;

@@ -25,8 +25,6 @@ bool has_area(const Vec& a, const Vec& b, const Vec& c) {
   return length(cross(u, v)) > kParallel * longest;
 }
 
-bool same_place(const PlumbVec3& a, const PlumbVec3& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
-
 /// The same for vertices at the same place, and of others hardly ever (finished as SplitMix64 does; Steele, Lea and
 /// Flood 2014).
 std::uint64_t place_key(const PlumbVec3& v) {

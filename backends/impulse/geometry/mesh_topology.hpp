@@ -12,6 +12,9 @@
 
 namespace plumb::impulse {
 
+inline bool same_place(const PlumbVec3& a, const PlumbVec3& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+
+/// Where a mesh's corners are.
 struct MeshPlaces {
   PlumbVec3 centre;  ///< of the mesh's box; corners are relative to it
   Vec half;          ///< extents of the box

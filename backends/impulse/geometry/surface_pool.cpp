@@ -63,8 +63,6 @@ std::span<const PlumbVec3> vertices_of(const PlumbShapeDesc& desc) {
   return {reinterpret_cast<const PlumbVec3*>(desc.vertices), desc.vertex_count};
 }
 
-bool same_place(const PlumbVec3& a, const PlumbVec3& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
-
 /// A point of a Shape's frame in that of the description.
 PlumbVec3 in_description(const AddedSurface& added, const Vec& at) {
   return {added.centre.x + static_cast<double>(at.x), added.centre.y + static_cast<double>(at.y),
