@@ -120,12 +120,12 @@ TEST(ReferenceScore, TheExactStepHasNoErrorAndNoContactsHaveOne) {
     after[i].angular = exact.segment<3>(6 * static_cast<Eigen::Index>(i) + 3);
     if (falling[i].mass.mass > 0) falling[i].linear.y() = -9.81 * step.scene.dt;
   }
-  const StepErrors good = step_errors(step.contacts, step.scene.dt, step.before, after, told);
-  EXPECT_EQ(good.verdict, Verdict::scored);
-  EXPECT_LT(good.velocity, 1e-8);
-  ASSERT_TRUE(good.force.has_value());
-  EXPECT_LT(*good.force, 1e-8);
-  EXPECT_LT(good.residual, 1e-10);
+  const StepErrors found = step_errors(step.contacts, step.scene.dt, step.before, after, told);
+  EXPECT_EQ(found.verdict, Verdict::scored);
+  EXPECT_LT(found.velocity, 1e-8);
+  ASSERT_TRUE(found.force.has_value());
+  EXPECT_LT(*found.force, 1e-8);
+  EXPECT_LT(found.residual, 1e-10);
   const Eigen::VectorXd nothing = Eigen::VectorXd::Zero(told.size());
   const StepErrors bad = step_errors(step.contacts, step.scene.dt, step.before, falling, nothing);
   EXPECT_NEAR(bad.velocity, 1, 1e-8);
