@@ -86,12 +86,15 @@ PLUMB_HD bool touch_polyhedron(const Cylinder& c, const View& view, const polyhe
   return out.count != 0;
 }
 
-/// Where the segment p + [0, 1] d is nearest to the cylinder: the distance to a convex body is convex along it.
+/// Where the segment p + [0, 1] d is nearest to the cylinder: the distance to a convex body is convex along it. Of one
+/// that runs through the cylinder some place within.
 PLUMB_HD inline Real nearest_on_segment(const Cylinder& c, const Vec& p, const Vec& d) {
   const auto distance = [&](Real s) { return max(nearest(c, p + s * d).distance, Real(0)); };
   Real low = 0, high = 1;
   Real s = high - kGolden, r = kGolden, at_s = distance(s), at_r = distance(r);
   for (int i = 0; i < kSections + 6; ++i) {
+    if (at_s <= 0) return s;  // else it would end where the segment comes out
+    if (at_r <= 0) return r;
     if (at_s <= at_r) {
       high = r;
       r = s;

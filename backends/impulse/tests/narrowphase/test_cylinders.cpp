@@ -109,6 +109,37 @@ TEST_P(Cylinders, AreApartByTheGreatestGap) {
 }
 INSTANTIATE_TEST_SUITE_P(All, Cylinders, ::testing::Values(kSphere, kBox, kCapsule, kHull, kCylinder));
 
+/// To come out of a cylinder a capsule has to go at least as far as the point of its segment that is deepest within.
+TEST(CylinderDepths, OfCapsulesThatRunThroughAreAtLeastThoseOfTheirPoints) {
+  Dice dice(5);
+  int through = 0;
+  for (int i = 0; i < 40000; ++i) {
+    const double radius = dice.uniform(0.2, 1), half = dice.uniform(0.2, 1), around = dice.uniform(0.05, 0.4),
+                 length_of_half = dice.uniform(0.1, 1);
+    const auto turn = dice.orientation();
+    const Quat lies = Dice::to_real(turn);
+    // Its middle near the rim, where it cuts off little.
+    const V to_rim = {radius, half, 0}, at = to_rim + dice.uniform(0, 0.7) * dice.direction();
+    const Vec place = {static_cast<Real>(at.x), static_cast<Real>(at.y), static_cast<Real>(at.z)};
+    const V along = rotate(unit(lies), V{0, length_of_half, 0});
+    double deepest = 0;
+    for (int k = -200; k <= 200; ++k) {
+      const V p = to_double(place) + (k / 200.0) * along;
+      deepest = std::max(deepest, std::min(radius - std::hypot(p.x, p.z), half - std::abs(p.y)));
+    }
+    if (deepest < 1e-5) continue;
+    ++through;
+    const Shape capsule = {kCapsule,
+                           0,
+                           {static_cast<Real>(around), static_cast<Real>(length_of_half), 0},
+                           static_cast<Real>(around + length_of_half)};
+    Manifold m{};
+    ASSERT_TRUE(collide({make_cylinder(radius, half), capsule, {0, 0, 0, 1}, lies, place, Real(0.01)}, {}, m));
+    ASSERT_LE(least_separation(m), -around - deepest + 1e-5) << "trial " << i;
+  }
+  EXPECT_GT(through, 5000);
+}
+
 constexpr Quat kUpright = {0, 0, 0, 1};
 const Quat kLying = Dice::to_real(Dice::turn({0, 0, 1}, 1.5707963267948966));
 
