@@ -252,6 +252,25 @@ public unsafe struct PlumbHit
     public PlumbVec3 normal;
 }
 
+/// <summary>How deep a shape overlaps a body, and which way out, as plumb.collide/1 tells of the two: of a body with
+/// several children, or a surface with several triangles, that which is deepest. Convex shapes are solid and a plane is
+/// solid below; surfaces have nothing inside. Since 1.2.</summary>
+[StructLayout(LayoutKind.Sequential)]
+public unsafe struct PlumbPenetration
+{
+    public ulong body;
+    /// <summary>index into the batch</summary>
+    public uint query;
+    /// <summary>of a compound, triangle of a mesh; else 0, also for a height field</summary>
+    public uint child;
+    /// <summary>m, &gt;= 0: how far the shape moves along normal until it only touches what it is deepest in</summary>
+    public double depth;
+    /// <summary>world, m: the deepest point of contact</summary>
+    public PlumbVec3 position;
+    /// <summary>unit, from the body to the shape: the way out</summary>
+    public PlumbVec3 normal;
+}
+
 /// <summary>hits[capacity]; *hit_count is how many there are, also when the answer is PLUMB_TRUNCATED. Strides are in
 /// bytes. All [query]: any number at once while no step runs.</summary>
 [StructLayout(LayoutKind.Sequential)]
@@ -263,6 +282,10 @@ public unsafe struct PlumbQueriesTable
     public IntPtr casts;
     /// <summary>Always all hits.</summary>
     public IntPtr overlaps;
+    /// <summary>Of all bodies that a shape overlaps: out[capacity] has a row for each, sorted by query, then depth, the
+    /// deepest first, then body slot. Bodies that touch the shape without depth may be told or not. PLUMB_CAP_QUERY
+    /// with PLUMB_QUERY_PENETRATION says of which shapes; a table that ends before has it not. Since 1.2.</summary>
+    public IntPtr penetrations;
 
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
     public unsafe delegate int Rays(
@@ -280,6 +303,12 @@ public unsafe struct PlumbQueriesTable
     public unsafe delegate int Overlaps(
         PlumbWorld* world, PlumbOverlap* overlaps, UIntPtr stride, uint count, PlumbHit* hits, uint capacity,
         uint* hit_count
+    );
+
+    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+    public unsafe delegate int Penetrations(
+        PlumbWorld* world, PlumbOverlap* overlaps, UIntPtr stride, uint count, PlumbPenetration* @out, uint capacity,
+        uint* out_count
     );
 }
 
@@ -1561,7 +1590,9 @@ public static class Constants
     public const uint PLUMB_QUERY_RAY = 0u;
     public const uint PLUMB_QUERY_CAST = 1u;
     public const uint PLUMB_QUERY_OVERLAP = 2u;
-    public const uint PLUMB_QUERY_KIND_COUNT = 3u;
+    /// <summary>since 1.2</summary>
+    public const uint PLUMB_QUERY_PENETRATION = 3u;
+    public const uint PLUMB_QUERY_KIND_COUNT = 4u;
 
     // PlumbHitMode, uint.
     /// <summary>hits has one row a query, in its order; body 0 where nothing was hit</summary>

@@ -393,7 +393,9 @@ pub type PlumbQueryKind = u32;
 pub const PLUMB_QUERY_RAY: PlumbQueryKind = 0;
 pub const PLUMB_QUERY_CAST: PlumbQueryKind = 1;
 pub const PLUMB_QUERY_OVERLAP: PlumbQueryKind = 2;
-pub const PLUMB_QUERY_KIND_COUNT: PlumbQueryKind = 3;
+/// since 1.2
+pub const PLUMB_QUERY_PENETRATION: PlumbQueryKind = 3;
+pub const PLUMB_QUERY_KIND_COUNT: PlumbQueryKind = 4;
 
 pub type PlumbHitMode = u32;
 
@@ -452,6 +454,25 @@ pub struct PlumbHit {
     pub normal: PlumbVec3,
 }
 
+/// How deep a shape overlaps a body, and which way out, as plumb.collide/1 tells of the two: of a body with several
+/// children, or a surface with several triangles, that which is deepest. Convex shapes are solid and a plane is solid
+/// below; surfaces have nothing inside. Since 1.2.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct PlumbPenetration {
+    pub body: PlumbBody,
+    /// index into the batch
+    pub query: u32,
+    /// of a compound, triangle of a mesh; else 0, also for a height field
+    pub child: u32,
+    /// m, >= 0: how far the shape moves along normal until it only touches what it is deepest in
+    pub depth: f64,
+    /// world, m: the deepest point of contact
+    pub position: PlumbVec3,
+    /// unit, from the body to the shape: the way out
+    pub normal: PlumbVec3,
+}
+
 /// hits\[capacity\]; \*hit_count is how many there are, also when the answer is PLUMB_TRUNCATED. Strides are in bytes.
 /// All \[query\]: any number at once while no step runs.
 #[repr(C)]
@@ -471,6 +492,13 @@ pub struct PlumbQueriesTable {
     pub overlaps: Option<unsafe extern "C" fn(
         world: *mut PlumbWorld, overlaps: *const PlumbOverlap, stride: usize, count: u32, hits: *mut PlumbHit,
         capacity: u32, hit_count: *mut u32
+    ) -> PlumbResult>,
+    /// Of all bodies that a shape overlaps: out\[capacity\] has a row for each, sorted by query, then depth, the
+    /// deepest first, then body slot. Bodies that touch the shape without depth may be told or not. PLUMB_CAP_QUERY
+    /// with PLUMB_QUERY_PENETRATION says of which shapes; a table that ends before has it not. Since 1.2.
+    pub penetrations: Option<unsafe extern "C" fn(
+        world: *mut PlumbWorld, overlaps: *const PlumbOverlap, stride: usize, count: u32, out: *mut PlumbPenetration,
+        capacity: u32, out_count: *mut u32
     ) -> PlumbResult>,
 }
 
@@ -1679,11 +1707,11 @@ pub type PlumbOpenFunction = Option<unsafe extern "C" fn(
 
 zero!(
     PlumbVec3, PlumbQuat, PlumbPose, PlumbMaterial, PlumbCompoundChild, PlumbFilter, PlumbRay, PlumbCast, PlumbOverlap,
-    PlumbHit, PlumbProbe, PlumbClosest, PlumbPosedPair, PlumbPairResult, PlumbPairPoint, PlumbDebugPair, PlumbDebugBox,
-    PlumbDebugAxis, PlumbDebugBody, PlumbDebugConstraint, PlumbBodyPair, PlumbLimit, PlumbMotor, PlumbSpring,
-    PlumbManifold, PlumbManifoldChange, PlumbBodyChange, PlumbJointChange, PlumbSettingValue, PlumbSetting,
-    PlumbSettingInfo, PlumbDLDevice, PlumbDLDataType, PlumbDLTensor, PlumbDLManagedTensor_version, PlumbDLManagedTensor,
-    PlumbFence, PlumbContact, PlumbEvent
+    PlumbHit, PlumbPenetration, PlumbProbe, PlumbClosest, PlumbPosedPair, PlumbPairResult, PlumbPairPoint,
+    PlumbDebugPair, PlumbDebugBox, PlumbDebugAxis, PlumbDebugBody, PlumbDebugConstraint, PlumbBodyPair, PlumbLimit,
+    PlumbMotor, PlumbSpring, PlumbManifold, PlumbManifoldChange, PlumbBodyChange, PlumbJointChange, PlumbSettingValue,
+    PlumbSetting, PlumbSettingInfo, PlumbDLDevice, PlumbDLDataType, PlumbDLTensor, PlumbDLManagedTensor_version,
+    PlumbDLManagedTensor, PlumbFence, PlumbContact, PlumbEvent
 );
 sized!(
     PlumbShapeDesc, PlumbBodyDesc, PlumbQueriesTable, PlumbClosestTable, PlumbCollideTable, PlumbDebugTable,

@@ -173,6 +173,15 @@ class HostWorld final : public IPhysicsWorld,
                                            capacity, count);
     });
   }
+  Penetrations penetrations(std::span<const PlumbOverlap> overlaps) override {
+    if (!has(*extensions_.queries, &PlumbQueriesTable::penetrations)) return {PLUMB_E_UNSUPPORTED, {}};
+    thread_local std::vector<PlumbPenetration> found;
+    const auto fill = [&](PlumbPenetration* out, std::uint32_t capacity, std::uint32_t* count) {
+      return extensions_.queries->penetrations(world_, overlaps.data(), sizeof(PlumbOverlap), count_of(overlaps), out,
+                                               capacity, count);
+    };
+    return {fill_all(found, fill), found};
+  }
 
   ClosestBodies closest_bodies(PlumbHitMode mode, std::span<const PlumbProbe> probes) override {
     thread_local std::vector<PlumbClosest> found;

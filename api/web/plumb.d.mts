@@ -301,6 +301,14 @@ export interface World {
   castShapes(casts: readonly Cast[], options?: { all?: false }): (Hit | null)[];
   castShapes(casts: readonly Cast[], options: { all: true }): Hit[][];
   overlap(shape: Shape, frame: Frame, filter?: Filter): { body: Body; child: number }[];
+  /** The deepest first; normal points from the body to the shape: the way out, by depth, m. */
+  penetrations(shape: Shape, frame: Frame, filter?: Filter): {
+    body: Body;
+    child: number;
+    depth: number;
+    position: number[];
+    normal: number[];
+  }[];
   /** How far apart (below 0: depth; NaN: the engine does not tell), and where they touch; normals from A to B. */
   collide(pair: { shapeA: Shape; frameA?: Frame; shapeB: Shape; frameB?: Frame }): {
     distance: number;

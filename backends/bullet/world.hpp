@@ -86,6 +86,7 @@ class World final : public IPhysicsWorld,
   Hits cast_rays(PlumbHitMode mode, std::span<const PlumbRay> rays) override;
   Hits cast_shapes(PlumbHitMode mode, std::span<const PlumbCast> casts) override;
   Hits overlap_shapes(std::span<const PlumbOverlap> overlaps) override;
+  Penetrations penetrations(std::span<const PlumbOverlap> overlaps) override;
 
   // queries/closest.cpp
   ClosestBodies closest_bodies(PlumbHitMode mode, std::span<const PlumbProbe> probes) override;

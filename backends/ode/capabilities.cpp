@@ -77,6 +77,8 @@ Fact query_fact(std::uint32_t kind, std::uint32_t type) {
   if (kind == PLUMB_QUERY_OVERLAP && type <= PLUMB_CONVEX_HULL)
     return {PLUMB_APPROXIMATE,
             "ODE finds no contact of some shapes that cut a height field, nor of some capsules deep in boxes"};
+  if (kind == PLUMB_QUERY_PENETRATION && type <= PLUMB_CONVEX_HULL)
+    return {PLUMB_APPROXIMATE, "as deep as the contacts that ODE makes: of some deep overlaps none, or too deep"};
   return {PLUMB_NONE};
 }
 

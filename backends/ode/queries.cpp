@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "plumb/assert.hpp"
+#include "plumb/backend/hit_collector.hpp"
 #include "world.hpp"
 
 namespace plumb::ode {
@@ -104,8 +105,45 @@ struct Search {
   }
 };
 
+/// All points of contact of a shape on its way through the space.
+struct Touches {
+  const PlumbFilter& filter;
+  std::uint32_t query;
+  dGeomID probe;
+  std::vector<PlumbPenetration>& found;
+
+  static void near(void* self, dGeomID one, dGeomID two) {
+    Touches& touches = *static_cast<Touches*>(self);
+    touches.meet(one == touches.probe ? two : one);
+  }
+  void meet(dGeomID geom) const {
+    const GeomTag& tag = tag_of(geom);
+    if (tag.body->sensor || !may_touch(filter, tag.body->filter)) return;
+    std::array<dContactGeom, most_points> points;
+    const int count = dCollide(probe, geom, most_points, points.data(), sizeof(dContactGeom));
+    for (int i = 0; i < count; ++i) {
+      const dContactGeom& point = points[static_cast<std::size_t>(i)];
+      found.push_back({tag.body->handle, query, child_of(tag, point), std::max(point.depth, 0.0), vec(point.pos),
+                       vec(point.normal)});
+    }
+  }
+};
+
 bool nearer(const PlumbHit& x, const PlumbHit& y) {
   return x.fraction != y.fraction ? x.fraction < y.fraction : slot_of(x.body) < slot_of(y.body);
+}
+
+/// A shape meets what is in a space, as Search or Touches has it.
+template <class Meeting>
+void meet_all(const Shape& shape, const PlumbPose& pose, dSpaceID space, Meeting& meeting) {
+  std::vector<PlacedGeom> geoms;
+  make_geoms(shape, nullptr, geoms);
+  for (const PlacedGeom& geom : geoms) {
+    place_geom(geom, pose);
+    meeting.probe = geom.geom;
+    dSpaceCollide2(geom.geom, reinterpret_cast<dGeomID>(space), &meeting, &Meeting::near);
+    dGeomDestroy(geom.geom);
+  }
 }
 
 struct TemporaryRay {
@@ -155,19 +193,24 @@ Hits World::overlap_shapes(std::span<const PlumbOverlap> overlaps) {
   return inside_ode([&]() -> Hits {
     found.clear();
     for (std::uint32_t i = 0; i < overlaps.size(); ++i) {
-      const PlumbOverlap& overlap = overlaps[i];
-      std::vector<PlacedGeom> geoms;
-      make_geoms(*slots_.shapes[slot_of(overlap.shape)], nullptr, geoms);
-      Search search{overlap.filter, i, nullptr, {}, 0, found.size()};
-      for (const PlacedGeom& geom : geoms) {
-        place_geom(geom, overlap.pose);
-        search.probe = geom.geom;
-        dSpaceCollide2(geom.geom, reinterpret_cast<dGeomID>(space_), &search, &Search::near);
-        dGeomDestroy(geom.geom);
-      }
+      Search search{overlaps[i].filter, i, nullptr, {}, 0, found.size()};
+      meet_all(*slots_.shapes[slot_of(overlaps[i].shape)], overlaps[i].pose, space_, search);
       std::sort(found.begin() + static_cast<std::ptrdiff_t>(search.first), found.end(), nearer);
     }
     return {PLUMB_OK, found};
+  });
+}
+
+Penetrations World::penetrations(std::span<const PlumbOverlap> overlaps) {
+  const std::scoped_lock lock(query_mutex_);
+  return inside_ode([&]() -> Penetrations {
+    thread_local std::vector<PlumbPenetration> touches;
+    touches.clear();
+    for (std::uint32_t i = 0; i < overlaps.size(); ++i) {
+      Touches meeting{overlaps[i].filter, i, nullptr, touches};
+      meet_all(*slots_.shapes[slot_of(overlaps[i].shape)], overlaps[i].pose, space_, meeting);
+    }
+    return {PLUMB_OK, backend::deepest_of_bodies(touches)};
   });
 }
 

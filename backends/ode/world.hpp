@@ -69,6 +69,7 @@ class World final : public IPhysicsWorld,
   Hits cast_rays(PlumbHitMode mode, std::span<const PlumbRay> rays) override;
   Hits cast_shapes(PlumbHitMode mode, std::span<const PlumbCast> casts) override;
   Hits overlap_shapes(std::span<const PlumbOverlap> overlaps) override;
+  Penetrations penetrations(std::span<const PlumbOverlap> overlaps) override;
   PlumbResult collide_pairs(std::span<const PlumbPosedPair> pairs, std::span<PlumbPairResult> results,
                             std::span<const PlumbPairPoint>& points) override;
   PlumbResult candidate_pairs(std::span<const PlumbDebugPair>& pairs) override;

@@ -136,9 +136,12 @@ SIZE(PlumbOverlap, 80)
 SIZE(PlumbHit, 72)
   AT(PlumbHit, body, 0) AT(PlumbHit, query, 8) AT(PlumbHit, child, 12) AT(PlumbHit, fraction, 16)
   AT(PlumbHit, position, 24) AT(PlumbHit, normal, 48)
-SIZE(PlumbQueriesTable, 32)
+SIZE(PlumbPenetration, 72)
+  AT(PlumbPenetration, body, 0) AT(PlumbPenetration, query, 8) AT(PlumbPenetration, child, 12)
+  AT(PlumbPenetration, depth, 16) AT(PlumbPenetration, position, 24) AT(PlumbPenetration, normal, 48)
+SIZE(PlumbQueriesTable, 40)
   AT(PlumbQueriesTable, struct_size, 0) AT(PlumbQueriesTable, reserved, 4) AT(PlumbQueriesTable, rays, 8)
-  AT(PlumbQueriesTable, casts, 16) AT(PlumbQueriesTable, overlaps, 24)
+  AT(PlumbQueriesTable, casts, 16) AT(PlumbQueriesTable, overlaps, 24) AT(PlumbQueriesTable, penetrations, 32)
 
 /* closest.h */
 SIZE(PlumbProbe, 88)
@@ -309,7 +312,8 @@ IS(PLUMB_MODIFY_MOTORS, 4) IS(PLUMB_MODIFY_SPRINGS, 8) IS(PLUMB_MODIFY_STRENGTH,
 IS(PLUMB_MODIFY_COLLIDE_CONNECTED, 32) IS(PLUMB_MODIFY_ENABLED, 64) IS(PLUMB_MODIFY_JOINT_COUNT, 7)
 
 /* queries.h */
-IS(PLUMB_QUERY_RAY, 0) IS(PLUMB_QUERY_CAST, 1) IS(PLUMB_QUERY_OVERLAP, 2) IS(PLUMB_QUERY_KIND_COUNT, 3)
+IS(PLUMB_QUERY_RAY, 0) IS(PLUMB_QUERY_CAST, 1) IS(PLUMB_QUERY_OVERLAP, 2)
+IS(PLUMB_QUERY_PENETRATION, 3) IS(PLUMB_QUERY_KIND_COUNT, 4)
 IS(PLUMB_HIT_CLOSEST, 0) IS(PLUMB_HIT_ALL, 1)
 
 /* plumb.h */

@@ -131,6 +131,12 @@ struct Hits {
   std::span<const PlumbHit> hits;
 };
 
+/// How deep shapes overlap bodies, in the order that queries.h states. Lives until the next query of the same thread.
+struct Penetrations {
+  PlumbResult result = PLUMB_OK;
+  std::span<const PlumbPenetration> rows;
+};
+
 /// plumb.queries/1. May be called from several threads at once.
 class IQueries {
  public:
@@ -138,6 +144,7 @@ class IQueries {
   virtual Hits cast_rays(PlumbHitMode mode, std::span<const PlumbRay> rays) = 0;
   virtual Hits cast_shapes(PlumbHitMode mode, std::span<const PlumbCast> casts) = 0;
   virtual Hits overlap_shapes(std::span<const PlumbOverlap> overlaps) = 0;
+  virtual Penetrations penetrations(std::span<const PlumbOverlap> /*overlaps*/) { return {PLUMB_E_UNSUPPORTED, {}}; }
 };
 
 /// Which bodies are near, in the order that closest.h states. Lives until the next query of the same thread.

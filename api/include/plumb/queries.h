@@ -13,7 +13,13 @@ extern "C" {
 
 /* First argument of PLUMB_CAP_QUERY; the second is the shape type that is cast or overlapped (0 for rays). */
 typedef uint32_t PlumbQueryKind;
-enum { PLUMB_QUERY_RAY = 0, PLUMB_QUERY_CAST = 1, PLUMB_QUERY_OVERLAP = 2, PLUMB_QUERY_KIND_COUNT = 3 };
+enum {
+  PLUMB_QUERY_RAY = 0,
+  PLUMB_QUERY_CAST = 1,
+  PLUMB_QUERY_OVERLAP = 2,
+  PLUMB_QUERY_PENETRATION = 3, /* since 1.2 */
+  PLUMB_QUERY_KIND_COUNT = 4
+};
 
 typedef uint32_t PlumbHitMode;
 enum {
@@ -53,6 +59,18 @@ typedef struct PlumbHit {
   PlumbVec3 normal;   /* of the surface that was hit, unit; NaN for overlaps */
 } PlumbHit;
 
+/* How deep a shape overlaps a body, and which way out, as plumb.collide/1 tells of the two: of a body with several
+ * children, or a surface with several triangles, that which is deepest. Convex shapes are solid and a plane is solid
+ * below; surfaces have nothing inside. Since 1.2. */
+typedef struct PlumbPenetration {
+  PlumbBody body;
+  uint32_t query;     /* index into the batch */
+  uint32_t child;     /* of a compound, triangle of a mesh; else 0, also for a height field */
+  double depth;       /* m, >= 0: how far the shape moves along normal until it only touches what it is deepest in */
+  PlumbVec3 position; /* world, m: the deepest point of contact */
+  PlumbVec3 normal;   /* unit, from the body to the shape: the way out */
+} PlumbPenetration;
+
 /* hits[capacity]; *hit_count is how many there are, also when the answer is PLUMB_TRUNCATED.
  * Strides are in bytes. All [query]: any number at once while no step runs. */
 typedef struct PlumbQueriesTable {
@@ -65,6 +83,11 @@ typedef struct PlumbQueriesTable {
   /* Always all hits. */
   PlumbResult (*overlaps)(PlumbWorld* world, const PlumbOverlap* overlaps, size_t stride, uint32_t count,
                           PlumbHit* hits, uint32_t capacity, uint32_t* hit_count);
+  /* Of all bodies that a shape overlaps: out[capacity] has a row for each, sorted by query, then depth, the deepest
+   * first, then body slot. Bodies that touch the shape without depth may be told or not. PLUMB_CAP_QUERY with
+   * PLUMB_QUERY_PENETRATION says of which shapes; a table that ends before has it not. Since 1.2. */
+  PlumbResult (*penetrations)(PlumbWorld* world, const PlumbOverlap* overlaps, size_t stride, uint32_t count,
+                              PlumbPenetration* out, uint32_t capacity, uint32_t* out_count);
 } PlumbQueriesTable;
 
 #ifdef __cplusplus

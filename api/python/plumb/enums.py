@@ -184,6 +184,7 @@ class QueryKind(IntEnum):
     RAY = 0
     CAST = 1
     OVERLAP = 2
+    PENETRATION = 3
 
 
 class HitMode(IntEnum):

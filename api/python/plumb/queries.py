@@ -10,6 +10,9 @@ posed shapes, always in batches.
 >>> near = world.queries.closest(world.create_shape(plumb.Sphere(0.5)), [(0, 0, 0), (0, 30, 0)], 10)
 >>> float(near["distance"][0]), bool(near["body"][0] == wall), int(near["body"][1])
 (4.5, True, 0)
+>>> inside = world.queries.penetrations(world.create_shape(plumb.Sphere(0.5)), (4.75, 0, 0))
+>>> round(float(inside["depth"][0]), 6), round(float(inside["normal"][0, 0]), 6)
+(0.25, -1.0)
 >>> world.close()
 """
 
@@ -96,6 +99,15 @@ class Queries:
         """All bodies that each shape overlaps."""
         table = _table(_core.overlap, shape=handles(shapes, "shapes"), position=positions, orientation=orientations)
         return self._core.overlap_shapes(_filtered(table, filter))
+
+    def penetrations(
+        self, shapes: Shapes, positions: ArrayLike, orientations: ArrayLike = IDENTITY, filter: Optional[Filter] = None
+    ) -> NDArray[np.void]:
+        """All bodies that each shape overlaps, by shape, then depth, the deepest first. Columns body, query, child, depth
+        (m: how far the shape moves along normal until it only touches), position (of the deepest contact), normal (from
+        the body to the shape: the way out)."""
+        table = _table(_core.overlap, shape=handles(shapes, "shapes"), position=positions, orientation=orientations)
+        return self._core.penetrations(_filtered(table, filter))
 
     def closest(
         self,

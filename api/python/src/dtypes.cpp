@@ -193,6 +193,13 @@ py::dtype build<PlumbHit>() {
                             PLUMB_COLUMN(Row, position, text("(3,)f8")), PLUMB_COLUMN(Row, normal, text("(3,)f8"))});
 }
 template <>
+py::dtype build<PlumbPenetration>() {
+  using Row = PlumbPenetration;
+  return make(sizeof(Row), {PLUMB_COLUMN(Row, body, text("u8")), PLUMB_COLUMN(Row, query, text("u4")),
+                            PLUMB_COLUMN(Row, child, text("u4")), PLUMB_COLUMN(Row, depth, text("f8")),
+                            PLUMB_COLUMN(Row, position, text("(3,)f8")), PLUMB_COLUMN(Row, normal, text("(3,)f8"))});
+}
+template <>
 py::dtype build<PlumbProbe>() {
   using Row = PlumbProbe;
   return make(sizeof(Row), {PLUMB_COLUMN(Row, shape, text("u8")), PLUMB_POSE(Row, pose, ""),
@@ -287,6 +294,7 @@ void require_rows(const py::array& rows, const py::dtype& dtype, const char* wha
   ROW(PlumbCast, cast)                      \
   ROW(PlumbOverlap, overlap)                \
   ROW(PlumbHit, hit)                        \
+  ROW(PlumbPenetration, penetration)        \
   ROW(PlumbProbe, probe)                    \
   ROW(PlumbClosest, closest)                \
   ROW(PlumbPosedPair, posed_pair)           \

@@ -42,6 +42,21 @@ py::array overlap_shapes(World& world, const py::array& rows) {
   return array_of(hits);
 }
 
+py::array penetrations(World& world, const py::array& rows) {
+  const auto& queries = world.extension<PlumbQueriesTable>(PLUMB_EXT_QUERIES);
+  if (!has(queries, &PlumbQueriesTable::penetrations))
+    throw Error(PLUMB_E_UNSUPPORTED, "queries.penetrations: the backend is older than it");
+  const auto overlaps = rows_of<PlumbOverlap>(rows, "overlaps");
+  std::vector<PlumbPenetration> found;
+  world.call_unlocked(Tag::query, "queries.penetrations", [&](const PlumbBackendTable&, PlumbWorld* self) {
+    return fill_all(found, [&](PlumbPenetration* out, std::uint32_t capacity, std::uint32_t* count) {
+      return queries.penetrations(self, overlaps.data(), sizeof(PlumbOverlap), count_of(overlaps.size()), out, capacity,
+                                  count);
+    });
+  });
+  return array_of(found);
+}
+
 py::array closest_bodies(World& world, PlumbHitMode mode, const py::array& rows) {
   const auto& closest = world.extension<PlumbClosestTable>(PLUMB_EXT_CLOSEST);
   const auto probes = rows_of<PlumbProbe>(rows, "probes");
@@ -90,6 +105,7 @@ void bind_queries(WorldClass& world) {
   world.def("cast_rays", &cast_rays)
       .def("cast_shapes", &cast_shapes)
       .def("overlap_shapes", &overlap_shapes)
+      .def("penetrations", &penetrations)
       .def("closest_bodies", &closest_bodies)
       .def("collide_pairs", &collide_pairs)
       .def("debug_pairs", [](World& self) { return look<&Debug::pairs, PlumbDebugPair>(self, "debug.pairs"); })

@@ -49,6 +49,19 @@ class Queries(unittest.TestCase):
         np.testing.assert_array_equal(hits["query"], [1, 2])
         np.testing.assert_array_equal(hits["body"], bodies[1:])
 
+    @on_each(*NEEDS, asked=[("query", "penetration", "sphere")])
+    def test_penetrations(self, engine):
+        world, ball, bodies = self.scene(engine)
+        rows = world.queries.penetrations(ball, [(7.5, 3, 0), (11.5, 0, 0), (12.5, 0, 0), (15, 1, 0)])
+        np.testing.assert_array_equal(rows["query"], [1, 3])
+        np.testing.assert_array_equal(rows["body"], bodies[1:])
+        np.testing.assert_allclose(rows["depth"], [0.5, 1], atol=1e-4)
+        np.testing.assert_allclose(rows["normal"], [(1, 0, 0), (0, 1, 0)], atol=1e-4)
+        self.assertEqual(len(world.queries.penetrations(ball, (10, 0.5, 0), filter=plumb.Filter(mask=4))), 0)
+        plane = world.create_shape(plumb.Plane())
+        with self.assertRaisesRegex(plumb.Error, "is a plane; it must be convex"):
+            world.queries.penetrations(plane, (0, 0, 0))
+
     @on_each(*NEEDS, asked=[("closest", "sphere")])
     def test_closest(self, engine):
         world, ball, bodies = self.scene(engine)

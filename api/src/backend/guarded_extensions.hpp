@@ -146,6 +146,17 @@ class GuardedExtensions : public GuardedWorld {
     return hand_out_hits(extension.overlap_shapes(adopted), hits, capacity, hit_count);
   }
 
+  PlumbResult penetrations(const PlumbOverlap* overlaps, std::size_t stride, std::uint32_t count, PlumbPenetration* out,
+                           std::uint32_t capacity, std::uint32_t* out_count) {
+    IQueries& extension = require_queries();
+    const std::vector<PlumbOverlap> adopted = adopt_rows(overlaps, stride, count, "overlaps");
+    for (std::uint32_t i = 0; i < count; ++i)
+      check_posed_shape({"overlaps", i}, adopted[i].shape, adopted[i].pose, PLUMB_QUERY_PENETRATION,
+                        "depth of overlap of a ");
+    const Penetrations found = extension.penetrations(adopted);
+    return std::max(found.result, hand_out(found.rows, out, sizeof(PlumbPenetration), capacity, out_count));
+  }
+
   PlumbResult closest_bodies(PlumbHitMode mode, const PlumbProbe* probes, std::size_t stride, std::uint32_t count,
                              PlumbClosest* out, std::uint32_t capacity, std::uint32_t* out_count) {
     IClosest& extension = require_extension(world_->closest(), PLUMB_EXT_CLOSEST);

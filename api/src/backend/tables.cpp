@@ -30,9 +30,12 @@ const PlumbJointsTable kJointsTable = {sizeof(PlumbJointsTable),
                                        &Entry<&GuardedExtensions::destroy_joints>::call,
                                        &Entry<&GuardedExtensions::read_joints>::call,
                                        &Entry<&GuardedExtensions::write_joints>::call};
-const PlumbQueriesTable kQueriesTable = {sizeof(PlumbQueriesTable), 0, &Entry<&GuardedExtensions::rays>::call,
+const PlumbQueriesTable kQueriesTable = {sizeof(PlumbQueriesTable),
+                                         0,
+                                         &Entry<&GuardedExtensions::rays>::call,
                                          &Entry<&GuardedExtensions::casts>::call,
-                                         &Entry<&GuardedExtensions::overlaps>::call};
+                                         &Entry<&GuardedExtensions::overlaps>::call,
+                                         &Entry<&GuardedExtensions::penetrations>::call};
 const PlumbCollideTable kCollideTable = {sizeof(PlumbCollideTable), 0, &Entry<&GuardedExtensions::collide_pairs>::call};
 const PlumbDebugTable kDebugTable = {sizeof(PlumbDebugTable),
                                      0,

@@ -147,8 +147,20 @@ void CharacterController::ride(double dt) {
   position_ = add(position_, by_its_own_ground ? by : scale(free.distance, direction(by, up_)));
 }
 
-/// Out of what has moved into it, along the normals that casts of nearly nothing tell.
+/// Out of what has moved into it, the deepest first.
 void CharacterController::part() {
+  for (int i = 0; i < 32; ++i) {
+    const PlumbOverlap here{capsule_, {position_, {0, 0, 0, 1}}, settings_.filter};
+    const Penetrations inside = queries_.penetrations({&here, 1});
+    if (inside.result == PLUMB_E_UNSUPPORTED) return part_by_casts();
+    if (inside.result < 0 || inside.rows.empty()) return;
+    const PlumbPenetration& deepest = inside.rows[0];
+    position_ = add(position_, scale(deepest.depth + settings_.skin / 2, deepest.normal));
+  }
+}
+
+/// Where the engine does not tell depths: along the normals that casts of nearly nothing tell.
+void CharacterController::part_by_casts() {
   for (int i = 0; i < 32; ++i) {
     const PlumbOverlap here{capsule_, {position_, {0, 0, 0, 1}}, settings_.filter};
     const Hits inside = queries_.overlap_shapes({&here, 1});

@@ -248,6 +248,16 @@ inline PlumbResult again(CallTag<Call::queries_overlaps>, Decoding& d, decltype(
     return next(d.to.world, overlaps.data(), overlaps.stride, overlaps.count, hits, capacity, count);
   });
 }
+inline PlumbResult again(CallTag<Call::queries_penetrations>, Decoding& d,
+                         decltype(PlumbQueriesTable::penetrations) next) {
+  auto overlaps = d.rows<PlumbOverlap>();
+  auto out = d.room<PlumbPenetration>();
+  std::uint32_t count = 0;
+  const PlumbResult result =
+      next(d.to.world, overlaps.data(), overlaps.stride, overlaps.count, out.data(), out.capacity, &count);
+  if (result >= 0) d.output_rows(out.data(), out.capacity, count);
+  return result;
+}
 inline PlumbResult again(CallTag<Call::closest_bodies>, Decoding& d, decltype(PlumbClosestTable::bodies) next) {
   const auto mode = d.in.get<PlumbHitMode>();
   auto probes = d.rows<PlumbProbe>();

@@ -202,6 +202,12 @@ inline void encode(CallTag<Call::queries_overlaps>, Encoding e, const PlumbOverl
   e.room(hits, capacity);
   if (e.done()) e.output_rows(hits, sizeof(PlumbHit), capacity, *hit_count);
 }
+inline void encode(CallTag<Call::queries_penetrations>, Encoding e, const PlumbOverlap* overlaps, std::size_t stride,
+                   std::uint32_t count, PlumbPenetration* out, std::uint32_t capacity, std::uint32_t* out_count) {
+  e.rows(overlaps, stride, count);
+  e.room(out, capacity);
+  if (e.done()) e.output_rows(out, sizeof(PlumbPenetration), capacity, *out_count);
+}
 inline void encode(CallTag<Call::closest_bodies>, Encoding e, PlumbHitMode mode, const PlumbProbe* probes,
                    std::size_t stride, std::uint32_t count, PlumbClosest* out, std::uint32_t capacity,
                    std::uint32_t* out_count) {

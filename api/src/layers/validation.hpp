@@ -69,6 +69,9 @@ class ValidationLayer : public LayerBase {
   PlumbResult run(CallTag<Call::queries_overlaps>, ValidatedWorld&, PlumbWorld*, const PlumbOverlap* overlaps,
                   std::size_t stride, std::uint32_t count, PlumbHit* hits, std::uint32_t capacity,
                   std::uint32_t* hit_count);
+  PlumbResult run(CallTag<Call::queries_penetrations>, ValidatedWorld&, PlumbWorld*, const PlumbOverlap* overlaps,
+                  std::size_t stride, std::uint32_t count, PlumbPenetration* out, std::uint32_t capacity,
+                  std::uint32_t* out_count);
   PlumbResult run(CallTag<Call::closest_bodies>, ValidatedWorld&, PlumbWorld*, PlumbHitMode mode,
                   const PlumbProbe* probes, std::size_t stride, std::uint32_t count, PlumbClosest* out,
                   std::uint32_t capacity, std::uint32_t* out_count);

@@ -184,6 +184,21 @@ inline void check_found(const Question& asked, const PlumbClosest* rows, std::ui
   }
 }
 
+inline void check_found(const Question& asked, const PlumbPenetration* rows, std::uint32_t written) {
+  const auto key = [](const PlumbPenetration& row) { return std::tuple(row.query, -row.depth, slot_of(row.body)); };
+  for (std::uint32_t i = 0; i < written; ++i) {
+    const PlumbPenetration& row = rows[i];
+    const std::string which = "out[" + std::to_string(i) + "]";
+    if (row.query >= asked.queries)
+      throw BackendError{which + " is of query " + std::to_string(row.query) + ", which is none"};
+    if (row.body == 0) throw BackendError{which + " names no body"};
+    if (!(row.depth >= 0)) throw BackendError{which + ".depth is " + std::to_string(row.depth) + ", not 0 or above"};
+    if (const double length = std::hypot(row.normal.x, row.normal.y, row.normal.z); !(std::abs(length - 1) < 1e-3))
+      throw BackendError{which + ".normal has length " + std::to_string(length)};
+    if (i > 0 && key(row) < key(rows[i - 1])) throw BackendError{which + " breaks the order of query, depth, body"};
+  }
+}
+
 // Forwards a query with a stand-in for its answer, and checks that.
 template <class Row, class Forward>
 PlumbResult checked_answer(const Question& asked, Row* rows, std::uint32_t capacity, std::uint32_t* count,
@@ -234,6 +249,18 @@ inline PlumbResult ValidationLayer::run(CallTag<Call::queries_overlaps>, Validat
   return checked_answer({count, false, "hits", "hit_count", "hits"}, hits, capacity, hit_count,
                         [&](PlumbHit* out, std::uint32_t* found) {
                           return next<Call::queries_overlaps>()(world, overlaps, stride, count, out, capacity, found);
+                        });
+}
+
+inline PlumbResult ValidationLayer::run(CallTag<Call::queries_penetrations>, ValidatedWorld&, PlumbWorld* world,
+                                        const PlumbOverlap* overlaps, std::size_t stride, std::uint32_t count,
+                                        PlumbPenetration* out, std::uint32_t capacity, std::uint32_t* out_count) {
+  require_memory(overlaps, count, "overlaps");
+  require_stride<PlumbOverlap>(stride, count, "overlaps");
+  return checked_answer({count, false, "out", "out_count", "bodies"}, out, capacity, out_count,
+                        [&](PlumbPenetration* rows, std::uint32_t* found) {
+                          return next<Call::queries_penetrations>()(world, overlaps, stride, count, rows, capacity,
+                                                                    found);
                         });
 }
 

@@ -70,6 +70,7 @@ export const LAYOUT = {
     velocity: vec3, positions: ['f64', 12], depths: ['f64', 4], friction: 'f64', restitution: 'f64',
     surfaceVelocity: vec3 }),
   manifoldChange: laidOut({ manifold: 'u32', what: 'u32', friction: 'f64', restitution: 'f64', surfaceVelocity: vec3 }),
+  penetration: laidOut({ body: 'u64', query: 'u32', child: 'u32', depth: 'f64', position: vec3, normal: vec3 }),
 };
 
 const kSet = { u32: 'setUint32', i32: 'setInt32', pointer: 'setUint32', u64: 'setBigUint64', f64: 'setFloat64' };

@@ -193,6 +193,11 @@ export class World {
     return this.#hits('plumb_overlap_shapes', LAYOUT.overlap, [],
       [{ shape, pose: poseOf(frame), filter: filterOf(filter) }]).map(({ body, child }) => ({ body, child }));
   }
+  /** How deep a shape overlaps bodies, were it there, the deepest first, and for each the way out. */
+  penetrations(shape, frame, filter) {
+    return this.#hits('plumb_penetrations', LAYOUT.overlap, [],
+      [{ shape, pose: poseOf(frame), filter: filterOf(filter) }], LAYOUT.penetration).map(({ query: _, ...row }) => row);
+  }
   /** Two shapes without a step: how far apart (below 0: depth; NaN: the engine does not tell), and where they touch. */
   collide({ shapeA, frameA, shapeB, frameB }) {
     return this.#memory.scope(() => {
@@ -281,12 +286,12 @@ export class World {
         `${Array.isArray(given) ? 'have' : 'has'} ${columns * ids.length} numbers, not ${rows.length}`);
     this.#call(name, number, this.#ids(ids), ids.length, () => this.#memory.putArray(Float64Array, rows));
   }
-  #hits(name, layout, mode, queries) {
+  #hits(name, layout, mode, queries, row = LAYOUT.hit) {
     return this.#memory.scope(() => {
       const asked = this.#memory.putStructs(layout, queries);
       const hits = this.#memory.take(4), count = this.#memory.take(4);
       this.#call(name, ...mode, asked, queries.length, hits, count);
-      return this.#memory.structs(LAYOUT.hit, this.#memory.word(hits), this.#memory.word(count));
+      return this.#memory.structs(row, this.#memory.word(hits), this.#memory.word(count));
     });
   }
   #ask(name, layout, all, queries) {

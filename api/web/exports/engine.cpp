@@ -49,7 +49,7 @@ PLUMB_WEB(std::uint32_t, plumb_struct_size)(std::uint32_t which) {
       sizeof(PlumbCast),      sizeof(PlumbOverlap),        sizeof(PlumbHit),
       sizeof(PlumbBodyPair),  sizeof(PlumbBodyChange),     sizeof(PlumbJointChange),
       sizeof(PlumbPosedPair), sizeof(PlumbPairResult),     sizeof(PlumbPairPoint),
-      sizeof(PlumbManifold),  sizeof(PlumbManifoldChange),
+      sizeof(PlumbManifold),  sizeof(PlumbManifoldChange), sizeof(PlumbPenetration),
   };
   return which < sizeof sizes / sizeof *sizes ? sizes[which] : 0;
 }

@@ -58,6 +58,18 @@ PLUMB_WEB(PlumbResult, plumb_overlap_shapes)
   return ask(*world, hits, hit_count, [&](auto& queries) { return queries.overlap_shapes({overlaps, count}); });
 }
 
+/// rows live until the next call.
+PLUMB_WEB(PlumbResult, plumb_penetrations)
+(IPhysicsWorld* world, const PlumbOverlap* overlaps, std::uint32_t count, const PlumbPenetration** rows,
+ std::uint32_t* row_count) {
+  return with(*world, world->queries(), "queries", [&](auto& queries) {
+    const plumb::Penetrations found = queries.penetrations({overlaps, count});
+    *rows = found.rows.data();
+    *row_count = static_cast<std::uint32_t>(found.rows.size());
+    return found.result;
+  });
+}
+
 /// points live until the next call; each result says which of them are its.
 PLUMB_WEB(PlumbResult, plumb_collide_pairs)
 (IPhysicsWorld* world, const PlumbPosedPair* pairs, std::uint32_t count, PlumbPairResult* results,

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <optional>
 
+#include "plumb/backend/hit_collector.hpp"
 #include "plumb/backend/small_math.hpp"
 #include "queries/exact_rays.hpp"
 #include "world.hpp"
@@ -217,9 +218,10 @@ struct CastCallback final : btCollisionWorld::ConvexResultCallback {
   std::vector<Hit> hits;
 };
 
+/// keep(body, child, depth, position, normal) of every point of contact.
+template <class Keep>
 struct OverlapCallback final : btCollisionWorld::ContactResultCallback {
-  OverlapCallback(const btCollisionObject& o, const PlumbFilter& f, Collector& c, bool p)
-      : object(o), filter(f), collector(c), with_points(p) {}
+  OverlapCallback(const btCollisionObject& o, const PlumbFilter& f, const Keep& k) : object(o), filter(f), keep(k) {}
 
   bool needsCollision(btBroadphaseProxy* proxy) const override { return sees(filter, proxy); }
 
@@ -231,24 +233,23 @@ struct OverlapCallback final : btCollisionWorld::ContactResultCallback {
     const btCollisionWorld::LocalShapeInfo info{-1, first ? index_b : index_a};
     // On B and towards A, in the order of the arguments; wanted is the normal of the body's surface.
     const btVector3 normal = first ? point.m_normalWorldOnB : -point.m_normalWorldOnB;
-    const PlumbVec3 nowhere{kUnknown, kUnknown, kUnknown};
-    collector.add(body, child_of(body, &info), 0, with_points ? to_plumb(point.getPositionWorldOnB()) : nowhere,
-                  with_points ? to_plumb(normal) : nowhere);
+    keep(body, child_of(body, &info), -static_cast<double>(point.getDistance()), to_plumb(point.getPositionWorldOnB()),
+         to_plumb(normal));
     return 0;
   }
 
   const btCollisionObject& object;
   const PlumbFilter& filter;
-  Collector& collector;
-  bool with_points;
+  const Keep& keep;
 };
 
+template <class Keep>
 void overlap(btCollisionWorld& world, const Shape& shape, const PlumbPose& pose, const PlumbFilter& filter,
-             Collector& collector, bool with_points) {
+             const Keep& keep) {
   btCollisionObject object;
   object.setCollisionShape(shape.bullet.get());
   object.setWorldTransform(transform(pose, "pose"));
-  OverlapCallback callback(object, filter, collector, with_points);
+  OverlapCallback<Keep> callback(object, filter, keep);
   world.contactTest(&object, callback);
 }
 
@@ -281,7 +282,9 @@ Hits World::cast_shapes(PlumbHitMode mode, std::span<const PlumbCast> casts) {
     const PlumbCast& cast = casts[i];
     const Shape& moved = *shape(cast.shape);
     Collector collector(i, mode);
-    overlap(world_, moved, cast.pose, cast.filter, collector, true);
+    overlap(world_, moved, cast.pose, cast.filter,
+            [&](const Body& body, std::uint32_t child, double /*depth*/, const PlumbVec3& position,
+                const PlumbVec3& normal) { collector.add(body, child, 0, position, normal); });
     if (mode == PLUMB_HIT_ALL || !collector.any()) {
       const btTransform from = transform(cast.pose, "pose");
       const btTransform to(from.getBasis(), end_of(from.getOrigin(), cast.translation));
@@ -300,10 +303,27 @@ Hits World::overlap_shapes(std::span<const PlumbOverlap> overlaps) {
   found.clear();
   for (std::uint32_t i = 0; i < overlaps.size(); ++i) {
     Collector collector(i, PLUMB_HIT_ALL);
-    overlap(world_, *shape(overlaps[i].shape), overlaps[i].pose, overlaps[i].filter, collector, false);
+    overlap(world_, *shape(overlaps[i].shape), overlaps[i].pose, overlaps[i].filter,
+            [&](const Body& body, std::uint32_t child, double, const PlumbVec3&, const PlumbVec3&) {
+              constexpr PlumbVec3 nowhere{kUnknown, kUnknown, kUnknown};
+              collector.add(body, child, 0, nowhere, nowhere);
+            });
     collector.finish();
   }
   return {PLUMB_OK, found};
+}
+
+Penetrations World::penetrations(std::span<const PlumbOverlap> overlaps) {
+  const std::lock_guard lock(query_mutex_);
+  thread_local std::vector<PlumbPenetration> touches;
+  touches.clear();
+  for (std::uint32_t i = 0; i < overlaps.size(); ++i)
+    overlap(
+        world_, *shape(overlaps[i].shape), overlaps[i].pose, overlaps[i].filter,
+        [&](const Body& body, std::uint32_t child, double depth, const PlumbVec3& position, const PlumbVec3& normal) {
+          touches.push_back({body.handle, i, child, depth, position, normal});
+        });
+  return {PLUMB_OK, backend::deepest_of_bodies(touches)};
 }
 
 }  // namespace plumb::bullet

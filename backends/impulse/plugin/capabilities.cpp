@@ -37,6 +37,7 @@ Capability known(PlumbCapability kind, std::uint32_t a, std::uint32_t b) {
         return {PLUMB_NATIVE, "convex shapes and planes are solid: a ray that starts inside hits at fraction 0"};
       if (a < PLUMB_QUERY_KIND_COUNT && !backend::is_convex(b))
         return {PLUMB_NONE, "what is cast or overlapped is convex"};
+      if (a == PLUMB_QUERY_PENETRATION) return {PLUMB_NATIVE};
       break;
     case PLUMB_CAP_CLOSEST:
       if (a < PLUMB_SHAPE_TYPE_COUNT && !backend::is_convex(a)) return {PLUMB_NONE, "what is looked around is convex"};

@@ -85,7 +85,8 @@ class DecoratedTables {
       return served<Joints, &Joints::create, &Joints::destroy, &Joints::read, &Joints::write>(name);
     if (wanted == PLUMB_EXT_MANIFOLDS) return served<Manifolds, &Manifolds::read, &Manifolds::modify>(name);
     if (wanted == PLUMB_EXT_MODIFY) return served<Modify, &Modify::bodies, &Modify::joints, &Modify::shapes>(name);
-    if (wanted == PLUMB_EXT_QUERIES) return served<Queries, &Queries::rays, &Queries::casts, &Queries::overlaps>(name);
+    if (wanted == PLUMB_EXT_QUERIES)
+      return served<Queries, &Queries::rays, &Queries::casts, &Queries::overlaps, &Queries::penetrations>(name);
     if (wanted == PLUMB_EXT_SETTINGS)
       return served<SettingsTable, &SettingsTable::describe, &SettingsTable::get, &SettingsTable::set>(name);
     if (wanted == PLUMB_EXT_SNAPSHOT)

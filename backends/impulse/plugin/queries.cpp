@@ -41,6 +41,12 @@ Hits World::overlap_shapes(std::span<const PlumbOverlap> overlaps) {
   });
 }
 
+Penetrations World::penetrations(std::span<const PlumbOverlap> overlaps) {
+  return ask(queries_.batches, [&](QueryBatch& batch, Executor& executor, const QueryScene& scene) {
+    return Penetrations{PLUMB_OK, batch.penetrations(executor, scene, overlaps)};
+  });
+}
+
 ClosestBodies World::closest_bodies(PlumbHitMode mode, std::span<const PlumbProbe> probes) {
   return ask(queries_.closest_batches, [&](ClosestBatch& batch, Executor& executor, const QueryScene& scene) {
     return ClosestBodies{PLUMB_OK, batch.find(executor, scene, mode, probes)};

@@ -15,6 +15,21 @@ struct FindMarked {
   }
 };
 
+PLUMB_HD const Target& target_of(const QueryScene& scene, const PlumbHit& marked) {
+  return scene.targets[static_cast<std::uint32_t>(marked.position.x)];
+}
+PLUMB_HD std::uint32_t child_of(const PlumbHit& marked, const Target& target, const PairAnswer& answer) {
+  return is_surface(target.shape.type) ? child_at(target, answer.triangle) : marked.child;
+}
+
+/// query: a cast or an overlap.
+template <class Query>
+PLUMB_HD PosedPair pair_of(const QueryScene& scene, const PlumbHit& marked, const Query& query) {
+  const Target& target = target_of(scene, marked);
+  return {target.shape, scene.shapes[row_of(query.shape)], target.place, to_vec64(query.pose.position),
+          target.turn,  to_quat64(query.pose.orientation)};
+}
+
 struct MakePairs {
   QueryScene scene;
   const PlumbCast* casts;
@@ -22,11 +37,7 @@ struct MakePairs {
   const std::uint32_t *marked, *rows;
   PosedPair* pairs;
   PLUMB_HD void operator()(std::uint32_t i) const {
-    if (marked[i] == 0) return;
-    const Target& target = scene.targets[static_cast<std::uint32_t>(hits[i].position.x)];
-    const PlumbCast& cast = casts[hits[i].query];
-    pairs[rows[i]] = {target.shape, scene.shapes[row_of(cast.shape)], target.place, to_vec64(cast.pose.position),
-                      target.turn,  to_quat64(cast.pose.orientation)};
+    if (marked[i] != 0) pairs[rows[i]] = pair_of(scene, hits[i], casts[hits[i].query]);
   }
 };
 
@@ -39,10 +50,34 @@ struct Describe {
   PLUMB_HD void operator()(std::uint32_t i) const {
     if (marked[i] == 0) return;
     const PairAnswer& answer = answers[rows[i]];
-    const Target& target = scene.targets[static_cast<std::uint32_t>(hits[i].position.x)];
-    if (is_surface(target.shape.type)) hits[i].child = child_at(target, answer.triangle);
+    hits[i].child = child_of(hits[i], target_of(scene, hits[i]), answer);
     hits[i].position = to_plumb_vec3(pairs[rows[i]].place_a + answer.at);
     hits[i].normal = to_plumb_vec3(answer.normal);
+  }
+};
+
+struct PairOverlaps {
+  QueryScene scene;
+  const PlumbOverlap* overlaps;
+  const PlumbHit* hits;
+  PosedPair* pairs;
+  PLUMB_HD void operator()(std::uint32_t i) const { pairs[i] = pair_of(scene, hits[i], overlaps[hits[i].query]); }
+};
+
+struct Tell {
+  QueryScene scene;
+  const PosedPair* pairs;
+  const PairAnswer* answers;
+  const PlumbHit* hits;
+  PlumbPenetration* told;
+  PLUMB_HD void operator()(std::uint32_t i) const {
+    const PlumbHit& hit = hits[i];
+    told[i] = {hit.body,
+               hit.query,
+               child_of(hit, target_of(scene, hit), answers[i]),
+               max(-answers[i].distance, 0.0),
+               to_plumb_vec3(pairs[i].place_a + answers[i].at),
+               to_plumb_vec3(answers[i].normal)};
   }
 };
 
@@ -65,6 +100,20 @@ void OverlapDepth::describe(Executor& executor, const QueryScene& scene, const P
   executor.run(n, MakePairs{scene, casts, hits, marked_.data(), rows_.data(), pairs_.data()});
   answer_pairs(executor, pairs_.data(), count, scene, (scene.types & kMidphaseTypes) != 0, answers_.data());
   executor.run(n, Describe{scene, marked_.data(), rows_.data(), pairs_.data(), answers_.data(), hits});
+}
+
+std::span<PlumbPenetration> OverlapDepth::tell(Executor& executor, const QueryScene& scene,
+                                               const PlumbOverlap* overlaps, const PlumbHit* hits, std::uint32_t n) {
+  if (n == 0) return {};
+  pairs_.grow(n);
+  answers_.grow(n);
+  told_.grow(n);
+  executor.run(n, PairOverlaps{scene, overlaps, hits, pairs_.data()});
+  answer_pairs(executor, pairs_.data(), n, scene, (scene.types & kMidphaseTypes) != 0, answers_.data());
+  executor.run(n, Tell{scene, pairs_.data(), answers_.data(), hits, told_.device()});
+  executor.to_host(told_, n);
+  executor.wait();
+  return {told_.host(), n};
 }
 
 }  // namespace plumb::impulse

@@ -1,7 +1,9 @@
-// Casts that overlap a body from the start: where, and which way out, as the narrow phase's contact tells.
+// Shapes that overlap a body, casts from their start on: where, how deep, and which way out, as the narrow phase's
+// contact tells.
 #pragma once
 
 #include <limits>
+#include <span>
 
 #include "exec/sort.hpp"
 #include "plumb/queries.h"
@@ -22,11 +24,17 @@ class OverlapDepth {
   /// Fills in the marked ones among the first n hits. casts: by query. Both are where kernels run.
   void describe(Executor& executor, const QueryScene& scene, const PlumbCast* casts, PlumbHit* hits, std::uint32_t n);
 
+  /// Of n hits, all of them marked, in their order. overlaps: by query. Both are where kernels run, the answer where
+  /// the host reads it, until the next; waits.
+  std::span<PlumbPenetration> tell(Executor& executor, const QueryScene& scene, const PlumbOverlap* overlaps,
+                                   const PlumbHit* hits, std::uint32_t n);
+
  private:
   Scan scan_;
   Buffer<std::uint32_t> marked_, rows_, total_;
   Buffer<PosedPair> pairs_;
   Buffer<PairAnswer> answers_;
+  Mirror<PlumbPenetration> told_;
 };
 
 }  // namespace plumb::impulse

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "plumb/assert.hpp"
+#include "plumb/backend/hit_collector.hpp"
 #include "queries/hit_order.hpp"
 #include "queries/sweep_search.hpp"
 
@@ -104,12 +105,13 @@ template <class Probe>
 struct WriteMet {
   Meet<Probe> meet;
   std::uint32_t query;
+  bool marks;  ///< hits hold their proxies
   PlumbHit* to;
   PLUMB_HD void operator()(std::uint32_t proxy) {
     Meeting meeting{};
     if (!meet(proxy, meet.probe.course.length, meeting)) return;
     *to = hit_of(meet.scene, meet.scene.targets[proxy], query, meet.probe.course, meeting);
-    if (meeting.at_start) mark_overlap(proxy, *to);
+    if (marks || meeting.at_start) mark_overlap(proxy, *to);
     ++to;
   }
 };
@@ -122,12 +124,13 @@ struct ListHits {
   const std::uint32_t* offsets;
   std::uint32_t* counts;
   PlumbHit* hits;
+  bool marks;
   PLUMB_HD void operator()(std::uint32_t i) const {
     if (counts[i] == 0) return;
     const Probe probe(scene, rows[i]);
     const SweptBox sweep = sweep_of(scene, probe);
     PlumbHit* const first = hits + offsets[i];
-    WriteMet<Probe> write{{scene, probe}, i, first};
+    WriteMet<Probe> write{{scene, probe}, i, marks, first};
     visit_planes(scene, write);
     visit_all(scene.statics, sweep, write);
     visit_all(scene.movers, sweep, write);
@@ -151,7 +154,7 @@ void QueryBatch::closest_rays(Executor& executor, const QueryScene& scene, const
 
 template <class Probe>
 std::uint32_t QueryBatch::find_all(Executor& executor, const QueryScene& scene, const typename Probe::Row* rows,
-                                   std::uint32_t n) {
+                                   std::uint32_t n, bool marks) {
   PLUMB_ASSERT(n == 0 || rows != nullptr);
   return hits_.find(
       executor, n, scene.several,
@@ -159,7 +162,7 @@ std::uint32_t QueryBatch::find_all(Executor& executor, const QueryScene& scene, 
         executor.run(n, CountHits<Probe>{scene, rows, counts});
       },
       [&](const std::uint32_t* offsets, std::uint32_t* counts, PlumbHit* hits) {
-        executor.run(n, ListHits<Probe>{scene, rows, offsets, counts, hits});
+        executor.run(n, ListHits<Probe>{scene, rows, offsets, counts, hits, marks});
       });
 }
 
@@ -193,12 +196,26 @@ std::span<const PlumbHit> QueryBatch::casts(Executor& executor, const QueryScene
   return hits_.hand_out(executor, count);
 }
 
+std::uint32_t QueryBatch::find_overlaps(Executor& executor, const QueryScene& scene, const PlumbOverlap* rows,
+                                        std::uint32_t n, bool marks) {
+  return has_few_types(scene) ? find_all<OverlapProbe<Kinds::kFew>>(executor, scene, rows, n, marks)
+                              : find_all<OverlapProbe<Kinds::kAll>>(executor, scene, rows, n, marks);
+}
+
 std::span<const PlumbHit> QueryBatch::overlaps(Executor& executor, const QueryScene& scene,
                                                std::span<const PlumbOverlap> overlaps) {
   const auto n = static_cast<std::uint32_t>(overlaps.size());
+  return hits_.hand_out(executor, find_overlaps(executor, scene, overlaps_.bring(overlaps), n, false));
+}
+
+std::span<const PlumbPenetration> QueryBatch::penetrations(Executor& executor, const QueryScene& scene,
+                                                           std::span<const PlumbOverlap> overlaps) {
+  const auto n = static_cast<std::uint32_t>(overlaps.size());
   const PlumbOverlap* rows = overlaps_.bring(overlaps);
-  return hits_.hand_out(executor, has_few_types(scene) ? find_all<OverlapProbe<Kinds::kFew>>(executor, scene, rows, n)
-                                                       : find_all<OverlapProbe<Kinds::kAll>>(executor, scene, rows, n));
+  QueryScene pieces = scene;
+  pieces.several = false;  // which of a body's pieces is deepest is not known yet
+  const std::uint32_t count = find_overlaps(executor, pieces, rows, n, true);
+  return backend::deepest_of_bodies(depth_.tell(executor, scene, rows, hits_.device(), count));
 }
 
 }  // namespace plumb::impulse

@@ -20,6 +20,8 @@ class QueryBatch {
                                   std::span<const PlumbCast> casts);
   std::span<const PlumbHit> overlaps(Executor& executor, const QueryScene& scene,
                                      std::span<const PlumbOverlap> overlaps);
+  std::span<const PlumbPenetration> penetrations(Executor& executor, const QueryScene& scene,
+                                                 std::span<const PlumbOverlap> overlaps);
 
   /// What closest rays are but for the way of rows and hits: enqueues only. Both are where kernels run.
   static void closest_rays(Executor& executor, const QueryScene& scene, const PlumbRay* rays, std::uint32_t n,
@@ -32,7 +34,10 @@ class QueryBatch {
   std::uint32_t find_of(Executor& executor, const QueryScene& scene, PlumbHitMode mode, const typename Probe::Row* rows,
                         std::uint32_t n);
   template <class Probe>
-  std::uint32_t find_all(Executor& executor, const QueryScene& scene, const typename Probe::Row* rows, std::uint32_t n);
+  std::uint32_t find_all(Executor& executor, const QueryScene& scene, const typename Probe::Row* rows, std::uint32_t n,
+                         bool marks = false);
+  std::uint32_t find_overlaps(Executor& executor, const QueryScene& scene, const PlumbOverlap* rows, std::uint32_t n,
+                              bool marks);
 
   BatchRows<PlumbRay> rays_;
   BatchRows<PlumbCast> casts_;

@@ -137,6 +137,12 @@ class FakeWorld final : public IPhysicsWorld,
   }
   Hits cast_shapes(PlumbHitMode, std::span<const PlumbCast>) override { return {called(), {}}; }
   Hits overlap_shapes(std::span<const PlumbOverlap>) override { return {called(), {}}; }
+  Penetrations penetrations(std::span<const PlumbOverlap> overlaps) override {
+    ++calls;
+    penetration_rows.clear();
+    for (std::uint32_t i = 0; i < overlaps.size(); ++i) penetration_rows.push_back({1, i, 0, 0.5, {}, {0, 1, 0}});
+    return {PLUMB_OK, penetration_rows};
+  }
   ClosestBodies closest_bodies(PlumbHitMode, std::span<const PlumbProbe> probes) override {
     ++calls;
     closest_rows.assign(probes.size(), PlumbClosest{});
@@ -209,6 +215,7 @@ class FakeWorld final : public IPhysicsWorld,
   std::vector<ExceptionCall> exception_calls;
   std::vector<PlumbBody> handles;
   std::vector<PlumbHit> hit_rows;
+  std::vector<PlumbPenetration> penetration_rows;
   std::vector<PlumbClosest> closest_rows;
   std::size_t restored = 0;
 

@@ -72,6 +72,28 @@ TEST_F(GuardClosest, WhatMakesSenseReachesTheClass) {
   EXPECT_EQ(count, 0U);
 }
 
+TEST_F(GuardClosest, DepthsOfOverlapAreOfConvexShapesThatAreThere) {
+  const auto& queries = *static_cast<const PlumbQueriesTable*>(table.extension(PLUMB_EXT_QUERIES));
+  PlumbOverlap overlap = {probe.shape, identity_pose(), kAll};
+  PlumbPenetration row{};
+  const auto ask = [&] { return queries.penetrations(world, &overlap, sizeof overlap, 1, &row, 1, &count); };
+  EXPECT_EQ(ask(), PLUMB_OK) << table.error_text(world);
+  EXPECT_EQ(count, 1U);
+  const int calls = FakeWorld::last->calls;
+  const auto spoilt = [&](PlumbResult code, const std::string& words) {
+    EXPECT_EQ(ask(), code);
+    EXPECT_NE(std::string(table.error_text(world)).find(words), std::string::npos) << table.error_text(world);
+    overlap = {probe.shape, identity_pose(), kAll};
+  };
+  overlap.shape = plane;
+  spoilt(PLUMB_E_INVALID_ARGUMENT, "convex");
+  overlap.shape = 99;
+  spoilt(PLUMB_E_STALE_HANDLE, "overlaps[0].shape");
+  overlap.pose.orientation.w = 3;
+  spoilt(PLUMB_E_INVALID_ARGUMENT, "orientation");
+  EXPECT_EQ(FakeWorld::last->calls, calls) << "the class was called";
+}
+
 TEST_F(GuardClosest, IsThereForHostsInCxx) {
   const std::unique_ptr<IPhysicsWorld> host = backend.create_world(world_desc(PLUMB_NEED_QUERIES));
   ASSERT_NE(host->closest(), nullptr);

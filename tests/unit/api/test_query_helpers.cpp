@@ -3,6 +3,9 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
+#include <set>
+#include <tuple>
 
 #include "plumb/backend/hit_collector.hpp"
 #include "plumb/backend/joint_coordinates.hpp"
@@ -55,6 +58,34 @@ TEST(HitCollector, SaysWhereNothingWasFoundAndLeavesOtherQueriesAlone) {
   EXPECT_EQ(hits[0].body, second);
   EXPECT_EQ(hits[1].body, 0u);
   EXPECT_EQ(hits[1].query, 1u);
+}
+
+TEST(DeepestOfBodies, AreThoseOfBruteForce) {
+  std::mt19937 random(1);
+  const auto below = [&](std::uint32_t n) { return static_cast<std::uint32_t>(random() % n); };
+  std::vector<PlumbPenetration> pieces;
+  for (std::uint32_t query = 0; query < 500; ++query)
+    for (std::uint32_t i = below(7); i > 0; --i)
+      pieces.push_back({PlumbBody{1} << 32 | below(4), query, below(5), below(8) / 8.0, {}, {}});
+  const std::vector<PlumbPenetration> known = pieces;
+  const auto deeper = [](const PlumbPenetration& a, const PlumbPenetration& b) {
+    return a.depth > b.depth || (a.depth == b.depth && a.child < b.child);
+  };
+  const std::span<const PlumbPenetration> rows = deepest_of_bodies(pieces);
+  std::set<std::pair<std::uint32_t, PlumbBody>> bodies, told;
+  for (const PlumbPenetration& piece : known) bodies.emplace(piece.query, piece.body);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    told.emplace(rows[i].query, rows[i].body);
+    for (const PlumbPenetration& piece : known)
+      EXPECT_FALSE(piece.query == rows[i].query && piece.body == rows[i].body && deeper(piece, rows[i])) << i;
+    if (i == 0) continue;
+    EXPECT_LT(std::tuple(rows[i - 1].query, -rows[i - 1].depth, slot_of(rows[i - 1].body)),
+              std::tuple(rows[i].query, -rows[i].depth, slot_of(rows[i].body)));
+  }
+  EXPECT_EQ(told, bodies);
+  EXPECT_EQ(rows.size(), bodies.size());
+  EXPECT_GT(known.size(), rows.size() + 100);
+  EXPECT_TRUE(deepest_of_bodies({}).empty());
 }
 
 PlumbQuat about(const PlumbVec3& axis, double angle) {

@@ -85,6 +85,8 @@ class Everything {
     ok(table.rays(world_, PLUMB_HIT_CLOSEST, &ray, sizeof ray, 1, &hit, 1, &count));
     ok(table.casts(world_, PLUMB_HIT_CLOSEST, &cast, sizeof cast, 1, &hit, 1, &count));
     ok(table.overlaps(world_, &overlap, sizeof overlap, 1, &hit, 1, &count));
+    PlumbPenetration penetration;
+    ok(table.penetrations(world_, &overlap, sizeof overlap, 1, &penetration, 1, &count));
     const PlumbProbe probe = {shape_, identity_pose(), 7, filter};
     PlumbClosest closest;
     ok(extension<PlumbClosestTable>(PLUMB_EXT_CLOSEST)

@@ -209,6 +209,39 @@ TEST_F(ValidatedBackend, ClosestBodiesThatCannotBe) {
   expect(PLUMB_E_INTERNAL, ask(PLUMB_HIT_ALL), "out[0].normal is told of what touches");
 }
 
+TEST_F(ValidatedBackend, PenetrationsThatCannotBe) {
+  static std::vector<PlumbPenetration> answer;
+  ill().queries.penetrations = [](PlumbWorld*, const PlumbOverlap*, std::size_t, std::uint32_t, PlumbPenetration* out,
+                                  std::uint32_t, std::uint32_t* count) -> PlumbResult {
+    std::copy(answer.begin(), answer.end(), out);
+    *count = static_cast<std::uint32_t>(answer.size());
+    return PLUMB_OK;
+  };
+  const PlumbOverlap overlap{shape, identity_pose(), {1, 1, 0, 0}};
+  PlumbPenetration rows[2];
+  std::uint32_t count = 0;
+  const auto ask = [&] {
+    return extension<PlumbQueriesTable>(PLUMB_EXT_QUERIES)
+        .penetrations(world, &overlap, sizeof overlap, 1, rows, 2, &count);
+  };
+  const auto row = [&](PlumbBody body, std::uint32_t query, double depth, double normal = 1) {
+    return PlumbPenetration{body, query, 0, depth, {}, {0, normal, 0}};
+  };
+  answer = {row(bodies[1], 0, 0.5), row(bodies[0], 0, 0)};
+  EXPECT_EQ(ask(), PLUMB_OK) << table->error_text(world);
+  EXPECT_EQ(count, 2u);
+  answer = {row(bodies[0], 0, 0), row(bodies[1], 0, 0.5)};
+  expect(PLUMB_E_INTERNAL, ask(), "out[1] breaks the order of query, depth, body");
+  answer = {row(bodies[0], 0, -0.5)};
+  expect(PLUMB_E_INTERNAL, ask(), "out[0].depth is -0.5");
+  answer = {row(0, 0, 0.5)};
+  expect(PLUMB_E_INTERNAL, ask(), "out[0] names no body");
+  answer = {row(bodies[0], 1, 0.5)};
+  expect(PLUMB_E_INTERNAL, ask(), "out[0] is of query 1, which is none");
+  answer = {row(bodies[0], 0, 0.5, 0)};
+  expect(PLUMB_E_INTERNAL, ask(), "out[0].normal has length 0");
+}
+
 TEST_F(ValidatedBackend, HitsBeyondTheCapacityOrOutOfOrder) {
   static std::vector<PlumbHit> answer;
   static std::uint32_t counted;

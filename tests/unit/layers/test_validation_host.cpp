@@ -221,6 +221,15 @@ TEST_F(ValidatedHost, SizesAndPointersOfExtensions) {
           [&] { return queries.overlaps(world, nullptr, sizeof overlap, 1, &hit, 1, &count); });
   refused(PLUMB_E_INVALID_ARGUMENT, "stride of overlaps is 8",
           [&] { return queries.overlaps(world, &overlap, 8, 1, &hit, 1, &count); });
+  PlumbPenetration deep;
+  refused(PLUMB_E_INVALID_ARGUMENT, "overlaps is null",
+          [&] { return queries.penetrations(world, nullptr, sizeof overlap, 1, &deep, 1, &count); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "stride of overlaps is 8",
+          [&] { return queries.penetrations(world, &overlap, 8, 1, &deep, 1, &count); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "out is null",
+          [&] { return queries.penetrations(world, &overlap, sizeof overlap, 1, nullptr, 1, &count); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "out_count is null",
+          [&] { return queries.penetrations(world, &overlap, sizeof overlap, 1, &deep, 1, nullptr); });
   const auto& closest = extension<PlumbClosestTable>(PLUMB_EXT_CLOSEST);
   const PlumbProbe probe{shape, identity_pose(), 1, {1, 1, 0, 0}};
   PlumbClosest row;

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
+#include <tuple>
 #include <vector>
 
 #include "plumb/physics_world.hpp"
@@ -56,5 +58,25 @@ class HitCollector {
   PlumbHitMode mode_;
   std::size_t first_;
 };
+
+/// Of what a batch found, query after query, but pieces of a body each by itself and in any order: for each query the
+/// deepest of each body, the deepest body first. rows is sorted and shortened.
+[[nodiscard]] inline std::span<const PlumbPenetration> deepest_of_bodies(std::span<PlumbPenetration> rows) {
+  using Row = PlumbPenetration;
+  auto end = rows.begin();
+  for (auto first = rows.begin(); first != rows.end();) {
+    const auto next = std::find_if(first, rows.end(), [&](const Row& row) { return row.query != first->query; });
+    std::sort(first, next, [](const Row& a, const Row& b) {
+      return std::tuple(slot_of(a.body), -a.depth, a.child) < std::tuple(slot_of(b.body), -b.depth, b.child);
+    });
+    const auto last = std::unique(first, next, [](const Row& a, const Row& b) { return a.body == b.body; });
+    std::sort(first, last, [](const Row& a, const Row& b) {
+      return std::tuple(-a.depth, slot_of(a.body)) < std::tuple(-b.depth, slot_of(b.body));
+    });
+    end = end == first ? last : std::move(first, last, end);
+    first = next;
+  }
+  return {rows.begin(), end};
+}
 
 }  // namespace plumb::backend

@@ -60,6 +60,7 @@ class CharacterController {
   [[nodiscard]] bool stands_on_edge(const PlumbHit& hit, const PlumbVec3& heading);
   void ride(double dt);
   void part();
+  void part_by_casts();
   void slide(PlumbVec3 by, double dt, bool walking);
   bool climb(const PlumbVec3& by);
   void find_ground(double reach);

@@ -33,6 +33,17 @@ void closest_bodies(benchmark::State& state, PlumbHitMode mode, std::uint32_t ba
   state.counters["rows"] = static_cast<double>(rows);
 }
 
+/// Which bodies cubes of 1 m overlap, and how deep where `with_depth`.
+void overlaps(benchmark::State& state, bool with_depth, std::uint32_t cubes) {
+  QueryBench bench(kBoxes, cubes, 1);
+  const std::vector<PlumbOverlap> asked = bench.cubes();
+  std::size_t rows = 0;
+  for (auto _ : state) rows = with_depth ? bench.rig.penetrations(asked).size() : bench.rig.overlaps(asked).size();
+  state.counters["per_cube"] =
+      benchmark::Counter(cubes, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  state.counters["rows"] = static_cast<double>(rows);
+}
+
 }  // namespace
 }  // namespace plumb::impulse
 
@@ -49,6 +60,10 @@ int main(int argc, char** argv) {
   for (const auto& [name, mode] : {std::pair{"the nearest within 3 m of 1000 balls", PLUMB_HIT_CLOSEST},
                                    std::pair{"all within 3 m of 1000 balls", PLUMB_HIT_ALL}})
     benchmark::RegisterBenchmark(name, closest_bodies, static_cast<PlumbHitMode>(mode), kRays / 1000)
+        ->Unit(benchmark::kMillisecond)
+        ->UseRealTime();
+  for (const auto& [name, with_depth] : {std::pair{"overlaps of 1000 cubes", false}, {"depths of 1000 cubes", true}})
+    benchmark::RegisterBenchmark(name, overlaps, with_depth, kRays / 1000)
         ->Unit(benchmark::kMillisecond)
         ->UseRealTime();
   benchmark::Initialize(&argc, argv);

@@ -1,6 +1,6 @@
-// Rays on a CUDA device: milliseconds of the kernel by events, and of the whole call with the way of the rays there and
-// of the hits back by the host's clock; and the hash of the hits, which bench_impulse_queries prints on the CPU too.
-// Needs no library beside the driver.
+// Rays, overlaps and depths on a CUDA device: milliseconds of the rays' kernel by events, and of whole calls with the
+// way there and back by the host's clock; and the hash of the rays' hits, which bench_impulse_queries prints on the CPU
+// too. Needs no library beside the driver.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -43,11 +43,12 @@ double kernel_ms(QueryBench& bench) {
   return median(times);
 }
 
-double call_ms(QueryBench& bench) {
+template <class Ask>
+double call_ms(const Ask& ask) {
   std::vector<double> times;
   for (int run = 0; run < kRuns; ++run) {
     const auto start = std::chrono::steady_clock::now();
-    bench.ask();
+    ask();
     times.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
   }
   return median(times);
@@ -60,9 +61,18 @@ int main() {
   try {
     for (const std::uint32_t rays : {1000U, 1000000U}) {
       plumb::impulse::QueryBench bench(32000, rays, 1);
-      const double kernel = plumb::impulse::kernel_ms(bench), call = plumb::impulse::call_ms(bench);
+      const double kernel = plumb::impulse::kernel_ms(bench), call = plumb::impulse::call_ms([&] { bench.ask(); });
       std::printf("%8u rays  kernel %.4f  call %.4f ms  %zu hits  hash %s\n", rays, kernel, call, bench.found(),
                   plumb::impulse::hexadecimal(bench.hash()).c_str());
+      std::fflush(stdout);
+    }
+    for (const std::uint32_t cubes : {1000U, 100000U}) {
+      plumb::impulse::QueryBench bench(32000, cubes, 1);
+      const std::vector<PlumbOverlap> asked = bench.cubes();
+      const double overlaps = plumb::impulse::call_ms([&] { (void)bench.rig.overlaps(asked); }),
+                   depths = plumb::impulse::call_ms([&] { (void)bench.rig.penetrations(asked); });
+      std::printf("%8u cubes  overlaps %.4f  depths %.4f ms  %zu rows\n", cubes, overlaps, depths,
+                  bench.rig.penetrations(asked).size());
       std::fflush(stdout);
     }
   } catch (const std::exception& error) {

@@ -71,6 +71,14 @@ TEST_F(QueryBits, OfCastsAndOverlapsAreThoseRecorded) {
   EXPECT_EQ(hash.value, kDouble ? 0x3ad03151dd5a4405U : 0x317e25dd274c9fecU);
 }
 
+TEST_F(QueryBits, OfDepthsAreThoseRecorded) {
+  std::vector<PlumbOverlap> overlaps;
+  for (std::size_t i = 0; i < 2000; ++i) overlaps.push_back({shapes_[i % 4], {place(), random_.turn()}, kSeesAll});
+  Hash hash;
+  hash.add(ask().penetrations(overlaps).rows);
+  EXPECT_EQ(hash.value, kDouble ? 0x644645958d7a267cU : 0xffdd6fbea0f8969U);
+}
+
 TEST_F(QueryBits, OfTheClosestAreThoseRecorded) {
   std::vector<PlumbProbe> probes;
   for (std::size_t i = 0; i < 2000; ++i)

@@ -1,5 +1,6 @@
 // What the benchmarks of queries measure, on the CPU and on a CUDA device: rays against a pile of boxes in its
-// container, and the boxes around balls where the rays begin; and a hash of the hits, which must be the same on both.
+// container, the boxes around balls and in cubes where the rays begin; and a hash of the hits, which must be the same
+// on both.
 #pragma once
 
 #include <cmath>
@@ -19,7 +20,7 @@ class QueryBench {
  public:
   QueryBench(std::uint32_t boxes, std::uint32_t rays, std::uint32_t threads) : rig(threads) {
     FieldDice dice(11);
-    const std::uint32_t cube = rig.add_shape(make({Real(.5), Real(.5), Real(.5)}));
+    cube_ = rig.add_shape(make({Real(.5), Real(.5), Real(.5)}));
     ball_ = rig.add_shape({ShapeType::kSphere, 0, {Real(.1), 0, 0}, Real(.1)});
     const auto across = static_cast<std::uint32_t>(std::lround(cube_root(boxes)));
     const double pitch = 1.145, half = .5 * pitch * across;  // 1.5 m3 a cube
@@ -28,7 +29,7 @@ class QueryBench {
       const Position at = {pitch * (i % across + .5) - half + static_cast<double>(shake.x),
                            pitch * (i / across / across + .5) + static_cast<double>(shake.y),
                            pitch * (i / across % across + .5) - half + static_cast<double>(shake.z)};
-      rig.add(cube, at, turn(dice), true);
+      rig.add(cube_, at, turn(dice), true);
     }
     const auto size = static_cast<Real>(half);
     const std::uint32_t ground = rig.add_shape(make({100, 1, 100})),
@@ -53,6 +54,13 @@ class QueryBench {
     for (const PlumbRay& ray : rays_)
       probes.push_back({std::uint64_t{1} << 32 | ball_, {ray.origin, {0, 0, 0, 1}}, most, ray.filter});
     return probes;
+  }
+  /// A cube of 1 m where each ray begins.
+  [[nodiscard]] std::vector<PlumbOverlap> cubes() const {
+    std::vector<PlumbOverlap> cubes;
+    for (const PlumbRay& ray : rays_)
+      cubes.push_back({std::uint64_t{1} << 32 | cube_, {ray.origin, {0, 0, 0, 1}}, ray.filter});
+    return cubes;
   }
   /// FNV-1a over the hits of the last call.
   [[nodiscard]] std::uint64_t hash() const {
@@ -93,7 +101,7 @@ class QueryBench {
     return rays;
   }
 
-  std::uint32_t ball_;
+  std::uint32_t cube_, ball_;
   std::vector<PlumbRay> rays_;
   std::span<const PlumbHit> hits_;
 };

@@ -73,6 +73,14 @@ struct QueryRig {
     return batch.rays(executor, scene, mode, rays);
   }
 
+  std::span<const PlumbHit> overlaps(const std::vector<PlumbOverlap>& overlaps) {
+    return batch.overlaps(executor, scene, overlaps);
+  }
+
+  std::span<const PlumbPenetration> penetrations(const std::vector<PlumbOverlap>& overlaps) {
+    return batch.penetrations(executor, scene, overlaps);
+  }
+
   std::span<const PlumbClosest> closest(PlumbHitMode mode, const std::vector<PlumbProbe>& probes) {
     return near.find(executor, scene, mode, probes);
   }

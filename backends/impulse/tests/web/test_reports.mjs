@@ -49,6 +49,10 @@ test('rays, casts and overlaps find bodies, and filters hide them', () => {
   near(hit.fraction, 4 / 8, 1e-4);
   assert.deepEqual(world.overlap(ball, { position: [0.9, 3, 0] }).map((one) => one.body), [body]);
   assert.deepEqual(world.overlap(ball, { position: [2, 3, 0] }), []);
+  const [deepest, ...others] = world.penetrations(ball, { position: [0.9, 3, 0] });
+  assert.deepEqual([deepest.body, others.length], [body, 0]);
+  assert.ok(deepest.depth > 0 && deepest.normal[0] > 0.5, JSON.stringify(deepest.normal));
+  assert.deepEqual(world.penetrations(ball, { position: [2, 3, 0] }), []);
   const touching = world.collide({ shapeA: ball, frameA: { position: [0.9, 0, 0] }, shapeB: cube });
   near(touching.distance, -0.1, 1e-3);
   assert.ok(touching.points.length > 0 && touching.points[0].normal[0] < -0.99);
