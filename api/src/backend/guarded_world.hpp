@@ -17,6 +17,7 @@
 #include "saved_world.hpp"
 #include "shape_content.hpp"
 #include "slot_table.hpp"
+#include "world_log.hpp"
 
 namespace plumb::backend {
 
@@ -181,6 +182,7 @@ class GuardedWorld {
     const PlumbResult result = world_->wait(ours);
     if (breakable_joints_ != 0) forget_broken_joints();
     ours.joints = joints_.size();
+    log_.tell_remarks(init_, ours);
     if (report != nullptr) {
       const std::uint32_t size = report->struct_size;
       std::memcpy(report, &ours, std::min<std::size_t>(size, sizeof ours));
@@ -320,13 +322,16 @@ class GuardedWorld {
   std::uint32_t breakable_joints_ = 0;
   std::uint64_t row_generation_ = 1;
   std::uint64_t steps_ = 0;
+  WorldLog log_;
   bool stepping_ = false;                        ///< between step and wait
   std::optional<std::uint32_t> manifolds_read_;  ///< how many, since the step began or they were modified
 
   /// Also from queries, which may run side by side.
   PlumbResult fail(PlumbResult code, const std::string& text) noexcept {
+    const bool is_lost = code == PLUMB_E_WORLD_LOST || code == PLUMB_E_DEVICE_LOST;
+    if (is_lost) WorldLog::tell_lost(init_, text);
     const std::lock_guard lock(error_mutex_);
-    if (code == PLUMB_E_WORLD_LOST || code == PLUMB_E_DEVICE_LOST) lost_ = code;
+    if (is_lost) lost_ = code;
     try {
       error_text_ = text;
     } catch (...) {

@@ -28,6 +28,7 @@ class FakeWorld final : public IPhysicsWorld,
   std::vector<PlumbShapeDesc> shapes;  ///< of the last call; their arrays are gone
   std::vector<PlumbBodyDesc> made;
   std::function<void()> on_step;
+  std::uint32_t remarks = 0;  ///< of steps
   bool fails_to_destroy = false;
   PlumbResult answer = PLUMB_OK;  ///< of every call that changes the world
   std::vector<PlumbEvent> event_rows;
@@ -112,7 +113,10 @@ class FakeWorld final : public IPhysicsWorld,
     if (on_step) on_step();
     return called();
   }
-  PlumbResult wait(PlumbStepReport&) override { return called(); }
+  PlumbResult wait(PlumbStepReport& report) override {
+    report.remarks = remarks;
+    return called();
+  }
   std::span<const PlumbContact> contacts() override { return {}; }
   std::span<const PlumbEvent> events() override { return event_rows; }
 
