@@ -49,4 +49,15 @@ std::vector<PlumbHit> overlaps(IPhysicsWorld& world, std::span<const PlumbOverla
   return counted;
 }
 
+std::vector<PlumbPenetration> penetrations(IPhysicsWorld& world, std::span<const PlumbOverlap> overlaps,
+                                           const HitFilter& counts) {
+  const Penetrations all = queries_of(world).penetrations(overlaps);
+  check(world, all.result);
+  std::vector<PlumbPenetration> counted;
+  std::copy_if(all.rows.begin(), all.rows.end(), std::back_inserter(counted), [&](const PlumbPenetration& row) {
+    return counts({row.body, row.query, row.child, 0, row.position, row.normal});
+  });
+  return counted;
+}
+
 }  // namespace plumb::helpers

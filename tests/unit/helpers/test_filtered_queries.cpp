@@ -73,6 +73,26 @@ TEST(FilteredQueries, OverlapsLeaveOutWhoAsks) {
   EXPECT_EQ(found[1].body, row.cubes[3]);
 }
 
+TEST(FilteredQueries, DepthsLeaveOutWhoAsks) {
+  NEEDS_QUERIES();
+  if (backend_under_test().capability(PLUMB_CAP_QUERY, PLUMB_QUERY_PENETRATION, PLUMB_SPHERE) == PLUMB_NONE)
+    GTEST_SKIP() << "the backend does not tell how deep spheres overlap";
+  Row row;
+  PlumbShapeDesc sphere = shape_desc(PLUMB_SPHERE);
+  sphere.radius = 1;
+  const PlumbOverlap all{row.shape(sphere), {{4.75, 0, 0}, {0, 0, 0, 1}}, kAll};
+  const auto found = penetrations(*row.world, std::span(&all, 1), all_but({}));
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(found[0].body, row.cubes[2]) << "the deepest is not first";
+  EXPECT_NEAR(found[0].depth, 0.75, 1e-3);
+  EXPECT_NEAR(found[0].normal.x, 1, 1e-3);
+  const auto others = penetrations(*row.world, std::span(&all, 1), all_but(std::span(row.cubes).subspan(2, 1)));
+  ASSERT_EQ(others.size(), 1u);
+  EXPECT_EQ(others[0].body, row.cubes[3]);
+  EXPECT_NEAR(others[0].depth, 0.25, 1e-3);
+  EXPECT_NEAR(others[0].normal.x, -1, 1e-3);
+}
+
 TEST(FilteredQueries, AWorldWithoutQueriesIsSaid) {
   TestWorld t({0, 0, 0}, PLUMB_NEED_COLLISION);
   const PlumbRay ray{{0, 0, 0}, {1, 0, 0}, kAll};

@@ -1,5 +1,5 @@
-// Rays, shape casts and overlaps that pass through what a filter refuses: who asks, his limbs and weapon, what is made
-// of glass. Filters of PlumbFilter are the engine's and cheaper; these are for what its bits cannot say.
+// Rays, shape casts, overlaps and their depths that pass through what a filter refuses: who asks, his limbs and weapon,
+// what is made of glass. Filters of PlumbFilter are the engine's and cheaper; these are for what its bits cannot say.
 #pragma once
 
 #include <functional>
@@ -26,5 +26,9 @@ using HitFilter = std::function<bool(const PlumbHit&)>;
 /// All that count, by query and body slot.
 [[nodiscard]] std::vector<PlumbHit> overlaps(IPhysicsWorld& world, std::span<const PlumbOverlap> overlaps,
                                              const HitFilter& counts);
+/// How deep in which bodies, those that count, the deepest first; the filter gets each as a hit of fraction 0. Error of
+/// PLUMB_E_UNSUPPORTED where the engine does not tell depths (PLUMB_QUERY_PENETRATION).
+[[nodiscard]] std::vector<PlumbPenetration> penetrations(IPhysicsWorld& world, std::span<const PlumbOverlap> overlaps,
+                                                         const HitFilter& counts);
 
 }  // namespace plumb::helpers
