@@ -265,7 +265,7 @@ public unsafe struct PlumbPenetration
     public uint child;
     /// <summary>m, &gt;= 0: how far the shape moves along normal until it only touches what it is deepest in</summary>
     public double depth;
-    /// <summary>world, m: the deepest point of contact</summary>
+    /// <summary>world, m: where it is deepest, on either surface or between them</summary>
     public PlumbVec3 position;
     /// <summary>unit, from the body to the shape: the way out</summary>
     public PlumbVec3 normal;

@@ -467,7 +467,7 @@ pub struct PlumbPenetration {
     pub child: u32,
     /// m, >= 0: how far the shape moves along normal until it only touches what it is deepest in
     pub depth: f64,
-    /// world, m: the deepest point of contact
+    /// world, m: where it is deepest, on either surface or between them
     pub position: PlumbVec3,
     /// unit, from the body to the shape: the way out
     pub normal: PlumbVec3,

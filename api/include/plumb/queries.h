@@ -67,7 +67,7 @@ typedef struct PlumbPenetration {
   uint32_t query;     /* index into the batch */
   uint32_t child;     /* of a compound, triangle of a mesh; else 0, also for a height field */
   double depth;       /* m, >= 0: how far the shape moves along normal until it only touches what it is deepest in */
-  PlumbVec3 position; /* world, m: the deepest point of contact */
+  PlumbVec3 position; /* world, m: where it is deepest, on either surface or between them */
   PlumbVec3 normal;   /* unit, from the body to the shape: the way out */
 } PlumbPenetration;
 

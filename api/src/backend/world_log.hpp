@@ -10,7 +10,7 @@ namespace plumb::backend {
 
 class WorldLog {
  public:
-  void tell_remarks(const WorldInit& init, const PlumbStepReport& report) {
+  void tell_remarks(const WorldInit& init, const PlumbStepReport& report) noexcept {
     struct Kind {
       std::uint32_t bit;
       PlumbLogLevel level;
@@ -26,19 +26,26 @@ class WorldLog {
     };
     for (const Kind& kind : kKinds)
       if ((report.remarks & ~told_ & kind.bit) != 0)
-        init.log(kind.level,
-                 "step " + std::to_string(report.step) + ": " + kind.text + " (told once a world; step reports go on)");
+        tell(init, kind.level, [&] {
+          return "step " + std::to_string(report.step) + ": " + kind.text + " (told once a world; step reports go on)";
+        });
     told_ |= report.remarks;
   }
 
   static void tell_lost(const WorldInit& init, const std::string& why) noexcept {
-    try {
-      init.log(PLUMB_LOG_ERROR, "a world is lost: " + why);
-    } catch (...) {  // the result of the call says so, too
-    }
+    tell(init, PLUMB_LOG_ERROR, [&] { return "a world is lost: " + why; });
   }
 
  private:
+  /// A line that cannot be made or told is no failure of the call that it is about.
+  template <class Line>
+  static void tell(const WorldInit& init, PlumbLogLevel level, const Line& line) noexcept {
+    try {
+      init.log(level, line());
+    } catch (...) {
+    }
+  }
+
   std::uint32_t told_ = 0;
 };
 

@@ -38,13 +38,6 @@ PlumbQuat about(const Vec& axis, double degrees) {
   const Eigen::Quaterniond q(Eigen::AngleAxisd(degrees * M_PI / 180, axis.normalized()));
   return {q.x(), q.y(), q.z(), q.w()};
 }
-template <class Random>
-PlumbQuat any_turn(Random& random) {
-  std::normal_distribution<double> normal;
-  const Eigen::Quaterniond q =
-      Eigen::Quaterniond(normal(random), normal(random), normal(random), normal(random)).normalized();
-  return {q.x(), q.y(), q.z(), q.w()};
-}
 
 // --- closed forms ----------------------------------------------------------------------------------------------------
 

@@ -111,13 +111,9 @@ void compare_ways_out(Conformance& c, PlumbShapeType type, PlumbShapeType at) {
   const PlumbShape shape = target.probe.shape(convex_desc(type));
   const referee::ShapePtr known = referee::Shape::make(convex_desc(type));
   std::mt19937 random(12);
-  std::normal_distribution<double> normal;
   std::vector<PlumbOverlap> asked;
-  for (int i = 0; i < 120; ++i) {
-    const Eigen::Quaterniond q =
-        Eigen::Quaterniond(normal(random), normal(random), normal(random), normal(random)).normalized();
-    asked.push_back({shape, {vec3(target.place_about(random, 1.2)), {q.x(), q.y(), q.z(), q.w()}}, kSeesAll});
-  }
+  for (int i = 0; i < 120; ++i)
+    asked.push_back({shape, {vec3(target.place_about(random, 1.2)), any_turn(random)}, kSeesAll});
   const Rows rows = penetrations(target.probe, asked);
   const double slack = depth_slack(c, type), margin = std::max(slack, 0.01);
   const bool one_piece = !target.is_surface() && at != PLUMB_COMPOUND;

@@ -28,6 +28,14 @@ inline PlumbShapeDesc convex_desc(PlumbShapeType type) {
   return desc;
 }
 
+template <class Random>
+[[nodiscard]] PlumbQuat any_turn(Random& random) {
+  std::normal_distribution<double> normal;
+  const Eigen::Quaterniond q =
+      Eigen::Quaterniond(normal(random), normal(random), normal(random), normal(random)).normalized();
+  return {q.x(), q.y(), q.z(), q.w()};
+}
+
 class Target {
  public:
   Target(Conformance& c, PlumbShapeType type)
