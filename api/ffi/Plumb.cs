@@ -632,7 +632,8 @@ public unsafe struct PlumbJointsTable
     /// <summary>[world] ids null: the first count live joints in order of creation. stride in bytes between
     /// rows.</summary>
     public IntPtr read;
-    /// <summary>[world] Likewise; PLUMB_JOINT_MOTOR only.</summary>
+    /// <summary>[world] Likewise; PLUMB_JOINT_MOTOR and PLUMB_JOINT_SPRING_REST. What sleeps and is written to
+    /// wakes.</summary>
     public IntPtr write;
 
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
@@ -1659,7 +1660,10 @@ public static class Constants
     public const uint PLUMB_JOINT_REACTION = 1u;
     /// <summary>12: target velocity and max force of axis 0, of axis 1, ...; also written</summary>
     public const uint PLUMB_JOINT_MOTOR = 2u;
-    public const uint PLUMB_JOINT_FIELD_COUNT = 3u;
+    /// <summary>6: rest of the spring of axis 0, of axis 1, ...: the targets of PD controllers; of a distance joint the
+    /// first is its rest_length, &gt;= 0. Also written, which needs PLUMB_JOINT_HAS_TARGETS. Since 1.2.</summary>
+    public const uint PLUMB_JOINT_SPRING_REST = 3u;
+    public const uint PLUMB_JOINT_FIELD_COUNT = 4u;
 
     // PlumbJointFeature, uint. What a joint type may have beyond itself; second argument of PLUMB_CAP_JOINT_FEATURE.
     public const uint PLUMB_JOINT_HAS_LIMITS = 0u;
@@ -1669,7 +1673,9 @@ public static class Constants
     public const uint PLUMB_JOINT_HAS_REACTION = 4u;
     /// <summary>springs by PLUMB_SPRING_STIFFNESS</summary>
     public const uint PLUMB_JOINT_HAS_STIFFNESS = 5u;
-    public const uint PLUMB_JOINT_FEATURE_COUNT = 6u;
+    /// <summary>its PLUMB_JOINT_SPRING_REST rows can be written</summary>
+    public const uint PLUMB_JOINT_HAS_TARGETS = 6u;
+    public const uint PLUMB_JOINT_FEATURE_COUNT = 7u;
 
     // --- plumb/manifolds.h
     // plumb.manifolds/1: contact modification: what touches is shown to the host before the solver sees it. Since 1.2.
@@ -1716,6 +1722,7 @@ public static class Constants
     public const uint PLUMB_MODIFY_LIMITS = 1u << 1;
     /// <summary>motors; PLUMB_JOINT_MOTOR rows change less and cost less</summary>
     public const uint PLUMB_MODIFY_MOTORS = 1u << 2;
+    /// <summary>springs; likewise PLUMB_JOINT_SPRING_REST rows</summary>
     public const uint PLUMB_MODIFY_SPRINGS = 1u << 3;
     /// <summary>break_force, break_torque</summary>
     public const uint PLUMB_MODIFY_STRENGTH = 1u << 4;

@@ -848,7 +848,10 @@ pub const PLUMB_JOINT_COORDINATES: PlumbJointField = 0;
 pub const PLUMB_JOINT_REACTION: PlumbJointField = 1;
 /// 12: target velocity and max force of axis 0, of axis 1, ...; also written
 pub const PLUMB_JOINT_MOTOR: PlumbJointField = 2;
-pub const PLUMB_JOINT_FIELD_COUNT: PlumbJointField = 3;
+/// 6: rest of the spring of axis 0, of axis 1, ...: the targets of PD controllers; of a distance joint the first is its
+/// rest_length, >= 0. Also written, which needs PLUMB_JOINT_HAS_TARGETS. Since 1.2.
+pub const PLUMB_JOINT_SPRING_REST: PlumbJointField = 3;
+pub const PLUMB_JOINT_FIELD_COUNT: PlumbJointField = 4;
 
 /// What a joint type may have beyond itself; second argument of PLUMB_CAP_JOINT_FEATURE.
 pub type PlumbJointFeature = u32;
@@ -860,7 +863,9 @@ pub const PLUMB_JOINT_BREAKS: PlumbJointFeature = 3;
 pub const PLUMB_JOINT_HAS_REACTION: PlumbJointFeature = 4;
 /// springs by PLUMB_SPRING_STIFFNESS
 pub const PLUMB_JOINT_HAS_STIFFNESS: PlumbJointFeature = 5;
-pub const PLUMB_JOINT_FEATURE_COUNT: PlumbJointFeature = 6;
+/// its PLUMB_JOINT_SPRING_REST rows can be written
+pub const PLUMB_JOINT_HAS_TARGETS: PlumbJointFeature = 6;
+pub const PLUMB_JOINT_FEATURE_COUNT: PlumbJointFeature = 7;
 
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
@@ -880,7 +885,7 @@ pub struct PlumbJointsTable {
         world: *mut PlumbWorld, field: PlumbJointField, r#type: PlumbDataType, ids: *const PlumbJoint, count: u32,
         rows: *mut c_void, stride: usize
     ) -> PlumbResult>,
-    /// \[world\] Likewise; PLUMB_JOINT_MOTOR only.
+    /// \[world\] Likewise; PLUMB_JOINT_MOTOR and PLUMB_JOINT_SPRING_REST. What sleeps and is written to wakes.
     pub write: Option<unsafe extern "C" fn(
         world: *mut PlumbWorld, field: PlumbJointField, r#type: PlumbDataType, ids: *const PlumbJoint, count: u32,
         rows: *const c_void, stride: usize
@@ -1019,6 +1024,7 @@ pub const PLUMB_MODIFY_FRAMES: u32 = 1 << 0;
 pub const PLUMB_MODIFY_LIMITS: u32 = 1 << 1;
 /// motors; PLUMB_JOINT_MOTOR rows change less and cost less
 pub const PLUMB_MODIFY_MOTORS: u32 = 1 << 2;
+/// springs; likewise PLUMB_JOINT_SPRING_REST rows
 pub const PLUMB_MODIFY_SPRINGS: u32 = 1 << 3;
 /// break_force, break_torque
 pub const PLUMB_MODIFY_STRENGTH: u32 = 1 << 4;

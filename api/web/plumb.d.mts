@@ -24,8 +24,9 @@ export type Field =
   | 'awake' | 'kinematicTarget' | 'mass' | 'material' | 'gravityScale' | 'damping' | 'surfaceVelocity' | 'filter'
   | 'rollingFriction';
 
-/** Columns: coordinates 6, reaction 6, motor 12 (target velocity, max force, of each of the six axes in turn). */
-export type JointField = 'coordinates' | 'reaction' | 'motor';
+/** Columns: coordinates 6, reaction 6, motor 12 (target velocity, max force, of each of the six axes in turn), springRest
+ *  6 (where the springs of the six axes rest; of a distance joint first its restLength). */
+export type JointField = 'coordinates' | 'reaction' | 'motor' | 'springRest';
 
 /** A failed call. code: PlumbResult, below 0. */
 export class PlumbError extends Error {
@@ -292,7 +293,7 @@ export interface World {
   /** Of one body, or of a list with as many rows. */
   write(field: Field, bodies: Body | readonly Body[], rows: ArrayLike<number>): void;
   readJoints(field: JointField, joints: readonly Joint[]): Float64Array;
-  writeJoints(field: 'motor', joints: Joint | readonly Joint[], rows: ArrayLike<number>): void;
+  writeJoints(field: 'motor' | 'springRest', joints: Joint | readonly Joint[], rows: ArrayLike<number>): void;
 
   castRay(origin: Vec3, translation: Vec3, filter?: Filter): Hit | null;
   castRays(rays: readonly Ray[], options?: { all?: false }): (Hit | null)[];

@@ -48,13 +48,16 @@ Capability joint_fact(std::uint32_t type) {
 
 Capability joint_feature_fact(std::uint32_t type, std::uint32_t feature) {
   const Capability usual = backend::usual_capability(PLUMB_CAP_JOINT_FEATURE, type, feature);
+  if (feature == PLUMB_JOINT_HAS_TARGETS) return joint_feature_fact(type, PLUMB_JOINT_HAS_SPRINGS);
   if (usual.degree == PLUMB_NONE) return usual;
   if (type == PLUMB_JOINT_GENERIC) return joint_fact(type);
+  if (feature == PLUMB_JOINT_HAS_SPRINGS && type == PLUMB_JOINT_SWING_TWIST)
+    return {PLUMB_APPROXIMATE, "one spring for all three turns: unlike ones are refused"};
   if (feature == PLUMB_JOINT_HAS_REACTION) return {PLUMB_APPROXIMATE, kSubStep};
   if (joint_has(type, feature)) return usual;
   if (type == PLUMB_JOINT_BALL)
     return {PLUMB_NONE, "Box3D's cone, twist, motor and spring are not those of single axes"};
-  if (type == PLUMB_JOINT_SWING_TWIST) return {PLUMB_NONE, "not made: Box3D's motor and spring are of all three turns"};
+  if (type == PLUMB_JOINT_SWING_TWIST) return {PLUMB_NONE, "not made: Box3D's motor is of all three turns"};
   return {PLUMB_NONE, "Box3D's wheel joint has them on one of the two axes only"};
 }
 

@@ -75,7 +75,9 @@ PlumbDegree joint_feature_degree(std::uint32_t type, std::uint32_t feature, cons
     case PLUMB_JOINT_HAS_MOTORS: return has_axes ? PLUMB_NATIVE : PLUMB_NONE;
     case PLUMB_JOINT_HAS_SPRINGS:
     case PLUMB_JOINT_HAS_STIFFNESS:
-      if (!has_axes && type != PLUMB_JOINT_DISTANCE) return PLUMB_NONE;
+    case PLUMB_JOINT_HAS_TARGETS:
+      if (!has_axes && type != PLUMB_JOINT_DISTANCE && type != PLUMB_JOINT_SWING_TWIST) return PLUMB_NONE;
+      if (feature == PLUMB_JOINT_HAS_TARGETS) return PLUMB_EMULATED;
       return answer(PLUMB_EMULATED, note,
                     feature == PLUMB_JOINT_HAS_SPRINGS
                         ? "a force of the adapter on the axis; no faster than one radian a sub-step"

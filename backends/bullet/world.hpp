@@ -186,6 +186,7 @@ class World final : public IPhysicsWorld,
   void prepare_joints(btScalar h);
   void break_joints();
   [[nodiscard]] std::unique_ptr<Joint> make_joint(const PlumbJointDesc& desc, PlumbJoint handle);
+  static void check_drive_row(PlumbJointField field, const PlumbJointDesc& desc, const double* row);
   void add_to_bullet(Joint& joint);
   void take_from_bullet(Joint& joint);
   void remove_joint(Joint& joint);

@@ -59,7 +59,7 @@ Fact joint_fact(std::uint32_t type) {
 }
 
 Fact joint_feature_fact(std::uint32_t type, std::uint32_t feature) {
-  if (type >= PLUMB_JOINT_TYPE_COUNT || feature >= PLUMB_JOINT_FEATURE_COUNT || !joint_has(type, feature))
+  if (feature >= PLUMB_JOINT_FEATURE_COUNT || joint_fact(type).degree == PLUMB_NONE || !joint_has(type, feature))
     return {PLUMB_NONE};
   if (feature == PLUMB_JOINT_BREAKS) return {PLUMB_EMULATED, "the reaction is compared after each step"};
   if (type == PLUMB_JOINT_DISTANCE && feature == PLUMB_JOINT_HAS_LIMITS)

@@ -117,6 +117,28 @@ void cones_are_round() {
     if (desc.type == PLUMB_JOINT_SWING_TWIST) desc.limits[5] = desc.limits[4];
   }>();
 }
+void targets_are_not_written() {
+  liar.joints.write = [](PlumbWorld* world, PlumbJointField field, PlumbDataType type, const PlumbJoint* ids,
+                         std::uint32_t count, const void* rows, std::size_t stride) -> PlumbResult {
+    return field == PLUMB_JOINT_SPRING_REST ? PLUMB_OK
+                                            : honest.joints.write(world, field, type, ids, count, rows, stride);
+  };
+}
+void a_swing_is_not_driven() {
+  change_joints<[](PlumbJointDesc& desc) {
+    if (desc.type == PLUMB_JOINT_SWING_TWIST) desc.springs[5].rest = 0;
+  }>();
+}
+void swings_give_way_too_much() {
+  change_joints<[](PlumbJointDesc& desc) {
+    if (desc.type == PLUMB_JOINT_SWING_TWIST) desc.springs[4].frequency *= 0.9;
+  }>();
+}
+void swings_turn_too_fast() {
+  change_joints<[](PlumbJointDesc& desc) {
+    if (desc.type == PLUMB_JOINT_SWING_TWIST) desc.motors[5].target_velocity *= 1.1;
+  }>();
+}
 void joints_stay() {
   liar.joints.destroy = [](PlumbWorld*, const PlumbJoint*, std::uint32_t) -> PlumbResult { return PLUMB_OK; };
 }

@@ -244,7 +244,6 @@ class Fuzzer {
     for (std::size_t axis = 4; axis < 6; ++axis) {
       const double half = std::clamp(positive(), 0.01, 3.1);
       desc.limits[axis] = {-half, half, desc.limits[4].enabled, 0};
-      desc.motors[axis].enabled = desc.springs[axis].enabled = 0;
     }
   }
 
@@ -279,6 +278,9 @@ class Fuzzer {
     }
     const PlumbBody id = handle(bodies_);
     judge(table_.write(world_, field, PLUMB_F64, &id, 1, chance(100) ? nullptr : row, chance(50) ? 3 : sizeof row));
+    const PlumbJoint joint = handle(joint_ids_);
+    if (joints_ != nullptr && chance(3))
+      judge(joints_->write(world_, PLUMB_JOINT_MOTOR + below(2), PLUMB_F64, &joint, 1, row, sizeof row));
   }
 
   void read_rows() {

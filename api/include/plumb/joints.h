@@ -9,8 +9,9 @@
  * the swing as a rotation vector: its direction in a's y and z times its angle, which is the one between both x axes.
  * limits[3] bounds the twist. limits[4] and limits[5], both or neither and each with lower = -upper, are the half
  * angles of an elliptic cone about a's x axis that b's x axis stays within: (x4 / upper4)^2 + (x5 / upper5)^2 <= 1, 0 <
- * upper < pi. Motors and springs are of axis 3 alone. Where the x axes are opposite the twist is any number: what
- * swings as far as that is held by no limit of the twist, and should have a cone.
+ * upper < pi. Motors and springs are of each axis by itself: springs on all three are a PD controller whose target
+ * orientation is the one with these coordinates. Where the x axes are opposite the twist is any number: what swings as
+ * far as that is held by no limit of the twist, and should have a cone.
  */
 #ifndef PLUMB_JOINTS_H
 #define PLUMB_JOINTS_H
@@ -93,7 +94,10 @@ enum {
   PLUMB_JOINT_COORDINATES = 0, /* 6: coordinates of the six axes (angles in -pi..pi) */
   PLUMB_JOINT_REACTION = 1,    /* 6: force, torque on body b at frame b's origin in the last step, world axes; N, N m */
   PLUMB_JOINT_MOTOR = 2,       /* 12: target velocity and max force of axis 0, of axis 1, ...; also written */
-  PLUMB_JOINT_FIELD_COUNT = 3
+  /* 6: rest of the spring of axis 0, of axis 1, ...: the targets of PD controllers; of a distance joint the first is
+   * its rest_length, >= 0. Also written, which needs PLUMB_JOINT_HAS_TARGETS. Since 1.2. */
+  PLUMB_JOINT_SPRING_REST = 3,
+  PLUMB_JOINT_FIELD_COUNT = 4
 };
 
 /* What a joint type may have beyond itself; second argument of PLUMB_CAP_JOINT_FEATURE. */
@@ -105,7 +109,8 @@ enum {
   PLUMB_JOINT_BREAKS = 3,
   PLUMB_JOINT_HAS_REACTION = 4,
   PLUMB_JOINT_HAS_STIFFNESS = 5, /* springs by PLUMB_SPRING_STIFFNESS */
-  PLUMB_JOINT_FEATURE_COUNT = 6
+  PLUMB_JOINT_HAS_TARGETS = 6,   /* its PLUMB_JOINT_SPRING_REST rows can be written */
+  PLUMB_JOINT_FEATURE_COUNT = 7
 };
 
 typedef struct PlumbJointsTable {
@@ -118,7 +123,7 @@ typedef struct PlumbJointsTable {
   /* [world] ids null: the first count live joints in order of creation. stride in bytes between rows. */
   PlumbResult (*read)(PlumbWorld* world, PlumbJointField field, PlumbDataType type, const PlumbJoint* ids,
                       uint32_t count, void* rows, size_t stride);
-  /* [world] Likewise; PLUMB_JOINT_MOTOR only. */
+  /* [world] Likewise; PLUMB_JOINT_MOTOR and PLUMB_JOINT_SPRING_REST. What sleeps and is written to wakes. */
   PlumbResult (*write)(PlumbWorld* world, PlumbJointField field, PlumbDataType type, const PlumbJoint* ids,
                        uint32_t count, const void* rows, size_t stride);
 } PlumbJointsTable;

@@ -53,10 +53,10 @@ typedef struct PlumbBodyChange {
 
 /* PlumbJointChange.what */
 enum {
-  PLUMB_MODIFY_FRAMES = 1u << 0, /* frame_a, frame_b: the joint pulls its bodies there */
-  PLUMB_MODIFY_LIMITS = 1u << 1, /* limits; rest_length of a distance joint; axis_modes of a generic one */
-  PLUMB_MODIFY_MOTORS = 1u << 2, /* motors; PLUMB_JOINT_MOTOR rows change less and cost less */
-  PLUMB_MODIFY_SPRINGS = 1u << 3,
+  PLUMB_MODIFY_FRAMES = 1u << 0,            /* frame_a, frame_b: the joint pulls its bodies there */
+  PLUMB_MODIFY_LIMITS = 1u << 1,            /* limits; rest_length of a distance joint; axis_modes of a generic one */
+  PLUMB_MODIFY_MOTORS = 1u << 2,            /* motors; PLUMB_JOINT_MOTOR rows change less and cost less */
+  PLUMB_MODIFY_SPRINGS = 1u << 3,           /* springs; likewise PLUMB_JOINT_SPRING_REST rows */
   PLUMB_MODIFY_STRENGTH = 1u << 4,          /* break_force, break_torque */
   PLUMB_MODIFY_COLLIDE_CONNECTED = 1u << 5, /* collide_connected */
   PLUMB_MODIFY_ENABLED = 1u << 6 /* enabled; a joint that is not lets its bodies go and touch, and waits for 1 */

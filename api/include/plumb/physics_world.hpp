@@ -49,7 +49,7 @@ template <class Table, class Member>
   return field < PLUMB_FIELD_COUNT ? columns[field] : 0;
 }
 [[nodiscard]] constexpr std::uint32_t joint_columns_of(PlumbJointField field) {
-  constexpr std::uint32_t columns[PLUMB_JOINT_FIELD_COUNT] = {6, 6, 12};
+  constexpr std::uint32_t columns[PLUMB_JOINT_FIELD_COUNT] = {6, 6, 12, 6};
   return field < PLUMB_JOINT_FIELD_COUNT ? columns[field] : 0;
 }
 

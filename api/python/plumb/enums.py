@@ -164,6 +164,9 @@ class JointField(IntEnum):
     """6: force, torque on body b at frame b's origin in the last step, world axes"""
     MOTOR = 2
     """12: target velocity and max force of axis 0, of axis 1 and so on; also written"""
+    SPRING_REST = 3
+    """6: where the springs of the six axes rest, the targets of PD controllers; of a distance joint first its
+    rest_length; also written"""
 
 
 class JointFeature(IntEnum):
@@ -176,6 +179,8 @@ class JointFeature(IntEnum):
     HAS_REACTION = 4
     HAS_STIFFNESS = 5
     """springs by SpringMode.STIFFNESS"""
+    HAS_TARGETS = 6
+    """where its springs rest can be written"""
 
 
 class QueryKind(IntEnum):

@@ -188,8 +188,8 @@ class Joints:
         return one_row(into) if out is None and is_single(joints) else into
 
     def write(self, field: Union[JointField, str], values: ArrayLike, joints: Union[Handle, Handles]) -> None:
-        """Motors alone are written: target velocity and max force of axis 0, of axis 1 and so on, 12 numbers a joint, or
-        a row for all."""
+        """"motor": target velocity and max force of axis 0, of axis 1 and so on, 12 numbers a joint; or "spring_rest":
+        where the springs of the six axes rest. A row for each joint, or one for all."""
         kind = pick(JointField, field, "field")
         ids = handles(joints, "joints")
         self._core.write_joints(kind, ids, rows(values, len(ids), _core.joint_columns_of(kind), "values"))

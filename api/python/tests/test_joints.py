@@ -83,6 +83,20 @@ class Joints(unittest.TestCase):
             self.assertAlmostEqual(np.argmax(x) / 240, 0.25, delta=0.03)
             self.assertAlmostEqual(np.argmin(x) / 240, 0.75, delta=0.03)
 
+    @on_each(*NEEDS, asked=having("slider", "has_targets"))
+    def test_where_a_spring_rests_is_read_and_written(self, engine):
+        with engine.world(NEEDS, gravity=(0, 0, 0)) as world:
+            bar = self.bar(world)
+            joint = world.joints.create(
+                plumb.JointDesc("slider", bar, position_a=(0.5, 0, 0), springs={0: plumb.Spring(2, rest=0.1)})
+            )
+            rest = world.joints.read("spring_rest", joint)
+            np.testing.assert_allclose(rest, (0.1, 0, 0, 0, 0, 0))
+            rest[0] = -0.4
+            world.joints.write("spring_rest", rest, joint)
+            steps(world, 180)
+            self.assertAlmostEqual(world.read("pose", bar)[0], 0.5 - 0.4, delta=0.01)
+
     @on_each(*NEEDS, "events", asked=having("fixed", "breaks"))
     def test_a_joint_breaks_and_says_so(self, engine):
         with engine.world([*NEEDS, "events"]) as world:

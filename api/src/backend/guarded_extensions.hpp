@@ -57,26 +57,22 @@ class GuardedExtensions : public GuardedWorld {
     IJoints& extension = require_extension(world_->joints(), PLUMB_EXT_JOINTS);
     const auto spelled_out = spell_out(joints_, ids, count, "ids");
     check_joint_field(field, type, count, rows, stride);
-    if (field != PLUMB_JOINT_MOTOR)
-      refuse(PLUMB_E_INVALID_ARGUMENT, "only PLUMB_JOINT_MOTOR rows of joints can be written");
+    if (field != PLUMB_JOINT_MOTOR && field != PLUMB_JOINT_SPRING_REST)
+      refuse(PLUMB_E_INVALID_ARGUMENT, "field is " + std::to_string(field) +
+                                           "; only PLUMB_JOINT_MOTOR and PLUMB_JOINT_SPRING_REST rows of joints can be "
+                                           "written");
     const ConstRows in(static_cast<const std::byte*>(rows), count, stride, type);
+    double row[12];
     for (std::uint32_t i = 0; i < count; ++i) {
-      double row[12];
-      in.get(i, row, 12);
-      for (std::size_t axis = 0; axis < 6; ++axis) {
-        require_finite({"rows", i}, "target velocity", row[2 * axis]);
-        require_not_negative({"rows", i}, "max force", row[2 * axis + 1]);
-        if (axis >= 4 && row[2 * axis + 1] > 0 && joints_[spelled_out[i]].type == PLUMB_JOINT_SWING_TWIST)
-          refuse_driven_swing(Where{"rows", i}.member(""), axis);
-      }
+      in.get(i, row, joint_columns_of(field));
+      check_drive_row(field, i, joints_[spelled_out[i]].type, row);
     }
     const PlumbResult result = done(extension.write_joints(field, spelled_out, in));
     for (std::uint32_t i = 0; i < count; ++i) {
       JointKind* kind = joints_[spelled_out[i]].kind.get();
       if (kind == nullptr) continue;
-      double row[12];
-      in.get(i, row, 12);
-      apply_motor_row(row, kind->desc);
+      in.get(i, row, joint_columns_of(field));
+      (field == PLUMB_JOINT_MOTOR ? apply_motor_row : apply_rest_row)(row, kind->desc);
     }
     return result;
   }
@@ -377,6 +373,18 @@ class GuardedExtensions : public GuardedWorld {
     if (field >= PLUMB_JOINT_FIELD_COUNT)
       refuse(PLUMB_E_INVALID_ARGUMENT, "field is " + std::to_string(field) + "; it must be a PlumbJointField");
     check_row_memory("joint rows", joint_columns_of(field), type, count, rows, stride);
+  }
+
+  void check_drive_row(PlumbJointField field, std::uint32_t i, PlumbJointType joint, const double* row) const {
+    for (std::size_t axis = 0; field == PLUMB_JOINT_MOTOR && axis < 6; ++axis) {
+      require_finite({"rows", i}, "target velocity", row[2 * axis]);
+      require_not_negative({"rows", i}, "max force", row[2 * axis + 1]);
+    }
+    if (field != PLUMB_JOINT_SPRING_REST) return;
+    require_capability(PLUMB_CAP_JOINT_FEATURE, joint, PLUMB_JOINT_HAS_TARGETS,
+                       std::string("way to move where springs rest of a ") + joint_name(joint) + " joint");
+    for (std::size_t axis = 0; axis < 6; ++axis) require_finite({"rows", i}, "rest", row[axis]);
+    if (joint == PLUMB_JOINT_DISTANCE) require_not_negative({"rows", i}, "rest", row[0]);
   }
 
   /// What stood on the other must fall.

@@ -20,7 +20,7 @@ export const MASS = inOrder('fromDensity', 'fromTotal', 'explicit');
 export const FIELD = inOrder('pose', 'velocity', 'force', 'torque', 'impulse', 'angularImpulse', 'forceAtPoint',
   'impulseAtPoint', 'awake', 'kinematicTarget', 'mass', 'material', 'gravityScale', 'damping', 'surfaceVelocity',
   'filter', 'rollingFriction');
-export const JOINT_FIELD = inOrder('coordinates', 'reaction', 'motor');
+export const JOINT_FIELD = inOrder('coordinates', 'reaction', 'motor', 'springRest');
 export const EVENT = ['contactBegin', 'contactEnd', 'sensorEnter', 'sensorLeave', 'wake', 'sleep', 'jointBroken'];
 export const CHANGE_OF_BODY = asBits('motion', 'shape', 'mass', 'flags', 'locks');
 export const CHANGE_OF_JOINT =

@@ -25,7 +25,8 @@ void check_joint(const PlumbJointDesc& desc);
 [[nodiscard]] b3JointDef base_of(const PlumbJointDesc& desc, b3BodyId a, b3BodyId b);
 [[nodiscard]] b3JointId make_joint(b3WorldId world, const PlumbJointDesc& desc, const b3JointDef& base);
 
-/// Hands the motor of the descriptor to the joint.
+/// Hands the motor of the descriptor to the joint, or where its spring rests.
 void apply_motor(const Joint& joint);
+void apply_rest(const Joint& joint);
 
 }  // namespace plumb::box3d

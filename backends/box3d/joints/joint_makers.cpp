@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "joints/joint.hpp"
+#include "plumb/backend/joint_coordinates.hpp"
 #include "plumb/backend/names.hpp"
 #include "plumb/backend/usual_capability.hpp"
 
@@ -33,6 +34,31 @@ b3JointId make_ball(b3WorldId world, const b3JointDef& base) {
   return b3CreateSphericalJoint(world, &def);
 }
 
+/// The turn at which the springs of a swing-twist joint rest, between frames whose z is ours' x.
+b3Quat target_of(const PlumbJointDesc& desc) {
+  const PlumbQuat turn =
+      backend::turn_of_swing_twist({desc.springs[3].rest, desc.springs[4].rest, desc.springs[5].rest});
+  const PlumbQuat seen = backend::multiply(backend::multiply(backend::conjugate(kZToX), turn), kZToX);
+  return {{value(seen.x), value(seen.y), value(seen.z)}, value(seen.w)};
+}
+
+/// Its one spring is of all three turns.
+void put_springs(const PlumbJointDesc& desc, b3SphericalJointDef& def) {
+  const PlumbSpring& spring = desc.springs[3];
+  for (std::size_t axis = 4; axis < 6; ++axis) {
+    const PlumbSpring& other = desc.springs[axis];
+    if (other.enabled != spring.enabled ||
+        (spring.enabled != 0 && (other.frequency != spring.frequency || other.damping_ratio != spring.damping_ratio)))
+      throw Error(PLUMB_E_UNSUPPORTED,
+                  "Box3D has one spring for a swing and its twist; springs[3], [4] and [5] must be "
+                  "alike but for where they rest");
+  }
+  def.enableSpring = spring.enabled != 0;
+  def.hertz = value(spring.frequency);
+  def.dampingRatio = value(spring.damping_ratio);
+  def.targetRotation = target_of(desc);
+}
+
 /// Its cone is about z, as its twist is, and round.
 b3JointId make_swing_twist(b3WorldId world, const PlumbJointDesc& desc, const b3JointDef& base) {
   const PlumbLimit &twist = desc.limits[3], &cone = desc.limits[4];
@@ -47,6 +73,7 @@ b3JointId make_swing_twist(b3WorldId world, const PlumbJointDesc& desc, const b3
   def.enableTwistLimit = twist.enabled != 0;
   def.lowerTwistAngle = furthest(twist.lower);
   def.upperTwistAngle = furthest(twist.upper);
+  put_springs(desc, def);
   return b3CreateSphericalJoint(world, &def);
 }
 
@@ -144,7 +171,7 @@ void require_axis(const PlumbJointDesc& desc, PlumbJointFeature feature, std::si
 
 bool joint_has(PlumbJointType type, PlumbJointFeature feature) {
   if (feature > PLUMB_JOINT_HAS_SPRINGS) return true;
-  if (type == PLUMB_JOINT_SWING_TWIST) return feature == PLUMB_JOINT_HAS_LIMITS;
+  if (type == PLUMB_JOINT_SWING_TWIST) return feature == PLUMB_JOINT_HAS_LIMITS || feature == PLUMB_JOINT_HAS_SPRINGS;
   return type == PLUMB_JOINT_HINGE || type == PLUMB_JOINT_SLIDER || type == PLUMB_JOINT_DISTANCE;
 }
 
@@ -199,6 +226,14 @@ void apply_motor(const Joint& joint) {
     b3DistanceJoint_SetMaxMotorForce(joint.id, most);
     if (on) b3DistanceJoint_EnableSpring(joint.id, true);
   }
+}
+
+void apply_rest(const Joint& joint) {
+  const PlumbJointDesc& desc = joint.desc;
+  if (desc.type == PLUMB_JOINT_HINGE) b3RevoluteJoint_SetTargetAngle(joint.id, value(desc.springs[3].rest));
+  if (desc.type == PLUMB_JOINT_SLIDER) b3PrismaticJoint_SetTargetTranslation(joint.id, value(desc.springs[0].rest));
+  if (desc.type == PLUMB_JOINT_DISTANCE) b3DistanceJoint_SetLength(joint.id, value(desc.rest_length));
+  if (desc.type == PLUMB_JOINT_SWING_TWIST) b3SphericalJoint_SetTargetRotation(joint.id, target_of(desc));
 }
 
 }  // namespace plumb::box3d

@@ -1,5 +1,6 @@
 // Joints of a world: made, read, driven, taken away.
 #include "plumb/backend/joint_coordinates.hpp"
+#include "plumb/backend/modify.hpp"
 #include "world.hpp"
 
 namespace plumb::box3d {
@@ -69,6 +70,7 @@ PlumbResult World::read_joints(PlumbJointField field, std::span<const PlumbJoint
       put_force(to_plumb(b3Joint_GetConstraintForce(read.id)), row);
       put_force(to_plumb(b3Joint_GetConstraintTorque(read.id)), row + 3);
     }
+    if (field == PLUMB_JOINT_SPRING_REST) backend::read_rest_row(desc, row);
     for (std::size_t axis = 0; field == PLUMB_JOINT_MOTOR && axis < 6; ++axis) {
       const PlumbMotor& motor = desc.motors[axis];
       row[2 * axis] = motor.target_velocity;
@@ -79,13 +81,16 @@ PlumbResult World::read_joints(PlumbJointField field, std::span<const PlumbJoint
   return PLUMB_OK;
 }
 
-PlumbResult World::write_joints(PlumbJointField, std::span<const PlumbJoint> ids, ConstRows rows) {
+PlumbResult World::write_joints(PlumbJointField field, std::span<const PlumbJoint> ids, ConstRows rows) {
   std::vector<PlumbJointDesc> changed;
   double row[12];
   for (std::size_t i = 0; i < ids.size(); ++i) {
-    rows.get(i, row, 12);
+    rows.get(i, row, joint_columns_of(field));
     changed.push_back(joint(ids[i]).desc);
-    for (std::size_t axis = 0; axis < 6; ++axis) {
+    for (std::size_t axis = 0; field == PLUMB_JOINT_SPRING_REST && axis < 6; ++axis)
+      (void)scalar(row[axis], "rest of a spring");
+    if (field == PLUMB_JOINT_SPRING_REST) backend::apply_rest_row(row, changed.back());
+    for (std::size_t axis = 0; field == PLUMB_JOINT_MOTOR && axis < 6; ++axis) {
       const PlumbMotor motor{row[2 * axis], row[2 * axis + 1], row[2 * axis + 1] != 0 ? 1u : 0u, 0};
       (void)scalar(motor.target_velocity, "target velocity"), (void)scalar(motor.max_force, "max force");
       changed.back().motors[axis] = motor;
@@ -94,7 +99,8 @@ PlumbResult World::write_joints(PlumbJointField, std::span<const PlumbJoint> ids
   }
   for (std::size_t i = 0; i < ids.size(); ++i) {
     joint(ids[i]).desc = changed[i];
-    apply_motor(joint(ids[i]));
+    if (field == PLUMB_JOINT_MOTOR) apply_motor(joint(ids[i]));
+    if (field == PLUMB_JOINT_SPRING_REST) apply_rest(joint(ids[i]));
     b3Joint_WakeBodies(joint(ids[i]).id);
   }
   return PLUMB_OK;

@@ -1,7 +1,10 @@
 #include "joints/axis_rows.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
+
+#include "plumb/backend/joint_coordinates.hpp"
 
 namespace plumb::bullet {
 
@@ -84,6 +87,11 @@ DistanceConstraint::DistanceConstraint(btRigidBody& a, btRigidBody& b, const btV
   }
 }
 
+void DistanceConstraint::rest_at(btScalar length) {
+  if (lower_ == upper_ && lower_ == rest_) lower_ = upper_ = length;
+  rest_ = length;
+}
+
 void DistanceConstraint::getInfo1(btConstraintInfo1* info) {
   info->m_numConstraintRows = spring_.enabled != 0 && upper_ < SIMD_INFINITY ? 2 : 1;
   info->nub = 0;
@@ -127,9 +135,47 @@ void DistanceConstraint::getInfo2(btConstraintInfo2* info) {
     info->m_lowerLimit[here] = 0;
 }
 
+namespace {
+
+/// A coordinate of b's turn seen from a, and the direction about which turning b changes it.
+struct Turn {
+  btScalar coordinate;
+  btVector3 direction;
+};
+
+/// x turns about a's x axis, z about b's z axis, y about what is square to both.
+Turn turn_about(const btMatrix3x3& a, const btMatrix3x3& b, int axis) {
+  const btVector3 x = a.getColumn(0), z = b.getColumn(2);
+  return {angles_xyz(a.transposeTimes(b))[axis], axis == 0 ? x : axis == 2 ? z : z.cross(x).normalized()};
+}
+
+/// A twist turns about both x axes; a swing's vector along the meridian as b's x axis turns, along the parallel faster,
+/// by the angle over its sine.
+Turn swing_or_twist(const btMatrix3x3& a, const btMatrix3x3& b, int axis) {
+  btQuaternion turn;
+  a.transposeTimes(b).getRotation(turn);
+  const PlumbVec3 numbers = backend::swing_twist({turn.x(), turn.y(), turn.z(), turn.w()});
+  const btVector3 x_a = a.getColumn(0), x_b = b.getColumn(0), across = x_a.cross(x_b);
+  const btScalar least = btScalar(0.01);  // of what becomes 0 where the x axes are opposite
+  if (axis == 0) return {btScalar(numbers.x), (x_a + x_b) / std::max(1 + x_a.dot(x_b), least)};
+  const btScalar sine = across.length(), angle = btScalar(std::hypot(numbers.y, numbers.z));
+  const btVector3 about = sine > SIMD_EPSILON ? across / sine : a.getColumn(1);
+  const btScalar by_sine = angle > least ? angle / std::max(sine, least) : 1;
+  const btScalar y = about.dot(a.getColumn(1)), z = about.dot(a.getColumn(2));
+  const btScalar own = axis == 1 ? y : z, other = axis == 1 ? -z : y;
+  return {btScalar(axis == 1 ? numbers.y : numbers.z), own * about + (by_sine * other) * x_b.cross(about)};
+}
+
+}  // namespace
+
 AxisSpring::AxisSpring(btRigidBody& a, btRigidBody& b, const btTransform& frame_a, const btTransform& frame_b, int axis,
-                       const PlumbSpring& spring)
-    : RowConstraint(D6_CONSTRAINT_TYPE, a, b), frame_a_(frame_a), frame_b_(frame_b), axis_(axis), spring_(spring) {}
+                       const PlumbJointDesc& desc)
+    : RowConstraint(D6_CONSTRAINT_TYPE, a, b),
+      frame_a_(frame_a),
+      frame_b_(frame_b),
+      axis_(axis),
+      type_(desc.type),
+      spring_(desc.springs[axis]) {}
 
 void AxisSpring::getInfo1(btConstraintInfo1* info) {
   info->m_numConstraintRows = 1;
@@ -147,12 +193,11 @@ void AxisSpring::getInfo2(btConstraintInfo2* info) {
     row.angular_b = (at_b.getOrigin() - m_rbB.getWorldTransform().getOrigin()).cross(row.linear);
     coordinate = row.linear.dot(at_b.getOrigin() - at_a.getOrigin());
   } else {
-    const btVector3 angles = angles_xyz(at_a.getBasis().transposeTimes(at_b.getBasis()));
-    coordinate = angles[axis_ - 3];
-    // x turns about a's x axis, z about b's z axis, y about what is square to both.
-    const btVector3 x = at_a.getBasis().getColumn(0), z = at_b.getBasis().getColumn(2);
-    row.angular_b = axis_ == 3 ? x : axis_ == 5 ? z : z.cross(x).normalized();
-    row.angular_a = -row.angular_b;
+    const bool swings = type_ == PLUMB_JOINT_SWING_TWIST;
+    const Turn turn = (swings ? swing_or_twist : turn_about)(at_a.getBasis(), at_b.getBasis(), axis_ - 3);
+    coordinate = turn.coordinate;
+    row.angular_b = turn.direction;
+    row.angular_a = -turn.direction;
   }
   row.write(*info);
   const btScalar h = 1 / info->fps;

@@ -38,6 +38,8 @@ class DistanceConstraint final : public RowConstraint {
  public:
   DistanceConstraint(btRigidBody& a, btRigidBody& b, const btVector3& point_a, const btVector3& point_b,
                      const PlumbJointDesc& desc);
+  /// Where its spring rests, or what it holds where there is none, m.
+  void rest_at(btScalar length);
   void getInfo1(btConstraintInfo1* info) override;
   void getInfo2(btConstraintInfo2* info) override;
 
@@ -50,14 +52,18 @@ class DistanceConstraint final : public RowConstraint {
 /// A spring on one of a joint's six axes.
 class AxisSpring final : public RowConstraint {
  public:
+  /// frames: seen from the bodies' transforms.
   AxisSpring(btRigidBody& a, btRigidBody& b, const btTransform& frame_a, const btTransform& frame_b, int axis,
-             const PlumbSpring& spring);
+             const PlumbJointDesc& desc);
+  [[nodiscard]] std::size_t axis() const { return static_cast<std::size_t>(axis_); }
+  void rest_at(double rest) { spring_.rest = rest; }
   void getInfo1(btConstraintInfo1* info) override;
   void getInfo2(btConstraintInfo2* info) override;
 
  private:
   btTransform frame_a_, frame_b_;
   int axis_;
+  PlumbJointType type_;
   PlumbSpring spring_;
 };
 

@@ -13,7 +13,7 @@ struct Joint {
   Joint(PlumbJoint id, const PlumbJointDesc& d) : handle(id), desc(d) {}
 
   PlumbJoint handle;
-  PlumbJointDesc desc;     ///< its motors are kept up to date
+  PlumbJointDesc desc;     ///< as it is by now
   Body* body_a = nullptr;  ///< null: the world
   Body* body_b = nullptr;
   btRigidBody* a = nullptr;                          ///< body_a, or the world's own fixed body
@@ -44,6 +44,9 @@ void make_constraint(Joint& joint);
 
 /// Whether an axis of a joint is one that a motor can drive.
 [[nodiscard]] bool may_have_motor(const PlumbJointDesc& desc, std::size_t axis);
+
+/// Hands where desc.springs rest, and desc.rest_length, to the constraints.
+void set_rests(Joint& joint);
 
 /// Hands desc.motors to the constraint, for sub-steps of h seconds: Bullet wants a hinge's motor as an impulse.
 void set_motors(Joint& joint, btScalar h);

@@ -97,9 +97,14 @@ void make_constraint(Joint& joint) {
   joint.constraint = make(joint);
   if (joint.distance == nullptr)
     for (int axis = 0; axis < 6; ++axis)
-      if (const PlumbSpring& spring = joint.desc.springs[axis]; spring.enabled != 0)
+      if (joint.desc.springs[axis].enabled != 0)
         joint.springs.push_back(
-            std::make_unique<AxisSpring>(*joint.a, *joint.body_b, joint.frame_a, joint.frame_b, axis, spring));
+            std::make_unique<AxisSpring>(*joint.a, *joint.body_b, joint.frame_a, joint.frame_b, axis, joint.desc));
+}
+
+void set_rests(Joint& joint) {
+  if (joint.distance != nullptr) joint.distance->rest_at(scalar(joint.desc.rest_length, "rest_length"));
+  for (const auto& spring : joint.springs) spring->rest_at(joint.desc.springs[spring->axis()].rest);
 }
 
 bool may_have_motor(const PlumbJointDesc& desc, std::size_t axis) {

@@ -87,6 +87,8 @@ PlumbResult World::read_joints(PlumbJointField field, std::span<const PlumbJoint
     } else if (field == PLUMB_JOINT_REACTION) {
       std::copy_n(at.force, 3, row);
       std::copy_n(at.torque, 3, row + 3);
+    } else if (field == PLUMB_JOINT_SPRING_REST) {
+      backend::read_rest_row(at.desc, row);
     } else {
       for (std::size_t axis = 0; axis < 6; ++axis) {
         row[2 * axis] = at.desc.motors[axis].target_velocity;
@@ -98,22 +100,31 @@ PlumbResult World::read_joints(PlumbJointField field, std::span<const PlumbJoint
   return PLUMB_OK;
 }
 
-PlumbResult World::write_joints(PlumbJointField /*field*/, std::span<const PlumbJoint> ids, ConstRows rows) {
+void World::check_drive_row(PlumbJointField field, const PlumbJointDesc& desc, const double* row) {
+  for (std::size_t axis = 0; field == PLUMB_JOINT_SPRING_REST && axis < 6; ++axis)
+    (void)scalar(row[axis], "the rest of a spring");
+  for (std::size_t axis = 0; field == PLUMB_JOINT_MOTOR && axis < 6; ++axis) {
+    (void)scalar(row[2 * axis], "the target velocity of a motor");
+    (void)scalar(row[2 * axis + 1], "the max force of a motor");
+    if (row[2 * axis + 1] != 0 && !may_have_motor(desc, axis))
+      throw Error(PLUMB_E_UNSUPPORTED, "Bullet has no motor on axis " + std::to_string(axis) + " of this joint");
+  }
+}
+
+PlumbResult World::write_joints(PlumbJointField field, std::span<const PlumbJoint> ids, ConstRows rows) {
+  double row[12];
   for (std::size_t i = 0; i < ids.size(); ++i) {
-    double row[12];
-    rows.get(i, row, 12);
-    for (std::size_t axis = 0; axis < 6; ++axis) {
-      (void)scalar(row[2 * axis], "the target velocity of a motor");
-      (void)scalar(row[2 * axis + 1], "the max force of a motor");
-      if (row[2 * axis + 1] != 0 && !may_have_motor(joint(ids[i]).desc, axis))
-        throw Error(PLUMB_E_UNSUPPORTED, "Bullet has no motor on axis " + std::to_string(axis) + " of this joint");
-    }
+    rows.get(i, row, joint_columns_of(field));
+    check_drive_row(field, joint(ids[i]).desc, row);
   }
   for (std::size_t i = 0; i < ids.size(); ++i) {
-    double row[12];
-    rows.get(i, row, 12);
+    rows.get(i, row, joint_columns_of(field));
     Joint& at = joint(ids[i]);
-    backend::apply_motor_row(row, at.desc);
+    if (field == PLUMB_JOINT_MOTOR) backend::apply_motor_row(row, at.desc);
+    if (field == PLUMB_JOINT_SPRING_REST) {
+      backend::apply_rest_row(row, at.desc);
+      set_rests(at);
+    }
     if (at.body_a != nullptr) wake(*at.body_a);
     wake(*at.body_b);
   }

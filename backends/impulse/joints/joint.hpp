@@ -14,7 +14,7 @@
 
 namespace plumb::impulse {
 
-constexpr int kJointRows = 6;
+constexpr int kJointRows = 7;
 /// A number of each row, with room for a whole vector: what is in lanes beyond the rows does not count.
 using RowNumbers = Real[kLaneGroup];
 constexpr std::uint32_t kWorld = 0xffffffffu;  // stands for a body that is not there: the world

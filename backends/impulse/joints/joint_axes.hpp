@@ -21,11 +21,15 @@ enum class RowKind : std::uint8_t {
   kSquare,    ///< an axis of a against one of b that should be square to it
   kAngle,     ///< a turn that is free
   kTwist,     ///< the twist of a turn that is all free
-  kCone       ///< its swing, as the half angle about y of the cone through it
+  kCone,      ///< its swing, as the half angle about y of the cone through it
+  kSwing      ///< one of the two numbers of that swing
 };
 
 /// Whether the row's number is an angle that goes round.
 PLUMB_HD constexpr bool goes_round(RowKind kind) { return kind == RowKind::kAngle || kind == RowKind::kTwist; }
+
+/// Whether it is of a swing. Such rows are the last of their joint.
+PLUMB_HD constexpr bool is_of_swing(RowKind kind) { return kind == RowKind::kCone || kind == RowKind::kSwing; }
 
 /// What a row holds or drives.
 struct RowSpec {
@@ -40,7 +44,6 @@ constexpr std::uint8_t kLocked = 6;
 struct JointAxes {
   RowSpec row[kJointRows];
   Real lower[kJointRows], upper[kJointRows];  ///< beyond kHuge / 2: none
-  Real rest[kJointRows];
   /// Of the spring: N/m and N s/m, N m/rad and N m s/rad; of one that is given by its frequency, per mass that it works
   /// against: 1/s2 and 1/s.
   Real stiffness[kJointRows], damping[kJointRows];
@@ -58,6 +61,7 @@ struct JointAxes {
 struct JointDrive {
   Real velocity[6];   ///< m/s, rad/s
   Real max_force[6];  ///< N, N m; 0: no motor
+  Real rest[6];       ///< of springs, m or rad
 };
 
 /// From a coordinate to the limits of its row, m or rad: beyond the lower one where that is above 0, beyond the upper
@@ -80,10 +84,14 @@ PLUMB_HD inline WaysToLimits ways_to_limits(const JointAxes& axes, int row, Real
 /// Both frames as matrices: cosine(i, j) of axis i of a and axis j of b.
 struct JointAxesPlace {
   Mat a, b;
+  Swing swing;  ///< where a row is of it
   PLUMB_HD Real cosine(int i, int j) const { return dot(a[i], b[j]); }
 };
-PLUMB_HD inline JointAxesPlace axes_of(const JointPlace& place) {
-  return {to_matrix(place.frame_a), to_matrix(place.frame_b)};
+/// Of a joint with so many rows beyond those of its type, 1 or more.
+PLUMB_HD inline JointAxesPlace axes_of(const JointPlace& place, const JointAxes& axes, int rows) {
+  JointAxesPlace at = {to_matrix(place.frame_a), to_matrix(place.frame_b), {}};
+  if (is_of_swing(axes.row[rows - 1].kind)) at.swing = Swing(at.a, at.b.x);
+  return at;
 }
 
 /// A free turn: its angle and the direction along which it turns, all others that are free kept.
@@ -145,7 +153,8 @@ PLUMB_HD inline Real axis_error(const RowSpec& row, Real narrow, const JointPlac
     case RowKind::kSquare: return off_square(at, k, row.other).error;
     case RowKind::kAngle: return free_turn(at, k, row.other).angle;
     case RowKind::kTwist: return twist_of(turn_of(place), at.a.x, at.b.x).value;
-    case RowKind::kCone: return swing_in_cone(at.a, at.b.x, narrow).value;
+    case RowKind::kCone: return at.swing.in_cone(narrow).value;
+    case RowKind::kSwing: return at.swing.about(k).value;
   }
   return 0;
 }
@@ -165,7 +174,8 @@ PLUMB_HD inline JointRow axis_row(const RowSpec& row, Real narrow, const JointPl
     case RowKind::kSquare: return turn_row(off_square(at, k, row.other).row);
     case RowKind::kAngle: return turn_row(free_turn(at, k, row.other).direction);
     case RowKind::kTwist: return turn_row(twist_of(turn_of(place), at.a.x, at.b.x).direction);
-    case RowKind::kCone: return turn_row(swing_in_cone(at.a, at.b.x, narrow).direction);
+    case RowKind::kCone: return turn_row(at.swing.in_cone(narrow).direction);
+    case RowKind::kSwing: return turn_row(at.swing.about(k).direction);
   }
   return turn_row({0, 0, 0});
 }
@@ -185,13 +195,13 @@ PLUMB_HD inline void all_errors(const Joint& joint, const JointAxes& axes, const
   joint_errors(joint, place, error);
   const int first = rows_of(joint.type);
   if (first == row_count(joint)) return;
-  const JointAxesPlace at = axes_of(place);
+  const JointAxesPlace at = axes_of(place, axes, row_count(joint) - first);
   for (int i = first; i < row_count(joint); ++i) error[i] = axis_error(axes.row[i - first], axes.narrow, place, at);
 }
 PLUMB_HD inline bool is_any_far_off(const Joint& joint, const JointAxes& axes, const JointPlace& place) {
   const int first = rows_of(joint.type);
   if (first == row_count(joint)) return is_far_off(joint, place);
-  const JointAxesPlace at = axes_of(place);
+  const JointAxesPlace at = axes_of(place, axes, row_count(joint) - first);
   bool far = is_far_off(joint, place);
   for (int i = first; i < row_count(joint); ++i) far = far || is_far_off(axes.row[i - first], place, at);
   return far;
@@ -201,7 +211,7 @@ PLUMB_HD inline void all_rows(const Joint& joint, const JointAxes& axes, const J
   joint_rows(joint, place, rows);
   const int first = rows_of(joint.type);
   if (first == row_count(joint)) return;
-  const JointAxesPlace at = axes_of(place);
+  const JointAxesPlace at = axes_of(place, axes, row_count(joint) - first);
   for (int i = first; i < row_count(joint); ++i) rows[i] = axis_row(axes.row[i - first], axes.narrow, place, at);
 }
 

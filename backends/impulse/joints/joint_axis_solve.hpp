@@ -17,7 +17,8 @@ inline constexpr std::uint32_t kMostRounds = 40;
 /// 21, 1994, go on with one row alone, which would take all mechanisms in turn.)
 inline constexpr std::uint32_t kFreeRounds = 4, kHalfRounds = 12;
 PLUMB_HD inline bool may_change(std::uint32_t joint, int row, std::uint32_t round) {
-  std::uint32_t mixed = (joint * kJointRows + static_cast<std::uint32_t>(row)) * 0x9e3779b9U + round * 0x85ebca6bU;
+  constexpr std::uint32_t kFactor = 6;  // any will do, but with another no recorded bit stays
+  std::uint32_t mixed = (joint * kFactor + static_cast<std::uint32_t>(row)) * 0x9e3779b9U + round * 0x85ebca6bU;
   mixed = (mixed ^ mixed >> 16) * 0x7feb352dU;
   mixed = mixed ^ mixed >> 15;
   if (round < kFreeRounds) return true;

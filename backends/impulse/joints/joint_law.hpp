@@ -152,9 +152,9 @@ PLUMB_HD inline RowLaw law_of_places(const JointAxes& axes, int row, Real x, con
   }
   if (axes.has_spring(row)) {
     const SpringNumbers numbers = spring_numbers(axes, row, spring_mass, time.h);
-    const Real off = turns ? wrapped(x - axes.rest[row]) : x - axes.rest[row];
+    const Real off = x - drive.rest[spec.coordinate], bent = turns ? wrapped(off) : off;
     law.drag = numbers.drag;
-    law.spring = -(numbers.pull * off);
+    law.spring = -(numbers.pull * bent);
   }
   return law;
 }

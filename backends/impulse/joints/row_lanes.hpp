@@ -179,8 +179,8 @@ template <class F>
 /// of(i) of all rows in their lanes: in registers, for numbers that go to memory one by one are slow to read at once.
 template <class Of>
 [[gnu::always_inline]] inline Lanes lanes_of_rows(const Of& of) {
-  static_assert(kLanes == 8 && kJointRows == 6);
-  return Lanes(Lanes::Vector{of(0), of(1), of(2), of(3), of(4), of(5), 0, 0});
+  static_assert(kLanes == 8 && kJointRows == 7);
+  return Lanes(Lanes::Vector{of(0), of(1), of(2), of(3), of(4), of(5), of(6), 0});
 }
 template <class Of>
 [[gnu::always_inline]] inline Lanes by_row(int n, const Of& of) {
@@ -217,9 +217,10 @@ void with_rows(int n, const F& f) {
     case 4: return f(std::integral_constant<int, 4>{});
     case 5: return f(std::integral_constant<int, 5>{});
     case 6: return f(std::integral_constant<int, 6>{});
+    case 7: return f(std::integral_constant<int, 7>{});
     default: return;
   }
-  static_assert(kJointRows == 6);
+  static_assert(kJointRows == 7);
 }
 constexpr bool is_row(int /*i*/, int /*n*/) { return true; }
 [[gnu::always_inline]] inline Lanes lanes_of_numbers(const Real* numbers) {

@@ -1,5 +1,5 @@
 // A turn of frame b seen from frame a as a swing after a twist (plumb/joints.h), and how fast both change: for rows
-// that hold b's x axis within an elliptic cone about a's, and the twist about it within limits.
+// that hold b's x axis within an elliptic cone about a's, and the twist about it within limits, or drive the three.
 #pragma once
 
 #include "math/angle.hpp"
@@ -21,18 +21,41 @@ PLUMB_HD inline TurnNumber twist_of(const Quat& turn, const Vec& x_of_a, const V
   return {2 * angle_of(side * turn.x, side * turn.w), share * (x_of_a + x_of_b)};
 }
 
-/// The length of the swing's vector, whose z counts `narrow` times: constant along a cone that is `narrow` times less
-/// wide about z than about y, where it is the half angle about y, rad. a: the axes of frame a in the world.
-PLUMB_HD inline TurnNumber swing_in_cone(const Mat& a, const Vec& x_of_b, Real narrow) {
-  const Vec across = cross(a.x, x_of_b);
-  const Real sine = length(across), angle = angle_of(sine, dot(a.x, x_of_b));
-  const Vec about = normalized_or(across, a.y);
-  const Real y = dot(about, a.y), z = dot(about, a.z);
-  const Real stretch = sqrt(y * y + narrow * narrow * z * z);
-  // Along the meridian b's axis moves as fast as it turns, along the parallel by the sine.
-  const Real by_sine = angle > Real(0.01) ? angle / max(sine, Real(0.01)) : Real(1);
-  const Real along = by_sine * (y * z * (narrow * narrow - Real(1)) / stretch);
-  return {stretch * angle, stretch * about + along * cross(x_of_b, about)};
-}
+/// The swing of a turn: about which axis, square to a's x axis, and by which angle b's x axis has left it.
+class Swing {
+ public:
+  Swing() = default;
+  /// a: the axes of frame a in the world.
+  PLUMB_HD Swing(const Mat& a, const Vec& x_of_b) {
+    const Vec across = cross(a.x, x_of_b);
+    const Real sine = length(across);
+    angle_ = angle_of(sine, dot(a.x, x_of_b));
+    axis_ = normalized_or(across, a.y);
+    parallel_ = cross(x_of_b, axis_);
+    y_ = dot(axis_, a.y);
+    z_ = dot(axis_, a.z);
+    // Along the meridian b's axis moves as fast as it turns, along the parallel by the sine.
+    by_sine_ = angle_ > Real(0.01) ? angle_ / max(sine, Real(0.01)) : Real(1);
+  }
+  /// The length of the swing's vector, whose z counts `narrow` times: constant along a cone that is `narrow` times less
+  /// wide about z than about y, where it is the half angle about y, rad.
+  [[nodiscard]] PLUMB_HD TurnNumber in_cone(Real narrow) const {
+    const Real stretch = sqrt(y_ * y_ + narrow * narrow * z_ * z_);
+    const Real along = by_sine_ * (y_ * z_ * (narrow * narrow - Real(1)) / stretch);
+    return {stretch * angle_, stretch * axis_ + along * parallel_};
+  }
+  /// The swing's vector along a's y or z, 1 or 2, rad.
+  [[nodiscard]] PLUMB_HD TurnNumber about(int axis) const {
+    const Real own = axis == 1 ? y_ : z_, other = axis == 1 ? -z_ : y_;
+    return {own * angle_, own * axis_ + (by_sine_ * other) * parallel_};
+  }
+
+ private:
+  Real angle_;
+  Vec axis_;      ///< about which it is
+  Vec parallel_;  ///< a turn about it moves b's x axis along the parallel
+  Real y_, z_;    ///< the axis, in a's
+  Real by_sine_;  ///< the angle by its sine
+};
 
 }  // namespace plumb::impulse

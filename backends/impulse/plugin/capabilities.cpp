@@ -30,7 +30,8 @@ Capability known(PlumbCapability kind, std::uint32_t a, std::uint32_t b) {
       if (a == PLUMB_JOINT_SWING_TWIST) return {PLUMB_NATIVE};
       break;
     case PLUMB_CAP_JOINT_FEATURE:
-      if (b == PLUMB_JOINT_HAS_STIFFNESS) return backend::usual_capability(kind, a, PLUMB_JOINT_HAS_SPRINGS);
+      if (b == PLUMB_JOINT_HAS_STIFFNESS || b == PLUMB_JOINT_HAS_TARGETS)
+        return backend::usual_capability(kind, a, PLUMB_JOINT_HAS_SPRINGS);
       break;
     case PLUMB_CAP_QUERY:
       if (a == PLUMB_QUERY_RAY)

@@ -148,6 +148,8 @@ PlumbResult World::read_joints(PlumbJointField field, std::span<const PlumbJoint
         row[static_cast<std::size_t>(axis)] = static_cast<double>(reactions[slot].force[axis]) / pacing_.dt;
         row[static_cast<std::size_t>(axis) + 3] = static_cast<double>(reactions[slot].torque[axis]) / pacing_.dt;
       }
+    } else if (field == PLUMB_JOINT_SPRING_REST) {
+      backend::read_rest_row(joint, row.data());
     } else {
       for (std::size_t axis = 0; axis < 6; ++axis) {
         row[2 * axis] = joint.motors[axis].target_velocity;
@@ -159,13 +161,13 @@ PlumbResult World::read_joints(PlumbJointField field, std::span<const PlumbJoint
   return PLUMB_OK;
 }
 
-PlumbResult World::write_joints(PlumbJointField /*field*/, std::span<const PlumbJoint> ids, ConstRows rows) {
+PlumbResult World::write_joints(PlumbJointField field, std::span<const PlumbJoint> ids, ConstRows rows) {
   std::vector<PlumbJointDesc> written;
   std::array<double, 12> row{};
   for (std::size_t i = 0; i < ids.size(); ++i) {
-    rows.get(i, row.data(), row.size());
+    rows.get(i, row.data(), joint_columns_of(field));
     written.push_back(joints_.records[slot_of(ids[i])].desc);
-    backend::apply_motor_row(row.data(), written.back());
+    (field == PLUMB_JOINT_MOTOR ? backend::apply_motor_row : backend::apply_rest_row)(row.data(), written.back());
     (void)rows_of_joint(written.back());
   }
   for (std::size_t i = 0; i < ids.size(); ++i)

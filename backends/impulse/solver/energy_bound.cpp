@@ -283,7 +283,7 @@ struct JudgeEnergy {
       const Real pushed = k < 3 ? length(reaction.force) : length(reaction.torque);
       sum = sum + min(most, pushed) * sqrt(drive.velocity[k] * drive.velocity[k]);
       if (!axes.has_spring(i)) continue;
-      const Real off = places[first + i] - axes.rest[i];
+      const Real off = places[first + i] - drive.rest[k];
       const Real bent = goes_round(axes.row[i].kind) ? wrapped(off) : off;
       sum = sum + axes.spring_unit(i, reaction.spring_mass[first + i]) * axes.stiffness[i] * bent * bent / 2;
     }

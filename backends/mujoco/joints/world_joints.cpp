@@ -1,5 +1,6 @@
 // Joints of a world: made, read, driven, taken away.
 #include "plumb/backend/joint_coordinates.hpp"
+#include "plumb/backend/modify.hpp"
 #include "world.hpp"
 
 namespace plumb::mujoco {
@@ -60,6 +61,7 @@ PlumbResult World::read_joints(PlumbJointField field, std::span<const PlumbJoint
       put(read.force, row);
       put(read.torque, row + 3);
     }
+    if (field == PLUMB_JOINT_SPRING_REST) backend::read_rest_row(read.desc, row);
     for (std::size_t axis = 0; field == PLUMB_JOINT_MOTOR && axis < 6; ++axis) {
       const PlumbMotor& motor = read.desc.motors[axis];
       row[2 * axis] = motor.target_velocity;

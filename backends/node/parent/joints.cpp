@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "append.hpp"
+#include "plumb/backend/modify.hpp"
 #include "plumb/backend/small_math.hpp"
 #include "world.hpp"
 
@@ -79,6 +80,8 @@ PlumbResult World::read_joints(PlumbJointField field, std::span<const PlumbJoint
     if (field == PLUMB_JOINT_COORDINATES) {
       const PlumbPose a = desc.body_a == 0 ? identity_pose() : pose_at(&poses[14 * i]);
       put_coordinates(compose(a, desc.frame_a), compose(pose_at(&poses[14 * i + 7]), desc.frame_b), row);
+    } else if (field == PLUMB_JOINT_SPRING_REST) {
+      backend::read_rest_row(desc, row);
     } else {
       put_motors(desc, row);
     }

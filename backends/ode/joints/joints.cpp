@@ -137,7 +137,8 @@ bool joint_has(PlumbJointType type, PlumbJointFeature feature) {
   switch (feature) {
     case PLUMB_JOINT_HAS_LIMITS:
     case PLUMB_JOINT_HAS_SPRINGS:
-    case PLUMB_JOINT_HAS_STIFFNESS: return free_axes(type) != 0;
+    case PLUMB_JOINT_HAS_STIFFNESS:
+    case PLUMB_JOINT_HAS_TARGETS: return free_axes(type) != 0;
     case PLUMB_JOINT_HAS_MOTORS: return free_axes(type) != 0 && type != PLUMB_JOINT_DISTANCE;
     default: return true;
   }
@@ -237,6 +238,7 @@ void set_parameters(const Joint& joint, const Settings& settings, double h) {
       return dJointSetFixedParam(joint.id, dParamCFM, settings.cfm);
     case PLUMB_JOINT_DISTANCE: {
       if (dJointGetType(joint.id) != dJointTypeDBall) return;
+      dJointSetDBallDistance(joint.id, joint.desc.rest_length);
       const bool soft = joint.desc.springs[0].enabled != 0;
       SoftRow row{settings.erp, settings.cfm};
       if (soft) row = soft_row(joint.desc.springs[0], joint.spring_mass[0], h);

@@ -90,6 +90,7 @@ PlumbResult World::read_joints(PlumbJointField field, std::span<const PlumbJoint
                                   read.torque.x, read.torque.y, read.torque.z};
       std::copy(std::begin(reaction), std::end(reaction), row);
     }
+    if (field == PLUMB_JOINT_SPRING_REST) backend::read_rest_row(read.desc, row);
     for (std::size_t axis = 0; field == PLUMB_JOINT_MOTOR && axis < 6; ++axis) {
       const PlumbMotor& motor = read.desc.motors[axis];
       row[2 * axis] = motor.target_velocity;
@@ -100,13 +101,14 @@ PlumbResult World::read_joints(PlumbJointField field, std::span<const PlumbJoint
   return PLUMB_OK;
 }
 
-PlumbResult World::write_joints(PlumbJointField, std::span<const PlumbJoint> ids, ConstRows rows) {
+PlumbResult World::write_joints(PlumbJointField field, std::span<const PlumbJoint> ids, ConstRows rows) {
   std::vector<PlumbJointDesc> changed;
   double row[12];
   for (std::size_t i = 0; i < ids.size(); ++i) {
-    rows.get(i, row, 12);
+    rows.get(i, row, joint_columns_of(field));
     changed.push_back(joint(ids[i]).desc);
-    for (std::size_t axis = 0; axis < 6; ++axis) {
+    if (field == PLUMB_JOINT_SPRING_REST) backend::apply_rest_row(row, changed.back());
+    for (std::size_t axis = 0; field == PLUMB_JOINT_MOTOR && axis < 6; ++axis) {
       const bool enabled = row[2 * axis + 1] != 0;
       changed.back().motors[axis] = {row[2 * axis], row[2 * axis + 1], enabled ? 1u : 0u, 0};
     }

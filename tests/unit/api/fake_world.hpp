@@ -43,6 +43,7 @@ class FakeWorld final : public IPhysicsWorld,
     if (kind == PLUMB_CAP_SHAPE && a == PLUMB_CYLINDER) return note = "no cylinders here", PLUMB_NONE;
     if (kind == PLUMB_CAP_SHAPE && a == PLUMB_PLANE) return b == PLUMB_STATIC ? PLUMB_NATIVE : PLUMB_NONE;
     if (kind == PLUMB_CAP_NEED && a == 5) return note = "no continuous collision", PLUMB_NONE;
+    if (kind == PLUMB_CAP_JOINT_FEATURE && a == PLUMB_JOINT_FIXED && b == PLUMB_JOINT_HAS_TARGETS) return PLUMB_NONE;
     return PLUMB_NATIVE;
   }
   static std::span<const PlumbSettingInfo> setting_infos() {

@@ -274,19 +274,31 @@ TEST_F(Guard, KeepsShapesAndBodiesThatAreInUse) {
   EXPECT_EQ(world->destroy_shapes({&box, 1}), PLUMB_OK);
 }
 
-TEST_F(Guard, RefusesToDriveASwing) {
-  PlumbJointDesc desc = joint_desc(PLUMB_JOINT_SWING_TWIST);
-  desc.body_b = add(body());
-  PlumbJoint joint = 0;
-  ASSERT_EQ(world->joints()->create_joints({&desc, 1}, {&joint, 1}), PLUMB_OK);
-  const auto write = [&](std::size_t axis) {
+TEST_F(Guard, RefusesBadDrivesByName) {
+  const auto joint_of = [&](PlumbJointType type) {
+    PlumbJointDesc desc = joint_desc(type);
+    desc.body_b = add(body());
+    PlumbJoint joint = 0;
+    EXPECT_EQ(world->joints()->create_joints({&desc, 1}, {&joint, 1}), PLUMB_OK);
+    return joint;
+  };
+  const auto write = [&](PlumbJoint joint, PlumbJointField field, std::size_t column, double number) {
     double row[12] = {};
-    row[2 * axis + 1] = 5;
-    return world->joints()->write_joints(PLUMB_JOINT_MOTOR, {&joint, 1},
+    row[column] = number;
+    return world->joints()->write_joints(field, {&joint, 1},
                                          ConstRows(reinterpret_cast<const std::byte*>(row), 1, sizeof row, PLUMB_F64));
   };
-  EXPECT_EQ(write(3), PLUMB_OK);
-  refused(PLUMB_E_INVALID_ARGUMENT, "drives axis 4, of a swing", [&] { return write(4); });
+  const PlumbJoint limb = joint_of(PLUMB_JOINT_SWING_TWIST), rod = joint_of(PLUMB_JOINT_DISTANCE);
+  EXPECT_EQ(write(limb, PLUMB_JOINT_MOTOR, 9, 5), PLUMB_OK);
+  EXPECT_EQ(write(limb, PLUMB_JOINT_SPRING_REST, 5, -1), PLUMB_OK);
+  EXPECT_EQ(write(rod, PLUMB_JOINT_SPRING_REST, 0, 2), PLUMB_OK);
+  refused(PLUMB_E_INVALID_ARGUMENT, "max force", [&] { return write(limb, PLUMB_JOINT_MOTOR, 9, -5); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "rows[0].rest", [&] { return write(limb, PLUMB_JOINT_SPRING_REST, 4, kNan); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "rows[0].rest", [&] { return write(rod, PLUMB_JOINT_SPRING_REST, 0, -2); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "only PLUMB_JOINT_MOTOR", [&] { return write(limb, PLUMB_JOINT_REACTION, 0, 0); });
+  const PlumbJoint ball = joint_of(PLUMB_JOINT_FIXED);
+  refused(PLUMB_E_UNSUPPORTED, "where springs rest of a fixed",
+          [&] { return write(ball, PLUMB_JOINT_SPRING_REST, 0, 0); });
 }
 
 TEST_F(Guard, RefusesBadJointsByName) {
@@ -328,10 +340,6 @@ TEST_F(Guard, RefusesBadJointsByName) {
   joint_refused(PLUMB_E_INVALID_ARGUMENT, "limits[5].upper", cone(good, {-4, 4, 1, 0}));
   joint_refused(PLUMB_E_INVALID_ARGUMENT, "limits[4].upper", cone({0, 0, 1, 0}, good));
   joint_refused(PLUMB_E_INVALID_ARGUMENT, "limits[5].lower", cone(good, {-1, 0.5, 1, 0}));
-  joint_refused(PLUMB_E_INVALID_ARGUMENT, "springs drives axis 5, of a swing", [&](auto& d) {
-    cone(good, good)(d);
-    d.springs[5] = {0, 1, 1, 1, 0};
-  });
   joint_refused(PLUMB_E_INVALID_ARGUMENT, "frame_a.position.x", [](auto& d) { d.frame_a.position.x = kNan; });
 }
 

@@ -72,6 +72,7 @@ class Everything {
     const auto& joints = extension<PlumbJointsTable>(PLUMB_EXT_JOINTS);
     ok(joints.write(world_, PLUMB_JOINT_MOTOR, PLUMB_F64, &joint_, 1, motors, sizeof motors));
     ok(joints.read(world_, PLUMB_JOINT_MOTOR, PLUMB_F64, nullptr, 1, motors, sizeof motors));
+    ok(joints.write(world_, PLUMB_JOINT_SPRING_REST, PLUMB_F64, &joint_, 1, motors, sizeof motors));
   }
 
   void queries() const {

@@ -167,12 +167,7 @@ inline void check_body(const Where& where, const PlumbBodyDesc& desc) {
   if (desc.motion == PLUMB_DYNAMIC) check_mass(where, desc);
 }
 
-[[noreturn]] inline void refuse_driven_swing(const std::string& what, std::size_t axis) {
-  refuse(PLUMB_E_INVALID_ARGUMENT, what + " drives axis " + std::to_string(axis) +
-                                       ", of a swing; a swing-twist joint is driven about axis 3, its twist, alone");
-}
-
-/// A swing-twist joint has a cone, whose half angles are told as limits, and is driven about its twist alone.
+/// A swing-twist joint has a cone, whose half angles are told as limits.
 inline void check_swing(const Where& where, const PlumbJointDesc& desc) {
   if ((desc.limits[4].enabled != 0) != (desc.limits[5].enabled != 0))
     refuse(PLUMB_E_INVALID_ARGUMENT, where.member("limits[4]") +
@@ -187,9 +182,6 @@ inline void check_swing(const Where& where, const PlumbJointDesc& desc) {
     if (limit.lower != -limit.upper)
       refuse_value(where, (name + ".lower").c_str(), limit.lower, "-upper, as a cone is as wide on either side");
   }
-  for (std::size_t axis = 4; axis < 6; ++axis)
-    if (desc.motors[axis].enabled != 0 || desc.springs[axis].enabled != 0)
-      refuse_driven_swing(where.member(desc.motors[axis].enabled != 0 ? "motors" : "springs"), axis);
 }
 
 inline void check_joint(const Where& where, const PlumbJointDesc& desc) {

@@ -25,6 +25,13 @@ namespace plumb::backend {
   return {2 * std::atan2(sine, cosine), share * y, share * z};
 }
 
+/// The turn of which swing_twist tells these numbers.
+[[nodiscard]] inline PlumbQuat turn_of_swing_twist(const PlumbVec3& turns) {
+  const double angle = std::hypot(turns.y, turns.z), share = angle > 0 ? std::sin(angle / 2) / angle : 0.5;
+  const PlumbQuat swing{0, share * turns.y, share * turns.z, std::cos(angle / 2)};
+  return multiply(swing, {std::sin(turns.x / 2), 0, 0, std::cos(turns.x / 2)});
+}
+
 /// PLUMB_JOINT_COORDINATES of every type of joint, out of its two frames in world axes: b's origin and turn as seen
 /// from a, m and rad. row has 6 numbers.
 inline void joint_coordinates(PlumbJointType type, const PlumbPose& frame_a, const PlumbPose& frame_b, double* row) {

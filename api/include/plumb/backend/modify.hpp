@@ -70,6 +70,18 @@ inline void apply_motor_row(const double* row, PlumbJointDesc& desc) {
   }
 }
 
+/// Where the spring of a joint's axis rests: of a distance joint that is its length.
+[[nodiscard]] inline double& rest_of(PlumbJointDesc& desc, std::size_t axis) {
+  return desc.type == PLUMB_JOINT_DISTANCE && axis == 0 ? desc.rest_length : desc.springs[axis].rest;
+}
+/// A PLUMB_JOINT_SPRING_REST row, from the joint's descriptor and into it.
+inline void read_rest_row(PlumbJointDesc desc, double* row) {
+  for (std::size_t axis = 0; axis < 6; ++axis) row[axis] = rest_of(desc, axis);
+}
+inline void apply_rest_row(const double* row, PlumbJointDesc& desc) {
+  for (std::size_t axis = 0; axis < 6; ++axis) rest_of(desc, axis) = row[axis];
+}
+
 /// Which joints have a body that changes; in a batch of many bodies and many joints, too.
 class ChangedBodies {
  public:

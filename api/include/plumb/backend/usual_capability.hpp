@@ -44,6 +44,7 @@ struct Capability {
     case PLUMB_CAP_JOINT_FEATURE:
       if (a >= PLUMB_JOINT_TYPE_COUNT || b >= PLUMB_JOINT_FEATURE_COUNT) return no;
       if (b == PLUMB_JOINT_HAS_STIFFNESS) return {PLUMB_NONE, "springs by frequency and damping ratio alone"};
+      if (b == PLUMB_JOINT_HAS_TARGETS) return {PLUMB_NONE, "where its springs rest is said when it is made alone"};
       if (b > PLUMB_JOINT_HAS_SPRINGS || free_axes(a) != 0) return yes;
       return {PLUMB_NONE, "it leaves no axis free"};
     case PLUMB_CAP_QUERY:

@@ -89,7 +89,9 @@ void World::change_joint(std::uint32_t slot, const PlumbJointDesc& desc, bool en
   for (std::size_t axis = 0; axis < 6; ++axis) {
     same_motors = same_motors && (driven.motors[axis].enabled != 0) == (desc.motors[axis].enabled != 0);
     driven.motors[axis] = desc.motors[axis];
+    driven.springs[axis].rest = desc.springs[axis].rest;
   }
+  if (desc.springs[0].enabled != 0) driven.rest_length = desc.rest_length;
   const bool same_rows = same_motors && enabled == joint.enabled && std::memcmp(&driven, &desc, sizeof desc) == 0;
   if (same_rows) {
     joint.desc = desc;

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <string>
 
+#include "plumb/assert.hpp"
 #include "plumb/backend/names.hpp"
 #include "plumb/backend/usual_capability.hpp"
 
@@ -57,7 +58,7 @@ class RowList {
   /// A row for a free axis, where something is on it.
   void drive(RowKind kind, std::size_t axis, std::size_t other = 0) {
     const PlumbSpring& spring = desc_.springs[axis];
-    const bool limited = has_limit(desc_, axis);
+    const bool limited = kind != RowKind::kSwing && has_limit(desc_, axis);
     if (!limited && desc_.motors[axis].enabled == 0 && spring.enabled == 0) return;
     const int i = put(kind, axis % 3, other, static_cast<std::uint8_t>(axis));
     JointAxes& axes = rows_.axes;
@@ -67,7 +68,7 @@ class RowList {
     axes.upper[i] = static_cast<Real>(limited ? std::min(desc_.limits[axis].upper, most) : kHuge);
     if (spring.enabled == 0) return;
     const double rest = kind == RowKind::kDistance ? desc_.rest_length : spring.rest;
-    axes.rest[i] = static_cast<Real>(turns ? std::remainder(rest, 2 * std::numbers::pi) : rest);
+    rows_.drive.rest[axis] = static_cast<Real>(turns ? std::remainder(rest, 2 * std::numbers::pi) : rest);
     if (spring.mode == PLUMB_SPRING_STIFFNESS) {
       axes.stiffness[i] = static_cast<Real>(spring.frequency);
       axes.damping[i] = static_cast<Real>(spring.damping_ratio);
@@ -92,6 +93,7 @@ class RowList {
   int put(RowKind kind, std::size_t axis, std::size_t other, std::uint8_t coordinate) {
     if (kind == RowKind::kPoint || kind == RowKind::kAlong || kind == RowKind::kDistance)
       rows_.pulls |= 1U << rows_.rows;
+    PLUMB_ASSERT(rows_.rows < kJointRows);
     const int i = rows_.rows++ - rows_of(rows_.type);
     rows_.axes.row[i] = {kind, static_cast<std::uint8_t>(axis), static_cast<std::uint8_t>(other), coordinate};
     return i;
@@ -157,6 +159,7 @@ JointRows rows_of_joint(const PlumbJointDesc& desc) {
   if (desc.type == PLUMB_JOINT_SWING_TWIST) {
     list.drive(RowKind::kTwist, 3);
     list.bound_swing();
+    for (std::size_t axis = 4; axis < 6; ++axis) list.drive(RowKind::kSwing, axis);
   }
   return rows;
 }

@@ -1,6 +1,7 @@
 // Scenes of bodies that are joined with limits, motors and springs, held along axes, or too fast for a step.
 #include "tests/hashes/motion_scenes.hpp"
 
+#include <array>
 #include <cmath>
 
 namespace plumb::impulse::test {
@@ -77,6 +78,41 @@ void sockets(Scene& scene) {
     }
     if (chain % 3 == 2) join(scene, socket, 0, {0.3 * chain - 1, 5.2, 0.25 * chain - 1}, before, {0, 0.38, 0});
   }
+}
+
+void led_limbs(Scene& scene) {
+  scene.ground();
+  scene.add_static(scene.box({0.4, 0.4, 2}), {0.3, 0.4, 0});
+  const PlumbShape limb = scene.capsule(0.08, 0.15), box = scene.box({0.2, 0.2, 0.2});
+  std::vector<PlumbJoint> led;
+  for (int chain = 0; chain < 6; ++chain) {
+    PlumbJointDesc socket = joint_desc(PLUMB_JOINT_SWING_TWIST);
+    socket.frame_a.orientation = socket.frame_b.orientation = {0, 0, 0.6, 0.8};  // between x and y
+    for (std::size_t axis = 3; axis < 6; ++axis)
+      socket.springs[axis] = {0, chain % 2 == 0 ? 600.0 : 8.0, chain % 2 == 0 ? 30.0 : 0.5, 1,
+                              chain % 2 == 0 ? PLUMB_SPRING_STIFFNESS : PLUMB_SPRING_FREQUENCY};
+    socket.limits[3] = {-0.4, 0.3, chain % 3 == 1 ? 1U : 0U, 0};
+    socket.limits[4] = {-0.6, 0.6, chain > 2 ? 1U : 0U, 0};
+    socket.limits[5] = {-0.9, 0.9, chain > 2 ? 1U : 0U, 0};
+    socket.motors[4] = {1.5, 6, chain == 5 ? 1U : 0U, 0};
+    PlumbBody before = 0;
+    for (int i = 0; i < 6; ++i) {
+      const PlumbVec3 at = {0.5 * chain - 1, 1.2 + 0.46 * i, 0.3 * chain - 1};
+      const PlumbBody body = scene.add(limb, at);
+      if (before != 0) led.push_back(join(scene, socket, before, {0, 0.23, 0}, body, {0, -0.23, 0}));
+      before = body;
+    }
+    scene.add(box, {0.5 * chain - 1, 4.5 + 0.1 * chain, 0.3 * chain - 1});
+  }
+  scene.before_step = [=](Scene& all, int step) {
+    if (step % 20 != 10) return;
+    for (std::size_t i = 0; i < led.size(); ++i) {
+      const double way = (step / 20 + static_cast<int>(i)) % 3 - 1;
+      const std::array<double, 6> rest = {0, 0, 0, 0.2 * way, 0.5 * way, i % 2 == 0 ? -0.4 * way : 0};
+      check(all.world(), all.world().joints()->write_joints(PLUMB_JOINT_SPRING_REST, {&led[i], 1},
+                                                            const_rows_over(std::span(&rest, 1))));
+    }
+  };
 }
 
 /// Doors swing between limits, pistons are driven back and forth, wheels hang on springs, planks are welded to a bridge

@@ -7,9 +7,12 @@ namespace plumb::impulse::test {
 
 /// Puppets on hinges, universal and generic joints with limits, motors and springs, some of which break.
 void puppets(Scene& scene);
-/// Chains of limbs on swing-twist joints, in round and elliptic cones and in none, that are twisted by motors and springs,
-/// fall over a block, and some of which hang.
+/// Chains of limbs on swing-twist joints, in round and elliptic cones and in none, that are twisted by motors and
+/// springs, fall over a block, and some of which hang.
 void sockets(Scene& scene);
+/// Chains of limbs whose springs lead them from pose to pose, some in cones, some driven by motors too, over a block
+/// and under boxes.
+void led_limbs(Scene& scene);
 /// Doors, pistons and cranks: motors that turn back, limits that are struck, springs, and a bridge that gives way.
 void clockwork(Scene& scene);
 /// Continuous collision: bullets through a wall of cubes, and a spinning rod.

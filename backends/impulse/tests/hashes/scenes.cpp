@@ -242,6 +242,7 @@ const std::vector<NamedScene>& named_scenes() {
       {"surfaces", {}, kAll | PLUMB_NEED_KINEMATIC, kDown, &pile_on_surfaces},
       {"puppets", {}, kAll | PLUMB_NEED_JOINTS | PLUMB_NEED_EVENTS, kDown, &puppets},
       {"sockets", {}, kAll | PLUMB_NEED_JOINTS | PLUMB_NEED_SLEEPING, kDown, &sockets},
+      {"led-limbs", {}, kAll | PLUMB_NEED_JOINTS | PLUMB_NEED_SLEEPING, kDown, &led_limbs},
       {"chequers", {}, kAll | PLUMB_NEED_RESTITUTION | PLUMB_NEED_CCD | PLUMB_NEED_SLEEPING, kDown, &chequers},
       {"bumps", {}, kAll | PLUMB_NEED_KINEMATIC | PLUMB_NEED_SLEEPING, kDown, &bumps},
       {"bullets", {}, kAll | PLUMB_NEED_CCD, kDown, &bullets},

@@ -66,6 +66,23 @@ test('a spring by stiffness swings with its mass', () => {
   world.destroy();
 });
 
+test('springs about its axes bring a limb to an orientation, and to another', () => {
+  const spring = { frequency: 3 };
+  const { world, joint } = held({ type: 'swing_twist', springs: { angularX: { ...spring, rest: 0.3 }, angularY: spring,
+    angularZ: { ...spring, rest: -0.4 } } }, { gravity: [0, 0, 0] });
+  const arrives = (...turns) => {
+    steps(world, 120);
+    const at = world.readJoints('coordinates', [joint]);
+    turns.forEach((turn, k) => near(at[3 + k], turn, 0.01));
+  };
+  arrives(0.3, 0, -0.4);
+  const rest = world.readJoints('springRest', [joint]);
+  near(rest[5], -0.4, 1e-12);
+  world.writeJoints('springRest', joint, [0, 0, 0, -0.2, 0.6, 0.1]);
+  arrives(-0.2, 0.6, 0.1);
+  world.destroy();
+});
+
 test('a damper brakes what slides', () => {
   const { world, body } = held({ type: 'slider', springs: { x: { damping: 2000 } } }, { gravity: [0, 0, 0] });
   world.write('velocity', body, [1, 0, 0, 0, 0, 0]);
