@@ -192,7 +192,7 @@ Json json_of(const SceneAction& action, const Scene& scene) {
   const auto vector = [&](std::size_t first) {
     return Json::array({number(first), number(first + 1), number(first + 2)});
   };
-  Json json{{action.kind == SceneAction::motors ? "joint" : "body", action.name}};
+  Json json{{action.is_of_joint() ? "joint" : "body", action.name}};
   switch (action.kind) {
     case SceneAction::path:
       json["position"] = vector(0);
@@ -213,8 +213,15 @@ Json json_of(const SceneAction& action, const Scene& scene) {
           json["motors"][axis_words[axis]] = {{"target_velocity", number(2 * axis)},
                                               {"max_force", number(2 * axis + 1)}};
       break;
+    case SceneAction::targets: {
+      const PlumbJointDesc& desc = scene.joints[action.target].desc;
+      for (std::size_t axis = 0; axis < axis_words.size(); ++axis)
+        if (desc.springs[axis].enabled != 0 || (axis == 0 && desc.type == PLUMB_JOINT_DISTANCE))
+          json["targets"][axis_words[axis]] = number(axis);
+      break;
+    }
   }
-  const bool lasts = action.kind == SceneAction::force || action.kind == SceneAction::motors;
+  const bool lasts = action.kind == SceneAction::force || action.is_of_joint();
   if (lasts && (action.begin != 0 || action.end != scene.seconds)) json["over"] = {action.begin, action.end};
   return json;
 }

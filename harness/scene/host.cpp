@@ -1,4 +1,5 @@
-// What the host does in a scene while it runs: paths of kinematic bodies, forces, impulses, motors over time.
+// What the host does in a scene while it runs: paths of kinematic bodies, forces, impulses, motors and the
+// targets of springs over time.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -47,6 +48,7 @@ class ActionReader {
       case SceneAction::force: read_push(action, "force", "torque"); break;
       case SceneAction::impulse: read_push(action, "impulse", "angular_impulse"); break;
       case SceneAction::motors: read_motors(action); break;
+      case SceneAction::targets: read_targets(action); break;
     }
     action.names = node_.expressions().values();
     action.names.erase(time_name);
@@ -60,23 +62,23 @@ class ActionReader {
         {SceneAction::path, {"position", "turn"}},
         {SceneAction::force, {"force", "torque"}},
         {SceneAction::impulse, {"impulse", "angular_impulse"}},
-        {SceneAction::motors, {"motors"}}};
+        {SceneAction::motors, {"motors"}},
+        {SceneAction::targets, {"targets"}}};
     std::optional<SceneAction::Kind> found;
     for (const auto& [kind, keys] : kinds)
       for (const char* key : keys) {
         const auto value = node_.find(key);
         if (!value) continue;
         if (found && *found != kind) value->fail(fmt::format("an action does one thing: put {} into another", key));
-        if ((kind == SceneAction::motors) == of_body)
-          value->fail(of_body ? "a body has no motors; name a joint"
-                              : fmt::format("a joint has no {}; name a body", key));
-        found = kind;
+        found = action.kind = kind;
+        if (action.is_of_joint() == of_body)
+          value->fail(
+              fmt::format("a {} has no {}; name a {}", of_body ? "body" : "joint", key, of_body ? "joint" : "body"));
       }
     if (!found)
       node_.fail(of_body ? "what does it do? a body takes position and turn, force and torque, or impulse and "
                            "angular_impulse"
-                         : "what does it do? a joint takes motors");
-    action.kind = *found;
+                         : "what does it do? a joint takes motors, or targets");
     if (action.kind == SceneAction::path) need(PLUMB_NEED_KINEMATIC, "kinematic");
     if (action.kind == SceneAction::force || action.kind == SceneAction::impulse) need(PLUMB_NEED_FORCES, "forces");
   }
@@ -190,6 +192,18 @@ class ActionReader {
       if (!most) return;
       action.numbers[2 * axis + 1] = number(action, *most);
       if (action.numbers[2 * axis + 1].constant < 0) most->fail("max_force is below 0");
+    });
+  }
+
+  void read_targets(SceneAction& action) {
+    const PlumbJointDesc& desc = builder_.scene.joints[action.target].desc;
+    const bool rod = desc.type == PLUMB_JOINT_DISTANCE;
+    for (const PlumbSpring& spring : desc.springs) action.numbers.push_back({spring.rest, ""});
+    if (rod) action.numbers[0].constant = desc.rest_length;
+    for_each_axis(node_.at("targets"), [&](std::size_t axis, const Node& target) {
+      if (desc.springs[axis].enabled == 0 && !(rod && axis == 0)) target.fail("the joint has no spring on this axis");
+      action.numbers[axis] = number(action, target);
+      if (rod && action.numbers[axis].constant < 0) target.fail("the length of a distance joint is below 0");
     });
   }
 

@@ -78,7 +78,7 @@ const std::map<std::string, std::vector<std::string>>& scene_keys() {
         "user_data"}},
       {"action",
        {"body", "joint", "repeat", "when", "at", "over", "position", "turn", "force", "torque", "impulse",
-        "angular_impulse", "motors"}},
+        "angular_impulse", "motors", "targets"}},
       {"turn", {"axis", "radians"}},
       {"motor_over_time", {"target_velocity", "max_force"}},
   };
@@ -103,7 +103,8 @@ const std::vector<std::string>& shape_words() {
 }
 
 const std::vector<std::string>& joint_words() {
-  static const std::vector<std::string> words{"ball", "hinge", "slider", "distance", "fixed", "universal", "generic", "swing_twist"};
+  static const std::vector<std::string> words{"ball",  "hinge",     "slider",  "distance",
+                                              "fixed", "universal", "generic", "swing_twist"};
   static_assert(PLUMB_JOINT_TYPE_COUNT == 8);
   return words;
 }

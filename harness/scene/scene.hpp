@@ -70,14 +70,16 @@ struct SceneJoint {
 /// What the host does to a body or a joint while the scene runs.
 struct SceneAction {
   /// What its numbers are: a path's position and the angle about `axis`; force and torque; impulse and angular impulse;
-  /// target velocity and largest force of each of six motors.
-  enum Kind { path, force, impulse, motors };
+  /// target velocity and largest force of each of six motors; where each of six springs rests.
+  enum Kind { path, force, impulse, motors, targets };
   struct Number {
     double constant = 0;
     std::string text;  ///< an expression over the time t; "" where it is the constant
   };
+  [[nodiscard]] bool is_of_joint() const { return kind == motors || kind == targets; }
+
   Kind kind = path;
-  std::size_t target = 0;     ///< index into Scene::bodies, of motors into Scene::joints
+  std::size_t target = 0;     ///< index into Scene::bodies, of motors and targets into Scene::joints
   std::string name;           ///< of the target
   PlumbVec3 axis{};           ///< a unit, world; about which a path turns the body from its start
   double begin = 0, end = 0;  ///< s; of an impulse both are its time

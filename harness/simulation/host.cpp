@@ -64,10 +64,11 @@ void Host::act(Simulation& simulation, const Actor& actor) const {
   } else {
     if (middle < action.begin || middle > action.end) return;
     const std::vector<double> row = actor.numbers(middle);
-    if (action.kind == SceneAction::motors) {
+    if (action.is_of_joint()) {
       const PlumbJoint id = simulation.joint_handle(action.target);
+      const PlumbJointField field = action.kind == SceneAction::motors ? PLUMB_JOINT_MOTOR : PLUMB_JOINT_SPRING_REST;
       const ConstRows rows(reinterpret_cast<const std::byte*>(row.data()), 1, row.size() * sizeof(double), PLUMB_F64);
-      check(simulation.world(), simulation.world().joints()->write_joints(PLUMB_JOINT_MOTOR, {&id, 1}, rows));
+      check(simulation.world(), simulation.world().joints()->write_joints(field, {&id, 1}, rows));
     } else {
       push(PLUMB_FIELD_FORCE, std::span(row).first(3));
       push(PLUMB_FIELD_TORQUE, std::span(row).last(3));
@@ -82,8 +83,8 @@ void Host::before_step(Simulation& simulation) {
     cuts_.pop_back();
   }
   for (const Actor& actor : actors_) {
-    const bool gone = actor.action->kind == SceneAction::motors &&
-                      simulation.time() >= scene_.joints[actor.action->target].cut - scene_.dt * 1e-6;
+    const bool gone =
+        actor.action->is_of_joint() && simulation.time() >= scene_.joints[actor.action->target].cut - scene_.dt * 1e-6;
     if (!gone) act(simulation, actor);
   }
 }

@@ -44,11 +44,11 @@ const Words& phase_words() {
   return words;
 }
 const Words& query_words() {
-  static const Words words{"ray", "cast", "overlap"};
+  static const Words words{"ray", "cast", "overlap", "penetration"};
   return words;
 }
 const Words& joint_feature_words() {
-  static const Words words{"limits", "motors", "springs", "breaks", "reaction", "stiffness"};
+  static const Words words{"limits", "motors", "springs", "breaks", "reaction", "stiffness", "targets"};
   return words;
 }
 const Words& setting_type_words() {

@@ -97,6 +97,8 @@ std::vector<Question> joint_questions(const Scene& scene) {
     }
     if (joint.desc.break_force > 0 || joint.desc.break_torque > 0) feature(PLUMB_JOINT_BREAKS);
     if ((scene.needs & PLUMB_NEED_JOINT_REACTIONS) != 0) feature(PLUMB_JOINT_HAS_REACTION);
+    for (const SceneAction& action : scene.host)
+      if (action.kind == SceneAction::targets && action.name == joint.name) feature(PLUMB_JOINT_HAS_TARGETS);
   }
   return questions;
 }

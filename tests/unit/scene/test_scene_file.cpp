@@ -194,12 +194,14 @@ TEST_F(SceneFiles, SayWhatTheHostDoes) {
   text.replace(text.find(measure), measure.size(),
                R"("host": [
     { "body": "{kind}{i}_0", "repeat": { "i": "n" }, "when": "i > 0", "force": ["i * t", 1, 0], "over": [1, "n"] },
-    { "joint": "pin", "motors": { "rx": { "target_velocity": "half - t" } } }
+    { "joint": "pin", "motors": { "rx": { "target_velocity": "half - t" } } },
+    { "joint": "pin", "targets": { "rx": "half * t" }, "over": [0, 1] }
   ], "measure":)");
   text.replace(text.find(needs), needs.size(), "\"needs\": [\"forces\", ");
-  text.replace(text.find(pin), pin.size(), "\"name\": \"pin\", \"cut\": \"half\",");
+  text.replace(text.find(pin), pin.size(),
+               "\"name\": \"pin\", \"cut\": \"half\", \"springs\": { \"rx\": { \"rest\": 0.5, \"frequency\": 2 } },");
   const Scene scene = load(text).instantiate({{"n", 3.0}});
-  ASSERT_EQ(scene.host.size(), 3u);
+  ASSERT_EQ(scene.host.size(), 4u);
   const SceneAction& push = scene.host[1];
   EXPECT_EQ(push.kind, SceneAction::force);
   EXPECT_EQ(push.target, scene.body("ball2_0"));
@@ -218,6 +220,11 @@ TEST_F(SceneFiles, SayWhatTheHostDoes) {
   EXPECT_EQ(motor.numbers[7].constant, 3) << "as the joint has it";
   EXPECT_EQ(motor.begin, 0);
   EXPECT_EQ(motor.end, scene.seconds);
+  const SceneAction& target = scene.host[3];
+  EXPECT_EQ(target.kind, SceneAction::targets);
+  ASSERT_EQ(target.numbers.size(), 6u);
+  EXPECT_EQ(target.numbers[3].text, "half * t");
+  EXPECT_EQ(target.end, 1);
   EXPECT_EQ(scene.joints[0].cut, 1.5);
 }
 
