@@ -27,26 +27,37 @@ void check_skeleton(std::span<const Bone> skeleton) {
             name + " has parent " + std::to_string(bone.parent) + ": give that of an earlier bone, or -1");
     require(length(sub(bone.tail, bone.head)) > 0, name + " has no length: put its tail away from its head");
     require(bone.radius > 0 && bone.mass > 0, name + ": radius and mass must be above 0");
-    for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t k = 0; k < 3; ++k) {
       require(bone.lower[k] <= bone.upper[k], name + ": a lower limit is above the upper one");
+      require(!bone.in_cone || k == 1 || (bone.lower[k] == -bone.upper[k] && bone.upper[k] > 0),
+              name + ": a cone is as wide on either side: give limits about x and z with lower == -upper, above 0");
+    }
   }
 }
 
+/// Which axis of its joint turns a bone about its own x, y or z. A twist is about the joint's x, which lies along y.
+constexpr std::size_t axis_about(std::size_t k, bool in_cone) { return 3 + (in_cone ? (k + 2) % 3 : k); }
+
+/// From a bone's frame to one with its x along the bone: x, y, z become y, z, x.
+constexpr PlumbQuat kAlong{0.5, 0.5, 0.5, 0.5};
+
 PlumbJointDesc joint_of(const Bone& bone, const PlumbPose& parent, PlumbBody body_a, PlumbBody body_b) {
-  PlumbJointDesc desc = joint_desc(PLUMB_JOINT_GENERIC);
+  PlumbJointDesc desc = joint_desc(bone.in_cone ? PLUMB_JOINT_SWING_TWIST : PLUMB_JOINT_GENERIC);
   const PlumbPose rest = rest_pose(bone);
-  const PlumbPose at_head{bone.head, rest.orientation};
+  const PlumbQuat turn = bone.in_cone ? multiply(rest.orientation, kAlong) : rest.orientation;
+  const PlumbPose at_head{bone.head, turn};
   desc.body_a = body_a;
   desc.body_b = body_b;
   desc.frame_a = compose(inverse(parent), at_head);
   desc.frame_b = compose(inverse(rest), at_head);
   for (std::size_t k = 0; k < 3; ++k) {
     desc.axis_modes[k] = PLUMB_AXIS_LOCKED;
-    const bool locked = bone.lower[k] == bone.upper[k];
-    desc.axis_modes[3 + k] = locked ? PLUMB_AXIS_LOCKED : PLUMB_AXIS_LIMITED;
+    const std::size_t axis = axis_about(k, bone.in_cone);
+    const bool locked = !bone.in_cone && bone.lower[k] == bone.upper[k];
+    desc.axis_modes[axis] = locked ? PLUMB_AXIS_LOCKED : PLUMB_AXIS_LIMITED;
     if (locked) continue;
-    desc.limits[3 + k] = {bone.lower[k], bone.upper[k], 1, 0};
-    desc.motors[3 + k] = {0, 0, 1, 0};
+    desc.limits[axis] = {bone.lower[k], bone.upper[k], 1, 0};
+    desc.motors[axis] = {0, 0, 1, 0};
   }
   return desc;
 }
@@ -98,6 +109,7 @@ void Ragdoll::create(std::span<const Bone> skeleton, const PlumbPose& origin) {
     check(world_, extension_.create_joints({&desc, 1}, {&joint, 1}));
     joints_.push_back(joint);
     joint_bones_.push_back(i);
+    in_cone_.push_back(skeleton[i].in_cone ? 1 : 0);
   }
 }
 
@@ -120,7 +132,8 @@ void Ragdoll::read_angles(std::span<BoneAngles> angles) const {
   std::fill(angles.begin(), angles.end(), BoneAngles{});
   if (rows.empty()) return;
   check(world_, extension_.read_joints(PLUMB_JOINT_COORDINATES, joints_, rows_over(std::span(rows))));
-  for (std::size_t i = 0; i < rows.size(); ++i) angles[joint_bones_[i]] = {rows[i][3], rows[i][4], rows[i][5]};
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) angles[joint_bones_[i]][k] = rows[i][axis_about(k, in_cone_[i] != 0)];
 }
 
 void Ragdoll::drive(std::span<const BoneAngles> pose) {
@@ -145,8 +158,9 @@ void Ragdoll::write_motors(std::span<const BoneAngles> speeds, double torque) {
   std::vector<std::array<double, 12>> rows(joints_.size());
   for (std::size_t i = 0; i < rows.size(); ++i)
     for (std::size_t k = 0; k < 3; ++k) {
-      rows[i][2 * (3 + k)] = speeds[joint_bones_[i]][k];
-      rows[i][2 * (3 + k) + 1] = torque;
+      const std::size_t axis = axis_about(k, in_cone_[i] != 0);
+      rows[i][2 * axis] = speeds[joint_bones_[i]][k];
+      rows[i][2 * axis + 1] = torque;
     }
   check(world_, extension_.write_joints(PLUMB_JOINT_MOTOR, joints_,
                                         const_rows_over(std::span<const std::array<double, 12>>(rows))));

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "backend_under_test.hpp"
+#include "plumb/backend/small_math.hpp"
 #include "plumb/helpers/ragdoll.hpp"
 
 namespace plumb::helpers::test {
@@ -78,6 +79,44 @@ TEST(Ragdoll, FallsLimpWithinItsLimitsAndComesToRest) {
     EXPECT_LT(std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z), 0.1);
     EXPECT_GT(t.pose(body).position.y, 0);
   }
+}
+
+/// Arms in cones, wherever an engine can drive a swing: a twist is about the arm, a swing about what is square to it.
+TEST(Ragdoll, ArmsInConesAreBroughtToAPoseAndLetGo) {
+  TestWorld t;
+  if (backend_under_test().capability(PLUMB_CAP_JOINT_FEATURE, PLUMB_JOINT_SWING_TWIST, PLUMB_JOINT_HAS_MOTORS) ==
+      PLUMB_NONE)
+    GTEST_SKIP() << "it drives no swing";
+  std::vector<Bone> bones = puppet();
+  for (Bone& bone : bones) bone.in_cone = bone.name == "arm";
+  Ragdoll doll(*t.world, bones, identity_pose());
+  std::vector<BoneAngles> pose(bones.size()), angles(bones.size());
+  pose[1] = {0.5, 0.2, -0.4};
+  pose[3] = {0, -0.25, 0.6};
+  const auto hold = [&](int steps, bool driven) {
+    for (int i = 0; i < steps; ++i) {
+      t.set_velocity(doll.bodies()[0], {});
+      if (driven) doll.drive(pose);
+      t.step(dt);
+    }
+    doll.read_angles(angles);
+  };
+  hold(240, true);
+  for (std::size_t i = 1; i < bones.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(angles[i][k], pose[i][k], 0.04) << i << ' ' << k;
+  const PlumbVec3 along = backend::rotate(t.pose(doll.bodies()[1]).orientation, {0, 1, 0});
+  EXPECT_NEAR(std::acos(-along.x), std::hypot(0.5, 0.4), 0.04);
+  doll.go_limp();
+  hold(600, false);
+  for (const std::size_t arm : {1U, 3U}) EXPECT_NEAR(std::hypot(angles[arm][0], angles[arm][2]), 0.8, 0.06) << arm;
+}
+
+TEST(Ragdoll, RefusesAConeThatIsNone) {
+  TestWorld t;
+  std::vector<Bone> bones = puppet();
+  bones[1].in_cone = true;
+  bones[1].upper[0] = 0.5;
+  EXPECT_THROW(Ragdoll(*t.world, bones, identity_pose()), Error);
 }
 
 TEST(Ragdoll, RefusesASkeletonThatIsNone) {

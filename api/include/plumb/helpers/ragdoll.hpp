@@ -22,6 +22,9 @@ struct Bone {
   /// rad, about the axes of the bone's frame at rest, x y z, of the bone seen from its parent; lower == upper locks
   /// one.
   std::array<double, 3> lower{-0.5, -0.5, -0.5}, upper{0.5, 0.5, 0.5};
+  /// Of shoulders and hips: a swing-twist joint. Limits about x and z are then half angles of an elliptic cone, lower
+  /// == -upper, and y is the twist; so are its angles (joints.h: x, y, z here are axes 5, 3, 4 there).
+  bool in_cone = false;
 };
 
 struct RagdollSettings {
@@ -41,7 +44,8 @@ class Ragdoll {
       PLUMB_NEED_ROTATION | PLUMB_NEED_JOINTS | PLUMB_NEED_FILTERS | PLUMB_NEED_COLLISION;
 
   /// Makes the bodies and joints in the world, which outlives this; they are gone with it. origin: where the skeleton's
-  /// coordinates lie. Throws Error on a skeleton that is none, or where the world lacks joints with three limited axes.
+  /// coordinates lie. Throws Error on a skeleton that is none, or where the world lacks joints with three limited axes,
+  /// or of bones in cones motors for their swing.
   Ragdoll(IPhysicsWorld& world, std::span<const Bone> skeleton, const PlumbPose& origin,
           const RagdollSettings& settings = {});
   Ragdoll(const Ragdoll&) = delete;
@@ -72,6 +76,7 @@ class Ragdoll {
   std::vector<PlumbBody> bodies_;
   std::vector<PlumbJoint> joints_;
   std::vector<std::size_t> joint_bones_;  // the bone that each joint holds to its parent
+  std::vector<char> in_cone_;             // of each joint: Bone::in_cone
 };
 
 }  // namespace plumb::helpers
