@@ -12,9 +12,9 @@
 namespace plumb::harness {
 
 const std::vector<std::string>& feature_words() {
-  static const std::vector<std::string> words{"joints",  "loops",   "limits",    "friction", "motors", "springs",
-                                              "generic", "hulls",   "compounds", "slender",  "heap",   "load",
-                                              "bounce",  "terrain", "mover",     "belt",     "spin",   "gyroscopic"};
+  static const std::vector<std::string> words{
+      "joints", "loops", "limits", "friction", "motors", "springs", "generic", "hulls",      "compounds", "slender",
+      "heap",   "load",  "bounce", "terrain",  "mover",  "belt",    "spin",    "gyroscopic", "sockets",   "targets"};
   return words;
 }
 

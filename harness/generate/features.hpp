@@ -30,8 +30,10 @@ enum class Feature {
   belt,        ///< a ground whose surface moves
   spin,        ///< what is thrown is fast
   gyroscopic,  ///< the need of this name is declared
+  sockets,     ///< ball joints tell swing and twist, within cones, on springs and motors of their own
+  targets,     ///< the host leads springs of joints to and fro
 };
-inline constexpr std::size_t feature_count = 18;
+inline constexpr std::size_t feature_count = 20;
 
 /// By value.
 [[nodiscard]] const std::vector<std::string>& feature_words();

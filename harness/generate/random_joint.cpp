@@ -54,6 +54,20 @@ void add_generic(Imported& imported, Chance& chance, const JointPlace& place) {
   if (chance.happens(0.5)) desc.axis_modes[3] = PLUMB_AXIS_FREE, desc.limits[3] = {};
 }
 
+void add_socket(Imported& imported, Chance& chance, const Features& features, JointPlace place) {
+  place.type = PLUMB_JOINT_SWING_TWIST;
+  std::vector<JointAxis> axes;
+  for (int i = 0; i < 3; ++i) axes.push_back(random_axis(chance, features, false));
+  axes[1].limits = axes[2].limits = std::nullopt;
+  if (features.has(Feature::limits) && chance.happens(0.6)) {
+    const double half_y = chance.between(0.1, 1.5), half_z = chance.happens(0.5) ? half_y : chance.between(0.1, 1.5);
+    axes[1].limits = {-half_y, half_y};
+    axes[2].limits = {-half_z, half_z};
+  }
+  add_joint(imported, next_name(imported, "socket"), place, axes);
+  if (features.has(Feature::motors) && chance.happens(0.4)) drive(imported, chance, 3 + chance.below(3));
+}
+
 }  // namespace
 
 void add_random_joint(Imported& imported, Chance& chance, const Features& features, const JointSite& site) {
@@ -74,6 +88,8 @@ void add_random_joint(Imported& imported, Chance& chance, const Features& featur
   const Kind& kind = kinds[which];
   const JointPlace place{kind.type, site.body_a, site.body_b, frame_of(site.anchor, chance.direction()), kind.first};
   if (kind.type == PLUMB_JOINT_GENERIC) return add_generic(imported, chance, place);
+  if (kind.type == PLUMB_JOINT_BALL && features.has(Feature::sockets))
+    return add_socket(imported, chance, features, place);
   std::vector<JointAxis> axes;
   for (std::size_t i = 0; i < kind.axes; ++i) axes.push_back(random_axis(chance, features, kind.first == 0));
   add_joint(imported, next_name(imported, kind.name), place, axes);

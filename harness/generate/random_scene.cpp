@@ -63,6 +63,7 @@ class SceneOfChance {
     while (moving_ < count) add_loose();
     if (has(Feature::load)) add_load();
     if (has(Feature::mover)) add_mover();
+    if (has(Feature::targets)) lead_springs();
     set_up(imported_, {});
     if (!has(Feature::gyroscopic)) imported_.scene.needs &= ~PLUMB_NEED_GYROSCOPIC;
     imported_.scene.seconds = request_.seconds;
@@ -215,6 +216,26 @@ class SceneOfChance {
                     {link.pose.position.z(), ""},
                     {0, ""}};
     imported_.scene.host.push_back(std::move(path));
+  }
+
+  void lead_springs() {
+    for (std::size_t i = 0; i < imported_.scene.joints.size(); ++i) {
+      const SceneJoint& joint = imported_.scene.joints[i];
+      SceneAction action;
+      action.kind = SceneAction::targets;
+      action.target = i;
+      action.name = joint.name;
+      action.end = request_.seconds;
+      bool leads = false;
+      for (std::size_t axis = 0; axis < 6; ++axis) {
+        action.numbers.push_back({joint.desc.springs[axis].rest, ""});
+        if (joint.desc.springs[axis].enabled == 0 || !chance_.happens(0.6)) continue;
+        action.numbers.back().text =
+            fmt::format("{} * sin({} * t)", (axis < 3 ? 0.1 : 0.8) * chance_.between(-1, 1), chance_.between(0.5, 6));
+        leads = true;
+      }
+      if (leads) imported_.scene.host.push_back(std::move(action));
+    }
   }
 
   const RandomSceneRequest& request_;

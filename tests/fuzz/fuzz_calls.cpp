@@ -279,6 +279,7 @@ class Fuzzer {
     const PlumbBody id = handle(bodies_);
     judge(table_.write(world_, field, PLUMB_F64, &id, 1, chance(100) ? nullptr : row, chance(50) ? 3 : sizeof row));
     const PlumbJoint joint = handle(joint_ids_);
+    for (int axis = 0; axis < 6; ++axis) row[2 * axis + 1] = std::abs(row[2 * axis + 1]);  // forces of motors
     if (joints_ != nullptr && chance(3))
       judge(joints_->write(world_, PLUMB_JOINT_MOTOR + below(2), PLUMB_F64, &joint, 1, row, sizeof row));
   }

@@ -201,8 +201,9 @@ void AxisSpring::getInfo2(btConstraintInfo2* info) {
   }
   row.write(*info);
   const btScalar h = 1 / info->fps;
+  const bool goes_round = axis_ == 3 || (axis_ > 3 && type_ != PLUMB_JOINT_SWING_TWIST);
   auto deviation = coordinate - static_cast<btScalar>(spring_.rest);
-  if (axis_ >= 3) deviation = btNormalizeAngle(deviation);
+  if (goes_round) deviation = btNormalizeAngle(deviation);
   put_spring(spring_, deviation, row, m_rbA, m_rbB, h, *info, 0);
 }
 

@@ -89,9 +89,8 @@ struct JointAxesPlace {
 };
 /// Of a joint with so many rows beyond those of its type, 1 or more.
 PLUMB_HD inline JointAxesPlace axes_of(const JointPlace& place, const JointAxes& axes, int rows) {
-  JointAxesPlace at = {to_matrix(place.frame_a), to_matrix(place.frame_b), {}};
-  if (is_of_swing(axes.row[rows - 1].kind)) at.swing = Swing(at.a, at.b.x);
-  return at;
+  const Mat a = to_matrix(place.frame_a), b = to_matrix(place.frame_b);
+  return {a, b, is_of_swing(axes.row[rows - 1].kind) ? Swing(a, b.x) : Swing()};
 }
 
 /// A free turn: its angle and the direction along which it turns, all others that are free kept.

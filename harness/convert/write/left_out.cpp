@@ -26,7 +26,7 @@ void remark_joint(const SceneJoint& joint, Remarks& remarks, const Vocabulary& k
   if (!known.connected && joint.desc.collide_connected != 0)
     remarks.add("that joined bodies collide is left out", joint.name);
   if (joint.desc.type == PLUMB_JOINT_SWING_TWIST)
-    remarks.add("a swing-twist joint is a ball joint: its cone, and what is on its twist, are left out", joint.name);
+    remarks.add("a swing-twist joint is a ball joint: its cone, stops, motors and springs are left out", joint.name);
 }
 
 void remark_host(const Scene& scene, Remarks& remarks) {

@@ -165,7 +165,7 @@ TEST(WriteSdf, ASwingTwistJointIsABallAndItIsSaid) {
   const Imported back = there_and_back(scene_of("E16"), remarks);
   ASSERT_EQ(back.scene.joints.size(), 1U);
   EXPECT_EQ(back.scene.joints[0].desc.type, PLUMB_JOINT_BALL);
-  EXPECT_TRUE(has_line(remarks, "its cone, and what is on its twist, are left out: socket"));
+  EXPECT_TRUE(has_line(remarks, "its cone, stops, motors and springs are left out: socket"));
 }
 
 TEST(WriteSdf, SaysWhatSdfLacks) {

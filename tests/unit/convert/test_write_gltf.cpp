@@ -243,7 +243,7 @@ TEST(WriteGltf, ASwingTwistJointIsABallAndItIsSaid) {
   const Imported back = there_and_back(before, remarks);
   ASSERT_EQ(back.scene.joints.size(), 1U);
   EXPECT_EQ(back.scene.joints[0].desc.type, PLUMB_JOINT_BALL);
-  EXPECT_TRUE(has_line(remarks, "its cone, and what is on its twist, are left out: socket"));
+  EXPECT_TRUE(has_line(remarks, "its cone, stops, motors and springs are left out: socket"));
 }
 
 TEST(WriteGltf, SaysWhatGltfLacks) {

@@ -97,6 +97,28 @@ TEST(RandomScenes, LeaveOutWhatTheyAreTold) {
   EXPECT_THROW(static_cast<void>(feature_of("terain")), UsageError);
 }
 
+TEST(RandomScenes, HaveSocketsAndLedSpringsWhereTheySaySo) {
+  RandomSceneRequest request;
+  int sockets = 0, led = 0;
+  for (request.seed = 0; request.seed < 200; ++request.seed) {
+    const Json json = random_scene(request);
+    const std::string features = features_in(json);
+    const auto says = [&](const char* word) { return features.find(word) != std::string::npos; };
+    for (const Json& joint : json.value("joints", Json::array())) {
+      if (joint.at("type") != "swing_twist") continue;
+      EXPECT_TRUE(says("sockets")) << request.seed;
+      ++sockets;
+    }
+    for (const Json& action : json.value("host", Json::array())) {
+      if (!action.contains("targets")) continue;
+      EXPECT_TRUE(says("targets") && says("springs")) << request.seed;
+      ++led;
+    }
+  }
+  EXPECT_GT(sockets, 20);
+  EXPECT_GT(led, 20);
+}
+
 /// What nobody drives makes no energy, and only that is judged by it.
 TEST(RandomScenes, JudgeEnergyWhereNobodyDrives) {
   RandomSceneRequest request;
