@@ -58,12 +58,10 @@ void add_socket(Imported& imported, Chance& chance, const Features& features, Jo
   place.type = PLUMB_JOINT_SWING_TWIST;
   std::vector<JointAxis> axes;
   for (int i = 0; i < 3; ++i) axes.push_back(random_axis(chance, features, false));
-  axes[1].limits = axes[2].limits = std::nullopt;
-  if (features.has(Feature::limits) && chance.happens(0.6)) {
-    const double half_y = chance.between(0.1, 1.5), half_z = chance.happens(0.5) ? half_y : chance.between(0.1, 1.5);
-    axes[1].limits = {-half_y, half_y};
-    axes[2].limits = {-half_z, half_z};
-  }
+  // Always a cone: what swings as far as half a turn has no twist that stops or springs could hold.
+  const double half_y = chance.between(0.1, 2.5), half_z = chance.happens(0.5) ? half_y : chance.between(0.1, 2.5);
+  axes[1].limits = {-half_y, half_y};
+  axes[2].limits = {-half_z, half_z};
   add_joint(imported, next_name(imported, "socket"), place, axes);
   if (features.has(Feature::motors) && chance.happens(0.4)) drive(imported, chance, 3 + chance.below(3));
 }

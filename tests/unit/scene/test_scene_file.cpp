@@ -199,7 +199,8 @@ TEST_F(SceneFiles, SayWhatTheHostDoes) {
   ], "measure":)");
   text.replace(text.find(needs), needs.size(), "\"needs\": [\"forces\", ");
   text.replace(text.find(pin), pin.size(),
-               "\"name\": \"pin\", \"cut\": \"half\", \"springs\": { \"rx\": { \"rest\": 0.5, \"frequency\": 2 } },");
+               "\"name\": \"pin\", \"cut\": \"half\", \"springs\": { \"rx\": { \"rest\": 0.5, \"frequency\": 2, "
+               "\"damping_ratio\": 1 } },");
   const Scene scene = load(text).instantiate({{"n", 3.0}});
   ASSERT_EQ(scene.host.size(), 4u);
   const SceneAction& push = scene.host[1];

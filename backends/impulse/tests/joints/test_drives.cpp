@@ -183,7 +183,8 @@ TEST(Drives, ATargetIsASpringThatRestsThere) {
           continue;
         }
         PlumbJointChange change = joint_change(joints[k]);
-        change.what = PLUMB_MODIFY_SPRINGS | (rod ? PLUMB_MODIFY_LIMITS : 0U);
+        change.what = PLUMB_MODIFY_SPRINGS;
+        if (rod) change.what |= PLUMB_MODIFY_LIMITS;
         std::copy(std::begin(descs[k].springs), std::end(descs[k].springs), change.springs);
         for (std::size_t axis = 0; axis < 6; ++axis)
           if (!rod || axis > 0) change.springs[axis].rest = rest[axis];
