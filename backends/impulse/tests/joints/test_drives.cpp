@@ -86,6 +86,43 @@ TEST(Drives, ALimbLedRoundAConeFollowsAsItShould) {
   }
 }
 
+/// On undamped springs alike in all directions a rod that is thrown goes round wide, and keeps its energy and its
+/// angular momentum about the joint's axis.
+TEST(Drives, WhatSwingsOnSpringsKeepsItsEnergy) {
+  constexpr double kStiff = 30, kSoft = 10, kHalf = 0.5, kThick = 0.05, kSpeed = 3;  // N m/rad, m, rad/s
+  constexpr double kAcross = (4 * kHalf * kHalf + 4 * kThick * kThick) / 12, kAlong = 8 * kThick * kThick / 12;
+  for (const double hertz : {60, 240}) {
+    SCOPED_TRACE(hertz);
+    Scene scene = bare_scene(kDriveNeeds, {0, 0, 0});
+    PlumbJointDesc desc = joint_desc(PLUMB_JOINT_SWING_TWIST);
+    desc.frame_b.position = {-kHalf, 0, 0};
+    desc.springs[4] = {0, kStiff, 0, 1, PLUMB_SPRING_STIFFNESS};
+    desc.springs[5] = {0, kSoft, 0, 1, PLUMB_SPRING_STIFFNESS};
+    scene.body.mass_mode = PLUMB_MASS_FROM_TOTAL;
+    scene.body.mass = 1;
+    const Eigen::Quaterniond turn(Eigen::AngleAxisd(1.1, Vector::UnitY()));
+    const Vector at = turn * Vector(kHalf, 0, 0), spin(kSpeed, 0, 0), speed = spin.cross(at);
+    scene.body.angular_velocity = {spin.x(), spin.y(), spin.z()};
+    scene.body.linear_velocity = {speed.x(), speed.y(), speed.z()};
+    desc.body_b = scene.add(scene.box({kHalf, kThick, kThick}), {at.x(), at.y(), at.z()}, plain(turn));
+    const PlumbJoint joint = scene.join(desc);
+    const auto energy = [&] {
+      const std::vector<double> v = scene.velocity(desc.body_b);
+      const PlumbVec3 place = scene.poses()[0].position;
+      const Vector linear(v[0], v[1], v[2]), angular(v[3], v[4], v[5]);
+      const double about_length = 2 * angular.dot(Vector(place.x, place.y, place.z));
+      const double turning = kAcross * angular.squaredNorm() + (kAlong - kAcross) * about_length * about_length;
+      const Row row = coordinates(scene, joint);
+      return (linear.squaredNorm() + turning + kStiff * row[4] * row[4] + kSoft * row[5] * row[5]) / 2;
+    };
+    const double start = energy();
+    for (int i = 0; i < 10 * hertz; ++i) {
+      step(scene, 1 / hertz);
+      ASSERT_NEAR(energy(), start, 0.02 * start) << i;
+    }
+  }
+}
+
 /// All seven rows of a joint at work: a motor turns the twist against its stop, springs pull the swing beyond its cone.
 TEST(Drives, AJointMayHoldAllItsRowsAtOnce) {
   Scene scene = bare_scene(kDriveNeeds);
