@@ -17,9 +17,7 @@ bool has_targets(Conformance& c, PlumbJointType type) {
 void write_rest(Probe& probe, PlumbJoint joint, std::size_t axis, double rest) {
   std::vector<double> row = probe.read_joint(PLUMB_JOINT_SPRING_REST, joint);
   row[axis] = rest;
-  check(probe.world(), probe.world().joints()->write_joints(
-                           PLUMB_JOINT_SPRING_REST, {&joint, 1},
-                           ConstRows(reinterpret_cast<const std::byte*>(row.data()), 1, row.size() * 8, PLUMB_F64)));
+  probe.write_joint(PLUMB_JOINT_SPRING_REST, joint, row);
 }
 
 /// A damped spring comes to rest where it was made to, and then where it is told to, once and again.
@@ -113,9 +111,7 @@ void swing_motors(Conformance& c) {
   }
   std::vector<double> row = pair.probe.read_joint(PLUMB_JOINT_MOTOR, joint);
   row[8] = row[10] = 0;
-  check(pair.probe.world(), pair.probe.world().joints()->write_joints(
-                                PLUMB_JOINT_MOTOR, {&joint, 1},
-                                ConstRows(reinterpret_cast<const std::byte*>(row.data()), 1, 96, PLUMB_F64)));
+  pair.probe.write_joint(PLUMB_JOINT_MOTOR, joint, row);
   pair.probe.step(10);
   const double y = pair.coordinate(4), z = pair.coordinate(5);
   pair.probe.step(60);

@@ -112,10 +112,7 @@ void motors(Conformance& c) {
              joint_name(type), pair.coordinate(axis) - start);
     std::vector<double> row = pair.probe.read_joint(PLUMB_JOINT_MOTOR, joint);
     row[2 * axis] = 0;
-    check(pair.probe.world(),
-          pair.probe.world().joints()->write_joints(
-              PLUMB_JOINT_MOTOR, {&joint, 1},
-              ConstRows(reinterpret_cast<const std::byte*>(row.data()), 1, row.size() * 8, PLUMB_F64)));
+    pair.probe.write_joint(PLUMB_JOINT_MOTOR, joint, row);
     pair.probe.step(10);
     const double stopped = pair.coordinate(axis);
     pair.probe.step(60);

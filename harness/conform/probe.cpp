@@ -210,4 +210,10 @@ std::vector<double> Probe::read_joint(PlumbJointField field, PlumbJoint joint) {
   return row;
 }
 
+void Probe::write_joint(PlumbJointField field, PlumbJoint joint, std::span<const double> row) {
+  check(*world_, world_->joints()->write_joints(
+                     field, {&joint, 1},
+                     ConstRows(reinterpret_cast<const std::byte*>(row.data()), 1, row.size_bytes(), PLUMB_F64)));
+}
+
 }  // namespace plumb::harness::conform

@@ -77,6 +77,7 @@ class Probe {
 
   PlumbJoint joint(const PlumbJointDesc& desc);
   [[nodiscard]] std::vector<double> read_joint(PlumbJointField field, PlumbJoint joint);
+  void write_joint(PlumbJointField field, PlumbJoint joint, std::span<const double> row);
 
   [[nodiscard]] bool declares(PlumbNeeds need) const { return (needs_ & need) == need; }
 

@@ -46,7 +46,7 @@ class JointStore {
     for (const StoredJoint& record : records_)
       if (record.used) f(record.joint.body_a, record.joint.body_b);
   }
-  /// What motors do, by slot; may be edited between steps.
+  /// What motors do and where springs rest, by slot; may be edited between steps.
   Table<JointDrive> drives;
   /// Whether all are solved one by one; else mechanisms are solved each as a whole where their matrix stays sparse.
   void solve_one_by_one(bool all) {

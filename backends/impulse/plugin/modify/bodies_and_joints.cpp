@@ -81,7 +81,8 @@ PlumbResult World::modify_joints(std::span<const PlumbJointChange> changes) {
   return PLUMB_OK;
 }
 
-/// Where no row is other than it was, a motor's numbers at most, the joints' order and factors stand.
+/// Where no row is other than it was, a motor's numbers and where a spring rests at most, the joints' order and factors
+/// stand.
 void World::change_joint(std::uint32_t slot, const PlumbJointDesc& desc, bool enabled) {
   JointRecord& joint = joints_.records[slot];
   PlumbJointDesc driven = joint.desc;
