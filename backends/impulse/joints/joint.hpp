@@ -71,6 +71,11 @@ PLUMB_HD inline int row_count(const Joint& joint) {
   return rows;
 }
 
+/// Whether all its rows always hold: none is a limit, a motor or a spring.
+PLUMB_HD inline bool always_holds(const Joint& joint) {
+  return joint.type != JointType::kOther && joint.rows == rows_of(joint.type);
+}
+
 /// A joint's frames as they stand.
 struct JointPlace {
   Vec gap;           ///< from the origin of frame a to that of frame b, m

@@ -87,8 +87,10 @@ struct JointAxesPlace {
   Swing swing;  ///< where a row is of it
   PLUMB_HD Real cosine(int i, int j) const { return dot(a[i], b[j]); }
 };
-/// Of a joint with so many rows beyond those of its type, 1 or more.
-PLUMB_HD inline JointAxesPlace axes_of(const JointPlace& place, const JointAxes& axes, int rows) {
+/// Of a joint with rows beyond those of its type; of others nothing is asked for.
+PLUMB_HD inline JointAxesPlace axes_of(const Joint& joint, const JointAxes& axes, const JointPlace& place) {
+  const int rows = row_count(joint) - rows_of(joint.type);
+  if (rows == 0) return JointAxesPlace();
   const Mat a = to_matrix(place.frame_a), b = to_matrix(place.frame_b);
   return {a, b, is_of_swing(axes.row[rows - 1].kind) ? Swing(a, b.x) : Swing()};
 }
@@ -189,28 +191,27 @@ PLUMB_HD inline bool is_far_off(const RowSpec& row, const JointPlace& place, con
   }
 }
 
-/// All rows of a joint: C, or the coordinate.
-PLUMB_HD inline void all_errors(const Joint& joint, const JointAxes& axes, const JointPlace& place, RowNumbers& error) {
+/// All rows of a joint: C, or the coordinate. at: axes_of it.
+PLUMB_HD inline void all_errors(const Joint& joint, const JointAxes& axes, const JointPlace& place,
+                                const JointAxesPlace& at, RowNumbers& error) {
   joint_errors(joint, place, error);
   const int first = rows_of(joint.type);
-  if (first == row_count(joint)) return;
-  const JointAxesPlace at = axes_of(place, axes, row_count(joint) - first);
   for (int i = first; i < row_count(joint); ++i) error[i] = axis_error(axes.row[i - first], axes.narrow, place, at);
 }
-PLUMB_HD inline bool is_any_far_off(const Joint& joint, const JointAxes& axes, const JointPlace& place) {
-  const int first = rows_of(joint.type);
-  if (first == row_count(joint)) return is_far_off(joint, place);
-  const JointAxesPlace at = axes_of(place, axes, row_count(joint) - first);
+PLUMB_HD inline void all_errors(const Joint& joint, const JointAxes& axes, const JointPlace& place, RowNumbers& error) {
+  all_errors(joint, axes, place, axes_of(joint, axes, place), error);
+}
+PLUMB_HD inline bool is_any_far_off(const Joint& joint, const JointAxes& axes, const JointPlace& place,
+                                    const JointAxesPlace& at) {
   bool far = is_far_off(joint, place);
+  const int first = rows_of(joint.type);
   for (int i = first; i < row_count(joint); ++i) far = far || is_far_off(axes.row[i - first], place, at);
   return far;
 }
 PLUMB_HD inline void all_rows(const Joint& joint, const JointAxes& axes, const JointPlace& place,
-                              JointRow (&rows)[kJointRows]) {
+                              const JointAxesPlace& at, JointRow (&rows)[kJointRows]) {
   joint_rows(joint, place, rows);
   const int first = rows_of(joint.type);
-  if (first == row_count(joint)) return;
-  const JointAxesPlace at = axes_of(place, axes, row_count(joint) - first);
   for (int i = first; i < row_count(joint); ++i) rows[i] = axis_row(axes.row[i - first], axes.narrow, place, at);
 }
 

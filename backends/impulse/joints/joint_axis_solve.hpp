@@ -30,6 +30,7 @@ struct AxisWork : AxisMemory {
   JointMatrix whole;  ///< K of all rows
   RowPiece piece[kJointRows];
   RowPiece reached[kJointRows];  ///< at the end of the pass over places
+  RowLaw law[kJointRows];        ///< in this pass, of rows that do not always hold
   RowNumbers target;             ///< the speed of hard rows, the impulse without speed of others
   RowNumbers cfm;                ///< speed for a unit impulse by which a row yields; below 0: its impulse is its target
   RowNumbers spring;             ///< impulse of the spring in this sub-step
@@ -110,10 +111,11 @@ PLUMB_SHARED_CODE inline void refresh_axis_joint(const AxisView& view, std::uint
   AxisWork& own = view.parts.work[j];
   const JointEnd a = view.end(joint.body_a), b = view.end(joint.body_b);
   const JointPlace place = place_joint(joint, view.base(joint), a, b);
-  all_errors(joint, axes, place, work.error);
-  work.is_far_off = is_any_far_off(joint, axes, place);
+  const JointAxesPlace at = axes_of(joint, axes, place);
+  all_errors(joint, axes, place, at, work.error);
+  work.is_far_off = is_any_far_off(joint, axes, place, at);
   put_rows(work.rows, row_count(joint), joint_mass(view, joint, a, b), own.whole,
-           [&](JointRow(&rows)[kJointRows]) { all_rows(joint, axes, place, rows); });
+           [&](JointRow(&rows)[kJointRows]) { all_rows(joint, axes, place, at, rows); });
   own.forget();
   JointReaction& reaction = view.reaction(j);
   const bool is_new = reaction.first_step != joint.first_step;
@@ -127,46 +129,46 @@ PLUMB_SHARED_CODE inline void refresh_axis_joint(const AxisView& view, std::uint
 }
 
 /// Over the sub-step, with velocities a and b.
-PLUMB_HD inline Lanes speeds_over_places(const AxisView& view, std::uint32_t j, const RowTime& time, const Velocity& a,
-                                         const Velocity& b) {
+PLUMB_HD inline Lanes speeds_over_places(const AxisView& view, std::uint32_t j, const JointPass& pass,
+                                         const Velocity& a, const Velocity& b) {
   const Joint& joint = view.joints[j];
   const JointWork& work = view.work[j];
   const JointAxes& axes = view.parts.axes[j];
-  const JointPlace place = place_joint(joint, view.base(joint), view.end_after(joint.body_a, a, time.h),
-                                       view.end_after(joint.body_b, b, time.h));
+  const JointPlace place = place_joint(joint, view.base(joint), view.end_after(joint.body_a, a, pass.h),
+                                       view.end_after(joint.body_b, b, pass.h));
   RowNumbers then;
   all_errors(joint, axes, place, then);
   const int first = rows_of(joint.type);
   return by_row(row_count(joint), [&](int i) {
     Real moved = then[i] - work.error[i];
     if (i >= first && goes_round(axes.row[i - first].kind)) moved = wrapped(moved);
-    return moved * time.inverse_h;
+    return moved * pass.inverse_h;
   });
 }
 
 /// What a pass sees of the speeds. Places are not linear in them: the rounds of a pass work on one tangent, so that
 /// what they try on the way does not matter. anew: at the speeds as they are.
-PLUMB_HD inline Lanes row_speeds(const AxisView& view, std::uint32_t j, const RowTime& time, const Velocity& a,
+PLUMB_HD inline Lanes row_speeds(const AxisView& view, std::uint32_t j, const JointPass& pass, const Velocity& a,
                                  const Velocity& b, bool anew) {
   AxisWork& own = view.parts.work[j];
-  if (time.pass != RowPass::kPlaces) return speeds_now(view, j, a, b);
+  if (pass.kind != PassKind::kPlaces) return speeds_now(view, j, a, b);
   if (!anew) return speeds_now(view, j, a, b) + load_row(own.bend);
   Lanes speed;
   if (own.recall_speeds(a, b, speed)) return speed;
   const Lanes now = speeds_now(view, j, a, b);
-  speed = cannot_see_ahead(view.work[j], a, b, time.h) ? now : speeds_over_places(view, j, time, a, b);
+  speed = cannot_see_ahead(view.work[j], a, b, pass.h) ? now : speeds_over_places(view, j, pass, a, b);
   store_row(own.bend, speed - now);
   own.keep_speeds(a, b, speed);
   return speed;
 }
 
-PLUMB_HD inline RowLaw law_of_row(const AxisView& view, std::uint32_t j, int row, const RowTime& time) {
+PLUMB_HD inline RowLaw law_of_row(const AxisView& view, std::uint32_t j, int row, const JointPass& pass) {
   const Joint& joint = view.joints[j];
   const AxisWork& own = view.parts.work[j];
-  const Real x = view.work[j].error[row] - (time.pass == RowPass::kMoved ? time.h * own.before[row] : Real(0));
+  const Real x = view.work[j].error[row] - (pass.kind == PassKind::kMoved ? pass.h * own.before[row] : Real(0));
   RowLaw law = law_of_places(view.parts.axes[j], row - rows_of(joint.type), x, view.parts.drives[joint.slot],
-                             view.reaction(j).spring_mass[row], time);
-  if (time.pass != RowPass::kSpeeds) return law;
+                             view.reaction(j).spring_mass[row], pass);
+  if (pass.kind != PassKind::kSpeeds) return law;
   law.lower = own.reached[row] == RowPiece::kLower ? Real(0) : -kHuge;
   law.upper = own.reached[row] == RowPiece::kUpper ? Real(0) : kHuge;
   law.spring = own.spring[row];
@@ -175,54 +177,91 @@ PLUMB_HD inline RowLaw law_of_row(const AxisView& view, std::uint32_t j, int row
 }
 
 /// The speed that a row which always holds should have. rate: at which its error is taken back.
-PLUMB_HD inline Real speed_of_held(const AxisView& view, std::uint32_t j, int row, const RowTime& time, Real rate) {
+PLUMB_HD inline Real speed_of_held(const AxisView& view, std::uint32_t j, int row, const JointPass& pass, Real rate) {
   const Real error = view.work[j].error[row];
-  switch (time.pass) {
-    case RowPass::kSpeeds: return 0;
-    case RowPass::kMoved: return view.parts.work[j].before[row] - speed_of_error(rate, error);
+  switch (pass.kind) {
+    case PassKind::kSpeeds: return 0;
+    case PassKind::kMoved: return view.parts.work[j].before[row] - speed_of_error(rate, error);
     default: return -speed_of_error(rate, error);
   }
 }
 
-/// Finds the piece of each row, and its equation. jump: what brings impulses that do not depend on the speed to where
-/// they should be; 0 of others. Returns whether a piece is another than before, or ought to be.
-PLUMB_SHARED_CODE inline bool choose_pieces(const AxisView& view, std::uint32_t j, const RowTime& time,
-                                            const Velocity& a, const Velocity& b, std::uint32_t round, Real share,
-                                            Lanes& jump) {
+/// The equation of a row that does not always hold, by the piece that it is on.
+PLUMB_HD inline void put_equation(AxisWork& own, int row, Real share) {
+  const RowLaw& law = own.law[row];
+  const RowPiece piece = own.piece[row];
+  if (is_hard(piece)) {
+    own.target[row] = law.speed(piece);
+    own.cfm[row] = share * own.whole(row, row);
+  } else {
+    own.target[row] = law.sign_of(piece) + law.spring;
+    own.cfm[row] = law.drag > 0 ? Real(1) / law.drag : Real(-1);
+  }
+}
+
+/// What brings an impulse that does not depend on the speed to where it should be; 0 of others.
+PLUMB_HD inline Real jump_of(const AxisWork& own, int row, Real total) {
+  return own.is_active(row) ? Real(0) : own.target[row] - total;
+}
+
+/// A pass begins: finds the piece on which each row is by itself, and its equation. jump: jump_of each.
+PLUMB_SHARED_CODE inline void choose_first_pieces(const AxisView& view, std::uint32_t j, const JointPass& pass,
+                                                  const Velocity& a, const Velocity& b, Real share, Lanes& jump) {
   const Joint& joint = view.joints[j];
   AxisWork& own = view.parts.work[j];
   const Real* total = view.total(j);
-  const bool all_held = rows_of(joint.type) == row_count(joint), first_round = round == 0;
-  jump = Lanes(0);
-  if (all_held && !first_round) return false;
-  const Real rate = time.pass == RowPass::kSpeeds ? Real(0) : rate_of_error(view, joint, time.rate, time.chain_rate);
+  const Real rate =
+      pass.kind == PassKind::kSpeeds ? Real(0) : rate_of_error(view, joint, pass.softness.bias_rate, pass.chain_rate);
   Lanes speeds(0);
-  if (!all_held || time.pass == RowPass::kMoved) speeds = row_speeds(view, j, time, a, b, first_round);
-  const bool turns = turns_far(a, b, time.h);
-  bool changed = false;
+  if (!always_holds(joint) || pass.kind == PassKind::kMoved) speeds = row_speeds(view, j, pass, a, b, true);
+  const bool turns = turns_far(a, b, pass.h);
   jump = by_row(row_count(joint), [&](int i) {
-    const Real mobility = own.whole(i, i), speed = of_row(speeds, i);
-    if (first_round) own.before[i] = turns ? Real(0) : speed;
+    const Real speed = of_row(speeds, i);
+    own.before[i] = turns ? Real(0) : speed;
     if (is_held(view, j, i)) {
       own.piece[i] = RowPiece::kHeld;
-      own.target[i] = speed_of_held(view, j, i, time, rate);
-      own.cfm[i] = share * mobility;
+      own.target[i] = speed_of_held(view, j, i, pass, rate);
+      own.cfm[i] = share * own.whole(i, i);
       return Real(0);
     }
-    const RowLaw law = law_of_row(view, j, i, time);
-    const RowPiece piece = first_round ? law.piece(speed, total[i], mobility) : law.next(own.piece[i], speed, total[i]);
-    if (!first_round && piece != own.piece[i]) changed = true;
-    if (first_round || may_change(j, i, round)) own.piece[i] = piece;
-    if (is_hard(own.piece[i])) {
-      own.target[i] = law.speed(own.piece[i]);
-      own.cfm[i] = share * mobility;
-      return Real(0);
+    own.law[i] = law_of_row(view, j, i, pass);
+    own.piece[i] = own.law[i].piece(speed, total[i], own.whole(i, i));
+    put_equation(own, i, share);
+    return jump_of(own, i, total[i]);
+  });
+}
+
+/// A later round: the piece on which each row is where the equations have led. Returns whether one is another than
+/// before, or ought to be.
+PLUMB_SHARED_CODE inline bool choose_next_pieces(const AxisView& view, std::uint32_t j, const JointPass& pass,
+                                                 const Velocity& a, const Velocity& b, std::uint32_t round, Real share,
+                                                 Lanes& jump) {
+  const Joint& joint = view.joints[j];
+  AxisWork& own = view.parts.work[j];
+  const Real* total = view.total(j);
+  const Lanes speeds = row_speeds(view, j, pass, a, b, false);
+  bool changed = false;
+  jump = by_row(row_count(joint), [&](int i) {
+    if (is_held(view, j, i)) return Real(0);
+    const RowPiece piece = own.law[i].next(own.piece[i], of_row(speeds, i), total[i]);
+    if (piece != own.piece[i]) {
+      changed = true;
+      if (may_change(j, i, round)) {
+        own.piece[i] = piece;
+        put_equation(own, i, share);
+      }
     }
-    own.target[i] = law.sign_of(own.piece[i]) + law.spring;
-    own.cfm[i] = law.drag > 0 ? Real(1) / law.drag : Real(-1);
-    return own.is_active(i) ? Real(0) : own.target[i] - total[i];
+    return jump_of(own, i, total[i]);
   });
   return any_row(changed);
+}
+
+/// One of the two. Returns whether a row is on another piece than before, or ought to be.
+PLUMB_HD inline bool choose_pieces(const AxisView& view, std::uint32_t j, const JointPass& pass, const Velocity& a,
+                                   const Velocity& b, std::uint32_t round, Real share, Lanes& jump) {
+  if (round != 0) return choose_next_pieces(view, j, pass, a, b, round, share, jump);
+  choose_first_pieces(view, j, pass, a, b, share, jump);
+  return false;
 }
 
 /// The matrix of the rows that are active, others being 0.
@@ -262,7 +301,7 @@ PLUMB_HD inline void choose_rows_met(const AxisView& view, std::uint32_t j) {
 }
 
 /// After a pass over speeds: for how long rows have held now, and which have not as predicted.
-PLUMB_HD inline void follow_rows(const AxisView& view, std::uint32_t j, const RowTime& time) {
+PLUMB_HD inline void follow_rows(const AxisView& view, std::uint32_t j, const JointPass& pass) {
   const Joint& joint = view.joints[j];
   AxisWork& own = view.parts.work[j];
   JointReaction& reaction = view.reaction(j);
@@ -270,8 +309,8 @@ PLUMB_HD inline void follow_rows(const AxisView& view, std::uint32_t j, const Ro
   if (own.predicted != 0) speed = speeds_now(view, j, view.velocity(joint.body_a), view.velocity(joint.body_b));
   const std::uint32_t gone = rows_where(rows_of(joint.type), row_count(joint), [&](int i) {
     if (is_held(view, j, i)) return false;
-    const RowLaw law = law_of_row(view, j, i, time);
-    reaction.held_for[i] = law.holds(own.piece[i], view.total(j)[i]) ? reaction.held_for[i] + time.h : Real(0);
+    const RowLaw& law = own.law[i];
+    reaction.held_for[i] = law.holds(own.piece[i], view.total(j)[i]) ? reaction.held_for[i] + pass.h : Real(0);
     if ((own.predicted >> i & 1U) == 0 || is_hard(own.piece[i])) return false;
     const Real off = of_row(speed, i) - (is_driven(view, j, i) ? law.steady : Real(0));
     return off * off > kLetsGo * kLetsGo;
@@ -281,11 +320,11 @@ PLUMB_HD inline void follow_rows(const AxisView& view, std::uint32_t j, const Ro
 
 /// How far the rows are from their equations, with the other sign. tikhonov: as JointWork's. A motor's row never counts
 /// what it has gathered: nothing takes back how far its speed was off, and it would creep under load.
-PLUMB_SHARED_CODE inline Lanes row_residuals(const AxisView& view, std::uint32_t j, const RowTime& time,
+PLUMB_SHARED_CODE inline Lanes row_residuals(const AxisView& view, std::uint32_t j, const JointPass& pass,
                                              const Velocity& a, const Velocity& b, bool anew, Real tikhonov) {
   const AxisWork& own = view.parts.work[j];
   const Real* total = view.total(j);
-  const Lanes speeds = row_speeds(view, j, time, a, b, anew);
+  const Lanes speeds = row_speeds(view, j, pass, a, b, anew);
   return by_row(row_count(view.joints[j]), [&](int i) {
     const Real speed = of_row(speeds, i);
     if (!own.is_active(i)) return Real(0);
@@ -297,15 +336,15 @@ PLUMB_SHARED_CODE inline Lanes row_residuals(const AxisView& view, std::uint32_t
 
 /// At the end of a pass, in which rows do not switch their piece of the law any more: what brings impulses to what the
 /// laws allow.
-PLUMB_HD inline Lanes settle_pieces(const AxisView& view, std::uint32_t j, const RowTime& time) {
+PLUMB_HD inline Lanes settle_pieces(const AxisView& view, std::uint32_t j, const JointPass& pass) {
   const Joint& joint = view.joints[j];
   AxisWork& own = view.parts.work[j];
   const Real* total = view.total(j);
   const int first = rows_of(joint.type);
   return by_row(row_count(joint), [&](int i) {
     if (i < first || own.piece[i] == RowPiece::kHeld) return Real(0);
-    const RowLaw law = law_of_row(view, j, i, time);
-    if (time.pass == RowPass::kPlaces) {
+    const RowLaw& law = own.law[i];
+    if (pass.kind == PassKind::kPlaces) {
       own.reached[i] = own.piece[i];
       own.spring[i] = is_hard(own.piece[i]) ? law.spring - law.drag * law.speed(own.piece[i])
                                             : total[i] - law.sign_of(own.piece[i]);
@@ -337,8 +376,8 @@ class RoundCount {
   bool anew_ = false;
 };
 
-/// One joint by itself, exactly. Changes the velocities given, and the total.
-PLUMB_HD inline void solve_axis_rows(const AxisView& view, std::uint32_t j, const RowTime& time, Velocity& a,
+/// One joint with rows that do not always hold, by itself, exactly. Changes the velocities given, and the total.
+PLUMB_HD inline void solve_axis_rows(const AxisView& view, std::uint32_t j, const JointPass& pass, Velocity& a,
                                      Velocity& b) {
   const Joint& joint = view.joints[j];
   const AxisWork& own = view.parts.work[j];
@@ -352,9 +391,9 @@ PLUMB_HD inline void solve_axis_rows(const AxisView& view, std::uint32_t j, cons
     push_joint(work, n, all, a, b);
   };
   RoundCount rounds;
-  for (bool go = true; go;) {
+  while (true) {
     Lanes jump;
-    const bool changed = choose_pieces(view, j, time, a, b, rounds.round(), time.share, jump);
+    const bool changed = choose_pieces(view, j, pass, a, b, rounds.round(), pass.softness.gamma, jump);
     const RoundKind kind = rounds.next(changed);
     if (kind == RoundKind::kDone) break;
     push(jump);
@@ -365,17 +404,16 @@ PLUMB_HD inline void solve_axis_rows(const AxisView& view, std::uint32_t j, cons
       copy_columns(matrix, n, work.factor);
       lanes_meet();
     }
-    push(solved_lanes(work.factor, n, row_residuals(view, j, time, a, b, has_new_tangent(kind), Real(1))));
-    go = rows_of(joint.type) != n;
+    push(solved_lanes(work.factor, n, row_residuals(view, j, pass, a, b, has_new_tangent(kind), Real(1))));
   }
-  push(settle_pieces(view, j, time));
+  push(settle_pieces(view, j, pass));
 }
 
-PLUMB_HD inline void solve_axis_joint(const AxisView& view, std::uint32_t j, const RowTime& time) {
+PLUMB_HD inline void solve_axis_joint(const AxisView& view, std::uint32_t j, const JointPass& pass) {
   const Joint& joint = view.joints[j];
   const Velocity a = view.velocity(joint.body_a), b = view.velocity(joint.body_b);
   Velocity new_a = a, new_b = b;
-  solve_axis_rows(view, j, time, new_a, new_b);
+  solve_axis_rows(view, j, pass, new_a, new_b);
   store_bodies(view, j, a, b, new_a, new_b);
 }
 

@@ -15,6 +15,7 @@
 // meets the law; after that a row goes on to the next piece where the solution has left the one that it is on.
 #pragma once
 
+#include "bodies/step_parameters.hpp"
 #include "joints/joint_axes.hpp"
 
 namespace plumb::impulse {
@@ -97,20 +98,19 @@ struct RowLaw {
 };
 
 /// Which equation a pass over the joints solves.
-enum class RowPass : std::uint8_t {
+enum class PassKind : std::uint8_t {
   kPlaces,  ///< rows hold where the bodies arrive in h seconds: the first pass of a sub-step
   kSpeeds,  ///< rows keep still: the second
   kWhole,   ///< both at once, as the rows stand at the start of a step of h seconds
   kMoved    ///< bodies have moved for h seconds and are put where they should have arrived
 };
 
-struct RowTime {
-  RowPass pass;
+struct JointPass {
+  PassKind kind;
   Real h, inverse_h;
-  Real rate;                 ///< at which errors are taken back, 1/s
-  Real share;                ///< softness of rows that always hold, relative to their own
-  Real chain_rate = kHuge;   ///< the most at which those of chains are, 1/s
-  Real most_return = kHuge;  ///< what is beyond a limit comes back no faster than this, m/s or rad/s
+  Softness softness = {0, 1, 0, 0};  ///< of rows that always hold; limits come back at its rate, too
+  Real chain_rate = kHuge;           ///< the most at which errors of chains are taken back, 1/s
+  Real most_return = kHuge;          ///< what is beyond a limit comes back no faster than this, m/s or rad/s
 };
 
 /// e^x - 1 for small x; a little less for large ones.
@@ -138,20 +138,22 @@ PLUMB_HD inline SpringNumbers spring_numbers(const JointAxes& axes, int row, Rea
 
 /// Of a row in a pass over places. x: its coordinate.
 PLUMB_HD inline RowLaw law_of_places(const JointAxes& axes, int row, Real x, const JointDrive& drive, Real spring_mass,
-                                     const RowTime& time) {
+                                     const JointPass& pass) {
   const RowSpec& spec = axes.row[row];
   const bool turns = goes_round(spec.kind);
   RowLaw law = {-kHuge, kHuge, kHuge, 0, 0, 0};
   const WaysToLimits to = ways_to_limits(axes, row, x);
-  if (to.has_lower) law.lower = to.lower < 0 ? to.lower * time.inverse_h : min(to.lower * time.rate, time.most_return);
-  if (to.has_upper) law.upper = to.upper > 0 ? to.upper * time.inverse_h : max(to.upper * time.rate, -time.most_return);
+  if (to.has_lower)
+    law.lower = to.lower < 0 ? to.lower * pass.inverse_h : min(to.lower * pass.softness.bias_rate, pass.most_return);
+  if (to.has_upper)
+    law.upper = to.upper > 0 ? to.upper * pass.inverse_h : max(to.upper * pass.softness.bias_rate, -pass.most_return);
   const Real force = drive.max_force[spec.coordinate];
   if (force > 0) {
     law.steady = drive.velocity[spec.coordinate];
-    law.push = force * time.h;
+    law.push = force * pass.h;
   }
   if (axes.has_spring(row)) {
-    const SpringNumbers numbers = spring_numbers(axes, row, spring_mass, time.h);
+    const SpringNumbers numbers = spring_numbers(axes, row, spring_mass, pass.h);
     const Real off = x - drive.rest[spec.coordinate], bent = turns ? wrapped(off) : off;
     law.drag = numbers.drag;
     law.spring = -(numbers.pull * bent);

@@ -78,16 +78,5 @@ PLUMB_DEVICE void each_single_joint(Team& team, const JointSet& joints, std::uin
     if (view.level(view.joints[j]) == level) f(j);
   });
 }
-PLUMB_DEVICE inline void refresh_joints(Team& team, const JointSet& joints) {
-  const JointView view = joints.view;
-  each_by_rows(team, joints.count, [=](std::uint32_t j) { refresh_joint(view, j); });
-}
-
-PLUMB_DEVICE inline void warm_start_joints(Team& team, const JointSet& joints, const StepParameters& step) {
-  if (joints.count == 0) return;
-  refresh_joints(team, joints);
-  const JointView view = joints.view;
-  for_joints(team, joints, [=](std::uint32_t j) { warm_start_joint(view, j, true, step); });
-}
 
 }  // namespace plumb::impulse

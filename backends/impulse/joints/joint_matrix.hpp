@@ -20,6 +20,7 @@ struct SystemMechanism {
   std::uint32_t first_level, level_end;  ///< of its columns
   std::uint32_t first_column, column_end;
   std::uint32_t first_place, place_end;  ///< of its bodies
+  bool always_holds;                     ///< as all its joints do
 
   [[nodiscard]] PLUMB_HD std::uint32_t column_count() const { return column_end - first_column; }
   [[nodiscard]] PLUMB_HD std::uint32_t place_count() const { return place_end - first_place; }

@@ -23,8 +23,8 @@ PLUMB_HD inline void displace_bodies(const JointView& view, std::uint32_t j, con
   displace(view, view.joints[j].body_b, b, new_b, h);
 }
 
-/// Puts the two bodies where the joint holds (to first order), and gives them the velocity that this took. To those
-/// that turn too far for that it gives the velocity that would take them there.
+/// Puts the two bodies where a joint whose rows always hold does (to first order), and gives them the velocity that
+/// this took. To those that turn too far for that it gives the velocity that would take them there.
 PLUMB_HD inline void correct_joint(const JointView& view, std::uint32_t j, const StepParameters& step) {
   refresh_joint(view, j);
   const Joint& joint = view.joints[j];
@@ -42,17 +42,28 @@ PLUMB_HD inline void correct_joint(const JointView& view, std::uint32_t j, const
   displace_bodies(view, j, a, b, new_a, new_b, step.h);
 }
 
-/// The same with rows that do not always hold. first: of a step.
-PLUMB_HD inline void correct_axis_joint(const AxisView& view, std::uint32_t j, const StepParameters& step, bool first) {
+/// The same of one with rows that do not.
+PLUMB_HD inline void correct_axis_joint(const AxisView& view, std::uint32_t j, const StepParameters& step) {
   const Joint& joint = view.joints[j];
   refresh_axis_joint(view, j);
-  begin_reaction(view, j, first && !step.is_later_part);
   each_row(0, row_count(joint), [&](int i) { view.total(j)[i] = 0; });
   const Velocity a = view.velocity(joint.body_a), b = view.velocity(joint.body_b);
   Velocity new_a = a, new_b = b;
-  solve_axis_rows(view, j, {RowPass::kMoved, step.h, step.inverse_h, step.inverse_h, 0}, new_a, new_b);
-  add_reaction(view, j);
+  solve_axis_rows(view, j, {PassKind::kMoved, step.h, step.inverse_h, {step.inverse_h, 1, 0, 0}}, new_a, new_b);
   displace_bodies(view, j, a, b, new_a, new_b, step.h);
+}
+
+/// first: of a step.
+PLUMB_HD inline void correct(const JointView& view, std::uint32_t j, const StepParameters& step, bool /*first*/) {
+  correct_joint(view, j, step);
+}
+PLUMB_HD inline void correct(const AxisView& view, std::uint32_t j, const StepParameters& step, bool first) {
+  begin_reaction(view, j, first && !step.is_later_part);
+  if (always_holds(view.joints[j]))
+    correct_joint(view, j, step);
+  else
+    correct_axis_joint(view, j, step);
+  add_reaction(view, j);
 }
 
 }  // namespace plumb::impulse

@@ -4,6 +4,7 @@
 #include "bodies/axis_locks.hpp"
 #include "bodies/motion.hpp"
 #include "joints/jacobian.hpp"
+#include "joints/joint_law.hpp"
 
 namespace plumb::impulse {
 
@@ -160,14 +161,6 @@ PLUMB_HD inline void store_bodies(const JointView& view, std::uint32_t j, const 
   view.store(view.joints[j].body_b, b, new_b);
 }
 
-/// How the first pass takes back an error.
-struct JointPass {
-  Softness softness;
-  Real chain_rate;  ///< the most at which those of chains are, 1/s
-  Real h, inverse_h;
-  bool take_back_error;  ///< the first pass; else the second
-};
-
 PLUMB_HD inline void push_joint(const JointWork& work, int n, const Real* impulse, Velocity& a, Velocity& b) {
   push_along(work.rows, n, false, impulse, a);
   push_along(work.rows, n, true, impulse, b);
@@ -232,16 +225,18 @@ PLUMB_HD inline Real rate_of_error(const JointView& view, const Joint& joint, Re
   return joint.in_chain || (pressed && !joint.in_ring) ? min(rate, by_degrees) : rate;
 }
 
-/// How far the velocities of the rows are from what they should be in this pass. end_after: as the view's.
+/// How far the velocities of rows that always hold are from what they should be in this pass. end_after: as the
+/// view's.
 template <class EndAfter>
 PLUMB_HD Lanes joint_residuals(const JointView& view, std::uint32_t j, const JointPass& pass, const Velocity& a,
                                const Velocity& b, const EndAfter& end_after) {
   const Joint& joint = view.joints[j];
   const JointWork& work = view.work[j];
-  if (!pass.take_back_error) return speeds_along(work.rows, a, b);
+  if (pass.kind == PassKind::kSpeeds) return speeds_along(work.rows, a, b);
   const Lanes error = load_row(work.error);
   const Lanes back = speed_of_error(rate_of_error(view, joint, pass.softness.bias_rate, pass.chain_rate), error);
-  if (cannot_see_ahead(work, a, b, pass.h)) return speeds_along(work.rows, a, b) + back;
+  if (pass.kind == PassKind::kWhole || cannot_see_ahead(work, a, b, pass.h))
+    return speeds_along(work.rows, a, b) + back;
   const JointPlace place = place_joint(joint, view.base(joint), end_after(joint.body_a, a), end_after(joint.body_b, b));
   RowNumbers then{};
   joint_errors(joint, place, then);
@@ -278,12 +273,8 @@ PLUMB_HD inline void push_bodies(const JointView& view, std::uint32_t j, const V
 }
 
 /// The impulses that the joint had before act again, along its rows as they are now.
-PLUMB_HD inline void warm_start_joint(const JointView& view, std::uint32_t j, bool first, const StepParameters& step) {
+PLUMB_HD inline void warm_start_joint(const JointView& view, std::uint32_t j) {
   const Joint& joint = view.joints[j];
-  if (first) {
-    take_over_impulse(view, j, step);
-    lanes_meet();
-  }
   push_bodies(view, j, view.velocity(joint.body_a), view.velocity(joint.body_b), view.impulses[joint.slot].along);
 }
 
@@ -298,11 +289,12 @@ PLUMB_HD inline void apply_impulse(const JointView& view, std::uint32_t j, const
   push_bodies(view, j, a, b, all);
 }
 
+/// One joint whose rows always hold, by itself.
 PLUMB_HD inline void solve_joint(const JointView& view, std::uint32_t j, const JointPass& pass) {
   const Joint& joint = view.joints[j];
   const Velocity a = view.velocity(joint.body_a), b = view.velocity(joint.body_b);
   Lanes impulse = -solved_lanes(view.work[j].factor, row_count(joint), joint_residuals(view, j, pass, a, b));
-  if (pass.take_back_error) {
+  if (pass.kind == PassKind::kPlaces) {
     const Lanes total = lanes_of_numbers(view.impulses[joint.slot].along);
     impulse = Lanes(pass.softness.mass_scale) * impulse - Lanes(pass.softness.impulse_scale) * total;
   }

@@ -196,7 +196,7 @@ PLUMB_SHARED_DEVICE_CODE inline void factor_system(Team& team, const JointSystem
 /// The changes that solve the system, which do not act yet.
 PLUMB_SHARED_DEVICE_CODE inline void find_changes(Team& team, const JointSystem& system,
                                                   const SystemMechanism& mechanism, const JointPass& pass) {
-  if (pass.take_back_error)
+  if (pass.kind == PassKind::kPlaces)
     for_places(team, mechanism, [&](std::uint32_t place) { find_arrival(system, place, pass.h); });
   for_columns_up(team, system, mechanism, [&](std::uint32_t j) { solve_forward(system, j, pass); });
   for_columns_down(team, system, mechanism, [&](std::uint32_t j) { solve_backward(system, j); });

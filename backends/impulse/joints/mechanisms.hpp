@@ -1,52 +1,103 @@
-// What the sub-stepped solver does with the joints: mechanisms are solved each as a whole where their matrix stays
-// sparse, the joints of others one by one.
+// What solvers do with joints: those of mechanisms whose matrix stays sparse as a whole, others one by one.
+//
+// A joint, or a mechanism, whose rows always hold is one linear system. Where some rows are limits, motors or springs
+// it is solved in rounds (joint_axis_solve.hpp, mechanism_rounds.hpp). Which of the two is asked of each joint and each
+// mechanism by itself, so that a motor changes nothing for what it is not joined to. A step without any has a view that
+// knows no others, and code that is smaller.
 #pragma once
 
-#include "joints/joint_loops.hpp"
-#include "joints/tension.hpp"
+#include "joints/mechanism_rounds.hpp"
 
 namespace plumb::impulse {
 
-/// A mechanism's joints as they stand now. first: in the step. Where contacts push it as a whole they count on it that
-/// joints yield as they did when its mobility was found (mechanism_mobility.hpp).
-PLUMB_SHARED_DEVICE_CODE inline void refresh_mechanism(Team& team, const JointSystem& system,
-                                                       const SystemMechanism& mechanism, const StepParameters& step,
-                                                       bool first) {
+/// A set's joints, as code of that kind sees them.
+template <JointCode kJoints>
+PLUMB_HD auto view_of(const JointSet& joints) {
+  if constexpr (kJoints == JointCode::kAll) {
+    AxisView view;
+    static_cast<JointView&>(view) = joints.view;
+    view.parts = joints.axes;
+    return view;
+  } else {
+    return joints.view;
+  }
+}
+
+// --- a joint by itself
+
+/// A sub-step begins, or a step: impulses of joint j are those of the last one.
+PLUMB_HD inline void begin_joint(const JointView& view, std::uint32_t j, bool first, const StepParameters& step) {
+  if (first) take_over_impulse(view, j, step);
+}
+PLUMB_HD inline void begin_joint(const AxisView& view, std::uint32_t j, bool first, const StepParameters& step) {
+  if (first) take_over_impulse(view, j, step);
+  begin_reaction(view, j, first && !step.is_later_part);
+}
+
+/// Its rows where its bodies are now.
+PLUMB_HD inline void refresh(const JointView& view, std::uint32_t j) { refresh_joint(view, j); }
+PLUMB_HD inline void refresh(const AxisView& view, std::uint32_t j) {
+  if (always_holds(view.joints[j]))
+    refresh_joint(view, j);
+  else
+    refresh_axis_joint(view, j);
+}
+
+PLUMB_HD inline void solve(const JointView& view, std::uint32_t j, const JointPass& pass) {
+  solve_joint(view, j, pass);
+}
+PLUMB_HD inline void solve(const AxisView& view, std::uint32_t j, const JointPass& pass) {
+  if (always_holds(view.joints[j]))
+    solve_joint(view, j, pass);
+  else
+    solve_axis_joint(view, j, pass);
+}
+
+/// Only a view that has reactions has any to add to.
+PLUMB_HD inline void add_reaction(const JointView& /*view*/, std::uint32_t /*j*/) {}
+
+// --- a mechanism as a whole
+
+/// The rows of joint j, one of its columns, where the bodies are now.
+PLUMB_HD inline void refresh_rows(const SystemMechanism& /*mechanism*/, const JointView& view, std::uint32_t j) {
+  make_joint_rows(view, j);
+}
+PLUMB_HD inline void refresh_rows(const SystemMechanism& mechanism, const AxisView& view, std::uint32_t j) {
+  if (mechanism.always_holds)
+    make_joint_rows(view, j);
+  else
+    refresh_axis_joint(view, j);
+}
+
+/// Its rows, and the least moments of its bodies. first: in the step. Where contacts push it as a whole they count on
+/// it that joints yield as they did when its mobility was found (solver/mechanism_mobility.hpp).
+template <class View>
+PLUMB_SHARED_DEVICE_CODE void refresh_mechanism(Team& team, const JointSystem& system, const SystemMechanism& mechanism,
+                                                const View& view, const StepParameters& step, bool first) {
   const bool touched = system.is_touched(mechanism);
   for_places(team, mechanism, [&](std::uint32_t place) { find_least_moment(system, place, step, first); });
   for_columns(team, mechanism, [&](std::uint32_t column) {
-    make_joint_rows(system.view, system.base + column);
-    if (!touched) choose_share(system.view, system.base + column, step.h);
+    refresh_rows(mechanism, view, system.base + column);
+    if (!touched) choose_share(view, system.base + column, step.h);
   });
-  factor_system(team, system, mechanism);
+  if (mechanism.always_holds) factor_system(team, system, mechanism);
 }
 
-/// The impulses of the last sub-step, or step, act again.
-PLUMB_SHARED_DEVICE_CODE inline void warm_start_mechanisms(Team& team, const JointSet& joints, bool first,
-                                                           const StepParameters& step) {
-  if (joints.count == 0) return;
-  const JointView view = joints.view;
-  const JointSystem& system = joints.system;
-  if (first)
-    each_single_joint(team, joints, step.level, [=](std::uint32_t j) {
-      take_over_impulse(view, j, step);
-      refresh_joint(view, j);
-    });
-  for_single_joints(team, joints, step.level, [=](std::uint32_t j) { warm_start_joint(view, j, false, step); });
-  for_mechanisms_of_level(team, system, step.level, [&](Team& own, const SystemMechanism& mechanism) {
-    if (first) {
-      for_columns(own, mechanism, [&](std::uint32_t column) { take_over_impulse(view, system.base + column, step); });
-      refresh_mechanism(own, system, mechanism, step, true);
-    }
-    push_totals(own, system, mechanism);
-  });
-}
-
-/// A mechanism's joints in one pass. The first of a sub-step finds tension, and reckons with it.
+/// One pass. That over places finds tension, and reckons with it. touched: by contacts, of which what they did to
+/// single bodies is passed on before anybody looks where the bodies will be: a plank that bears what weighs a hundred
+/// times as much would be looked at where it is thrown alone, far off, and made energy of what took it back from there.
 PLUMB_SHARED_DEVICE_CODE inline void solve_mechanism(Team& team, const JointSystem& system,
-                                                     const SystemMechanism& mechanism, const JointPass& pass) {
+                                                     const SystemMechanism& mechanism, const JointView& /*view*/,
+                                                     const JointPass& pass, bool /*first*/) {
+  const bool over_places = pass.kind == PassKind::kPlaces;
+  if (over_places && system.is_touched(mechanism)) {
+    JointPass load = pass;
+    load.kind = PassKind::kSpeeds;
+    find_changes(team, system, mechanism, load);
+    push_changes(team, system, mechanism);
+  }
   find_changes(team, system, mechanism, pass);
-  if (pass.take_back_error) {
+  if (over_places) {
     ChangeCount count(team, system, mechanism);
     for (std::uint32_t stiffened = 0; stiffened < kMostStiffenings; ++stiffened) {
       if (!tension_grows(team, system, mechanism, pass.h, count)) break;
@@ -57,32 +108,67 @@ PLUMB_SHARED_DEVICE_CODE inline void solve_mechanism(Team& team, const JointSyst
   }
   push_changes(team, system, mechanism);
 }
-
-/// What contacts did to single bodies is passed on before anybody looks where the bodies will be: a plank that bears
-/// what weighs a hundred times as much would be looked at where it is thrown alone, far off, and made energy of what
-/// took it back from there.
-PLUMB_DEVICE inline void pass_on_loads(Team& team, const JointSystem& system, const SystemMechanism& mechanism,
-                                       JointPass pass) {
-  pass.take_back_error = false;
-  find_changes(team, system, mechanism, pass);
-  push_changes(team, system, mechanism);
+/// first: sub-step of the step.
+PLUMB_SHARED_DEVICE_CODE inline void solve_mechanism(Team& team, const JointSystem& system,
+                                                     const SystemMechanism& mechanism, const AxisView& view,
+                                                     const JointPass& pass, bool first) {
+  const bool over_speeds = pass.kind == PassKind::kSpeeds;
+  if (mechanism.always_holds) {
+    solve_mechanism(team, system, mechanism, static_cast<const JointView&>(view), pass, first);
+  } else {
+    if ((over_speeds || !first) && system.is_touched(mechanism)) pass_on_loads(team, system, mechanism, view);
+    solve_in_rounds(team, system, mechanism, view, pass);
+  }
+  const bool follows = over_speeds && !mechanism.always_holds && view.solver.mechanisms.count != 0;
+  for_columns(team, mechanism, [&](std::uint32_t column) {
+    if (follows) follow_rows(view, system.base + column, pass);
+    add_reaction(view, system.base + column);
+  });
 }
 
-/// One pass: the first of a sub-step, which takes errors back, or the second, after positions have moved.
-PLUMB_SHARED_DEVICE_CODE inline void solve_mechanisms(Team& team, const JointSet& joints, const StepParameters& step,
-                                                      bool take_back_error) {
+// --- all of a level of sub-steps
+
+/// The impulses of the last sub-step, or step, act again. first: sub-step of the step.
+template <class View>
+PLUMB_SHARED_DEVICE_CODE void warm_start_joints(Team& team, const JointSet& joints, const View& view, bool first,
+                                                const StepParameters& step) {
   if (joints.count == 0) return;
-  const JointView view = joints.view;
   const JointSystem& system = joints.system;
-  const JointPass pass = {step.joint, step.chain_rate, step.h, step.inverse_h, take_back_error};
-  if (!take_back_error) each_single_joint(team, joints, step.level, [=](std::uint32_t j) { refresh_joint(view, j); });
-  for_single_joints(team, joints, step.level, [=](std::uint32_t j) { solve_joint(view, j, pass); });
-  JointPass exact = pass;
-  exact.softness = {step.joint_rate, 1, 0};
+  each_single_joint(team, joints, step.level, [=](std::uint32_t j) {
+    begin_joint(view, j, first, step);
+    if (first) refresh(view, j);
+  });
+  for_single_joints(team, joints, step.level, [=](std::uint32_t j) { warm_start_joint(view, j); });
   for_mechanisms_of_level(team, system, step.level, [&](Team& own, const SystemMechanism& mechanism) {
-    if (!take_back_error) refresh_mechanism(own, system, mechanism, step, false);
-    if (take_back_error && system.is_touched(mechanism)) pass_on_loads(own, system, mechanism, exact);
-    solve_mechanism(own, system, mechanism, exact);
+    for_columns(own, mechanism, [&](std::uint32_t column) { begin_joint(view, system.base + column, first, step); });
+    if (first) refresh_mechanism(own, system, mechanism, view, step, true);
+    push_totals(own, system, mechanism);
+  });
+}
+
+/// Where contacts push mechanisms, what is beyond a limit comes back no faster than this, m/s or rad/s: where one holds
+/// against it, as the ground does under the foot of a leg that is folded as far as it goes, more would throw all of it
+/// up.
+inline constexpr Real kMostReturn = 1;
+
+/// One pass of the sub-stepped solver: over places, or over speeds after positions have moved. collision: contacts may
+/// push mechanisms. first: sub-step of the step.
+template <class View>
+PLUMB_SHARED_DEVICE_CODE void solve_joints(Team& team, const JointSet& joints, const View& view,
+                                           const StepParameters& step, PassKind kind, bool collision, bool first) {
+  if (joints.count == 0) return;
+  const JointSystem& system = joints.system;
+  const bool over_speeds = kind == PassKind::kSpeeds;
+  JointPass exact = {kind, step.h, step.inverse_h, {step.joint_rate, 1, 0, 0}, step.chain_rate};
+  if (collision) exact.most_return = kMostReturn;
+  JointPass pass = exact;
+  if (!over_speeds) pass.softness = step.joint;
+  if (over_speeds) each_single_joint(team, joints, step.level, [=](std::uint32_t j) { refresh(view, j); });
+  for_single_joints(team, joints, step.level, [=](std::uint32_t j) { solve(view, j, pass); });
+  each_single_joint(team, joints, step.level, [=](std::uint32_t j) { add_reaction(view, j); });
+  for_mechanisms_of_level(team, system, step.level, [&](Team& own, const SystemMechanism& mechanism) {
+    if (over_speeds) refresh_mechanism(own, system, mechanism, view, step, false);
+    solve_mechanism(own, system, mechanism, view, exact, first);
   });
 }
 

@@ -126,11 +126,15 @@ PLUMB_HD void count_rows(int n, const F& f) {
   for (int i = 0; i < kJointRows; ++i)
     if (i < n) f(i);
 }
-/// f(n) with a number of rows that the compiler knows, so that columns stay in registers: of a GPU it is the largest,
-/// and is_row tells those that there are.
+/// f(n) with a number of rows that the compiler knows, so that columns stay in registers: of a GPU it is all, or as
+/// many as a fixed joint has, and is_row tells those that there are.
 template <class F>
-PLUMB_HD void with_rows(int /*n*/, const F& f) {
-  f(std::integral_constant<int, kJointRows>{});
+PLUMB_HD void with_rows(int n, const F& f) {
+  constexpr int kFixedRows = rows_of(JointType::kFixed);
+  if (n <= kFixedRows)
+    f(std::integral_constant<int, kFixedRows>{});
+  else
+    f(std::integral_constant<int, kJointRows>{});
 }
 PLUMB_HD inline bool is_row(int i, int n) { return i < n; }
 /// Numbers of all rows that have just been found one by one.

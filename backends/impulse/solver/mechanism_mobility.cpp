@@ -1,6 +1,5 @@
 #include "solver/mechanism_mobility.hpp"
 
-#include "joints/axis_mechanisms.hpp"
 #include "joints/mechanisms.hpp"
 #include "math/lane_vectors.hpp"
 
@@ -210,36 +209,27 @@ struct FindMobility : MobilityWork {
   /// What touches nothing needs no more than rows where its bodies are: tension is looked for along them.
   PLUMB_DEVICE void make_rows(Team& team, const SystemMechanism& mechanism) const {
     const JointSystem& system = joints.system;
-    if constexpr (kJoints == JointCode::kAll) {
-      const AxisView view = axis_view(joints);
-      for_columns(team, mechanism, [&](std::uint32_t column) {
-        refresh_axis_joint(view, system.base + column);
-        predict_rows(view, system.base + column, false, parameters->is_repeat);
-      });
-    } else {
-      for_columns(team, mechanism, [&](std::uint32_t column) { make_joint_rows(system.view, system.base + column); });
-    }
+    const auto view = view_of<kJoints>(joints);
+    for_columns(team, mechanism, [&](std::uint32_t column) {
+      refresh_rows(mechanism, view, system.base + column);
+      if constexpr (kJoints == JointCode::kAll) predict_rows(view, system.base + column, false, parameters->is_repeat);
+    });
   }
   PLUMB_DEVICE void factor(Team& team, const SystemMechanism& mechanism) const {
     const JointSystem& system = joints.system;
-    const Real h = levels->of[joints.system.level(mechanism)].h;
-    if constexpr (kJoints == JointCode::kAll) {
-      const AxisView view = axis_view(joints);
-      for_columns(team, mechanism, [&](std::uint32_t column) {
-        const std::uint32_t j = system.base + column;
-        refresh_axis_joint(view, j);
-        choose_share(view, j, h);
+    const Real h = levels->of[system.level(mechanism)].h;
+    const auto view = view_of<kJoints>(joints);
+    for_columns(team, mechanism, [&](std::uint32_t column) {
+      const std::uint32_t j = system.base + column;
+      refresh_rows(mechanism, view, j);
+      choose_share(view, j, h);
+      if constexpr (kJoints == JointCode::kAll) {
         predict_rows(view, j, true, parameters->is_repeat);
-        choose_rows_met(view, j);
-      });
-      factor_axis_system(team, system, mechanism, view);
-    } else {
-      for_columns(team, mechanism, [&](std::uint32_t column) {
-        make_joint_rows(system.view, system.base + column);
-        choose_share(system.view, system.base + column, h);
-      });
-      factor_system(team, system, mechanism);
-    }
+        if (!mechanism.always_holds) choose_rows_met(view, j);
+      }
+    });
+    if (mechanism.always_holds) return factor_system(team, system, mechanism);
+    if constexpr (kJoints == JointCode::kAll) factor_axis_system(team, system, mechanism, view);
   }
 };
 

@@ -1,21 +1,11 @@
 // What the solvers that take the step whole have in common: passes over all constraints until these change no more.
 #pragma once
 
-#include "joints/axis_mechanisms.hpp"
+#include "joints/mechanisms.hpp"
 #include "solver/impacts.hpp"
 #include "solver/pass_contacts.hpp"
 
 namespace plumb::impulse {
-
-/// Impulses that make J V = -bias_rate C, with J and C from the start of the step (Baumgarte).
-PLUMB_HD inline void solve_joint_with_bias(const JointView& view, std::uint32_t j, Real bias_rate) {
-  const Joint& joint = view.joints[j];
-  const JointWork& work = view.work[j];
-  const Velocity a = view.velocity(joint.body_a), b = view.velocity(joint.body_b);
-  const Lanes back = speed_of_error(bias_rate, load_row(work.error));
-  const Lanes residual = joint_residuals(view, j, JointPass{}, a, b) + back;
-  apply_impulse(view, j, a, b, -solved_lanes(work.factor, row_count(joint), residual));
-}
 
 /// f(j) on a joint, and how much it changed the impulses.
 template <class F>
@@ -34,23 +24,13 @@ PLUMB_HD void note_joint(const JointView& view, std::uint32_t j, PassChange* not
   noted->note(changed, reached);
 }
 
-/// All joints in one pass.
-template <JointCode kJoints>
-PLUMB_DEVICE void solve_joints_noted(Team& team, const JointSet& joints, const StepParameters& step,
+/// All joints in one pass: impulses that make J V = -bias_rate C, with J and C from the start of the step (Baumgarte).
+template <class View>
+PLUMB_DEVICE void solve_joints_noted(Team& team, const JointSet& joints, const View& view, const StepParameters& step,
                                      PassChange* noted) {
-  if constexpr (kJoints == JointCode::kAll) {
-    const AxisView view = axis_view(joints);
-    const RowTime time = {RowPass::kWhole, step.h, step.inverse_h, step.bias_rate, 0};
-    for_joints(team, joints, [=](std::uint32_t j) {
-      note_joint(view, j, noted, [&](std::uint32_t i) { solve_axis_joint(view, i, time); });
-    });
-  } else {
-    const JointView view = joints.view;
-    const Real bias_rate = step.bias_rate;
-    for_joints(team, joints, [=](std::uint32_t j) {
-      note_joint(view, j, noted, [&](std::uint32_t i) { solve_joint_with_bias(view, i, bias_rate); });
-    });
-  }
+  const JointPass pass = {PassKind::kWhole, step.h, step.inverse_h, {step.bias_rate, 1, 0, 0}};
+  for_joints(team, joints,
+             [=](std::uint32_t j) { note_joint(view, j, noted, [&](std::uint32_t i) { solve(view, i, pass); }); });
 }
 
 /// All forces, then passes over the constraints, each of which takes the impulse that makes its own speed right, then
@@ -73,19 +53,20 @@ struct StepInPasses : PassContacts<Order> {
       std::uint32_t round = 0;
       if (features.collision && features.restitution) solve_impacts<Order::kEffects, false>(team, *this, step, round);
     }
-    start_joints(team, step);
+    const auto view = view_of<kJoints>(joints);
+    start_joints(team, view, leaking(step));
     if (features.collision) this->start_contacts(team, step);
     std::uint32_t passes = 0;
     while (passes < step.passes) {
       PassChange* const noted = step.stop_below > 0 ? &changes[passes] : nullptr;
-      solve_joints_noted<kJoints>(team, joints, step, noted);
+      solve_joints_noted(team, joints, view, step, noted);
       if (features.collision) this->solve_contacts(team, noted);
       ++passes;
       team.barrier();
       if (noted != nullptr && noted->is_below(step.stop_below)) break;
     }
     team.single([=] { self.counters->passes = passes; });
-    if constexpr (kJoints == JointCode::kAll) add_reactions(team, joints);
+    each_by_rows(team, joints.count, [=](std::uint32_t j) { add_reaction(view, j); });
     if (features.collision && features.contact_impulses) this->add_up(team);
     this->move_bodies(team, step);
     if constexpr (!Order::kInSequence) {
@@ -95,15 +76,19 @@ struct StepInPasses : PassContacts<Order> {
   }
 
  private:
+  template <class View>
+  PLUMB_DEVICE void start_joints(Team& team, const View& view, const StepParameters& step) const {
+    each_by_rows(team, joints.count, [=](std::uint32_t j) {
+      begin_joint(view, j, true, step);
+      refresh(view, j);
+    });
+    for_joints(team, joints, [=](std::uint32_t j) { warm_start_joint(view, j); });
+  }
   /// What takes back an error is kept with the impulses: of passes that do not come to their end that makes an
   /// integrator of the error, which swings up unless it leaks faster than the error is taken back.
-  PLUMB_DEVICE void start_joints(Team& team, const StepParameters& step) const {
-    StepParameters leaking = step;
-    leaking.warm_start = step.warm_start * max(Real(0), Real(1) - Real(1.5) * (step.bias_rate * step.dt));
-    if constexpr (kJoints == JointCode::kAll)
-      warm_start_axes(team, joints, true, leaking);
-    else
-      warm_start_joints(team, joints, leaking);
+  PLUMB_HD static StepParameters leaking(StepParameters step) {
+    step.warm_start = step.warm_start * max(Real(0), Real(1) - Real(1.5) * (step.bias_rate * step.dt));
+    return step;
   }
 };
 

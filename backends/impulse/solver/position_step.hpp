@@ -1,8 +1,8 @@
 // The solver "xpbd": sub-steps of position-based dynamics.
 #pragma once
 
-#include "joints/axis_mechanisms.hpp"
 #include "joints/joint_position.hpp"
+#include "joints/mechanisms.hpp"
 #include "solver/impacts.hpp"
 #include "solver/position_contacts.hpp"
 
@@ -35,14 +35,9 @@ struct StepPositions : PositionContacts<kSurfaceEffects> {
   }
 
  private:
-  PLUMB_DEVICE void correct_joints(Team& team, const StepParameters& step, [[maybe_unused]] bool first) const {
-    if constexpr (kJoints == JointCode::kAll) {
-      const AxisView view = axis_view(this->joints);
-      for_joints(team, this->joints, [=](std::uint32_t j) { correct_axis_joint(view, j, step, first); });
-    } else {
-      const JointView view = this->joints.view;
-      for_joints(team, this->joints, [=](std::uint32_t j) { correct_joint(view, j, step); });
-    }
+  PLUMB_DEVICE void correct_joints(Team& team, const StepParameters& step, bool first) const {
+    const auto view = view_of<kJoints>(this->joints);
+    for_joints(team, this->joints, [=](std::uint32_t j) { correct(view, j, step, first); });
   }
 };
 

@@ -1,7 +1,6 @@
 // The solver "tgs_soft": sub-steps with soft contacts and relaxation.
 #pragma once
 
-#include "joints/axis_mechanisms.hpp"
 #include "joints/mechanisms.hpp"
 #include "solver/soft_contacts.hpp"
 
@@ -34,13 +33,10 @@ struct StepSoftly : SoftContacts<kSurfaceEffects, !Executor::kWarps || kJoints !
       const bool first = k == 0;
       this->accelerate_bodies(team, step, first);
       if (first && features.collision) this->warm_start_contacts(team, step);
-      if constexpr (kJoints == JointCode::kPlain) {
-        warm_start_mechanisms(team, joints, first, step);
-        solve_mechanisms(team, joints, step, true);
-      }
-      if constexpr (kJoints == JointCode::kAll) {
-        warm_start_axes(team, joints, first, step);
-        solve_axes(team, joints, step, RowPass::kPlaces, features.collision, !first);
+      if constexpr (kJoints != JointCode::kContacts) {
+        const auto view = view_of<kJoints>(joints);
+        warm_start_joints(team, joints, view, first, step);
+        solve_joints(team, joints, view, step, PassKind::kPlaces, features.collision, first);
       }
       const bool relaxes = !step.relaxes_once || k + 1 == step.substeps;
       if (features.collision) {
@@ -51,7 +47,7 @@ struct StepSoftly : SoftContacts<kSurfaceEffects, !Executor::kWarps || kJoints !
       }
       this->move_bodies(team, step);
       if (features.collision) hand_over_loads(team, step);
-      hold_speeds(team, step);
+      hold_speeds(team, step, first);
       if (!relaxes || !features.collision) continue;
       begin_loads(team, step);
       for (std::uint32_t n = 1; n <= step.relaxations; ++n) this->relax_contacts(team, step, n == step.relaxations);
@@ -60,10 +56,9 @@ struct StepSoftly : SoftContacts<kSurfaceEffects, !Executor::kWarps || kJoints !
       hand_over_loads(team, step);
     }
   }
-  PLUMB_DEVICE void hold_speeds(Team& team, const StepParameters& step) const {
-    if constexpr (kJoints == JointCode::kPlain) solve_mechanisms(team, joints, step, false);
-    if constexpr (kJoints == JointCode::kAll)
-      solve_axes(team, joints, step, RowPass::kSpeeds, features.collision, true);
+  PLUMB_DEVICE void hold_speeds(Team& team, const StepParameters& step, bool first) const {
+    if constexpr (kJoints != JointCode::kContacts)
+      solve_joints(team, joints, view_of<kJoints>(joints), step, PassKind::kSpeeds, features.collision, first);
   }
   /// Contacts are about to push mechanisms as a whole.
   PLUMB_DEVICE void begin_loads(Team& team, const StepParameters& step) const {

@@ -22,8 +22,8 @@ constexpr PlumbQuat kAboutZ = {0, -0.70710678118654752, 0, 0.70710678118654752};
 /// Bodies of given masses, and their joints.
 class Workshop {
  public:
-  explicit Workshop(PlumbNeeds needs = kMechanismNeeds, std::uint32_t threads = 1)
-      : scene(engine(), needs, kDown, threads) {
+  explicit Workshop(PlumbNeeds needs = kMechanismNeeds, std::uint32_t threads = 1, const Choice& choice = {})
+      : scene(engine(), needs, kDown, threads, choice) {
     scene.body.mass_mode = PLUMB_MASS_FROM_TOTAL;
   }
 
@@ -247,6 +247,27 @@ TEST(Mechanisms, DoNotDependOnOthers) {
         EXPECT_EQ(one[k].position.y, other[k].position.y) << "limited " << limited << ", link " << k << ", step " << i;
       }
       if (HasFailure()) return;
+    }
+  }
+}
+
+/// To the last bit: where some joint has limits and a motor, others are solved as where none has.
+TEST(Mechanisms, AMotorIsNothingToWhomItDoesNotMeet) {
+  for (const Choice& choice :
+       {Choice{}, Choice{"solver", "si"}, Choice{"solver", "jacobi"}, Choice{"solver", "xpbd"}}) {
+    const char* const of = choice.setting == nullptr ? "default" : choice.choice;
+    Workshop alone(kMechanismNeeds, 1, choice), among(kMechanismNeeds, 1, choice);
+    for (Workshop* shop : {&alone, &among}) {
+      put_table(*shop, 300);
+      put_rope(*shop, 12, 100);
+    }
+    put_chain(among, {50, 20, 0}, true);
+    for (int i = 0; i < 60; ++i) {
+      alone.run(1);
+      among.run(1);
+      const std::vector<PlumbPose> one = alone.scene.poses(), other = among.scene.poses();
+      for (std::size_t k = 0; k < alone.bodies.size(); ++k)
+        ASSERT_EQ(one[k].position.y, other[k].position.y) << of << ", body " << k << ", step " << i;
     }
   }
 }
