@@ -110,9 +110,9 @@ struct PrepareContacts {
   const std::uint64_t* masks;  ///< by body: colours of the contacts that push it
   const StepParameters* parameters;
   const SubstepLevels* levels;
-  std::uint32_t sentinel;  ///< body slot that stands for none in unused lanes
-  const PartRange* parts;  ///< by body: how many it is split into; null: bodies are whole
-  const Real* impacts;     ///< by candidate: when it closes, s; 0: it is as it is now. With kImpacts only
+  std::uint32_t sentinel;   ///< body slot that stands for none in unused lanes
+  const PartRange* parts;   ///< by body: how many it is split into; null: bodies are whole
+  const PairTime* impacts;  ///< by candidate: when it closes; 0: it is as it is now. With kImpacts only
   ManifoldChanges changes;
 
   /// kLanes slots from the first of them on.
@@ -188,7 +188,7 @@ PLUMB_HD void PrepareContacts<kImpacts, kMechanisms>::read(std::uint32_t row, st
   const std::uint32_t a = ends.a[lane] = proxy_a.body, b = ends.b[lane] = proxy_b.body;
   Vec offset_a = rotate(bodies.orientation[a], proxy_a.frame.position);
   Vec from_a_to_b = between(bodies.position[a], bodies.position[b]);
-  ends.closes_at[lane] = kImpacts ? impacts[candidate] : Real(0);
+  ends.closes_at[lane] = kImpacts ? impacts[candidate].time : Real(0);
   if (kImpacts && ends.closes_at[lane] > 0) {
     const ContactTime at = time_of(ends, lane);
     offset_a = rotate(normalized(at.turn_a * bodies.orientation[a]), proxy_a.frame.position);

@@ -13,18 +13,9 @@ PLUMB_HD inline Real radius_of_round(const Shape& shape) {
 }
 
 /// A pair of candidates, as a kernel looks at it.
-struct ImpactSearch {
-  ContactCache cache;
-  Bodies bodies;
-  Proxies proxies;
-  const Real* margins;
-  const StepParameters* parameters;
-  Real* times;
+struct ImpactSearch : NarrowPhaseWork {
+  PairTime* times;
 
-  [[nodiscard]] PLUMB_HD bool is_flagged(const Pair& pair) const {
-    const auto flags = [this](std::uint32_t proxy) { return bodies.mass[proxies.rows[proxy].body].flags; };
-    return ((flags(pair.a) | flags(pair.b)) & kBodyContinuous) != 0;
-  }
   [[nodiscard]] PLUMB_HD const Shape& shape(std::uint32_t proxy) const {
     return proxies.shapes[proxies.rows[proxy].shape];
   }
@@ -32,15 +23,14 @@ struct ImpactSearch {
     return static_cast<std::uint32_t>(shape(proxy).type) < kConvexTypes;
   }
   [[nodiscard]] PLUMB_HD MovingShape moving(std::uint32_t proxy) const {
-    const Proxy& row = proxies.rows[proxy];
-    return {&proxies.shapes[row.shape], row.frame, way_through_step(bodies, *parameters, row.body)};
+    return moving_shape(bodies, proxies, *parameters, proxy);
   }
   [[nodiscard]] PLUMB_HD Vec apart(const Pair& pair) const {
     return between(bodies.position[proxies.rows[pair.a].body], bodies.position[proxies.rows[pair.b].body]);
   }
   /// Whether they go further than the narrow phase looks ahead.
   [[nodiscard]] PLUMB_HD bool is_fast(const Pair& pair, const MovingShape& a, const MovingShape& b) const {
-    return travel(a, parameters->dt) + travel(b, parameters->dt) > margins[pair.a] + margins[pair.b];
+    return travel(a, parameters->dt) + travel(b, parameters->dt) > margin(pair);
   }
   /// Whether the narrow phase foresees that they touch, and they bounce where they do.
   [[nodiscard]] PLUMB_HD bool bounces(std::uint32_t p) const {
@@ -50,6 +40,13 @@ struct ImpactSearch {
   [[nodiscard]] PLUMB_HD bool glances_off(const MovingShape& a, const MovingShape& b) const {
     const Real radius = min(radius_of_round(*a.shape), radius_of_round(*b.shape));
     return parameters->dt * length(a.way.linear - b.way.linear) > kGlanceShare * radius;
+  }
+  /// What has been found of pair p: where it comes near, it is to be collided there. may_pass: what was found of it as
+  /// it lies counts only if it is near.
+  PLUMB_HD void note(std::uint32_t p, Course course, const Impact& impact, Real close, bool may_pass) const {
+    if (course == Course::kNear) return;
+    if (may_pass) cache.touching[p] = 0;
+    if (course == Course::kImpact) times[p] = {impact.time, 2 * impact.gap + close};
   }
   [[nodiscard]] PLUMB_HD bool touches_within(std::uint32_t p, Real close) const {
     if (cache.touching[p] == 0) return false;

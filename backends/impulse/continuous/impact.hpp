@@ -5,25 +5,11 @@
 // it goes on, until the gap is small or the step is over. Turning counts by the furthest point of a shape.
 #pragma once
 
-#include "bodies/way.hpp"
+#include "bodies/moving_shape.hpp"
 #include "narrowphase/convex/distance.hpp"
 #include "narrowphase/triangle/triangle_core.hpp"
 
 namespace plumb::impulse {
-
-/// A shape on a body that moves.
-struct MovingShape {
-  const Shape* shape;
-  Frame frame;  ///< in the body's principal frame
-  Way way;
-
-  [[nodiscard]] PLUMB_HD ShapePose pose(Real t) const {
-    const Quat body = normalized(way.turn(t) * way.orientation);
-    return {rotate(body, frame.position), body * frame.orientation};
-  }
-  /// The furthest that a point of it is from the body's centre of mass.
-  [[nodiscard]] PLUMB_HD Real reach() const { return shape->reach + length(frame.position); }
-};
 
 struct Impact {
   Real time;  ///< s since the start of the step

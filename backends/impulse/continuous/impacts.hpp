@@ -10,7 +10,7 @@
 #include "bodies/body.hpp"
 #include "continuous/impact.hpp"
 #include "exec/executor.hpp"
-#include "narrowphase/contact_cache.hpp"
+#include "narrowphase/narrow_phase_work.hpp"
 
 namespace plumb::impulse {
 
@@ -23,16 +23,16 @@ class Impacts {
  public:
   void reserve(std::uint32_t pairs) { times_.grow(pairs); }
 
-  /// Between the narrow phase's look at the pairs and their numbering. margins: by proxy, what it looked ahead, m.
-  /// uses_midphase: there may be planes and surfaces among the shapes.
-  void find(Executor& executor, const ContactCache& cache, Count candidates, const Bodies& bodies,
-            const Proxies& proxies, const Real* margins, const StepParameters* parameters, bool uses_midphase);
+  /// When the narrow phase, which has looked at the pairs as they lie, is to look at them again. uses_midphase: there
+  /// may be planes and surfaces among the shapes.
+  void find(Executor& executor, Count candidates, const NarrowPhaseWork& work, bool uses_midphase);
 
-  /// By candidate: of those whose manifold is one of an impact its time in the step, s; else 0.
-  [[nodiscard]] const Real* times() const { return times_.data(); }
+  /// By candidate: when those come near each other that are to be collided then, or have been.
+  [[nodiscard]] PairTime* times() { return times_.data(); }
+  [[nodiscard]] const PairTime* times() const { return times_.data(); }
 
  private:
-  Buffer<Real> times_;
+  Buffer<PairTime> times_;
 };
 
 }  // namespace plumb::impulse

@@ -5,6 +5,7 @@
 #include "bodies/body.hpp"
 #include "narrowphase/convex/plane.hpp"
 #include "narrowphase/convex/round_polyhedron.hpp"
+#include "narrowphase/triangle/sided_surface.hpp"
 #include "narrowphase/triangle/triangle_cylinder.hpp"
 #include "narrowphase/triangle/triangle_polyhedron.hpp"
 #include "narrowphase/triangle/triangle_round.hpp"
@@ -43,12 +44,6 @@ PLUMB_HD bool touch_with(const Surface& on, std::uint32_t t, const ShapeOver& ov
   }
 }
 
-template <class Surface>
-PLUMB_HD bool touch(const Surface& on, std::uint32_t t, const ShapeOver& over, const Hulls& hulls, Manifold& out) {
-  out.count = 0;
-  return with_convex_type(over.shape.type, [&](auto type) { return touch_with<type()>(on, t, over, hulls, out); });
-}
-
 }  // namespace surface
 
 /// A of type kA, B of type kB.
@@ -63,7 +58,8 @@ PLUMB_HD bool collide_with_piece_of(const ShapePair& pair, const Proxies& proxie
   } else {
     const auto touch_on = [&](const auto& surfaces) {
       const surface::ShapeOver over = {pair.a, turn, shift, pair.margin, kTie * (pair.a.reach + length(shift))};
-      return surface::touch_with<kA>(surfaces[pair.b.hull], triangle, over, proxies.hulls, out);
+      const SidedSurface<std::remove_cvref_t<decltype(surfaces[0])>> on = {surfaces[pair.b.hull], pair.from_behind};
+      return surface::touch_with<kA>(on, triangle, over, proxies.hulls, out);
     };
     if constexpr (kB == ShapeType::kMesh)
       touch = touch_on(proxies.surfaces.meshes);

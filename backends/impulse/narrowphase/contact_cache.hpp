@@ -41,6 +41,13 @@ struct StepImpulses {
   Real tangent[2][kManifoldPoints];
 };
 
+/// When a pair is to be collided a second time, and points of which separation are wanted then
+/// (continuous/impacts.hpp).
+struct PairTime {
+  Real time;  ///< s since the start of the step; 0: not again
+  Real margin;
+};
+
 /// Of ContactCache::touching, until manifolds are reduced: touches as it did, and has been reduced before.
 constexpr std::uint32_t kCarried = 2;
 

@@ -11,13 +11,14 @@ struct RecycleContact {
   NarrowPhaseWork work;
 
   PLUMB_HD void operator()(std::uint32_t p) const {
-    const auto& [cache, last, bodies, proxies, margins, parameters] = work;
+    const ContactCache &cache = work.cache, &last = work.last;
+    const Proxies& proxies = work.proxies;
     cache.collided.clear(p);
     cache.previous[p] = kNone;
     const Pair pair = cache.pairs[p];
     const bool of_surface = has_surface(proxies, pair);
     const Proxy &a = proxies.rows[pair.a], &b = proxies.rows[pair.b];
-    if (a.first_step == parameters->step || b.first_step == parameters->step) return;
+    if (a.first_step == work.parameters->step || b.first_step == work.parameters->step) return;
     const std::uint32_t triangle = cache.triangles == nullptr ? 0U : cache.triangles[p];
     const std::uint32_t previous = find_candidate(last, pair, triangle, place_in_list(cache, p));
     cache.previous[p] = previous;

@@ -171,7 +171,7 @@ class PointsOfAll {
 struct ReduceManifolds {
   NarrowPhaseWork work;
   Count candidates;
-  const Real* impacts;
+  const PairTime* impacts;
 
   /// The first candidate of a pair works for all of them, which follow each other.
   PLUMB_HD void operator()(std::uint32_t first) const {
@@ -273,7 +273,7 @@ struct ReduceManifolds {
     return work.cache.touching[p] == 1 && !is_of_another_time(p);
   }
   [[nodiscard]] PLUMB_HD bool is_of_another_time(std::uint32_t p) const {
-    return impacts != nullptr && impacts[p] != 0;
+    return impacts != nullptr && impacts[p].time != 0;
   }
   [[nodiscard]] PLUMB_HD bool led_before(std::uint32_t p) const {
     const std::uint32_t previous = work.cache.previous[p];
@@ -347,7 +347,7 @@ struct ReduceManifolds {
 
 }  // namespace
 
-void reduce_manifolds(Executor& executor, Count candidates, const NarrowPhaseWork& work, const Real* impacts) {
+void reduce_manifolds(Executor& executor, Count candidates, const NarrowPhaseWork& work, const PairTime* impacts) {
   executor.run(candidates, ReduceManifolds{work, candidates, impacts});
 }
 

@@ -30,6 +30,6 @@ namespace plumb::impulse {
 /// (cache.touching, found), writes down whose triangle each point is (cache.point_triangles), puts that into the
 /// points' features, and keeps what may be recycled (cache.collided). impacts: Impacts::times(), or null; contacts of
 /// another time stay as they are.
-void reduce_manifolds(Executor& executor, Count candidates, const NarrowPhaseWork& work, const Real* impacts);
+void reduce_manifolds(Executor& executor, Count candidates, const NarrowPhaseWork& work, const PairTime* impacts);
 
 }  // namespace plumb::impulse

@@ -124,10 +124,14 @@ void NarrowPhase::reserve(Executor& /*executor*/, std::uint32_t proxies, std::ui
 void NarrowPhase::collide(Executor& executor, const NarrowPhaseWork& work, std::uint32_t shape_types,
                           StepCounters* counters) {
   recycle_contacts(executor, candidates(counters), work);
-  const bool binned = Executor::kWarps && (shape_types & (shape_types - 1)) != 0;
-  if (binned) bin(executor, work.cache, work.proxies, counters);
-  collide_candidates(executor, candidates(counters), {work, binned ? order_.data() : nullptr, first_.data()},
-                     shape_types);
+  if (bins(shape_types)) bin(executor, work.cache, work.proxies, counters);
+  collide_again(executor, work, shape_types, counters, nullptr);
+}
+
+void NarrowPhase::collide_again(Executor& executor, const NarrowPhaseWork& work, std::uint32_t shape_types,
+                                StepCounters* counters, PairTime* times) {
+  collide_candidates(executor, candidates(counters),
+                     {work, bins(shape_types) ? order_.data() : nullptr, first_.data(), times}, shape_types);
 }
 
 void NarrowPhase::number(Executor& executor, const ContactCache& cache, StepCounters* counters) {
@@ -136,7 +140,6 @@ void NarrowPhase::number(Executor& executor, const ContactCache& cache, StepCoun
   executor.run(pairs, NumberRows{cache});
 }
 
-/// Orders the pairs by kind, so that a warp does one kind of work.
 void NarrowPhase::bin(Executor& executor, const ContactCache& cache, const Proxies& proxies, StepCounters* counters) {
   const Count pairs = candidates(counters);
   executor.run(pairs, SortKinds{cache, proxies, kinds_.data(), unordered_.data()});

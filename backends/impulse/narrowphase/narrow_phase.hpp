@@ -42,6 +42,10 @@ class NarrowPhase {
   /// Collides the candidates in work.cache, or recycles what the last step knew of them. shape_types: a bit for each
   /// ShapeType in the scene.
   void collide(Executor& executor, const NarrowPhaseWork& work, std::uint32_t shape_types, StepCounters* counters);
+  /// Collides those of them once more that come near each other later in the step: what is found then stands for the
+  /// pair. times: by candidate; of those that do not touch then the time becomes 0.
+  void collide_again(Executor& executor, const NarrowPhaseWork& work, std::uint32_t shape_types, StepCounters* counters,
+                     PairTime* times);
 
   /// Numbers those that touch.
   void number(Executor& executor, const ContactCache& cache, StepCounters* counters);
@@ -65,6 +69,10 @@ class NarrowPhase {
   };
 
   void bin(Executor& executor, const ContactCache& cache, const Proxies& proxies, StepCounters* counters);
+  /// Whether candidates are ordered by kind, so that a warp does one kind of work.
+  [[nodiscard]] static bool bins(std::uint32_t shape_types) {
+    return Executor::kWarps && (shape_types & (shape_types - 1)) != 0;
+  }
   std::uint32_t capacity_ = 0;
   bool uses_midphase_ = false;
   Storage caches_[2];

@@ -81,7 +81,7 @@ void Solver::find_mobility(Executor& executor, const SolverInput& input) {
                    {&input.counters->manifolds, slots_});
 }
 
-void Solver::prepare(Executor& executor, const SolverInput& input, const Colouring& colouring, const Real* impacts,
+void Solver::prepare(Executor& executor, const SolverInput& input, const Colouring& colouring, const PairTime* impacts,
                      const ManifoldChanges& changes) {
   const Count slots = {&input.counters->slots, slots_};
   const bool split = kind_ == SolverKind::kJacobi;

@@ -72,7 +72,7 @@ class Solver {
   /// Of those that touch something.
   void find_mobility(Executor& executor, const SolverInput& input);
   /// Contacts into rows, in the order of their colours. impacts: Impacts::times(), or null.
-  void prepare(Executor& executor, const SolverInput& input, const Colouring& colouring, const Real* impacts,
+  void prepare(Executor& executor, const SolverInput& input, const Colouring& colouring, const PairTime* impacts,
                const ManifoldChanges& changes);
   /// The joints with what their kernels work on.
   [[nodiscard]] JointSet joint_set(const MovableBodies& all, const StepCounters* counters, JointStore& joints) {

@@ -73,8 +73,10 @@ void collide(const StepContext& step) {
 
 void find_impacts(const StepContext& step) {
   if (!step.finds_impacts()) return;
-  step.stages.impacts.find(step.executor, step.now, step.candidates(), step.bodies, step.proxies,
-                           step.stages.margins.data(), step.parameters, step.uses_midphase);
+  Stages& of = step.stages;
+  of.impacts.find(step.executor, step.candidates(), step.narrow_phase_work(), step.uses_midphase);
+  of.narrow_phase.collide_again(step.executor, step.narrow_phase_work(), step.shape_types, step.counters,
+                                of.impacts.times());
 }
 
 void reduce_manifolds(const StepContext& step) {

@@ -101,7 +101,7 @@ struct StepContext : StepInput {
   /// Of the narrow phase.
   [[nodiscard]] Count candidates() const { return stages.narrow_phase.candidates(counters); }
   [[nodiscard]] NarrowPhaseWork narrow_phase_work() const {
-    return {now, last, bodies, proxies, stages.margins.data(), parameters};
+    return {now, last, bodies, proxies, stages.margins.data(), parameters, continuous};
   }
   [[nodiscard]] SolverInput solver_input() const {
     return {now, movable, body_rows, proxies, joints, levels, parameters, counters, pair_capacity};

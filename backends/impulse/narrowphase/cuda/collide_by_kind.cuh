@@ -11,8 +11,13 @@ using PairFunction = bool (*)(const ShapePair& pair, const Hulls& hulls, Manifol
 
 /// The pair with these shapes, which are its own in this order.
 __device__ inline ShapePair in_order(const ShapePair& pair, const Shape& first, const Shape& second, bool swapped) {
-  return {first,      second, swapped ? pair.qb : pair.qa, swapped ? pair.qa : pair.qb, swapped ? -pair.d : pair.d,
-          pair.margin};
+  return {first,
+          second,
+          swapped ? pair.qb : pair.qa,
+          swapped ? pair.qa : pair.qb,
+          swapped ? -pair.d : pair.d,
+          pair.margin,
+          pair.from_behind};
 }
 
 /// Two convex shapes.

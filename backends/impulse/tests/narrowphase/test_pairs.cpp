@@ -132,7 +132,8 @@ class Rig {
                           {position_.device(), orientation_.device(), nullptr, nullptr, nullptr, true},
                           {proxies_.device(), shapes_.device(), kit_.hulls.device()},
                           margins_.device(),
-                          parameters_.device()},
+                          parameters_.device(),
+                          false},
                          types, counters_.device());
     narrow_phase.number(executor_, cache, counters_.device());
     executor_.to_host(counters_, 1);

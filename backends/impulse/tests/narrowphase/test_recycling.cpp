@@ -84,7 +84,8 @@ class RecyclingRig {
                            {position_.device(), orientation_.device(), nullptr, nullptr, nullptr, true},
                            {proxies_.device(), shapes_.device(), kit_.hulls.device()},
                            margins_.device(),
-                           parameters_.device()},
+                           parameters_.device(),
+                           false},
                           types_, counters_.device());
     narrow_phase_.number(executor_, cache_, counters_.device());
     executor_.wait();
