@@ -29,7 +29,7 @@ PLUMB_HD void let_go_of_blow(const SolverBodies& bodies, const std::uint32_t* bo
   const N zero = N(0);
   const Real falls = kWeightsOfBlow * max(length(step.gravity), kLeastFall);
   N fall = zero;  // in a sub-step, of what is joined
-  for (std::uint32_t lane = 0; lane < sizeof(N) / sizeof(Real); ++lane) {
+  for (std::uint32_t lane = 0; lane < kLanesIn<N>; ++lane) {
     const std::uint32_t body = bodies.mechanisms.hold(body_a[lane]) ? body_a[lane] : body_b[lane];
     if (bodies.mechanisms.hold(body)) lane_of(fall, lane) = levels.of[bodies.levels(body)].h * falls;
   }

@@ -49,7 +49,7 @@ PLUMB_HD SolverBody<N> load_body(const SolverBodies& bodies, const std::uint32_t
 /// Brings the velocities before constraints in, of bodies that can be pushed; others move as they do.
 template <class N>
 PLUMB_HD void load_free_velocity(const SolverBodies& bodies, const std::uint32_t* indices, SolverBody<N>& body) {
-  for (std::uint32_t lane = 0; lane < sizeof(N) / sizeof(Real); ++lane) {
+  for (std::uint32_t lane = 0; lane < kLanesIn<N>; ++lane) {
     if (!(lane_of(body.inverse_mass, lane) > 0)) continue;
     const FreeVelocity& free = bodies.free_velocity[indices[lane]];
     lane_of(body.linear.x, lane) = free.linear.x;
@@ -97,7 +97,7 @@ struct Pushed {
 };
 template <class N>
 PLUMB_HD void stand_for_mechanisms(const SolverBodies& bodies, const std::uint32_t* indices, SolverBody<N>& body) {
-  for (std::uint32_t lane = 0; lane < sizeof(N) / sizeof(Real); ++lane) {
+  for (std::uint32_t lane = 0; lane < kLanesIn<N>; ++lane) {
     if (!bodies.mechanisms.hold(indices[lane])) continue;
     const Pushed pushed(bodies, indices[lane]);
     Sym33<N>& inertia = body.inverse_inertia;
@@ -126,7 +126,7 @@ template <class N>
 PLUMB_HD void push_mechanisms(const SolverBodies& bodies, const std::uint32_t* indices, SolverBody<N>& body,
                               const SolverBody<N>& before, bool impact) {
   const ShareOfBodies share = {static_cast<std::uint32_t>(point_of(0)), kContactThreads};
-  for (std::uint32_t lane = 0; lane < sizeof(N) / sizeof(Real); ++lane) {
+  for (std::uint32_t lane = 0; lane < kLanesIn<N>; ++lane) {
     const std::uint32_t i = indices[lane];
     if (!bodies.mechanisms.hold(i)) continue;
     const Pushed pushed(bodies, i);
@@ -149,7 +149,7 @@ PLUMB_HD void push_mechanisms(const SolverBodies& bodies, const std::uint32_t* i
 template <class N>
 PLUMB_HD void store_free_velocity(const SolverBodies& bodies, const std::uint32_t* indices, const SolverBody<N>& body,
                                   const SolverBody<N>& before) {
-  for (std::uint32_t lane = 0; lane < sizeof(N) / sizeof(Real); ++lane) {
+  for (std::uint32_t lane = 0; lane < kLanesIn<N>; ++lane) {
     if (!(lane_of(body.inverse_mass, lane) > 0)) continue;
     FreeVelocity& free = bodies.free_velocity[indices[lane]];
     free.linear += gained(body.linear, before.linear, lane);

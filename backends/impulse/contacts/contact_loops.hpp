@@ -35,7 +35,7 @@ PLUMB_HD constexpr bool moves_bodies(BodyUse use) { return use == BodyUse::kAll 
 /// A contact, or kLanes of them from neighbouring slots, with what leads to its bodies.
 template <class N>
 struct LoadedContact {
-  static constexpr std::uint32_t kHere = sizeof(N) / sizeof(Real);
+  static constexpr std::uint32_t kHere = kLanesIn<N>;
   std::uint32_t a[kHere], b[kHere];
   std::uint32_t points;  ///< the largest number among the lanes
 #if defined(PLUMB_IMPULSE_CUDA)

@@ -82,7 +82,7 @@ class Sleep {
   /// All bodies of the islands of these, which move again; those that do not sleep are passed over.
   std::vector<std::uint32_t> wake(std::span<const std::uint32_t> bodies, Table<BodyMass>& mass, BodyState& state);
 
-  void store(StoredContact contact) { stored_.push_back(std::move(contact)); }
+  void store(const StoredContact& contact) { stored_.push_back(contact); }
   /// Those that sleep and touch one of these bodies.
   [[nodiscard]] std::vector<std::uint32_t> neighbours(std::span<const std::uint32_t> bodies) const;
   /// No contact with these is kept any more.

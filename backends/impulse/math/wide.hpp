@@ -126,6 +126,10 @@ void scatter(const Lanes (&numbers)[kLanes], const Lanes& where, Row* rows, cons
 PLUMB_HD constexpr bool any(bool mask) { return mask; }
 PLUMB_HD constexpr Real largest(Real x) { return x; }
 
+/// How many lanes there are in an N, which is Real or Lanes.
+template <class N>
+inline constexpr std::uint32_t kLanesIn = std::is_same_v<N, Real> ? 1 : kLanes;
+
 /// One lane of several, to read or to write.
 template <class N>
 PLUMB_HD Real& lane_of(N& lanes, std::uint32_t lane) {
