@@ -15,6 +15,9 @@ struct Softness {
   Real gamma = 0;      ///< impulse_scale over mass_scale
 };
 
+/// Of what is as stiff as can be, and takes errors back at that rate, 1/s.
+PLUMB_HD constexpr Softness rigid(Real bias_rate) { return {bias_rate, 1, 0, 0}; }
+
 /// Softness of a damped spring of `hertz` and damping ratio `zeta` in steps of h seconds.
 inline Softness make_softness(double hertz, double zeta, double h) {
   if (hertz <= 0) return {0, 1, 0, 0};

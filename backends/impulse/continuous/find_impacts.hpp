@@ -12,6 +12,11 @@ PLUMB_HD inline Real radius_of_round(const Shape& shape) {
   return shape.type == ShapeType::kSphere || shape.type == ShapeType::kCapsule ? shape.size.x : kHuge;
 }
 
+/// How far any point of a shape goes, at most, m.
+PLUMB_HD inline Real travel(const MovingShape& shape, Real dt) {
+  return dt * (length(shape.way.linear) + shape.reach() * length(shape.way.angular));
+}
+
 /// A pair of candidates, as a kernel looks at it.
 struct ImpactSearch : NarrowPhaseWork {
   PairTime* times;
@@ -19,9 +24,7 @@ struct ImpactSearch : NarrowPhaseWork {
   [[nodiscard]] PLUMB_HD const Shape& shape(std::uint32_t proxy) const {
     return proxies.shapes[proxies.rows[proxy].shape];
   }
-  [[nodiscard]] PLUMB_HD bool is_convex(std::uint32_t proxy) const {
-    return static_cast<std::uint32_t>(shape(proxy).type) < kConvexTypes;
-  }
+  [[nodiscard]] PLUMB_HD bool is_convex(std::uint32_t proxy) const { return impulse::is_convex(shape(proxy).type); }
   [[nodiscard]] PLUMB_HD MovingShape moving(std::uint32_t proxy) const {
     return moving_shape(bodies, proxies, *parameters, proxy);
   }
@@ -41,8 +44,8 @@ struct ImpactSearch : NarrowPhaseWork {
     const Real radius = min(radius_of_round(*a.shape), radius_of_round(*b.shape));
     return parameters->dt * length(a.way.linear - b.way.linear) > kGlanceShare * radius;
   }
-  /// What has been found of pair p: where it comes near, it is to be collided there. may_pass: what was found of it as
-  /// it lies counts only if it is near.
+  /// What has been found of pair p: where it comes near, it is to be collided there, its points not further off than
+  /// what was left then, twice. may_pass: what was found of it as it lies counts only if it is near.
   PLUMB_HD void note(std::uint32_t p, Course course, const Impact& impact, Real close, bool may_pass) const {
     if (course == Course::kNear) return;
     if (may_pass) cache.touching[p] = 0;

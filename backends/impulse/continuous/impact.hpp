@@ -12,7 +12,7 @@
 namespace plumb::impulse {
 
 struct Impact {
-  Real time;  ///< s since the start of the step
+  Real time;  ///< since the start of the way, in units of its end: of a step s
   Real gap;   ///< that is left then, m
 };
 enum class Course {

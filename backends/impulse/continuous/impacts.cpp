@@ -6,7 +6,7 @@ namespace plumb::impulse {
 
 namespace {
 
-/// Two convex shapes.
+/// Two convex shapes; of all pairs that there is no time yet.
 struct FindImpacts {
   ImpactSearch search;
 

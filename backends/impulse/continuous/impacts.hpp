@@ -14,11 +14,6 @@
 
 namespace plumb::impulse {
 
-/// How far any point of a shape goes, at most, m.
-PLUMB_HD inline Real travel(const MovingShape& shape, Real dt) {
-  return dt * (length(shape.way.linear) + shape.reach() * length(shape.way.angular));
-}
-
 class Impacts {
  public:
   void reserve(std::uint32_t pairs) { times_.grow(pairs); }
@@ -29,7 +24,6 @@ class Impacts {
 
   /// By candidate: when those come near each other that are to be collided then, or have been.
   [[nodiscard]] PairTime* times() { return times_.data(); }
-  [[nodiscard]] const PairTime* times() const { return times_.data(); }
 
  private:
   Buffer<PairTime> times_;

@@ -19,6 +19,7 @@ struct FindPieceImpacts {
     if (!may_pass && !(bounces && search.glances_off(own, on))) return;
     const Vec apart = swapped ? -search.apart(pair) : search.apart(pair);  // to the piece
     const std::uint32_t triangle = cache.triangles[p];
+    // A plane has no reach.
     const Real close = kCloseShare * (on.shape->reach > 0 ? min(own.shape->reach, on.shape->reach) : own.shape->reach);
     if (search.touches_within(p, close)) return;
     Impact impact;

@@ -21,6 +21,7 @@ enum class ShapeType : std::uint32_t {
 constexpr std::uint32_t kShapeTypes = 8;
 /// Of those, the first so many are convex and finite.
 constexpr std::uint32_t kConvexTypes = 5;
+PLUMB_HD constexpr bool is_convex(ShapeType type) { return static_cast<std::uint32_t>(type) < kConvexTypes; }
 
 PLUMB_HD constexpr bool is_surface(ShapeType type) {
   return type == ShapeType::kMesh || type == ShapeType::kHeightField;

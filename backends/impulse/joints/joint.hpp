@@ -71,8 +71,8 @@ PLUMB_HD inline int row_count(const Joint& joint) {
   return rows;
 }
 
-/// Whether all its rows always hold: none is a limit, a motor or a spring.
-PLUMB_HD inline bool always_holds(const Joint& joint) {
+/// Whether its type alone says what it holds: it has no limit, motor, spring or locked axis beside.
+PLUMB_HD inline bool is_plain(const Joint& joint) {
   return joint.type != JointType::kOther && joint.rows == rows_of(joint.type);
 }
 

@@ -7,8 +7,6 @@
 
 namespace plumb::impulse {
 
-/// How much a row yields beside what the bodies do, relative to that: below what positions resolve.
-inline constexpr Real kCfmShare = sizeof(Real) == 8 ? Real(1e-10) : Real(1e-5);
 /// Rounds in a pass. Rows that would still change are few then, and are brought to what their laws allow.
 inline constexpr std::uint32_t kMostRounds = 40;
 /// In so many of them all rows change whose law asks for it. That is fast, but rows can undo each other for ever: then
@@ -213,7 +211,7 @@ PLUMB_SHARED_CODE inline void choose_first_pieces(const AxisView& view, std::uin
   const Real rate =
       pass.kind == PassKind::kSpeeds ? Real(0) : rate_of_error(view, joint, pass.softness.bias_rate, pass.chain_rate);
   Lanes speeds(0);
-  if (!always_holds(joint) || pass.kind == PassKind::kMoved) speeds = row_speeds(view, j, pass, a, b, true);
+  if (!is_plain(joint)) speeds = row_speeds(view, j, pass, a, b, true);
   const bool turns = turns_far(a, b, pass.h);
   jump = by_row(row_count(joint), [&](int i) {
     const Real speed = of_row(speeds, i);

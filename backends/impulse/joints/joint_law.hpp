@@ -108,9 +108,9 @@ enum class PassKind : std::uint8_t {
 struct JointPass {
   PassKind kind;
   Real h, inverse_h;
-  Softness softness = {0, 1, 0, 0};  ///< of rows that always hold; limits come back at its rate, too
-  Real chain_rate = kHuge;           ///< the most at which errors of chains are taken back, 1/s
-  Real most_return = kHuge;          ///< what is beyond a limit comes back no faster than this, m/s or rad/s
+  Softness softness = rigid(0);  ///< of rows that always hold; limits come back at its rate, too
+  Real chain_rate = kHuge;       ///< the most at which errors of chains are taken back, 1/s
+  Real most_return = kHuge;      ///< what is beyond a limit comes back no faster than this, m/s or rad/s
 };
 
 /// e^x - 1 for small x; a little less for large ones.
@@ -136,7 +136,8 @@ PLUMB_HD inline SpringNumbers spring_numbers(const JointAxes& axes, int row, Rea
   return {unit * drag, unit * (h * stiffness)};
 }
 
-/// Of a row in a pass over places. x: its coordinate.
+/// As a pass over places has it, from which others differ (law_of_row in joint_axis_solve.hpp). x: the row's
+/// coordinate.
 PLUMB_HD inline RowLaw law_of_places(const JointAxes& axes, int row, Real x, const JointDrive& drive, Real spring_mass,
                                      const JointPass& pass) {
   const RowSpec& spec = axes.row[row];

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "exec/executor.hpp"
-#include "joints/joint_solve.hpp"
+#include "joints/joint_axis_solve.hpp"
 #include "joints/joint_system.hpp"
 
 namespace plumb::impulse {

@@ -1,9 +1,9 @@
 // The matrix of all joints of mechanisms that are solved exactly, in memory (joints/joint_elimination.hpp).
 #pragma once
 
-#include "joints/joint_axis_solve.hpp"
 #include "joints/joint_block.hpp"
 #include "joints/joint_elimination.hpp"
+#include "joints/joint_solve.hpp"
 #include "plumb/assert.hpp"
 
 namespace plumb::impulse {
@@ -20,7 +20,7 @@ struct SystemMechanism {
   std::uint32_t first_level, level_end;  ///< of its columns
   std::uint32_t first_column, column_end;
   std::uint32_t first_place, place_end;  ///< of its bodies
-  bool always_holds;                     ///< as all its joints do
+  bool is_plain;                         ///< as all its joints are
 
   [[nodiscard]] PLUMB_HD std::uint32_t column_count() const { return column_end - first_column; }
   [[nodiscard]] PLUMB_HD std::uint32_t place_count() const { return place_end - first_place; }

@@ -1,4 +1,5 @@
-// Joints of bodies that have moved already: position-based dynamics over the rows of joint_solve.hpp.
+// Joints of bodies that have moved already: position-based dynamics over the rows of joint_solve.hpp and
+// joint_axis_solve.hpp.
 #pragma once
 
 #include "joints/joint_axis_solve.hpp"
@@ -23,8 +24,8 @@ PLUMB_HD inline void displace_bodies(const JointView& view, std::uint32_t j, con
   displace(view, view.joints[j].body_b, b, new_b, h);
 }
 
-/// Puts the two bodies where a joint whose rows always hold does (to first order), and gives them the velocity that
-/// this took. To those that turn too far for that it gives the velocity that would take them there.
+/// Puts the two bodies of a plain joint where it holds them (to first order), and gives them the velocity that this
+/// took. To those that turn too far for that it gives the velocity that would take them there.
 PLUMB_HD inline void correct_joint(const JointView& view, std::uint32_t j, const StepParameters& step) {
   refresh_joint(view, j);
   const Joint& joint = view.joints[j];
@@ -49,7 +50,7 @@ PLUMB_HD inline void correct_axis_joint(const AxisView& view, std::uint32_t j, c
   each_row(0, row_count(joint), [&](int i) { view.total(j)[i] = 0; });
   const Velocity a = view.velocity(joint.body_a), b = view.velocity(joint.body_b);
   Velocity new_a = a, new_b = b;
-  solve_axis_rows(view, j, {PassKind::kMoved, step.h, step.inverse_h, {step.inverse_h, 1, 0, 0}}, new_a, new_b);
+  solve_axis_rows(view, j, {PassKind::kMoved, step.h, step.inverse_h, rigid(step.inverse_h)}, new_a, new_b);
   displace_bodies(view, j, a, b, new_a, new_b, step.h);
 }
 
@@ -59,7 +60,7 @@ PLUMB_HD inline void correct(const JointView& view, std::uint32_t j, const StepP
 }
 PLUMB_HD inline void correct(const AxisView& view, std::uint32_t j, const StepParameters& step, bool first) {
   begin_reaction(view, j, first && !step.is_later_part);
-  if (always_holds(view.joints[j]))
+  if (is_plain(view.joints[j]))
     correct_joint(view, j, step);
   else
     correct_axis_joint(view, j, step);

@@ -1,4 +1,5 @@
-// Joints while they are solved: rows of the sub-step, what impulses along them do to the two bodies, and the passes.
+// Joints while they are solved: rows of the sub-step, what impulses along them do to the two bodies, and a pass over a
+// plain joint. What passes there are is in joint_law.hpp.
 #pragma once
 
 #include "bodies/axis_locks.hpp"
@@ -8,12 +9,13 @@
 
 namespace plumb::impulse {
 
-/// What joint_loops.hpp works out at the start of a sub-step and after positions have moved.
+/// What is worked out at the start of a step and after positions have moved (make_joint_rows, refresh_axis_joint), and
+/// with it while a mechanism is solved (choose_share, factor_column).
 struct JointWork {
   Jacobian rows;
   RowNumbers error;    ///< C where the rows were made
   bool is_far_off;     ///< there
-  JointMatrix factor;  ///< K, and then its factors
+  JointMatrix factor;  ///< K, and then its factors; of joints that are not plain the factors alone (AxisWork::whole)
   // While a mechanism is solved as a whole:
   Real share;         ///< by which rows yield, relative to K
   Real tikhonov;      ///< the part of that which the impulses gathered so far count for
@@ -289,7 +291,7 @@ PLUMB_HD inline void apply_impulse(const JointView& view, std::uint32_t j, const
   push_bodies(view, j, a, b, all);
 }
 
-/// One joint whose rows always hold, by itself.
+/// A plain joint by itself.
 PLUMB_HD inline void solve_joint(const JointView& view, std::uint32_t j, const JointPass& pass) {
   const Joint& joint = view.joints[j];
   const Velocity a = view.velocity(joint.body_a), b = view.velocity(joint.body_b);

@@ -40,8 +40,7 @@ JointCode JointStore::needed_code() const {
   for (const StoredJoint& record : records_) {
     if (!record.used) continue;
     code = JointCode::kPlain;
-    if (wants_reactions_ || record.traits.breaks || record.joint.rows != rows_of(record.joint.type))
-      return JointCode::kAll;
+    if (wants_reactions_ || record.traits.breaks || !is_plain(record.joint)) return JointCode::kAll;
   }
   return code;
 }

@@ -8,6 +8,8 @@
 
 namespace plumb::impulse {
 
+/// How much a row yields beside what the bodies do, relative to that: below what positions resolve.
+inline constexpr Real kCfmShare = sizeof(Real) == 8 ? Real(1e-10) : Real(1e-5);
 /// In a mechanism with a loop rows may repeat others (those of four parallel hinges do), and would leave their impulses
 /// undetermined. Those grow where turns of the rows feed back on them: by the square of the angle turned in a sub-step,
 /// over the share.

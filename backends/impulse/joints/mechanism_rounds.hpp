@@ -15,7 +15,7 @@ PLUMB_HD inline bool choose_in_system(const AxisView& view, const JointSystem& s
   const Joint& joint = view.joints[j];
   JointWork& work = system.work(column);
   Lanes jump(0);
-  const bool keeps = round != 0 && always_holds(joint);
+  const bool keeps = round != 0 && is_plain(joint);
   const bool changed = !keeps && choose_pieces(view, j, pass, view.velocity(joint.body_a), view.velocity(joint.body_b),
                                                round, work.share, jump);
   store_row(work.change, jump);
@@ -57,7 +57,7 @@ PLUMB_SHARED_DEVICE_CODE inline void factor_axis_system(Team& team, const JointS
 /// springs have none.
 PLUMB_HD inline Real tikhonov_of_speeds(const AxisView& view, std::uint32_t j) {
   const Joint& joint = view.joints[j];
-  return always_holds(joint) ? view.work[j].tikhonov : Real(0);
+  return is_plain(joint) ? view.work[j].tikhonov : Real(0);
 }
 
 /// The changes that solve the system with its rows on the pieces chosen. anew: as of row_speeds.

@@ -1,9 +1,10 @@
-// What solvers do with joints: those of mechanisms whose matrix stays sparse as a whole, others one by one.
+// What solvers do with joints: one by one, and, in the sub-stepped one, those of mechanisms whose matrix stays sparse
+// each as a whole.
 //
-// A joint, or a mechanism, whose rows always hold is one linear system. Where some rows are limits, motors or springs
+// A plain joint, or a mechanism of such, is one linear system. Where there are limits, motors, springs or locked axes
 // it is solved in rounds (joint_axis_solve.hpp, mechanism_rounds.hpp). Which of the two is asked of each joint and each
-// mechanism by itself, so that a motor changes nothing for what it is not joined to. A step without any has a view that
-// knows no others, and code that is smaller.
+// mechanism by itself, so that a motor changes nothing for what it is not joined to. A step of plain joints has a view
+// that knows no others, and code that is smaller.
 #pragma once
 
 #include "joints/mechanism_rounds.hpp"
@@ -37,7 +38,7 @@ PLUMB_HD inline void begin_joint(const AxisView& view, std::uint32_t j, bool fir
 /// Its rows where its bodies are now.
 PLUMB_HD inline void refresh(const JointView& view, std::uint32_t j) { refresh_joint(view, j); }
 PLUMB_HD inline void refresh(const AxisView& view, std::uint32_t j) {
-  if (always_holds(view.joints[j]))
+  if (is_plain(view.joints[j]))
     refresh_joint(view, j);
   else
     refresh_axis_joint(view, j);
@@ -47,14 +48,15 @@ PLUMB_HD inline void solve(const JointView& view, std::uint32_t j, const JointPa
   solve_joint(view, j, pass);
 }
 PLUMB_HD inline void solve(const AxisView& view, std::uint32_t j, const JointPass& pass) {
-  if (always_holds(view.joints[j]))
+  if (is_plain(view.joints[j]))
     solve_joint(view, j, pass);
   else
     solve_axis_joint(view, j, pass);
 }
 
-/// Only a view that has reactions has any to add to.
-PLUMB_HD inline void add_reaction(const JointView& /*view*/, std::uint32_t /*j*/) {}
+/// Whether joints of such a view have reactions, which every sub-step adds to.
+template <class View>
+inline constexpr bool kHasReactions = std::is_same_v<View, AxisView>;
 
 // --- a mechanism as a whole
 
@@ -63,7 +65,7 @@ PLUMB_HD inline void refresh_rows(const SystemMechanism& /*mechanism*/, const Jo
   make_joint_rows(view, j);
 }
 PLUMB_HD inline void refresh_rows(const SystemMechanism& mechanism, const AxisView& view, std::uint32_t j) {
-  if (mechanism.always_holds)
+  if (mechanism.is_plain)
     make_joint_rows(view, j);
   else
     refresh_axis_joint(view, j);
@@ -80,15 +82,14 @@ PLUMB_SHARED_DEVICE_CODE void refresh_mechanism(Team& team, const JointSystem& s
     refresh_rows(mechanism, view, system.base + column);
     if (!touched) choose_share(view, system.base + column, step.h);
   });
-  if (mechanism.always_holds) factor_system(team, system, mechanism);
+  if (mechanism.is_plain) factor_system(team, system, mechanism);
 }
 
-/// One pass. That over places finds tension, and reckons with it. touched: by contacts, of which what they did to
-/// single bodies is passed on before anybody looks where the bodies will be: a plank that bears what weighs a hundred
-/// times as much would be looked at where it is thrown alone, far off, and made energy of what took it back from there.
-PLUMB_SHARED_DEVICE_CODE inline void solve_mechanism(Team& team, const JointSystem& system,
-                                                     const SystemMechanism& mechanism, const JointView& /*view*/,
-                                                     const JointPass& pass, bool /*first*/) {
+/// A plain one, in one pass. That over places finds tension, and reckons with it. What contacts did to single bodies is
+/// passed on before anybody looks where the bodies will be: a plank that bears what weighs a hundred times as much
+/// would be looked at where it is thrown alone, far off, and made energy of what took it back from there.
+PLUMB_SHARED_DEVICE_CODE inline void solve_plain_mechanism(Team& team, const JointSystem& system,
+                                                           const SystemMechanism& mechanism, const JointPass& pass) {
   const bool over_places = pass.kind == PassKind::kPlaces;
   if (over_places && system.is_touched(mechanism)) {
     JointPass load = pass;
@@ -108,18 +109,24 @@ PLUMB_SHARED_DEVICE_CODE inline void solve_mechanism(Team& team, const JointSyst
   }
   push_changes(team, system, mechanism);
 }
-/// first: sub-step of the step.
+
+/// first: sub-step of the step. In rounds loads are passed on before speeds are solved, too, from which pieces are
+/// chosen, and not in the first sub-step, which begins with the pieces of the last step's.
+PLUMB_DEVICE inline void solve_mechanism(Team& team, const JointSystem& system, const SystemMechanism& mechanism,
+                                         const JointView& /*view*/, const JointPass& pass, bool /*first*/) {
+  solve_plain_mechanism(team, system, mechanism, pass);
+}
 PLUMB_SHARED_DEVICE_CODE inline void solve_mechanism(Team& team, const JointSystem& system,
                                                      const SystemMechanism& mechanism, const AxisView& view,
                                                      const JointPass& pass, bool first) {
   const bool over_speeds = pass.kind == PassKind::kSpeeds;
-  if (mechanism.always_holds) {
-    solve_mechanism(team, system, mechanism, static_cast<const JointView&>(view), pass, first);
+  if (mechanism.is_plain) {
+    solve_plain_mechanism(team, system, mechanism, pass);
   } else {
     if ((over_speeds || !first) && system.is_touched(mechanism)) pass_on_loads(team, system, mechanism, view);
     solve_in_rounds(team, system, mechanism, view, pass);
   }
-  const bool follows = over_speeds && !mechanism.always_holds && view.solver.mechanisms.count != 0;
+  const bool follows = over_speeds && !mechanism.is_plain && view.solver.mechanisms.count != 0;
   for_columns(team, mechanism, [&](std::uint32_t column) {
     if (follows) follow_rows(view, system.base + column, pass);
     add_reaction(view, system.base + column);
@@ -134,13 +141,15 @@ PLUMB_SHARED_DEVICE_CODE void warm_start_joints(Team& team, const JointSet& join
                                                 const StepParameters& step) {
   if (joints.count == 0) return;
   const JointSystem& system = joints.system;
-  each_single_joint(team, joints, step.level, [=](std::uint32_t j) {
-    begin_joint(view, j, first, step);
-    if (first) refresh(view, j);
-  });
+  if (first || kHasReactions<View>)
+    each_single_joint(team, joints, step.level, [=](std::uint32_t j) {
+      begin_joint(view, j, first, step);
+      if (first) refresh(view, j);
+    });
   for_single_joints(team, joints, step.level, [=](std::uint32_t j) { warm_start_joint(view, j); });
   for_mechanisms_of_level(team, system, step.level, [&](Team& own, const SystemMechanism& mechanism) {
-    for_columns(own, mechanism, [&](std::uint32_t column) { begin_joint(view, system.base + column, first, step); });
+    if (first || kHasReactions<View>)
+      for_columns(own, mechanism, [&](std::uint32_t column) { begin_joint(view, system.base + column, first, step); });
     if (first) refresh_mechanism(own, system, mechanism, view, step, true);
     push_totals(own, system, mechanism);
   });
@@ -159,13 +168,14 @@ PLUMB_SHARED_DEVICE_CODE void solve_joints(Team& team, const JointSet& joints, c
   if (joints.count == 0) return;
   const JointSystem& system = joints.system;
   const bool over_speeds = kind == PassKind::kSpeeds;
-  JointPass exact = {kind, step.h, step.inverse_h, {step.joint_rate, 1, 0, 0}, step.chain_rate};
+  JointPass exact = {kind, step.h, step.inverse_h, rigid(step.joint_rate), step.chain_rate};
   if (collision) exact.most_return = kMostReturn;
   JointPass pass = exact;
   if (!over_speeds) pass.softness = step.joint;
   if (over_speeds) each_single_joint(team, joints, step.level, [=](std::uint32_t j) { refresh(view, j); });
   for_single_joints(team, joints, step.level, [=](std::uint32_t j) { solve(view, j, pass); });
-  each_single_joint(team, joints, step.level, [=](std::uint32_t j) { add_reaction(view, j); });
+  if constexpr (kHasReactions<View>)
+    each_single_joint(team, joints, step.level, [=](std::uint32_t j) { add_reaction(view, j); });
   for_mechanisms_of_level(team, system, step.level, [&](Team& own, const SystemMechanism& mechanism) {
     if (over_speeds) refresh_mechanism(own, system, mechanism, view, step, false);
     solve_mechanism(own, system, mechanism, view, exact, first);

@@ -8,7 +8,7 @@ namespace plumb::impulse {
 namespace {
 
 /// Any two convex shapes without cylinders.
-struct AnyKind {
+struct WithoutCylinders {
   static bool collide(const ShapePair& pair, const Proxies& proxies, std::uint32_t, Manifold& manifold) {
     if (pair.a.type <= pair.b.type) return collide_ordered(pair, proxies.hulls, manifold);
     const bool touch = collide_ordered(pair.swapped(), proxies.hulls, manifold);
@@ -18,15 +18,14 @@ struct AnyKind {
 };
 
 /// Any two shapes.
-struct AnyPiece {
+struct AnyShapes {
   static bool collide(const ShapePair& pair, const Proxies& proxies, std::uint32_t triangle, Manifold& manifold) {
-    if (uses_midphase(pair.b.type)) return collide_with_piece(pair, proxies, triangle, manifold);
-    if (!uses_midphase(pair.a.type)) return impulse::collide(pair, proxies.hulls, manifold);
+    if (!is_convex(pair.b.type)) return collide_with_piece(pair, proxies, triangle, manifold);
+    if (is_convex(pair.a.type)) return impulse::collide(pair, proxies.hulls, manifold);
     const bool touch = collide_with_piece(pair.swapped(), proxies, triangle, manifold);
     if (touch) swap_sides(pair.d, manifold);
     return touch;
   }
-  static constexpr bool uses_midphase(ShapeType type) { return static_cast<std::uint32_t>(type) >= kConvexTypes; }
 };
 
 template <class Kind>
@@ -39,9 +38,9 @@ struct Collide {
 
 void collide_candidates(Executor& executor, Count candidates, const CollideInput& input, std::uint32_t shape_types) {
   if (input.work.cache.triangles != nullptr || (shape_types & bit_of(ShapeType::kCylinder)) != 0)
-    executor.run(candidates, Collide<AnyPiece>{input});
+    executor.run(candidates, Collide<AnyShapes>{input});
   else
-    executor.run(candidates, Collide<AnyKind>{input});
+    executor.run(candidates, Collide<WithoutCylinders>{input});
 }
 
 }  // namespace plumb::impulse

@@ -1,5 +1,5 @@
 // Pair functions over all candidates of a step: on a CPU one loop with a branch a pair (collide_candidates.cpp), on a
-// device a kernel for each pair of types, which has the code and registers of one pair function (collide_*_pairs.cu).
+// device a kernel for each pair of types, which has the code and registers of one pair function (cuda/).
 #pragma once
 
 #include "bodies/moving_shape.hpp"
@@ -23,7 +23,8 @@ struct CollideInput {
   NarrowPhaseWork work;
   const std::uint32_t* order;  ///< candidates by pair_kind; null where all are of one kind, or nobody asks
   const std::uint32_t* first;  ///< by pair_kind: its first place in the order
-  PairTime* again;             ///< by candidate; null: all are collided as they lie at the start
+  PairTime*
+      again;  ///< by candidate, 0 afterwards where nothing touches; null: all are collided as they lie at the start
 };
 
 /// shape_types: a bit for each ShapeType in the scene.
@@ -78,13 +79,17 @@ PLUMB_HD void collide_candidate(const CollideInput& in, std::uint32_t p) {
   const NarrowPhaseWork& work = in.work;
   const ContactCache& cache = work.cache;
   const bool again = in.again != nullptr;
-  if (again ? !(in.again[p].time > 0) : cache.collided.is_recyclable(p)) return;  // and has been, in this step
+  if (again ? !(in.again[p].time > 0) : cache.collided.is_recyclable(p)) return;  // recycled already in this step
   const Pair pair = cache.pairs[p];
   const std::uint32_t triangle = cache.triangles == nullptr ? 0U : cache.triangles[p];
   ShapePair shapes = again ? pair_at(work, pair, in.again[p]) : pair_at_start(work, pair);
-  if (is_surface(shapes.a.type) || is_surface(shapes.b.type))
-    shapes.from_behind = (again || work.is_continuous(pair)) &&
-                         is_behind(pair_at_start(work, pair), work.proxies.hulls, work.proxies.surfaces, triangle);
+  if (is_surface(shapes.a.type) || is_surface(shapes.b.type)) {
+    const auto starts_behind = [&](const ShapePair& start) {
+      return is_behind(start, work.proxies.hulls, work.proxies.surfaces, triangle);
+    };
+    shapes.from_behind =
+        again ? starts_behind(pair_at_start(work, pair)) : work.is_continuous(pair) && starts_behind(shapes);
+  }
   Manifold manifold;
   const bool touch = Kind::collide(shapes, work.proxies, triangle, manifold);
   PLUMB_ASSERT(!touch || (manifold.count >= 1 && manifold.count <= static_cast<std::uint32_t>(kManifoldPoints)));

@@ -1,4 +1,5 @@
-// What the stages of the narrow phase share in a step: recycling, and the pair functions over what is not recycled.
+// What the stages of the narrow phase share in a step: recycling, the pair functions over what is not recycled, and the
+// search for times of impact.
 #pragma once
 
 #include "bodies/body.hpp"

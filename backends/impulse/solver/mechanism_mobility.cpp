@@ -173,7 +173,7 @@ struct UnitWrench {
 #endif
 };
 
-/// All of it, for a team. kJoints: some rows may not always hold, and do not count.
+/// All of it, for a team. Rows that need not hold count where that is predicted.
 template <JointCode kJoints>
 struct FindMobility : MobilityWork {
   PLUMB_DEVICE void operator()(Team& team) const {
@@ -225,10 +225,10 @@ struct FindMobility : MobilityWork {
       choose_share(view, j, h);
       if constexpr (kJoints == JointCode::kAll) {
         predict_rows(view, j, true, parameters->is_repeat);
-        if (!mechanism.always_holds) choose_rows_met(view, j);
+        if (!mechanism.is_plain) choose_rows_met(view, j);
       }
     });
-    if (mechanism.always_holds) return factor_system(team, system, mechanism);
+    if (mechanism.is_plain) return factor_system(team, system, mechanism);
     if constexpr (kJoints == JointCode::kAll) factor_axis_system(team, system, mechanism, view);
   }
 };

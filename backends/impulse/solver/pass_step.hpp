@@ -28,7 +28,7 @@ PLUMB_HD void note_joint(const JointView& view, std::uint32_t j, PassChange* not
 template <class View>
 PLUMB_DEVICE void solve_joints_noted(Team& team, const JointSet& joints, const View& view, const StepParameters& step,
                                      PassChange* noted) {
-  const JointPass pass = {PassKind::kWhole, step.h, step.inverse_h, {step.bias_rate, 1, 0, 0}};
+  const JointPass pass = {PassKind::kWhole, step.h, step.inverse_h, rigid(step.bias_rate)};
   for_joints(team, joints,
              [=](std::uint32_t j) { note_joint(view, j, noted, [&](std::uint32_t i) { solve(view, i, pass); }); });
 }
@@ -66,7 +66,8 @@ struct StepInPasses : PassContacts<Order> {
       if (noted != nullptr && noted->is_below(step.stop_below)) break;
     }
     team.single([=] { self.counters->passes = passes; });
-    each_by_rows(team, joints.count, [=](std::uint32_t j) { add_reaction(view, j); });
+    if constexpr (kHasReactions<decltype(view_of<kJoints>(joints))>)
+      each_by_rows(team, joints.count, [=](std::uint32_t j) { add_reaction(view, j); });
     if (features.collision && features.contact_impulses) this->add_up(team);
     this->move_bodies(team, step);
     if constexpr (!Order::kInSequence) {

@@ -10,10 +10,9 @@ namespace plumb::impulse {
 
 /// Extended position-based dynamics in sub-steps of one pass each (M. Mueller, M. Macklin, N. Chentanez, S. Jeschke,
 /// T.-Y. Kim, "Detailed Rigid Body Simulation with Extended Position Based Dynamics", SCA 2020, algorithm 2): bodies
-/// move freely, constraints of no compliance put them back, and a pass over velocities sees to
-/// friction of what slides. Unlike there, what strikes is thrown back before it moves, and friction at the level of
-/// positions is cut to the cone and not refused beyond it: one point of a face would always be beyond, and a cube at
-/// rest on a slope would creep.
+/// move freely, constraints of no compliance put them back, and a pass over velocities sees to friction of what slides.
+/// Unlike there, what strikes is thrown back before it moves, and friction at the level of positions is cut to the cone
+/// and not refused beyond it: one point of a face would always be beyond, and a cube at rest on a slope would creep.
 template <JointCode kJoints, bool kSurfaceEffects>
 struct StepPositions : PositionContacts<kSurfaceEffects> {
   PLUMB_DEVICE void operator()(Team& team) const {

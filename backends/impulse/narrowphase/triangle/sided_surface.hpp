@@ -2,7 +2,7 @@
 //
 // A triangle pushes what overlaps it to its outside, but for what is clearly behind it. A body that must not pass
 // sheets may overlap one from behind by more than that, after an impact; it is on the side of its middle, which has
-// never passed.
+// never passed. So is whatever is collided at a time of impact.
 #pragma once
 
 #include "narrowphase/shape_pair.hpp"
@@ -31,16 +31,15 @@ struct SidedSurface {
   PLUMB_HD bool is_closed() const { return on.is_closed(); }
 };
 
-/// Whether the middle of a convex shape is behind triangle t of the surface that the other of a pair is. Of a plane or
-/// a closed mesh nothing is behind.
+/// Whether the middle of a convex shape is behind triangle t of the surface that the other of a pair is. Of a closed
+/// mesh nothing is behind.
 PLUMB_HD inline bool is_behind(const ShapePair& pair, const Hulls& hulls, const Surfaces& surfaces, std::uint32_t t) {
-  const bool swapped = is_surface(pair.a.type);
-  const Shape &sheet = swapped ? pair.a : pair.b, &shape = swapped ? pair.b : pair.a;
-  if (!is_surface(sheet.type)) return false;
+  const bool sheet_first = is_surface(pair.a.type);
+  const Shape &sheet = sheet_first ? pair.a : pair.b, &shape = sheet_first ? pair.b : pair.a;
   if (sheet.type == ShapeType::kMesh && surfaces.meshes[sheet.hull].is_closed()) return false;
   const Vec inside = shape.type == ShapeType::kHull ? hulls.ranges[shape.hull].centre : Vec{0, 0, 0};
-  const Vec from_sheet = rotate(swapped ? pair.qb : pair.qa, inside) + (swapped ? pair.d : -pair.d);
-  const Vec middle = rotate_back(swapped ? pair.qa : pair.qb, from_sheet);
+  const Vec from_sheet = rotate(sheet_first ? pair.qb : pair.qa, inside) + (sheet_first ? pair.d : -pair.d);
+  const Vec middle = rotate_back(sheet_first ? pair.qa : pair.qb, from_sheet);
   const Triangle triangle = triangle_of(sheet, surfaces, t);
   const Vec normal = cross(triangle.at[1] - triangle.at[0], triangle.at[2] - triangle.at[0]);
   return dot(normal, middle - triangle.at[0]) < 0;
