@@ -41,7 +41,7 @@ PLUMB_HD NormalTarget<P, N> soft_target(Contact<P, N>& contact, const SolverBody
                                         const ContactSoftness& softness) {
   const N zero = N(0), one = N(1);
   const auto movers = min(a.inverse_mass, b.inverse_mass) > zero, alike = alike_masses(a.inverse_mass, b.inverse_mass);
-  const auto choose = [&](Real Softness::* member) {
+  const auto choose = [&](Real Softness::*member) {
     const N of_movers = select(alike, N(softness.between_alike.*member), N(softness.between_unlike.*member));
     return select(movers, of_movers, N(softness.against_fixed.*member));
   };
