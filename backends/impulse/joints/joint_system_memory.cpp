@@ -55,11 +55,11 @@ JointSystemMemory::Content JointSystemMemory::put(const OrderedJoints& ordered, 
       }
       list.push_back(end.on);
     }
-    const auto joints = ordered.joints.begin() + ordered.base;
-    const bool holds = std::all_of(joints + columns.first_column, joints + columns.column_end, is_plain);
+    const Joint* const joints = ordered.joints.data() + ordered.base;
+    const bool plain = std::all_of(joints + columns.first_column, joints + columns.column_end, is_plain);
     content.mechanisms.push_back({static_cast<std::uint32_t>(content.mechanisms.size()), columns.first_level,
                                   columns.level_end, columns.first_column, columns.column_end, place,
-                                  static_cast<std::uint32_t>(content.pushed.size()), holds});
+                                  static_cast<std::uint32_t>(content.pushed.size()), plain});
   }
   first.push_back(static_cast<std::uint32_t>(list.size()));
   PLUMB_ASSERT(first.size() == content.pushed.size() + 1);
