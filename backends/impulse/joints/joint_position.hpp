@@ -43,7 +43,7 @@ PLUMB_HD inline void correct_joint(const JointView& view, std::uint32_t j, const
   displace_bodies(view, j, a, b, new_a, new_b, step.h);
 }
 
-/// The same of one with rows that do not.
+/// The same of a joint that is not plain.
 PLUMB_HD inline void correct_axis_joint(const AxisView& view, std::uint32_t j, const StepParameters& step) {
   const Joint& joint = view.joints[j];
   refresh_axis_joint(view, j);
