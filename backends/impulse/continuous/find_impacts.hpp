@@ -2,6 +2,7 @@
 #pragma once
 
 #include "continuous/impacts.hpp"
+#include "narrowphase/collide_candidates.hpp"
 #include "narrowphase/contact_material.hpp"
 
 namespace plumb::impulse {
@@ -44,12 +45,25 @@ struct ImpactSearch : NarrowPhaseWork {
     const Real radius = min(radius_of_round(*a.shape), radius_of_round(*b.shape));
     return parameters->dt * length(a.way.linear - b.way.linear) > kGlanceShare * radius;
   }
+  /// Whether one is a sheet, and the other behind it as the step begins.
+  [[nodiscard]] PLUMB_HD bool starts_behind(const Pair& pair, std::uint32_t p) const {
+    const Proxy &a = proxies.rows[pair.a], &b = proxies.rows[pair.b];
+    const ShapePair shapes = shapes_at(*this, a, b, place_at_start(*this, a, b, margin(pair)));
+    return (is_surface(shapes.a.type) || is_surface(shapes.b.type)) &&
+           is_behind(shapes, proxies.hulls, proxies.surfaces, cache.triangles[p]);
+  }
   /// What has been found of pair p: where it comes near, it is to be collided there, its points not further off than
   /// what was left then, twice. may_pass: what was found of it as it lies counts only if it is near.
   PLUMB_HD void note(std::uint32_t p, Course course, const Impact& impact, Real close, bool may_pass) const {
     if (course == Course::kNear) return;
     if (may_pass) cache.touching[p] = 0;
-    if (course == Course::kImpact) times[p] = {impact.time, 2 * impact.gap + close};
+    if (course == Course::kMiss) return;
+    const Pair pair = cache.pairs[p];
+    const MovingShape a = moving(pair.a), b = moving(pair.b);
+    const ShapePose pose_a = a.pose(impact.time), pose_b = b.pose(impact.time);
+    const Vec d = apart(pair) + impact.time * (b.way.linear - a.way.linear) + pose_b.offset - pose_a.offset;
+    times[p] = {impact.time,
+                {pose_a.orientation, pose_b.orientation, d, 2 * impact.gap + close, starts_behind(pair, p)}};
   }
   [[nodiscard]] PLUMB_HD bool touches_within(std::uint32_t p, Real close) const {
     if (cache.touching[p] == 0) return false;

@@ -11,7 +11,7 @@ struct FindImpacts {
   ImpactSearch search;
 
   PLUMB_HD void operator()(std::uint32_t p) const {
-    search.times[p] = {0, 0};
+    search.times[p].time = 0;
     const ContactCache& cache = search.cache;
     const Pair pair = cache.pairs[p];
     const bool flagged = search.is_continuous(pair), bounces = search.bounces(p);

@@ -9,6 +9,7 @@ namespace {
 
 /// Any two convex shapes without cylinders.
 struct WithoutCylinders {
+  static constexpr bool kOnSheets = false;
   static bool collide(const ShapePair& pair, const Proxies& proxies, std::uint32_t, Manifold& manifold) {
     if (pair.a.type <= pair.b.type) return collide_ordered(pair, proxies.hulls, manifold);
     const bool touch = collide_ordered(pair.swapped(), proxies.hulls, manifold);
@@ -19,6 +20,7 @@ struct WithoutCylinders {
 
 /// Any two shapes.
 struct AnyShapes {
+  static constexpr bool kOnSheets = true;
   static bool collide(const ShapePair& pair, const Proxies& proxies, std::uint32_t triangle, Manifold& manifold) {
     if (!is_convex(pair.b.type)) return collide_with_piece(pair, proxies, triangle, manifold);
     if (is_convex(pair.a.type)) return impulse::collide(pair, proxies.hulls, manifold);

@@ -2,7 +2,7 @@
 // device a kernel for each pair of types, which has the code and registers of one pair function (cuda/).
 #pragma once
 
-#include "bodies/moving_shape.hpp"
+#include "bodies/body.hpp"
 #include "exec/executor.hpp"
 #include "narrowphase/contact_recycling.hpp"
 #include "narrowphase/triangle/sided_surface.hpp"
@@ -30,50 +30,34 @@ struct CollideInput {
 /// shape_types: a bit for each ShapeType in the scene.
 void collide_candidates(Executor& executor, Count candidates, const CollideInput& input, std::uint32_t shape_types);
 
-/// Two shapes as they lie at the start of the step.
-PLUMB_HD inline ShapePair pair_at_start(const NarrowPhaseWork& work, const Pair& pair) {
+/// How the shapes of two proxies lie at the start of the step, each pushing to its outside.
+PLUMB_HD inline PairPlace place_at_start(const NarrowPhaseWork& work, const Proxy& a, const Proxy& b, Real margin) {
   const Bodies& bodies = work.bodies;
-  const Proxy &a = work.proxies.rows[pair.a], &b = work.proxies.rows[pair.b];
   PLUMB_ASSERT(a.shape != kNone && b.shape != kNone && a.body != b.body);
   const ShapePose pose_a = shape_pose(a, bodies.orientation[a.body]),
                   pose_b = shape_pose(b, bodies.orientation[b.body]);
   const Vec apart = between(bodies.position[a.body], bodies.position[b.body]) + pose_b.offset - pose_a.offset;
-  return {work.proxies.shapes[a.shape],
-          work.proxies.shapes[b.shape],
-          pose_a.orientation,
-          pose_b.orientation,
-          apart,
-          work.margin(pair)};
+  return {pose_a.orientation, pose_b.orientation, apart, margin, false};
 }
-
-/// The same as they will lie.
-PLUMB_HD inline ShapePair pair_at(const NarrowPhaseWork& work, const Pair& pair, const PairTime& at) {
-  const Bodies& bodies = work.bodies;
-  const MovingShape a = moving_shape(bodies, work.proxies, *work.parameters, pair.a),
-                    b = moving_shape(bodies, work.proxies, *work.parameters, pair.b);
-  const ShapePose pose_a = a.pose(at.time), pose_b = b.pose(at.time);
-  const Vec apart =
-      between(bodies.position[work.proxies.rows[pair.a].body], bodies.position[work.proxies.rows[pair.b].body]);
-  const Vec d = apart + at.time * (b.way.linear - a.way.linear) + pose_b.offset - pose_a.offset;
-  return {*a.shape, *b.shape, pose_a.orientation, pose_b.orientation, d, at.margin};
+PLUMB_HD inline ShapePair shapes_at(const NarrowPhaseWork& work, const Proxy& a, const Proxy& b, const PairPlace& at) {
+  const Shape* shapes = work.proxies.shapes;
+  return {shapes[a.shape], shapes[b.shape], at.qa, at.qb, at.d, at.margin, at.from_behind};
 }
 
 /// What is kept of a candidate that has been collided as it lies, for the next step. Of surfaces all candidates are
 /// recycled together (manifold_reduction.hpp).
-PLUMB_HD inline void keep_collided(const NarrowPhaseWork& work, std::uint32_t p, const ShapePair& shapes,
-                                   const Manifold& manifold) {
+PLUMB_HD inline void keep_collided(const NarrowPhaseWork& work, std::uint32_t p, std::uint32_t body_a,
+                                   std::uint32_t body_b, const ShapePair& shapes, const Manifold& manifold) {
   if (is_surface(shapes.a.type) || is_surface(shapes.b.type)) return;
   const bool touch = manifold.count != 0;
   if (touch ? !may_recycle(shapes.a.type, shapes.b.type, manifold) : !(manifold.gap > shapes.margin)) return;
   const Bodies& bodies = work.bodies;
-  const Pair pair = work.cache.pairs[p];
-  const std::uint32_t a = work.proxies.rows[pair.a].body, b = work.proxies.rows[pair.b].body;
-  work.cache.collided.store(p, {manifold, shapes.margin, bodies.orientation[a], bodies.orientation[b],
-                                bodies.position[b] - bodies.position[a]});
+  work.cache.collided.store(p, {manifold, shapes.margin, bodies.orientation[body_a], bodies.orientation[body_b],
+                                bodies.position[body_b] - bodies.position[body_a]});
 }
 
 /// Runs Kind::collide(shape_pair, proxies, triangle, manifold) on a candidate that is not recycled, and writes down
-/// what it found; again, on one that is to be collided at a later time.
+/// what it found; again, on one that is to be collided at a later time. Kind::kOnSheets: one may be a surface.
 template <class Kind>
 PLUMB_HD void collide_candidate(const CollideInput& in, std::uint32_t p) {
   const NarrowPhaseWork& work = in.work;
@@ -82,13 +66,12 @@ PLUMB_HD void collide_candidate(const CollideInput& in, std::uint32_t p) {
   if (again ? !(in.again[p].time > 0) : cache.collided.is_recyclable(p)) return;  // recycled already in this step
   const Pair pair = cache.pairs[p];
   const std::uint32_t triangle = cache.triangles == nullptr ? 0U : cache.triangles[p];
-  ShapePair shapes = again ? pair_at(work, pair, in.again[p]) : pair_at_start(work, pair);
-  if (is_surface(shapes.a.type) || is_surface(shapes.b.type)) {
-    const auto starts_behind = [&](const ShapePair& start) {
-      return is_behind(start, work.proxies.hulls, work.proxies.surfaces, triangle);
-    };
-    shapes.from_behind =
-        again ? starts_behind(pair_at_start(work, pair)) : work.is_continuous(pair) && starts_behind(shapes);
+  const Proxy a = work.proxies.rows[pair.a], b = work.proxies.rows[pair.b];
+  ShapePair shapes = shapes_at(work, a, b, again ? in.again[p].at : place_at_start(work, a, b, work.margin(pair)));
+  if constexpr (Kind::kOnSheets) {
+    const bool on_sheet = is_surface(shapes.a.type) || is_surface(shapes.b.type);
+    if (!again && on_sheet && work.is_continuous(pair))
+      shapes.from_behind = is_behind(shapes, work.proxies.hulls, work.proxies.surfaces, triangle);
   }
   Manifold manifold;
   const bool touch = Kind::collide(shapes, work.proxies, triangle, manifold);
@@ -98,7 +81,7 @@ PLUMB_HD void collide_candidate(const CollideInput& in, std::uint32_t p) {
   if (touch) cache.found[p] = manifold;
   if (!again) {
     cache.touching[p] = touch ? 1 : 0;
-    keep_collided(work, p, shapes, manifold);
+    keep_collided(work, p, a.body, b.body, shapes, manifold);
   } else if (touch) {
     cache.touching[p] = 1;
   } else {

@@ -41,11 +41,17 @@ struct StepImpulses {
   Real tangent[2][kManifoldPoints];
 };
 
-/// When a pair is to be collided a second time, and points of which separation are wanted then
-/// (continuous/impacts.hpp).
-struct PairTime {
-  Real time;  ///< s since the start of the step; 0: not again
+/// How the shapes of a pair lie, as of a ShapePair.
+struct PairPlace {
+  Quat qa, qb;
+  Vec d;
   Real margin;
+  bool from_behind;
+};
+/// When a pair is to be collided a second time (continuous/impacts.hpp).
+struct PairTime {
+  Real time;     ///< s since the start of the step; 0: not again
+  PairPlace at;  ///< then
 };
 
 /// Of ContactCache::touching, until manifolds are reduced: touches as it did, and has been reduced before.

@@ -24,6 +24,7 @@ __device__ inline ShapePair in_order(const ShapePair& pair, const Shape& first, 
 template <ShapeType kA, ShapeType kB, PairFunction kCollide>
 struct OneKind {
   static constexpr std::uint32_t kTypes = bit_of(kA) | bit_of(kB), kNumber = pair_kind(kA, kB);
+  static constexpr bool kOnSheets = false;
 
   __device__ static bool collide(const ShapePair& pair, const Proxies& proxies, std::uint32_t, Manifold& manifold) {
     const bool swapped = kA != kB && pair.a.type == kB;
@@ -39,6 +40,7 @@ struct OneKind {
 template <ShapeType kA, ShapeType kB>
 struct OnePiece {
   static constexpr std::uint32_t kTypes = bit_of(kA) | bit_of(kB), kNumber = pair_kind(kA, kB);
+  static constexpr bool kOnSheets = kB != ShapeType::kPlane;
 
   __device__ static bool collide(const ShapePair& pair, const Proxies& proxies, std::uint32_t triangle,
                                  Manifold& manifold) {

@@ -8,7 +8,7 @@ endforeach()
 string(REGEX MATCHALL "\n" lines "${ptx}")
 list(LENGTH lines count)
 message(STATUS "${PTX}: ${entry} kernels, ${func} functions, ${count} lines")
-if(NOT entry EQUAL 2 OR NOT func EQUAL 0 OR count GREATER 1000)
-  message(FATAL_ERROR "two balls, and a ball on a plane, should be 2 kernels of fewer than 1000 lines of PTX that call no "
+if(NOT entry EQUAL 2 OR NOT func EQUAL 0 OR count GREATER 1100)
+  message(FATAL_ERROR "two balls, and a ball on a plane, should be 2 kernels of fewer than 1100 lines of PTX that call no "
     "function: here they have the code of other pairs, too")
 endif()
