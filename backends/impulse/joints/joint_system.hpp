@@ -53,15 +53,16 @@ PLUMB_HD inline Lanes without_earlier(const JointSystem& system, std::uint32_t j
   return y;
 }
 
-/// Where the body at a place will be, for solve_forward.
+/// Where the body at a place will be, for column_residuals.
 PLUMB_HD inline void find_arrival(const JointSystem& system, std::uint32_t place, Real h) {
   const std::uint32_t body = system.bodies[place];
   system.view.arrivals[body] = system.view.end_after(body, system.view.velocity(body), h);
 }
 
-PLUMB_HD inline void solve_forward(const JointSystem& system, std::uint32_t j, const JointPass& pass) {
+/// How far the rows of a column of plain joints are from what they should be in this pass, with the other sign.
+PLUMB_HD inline Lanes column_residuals(const JointSystem& system, std::uint32_t j, const JointPass& pass) {
   const Joint& joint = system.view.joints[system.base + j];
-  JointWork& work = system.work(j);
+  const JointWork& work = system.work(j);
   const JointView& view = system.view;
   const Lanes residual =
       joint_residuals(view, system.base + j, pass, view.velocity(joint.body_a), view.velocity(joint.body_b),
@@ -70,8 +71,7 @@ PLUMB_HD inline void solve_forward(const JointSystem& system, std::uint32_t j, c
                         return is_of_system ? view.arrivals[body] : view.end_after(body, velocity, pass.h);
                       });
   const Lanes total = lanes_of_numbers(system.view.impulses[joint.slot].along);
-  const Lanes y = -(residual + Lanes(work.tikhonov) * load_row(work.cfm) * total);
-  store_row(work.change, without_earlier(system, j, y));
+  return -(residual + Lanes(work.tikhonov) * load_row(work.cfm) * total);
 }
 
 PLUMB_HD inline void solve_backward(const JointSystem& system, std::uint32_t j) {
@@ -195,13 +195,21 @@ PLUMB_SHARED_DEVICE_CODE inline void factor_system(Team& team, const JointSystem
   for_columns_up(team, system, mechanism, [&](std::uint32_t j) { factor_column(system, j); });
 }
 
+/// The changes that solve the system for the residuals of its columns.
+template <class Residuals>
+PLUMB_DEVICE void solve_columns(Team& team, const JointSystem& system, const SystemMechanism& mechanism,
+                                const Residuals& residuals) {
+  for_columns_up(team, system, mechanism,
+                 [&](std::uint32_t j) { store_row(system.work(j).change, without_earlier(system, j, residuals(j))); });
+  for_columns_down(team, system, mechanism, [&](std::uint32_t j) { solve_backward(system, j); });
+}
+
 /// The changes that solve the system, which do not act yet.
 PLUMB_SHARED_DEVICE_CODE inline void find_changes(Team& team, const JointSystem& system,
                                                   const SystemMechanism& mechanism, const JointPass& pass) {
   if (pass.kind == PassKind::kPlaces)
     for_places(team, mechanism, [&](std::uint32_t place) { find_arrival(system, place, pass.h); });
-  for_columns_up(team, system, mechanism, [&](std::uint32_t j) { solve_forward(system, j, pass); });
-  for_columns_down(team, system, mechanism, [&](std::uint32_t j) { solve_backward(system, j); });
+  solve_columns(team, system, mechanism, [&](std::uint32_t j) { return column_residuals(system, j, pass); });
 }
 
 }  // namespace plumb::impulse

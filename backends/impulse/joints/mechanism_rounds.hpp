@@ -64,15 +64,12 @@ PLUMB_HD inline Real tikhonov_of_speeds(const AxisView& view, std::uint32_t j) {
 PLUMB_SHARED_DEVICE_CODE inline void find_axis_changes(Team& team, const JointSystem& system,
                                                        const SystemMechanism& mechanism, const AxisView& view,
                                                        const JointPass& pass, bool anew) {
-  for_columns_up(team, system, mechanism, [&](std::uint32_t column) {
+  solve_columns(team, system, mechanism, [&](std::uint32_t column) {
     const std::uint32_t j = system.base + column;
     const Joint& joint = view.joints[j];
     const Real tikhonov = pass.kind == PassKind::kSpeeds ? tikhonov_of_speeds(view, j) : view.work[j].tikhonov;
-    const Lanes y =
-        row_residuals(view, j, pass, view.velocity(joint.body_a), view.velocity(joint.body_b), anew, tikhonov);
-    store_row(system.work(column).change, without_earlier(system, column, y));
+    return row_residuals(view, j, pass, view.velocity(joint.body_a), view.velocity(joint.body_b), anew, tikhonov);
   });
-  for_columns_down(team, system, mechanism, [&](std::uint32_t column) { solve_backward(system, column); });
 }
 
 /// A mechanism's joints in one pass.
@@ -122,19 +119,17 @@ PLUMB_DEVICE inline void pass_on_loads(Team& team, const JointSystem& system, co
                                        const AxisView& view) {
   for_columns(team, mechanism, [&](std::uint32_t column) { choose_rows_met(view, system.base + column); });
   factor_axis_system(team, system, mechanism, view);
-  for_columns_up(team, system, mechanism, [&](std::uint32_t column) {
+  solve_columns(team, system, mechanism, [&](std::uint32_t column) {
     const std::uint32_t j = system.base + column;
     const Joint& joint = view.joints[j];
     const AxisWork& own = view.parts.work[j];
     const Lanes speeds = speeds_now(view, j, view.velocity(joint.body_a), view.velocity(joint.body_b));
     const Real tikhonov = tikhonov_of_speeds(view, j);
-    const Lanes y = by_row(row_count(joint), [&](int i) {
+    return by_row(row_count(joint), [&](int i) {
       if (!own.is_active(i)) return Real(0);
       return -((of_row(speeds, i) - speed_met(view, j, i)) + tikhonov * own.cfm[i] * view.total(j)[i]);
     });
-    store_row(system.work(column).change, without_earlier(system, column, y));
   });
-  for_columns_down(team, system, mechanism, [&](std::uint32_t column) { solve_backward(system, column); });
   push_changes(team, system, mechanism);
 }
 

@@ -110,8 +110,8 @@ PLUMB_SHARED_DEVICE_CODE inline void solve_plain_mechanism(Team& team, const Joi
   push_changes(team, system, mechanism);
 }
 
-/// first: sub-step of the step. In rounds loads are passed on before speeds are solved, too, from which pieces are
-/// chosen, and not in the first sub-step, which begins with the pieces of the last step's.
+/// first: sub-step of the step. In rounds loads are passed on before speeds are solved, too, for pieces are chosen by
+/// them; and not before the places of the first sub-step, where contacts have done no more than start warm.
 PLUMB_DEVICE inline void solve_mechanism(Team& team, const JointSystem& system, const SystemMechanism& mechanism,
                                          const JointView& /*view*/, const JointPass& pass, bool /*first*/) {
   solve_plain_mechanism(team, system, mechanism, pass);

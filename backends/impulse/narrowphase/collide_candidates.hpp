@@ -23,8 +23,9 @@ struct CollideInput {
   NarrowPhaseWork work;
   const std::uint32_t* order;  ///< candidates by pair_kind; null where all are of one kind, or nobody asks
   const std::uint32_t* first;  ///< by pair_kind: its first place in the order
-  PairTime*
-      again;  ///< by candidate, 0 afterwards where nothing touches; null: all are collided as they lie at the start
+  /// By candidate: those that are collided once more, whose time is 0 afterwards where nothing touches. Null: all are,
+  /// as they lie at the start.
+  PairTime* again;
 };
 
 /// shape_types: a bit for each ShapeType in the scene.
@@ -66,8 +67,9 @@ PLUMB_HD void collide_candidate(const CollideInput& in, std::uint32_t p) {
   if (again ? !(in.again[p].time > 0) : cache.collided.is_recyclable(p)) return;  // recycled already in this step
   const Pair pair = cache.pairs[p];
   const std::uint32_t triangle = cache.triangles == nullptr ? 0U : cache.triangles[p];
-  const Proxy a = work.proxies.rows[pair.a], b = work.proxies.rows[pair.b];
-  ShapePair shapes = shapes_at(work, a, b, again ? in.again[p].at : place_at_start(work, a, b, work.margin(pair)));
+  const Proxy &a = work.proxies.rows[pair.a], &b = work.proxies.rows[pair.b];
+  ShapePair shapes = again ? shapes_at(work, a, b, in.again[p].at)
+                           : shapes_at(work, a, b, place_at_start(work, a, b, work.margin(pair)));
   if constexpr (Kind::kOnSheets) {
     const bool on_sheet = is_surface(shapes.a.type) || is_surface(shapes.b.type);
     if (!again && on_sheet && work.is_continuous(pair))

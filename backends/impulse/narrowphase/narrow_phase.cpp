@@ -125,13 +125,13 @@ void NarrowPhase::collide(Executor& executor, const NarrowPhaseWork& work, std::
                           StepCounters* counters) {
   recycle_contacts(executor, candidates(counters), work);
   if (bins(shape_types)) bin(executor, work.cache, work.proxies, counters);
-  collide_again(executor, work, shape_types, counters, nullptr);
+  run_pairs(executor, work, shape_types, counters, nullptr);
 }
 
-void NarrowPhase::collide_again(Executor& executor, const NarrowPhaseWork& work, std::uint32_t shape_types,
-                                StepCounters* counters, PairTime* times) {
+void NarrowPhase::run_pairs(Executor& executor, const NarrowPhaseWork& work, std::uint32_t shape_types,
+                            StepCounters* counters, PairTime* again) {
   collide_candidates(executor, candidates(counters),
-                     {work, bins(shape_types) ? order_.data() : nullptr, first_.data(), times}, shape_types);
+                     {work, bins(shape_types) ? order_.data() : nullptr, first_.data(), again}, shape_types);
 }
 
 void NarrowPhase::number(Executor& executor, const ContactCache& cache, StepCounters* counters) {

@@ -45,7 +45,9 @@ class NarrowPhase {
   /// Collides those of them once more that come near each other later in the step: what is found then stands for the
   /// pair. times: by candidate; of those that do not touch then the time becomes 0.
   void collide_again(Executor& executor, const NarrowPhaseWork& work, std::uint32_t shape_types, StepCounters* counters,
-                     PairTime* times);
+                     PairTime* times) {
+    run_pairs(executor, work, shape_types, counters, times);
+  }
 
   /// Numbers those that touch.
   void number(Executor& executor, const ContactCache& cache, StepCounters* counters);
@@ -68,11 +70,15 @@ class NarrowPhase {
     }
   };
 
-  void bin(Executor& executor, const ContactCache& cache, const Proxies& proxies, StepCounters* counters);
   /// Whether candidates are ordered by kind, so that a warp does one kind of work.
   [[nodiscard]] static bool bins(std::uint32_t shape_types) {
     return Executor::kWarps && (shape_types & (shape_types - 1)) != 0;
   }
+  void bin(Executor& executor, const ContactCache& cache, const Proxies& proxies, StepCounters* counters);
+  /// again: as of CollideInput.
+  void run_pairs(Executor& executor, const NarrowPhaseWork& work, std::uint32_t shape_types, StepCounters* counters,
+                 PairTime* again);
+
   std::uint32_t capacity_ = 0;
   bool uses_midphase_ = false;
   Storage caches_[2];
