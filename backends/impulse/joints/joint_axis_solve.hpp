@@ -33,12 +33,14 @@ struct AxisWork : AxisMemory {
   RowNumbers cfm;                ///< speed for a unit impulse by which a row yields; below 0: its impulse is its target
   RowNumbers spring;             ///< impulse of the spring in this sub-step
   RowNumbers before;             ///< speeds when the pass began
+  RowNumbers borne;              ///< impulses when the step began
   std::uint32_t predicted;       ///< bits: rows that are taken to hold while contacts push
   std::uint32_t let_go;          ///< bits: of these, those that have not
   bool is_trusted;               ///< none of its island has let go in this step
   RowNumbers bend;  ///< what the speeds over a sub-step have beyond those now, where that was last looked at
 
   PLUMB_HD bool is_active(int row) const { return cfm[row] >= 0; }
+  PLUMB_HD bool is_predicted(int row) const { return (predicted >> row & 1U) != 0; }
   /// Bits: rows that are.
   [[nodiscard]] PLUMB_HD std::uint32_t active() const {
     std::uint32_t rows = 0;
@@ -87,6 +89,9 @@ PLUMB_HD inline bool is_driven(const AxisView& view, std::uint32_t j, int row) {
 inline constexpr Real kMotorHolds = Real(0.25), kLimitHolds = Real(0.05);
 /// A row that was taken to hold, and moves at more than this, has let go, m/s or rad/s.
 inline constexpr Real kLetsGo = Real(0.05);
+/// A limit that was taken to hold may pull for the rest of the step, by so much of what it bore. Contacts that come to
+/// rest push as if it held to the end, and would throw about a part that it has let go for the last of that.
+inline constexpr Real kMostPull = Real(0.1);
 
 /// Mass against which the spring of a row works, of the two bodies as they are by themselves: tension, which may be
 /// great just then and soon be gone, is no mass. Where no turn is free the arms do not count.
@@ -222,8 +227,10 @@ PLUMB_SHARED_CODE inline void choose_first_pieces(const AxisView& view, std::uin
       own.cfm[i] = share * own.whole(i, i);
       return Real(0);
     }
-    own.law[i] = law_of_row(view, j, i, pass);
-    own.piece[i] = own.law[i].piece(speed, total[i], own.whole(i, i));
+    RowLaw& law = own.law[i] = law_of_row(view, j, i, pass);
+    const bool stays = own.is_predicted(i) && !is_driven(view, j, i) && law.has_limit();
+    if (stays) law.pull = kMostPull * abs(own.borne[i]);
+    own.piece[i] = stays ? law.nearer_limit() : law.piece(speed, total[i], own.whole(i, i));
     put_equation(own, i, share);
     return jump_of(own, i, total[i]);
   });
@@ -282,6 +289,7 @@ PLUMB_HD inline void predict_rows(const AxisView& view, std::uint32_t j, bool is
   if (!is_repeat) own.is_trusted = true;
   if (!is_pushed || !own.is_trusted) return;
   own.predicted = rows_where(rows_of(view.joints[j].type), row_count(view.joints[j]), [&](int i) {
+    own.borne[i] = view.total(j)[i];
     const Real least = is_driven(view, j, i) ? kMotorHolds : kLimitHolds;
     return !is_held(view, j, i) && view.reaction(j).held_for[i] >= least;
   });
@@ -291,9 +299,8 @@ PLUMB_HD inline void predict_rows(const AxisView& view, std::uint32_t j, bool is
 /// at a limit, or overcome, and what pushes as if they held would push too hard.
 PLUMB_HD inline void choose_rows_met(const AxisView& view, std::uint32_t j) {
   AxisWork& own = view.parts.work[j];
-  const std::uint32_t predicted = own.predicted;
   each_row(0, row_count(view.joints[j]), [&](int i) {
-    const bool holds = is_held(view, j, i) || (predicted >> i & 1U) != 0;
+    const bool holds = is_held(view, j, i) || own.is_predicted(i);
     own.cfm[i] = holds ? view.work[j].share * own.whole(i, i) : Real(-1);
   });
 }
@@ -309,7 +316,7 @@ PLUMB_HD inline void follow_rows(const AxisView& view, std::uint32_t j, const Jo
     if (is_held(view, j, i)) return false;
     const RowLaw& law = own.law[i];
     reaction.held_for[i] = law.holds(own.piece[i], view.total(j)[i]) ? reaction.held_for[i] + pass.h : Real(0);
-    if ((own.predicted >> i & 1U) == 0 || is_hard(own.piece[i])) return false;
+    if (!own.is_predicted(i) || is_hard(own.piece[i])) return false;
     const Real off = of_row(speed, i) - (is_driven(view, j, i) ? law.steady : Real(0));
     return off * off > kLetsGo * kLetsGo;
   });

@@ -36,6 +36,7 @@ struct RowLaw {
   Real steady;        ///< that the motor wants
   Real push;          ///< the most that it gives, N s
   Real spring, drag;  ///< the spring's impulse: spring - drag u
+  Real pull = 0;      ///< the most by which a limit may hold back what would leave it, N s
 
   PLUMB_HD Real sign_of(RowPiece piece) const { return piece == RowPiece::kBrake ? -push : push; }
   /// Speed of a hard piece.
@@ -52,13 +53,15 @@ struct RowLaw {
     if (u > upper) return RowPiece::kUpper;
     return pushed < steady ? RowPiece::kPush : braked > steady ? RowPiece::kBrake : RowPiece::kSteady;
   }
+  PLUMB_HD bool has_limit() const { return lower > -kHuge / 2 || upper < kHuge / 2; }
+  PLUMB_HD RowPiece nearer_limit() const { return upper < -lower ? RowPiece::kUpper : RowPiece::kLower; }
   /// Where a row is next that was solved on a piece and came out with that speed and impulse.
   PLUMB_HD RowPiece next(RowPiece piece, Real u, Real total) const {
     if (is_hard(piece)) {
       const Range range = range_of(piece);
-      if (piece != RowPiece::kUpper && total < range.least)
+      if (piece != RowPiece::kUpper && total < range.least - pull)
         return speed(piece) < steady && piece == RowPiece::kLower ? RowPiece::kPush : RowPiece::kBrake;
-      if (piece != RowPiece::kLower && total > range.most)
+      if (piece != RowPiece::kLower && total > range.most + pull)
         return speed(piece) > steady && piece == RowPiece::kUpper ? RowPiece::kBrake : RowPiece::kPush;
       return piece;
     }
@@ -72,8 +75,8 @@ struct RowLaw {
   PLUMB_HD Real allowed(RowPiece piece, Real total) const {
     if (!is_hard(piece)) return total;
     const Range range = range_of(piece);
-    if (piece == RowPiece::kLower) return max(total, range.least);
-    if (piece == RowPiece::kUpper) return min(total, range.most);
+    if (piece == RowPiece::kLower) return max(total, range.least - pull);
+    if (piece == RowPiece::kUpper) return min(total, range.most + pull);
     return clamp(total, range.least, range.most);
   }
   /// Whether a row on a piece holds with force to spare: a limit that bears, a motor that needs no more than half.

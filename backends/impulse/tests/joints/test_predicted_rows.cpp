@@ -115,6 +115,52 @@ TEST(PredictedRows, ALimitThatIsLeftGivesNoEnergy) {
   EXPECT_LT(repeated, 10);
 }
 
+/// A drawer of 5 kg that runs against its stop; what lies in it slides on until friction holds it.
+TEST(PredictedRows, ADrawerStaysAtItsStopWhenItsLoadComesToRest) {
+  constexpr double kSpeed = 0.8, kFriction = 0.5, kStop = 0.4;
+  for (const double dt : {1.0 / 30, 1.0 / 60, 1.0 / 240})
+    for (const double load : {0.5, 50.0, 500.0, 5000.0}) {
+      Scene scene(engine(), kRowNeeds, kDown, 1);
+      scene.body.mass_mode = PLUMB_MASS_FROM_TOTAL;
+      scene.body.material.friction = kFriction;
+      scene.body.mass = 5;
+      const PlumbBody drawer = scene.add(scene.box({0.5, 0.02, 0.3}), {kStop - 0.01, 0, 0});
+      PlumbJointDesc desc = slider({0, 0, 0, 1}, drawer);
+      desc.limits[0] = {0, kStop, 1, 0};
+      make(scene, desc);
+      scene.body.mass = load;
+      const PlumbBody box = scene.add(scene.box({0.08, 0.05, 0.08}), {kStop - 0.01, 0.07, 0});
+      for (const PlumbBody body : {drawer, box}) scene.write(PLUMB_FIELD_VELOCITY, body, {kSpeed, 0, 0, 0, 0, 0});
+      for (int i = 0; i < 1 / dt; ++i) step(scene, dt);
+      EXPECT_NEAR(scene.poses()[1].position.x, kStop + kSpeed * kSpeed / (2 * kFriction * 9.81), 2e-3)
+          << load << ", " << dt;
+      for (int i = 0; i < 4 / dt; ++i) step(scene, dt);
+      EXPECT_NEAR(scene.poses()[0].position.x, kStop, 1e-3) << load << ", " << dt;
+      EXPECT_NEAR(scene.velocity(drawer)[0], 0, 1e-4) << load << ", " << dt;
+      EXPECT_NEAR(scene.velocity(box)[0], 0, 1e-4) << load << ", " << dt;
+    }
+}
+
+/// What a limit has held for long leaves it within a step.
+TEST(PredictedRows, ALimitDoesNotGlue) {
+  for (const double load : {0.5, 50.0, 5000.0}) {
+    Scene scene(engine(), kRowNeeds, {2, -9.81, 0}, 1);
+    scene.body.mass_mode = PLUMB_MASS_FROM_TOTAL;
+    scene.body.mass = 5;
+    const PlumbBody drawer = scene.add(scene.box({0.5, 0.02, 0.3}), {0, 0, 0});
+    PlumbJointDesc desc = slider({0, 0, 0, 1}, drawer);
+    desc.limits[0] = {-10, 0, 1, 0};
+    make(scene, desc);
+    scene.body.mass = load;
+    scene.add(scene.box({0.08, 0.05, 0.08}), {0, 0.07, 0});
+    for (int i = 0; i < 60; ++i) step(scene);
+    EXPECT_NEAR(scene.poses()[0].position.x, 0, 1e-4) << load;
+    check(scene.world(), scene.world().set_gravity({-0.02, -9.81, 0}));
+    for (int i = 0; i < 60; ++i) step(scene);
+    EXPECT_LT(scene.velocity(drawer)[0], -0.9 * 0.02) << load;
+  }
+}
+
 /// A block that rests at the lower end of its way up, x to the side, and a ram that comes from so far below.
 void block_and_ram(Scene& scene, double x, double below) {
   const PlumbShape cube = scene.box({0.2, 0.2, 0.2});
