@@ -57,8 +57,9 @@ Seen look_for(const Picture& picture, std::uint32_t colour) {
   Seen seen;
   for (std::size_t i = 0; i < picture.pixels.size(); ++i)
     if (is_shade_of(picture.pixels[i], colour)) {
+      const std::size_t row = i / picture.width;
       ++seen.pixels;
-      seen.row += static_cast<double>(i / picture.width);
+      seen.row += static_cast<double>(row);
     }
   if (seen.pixels > 0) seen.row /= static_cast<double>(seen.pixels);
   return seen;

@@ -73,6 +73,8 @@ void Window::show(const Game& game) {
   mRoot->renderOneFrame();
 }
 
+bool Window::is_closed() const { return closed_ || mRoot->endRenderingQueued(); }
+
 void Window::save_picture(const std::string& file) { getRenderWindow()->writeContentsToFile(file); }
 
 std::vector<Action> Window::take_actions() {

@@ -24,7 +24,8 @@ class Window final : private OgreBites::ApplicationContext, private OgreBites::I
   void show(const Game& game);
   /// What was done since it was asked last.
   [[nodiscard]] std::vector<Action> take_actions();
-  [[nodiscard]] bool is_closed() const { return closed_; }
+  /// Also when the program was asked to end, as by Ctrl-C.
+  [[nodiscard]] bool is_closed() const;
   void save_picture(const std::string& file);
 
  private:
