@@ -17,7 +17,7 @@
 namespace plumb::ogre {
 namespace {
 
-constexpr std::uint32_t kCharacter_colour = 0x2a9d8f, kHeld = 0xff3df5, kSky = 0xbfd7ea, kGrid = 0x9a9a90;
+constexpr std::uint32_t kCharacterColour = 0x2a9d8f, kHeld = 0xff3df5, kSky = 0xbfd7ea, kGrid = 0x9a9a90;
 constexpr double kNoticeSeconds = 6;
 constexpr std::size_t kLetters = 84;  // in a line of the window
 
@@ -90,7 +90,7 @@ Drawing::Drawing(Ogre::SceneManager& scene, Ogre::RenderWindow& window, const Ga
   PlumbShapeDesc capsule = shape_desc(PLUMB_CAPSULE);
   capsule.radius = kCharacter.radius;
   capsule.half_height = kCharacter.half_height;
-  character_ = add("character", capsule, kCharacter_colour);
+  character_ = add("character", capsule, kCharacterColour);
   add_grid();
   add_words();
 }

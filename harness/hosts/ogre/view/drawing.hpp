@@ -6,6 +6,7 @@
 #include <OgreSceneManager.h>
 #include <OgreTextAreaOverlayElement.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
