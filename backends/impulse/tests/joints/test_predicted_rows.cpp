@@ -141,26 +141,6 @@ TEST(PredictedRows, ADrawerStaysAtItsStopWhenItsLoadComesToRest) {
     }
 }
 
-/// What a limit has held for long leaves it within a step.
-TEST(PredictedRows, ALimitDoesNotGlue) {
-  for (const double load : {0.5, 50.0, 5000.0}) {
-    Scene scene(engine(), kRowNeeds, {2, -9.81, 0}, 1);
-    scene.body.mass_mode = PLUMB_MASS_FROM_TOTAL;
-    scene.body.mass = 5;
-    const PlumbBody drawer = scene.add(scene.box({0.5, 0.02, 0.3}), {0, 0, 0});
-    PlumbJointDesc desc = slider({0, 0, 0, 1}, drawer);
-    desc.limits[0] = {-10, 0, 1, 0};
-    make(scene, desc);
-    scene.body.mass = load;
-    scene.add(scene.box({0.08, 0.05, 0.08}), {0, 0.07, 0});
-    for (int i = 0; i < 60; ++i) step(scene);
-    EXPECT_NEAR(scene.poses()[0].position.x, 0, 1e-4) << load;
-    check(scene.world(), scene.world().set_gravity({-0.02, -9.81, 0}));
-    for (int i = 0; i < 60; ++i) step(scene);
-    EXPECT_LT(scene.velocity(drawer)[0], -0.9 * 0.02) << load;
-  }
-}
-
 /// A block that rests at the lower end of its way up, x to the side, and a ram that comes from so far below.
 void block_and_ram(Scene& scene, double x, double below) {
   const PlumbShape cube = scene.box({0.2, 0.2, 0.2});
