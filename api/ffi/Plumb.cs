@@ -424,6 +424,64 @@ public unsafe struct PlumbCollideTable
     );
 }
 
+// --- plumb/cooking.h
+// plumb.cooking/1: shapes worked out ahead, in a build step or on threads that load, and made from bytes in a world.
+// Since 1.2.
+
+/// <summary>What cook gives. Set struct_size.</summary>
+[StructLayout(LayoutKind.Sequential)]
+public unsafe struct PlumbCooked
+{
+    public uint struct_size;
+    public uint reserved;
+    /// <summary>the backend's, until release is given it; null when the result is below 0</summary>
+    public void* data;
+    /// <summary>bytes</summary>
+    public ulong size;
+    /// <summary>why not, when the result is below 0: one sentence that says what to do</summary>
+    public fixed byte message[256];
+}
+
+/// <summary>Bytes that cook gave, in the caller's memory, at any address.</summary>
+[StructLayout(LayoutKind.Sequential)]
+public unsafe struct PlumbCookedShape
+{
+    public uint struct_size;
+    public uint reserved;
+    public void* data;
+    /// <summary>bytes</summary>
+    public ulong size;
+}
+
+[StructLayout(LayoutKind.Sequential)]
+public unsafe struct PlumbCookingTable
+{
+    public uint struct_size;
+    public uint reserved;
+    /// <summary>[any] A descriptor is refused as create_shapes refuses it. Compounds are not cooked: cook their
+    /// children, and create the compound from the handles of these.</summary>
+    public IntPtr cook;
+    /// <summary>[any] Takes null.</summary>
+    public IntPtr release;
+    /// <summary>[world] As create_shapes does, all or none: a shape from bytes is to the bit what its descriptor would
+    /// have made of it, in steps, queries, snapshots and when it is modified. The bytes are copied before the call
+    /// returns. stride is sizeof the caller's row. PLUMB_E_CORRUPT for bytes that are torn, changed, of another
+    /// backend, precision or byte order, or of another version of the format: keep the descriptors, and cook anew.
+    /// PLUMB_E_NOT_DECLARED where materials by triangle ask for what the world's needs lack.</summary>
+    public IntPtr create;
+
+    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+    public unsafe delegate int Cook(PlumbShapeDesc* desc, PlumbCooked* cooked);
+
+    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+    public unsafe delegate void Release(void* data);
+
+    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+    public unsafe delegate int Create(
+        PlumbWorld* world, PlumbCookedShape* shapes, UIntPtr stride, uint count, ulong* ids
+    );
+}
+
 // --- plumb/debug.h
 // plumb.debug/1: what the engine sees, for pictures and for tests that want no back door.
 
@@ -1446,7 +1504,7 @@ public static class Constants
     public const int PLUMB_E_EXCLUDED = -9;
     /// <summary>the shape still has bodies, or the body still has joints</summary>
     public const int PLUMB_E_IN_USE = -10;
-    /// <summary>a snapshot or trace that is foreign, torn or of another version</summary>
+    /// <summary>a snapshot, trace or cooked shape that is foreign, torn or of another version</summary>
     public const int PLUMB_E_CORRUPT = -11;
     /// <summary>an exception inside the backend; its text is the error text</summary>
     public const int PLUMB_E_INTERNAL = -12;
@@ -1609,6 +1667,11 @@ public static class Constants
     // --- plumb/collide.h
     // plumb.collide/1: collision without a step. Posed shapes in, contacts and distances out.
     public const string PLUMB_EXT_COLLIDE = "plumb.collide/1";
+
+    // --- plumb/cooking.h
+    // plumb.cooking/1: shapes worked out ahead, in a build step or on threads that load, and made from bytes in a
+    // world. Since 1.2.
+    public const string PLUMB_EXT_COOKING = "plumb.cooking/1";
 
     // --- plumb/debug.h
     // plumb.debug/1: what the engine sees, for pictures and for tests that want no back door.
@@ -1902,7 +1965,9 @@ public static class Constants
     public const uint PLUMB_CAP_CLOSEST = 16u;
     /// <summary>shape type: PlumbShapeDesc.materials. Since 1.2</summary>
     public const uint PLUMB_CAP_TRIANGLE_MATERIAL = 17u;
-    public const uint PLUMB_CAP_COUNT = 18u;
+    /// <summary>shape type: native where the engine's work is in the bytes. Since 1.2</summary>
+    public const uint PLUMB_CAP_COOKING = 18u;
+    public const uint PLUMB_CAP_COUNT = 19u;
     /// <summary>The one symbol of a backend. [any] May be called again: the same table comes back for the same
     /// version.</summary>
     public const string PLUMB_OPEN_SYMBOL = "plumb_backend_open";

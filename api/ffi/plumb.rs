@@ -78,7 +78,7 @@ pub const PLUMB_E_VERSION: PlumbResult = -8;
 pub const PLUMB_E_EXCLUDED: PlumbResult = -9;
 /// the shape still has bodies, or the body still has joints
 pub const PLUMB_E_IN_USE: PlumbResult = -10;
-/// a snapshot or trace that is foreign, torn or of another version
+/// a snapshot, trace or cooked shape that is foreign, torn or of another version
 pub const PLUMB_E_CORRUPT: PlumbResult = -11;
 /// an exception inside the backend; its text is the error text
 pub const PLUMB_E_INTERNAL: PlumbResult = -12;
@@ -606,6 +606,57 @@ pub struct PlumbCollideTable {
     pub pairs: Option<unsafe extern "C" fn(
         world: *mut PlumbWorld, pairs: *const PlumbPosedPair, stride: usize, count: u32, results: *mut PlumbPairResult,
         points: *mut PlumbPairPoint, capacity: u32, point_count: *mut u32
+    ) -> PlumbResult>,
+}
+
+// --- plumb/cooking.h
+// plumb.cooking/1: shapes worked out ahead, in a build step or on threads that load, and made from bytes in a world.
+// Since 1.2.
+
+pub const PLUMB_EXT_COOKING: &CStr = unsafe { CStr::from_bytes_with_nul_unchecked(b"plumb.cooking/1\0") };
+
+/// What cook gives. Set struct_size.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct PlumbCooked {
+    pub struct_size: u32,
+    pub reserved: u32,
+    /// the backend's, until release is given it; null when the result is below 0
+    pub data: *const c_void,
+    /// bytes
+    pub size: u64,
+    /// why not, when the result is below 0: one sentence that says what to do
+    pub message: [c_char; 256],
+}
+
+/// Bytes that cook gave, in the caller's memory, at any address.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct PlumbCookedShape {
+    pub struct_size: u32,
+    pub reserved: u32,
+    pub data: *const c_void,
+    /// bytes
+    pub size: u64,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct PlumbCookingTable {
+    pub struct_size: u32,
+    pub reserved: u32,
+    /// \[any\] A descriptor is refused as create_shapes refuses it. Compounds are not cooked: cook their children, and
+    /// create the compound from the handles of these.
+    pub cook: Option<unsafe extern "C" fn(desc: *const PlumbShapeDesc, cooked: *mut PlumbCooked) -> PlumbResult>,
+    /// \[any\] Takes null.
+    pub release: Option<unsafe extern "C" fn(data: *const c_void)>,
+    /// \[world\] As create_shapes does, all or none: a shape from bytes is to the bit what its descriptor would have
+    /// made of it, in steps, queries, snapshots and when it is modified. The bytes are copied before the call returns.
+    /// stride is sizeof the caller's row. PLUMB_E_CORRUPT for bytes that are torn, changed, of another backend,
+    /// precision or byte order, or of another version of the format: keep the descriptors, and cook anew.
+    /// PLUMB_E_NOT_DECLARED where materials by triangle ask for what the world's needs lack.
+    pub create: Option<unsafe extern "C" fn(
+        world: *mut PlumbWorld, shapes: *const PlumbCookedShape, stride: usize, count: u32, ids: *mut PlumbShape
     ) -> PlumbResult>,
 }
 
@@ -1602,7 +1653,9 @@ pub const PLUMB_CAP_MANIFOLD: PlumbCapability = 15;
 pub const PLUMB_CAP_CLOSEST: PlumbCapability = 16;
 /// shape type: PlumbShapeDesc.materials. Since 1.2
 pub const PLUMB_CAP_TRIANGLE_MATERIAL: PlumbCapability = 17;
-pub const PLUMB_CAP_COUNT: PlumbCapability = 18;
+/// shape type: native where the engine's work is in the bytes. Since 1.2
+pub const PLUMB_CAP_COOKING: PlumbCapability = 18;
+pub const PLUMB_CAP_COUNT: PlumbCapability = 19;
 
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
@@ -1720,8 +1773,9 @@ zero!(
     PlumbDLManagedTensor, PlumbFence, PlumbContact, PlumbEvent
 );
 sized!(
-    PlumbShapeDesc, PlumbBodyDesc, PlumbQueriesTable, PlumbClosestTable, PlumbCollideTable, PlumbDebugTable,
-    PlumbExceptionsTable, PlumbJointDesc, PlumbJointsTable, PlumbManifoldsTable, PlumbModifyTable, PlumbSettingsTable,
-    PlumbSnapshotTable, PlumbStateRequest, PlumbStateTable, PlumbWorldDesc, PlumbStepDesc, PlumbStepReport,
-    PlumbWorldsTable, PlumbHost, PlumbBackendInfo, PlumbBackendTable, PlumbOpenRequest, PlumbOpenReply
+    PlumbShapeDesc, PlumbBodyDesc, PlumbQueriesTable, PlumbClosestTable, PlumbCollideTable, PlumbCooked,
+    PlumbCookedShape, PlumbCookingTable, PlumbDebugTable, PlumbExceptionsTable, PlumbJointDesc, PlumbJointsTable,
+    PlumbManifoldsTable, PlumbModifyTable, PlumbSettingsTable, PlumbSnapshotTable, PlumbStateRequest, PlumbStateTable,
+    PlumbWorldDesc, PlumbStepDesc, PlumbStepReport, PlumbWorldsTable, PlumbHost, PlumbBackendInfo, PlumbBackendTable,
+    PlumbOpenRequest, PlumbOpenReply
 );

@@ -43,6 +43,7 @@ struct Extensions {
   const PlumbManifoldsTable* manifolds;
   const PlumbWorldsTable* worlds;
   const PlumbClosestTable* closest;
+  const PlumbCookingTable* cooking;
 };
 
 class HostWorld final : public IPhysicsWorld,
@@ -57,7 +58,8 @@ class HostWorld final : public IPhysicsWorld,
                         private IModify,
                         private IManifolds,
                         private IWorlds,
-                        private IClosest {
+                        private IClosest,
+                        private ICooking {
  public:
   HostWorld(const PlumbBackendTable& table, PlumbWorld* world)
       : table_(table),
@@ -67,7 +69,8 @@ class HostWorld final : public IPhysicsWorld,
                     find<PlumbSettingsTable>(PLUMB_EXT_SETTINGS), find<PlumbSnapshotTable>(PLUMB_EXT_SNAPSHOT),
                     find<PlumbStateTable>(PLUMB_EXT_STATE),       find<PlumbExceptionsTable>(PLUMB_EXT_EXCEPTIONS),
                     find<PlumbModifyTable>(PLUMB_EXT_MODIFY),     find<PlumbManifoldsTable>(PLUMB_EXT_MANIFOLDS),
-                    find<PlumbWorldsTable>(PLUMB_EXT_WORLDS),     find<PlumbClosestTable>(PLUMB_EXT_CLOSEST)} {}
+                    find<PlumbWorldsTable>(PLUMB_EXT_WORLDS),     find<PlumbClosestTable>(PLUMB_EXT_CLOSEST),
+                    find<PlumbCookingTable>(PLUMB_EXT_COOKING)} {}
   ~HostWorld() override { table_.destroy_world(world_); }
 
   // --- core ----------------------------------------------------------------------------------------------------------
@@ -136,6 +139,7 @@ class HostWorld final : public IPhysicsWorld,
   IManifolds* manifolds() override { return extensions_.manifolds == nullptr ? nullptr : this; }
   IWorlds* worlds() override { return extensions_.worlds == nullptr ? nullptr : this; }
   IClosest* closest() override { return extensions_.closest == nullptr ? nullptr : this; }
+  ICooking* cooking() override { return extensions_.cooking == nullptr ? nullptr : this; }
 
  private:
   // --- extensions ----------------------------------------------------------------------------------------------------
@@ -181,6 +185,10 @@ class HostWorld final : public IPhysicsWorld,
                                                capacity, count);
     };
     return {fill_all(found, fill), found};
+  }
+
+  PlumbResult create_cooked(std::span<const PlumbCookedShape> shapes, std::span<PlumbShape> ids) override {
+    return extensions_.cooking->create(world_, shapes.data(), sizeof(PlumbCookedShape), count_of(shapes), ids.data());
   }
 
   ClosestBodies closest_bodies(PlumbHitMode mode, std::span<const PlumbProbe> probes) override {

@@ -110,6 +110,20 @@ std::unique_ptr<IPhysicsWorld> Backend::create_world(const PlumbWorldDesc& desc)
   return adopt_world(*table_, world);
 }
 
+std::vector<std::byte> Backend::cook(const PlumbShapeDesc& desc) const {
+  const auto* cooking = static_cast<const PlumbCookingTable*>(table_->extension(PLUMB_EXT_COOKING));
+  if (cooking == nullptr)
+    throw Error(PLUMB_E_UNSUPPORTED, std::string("backend ") + info().name +
+                                         " has no " PLUMB_EXT_COOKING "; create shapes from their descriptors");
+  PlumbCooked cooked{};
+  cooked.struct_size = sizeof cooked;
+  const PlumbResult result = cooking->cook(&desc, &cooked);
+  if (result < 0) throw Error(result, cooked.message);
+  const std::unique_ptr<const void, decltype(cooking->release)> lent(cooked.data, cooking->release);
+  const auto* first = static_cast<const std::byte*>(cooked.data);
+  return {first, first + cooked.size};
+}
+
 std::vector<std::string> backend_path() {
   std::vector<fs::path> wanted;
   if (const char* given = std::getenv("PLUMB_BACKEND_PATH"); given != nullptr) {

@@ -78,6 +78,7 @@ Json capabilities_of(const Backend& backend) {
   all.table("joint_features", PLUMB_CAP_JOINT_FEATURE, joint_words(), joint_feature_words());
   all.table("queries", PLUMB_CAP_QUERY, query_words(), shape_words());
   all.list("closest", PLUMB_CAP_CLOSEST, shape_words());
+  all.list("cooking", PLUMB_CAP_COOKING, shape_words());
   all.list("fields_read", PLUMB_CAP_FIELD_READ, field_words());
   all.list("fields_written", PLUMB_CAP_FIELD_WRITE, field_words());
   all.list("events", PLUMB_CAP_EVENT, event_words());
@@ -98,7 +99,7 @@ Json extensions_of(const Backend& backend) {
   Json names = Json::array();
   for (const char* name : {PLUMB_EXT_JOINTS, PLUMB_EXT_QUERIES, PLUMB_EXT_COLLIDE, PLUMB_EXT_DEBUG, PLUMB_EXT_SETTINGS,
                            PLUMB_EXT_SNAPSHOT, PLUMB_EXT_STATE, PLUMB_EXT_EXCEPTIONS, PLUMB_EXT_MODIFY,
-                           PLUMB_EXT_MANIFOLDS, PLUMB_EXT_WORLDS, PLUMB_EXT_CLOSEST}) {
+                           PLUMB_EXT_MANIFOLDS, PLUMB_EXT_WORLDS, PLUMB_EXT_CLOSEST, PLUMB_EXT_COOKING}) {
     if (backend.table().extension(name) != nullptr) names.push_back(name);
   }
   return names;

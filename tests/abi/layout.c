@@ -14,6 +14,7 @@ static_assert(sizeof(void*) == 8, "the recorded layout is that of 64-bit machine
 /* names by which tables and the symbol are asked for: as long as they were */
 static_assert(sizeof(PLUMB_EXT_CLOSEST) == sizeof("plumb.closest/1"), "PLUMB_EXT_CLOSEST has changed");
 static_assert(sizeof(PLUMB_EXT_COLLIDE) == sizeof("plumb.collide/1"), "PLUMB_EXT_COLLIDE has changed");
+static_assert(sizeof(PLUMB_EXT_COOKING) == sizeof("plumb.cooking/1"), "PLUMB_EXT_COOKING has changed");
 static_assert(sizeof(PLUMB_EXT_DEBUG) == sizeof("plumb.debug/1"), "PLUMB_EXT_DEBUG has changed");
 static_assert(sizeof(PLUMB_EXT_JOINTS) == sizeof("plumb.joints/1"), "PLUMB_EXT_JOINTS has changed");
 static_assert(sizeof(PLUMB_EXT_MANIFOLDS) == sizeof("plumb.manifolds/1"), "PLUMB_EXT_MANIFOLDS has changed");

@@ -152,6 +152,17 @@ SIZE(PlumbClosest, 96)
 SIZE(PlumbClosestTable, 16)
   AT(PlumbClosestTable, struct_size, 0) AT(PlumbClosestTable, reserved, 4) AT(PlumbClosestTable, bodies, 8)
 
+/* cooking.h */
+SIZE(PlumbCooked, 280)
+  AT(PlumbCooked, struct_size, 0) AT(PlumbCooked, reserved, 4) AT(PlumbCooked, data, 8) AT(PlumbCooked, size, 16)
+  AT(PlumbCooked, message, 24)
+SIZE(PlumbCookedShape, 24)
+  AT(PlumbCookedShape, struct_size, 0) AT(PlumbCookedShape, reserved, 4) AT(PlumbCookedShape, data, 8)
+  AT(PlumbCookedShape, size, 16)
+SIZE(PlumbCookingTable, 32)
+  AT(PlumbCookingTable, struct_size, 0) AT(PlumbCookingTable, reserved, 4) AT(PlumbCookingTable, cook, 8)
+  AT(PlumbCookingTable, release, 16) AT(PlumbCookingTable, create, 24)
+
 /* collide.h */
 SIZE(PlumbPosedPair, 128)
   AT(PlumbPosedPair, shape_a, 0) AT(PlumbPosedPair, shape_b, 8) AT(PlumbPosedPair, pose_a, 16)
@@ -324,4 +335,4 @@ IS(PLUMB_CAP_JOINT_FEATURE, 3) IS(PLUMB_CAP_QUERY, 4) IS(PLUMB_CAP_FIELD_READ, 5
 IS(PLUMB_CAP_NEED, 7) IS(PLUMB_CAP_EVENT, 8) IS(PLUMB_CAP_PHASE_TIME, 9) IS(PLUMB_CAP_RESIDUAL, 10)
 IS(PLUMB_CAP_SNAPSHOT, 11) IS(PLUMB_CAP_HOST_JOBS, 12) IS(PLUMB_CAP_CHILD_MATERIAL, 13) IS(PLUMB_CAP_MODIFY, 14)
 IS(PLUMB_CAP_MANIFOLD, 15) IS(PLUMB_CAP_CLOSEST, 16) IS(PLUMB_CAP_TRIANGLE_MATERIAL, 17)
-IS(PLUMB_CAP_COUNT, 18) IS(PLUMB_BODY_MATERIAL, 0xffffffff)
+IS(PLUMB_CAP_COOKING, 18) IS(PLUMB_CAP_COUNT, 19) IS(PLUMB_BODY_MATERIAL, 0xffffffff)

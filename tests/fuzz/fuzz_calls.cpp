@@ -10,9 +10,11 @@
 #include <cstring>
 #include <limits>
 #include <optional>
-#include <random>
+#include <string_view>
 #include <vector>
 
+#include "cooked_bytes.hpp"
+#include "odd_numbers.hpp"
 #include "plumb/loader.hpp"
 #include "shape_arrays.hpp"
 
@@ -20,10 +22,13 @@ namespace {
 
 using plumb::fuzz::ShapeArrays;
 
-class Fuzzer {
+class Fuzzer : private plumb::fuzz::OddNumbers {
  public:
   Fuzzer(const plumb::Backend& backend, std::uint64_t seed)
-      : table_(backend.table()), backend_(backend), random_(seed) {
+      : OddNumbers(seed),
+        table_(backend.table()),
+        backend_(backend),
+        cooking_(static_cast<const PlumbCookingTable*>(table_.extension(PLUMB_EXT_COOKING))) {
     joints_ = static_cast<const PlumbJointsTable*>(table_.extension(PLUMB_EXT_JOINTS));
     queries_ = static_cast<const PlumbQueriesTable*>(table_.extension(PLUMB_EXT_QUERIES));
     settings_ = static_cast<const PlumbSettingsTable*>(table_.extension(PLUMB_EXT_SETTINGS));
@@ -85,25 +90,6 @@ class Fuzzer {
   }
 
  private:
-  std::uint32_t below(std::uint32_t n) { return static_cast<std::uint32_t>(random_() % n); }
-  bool chance(std::uint32_t one_in) { return below(one_in) == 0; }
-
-  double number() {
-    constexpr double odd[] = {0, -1, 1e-9, 1e9, 1e30, 1e300, -1e300, 5e-324};
-    if (chance(60)) return std::numeric_limits<double>::quiet_NaN();
-    if (chance(60)) return -std::numeric_limits<double>::infinity();
-    if (chance(40)) return odd[below(std::size(odd))];
-    return std::uniform_real_distribution<double>(-5, 5)(random_);
-  }
-  double positive() { return chance(30) ? number() : std::uniform_real_distribution<double>(0.2, 1)(random_); }
-  PlumbVec3 vector() { return {number(), number(), number()}; }
-  PlumbQuat unit() {
-    std::normal_distribution<double> normal;
-    PlumbQuat q{normal(random_), normal(random_), normal(random_), normal(random_)};
-    const double length = chance(50) ? 1 : std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
-    return {q.x / length, q.y / length, q.z / length, q.w / length};
-  }
-  PlumbPose pose() { return {vector(), unit()}; }
   std::uint64_t handle(const std::vector<std::uint64_t>& pool) {
     if (pool.empty() || chance(25)) return random_() >> below(64);
     return pool[below(static_cast<std::uint32_t>(pool.size()))];
@@ -185,7 +171,13 @@ class Fuzzer {
     if (chance(40)) desc.vertices = nullptr;
     if (chance(60)) desc.struct_size = below(500);
     PlumbShape id = 0;
-    if (!judge(table_.create_shapes(world_, chance(200) ? nullptr : &desc, sizeof desc, 1, &id))) return;
+    const PlumbShapeDesc* given = chance(200) ? nullptr : &desc;
+    const bool cooks = table_.extension(PLUMB_EXT_COOKING) != nullptr && chance(3);
+    if (const std::string_view problem = cooks ? cooking_.cook(given, random_) : ""; !problem.empty()) {
+      if (problem != "refused") broken_ = problem.data();
+      return;
+    }
+    if (!judge(cooks ? cooking_.create(world_, &id) : table_.create_shapes(world_, given, sizeof desc, 1, &id))) return;
     shapes_.push_back(id);
     if (desc.type == PLUMB_TRIANGLE_MESH || desc.type == PLUMB_HEIGHT_FIELD)
       surfaces_.emplace_back(id, std::move(made));
@@ -536,7 +528,6 @@ class Fuzzer {
 
   const PlumbBackendTable& table_;
   const plumb::Backend& backend_;
-  std::mt19937_64 random_;
   PlumbWorld *world_ = nullptr, *companion_ = nullptr;
   const PlumbJointsTable* joints_ = nullptr;
   const PlumbQueriesTable* queries_ = nullptr;
@@ -550,6 +541,7 @@ class Fuzzer {
   const PlumbManifoldsTable* manifolds_ = nullptr;
   const PlumbWorldsTable* worlds_ = nullptr;
   const PlumbClosestTable* closest_ = nullptr;
+  plumb::fuzz::CookedBytes cooking_;
   std::vector<std::uint64_t> shapes_, bodies_, joint_ids_;
   std::vector<std::pair<PlumbShape, ShapeArrays>> surfaces_;  ///< with what they are; some are gone
   double last_dt_ = 0;

@@ -17,6 +17,8 @@
 // user_data, PLUMB_FIELD_MASS, the list of pair exceptions and shapes in use answered for you. A Plumb call that fails
 // must have changed nothing: throw before you change, or undo. Throw PLUMB_E_WORLD_LOST when you cannot.
 //
+// Shapes that are slow to make may be cooked ahead: see backend/cooking.hpp.
+//
 // For the taking: backend/settings_table.hpp keeps settings in the members of a struct; backend/usual_capability.hpp
 // answers what most engines have, so that you name only what yours lacks; backend/small_math.hpp has quaternions and
 // poses; backend/mass_properties.hpp an inertia matrix from principal moments; backend/touch_tracker.hpp makes begin

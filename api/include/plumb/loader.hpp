@@ -30,6 +30,10 @@ class Backend {
   /// Throws Error with the backend's own sentence.
   [[nodiscard]] std::unique_ptr<IPhysicsWorld> create_world(const PlumbWorldDesc& desc) const;
 
+  /// The bytes of a shape, for IPhysicsWorld::cooking() of any world of this backend (plumb.cooking/1). On any thread.
+  /// Throws Error likewise.
+  [[nodiscard]] std::vector<std::byte> cook(const PlumbShapeDesc& desc) const;
+
  private:
   const PlumbBackendTable* table_;
   std::string file_;

@@ -161,6 +161,14 @@ class IClosest {
   virtual ClosestBodies closest_bodies(PlumbHitMode mode, std::span<const PlumbProbe> probes) = 0;
 };
 
+/// plumb.cooking/1, of worlds; Backend::cook (loader.hpp) gives the bytes. Only the host calls it: the guard answers it
+/// for every backend, and asks a class that cooks by itself for what backend/cooking.hpp has.
+class ICooking {
+ public:
+  virtual ~ICooking() = default;
+  virtual PlumbResult create_cooked(std::span<const PlumbCookedShape> shapes, std::span<PlumbShape> ids) = 0;
+};
+
 /// plumb.collide/1
 class ICollide {
  public:
@@ -314,6 +322,8 @@ class IPhysicsWorld {
 
   // Only the host calls what follows; backend.hpp answers it for every backend.
 
+  virtual ICooking* cooking() { return nullptr; }
+
   /// Live bodies in order of creation.
   virtual std::span<const PlumbBody> bodies() { return {}; }
   /// plumb.snapshot/1 hash.
@@ -336,6 +346,11 @@ inline PlumbResult check(const IPhysicsWorld& world, PlumbResult result) {
   desc.struct_size = sizeof(desc);
   desc.type = type;
   return desc;
+}
+
+/// Of bytes that Backend::cook gave and that live until the shape is made.
+[[nodiscard]] inline PlumbCookedShape cooked_shape(std::span<const std::byte> bytes) {
+  return {sizeof(PlumbCookedShape), 0, bytes.data(), bytes.size()};
 }
 
 /// A dynamic body at rest at the origin, density 1000, friction .5, that touches everything.

@@ -13,6 +13,7 @@
 #include "plumb/bodies.h"
 #include "plumb/closest.h"
 #include "plumb/collide.h"
+#include "plumb/cooking.h"
 #include "plumb/debug.h"
 #include "plumb/exceptions.h"
 #include "plumb/joints.h"
@@ -94,7 +95,8 @@ enum {
   PLUMB_CAP_MANIFOLD = 15,          /* index of a PLUMB_MANIFOLD_ bit. Since 1.2 */
   PLUMB_CAP_CLOSEST = 16,           /* shape type of the probe: bodies of every shape are seen. Since 1.2 */
   PLUMB_CAP_TRIANGLE_MATERIAL = 17, /* shape type: PlumbShapeDesc.materials. Since 1.2 */
-  PLUMB_CAP_COUNT = 18
+  PLUMB_CAP_COOKING = 18,           /* shape type: native where the engine's work is in the bytes. Since 1.2 */
+  PLUMB_CAP_COUNT = 19
 };
 
 typedef struct PlumbBackendTable {

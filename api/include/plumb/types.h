@@ -44,7 +44,7 @@ enum {
   PLUMB_E_VERSION = -8,      /* host and backend have no interface version in common */
   PLUMB_E_EXCLUDED = -9,     /* a backend of the same exclusion group is already open in this process */
   PLUMB_E_IN_USE = -10,      /* the shape still has bodies, or the body still has joints */
-  PLUMB_E_CORRUPT = -11,     /* a snapshot or trace that is foreign, torn or of another version */
+  PLUMB_E_CORRUPT = -11,     /* a snapshot, trace or cooked shape that is foreign, torn or of another version */
   PLUMB_E_INTERNAL = -12,    /* an exception inside the backend; its text is the error text */
   PLUMB_E_WORLD_LOST = -13,
   PLUMB_E_DEVICE_LOST = -14

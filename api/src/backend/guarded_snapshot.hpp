@@ -5,15 +5,15 @@
 
 #include <unordered_set>
 
-#include "guarded_modify.hpp"
+#include "guarded_cooking.hpp"
 #include "saved_world.hpp"
 #include "snapshot_frame.hpp"
 
 namespace plumb::backend {
 
-class GuardedSnapshot : public GuardedModify {
+class GuardedSnapshot : public GuardedCooking {
  public:
-  using GuardedModify::GuardedModify;
+  using GuardedCooking::GuardedCooking;
 
   PlumbResult save(void* data, std::size_t capacity, std::size_t* size) {
     return save_kind(false, data, capacity, size);

@@ -11,11 +11,11 @@
 #include "check_rows.hpp"
 #include "pair_exceptions.hpp"
 #include "plumb/backend/check_descs.hpp"
-#include "plumb/backend/mass_properties.hpp"
 #include "plumb/backend/state_hash.hpp"
 #include "plumb/backend/tables.hpp"
 #include "saved_world.hpp"
 #include "shape_content.hpp"
+#include "shape_record.hpp"
 #include "slot_table.hpp"
 #include "world_log.hpp"
 
@@ -203,14 +203,6 @@ class GuardedWorld {
   }
 
  protected:
-  struct ShapeRecord {
-    PlumbShapeType type = 0;
-    std::uint32_t uses = 0;
-    std::vector<PlumbShape> children;
-    std::optional<MassProperties> unit_mass;  ///< at density 1; none for shapes without a volume
-    std::string no_mass_because;
-    std::uint64_t content = 0;  ///< shape_content(), in worlds with snapshots
-  };
   struct BodyRecord {
     PlumbShape shape = 0;
     std::uint64_t user_data = 0;
@@ -228,15 +220,11 @@ class GuardedWorld {
   };
 
   [[nodiscard]] PlumbDegree degree(PlumbCapability kind, std::uint32_t a, std::uint32_t b, const char*& note) const {
-    note = "";
-    return facts_.capability(kind, a, b, note);
+    return degree_of(facts_, kind, a, b, note);
   }
 
   void require_capability(PlumbCapability kind, std::uint32_t a, std::uint32_t b, const std::string& what) const {
-    const char* note = "";
-    if (degree(kind, a, b, note) == PLUMB_NONE)
-      refuse(PLUMB_E_UNSUPPORTED,
-             std::string(facts_.info->name) + " has no " + what + (*note == '\0' ? "" : ": ") + note);
+    backend::require_capability(facts_, kind, a, b, what);
   }
 
   /// What the class answered. A failure ends the call here, as an exception does: nothing has changed.
@@ -406,12 +394,7 @@ class GuardedWorld {
   }
 
   ShapeRecord examine_shape(const Where& where, const PlumbShapeDesc& desc) const {
-    check_shape(where, desc);
-    const char* note = "";
-    bool any = false;
-    for (PlumbMotion motion = 0; motion < PLUMB_MOTION_COUNT; ++motion)
-      any = any || degree(PLUMB_CAP_SHAPE, desc.type, motion, note) != PLUMB_NONE;
-    if (!any) require_capability(PLUMB_CAP_SHAPE, desc.type, PLUMB_STATIC, shape_name(desc.type));
+    check_known_shape(facts_, where, desc);
     ShapeRecord record;
     record.type = desc.type;
     std::vector<MassProperties> children;
@@ -433,24 +416,11 @@ class GuardedWorld {
       children.push_back(*child_record.unit_mass);
       contents.push_back(child_record.content);
     }
-    if (has_triangle_materials(desc)) {
-      require_capability(PLUMB_CAP_TRIANGLE_MATERIAL, desc.type, 0,
-                         std::string("materials by triangle of a ") + shape_name(desc.type));
-      for (std::uint32_t i = 0; i < desc.material_count; ++i)
-        check_material_needs(init_.desc.needs, where.member(("materials[" + std::to_string(i) + "]").c_str()),
-                             desc.materials[i]);
-    }
+    for (std::uint32_t i = 0; has_triangle_materials(desc) && i < desc.material_count; ++i)
+      check_material_needs(init_.desc.needs, where.member(("materials[" + std::to_string(i) + "]").c_str()),
+                           desc.materials[i]);
     if (init_.needs(PLUMB_NEED_SNAPSHOT)) record.content = shape_content(desc, contents);
-    // Whether a mesh is closed takes as long to find as all the rest, and matters to bodies that forces move alone.
-    const bool has_mass =
-        desc.type != PLUMB_TRIANGLE_MESH || degree(PLUMB_CAP_SHAPE, desc.type, PLUMB_DYNAMIC, note) != PLUMB_NONE;
-    if (!has_mass) return record;
-    try {
-      record.unit_mass = unit_mass_properties(desc, children);
-    } catch (const Error& error) {
-      if (desc.type == PLUMB_CONVEX_HULL) refuse(error.code(), where.member("vertices") + ": " + error.what());
-      record.no_mass_because = error.what();
-    }
+    weigh(facts_, where, desc, children, record);
     return record;
   }
 

@@ -137,10 +137,15 @@ PlumbSettingsTable settings_table(const BackendFacts& facts, decltype(PlumbSetti
           &Entry<&GuardedExtensions::get_setting>::call, &Entry<&GuardedExtensions::set_setting>::call};
 }
 
-const void* extension_table(const BackendFacts& facts, const PlumbSettingsTable& settings, const char* name) {
+PlumbCookingTable cooking_table(decltype(PlumbCookingTable::cook) cook) {
+  return {sizeof(PlumbCookingTable), 0, cook, &release_cooked, &Entry<&GuardedCooking::create_cooked>::call};
+}
+
+const void* extension_table(const BackendFacts& facts, const ClassTables& tables, const char* name) {
   const std::string_view wanted = name == nullptr ? "" : name;
   if (wanted == PLUMB_EXT_STATE) return &kStateTable;
   if (wanted == PLUMB_EXT_SNAPSHOT) return &kSnapshotTable;  // its hash is there for every backend
+  if (wanted == PLUMB_EXT_COOKING) return &tables.cooking;   // a descriptor at least is in the bytes
   if (wanted == PLUMB_EXT_JOINTS && facts.has_joints) return &kJointsTable;
   if (wanted == PLUMB_EXT_QUERIES && facts.has_queries) return &kQueriesTable;
   if (wanted == PLUMB_EXT_CLOSEST && facts.has_closest) return &kClosestTable;
@@ -150,13 +155,37 @@ const void* extension_table(const BackendFacts& facts, const PlumbSettingsTable&
   if (wanted == PLUMB_EXT_MODIFY && facts.has_modify) return &kModifyTable;
   if (wanted == PLUMB_EXT_MANIFOLDS && facts.has_manifolds) return &kManifoldsTable;
   if (wanted == PLUMB_EXT_WORLDS && facts.has_worlds) return &kWorldsTable;
-  if (wanted == PLUMB_EXT_SETTINGS && facts.has_settings) return &settings;
+  if (wanted == PLUMB_EXT_SETTINGS && facts.has_settings) return &tables.settings;
   return nullptr;
 }
+
+namespace {
+
+/// A class says PLUMB_NATIVE of what it cooks by itself; the guard answers for the rest.
+PlumbDegree answer_cooking(const BackendFacts& facts, PlumbShapeType type, const char*& note) {
+  note = "";
+  if (type == PLUMB_COMPOUND) {
+    note = "its children are shapes of a world: cook them, and create it from their handles";
+    return PLUMB_NONE;
+  }
+  if (type >= PLUMB_SHAPE_TYPE_COUNT || !has_shape(facts, type)) return PLUMB_NONE;
+  if (facts.cook != nullptr && facts.capability(PLUMB_CAP_COOKING, type, 0, note) == PLUMB_NATIVE) return PLUMB_NATIVE;
+  note = type == PLUMB_TRIANGLE_MESH || type == PLUMB_CONVEX_HULL
+             ? "the bytes hold the descriptor, and its mass: the engine builds the shape anew"
+             : "the bytes hold the descriptor: there is nothing to work out";
+  return PLUMB_EMULATED;
+}
+
+}  // namespace
 
 PlumbDegree answer_capability(const BackendFacts& facts, PlumbCapability kind, std::uint32_t a, std::uint32_t b,
                               const char** note) {
   const char* text = "";
+  if (kind == PLUMB_CAP_COOKING) {
+    const PlumbDegree degree = answer_cooking(facts, a, text);
+    if (note != nullptr) *note = text;
+    return degree;
+  }
   const bool lacks = (kind == PLUMB_CAP_MODIFY && !facts.has_modify) ||
                      (kind == PLUMB_CAP_MANIFOLD && !facts.has_manifolds) ||
                      (kind == PLUMB_CAP_CLOSEST && !facts.has_closest) || kind >= PLUMB_CAP_COUNT;

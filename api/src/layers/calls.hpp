@@ -26,6 +26,7 @@ using exceptions = PlumbExceptionsTable;
 using modify = PlumbModifyTable;
 using manifolds = PlumbManifoldsTable;
 using closest = PlumbClosestTable;
+using cooking = PlumbCookingTable;
 }  // namespace tables
 
 enum class Call : std::uint8_t {
@@ -84,6 +85,7 @@ void for_each_extension(Visit&& visit) {
   visit.template operator()<PlumbModifyTable>(PLUMB_EXT_MODIFY);
   visit.template operator()<PlumbManifoldsTable>(PLUMB_EXT_MANIFOLDS);
   visit.template operator()<PlumbClosestTable>(PLUMB_EXT_CLOSEST);
+  visit.template operator()<PlumbCookingTable>(PLUMB_EXT_COOKING);
 }
 
 }  // namespace plumb::layers

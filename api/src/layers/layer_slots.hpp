@@ -53,7 +53,7 @@ class LayerBase {
   const PlumbBackendTable* core_;
   std::tuple<const PlumbJointsTable*, const PlumbQueriesTable*, const PlumbCollideTable*, const PlumbDebugTable*,
              const PlumbSettingsTable*, const PlumbSnapshotTable*, const PlumbStateTable*, const PlumbExceptionsTable*,
-             const PlumbModifyTable*, const PlumbManifoldsTable*, const PlumbClosestTable*>
+             const PlumbModifyTable*, const PlumbManifoldsTable*, const PlumbClosestTable*, const PlumbCookingTable*>
       extensions_{};
 };
 
@@ -117,7 +117,7 @@ class LayerSlots {
     std::unique_ptr<Layer> layer;
     std::tuple<PlumbBackendTable, PlumbJointsTable, PlumbQueriesTable, PlumbCollideTable, PlumbDebugTable,
                PlumbSettingsTable, PlumbSnapshotTable, PlumbStateTable, PlumbExceptionsTable, PlumbModifyTable,
-               PlumbManifoldsTable, PlumbClosestTable>
+               PlumbManifoldsTable, PlumbClosestTable, PlumbCookingTable>
         tables;
   };
 

@@ -128,6 +128,8 @@ struct Decoding {
       if (!backend::has_triangle_materials(row)) return row;
       row.materials = keep_rows<PlumbMaterial>();
       row.triangle_materials = keep_rows<std::uint32_t>();
+    } else if constexpr (std::is_same_v<Row, PlumbCookedShape>) {
+      row.data = keep_bytes();
     } else {
       if constexpr (std::is_same_v<Row, PlumbBodyDesc>) {
         const auto later =
@@ -138,6 +140,17 @@ struct Decoding {
       to.names.to_handles(row);
     }
     return row;
+  }
+  /// An array of bytes, which may be many.
+  const std::byte* keep_bytes() {
+    const bool present = in.get<std::uint8_t>() != 0;
+    const auto count = in.get<std::uint32_t>();
+    static_cast<void>(in.get<std::uint64_t>());  // their stride
+    if (!present) return nullptr;
+    const auto bytes = in.get_bytes(count);
+    auto& kept = memory.emplace_back(bytes.begin(), bytes.end());
+    kept.resize(kept.size() + 1);  // so that data() is not null
+    return kept.data();
   }
   template <class Row>
   const Row* keep_rows() {

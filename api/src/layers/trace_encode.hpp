@@ -85,6 +85,12 @@ struct Encoding {
     names.to_numbers(row);
     out.put(row);
   }
+  void row_with_arrays(PlumbCookedShape& shape) {
+    const std::span bytes(static_cast<const std::byte*>(shape.data), shape.data == nullptr ? 0 : shape.size);
+    shape.data = nullptr;
+    out.put(shape);
+    if (array(bytes.data(), static_cast<std::uint32_t>(bytes.size()), 1)) out.put_bytes(bytes);
+  }
   void row_with_arrays(PlumbWorldDesc& desc) {
     desc.settings = nullptr;
     out.put(desc);
@@ -122,7 +128,7 @@ struct Encoding {
   }
 };
 
-// create_shapes, create_bodies, joints.create
+// create_shapes, create_bodies, joints.create, cooking.create
 template <Call call, class Desc>
 void encode(CallTag<call>, Encoding e, const Desc* descs, std::size_t stride, std::uint32_t count, std::uint64_t* ids) {
   e.rows(descs, stride, count);

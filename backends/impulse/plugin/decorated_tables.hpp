@@ -65,6 +65,7 @@ class DecoratedTables {
   static const void* extension(const char* name) {
     using Closest = PlumbClosestTable;
     using Collide = PlumbCollideTable;
+    using Cooking = PlumbCookingTable;
     using Debug = PlumbDebugTable;
     using Exceptions = PlumbExceptionsTable;
     using Joints = PlumbJointsTable;
@@ -78,6 +79,7 @@ class DecoratedTables {
     const std::string_view wanted = name == nullptr ? "" : name;
     if (wanted == PLUMB_EXT_CLOSEST) return served<Closest, &Closest::bodies>(name);
     if (wanted == PLUMB_EXT_COLLIDE) return served<Collide, &Collide::pairs>(name);
+    if (wanted == PLUMB_EXT_COOKING) return served<Cooking, &Cooking::cook, &Cooking::release, &Cooking::create>(name);
     if (wanted == PLUMB_EXT_DEBUG)
       return served<Debug, &Debug::pairs, &Debug::boxes, &Debug::axes, &Debug::bodies, &Debug::constraints>(name);
     if (wanted == PLUMB_EXT_EXCEPTIONS) return served<Exceptions, &Exceptions::set, &Exceptions::list>(name);

@@ -12,9 +12,9 @@ namespace plumb::wire {
 using Words = std::span<const char* const>;
 
 inline constexpr const char* kKindWords[PLUMB_CAP_COUNT] = {
-    "shape",     "pair",           "joint",  "joint_feature", "query",    "read",
-    "write",     "need",           "event",  "phase_time",    "residual", "snapshot",
-    "host_jobs", "child_material", "modify", "manifold",      "closest",  "triangle_material"};
+    "shape",  "pair",     "joint",      "joint_feature",     "query",    "read",      "write",
+    "need",   "event",    "phase_time", "residual",          "snapshot", "host_jobs", "child_material",
+    "modify", "manifold", "closest",    "triangle_material", "cooking"};
 static_assert(kKindWords[PLUMB_CAP_COUNT - 1] != nullptr, "a capability has no word");
 inline constexpr const char* kShapeWords[PLUMB_SHAPE_TYPE_COUNT] = {
     "sphere", "box", "capsule", "cylinder", "hull", "mesh", "height_field", "plane", "compound"};

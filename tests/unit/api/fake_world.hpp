@@ -18,7 +18,8 @@ class FakeWorld final : public IPhysicsWorld,
                         public IModify,
                         public IManifolds,
                         public IWorlds,
-                        public IClosest {
+                        public IClosest,
+                        public backend::ICookedShapes {
  public:
   explicit FakeWorld(const WorldInit& init) : iterations_(init.setting("iterations").number) { last = this; }
 
@@ -28,7 +29,8 @@ class FakeWorld final : public IPhysicsWorld,
   std::vector<PlumbShapeDesc> shapes;  ///< of the last call; their arrays are gone
   std::vector<PlumbBodyDesc> made;
   std::function<void()> on_step;
-  std::uint32_t remarks = 0;  ///< of steps
+  std::function<void(std::span<const PlumbShapeDesc>)> on_shapes;  ///< while their arrays are there
+  std::uint32_t remarks = 0;                                       ///< of steps
   bool fails_to_destroy = false;
   PlumbResult answer = PLUMB_OK;  ///< of every call that changes the world
   std::vector<PlumbEvent> event_rows;
@@ -42,9 +44,16 @@ class FakeWorld final : public IPhysicsWorld,
   static PlumbDegree capability(PlumbCapability kind, std::uint32_t a, std::uint32_t b, const char*& note) {
     if (kind == PLUMB_CAP_SHAPE && a == PLUMB_CYLINDER) return note = "no cylinders here", PLUMB_NONE;
     if (kind == PLUMB_CAP_SHAPE && a == PLUMB_PLANE) return b == PLUMB_STATIC ? PLUMB_NATIVE : PLUMB_NONE;
+    if (kind == PLUMB_CAP_COOKING) return a == PLUMB_TRIANGLE_MESH ? PLUMB_NATIVE : PLUMB_NONE;
     if (kind == PLUMB_CAP_NEED && a == 5) return note = "no continuous collision", PLUMB_NONE;
     if (kind == PLUMB_CAP_JOINT_FEATURE && a == PLUMB_JOINT_FIXED && b == PLUMB_JOINT_HAS_TARGETS) return PLUMB_NONE;
     return PLUMB_NATIVE;
+  }
+  static backend::CookedFormat cooked_format() { return {"fake", 3}; }
+  /// A byte a triangle.
+  static std::vector<std::byte> cook(const PlumbShapeDesc& desc) {
+    if (desc.triangle_count > 100) throw Error(PLUMB_E_OUT_OF_MEMORY, "too many triangles to cook");
+    return std::vector<std::byte>(desc.triangle_count, std::byte{7});
   }
   static std::span<const PlumbSettingInfo> setting_infos() {
     static const char* const kChoices[] = {"fast", "exact"};
@@ -86,6 +95,7 @@ class FakeWorld final : public IPhysicsWorld,
 
   PlumbResult create_shapes(std::span<const PlumbShapeDesc> descs, std::span<PlumbShape>) override {
     shapes.assign(descs.begin(), descs.end());
+    if (on_shapes) on_shapes(descs);
     return called();
   }
   PlumbResult destroy_shapes(std::span<const PlumbShape>) override { return called(); }
@@ -206,6 +216,20 @@ class FakeWorld final : public IPhysicsWorld,
 
   PlumbResult borrow_all(const PlumbStateRequest&, PlumbDLManagedTensor*&, PlumbFence*) override { return called(); }
 
+  PlumbResult create_cooked(std::span<const backend::CookedPayload> given, std::span<const PlumbShape> ids) override {
+    cooked.clear();
+    for (std::size_t i = 0; i < given.size(); ++i)
+      cooked.push_back({given[i].type, {given[i].bytes.begin(), given[i].bytes.end()}, ids[i]});
+    return fails_to_make_cooked ? PLUMB_E_OUT_OF_MEMORY : called();
+  }
+
+  struct Cooked {
+    PlumbShapeType type;
+    std::vector<std::byte> bytes;
+    PlumbShape id;
+  };
+  std::vector<Cooked> cooked;
+  bool fails_to_make_cooked = false;
   std::vector<IPhysicsWorld*> grouped_with;
   std::vector<PlumbManifold> shown;
   std::vector<PlumbManifoldChange> manifold_changes;

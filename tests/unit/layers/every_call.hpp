@@ -16,6 +16,7 @@ class Everything {
     ok(table_.create_world(&desc, &world_));
     objects();
     rows();
+    cooking();
     queries();
     extensions();
     ok(extension<PlumbJointsTable>(PLUMB_EXT_JOINTS).destroy(world_, &joint_, 1));
@@ -73,6 +74,20 @@ class Everything {
     ok(joints.write(world_, PLUMB_JOINT_MOTOR, PLUMB_F64, &joint_, 1, motors, sizeof motors));
     ok(joints.read(world_, PLUMB_JOINT_MOTOR, PLUMB_F64, nullptr, 1, motors, sizeof motors));
     ok(joints.write(world_, PLUMB_JOINT_SPRING_REST, PLUMB_F64, &joint_, 1, motors, sizeof motors));
+  }
+
+  void cooking() {
+    const auto& cooking = extension<PlumbCookingTable>(PLUMB_EXT_COOKING);
+    PlumbShapeDesc ball = shape_desc(PLUMB_SPHERE);
+    ball.radius = 0.75;
+    PlumbCooked cooked{};
+    cooked.struct_size = sizeof cooked;
+    ok(cooking.cook(&ball, &cooked));
+    const PlumbCookedShape shape = {sizeof shape, 0, cooked.data, cooked.size};
+    PlumbShape made = 0;
+    ok(cooking.create(world_, &shape, sizeof shape, 1, &made));
+    cooking.release(cooked.data);
+    ok(table_.destroy_shapes(world_, &made, 1));
   }
 
   void queries() const {

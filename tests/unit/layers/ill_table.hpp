@@ -21,6 +21,7 @@ struct IllTables {
   PlumbModifyTable modify;
   PlumbManifoldsTable manifolds;
   PlumbClosestTable closest;
+  PlumbCookingTable cooking;
 };
 
 template <class Table>
@@ -38,7 +39,8 @@ inline const IllTables& good() {
                                    table_named<PlumbExceptionsTable>(PLUMB_EXT_EXCEPTIONS),
                                    table_named<PlumbModifyTable>(PLUMB_EXT_MODIFY),
                                    table_named<PlumbManifoldsTable>(PLUMB_EXT_MANIFOLDS),
-                                   table_named<PlumbClosestTable>(PLUMB_EXT_CLOSEST)};
+                                   table_named<PlumbClosestTable>(PLUMB_EXT_CLOSEST),
+                                   table_named<PlumbCookingTable>(PLUMB_EXT_COOKING)};
   return tables;
 }
 
@@ -68,6 +70,7 @@ class Validated : public ::testing::Test {
       if (wanted == PLUMB_EXT_MODIFY) return &ill().modify;
       if (wanted == PLUMB_EXT_MANIFOLDS) return &ill().manifolds;
       if (wanted == PLUMB_EXT_CLOSEST) return &ill().closest;
+      if (wanted == PLUMB_EXT_COOKING) return &ill().cooking;
       if (wanted == "test.unknown/1") return &unknown_table;
       return nullptr;
     };

@@ -18,7 +18,7 @@ constexpr std::size_t functions = (sizeof(Table) - 8) / sizeof(void (*)());
 
 TEST(Calls, ListHoldsEveryFunctionOfEveryTable) {
   std::size_t core = 0, joints = 0, queries = 0, collide = 0, debug = 0, settings = 0, snapshot = 0, state = 0,
-              exceptions = 0, modify = 0, manifolds = 0, closest = 0;
+              exceptions = 0, modify = 0, manifolds = 0, closest = 0, cooking = 0;
   for_each_call([&]<Call call>() {
     using Table = CallTraits<call>::Table;
     core += std::is_same_v<Table, PlumbBackendTable>;
@@ -33,6 +33,7 @@ TEST(Calls, ListHoldsEveryFunctionOfEveryTable) {
     modify += std::is_same_v<Table, PlumbModifyTable>;
     manifolds += std::is_same_v<Table, PlumbManifoldsTable>;
     closest += std::is_same_v<Table, PlumbClosestTable>;
+    cooking += std::is_same_v<Table, PlumbCookingTable>;
   });
   EXPECT_EQ(core + 4, functions<PlumbBackendTable>) << "beside info, capability, extension and error_text";
   EXPECT_EQ(joints, functions<PlumbJointsTable>);
@@ -46,6 +47,7 @@ TEST(Calls, ListHoldsEveryFunctionOfEveryTable) {
   EXPECT_EQ(modify, functions<PlumbModifyTable>);
   EXPECT_EQ(manifolds, functions<PlumbManifoldsTable>);
   EXPECT_EQ(closest, functions<PlumbClosestTable>);
+  EXPECT_EQ(cooking + 2, functions<PlumbCookingTable>) << "beside cook and release, which have no world";
 }
 
 TEST(Calls, NumbersAndNamesAreDistinct) {

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include "plumb/backend/cooking.hpp"
 #include "plumb/backend/world_init.hpp"
 
 namespace plumb::backend {
@@ -30,6 +31,8 @@ struct BackendFacts {
   IPhysicsWorld* (*make)(const WorldInit& init);  ///< new World(init)
   bool has_joints, has_queries, has_collide, has_debug, has_exceptions, has_modify, has_manifolds, has_worlds,
       has_closest, has_settings;
+  std::vector<std::byte> (*cook)(const PlumbShapeDesc& desc);  ///< World::cook; null without HasCooking
+  CookedFormat (*cooked_format)();                             ///< likewise
 };
 
 /// The entries of PlumbBackendTable that depend on the class, for they are given nothing that would name it.
@@ -43,13 +46,22 @@ struct ClassEntries {
 
 [[nodiscard]] PlumbSettingsTable settings_table(const BackendFacts& facts,
                                                 decltype(PlumbSettingsTable::describe) describe);
+[[nodiscard]] PlumbCookingTable cooking_table(decltype(PlumbCookingTable::cook) cook);
+/// The tables that have entries of the class's own.
+struct ClassTables {
+  const PlumbSettingsTable& settings;
+  const PlumbCookingTable& cooking;
+};
 /// The table of an extension's name; null for one that the class lacks.
-[[nodiscard]] const void* extension_table(const BackendFacts& facts, const PlumbSettingsTable& settings,
-                                          const char* name);
+[[nodiscard]] const void* extension_table(const BackendFacts& facts, const ClassTables& tables, const char* name);
 PlumbDegree answer_capability(const BackendFacts& facts, PlumbCapability kind, std::uint32_t a, std::uint32_t b,
                               const char** note);
 PlumbResult create_guarded_world(const BackendFacts& facts, const PlumbHost* host, const PlumbWorldDesc* desc,
                                  PlumbWorld** world) noexcept;
+
+/// plumb.cooking/1: bytes that release_cooked() takes back.
+PlumbResult cook_shape(const BackendFacts& facts, const PlumbShapeDesc* desc, PlumbCooked* out) noexcept;
+void release_cooked(const void* data) noexcept;
 
 /// What negotiation asks a class; each may throw.
 struct Opening {
@@ -78,7 +90,9 @@ class Tables {
                                        std::derived_from<World, IManifolds>,
                                        std::derived_from<World, IWorlds>,
                                        std::derived_from<World, IClosest>,
-                                       std::derived_from<World, ISettings>};
+                                       std::derived_from<World, ISettings>,
+                                       cook_of_class(),
+                                       cooked_format_of_class()};
     return facts;
   }
 
@@ -105,6 +119,19 @@ class Tables {
       return {};
   }
 
+  static decltype(BackendFacts::cook) cook_of_class() {
+    if constexpr (HasCooking<World>)
+      return &World::cook;
+    else
+      return nullptr;
+  }
+  static decltype(BackendFacts::cooked_format) cooked_format_of_class() {
+    if constexpr (HasCooking<World>)
+      return &World::cooked_format;
+    else
+      return nullptr;
+  }
+
   static const PlumbBackendInfo* info() { return facts().info; }
   static PlumbDegree capability(PlumbCapability kind, std::uint32_t a, std::uint32_t b, const char** note) {
     return answer_capability(facts(), kind, a, b, note);
@@ -114,7 +141,11 @@ class Tables {
   }
   static const void* extension(const char* name) {
     static const PlumbSettingsTable settings = settings_table(facts(), &describe_setting);
-    return extension_table(facts(), settings, name);
+    static const PlumbCookingTable cooking = cooking_table(&cook);
+    return extension_table(facts(), {settings, cooking}, name);
+  }
+  static PlumbResult cook(const PlumbShapeDesc* desc, PlumbCooked* cooked) noexcept {
+    return cook_shape(facts(), desc, cooked);
   }
   static PlumbResult create_world(const PlumbWorldDesc* desc, PlumbWorld** world) noexcept {
     return create_guarded_world(facts(), host, desc, world);
