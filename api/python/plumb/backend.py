@@ -43,7 +43,7 @@ from .enums import (
     ShapeType,
 )
 from .settings import KnownSettings, Value
-from .shapes import Vec3
+from .shapes import ShapeDesc, Vec3, described_shapes
 from .world import World
 
 EXTENSIONS = (
@@ -59,6 +59,7 @@ EXTENSIONS = (
     "plumb.manifolds/1",
     "plumb.worlds/1",
     "plumb.closest/1",
+    "plumb.cooking/1",
 )
 
 
@@ -91,6 +92,7 @@ _ARGUMENTS: Dict[CapabilityKind, Tuple[Type[IntEnum], ...]] = {
     CapabilityKind.MANIFOLD: (_by_index(ContactChange),),
     CapabilityKind.CLOSEST: (ShapeType,),
     CapabilityKind.TRIANGLE_MATERIAL: (ShapeType,),
+    CapabilityKind.COOKING: (ShapeType,),
 }
 _JOINT_MEMBERS = _by_index(JointMember)
 
@@ -228,6 +230,18 @@ class Backend:
             capacities,
         )
         return World(self, core)
+
+    def cook(self, shape: ShapeDesc) -> bytes:
+        """A shape worked out ahead, to be kept in a file and made by World.create_cooked of a world of this backend: in a
+        build step, or on a thread that loads. The same shape gives the same bytes. Not of a Compound: cook its children.
+
+        >>> import plumb
+        >>> impulse = plumb.open("impulse")
+        >>> hull = impulse.cook(plumb.ConvexHull([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]))
+        >>> with impulse.world(["rotation", "collision"]) as world:
+        ...     shapes = world.create_cooked([hull])
+        """
+        return self._core.cook(described_shapes([shape])[0])
 
     def __repr__(self) -> str:
         return f"<Backend {self.info.name} {self.info.version}>"

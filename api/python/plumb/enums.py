@@ -284,6 +284,7 @@ class CapabilityKind(IntEnum):
     MANIFOLD = 15
     CLOSEST = 16
     TRIANGLE_MATERIAL = 17
+    COOKING = 18
 
 
 class Degree(IntEnum):

@@ -38,6 +38,7 @@ if TYPE_CHECKING:
     from .backend import Backend
 
 
+Bytes = Union[bytes, bytearray, memoryview]
 ModifyContacts = Callable[["NDArray[np.void]", "NDArray[np.void]"], object]
 
 
@@ -96,6 +97,12 @@ class World:
     def create_shapes(self, shapes: Sequence[ShapeDesc]) -> NDArray[np.uint64]:
         """All or none. Gives their handles."""
         return self._core.create_shapes(described_shapes(shapes))
+
+    def create_cooked(self, shapes: Sequence[Bytes]) -> NDArray[np.uint64]:
+        """As create_shapes, of what Backend.cook of this backend gave: the bytes, or a memoryview of a file that has
+        them. All or none. Bytes that are torn, changed or of another backend are an Error of
+        CORRUPT."""
+        return self._core.create_cooked(shapes)
 
     def destroy_shapes(self, shapes: Union[Handle, Handles]) -> None:
         """One or many; all or none. A shape that a body or compound still uses is an Error of IN_USE."""

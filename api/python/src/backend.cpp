@@ -1,5 +1,7 @@
 // Backends: where they are, what they are, what they can, and worlds of them.
 #include "core.hpp"
+#include "shapes.hpp"
+#include "unlocked.hpp"
 #include "world.hpp"
 
 namespace plumb::python {
@@ -70,6 +72,12 @@ std::unique_ptr<World> make_world(const Backend& backend, PlumbNeeds needs, std:
   return std::make_unique<World>(backend.table(), desc);
 }
 
+py::bytes cook(const Backend& backend, const Shape& shape) {
+  const PlumbShapeDesc desc = shape.pointing();
+  const std::vector<std::byte> bytes = unlocked([&] { return backend.cook(desc); });
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
 }  // namespace
 
 void bind_backend(py::module_& module) {
@@ -88,6 +96,7 @@ void bind_backend(py::module_& module) {
            })
       .def("has_extension", [](const Backend& backend,
                                const std::string& name) { return backend.table().extension(name.c_str()) != nullptr; })
+      .def("cook", &cook)
       .def("world", &make_world);
 }
 

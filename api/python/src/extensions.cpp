@@ -163,6 +163,24 @@ py::array list_exceptions(World& world) {
   return array_of(pairs);
 }
 
+py::array_t<std::uint64_t> create_cooked(World& world, const std::vector<py::buffer>& shapes) {
+  const auto& cooking = world.extension<PlumbCookingTable>(PLUMB_EXT_COOKING);
+  std::vector<py::buffer_info> held;  // so that nobody makes them longer or shorter meanwhile
+  std::vector<PlumbCookedShape> cooked;
+  for (const py::buffer& shape : shapes) {
+    held.push_back(shape.request());
+    const py::buffer_info& info = held.back();
+    if (PyBuffer_IsContiguous(info.view(), 'C') == 0)
+      throw py::value_error("bytes of a cooked shape must lie one after another; copy them");
+    cooked.push_back({sizeof(PlumbCookedShape), 0, info.ptr, static_cast<std::uint64_t>(info.size * info.itemsize)});
+  }
+  std::vector<PlumbShape> ids(cooked.size());
+  world.call(Tag::world, "create_cooked", [&](const PlumbBackendTable&, PlumbWorld* self) {
+    return cooking.create(self, cooked.data(), sizeof(PlumbCookedShape), count_of(cooked.size()), ids.data());
+  });
+  return handles(ids);
+}
+
 }  // namespace
 
 void bind_extensions(WorldClass& world) {
@@ -170,6 +188,7 @@ void bind_extensions(WorldClass& world) {
       .def("destroy_joints", &destroy_joints)
       .def("read_joints", &read_joints)
       .def("write_joints", &write_joints)
+      .def("create_cooked", &create_cooked)
       .def("modify_bodies", &modify_bodies)
       .def("modify_joints", &modify_joints)
       .def("modify_shapes", &modify_shapes)

@@ -50,6 +50,32 @@ class Shapes(unittest.TestCase):
                 self.assertAlmostEqual(heights_along_x(world, [5])[0], top, delta=0.01)
                 self.assertEqual(np.isnan(heights_along_x(world, [0])[0]), name != "plane")
 
+    @on_each(*QUERIES, asked=[("query", "ray"), ("cooking", "triangle_mesh")])
+    def test_cooked_ones(self, engine):
+        corners, triangles = [(-2, 1, -2), (-2, 1, 2), (2, 1, -2), (2, 1, 2)], [(0, 1, 2), (2, 1, 3)]
+        mesh = engine.cook(plumb.TriangleMesh(corners, triangles))
+        self.assertIsInstance(mesh, bytes)
+        self.assertEqual(mesh, engine.cook(plumb.TriangleMesh(corners, triangles)))
+        with engine.world(QUERIES) as world:
+            behind = memoryview(b"file" + mesh)[4:]
+            for shape, x in zip(world.create_cooked([mesh, bytearray(mesh), behind]), (0, 5, 10)):
+                world.create_body(plumb.BodyDesc(shape, "static", position=(x, 0, 0)))
+            world.step(1 / 60)
+            np.testing.assert_allclose(heights_along_x(world, [0, 5, 10]), [1, 1, 1], atol=0.01)
+            with self.assertRaisesRegex(plumb.Error, "shapes\\[0\\].data has 10 bytes, less than the header") as caught:
+                world.create_cooked([mesh[:10]])
+            self.assertEqual(caught.exception.code, plumb.Result.CORRUPT)
+            with self.assertRaisesRegex(plumb.Error, "its checksum is another"):
+                world.create_cooked([mesh, mesh[:-1] + bytes([mesh[-1] ^ 1])])
+            with self.assertRaisesRegex(ValueError, "must lie one after another"):
+                world.create_cooked([memoryview(mesh)[::2]])
+            with self.assertRaises(TypeError):
+                world.create_cooked([7])
+            with self.assertRaisesRegex(plumb.Error, "cook the children"):
+                engine.cook(plumb.Compound([plumb.Child(int(world.create_shape(plumb.Sphere(1))))]))
+            with self.assertRaisesRegex(TypeError, "must be a Sphere, Box or another shape"):
+                engine.cook(mesh)
+
     @on_each(*QUERIES, asked=[("query", "ray"), ("shape", "height_field", "static")])
     def test_height_fields(self, engine):
         with engine.world(QUERIES) as world:
