@@ -83,6 +83,7 @@ TEST_F(Guard, RefusesBadNumbersOfBodiesByName) {
   body_refused(PLUMB_E_INVALID_ARGUMENT, "motion is 9", [](auto& d) { d.motion = 9; });
   body_refused(PLUMB_E_INVALID_ARGUMENT, "flags", [](auto& d) { d.flags = 1u << 30; });
   body_refused(PLUMB_E_INVALID_ARGUMENT, "struct_size", [](auto& d) { d.struct_size = 0; });
+  body_refused(PLUMB_E_INVALID_ARGUMENT, "struct_size is 324", [](auto& d) { d.struct_size = 324; });  // of no version
   body_refused(PLUMB_E_STALE_HANDLE, "shape", [](auto& d) { d.shape = 12345; });
   body_refused(PLUMB_E_INVALID_ARGUMENT, "no shape", [](auto& d) { d.shape = 0; });
 }

@@ -235,6 +235,8 @@ TEST_F(GuardCooking, DescriptorsAreRefusedAsThoseOfShapes) {
   desc = solid.desc(PLUMB_SPHERE);
   desc.struct_size = 8;
   not_cooked(PLUMB_E_INVALID_ARGUMENT, desc, "desc[0].struct_size is 8");
+  desc.struct_size = offsetof(PlumbShapeDesc, materials) + 4;
+  not_cooked(PLUMB_E_INVALID_ARGUMENT, desc, "desc[0].struct_size is 140");
   const std::vector<std::uint32_t> many(3 * 101, 0);
   desc = solid.desc(PLUMB_TRIANGLE_MESH);
   desc.indices = many.data();

@@ -73,7 +73,8 @@ inline void require_known_bits(const Where& where, const char* member, std::uint
 }
 
 /// The caller's descriptors as this side's struct: members that an older caller does not know become 0, those that a
-/// newer caller knows beyond ours are not seen.
+/// newer caller knows beyond ours are not seen. smallest: as the first version had it; none is between it and ours,
+/// whose members would be there in part.
 template <class Desc>
 [[nodiscard]] std::vector<Desc> adopt_descs(const Desc* descs, std::size_t stride, std::uint32_t count,
                                             const char* name, std::size_t smallest = sizeof(Desc)) {
@@ -83,7 +84,7 @@ template <class Desc>
     const auto* from = reinterpret_cast<const std::byte*>(descs) + std::size_t{i} * stride;
     std::uint32_t struct_size = 0;
     std::memcpy(&struct_size, from, sizeof struct_size);
-    if (struct_size < smallest || struct_size > stride)
+    if (struct_size < smallest || struct_size > stride || (struct_size > smallest && struct_size < sizeof(Desc)))
       refuse(PLUMB_E_INVALID_ARGUMENT, Where{name, i}.member("struct_size") + " is " + std::to_string(struct_size) +
                                            " with a stride of " + std::to_string(stride) +
                                            "; set both to the sizeof of the descriptor");
