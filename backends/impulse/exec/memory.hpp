@@ -65,8 +65,15 @@ class Buffer {
     if (count != 0) memory::download(host.data(), data_, count * sizeof(T));
     return host;
   }
-  void from_host(const T* host, std::size_t count) {
-    grow(count);
+  void from_host(const T* host, std::size_t count) { from_bytes(host, count); }
+  /// Likewise of elements that may lie at any address.
+  void from_bytes(const void* host, std::size_t count) {
+    if (count > size_) {  // none stays as it is, so that there is nothing to copy or to clear
+      T* data = static_cast<T*>(memory::allocate(count * sizeof(T)));
+      memory::release(data_);
+      data_ = data;
+      size_ = count;
+    }
     if (count != 0) memory::upload(data_, host, count * sizeof(T));
   }
   void assign(const std::vector<T>& host) { from_host(host.data(), host.size()); }

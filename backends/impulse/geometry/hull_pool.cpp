@@ -69,40 +69,46 @@ void make_room(Mirror<T>& array, std::size_t count) {
 
 }  // namespace
 
-std::uint32_t HullPool::add(std::span<const PlumbVec3> vertices) {
-  const ConvexHull hull = backend::convex_hull(vertices);
-  const std::vector<HullEdge> edges = edges_of(hull);
-  Room need = {0, static_cast<std::uint32_t>(hull.faces.size()), 0, static_cast<std::uint32_t>(edges.size())};
-  const std::vector<std::uint32_t> number = number_corners(hull, need.vertices);
-  for (const backend::HullFace& face : hull.faces) need.loops += static_cast<std::uint32_t>(face.loop.size());
-
-  const std::uint32_t row = find_room(need);
-  HullRange& range = ranges_[row];
-  range.vertex_count = need.vertices;
-  range.face_count = need.faces;
-  range.edge_count = need.edges;
+HullRows::HullRows(std::span<const PlumbVec3> points) {
+  const ConvexHull hull = backend::convex_hull(points);
+  std::uint32_t corners = 0;
+  const std::vector<std::uint32_t> number = number_corners(hull, corners);
   PlumbVec3 sum{0, 0, 0};
+  vertices.reserve(corners);
   for (std::size_t v = 0; v < number.size(); ++v)
     if (number[v] != kNoVertex) {
-      vertices_[range.first_vertex + number[v]] = to_real(hull.vertices[v]);
+      vertices.push_back(to_real(hull.vertices[v]));
       sum = backend::add(sum, hull.vertices[v]);
     }
-  range.centre = to_real(backend::scale(1.0 / need.vertices, sum));
-  range.inner_radius = kHuge;
-  std::uint32_t at = 0;
-  for (std::uint32_t f = 0; f < need.faces; ++f) {
-    const auto& loop = hull.faces[f].loop;
-    HullFace face = {to_real(hull.faces[f].normal), -kHuge, at, static_cast<std::uint32_t>(loop.size())};
-    for (const std::uint32_t v : loop) {
-      loops_[range.first_loop + at++] = number[v];
-      face.offset = max(face.offset, dot(face.normal, vertices_[range.first_vertex + number[v]]));
+  centre = to_real(backend::scale(1.0 / corners, sum));
+  inner_radius = kHuge;
+  for (const backend::HullFace& given : hull.faces) {
+    HullFace face = {to_real(given.normal), -kHuge, static_cast<std::uint32_t>(loops.size()),
+                     static_cast<std::uint32_t>(given.loop.size())};
+    for (const std::uint32_t v : given.loop) {
+      loops.push_back(number[v]);
+      face.offset = max(face.offset, dot(face.normal, vertices[number[v]]));
     }
-    faces_[range.first_face + f] = face;
-    range.inner_radius = min(range.inner_radius, face.offset - dot(face.normal, range.centre));
+    faces.push_back(face);
+    inner_radius = min(inner_radius, face.offset - dot(face.normal, centre));
   }
-  for (std::uint32_t e = 0; e < need.edges; ++e)
-    edges_[range.first_edge + e] = {number[edges[e].from], number[edges[e].to], edges[e].left, edges[e].right};
-  PLUMB_ASSERT(at == need.loops);
+  for (const HullEdge& edge : edges_of(hull))
+    edges.push_back({number[edge.from], number[edge.to], edge.left, edge.right});
+}
+
+std::uint32_t HullPool::add(const HullRows& hull) {
+  const auto size = [](const auto& rows) { return static_cast<std::uint32_t>(rows.size()); };
+  const std::uint32_t row = find_room({size(hull.vertices), size(hull.faces), size(hull.loops), size(hull.edges)});
+  HullRange& range = ranges_[row];
+  range.vertex_count = size(hull.vertices);
+  range.face_count = size(hull.faces);
+  range.edge_count = size(hull.edges);
+  range.centre = hull.centre;
+  range.inner_radius = hull.inner_radius;
+  std::copy(hull.vertices.begin(), hull.vertices.end(), vertices_.host() + range.first_vertex);
+  std::copy(hull.faces.begin(), hull.faces.end(), faces_.host() + range.first_face);
+  std::copy(hull.loops.begin(), hull.loops.end(), loops_.host() + range.first_loop);
+  std::copy(hull.edges.begin(), hull.edges.end(), edges_.host() + range.first_edge);
   changed_ = true;
   return row;
 }

@@ -7,17 +7,34 @@
 
 #include "exec/memory.hpp"
 #include "geometry/shape.hpp"
+#include "plumb/backend/cooking.hpp"
 #include "plumb/types.h"
 
 namespace plumb::impulse {
 
+/// A hull by itself; its faces and edges name what is its own, from 0.
+struct HullRows {
+  std::vector<Vec> vertices;
+  std::vector<HullFace> faces;
+  std::vector<std::uint32_t> loops;
+  std::vector<HullEdge> edges;
+  Vec centre;
+  Real inner_radius;
+
+  /// The hull of the vertices, in the shape's frame, m; those inside it are left out. Faces that lie in one plane
+  /// within 1e-6 of the hull's extent are one. Throws Error PLUMB_E_INVALID_ARGUMENT when the vertices span no volume.
+  explicit HullRows(std::span<const PlumbVec3> points);
+  /// As cook() wrote it. Throws Error PLUMB_E_CORRUPT for bytes that are of no hull.
+  explicit HullRows(backend::CookedReader& bytes);
+  void cook(backend::CookedWriter& bytes) const;
+};
+
 /// Rows are names that stay; the room of a removed hull is given to a later one that fits.
 class HullPool {
  public:
-  /// The hull of the vertices, in the shape's frame, m; those inside it are left out. Faces that lie in one plane
-  /// within 1e-6 of the hull's extent are one. Throws Error PLUMB_E_INVALID_ARGUMENT when the vertices span no volume.
   /// Returns the hull's row, for Shape::hull.
-  std::uint32_t add(std::span<const PlumbVec3> vertices);
+  std::uint32_t add(const HullRows& hull);
+  std::uint32_t add(std::span<const PlumbVec3> points) { return add(HullRows(points)); }
   void remove(std::uint32_t row);
 
   /// Radius of the ball about the frame's origin that holds the hull: Shape::reach.

@@ -149,7 +149,11 @@ void SurfacePool::show_field(std::uint32_t row, const PlumbShapeDesc& desc) {
 }
 
 AddedSurface SurfacePool::add_mesh(Executor& executor, const PlumbShapeDesc& desc) {
-  const std::uint32_t row = row_for(meshes_, std::make_unique<Mesh>(executor, desc));
+  return add(std::make_unique<Mesh>(executor, desc));
+}
+
+AddedSurface SurfacePool::add(std::unique_ptr<Mesh> mesh) {
+  const std::uint32_t row = row_for(meshes_, std::move(mesh));
   if (meshes_[row]->materials.of.size() != 0) ++with_materials_;
   show_mesh(row);
   return meshes_[row]->added;

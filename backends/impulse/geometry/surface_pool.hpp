@@ -8,6 +8,7 @@
 #include "exec/table.hpp"
 #include "geometry/surface.hpp"
 #include "geometry/surface_change.hpp"
+#include "plumb/backend/cooking.hpp"
 #include "plumb/shapes.h"
 
 namespace plumb::impulse {
@@ -18,6 +19,10 @@ class SurfacePool {
   /// Builds the tree on the executor and waits for it. Not within a step.
   AddedSurface add_mesh(Executor& executor, const PlumbShapeDesc& desc);
   AddedSurface add_field(const PlumbShapeDesc& desc);
+  /// A mesh in bytes, the same wherever they are made; of no world, and on any thread that has the executor alone.
+  [[nodiscard]] static std::vector<std::byte> cook_mesh(Executor& executor, const PlumbShapeDesc& desc);
+  /// As add_mesh() of the description that was cooked. Throws Error PLUMB_E_CORRUPT for bytes that are of no mesh.
+  AddedSurface add_cooked_mesh(backend::CookedReader& bytes);
   void remove_mesh(std::uint32_t row) { remove(meshes_, row); }
   void remove_field(std::uint32_t row) { remove(fields_, row); }
 
@@ -47,6 +52,8 @@ class SurfacePool {
     Buffer<std::uint32_t> of;
 
     explicit Materials(const PlumbShapeDesc& desc);
+    explicit Materials(backend::CookedReader& bytes);
+    void cook(backend::CookedWriter& bytes) const;
     [[nodiscard]] bool is_of(const PlumbShapeDesc& desc) const;
     [[nodiscard]] TriangleMaterials view() const { return {rows.data(), of.data()}; }
   };
@@ -61,6 +68,8 @@ class SurfacePool {
     bool closed;
 
     Mesh(Executor& executor, const PlumbShapeDesc& desc);
+    explicit Mesh(backend::CookedReader& bytes);
+    void cook(backend::CookedWriter& bytes) const;
     [[nodiscard]] bool move(Executor& executor, const PlumbShapeDesc& desc, Extent& where);
   };
   struct Field {
@@ -79,6 +88,7 @@ class SurfacePool {
     if (all[row]->materials.of.size() != 0) --with_materials_;
     all[row].reset();
   }
+  AddedSurface add(std::unique_ptr<Mesh> mesh);
   template <class T>
   void replace(std::unique_ptr<T>& old, std::unique_ptr<T> other);
   void show_mesh(std::uint32_t row);

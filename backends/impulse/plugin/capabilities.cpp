@@ -45,6 +45,7 @@ Capability known(PlumbCapability kind, std::uint32_t a, std::uint32_t b) {
       break;
     case PLUMB_CAP_TRIANGLE_MATERIAL:
       return {a == PLUMB_TRIANGLE_MESH || a == PLUMB_HEIGHT_FIELD ? PLUMB_NATIVE : PLUMB_NONE};
+    case PLUMB_CAP_COOKING: return {a == PLUMB_TRIANGLE_MESH || a == PLUMB_CONVEX_HULL ? PLUMB_NATIVE : PLUMB_NONE};
     case PLUMB_CAP_PHASE_TIME: return phase_time(a);
     case PLUMB_CAP_RESIDUAL: return {PLUMB_NONE, "not in impulse yet"};
     case PLUMB_CAP_MODIFY:

@@ -40,27 +40,32 @@ Shape World::to_shape(const PlumbShapeDesc& desc, std::uint32_t row, Compound& p
       shape.reach = length(shape.size);
       break;
     case PLUMB_CONVEX_HULL:
-      shape.type = ShapeType::kHull;
-      shape.hull =
-          simulation_.colliders.hulls.add({reinterpret_cast<const PlumbVec3*>(desc.vertices), desc.vertex_count});
-      shape.reach = simulation_.colliders.hulls.reach(shape.hull);
-      break;
+      return hull_shape(simulation_.colliders.hulls.add(
+          std::span(reinterpret_cast<const PlumbVec3*>(desc.vertices), desc.vertex_count)));
     case PLUMB_PLANE: shape.type = ShapeType::kPlane; break;
-    case PLUMB_TRIANGLE_MESH: {
-      const AddedSurface added = simulation_.colliders.surfaces.add_mesh(simulation_.executor(), desc);
-      shape = surface_shape(ShapeType::kMesh, added);
-      parts = {{row, {added.centre, {0, 0, 0, 1}}, false, {}}};
-      break;
-    }
-    case PLUMB_HEIGHT_FIELD: {
-      const AddedSurface added = simulation_.colliders.surfaces.add_field(desc);
-      shape = surface_shape(ShapeType::kHeightField, added);
-      parts = {{row, {added.centre, {0, 0, 0, 1}}, false, {}}};
-      break;
-    }
+    case PLUMB_TRIANGLE_MESH:
+      return placed_surface(ShapeType::kMesh, simulation_.colliders.surfaces.add_mesh(simulation_.executor(), desc),
+                            row, parts);
+    case PLUMB_HEIGHT_FIELD:
+      return placed_surface(ShapeType::kHeightField, simulation_.colliders.surfaces.add_field(desc), row, parts);
     case PLUMB_COMPOUND: parts = to_compound(desc); break;  // its children have rows of their own
     default: throw Error(PLUMB_E_UNSUPPORTED, "shape type " + std::to_string(desc.type) + " is not in impulse yet");
   }
+  return shape;
+}
+
+/// The frame of a surface has its origin in the middle of its box, which is told in `parts`; `row`: as of to_shape().
+Shape World::placed_surface(ShapeType type, const AddedSurface& added, std::uint32_t row, Compound& parts) {
+  parts = {{row, {added.centre, {0, 0, 0, 1}}, false, {}}};
+  return surface_shape(type, added);
+}
+
+/// hull: its row in the pool.
+Shape World::hull_shape(std::uint32_t hull) const {
+  Shape shape{};
+  shape.type = ShapeType::kHull;
+  shape.hull = hull;
+  shape.reach = simulation_.colliders.hulls.reach(shape.hull);
   return shape;
 }
 
@@ -70,18 +75,19 @@ void World::dismantle(const Shape& shape) {
   if (shape.type == ShapeType::kHeightField) simulation_.colliders.surfaces.remove_field(shape.hull);
 }
 
-PlumbResult World::create_shapes(std::span<const PlumbShapeDesc> descs, std::span<PlumbShape> ids) {
-  for (std::size_t i = 0; i < descs.size(); ++i) require_range(descs[i], i);
+/// make(i, parts): the i-th shape, as to_shape() gives it.
+template <class Make>
+PlumbResult World::add_shapes(std::span<const PlumbShape> ids, const Make& make) {
   std::vector<Shape> made;
-  std::vector<Compound> parts(descs.size());
-  made.reserve(descs.size());
+  std::vector<Compound> parts(ids.size());
+  made.reserve(ids.size());
   try {
-    for (std::size_t i = 0; i < descs.size(); ++i) made.push_back(to_shape(descs[i], slot_of(ids[i]), parts[i]));
+    for (std::size_t i = 0; i < ids.size(); ++i) made.push_back(make(i, parts[i]));
   } catch (...) {
     for (const Shape& shape : made) dismantle(shape);
     throw;
   }
-  for (std::size_t i = 0; i < descs.size(); ++i) {
+  for (std::size_t i = 0; i < ids.size(); ++i) {
     const std::uint32_t row = slot_of(ids[i]);
     simulation_.reserve_shapes(row + 1);
     simulation_.colliders.shapes.edit(row) = made[i];
@@ -90,6 +96,21 @@ PlumbResult World::create_shapes(std::span<const PlumbShapeDesc> descs, std::spa
     compounds_[row] = std::move(parts[i]);
   }
   return PLUMB_OK;
+}
+
+PlumbResult World::create_shapes(std::span<const PlumbShapeDesc> descs, std::span<PlumbShape> ids) {
+  for (std::size_t i = 0; i < descs.size(); ++i) require_range(descs[i], i);
+  return add_shapes(ids, [&](std::size_t i, Compound& parts) { return to_shape(descs[i], slot_of(ids[i]), parts); });
+}
+
+PlumbResult World::create_cooked(std::span<const backend::CookedPayload> shapes, std::span<const PlumbShape> ids) {
+  ColliderTable& colliders = simulation_.colliders;
+  return add_shapes(ids, [&](std::size_t i, Compound& parts) {
+    backend::CookedReader bytes(shapes[i].bytes);
+    return shapes[i].type == PLUMB_TRIANGLE_MESH
+               ? placed_surface(ShapeType::kMesh, colliders.surfaces.add_cooked_mesh(bytes), slot_of(ids[i]), parts)
+               : hull_shape(colliders.hulls.add(HullRows(bytes)));
+  });
 }
 
 PlumbResult World::destroy_shapes(std::span<const PlumbShape> ids) {

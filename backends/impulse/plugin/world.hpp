@@ -13,6 +13,7 @@
 #include "plugin/rows/slot_list.hpp"
 #include "plugin/rows/world_group.hpp"
 #include "plugin/settings.hpp"
+#include "plumb/backend/cooking.hpp"
 #include "plumb/backend/touch_tracker.hpp"
 #include "plumb/backend/world_init.hpp"
 #include "plumb/physics_world.hpp"
@@ -34,7 +35,8 @@ class World final : public IPhysicsWorld,
                     public IModify,
                     public IManifolds,
                     public IWorlds,
-                    public IClosest {
+                    public IClosest,
+                    public backend::ICookedShapes {
  public:
   explicit World(const WorldInit& init);
   ~World() override;
@@ -42,6 +44,8 @@ class World final : public IPhysicsWorld,
   static const PlumbBackendInfo& info();
   static std::string unmet_requirement() { return Executor::unmet_requirement(); }
   static PlumbDegree capability(PlumbCapability kind, std::uint32_t a, std::uint32_t b, const char*& note);
+  static backend::CookedFormat cooked_format();
+  static std::vector<std::byte> cook(const PlumbShapeDesc& desc);
   static std::span<const PlumbSettingInfo> setting_infos() { return settings_table().infos(); }
 
   PlumbResult create_shapes(std::span<const PlumbShapeDesc> descs, std::span<PlumbShape> ids) override;
@@ -109,6 +113,7 @@ class World final : public IPhysicsWorld,
   PlumbResult read_manifolds(std::span<const PlumbManifold>& manifolds) override;
   PlumbResult modify_manifolds(std::span<const PlumbManifoldChange> changes) override;
 
+  PlumbResult create_cooked(std::span<const backend::CookedPayload> shapes, std::span<const PlumbShape> ids) override;
   PlumbResult group(std::span<IPhysicsWorld* const> others) override;
   PlumbResult borrow_all(const PlumbStateRequest& request, PlumbDLManagedTensor*& tensor, PlumbFence* fence) override;
 
@@ -141,6 +146,10 @@ class World final : public IPhysicsWorld,
   void write_row(PlumbField field, std::uint32_t slot, const double* row);
   void hold_locked(std::uint32_t slot);
   Shape to_shape(const PlumbShapeDesc& desc, std::uint32_t row, Compound& parts);
+  template <class Make>
+  PlumbResult add_shapes(std::span<const PlumbShape> ids, const Make& make);
+  static Shape placed_surface(ShapeType type, const AddedSurface& added, std::uint32_t row, Compound& parts);
+  [[nodiscard]] Shape hull_shape(std::uint32_t hull) const;
   void dismantle(const Shape& shape);
   [[nodiscard]] const Compound* parts_of(std::uint32_t shape) const;
   void attach(std::uint32_t slot, std::uint32_t shape);
