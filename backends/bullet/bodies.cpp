@@ -51,12 +51,16 @@ PlumbResult World::create_shapes(std::span<const PlumbShapeDesc> descs, std::spa
     if (desc.type == PLUMB_COMPOUND) children = children_of(desc, [this](PlumbShape id) { return shape(id); });
     made.push_back(make_shape(desc, std::move(children), settings_.shape_options()));
   }
+  put_shapes(std::move(made), ids);
+  return PLUMB_OK;
+}
+
+void World::put_shapes(std::vector<std::shared_ptr<const Shape>> made, std::span<const PlumbShape> ids) {
   for (std::size_t i = 0; i < made.size(); ++i) {
     const std::size_t slot = slot_of(ids[i]);
     if (shapes_.size() <= slot) shapes_.resize(slot + 1);
     shapes_[slot] = std::move(made[i]);
   }
-  return PLUMB_OK;
 }
 
 PlumbResult World::destroy_shapes(std::span<const PlumbShape> ids) {

@@ -196,6 +196,7 @@ PlumbDegree World::capability(PlumbCapability kind, std::uint32_t a, std::uint32
       if (a == PLUMB_HEIGHT_FIELD)
         return answer(PLUMB_EMULATED, note, "Bullet's point tells the place, not the triangle");
       return a == PLUMB_TRIANGLE_MESH ? PLUMB_NATIVE : PLUMB_NONE;
+    case PLUMB_CAP_COOKING: return a == PLUMB_TRIANGLE_MESH ? PLUMB_NATIVE : PLUMB_NONE;
     case PLUMB_CAP_MODIFY: return modify_degree(a, b, note);
     case PLUMB_CAP_MANIFOLD: return manifold_degree(a, note);
     default: return PLUMB_NONE;

@@ -10,8 +10,6 @@
 namespace plumb::bullet {
 namespace {
 
-/// Bullet numbers the triangles of a quantized tree with 21 bits.
-constexpr std::uint32_t kQuantizedTriangles = 1u << 21;
 /// btConvexInternalShape::setSafeMargin keeps margins under this share of the smallest half extent.
 constexpr double kSafeMargin = 0.1;
 constexpr double kDefaultMargin = 0.04;
@@ -70,11 +68,7 @@ std::vector<btScalar> vertices_of(const PlumbShapeDesc& desc) {
 }
 
 void make_mesh(const PlumbShapeDesc& desc, Shape& shape) {
-  shape.vertices = vertices_of(desc);
-  shape.indices.assign(desc.indices, desc.indices + std::size_t{desc.triangle_count} * 3);
-  auto mesh = std::make_unique<btTriangleIndexVertexArray>();
-  mesh->addIndexedMesh(indexed_mesh(shape.vertices, shape.indices), PHY_INTEGER);
-  shape.mesh = std::move(mesh);
+  take_triangles(desc, shape);
   shape.bullet = std::make_unique<btBvhTriangleMeshShape>(shape.mesh.get(), desc.triangle_count < kQuantizedTriangles);
 }
 
@@ -116,6 +110,18 @@ double inner_radius(const PlumbShapeDesc& desc, const Shape& shape) {
 }
 
 }  // namespace
+
+void take_triangles(const PlumbShapeDesc& desc, Shape& shape) {
+  shape.vertices = vertices_of(desc);
+  shape.indices.assign(desc.indices, desc.indices + std::size_t{desc.triangle_count} * 3);
+  index_triangles(shape);
+}
+
+void index_triangles(Shape& shape) {
+  auto mesh = std::make_unique<btTriangleIndexVertexArray>();
+  mesh->addIndexedMesh(indexed_mesh(shape.vertices, shape.indices), PHY_INTEGER);
+  shape.mesh = std::move(mesh);
+}
 
 bool Shape::has_own_material() const {
   return !materials.empty() ||

@@ -15,6 +15,9 @@ struct ShapeOptions {
   bool hull_clipping;  ///< contact polygons of hulls by clipping instead of one point of GJK a step
 };
 
+/// Bullet numbers the triangles of a quantized tree with 21 bits.
+constexpr std::uint32_t kQuantizedTriangles = 1u << 21;
+
 struct Shape {
   struct Child {
     std::shared_ptr<const Shape> shape;
@@ -28,6 +31,7 @@ struct Shape {
   std::vector<btScalar> vertices;  ///< of a mesh, or of a hull as it was given
   std::vector<int> indices;
   std::unique_ptr<btStridingMeshInterface> mesh;
+  std::unique_ptr<btOptimizedBvh> tree;  ///< of a mesh that was cooked; others have it in bullet
   std::vector<btScalar> heights;
   std::vector<Child> children;
   backend::TriangleMaterials materials;
@@ -51,6 +55,10 @@ std::vector<Shape::Child> children_of(const PlumbShapeDesc& desc, Find&& find) {
 
 std::shared_ptr<const Shape> make_shape(const PlumbShapeDesc& desc, std::vector<Shape::Child> children,
                                         const ShapeOptions& options);
+
+/// The vertices and triangles of a mesh, and the view of them that Bullet reads.
+void take_triangles(const PlumbShapeDesc& desc, Shape& shape);
+void index_triangles(Shape& shape);
 
 /// The arrays of a mesh as Bullet takes them; they must outlive what is made of it.
 btIndexedMesh indexed_mesh(const std::vector<btScalar>& vertices, const std::vector<int>& indices);

@@ -10,6 +10,7 @@
 #include "joints/joint.hpp"
 #include "materials.hpp"
 #include "plumb/assert.hpp"
+#include "plumb/backend/cooking.hpp"
 #include "plumb/backend/touch_tracker.hpp"
 #include "settings.hpp"
 
@@ -26,6 +27,7 @@ class World final : public IPhysicsWorld,
                     public IModify,
                     public IManifolds,
                     public IClosest,
+                    public backend::ICookedShapes,
                     private btOverlapFilterCallback,
                     private StepHooks {
  public:
@@ -34,6 +36,8 @@ class World final : public IPhysicsWorld,
 
   static const PlumbBackendInfo& info();
   static PlumbDegree capability(PlumbCapability kind, std::uint32_t a, std::uint32_t b, const char*& note);
+  static backend::CookedFormat cooked_format();
+  static std::vector<std::byte> cook(const PlumbShapeDesc& desc);
   static std::span<const PlumbSettingInfo> setting_infos() { return Settings::infos(); }
 
   // bodies.cpp
@@ -43,6 +47,9 @@ class World final : public IPhysicsWorld,
   PlumbResult destroy_bodies(std::span<const PlumbBody> ids) override;
   PlumbResult set_gravity(const PlumbVec3& gravity) override;
   PlumbResult set_exceptions(std::span<const PlumbBodyPair> pairs, bool touch) override;
+
+  // cooking/cooking.cpp
+  PlumbResult create_cooked(std::span<const backend::CookedPayload> shapes, std::span<const PlumbShape> ids) override;
 
   // fields.cpp
   PlumbResult read(PlumbField field, std::span<const PlumbBody> ids, Rows rows) override;
@@ -111,6 +118,7 @@ class World final : public IPhysicsWorld,
   PlumbResult restore(std::span<const std::byte> data) override;
 
  private:
+  void put_shapes(std::vector<std::shared_ptr<const Shape>> made, std::span<const PlumbShape> ids);
   [[nodiscard]] bool needs(PlumbNeeds bits) const { return (needs_ & bits) != 0; }
   /// The guard has refused handles of those who are gone.
   template <class Slots>
