@@ -87,6 +87,7 @@ struct Check {
 [[nodiscard]] std::span<const Check> modify_checks();
 [[nodiscard]] std::span<const Check> modify_joint_checks();
 [[nodiscard]] std::span<const Check> modify_shape_checks();
+[[nodiscard]] std::span<const Check> cooking_checks();
 [[nodiscard]] std::span<const Check> manifold_checks();
 [[nodiscard]] std::span<const Check> joint_checks();
 [[nodiscard]] std::span<const Check> joint_axis_checks();

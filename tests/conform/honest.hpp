@@ -23,6 +23,7 @@ struct Tables {
   PlumbManifoldsTable manifolds;
   PlumbWorldsTable worlds;
   PlumbClosestTable closest;
+  PlumbCookingTable cooking;
 };
 
 inline Tables honest{}, liar{};

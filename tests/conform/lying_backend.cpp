@@ -34,6 +34,7 @@ const void* extension(const char* name) {
   if (wanted == PLUMB_EXT_MANIFOLDS) return &liar.manifolds;
   if (wanted == PLUMB_EXT_WORLDS) return &liar.worlds;
   if (wanted == PLUMB_EXT_CLOSEST) return &liar.closest;
+  if (wanted == PLUMB_EXT_COOKING) return &liar.cooking;
   return truth;
 }
 
@@ -56,6 +57,7 @@ void take_tables(const PlumbBackendTable& table) {
   take(honest.manifolds, PLUMB_EXT_MANIFOLDS);
   take(honest.worlds, PLUMB_EXT_WORLDS);
   take(honest.closest, PLUMB_EXT_CLOSEST);
+  take(honest.cooking, PLUMB_EXT_COOKING);
   liar = honest;
   liar.core.extension = &extension;
   liar.core.info = []() -> const PlumbBackendInfo* { return &liar.info; };
