@@ -459,7 +459,7 @@ public unsafe struct PlumbCookingTable
     public uint struct_size;
     public uint reserved;
     /// <summary>[any] A descriptor is refused as create_shapes refuses it. Compounds are not cooked: cook their
-    /// children, and create the compound from the handles of these.</summary>
+    /// children, and create the compound from the handles of these. user_data is not in the bytes.</summary>
     public IntPtr cook;
     /// <summary>[any] Takes null.</summary>
     public IntPtr release;

@@ -646,7 +646,7 @@ pub struct PlumbCookingTable {
     pub struct_size: u32,
     pub reserved: u32,
     /// \[any\] A descriptor is refused as create_shapes refuses it. Compounds are not cooked: cook their children, and
-    /// create the compound from the handles of these.
+    /// create the compound from the handles of these. user_data is not in the bytes.
     pub cook: Option<unsafe extern "C" fn(desc: *const PlumbShapeDesc, cooked: *mut PlumbCooked) -> PlumbResult>,
     /// \[any\] Takes null.
     pub release: Option<unsafe extern "C" fn(data: *const c_void)>,

@@ -39,7 +39,7 @@ typedef struct PlumbCookingTable {
   uint32_t struct_size;
   uint32_t reserved;
   /* [any] A descriptor is refused as create_shapes refuses it. Compounds are not cooked: cook their children, and
-   * create the compound from the handles of these. */
+   * create the compound from the handles of these. user_data is not in the bytes. */
   PlumbResult (*cook)(const PlumbShapeDesc* desc, PlumbCooked* cooked);
   /* [any] Takes null. */
   void (*release)(const void* data);
