@@ -258,6 +258,8 @@ export interface ContactChange {
 export interface World {
   createShape(options: ShapeOptions): Shape;
   createShapes(list: readonly ShapeOptions[]): Shape[];
+  /** What Engine.cook gave, here or wherever else this engine runs. */
+  createCooked(list: readonly Uint8Array[]): Shape[];
   destroyShape(...shapes: Shape[]): void;
   createBody(options: BodyOptions): Body;
   createBodies(list: readonly BodyOptions[]): Body[];
@@ -347,10 +349,12 @@ export interface Engine {
   readonly info: Readonly<{ name: string; version: string; build: string }>;
   readonly settings: readonly Setting[];
   createWorld(options?: WorldOptions): World;
+  /** The bytes of a shape that was worked out ahead, for World.createCooked; not of a compound. */
+  cook(options: ShapeOptions): Uint8Array;
   /** How truly it has a thing: capability('shape', 'mesh'), capability('joint', 'generic'). */
   capability(kind: 'shape' | 'pair' | 'joint' | 'jointFeature' | 'query' | 'fieldRead' | 'fieldWrite' | 'need' | 'event'
     | 'phaseTime' | 'residual' | 'snapshot' | 'hostJobs' | 'childMaterial' | 'modify' | 'manifold' | 'closest'
-    | 'triangleMaterial',
+    | 'triangleMaterial' | 'cooking',
     of?: string | number, with_?: string | number): 'none' | 'approximate' | 'emulated' | 'native';
 }
 

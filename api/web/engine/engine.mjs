@@ -1,4 +1,5 @@
 // A loaded .wasm: what it is, what it can, its settings, and its worlds.
+import { shapeOf } from './descriptors.mjs';
 import { INVALID, PlumbError } from './error.mjs';
 import { LAYOUT } from './layouts.mjs';
 import { Memory } from './memory.mjs';
@@ -23,9 +24,19 @@ export class Engine {
   createWorld(options = {}) {
     return new World(this, options);
   }
+  /** The bytes of a shape that was worked out ahead. */
+  cook(options) {
+    return this.memory.scope(() => {
+      const desc = this.memory.putStructs(LAYOUT.shape, [shapeOf(this.memory, options)]);
+      const bytes = this.memory.take(4), size = this.memory.take(4);
+      this.check(this.wasm.plumb_cook(desc, bytes, size));
+      return this.memory.array(Uint8Array, this.memory.word(bytes), this.memory.word(size));
+    });
+  }
   /** How truly it has a thing: capability('shape', 'mesh'), capability('joint', 'generic'). */
   capability(kind, of = 0, with_ = 0) {
-    const words = { shape: SHAPE, pair: SHAPE, closest: SHAPE, triangleMaterial: SHAPE, joint: JOINT, jointFeature: JOINT }[kind];
+    const words = { shape: SHAPE, pair: SHAPE, closest: SHAPE, triangleMaterial: SHAPE, cooking: SHAPE,
+      joint: JOINT, jointFeature: JOINT }[kind];
     const number = (word) => typeof word === 'number' ? word : numberOf(words ?? {}, word, kind);
     return DEGREE[this.wasm.plumb_capability(numberOf(CAPABILITY, kind, 'capability'), number(of), number(with_))];
   }

@@ -42,6 +42,10 @@ export class World {
   createShapes(list) {
     return this.#created('plumb_create_shapes', LAYOUT.shape, list, (options) => shapeOf(this.#memory, options));
   }
+  createCooked(list) {
+    return this.#created('plumb_create_cooked', LAYOUT.cooked, list,
+      (bytes) => ({ data: this.#memory.putArray(Uint8Array, bytes), size: bytes.length }));
+  }
   destroyShape(...shapes) {
     this.#call('plumb_destroy_shapes', this.#ids(shapes), shapes.length);
   }

@@ -33,6 +33,17 @@ PLUMB_WEB(PlumbDegree, plumb_capability)(PlumbCapability kind, std::uint32_t a, 
   return backend().capability(kind, a, b);
 }
 
+/// What the shape is cooked into; the bytes live until the next call of this.
+PLUMB_WEB(PlumbResult, plumb_cook)(const PlumbShapeDesc* desc, const std::byte** bytes, std::uint32_t* size) {
+  static std::vector<std::byte> cooked;
+  return plumb::web::guarded([&] {
+    cooked = backend().cook(*desc);
+    *bytes = cooked.data();
+    *size = static_cast<std::uint32_t>(cooked.size());
+    return PLUMB_OK;
+  });
+}
+
 /// Null from the last on.
 PLUMB_WEB(const PlumbSettingInfo*, plumb_setting)(std::uint32_t index) {
   static const auto all = backend().settings();
@@ -42,14 +53,15 @@ PLUMB_WEB(const PlumbSettingInfo*, plumb_setting)(std::uint32_t index) {
 /// Bytes of a struct, in the order of engine/layouts.mjs: whether it was written against this plumb.h. 0: no more.
 PLUMB_WEB(std::uint32_t, plumb_struct_size)(std::uint32_t which) {
   constexpr std::uint32_t sizes[] = {
-      sizeof(PlumbShapeDesc), sizeof(PlumbMaterial),       sizeof(PlumbCompoundChild),
-      sizeof(PlumbBodyDesc),  sizeof(PlumbJointDesc),      sizeof(PlumbWorldDesc),
-      sizeof(PlumbSetting),   sizeof(PlumbSettingInfo),    sizeof(PlumbStepReport),
-      sizeof(PlumbContact),   sizeof(PlumbEvent),          sizeof(PlumbRay),
-      sizeof(PlumbCast),      sizeof(PlumbOverlap),        sizeof(PlumbHit),
-      sizeof(PlumbBodyPair),  sizeof(PlumbBodyChange),     sizeof(PlumbJointChange),
-      sizeof(PlumbPosedPair), sizeof(PlumbPairResult),     sizeof(PlumbPairPoint),
-      sizeof(PlumbManifold),  sizeof(PlumbManifoldChange), sizeof(PlumbPenetration),
+      sizeof(PlumbShapeDesc),   sizeof(PlumbMaterial),       sizeof(PlumbCompoundChild),
+      sizeof(PlumbBodyDesc),    sizeof(PlumbJointDesc),      sizeof(PlumbWorldDesc),
+      sizeof(PlumbSetting),     sizeof(PlumbSettingInfo),    sizeof(PlumbStepReport),
+      sizeof(PlumbContact),     sizeof(PlumbEvent),          sizeof(PlumbRay),
+      sizeof(PlumbCast),        sizeof(PlumbOverlap),        sizeof(PlumbHit),
+      sizeof(PlumbBodyPair),    sizeof(PlumbBodyChange),     sizeof(PlumbJointChange),
+      sizeof(PlumbPosedPair),   sizeof(PlumbPairResult),     sizeof(PlumbPairPoint),
+      sizeof(PlumbManifold),    sizeof(PlumbManifoldChange), sizeof(PlumbPenetration),
+      sizeof(PlumbCookedShape),
   };
   return which < sizeof sizes / sizeof *sizes ? sizes[which] : 0;
 }

@@ -133,6 +133,13 @@ PLUMB_WEB(PlumbResult, plumb_modify_shapes)
   });
 }
 
+PLUMB_WEB(PlumbResult, plumb_create_cooked)
+(IPhysicsWorld* world, const PlumbCookedShape* shapes, std::uint32_t count, PlumbShape* ids) {
+  return with(*world, world->cooking(), "cooked shapes", [&](auto& cooking) {
+    return cooking.create_cooked({shapes, count}, {ids, count});
+  });
+}
+
 /// How many there are, or a result below 0; they live until the next call on the world.
 PLUMB_WEB(std::int32_t, plumb_read_manifolds)(IPhysicsWorld* world, const PlumbManifold** rows) {
   std::span<const PlumbManifold> found;

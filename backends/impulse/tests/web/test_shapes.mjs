@@ -55,6 +55,31 @@ test('a pit opens in a height field, and in a mesh', () => {
   }
 });
 
+test('shapes are made from bytes that were cooked', () => {
+  const spots = Array.from({ length: 81 }, (_, i) => [i % 9 - 4, Math.floor(i / 9) - 4]);
+  const indices = spots.flatMap(([x, z], i) => x < 4 && z < 4 ? [i, i + 9, i + 1, i + 1, i + 9, i + 10] : []);
+  const ground = { type: 'mesh', vertices: spots.flatMap(([x, z]) => [x, 0.1 * x * z, z]), indices };
+  const cube = { type: 'box', halfExtents: [0.3, 0.3, 0.3] };
+  const poured = (shapes) => {
+    const world = engine.createWorld({ needs: ['rotation', 'collision', 'friction'] });
+    const [below, above] = shapes(world);
+    world.createBody({ shape: below, motion: 'static' });
+    const body = world.createBody({ shape: above, position: [0.3, 1, 0.2] });
+    steps(world, 90);
+    const pose = [...world.read('pose', [body])];
+    world.destroy();
+    return pose;
+  };
+  assert.equal(engine.capability('cooking', 'mesh'), 'native');
+  const bytes = [ground, cube].map((shape) => engine.cook(shape));
+  assert.deepEqual(engine.cook(ground), bytes[0]);
+  assert.deepEqual(poured((world) => world.createCooked(bytes)), poured((world) => world.createShapes([ground, cube])));
+  const world = engine.createWorld();
+  assert.throws(() => world.createCooked([bytes[0].slice(0, 99)]), /shapes\[0\].data has 99 bytes, less than the header/);
+  assert.throws(() => engine.cook({ type: 'sphere', radius: 0 }), /desc\[0\].radius is 0/);
+  world.destroy();
+});
+
 test('triangles have their own materials', () => {
   const world = engine.createWorld({ needs: ['rotation', 'collision', 'friction'] });
   assert.equal(engine.capability('triangleMaterial', 'heightField'), 'native');

@@ -8,10 +8,13 @@ const shape = world.createShape({ type: 'compound', children: [{ shape: ball, po
 const b = world.createBody({ shape, flags: ['ccd'], filter: { mask: 2 } });
 const joint = world.createJoint({ type: 'generic', b, axes: { x: 'locked' }, motors: { angularX: { maxForce: 3 } } });
 world.modifyJoint(joint, { enabled: false });
+world.createCooked([engine.cook({ type: 'sphere', radius: 1 })]);
 export const all: number = world.castRays([{ origin: [0, 0, 0], translation: [0, 1, 0] }], { all: true })[0]!.length;
 
 // @ts-expect-error a box has no radius
 world.createShape({ type: 'box', radius: 3 });
+// @ts-expect-error bytes are no descriptor
+world.createCooked([{ type: 'sphere', radius: 1 }]);
 // @ts-expect-error a handle is no number
 world.destroyBody(3);
 // @ts-expect-error only motors are written
