@@ -676,6 +676,8 @@ public unsafe struct PlumbJointDesc
     /// <summary>N m, 0: never breaks</summary>
     public double break_torque;
     public ulong user_data;
+    /// <summary>gear, rack and pinion: not 0; b's teeth by a's, or rad/m. Since 1.2</summary>
+    public double ratio;
 }
 
 [StructLayout(LayoutKind.Sequential)]
@@ -1702,7 +1704,11 @@ public static class Constants
     public const uint PLUMB_JOINT_GENERIC = 6u;
     /// <summary>origins coincide; axes 3 4 5 are a twist and a swing (head of joints.h)</summary>
     public const uint PLUMB_JOINT_SWING_TWIST = 7u;
-    public const uint PLUMB_JOINT_TYPE_COUNT = 8u;
+    /// <summary>turns about both x axes (head of joints.h). Since 1.2</summary>
+    public const uint PLUMB_JOINT_GEAR = 8u;
+    /// <summary>a's turn about its x axis and b's way along its own. Since 1.2</summary>
+    public const uint PLUMB_JOINT_RACK_AND_PINION = 9u;
+    public const uint PLUMB_JOINT_TYPE_COUNT = 10u;
 
     // PlumbAxisMode, uint.
     public const uint PLUMB_AXIS_FREE = 0u;

@@ -808,7 +808,11 @@ pub const PLUMB_JOINT_UNIVERSAL: PlumbJointType = 5;
 pub const PLUMB_JOINT_GENERIC: PlumbJointType = 6;
 /// origins coincide; axes 3 4 5 are a twist and a swing (head of joints.h)
 pub const PLUMB_JOINT_SWING_TWIST: PlumbJointType = 7;
-pub const PLUMB_JOINT_TYPE_COUNT: PlumbJointType = 8;
+/// turns about both x axes (head of joints.h). Since 1.2
+pub const PLUMB_JOINT_GEAR: PlumbJointType = 8;
+/// a's turn about its x axis and b's way along its own. Since 1.2
+pub const PLUMB_JOINT_RACK_AND_PINION: PlumbJointType = 9;
+pub const PLUMB_JOINT_TYPE_COUNT: PlumbJointType = 10;
 
 pub type PlumbAxisMode = u32;
 
@@ -888,6 +892,8 @@ pub struct PlumbJointDesc {
     /// N m, 0: never breaks
     pub break_torque: f64,
     pub user_data: u64,
+    /// gear, rack and pinion: not 0; b's teeth by a's, or rad/m. Since 1.2
+    pub ratio: f64,
 }
 
 /// Rows of a joint, read in batches.

@@ -156,10 +156,13 @@ export interface JointRow {
 }
 
 export interface JointOptions extends JointRow {
-  type: 'ball' | 'hinge' | 'slider' | 'distance' | 'fixed' | 'universal' | 'generic' | 'swing_twist';
+  type: 'ball' | 'hinge' | 'slider' | 'distance' | 'fixed' | 'universal' | 'generic' | 'swing_twist' | 'gear' |
+    'rack_and_pinion';
   /** Left out: the world. */
   a?: Body;
   b: Body;
+  /** Of a gear: turn of a + ratio * turn of b stays; of a rack_and_pinion: of a's turn by b's way, rad/m. Not 0. */
+  ratio?: number;
   userData?: unknown;
 }
 

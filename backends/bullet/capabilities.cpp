@@ -60,6 +60,8 @@ PlumbDegree joint_degree(std::uint32_t type, const char*& note) {
     return answer(PLUMB_APPROXIMATE, note, "elliptic cones let go by up to .6 rad; round ones hold");
   if (type == PLUMB_JOINT_DISTANCE)
     return answer(PLUMB_EMULATED, note, "a constraint row of the adapter in Bullet's solver");
+  if (backend::is_meshing(type))
+    return answer(PLUMB_APPROXIMATE, note, "a row of the adapter over speeds alone: what slips is not taken back");
   return PLUMB_NATIVE;
 }
 

@@ -52,6 +52,7 @@ Fact pair_fact(std::uint32_t a, std::uint32_t b) {
 Fact joint_fact(std::uint32_t type) {
   if (type >= PLUMB_JOINT_TYPE_COUNT) return {PLUMB_NONE};
   if (type == PLUMB_JOINT_SWING_TWIST) return {PLUMB_NONE, "ODE has no joint with a cone"};
+  if (backend::is_meshing(type)) return {PLUMB_NONE, "not made: ODE's transmissions hold wheels by where they are"};
   if (type == PLUMB_JOINT_GENERIC)
     return {PLUMB_EMULATED,
             "contact rows along the axes of frame a, and an angular motor told its axes in each sub-step"};

@@ -21,12 +21,12 @@ void Conformance::require_needs(PlumbNeeds needs) {
 std::vector<Check> all_checks() {
   std::vector<Check> checks;
   for (const std::span<const Check> group :
-       {shape_checks(),        body_checks(),        exact_body_checks(),  material_checks(), exact_contact_checks(),
-        handle_checks(),       event_checks(),       exception_checks(),   joint_checks(),    joint_axis_checks(),
-        exact_joint_checks(),  swing_twist_checks(), drive_checks(),       modify_checks(),   modify_joint_checks(),
-        modify_shape_checks(), cooking_checks(),     manifold_checks(),    query_checks(),    exact_query_checks(),
-        query_target_checks(), closest_checks(),     penetration_checks(), debug_checks(),    setting_checks(),
-        snapshot_checks(),     thread_checks()})
+       {shape_checks(),        body_checks(),         exact_body_checks(), material_checks(),    exact_contact_checks(),
+        handle_checks(),       event_checks(),        exception_checks(),  joint_checks(),       joint_axis_checks(),
+        exact_joint_checks(),  swing_twist_checks(),  gear_checks(),       drive_checks(),       modify_checks(),
+        modify_joint_checks(), modify_shape_checks(), cooking_checks(),    manifold_checks(),    query_checks(),
+        exact_query_checks(),  query_target_checks(), closest_checks(),    penetration_checks(), debug_checks(),
+        setting_checks(),      snapshot_checks(),     thread_checks()})
     checks.insert(checks.end(), group.begin(), group.end());
   return checks;
 }

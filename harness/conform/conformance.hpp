@@ -78,6 +78,7 @@ struct Check {
 [[nodiscard]] std::span<const Check> exact_contact_checks();
 [[nodiscard]] std::span<const Check> exact_joint_checks();
 [[nodiscard]] std::span<const Check> swing_twist_checks();
+[[nodiscard]] std::span<const Check> gear_checks();
 [[nodiscard]] std::span<const Check> drive_checks();
 [[nodiscard]] std::span<const Check> exact_query_checks();
 [[nodiscard]] std::span<const Check> material_checks();

@@ -102,8 +102,8 @@ void pour(Conformance& c, Probe& probe, const Forms& forms, bool cooked) {
     shapes.push_back(probe.shape(compound));
   }
   for (std::size_t i = 0; i < 24; ++i)
-    probe.dynamic(shapes[i % shapes.size()],
-                  {1.3 * static_cast<double>(i % 5) - 2.6, 1 + 0.2 * static_cast<double>(i), 1.1 * (i % 3) - 1.2});
+    probe.dynamic(shapes[i % shapes.size()], {1.3 * static_cast<double>(i % 5) - 2.6, 1 + 0.2 * static_cast<double>(i),
+                                              1.1 * static_cast<double>(i % 3) - 1.2});
 }
 
 /// A world with a ground and what is poured on it.

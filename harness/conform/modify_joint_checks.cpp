@@ -1,5 +1,5 @@
 // Joints that become others while they live (plumb.modify/1). The geometry is the referee's.
-#include "conform/joint_pair.hpp"
+#include "conform/joints/joint_pair.hpp"
 #include "plumb/backend/modify.hpp"
 
 namespace plumb::harness::conform {

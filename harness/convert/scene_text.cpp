@@ -6,6 +6,7 @@
 #include <regex>
 
 #include "base/format.hpp"
+#include "plumb/backend/names.hpp"
 #include "scene/build.hpp"
 
 namespace plumb::harness {
@@ -164,6 +165,7 @@ Json json_of(const SceneJoint& joint, const Scene& scene) {
   if (desc.collide_connected != 0) json["collide_connected"] = true;
   add_axes(json, desc);
   if (desc.type == PLUMB_JOINT_DISTANCE) json["rest_length"] = desc.rest_length;
+  if (backend::is_meshing(desc.type)) json["ratio"] = desc.ratio;
   if (desc.break_force != 0) json["break_force"] = desc.break_force;
   if (desc.break_torque != 0) json["break_torque"] = desc.break_torque;
   if (joint.cut != std::numeric_limits<double>::infinity()) json["cut"] = joint.cut;

@@ -91,10 +91,25 @@ Json plain_scene(const Scene& scene, const SceneFile& file) {
 
 std::vector<std::vector<Pointer>> parts_of(const Json& scene) {
   // Without these a body or a joint would be none, or another.
-  static const std::set<std::string> essential{
-      "name",    "type",    "body",       "body_a",      "body_b",         "frame_a",
-      "frame_b", "shape",   "position",   "orientation", "motion",         "mass",
-      "inertia", "density", "axis_modes", "rest_length", "centre_of_mass", "inertia_orientation"};
+  static const std::set<std::string> essential{"name",
+                                               "type",
+                                               "body",
+                                               "body_a",
+                                               "body_b",
+                                               "frame_a",
+                                               "frame_b",
+                                               "shape",
+                                               "position",
+                                               "orientation",
+                                               "motion",
+                                               "mass",
+                                               "inertia",
+                                               "density",
+                                               "axis_modes",
+                                               "rest_length",
+                                               "ratio",
+                                               "centre_of_mass",
+                                               "inertia_orientation"};
   static const std::set<std::string> by_axis{"limits", "motors", "springs", "targets"};
   std::vector<Pointer> quantities, bodies, joints, rest;
   const auto add_rest = [&](const Pointer& place, const Json& thing) {

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "plumb/backend/names.hpp"
 #include "scene/build.hpp"
 
 namespace plumb::harness {
@@ -101,6 +102,11 @@ SceneJoint read_joint(const Node& node, const SceneBuilder& builder) {
   const auto length = node.find("rest_length");
   if (length && joint.desc.type != PLUMB_JOINT_DISTANCE) length->fail("only a distance joint has rest_length");
   joint.desc.rest_length = length ? length->number() : 0;
+  const auto ratio = node.find("ratio");
+  if (ratio.has_value() != backend::is_meshing(joint.desc.type))
+    (ratio ? *ratio : node).fail("a gear and a rack_and_pinion have a ratio, and no other joint");
+  joint.desc.ratio = ratio ? ratio->number() : 0;
+  if (ratio && joint.desc.ratio == 0) ratio->fail("the ratio is not 0");
   joint.desc.break_force = node.number_or("break_force", 0);
   joint.desc.break_torque = node.number_or("break_torque", 0);
   if (const auto cut = node.find("cut")) {

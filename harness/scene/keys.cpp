@@ -72,6 +72,7 @@ const std::map<std::string, std::vector<std::string>>& scene_keys() {
         "motors",
         "springs",
         "rest_length",
+        "ratio",
         "break_force",
         "break_torque",
         "cut",
@@ -103,9 +104,9 @@ const std::vector<std::string>& shape_words() {
 }
 
 const std::vector<std::string>& joint_words() {
-  static const std::vector<std::string> words{"ball",  "hinge",     "slider",  "distance",
-                                              "fixed", "universal", "generic", "swing_twist"};
-  static_assert(PLUMB_JOINT_TYPE_COUNT == 8);
+  static const std::vector<std::string> words{"ball",      "hinge",   "slider",      "distance", "fixed",
+                                              "universal", "generic", "swing_twist", "gear",     "rack_and_pinion"};
+  static_assert(PLUMB_JOINT_TYPE_COUNT == 10);
   return words;
 }
 

@@ -117,6 +117,16 @@ void cones_are_round() {
     if (desc.type == PLUMB_JOINT_SWING_TWIST) desc.limits[5] = desc.limits[4];
   }>();
 }
+void gears_have_other_teeth() {
+  change_joints<[](PlumbJointDesc& desc) {
+    if (desc.type == PLUMB_JOINT_GEAR) desc.ratio *= 1.01;
+  }>();
+}
+void racks_have_other_teeth() {
+  change_joints<[](PlumbJointDesc& desc) {
+    if (desc.type == PLUMB_JOINT_RACK_AND_PINION) desc.ratio *= 1.01;
+  }>();
+}
 void targets_are_not_written() {
   liar.joints.write = [](PlumbWorld* world, PlumbJointField field, PlumbDataType type, const PlumbJoint* ids,
                          std::uint32_t count, const void* rows, std::size_t stride) -> PlumbResult {

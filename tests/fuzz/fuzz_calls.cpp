@@ -239,6 +239,13 @@ class Fuzzer : private plumb::fuzz::OddNumbers {
     }
   }
 
+  /// A gear or a rack, with nothing on its axes.
+  void mesh(PlumbJointDesc& desc) {
+    desc.type = chance(2) ? PLUMB_JOINT_GEAR : PLUMB_JOINT_RACK_AND_PINION;
+    for (std::size_t axis = 0; axis < 6; ++axis)
+      desc.limits[axis].enabled = desc.motors[axis].enabled = desc.springs[axis].enabled = 0;
+    desc.ratio = chance(8) ? number() : 1 + positive();
+  }
   void create_joint() {
     if (joints_ == nullptr) return;
     PlumbJointDesc desc = plumb::joint_desc(below(PLUMB_JOINT_TYPE_COUNT));
@@ -254,6 +261,7 @@ class Fuzzer : private plumb::fuzz::OddNumbers {
       desc.springs[axis] = spring();
     }
     if (desc.type == PLUMB_JOINT_SWING_TWIST && !chance(8)) give_cone(desc);
+    if (chance(3)) mesh(desc);
     desc.rest_length = positive();
     desc.break_force = chance(4) ? 1000 * positive() : 0;
     PlumbJoint id = 0;

@@ -12,6 +12,14 @@
  * upper < pi. Motors and springs are of each axis by itself: springs on all three are a PD controller whose target
  * orientation is the one with these coordinates. Where the x axes are opposite the twist is any number: what swings as
  * far as that is held by no limit of the twist, and should have a cone.
+ *
+ * PLUMB_JOINT_GEAR and PLUMB_JOINT_RACK_AND_PINION (since 1.2) hold what two bodies do, each on a joint of its own:
+ * they keep no body in place, have no limits, motors or springs, and begin as the bodies lie. A gear holds how far both
+ * turn about their frames' x axes: turn of a + ratio * turn of b stays what it was, so ratio is b's teeth by a's, below
+ * 0 where one wheel is within the other; by torques alone, wherever the two are, as a shaft between them would. Turns
+ * are those in the world: on a carrier that turns itself about these axes wheels are held by it, too. A rack, b, is a
+ * toothed line along x of frame b; a, the pinion, turns about x of frame a, which should be square to it, by ratio rad
+ * for each m that the line goes past: at 1/ratio m from its axis, where they push on each other.
  */
 #ifndef PLUMB_JOINTS_H
 #define PLUMB_JOINTS_H
@@ -26,15 +34,17 @@ extern "C" {
 
 typedef uint32_t PlumbJointType;
 enum {
-  PLUMB_JOINT_BALL = 0,        /* origins coincide */
-  PLUMB_JOINT_HINGE = 1,       /* origins and x axes coincide; free axis 3 */
-  PLUMB_JOINT_SLIDER = 2,      /* orientations equal, b's origin on a's x axis; free axis 0 */
-  PLUMB_JOINT_DISTANCE = 3,    /* distance of the origins: rest_length, or within limits[0]; spring on axis 0 */
-  PLUMB_JOINT_FIXED = 4,       /* frames coincide */
-  PLUMB_JOINT_UNIVERSAL = 5,   /* origins coincide, a's x axis stays square to b's y axis; free axes 3 and 4 */
-  PLUMB_JOINT_GENERIC = 6,     /* axis_modes say which of the six axes are free, locked or limited */
-  PLUMB_JOINT_SWING_TWIST = 7, /* origins coincide; axes 3 4 5 are a twist and a swing (head of joints.h) */
-  PLUMB_JOINT_TYPE_COUNT = 8
+  PLUMB_JOINT_BALL = 0,            /* origins coincide */
+  PLUMB_JOINT_HINGE = 1,           /* origins and x axes coincide; free axis 3 */
+  PLUMB_JOINT_SLIDER = 2,          /* orientations equal, b's origin on a's x axis; free axis 0 */
+  PLUMB_JOINT_DISTANCE = 3,        /* distance of the origins: rest_length, or within limits[0]; spring on axis 0 */
+  PLUMB_JOINT_FIXED = 4,           /* frames coincide */
+  PLUMB_JOINT_UNIVERSAL = 5,       /* origins coincide, a's x axis stays square to b's y axis; free axes 3 and 4 */
+  PLUMB_JOINT_GENERIC = 6,         /* axis_modes say which of the six axes are free, locked or limited */
+  PLUMB_JOINT_SWING_TWIST = 7,     /* origins coincide; axes 3 4 5 are a twist and a swing (head of joints.h) */
+  PLUMB_JOINT_GEAR = 8,            /* turns about both x axes (head of joints.h). Since 1.2 */
+  PLUMB_JOINT_RACK_AND_PINION = 9, /* a's turn about its x axis and b's way along its own. Since 1.2 */
+  PLUMB_JOINT_TYPE_COUNT = 10
 };
 
 typedef uint32_t PlumbAxisMode;
@@ -86,6 +96,7 @@ typedef struct PlumbJointDesc {
   double break_force;  /* N, 0: never breaks */
   double break_torque; /* N m, 0: never breaks */
   uint64_t user_data;
+  double ratio; /* gear, rack and pinion: not 0; b's teeth by a's, or rad/m. Since 1.2 */
 } PlumbJointDesc;
 
 /* Rows of a joint, read in batches. */

@@ -136,6 +136,8 @@ class JointType(IntEnum):
     UNIVERSAL = 5
     GENERIC = 6
     SWING_TWIST = 7
+    GEAR = 8
+    RACK_AND_PINION = 9
 
 
 class AxisMode(IntEnum):

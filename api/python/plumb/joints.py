@@ -115,6 +115,8 @@ class JointDesc:
     break_torque: float = 0.0
     """N m; 0: never breaks."""
     user_data: int = 0
+    ratio: float = 0.0
+    """Of a gear: turn of a + ratio * turn of b stays; of a rack and pinion: of a's turn by b's way, rad/m. Not 0."""
 
     def _fill(self, row: NDArray[np.void], name: str) -> None:
         """row: one row of a structured array, as an array of length 1."""
@@ -134,6 +136,7 @@ class JointDesc:
             "rest_length",
             "break_force",
             "break_torque",
+            "ratio",
         ):
             fill(row, column, getattr(self, column), f"{name}.{column}")
 

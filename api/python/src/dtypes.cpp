@@ -93,13 +93,14 @@ py::dtype build<PlumbBodyDesc>() {
 template <>
 py::dtype build<PlumbJointDesc>() {
   using Row = PlumbJointDesc;
-  return make(sizeof(Row), {PLUMB_COLUMN(Row, type, text("u4")), PLUMB_COLUMN(Row, body_a, text("u8")),
-                            PLUMB_COLUMN(Row, body_b, text("u8")), PLUMB_POSE(Row, frame_a, "_a"),
-                            PLUMB_POSE(Row, frame_b, "_b"), PLUMB_COLUMN(Row, collide_connected, text("u4")),
-                            PLUMB_COLUMN(Row, axis_modes, text("(6,)u4")), PLUMB_COLUMN(Row, limits, six_of(limit())),
-                            PLUMB_COLUMN(Row, motors, six_of(motor())), PLUMB_COLUMN(Row, springs, six_of(spring())),
-                            PLUMB_COLUMN(Row, rest_length, text("f8")), PLUMB_COLUMN(Row, break_force, text("f8")),
-                            PLUMB_COLUMN(Row, break_torque, text("f8")), PLUMB_COLUMN(Row, user_data, text("u8"))});
+  return make(sizeof(Row),
+              {PLUMB_COLUMN(Row, type, text("u4")), PLUMB_COLUMN(Row, body_a, text("u8")),
+               PLUMB_COLUMN(Row, body_b, text("u8")), PLUMB_POSE(Row, frame_a, "_a"), PLUMB_POSE(Row, frame_b, "_b"),
+               PLUMB_COLUMN(Row, collide_connected, text("u4")), PLUMB_COLUMN(Row, axis_modes, text("(6,)u4")),
+               PLUMB_COLUMN(Row, limits, six_of(limit())), PLUMB_COLUMN(Row, motors, six_of(motor())),
+               PLUMB_COLUMN(Row, springs, six_of(spring())), PLUMB_COLUMN(Row, rest_length, text("f8")),
+               PLUMB_COLUMN(Row, break_force, text("f8")), PLUMB_COLUMN(Row, break_torque, text("f8")),
+               PLUMB_COLUMN(Row, user_data, text("u8")), PLUMB_COLUMN(Row, ratio, text("f8"))});
 }
 template <>
 py::dtype build<PlumbMaterial>() {

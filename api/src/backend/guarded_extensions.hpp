@@ -17,7 +17,7 @@ class GuardedExtensions : public GuardedWorld {
   PlumbResult create_joints(const PlumbJointDesc* descs, std::size_t stride, std::uint32_t count, PlumbJoint* ids) {
     IJoints& extension = require_extension(world_->joints(), PLUMB_EXT_JOINTS);
     require_need(init_.desc.needs, PLUMB_NEED_JOINTS, count != 0, "creating joints");
-    std::vector<PlumbJointDesc> adopted = adopt_descs(descs, stride, count, "joints");
+    std::vector<PlumbJointDesc> adopted = adopt_descs(descs, stride, count, "joints", kJointDesc10);
     require_pointer(ids, count, "ids");
     std::vector<JointRecord> records(count);
     for (std::uint32_t i = 0; i < count; ++i) records[i] = examine_joint({"joints", i}, adopted[i]);

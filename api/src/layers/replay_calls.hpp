@@ -113,6 +113,7 @@ struct Decoding {
   template <class Row>
   static constexpr std::size_t recorded_size() {
     if (std::is_same_v<Row, PlumbBodyDesc>) return backend::kBodyDesc10;
+    if (std::is_same_v<Row, PlumbJointDesc>) return backend::kJointDesc10;
     return std::is_same_v<Row, PlumbShapeDesc> ? backend::kShapeDesc10 : sizeof(Row);
   }
   template <class Row>
@@ -131,11 +132,11 @@ struct Decoding {
     } else if constexpr (std::is_same_v<Row, PlumbCookedShape>) {
       row.data = keep_bytes();
     } else {
-      if constexpr (std::is_same_v<Row, PlumbBodyDesc>) {
-        const auto later =
-            in.get_bytes(row.struct_size > backend::kBodyDesc10 ? sizeof(Row) - backend::kBodyDesc10 : 0);
-        std::memcpy(reinterpret_cast<std::byte*>(&row) + backend::kBodyDesc10, later.data(), later.size());
-        if (row.struct_size == backend::kBodyDesc10) row.struct_size = sizeof(Row);
+      constexpr std::size_t before = recorded_size<Row>();
+      if constexpr (before < sizeof(Row)) {
+        const auto later = in.get_bytes(row.struct_size > before ? sizeof(Row) - before : 0);
+        std::memcpy(reinterpret_cast<std::byte*>(&row) + before, later.data(), later.size());
+        if (row.struct_size == before) row.struct_size = sizeof(Row);
       }
       to.names.to_handles(row);
     }

@@ -95,15 +95,18 @@ struct Encoding {
     desc.settings = nullptr;
     out.put(desc);
   }
-  // As bodies were before rolling friction where there is none, so that older traces are read alike; struct_size tells.
-  // One that is refused keeps its own, to be refused again.
-  void row_with_arrays(PlumbBodyDesc& desc) {
+  // As bodies were before rolling friction, and joints before gears, where there is none, so that older traces are read
+  // alike; struct_size tells. One that is refused keeps its own, to be refused again.
+  template <class Desc>
+  void put_grown(Desc& desc, bool has_later, std::size_t before) {
     names.to_numbers(desc);
-    const bool rolls = desc.rolling_friction != 0 || desc.spinning_friction != 0;
-    if (!rolls && desc.struct_size == sizeof desc) desc.struct_size = backend::kBodyDesc10;
-    const bool is_whole = desc.struct_size > backend::kBodyDesc10;
-    out.put_bytes(std::as_bytes(std::span(&desc, 1)).first(is_whole ? sizeof desc : backend::kBodyDesc10));
+    if (!has_later && desc.struct_size == sizeof desc) desc.struct_size = static_cast<std::uint32_t>(before);
+    out.put_bytes(std::as_bytes(std::span(&desc, 1)).first(desc.struct_size > before ? sizeof desc : before));
   }
+  void row_with_arrays(PlumbBodyDesc& desc) {
+    put_grown(desc, desc.rolling_friction != 0 || desc.spinning_friction != 0, backend::kBodyDesc10);
+  }
+  void row_with_arrays(PlumbJointDesc& desc) { put_grown(desc, desc.ratio != 0, backend::kJointDesc10); }
   // Arrays are there only for the types that have them: members of other types may hold anything. Of the descriptor the
   // part that all versions have; what came later follows where there is any, so that older traces are read alike.
   void row_with_arrays(PlumbShapeDesc& desc) {

@@ -59,10 +59,10 @@ const springsOf = (given = {}) => sixOf(given, 'springs', springOf,
 const modesOf = (given = {}) => sixOf(given, 'axes', (mode) => numberOf(AXIS, mode, 'axis mode'), AXIS.free);
 
 export function jointOf({ type, a = 0n, b, frameA, frameB, collideConnected = false, axes, limits, motors, springs,
-  restLength = 0, breakForce = 0, breakTorque = 0 }) {
+  restLength = 0, breakForce = 0, breakTorque = 0, ratio = 0 }) {
   return { type: numberOf(JOINT, type, 'joint'), a, b, frameA: poseOf(frameA), frameB: poseOf(frameB), collideConnected,
     axisModes: modesOf(axes), limits: limitsOf(limits), motors: motorsOf(motors), springs: springsOf(springs),
-    restLength, breakForce, breakTorque };
+    restLength, breakForce, breakTorque, ratio };
 }
 
 /** Only what is given changes. */

@@ -42,7 +42,7 @@ export const LAYOUT = {
     material, gravityScale: 'f64', linearDamping: 'f64', angularDamping: 'f64', filter, userData: 'u64',
     rollingFriction: 'f64', spinningFriction: 'f64' }),
   joint: laidOut({ structSize: 'u32', type: 'u32', a: 'u64', b: 'u64', frameA: pose, frameB: pose,
-    collideConnected: 'u32', reserved: 'u32', ...axes, userData: 'u64' }),
+    collideConnected: 'u32', reserved: 'u32', ...axes, userData: 'u64', ratio: 'f64' }),
   world: laidOut({ structSize: 'u32', threads: 'u32', needs: 'u64', gravity: vec3, bodyCapacity: 'u32',
     contactCapacity: 'u32', jointCapacity: 'u32', settingCount: 'u32', settings: 'pointer' }),
   setting: laidOut({ name: 'pointer', value: settingValue }),

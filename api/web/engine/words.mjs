@@ -13,7 +13,8 @@ export const FLAG = asBits('sensor', 'ccd', 'noRotation', 'asleep', 'neverSleeps
 export const LOCK = asBits('linearX', 'linearY', 'linearZ', 'angularX', 'angularY', 'angularZ');
 export const SHAPE =
   inOrder('sphere', 'box', 'capsule', 'cylinder', 'hull', 'mesh', 'heightField', 'plane', 'compound');
-export const JOINT = inOrder('ball', 'hinge', 'slider', 'distance', 'fixed', 'universal', 'generic', 'swing_twist');
+export const JOINT = inOrder('ball', 'hinge', 'slider', 'distance', 'fixed', 'universal', 'generic', 'swing_twist',
+  'gear', 'rack_and_pinion');
 export const AXIS = inOrder('free', 'locked', 'limited');
 export const SPRING = inOrder('frequency', 'stiffness');
 export const MASS = inOrder('fromDensity', 'fromTotal', 'explicit');

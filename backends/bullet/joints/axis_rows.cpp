@@ -135,6 +135,33 @@ void DistanceConstraint::getInfo2(btConstraintInfo2* info) {
     info->m_lowerLimit[here] = 0;
 }
 
+MeshConstraint::MeshConstraint(btRigidBody& a, btRigidBody& b, const btTransform& frame_a, const btTransform& frame_b,
+                               const PlumbJointDesc& desc)
+    : RowConstraint(D6_CONSTRAINT_TYPE, a, b),
+      frame_a_(frame_a),
+      frame_b_(frame_b),
+      ratio_(scalar(desc.ratio, "ratio")),
+      is_rack_(desc.type == PLUMB_JOINT_RACK_AND_PINION) {}
+
+void MeshConstraint::getInfo1(btConstraintInfo1* info) {
+  info->m_numConstraintRows = 1;
+  info->nub = 0;
+}
+
+void MeshConstraint::getInfo2(btConstraintInfo2* info) {
+  const btTransform a = m_rbA.getWorldTransform() * frame_a_, b = m_rbB.getWorldTransform() * frame_b_;
+  const btVector3 axis = a.getBasis().getColumn(0), along = b.getBasis().getColumn(0);
+  if (is_rack_) {
+    const btVector3 meet = a.getOrigin() + along.cross(axis) / ratio_;
+    const btVector3 arm_a = meet - m_rbA.getWorldTransform().getOrigin(),
+                    arm_b = meet - m_rbB.getWorldTransform().getOrigin();
+    Row{along, -arm_a.cross(along), arm_b.cross(along)}.write(*info);
+  } else {
+    Row{btVector3(0, 0, 0), axis, ratio_ * along}.write(*info);
+  }
+  info->m_constraintError[0] = 0;
+}
+
 namespace {
 
 /// A coordinate of b's turn seen from a, and the direction about which turning b changes it.

@@ -1,5 +1,5 @@
-// Constraints of ours that Bullet's solvers solve with its own: the distance of two points, and springs on a joint's
-// axes.
+// Constraints of ours that Bullet's solvers solve with its own: the distance of two points, gears and racks, and
+// springs on a joint's axes.
 #pragma once
 
 #include "bullet_math.hpp"
@@ -47,6 +47,21 @@ class DistanceConstraint final : public RowConstraint {
   btVector3 point_a_, point_b_;  ///< seen from the bodies' transforms
   btScalar rest_, lower_, upper_;
   PlumbSpring spring_;
+};
+
+/// Holds the ratio of what two bodies do, by their speeds alone: a gear, or a rack and its pinion (joints.h).
+class MeshConstraint final : public RowConstraint {
+ public:
+  /// frames: seen from the bodies' transforms.
+  MeshConstraint(btRigidBody& a, btRigidBody& b, const btTransform& frame_a, const btTransform& frame_b,
+                 const PlumbJointDesc& desc);
+  void getInfo1(btConstraintInfo1* info) override;
+  void getInfo2(btConstraintInfo2* info) override;
+
+ private:
+  btTransform frame_a_, frame_b_;
+  btScalar ratio_;
+  bool is_rack_;
 };
 
 /// A spring on one of a joint's six axes.

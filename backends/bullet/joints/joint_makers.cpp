@@ -87,6 +87,9 @@ std::unique_ptr<btTypedConstraint> make(Joint& joint) {
       joint.distance = distance.get();
       return distance;
     }
+    case PLUMB_JOINT_GEAR:
+    case PLUMB_JOINT_RACK_AND_PINION:
+      return std::make_unique<MeshConstraint>(a, b, joint.frame_a, joint.frame_b, joint.desc);
     default: return make_axes(joint);
   }
 }

@@ -19,8 +19,8 @@ static_assert(kKindWords[PLUMB_CAP_COUNT - 1] != nullptr, "a capability has no w
 inline constexpr const char* kShapeWords[PLUMB_SHAPE_TYPE_COUNT] = {
     "sphere", "box", "capsule", "cylinder", "hull", "mesh", "height_field", "plane", "compound"};
 inline constexpr const char* kMotionWords[PLUMB_MOTION_COUNT] = {"static", "kinematic", "dynamic"};
-inline constexpr const char* kJointWords[PLUMB_JOINT_TYPE_COUNT] = {"ball",  "hinge",     "slider",  "distance",
-                                                                    "fixed", "universal", "generic", "swing_twist"};
+inline constexpr const char* kJointWords[PLUMB_JOINT_TYPE_COUNT] = {
+    "ball", "hinge", "slider", "distance", "fixed", "universal", "generic", "swing_twist", "gear", "rack_and_pinion"};
 inline constexpr const char* kFeatureWords[PLUMB_JOINT_FEATURE_COUNT] = {"limits", "motors",   "springs",
                                                                          "breaks", "reaction", "stiffness"};
 inline constexpr const char* kQueryWords[PLUMB_QUERY_KIND_COUNT] = {"ray", "cast", "overlap", "penetration"};

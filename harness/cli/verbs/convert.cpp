@@ -19,6 +19,7 @@
 #include "convert/scene_text.hpp"
 #include "convert/set_up.hpp"
 #include "convert/write/gltf/write_gltf.hpp"
+#include "convert/write/left_out.hpp"
 #include "convert/write/urdf/write_urdf.hpp"
 #include "convert/write/write_mjcf.hpp"
 #include "convert/write/write_sdf.hpp"
@@ -101,6 +102,7 @@ Format format_of(const std::string& file) {
 void write(const ConvertOptions& options, Format format, Imported& imported, DraftFile& out) {
   const std::filesystem::path to(options.to);
   const std::string slug = slug_of(to);
+  if (format != Format::scene) leave_gears_out(imported);
   switch (format) {
     case Format::scene: return write_scene(options, imported, slug, out);
     case Format::mjcf: return out.write(write_mjcf(imported.scene, slug, imported.remarks));

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "plumb/backend/names.hpp"
+
 namespace plumb::harness {
 
 void remark_body(const SceneBody& body, Remarks& remarks, const Vocabulary& known) {
@@ -27,6 +29,14 @@ void remark_joint(const SceneJoint& joint, Remarks& remarks, const Vocabulary& k
     remarks.add("that joined bodies collide is left out", joint.name);
   if (joint.desc.type == PLUMB_JOINT_SWING_TWIST)
     remarks.add("a swing-twist joint is a ball joint: its cone, stops, motors and springs are left out", joint.name);
+}
+
+void leave_gears_out(Imported& imported) {
+  std::erase_if(imported.scene.joints, [&](const SceneJoint& joint) {
+    if (!backend::is_meshing(joint.desc.type)) return false;
+    imported.remarks.add("gears and racks are left out", joint.name);
+    return true;
+  });
 }
 
 void remark_host(const Scene& scene, Remarks& remarks) {

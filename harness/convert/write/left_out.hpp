@@ -15,6 +15,8 @@ struct Vocabulary {
 
 void remark_body(const SceneBody& body, Remarks& remarks, const Vocabulary& known = {});
 void remark_joint(const SceneJoint& joint, Remarks& remarks, const Vocabulary& known = {});
+/// Joints that couple two others, which no format here has a word for.
+void leave_gears_out(Imported& imported);
 void remark_host(const Scene& scene, Remarks& remarks);
 void remark_materials(const Scene& scene, Remarks& remarks);  ///< by triangle
 /// Of formats that are silent about it, and whose readers take the earth's.

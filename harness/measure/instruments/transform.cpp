@@ -40,6 +40,7 @@ void scale_joint(PlumbJointDesc& joint, double scale) {
   joint.frame_a.position = times(joint.frame_a.position, scale);
   joint.frame_b.position = times(joint.frame_b.position, scale);
   joint.rest_length *= scale;
+  if (joint.type == PLUMB_JOINT_RACK_AND_PINION) joint.ratio /= scale;
   joint.break_force *= force;
   joint.break_torque *= torque;
   for (std::size_t axis = 0; axis < 6; ++axis) {

@@ -342,6 +342,43 @@ TEST_F(Guard, RefusesBadJointsByName) {
   joint_refused(PLUMB_E_INVALID_ARGUMENT, "limits[4].upper", cone({0, 0, 1, 0}, good));
   joint_refused(PLUMB_E_INVALID_ARGUMENT, "limits[5].lower", cone(good, {-1, 0.5, 1, 0}));
   joint_refused(PLUMB_E_INVALID_ARGUMENT, "frame_a.position.x", [](auto& d) { d.frame_a.position.x = kNan; });
+  for (const PlumbJointType type : {PLUMB_JOINT_GEAR, PLUMB_JOINT_RACK_AND_PINION})
+    for (const double ratio : {0.0, kNan})
+      joint_refused(PLUMB_E_INVALID_ARGUMENT, "joints[0].ratio", [=](auto& d) {
+        d.type = type;
+        d.ratio = ratio;
+      });
+}
+
+/// A host of before gears has a descriptor that ends before their ratio.
+TEST_F(Guard, TakesJointsOfAnOlderCaller) {
+  constexpr std::size_t kOlder = offsetof(PlumbJointDesc, ratio);
+  const Backend backend = fake_backend();
+  const PlumbBackendTable& table = backend.table();
+  const PlumbWorldDesc world_of = world_desc(kEverything);
+  PlumbWorld* older = nullptr;
+  ASSERT_EQ(table.create_world(&world_of, &older), PLUMB_OK);
+  PlumbBodyDesc described = body_desc();
+  described.mass_mode = PLUMB_MASS_EXPLICIT;
+  described.mass = 1;
+  described.inertia = {1, 1, 1};
+  PlumbBody bodies[2];
+  for (PlumbBody& id : bodies) ASSERT_EQ(table.create_bodies(older, &described, sizeof described, 1, &id), PLUMB_OK);
+  const auto& joints = *static_cast<const PlumbJointsTable*>(table.extension(PLUMB_EXT_JOINTS));
+  const auto create = [&](PlumbJointType type, std::size_t size) {
+    PlumbJointDesc desc = joint_desc(type);
+    desc.body_a = bodies[0];
+    desc.body_b = bodies[1];
+    desc.ratio = 2;  // beyond what an older caller has
+    desc.struct_size = static_cast<std::uint32_t>(size);
+    PlumbJoint id = 0;
+    return joints.create(older, &desc, size, 1, &id);
+  };
+  EXPECT_EQ(create(PLUMB_JOINT_HINGE, kOlder), PLUMB_OK) << table.error_text(older);
+  EXPECT_EQ(create(PLUMB_JOINT_GEAR, kOlder), PLUMB_E_INVALID_ARGUMENT) << "its ratio was not given";
+  EXPECT_EQ(create(PLUMB_JOINT_GEAR, sizeof(PlumbJointDesc)), PLUMB_OK) << table.error_text(older);
+  EXPECT_EQ(create(PLUMB_JOINT_HINGE, kOlder - 8), PLUMB_E_INVALID_ARGUMENT) << "of none";
+  table.destroy_world(older);
 }
 
 TEST_F(Guard, ABrokenJointIsForgotten) {

@@ -19,7 +19,7 @@ class Everything {
     cooking();
     queries();
     extensions();
-    ok(extension<PlumbJointsTable>(PLUMB_EXT_JOINTS).destroy(world_, &joint_, 1));
+    ok(extension<PlumbJointsTable>(PLUMB_EXT_JOINTS).destroy(world_, joints_, 2));
     ok(table_.destroy_bodies(world_, bodies_, 2));
     ok(table_.destroy_shapes(world_, &shape_, 1));
     table_.destroy_world(world_);
@@ -43,10 +43,13 @@ class Everything {
     for (Longer& each : descs) each.desc.shape = shape_;
     descs[1].desc.rolling_friction = 0.25;  // a trace has it only where there is any
     ok(table_.create_bodies(world_, &descs[0].desc, sizeof(Longer), 2, bodies_));
-    PlumbJointDesc joint = joint_desc(PLUMB_JOINT_HINGE);
-    joint.body_a = bodies_[0];
-    joint.body_b = bodies_[1];
-    ok(extension<PlumbJointsTable>(PLUMB_EXT_JOINTS).create(world_, &joint, sizeof joint, 1, &joint_));
+    PlumbJointDesc joints[2] = {joint_desc(PLUMB_JOINT_HINGE), joint_desc(PLUMB_JOINT_GEAR)};
+    for (PlumbJointDesc& joint : joints) {
+      joint.body_a = bodies_[0];
+      joint.body_b = bodies_[1];
+    }
+    joints[1].ratio = 3;  // likewise
+    ok(extension<PlumbJointsTable>(PLUMB_EXT_JOINTS).create(world_, joints, sizeof joints[0], 2, joints_));
   }
 
   void rows() {
@@ -71,9 +74,9 @@ class Everything {
     ok(table_.events(world_, &event, sizeof event, 1, &count));
     double motors[12] = {};
     const auto& joints = extension<PlumbJointsTable>(PLUMB_EXT_JOINTS);
-    ok(joints.write(world_, PLUMB_JOINT_MOTOR, PLUMB_F64, &joint_, 1, motors, sizeof motors));
+    ok(joints.write(world_, PLUMB_JOINT_MOTOR, PLUMB_F64, joints_, 1, motors, sizeof motors));
     ok(joints.read(world_, PLUMB_JOINT_MOTOR, PLUMB_F64, nullptr, 1, motors, sizeof motors));
-    ok(joints.write(world_, PLUMB_JOINT_SPRING_REST, PLUMB_F64, &joint_, 1, motors, sizeof motors));
+    ok(joints.write(world_, PLUMB_JOINT_SPRING_REST, PLUMB_F64, joints_, 1, motors, sizeof motors));
   }
 
   void cooking() {
@@ -156,7 +159,7 @@ class Everything {
     body_changed.what = PLUMB_MODIFY_SHAPE;
     body_changed.shape = shape_;
     ok(modify.bodies(world_, &body_changed, sizeof body_changed, 1));
-    PlumbJointChange joint_changed = joint_change(joint_);
+    PlumbJointChange joint_changed = joint_change(joints_[0]);
     joint_changed.what = PLUMB_MODIFY_ENABLED;
     joint_changed.enabled = 1;
     ok(modify.joints(world_, &joint_changed, sizeof joint_changed, 1));
@@ -189,7 +192,7 @@ class Everything {
   PlumbWorld* world_ = nullptr;
   PlumbShape shape_ = 0;
   PlumbBody bodies_[2] = {};
-  PlumbJoint joint_ = 0;
+  PlumbJoint joints_[2] = {0, 0};
 };
 
 }  // namespace plumb::test

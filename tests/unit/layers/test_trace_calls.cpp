@@ -42,6 +42,20 @@ TEST(TraceCalls, EveryCallOfTheListIsRecordedAndReplaysTheSame) {
     heard.assign(descs, descs + count);
     return complete().create_bodies(world, descs, stride, count, ids);
   };
+  static std::vector<PlumbJointDesc> joined;
+  joined.clear();
+  static PlumbJointsTable joints;
+  joints = *static_cast<const PlumbJointsTable*>(complete().extension(PLUMB_EXT_JOINTS));
+  joints.create = [](PlumbWorld* world, const PlumbJointDesc* descs, std::size_t stride, std::uint32_t count,
+                     PlumbJoint* ids) {
+    EXPECT_EQ(stride, sizeof(PlumbJointDesc));
+    joined.assign(descs, descs + count);
+    return static_cast<const PlumbJointsTable*>(complete().extension(PLUMB_EXT_JOINTS))
+        ->create(world, descs, stride, count, ids);
+  };
+  hearing.extension = [](const char* name) -> const void* {
+    return std::string_view(name) == PLUMB_EXT_JOINTS ? &joints : complete().extension(name);
+  };
   const layers::ReplayReport report = layers::replay(file, &hearing);
   EXPECT_TRUE(report.same()) << (report.result ? report.result->name + ": " + report.result->text
                                                : report.first_output.value_or("state"));
@@ -49,6 +63,10 @@ TEST(TraceCalls, EveryCallOfTheListIsRecordedAndReplaysTheSame) {
   ASSERT_EQ(heard.size(), 2U);
   EXPECT_EQ(heard[0].rolling_friction, 0);
   EXPECT_EQ(heard[1].rolling_friction, 0.25);
+  ASSERT_EQ(joined.size(), 2U);
+  EXPECT_EQ(joined[1].ratio, 3);
+  EXPECT_EQ(joined[0].ratio, 0);
+  EXPECT_EQ(joined[0].struct_size, sizeof(PlumbJointDesc));
   std::filesystem::remove(file);
 }
 

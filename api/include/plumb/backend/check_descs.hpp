@@ -1,6 +1,7 @@
 // Ranges of the numbers in shape, body and joint descriptors: what every engine may rely on.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <numbers>
 
@@ -184,6 +185,9 @@ inline void check_swing(const Where& where, const PlumbJointDesc& desc) {
   }
 }
 
+/// What PlumbJointDesc was before gears.
+inline constexpr std::size_t kJointDesc10 = offsetof(PlumbJointDesc, ratio);
+
 inline void check_joint(const Where& where, const PlumbJointDesc& desc) {
   if (desc.type >= PLUMB_JOINT_TYPE_COUNT) refuse_value(where, "type", desc.type, "a PlumbJointType");
   require_pose(where, "frame_a", desc.frame_a);
@@ -218,6 +222,8 @@ inline void check_joint(const Where& where, const PlumbJointDesc& desc) {
     }
   }
   if (desc.type == PLUMB_JOINT_SWING_TWIST) check_swing(where, desc);
+  if (is_meshing(desc.type) && !(std::isfinite(desc.ratio) && desc.ratio != 0))
+    refuse_value(where, "ratio", desc.ratio, "finite and not 0: the teeth of b by those of a, or rad/m of a rack");
 }
 
 }  // namespace plumb::backend

@@ -19,9 +19,14 @@ namespace plumb::backend {
 }
 
 [[nodiscard]] constexpr const char* joint_name(PlumbJointType type) {
-  constexpr const char* names[PLUMB_JOINT_TYPE_COUNT] = {"ball",  "hinge",     "slider",  "distance",
-                                                         "fixed", "universal", "generic", "swing-twist"};
+  constexpr const char* names[PLUMB_JOINT_TYPE_COUNT] = {
+      "ball", "hinge", "slider", "distance", "fixed", "universal", "generic", "swing-twist", "gear", "rack and pinion"};
   return type < PLUMB_JOINT_TYPE_COUNT ? names[type] : "unknown joint";
+}
+
+/// Whether a joint holds a ratio of what two bodies do.
+[[nodiscard]] constexpr bool is_meshing(PlumbJointType type) {
+  return type == PLUMB_JOINT_GEAR || type == PLUMB_JOINT_RACK_AND_PINION;
 }
 
 [[nodiscard]] constexpr const char* field_name(PlumbField field) {

@@ -14,17 +14,17 @@ struct Capability {
 
 /// Axes that a type of joint leaves free, or may leave free, as bits: three of translation, then three of rotation.
 [[nodiscard]] constexpr std::uint32_t free_axes(PlumbJointType type) {
-  constexpr std::uint32_t axes[PLUMB_JOINT_TYPE_COUNT] = {0b111000, 0b001000, 0b000001, 0b000001,
-                                                          0,        0b011000, 0b111111, 0b111000};
+  constexpr std::uint32_t axes[PLUMB_JOINT_TYPE_COUNT] = {0b111000, 0b001000, 0b000001, 0b000001, 0,
+                                                          0b011000, 0b111111, 0b111000, 0,        0};
   return type < PLUMB_JOINT_TYPE_COUNT ? axes[type] : 0;
 }
 
 /// Of an engine of rigid bodies that has all of the interface: NATIVE wherever the question means something. NONE of
 /// numbers out of range, of what cannot be (a plane that moves, a limit on a joint that locks every axis, reading a
 /// force, writing the mass), and of what an engine must do something for to have it: continuous collision, snapshots,
-/// changes of what lives, rolling friction, swing and twist, materials by triangle, times of its phases but that of the
-/// output, a residual, tasks on the host's threads. NONE without a note is no answer that helps a user: put a note
-/// where your engine lacks what others have.
+/// changes of what lives, rolling friction, swing and twist, gears and racks, materials by triangle, times of its
+/// phases but that of the output, a residual, tasks on the host's threads. NONE without a note is no answer that helps
+/// a user: put a note where your engine lacks what others have.
 [[nodiscard]] constexpr Capability usual_capability(PlumbCapability kind, std::uint32_t a, std::uint32_t b) {
   constexpr Capability yes{PLUMB_NATIVE}, no{};
   const auto moves_alone = [](std::uint32_t type) { return is_convex(type) || type == PLUMB_COMPOUND; };
@@ -40,11 +40,13 @@ struct Capability {
       return moves_alone(a) || moves_alone(b) ? yes : Capability{PLUMB_NONE, "neither of the two can be dynamic"};
     case PLUMB_CAP_JOINT:
       if (a == PLUMB_JOINT_SWING_TWIST) return {PLUMB_NONE, "it has no cone that a turn stays within"};
+      if (is_meshing(a)) return {PLUMB_NONE, "it has no gears"};
       return in_range(a < PLUMB_JOINT_TYPE_COUNT);
     case PLUMB_CAP_JOINT_FEATURE:
       if (a >= PLUMB_JOINT_TYPE_COUNT || b >= PLUMB_JOINT_FEATURE_COUNT) return no;
       if (b == PLUMB_JOINT_HAS_STIFFNESS) return {PLUMB_NONE, "springs by frequency and damping ratio alone"};
       if (b == PLUMB_JOINT_HAS_TARGETS) return {PLUMB_NONE, "where its springs rest is said when it is made alone"};
+      if (is_meshing(a)) return {PLUMB_NONE, "it has no gears"};
       if (b > PLUMB_JOINT_HAS_SPRINGS || free_axes(a) != 0) return yes;
       return {PLUMB_NONE, "it leaves no axis free"};
     case PLUMB_CAP_QUERY:

@@ -10,8 +10,14 @@ export const kSpring = oklch(0.62, 0.03, 250);
 const kAxis = oklch(0.78, 0.02, 250);
 
 /** Local axes by which a joint lets its bodies go, of frame a and of frame b. */
-const kAxes = { hinge: [['x'], []], slider: [['x'], []], universal: [['x'], ['y']] };
-const kAxisReach = { hinge: 7, slider: 16, universal: 6 }; // half of what is drawn of an axis, in marks
+const kAxes = {
+  hinge: [['x'], []],
+  slider: [['x'], []],
+  universal: [['x'], ['y']],
+  gear: [['x'], ['x']],
+  rack_and_pinion: [['x'], ['x']],
+};
+const kAxisReach = { hinge: 7, slider: 16, universal: 6, gear: 7, rack_and_pinion: 7 }; // half of what is drawn of an axis, in marks
 const kUnits = { x: new Vector3(1, 0, 0), y: new Vector3(0, 1, 0) };
 const overlay = () => new MeshBasicMaterial({ depthTest: false, transparent: true, opacity: 0.95 });
 

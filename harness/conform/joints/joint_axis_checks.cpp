@@ -2,7 +2,7 @@
 #include <array>
 #include <numbers>
 
-#include "conform/joint_pair.hpp"
+#include "conform/joints/joint_pair.hpp"
 #include "plumb/backend/names.hpp"
 
 namespace plumb::harness::conform {

@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "conform/joint_pair.hpp"
+#include "conform/joints/joint_pair.hpp"
 #include "plumb/backend/names.hpp"
 
 namespace plumb::harness::conform {

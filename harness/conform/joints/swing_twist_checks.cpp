@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "conform/joint_pair.hpp"
+#include "conform/joints/joint_pair.hpp"
 
 namespace plumb::harness::conform {
 namespace {

@@ -1,6 +1,6 @@
 // Joints: each type holds what it locks, lets go what it frees, and its limits, motors, springs, breaking and reactions
 // do what they say. The geometry is the referee's.
-#include "conform/joint_pair.hpp"
+#include "conform/joints/joint_pair.hpp"
 #include "plumb/backend/names.hpp"
 
 namespace plumb::harness::conform {
@@ -11,7 +11,7 @@ using backend::joint_name;
 void each_joint(Conformance& c, void (*check_one)(Conformance&, PlumbJointType, bool)) {
   c.require_needs(kJointNeeds);
   for (PlumbJointType type = 0; type < PLUMB_JOINT_TYPE_COUNT; ++type)
-    if (c.backend().capability(PLUMB_CAP_JOINT, type) != PLUMB_NONE)
+    if (c.backend().capability(PLUMB_CAP_JOINT, type) != PLUMB_NONE && !backend::is_meshing(type))
       for (const bool to_world : {false, true}) check_one(c, type, to_world);
 }
 
@@ -200,7 +200,7 @@ void breaking(Conformance& c) {
   c.require_needs(needs);
   bool any = false;
   for (PlumbJointType type = 0; type < PLUMB_JOINT_TYPE_COUNT; ++type) {
-    if (type == PLUMB_JOINT_DISTANCE || type == PLUMB_JOINT_SLIDER ||
+    if (type == PLUMB_JOINT_DISTANCE || type == PLUMB_JOINT_SLIDER || backend::is_meshing(type) ||
         c.backend().capability(PLUMB_CAP_JOINT, type) == PLUMB_NONE ||
         c.backend().capability(PLUMB_CAP_JOINT_FEATURE, type, PLUMB_JOINT_BREAKS) == PLUMB_NONE)
       continue;

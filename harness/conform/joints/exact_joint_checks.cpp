@@ -1,6 +1,6 @@
 // Closed forms at tight tolerances: motors, limits, springs, reactions and gaps of joints. Asked of what is claimed as
 // native or emulated.
-#include "conform/joint_pair.hpp"
+#include "conform/joints/joint_pair.hpp"
 #include "plumb/backend/names.hpp"
 
 namespace plumb::harness::conform {

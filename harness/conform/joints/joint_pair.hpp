@@ -43,8 +43,8 @@ struct JointPair {
 
 /// Axes that a type leaves free, as bits.
 constexpr std::uint32_t free_axes(PlumbJointType type) {
-  constexpr std::uint32_t axes[PLUMB_JOINT_TYPE_COUNT] = {0b111000, 0b001000, 0b000001, 0b111111,
-                                                          0,        0b011000, 0,        0b111000};
+  constexpr std::uint32_t axes[PLUMB_JOINT_TYPE_COUNT] = {0b111000, 0b001000, 0b000001, 0b111111, 0,
+                                                          0b011000, 0,        0b111000, 0,        0};
   return axes[type];
 }
 
