@@ -22,7 +22,9 @@ enum class RowKind : std::uint8_t {
   kAngle,     ///< a turn that is free
   kTwist,     ///< the twist of a turn that is all free
   kCone,      ///< its swing, as the half angle about y of the cone through it
-  kSwing      ///< one of the two numbers of that swing
+  kSwing,     ///< one of the two numbers of that swing
+  kGear,      ///< what b turns about its x and a about its own, times ratio, since the joint was made
+  kRack       ///< how far the toothed line along b's x has slipped on the wheel about a's x since then
 };
 
 /// Whether the row's number is an angle that goes round.
@@ -30,6 +32,9 @@ PLUMB_HD constexpr bool goes_round(RowKind kind) { return kind == RowKind::kAngl
 
 /// Whether it is of a swing. Such rows are the last of their joint.
 PLUMB_HD constexpr bool is_of_swing(RowKind kind) { return kind == RowKind::kCone || kind == RowKind::kSwing; }
+
+/// Whether the row's number is the way that it has gone: no place tells how often a wheel has gone round.
+PLUMB_HD constexpr bool is_of_way(RowKind kind) { return kind == RowKind::kGear || kind == RowKind::kRack; }
 
 /// What a row holds or drives.
 struct RowSpec {
@@ -48,6 +53,7 @@ struct JointAxes {
   /// against: 1/s2 and 1/s.
   Real stiffness[kJointRows], damping[kJointRows];
   Real narrow;                    ///< of kCone: the half angle about y by that about z
+  Real ratio;                     ///< of kGear: turns of a for one of b; of kRack: of a for b's way, rad/m
   std::uint32_t springs_by_mass;  ///< bits: rows whose spring is given by its frequency
   std::uint32_t masses_alone;     ///< whether no turn is free: then springs along axes work against the masses
 
@@ -142,7 +148,13 @@ PLUMB_HD inline OffSquare off_square(const JointAxesPlace& at, int of_a, int of_
   return {scale * at.cosine(of_a, of_b), scale * normalized_or(across, at.a[(of_a + 1) % 3])};
 }
 
-/// Of a row that is locked what should be 0, else the coordinate.
+/// Of a wheel and a toothed line that meet where the wheel goes as fast as the line: of the two bodies, there.
+PLUMB_HD inline JointRow rack_row(Real ratio, const JointPlace& place, const JointAxesPlace& at) {
+  const Vec from_axis = (Real(1) / ratio) * cross(at.b.x, at.a.x);
+  return point_row(at.b.x, place.arm_a + from_axis, place.arm_b - place.gap + from_axis);
+}
+
+/// Of a row that is locked what should be 0, else the coordinate; 0 of one whose number is its way.
 PLUMB_HD inline Real axis_error(const RowSpec& row, Real narrow, const JointPlace& place, const JointAxesPlace& at) {
   const int k = row.axis;
   switch (row.kind) {
@@ -156,11 +168,14 @@ PLUMB_HD inline Real axis_error(const RowSpec& row, Real narrow, const JointPlac
     case RowKind::kTwist: return twist_of(turn_of(place), at.a.x, at.b.x).value;
     case RowKind::kCone: return at.swing.in_cone(narrow).value;
     case RowKind::kSwing: return at.swing.about(k).value;
+    case RowKind::kGear:
+    case RowKind::kRack: return 0;
   }
   return 0;
 }
 
-PLUMB_HD inline JointRow axis_row(const RowSpec& row, Real narrow, const JointPlace& place, const JointAxesPlace& at) {
+PLUMB_HD inline JointRow axis_row(const RowSpec& row, const JointAxes& axes, const JointPlace& place,
+                                  const JointAxesPlace& at) {
   const int k = row.axis;
   switch (row.kind) {
     case RowKind::kPoint: {
@@ -175,8 +190,10 @@ PLUMB_HD inline JointRow axis_row(const RowSpec& row, Real narrow, const JointPl
     case RowKind::kSquare: return turn_row(off_square(at, k, row.other).row);
     case RowKind::kAngle: return turn_row(free_turn(at, k, row.other).direction);
     case RowKind::kTwist: return turn_row(twist_of(turn_of(place), at.a.x, at.b.x).direction);
-    case RowKind::kCone: return turn_row(at.swing.in_cone(narrow).direction);
+    case RowKind::kCone: return turn_row(at.swing.in_cone(axes.narrow).direction);
     case RowKind::kSwing: return turn_row(at.swing.about(k).direction);
+    case RowKind::kGear: return {{0, 0, 0}, at.a.x, axes.ratio * at.b.x};
+    case RowKind::kRack: return rack_row(axes.ratio, place, at);
   }
   return turn_row({0, 0, 0});
 }
@@ -212,7 +229,7 @@ PLUMB_HD inline void all_rows(const Joint& joint, const JointAxes& axes, const J
                               const JointAxesPlace& at, JointRow (&rows)[kJointRows]) {
   joint_rows(joint, place, rows);
   const int first = rows_of(joint.type);
-  for (int i = first; i < row_count(joint); ++i) rows[i] = axis_row(axes.row[i - first], axes.narrow, place, at);
+  for (int i = first; i < row_count(joint); ++i) rows[i] = axis_row(axes.row[i - first], axes, place, at);
 }
 
 }  // namespace plumb::impulse

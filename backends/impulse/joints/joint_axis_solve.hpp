@@ -56,6 +56,7 @@ struct JointReaction {
   Real counted[kJointRows];      ///< of the impulses in this sub-step
   Real spring_mass[kJointRows];  ///< against which the springs were made, kg or kg m2
   Real held_for[kJointRows];     ///< for how long rows that need not hold have, with force to spare, s
+  Real way;                      ///< of the row whose number it is (is_of_way), rad or m
   std::uint32_t first_step;      ///< of the joint for which that was
 };
 
@@ -76,6 +77,13 @@ struct AxisView : JointView {
 PLUMB_HD inline bool is_held(const AxisView& view, std::uint32_t j, int row) {
   const int first = rows_of(view.joints[j].type);
   return row < first || view.parts.axes[j].row[row - first].coordinate == kLocked;
+}
+
+/// The row whose number is the way that it has gone, or -1. It is the last of its joint.
+PLUMB_HD inline int row_of_way(const AxisView& view, std::uint32_t j) {
+  const Joint& joint = view.joints[j];
+  const int last = row_count(joint) - 1, first = rows_of(joint.type);
+  return last >= first && is_of_way(view.parts.axes[j].row[last - first].kind) ? last : -1;
 }
 
 /// Whether a motor may be what holds a row.
@@ -122,18 +130,31 @@ PLUMB_SHARED_CODE inline void refresh_axis_joint(const AxisView& view, std::uint
   own.forget();
   JointReaction& reaction = view.reaction(j);
   const bool is_new = reaction.first_step != joint.first_step;
+  const int of_way = row_of_way(view, j);
+  if (of_way >= 0) work.error[of_way] = is_new ? Real(0) : reaction.way;
   lanes_meet();
   if (!is_new) return;
   reaction.first_step = joint.first_step;
+  reaction.way = 0;
   each_row(rows_of(joint.type), row_count(joint), [&](int i) {
     reaction.spring_mass[i] = spring_mass(view, j, i, a, b);
     reaction.held_for[i] = is_driven(view, j, i) ? kMotorHolds : Real(0);
   });
 }
 
-/// Over the sub-step, with velocities a and b.
+/// Bodies go on as they are for h seconds: the way of a row whose number it is.
+PLUMB_HD inline void add_way(const AxisView& view, std::uint32_t j, Real h) {
+  const int row = row_of_way(view, j);
+  if (row < 0) return;
+  const Joint& joint = view.joints[j];
+  const Lanes speeds = speeds_now(view, j, view.velocity(joint.body_a), view.velocity(joint.body_b));
+  each_row(row, row + 1, [&](int i) { view.reaction(j).way += h * of_row(speeds, i); });
+  lanes_meet();
+}
+
+/// Over the sub-step, with velocities a and b. What is known of its way alone goes on as it does now.
 PLUMB_HD inline Lanes speeds_over_places(const AxisView& view, std::uint32_t j, const JointPass& pass,
-                                         const Velocity& a, const Velocity& b) {
+                                         const Velocity& a, const Velocity& b, const Lanes& now) {
   const Joint& joint = view.joints[j];
   const JointWork& work = view.work[j];
   const JointAxes& axes = view.parts.axes[j];
@@ -141,8 +162,9 @@ PLUMB_HD inline Lanes speeds_over_places(const AxisView& view, std::uint32_t j, 
                                        view.end_after(joint.body_b, b, pass.h));
   RowNumbers then;
   all_errors(joint, axes, place, then);
-  const int first = rows_of(joint.type);
+  const int first = rows_of(joint.type), of_way = row_of_way(view, j);
   return by_row(row_count(joint), [&](int i) {
+    if (i == of_way) return of_row(now, i);
     Real moved = then[i] - work.error[i];
     if (i >= first && goes_round(axes.row[i - first].kind)) moved = wrapped(moved);
     return moved * pass.inverse_h;
@@ -159,7 +181,7 @@ PLUMB_HD inline Lanes row_speeds(const AxisView& view, std::uint32_t j, const Jo
   Lanes speed;
   if (own.recall_speeds(a, b, speed)) return speed;
   const Lanes now = speeds_now(view, j, a, b);
-  speed = cannot_see_ahead(view.work[j], a, b, pass.h) ? now : speeds_over_places(view, j, pass, a, b);
+  speed = cannot_see_ahead(view.work[j], a, b, pass.h) ? now : speeds_over_places(view, j, pass, a, b, now);
   store_row(own.bend, speed - now);
   own.keep_speeds(a, b, speed);
   return speed;
@@ -184,7 +206,10 @@ PLUMB_HD inline Real speed_of_held(const AxisView& view, std::uint32_t j, int ro
   const Real error = view.work[j].error[row];
   switch (pass.kind) {
     case PassKind::kSpeeds: return 0;
-    case PassKind::kMoved: return view.parts.work[j].before[row] - speed_of_error(rate, error);
+    case PassKind::kMoved: {  // whose way does not tell yet that bodies have moved
+      const Real moved_at = row == row_of_way(view, j) ? Real(0) : view.parts.work[j].before[row];
+      return moved_at - speed_of_error(rate, error);
+    }
     default: return -speed_of_error(rate, error);
   }
 }

@@ -25,7 +25,8 @@ struct JointSet {
   std::uint32_t count;
   JointColours colours;
   JointSystem system;
-  AxisParts axes;  ///< of a set that has them
+  AxisParts axes;    ///< of a set that has them
+  bool any_couples;  ///< the number of some row is its way (is_of_way)
 };
 
 /// What of joints a step's code can do: a step that needs less is a kernel of its own, for what joints take of a GPU's

@@ -20,6 +20,7 @@ struct JointTraits {
   bool lets_bodies_touch;
   bool locks_turns;
   bool breaks;
+  bool couples;  ///< gear or rack: it holds a ratio of what its bodies do on other joints
 };
 
 /// A joint as the host made it.

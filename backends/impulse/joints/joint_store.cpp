@@ -28,9 +28,9 @@ void JointStore::exchange(Archive& archive, std::size_t bodies) {
   if (changed_) impulses_.grow(slots);
   for (StoredJoint& record : records_) archive.value(record.joint.first_step);
   archive.rows_of_all(impulses_, slots);
-  std::uint64_t borne = std::min(reactions_.size(), slots);  // which only some scenes have
+  std::uint64_t borne = std::min(axes_.reactions.size(), slots);  // which only some scenes have
   archive.value(borne);
-  archive.rows_of_all(reactions_, static_cast<std::size_t>(borne));
+  archive.rows_of_all(axes_.reactions, static_cast<std::size_t>(borne));
   archive.rows_of_all(least_moment_, slots == 0 ? 0 : bodies);
   changed_ = changed_ || archive.reads();
 }
@@ -62,6 +62,8 @@ std::vector<std::uint64_t> JointStore::excluded() const {
 
 void JointStore::upload(const Table<BodyMass>& masses) {
   code_ = needed_code();
+  axes_.any_couples = std::any_of(records_.begin(), records_.end(),
+                                  [](const StoredJoint& record) { return record.used && record.traits.couples; });
   const OrderedJoints ordered = order_joints(records_, masses, eliminator_, one_by_one_);
   slot_of_.clear();
   for (const Joint& joint : ordered.joints) slot_of_.push_back(joint.slot);
@@ -73,9 +75,9 @@ void JointStore::upload(const Table<BodyMass>& masses) {
   work_.grow(ordered.count());
   impulses_.grow(records_.size());
   if (code_ == JointCode::kAll) {
-    axes_.assign(ordered.axes);
-    axis_work_.grow(ordered.count());
-    reactions_.grow(records_.size());
+    axes_.axes.assign(ordered.axes);
+    axes_.work.grow(ordered.count());
+    axes_.reactions.grow(records_.size());
   }
   changed_ = false;
 }
@@ -93,8 +95,8 @@ JointSet JointStore::set(const Bodies& bodies, const SolverBodies& solver, bool 
   const JointView view = {bodies,       solver,           joints_.data(),
                           work_.data(), impulses_.data(), least_moment_.data(),
                           gyroscopic,   arrivals_.data(), kept_swings_.data()};
-  const AxisParts axes = {axes_.data(), drives.device(), axis_work_.data(), reactions_.data()};
-  return {view, count(), colours_.view(), system_.view(view), axes};
+  const AxisParts axes = {axes_.axes.data(), drives.device(), axes_.work.data(), axes_.reactions.data()};
+  return {view, count(), colours_.view(), system_.view(view), axes, axes_.any_couples};
 }
 
 }  // namespace plumb::impulse

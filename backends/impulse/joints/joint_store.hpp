@@ -56,7 +56,7 @@ class JointStore {
   /// Reactions are summed up for all joints from the next step on.
   void want_reactions() { wants_reactions_ = true; }
   /// Of the last step, by slot; of joints that it had, and where reactions are wanted or a joint breaks.
-  [[nodiscard]] std::vector<JointReaction> reactions() const { return reactions_.to_host(reactions_.size()); }
+  [[nodiscard]] std::vector<JointReaction> reactions() const { return axes_.reactions.to_host(axes_.reactions.size()); }
   /// Whether upload() is due.
   [[nodiscard]] bool changed() const { return changed_; }
 
@@ -95,10 +95,13 @@ class JointStore {
   JointColouring colours_;
   JointSystemMemory system_;
   MechanismMemory mechanisms_;
-  // Where the code is JointCode::kAll:
-  Buffer<JointAxes> axes_;  // as OrderedJoints, and so
-  Buffer<AxisWork> axis_work_;
-  Buffer<JointReaction> reactions_;  // by slot
+  /// Where the code is JointCode::kAll.
+  struct Axes {
+    Buffer<JointAxes> axes;  // as OrderedJoints, and so
+    Buffer<AxisWork> work;
+    Buffer<JointReaction> reactions;  // by slot
+    bool any_couples = false;
+  } axes_;
 };
 
 }  // namespace plumb::impulse

@@ -155,6 +155,16 @@ PLUMB_SHARED_DEVICE_CODE void warm_start_joints(Team& team, const JointSet& join
   });
 }
 
+/// Bodies have moved: how far what joints couple has gone.
+PLUMB_DEVICE inline void follow_ways(Team& team, const JointSet& joints, const StepParameters& step) {
+  if (!joints.any_couples) return;
+  const AxisView view = view_of<JointCode::kAll>(joints);
+  each_by_rows(team, joints.count, [=](std::uint32_t j) {
+    if (view.level(view.joints[j]) == step.level) add_way(view, j, step.h);
+  });
+  team.barrier();
+}
+
 /// Where contacts push mechanisms, what is beyond a limit comes back no faster than this, m/s or rad/s: where one holds
 /// against it, as the ground does under the foot of a leg that is folded as far as it goes, more would throw all of it
 /// up.

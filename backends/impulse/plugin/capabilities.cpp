@@ -27,9 +27,13 @@ Capability known(PlumbCapability kind, std::uint32_t a, std::uint32_t b) {
       if (a == PLUMB_FIELD_ROLLING_FRICTION) return {PLUMB_NATIVE};
       break;
     case PLUMB_CAP_JOINT:
-      if (a == PLUMB_JOINT_SWING_TWIST) return {PLUMB_NATIVE};
+      if (a == PLUMB_JOINT_SWING_TWIST || backend::is_meshing(a)) return {PLUMB_NATIVE};
       break;
     case PLUMB_CAP_JOINT_FEATURE:
+      if (backend::is_meshing(a)) {
+        if (b == PLUMB_JOINT_BREAKS || b == PLUMB_JOINT_HAS_REACTION) return {PLUMB_NATIVE};
+        return {PLUMB_NONE, b < PLUMB_JOINT_FEATURE_COUNT ? "of the joints that its bodies are on" : ""};
+      }
       if (b == PLUMB_JOINT_HAS_STIFFNESS || b == PLUMB_JOINT_HAS_TARGETS)
         return backend::usual_capability(kind, a, PLUMB_JOINT_HAS_SPRINGS);
       break;

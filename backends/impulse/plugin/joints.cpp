@@ -8,6 +8,7 @@
 #include "plugin/world.hpp"
 #include "plumb/backend/joint_coordinates.hpp"
 #include "plumb/backend/modify.hpp"
+#include "plumb/backend/names.hpp"
 
 namespace plumb::impulse {
 
@@ -65,8 +66,9 @@ void World::put_joint(std::uint32_t slot) {
     joint.frame_a = {{0, 0, 0}, to_quat(to_double(desc.frame_a.orientation))};
     joint.world_anchor = to_position(desc.frame_a.position);
   }
-  simulation_.joints.add(joint, rows.axes,
-                         {desc.collide_connected != 0, rows.locks_turns, joints_.records[slot].breaks()});
+  simulation_.joints.add(
+      joint, rows.axes,
+      {desc.collide_connected != 0, rows.locks_turns, joints_.records[slot].breaks(), backend::is_meshing(desc.type)});
   simulation_.joints.drives.edit(slot) = rows.drive;
 }
 

@@ -25,10 +25,10 @@ constexpr Real kHopeless = 4;
 constexpr Real kColumnStays = Real(0.85);
 /// What columns ask for grows e-fold in no less than this, s: it sways as they take up their load.
 constexpr Real kColumnGrows = 1;
-/// Sub-steps times contacts of an island beyond which it has no more sub-steps: they are for machines, and not for a
-/// pile of thousands; and of all islands that want so many or more: a crowd of figures does without, and one crane
-/// beside them does not have to. A joint takes as long as so many contacts.
-constexpr std::uint32_t kMostWork = 16384, kMostWorkOfAll = 65536, kWorkOfJoint = 8;
+/// Sub-steps times contacts beyond which there are no more sub-steps: they are for machines, and not for a pile of many
+/// thousands; of an island, and of all that want so many or more: a crowd of figures does without, and one crane beside
+/// them does not have to. A joint takes as long as so many contacts.
+constexpr std::uint32_t kMostWork = 65536, kWorkOfJoint = 8;
 /// A star that is shaken asks for sub-steps, up to this level; it rests where it has relaxations instead.
 constexpr std::uint32_t kShakenLevel = 1;
 /// What was asked is forgotten within that time, s.
@@ -238,13 +238,13 @@ struct ChooseLevels {
   PLUMB_HD bool has_time_for(std::uint32_t level) const {
     std::uint32_t wanted = 0;
     for (std::uint32_t k = level; k < kSubstepLengths; ++k) wanted += work.counters->levels.wanted_work[k];
-    return wanted <= kMostWorkOfAll / work.levels->of[level].substeps;
+    return wanted <= kMostWork / work.levels->of[level].substeps;
   }
   PLUMB_HD bool has_time_for_stars() const {
     std::uint32_t wanted = 0;
     for (std::uint32_t k = kStarLevel; k < kSubstepLevels; ++k)
-      wanted += min(work.counters->levels.wanted_work[k], kMostWorkOfAll) * passes_of(k);
-    return wanted <= kMostWorkOfAll;
+      wanted += min(work.counters->levels.wanted_work[k], kMostWork) * passes_of(k);
+    return wanted <= kMostWork;
   }
   /// Over the contacts in a step; elsewhere a sub-step has two, which count as one.
   PLUMB_HD std::uint32_t passes_of(std::uint32_t star) const {

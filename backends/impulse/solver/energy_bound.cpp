@@ -25,6 +25,7 @@ struct Keep {
     if (work.code != JointCode::kAll) return;
     joints[i].force = work.joints.axes.reactions[slot].force;
     joints[i].torque = work.joints.axes.reactions[slot].torque;
+    joints[i].way = work.joints.axes.reactions[slot].way;
     for (int k = 0; k < kJointRows; ++k) joints[i].held_for[k] = work.joints.axes.reactions[slot].held_for[k];
   }
 };
@@ -372,10 +373,12 @@ struct JudgeEnergy {
     if (!all_is) {
       if (!islands[root_of(joint)].is_held) return;
       for (int i = 0; i < kJointRows; ++i) impulse.along[i] = kHeldShare * kept_joints[j].impulse.along[i];
+      if (work.code == JointCode::kAll) work.joints.axes.reactions[joint.slot].way = kept_joints[j].way;
       return;
     }
     impulse = kept_joints[j].impulse;
     if (work.code != JointCode::kAll) return;
+    work.joints.axes.reactions[joint.slot].way = kept_joints[j].way;
     work.joints.axes.reactions[joint.slot].force = kept_joints[j].force;
     work.joints.axes.reactions[joint.slot].torque = kept_joints[j].torque;
     const std::uint32_t let_go = predicts() && j >= work.joints.system.base ? work.joints.axes.work[j].let_go : 0;

@@ -48,6 +48,7 @@ struct KeptJoint {
   JointImpulse impulse;
   Vec force, torque;  ///< of its reaction, where there are any
   Real held_for[kJointRows];
+  Real way;
 };
 
 /// Of a body, and at the root of an island of the island.

@@ -67,7 +67,10 @@ struct StepInPasses : PassContacts<Order> {
     }
     team.single([=] { self.counters->passes = passes; });
     if constexpr (kHasReactions<decltype(view_of<kJoints>(joints))>)
-      each_by_rows(team, joints.count, [=](std::uint32_t j) { add_reaction(view, j); });
+      each_by_rows(team, joints.count, [=](std::uint32_t j) {
+        add_reaction(view, j);
+        add_way(view, j, step.h);
+      });
     if (features.collision && features.contact_impulses) this->add_up(team);
     this->move_bodies(team, step);
     if constexpr (!Order::kInSequence) {

@@ -46,6 +46,7 @@ struct StepSoftly : SoftContacts<kSurfaceEffects, !Executor::kWarps || kJoints !
         end_loads(team, step);
       }
       this->move_bodies(team, step);
+      if constexpr (kJoints == JointCode::kAll) follow_ways(team, joints, step);
       if (features.collision) hand_over_loads(team, step);
       hold_speeds(team, step, first);
       if (!relaxes || !features.collision) continue;

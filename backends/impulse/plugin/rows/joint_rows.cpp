@@ -89,6 +89,11 @@ class RowList {
     rows_.axes.narrow = static_cast<Real>(desc_.limits[4].upper / desc_.limits[5].upper);
   }
 
+  void mesh(RowKind kind) {
+    lock(kind, 0);
+    rows_.axes.ratio = static_cast<Real>(desc_.ratio);
+  }
+
  private:
   int put(RowKind kind, std::size_t axis, std::size_t other, std::uint8_t coordinate) {
     if (kind == RowKind::kPoint || kind == RowKind::kAlong || kind == RowKind::kDistance)
@@ -140,9 +145,12 @@ JointRows rows_of_joint(const PlumbJointDesc& desc) {
   rows.pulls = pulls_of(rows.type);
   const std::uint32_t free = free_axes(desc), turns = free >> 3;
   const bool pulls = desc.type == PLUMB_JOINT_DISTANCE;
-  rows.locks_turns = !pulls && turns != 7;
-  rows.axes.masses_alone = !pulls && turns == 0 ? 1 : 0;
+  const bool meshes = backend::is_meshing(desc.type);
+  rows.locks_turns = !pulls && !meshes && turns != 7;
+  rows.axes.masses_alone = !pulls && !meshes && turns == 0 ? 1 : 0;
   RowList list(desc, rows);
+  if (desc.type == PLUMB_JOINT_GEAR) list.mesh(RowKind::kGear);
+  if (desc.type == PLUMB_JOINT_RACK_AND_PINION) list.mesh(RowKind::kRack);
   if (desc.type == PLUMB_JOINT_UNIVERSAL)
     for (std::size_t axis = 0; axis < 3; ++axis) list.lock(RowKind::kPoint, axis);
   if (desc.type == PLUMB_JOINT_GENERIC)

@@ -80,6 +80,53 @@ void sockets(Scene& scene) {
   }
 }
 
+void gears(Scene& scene) {
+  scene.ground();
+  const double half = std::sqrt(0.5);
+  const PlumbQuat to_y{0, 0, half, half}, to_z{0, -half, 0, half};  // of x
+  const PlumbShape wheel = scene.box({0.05, 0.2, 0.2}), table = scene.box({0.5, 0.05, 0.5}),
+                   box = scene.box({0.2, 0.2, 0.2});
+  const auto axle = [&](const PlumbVec3& at, double speed) {
+    const PlumbBody body = scene.add(wheel, at, to_z);
+    PlumbJointDesc hinge = joint_desc(PLUMB_JOINT_HINGE);
+    hinge.frame_a.orientation = to_z;
+    hinge.motors[3] = {speed, 400, speed != 0 ? 1U : 0U, 0};
+    join(scene, hinge, 0, at, body, {0, 0, 0});
+    return body;
+  };
+  PlumbJointDesc gear = joint_desc(PLUMB_JOINT_GEAR), rack = joint_desc(PLUMB_JOINT_RACK_AND_PINION),
+                 slider = joint_desc(PLUMB_JOINT_SLIDER);
+  slider.frame_a.orientation = slider.frame_b.orientation = rack.frame_b.orientation = to_y;
+  for (int i = 0; i < 6; ++i) {
+    const double z = 1.5 * i - 4, y = 1 + 0.1 * i;
+    PlumbBody before = axle({-1, y, z}, i % 3 == 2 ? 0 : -6 - i);
+    for (int k = 0; k < 1 + i % 4; ++k) {
+      const PlumbBody next = axle({-0.7 + 0.3 * k, y, z}, 0);
+      gear.ratio = (k % 2 == 0 ? 1.5 : -0.8) + 0.1 * i;
+      join(scene, gear, before, {0, 0, 0}, next, {0, 0, 0});
+      before = next;
+    }
+    const PlumbBody lifted = scene.add(table, {1.2, y, z});
+    join(scene, slider, 0, {1.2, y, z}, lifted, {0, 0, 0});
+    rack.ratio = (i % 2 == 0 ? 5 : -5) - i;
+    join(scene, rack, before, {0, 0, 0}, lifted, {-0.5, 0, 0});
+    scene.body = of_mass(20 + 60.0 * i);
+    for (int k = 0; k < 2; ++k) scene.add(box, {1.2 + 0.05 * k, y + 0.26 + 0.41 * k, z});
+    scene.body = body_desc();
+  }
+  const PlumbBody ring[3] = {axle({-3, 1, 0}, 0), axle({-3, 1, 1}, 5), axle({-3, 1, 2}, 0)};
+  for (int i = 0; i < 3; ++i) {
+    gear.ratio = -1;
+    join(scene, gear, ring[i], {0, 0, 0}, ring[(i + 1) % 3], {0, 0, 0});
+  }
+  for (int i = 0; i < 4; ++i) {
+    const PlumbBody a = scene.add(box, {-4.0 - 0.5 * (i % 2), 1 + 0.5 * i, 0.1 * i});
+    const PlumbBody b = scene.add(box, {-4.5 + 0.5 * (i % 2), 1.2 + 0.5 * i, 0.3});
+    gear.ratio = 0.5 + i;
+    join(scene, gear, a, {0, 0, 0}, b, {0, 0, 0});
+  }
+}
+
 void led_limbs(Scene& scene) {
   scene.ground();
   scene.add_static(scene.box({0.4, 0.4, 2}), {0.3, 0.4, 0});

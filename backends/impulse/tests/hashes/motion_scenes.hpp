@@ -15,6 +15,9 @@ void sockets(Scene& scene);
 void led_limbs(Scene& scene);
 /// Doors, pistons and cranks: motors that turn back, limits that are struck, springs, and a bridge that gives way.
 void clockwork(Scene& scene);
+/// Trains of wheels with gears and racks: driven ones that lift tables with boxes, one that closes on itself, and
+/// wheels that are geared and fall.
+void gears(Scene& scene);
 /// Continuous collision: bullets through a wall of cubes, and a spinning rod.
 void bullets(Scene& scene);
 /// A heap of bodies with locked axes.

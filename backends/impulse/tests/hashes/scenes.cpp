@@ -243,6 +243,7 @@ const std::vector<NamedScene>& named_scenes() {
       {"puppets", {}, kAll | PLUMB_NEED_JOINTS | PLUMB_NEED_EVENTS, kDown, &puppets},
       {"sockets", {}, kAll | PLUMB_NEED_JOINTS | PLUMB_NEED_SLEEPING, kDown, &sockets},
       {"led-limbs", {}, kAll | PLUMB_NEED_JOINTS | PLUMB_NEED_SLEEPING, kDown, &led_limbs},
+      {"gears", {}, kAll | PLUMB_NEED_JOINTS | PLUMB_NEED_JOINT_REACTIONS | PLUMB_NEED_SLEEPING, kDown, &gears},
       {"chequers", {}, kAll | PLUMB_NEED_RESTITUTION | PLUMB_NEED_CCD | PLUMB_NEED_SLEEPING, kDown, &chequers},
       {"bumps", {}, kAll | PLUMB_NEED_KINEMATIC | PLUMB_NEED_SLEEPING, kDown, &bumps},
       {"bullets", {}, kAll | PLUMB_NEED_CCD, kDown, &bullets},
