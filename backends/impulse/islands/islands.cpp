@@ -64,12 +64,40 @@ struct JoinTouching {
   }
 };
 
+/// A motor that goes slower than that, relative to its target, stands: at a stop, or under what it can't move.
+constexpr Real kStands = Real(0.01);
+
 struct JoinJointed {
   Graph graph;
   JointEdges edges;
   PLUMB_HD void operator()(std::uint32_t j) const {
     const Joint& joint = edges.joints[j];
     if (joint.body_a != kWorld) graph.join(joint.body_a, joint.body_b);
+    if (!is_driven_on(joint)) return;
+    graph.keep_awake(joint.body_b);
+    if (joint.body_a != kWorld) graph.keep_awake(joint.body_a);
+  }
+
+ private:
+  /// A motor moves it, however slowly.
+  [[nodiscard]] PLUMB_HD bool is_driven_on(const Joint& joint) const {
+    const JointDrive& drive = edges.drives[joint.slot];
+    Real target = 0, turn = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (drive.max_force[axis] > 0) target = max(target, abs(drive.velocity[axis]));
+      if (drive.max_force[axis + 3] > 0) turn = max(turn, abs(drive.velocity[axis + 3]));
+    }
+    if (target == 0 && turn == 0) return false;
+    Velocity apart = graph.bodies.velocity[joint.body_b];
+    if (joint.body_a != kWorld) {
+      const Velocity& a = graph.bodies.velocity[joint.body_a];
+      apart.linear -= a.linear;
+      apart.angular -= a.angular;
+    }
+    const auto goes = [](const Vec& speed, Real wanted) {
+      return wanted > 0 && length_squared(speed) > kStands * kStands * wanted * wanted;
+    };
+    return goes(apart.linear, target) || goes(apart.angular, turn);
   }
 };
 

@@ -5,7 +5,7 @@
 #include "contacts/surface_velocity.hpp"
 #include "exec/executor.hpp"
 #include "exec/memory.hpp"
-#include "joints/joint.hpp"
+#include "joints/joint_axes.hpp"
 #include "narrowphase/contact_cache.hpp"
 #include "narrowphase/manifold_change.hpp"
 
@@ -15,6 +15,7 @@ namespace plumb::impulse {
 struct JointEdges {
   const Joint* joints;
   std::uint32_t count;
+  const JointDrive* drives;  ///< by slot
 };
 
 class Islands {
@@ -35,7 +36,7 @@ class Islands {
     ManifoldChanges changes = {};
   };
   /// Enqueues the search for islands all of whose bodies have rested for that time at least, and which nothing that
-  /// moves by itself touches. Only between steps.
+  /// moves by itself touches and no motor moves. Only between steps.
   void find_resting(Executor& executor, const Input& input);
 
   /// Of the last search, when it is done: how many bodies such islands have.

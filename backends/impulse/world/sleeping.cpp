@@ -78,7 +78,7 @@ void Simulation::let_islands_rest() {
   sleep_.islands().find_resting(executor_,
                                 {stages_.narrow_phase.cache(step_),
                                  counters().manifolds,
-                                 {joints.device(), joints.count()},
+                                 {joints.device(), joints.count(), joints.drives.device()},
                                  body_view(),
                                  bodies.count,
                                  colliders.view(),

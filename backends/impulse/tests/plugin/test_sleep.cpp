@@ -253,6 +253,51 @@ TEST_F(Asleep, NobodySleepsOnWhatMoves) {
   EXPECT_NEAR(velocity(scene, tower.cubes[1], 1), 1, 0.05);
 }
 
+/// A motor may drive slower than what counts as rest: a lift with a box on it, and a wheel that turns another. One that
+/// stands at a stop, holds at no speed, or is too weak lets its island sleep.
+TEST_F(Asleep, NobodySleepsWhomAMotorMoves) {
+  scene.ground();
+  scene.body.mass_mode = PLUMB_MASS_FROM_DENSITY;
+  scene.body.density = 100;
+  const PlumbShape cube = scene.box({0.5, 0.5, 0.5});
+  const auto lift = [&](double x, double speed, double force, double stop) {
+    const PlumbBody body = scene.add(cube, {x, 2, 0});
+    PlumbJointDesc slider = joint_desc(PLUMB_JOINT_SLIDER);
+    slider.body_b = body;
+    slider.frame_a = {{x, 2, 0}, {0, 0, std::sqrt(0.5), std::sqrt(0.5)}};
+    slider.frame_b.orientation = slider.frame_a.orientation;
+    slider.motors[0] = {speed, force, 1, 0};
+    slider.limits[0] = {-0.1, stop, 1, 0};
+    scene.join(slider);
+    return body;
+  };
+  const PlumbBody lifts[] = {lift(-6, 0.01, 1e5, 10), lift(-4, 0.01, 1e5, 0.05), lift(-2, 0, 1e5, 10),
+                             lift(0, 0.01, 1, 10)};
+  const PlumbBody box = scene.add(cube, {-6, 3, 0});
+  const PlumbBody wheels[] = {scene.add(cube, {4, 3, 0}), scene.add(cube, {6, 3, 0})};
+  for (const PlumbBody wheel : wheels) {
+    PlumbJointDesc hinge = joint_desc(PLUMB_JOINT_HINGE);
+    hinge.body_b = wheel;
+    hinge.frame_a.position = {wheel == wheels[0] ? 4.0 : 6.0, 3, 0};
+    hinge.motors[3] = {0.02, 1e5, wheel == wheels[0] ? 1U : 0U, 0};
+    scene.join(hinge);
+  }
+  PlumbJointDesc gear = joint_desc(PLUMB_JOINT_GEAR);
+  gear.body_a = wheels[0];
+  gear.body_b = wheels[1];
+  gear.ratio = 4;
+  scene.join(gear);
+  scene.run(1200);
+  const auto place = [&](PlumbBody body) { return read_one(scene, PLUMB_FIELD_POSE, body, 1, 7); };
+  EXPECT_NEAR(place(lifts[0]), 2.2, 1e-3);
+  EXPECT_NEAR(place(box), 3.2, 2e-3);
+  EXPECT_NEAR(place(lifts[1]), 2.05, 1e-3);
+  EXPECT_NEAR(2 * std::asin(read_one(scene, PLUMB_FIELD_POSE, wheels[1], 3, 7)), -0.1, 1e-3);
+  for (int k = 0; k < 4; ++k) EXPECT_EQ(is_awake(scene, lifts[k]), k == 0) << k;
+  EXPECT_TRUE(is_awake(scene, box));
+  EXPECT_TRUE(is_awake(scene, wheels[1]));
+}
+
 TEST_F(Asleep, SomeNeverSleepAndKeepOthersAwake) {
   scene.ground();
   scene.body.flags = PLUMB_BODY_NEVER_SLEEPS;
@@ -349,7 +394,8 @@ TEST(Islands, AreTheComponents) {
     Bodies bodies{};
     bodies.velocity = velocity.data();
     islands.find_resting(
-        executor, {cache, edges, {nullptr, 0}, bodies, n, {proxies.data(), nullptr, {}}, rest.data(), Real(0.5)});
+        executor,
+        {cache, edges, {nullptr, 0, nullptr}, bodies, n, {proxies.data(), nullptr, {}}, rest.data(), Real(0.5)});
     executor.wait();
     const std::vector<std::uint32_t> found = islands.resting(n);
     std::uint32_t count = 0;
