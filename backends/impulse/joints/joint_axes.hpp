@@ -23,7 +23,7 @@ enum class RowKind : std::uint8_t {
   kTwist,     ///< the twist of a turn that is all free
   kCone,      ///< its swing, as the half angle about y of the cone through it
   kSwing,     ///< one of the two numbers of that swing
-  kGear,      ///< what b turns about its x and a about its own, times ratio, since the joint was made
+  kGear,      ///< what a has turned about its x and, times ratio, b about its own, since the joint was made
   kRack       ///< how far the toothed line along b's x has slipped on the wheel about a's x since then
 };
 
