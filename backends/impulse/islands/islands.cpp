@@ -65,7 +65,7 @@ struct JoinTouching {
 };
 
 /// A motor that goes slower than that, relative to its target, stands: at a stop, or under what it can't move.
-constexpr Real kStands = Real(0.01);
+constexpr Real kMotorStands = Real(0.01);
 
 struct JoinJointed {
   Graph graph;
@@ -95,7 +95,7 @@ struct JoinJointed {
       apart.angular -= a.angular;
     }
     const auto goes = [](const Vec& speed, Real wanted) {
-      return wanted > 0 && length_squared(speed) > kStands * kStands * wanted * wanted;
+      return wanted > 0 && length_squared(speed) > kMotorStands * kMotorStands * wanted * wanted;
     };
     return goes(apart.linear, target) || goes(apart.angular, turn);
   }
