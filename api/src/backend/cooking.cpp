@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "caught.hpp"
 #include "cooked_frame.hpp"
 #include "described_shape.hpp"
 #include "shape_content.hpp"
@@ -59,14 +60,8 @@ PlumbResult cook_shape(const BackendFacts& facts, const PlumbShapeDesc* desc, Pl
     out->data = lent;
     out->size = bytes.size();
     return PLUMB_OK;
-  } catch (const Error& error) {
-    return failed(error.code(), error.what());
-  } catch (const std::bad_alloc&) {
-    return failed(PLUMB_E_OUT_OF_MEMORY, "out of memory");
-  } catch (const std::exception& error) {
-    return failed(PLUMB_E_INTERNAL, error.what());
   } catch (...) {
-    return failed(PLUMB_E_INTERNAL, "the backend threw something that is not a std::exception");
+    return caught(failed);
   }
 }
 

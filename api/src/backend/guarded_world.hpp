@@ -8,6 +8,7 @@
 #include <mutex>
 #include <optional>
 
+#include "caught.hpp"
 #include "check_rows.hpp"
 #include "pair_exceptions.hpp"
 #include "plumb/backend/check_descs.hpp"
@@ -34,14 +35,8 @@ class GuardedWorld {
     if (lost_ != PLUMB_OK) return lost_;
     try {
       return done(call());
-    } catch (const Error& error) {
-      return fail(error.code(), error.what());
-    } catch (const std::bad_alloc&) {
-      return fail(PLUMB_E_OUT_OF_MEMORY, "out of memory");
-    } catch (const std::exception& error) {
-      return fail(PLUMB_E_INTERNAL, error.what());
     } catch (...) {
-      return fail(PLUMB_E_INTERNAL, "the backend threw something that is not a std::exception");
+      return caught([this](PlumbResult code, const char* text) { return fail(code, text); });
     }
   }
 

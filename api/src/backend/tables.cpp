@@ -5,6 +5,7 @@
 #include <memory>
 #include <string_view>
 
+#include "caught.hpp"
 #include "guarded_worlds.hpp"
 
 namespace plumb::backend {
@@ -210,14 +211,8 @@ PlumbResult create_guarded_world(const BackendFacts& facts, const PlumbHost* hos
     std::unique_ptr<IPhysicsWorld> made(facts.make(init));
     *world = reinterpret_cast<PlumbWorld*>(new GuardedWorlds(facts, init, std::move(made)));
     return PLUMB_OK;
-  } catch (const Error& error) {
-    return failed(error.code(), error.what());
-  } catch (const std::bad_alloc&) {
-    return failed(PLUMB_E_OUT_OF_MEMORY, "out of memory");
-  } catch (const std::exception& error) {
-    return failed(PLUMB_E_INTERNAL, error.what());
   } catch (...) {
-    return failed(PLUMB_E_INTERNAL, "the backend threw something that is not a std::exception");
+    return caught(failed);
   }
 }
 
