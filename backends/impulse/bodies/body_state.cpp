@@ -43,15 +43,16 @@ struct TakeRows {
 void BodyState::grow(std::size_t rows) {
   fetch_all();
   const std::size_t before = size();
-  position.grow(rows);
+  if (!kOneMemory) {
+    known_.resize(rows);
+    touched_parts_.resize(rows);
+    whole_ = true;
+  }
   orientation.grow(rows);
   velocity.grow(rows);
+  position.grow(rows);
   for (std::size_t i = before; i < size(); ++i) orientation[i] = {0, 0, 0, 1};
   ++version_;
-  if (kOneMemory) return;
-  known_.resize(size());
-  touched_parts_.resize(size());
-  whole_ = true;
 }
 
 bool BodyState::knows(std::uint32_t slot, std::uint32_t parts) const {

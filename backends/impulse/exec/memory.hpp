@@ -120,16 +120,16 @@ class Mirror {
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] static constexpr std::size_t bytes(std::size_t count) { return count * sizeof(T); }
 
-  /// Grows both sides and keeps what is there; new elements are zero bytes.
+  /// Grows both sides and keeps what is there; new elements are zero bytes. Where memory runs out, size() stays.
   void grow(std::size_t size) {
     if (size <= size_) return;
+    if (!kOneMemory) device_.grow(size);
     T* host = static_cast<T*>(memory::allocate_host(size * sizeof(T)));
     if (size_ != 0) std::memcpy(static_cast<void*>(host), host_, size_ * sizeof(T));
     std::memset(static_cast<void*>(host + size_), 0, (size - size_) * sizeof(T));
     memory::release_host(host_);
     host_ = host;
     size_ = size;
-    if (!kOneMemory) device_.grow(size);
   }
 
  private:

@@ -65,10 +65,10 @@ struct TimeRest {
 
 void Sleep::reserve(std::uint32_t bodies) {
   islands_.reserve(bodies);
-  was_.resize(bodies);
   island_of_.grow(bodies);
   touched_.grow(bodies);
   rest_.grow(bodies);
+  was_.resize(bodies);
   islands_changed_ = true;
 }
 

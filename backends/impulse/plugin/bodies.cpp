@@ -25,9 +25,17 @@ PlumbResult World::create_bodies(std::span<const PlumbBodyDesc> descs, std::span
   simulation_.bodies.count = slots;
   rows_.ids.resize(slots);
   Simulation::Slots sleepers;
-  for (std::size_t i = 0; i < descs.size(); ++i) {
-    make_body(descs[i], ids[i]);
-    if ((descs[i].flags & PLUMB_BODY_ASLEEP) != 0) sleepers.push_back(slot_of(ids[i]));
+  std::size_t made = 0;
+  try {
+    for (; made < descs.size(); ++made) {
+      if ((descs[made].flags & PLUMB_BODY_ASLEEP) != 0) sleepers.push_back(slot_of(ids[made]));
+      make_body(descs[made], ids[made]);
+    }
+  } catch (...) {  // no memory is left
+    for (std::size_t i = 0; i <= made; ++i) unmake_body(slot_of(ids[i]));
+    sensors_.remove_if([&](std::uint32_t slot) { return bodies_[slot].id == 0; });
+    simulation_.bodies_changed();
+    throw;
   }
   ++rows_.generation;
   simulation_.bodies_changed();
@@ -35,21 +43,23 @@ PlumbResult World::create_bodies(std::span<const PlumbBodyDesc> descs, std::span
   return PLUMB_OK;
 }
 
+/// What of a body is in the engine's rows.
+void World::unmake_body(std::uint32_t slot) {
+  if (bodies_[slot].motion == PLUMB_DYNAMIC) --dynamic_count_;
+  detach(slot);
+  bodies_[slot] = {};
+  rows_.ids[slot] = 0;
+  simulation_.bodies.mass.edit(slot) = {};
+  simulation_.bodies.force.edit(slot) = {};
+  simulation_.bodies.state.velocity[slot] = {};
+  simulation_.bodies.state.touch(slot, kVelocityPart);
+}
+
 PlumbResult World::destroy_bodies(std::span<const PlumbBody> ids) {
   if (init_.needs(PLUMB_NEED_EVENTS) || init_.needs(PLUMB_NEED_SENSORS)) told_.touches.forget(ids, told_.early_events);
   if (init_.needs(PLUMB_NEED_CONTACTS)) contacts();  // while the bodies are where the step left them
   wake_for_write(PLUMB_FIELD_POSE, ids);
-  for (const PlumbBody id : ids) {
-    const std::uint32_t slot = slot_of(id);
-    if (bodies_[slot].motion == PLUMB_DYNAMIC) --dynamic_count_;
-    detach(slot);
-    bodies_[slot] = {};
-    rows_.ids[slot] = 0;
-    simulation_.bodies.mass.edit(slot) = {};
-    simulation_.bodies.force.edit(slot) = {};
-    simulation_.bodies.state.velocity[slot] = {};
-    simulation_.bodies.state.touch(slot, kVelocityPart);
-  }
+  for (const PlumbBody id : ids) unmake_body(slot_of(id));
   sensors_.remove_if([&](std::uint32_t slot) { return bodies_[slot].id == 0; });
   std::erase_if(told_.records, [&](const ContactRecord& record) {  // their slots will be others'
     return bodies_[record.bodies.a].id == 0 || bodies_[record.bodies.b].id == 0;
@@ -90,6 +100,7 @@ void World::embody(std::uint32_t slot, const PlumbBodyDesc& desc) {
   BodyMass mass{};
   Real inverse_mass = 0;
   const bool dynamic = desc.motion == PLUMB_DYNAMIC;
+  if (dynamic) ++dynamic_count_;
   if (desc.motion != PLUMB_STATIC) mass.flags |= kBodyMoves | kBodyTurns;
   if (desc.motion == PLUMB_KINEMATIC && continuous_) mass.flags |= kBodySweeps;
   if ((desc.flags & PLUMB_BODY_MODIFY_CONTACTS) != 0) {
@@ -103,7 +114,6 @@ void World::embody(std::uint32_t slot, const PlumbBodyDesc& desc) {
       mass.flags |= kBodyContinuous;
       make_continuous(true);
     }
-    ++dynamic_count_;
     inverse_mass = static_cast<Real>(1 / desc.mass);
     frame.centre_of_mass = to_position(desc.centre_of_mass);
     if (desc.locks != 0) mass.flags |= kBodyLocked | desc.locks * kLockLinear;

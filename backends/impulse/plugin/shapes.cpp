@@ -81,19 +81,23 @@ PlumbResult World::add_shapes(std::span<const PlumbShape> ids, const Make& make)
   std::vector<Shape> made;
   std::vector<Compound> parts(ids.size());
   made.reserve(ids.size());
+  std::uint32_t rows = 0;
+  for (const PlumbShape id : ids) rows = std::max(rows, slot_of(id) + 1);
+  simulation_.reserve_shapes(rows);
   try {
-    for (std::size_t i = 0; i < ids.size(); ++i) made.push_back(make(i, parts[i]));
+    bool has_parts = false;
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+      made.push_back(make(i, parts[i]));
+      has_parts = has_parts || !parts[i].empty();
+    }
+    if (has_parts && rows > compounds_.size()) compounds_.resize(rows);
   } catch (...) {
     for (const Shape& shape : made) dismantle(shape);
     throw;
   }
   for (std::size_t i = 0; i < ids.size(); ++i) {
-    const std::uint32_t row = slot_of(ids[i]);
-    simulation_.reserve_shapes(row + 1);
-    simulation_.colliders.shapes.edit(row) = made[i];
-    if (parts[i].empty()) continue;
-    if (row >= compounds_.size()) compounds_.resize(row + 1);
-    compounds_[row] = std::move(parts[i]);
+    simulation_.colliders.shapes.edit(slot_of(ids[i])) = made[i];
+    if (!parts[i].empty()) compounds_[slot_of(ids[i])] = std::move(parts[i]);
   }
   return PLUMB_OK;
 }

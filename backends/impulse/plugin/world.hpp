@@ -131,6 +131,7 @@ class World final : public IPhysicsWorld,
   void exchange_proxies(Archive& archive);
   void exchange_targets(Archive& archive);
   void make_body(const PlumbBodyDesc& desc, PlumbBody id);
+  void unmake_body(std::uint32_t slot);
   void embody(std::uint32_t slot, const PlumbBodyDesc& desc);
   void remake_body(const PlumbBodyChange& change);
   void put_joints_of(std::span<const PlumbBodyChange> changes);

@@ -17,12 +17,13 @@ struct BodyTable {
   std::uint32_t count = 0;                   ///< slots in use; rows behind are nobody's, and the last row is a sentinel
 
   [[nodiscard]] std::size_t size() const { return state.size(); }
+  /// Where memory runs out, size() stays as it was.
   void grow(std::size_t rows, bool with_rolling_friction) {
-    state.grow(rows);
     force.grow(rows);
     mass.grow(rows);
     frames.grow(rows);
     if (with_rolling_friction) rolling_frictions.grow(rows);
+    state.grow(rows);
   }
   /// turn: whether dynamic bodies may.
   [[nodiscard]] MovableBodies view(bool turn) {

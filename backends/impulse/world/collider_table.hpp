@@ -18,13 +18,13 @@ struct ColliderTable {
   SurfacePool surfaces;
   std::uint32_t count = 0;  ///< proxy rows in use; those among them without a shape are nobody's
 
-  /// Room for that many proxies. New rows have no shape.
+  /// Room for that many proxies. New rows have no shape. Where memory runs out, there are as many as before.
   void grow(std::size_t rows, bool with_surface_velocity) {
     const std::size_t before = proxies.size();
-    proxies.grow(rows);
-    for (std::size_t i = before; i < rows; ++i) proxies.edit(i).shape = kNone;
     filters.grow(rows);
     if (with_surface_velocity) surface_velocities.grow(rows);
+    proxies.grow(rows);
+    for (std::size_t i = before; i < rows; ++i) proxies.edit(i).shape = kNone;
   }
   /// Whether steps and queries see the proxy.
   [[nodiscard]] bool is_seen(std::uint32_t proxy) const {

@@ -34,8 +34,9 @@ Simulation::~Simulation() { executor_.leave(); }
 
 void Simulation::reserve_bodies(std::uint32_t slots) {
   const std::size_t rows = std::size_t{slots} + 1;  // and nobody
-  if (rows <= bodies.size()) return;
-  const std::size_t size = rows + rows / 2;
+  if (rows <= bodies.size() && !dirty_.room) return;
+  const std::size_t size = rows <= bodies.size() ? bodies.size() : rows + rows / 2;
+  dirty_.room = true;
   bodies.grow(size, stages_.features.rolling_friction);
   joints.reserve_bodies(size);
   dirty_.lists = true;
@@ -45,8 +46,9 @@ void Simulation::reserve_bodies(std::uint32_t slots) {
 
 void Simulation::reserve_proxies(std::uint32_t rows) {
   const std::size_t before = colliders.proxies.size();
-  if (rows <= before) return;
-  const std::size_t size = std::max<std::size_t>(rows, before + before / 2);
+  if (rows <= before && !dirty_.room) return;
+  const std::size_t size = rows <= before ? before : std::max<std::size_t>(rows, before + before / 2);
+  dirty_.room = true;
   colliders.grow(size, stages_.features.surface_velocity);
   if (stages_.features.sleeping) sleep_.reserve(static_cast<std::uint32_t>(size));
   dirty_.lists = true;
@@ -58,9 +60,11 @@ void Simulation::reserve_shapes(std::uint32_t rows) {
 }
 
 void Simulation::reserve_pairs(std::uint32_t pairs) {
+  recorder_.forget();
+  dirty_.room = true;
   stages_.reserve(executor_, static_cast<std::uint32_t>(bodies.size()),
                   static_cast<std::uint32_t>(colliders.proxies.size()), pairs);
-  recorder_.forget();
+  dirty_.room = false;
 }
 
 /// So many of a thing that a recorded step has room for, when there are n now. While bodies come and go the numbers
@@ -196,10 +200,27 @@ void Simulation::step(const StepParameters& parameters, const SubstepLevels& lev
   numbers_.levels[0] = levels;
   numbers_.parameters[0].step = ++step_;
   outcome_ = {};
-  launch();
+  or_not_at_all([this] { launch(); });
+}
+
+/// Where memory runs out there was no step: nobody has moved, and what the last one found is not known any more, but to
+/// the next.
+template <class Act>
+void Simulation::or_not_at_all(const Act& act) {
+  try {
+    act();
+  } catch (...) {
+    --step_;
+    *numbers_.counters.host() = {};
+    restored_ = true;
+    last_.shows = false;
+    recorder_.forget();
+    throw;
+  }
 }
 
 void Simulation::launch() {
+  reserve_bodies(bodies.count);
   upload_changes();
   reserve_rows();
   PLUMB_ASSERT(numbers_.parameters[0].dt > 0);
@@ -247,8 +268,7 @@ void Simulation::enqueue(Half half) {
   if (output_.velocities.in_step()) output_.velocities.written(bodies.state.version());
 }
 
-bool Simulation::wait() {
-  executor_.wait();
+void Simulation::repeat_undone() {
   while (is_undone(counters(), stages_.pair_capacity) && !taken_back()) {
     if (counters().pairs > stages_.pair_capacity) {
       reserve_pairs(counters().pairs + counters().pairs / 2);
@@ -261,6 +281,11 @@ bool Simulation::wait() {
     launch();
     executor_.wait();
   }
+}
+
+bool Simulation::wait() {
+  executor_.wait();
+  or_not_at_all([this] { repeat_undone(); });
   PLUMB_ASSERT(candidate_count() <= stages_.pair_capacity || taken_back());
   if (last_.shows) return false;
   PLUMB_ASSERT(counters().manifolds <= candidate_count());

@@ -158,6 +158,7 @@ class Simulation {
   };
   struct Dirty {
     bool lists = true, statics = true;
+    bool room = false;  ///< memory ran out while it was made: some arrays are shorter than others
   };
   /// What queries work with, made when the first comes: the step's own lists and trees are not touched.
   struct ForQueries {
@@ -177,6 +178,9 @@ class Simulation {
   void reserve_rows();
   [[nodiscard]] StepInput input();
   void launch();
+  void repeat_undone();
+  template <class Act>
+  void or_not_at_all(const Act& act);
   enum class Half : std::uint8_t { kBoth, kDetection, kResponse };
   void enqueue(Half half);
   void let_islands_rest();

@@ -93,9 +93,9 @@ void sort_few(std::uint32_t n, int bits, KeyedInput<K> from, Keyed<K> to) {
 template <class K>
 void RadixSort<K>::reserve(std::uint32_t capacity) {
   if (capacity <= capacity_) return;
-  capacity_ = capacity;
   scratch_.grow(std::size_t{capacity} * (sizeof(K) + sizeof(std::uint32_t)) +
                 std::size_t{kMostChunks} * kDigits * sizeof(std::uint32_t));
+  capacity_ = capacity;
 }
 
 template <class K>
