@@ -227,6 +227,22 @@ public unsafe struct PlumbCast
     public PlumbFilter filter;
 }
 
+/// <summary>A convex shape that turns on its way, about the place of its pose: at a fraction f of the way it is at
+/// pose.position + f * translation, turned from pose.orientation by f * |rotation| rad about rotation. One of
+/// translation and rotation may be 0. Since 1.2.</summary>
+[StructLayout(LayoutKind.Sequential)]
+public unsafe struct PlumbTurningCast
+{
+    /// <summary>sphere, box, capsule, cylinder or hull</summary>
+    public ulong shape;
+    public PlumbPose pose;
+    /// <summary>m</summary>
+    public PlumbVec3 translation;
+    /// <summary>rad, world axes; its length at most 2 pi: a whole turn</summary>
+    public PlumbVec3 rotation;
+    public PlumbFilter filter;
+}
+
 [StructLayout(LayoutKind.Sequential)]
 public unsafe struct PlumbOverlap
 {
@@ -244,7 +260,7 @@ public unsafe struct PlumbHit
     public uint query;
     /// <summary>of a compound, triangle of a mesh; else 0, also for a height field</summary>
     public uint child;
-    /// <summary>of the translation, 0..1; 0 for overlaps</summary>
+    /// <summary>of the way, 0..1; 0 for overlaps</summary>
     public double fraction;
     /// <summary>world, m; NaN for overlaps</summary>
     public PlumbVec3 position;
@@ -286,6 +302,10 @@ public unsafe struct PlumbQueriesTable
     /// deepest first, then body slot. Bodies that touch the shape without depth may be told or not. PLUMB_CAP_QUERY
     /// with PLUMB_QUERY_PENETRATION says of which shapes; a table that ends before has it not. Since 1.2.</summary>
     public IntPtr penetrations;
+    /// <summary>As casts are, of shapes that turn on the way: the first touch on it, though it may be a corner's that
+    /// swings out and back. PLUMB_CAP_QUERY with PLUMB_QUERY_TURNING_CAST says of which shapes; a table that ends
+    /// before has it not. Since 1.2.</summary>
+    public IntPtr turning_casts;
 
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
     public unsafe delegate int Rays(
@@ -309,6 +329,12 @@ public unsafe struct PlumbQueriesTable
     public unsafe delegate int Penetrations(
         PlumbWorld* world, PlumbOverlap* overlaps, UIntPtr stride, uint count, PlumbPenetration* @out, uint capacity,
         uint* out_count
+    );
+
+    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+    public unsafe delegate int TurningCasts(
+        PlumbWorld* world, uint mode, PlumbTurningCast* casts, UIntPtr stride, uint count, PlumbHit* hits,
+        uint capacity, uint* hit_count
     );
 }
 
@@ -1201,7 +1227,8 @@ public unsafe struct PlumbWorldsTable
 [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
 public unsafe delegate void PlumbTask(void* context, uint index);
 
-/// <summary>Lives as long as the process. Every pointer may be null: a backend works without any of it.</summary>
+/// <summary>Lives as long as the process. Every pointer may be null: a backend works without any of it. A backend keeps
+/// what the first opening of it in the process lent.</summary>
 [StructLayout(LayoutKind.Sequential)]
 public unsafe struct PlumbHost
 {
@@ -1214,12 +1241,24 @@ public unsafe struct PlumbHost
     /// <summary>[any] Calls task(context, i) for every i &lt; count, in any order and on any thread, and returns when
     /// all are done.</summary>
     public IntPtr run;
+    /// <summary>[any] Memory for what grows with a scene; PLUMB_CAP_HOST_MEMORY says what a backend takes from it.
+    /// bytes &gt; 0; alignment is a power of two, at most 256. Null where there is no more: the call that asked for it
+    /// fails with PLUMB_E_OUT_OF_MEMORY. release is given what allocate gave, never null. Both functions or neither.
+    /// Since 1.2.</summary>
+    public IntPtr allocate;
+    public IntPtr release;
 
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
     public unsafe delegate void Log(void* user, uint level, byte* line);
 
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
     public unsafe delegate void Run(void* user, IntPtr task, void* context, uint count);
+
+    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+    public unsafe delegate void* Allocate(void* user, UIntPtr bytes, UIntPtr alignment);
+
+    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+    public unsafe delegate void Release(void* user, void* memory);
 }
 
 [StructLayout(LayoutKind.Sequential)]
@@ -1653,7 +1692,9 @@ public static class Constants
     public const uint PLUMB_QUERY_OVERLAP = 2u;
     /// <summary>since 1.2</summary>
     public const uint PLUMB_QUERY_PENETRATION = 3u;
-    public const uint PLUMB_QUERY_KIND_COUNT = 4u;
+    /// <summary>since 1.2</summary>
+    public const uint PLUMB_QUERY_TURNING_CAST = 4u;
+    public const uint PLUMB_QUERY_KIND_COUNT = 5u;
 
     // PlumbHitMode, uint.
     /// <summary>hits has one row a query, in its order; body 0 where nothing was hit</summary>
@@ -1973,7 +2014,9 @@ public static class Constants
     public const uint PLUMB_CAP_TRIANGLE_MATERIAL = 17u;
     /// <summary>shape type: native where the engine's work is in the bytes. Since 1.2</summary>
     public const uint PLUMB_CAP_COOKING = 18u;
-    public const uint PLUMB_CAP_COUNT = 19u;
+    /// <summary>takes what grows with a scene from PlumbHost.allocate. Since 1.2</summary>
+    public const uint PLUMB_CAP_HOST_MEMORY = 19u;
+    public const uint PLUMB_CAP_COUNT = 20u;
     /// <summary>The one symbol of a backend. [any] May be called again: the same table comes back for the same
     /// version.</summary>
     public const string PLUMB_OPEN_SYMBOL = "plumb_backend_open";

@@ -395,7 +395,9 @@ pub const PLUMB_QUERY_CAST: PlumbQueryKind = 1;
 pub const PLUMB_QUERY_OVERLAP: PlumbQueryKind = 2;
 /// since 1.2
 pub const PLUMB_QUERY_PENETRATION: PlumbQueryKind = 3;
-pub const PLUMB_QUERY_KIND_COUNT: PlumbQueryKind = 4;
+/// since 1.2
+pub const PLUMB_QUERY_TURNING_CAST: PlumbQueryKind = 4;
+pub const PLUMB_QUERY_KIND_COUNT: PlumbQueryKind = 5;
 
 pub type PlumbHitMode = u32;
 
@@ -429,6 +431,22 @@ pub struct PlumbCast {
     pub filter: PlumbFilter,
 }
 
+/// A convex shape that turns on its way, about the place of its pose: at a fraction f of the way it is at pose.position
+/// + f \* translation, turned from pose.orientation by f \* |rotation| rad about rotation. One of translation and
+/// rotation may be 0. Since 1.2.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct PlumbTurningCast {
+    /// sphere, box, capsule, cylinder or hull
+    pub shape: PlumbShape,
+    pub pose: PlumbPose,
+    /// m
+    pub translation: PlumbVec3,
+    /// rad, world axes; its length at most 2 pi: a whole turn
+    pub rotation: PlumbVec3,
+    pub filter: PlumbFilter,
+}
+
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct PlumbOverlap {
@@ -446,7 +464,7 @@ pub struct PlumbHit {
     pub query: u32,
     /// of a compound, triangle of a mesh; else 0, also for a height field
     pub child: u32,
-    /// of the translation, 0..1; 0 for overlaps
+    /// of the way, 0..1; 0 for overlaps
     pub fraction: f64,
     /// world, m; NaN for overlaps
     pub position: PlumbVec3,
@@ -499,6 +517,13 @@ pub struct PlumbQueriesTable {
     pub penetrations: Option<unsafe extern "C" fn(
         world: *mut PlumbWorld, overlaps: *const PlumbOverlap, stride: usize, count: u32, out: *mut PlumbPenetration,
         capacity: u32, out_count: *mut u32
+    ) -> PlumbResult>,
+    /// As casts are, of shapes that turn on the way: the first touch on it, though it may be a corner's that swings out
+    /// and back. PLUMB_CAP_QUERY with PLUMB_QUERY_TURNING_CAST says of which shapes; a table that ends before has it
+    /// not. Since 1.2.
+    pub turning_casts: Option<unsafe extern "C" fn(
+        world: *mut PlumbWorld, mode: PlumbHitMode, casts: *const PlumbTurningCast, stride: usize, count: u32,
+        hits: *mut PlumbHit, capacity: u32, hit_count: *mut u32
     ) -> PlumbResult>,
 }
 
@@ -1572,7 +1597,8 @@ pub const PLUMB_LOG_ERROR: PlumbLogLevel = 3;
 
 pub type PlumbTask = Option<unsafe extern "C" fn(context: *mut c_void, index: u32)>;
 
-/// Lives as long as the process. Every pointer may be null: a backend works without any of it.
+/// Lives as long as the process. Every pointer may be null: a backend works without any of it. A backend keeps what the
+/// first opening of it in the process lent.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct PlumbHost {
@@ -1585,6 +1611,11 @@ pub struct PlumbHost {
     /// \[any\] Calls task(context, i) for every i < count, in any order and on any thread, and returns when all are
     /// done.
     pub run: Option<unsafe extern "C" fn(user: *mut c_void, task: PlumbTask, context: *mut c_void, count: u32)>,
+    /// \[any\] Memory for what grows with a scene; PLUMB_CAP_HOST_MEMORY says what a backend takes from it. bytes > 0;
+    /// alignment is a power of two, at most 256. Null where there is no more: the call that asked for it fails with
+    /// PLUMB_E_OUT_OF_MEMORY. release is given what allocate gave, never null. Both functions or neither. Since 1.2.
+    pub allocate: Option<unsafe extern "C" fn(user: *mut c_void, bytes: usize, alignment: usize) -> *mut c_void>,
+    pub release: Option<unsafe extern "C" fn(user: *mut c_void, memory: *mut c_void)>,
 }
 
 /// From run to run of the same program on the same machine, each level including those before.
@@ -1661,7 +1692,9 @@ pub const PLUMB_CAP_CLOSEST: PlumbCapability = 16;
 pub const PLUMB_CAP_TRIANGLE_MATERIAL: PlumbCapability = 17;
 /// shape type: native where the engine's work is in the bytes. Since 1.2
 pub const PLUMB_CAP_COOKING: PlumbCapability = 18;
-pub const PLUMB_CAP_COUNT: PlumbCapability = 19;
+/// takes what grows with a scene from PlumbHost.allocate. Since 1.2
+pub const PLUMB_CAP_HOST_MEMORY: PlumbCapability = 19;
+pub const PLUMB_CAP_COUNT: PlumbCapability = 20;
 
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
@@ -1771,12 +1804,13 @@ pub type PlumbOpenFunction = Option<unsafe extern "C" fn(
 ) -> PlumbResult>;
 
 zero!(
-    PlumbVec3, PlumbQuat, PlumbPose, PlumbMaterial, PlumbCompoundChild, PlumbFilter, PlumbRay, PlumbCast, PlumbOverlap,
-    PlumbHit, PlumbPenetration, PlumbProbe, PlumbClosest, PlumbPosedPair, PlumbPairResult, PlumbPairPoint,
-    PlumbDebugPair, PlumbDebugBox, PlumbDebugAxis, PlumbDebugBody, PlumbDebugConstraint, PlumbBodyPair, PlumbLimit,
-    PlumbMotor, PlumbSpring, PlumbManifold, PlumbManifoldChange, PlumbBodyChange, PlumbJointChange, PlumbSettingValue,
-    PlumbSetting, PlumbSettingInfo, PlumbDLDevice, PlumbDLDataType, PlumbDLTensor, PlumbDLManagedTensor_version,
-    PlumbDLManagedTensor, PlumbFence, PlumbContact, PlumbEvent
+    PlumbVec3, PlumbQuat, PlumbPose, PlumbMaterial, PlumbCompoundChild, PlumbFilter, PlumbRay, PlumbCast,
+    PlumbTurningCast, PlumbOverlap, PlumbHit, PlumbPenetration, PlumbProbe, PlumbClosest, PlumbPosedPair,
+    PlumbPairResult, PlumbPairPoint, PlumbDebugPair, PlumbDebugBox, PlumbDebugAxis, PlumbDebugBody,
+    PlumbDebugConstraint, PlumbBodyPair, PlumbLimit, PlumbMotor, PlumbSpring, PlumbManifold, PlumbManifoldChange,
+    PlumbBodyChange, PlumbJointChange, PlumbSettingValue, PlumbSetting, PlumbSettingInfo, PlumbDLDevice,
+    PlumbDLDataType, PlumbDLTensor, PlumbDLManagedTensor_version, PlumbDLManagedTensor, PlumbFence, PlumbContact,
+    PlumbEvent
 );
 sized!(
     PlumbShapeDesc, PlumbBodyDesc, PlumbQueriesTable, PlumbClosestTable, PlumbCollideTable, PlumbCooked,

@@ -187,6 +187,14 @@ class HostWorld final : public IPhysicsWorld,
     return {fill_all(found, fill), found};
   }
 
+  Hits turning_casts(PlumbHitMode mode, std::span<const PlumbTurningCast> casts) override {
+    if (!has(*extensions_.queries, &PlumbQueriesTable::turning_casts)) return {PLUMB_E_UNSUPPORTED, {}};
+    return collect([&](PlumbHit* hits, std::uint32_t capacity, std::uint32_t* count) {
+      return extensions_.queries->turning_casts(world_, mode, casts.data(), sizeof(PlumbTurningCast), count_of(casts),
+                                                hits, capacity, count);
+    });
+  }
+
   PlumbResult create_cooked(std::span<const PlumbCookedShape> shapes, std::span<PlumbShape> ids) override {
     return extensions_.cooking->create(world_, shapes.data(), sizeof(PlumbCookedShape), count_of(shapes), ids.data());
   }

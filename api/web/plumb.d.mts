@@ -227,6 +227,8 @@ export interface Ray {
 export interface Cast extends Frame {
   shape: Shape;
   translation: Vec3;
+  /** rad, world axes, at most 2 pi long: turned by it on the way, about the frame's position; one of both may be 0. */
+  rotation?: Vec3;
   filter?: Filter;
 }
 

@@ -98,6 +98,9 @@ PlumbDegree query_degree(std::uint32_t kind, std::uint32_t type, const char*& no
     return answer(PLUMB_APPROXIMATE, note, "edges and corners are rounded off by the shape's margin: up to 2 cm late");
   if (kind == PLUMB_QUERY_CAST)
     return answer(PLUMB_NATIVE, note, "overlap at the start is found by a query of its own");
+  if (kind == PLUMB_QUERY_TURNING_CAST)
+    return answer(PLUMB_APPROXIMATE, note,
+                  "in steps over the closest bodies: up to 1 mm early or late, and slow along what is nearly touched");
   if (kind == PLUMB_QUERY_PENETRATION)
     return answer(PLUMB_APPROXIMATE, note,
                   "as deep as Bullet's contacts: where one is deep in another often too little");

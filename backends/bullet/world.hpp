@@ -95,6 +95,9 @@ class World final : public IPhysicsWorld,
   Hits overlap_shapes(std::span<const PlumbOverlap> overlaps) override;
   Penetrations penetrations(std::span<const PlumbOverlap> overlaps) override;
 
+  // queries/turning_casts.cpp
+  Hits turning_casts(PlumbHitMode mode, std::span<const PlumbTurningCast> casts) override;
+
   // queries/closest.cpp
   ClosestBodies closest_bodies(PlumbHitMode mode, std::span<const PlumbProbe> probes) override;
 

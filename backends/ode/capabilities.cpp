@@ -72,7 +72,7 @@ Fact joint_feature_fact(std::uint32_t type, std::uint32_t feature) {
 
 Fact query_fact(std::uint32_t kind, std::uint32_t type) {
   if (kind == PLUMB_QUERY_RAY) return {PLUMB_NATIVE, "hulls by the planes of their faces: ODE's own rays miss most"};
-  if (kind == PLUMB_QUERY_CAST) return {PLUMB_NONE, "ODE has no casts of shapes"};
+  if (kind == PLUMB_QUERY_CAST || kind == PLUMB_QUERY_TURNING_CAST) return {PLUMB_NONE, "ODE has no casts of shapes"};
   if (kind == PLUMB_QUERY_OVERLAP && type == PLUMB_BOX)
     return {PLUMB_APPROXIMATE, "ODE finds no contact of some boxes that overlap deeply: about one pair in a thousand"};
   if (kind == PLUMB_QUERY_OVERLAP && type <= PLUMB_CONVEX_HULL)

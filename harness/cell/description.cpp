@@ -87,6 +87,7 @@ Json capabilities_of(const Backend& backend) {
   all.single("snapshot", PLUMB_CAP_SNAPSHOT);
   all.single("world_snapshot", PLUMB_CAP_SNAPSHOT, 1);
   all.single("host_jobs", PLUMB_CAP_HOST_JOBS);
+  all.single("host_memory", PLUMB_CAP_HOST_MEMORY);
   all.single("child_materials", PLUMB_CAP_CHILD_MATERIAL);
   all.single("mesh_materials", PLUMB_CAP_TRIANGLE_MATERIAL, PLUMB_TRIANGLE_MESH);
   all.single("height_field_materials", PLUMB_CAP_TRIANGLE_MATERIAL, PLUMB_HEIGHT_FIELD);

@@ -25,8 +25,8 @@ std::vector<Check> all_checks() {
         handle_checks(),       event_checks(),        exception_checks(),  joint_checks(),       joint_axis_checks(),
         exact_joint_checks(),  swing_twist_checks(),  gear_checks(),       drive_checks(),       modify_checks(),
         modify_joint_checks(), modify_shape_checks(), cooking_checks(),    manifold_checks(),    query_checks(),
-        exact_query_checks(),  query_target_checks(), closest_checks(),    penetration_checks(), debug_checks(),
-        setting_checks(),      snapshot_checks(),     thread_checks()})
+        exact_query_checks(),  query_target_checks(), closest_checks(),    penetration_checks(), turning_cast_checks(),
+        memory_checks(),       debug_checks(),        setting_checks(),    snapshot_checks(),    thread_checks()})
     checks.insert(checks.end(), group.begin(), group.end());
   return checks;
 }

@@ -96,6 +96,8 @@ struct Check {
 [[nodiscard]] std::span<const Check> query_target_checks();
 [[nodiscard]] std::span<const Check> closest_checks();
 [[nodiscard]] std::span<const Check> penetration_checks();
+[[nodiscard]] std::span<const Check> turning_cast_checks();
+[[nodiscard]] std::span<const Check> memory_checks();
 [[nodiscard]] std::span<const Check> debug_checks();
 [[nodiscard]] std::span<const Check> setting_checks();
 [[nodiscard]] std::span<const Check> snapshot_checks();

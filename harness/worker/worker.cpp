@@ -14,6 +14,7 @@
 #include "cell/cell_runner.hpp"
 #include "cell/description.hpp"
 #include "cell/worlds_runner.hpp"
+#include "conform/memory_host.hpp"
 #include "conform/request.hpp"
 #include "record/pair_tour.hpp"
 #include "simulation/names.hpp"
@@ -44,7 +45,7 @@ class Server {
 
   Json answer(const Json& request) {
     try {
-      if (!backend_) backend_.emplace(open_backend(file_));
+      if (!backend_) backend_.emplace(open_backend(file_, host_for(request)));
     } catch (const Error& error) {
       return {{"status", "error"}, {"reason", error.what()}};
     }
@@ -57,6 +58,11 @@ class Server {
   }
 
  private:
+  /// Checks want to know what memory is taken; nobody else's memory is counted.
+  static const PlumbHost* host_for(const Json& request) {
+    return request.at("request") == "conform" ? conform::MemoryHost::instance().host() : nullptr;
+  }
+
   std::string file_;
   Progress& progress_;
   std::optional<Backend> backend_;

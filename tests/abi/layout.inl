@@ -131,6 +131,9 @@ SIZE(PlumbRay, 64)
   AT(PlumbRay, origin, 0) AT(PlumbRay, translation, 24) AT(PlumbRay, filter, 48)
 SIZE(PlumbCast, 104)
   AT(PlumbCast, shape, 0) AT(PlumbCast, pose, 8) AT(PlumbCast, translation, 64) AT(PlumbCast, filter, 88)
+SIZE(PlumbTurningCast, 128)
+  AT(PlumbTurningCast, shape, 0) AT(PlumbTurningCast, pose, 8) AT(PlumbTurningCast, translation, 64)
+  AT(PlumbTurningCast, rotation, 88) AT(PlumbTurningCast, filter, 112)
 SIZE(PlumbOverlap, 80)
   AT(PlumbOverlap, shape, 0) AT(PlumbOverlap, pose, 8) AT(PlumbOverlap, filter, 64)
 SIZE(PlumbHit, 72)
@@ -139,9 +142,10 @@ SIZE(PlumbHit, 72)
 SIZE(PlumbPenetration, 72)
   AT(PlumbPenetration, body, 0) AT(PlumbPenetration, query, 8) AT(PlumbPenetration, child, 12)
   AT(PlumbPenetration, depth, 16) AT(PlumbPenetration, position, 24) AT(PlumbPenetration, normal, 48)
-SIZE(PlumbQueriesTable, 40)
+SIZE(PlumbQueriesTable, 48)
   AT(PlumbQueriesTable, struct_size, 0) AT(PlumbQueriesTable, reserved, 4) AT(PlumbQueriesTable, rays, 8)
   AT(PlumbQueriesTable, casts, 16) AT(PlumbQueriesTable, overlaps, 24) AT(PlumbQueriesTable, penetrations, 32)
+  AT(PlumbQueriesTable, turning_casts, 40)
 
 /* closest.h */
 SIZE(PlumbProbe, 88)
@@ -232,9 +236,9 @@ SIZE(PlumbWorldsTable, 24)
   AT(PlumbWorldsTable, borrow_all, 16)
 
 /* plumb.h */
-SIZE(PlumbHost, 32)
+SIZE(PlumbHost, 48)
   AT(PlumbHost, struct_size, 0) AT(PlumbHost, worker_count, 4) AT(PlumbHost, user, 8) AT(PlumbHost, log, 16)
-  AT(PlumbHost, run, 24)
+  AT(PlumbHost, run, 24) AT(PlumbHost, allocate, 32) AT(PlumbHost, release, 40)
 SIZE(PlumbBackendInfo, 64)
   AT(PlumbBackendInfo, struct_size, 0) AT(PlumbBackendInfo, determinism, 4) AT(PlumbBackendInfo, name, 8)
   AT(PlumbBackendInfo, version, 16) AT(PlumbBackendInfo, build, 24) AT(PlumbBackendInfo, description, 32)
@@ -325,7 +329,7 @@ IS(PLUMB_MODIFY_COLLIDE_CONNECTED, 32) IS(PLUMB_MODIFY_ENABLED, 64) IS(PLUMB_MOD
 
 /* queries.h */
 IS(PLUMB_QUERY_RAY, 0) IS(PLUMB_QUERY_CAST, 1) IS(PLUMB_QUERY_OVERLAP, 2)
-IS(PLUMB_QUERY_PENETRATION, 3) IS(PLUMB_QUERY_KIND_COUNT, 4)
+IS(PLUMB_QUERY_PENETRATION, 3) IS(PLUMB_QUERY_TURNING_CAST, 4) IS(PLUMB_QUERY_KIND_COUNT, 5)
 IS(PLUMB_HIT_CLOSEST, 0) IS(PLUMB_HIT_ALL, 1)
 
 /* plumb.h */
@@ -336,4 +340,4 @@ IS(PLUMB_CAP_JOINT_FEATURE, 3) IS(PLUMB_CAP_QUERY, 4) IS(PLUMB_CAP_FIELD_READ, 5
 IS(PLUMB_CAP_NEED, 7) IS(PLUMB_CAP_EVENT, 8) IS(PLUMB_CAP_PHASE_TIME, 9) IS(PLUMB_CAP_RESIDUAL, 10)
 IS(PLUMB_CAP_SNAPSHOT, 11) IS(PLUMB_CAP_HOST_JOBS, 12) IS(PLUMB_CAP_CHILD_MATERIAL, 13) IS(PLUMB_CAP_MODIFY, 14)
 IS(PLUMB_CAP_MANIFOLD, 15) IS(PLUMB_CAP_CLOSEST, 16) IS(PLUMB_CAP_TRIANGLE_MATERIAL, 17)
-IS(PLUMB_CAP_COOKING, 18) IS(PLUMB_CAP_COUNT, 19) IS(PLUMB_BODY_MATERIAL, 0xffffffff)
+IS(PLUMB_CAP_COOKING, 18) IS(PLUMB_CAP_HOST_MEMORY, 19) IS(PLUMB_CAP_COUNT, 20) IS(PLUMB_BODY_MATERIAL, 0xffffffff)

@@ -329,6 +329,8 @@ class Fuzzer : private plumb::fuzz::OddNumbers {
     judge(queries_->rays(world_, below(2), rays, sizeof rays[0], 2, hits, below(17), &count));
     judge(queries_->casts(world_, below(2), &cast, sizeof cast, 1, hits, below(17), &count));
     judge(queries_->overlaps(world_, &overlap, sizeof overlap, 1, hits, below(17), &count));
+    const PlumbTurningCast turning = {handle(shapes_), pose(), vector(), vector(), filter()};
+    judge(queries_->turning_casts(world_, below(2), &turning, sizeof turning, 1, hits, below(17), &count));
     PlumbPenetration penetrations[16];
     judge(queries_->penetrations(world_, &overlap, sizeof overlap, 1, penetrations, below(17), &count));
     if (closest_ != nullptr) {

@@ -17,7 +17,8 @@
 // user_data, PLUMB_FIELD_MASS, the list of pair exceptions and shapes in use answered for you. A Plumb call that fails
 // must have changed nothing: throw before you change, or undo. Throw PLUMB_E_WORLD_LOST when you cannot.
 //
-// Shapes that are slow to make may be cooked ahead: see backend/cooking.hpp.
+// Shapes that are slow to make may be cooked ahead: see backend/cooking.hpp. The host may lend memory for what grows
+// with a scene: see backend/host_memory.hpp.
 //
 // For the taking: backend/settings_table.hpp keeps settings in the members of a struct; backend/usual_capability.hpp
 // answers what most engines have, so that you name only what yours lacks; backend/small_math.hpp has quaternions and

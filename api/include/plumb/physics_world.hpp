@@ -145,6 +145,9 @@ class IQueries {
   virtual Hits cast_shapes(PlumbHitMode mode, std::span<const PlumbCast> casts) = 0;
   virtual Hits overlap_shapes(std::span<const PlumbOverlap> overlaps) = 0;
   virtual Penetrations penetrations(std::span<const PlumbOverlap> /*overlaps*/) { return {PLUMB_E_UNSUPPORTED, {}}; }
+  virtual Hits turning_casts(PlumbHitMode /*mode*/, std::span<const PlumbTurningCast> /*casts*/) {
+    return {PLUMB_E_UNSUPPORTED, {}};
+  }
 };
 
 /// Which bodies are near, in the order that closest.h states. Lives until the next query of the same thread.

@@ -39,7 +39,8 @@ enum { PLUMB_LOG_DEBUG = 0, PLUMB_LOG_INFO = 1, PLUMB_LOG_WARNING = 2, PLUMB_LOG
 
 typedef void (*PlumbTask)(void* context, uint32_t index);
 
-/* Lives as long as the process. Every pointer may be null: a backend works without any of it. */
+/* Lives as long as the process. Every pointer may be null: a backend works without any of it. A backend keeps what the
+ * first opening of it in the process lent. */
 typedef struct PlumbHost {
   uint32_t struct_size;
   uint32_t worker_count; /* threads behind run, the caller's included; 0: run is null */
@@ -48,6 +49,11 @@ typedef struct PlumbHost {
   void (*log)(void* user, PlumbLogLevel level, const char* line);
   /* [any] Calls task(context, i) for every i < count, in any order and on any thread, and returns when all are done. */
   void (*run)(void* user, PlumbTask task, void* context, uint32_t count);
+  /* [any] Memory for what grows with a scene; PLUMB_CAP_HOST_MEMORY says what a backend takes from it. bytes > 0;
+   * alignment is a power of two, at most 256. Null where there is no more: the call that asked for it fails with
+   * PLUMB_E_OUT_OF_MEMORY. release is given what allocate gave, never null. Both functions or neither. Since 1.2. */
+  void* (*allocate)(void* user, size_t bytes, size_t alignment);
+  void (*release)(void* user, void* memory);
 } PlumbHost;
 
 /* --- what a backend is --------------------------------------------------------------------------------------- */
@@ -96,7 +102,8 @@ enum {
   PLUMB_CAP_CLOSEST = 16,           /* shape type of the probe: bodies of every shape are seen. Since 1.2 */
   PLUMB_CAP_TRIANGLE_MATERIAL = 17, /* shape type: PlumbShapeDesc.materials. Since 1.2 */
   PLUMB_CAP_COOKING = 18,           /* shape type: native where the engine's work is in the bytes. Since 1.2 */
-  PLUMB_CAP_COUNT = 19
+  PLUMB_CAP_HOST_MEMORY = 19,       /* takes what grows with a scene from PlumbHost.allocate. Since 1.2 */
+  PLUMB_CAP_COUNT = 20
 };
 
 typedef struct PlumbBackendTable {

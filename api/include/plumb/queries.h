@@ -17,8 +17,9 @@ enum {
   PLUMB_QUERY_RAY = 0,
   PLUMB_QUERY_CAST = 1,
   PLUMB_QUERY_OVERLAP = 2,
-  PLUMB_QUERY_PENETRATION = 3, /* since 1.2 */
-  PLUMB_QUERY_KIND_COUNT = 4
+  PLUMB_QUERY_PENETRATION = 3,  /* since 1.2 */
+  PLUMB_QUERY_TURNING_CAST = 4, /* since 1.2 */
+  PLUMB_QUERY_KIND_COUNT = 5
 };
 
 typedef uint32_t PlumbHitMode;
@@ -44,6 +45,17 @@ typedef struct PlumbCast {
   PlumbFilter filter;
 } PlumbCast;
 
+/* A convex shape that turns on its way, about the place of its pose: at a fraction f of the way it is at
+ * pose.position + f * translation, turned from pose.orientation by f * |rotation| rad about rotation. One of translation
+ * and rotation may be 0. Since 1.2. */
+typedef struct PlumbTurningCast {
+  PlumbShape shape; /* sphere, box, capsule, cylinder or hull */
+  PlumbPose pose;
+  PlumbVec3 translation; /* m */
+  PlumbVec3 rotation;    /* rad, world axes; its length at most 2 pi: a whole turn */
+  PlumbFilter filter;
+} PlumbTurningCast;
+
 typedef struct PlumbOverlap {
   PlumbShape shape;
   PlumbPose pose;
@@ -54,7 +66,7 @@ typedef struct PlumbHit {
   PlumbBody body;     /* 0: nothing */
   uint32_t query;     /* index into the batch */
   uint32_t child;     /* of a compound, triangle of a mesh; else 0, also for a height field */
-  double fraction;    /* of the translation, 0..1; 0 for overlaps */
+  double fraction;    /* of the way, 0..1; 0 for overlaps */
   PlumbVec3 position; /* world, m; NaN for overlaps */
   PlumbVec3 normal;   /* of the surface that was hit, unit; NaN for overlaps */
 } PlumbHit;
@@ -88,6 +100,11 @@ typedef struct PlumbQueriesTable {
    * PLUMB_QUERY_PENETRATION says of which shapes; a table that ends before has it not. Since 1.2. */
   PlumbResult (*penetrations)(PlumbWorld* world, const PlumbOverlap* overlaps, size_t stride, uint32_t count,
                               PlumbPenetration* out, uint32_t capacity, uint32_t* out_count);
+  /* As casts are, of shapes that turn on the way: the first touch on it, though it may be a corner's that swings out
+   * and back. PLUMB_CAP_QUERY with PLUMB_QUERY_TURNING_CAST says of which shapes; a table that ends before has it not.
+   * Since 1.2. */
+  PlumbResult (*turning_casts)(PlumbWorld* world, PlumbHitMode mode, const PlumbTurningCast* casts, size_t stride,
+                               uint32_t count, PlumbHit* hits, uint32_t capacity, uint32_t* hit_count);
 } PlumbQueriesTable;
 
 #ifdef __cplusplus

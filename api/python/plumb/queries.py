@@ -93,6 +93,28 @@ class Queries:
         )
         return self._core.cast_shapes(pick(HitMode, mode, "mode"), _filtered(table, filter))
 
+    def turning_casts(
+        self,
+        shapes: Shapes,
+        positions: ArrayLike,
+        translations: ArrayLike,
+        rotations: ArrayLike,
+        orientations: ArrayLike = IDENTITY,
+        mode: Union[HitMode, str] = HitMode.CLOSEST,
+        filter: Optional[Filter] = None,
+    ) -> NDArray[np.void]:
+        """Convex shapes that turn on their way, about their positions. rotations: n x 3, rad, world axes, each at most
+        2 pi long; fraction is that of translation and rotation alike, of which one may be 0."""
+        table = _table(
+            _core.turning_cast,
+            shape=handles(shapes, "shapes"),
+            position=positions,
+            orientation=orientations,
+            translation=translations,
+            rotation=rotations,
+        )
+        return self._core.turning_casts(pick(HitMode, mode, "mode"), _filtered(table, filter))
+
     def overlaps(
         self, shapes: Shapes, positions: ArrayLike, orientations: ArrayLike = IDENTITY, filter: Optional[Filter] = None
     ) -> NDArray[np.void]:

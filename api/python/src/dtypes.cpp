@@ -181,6 +181,13 @@ py::dtype build<PlumbCast>() {
                             PLUMB_COLUMN(Row, translation, text("(3,)f8")), PLUMB_COLUMN(Row, filter, filter())});
 }
 template <>
+py::dtype build<PlumbTurningCast>() {
+  using Row = PlumbTurningCast;
+  return make(sizeof(Row), {PLUMB_COLUMN(Row, shape, text("u8")), PLUMB_POSE(Row, pose, ""),
+                            PLUMB_COLUMN(Row, translation, text("(3,)f8")),
+                            PLUMB_COLUMN(Row, rotation, text("(3,)f8")), PLUMB_COLUMN(Row, filter, filter())});
+}
+template <>
 py::dtype build<PlumbOverlap>() {
   using Row = PlumbOverlap;
   return make(sizeof(Row),
@@ -293,6 +300,7 @@ void require_rows(const py::array& rows, const py::dtype& dtype, const char* wha
   ROW(PlumbEvent, event)                    \
   ROW(PlumbRay, ray)                        \
   ROW(PlumbCast, cast)                      \
+  ROW(PlumbTurningCast, turning_cast)       \
   ROW(PlumbOverlap, overlap)                \
   ROW(PlumbHit, hit)                        \
   ROW(PlumbPenetration, penetration)        \

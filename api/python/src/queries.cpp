@@ -29,6 +29,21 @@ py::array cast_shapes(World& world, PlumbHitMode mode, const py::array& rows) {
   return array_of(hits);
 }
 
+py::array turning_casts(World& world, PlumbHitMode mode, const py::array& rows) {
+  const auto& queries = world.extension<PlumbQueriesTable>(PLUMB_EXT_QUERIES);
+  if (!has(queries, &PlumbQueriesTable::turning_casts))
+    throw Error(PLUMB_E_UNSUPPORTED, "queries.turning_casts: the backend is older than it");
+  const auto casts = rows_of<PlumbTurningCast>(rows, "casts");
+  std::vector<PlumbHit> hits;
+  world.call_unlocked(Tag::query, "queries.turning_casts", [&](const PlumbBackendTable&, PlumbWorld* self) {
+    return fill_all(hits, [&](PlumbHit* out, std::uint32_t capacity, std::uint32_t* count) {
+      return queries.turning_casts(self, mode, casts.data(), sizeof(PlumbTurningCast), count_of(casts.size()), out,
+                                   capacity, count);
+    });
+  });
+  return array_of(hits);
+}
+
 py::array overlap_shapes(World& world, const py::array& rows) {
   const auto& queries = world.extension<PlumbQueriesTable>(PLUMB_EXT_QUERIES);
   const auto overlaps = rows_of<PlumbOverlap>(rows, "overlaps");
@@ -104,6 +119,7 @@ void bind_queries(WorldClass& world) {
   using Debug = PlumbDebugTable;
   world.def("cast_rays", &cast_rays)
       .def("cast_shapes", &cast_shapes)
+      .def("turning_casts", &turning_casts)
       .def("overlap_shapes", &overlap_shapes)
       .def("penetrations", &penetrations)
       .def("closest_bodies", &closest_bodies)

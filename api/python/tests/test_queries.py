@@ -42,6 +42,18 @@ class Queries(unittest.TestCase):
         np.testing.assert_array_equal(hits["body"], [bodies[0], 0])
         self.assertAlmostEqual(hits["fraction"][0], 3 / 20, delta=2e-3)
 
+    @on_each(*NEEDS, asked=[("query", "turning_cast", "capsule")])
+    def test_turning_casts(self, engine):
+        world, _, bodies = self.scene(engine)
+        rod = world.create_shape(plumb.Capsule(0.25, 2))  # along y, 3 m to the left of the first ball
+        turns = [(0, 0, -np.pi), (0, 0, -0.5), (0, np.pi, 0)]
+        hits = world.queries.turning_casts(rod, (2.5, 0, 0), (0, 0, 0), turns)
+        np.testing.assert_array_equal(hits["body"], [bodies[0], 0, 0])
+        met = np.pi / 2 - np.arcsin(1.25 / 2.5)  # before it lies along the way to the ball
+        self.assertAlmostEqual(hits["fraction"][0] * np.pi, met, delta=2e-3)
+        with self.assertRaisesRegex(plumb.Error, "rotation is 7 rad long; it must be at most 2 pi"):
+            world.queries.turning_casts(rod, (2.5, 0, 0), (0, 0, 0), (0, 7, 0))
+
     @on_each(*NEEDS, asked=[("query", "overlap", "sphere")])
     def test_overlaps(self, engine):
         world, ball, bodies = self.scene(engine)

@@ -153,6 +153,19 @@ class GuardedExtensions : public GuardedWorld {
     return std::max(found.result, hand_out(found.rows, out, sizeof(PlumbPenetration), capacity, out_count));
   }
 
+  PlumbResult turning_casts(PlumbHitMode mode, const PlumbTurningCast* casts, std::size_t stride, std::uint32_t count,
+                            PlumbHit* hits, std::uint32_t capacity, std::uint32_t* hit_count) {
+    IQueries& extension = require_queries();
+    check_hit_mode(mode);
+    const std::vector<PlumbTurningCast> adopted = adopt_rows(casts, stride, count, "casts");
+    for (std::uint32_t i = 0; i < count; ++i) {
+      check_posed_shape({"casts", i}, adopted[i].shape, adopted[i].pose, PLUMB_QUERY_TURNING_CAST,
+                        "turning casts of a ");
+      check_turning_way({"casts", i}, adopted[i].translation, adopted[i].rotation);
+    }
+    return hand_out_hits(extension.turning_casts(mode, adopted), hits, capacity, hit_count);
+  }
+
   PlumbResult closest_bodies(PlumbHitMode mode, const PlumbProbe* probes, std::size_t stride, std::uint32_t count,
                              PlumbClosest* out, std::uint32_t capacity, std::uint32_t* out_count) {
     IClosest& extension = require_extension(world_->closest(), PLUMB_EXT_CLOSEST);
@@ -422,6 +435,18 @@ class GuardedExtensions : public GuardedWorld {
     require_finite(where, "translation", translation);
     if (is_zero(translation))
       refuse(PLUMB_E_INVALID_ARGUMENT, where.member("translation") + " is 0; it must have a length");
+  }
+
+  static void check_turning_way(const Where& where, const PlumbVec3& translation, const PlumbVec3& rotation) {
+    require_finite(where, "translation", translation);
+    require_finite(where, "rotation", rotation);
+    if (is_zero(translation) && is_zero(rotation))
+      refuse(PLUMB_E_INVALID_ARGUMENT, where.member("translation") + " and rotation are 0; one must have a length");
+    constexpr double kTurn = 2 * std::numbers::pi;
+    const double angle = length(rotation);
+    if (angle > kTurn * (1 + 1e-12))
+      refuse(PLUMB_E_INVALID_ARGUMENT, where.member("rotation") + " is " + number_text(angle) +
+                                           " rad long; it must be at most 2 pi, a whole turn");
   }
 
   PlumbShapeType check_posed_convex(const Where& where, PlumbShape shape, const PlumbPose& pose) const {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "plumb/assert.hpp"
+#include "plumb/backend/host_memory.hpp"
 #include "plumb/physics_world.hpp"
 
 namespace plumb::backend {
@@ -34,7 +35,7 @@ class SlotTable {
   SlotTable() = default;
   /// As it stood when slots() gave these. records: in order of creation. Of the slots that are named nowhere the
   /// generations are used up.
-  SlotTable(const Slots& slots, std::vector<Record> records) : order_(slots.order) {
+  SlotTable(const Slots& slots, std::vector<Record> records) : order_(slots.order.begin(), slots.order.end()) {
     const auto entry = [this](std::uint64_t handle) -> Entry& {
       if (slot_of(handle) >= entries_.size()) entries_.resize(slot_of(handle) + std::size_t{1});
       return entries_[slot_of(handle)];
@@ -47,14 +48,16 @@ class SlotTable {
     }
   }
   [[nodiscard]] Slots slots() const {
-    Slots slots{order_, {}};
+    Slots slots{{order_.begin(), order_.end()}, {}};
     for (const std::uint32_t slot : free_)
       slots.free.push_back((std::uint64_t{entries_[slot].generation} << 32) | slot);
     return slots;
   }
 
-  /// Allots a handle; the record starts as given.
+  /// Allots a handle; the record starts as given. Where memory runs out, nothing has changed.
   std::uint64_t add(Record record) {
+    make_room(order_, order_.size() + 1);
+    make_room(free_, entries_.size() + 1);  // so that none is needed to remove it again
     std::uint32_t slot = 0;
     if (free_.empty()) {
       slot = static_cast<std::uint32_t>(entries_.size());
@@ -102,14 +105,19 @@ class SlotTable {
   [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(order_.size()); }
 
  private:
+  template <class Value>
+  static void make_room(HostVector<Value>& values, std::size_t size) {
+    if (values.capacity() < size) values.reserve(std::max(size, 2 * values.capacity()));
+  }
+
   struct Entry {
     Record record{};
     std::uint32_t generation = 0;
     bool live = false;
   };
-  std::vector<Entry> entries_;
-  std::vector<std::uint32_t> free_;
-  std::vector<std::uint64_t> order_;
+  HostVector<Entry> entries_;
+  HostVector<std::uint32_t> free_;
+  HostVector<std::uint64_t> order_;
 };
 
 }  // namespace plumb::backend

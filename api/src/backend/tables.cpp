@@ -36,7 +36,8 @@ const PlumbQueriesTable kQueriesTable = {sizeof(PlumbQueriesTable),
                                          &Entry<&GuardedExtensions::rays>::call,
                                          &Entry<&GuardedExtensions::casts>::call,
                                          &Entry<&GuardedExtensions::overlaps>::call,
-                                         &Entry<&GuardedExtensions::penetrations>::call};
+                                         &Entry<&GuardedExtensions::penetrations>::call,
+                                         &Entry<&GuardedExtensions::turning_casts>::call};
 const PlumbCollideTable kCollideTable = {sizeof(PlumbCollideTable), 0, &Entry<&GuardedExtensions::collide_pairs>::call};
 const PlumbDebugTable kDebugTable = {sizeof(PlumbDebugTable),
                                      0,
@@ -177,13 +178,22 @@ PlumbDegree answer_cooking(const BackendFacts& facts, PlumbShapeType type, const
   return PLUMB_EMULATED;
 }
 
+/// The guard's own part is the host's for every class.
+PlumbDegree answer_host_memory(const BackendFacts& facts, const char*& note) {
+  const PlumbDegree degree = facts.capability(PLUMB_CAP_HOST_MEMORY, 0, 0, note);
+  if (degree != PLUMB_NONE) return degree;
+  note = "handles and records of the interface alone: the engine's memory is the process's";
+  return PLUMB_APPROXIMATE;
+}
+
 }  // namespace
 
 PlumbDegree answer_capability(const BackendFacts& facts, PlumbCapability kind, std::uint32_t a, std::uint32_t b,
                               const char** note) {
   const char* text = "";
-  if (kind == PLUMB_CAP_COOKING) {
-    const PlumbDegree degree = answer_cooking(facts, a, text);
+  if (kind == PLUMB_CAP_COOKING || kind == PLUMB_CAP_HOST_MEMORY) {
+    const PlumbDegree degree =
+        kind == PLUMB_CAP_COOKING ? answer_cooking(facts, a, text) : answer_host_memory(facts, text);
     if (note != nullptr) *note = text;
     return degree;
   }
@@ -239,7 +249,13 @@ PlumbResult answer_opening(const Opening& opening, const PlumbOpenRequest* reque
                     PLUMB_VERSION_MINOR(request->max_version));
     if (const std::string why = opening.unmet_requirement(); !why.empty())
       return answer(PLUMB_E_UNSUPPORTED, "%s", why.c_str());
-    if (opening.host == nullptr) opening.host = request->host;
+    if (const PlumbHost* host = request->host; opening.host == nullptr && host != nullptr) {
+      if (has(*host, &PlumbHost::allocate) != has(*host, &PlumbHost::release))
+        return answer(PLUMB_E_INVALID_ARGUMENT,
+                      "the host lends only one of allocate and release; lend both, or leave both null");
+      opening.host = host;
+      use_memory_of(host);
+    }
     reply->version = PLUMB_VERSION;
     reply->table = &opening.table();
     return PLUMB_OK;

@@ -72,6 +72,7 @@ export const LAYOUT = {
   manifoldChange: laidOut({ manifold: 'u32', what: 'u32', friction: 'f64', restitution: 'f64', surfaceVelocity: vec3 }),
   penetration: laidOut({ body: 'u64', query: 'u32', child: 'u32', depth: 'f64', position: vec3, normal: vec3 }),
   cooked: laidOut({ structSize: 'u32', reserved: 'u32', data: 'pointer', size: 'u64' }),
+  turningCast: laidOut({ shape: 'u64', pose, translation: vec3, rotation: vec3, filter }),
 };
 
 const kSet = { u32: 'setUint32', i32: 'setInt32', pointer: 'setUint32', u64: 'setBigUint64', f64: 'setFloat64' };

@@ -188,9 +188,13 @@ export class World {
   castShape(shape, frame, translation, filter) {
     return this.castShapes([{ shape, ...frame, translation, filter }])[0];
   }
+  /** A cast with a rotation turns on its way; those of one call either all turn or none. */
   castShapes(casts, { all = false } = {}) {
-    return this.#ask('plumb_cast_shapes', LAYOUT.cast, all, casts.map(({ shape, translation, filter, ...frame }) =>
-      ({ shape, pose: poseOf(frame), translation, filter: filterOf(filter) })));
+    const turning = casts.some(({ rotation }) => rotation !== undefined);
+    const rows = casts.map(({ shape, translation = [0, 0, 0], rotation = [0, 0, 0], filter, ...frame }) =>
+      ({ shape, pose: poseOf(frame), translation, rotation, filter: filterOf(filter) }));
+    return turning ? this.#ask('plumb_turning_casts', LAYOUT.turningCast, all, rows)
+      : this.#ask('plumb_cast_shapes', LAYOUT.cast, all, rows);
   }
   /** The bodies that a shape overlaps, were it there. */
   overlap(shape, frame, filter) {

@@ -61,7 +61,7 @@ PLUMB_WEB(std::uint32_t, plumb_struct_size)(std::uint32_t which) {
       sizeof(PlumbBodyPair),    sizeof(PlumbBodyChange),     sizeof(PlumbJointChange),
       sizeof(PlumbPosedPair),   sizeof(PlumbPairResult),     sizeof(PlumbPairPoint),
       sizeof(PlumbManifold),    sizeof(PlumbManifoldChange), sizeof(PlumbPenetration),
-      sizeof(PlumbCookedShape),
+      sizeof(PlumbCookedShape), sizeof(PlumbTurningCast),
   };
   return which < sizeof sizes / sizeof *sizes ? sizes[which] : 0;
 }

@@ -52,6 +52,11 @@ PLUMB_WEB(PlumbResult, plumb_cast_shapes)
  std::uint32_t* hit_count) {
   return ask(*world, hits, hit_count, [&](auto& queries) { return queries.cast_shapes(mode, {casts, count}); });
 }
+PLUMB_WEB(PlumbResult, plumb_turning_casts)
+(IPhysicsWorld* world, PlumbHitMode mode, const PlumbTurningCast* casts, std::uint32_t count, const PlumbHit** hits,
+ std::uint32_t* hit_count) {
+  return ask(*world, hits, hit_count, [&](auto& queries) { return queries.turning_casts(mode, {casts, count}); });
+}
 PLUMB_WEB(PlumbResult, plumb_overlap_shapes)
 (IPhysicsWorld* world, const PlumbOverlap* overlaps, std::uint32_t count, const PlumbHit** hits,
  std::uint32_t* hit_count) {

@@ -11,32 +11,50 @@ struct SinCosOf {
 };
 using SinCos = SinCosOf<Real>;
 
-/// Of |x| <= pi/4, by Taylor's series to the precision of Real.
+/// Of |x| <= pi/4, by Taylor's series to double's precision, and to float's.
 template <class N>
-PLUMB_HD SinCosOf<N> small_sin_cos(const N& x) {
+PLUMB_HD SinCosOf<N> sin_cos_by_long_series(const N& x) {
   const N y = x * x, one = N(1);
-#if defined(PLUMB_IMPULSE_DOUBLE)
   const auto term = [&](int divisor, const N& rest) { return one - y / N(divisor) * rest; };
   const N s = term(6, term(20, term(42, term(72, term(110, term(156, term(210, one - y / N(272))))))));
   const N c = term(2, term(12, term(30, term(56, term(90, term(132, term(182, one - y / N(240))))))));
-#else
+  return {x * s, c};
+}
+template <class N>
+PLUMB_HD SinCosOf<N> sin_cos_by_short_series(const N& x) {
+  const N y = x * x, one = N(1);
   const auto by = [](double factor) { return N(static_cast<Real>(factor)); };
   const N s = one + y * (by(-1.0 / 6) + y * (by(1.0 / 120) + y * (by(-1.0 / 5040) + y * by(1.0 / 362880))));
   const N c = one + y * (by(-0.5) + y * (by(1.0 / 24) + y * (by(-1.0 / 720) + y * by(1.0 / 40320))));
-#endif
   return {x * s, c};
+}
+/// To the precision of Real.
+template <class N>
+PLUMB_HD SinCosOf<N> small_sin_cos(const N& x) {
+#if defined(PLUMB_IMPULSE_DOUBLE)
+  return sin_cos_by_long_series(x);
+#else
+  return sin_cos_by_short_series(x);
+#endif
 }
 
 /// Of any finite x: halved until it is small, then doubled back by the formulas of the double angle.
-PLUMB_HD inline SinCos sin_cos(Real x) {
+template <class N, class OfSmall>
+PLUMB_HD SinCosOf<N> sin_cos_by_halves(N x, const OfSmall& of_small) {
   int halvings = 0;
-  while (abs(x) > kPi / 4 && halvings < 32) {
+  while (abs(x) > N(kPi) / 4 && halvings < 32) {
     x = x / 2;
     ++halvings;
   }
-  SinCos r = small_sin_cos(x);
-  for (; halvings > 0; --halvings) r = {2 * r.sine * r.cosine, Real(1) - 2 * r.sine * r.sine};
+  SinCosOf<N> r = of_small(x);
+  for (; halvings > 0; --halvings) r = {2 * r.sine * r.cosine, N(1) - 2 * r.sine * r.sine};
   return r;
+}
+PLUMB_HD inline SinCos sin_cos(Real x) {
+  return sin_cos_by_halves(x, [](Real small) { return small_sin_cos(small); });
+}
+PLUMB_HD inline SinCosOf<double> sin_cos64(double x) {
+  return sin_cos_by_halves(x, [](double small) { return sin_cos_by_long_series(small); });
 }
 
 /// The angle of (cosine, sine) times any positive number, in -pi..pi; 0 of (0, 0). Halved twice by

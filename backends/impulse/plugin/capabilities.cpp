@@ -42,7 +42,7 @@ Capability known(PlumbCapability kind, std::uint32_t a, std::uint32_t b) {
         return {PLUMB_NATIVE, "convex shapes and planes are solid: a ray that starts inside hits at fraction 0"};
       if (a < PLUMB_QUERY_KIND_COUNT && !backend::is_convex(b))
         return {PLUMB_NONE, "what is cast or overlapped is convex"};
-      if (a == PLUMB_QUERY_PENETRATION) return {PLUMB_NATIVE};
+      if (a == PLUMB_QUERY_PENETRATION || a == PLUMB_QUERY_TURNING_CAST) return {PLUMB_NATIVE};
       break;
     case PLUMB_CAP_CLOSEST:
       if (a < PLUMB_SHAPE_TYPE_COUNT && !backend::is_convex(a)) return {PLUMB_NONE, "what is looked around is convex"};
@@ -59,6 +59,10 @@ Capability known(PlumbCapability kind, std::uint32_t a, std::uint32_t b) {
       if (1U << std::min(a, 31U) == PLUMB_MANIFOLD_RESTITUTION)
         return {PLUMB_NATIVE, "the point is where two are nearest as the step begins, not where they will touch"};
       return {a < PLUMB_MANIFOLD_CHANGE_COUNT ? PLUMB_NATIVE : PLUMB_NONE};
+    case PLUMB_CAP_HOST_MEMORY:
+#if defined(PLUMB_IMPULSE_CUDA)
+      return {PLUMB_APPROXIMATE, "not what kernels work on, and its twins on the host: that is the driver's"};
+#endif
     case PLUMB_CAP_SNAPSHOT:
     case PLUMB_CAP_HOST_JOBS: return {PLUMB_NATIVE};
     default: break;

@@ -88,7 +88,8 @@ class DecoratedTables {
     if (wanted == PLUMB_EXT_MANIFOLDS) return served<Manifolds, &Manifolds::read, &Manifolds::modify>(name);
     if (wanted == PLUMB_EXT_MODIFY) return served<Modify, &Modify::bodies, &Modify::joints, &Modify::shapes>(name);
     if (wanted == PLUMB_EXT_QUERIES)
-      return served<Queries, &Queries::rays, &Queries::casts, &Queries::overlaps, &Queries::penetrations>(name);
+      return served<Queries, &Queries::rays, &Queries::casts, &Queries::overlaps, &Queries::penetrations,
+                    &Queries::turning_casts>(name);
     if (wanted == PLUMB_EXT_SETTINGS)
       return served<SettingsTable, &SettingsTable::describe, &SettingsTable::get, &SettingsTable::set>(name);
     if (wanted == PLUMB_EXT_SNAPSHOT)

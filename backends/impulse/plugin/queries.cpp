@@ -35,6 +35,12 @@ Hits World::cast_shapes(PlumbHitMode mode, std::span<const PlumbCast> casts) {
   });
 }
 
+Hits World::turning_casts(PlumbHitMode mode, std::span<const PlumbTurningCast> casts) {
+  return ask(queries_.batches, [&](QueryBatch& batch, Executor& executor, const QueryScene& scene) {
+    return Hits{PLUMB_OK, batch.turning_casts(executor, scene, mode, casts)};
+  });
+}
+
 Hits World::overlap_shapes(std::span<const PlumbOverlap> overlaps) {
   return ask(queries_.batches, [&](QueryBatch& batch, Executor& executor, const QueryScene& scene) {
     return Hits{PLUMB_OK, batch.overlaps(executor, scene, overlaps)};

@@ -88,6 +88,7 @@ class World final : public IPhysicsWorld,
   Hits cast_shapes(PlumbHitMode mode, std::span<const PlumbCast> casts) override;
   Hits overlap_shapes(std::span<const PlumbOverlap> overlaps) override;
   Penetrations penetrations(std::span<const PlumbOverlap> overlaps) override;
+  Hits turning_casts(PlumbHitMode mode, std::span<const PlumbTurningCast> casts) override;
   ClosestBodies closest_bodies(PlumbHitMode mode, std::span<const PlumbProbe> probes) override;
   PlumbResult collide_pairs(std::span<const PlumbPosedPair> pairs, std::span<PlumbPairResult> results,
                             std::span<const PlumbPairPoint>& points) override;

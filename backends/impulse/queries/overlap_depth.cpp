@@ -30,9 +30,10 @@ PLUMB_HD PosedPair pair_of(const QueryScene& scene, const PlumbHit& marked, cons
           target.turn,  to_quat64(query.pose.orientation)};
 }
 
+template <class Cast>
 struct MakePairs {
   QueryScene scene;
-  const PlumbCast* casts;
+  const Cast* casts;
   const PlumbHit* hits;
   const std::uint32_t *marked, *rows;
   PosedPair* pairs;
@@ -83,7 +84,8 @@ struct Tell {
 
 }  // namespace
 
-void OverlapDepth::describe(Executor& executor, const QueryScene& scene, const PlumbCast* casts, PlumbHit* hits,
+template <class Cast>
+void OverlapDepth::describe(Executor& executor, const QueryScene& scene, const Cast* casts, PlumbHit* hits,
                             std::uint32_t n) {
   if (n == 0) return;
   marked_.grow(n);
@@ -97,10 +99,13 @@ void OverlapDepth::describe(Executor& executor, const QueryScene& scene, const P
   if (count == 0) return;
   pairs_.grow(count);
   answers_.grow(count);
-  executor.run(n, MakePairs{scene, casts, hits, marked_.data(), rows_.data(), pairs_.data()});
+  executor.run(n, MakePairs<Cast>{scene, casts, hits, marked_.data(), rows_.data(), pairs_.data()});
   answer_pairs(executor, pairs_.data(), count, scene, (scene.types & kMidphaseTypes) != 0, answers_.data());
   executor.run(n, Describe{scene, marked_.data(), rows_.data(), pairs_.data(), answers_.data(), hits});
 }
+
+template void OverlapDepth::describe(Executor&, const QueryScene&, const PlumbCast*, PlumbHit*, std::uint32_t);
+template void OverlapDepth::describe(Executor&, const QueryScene&, const PlumbTurningCast*, PlumbHit*, std::uint32_t);
 
 std::span<PlumbPenetration> OverlapDepth::tell(Executor& executor, const QueryScene& scene,
                                                const PlumbOverlap* overlaps, const PlumbHit* hits, std::uint32_t n) {

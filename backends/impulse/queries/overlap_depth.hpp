@@ -21,8 +21,10 @@ PLUMB_HD inline void mark_overlap(std::uint32_t proxy, PlumbHit& hit) {
 
 class OverlapDepth {
  public:
-  /// Fills in the marked ones among the first n hits. casts: by query. Both are where kernels run.
-  void describe(Executor& executor, const QueryScene& scene, const PlumbCast* casts, PlumbHit* hits, std::uint32_t n);
+  /// Fills in the marked ones among the first n hits. casts: PlumbCast or PlumbTurningCast, by query. Both are where
+  /// kernels run.
+  template <class Cast>
+  void describe(Executor& executor, const QueryScene& scene, const Cast* casts, PlumbHit* hits, std::uint32_t n);
 
   /// Of n hits, all of them marked, in their order. overlaps: by query. Both are where kernels run, the answer where
   /// the host reads it, until the next; waits.

@@ -6,6 +6,7 @@
 #include "plumb/backend/hit_collector.hpp"
 #include "queries/hit_order.hpp"
 #include "queries/sweep_search.hpp"
+#include "queries/turning_probe.hpp"
 
 namespace plumb::impulse {
 
@@ -187,13 +188,24 @@ std::span<const PlumbHit> QueryBatch::rays(Executor& executor, const QueryScene&
   return hits_.hand_out(executor, find<RayProbe>(executor, scene, mode, rays_.bring(rays), n));
 }
 
+template <template <Kinds> class Probe, class Row>
+std::span<const PlumbHit> QueryBatch::find_casts(Executor& executor, const QueryScene& scene, PlumbHitMode mode,
+                                                 const Row* rows, std::uint32_t n) {
+  const std::uint32_t count = find<Probe>(executor, scene, mode, rows, n);
+  depth_.describe(executor, scene, rows, hits_.device(), count);
+  return hits_.hand_out(executor, count);
+}
+
 std::span<const PlumbHit> QueryBatch::casts(Executor& executor, const QueryScene& scene, PlumbHitMode mode,
                                             std::span<const PlumbCast> casts) {
   const auto n = static_cast<std::uint32_t>(casts.size());
-  const PlumbCast* rows = casts_.bring(casts);
-  const std::uint32_t count = find<CastProbe>(executor, scene, mode, rows, n);
-  depth_.describe(executor, scene, rows, hits_.device(), count);
-  return hits_.hand_out(executor, count);
+  return find_casts<CastProbe>(executor, scene, mode, casts_.bring(casts), n);
+}
+
+std::span<const PlumbHit> QueryBatch::turning_casts(Executor& executor, const QueryScene& scene, PlumbHitMode mode,
+                                                    std::span<const PlumbTurningCast> casts) {
+  const auto n = static_cast<std::uint32_t>(casts.size());
+  return find_casts<TurningProbe>(executor, scene, mode, turning_casts_.bring(casts), n);
 }
 
 std::uint32_t QueryBatch::find_overlaps(Executor& executor, const QueryScene& scene, const PlumbOverlap* rows,

@@ -18,6 +18,8 @@ class QueryBatch {
                                  std::span<const PlumbRay> rays);
   std::span<const PlumbHit> casts(Executor& executor, const QueryScene& scene, PlumbHitMode mode,
                                   std::span<const PlumbCast> casts);
+  std::span<const PlumbHit> turning_casts(Executor& executor, const QueryScene& scene, PlumbHitMode mode,
+                                          std::span<const PlumbTurningCast> casts);
   std::span<const PlumbHit> overlaps(Executor& executor, const QueryScene& scene,
                                      std::span<const PlumbOverlap> overlaps);
   std::span<const PlumbPenetration> penetrations(Executor& executor, const QueryScene& scene,
@@ -36,11 +38,16 @@ class QueryBatch {
   template <class Probe>
   std::uint32_t find_all(Executor& executor, const QueryScene& scene, const typename Probe::Row* rows, std::uint32_t n,
                          bool marks = false);
+  /// Casts of either kind, of which those that overlap at their start are described.
+  template <template <Kinds> class Probe, class Row>
+  std::span<const PlumbHit> find_casts(Executor& executor, const QueryScene& scene, PlumbHitMode mode, const Row* rows,
+                                       std::uint32_t n);
   std::uint32_t find_overlaps(Executor& executor, const QueryScene& scene, const PlumbOverlap* rows, std::uint32_t n,
                               bool marks);
 
   BatchRows<PlumbRay> rays_;
   BatchRows<PlumbCast> casts_;
+  BatchRows<PlumbTurningCast> turning_casts_;
   BatchRows<PlumbOverlap> overlaps_;
   OverlapDepth depth_;
   RowLists<PlumbHit> hits_;

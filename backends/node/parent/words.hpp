@@ -12,9 +12,9 @@ namespace plumb::wire {
 using Words = std::span<const char* const>;
 
 inline constexpr const char* kKindWords[PLUMB_CAP_COUNT] = {
-    "shape",  "pair",     "joint",      "joint_feature",     "query",    "read",      "write",
-    "need",   "event",    "phase_time", "residual",          "snapshot", "host_jobs", "child_material",
-    "modify", "manifold", "closest",    "triangle_material", "cooking"};
+    "shape",  "pair",     "joint",      "joint_feature",     "query",    "read",       "write",
+    "need",   "event",    "phase_time", "residual",          "snapshot", "host_jobs",  "child_material",
+    "modify", "manifold", "closest",    "triangle_material", "cooking",  "host_memory"};
 static_assert(kKindWords[PLUMB_CAP_COUNT - 1] != nullptr, "a capability has no word");
 inline constexpr const char* kShapeWords[PLUMB_SHAPE_TYPE_COUNT] = {
     "sphere", "box", "capsule", "cylinder", "hull", "mesh", "height_field", "plane", "compound"};
@@ -23,7 +23,8 @@ inline constexpr const char* kJointWords[PLUMB_JOINT_TYPE_COUNT] = {
     "ball", "hinge", "slider", "distance", "fixed", "universal", "generic", "swing_twist", "gear", "rack_and_pinion"};
 inline constexpr const char* kFeatureWords[PLUMB_JOINT_FEATURE_COUNT] = {"limits", "motors",   "springs",
                                                                          "breaks", "reaction", "stiffness"};
-inline constexpr const char* kQueryWords[PLUMB_QUERY_KIND_COUNT] = {"ray", "cast", "overlap", "penetration"};
+inline constexpr const char* kQueryWords[PLUMB_QUERY_KIND_COUNT] = {"ray", "cast", "overlap", "penetration",
+                                                                    "turning_cast"};
 inline constexpr const char* kFieldWords[PLUMB_FIELD_COUNT] = {"pose",
                                                                "velocity",
                                                                "force",

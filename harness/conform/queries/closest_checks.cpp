@@ -10,8 +10,6 @@
 namespace plumb::harness::conform {
 namespace {
 
-constexpr PlumbQuat kLevel = {0, 0, 0, 1};
-
 /// What rounding may do to a distance of some metres, m.
 double allowed(Conformance& c) { return c.backend().info().precision == PLUMB_F64 ? 5e-6 : 1e-4; }
 double allowed(Conformance& c, PlumbShapeType probe) {

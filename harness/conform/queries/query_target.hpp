@@ -14,6 +14,8 @@ inline constexpr PlumbShapeType kTargets[] = {PLUMB_SPHERE,   PLUMB_BOX,        
                                               PLUMB_CYLINDER, PLUMB_CONVEX_HULL,   PLUMB_COMPOUND,
                                               PLUMB_PLANE,    PLUMB_TRIANGLE_MESH, PLUMB_HEIGHT_FIELD};
 
+inline constexpr PlumbQuat kLevel = {0, 0, 0, 1};
+
 /// Every shape that can ask.
 inline constexpr PlumbShapeType kConvex[] = {PLUMB_SPHERE, PLUMB_BOX, PLUMB_CAPSULE, PLUMB_CYLINDER, PLUMB_CONVEX_HULL};
 /// One of them, of about half a metre.

@@ -9,7 +9,7 @@
 
 namespace plumb::test {
 
-class FakeWorld final : public IPhysicsWorld,
+class FakeWorld : public IPhysicsWorld,
                         public IJoints,
                         public IQueries,
                         public ISettings,
@@ -152,6 +152,11 @@ class FakeWorld final : public IPhysicsWorld,
   }
   Hits cast_shapes(PlumbHitMode, std::span<const PlumbCast>) override { return {called(), {}}; }
   Hits overlap_shapes(std::span<const PlumbOverlap>) override { return {called(), {}}; }
+  Hits turning_casts(PlumbHitMode, std::span<const PlumbTurningCast> casts) override {
+    ++calls;
+    hit_rows.assign(casts.size(), PlumbHit{});
+    return {PLUMB_OK, hit_rows};
+  }
   Penetrations penetrations(std::span<const PlumbOverlap> overlaps) override {
     ++calls;
     penetration_rows.clear();

@@ -94,6 +94,42 @@ TEST_F(GuardClosest, DepthsOfOverlapAreOfConvexShapesThatAreThere) {
   EXPECT_EQ(FakeWorld::last->calls, calls) << "the class was called";
 }
 
+TEST_F(GuardClosest, CastsThatTurnHaveAWayAndAtMostAWholeTurn) {
+  const auto& queries = *static_cast<const PlumbQueriesTable*>(table.extension(PLUMB_EXT_QUERIES));
+  const PlumbTurningCast right = {probe.shape, identity_pose(), {1, 0, 0}, {0, 3, 4}, kAll};
+  PlumbTurningCast cast = right;
+  PlumbHit hit{};
+  const auto ask = [&](PlumbHitMode mode) {
+    return queries.turning_casts(world, mode, &cast, sizeof cast, 1, &hit, 1, &count);
+  };
+  EXPECT_EQ(ask(PLUMB_HIT_CLOSEST), PLUMB_OK) << table.error_text(world);
+  EXPECT_EQ(count, 1U);
+  cast.translation = {0, 0, 0};
+  EXPECT_EQ(ask(PLUMB_HIT_CLOSEST), PLUMB_OK) << table.error_text(world);
+  cast = right;
+  cast.rotation = {0, 0, 0};
+  EXPECT_EQ(ask(PLUMB_HIT_CLOSEST), PLUMB_OK) << table.error_text(world);
+  const int calls = FakeWorld::last->calls;
+  const auto spoilt = [&](PlumbResult code, const std::string& words, PlumbHitMode mode = PLUMB_HIT_ALL) {
+    EXPECT_EQ(ask(mode), code);
+    EXPECT_NE(std::string(table.error_text(world)).find(words), std::string::npos) << table.error_text(world);
+    cast = right;
+  };
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  cast.translation = cast.rotation = {0, 0, 0};
+  spoilt(PLUMB_E_INVALID_ARGUMENT, "casts[0].translation and rotation are 0; one must have a length");
+  cast.rotation = {0, 6, 8};
+  spoilt(PLUMB_E_INVALID_ARGUMENT, "casts[0].rotation is 10 rad long; it must be at most 2 pi, a whole turn");
+  cast.rotation.z = nan;
+  spoilt(PLUMB_E_INVALID_ARGUMENT, "casts[0].rotation.z is nan; it must be finite");
+  cast.translation.x = nan;
+  spoilt(PLUMB_E_INVALID_ARGUMENT, "casts[0].translation.x is nan; it must be finite");
+  cast.shape = plane;
+  spoilt(PLUMB_E_INVALID_ARGUMENT, "convex");
+  spoilt(PLUMB_E_INVALID_ARGUMENT, "mode is 5", 5);
+  EXPECT_EQ(FakeWorld::last->calls, calls) << "the class was called";
+}
+
 TEST_F(GuardClosest, IsThereForHostsInCxx) {
   const std::unique_ptr<IPhysicsWorld> host = backend.create_world(world_desc(PLUMB_NEED_QUERIES));
   ASSERT_NE(host->closest(), nullptr);

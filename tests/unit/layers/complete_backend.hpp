@@ -41,8 +41,9 @@ PlumbResult fake_row(PlumbWorld* world, Row* out, std::uint32_t capacity, std::u
   if constexpr (requires { out->body_a; }) out->body_a = out->body_b = body;
   return PLUMB_OK;
 }
-inline PlumbResult fake_cast(PlumbWorld*, PlumbHitMode, const PlumbCast* casts, std::size_t, std::uint32_t count,
-                             PlumbHit* hits, std::uint32_t, std::uint32_t* found) {
+template <class Cast>
+PlumbResult fake_cast(PlumbWorld*, PlumbHitMode, const Cast* casts, std::size_t, std::uint32_t count, PlumbHit* hits,
+                      std::uint32_t, std::uint32_t* found) {
   for (std::uint32_t i = 0; i < count; ++i) hits[i] = {0, i, 0, 0, casts[i].translation, casts[i].pose.position};
   *found = count;
   return PLUMB_OK;
@@ -66,7 +67,8 @@ inline const PlumbBackendTable& complete() {
                                               &fake_row<PlumbDebugConstraint>};
   static const PlumbQueriesTable queries_table = [] {
     PlumbQueriesTable queries = fake_table<PlumbQueriesTable>(PLUMB_EXT_QUERIES);
-    queries.casts = &fake_cast;
+    queries.casts = &fake_cast<PlumbCast>;
+    queries.turning_casts = &fake_cast<PlumbTurningCast>;
     return queries;
   }();
   static const PlumbJointsTable joints_table = [] {

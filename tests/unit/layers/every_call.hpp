@@ -104,6 +104,8 @@ class Everything {
     ok(table.rays(world_, PLUMB_HIT_CLOSEST, &ray, sizeof ray, 1, &hit, 1, &count));
     ok(table.casts(world_, PLUMB_HIT_CLOSEST, &cast, sizeof cast, 1, &hit, 1, &count));
     ok(table.overlaps(world_, &overlap, sizeof overlap, 1, &hit, 1, &count));
+    const PlumbTurningCast turning = {shape_, identity_pose(), {4, 5, 6}, {0, 1, 0}, filter};
+    ok(table.turning_casts(world_, PLUMB_HIT_CLOSEST, &turning, sizeof turning, 1, &hit, 1, &count));
     PlumbPenetration penetration;
     ok(table.penetrations(world_, &overlap, sizeof overlap, 1, &penetration, 1, &count));
     const PlumbProbe probe = {shape_, identity_pose(), 7, filter};

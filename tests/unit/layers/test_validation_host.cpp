@@ -230,6 +230,11 @@ TEST_F(ValidatedHost, SizesAndPointersOfExtensions) {
           [&] { return queries.penetrations(world, &overlap, sizeof overlap, 1, nullptr, 1, &count); });
   refused(PLUMB_E_INVALID_ARGUMENT, "out_count is null",
           [&] { return queries.penetrations(world, &overlap, sizeof overlap, 1, &deep, 1, nullptr); });
+  const PlumbTurningCast turning{shape, identity_pose(), {1, 0, 0}, {0, 1, 0}, {1, 1, 0, 0}};
+  refused(PLUMB_E_INVALID_ARGUMENT, "queries is null",
+          [&] { return queries.turning_casts(world, PLUMB_HIT_ALL, nullptr, sizeof turning, 1, &hit, 1, &count); });
+  refused(PLUMB_E_INVALID_ARGUMENT, "stride of queries is 8",
+          [&] { return queries.turning_casts(world, PLUMB_HIT_ALL, &turning, 8, 1, &hit, 1, &count); });
   const auto& closest = extension<PlumbClosestTable>(PLUMB_EXT_CLOSEST);
   const PlumbProbe probe{shape, identity_pose(), 1, {1, 1, 0, 0}};
   PlumbClosest row;

@@ -52,6 +52,7 @@ struct Capability {
     case PLUMB_CAP_QUERY:
       if (a == PLUMB_QUERY_RAY) return yes;
       if (a == PLUMB_QUERY_PENETRATION) return {PLUMB_NONE, "it does not tell how deep shapes overlap"};
+      if (a == PLUMB_QUERY_TURNING_CAST) return {PLUMB_NONE, "it casts shapes without turning them"};
       return in_range(a < PLUMB_QUERY_KIND_COUNT && b < PLUMB_SHAPE_TYPE_COUNT && is_convex(b));
     case PLUMB_CAP_CLOSEST: return in_range(is_convex(a));
     case PLUMB_CAP_FIELD_READ:

@@ -1,18 +1,19 @@
 // Memory of the CPU library: the host's own.
 #include "exec/memory.hpp"
 
-#include <new>
-
+#include "plumb/backend/host_memory.hpp"
 #include "plumb/physics_world.hpp"
 
 namespace plumb::impulse::memory {
 
+constexpr std::size_t kAlignment = 256;
+
 void* allocate(std::size_t bytes) {
-  void* data = ::operator new (bytes, std::align_val_t{256}, std::nothrow);
+  void* data = backend::take_memory(bytes, kAlignment);
   if (data == nullptr) throw Error(PLUMB_E_OUT_OF_MEMORY, "no " + std::to_string(bytes) + " bytes of memory are left");
   return data;
 }
-void release(void* data) noexcept { ::operator delete (data, std::align_val_t{256}); }
+void release(void* data) noexcept { backend::give_back_memory(data, kAlignment); }
 void* allocate_host(std::size_t bytes) { return allocate(bytes); }
 void release_host(void* data) noexcept { release(data); }
 void fill(void* data, int byte, std::size_t bytes) { std::memset(data, byte, bytes); }

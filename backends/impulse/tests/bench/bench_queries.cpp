@@ -44,6 +44,19 @@ void overlaps(benchmark::State& state, bool with_depth, std::uint32_t cubes) {
   state.counters["rows"] = static_cast<double>(rows);
 }
 
+/// Cubes of 1 m that go 5 m, and turn by a radian on the way where `turning`.
+void cubes_cast(benchmark::State& state, bool turning, std::uint32_t cubes) {
+  QueryBench bench(kBoxes, cubes, 1);
+  const std::vector<PlumbTurningCast> casts = bench.turning_cubes(1);
+  const std::vector<PlumbCast> straight = bench.cast_cubes();
+  std::span<const PlumbHit> hits;
+  for (auto _ : state) hits = turning ? bench.rig.turning_casts(casts) : bench.rig.casts(PLUMB_HIT_CLOSEST, straight);
+  state.counters["per_cube"] =
+      benchmark::Counter(cubes, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  state.counters["hits"] =
+      static_cast<double>(std::count_if(hits.begin(), hits.end(), [](const PlumbHit& hit) { return hit.body != 0; }));
+}
+
 }  // namespace
 }  // namespace plumb::impulse
 
@@ -66,6 +79,8 @@ int main(int argc, char** argv) {
     benchmark::RegisterBenchmark(name, overlaps, with_depth, kRays / 1000)
         ->Unit(benchmark::kMillisecond)
         ->UseRealTime();
+  for (const auto& [name, turning] : {std::pair{"casts of 1000 cubes", false}, {"turning casts of 1000 cubes", true}})
+    benchmark::RegisterBenchmark(name, cubes_cast, turning, kRays / 1000)->Unit(benchmark::kMillisecond)->UseRealTime();
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   benchmark::RunSpecifiedBenchmarks();

@@ -71,6 +71,20 @@ TEST_F(QueryBits, OfCastsAndOverlapsAreThoseRecorded) {
   EXPECT_EQ(hash.value, kDouble ? 0x3ad03151dd5a4405U : 0x317e25dd274c9fecU);
 }
 
+TEST_F(QueryBits, OfTurningCastsAreThoseRecorded) {
+  std::vector<PlumbTurningCast> casts;
+  for (std::size_t i = 0; i < 1000; ++i) {
+    const PlumbVec3 from = place(), along = way();
+    const PlumbQuat turn = random_.turn();
+    const double x = random_.between(-3, 3), y = random_.between(-3, 3), z = random_.between(-3, 3);
+    casts.push_back({shapes_[i % 4], {from, turn}, along, {x, y, z}, kSeesAll});
+  }
+  Hash hash;
+  hash.add(ask().turning_casts(PLUMB_HIT_CLOSEST, casts).hits);
+  hash.add(ask().turning_casts(PLUMB_HIT_ALL, casts).hits);
+  EXPECT_EQ(hash.value, kDouble ? 0x2c7e80f6d16c5b5eU : 0xc5f216229ba43740U);
+}
+
 TEST_F(QueryBits, OfDepthsAreThoseRecorded) {
   std::vector<PlumbOverlap> overlaps;
   for (std::size_t i = 0; i < 2000; ++i) overlaps.push_back({shapes_[i % 4], {place(), random_.turn()}, kSeesAll});

@@ -62,6 +62,27 @@ class QueryBench {
       cubes.push_back({std::uint64_t{1} << 32 | cube_, {ray.origin, {0, 0, 0, 1}}, ray.filter});
     return cubes;
   }
+  /// A cube of 1 m moved a ray's first 5 m, and turned on the way by `turn` rad about some axis.
+  [[nodiscard]] std::vector<PlumbTurningCast> turning_cubes(double turn) const {
+    std::vector<PlumbTurningCast> casts;
+    for (const PlumbRay& ray : rays_) {
+      const PlumbVec3& t = ray.translation;
+      const double length = std::sqrt(t.x * t.x + t.y * t.y + t.z * t.z), k = 5 / length, r = turn / length;
+      casts.push_back({std::uint64_t{1} << 32 | cube_,
+                       {ray.origin, {0, 0, 0, 1}},
+                       {k * t.x, k * t.y, k * t.z},
+                       {r * t.y, r * t.z, r * t.x},
+                       ray.filter});
+    }
+    return casts;
+  }
+  /// The same without turning.
+  [[nodiscard]] std::vector<PlumbCast> cast_cubes() const {
+    std::vector<PlumbCast> casts;
+    for (const PlumbTurningCast& cast : turning_cubes(0))
+      casts.push_back({cast.shape, cast.pose, cast.translation, cast.filter});
+    return casts;
+  }
   /// FNV-1a over the hits of the last call.
   [[nodiscard]] std::uint64_t hash() const {
     std::uint64_t h = 0xCBF29CE484222325U;

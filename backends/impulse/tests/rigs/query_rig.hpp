@@ -77,6 +77,14 @@ struct QueryRig {
     return batch.overlaps(executor, scene, overlaps);
   }
 
+  std::span<const PlumbHit> casts(PlumbHitMode mode, const std::vector<PlumbCast>& casts) {
+    return batch.casts(executor, scene, mode, casts);
+  }
+
+  std::span<const PlumbHit> turning_casts(const std::vector<PlumbTurningCast>& casts) {
+    return batch.turning_casts(executor, scene, PLUMB_HIT_CLOSEST, casts);
+  }
+
   std::span<const PlumbPenetration> penetrations(const std::vector<PlumbOverlap>& overlaps) {
     return batch.penetrations(executor, scene, overlaps);
   }

@@ -49,6 +49,13 @@ test('rays, casts and overlaps find bodies, and filters hide them', () => {
   near(hit.fraction, 4 / 8, 1e-4);
   assert.deepEqual(world.overlap(ball, { position: [0.9, 3, 0] }).map((one) => one.body), [body]);
   assert.deepEqual(world.overlap(ball, { position: [2, 3, 0] }), []);
+  const rod = world.createShape({ type: 'capsule', radius: 0.25, halfHeight: 1 });
+  const swing = { shape: rod, position: [0, 5.2, 0], rotation: [0, 0, 1], translation: [0, -4, 0] };
+  const [swung, early] = world.castShapes([swing, { ...swing, position: [0, 50, 0] }]);
+  assert.equal(swung.body, body);
+  assert.ok(swung.fraction > 0.05 && swung.fraction < 0.25, `${swung.fraction}`);
+  assert.equal(early, null);
+  assert.throws(() => world.castShapes([{ ...swing, rotation: [0, 7, 0] }]), /at most 2 pi/);
   const [deepest, ...others] = world.penetrations(ball, { position: [0.9, 3, 0] });
   assert.deepEqual([deepest.body, others.length], [body, 0]);
   assert.ok(deepest.depth > 0 && deepest.normal[0] > 0.5, JSON.stringify(deepest.normal));
