@@ -185,7 +185,7 @@ TEST(ReadGltf, SystemsSayWhatCollides) {
 }
 
 /// A tetrahedron of volume 1/6: four positions, twelve indices of two bytes.
-constexpr const char* mesh = R"(,"meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],
+constexpr const char* mesh_of_accessors = R"(,"meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],
   "accessors":[{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3","min":[0,0,0],"max":[1,1,1]},
     {"bufferView":1,"componentType":5123,"count":12,"type":"SCALAR"}],
   "bufferViews":[{"buffer":0,"byteOffset":0,"byteLength":48},{"buffer":0,"byteOffset":48,"byteLength":24}],
@@ -195,7 +195,7 @@ TEST(ReadGltf, MeshesAreHullsWhereTheyMove) {
   const std::string geometry = R"("collider":{"geometry":{"node":0}})";
   const Scene scene = read(file_of(node("still", geometry, R"("mesh":0,"scale":[-2,1,1],)") + "," +
                                        node("moving", R"("motion":{},)" + geometry, R"("scale":[2,2,2],)"),
-                                   2, "", mesh))
+                                   2, "", mesh_of_accessors))
                           .scene;
   const auto volume = [&](const std::string& name) {
     return referee::mass_of(*shape_of(scene, *scene.bodies[scene.body(name)].shape), 1).mass;

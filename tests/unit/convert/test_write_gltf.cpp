@@ -12,13 +12,13 @@ namespace {
 
 using referee::Vec3;
 
-Imported there_and_back(const Scene& scene, Remarks& remarks, const std::string& name = "w.gltf") {
+Imported through_gltf(const Scene& scene, Remarks& remarks, const std::string& name = "w.gltf") {
   return read_text(name, write_gltf(scene, name.ends_with(".glb"), remarks));
 }
 
-Imported there_and_back(const Scene& scene) {
+Imported through_gltf(const Scene& scene) {
   Remarks remarks;
-  return there_and_back(scene, remarks);
+  return through_gltf(scene, remarks);
 }
 
 void expect_same_axes(const PlumbJointDesc& a, const PlumbJointDesc& b, const std::string& name) {
@@ -65,7 +65,7 @@ TEST_P(WrittenNodes, AreTheSameMachine) {
   if (!before.joints.empty()) before.joints[0].desc.collide_connected = 1;
   for (const char* name : {"w.gltf", "w.glb"}) {
     Remarks remarks;
-    const Scene after = there_and_back(before, remarks, name).scene;
+    const Scene after = through_gltf(before, remarks, name).scene;
     for (std::size_t i = 0; i < before.bodies.size(); ++i) {
       const SceneBody& body = before.bodies[i];
       const bool stands = body.desc.motion == PLUMB_STATIC;
@@ -104,7 +104,7 @@ TEST(WriteGltf, WritesEveryScene) {
   for (const SceneFile& file : find_scenes("all")) {
     const Scene scene = file.instantiate(file.variants.front());
     if (scene.bodies.size() > 300) continue;
-    EXPECT_NO_THROW(EXPECT_GT(there_and_back(scene).scene.bodies.size(), 0U)) << scene.id;
+    EXPECT_NO_THROW(EXPECT_GT(through_gltf(scene).scene.bodies.size(), 0U)) << scene.id;
     ++read;
   }
   EXPECT_GT(read, 80);
@@ -135,7 +135,7 @@ TEST(WriteGltf, MeshesThatStandKeepTheirTriangles) {
   field.desc.rows = 2;
   field.desc.columns = 3;
   field.desc.spacing = {1, 0, 1};
-  const Scene before = scene_with(field, PLUMB_STATIC), after = there_and_back(before).scene;
+  const Scene before = scene_with(field, PLUMB_STATIC), after = through_gltf(before).scene;
   const SceneShape& read = after.shapes[*after.bodies.at(0).shape];
   EXPECT_EQ(read.desc.type, static_cast<PlumbShapeType>(PLUMB_TRIANGLE_MESH));
   EXPECT_EQ(read.vertices.size(), 3 * 6U) << "corners of neighbours are one";
@@ -159,7 +159,7 @@ TEST(WriteGltf, PartsOfACompoundHaveTheirPlacesAndMaterials) {
   before.shapes.push_back(both);
   before.bodies[0].shape = 2;
   before.bodies[0].desc.pose = {{3, 4, 5}, {std::sqrt(0.5), 0, 0, std::sqrt(0.5)}};
-  const Scene after = there_and_back(before).scene;
+  const Scene after = through_gltf(before).scene;
   ASSERT_EQ(after.bodies.size(), 1U);
   const SceneShape& read = after.shapes[*after.bodies[0].shape];
   ASSERT_EQ(read.children.size(), 2U);
@@ -190,7 +190,7 @@ TEST(WriteGltf, WhatMayTouchMayTouchAgain) {
     before.bodies.back().name = "body" + std::to_string(before.bodies.size());
     before.bodies.back().desc.filter = filter;
   }
-  const Scene after = there_and_back(before).scene;
+  const Scene after = through_gltf(before).scene;
   ASSERT_EQ(before.bodies.size(), after.bodies.size());
   for (std::size_t i = 0; i < before.bodies.size(); ++i)
     for (std::size_t j = 0; j < before.bodies.size(); ++j)
@@ -207,7 +207,7 @@ TEST(WriteGltf, DistancesAreRodsStringsAndSprings) {
     desc.rest_length = 1.5;
     desc.limits[0] = limit;
     desc.springs[0] = spring;
-    return there_and_back(scene).scene.joints.at(0).desc;
+    return through_gltf(scene).scene.joints.at(0).desc;
   };
   const PlumbJointDesc rod = back({}, {}), string = back({0, 2, 1, 0}, {}),
                        spring = back({}, {0, 20, 3, 1, PLUMB_SPRING_STIFFNESS});
@@ -231,7 +231,7 @@ TEST(WriteGltf, WhatDoesNotTurnAndWhatOnlySensesAreSaid) {
   before.bodies[1].name = "gate";
   before.bodies[1].desc = body_desc(PLUMB_STATIC);
   before.bodies[1].desc.flags = PLUMB_BODY_SENSOR;
-  const Imported back = there_and_back(before);
+  const Imported back = through_gltf(before);
   ASSERT_EQ(back.scene.bodies.size(), 1U);
   EXPECT_EQ(back.scene.bodies[0].desc.flags, static_cast<std::uint32_t>(PLUMB_BODY_NO_ROTATION));
   EXPECT_TRUE(has_line(back.remarks, "triggers are left out: gate"));
@@ -240,7 +240,7 @@ TEST(WriteGltf, WhatDoesNotTurnAndWhatOnlySensesAreSaid) {
 TEST(WriteGltf, ASwingTwistJointIsABallAndItIsSaid) {
   const Scene before = scene_of("E16");
   Remarks remarks;
-  const Imported back = there_and_back(before, remarks);
+  const Imported back = through_gltf(before, remarks);
   ASSERT_EQ(back.scene.joints.size(), 1U);
   EXPECT_EQ(back.scene.joints[0].desc.type, PLUMB_JOINT_BALL);
   EXPECT_TRUE(has_line(remarks, "its cone, stops, motors and springs are left out: socket"));

@@ -14,7 +14,7 @@
 namespace plumb::harness::testing {
 namespace {
 
-Imported there_and_back(const Scene& scene) {
+Imported through_mjcf(const Scene& scene) {
   Remarks remarks;
   return read_mjcf({write_file("m.xml", write_mjcf(scene, "m", remarks)), {}});
 }
@@ -29,7 +29,7 @@ class WrittenModel : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(WrittenModel, IsTheSameMachine) {
   const Scene before = scene_of(GetParam());
-  const Scene after = there_and_back(before).scene;
+  const Scene after = through_mjcf(before).scene;
   EXPECT_LT((referee::vec(before.gravity) - referee::vec(after.gravity)).norm(), 1e-12);
   EXPECT_EQ(before.dt, after.dt);
   for (std::size_t i = 0; i < before.bodies.size(); ++i) {
