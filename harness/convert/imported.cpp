@@ -40,6 +40,13 @@ std::optional<fs::path> find_in(const fs::path& folder, const fs::path& in_packa
   return fs::exists(within) ? std::optional(within) : std::nullopt;
 }
 
+/// In a package whose folder has another name than the package.
+std::optional<fs::path> find_below(const fs::path& folder, const fs::path& in_package) {
+  if (std::next(in_package.begin()) == in_package.end()) return std::nullopt;  // the package itself
+  const fs::path place = folder / in_package.lexically_relative(*in_package.begin());
+  return fs::exists(place) ? std::optional(place) : std::nullopt;
+}
+
 }  // namespace
 
 fs::path ModelFolders::find(const std::string& uri) const {
@@ -52,12 +59,16 @@ fs::path ModelFolders::find(const std::string& uri) const {
     throw UsageError(fmt::format("{}: it names {}, and there is no {}", file.string(), shortened(uri, 200),
                                  shortened(place.string(), 200)));
   }
-  for (const fs::path& folder : folders)
-    if (const auto found = find_in(fs::absolute(folder).lexically_normal(), in_package)) return *found;
+  std::vector<fs::path> all;
+  for (const fs::path& folder : folders) all.push_back(fs::absolute(folder).lexically_normal());
   for (fs::path folder = above;; folder = folder.parent_path()) {
-    if (const auto found = find_in(folder, in_package)) return *found;
+    all.push_back(folder);
     if (folder == folder.parent_path()) break;
   }
+  for (const fs::path& folder : all)
+    if (const auto found = find_in(folder, in_package)) return *found;
+  for (const fs::path& folder : all)
+    if (const auto found = find_below(folder, in_package)) return *found;
   throw UsageError(
       fmt::format("{}: it names {}, which is in none of the folders above it{}; name the folder that "
                   "holds {} by --folder",

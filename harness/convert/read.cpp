@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <cctype>
-#include <fstream>
 
+#include "base/packed_file.hpp"
 #include "base/shown.hpp"
 #include "convert/gltf/read_gltf.hpp"
 #include "convert/mjcf/read_mjcf.hpp"
@@ -14,12 +14,7 @@ namespace plumb::harness {
 namespace {
 
 /// The name of the outermost XML element; "" where there is none.
-std::string outermost_element(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw UsageError(file.string() + ": there is no such file, or it cannot be read");
-  std::string begin(std::size_t{1} << 16, '\0');
-  stream.read(begin.data(), static_cast<std::streamsize>(begin.size()));
-  begin.resize(static_cast<std::size_t>(stream.gcount()));
+std::string outermost_element(const std::string& begin) {
   for (std::size_t at = 0; (at = begin.find('<', at)) != std::string::npos; ++at) {
     if (begin.compare(at, 4, "<!--") == 0) {
       at = begin.find("-->", at);
@@ -40,7 +35,7 @@ std::string outermost_element(const std::filesystem::path& file) {
 
 Imported read_machine(const ModelFolders& folders) {
   if (folders.file.extension() == ".gltf" || folders.file.extension() == ".glb") return read_gltf(folders);
-  const std::string element = outermost_element(folders.file);
+  const std::string element = outermost_element(text_of_file(folders.file));
   if (element == "sdf" || element == "robot") return read_sdf(folders);
   if (element == "mujoco") return read_mjcf(folders);
   throw UsageError(fmt::format(

@@ -10,6 +10,7 @@
 #include <sdf/Root.hh>
 #include <sdf/World.hh>
 
+#include "base/packed_file.hpp"
 #include "base/shown.hpp"
 #include "convert/sdf/sdf_console.hpp"
 #include "convert/sdf/sdf_joints.hpp"
@@ -119,7 +120,8 @@ sdf::Root load(const ModelFolders& folders, Remarks& remarks) {
   });
   const SdfConsole console;
   sdf::Root root;
-  const sdf::Errors errors = root.Load(folders.file.string(), config);
+  const sdf::Errors errors = is_packed(folders.file) ? root.LoadSdfString(text_of_file(folders.file), config)
+                                                     : root.Load(folders.file.string(), config);
   const std::vector<std::string> said = console.lines();
   if (!errors.empty()) {
     std::string message = fmt::format("{}: {}", folders.file.string(), errors.front().Message());

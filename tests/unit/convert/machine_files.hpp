@@ -2,6 +2,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <zlib.h>
 
 #include <filesystem>
 #include <fstream>
@@ -26,6 +27,16 @@ inline std::filesystem::path write_file(const std::string& name, const std::stri
   const auto file = own_folder() / name;
   std::ofstream(file) << text;
   return file;
+}
+
+/// Puts in its place what gzip makes of it.
+inline void pack(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  const std::string text(std::istreambuf_iterator<char>(stream), {});
+  gzFile packed = gzopen((file.string() + ".gz").c_str(), "wb");
+  gzwrite(packed, text.data(), static_cast<unsigned>(text.size()));
+  gzclose(packed);
+  std::filesystem::remove(file);
 }
 
 inline Imported read_text(const std::string& name, const std::string& text) {

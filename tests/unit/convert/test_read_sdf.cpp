@@ -188,6 +188,21 @@ TEST(ReadSdf, MeshesAreFoundBesideTheFileAndInPackages) {
   }
 }
 
+TEST(ReadSdf, MeshesAreFoundInAPackageWhoseFolderHasAnotherName) {
+  const auto folder = own_folder();
+  std::filesystem::create_directories(folder / "arm/meshes");
+  std::ofstream(folder / "arm/meshes/t.obj") << tetrahedron;
+  std::ofstream(folder / "arm/a.sdf") << world(
+      "<model name='m'>" + link("l", collision("<mesh><uri>package://robot/meshes/t.obj</uri></mesh>")) + "</model>");
+  EXPECT_EQ(read_machine({folder / "arm/a.sdf", {}}).scene.shapes.at(0).vertices.size(), 12U);
+}
+
+TEST(ReadSdf, ReadsWhatIsPacked) {
+  const auto file = write_file("a.sdf", world("<model name='m'>" + link("l", "") + "</model>"));
+  pack(file);
+  EXPECT_EQ(read_machine({file.string() + ".gz", {}}).scene.bodies.at(0).name, "m::l");
+}
+
 TEST(ReadSdf, MeshesAreFoundInFoldersThatTheUserNames) {
   const auto folder = own_folder();
   std::filesystem::create_directories(folder / "far/robot/meshes");
