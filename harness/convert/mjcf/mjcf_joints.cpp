@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "convert/upright.hpp"
+
 namespace plumb::harness {
 namespace {
 
@@ -14,6 +16,7 @@ using referee::Vec3;
 struct Dof {
   int joint;
   bool turns;
+  double start;            ///< its coordinate there
   Vec3 direction, anchor;  ///< world
 };
 
@@ -42,14 +45,13 @@ JointAxis axis_of(const mjModel& model, const Dof& dof, double sign, const std::
   axis.friction = model.dof_frictionloss[at];
   axis.effort = effort_of(model, dof.joint);
   if (model.jnt_limited[dof.joint] != 0) {
-    const double start = model.qpos0[model.jnt_qposadr[dof.joint]];
-    const double low = model.jnt_range[2 * dof.joint] - start, high = model.jnt_range[2 * dof.joint + 1] - start;
+    const double low = model.jnt_range[2 * dof.joint] - dof.start,
+                 high = model.jnt_range[2 * dof.joint + 1] - dof.start;
     axis.limits = sign > 0 ? std::array{low, high} : std::array{-high, -low};
   }
   axis.damping = model.dof_damping[at];
   axis.stiffness = model.jnt_stiffness[dof.joint];
-  const int coordinate = model.jnt_qposadr[dof.joint];
-  axis.rest = sign * (model.qpos_spring[coordinate] - model.qpos0[coordinate]);
+  axis.rest = sign * (model.qpos_spring[model.jnt_qposadr[dof.joint]] - dof.start);
   if (model.dof_armature[at] != 0) remarks.add("armature of joints is left out", name);
   return axis;
 }
@@ -84,12 +86,13 @@ class Frame {
   std::vector<Vec3> axes_;
 };
 
-std::vector<Dof> dofs_of(const mjModel& model, int body, const Pose& pose) {
+std::vector<Dof> dofs_of(const mjModel& model, const mjData& start, int body) {
   std::vector<Dof> dofs;
   for (int i = 0; i < model.body_jntnum[body]; ++i) {
     const int joint = model.body_jntadr[body] + i;
-    dofs.push_back({joint, model.jnt_type[joint] == mjJNT_HINGE,
-                    (pose.rotation * vec_at(model.jnt_axis, joint)).normalized(), pose * vec_at(model.jnt_pos, joint)});
+    dofs.push_back({joint, model.jnt_type[joint] == mjJNT_HINGE, start.qpos[model.jnt_qposadr[joint]],
+                    (upright().rotation * vec_at(start.xaxis, joint)).normalized(),
+                    upright() * vec_at(start.xanchor, joint)});
   }
   return dofs;
 }
@@ -143,8 +146,8 @@ void add_generic(const mjModel& model, const std::vector<Dof>& dofs, const MjcfE
 
 }  // namespace
 
-void add_joints(const mjModel& model, int body, const Pose& pose, const MjcfEnds& ends, Imported& imported) {
-  const std::vector<Dof> dofs = dofs_of(model, body, pose);
+void add_joints(const mjModel& model, const mjData& start, int body, const MjcfEnds& ends, Imported& imported) {
+  const std::vector<Dof> dofs = dofs_of(model, start, body);
   if (dofs.empty() || model.jnt_type[dofs.front().joint] == mjJNT_FREE) return;
   const std::string name = scene_name(name_of(model, mjOBJ_JOINT, dofs.front().joint, "joint"));
   const bool meet = std::all_of(dofs.begin(), dofs.end(), [&](const Dof& dof) {

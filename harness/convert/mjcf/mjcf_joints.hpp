@@ -11,8 +11,8 @@ struct MjcfEnds {
   std::size_t child;
 };
 
-/// All joints of the body become one. pose: of the body in the scene's world. A body that is free gets none.
-void add_joints(const mjModel& model, int body, const referee::Pose& pose, const MjcfEnds& ends, Imported& imported);
+/// All joints of the body become one, from where they are at the start. A body that is free gets none.
+void add_joints(const mjModel& model, const mjData& start, int body, const MjcfEnds& ends, Imported& imported);
 
 /// What closes loops: connect and weld. poses: of all bodies in the scene's world; bodies: their indices in the scene.
 void add_equalities(const mjModel& model, const std::vector<referee::Pose>& poses,

@@ -76,11 +76,16 @@ LinkShape shape_of(const mjModel& model, int geom, bool moves, const std::string
 
 }  // namespace
 
+bool collides(const mjModel& model, int geom) {
+  const bool none = model.opt.collision == mjCOL_PAIR || (model.opt.disableflags & mjDSBL_CONTACT) != 0;
+  return !none && (model.geom_contype[geom] != 0 || model.geom_conaffinity[geom] != 0);
+}
+
 std::vector<LinkShape> shapes_of(const mjModel& model, int body, bool moves, Remarks& remarks) {
   std::vector<LinkShape> shapes;
   for (int i = 0; i < model.body_geomnum[body]; ++i) {
     const int geom = model.body_geomadr[body] + i;
-    if (model.geom_contype[geom] == 0 && model.geom_conaffinity[geom] == 0) continue;
+    if (!collides(model, geom)) continue;
     shapes.push_back(shape_of(model, geom, moves, name_of(model, mjOBJ_GEOM, geom, "geom"), remarks));
   }
   return shapes;

@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <set>
 
+#include "base/packed_file.hpp"
 #include "convert/mjcf/mjcf_joints.hpp"
 #include "convert/mjcf/mjcf_shapes.hpp"
+#include "convert/mjcf/mjcf_text.hpp"
 #include "convert/upright.hpp"
 
 namespace plumb::harness {
@@ -16,20 +19,58 @@ using referee::Mat3;
 using referee::Pose;
 using referee::Vec3;
 
+struct DeleteFiles {
+  void operator()(mjVFS* files) const {
+    mj_deleteVFS(files);
+    delete files;
+  }
+};
+
+/// MuJoCo finds meshes beside the model's name, and the model itself among files that are held in memory.
+ModelPtr load_text(const std::string& text, std::filesystem::path name, std::array<char, 1000>& error) {
+  if (is_packed(name)) name.replace_extension();
+  const std::unique_ptr<mjVFS, DeleteFiles> files(new mjVFS);
+  mj_defaultVFS(files.get());
+  mj_makeEmptyFileVFS(files.get(), name.filename().c_str(), static_cast<int>(text.size() + 1));
+  std::copy(text.begin(), text.end(), static_cast<char*>(files->filedata[0]));
+  return ModelPtr(mj_loadXML(name.c_str(), files.get(), error.data(), static_cast<int>(error.size())));
+}
+
+/// What MuJoCo refuses as it is, it is given as it would take it.
 ModelPtr load(const std::filesystem::path& file) {
-  std::array<char, 1000> error{};
-  ModelPtr model(mj_loadXML(file.c_str(), nullptr, error.data(), static_cast<int>(error.size())));
-  if (!model) throw UsageError(fmt::format("{}: {}", file.string(), error.data()));
+  std::array<char, 1000> error{}, other{};
+  ModelPtr model;
+  if (!is_packed(file)) model.reset(mj_loadXML(file.c_str(), nullptr, error.data(), static_cast<int>(error.size())));
+  if (model) return model;
+  model = load_text(mjcf_text(file), file, other);
+  if (!model) throw UsageError(fmt::format("{}: {}", file.string(), is_packed(file) ? other.data() : error.data()));
   return model;
 }
 
-/// Poses of all bodies at the initial configuration, in the scene's world.
-std::vector<Pose> start_of(const mjModel& model) {
-  const DataPtr data(mj_makeData(&model));
+/// Joints that would begin beyond a limit begin at it. Where a body has several, what one begins at turns the axes of
+/// others, so they are left as they are.
+DataPtr start_of(const mjModel& model, Remarks& remarks) {
+  DataPtr data(mj_makeData(&model));
+  for (int joint = 0; joint < model.njnt; ++joint) {
+    const int type = model.jnt_type[joint];
+    const bool alone = model.body_jntnum[model.jnt_bodyid[joint]] == 1;
+    if (!alone || model.jnt_limited[joint] == 0 || (type != mjJNT_HINGE && type != mjJNT_SLIDE)) continue;
+    mjtNum& at = data->qpos[model.jnt_qposadr[joint]];
+    const mjtNum within = std::clamp(at, model.jnt_range[2 * joint], model.jnt_range[2 * joint + 1]);
+    if (within == at) continue;
+    at = within;
+    remarks.add("joints that would begin beyond a limit begin at it",
+                scene_name(name_of(model, mjOBJ_JOINT, joint, "joint")));
+  }
   mj_kinematics(&model, data.get());
+  return data;
+}
+
+/// Of all bodies, in the scene's world.
+std::vector<Pose> poses_of(const mjModel& model, const mjData& data) {
   std::vector<Pose> poses;
   for (int body = 0; body < model.nbody; ++body)
-    poses.push_back(upright() * Pose{rotation_at(data->xquat, body), vec_at(data->xpos, body)});
+    poses.push_back(upright() * Pose{rotation_at(data.xquat, body), vec_at(data.xpos, body)});
   return poses;
 }
 
@@ -53,7 +94,7 @@ class Classes {
  public:
   explicit Classes(const mjModel& model) : model_(model) {
     for (int geom = 0; geom < model.ngeom; ++geom)
-      if (of(geom) != std::pair(0, 0)) all_.insert(of(geom));
+      if (collides(model, geom)) all_.insert(of(geom));
     if (all_.size() > 32) throw UsageError("more than 32 pairs of contype and conaffinity: scenes have 32 bits");
   }
   [[nodiscard]] PlumbFilter filter(int geom) const {
@@ -84,16 +125,23 @@ class Classes {
 class MjcfReader {
  public:
   explicit MjcfReader(const mjModel& model)
-      : model_(model), poses_(start_of(model)), classes_(model), bodies_(static_cast<std::size_t>(model.nbody)) {}
+      : model_(model),
+        start_(start_of(model, imported_.remarks)),
+        poses_(poses_of(model, *start_)),
+        classes_(model),
+        bodies_(static_cast<std::size_t>(model.nbody)) {}
 
   Imported read() {
-    imported_.scene.gravity = referee::plain(upright().rotation * vec_at(model_.opt.gravity, 0));
+    if ((model_.opt.disableflags & mjDSBL_GRAVITY) != 0)
+      imported_.scene.gravity = {0, 0, 0};
+    else
+      imported_.scene.gravity = referee::plain(upright().rotation * vec_at(model_.opt.gravity, 0));
     imported_.scene.dt = model_.opt.timestep;
     for (int body = 0; body < model_.nbody; ++body)
       if (model_.body_weldid[body] == body) read_link(body);
     for (int body = 1; body < model_.nbody; ++body)
       if (model_.body_weldid[body] == body)
-        add_joints(model_, body, pose(body), {of(model_.body_parentid[body]), *of(body)}, imported_);
+        add_joints(model_, *start_, body, {of(model_.body_parentid[body]), *of(body)}, imported_);
     std::vector<std::optional<std::size_t>> bodies;
     for (int body = 0; body < model_.nbody; ++body) bodies.push_back(of(body));
     add_equalities(model_, poses_, bodies, imported_);
@@ -138,8 +186,7 @@ class MjcfReader {
   PlumbFilter filter_of(int root, const std::string& name) {
     std::optional<PlumbFilter> first;
     for (int geom = 0; geom < model_.ngeom; ++geom) {
-      const bool collides = model_.geom_contype[geom] != 0 || model_.geom_conaffinity[geom] != 0;
-      if (!collides || model_.body_weldid[model_.geom_bodyid[geom]] != root) continue;
+      if (!collides(model_, geom) || model_.body_weldid[model_.geom_bodyid[geom]] != root) continue;
       const PlumbFilter filter = classes_.filter(geom);
       if (first && filter.category != first->category)
         imported_.remarks.add("of several contypes of a body the first is taken", name);
@@ -156,14 +203,19 @@ class MjcfReader {
       remarks.add("tendons are left out", name_of(model_, mjOBJ_TENDON, i, "tendon"));
     for (int i = 0; i < model_.nexclude; ++i)
       remarks.add("exclusions of pairs of bodies are left out", name_of(model_, mjOBJ_EXCLUDE, i, "exclude"));
+    for (int i = 0; i < model_.npair; ++i)
+      remarks.add("pairs of geoms that are named to collide are left out", name_of(model_, mjOBJ_PAIR, i, "pair"));
+    const mjOption& medium = model_.opt;
+    if (medium.density != 0 || medium.viscosity != 0) remarks.add("drag of a medium is left out", "option");
     if (model_.nskin > 0) remarks.add("skins are left out", name_of(model_, mjOBJ_SKIN, 0, "skin"));
   }
 
   const mjModel& model_;
+  Imported imported_;
+  DataPtr start_;
   std::vector<Pose> poses_;
   Classes classes_;
   std::vector<std::optional<std::size_t>> bodies_;  ///< of weld roots
-  Imported imported_;
 };
 
 }  // namespace

@@ -194,6 +194,67 @@ TEST(ReadMjcf, ReadsAUrdfFileAsLibsdformatDoes) {
   EXPECT_LT((bounds(one).low - bounds(other).low).norm() + (bounds(one).high - bounds(other).high).norm(), 1e-9);
 }
 
+/// A knee that would begin straight, where it cannot be.
+constexpr const char* bent = R"(<mujoco><compiler angle="radian"/><worldbody>
+  <body name="thigh" pos="0 0 2"><freejoint/><geom type="capsule" fromto="0 0 0 0 0 -0.4" size="0.05"/>
+    <body name="shin" pos="0 0 -0.5"><joint name="knee" axis="0 1 0" limited="true" range="0.5 2" stiffness="3"/>
+      <geom type="capsule" fromto="0 0 0 0 0 -0.4" size="0.05"/>
+      <body name="foot" pos="0 0 -0.5"><joint name="ankle" axis="1 0 0" limited="true" range="-1 1"/><geom size="0.1"/></body>
+    </body></body></worldbody></mujoco>)";
+
+TEST(ReadMjcf, WhatWouldBeginBeyondALimitBeginsAtIt) {
+  const Imported read = read_text("m.xml", bent);
+  const SceneJoint& knee = read.scene.joints[read.scene.joint("knee")];
+  EXPECT_NEAR(knee.desc.limits[3].lower, 0, 1e-12);
+  EXPECT_NEAR(knee.desc.limits[3].upper, 1.5, 1e-12);
+  EXPECT_NEAR(knee.desc.springs[3].rest, -0.5, 1e-12) << "its spring pulls it straight";
+  EXPECT_LT((place_of(read.scene, knee).position - Vec3(0, 1.5, 0)).norm(), 1e-12);
+  const Vec3 foot(-0.5 * std::sin(0.5), 1.5 - 0.5 * std::cos(0.5), 0);
+  EXPECT_LT((pose_of(read.scene, "foot").position - foot).norm(), 1e-12) << "what hangs on it comes along";
+  const Vec3 ankle = place_of(read.scene, read.scene.joints[read.scene.joint("ankle")]).rotation.col(0);
+  EXPECT_LT((ankle - Vec3(std::cos(0.5), -std::sin(0.5), 0)).norm(), 1e-12);
+  EXPECT_TRUE(has_line(read.remarks, "begin at it: knee"));
+}
+
+TEST(ReadMjcf, ReadsWhatOtherVersionsOfMujocoTake) {
+  const auto file = write_file("m.xml", R"(<mujoco><compiler angle="radian"/><include file="eyes.xml"/><worldbody>
+    <include file="legs.xml"/></worldbody></mujoco>)");
+  std::ofstream(file.parent_path() / "eyes.xml")
+      << R"(<mujoco><asset><texture name="t" type="2d" file="gone.png"/><material name="m" texture="t"/></asset></mujoco>)";
+  std::ofstream(file.parent_path() / "legs.xml")
+      << R"(<mujoco><include file="leg.xml"/><include file="leg.xml"/></mujoco>)";
+  std::ofstream(file.parent_path() / "leg.xml")
+      << R"(<mujoco><body><joint axis="0 1 0" range="-0.5 1"/><geom size="0.1" material="m"/></body></mujoco>)";
+  const Scene scene = read_machine({file, {}}).scene;
+  ASSERT_EQ(scene.joints.size(), 2U);
+  for (const SceneJoint& joint : scene.joints) EXPECT_NEAR(joint.desc.limits[3].upper, 1, 1e-12);
+  std::ofstream(file.parent_path() / "leg.xml") << R"(<mujoco><include file="leg.xml"/></mujoco>)";
+  EXPECT_THROW((void)read_machine({file, {}}), UsageError) << "a file that includes itself";
+}
+
+TEST(ReadMjcf, ReadsWhatIsPacked) {
+  const auto file = write_file("m.xml", R"(<mujoco><worldbody><include file="leg.xml"/></worldbody></mujoco>)");
+  pack(file);
+  std::ofstream(file.parent_path() / "leg.xml")
+      << "<mujoco><body name='leg'><freejoint/><geom size='0.1'/></body></mujoco>";
+  pack(file.parent_path() / "leg.xml");
+  EXPECT_EQ(read_machine({file.string() + ".gz", {}}).scene.bodies.at(0).name, "leg");
+}
+
+TEST(ReadMjcf, WhatTheModelSwitchesOffIsOff) {
+  const auto with = [](const std::string& option) {
+    return read_text("m.xml", "<mujoco><option " + option +
+                                  "</option><worldbody><body name='b'><freejoint/><geom size='1'/></body></worldbody>"
+                                  "<contact><exclude body1='b' body2='world'/></contact></mujoco>");
+  };
+  EXPECT_TRUE(with(">").scene.bodies.at(0).shape.has_value());
+  EXPECT_FALSE(with("collision='predefined'>").scene.bodies.at(0).shape.has_value());
+  EXPECT_FALSE(with("><flag contact='disable'/>").scene.bodies.at(0).shape.has_value());
+  EXPECT_NE(with(">").scene.gravity.y, 0);
+  EXPECT_EQ(with("><flag gravity='disable'/>").scene.gravity.y, 0);
+  EXPECT_TRUE(has_line(with("density='1000'>").remarks, "drag of a medium is left out"));
+}
+
 TEST(ReadMjcf, SaysWhatIsWrongAndWhatIsLeftOut) {
   const auto expect = [](const std::string& content, const std::string& words) {
     const std::string failure = failure_of("m.xml", content);
