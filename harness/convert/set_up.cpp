@@ -152,6 +152,15 @@ Sources sources_of(const Scene& scene) {
   return sources;
 }
 
+/// Whether a joint has a limit on one of three axes from that one on.
+bool has_limits(const Scene& scene, std::size_t first) {
+  const auto limited = [&](const SceneJoint& joint) {
+    const auto* limits = joint.desc.limits + first;
+    return std::any_of(limits, limits + 3, [](const PlumbLimit& limit) { return limit.enabled != 0; });
+  };
+  return std::any_of(scene.joints.begin(), scene.joints.end(), limited);
+}
+
 Json metric(const char* unit, const char* doc, double threshold, double gold) {
   return {{"unit", unit}, {"doc", doc}, {"threshold", threshold}, {"gold", gold}};
 }
@@ -197,6 +206,19 @@ void add_metrics(Json& scene_json, const Scene& scene) {
   }
   scene_json["measure"] = {{"kind", "quantities"}, {"quantities", quantities}};
   scene_json["metrics"] = metrics;
+}
+
+void add_joint_metrics(Json& scene_json, const Scene& scene) {
+  const auto add = [&](const char* name, const char* quantity, const Json& metric) {
+    scene_json["measure"]["quantities"][name] = {{"quantity", quantity}, {"take", "max"}, {"truth", 0}};
+    scene_json["metrics"][name] = metric;
+  };
+  if (!scene.joints.empty())
+    add("bent", "misalignment", metric("rad", "largest turn of any joint that it does not allow", 0.05, 0.005));
+  if (has_limits(scene, 0))
+    add("slid_beyond", "limit_position", metric("m", "farthest that any joint slid beyond a limit", 0.005, 0.0005));
+  if (has_limits(scene, 3))
+    add("turned_beyond", "limit_angle", metric("rad", "farthest that any joint turned beyond a limit", 0.05, 0.005));
 }
 
 }  // namespace plumb::harness

@@ -19,4 +19,7 @@ void set_up(Imported& imported, const SetUp& wanted);
 /// nobody drives it no energy is made of nothing.
 void add_metrics(Json& scene_json, const Scene& scene);
 
+/// Adds to these: no joint bends where it is stiff, or goes beyond its limits.
+void add_joint_metrics(Json& scene_json, const Scene& scene);
+
 }  // namespace plumb::harness

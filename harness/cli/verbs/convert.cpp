@@ -75,6 +75,7 @@ void write_scene(const ConvertOptions& options, const Imported& imported, const 
   for (const std::string& remark : imported.remarks.lines()) doc += fmt::format(" Note: {}.", shortened(remark, 500));
   Json json = scene_json(imported.scene, {options.id.empty() ? id_of(slug) : options.id, slug, shortened(name), doc});
   add_metrics(json, imported.scene);
+  add_joint_metrics(json, imported.scene);
   out.write(scene_text(json));
 }
 

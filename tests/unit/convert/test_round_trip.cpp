@@ -177,5 +177,28 @@ TEST(WriteSdf, SaysWhatSdfLacks) {
   EXPECT_THROW((void)write_sdf(scene, "w", remarks), UsageError);
 }
 
+/// What a scene that was made of a machine is scored by.
+Json metrics_of(const std::string& axis) {
+  Imported imported = read_text(
+      "a.sdf", R"(<sdf version="1.7"><model name="m"><link name="a"/><link name="b"/><joint name="j" type=")" + axis +
+                   R"("><parent>a</parent><child>b</child><axis><xyz>1 0 0</xyz>
+    <limit><lower>-1</lower><upper>1</upper></limit></axis></joint></model></sdf>)");
+  set_up(imported, {});
+  Json json = scene_json(imported.scene, {"X1", "m", "m", "m"});
+  add_metrics(json, imported.scene);
+  add_joint_metrics(json, imported.scene);
+  return json.at("metrics");
+}
+
+TEST(Metrics, AJointMayNotGoBeyondItsLimits) {
+  const Json hinge = metrics_of("revolute"), slider = metrics_of("prismatic"), free = metrics_of("continuous");
+  EXPECT_TRUE(hinge.contains("turned_beyond"));
+  EXPECT_FALSE(hinge.contains("slid_beyond"));
+  EXPECT_TRUE(slider.contains("slid_beyond"));
+  EXPECT_FALSE(slider.contains("turned_beyond"));
+  EXPECT_FALSE(free.contains("turned_beyond"));
+  EXPECT_TRUE(free.contains("bent"));
+}
+
 }  // namespace
 }  // namespace plumb::harness::testing
