@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace plumb::referee {
 
@@ -84,6 +85,12 @@ double beyond(const PlumbLimit& limit, double value) {
   return limit.enabled != 0 ? std::max({0.0, limit.lower - value, value - limit.upper}) : 0;
 }
 
+/// Poses do not tell how often it has gone round: robots' limits lie beyond a half turn.
+double turned_beyond(const PlumbLimit& limit, double angle) {
+  constexpr double turn = 2 * std::numbers::pi;
+  return std::min({beyond(limit, angle - turn), beyond(limit, angle), beyond(limit, angle + turn)});
+}
+
 }  // namespace
 
 std::array<double, 6> joint_coordinates(const PlumbJointDesc& joint, const Pose& body_a, const Pose& body_b) {
@@ -149,10 +156,12 @@ JointError joint_error(const PlumbJointDesc& joint, const Pose& body_a, const Po
   }
   for (std::size_t axis = 0; axis < 6; ++axis) {
     if (!limited[axis]) continue;
-    double& worst = axis < 3 ? error.limit_position : error.limit_angle;
     PlumbLimit limit = joint.limits[axis];
     if (joint.type == PLUMB_JOINT_GENERIC) limit.enabled = 1;
-    worst = std::max(worst, beyond(limit, at[axis]));
+    if (axis < 3)
+      error.limit_position = std::max(error.limit_position, beyond(limit, at[axis]));
+    else
+      error.limit_angle = std::max(error.limit_angle, turned_beyond(limit, at[axis]));
   }
   return error;
 }

@@ -69,6 +69,18 @@ TEST(Joints, HingeLimit) {
   EXPECT_EQ(error_of(joint).limit_angle, 0);
 }
 
+TEST(Joints, HingeLimitBeyondAHalfTurn) {
+  const auto beyond = [](double degrees, double lower, double upper) {
+    Jointed joint = jointed(PLUMB_JOINT_HINGE, turned(degrees, Vec3::UnitX()));
+    joint.desc.limits[3] = {lower * degree, upper * degree, 1, 0};
+    return error_of(joint).limit_angle;
+  };
+  EXPECT_EQ(beyond(-200, -209, 55), 0) << "a pose tells no -200 from 160";
+  EXPECT_NEAR(beyond(-212, -209, 55), 3 * degree, near_zero);
+  EXPECT_NEAR(beyond(60, -209, 55), 5 * degree, near_zero);
+  EXPECT_EQ(beyond(250, -358, 358), 0);
+}
+
 TEST(Joints, Slider) {
   EXPECT_NEAR(error_of(PLUMB_JOINT_SLIDER, at(7, 0, 0)).position, 0, near_zero);
   Jointed joint = jointed(PLUMB_JOINT_SLIDER, turned(3, {1, 2, 3}, {7, 0.3, -0.4}));
