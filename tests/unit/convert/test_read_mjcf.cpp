@@ -108,6 +108,76 @@ TEST(ReadMjcf, MassesAreMujocos) {
   EXPECT_NEAR(trunk.inertia(0, 0), 3 * (0.01 + 0.09) / 3 + 0.4 * 1 * 0.01 + 0.75 * 0.25, 1e-9);
 }
 
+/// Masses, their moments and their inertia about the world's origin.
+struct Whole {
+  double mass = 0;
+  Vec3 moment = Vec3::Zero();
+  Mat3 inertia = Mat3::Zero();
+  /// at: of the centre of mass, with the axes in which the inertia is given.
+  void add(double more, const Pose& at, const Mat3& about_centre) {
+    const Vec3& r = at.position;
+    mass += more;
+    moment += more * r;
+    inertia += at.rotation * about_centre * at.rotation.transpose() +
+               more * (r.squaredNorm() * Mat3::Identity() - r * r.transpose());
+  }
+};
+
+Whole whole_of(const Scene& scene) {
+  Whole all;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    if (scene.bodies[i].desc.motion != PLUMB_DYNAMIC) continue;
+    const referee::Mass one = mass_of_body(scene, i);
+    const Pose pose = referee::pose(scene.bodies[i].desc.pose);
+    all.add(one.mass, {pose.rotation, pose * one.centre}, one.inertia);
+  }
+  return all;
+}
+
+Whole whole_of(const mjModel& model, const mjData& data) {
+  Whole all;
+  for (int body = 1; body < model.nbody; ++body) {
+    if (model.body_weldid[body] == 0) continue;
+    const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> axes(data.ximat + std::ptrdiff_t{9} * body);
+    all.add(model.body_mass[body], upright() * Pose{axes, vec_at(data.xipos, body)},
+            vec_at(model.body_inertia, body).asDiagonal());
+  }
+  return all;
+}
+
+class ReadPackagedMjcf : public ::testing::TestWithParam<const char*> {};
+
+/// All masses, where they are and how they turn, and each joint's place and first axis.
+TEST_P(ReadPackagedMjcf, IsTheMachineThatMujocoMakesOfIt) {
+  if (!std::filesystem::exists(GetParam()))
+    GTEST_SKIP() << "there is no " << GetParam() << ": apt-get install dart-doc libmujoco-samples";
+  const Scene scene = read_machine({GetParam(), {}}).scene;
+  std::array<char, 1000> error{};
+  const ModelPtr model(mj_loadXML(GetParam(), nullptr, error.data(), static_cast<int>(error.size())));
+  ASSERT_TRUE(model) << error.data();
+  const DataPtr data(mj_makeData(model.get()));
+  mj_kinematics(model.get(), data.get());
+  const Whole ours = whole_of(scene), theirs = whole_of(*model, *data);
+  EXPECT_NEAR(ours.mass, theirs.mass, 1e-9 * theirs.mass);
+  EXPECT_LT((ours.moment - theirs.moment).norm(), 1e-9 * theirs.mass);
+  EXPECT_LT((ours.inertia - theirs.inertia).norm(), 1e-9 * theirs.inertia.norm());
+  for (const SceneJoint& joint : scene.joints) {
+    const int id = mj_name2id(model.get(), mjOBJ_JOINT, joint.name.c_str());
+    if (id < 0) continue;  // it has no name there
+    const Pose place = place_of(scene, joint);
+    EXPECT_LT((place.position - upright() * vec_at(data->xanchor, id)).norm(), 1e-9) << joint.name;
+    if (model->jnt_type[id] == mjJNT_BALL) continue;
+    EXPECT_LT((place.rotation.col(0) - upright().rotation * vec_at(data->xaxis, id)).norm(), 1e-9) << joint.name;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Debian, ReadPackagedMjcf,
+                         ::testing::Values("/usr/share/doc/dart/data/mjcf/openai/hopper.xml",
+                                           "/usr/share/doc/dart/data/mjcf/openai/reacher.xml",
+                                           "/usr/share/doc/dart/data/mjcf/openai/inverted_double_pendulum.xml",
+                                           "/usr/share/mujoco/model/humanoid/humanoid.xml",
+                                           "/usr/share/mujoco/model/humanoid100/humanoid100.xml"));
+
 TEST(ReadMjcf, LimitsCountFromTheStart) {
   const Imported read = read_text("m.xml", machine);
   const auto desc = [&](const std::string& name) { return read.scene.joints[read.scene.joint(name)].desc; };
