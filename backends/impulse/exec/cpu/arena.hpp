@@ -1,5 +1,5 @@
 // The threads of a world's own: oneTBB's where the build has it (arena_tbb.cpp), else the standard library's
-// (arena_std.cpp).
+// (arena_std.cpp), or in a .wasm the workers that a page lends (arena_web.cpp).
 #pragma once
 
 #include <cstdint>

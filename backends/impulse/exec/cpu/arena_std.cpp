@@ -1,5 +1,4 @@
 #include <condition_variable>
-#include <exception>
 #include <mutex>
 #include <thread>
 #include <vector>
@@ -51,31 +50,6 @@ Arena::Arena(std::uint32_t threads) : threads_(std::make_unique<Threads>()) {
 
 Arena::~Arena() { threads_->close(); }
 
-void Arena::run(std::uint32_t count, void* context, PlumbTask task) {
-  struct Job {
-    void* context;
-    PlumbTask task;
-    std::mutex mutex{};
-    std::exception_ptr thrown{};
-  } job{context, task};
-  HotTeam team;
-  call(team);
-  team.share(count, &job, [](void* of_job, std::uint32_t c) {
-    Job& all = *static_cast<Job*>(of_job);
-    try {
-      all.task(all.context, c);
-    } catch (...) {
-      const std::lock_guard lock(all.mutex);
-      if (!all.thrown) all.thrown = std::current_exception();
-    }
-  });
-  team.dismiss();
-  wait();
-  if (job.thrown) std::rethrow_exception(job.thrown);
-}
-
-void Arena::enter(void* context, void (*job)(void*)) { job(context); }
-
 void Arena::call(HotTeam& team) {
   {
     const std::lock_guard lock(threads_->mutex);
@@ -90,5 +64,7 @@ void Arena::wait() {
   std::unique_lock lock(threads_->mutex);
   threads_->changed.wait(lock, [&] { return threads_->away == 0; });
 }
+
+void give_way() { std::this_thread::yield(); }
 
 }  // namespace plumb::impulse

@@ -2,6 +2,8 @@
 #include <tbb/task_arena.h>
 #include <tbb/task_group.h>
 
+#include <thread>
+
 #include "exec/cpu/arena.hpp"
 
 namespace plumb::impulse {
@@ -32,5 +34,7 @@ void Arena::call(HotTeam& team) {
 }
 
 void Arena::wait() { threads_->called.wait(); }
+
+void give_way() { std::this_thread::yield(); }
 
 }  // namespace plumb::impulse

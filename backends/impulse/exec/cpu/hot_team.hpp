@@ -4,13 +4,15 @@
 
 #include <atomic>
 #include <cstdint>
-#include <thread>
 
 #include "exec/floating_point.hpp"
 #include "exec/simd.hpp"
 #include "plumb/plumb.h"
 
 namespace plumb::impulse {
+
+/// Others may have the processor in between (arena_*.cpp).
+void give_way();
 
 /// One thread leads, any number of others help. None must come: what nobody takes the leader does.
 class HotTeam {
@@ -42,12 +44,16 @@ class HotTeam {
   class Patience {
    public:
     void wait() {
-      if (++looks_ > kLooks) return std::this_thread::yield();
+      if (++looks_ > kLooks) return give_way();
       simd::pause();
     }
 
    private:
+#if defined(__wasm__)  // which has no instruction to pause by
+    static constexpr std::uint32_t kLooks = 20'000;
+#else
     static constexpr std::uint32_t kLooks = 500;
+#endif
     std::uint32_t looks_ = 0;
   };
 
