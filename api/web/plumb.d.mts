@@ -41,6 +41,7 @@ export interface WorldOptions {
   gravity?: Vec3;
   /** By name: numbers, or words of a choice. */
   settings?: Readonly<Record<string, number | string | boolean>>;
+  /** How many work on a step, of those that the engine has; all. The bits of results do not depend on it. */
   threads?: number;
 }
 
@@ -351,9 +352,12 @@ export interface Setting {
 }
 
 export interface Engine {
-  readonly info: Readonly<{ name: string; version: string; build: string }>;
+  /** threads: how many its worlds may have; remark: where these are fewer than were asked for, why, else ''. */
+  readonly info: Readonly<{ name: string; version: string; build: string; threads: number; remark: string }>;
   readonly settings: readonly Setting[];
   createWorld(options?: WorldOptions): World;
+  /** Its worlds are no more, and its threads end. */
+  dispose(): void;
   /** The bytes of a shape that was worked out ahead, for World.createCooked; not of a compound. */
   cook(options: ShapeOptions): Uint8Array;
   /** How truly it has a thing: capability('shape', 'mesh'), capability('joint', 'generic'). */
@@ -363,5 +367,12 @@ export interface Engine {
     of?: string | number, with_?: string | number): 'none' | 'approximate' | 'emulated' | 'native';
 }
 
-/** source: where the .wasm is, its bytes, or what was compiled of it; left out: beside the module. */
-export function load(source?: string | URL | BufferSource | WebAssembly.Module): Promise<Engine>;
+export type Source = string | URL | BufferSource | WebAssembly.Module;
+export interface LoadOptions {
+  /** How many threads may work on a step: 1 to 64, or 'auto', one for each processor but no more than 8; 1. More than one
+   *  takes memory that may be shared: any Node, and pages that are cross-origin isolated. Elsewhere there is one. */
+  threads?: number | 'auto';
+}
+/** source: where the .wasm is, its bytes, or what was compiled of it; left out: beside the module, the one that suits. */
+export function load(source?: Source | null, options?: LoadOptions): Promise<Engine>;
+export function load(options: LoadOptions): Promise<Engine>;

@@ -10,22 +10,45 @@ const kTypes = ['bool', 'int', 'float', 'choice'], kRoles = ['quality', 'speed',
 const kBool = 0, kChoice = 3, kCreationOnly = 1, kVersionDiffers = -8;
 
 export class Engine {
-  constructor(wasm) {
+  #threads;
+  #ended = '';
+
+  /** threads: null where the caller's is the only one; remark: why there are not more. */
+  constructor(wasm, threads = null, remark = '') {
     this.wasm = wasm;
+    this.#threads = threads;
     this.memory = new Memory(wasm);
     for (const [i, [name, { size }]] of Object.entries(LAYOUT).entries())
       if (wasm.plumb_struct_size(i) !== size)
         throw new PlumbError(kVersionDiffers, `the .wasm is of another version than this module: ${name} has ` +
           `${wasm.plumb_struct_size(i)} bytes there and ${size} here; take both from the same build`);
     const [name, version, build] = [0, 1, 2].map((which) => this.memory.text(wasm.plumb_info(which)));
-    this.info = Object.freeze({ name, version, build });
+    this.info = Object.freeze({ name, version, build, threads: threads?.count ?? 1, remark: threads?.remark || remark });
     this.settings = Object.freeze(this.#listSettings());
   }
   createWorld(options = {}) {
+    this.checkAlive();
     return new World(this, options);
+  }
+  /** Its worlds are no more, and its threads end. */
+  dispose() {
+    this.#threads?.close();
+    this.#ended ||= 'this engine was disposed of; load another one';
+  }
+  /** It cannot go on; text: why. */
+  end(text) {
+    this.#threads?.terminate();
+    this.#ended ||= text;
+  }
+  get isAlive() {
+    return this.#ended === '';
+  }
+  checkAlive() {
+    if (!this.isAlive) throw new PlumbError(INVALID, this.#ended);
   }
   /** The bytes of a shape that was worked out ahead. */
   cook(options) {
+    this.checkAlive();
     return this.memory.scope(() => {
       const desc = this.memory.putStructs(LAYOUT.shape, [shapeOf(this.memory, options)]);
       const bytes = this.memory.take(4), size = this.memory.take(4);

@@ -3,9 +3,10 @@ import { PlumbError } from './error.mjs';
 
 const kNoSuchCall = 52; // ENOSYS
 const kInternal = -12;
+const kThreadLost = 86; // exec/cpu/arena_web.cpp
 
-/** memory(): the instance's memory. */
-export function imports(module, memory) {
+/** memory(): the instance's memory. ended(text): the engine ends itself, and why. */
+export function imports(module, memory, ended = () => {}) {
   const view = () => new DataView(memory().buffer);
   const offered = {
     clock_time_get: (_clock, _precision, at) => {
@@ -30,12 +31,15 @@ export function imports(module, memory) {
       return 0;
     },
     proc_exit: (status) => {
-      throw new PlumbError(kInternal, `the engine ended itself with ${status}`);
+      const text = status === kThreadLost ? 'a thread of the engine died amid its work; load the engine anew'
+        : `the engine ended itself with ${status}`;
+      ended(text);
+      throw new PlumbError(kInternal, text);
     },
     emscripten_notify_memory_growth: () => {},
   };
   const wanted = {};
-  for (const { module: from, name } of WebAssembly.Module.imports(module))
-    (wanted[from] ??= {})[name] = offered[name] ?? (() => kNoSuchCall);
+  for (const { module: from, name, kind } of WebAssembly.Module.imports(module))
+    (wanted[from] ??= {})[name] = kind === 'memory' ? memory() : offered[name] ?? (() => kNoSuchCall);
   return wanted;
 }

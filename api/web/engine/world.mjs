@@ -14,7 +14,7 @@ export class World {
   #userData = new Map();
 
   constructor(engine, { needs = ['rotation', 'collision', 'friction', 'kinematic'], gravity = [0, -9.81, 0],
-    settings = {}, threads = 1 }) {
+    settings = {}, threads = engine.info.threads }) {
     this.#engine = engine;
     this.#wasm = engine.wasm;
     this.#memory = engine.memory;
@@ -29,7 +29,7 @@ export class World {
   }
   /** Its shapes, bodies and joints go with it. */
   destroy() {
-    this.#wasm.plumb_destroy_world(this.#at);
+    if (this.#engine.isAlive) this.#wasm.plumb_destroy_world(this.#at);
     this.#at = 0;
     this.#userData.clear();
   }
@@ -261,6 +261,7 @@ export class World {
   }
 
   #world() {
+    this.#engine.checkAlive();
     if (this.#at === 0) throw new PlumbError(INVALID, 'this world was destroyed; make another one');
     return this.#at;
   }

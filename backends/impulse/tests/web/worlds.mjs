@@ -3,7 +3,7 @@ import { pathToFileURL } from 'node:url';
 
 const folder = pathToFileURL(`${process.env.PLUMB_WEB}/`);
 export const { load, PlumbError } = await import(new URL('plumb.mjs', folder));
-export const engine = await load(new URL('plumb-impulse.wasm', folder));
+export const engine = await load({ threads: Number(process.env.PLUMB_WEB_THREADS ?? 1) });
 
 export const kStep = 1 / 60;
 export function steps(world, count) {

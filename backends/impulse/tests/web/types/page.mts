@@ -1,7 +1,8 @@
 // What a page in TypeScript may write, and what it may not.
 import { load, type World } from '../../../../../api/web/plumb.mjs';
 
-const engine = await load();
+const engine = await load({ threads: 'auto' });
+export const others = [await load(), await load('engine.wasm', { threads: 2 }), await load(null, { threads: 2 })];
 const world: World = engine.createWorld({ needs: ['joints', 'queries'], settings: { solver: 'si' } });
 const ball = world.createShape({ type: 'sphere', radius: 1 });
 const shape = world.createShape({ type: 'compound', children: [{ shape: ball, position: [0, 1, 0] }] });
@@ -11,6 +12,8 @@ world.modifyJoint(joint, { enabled: false });
 world.createCooked([engine.cook({ type: 'sphere', radius: 1 })]);
 export const all: number = world.castRays([{ origin: [0, 0, 0], translation: [0, 1, 0] }], { all: true })[0]!.length;
 
+export const why: string = engine.info.threads < 2 ? engine.info.remark : '';
+
 // @ts-expect-error a box has no radius
 world.createShape({ type: 'box', radius: 3 });
 // @ts-expect-error bytes are no descriptor
@@ -19,3 +22,6 @@ world.createCooked([{ type: 'sphere', radius: 1 }]);
 world.destroyBody(3);
 // @ts-expect-error only motors are written
 world.writeJoints('coordinates', joint, []);
+// @ts-expect-error of words only auto
+await load({ threads: 'many' });
+engine.dispose();
