@@ -79,6 +79,14 @@ test('threads work at once, each with its own memory, and what one throws reache
   engine.dispose();
 });
 
+test('memory that a worker took is seen by the caller', async () => {
+  const engine = await load(checks, { threads: 2 });
+  const size = engine.wasm.memory.buffer.byteLength, at = engine.wasm.test_grow(2);
+  assert.ok(at > size);
+  assert.equal(engine.memory.word(at), 42);
+  engine.dispose();
+});
+
 test('a caller that may not sleep, as a page, gets the same', async () => {
   Atomics.wait = () => {
     throw new TypeError('Atomics.wait cannot be called in this context');

@@ -62,6 +62,15 @@ PLUMB_WEB(bool, test_allocate)(std::uint32_t threads) {
   return met && !torn;
 }
 
+/// The last of many words that a worker took memory for, and wrote 42 to.
+PLUMB_WEB(const std::uint32_t*, test_grow)(std::uint32_t threads) {
+  static std::vector<std::uint32_t> taken;
+  each_on_its_own(threads, [&](std::uint32_t) {
+    if (is_worker() && taken.empty()) taken.assign(1U << 25U, 42);
+  });
+  return &taken.back();
+}
+
 /// What is thread-local is each thread's own, and fresh in each.
 PLUMB_WEB(bool, test_own)(std::uint32_t threads) {
   std::atomic<std::uint32_t> written = 0;

@@ -2,7 +2,7 @@
 import { load, type World } from '../../../../../api/web/plumb.mjs';
 
 const engine = await load({ threads: 'auto' });
-export const others = [await load(), await load('engine.wasm', { threads: 2 }), await load(null, { threads: 2 })];
+export const others = [await load(), await load('engine.wasm', { threads: 2 }), await load(null, { threads: 'auto' })];
 const world: World = engine.createWorld({ needs: ['joints', 'queries'], settings: { solver: 'si' } });
 const ball = world.createShape({ type: 'sphere', radius: 1 });
 const shape = world.createShape({ type: 'compound', children: [{ shape: ball, position: [0, 1, 0] }] });
@@ -23,5 +23,5 @@ world.destroyBody(3);
 // @ts-expect-error only motors are written
 world.writeJoints('coordinates', joint, []);
 // @ts-expect-error of words only auto
-await load({ threads: 'many' });
+await load(null, { threads: 'many' });
 engine.dispose();
