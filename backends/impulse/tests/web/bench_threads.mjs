@@ -3,19 +3,22 @@
 import assert from 'node:assert/strict';
 import { load } from './worlds.mjs';
 
-const kPart = 5, kParts = 12, kWarm = 40; // steps
+const kPart = 2, kParts = 40, kWarm = 40; // steps
 const counts = process.argv.length > 2 ? process.argv.slice(2).map(Number) : [1, 2];
 const folder = new URL('./', new URL(`file://${process.env.PLUMB_WEB}/`));
 
+const pile = (count, side) => (drop) => {
+  for (let i = 0; i < count; ++i)
+    drop(1.3 * (i % side - (side - 1) / 2) + 0.1 * (i % 7), 1 + 1.2 * Math.floor(i / side ** 2),
+      1.3 * (Math.floor(i / side) % side - (side - 1) / 2));
+};
 const scenes = {
   'pyramid-100': (drop) => {
     for (let row = 0; row < 100; ++row)
       for (let i = 0; i < 100 - row; ++i) drop(1.05 * (i - (99 - row) / 2), 0.5 + row, 0);
   },
-  'pile-4000': (drop) => {
-    for (let i = 0; i < 4000; ++i)
-      drop(1.3 * (i % 16 - 7.5) + 0.1 * (i % 7), 1 + 1.2 * Math.floor(i / 256), 1.3 * (Math.floor(i / 16) % 16 - 7.5));
-  },
+  'pile-4000': pile(4000, 16),
+  'pile-500': pile(500, 8),
 };
 
 function worldOf(engine, scene, threads) {
