@@ -251,7 +251,7 @@ PlumbResult answer_opening(const Opening& opening, const PlumbOpenRequest* reque
       return answer(PLUMB_E_UNSUPPORTED, "%s", why.c_str());
     if (const PlumbHost* host = request->host; opening.host == nullptr && host != nullptr) {
       if (has(*host, &PlumbHost::allocate) != has(*host, &PlumbHost::release))
-        return answer(PLUMB_E_INVALID_ARGUMENT,
+        return answer(PLUMB_E_INVALID_ARGUMENT, "%s",
                       "the host lends only one of allocate and release; lend both, or leave both null");
       opening.host = host;
       use_memory_of(host);
