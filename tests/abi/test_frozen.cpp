@@ -1,4 +1,4 @@
-// A backend that was built against the frozen headers runs under today's host, and as today's own does.
+// Backends that were built against the frozen headers run under today's host, and as today's own does.
 #include <gtest/gtest.h>
 
 #include "plumb/layers.hpp"
@@ -40,14 +40,22 @@ std::uint64_t fly(const PlumbBackendTable* table) {
   return hash;
 }
 
-TEST(Frozen, RunsUnderTodaysHostWithoutAFinding) {
-  const PlumbBackendTable* old = layers::validate(&open_backend(FROZEN_BACKEND).table());
+struct FrozenBackend {
+  const char* file;
+  std::uint32_t version;
+};
+class Frozen : public ::testing::TestWithParam<FrozenBackend> {};
+
+TEST_P(Frozen, RunsUnderTodaysHostWithoutAFinding) {
+  const Backend backend = open_backend(GetParam().file);
+  EXPECT_EQ(backend.table().version, GetParam().version);
+  const PlumbBackendTable* old = layers::validate(&backend.table());
   EXPECT_EQ(fly(old), fly(&open_backend(SAMPLE_BACKEND).table()));
   EXPECT_TRUE(layers::findings(old).empty());
 }
 
-TEST(Frozen, IsRefusedInWordsToo) {
-  const Backend old = open_backend(FROZEN_BACKEND);
+TEST_P(Frozen, IsRefusedInWordsToo) {
+  const Backend old = open_backend(GetParam().file);
   PlumbWorldDesc desc = world_desc(PLUMB_NEED_JOINTS);
   try {
     static_cast<void>(old.create_world(desc));
@@ -56,6 +64,28 @@ TEST(Frozen, IsRefusedInWordsToo) {
     EXPECT_EQ(error.code(), PLUMB_E_UNSUPPORTED);
   }
 }
+
+/// A host of today that lends memory, and asks for what came later.
+TEST_P(Frozen, IsNotAskedForWhatItDoesNotKnow) {
+  PlumbHost host{};
+  host.struct_size = sizeof host;
+  host.allocate = [](void*, std::size_t, std::size_t) -> void* { return nullptr; };
+  host.release = [](void*, void*) {};
+  const Backend old = open_backend(GetParam().file, &host);
+  EXPECT_EQ(old.capability(PLUMB_CAP_HOST_MEMORY), PLUMB_NONE);
+  EXPECT_EQ(old.capability(PLUMB_CAP_COOKING, PLUMB_TRIANGLE_MESH), PLUMB_NONE);
+  const auto world = old.create_world(world_desc(0));
+  EXPECT_EQ(world->modify(), nullptr);
+  EXPECT_EQ(world->cooking(), nullptr);
+  const std::vector<PlumbBodyDesc> descs = particles();
+  std::vector<PlumbBody> ids(descs.size());
+  EXPECT_EQ(world->create_bodies(descs, ids), PLUMB_OK) << world->error_text();
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, Frozen,
+                         ::testing::Values(FrozenBackend{FROZEN_1_0, PLUMB_MAKE_VERSION(1, 0)},
+                                           FrozenBackend{FROZEN_1_1, PLUMB_MAKE_VERSION(1, 1)}),
+                         [](const auto& of) { return of.index == 0 ? "OneZero" : "OneOne"; });
 
 }  // namespace
 }  // namespace plumb::test

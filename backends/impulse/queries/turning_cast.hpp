@@ -40,8 +40,8 @@ PLUMB_HD double before_root(const Left& left, double at_0, double rest) {
   constexpr int kChords = 3, kMostEighths = 16;
   double low = 0, high = rest, left_low = at_0, left_high = left(high);
   if (left_high > 0) return rest;
-  for (int k = 0; k < kMostEighths && low == 0;
-       ++k) {  // down to the size of the root: it may be a millionth of the rest
+  // Down to the size of the root, which may be a millionth of the rest.
+  for (int k = 0; k < kMostEighths && low == 0; ++k) {
     const double x = high / 8, left_x = left(x);
     (left_x > 0 ? low : high) = x;
     (left_x > 0 ? left_low : left_high) = left_x;

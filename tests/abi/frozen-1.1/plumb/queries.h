@@ -1,0 +1,73 @@
+/* plumb.queries/1: rays, shape casts and overlaps against the world as the last step left it. Always in batches. */
+#ifndef PLUMB_QUERIES_H
+#define PLUMB_QUERIES_H
+
+#include "plumb/bodies.h"
+#include "plumb/types.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define PLUMB_EXT_QUERIES "plumb.queries/1"
+
+/* First argument of PLUMB_CAP_QUERY; the second is the shape type that is cast or overlapped (0 for rays). */
+typedef uint32_t PlumbQueryKind;
+enum { PLUMB_QUERY_RAY = 0, PLUMB_QUERY_CAST = 1, PLUMB_QUERY_OVERLAP = 2, PLUMB_QUERY_KIND_COUNT = 3 };
+
+typedef uint32_t PlumbHitMode;
+enum {
+  PLUMB_HIT_CLOSEST = 0, /* hits has one row a query, in its order; body 0 where nothing was hit */
+  PLUMB_HIT_ALL = 1      /* hits has all rows, sorted by query, then fraction, then body slot: one a body */
+};
+
+/* Sees a body when the rule of PlumbFilter says that the two may touch. Sensors are not seen. Of a body in which the
+ * ray starts engines tell different things: a hit at fraction 0, the far side, or nothing; see the note of
+ * PLUMB_CAP_QUERY. */
+typedef struct PlumbRay {
+  PlumbVec3 origin;      /* m */
+  PlumbVec3 translation; /* m: direction and length in one, not 0 */
+  PlumbFilter filter;
+} PlumbRay;
+
+/* A convex shape moved without turning. A shape that overlaps at the start hits at fraction 0. */
+typedef struct PlumbCast {
+  PlumbShape shape; /* sphere, box, capsule, cylinder or hull */
+  PlumbPose pose;
+  PlumbVec3 translation; /* m, not 0 */
+  PlumbFilter filter;
+} PlumbCast;
+
+typedef struct PlumbOverlap {
+  PlumbShape shape;
+  PlumbPose pose;
+  PlumbFilter filter;
+} PlumbOverlap;
+
+typedef struct PlumbHit {
+  PlumbBody body;     /* 0: nothing */
+  uint32_t query;     /* index into the batch */
+  uint32_t child;     /* of a compound, triangle of a mesh; else 0, also for a height field */
+  double fraction;    /* of the translation, 0..1; 0 for overlaps */
+  PlumbVec3 position; /* world, m; NaN for overlaps */
+  PlumbVec3 normal;   /* of the surface that was hit, unit; NaN for overlaps */
+} PlumbHit;
+
+/* hits[capacity]; *hit_count is how many there are, also when the answer is PLUMB_TRUNCATED.
+ * Strides are in bytes. All [query]: any number at once while no step runs. */
+typedef struct PlumbQueriesTable {
+  uint32_t struct_size;
+  uint32_t reserved;
+  PlumbResult (*rays)(PlumbWorld* world, PlumbHitMode mode, const PlumbRay* rays, size_t stride, uint32_t count,
+                      PlumbHit* hits, uint32_t capacity, uint32_t* hit_count);
+  PlumbResult (*casts)(PlumbWorld* world, PlumbHitMode mode, const PlumbCast* casts, size_t stride, uint32_t count,
+                       PlumbHit* hits, uint32_t capacity, uint32_t* hit_count);
+  /* Always all hits. */
+  PlumbResult (*overlaps)(PlumbWorld* world, const PlumbOverlap* overlaps, size_t stride, uint32_t count,
+                          PlumbHit* hits, uint32_t capacity, uint32_t* hit_count);
+} PlumbQueriesTable;
+
+#ifdef __cplusplus
+}
+#endif
+#endif
