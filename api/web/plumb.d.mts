@@ -363,7 +363,7 @@ export interface Engine {
   /** How truly it has a thing: capability('shape', 'mesh'), capability('joint', 'generic'). */
   capability(kind: 'shape' | 'pair' | 'joint' | 'jointFeature' | 'query' | 'fieldRead' | 'fieldWrite' | 'need' | 'event'
     | 'phaseTime' | 'residual' | 'snapshot' | 'hostJobs' | 'childMaterial' | 'modify' | 'manifold' | 'closest'
-    | 'triangleMaterial' | 'cooking',
+    | 'triangleMaterial' | 'cooking' | 'hostMemory',
     of?: string | number, with_?: string | number): 'none' | 'approximate' | 'emulated' | 'native';
 }
 

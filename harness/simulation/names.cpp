@@ -44,7 +44,7 @@ const Words& phase_words() {
   return words;
 }
 const Words& query_words() {
-  static const Words words{"ray", "cast", "overlap", "penetration"};
+  static const Words words{"ray", "cast", "overlap", "penetration", "turning_cast"};
   return words;
 }
 const Words& joint_feature_words() {

@@ -192,6 +192,7 @@ class QueryKind(IntEnum):
     CAST = 1
     OVERLAP = 2
     PENETRATION = 3
+    TURNING_CAST = 4
 
 
 class HitMode(IntEnum):
@@ -287,6 +288,7 @@ class CapabilityKind(IntEnum):
     CLOSEST = 16
     TRIANGLE_MATERIAL = 17
     COOKING = 18
+    HOST_MEMORY = 19
 
 
 class Degree(IntEnum):

@@ -45,7 +45,7 @@ class Queries(unittest.TestCase):
     @on_each(*NEEDS, asked=[("query", "turning_cast", "capsule")])
     def test_turning_casts(self, engine):
         world, _, bodies = self.scene(engine)
-        rod = world.create_shape(plumb.Capsule(0.25, 2))  # along y, 3 m to the left of the first ball
+        rod = world.create_shape(plumb.Capsule(0.25, 3))  # along y, its middle 2.5 m from the first ball
         turns = [(0, 0, -np.pi), (0, 0, -0.5), (0, np.pi, 0)]
         hits = world.queries.turning_casts(rod, (2.5, 0, 0), (0, 0, 0), turns)
         np.testing.assert_array_equal(hits["body"], [bodies[0], 0, 0])

@@ -29,7 +29,7 @@ export const CHANGE_OF_JOINT =
 export const CHANGE_OF_CONTACT = asBits('disabled', 'friction', 'restitution', 'surfaceVelocity');
 export const CAPABILITY = inOrder('shape', 'pair', 'joint', 'jointFeature', 'query', 'fieldRead', 'fieldWrite', 'need',
   'event', 'phaseTime', 'residual', 'snapshot', 'hostJobs', 'childMaterial', 'modify', 'manifold', 'closest',
-  'triangleMaterial', 'cooking');
+  'triangleMaterial', 'cooking', 'hostMemory');
 export const DEGREE = ['none', 'approximate', 'emulated', 'native'];
 
 /** The number of a word, or a sentence that lists the words. */
