@@ -86,9 +86,10 @@ Json RobotScene::run(const std::string& backend) const {
 std::vector<std::string> exact_backends() {
   std::vector<std::string> exact;
   for (const Json& row : plumb({"backends", "--json"}).rows()) {
-    const Json& needs = row["capabilities"]["needs"];
+    if (row.at("status") != "ok") continue;  // it needs what this machine lacks, as a GPU
+    const Json& needs = row.at("capabilities").at("needs");
     const auto native = [](const Json& degree) { return degree == "native"; };
-    if (needs.contains("joints") && std::all_of(needs.begin(), needs.end(), native)) exact.push_back(row["name"]);
+    if (needs.contains("joints") && std::all_of(needs.begin(), needs.end(), native)) exact.push_back(row.at("name"));
   }
   return exact;
 }
