@@ -14,7 +14,10 @@ PlumbDegree require_memory(Conformance& c) {
 /// Balls in a square, at rest on nothing, none of which touch.
 std::vector<PlumbBodyDesc> balls(PlumbShape shape, int count) {
   std::vector<PlumbBodyDesc> descs;
-  for (int i = 0; i < count; ++i) descs.push_back(dynamic_desc(shape, Vec(2.0 * (i % 40), 2.0 * (i / 40), 0)));
+  for (int i = 0; i < count; ++i) {
+    const int column = i % 40, row = i / 40;
+    descs.push_back(dynamic_desc(shape, Vec(2.0 * column, 2.0 * row, 0)));
+  }
   return descs;
 }
 
@@ -112,7 +115,10 @@ void refused_to_steps(Conformance& c) {
     world->fixed(world->box({10, 0.5, 10}), Vec(0, -0.5, 0));
     std::vector<PlumbBodyDesc> heap;
     const PlumbShape ball = world->sphere(0.5);
-    for (int i = 0; i < 729; ++i) heap.push_back(dynamic_desc(ball, 0.8 * Vec(i % 9, 0.5 + i / 9 % 9, i / 81)));
+    for (int i = 0; i < 729; ++i) {
+      const int column = i % 9, layer = i / 9 % 9, row = i / 81;
+      heap.push_back(dynamic_desc(ball, 0.8 * Vec(column, 0.5 + layer, row)));
+    }
     std::vector<PlumbBody> ids(heap.size());
     check(world->world(), world->world().create_bodies(heap, ids));
   };
@@ -213,7 +219,10 @@ void refused_to_all(Conformance& c) {
   }
   if (in.declares(PLUMB_NEED_QUERIES) && world.queries() != nullptr) {
     std::vector<PlumbRay> rays;
-    for (int i = 0; i < 300; ++i) rays.push_back({{2.0 * (i % 40), 2.0 * (i / 40), 9}, {0, 0, -20}, kSeesAll});
+    for (int i = 0; i < 300; ++i) {
+      const int column = i % 40, row = i / 40;
+      rays.push_back({{2.0 * column, 2.0 * row, 9}, {0, 0, -20}, kSeesAll});
+    }
     refuse_each(
         c, "asking rays",
         [&] { return result_of([&] { return world.queries()->cast_rays(PLUMB_HIT_ALL, rays).result; }); },

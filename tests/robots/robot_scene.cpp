@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <fstream>
 #include <stdexcept>
 
@@ -39,7 +40,8 @@ double RobotScene::weight() const {
 }
 
 double RobotScene::height() const {
-  double low = INFINITY, high = -INFINITY;
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  double low = infinity, high = -infinity;
   for (const Json& body : scene_["bodies"]) {
     if (!moves(body)) continue;
     low = std::min(low, height_of(body));
