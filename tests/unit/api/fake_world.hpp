@@ -10,16 +10,16 @@
 namespace plumb::test {
 
 class FakeWorld : public IPhysicsWorld,
-                        public IJoints,
-                        public IQueries,
-                        public ISettings,
-                        public ISnapshot,
-                        public IExceptions,
-                        public IModify,
-                        public IManifolds,
-                        public IWorlds,
-                        public IClosest,
-                        public backend::ICookedShapes {
+                  public IJoints,
+                  public IQueries,
+                  public ISettings,
+                  public ISnapshot,
+                  public IExceptions,
+                  public IModify,
+                  public IManifolds,
+                  public IWorlds,
+                  public IClosest,
+                  public backend::ICookedShapes {
  public:
   explicit FakeWorld(const WorldInit& init) : iterations_(init.setting("iterations").number) { last = this; }
 
