@@ -46,8 +46,8 @@ typedef struct PlumbCast {
 } PlumbCast;
 
 /* A convex shape that turns on its way, about the place of its pose: at a fraction f of the way it is at
- * pose.position + f * translation, turned from pose.orientation by f * |rotation| rad about rotation. One of translation
- * and rotation may be 0. Since 1.2. */
+ * pose.position + f * translation, turned from pose.orientation by f * |rotation| rad about rotation. One of
+ * translation and rotation may be 0. Since 1.2. */
 typedef struct PlumbTurningCast {
   PlumbShape shape; /* sphere, box, capsule, cylinder or hull */
   PlumbPose pose;

@@ -184,8 +184,8 @@ template <>
 py::dtype build<PlumbTurningCast>() {
   using Row = PlumbTurningCast;
   return make(sizeof(Row), {PLUMB_COLUMN(Row, shape, text("u8")), PLUMB_POSE(Row, pose, ""),
-                            PLUMB_COLUMN(Row, translation, text("(3,)f8")),
-                            PLUMB_COLUMN(Row, rotation, text("(3,)f8")), PLUMB_COLUMN(Row, filter, filter())});
+                            PLUMB_COLUMN(Row, translation, text("(3,)f8")), PLUMB_COLUMN(Row, rotation, text("(3,)f8")),
+                            PLUMB_COLUMN(Row, filter, filter())});
 }
 template <>
 py::dtype build<PlumbOverlap>() {
