@@ -47,11 +47,11 @@ class TurningWalk {
 
   void run() {
     meet_at_start();
-    constexpr int kMostSteps =
-        10'000;  // along a surface that is nearly touched; then it is met where the walk has come
+    // Along what is nearly touched steps are short; after so many, what is no further than a few of them is met.
+    constexpr int kMostSteps = 10'000;
     double fraction = 0;
     for (int step = 0; step < kMostSteps && !is_done(); ++step) {
-      const double nearest = look(fraction, step + 1 == kMostSteps ? kLargest : close_);
+      const double nearest = look(fraction, step + 1 == kMostSteps ? 10 * close_ : close_);
       if (is_done() || !(nearest < kLargest)) return;
       fraction += (nearest - close_ / 2) / speed_;
     }

@@ -190,4 +190,16 @@ TEST(Limits, NumbersThatBulletCannotHoldAreRefused) {
   }
 }
 
+/// A cast that goes on for longer than its steps last, a hair above a floor, tells nothing of who is far away.
+TEST(TurningCasts, AlongAFloorDoNotMeetWhoIsFarAbove) {
+  auto world = scenes::make_world(PLUMB_NEED_COLLISION | PLUMB_NEED_QUERIES);
+  const PlumbShape slab = scenes::add_box(*world, {10, 0.5, 10}), cube = scenes::add_box(*world, {0.5, 0.5, 0.5});
+  scenes::add_body(*world, scenes::frictionless(PLUMB_STATIC, slab, {0, -0.5, 0}));
+  const PlumbBody far = scenes::add_body(*world, scenes::frictionless(PLUMB_STATIC, cube, {0, 4, 0}));
+  const PlumbTurningCast slide = {cube, {{-4, 0.5 + 1.2e-4, 0}, {0, 0, 0, 1}}, {8, 0, 0}, {0, 0.5, 0}, {1, ~0U, 0, 0}};
+  const plumb::Hits found = world->queries()->turning_casts(PLUMB_HIT_ALL, {&slide, 1});
+  plumb::check(*world, found.result);
+  for (const PlumbHit& hit : found.hits) EXPECT_NE(hit.body, far);
+}
+
 }  // namespace
