@@ -10,7 +10,8 @@ namespace {
 using backend::Capability;
 
 constexpr Capability kNoSleep{PLUMB_NONE, "nobody sleeps in this version of DART"};
-constexpr Capability kHollow{PLUMB_APPROXIMATE, "the triangles of its surface, hollow: edges catch, points come and go"};
+constexpr Capability kHollow{PLUMB_APPROXIMATE,
+                             "the triangles of its surface, hollow: edges catch, points come and go"};
 constexpr Capability kNoQuery{PLUMB_NONE, "DART has neither shape casts nor overlaps of a shape that no body has"};
 
 bool is_triangles(std::uint32_t type) {
@@ -67,7 +68,8 @@ Capability need_fact(std::uint32_t index) {
     case PLUMB_NEED_SURFACE_VELOCITY: return {PLUMB_EMULATED, "as the sliding speed that a contact's friction wants"};
     case PLUMB_NEED_DAMPING: return {PLUMB_EMULATED, "a force of the adapter in each sub-step"};
     case PLUMB_NEED_AXIS_LOCKS: return {PLUMB_EMULATED, "rows of the adapter in DART's equations"};
-    case PLUMB_NEED_KINEMATIC: return {PLUMB_EMULATED, "free joints that are told their speed, and put where they should be"};
+    case PLUMB_NEED_KINEMATIC:
+      return {PLUMB_EMULATED, "free joints that are told their speed, and put where they should be"};
     case PLUMB_NEED_EVENTS:
     case PLUMB_NEED_SENSORS: return {PLUMB_EMULATED, "by comparing who touches in one step with who does in the next"};
     case PLUMB_NEED_QUERIES: return kNoQuery;
@@ -91,8 +93,7 @@ Capability fact(PlumbCapability kind, std::uint32_t a, std::uint32_t b) {
     case PLUMB_CAP_JOINT: return joint_fact(a);
     case PLUMB_CAP_JOINT_FEATURE: return joint_feature_fact(a, b);
     case PLUMB_CAP_QUERY: return query_fact(a);
-    case PLUMB_CAP_CLOSEST:
-      return {PLUMB_NONE, "DART's detector of ODE tells no distances"};
+    case PLUMB_CAP_CLOSEST: return {PLUMB_NONE, "DART's detector of ODE tells no distances"};
     case PLUMB_CAP_FIELD_READ:
     case PLUMB_CAP_FIELD_WRITE: return field_fact(kind, a);
     case PLUMB_CAP_NEED: return need_fact(a);

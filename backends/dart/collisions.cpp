@@ -39,6 +39,8 @@ std::vector<Contact*> Collisions::find() {
   std::vector<Contact*> found;
   result_.clear();
   if (!group_) return found;
+  // ODE has memory of its own for each thread that collides, and a detector takes it where it is made.
+  thread_local const auto of_this_thread = ::dart::collision::OdeCollisionDetector::create();
   constexpr std::size_t all = 1'000'000;
   group_->collide(::dart::collision::CollisionOption(true, all, filter_), &result_);
   for (std::size_t i = 0; i < result_.getNumContacts(); ++i) {

@@ -40,9 +40,8 @@ Points few_points(Points points) {
   Points kept;
   while (!points.empty()) {
     const Eigen::Vector3d normal = points.front()->normal;
-    const auto others = std::stable_partition(points.begin(), points.end(), [&](const Contact* point) {
-      return point->normal.dot(normal) > kSameNormal;
-    });
+    const auto others = std::stable_partition(
+        points.begin(), points.end(), [&](const Contact* point) { return point->normal.dot(normal) > kSameNormal; });
     take_corners({points.begin(), others}, kept);
     points.erase(points.begin(), others);
   }

@@ -13,16 +13,19 @@ const backend::SettingsTable<Settings>& settings_table() {
   using namespace backend;
   constexpr auto quality = PLUMB_ROLE_QUALITY, behaviour = PLUMB_ROLE_BEHAVIOUR;
   static const SettingsTable<Settings> all = {
-      setting<&S::substeps>(int_setting("substeps", "1", quality, 1, 1024, 8, "DART's steps of dt / substeps in a step")),
-      setting<&S::solver>(choice_setting("solver", behaviour, solver_words,
-                                         "of contacts, limits, motors and loops: Dantzig's, which is exact and gives way "
-                                         "to the other where it fails, or projected Gauss-Seidel")),
+      setting<&S::substeps>(
+          int_setting("substeps", "1", quality, 1, 1024, 8, "DART's steps of dt / substeps in a step")),
+      setting<&S::solver>(
+          choice_setting("solver", behaviour, solver_words,
+                         "of contacts, limits, motors and loops: Dantzig's, which is exact and gives way "
+                         "to the other where it fails, or projected Gauss-Seidel")),
       setting<&S::iterations>(
           int_setting("iterations", "1", quality, 1, 10000, 30, "at most, of projected Gauss-Seidel")),
       setting<&S::contact_reduction>(float_setting("contact_error_reduction", "1", behaviour, 0, 1, 0.01,
                                                    "share of a contact's overlap that a sub-step takes back")),
-      setting<&S::contact_reduction_speed>(float_setting("contact_error_speed", "m/s", behaviour, 0, 1000, 0.1,
-                                                         "at most, at which overlap is taken back; of DART itself 0.001")),
+      setting<&S::contact_reduction_speed>(
+          float_setting("contact_error_speed", "m/s", behaviour, 0, 1000, 0.1,
+                        "at most, at which overlap is taken back; of DART itself 0.001")),
       setting<&S::contact_allowance>(
           float_setting("contact_error_allowance", "m", behaviour, 0, 1, 0, "overlap that is left")),
       setting<&S::bounce_speed>(

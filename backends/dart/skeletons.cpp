@@ -16,15 +16,21 @@ using namespace ::dart::dynamics;
 
 constexpr std::uint32_t kTurns = 0b111000;
 
+/// DART wants moments above 0 also of what it never turns.
 Inertia inertia_of(const Body& body) {
   if (!body.is(PLUMB_DYNAMIC)) return Inertia(1);
   const PlumbBodyDesc& desc = body.desc;
+  if (!body.turns()) return Inertia(desc.mass, eigen(desc.centre_of_mass));
   const Eigen::Matrix3d axes = eigen(normalized(desc.inertia_orientation));
   return Inertia(desc.mass, eigen(desc.centre_of_mass), axes * eigen(desc.inertia).asDiagonal() * axes.transpose());
 }
 
-/// Between two of a link's joints there is a node that weighs nothing.
-Inertia nothing() { return Inertia(0, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero()); }
+/// Between two of a link's joints there is a node that weighs next to nothing.
+Inertia almost_nothing(const Body& body) {
+  constexpr double share = 1e-12;
+  return Inertia(share * body.desc.mass, Eigen::Vector3d::Zero(),
+                 share * eigen(body.desc.inertia).minCoeff() * Eigen::Matrix3d::Identity());
+}
 
 /// Nodes of one body, each by a joint below the one before.
 class Chain {
@@ -41,7 +47,7 @@ class Chain {
     properties.mName = name + "j";
     properties.mT_ParentBodyToJoint = from_;
     properties.mT_ChildBodyToJoint = last ? to : Eigen::Isometry3d::Identity();
-    const BodyNode::Properties node(BodyNode::AspectProperties(name, last ? inertia_of(body_) : nothing()));
+    const BodyNode::Properties node(BodyNode::AspectProperties(name, last ? inertia_of(body_) : almost_nothing(body_)));
     const auto made = skeleton_->createJointAndBodyNodePair<DartJoint>(node_, properties, node);
     from_ = Eigen::Isometry3d::Identity();
     node_ = body_.node = made.second;
@@ -89,7 +95,8 @@ void set_limits(const Joint& link, std::size_t axis, ::dart::dynamics::Joint& jo
 }
 
 template <class DartJoint>
-::dart::dynamics::Joint* add_axis(Chain& chain, std::size_t axis, bool reversed, bool last, const Eigen::Isometry3d& to) {
+::dart::dynamics::Joint* add_axis(Chain& chain, std::size_t axis, bool reversed, bool last,
+                                  const Eigen::Isometry3d& to) {
   typename DartJoint::Properties properties;
   properties.mAxis = eigen(scale(reversed ? -1 : 1, unit(axis % 3)));
   return chain.add<DartJoint>(properties, last, to);
@@ -145,7 +152,8 @@ void add_geoms(Skeletons& made, Body& body) {
     return add_geom(made, {&body, body.shape, 0, identity_pose(), &body.desc.material});
   std::uint32_t index = 0;
   for (const Shape::Child& child : body.shape->children)
-    add_geom(made, {&body, child.shape, index++, child.pose, child.has_material ? &child.material : &body.desc.material});
+    add_geom(made,
+             {&body, child.shape, index++, child.pose, child.has_material ? &child.material : &body.desc.material});
 }
 
 }  // namespace

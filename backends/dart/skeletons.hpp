@@ -36,8 +36,8 @@ struct Skeletons {
 /// order: as grow_trees gives it. A skeleton for each tree; bodies get their nodes, links their joints.
 [[nodiscard]] Skeletons make_skeletons(std::vector<Body*> order, const PlumbVec3& gravity);
 
-/// Puts what hangs on nothing where the body says, and lets it move so. Free joints stand in the centre of mass, and move
-/// along their own axes.
+/// Puts what hangs on nothing where the body says, and lets it move so. Free joints stand in the centre of mass, and
+/// move along their own axes.
 void place(const Body& body);
 
 /// Motors of a link, at any time.

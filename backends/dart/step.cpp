@@ -14,7 +14,9 @@ PlumbQuat turned(const PlumbQuat& q, const PlumbVec3& by) {
 }
 
 /// DART checks its numbers by assertions, which end the process: what is as large as this is stopped before.
-constexpr double kTooLarge = 1e60;
+constexpr double kTooLarge = 1e60, kShortest = 1e-30;
+/// m, from the origin: ODE counts the cells in which it looks for pairs, and ends the process where it cannot.
+constexpr double kFarthest = 1e12;
 
 }  // namespace
 
@@ -28,13 +30,17 @@ PlumbResult World::set_gravity(const PlumbVec3& gravity) {
 }
 
 PlumbResult World::step(double dt) {
+  const double h = dt / settings_.substeps;
+  if (h < kShortest)
+    throw Error(PLUMB_E_INVALID_ARGUMENT,
+                "a sub-step of " + std::to_string(dt) + " s / " + std::to_string(settings_.substeps) +
+                    " is shorter than 1e-30 s, which DART cannot divide by; take a larger dt or fewer substeps");
   prepare();
   events_.clear();
   events_.swap(pending_events_);
   meeting_.impulses.clear();
   for (const auto& joint : joints_)
     if (joint) joint->force = joint->torque = {};
-  const double h = dt / settings_.substeps;
   for (const auto& skeleton : skeletons_.all) skeleton->setTimeStep(h);
   steer_kinematics(dt);
   for (sub_step_ = 0; sub_step_ < settings_.substeps; ++sub_step_) sub_step(h);
@@ -116,14 +122,18 @@ void World::settle_kinematics() {
 // --- forces ----------------------------------------------------------------------------------------------------------
 
 void World::require_finite() const {
+  const auto lose = [](const Body& body, const std::string& what) {
+    throw Error(PLUMB_E_WORLD_LOST, "body " + std::to_string(slot_of(body.handle)) + " " + what +
+                                        ", which DART does not survive; destroy the world and take a smaller dt, more "
+                                        "substeps or smaller forces");
+  };
   for (const Body* body : skeletons_.bodies) {
+    const double away = body->node->getWorldTransform().translation().cwiseAbs().maxCoeff();
+    if (!(away < kFarthest)) lose(*body, "is " + std::to_string(away) + " m away");
     if (body->is(PLUMB_STATIC)) continue;
-    const double fastest = body->node->getSpatialVelocity().cwiseAbs().maxCoeff();
-    const double farthest = body->node->getWorldTransform().matrix().cwiseAbs().maxCoeff();
-    if (fastest < kTooLarge && farthest < kTooLarge && length(body->force) + length(body->torque) < kTooLarge) continue;
-    throw Error(PLUMB_E_WORLD_LOST, "body " + std::to_string(slot_of(body->handle)) +
-                                        " moves, is away or is pushed by more than 1e60, which DART does not survive; "
-                                        "destroy the world and take a smaller dt, more substeps or smaller forces");
+    if (!(body->node->getSpatialVelocity().cwiseAbs().maxCoeff() < kTooLarge))
+      lose(*body, "is faster than 1e60 m/s or rad/s");
+    if (!(length(body->force) + length(body->torque) < kTooLarge)) lose(*body, "is pushed by more than 1e60 N or N m");
   }
 }
 
@@ -173,7 +183,8 @@ void World::gather_reactions(double h) {
     const Eigen::Isometry3d& pose = body->node->getWorldTransform();
     const Eigen::Vector6d& wrench = body->node->getBodyForce();  // that its joint gives it
     const double sign = body->reversed ? -1 : 1;
-    const Eigen::Vector3d force = sign * (pose.linear() * wrench.tail<3>()), torque = sign * (pose.linear() * wrench.head<3>());
+    const Eigen::Vector3d force = sign * (pose.linear() * wrench.tail<3>()),
+                          torque = sign * (pose.linear() * wrench.head<3>());
     const Eigen::Vector3d arm = pose.translation() - origin(*body->link);
     take(*body->link, force, torque + arm.cross(force));
   }

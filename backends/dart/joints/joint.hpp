@@ -15,7 +15,7 @@ struct Joint {
   Body* b = nullptr;
   bool is_link = false;
   std::array<::dart::dynamics::Joint*, 6> axis_joint{};  ///< of a link: DART's joint of each free axis; null: none
-  PlumbVec3 force{}, torque{};                           ///< on b at frame b's origin, world axes, mean over the last step
+  PlumbVec3 force{}, torque{};  ///< on b at frame b's origin, world axes, mean over the last step
 
   [[nodiscard]] PlumbPose frame_a() const { return a == nullptr ? desc.frame_a : compose(a->pose, desc.frame_a); }
   [[nodiscard]] PlumbPose frame_b() const { return compose(b->pose, desc.frame_b); }

@@ -10,7 +10,8 @@ constexpr std::uint32_t kTurnX = 0b001000, kTurnY = 0b010000, kTurnZ = 0b100000,
 /// The share of an error that is taken back, as a speed.
 class Back {
  public:
-  Back(const Settings& settings, double h) : rate_(settings.joint_reduction / h), most_(settings.joint_reduction_speed) {}
+  Back(const Settings& settings, double h)
+      : rate_(settings.joint_reduction / h), most_(settings.joint_reduction_speed) {}
   [[nodiscard]] double operator()(double error) const { return std::clamp(-rate_ * error, -most_, most_); }
 
  private:
@@ -51,7 +52,8 @@ void lock_but_one(const PlumbPose& a, const PlumbPose& b, std::size_t axis, cons
 /// Two free turns of R = Rx Ry Rz: an axis of a stays square to one of b. Which, by the turn that is locked.
 void lock_one(const PlumbPose& a, const PlumbPose& b, std::uint32_t locked, const Back& back, std::vector<Row>& rows) {
   const bool y_of_a = locked == kTurnX, y_of_b = locked == kTurnZ;
-  const PlumbVec3 of_a = rotate(a.orientation, unit(y_of_a ? 1 : 0)), of_b = rotate(b.orientation, unit(y_of_b ? 1 : 2));
+  const PlumbVec3 of_a = rotate(a.orientation, unit(y_of_a ? 1 : 0)),
+                  of_b = rotate(b.orientation, unit(y_of_b ? 1 : 2));
   const PlumbVec3 about = cross(of_b, of_a);  // d(of_a . of_b)/dt = about . (spin of b - spin of a)
   rows.push_back(turn_row(about, back(dot(of_a, of_b))));
 }
@@ -82,7 +84,8 @@ void add_spring(const Joint& joint, double stretch, double h, Row& row) {
 }
 
 /// Both ends of the limit as rows that push one way, each from a step before it is reached.
-void add_limits(const PlumbLimit& limit, double now, double h, const Back& back, const Row& along, std::vector<Row>& rows) {
+void add_limits(const PlumbLimit& limit, double now, double h, const Back& back, const Row& along,
+                std::vector<Row>& rows) {
   const auto speed = [&](double beyond) { return beyond > 0 ? back(beyond) : -beyond / h; };
   Row longer = along, shorter = along;
   longer.speed = -speed(limit.lower - now);

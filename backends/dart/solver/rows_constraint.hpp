@@ -17,7 +17,8 @@ struct Row {
   Eigen::Vector3d torque_b = Eigen::Vector3d::Zero();                               ///< world axes
   double speed = 0;                                                                 ///< m/s or rad/s, of b seen from a
   double softness = 0;  ///< 1/kg or 1/(kg m2): by how much more than a hard one it yields to an impulse
-  double least = -std::numeric_limits<double>::infinity(), most = std::numeric_limits<double>::infinity();  ///< N s, N m s
+  double least = -std::numeric_limits<double>::infinity(),
+         most = std::numeric_limits<double>::infinity();  ///< N s, N m s
 };
 
 class RowsConstraint final : public ::dart::constraint::ConstraintBase {

@@ -63,8 +63,9 @@ StepSolver::Problem StepSolver::make_problem(ConstrainedGroup& group) const {
   p.stride = padded(p.size);
   const auto n = static_cast<std::size_t>(p.size), stride = static_cast<std::size_t>(p.stride);
   if (p.size > kMostRows)
-    throw Error(PLUMB_E_WORLD_LOST, "DART has " + std::to_string(p.size) + " rows to solve at once, of which it can have " +
-                                        std::to_string(kMostRows) + "; destroy the world and make it smaller");
+    throw Error(PLUMB_E_WORLD_LOST, "DART has " + std::to_string(p.size) +
+                                        " rows to solve at once, of which it can have " + std::to_string(kMostRows) +
+                                        "; destroy the world and make it smaller");
   p.a.assign(n * stride, 0.0);
   for (auto* row : {&p.x, &p.b, &p.w, &p.lower, &p.upper}) row->assign(n, 0.0);
   p.of_normal.assign(n, -1);
@@ -87,7 +88,8 @@ StepSolver::Problem StepSolver::make_problem(ConstrainedGroup& group) const {
       constraint->applyUnitImpulse(j);
       double* column = &p.a[stride * (at + j)];
       constraint->getVelocityChange(column + at, true);
-      for (std::size_t k = i + 1; k < first.size(); ++k) group.getConstraint(k)->getVelocityChange(column + first[k], false);
+      for (std::size_t k = i + 1; k < first.size(); ++k)
+        group.getConstraint(k)->getVelocityChange(column + first[k], false);
       for (std::size_t k = 0; k < at; ++k) column[k] = p.a[stride * k + at + j];
     }
     constraint->unexcite();
@@ -98,8 +100,9 @@ StepSolver::Problem StepSolver::make_problem(ConstrainedGroup& group) const {
 /// Dantzig's method changes what it is given, so the other gets a copy of its own.
 void StepSolver::solve_problem(Problem& p) {
   if (!all_finite(p.a) || !all_finite(p.b))
-    throw Error(PLUMB_E_WORLD_LOST, "the equations of DART's constraints are not finite: bodies are too fast, too far "
-                                    "away or too light; destroy the world and take a smaller dt or more substeps");
+    throw Error(PLUMB_E_WORLD_LOST,
+                "the equations of DART's constraints are not finite: bodies are too fast, too far "
+                "away or too light; destroy the world and take a smaller dt or more substeps");
   const auto run = [](auto& solver, Problem& of, bool may_give_up) {
     return solver.solve(of.size, of.a.data(), of.x.data(), of.b.data(), 0, of.lower.data(), of.upper.data(),
                         of.of_normal.data(), may_give_up);
@@ -114,8 +117,9 @@ void StepSolver::solve_problem(Problem& p) {
   }
   run(gauss_seidel_, p, false);
   if (!all_finite(p.x))
-    throw Error(PLUMB_E_WORLD_LOST, "DART's solver found impulses that are not finite; destroy the world and take a "
-                                    "smaller dt or more substeps");
+    throw Error(PLUMB_E_WORLD_LOST,
+                "DART's solver found impulses that are not finite; destroy the world and take a "
+                "smaller dt or more substeps");
 }
 
 void StepSolver::solveConstrainedGroup(ConstrainedGroup& group) {

@@ -1,0 +1,100 @@
+// Contacts: DART's own constraint with the pair's material, and settings that reach it.
+#include <gtest/gtest.h>
+
+#include "plumb_scene.hpp"
+
+namespace {
+
+using namespace scenes;
+
+/// A cube at 3 m/s along x on a plain floor of another friction.
+double way_until_it_rests(double of_floor, double of_cube) {
+  const auto world = make_world(kNeeds);
+  PlumbBodyDesc floor = plumb::body_desc(PLUMB_STATIC);
+  floor.shape = add_box(*world, {50, 0.5, 50});
+  floor.pose.position = {0, -0.5, 0};
+  floor.material.friction = of_floor;
+  add_body(*world, floor);
+  PlumbBodyDesc cube = plumb::body_desc();
+  cube.shape = add_box(*world, {0.5, 0.5, 0.5});
+  cube.pose.position = {0, 0.5, 0};
+  cube.linear_velocity = {3, 0, 0};
+  cube.material.friction = of_cube;
+  const PlumbBody body = add_body(*world, cube);
+  for (int i = 0; i < 240; ++i) advance(*world);
+  return read_row<7>(*world, PLUMB_FIELD_POSE, body)[0];
+}
+
+/// v2 / (2 mu g) with the geometric mean; by the lesser of both, as DART has it, the way were twice as long.
+TEST(Dart, FrictionIsThatOfThePair) {
+  EXPECT_NEAR(way_until_it_rests(0.2, 0.8), 9 / (2 * 0.4 * 9.81), 0.02);
+  EXPECT_NEAR(way_until_it_rests(0.8, 0.2), 9 / (2 * 0.4 * 9.81), 0.02);
+}
+
+std::unique_ptr<plumb::IPhysicsWorld> cube_on_floor(double overlap, std::vector<PlumbSetting> settings, PlumbBody& cube) {
+  auto world = make_world(kNeeds | PLUMB_NEED_CONTACTS | PLUMB_NEED_CONTACT_IMPULSES, std::move(settings));
+  add_body(*world, frictionless(PLUMB_STATIC, add_box(*world, {50, 0.5, 50}), {0, -0.5, 0}));
+  cube = add_body(*world, frictionless(PLUMB_DYNAMIC, add_box(*world, {0.5, 0.5, 0.5}), {0, 0.5 - overlap, 0}));
+  return world;
+}
+
+/// ODE tells up to eight points of two boxes.
+TEST(Dart, ACubeStandsOnItsFourCorners) {
+  PlumbBody cube = 0;
+  const auto world = cube_on_floor(0.001, {}, cube);
+  EXPECT_EQ(advance(*world).contacts, 4u);
+  double all = 0;
+  for (const PlumbContact& contact : world->contacts()) {
+    EXPECT_NEAR(std::abs(contact.position.x), 0.5, 1e-6);
+    EXPECT_NEAR(std::abs(contact.position.z), 0.5, 1e-6);
+    all += contact.normal_impulse;
+  }
+  EXPECT_GT(all, 1000 * 9.81 / 60 * 0.99) << "a ton for a sixtieth of a second, and what lifts it out";
+}
+
+double height_after_a_second(std::vector<PlumbSetting> settings) {
+  PlumbBody cube = 0;
+  const auto world = cube_on_floor(0.1, std::move(settings), cube);
+  for (int i = 0; i < 60; ++i) advance(*world);
+  return read_row<7>(*world, PLUMB_FIELD_POSE, cube)[1];
+}
+
+TEST(Dart, SettingsReachTheContacts) {
+  EXPECT_NEAR(height_after_a_second({number_setting("contact_error_speed", 0.001)}), 0.401, 1e-4)
+      << "at a millimetre a second, as DART itself has it";
+  EXPECT_NEAR(height_after_a_second({number_setting("contact_error_speed", 0.05)}), 0.45, 1e-3);
+  EXPECT_NEAR(height_after_a_second({number_setting("contact_error_allowance", 0.1)}), 0.4, 1e-4);
+  EXPECT_NEAR(height_after_a_second({number_setting("contact_error_reduction", 0)}), 0.4, 1e-4);
+}
+
+double rebound(std::vector<PlumbSetting> settings) {
+  const auto world = make_world(kNeeds | PLUMB_NEED_RESTITUTION, std::move(settings));
+  add_body(*world, frictionless(PLUMB_STATIC, add_box(*world, {50, 0.5, 50}), {0, -0.5, 0}));
+  PlumbBodyDesc ball = frictionless(PLUMB_DYNAMIC, add_sphere(*world, 0.5), {0, 0.55, 0});
+  ball.material.restitution = 0.5;
+  const PlumbBody body = add_body(*world, ball);
+  double fastest = 0;
+  for (int i = 0; i < 30; ++i) {
+    advance(*world);
+    fastest = std::max(fastest, read_row<6>(*world, PLUMB_FIELD_VELOCITY, body)[1]);
+  }
+  return fastest;
+}
+
+TEST(Dart, SlowReboundsAreNone) {
+  EXPECT_GT(rebound({}), 0.3) << "it falls at .99 m/s and has lost up to .16 when it is looked at";
+  EXPECT_LT(rebound({number_setting("bounce_speed", 1)}), 0.15);
+}
+
+/// Of a method that stops after one round a tower knows.
+TEST(Dart, TheSolverIsTheOneThatWasChosen) {
+  const auto top = [](std::vector<PlumbSetting> settings) {
+    PlumbScene scene(tower(5), kNeeds, std::move(settings));
+    for (int i = 0; i < 60; ++i) advance(*scene.world);
+    return read_row<7>(*scene.world, PLUMB_FIELD_POSE, scene.bodies.back())[1];
+  };
+  EXPECT_NEAR(top({}), 4.5, 0.001);
+  EXPECT_LT(top({word_setting("solver", "pgs"), number_setting("iterations", 1, PLUMB_SETTING_INT)}), 4.45);
+}
+
+}  // namespace
