@@ -30,7 +30,7 @@ const backend::SettingsTable<Settings>& settings_table() {
           float_setting("contact_error_allowance", "m", behaviour, 0, 1, 0, "overlap that is left")),
       setting<&S::bounce_speed>(
           float_setting("bounce_speed", "m/s", behaviour, 0, 1000, 0.1, "rebounds that are slower are none")),
-      setting<&S::joint_reduction>(float_setting("joint_error_reduction", "1", behaviour, 0, 1, 0.01,
+      setting<&S::joint_reduction>(float_setting("joint_error_reduction", "1", behaviour, 0, 1, 0.2,
                                                  "share of the gap of rods and of joints that close a loop that a "
                                                  "sub-step takes back")),
       setting<&S::joint_reduction_speed>(float_setting("joint_error_speed", "m/s", behaviour, 0, 1000, 10,

@@ -1,5 +1,5 @@
-// DART's knobs. Defaults are DART's own but for two: its time step of 1 ms would be 16 sub-steps at 60 Hz, and its
-// speed of 1 mm/s would leave bodies in each other that begin so.
+// DART's knobs. Defaults are DART's own but for those of our own rows, and for two: its time step of 1 ms would be 16
+// sub-steps at 60 Hz, and its speed of 1 mm/s would leave bodies in each other that begin so.
 #pragma once
 
 #include "plumb/backend/settings_table.hpp"

@@ -61,16 +61,24 @@ void RowsConstraint::applyUnitImpulse(std::size_t index) {
   applied_ = index;
 }
 
-/// Beside its own softness each row has the share of DART's joints, which keeps the matrix from being singular.
 void RowsConstraint::getVelocityChange(double* change, bool with_softness) {
-  constexpr double share = 1e-9;
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     change[i] = 0;
     for (const End& end : ends_)
       if (end.reactive && end.node->getSkeleton()->isImpulseApplied())
         change[i] += end.wrenches[i].dot(end.node->getBodyVelocityChange());
   }
-  if (with_softness) change[applied_] += share * change[applied_] + rows_[applied_].softness;
+  if (with_softness) change[applied_] += softness(applied_);
+}
+
+double RowsConstraint::softness(std::size_t row) const {
+  constexpr double share = 1e-8;
+  double sum = rows_[row].softness;
+  for (const End& end : ends_) {
+    const Eigen::Vector6d& wrench = end.wrenches[row];
+    if (end.reactive) sum += share * wrench.dot(end.node->getSpatialInertia().ldlt().solve(wrench));
+  }
+  return sum;
 }
 
 void RowsConstraint::set_excited(bool excited) {

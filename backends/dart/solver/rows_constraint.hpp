@@ -42,6 +42,10 @@ class RowsConstraint final : public ::dart::constraint::ConstraintBase {
   void uniteSkeletons() override;
 
  private:
+  /// How much more than a hard row each yields: its own softness, and a little of what free bodies would yield, without
+  /// which rows that hold what is held already could not be solved for.
+  [[nodiscard]] double softness(std::size_t row) const;
+
   /// A body that impulses move, and what a unit of each row is to it, in its frame: moment, then force.
   struct End {
     ::dart::dynamics::BodyNode* node;

@@ -31,7 +31,8 @@ TEST(Dart, FrictionIsThatOfThePair) {
   EXPECT_NEAR(way_until_it_rests(0.8, 0.2), 9 / (2 * 0.4 * 9.81), 0.02);
 }
 
-std::unique_ptr<plumb::IPhysicsWorld> cube_on_floor(double overlap, std::vector<PlumbSetting> settings, PlumbBody& cube) {
+std::unique_ptr<plumb::IPhysicsWorld> cube_on_floor(double overlap, std::vector<PlumbSetting> settings,
+                                                    PlumbBody& cube) {
   auto world = make_world(kNeeds | PLUMB_NEED_CONTACTS | PLUMB_NEED_CONTACT_IMPULSES, std::move(settings));
   add_body(*world, frictionless(PLUMB_STATIC, add_box(*world, {50, 0.5, 50}), {0, -0.5, 0}));
   cube = add_body(*world, frictionless(PLUMB_DYNAMIC, add_box(*world, {0.5, 0.5, 0.5}), {0, 0.5 - overlap, 0}));

@@ -11,8 +11,8 @@ PlumbNeeds with(PlumbNeeds more) { return kNeeds | more; }
 
 std::array<double, 6> coordinates(plumb::IPhysicsWorld& world, PlumbJoint joint) {
   std::array<double, 6> at{};
-  plumb::check(world, world.joints()->read_joints(PLUMB_JOINT_COORDINATES, {&joint, 1},
-                                                  plumb::rows_over(std::span(&at, 1))));
+  plumb::check(world,
+               world.joints()->read_joints(PLUMB_JOINT_COORDINATES, {&joint, 1}, plumb::rows_over(std::span(&at, 1))));
   return at;
 }
 
@@ -53,10 +53,12 @@ TEST(Dart, ADoublePendulumObeysItsLagrangian) {
   EXPECT_NEAR(read_row<6>(*world, PLUMB_FIELD_VELOCITY, bodies[0])[1], -9.81 * dt, 1e-9);
   EXPECT_NEAR(read_row<6>(*world, PLUMB_FIELD_VELOCITY, bodies[1])[1], -9.81 * dt, 1e-9);
   for (int i = 1; i < 10000; ++i) advance(*world, dt);
-  const auto one = read_row<7>(*world, PLUMB_FIELD_POSE, bodies[0]), two = read_row<7>(*world, PLUMB_FIELD_POSE, bodies[1]);
+  const auto one = read_row<7>(*world, PLUMB_FIELD_POSE, bodies[0]),
+             two = read_row<7>(*world, PLUMB_FIELD_POSE, bodies[1]);
   EXPECT_NEAR(std::hypot(one[0], one[1]), 1, 1e-9) << "the length of the inner rod";
   EXPECT_NEAR(std::hypot(two[0] - one[0], two[1] - one[1]), 1, 1e-9) << "the length of the outer rod";
-  const auto v1 = read_row<6>(*world, PLUMB_FIELD_VELOCITY, bodies[0]), v2 = read_row<6>(*world, PLUMB_FIELD_VELOCITY, bodies[1]);
+  const auto v1 = read_row<6>(*world, PLUMB_FIELD_VELOCITY, bodies[0]),
+             v2 = read_row<6>(*world, PLUMB_FIELD_VELOCITY, bodies[1]);
   const double kinetic = (v1[0] * v1[0] + v1[1] * v1[1]) + 1.5 * (v2[0] * v2[0] + v2[1] * v2[1]);
   EXPECT_NEAR(kinetic + 9.81 * (2 * one[1] + 3 * two[1]), 0, 0.05) << "energy, J, of some 100 that went to and fro";
 }

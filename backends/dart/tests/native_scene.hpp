@@ -42,14 +42,13 @@ class NativeScene {
       if (joint.b == static_cast<int>(item)) return &joint;
     return nullptr;
   }
-  static Eigen::Isometry3d at(const PlumbVec3& v) {
-    return Eigen::Isometry3d(Eigen::Translation3d(v.x, v.y, v.z));
-  }
+  static Eigen::Isometry3d at(const PlumbVec3& v) { return Eigen::Isometry3d(Eigen::Translation3d(v.x, v.y, v.z)); }
 
   void add(const dart::dynamics::SkeletonPtr& skeleton, const Item& item, const Joint* joint) {
     using namespace dart::dynamics;
     const PlumbVec3 moments = inertia(item);
-    const Inertia mass(item.mass, Eigen::Vector3d::Zero(), Eigen::Vector3d(moments.x, moments.y, moments.z).asDiagonal());
+    const Inertia mass(item.mass, Eigen::Vector3d::Zero(),
+                       Eigen::Vector3d(moments.x, moments.y, moments.z).asDiagonal());
     const BodyNode::Properties body(BodyNode::AspectProperties("b" + std::to_string(nodes_.size()), mass));
     BodyNode* parent = joint != nullptr && joint->a >= 0 ? nodes_[static_cast<std::size_t>(joint->a)] : nullptr;
     const auto place = [&](auto properties) {
