@@ -84,7 +84,6 @@ void set_spring(const Joint& link, std::size_t axis, ::dart::dynamics::Joint& jo
   const auto [stiffness, damping] = stiffness_of(link, axis);
   joint.setSpringStiffness(0, stiffness);
   joint.setDampingCoefficient(0, damping);
-  joint.setRestPosition(0, spring.rest);
 }
 
 void set_limits(const Joint& link, std::size_t axis, ::dart::dynamics::Joint& joint) {
@@ -135,6 +134,7 @@ void add_link(const SkeletonPtr& skeleton, Body& body) {
   Chain chain(skeleton, body, eigen(from));
   add_axes(chain, body, eigen(to));
   apply_motors(link);
+  apply_targets(link);
 }
 
 // --- shapes ----------------------------------------------------------------------------------------------------------
@@ -189,6 +189,12 @@ void apply_motors(const Joint& link) {
     joint->setForceLowerLimit(0, most > 0 ? -most : -std::numeric_limits<double>::infinity());
     joint->setCommand(0, most > 0 ? motor.target_velocity : 0);
   }
+}
+
+void apply_targets(const Joint& link) {
+  for (std::size_t axis = 0; axis < 6; ++axis)
+    if (link.axis_joint[axis] != nullptr && link.desc.springs[axis].enabled != 0)
+      link.axis_joint[axis]->setRestPosition(0, link.desc.springs[axis].rest);
 }
 
 }  // namespace plumb::dart6

@@ -42,5 +42,7 @@ void place(const Body& body);
 
 /// Motors of a link, at any time.
 void apply_motors(const Joint& link);
+/// Where its springs rest, likewise.
+void apply_targets(const Joint& link);
 
 }  // namespace plumb::dart6

@@ -93,6 +93,9 @@ class World final : public IPhysicsWorld, public IJoints, public ISettings, publ
   [[nodiscard]] Joint& joint(PlumbJoint handle) { return *joints_[slot_of(handle)]; }
   [[nodiscard]] const Shape& shape(PlumbShape handle) const { return *shapes_[slot_of(handle)]; }
 
+  // joints/world_joints.cpp
+  PlumbResult write_motors(std::span<const PlumbJoint> ids, ConstRows rows);
+
   // state.cpp
   void prepare();  ///< the skeletons are those of the world, and what was written is in their coordinates
   void make_stale();

@@ -58,7 +58,7 @@ PlumbResult World::read_joints(PlumbJointField field, std::span<const PlumbJoint
 }
 
 /// What a joint is asked to do decides what it can be: a ball that gets its first motor becomes three hinges.
-PlumbResult World::write_joints(PlumbJointField, std::span<const PlumbJoint> ids, ConstRows rows) {
+PlumbResult World::write_motors(std::span<const PlumbJoint> ids, ConstRows rows) {
   std::vector<PlumbJointDesc> before;
   double row[12];
   bool becomes_another = stale_;
@@ -83,6 +83,18 @@ PlumbResult World::write_joints(PlumbJointField, std::span<const PlumbJoint> ids
   }
   for (const PlumbJoint id : ids)
     if (!stale_ && joint(id).is_link) apply_motors(joint(id));
+  return PLUMB_OK;
+}
+
+PlumbResult World::write_joints(PlumbJointField field, std::span<const PlumbJoint> ids, ConstRows rows) {
+  if (field == PLUMB_JOINT_MOTOR) return write_motors(ids, rows);
+  double row[6];
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    Joint& written = joint(ids[i]);
+    rows.get(i, row, 6);
+    backend::apply_rest_row(row, written.desc);
+    if (!stale_ && written.is_link) apply_targets(written);
+  }
   return PLUMB_OK;
 }
 

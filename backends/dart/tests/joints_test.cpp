@@ -94,6 +94,34 @@ TEST(Dart, LoopsAreClosedByJointsOfWhichNothingElseIsAsked) {
   EXPECT_NEAR(pose[1], 0, 1e-4);
 }
 
+/// Springs are PD controllers whose targets are written while the skeleton lives, of rods too.
+TEST(Dart, SpringsGoWhereTheyAreTold) {
+  const auto world = make_world(with(0));
+  PlumbJointDesc desc = plumb::joint_desc(PLUMB_JOINT_HINGE);
+  desc.body_b = add_body(*world, frictionless(PLUMB_DYNAMIC, add_sphere(*world, 0.1), {0, 0, 0}));
+  desc.springs[3] = {0.2, 4, 1, 1, PLUMB_SPRING_FREQUENCY};
+  PlumbJoint hinge = 0, rod = 0;
+  plumb::check(*world, world->joints()->create_joints({&desc, 1}, {&hinge, 1}));
+  desc.type = PLUMB_JOINT_DISTANCE;
+  desc.body_b = add_body(*world, frictionless(PLUMB_DYNAMIC, add_sphere(*world, 0.1), {5, -1, 0}));
+  desc.frame_a.position = {5, 0, 0};
+  desc.springs[0] = {0, 4, 1, 1, PLUMB_SPRING_FREQUENCY};
+  desc.rest_length = 1;
+  plumb::check(*world, world->joints()->create_joints({&desc, 1}, {&rod, 1}));
+  const double sag = 9.81 / std::pow(2 * std::numbers::pi * 4, 2);
+  for (const double target : {0.2, 0.7}) {
+    const std::array<double, 6> turn{0, 0, 0, target, 0, 0}, length{1 + target, 0, 0, 0, 0, 0};
+    const auto told = [](const std::array<double, 6>& row) {
+      return plumb::const_rows_over(std::span<const std::array<double, 6>>(&row, 1));
+    };
+    plumb::check(*world, world->joints()->write_joints(PLUMB_JOINT_SPRING_REST, {&hinge, 1}, told(turn)));
+    plumb::check(*world, world->joints()->write_joints(PLUMB_JOINT_SPRING_REST, {&rod, 1}, told(length)));
+    for (int i = 0; i < 120; ++i) advance(*world);
+    EXPECT_NEAR(coordinates(*world, hinge)[3], target, 1e-4);
+    EXPECT_NEAR(coordinates(*world, rod)[0], 1 + target + sag, 1e-4);
+  }
+}
+
 /// Bodies that come make all skeletons anew; those that were there go on as if nothing had been.
 TEST(Dart, BodiesGoOnWhereOthersCome) {
   PlumbScene left(chain(4)), joined(chain(4));
