@@ -5,7 +5,6 @@
 
 namespace plumb::dart6 {
 PlumbResult World::create_joints(std::span<const PlumbJointDesc> descs, std::span<PlumbJoint> ids) {
-  for (const PlumbJointDesc& desc : descs) check_joint(desc);
   try {
     for (std::size_t i = 0; i < descs.size(); ++i) {
       auto joint = std::make_unique<Joint>();

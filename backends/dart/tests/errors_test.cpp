@@ -18,29 +18,47 @@ PlumbResult result_of_step(plumb::IPhysicsWorld& world) {
 TEST(DartErrors, ForcesBeyondAllMeasureLoseTheWorld) {
   const auto world = make_world(kNeeds | PLUMB_NEED_FORCES);
   const PlumbBody body = add_body(*world, frictionless(PLUMB_DYNAMIC, add_sphere(*world, 0.5), {0, 0, 0}));
-  write_row<3>(*world, PLUMB_FIELD_FORCE, body, {1e200, 0, 0});
+  write_row<3>(*world, PLUMB_FIELD_FORCE, body, {1e308, 1e308, 0});
   EXPECT_EQ(result_of_step(*world), PLUMB_E_WORLD_LOST);
-  EXPECT_NE(world->error_text().find("smaller forces"), std::string::npos) << world->error_text();
+  EXPECT_NE(world->error_text().find("is pushed by more"), std::string::npos) << world->error_text();
 }
 
 TEST(DartErrors, SpeedsBeyondAllMeasureLoseTheWorld) {
   const auto world = make_world(kNeeds);
   PlumbBodyDesc desc = frictionless(PLUMB_DYNAMIC, add_sphere(*world, 0.5), {0, 0, 0});
-  desc.linear_velocity = {1e150, 0, 0};
-  desc.angular_velocity = {0, 1e150, 0};
+  desc.linear_velocity = {1e200, 0, 0};
+  desc.angular_velocity = {0, 1e200, 0};
   add_body(*world, desc);
   EXPECT_EQ(result_of_step(*world), PLUMB_E_WORLD_LOST);
+  EXPECT_NE(world->error_text().find("is faster"), std::string::npos) << world->error_text();
 }
 
-TEST(DartErrors, ARodHasNoMotor) {
+/// ODE counts cells of a quarter of a metre.
+TEST(DartErrors, BodiesBeyondAllMeasureLoseTheWorld) {
+  const auto world = make_world(kNeeds);
+  add_body(*world, frictionless(PLUMB_DYNAMIC, add_sphere(*world, 0.5), {1e17, 0, 0}));
+  EXPECT_EQ(result_of_step(*world), PLUMB_E_WORLD_LOST);
+  EXPECT_NE(world->error_text().find("m away"), std::string::npos) << world->error_text();
+}
+
+TEST(DartErrors, ASubStepThatIsNothingIsRefused) {
+  const auto world = make_world(kNeeds);
+  EXPECT_EQ(world->step(5e-324), PLUMB_E_INVALID_ARGUMENT);
+  EXPECT_NE(world->error_text().find("fewer substeps"), std::string::npos) << world->error_text();
+  EXPECT_EQ(result_of_step(*world), PLUMB_OK) << "it has changed nothing";
+}
+
+TEST(DartErrors, ARodGetsNoMotor) {
   const auto world = make_world(kNeeds);
   PlumbJointDesc desc = plumb::joint_desc(PLUMB_JOINT_DISTANCE);
   desc.body_b = add_body(*world, frictionless(PLUMB_DYNAMIC, add_sphere(*world, 0.5), {1, 0, 0}));
   desc.rest_length = 1;
-  desc.motors[0] = {1, 1, 1, 0};
-  PlumbJoint id = 0;
-  EXPECT_EQ(world->joints()->create_joints({&desc, 1}, {&id, 1}), PLUMB_E_UNSUPPORTED);
-  EXPECT_NE(world->error_text().find("motor"), std::string::npos) << world->error_text();
+  PlumbJoint rod = 0;
+  plumb::check(*world, world->joints()->create_joints({&desc, 1}, {&rod, 1}));
+  const std::array<double, 12> motor{1, 1};
+  const auto rows = plumb::const_rows_over(std::span<const std::array<double, 12>>(&motor, 1));
+  EXPECT_EQ(world->joints()->write_joints(PLUMB_JOINT_MOTOR, {&rod, 1}, rows), PLUMB_E_UNSUPPORTED);
+  EXPECT_NE(world->error_text().find("take a slider"), std::string::npos) << world->error_text();
 }
 
 }  // namespace

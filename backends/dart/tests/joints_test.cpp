@@ -79,6 +79,7 @@ PlumbResult join(plumb::IPhysicsWorld& world, PlumbJointType type, PlumbBody a, 
 TEST(Dart, LoopsAreClosedByJointsOfWhichNothingElseIsAsked) {
   const auto world = make_world(with(PLUMB_NEED_JOINTS));
   PlumbBodyDesc beam = frictionless(PLUMB_DYNAMIC, add_box(*world, {0.5, 0.1, 0.1}), {0.5, 0, 0});
+  beam.linear_velocity = {1, 0, 0};
   const PlumbBody one = add_body(*world, beam);
   beam.pose.position.x = 1.5;
   const PlumbBody two = add_body(*world, beam);
@@ -92,6 +93,22 @@ TEST(Dart, LoopsAreClosedByJointsOfWhichNothingElseIsAsked) {
   const auto pose = read_row<7>(*world, PLUMB_FIELD_POSE, two);
   EXPECT_NEAR(pose[0], 1.5, 1e-4) << "the ball at the far wall keeps the bridge from sliding";
   EXPECT_NEAR(pose[1], 0, 1e-4);
+}
+
+/// A universal joint is two of DART's with a node between them, which weighs next to nothing: about its first axis
+/// alone it swings as a hinge does.
+TEST(Dart, NodesBetweenJointsWeighNothing) {
+  const auto swing = [](PlumbJointType type) {
+    const auto world = make_world(with(0));
+    PlumbJointDesc desc = plumb::joint_desc(type);
+    desc.body_b = add_body(*world, frictionless(PLUMB_DYNAMIC, add_box(*world, {0.1, 0.2, 0.3}), {0, 0, 1}));
+    desc.frame_b.position = {0, 0, -1};
+    PlumbJoint id = 0;
+    plumb::check(*world, world->joints()->create_joints({&desc, 1}, {&id, 1}));
+    for (int i = 0; i < 60; ++i) advance(*world);
+    return coordinates(*world, id)[3];
+  };
+  EXPECT_NEAR(swing(PLUMB_JOINT_UNIVERSAL), swing(PLUMB_JOINT_HINGE), 1e-9);
 }
 
 /// Springs are PD controllers whose targets are written while the skeleton lives, of rods too.
