@@ -5,6 +5,7 @@ namespace plumb::dart6 {
 namespace {
 
 constexpr const char* solver_words[] = {"dantzig", "pgs"};
+constexpr const char* direction_words[] = {"normal", "sliding"};
 
 }  // namespace
 
@@ -21,6 +22,10 @@ const backend::SettingsTable<Settings>& settings_table() {
                          "to the other where it fails, or projected Gauss-Seidel")),
       setting<&S::iterations>(
           int_setting("iterations", "1", quality, 1, 10000, 30, "at most, of projected Gauss-Seidel")),
+      setting<&S::friction_directions>(choice_setting(
+          "friction_directions", behaviour, direction_words,
+          "normal: the two directions of friction follow from the contact's normal, as in DART; sliding: "
+          "the first is that of sliding where the contact slides")),
       setting<&S::contact_reduction>(float_setting("contact_error_reduction", "1", behaviour, 0, 1, 0.01,
                                                    "share of a contact's overlap that a sub-step takes back")),
       setting<&S::contact_reduction_speed>(

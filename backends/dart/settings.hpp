@@ -7,13 +7,16 @@
 namespace plumb::dart6 {
 
 struct Settings {
-  int substeps, solver, iterations;
+  int substeps, solver, iterations, friction_directions;
   double contact_reduction, contact_reduction_speed, contact_allowance, bounce_speed;
   double joint_reduction, joint_reduction_speed;
 };
 
 /// Values of Settings::solver.
 enum Solver { kDantzig = 0, kGaussSeidel = 1 };
+
+/// Values of Settings::friction_directions.
+enum FrictionDirections { kOfNormal = 0, kOfSliding = 1 };
 
 [[nodiscard]] const backend::SettingsTable<Settings>& settings_table();
 

@@ -103,6 +103,17 @@ void fill(aiMesh& mesh, const std::vector<Triangle>& triangles) {
   }
 }
 
+/// m, from a shape's origin: beyond it ODE cannot count the cells in which it looks for pairs, and ends the process.
+constexpr double kFarthest = 1e8;
+
+void require_near(const Eigen::Vector3d& middle) {
+  if (middle.cwiseAbs().sum() < kFarthest) return;
+  throw Error(PLUMB_E_UNSUPPORTED, "the middle of a shape, or of a compound's child, is " +
+                                       std::to_string(middle.norm()) +
+                                       " m from the origin, and for ODE within DART it is less than 1e8 m; move the "
+                                       "body, and its shape to its origin");
+}
+
 }  // namespace
 
 std::unique_ptr<Shape> make_shape(const PlumbShapeDesc& desc, std::vector<const Shape*> children) {
@@ -110,8 +121,10 @@ std::unique_ptr<Shape> make_shape(const PlumbShapeDesc& desc, std::vector<const 
   shape->type = desc.type;
   shape->geometry = make_geometry(desc);
   if (desc.type == PLUMB_CAPSULE || desc.type == PLUMB_CYLINDER) shape->frame.orientation = kZToY;
+  if (shape->geometry && desc.type != PLUMB_PLANE) require_near(shape->geometry->getBoundingBox().computeCenter());
   for (std::uint32_t i = 0; desc.type == PLUMB_COMPOUND && i < desc.child_count; ++i) {
     const PlumbCompoundChild& child = desc.children[i];
+    require_near(eigen(child.pose.position));
     shape->children.push_back({children[i], child.pose, child.has_material != 0, child.material});
   }
   return shape;

@@ -15,8 +15,9 @@ PlumbQuat turned(const PlumbQuat& q, const PlumbVec3& by) {
 
 /// DART checks its numbers by assertions, which end the process: what is as large as this is stopped before.
 constexpr double kTooLarge = 1e60, kShortest = 1e-30;
-/// m, from the origin: ODE counts the cells in which it looks for pairs, and ends the process where it cannot.
-constexpr double kFarthest = 1e12;
+/// m, from the origin: ODE counts the cells of a quarter of a metre in which it looks for pairs by an int, and ends the
+/// process where it cannot.
+constexpr double kFarthest = 4e8;
 
 }  // namespace
 
@@ -121,6 +122,7 @@ void World::settle_kinematics() {
 
 // --- forces ----------------------------------------------------------------------------------------------------------
 
+/// By sums, which are NaN where one of the numbers is.
 void World::require_finite() const {
   const auto lose = [](const Body& body, const std::string& what) {
     throw Error(PLUMB_E_WORLD_LOST, "body " + std::to_string(slot_of(body.handle)) + " " + what +
@@ -128,10 +130,10 @@ void World::require_finite() const {
                                         "substeps or smaller forces");
   };
   for (const Body* body : skeletons_.bodies) {
-    const double away = body->node->getWorldTransform().translation().cwiseAbs().maxCoeff();
+    const double away = body->node->getWorldTransform().translation().cwiseAbs().sum();
     if (!(away < kFarthest)) lose(*body, "is " + std::to_string(away) + " m away");
     if (body->is(PLUMB_STATIC)) continue;
-    if (!(body->node->getSpatialVelocity().cwiseAbs().maxCoeff() < kTooLarge))
+    if (!(body->node->getSpatialVelocity().cwiseAbs().sum() < kTooLarge))
       lose(*body, "is faster than 1e60 m/s or rad/s");
     if (!(length(body->force) + length(body->torque) < kTooLarge)) lose(*body, "is pushed by more than 1e60 N or N m");
   }

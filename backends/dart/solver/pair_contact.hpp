@@ -22,6 +22,8 @@ class PairContact final : public ::dart::constraint::ContactConstraint {
   PairContact(::dart::collision::Contact& contact, const PairMaterial& material, const Settings& settings, double h);
 
   void getInformation(::dart::constraint::ConstraintInfo* info) override;
+  void applyUnitImpulse(std::size_t index) override;
+  void getVelocityChange(double* change, bool with_softness) override;
 
  private:
   [[nodiscard]] double wanted_speed(double closing, double rate) const;
@@ -29,6 +31,8 @@ class PairContact final : public ::dart::constraint::ContactConstraint {
   const ::dart::collision::Contact& contact_;
   PairMaterial material_;
   const Settings& settings_;
+  double inverse_mass_;  ///< 1/kg, of what impulses move
+  std::size_t applied_ = 0;
 };
 
 }  // namespace plumb::dart6

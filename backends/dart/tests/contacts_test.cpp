@@ -31,6 +31,31 @@ TEST(Dart, FrictionIsThatOfThePair) {
   EXPECT_NEAR(way_until_it_rests(0.8, 0.2), 9 / (2 * 0.4 * 9.81), 0.02);
 }
 
+/// A cube that slides along the diagonal between both directions is held by either, with as much as one alone would
+/// have.
+TEST(Dart, FrictionGoesAgainstTheSlidingWhereItIsTold) {
+  const auto way = [](const char* directions) {
+    const auto world = make_world(kNeeds, {word_setting("friction_directions", directions)});
+    PlumbBodyDesc floor = plumb::body_desc(PLUMB_STATIC);
+    floor.shape = add_box(*world, {50, 0.5, 50});
+    floor.pose.position = {0, -0.5, 0};
+    floor.material.friction = 0.4;
+    add_body(*world, floor);
+    PlumbBodyDesc cube = floor;
+    cube.motion = PLUMB_DYNAMIC;
+    cube.shape = add_box(*world, {0.5, 0.5, 0.5});
+    cube.pose.position = {0, 0.5, 0};
+    cube.linear_velocity = {3 * std::sqrt(0.5), 0, 3 * std::sqrt(0.5)};
+    const PlumbBody body = add_body(*world, cube);
+    for (int i = 0; i < 240; ++i) advance(*world);
+    const auto pose = read_row<7>(*world, PLUMB_FIELD_POSE, body);
+    return std::hypot(pose[0], pose[2]);
+  };
+  const double of_coulomb = 9 / (2 * 0.4 * 9.81);
+  EXPECT_NEAR(way("sliding"), of_coulomb, 0.02);
+  EXPECT_NEAR(way("normal"), of_coulomb / std::sqrt(2), 0.02);
+}
+
 std::unique_ptr<plumb::IPhysicsWorld> cube_on_floor(double overlap, std::vector<PlumbSetting> settings,
                                                     PlumbBody& cube) {
   auto world = make_world(kNeeds | PLUMB_NEED_CONTACTS | PLUMB_NEED_CONTACT_IMPULSES, std::move(settings));
@@ -53,6 +78,21 @@ TEST(Dart, FourPointsCarryACube) {
   for (const PlumbContact& contact : world->contacts()) all += contact.normal_impulse;
   EXPECT_NEAR(all, 1000 * 9.81 / 60, 0.2) << "the weight of a ton for a sixtieth of a second";
   EXPECT_NEAR(read_row<7>(*world, PLUMB_FIELD_POSE, cube)[1], 0.5, 1e-4);
+}
+
+/// Nothing moves a door along its axis: a wall above it pushes it neither there nor away.
+TEST(Dart, WhatCannotMoveIsNotPushed) {
+  const auto world = make_world(kNeeds | PLUMB_NEED_CONTACTS | PLUMB_NEED_CONTACT_IMPULSES);
+  add_body(*world, frictionless(PLUMB_STATIC, add_box(*world, {5, 0.5, 5}), {0, 0.95, 0}));
+  PlumbJointDesc hinge = plumb::joint_desc(PLUMB_JOINT_HINGE);
+  hinge.body_b = add_body(*world, frictionless(PLUMB_DYNAMIC, add_box(*world, {0.5, 0.5, 0.1}), {0, 0, 0}));
+  hinge.frame_a.orientation = hinge.frame_b.orientation = {0, 0, std::sqrt(0.5), std::sqrt(0.5)};  // x to y
+  PlumbJoint id = 0;
+  plumb::check(*world, world->joints()->create_joints({&hinge, 1}, {&id, 1}));
+  for (int i = 0; i < 60; ++i) advance(*world);
+  ASSERT_FALSE(world->contacts().empty());
+  for (const PlumbContact& contact : world->contacts()) EXPECT_LT(contact.normal_impulse, 1);
+  EXPECT_NEAR(read_row<6>(*world, PLUMB_FIELD_VELOCITY, hinge.body_b)[4], 0, 1e-6);
 }
 
 double height_after_a_second(std::vector<PlumbSetting> settings) {

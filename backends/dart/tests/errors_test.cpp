@@ -33,12 +33,23 @@ TEST(DartErrors, SpeedsBeyondAllMeasureLoseTheWorld) {
   EXPECT_NE(world->error_text().find("is faster"), std::string::npos) << world->error_text();
 }
 
-/// ODE counts cells of a quarter of a metre.
+/// ODE counts cells of a quarter of a metre by an int.
 TEST(DartErrors, BodiesBeyondAllMeasureLoseTheWorld) {
   const auto world = make_world(kNeeds);
-  add_body(*world, frictionless(PLUMB_DYNAMIC, add_sphere(*world, 0.5), {1e17, 0, 0}));
+  add_body(*world, frictionless(PLUMB_DYNAMIC, add_sphere(*world, 0.5), {1e9, 0, 0}));
   EXPECT_EQ(result_of_step(*world), PLUMB_E_WORLD_LOST);
   EXPECT_NE(world->error_text().find("m away"), std::string::npos) << world->error_text();
+}
+
+TEST(DartErrors, BodiesThatWeighNearlyNothingAreRefused) {
+  const auto world = make_world(kNeeds);
+  PlumbBodyDesc desc = frictionless(PLUMB_DYNAMIC, add_sphere(*world, 0.5), {0, 0, 0});
+  desc.mass_mode = PLUMB_MASS_EXPLICIT;
+  desc.mass = 1e-200;
+  desc.inertia = {1e-200, 1e-200, 1e-200};
+  PlumbBody body = 0;
+  EXPECT_EQ(world->create_bodies({&desc, 1}, {&body, 1}), PLUMB_E_UNSUPPORTED);
+  EXPECT_NE(world->error_text().find("mass is 1e-200"), std::string::npos) << world->error_text();
 }
 
 TEST(DartErrors, ASubStepThatIsNothingIsRefused) {
