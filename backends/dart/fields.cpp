@@ -36,7 +36,7 @@ void read_row(PlumbField field, const Body& body, double* row) {
 }  // namespace
 
 PlumbResult World::read(PlumbField field, std::span<const PlumbBody> ids, Rows rows) {
-  double row[16];
+  double row[16] = {};
   for (std::size_t i = 0; i < ids.size(); ++i) {
     read_row(field, body(ids[i]), row);
     rows.put(i, row, columns_of(field));
@@ -45,7 +45,7 @@ PlumbResult World::read(PlumbField field, std::span<const PlumbBody> ids, Rows r
 }
 
 PlumbResult World::write(PlumbField field, std::span<const PlumbBody> ids, ConstRows rows) {
-  double row[16];
+  double row[16] = {};
   for (std::size_t i = 0; i < ids.size(); ++i) {
     rows.get(i, row, columns_of(field));
     write_row(field, body(ids[i]), row);

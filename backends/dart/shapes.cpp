@@ -80,10 +80,12 @@ void fill(aiMesh& mesh, const std::vector<Triangle>& triangles) {
 
 /// DART has meshes as scenes of assimp's, which it frees.
 ::dart::dynamics::ShapePtr make_mesh(const std::vector<Triangle>& triangles) {
+  auto mesh = std::make_unique<aiMesh>();
+  fill(*mesh, triangles);
   auto scene = std::make_unique<aiScene>();
+  scene->mMeshes = new aiMesh*[1];
+  scene->mMeshes[0] = mesh.release();
   scene->mNumMeshes = 1;
-  scene->mMeshes = new aiMesh* [1] { new aiMesh };
-  fill(*scene->mMeshes[0], triangles);
   return std::make_shared<::dart::dynamics::MeshShape>(Eigen::Vector3d::Ones(), scene.release());
 }
 

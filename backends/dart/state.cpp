@@ -42,7 +42,7 @@ namespace {
 void write_coordinates(const Body& body) {
   const Joint& link = *body.link;
   const PlumbPose a = link.frame_a(), b = link.frame_b();
-  double row[6];
+  double row[6] = {};
   backend::joint_coordinates(link.desc.type, a, b, row);
   for (std::size_t axis = 0; axis < 6; ++axis)
     if (link.axis_joint[axis] != nullptr) link.axis_joint[axis]->setPosition(0, row[axis]);

@@ -31,7 +31,7 @@ PlumbResult World::destroy_joints(std::span<const PlumbJoint> ids) {
 }
 
 PlumbResult World::read_joints(PlumbJointField field, std::span<const PlumbJoint> ids, Rows rows) {
-  double row[12];
+  double row[12] = {};
   for (std::size_t i = 0; i < ids.size(); ++i) {
     const Joint& read = joint(ids[i]);
     if (field == PLUMB_JOINT_COORDINATES) {
@@ -59,7 +59,7 @@ PlumbResult World::read_joints(PlumbJointField field, std::span<const PlumbJoint
 /// What a joint is asked to do decides what it can be: a ball that gets its first motor becomes three hinges.
 PlumbResult World::write_motors(std::span<const PlumbJoint> ids, ConstRows rows) {
   std::vector<PlumbJointDesc> before;
-  double row[12];
+  double row[12] = {};
   bool becomes_another = stale_;
   for (std::size_t i = 0; i < ids.size(); ++i) {
     Joint& written = joint(ids[i]);
@@ -87,7 +87,7 @@ PlumbResult World::write_motors(std::span<const PlumbJoint> ids, ConstRows rows)
 
 PlumbResult World::write_joints(PlumbJointField field, std::span<const PlumbJoint> ids, ConstRows rows) {
   if (field == PLUMB_JOINT_MOTOR) return write_motors(ids, rows);
-  double row[6];
+  double row[6] = {};
   for (std::size_t i = 0; i < ids.size(); ++i) {
     Joint& written = joint(ids[i]);
     rows.get(i, row, 6);
