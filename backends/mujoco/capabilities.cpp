@@ -46,6 +46,7 @@ Capability joint_fact(std::uint32_t type) {
 }
 
 Capability joint_feature_fact(std::uint32_t type, std::uint32_t feature) {
+  if (const Capability joint = joint_fact(type); joint.degree == PLUMB_NONE) return joint;
   if (feature == PLUMB_JOINT_HAS_STIFFNESS) feature = PLUMB_JOINT_HAS_SPRINGS;
   const Capability usual = backend::usual_capability(PLUMB_CAP_JOINT_FEATURE, type, feature);
   if (usual.degree == PLUMB_NONE) return usual;
