@@ -14,8 +14,8 @@ constexpr Capability kHollow{PLUMB_APPROXIMATE,
                              "the triangles of its surface, hollow: edges catch, points come and go"};
 constexpr Capability kNoQuery{PLUMB_NONE, "DART has neither shape casts nor overlaps of a shape that no body has"};
 
-constexpr Capability kNoRays{PLUMB_NONE,
-                             "of DART's detectors that of Bullet alone has rays, and answers boxes a centimetre off"};
+constexpr Capability kRays{
+    PLUMB_NATIVE, "by the geoms of DART's detector of ODE; of a body in which it starts a ray sees the far side"};
 
 bool is_triangles(std::uint32_t type) {
   return type == PLUMB_CONVEX_HULL || type == PLUMB_TRIANGLE_MESH || type == PLUMB_HEIGHT_FIELD;
@@ -47,6 +47,7 @@ Capability joint_fact(std::uint32_t type) {
 }
 
 Capability joint_feature_fact(std::uint32_t type, std::uint32_t feature) {
+  if (const Capability joint = joint_fact(type); joint.degree == PLUMB_NONE) return joint;
   if (feature == PLUMB_JOINT_HAS_STIFFNESS || feature == PLUMB_JOINT_HAS_TARGETS) feature = PLUMB_JOINT_HAS_SPRINGS;
   const Capability usual = backend::usual_capability(PLUMB_CAP_JOINT_FEATURE, type, feature);
   if (usual.degree == PLUMB_NONE) return usual;
@@ -73,7 +74,6 @@ Capability need_fact(std::uint32_t index) {
       return {PLUMB_EMULATED, "free joints that are told their speed, and put where they should be"};
     case PLUMB_NEED_EVENTS:
     case PLUMB_NEED_SENSORS: return {PLUMB_EMULATED, "by comparing who touches in one step with who does in the next"};
-    case PLUMB_NEED_QUERIES: return kNoRays;
     case PLUMB_NEED_SNAPSHOT: return {PLUMB_NATIVE};
     default: return backend::usual_capability(PLUMB_CAP_NEED, index, 0);
   }
@@ -93,7 +93,7 @@ Capability fact(PlumbCapability kind, std::uint32_t a, std::uint32_t b) {
     case PLUMB_CAP_PAIR: return pair_fact(a, b);
     case PLUMB_CAP_JOINT: return joint_fact(a);
     case PLUMB_CAP_JOINT_FEATURE: return joint_feature_fact(a, b);
-    case PLUMB_CAP_QUERY: return a == PLUMB_QUERY_RAY ? kNoRays : kNoQuery;
+    case PLUMB_CAP_QUERY: return a == PLUMB_QUERY_RAY ? kRays : kNoQuery;
     case PLUMB_CAP_CLOSEST: return {PLUMB_NONE, "DART's detector of ODE tells no distances"};
     case PLUMB_CAP_FIELD_READ:
     case PLUMB_CAP_FIELD_WRITE: return field_fact(kind, a);

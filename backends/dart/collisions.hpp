@@ -10,6 +10,14 @@
 
 namespace plumb::dart6 {
 
+/// Where a ray comes upon a surface.
+struct RayMeeting {
+  const Geom* geom;
+  double way;               ///< m from where it starts
+  PlumbVec3 point, normal;  ///< world; the normal looks at the ray
+  std::uint32_t triangle;   ///< of a mesh
+};
+
 class Collisions {
  public:
   /// Whether two geoms are looked at.
@@ -25,12 +33,16 @@ class Collisions {
   void take(const Skeletons& skeletons, May may);
   /// Where the skeletons are now; valid until the next call. Normals go from the second to the first.
   [[nodiscard]] std::vector<::dart::collision::Contact*> find();
+  /// All that a ray along the unit vector meets within the length; of one shape several places, in any order.
+  [[nodiscard]] std::vector<RayMeeting> meet_ray(const Skeletons& skeletons, const PlumbVec3& from,
+                                                 const PlumbVec3& along, double length);
 
  private:
   class Filter;
+  class Group;
 
   std::shared_ptr<::dart::collision::CollisionDetector> detector_;
-  std::unique_ptr<::dart::collision::CollisionGroup> group_;
+  std::unique_ptr<Group> group_;
   std::shared_ptr<Filter> filter_;
   ::dart::collision::CollisionResult result_;
 };

@@ -105,7 +105,7 @@ void World::prepare() {
     for (const auto& joint : joints_)
       if (joint && joint->a != nullptr && joint->desc.collide_connected == 0)
         apart_.insert(in_order(*joint->a, *joint->b));
-    if (needs(PLUMB_NEED_COLLISION | PLUMB_NEED_SENSORS))
+    if (needs(PLUMB_NEED_COLLISION | PLUMB_NEED_SENSORS | PLUMB_NEED_QUERIES))
       collisions_.take(skeletons_, [this](const Geom& a, const Geom& b) { return may_meet(a, b); });
     stale_ = false;
   }

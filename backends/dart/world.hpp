@@ -4,6 +4,7 @@
 
 #include <map>
 #include <memory>
+#include <mutex>
 #include <set>
 #include <span>
 #include <utility>
@@ -20,7 +21,12 @@
 
 namespace plumb::dart6 {
 
-class World final : public IPhysicsWorld, public IJoints, public ISettings, public ISnapshot, public IExceptions {
+class World final : public IPhysicsWorld,
+                    public IJoints,
+                    public IQueries,
+                    public ISettings,
+                    public ISnapshot,
+                    public IExceptions {
  public:
   explicit World(const WorldInit& init);
 
@@ -50,6 +56,7 @@ class World final : public IPhysicsWorld, public IJoints, public ISettings, publ
   std::span<const PlumbEvent> events() override { return events_; }
 
   IJoints* joints() override { return this; }
+  IQueries* queries() override { return this; }
   ISettings* settings() override { return this; }
   ISnapshot* snapshot() override { return this; }
   IExceptions* exceptions() override { return this; }
@@ -59,6 +66,11 @@ class World final : public IPhysicsWorld, public IJoints, public ISettings, publ
   PlumbResult destroy_joints(std::span<const PlumbJoint> ids) override;
   PlumbResult read_joints(PlumbJointField field, std::span<const PlumbJoint> ids, Rows rows) override;
   PlumbResult write_joints(PlumbJointField field, std::span<const PlumbJoint> ids, ConstRows rows) override;
+
+  // rays.cpp
+  Hits cast_rays(PlumbHitMode mode, std::span<const PlumbRay> rays) override;
+  Hits cast_shapes(PlumbHitMode mode, std::span<const PlumbCast> casts) override;
+  Hits overlap_shapes(std::span<const PlumbOverlap> overlaps) override;
 
   // snapshot.cpp
   PlumbResult save(std::span<const std::byte>& data) override;
@@ -137,6 +149,7 @@ class World final : public IPhysicsWorld, public IJoints, public ISettings, publ
 
   Skeletons skeletons_;
   Collisions collisions_;
+  std::mutex query_mutex_;
   StepSolver solver_;
   bool stale_ = true;  ///< what lives has changed since the skeletons were made
 

@@ -95,6 +95,23 @@ TEST(Dart, WhatCannotMoveIsNotPushed) {
   EXPECT_NEAR(read_row<6>(*world, PLUMB_FIELD_VELOCITY, hinge.body_b)[4], 0, 1e-6);
 }
 
+/// As the note of the capability has it; a body that moves is seen where it is now.
+TEST(Dart, RaysFromWithinSeeTheFarSide) {
+  const auto world = make_world(kNeeds | PLUMB_NEED_QUERIES);
+  PlumbBodyDesc desc = frictionless(PLUMB_DYNAMIC, add_box(*world, {0.5, 0.5, 0.5}), {0, 0, 0});
+  desc.linear_velocity = {1, 0, 0};
+  desc.gravity_scale = 0;
+  const PlumbBody body = add_body(*world, desc);
+  for (int i = 0; i < 6; ++i) advance(*world);
+  const PlumbRay ray{{0, 0, 0}, {2, 0, 0}, {1, ~0u, 0, 0}};
+  const plumb::Hits answer = world->queries()->cast_rays(PLUMB_HIT_CLOSEST, {&ray, 1});
+  ASSERT_EQ(answer.hits.size(), 1u);
+  EXPECT_EQ(answer.hits[0].body, body);
+  EXPECT_NEAR(answer.hits[0].fraction, 0.6 / 2, 1e-9);
+  EXPECT_NEAR(answer.hits[0].position.x, 0.6, 1e-9);
+  EXPECT_NEAR(answer.hits[0].normal.x, -1, 1e-9);
+}
+
 double height_after_a_second(std::vector<PlumbSetting> settings) {
   PlumbBody cube = 0;
   const auto world = cube_on_floor(0.1, std::move(settings), cube);

@@ -59,6 +59,13 @@ TEST(DartErrors, ASubStepThatIsNothingIsRefused) {
   EXPECT_EQ(result_of_step(*world), PLUMB_OK) << "it has changed nothing";
 }
 
+TEST(DartErrors, RaysWithoutEndAreRefused) {
+  const auto world = make_world(kNeeds | PLUMB_NEED_QUERIES);
+  const PlumbRay ray{{0, 0, 0}, {1e308, 1e308, 0}, {1, ~0u, 0, 0}};
+  EXPECT_EQ(world->queries()->cast_rays(PLUMB_HIT_CLOSEST, {&ray, 1}).result, PLUMB_E_INVALID_ARGUMENT);
+  EXPECT_NE(world->error_text().find("rays[0].translation"), std::string::npos) << world->error_text();
+}
+
 TEST(DartErrors, ARodGetsNoMotor) {
   const auto world = make_world(kNeeds);
   PlumbJointDesc desc = plumb::joint_desc(PLUMB_JOINT_DISTANCE);
