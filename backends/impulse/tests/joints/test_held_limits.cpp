@@ -19,8 +19,9 @@ constexpr PlumbNeeds kNeeds =
 constexpr std::array kSteps = {1.0 / 30, 1.0 / 60, 1.0 / 240};
 
 /// Turns of x to x, y or z.
-constexpr std::array<PlumbQuat, 3> kAxes = {
-    {{0, 0, 0, 1}, {0, 0, 0.70710678118654752, 0.70710678118654752}, {0, -0.70710678118654752, 0, 0.70710678118654752}}};
+constexpr std::array<PlumbQuat, 3> kAxes = {{{0, 0, 0, 1},
+                                             {0, 0, 0.70710678118654752, 0.70710678118654752},
+                                             {0, -0.70710678118654752, 0, 0.70710678118654752}}};
 
 Eigen::Quaterniond turn_of(const PlumbQuat& q) { return {q.w, q.x, q.y, q.z}; }
 
@@ -170,8 +171,8 @@ TEST(HeldArms, KeepTheirLoadsStill) {
       scene.body.inertia = {moment, is_load ? moment : 1.2 * moment, is_load ? moment : 0.8 * moment};
       links.push_back(scene.add(0, {kLength * (static_cast<double>(i) + (is_load ? 0 : 0.5)), 0, 0}));
       if (is_load) continue;
-      PlumbJointDesc held = hinge(i == 0 ? 0 : links[i - 1], i == 0 ? 0 : kLength / 2, links[i], -kLength / 2,
-                                  kAxes[kAxis[i]]);
+      PlumbJointDesc held =
+          hinge(i == 0 ? 0 : links[i - 1], i == 0 ? 0 : kLength / 2, links[i], -kLength / 2, kAxes[kAxis[i]]);
       held.motors[3] = {0, 500, 1, 0};
       scene.join(held);
     }
