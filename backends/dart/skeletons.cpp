@@ -14,8 +14,6 @@ namespace {
 
 using namespace ::dart::dynamics;
 
-constexpr std::uint32_t kTurns = 0b111000;
-
 /// DART wants moments above 0 also of what it never turns.
 Inertia inertia_of(const Body& body) {
   if (!body.is(PLUMB_DYNAMIC)) return Inertia(1);

@@ -2,12 +2,8 @@
 
 #include <numbers>
 
-#include "plumb/backend/usual_capability.hpp"
-
 namespace plumb::dart6 {
 namespace {
-
-constexpr std::uint32_t kTurns = 0b111000;
 
 /// n . I^-1 n of a dynamic body in world axes; 0 of what forces do not turn.
 double turning(const Body* body, const PlumbVec3& n) {
@@ -40,26 +36,6 @@ double effective_mass(const Joint& joint, std::size_t axis) {
 
 }  // namespace
 
-std::uint32_t open_axes(const PlumbJointDesc& desc) {
-  if (desc.type != PLUMB_JOINT_GENERIC) return desc.type == PLUMB_JOINT_DISTANCE ? 0 : backend::free_axes(desc.type);
-  std::uint32_t open = 0;
-  for (std::uint32_t axis = 0; axis < 6; ++axis)
-    if (desc.axis_modes[axis] != PLUMB_AXIS_LOCKED) open |= 1u << axis;
-  return open;
-}
-
-bool is_limited(const PlumbJointDesc& desc, std::size_t axis) {
-  if (desc.type == PLUMB_JOINT_GENERIC) return desc.axis_modes[axis] == PLUMB_AXIS_LIMITED;
-  return desc.limits[axis].enabled != 0;
-}
-
-bool is_plain_ball(const PlumbJointDesc& desc) {
-  if ((open_axes(desc) & kTurns) != kTurns) return false;
-  for (std::size_t axis = 3; axis < 6; ++axis)
-    if (is_limited(desc, axis) || desc.motors[axis].enabled != 0 || desc.springs[axis].enabled != 0) return false;
-  return true;
-}
-
 bool can_be_link(const Joint& joint) {
   const auto turns = [](const Body* body) { return body == nullptr || !body->is(PLUMB_DYNAMIC) || body->turns(); };
   return joint.desc.type != PLUMB_JOINT_DISTANCE && turns(joint.a) && turns(joint.b);
@@ -67,11 +43,7 @@ bool can_be_link(const Joint& joint) {
 
 bool can_close_a_loop(const PlumbJointDesc& desc) {
   if (desc.type == PLUMB_JOINT_DISTANCE) return true;
-  for (std::size_t axis = 0; axis < 6; ++axis)
-    if ((open_axes(desc) >> axis & 1) != 0 &&
-        (is_limited(desc, axis) || desc.motors[axis].enabled != 0 || desc.springs[axis].enabled != 0))
-      return false;
-  return true;
+  return asks_nothing(desc, open_axes(desc));
 }
 
 void check_joint(const PlumbJointDesc& desc) {

@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "articulated/joint_axes.hpp"
 #include "body.hpp"
 
 namespace plumb::dart6 {
@@ -22,15 +23,12 @@ struct Joint {
   [[nodiscard]] bool may_break() const { return desc.break_force > 0 || desc.break_torque > 0; }
 };
 
-/// Axes that are free or limited, as bits.
-[[nodiscard]] std::uint32_t open_axes(const PlumbJointDesc& desc);
-/// Whether all three turns are DART's ball, which knows no single axes: nothing is asked of any of them.
-[[nodiscard]] bool is_plain_ball(const PlumbJointDesc& desc);
+using articulated::asks_nothing, articulated::is_limited, articulated::is_plain_ball, articulated::open_axes;
+
 /// Whether it can be one of a skeleton's: a rod cannot, nor what joins a body that does not turn.
 [[nodiscard]] bool can_be_link(const Joint& joint);
 /// Whether rows can hold it: nothing is asked of the axes that it leaves free.
 [[nodiscard]] bool can_close_a_loop(const PlumbJointDesc& desc);
-[[nodiscard]] bool is_limited(const PlumbJointDesc& desc, std::size_t axis);
 /// Throws Error (PLUMB_E_UNSUPPORTED) for what a rod has not.
 void check_joint(const PlumbJointDesc& desc);
 

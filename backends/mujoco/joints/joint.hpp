@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "articulated/joint_axes.hpp"
 #include "body.hpp"
 
 namespace plumb::mujoco {
@@ -24,13 +25,11 @@ struct Joint {
   [[nodiscard]] bool may_break() const { return desc.break_force > 0 || desc.break_torque > 0; }
 };
 
-/// Axes that are free or limited, as bits.
-[[nodiscard]] std::uint32_t open_axes(const PlumbJointDesc& desc);
-/// Whether all three turns are MuJoCo's ball, which knows no single axes: nothing is asked of any of them.
-[[nodiscard]] bool is_plain_ball(const PlumbJointDesc& desc);
+using articulated::asks_nothing, articulated::is_limited, articulated::is_plain_ball, articulated::kTurns,
+    articulated::open_axes;
+
 /// Whether it can be held where it closes a loop.
 [[nodiscard]] bool can_close_a_loop(const PlumbJointDesc& desc);
-[[nodiscard]] bool is_limited(const PlumbJointDesc& desc, std::size_t axis);
 /// Throws Error (PLUMB_E_UNSUPPORTED) for what a rod of MuJoCo has not.
 void check_joint(const PlumbJointDesc& desc);
 

@@ -1,37 +1,12 @@
 #include "joints/tree.hpp"
 
-#include <numeric>
-
+#include "articulated/body_sets.hpp"
 #include "plumb/backend/names.hpp"
 
 namespace plumb::mujoco {
 namespace {
 
-/// Groups of bodies that hang together (Tarjan 1975). Number 0 is all that stands still.
-class Groups {
- public:
-  explicit Groups(std::size_t count) : parent_(count), rooted_(count, false) {
-    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
-  }
-  std::size_t find(std::size_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void root(std::size_t i) { rooted_[i] = true; }
-  /// False where they hang together already, or both have a root that moves by itself.
-  bool join(std::size_t i, std::size_t k) {
-    i = find(i), k = find(k);
-    if (i == k || (rooted_[i] && rooted_[k])) return false;
-    if (rooted_[k]) std::swap(i, k);
-    parent_[k] = i;
-    return true;
-  }
-
- private:
-  std::vector<std::size_t> parent_;
-  std::vector<bool> rooted_;
-};
-
+/// Number 0 is all that stands still.
 std::size_t number_of(const Body* body) {
   return body == nullptr || body->is(PLUMB_STATIC) ? 0 : std::size_t{slot_of(body->handle)} + 1;
 }
@@ -51,7 +26,7 @@ std::vector<Joint*> in_turn(const std::vector<std::unique_ptr<Joint>>& joints) {
 
 std::vector<Joint*> choose_links(std::size_t body_slots, const std::vector<std::unique_ptr<Body>>& bodies,
                                  const std::vector<std::unique_ptr<Joint>>& joints) {
-  Groups groups(body_slots + 1);
+  articulated::BodySets groups(body_slots + 1);
   groups.root(0);
   for (const auto& body : bodies)
     if (body && body->is(PLUMB_KINEMATIC)) groups.root(number_of(body.get()));
