@@ -73,6 +73,9 @@ Capability need_fact(std::uint32_t index) {
     case PLUMB_NEED_SLEEPING: return kNoSleep;
     case PLUMB_NEED_FRICTION:
       return {PLUMB_APPROXIMATE, "soft: what should stick creeps, less with impratio or noslip"};
+    case PLUMB_NEED_GYROSCOPIC:
+      return {PLUMB_NATIVE,
+              "that of a sub-step's beginning; none beyond half a radian in one, where bodies would gain"};
     case PLUMB_NEED_ROLLING_FRICTION: return {PLUMB_APPROXIMATE, "soft: what should stay creeps"};
     case PLUMB_NEED_RESTITUTION:
       return {PLUMB_APPROXIMATE,

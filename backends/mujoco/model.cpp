@@ -1,5 +1,6 @@
 #include "model.hpp"
 
+#include <algorithm>
 #include <cstring>
 
 #include "model_text.hpp"
@@ -146,16 +147,29 @@ void make_data(Model& made) {
   if (!made.data) throw Error(PLUMB_E_OUT_OF_MEMORY, "MuJoCo has no memory for its data");
 }
 
-void make_room(mjModel& m) {
+constexpr double kMostStack = 1.5e8;  // numbers
+
+void make_stack(mjModel& m, double most) {
   const double dofs = m.nv, rows = m.njmax;
   const double stack = 3 * dofs * dofs + 3 * rows * dofs + 100 * (rows + dofs) + 1e5;
-  m.nstack = static_cast<int>(std::min(stack, 1.5e8));
+  m.nstack = static_cast<int>(std::min(stack, most));
+}
+
+/// What most worlds need. It is taken at once and whole, by the square of the rows, so that large worlds begin with
+/// less than they might need and grow. Joints have rows for limits and dry friction; free bodies have none.
+void make_first_room(mjModel& m, const Tree& tree, bool collides) {
+  const auto is_free = [](const Body* body) { return !body->is(PLUMB_STATIC) && body->link == nullptr; };
+  const int free_bodies = static_cast<int>(std::count_if(tree.order.begin(), tree.order.end(), is_free));
+  m.nconmax = 32 + (collides ? std::min(6 * m.ngeom, 300) : 0);
+  m.njmax = 4 * m.nconmax + 6 * m.neq + 3 * (m.nv - 6 * free_bodies);
+  make_stack(m, 2e7);
 }
 
 }  // namespace
 
 Model make_model(const Tree& tree, const std::vector<std::unique_ptr<Joint>>& joints, const Settings& settings,
-                 bool collides) {
+                 PlumbNeeds needs) {
+  const bool collides = (needs & (PLUMB_NEED_COLLISION | PLUMB_NEED_SENSORS)) != 0;
   Model made;
   made.model = compile(model_text(tree, joints, collides));
   mjModel& m = *made.model;
@@ -168,12 +182,10 @@ Model make_model(const Tree& tree, const std::vector<std::unique_ptr<Joint>>& jo
     fill_inertia(made, *body);
     add_armature(made, *body);
   }
-  apply_to_model(settings, m);
+  apply_to_model(settings, (needs & PLUMB_NEED_ROLLING_FRICTION) != 0, m);
   for (const auto& joint : joints)
     if (joint && joint->is_link) apply_motors(made, *joint);
-  m.nconmax = 32 + (collides ? 6 * m.ngeom : 0);
-  m.njmax = 4 * m.nconmax + 6 * m.neq + 3 * m.nv;
-  make_room(m);
+  make_first_room(m, tree, collides);
   make_data(made);
   mj_setConst(made.model.get(), made.data.get());
   m.stat.meaninertia = mean_inertia(tree);
@@ -195,7 +207,7 @@ void grow_data(Model& made) {
   m.nconmax += m.nconmax / 2;
   m.njmax += m.njmax / 2;
   const int before = m.nstack;
-  make_room(m);
+  make_stack(m, kMostStack);
   m.nstack = std::max(m.nstack, before + before / 2);
   make_data(made);
 }

@@ -36,7 +36,7 @@ struct Model {
 
 /// Throws Error (PLUMB_E_UNSUPPORTED) with MuJoCo's words for what it will not have.
 [[nodiscard]] Model make_model(const Tree& tree, const std::vector<std::unique_ptr<Joint>>& joints,
-                               const Settings& settings, bool collides);
+                               const Settings& settings, PlumbNeeds needs);
 
 /// Of a body's frame, as MuJoCo's kinematics were last worked out.
 [[nodiscard]] PlumbPose pose_in(const mjData& data, const Body& body);

@@ -4,8 +4,9 @@
 namespace plumb::mujoco {
 namespace {
 
-constexpr const char* solver_words[] = {"pgs", "cg", "newton"};  // as mjtSolver counts
-constexpr const char* cone_words[] = {"pyramidal", "elliptic"};  // as mjtCone counts
+constexpr const char* solver_words[] = {"pgs", "cg", "newton"};             // as mjtSolver counts
+constexpr const char* cone_words[] = {"pyramidal", "elliptic", "by_need"};  // as mjtCone counts, and one more
+constexpr int kByNeed = 2;
 
 void put_rows(const Settings& settings, int count, double time, double damping, mjtNum* solref, mjtNum* solimp) {
   for (int i = 0; i < count; ++i) {
@@ -30,7 +31,10 @@ const backend::SettingsTable<Settings>& settings_table() {
       setting<&S::tolerance>(float_setting("tolerance", "1", quality, 0, 1, 1e-8, "at which the solver stops early")),
       setting<&S::noslip_iterations>(int_setting("noslip_iterations", "1", quality, 0, 10000, 0,
                                                  "of a second solver that takes the creep out of friction")),
-      setting<&S::cone>(choice_setting("cone", behaviour, cone_words, "of friction")),
+      setting<&S::cone>(choice_setting("cone", behaviour, cone_words,
+                                       "of friction; by need elliptic where the world has rolling friction, for in a "
+                                       "pyramid sliding takes from it, else pyramidal",
+                                       0, kByNeed)),
       setting<&S::impratio>(float_setting("impratio", "1", behaviour, 1e-3, 1e6, 1,
                                           "how much stiffer friction is than the normal constraint of a contact")),
       setting<&S::contact_time>(float_setting("contact_time", "s", behaviour, 1e-5, 10, 0.02,
@@ -60,12 +64,12 @@ void put_impedance(const Settings& settings, mjtNum* solimp) {
   for (int i = 0; i < mjNIMP; ++i) solimp[i] = all[i];
 }
 
-void apply_to_model(const Settings& s, mjModel& m) {
+void apply_to_model(const Settings& s, bool rolls, mjModel& m) {
   m.opt.solver = s.solver;
   m.opt.iterations = s.iterations;
   m.opt.tolerance = s.tolerance;
   m.opt.noslip_iterations = s.noslip_iterations;
-  m.opt.cone = s.cone;
+  m.opt.cone = s.cone != kByNeed ? s.cone : rolls ? mjCONE_ELLIPTIC : mjCONE_PYRAMIDAL;
   m.opt.impratio = s.impratio;
   m.opt.disableflags = mjDSBL_FILTERPARENT | (s.warm_starting ? 0 : mjDSBL_WARMSTART);
   m.opt.enableflags = s.multiccd ? mjENBL_MULTICCD : 0;

@@ -1,4 +1,5 @@
-// MuJoCo's knobs. Every default is MuJoCo's own; the sub-steps come near to its time step of 2 ms at 60 Hz.
+// MuJoCo's knobs. Every default is MuJoCo's own, but for the cone of worlds with rolling friction; the sub-steps come
+// near to its time step of 2 ms at 60 Hz.
 #pragma once
 
 #include <mujoco/mujoco.h>
@@ -18,8 +19,9 @@ struct Settings {
 
 [[nodiscard]] const backend::SettingsTable<Settings>& settings_table();
 
-/// To a model's options, and to all of its constraints but contacts. Runs at any time.
-void apply_to_model(const Settings& settings, mjModel& model);
+/// To a model's options, and to all of its constraints but contacts. Runs at any time. rolls: the world has rolling
+/// friction.
+void apply_to_model(const Settings& settings, bool rolls, mjModel& model);
 void put_impedance(const Settings& settings, mjtNum* solimp);
 
 }  // namespace plumb::mujoco

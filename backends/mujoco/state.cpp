@@ -45,7 +45,7 @@ void World::prepare() {
   if (stale_) {
     const Tree tree = grow_tree(bodies_, joints_);
     model_ = {};
-    model_ = make_model(tree, joints_, settings_, needs(PLUMB_NEED_COLLISION) || needs(PLUMB_NEED_SENSORS));
+    model_ = make_model(tree, joints_, settings_, needs_);
     put(gravity_, model_.model->opt.gravity);
     apart_.clear();
     for (const auto& joint : joints_)

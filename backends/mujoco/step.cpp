@@ -84,6 +84,14 @@ void World::settle_kinematics() {
     if (body) body->force = body->torque = {};
 }
 
+/// MuJoCo's gyroscopic torque is that of the sub-step's beginning, and a tumbling body gains by it: at half a radian an
+/// eighth in every sub-step, without end. From there on it turns without that torque, and gains nothing.
+bool World::is_fast(const Body& body, double h) const {
+  if (body.link != nullptr || (body.desc.flags & PLUMB_BODY_NO_ROTATION) != 0) return false;
+  constexpr double most = 0.5;  // rad
+  return length(vec(model_.data->qvel + model_.first_dof(body) + 3)) * h > most;
+}
+
 /// The host's forces, gravity that is scaled, and damping, as a force that gives exp(-c h) whatever c is.
 void World::apply_forces(double h) {
   mjData* d = model_.data.get();
@@ -96,14 +104,16 @@ void World::apply_forces(double h) {
     }
     const PlumbBodyDesc& desc = body->desc;
     PlumbVec3 force = add(body->force, scale((desc.gravity_scale - 1) * desc.mass, gravity_)), torque = body->torque;
-    if (desc.linear_damping != 0 || desc.angular_damping != 0) {
+    const bool damped = desc.linear_damping != 0 || desc.angular_damping != 0, fast = is_fast(*body, h);
+    if (damped || fast) {
       mjtNum v[6];
       mj_objectVelocity(model_.model.get(), d, mjOBJ_BODY, body->id, v, 0);
       const PlumbQuat axes = multiply(quat(d->xquat + 4 * body->id), desc.inertia_orientation);
-      const PlumbVec3 w = unrotate(axes, vec(v)), &i = desc.inertia;
+      const PlumbVec3 w = unrotate(axes, vec(v)), &i = desc.inertia, spin = {i.x * w.x, i.y * w.y, i.z * w.z};
       const auto rate = [h](double c) { return -(1 - std::exp(-c * h)) / h; };
       force = add(force, scale(rate(desc.linear_damping) * desc.mass, vec(v + 3)));
-      torque = add(torque, rotate(axes, scale(rate(desc.angular_damping), {i.x * w.x, i.y * w.y, i.z * w.z})));
+      torque = add(torque, rotate(axes, scale(rate(desc.angular_damping), spin)));
+      if (fast) torque = add(torque, rotate(axes, cross(w, spin)));
     }
     put(force, applied);
     put(torque, applied + 3);
@@ -243,7 +253,7 @@ PlumbResult World::get_setting(const char* name, PlumbSettingValue& value) {
 
 PlumbResult World::set_setting(const char* name, const PlumbSettingValue& value) {
   settings_table().set(settings_, name, value);
-  if (model_.model) apply_to_model(settings_, *model_.model);
+  if (model_.model) apply_to_model(settings_, needs(PLUMB_NEED_ROLLING_FRICTION), *model_.model);
   return PLUMB_OK;
 }
 

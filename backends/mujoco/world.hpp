@@ -99,6 +99,7 @@ class World final : public IPhysicsWorld,
   void steer_kinematics(double dt);
   void move_kinematics(double h);
   void settle_kinematics();
+  [[nodiscard]] bool is_fast(const Body& body, double h) const;
   void apply_forces(double h);
   void sub_step(double h);
   void solve_sub_step();

@@ -76,4 +76,15 @@ TEST(Mujoco, RoomGrows) {
   EXPECT_GT(report.contacts, 150u);
 }
 
+/// MuJoCo's gyroscopic torque alone would take a blade that tumbles at 300 rad/s beyond all numbers within a second.
+TEST(Mujoco, WhatTumblesFastDoesNotGain) {
+  const auto world = make_world(with(PLUMB_NEED_GYROSCOPIC));
+  PlumbBodyDesc blade = frictionless(PLUMB_DYNAMIC, add_box(*world, {0.3, 0.2, 0.4}), {0, 0, 0});
+  blade.angular_velocity = {200, 200, 100};
+  const PlumbBody body = add_body(*world, blade);
+  for (int i = 0; i < 600; ++i) ASSERT_EQ(advance(*world).nonfinite, 0u) << "step " << i;
+  const auto row = read_row<6>(*world, PLUMB_FIELD_VELOCITY, body);
+  EXPECT_LT(std::hypot(row[3], row[4], row[5]), 400);
+}
+
 }  // namespace
