@@ -93,11 +93,15 @@ TEST_P(RobotsThatFall, ComeToRest) {
   const auto prepare = [&](RobotScene& scene) {
     if (GetParam().rubs) scene.rub(1e-4 * scene.weight() * scene.height());
     watch_rest(scene, seconds);
+    scene.watch("limit", {{"quantity", "limit_angle"}, {"take", "max"}}, "rad");
+    scene.watch("bent", {{"quantity", "misalignment"}, {"take", "max"}}, "rad");
   };
   on_each({"--ground"}, seconds, prepare, [](const RobotScene& scene, const Json& metrics) {
     expect_rest(scene, metrics);
-    expect_no_energy(metrics, 1e-3);
+    expect_no_energy(metrics, 3e-3);  // legs that strike at their limits sink in by a sub-step's way, and are lifted
     EXPECT_LT(value(metrics, "gap"), 0.01) << "when it strikes the ground, too";
+    EXPECT_LT(value(metrics, "limit"), 0.03) << "likewise";
+    EXPECT_LT(value(metrics, "bent"), 0.03) << "likewise";
     EXPECT_GT(value(metrics, "way"), 0.1 * scene.height()) << "it has not fallen";
   });
 }
@@ -140,18 +144,20 @@ std::string name_of(const ::testing::TestParamInfo<Robot>& info) { return info.p
 void PrintTo(const Robot& robot, std::ostream* out) { *out << robot.file << " of " << robot.package.name; }
 
 const Package dart{"dart-doc", "/usr/share/doc/dart/data"}, samples{"libmujoco-samples", "/usr/share/mujoco/model"};
-const Robot atlas{"Atlas", dart, "sdf/atlas/atlas_v3_no_head.urdf"},
+const Robot atlas{"Atlas", dart, "sdf/atlas/atlas_v3_no_head.urdf", "r_hand", 2},
     atlas_sdf{"AtlasSdf", dart, "sdf/atlas/atlas_v3_no_head.sdf"},
-    hubo{"DrcHubo", dart, "urdf/drchubo/drchubo.urdf", "Body_RWP", 2, 8},
+    hubo{"DrcHubo", dart, "urdf/drchubo/drchubo.urdf", "Body_RWP", 2, 10},
     quadruped{"Quadruped", dart, "sdf/quad.sdf", "", 0, 15, false},
     kr5{"KukaKr5", dart, "urdf/KR5/KR5 sixx R650.urdf", "palm", 5}, ant{"Ant", dart, "mjcf/openai/ant.xml.gz"},
     fetch{"Fetch", dart, "mjcf/openai/robotics/fetch/reach.xml", "robot0:wrist_roll_link", 2},
-    humanoid{"Humanoid", samples, "humanoid/humanoid.xml"};
+    humanoid{"Humanoid", samples, "humanoid/humanoid.xml"},
+    limp_with_springs{"OpenAiHumanoid", dart, "mjcf/openai/humanoid.xml.gz"};
 
-INSTANTIATE_TEST_SUITE_P(Debian, RobotsThatFall, ::testing::Values(atlas, atlas_sdf, hubo, quadruped, ant, humanoid),
+INSTANTIATE_TEST_SUITE_P(Debian, RobotsThatFall,
+                         ::testing::Values(atlas, atlas_sdf, hubo, quadruped, ant, humanoid, limp_with_springs),
                          name_of);
 INSTANTIATE_TEST_SUITE_P(Debian, RobotsThatStand, ::testing::Values(atlas, hubo, quadruped, humanoid), name_of);
-INSTANTIATE_TEST_SUITE_P(Debian, ArmsThatHold, ::testing::Values(kr5, hubo, fetch), name_of);
+INSTANTIATE_TEST_SUITE_P(Debian, ArmsThatHold, ::testing::Values(atlas, kr5, hubo, fetch), name_of);
 
 }  // namespace
 }  // namespace plumb::harness::testing

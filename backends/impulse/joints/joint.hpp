@@ -57,8 +57,9 @@ struct Joint {
   int rows;
   std::uint32_t pulls;  ///< a bit for each row whose impulse is one of force, not of torque
   Real rest_length;     ///< m
-  bool in_loop;         ///< of its mechanism some rows may repeat others; found when joints are put in order
-  bool in_ring;         ///< its mechanism closes on itself, through what stands still, too; likewise
+  bool in_ring;  ///< its mechanism closes on itself, through what stands still, too; found when joints are put in
+                 ///< order
+  bool yields_turning;  ///< its rows yield where its bodies turn far in a sub-step; likewise
   bool in_chain;        ///< of so many joints that errors are taken back by degrees; likewise
   Frame frame_a, frame_b;
   Position world_anchor;  ///< of frame a where body_a is kWorld

@@ -87,6 +87,12 @@ PLUMB_HD inline WaysToLimits ways_to_limits(const JointAxes& axes, int row, Real
   return {has_lower, has_upper, (lower - middle) - from_middle, (upper - middle) - from_middle};
 }
 
+/// How far a coordinate is beyond the limits of its row, m or rad.
+PLUMB_HD inline Real beyond_limits(const JointAxes& axes, int row, Real x) {
+  const WaysToLimits to = ways_to_limits(axes, row, x);
+  return max(to.has_lower ? to.lower : Real(0), max(to.has_upper ? -to.upper : Real(0), Real(0)));
+}
+
 /// Both frames as matrices: cosine(i, j) of axis i of a and axis j of b.
 struct JointAxesPlace {
   Mat a, b;

@@ -97,6 +97,9 @@ PLUMB_HD inline bool is_driven(const AxisView& view, std::uint32_t j, int row) {
 inline constexpr Real kMotorHolds = Real(0.25), kLimitHolds = Real(0.05);
 /// A row that was taken to hold, and moves at more than this, has let go, m/s or rad/s.
 inline constexpr Real kLetsGo = Real(0.05);
+/// A limit that contacts did not count on is held once more before bodies move where they would go beyond it by so
+/// much, m or rad, and further than they are.
+inline constexpr Real kPassesLimit = Real(3e-3);
 /// A limit that was taken to hold may pull for the rest of the step, by so much of what it bore. Contacts that come to
 /// rest push as if it held to the end, and would throw about a part that it has let go for the last of that.
 inline constexpr Real kMostPull = Real(0.1);
@@ -238,8 +241,7 @@ PLUMB_SHARED_CODE inline void choose_first_pieces(const AxisView& view, std::uin
   const Joint& joint = view.joints[j];
   AxisWork& own = view.parts.work[j];
   const Real* total = view.total(j);
-  const Real rate =
-      pass.kind == PassKind::kSpeeds ? Real(0) : rate_of_error(view, joint, pass.softness.bias_rate, pass.chain_rate);
+  const Real rate = pass.kind == PassKind::kSpeeds ? Real(0) : rate_of_error(view, joint, pass);
   Lanes speeds(0);
   if (!is_plain(joint)) speeds = row_speeds(view, j, pass, a, b, true);
   const bool turns = turns_far(a, b, pass.h);
@@ -346,6 +348,21 @@ PLUMB_HD inline void follow_rows(const AxisView& view, std::uint32_t j, const Jo
     return off * off > kLetsGo * kLetsGo;
   });
   if (leads_lanes()) own.let_go |= gone;
+}
+
+/// Whether joint j, as its bodies move now, will have passed a limit in h seconds.
+PLUMB_HD inline bool passes_limit(const AxisView& view, std::uint32_t j, Real h) {
+  const Joint& joint = view.joints[j];
+  const JointAxes& axes = view.parts.axes[j];
+  const int first = rows_of(joint.type), end = row_count(joint);
+  if (first == end) return false;
+  const Lanes speeds = speeds_now(view, j, view.velocity(joint.body_a), view.velocity(joint.body_b));
+  return rows_where(first, end, [&](int i) {
+           if (is_held(view, j, i)) return false;
+           const Real x = view.work[j].error[i];
+           const Real then = beyond_limits(axes, i - first, x + h * of_row(speeds, i));
+           return then > kPassesLimit && then > beyond_limits(axes, i - first, x);
+         }) != 0;
 }
 
 /// How far the rows are from their equations, with the other sign. tikhonov: as JointWork's. A motor's row never counts

@@ -111,9 +111,11 @@ enum class PassKind : std::uint8_t {
 struct JointPass {
   PassKind kind;
   Real h, inverse_h;
-  Softness softness = rigid(0);  ///< of rows that always hold; limits come back at its rate, too
+  Softness softness = rigid(0);  ///< of rows that always hold; what is beyond a limit comes back at its rate, too
   Real chain_rate = kHuge;       ///< the most at which errors of chains are taken back, 1/s
-  Real most_return = kHuge;      ///< what is beyond a limit comes back no faster than this, m/s or rad/s
+  Real whip_rate = kHuge;        ///< and those of whips
+  Real return_rate = kHuge;      ///< the most at which what is beyond a limit comes back, 1/s,
+  Real most_return = kHuge;      ///< and its speed, m/s or rad/s
 };
 
 /// e^x - 1 for small x; a little less for large ones.
@@ -147,10 +149,9 @@ PLUMB_HD inline RowLaw law_of_places(const JointAxes& axes, int row, Real x, con
   const bool turns = goes_round(spec.kind);
   RowLaw law = {-kHuge, kHuge, kHuge, 0, 0, 0};
   const WaysToLimits to = ways_to_limits(axes, row, x);
-  if (to.has_lower)
-    law.lower = to.lower < 0 ? to.lower * pass.inverse_h : min(to.lower * pass.softness.bias_rate, pass.most_return);
-  if (to.has_upper)
-    law.upper = to.upper > 0 ? to.upper * pass.inverse_h : max(to.upper * pass.softness.bias_rate, -pass.most_return);
+  const Real back = min(pass.softness.bias_rate, pass.return_rate);
+  if (to.has_lower) law.lower = to.lower < 0 ? to.lower * pass.inverse_h : min(to.lower * back, pass.most_return);
+  if (to.has_upper) law.upper = to.upper > 0 ? to.upper * pass.inverse_h : max(to.upper * back, -pass.most_return);
   const Real force = drive.max_force[spec.coordinate];
   if (force > 0) {
     law.steady = drive.velocity[spec.coordinate];

@@ -10,9 +10,7 @@ namespace plumb::impulse {
 
 namespace {
 
-/// Of so many joints in a row that lock turns the mobility of one end differs from the other's by more than float can
-/// tell apart, and a whip of them turns too far in a sub-step for the rows at its start: they yield as those whose rows
-/// repeat others.
+/// A whip of so many joints in a row that lock turns turns too far in a sub-step for the rows at its start: they yield.
 constexpr std::uint32_t kLongBeam = 4;
 
 /// Errors of so many joints in a row that have no limits are taken back by degrees.
@@ -96,7 +94,7 @@ OrderedJoints order_joints(const std::vector<StoredJoint>& records, const Table<
     const bool is_stiff = record.traits.locks_turns, is_long = build.length(j) >= kLongBeam;
     joint.in_chain = build.length(j) >= kLongChain;
     joint.in_ring = build.in_loop(j);
-    joint.in_loop = joint.in_ring || (is_stiff && (is_long || !both_turn(record.joint, masses)));
+    joint.yields_turning = joint.in_ring || (is_stiff && (is_long || !both_turn(record.joint, masses)));
     ordered.axes.push_back(record.axes);
     ordered.mechanism.push_back(found.mechanism[j]);
     if (build.is_closed(j) || has_limits(record.joint, record.axes)) no_chains.insert(found.mechanism[j]);

@@ -221,10 +221,12 @@ PLUMB_HD N speed_of_error(Real rate, const N& error) {
 
 /// The rate at which a joint's errors are taken back: by degrees in a long chain, and where contacts press, which
 /// would take the speed for a blow. Not of a ring, such as a bridge between two hooks: what it bears would stretch it.
-PLUMB_HD inline Real rate_of_error(const JointView& view, const Joint& joint, Real rate, Real by_degrees) {
+PLUMB_HD inline Real rate_of_error(const JointView& view, const Joint& joint, const JointPass& pass) {
+  const Real rate = pass.softness.bias_rate;
   const Mechanisms& mechanisms = view.solver.mechanisms;
   const bool pressed = (joint.body_a != kWorld && mechanisms.touch(joint.body_a)) || mechanisms.touch(joint.body_b);
-  return joint.in_chain || (pressed && !joint.in_ring) ? min(rate, by_degrees) : rate;
+  if (joint.in_chain || (pressed && !joint.in_ring)) return min(rate, pass.chain_rate);
+  return joint.yields_turning && !joint.in_ring ? min(rate, pass.whip_rate) : rate;
 }
 
 /// How far the velocities of rows that always hold are from what they should be in this pass. end_after: as the
@@ -236,7 +238,7 @@ PLUMB_HD Lanes joint_residuals(const JointView& view, std::uint32_t j, const Joi
   const JointWork& work = view.work[j];
   if (pass.kind == PassKind::kSpeeds) return speeds_along(work.rows, a, b);
   const Lanes error = load_row(work.error);
-  const Lanes back = speed_of_error(rate_of_error(view, joint, pass.softness.bias_rate, pass.chain_rate), error);
+  const Lanes back = speed_of_error(rate_of_error(view, joint, pass), error);
   if (pass.kind == PassKind::kWhole || cannot_see_ahead(work, a, b, pass.h))
     return speeds_along(work.rows, a, b) + back;
   const JointPlace place = place_joint(joint, view.base(joint), end_after(joint.body_a, a), end_after(joint.body_b, b));

@@ -10,10 +10,13 @@ namespace plumb::impulse {
 
 /// How much a row yields beside what the bodies do, relative to that: below what positions resolve.
 inline constexpr Real kCfmShare = sizeof(Real) == 8 ? Real(1e-10) : Real(1e-5);
-/// In a mechanism with a loop rows may repeat others (those of four parallel hinges do), and would leave their impulses
-/// undetermined. Those grow where turns of the rows feed back on them: by the square of the angle turned in a sub-step,
-/// over the share.
-inline constexpr Real kCfmShareInLoops = Real(1e-4), kCfmShareByTurn = 16;
+/// In a mechanism that closes on itself rows may repeat others (those of four parallel hinges do), and would leave
+/// their impulses undetermined: they yield by so much more. Those of a whip yield a little more: by less, blows make
+/// energy in float; by 1e-4 what hangs on a long arm swings on it by decimetres a second.
+inline constexpr Real kCfmShareInLoops = Real(1e-4), kCfmShareInWhips = sizeof(Real) == 8 ? kCfmShare : Real(1.6e-5);
+/// Impulses grow where turns of the rows feed back on them: by the square of the angle turned in a sub-step, over what
+/// rows yield. There, and in a whip, they yield by so many times that square.
+inline constexpr Real kCfmShareByTurn = 16;
 /// Of what rows yield whatever the turn, the part that leaks: that counts for the impulse gathered so far, too. All of
 /// it (Tikhonov's regularisation), and every mechanism gives way under its load; none of it (a proximal step), and what
 /// rows leave undetermined never fades. (Parikh, Boyd, "Proximal Algorithms", 2014, section 4.1.)
@@ -25,8 +28,8 @@ PLUMB_HD inline void choose_share(const JointView& view, std::uint32_t j, Real h
   const Joint& joint = view.joints[j];
   const Real a = length_squared(h * view.velocity(joint.body_a).angular);
   const Real b = length_squared(h * view.velocity(joint.body_b).angular);
-  const Real still = joint.in_loop ? kCfmShareInLoops : kCfmShare;
-  const Real turned = joint.in_loop ? kCfmShareByTurn * (a + b) : Real(0);
+  const Real still = joint.in_ring ? kCfmShareInLoops : joint.yields_turning ? kCfmShareInWhips : kCfmShare;
+  const Real turned = joint.yields_turning ? kCfmShareByTurn * (a + b) : Real(0);
   JointWork& work = view.work[j];
   work.share = still + turned;
   work.tikhonov = (kTikhonovShare * still + turned) / work.share;

@@ -169,6 +169,19 @@ PLUMB_DEVICE inline void follow_ways(Team& team, const JointSet& joints, const S
 /// against it, as the ground does under the foot of a leg that is folded as far as it goes, more would throw all of it
 /// up.
 inline constexpr Real kMostReturn = 1;
+/// Of a whip, whose rows yield a little, this share of the errors is taken back in a sub-step: all at once it would
+/// swing about its place, ever by as much.
+inline constexpr Real kWhipRate = Real(0.6);
+
+/// A pass over mechanisms. There what is beyond a limit comes back by degrees, too: contacts push a body beyond a limit
+/// by a little in each sub-step, and back at once it would be thrown at them, for ever.
+PLUMB_HD inline JointPass exact_pass(PassKind kind, const StepParameters& step, bool collision) {
+  JointPass pass = {kind, step.h, step.inverse_h, rigid(step.joint_rate), step.chain_rate, kWhipRate * step.joint_rate};
+  if (!collision) return pass;
+  pass.return_rate = step.chain_rate;
+  pass.most_return = kMostReturn;
+  return pass;
+}
 
 /// One pass of the sub-stepped solver: over places, or over speeds after positions have moved. collision: contacts may
 /// push mechanisms. first: sub-step of the step.
@@ -178,8 +191,7 @@ PLUMB_SHARED_DEVICE_CODE void solve_joints(Team& team, const JointSet& joints, c
   if (joints.count == 0) return;
   const JointSystem& system = joints.system;
   const bool over_speeds = kind == PassKind::kSpeeds;
-  JointPass exact = {kind, step.h, step.inverse_h, rigid(step.joint_rate), step.chain_rate};
-  if (collision) exact.most_return = kMostReturn;
+  const JointPass exact = exact_pass(kind, step, collision);
   JointPass pass = exact;
   if (!over_speeds) pass.softness = step.joint;
   if (over_speeds) each_single_joint(team, joints, step.level, [=](std::uint32_t j) { refresh(view, j); });
@@ -189,6 +201,27 @@ PLUMB_SHARED_DEVICE_CODE void solve_joints(Team& team, const JointSet& joints, c
   for_mechanisms_of_level(team, system, step.level, [&](Team& own, const SystemMechanism& mechanism) {
     if (over_speeds) refresh_mechanism(own, system, mechanism, view, step, false);
     solve_mechanism(own, system, mechanism, view, exact, first);
+  });
+}
+
+/// Contacts have pushed mechanisms, and bodies are about to move: those that would pass a limit are solved once more.
+/// Contacts count on limits only where they have held for a while. What is light and short would be turned far beyond
+/// others, and where two press it against one, stay there.
+PLUMB_SHARED_DEVICE_CODE inline void hold_limits(Team& team, const JointSet& joints, const AxisView& view,
+                                                 const StepParameters& step, bool first) {
+  const JointSystem& system = joints.system;
+  const JointPass pass = exact_pass(PassKind::kPlaces, step, true);
+  for_mechanisms_of_level(team, system, step.level, [&](Team& own, const SystemMechanism& mechanism) {
+    if (mechanism.is_plain || !system.is_touched(mechanism)) return;
+    ChangeCount count(own, system, mechanism);
+    const ChangeCount::Round now = count.next();
+    for_columns(own, mechanism, [&](std::uint32_t column) {
+      if (passes_limit(view, system.base + column, step.h) && leads_lanes()) now.note_change();
+    });
+    own.barrier();
+    const bool passes = *now.now != 0;
+    own.barrier();  // what comes next counts anew
+    if (passes) solve_mechanism(own, system, mechanism, view, pass, first);
   });
 }
 

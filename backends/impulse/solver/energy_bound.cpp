@@ -169,23 +169,32 @@ struct JudgeEnergy {
     const Real after = openness(joint, axes, place_after(joint));
     if (!(after > 1) || !(after > openness(joint, axes, place_before(joint)) + kOpensBy)) return;
     atomic_add(&work.counters->bound.opened, 1U);
-    atomic_max(&islands[root_of(joint)].opened, 1U);
+    const Mechanisms& mechanisms = work.joints.view.solver.mechanisms;
+    const auto touches = [&](std::uint32_t body) { return body != kWorld && mechanisms.touch_mechanism(body); };
+    atomic_max(&islands[root_of(joint)].opened,
+               touches(joint.body_a) || touches(joint.body_b) ? kOpenedTouching : kOpenedFree);
   }
   PLUMB_HD Real substeps_of(std::uint32_t level) const { return static_cast<Real>(work.substeps->of[level].substeps); }
+  PLUMB_HD Real most_for_opened() const { return substeps_of(min(kLevelOfOpened, work.substeps->count - 1)); }
   /// Sub-steps, of a body's island; what asked for more than it had will not get them by asking again.
   PLUMB_HD bool may_have_more(std::uint32_t body) const {
     const BodyLevel& level = work.levels[body];
     if (level.level == kSettledLevel) return false;
     const Real has = substeps_of(level.level);
-    return has < substeps_of(min(kLevelOfOpened, work.substeps->count - 1)) &&
-           !(level.before.load_rate * work.parameters->dt > has * kDenied);
+    return has < most_for_opened() && !(level.before.load_rate * work.parameters->dt > has * kDenied);
+  }
+  /// What an island asks for of which a step has opened a joint.
+  PLUMB_HD Real more_for_opened(std::uint32_t level, std::uint32_t opened) const {
+    const Real more = kMoreForOpened * substeps_of(level);
+    return opened == kOpenedFree ? more : min(more, most_for_opened());
   }
   /// As it was, but that the island of an opened joint asks for more.
   PLUMB_HD void put_pace_back(std::uint32_t i) const {
     BodyPace& pace = work.paces[i];
     pace = work.levels[i].before;
-    if (is_pushed(i) && islands[islands[i].root].opened != 0)
-      pace.load_rate = max(pace.load_rate, kMoreForOpened * substeps_of(work.levels[i].level) / work.parameters->dt);
+    const std::uint32_t opened = is_pushed(i) ? islands[islands[i].root].opened : 0;
+    if (opened != 0)
+      pace.load_rate = max(pace.load_rate, more_for_opened(work.levels[i].level, opened) / work.parameters->dt);
   }
   PLUMB_HD JointPlace place_after(const Joint& joint) const {
     const Bodies& all = work.joints.view.bodies;

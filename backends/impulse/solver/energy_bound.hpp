@@ -59,7 +59,7 @@ struct IslandEnergy {
   std::uint32_t peak;         ///< the largest term of the sums, J: bits of a float
   std::uint32_t joined;       ///< at the root: a joint holds one of its bodies
   std::uint32_t let_go;       ///< likewise: one of which rows have not held as predicted does
-  std::uint32_t opened;       ///< likewise: one that the step has opened does
+  std::uint32_t opened;       ///< likewise: one that the step has opened does; kOpenedTouching, kOpenedFree or 0
   bool is_held;               ///< it stays where it was before the step
   Real keeps;                 ///< of its velocities the share that is left
   // Sums in whole numbers of a share of the peak, which do not depend on the order:

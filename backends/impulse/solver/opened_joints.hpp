@@ -18,16 +18,12 @@ inline constexpr Real kOpensBy = Real(0.25);
 
 /// So many times the sub-steps that it had an island asks for then; a little more than the level below.
 inline constexpr Real kMoreForOpened = Real(2.01);
-/// And no more than this level has: in yet shorter ones contacts, which a step has of its start, press too hard.
+/// And no more than this level has: in yet shorter ones contacts, which a step has of its start, press too hard. Those
+/// that touch nothing may ask from there once more.
 inline constexpr std::uint32_t kLevelOfOpened = 3;
+inline constexpr std::uint32_t kOpenedTouching = 1, kOpenedFree = 2;
 /// What has asked for so many times what it has got does not get more.
 inline constexpr Real kDenied = Real(1.001);
-
-/// How far a coordinate is beyond the limits of its row, m or rad.
-PLUMB_HD inline Real beyond_limits(const JointAxes& axes, int row, Real x) {
-  const WaysToLimits to = ways_to_limits(axes, row, x);
-  return max(to.has_lower ? to.lower : Real(0), max(to.has_upper ? -to.upper : Real(0), Real(0)));
-}
 
 /// The largest error of any row that is locked, or beyond its limit. axes: null for a joint that has no such rows.
 PLUMB_HD inline Real openness(const Joint& joint, const JointAxes* axes, const JointPlace& place) {

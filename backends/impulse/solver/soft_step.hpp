@@ -44,6 +44,7 @@ struct StepSoftly : SoftContacts<kSurfaceEffects, !Executor::kWarps || kJoints !
         this->bounce_contacts(team, step, k, round);
         this->push_contacts(team, step, k, !relaxes);
         end_loads(team, step);
+        if constexpr (kJoints == JointCode::kAll) hold_limits(team, joints, view_of<kJoints>(joints), step, first);
       }
       this->move_bodies(team, step);
       if constexpr (kJoints == JointCode::kAll) follow_ways(team, joints, step);
