@@ -1,6 +1,5 @@
 // Joints of a world: made, read, driven, taken away.
-#include "plumb/backend/joint_coordinates.hpp"
-#include "plumb/backend/modify.hpp"
+#include "articulated/joint_rows.hpp"
 #include "world.hpp"
 
 namespace plumb::mujoco {
@@ -49,24 +48,7 @@ PlumbResult World::destroy_joints(std::span<const PlumbJoint> ids) {
 PlumbResult World::read_joints(PlumbJointField field, std::span<const PlumbJoint> ids, Rows rows) {
   double row[12];
   for (std::size_t i = 0; i < ids.size(); ++i) {
-    const Joint& read = joint(ids[i]);
-    if (field == PLUMB_JOINT_COORDINATES) {
-      backend::joint_coordinates(read.desc.type, read.frame_a(), read.frame_b(), row);
-      if (read.desc.type == PLUMB_JOINT_DISTANCE) {
-        row[0] = length({row[0], row[1], row[2]});
-        row[1] = row[2] = 0;
-      }
-    }
-    if (field == PLUMB_JOINT_REACTION) {
-      put(read.force, row);
-      put(read.torque, row + 3);
-    }
-    if (field == PLUMB_JOINT_SPRING_REST) backend::read_rest_row(read.desc, row);
-    for (std::size_t axis = 0; field == PLUMB_JOINT_MOTOR && axis < 6; ++axis) {
-      const PlumbMotor& motor = read.desc.motors[axis];
-      row[2 * axis] = motor.target_velocity;
-      row[2 * axis + 1] = motor.enabled != 0 ? motor.max_force : 0;
-    }
+    articulated::read_joint_row(field, joint(ids[i]), row);
     rows.put(i, row, joint_columns_of(field));
   }
   return PLUMB_OK;
@@ -80,8 +62,7 @@ PlumbResult World::write_joints(PlumbJointField, std::span<const PlumbJoint> ids
     Joint& written = joint(ids[i]);
     before.push_back(written.desc);
     rows.get(i, row, 12);
-    for (std::size_t axis = 0; axis < 6; ++axis)
-      written.desc.motors[axis] = {row[2 * axis], row[2 * axis + 1], row[2 * axis + 1] != 0 ? 1u : 0u, 0};
+    articulated::write_motor_row(row, written.desc);
   }
   try {
     for (const PlumbJoint id : ids) check_joint(joint(id).desc);
