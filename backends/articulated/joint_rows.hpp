@@ -1,5 +1,5 @@
-// Rows of a joint's fields, out of what adapters keep of it: its description, where its frames are, its reaction. Shared
-// by engines whose bodies are trees of joints; nothing of one engine comes in here.
+// Rows of a joint's fields, out of what adapters keep of it: its description, where its frames are, its reaction.
+// Shared by engines whose bodies are trees of joints; nothing of one engine comes in here.
 #pragma once
 
 #include <cstddef>

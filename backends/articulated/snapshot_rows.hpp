@@ -1,5 +1,5 @@
-// What every adapter's snapshot has beside the engine's own coordinates: bodies as hosts see them, and who touched whom.
-// Shared by engines whose bodies are trees of joints; nothing of one engine comes in here.
+// What every adapter's snapshot has beside the engine's own coordinates: bodies as hosts see them, and who touched
+// whom. Shared by engines whose bodies are trees of joints; nothing of one engine comes in here.
 #pragma once
 
 #include <cstring>

@@ -1,10 +1,16 @@
 #include "plugin/settings.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace plumb::impulse {
 
 namespace {
+
+/// What a scene needs is a length of sub-steps, whatever the steps in which its host asks for it: counts are set for a
+/// step of this length, s. Of what is left over, in sub-steps, so much is spread over the others, lest a clock of 59.94
+/// Hz have one more; and no step has more than so many.
+constexpr double kSettingsStep = 1.0 / 60, kSpread = 0.2, kMostInStep = 256;
 
 /// Errors of long mechanisms are taken back as these say, however short the sub-steps: all of it in one would pluck
 /// what is taut, and whips would crack.
@@ -44,11 +50,12 @@ const backend::SettingsTable<Settings>& settings_table() {
           "at once on split bodies; xpbd: positions in sub-steps")),
       setting<&S::substeps>(
           int_setting("substeps", "1", quality, 1, 256, 8,
-                      "tgs_soft, xpbd: parts of a step in which velocities are solved and positions moved")),
+                      "tgs_soft, xpbd: parts of a step of 1/60 s in which velocities are solved and positions moved; "
+                      "steps of another length have as many as make them about as long, and at least one")),
       setting<&S::most_substeps>(int_setting(
           "most_substeps", "1", quality, 1, 256, 128,
-          "tgs_soft: sub-steps are doubled, up to so many, while loads ask for it: what is much heavier than what it "
-          "lies on, machines under load. Only where it is asked, body by body and what they touch; islands of "
+          "tgs_soft: sub-steps are doubled, up to so many in 1/60 s, while loads ask for it: what is much heavier than "
+          "what it lies on, machines under load. Only where it is asked, body by body and what they touch; islands of "
           "hundreds of contacts and more get fewer. No more than substeps: never")),
       setting<&S::relaxes_once>(choice_setting(
           "relaxation", behaviour, kRelaxations,
@@ -101,6 +108,11 @@ double Settings::substep(double dt, std::uint32_t parts) const {
   return solver == SolverKind::kSequential || solver == SolverKind::kJacobi ? dt : dt / parts;
 }
 
+std::uint32_t Settings::substeps_in(double whole) const {
+  const double parts = std::ceil(whole / kSettingsStep * substeps - kSpread);
+  return static_cast<std::uint32_t>(std::clamp(parts, 1.0, kMostInStep));
+}
+
 SubstepParameters Settings::of_substep(double dt, std::uint32_t parts, double last_h, double whole) const {
   const double h = substep(dt, parts), ratio = last_h == 0 ? 1 : h / last_h;
   SubstepParameters of{};
@@ -108,7 +120,7 @@ SubstepParameters Settings::of_substep(double dt, std::uint32_t parts, double la
   of.relaxations = 1;
   of.h = static_cast<Real>(h);
   of.inverse_h = static_cast<Real>(1 / h);
-  const double whole_h = substep(whole, parts), rate = parts > substeps ? kLoadedContactRate : kContactRate;
+  const double whole_h = substep(whole, parts), rate = parts > substeps_in(whole) ? kLoadedContactRate : kContactRate;
   const double hertz = contact_hertz > 0 ? contact_hertz : rate / whole_h;
   of.contact = make_softness(contact_hertz > 0 ? contact_hertz : kContactRate / whole_h, contact_damping_ratio, h);
   of.loaded = make_softness(hertz, contact_damping_ratio, h);
@@ -146,13 +158,14 @@ SubstepLevels Settings::levels(double dt, double last_h, double whole) const {
   std::uint32_t factor = 2;  // larger where few levels would end far below the most
   while (substeps * factor * factor * factor * factor * 4 <= most_substeps) factor *= 2;
   static_assert(kSubstepLengths == 5);
-  std::uint32_t parts = substeps;
+  std::uint32_t parts = substeps_in(whole);
+  const std::uint32_t most = parts * most_substeps / substeps;
   do {
     SubstepParameters& level = levels.of[levels.count];
     level = of_substep(dt, parts, last_h, whole);
     level.level = levels.count++;
     parts *= factor;
-  } while (levels.count < kSubstepLengths && parts <= most_substeps);
+  } while (levels.count < kSubstepLengths && parts <= most);
   std::uint32_t star = kStarLevel;
   for (const std::uint32_t relaxations : kRelaxationsOfStars) {
     levels.of[star] = levels.of[0];

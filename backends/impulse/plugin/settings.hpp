@@ -27,6 +27,8 @@ struct Settings {
   double sleep_speed = 0;
   double sleep_time = 0;
 
+  /// Of a step of this length, s, those of the first kind.
+  [[nodiscard]] std::uint32_t substeps_in(double whole) const;
   /// Length of the parts that a step of dt is solved in, when it is solved in so many if in any.
   [[nodiscard]] double substep(double dt, std::uint32_t parts) const;
   /// In what parts a step of dt may be solved, those that are set first. last_h: the sub-step before, 0 when there was

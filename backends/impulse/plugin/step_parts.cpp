@@ -58,8 +58,8 @@ void World::finish_part() {
     divide(part);
   } else {
     tell(PLUMB_EVENT_SLEEP, simulation_.outcome().fallen_asleep, told_.events);
-    pacing_.last_h =
-        settings_.substep(part.dt, counters.levels.substeps != 0 ? counters.levels.substeps : settings_.substeps);
+    const std::uint32_t substeps = counters.levels.substeps;
+    pacing_.last_h = settings_.substep(part.dt, substeps != 0 ? substeps : settings_.substeps_in(pacing_.dt));
     parts.any_done = true;
   }
   if (!parts.to_do.empty()) start(parts.to_do.back());

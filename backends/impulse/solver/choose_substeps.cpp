@@ -20,6 +20,9 @@ constexpr Real kMostWeights = 8;
 /// A contact that asks for so many times the most that there can be would do no better with those, and gets none: the
 /// pebble under the wheel of a truck.
 constexpr Real kHopeless = 4;
+/// Loads ask for whole multiples of that share of the fewest sub-steps: for a little more than there are nobody needs
+/// twice as many.
+constexpr Real kShares = 8;
 /// A column that had more sub-steps keeps them until it wants so much less than that: it would be shaken by each
 /// change.
 constexpr Real kColumnStays = Real(0.85);
@@ -182,10 +185,11 @@ struct ChooseLevels {
     const Real per_frequency = work.parameters->dt * (joined ? kSubstepsOfMechanism : kSubstepsOfContact);
     const Real most = substeps(work.levels->count - 1);
     if (per_frequency * sqrt(max(load, weight) * squared) > kHopeless * most) return;
-    const auto asked = static_cast<std::uint32_t>(min(per_frequency * sqrt(load * squared), most));
-    if (!(static_cast<Real>(asked) > substeps(0))) return;
-    atomic_max(&work.loads[on.body].asked, ordered_bits(static_cast<Real>(asked)));
-    note_asked(static_cast<Real>(asked));
+    const Real shares = min(per_frequency * sqrt(load * squared), most) / substeps(0) * kShares;
+    const Real asked = static_cast<Real>(static_cast<std::uint32_t>(shares)) / kShares * substeps(0);
+    if (!(asked > substeps(0))) return;
+    atomic_max(&work.loads[on.body].asked, ordered_bits(asked));
+    note_asked(asked);
   }
 
   PLUMB_HD void join(std::uint32_t a, std::uint32_t b) const {

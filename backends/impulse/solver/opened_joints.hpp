@@ -16,12 +16,14 @@ inline constexpr Real kMostOpening = Real(5e-3), kMostTurning = Real(0.02);
 /// close.
 inline constexpr Real kOpensBy = Real(0.25);
 
-/// So many times the sub-steps that it had an island asks for then; a little more than the level below.
-inline constexpr Real kMoreForOpened = Real(2.01);
-/// And no more than this level has: in yet shorter ones contacts, which a step has of its start, press too hard. Those
-/// that touch nothing may ask from there once more.
+/// So many times the sub-steps that it had an island asks for then, a little more than the level below; or that share
+/// of the most.
+inline constexpr Real kMoreForOpened = Real(2.01), kFewerForOpened = Real(0.25);
+/// And at first no more than this level has: in yet shorter sub-steps contacts, which a step has of its start, press
+/// harder.
 inline constexpr std::uint32_t kLevelOfOpened = 3;
-inline constexpr std::uint32_t kOpenedTouching = 1, kOpenedFree = 2;
+/// An attempt that opened it by less than this share of what the last one did is worth going over again.
+inline constexpr Real kOpenedLess = Real(0.8);
 /// What has asked for so many times what it has got does not get more.
 inline constexpr Real kDenied = Real(1.001);
 
