@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "base/format.hpp"
+#include "cli/live/page_worlds.hpp"
 #include "replay/bundle.hpp"
 
 namespace plumb::harness {
@@ -77,9 +79,11 @@ void add_replays(const std::filesystem::path& folder, const ReplayLimits& limits
   put_in_order(scenes);
   std::size_t taken = 0, bytes = 0;
   std::vector<std::string> left_out;
+  std::vector<Json> run_by_impulse;
   for (const RecordedScene& scene : scenes) {
     std::vector<PageReplay> replays;
     std::size_t size = 0;
+    std::optional<Json> by_impulse;
     // The room that is left is for all engines alike: a replay alone has nothing to be compared with.
     const std::size_t room = std::min(limits.bytes_of_replay, (limits.bytes_of_all - bytes) / scene.backends.size());
     for (const auto& [backend, recorded] : scene.backends) {
@@ -87,6 +91,7 @@ void add_replays(const std::filesystem::path& folder, const ReplayLimits& limits
       const Trajectory trajectory = read_trajectory(recorded.file);
       replays.push_back({scene.title, backend, bounded_bundle(trajectory, room)});
       size += replays.back().bundle.size();
+      if (backend == "impulse" && !scene.is_pair) by_impulse = trajectory.header;
     }
     if (replays.empty() || bytes + size > limits.bytes_of_all) {
       left_out.push_back(scene.title);
@@ -94,11 +99,13 @@ void add_replays(const std::filesystem::path& folder, const ReplayLimits& limits
     }
     if (!scene.is_pair) ++taken;
     bytes += size;
+    if (by_impulse) run_by_impulse.push_back(std::move(*by_impulse));
     std::move(replays.begin(), replays.end(), std::back_inserter(options.replays));
   }
   std::stable_sort(options.replays.begin(), options.replays.end(), [](const PageReplay& a, const PageReplay& b) {
     return a.scene != b.scene && natural_less(a.scene, b.scene);
   });
+  options.worlds = worlds_of_recordings(run_by_impulse);
   if (!left_out.empty())
     options.replays_note =
         fmt::format("Recorded, too, but left out to keep the page small: {}.", fmt::join(left_out, ", "));

@@ -13,7 +13,7 @@ struct ReplayLimits {
   std::size_t bytes_of_all = 9u << 19;
 };
 
-/// Sets options.replays and replays_note from FOLDER/trajectories: of every scene with its parameters one replay a
+/// Sets options.replays, replays_note, and worlds, of those that impulse ran, from FOLDER/trajectories: of every scene with its parameters one replay a
 /// backend, the one with the fewest settings changed. The smallest variant of each scene comes first, then the
 /// others, smallest first, until the limits are reached. Files that cannot be read are told on standard error.
 void add_replays(const std::filesystem::path& folder, const ReplayLimits& limits, PageOptions& options);

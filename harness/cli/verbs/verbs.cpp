@@ -20,6 +20,7 @@ void add_verbs(CLI::App& program, int& status) {
   add_worlds(program, status);
   add_export(program, status);
   add_pairs(program, status);
+  add_live(program, status);
   add_report(program, status);
   add_replay(program, status);
   add_problem(program, status);

@@ -21,6 +21,7 @@ void add_reduce(CLI::App& program, int& status);
 void add_worlds(CLI::App& program, int& status);
 void add_export(CLI::App& program, int& status);
 void add_pairs(CLI::App& program, int& status);
+void add_live(CLI::App& program, int& status);
 void add_report(CLI::App& program, int& status);
 void add_replay(CLI::App& program, int& status);
 void add_problem(CLI::App& program, int& status);

@@ -32,6 +32,8 @@ export function apiOf(viewer) {
     frame: () => viewer.frame(),
     /** Draws now; milliseconds that it took. */
     renderOnce: () => viewer.renderOnce(),
+    /** Runs the scene in the page, below. */
+    runHere: () => viewer.runHere(),
     /** Fills the window with the views; bare: with nothing else. */
     present: (on, bare) => viewer.present(on, bare),
     describe: () => ({

@@ -173,17 +173,17 @@ export class Bodies {
     for (const { lines } of this.groups) if (lines) lines.visible = on;
   }
 
-  /** The body that the ray meets first, or null. */
-  pick(raycaster) {
+  /** {body, distance, point} of the first that the ray meets, or null. */
+  hit(raycaster) {
     let best = null;
     for (const { mesh, members } of this.groups) {
       mesh.boundingSphere = null; // of the matrices as they are now
       for (const hit of raycaster.intersectObject(mesh, false)) {
         if (!best || hit.distance < best.distance)
-          best = { distance: hit.distance, body: members[hit.instanceId].index };
+          best = { distance: hit.distance, point: hit.point, body: members[hit.instanceId].index };
       }
     }
-    return best && best.body;
+    return best;
   }
 
   dispose() {

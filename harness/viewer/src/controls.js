@@ -7,22 +7,48 @@ import { pairOf } from './pairs.js';
 import { kLayers, missing, missingEverywhere } from './layers/layers.js';
 import { legends } from './layers/legends.js';
 
-const kPlay = 'M4 2.5v11l9-5.5z',
-  kPause = 'M4 2.5h3v11H4zM9 2.5h3v11H9z',
-  kBack = 'M4 3v10h1.6V3zM13 3v10L6.5 8z',
-  kOn = 'M10.4 3v10H12V3zM3 3v10l6.5-5z';
+export const kPlay = 'M4 2.5v11l9-5.5z';
+const kPause = 'M4 2.5h3v11H4zM9 2.5h3v11H9z',
+  kBack = 'M4 3v10h1.6V3zM13 3v10L6.5 8z';
+export const kOn = 'M10.4 3v10H12V3zM3 3v10l6.5-5z';
 const kLoop = 'M4 5h6V3l3.5 3L10 9V7H5v2H3.5V5.5zM12 11H6v2l-3.5-3L6 7v2h5V7h1.5v3.5z';
-const kCamera =
+export const kCamera =
   'M2 2h4v1.5H3.5V6H2zM10 2h4v4h-1.5V3.5H10zM2 10h1.5v2.5H6V14H2zM12.5 10H14v4h-4v-1.5h2.5zM8 6a2 2 0 110 4 2 2 0 010-4z';
-const kFull = 'M2 2h5v1.6H4.7L7 5.9 5.9 7 3.6 4.7V7H2zM9 14v-1.6h2.3L9 10.1 10.1 9l2.3 2.3V9H14v5z';
-const kFirstSeries = ['energy', 'energy_drift', 'distance', 'true_distance']; // shown at first, where recorded
+export const kFull = 'M2 2h5v1.6H4.7L7 5.9 5.9 7 3.6 4.7V7H2zM9 14v-1.6h2.3L9 10.1 10.1 9l2.3 2.3V9H14v5z';
+const kFirstSeries = ['energy', 'energy_drift', 'distance', 'true_distance'];
 const kTicks = 2000; // of the time line
+
+export function button(path, label, action, attributes = {}) {
+  return element(
+    'button',
+    { type: 'button', class: 'pv-button', title: label, 'aria-label': label, onclick: action, ...attributes },
+    icon(path),
+  );
+}
+
+export function speeds(viewer) {
+  const select = element(
+    'select',
+    { 'aria-label': 'speed', title: 'speed', onchange: () => viewer.setSpeed(Number(select.value)) },
+    ...kSpeeds.map((speed) => element('option', { value: speed, selected: speed === 1 }, `${speed}\u00d7`)),
+  );
+  return select;
+}
+
+export function keyHelp(keys) {
+  return element(
+    'details',
+    { class: 'pv-keys' },
+    element('summary', { title: 'keys', 'aria-label': 'keys' }, '?'),
+    element('dl', {}, ...keys.flatMap(([key, does]) => [element('dt', {}, key), element('dd', {}, does)])),
+  );
+}
 
 export class Controls {
   constructor(viewer) {
     this.viewer = viewer;
     this.playing = false;
-    this.chosen = new Set(viewer.compact ? [] : kFirstSeries);
+    this.chosen = new Set(viewer.compact ? [] : this.firstSeries);
     const { names } = viewer.library,
       scenes = names.filter((name) => !pairOf(name));
     this.scene = element(
@@ -32,6 +58,17 @@ export class Controls {
       viewer.pairs.first ? element('option', { value: viewer.pairs.first }, 'pairs of shapes') : null,
     );
     this.title = element('span', { class: 'pv-title' });
+    this.run = element(
+      'button',
+      {
+        type: 'button',
+        class: 'pv-chip pv-run',
+        hidden: true,
+        title: 'in this page, by impulse: change its settings, pull at bodies',
+        onclick: () => viewer.runHere(),
+      },
+      'Run it here',
+    );
     this.engines = element('span', { class: 'pv-group', role: 'group', 'aria-label': 'engines' });
     this.layers = element('span', { class: 'pv-group', role: 'group', 'aria-label': 'layers' });
     this.curves = element('span', { class: 'pv-group', role: 'group', 'aria-label': 'curves' });
@@ -62,6 +99,7 @@ export class Controls {
         { class: 'pv-row' },
         this.scene.options.length > 1 ? element('label', { class: 'pv-scene' }, this.scene) : null,
         this.title,
+        this.run,
         this.engines,
       ),
       element('div', { class: 'pv-row' }, element('span', { class: 'pv-word' }, 'Layers'), this.layers, this.depth),
@@ -84,15 +122,14 @@ export class Controls {
     this.transport = this.makeTransport();
   }
 
+  /** Shown at first, where recorded. */
+  get firstSeries() {
+    return kFirstSeries;
+  }
+
   makeTransport() {
     const { viewer } = this,
       { clock } = viewer;
-    const button = (path, label, action, attributes = {}) =>
-      element(
-        'button',
-        { type: 'button', class: 'pv-button', title: label, 'aria-label': label, onclick: action, ...attributes },
-        icon(path),
-      );
     this.playButton = button(kPlay, 'play', () => viewer.toggle(), { class: 'pv-button pv-play' });
     this.loopButton = button(kLoop, 'loop', () => this.setLoop(!clock.loop), { 'aria-pressed': 'true' });
     this.slider = element('input', {
@@ -109,17 +146,7 @@ export class Controls {
       },
     });
     this.readout = element('output', { class: 'pv-now' });
-    this.speed = element(
-      'select',
-      { 'aria-label': 'speed', title: 'speed', onchange: () => viewer.setSpeed(Number(this.speed.value)) },
-      ...kSpeeds.map((speed) => element('option', { value: speed, selected: speed === 1 }, `${speed}\u00d7`)),
-    );
-    const keys = element(
-      'details',
-      { class: 'pv-keys' },
-      element('summary', { title: 'keys', 'aria-label': 'keys' }, '?'),
-      element('dl', {}, ...kKeys.flatMap(([key, does]) => [element('dt', {}, key), element('dd', {}, does)])),
-    );
+    this.speed = speeds(viewer);
     return element(
       'div',
       { class: 'pv-transport', role: 'group', 'aria-label': 'playback' },
@@ -132,7 +159,7 @@ export class Controls {
       this.loopButton,
       button(kCamera, 'reset the camera', () => viewer.resetCamera()),
       button(kFull, 'fill the window', () => viewer.present()),
-      keys,
+      keyHelp(kKeys),
     );
   }
 
@@ -141,6 +168,7 @@ export class Controls {
     const { viewer } = this,
       { header } = views[0].replay;
     this.scene.value = pairOf(sceneName) ? viewer.pairs.first : sceneName;
+    this.run.hidden = !viewer.runner?.can(sceneName);
     this.title.textContent = (header.title ?? '').replaceAll('_', ' ');
     this.engines.replaceChildren(
       ...(views.length < 2

@@ -11,6 +11,9 @@ export const kSeries = {
   true_distance: 'true distance',
   depth_error: 'error of the depth',
   contacts: 'contacts',
+  joint_gap: 'widest gap of a joint',
+  overlap: 'deepest contact',
+  step_ms: 'time of a step',
 };
 const kUnits = {
   energy: 'J',
@@ -140,12 +143,12 @@ export class Curves {
   update(time) {
     if (!this.span) return;
     const x = Math.min(Math.max((time - this.span.begin) / (this.span.end - this.span.begin || 1), 0), 1) * kWidth;
-    const { frame } = this.replay;
+    const { frame, row } = this.replay;
     for (const { cursor, readout, values, unit } of this.strips) {
       if (!values) continue;
       cursor.setAttribute('transform', `translate(${Math.min(x, kWidth - 1).toFixed(1)} 0)`);
       if (frame !== this.shown)
-        readout.textContent = unit === '1' ? digits(values[frame]) : quantity(values[frame], unit);
+        readout.textContent = unit === '1' ? digits(values[row]) : quantity(values[row], unit);
     }
     this.shown = frame;
   }

@@ -91,10 +91,15 @@ export class SceneView {
     }
   }
 
-  /** The body under the point, in -1..1 of the view. */
-  pick(point, camera) {
+  /** What is under the point, in -1..1 of the view: {body, distance, point}, or null. */
+  hit(point, camera) {
     this.raycaster.setFromCamera(point, camera);
-    return this.bodies.pick(this.raycaster);
+    return this.bodies.hit(this.raycaster);
+  }
+
+  /** The body under the point, or null. */
+  pick(point, camera) {
+    return this.hit(point, camera)?.body ?? null;
   }
 
   dispose() {

@@ -24,18 +24,19 @@ const kLongestTick = 0.1; // s: slower machines play slower rather than by leaps
 
 export class Viewer {
   /** options: scene (the first of the page where there is none of that name), at (the second to stand at, else it
-   *  plays when it is seen), compact (views and time alone). */
-  constructor(place, library, { scene, at, compact = false } = {}) {
+   *  plays when it is seen), compact (views and time alone), runner (live/runner.js). */
+  constructor(place, library, { scene, at, compact = false, runner = null } = {}) {
     this.place = place;
     this.library = library;
     this.firstScene = library.names.includes(scene) ? scene : library.names[0];
     this.firstTime = at;
     this.compact = compact;
+    this.runner = runner;
     this.views = [];
     this.on = new Set();
     this.hidden = new Set(); // backends that are switched off
     this.names = false; // of bodies, beside them
-    this.clock = new Clock();
+    this.clock = this.makeClock();
     this.pace = new Pace();
     this.cameras = new Cameras(() => this.touch());
     this.context = { penetrationRange: 1, forceRange: 1, gapRange: 1, deepestBox: 0, boxDepth: 'all' };
@@ -43,14 +44,31 @@ export class Viewer {
     this.stage = new Stage();
     place.classList.add('pv');
     place.classList.toggle('pv-compact', compact);
-    if (!library.names.length)
-      this.fail('There are no replays in this page: run with --record and make the report again.');
+    if (!library.names.length) this.fail(this.nothing);
     else if (!this.stage.gl)
       this.fail(
         'The replays need WebGL 2, which this browser does not offer or has switched off. ' +
           'Everything else on this page works without it.',
       );
     if (!this.failure) this.startWhenNear();
+  }
+
+  // ---- what a run that goes on has otherwise (live/live_viewer.js) ----
+  get nothing() {
+    return 'There are no replays in this page: run with --record and make the report again.';
+  }
+  makeClock() {
+    return new Clock();
+  }
+  makeControls() {
+    return new Controls(this);
+  }
+  framingOf(replays) {
+    return framing(replays);
+  }
+  parts() {
+    const { top, legend, transport } = this.controls;
+    return [top, this.pairs.element, legend, this.stage.element, transport];
   }
 
   /** Resolves when the first scene is shown. */
@@ -81,14 +99,8 @@ export class Viewer {
     this.stage.start();
     this.pairs = new PairPanel(this);
     this.follow = new Follow(this);
-    this.controls = new Controls(this);
-    this.place.replaceChildren(
-      this.controls.top,
-      this.pairs.element,
-      this.controls.legend,
-      this.stage.element,
-      this.controls.transport,
-    );
+    this.controls = this.makeControls();
+    this.place.replaceChildren(...this.parts());
     listenToKeys(this);
     watchTheme(() => this.repaint());
     new ResizeObserver(() => this.layout()).observe(this.stage.element);
@@ -133,7 +145,7 @@ export class Viewer {
     const replays = opened.map(({ replay }) => replay);
     this.kind = replays[0].header.kind ?? 'scene';
     Object.assign(this.context, colourRanges(replays), { boxDepth: 'all' });
-    this.framing = framing(replays);
+    this.framing = this.framingOf(replays);
     if (this.kind === 'pairs') this.framing.half.multiplyScalar(kPairZoom);
     const callbacks = {
       pick: (view, event) => this.pick(view, event),
@@ -296,6 +308,12 @@ export class Viewer {
   setSpeed(speed) {
     this.clock.speed = speed;
     this.controls.showSpeed(speed);
+  }
+
+  /** The scene in the page's own engine. */
+  runHere() {
+    this.pause();
+    return this.runner.open(this.sceneName);
   }
 
   // ---- picture ----

@@ -24,6 +24,18 @@ struct PageReplay {
   std::optional<std::size_t> colour = {};  ///< of the style; none: that of the engine's name
 };
 
+/// A scene that the page can run itself.
+struct PageWorld {
+  std::string scene;  ///< as of a replay
+  std::string json;   ///< replay/live_world.hpp
+};
+
+/// Scenes that the page can run, and with what; nothing of either where it cannot.
+struct PageWorlds {
+  std::string engine;  ///< the bytes of plumb-impulse.wasm
+  std::vector<PageWorld> list;
+};
+
 /// A baseline to hold the results against.
 struct AgainstPart {
   std::string name;  ///< its folder
@@ -44,6 +56,7 @@ struct PageOptions {
   std::vector<StudyText> studies = {};
   std::optional<AgainstPart> against = std::nullopt;
   std::vector<PageReplay> replays = {};  ///< scenes in the order in which they shall stand
+  PageWorlds worlds = {};                ///< of those that are among the replays
   std::string replays_note = {};         ///< what was recorded and is not among them, in words; or ""
 };
 

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "base/base64.hpp"
+#include "base/deflate.hpp"
 #include "report/page/parts/assets.hpp"
 #include "report/page/parts/bundled_scripts.hpp"
 #include "report/page/parts/looks.hpp"
@@ -10,6 +11,23 @@
 
 namespace plumb::harness {
 namespace {
+
+/// What the viewer runs by itself: the engine once, and the scenes as they begin.
+std::string live_parts(const PageWorlds& worlds) {
+  if (worlds.list.empty()) return "";
+  std::string out = fmt::format(R"(<script type="application/octet-stream" class="plumb-engine">{}</script>)",
+                                base64(deflated(worlds.engine)));
+  for (const auto& [scene, json] : worlds.list)
+    out += fmt::format(R"(<script type="application/octet-stream" class="plumb-world" data-scene="{}">{}</script>)",
+                       escape_html(scene), base64(deflated(json)));
+  return out;
+}
+
+std::string page_of(const std::string& title, const std::string& content) {
+  return fmt::format(R"(<!doctype html><html lang="en"><head><meta charset="utf-8"><title>{}</title><style>{}</style>)"
+                     "</head><body><main>{}<script>{}</script></main></body></html>\n",
+                     escape_html(title), page_style, content, viewer_script);
+}
 
 std::string player(const std::vector<PageReplay>& replays) {
   std::string out = R"(<div id="plumb-viewer"></div>)";
@@ -20,16 +38,18 @@ std::string player(const std::vector<PageReplay>& replays) {
         escape_html(replay.scene), escape_html(replay.backend),
         replay.colour.value_or(look_of(replay.backend).colour()), base64(replay.bundle));
   }
-  return fmt::format("{}<script>{}</script>", out, viewer_script);
+  return out;
 }
 
 }  // namespace
 
 std::string replay_page(const std::vector<PageReplay>& replays) {
-  const std::string title = replays.empty() ? "" : escape_html(replays.front().scene);
-  return fmt::format(R"(<!doctype html><html lang="en"><head><meta charset="utf-8"><title>{}</title><style>{}</style>)"
-                     "</head><body><main>{}</main></body></html>\n",
-                     title, page_style, player(replays));
+  return page_of(replays.empty() ? "" : replays.front().scene, player(replays));
+}
+
+std::string live_page(const PageWorlds& worlds) {
+  return page_of(worlds.list.empty() ? "" : worlds.list.front().scene,
+                 R"(<div id="plumb-live"></div>)" + live_parts(worlds));
 }
 
 std::string replays_place(const PageOptions& options) {
@@ -47,7 +67,8 @@ std::string replays_place(const PageOptions& options) {
                "and write the page again: what was recorded stays valid.") +
            "</section>";
   }
-  return start + player(options.replays) + about(words) + "</section>";
+  return fmt::format("{}{}{}<script>{}</script>{}</section>", start, player(options.replays),
+                     live_parts(options.worlds), viewer_script, about(words));
 }
 
 }  // namespace plumb::harness

@@ -74,6 +74,8 @@ struct PageContext {
 [[nodiscard]] std::string replays_place(const PageOptions& options);
 /// A page that does nothing but play.
 [[nodiscard]] std::string replay_page(const std::vector<PageReplay>& replays);
+/// A page that runs scenes itself.
+[[nodiscard]] std::string live_page(const PageWorlds& worlds);
 
 /// A figure as a link to the row that it comes from: <a href="#r12">text</a>. The text is escaped here; what a hover
 /// says of the row, the script knows.

@@ -118,16 +118,24 @@ export class Replay {
     return values === undefined || !(column >= 0) ? undefined : values[this.frame * this.moving.length + column];
   }
 
-  /** Metres a second between the frames around the current one. */
-  speed(body) {
+  /** Of the current frame in the series. */
+  get row() {
+    return this.frame;
+  }
+
+  /** Metres a second between the frames around the current one, into out. */
+  velocity(body, out) {
     const column = this.column[body];
     const a = Math.max(this.frame - 1, 0),
       b = Math.min(this.frame + 1, this.frames - 1),
       span = this.times[b] - this.times[a];
-    if (!(column >= 0) || !(span > 0)) return 0;
-    let sum = 0;
     for (let axis = 0; axis < 3; ++axis)
-      sum += (this.coordinate(b, column, axis) - this.coordinate(a, column, axis)) ** 2;
-    return Math.sqrt(sum) / span;
+      out[axis] =
+        column >= 0 && span > 0 ? (this.coordinate(b, column, axis) - this.coordinate(a, column, axis)) / span : 0;
+    return out;
+  }
+
+  speed(body) {
+    return Math.hypot(...this.velocity(body, [0, 0, 0]));
   }
 }

@@ -7,6 +7,7 @@ import { ContactLayer } from './layer_contacts.js';
 import { ForceLayer } from './layer_forces.js';
 import { JointLayer } from './layer_joints.js';
 import { kMostPaths, PathLayer } from './layer_paths.js';
+import { VelocityLayer } from './layer_velocities.js';
 
 const kPale = oklch(0.72, 0.012, 250);
 const kIslands = Array.from({ length: 61 }, (_, i) => kindColour(i, 0.72, 0.13));
@@ -99,12 +100,19 @@ export const kLayers = [
     name: 'paths',
     label: 'Paths',
     about: 'the way that each body takes',
-    needs: [],
+    needs: ['positions'],
     Drawing: PathLayer,
     without: ({ moving }) =>
       moving.length > kMostPaths
         ? `${moving.length} bodies move, and paths of at most ${kMostPaths} can be told apart`
         : null,
+  },
+  {
+    name: 'velocities',
+    label: 'Velocities',
+    about: 'velocity of each body: as far as it goes in a tenth of a second',
+    needs: [],
+    Drawing: VelocityLayer,
   },
 ];
 
