@@ -174,6 +174,7 @@ Json live_world(const Scene& scene) {
   std::vector<PoseRow> poses;
   for (const SceneBody& body : scene.bodies) poses.push_back({body.desc.pose.position, body.desc.pose.orientation});
   const SceneNature nature = nature_of(scene);
+  const RefereeView view(scene);
   Json world{{"header", replay_header(scene, poses)},
              {"needs", words_of(scene.needs, need_words())},
              {"gravity", triple(scene.gravity)},
@@ -182,7 +183,7 @@ Json live_world(const Scene& scene) {
   for (const char* list : {"shapes", "bodies", "joints", "masses", "host", "cuts"}) world[list] = Json::array();
   for (const SceneShape& shape : scene.shapes) world["shapes"].push_back(shape_of(shape));
   for (const SceneBody& body : scene.bodies) world["bodies"].push_back(body_of(body));
-  for (const referee::Mass& mass : RefereeView(scene).masses()) world["masses"].push_back(mass_of(mass));
+  for (const referee::Mass& mass : view.masses()) world["masses"].push_back(mass_of(mass));
   for (const SceneAction& action : scene.host) world["host"].push_back(action_of(action));
   for (std::size_t i = 0; i < scene.joints.size(); ++i) {
     world["joints"].push_back(joint_of(scene.joints[i]));

@@ -6,9 +6,11 @@
 
 namespace plumb::harness {
 
-/// "header": what a replay must know (record/trajectory_header.hpp), and "driven": whether its energy says nothing of the
+/// "header": what a replay must know (record/trajectory_header.hpp), and "driven": whether its energy says nothing of
+/// the
 ///   engine.
-/// "needs", "gravity", "settings" ({}), "shapes", "bodies", "joints": as api/web takes them (plumb.d.mts), in the scene's
+/// "needs", "gravity", "settings" ({}), "shapes", "bodies", "joints": as api/web takes them (plumb.d.mts), in the
+/// scene's
 ///   order; for handles stand numbers in these lists. Of meshes and height fields the points stand in the header alone.
 /// "masses": of each body by the referee mass, centre of mass, and xx yy zz xy xz yz of the inertia about it, in the
 ///   body's axes.

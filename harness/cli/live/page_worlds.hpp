@@ -11,8 +11,8 @@ namespace plumb::harness {
 /// this machine lacks what the scene needs.
 [[nodiscard]] PageWorld page_world(const Scene& scene, const Json& about, const Json& settings);
 
-/// Of recordings by their headers, with the engine; nothing where there is no engine at hand. A scene that is not found,
-/// or is another one by now, is left out.
+/// Of recordings by their headers, with the engine; nothing where there is no engine at hand. A scene that is not
+/// found, or is another one by now, is left out.
 [[nodiscard]] PageWorlds worlds_of_recordings(const std::vector<Json>& headers);
 
 }  // namespace plumb::harness

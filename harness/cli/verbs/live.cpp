@@ -40,8 +40,9 @@ PageWorlds worlds_of(const LiveOptions& options) {
 
 void write_live_page(const LiveOptions& options) {
   if (!has_viewer())
-    throw UsageError("this program was built without node and has no viewer that runs scenes: build it where node and "
-                     "npm are");
+    throw UsageError(
+        "this program was built without node and has no viewer that runs scenes: build it where node and "
+        "npm are");
   DraftFile file(options.html);
   const std::string page = live_page(worlds_of(options));
   file.write(page);
@@ -75,8 +76,9 @@ void add_live(CLI::App& program, int& status) {
   verb->add_option("--wasm", options->wasm,
                    "The engine; when not given, plumb-impulse.wasm beside the backends or of ./dev platforms wasm")
       ->type_name("FILE");
-  add_examples(*verb, {{"plumb live tower --param H=20 --html tower.html", "push a cube, change gravity, watch it fall"},
-                       {"plumb live D1 E1 I1 --html live.html", "several scenes, each variant"}});
+  add_examples(*verb,
+               {{"plumb live tower --param H=20 --html tower.html", "push a cube, change gravity, watch it fall"},
+                {"plumb live D1 E1 I1 --html live.html", "several scenes, each variant"}});
   verb->callback([options, &status] {
     write_live_page(*options);
     status = 0;

@@ -13,9 +13,10 @@ struct ReplayLimits {
   std::size_t bytes_of_all = 9u << 19;
 };
 
-/// Sets options.replays, replays_note, and worlds, of those that impulse ran, from FOLDER/trajectories: of every scene with its parameters one replay a
-/// backend, the one with the fewest settings changed. The smallest variant of each scene comes first, then the
-/// others, smallest first, until the limits are reached. Files that cannot be read are told on standard error.
+/// Sets options.replays, replays_note, and worlds, of those that impulse ran, from FOLDER/trajectories: of every scene
+/// with its parameters one replay a backend, the one with the fewest settings changed. The smallest variant of each
+/// scene comes first, then the others, smallest first, until the limits are reached. Files that cannot be read are told
+/// on standard error.
 void add_replays(const std::filesystem::path& folder, const ReplayLimits& limits, PageOptions& options);
 
 /// "D1 H=10": the scene of a trajectory's header with the parameters that tell it from its siblings.

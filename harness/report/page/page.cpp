@@ -184,8 +184,9 @@ void write_page(std::ostream& out, const std::vector<Row>& rows, const PageOptio
   out << "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
          "content=\"width=device-width,initial-scale=1\">"
       // Nothing is asked of a network, and the browser sees to it.
-      << "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src 'unsafe-inline'; "
-         "style-src 'unsafe-inline'; img-src data: blob:\">"
+      << "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src 'unsafe-inline'"
+      << (options.worlds.list.empty() ? "" : " 'wasm-unsafe-eval'")
+      << "; style-src 'unsafe-inline'; img-src data: blob:\">"
       << "<meta name=\"color-scheme\" content=\"light dark\"><title>Plumb report</title><style>" << page_style
       << colour_style(backends)
       // Before anything is painted, so that a chosen theme does not flash.

@@ -58,17 +58,6 @@ export class Controls {
       viewer.pairs.first ? element('option', { value: viewer.pairs.first }, 'pairs of shapes') : null,
     );
     this.title = element('span', { class: 'pv-title' });
-    this.run = element(
-      'button',
-      {
-        type: 'button',
-        class: 'pv-chip pv-run',
-        hidden: true,
-        title: 'in this page, by impulse: change its settings, pull at bodies',
-        onclick: () => viewer.runHere(),
-      },
-      'Run it here',
-    );
     this.engines = element('span', { class: 'pv-group', role: 'group', 'aria-label': 'engines' });
     this.layers = element('span', { class: 'pv-group', role: 'group', 'aria-label': 'layers' });
     this.curves = element('span', { class: 'pv-group', role: 'group', 'aria-label': 'curves' });
@@ -99,7 +88,6 @@ export class Controls {
         { class: 'pv-row' },
         this.scene.options.length > 1 ? element('label', { class: 'pv-scene' }, this.scene) : null,
         this.title,
-        this.run,
         this.engines,
       ),
       element('div', { class: 'pv-row' }, element('span', { class: 'pv-word' }, 'Layers'), this.layers, this.depth),
@@ -147,6 +135,17 @@ export class Controls {
     });
     this.readout = element('output', { class: 'pv-now' });
     this.speed = speeds(viewer);
+    this.run = element(
+      'button',
+      {
+        type: 'button',
+        class: 'pv-chip pv-run',
+        hidden: true,
+        title: 'in this page, by impulse: change its settings, pull at bodies',
+        onclick: () => viewer.runHere(),
+      },
+      'Run it here',
+    );
     return element(
       'div',
       { class: 'pv-transport', role: 'group', 'aria-label': 'playback' },
@@ -160,6 +159,7 @@ export class Controls {
       button(kCamera, 'reset the camera', () => viewer.resetCamera()),
       button(kFull, 'fill the window', () => viewer.present()),
       keyHelp(kKeys),
+      this.run,
     );
   }
 
@@ -168,7 +168,7 @@ export class Controls {
     const { viewer } = this,
       { header } = views[0].replay;
     this.scene.value = pairOf(sceneName) ? viewer.pairs.first : sceneName;
-    this.run.hidden = !viewer.runner?.can(sceneName);
+    if (this.run) this.run.hidden = !viewer.runner?.can(sceneName);
     this.title.textContent = (header.title ?? '').replaceAll('_', ' ');
     this.engines.replaceChildren(
       ...(views.length < 2

@@ -95,6 +95,10 @@ if (replays) {
     grow.textContent = on ? 'Smaller' : 'All scenes, layers and curves';
     if (on) replays.scrollIntoView();
   });
+  // What runs in the page takes room.
+  replays.addEventListener('click', ({ target }) => {
+    if (target.closest('.pv-run') && !replays.classList.contains('large')) grow.click();
+  });
   replays.querySelector('h2').after(grow);
 }
 

@@ -24,9 +24,12 @@ std::string live_parts(const PageWorlds& worlds) {
 }
 
 std::string page_of(const std::string& title, const std::string& content) {
-  return fmt::format(R"(<!doctype html><html lang="en"><head><meta charset="utf-8"><title>{}</title><style>{}</style>)"
-                     "</head><body><main>{}<script>{}</script></main></body></html>\n",
-                     escape_html(title), page_style, content, viewer_script);
+  return fmt::format(
+      R"(<!doctype html><html lang="en"><head><meta charset="utf-8"><meta http-equiv="Content-Security-Policy" )"
+      R"(content="default-src 'none'; script-src 'unsafe-inline' 'wasm-unsafe-eval'; style-src 'unsafe-inline'; )"
+      R"(img-src data: blob:"><title>{}</title><style>{}</style>)"
+      "</head><body><main>{}<script>{}</script></main></body></html>\n",
+      escape_html(title), page_style, content, viewer_script);
 }
 
 std::string player(const std::vector<PageReplay>& replays) {
@@ -49,7 +52,11 @@ std::string replay_page(const std::vector<PageReplay>& replays) {
 
 std::string live_page(const PageWorlds& worlds) {
   return page_of(worlds.list.empty() ? "" : worlds.list.front().scene,
-                 R"(<div id="plumb-live"></div>)" + live_parts(worlds));
+                 R"(<div id="plumb-live"></div>)" + live_parts(worlds) +
+                     about("This page runs the engine impulse itself, as WebAssembly, and comes to the same bits as "
+                           "plumb run as long as nothing is changed. Drag a body to pull it along. Energy and gaps of "
+                           "joints are worked out as the harness does; contacts, their forces and depths are the "
+                           "engine's own."));
 }
 
 std::string replays_place(const PageOptions& options) {

@@ -1,18 +1,19 @@
 // What a live run is measured by, in float64 from poses, velocities and the referee's masses, as the harness defines it
 // (referee/mechanics.hpp).
 
-/** Row-major, of a unit quaternion x y z w. */
+/** Row-major, of a quaternion x y z w, whose length the engine rounded. */
 export function rotationOf(x, y, z, w) {
+  const s = 2 / (x * x + y * y + z * z + w * w);
   return [
-    1 - 2 * (y * y + z * z),
-    2 * (x * y - z * w),
-    2 * (x * z + y * w),
-    2 * (x * y + z * w),
-    1 - 2 * (x * x + z * z),
-    2 * (y * z - x * w),
-    2 * (x * z - y * w),
-    2 * (y * z + x * w),
-    1 - 2 * (x * x + y * y),
+    1 - s * (y * y + z * z),
+    s * (x * y - z * w),
+    s * (x * z + y * w),
+    s * (x * y + z * w),
+    1 - s * (x * x + z * z),
+    s * (y * z - x * w),
+    s * (x * z - y * w),
+    s * (y * z + x * w),
+    1 - s * (x * x + y * y),
   ];
 }
 

@@ -42,8 +42,6 @@ export class Grab {
     const hit = view.scene.hit(this.point(view, event), this.camera(view));
     if (!hit || !(this.viewer.run.form.masses[hit.body][0] > 0)) return; // the camera's
     event.stopPropagation();
-    event.preventDefault();
-    view.port.focus({ preventScroll: true });
     this.take(hit.body, hit.point, view);
     const from = [event.clientX, event.clientY];
     const move = (moved) => this.move(view, moved);

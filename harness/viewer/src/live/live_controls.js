@@ -39,6 +39,13 @@ export class LiveControls extends Controls {
     );
   }
 
+  /** Of layers those that the scene has; one engine shares its scale with nobody. */
+  show(viewer) {
+    super.show(viewer);
+    for (const chip of [...this.layers.children]) if (chip.getAttribute('aria-disabled')) chip.remove();
+    this.scale.parentElement.hidden = true;
+  }
+
   setLoop() {}
 
   showTime(time, { late }) {
