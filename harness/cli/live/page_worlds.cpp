@@ -4,8 +4,8 @@
 
 #include "cell/cell.hpp"
 #include "cli/live/engine_file.hpp"
-#include "cli/verbs/page_replays.hpp"
 #include "replay/live_world.hpp"
+#include "replay/title.hpp"
 #include "scene/catalogue.hpp"
 
 namespace plumb::harness {

@@ -13,10 +13,10 @@
 #include "cli/manual/examples.hpp"
 #include "cli/options/numbers.hpp"
 #include "cli/output/draft_file.hpp"
-#include "cli/verbs/page_replays.hpp"
 #include "cli/verbs/verbs.hpp"
 #include "replay/bundle.hpp"
 #include "replay/gltf.hpp"
+#include "replay/title.hpp"
 #include "report/page/parts/bundled_scripts.hpp"
 #include "report/page/sections/sections.hpp"
 

@@ -10,6 +10,7 @@
 #include "base/format.hpp"
 #include "cli/live/page_worlds.hpp"
 #include "replay/bundle.hpp"
+#include "replay/title.hpp"
 
 namespace plumb::harness {
 
@@ -66,13 +67,6 @@ void put_in_order(std::vector<RecordedScene>& scenes) {
 }
 
 }  // namespace
-
-std::string replay_title(const Json& header) {
-  std::string title = header.value("scene", "");
-  const Json parameters = header.value("params", Json::object());
-  for (const auto& [name, value] : parameters.items()) title += " " + name + "=" + value_text(value);
-  return title;
-}
 
 void add_replays(const std::filesystem::path& folder, const ReplayLimits& limits, PageOptions& options) {
   std::vector<RecordedScene> scenes = recorded_scenes(folder);

@@ -19,7 +19,4 @@ struct ReplayLimits {
 /// on standard error.
 void add_replays(const std::filesystem::path& folder, const ReplayLimits& limits, PageOptions& options);
 
-/// "D1 H=10": the scene of a trajectory's header with the parameters that tell it from its siblings.
-[[nodiscard]] std::string replay_title(const Json& header);
-
 }  // namespace plumb::harness

@@ -18,19 +18,32 @@ const kFreeTurns = { hinge: 0b001, universal: 0b011 };
 
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-const apply = (r, v) => [0, 3, 6].map((row) => r[row] * v[0] + r[row + 1] * v[1] + r[row + 2] * v[2]);
-const applyInverse = (r, v) => [0, 1, 2].map((c) => r[c] * v[0] + r[c + 3] * v[1] + r[c + 6] * v[2]);
+const apply = (r, [x, y, z]) => [
+  r[0] * x + r[1] * y + r[2] * z,
+  r[3] * x + r[4] * y + r[5] * z,
+  r[6] * x + r[7] * y + r[8] * z,
+];
+const applyInverse = (r, [x, y, z]) => [
+  r[0] * x + r[3] * y + r[6] * z,
+  r[1] * x + r[4] * y + r[7] * z,
+  r[2] * x + r[5] * y + r[8] * z,
+];
 const column = (r, c) => [r[c], r[c + 3], r[c + 6]];
-const fromColumns = (columns) => [0, 1, 2].flatMap((row) => columns.map((c) => c[row]));
-const product = (a, b) => fromColumns([0, 1, 2].map((c) => apply(a, column(b, c))));
-const inverseProduct = (a, b) => fromColumns([0, 1, 2].map((c) => applyInverse(a, column(b, c))));
+const product = (a, b) => {
+  const out = new Array(9);
+  for (let i = 0; i < 9; i += 3)
+    for (let c = 0; c < 3; ++c) out[i + c] = a[i] * b[c] + a[i + 1] * b[c + 3] + a[i + 2] * b[c + 6];
+  return out;
+};
+const inverseProduct = (a, b) => product([a[0], a[3], a[6], a[1], a[4], a[7], a[2], a[5], a[8]], b);
 const angleBetween = (a, b) => Math.atan2(Math.hypot(...cross(a, b)), dot(a, b));
 const sine = (x) => Math.asin(Math.min(Math.max(x, -1), 1));
 
 /** {at, r}: a frame of a body in the world. */
-function frameInWorld(pose, { position, orientation }) {
-  const r = rotationOf(...pose.slice(3, 7));
-  return { at: apply(r, position).map((x, i) => x + pose[i]), r: product(r, rotationOf(...orientation)) };
+function frameInWorld(poses, p, frame) {
+  const r = rotationOf(poses[p + 3], poses[p + 4], poses[p + 5], poses[p + 6]);
+  frame.turn ??= rotationOf(...frame.orientation);
+  return { at: apply(r, frame.position).map((x, i) => x + poses[p + i]), r: product(r, frame.turn) };
 }
 
 /** Of a rotation, from half the vector that its antisymmetric part is and its trace. */
@@ -96,9 +109,8 @@ function beyondCone([, halfY], [, halfZ], y, z) {
 /** m and rad by which the joint is open, limits included; the gap is NaN where a spring alone holds the distance.
  *  joint: of the world as the harness wrote it. Poses are rows of all bodies. */
 export function jointError(joint, poses) {
-  const row = (body) => (body === undefined ? kWorld : Array.from(poses.subarray(body * 7, body * 7 + 7)));
-  const a = frameInWorld(row(joint.a), joint.frameA),
-    b = frameInWorld(row(joint.b), joint.frameB);
+  const a = joint.a === undefined ? frameInWorld(kWorld, 0, joint.frameA) : frameInWorld(poses, 7 * joint.a, joint.frameA),
+    b = frameInWorld(poses, 7 * joint.b, joint.frameB);
   const r = inverseProduct(a.r, b.r),
     gap = applyInverse(
       a.r,

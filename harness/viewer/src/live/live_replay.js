@@ -14,6 +14,7 @@ const kSeries = {
   momentum: { unit: 'kg m/s', doc: 'of all bodies together' },
   step_ms: { unit: 'ms', doc: 'time that the engine took for a step' },
 };
+const kBodiesLookedAt = 400; // each step: of more, contacts and joints are looked at every so many steps, as recordings do
 const kWithout = {
   joints: 'the scene has no joints',
   positions: 'a run that goes on has no whole path',
@@ -44,6 +45,7 @@ export class LiveReplay extends Replay {
         ((name !== 'overlap' && name !== 'contacts') || run.form.needs.includes('collision')),
     );
     this.history = new History(kinds);
+    this.spread = Math.max(1, Math.ceil(header.bodies.length / kBodiesLookedAt));
     this.began();
   }
 
@@ -66,15 +68,17 @@ export class LiveReplay extends Replay {
     const { run, sections } = this;
     this.poses.set(run.poses);
     this.frame = run.steps;
-    this.lookAtContacts();
-    const gap = this.lookAtJoints();
+    if (run.steps % this.spread === 0) {
+      this.lookAtContacts();
+      this.gap = this.lookAtJoints();
+    }
     const accounts = run.accounts(),
       energy = accounts.kinetic + accounts.potential;
     this.history.add({
       time: run.time,
       energy,
       energy_drift: this.driftOf(accounts, energy),
-      joint_gap: gap,
+      joint_gap: this.gap,
       overlap: sections.penetration ? sections.penetration.reduce((a, b) => Math.max(a, b), 0) : 0,
       contacts: run.report?.contacts ?? 0,
       momentum: Math.hypot(...accounts.momentum),

@@ -39,26 +39,31 @@ export class LiveViewer extends Viewer {
 
   /** What the scene does at first, seen from a run ahead of it. */
   framingOf([replay]) {
-    const { engine, form } = this.run,
-      ahead = new LiveRun(engine, form),
-      frames = [],
-      begin = performance.now(),
-      stride = Math.max(1, Math.round(Math.min(kAhead.seconds, form.header.seconds) / ahead.dt / kAhead.frames));
-    while (frames.length < kAhead.frames && performance.now() - begin < kAhead.milliseconds) {
-      frames.push(ahead.poses);
-      for (let i = 0; i < stride; ++i) ahead.step();
+    const { header, bodies, moving } = replay,
+      frames = this.framesAhead();
+    const coordinate = (frame, column, axis) => frames[frame][moving[column] * 7 + axis];
+    return framing([{ header, bodies, moving, frames: frames.length, coordinate }]);
+  }
+
+  /** Poses; none where there is no room for a second world. */
+  framesAhead() {
+    const frames = [],
+      begin = performance.now();
+    let ahead = null;
+    try {
+      ahead = new LiveRun(this.run.engine, this.run.form);
+      const seconds = Math.min(kAhead.seconds, ahead.form.header.seconds),
+        stride = Math.max(1, Math.round(seconds / ahead.dt / kAhead.frames));
+      while (frames.length < kAhead.frames && performance.now() - begin < kAhead.milliseconds) {
+        frames.push(ahead.poses);
+        for (let i = 0; i < stride; ++i) ahead.step();
+      }
+    } catch {
+      // What stops the engine is said when the reader's run comes there.
+    } finally {
+      ahead?.world.destroy();
     }
-    ahead.world.destroy();
-    const { header, bodies, moving } = replay;
-    return framing([
-      {
-        header,
-        bodies,
-        moving,
-        frames: frames.length,
-        coordinate: (frame, column, axis) => frames[frame][moving[column] * 7 + axis],
-      },
-    ]);
+    return frames;
   }
 
   async select(name) {
