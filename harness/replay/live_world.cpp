@@ -168,6 +168,36 @@ Json mass_of(const referee::Mass& mass) {
   return {kilograms, c.x(), c.y(), c.z(), i(0, 0), i(1, 1), i(2, 2), i(0, 1), i(0, 2), i(1, 2)};
 }
 
+PlumbNeeds needs_of(const PlumbMaterial& material) {
+  PlumbNeeds needs = 0;
+  if (material.friction > 0) needs |= PLUMB_NEED_FRICTION;
+  if (material.restitution > 0) needs |= PLUMB_NEED_RESTITUTION;
+  if (!referee::vec(material.surface_velocity).isZero()) needs |= PLUMB_NEED_SURFACE_VELOCITY;
+  return needs;
+}
+
+PlumbNeeds needs_of(const PlumbBodyDesc& body) {
+  PlumbNeeds needs = needs_of(body.material);
+  const auto flag = [&](std::uint32_t bit) { return (body.flags & bit) != 0; };
+  if (body.motion == PLUMB_DYNAMIC && !flag(PLUMB_BODY_NO_ROTATION)) needs |= PLUMB_NEED_ROTATION;
+  if (body.motion == PLUMB_KINEMATIC) needs |= PLUMB_NEED_KINEMATIC;
+  if (flag(PLUMB_BODY_CCD)) needs |= PLUMB_NEED_CCD;
+  return needs;
+}
+
+/// The scene's, and where a measure declares more by itself, what its bodies and joints take.
+PlumbNeeds needs_of(const Scene& scene) {
+  PlumbNeeds needs = scene.joints.empty() ? 0 : PLUMB_NEED_JOINTS;
+  for (const SceneBody& body : scene.bodies) needs |= needs_of(body.desc);
+  for (const SceneShape& shape : scene.shapes) {
+    for (const PlumbMaterial& part : shape.materials) needs |= needs_of(part);
+    for (const SceneShape::Child& child : shape.children)
+      if (child.material) needs |= needs_of(*child.material);
+  }
+  if ((needs & (PLUMB_NEED_FRICTION | PLUMB_NEED_RESTITUTION)) != 0) needs |= PLUMB_NEED_COLLISION;
+  return scene.needs | needs;
+}
+
 }  // namespace
 
 Json live_world(const Scene& scene) {
@@ -176,7 +206,7 @@ Json live_world(const Scene& scene) {
   const SceneNature nature = nature_of(scene);
   const RefereeView view(scene);
   Json world{{"header", replay_header(scene, poses)},
-             {"needs", words_of(scene.needs, need_words())},
+             {"needs", words_of(needs_of(scene), need_words())},
              {"gravity", triple(scene.gravity)},
              {"settings", Json::object()}};
   world["header"]["driven"] = nature.driven || nature.stores;

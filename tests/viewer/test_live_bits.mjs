@@ -13,16 +13,15 @@ import { livePage, needWasm, partsOf, plumb } from './live_page.mjs';
 
 needWasm();
 
-// Cubes; a chain; capsules and cylinders; a conveyor; a mesh; compounds; all that machines have of joints, limits, motors
-// and springs, and a host that moves, pushes and drives.
-const kScenes = ['D1', 'E1', 'C9', 'H1', 'I18', 'I19', 'I38', 'E17'];
+// Cubes; a chain; a mesh of two materials; a hull; compounds; all that machines have of joints, limits, motors and springs,
+// and a host that moves, pushes, drives and cuts.
+const kScenes = ['D1', 'E1', 'C12', 'H1', 'P11', 'I18', 'I19', 'I27', 'I38', 'E18'];
 const kHave = {
   'H=10': ['D1'],
   'L=10': ['E1'],
   'load=1000': ['I18', 'I19'],
-  'slope=26': ['C9'],
   'model=horse': ['H1'],
-  'task=scan': ['E17'],
+  'N=3': ['P11'],
 };
 
 let scratch, engine, worlds;

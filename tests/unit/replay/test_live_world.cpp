@@ -17,7 +17,7 @@ Scene scene_of(const char* text) {
 const char* const machine = R"({
   "id": "L1", "slug": "live", "title": "Live", "doc": "for this test",
   "parameters": { "m": { "default": 0.1, "unit": "kg", "doc": "mass" } },
-  "needs": ["rotation", "collision", "joints", "contact_impulses", "kinematic"],
+  "needs": ["rotation", "collision", "friction", "joints", "contact_impulses", "kinematic"],
   "seconds": 2,
   "shapes": {
     "box": { "type": "box", "half_extents": [0.5, 0.25, 0.1] },
@@ -25,11 +25,11 @@ const char* const machine = R"({
     "both": { "type": "compound", "children": [{ "shape": "box" }, { "shape": "rock", "position": [1, 0, 0] }] }
   },
   "bodies": [
-    { "name": "arm", "shape": "box", "mass": "m / 3", "position": [0, 2, 0] },
+    { "name": "arm", "shape": "box", "mass": "m / 3", "restitution": 0.5, "position": [0, 2, 0] },
     { "name": "stone", "shape": "both", "motion": "kinematic" }
   ],
   "joints": [
-    { "name": "elbow", "type": "hinge", "body_b": "arm", "limits": { "rx": [-1, 1] }, "cut": 1.5 }
+    { "name": "elbow", "type": "hinge", "body_b": "arm", "limits": { "rx": { "lower": -1, "upper": 1 } }, "cut": 1.5 }
   ],
   "host": [{ "body": "stone", "position": ["0.1 * t", 0, 0] }],
   "measure": { "kind": "quantities", "quantities": { "fell": { "body": "arm", "quantity": "position", "along": "y" } } },
@@ -38,7 +38,9 @@ const char* const machine = R"({
 
 TEST(LiveWorld, SaysWhatTheSceneSaysInTheWordsOfTheWeb) {
   const Json world = live_world(scene_of(machine));
-  EXPECT_EQ(world["needs"], Json({"rotation", "collision", "joints", "contactImpulses", "kinematic"}));
+  EXPECT_EQ(world["needs"],
+            Json({"rotation", "collision", "friction", "restitution", "joints", "contactImpulses", "kinematic"}))
+      << "restitution is what a body has";
   EXPECT_EQ(world["shapes"][1]["type"], "hull");
   EXPECT_EQ(world["shapes"][1]["vertices"].size(), 12u);
   EXPECT_EQ(world["shapes"][2]["children"][1]["shape"], 1);

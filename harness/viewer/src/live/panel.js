@@ -53,7 +53,7 @@ export class Panel {
           get: () => run.gravity[1],
           set: (y) => run.setGravity([run.gravity[0], y, run.gravity[2]]),
         }),
-        ...['friction', 'restitution'].map((name) =>
+        ...['friction', 'restitution'].filter((need) => form.needs.includes(need)).map((name) =>
           this.number(name, '', 'of all materials; empty: as the scene has them', 0, name === 'friction' ? 10 : 1, {
             get: () => run.material[name] ?? '',
             set: (value) => run.setMaterial(name, value),

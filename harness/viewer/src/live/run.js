@@ -104,12 +104,18 @@ export class LiveRun {
   }
   /** Of bodies at once, of parts of shapes from the next reset on. */
   setMaterial(name, value) {
-    this.material[name] = value;
-    if (!this.bodies.length) return;
-    this.world.write('material', this.bodies, this.form.bodies.flatMap((body) => {
+    const before = this.material;
+    this.material = { ...before, [name]: value };
+    const rows = this.form.bodies.flatMap((body) => {
       const { friction, restitution } = this.with(body);
       return [friction, restitution];
-    }));
+    });
+    try {
+      if (this.bodies.length) this.world.write('material', this.bodies, rows);
+    } catch (error) {
+      this.material = before;
+      throw error;
+    }
   }
   /** One that is for the creation of a world alone begins the scene anew. */
   setSetting(name, value) {
