@@ -25,7 +25,8 @@ std::string live_parts(const PageWorlds& worlds) {
 
 std::string page_of(const std::string& title, const std::string& content) {
   return fmt::format(
-      R"(<!doctype html><html lang="en"><head><meta charset="utf-8"><meta http-equiv="Content-Security-Policy" )"
+      R"(<!doctype html><html lang="en"><head><meta charset="utf-8"><meta name="viewport" )"
+      R"(content="width=device-width,initial-scale=1"><meta http-equiv="Content-Security-Policy" )"
       R"(content="default-src 'none'; script-src 'unsafe-inline' 'wasm-unsafe-eval'; style-src 'unsafe-inline'; )"
       R"(img-src data: blob:"><title>{}</title><style>{}</style>)"
       "</head><body><main>{}<script>{}</script></main></body></html>\n",

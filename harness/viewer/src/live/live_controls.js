@@ -13,6 +13,8 @@ const kOwn = [
   ['home', 'begin anew'],
 ];
 
+const counted = (count, what) => `${count} ${what}${count === 1 ? '' : 's'}`;
+
 export class LiveControls extends Controls {
   get firstSeries() {
     return kFirstSeries;
@@ -55,9 +57,9 @@ export class LiveControls extends Controls {
       { awake = moving, contacts = 0, joints = run.joints.length } = run.report ?? {};
     this.counts.textContent = [
       `step ${run.steps}`,
-      `${moving} bodies, ${awake} awake`,
-      `${contacts} contacts`,
-      joints ? `${joints} joints` : '',
+      `${moving === 1 ? '1 body' : `${moving} bodies`}, ${awake} awake`,
+      counted(contacts, 'contact'),
+      joints ? counted(joints, 'joint') : '',
       run.steps ? `${digits(milliseconds)} ms a step` : '',
       late ? 'slower than the wall\u2019s time' : '',
     ]
