@@ -13,7 +13,9 @@ import { kPatience, visitor } from './visitor.mjs';
 
 needWasm();
 if (!existsSync(kBrowser)) {
-  console.log(`skipped: there is no browser at ${kBrowser}; install the package chromium or name one in PLUMB_CHROMIUM`);
+  console.log(
+    `skipped: there is no browser at ${kBrowser}; install the package chromium or name one in PLUMB_CHROMIUM`,
+  );
   process.exit(0);
 }
 const { chromium } = createRequire(join(process.env.PLUMB_VIEWER_FOLDER, 'package.json'))('playwright-core');
@@ -40,13 +42,16 @@ const change = async (page, name, value) => {
   await field.evaluate((input) => input.closest('details').setAttribute('open', ''));
   if ((await field.evaluate((input) => input.tagName)) === 'SELECT') await field.selectOption(value);
   else {
-    await field.fill(value);
+    await field.fill('');
+    await field.pressSequentially(value); // none of which the viewer takes for one of its keys
     await field.press('Enter');
   }
 };
 
 test('it runs by itself, unless the reader wants calm, and stops', async () => {
-  await visitLive((page) => page.waitForFunction(() => window.plumbLive.frame() > 3), { reducedMotion: 'no-preference' });
+  await visitLive((page) => page.waitForFunction(() => window.plumbLive.frame() > 3), {
+    reducedMotion: 'no-preference',
+  });
   await visitLive(async (page) => {
     await page.waitForTimeout(300);
     assert.equal(await page.evaluate(() => window.plumbLive.frame()), 0);
@@ -69,7 +74,10 @@ test('steps and a new beginning come to the same bits', () =>
     await page.locator('.pv-step').click();
     assert.equal(await page.evaluate(() => window.plumbLive.frame()), 21);
     await page.evaluate(() => window.plumbLive.renderOnce());
-    assert.match(await page.locator('.pv-counts').textContent(), /step 21 \u00b7 5 bodies, \d awake \u00b7 \d+ contacts/);
+    assert.match(
+      await page.locator('.pv-counts').textContent(),
+      /step 21 \u00b7 5 bodies, \d awake \u00b7 \d+ contacts/,
+    );
   }));
 
 test('what is changed counts, and what is wrong is said', () =>
@@ -80,9 +88,17 @@ test('what is changed counts, and what is wrong is said', () =>
     await change(page, 'substeps', '4');
     const { gravity, dt, friction, substeps } = await page.evaluate(() => {
       const { run } = window.plumbLive;
-      return { gravity: run.gravity, dt: run.dt, friction: run.material.friction, substeps: run.getSetting('substeps') };
+      return {
+        gravity: run.gravity,
+        dt: run.dt,
+        friction: run.material.friction,
+        substeps: run.getSetting('substeps'),
+      };
     });
-    assert.deepEqual({ gravity, dt, friction, substeps }, { gravity: [0, -20, 0], dt: 1 / 120, friction: 0, substeps: 4 });
+    assert.deepEqual(
+      { gravity, dt, friction, substeps },
+      { gravity: [0, -20, 0], dt: 1 / 120, friction: 0, substeps: 4 },
+    );
     assert.equal(await page.locator('.pv-changed').count(), 4);
     await change(page, 'substeps', '100000');
     assert.match(await page.locator('.pv-message').textContent(), /substeps: "100000" is no whole number from 1 to/);
@@ -119,7 +135,10 @@ test('joints, forces and velocities are drawn, and what is measured is plotted a
     const picture = () => page.locator('.pv-port').screenshot();
     let before = await picture();
     for (const layer of ['joints', 'velocities']) {
-      const { on } = await page.evaluate((name) => window.plumbLive.describe().layers.find((one) => one.name === name), layer);
+      const { on } = await page.evaluate(
+        (name) => window.plumbLive.describe().layers.find((one) => one.name === name),
+        layer,
+      );
       await page.evaluate(([name, to]) => window.plumbLive.setLayer(name, to), [layer, !on]);
       const now = await picture();
       assert.notDeepEqual(now, before, layer);

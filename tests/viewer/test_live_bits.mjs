@@ -49,7 +49,9 @@ const stepsOf = ({ seconds, dt }) => Math.ceil(seconds / dt - 1e-6);
 
 /** Of each scene the first variant. */
 function firstRows(scenes, ...more) {
-  const lines = plumb('run', ...scenes, ...parametersOf(...scenes), ...more, '--backend', 'impulse', '--json').trim().split('\n'),
+  const lines = plumb('run', ...scenes, ...parametersOf(...scenes), ...more, '--backend', 'impulse', '--json')
+      .trim()
+      .split('\n'),
     rows = new Map();
   for (const row of lines.map((line) => JSON.parse(line))) if (!rows.has(row.scene)) rows.set(row.scene, row);
   return [...rows.values()];
@@ -85,7 +87,10 @@ test('energies, gaps of joints and contacts are those of a recording', async () 
       for (; run.time < sections.times[frame] - 1e-6; replay.stepped(run.step()));
       const energy = replay.sections['series/energy'].at(-1),
         recorded = sections['series/energy'][frame];
-      assert.ok(Math.abs(energy - recorded) <= 1e-6 * (Math.abs(recorded) + span), `${title}: ${energy} J for ${recorded} J`);
+      assert.ok(
+        Math.abs(energy - recorded) <= 1e-6 * (Math.abs(recorded) + span),
+        `${title}: ${energy} J for ${recorded} J`,
+      );
       assert.equal(replay.sections['series/contacts']?.at(-1) ?? 0, sections['series/contacts'][frame]);
       const gaps = new Map();
       for (let i = 0; i < (replay.sections['joints/joint']?.length ?? 0); ++i)
@@ -93,7 +98,12 @@ test('energies, gaps of joints and contacts are those of a recording', async () 
       const [begin = 0, end = 0] = sections['joints/start']?.slice(frame, frame + 2) ?? [];
       assert.equal(gaps.size, end - begin);
       for (let i = begin; i < end; ++i)
-        near(gaps.get(sections['joints/joint'][i]), sections['joints/gap'][i], 2e-9, `gap of joint ${sections['joints/joint'][i]}`);
+        near(
+          gaps.get(sections['joints/joint'][i]),
+          sections['joints/gap'][i],
+          2e-9,
+          `gap of joint ${sections['joints/joint'][i]}`,
+        );
     }
     assert.ok(run.steps > 100);
     run.world.destroy();
@@ -117,6 +127,21 @@ test('what is changed counts, and a new beginning keeps it', () => {
   assert.deepEqual([...run.world.read('material', run.bodies.slice(0, 1))], [0, 0]);
   assert.throws(() => run.setSetting('substeps', -1), /substeps/);
   run.world.destroy();
+});
+
+test('what is asked wrongly is said', () => {
+  const said = (...given) => {
+    try {
+      plumb('live', 'D1', '--html', join(scratch, 'wrong.html'), ...given);
+    } catch ({ stderr }) {
+      return stderr;
+    }
+    return '';
+  };
+  assert.match(said('--wasm', join(scratch, 'none.wasm')), /cannot read .*none.wasm/);
+  assert.match(said('--wasm', join(scratch, 'live.html')), /live.html is no WebAssembly/);
+  assert.match(said('--set', 'substep=3'), /did you mean "substeps"/);
+  assert.match(said('--param', 'h=3'), /no parameter "h"/);
 });
 
 test('expressions mean what they mean in scene files', () => {

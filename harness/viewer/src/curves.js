@@ -11,6 +11,7 @@ export const kSeries = {
   true_distance: 'true distance',
   depth_error: 'error of the depth',
   contacts: 'contacts',
+  fastest: 'speed of the fastest',
   joint_gap: 'widest gap of a joint',
   overlap: 'deepest contact',
   step_ms: 'time of a step',

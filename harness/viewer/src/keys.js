@@ -62,7 +62,7 @@ export function listenToKeys(viewer) {
   viewer.place.addEventListener('keydown', (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     const { tagName, type } = event.target;
-    if (tagName === 'INPUT' && type === 'text') {
+    if (tagName === 'INPUT' && (type === 'text' || type === 'number')) {
       if (event.key === 'Escape') viewer.letGo();
       return;
     }

@@ -36,7 +36,17 @@ export class VelocityLayer {
       const stick = sticks.next(),
         cone = tips.next();
       const head = 1 - tip;
-      writeAlong(sticks.matrices, stick * 16, poses[p], poses[p + 1], poses[p + 2], x * head, y * head, z * head, size * 0.3);
+      writeAlong(
+        sticks.matrices,
+        stick * 16,
+        poses[p],
+        poses[p + 1],
+        poses[p + 2],
+        x * head,
+        y * head,
+        z * head,
+        size * 0.3,
+      );
       writeAlong(
         tips.matrices,
         cone * 16,

@@ -35,7 +35,8 @@ const kFunctions = {
   avg: (...all) => all.reduce((a, b) => a + b, 0) / all.length,
 };
 const kConstants = { pi: Math.PI, _pi: Math.PI, _e: Math.E };
-const kToken = /\s*(\d+\.?\d*(?:[eE][-+]?\d+)?|\.\d+(?:[eE][-+]?\d+)?|[A-Za-z_]\w*|<=|>=|==|!=|&&|\|\||[-+*/^()?:,<>])/y;
+const kToken =
+  /\s*(\d+\.?\d*(?:[eE][-+]?\d+)?|\.\d+(?:[eE][-+]?\d+)?|[A-Za-z_]\w*|<=|>=|==|!=|&&|\|\||[-+*/^()?:,<>])/y;
 const kLevels = [['||'], ['&&'], ['==', '!=', '<', '>', '<=', '>='], ['+', '-'], ['*', '/']];
 const kOperators = {
   '||': (a, b) => (a || b ? 1 : 0),

@@ -96,11 +96,7 @@ export class Grab {
       centre = centreOf(row, poses, this.body * 7),
       arm = at.map((x, i) => x - centre[i]);
     const [vx, vy, vz, wx, wy, wz] = velocities.subarray(this.body * 6, this.body * 6 + 6);
-    const velocity = [
-      vx + wy * arm[2] - wz * arm[1],
-      vy + wz * arm[0] - wx * arm[2],
-      vz + wx * arm[1] - wy * arm[0],
-    ];
+    const velocity = [vx + wy * arm[2] - wz * arm[1], vy + wz * arm[0] - wx * arm[2], vz + wx * arm[1] - wy * arm[0]];
     // What the body weighs there at least, however it turns away.
     const least = Math.min(...row.slice(4, 7)),
       mass = 1 / (1 / row[0] + (least > 0 ? arm.reduce((sum, x) => sum + x * x, 0) / least : 0));

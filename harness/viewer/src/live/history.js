@@ -25,8 +25,7 @@ export class History {
   }
 
   thin() {
-    for (const column of Object.values(this.columns))
-      for (let i = 0; 2 * i < kMost; ++i) column[i] = column[2 * i];
+    for (const column of Object.values(this.columns)) for (let i = 0; 2 * i < kMost; ++i) column[i] = column[2 * i];
     this.rows = kMost / 2;
     this.stride *= 2;
   }

@@ -109,7 +109,8 @@ function beyondCone([, halfY], [, halfZ], y, z) {
 /** m and rad by which the joint is open, limits included; the gap is NaN where a spring alone holds the distance.
  *  joint: of the world as the harness wrote it. Poses are rows of all bodies. */
 export function jointError(joint, poses) {
-  const a = joint.a === undefined ? frameInWorld(kWorld, 0, joint.frameA) : frameInWorld(poses, 7 * joint.a, joint.frameA),
+  const a =
+      joint.a === undefined ? frameInWorld(kWorld, 0, joint.frameA) : frameInWorld(poses, 7 * joint.a, joint.frameA),
     b = frameInWorld(poses, 7 * joint.b, joint.frameB);
   const r = inverseProduct(a.r, b.r),
     gap = applyInverse(

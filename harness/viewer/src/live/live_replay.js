@@ -8,6 +8,8 @@ const kSeries = {
     unit: '1',
     doc: 'change of the energy since the start, of the largest kinetic energy and potential range, or of the energy',
   },
+  kinetic_energy: { unit: 'J', doc: 'likewise, of the motion alone' },
+  fastest: { unit: 'm/s', doc: 'speed of the fastest body' },
   joint_gap: { unit: 'm', doc: 'widest gap of any joint, from the poses' },
   overlap: { unit: 'm', doc: 'deepest of the contacts of the step, as the engine tells it' },
   contacts: { unit: '1', doc: 'points, by the engine\u2019s count' },
@@ -78,6 +80,8 @@ export class LiveReplay extends Replay {
       time: run.time,
       energy,
       energy_drift: this.driftOf(accounts, energy),
+      kinetic_energy: accounts.kinetic,
+      fastest: this.moving.reduce((most, body) => Math.max(most, this.speed(body)), 0),
       joint_gap: this.gap,
       overlap: sections.penetration ? sections.penetration.reduce((a, b) => Math.max(a, b), 0) : 0,
       contacts: run.report?.contacts ?? 0,
@@ -130,7 +134,10 @@ export class LiveReplay extends Replay {
     sections.penetration = deepest;
     if (run.needs.includes('sleeping'))
       sections.asleep = Uint8Array.from(
-        run.world.read('awake', Array.from(this.moving, (body) => run.bodies[body])),
+        run.world.read(
+          'awake',
+          Array.from(this.moving, (body) => run.bodies[body]),
+        ),
         (awake) => (awake ? 0 : 1),
       );
   }

@@ -67,6 +67,7 @@ export class LiveViewer extends Viewer {
   }
 
   async select(name) {
+    const { playing } = this.clock;
     this.clock.pause();
     await super.select(name);
     if (!this.run || this.sceneName !== name) return;
@@ -74,6 +75,7 @@ export class LiveViewer extends Viewer {
     this.panel.show(this.run);
     this.grab.attach(this.views[0]);
     this.renderOnce();
+    if (playing) this.play();
   }
 
   advance() {
@@ -100,9 +102,8 @@ export class LiveViewer extends Viewer {
   }
 
   /** From the start, with nothing changed. */
-  async anew() {
-    await this.select(this.sceneName);
-    this.play();
+  anew() {
+    return this.select(this.sceneName);
   }
 
   /** After something was changed, by which the run may have begun anew. */

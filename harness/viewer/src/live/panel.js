@@ -53,32 +53,25 @@ export class Panel {
           get: () => run.gravity[1],
           set: (y) => run.setGravity([run.gravity[0], y, run.gravity[2]]),
         }),
-        ...['friction', 'restitution'].filter((need) => form.needs.includes(need)).map((name) =>
-          this.number(name, '', 'of all materials; empty: as the scene has them', 0, name === 'friction' ? 10 : 1, {
-            get: () => run.material[name] ?? '',
-            set: (value) => run.setMaterial(name, value),
-            empty: () => run.setMaterial(name, null),
-            hint: first ? `${first[name]}` : '',
-          }),
-        ),
+        ...['friction', 'restitution']
+          .filter((need) => form.needs.includes(need))
+          .map((name) =>
+            this.number(name, '', 'of all materials; empty: as the scene has them', 0, name === 'friction' ? 10 : 1, {
+              get: () => run.material[name] ?? '',
+              set: (value) => run.setMaterial(name, value),
+              empty: () => run.setMaterial(name, null),
+              hint: first ? `${first[name]}` : '',
+            }),
+          ),
       ]),
       ...settings,
-      element(
-        'button',
-        { type: 'button', class: 'pv-chip', onclick: () => this.viewer.anew() },
-        'All as at first',
-      ),
+      element('button', { type: 'button', class: 'pv-chip', onclick: () => this.viewer.anew() }, 'All as at first'),
     );
     this.refresh();
   }
 
   group(title, rows, folded = false) {
-    return element(
-      'details',
-      { class: 'pv-settings-group', open: !folded },
-      element('summary', {}, title),
-      ...rows,
-    );
+    return element('details', { class: 'pv-settings-group', open: !folded }, element('summary', {}, title), ...rows);
   }
 
   /** Writes what is in force into all fields. */

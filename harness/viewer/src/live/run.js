@@ -11,7 +11,9 @@ function shapesOf({ shapes, header }) {
   return shapes.map((shape, i) => {
     if (!kPointed.has(shape.type)) return shape;
     const { vertices, triangles, heights } = header.shapes[i];
-    return shape.type === 'mesh' ? { ...shape, vertices: vertices.flat(), indices: triangles.flat() } : { ...shape, heights };
+    return shape.type === 'mesh'
+      ? { ...shape, vertices: vertices.flat(), indices: triangles.flat() }
+      : { ...shape, heights };
   });
 }
 
@@ -45,7 +47,9 @@ export class LiveRun {
     this.createShapes();
     this.bodies = form.bodies.length
       ? this.world.createBodies(
-          form.bodies.map((body) => this.with({ ...body, shape: body.shape === undefined ? 0n : this.handles[body.shape] })),
+          form.bodies.map((body) =>
+            this.with({ ...body, shape: body.shape === undefined ? 0n : this.handles[body.shape] }),
+          ),
         )
       : [];
     this.joints = form.joints.length
