@@ -35,9 +35,10 @@ void gravity(Conformance& c) {
     bodies.emplace_back(scale, probe.body(desc));
   }
   probe.step(30);
+  const double share = c.is_exact(PLUMB_CAP_FIELD_WRITE, PLUMB_FIELD_GRAVITY_SCALE) ? 0 : 0.005;
   for (const auto& [scale, body] : bodies)
-    c.expect(std::abs(probe.velocity(body).y() + 9.81 * scale * 0.5) < 1e-4, "gravity scale {}: {:.6f} m/s after .5 s",
-             scale, probe.velocity(body).y());
+    c.expect(std::abs(probe.velocity(body).y() + 9.81 * scale * 0.5) < 1e-4 + share * std::abs(9.81 * scale * 0.5),
+             "gravity scale {}: {:.6f} m/s after .5 s", scale, probe.velocity(body).y());
   check(probe.world(), probe.world().set_gravity({1, 0, 0}));
   const double before = probe.velocity(bodies[3].second).x();
   probe.step(60);
@@ -139,9 +140,13 @@ void centre_of_mass(Conformance& c) {
            probe.position(body).x(), probe.position(body).y(), expected.x(), expected.y());
   c.expect(probe.velocity(body).norm() < 1e-6, "the velocity of the centre of mass is {:.6f} m/s instead of 0",
            probe.velocity(body).norm());
+  const Vec spin = probe.angular_velocity(body);  // which a second may have worn: exact.spin looks at that
   probe.write(PLUMB_FIELD_IMPULSE, body, {0, 2, 0});
-  c.expect(near(probe.velocity(body), {0, 1, 0}, 1e-6) && std::abs(probe.angular_velocity(body).z() - 1) < 1e-6,
-           "an impulse at the centre of mass changed the spin");
+  c.expect(near(probe.velocity(body), {0, 1, 0}, 1e-6) && near(probe.angular_velocity(body), spin, 1e-6) &&
+               std::abs(spin.z() - 1) < 1e-3,
+           "an impulse of 2 N s at the centre of mass of 2 kg that spun at {:.6f} rad/s gives {:.6f} m/s and {:.6f} "
+           "rad/s",
+           spin.z(), probe.velocity(body).y(), probe.angular_velocity(body).z());
 }
 
 void principal_axes(Conformance& c) {

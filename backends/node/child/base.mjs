@@ -3,6 +3,13 @@ import { compose, cross, dot, inverse, length, mayTouch, pairKey, sub, unrotate 
 import { Failure } from './failure.mjs';
 import { COMPOUND, DYNAMIC, MESH, SENSOR, STATIC } from './rows.mjs';
 
+const ROW = 16;
+const rowsWhere = (rows, fits) => {
+  const some = [];
+  for (let at = 0; at < rows.length; at += ROW) if (fits(rows[at], rows[at + 1])) some.push(...rows.slice(at, at + ROW));
+  return some;
+};
+
 export class WorldBase {
   constructor({ needs, settings }) {
     this.needs = needs;
@@ -49,8 +56,7 @@ export class WorldBase {
 
   /** Queries see no sensors, and who passes their filter. */
   sees(filter, slot) {
-    const { desc } = this.bodies.get(slot);
-    return (desc.flags & SENSOR) === 0 && mayTouch(filter, desc.filter);
+    return !this.isSensor(slot) && mayTouch(filter, this.bodies.get(slot).desc.filter);
   }
 
   /** The triangle of a mesh that is nearest to a point of its surface; 0 for other shapes. Engines number their own. */
@@ -65,6 +71,32 @@ export class WorldBase {
     }
     return best;
   }
+
+  isSensor(slot) { return (this.bodies.get(slot).desc.flags & SENSOR) !== 0; }
+
+  // Rows of contacts, 16 numbers each as WIRE.md has them; of sensors too.
+
+  /** Those of bodies that sleep: an engine does not tell them again, and they touch on. */
+  sleepingRows(rows) {
+    if (!this.needs.has('sleeping')) return [];
+    const rests = (slot) => this.bodies.has(slot) && (this.bodies.get(slot).desc.motion !== DYNAMIC || this.awake(slot)[0] === 0);
+    return rowsWhere(rows, (a, b) => rests(a) && rests(b));
+  }
+  /** Those of a step, and of those before it the ones that it did not tell again and that still sleep. */
+  withSleepers(before, rows) {
+    const kept = this.sleepingRows(before), told = new Set();
+    if (kept.length === 0) return rows;
+    for (let at = 0; at < rows.length; at += ROW) told.add(pairKey(rows[at], rows[at + 1]));
+    return rows.concat(rowsWhere(kept, (a, b) => !told.has(pairKey(a, b)) && this.collides(a, b)));
+  }
+  /** What afterStep answers of them. touch: m that two bodies may be apart and touch. */
+  told(rows, touch) {
+    const touching = [];
+    if (this.tellsTouches)
+      for (let at = 0; at < rows.length; at += ROW) if (rows[at + 10] > -touch) touching.push(rows[at], rows[at + 1]);
+    return { touching, contacts: this.needs.has('contacts') ? this.solidRows(rows).length / ROW : NaN };
+  }
+  solidRows(rows) { return rowsWhere(rows, (a, b) => !this.isSensor(a) && !this.isSensor(b)); }
 
   get tellsTouches() { return this.needs.has('events') || this.needs.has('sensors'); }
   applySettings(changed) { Object.assign(this.settings, changed); }

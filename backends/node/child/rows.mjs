@@ -93,7 +93,7 @@ export function readJoint(row) {
     const mode = row.number();
     const limit = { enabled: row.number() !== 0, lower: row.number(), upper: row.number() };
     const motor = { enabled: row.number() !== 0, target: row.number(), most: row.number() };
-    const spring = { enabled: row.number() !== 0, rest: row.number(), frequency: row.number(), ratio: row.number() };
+    const how = row.number(), spring = { enabled: how !== 0, byStiffness: how === 2, rest: row.number(), frequency: row.number(), ratio: row.number() };
     joint.axes.push({ mode, limit, motor, spring });
   }
   return joint;

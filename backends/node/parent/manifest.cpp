@@ -136,7 +136,9 @@ backend::Capability Manifest::capability(PlumbCapability kind, std::uint32_t a, 
     return {PLUMB_NONE, "the phase \"solve\" holds the engine's whole step"};
   }
   const backend::Capability usual = backend::usual_capability(kind, a, b);
-  const bool own_work = kind == PLUMB_CAP_NEED && a < PLUMB_NEED_COUNT;  // what an engine must do something for
+  const bool own_work = (kind == PLUMB_CAP_NEED && a < PLUMB_NEED_COUNT) ||  // what an engine must do something for
+                        (kind == PLUMB_CAP_JOINT_FEATURE && b == PLUMB_JOINT_HAS_STIFFNESS &&
+                         backend::free_axes(a) != 0 && a < PLUMB_JOINT_SWING_TWIST);
   if (usual.degree == PLUMB_NONE && !own_work) return usual;
   if (kind == PLUMB_CAP_FIELD_READ && a > PLUMB_FIELD_KINEMATIC_TARGET) return usual;
   if (kind == PLUMB_CAP_FIELD_WRITE && acts(a)) return {PLUMB_EMULATED, "by velocities, poses and the step's forces"};

@@ -21,8 +21,8 @@ inline constexpr const char* kShapeWords[PLUMB_SHAPE_TYPE_COUNT] = {
 inline constexpr const char* kMotionWords[PLUMB_MOTION_COUNT] = {"static", "kinematic", "dynamic"};
 inline constexpr const char* kJointWords[PLUMB_JOINT_TYPE_COUNT] = {
     "ball", "hinge", "slider", "distance", "fixed", "universal", "generic", "swing_twist", "gear", "rack_and_pinion"};
-inline constexpr const char* kFeatureWords[PLUMB_JOINT_FEATURE_COUNT] = {"limits", "motors",   "springs",
-                                                                         "breaks", "reaction", "stiffness"};
+inline constexpr const char* kFeatureWords[PLUMB_JOINT_FEATURE_COUNT] = {"limits",   "motors",    "springs", "breaks",
+                                                                         "reaction", "stiffness", "targets"};
 inline constexpr const char* kQueryWords[PLUMB_QUERY_KIND_COUNT] = {"ray", "cast", "overlap", "penetration",
                                                                     "turning_cast"};
 inline constexpr const char* kFieldWords[PLUMB_FIELD_COUNT] = {"pose",

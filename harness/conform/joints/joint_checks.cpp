@@ -83,13 +83,15 @@ void hinge_and_slider(Conformance& c, PlumbJointFeature feature, const char* wha
 /// A torque or force drives the axis against its upper and lower stop.
 void limits(Conformance& c) {
   hinge_and_slider(c, PLUMB_JOINT_HAS_LIMITS, "limits", [&](PlumbJointType type) {
+    // An engine that brakes slow bodies, and says so, is pushed harder than it brakes.
+    const double push = c.is_exact(PLUMB_CAP_JOINT_FEATURE, type, PLUMB_JOINT_HAS_LIMITS) ? 20 : 200;
     for (const double sign : {1.0, -1.0}) {
       const std::size_t axis = main_axis(type);
       JointPair pair(c, type, true, kJointNeeds | PLUMB_NEED_FORCES);
       pair.desc.limits[axis] = {-0.4, 0.6, 1, 0};
       pair.probe.joint(pair.desc);
       for (int i = 0; i < 180; ++i) {
-        pair.probe.write(type == PLUMB_JOINT_HINGE ? PLUMB_FIELD_TORQUE : PLUMB_FIELD_FORCE, pair.b, {sign * 20, 0, 0});
+        pair.probe.write(type == PLUMB_JOINT_HINGE ? PLUMB_FIELD_TORQUE : PLUMB_FIELD_FORCE, pair.b, {sign * push, 0, 0});
         pair.probe.step();
       }
       const double stop = sign > 0 ? 0.6 : -0.4;
@@ -131,7 +133,8 @@ void motor_force(Conformance& c) {
     pair.desc.motors[axis] = {100, resistance, 1, 0};  // 1 per second squared
     pair.probe.joint(pair.desc);
     pair.probe.step(60);
-    c.expect(std::abs(pair.coordinate(axis) - 0.5) < 0.03,
+    const double off = c.is_exact(PLUMB_CAP_JOINT_FEATURE, type, PLUMB_JOINT_HAS_MOTORS) ? 0.03 : 0.05;
+    c.expect(std::abs(pair.coordinate(axis) - 0.5) < off,
              "{} motor of bounded force moved {:.4f} in 1 s instead of .5", joint_name(type), pair.coordinate(axis));
   });
 }

@@ -1,11 +1,12 @@
 // cannon-es, in JavaScript and double precision: package cannon-es.
 import { BALL, BOX, CAPSULE, CYLINDER, DYNAMIC, FIXED, HINGE, KINEMATIC, NEVER_SLEEPS, NO_ROTATION, PLANE, SENSOR, SPHERE, STATIC, ASLEEP } from '../rows.mjs';
-import { add, compose, dot, inverse, length, rotate, scale, sub } from '../algebra.mjs';
+import { add, compose, cross, dot, inverse, rotate, scale, sub } from '../algebra.mjs';
 import { USUAL, WorldBase, SUBSTEPS, boolSetting, choiceSetting, floatSetting, inFrame, intSetting, principalFrame, refuse } from '../base.mjs';
 import { load, missing, versionOf } from '../packages.mjs';
 
 const PACKAGE = 'cannon-es';
 const SEGMENTS = 16;  // of a cylinder
+const TOUCH = 1e-3;  // m
 const FROM_Z = [-Math.SQRT1_2, 0, 0, Math.SQRT1_2];  // cannon's planes look along z
 const array = ({ x, y, z }) => [x, y, z];
 
@@ -19,6 +20,7 @@ export function manifest() {
       floatSetting('contact_stiffness', 'behaviour', [1, 1e12], 1e7, 'stiffness of contacts and of friction', { unit: 'N/m' }),
       floatSetting('contact_relaxation', 'behaviour', [1, 1e3], 3, 'steps in which a contact comes to rest', { unit: '1' }),
       choiceSetting('broad_phase', 'speed', ['naive', 'sap'], 'naive: all pairs; sap: sweep and prune along one axis', { creation_only: true }),
+      choiceSetting('friction', 'behaviour', ['pair', 'points'], 'pair: one friction for all contact points of two shapes; points: each has the bound of all', { creation_only: true }),
       boolSetting('sleeping', 'behaviour', true, 'bodies at rest are put to sleep, where the world declares sleeping'),
     ],
     capabilities: [
@@ -29,16 +31,19 @@ export function manifest() {
       ['shape', 'capsule', '*', 'approximate', 'two spheres and a prism of 16 sides'],
       ['shape', 'plane', 'static', 'native'],
       ['pair', 'cylinder|capsule|compound', '*', 'approximate', 'prisms'],
-      ['need', 'friction', '*', 'approximate', 'bounded by the weight of the pair in each point, not by the force between the two: boxes stick'],
-      ['need', 'restitution', '*', 'approximate', 'soft contacts give back less'],
+      ['need', 'friction', '*', 'approximate', 'bounded by the weight of the lighter of the two, not by the force between them; none without gravity'],
+      ['need', 'restitution', '*', 'none', 'soft contacts give back less than half: a ball of half a ton and restitution .8 rebounds with .35'],
       ['joint', 'ball|hinge|fixed', '*', 'native'],
-      ['joint_feature', 'hinge', 'motors', 'none', 'what they may do at most is not held: a motor of bounded force ran away'],
+      ['joint_feature', 'hinge', 'motors', 'native'],
+      ['joint_feature', 'ball|hinge|fixed', 'reaction', 'native'],
+      ['joint_feature', 'ball|hinge|fixed', 'breaks', 'emulated', 'the reaction is compared after each step'],
+      ['query', 'ray', '*', 'native', 'over all bodies'],
       ['write', 'gravity_scale', '*', 'emulated', 'by forces'],
       ['write', 'damping|filter|awake', '*', 'native'],
-      ['need', 'joints|sleeping|damping|axis_locks|filters', '*', 'native'],
-      ['need', 'events|contacts|sensors', '*', 'native', 'depths are those after the step'],
+      ['need', 'joints|sleeping|damping|axis_locks|filters|queries|joint_reactions', '*', 'native'],
+      ['need', 'events|contacts|sensors', '*', 'native'],
+      ['need', 'contact_impulses', '*', 'native', 'where a step has parts, those of the last times their number'],
       ['event', '*', '*', 'emulated', 'by comparing one step with the next'],
-      ['event', 'joint_broken', '*', 'none', 'cannon tells no reactions'],
     ],
   };
 }
@@ -55,7 +60,9 @@ class CannonWorld extends WorldBase {
     this.world.broadphase = init.settings.broad_phase === 'sap' ? new C.SAPBroadphase(this.world) : new C.NaiveBroadphase();
     const plain = this.world.broadphase.needBroadphaseCollision.bind(this.world.broadphase);
     this.world.broadphase.needBroadphaseCollision = (a, b) => (this.watches(a, b) || plain(a, b)) && this.collides(a.slot, b.slot);
+    this.world.narrowphase.enableFrictionReduction = init.settings.friction === 'pair';
     this.world.defaultContactMaterial.friction = 0;
+    this.rows = [];
     this.materials = new Map();
     this.ground = new C.Body({ type: C.Body.STATIC });
     this.applySettings({});
@@ -75,6 +82,8 @@ class CannonWorld extends WorldBase {
     contact.contactEquationStiffness = contact.frictionEquationStiffness = this.settings.contact_stiffness;
     contact.contactEquationRelaxation = contact.frictionEquationRelaxation = this.settings.contact_relaxation;
   }
+  // What cannon calls a friction's or a motor's largest force bounds the impulse of a step: it is given that.
+  rub(contact) { contact.friction = contact.coefficient * (this.h ?? 0); }
   setGravity(gravity) { this.world.gravity.set(...gravity); }
 
   /** One of cannon's materials for each pair of coefficients, with the pair's own for any two of them. */
@@ -85,9 +94,10 @@ class CannonWorld extends WorldBase {
     this.materials.set(key, material);
     for (const { mine } of this.materials.values()) {
       const other = this.materials.get(`${mine.friction} ${mine.restitution}`);
-      const contact = new this.C.ContactMaterial(material, other, {
-        friction: Math.sqrt(friction * mine.friction), restitution: Math.max(restitution, mine.restitution) });
+      const contact = new this.C.ContactMaterial(material, other, { restitution: Math.max(restitution, mine.restitution) });
+      contact.coefficient = Math.sqrt(friction * mine.friction);
       this.harden(contact);
+      this.rub(contact);
       this.world.addContactMaterial(contact);
     }
     return material;
@@ -121,8 +131,9 @@ class CannonWorld extends WorldBase {
     });
     body.slot = desc.slot;
     if (desc.shape >= 0)
-      for (const part of this.parts(desc.shape))
+      for (const [child, part] of this.parts(desc.shape).entries())
         for (const { shape, pose } of this.pieces(part.desc, inFrame(frame, part.pose))) {
+          shape.child = child;
           if (part.material !== null) shape.material = this.material(part.material.friction, part.material.restitution);
           body.addShape(shape, this.vec(pose.position), this.quat(pose.orientation));
         }
@@ -207,12 +218,20 @@ class CannonWorld extends WorldBase {
   addForce(slot, force, torque) { (this.pushes ??= []).push({ slot, force, torque }); }
 
   step(dt) {
-    const { substeps } = this.settings;
+    const { substeps } = this.settings, h = dt / substeps;
+    if (h !== this.h) {
+      this.h = h;
+      for (const contact of this.world.contactmaterials) if (contact.coefficient !== undefined) this.rub(contact);
+      for (const { desc, joint } of this.joints.values()) if (desc.type === HINGE) this.drive(desc, joint);
+    }
+    const tells = this.tellsTouches || this.needs.has('contacts');
     for (let part = 0; part < substeps; ++part) {
       this.push();
-      this.world.step(dt / substeps);
+      if (tells) for (const { body } of this.bodies.values()) body.found = array(body.position);
+      this.world.step(h);
     }
     this.pushes = [];
+    this.rows = tells ? this.withSleepers(this.rows, this.contactRows()) : [];
   }
   push() {
     const g = array(this.world.gravity);
@@ -225,17 +244,30 @@ class CannonWorld extends WorldBase {
     for (const { desc, body } of this.bodies.values())
       if (desc.motion === DYNAMIC && desc.gravityScale !== 1) body.force.vadd(this.vec(scale(desc.mass * (desc.gravityScale - 1), g)), body.force);
   }
-  afterStep() {
-    return {
-      contacts: this.world.contacts.length,
-      touching: this.tellsTouches ? this.world.contacts.flatMap(({ bi, bj }) => [bi.slot, bj.slot]) : [],
-    };
+  afterStep() { return this.told(this.rows, TOUCH); }
+  contacts() { return this.solidRows(this.rows); }
+  /** As they were found, where the bodies were then. */
+  contactRows() {
+    const rows = [], rubbed = this.needs.has('contact_impulses') ? this.frictions() : new Map();
+    for (const { bi, bj, si, sj, ri, rj, ni, multiplier } of this.world.contacts) {
+      const one = add(bi.found, array(ri)), two = add(bj.found, array(rj)), normal = array(ni), { sum, count } = rubbed.get(`${bi.id} ${bj.id}`) ?? { sum: [0, 0, 0], count: 1 };
+      rows.push(bi.slot, bj.slot, si.child, sj.child, ...scale(0.5, add(one, two)), ...normal, dot(normal, sub(one, two)),
+        multiplier * this.h * this.settings.substeps, ...scale(1 / count, sum), 0);
+    }
+    return rows;
   }
-  contacts() {
-    return this.world.contacts.filter(({ enabled }) => enabled).flatMap(({ bi, bj, ri, rj, ni }) => {
-      const one = add(array(bi.position), array(ri)), two = add(array(bj.position), array(rj)), normal = array(ni);
-      return [bi.slot, bj.slot, 0, 0, ...scale(0.5, add(one, two)), ...normal, dot(normal, sub(one, two)), NaN, NaN, NaN, NaN, 0];
-    });
+  /** Impulses of friction by pair, and over how many points they spread. */
+  frictions() {
+    const pairs = new Map();
+    for (const { bi, bj } of this.world.contacts) {
+      const key = `${bi.id} ${bj.id}`;
+      pairs.set(key, { sum: [0, 0, 0], count: (pairs.get(key)?.count ?? 0) + 1 });
+    }
+    for (const { bi, bj, t, multiplier } of this.world.frictionEquations) {
+      const way = pairs.has(`${bi.id} ${bj.id}`) ? 1 : -1, pair = pairs.get(way > 0 ? `${bi.id} ${bj.id}` : `${bj.id} ${bi.id}`);
+      if (pair) pair.sum = add(pair.sum, scale(way * multiplier * this.h * this.settings.substeps, array(t)));
+    }
+    return pairs;
   }
 
   createJoint(desc) {
@@ -250,7 +282,7 @@ class CannonWorld extends WorldBase {
     } else if (desc.type === FIXED) joint = this.lock(ends, a, b);
     else refuse(`joints of type ${desc.type}`);
     this.world.addConstraint(joint);
-    this.joints.set(desc.slot, { desc, joint });
+    this.joints.set(desc.slot, { desc, joint, arm: b.position });
     this.part(desc, 1);
     for (const end of [desc.a, desc.b]) if (end >= 0) this.setAwake(end, true);
   }
@@ -271,7 +303,7 @@ class CannonWorld extends WorldBase {
     if (!motor.enabled) return joint.disableMotor();
     joint.enableMotor();
     joint.setMotorSpeed(-motor.target);
-    joint.setMotorMaxForce(motor.most);
+    joint.setMotorMaxForce(motor.most * (this.h ?? 0));
   }
   setMotors(slot, motors) {
     const { desc, joint } = this.joints.get(slot);
@@ -285,5 +317,29 @@ class CannonWorld extends WorldBase {
     this.joints.delete(slot);
     this.part(desc, -1);
     for (const end of [desc.a, desc.b]) if (end >= 0) this.setAwake(end, true);
+  }
+  /** The sum of its equations: what each does to b, at b's centre of mass, moved to the frame's origin. */
+  reaction(slot) {
+    const { desc, joint, arm } = this.joints.get(slot), { body } = this.bodies.get(desc.b), { x, y, z, w } = body.quaternion;
+    let force = [0, 0, 0], torque = [0, 0, 0];
+    for (const { jacobianElementB: { spatial, rotational }, multiplier, enabled } of joint.equations) {
+      if (!enabled) continue;
+      force = add(force, scale(multiplier, array(spatial)));
+      torque = add(torque, scale(multiplier, array(rotational)));
+    }
+    return [...force, ...sub(torque, cross(rotate([x, y, z, w], arm), force))];
+  }
+
+  castRay({ origin, translation, filter }) {
+    const C = this.C, ray = new C.Ray(this.vec(origin), this.vec(add(origin, translation))), far = Math.hypot(...translation), hits = [];
+    for (const [slot, { body }] of this.bodies) {
+      if (!this.sees(filter, slot)) continue;
+      const result = new C.RaycastResult();
+      ray.mode = C.RAY_MODES.CLOSEST;
+      ray.intersectBody(body, result);
+      if (result.hasHit)
+        hits.push({ body: slot, child: result.shape.child, fraction: result.distance / far, position: array(result.hitPointWorld), normal: array(result.hitNormalWorld) });
+    }
+    return hits;
   }
 }

@@ -1,9 +1,10 @@
 // Jolt Physics by Jorrit Rouwe: package jolt-physics, single precision, one thread.
 import { BALL, BOX, CAPSULE, CYLINDER, DISTANCE, DYNAMIC, FIXED, GENERIC, HEIGHT_FIELD, HINGE, HULL, LOCKED, MESH, NO_ROTATION,
   PLANE, SLIDER, SPHERE, STATIC, UNIVERSAL, CCD, SENSOR, ASLEEP, NEVER_SLEEPS, COMPOUND, meshOfHeightField } from '../rows.mjs';
-import { add, length, rotate, scale, sub } from '../algebra.mjs';
+import { add, compose, length, rotate, scale, sub } from '../algebra.mjs';
 import { USUAL, WorldBase, boolSetting, floatSetting, intSetting, refuse } from '../base.mjs';
 import { load, missing, versionOf } from '../packages.mjs';
+import { impulsesOf } from './jolt/reactions.mjs';
 
 const PACKAGE = 'jolt-physics';
 const MOST_CONTACTS = 10240;  // pairs in contact: what the package's temporary memory holds; Jolt ignores more
@@ -35,11 +36,14 @@ export function manifest() {
       ['joint_feature', 'generic', 'limits', 'emulated'],
       ['joint_feature', 'hinge|slider', 'motors', 'native'],
       ['joint_feature', 'hinge|slider|distance', 'springs', 'native'],
-      ['joint_feature', 'ball', 'breaks', 'emulated', 'the impulse of the velocity solver is compared after each step'],
-      ['query', 'ray|overlap', '*', 'native'],
-      ['write', 'damping|filter|awake', '*', 'native'],
-      ['need', 'joints|ccd|sleeping|gyroscopic|damping|axis_locks|filters|queries', '*', 'native'],
-      ['need', 'events|contacts|sensors', '*', 'emulated', 'by the contact listener, which calls JavaScript'],
+      ['joint_feature', 'hinge|slider', 'stiffness', 'native'],
+      ['joint_feature', 'ball|hinge|slider|fixed|distance', 'reaction', 'native', 'from the impulses of the velocity solver'],
+      ['joint_feature', 'ball|hinge|slider|fixed|distance', 'breaks', 'emulated', 'the reaction is compared after each step'],
+      ['query', 'ray|cast|overlap', '*', 'native'],
+      ['write', 'damping|filter|awake|surface_velocity', '*', 'native'],
+      ['need', 'joints|ccd|sleeping|gyroscopic|damping|axis_locks|filters|queries|joint_reactions', '*', 'native'],
+      ['need', 'events|contacts|sensors|surface_velocity', '*', 'emulated', 'by the contact listener, which calls JavaScript'],
+      ['child_material', '*', '*', 'emulated', 'by the contact listener, which calls JavaScript'],
       ['event', '*', '*', 'emulated', 'by comparing one step with the next'],
     ],
   };
@@ -74,7 +78,7 @@ class JoltWorld extends WorldBase {
     this.rows = [];
     this.setGravity(init.gravity);
     this.groups();
-    if (this.tellsTouches || this.needs.has('contacts')) this.listen();
+    if (this.tellsTouches || this.needs.has('contacts') || this.needs.has('surface_velocity')) this.listen();
     this.applySettings({});
   }
 
@@ -215,7 +219,9 @@ class JoltWorld extends WorldBase {
     const body = this.interface.CreateBody(settings);
     if (J.getPointer(body) === 0) refuse('more than 65536 bodies');
     J.destroy(settings);
-    this.bodies.set(desc.slot, { desc, body });
+    const ownMaterials = desc.shape >= 0 && this.parts(desc.shape).some(({ material }) => material !== null);
+    if (ownMaterials) this.listen();
+    this.bodies.set(desc.slot, { desc, body, ownMaterials });
     this.slotOfId.set(body.GetID().GetIndexAndSequenceNumber(), desc.slot);
     this.interface.AddBody(body.GetID(), (desc.flags & ASLEEP) !== 0 ? J.EActivation_DontActivate : J.EActivation_Activate);
     body.GetCollisionGroup().SetGroupID(desc.slot);
@@ -283,7 +289,8 @@ class JoltWorld extends WorldBase {
     else this.interface.DeactivateBody(body.GetID());
   }
   setMaterial(slot, friction, restitution) {
-    const { body } = this.bodies.get(slot);
+    const { body, desc } = this.bodies.get(slot);
+    Object.assign(desc.material, { friction, restitution });
     body.SetFriction(friction);
     body.SetRestitution(restitution);
     this.interface.InvalidateContactCache(body.GetID());
@@ -312,6 +319,10 @@ class JoltWorld extends WorldBase {
       this.setAwake(slot, true);
     }
   }
+  setSurfaceVelocity(slot, velocity) {
+    this.bodies.get(slot).desc.material.surfaceVelocity = velocity;
+    this.wakeNear(slot);
+  }
   addForce(slot, force, torque) {
     this.interface.AddForceAndTorque(this.bodies.get(slot).body.GetID(), this.vec(force), this.vec(torque), this.J.EActivation_Activate);
   }
@@ -319,43 +330,58 @@ class JoltWorld extends WorldBase {
   // --- step and contacts ---------------------------------------------------------------------------------------------
 
   listen() {
-    const J = this.J, listener = new J.ContactListenerJS();
+    if (this.listener) return;
+    const J = this.J, listener = (this.listener = new J.ContactListenerJS());
     listener.OnContactValidate = () => J.ValidateResult_AcceptAllContactsForThisBodyPair;
-    listener.OnContactAdded = listener.OnContactPersisted = (one, two, manifold) => this.note(
-      J.wrapPointer(one, J.Body), J.wrapPointer(two, J.Body), J.wrapPointer(manifold, J.ContactManifold));
+    listener.OnContactAdded = listener.OnContactPersisted = (one, two, manifold, settings) => this.note(
+      J.wrapPointer(one, J.Body), J.wrapPointer(two, J.Body), J.wrapPointer(manifold, J.ContactManifold), J.wrapPointer(settings, J.ContactSettings));
     listener.OnContactRemoved = () => {};
     this.system.SetContactListener(listener);
   }
-  note(one, two, manifold) {
-    const a = this.slotOfId.get(one.GetID().GetIndexAndSequenceNumber()), b = this.slotOfId.get(two.GetID().GetIndexAndSequenceNumber());
+  slotOf(id) { return this.slotOfId.get(id.GetIndexAndSequenceNumber()); }
+  /** Child of a compound: Jolt's numbers of parts of shapes begin with it. */
+  childOf(slot, id) {
+    const { desc } = this.bodies.get(slot), count = desc.shape < 0 ? 1 : this.parts(desc.shape).length;
+    return count > 1 ? id.GetValue() & (2 ** (32 - Math.clz32(count - 1)) - 1) : 0;
+  }
+  note(one, two, manifold, settings) {
+    const a = this.slotOf(one.GetID()), b = this.slotOf(two.GetID());
+    const childA = this.childOf(a, manifold.mSubShapeID1), childB = this.childOf(b, manifold.mSubShapeID2);
+    this.combine(this.bodies.get(a), childA, this.bodies.get(b), childB, settings);
+    if (!this.tellsTouches && !this.needs.has('contacts')) return;
     const normal = array(manifold.mWorldSpaceNormal), base = array(manifold.mBaseOffset);
     const on1 = manifold.mRelativeContactPointsOn1, on2 = manifold.mRelativeContactPointsOn2;
     for (let i = 0; i < on1.size(); ++i) {
       const p = array(on1.at(i)), q = array(on2.at(i)), depth = sub(p, q).reduce((sum, x, k) => sum + x * normal[k], 0);
-      this.rows.push(a, b, 0, 0, ...add(base, scale(0.5, add(p, q))), ...normal, depth, NaN, NaN, NaN, NaN, 0);
+      this.rows.push(a, b, childA, childB, ...add(base, scale(0.5, add(p, q))), ...normal, depth, NaN, NaN, NaN, NaN, 0);
     }
   }
+  /** What of the two materials Jolt does not know. */
+  combine(a, childA, b, childB, settings) {
+    const [one, two] = [[a, childA], [b, childB]].map(([{ desc, ownMaterials }, child]) => (ownMaterials && this.parts(desc.shape)[child].material) || desc.material);
+    if (a.ownMaterials || b.ownMaterials) {
+      settings.mCombinedFriction = Math.sqrt(one.friction * two.friction);
+      settings.mCombinedRestitution = Math.max(one.restitution, two.restitution);
+    }
+    if (!this.needs.has('surface_velocity') || [...one.surfaceVelocity, ...two.surfaceVelocity].every((x) => x === 0)) return;
+    const [v, w] = [[a, one], [b, two]].map(([{ body }, { surfaceVelocity }]) => {
+      const r = body.GetRotation();
+      return rotate([r.GetX(), r.GetY(), r.GetZ(), r.GetW()], surfaceVelocity);
+    });
+    settings.mRelativeLinearSurfaceVelocity = this.vec(sub(w, v));
+  }
   step(dt) {
-    // Of pairs that sleep nobody tells; they touch on.
-    this.rows = this.needs.has('sleeping') ? this.sleepingRows() : [];
+    const before = this.rows;
+    this.rows = [];
     this.dt = dt / this.settings.collision_steps;
     this.jolt.Step(dt, this.settings.collision_steps);
-  }
-  sleepingRows() {
-    const kept = [], rests = (slot) => !this.bodies.has(slot) || !this.bodies.get(slot).body.IsActive();
-    for (let at = 0; at < this.rows.length; at += 16)
-      if (this.bodies.has(this.rows[at]) && this.bodies.has(this.rows[at + 1]) && rests(this.rows[at]) && rests(this.rows[at + 1]))
-        kept.push(...this.rows.slice(at, at + 16));
-    return kept;
+    this.rows = this.withSleepers(before, this.rows);
   }
   afterStep() {
     this.sweep();
-    const touching = [];
-    for (let at = 0; at < this.rows.length; at += 16)
-      if (this.rows[at + 10] > -1e-3) touching.push(this.rows[at], this.rows[at + 1]);
-    return { touching: this.tellsTouches ? touching : [], contacts: this.needs.has('contacts') ? this.rows.length / 16 : NaN };
+    return this.told(this.rows, 1e-3);
   }
-  contacts() { return this.rows; }
+  contacts() { return this.solidRows(this.rows); }
 
   // --- joints --------------------------------------------------------------------------------------------------------
 
@@ -413,6 +439,7 @@ class JoltWorld extends WorldBase {
         return J.castObject(made(s), J.DistanceConstraint);
       }
       case FIXED: {
+        if (this.needs.has('joint_reactions') || this.needs.has('events')) return this.makeSixAxes(desc, a, b, bodyA, bodyB);  // which tells them
         const s = set(new J.FixedConstraintSettings(), { mPoint1: a.point, mPoint2: b.point, mAxisX1: a.x, mAxisX2: b.x, mAxisY1: a.y, mAxisY2: b.y });
         s.mAutoDetectPoint = false;
         return made(s);
@@ -427,7 +454,7 @@ class JoltWorld extends WorldBase {
     Object.assign(s, { mSpace: J.EConstraintSpace_LocalToBodyCOM, mSwingType: J.ESwingType_Pyramid,
       mPosition1: one.point, mAxisX1: one.x, mAxisY1: one.y, mPosition2: two.point, mAxisX2: two.x, mAxisY2: two.y });
     desc.axes.forEach(({ mode, limit }, axis) => {
-      const how = universal ? (axis === 3 || axis === 4 ? 0 : LOCKED) : mode;
+      const how = universal ? (axis === 3 || axis === 4 ? 0 : LOCKED) : desc.type === FIXED ? LOCKED : mode;
       if (how === 0) s.MakeFreeAxis(axis);
       else if (how === LOCKED) s.MakeFixedAxis(axis);
       else s.SetLimitedAxis(axis, limit.lower, limit.upper);
@@ -437,8 +464,10 @@ class JoltWorld extends WorldBase {
     return J.castObject(made, J.SixDOFConstraint);
   }
   soften(settings, spring) {
-    settings.mMode = this.J.ESpringMode_FrequencyAndDamping;
-    settings.mFrequency = spring.frequency;
+    const J = this.J;
+    settings.mMode = spring.byStiffness ? J.ESpringMode_StiffnessAndDamping : J.ESpringMode_FrequencyAndDamping;
+    if (spring.byStiffness) settings.mStiffness = spring.frequency;
+    else settings.mFrequency = spring.frequency;
     settings.mDamping = spring.ratio;
   }
   drive(desc, joint) {
@@ -470,10 +499,13 @@ class JoltWorld extends WorldBase {
     this.regroup(desc);
     this.joints.delete(slot);
   }
+  /** On b, from the impulses of the last sub-step. */
   reaction(slot) {
-    const { desc, joint } = this.joints.get(slot);
-    if (desc.type !== BALL) refuse('reactions of other joints than ball joints');
-    return [...scale(this.dt > 0 ? 1 / this.dt : 0, array(joint.GetTotalLambdaPosition())), 0, 0, 0];
+    const { desc, joint } = this.joints.get(slot), [a, b] = [[desc.a, desc.frameA], [desc.b, desc.frameB]].map(([end, frame]) => {
+      const row = end < 0 ? [0, 0, 0, 0, 0, 0, 1] : this.pose(end);
+      return compose({ position: row.slice(0, 3), orientation: row.slice(3) }, frame);
+    });
+    return impulsesOf(desc.type, joint, a, b).map((impulse) => (this.dt > 0 ? impulse / this.dt : 0));
   }
 
   // --- queries -------------------------------------------------------------------------------------------------------
@@ -487,24 +519,41 @@ class JoltWorld extends WorldBase {
     this.system.GetNarrowPhaseQuery().CastRay(this.keep(new J.RRayCast(this.at(origin), this.vec(translation))), this.keep(new J.RayCastSettings()), collector, ...this.filters());
     const hits = [];
     for (let i = 0; i < collector.mHits.size(); ++i) {
-      const hit = collector.mHits.at(i), body = this.slotOfId.get(hit.mBodyID.GetIndexAndSequenceNumber()), fraction = hit.mFraction;
+      const hit = collector.mHits.at(i), body = this.slotOf(hit.mBodyID), fraction = hit.mFraction;
       if (!this.sees(filter, body)) continue;
       const position = add(origin, scale(fraction, translation));
       const normal = array(this.bodies.get(body).body.GetWorldSpaceSurfaceNormal(hit.mSubShapeID2, this.at(position)));
-      hits.push({ body, fraction, position, normal });
+      hits.push({ body, child: this.childOf(body, hit.mSubShapeID2), fraction, position, normal });
+    }
+    this.sweep();
+    return hits;
+  }
+  /** Where a shape's centre of mass is. */
+  placeOf(shape, pose) {
+    const at = add(pose.position, rotate(pose.orientation, array(shape.GetCenterOfMass())));
+    return this.J.RMat44.prototype.sRotationTranslation(this.quat(pose.orientation), this.at(at));
+  }
+  castShape({ shape, pose, translation, filter }) {
+    const J = this.J, collector = this.keep(new J.CastShapeAllHitCollisionCollector()), probe = this.shapes.get(shape).shape, settings = this.keep(new J.ShapeCastSettings());
+    settings.mReturnDeepestPoint = true;
+    this.system.GetNarrowPhaseQuery().CastShape(this.keep(new J.RShapeCast(probe, this.vec([1, 1, 1]), this.placeOf(probe, pose), this.vec(translation))), settings, this.at([0, 0, 0]), collector, ...this.filters());
+    const hits = [];
+    for (let i = 0; i < collector.mHits.size(); ++i) {
+      const hit = collector.mHits.at(i), body = this.slotOf(hit.mBodyID2), way = array(hit.mPenetrationAxis);
+      if (this.sees(filter, body))
+        hits.push({ body, child: this.childOf(body, hit.mSubShapeID2), fraction: hit.mFraction, position: array(hit.mContactPointOn2), normal: scale(-1 / length(way), way) });
     }
     this.sweep();
     return hits;
   }
   overlapShape({ shape, pose, filter }) {
     const J = this.J, collector = this.keep(new J.CollideShapeAllHitCollisionCollector()), probe = this.shapes.get(shape).shape;
-    const at = add(pose.position, rotate(pose.orientation, array(probe.GetCenterOfMass())));
-    const place = J.RMat44.prototype.sRotationTranslation(this.quat(pose.orientation), this.at(at));
+    const place = this.placeOf(probe, pose);
     this.system.GetNarrowPhaseQuery().CollideShape(probe, this.vec([1, 1, 1]), place, this.keep(new J.CollideShapeSettings()), this.at([0, 0, 0]), collector, ...this.filters());
     const hits = [];
     for (let i = 0; i < collector.mHits.size(); ++i) {
-      const body = this.slotOfId.get(collector.mHits.at(i).mBodyID2.GetIndexAndSequenceNumber());
-      if (this.sees(filter, body)) hits.push({ body });
+      const hit = collector.mHits.at(i), body = this.slotOf(hit.mBodyID2);
+      if (this.sees(filter, body)) hits.push({ body, child: this.childOf(body, hit.mSubShapeID2) });
     }
     this.sweep();
     return hits;

@@ -1,14 +1,16 @@
 // PhysX 5.6 by NVIDIA, on the CPU: package physx-js-webidl.
 import { readFileSync } from 'node:fs';
 import { BALL, BOX, CAPSULE, CCD, DISTANCE, DYNAMIC, FIXED, GENERIC, HEIGHT_FIELD, HINGE, HULL, KINEMATIC, LIMITED, LOCKED, MESH,
-  NEVER_SLEEPS, NO_ROTATION, PLANE, SLIDER, SPHERE, STATIC, ASLEEP, meshOfHeightField } from '../rows.mjs';
-import { add, compose, length, multiply, scale } from '../algebra.mjs';
+  NEVER_SLEEPS, NO_ROTATION, PLANE, SENSOR, SLIDER, SPHERE, STATIC, ASLEEP, meshOfHeightField } from '../rows.mjs';
+import { add, compose, dot, length, multiply, scale } from '../algebra.mjs';
 import { USUAL, WorldBase, SUBSTEPS, boolSetting, choiceSetting, floatSetting, intSetting, refuse } from '../base.mjs';
 import { fileOf, load, missing, versionOf } from '../packages.mjs';
 
 const PACKAGE = 'physx-js-webidl';
 const GYROSCOPIC = 1 << 10;  // PxRigidBodyFlag::eENABLE_GYROSCOPIC_FORCES, which the package does not name
 const KILL = 1;  // PxFilterFlag
+const TOUCH = 1e-3;  // m: contacts are told before they touch
+const MOST_POINTS = 64;  // that are read of one pair of shapes
 const ALONG_Y = [0, 0, Math.SQRT1_2, Math.SQRT1_2];  // PhysX's capsules lie along x, and so do the normals of planes
 const array = ({ x, y, z }) => [x, y, z];
 
@@ -19,7 +21,7 @@ export function manifest() {
       SUBSTEPS,
       intSetting('position_iterations', 'quality', [1, 255], 4, 'sweeps of the solver over positions', { unit: '1' }),
       intSetting('velocity_iterations', 'quality', [0, 255], 1, 'sweeps of the solver over velocities', { unit: '1' }),
-      choiceSetting('solver', 'behaviour', ['tgs', 'pgs'], 'tgs: temporal Gauss-Seidel; pgs: projected Gauss-Seidel', { creation_only: true }),
+      choiceSetting('solver', 'behaviour', ['pgs', 'tgs'], 'pgs: projected Gauss-Seidel; tgs: temporal Gauss-Seidel, which tells no torques of joints', { creation_only: true }),
       floatSetting('bounce_threshold', 'behaviour', [0.001, 1e4], 2, 'slower impacts do not bounce', { unit: 'm/s' }),
       floatSetting('max_angular_velocity', 'behaviour', [0, 1e6], 100, 'faster bodies are slowed to it', { unit: 'rad/s', creation_only: true }),
       boolSetting('sleeping', 'behaviour', true, 'bodies at rest are put to sleep, where the world declares sleeping'),
@@ -32,12 +34,15 @@ export function manifest() {
       ['joint', 'universal', '*', 'none', 'the joint of six axes does not hold two axes square while both turn'],
       ['joint', 'distance', '*', 'native'],
       ['joint_feature', 'hinge|slider|distance', 'limits', 'native'],
-      ['joint_feature', 'hinge|slider', 'motors', 'native'],
+      ['joint_feature', 'hinge|slider', 'motors|springs|stiffness', 'native'],
+      ['joint_feature', 'ball|hinge|slider|fixed|distance|generic', 'reaction', 'native'],
+      ['joint_feature', 'ball|hinge|slider|fixed|distance|generic', 'breaks', 'emulated', 'the reaction is compared after each step'],
       ['query', 'ray', '*', 'native', 'over all bodies'],
-      ['query', 'overlap', 'sphere|box|capsule|hull', 'native', 'over all bodies'],
+      ['query', 'cast|overlap', 'sphere|box|capsule|hull', 'native', 'over all bodies'],
       ['write', 'damping|filter|awake', '*', 'native'],
-      ['need', 'joints|ccd|sleeping|gyroscopic|damping|axis_locks|filters|queries', '*', 'native'],
-      ['event', 'wake|sleep', '*', 'emulated', 'by comparing one step with the next'],
+      ['need', 'joints|ccd|sleeping|gyroscopic|damping|axis_locks|filters|queries|joint_reactions', '*', 'native'],
+      ['need', 'events|contacts|sensors', '*', 'native', 'by contact reports, which call JavaScript'],
+      ['event', '*', '*', 'emulated', 'by comparing one step with the next'],
       ['child_material', '*', '*', 'native'],
     ],
   };
@@ -79,12 +84,18 @@ class PhysXWorld extends WorldBase {
     desc.solverType = init.settings.solver === 'tgs' ? P.PxSolverTypeEnum.eTGS : P.PxSolverTypeEnum.ePGS;
     desc.flags.raise(P.PxSceneFlagEnum.eENABLE_ENHANCED_DETERMINISM);
     if (this.needs.has('ccd')) desc.flags.raise(P.PxSceneFlagEnum.eENABLE_CCD);
-    const flags = P.PxPairFlagEnum.eCONTACT_DEFAULT | (this.needs.has('ccd') ? P.PxPairFlagEnum.eDETECT_CCD_CONTACT : 0);
+    const pair = P.PxPairFlagEnum, tells = this.tellsTouches || this.needs.has('contacts');
+    const told = tells ? pair.eNOTIFY_TOUCH_FOUND | pair.eNOTIFY_TOUCH_PERSISTS | pair.eNOTIFY_CONTACT_POINTS : 0;
+    const flags = pair.eCONTACT_DEFAULT | told | (this.needs.has('ccd') ? pair.eDETECT_CCD_CONTACT : 0), seen = pair.eDETECT_DISCRETE_CONTACT | told;
     filter.outputPairFlags = flags;
     filter.filterShader = (attributes0, a, a1, a2, a3, attributes1, b) => {
-      filter.outputPairFlags = flags;
+      filter.outputPairFlags = this.isSensor(a) || this.isSensor(b) ? seen : flags;
       return this.collides(a, b) ? 0 : KILL;
     };
+    this.rows = [];
+    this.owners = new Map();  // a shape's place in memory to { slot, child }
+    if (tells) desc.simulationEventCallback = this.listener();
+    if (this.needs.has('sensors')) desc.kineKineFilteringMode = desc.staticKineFilteringMode = P.PxPairFilteringModeEnum.eKEEP;
     this.filter = filter;
     this.top.setupPassThroughFilterShader(desc, filter);
     this.scene = this.physics.createScene(desc);
@@ -113,6 +124,26 @@ class PhysXWorld extends WorldBase {
     this.scene.setGravity(this.vec(gravity));
     for (const slot of this.bodies.keys()) this.setAwake(slot, true);
     this.sweep();
+  }
+
+  listener() {
+    const { P } = this, callback = new P.PxSimulationEventCallbackImpl(), at = P.NativeArrayHelpers.prototype;
+    for (const unused of ['onConstraintBreak', 'onWake', 'onSleep', 'onTrigger']) callback[unused] = () => {};
+    this.points = new P.PxArray_PxContactPairPoint(MOST_POINTS);
+    callback.onContact = (header, pairs, count) => {
+      const first = P.wrapPointer(pairs, P.PxContactPair);
+      for (let i = 0; i < count; ++i) this.note(at.getContactPairAt(first, i));
+    };
+    return callback;
+  }
+  /** Rows of a pair of shapes; the impulse is that of the normal alone. */
+  note(pair) {
+    const [a, b] = [0, 1].map((i) => this.owners.get(this.P.getPointer(pair.get_shapes(i))));
+    if (a === undefined || b === undefined) return;
+    for (let i = 0, count = pair.extractContacts(this.points.begin(), MOST_POINTS); i < count; ++i) {
+      const { position, normal, separation, impulse } = this.points.get(i), way = scale(-1, array(normal));  // PhysX's is from b to a
+      this.rows.push(a.slot, b.slot, a.child, b.child, ...array(position), ...way, -separation, Math.abs(dot(way, array(impulse))), NaN, NaN, NaN, 0);
+    }
   }
 
   // --- shapes --------------------------------------------------------------------------------------------------------
@@ -163,7 +194,7 @@ class PhysXWorld extends WorldBase {
     if (desc.shape < 0) return [];
     return this.parts(desc.shape).map((part) => {
       const { geometry, turn } = this.shapes.get(part.slot);
-      return { geometry, material: part.material, local: { position: part.pose.position, orientation: multiply(part.pose.orientation, turn) } };
+      return { geometry, type: part.desc.type, material: part.material, local: { position: part.pose.position, orientation: multiply(part.pose.orientation, turn) } };
     });
   }
 
@@ -174,7 +205,7 @@ class PhysXWorld extends WorldBase {
     const actor = desc.motion === STATIC ? this.physics.createRigidStatic(place) : this.physics.createRigidDynamic(place);
     const flags = this.keep(new P.PxShapeFlags(P.PxShapeFlagEnum.eSIMULATION_SHAPE)), shapes = [];
     const parts = this.partsOf(desc);
-    for (const part of parts) {
+    for (const [child, part] of parts.entries()) {
       const { friction, restitution } = part.material ?? desc.material, material = this.physics.createMaterial(0, 0, 0);
       this.dress(material, friction, restitution);
       const shape = this.physics.createShape(part.geometry, material, true, flags);
@@ -182,6 +213,7 @@ class PhysXWorld extends WorldBase {
       shape.setSimulationFilterData(this.keep(new P.PxFilterData(desc.slot, 0, 0, 0)));
       actor.attachShape(shape);
       shapes.push({ shape, material, own: part.material !== null });
+      this.owners.set(P.getPointer(shape), { slot: desc.slot, child: parts.length > 1 ? child : 0 });
     }
     this.bodies.set(desc.slot, { desc, actor, shapes, parts, linear: desc.linear, angular: desc.angular });
     if (desc.motion === KINEMATIC) actor.setRigidBodyFlag(P.PxRigidBodyFlagEnum.eKINEMATIC, true);
@@ -223,7 +255,8 @@ class PhysXWorld extends WorldBase {
     }
   }
   destroyBody(slot) {
-    const { actor } = this.bodies.get(slot);
+    const { actor, shapes } = this.bodies.get(slot);
+    for (const { shape } of shapes) this.owners.delete(this.P.getPointer(shape));
     this.scene.removeActor(actor, true);
     actor.release();
     this.bodies.delete(slot);
@@ -299,12 +332,15 @@ class PhysXWorld extends WorldBase {
 
   step(dt) {
     this.h = dt / this.settings.substeps;
+    const before = this.rows;
     for (let part = 0; part < this.settings.substeps; ++part) {
+      this.rows = [];
       this.push();
       this.scene.simulate(this.h);
       this.scene.fetchResults(true);
     }
     this.pushes = [];
+    this.rows = this.withSleepers(before, this.rows);
   }
   push() {
     const P = this.P, gravity = this.scene.getGravity(), g = array(gravity);
@@ -326,7 +362,8 @@ class PhysXWorld extends WorldBase {
       position: add(pose.slice(0, 3), scale(this.h, linear)),
       orientation: multiply([...scale(s, angular), Math.cos(turn / 2)], pose.slice(3)) }));
   }
-  afterStep() { return {}; }
+  afterStep() { return this.told(this.rows, TOUCH); }
+  contacts() { return this.solidRows(this.rows); }
 
   // --- joints --------------------------------------------------------------------------------------------------------
 
@@ -366,12 +403,15 @@ class PhysXWorld extends WorldBase {
   drive(desc, joint) {
     const P = this.P, axis = { [HINGE]: 3, [SLIDER]: 0 }[desc.type];
     if (axis === undefined) return;
-    const { motor } = desc.axes[axis], most = motor.enabled ? motor.most : 0;
-    const drive = this.keep(new P.PxD6JointDrive(0, motor.enabled ? 1e9 : 0, most, false));
-    joint.setDrive(axis === 3 ? P.PxD6DriveEnum.eTWIST : P.PxD6DriveEnum.eX, drive);
-    const speed = this.vec([axis === 3 ? -motor.target : motor.target, 0, 0]), none = this.vec([0, 0, 0]);
-    if (axis === 3) joint.setDriveVelocity(none, speed);  // PhysX counts it the other way round
-    else joint.setDriveVelocity(speed, none);
+    const { motor, spring } = desc.axes[axis], turns = axis === 3, w = 2 * Math.PI * spring.frequency, none = this.vec([0, 0, 0]);
+    if (motor.enabled && spring.enabled) refuse('a motor and a spring on one axis of a joint');
+    const [stiffness, damping] = spring.byStiffness ? [spring.frequency, spring.ratio] : [w * w, 2 * spring.ratio * w];
+    const drive = spring.enabled ? new P.PxD6JointDrive(stiffness, damping, 3e38, !spring.byStiffness) : new P.PxD6JointDrive(0, motor.enabled ? 1e9 : 0, motor.enabled ? motor.most : 0, false);
+    joint.setDrive(turns ? P.PxD6DriveEnum.eTWIST : P.PxD6DriveEnum.eX, this.keep(drive));
+    const rest = spring.enabled ? spring.rest : 0, speed = motor.enabled ? motor.target : 0;
+    joint.setDrivePosition(this.transform(turns ? { position: [0, 0, 0], orientation: [Math.sin(rest / 2), 0, 0, Math.cos(rest / 2)] } : { position: [rest, 0, 0], orientation: [0, 0, 0, 1] }));
+    if (turns) joint.setDriveVelocity(none, this.vec([-speed, 0, 0]));  // PhysX counts it the other way round
+    else joint.setDriveVelocity(this.vec([speed, 0, 0]), none);
     joint.setConstraintFlag(P.PxConstraintFlagEnum.eDRIVE_LIMITS_ARE_FORCES, true);
   }
   setMotors(slot, motors) {
@@ -389,13 +429,22 @@ class PhysXWorld extends WorldBase {
     this.lookAgain(desc.a, desc.b);
   }
 
+  reaction(slot) {
+    const { desc, joint } = this.joints.get(slot), force = this.vec([0, 0, 0]), torque = this.vec([0, 0, 0]);
+    joint.getConstraint().getForce(force, torque);
+    const row = scale(-1, array(force)), turning = scale(-1, array(torque));  // PhysX tells those on a
+    this.sweep();
+    if (this.settings.solver === 'pgs') return [...row, ...turning];
+    return desc.type === BALL || desc.type === DISTANCE ? [...row, 0, 0, 0] : [...row, NaN, NaN, NaN];
+  }
+
   // --- queries: over all bodies ---------------------------------------------------------------------------------------
 
   eachSeen(filter, visit) {
     for (const [slot, { parts }] of this.bodies) {
       if (!this.sees(filter, slot)) continue;
       const row = this.pose(slot), pose = { position: row.slice(0, 3), orientation: row.slice(3) };
-      parts.forEach((part, child) => visit(slot, parts.length > 1 ? child : 0, part.geometry, this.transform(compose(pose, part.local))));
+      parts.forEach((part, child) => visit(slot, parts.length > 1 ? child : 0, part.geometry, this.transform(compose(pose, part.local)), part.type));
     }
   }
   castRay({ origin, translation, filter }) {
@@ -404,6 +453,21 @@ class PhysXWorld extends WorldBase {
     this.eachSeen(filter, (body, child, geometry, pose) => {
       if (P.PxGeometryQuery.prototype.raycast(from, way, geometry, pose, far, flags, 1, hit) === 0) return;
       hits.push({ body, child, fraction: hit.distance / far, position: array(hit.position), normal: array(hit.normal) });
+    });
+    this.sweep();
+    return hits;
+  }
+  castShape({ shape, pose, translation, filter }) {
+    const P = this.P, far = length(translation), hit = (this.swept ??= new P.PxSweepHit()), hits = [], thrown = this.shapes.get(shape), { geometry, turn } = thrown;
+    const flags = (this.hitFlags ??= new P.PxHitFlags(P.PxHitFlagEnum.ePOSITION | P.PxHitFlagEnum.eNORMAL)), way = this.vec(scale(1 / far, translation));
+    const place = this.transform({ position: pose.position, orientation: multiply(pose.orientation, turn) });
+    this.eachSeen(filter, (body, child, other, at, type) => {
+      if (P.PxGeometryQuery.prototype.overlap(geometry, place, other, at))  // a sweep from within a mesh sees what it leaves by
+        return hits.push({ body, child, fraction: 0, position: pose.position, normal: scale(-1 / far, translation) });
+      const meshed = type === MESH || type === HEIGHT_FIELD;  // which PhysX says boxes meet up to some centimetres too early
+      const moved = meshed && thrown.desc.type === BOX ? (thrown.hull ??= this.hull(corners(thrown.desc.halfExtents))) : geometry;
+      if (P.PxGeometryQuery.prototype.sweep(way, far, moved, place, other, at, hit, flags, 0))
+        hits.push({ body, child, fraction: Math.max(0, hit.distance / far), position: array(hit.position), normal: array(hit.normal) });
     });
     this.sweep();
     return hits;
@@ -428,3 +492,4 @@ function axisModes(desc) {
     return limit.enabled ? LIMITED : 0;
   });
 }
+const corners = ([x, y, z]) => Float32Array.from([-x, x].flatMap((a) => [-y, y].flatMap((b) => [-z, z].flatMap((c) => [a, b, c]))));

@@ -35,7 +35,7 @@ function manifestOf(name) {
       ['joint', 'ball|hinge|slider|fixed', '*', 'native'],
       ['joint', 'universal', '*', 'none', 'Rapier does not hold two axes square while both turn'],
       ['joint', 'generic', '*', 'approximate', GENERIC_NOTE],
-      ['joint_feature', 'hinge|slider|generic', 'limits|motors|springs', 'native'],
+      ['joint_feature', 'hinge|slider|generic', 'limits|motors|springs|stiffness', 'native'],
       ['query', '*', '*', 'native', 'over all colliders'],
       ['need', 'rotation', '*', 'approximate', 'the spin of a free ball drifts by about 4e-5 of itself a second'],
       ['write', 'damping|filter|awake', '*', 'native'],
@@ -271,7 +271,7 @@ class RapierWorld extends WorldBase {
           const point = add(at, rotate([q.x, q.y, q.z, q.w], array(manifold[local](i))));
           const middle = add(point, scale(0.5 * distance * (flipped ? -1 : 1), normal));
           rows.push(a, b, this.owners.get(one.handle).child, this.owners.get(two.handle).child, ...middle, ...normal,
-            -distance, NaN, NaN, NaN, NaN, 0);
+            -distance, manifold.contactImpulse(i), NaN, NaN, NaN, 0);
         }
       });
     });
@@ -307,9 +307,9 @@ class RapierWorld extends WorldBase {
         raw.jointConfigureMotorVelocity(handle, axis, motor.target, 1e9);
         raw.jointSetMotorMaxForce(handle, axis, motor.most);
       } else if (spring.enabled) {
-        const w = 2 * Math.PI * spring.frequency;
-        raw.jointConfigureMotorModel(handle, axis, R.MotorModel.AccelerationBased);
-        raw.jointConfigureMotor(handle, axis, spring.rest, 0, w * w, 2 * spring.ratio * w);
+        const w = 2 * Math.PI * spring.frequency, byForce = spring.byStiffness;
+        raw.jointConfigureMotorModel(handle, axis, byForce ? R.MotorModel.ForceBased : R.MotorModel.AccelerationBased);
+        raw.jointConfigureMotor(handle, axis, spring.rest, 0, byForce ? spring.frequency : w * w, byForce ? spring.ratio : 2 * spring.ratio * w);
         raw.jointSetMotorMaxForce(handle, axis, 3e38);
       } else {
         raw.jointConfigureMotor(handle, axis, 0, 0, 0, 0);
