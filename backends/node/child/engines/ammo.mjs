@@ -17,21 +17,22 @@ export function manifest() {
     version: versionOf(PACKAGE), unmet: missing(PACKAGE), description: 'ammo.js: Bullet in JavaScript', device: 'js', precision: 'f32', deterministic: true,
     settings: [
       SUBSTEPS,
-      floatSetting('margin', 'behaviour', [0, 1], 0.04, 'rounding of shapes', { unit: 'm', creation_only: true }),
+      floatSetting('margin', 'behaviour', [0, 1], 0.04, 'rounding of boxes and cylinders; around a hull it would lie outside, which has none', { unit: 'm', creation_only: true }),
       choiceSetting('compile', 'speed', ['as_it_runs', 'ahead'], 'ahead: all of it, for some seconds at the start of a world; what comes out is the same', { creation_only: true }),
       boolSetting('sleeping', 'behaviour', true, 'bodies at rest are put to sleep, where the world declares sleeping'),
     ],
     capabilities: [
       ...USUAL,
-      ['shape', 'hull', '*', 'approximate', 'the margin lies around it: it stands off by twice that'],
-      ['need', 'restitution', '*', 'approximate', "Bullet multiplies the two, each of ours is the pair's where both are equal"],
-      ['joint', 'ball|hinge|slider|fixed|generic', '*', 'native'],
+      ['need', 'restitution', '*', 'none', 'Bullet multiplies the two, and this package cannot have them combined otherwise: a ball of 1 stays on a floor of 0'],
+      ['need', 'friction', '*', 'approximate', 'right on the mean, it swings about that from step to step'],
+      ['joint', 'ball|hinge|slider|generic', '*', 'native'],
+      ['joint', 'fixed', '*', 'emulated', 'by the constraint of six axes'],
       ['shape', 'plane', 'static', 'native'],
       ['joint_feature', 'hinge|slider', 'limits', 'native'],
       ['joint_feature', 'hinge', 'motors', 'native'],
       ['write', 'damping|awake', '*', 'native'],
       ['need', 'joints|sleeping|damping|axis_locks|events|contacts|sensors', '*', 'native'],
-      ['need', 'ccd', '*', 'approximate', 'a sphere within the body is swept'],
+      ['need', 'ccd', '*', 'approximate', 'a sphere within the body is swept; not while the body has exceptions, which Bullet does not ask of'],
       ['event', 'contact_begin|contact_end|sensor_enter|sensor_leave|wake|sleep', '*', 'emulated', 'by comparing one step with the next'],
     ],
   };
@@ -103,7 +104,7 @@ class AmmoWorld extends WorldBase {
       }
       default: return refuse(`shapes of type ${desc.type}`);
     }
-    shape.setMargin(margin);
+    shape.setMargin(desc.type === HULL ? 0 : margin);
     return shape;
   }
   /** Bullet's bodies have their origin at the centre of mass, and their axes along the principal ones. */
@@ -138,11 +139,7 @@ class AmmoWorld extends WorldBase {
     body.setAngularFactor(still ? this.vec([0, 0, 0]) : free([8, 16, 32]));
     if ((desc.flags & SENSOR) !== 0) body.setCollisionFlags(body.getCollisionFlags() | NO_CONTACT_RESPONSE);
     this.hang(desc, body);
-    if ((desc.flags & CCD) !== 0) {
-      const inner = Math.min(Infinity, ...this.parts(desc.shape).map((part) => innerRadius(part.desc)));
-      body.setCcdMotionThreshold(0.5 * inner);
-      body.setCcdSweptSphereRadius(0.5 * inner);
-    }
+    this.sweepFast(desc.slot);
     if (desc.motion !== STATIC) {
       body.setLinearVelocity(this.vec(desc.linear));
       body.setAngularVelocity(this.vec(desc.angular));
@@ -151,6 +148,14 @@ class AmmoWorld extends WorldBase {
     if (!sleeps || desc.motion === KINEMATIC) body.setActivationState(DISABLE_DEACTIVATION);
     else if ((desc.flags & ASLEEP) !== 0) body.setActivationState(ISLAND_SLEEPING);
     this.sweep();
+  }
+  sweepFast(slot) {
+    const { desc, body } = this.bodies.get(slot);
+    if ((desc.flags & CCD) === 0 || desc.shape < 0) return;
+    const excepted = Array.from(this.apart.keys()).some((key) => [Math.floor(key / 4294967296), key % 4294967296].includes(slot));
+    const inner = excepted ? 0 : Math.min(...this.parts(desc.shape).map((part) => innerRadius(part.desc)));
+    body.setCcdMotionThreshold(0.5 * inner);  // 0: never
+    body.setCcdSweptSphereRadius(0.5 * inner);
   }
   hang(desc, body) {
     if ((desc.flags & SENSOR) !== 0) this.world.addRigidBody(body, 1, EVERYTHING);
@@ -292,7 +297,7 @@ class AmmoWorld extends WorldBase {
         joint.setUpperAngLimit(0);
         break;
       }
-      case FIXED: joint = new A.btFixedConstraint(one, two, this.transform(a), this.transform(b)); break;
+      case FIXED:
       case GENERIC: joint = this.sixAxes(desc, one, two, a, b); break;
       default: refuse(`joints of type ${desc.type}`);
     }
@@ -307,7 +312,7 @@ class AmmoWorld extends WorldBase {
   // In Bullet lower above upper is free, equal is locked.
   sixAxes(desc, one, two, a, b) {
     const joint = new this.A.btGeneric6DofConstraint(one, two, this.transform(a), this.transform(b), true);
-    const [lower, upper] = [1, -1].map((free, side) => desc.axes.map(({ mode, limit }) => (mode === LOCKED ? 0 : mode === LIMITED ? [limit.lower, limit.upper][side] : free)));
+    const [lower, upper] = [1, -1].map((free, side) => desc.axes.map(({ mode, limit }) => (mode === LOCKED || desc.type === FIXED ? 0 : mode === LIMITED ? [limit.lower, limit.upper][side] : free)));
     joint.setLinearLowerLimit(this.vec(lower.slice(0, 3)));
     joint.setLinearUpperLimit(this.vec(upper.slice(0, 3)));
     joint.setAngularLowerLimit(this.vec(lower.slice(3)));
@@ -344,6 +349,7 @@ class AmmoWorld extends WorldBase {
       this.apart.set(key, link);
     }
     this.forgetPair(a, b);
+    for (const slot of [a, b]) this.sweepFast(slot);
     for (const slot of [a, b]) this.setAwake(slot, true);
     this.sweep();
   }

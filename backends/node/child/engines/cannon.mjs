@@ -20,7 +20,7 @@ export function manifest() {
       floatSetting('contact_stiffness', 'behaviour', [1, 1e12], 1e7, 'stiffness of contacts and of friction', { unit: 'N/m' }),
       floatSetting('contact_relaxation', 'behaviour', [1, 1e3], 3, 'steps in which a contact comes to rest', { unit: '1' }),
       choiceSetting('broad_phase', 'speed', ['naive', 'sap'], 'naive: all pairs; sap: sweep and prune along one axis', { creation_only: true }),
-      choiceSetting('friction', 'behaviour', ['pair', 'points'], 'pair: one friction for all contact points of two shapes; points: each has the bound of all', { creation_only: true }),
+      choiceSetting('friction', 'behaviour', ['shared', 'points'], 'shared: the contact points of two bodies share the bound of their friction; points: each has all of it', { creation_only: true }),
       boolSetting('sleeping', 'behaviour', true, 'bodies at rest are put to sleep, where the world declares sleeping'),
     ],
     capabilities: [
@@ -60,7 +60,8 @@ class CannonWorld extends WorldBase {
     this.world.broadphase = init.settings.broad_phase === 'sap' ? new C.SAPBroadphase(this.world) : new C.NaiveBroadphase();
     const plain = this.world.broadphase.needBroadphaseCollision.bind(this.world.broadphase);
     this.world.broadphase.needBroadphaseCollision = (a, b) => (this.watches(a, b) || plain(a, b)) && this.collides(a.slot, b.slot);
-    this.world.narrowphase.enableFrictionReduction = init.settings.friction === 'pair';
+    const solve = this.world.solver.solve.bind(this.world.solver);
+    if (init.settings.friction === 'shared') this.world.solver.solve = (h, world) => (this.share(), solve(h, world));
     this.world.defaultContactMaterial.friction = 0;
     this.rows = [];
     this.materials = new Map();
@@ -84,6 +85,15 @@ class CannonWorld extends WorldBase {
   }
   // What cannon calls a friction's or a motor's largest force bounds the impulse of a step: it is given that.
   rub(contact) { contact.friction = contact.coefficient * (this.h ?? 0); }
+  /** Before a step is solved. cannon's own way to it, enableFrictionReduction, confuses the arms of the two bodies. */
+  share() {
+    const counts = new Map(), key = ({ bi, bj }) => `${bi.id} ${bj.id}`;
+    for (const rub of this.world.frictionEquations) counts.set(key(rub), (counts.get(key(rub)) ?? 0) + 1);
+    for (const rub of this.world.frictionEquations) {
+      rub.maxForce *= 2 / counts.get(key(rub));  // two directions a point
+      rub.minForce = -rub.maxForce;
+    }
+  }
   setGravity(gravity) { this.world.gravity.set(...gravity); }
 
   /** One of cannon's materials for each pair of coefficients, with the pair's own for any two of them. */
