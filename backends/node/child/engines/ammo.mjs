@@ -23,7 +23,7 @@ export function manifest() {
     ],
     capabilities: [
       ...USUAL,
-      ['need', 'restitution', '*', 'none', 'Bullet multiplies the two, and this package cannot have them combined otherwise: a ball of 1 stays on a floor of 0'],
+      ['need', 'restitution', '*', 'approximate', 'Bullet multiplies the two: the larger where all that is dynamic has the same, else the geometric mean'],
       ['need', 'friction', '*', 'approximate', 'right on the mean, it swings about that from step to step'],
       ['joint', 'ball|hinge|slider|generic', '*', 'native'],
       ['joint', 'fixed', '*', 'emulated', 'by the constraint of six axes'],
@@ -50,6 +50,7 @@ class AmmoWorld extends WorldBase {
     super(init);
     this.A = A;
     this.temporary = [];
+    this.most = 0;  // restitution of what is dynamic
     this.slots = new Map();  // a body's place in memory to its slot
     this.apart = new Map();  // pairs that are excepted, to constraints
     const rules = new A.btDefaultCollisionConfiguration();
@@ -215,9 +216,18 @@ class AmmoWorld extends WorldBase {
     else body.forceActivationState(ISLAND_SLEEPING);
   }
   setMaterial(slot, friction, restitution) {
-    const { body } = this.bodies.get(slot);
+    const { body, desc } = this.bodies.get(slot);
+    Object.assign(desc.material, { friction, restitution });
     body.setFriction(Math.sqrt(friction));
-    body.setRestitution(Math.sqrt(restitution));
+    const most = desc.motion === DYNAMIC ? Math.max(this.most, restitution) : this.most;
+    if (most === this.most) return body.setRestitution(this.factor(desc));
+    this.most = most;
+    for (const other of this.bodies.values()) other.body.setRestitution(this.factor(other.desc));
+  }
+  /** So that what is dynamic and what is not come to the larger of the two, where all that is dynamic has the same. */
+  factor({ motion, material: { restitution } }) {
+    const root = (e) => Math.sqrt(Math.max(e, 1e-6));
+    return motion === DYNAMIC ? root(restitution) : Math.max(restitution, this.most) / root(this.most);
   }
   setGravityScale(slot, factor) {
     this.bodies.get(slot).desc.gravityScale = factor;
