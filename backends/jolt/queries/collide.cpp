@@ -1,0 +1,68 @@
+// Collision without a step: two posed shapes.
+#include <Jolt/Jolt.h>
+
+#include <Jolt/Physics/Collision/CollisionDispatch.h>
+#include <Jolt/Physics/Collision/ManifoldBetweenTwoFaces.h>
+
+#include <algorithm>
+
+#include "queries/search.hpp"
+
+namespace plumb::jolt {
+namespace {
+
+thread_local std::vector<PlumbPairPoint> pair_points;
+
+/// m: who is further away is not looked for.
+constexpr double kFurthest = 1e4;
+
+/// The points of a hit, as a step would make them.
+void add_points(const JPH::CollideShapeResult& hit, const PlumbVec3& base) {
+  const JPH::Vec3 normal = hit.mPenetrationAxis.NormalizedOr(JPH::Vec3::sAxisY());
+  JPH::ContactPoints on_a, on_b;
+  JPH::ManifoldBetweenTwoFaces(hit.mContactPointOn1, hit.mContactPointOn2, hit.mPenetrationAxis,
+                               JPH::cDefaultCollisionTolerance, hit.mShape1Face, hit.mShape2Face, on_a, on_b);
+  if (on_a.size() > 4) JPH::PruneContactPoints(normal, on_a, on_b);
+  for (JPH::uint i = 0; i < on_a.size(); ++i)
+    pair_points.push_back({backend::add(base, to_plumb(0.5f * (on_a[i] + on_b[i]))), to_plumb(normal),
+                           static_cast<double>((on_a[i] - on_b[i]).Dot(normal)), 0});
+}
+
+/// NaN: Jolt says nothing of the two.
+double collide_shapes(const Shape& a, const Shape& b, const PlumbPosedPair& pair) {
+  const PlumbVec3& base = pair.pose_a.position;
+  double distance = std::numeric_limits<double>::quiet_NaN();
+  auto collector = each<JPH::CollideShapeCollector>([&](auto&, const JPH::CollideShapeResult& hit) {
+    const double apart = -static_cast<double>(hit.mPenetrationDepth);
+    if (!(distance <= apart)) distance = apart;
+    if (apart <= 0) add_points(hit, base);
+  });
+  JPH::CollideShapeSettings how = within(kFurthest);
+  how.mCollectFacesMode = JPH::ECollectFacesMode::CollectFaces;
+  JPH::CollisionDispatch::sCollideShapeVsShape(a.jolt, b.jolt, JPH::Vec3::sOne(), JPH::Vec3::sOne(),
+                                               centre_transform(*a.jolt, pair.pose_a, base),
+                                               centre_transform(*b.jolt, pair.pose_b, base), {}, {}, how, collector);
+  return distance;
+}
+
+bool is_surface(PlumbShapeType type) {
+  return type == PLUMB_TRIANGLE_MESH || type == PLUMB_HEIGHT_FIELD || type == PLUMB_PLANE;
+}
+
+}  // namespace
+
+PlumbResult World::collide_pairs(std::span<const PlumbPosedPair> pairs, std::span<PlumbPairResult> results,
+                                 std::span<const PlumbPairPoint>& points) {
+  pair_points.clear();
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const std::size_t first = pair_points.size();
+    const Shape &a = shape(pairs[i].shape_a), &b = shape(pairs[i].shape_b);
+    const bool knows = !is_surface(a.type) || !is_surface(b.type);
+    const double distance = knows ? collide_shapes(a, b, pairs[i]) : std::numeric_limits<double>::quiet_NaN();
+    results[i] = {distance, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(pair_points.size() - first)};
+  }
+  points = pair_points;
+  return PLUMB_OK;
+}
+
+}  // namespace plumb::jolt
