@@ -21,8 +21,7 @@ Capability shape_fact(std::uint32_t type, std::uint32_t motion) {
     case PLUMB_CONVEX_HULL:
       return {PLUMB_NATIVE, "at most 256 corners; where there are more, those within 1 mm of a face are left out"};
     case PLUMB_PLANE: return {PLUMB_NATIVE, "it ends 5 km from its origin"};
-    case PLUMB_HEIGHT_FIELD:
-      return {PLUMB_EMULATED, "by a mesh, as Jolt's own are square and round their heights"};
+    case PLUMB_HEIGHT_FIELD: return {PLUMB_EMULATED, "by a mesh, as Jolt's own are square and round their heights"};
     default: return usual;
   }
 }
@@ -43,11 +42,13 @@ Capability joint_fact(std::uint32_t type) {
     case PLUMB_JOINT_UNIVERSAL: return {PLUMB_EMULATED, "Jolt's constraint of six axes"};
     case PLUMB_JOINT_GENERIC: return {PLUMB_APPROXIMATE, kSixAxes};
     case PLUMB_JOINT_SWING_TWIST:
-      return {PLUMB_APPROXIMATE, "its cone is an ellipse of the sines of half angles: in between the two it is another"};
+      return {PLUMB_APPROXIMATE,
+              "its cone is an ellipse of the sines of half angles: in between the two it is another"};
     case PLUMB_JOINT_GEAR:
       return {PLUMB_EMULATED, "a constraint of the adapter's own: Jolt's gives both wheels the same torque"};
     case PLUMB_JOINT_RACK_AND_PINION:
-      return {PLUMB_EMULATED, "a constraint of the adapter's own: Jolt's drifts, and pushes a rack at its centre alone"};
+      return {PLUMB_EMULATED,
+              "a constraint of the adapter's own: Jolt's drifts, and pushes a rack at its centre alone"};
     default: return {type < PLUMB_JOINT_TYPE_COUNT ? PLUMB_NATIVE : PLUMB_NONE};
   }
 }
@@ -82,16 +83,17 @@ Capability query_fact(std::uint32_t kind, std::uint32_t type) {
   const Capability usual = backend::usual_capability(PLUMB_CAP_QUERY, kind, type);
   switch (kind) {
     case PLUMB_QUERY_RAY:
-      return {PLUMB_NATIVE, "a body in which a ray starts is hit at fraction 0; meshes are seen from their front alone"};
-    case PLUMB_QUERY_PENETRATION: return {type < PLUMB_SHAPE_TYPE_COUNT && backend::is_convex(type) ? PLUMB_NATIVE : PLUMB_NONE};
+      return {PLUMB_NATIVE,
+              "a body in which a ray starts is hit at fraction 0; meshes are seen from their front alone"};
+    case PLUMB_QUERY_PENETRATION:
+      return {type < PLUMB_SHAPE_TYPE_COUNT && backend::is_convex(type) ? PLUMB_NATIVE : PLUMB_NONE};
     default: return usual;
   }
 }
 
 Capability need_fact(std::uint32_t index) {
   switch (PlumbNeeds{1} << std::min<std::uint32_t>(index, 63)) {
-    case PLUMB_NEED_ROTATION:
-      return {PLUMB_NATIVE};
+    case PLUMB_NEED_ROTATION: return {PLUMB_NATIVE};
     case PLUMB_NEED_CCD: return {PLUMB_NATIVE, "bodies are cast along their ways, without turning; sensors miss them"};
     case PLUMB_NEED_SNAPSHOT: return {PLUMB_NATIVE};
     case PLUMB_NEED_EVENTS:

@@ -84,8 +84,8 @@ void World::write_row(PlumbField field, Body& at, const double* row) {
   switch (field) {
     case PLUMB_FIELD_POSE:
       touch_anew(at);
-      jolt.SetPositionAndRotation(id, position({row[0], row[1], row[2]}, "pose"),
-                                  quaternion(pose_of(row).orientation), JPH::EActivation::DontActivate);
+      jolt.SetPositionAndRotation(id, position({row[0], row[1], row[2]}, "pose"), quaternion(pose_of(row).orientation),
+                                  JPH::EActivation::DontActivate);
       at.moving = Body::Moving::as_told;
       return wake();
     case PLUMB_FIELD_VELOCITY:

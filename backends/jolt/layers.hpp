@@ -1,4 +1,5 @@
-// Jolt's layers: one of bodies that stand, one of those that move. Who else touches whom is told by filters (filter.hpp).
+// Jolt's layers: one of bodies that stand, one of those that move. Who else touches whom is told by filters
+// (filter.hpp).
 #pragma once
 
 #include <Jolt/Jolt.h>

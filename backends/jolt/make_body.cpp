@@ -42,8 +42,8 @@ void put_motion(const PlumbBodyDesc& desc, JPH::BodyCreationSettings& made) {
   made.mAllowedDOFs = free_axes_of(desc);
   made.mMassPropertiesOverride.mMass = scalar(desc.mass, "mass");
   if (!std::isnormal(1 / made.mMassPropertiesOverride.mMass))
-    throw Error(PLUMB_E_INVALID_ARGUMENT, "mass is " + backend::number_text(desc.mass) +
-                                              ", too far from 1 for Jolt's single precision");
+    throw Error(PLUMB_E_INVALID_ARGUMENT,
+                "mass is " + backend::number_text(desc.mass) + ", too far from 1 for Jolt's single precision");
   if (made.mAllowedDOFs != JPH::EAllowedDOFs::None) return;
   made.mMotionType = JPH::EMotionType::Kinematic;
   made.mAllowedDOFs = JPH::EAllowedDOFs::All;

@@ -11,14 +11,14 @@ const PlumbMaterial& material_of(const JPH::Body& body, JPH::SubShapeID part) {
 }
 
 void ask_for_materials(JPH::PhysicsSystem& system) {
-  system.SetCombineFriction([](const JPH::Body& a, const JPH::SubShapeID& part_a, const JPH::Body& b,
-                               const JPH::SubShapeID& part_b) {
-    return static_cast<float>(std::sqrt(material_of(a, part_a).friction * material_of(b, part_b).friction));
-  });
-  system.SetCombineRestitution([](const JPH::Body& a, const JPH::SubShapeID& part_a, const JPH::Body& b,
-                                  const JPH::SubShapeID& part_b) {
-    return static_cast<float>(std::max(material_of(a, part_a).restitution, material_of(b, part_b).restitution));
-  });
+  system.SetCombineFriction(
+      [](const JPH::Body& a, const JPH::SubShapeID& part_a, const JPH::Body& b, const JPH::SubShapeID& part_b) {
+        return static_cast<float>(std::sqrt(material_of(a, part_a).friction * material_of(b, part_b).friction));
+      });
+  system.SetCombineRestitution(
+      [](const JPH::Body& a, const JPH::SubShapeID& part_a, const JPH::Body& b, const JPH::SubShapeID& part_b) {
+        return static_cast<float>(std::max(material_of(a, part_a).restitution, material_of(b, part_b).restitution));
+      });
 }
 
 }  // namespace plumb::jolt

@@ -14,16 +14,16 @@ const backend::SettingsTable<Settings>& settings_table() {
   static const SettingsTable<Settings> all = {
       setting<&S::velocity_steps>(int_setting("velocity_steps", "1", quality, 2, 255, 10,
                                               "iterations that solve velocities; below 2 there is no friction")),
-      setting<&S::position_steps>(
-          int_setting("position_steps", "1", quality, 0, 255, 2, "iterations that push overlap and gaps of joints out")),
+      setting<&S::position_steps>(int_setting("position_steps", "1", quality, 0, 255, 2,
+                                              "iterations that push overlap and gaps of joints out")),
       setting<&S::collision_steps>(int_setting("collision_steps", "1", quality, 1, 256, 1,
                                                "parts of a step, each with its own collision detection")),
       setting<&S::baumgarte>(float_setting("baumgarte", "1", behaviour, 0, 1, 0.2,
                                            "share of an error that an iteration of positions takes back")),
       setting<&S::penetration_slop>(
           float_setting("penetration_slop", "m", behaviour, 0, 1, 0.02, "overlap that is left as it is")),
-      setting<&S::speculative_distance>(float_setting(
-          "speculative_distance", "m", behaviour, 0, 1, 0.02, "contacts are made this far before bodies touch")),
+      setting<&S::speculative_distance>(float_setting("speculative_distance", "m", behaviour, 0, 1, 0.02,
+                                                      "contacts are made this far before bodies touch")),
       setting<&S::max_penetration_distance>(float_setting("max_penetration_distance", "m", behaviour, 0, 100, 0.2,
                                                           "most that an iteration of positions pushes out")),
       setting<&S::manifold_tolerance>(float_setting("manifold_tolerance", "m", behaviour, 0, 1, 1e-3,
@@ -54,8 +54,8 @@ const backend::SettingsTable<Settings>& settings_table() {
           float_setting("sleep_time", "s", behaviour, 0, 1e4, 0.5, "they fall asleep after this time")),
       setting<&S::warm_starting>(
           bool_setting("warm_starting", quality, true, "the impulses of the step before are the first guess")),
-      setting<&S::contact_recycling>(bool_setting("contact_recycling", speed, true,
-                                                  "contacts of bodies that hardly moved are used again")),
+      setting<&S::contact_recycling>(
+          bool_setting("contact_recycling", speed, true, "contacts of bodies that hardly moved are used again")),
       setting<&S::manifold_reduction>(bool_setting("manifold_reduction", speed, true,
                                                    "contacts of triangles or children with one normal become four")),
       setting<&S::internal_edge_removal>(

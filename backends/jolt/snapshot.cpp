@@ -71,8 +71,10 @@ PlumbResult World::save(std::span<const std::byte>& data) {
   append(bytes, Head{living(bodies_), living(joints_), touches_.touching().size(), jolts.size()});
   for (const auto& body : bodies_)
     if (body)
-      append(bytes, BodyState{body->target, static_cast<std::uint8_t>(body->moving),
-                              static_cast<std::uint8_t>(body->was_asleep ? 1 : 0), {}});
+      append(bytes, BodyState{body->target,
+                              static_cast<std::uint8_t>(body->moving),
+                              static_cast<std::uint8_t>(body->was_asleep ? 1 : 0),
+                              {}});
   for (const backend::TouchTracker::Pair& pair : touches_.touching()) append(bytes, pair);
   bytes.insert(bytes.end(), jolts.begin(), jolts.end());
   data = bytes;

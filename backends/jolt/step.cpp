@@ -72,8 +72,7 @@ PlumbResult World::step(double dt) {
   steer_kinematics(dt);
   remember_axes();
   listener_.forget_all();
-  const JPH::EPhysicsUpdateError lost =
-      system_.Update(length, settings_.collision_steps, scratch_.get(), jobs_.get());
+  const JPH::EPhysicsUpdateError lost = system_.Update(length, settings_.collision_steps, scratch_.get(), jobs_.get());
   listener_.finish_step();
   last_.part = dt / settings_.collision_steps;
   last_.dropped = static_cast<std::uint32_t>(std::popcount(static_cast<std::uint32_t>(lost)));

@@ -14,7 +14,8 @@ double pushed(const SavedManifold& manifold) {
 }
 
 /// Friction is one impulse for all points of a manifold: it is shared out by how much each point pushes.
-void put_impulses(const SavedManifold& saved, JPH::Vec3 normal, std::size_t point, double parts, PlumbContact& contact) {
+void put_impulses(const SavedManifold& saved, JPH::Vec3 normal, std::size_t point, double parts,
+                  PlumbContact& contact) {
   const auto impulse = static_cast<double>(saved.points[point].impulse);
   const JPH::Vec3 along = normal.GetNormalizedPerpendicular(), across = normal.Cross(along);
   const double all = pushed(saved);
@@ -42,8 +43,7 @@ PlumbContact contact_of(const Manifold& manifold, std::size_t point) {
 /// Jolt keeps the impulses of the last part of a step: the other parts count as it does.
 void World::gather_contacts() {
   const bool with_impulses = needs(PLUMB_NEED_CONTACT_IMPULSES);
-  const std::vector<SavedManifold> saved =
-      with_impulses ? saved_contacts(system_) : std::vector<SavedManifold>();
+  const std::vector<SavedManifold> saved = with_impulses ? saved_contacts(system_) : std::vector<SavedManifold>();
   lent_.contacts.clear();
   for (const Manifold& manifold : listener_.manifolds()) {
     const SavedManifold* with = find(saved, manifold.parts);

@@ -10,8 +10,7 @@ namespace {
 /// World axes.
 JPH::Vec3 surface_velocity(const JPH::Body& body, JPH::SubShapeID part) {
   const PlumbVec3& v = material_of(body, part).surface_velocity;
-  return body.GetRotation() *
-         JPH::Vec3(static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z));
+  return body.GetRotation() * JPH::Vec3(static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z));
 }
 
 }  // namespace

@@ -68,9 +68,8 @@ std::vector<SavedManifold> saved_contacts(const JPH::PhysicsSystem& system) {
 }
 
 const SavedManifold* find(const std::vector<SavedManifold>& manifolds, const JPH::SubShapeIDPair& parts) {
-  const auto at =
-      std::lower_bound(manifolds.begin(), manifolds.end(), parts,
-                       [](const SavedManifold& a, const JPH::SubShapeIDPair& b) { return a.parts < b; });
+  const auto at = std::lower_bound(manifolds.begin(), manifolds.end(), parts,
+                                   [](const SavedManifold& a, const JPH::SubShapeIDPair& b) { return a.parts < b; });
   return at != manifolds.end() && at->parts == parts ? &*at : nullptr;
 }
 

@@ -21,7 +21,7 @@ inline constexpr bool kReadsSavedContacts = JPH_VERSION_MAJOR == 5 && JPH_VERSIO
 
 struct SavedManifold {
   JPH::SubShapeIDPair parts;
-  JPH::Float3 normal;  ///< from the first to the second, in the second's axes
+  JPH::Float3 normal;   ///< from the first to the second, in the second's axes
   float friction[2]{};  ///< N s on the second, along the tangents that Jolt makes of the normal
   float torsion = 0;    ///< N m s about the normal
   std::size_t count = 0;

@@ -105,8 +105,7 @@ void drive(const Joint& joint) {
       break;
     default: break;
   }
-  if (joint.helper != nullptr)
-    drive_six_axes(static_cast<JPH::SixDOFConstraint&>(*joint.helper), desc, false, true);
+  if (joint.helper != nullptr) drive_six_axes(static_cast<JPH::SixDOFConstraint&>(*joint.helper), desc, false, true);
 }
 
 }  // namespace plumb::jolt

@@ -1,8 +1,9 @@
 // Gears, racks and pinions, as a constraint of the adapter's own. Jolt's gear gives its second wheel the same torque as
 // the first, whatever the ratio, and both of Jolt's take no bodies but dynamic ones and drift where no hinge is named.
 //
-// One row: C' = along (v_a - v_b) + about_a w_a + about_b w_b = 0. Of a gear along is 0, about_a the first axis and about_b
-// the second times the ratio. Of a rack it is what passes at the pitch point, times the ratio: rad/s of the pinion.
+// One row: C' = along (v_a - v_b) + about_a w_a + about_b w_b = 0. Of a gear along is 0, about_a the first axis and
+// about_b the second times the ratio. Of a rack it is what passes at the pitch point, times the ratio: rad/s of the
+// pinion.
 //
 // This file is compiled without run-time type information, as Jolt is.
 #include <Jolt/Jolt.h>
@@ -85,9 +86,7 @@ class Meshing final : public JPH::TwoBodyConstraint {
   JPH::Mat44 GetConstraintToBody1Matrix() const override { return matrix_of(a_); }
   JPH::Mat44 GetConstraintToBody2Matrix() const override { return matrix_of(b_); }
 
-  [[nodiscard]] Impulse on_b() const {
-    return {to_plumb(-impulse_ * along_), to_plumb(impulse_ * about_b_)};
-  }
+  [[nodiscard]] Impulse on_b() const { return {to_plumb(-impulse_ * along_), to_plumb(impulse_ * about_b_)}; }
 
  private:
   static JPH::Mat44 matrix_of(const Frame& frame) {
@@ -112,8 +111,7 @@ class Meshing final : public JPH::TwoBodyConstraint {
   void measure() {
     const JPH::Quat turn_a = mBody1->GetRotation(), turn_b = mBody2->GetRotation();
     error_ += turned(before_.turn_a, turn_a, turn_a * a_.x);
-    error_ += is_rack_ ? -ratio_ * (passed() - before_.passed)
-                       : ratio_ * turned(before_.turn_b, turn_b, turn_b * b_.x);
+    error_ += is_rack_ ? -ratio_ * (passed() - before_.passed) : ratio_ * turned(before_.turn_b, turn_b, turn_b * b_.x);
     remember();
   }
 
@@ -123,8 +121,7 @@ class Meshing final : public JPH::TwoBodyConstraint {
     about_a_ = axis;
     about_b_ = ratio_ * other;
     if (is_rack_) {
-      const JPH::RVec3 pitch =
-          mBody1->GetCenterOfMassTransform() * a_.origin + other.Cross(axis) / ratio_;
+      const JPH::RVec3 pitch = mBody1->GetCenterOfMassTransform() * a_.origin + other.Cross(axis) / ratio_;
       along_ = ratio_ * other;
       about_a_ = JPH::Vec3(pitch - mBody1->GetCenterOfMassPosition()).Cross(along_);
       about_b_ = along_.Cross(JPH::Vec3(pitch - mBody2->GetCenterOfMassPosition()));

@@ -67,8 +67,7 @@ PlumbVec3 held_turns(const JPH::SixDOFConstraint& axes, const PlumbPose& first, 
   const JPH::Vec3 held = axes.GetTotalLambdaRotation();
   if (axes.IsFixedAxis(Axis::RotationX) && axes.IsFixedAxis(Axis::RotationY) && axes.IsFixedAxis(Axis::RotationZ))
     return to_plumb(held);
-  const PlumbQuat seen =
-      backend::multiply(backend::conjugate(first.orientation), second.orientation);
+  const PlumbQuat seen = backend::multiply(backend::conjugate(first.orientation), second.orientation);
   const PlumbVec3 turns = backend::swing_twist(seen);
   const PlumbPose swung{{}, backend::multiply(first.orientation, backend::turn_of_swing_twist({0, turns.y, turns.z}))};
   const double at[3] = {turns.x, turns.y, turns.z};

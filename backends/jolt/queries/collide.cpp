@@ -17,32 +17,37 @@ thread_local std::vector<PlumbPairPoint> pair_points;
 constexpr double kFurthest = 1e4;
 
 /// The points of a hit, as a step would make them.
-void add_points(const JPH::CollideShapeResult& hit, const PlumbVec3& base) {
-  const JPH::Vec3 normal = hit.mPenetrationAxis.NormalizedOr(JPH::Vec3::sAxisY());
+void add_points(const JPH::CollideShapeResult& hit, const Between& apart, const PlumbVec3& base) {
   JPH::ContactPoints on_a, on_b;
-  JPH::ManifoldBetweenTwoFaces(hit.mContactPointOn1, hit.mContactPointOn2, hit.mPenetrationAxis,
-                               JPH::cDefaultCollisionTolerance, hit.mShape1Face, hit.mShape2Face, on_a, on_b);
-  if (on_a.size() > 4) JPH::PruneContactPoints(normal, on_a, on_b);
+  JPH::ManifoldBetweenTwoFaces(apart.on_a, apart.on_b, apart.normal, JPH::cDefaultCollisionTolerance, hit.mShape1Face,
+                               hit.mShape2Face, on_a, on_b);
+  if (on_a.size() > 4) JPH::PruneContactPoints(apart.normal, on_a, on_b);
   for (JPH::uint i = 0; i < on_a.size(); ++i)
-    pair_points.push_back({backend::add(base, to_plumb(0.5f * (on_a[i] + on_b[i]))), to_plumb(normal),
-                           static_cast<double>((on_a[i] - on_b[i]).Dot(normal)), 0});
+    pair_points.push_back({backend::add(base, to_plumb(0.5f * (on_a[i] + on_b[i]))), to_plumb(apart.normal),
+                           static_cast<double>((on_a[i] - on_b[i]).Dot(apart.normal)), 0});
 }
 
-/// NaN: Jolt says nothing of the two.
-double collide_shapes(const Shape& a, const Shape& b, const PlumbPosedPair& pair) {
+/// NaN: nothing is so near.
+double collide_within(double most, const Shape& a, const Shape& b, const PlumbPosedPair& pair) {
   const PlumbVec3& base = pair.pose_a.position;
+  const JPH::Mat44 at_a = centre_transform(*a.jolt, pair.pose_a, base),
+                   at_b = centre_transform(*b.jolt, pair.pose_b, base);
   double distance = std::numeric_limits<double>::quiet_NaN();
   auto collector = each<JPH::CollideShapeCollector>([&](auto&, const JPH::CollideShapeResult& hit) {
-    const double apart = -static_cast<double>(hit.mPenetrationDepth);
-    if (!(distance <= apart)) distance = apart;
-    if (apart <= 0) add_points(hit, base);
+    const Between apart = between({*a.jolt, at_a, hit.mSubShapeID1}, {*b.jolt, at_b, hit.mSubShapeID2});
+    if (!(distance <= apart.distance)) distance = apart.distance;
+    if (apart.distance <= 0) add_points(hit, apart, base);
   });
-  JPH::CollideShapeSettings how = within(kFurthest);
+  JPH::CollideShapeSettings how = within(most);
   how.mCollectFacesMode = JPH::ECollectFacesMode::CollectFaces;
-  JPH::CollisionDispatch::sCollideShapeVsShape(a.jolt, b.jolt, JPH::Vec3::sOne(), JPH::Vec3::sOne(),
-                                               centre_transform(*a.jolt, pair.pose_a, base),
-                                               centre_transform(*b.jolt, pair.pose_b, base), {}, {}, how, collector);
+  JPH::CollisionDispatch::sCollideShapeVsShape(a.jolt, b.jolt, JPH::Vec3::sOne(), JPH::Vec3::sOne(), at_a, at_b, {}, {},
+                                               how, collector);
   return distance;
+}
+
+double collide_shapes(const Shape& a, const Shape& b, const PlumbPosedPair& pair) {
+  const double near = collide_within(kRounding, a, b, pair);
+  return std::isnan(near) ? collide_within(kFurthest, a, b, pair) : near;
 }
 
 bool is_surface(PlumbShapeType type) {

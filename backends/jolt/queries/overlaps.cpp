@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "queries/exact.hpp"
 #include "queries/search.hpp"
 
 namespace plumb::jolt {
@@ -12,31 +13,36 @@ struct Placed {
   Placed(const Shape& of, const PlumbPose& pose)
       : shape(*of.jolt),
         base(position(pose.position, "pose.position")),
-        centre(JPH::RMat44::sTranslation(base) * centre_transform(shape, pose, pose.position)) {}
+        centre(JPH::RMat44::sTranslation(base) * centre_transform(shape, pose, pose.position)),
+        leaf(shape, centre_transform(shape, pose, pose.position), {}) {}
 
   const JPH::Shape& shape;
   JPH::RVec3 base;
   JPH::RMat44 centre;
+  Leaf leaf;
 };
 
+/// Calls on_hit(part, between) for all parts of bodies that are up to so far away.
 template <class OnHit>
 void find_near(const JPH::PhysicsSystem& system, const Placed& at, double distance, const PlumbFilter& filter,
                OnHit on_hit) {
-  auto collector = each<JPH::CollideShapeCollector>(std::move(on_hit));
-  system.GetNarrowPhaseQueryNoLock().CollideShape(&at.shape, JPH::Vec3::sOne(), at.centre, within(distance), at.base,
-                                                  collector, {}, {}, Seen(filter));
+  auto collector = each<JPH::CollideShapeCollector>([&](auto&, const JPH::CollideShapeResult& hit) {
+    const Part part(system, hit.mBodyID2, hit.mSubShapeID2);
+    const Between apart = between(at.leaf, part.leaf(hit.mSubShapeID2, at.base));
+    if (apart.distance <= distance) on_hit(part, apart);
+  });
+  system.GetNarrowPhaseQueryNoLock().CollideShape(&at.shape, JPH::Vec3::sOne(), at.centre, within(distance + kRounding),
+                                                  at.base, collector, {}, {}, Seen(filter));
 }
 
-PlumbClosest closest_of(const Part& part, const JPH::CollideShapeResult& hit, const PlumbVec3& base,
-                        std::uint32_t probe) {
+PlumbClosest closest_of(const Part& part, const Between& apart, const PlumbVec3& base, std::uint32_t probe) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  const double distance = -static_cast<double>(hit.mPenetrationDepth);
   PlumbClosest row{part.body.handle, probe, part.child, 0, {none, none, none}, {none, none, none}, {none, none, none}};
-  if (distance <= 0) return row;
-  row.distance = distance;
-  row.on_probe = backend::add(base, to_plumb(hit.mContactPointOn1));
-  row.on_body = backend::add(base, to_plumb(hit.mContactPointOn2));
-  row.normal = to_plumb(hit.mPenetrationAxis.NormalizedOr(JPH::Vec3::sAxisY()));
+  if (apart.distance <= 0) return row;
+  row.distance = apart.distance;
+  row.on_probe = backend::add(base, to_plumb(apart.on_a));
+  row.on_body = backend::add(base, to_plumb(apart.on_b));
+  row.normal = to_plumb(apart.normal);
   return row;
 }
 
@@ -51,9 +57,9 @@ void keep_nearest(std::vector<PlumbClosest>& rows, std::size_t first) {
   std::sort(begin, rows.end(), [](const PlumbClosest& a, const PlumbClosest& b) {
     return std::tuple(slot_of(a.body), a.distance, a.child) < std::tuple(slot_of(b.body), b.distance, b.child);
   });
-  rows.erase(std::unique(begin, rows.end(),
-                         [](const PlumbClosest& a, const PlumbClosest& b) { return a.body == b.body; }),
-             rows.end());
+  rows.erase(
+      std::unique(begin, rows.end(), [](const PlumbClosest& a, const PlumbClosest& b) { return a.body == b.body; }),
+      rows.end());
   std::sort(begin, rows.end(), [](const PlumbClosest& a, const PlumbClosest& b) {
     return std::tuple(a.distance, slot_of(a.body)) < std::tuple(b.distance, slot_of(b.body));
   });
@@ -64,10 +70,7 @@ void keep_nearest(std::vector<PlumbClosest>& rows, std::size_t first) {
 Hits World::overlap_shapes(std::span<const PlumbOverlap> overlaps) {
   return gather(PLUMB_HIT_ALL, overlaps, [&](const PlumbOverlap& overlap, backend::HitCollector& found) {
     find_near(system_, Placed(shape(overlap.shape), overlap.pose), 0, overlap.filter,
-            [&](auto&, const JPH::CollideShapeResult& hit) {
-              const Part part(system_, hit.mBodyID2, hit.mSubShapeID2);
-              found.add_overlap(part.body.handle, part.child);
-            });
+              [&](const Part& part, const Between&) { found.add_overlap(part.body.handle, part.child); });
   });
 }
 
@@ -77,13 +80,10 @@ Penetrations World::penetrations(std::span<const PlumbOverlap> overlaps) {
   for (std::uint32_t i = 0; i < overlaps.size(); ++i) {
     const PlumbVec3& base = overlaps[i].pose.position;
     find_near(system_, Placed(shape(overlaps[i].shape), overlaps[i].pose), 0, overlaps[i].filter,
-            [&](auto&, const JPH::CollideShapeResult& hit) {
-              const Part part(system_, hit.mBodyID2, hit.mSubShapeID2);
-              rows.push_back({part.body.handle, i, part.child,
-                              std::max(static_cast<double>(hit.mPenetrationDepth), 0.0),
-                              backend::add(base, to_plumb(hit.mContactPointOn1)),
-                              to_plumb(-hit.mPenetrationAxis.NormalizedOr(JPH::Vec3::sAxisY()))});
-            });
+              [&](const Part& part, const Between& apart) {
+                rows.push_back({part.body.handle, i, part.child, -apart.distance,
+                                backend::add(base, to_plumb(apart.on_a)), to_plumb(-apart.normal)});
+              });
   }
   return {PLUMB_OK, backend::deepest_of_bodies(rows)};
 }
@@ -94,10 +94,9 @@ ClosestBodies World::closest_bodies(PlumbHitMode mode, std::span<const PlumbProb
   for (std::uint32_t i = 0; i < probes.size(); ++i) {
     const std::size_t first = rows.size();
     find_near(system_, Placed(shape(probes[i].shape), probes[i].pose), probes[i].most_distance, probes[i].filter,
-            [&](auto&, const JPH::CollideShapeResult& hit) {
-              const Part part(system_, hit.mBodyID2, hit.mSubShapeID2);
-              rows.push_back(closest_of(part, hit, probes[i].pose.position, i));
-            });
+              [&](const Part& part, const Between& apart) {
+                rows.push_back(closest_of(part, apart, probes[i].pose.position, i));
+              });
     keep_nearest(rows, first);
     if (mode == PLUMB_HIT_ALL) continue;
     if (rows.size() == first) rows.push_back(nobody(i));

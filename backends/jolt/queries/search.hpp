@@ -6,6 +6,9 @@
 #include <Jolt/Physics/Body/BodyFilter.h>
 #include <Jolt/Physics/Collision/CollideShape.h>
 
+#include <algorithm>
+
+#include "queries/exact.hpp"
 #include "world.hpp"
 
 namespace plumb::jolt {
@@ -30,10 +33,18 @@ struct Part {
         body(owner(jolt)),
         child(body.shape->child_of(part)) {}
 
+  [[nodiscard]] Leaf leaf(JPH::SubShapeID part, JPH::RVec3Arg base) const {
+    const JPH::Vec3 at(jolt.GetCenterOfMassPosition() - base);
+    return {*jolt.GetShape(), JPH::Mat44::sRotationTranslation(jolt.GetRotation(), at), part};
+  }
+
   const JPH::Body& jolt;
   const Body& body;
   std::uint32_t child;
 };
+
+/// m: by which Jolt may find two shapes with rounded edges further apart than they are, or pass them by.
+inline constexpr double kRounding = 0.1;
 
 /// Surfaces have two sides, and no edge of theirs is left out.
 template <class How>
@@ -50,6 +61,11 @@ template <class How>
   how.mBackFaceMode = JPH::EBackFaceMode::CollideWithBackFaces;
   how.mMaxSeparationDistance = static_cast<float>(distance);
   return how;
+}
+
+/// Jolt looks no further than the nearest hit so far, and a hair beyond it, as of equal ones the lower slot is told.
+[[nodiscard]] inline float early_out(const backend::HitCollector& found, double hair = 1e-6) {
+  return static_cast<float>(std::min(found.nearest(), 1.0) + hair);
 }
 
 /// Calls run(query, collector) for each of a batch. The hits live until the next batch of the same thread.
