@@ -16,15 +16,21 @@ thread_local std::vector<PlumbPairPoint> pair_points;
 /// m: who is further away is not looked for.
 constexpr double kFurthest = 1e4;
 
-/// The points of a hit, as a step would make them.
+/// The points of a hit as a step would make them, and with them the deepest.
 void add_points(const JPH::CollideShapeResult& hit, const Between& apart, const PlumbVec3& base) {
+  constexpr double same = 1e-5;  // m
   JPH::ContactPoints on_a, on_b;
   JPH::ManifoldBetweenTwoFaces(apart.on_a, apart.on_b, apart.normal, JPH::cDefaultCollisionTolerance, hit.mShape1Face,
                                hit.mShape2Face, on_a, on_b);
   if (on_a.size() > 4) JPH::PruneContactPoints(apart.normal, on_a, on_b);
-  for (JPH::uint i = 0; i < on_a.size(); ++i)
-    pair_points.push_back({backend::add(base, to_plumb(0.5f * (on_a[i] + on_b[i]))), to_plumb(apart.normal),
-                           static_cast<double>((on_a[i] - on_b[i]).Dot(apart.normal)), 0});
+  double deepest = -std::numeric_limits<double>::infinity();
+  const auto add = [&](JPH::Vec3Arg a, JPH::Vec3Arg b) {
+    const auto depth = static_cast<double>((a - b).Dot(apart.normal));
+    deepest = std::max(deepest, depth);
+    pair_points.push_back({backend::add(base, to_plumb(0.5f * (a + b))), to_plumb(apart.normal), depth, 0});
+  };
+  for (JPH::uint i = 0; i < on_a.size(); ++i) add(on_a[i], on_b[i]);
+  if (deepest < -apart.distance - same) add(apart.on_a, apart.on_b);
 }
 
 /// NaN: nothing is so near.
