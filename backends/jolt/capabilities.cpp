@@ -18,8 +18,7 @@ Capability shape_fact(std::uint32_t type, std::uint32_t motion) {
   const Capability usual = backend::usual_capability(PLUMB_CAP_SHAPE, type, motion);
   if (usual.degree == PLUMB_NONE) return usual;
   switch (type) {
-    case PLUMB_CONVEX_HULL:
-      return {PLUMB_NATIVE, "at most 256 corners; where there are more, those within 1 mm of a face are left out"};
+    case PLUMB_CONVEX_HULL: return {PLUMB_NATIVE, "at most 256 corners: of more those that stand out most"};
     case PLUMB_PLANE: return {PLUMB_NATIVE, "it ends 5 km from its origin"};
     case PLUMB_HEIGHT_FIELD: return {PLUMB_EMULATED, "by a mesh, as Jolt's own are square and round their heights"};
     default: return usual;

@@ -20,8 +20,8 @@ using Result = JPH::Shape::ShapeResult;
 
 /// m: a plane ends this far from its origin.
 constexpr float kPlaneHalfExtent = 5000;
-/// m: points are left out of a hull that lie within it of a face. Jolt's own millimetre is taken where a hull has too
-/// many corners otherwise.
+/// m: points are left out of a hull that lie within it of a face. Jolt's own millimetre is taken where it makes no hull
+/// with this.
 constexpr float kHullTolerance = 1e-5f;
 
 Result make_box(const PlumbShapeDesc& desc, float round) {
