@@ -37,24 +37,24 @@ const backend::SettingsTable<Settings>& settings_table() {
       setting<&S::convex_radius>(
           float_setting("convex_radius", "m", behaviour, 0, 1, 0.05,
                         "edges of boxes, cylinders and hulls are rounded by it where overlap is measured", once)),
-      setting<&S::linear_cast_threshold>(
+      setting<&S::cast, &S::Cast::threshold>(
           float_setting("linear_cast_threshold", "1", behaviour, 0, 100, 0.75,
                         "share of its inner radius by which a body with continuous collision moves before it is cast")),
-      setting<&S::linear_cast_max_penetration>(
+      setting<&S::cast, &S::Cast::max_penetration>(
           float_setting("linear_cast_max_penetration", "1", behaviour, 0, 1, 0.25,
                         "share of its inner radius by which such a body may overlap what its cast hits")),
-      setting<&S::recycle_distance>(
+      setting<&S::recycling, &S::Recycling::distance>(
           float_setting("contact_recycle_distance", "m", speed, 0, 1, 1e-3,
                         "contacts of bodies that have moved less against each other are used again")),
-      setting<&S::recycle_angle>(float_setting("contact_recycle_angle", "rad", speed, 0, 1, std::numbers::pi / 90,
-                                               "likewise where they have turned less")),
-      setting<&S::sleep_threshold>(
+      setting<&S::recycling, &S::Recycling::angle>(float_setting(
+          "contact_recycle_angle", "rad", speed, 0, 1, std::numbers::pi / 90, "likewise where they have turned less")),
+      setting<&S::sleep, &S::Sleep::threshold>(
           float_setting("sleep_threshold", "m/s", behaviour, 0, 100, 0.03, "bodies of which all is slower may sleep")),
-      setting<&S::sleep_time>(
+      setting<&S::sleep, &S::Sleep::time>(
           float_setting("sleep_time", "s", behaviour, 0, 1e4, 0.5, "they fall asleep after this time")),
       setting<&S::warm_starting>(
           bool_setting("warm_starting", quality, true, "the impulses of the step before are the first guess")),
-      setting<&S::contact_recycling>(
+      setting<&S::recycling, &S::Recycling::on>(
           bool_setting("contact_recycling", speed, true, "contacts of bodies that hardly moved are used again")),
       setting<&S::manifold_reduction>(bool_setting("manifold_reduction", speed, true,
                                                    "contacts of triangles or children with one normal become four")),
@@ -78,16 +78,16 @@ JPH::PhysicsSettings physics_settings(const Settings& settings, bool may_sleep) 
   made.mMaxPenetrationDistance = narrow(settings.max_penetration_distance);
   made.mManifoldTolerance = narrow(settings.manifold_tolerance);
   made.mMinVelocityForRestitution = narrow(settings.restitution_threshold);
-  made.mLinearCastThreshold = narrow(settings.linear_cast_threshold);
-  made.mLinearCastMaxPenetration = narrow(settings.linear_cast_max_penetration);
-  made.mBodyPairCacheMaxDeltaPositionSq = JPH::Square(narrow(settings.recycle_distance));
-  made.mBodyPairCacheCosMaxDeltaRotationDiv2 = settings.recycle_angle == std::numbers::pi / 90
+  made.mLinearCastThreshold = narrow(settings.cast.threshold);
+  made.mLinearCastMaxPenetration = narrow(settings.cast.max_penetration);
+  made.mBodyPairCacheMaxDeltaPositionSq = JPH::Square(narrow(settings.recycling.distance));
+  made.mBodyPairCacheCosMaxDeltaRotationDiv2 = settings.recycling.angle == std::numbers::pi / 90
                                                    ? jolts.mBodyPairCacheCosMaxDeltaRotationDiv2
-                                                   : narrow(std::cos(settings.recycle_angle / 2));
-  made.mPointVelocitySleepThreshold = narrow(settings.sleep_threshold);
-  made.mTimeBeforeSleep = narrow(settings.sleep_time);
+                                                   : narrow(std::cos(settings.recycling.angle / 2));
+  made.mPointVelocitySleepThreshold = narrow(settings.sleep.threshold);
+  made.mTimeBeforeSleep = narrow(settings.sleep.time);
   made.mConstraintWarmStart = settings.warm_starting;
-  made.mUseBodyPairContactCache = settings.contact_recycling;
+  made.mUseBodyPairContactCache = settings.recycling.on;
   made.mUseManifoldReduction = settings.manifold_reduction;
   made.mUseLargeIslandSplitter = settings.split_islands;
   made.mAllowSleeping = may_sleep;

@@ -13,10 +13,17 @@ struct Settings {
   int velocity_steps, position_steps, collision_steps;
   double baumgarte, penetration_slop, speculative_distance, max_penetration_distance, manifold_tolerance;
   double restitution_threshold, max_linear_speed, max_angular_speed, convex_radius;
-  double linear_cast_threshold, linear_cast_max_penetration;
-  double recycle_distance, recycle_angle;
-  double sleep_threshold, sleep_time;
-  bool warm_starting, contact_recycling, manifold_reduction, internal_edge_removal, split_islands;
+  struct Cast {
+    double threshold, max_penetration;
+  } cast;
+  struct Recycling {
+    double distance, angle;
+    bool on;
+  } recycling;
+  struct Sleep {
+    double threshold, time;
+  } sleep;
+  bool warm_starting, manifold_reduction, internal_edge_removal, split_islands;
 };
 
 [[nodiscard]] const backend::SettingsTable<Settings>& settings_table();
