@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "contacts/saved_contacts.hpp"
+#include "plumb/backend/modify.hpp"
 #include "plumb/backend/usual_capability.hpp"
 #include "world.hpp"
 
@@ -109,6 +110,18 @@ Capability need_fact(std::uint32_t index) {
   }
 }
 
+Capability modify_fact(std::uint32_t of, std::uint32_t index) {
+  switch (of) {
+    case 0:
+      if (index >= PLUMB_MODIFY_BODY_COUNT) return {};
+      return {PLUMB_EMULATED, "Jolt's body is made anew under its number"};
+    case 1:
+      if (index >= PLUMB_MODIFY_JOINT_COUNT) return {};
+      return {PLUMB_EMULATED, "its constraint is made anew"};
+    default: return {of == 2 && backend::may_change(index) ? PLUMB_EMULATED : PLUMB_NONE};
+  }
+}
+
 Capability fact(PlumbCapability kind, std::uint32_t a, std::uint32_t b) {
   switch (kind) {
     case PLUMB_CAP_SHAPE: return shape_fact(a, b);
@@ -124,6 +137,7 @@ Capability fact(PlumbCapability kind, std::uint32_t a, std::uint32_t b) {
     case PLUMB_CAP_PHASE_TIME: return {PLUMB_NONE};
     case PLUMB_CAP_TRIANGLE_MATERIAL:
       return {a == PLUMB_TRIANGLE_MESH || a == PLUMB_HEIGHT_FIELD ? PLUMB_NATIVE : PLUMB_NONE};
+    case PLUMB_CAP_MODIFY: return modify_fact(a, b);
     case PLUMB_CAP_SNAPSHOT:
       if (a == 1) return {PLUMB_APPROXIMATE, "Jolt's order of bodies may be another"};
       return {a == 0 ? PLUMB_NATIVE : PLUMB_NONE};

@@ -5,6 +5,7 @@
 
 #include <Jolt/Core/JobSystem.h>
 #include <Jolt/Core/TempAllocator.h>
+#include <Jolt/Physics/Body/BodyCreationSettings.h>
 #include <Jolt/Physics/PhysicsSystem.h>
 
 #include <memory>
@@ -31,7 +32,8 @@ class World final : public IPhysicsWorld,
                     public IDebug,
                     public ISettings,
                     public ISnapshot,
-                    public IExceptions {
+                    public IExceptions,
+                    public IModify {
  public:
   explicit World(const WorldInit& init);
   ~World() override;
@@ -71,6 +73,7 @@ class World final : public IPhysicsWorld,
   ISettings* settings() override { return this; }
   ISnapshot* snapshot() override { return this; }
   IExceptions* exceptions() override { return this; }
+  IModify* modify() override { return this; }
 
   // joints/world_joints.cpp
   PlumbResult create_joints(std::span<const PlumbJointDesc> descs, std::span<PlumbJoint> ids) override;
@@ -86,6 +89,11 @@ class World final : public IPhysicsWorld,
   ClosestBodies closest_bodies(PlumbHitMode mode, std::span<const PlumbProbe> probes) override;
   PlumbResult collide_pairs(std::span<const PlumbPosedPair> pairs, std::span<PlumbPairResult> results,
                             std::span<const PlumbPairPoint>& points) override;
+
+  // modify.cpp
+  PlumbResult modify_bodies(std::span<const PlumbBodyChange> changes) override;
+  PlumbResult modify_joints(std::span<const PlumbJointChange> changes) override;
+  PlumbResult modify_shapes(std::span<const PlumbShape> shapes, std::span<const PlumbShapeDesc> descs) override;
 
   // debug.cpp
   PlumbResult candidate_pairs(std::span<const PlumbDebugPair>& pairs) override;
@@ -125,9 +133,16 @@ class World final : public IPhysicsWorld,
   void track_resting();
   void track_sleep();
 
+  // modify.cpp, wake.cpp
+  void remake_body(Body& at, const PlumbBodyDesc& desc, JPH::BodyCreationSettings& made);
+  void wake_where_other(const Body& ground, const Shape& before);
+
   // joints/
-  void add_joint(Joint& joint);
-  void remove_joint(Joint& joint);
+  [[nodiscard]] Ends ends_of(const PlumbJointDesc& desc);
+  void add_joint(const Joint& joint);
+  void remove_joint(const Joint& joint);
+  void give_constraints(const Joint& joint);
+  void take_constraints(const Joint& joint);
   void remember_axes();
   void break_joints();
 

@@ -12,13 +12,15 @@ namespace plumb::jolt {
 struct Joint {
   PlumbJoint handle = 0;
   PlumbJointDesc desc{};  ///< with the motors and rests as they are now
+  bool enabled = true;    ///< else it lets its bodies go and touch
   JPH::Ref<JPH::TwoBodyConstraint> main;
   /// Beside it, or null: one that has the motors where springs have the main one's, or a distance's spring beside its
   /// limits.
   JPH::Ref<JPH::TwoBodyConstraint> helper;
   PlumbPose at_a = identity_pose(), at_b = identity_pose();  ///< its frames in world axes as the last step began
 
-  [[nodiscard]] bool may_break() const { return desc.break_force > 0 || desc.break_torque > 0; }
+  [[nodiscard]] bool keeps_apart() const { return enabled && desc.collide_connected == 0 && desc.body_a != 0; }
+  [[nodiscard]] bool may_break() const { return enabled && (desc.break_force > 0 || desc.break_torque > 0); }
 };
 
 /// What a joint holds on to: bodies, and its frames in them, from their centres of mass.

@@ -136,6 +136,7 @@ Impulse of(const JPH::TwoBodyConstraint& constraint, const Joint& joint) {
 }  // namespace
 
 Impulse reaction(const Joint& joint) {
+  if (!joint.enabled) return {};
   Impulse sum = of(*joint.main, joint);
   if (joint.helper == nullptr) return sum;
   const Impulse more = of(*joint.helper, joint);

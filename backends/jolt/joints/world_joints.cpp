@@ -24,20 +24,25 @@ PlumbPose from_centre(const PlumbPose& frame, const JPH::Body& body) {
   return {backend::sub(frame.position, to_plumb(body.GetShape()->GetCenterOfMass())), frame.orientation};
 }
 
-Ends ends_of(const PlumbJointDesc& desc, const Body* a, const Body& b) {
-  if (a == nullptr) return {JPH::Body::sFixedToWorld, *b.jolt, desc.frame_a, from_centre(desc.frame_b, *b.jolt)};
-  return {*a->jolt, *b.jolt, from_centre(desc.frame_a, *a->jolt), from_centre(desc.frame_b, *b.jolt)};
-}
-
 }  // namespace
+
+Ends World::ends_of(const PlumbJointDesc& desc) {
+  JPH::Body& b = *body(desc.body_b).jolt;
+  if (desc.body_a == 0) return {JPH::Body::sFixedToWorld, b, desc.frame_a, from_centre(desc.frame_b, b)};
+  JPH::Body& a = *body(desc.body_a).jolt;
+  return {a, b, from_centre(desc.frame_a, a), from_centre(desc.frame_b, b)};
+}
 
 PlumbResult World::create_joints(std::span<const PlumbJointDesc> descs, std::span<PlumbJoint> ids) {
   std::vector<std::unique_ptr<Joint>> made;
   for (std::size_t i = 0; i < descs.size(); ++i) {
     const PlumbJointDesc& desc = descs[i];
     check_joint(desc);
-    made.push_back(std::make_unique<Joint>(Joint{ids[i], desc, {}, {}, {}, {}}));
-    make_constraints(*made.back(), ends_of(desc, desc.body_a == 0 ? nullptr : &body(desc.body_a), body(desc.body_b)));
+    auto joint = std::make_unique<Joint>();
+    joint->handle = ids[i];
+    joint->desc = desc;
+    make_constraints(*joint, ends_of(desc));
+    made.push_back(std::move(joint));
   }
   for (auto& joint : made) {
     add_joint(*joint);
@@ -54,24 +59,31 @@ PlumbResult World::destroy_joints(std::span<const PlumbJoint> ids) {
   return PLUMB_OK;
 }
 
-void World::add_joint(Joint& joint) {
-  joint.main->SetConstraintPriority(slot_of(joint.handle));
-  system_.AddConstraint(joint.main);
-  if (joint.helper != nullptr) {
-    joint.helper->SetConstraintPriority(slot_of(joint.handle));
-    system_.AddConstraint(joint.helper);
+void World::add_joint(const Joint& joint) {
+  if (joint.keeps_apart()) keep_apart(body(joint.desc.body_a), body(joint.desc.body_b), 1);
+  give_constraints(joint);
+}
+
+void World::remove_joint(const Joint& joint) {
+  if (joint.keeps_apart()) keep_apart(body(joint.desc.body_a), body(joint.desc.body_b), -1);
+  take_constraints(joint);
+}
+
+void World::give_constraints(const Joint& joint) {
+  if (!joint.enabled) return;
+  for (JPH::TwoBodyConstraint* constraint : {joint.main.GetPtr(), joint.helper.GetPtr()}) {
+    if (constraint == nullptr) continue;
+    constraint->SetConstraintPriority(slot_of(joint.handle));
+    system_.AddConstraint(constraint);
   }
-  if (joint.desc.collide_connected == 0 && joint.desc.body_a != 0)
-    keep_apart(body(joint.desc.body_a), body(joint.desc.body_b), 1);
   interface().ActivateConstraint(joint.main);
 }
 
-void World::remove_joint(Joint& joint) {
-  if (joint.desc.collide_connected == 0 && joint.desc.body_a != 0)
-    keep_apart(body(joint.desc.body_a), body(joint.desc.body_b), -1);
+void World::take_constraints(const Joint& joint) {
+  if (!joint.enabled) return;
   interface().ActivateConstraint(joint.main);
-  system_.RemoveConstraint(joint.main);
-  if (joint.helper != nullptr) system_.RemoveConstraint(joint.helper);
+  for (JPH::TwoBodyConstraint* constraint : {joint.main.GetPtr(), joint.helper.GetPtr()})
+    if (constraint != nullptr) system_.RemoveConstraint(constraint);
 }
 
 /// Reactions are along the axes that a step begins with.
@@ -142,8 +154,7 @@ PlumbResult World::write_joints(PlumbJointField field, std::span<const PlumbJoin
   for (std::size_t i = 0; i < ids.size(); ++i) {
     Joint& at = joint(ids[i]);
     at.desc = changed[i];
-    const Body* a = at.desc.body_a == 0 ? nullptr : &body(at.desc.body_a);
-    if (make_helper(at, ends_of(at.desc, a, body(at.desc.body_b)))) {
+    if (make_helper(at, ends_of(at.desc)) && at.enabled) {
       at.helper->SetConstraintPriority(slot_of(at.handle));
       system_.AddConstraint(at.helper);
     }
