@@ -138,9 +138,7 @@ Capability fact(PlumbCapability kind, std::uint32_t a, std::uint32_t b) {
     case PLUMB_CAP_TRIANGLE_MATERIAL:
       return {a == PLUMB_TRIANGLE_MESH || a == PLUMB_HEIGHT_FIELD ? PLUMB_NATIVE : PLUMB_NONE};
     case PLUMB_CAP_MODIFY: return modify_fact(a, b);
-    case PLUMB_CAP_SNAPSHOT:
-      if (a == 1) return {PLUMB_APPROXIMATE, "Jolt's order of bodies may be another"};
-      return {a == 0 ? PLUMB_NATIVE : PLUMB_NONE};
+    case PLUMB_CAP_SNAPSHOT: return {a <= 1 ? PLUMB_NATIVE : PLUMB_NONE};
     default: return backend::usual_capability(kind, a, b);
   }
 }

@@ -1,4 +1,4 @@
-// What Jolt lets be seen: the bounds of bodies and the axes of manifolds. Its trees, candidate pairs and islands stay
+// What Jolt lets be seen: the bounds and islands of bodies, the axes of manifolds. Its trees and candidate pairs stay
 // within.
 #include <algorithm>
 
@@ -20,6 +20,21 @@ PlumbResult World::tree_boxes(std::span<const PlumbDebugBox>& boxes) {
     lent_.boxes.push_back({to_plumb(bounds.mMin), to_plumb(bounds.mMax), body->handle, of_no_tree, 0});
   }
   boxes = lent_.boxes;
+  return PLUMB_OK;
+}
+
+/// Jolt numbers the islands of each step anew; who sleeps is in none.
+PlumbResult World::body_states(std::span<const PlumbDebugBody>& bodies) {
+  lent_.bodies.clear();
+  for (const auto& body : bodies_) {
+    if (!body) continue;
+    const bool in_island = body->jolt->IsDynamic() && body->jolt->IsActive();
+    const JPH::uint32 island =
+        in_island ? body->jolt->GetMotionProperties()->GetIslandIndexInternal() : JPH::Body::cInactiveIndex;
+    lent_.bodies.push_back({body->handle, island == JPH::Body::cInactiveIndex ? -1 : static_cast<std::int32_t>(island),
+                            body->asleep() ? 1u : 0u});
+  }
+  bodies = lent_.bodies;
   return PLUMB_OK;
 }
 

@@ -99,6 +99,7 @@ class World final : public IPhysicsWorld,
   PlumbResult candidate_pairs(std::span<const PlumbDebugPair>& pairs) override;
   PlumbResult tree_boxes(std::span<const PlumbDebugBox>& boxes) override;
   PlumbResult separating_axes(std::span<const PlumbDebugAxis>& axes) override;
+  PlumbResult body_states(std::span<const PlumbDebugBody>& bodies) override;
 
   // snapshot.cpp
   PlumbResult save(std::span<const std::byte>& data) override;
@@ -174,6 +175,7 @@ class World final : public IPhysicsWorld,
     std::vector<PlumbContact> contacts;
     std::vector<PlumbDebugBox> boxes;
     std::vector<PlumbDebugAxis> axes;
+    std::vector<PlumbDebugBody> bodies;
     std::vector<std::byte> snapshot;
   } lent_;
 };

@@ -216,4 +216,79 @@ TEST(Jolt, ThreadsChangeNothing) {
   EXPECT_EQ(after(4), one);
 }
 
+/// A pile with a swinging chain in it, which others come into and go out of.
+struct Pile {
+  static constexpr PlumbNeeds kPileNeeds = kNeeds | PLUMB_NEED_SNAPSHOT | PLUMB_NEED_EVENTS | PLUMB_NEED_SLEEPING;
+
+  explicit Pile(std::uint32_t threads) {
+    PlumbWorldDesc desc = plumb::world_desc(kPileNeeds);
+    desc.threads = threads;
+    world = backend().create_world(desc);
+    box = add_box(*world, {0.5, 0.5, 0.5});
+    ground = add_box(*world, {50, 1, 50});
+  }
+  void fill() {
+    PlumbBodyDesc floor = plumb::body_desc(PLUMB_STATIC);
+    floor.shape = ground;
+    floor.pose.position = {0, -1, 0};
+    add_body(*world, floor);
+    for (int i = 0; i < 40; ++i) bodies.push_back(cube({(i % 4) * 0.8, 1 + (i / 16) * 1.3, (i / 4 % 4) * 0.8}));
+    for (int i = 0; i < 4; ++i) {
+      bodies.push_back(cube({1.5, 8.0 - 1.1 * i, 6}));
+      join(i == 0 ? 0 : bodies[bodies.size() - 2], bodies.back(),
+           i == 0 ? PlumbVec3{0, 8.55, 6} : PlumbVec3{0, -0.55, 0});
+    }
+  }
+  PlumbBody cube(PlumbVec3 at) {
+    PlumbBodyDesc desc = plumb::body_desc();
+    desc.shape = box;
+    desc.pose.position = at;
+    return add_body(*world, desc);
+  }
+  void join(PlumbBody a, PlumbBody b, PlumbVec3 in_a) {
+    PlumbJointDesc desc = plumb::joint_desc(PLUMB_JOINT_BALL);
+    desc.body_a = a;
+    desc.body_b = b;
+    desc.frame_a.position = in_a;
+    desc.frame_b.position = {0, 0.55, 0};
+    joints.push_back(0);
+    plumb::check(*world, world->joints()->create_joints({&desc, 1}, {&joints.back(), 1}));
+  }
+  std::uint64_t after(int steps) {
+    for (int i = 0; i < steps; ++i) advance(*world);
+    std::uint64_t hash = 0;
+    plumb::check(*world, world->hash(hash));
+    return hash;
+  }
+
+  std::unique_ptr<plumb::IPhysicsWorld> world;
+  PlumbShape box = 0, ground = 0;
+  std::vector<PlumbBody> bodies;
+  std::vector<PlumbJoint> joints;
+};
+
+/// Bodies have Jolt's numbers by their slots, and joints are solved in the order of theirs: so a world that is put back
+/// goes on to the bit, after others came and went, and in another world with another number of threads.
+TEST(Jolt, WholeWorldsGoOnToTheBit) {
+  Pile pile(1);
+  pile.fill();
+  (void)pile.after(40);
+  std::span<const std::byte> lent;
+  plumb::check(*pile.world, pile.world->snapshot()->save_world(lent));
+  const std::vector<std::byte> saved(lent.begin(), lent.end());
+  const std::uint64_t expected = pile.after(90);
+
+  plumb::check(*pile.world, pile.world->joints()->destroy_joints(pile.joints));
+  for (const std::size_t gone : {5u, 20u, 41u, 7u})
+    plumb::check(*pile.world, pile.world->destroy_bodies({&pile.bodies[gone], 1}));
+  for (int i = 0; i < 6; ++i) (void)pile.cube({0.3 * i, 12 + 1.2 * i, 0});
+  (void)pile.after(20);
+  plumb::check(*pile.world, pile.world->snapshot()->restore(saved));
+  EXPECT_EQ(pile.after(90), expected);
+
+  Pile other(3);
+  plumb::check(*other.world, other.world->snapshot()->restore(saved));
+  EXPECT_EQ(other.after(90), expected);
+}
+
 }  // namespace
