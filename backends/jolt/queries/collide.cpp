@@ -16,7 +16,8 @@ thread_local std::vector<PlumbPairPoint> pair_points;
 /// m: who is further away is not looked for.
 constexpr double kFurthest = 1e4;
 
-/// The points of a hit as a step would make them, and with them the deepest.
+/// The points of a hit as a step would make them, none deeper than the two are in each other, and with them the
+/// deepest.
 void add_points(const JPH::CollideShapeResult& hit, const Between& apart, const PlumbVec3& base) {
   constexpr double same = 1e-5;  // m
   JPH::ContactPoints on_a, on_b;
@@ -25,7 +26,7 @@ void add_points(const JPH::CollideShapeResult& hit, const Between& apart, const 
   if (on_a.size() > 4) JPH::PruneContactPoints(apart.normal, on_a, on_b);
   double deepest = -std::numeric_limits<double>::infinity();
   const auto add = [&](JPH::Vec3Arg a, JPH::Vec3Arg b) {
-    const auto depth = static_cast<double>((a - b).Dot(apart.normal));
+    const double depth = std::min(static_cast<double>((a - b).Dot(apart.normal)), -apart.distance);
     deepest = std::max(deepest, depth);
     pair_points.push_back({backend::add(base, to_plumb(0.5f * (a + b))), to_plumb(apart.normal), depth, 0});
   };
