@@ -29,13 +29,15 @@ Between apart(const Leaf& a, const Leaf& b, JPH::Vec3Arg on_a, JPH::Vec3Arg on_b
           on_a + a.radius() * normal, on_b - b.radius() * normal, normal};
 }
 
-/// Their cores overlap, as the search has found.
+/// Their cores overlap, as the search has found. The depth is the way out along the normal that it tells.
 Between within_each_other(JPH::EPAPenetrationDepth& search, const Leaf& a, const Leaf& b) {
   JPH::Vec3 way = JPH::Vec3::sAxisX(), on_a = JPH::Vec3::sZero(), on_b = JPH::Vec3::sZero();
   const JPH::AddConvexRadius<Leaf> whole_a(a, a.radius()), whole_b(b, b.radius());
   if (!search.GetPenetrationDepthStepEPA(whole_a, whole_b, kTolerance, way, on_a, on_b))
     return {0, on_a, on_b, JPH::Vec3::sAxisY()};
-  return {-static_cast<double>((on_b - on_a).Length()), on_a, on_b, way.NormalizedOr(JPH::Vec3::sAxisY())};
+  const JPH::Vec3 normal = way.NormalizedOr(JPH::Vec3::sAxisY());
+  const float depth = (whole_a.GetSupport(normal) - whole_b.GetSupport(-normal)).Dot(normal);
+  return {-static_cast<double>(depth), on_a, on_b, normal};
 }
 
 }  // namespace
