@@ -24,14 +24,16 @@ void add_points(const JPH::CollideShapeResult& hit, const Between& apart, const 
   JPH::ManifoldBetweenTwoFaces(apart.on_a, apart.on_b, apart.normal, JPH::cDefaultCollisionTolerance, hit.mShape1Face,
                                hit.mShape2Face, on_a, on_b);
   if (on_a.size() > 4) JPH::PruneContactPoints(apart.normal, on_a, on_b);
-  double deepest = -std::numeric_limits<double>::infinity();
-  const auto add = [&](JPH::Vec3Arg a, JPH::Vec3Arg b) {
-    const double depth = std::min(static_cast<double>((a - b).Dot(apart.normal)), -apart.distance);
-    deepest = std::max(deepest, depth);
-    pair_points.push_back({backend::add(base, to_plumb(0.5f * (a + b))), to_plumb(apart.normal), depth, 0});
+  const double most = -apart.distance;
+  bool told = false;
+  const auto add = [&](JPH::Vec3Arg a, JPH::Vec3Arg b, double depth) {
+    told = told || depth >= most - same;
+    pair_points.push_back(
+        {backend::add(base, to_plumb(0.5f * (a + b))), to_plumb(apart.normal), std::min(depth, most), 0});
   };
-  for (JPH::uint i = 0; i < on_a.size(); ++i) add(on_a[i], on_b[i]);
-  if (deepest < -apart.distance - same) add(apart.on_a, apart.on_b);
+  for (JPH::uint i = 0; i < on_a.size(); ++i)
+    add(on_a[i], on_b[i], static_cast<double>((on_a[i] - on_b[i]).Dot(apart.normal)));
+  if (!told) add(apart.on_a, apart.on_b, most);
 }
 
 /// NaN: nothing is so near.
