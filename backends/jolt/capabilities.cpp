@@ -94,7 +94,7 @@ Capability query_fact(std::uint32_t kind, std::uint32_t type) {
 Capability need_fact(std::uint32_t index) {
   switch (PlumbNeeds{1} << std::min<std::uint32_t>(index, 63)) {
     case PLUMB_NEED_ROTATION: return {PLUMB_NATIVE};
-    case PLUMB_NEED_CCD: return {PLUMB_NATIVE, "bodies are cast along their ways, without turning; sensors miss them"};
+    case PLUMB_NEED_CCD: return {PLUMB_NATIVE, "bodies are cast along their ways, without turning"};
     case PLUMB_NEED_SNAPSHOT: return {PLUMB_NATIVE};
     case PLUMB_NEED_EVENTS:
       return {PLUMB_EMULATED, "by comparing who touches after one step with who does after the next"};

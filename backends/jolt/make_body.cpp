@@ -31,6 +31,12 @@ JPH::EAllowedDOFs free_axes_of(const PlumbBodyDesc& desc) {
   return static_cast<JPH::EAllowedDOFs>(all & ~locked);
 }
 
+/// An axis without a moment does not turn.
+JPH::Vec3 inverse_inertia(const PlumbBodyDesc& desc) {
+  const auto inverse = [](double moment) { return moment > 0 ? 1 / moment : 0; };
+  return vector(PlumbVec3{inverse(desc.inertia.x), inverse(desc.inertia.y), inverse(desc.inertia.z)}, "1 / inertia");
+}
+
 void put_motion(const PlumbBodyDesc& desc, JPH::BodyCreationSettings& made) {
   made.mMotionType = desc.motion == PLUMB_STATIC      ? JPH::EMotionType::Static
                      : desc.motion == PLUMB_KINEMATIC ? JPH::EMotionType::Kinematic
@@ -39,6 +45,7 @@ void put_motion(const PlumbBodyDesc& desc, JPH::BodyCreationSettings& made) {
   made.mMassPropertiesOverride.mMass = 1;
   made.mMassPropertiesOverride.mInertia = JPH::Mat44::sIdentity();
   if (desc.motion != PLUMB_DYNAMIC) return;
+  (void)inverse_inertia(desc);
   made.mAllowedDOFs = free_axes_of(desc);
   made.mMassPropertiesOverride.mMass = scalar(desc.mass, "mass");
   if (!std::isnormal(1 / made.mMassPropertiesOverride.mMass))
@@ -81,9 +88,7 @@ void set_inertia(JPH::Body& body, const PlumbBodyDesc& desc) {
   JPH::MotionProperties& motion = *body.GetMotionProperties();
   constexpr auto turns = JPH::EAllowedDOFs::RotationX | JPH::EAllowedDOFs::RotationY | JPH::EAllowedDOFs::RotationZ;
   if ((motion.GetAllowedDOFs() & turns) == JPH::EAllowedDOFs::None) return;
-  const auto inverse = [](double moment) { return moment > 0 ? 1 / moment : 0; };
-  const PlumbVec3 inverses{inverse(desc.inertia.x), inverse(desc.inertia.y), inverse(desc.inertia.z)};
-  motion.SetInverseInertia(vector(inverses, "1 / inertia"), quaternion(desc.inertia_orientation));
+  motion.SetInverseInertia(inverse_inertia(desc), quaternion(desc.inertia_orientation));
 }
 
 }  // namespace plumb::jolt

@@ -46,7 +46,6 @@ PlumbResult World::modify_bodies(std::span<const PlumbBodyChange> changes) {
     put_velocity(at, desc);
     const Shape* with = desc.shape == 0 ? nullptr : &shape(desc.shape);
     made.emplace_back(desc, body_settings(desc, with, settings_, needs(PLUMB_NEED_GYROSCOPIC)));
-    (void)vector(desc.inertia, "inertia");
   }
   const backend::ChangedBodies bodies(changes);
   std::vector<Joint*> held;

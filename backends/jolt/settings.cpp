@@ -56,7 +56,7 @@ const backend::SettingsTable<Settings>& settings_table() {
           bool_setting("warm_starting", quality, true, "the impulses of the step before are the first guess")),
       setting<&S::recycling, &S::Recycling::on>(
           bool_setting("contact_recycling", speed, true, "contacts of bodies that hardly moved are used again")),
-      setting<&S::manifold_reduction>(bool_setting("manifold_reduction", speed, true,
+      setting<&S::manifold_reduction>(bool_setting("manifold_reduction", behaviour, true,
                                                    "contacts of triangles or children with one normal become four")),
       setting<&S::internal_edge_removal>(
           bool_setting("internal_edge_removal", behaviour, false,

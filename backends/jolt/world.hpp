@@ -110,6 +110,8 @@ class World final : public IPhysicsWorld,
   [[nodiscard]] Body& body(PlumbBody handle) { return *bodies_[slot_of(handle)]; }
   [[nodiscard]] Joint& joint(PlumbJoint handle) { return *joints_[slot_of(handle)]; }
   [[nodiscard]] const Shape& shape(PlumbShape handle) const { return *shapes_[slot_of(handle)]; }
+  /// m: by which Jolt may find two shapes further apart than they are, as it rounds their edges.
+  [[nodiscard]] double rounding() const { return 2 * settings_.convex_radius + 0.02; }
   [[nodiscard]] JPH::BodyInterface& interface() { return system_.GetBodyInterfaceNoLock(); }
 
   // bodies.cpp

@@ -54,8 +54,8 @@ double collide_within(double most, const Shape& a, const Shape& b, const PlumbPo
   return distance;
 }
 
-double collide_shapes(const Shape& a, const Shape& b, const PlumbPosedPair& pair) {
-  const double near = collide_within(kRounding, a, b, pair);
+double collide_shapes(const Shape& a, const Shape& b, const PlumbPosedPair& pair, double rounding) {
+  const double near = collide_within(rounding, a, b, pair);
   return std::isnan(near) ? collide_within(kFurthest, a, b, pair) : near;
 }
 
@@ -72,7 +72,8 @@ PlumbResult World::collide_pairs(std::span<const PlumbPosedPair> pairs, std::spa
     const std::size_t first = pair_points.size();
     const Shape &a = shape(pairs[i].shape_a), &b = shape(pairs[i].shape_b);
     const bool knows = !is_surface(a.type) || !is_surface(b.type);
-    const double distance = knows ? collide_shapes(a, b, pairs[i]) : std::numeric_limits<double>::quiet_NaN();
+    const double distance =
+        knows ? collide_shapes(a, b, pairs[i], rounding()) : std::numeric_limits<double>::quiet_NaN();
     results[i] = {distance, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(pair_points.size() - first)};
   }
   points = pair_points;

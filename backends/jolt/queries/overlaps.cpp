@@ -22,16 +22,17 @@ struct Placed {
   Leaf leaf;
 };
 
-/// Calls on_hit(part, between) for all parts of bodies that are up to so far away.
+/// Calls on_hit(part, between) for all parts of bodies that are up to so far away. rounding: by how much further Jolt
+/// may find them.
 template <class OnHit>
-void find_near(const JPH::PhysicsSystem& system, const Placed& at, double distance, const PlumbFilter& filter,
-               OnHit on_hit) {
+void find_near(const JPH::PhysicsSystem& system, const Placed& at, double distance, double rounding,
+               const PlumbFilter& filter, OnHit on_hit) {
   auto collector = each<JPH::CollideShapeCollector>([&](auto&, const JPH::CollideShapeResult& hit) {
     const Part part(system, hit.mBodyID2, hit.mSubShapeID2);
     const Between apart = between(at.leaf, part.leaf(hit.mSubShapeID2, at.base));
     if (apart.distance <= distance) on_hit(part, apart);
   });
-  system.GetNarrowPhaseQueryNoLock().CollideShape(&at.shape, JPH::Vec3::sOne(), at.centre, within(distance + kRounding),
+  system.GetNarrowPhaseQueryNoLock().CollideShape(&at.shape, JPH::Vec3::sOne(), at.centre, within(distance + rounding),
                                                   at.base, collector, {}, {}, Seen(filter));
 }
 
@@ -69,7 +70,7 @@ void keep_nearest(std::vector<PlumbClosest>& rows, std::size_t first) {
 
 Hits World::overlap_shapes(std::span<const PlumbOverlap> overlaps) {
   return gather(PLUMB_HIT_ALL, overlaps, [&](const PlumbOverlap& overlap, backend::HitCollector& found) {
-    find_near(system_, Placed(shape(overlap.shape), overlap.pose), 0, overlap.filter,
+    find_near(system_, Placed(shape(overlap.shape), overlap.pose), 0, rounding(), overlap.filter,
               [&](const Part& part, const Between&) { found.add_overlap(part.body.handle, part.child); });
   });
 }
@@ -79,7 +80,7 @@ Penetrations World::penetrations(std::span<const PlumbOverlap> overlaps) {
   rows.clear();
   for (std::uint32_t i = 0; i < overlaps.size(); ++i) {
     const PlumbVec3& base = overlaps[i].pose.position;
-    find_near(system_, Placed(shape(overlaps[i].shape), overlaps[i].pose), 0, overlaps[i].filter,
+    find_near(system_, Placed(shape(overlaps[i].shape), overlaps[i].pose), 0, rounding(), overlaps[i].filter,
               [&](const Part& part, const Between& apart) {
                 rows.push_back({part.body.handle, i, part.child, -apart.distance,
                                 backend::add(base, to_plumb(apart.on_a)), to_plumb(-apart.normal)});
@@ -93,8 +94,8 @@ ClosestBodies World::closest_bodies(PlumbHitMode mode, std::span<const PlumbProb
   rows.clear();
   for (std::uint32_t i = 0; i < probes.size(); ++i) {
     const std::size_t first = rows.size();
-    find_near(system_, Placed(shape(probes[i].shape), probes[i].pose), probes[i].most_distance, probes[i].filter,
-              [&](const Part& part, const Between& apart) {
+    find_near(system_, Placed(shape(probes[i].shape), probes[i].pose), probes[i].most_distance, rounding(),
+              probes[i].filter, [&](const Part& part, const Between& apart) {
                 rows.push_back(closest_of(part, apart, probes[i].pose.position, i));
               });
     keep_nearest(rows, first);

@@ -43,9 +43,6 @@ struct Part {
   std::uint32_t child;
 };
 
-/// m: by which Jolt may find two shapes with rounded edges further apart than they are, or pass them by.
-inline constexpr double kRounding = 0.1;
-
 /// Surfaces have two sides, and no edge of theirs is left out.
 template <class How>
 [[nodiscard]] How exactly() {
