@@ -34,6 +34,7 @@ Capability pair_fact(std::uint32_t a, std::uint32_t b) {
   return usual;
 }
 
+constexpr const char* kPushed = "what the solver of velocities pushed with; of several collision steps the last's";
 constexpr const char* kSixAxes =
     "by Jolt's constraint of six axes, which bounds a twist and a swing: turns about two axes at a time are others";
 
@@ -72,7 +73,9 @@ Capability joint_feature_fact(std::uint32_t type, std::uint32_t feature) {
   switch (feature) {
     case PLUMB_JOINT_HAS_REACTION:
     case PLUMB_JOINT_BREAKS:
-      return {PLUMB_APPROXIMATE, "what the solver of velocities pushed with, in the last collision step"};
+      if (type == PLUMB_JOINT_GENERIC || type == PLUMB_JOINT_SWING_TWIST)
+        return {PLUMB_APPROXIMATE, "as of others, but for the axis of what bounds a swing"};
+      return {PLUMB_EMULATED, kPushed};
     default:
       if (backend::free_axes(type) == 0) return {PLUMB_NONE, "it leaves no axis free, or has none"};
       return drive_fact(type, feature);
@@ -99,13 +102,13 @@ Capability need_fact(std::uint32_t index) {
     case PLUMB_NEED_EVENTS:
       return {PLUMB_EMULATED, "by comparing who touches after one step with who does after the next"};
     case PLUMB_NEED_SENSORS: return {PLUMB_EMULATED, "by asking after each step whom their shapes overlap"};
-    case PLUMB_NEED_JOINT_REACTIONS:
-      return {PLUMB_APPROXIMATE, "what the solver of velocities pushed with, in the last collision step"};
+    case PLUMB_NEED_JOINT_REACTIONS: return {PLUMB_EMULATED, kPushed};
     case PLUMB_NEED_CONTACT_IMPULSES:
       if (!kReadsSavedContacts) return {PLUMB_NONE, "the adapter knows how Jolt 5.5.1 saves its contacts alone"};
-      return {PLUMB_APPROXIMATE,
-              "read out of Jolt's saved state; friction is one impulse a manifold, shared out by how much its points "
-              "push; of the last collision step, times how many there are"};
+      return {
+          PLUMB_EMULATED,
+          "read out of Jolt's saved state; friction is one of a manifold, shared out by how much its points push; of "
+          "several collision steps the last's, times their number; not of bodies that continuous collision stops"};
     default: return backend::usual_capability(PLUMB_CAP_NEED, index, 0);
   }
 }

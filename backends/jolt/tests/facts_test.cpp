@@ -56,6 +56,37 @@ TEST(Jolt, FrictionImpulsesHoldACubeOnASlope) {
   EXPECT_NEAR(sum.y, 1000 * 9.81 * std::cos(kSlope) / 60, 0.01 * 1000 * 9.81 / 60);
 }
 
+/// What turns on a floor is slowed by friction at its points, and by nothing else, also where it leans on one side.
+TEST(Jolt, FrictionImpulsesSlowASpin) {
+  const auto world = make_world(with(PLUMB_NEED_CONTACTS | PLUMB_NEED_CONTACT_IMPULSES));
+  PlumbBodyDesc desc = plumb::body_desc(PLUMB_STATIC);
+  desc.shape = add_box(*world, {10, 1, 10});
+  desc.pose.position = {0, -1, 0};
+  add_body(*world, desc);
+  desc = plumb::body_desc();
+  desc.shape = add_box(*world, {0.5, 0.1, 0.5});
+  desc.pose.position = {0, 0.1, 0};
+  desc.linear_velocity = {1, 0, 0};
+  desc.angular_velocity = {0, 10, 0};
+  const PlumbBody body = add_body(*world, desc);
+  for (int i = 0; i < 10; ++i) {
+    const auto before = read_row<6>(*world, PLUMB_FIELD_VELOCITY, body);
+    const auto at = read_row<7>(*world, PLUMB_FIELD_POSE, body);
+    advance(*world);
+    const auto after = read_row<6>(*world, PLUMB_FIELD_VELOCITY, body);
+    double moment = 0, push = 0;
+    for (const PlumbContact& contact : world->contacts()) {
+      const double sign = contact.body_b == body ? 1 : -1, x = contact.position.x - at[0],
+                   z = contact.position.z - at[2];
+      moment += sign * (z * contact.tangent_impulse.x - x * contact.tangent_impulse.z);
+      push += sign * contact.tangent_impulse.x;
+    }
+    const double mass = 1000 * 0.2, inertia = mass / 6;
+    EXPECT_NEAR(push, mass * (after[0] - before[0]), 0.01 * mass * std::abs(after[0] - before[0]) + 0.02) << i;
+    EXPECT_NEAR(moment, inertia * (after[4] - before[4]), 0.01 * inertia * std::abs(after[4] - before[4]) + 0.02) << i;
+  }
+}
+
 /// Jolt gives bodies of small moments those of a ball of a metre; the adapter gives them their own.
 TEST(Jolt, SmallMomentsAreKept) {
   const auto world = make_world(with(PLUMB_NEED_FORCES));
