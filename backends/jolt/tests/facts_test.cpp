@@ -256,6 +256,21 @@ TEST(Jolt, ThreadsChangeNothing) {
   EXPECT_EQ(after(4), one);
 }
 
+/// A body that gets another shape has none of the contacts that Jolt keeps of the one before under the same number.
+TEST(Jolt, AnotherShapeHasItsOwnContacts) {
+  const auto world = make_world(kNeeds);
+  add_body(*world, frictionless(PLUMB_STATIC, add_box(*world, {5, 1, 5}), {0, -1, 0}));
+  const PlumbShape small = add_box(*world, {0.2, 0.2, 0.2});
+  const PlumbBody cube = add_body(*world, frictionless(PLUMB_DYNAMIC, add_box(*world, {0.5, 0.5, 0.5}), {0, 0.5, 0}));
+  for (int i = 0; i < 60; ++i) advance(*world);
+  PlumbBodyChange change = plumb::body_change(cube);
+  change.what = PLUMB_MODIFY_SHAPE;
+  change.shape = small;
+  plumb::check(*world, world->modify()->modify_bodies({&change, 1}));
+  for (int i = 0; i < 60; ++i) advance(*world);
+  EXPECT_NEAR(read_row<7>(*world, PLUMB_FIELD_POSE, cube)[1], 0.2, 0.02);
+}
+
 /// A pile with a swinging chain in it, which others come into and go out of.
 struct Pile {
   static constexpr PlumbNeeds kPileNeeds = kNeeds | PLUMB_NEED_SNAPSHOT | PLUMB_NEED_EVENTS | PLUMB_NEED_SLEEPING;
