@@ -22,8 +22,8 @@ void add_points(const JPH::CollideShapeResult& hit, const Between& apart, const 
   constexpr double same = 1e-5;  // m
   JPH::ContactPoints on_a, on_b;
   JPH::ManifoldBetweenTwoFaces(apart.on_a, apart.on_b, apart.normal, JPH::cDefaultCollisionTolerance, hit.mShape1Face,
-                               hit.mShape2Face, on_a, on_b);
-  if (on_a.size() > 4) JPH::PruneContactPoints(apart.normal, on_a, on_b);
+                               hit.mShape2Face, on_a, on_b JPH_IF_DEBUG_RENDERER(, JPH::RVec3::sZero()));
+  if (on_a.size() > 4) JPH::PruneContactPoints(apart.normal, on_a, on_b JPH_IF_DEBUG_RENDERER(, JPH::RVec3::sZero()));
   const double most = -apart.distance;
   bool told = false;
   const auto add = [&](JPH::Vec3Arg a, JPH::Vec3Arg b, double depth) {
