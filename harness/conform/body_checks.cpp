@@ -35,8 +35,7 @@ void gravity(Conformance& c) {
     bodies.emplace_back(scale, probe.body(desc));
   }
   probe.step(30);
-  const bool nearly =
-      c.backend().capability(PLUMB_CAP_FIELD_WRITE, PLUMB_FIELD_GRAVITY_SCALE) == PLUMB_APPROXIMATE;
+  const bool nearly = c.backend().capability(PLUMB_CAP_FIELD_WRITE, PLUMB_FIELD_GRAVITY_SCALE) == PLUMB_APPROXIMATE;
   const double share = nearly ? 0.005 : 0;
   for (const auto& [scale, body] : bodies)
     c.expect(std::abs(probe.velocity(body).y() + 9.81 * scale * 0.5) < 1e-4 + share * std::abs(9.81 * scale * 0.5),

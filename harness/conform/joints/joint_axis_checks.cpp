@@ -15,8 +15,8 @@ bool claims(Conformance& c, PlumbJointType type, PlumbJointFeature feature) {
          c.backend().capability(PLUMB_CAP_JOINT_FEATURE, type, feature) != PLUMB_NONE;
 }
 
-/// Each free axis of each type, one at a time, driven against its stops; harder where an engine says that it brakes slow
-/// bodies.
+/// Each free axis of each type, one at a time, driven against its stops; harder where an engine says that it brakes
+/// slow bodies.
 void all_limits(Conformance& c) {
   c.require_needs(kJointNeeds | PLUMB_NEED_FORCES);
   bool any = false;

@@ -91,7 +91,8 @@ void limits(Conformance& c) {
       pair.desc.limits[axis] = {-0.4, 0.6, 1, 0};
       pair.probe.joint(pair.desc);
       for (int i = 0; i < 180; ++i) {
-        pair.probe.write(type == PLUMB_JOINT_HINGE ? PLUMB_FIELD_TORQUE : PLUMB_FIELD_FORCE, pair.b, {sign * push, 0, 0});
+        pair.probe.write(type == PLUMB_JOINT_HINGE ? PLUMB_FIELD_TORQUE : PLUMB_FIELD_FORCE, pair.b,
+                         {sign * push, 0, 0});
         pair.probe.step();
       }
       const double stop = sign > 0 ? 0.6 : -0.4;
@@ -134,8 +135,8 @@ void motor_force(Conformance& c) {
     pair.probe.joint(pair.desc);
     pair.probe.step(60);
     const double off = c.is_exact(PLUMB_CAP_JOINT_FEATURE, type, PLUMB_JOINT_HAS_MOTORS) ? 0.03 : 0.05;
-    c.expect(std::abs(pair.coordinate(axis) - 0.5) < off,
-             "{} motor of bounded force moved {:.4f} in 1 s instead of .5", joint_name(type), pair.coordinate(axis));
+    c.expect(std::abs(pair.coordinate(axis) - 0.5) < off, "{} motor of bounded force moved {:.4f} in 1 s instead of .5",
+             joint_name(type), pair.coordinate(axis));
   });
 }
 
