@@ -1,4 +1,5 @@
-// The adapter adds nothing and loses nothing: its trajectories are those of a program in plain Box3D, bit for bit.
+// The adapter adds nothing and loses nothing: its trajectories are those of a program written straight against the
+// engine, bit for bit. native_scene.hpp is each engine's.
 #include <gtest/gtest.h>
 
 #include <cstring>
