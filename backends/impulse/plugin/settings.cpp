@@ -7,9 +7,9 @@ namespace plumb::impulse {
 
 namespace {
 
-/// What a scene needs is a length of sub-steps, whatever the steps in which its host asks for it: counts are set for a
-/// step of this length, s. Of what is left over, in sub-steps, so much is spread over the others, lest a clock of 59.94
-/// Hz have one more; and no step has more than so many.
+/// No sub-step is longer than in a step of this length, s, whatever the steps in which a host asks for them. Of what is
+/// left over, in sub-steps, so much is spread over the others, lest a clock of 59.94 Hz have one more; and no step has
+/// more than so many.
 constexpr double kSettingsStep = 1.0 / 60, kSpread = 0.2, kMostInStep = 256;
 
 /// Errors of long mechanisms are taken back as these say, however short the sub-steps: all of it in one would pluck
@@ -48,15 +48,16 @@ const backend::SettingsTable<Settings>& settings_table() {
           "solver", behaviour, kSolvers,
           "tgs_soft: soft constraints in sub-steps; si: sequential impulses, the step whole; jacobi: likewise, all "
           "at once on split bodies; xpbd: positions in sub-steps")),
-      setting<&S::substeps>(
-          int_setting("substeps", "1", quality, 1, 256, 8,
-                      "tgs_soft, xpbd: parts of a step of 1/60 s in which velocities are solved and positions moved; "
-                      "steps of another length have as many as make them about as long, and at least one")),
-      setting<&S::most_substeps>(int_setting(
-          "most_substeps", "1", quality, 1, 256, 128,
-          "tgs_soft: sub-steps are doubled, up to so many in 1/60 s, while loads ask for it: what is much heavier than "
-          "what it lies on, machines under load. Only where it is asked, body by body and what they touch; islands of "
-          "hundreds of contacts and more get fewer. No more than substeps: never")),
+      setting<&S::substeps>(int_setting(
+          "substeps", "1", quality, 1, 256, 8,
+          "tgs_soft, xpbd: parts of a step in which velocities are solved and positions moved; a step of more "
+          "than 1/60 s has as many as make them no longer than those of one of 1/60 s")),
+      setting<&S::most_substeps>(int_setting("most_substeps", "1", quality, 1, 256, 128,
+                                             "tgs_soft: sub-steps are doubled, up to so many (in 1/60 s, where a step "
+                                             "is longer), while loads ask for it: what "
+                                             "is much heavier than what it lies on, machines under load. Only where it "
+                                             "is asked, body by body and what they touch; islands of "
+                                             "hundreds of contacts and more get fewer. No more than substeps: never")),
       setting<&S::relaxes_once>(choice_setting(
           "relaxation", behaviour, kRelaxations,
           "tgs_soft: when contacts lose the speed that taking back overlap gave them: in each sub-step, or once at "
@@ -110,7 +111,7 @@ double Settings::substep(double dt, std::uint32_t parts) const {
 
 std::uint32_t Settings::substeps_in(double whole) const {
   const double parts = std::ceil(whole / kSettingsStep * substeps - kSpread);
-  return static_cast<std::uint32_t>(std::clamp(parts, 1.0, kMostInStep));
+  return std::max(substeps, static_cast<std::uint32_t>(std::min(parts, kMostInStep)));
 }
 
 SubstepParameters Settings::of_substep(double dt, std::uint32_t parts, double last_h, double whole) const {

@@ -1,4 +1,4 @@
-// Sub-steps are a length in time: in steps of whatever length a host asks, what happens is the same.
+// Sub-steps have a largest length in time: in longer steps there are more of them, and what happens is the same.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -39,9 +39,9 @@ PlumbVec3 end_of_chain(double seconds, double dt) {
   return scene.poses().back().position;
 }
 
-TEST(SubstepLengths, LetAChainSwingAlikeInStepsOfAnyLength) {
+TEST(SubstepLengths, LetAChainSwingAlikeInLongerSteps) {
   const PlumbVec3 at_60 = end_of_chain(1.5, 1.0 / 60);
-  for (const double dt : {1.0 / 30, 1.0 / 120, 1.0 / 240, 1.0 / 480}) {
+  for (const double dt : {1.0 / 40, 1.0 / 30, 1.0 / 20}) {
     const PlumbVec3 end = end_of_chain(1.5, dt);
     EXPECT_NEAR(end.x, at_60.x, 2e-4) << dt;
     EXPECT_NEAR(end.y, at_60.y, 2e-4) << dt;
@@ -57,29 +57,27 @@ double sink(double dt) {
   return 0.5 - scene.poses().back().position.y;
 }
 
-TEST(SubstepLengths, LetACubeSinkAlikeInStepsOfAnyLength) {
+TEST(SubstepLengths, LetACubeSinkAlikeInLongerSteps) {
   const double at_60 = sink(1.0 / 60);
-  for (const double dt : {1.0 / 30, 1.0 / 120, 1.0 / 240, 1.0 / 480}) EXPECT_NEAR(sink(dt), at_60, 0.02 * at_60) << dt;
+  for (const double dt : {1.0 / 30, 1.0 / 20, 1.0 / 10}) EXPECT_NEAR(sink(dt), at_60, 0.02 * at_60) << dt;
 }
 
-/// A clock that is late by a little asks for no more of them; one sub-step is the least, however short the step.
-TEST(SubstepLengths, AreAsLongAsASettingSaysOrALittleLonger) {
+/// A clock that is late by a little asks for no more of them; a shorter step has as many as the setting says.
+TEST(SubstepLengths, AreNoLongerThanASettingSays) {
   EXPECT_NEAR(sink(1001.0 / 60000), sink(1.0 / 60), 0.01 * sink(1.0 / 60));
-  EXPECT_LT(sink(1.0 / 1000), 0.3 * sink(1.0 / 60));
-  const double at_144 = sink(1.0 / 144);
-  EXPECT_LT(at_144, sink(1.0 / 60));
-  EXPECT_GT(at_144, 0.6 * sink(1.0 / 60));
+  EXPECT_LT(sink(1.0 / 50), 1.05 * sink(1.0 / 60));
+  EXPECT_LT(sink(1.0 / 120), 0.3 * sink(1.0 / 60));
 }
 
-/// A host whose clock is never the same: a tower rests all the same.
-TEST(SubstepLengths, LetATowerRestUnderAClockThatJumps) {
+/// A host that misses one frame or two again and again: a tower rests all the same.
+TEST(SubstepLengths, LetATowerRestWhereFramesAreMissed) {
   Scene scene(engine(), kNeeds, kDown, 1);
   scene.ground();
   const PlumbShape cube = scene.box({0.5, 0.5, 0.5});
   for (int i = 0; i < 10; ++i) scene.add(cube, {0, 0.5 + i, 0});
   const PlumbBody top = scene.add(cube, {0, 10.5, 0});
-  constexpr std::array kClock = {1.0 / 60, 1.0 / 45, 1.0 / 144, 1.0 / 30, 1.0 / 59, 1.0 / 240, 1.0 / 61};
-  for (int i = 0; i < 1400; ++i) step(scene, kClock[(i * 5 + i / 7) % kClock.size()]);
+  constexpr std::array kClock = {1.0 / 60, 1.0 / 45, 1.0 / 30, 1.0 / 59, 1.0 / 20, 1.0 / 61};
+  for (std::size_t i = 0; i < 1200; ++i) step(scene, kClock[(i * 5 + i / 7) % kClock.size()]);
   const std::vector<double> v = scene.velocity(top);
   EXPECT_LT(std::hypot(v[0], v[1], v[2]), 0.02);
   EXPECT_NEAR(scene.poses().back().position.y, 10.5, 0.02);
