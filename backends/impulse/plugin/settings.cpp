@@ -52,12 +52,11 @@ const backend::SettingsTable<Settings>& settings_table() {
           "substeps", "1", quality, 1, 256, 8,
           "tgs_soft, xpbd: parts of a step in which velocities are solved and positions moved; a step of more "
           "than 1/60 s has as many as make them no longer than those of one of 1/60 s")),
-      setting<&S::most_substeps>(int_setting("most_substeps", "1", quality, 1, 256, 128,
-                                             "tgs_soft: sub-steps are doubled, up to so many (in 1/60 s, where a step "
-                                             "is longer), while loads ask for it: what "
-                                             "is much heavier than what it lies on, machines under load. Only where it "
-                                             "is asked, body by body and what they touch; islands of "
-                                             "hundreds of contacts and more get fewer. No more than substeps: never")),
+      setting<&S::most_substeps>(int_setting(
+          "most_substeps", "1", quality, 1, 256, 128,
+          "tgs_soft: sub-steps are doubled, up to so many, while loads ask for it (longer steps have more likewise): "
+          "what is much heavier than what it lies on, machines under load. Only where it is asked, body by body and "
+          "what they touch; islands of hundreds of contacts and more get fewer. No more than substeps: never")),
       setting<&S::relaxes_once>(choice_setting(
           "relaxation", behaviour, kRelaxations,
           "tgs_soft: when contacts lose the speed that taking back overlap gave them: in each sub-step, or once at "

@@ -27,7 +27,7 @@ struct Settings {
   double sleep_speed = 0;
   double sleep_time = 0;
 
-  /// Of a step of this length, s, those of the first kind.
+  /// Sub-steps of the first kind in a step of this length, s.
   [[nodiscard]] std::uint32_t substeps_in(double whole) const;
   /// Length of the parts that a step of dt is solved in, when it is solved in so many if in any.
   [[nodiscard]] double substep(double dt, std::uint32_t parts) const;
