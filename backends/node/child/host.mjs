@@ -1,7 +1,7 @@
 // The child's side of plumb.wire/1 for engines in JavaScript and WebAssembly: node host.mjs ENGINE
 //
-// engines/ENGINE.mjs exports `manifest()`, and `createWorld({needs, gravity, settings})` (may be async), whose result has
-// those of the methods called below that the manifest claims. A method that throws has changed nothing. base.mjs has what
+// engines/ENGINE.mjs exports `manifest()`, and `createWorld({needs, gravity, settings})` (both may be async), whose result
+// has those of the methods called below that the manifest claims. One with readField and writeField takes whole rows. A method that throws has changed nothing. base.mjs has what
 // adapters share.
 import { performance } from 'node:perf_hooks';
 import { Failure } from './failure.mjs';
@@ -11,15 +11,15 @@ import { FIELD, FIELD_COLUMNS, Row, needsOf, readBody, readJoint, readShape } fr
 const UNSUPPORTED = -3, INTERNAL = -12;
 let engine, world;
 
-/** Calls `make` for each of `count` rows; what was made is unmade when one fails. */
-function allOrNone(row, read, make, unmake) {
-  const made = [];
-  for (let count = row.number(); count > 0; --count) {
-    const desc = read(row);
+/** createBody for each, or createBodies where the world takes many at once; what was made is unmade when one fails. */
+function allOrNone(numbers, read, kind, plural) {
+  const row = new Row(numbers), descs = Array.from({ length: row.number() }, () => read(row)), made = [];
+  if (world[`create${plural}`]) return world[`create${plural}`](descs);
+  for (const desc of descs) {
     try {
-      world[make](desc);
+      world[`create${kind}`](desc);
     } catch (error) {
-      for (const slot of made.reverse()) world[unmake](slot);
+      for (const slot of made.reverse()) world[`destroy${kind}`](slot);
       throw error;
     }
     made.push(desc.slot);
@@ -42,6 +42,11 @@ const WRITERS = {
   [FIELD.DAMPING]: (slot, v) => world.setDamping(slot, v[0], v[1]),
   [FIELD.SURFACE_VELOCITY]: (slot, v) => world.setSurfaceVelocity(slot, v),
   [FIELD.FILTER]: (slot, v) => world.setFilter(slot, { category: v[0] >>> 0, mask: v[1] >>> 0, group: v[2] }),
+  [FIELD.ROLLING_FRICTION]: (slot, v) => world.setRollingFriction(slot, v[0], v[1]),
+  // Of engines whose manifest takes them.
+  [FIELD.IMPULSE]: (slot, v) => world.addImpulse(slot, v),
+  [FIELD.ANGULAR_IMPULSE]: (slot, v) => world.addAngularImpulse(slot, v),
+  [FIELD.IMPULSE_AT_POINT]: (slot, v) => world.addImpulseAt(slot, v.slice(0, 3), v.slice(3, 6)),
 };
 
 function step(row) {
@@ -71,22 +76,24 @@ const CALLS = {
   }],
   3: ['set_gravity', ({ numbers }) => world.setGravity(Array.from(numbers))],
   4: ['set_setting', ({ text }) => world.applySettings(JSON.parse(text))],
-  5: ['create_shapes', ({ numbers }) => allOrNone(new Row(numbers), readShape, 'createShape', 'destroyShape')],
+  5: ['create_shapes', ({ numbers }) => allOrNone(numbers, readShape, 'Shape', 'Shapes')],
   6: ['destroy_shapes', ({ numbers }) => numbers.forEach((slot) => world.destroyShape(slot))],
-  7: ['create_bodies', ({ numbers }) => allOrNone(new Row(numbers), readBody, 'createBody', 'destroyBody')],
+  7: ['create_bodies', ({ numbers }) => allOrNone(numbers, readBody, 'Body', 'Bodies')],
   8: ['destroy_bodies', ({ numbers }) => numbers.forEach((slot) => world.destroyBody(slot))],
   9: ['read', ({ numbers }) => {
+    if (world.readField) return world.readField(numbers[0], Array.from(numbers.subarray(1)));
     const columns = FIELD_COLUMNS[numbers[0]], rows = new Float64Array(columns * (numbers.length - 1));
     for (let i = 1; i < numbers.length; ++i) rows.set(world[READERS[numbers[0]]](numbers[i]), columns * (i - 1));
     return rows;
   }],
   10: ['write', ({ numbers }) => {
-    const write = WRITERS[numbers[0]];
-    for (const row of rowsOf(numbers.subarray(1), 1 + FIELD_COLUMNS[numbers[0]])) write(row[0], Array.from(row.subarray(1)));
+    const rows = rowsOf(numbers.subarray(1), 1 + FIELD_COLUMNS[numbers[0]]), write = WRITERS[numbers[0]];
+    if (world.writeField) return world.writeField(numbers[0], rows.map(([slot]) => slot), rows.flatMap((row) => Array.from(row.subarray(1))));
+    for (const row of rows) write(row[0], Array.from(row.subarray(1)));
   }],
   11: ['step', ({ numbers }) => step(new Row(numbers))],
   12: ['contacts', () => world.contacts()],
-  13: ['create_joints', ({ numbers }) => allOrNone(new Row(numbers), readJoint, 'createJoint', 'destroyJoint')],
+  13: ['create_joints', ({ numbers }) => allOrNone(numbers, readJoint, 'Joint', 'Joints')],
   14: ['destroy_joints', ({ numbers }) => numbers.forEach((slot) => world.destroyJoint(slot))],
   15: ['write_motors', ({ numbers }) => {
     for (const row of rowsOf(numbers, 13)) {
@@ -105,7 +112,7 @@ const CALLS = {
 };
 
 async function answer(request) {
-  if (request.call === 1) return reply(request, JSON.stringify({ wire: 'plumb.wire/1', device: 'wasm', build: `node ${process.version}`, ...engine.manifest() }), []);
+  if (request.call === 1) return reply(request, JSON.stringify({ wire: 'plumb.wire/1', device: 'wasm', build: `node ${process.version}`, ...(await engine.manifest()) }), []);
   const [, run] = CALLS[request.call] ?? [];
   if (run === undefined) throw new Failure(UNSUPPORTED, `call ${request.call} is not of plumb.wire/1 as this child knows it`);
   reply(request, '', (await run(request)) ?? []);

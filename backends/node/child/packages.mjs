@@ -14,16 +14,23 @@ function folders() {
     ...(existsSync(noted) ? [readFileSync(noted, 'utf8').trim()] : [])];
 }
 
-function find(name) {
-  for (const folder of folders()) if (existsSync(join(folder, name, 'package.json'))) return join(folder, name);
-  return null;
+/** Where a build of ours has put a package: written, by name, where this file was copied by a build. */
+function built(name) {
+  const noted = join(here, 'built.json');
+  return existsSync(noted) ? JSON.parse(readFileSync(noted, 'utf8'))[name] : undefined;
 }
 
+function find(name) {
+  const places = [...folders().map((folder) => join(folder, name)), built(name)];
+  return places.find((place) => place !== undefined && existsSync(join(place, 'package.json'))) ?? null;
+}
+
+const remedyOf = (name) => `npm's package ${name} is not installed: ./dev deps field does it in a checkout, npm ci --prefix ${here} elsewhere; ` +
+  'or set PLUMB_NODE_MODULES to the node_modules that has it';
+
 /** Why a package cannot be used, or "". */
-export function missing(name) {
-  if (find(name) !== null) return '';
-  return `npm's package ${name} is not installed: ./dev deps field does it in a checkout, npm ci --prefix ${here} elsewhere; ` +
-    'or set PLUMB_NODE_MODULES to the node_modules that has it';
+export function missing(name, remedy = remedyOf(name)) {
+  return find(name) === null ? remedy : '';
 }
 
 export function versionOf(name) {
@@ -32,11 +39,11 @@ export function versionOf(name) {
 }
 
 /** The path of a file of a package. */
-export function fileOf(name, path) {
+export function fileOf(name, path, remedy) {
   const folder = find(name);
-  if (folder === null) throw new Failure(-3, missing(name));
+  if (folder === null) throw new Failure(-3, missing(name, remedy));
   return join(folder, path);
 }
 
 /** Imports a module of a package by its path inside, "dist/index.js". */
-export const load = (name, path) => import(pathToFileURL(fileOf(name, path)).href);
+export const load = (name, path, remedy) => import(pathToFileURL(fileOf(name, path, remedy)).href);

@@ -1,14 +1,14 @@
 // The rows of a frame as descriptors, and the numbers of plumb.h that adapters meet.
+import { NEEDS } from './words.mjs';
+
 export const SPHERE = 0, BOX = 1, CAPSULE = 2, CYLINDER = 3, HULL = 4, MESH = 5, HEIGHT_FIELD = 6, PLANE = 7, COMPOUND = 8;
 export const STATIC = 0, KINEMATIC = 1, DYNAMIC = 2;
 export const SENSOR = 1, CCD = 2, NO_ROTATION = 4, ASLEEP = 8, NEVER_SLEEPS = 16;
 export const BALL = 0, HINGE = 1, SLIDER = 2, DISTANCE = 3, FIXED = 4, UNIVERSAL = 5, GENERIC = 6;
 export const FREE = 0, LOCKED = 1, LIMITED = 2;
-export const FIELD = { POSE: 0, VELOCITY: 1, AWAKE: 8, MATERIAL: 11, GRAVITY_SCALE: 12, DAMPING: 13, SURFACE_VELOCITY: 14, FILTER: 15 };
-export const FIELD_COLUMNS = { 0: 7, 1: 6, 8: 1, 11: 2, 12: 1, 13: 2, 14: 3, 15: 3 };
-const NEEDS = ['rotation', 'collision', 'friction', 'restitution', 'joints', 'ccd', 'sleeping', 'events', 'contacts',
-  'contact_impulses', 'sensors', 'kinematic', 'gyroscopic', 'damping', 'forces', 'axis_locks', 'filters', 'queries',
-  'surface_velocity', 'joint_reactions', 'snapshot'];
+export const FIELD = { POSE: 0, VELOCITY: 1, FORCE: 2, TORQUE: 3, IMPULSE: 4, ANGULAR_IMPULSE: 5, FORCE_AT_POINT: 6, IMPULSE_AT_POINT: 7, AWAKE: 8,
+  KINEMATIC_TARGET: 9, MATERIAL: 11, GRAVITY_SCALE: 12, DAMPING: 13, SURFACE_VELOCITY: 14, FILTER: 15, ROLLING_FRICTION: 16 };
+export const FIELD_COLUMNS = { 0: 7, 1: 6, 2: 3, 3: 3, 4: 3, 5: 3, 6: 6, 7: 6, 8: 1, 9: 7, 11: 2, 12: 1, 13: 2, 14: 3, 15: 3, 16: 2 };
 
 /** The bits of PLUMB_NEED_ as a set of words. */
 export function needsOf(bits) {
@@ -24,7 +24,7 @@ export class Row {
   get left() { return this.numbers.length - this.at; }
   number() { return this.numbers[this.at++]; }
   many(count) { return Array.from(this.numbers.subarray(this.at, this.at += count)); }
-  floats(count) { return Float32Array.from(this.numbers.subarray(this.at, this.at += count)); }
+  doubles(count) { return this.numbers.slice(this.at, this.at += count); }
   pose() { return { position: this.many(3), orientation: this.many(4) }; }
   material() { return { friction: this.number(), restitution: this.number(), surfaceVelocity: this.many(3) }; }
   filter() { return { category: this.number() >>> 0, mask: this.number() >>> 0, group: this.number() }; }
@@ -37,10 +37,10 @@ export function readShape(row) {
     case BOX: shape.halfExtents = row.many(3); break;
     case CAPSULE:
     case CYLINDER: shape.radius = row.number(); shape.halfHeight = row.number(); break;
-    case HULL: shape.vertices = row.floats(3 * row.number()); break;
+    case HULL: shape.vertices = row.doubles(3 * row.number()); break;
     case MESH: {
       const vertices = row.number(), triangles = row.number();
-      shape.vertices = row.floats(3 * vertices);
+      shape.vertices = row.doubles(3 * vertices);
       shape.indices = Uint32Array.from(row.many(3 * triangles));
       break;
     }
@@ -49,7 +49,7 @@ export function readShape(row) {
       shape.columns = row.number();
       shape.dx = row.number();
       shape.dz = row.number();
-      shape.heights = row.floats(shape.rows * shape.columns);
+      shape.heights = row.doubles(shape.rows * shape.columns);
       break;
     case COMPOUND: {
       const count = row.number();

@@ -20,6 +20,7 @@ void read_mirror(PlumbField field, const PlumbBodyDesc& desc, std::vector<double
     case PLUMB_FIELD_GRAVITY_SCALE: row = {desc.gravity_scale}; break;
     case PLUMB_FIELD_DAMPING: row = {desc.linear_damping, desc.angular_damping}; break;
     case PLUMB_FIELD_SURFACE_VELOCITY: append(row, desc.material.surface_velocity); break;
+    case PLUMB_FIELD_ROLLING_FRICTION: row = {desc.rolling_friction, desc.spinning_friction}; break;
     default: append(row, desc.filter);
   }
 }
@@ -49,7 +50,20 @@ PlumbResult World::create_bodies(std::span<const PlumbBodyDesc> descs, std::span
     if (slot_of(ids[i]) >= bodies_.size()) bodies_.resize(slot_of(ids[i]) + 1);
     body(ids[i]) = {ids[i], descs[i], (descs[i].flags & PLUMB_BODY_ASLEEP) == 0};
   }
+  tell_rolling_friction(descs, ids);
   return PLUMB_OK;
+}
+
+/// A body's row has none.
+void World::tell_rolling_friction(std::span<const PlumbBodyDesc> descs, std::span<const PlumbBody> ids) {
+  std::vector<PlumbBody> rough;
+  std::vector<double> rows;
+  for (std::size_t i = 0; i < descs.size(); ++i) {
+    if (descs[i].rolling_friction == 0 && descs[i].spinning_friction == 0) continue;
+    rough.push_back(ids[i]);
+    rows.insert(rows.end(), {descs[i].rolling_friction, descs[i].spinning_friction});
+  }
+  write_rows(PLUMB_FIELD_ROLLING_FRICTION, rough, rows);
 }
 
 PlumbResult World::destroy_bodies(std::span<const PlumbBody> ids) {
@@ -123,6 +137,7 @@ void World::write_mirror(PlumbField field, PlumbBody id, const double* row) {
       desc.filter = {static_cast<std::uint32_t>(row[0]), static_cast<std::uint32_t>(row[1]),
                      static_cast<std::int32_t>(row[2]), 0};
       break;
+    case PLUMB_FIELD_ROLLING_FRICTION: desc.rolling_friction = row[0], desc.spinning_friction = row[1]; break;
     default: break;
   }
 }
@@ -131,6 +146,7 @@ PlumbResult World::write(PlumbField field, std::span<const PlumbBody> ids, Const
   const std::size_t columns = columns_of(field);
   std::vector<double> values(ids.size() * columns);
   for (std::size_t i = 0; i < ids.size(); ++i) rows.get(i, &values[i * columns], columns);
+  if (manifest_.takes(field)) return write_rows(field, ids, values), PLUMB_OK;
   switch (field) {
     case PLUMB_FIELD_FORCE:
     case PLUMB_FIELD_TORQUE:

@@ -79,6 +79,8 @@ Manifest::Manifest(const std::string& text, const std::string& backend_name) try
   if (json.value("deterministic", false)) info_.determinism = PLUMB_DETERMINISM_RUN;
   info_.max_threads = 1;
   for (const Json& rule : json.at("capabilities")) rules_.push_back(rule_of(rule));
+  for (const Json& field : json.value("takes", Json::array()))
+    takes_ |= 1u << number_of(kFieldWords, field.get<std::string>(), "a field");
 
   constexpr const char* types[] = {"bool", "int", "float", "choice"};
   constexpr const char* roles[] = {"quality", "speed", "behaviour"};
@@ -124,10 +126,16 @@ Manifest::Manifest(const std::string& text, const std::string& backend_name) try
 
 const char* Manifest::keep(std::string text) { return texts_.emplace_back(std::move(text)).c_str(); }
 
+const Rule* Manifest::rule_for(PlumbCapability kind, std::uint32_t a, std::uint32_t b) const {
+  const auto found =
+      std::find_if(rules_.rbegin(), rules_.rend(), [&](const Rule& rule) { return fits(rule, kind, a, b); });
+  return found == rules_.rend() ? nullptr : &*found;
+}
+
 backend::Capability Manifest::of_child(PlumbCapability kind, std::uint32_t a, std::uint32_t b) const {
-  for (auto rule = rules_.rbegin(); rule != rules_.rend(); ++rule)
-    if (fits(*rule, kind, a, b)) return {rule->degree, rule->note.c_str()};
-  return {PLUMB_NONE, "the adapter does not offer it"};
+  const Rule* rule = rule_for(kind, a, b);
+  if (rule == nullptr) return {PLUMB_NONE, "the adapter does not offer it"};
+  return {rule->degree, rule->note.c_str()};
 }
 
 backend::Capability Manifest::capability(PlumbCapability kind, std::uint32_t a, std::uint32_t b) const {
@@ -136,11 +144,19 @@ backend::Capability Manifest::capability(PlumbCapability kind, std::uint32_t a, 
     return {PLUMB_NONE, "the phase \"solve\" holds the engine's whole step"};
   }
   const backend::Capability usual = backend::usual_capability(kind, a, b);
+  const bool rolling =
+      (kind == PLUMB_CAP_FIELD_READ || kind == PLUMB_CAP_FIELD_WRITE) && a == PLUMB_FIELD_ROLLING_FRICTION;
   const bool own_work = (kind == PLUMB_CAP_NEED && a < PLUMB_NEED_COUNT) ||  // what an engine must do something for
+                        rolling ||
                         (kind == PLUMB_CAP_JOINT_FEATURE && b == PLUMB_JOINT_HAS_STIFFNESS &&
                          backend::free_axes(a) != 0 && a < PLUMB_JOINT_SWING_TWIST);
-  if (usual.degree == PLUMB_NONE && !own_work) return usual;
+  if (usual.degree == PLUMB_NONE && !own_work) {
+    const Rule* rule = rule_for(kind, a, b);  // whose reason is nearer to the matter
+    return rule != nullptr && rule->degree == PLUMB_NONE && !rule->note.empty() ? of_child(kind, a, b) : usual;
+  }
+  if (rolling) return of_child(PLUMB_CAP_FIELD_WRITE, a, b);  // what is written is read here
   if (kind == PLUMB_CAP_FIELD_READ && a > PLUMB_FIELD_KINEMATIC_TARGET) return usual;
+  if (kind == PLUMB_CAP_FIELD_WRITE && acts(a) && takes(a)) return {PLUMB_NATIVE};
   if (kind == PLUMB_CAP_FIELD_WRITE && acts(a)) return {PLUMB_EMULATED, "by velocities, poses and the step's forces"};
   return of_child(kind, a, b);
 }

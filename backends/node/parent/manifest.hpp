@@ -31,9 +31,13 @@ class Manifest {
   [[nodiscard]] const std::string& unmet() const { return unmet_; }
   /// The last rule that fits, as far as the question means something; what the parent does itself it answers itself.
   [[nodiscard]] backend::Capability capability(PlumbCapability kind, std::uint32_t a, std::uint32_t b) const;
+  /// Whether the child takes such writes itself, which the parent would else make of velocities, poses and forces.
+  [[nodiscard]] bool takes(PlumbField field) const { return (takes_ >> field & 1) != 0; }
 
  private:
   const char* keep(std::string text);
+  /// The last that fits; null: none does.
+  [[nodiscard]] const Rule* rule_for(PlumbCapability kind, std::uint32_t a, std::uint32_t b) const;
   [[nodiscard]] backend::Capability of_child(PlumbCapability kind, std::uint32_t a, std::uint32_t b) const;
   void add_setting(const PlumbSettingInfo& setting) { settings_.push_back(setting); }
 
@@ -42,6 +46,7 @@ class Manifest {
   PlumbBackendInfo info_{};
   std::vector<PlumbSettingInfo> settings_;
   std::vector<Rule> rules_;
+  std::uint32_t takes_ = 0;  ///< bits by field
   std::string unmet_;
 };
 

@@ -29,6 +29,7 @@ World::World(const WorldInit& init, const Manifest& manifest, const std::vector<
     : setting_infos_(manifest.settings().begin(), manifest.settings().end()),
       setting_values_(init.values),
       deadline_(init.setting(kDeadlineSetting).number),
+      manifest_(manifest),
       child_(command),
       needs_(init.desc.needs) {
   Json settings = Json::object();

@@ -78,6 +78,7 @@ class World : public IPhysicsWorld, public IJoints, public IQueries, public ISet
   std::vector<double> read_rows(PlumbField field, std::span<const PlumbBody> ids);
   void write_rows(PlumbField field, std::span<const PlumbBody> ids, std::span<const double> rows);
   std::vector<Motion> motions(std::span<const PlumbBody> ids);
+  void tell_rolling_friction(std::span<const PlumbBodyDesc> descs, std::span<const PlumbBody> ids);
   void write_mirror(PlumbField field, PlumbBody id, const double* row);
   void take_away_locked(std::span<const PlumbBody> ids, std::span<double> velocities) const;
   void add_pushes(PlumbField field, std::span<const PlumbBody> ids, std::span<const double> rows);
@@ -95,6 +96,7 @@ class World : public IPhysicsWorld, public IJoints, public IQueries, public ISet
   std::vector<PlumbSettingInfo> setting_infos_;
   std::vector<PlumbSettingValue> setting_values_;
   double deadline_ = 60;  ///< s
+  const Manifest& manifest_;
   Child child_;
   PlumbNeeds needs_;
   std::vector<Body> bodies_;

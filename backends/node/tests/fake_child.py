@@ -13,6 +13,8 @@ MANIFEST = {'wire': 'plumb.wire/2' if how == 'version' else 'plumb.wire/1', 'ver
                                                  ['read', 'pose', '*', 'native']], 'settings': []}
 if how == 'unmet':
     MANIFEST['unmet'] = 'run ./dev deps field'
+if how == 'takes':
+    MANIFEST['takes'] = ['impulse']
 if how == 'mute':
     sys.exit(0)
 
@@ -33,11 +35,17 @@ def send(call, sequence, result=0, text='', row=()):
     wire.write(data + struct.pack(f'<{len(row)}d', *row))
 
 
+written = []  # of the last write
 while True:
     _, call, sequence, _, text_bytes, count = HEADER.unpack(take(HEADER.size))
-    take((text_bytes + 7) // 8 * 8 + 8 * count)
+    take((text_bytes + 7) // 8 * 8)
+    numbers = struct.unpack(f'<{count}d', take(8 * count))
+    if call == 10:
+        written = list(numbers)
     if call == 1:
         send(call, sequence, text='{"wire": 1' if how == 'torn' else json.dumps(MANIFEST))
+    elif call == 9 and how == 'takes':
+        send(call, sequence, row=(written + [0] * 7)[:7])
     elif call == 9:
         send(call, sequence, row=[1, 2, 3, 0, 0, 0, 1])
     elif call != 11:

@@ -19,8 +19,9 @@ std::string describe(const std::string& how) {
 /// A world of a fake with one body.
 struct FakeWorld {
   explicit FakeWorld(const std::string& how, double deadline = 30, PlumbNeeds needs = 0)
-      : manifest(describe("well"), "fake"), world(init(deadline, needs), manifest, fake(how)) {
-    const PlumbBodyDesc desc = body_desc(PLUMB_STATIC);
+      : manifest(describe(how == "takes" ? how : "well"), "fake"), world(init(deadline, needs), manifest, fake(how)) {
+    PlumbBodyDesc desc = body_desc(PLUMB_STATIC);
+    desc.rolling_friction = (needs & PLUMB_NEED_ROLLING_FRICTION) != 0 ? 0.25 : 0;
     world.create_bodies({&desc, 1}, {&body, 1});
   }
   WorldInit init(double deadline, PlumbNeeds needs) {
@@ -98,6 +99,30 @@ TEST(WireChild, WhatItPrintsNeitherStopsItNorIsTakenForAnAnswer) {
   EXPECT_EQ(report.phase_seconds[PLUMB_PHASE_SOLVE], 0.25);
 }
 
+/// The fake that takes them answers a read with its last write: field, slot, and what was written.
+std::array<double, 7> last_write(FakeWorld& takes) {
+  std::array<double, 7> row{};
+  takes.world.read(PLUMB_FIELD_POSE, {&takes.body, 1}, rows_over(std::span(&row, 1)));
+  return row;
+}
+
+TEST(WireChild, TakesImpulsesItselfWhereItsManifestSaysSo) {
+  FakeWorld takes("takes");
+  const std::array<double, 3> push = {1, 2, 3};
+  takes.world.write(PLUMB_FIELD_IMPULSE, {&takes.body, 1}, const_rows_over(std::span(&push, 1)));
+  EXPECT_EQ(last_write(takes), (std::array<double, 7>{PLUMB_FIELD_IMPULSE, 0, 1, 2, 3, 0, 0}));
+  EXPECT_EQ(takes.manifest.capability(PLUMB_CAP_FIELD_WRITE, PLUMB_FIELD_IMPULSE, 0).degree, PLUMB_NATIVE);
+  EXPECT_EQ(takes.manifest.capability(PLUMB_CAP_FIELD_WRITE, PLUMB_FIELD_TORQUE, 0).degree, PLUMB_EMULATED);
+}
+
+TEST(WireChild, IsToldOfRollingFrictionAfterABodyIsMade) {
+  FakeWorld takes("takes", 30, PLUMB_NEED_ROLLING_FRICTION);
+  EXPECT_EQ(last_write(takes), (std::array<double, 7>{PLUMB_FIELD_ROLLING_FRICTION, 0, 0.25, 0, 0, 0, 0}));
+  std::array<double, 2> row{};
+  takes.world.read(PLUMB_FIELD_ROLLING_FRICTION, {&takes.body, 1}, rows_over(std::span(&row, 1)));
+  EXPECT_EQ(row[0], 0.25) << "what was written is read, not asked";
+}
+
 TEST(WireChild, AProgramThatIsNotThereIsUnsupported) {
   try {
     Child child({"plumb-no-such-program"});
@@ -134,7 +159,8 @@ TEST(WireManifest, LaterRulesWinAndPairsHaveNoOrder) {
       R"({"wire": "plumb.wire/1", "version": "1", "build": "b", "description": "d", "precision": "f32",
     "settings": [{"name": "mode", "type": "choice", "role": "behaviour", "choices": ["a", "b"], "default": "b", "doc": "d"}],
     "capabilities": [["pair", "*", "*", "native"], ["pair", "box|hull", "mesh", "approximate", "so so"],
-                     ["need", "ccd", "*", "native"], ["shape", "plane", "*", "native"]]})",
+                     ["need", "ccd", "*", "native"], ["shape", "plane", "*", "native"],
+                     ["joint", "gear", "*", "none", "not here"]]})",
       "x");
   EXPECT_EQ(manifest.capability(PLUMB_CAP_PAIR, PLUMB_BOX, PLUMB_SPHERE).degree, PLUMB_NATIVE);
   EXPECT_EQ(manifest.capability(PLUMB_CAP_PAIR, PLUMB_TRIANGLE_MESH, PLUMB_BOX).degree, PLUMB_APPROXIMATE);
@@ -142,6 +168,7 @@ TEST(WireManifest, LaterRulesWinAndPairsHaveNoOrder) {
   EXPECT_EQ(manifest.capability(PLUMB_CAP_NEED, 5, 0).degree, PLUMB_NATIVE);
   EXPECT_EQ(manifest.capability(PLUMB_CAP_NEED, 6, 0).degree, PLUMB_NONE) << "what is not named is not there";
   EXPECT_EQ(manifest.capability(PLUMB_CAP_SHAPE, PLUMB_PLANE, PLUMB_DYNAMIC).degree, PLUMB_NONE) << "no plane moves";
+  EXPECT_STREQ(manifest.capability(PLUMB_CAP_JOINT, PLUMB_JOINT_GEAR, 0).note, "not here") << "the child's own reason";
   EXPECT_STREQ(manifest.settings()[0].default_value.choice, "b");
   EXPECT_STREQ(manifest.settings().back().name, kDeadlineSetting);
 }

@@ -83,11 +83,11 @@ class HavokWorld extends WorldBase {
       case BOX: return ok(hp.HP_Shape_CreateBox([0, 0, 0], [0, 0, 0, 1], scale(2, desc.halfExtents)));
       case CAPSULE: return ok(hp.HP_Shape_CreateCapsule(scale(-1, along), along, desc.radius));
       case CYLINDER: return ok(hp.HP_Shape_CreateCylinder(scale(-1, along), along, desc.radius));
-      case HULL: return this.withMemory([desc.vertices], (at) => ok(hp.HP_Shape_CreateConvexHull(at, desc.vertices.length / 3)));
+      case HULL: return this.withMemory([Float32Array.from(desc.vertices)], (at) => ok(hp.HP_Shape_CreateConvexHull(at, desc.vertices.length / 3)));
       case MESH:
       case HEIGHT_FIELD: {
         const { vertices, indices } = desc.type === MESH ? desc : meshOfHeightField(desc);
-        return this.withMemory([vertices, indices], (v, i) => ok(hp.HP_Shape_CreateMesh(v, vertices.length / 3, i, indices.length / 3)));
+        return this.withMemory([Float32Array.from(vertices), indices], (v, i) => ok(hp.HP_Shape_CreateMesh(v, vertices.length / 3, i, indices.length / 3)));
       }
       default: return refuse(`shapes of type ${desc.type}`);
     }

@@ -98,8 +98,8 @@ class RapierWorld extends WorldBase {
       case BOX: return new R.Cuboid(...desc.halfExtents);
       case CAPSULE: return new R.Capsule(desc.halfHeight, desc.radius);
       case CYLINDER: return new R.Cylinder(desc.halfHeight, desc.radius);
-      case HULL: return R.ColliderDesc.convexHull(desc.vertices)?.shape ?? refuse('Rapier finds no hull of these points');
-      case MESH: return new R.TriMesh(desc.vertices, desc.indices, R.TriMeshFlags.FIX_INTERNAL_EDGES);
+      case HULL: return R.ColliderDesc.convexHull(Float32Array.from(desc.vertices))?.shape ?? refuse('Rapier finds no hull of these points');
+      case MESH: return new R.TriMesh(Float32Array.from(desc.vertices), desc.indices, R.TriMeshFlags.FIX_INTERNAL_EDGES);
       case HEIGHT_FIELD: {
         const { vertices, indices } = meshOfHeightField(desc);
         return new R.TriMesh(vertices, indices, R.TriMeshFlags.FIX_INTERNAL_EDGES);
