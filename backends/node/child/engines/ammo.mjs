@@ -51,6 +51,7 @@ class AmmoWorld extends WorldBase {
     this.A = A;
     this.temporary = [];
     this.most = 0;  // restitution of what is dynamic
+    this.bounces = false;  // whether anything has any
     this.slots = new Map();  // a body's place in memory to its slot
     this.apart = new Map();  // pairs that are excepted, to constraints
     const rules = new A.btDefaultCollisionConfiguration();
@@ -75,7 +76,7 @@ class AmmoWorld extends WorldBase {
   }
   setGravity(gravity) {
     this.gravity = gravity;
-    this.world.setGravity(this.vec([0, 0, 0]));  // each body is given its own, by its scale
+    this.world.setGravity(this.vec(gravity));  // what is scaled is given the rest as a force
     for (const slot of this.bodies.keys()) this.setAwake(slot, true);
     this.sweep();
   }
@@ -219,13 +220,14 @@ class AmmoWorld extends WorldBase {
     const { body, desc } = this.bodies.get(slot);
     Object.assign(desc.material, { friction, restitution });
     body.setFriction(Math.sqrt(friction));
-    const most = desc.motion === DYNAMIC ? Math.max(this.most, restitution) : this.most;
-    if (most === this.most) return body.setRestitution(this.factor(desc));
-    this.most = most;
+    const most = desc.motion === DYNAMIC ? Math.max(this.most, restitution) : this.most, bounces = this.bounces || restitution > 0;
+    if (most === this.most && bounces === this.bounces) return body.setRestitution(this.factor(desc));
+    Object.assign(this, { most, bounces });
     for (const other of this.bodies.values()) other.body.setRestitution(this.factor(other.desc));
   }
   /** So that what is dynamic and what is not come to the larger of the two, where all that is dynamic has the same. */
   factor({ motion, material: { restitution } }) {
+    if (!this.bounces) return 0;
     const root = (e) => Math.sqrt(Math.max(e, 1e-6));
     return motion === DYNAMIC ? root(restitution) : Math.max(restitution, this.most) / root(this.most);
   }
@@ -258,7 +260,7 @@ class AmmoWorld extends WorldBase {
       body.applyTorque(this.vec(torque));
     }
     for (const { desc, body } of this.bodies.values())
-      if (desc.motion === DYNAMIC && body.isActive()) body.applyCentralForce(this.vec(scale(desc.mass * desc.gravityScale, this.gravity)));
+      if (desc.motion === DYNAMIC && desc.gravityScale !== 1 && body.isActive()) body.applyCentralForce(this.vec(scale(desc.mass * (desc.gravityScale - 1), this.gravity)));
     this.sweep();
   }
   /** Kinematic bodies go by their velocity through their motion state, from which Bullet takes them. */

@@ -17,8 +17,8 @@ const settings = [
   intSetting('pgs_iterations', 'quality', [1, 100], 1, 'sweeps over the contacts in each', { unit: '1' }),
   intSetting('ccd_substeps', 'quality', [0, 100], 1, 'impacts of fast bodies that one step resolves', { unit: '1' }),
   floatSetting('contact_frequency', 'behaviour', [1, 1e4], 30, 'stiffness of contacts', { unit: 'Hz' }),
-  floatSetting('allowed_error', 'behaviour', [0, 1], 0.001, 'overlap that is left alone', { unit: 'm' }),
-  floatSetting('prediction', 'behaviour', [0, 10], 0.002, 'distance at which contacts are found before they touch', { unit: 'm' }),
+  floatSetting('allowed_error', 'behaviour', [0, 1], 0.005, 'overlap that is left alone', { unit: 'm' }),
+  floatSetting('prediction', 'behaviour', [0, 10], 0.02, 'distance at which contacts are found before they touch', { unit: 'm' }),
   boolSetting('sleeping', 'behaviour', true, 'bodies at rest are put to sleep, where the world declares sleeping'),
 ];
 
