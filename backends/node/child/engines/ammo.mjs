@@ -28,6 +28,7 @@ export function manifest() {
       ['joint', 'ball|hinge|slider|generic', '*', 'native'],
       ['joint', 'fixed', '*', 'emulated', 'by the constraint of six axes'],
       ['shape', 'plane', 'static', 'native'],
+      ['pair', 'capsule', 'mesh|height_field', 'approximate', 'a capsule that lies on triangles begins to roll by itself, at .1 m/s after two seconds'],
       ['joint_feature', 'hinge|slider', 'limits', 'native'],
       ['joint_feature', 'hinge', 'motors', 'native'],
       ['write', 'damping|awake', '*', 'native'],

@@ -1,5 +1,6 @@
-// What a backend tells of five scenes is what a program tells that is written straight against the package: twins/NAME.mjs.
-// The environment names the backend's library, PLUMB_TWIN_BACKEND, and the program with its arguments, PLUMB_TWIN.
+// What a backend tells of five scenes is what a program tells that is written straight against the package:
+// twins/NAME.mjs. The environment names the backend's library, PLUMB_TWIN_BACKEND, and the program with its arguments,
+// PLUMB_TWIN.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -75,12 +76,13 @@ Json json_of(const Scene& scene) {
                       {"b", joint.b},
                       {"inA", json_of(joint.in_a)},
                       {"inB", json_of(joint.in_b)}});
-  return {{"dt", kStep},       {"steps", kSteps}, {"gravity", {0, -9.81, 0}}, {"friction", kPlumbFriction},
+  return {{"dt", kStep},    {"steps", kSteps}, {"gravity", {0, -9.81, 0}}, {"friction", kPlumbFriction},
           {"items", items}, {"joints", joints}};
 }
 
 std::vector<Row> of_twin(const Scene& scene) {
-  const std::string file = testing::TempDir() + "twin_" + std::to_string(std::hash<std::string>{}(required("PLUMB_TWIN"))) + scene.name + ".json";
+  const std::string file = testing::TempDir() + "twin_" +
+                           std::to_string(std::hash<std::string>{}(required("PLUMB_TWIN"))) + scene.name + ".json";
   std::ofstream(file) << json_of(scene);
   FILE* pipe = popen((std::string("node ") + required("PLUMB_TWIN") + " < '" + file + "'").c_str(), "r");
   std::string told;
@@ -95,13 +97,15 @@ std::vector<Row> of_twin(const Scene& scene) {
 PlumbNeeds needs_there() {
   PlumbNeeds all = kNeeds;
   for (std::uint32_t bit = 0; bit < 64; ++bit)
-    if ((all >> bit & 1) != 0 && backend().capability(PLUMB_CAP_NEED, bit, 0) == PLUMB_NONE) all &= ~(PlumbNeeds{1} << bit);
+    if ((all >> bit & 1) != 0 && backend().capability(PLUMB_CAP_NEED, bit, 0) == PLUMB_NONE)
+      all &= ~(PlumbNeeds{1} << bit);
   return all;
 }
 
 /// "friction=points": a setting of words.
 std::vector<PlumbSetting> settings() {
-  static const std::string given = std::getenv("PLUMB_TWIN_SETTING") != nullptr ? std::getenv("PLUMB_TWIN_SETTING") : "";
+  static const std::string given =
+      std::getenv("PLUMB_TWIN_SETTING") != nullptr ? std::getenv("PLUMB_TWIN_SETTING") : "";
   if (given.empty()) return {};
   static const std::string name = given.substr(0, given.find('=')), word = given.substr(given.find('=') + 1);
   return {word_setting(name.c_str(), word.c_str())};
@@ -144,7 +148,8 @@ TEST_P(Twins, TellTheSame) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Node, Twins,
-                         testing::Values(falling_ball(), sliding_box(), stack(), tumbling_box(), pendulum(), chain_of_three()),
+                         testing::Values(falling_ball(), sliding_box(), stack(), tumbling_box(), pendulum(),
+                                         chain_of_three()),
                          [](const auto& info) { return info.param.name; });
 
 }  // namespace
