@@ -1,5 +1,5 @@
 // MuJoCo's model and data of a world as it is now, and which of ours each of its things is.
-import { DISTANCE, DYNAMIC, HEIGHT_FIELD, NO_ROTATION } from '../../rows.mjs';
+import { DISTANCE, DYNAMIC, HEIGHT_FIELD, KINEMATIC, NO_ROTATION } from '../../rows.mjs';
 import { add, conjugate, multiply, rotate, sub } from '../../algebra.mjs';
 import { Failure } from '../../failure.mjs';
 import { refuse } from '../../base.mjs';
@@ -38,7 +38,8 @@ export class Model {
     this.fillHeights();
     for (const body of this.bodies) if (body?.desc.motion === DYNAMIC) this.fillMass(body);
     for (const joint of all) if (joint.isLink) this.applyMotors(joint);
-    applyToModel(settings, world.rolls, this.model);
+    this.traits = { rolls: world.rolls, heavy: this.bodies.some((body) => body !== null && isHeavy(body)) };
+    applyToModel(settings, this.traits, this.model);
     this.makeData();
     M.mj_setConst(this.model, this.data);
     this.fillEqualities(all);  // after it, which would take the anchors from how the tree is drawn
@@ -153,6 +154,9 @@ export class Model {
     return { position: sub(three(this.d('xpos'), 3 * body.id), rotate(orientation, body.shift)), orientation };
   }
 }
+
+/** Whether forces must not move it, along some axis at least. */
+const isHeavy = ({ desc }) => desc.motion === KINEMATIC || (desc.motion === DYNAMIC && (desc.locks !== 0 || (desc.flags & NO_ROTATION) !== 0));
 
 function compile(M, text) {
   try {

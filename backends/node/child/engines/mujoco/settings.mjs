@@ -5,7 +5,7 @@ import { boolSetting, choiceSetting, floatSetting, intSetting } from '../../base
 const SOLVERS = ['pgs', 'cg', 'newton'];  // as mjtSolver counts
 const INTEGRATORS = { euler: 0, implicit: 2, implicitfast: 3 };  // as mjtIntegrator does
 const CONES = { pyramidal: 0, elliptic: 1 };
-const WARM_START = 512, FILTER_PARENT = 1024, MULTI_CCD = 524288;  // as mjtDisableBit does
+const WARM_START = 512, FILTER_PARENT = 1024, ISLANDS = 262144, MULTI_CCD = 524288;  // as mjtDisableBit does
 
 export const SETTINGS = [
   intSetting('substeps', 'quality', [1, 1024], 8, 'MuJoCo steps of dt / substeps in a step', { unit: '1' }),
@@ -31,8 +31,12 @@ export const SETTINGS = [
 export const impedanceOf = (s) => [s.impedance_least, s.impedance_most, s.impedance_width, 0.5, 2];
 export const isEuler = (s) => s.integrator === 'euler';
 
-/** To a model's options, and to all of its constraints but contacts. rolls: the world has rolling friction. */
-export function applyToModel(s, rolls, model) {
+/**
+ * To a model's options, and to all of its constraints but contacts. rolls: the world has rolling friction; heavy: it has
+ * what forces must not move. An island's solver scales its tolerance by the island's own inertia, with which it would stop
+ * before it began; the solver of the whole takes the model's.
+ */
+export function applyToModel(s, { rolls, heavy }, model) {
   const option = model.opt, solref = [s.joint_time, s.joint_damping_ratio], solimp = impedanceOf(s);
   option.solver = SOLVERS.indexOf(s.solver);
   option.iterations = s.iterations;
@@ -41,7 +45,7 @@ export function applyToModel(s, rolls, model) {
   option.integrator = INTEGRATORS[s.integrator];
   option.cone = CONES[s.cone] ?? (rolls ? CONES.elliptic : CONES.pyramidal);
   option.impratio = s.impratio;
-  option.disableflags = FILTER_PARENT | (s.warm_starting ? 0 : WARM_START) | (s.multiccd ? 0 : MULTI_CCD);
+  option.disableflags = FILTER_PARENT | (s.warm_starting ? 0 : WARM_START) | (s.multiccd ? 0 : MULTI_CCD) | (heavy ? ISLANDS : 0);
   for (const kind of ['jnt', 'dof', 'eq']) {
     fill(model[`${kind}_solref`], solref);
     fill(model[`${kind}_solimp`], solimp);

@@ -47,7 +47,7 @@ export class MujocoWorld extends WorldBase {
   }
   applySettings(changed) {
     super.applySettings(changed);
-    if (!this.stale) applyToModel(this.settings, this.rolls, this.model.model);
+    if (!this.stale) applyToModel(this.settings, this.model.traits, this.model.model);
   }
 
   // --- bodies --------------------------------------------------------------------------------------------------------
