@@ -133,11 +133,14 @@ function equality({ slot, desc, a, b }) {
   return `<connect ${ends} anchor="0 0 0"/>`.repeat(equalitiesOf(desc));
 }
 
+/** kB that MuJoCo begins with for contacts and constraints: of large worlds it would take more than there is. */
+const roomFor = (bodies) => 16384 + 32 * bodies;
+
 /** partsOf: the shapes of a body, each with its place in the body's frame. */
 export function modelText({ order, roots }, all, partsOf, collides) {
   const assets = new Map();
   for (const body of order) for (const part of partsOf(body)) if ([HULL, HEIGHT_FIELD].includes(part.desc.type)) assets.set(part.slot, assetOf(part));
-  return `<mujoco><compiler angle="radian" inertiafromgeom="false"/>
+  return `<mujoco><compiler angle="radian" inertiafromgeom="false"/><size memory="${roomFor(order.length)}K"/>
 <asset>${[...assets.values()].join('\n')}</asset>
 ${collides ? '' : '<default><geom contype="0" conaffinity="0"/></default>'}
 <worldbody>${sites(null, all)}${roots.map((root) => bodyText(root, partsOf, all)).join('\n')}</worldbody>
