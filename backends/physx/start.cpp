@@ -1,0 +1,41 @@
+#include "start.hpp"
+
+#include <utility>
+
+namespace plumb::px {
+namespace {
+
+thread_local std::string last_complaint;
+
+struct Complaints final : PxErrorCallback {
+  void reportError(PxErrorCode::Enum code, const char* message, const char*, int) override {
+    if (code != PxErrorCode::eDEBUG_INFO) last_complaint = message;
+  }
+};
+
+PxPhysics& start() {
+  static PxDefaultAllocator allocator;
+  static Complaints complaints;
+  PxFoundation* foundation = PxCreateFoundation(PX_PHYSICS_VERSION, allocator, complaints);
+  if (foundation == nullptr) throw Error(PLUMB_E_INTERNAL, "PhysX does not start" + because());
+  PxPhysics* physics = PxCreatePhysics(PX_PHYSICS_VERSION, *foundation, PxTolerancesScale());
+  if (physics == nullptr || !PxInitExtensions(*physics, nullptr))
+    throw Error(PLUMB_E_INTERNAL, "PhysX does not start" + because());
+  return *physics;
+}
+
+}  // namespace
+
+PxPhysics& physics() {
+  static PxPhysics& started = start();
+  return started;
+}
+
+std::string complaint() { return std::exchange(last_complaint, {}); }
+
+std::string because() {
+  const std::string why = complaint();
+  return why.empty() ? "" : ": " + why;
+}
+
+}  // namespace plumb::px
