@@ -29,7 +29,8 @@ Capability pair_fact(std::uint32_t a, std::uint32_t b) {
 }
 
 constexpr const char* kSixAxes =
-    "by PhysX's joint of six axes, which takes turns apart into a twist and a swing: turns about two axes at a time are "
+    "by PhysX's joint of six axes, which takes turns apart into a twist and a swing: turns about two axes at a time "
+    "are "
     "others";
 constexpr const char* kReaction = "the sum of what PhysX's constraints of the joint tell";
 constexpr const char* kOwnRow = "a constraint of the adapter's own";
@@ -41,8 +42,9 @@ Capability joint_fact(std::uint32_t type) {
     case PLUMB_JOINT_GEAR:
       return {PLUMB_EMULATED, "a constraint of the adapter's own: PhysX's holds wheels of its hinges alone"};
     case PLUMB_JOINT_RACK_AND_PINION:
-      return {PLUMB_APPROXIMATE,
-              "a constraint of the adapter's own, which like PhysX's pushes both at their centres and turns the pinion"};
+      return {
+          PLUMB_APPROXIMATE,
+          "a constraint of the adapter's own, which like PhysX's pushes both at their centres and turns the pinion"};
     default: return {type < PLUMB_JOINT_TYPE_COUNT ? PLUMB_NATIVE : PLUMB_NONE};
   }
 }
@@ -87,8 +89,9 @@ Capability need_fact(std::uint32_t index) {
       return {PLUMB_EMULATED, "by comparing who touches after one step with who does after the next"};
     case PLUMB_NEED_SENSORS: return {PLUMB_EMULATED, "by asking after each step whom their shapes overlap"};
     case PLUMB_NEED_CONTACT_IMPULSES:
-      return {PLUMB_EMULATED, "PhysX rubs at up to two anchors of a face, whose impulses are told at the points next to "
-                              "them"};
+      return {PLUMB_EMULATED,
+              "PhysX rubs at up to two anchors of a face, whose impulses are told at the points next to "
+              "them"};
     case PLUMB_NEED_SURFACE_VELOCITY: return {PLUMB_NATIVE, "as target velocities of contacts"};
     case PLUMB_NEED_SNAPSHOT: return {PLUMB_NONE, "PhysX does not let its contacts and their history be saved"};
     case PLUMB_NEED_CONTACT_MODIFICATION:
@@ -117,7 +120,8 @@ Capability write_fact(std::uint32_t field) {
     case PLUMB_FIELD_ANGULAR_IMPULSE:
     case PLUMB_FIELD_IMPULSE_AT_POINT:
       return {PLUMB_EMULATED, "as a change of the velocity: PhysX keeps impulses for its next step"};
-    case PLUMB_FIELD_GRAVITY_SCALE: return {PLUMB_EMULATED, "PhysX has it on or off; of others the adapter adds a share"};
+    case PLUMB_FIELD_GRAVITY_SCALE:
+      return {PLUMB_EMULATED, "PhysX has it on or off; of others the adapter adds a share"};
     default: return usual;
   }
 }

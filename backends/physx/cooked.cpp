@@ -51,8 +51,7 @@ void keep_materials(const PlumbShapeDesc& desc, std::size_t most, Shape& shape) 
   if (shape.triangles.empty()) return;
   if (desc.material_count >= most)
     throw Error(PLUMB_E_UNSUPPORTED, "material_count is " + std::to_string(desc.material_count) + "; PhysX's " +
-                                         backend::shape_name(desc.type) + "s have at most " +
-                                         std::to_string(most - 1));
+                                         backend::shape_name(desc.type) + "s have at most " + std::to_string(most - 1));
   shape.materials.assign(desc.materials, desc.materials + desc.material_count);
 }
 
@@ -143,9 +142,9 @@ void make_height_field(const PlumbShapeDesc& desc, Shape& shape) {
   const float x = scalar(desc.spacing.x, "spacing.x"), z = scalar(desc.spacing.z, "spacing.z");
   Piece piece;
   piece.geometry.storeAny(PxHeightFieldGeometry(made, PxMeshGeometryFlags(), static_cast<float>(quantized.unit), x, z));
-  piece.at.p = vector(PlumbVec3{-0.5 * (desc.columns - 1) * desc.spacing.x, quantized.middle,
-                                -0.5 * (desc.rows - 1) * desc.spacing.z},
-                      "a corner of the field");
+  piece.at.p = vector(
+      PlumbVec3{-0.5 * (desc.columns - 1) * desc.spacing.x, quantized.middle, -0.5 * (desc.rows - 1) * desc.spacing.z},
+      "a corner of the field");
   shape.pieces.push_back(piece);
 }
 

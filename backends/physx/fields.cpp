@@ -57,8 +57,8 @@ void push(const Body& body, const PlumbVec3& impulse, const PlumbVec3& moment) {
   const PlumbVec3 within = backend::unrotate(turn, moment);
   const PlumbVec3 spin = backend::rotate(turn, {inverse.x * within.x, inverse.y * within.y, inverse.z * within.z});
   const Velocity now = velocity_of(body);
-  put_velocity(body, {backend::add(now.linear, backend::scale(1 / body.desc.mass, impulse)),
-                      backend::add(now.angular, spin)});
+  put_velocity(
+      body, {backend::add(now.linear, backend::scale(1 / body.desc.mass, impulse)), backend::add(now.angular, spin)});
 }
 
 PlumbVec3 arm_to(const Body& body, const PlumbVec3& point) {
@@ -81,8 +81,7 @@ void act(PlumbField field, const Body& body, const double* row) {
     case PLUMB_FIELD_TORQUE: return add_force(body, {}, push_of);
     case PLUMB_FIELD_IMPULSE: return push(body, push_of, {});
     case PLUMB_FIELD_ANGULAR_IMPULSE: return push(body, {}, push_of);
-    case PLUMB_FIELD_FORCE_AT_POINT:
-      return add_force(body, push_of, backend::cross(arm_to(body, at(row, 3)), push_of));
+    case PLUMB_FIELD_FORCE_AT_POINT: return add_force(body, push_of, backend::cross(arm_to(body, at(row, 3)), push_of));
     default: return push(body, push_of, backend::cross(arm_to(body, at(row, 3)), push_of));
   }
 }

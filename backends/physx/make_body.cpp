@@ -33,8 +33,8 @@ void attach(Body& body, const Piece& piece, Common& common) {
   if (!body.is_sensor()) flags |= PxShapeFlag::eSIMULATION_SHAPE;
   if (common.needs_any(PLUMB_NEED_QUERIES | PLUMB_NEED_SENSORS)) flags |= PxShapeFlag::eSCENE_QUERY_SHAPE;
   const std::vector<PxMaterial*> materials = materials_of(body, piece, common.materials);
-  PxShape* shape = physics().createShape(piece.geometry.any(), materials.data(), static_cast<PxU16>(materials.size()),
-                                         true, flags);
+  PxShape* shape =
+      physics().createShape(piece.geometry.any(), materials.data(), static_cast<PxU16>(materials.size()), true, flags);
   if (shape == nullptr) throw Error(PLUMB_E_OUT_OF_MEMORY, "PhysX makes no such shape" + because());
   const auto& part = body.parts.emplace_back(std::make_unique<Part>(Part{&body, &piece}));
   shape->userData = part.get();
@@ -66,7 +66,7 @@ void put_motion(const Body& body, const Common& common) {
   actor.setRigidBodyFlag(PxRigidBodyFlag::eENABLE_GYROSCOPIC_FORCES, common.needs_any(PLUMB_NEED_GYROSCOPIC));
   if ((desc.flags & PLUMB_BODY_CCD) != 0)
     actor.setRigidBodyFlag(settings.continuous.by == Settings::Ccd::swept ? PxRigidBodyFlag::eENABLE_CCD
-                                                                           : PxRigidBodyFlag::eENABLE_SPECULATIVE_CCD,
+                                                                          : PxRigidBodyFlag::eENABLE_SPECULATIVE_CCD,
                            true);
   const bool sleeps = common.needs_any(PLUMB_NEED_SLEEPING) && (desc.flags & PLUMB_BODY_NEVER_SLEEPS) == 0;
   actor.setSleepThreshold(sleeps ? static_cast<float>(settings.sleep.threshold) : 0);

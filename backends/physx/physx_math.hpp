@@ -37,8 +37,9 @@ inline PlumbVec3 to_plumb(const PxVec3& v) {
   return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
 }
 inline PlumbPose to_plumb(const PxTransform& pose) {
-  return {to_plumb(pose.p), {static_cast<double>(pose.q.x), static_cast<double>(pose.q.y),
-                             static_cast<double>(pose.q.z), static_cast<double>(pose.q.w)}};
+  return {to_plumb(pose.p),
+          {static_cast<double>(pose.q.x), static_cast<double>(pose.q.y), static_cast<double>(pose.q.z),
+           static_cast<double>(pose.q.w)}};
 }
 inline PlumbPose pose_of(const double* row) { return {{row[0], row[1], row[2]}, {row[3], row[4], row[5], row[6]}}; }
 

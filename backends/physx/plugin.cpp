@@ -4,8 +4,8 @@
 
 #define PLUMB_TEXT_OF(number) #number
 #define PLUMB_TEXT(number) PLUMB_TEXT_OF(number)
-#define PLUMB_PHYSX_VERSION                                                      \
-  PLUMB_TEXT(PX_PHYSICS_VERSION_MAJOR)                                           \
+#define PLUMB_PHYSX_VERSION            \
+  PLUMB_TEXT(PX_PHYSICS_VERSION_MAJOR) \
   "." PLUMB_TEXT(PX_PHYSICS_VERSION_MINOR) "." PLUMB_TEXT(PX_PHYSICS_VERSION_BUGFIX)
 
 namespace plumb::px {

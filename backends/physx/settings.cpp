@@ -18,8 +18,8 @@ const backend::SettingsTable<Settings>& settings_table() {
   constexpr auto quality = PLUMB_ROLE_QUALITY, speed = PLUMB_ROLE_SPEED, behaviour = PLUMB_ROLE_BEHAVIOUR;
   constexpr std::uint32_t once = PLUMB_SETTING_CREATION_ONLY;
   static const SettingsTable<Settings> all = {
-      setting<&S::position_iterations>(
-          int_setting("position_iterations", "1", quality, 1, 255, 4, "iterations that solve velocities and positions")),
+      setting<&S::position_iterations>(int_setting("position_iterations", "1", quality, 1, 255, 4,
+                                                   "iterations that solve velocities and positions")),
       setting<&S::velocity_iterations>(int_setting("velocity_iterations", "1", quality, 0, 255, 1,
                                                    "iterations after them that solve velocities alone")),
       setting<&S::solver>(choice_setting("solver", behaviour, kSolvers,
@@ -28,14 +28,13 @@ const backend::SettingsTable<Settings>& settings_table() {
                                          once)),
       setting<&S::bounce_threshold>(
           float_setting("bounce_threshold", "m/s", behaviour, 1e-6, 1e4, 2, "slower impacts do not bounce")),
-      setting<&S::contacts, &S::Contacts::offset>(float_setting(
-          "contact_offset", "m", behaviour, 1e-6, 1, 0.02,
-          "contacts are made where shapes are nearer to each other than the sum of both offsets", once)),
+      setting<&S::contacts, &S::Contacts::offset>(
+          float_setting("contact_offset", "m", behaviour, 1e-6, 1, 0.02,
+                        "contacts are made where shapes are nearer to each other than the sum of both offsets", once)),
       setting<&S::contacts, &S::Contacts::rest_offset>(float_setting(
           "rest_offset", "m", behaviour, -1, 0, 0, "shapes come to rest with the sum of both as their gap", once)),
-      setting<&S::friction, &S::Friction::offset_threshold>(
-          float_setting("friction_offset_threshold", "m", behaviour, 0, 1, 0.04,
-                        "no friction at points that are further apart")),
+      setting<&S::friction, &S::Friction::offset_threshold>(float_setting(
+          "friction_offset_threshold", "m", behaviour, 0, 1, 0.04, "no friction at points that are further apart")),
       setting<&S::friction, &S::Friction::correlation_distance>(
           float_setting("friction_correlation_distance", "m", behaviour, 0, 1, 0.025,
                         "contact points nearer to each other have one anchor of friction")),
@@ -44,15 +43,16 @@ const backend::SettingsTable<Settings>& settings_table() {
                        "pgs: friction in all position iterations, not in the last three alone", once)),
       setting<&S::friction, &S::Friction::strong>(
           bool_setting("strong_friction", behaviour, true, "what slid though it should stick is taken back", once)),
-      setting<&S::forces_every_iteration>(bool_setting(
-          "forces_every_iteration", behaviour, false, "tgs: gravity and forces in parts, with each position iteration",
-          once)),
-      setting<&S::max_angular_speed>(float_setting("max_angular_speed", "rad/s", behaviour, 1, 1e9, 100,
-                                                   "faster bodies are slowed to it", once)),
+      setting<&S::forces_every_iteration>(bool_setting("forces_every_iteration", behaviour, false,
+                                                       "tgs: gravity and forces in parts, with each position iteration",
+                                                       once)),
+      setting<&S::max_angular_speed>(
+          float_setting("max_angular_speed", "rad/s", behaviour, 1, 1e9, 100, "faster bodies are slowed to it", once)),
       setting<&S::max_depenetration_speed>(float_setting("max_depenetration_speed", "m/s", behaviour, 1e-3, 1e32, 1e32,
                                                          "most with which overlap is pushed out", once)),
       setting<&S::max_bias_coefficient>(float_setting("max_bias_coefficient", "1/s", behaviour, 0, PX_MAX_F32,
-                                                      PX_MAX_F32, "most share of an error that is taken back a second")),
+                                                      PX_MAX_F32,
+                                                      "most share of an error that is taken back a second")),
       setting<&S::continuous, &S::Continuous::by>(
           choice_setting("ccd", behaviour, kCcds,
                          "swept: bodies are stopped where they first hit; speculative: contacts are made as far ahead "
@@ -61,7 +61,8 @@ const backend::SettingsTable<Settings>& settings_table() {
       setting<&S::continuous, &S::Continuous::most_passes>(
           int_setting("ccd_max_passes", "1", quality, 1, 255, 1, "hits that a swept body may have in a step")),
       setting<&S::sleep, &S::Sleep::threshold>(float_setting("sleep_threshold", "m2/s2", behaviour, 0, 1e4, 0.005,
-                                                             "bodies with less kinetic energy by mass may sleep", once)),
+                                                             "bodies with less kinetic energy by mass may sleep",
+                                                             once)),
       setting<&S::sleep, &S::Sleep::time>(
           float_setting("sleep_time", "s", behaviour, 1e-3, 1e4, 0.4, "they fall asleep after this time", once)),
       setting<&S::contacts, &S::Contacts::pcm>(bool_setting(

@@ -30,11 +30,11 @@ struct Shape {
   ~Shape();
 
   PlumbShapeType type = PLUMB_SPHERE;
-  std::vector<Piece> pieces;              ///< of a compound its children, else one
-  PxRefCounted* cooked = nullptr;         ///< hull, mesh or height field
+  std::vector<Piece> pieces;       ///< of a compound its children, else one
+  PxRefCounted* cooked = nullptr;  ///< hull, mesh or height field
   std::unique_ptr<PxCustomGeometryExt::CylinderCallbacks> cylinder;
-  std::vector<PlumbMaterial> materials;   ///< of triangles, by their number in the geometry less one
-  backend::TriangleMaterials triangles;   ///< of meshes and height fields
+  std::vector<PlumbMaterial> materials;  ///< of triangles, by their number in the geometry less one
+  backend::TriangleMaterials triangles;  ///< of meshes and height fields
 
   void swap(Shape& other);
   /// The host's number of a triangle of a mesh that PhysX tells; else 0.

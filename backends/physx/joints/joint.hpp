@@ -23,9 +23,9 @@ struct Joint {
   using Native = std::unique_ptr<PxJoint, ReleaseJoint>;
 
   PlumbJoint handle = 0;
-  PlumbJointDesc desc{};  ///< with the motors and rests as they are now
-  bool enabled = true;    ///< else it lets its bodies go and touch
-  Native main;            ///< null: an own row is all, or none of the bodies moves
+  PlumbJointDesc desc{};                      ///< with the motors and rests as they are now
+  bool enabled = true;                        ///< else it lets its bodies go and touch
+  Native main;                                ///< null: an own row is all, or none of the bodies moves
   std::vector<std::unique_ptr<OwnRow>> rows;  ///< of the adapter's own
 
   [[nodiscard]] bool keeps_apart() const { return enabled && desc.collide_connected == 0 && desc.body_a != 0; }

@@ -40,17 +40,23 @@ PxJoint* make_slider(const PlumbJointDesc& desc, const Ends& ends) {
   return slider;
 }
 
+/// Whether it holds its origins where they are: there PhysX's rod knows no direction.
+bool is_point(const PlumbJointDesc& desc) {
+  return (desc.limits[0].enabled != 0 ? desc.limits[0].upper : desc.rest_length) == 0;
+}
+
 /// Null where its spring is all.
 PxJoint* make_rod(const PlumbJointDesc& desc, const Ends& ends) {
   const PlumbLimit& limit = desc.limits[0];
   const bool limited = limit.enabled != 0;
   if (!limited && desc.springs[0].enabled != 0) return nullptr;
+  if (is_point(desc)) return PxSphericalJointCreate(physics(), ends.a, ends.frame_a, ends.b, ends.frame_b);
   PxDistanceJoint* rod = PxDistanceJointCreate(physics(), ends.a, ends.frame_a, ends.b, ends.frame_b);
   if (rod == nullptr) return rod;
   rod->setTolerance(0);
   rod->setMinDistance(number(limited ? limit.lower : desc.rest_length));
   rod->setMaxDistance(number(limited ? limit.upper : desc.rest_length));
-  rod->setDistanceJointFlag(PxDistanceJointFlag::eMIN_DISTANCE_ENABLED, true);
+  rod->setDistanceJointFlag(PxDistanceJointFlag::eMIN_DISTANCE_ENABLED, rod->getMinDistance() > 0);
   rod->setDistanceJointFlag(PxDistanceJointFlag::eMAX_DISTANCE_ENABLED, true);
   return rod;
 }
@@ -137,11 +143,11 @@ bool drive(Joint& joint) {
   if (joint.main != nullptr && takes_six_axes(desc) != (axes != nullptr)) return false;
   if (axes != nullptr) drive_six_axes(*axes, desc);
   for (const auto& row : joint.rows) row->drive(desc);
-  if (desc.type == PLUMB_JOINT_DISTANCE && joint.main != nullptr && desc.limits[0].enabled == 0) {
-    auto& rod = *joint.main->is<PxDistanceJoint>();
-    rod.setMinDistance(number(desc.rest_length));
-    rod.setMaxDistance(number(desc.rest_length));
-  }
+  if (desc.type != PLUMB_JOINT_DISTANCE || joint.main == nullptr || desc.limits[0].enabled != 0) return true;
+  auto* rod = joint.main->is<PxDistanceJoint>();
+  if (rod == nullptr || is_point(desc)) return rod == nullptr && is_point(desc);
+  rod->setMinDistance(number(desc.rest_length));
+  rod->setMaxDistance(number(desc.rest_length));
   return true;
 }
 

@@ -71,18 +71,17 @@ PlumbVec3 change_of(PlumbJointType type, const PlumbQuat& seen, std::size_t axis
   return {change[0], change[1], change[2]};
 }
 
-PxMat33 cross_matrix(const PxVec3& v) {
-  return {PxVec3(0, v.z, -v.y), PxVec3(-v.z, 0, v.x), PxVec3(v.y, -v.x, 0)};
-}
+PxMat33 cross_matrix(const PxVec3& v) { return {PxVec3(0, v.z, -v.y), PxVec3(-v.z, 0, v.x), PxVec3(v.y, -v.x, 0)}; }
 PxMat33 inverse_inertia(const Block::Inverse& of, const PxTransform& mass) {
   const PxMat33 turn(mass.q);
   return turn * PxMat33::createDiagonal(of.inertia) * turn.getTranspose();
 }
 
 /// A turn about a joint that holds b's origin: with the force there that keeps it there. PhysX's few iterations would
-/// not find it. Returns the moment of the pair about the axis, of bodies that turn about their centres; 0 where none is.
+/// not find it. Returns the moment of the pair about the axis, of bodies that turn about their centres; 0 where none
+/// is.
 float pin(const Block& block, const PxTransform& b, const PxTransform& mass_a, const PxTransform& mass_b,
-         Px1DConstraint& row) {
+          Px1DConstraint& row) {
   const PxVec3 arm_a = b.p - mass_a.p, arm_b = b.p - mass_b.p;
   const PxMat33 cross_a = cross_matrix(arm_a), cross_b = cross_matrix(arm_b);
   const PxMat33 turns_a = inverse_inertia(block.of_a, mass_a), turns_b = inverse_inertia(block.of_b, mass_b);
@@ -105,7 +104,7 @@ struct Axis {
 
 /// C' = how fast the coordinate becomes less. Along an axis of translation it is that of b's origin.
 Axis put_axis(const Block& block, const PxTransform& a, const PxTransform& b, const PxTransform& mass_a,
-                const PxTransform& mass_b, Px1DConstraint& row) {
+              const PxTransform& mass_b, Px1DConstraint& row) {
   const std::size_t axis = block.what.axis;
   if (axis < 3) {
     row.linear0 = row.linear1 = a.q.rotate(PxVec3(axis == 0, axis == 1, axis == 2));
@@ -115,8 +114,8 @@ Axis put_axis(const Block& block, const PxTransform& a, const PxTransform& b, co
   }
   const PlumbQuat seen = to_plumb(PxTransform(a.q.getConjugate() * b.q)).orientation;
   const PlumbVec3 change = change_of(block.type, seen, axis);
-  row.angular0 = row.angular1 = a.q.rotate(
-      PxVec3(static_cast<float>(change.x), static_cast<float>(change.y), static_cast<float>(change.z)));
+  row.angular0 = row.angular1 =
+      a.q.rotate(PxVec3(static_cast<float>(change.x), static_cast<float>(change.y), static_cast<float>(change.z)));
   Axis turned{turn_about(block.type, seen, axis)};
   if (block.pinned) turned.moment = pin(block, b, mass_a, mass_b, row);
   if (turned.moment == 0) row.flags |= Px1DConstraintFlag::eANGULAR_CONSTRAINT;
@@ -200,7 +199,9 @@ bool has_locks(const PxRigidActor* actor) {
 
 constexpr PxConstraintSolverPrep kPrepare = prepare<bool, PxVec3p&, PxVec3p&>;
 
-PxConstraintShaderTable shaders() { return {kPrepare, [](auto&, auto, auto&, auto&, auto) {}, PxConstraintFlag::Enum(0)}; }
+PxConstraintShaderTable shaders() {
+  return {kPrepare, [](auto&, auto, auto&, auto&, auto) {}, PxConstraintFlag::Enum(0)};
+}
 
 PxTransform placed(const PxRigidActor* actor, const PxTransform& frame) {
   return actor == nullptr ? frame : actor->getGlobalPose() * frame;
@@ -259,7 +260,7 @@ void OwnRow::remember_turns() {
   const PxTransform a = frame_a(), b = frame_b();
   block_.error += turned(was_a_.q, a.q, a.q.getBasisVector0());
   block_.error += block_.what.kind == Kind::rack ? -block_.ratio * (passed(a, b) - passed(was_a_, was_b_))
-                                            : block_.ratio * turned(was_b_.q, b.q, b.q.getBasisVector0());
+                                                 : block_.ratio * turned(was_b_.q, b.q, b.q.getBasisVector0());
   was_a_ = a;
   was_b_ = b;
   constraint_->markDirty();

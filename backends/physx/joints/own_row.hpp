@@ -47,8 +47,8 @@ class OwnRow final : public PxConstraintConnector {
     What what;
     float ratio, error;  ///< of gears and racks, and what has come together, rad
     float rest, stiffness, damping;
-    bool by_mass;                  ///< the numbers are of accelerations
-    float speed, most_force;       ///< of a motor
+    bool by_mass;             ///< the numbers are of accelerations
+    float speed, most_force;  ///< of a motor
     /// Whether the joint holds b's origin at a's, and what the bodies then resist with.
     bool pinned;
     struct Inverse {

@@ -48,8 +48,8 @@ void limit_swings(PxD6Joint& native, const PlumbJointDesc& desc) {
                                           number(std::min(desc.limits[5].upper, kMostSwing))));
   } else {
     const Range about_y = range_of(desc, 4, kMostSwing), about_z = range_of(desc, 5, kMostSwing);
-    native.setPyramidSwingLimit(PxJointLimitPyramid(number(about_y.lower), number(about_y.upper),
-                                                    number(about_z.lower), number(about_z.upper)));
+    native.setPyramidSwingLimit(PxJointLimitPyramid(number(about_y.lower), number(about_y.upper), number(about_z.lower),
+                                                    number(about_z.upper)));
   }
   if (y != PLUMB_AXIS_LOCKED) native.setMotion(PxD6Axis::eSWING1, PxD6Motion::eLIMITED);
   if (z != PLUMB_AXIS_LOCKED) native.setMotion(PxD6Axis::eSWING2, PxD6Motion::eLIMITED);
@@ -98,8 +98,8 @@ PxD6Joint* make_six_axes(const PlumbJointDesc& desc, const Ends& ends) {
     if (mode != PLUMB_AXIS_LIMITED) continue;
     if (axis < 3) {
       const Range range = range_of(desc, axis, 1e30);
-      made.setLinearLimit(at, PxJointLinearLimitPair(physics().getTolerancesScale(), number(range.lower),
-                                                     number(range.upper)));
+      made.setLinearLimit(
+          at, PxJointLinearLimitPair(physics().getTolerancesScale(), number(range.lower), number(range.upper)));
     } else if (axis == 3) {
       const Range range = range_of(desc, axis, std::numbers::pi);
       made.setTwistLimit(PxJointAngularLimitPair(number(range.lower), number(range.upper)));

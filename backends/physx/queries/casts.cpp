@@ -84,8 +84,7 @@ Hits World::cast_shapes(PlumbHitMode mode, std::span<const PlumbCast> casts) {
       return;
     }
     SightOf sight(sees);
-    auto hits =
-        each<PxSweepHit>([&](const PxSweepHit& hit) { touch(part_of(*hit.shape), *hit.shape, *hit.actor); });
+    auto hits = each<PxSweepHit>([&](const PxSweepHit& hit) { touch(part_of(*hit.shape), *hit.shape, *hit.actor); });
     (void)scene_->sweep(moved, start, way.getNormalized(), way.magnitude(), hits, PxHitFlag::eMESH_BOTH_SIDES,
                         look_at_all(), &sight, nullptr, static_cast<float>(kSlack));
   });

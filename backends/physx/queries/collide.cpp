@@ -82,12 +82,14 @@ double collide_pieces(const Piece& a, const PxTransform& at_a, const Piece& b, c
   };
   if (is_surface(first)) {
     const Leaf other(second, at_b);
-    for_leaves(first, at_a, other.is_plane() ? PxBounds3::centerExtents(PxVec3(0), PxVec3(1e6f)) : bounds_of(second, at_b, within),
+    for_leaves(first, at_a,
+               other.is_plane() ? PxBounds3::centerExtents(PxVec3(0), PxVec3(1e6f)) : bounds_of(second, at_b, within),
                PxVec3(0), [&](const Leaf& leaf, PxU32) { near(between(leaf, other), false); });
     return distance;
   }
   const Leaf other(first, at_a);
-  for_leaves(second, at_b, other.is_plane() ? PxBounds3::centerExtents(PxVec3(0), PxVec3(1e6f)) : bounds_of(first, at_a, within),
+  for_leaves(second, at_b,
+             other.is_plane() ? PxBounds3::centerExtents(PxVec3(0), PxVec3(1e6f)) : bounds_of(first, at_a, within),
              PxVec3(0), [&](const Leaf& leaf, PxU32) { near(between(other, leaf), !is_surface(second)); });
   return distance;
 }

@@ -16,7 +16,9 @@ struct Placed {
         at(transform(pose, "pose.position") * shape.pieces.front().at),
         leaf(geometry, PxTransform(PxVec3(0), at.q)) {}
 
-  [[nodiscard]] PlumbVec3 place(const PxVec3& from_here) const { return backend::add(to_plumb(at.p), to_plumb(from_here)); }
+  [[nodiscard]] PlumbVec3 place(const PxVec3& from_here) const {
+    return backend::add(to_plumb(at.p), to_plumb(from_here));
+  }
 
   const PxGeometry& geometry;
   PxTransform at;
@@ -61,10 +63,9 @@ void keep_nearest(std::vector<PlumbClosest>& rows, std::size_t first) {
 
 Hits World::overlap_shapes(std::span<const PlumbOverlap> overlaps) {
   return gather(PLUMB_HIT_ALL, overlaps, [&](const PlumbOverlap& overlap, backend::HitCollector& found) {
-    find_within(*scene_, Placed(shape(overlap.shape), overlap.pose), 0, overlap.filter,
-                [&](const Part& part, std::uint32_t child, const Between&) {
-                  found.add_overlap(part.body->handle, child);
-                });
+    find_within(
+        *scene_, Placed(shape(overlap.shape), overlap.pose), 0, overlap.filter,
+        [&](const Part& part, std::uint32_t child, const Between&) { found.add_overlap(part.body->handle, child); });
   });
 }
 
@@ -74,8 +75,7 @@ Penetrations World::penetrations(std::span<const PlumbOverlap> overlaps) {
   for (std::uint32_t i = 0; i < overlaps.size(); ++i) {
     const Placed at(shape(overlaps[i].shape), overlaps[i].pose);
     find_within(*scene_, at, 0, overlaps[i].filter, [&](const Part& part, std::uint32_t child, const Between& apart) {
-      rows.push_back(
-          {part.body->handle, i, child, -apart.distance, at.place(apart.on_a), to_plumb(-apart.normal)});
+      rows.push_back({part.body->handle, i, child, -apart.distance, at.place(apart.on_a), to_plumb(-apart.normal)});
     });
   }
   return {PLUMB_OK, backend::deepest_of_bodies(rows)};
@@ -89,7 +89,8 @@ ClosestBodies World::closest_bodies(PlumbHitMode mode, std::span<const PlumbProb
     const Placed at(shape(probes[i].shape), probes[i].pose);
     const double most = probes[i].most_distance;
     // The nearest alone is looked for further and further away.
-    for (double distance = mode == PLUMB_HIT_ALL ? most : std::min(most, 1.0);; distance = std::min(most, 4 * distance)) {
+    for (double distance = mode == PLUMB_HIT_ALL ? most : std::min(most, 1.0);;
+         distance = std::min(most, 4 * distance)) {
       find_within(*scene_, at, distance, probes[i].filter,
                   [&](const Part& part, std::uint32_t child, const Between& apart) {
                     PlumbClosest row = nobody(i);

@@ -15,10 +15,10 @@ Hits World::cast_rays(PlumbHitMode mode, std::span<const PlumbRay> rays) {
                 to_plumb(hit.position), to_plumb(hit.normal));
     });
     const PxVec3 unit = vector(backend::scale(1 / length, ray.translation), "translation").getNormalized();
-    (void)scene_->raycast(origin, unit, way.magnitude(), hits,
-                          PxHitFlag::ePOSITION | PxHitFlag::eNORMAL | PxHitFlag::eFACE_INDEX |
-                              PxHitFlag::eMESH_BOTH_SIDES,
-                          look_at_all(), &sight);
+    (void)scene_->raycast(
+        origin, unit, way.magnitude(), hits,
+        PxHitFlag::ePOSITION | PxHitFlag::eNORMAL | PxHitFlag::eFACE_INDEX | PxHitFlag::eMESH_BOTH_SIDES, look_at_all(),
+        &sight);
   });
 }
 

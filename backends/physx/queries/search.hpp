@@ -13,8 +13,7 @@ template <class Sees>
 class SightOf final : public PxQueryFilterCallback {
  public:
   explicit SightOf(const Sees& sees) : sees_(sees) {}
-  PxQueryHitType::Enum preFilter(const PxFilterData&, const PxShape* shape, const PxRigidActor*,
-                                 PxHitFlags&) override {
+  PxQueryHitType::Enum preFilter(const PxFilterData&, const PxShape* shape, const PxRigidActor*, PxHitFlags&) override {
     return sees_(*part_of(*shape).body) ? PxQueryHitType::eTOUCH : PxQueryHitType::eNONE;
   }
   PxQueryHitType::Enum postFilter(const PxFilterData&, const PxQueryHit&, const PxShape*,
@@ -62,7 +61,8 @@ template <class Hit, class OnHit>
 template <class Sees, class OnPart>
 void find_near(const PxScene& scene, const PxBounds3& bounds, const Sees& sees, OnPart on_part) {
   SightOf<Sees> sight(sees);
-  auto found = each<PxOverlapHit>([&](const PxOverlapHit& hit) { on_part(part_of(*hit.shape), *hit.shape, *hit.actor); });
+  auto found =
+      each<PxOverlapHit>([&](const PxOverlapHit& hit) { on_part(part_of(*hit.shape), *hit.shape, *hit.actor); });
   (void)scene.overlap(PxBoxGeometry(bounds.getExtents() + PxVec3(1e-3f)), PxTransform(bounds.getCenter()), found,
                       look_at_all(), &sight);
 }
@@ -113,12 +113,11 @@ void for_leaves(const PxGeometry& geometry, const PxTransform& at, const PxBound
   PxU32 faces[128];
   bool more = true;
   for (PxU32 first = 0; more;) {
-    const PxU32 count = mesh ? PxMeshQuery::findOverlapTriangleMesh(
-                                   box, place, static_cast<const PxTriangleMeshGeometry&>(geometry), at, faces,
-                                   std::size(faces), first, more)
-                             : PxMeshQuery::findOverlapHeightField(
-                                   box, place, static_cast<const PxHeightFieldGeometry&>(geometry), at, faces,
-                                   std::size(faces), first, more);
+    const PxU32 count =
+        mesh ? PxMeshQuery::findOverlapTriangleMesh(box, place, static_cast<const PxTriangleMeshGeometry&>(geometry),
+                                                    at, faces, std::size(faces), first, more)
+             : PxMeshQuery::findOverlapHeightField(box, place, static_cast<const PxHeightFieldGeometry&>(geometry), at,
+                                                   faces, std::size(faces), first, more);
     first += count;
     if (count == 0) return;
     for (PxU32 i = 0; i < count; ++i) {
