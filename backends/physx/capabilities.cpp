@@ -1,6 +1,7 @@
 // What PhysX has, and how truly.
 #include <algorithm>
 
+#include "device.hpp"
 #include "plumb/backend/modify.hpp"
 #include "plumb/backend/usual_capability.hpp"
 #include "world.hpp"
@@ -14,8 +15,11 @@ Capability shape_fact(std::uint32_t type, std::uint32_t motion) {
   const Capability usual = backend::usual_capability(PLUMB_CAP_SHAPE, type, motion);
   if (usual.degree == PLUMB_NONE) return usual;
   switch (type) {
-    case PLUMB_CYLINDER: return {PLUMB_NATIVE, "the custom geometry of PhysX's extensions"};
-    case PLUMB_CONVEX_HULL: return {PLUMB_NATIVE, "at most 255 corners: of more PhysX makes a hull about them"};
+    case PLUMB_CYLINDER:
+      return {PLUMB_NATIVE, kOnGpu ? "PhysX's convex core" : "the custom geometry of PhysX's extensions"};
+    case PLUMB_CONVEX_HULL:
+      return {PLUMB_NATIVE, kOnGpu ? "at most 64 corners and faces: of more PhysX makes a hull about them"
+                                   : "at most 255 corners and faces: of more PhysX makes a hull about them"};
     case PLUMB_HEIGHT_FIELD: return {PLUMB_NATIVE, "heights are rounded to 1/65534 of their range"};
     default: return usual;
   }
@@ -142,6 +146,7 @@ Capability fact(PlumbCapability kind, std::uint32_t a, std::uint32_t b) {
     case PLUMB_CAP_EVENT: return {a < PLUMB_EVENT_COUNT ? PLUMB_EMULATED : PLUMB_NONE};
     case PLUMB_CAP_PHASE_TIME: return {PLUMB_NONE, "PhysX tells no times of its own"};
     case PLUMB_CAP_TRIANGLE_MATERIAL:
+      if (kOnGpu) return {PLUMB_NONE, "PhysX's cylinders read beyond the materials of triangles there"};
       if (a == PLUMB_HEIGHT_FIELD) return {PLUMB_NATIVE, "at most 126 of them"};
       return {a == PLUMB_TRIANGLE_MESH ? PLUMB_NATIVE : PLUMB_NONE};
     case PLUMB_CAP_MODIFY: return modify_fact(a, b);

@@ -1,6 +1,7 @@
 // Hulls, meshes and height fields: what PhysX cooks.
 #include <algorithm>
 
+#include "device.hpp"
 #include "plumb/backend/names.hpp"
 #include "shapes.hpp"
 #include "start.hpp"
@@ -16,9 +17,7 @@ constexpr double kMostSample = 32767;
 
 PxCookingParams how_to_cook() {
   PxCookingParams params(physics().getTolerancesScale());
-#ifdef PLUMB_PHYSX_CUDA
-  params.buildGPUData = true;
-#endif
+  params.buildGPUData = kOnGpu;
   return params;
 }
 
@@ -78,6 +77,7 @@ void make_hull(const PlumbShapeDesc& desc, Shape& shape) {
   hull.points.count = desc.vertex_count;
   hull.points.stride = sizeof(PxVec3);
   hull.points.data = vertices.data();
+  if (kOnGpu) hull.vertexLimit = hull.polygonLimit = 64;
   hull.flags = PxConvexFlag::eCOMPUTE_CONVEX | PxConvexFlag::eSHIFT_VERTICES;
   PxConvexMesh* made = cook_hull(hull, kPlaneTolerance);
   if (made == nullptr) made = cook_hull(hull, how_to_cook().planeTolerance);

@@ -1,12 +1,16 @@
 // One row a setting: what the host is told, and which member it moves.
 #include "settings.hpp"
 
+#include "device.hpp"
+
 namespace plumb::px {
 namespace {
 
 constexpr const char* kSolvers[] = {"pgs", "tgs"};
 constexpr const char* kCcds[] = {"swept", "speculative"};
-constexpr const char* kBroadPhases[] = {"pabp", "abp", "sap"};
+constexpr const char* kBroadPhases[] = {"pabp", "abp", "sap", "gpu"};
+constexpr std::span<const char* const> kOfDevice(kBroadPhases, kOnGpu ? 4 : 3);
+constexpr std::size_t kOwnBroadPhase = kOnGpu ? 3 : 0;
 
 float narrow(double number) { return static_cast<float>(number); }
 
@@ -65,19 +69,21 @@ const backend::SettingsTable<Settings>& settings_table() {
                                                              once)),
       setting<&S::sleep, &S::Sleep::time>(
           float_setting("sleep_time", "s", behaviour, 1e-3, 1e4, 0.4, "they fall asleep after this time", once)),
-      setting<&S::contacts, &S::Contacts::pcm>(bool_setting(
-          "persistent_manifolds", behaviour, true, "contact points are kept from step to step and added to", once)),
       setting<&S::contacts, &S::Contacts::average_point>(
           bool_setting("average_point", behaviour, false, "manifolds have their middle as one more point", once)),
       setting<&S::stabilization>(
           bool_setting("stabilization", behaviour, false, "one more pass that slows heaps and loses momentum", once)),
+#ifndef PLUMB_PHYSX_CUDA  // what PhysX does not let be chosen there
+      setting<&S::contacts, &S::Contacts::pcm>(bool_setting(
+          "persistent_manifolds", behaviour, true, "contact points are kept from step to step and added to", once)),
       setting<&S::enhanced_determinism>(
           bool_setting("enhanced_determinism", behaviour, false,
                        "what bodies do does not depend on others that are far away; takes longer", once)),
-      setting<&S::broad_phase>(choice_setting("broad_phase", speed, kBroadPhases,
+#endif
+      setting<&S::broad_phase>(choice_setting("broad_phase", speed, kOfDevice,
                                               "pabp: automatic box pruning by several threads; abp: by one; sap: sweep "
                                               "and prune",
-                                              once)),
+                                              once, kOwnBroadPhase)),
       setting<&S::batch_size>(int_setting("solver_batch_size", "1", speed, 1, 1 << 20, 128,
                                           "bodies of islands that are solved by one thread"))};
   return all;
@@ -85,14 +91,15 @@ const backend::SettingsTable<Settings>& settings_table() {
 
 void put_settings(const Settings& settings, PxSceneDesc& desc) {
   const auto put = [&](PxSceneFlag::Enum flag, bool on) { on ? desc.flags.raise(flag) : desc.flags.clear(flag); };
-  desc.solverType = settings.solver == Settings::Solver::tgs ? PxSolverType::eTGS : PxSolverType::ePGS;
-  desc.broadPhaseType = settings.broad_phase == Settings::BroadPhase::pabp  ? PxBroadPhaseType::ePABP
-                        : settings.broad_phase == Settings::BroadPhase::abp ? PxBroadPhaseType::eABP
-                                                                            : PxBroadPhaseType::eSAP;
-  put(PxSceneFlag::eENABLE_PCM, settings.contacts.pcm);
+  const bool tgs = settings.solver == Settings::Solver::tgs;
+  desc.solverType = tgs ? PxSolverType::eTGS : PxSolverType::ePGS;
+  constexpr PxBroadPhaseType::Enum broad_phases[] = {PxBroadPhaseType::ePABP, PxBroadPhaseType::eABP,
+                                                     PxBroadPhaseType::eSAP, PxBroadPhaseType::eGPU};
+  desc.broadPhaseType = broad_phases[static_cast<std::size_t>(settings.broad_phase)];
+  put(PxSceneFlag::eENABLE_PCM, settings.contacts.pcm || kOnGpu);
   put(PxSceneFlag::eENABLE_AVERAGE_POINT, settings.contacts.average_point);
   put(PxSceneFlag::eENABLE_FRICTION_EVERY_ITERATION, settings.friction.every_iteration);
-  put(PxSceneFlag::eENABLE_EXTERNAL_FORCES_EVERY_ITERATION_TGS, settings.forces_every_iteration);
+  put(PxSceneFlag::eENABLE_EXTERNAL_FORCES_EVERY_ITERATION_TGS, settings.forces_every_iteration && tgs);
   put(PxSceneFlag::eENABLE_STABILIZATION, settings.stabilization);
   put(PxSceneFlag::eENABLE_ENHANCED_DETERMINISM, settings.enhanced_determinism);
   desc.wakeCounterResetValue = narrow(settings.sleep.time);

@@ -9,7 +9,7 @@ namespace plumb::px {
 struct Settings {
   enum class Solver { pgs, tgs };
   enum class Ccd { swept, speculative };
-  enum class BroadPhase { pabp, abp, sap };
+  enum class BroadPhase { pabp, abp, sap, gpu };
 
   int position_iterations, velocity_iterations, batch_size;
   Solver solver;
@@ -17,7 +17,7 @@ struct Settings {
   double bounce_threshold, max_angular_speed, max_depenetration_speed, max_bias_coefficient;
   struct Contacts {
     double offset, rest_offset;
-    bool pcm, average_point;
+    bool pcm, average_point;  ///< the GPU always has the first
   } contacts;
   struct Friction {
     double offset_threshold, correlation_distance;

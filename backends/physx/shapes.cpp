@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "device.hpp"
 #include "plumb/backend/names.hpp"
 
 namespace plumb::px {
@@ -27,6 +28,10 @@ void make_capsule(const PlumbShapeDesc& desc, Shape& shape) {
 /// table where triangles have materials: on the CPU its custom geometry is taken, which a GPU does not know.
 void make_cylinder(const PlumbShapeDesc& desc, Shape& shape) {
   const float radius = scalar(desc.radius, "radius"), height = scalar(2 * desc.half_height, "half_height");
+  if constexpr (kOnGpu) {
+    put(shape, PxConvexCoreGeometry(PxConvexCore::Cylinder(height, radius)), PxTransform(along_y()));
+    return;
+  }
   constexpr int about_y = 1;
   shape.cylinder = std::make_unique<PxCustomGeometryExt::CylinderCallbacks>(height, radius, about_y);
   put(shape, PxCustomGeometry(*shape.cylinder));

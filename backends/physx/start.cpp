@@ -31,7 +31,11 @@ PxPhysics& physics() {
   return started;
 }
 
-std::string complaint() { return std::exchange(last_complaint, {}); }
+std::string complaint() {
+  std::string said = std::exchange(last_complaint, {});
+  while (!said.empty() && said.back() == '\n') said.pop_back();
+  return said;
+}
 
 std::string because() {
   const std::string why = complaint();

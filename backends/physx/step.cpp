@@ -1,6 +1,7 @@
 // The step, what it reports, and the settings that it is done with.
 #include <algorithm>
 
+#include "device.hpp"
 #include "start.hpp"
 #include "world.hpp"
 
@@ -53,6 +54,7 @@ World::World(const WorldInit& init)
   if (needs(PLUMB_NEED_CCD)) desc.flags |= PxSceneFlag::eENABLE_CCD;
   put_filter(rules_, desc);
   put_settings(common_.settings, desc);
+  put_device(init.desc.body_capacity, init.desc.contact_capacity, desc);
   scene_.reset(with.createScene(desc));
   if (scene_ == nullptr) throw Error(PLUMB_E_INTERNAL, "PhysX makes no scene" + because());
   apply_settings(common_.settings, *scene_);

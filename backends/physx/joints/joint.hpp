@@ -35,7 +35,7 @@ struct Joint {
 /// A number of a joint.
 [[nodiscard]] inline float number(double of_joint) { return scalar(of_joint, "a number of a joint"); }
 
-/// Throws Error for what PhysX has not.
+/// Throws Error for numbers that PhysX cannot hold.
 void check_joint(const PlumbJointDesc& desc);
 /// Makes what holds, from the descriptor: of a joint whose bodies all stand nothing.
 void make_native(Joint& joint, const Ends& ends);
@@ -49,7 +49,7 @@ struct Reaction {
 };
 [[nodiscard]] Reaction reaction(const Joint& joint);
 
-/// A joint's frames, from which PhysX sees it: the second body's in the first's.
+/// Whether PhysX's first body is our second.
 [[nodiscard]] bool is_swapped(const PlumbJointDesc& desc);
 
 /// six_axes.cpp

@@ -100,8 +100,6 @@ void put(Joint::Native& to, PxJoint* made) {
 }  // namespace
 
 void check_joint(const PlumbJointDesc& desc) {
-  if (desc.type == PLUMB_JOINT_DISTANCE && desc.motors[0].enabled != 0)
-    throw Error(PLUMB_E_UNSUPPORTED, "PhysX's distance joints have no motors; take a slider");
   (void)transform(desc.frame_a, "frame_a");
   (void)transform(desc.frame_b, "frame_b");
   (void)number(desc.ratio);

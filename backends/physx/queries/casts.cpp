@@ -79,7 +79,7 @@ Hits World::cast_shapes(PlumbHitMode mode, std::span<const PlumbCast> casts) {
                   backend::add(to_plumb(start.p), to_plumb(on_way.gap.on_b)), to_plumb(-on_way.gap.normal));
       });
     };
-    if (piece.is(PxGeometryType::eCUSTOM)) {  // PhysX does not sweep it
+    if (piece.is(PxGeometryType::eCUSTOM) || piece.is(PxGeometryType::eCONVEXCORE)) {  // PhysX sweeps none, or not well
       find_near(*scene_, swept(moved, start, way), sees, touch);
       return;
     }
