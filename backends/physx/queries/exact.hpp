@@ -29,12 +29,16 @@ class Leaf {
   /// Of a plane: its normal is x of its frame.
   [[nodiscard]] const PxTransform& at() const { return at_; }
   [[nodiscard]] const PxGjkQuery::Support& support() const;
+  [[nodiscard]] const PxGeometry* geometry() const { return geometry_; }  ///< null: a triangle
+  /// Of a triangle: across it.
+  [[nodiscard]] PxVec3 across() const;
   /// The point that is furthest in a direction, a unit.
   [[nodiscard]] PxVec3 furthest(const PxVec3& direction) const;
   void move(const PxVec3& by) { at_.p += by; }
 
  private:
   PxTransform at_;
+  const PxGeometry* geometry_ = nullptr;
   PxGjkQueryExt::ConvexGeomSupport convex_;
   const PxGjkQuery::Support* cylinder_ = nullptr;  ///< or null
   TriangleSupport triangle_;
