@@ -80,8 +80,7 @@ Capability query_fact(std::uint32_t kind, std::uint32_t type) {
   switch (kind) {
     case PLUMB_QUERY_RAY: return {PLUMB_NATIVE, "a body in which a ray starts is hit at fraction 0"};
     case PLUMB_QUERY_PENETRATION:
-      if (type >= PLUMB_SHAPE_TYPE_COUNT || !backend::is_convex(type)) return {};
-      return {PLUMB_NATIVE};
+      return {type < PLUMB_SHAPE_TYPE_COUNT && backend::is_convex(type) ? PLUMB_NATIVE : PLUMB_NONE};
     default: return backend::usual_capability(PLUMB_CAP_QUERY, kind, type);
   }
 }

@@ -43,6 +43,8 @@ void put_device(std::uint32_t bodies, std::uint32_t contacts, PxSceneDesc& desc)
   room.maxRigidContactCount = std::max({room.maxRigidContactCount, 64 * many, contacts});
   room.maxRigidPatchCount = std::max(room.maxRigidPatchCount, 16 * many);
   room.foundLostPairsCapacity = std::max(room.foundLostPairsCapacity, 32 * many);
+  room.collisionStackSize = std::max(room.collisionStackSize, 4096 * std::min(many, 1u << 19));
+  room.tempBufferCapacity = std::max<PxU64>(room.tempBufferCapacity, PxU64{2048} * many);
   desc.cudaContextManager = device().manager;
   desc.flags |= PxSceneFlag::eENABLE_GPU_DYNAMICS;
 }

@@ -1,15 +1,18 @@
 #include "start.hpp"
 
+#include <atomic>
 #include <utility>
 
 namespace plumb::px {
 namespace {
 
 thread_local std::string last_complaint;
+std::atomic<std::uint32_t> lost{0};
 
 struct Complaints final : PxErrorCallback {
   void reportError(PxErrorCode::Enum code, const char* message, const char*, int) override {
     if (code != PxErrorCode::eDEBUG_INFO) last_complaint = message;
+    if (code == PxErrorCode::eINTERNAL_ERROR || code == PxErrorCode::eOUT_OF_MEMORY) ++lost;
   }
 };
 
@@ -36,6 +39,8 @@ std::string complaint() {
   while (!said.empty() && said.back() == '\n') said.pop_back();
   return said;
 }
+
+std::uint32_t losses() { return lost; }
 
 std::string because() {
   const std::string why = complaint();

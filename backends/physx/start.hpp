@@ -13,6 +13,9 @@ namespace plumb::px {
 /// What PhysX has last complained of on this thread, and forgets it; "" for nothing.
 [[nodiscard]] std::string complaint();
 
+/// How often PhysX has said, on any thread, that it had no room for something.
+[[nodiscard]] std::uint32_t losses();
+
 /// ": " and the complaint, or "": the end of a sentence.
 [[nodiscard]] std::string because();
 

@@ -78,8 +78,11 @@ PlumbResult World::step(double dt) {
   pull_scaled();
   remember_turns();
   listener_.forget_all();
-  if (!scene_->simulate(length) || !scene_->fetchResults(true))
-    throw Error(PLUMB_E_WORLD_LOST, "PhysX could not step" + because());
+  const std::uint32_t before = losses();
+  PxU32 failed = 0;
+  if (!scene_->simulate(length) || !scene_->fetchResults(true, &failed) || failed != 0)
+    throw Error(kOnGpu ? PLUMB_E_DEVICE_LOST : PLUMB_E_WORLD_LOST, "PhysX could not step" + because());
+  dropped_ = losses() - before;
   listener_.finish_step();
   settle_kinematics();
   gather_events();
@@ -128,7 +131,7 @@ void World::sort_scaled(Body& body) {
 
 PlumbResult World::wait(PlumbStepReport& report) {
   report.threads = threads_;
-  report.dropped = 0;
+  report.dropped = dropped_;
   report.contacts = needs(PLUMB_NEED_CONTACTS) ? static_cast<std::uint32_t>(contacts().size()) : 0;
   for (const auto& body : bodies_) {
     if (!body || !body->is(PLUMB_DYNAMIC)) continue;

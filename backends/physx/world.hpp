@@ -135,6 +135,7 @@ class World final : public IPhysicsWorld,
 
   Common common_;
   std::uint32_t threads_;
+  std::uint32_t dropped_ = 0;  ///< kinds of things that PhysX had no room for in the last step
   PairRules rules_;
   Listener listener_;
   SurfaceVelocities surfaces_;
