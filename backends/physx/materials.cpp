@@ -1,5 +1,7 @@
 #include "materials.hpp"
 
+#include <algorithm>
+
 #include "start.hpp"
 
 namespace plumb::px {
@@ -8,8 +10,18 @@ Materials::~Materials() {
   for (const auto& [coefficients, material] : made_) material->release();
 }
 
+void Materials::forget_unused() {
+  std::erase_if(made_, [](const auto& entry) {
+    if (entry.second->getReferenceCount() > 1) return false;
+    entry.second->release();
+    return true;
+  });
+  most_ = std::max<std::size_t>(1024, 2 * made_.size());
+}
+
 PxMaterial& Materials::of(const PlumbMaterial& material) {
   const float root = std::sqrt(scalar(material.friction, "friction"));
+  if (made_.size() >= most_) forget_unused();
   PxMaterial*& made = made_[{root, static_cast<float>(material.restitution)}];
   if (made != nullptr) return *made;
   made = physics().createMaterial(root, root, static_cast<float>(material.restitution));

@@ -16,12 +16,15 @@ class Materials {
   Materials& operator=(const Materials&) = delete;
   ~Materials();
 
-  /// It lives as long as this does.
+  /// It lives as long as a shape has it.
   [[nodiscard]] PxMaterial& of(const PlumbMaterial& material);
 
  private:
+  void forget_unused();
+
   bool strong_friction_;
   std::map<std::pair<float, float>, PxMaterial*> made_;
+  std::size_t most_ = 1024;  ///< of so many those that no shape has any more are forgotten: PhysX numbers 65,535
 };
 
 }  // namespace plumb::px

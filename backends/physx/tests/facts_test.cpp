@@ -139,6 +139,14 @@ TEST(PhysX, MaterialsCombineAsTheInterfaceAsks) {
   EXPECT_NEAR(read_row<6>(*world, PLUMB_FIELD_VELOCITY, ball)[1], 0.6 * 8, 0.01);
 }
 
+/// PhysX has room for 65,535 materials in a process: those that nobody has any more are given back.
+TEST(PhysX, MaterialsComeAndGo) {
+  const auto world = make_world(kNeeds);
+  const PlumbBody body = add_body(*world, frictionless(PLUMB_DYNAMIC, add_sphere(*world, 0.5), {0, 0, 0}));
+  for (int i = 0; i < 70000; ++i) write_row<2>(*world, PLUMB_FIELD_MATERIAL, body, {1e-5 * i, 0});
+  EXPECT_NEAR(read_row<2>(*world, PLUMB_FIELD_MATERIAL, body)[0], 0.69999, 1e-6);
+}
+
 /// A dynamic body with another scale of gravity falls by its share, and one without any stays.
 TEST(PhysX, GravityHasShares) {
   const auto world = make_world(kNeeds);
