@@ -15,12 +15,10 @@ PxFilterFlags filter(PxFilterObjectAttributes, PxFilterData a, PxFilterObjectAtt
 
 }  // namespace
 
-void put_filter(const PairRules& rules, PxSceneDesc& desc) {
-  static thread_local const PairRules* passed;
-  passed = &rules;
+void PairRules::put_filter(PxSceneDesc& desc) const {
   desc.filterShader = filter;
-  desc.filterShaderData = &passed;  // is copied
-  desc.filterShaderDataSize = sizeof passed;
+  desc.filterShaderData = &itself_;
+  desc.filterShaderDataSize = sizeof itself_;
 }
 
 void PairRules::set_filter(std::uint32_t slot, const PlumbFilter& filter) {

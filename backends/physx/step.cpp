@@ -52,7 +52,7 @@ World::World(const WorldInit& init)
   desc.simulationEventCallback = &listener_;
   if (needs(PLUMB_NEED_SURFACE_VELOCITY)) desc.contactModifyCallback = &surfaces_;
   if (needs(PLUMB_NEED_CCD)) desc.flags |= PxSceneFlag::eENABLE_CCD;
-  put_filter(rules_, desc);
+  rules_.put_filter(desc);
   put_settings(common_.settings, desc);
   put_device(init.desc.body_capacity, init.desc.contact_capacity, desc);
   scene_.reset(with.createScene(desc));
