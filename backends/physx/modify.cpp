@@ -12,7 +12,7 @@ PlumbBodyDesc changed(const PlumbBodyDesc& before, const PlumbBodyChange& change
   const PlumbBodyDesc with = backend::described(change);
   PlumbBodyDesc desc = before;
   desc.motion = with.motion;
-  desc.flags = with.flags & ~PLUMB_BODY_ASLEEP;
+  desc.flags = with.flags & ~std::uint32_t{PLUMB_BODY_ASLEEP};
   desc.locks = with.locks;
   desc.shape = with.shape;
   desc.mass = with.mass;
