@@ -12,7 +12,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int most_contacts = 2000;
 constexpr int by_columns = -1, by_rows = -2;  // FCLIB's nz; else the number of triplets
 
 std::size_t as_size(int value) { return static_cast<std::size_t>(value); }

@@ -17,6 +17,9 @@
 
 namespace plumb::reference {
 
+/// More would take W more memory than a machine has, and the solver hours.
+constexpr int most_contacts = 2000;
+
 struct FclibProblem {
   /// Always of three rows a contact: plane problems (spacedim 2) get a second tangent that nothing pushes. Equations
   /// are solved for l, which leaves W - V R^-1 V' and q - V R^-1 s.
