@@ -37,7 +37,7 @@ TEST(Problem, says_what_is_asked_wrongly) {
   const std::string out = (folder / "x.hdf5").string();
   expect({"problem", "A7", "--out", out}, "scene A7 is not worked out: it has joints");
   expect({"problem", "stacking", "--out", out}, "names several scenes");
-  expect({"problem", "G2", "--out", out}, "scene G2 has 44000 contacts; at most 2000 are solved");
+  expect({"problem", "G2", "--out", out}, "scene G2 has 40000 contacts; at most 2000 are solved");
   expect({"problem", "D7", "--step", "3", "--out", out}, "--step 3 needs a --backend");
   expect({"problem", "D7", "--param", "mu", "--out", out}, "not name=value");
   expect({"problem", "D7", "--out", "/nowhere/x.hdf5"}, "cannot write /nowhere/x.hdf5: No such file");

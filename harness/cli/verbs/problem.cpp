@@ -101,9 +101,10 @@ int write_problem(const ProblemOptions& options) {
     throw UsageError("the contact problem of scene " + scene.id + " is not worked out: " + contacts.obstacle());
   const std::vector<referee::BodyState> states = states_after(scene, contacts.masses(), options);
   if (const std::size_t count = contacts.find(states).size(); count > reference::most_contacts)
-    throw UsageError(fmt::format("the contact problem of scene {} has {} contacts; at most {} are solved: make the scene "
-                                 "smaller by --param (plumb scenes {} names its parameters)",
-                                 scene.id, count, reference::most_contacts, scene.id));
+    throw UsageError(
+        fmt::format("the contact problem of scene {} has {} contacts; at most {} are solved: make the scene "
+                    "smaller by --param (plumb scenes {} names its parameters)",
+                    scene.id, count, reference::most_contacts, scene.id));
   const reference::StepProblem step = contacts.problem(states);
   const reference::Solution solution = reference::solve(step.problem());
   reference::FclibProblem file;
