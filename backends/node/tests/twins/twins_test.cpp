@@ -150,7 +150,7 @@ TEST_P(Twins, TellTheSame) {
 INSTANTIATE_TEST_SUITE_P(Node, Twins,
                          testing::Values(falling_ball(), sliding_box(), stack(), tumbling_box(), pendulum(),
                                          chain_of_three()),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& twin) { return twin.param.name; });
 
 }  // namespace
 }  // namespace scenes
