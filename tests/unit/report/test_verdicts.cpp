@@ -279,7 +279,8 @@ TEST_P(Verdicts, OneFigureHasOneSource) {
     for (const auto* list : {&summary.best, &summary.breaks}) {
       for (const Statement& statement : *list) card += statement.text + "\n";
     }
-    EXPECT_NE(card.find(fmt::format("On {} of {} Pareto fronts", count.on, count.ran)), std::string::npos) << card;
+    if (count.ran > 0)
+      EXPECT_NE(card.find(fmt::format("On {} of {} Pareto fronts", count.on, count.ran)), std::string::npos) << card;
     EXPECT_NE(page.find(fmt::format(R"("{}","{}","{}","{}","{}")", count.ran, count.on, count.alone, count.cheapest,
                                     count.most_exact)),
               std::string::npos);
@@ -340,23 +341,16 @@ TEST(Readme, SaysOfTheCommittedRowsWhatTheySay) {
   const std::string readme = text_of(results.parent_path().parent_path() / "README.md");
   const std::vector<Row>& rows = committed("xeon-16-cores");
   const Told told(rows);
-  std::string cells;
-  for (const char* backend : {"impulse", "impulse-f64", "bullet", "ode"}) {
-    const auto overview = std::find_if(told.overviews.begin(), told.overviews.end(),
-                                       [&](const BackendOverview& o) { return o.backend == backend; });
-    ASSERT_NE(overview, told.overviews.end());
-    if (cells.empty())
-      cells = fmt::format("| scene variants: gold, pass, failed (errors, unsupported) of {} |", overview->problems);
-    EXPECT_EQ(overview->problems, told.overviews.front().problems);
-    cells += fmt::format(" {}, {}, {}", overview->count(Verdict::gold), overview->count(Verdict::pass),
-                         overview->failures.size());
-    if (!overview->broken.empty() || !overview->unsupported.empty())
-      cells += fmt::format(" ({}, {})", overview->broken.size(), overview->unsupported.size());
-    cells += " |";
+  for (const BackendOverview& overview : told.overviews) {
+    const std::string cells =
+        fmt::format("| {} | {} | {} | {} | {} |", overview.count(Verdict::gold), overview.count(Verdict::pass),
+                    overview.failures.size(), overview.broken.size(), overview.unsupported.size());
+    EXPECT_TRUE(std::regex_search(readme, std::regex("\n\\| " + overview.backend + " [0-9.]+ " +
+                                                     std::regex_replace(cells, std::regex("\\|"), "\\|"))))
+        << overview.backend << ' ' << cells;
   }
-  EXPECT_NE(readme.find(cells), std::string::npos) << cells;
-  EXPECT_NE(readme.find("(4,460 cells"), std::string::npos);
-  EXPECT_EQ(rows.size(), 4460u);
+  EXPECT_NE(readme.find("(6,036 cells"), std::string::npos);
+  EXPECT_EQ(rows.size(), 6036u);
   EXPECT_NE(readme.find("harness/results/xeon-16-cores/failures.md"), std::string::npos);
 }
 
