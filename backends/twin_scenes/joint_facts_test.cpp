@@ -1,4 +1,4 @@
-// What is known of joints behind Jolt: which constraint stands for which, and how truly.
+// What adapters make of joints whose engine has no such limit, spring, motor or reaction: the same of each of them.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -41,7 +41,7 @@ struct Lever {
 };
 
 /// What pulls at a joint is its weight, whichever constraint stands for it, and nothing else where axes are free.
-TEST(JoltJoints, ReactionsCarryAWeight) {
+TEST(AdaptedJoints, ReactionsCarryAWeight) {
   constexpr double kWeight = 125 * 10;
   for (const PlumbJointType type : {PLUMB_JOINT_BALL, PLUMB_JOINT_HINGE, PLUMB_JOINT_SLIDER, PLUMB_JOINT_FIXED,
                                     PLUMB_JOINT_UNIVERSAL, PLUMB_JOINT_GENERIC, PLUMB_JOINT_SWING_TWIST}) {
@@ -60,7 +60,7 @@ TEST(JoltJoints, ReactionsCarryAWeight) {
 }
 
 /// Torques of what a joint locks, seen from b: a lever that is held out level, about each of the joint's axes.
-TEST(JoltJoints, ReactionsHoldALever) {
+TEST(AdaptedJoints, ReactionsHoldALever) {
   constexpr double kMoment = 125 * 10 * 0.5;
   for (const PlumbJointType type :
        {PLUMB_JOINT_HINGE, PLUMB_JOINT_SLIDER, PLUMB_JOINT_FIXED, PLUMB_JOINT_GENERIC, PLUMB_JOINT_UNIVERSAL}) {
@@ -75,8 +75,8 @@ TEST(JoltJoints, ReactionsHoldALever) {
   }
 }
 
-/// A hinge's limits need not hold 0, which Jolt's do.
-TEST(JoltJoints, LimitsMayLieBesideZero) {
+/// A hinge's limits need not hold 0, as engines may ask.
+TEST(AdaptedJoints, LimitsMayLieBesideZero) {
   for (const double push : {10.0, -10.0}) {
     Lever lever(PLUMB_JOINT_HINGE);
     lever.desc.limits[3] = {0.5, 1.0, 1, 0};
@@ -89,8 +89,8 @@ TEST(JoltJoints, LimitsMayLieBesideZero) {
   }
 }
 
-/// A spring pulls towards where it rests though a limit is before it: Jolt would rest it at the limit.
-TEST(JoltJoints, SpringsMayRestBeyondLimits) {
+/// A spring pulls towards where it rests though a limit is before it, where engines may rest it at the limit.
+TEST(AdaptedJoints, SpringsMayRestBeyondLimits) {
   Lever lever(PLUMB_JOINT_HINGE);
   lever.desc.limits[3] = {-0.5, 0.5, 1, 0};
   lever.desc.springs[3] = {2, 200, 100, 1, PLUMB_SPRING_STIFFNESS};
@@ -102,8 +102,9 @@ TEST(JoltJoints, SpringsMayRestBeyondLimits) {
   EXPECT_NEAR(joint_row(*lever.world, PLUMB_JOINT_COORDINATES, joint)[3], 0.2, 5e-3);
 }
 
-/// A motor and a spring on one axis, which Jolt's hinge has not: the motor pushes the spring as far as its force goes.
-TEST(JoltJoints, MotorsStandBesideSprings) {
+/// A motor and a spring on one axis, which an engine's hinge may not have: the motor pushes the spring as far as its
+/// force goes.
+TEST(AdaptedJoints, MotorsStandBesideSprings) {
   for (const PlumbJointType type : {PLUMB_JOINT_HINGE, PLUMB_JOINT_SLIDER}) {
     Lever lever(type);
     const std::size_t axis = type == PLUMB_JOINT_HINGE ? 3 : 0;
@@ -116,7 +117,7 @@ TEST(JoltJoints, MotorsStandBesideSprings) {
 }
 
 /// A rope of a given length that is a spring, too, stretches no further.
-TEST(JoltJoints, DistancesHaveLimitsBesideASpring) {
+TEST(AdaptedJoints, DistancesHaveLimitsBesideASpring) {
   Lever lever(PLUMB_JOINT_DISTANCE, {10, 0, 0});
   lever.desc.rest_length = 0;
   lever.desc.springs[0] = {0, 100, 300, 1, PLUMB_SPRING_STIFFNESS};
@@ -128,7 +129,7 @@ TEST(JoltJoints, DistancesHaveLimitsBesideASpring) {
 }
 
 /// A motor that is switched on later: a ball has none before it needs one.
-TEST(JoltJoints, BallsGetMotorsLater) {
+TEST(AdaptedJoints, BallsGetMotorsLater) {
   Lever lever(PLUMB_JOINT_BALL);
   lever.desc.frame_a.position = {0.5, 0, 0};
   lever.desc.frame_b.position = {};
@@ -143,7 +144,7 @@ TEST(JoltJoints, BallsGetMotorsLater) {
   EXPECT_NEAR(read_row<6>(*lever.world, PLUMB_FIELD_VELOCITY, lever.b)[3], 1.5, 0.01);
 }
 
-TEST(JoltJoints, DistancesHaveNoMotors) {
+TEST(AdaptedJoints, DistancesHaveNoMotors) {
   Lever lever(PLUMB_JOINT_DISTANCE);
   lever.desc.motors[0] = {1, 1, 1, 0};
   PlumbJoint joint = 0;
