@@ -12,7 +12,7 @@ import { kArguments, kBrowser } from '../../harness/viewer/chromium.mjs';
 import { script, tower } from './synthetic.mjs';
 import { kPatience, visitor } from './visitor.mjs';
 
-const kMostElements = 30000; // of a page of five thousand rows, wherever one reads
+const kMostElements = 30000; // of a page of seventeen engines and six thousand rows, wherever one reads
 
 const { PLUMB_VIEWER_FOLDER: folder, PLUMB_SOURCE: root, PLUMB_PROGRAM: program } = process.env;
 if (!existsSync(kBrowser)) {
@@ -21,11 +21,11 @@ if (!existsSync(kBrowser)) {
 }
 const { chromium } = createRequire(join(folder, 'package.json'))('playwright-core');
 
-let browser, visit, scratch, one, both;
+let browser, visit, scratch, field, one, both;
 
 before(async () => {
   scratch = mkdtempSync(join(tmpdir(), 'plumb-report-'));
-  const results = ['xeon-16-cores', 'h200'].map((machine) => join(root, 'harness/results', machine));
+  const [many, timed] = ['xeon-16-cores', 'h200'].map((machine) => join(root, 'harness/results', machine));
   const pageOf = (folders, name) => {
     const file = join(scratch, name);
     execFileSync(program, ['report', ...folders, '--html', file], { env: { ...process.env, PLUMB_SCENES: join(root, 'scenes') } });
@@ -38,8 +38,9 @@ before(async () => {
     writeFileSync(file, rows.replaceAll('"cpu":"', '"cpu":"Another '));
     return file;
   };
-  one = pageOf(results.slice(0, 1), 'one.html');
-  both = pageOf([results[0], elsewhere(results[1])], 'both.html');
+  field = pageOf([many], 'field.html'); // many engines and rows
+  one = pageOf([timed], 'one.html'); // all kinds of sections
+  both = pageOf([many, elsewhere(timed)], 'both.html');
   browser = await chromium.launch({ executablePath: kBrowser, args: kArguments, timeout: kPatience });
   visit = await visitor(browser, (page) => page.waitForFunction(() => 'ready' in document.documentElement.dataset));
 });
@@ -144,16 +145,16 @@ test('one live replay stands on the first screen, and grows on request', () => {
   });
 });
 
-test('five thousand rows, every group open: few elements wherever one reads, nothing is cut, no two series look alike', async () => {
+test('six thousand rows, every group open: few elements wherever one reads, nothing is cut, no two series look alike', async () => {
   const seen = { figures: 0, series: 0 };
-  await visit(one, (page) =>
+  await visit(field, (page) =>
     read(page, async () => {
       await checkFit(page, 1400);
       await checkLooks(page, seen);
     }),
   );
   assert.ok(seen.figures > 100 && seen.series >= 12, JSON.stringify(seen));
-  await visit(one, (page) => read(page, () => checkFit(page, 420), 5000), { width: 420 });
+  await visit(field, (page) => read(page, () => checkFit(page, 420), 5000), { width: 420 });
 });
 
 test('an engine has the same hue whatever is beside it', async () => {
@@ -167,7 +168,7 @@ test('an engine has the same hue whatever is beside it', async () => {
     return hues;
   };
   const [few, many] = [await huesOf(one), await huesOf(both)];
-  assert.ok(Object.keys(many).length > Object.keys(few).length);
+  assert.ok(Object.keys(many).length > 4 * Object.keys(few).length);
   for (const [engine, hue] of Object.entries(few)) assert.equal(many[engine], hue, engine);
   assert.equal(new Set(Object.values(many)).size, Object.keys(many).length, 'and none has another one\'s');
 });
@@ -188,10 +189,10 @@ test('every tick of a diagram says its value', () =>
     }
   }));
 
-test('text can be read, in light and dark', () =>
-  visit(one, async (page) => {
-    for (const id of ['answers', 'engines', 'cost', 'seeds', 'times', 'needs', 'runs']) {
-      if (id !== 'answers' && id !== 'engines') await goTo(page, id);
+const checkRead = (url, sections) =>
+  visit(url, async (page) => {
+    for (const id of sections) {
+      if (await page.locator(`#${id} script.packed`).count()) await goTo(page, id);
       await settle(page);
       for (const colorScheme of ['light', 'dark']) {
         await page.emulateMedia({ colorScheme });
@@ -223,6 +224,24 @@ test('text can be read, in light and dark', () =>
         assert.deepEqual(faint, [], `${id}, ${colorScheme}`);
       }
     }
+  });
+
+test('text can be read, in light and dark', async () => {
+  await checkRead(one, ['answers', 'engines', 'cost', 'seeds', 'times', 'needs', 'runs']);
+  await checkRead(field, ['answers', 'engines', 'matrix', 'runs']);
+});
+
+test('a long list is drawn when it is opened', () =>
+  visit(field, async (page) => {
+    const list = page.locator('#engines details.how', { has: page.locator(':scope > template') }).first();
+    await list.evaluate((e) => e.querySelector('summary').click());
+    await page.waitForFunction(() => document.querySelector('#engines details.how[open] > ul'));
+    const { said, items } = await page.evaluate(() => {
+      const open = document.querySelector('#engines details.how[open]');
+      return { said: Number(open.querySelector('summary').textContent.match(/\d+/)[0]), items: open.querySelectorAll(':scope > ul > li').length };
+    });
+    assert.ok(said > 12);
+    assert.equal(items, said);
   }));
 
 test('every section folds, by keyboard', () =>
@@ -296,7 +315,7 @@ const restOf = async (page, run) => {
 test('an address leads to exactly its run, however much is drawn on the way, and to the next one', async () => {
   for (const width of [1400, 420])
     await visit(
-      one,
+      field,
       async (page) => {
         // As in browsers that do not keep in place what one looks at.
         await page.evaluate(() => document.documentElement.style.setProperty('overflow-anchor', 'none'));

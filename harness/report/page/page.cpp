@@ -89,9 +89,10 @@ std::string engine_switches(const PageContext& context) {
   for (std::size_t i = 0; i < context.backends.size(); ++i) {
     const EngineLook look = look_of(context.backends[i]);
     out += fmt::format(
-        R"(<label class="switch e{0}"><input type="checkbox" data-backend="{0}" data-hue="{1}" data-shade="{2}" )"
+        R"(<label class="switch e{0}"><input type="checkbox" data-backend="{0}" data-hue="{1}" data-shade="{2}" data-colour="{5}" )"
         R"(value="{3}" checked>{4}</label>)",
-        i, look.hue, look.shade, escape_html(context.backends[i]), backend_label(context, context.backends[i]));
+        i, look.hue, look.shade, escape_html(context.backends[i]), backend_label(context, context.backends[i]),
+        look.colour());
   }
   return out;
 }

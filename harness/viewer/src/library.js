@@ -3,7 +3,7 @@ import { decodeBundle } from './data/bundle.js';
 import { Replay } from './data/replay.js';
 
 const kNamed = 12; // scenes that an error lists
-const kHues = 24; // --hue0 to --hue23 in the page's style: eight hues in three shades
+const kHues = 48; // --hue0 to --hue47 in the page's style: twelve hues in four shades
 
 export class Library {
   constructor(scripts) {

@@ -1,5 +1,6 @@
 #include "report/page/page.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -123,6 +124,41 @@ TEST(Page, WhatHasNoTimeIsNotGivenOne) {
   EXPECT_GT(count(page, "not known"), 0u);
   EXPECT_EQ(count(page, "No scene here was run at several sizes"), 0u) << "it was: without times that count";
   EXPECT_EQ(count(page, "A time in parentheses"), 1u);
+}
+
+TEST(Page, LongListsCostNothingUntilTheyAreOpened) {
+  for (const int failures : {8, 40}) {
+    std::vector<Json> rows;
+    for (int scene = 0; scene < failures; ++scene) {
+      rows.push_back(testing::sample_row(fmt::format("S{}", scene).c_str(), "a", 0.5, 1));
+      rows.push_back(testing::sample_row(fmt::format("S{}", scene).c_str(), "b", 1e-5, 1));
+    }
+    EXPECT_EQ(count(page_of(parse_rows(rows)), "<template><ul>") > 0, failures == 40);
+  }
+}
+
+/// Rows of three engines over `scenes` scenes; of the third one's, the times of all but the first `timed` do not count.
+std::vector<Json> rows_with_times(int scenes, int timed) {
+  std::vector<Json> rows;
+  for (int scene = 0; scene < scenes; ++scene) {
+    for (const char* backend : {"a", "b", "c"}) {
+      rows.push_back(testing::sample_row(fmt::format("S{}", scene).c_str(), backend, 0.001, 1));
+      if (backend[0] == 'c' && scene >= timed) rows.back()["contended"] = {{"load", 3}, {"why", "load 3 on 2 cores"}};
+    }
+  }
+  return rows;
+}
+
+TEST(Page, SpeedIsHeldAgainstErrorWhereTimesCount) {
+  if (!has_page_script()) GTEST_SKIP() << "built without node";
+  EXPECT_EQ(count(all_of(rows_with_times(16, 16)), "over the 16 of 16 scene variants"), 2u) << "page and data";
+  EXPECT_EQ(count(all_of(rows_with_times(16, 2)), "over the 2 of 16 scene variants"), 2u);
+  const std::string without = all_of(rows_with_times(16, 1));
+  EXPECT_EQ(count(without, "over the 16 of 16 scene variants"), 2u);
+  EXPECT_EQ(count(without, "too few runs whose time counts: c."), 2u);
+  std::vector<Json> none = rows_with_times(16, 16);
+  for (Json& row : none) row["contended"] = {{"load", 3}, {"why", "load 3 on 2 cores"}};
+  EXPECT_EQ(count(page_of(parse_rows(none)), "No picture: too few scene variants have a time that counts"), 1u);
 }
 
 TEST(Page, StructuresOfManySizesAreNoScaling) {

@@ -67,5 +67,16 @@ TEST(EngineLook, MembersOfAFamilyShareItsHue) {
   }
 }
 
+TEST(EngineLook, AsWebAssemblyAnEngineKeepsItsHueAndHasAShadeOfItsOwn) {
+  EXPECT_EQ(engine_family("node-alpha"), "alpha");
+  EXPECT_EQ(engine_family("node-alpha-simd"), "alpha");
+  std::set<std::size_t> colours;
+  for (const char* name : {"alpha", "alpha-f64", "alpha-cuda", "node-alpha"}) {
+    EXPECT_EQ(look_of(name).hue, look_of("alpha").hue);
+    colours.insert(look_of(name).colour());
+  }
+  EXPECT_EQ(colours.size(), 4u);
+}
+
 }  // namespace
 }  // namespace plumb::harness

@@ -8,20 +8,26 @@ namespace plumb::harness {
 namespace {
 
 /// Engines that people compare, each with a hue of its own; whatever is not among them takes one by its name.
-constexpr std::array<std::pair<std::string_view, std::size_t>, 12> known_hues{{
+constexpr std::array<std::pair<std::string_view, std::size_t>, 15> known_hues{{
     {"impulse", 0},
     {"bullet", 1},
+    {"ammo", 1},  // Bullet, compiled for browsers
     {"ode", 2},
     {"physx", 3},
     {"jolt", 4},
-    {"mujoco", 7},
-    {"rapier", 5},
-    {"newton", 6},
-    {"chrono", 3},
-    {"dart", 4},
-    {"havok", 6},
     {"box3d", 5},
+    {"havok", 6},
+    {"mujoco", 7},
+    {"dart", 8},
+    {"rapier", 9},
+    {"cannon", 10},
+    {"newton", 11},
+    {"simbody", 11},
+    {"chrono", 10},
 }};
+
+constexpr std::string_view hosted = "node-";  ///< what runs as WebAssembly: "node-jolt" is of jolt's family
+constexpr std::size_t hosted_shade = 3;
 
 /// FNV-1a: the same on every machine, which std::hash need not be.
 std::uint32_t stable_hash(std::string_view text) {
@@ -39,15 +45,19 @@ std::size_t shade_of(std::string_view member) {
 
 }  // namespace
 
-std::string_view engine_family(std::string_view backend) { return backend.substr(0, backend.find('-')); }
+std::string_view engine_family(std::string_view backend) {
+  if (backend.starts_with(hosted)) backend.remove_prefix(hosted.size());
+  return backend.substr(0, backend.find('-'));
+}
 
 EngineLook look_of(std::string_view backend) {
-  const std::string_view family = engine_family(backend);
-  const std::string_view member = family.size() < backend.size() ? backend.substr(family.size() + 1) : "";
-  for (const auto& [name, hue] : known_hues) {
-    if (name == family) return {hue, shade_of(member)};
+  const std::string_view family = engine_family(backend), name = backend.substr(backend.find(family));
+  const std::string_view member = family.size() < name.size() ? name.substr(family.size() + 1) : "";
+  const std::size_t shade = member.empty() && backend.starts_with(hosted) ? hosted_shade : shade_of(member);
+  for (const auto& [known, hue] : known_hues) {
+    if (known == family) return {hue, shade};
   }
-  return {stable_hash(family) % page_hues, shade_of(member)};
+  return {stable_hash(family) % page_hues, shade};
 }
 
 }  // namespace plumb::harness

@@ -1,4 +1,4 @@
-// Sections that are folded, which the address says.
+// What is folded: sections, which the address says, and long lists, which are drawn when one opens them.
 import { changeAddress, readAddress } from './address.js';
 
 const folds = () => [...document.querySelectorAll('section > details.fold')];
@@ -6,6 +6,15 @@ const folds = () => [...document.querySelectorAll('section > details.fold')];
 export function readFolds() {
   const folded = readAddress().folded.split(',');
   for (const fold of folds()) fold.open = !folded.includes(fold.parentElement.id);
+}
+
+/** Long lists stand in templates, which cost nothing to lay out. */
+export function unfoldLists() {
+  const unfold = ({ target }) => {
+    const list = target.open && target.querySelector(':scope > template');
+    if (list) list.replaceWith(list.content);
+  };
+  document.addEventListener('toggle', unfold, true); // it does not bubble
 }
 
 /** From now on the address follows what the reader folds. */

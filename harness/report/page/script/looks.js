@@ -33,7 +33,7 @@ const cross = (arm) => [
   [arm, 1], [-arm, 1], [-arm, arm], [-1, arm], [-1, -arm], [-arm, -arm],
 ];
 
-/** Shapes that one tells apart filled or hollow, at nine pixels; the first three are those of an engine's members. */
+/** Shapes that one tells apart filled or hollow, at nine pixels; the first four are those of an engine's members. */
 export const kShapes = [
   circle,
   regular(4, 1.2, Math.PI / 4),
@@ -66,7 +66,7 @@ export function enginesOfPage() {
     name: box.value,
     hue: Number(box.dataset.hue),
     shade: Number(box.dataset.shade),
-    colour: `var(--hue${Number(box.dataset.hue) + 8 * Number(box.dataset.shade)})`,
+    colour: `var(--hue${box.dataset.colour})`,
   }));
 }
 

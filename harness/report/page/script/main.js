@@ -4,7 +4,7 @@ import { element } from '../../../viewer/src/basics/dom.js';
 import { changeAddress, readAddress } from './address.js';
 import { blockElement } from './blocks.js';
 import { Filter } from './filter.js';
-import { readFolds, watchFolds } from './folds.js';
+import { readFolds, unfoldLists, watchFolds } from './folds.js';
 import { landOn } from './land.js';
 import { enginesOfPage } from './looks.js';
 import { Runs } from './runs.js';
@@ -189,6 +189,7 @@ window.addEventListener('resize', () => {
 document.querySelector('.controls').hidden = false;
 arrive();
 watchFolds();
+unfoldLists();
 Promise.all(machines.map((machine) => machine.opened)).then(() => {
   root.dataset.ready = '';
 });

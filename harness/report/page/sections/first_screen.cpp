@@ -35,14 +35,24 @@ std::string answers_part(const PageContext& context) {
                      items);
 }
 
+/// The picture, or why there is none where there are times that do not count.
+std::string speed_part(const PageContext& context) {
+  std::string content;
+  if (Json figure = speed_figure(context); !figure.is_null()) {
+    content = packed_blocks(Json::array({figures_block(Json::array({std::move(figure)}))}));
+  } else if (const std::string note = untimed_note(context); !note.empty() && context.ordered.backends.size() > 1) {
+    content = about("No picture: too few scene variants have a time that counts of every engine." + note);
+  } else {
+    return "";
+  }
+  return fmt::format(R"(<section id="speed{}" class="part speed"><h2>Speed and error</h2>{}</section>)", context.suffix,
+                     content);
+}
+
 }  // namespace
 
 std::string first_screen(const PageContext& context) {
-  std::string parts = answers_part(context);
-  if (Json figure = speed_figure(context); !figure.is_null()) {
-    parts += fmt::format(R"(<section id="speed{}" class="part speed"><h2>Speed and error</h2>{}</section>)",
-                         context.suffix, packed_blocks(Json::array({figures_block(Json::array({std::move(figure)}))})));
-  }
+  const std::string parts = answers_part(context) + speed_part(context);
   return fmt::format(R"(<div class="first">{}</div>)", parts);
 }
 

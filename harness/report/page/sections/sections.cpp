@@ -8,6 +8,11 @@
 #include "report/page/parts/markup.hpp"
 
 namespace plumb::harness {
+namespace {
+
+constexpr std::size_t most_listed = 12;  ///< statements in a fold; a longer list is drawn when somebody opens it
+
+}  // namespace
 
 std::string lower(std::string text) {
   for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
@@ -42,7 +47,9 @@ std::string statement_text(const Statement& statement) {
   if (statement.more.empty()) return out;
   std::string items;
   for (const Statement& more : statement.more) items += fmt::format("<li>{}</li>", statement_text(more));
-  return fmt::format(R"({} <details class="how"><summary>{}</summary><ul>{}</ul></details>)", out, rest, items);
+  std::string list = fmt::format("<ul>{}</ul>", items);
+  if (statement.more.size() > most_listed) list = fmt::format("<template>{}</template>", list);
+  return fmt::format(R"({} <details class="how"><summary>{}</summary>{}</details>)", out, rest, list);
 }
 
 std::string untimed_note(const PageContext& context) {
