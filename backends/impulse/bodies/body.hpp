@@ -59,6 +59,11 @@ struct BodyMass {
   std::uint32_t flags;  ///< BodyFlag
 };
 
+/// Whether the host moves it.
+PLUMB_HD inline bool is_kinematic(const BodyMass& mass) {
+  return (mass.flags & (kBodyDynamic | kBodyMoves)) == kBodyMoves;
+}
+
 /// How large a moment of a contact may be along its tangents and about its normal, relative to its normal force, m.
 struct RollingFriction {
   Real rolling, spinning;

@@ -7,8 +7,10 @@
 
 namespace plumb::impulse {
 
+/// Of what the host moves: it goes its way through the step with the sub-steps of each level.
+constexpr std::uint32_t kEveryLevel = kSubstepLevels;
 /// Of what a solver leaves out, since it is known how it comes out of the step (solver/settled_islands.hpp).
-constexpr std::uint32_t kSettledLevel = kSubstepLevels;
+constexpr std::uint32_t kSettledLevel = kSubstepLevels + 1;
 
 /// Of a body that can be pushed, from step to step.
 struct BodyPace {
@@ -19,7 +21,7 @@ struct BodyPace {
 
 /// Of a body in this step.
 struct BodyLevel {
-  std::uint32_t level;  ///< among SubstepLevels; or kSettledLevel
+  std::uint32_t level;  ///< among SubstepLevels; or kEveryLevel, or kSettledLevel
   Real ratio;           ///< its sub-step to its last one; 1 in its first step
   BodyPace before;      ///< to be put back when the step is
 };

@@ -98,12 +98,19 @@ PLUMB_HD inline void integrate_position(const Bodies& bodies, const SolverBodies
   solver.free_velocity[i].angular += velocity.angular - before;
 }
 
-/// Puts the displacement into the pose. A body that came out not finite stays where it was, at rest; returns false.
-PLUMB_HD inline bool finish_body(const MovableBodies& bodies, const SolverBodies& solver, std::uint32_t i) {
+/// What the host moves goes its way through the sub-steps anew; nothing else is touched.
+PLUMB_HD inline void begin_way(const Bodies& bodies, const SolverBodies& solver, std::uint32_t i) {
+  if (is_kinematic(bodies.mass[i])) solver.displacement[i] = {{0, 0, 0}, 0, {0, 0, 0, 1}};
+}
+
+/// Puts the displacement into the pose; of what the host moves that of the whole step, however many sub-steps there
+/// were. A body that came out not finite stays where it was, at rest; returns false.
+PLUMB_HD inline bool finish_body(const MovableBodies& bodies, const SolverBodies& solver, Real dt, std::uint32_t i) {
   const std::uint32_t flags = bodies.mass[i].flags;
   if ((flags & kBodyMoves) == 0) return true;
   Displacement& displacement = solver.displacement[i];
   Velocity& velocity = solver.velocity[i];
+  if (is_kinematic(bodies.mass[i])) displacement = {dt * velocity.linear, 0, turn_by(dt * velocity.angular)};
   velocity.angular = to_world(bodies, solver, i, velocity.angular);
   if ((flags & kBodyLocked) != 0) {
     displacement.linear = unlocked(flags, kLockLinear, displacement.linear);

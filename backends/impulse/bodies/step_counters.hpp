@@ -26,12 +26,12 @@ struct ImpactCounters {
 
 /// Of sub-steps, which islands choose (choose_substeps.hpp).
 struct LevelCounters {
-  std::uint32_t wanted_work[kSubstepLevels];  ///< of islands that want a level: contacts
-  std::uint32_t loaded;                       ///< not 0: something may ask for more sub-steps
-  std::uint32_t other_substeps;               ///< not 0: some have others than in their last step, or had none
-  std::uint32_t count;                        ///< up to the last one in use
-  std::uint32_t substeps;                     ///< of that one
-  std::uint32_t body_groups[kSubstepLevels];  ///< with bodies of a level, where there are several
+  std::uint32_t wanted_work[kSubstepLevels];      ///< of islands that want a level: contacts
+  std::uint32_t loaded;                           ///< not 0: something may ask for more sub-steps
+  std::uint32_t other_substeps;                   ///< not 0: some have others than in their last step, or had none
+  std::uint32_t count;                            ///< up to the last one in use
+  std::uint32_t substeps;                         ///< of that one
+  std::uint32_t body_groups[kSubstepLevels + 1];  ///< with bodies of a level, where there are several; or of all
 };
 
 /// Of what a step must not do to islands with joints (solver/energy_bound.hpp).

@@ -233,7 +233,7 @@ struct PutBack {
     const Passage own(bodies, displacements, body);
     Quat orientation = own.at(share);
     Vec back = (share - 1) * own.way;
-    const bool goes_on = (bodies.mass[on].flags & (kBodyDynamic | kBodyMoves)) == kBodyMoves;
+    const bool goes_on = is_kinematic(bodies.mass[on]);
     if (goes_on && (bodies.mass[body].flags & kBodyLocked) == 0) {
       const Meeting meeting(bodies, displacements, body, on);
       const Quat since = bodies.orientation[on] * conjugate(meeting.other.at(share));

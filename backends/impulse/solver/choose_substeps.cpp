@@ -90,7 +90,7 @@ struct ChooseLevels {
     work.loads[i] = {i, i, 0, ordered_bits(rate), 0, 0, {}, 0};
     note_asked(rate * work.parameters->dt);
     if (pushed && before.last_h != work.levels->of[0].h) atomic_raise(&work.counters->levels.other_substeps, 1U);
-    put_level(i, 0, before, 0, 0);
+    put_level(i, is_kinematic(work.bodies.mass[i]) ? kEveryLevel : 0, before, 0, 0);
   }
   PLUMB_HD void note_asked(Real asked) const {
     if (asked > substeps(0) && work.levels->count > 1) atomic_raise(&work.counters->levels.loaded, 1U);
@@ -256,6 +256,7 @@ struct ChooseLevels {
     return level.substeps * (1 + level.relaxations) / 2;
   }
   PLUMB_HD void choose(std::uint32_t i) const {
+    if (!is_pushed(i)) return note_levels(0);
     const IslandLoad& island = work.loads[work.loads[i].root];
     std::uint32_t level = island.wants;
     if (level >= kStarLevel && !has_time_for_stars()) level = 0;
@@ -267,7 +268,7 @@ struct ChooseLevels {
   /// before: its pace; asked: what the loads of its island do; column: as of BodyPace.
   PLUMB_HD void put_level(std::uint32_t i, std::uint32_t level, const BodyPace& before, Real asked,
                           std::uint32_t column) const {
-    const Real dt = work.parameters->dt, h = work.levels->of[level].h;
+    const Real dt = work.parameters->dt, h = work.levels->of[level < kSubstepLevels ? level : 0].h;
     const Real rate = max(asked / dt, max(Real(0), 1 - dt / kLoadFades) * before.load_rate);
     // Who sleeps keeps impulses of his last step.
     work.paces[i] = {rate, is_pushed(i) ? h : before.last_h, column};
@@ -287,8 +288,8 @@ struct ChooseLevels {
   PLUMB_HD void list(std::uint32_t group) const {
     std::uint32_t found = 0;  // bits
     for (std::uint32_t i = group * kLanes; i < min(work.body_count, (group + 1) * kLanes); ++i)
-      found |= 1U << work.body_levels[i].level;
-    for (std::uint32_t level = 0; level < kSubstepLevels; ++level)
+      if ((work.bodies.mass[i].flags & kBodyMoves) != 0) found |= 1U << work.body_levels[i].level;
+    for (std::uint32_t level = 0; level <= kEveryLevel; ++level)
       if ((found >> level & 1U) != 0)
         work.body_groups[level * work.most_groups + atomic_add(&work.counters->levels.body_groups[level], 1U)] = group;
   }

@@ -13,8 +13,9 @@
 // by what it presses, and press the harder for it, until it throws them.
 //
 // Bodies that touch or are joined are of one island and go through its sub-steps together; no contact and no joint is
-// between two islands, so that one may be solved after the other. What was asked lives on in the bodies, and fades
-// within a second: loads that come and go would pump, but the number may change from step to step.
+// between two islands, so that one may be solved after the other; what the host moves goes through the step with each.
+// What was asked lives on in the bodies, and fades within a second: loads that come and go would pump, but the number
+// may change from step to step.
 #pragma once
 
 #include "bodies/body_level.hpp"
@@ -52,7 +53,7 @@ struct LoadWork {
   BodyPace* paces;             ///< by body
   BodyLevel* body_levels;      ///< by body
   IslandLoad* loads;           ///< by body
-  std::uint32_t* body_groups;  ///< of each level room for `most_groups`, of motion_lanes.hpp: those with bodies of it
+  std::uint32_t* body_groups;  ///< of each level, and of kEveryLevel, room for `most_groups`, of motion_lanes.hpp
   std::uint32_t most_groups;
   const std::uint64_t* masks;  ///< by body: Colouring::masks() of the contacts that were there before
   const SettledBody* settled;  ///< by body, in a step that is gone over again; null: none is

@@ -40,7 +40,7 @@ struct StepFreely {
         integrate_positions(bodies, solver, step, gyroscopic, {g, body_count});
     }
     for (std::uint32_t i = first; i < end; ++i)
-      if (!finish_body(bodies, solver, i)) atomic_add(&counters->nonfinite, 1U);
+      if (!finish_body(bodies, solver, step.dt, i)) atomic_add(&counters->nonfinite, 1U);
   }
 };
 

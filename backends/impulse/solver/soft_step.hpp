@@ -28,7 +28,10 @@ struct StepSoftly : SoftContacts<kSurfaceEffects, !Executor::kWarps || kJoints !
  private:
   /// The islands that have sub-steps of one length.
   PLUMB_DEVICE void step_level(Team& team, const StepParameters& step, std::uint32_t& round) const {
-    if (step.level != 0) this->forget_strikes(team);
+    if (step.level != 0) {
+      this->forget_strikes(team);
+      this->begin_ways(team);
+    }
     for (std::uint32_t k = 0; k < step.substeps; ++k) {
       const bool first = k == 0;
       this->accelerate_bodies(team, step, first);

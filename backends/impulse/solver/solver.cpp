@@ -17,7 +17,7 @@ struct BeginBody {
   const SubstepLevels* levels;
   PLUMB_HD void operator()(std::uint32_t i) const {
     const std::uint32_t level = solver.levels(i);
-    begin_body(bodies, solver, *parameters, levels->of[level == kSettledLevel ? 0 : level].h, i);
+    begin_body(bodies, solver, *parameters, levels->of[level < kSubstepLevels ? level : 0].h, i);
   }
 };
 
@@ -34,7 +34,7 @@ void Solver::reserve(Executor& /*executor*/, std::uint32_t bodies, std::uint32_t
   body_levels_.grow(bodies);
   loads_.grow(bodies);
   most_groups_ = body_groups(bodies);
-  body_groups_.grow(std::size_t{kSubstepLevels} * most_groups_);
+  body_groups_.grow(std::size_t{kSubstepLevels + 1} * most_groups_);
   for (Buffer<std::uint32_t>* buffer : {&contacts_.body_a, &contacts_.body_b, &contacts_.count, &contacts_.row})
     buffer->grow(slots_ + 1);
   const std::size_t padded = std::size_t{slots_ / kRowBlock + 1} * kRowBlock;

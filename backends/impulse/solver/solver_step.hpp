@@ -30,6 +30,14 @@ struct SolverStep {
   [[nodiscard]] PLUMB_DEVICE bool is_empty(std::uint32_t level) const {
     return counters->levels.count > 1 && counters->levels.body_groups[level] == 0;
   }
+  /// Levels go through the step one after the other, and what the host moves goes with each of them.
+  PLUMB_DEVICE void begin_ways(Team& team) const {
+    if (counters->levels.count <= 1) return;
+    team.each(counters->levels.body_groups[kEveryLevel], [&](std::uint32_t k) {
+      const BodyGroup group = group_of(kEveryLevel, k);
+      for (std::uint32_t i = group.begin; i < group.end; ++i) begin_way(bodies, solver, i);
+    });
+  }
   /// first: of the step's sub-steps, or each where constraint impulses are not carried over.
   PLUMB_DEVICE void accelerate_bodies(Team& team, const StepParameters& step, bool first) const {
     each_body_group(team, step,
@@ -41,21 +49,25 @@ struct SolverStep {
     });
   }
   PLUMB_DEVICE void finish(Team& team) const {
+    const Real dt = parameters->dt;
     team.each(body_count, [&](std::uint32_t i) {
-      if (!finish_body(bodies, solver, i)) atomic_add(&counters->nonfinite, 1U);
+      if (!finish_body(bodies, solver, dt, i)) atomic_add(&counters->nonfinite, 1U);
     });
   }
 
  private:
-  /// f(group) for the bodies that have sub-steps of the step's level.
+  PLUMB_DEVICE BodyGroup group_of(std::uint32_t level, std::uint32_t k) const {
+    return {body_groups_of_levels[level * most_groups + k], body_count, solver.levels, level};
+  }
+  /// f(group) for the bodies that have sub-steps of the step's level, and those that have those of all.
   template <class F>
   PLUMB_DEVICE void each_body_group(Team& team, const StepParameters& step, const F& f) const {
     if (counters->levels.count <= 1) {
       team.each(body_groups(body_count), [&](std::uint32_t group) { f(BodyGroup(group, body_count)); });
     } else {
-      const std::uint32_t* const groups = body_groups_of_levels + step.level * most_groups;
-      team.each(counters->levels.body_groups[step.level],
-                [&](std::uint32_t k) { f(BodyGroup(groups[k], body_count, solver.levels, step.level)); });
+      const std::uint32_t own = counters->levels.body_groups[step.level];
+      team.each(own + counters->levels.body_groups[kEveryLevel],
+                [&](std::uint32_t k) { f(k < own ? group_of(step.level, k) : group_of(kEveryLevel, k - own)); });
     }
   }
 };

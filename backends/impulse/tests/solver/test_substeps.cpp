@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 
@@ -193,6 +194,62 @@ TEST(SubstepsByLoad, AreEachIslandsOwn) {
     alone.scene.run(120);
     const double height = alone.scene.poses().back().position.y;
     EXPECT_NEAR(together.scene.poses()[2 + 2 * k].position.y, height, 1e-5) << ratios[k];
+  }
+}
+
+/// A heavy cube on a light one, on what the host moves upwards at that speed, m/s: how far the two are above it in the
+/// end.
+std::array<double, 2> heights_on_platform(double speed) {
+  Cubes cubes(PLUMB_NEED_KINEMATIC);
+  const PlumbBody platform = cubes.scene.add_kinematic(cubes.scene.box({3, 0.2, 3}), {0, 20, 0});
+  const PlumbBody light = cubes.add(10, {0, 20.7, 0}), heavy = cubes.add(1000, {0, 21.7, 0});
+  for (const PlumbBody body : {light, heavy}) cubes.scene.write(PLUMB_FIELD_VELOCITY, body, {0, speed, 0, 0, 0, 0});
+  cubes.scene.before_step = [&](Scene& scene, int done) {
+    scene.target(platform, {0, 20 + speed * (done + 1) / 60.0, 0});
+  };
+  double fastest = 0;
+  for (int i = 0; i < 120; ++i) {
+    cubes.scene.run(1);
+    fastest = std::max(fastest, std::abs(cubes.scene.velocity(heavy)[1] - speed));
+  }
+  EXPECT_LT(fastest, 0.1) << speed << " m/s";
+  const std::vector<PlumbPose> poses = cubes.scene.poses();
+  return {poses[2].position.y - poses[1].position.y, poses[3].position.y - poses[1].position.y};
+}
+
+/// Galileo's: what rides in a lift does not see that it goes.
+TEST(SubstepsByLoad, GoWithWhatTheHostMoves) {
+  const std::array<double, 2> at_rest = heights_on_platform(0);
+  for (const double speed : {1.0, 5.0, -5.0}) {
+    const std::array<double, 2> moving = heights_on_platform(speed);
+    for (int k = 0; k < 2; ++k) EXPECT_NEAR(moving[k], at_rest[k], 1e-4) << speed << " m/s";
+  }
+}
+
+/// A load of that many kg in a bucket of 2 kg that hangs on what the host moves sideways, m/s: where it is in the end,
+/// seen from there.
+PlumbVec3 load_in_bucket(double load, double speed) {
+  Cubes cubes(PLUMB_NEED_KINEMATIC | PLUMB_NEED_JOINTS);
+  Scene& scene = cubes.scene;
+  const PlumbBody trolley = scene.add_kinematic(scene.box({0.3, 0.3, 0.3}), {0, 6, 0});
+  scene.body.mass = 2;
+  const PlumbBody bucket = scene.add(scene.box({1, 0.05, 1}), {0, 4, 0});
+  scene.ball_joint(trolley, {0, -0.3, 0}, bucket, {0, 1.7, 0});
+  scene.body.mass = load;
+  const PlumbBody box = scene.add(scene.box({0.3, 0.3, 0.3}), {0, 4.35, 0});
+  for (const PlumbBody body : {bucket, box}) scene.write(PLUMB_FIELD_VELOCITY, body, {speed, 0, 0, 0, 0, 0});
+  scene.before_step = [&](Scene& all, int done) { all.target(trolley, {speed * (done + 1) / 60.0, 6, 0}); };
+  scene.run(120);
+  const std::vector<PlumbPose> poses = scene.poses();
+  const PlumbVec3 from = poses[1].position, at = poses[3].position;
+  return {at.x - from.x, at.y - from.y, at.z - from.z};
+}
+
+TEST(SubstepsByLoad, GoWithWhatTheHostMovesByAJoint) {
+  for (const double load : {100.0, 1000.0}) {
+    const PlumbVec3 at_rest = load_in_bucket(load, 0), moving = load_in_bucket(load, 4);
+    EXPECT_NEAR(moving.x, at_rest.x, 2e-3) << load;
+    EXPECT_NEAR(moving.y, at_rest.y, 2e-3) << load;
   }
 }
 
