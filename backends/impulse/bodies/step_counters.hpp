@@ -38,7 +38,8 @@ struct LevelCounters {
 struct BoundCounters {
   std::uint32_t gained;      ///< islands that gained more energy than they may
   std::uint32_t let_go;      ///< joints of which rows have not held as predicted (joints/joint_axis_solve.hpp)
-  std::uint32_t opened;      ///< joints that it opened by more than it may (solver/opened_joints.hpp)
+  std::uint32_t opened;      ///< islands of which it opened joints (solver/opened_joints.hpp): they try more sub-steps
+  std::uint32_t still_open;  ///< likewise, and they have tried
   std::uint32_t taken_back;  ///< because of one of these all is as it was before the step
 };
 

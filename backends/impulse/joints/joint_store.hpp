@@ -65,6 +65,8 @@ class JointStore {
 
   /// As of the last upload.
   [[nodiscard]] std::uint32_t count() const { return static_cast<std::uint32_t>(slot_of_.size()); }
+  /// By body, what tension asks of its moments: JointView::least_moment.
+  [[nodiscard]] const Real* least_moments() const { return least_moment_.data(); }
   [[nodiscard]] const Joint* device() { return joints_.data(); }
   /// Copied to the host.
   [[nodiscard]] std::vector<SolvedJoint> solved() const;

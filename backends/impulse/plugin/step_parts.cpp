@@ -1,4 +1,5 @@
-// A step as the simulation takes it: whole, or in parts where it made energy (solver/energy_bound.hpp).
+// A step as the simulation takes it: whole, or in parts where it made energy or opened a joint
+// (solver/energy_bound.hpp).
 #include <algorithm>
 
 #include "plugin/world.hpp"
@@ -40,14 +41,14 @@ bool World::advance() {
 }
 
 /// When it is done: what is told and remembered of it, and the next one begins. Goes over it again where joints did not
-/// hold as predicted or were opened, and in parts where it made energy.
+/// hold as predicted or were opened, and in parts where it made energy or they are opened all the same.
 void World::finish_part() {
   Parts& parts = pacing_.parts;
   const StepPart part = parts.to_do.back();
   const StepCounters& counters = simulation_.counters();
   tell(PLUMB_EVENT_WAKE, simulation_.outcome().woken, told_.events);
   parts.gained = parts.gained || counters.bound.gained != 0;
-  parts.repeated = parts.repeated || simulation_.outcome().repeated;
+  parts.repeated = parts.repeated || simulation_.outcome().repeated || counters.bound.still_open != 0;
   parts.grew = parts.grew || simulation_.outcome().grew;
   if (counters.bound.let_go != 0 || counters.bound.opened != 0) {
     parts.repeated = true;

@@ -1,5 +1,6 @@
 #include "solver/choose_substeps.hpp"
 
+#include "bodies/axis_locks.hpp"
 #include "bodies/motion_lanes.hpp"
 #include "exec/atomic.hpp"
 #include "exec/union_find.hpp"
@@ -14,6 +15,9 @@ namespace {
 /// Sub-steps in the time that a load's frequency takes for a radian: between bodies by themselves, and of bodies that
 /// joints hold.
 constexpr Real kSubstepsOfContact = 40, kSubstepsOfMechanism = 14;
+/// Tension asks for no more than so many times the fewest sub-steps: the lightest part of a machine is not worth more,
+/// and has a larger inertia beyond that.
+constexpr Real kMostByTension = 2;
 /// A body presses on another by itself with no more than so many times its weight, with what lies on it: more is a
 /// blow.
 constexpr Real kMostWeights = 8;
@@ -86,11 +90,21 @@ struct ChooseLevels {
   PLUMB_HD void begin(std::uint32_t i) const {
     const BodyPace before = work.paces[i];
     const bool pushed = is_pushed(i);
-    const Real rate = pushed ? before.load_rate : Real(0);
-    work.loads[i] = {i, i, 0, ordered_bits(rate), 0, 0, {}, 0};
-    note_asked(rate * work.parameters->dt);
+    const Real rate = pushed ? before.load_rate : Real(0),
+               asked = pushed ? asked_by_tension(i, before.last_h) : Real(0);
+    work.loads[i] = {i, i, ordered_bits(asked), ordered_bits(rate), 0, 0, {}, 0};
+    note_asked(max(asked, rate * work.parameters->dt));
     if (pushed && before.last_h != work.levels->of[0].h) atomic_raise(&work.counters->levels.other_substeps, 1U);
     put_level(i, is_kinematic(work.bodies.mass[i]) ? kEveryLevel : 0, before, 0, 0);
+  }
+  /// Sub-steps in each of which what tension turns back turns by no more than a radian, where that are more than the
+  /// fewest: its own moments are no less then than what tension asks of them.
+  PLUMB_HD Real asked_by_tension(std::uint32_t i, Real last_h) const {
+    if (work.joint_count == 0 || !(last_h > 0) || !work.mechanisms.hold(i)) return 0;
+    const Vec inverse = inverse_moments(work.bodies.mass[i], work.gyroscopic);
+    const Real ratio = work.least_moments[i] * max(max(inverse.x, inverse.y), inverse.z);
+    const Real asked = min(work.parameters->dt / last_h * sqrt(ratio), kMostByTension * substeps(0));
+    return asked > substeps(0) ? asked : Real(0);
   }
   PLUMB_HD void note_asked(Real asked) const {
     if (asked > substeps(0) && work.levels->count > 1) atomic_raise(&work.counters->levels.loaded, 1U);

@@ -7,10 +7,13 @@
 // lowers it by F / (m w^2), and rocks it: seen from its size r such a load has the frequency sqrt(F / (m r)), and
 // sub-steps must be shorter in proportion. What is no heavier than kAlikeMasses times what bears it asks for nothing,
 // nor does a load of no more than so many times a body's own weight: piles do well as it is. But a column of like
-// bodies buckles where it is high (columns.hpp), and many on a light one take more relaxing passes (stars.hpp). Tension
-// in joints asks for nothing: tension.hpp deals with it, and what swings gains where the number changes with each
-// swing. Nor do bodies of one mechanism that its joints squeeze, beyond the weight of them: the contact would stiffen
-// by what it presses, and press the harder for it, until it throws them.
+// bodies buckles where it is high (columns.hpp), and many on a light one take more relaxing passes (stars.hpp). Bodies
+// of one mechanism that its joints squeeze ask for nothing beyond the weight of them: the contact would stiffen by what
+// it presses, and press the harder for it, until it throws them.
+//
+// A light link under tension swings faster than a sub-step can follow. It would be given a larger inertia
+// (joints/tension.hpp), and heavier links that come and go with the tension make energy; so sub-steps are short enough
+// that it keeps its own, as far as kMostByTension times as many do that.
 //
 // Bodies that touch or are joined are of one island and go through its sub-steps together; no contact and no joint is
 // between two islands, so that one may be solved after the other; what the host moves goes through the step with each.
@@ -57,6 +60,8 @@ struct LoadWork {
   std::uint32_t most_groups;
   const std::uint64_t* masks;  ///< by body: Colouring::masks() of the contacts that were there before
   const SettledBody* settled;  ///< by body, in a step that is gone over again; null: none is
+  const Real* least_moments;   ///< by body: JointView::least_moment, as of its last sub-step
+  bool gyroscopic;
 };
 
 /// contacts: how many manifolds there are.

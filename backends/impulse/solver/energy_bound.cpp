@@ -73,7 +73,7 @@ struct JudgeEnergy {
   IslandEnergy* islands;
   Real* given;
   SettledIslands settled;
-  OpenedAttempts* attempts;
+  bool* tried;
 
   PLUMB_DEVICE void operator()(Team& team) const {
     if (is_undone(*work.counters, work.pair_capacity)) return;
@@ -81,8 +81,8 @@ struct JudgeEnergy {
     const std::uint32_t bodies = work.body_count, joints = work.joints.count;
     if (work.settles && work.parameters->is_repeat) put_settled(team);
     team.each(bodies, [self](std::uint32_t i) {
-      self.islands[i] = IslandEnergy{i, i, 0, 0, 0, 0, 0, 0, 0, kStays, false, false, 1, 0, 0, 0};
-      if (!self.work.parameters->is_repeat) self.attempts[i] = {};
+      self.islands[i] = IslandEnergy{i, i, 0, 0, 0, 0, 0, 0, 0, false, false, 1, 0, 0, 0};
+      if (!self.work.parameters->is_repeat) self.tried[i] = false;
     });
     team.each(work.counters->manifolds, [self](std::uint32_t row) { self.join_contact(row); });
     team.each(joints, [self](std::uint32_t j) { self.join_joint(j); });
@@ -106,6 +106,7 @@ struct JudgeEnergy {
         if (work.settles) set_settled_aside(team);
         return put_all_back(team);
       }
+      if (work.counters->bound.still_open != 0 && work.parameters->may_be_taken_back) return put_all_back(team);
     }
     team.each(joints, [self](std::uint32_t j) { self.find_given(j); });
     team.each(bodies, [self](std::uint32_t i) { self.find_peak(i); });
@@ -125,7 +126,7 @@ struct JudgeEnergy {
     const JointView view = work.joints.view;
     team.each(work.body_count, [self, view](std::uint32_t i) {
       const IslandEnergy& island = self.islands[self.islands[i].root];
-      self.settled.set_body_aside(view, i, self.is_pushed(i) && island.let_go == 0 && island.again == kStays);
+      self.settled.set_body_aside(view, i, self.is_pushed(i) && island.let_go == 0 && !island.again);
     });
     team.each(work.joints.count, [self](std::uint32_t j) { self.settled.set_joint_aside(self.work.joints, j); });
     team.each(work.counters->manifolds, [self, view](std::uint32_t row) {
@@ -165,7 +166,7 @@ struct JudgeEnergy {
   PLUMB_HD void distrust(std::uint32_t j) const {
     if (islands[root_of(work.joints.view.joints[j])].let_go != 0) work.joints.axes.work[j].is_trusted = false;
   }
-  /// Whether the step has opened a joint, and how far.
+  /// Whether the step has opened a joint.
   PLUMB_HD void find_opened(std::uint32_t j) const {
     const Joint& joint = work.joints.view.joints[j];
     if (!is_pushed(joint.body_a) && !is_pushed(joint.body_b)) return;
@@ -174,27 +175,18 @@ struct JudgeEnergy {
     const JointAxes* axes = work.code == JointCode::kAll ? &work.joints.axes.axes[j] : nullptr;
     const Real after = openness(joint, axes, place_after(joint));
     if (!(after > 1) || !(after > openness(joint, axes, place_before(joint)) + kOpensBy)) return;
-    atomic_max(&islands[root].opened, ordered_bits(after));
+    atomic_max(&islands[root].opened, 1U);
   }
   /// Of the root of an island of which a joint was opened.
   PLUMB_HD void choose_again(std::uint32_t i) const {
     IslandEnergy& island = islands[i];
-    const OpenedAttempts& tried = attempts[i];
-    if (island.root != i || island.opened == 0 || tried.is_last) return;
-    island.is_best = tried.opened == 0 || island.opened < tried.opened;
-    if (may_have_more(i))
-      island.again = kWithMore;
-    else if (tried.opened == 0)
-      island.again = kWithFewer;
-    else if (!island.is_best && number_of(tried.opened) < kOpenedLess * number_of(island.opened))
-      island.again = kAsBest;
-    if (island.again != kStays) atomic_add(&work.counters->bound.opened, 1U);
+    if (island.root != i || island.opened == 0) return;
+    island.again = !tried[i] && may_have_more(i);
+    atomic_add(island.again ? &work.counters->bound.opened : &work.counters->bound.still_open, 1U);
   }
+  /// Its root is the same in each attempt.
   PLUMB_HD void note_attempt(std::uint32_t i) const {
-    if (!is_pushed(i)) return;
-    const IslandEnergy& island = islands[islands[i].root];
-    if (island.is_best) attempts[i] = {work.levels[i].before.load_rate, island.opened, false};
-    if (island.again == kAsBest) attempts[i].is_last = true;
+    if (islands[islands[i].root].again) tried[i] = true;
   }
   PLUMB_HD Real substeps_of(std::uint32_t level) const { return static_cast<Real>(work.substeps->of[level].substeps); }
   /// Sub-steps, of a body's island; what asked for more than it had will not get them by asking again.
@@ -204,23 +196,13 @@ struct JudgeEnergy {
     return has < substeps_of(work.substeps->count - 1) &&
            !(level.before.load_rate * work.parameters->dt > has * kDenied);
   }
-  PLUMB_HD Real more_for_opened(std::uint32_t level) const {
-    const Real more = kMoreForOpened * substeps_of(level);
-    return level < kLevelOfOpened ? min(more, substeps_of(min(kLevelOfOpened, work.substeps->count - 1))) : more;
-  }
   /// As it was, but that the island of an opened joint asks for other sub-steps.
   PLUMB_HD void put_pace_back(std::uint32_t i) const {
     BodyPace& pace = work.paces[i];
     pace = work.levels[i].before;
     if (!is_pushed(i)) return;
-    const std::uint32_t level = work.levels[i].level;
-    const Real dt = work.parameters->dt;
-    switch (islands[islands[i].root].again) {
-      case kWithMore: pace.load_rate = max(pace.load_rate, more_for_opened(level) / dt); break;
-      case kWithFewer: pace.load_rate = kFewerForOpened * substeps_of(level) / dt; break;
-      case kAsBest: pace.load_rate = attempts[i].rate; break;
-      case kStays: break;
-    }
+    if (islands[islands[i].root].again)
+      pace.load_rate = max(pace.load_rate, kMoreForOpened * substeps_of(work.levels[i].level) / work.parameters->dt);
   }
   PLUMB_HD JointPlace place_after(const Joint& joint) const {
     const Bodies& all = work.joints.view.bodies;
@@ -437,7 +419,7 @@ void EnergyBound::judge(Executor& executor, const EnergyWork& work, Count contac
                             islands_.data(),
                             given_.data(),
                             {settled_bodies_.data(), settled_joints_.data(), settled_contacts_.data()},
-                            attempts_.data()});
+                            tried_.data()});
 }
 
 }  // namespace plumb::impulse

@@ -12,10 +12,9 @@
 // back by the same means, before energies are looked at, and solved again whole: in islands of which a joint let go
 // nothing is counted on then, and others are settled (settled_islands.hpp). So none depends on what happens in another.
 //
-// So is, next, a step that opened a joint (opened_joints.hpp): its island asks for more sub-steps then, up to the most
-// that there are (choose_substeps.hpp), and others are settled likewise. Where none of these attempts keeps all joints
-// shut, the one that opened them least is gone over again and stays: shorter sub-steps are not always better, for
-// contacts, which a step has of its start, press harder in them.
+// So is, next, a step that opened a joint (opened_joints.hpp): its island has more sub-steps then
+// (choose_substeps.hpp), and others are settled likewise. Where that does not keep it shut the step is gone in parts,
+// as above.
 //
 // The bound is generous (kMostGain): it tells what flies apart from what does not, and is no measure of drift. Worlds
 // without joints, and solvers other than the default, are not watched.
@@ -53,10 +52,6 @@ struct KeptJoint {
   Real way;
 };
 
-/// How an island that has opened a joint goes over the step again: not at all; with more sub-steps; with fewer, where
-/// it had the most from the start; or with those of the best attempt.
-enum IslandAgain : std::uint32_t { kStays, kWithMore, kWithFewer, kAsBest };
-
 /// Of a body, and at the root of an island of the island.
 struct IslandEnergy {
   std::uint32_t parent, root;
@@ -65,22 +60,14 @@ struct IslandEnergy {
   std::uint32_t peak;         ///< the largest term of the sums, J: bits of a float
   std::uint32_t joined;       ///< at the root: a joint holds one of its bodies
   std::uint32_t let_go;       ///< likewise: one of which rows have not held as predicted does
-  std::uint32_t opened;       ///< likewise: how far the step has opened one that does: bits of a float; or 0
-  IslandAgain again;          ///< likewise: whether the step is gone over again for that
-  bool is_best;               ///< likewise: no attempt at this step has opened its joints less
+  std::uint32_t opened;       ///< likewise: the step has opened one that does
+  bool again;                 ///< likewise: it goes over the step again, with more sub-steps
   bool is_held;               ///< it stays where it was before the step
   Real keeps;                 ///< of its velocities the share that is left
   // Sums in whole numbers of a share of the peak, which do not depend on the order:
   std::int64_t kinetic;   ///< after the step
   std::int64_t may_have;  ///< before it, with what sources can give
   std::int64_t work;      ///< of gravity and the host's forces over the way that was gone
-};
-
-/// Of a body, from one attempt at a step to the next: what opened the joints of its island least.
-struct OpenedAttempts {
-  Real rate;             ///< BodyPace::load_rate in that attempt
-  std::uint32_t opened;  ///< as of IslandEnergy; 0: none has opened one
-  bool is_last;          ///< that attempt is gone over again, and stays
 };
 
 /// What the bound works on, and with.
@@ -107,7 +94,7 @@ class EnergyBound {
   void reserve(std::size_t bodies, std::size_t joints, std::size_t contacts, bool predicts) {
     bodies_.grow(bodies);
     islands_.grow(bodies);
-    attempts_.grow(bodies);
+    tried_.grow(bodies);
     joints_.grow(joints);
     given_.grow(joints);
     if (!predicts) return;
@@ -126,9 +113,9 @@ class EnergyBound {
  private:
   Buffer<KeptBody> bodies_;
   Buffer<IslandEnergy> islands_;
-  Buffer<OpenedAttempts> attempts_;
-  Buffer<KeptJoint> joints_;            // as JointSet numbers them, and so
-  Buffer<Real> given_;                  // what their motors and springs can have given, J
+  Buffer<bool> tried_;        // by body, from one attempt at a step to the next: its island has had more sub-steps
+  Buffer<KeptJoint> joints_;  // as JointSet numbers them, and so
+  Buffer<Real> given_;        // what their motors and springs can have given, J
   Buffer<SettledBody> settled_bodies_;  // these as SettledIslands
   Buffer<SettledJoint> settled_joints_;
   Buffer<CachedManifold> settled_contacts_;

@@ -3,7 +3,8 @@
 // A blow can turn what is light and short by a radian in a sub-step, and rows that are straight in the sub-step do not
 // follow it round. In shorter ones they do: the error falls by eight and more for each halving. So a step that opens a
 // joint beyond this, and by a quarter of it or more, is taken back, and its island has more sub-steps
-// (energy_bound.hpp).
+// (energy_bound.hpp). Contacts, which a step has of its start, then press where the body no longer is: what opens the
+// joint all the same is gone in parts.
 #pragma once
 
 #include "joints/joint_axes.hpp"
@@ -16,14 +17,8 @@ inline constexpr Real kMostOpening = Real(5e-3), kMostTurning = Real(0.02);
 /// close.
 inline constexpr Real kOpensBy = Real(0.25);
 
-/// So many times the sub-steps that it had an island asks for then, a little more than the level below; or that share
-/// of the most.
-inline constexpr Real kMoreForOpened = Real(2.01), kFewerForOpened = Real(0.25);
-/// And at first no more than this level has: in yet shorter sub-steps contacts, which a step has of its start, press
-/// harder.
-inline constexpr std::uint32_t kLevelOfOpened = 3;
-/// An attempt that opened it by less than this share of what the last one did is worth going over again.
-inline constexpr Real kOpenedLess = Real(0.8);
+/// So many times the sub-steps that it had an island asks for then, a little more than the level below.
+inline constexpr Real kMoreForOpened = Real(2.01);
 /// What has asked for so many times what it has got does not get more.
 inline constexpr Real kDenied = Real(1.001);
 

@@ -63,9 +63,26 @@ void Solver::choose_substeps(Executor& executor, const SolverInput& input, const
                              const SettledBody* settled) {
   if (!has_levels()) return;
   enqueue_levels(executor,
-                 {input.cache, input.bodies, input.proxies, mechanisms_, input.joints.device(), input.joints.count(),
-                  input.body_count, input.pair_capacity, input.levels, input.parameters, input.counters, paces_.data(),
-                  body_levels_.data(), loads_.data(), body_groups_.data(), most_groups_, masks, settled},
+                 {input.cache,
+                  input.bodies,
+                  input.proxies,
+                  mechanisms_,
+                  input.joints.device(),
+                  input.joints.count(),
+                  input.body_count,
+                  input.pair_capacity,
+                  input.levels,
+                  input.parameters,
+                  input.counters,
+                  paces_.data(),
+                  body_levels_.data(),
+                  loads_.data(),
+                  body_groups_.data(),
+                  most_groups_,
+                  masks,
+                  settled,
+                  input.joints.least_moments(),
+                  features_.gyroscopic},
                  {&input.counters->manifolds, input.pair_capacity});
 }
 

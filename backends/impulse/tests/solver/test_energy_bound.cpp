@@ -56,7 +56,7 @@ TEST(EnergyBound, StepsThatMakeEnergyAreGoneInParts) {
 /// The contacts of a step that goes in parts are those of all of them: their impulses are what stops who stands there.
 TEST(EnergyBound, AStepInPartsTellsAllItsContacts) {
   constexpr double kDt = 1.0 / 60;
-  constexpr double kLight = 500;  // light enough that parts suffice, and nothing is taken out
+  constexpr double kLight = 700;  // light enough that parts suffice, and nothing is taken out
   Crowd crowd(kBoundNeeds | PLUMB_NEED_CONTACTS | PLUMB_NEED_CONTACT_IMPULSES, 1, kLight);
   int bounded = 0;
   std::vector<double> before(crowd.people.size());

@@ -71,14 +71,14 @@ class Flail {
 
 TEST(OpenedJoints, HoldUnderABlow) {
   int repeated = 0;
-  for (const double speed : {0, 4, 8, 12})
-    for (const int hertz : {30, 60, 240}) {
+  for (const int hertz : {30, 60, 240})
+    for (double speed = 0; speed < 12.1; speed += 0.25) {
       SCOPED_TRACE(std::to_string(speed) + " m/s, " + std::to_string(hertz) + " Hz");
       const Opened opened = Flail(speed).run(2 * hertz, 1.0 / hertz);
       // A step may open a joint by 5 mm or .02 rad, and a blow can last for two.
       EXPECT_LT(opened.gap, 0.01);
       EXPECT_LT(opened.angle, 0.04);
-      EXPECT_LT(opened.repeated, 5) << "those of blows";
+      EXPECT_LT(opened.repeated, 8) << "those of blows";
       repeated += opened.repeated;
     }
   EXPECT_GT(repeated, 0);
