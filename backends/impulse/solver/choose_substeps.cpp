@@ -21,6 +21,9 @@ constexpr Real kMostByTension = 2;
 /// A body presses on another by itself with no more than so many times its weight, with what lies on it: more is a
 /// blow.
 constexpr Real kMostWeights = 8;
+/// What cannot be pushed bears a weight where this share of gravity and more is along the contact's normal; from the
+/// side it squeezes.
+constexpr Real kBears = Real(0.5);
 /// A contact that asks for so many times the most that there can be would do no better with those, and gets none: the
 /// pebble under the wheel of a truck.
 constexpr Real kHopeless = 4;
@@ -189,11 +192,13 @@ struct ChooseLevels {
     if (!in_one && !(others > 0)) return;  // what lies on the ground is asked where it is loaded
     const Real lighter = in_one ? own : own - kAlikeMasses * others;
     if (!(lighter > 0)) return;
-    const Real weight = others > 0 ? max(downward, Real(0)) / others : Real(0);
+    const Real gravity = length(work.parameters->gravity);
+    const bool squeezed = !(others > 0) && max(downward, -downward) < kBears * gravity;
+    const Real weight = squeezed ? gravity / own : others > 0 ? max(downward, Real(0)) / others : Real(0);
     const Real force = force_of(kept, on.body, by.body);
     Real load = force > 0 ? force : weight;
-    if (!in_one || mechanisms.together(on.body, by.body)) load = min(load, kMostWeights * weight);
-    load = load - kAlikeMasses * length(work.parameters->gravity) / own;
+    if (!in_one || squeezed || mechanisms.together(on.body, by.body)) load = min(load, kMostWeights * weight);
+    load = load - kAlikeMasses * gravity / own;
     if (!(load > 0)) return;
     const Real squared = lighter / work.proxies.shapes[on.shape].reach;
     const Real per_frequency = work.parameters->dt * (joined ? kSubstepsOfMechanism : kSubstepsOfContact);

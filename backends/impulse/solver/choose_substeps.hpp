@@ -8,8 +8,9 @@
 // sub-steps must be shorter in proportion. What is no heavier than kAlikeMasses times what bears it asks for nothing,
 // nor does a load of no more than so many times a body's own weight: piles do well as it is. But a column of like
 // bodies buckles where it is high (columns.hpp), and many on a light one take more relaxing passes (stars.hpp). Bodies
-// of one mechanism that its joints squeeze ask for nothing beyond the weight of them: the contact would stiffen by what
-// it presses, and press the harder for it, until it throws them.
+// of one mechanism that its joints squeeze ask for nothing beyond the weight of them, nor what is squeezed between
+// walls or what the host moves beyond its own: the contact would stiffen by what it presses, and press the harder for
+// it, until it throws them.
 //
 // A light link under tension swings faster than a sub-step can follow. It would be given a larger inertia
 // (joints/tension.hpp), and heavier links that come and go with the tension make energy; so sub-steps are short enough

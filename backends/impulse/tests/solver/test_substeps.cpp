@@ -380,5 +380,24 @@ TEST(SubstepsByLoad, AreNotSpentOnWhatJointsSqueeze) {
   EXPECT_LT(chooses.speed(squeezed), 1e-3);
 }
 
+/// Two jaws of the host hold a cube by a centimetre of overlap, with thousands of its weights, and another hangs on it.
+TEST(SubstepsByLoad, AreNotSpentOnWhatTheHostSqueezes) {
+  Cubes chooses(PLUMB_NEED_JOINTS | PLUMB_NEED_KINEMATIC), keeps(PLUMB_NEED_JOINTS | PLUMB_NEED_KINEMATIC);
+  keeps.keep_to_the_setting();
+  PlumbBody hanging = 0;
+  for (Cubes* cubes : {&keeps, &chooses}) {
+    Scene& scene = cubes->scene;
+    for (const double side : {-1.0, 1.0}) scene.add_kinematic(scene.box({0.05, 0.2, 0.2}), {side * 0.14, 5, 0});
+    const PlumbShape cube = scene.box({0.1, 0.1, 0.1});
+    scene.body.mass = 1;
+    const PlumbBody held = scene.add(cube, {0, 5, 0});
+    hanging = scene.add(cube, {0, 4.7, 0});
+    scene.ball_joint(held, {0, -0.1, 0}, hanging, {0, 0.2, 0});
+    scene.run(300);
+  }
+  EXPECT_EQ(chooses.scene.hash(), keeps.scene.hash());
+  EXPECT_LT(chooses.speed(hanging), 0.1);
+}
+
 }  // namespace
 }  // namespace plumb::impulse::test
