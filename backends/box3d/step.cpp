@@ -1,5 +1,6 @@
 // The step, what it reports, and the settings that it is done with.
 #include <algorithm>
+#include <mutex>
 
 #include "world.hpp"
 
@@ -14,12 +15,23 @@ b3WorldDef def_of(const WorldInit& init) {
   return def;
 }
 
+/// Box3D holds its worlds in one table of the process, where only the host can keep two threads from one place.
+std::mutex& world_table() {
+  static std::mutex mutex;
+  return mutex;
+}
+
+b3WorldId make_world(const b3WorldDef& def) {
+  const std::lock_guard lock(world_table());
+  return b3CreateWorld(&def);
+}
+
 }  // namespace
 
 World::World(const WorldInit& init) : needs_(init.desc.needs), settings_(settings_table().values(init)) {
   const b3WorldDef def = def_of(init);
   threads_ = def.workerCount;
-  world_ = b3CreateWorld(&def);
+  world_ = make_world(def);
   if (!b3World_IsValid(world_))
     throw Error(PLUMB_E_OUT_OF_MEMORY,
                 "Box3D holds " + std::to_string(b3GetMaxWorldCount()) + " worlds in a process; destroy one of them");
@@ -27,6 +39,11 @@ World::World(const WorldInit& init) : needs_(init.desc.needs), settings_(setting
   b3World_SetCustomFilterCallback(world_, &World::may_collide, this);
   const b3BodyDef ground = b3DefaultBodyDef();
   ground_ = b3CreateBody(world_, &ground);
+}
+
+World::~World() {
+  const std::lock_guard lock(world_table());
+  b3DestroyWorld(world_);
 }
 
 PlumbResult World::set_gravity(const PlumbVec3& gravity) {

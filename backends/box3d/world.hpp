@@ -25,7 +25,7 @@ class World final : public IPhysicsWorld,
                     public IExceptions {
  public:
   explicit World(const WorldInit& init);
-  ~World() override { b3DestroyWorld(world_); }
+  ~World() override;
 
   static const PlumbBackendInfo& info();
   static PlumbDegree capability(PlumbCapability kind, std::uint32_t a, std::uint32_t b, const char*& note);

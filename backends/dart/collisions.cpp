@@ -6,25 +6,16 @@
 #include <dart/collision/ode/OdeCollisionDetector.hpp>
 #include <dart/collision/ode/OdeCollisionGroup.hpp>
 #include <dart/collision/ode/OdeCollisionObject.hpp>
+#include <span>
+
+#include "making.hpp"
 
 namespace plumb::dart6 {
 
-using ::dart::collision::CollisionObject;
 using ::dart::collision::Contact;
+using ::dart::collision::OdeCollisionObject;
 
-class Collisions::Filter final : public ::dart::collision::CollisionFilter {
- public:
-  Filter(const Skeletons& skeletons, May may) : skeletons_(skeletons), may_(std::move(may)) {}
-  bool ignoresCollision(const CollisionObject* a, const CollisionObject* b) const override {
-    return !may_(skeletons_.geom(*a), skeletons_.geom(*b));
-  }
-
- private:
-  const Skeletons& skeletons_;
-  May may_;
-};
-
-/// DART asks ODE for no rays; here is the space of which they can be asked.
+/// DART does not let others ask its space of ODE.
 class Collisions::Group final : public ::dart::collision::OdeCollisionGroup {
  public:
   using OdeCollisionGroup::getOdeSpaceId;
@@ -34,8 +25,28 @@ class Collisions::Group final : public ::dart::collision::OdeCollisionGroup {
 
 namespace {
 
+using Detector = std::shared_ptr<::dart::collision::CollisionDetector>;
+
+Detector make_detector() {
+  const std::lock_guard lock(making());
+  return ::dart::collision::OdeCollisionDetector::create();
+}
+
+void unmake_detector(Detector& detector) {
+  const std::lock_guard lock(making());
+  detector.reset();
+}
+
 /// ODE has memory of its own for each thread that collides, and a detector takes it where it is made.
-void prepare_this_thread() { thread_local const auto detector = ::dart::collision::OdeCollisionDetector::create(); }
+void prepare_this_thread() {
+  struct Ours {
+    Detector detector = make_detector();
+    ~Ours() { unmake_detector(detector); }
+  };
+  thread_local const Ours ours;
+}
+
+OdeCollisionObject& object_of(dGeomID geom) { return *static_cast<OdeCollisionObject*>(dGeomGetData(geom)); }
 
 /// One ray on its way through a space.
 struct Search {
@@ -51,7 +62,7 @@ struct Search {
 
   /// ODE's meshes and shapes disagree about the sign of normals; the surface that is met looks at the ray.
   void meet(dGeomID other) {
-    const Geom& geom = skeletons.geom(*static_cast<const ::dart::collision::OdeCollisionObject*>(dGeomGetData(other)));
+    const Geom& geom = skeletons.geom(object_of(other));
     std::array<dContactGeom, 16> points;  // a mesh or field is met several times
     const int count = dCollide(ray, other, static_cast<int>(points.size()), points.data(), sizeof(dContactGeom));
     for (int i = 0; i < count; ++i) {
@@ -74,33 +85,52 @@ struct GeomFree {
 
 }  // namespace
 
-Collisions::Collisions() : detector_(::dart::collision::OdeCollisionDetector::create()) {}
-Collisions::~Collisions() = default;
+Collisions::Collisions() : detector_(make_detector()) {}
+
+Collisions::~Collisions() {
+  forget();
+  unmake_detector(detector_);
+}
 
 void Collisions::forget() {
-  result_.clear();
+  found_.clear();
   group_.reset();
-  filter_.reset();
 }
 
 void Collisions::take(const Skeletons& skeletons, May may) {
-  filter_ = std::make_shared<Filter>(skeletons, std::move(may));
+  skeletons_ = &skeletons;
+  may_ = std::move(may);
   group_ = std::make_unique<Group>(detector_);
   group_->setAutomaticUpdate(false);
   for (const auto& skeleton : skeletons.all) group_->addShapeFramesOf(skeleton.get());
 }
 
+void Collisions::meet(dxGeom* one, dxGeom* two) {
+  OdeCollisionObject &a = object_of(one), &b = object_of(two);
+  if (!may_(skeletons_->geom(a), skeletons_->geom(b))) return;
+  std::array<dContactGeom, MAX_COLLIDE_RETURNS> points;
+  const int count = dCollide(one, two, MAX_COLLIDE_RETURNS, points.data(), sizeof(dContactGeom));
+  for (const dContactGeom& point : std::span(points).first(static_cast<std::size_t>(count))) {
+    const Eigen::Vector3d normal(point.normal[0], point.normal[1], point.normal[2]);
+    if (Contact::isZeroNormal(normal) || !(point.depth >= 0)) continue;
+    Contact& contact = found_.emplace_back();
+    contact.collisionObject1 = &a;
+    contact.collisionObject2 = &b;
+    contact.point = {point.pos[0], point.pos[1], point.pos[2]};
+    contact.normal = normal;
+    contact.penetrationDepth = point.depth;
+  }
+}
+
 std::vector<Contact*> Collisions::find() {
   std::vector<Contact*> found;
-  result_.clear();
+  found_.clear();
   if (!group_) return found;
   prepare_this_thread();
-  constexpr std::size_t all = 1'000'000;
-  group_->collide(::dart::collision::CollisionOption(true, all, filter_), &result_);
-  for (std::size_t i = 0; i < result_.getNumContacts(); ++i) {
-    Contact& contact = result_.getContact(i);
-    if (!Contact::isZeroNormal(contact.normal) && contact.penetrationDepth >= 0) found.push_back(&contact);
-  }
+  group_->updateEngineData();
+  dSpaceCollide(group_->getOdeSpaceId(), this,
+                [](void* self, dGeomID one, dGeomID two) { static_cast<Collisions*>(self)->meet(one, two); });
+  for (Contact& contact : found_) found.push_back(&contact);
   return found;
 }
 

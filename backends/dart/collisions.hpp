@@ -1,12 +1,17 @@
-// Who overlaps whom, by DART's detector of ODE: the one of its four that has all of our shapes, in double precision and
-// without memory of the step before.
+// Who overlaps whom, by the shapes of DART's detector of ODE: the one of its four that has all of ours, in double
+// precision. The pairs are asked of its space here: asked by the detector, a pair of less than three points gets points
+// of earlier steps as well, where they were then, out of one list of all worlds of the process, which two threads
+// break.
 #pragma once
 
-#include <dart/collision/CollisionFilter.hpp>
-#include <dart/collision/CollisionResult.hpp>
+#include <dart/collision/CollisionDetector.hpp>
+#include <dart/collision/Contact.hpp>
+#include <deque>
 #include <functional>
 
 #include "skeletons.hpp"
+
+struct dxGeom;  // ODE's
 
 namespace plumb::dart6 {
 
@@ -31,20 +36,22 @@ class Collisions {
   /// Before skeletons are taken down.
   void forget();
   void take(const Skeletons& skeletons, May may);
-  /// Where the skeletons are now; valid until the next call. Normals go from the second to the first.
+  /// Where the skeletons are now, pair by pair; valid until the next call. Normals go from the second to the first.
   [[nodiscard]] std::vector<::dart::collision::Contact*> find();
   /// All that a ray along the unit vector meets within the length; of one shape several places, in any order.
   [[nodiscard]] std::vector<RayMeeting> meet_ray(const Skeletons& skeletons, const PlumbVec3& from,
                                                  const PlumbVec3& along, double length);
 
  private:
-  class Filter;
   class Group;
+
+  void meet(dxGeom* one, dxGeom* two);
 
   std::shared_ptr<::dart::collision::CollisionDetector> detector_;
   std::unique_ptr<Group> group_;
-  std::shared_ptr<Filter> filter_;
-  ::dart::collision::CollisionResult result_;
+  const Skeletons* skeletons_ = nullptr;
+  May may_;
+  std::deque<::dart::collision::Contact> found_;  ///< stay where they are while more are found
 };
 
 }  // namespace plumb::dart6

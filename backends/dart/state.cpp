@@ -3,6 +3,7 @@
 #include <dart/dynamics/BallJoint.hpp>
 #include <dart/dynamics/FreeJoint.hpp>
 
+#include "making.hpp"
 #include "plumb/backend/joint_coordinates.hpp"
 #include "world.hpp"
 
@@ -88,7 +89,10 @@ void read_body(Body& body) {
 
 }  // namespace
 
+World::~World() { make_stale(); }
+
 void World::make_stale() {
+  const std::lock_guard lock(making());
   collisions_.forget();
   meeting_.touching.clear();
   holds_.clear();
@@ -99,6 +103,7 @@ void World::make_stale() {
 
 void World::prepare() {
   if (stale_) {
+    const std::lock_guard lock(making());
     skeletons_ = make_skeletons(grow_trees(bodies_, joints_), gravity_);
     solver_.set_skeletons(skeletons_.all);
     apart_.clear();

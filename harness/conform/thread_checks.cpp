@@ -38,6 +38,41 @@ void worlds_apart(Conformance& c) {
     c.expect(together[i] == alone, "a world beside another ends in other bits than alone");
 }
 
+/// Makes small worlds of bodies and joints, steps each a few times and lets it go; the sum of how they ended.
+std::uint64_t come_and_go(Conformance& c) {
+  std::uint64_t ends = 0;
+  for (int i = 0; i < 40; ++i) {
+    Probe probe(c, c.available(kPlainNeeds));
+    probe.ground();
+    const PlumbShape cube = probe.lump(0.4);
+    for (int k = 0; k < 4; ++k) probe.dynamic(cube, {0.03 * i * k, 0.5 + 0.9 * k, 0});
+    probe.step(4);
+    ends += probe.hash();
+  }
+  return ends;
+}
+
+/// What an engine keeps for all worlds of a process is touched as worlds come and go.
+void worlds_come_and_go(Conformance& c) {
+  const std::uint64_t alone = come_and_go(c);
+  std::uint64_t together[4] = {};
+  std::string failures[4];
+  std::thread threads[4];
+  for (std::size_t i = 0; i < 4; ++i)
+    threads[i] = std::thread([&, i] {
+      try {
+        together[i] = come_and_go(c);
+      } catch (const std::exception& error) {
+        failures[i] = error.what();
+      }
+    });
+  for (std::thread& thread : threads) thread.join();
+  for (std::size_t i = 0; i < 4; ++i) c.expect(failures[i].empty(), "in thread {}: {}", i, failures[i]);
+  if (c.backend().info().determinism == PLUMB_DETERMINISM_NONE) return;
+  for (std::size_t i = 0; i < 4; ++i)
+    c.expect(together[i] == alone, "worlds that come and go beside others end in other bits than alone");
+}
+
 /// Rows of all worlds of a group, as each world reads its own.
 void expect_rows_of_all(Conformance& c, const std::vector<std::unique_ptr<Probe>>& grouped) {
   IPhysicsWorld& first = grouped[0]->world();
@@ -147,6 +182,7 @@ void queries_together(Conformance& c) {
 std::span<const Check> thread_checks() {
   static constexpr Check checks[] = {
       {"threads.worlds", "two worlds in two threads", &worlds_apart},
+      {"threads.come_and_go", "worlds made and let go in four threads", &worlds_come_and_go},
       {"threads.group", "worlds whose steps are taken together", &worlds_grouped},
       {"threads.more", "a world with more threads", &more_threads},
       {"threads.queries", "queries from several threads at once", &queries_together},

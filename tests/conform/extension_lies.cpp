@@ -271,6 +271,10 @@ void hash_of_the_day() {
 void hash_of_the_thread() {
   change_hashes<[](std::uint64_t& hash) { hash += std::this_thread::get_id() == first_thread ? 0 : 1; }>();
 }
+void hash_of_worlds_made_meanwhile() {
+  count_worlds();
+  change_hashes<[](std::uint64_t& hash) { hash += std::this_thread::get_id() == first_thread ? 0 : worlds_made; }>();
+}
 void hash_of_the_thread_count() {
   count_worlds();
   liar.info.determinism = PLUMB_DETERMINISM_THREADS;

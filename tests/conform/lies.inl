@@ -129,6 +129,7 @@ PLUMB_LIE(any_world_is_restored, "snapshot.world_shapes")
 PLUMB_LIE(hash_of_the_day, "determinism.run")
 PLUMB_LIE(hash_is_constant, "state.hash")
 PLUMB_LIE(hash_of_the_thread, "threads.worlds")
+PLUMB_LIE(hash_of_worlds_made_meanwhile, "threads.come_and_go")
 PLUMB_LIE(hash_of_the_thread_count, "threads.more")
 PLUMB_LIE(other_threads_see_nothing, "threads.queries")
 // Small ones.
