@@ -32,7 +32,8 @@ struct alignas(4 * sizeof(Real)) Displacement {
 /// I^-1 in world axes.
 struct alignas(8 * sizeof(Real)) WorldInertia {
   Sym inverse;
-  Real unused[2];
+  Real tumbles;  ///< in this step: 1, else 0
+  Real unused;
 };
 
 enum BodyFlag : std::uint32_t {

@@ -20,9 +20,11 @@ PLUMB_HD inline Vec acceleration_by_forces(const Bodies& bodies, const StepParam
 PLUMB_HD inline void begin_body(const Bodies& bodies, const SolverBodies& solver, const StepParameters& step, Real h,
                                 std::uint32_t i) {
   const BodyMass& mass = bodies.mass[i];
-  if (bodies.turn)
-    solver.inertia[i] = {world_inverse_inertia(bodies.orientation[i], mass.flags, inverse_moments(mass, solver.swings)),
-                         {0, 0}};
+  if (bodies.turn) {
+    const bool tumbles = will_tumble(bodies, solver.tumbling, solver.mechanisms, step.dt, i);
+    solver.inertia[i] = {world_inverse_inertia(bodies.orientation[i], mass.flags, inverse_moments(mass, tumbles)),
+                         tumbles ? Real(1) : Real(0), 0};
+  }
   solver.displacement[i] = {{0, 0, 0}, 0, {0, 0, 0, 1}};
   if ((mass.flags & kBodyDynamic) == 0) return;
   PLUMB_ASSERT(h > 0);
@@ -51,7 +53,7 @@ PLUMB_HD inline void integrate_velocity(const Bodies& bodies, const SolverBodies
   if (bodies.turn) {
     const Vec carried_angular = first ? Vec{0, 0, 0} : velocity.angular - free.angular;
     Vec angular = forces.angular;
-    if (swings(bodies, solver, i))
+    if (tumbles(bodies, solver, i))
       angular = step.h * (solver.inertia[i].inverse * to_solver(bodies, solver, i, bodies.force[i].torque));
     free.angular = forces.angular_drag * (velocity.angular + angular);
     velocity.angular = free.angular + carried_angular;
@@ -66,14 +68,12 @@ struct Turned {
   Vec angular_velocity;
 };
 
-/// Exact for a constant angular velocity; of a body whose principal moments differ a step of the free rotor, by which
-/// the angular velocity changes too.
-PLUMB_HD inline Turned turn_freely(const Bodies& bodies, const Quat& rotation, const Vec& angular_velocity, Real h,
-                                   bool gyroscopic, std::uint32_t i) {
-  const std::uint32_t flags = bodies.mass[i].flags;
-  if ((flags & kBodyTurns) == 0) return {rotation, angular_velocity};
-  if (!gyroscopic || (flags & kBodyGyroscopic) == 0)
-    return {normalized(turn_by(h * angular_velocity) * rotation), angular_velocity};
+/// Exact for a constant angular velocity; of a body that tumbles a step of the free rotor, by which the angular
+/// velocity changes too.
+PLUMB_HD inline Turned turn_freely(const Bodies& bodies, const SolverBodies& solver, const Quat& rotation,
+                                   const Vec& angular_velocity, Real h, std::uint32_t i) {
+  if ((bodies.mass[i].flags & kBodyTurns) == 0) return {rotation, angular_velocity};
+  if (!tumbles(bodies, solver, i)) return {normalized(turn_by(h * angular_velocity) * rotation), angular_velocity};
   const Quat start = bodies.orientation[i];
   const RotorState after = step_free_rotor({rotation * start, angular_velocity}, bodies.mass[i].inertia, h);
   return {normalized(after.orientation * conjugate(start)), after.angular_velocity};
@@ -81,7 +81,7 @@ PLUMB_HD inline Turned turn_freely(const Bodies& bodies, const Quat& rotation, c
 
 /// Moves a body for one sub-step: symplectic Euler for the centre of mass, and a free turn.
 PLUMB_HD inline void integrate_position(const Bodies& bodies, const SolverBodies& solver, const StepParameters& step,
-                                        bool gyroscopic, std::uint32_t i) {
+                                        std::uint32_t i) {
   const std::uint32_t flags = bodies.mass[i].flags;
   if ((flags & kBodyMoves) == 0) return;
   Velocity& velocity = solver.velocity[i];
@@ -91,9 +91,9 @@ PLUMB_HD inline void integrate_position(const Bodies& bodies, const SolverBodies
   if ((flags & kBodyTurns) == 0) return;
   const Vec before = velocity.angular;
   const Vec angular_velocity = to_world(bodies, solver, i, before);
-  const Turned turned = turn_freely(bodies, displacement.rotation, angular_velocity, step.h, gyroscopic, i);
+  const Turned turned = turn_freely(bodies, solver, displacement.rotation, angular_velocity, step.h, i);
   displacement.rotation = turned.rotation;
-  if (!gyroscopic || (flags & kBodyGyroscopic) == 0) return;
+  if (!tumbles(bodies, solver, i)) return;
   velocity.angular = to_solver(bodies, solver, i, turned.angular_velocity);
   solver.free_velocity[i].angular += velocity.angular - before;
 }

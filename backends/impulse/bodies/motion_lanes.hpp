@@ -28,17 +28,18 @@ void store_rows(const Lanes (&numbers)[kLanes], Row* rows) {
 struct PlainBodies {
   bool plain, turn;
 
-  PlainBodies(const Bodies& bodies, bool gyroscopic, std::uint32_t i) {
+  PlainBodies(const Bodies& bodies, const SolverBodies& solver, std::uint32_t i) {
     std::uint32_t all = ~0U, any = 0;
+    bool tumble = false;
     for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
       const std::uint32_t flags = bodies.mass[i + lane].flags;
       all &= flags;
       any |= flags;
+      tumble = tumble || tumbles(bodies, solver, i + lane);
     }
     constexpr std::uint32_t kMove = kBodyDynamic | kBodyMoves;
     turn = (all & kBodyTurns) != 0;
-    plain = (all & kMove) == kMove && (any & (kBodyLocked | (gyroscopic ? kBodyGyroscopic : 0U))) == 0 &&
-            turn == ((any & kBodyTurns) != 0);
+    plain = (all & kMove) == kMove && (any & kBodyLocked) == 0 && !tumble && turn == ((any & kBodyTurns) != 0);
   }
 };
 
@@ -125,7 +126,7 @@ class BodyGroup {
 PLUMB_HD inline void integrate_velocities(const Bodies& bodies, const SolverBodies& solver, const StepParameters& step,
                                           bool first, const BodyGroup& group) {
 #if !defined(PLUMB_IMPULSE_CUDA)
-  if (group.is_full() && PlainBodies(bodies, solver.swings, group.begin).plain)
+  if (group.is_full() && PlainBodies(bodies, solver, group.begin).plain)
     return integrate_plain_velocities(bodies, solver, first, group.begin);
 #endif
   for (std::uint32_t i = group.begin; i < group.end; ++i)
@@ -134,15 +135,15 @@ PLUMB_HD inline void integrate_velocities(const Bodies& bodies, const SolverBodi
 
 /// integrate_position() likewise.
 PLUMB_HD inline void integrate_positions(const Bodies& bodies, const SolverBodies& solver, const StepParameters& step,
-                                         bool gyroscopic, const BodyGroup& group) {
+                                         const BodyGroup& group) {
 #if !defined(PLUMB_IMPULSE_CUDA)
   if (group.is_full()) {
-    const PlainBodies all(bodies, gyroscopic, group.begin);
+    const PlainBodies all(bodies, solver, group.begin);
     if (all.plain && integrate_plain_positions(solver, step.h, all.turn, group.begin)) return;
   }
 #endif
   for (std::uint32_t i = group.begin; i < group.end; ++i)
-    if (group.has(i)) integrate_position(bodies, solver, step, gyroscopic, i);
+    if (group.has(i)) integrate_position(bodies, solver, step, i);
 }
 
 }  // namespace plumb::impulse

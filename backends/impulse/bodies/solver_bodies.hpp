@@ -23,13 +23,17 @@ struct alignas(4 * sizeof(Real)) SubstepForces {
   Real angular_drag;
 };
 
+/// Which of the bodies whose principal moments differ turn as a free rotor does; the others keep their angular
+/// velocity.
+enum class Tumbling : std::uint8_t { kNobody, kFastOnes, kAll };
+
 struct SolverBodies {
   Velocity* velocity;
   Displacement* displacement;
   WorldInertia* inertia;
   FreeVelocity* free_velocity;
   SubstepForces* forces;  ///< of dynamic bodies
-  bool swings;            ///< angular velocities of bodies that tumble are those of swung_frame.hpp
+  Tumbling tumbling;
   Mechanisms mechanisms;
   BodyLevels levels;
 };

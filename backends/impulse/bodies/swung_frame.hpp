@@ -16,6 +16,8 @@
 
 namespace plumb::impulse {
 
+inline constexpr Real kTumblesFrom = Real(0.05);  ///< rad in a step
+
 /// The turn without its part about a unit axis: the same end of the axis.
 PLUMB_HD inline Quat swing_of(const Quat& turn, const Vec& axis) {
   const Real along = dot(vector_part(turn), axis);
@@ -25,8 +27,20 @@ PLUMB_HD inline Quat swing_of(const Quat& turn, const Vec& axis) {
   return turn * Quat{back.x, back.y, back.z, turn.w / size};
 }
 
-PLUMB_HD inline bool swings(const Bodies& bodies, const SolverBodies& solver, std::uint32_t i) {
-  return solver.swings && (bodies.mass[i].flags & kBodyGyroscopic) != 0;
+/// At the start of a step. A body tumbles where the scene asks for that, and where it spins so fast that leaving it out
+/// shows: angular velocity that is kept makes of it one that wobbles about an axis of its own, and contacts push where
+/// it was. What joints hold is turned by them.
+PLUMB_HD inline bool will_tumble(const Bodies& bodies, Tumbling tumbling, const Mechanisms& mechanisms, Real dt,
+                                 std::uint32_t i) {
+  if (tumbling == Tumbling::kNobody || (bodies.mass[i].flags & kBodyGyroscopic) == 0) return false;
+  if (tumbling == Tumbling::kAll) return true;
+  return dt * length(bodies.velocity[i].angular) > kTumblesFrom && !mechanisms.hold(i);
+}
+/// Within the step.
+PLUMB_HD inline bool tumbles(const Bodies& bodies, const SolverBodies& solver, std::uint32_t i) {
+  return (bodies.mass[i].flags & kBodyGyroscopic) != 0 &&
+         (solver.tumbling == Tumbling::kAll ||
+          (solver.tumbling != Tumbling::kNobody && solver.inertia[i].tumbles != 0));
 }
 /// From the axes in which the solver keeps the velocity of such a body to the world's.
 PLUMB_HD inline Quat swing_now(const Bodies& bodies, const SolverBodies& solver, std::uint32_t i) {
@@ -37,10 +51,10 @@ PLUMB_HD inline Quat swing_now(const Bodies& bodies, const SolverBodies& solver,
 
 /// An angular velocity, or what changes one, from the solver's axes to the world's and back.
 PLUMB_HD inline Vec to_world(const Bodies& bodies, const SolverBodies& solver, std::uint32_t i, const Vec& angular) {
-  return swings(bodies, solver, i) ? rotate(swing_now(bodies, solver, i), angular) : angular;
+  return tumbles(bodies, solver, i) ? rotate(swing_now(bodies, solver, i), angular) : angular;
 }
 PLUMB_HD inline Vec to_solver(const Bodies& bodies, const SolverBodies& solver, std::uint32_t i, const Vec& angular) {
-  return swings(bodies, solver, i) ? rotate_back(swing_now(bodies, solver, i), angular) : angular;
+  return tumbles(bodies, solver, i) ? rotate_back(swing_now(bodies, solver, i), angular) : angular;
 }
 
 }  // namespace plumb::impulse

@@ -56,7 +56,6 @@ struct JointView {
   JointWork* work;
   JointImpulse* impulses;  ///< by slot
   Real* least_moment;      ///< by body: what tension asks of its principal moments (joints/tension.hpp), kg m2
-  bool gyroscopic;
   // Of bodies of the system, each for all its joints, by body:
   JointEnd* arrivals;      ///< where they will be after a sub-step
   KeptSwing* kept_swings;  ///< on a CPU
@@ -70,7 +69,7 @@ struct JointView {
   PLUMB_HD JointEnd end_after(std::uint32_t body, const Velocity& velocity, Real h) const {
     if (body == kWorld) return {{0, 0, 0}, {0, 0, 0, 1}};
     const Displacement& displacement = solver.displacement[body];
-    const Turned turned = turn_freely(bodies, displacement.rotation, velocity.angular, h, gyroscopic, body);
+    const Turned turned = turn_freely(bodies, solver, displacement.rotation, velocity.angular, h, body);
     return {displacement.linear + h * velocity.linear, turned.rotation * bodies.orientation[body]};
   }
   PLUMB_HD Vec base(const Joint& joint) const {
@@ -87,7 +86,7 @@ struct JointView {
   /// In world axes.
   PLUMB_INLINE Velocity velocity(std::uint32_t body) const {
     if (body == kWorld) return {{0, 0, 0}, 0, {0, 0, 0}, 0};
-    if (swings(bodies, solver, body)) return swung_velocity(body);
+    if (tumbles(bodies, solver, body)) return swung_velocity(body);
     return solver.velocity[body];
   }
   PLUMB_HD Velocity swung_velocity(std::uint32_t body) const {
@@ -108,7 +107,7 @@ struct JointView {
   /// Bodies have moved: of each body by one thread.
   PLUMB_HD void keep_swing([[maybe_unused]] std::uint32_t body) const {
 #if !defined(PLUMB_IMPULSE_CUDA)
-    if (swings(bodies, solver, body))
+    if (tumbles(bodies, solver, body))
       kept_swings[body] = {solver.displacement[body].rotation, bodies.orientation[body], bodies.mass[body].inertia,
                            swing_now(bodies, solver, body)};
 #endif
@@ -117,13 +116,13 @@ struct JointView {
   PLUMB_HD Sym own_inverse_inertia(std::uint32_t body, const Quat& orientation) const {
     if (body == kWorld) return {0, 0, 0, 0, 0, 0};
     const BodyMass& mass = bodies.mass[body];
-    return world_inverse_inertia(orientation, mass.flags, inverse_moments(mass, solver.swings));
+    return world_inverse_inertia(orientation, mass.flags, inverse_moments(mass, tumbles(bodies, solver, body)));
   }
   PLUMB_HD Sym inverse_inertia(std::uint32_t body, const Quat& orientation) const {
     if (body == kWorld) return {0, 0, 0, 0, 0, 0};
     const BodyMass& mass = bodies.mass[body];
     const Real most = least_moment[body] > 0 ? Real(1) / least_moment[body] : kHuge;
-    const Vec inverse = inverse_moments(mass, solver.swings);
+    const Vec inverse = inverse_moments(mass, tumbles(bodies, solver, body));
     return world_inverse_inertia(orientation, mass.flags,
                                  {min(inverse.x, most), min(inverse.y, most), min(inverse.z, most)});
   }
@@ -133,7 +132,7 @@ struct JointView {
     if (!(before.inverse_mass > 0)) return;
     Velocity& velocity = solver.velocity[body];
     FreeVelocity& free = solver.free_velocity[body];
-    if (!swings(bodies, solver, body)) return store_plainly(before, after, velocity, free);
+    if (!tumbles(bodies, solver, body)) return store_plainly(before, after, velocity, free);
     velocity.linear = after.linear;
     free.linear += after.linear - before.linear;
     const Vec change = rotate_back(swing(body), after.angular - before.angular);
@@ -143,7 +142,7 @@ struct JointView {
   /// Likewise by the threads of a joint's rows. was: before, as all of them have it.
   PLUMB_HD void store(std::uint32_t body, const Velocity& was, const Lanes& before, const Lanes& after) const {
     if (!(was.inverse_mass > 0)) return;
-    if (swings(bodies, solver, body)) {
+    if (tumbles(bodies, solver, body)) {
       const Velocity now = velocity_of(after);
       if (leads_lanes()) store(body, was, now);
       return;

@@ -91,10 +91,11 @@ std::vector<SolvedJoint> JointStore::solved() const {
   return joints;
 }
 
-JointSet JointStore::set(const Bodies& bodies, const SolverBodies& solver, bool gyroscopic) {
-  const JointView view = {bodies,       solver,           joints_.data(),
-                          work_.data(), impulses_.data(), least_moment_.data(),
-                          gyroscopic,   arrivals_.data(), kept_swings_.data()};
+JointSet JointStore::set(const Bodies& bodies, const SolverBodies& solver) {
+  const JointView view = {bodies,           solver,
+                          joints_.data(),   work_.data(),
+                          impulses_.data(), least_moment_.data(),
+                          arrivals_.data(), kept_swings_.data()};
   const AxisParts axes = {axes_.axes.data(), drives.device(), axes_.work.data(), axes_.reactions.data()};
   return {view, count(), colours_.view(), system_.view(view), axes, axes_.any_couples};
 }

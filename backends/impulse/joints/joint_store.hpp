@@ -72,7 +72,7 @@ class JointStore {
   [[nodiscard]] std::vector<SolvedJoint> solved() const;
   /// What the joints ask of a step's code.
   [[nodiscard]] JointCode code() const { return code_; }
-  [[nodiscard]] JointSet set(const Bodies& bodies, const SolverBodies& solver, bool gyroscopic);
+  [[nodiscard]] JointSet set(const Bodies& bodies, const SolverBodies& solver);
   /// That contacts move as a whole.
   [[nodiscard]] Mechanisms mechanisms() { return mechanisms_.view(); }
   [[nodiscard]] Real* mobility_scratch() { return mechanisms_.scratch(); }

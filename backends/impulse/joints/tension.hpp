@@ -50,7 +50,7 @@ PLUMB_HD inline Real moment_by_tension(const JointSystem& system, std::uint32_t 
 
 /// One over the least of the moments that the body has by itself.
 PLUMB_HD inline Real largest_inverse(const JointView& view, std::uint32_t body) {
-  const Vec inverse = inverse_moments(view.bodies.mass[body], view.solver.swings);
+  const Vec inverse = inverse_moments(view.bodies.mass[body], tumbles(view.bodies, view.solver, body));
   return max(max(inverse.x, inverse.y), inverse.z);
 }
 
@@ -59,7 +59,7 @@ PLUMB_HD inline Real largest_inverse(const JointView& view, std::uint32_t body) 
 PLUMB_HD inline void slow_down(const JointView& view, std::uint32_t body, Real from, Real to) {
   if (largest_inverse(view, body) * to <= 1) return;
   const BodyMass& mass = view.bodies.mass[body];
-  const Vec inverse = inverse_moments(mass, view.solver.swings);
+  const Vec inverse = inverse_moments(mass, tumbles(view.bodies, view.solver, body));
   const Velocity before = view.velocity(body);
   const Quat orientation = view.end(body).orientation;
   Vec turn = rotate_back(orientation, before.angular);

@@ -19,7 +19,6 @@ struct StepFreely {
   std::uint32_t body_count;
   const StepParameters* parameters;
   StepCounters* counters;
-  bool gyroscopic;
 
   [[nodiscard]] static constexpr std::uint32_t groups(std::uint32_t count) {
     return (count + kTogether - 1) / kTogether;
@@ -36,8 +35,7 @@ struct StepFreely {
     for (std::uint32_t k = 0; k < substeps; ++k) {
       for (std::uint32_t g = first_group; g < groups; ++g)
         integrate_velocities(bodies, solver, step, !carries || k == 0, {g, body_count});
-      for (std::uint32_t g = first_group; g < groups; ++g)
-        integrate_positions(bodies, solver, step, gyroscopic, {g, body_count});
+      for (std::uint32_t g = first_group; g < groups; ++g) integrate_positions(bodies, solver, step, {g, body_count});
     }
     for (std::uint32_t i = first; i < end; ++i)
       if (!finish_body(bodies, solver, step.dt, i)) atomic_add(&counters->nonfinite, 1U);
@@ -49,7 +47,7 @@ struct StepFreely {
 void Solver::move_freely(Executor& executor, const MovableBodies& all, std::uint32_t body_count,
                          const StepParameters* parameters, StepCounters* counters) {
   executor.run(StepFreely::groups(body_count),
-               StepFreely{all, bodies(all, counters), body_count, parameters, counters, features_.gyroscopic});
+               StepFreely{all, bodies(all, counters), body_count, parameters, counters});
 }
 
 }  // namespace plumb::impulse

@@ -82,12 +82,18 @@ void Solver::choose_substeps(Executor& executor, const SolverInput& input, const
                   masks,
                   settled,
                   input.joints.least_moments(),
-                  features_.gyroscopic},
+                  tumbling_},
                  {&input.counters->manifolds, input.pair_capacity});
 }
 
 const Mechanisms& Solver::take_mechanisms(JointStore& joints) {
-  mechanisms_ = kind_ == SolverKind::kTgsSoft && features_.collision ? joints.mechanisms() : Mechanisms{};
+  const bool soft = kind_ == SolverKind::kTgsSoft;
+  mechanisms_ = soft && features_.collision ? joints.mechanisms() : Mechanisms{};
+  tumbling_ = Tumbling::kNobody;
+  if (features_.gyroscopic)
+    tumbling_ = Tumbling::kAll;
+  else if (soft && (features_.collision || joints.count() == 0))
+    tumbling_ = Tumbling::kFastOnes;
   return mechanisms_;
 }
 

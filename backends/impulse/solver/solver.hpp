@@ -67,7 +67,7 @@ class Solver {
   void exchange(Archive& archive, std::size_t bodies) { archive.rows_of_all(paces_, bodies); }
   /// World inertia of all bodies, what forces do to them in a sub-step, no displacement.
   void begin(Executor& executor, const SolverInput& input);
-  /// The mechanisms that contacts push as a whole, as far as this solver does that.
+  /// The mechanisms that contacts push as a whole, as far as this solver does that; and which bodies tumble.
   const Mechanisms& take_mechanisms(JointStore& joints);
   /// Of those that touch something.
   void find_mobility(Executor& executor, const SolverInput& input);
@@ -76,7 +76,7 @@ class Solver {
                const ManifoldChanges& changes);
   /// The joints with what their kernels work on.
   [[nodiscard]] JointSet joint_set(const MovableBodies& all, const StepCounters* counters, JointStore& joints) {
-    return joints.set(all, bodies(all, counters), features_.gyroscopic);
+    return joints.set(all, bodies(all, counters));
   }
   /// Moves the bodies through the step.
   void solve(Executor& executor, const SolverInput& input);
@@ -95,8 +95,8 @@ class Solver {
 
  private:
   SolverBodies bodies(const MovableBodies& bodies, const StepCounters* counters) {
-    return {bodies.velocity, displacement_.data(), inertia_.data(), free_velocity_.data(),
-            forces_.data(),  features_.gyroscopic, mechanisms_,     levels(counters)};
+    return {bodies.velocity, displacement_.data(), inertia_.data(), free_velocity_.data(), forces_.data(),
+            tumbling_,       mechanisms_,          levels(counters)};
   }
   /// Others than this one have the same sub-steps for all.
   [[nodiscard]] bool has_levels() const { return kind_ == SolverKind::kTgsSoft && features_.collision; }
@@ -112,7 +112,9 @@ class Solver {
 
   SolverFeatures features_;
   SolverKind kind_ = SolverKind::kTgsSoft;
-  Mechanisms mechanisms_{};  // of the step that is being enqueued
+  // Of the step that is being enqueued.
+  Mechanisms mechanisms_{};
+  Tumbling tumbling_ = Tumbling::kNobody;
   std::uint32_t slots_ = 0, sentinel_ = 0, most_groups_ = 0;
   Buffer<Displacement> displacement_;
   Buffer<WorldInertia> inertia_;

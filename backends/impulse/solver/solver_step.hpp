@@ -44,9 +44,7 @@ struct SolverStep {
                     [&](const BodyGroup& group) { integrate_velocities(bodies, solver, step, first, group); });
   }
   PLUMB_DEVICE void move_bodies(Team& team, const StepParameters& step) const {
-    each_body_group(team, step, [&](const BodyGroup& group) {
-      integrate_positions(bodies, solver, step, features.gyroscopic, group);
-    });
+    each_body_group(team, step, [&](const BodyGroup& group) { integrate_positions(bodies, solver, step, group); });
   }
   PLUMB_DEVICE void finish(Team& team) const {
     const Real dt = parameters->dt;

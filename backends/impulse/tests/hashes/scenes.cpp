@@ -98,6 +98,23 @@ void rotors(Scene& scene) {
   }
 }
 
+/// Thrown into a box with spins that are seen within a step, though nobody asks for the gyroscopic term; every fourth
+/// hangs on the one before it.
+void spinners(Scene& scene) {
+  scene.container(3, 4);
+  const PlumbShape kinds[] = {scene.capsule(0.05, 0.3), scene.box({0.05, 0.3, 0.2}),
+                              scene.hull({{-0.3, 0, -0.1}, {0.3, 0, -0.1}, {0, 0, 0.2}, {0, 0.25, 0}})};
+  PlumbBody before = 0;
+  for (int i = 0; i < 48; ++i) {
+    Random random(static_cast<std::uint64_t>(3000 + i));
+    scene.body.angular_velocity = {random.between(-60, 60), random.between(-60, 60), random.between(-60, 60)};
+    const PlumbVec3 at = {1.2 * (i % 4) - 1.8, 0.6 + 0.9 * (i / 16), 1.2 * (i / 4 % 4) - 1.8};
+    const PlumbBody body = scene.add(kinds[i % 3], at, random.turn());
+    if (i % 4 == 3) scene.ball_joint(before, {0.6, 0, 0}, body, {-0.6, 0, 0});
+    before = body;
+  }
+}
+
 /// Each cube twice as heavy as the one below it.
 void heavy_tops(Scene& scene) {
   scene.ground();
@@ -282,6 +299,7 @@ const std::vector<NamedScene>& named_scenes() {
        kDown,
        &puppets},
       {"islands", {}, kContactNeeds | PLUMB_NEED_RESTITUTION, kDown, &islands},
+      {"spinners", {}, kContactNeeds | PLUMB_NEED_JOINTS, kDown, &spinners},
   };
   return scenes;
 }

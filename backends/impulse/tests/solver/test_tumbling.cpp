@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "bodies/swung_frame.hpp"
 #include "tests/rigs/engine.hpp"
@@ -48,6 +49,37 @@ TEST(Tumbling, BodiesThatTouchGainNoEnergy) {
     for (const PlumbVec3& half : {PlumbVec3{0.02, 1, 0.02}, PlumbVec3{0.1, 1, 0.1}, PlumbVec3{0.05, 0.5, 0.2}})
       for (std::uint64_t seed = 1; seed <= 12; ++seed)
         EXPECT_LT(gain(solver, half, 30, seed), 1.05) << solver << " " << half.x << " " << seed;
+}
+
+/// How deep a capsule that lands on the ground with a spin about any axis is in it at worst once it has landed, m.
+double deepest(PlumbNeeds needs, double spin, std::uint64_t seed) {
+  constexpr double kRadius = 0.05, kHalf = 0.2, kFall = 0.3;  // m
+  Scene scene(engine(), needs, {0, -kGravity, 0}, 1);
+  Random random(seed);
+  scene.ground();
+  const PlumbQuat q = random.turn();
+  const Vec3<double> axis = rotate(Quat4<double>{q.x, q.y, q.z, q.w}, Vec3<double>{0, 1, 0});
+  scene.body.angular_velocity = {spin * axis.x, spin * axis.y, spin * axis.z};
+  scene.add(scene.capsule(kRadius, kHalf), {0, kFall, 0}, random.turn());
+  double most = 0;
+  for (int i = 0; i < 300; ++i) {
+    scene.run(1);
+    const PlumbPose pose = scene.poses().back();
+    const PlumbQuat& now = pose.orientation;
+    const Vec3<double> along = rotate(Quat4<double>{now.x, now.y, now.z, now.w}, Vec3<double>{0, 1, 0});
+    const double lowest = pose.position.y - kHalf * std::abs(along.y) - kRadius;
+    if (i >= 30) most = std::max(most, -lowest);
+  }
+  return most;
+}
+
+/// Also where the scene does not ask for that: kept angular velocity would make of it a body that wobbles about an axis
+/// of its own, for ever pressed into the ground where its contacts were at the start of the step.
+TEST(Tumbling, WhatSpinsFastIsHeldUpByTheGround) {
+  constexpr PlumbNeeds kNeeds = PLUMB_NEED_ROTATION | PLUMB_NEED_COLLISION | PLUMB_NEED_FRICTION;
+  for (const double spin : {10.0, 30.0, 60.0, 120.0})
+    for (std::uint64_t seed = 1; seed <= 20; ++seed)
+      EXPECT_LT(deepest(kNeeds, spin, seed), 1.5e-4 * spin) << spin << " rad/s, seed " << seed;
 }
 
 /// At 2000 rad/s a body turns four radians in a sub-step: no row tells where it will be.
