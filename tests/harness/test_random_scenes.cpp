@@ -83,6 +83,17 @@ TEST(Reduce, LeavesWhatCrashes) {
   EXPECT_EQ(read(small).at("bodies").size(), 1u);
 }
 
+/// Whatever the metrics say: an engine may put such a body back and go on.
+TEST(Reduce, LeavesWhatBecomesNoNumber) {
+  const std::filesystem::path folder = fresh_folder("reduce-nan");
+  const std::string small = (folder / "small.json").string();
+  const Finished run =
+      plumb({"reduce", particle_scene(folder), small, "--backend", MISBEHAVING_BACKEND, "--set", "misbehaviour=nan"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_NE(run.out.find("became NaN or infinite"), std::string::npos) << run.out;
+  EXPECT_EQ(read(small).at("bodies").size(), 1u);
+}
+
 TEST(Reduce, SaysWhatIsAskedWrongly) {
   const std::filesystem::path folder = fresh_folder("reduce-wrong");
   const std::string scene = particle_scene(folder), small = (folder / "small.json").string();

@@ -28,12 +28,16 @@ struct ReduceOptions {
   RunRequest request;
 };
 
+bool has_lost_bodies(const Row& row) { return row.counts.nonfinite.value_or(0) > 0; }
+
 /// What a run has to do to be wrong in the same way.
 struct Failure {
   std::string status, metric;  ///< metric: of a run that came to its end; else ""
+  bool loses_bodies = false;   ///< some become NaN or infinite, whatever the metrics say
 
   [[nodiscard]] bool is_of(const Row& row) const {
     if (row.status != status) return false;
+    if (loses_bodies) return has_lost_bodies(row);
     if (metric.empty()) return true;
     const MetricResult* result = row.metric(metric);
     return result != nullptr && result->badness().value_or(0) > 1;
@@ -41,6 +45,7 @@ struct Failure {
   /// The run came to its end, and what is wrong elsewhere is right.
   [[nodiscard]] bool is_absent_from(const Row& row) const {
     if (!row.completed()) return false;
+    if (loses_bodies) return !has_lost_bodies(row);
     if (metric.empty()) return true;
     const MetricResult* result = row.metric(metric);
     return result != nullptr && result->badness() && *result->badness() <= 1;
@@ -90,6 +95,7 @@ Failure failure_of(const Row& row, const ReduceOptions& options) {
       throw UsageError(fmt::format("--metric {}: the run has none, it ended: {}", options.metric, row.status));
     return {row.status, ""};
   }
+  if (options.metric.empty() && has_lost_bodies(row)) return {row.status, "", true};
   std::string metric = options.metric;
   if (metric.empty() && row.status == "failed") metric = row.worst()->name;
   std::vector<std::string> known;
@@ -165,7 +171,8 @@ void add_reduce(CLI::App& program, int& status) {
           "Another backend, by name or file, which has to get right what is left: so that nothing is taken out "
           "without which nobody could, such as the ground")
       ->type_name("BACKEND");
-  verb->add_option("--metric", options->metric, "What has to stay wrong; left out: what is worst, or how the run ends")
+  verb->add_option("--metric", options->metric,
+                   "What has to stay wrong; left out: that bodies become NaN, what is worst, or how the run ends")
       ->type_name("METRIC");
   verb->add_option("--set", options->request.settings, "name=value of a backend's setting, repeatable")
       ->type_name("NAME=VALUE")
