@@ -1,7 +1,10 @@
 // Threads: worlds are apart, queries run side by side, and more threads give what is promised.
 #include <cmath>
+#include <functional>
 #include <memory>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "conform/probe.hpp"
 
@@ -17,28 +20,34 @@ std::uint64_t tumble(Conformance& c, std::uint32_t threads) {
   return probe.hash();
 }
 
-/// Two worlds in two threads end as they do alone.
-void worlds_apart(Conformance& c) {
-  const std::uint64_t alone = tumble(c, 1);
-  std::uint64_t together[2] = {0, 0};
-  std::string failures[2];
-  std::thread threads[2];
-  for (std::size_t i = 0; i < 2; ++i)
-    threads[i] = std::thread([&, i] {
+/// What each of several threads says that do the same at once.
+std::vector<std::uint64_t> in_threads(Conformance& c, std::size_t count, const std::function<std::uint64_t()>& act) {
+  std::vector<std::uint64_t> said(count);
+  std::vector<std::string> failures(count);
+  std::vector<std::thread> threads;
+  for (std::size_t i = 0; i < count; ++i)
+    threads.emplace_back([&, i] {
       try {
-        together[i] = tumble(c, 1);
+        said[i] = act();
       } catch (const std::exception& error) {
         failures[i] = error.what();
       }
     });
   for (std::thread& thread : threads) thread.join();
-  for (std::size_t i = 0; i < 2; ++i) c.expect(failures[i].empty(), "in thread {}: {}", i, failures[i]);
-  if (c.backend().info().determinism == PLUMB_DETERMINISM_NONE) return;
-  for (std::size_t i = 0; i < 2; ++i)
-    c.expect(together[i] == alone, "a world beside another ends in other bits than alone");
+  for (std::size_t i = 0; i < count; ++i) c.expect(failures[i].empty(), "in thread {}: {}", i, failures[i]);
+  return said;
 }
 
-/// Makes small worlds of bodies and joints, steps each a few times and lets it go; the sum of how they ended.
+/// Two worlds in two threads end as they do alone.
+void worlds_apart(Conformance& c) {
+  const std::uint64_t alone = tumble(c, 1);
+  const std::vector<std::uint64_t> together = in_threads(c, 2, [&] { return tumble(c, 1); });
+  if (c.backend().info().determinism == PLUMB_DETERMINISM_NONE) return;
+  for (const std::uint64_t hash : together)
+    c.expect(hash == alone, "a world beside another ends in other bits than alone");
+}
+
+/// Makes small worlds, steps each a few times and lets it go; the sum of how they ended.
 std::uint64_t come_and_go(Conformance& c) {
   std::uint64_t ends = 0;
   for (int i = 0; i < 40; ++i) {
@@ -55,22 +64,10 @@ std::uint64_t come_and_go(Conformance& c) {
 /// What an engine keeps for all worlds of a process is touched as worlds come and go.
 void worlds_come_and_go(Conformance& c) {
   const std::uint64_t alone = come_and_go(c);
-  std::uint64_t together[4] = {};
-  std::string failures[4];
-  std::thread threads[4];
-  for (std::size_t i = 0; i < 4; ++i)
-    threads[i] = std::thread([&, i] {
-      try {
-        together[i] = come_and_go(c);
-      } catch (const std::exception& error) {
-        failures[i] = error.what();
-      }
-    });
-  for (std::thread& thread : threads) thread.join();
-  for (std::size_t i = 0; i < 4; ++i) c.expect(failures[i].empty(), "in thread {}: {}", i, failures[i]);
+  const std::vector<std::uint64_t> together = in_threads(c, 4, [&] { return come_and_go(c); });
   if (c.backend().info().determinism == PLUMB_DETERMINISM_NONE) return;
-  for (std::size_t i = 0; i < 4; ++i)
-    c.expect(together[i] == alone, "worlds that come and go beside others end in other bits than alone");
+  for (const std::uint64_t hash : together)
+    c.expect(hash == alone, "worlds that come and go beside others end in other bits than alone");
 }
 
 /// Rows of all worlds of a group, as each world reads its own.
