@@ -29,7 +29,9 @@ PLUMB_HD inline Quat swing_of(const Quat& turn, const Vec& axis) {
 
 /// At the start of a step. A body tumbles where the scene asks for that, and where it spins so fast that leaving it out
 /// shows: angular velocity that is kept makes of it one that wobbles about an axis of its own, and contacts push where
-/// it was. What joints hold is turned by them.
+/// it was. What moves as a mechanism is turned by its joints: between two inertias, of the two ways to turn, it would
+/// gain energy. Joints that are solved one by one, and mechanisms too large for W, let their bodies tumble as others
+/// do.
 PLUMB_HD inline bool will_tumble(const Bodies& bodies, Tumbling tumbling, const Mechanisms& mechanisms, Real dt,
                                  std::uint32_t i) {
   if (tumbling == Tumbling::kNobody || (bodies.mass[i].flags & kBodyGyroscopic) == 0) return false;

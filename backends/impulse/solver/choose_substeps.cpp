@@ -104,7 +104,7 @@ struct ChooseLevels {
   /// fewest: its own moments are no less then than what tension asks of them.
   PLUMB_HD Real asked_by_tension(std::uint32_t i, Real last_h) const {
     if (work.joint_count == 0 || !(last_h > 0) || !work.mechanisms.hold(i)) return 0;
-    const Vec inverse = inverse_moments(work.bodies.mass[i], work.tumbling == Tumbling::kAll);
+    const Vec inverse = inverse_moments(work.bodies.mass[i], work.gyroscopic);
     const Real ratio = work.least_moments[i] * max(max(inverse.x, inverse.y), inverse.z);
     const Real asked = min(work.parameters->dt / last_h * sqrt(ratio), kMostByTension * substeps(0));
     return asked > substeps(0) ? asked : Real(0);

@@ -62,7 +62,7 @@ struct LoadWork {
   const std::uint64_t* masks;  ///< by body: Colouring::masks() of the contacts that were there before
   const SettledBody* settled;  ///< by body, in a step that is gone over again; null: none is
   const Real* least_moments;   ///< by body: JointView::least_moment, as of its last sub-step
-  Tumbling tumbling;
+  bool gyroscopic;
 };
 
 /// contacts: how many manifolds there are.

@@ -82,7 +82,7 @@ void Solver::choose_substeps(Executor& executor, const SolverInput& input, const
                   masks,
                   settled,
                   input.joints.least_moments(),
-                  tumbling_},
+                  features_.gyroscopic},
                  {&input.counters->manifolds, input.pair_capacity});
 }
 
